@@ -132,6 +132,16 @@ mutations() {
   plant no-retry src/render/renderer.cpp \
     'options_.retry && isEnclosed(scene_, *accel_)' 'false && isEnclosed(scene_, *accel_)'
   plant eye-in-vacuum simd/generate_rays.cpp 'hn::Set(du, camera.media)' 'hn::Zero(du)'
+  plant media-never-entered src/render/initial_media.cpp \
+    'around.erase(std::next(last).base());' ''
+  plant media-never-entered-in-reference src/reference/initial_medium_stack.cpp \
+    '++entered[place.medium];' ''
+  plant eye-beside-the-surface src/render/initial_media.cpp \
+    ': liesOnDielectric(traced, Vec3f(frame.eye));' ': false;'
+  plant glass-before-opaque src/render/settle_coplanar.cpp \
+    'std::tuple(face.opaque,' 'std::tuple(!face.opaque,'
+  plant glass-before-opaque-in-reference src/reference/settle_coplanar.cpp \
+    'return a.opaque;' 'return b.opaque;'
   plant not-robust src/render/renderer.cpp 'accel.robust = options.robust;' 'accel.robust = false;'
   plant sphere-in-floats simd/meet_sphere.cpp \
     'const auto inside = hn::Sub(one, DotOf<D>(nearest, nearest));' \

@@ -335,6 +335,12 @@ Accel::Accel(const Scene& scene, const AccelOptions& options, Progress* progress
 
 Accel::~Accel() = default;
 
+bool Accel::isCutAway(std::uint32_t triangle, double u, double v) const noexcept {
+  const TriangleRecord& record = scene_.triangles[triangle];
+  const Mask mask = maskOf(scene_.materials[record.material], parts_->embree.alphaMaps());
+  return !isOpaqueAt<&Mask::cutoff>(mask, record.uv, static_cast<float>(u), static_cast<float>(v));
+}
+
 void Accel::sceneMoved() { parts_->embree.update(scene_); }
 
 int Accel::packet() const { return parts_->packet; }

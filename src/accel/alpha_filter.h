@@ -72,6 +72,14 @@ bool isOpaqueAt(const Mask& mask, float s, float t) noexcept {
   return opaque;
 }
 
+// The same for the point (u, v) of a triangle with these texture coordinates at its corners.
+template <float Mask::*kCutoff>
+bool isOpaqueAt(const Mask& mask, const float (&uv)[6], float u, float v) noexcept {
+  const float w = 1.0f - u - v;
+  return isOpaqueAt<kCutoff>(mask, uv[0] * w + uv[2] * u + uv[4] * v,
+                             uv[1] * w + uv[3] * u + uv[5] * v);
+}
+
 // The masked triangles of one Embree geometry, in its order.
 struct MaskedGeometry {
   // Takes the triangles of scene.triangles from `first` to before `end`. `maps` must outlive it;
@@ -95,12 +103,7 @@ template <float Mask::*kCutoff>
 bool isOpaqueAt(const MaskedGeometry& geometry, std::uint32_t primitive, float u,
                 float v) noexcept {
   const MaskedTriangle& t = geometry.triangles[primitive];
-  const Mask& mask = geometry.masks[t.mask];
-  if (!mask.map) return true;
-  const float w = 1.0f - u - v;
-  const float s = t.uv[0] * w + t.uv[2] * u + t.uv[4] * v;
-  const float r = t.uv[1] * w + t.uv[3] * u + t.uv[5] * v;
-  return isOpaqueAt<kCutoff>(mask, s, r);
+  return isOpaqueAt<kCutoff>(geometry.masks[t.mask], t.uv, u, v);
 }
 
 }  // namespace whit

@@ -40,6 +40,7 @@ class EmbreeScene {
   void update(const Scene& scene);
 
   RTCScene top() const { return (top_ ? top_ : scenes_[0]).get(); }
+  const AlphaMaps& alphaMaps() const { return alphaMaps_; }  // empty if masks are left out
   RTCDevice device() const { return device_.get(); }
   std::uint64_t memoryBytes() const { return bytes_ + sphereBytes(); }
   std::uint64_t sphereBytes() const {

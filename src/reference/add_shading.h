@@ -6,6 +6,10 @@
 namespace whit::reference {
 
 // The row that the step writes. `before` is the radiance that the step has added to.
-RadianceRow addShading(const RadianceRow& before, const Chunk& chunk, std::size_t slot);
+inline RadianceRow addShading(const RadianceRow& before, const Chunk& chunk, std::size_t slot) {
+  const UnshadowedRow light = UnshadowedRow::at(chunk.unshadowed, slot);
+  if (!(light.visible > 0)) return before;
+  return {before.r + light.r, before.g + light.g, before.b + light.b};
+}
 
 }  // namespace whit::reference

@@ -2,6 +2,8 @@
 // where the two refractive indices are close or equal.
 #pragma once
 
+#include <cmath>
+
 #include "core/shading_choices.h"
 #include "core/vec3.h"
 
@@ -18,18 +20,50 @@ struct Interface {
   double reflectance = 0;  // mean of both polarisations; what is not reflected is refracted
 };
 
+// Schlick's (1 - c)^5 (1994, "An inexpensive BRDF model for physically-based rendering").
+inline double schlickTerm(double c) {
+  const double m = 1 - c;
+  return m * m * m * m * m;
+}
+
 // c in [0, 1]. Equal indices reflect nothing at any angle; at or beyond the critical angle, and
 // along the surface (c = 0), everything is reflected. `model` is about the reflectance alone.
-Interface makeInterface(double n1, double n2, double c, FresnelModel model = FresnelModel::exact);
+inline Interface makeInterface(double n1, double n2, double c,
+                               FresnelModel model = FresnelModel::exact) {
+  Interface interface;
+  interface.eta = n2 / n1;
+  interface.k = (n2 - n1) * (n2 + n1) / (n1 * n1);
+  if (interface.k == 0) {
+    interface.g = c;
+    return interface;
+  }
+  const double g2 = interface.k + c * c;
+  if (g2 <= 0 || c == 0) {
+    interface.reflectance = 1;
+    return interface;
+  }
+  const double g = interface.g = std::sqrt(g2);
+  if (model == FresnelModel::schlick) {
+    const double normal = (n2 - n1) / (n2 + n1), f0 = normal * normal;
+    // The refracted ray's cosine where that is the smaller one, or total reflection would not be
+    // reached at the critical angle.
+    interface.reflectance = f0 + (1 - f0) * schlickTerm(n2 < n1 ? g / interface.eta : c);
+    return interface;
+  }
+  const double perpendicular = -interface.k / ((c + g) * (c + g));
+  const double parallel = interface.k * (c - 1 / (c + g)) / (interface.eta * interface.eta * c + g);
+  interface.reflectance = (perpendicular * perpendicular + parallel * parallel) / 2;
+  return interface;
+}
 
 // Unit direction behind the interface of a ray along the unit direction `d`, which meets the unit
 // normal `n` (on the ray's side) at cosine c. Not for total reflection. Exactly `d` where k = 0.
-Vec3d refract(const Interface& interface, const Vec3d& d, const Vec3d& n, double c);
+inline Vec3d refract(const Interface& interface, const Vec3d& d, const Vec3d& n, double c) {
+  if (interface.k == 0) return d;
+  return normalized((d - n * (interface.k / (c + interface.g))) / interface.eta);
+}
 
 // Unit direction mirrored at the unit normal `n`.
-Vec3d reflect(const Vec3d& d, const Vec3d& n);
-
-// Schlick's (1 - c)^5 (1994, "An inexpensive BRDF model for physically-based rendering").
-double schlickTerm(double c);
+inline Vec3d reflect(const Vec3d& d, const Vec3d& n) { return normalized(d - n * (2 * dot(d, n))); }
 
 }  // namespace whit::reference

@@ -19,8 +19,9 @@ std::uint64_t mostSurfaces(const Scene& scene) {
   return 2 * scene.instancedTriangles + 4 * scene.instancedSpheres + 16;
 }
 
-}  // namespace
-
+// The media whose surfaces a ray from the point leaves without having entered them first, the one
+// left first in the low byte; at most four (hard case H47). However many opaque surfaces lie in
+// between: they bound no medium. 0 without Effect::transmission.
 MediaStack initialMediumStack(const Scene& scene, EffectSet effects, const Intersector& intersector,
                               const Vec3d& point) {
   if (!effects.has(Effect::transmission)) return 0;
@@ -53,6 +54,8 @@ MediaStack initialMediumStack(const Scene& scene, EffectSet effects, const Inter
   return around;
 }
 
+// True if the point lies in the surface of a dielectric: rays that start there are in one medium or
+// the other, each by its direction.
 bool liesOnDielectric(const Scene& scene, EffectSet effects, const Intersector& intersector,
                       const Vec3d& point) {
   if (!effects.has(Effect::transmission)) return false;
@@ -64,6 +67,8 @@ bool liesOnDielectric(const Scene& scene, EffectSet effects, const Intersector& 
   };
   return startsOnOne(kProbe) || startsOnOne(-kProbe);
 }
+
+}  // namespace
 
 CameraFrame frameWithMedia(const Scene& scene, EffectSet effects, const Intersector& intersector,
                            const Camera& camera, int width, int height) {

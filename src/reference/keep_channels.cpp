@@ -1,5 +1,3 @@
-#include "reference/keep_channels.h"
-
 #include <algorithm>
 
 #include "bake/sphere.h"
@@ -8,6 +6,7 @@
 #include "reference/find_intersections.h"
 #include "reference/generate_rays.h"
 #include "reference/initial_medium_stack.h"
+#include "reference/reference.h"
 #include "reference/settle_coplanar.h"
 #include "sampling/sample_pattern.h"
 

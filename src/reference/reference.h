@@ -103,6 +103,12 @@ class Tracer {
 RayCounts render(const Scene& scene, const Intersector& intersector, const Camera& camera,
                  const Settings& settings, Image& image, Progress* progress = nullptr);
 
+// Stores the channels of image.window, the way kernels keep them (core/channels.h): the first hits
+// of the rays through the sample nearest to the center of each pixel, or through the center itself
+// with adaptive sampling.
+void keepChannels(const Scene& scene, const Intersector& intersector, const Camera& camera,
+                  const Settings& settings, const Image& image, ChannelLayers& layers);
+
 // Every triangle, instances included, in double. Quadratic; for small scenes and as an oracle.
 // Alpha masks and instances are the effects that matter here: without them masks cut no holes and
 // instanced geometry is not there.

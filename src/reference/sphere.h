@@ -2,20 +2,50 @@
 // sphere it is (scene/sphere.h).
 #pragma once
 
+#include <cmath>
+#include <limits>
 #include <vector>
 
 #include "bake/scene.h"
+#include "bake/sphere.h"
 #include "reference/triangle.h"
 
 namespace whit::reference {
 
 // From the unit sphere to the world; `instance`: kNoHit, or that which carries the sphere.
-Affine sphereInWorld(const Scene& scene, std::uint32_t number, std::uint32_t instance);
+inline Affine sphereInWorld(const Scene& scene, std::uint32_t number, std::uint32_t instance) {
+  const Affine own = sphereMap(scene.triangles[number]);
+  return instance == kNoHit ? own : scene.instances[instance].toWorld * own;
+}
 
 // Returns none, one or two hits with t > 0, the nearer one first.
-std::vector<TriangleHit> intersectSphere(const Ray& ray, const Affine& fromUnit);
+inline std::vector<TriangleHit> intersectSphere(const Ray& ray, const Affine& fromUnit) {
+  std::vector<TriangleHit> hits;
+  const auto roots = meetSphere(fromUnit, ray.origin, ray.direction);
+  if (!roots) return hits;
+  for (const double t : {roots->near, roots->far}) {
+    if (!(t > 0)) continue;
+    const auto [u, v] = sphereWeights(onUnitSphere(fromUnit, ray.origin + ray.direction * t));
+    hits.push_back({t, u, v});
+  }
+  return hits;
+}
 
 // The one that the candidate stands for, computed again.
-TriangleHit refineSphereHit(const Scene& scene, const Ray& ray, const Candidate& candidate);
+inline TriangleHit refineSphereHit(const Scene& scene, const Ray& ray, const Candidate& candidate) {
+  const Affine map = sphereInWorld(scene, candidate.triangle, candidate.instance);
+  const Vec3d there = map.point(spherePoint(candidate.u, candidate.v));
+  const double squared = dot(ray.direction, ray.direction);
+  const double hint = dot(there - ray.origin, ray.direction) / squared;
+  TriangleHit best{hint > 0 ? hint : std::numeric_limits<double>::min(), candidate.u, candidate.v};
+  double least = std::numeric_limits<double>::infinity();
+  for (const TriangleHit& hit : intersectSphere(ray, map)) {
+    const double off = std::fabs(hit.t - hint);
+    if (!(off < least)) continue;
+    least = off;
+    best = hit;
+  }
+  return best;
+}
 
 }  // namespace whit::reference

@@ -1,10 +1,10 @@
 // updateImage: from the radiance of a pixel's samples to the codes that a display shows.
 #pragma once
 
-#include <cstdint>
+#include <cmath>
 
+#include "core/display.h"
 #include "core/options.h"
-#include "core/vec3.h"
 
 namespace whit::reference {
 
@@ -15,11 +15,16 @@ inline void addSample(RgbD& mean, const RgbD& sample, double number) {
 }
 
 // r | g << 8 | b << 16, with exposure given as a factor.
-std::uint32_t displayCode(const Rgb& pixel, double exposureScale, ToneCurve curve,
-                          SrgbEncoding encoding);
+inline std::uint32_t displayCode(const Rgb& pixel, double exposureScale, ToneCurve curve,
+                                 SrgbEncoding encoding) {
+  const auto codes = displayCodes(pixel, exposureScale, curve, encoding);
+  return codes[0] | std::uint32_t{codes[1]} << 8 | std::uint32_t{codes[2]} << 16;
+}
 
 // The row that the step writes for a pixel as the film keeps it. Exposure is a product of floats in
 // both, or codes would differ by it at their borders.
-std::uint32_t updateImage(const RenderOptions& options, const Rgb& pixel);
+inline std::uint32_t updateImage(const RenderOptions& options, const Rgb& pixel) {
+  return displayCode(pixel * std::exp2(options.exposure.ev), 1, options.toneCurve, options.srgb);
+}
 
 }  // namespace whit::reference

@@ -1,7 +1,7 @@
 // The reference's pictures, its candidates from Embree.
 #include "core/display.h"
 #include "core/stopwatch.h"
-#include "reference/keep_channels.h"
+#include "reference/initial_medium_stack.h"
 #include "reference/reference.h"
 #include "render/embree_intersector.h"
 #include "render/renderer.h"
@@ -24,6 +24,12 @@ bool EmbreeIntersector::occluded(const reference::Ray& ray, double tFar) const {
 
 reference::Settings Renderer::referenceSettings() const {
   return {options_, plan_.effects, machine_.threads};
+}
+
+CameraFrame Renderer::referenceFrame(const Camera& camera, const Film& film) {
+  lookFrom(camera, film);
+  return reference::frameWithMedia(scene_, plan_.effects, EmbreeIntersector(*accel_), camera,
+                                   film.image.width, film.image.height);
 }
 
 FrameStats Renderer::renderReference(const Camera& camera, Film& film, Progress* progress) {

@@ -10,10 +10,8 @@
 #include "core/stopwatch.h"
 #include "core/usable_threads.h"
 #include "core/version.h"
-#include "reference/initial_medium_stack.h"
 #include "render/audit_shadows.h"
 #include "render/build_tables.h"
-#include "render/embree_intersector.h"
 #include "render/initial_media.h"
 #include "sampling/sample_pattern.h"
 #include "scene/members.h"
@@ -145,11 +143,7 @@ CameraFrame Renderer::lookFrom(const Camera& camera, const Film& film) {
     accel_->setEnclosed(false);
     accel_->setEnclosed(isEnclosed(*accel_, camera.eye));
   }
-  const EmbreeIntersector intersector(*accel_);
-  CameraFrame frame = reference::frameWithMedia(scene_, plan_.effects, intersector, camera,
-                                                film.image.width, film.image.height);
-  if (frame.reach != Vec3d()) frame.mediaVary = startsMeet(frame, dielectrics_);
-  return frame;
+  return frameWithMedia({scene_, *accel_, plan_.effects}, camera, film.image, dielectrics_);
 }
 
 FrameConstants Renderer::constantsOf(const CameraFrame& camera) const {

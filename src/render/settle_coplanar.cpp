@@ -4,31 +4,16 @@
 #include <array>
 #include <cmath>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "bake/facet.h"
-#include "reference/find_intersections.h"
 
 namespace whit {
 
 namespace {
 
-struct Line {
-  Vec3d origin, direction;
-};
-
-struct LineHit {
-  double t = 0, u = 0, v = 0;
-};
-
-// A triangle that the ray hits, and what it is to the rule.
-struct Face {
-  PlacedTriangleId id;
-  LineHit hit;
-  double nearest = 0, farthest = 0;  // bounds of the distance t, which was computed from floats
-  std::uint32_t rank = 0, medium = 0;
-  bool opaque = true, entering = false;
-};
+using Face = CoplanarFace;
 
 // Intersects as Woop, Benthin and Wald 2013, "Watertight ray/triangle intersection", in double. A
 // hit on the border counts. Returns false for a miss.
@@ -68,66 +53,42 @@ int sharedCorners(const Corners& a, const LineHit& hit, const Corners& b) {
 
 class FacesOfRay {
  public:
-  FacesOfRay(const Chunk& c, std::size_t i)
-      : scene_(*c.frame->scene),
-        effects_(c.frame->effects),
-        ray_{Vec3d{c.rays.orgX[i], c.rays.orgY[i], c.rays.orgZ[i]},
-             Vec3d{c.rays.dirX[i], c.rays.dirY[i], c.rays.dirZ[i]}} {}
+  FacesOfRay(const TracedScene& traced, const Line& ray) : traced_(traced), ray_(ray) {}
 
-  // Fills in the faces at the place of a hit, in the order of the scene.
-  void find(PlacedTriangleId found, double u, double v) {
-    scene_.coplanar.forEachPartnerAt(
+  std::vector<Face> at(PlacedTriangleId found, double u, double v) {
+    const CoplanarTriangles& coplanar = traced_.scene.coplanar;
+    coplanar.forEachPartnerAt(
         found, u, v, [&](PlacedTriangleId id, std::uint32_t rank) { add(id, rank, false); });
-    if (faces_.empty()) return;
-    add(found, scene_.coplanar.rankOf(found), true);
+    if (faces_.empty()) return {};
+    add(found, coplanar.rankOf(found), true);
     dropFarther();
     std::sort(faces_.begin(), faces_.end(),
               [](const Face& a, const Face& b) { return a.rank < b.rank; });
     dropNeighbors();
-  }
-  bool empty() const { return faces_.empty(); }
-
-  const Face& chosen() const {
-    const auto preference = [&](const Face& face) {
-      return std::tuple(face.opaque, face.medium == 0, scene_.media[face.medium].priority,
-                        face.rank);
-    };
-    return *std::max_element(faces_.begin(), faces_.end(), [&](const Face& a, const Face& b) {
-      return preference(a) < preference(b);
-    });
-  }
-
-  // HitColumns::alsoCrossed.
-  std::uint32_t crossedWith(const Face& chosen) const {
-    std::uint32_t others = 0;
-    for (const Face& face : faces_) {
-      if (&face == &chosen || chosen.opaque || face.medium == 0 || others >> 20 != 0) continue;
-      others = others << 10 | face.medium << 1 | (face.entering ? 1 : 0);
-    }
-    return faces_.size() > 1 ? others | kSharesPlace : others;
+    return std::move(faces_);
   }
 
  private:
   // `isFound`: Embree has reported this triangle, so it counts from either side, although rounding
   // may have it that an edge-on triangle is seen from behind.
   void add(PlacedTriangleId id, std::uint32_t rank, bool isFound) {
+    const auto& [scene, accel, effects] = traced_;
     const bool instanced = id.instance != kNoInstance;
-    if (instanced && !effects_.has(Effect::instances)) return;
+    if (instanced && !effects.has(Effect::instances)) return;
     Face face{id, {}, 0, 0, rank, 0, true, false};
-    const Corners corners = worldCorners(scene_, id.triangle, id.instance);
+    const Corners corners = worldCorners(scene, id.triangle, id.instance);
     if (!intersect(ray_, corners, face.hit)) return;
-    const reference::TriangleHit hit{face.hit.t, face.hit.u, face.hit.v};
-    if (effects_.has(Effect::alphaMasks) && reference::cutAway(scene_, id.triangle, hit)) return;
-    const auto& [a, b, c] = worldCorners(scene_, id.triangle, kNoInstance);
+    if (accel.isCutAway(id.triangle, face.hit.u, face.hit.v)) return;
+    const auto& [a, b, c] = worldCorners(scene, id.triangle, kNoInstance);
     Vec3d outward = cross(b - a, c - a);
-    if (instanced) outward = scene_.instances[id.instance].toWorld.normal(outward);
+    if (instanced) outward = scene.instances[id.instance].toWorld.normal(outward);
     const double facing = dot(ray_.direction, outward);
-    const std::uint32_t number = scene_.triangles[id.triangle].material;
-    const Material& material = scene_.materials[number];
+    const std::uint32_t number = scene.triangles[id.triangle].material;
+    const Material& material = scene.materials[number];
     if (!isFound && !material.doubleSided && facing > 0) return;
     face.entering = facing < 0;
-    if (effects_.has(Effect::transmission)) {
-      face.medium = scene_.mediumOfMaterial[number];
+    if (effects.has(Effect::transmission)) {
+      face.medium = scene.mediumOfMaterial[number];
       face.opaque = !material.passesLight();
     }
     const double error = distanceError(corners);
@@ -150,7 +111,6 @@ class FacesOfRay {
     const auto nearest =
         std::min_element(faces_.begin(), faces_.end(),
                          [](const Face& a, const Face& b) { return a.hit.t < b.hit.t; });
-    if (nearest == faces_.end()) return;
     std::erase_if(faces_,
                   [most = nearest->farthest](const Face& face) { return face.nearest > most; });
   }
@@ -160,51 +120,72 @@ class FacesOfRay {
     if (a.medium != b.medium || a.entering != b.entering || a.id.instance != b.id.instance) {
       return false;
     }
-    const Corners own = worldCorners(scene_, a.id.triangle, kNoInstance),
-                  other = worldCorners(scene_, b.id.triangle, kNoInstance);
+    const Corners own = worldCorners(traced_.scene, a.id.triangle, kNoInstance),
+                  other = worldCorners(traced_.scene, b.id.triangle, kNoInstance);
     const int shared = sharedCorners(own, a.hit, other);
     return (shared == 1 || shared == 2) && sharedCorners(other, b.hit, own) == shared;
   }
   void dropNeighbors() {
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < faces_.size(); ++i) {
-      const auto end = faces_.begin() + static_cast<std::ptrdiff_t>(kept);
-      if (std::any_of(faces_.begin(), end,
-                      [&](const Face& before) { return areNeighbors(before, faces_[i]); })) {
-        continue;
-      }
-      faces_[kept++] = faces_[i];
+    std::vector<Face> kept;
+    for (const Face& face : faces_) {
+      const auto isNeighbor = [&](const Face& other) { return areNeighbors(other, face); };
+      if (std::none_of(kept.begin(), kept.end(), isNeighbor)) kept.push_back(face);
     }
-    faces_.resize(kept);
+    faces_ = std::move(kept);
   }
 
-  const Scene& scene_;
-  EffectSet effects_;
-  Line ray_;
+  const TracedScene& traced_;
+  const Line& ray_;
   std::vector<Face> faces_;
 };
 
+const Face& chosenOf(const std::vector<Face>& faces, const std::vector<Medium>& media) {
+  const auto preference = [&](const Face& face) {
+    return std::tuple(face.opaque, face.medium == 0, media[face.medium].priority, face.rank);
+  };
+  return *std::max_element(faces.begin(), faces.end(), [&](const Face& a, const Face& b) {
+    return preference(a) < preference(b);
+  });
+}
+
+// HitColumns::alsoCrossed.
+std::uint32_t crossedWith(const Face& chosen, const std::vector<Face>& faces) {
+  std::uint32_t others = 0;
+  for (const Face& face : faces) {
+    if (&face == &chosen || chosen.opaque || face.medium == 0 || others >> 20 != 0) continue;
+    others = others << 10 | face.medium << 1 | (face.entering ? 1 : 0);
+  }
+  return faces.size() > 1 ? others | kSharesPlace : others;
+}
+
 }  // namespace
 
+std::vector<CoplanarFace> coplanarFaces(const TracedScene& traced, const Line& ray,
+                                        PlacedTriangleId found, double u, double v) {
+  const CoplanarTriangles& coplanar = traced.scene.coplanar;
+  if (!coplanar.any(found.triangle) || !coplanar.anyAt(found, u, v)) return {};
+  return FacesOfRay(traced, ray).at(found, u, v);
+}
+
 void settleCoplanar(Chunk& c) {
-  const CoplanarTriangles& coplanar = c.frame->scene->coplanar;
+  const TracedScene traced{*c.frame->scene, *c.frame->accel, c.frame->effects};
   std::fill_n(c.hits.alsoCrossed, c.n, 0u);
   const bool instanced = c.has(Feature::instances);
   for (std::size_t i = 0; i < c.n; ++i) {
-    if (!coplanar.any(c.hits.triangle[i])) continue;
+    if (!traced.scene.coplanar.any(c.hits.triangle[i])) continue;
     const PlacedTriangleId found{c.hits.triangle[i], instanced ? c.hits.instance[i] : kNoInstance};
-    const double u{c.hits.u[i]}, v{c.hits.v[i]};
-    if (!coplanar.anyAt(found, u, v)) continue;
-    FacesOfRay faces(c, i);
-    faces.find(found, u, v);
+    const Line ray{Vec3d{c.rays.orgX[i], c.rays.orgY[i], c.rays.orgZ[i]},
+                   Vec3d{c.rays.dirX[i], c.rays.dirY[i], c.rays.dirZ[i]}};
+    const std::vector<Face> faces =
+        coplanarFaces(traced, ray, found, double{c.hits.u[i]}, double{c.hits.v[i]});
     if (faces.empty()) continue;
-    const Face& chosen = faces.chosen();
+    const Face& chosen = chosenOf(faces, traced.scene.media);
     c.hits.triangle[i] = chosen.id.triangle;
     if (instanced) c.hits.instance[i] = chosen.id.instance;
     c.hits.t[i] = static_cast<float>(chosen.hit.t);
     c.hits.u[i] = static_cast<float>(chosen.hit.u);
     c.hits.v[i] = static_cast<float>(chosen.hit.v);
-    c.hits.alsoCrossed[i] = faces.crossedWith(chosen);
+    c.hits.alsoCrossed[i] = crossedWith(chosen, faces);
   }
 }
 

@@ -180,6 +180,25 @@ TEST_F(SceneSections, MaterialsAndTheirDefaults) {
   EXPECT_EQ(reflections, (std::vector<bool>{true, false, false, false, false, true, false}));
 }
 
+// Maps and lobes that only lights show may send out less than they state.
+TEST_F(SceneSections, MaterialsOfMoreThanAllLightAreNamed) {
+  loadMembers(
+      "\"textures\": {\"t\": {\"pattern\": \"checker\"}},"
+      "\"materials\": {\"coated\": {\"diffuse\": 0, \"transmission\": 1, \"mirror\": 0.09},"
+      "\"mapped\": {\"diffuse\": 1, \"diffuseMap\": \"t\", \"mirror\": 0.5},"
+      "\"lit\": {\"diffuse\": 0.1, \"specular\": 0.9, \"mirror\": 0.9}}");
+  EXPECT_EQ(kinds(), "");
+  loadMembers(
+      "\"materials\": {\"m\": {\"specular\": 0.5, \"transmission\": [0.6, 0.7, 0.1],"
+      "\"glossyReflection\": true}, \"n\": {\"mirror\": 0.5}}");
+  ASSERT_EQ(warnings_.entries().size(), 1u);
+  const Warnings::Entry entry = warnings_.entries().begin()->second;
+  EXPECT_EQ(entry.count, 2u);
+  EXPECT_EQ(entry.first, root_ +
+                             "s.json#/materials/m: specular 0.5 + transmission 0.7 + diffuse "
+                             "0.8 = 2");
+}
+
 TEST_F(SceneSections, TexturesAreReadAsTheMapNeedsAndShared) {
   save("a.tga", tga(1, 1, {{128, 128, 255}}));
   const SceneDescription scene = loadMembers(

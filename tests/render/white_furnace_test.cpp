@@ -5,6 +5,10 @@
 
 #include <cmath>
 
+#include "io/memory_budget.h"
+#include "io/model.h"
+#include "io/paths.h"
+#include "io/scene_files.h"
 #include "pi.h"
 #include "reference/add_impulses.h"
 #include "reference/small_scenes.h"
@@ -17,7 +21,8 @@ namespace {
 // takes from the others is the weight of the very samples that it gives.
 constexpr float kRoundingsOfAPath = 1e-4f;
 
-constexpr int kBallsAcross = 25, kBallsDown = 20, kPixelsASide = 3;
+constexpr int kBallsAcross = 25, kBallsDown = 20, kBalls = kBallsAcross * kBallsDown,
+              kPixelsASide = 3;
 
 // A ball of each material in a grid of them, seen in parallel from afar. Each is farther away than
 // the one before, so that they hardly reflect one another.
@@ -69,52 +74,158 @@ std::pair<float, float> rangeOf(const Scene& scene, const RenderOptions& o, bool
   return {least, largest};
 }
 
-Rgb color(Numbers& numbers) {
-  const auto channel = [&] { return static_cast<float>(numbers.in(0, 1)); };
-  const float r = channel(), g = channel(), b = channel();
-  return {r, g, b};
+// A text in JSON of random numbers, each in [low, high).
+std::string listOf(Numbers& numbers, int count, double low = 0, double high = 1) {
+  std::string list;
+  for (int i = 0; i < count; ++i) {
+    list += (i == 0 ? "[" : ",") + std::to_string(numbers.in(low, high));
+  }
+  return list + "]";
+}
+std::string number(Numbers& numbers, double low = 0, double high = 1) {
+  return std::to_string(numbers.in(low, high));
 }
 
-TEST(WhiteFurnace, NoneOf500RandomMaterialsIsBrighterThanTheRoom) {
-  Numbers numbers(500);
-  std::vector<Material> materials;
-  for (int i = 0; i < kBallsAcross * kBallsDown; ++i) {
-    const auto chance = [&](double share) { return numbers.in(0, 1) < share; };
-    Material m = diffuseMaterial(1);
-    if (chance(0.5)) m.diffuse = color(numbers);
-    m.specular = chance(0.5) ? Rgb(static_cast<float>(numbers.in(0, 0.1))) : color(numbers);
-    m.roughness = static_cast<float>(numbers.in(0, 1));
-    if (chance(0.5)) m.mirror = color(numbers);
-    if (chance(0.5)) m.mirrorGrazing = color(numbers);
-    if (chance(0.4)) m.transmission = chance(0.5) ? Rgb(1.0f) : color(numbers);
-    m.thin = chance(0.3);
-    m.ior = static_cast<float>(numbers.in(1, 2.5));
-    if (chance(0.3)) m.coverage = static_cast<float>(numbers.in(0, 1));
-    materials.push_back(m);
+// The members of an object in JSON, most of which are there.
+class Members {
+ public:
+  explicit Members(Numbers& numbers) : numbers_(numbers) {}
+  Members& maybe(const char* name, const std::string& value) {
+    return numbers_.in(0, 1) < 0.7 ? add(name, value) : *this;
   }
-  const Scene scene = balls(materials);
-  for (const bool packets : {false, true}) {
-    EXPECT_LE(rangeOf(scene, furnace(), packets).second, 1 + kRoundingsOfAPath) << packets;
+  Members& add(const char* name, const std::string& value) {
+    text_ += (text_.empty() ? "{\"" : ",\"") + std::string(name) + "\":" + value;
+    return *this;
   }
+  std::string text() const { return text_.empty() ? "{}" : text_ + "}"; }
+
+ private:
+  Numbers& numbers_;
+  std::string text_;
+};
+
+std::string sceneMaterial(Numbers& numbers) {
+  Members m(numbers);
+  for (const char* name :
+       {"diffuse", "specular", "mirror", "mirrorGrazing", "transmission", "absorption"}) {
+    m.maybe(name, listOf(numbers, 3));
+  }
+  for (const char* name : {"thin", "diffuseReflection", "glossyReflection", "castsShadow"}) {
+    m.maybe(name, numbers.in(0, 1) < 0.5 ? "true" : "false");
+  }
+  m.maybe("priority", std::to_string(static_cast<int>(numbers.in(0, 9))));
+  return m.maybe("roughness", number(numbers))
+      .maybe("coverage", number(numbers))
+      .maybe("ior", number(numbers, 1, 2.5))
+      .text();
+}
+
+std::string gltfMaterial(Numbers& numbers) {
+  const auto object = [&] { return Members(numbers); };
+  const std::string pbr = object()
+                              .maybe("baseColorFactor", listOf(numbers, 4))
+                              .maybe("metallicFactor", number(numbers))
+                              .maybe("roughnessFactor", number(numbers))
+                              .text();
+  const std::string specular = object()
+                                   .maybe("specularFactor", number(numbers))
+                                   .maybe("specularColorFactor", listOf(numbers, 3, 0, 9))
+                                   .text();
+  const std::string volume = object()
+                                 .add("thicknessFactor", "1")
+                                 .maybe("attenuationDistance", number(numbers, 0.1, 9))
+                                 .maybe("attenuationColor", listOf(numbers, 3))
+                                 .text();
+  const std::string coat = object()
+                               .maybe("clearcoatFactor", number(numbers))
+                               .maybe("clearcoatRoughnessFactor", number(numbers, 0, 0.2))
+                               .text();
+  const std::string transmission = object().maybe("transmissionFactor", number(numbers)).text();
+  const std::string extensions =
+      object()
+          .maybe("KHR_materials_ior", "{\"ior\":" + number(numbers, 1, 2.5) + "}")
+          .maybe("KHR_materials_specular", specular)
+          .maybe("KHR_materials_transmission", transmission)
+          .maybe("KHR_materials_volume", volume)
+          .maybe("KHR_materials_clearcoat", coat)
+          .text();
+  return object()
+      .add("pbrMetallicRoughness", pbr)
+      .add("extensions", extensions)
+      .maybe("doubleSided", "true")
+      .add("alphaMode", numbers.in(0, 1) < 0.4 ? "\"BLEND\"" : "\"OPAQUE\"")
+      .text();
 }
 
 // White throughout, with any lobe and any coat.
-TEST(WhiteFurnace, WhatDoesNotAbsorbVanishes) {
-  Numbers numbers(1);
-  std::vector<Material> materials;
-  for (int i = 0; i < kBallsAcross * kBallsDown; ++i) {
-    Material m = diffuseMaterial(1);
-    m.specular = i % 2 == 0 ? Rgb(0.04f) : color(numbers);
-    m.roughness = static_cast<float>(numbers.in(0, 1));
-    if (i % 3 == 0) m.mirror = color(numbers);
-    if (i % 3 != 1) m.mirrorGrazing = i % 3 == 0 ? color(numbers) : Rgb(1.0f);
-    materials.push_back(m);
+std::string whiteSceneMaterial(Numbers& numbers) {
+  return Members(numbers)
+      .add("diffuse", "1")
+      .maybe("specular", listOf(numbers, 3))
+      .maybe("roughness", number(numbers))
+      .maybe("mirror", listOf(numbers, 3))
+      .maybe("mirrorGrazing", numbers.in(0, 1) < 0.5 ? "1" : listOf(numbers, 3))
+      .maybe("glossyReflection", "true")
+      .text();
+}
+std::string whiteGltfMaterial(Numbers& numbers) {
+  const std::string coat = "{\"clearcoatFactor\":" + number(numbers) + "}";
+  const std::string extensions =
+      Members(numbers)
+          .maybe("KHR_materials_ior", "{\"ior\":" + number(numbers, 1, 2.5) + "}")
+          .maybe("KHR_materials_clearcoat", coat)
+          .text();
+  const std::string roughness = numbers.in(0, 1) < 0.2 ? "0" : number(numbers);
+  return "{\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"roughnessFactor\":" + roughness +
+         "},\"extensions\":" + extensions + "}";
+}
+
+using WriteMaterial = std::string (*)(Numbers&);
+
+class WrittenMaterials : public SceneFileTest {
+ protected:
+  // A ball of each of 500 materials, as whit reads them from a file.
+  Scene ballsOfScene(WriteMaterial write) {
+    Numbers numbers(500);
+    Members materials(numbers);
+    for (int i = 0; i < kBalls; ++i) {
+      materials.add(("m" + std::to_string(i)).c_str(), write(numbers));
+    }
+    return balls(loadMembers("\"materials\":" + materials.text()).materials);
   }
-  const Scene scene = balls(materials);
-  for (const bool packets : {false, true}) {
-    const auto [least, largest] = rangeOf(scene, furnace(), packets);
-    EXPECT_LE(largest, 1 + kRoundingsOfAPath) << packets;
-    EXPECT_GE(least, 1 - kRoundingsOfAPath) << packets;
+  Scene ballsOfGltf(WriteMaterial write) {
+    Numbers numbers(500);
+    std::string materials;
+    for (int i = 0; i < kBalls; ++i) materials += (i == 0 ? "" : ",") + write(numbers);
+    const std::string file =
+        save("m.gltf", "{\"asset\":{\"version\":\"2.0\"},\"materials\":[" + materials + "]}");
+    const PathRules rules(root_, false);
+    MemoryBudget budget(1u << 30);
+    std::vector<Material> read = openModel(file, rules, budget, warnings_, {})->materials();
+    read.resize(kBalls);  // without the one of what has none
+    return balls(read);
+  }
+};
+
+TEST_F(WrittenMaterials, NoneOf500IsBrighterThanTheRoom) {
+  const Scene scenes[] = {ballsOfScene(sceneMaterial), ballsOfGltf(gltfMaterial)};
+  for (const Scene& scene : scenes) {
+    for (const bool packets : {false, true}) {
+      const auto [least, largest] = rangeOf(scene, furnace(), packets);
+      EXPECT_LE(largest, 1 + kRoundingsOfAPath) << packets << (&scene == scenes);
+      EXPECT_LT(least, 0.5f) << "the balls are seen";
+    }
+  }
+}
+
+TEST_F(WrittenMaterials, WhatDoesNotAbsorbVanishes) {
+  const Scene scenes[] = {ballsOfScene(whiteSceneMaterial), ballsOfGltf(whiteGltfMaterial)};
+  for (const Scene& scene : scenes) {
+    for (const bool packets : {false, true}) {
+      const auto [least, largest] = rangeOf(scene, furnace(), packets);
+      EXPECT_LE(largest, 1 + kRoundingsOfAPath) << packets << (&scene == scenes);
+      EXPECT_GE(least, 1 - kRoundingsOfAPath) << packets << (&scene == scenes);
+    }
   }
 }
 

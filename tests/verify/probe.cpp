@@ -234,6 +234,15 @@ Image pictureOf(const Scene& scene, const Camera& camera, const RenderOptions& o
   return film.image;
 }
 
+std::array<Image, 2> picturesOf(const Scene& scene, const Camera& camera,
+                                const RenderOptions& options) {
+  Renderer renderer(scene, options);
+  Film packets = makeFilm(scene, options), reference = packets;
+  renderer.render(camera, packets);
+  renderer.renderReference(camera, reference);
+  return {packets.image, reference.image};
+}
+
 void countHits(Finding& finding, const Probe& probe, bool mustHit) {
   for (std::size_t i = 0; i < probe.size(); ++i) {
     finding.count(probe.isHit(i) != mustHit, [&] {

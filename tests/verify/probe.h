@@ -1,6 +1,7 @@
 // Sends a few rays through single stages of the vector pipeline, on the columns that a frame uses.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/worker_pool.h"
@@ -99,6 +100,11 @@ ColumnStore<RayColumns> raysThrough(const std::vector<std::uint32_t>& pixels,
 
 Image pictureOf(const Scene& scene, const Camera& camera, const RenderOptions& options,
                 FrameStats* stats = nullptr);
+
+// The same by packets and by the scalar reference, which share no code for coplanar faces nor for
+// the media around the eye.
+std::array<Image, 2> picturesOf(const Scene& scene, const Camera& camera,
+                                const RenderOptions& options);
 
 // Counts the pixels whose bits differ. With `mirrored`, column x of `a` is column w - 1 - x of `b`.
 void countOtherPixels(Finding& finding, const Image& a, const Image& b, const std::string& what,

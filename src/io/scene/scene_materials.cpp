@@ -1,8 +1,10 @@
 // The sections "textures" and "materials" of a scene file.
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 
 #include "core/error.h"
+#include "core/formatted.h"
 #include "io/scene/scene_sections.h"
 #include "scene/generation_limit.h"
 
@@ -50,6 +52,32 @@ bool saysData(JsonObject& texture) {
   return as && as->word({"color", "data"}) == "data";
 }
 
+// Warns of a material that is given more light to send out than it gets. Thin coats over white are
+// common, so a tenth too much is let pass. Parts with a map, and a lobe that only lights show, may
+// send out less than they state and are left out.
+void warnOfSum(const Material& m, const std::string& where, Warnings& warnings) {
+  constexpr float kMost = 1.1f;
+  const bool lobe = m.glossyReflection && m.specularMap == kNoTexture;
+  const std::pair<const char*, Rgb> parts[] = {
+      {"mirror", m.mirror},
+      {"specular", lobe ? m.specular : Rgb()},
+      {"transmission", m.transmission},
+      {"diffuse", m.diffuseMap == kNoTexture ? m.diffuse : Rgb()}};
+  Rgb sum;
+  for (const auto& [name, part] : parts) sum += part;
+  const int largest = sum.x == maxComponent(sum) ? 0 : sum.y == maxComponent(sum) ? 1 : 2;
+  if (sum[largest] <= kMost) return;
+  std::string text;
+  for (const auto& [name, part] : parts) {
+    if (part[largest] == 0) continue;
+    text += formatted("%s%s %.4g", text.empty() ? "" : " + ", name, double{part[largest]});
+  }
+  warnings.add(
+      "material whose parts exceed 1 in sum: what the mirror, then the glossy lobe and then the "
+      "transmission leave is all that its diffuse color gets",
+      formatted("%s: %s = %.4g", where.c_str(), text.c_str(), double{sum[largest]}));
+}
+
 }  // namespace
 
 MaterialReader::MaterialReader(JsonObject& file, SceneContext& context) : context_(context) {
@@ -68,6 +96,7 @@ MaterialReader::MaterialReader(JsonObject& file, SceneContext& context) : contex
     material.pointer = value.pointer();
     read(object, material);
     object.finish();
+    warnOfSum(material, value.where(), context_.warnings);
     materials_.emplace(name, add(material));
   }
 }
