@@ -1,5 +1,3 @@
-#include "viewer/shading_edit.h"
-
 #include <filesystem>
 #include <set>
 
@@ -7,6 +5,7 @@
 #include "io/scene/scene_view.h"
 #include "io/supply_view.h"
 #include "make/studio_sky.h"
+#include "viewer/frame_tracer.h"
 
 namespace whit::view {
 
