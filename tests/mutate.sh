@@ -122,9 +122,11 @@ mutations() {
     'from.tFar ? load(from.tFar)
         : hn::LoadU(d, WordsOf<kWidth>(to, i) + packet_column::tFar * kWidth);
     if (!from.tFar) tFar = hn::IfThenElse(hn::Gt(tFar, hn::Zero(d)), tFar, hn::Inf(d));'
-  plant stale-hit src/accel/find_hits.cpp \
-    'forgetHits<kWidth>(group.packets.data(), count);' \
-    'if (begin == 0) forgetHits<kWidth>(group.packets.data(), count);'
+  plant stale-hit src/accel/accel.cpp \
+    'says that there is none.
+    for (std::size_t p = 0;' \
+    'says that there is none.
+    for (std::size_t p = 0; begin == 0 &&'
   plant off-by-one-tail simd/packets-inl.h \
     'hn::FirstN(d, i < n ? n - i : 0)' 'hn::FirstN(d, i < n ? n - i - (n > 1 ? 1 : 0) : 0)'
   plant bad-rays-traced simd/packets-inl.h \
@@ -142,7 +144,7 @@ mutations() {
     'std::tuple(face.opaque,' 'std::tuple(!face.opaque,'
   plant glass-before-opaque-in-reference src/reference/settle_coplanar.cpp \
     'return a.opaque;' 'return b.opaque;'
-  plant not-robust src/render/renderer.cpp 'accel.robust = options.robust;' 'accel.robust = false;'
+  plant not-robust src/render/renderer.cpp '.robust = options.robust,' '.robust = false,'
   plant sphere-in-floats simd/meet_sphere.cpp \
     'const auto inside = hn::Sub(one, DotOf<D>(nearest, nearest));' \
     'const auto inside = hn::PromoteTo(d, hn::DemoteTo(df, hn::Sub(hn::Mul(b, middle),

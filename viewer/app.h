@@ -71,7 +71,7 @@ class App {
   void run();
 
  private:
-  // app.cpp, the loop:
+  // app.cpp:
   bool step();  // returns false when the scripted user ends
   double waitSeconds() const;
   bool worthDrawing(bool fresh, double seconds);
@@ -111,13 +111,10 @@ class App {
   void forgetRays();
   void jumpToNumber(std::size_t number);
   void jump(const Camera& camera);
-  std::string command() const;
-  std::string viewCommand() const;
+  std::string command(const RenderOptions& options) const;
   RenderOptions viewOptions() const;
   void saveScene();
   void servePanel();
-
-  // app_scene.cpp:
   void watchSceneFile(double seconds);
   void watch(const std::string& scene);
   void reload();

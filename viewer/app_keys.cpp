@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
+#include <string_view>
 
 #include "bake/move_scene.h"
 #include "core/formatted.h"
@@ -19,11 +20,9 @@ constexpr float kExposureStep = 0.25f, kExposureLimit = 64;
 
 std::string cameraFile(const Scene& scene) { return scene.name + "-camera.json"; }
 
+// GLFW's codes of letters are their ASCII codes.
 bool flies(int key) {
-  for (const int known : {GLFW_KEY_W, GLFW_KEY_A, GLFW_KEY_S, GLFW_KEY_D, GLFW_KEY_Q, GLFW_KEY_E}) {
-    if (key == known) return true;
-  }
-  return false;
+  return key < 128 && std::string_view("WASDQE").find(static_cast<char>(key)) != std::string::npos;
 }
 
 constexpr KeyHelp kHelp[] = {{"W A S D, Q E", "fly; down and up"},
@@ -111,10 +110,10 @@ void App::servePanel() {
   }
 }
 
-// Returns the command that makes the picture shown.
-std::string App::command() const {
+// Returns the command that makes the view shown with these options.
+std::string App::command(const RenderOptions& options) const {
   const std::lock_guard lock(shown_.scene->moving);
-  return renderCommand(sceneName_, options_.common, shown_, shown_.options);
+  return renderCommand(sceneName_, options_.common, shown_, options);
 }
 
 // Returns the options of the picture shown; for a view that is not sharp yet, those that it will
@@ -130,21 +129,14 @@ RenderOptions App::viewOptions() const {
   return options;
 }
 
-std::string App::viewCommand() const {
-  const std::lock_guard lock(shown_.scene->moving);
-  return renderCommand(sceneName_, options_.common, shown_, viewOptions());
-}
-
 void App::handleKey(int key) {
   const std::map<int, std::function<void()>> actions{
-      // Window and files.
       {GLFW_KEY_ESCAPE, [&] { window_.close(); }},
       {GLFW_KEY_F, [&] { window_.toggleFullScreen(); }},
       {GLFW_KEY_H, [&] { settings_.shown = !settings_.shown; }},
       {GLFW_KEY_R, [&] { reload(); }},
       {GLFW_KEY_F12, [&] { savePicture(); }},
       {GLFW_KEY_C, [&] { printView(); }},
-      // The picture.
       {GLFW_KEY_LEFT_BRACKET, [&] { expose(-kExposureStep); }},
       {GLFW_KEY_RIGHT_BRACKET, [&] { expose(kExposureStep); }},
       {GLFW_KEY_EQUAL, [&] { stepScale(1); }},  // many keyboards have plus there, with Shift
@@ -160,7 +152,6 @@ void App::handleKey(int key) {
        }},
       {GLFW_KEY_I, [&] { settings_.inspects = !settings_.inspects; }},
       {GLFW_KEY_T, [&] { settings_.rays.lines = !settings_.rays.lines; }},
-      // The viewpoint.
       {GLFW_KEY_SPACE, [&] { startOrStopPath(); }},
       {GLFW_KEY_P,
        [&] {
@@ -187,7 +178,7 @@ void App::handleKey(int key) {
 
 void App::savePicture() {
   if (!shown_.scene) return;
-  say("saved " + view::savePicture(shown_, command()) +
+  say("saved " + view::savePicture(shown_, command(shown_.options)) +
       (shown_.request.view == DebugView::none
            ? " (.png, .exr, .json)"
            : " (.png: the view; .exr, .json: the picture below it)"));
@@ -195,7 +186,7 @@ void App::savePicture() {
 
 void App::printView() {
   if (!shown_.scene) return;
-  const std::string text = viewCommand();
+  const std::string text = command(viewOptions());
   std::printf("%s\n", text.c_str());
   std::fflush(stdout);
   window_.setClipboard(text);

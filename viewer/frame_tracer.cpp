@@ -53,22 +53,6 @@ void finishComparison(const Film& frame, float exposure, ToneCurve curve, Compar
   comparison.difference = compareImages(frame.image, reference, exposure, curve);
 }
 
-// Sets a renderer's options for its own lifetime.
-class OptionsInUse {
- public:
-  OptionsInUse(Renderer& renderer, const RenderOptions& options)
-      : renderer_(renderer), before_(renderer.options()) {
-    renderer_.setOptions(options);
-  }
-  ~OptionsInUse() { renderer_.setOptions(before_); }
-  OptionsInUse(const OptionsInUse&) = delete;
-  OptionsInUse& operator=(const OptionsInUse&) = delete;
-
- private:
-  Renderer& renderer_;
-  const RenderOptions before_;
-};
-
 }  // namespace
 
 DisplayImage splitPicture(const DisplayImage& frame, const Comparison& comparison, int split) {
@@ -179,7 +163,9 @@ RayPick FrameTracer::explain(const RayQuery& query) {
   Film film;
   sizeFilm(film, size, Crop{query.x, query.y, query.x + 1, query.y + 1});
   RayPick pick{scene_, query, {}, {}, {}};
-  const OptionsInUse used(*renderer_, options);
+  const auto restore = [before = renderer_->options()](Renderer* r) { r->setOptions(before); };
+  const std::unique_ptr<Renderer, decltype(restore)> restored(renderer_.get(), restore);
+  renderer_->setOptions(options);
   pick.rays = cli::explainRays(*renderer_, query.camera, film, query.x, query.y);
   pick.words = wordsFor(scene_->scene, pick.rays);
   pick.lines = linesOf(pick.rays.packets);
@@ -235,8 +221,9 @@ bool FrameTracer::traceAtOnce(const FrameRequest& request, TracedFrame& frame,
   const bool views = view != DebugView::none;
   const double expectedMs = kUncertain * msPerSample_ * samplesOf(request);
   // The passes of adaptive sampling trace some pixels again, so none is final before the last pass.
+  // The scale of a view is not known before its first picture, which is coarse.
   const bool shows = (expectedMs == 0 || expectedMs > kUnfinishedMs) &&
-                     (views || !options_.adaptive || options_.spp == 1);
+                     (views ? scaleOf_ == view : !options_.adaptive || options_.spp == 1);
   std::vector<WatchedPixel> watched;
   DisplayImage seen{frame.film.display.width, frame.film.display.height, {}};
   if (shows) seen.rgba.resize(frame.film.display.rgba.size());
@@ -278,19 +265,12 @@ bool FrameTracer::traceAtOnce(const FrameRequest& request, TracedFrame& frame,
   return true;
 }
 
-// The scale is that of the last picture of this view, or else that of the tiles so far.
+// The scale is that of the last picture of this view.
 void FrameTracer::paintTile(DebugView view, const std::vector<WatchedPixel>& watched,
                             std::span<const std::uint32_t> pixels, Film& film) {
   std::vector<WatchedPixel> tile;
   for (const std::uint32_t pixel : pixels) {
     tile.push_back(watched[film.image.index(pixelX(pixel), pixelY(pixel))]);
-  }
-  if (scaleOf_ != view) {
-    const AmountScale scale = scaleOf(view, tile, options_.spp);
-    const bool first = pixels.front() == packedPixel(0, 0);
-    scale_ = first
-                 ? scale
-                 : AmountScale{std::min(scale_.low, scale.low), std::max(scale_.high, scale.high)};
   }
   DisplayImage painted{static_cast<int>(tile.size()), 1, {}};
   painted.rgba.resize(4 * tile.size());

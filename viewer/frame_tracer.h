@@ -1,16 +1,191 @@
-// The tracer of the viewer's pictures, which makes what a FrameRequest asks for. It belongs to one
-// thread.
+// The viewer's pictures: requests, frames, and their tracer.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
-#include "viewer/traced_frame.h"
+#include "cli/app/explained_rays.h"
+#include "cli/app/open_scene.h"
+#include "inspect/debug_view.h"
+#include "inspect/metrics.h"
+#include "inspect/ray_lines.h"
+#include "io/image/image_file.h"
+#include "io/json_reader.h"
 
 namespace whit::view {
+
+// shading_edit.cpp: edits of a scene's materials, lights, sky and ambient light, and the settings
+// (--set) that amount to them.
+
+// The sky that is shown, and its settings.
+struct SkyChoice {
+  std::string source;  // for namedSky(), with the whole path of files; empty: the scene's own
+  Sky::Kind kind = Sky::Kind::none;
+  float scale = 1, rotation = 0;
+
+  friend bool operator==(const SkyChoice&, const SkyChoice&) = default;
+};
+// Returns the sky of a scene as it was read.
+SkyChoice skyOf(const cli::OpenScene& scene);
+// Returns the choice of another sky with its default settings.
+SkyChoice chooseSky(const std::string& source);
+// Describes a sky whose source is not empty as scene files do.
+Json describeSky(const SkyChoice& sky);
+
+// Returns whether both give the same light under the same sky.
+inline bool sameAmbient(const Ambient& a, Ambient b) {
+  if (a.ofSky > 0 || b.ofSky > 0) b.up = a.up, b.down = a.down;  // the sky decides
+  return a == b;
+}
+
+// The edited materials, lights, sky and ambient light of a scene; see bake/edit_shading.h.
+struct ShadingEdit {
+  std::shared_ptr<const cli::OpenScene> scene;
+  std::vector<Material> materials;
+  std::vector<Light> lights;
+  SkyChoice sky;
+  Ambient ambient;                    // its colors do not count where the sky makes them
+  std::vector<std::string> settings;  // editSettings() of this edit
+};
+// Returns the state of a scene as it was read.
+ShadingEdit withoutEdits(const std::shared_ptr<const cli::OpenScene>& scene);
+
+// Returns the edits as values of --set. A scene that is read with these as well has the edited
+// materials, lights, sky and ambient light, bit for bit. Settings of the sky hold for a scene that
+// is read without --sky.
+std::vector<std::string> editSettings(const ShadingEdit& read, const ShadingEdit& edited);
+
+struct SceneChoice {
+  std::string name;
+  std::vector<std::string> settings;
+  std::string animation;  // empty: the first one
+};
+
+struct FrameRequest {
+  Camera camera;
+  RenderOptions options;    // the user's options; the size must be set
+  ImageSize window;         // the window that the picture is to fill
+  int spp = 1;              // samples that are traced: the options', or more at rest
+  int depth = kDepthLimit;  // upper limit of the depth in motion
+  bool coarse = false;      // finer pixels will follow at rest
+  DebugView view = DebugView::none;
+  bool withReference = false;     // the reference's picture is traced and compared as well
+  int reloads = 0, edits = 0;     // number of reloads and edits of the scene so far
+  std::optional<double> seconds;  // the instant of a scene that moves
+  int serial = 0;                 // the number of the request
+  bool interruptible = false;     // given up when another one is asked for
+};
+
+// Returns whether both ask for the same picture.
+inline bool samePicture(const FrameRequest& a, const FrameRequest& b) {
+  return sameView(a.camera, b.camera) && a.options == b.options && a.window == b.window &&
+         a.spp == b.spp && a.depth == b.depth && a.view == b.view &&
+         a.withReference == b.withReference && a.reloads == b.reloads && a.edits == b.edits &&
+         a.seconds == b.seconds;
+}
+
+// Returns whether both show the same, at any resolution.
+inline bool sameSubject(const FrameRequest& a, FrameRequest b) {
+  b.options.size = a.options.size;
+  b.spp = a.spp;
+  b.depth = a.depth;
+  b.withReference = a.withReference;
+  return samePicture(a, b);
+}
+
+inline double samplesOf(const FrameRequest& request) {
+  const ImageSize size = request.options.size.value();
+  return static_cast<double>(size.width) * size.height * request.spp;
+}
+
+enum class CompareMode { off, split, heatMap };
+
+// Grows row by row from the top while the reference is traced.
+struct Comparison {
+  Film reference;  // rows [0, rows) are done
+  int rows = 0;
+  double referenceMs = 0;
+  // These two are set when all rows are done:
+  std::optional<ImageDifference> difference;
+  DisplayImage heatMap;  // as large as the frame
+
+  bool complete() const { return difference.has_value(); }
+  double progress() const {
+    return reference.image.height > 0 ? static_cast<double>(rows) / reference.image.height : 0;
+  }
+};
+
+struct TracedFrame {
+  std::shared_ptr<const cli::OpenScene> scene;  // null: nothing traced yet
+  FrameRequest request;
+  RenderOptions options;  // the options of the picture
+  std::string surfaces;   // the number of triangles and spheres, in words
+  std::string animation;  // the animation that was asked for
+  Film film;
+  FrameStats stats;
+  ImageMetadata metadata;
+  EffectSet effects;                               // the effects that were traced
+  bool sampled = false;                            // rays were drawn at random
+  double sampleError = 0;                          // SampleSums::relativeError(), 0: not known
+  std::array<EffectReason, kEffectCount> reasons;  // a copy, as edits change the scene's own
+  std::vector<std::string> settings;               // settings of the scene, then those of an edit
+  std::string sky;  // the scene's --sky, unless another sky was chosen
+  Machine machine;
+  // These three belong to a debug view:
+  std::string legend;
+  AmountScale scale;
+  std::shared_ptr<const std::vector<WatchedPixel>> watched;
+  std::optional<Comparison> comparison;  // if the request is with the reference
+};
+
+// Returns the frame left of column `split` and the rows of the reference that are done right of it.
+DisplayImage splitPicture(const DisplayImage& frame, const Comparison& comparison, int split);
+
+// The visible part of a frame that is being traced.
+struct UnfinishedFrame {
+  FrameRequest request;
+  DisplayImage display;  // transparent where nothing was traced yet; empty: nothing new to show
+  double done = 0;       // share of the frame
+  // For a picture that gains samples: the samples shown, and SampleSums::relativeError().
+  int samples = 0;
+  double sampleError = 0;
+};
+
+// A query for the rays of a pixel that the user picked; RayPick is the answer.
+struct RayQuery {
+  Camera camera;
+  RenderOptions options;  // the options of the whole picture; the size must be set
+  int x = 0, y = 0;       // from the top left
+  int reloads = 0, edits = 0;
+  std::optional<double> seconds;  // the instant of the picture on screen
+};
+
+// Returns whether both queries have the same answer.
+inline bool sameRays(const RayQuery& a, const RayQuery& b) {
+  return sameView(a.camera, b.camera) && a.options == b.options && a.x == b.x && a.y == b.y &&
+         a.reloads == b.reloads && a.edits == b.edits && a.seconds == b.seconds;
+}
+
+// The description of a node. The scene may be edited before it is shown.
+struct RayWords {
+  std::string met, medium;
+  std::string parting;              // where the reference takes another path; empty: it does not
+  std::vector<std::string> lights;  // names of the node's lights
+};
+
+struct RayPick {
+  std::shared_ptr<const cli::OpenScene> scene;  // null: nothing was picked
+  RayQuery query;
+  cli::ExplainedRays rays;
+  std::vector<RayWords> words;  // one for each node of the packets
+  std::vector<RayLine> lines;   // the rays of the packets
+};
 
 // A picture under way is shown again after this time.
 inline constexpr double kUnfinishedMs = 25;
@@ -32,6 +207,7 @@ struct TraceCalls {
   std::function<void(UnfinishedFrame)> showUnfinished;
 };
 
+// Makes the pictures that requests ask for. It belongs to one thread.
 class FrameTracer {
  public:
   // Builds the renderer; throws as Renderer does.

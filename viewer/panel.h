@@ -5,11 +5,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdlib>
+#include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
-#include "viewer/timeline.h"
-#include "viewer/traced_frame.h"
+#include "scene/animation.h"
+#include "viewer/frame_tracer.h"
 
 namespace whit::view {
 
@@ -24,7 +26,6 @@ inline int largestDifference(const std::array<std::uint8_t, 3>& a,
   return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
 }
 
-// The view of the rays.
 struct RayView {
   bool lines = true;                       // over the picture
   std::size_t pointedAt = kNoCounterpart;  // the node under the pointer, whose line stands out
@@ -34,6 +35,26 @@ struct RayView {
   bool fromAside = false;  // the camera is to see all rays
   bool forget = false;     // the rays are to go
 };
+
+// The instant of a scene that moves: it plays by the clock, or the user sets it.
+struct Timeline {
+  bool there = false;  // the scene moves
+  double seconds = 0, length = 0;
+  bool playing = false;
+  bool loops = true;                    // otherwise it stops at its end
+  std::vector<std::string> animations;  // to choose from; empty where there is one only
+  std::string animation;                // the animation that plays
+  bool another = false;                 // the animation was just chosen and is to be read
+
+  // Goes on by that many seconds. Returns whether it was playing.
+  bool step(double later);
+  void playOrPause();
+  std::optional<double> time() const { return there ? std::optional(seconds) : std::nullopt; }
+};
+
+// Returns the timeline of a scene that was just read: at the instant's seconds if it has any,
+// otherwise playing from 0.
+Timeline timelineOf(const Scene& scene, const Instant& instant);
 
 // The settings that the panel and the keys change.
 struct PanelSettings {
@@ -97,6 +118,10 @@ void drawRayTree(const RayPick& pick, const TracedFrame& frame, RayView& view);
 // Draws the lines as this camera sees them, behind panels. Call between ImGui's NewFrame and
 // Render.
 void drawRayLines(const RayPick& pick, const Camera& camera, const RayView& view);
+
+// timeline.cpp: draws a bar at the bottom of the window if the scene moves. Returns whether
+// something was changed. Call between ImGui's NewFrame and Render.
+bool drawTimeline(Timeline& timeline);
 
 // overlay.cpp: everything else that is drawn over the picture, between ImGui's NewFrame and Render.
 // ", within about 0.8 %": the standard error of a pixel, as SampleSums::relativeError() has it;

@@ -35,6 +35,16 @@ void RenderThread::post(const Change& change) {
   wake_.notify_one();
 }
 
+// Changes the results and tells the window.
+template <typename Change>
+void RenderThread::report(const Change& change) {
+  {
+    const std::lock_guard lock(mutex_);
+    change();
+  }
+  onChange_();
+}
+
 bool RenderThread::ask(const FrameRequest& request) {
   bool taken = false;
   post([&] {
@@ -56,27 +66,12 @@ void RenderThread::query(const RayQuery& query) {
   post([&] { query_ = query; });
 }
 
-std::optional<RayPick> RenderThread::takePick() {
-  const std::lock_guard lock(mutex_);
-  return std::exchange(pick_, std::nullopt);
-}
-
 bool RenderThread::take(TracedFrame& frame) {
   const std::lock_guard lock(mutex_);
   if (!fresh_) return false;
   std::swap(frame, ready_);
   fresh_ = false;
   return true;
-}
-
-std::optional<UnfinishedFrame> RenderThread::takeUnfinished() {
-  const std::lock_guard lock(mutex_);
-  return std::exchange(unfinished_, std::nullopt);
-}
-
-std::string RenderThread::takeError() {
-  const std::lock_guard lock(mutex_);
-  return std::exchange(error_, std::string());
 }
 
 bool RenderThread::busy() const {
@@ -155,19 +150,13 @@ TraceCalls RenderThread::calls() {
   calls.answer = [this] { answerQuery(); };
   calls.publish = [this](const TracedFrame& frame) {
     TracedFrame copy = frame;
-    {
-      const std::lock_guard lock(mutex_);
+    report([&] {
       std::swap(copy, ready_);
       fresh_ = true;
-    }
-    onChange_();
+    });
   };
   calls.showUnfinished = [this](UnfinishedFrame frame) {
-    {
-      const std::lock_guard lock(mutex_);
-      unfinished_ = std::move(frame);
-    }
-    onChange_();
+    report([&] { unfinished_ = std::move(frame); });
   };
   return calls;
 }
@@ -186,25 +175,14 @@ void RenderThread::trace(const FrameRequest& request) {
 }
 
 void RenderThread::answerQuery() {
-  std::optional<RayQuery> query;
-  {
-    const std::lock_guard lock(mutex_);
-    query = std::exchange(query_, std::nullopt);
-  }
+  const std::optional<RayQuery> query = taken(query_);
   if (!query) return;
-  std::optional<RayPick> pick;
-  std::string error;
   try {
-    pick = tracer_.explain(*query);
-  } catch (const std::exception& e) {
-    error = e.what();  // the picture under way goes on
+    RayPick pick = tracer_.explain(*query);
+    report([&] { pick_ = std::move(pick); });
+  } catch (const std::exception& error) {
+    report([&] { error_ = error.what(); });  // the picture under way goes on
   }
-  {
-    const std::lock_guard lock(mutex_);
-    if (pick) pick_ = std::move(pick);
-    if (!error.empty()) error_ = error;
-  }
-  onChange_();
 }
 
 }  // namespace whit::view

@@ -11,6 +11,7 @@
 #include <functional>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 #include "viewer/frame_tracer.h"
 
@@ -38,18 +39,25 @@ class RenderThread {
   // gains samples goes on.
   void query(const RayQuery& query);
   // The newest answer since the last call; null: there is none.
-  std::optional<RayPick> takePick();
+  std::optional<RayPick> takePick() { return taken(pick_); }
   // Exchanges `frame` for the newest one since the last call; false: there is none.
   bool take(TracedFrame& frame);
   // The finished tiles of the picture that is being traced; null if there are no new ones.
-  std::optional<UnfinishedFrame> takeUnfinished();
-  std::string takeError();  // empty: none
-  bool busy() const;        // tracing, or about to
-  bool committed() const;   // tracing a picture that nothing stops
+  std::optional<UnfinishedFrame> takeUnfinished() { return taken(unfinished_); }
+  std::string takeError() { return taken(error_); }  // empty: none
+  bool busy() const;                                 // tracing, or about to
+  bool committed() const;                            // tracing a picture that nothing stops
 
  private:
+  template <typename Result>
+  Result taken(Result& result) {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(result, Result());
+  }
   template <typename Change>
   void post(const Change& change);
+  template <typename Change>
+  void report(const Change& change);
   void loop();
   void serve(std::unique_lock<std::mutex>& lock);
   void trace(const FrameRequest& request);

@@ -1,11 +1,10 @@
-#include "viewer/shading_edit.h"
-
 #include <filesystem>
 #include <set>
 
 #include "io/scene/scene_sections.h"
 #include "io/supply_view.h"
 #include "make/studio_sky.h"
+#include "viewer/frame_tracer.h"
 
 namespace whit::view {
 

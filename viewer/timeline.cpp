@@ -1,4 +1,4 @@
-#include "viewer/timeline.h"
+#include "viewer/panel.h"
 
 #include <imgui.h>
 
@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/formatted.h"
-#include "viewer/panel.h"
 
 namespace whit::view {
 

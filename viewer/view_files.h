@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "viewer/traced_frame.h"
+#include "viewer/frame_tracer.h"
 
 namespace whit::view {
 

@@ -194,20 +194,11 @@ void Window::fill(Layer& layer, const DisplayImage& image, const ImageSize& made
                   image.rgba.data());
 }
 
-void Window::upload(const DisplayImage& image, const ImageSize& madeFor) {
-  fill(picture_, image, madeFor);
-}
-
-void Window::uploadOver(const DisplayImage& image, const ImageSize& madeFor) {
-  fill(over_, image, madeFor);
-}
-
 void Window::drawLayer(const Layer& layer, const ImageSize& window) {
   if (layer.size == ImageSize{}) return;
   // Texels of the window's resolution are shown unchanged; coarser ones are blended.
   const GLint filter = layer.size == window ? GL_NEAREST : GL_LINEAR;
-  const auto shares =
-      layer.madeFor == ImageSize{} ? std::array{1.0, 1.0} : sharesFilled(layer.madeFor, window);
+  const auto shares = sharesFilled(layer.madeFor, window);
   const auto x = static_cast<float>(shares[0]), y = static_cast<float>(shares[1]);
   glBindTexture(GL_TEXTURE_2D, layer.texture);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);

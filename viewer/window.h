@@ -92,15 +92,17 @@ class Window {
   // Makes poll() return. Other threads may call it.
   static void wake();
 
-  // Sets the picture. It was made for a window of that size and keeps its shape in another one;
-  // zero: it is stretched to any window.
-  void upload(const DisplayImage& image, const ImageSize& madeFor = {});
+  // Sets the picture. It was made for a window of that size and keeps its shape in another one.
+  void upload(const DisplayImage& image, const ImageSize& madeFor) {
+    fill(picture_, image, madeFor);
+  }
   // Sets a second picture that lies over the first, transparent where it is not traced yet.
-  void uploadOver(const DisplayImage& image, const ImageSize& madeFor);
+  void uploadOver(const DisplayImage& image, const ImageSize& madeFor) {
+    fill(over_, image, madeFor);
+  }
   void dropOver() { over_.size = {}; }
   // Draws the pictures and begins a new ImGui frame over them.
   void begin();
-  // Draws what ImGui was given.
   void end();
   void present();
 

@@ -405,7 +405,6 @@ void RayLog::append(bool anyHit, bool coherent, const std::array<const float*, 7
   stream->count += n;
 }
 
-// The results are dropped.
 double Accel::replay(const RayLog& log) const {
   double ms = 0;
   for (const RayLog::Stream& stream : log.streams()) {

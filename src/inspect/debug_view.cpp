@@ -8,9 +8,9 @@
 #include "bake/finalize_steps.h"
 #include "core/display.h"
 #include "core/formatted.h"
+#include "core/option_values.h"
 #include "core/pixel.h"
 #include "inspect/metrics.h"
-#include "render/pixel_tracker.h"
 
 namespace whit {
 
@@ -35,11 +35,10 @@ Rgb colorOf(EffectSet effects) {
 // Sums, a pixel of the window each, of whatever the view shows.
 class Watcher : public StageObserver {
  public:
-  Watcher(const Renderer& renderer, const Crop& window, DebugView view,
+  Watcher(const Renderer& renderer, const Image& image, DebugView view,
           std::vector<WatchedPixel>& pixels)
-      : renderer_(renderer), window_(window), view_(view), pixels_(pixels), last_(Clock::now()) {
-    const auto width = static_cast<std::size_t>(window.x1 - window.x0);
-    pixels_.assign(width * static_cast<std::size_t>(window.y1 - window.y0), WatchedPixel());
+      : renderer_(renderer), image_(image), view_(view), pixels_(pixels), last_(Clock::now()) {
+    pixels_.assign(image.pixels.size(), WatchedPixel());
   }
 
   void after(Stage stage, const Chunk& chunk) override {
@@ -62,9 +61,7 @@ class Watcher : public StageObserver {
  private:
   WatchedPixel& add(const Chunk& chunk, std::size_t slot, const Rgb& value, double count) {
     const std::uint32_t at = tracker_.pixel(chunk, slot);
-    const auto x = static_cast<std::size_t>(pixelX(at) - window_.x0);
-    const auto y = static_cast<std::size_t>(pixelY(at) - window_.y0);
-    WatchedPixel& pixel = pixels_[y * static_cast<std::size_t>(window_.x1 - window_.x0) + x];
+    WatchedPixel& pixel = pixels_[image_.index(pixelX(at), pixelY(at))];
     pixel.sum += value;
     pixel.count += count;
     return pixel;
@@ -119,7 +116,7 @@ class Watcher : public StageObserver {
   }
 
   const Renderer& renderer_;
-  const Crop window_;
+  const Image& image_;
   const DebugView view_;
   std::vector<WatchedPixel>& pixels_;
   PixelTracker tracker_;
@@ -156,23 +153,13 @@ std::array<std::uint8_t, 3> meanColor(DebugView view, const WatchedPixel& pixel)
   return {code(c.x), code(c.y), code(c.z)};
 }
 
-std::string namesOf(EffectSet effects) {
-  std::string names;
-  for (int i = 0; i < kEffectCount; ++i) {
-    if (!effects.has(static_cast<Effect>(i))) continue;
-    names +=
-        (names.empty() ? "" : ", ") + std::string(kEffectNames[static_cast<std::size_t>(i)].name);
-  }
-  return names.empty() ? "none" : names;
-}
-
 }  // namespace
 
 std::span<const EffectColor> effectColors() { return kEffectColors; }
 
 FrameStats watchFrame(Renderer& renderer, const Camera& camera, Film& film, DebugView view,
                       std::vector<WatchedPixel>& pixels, const FrameHooks* hooks) {
-  Watcher watcher(renderer, film.image.window, view, pixels);
+  Watcher watcher(renderer, film.image, view, pixels);
   StageObserver* const observers[] = {&watcher};
   return renderer.observe(camera, film, observers, hooks);
 }
@@ -253,7 +240,8 @@ std::string textOf(DebugView view, const WatchedPixel& pixel, int samples) {
     case DebugView::cost:
       return formatted("%.3g microseconds a sample", amount);
     case DebugView::effects:
-      return "effects: " + namesOf(pixel.effects);
+      return "effects: " +
+             (pixel.effects == EffectSet() ? "none" : formatValue(OptionSpec{}, pixel.effects));
     case DebugView::occupancy:
       return formatted("%.1f %% of the lanes live", 100 * amount);
     case DebugView::none:

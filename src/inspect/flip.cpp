@@ -11,7 +11,6 @@
 #include <numeric>
 #include <vector>
 
-#include "core/error.h"
 #include "core/quantile.h"
 #include "core/srgb.h"
 #include "core/vec3.h"
@@ -354,17 +353,13 @@ double hdrFlipToneCurve(double x) {
 
 HdrFlip::HdrFlip(const Image& reference) : exposures_(exposuresFor(reference)) {
   checkComparable(reference, reference);
-  shape_.width = reference.width;
-  shape_.height = reference.height;
-  shape_.window = reference.window;
+  shape_ = reference;
+  shape_.pixels.clear();
   for (const double exposure : exposures_) sides_.push_back(sideAt(reference, exposure));
 }
 
 std::vector<float> HdrFlip::map(const Image& image) const {
-  if (image.width != shape_.width || image.height != shape_.height ||
-      image.window != shape_.window) {
-    throwUsage("HDR-FLIP expected an image of the reference's size and crop");
-  }
+  checkComparable(image, shape_);
   std::vector<float> worst(image.pixels.size());
   for (std::size_t k = 0; k < exposures_.size(); ++k) {
     const std::vector<float> flip = flipBetween(sideAt(image, exposures_[k]), sides_[k]);

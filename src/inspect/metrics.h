@@ -36,9 +36,6 @@ void checkComparable(const Image& a, const Image& b);
 // Per pixel, the largest difference of a channel of the encoded images, in codes.
 std::vector<std::uint8_t> codeDifferences(const DisplayImage& a, const DisplayImage& b);
 
-// FLIP per pixel, in [0, 1], of the encoded images.
-std::vector<float> flipMap(const Image& a, const Image& b);
-
 // Per-pixel code difference as a heat map on a fixed scale (0 to 16 codes, logarithmic), which may
 // be drawn beneath.
 DisplayImage heatMap(const Image& a, const Image& b, bool scale = true);

@@ -5,7 +5,6 @@
 #include "core/pixel.h"
 #include "reference/reference.h"
 #include "render/embree_intersector.h"
-#include "render/pixel_tracker.h"
 
 namespace whit {
 
@@ -27,10 +26,8 @@ std::uint64_t shadowEvent(bool visible) { return mixed(visible ? 0x51 : 0x52); }
 // the tiles write to the same signatures, one a pixel of the window.
 class SignatureObserver : public StageObserver {
  public:
-  SignatureObserver(const Crop& window, std::vector<std::uint64_t>& signatures)
-      : window_(window),
-        width_(static_cast<std::size_t>(window.x1 - window.x0)),
-        signatures_(signatures) {}
+  SignatureObserver(const Image& image, std::vector<std::uint64_t>& signatures)
+      : image_(image), signatures_(signatures) {}
 
   void after(Stage stage, const Chunk& chunk) override {
     tracker_.follow(stage, chunk);
@@ -51,13 +48,10 @@ class SignatureObserver : public StageObserver {
 
  private:
   std::uint64_t& at(std::uint32_t pixel) {
-    const auto x = static_cast<std::size_t>(pixelX(pixel) - window_.x0);
-    const auto y = static_cast<std::size_t>(pixelY(pixel) - window_.y0);
-    return signatures_[y * width_ + x];
+    return signatures_[image_.index(pixelX(pixel), pixelY(pixel))];
   }
 
-  Crop window_;
-  std::size_t width_;
+  const Image& image_;
   PixelTracker tracker_;
   std::vector<std::uint64_t>& signatures_;
 };
@@ -114,7 +108,7 @@ PathComparison comparePaths(Renderer& renderer, const Camera& camera, const Film
   Film scratch = film;
   std::vector<std::uint64_t> signatures(film.image.pixels.size());
   std::vector<SignatureObserver> signers(static_cast<std::size_t>(renderer.machine().threads),
-                                         SignatureObserver(film.image.window, signatures));
+                                         SignatureObserver(film.image, signatures));
   std::vector<StageObserver*> observers;
   observers.reserve(signers.size());
   for (SignatureObserver& signer : signers) observers.push_back(&signer);

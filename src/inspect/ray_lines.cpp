@@ -30,17 +30,13 @@ RayLook lookOf(const LightContribution& light) {
 }  // namespace
 
 std::vector<RayLook> rayLooks() {
-  std::vector<RayLook> goOn, ask;
+  std::vector<RayLook> looks;
   for (const RayKindRow& row : kRayKinds) {
-    if (!row.onlyAsk()) {
-      goOn.push_back({row.kind, false});
-      continue;
-    }
-    ask.push_back({row.kind, false});
-    ask.push_back({row.kind, true});
+    looks.push_back({row.kind, false});
+    if (row.onlyAsk()) looks.push_back({row.kind, true});
   }
-  goOn.insert(goOn.end(), ask.begin(), ask.end());
-  return goOn;
+  std::stable_partition(looks.begin(), looks.end(), [](RayLook look) { return !isDashed(look); });
+  return looks;
 }
 
 std::vector<RayLine> linesOf(const RayTree& tree) {

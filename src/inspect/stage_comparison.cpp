@@ -23,7 +23,6 @@
 #include "reference/write_emitted_and_reflective_ambient.h"
 #include "render/embree_intersector.h"
 #include "render/frame.h"
-#include "render/pixel_tracker.h"
 #include "scene/light.h"
 
 namespace whit {

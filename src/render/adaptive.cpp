@@ -123,42 +123,39 @@ FrameStats AdaptiveSampler::traceProbes(const Frame& frame) {
   return stats;
 }
 
+// Calls visit(x, y) for every pixel of the film's window; workers share the rows.
+template <typename Visit>
+FrameStats AdaptiveSampler::forFilm(const Frame& frame, const Visit& visit) {
+  const Crop &traced = scheduler_.window(), &window = frame.film->image.window;
+  return scheduler_.forRows([&](int begin, int end) {
+    const int last = std::min(traced.y0 + end, window.y1);
+    for (int y = std::max(traced.y0 + begin, window.y0); y < last; ++y) {
+      for (int x = window.x0; x < window.x1; ++x) visit(x, y);
+    }
+  });
+}
+
 // Where the probe samples do not agree, if there are more samples than those.
 FrameStats AdaptiveSampler::findContrast(const Frame& frame) {
   if (samples_ <= kProbeSamples) return {};
-  const Crop &traced = scheduler_.window(), &window = frame.film->image.window;
   const int contrast = frame.constants.options.contrast;
-  return scheduler_.forRows([&](int begin, int end) {
-    for (int y = std::max(traced.y0 + begin, window.y0); y < std::min(traced.y0 + end, window.y1);
-         ++y) {
-      for (int x = window.x0; x < window.x1; ++x) {
-        const std::size_t i = first_.image.index(x, y);
-        contrasting_[i] = edges_[i] != 0 && probes_->differ(x, y, contrast);
-      }
-    }
+  return forFilm(frame, [&](int x, int y) {
+    const std::size_t i = first_.image.index(x, y);
+    contrasting_[i] = edges_[i] != 0 && probes_->differ(x, y, contrast);
   });
 }
 
 // The film takes over what is not traced anew.
 FrameStats AdaptiveSampler::keepFirstPicture(const Frame& frame) {
   Film& film = *frame.film;
-  Image& to = film.image;
-  const Crop& traced = scheduler_.window();
   std::atomic<std::uint64_t> nonFinite{0};
-  FrameStats stats = scheduler_.forRows([&](int begin, int end) {
-    std::uint64_t mine = 0;
-    for (int y = std::max(traced.y0 + begin, to.window.y0);
-         y < std::min(traced.y0 + end, to.window.y1); ++y) {
-      for (int x = to.window.x0; x < to.window.x1; ++x) {
-        const std::size_t source = first_.image.index(x, y), target = to.index(x, y);
-        if (contrasting_[source] != 0) continue;
-        const Rgb value = to.pixels[target] = first_.image.pixels[source];
-        mine += !isFinite(value);
-        if (!film.wantDisplay) continue;
-        std::memcpy(&film.display.rgba[4 * target], &first_.display.rgba[4 * source], 4);
-      }
-    }
-    nonFinite += mine;
+  FrameStats stats = forFilm(frame, [&](int x, int y) {
+    const std::size_t source = first_.image.index(x, y), target = film.image.index(x, y);
+    if (contrasting_[source] != 0) return;
+    const Rgb value = film.image.pixels[target] = first_.image.pixels[source];
+    if (!isFinite(value)) ++nonFinite;
+    if (!film.wantDisplay) return;
+    std::memcpy(&film.display.rgba[4 * target], &first_.display.rgba[4 * source], 4);
   });
   stats.nonFinitePixels += nonFinite;
   return stats;

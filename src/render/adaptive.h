@@ -1,6 +1,6 @@
 // Adaptive sampling (--adaptive): a frame in several passes. The center of every pixel is traced
 // first; where that picture has edges, probe samples; and where these differ, all samples
-// (scene/probe_samples.h). What happens to a pixel in the later passes depends on whole pictures of
+// (sampling/probe_samples.h). What happens to a pixel in the later passes depends on whole pictures of
 // the earlier ones and on nothing else, so that the result is the same for any tiles and threads.
 // Channels are those of the centers.
 #pragma once
@@ -32,6 +32,8 @@ class AdaptiveSampler {
   void startOver(const Frame& frame);
   FrameStats traceCenters(const Frame& frame);
   FrameStats traceProbes(const Frame& frame);
+  template <typename Visit>
+  FrameStats forFilm(const Frame& frame, const Visit& visit);
   FrameStats findContrast(const Frame& frame);
   FrameStats keepFirstPicture(const Frame& frame);
   FrameStats traceMarked(const Frame& frame, const Crop& window,

@@ -239,6 +239,13 @@ SkyTable skyTable(const Sky& sky, EffectSet effects) {
   return table;
 }
 
+void addLighting(const Scene& scene, EffectSet effects, ShadingTables& tables) {
+  addMedia(scene, tables);
+  if (effects.has(Effect::lights)) tables.lights = scene.lights;
+  tables.sky = skyTable(scene.sky, effects);
+  tables.ambient = scene.ambient;
+}
+
 }  // namespace
 
 ShadingTables buildTables(const Scene& scene, EffectSet effects, const ShadingChoices& shading,
@@ -258,10 +265,7 @@ ShadingTables buildTables(const Scene& scene, EffectSet effects, const ShadingCh
   addMaterials(scene, effects, tables);
   addTextures(scene, effects, shading.textureFilter, threads, tables);
   addInstances(scene, tables);
-  addMedia(scene, tables);
-  if (effects.has(Effect::lights)) tables.lights = scene.lights;
-  tables.sky = skyTable(scene.sky, effects);
-  tables.ambient = scene.ambient;
+  addLighting(scene, effects, tables);
   return tables;
 }
 
@@ -278,14 +282,11 @@ void refreshShading(const Scene& scene, EffectSet effects, const ShadingChoices&
                           a.roughnessMap == b.roughnessMap && a.emissionMap == b.emissionMap &&
                           a.normalMap == b.normalMap && a.coverageMap == b.coverageMap;
                  });
-  if (!sameTextures) {
+  if (sameTextures) {
+    addLighting(scene, effects, tables);
+  } else {
     tables = buildTables(scene, effects, shading, threads);
-    return;
   }
-  addMedia(scene, tables);
-  if (effects.has(Effect::lights)) tables.lights = scene.lights;
-  tables.sky = skyTable(scene.sky, effects);
-  tables.ambient = scene.ambient;
 }
 
 }  // namespace whit

@@ -84,12 +84,13 @@ struct SampleSum {
 class SampleSums {
  public:
   explicit SampleSums(const Crop& window)
-      : window_(window),
-        sums_(static_cast<std::size_t>(window.x1 - window.x0) *
-              static_cast<std::size_t>(window.y1 - window.y0)) {}
+      : sums_(static_cast<std::size_t>(window.x1 - window.x0) *
+              static_cast<std::size_t>(window.y1 - window.y0)) {
+    shape_.window = window;
+  }
 
-  SampleSum& at(int x, int y) { return sums_[index(x, y)]; }
-  const Crop& window() const { return window_; }
+  SampleSum& at(int x, int y) { return sums_[shape_.index(x, y)]; }
+  const Crop& window() const { return shape_.window; }
 
   // The standard error of the mean of `samples` samples a pixel, 2 or more: its mean over the
   // window, as a share of the window's mean radiance (of the mean channel). As if samples were
@@ -98,13 +99,7 @@ class SampleSums {
   double relativeError(int samples) const;
 
  private:
-  std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y - window_.y0) *
-               static_cast<std::size_t>(window_.x1 - window_.x0) +
-           static_cast<std::size_t>(x - window_.x0);
-  }
-
-  Crop window_;
+  Image shape_;  // without pixels
   std::vector<SampleSum> sums_;
 };
 
@@ -122,6 +117,33 @@ class StageObserver {
  public:
   virtual ~StageObserver() = default;
   virtual void after(Stage stage, const Chunk& chunk) = 0;
+};
+
+// Follows, for observers, which pixel each ray of each queue belongs to.
+class PixelTracker {
+ public:
+  // To be called with every stage that an observer sees.
+  void follow(Stage stage, const Chunk& chunk) {
+    if (stage == Stage::generateRays) {
+      levels_.assign(1, {chunk.pixels.begin(), chunk.pixels.end()});
+    } else if (stage == Stage::addImpulses) {
+      const auto depth = static_cast<std::size_t>(chunk.depth);
+      levels_.resize(depth + 2);
+      std::vector<std::uint32_t>& next = levels_[depth + 1];
+      next.clear();
+      for (std::size_t i = 0; i < chunk.childCount; ++i) {
+        next.push_back(levels_[depth][chunk.first + chunk.children.parent[i]]);
+      }
+    }
+  }
+
+  // The packed pixel that slot i of the chunk is traced for.
+  std::uint32_t pixel(const Chunk& chunk, std::size_t i) const {
+    return levels_[static_cast<std::size_t>(chunk.depth)][chunk.first + i];
+  }
+
+ private:
+  std::vector<std::vector<std::uint32_t>> levels_;  // a queue a depth
 };
 
 // Read-only while it is traced, but for the film, the probe samples and the sums, of which each

@@ -319,26 +319,6 @@ void requireOrder(const Plan& plan) {
 
 }  // namespace
 
-const Step* Plan::find(std::string_view name) const {
-  const Step* found = nullptr;
-  forEachStep([&](const Step& step) {
-    if (!found && step.name == name) found = &step;
-  });
-  return found;
-}
-
-bool Plan::writes(Part part) const {
-  bool any = false;
-  forEachStep([&](const Step& step) { any = any || step.writes.has(part); });
-  return any;
-}
-
-bool Plan::has(Stage stage) const {
-  bool any = false;
-  forEachStep([&](const Step& step) { any = any || step.stage == stage; });
-  return any;
-}
-
 std::vector<Stage> Plan::stages() const {
   std::vector<Stage> list;
   forEachStep([&](const Step& step) {

@@ -1,15 +1,6 @@
 // The plan of a frame: the list of steps that run. Made once from what the scene calls for and what
 // the options ask for; nothing in a frame asks again. What walks a frame (render/tile_tracer.h),
 // times it, looks on, lists it (whit info --kernels), benchmarks or probes it, walks these lists.
-//
-//   perSample   generateRays, findInitialMedia
-//   perQueue    findIntersections (with --channels keepChannels, countRays),
-//               writeEmittedAndReflectiveAmbient
-//   perLight    findRadianceAndShadowRays, checkShadows, addShading
-//   impulses    addReflections, addGlossyReflections, addRefractions: the next depth's queue
-//   onReturn    returnImpulses: what that queue has brought
-//   atEye       returnToEye: what is left of it on the way to the eye
-//   perTile     updateImage
 #pragma once
 
 #include <string>
@@ -80,10 +71,22 @@ struct Plan {
       for (const Step& step : *list) visit(step);
     }
   }
-  // The first step of that name; null where the plan has none.
-  const Step* find(std::string_view name) const;
-  bool writes(Part part) const;
-  bool has(Stage stage) const;
+  // Returns the first step for which `holds` is true, or null.
+  template <typename Predicate>
+  const Step* first(const Predicate& holds) const {
+    const Step* found = nullptr;
+    forEachStep([&](const Step& step) { found = !found && holds(step) ? &step : found; });
+    return found;
+  }
+  const Step* find(std::string_view name) const {
+    return first([&](const Step& step) { return step.name == name; });
+  }
+  bool writes(Part part) const {
+    return first([&](const Step& step) { return step.writes.has(part); }) != nullptr;
+  }
+  bool has(Stage stage) const {
+    return first([&](const Step& step) { return step.stage == stage; }) != nullptr;
+  }
   std::vector<Stage> stages() const;
 };
 

@@ -72,19 +72,17 @@ void chooseSimd(const std::string& name) {
 }
 
 AccelOptions accelOptions(const RenderOptions& options, EffectSet effects, int threads) {
-  AccelOptions accel;
-  accel.robust = options.robust;
-  accel.quality = options.bvh;
-  accel.alphaMasks = effects.has(Effect::alphaMasks);
-  accel.instances = effects.has(Effect::instances);
-  accel.spheres = effects.has(Effect::spheres);
-  accel.threads = threads;
-  accel.packet = options.packet;
-  // Also when the target was chosen by itself: kernels of another target than the processor's best,
-  // as in sanitized builds, would else meet an Embree that asking for that target by name does not
-  // give.
-  accel.isa = embreeIsa(simd::chosenTarget());
-  return accel;
+  // The ISA is passed on also when the target was chosen by itself: kernels of another target than
+  // the processor's best, as in sanitized builds, would otherwise meet an Embree that asking for
+  // that target by name does not give.
+  return {.robust = options.robust,
+          .quality = options.bvh,
+          .alphaMasks = effects.has(Effect::alphaMasks),
+          .instances = effects.has(Effect::instances),
+          .spheres = effects.has(Effect::spheres),
+          .threads = threads,
+          .packet = options.packet,
+          .isa = embreeIsa(simd::chosenTarget())};
 }
 
 // The effects of a plan that are built into the acceleration structure.

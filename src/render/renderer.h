@@ -34,6 +34,8 @@ struct Machine {
   int threads = 1;
 };
 
+// Functions that change a renderer or its scene take effect from the next frame on. They must not
+// be called while a frame is rendered.
 class Renderer {
  public:
   // Builds the acceleration structure and the shading tables. `scene` must outlive the renderer.
@@ -65,41 +67,34 @@ class Renderer {
   // renderer's Embree scene.
   FrameStats renderReference(const Camera& camera, Film& film, Progress* progress = nullptr);
 
-  // For frames to come: all that changes neither the acceleration structure nor the workers is
-  // taken from `options` (see canSetOptions), the others stay. Plans anew where needed. Throws
-  // Error(usage) when alpha masks, spheres or instances would come or go, which are built in. Not
-  // while rendering.
+  // Takes all options that change neither the acceleration structure nor the workers (see
+  // canSetOptions). Throws Error(usage) when alpha masks, spheres or instances would come or go,
+  // which are built in.
   void setOptions(const RenderOptions& options);
   // True if setOptions() suffices for frames with these options. Otherwise they need another
   // renderer, because the acceleration structure or the workers differ.
   bool canSetOptions(const RenderOptions& options) const;
 
-  // For frames to come: random numbers of their own, so that pictures of several seeds have noise
-  // that is independent. Seed 0, that of all pictures, until another is set; the reference has no
-  // other.
+  // Pictures of different seeds have independent noise. The reference always uses seed 0.
   void setSeed(std::uint32_t seed) { seed_ = seed; }
 
-  // For frames to come, after materials or lights of the scene were changed (editShading). Plans
-  // anew where effects have come or gone; keeps the acceleration structure. Not while rendering.
+  // Call after materials or lights of the scene were changed (editShading). Keeps the acceleration
+  // structure.
   void shadingChanged();
 
-  // For frames to come, after cameras of the scene were changed. Not while rendering.
+  // Call after cameras of the scene were changed.
   void camerasChanged() { lookAround(); }
 
-  // For frames to come, after moveScene(). What stands still keeps its acceleration structure. Not
-  // while rendering.
+  // Call after moveScene(). Meshes that stand still keep their acceleration structure.
   void sceneMoved();
 
   // Announces more frames of this scene: a shadow cache of at most this many bytes may be used from
   // now on (--shadow-cache). In each frame one of `askingTurns` tiles collects requests, which
-  // takes time, so that all have done so after as many frames. Must not be called while a frame is
-  // rendered.
+  // takes time, so that all have done so after as many frames.
   void expectFrames(std::uint64_t mostBytes, std::uint32_t askingTurns = 1);
-  // Computes the parts of triangles that shadow rays have requested. Must not be called while a
-  // frame is rendered.
+  // Computes the parts of triangles that shadow rays have requested.
   FillReport fillShadowCache(const FillLimits& limits = {});
-  // Drops the requests of rays for cells of the shadow cache that were not computed yet. Must not
-  // be called while a frame is rendered.
+  // Drops the requests of rays for cells of the shadow cache that were not computed yet.
   void forgetShadowRequests();
   bool decidesShadows() const { return shadowTables_ && !lightsWithShadowCache(plan_).empty(); }
   std::uint64_t shadowCacheBytes() const { return shadowTables_ ? shadowTables_->bytes() : 0; }

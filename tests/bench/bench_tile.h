@@ -9,7 +9,6 @@
 
 #include "io/load_scene.h"
 #include "render/renderer.h"
-#include "render/workspace.h"
 #include "simd/kernels.h"
 
 namespace whit::bench {

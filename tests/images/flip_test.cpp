@@ -5,12 +5,18 @@
 #include <array>
 #include <cmath>
 
+#include "core/display.h"
 #include "core/srgb.h"
 #include "flat_image.h"
+#include "inspect/flip.h"
 #include "inspect/metrics.h"
 
 namespace whit {
 namespace {
+
+std::vector<float> flipMap(const Image& a, const Image& b) {
+  return flipOfCodes(toDisplay(a, 0, ToneCurve::none), toDisplay(b, 0, ToneCurve::none));
+}
 
 using Triple = std::array<double, 3>;
 

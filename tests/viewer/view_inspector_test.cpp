@@ -65,7 +65,7 @@ TEST_F(Inspector, SaysWhatEachViewShows) {
     EXPECT_EQ(right(), "pixel 150, 40\n" + text);
   };
   expectText(DebugView::depth, "distance 3 units");
-  expectText(DebugView::effects, "effects: glossy, mirror");
+  expectText(DebugView::effects, "effects: glossy,mirror");
   seen.sum = {1, 2, 0};
   expectText(DebugView::normals, "normal 0.000 1.000 -1.000");
   expectText(DebugView::albedo, "albedo 0.500 1.000 0.000, linear");

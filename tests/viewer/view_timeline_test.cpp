@@ -1,5 +1,5 @@
 // Scenes that move, in the viewer.
-#include "viewer/timeline.h"
+#include "viewer/panel.h"
 
 #include "render_thread_fixture.h"
 #include "viewer_fixture.h"
