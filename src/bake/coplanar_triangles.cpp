@@ -1,34 +1,16 @@
 #include "bake/coplanar_triangles.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
-#include <map>
 #include <utility>
 
-#include "bake/coplanar_pairs.h"
 #include "bake/facet.h"
 #include "core/worker_pool.h"
 
 namespace whit {
 
 namespace {
-
-// At most this many coincident instances of one object are searched for overlaps; more would make
-// the search quadratic.
-constexpr int kInstancesInOnePlace = 4;
-
-using Orders = std::vector<std::uint64_t>;  // of placed triangles, ascending, each once
-
-void sortUnique(Orders& orders) {
-  std::sort(orders.begin(), orders.end());
-  orders.erase(std::unique(orders.begin(), orders.end()), orders.end());
-}
-
-void addBoth(const std::vector<FacetPair>& pairs, Orders& orders) {
-  for (const auto& [a, b] : pairs) orders.insert(orders.end(), {a, b});
-}
 
 // The finalizer of SplitMix64 (Steele, Lea, Flood 2014).
 std::size_t hashOf(PlacedTriangleId id) {
@@ -40,211 +22,9 @@ std::size_t hashOf(PlacedTriangleId id) {
 
 }  // namespace
 
-class CoplanarFinder {
- public:
-  CoplanarFinder(const Scene& scene, int threads);
-
-  bool complete() const { return complete_; }
-
-  // Triangles that overlap others in their plane.
-  Orders overlapping();
-  // The triangles that overlap others, and the ones that touch one of these.
-  CoplanarTriangles find(const Orders& overlapping);
-
- private:
-  std::vector<TriangleGroup> everything() const;
-  std::vector<FacetPair> pairs(const PairSearch& search, int threads) {
-    return findPairs(search, scene_.triangles.size(), threads, complete_);
-  }
-  std::vector<FacetPair> pairsOf(const Orders& list, int threads,
-                                 bool (*test)(const Facet&, const Facet&), bool& complete) const;
-  void addWithinInstances(std::uint32_t geometry, Orders& all);
-  void findCovered(CoplanarTriangles& found) const;
-
-  const Scene& scene_;
-  int threads_;
-  std::vector<BoxTree> trees_;  // one a geometry
-  FacetSpace world_;
-  std::vector<bool> leftOut_;  // one an instance
-  bool complete_ = true;
-};
-
-std::vector<BoxTree> treesOf(const Scene& scene, int threads) {
-  const std::size_t count = scene.geometries.size();
-  std::vector<BoxTree> trees(count);
-  parallelFor(count > 1 ? threads : 1, count,
-              [&](std::size_t i, int) { trees[i] = treeOf(scene, i, count > 1 ? 1 : threads); });
-  return trees;
-}
-
-BoxTree treeOf(const FacetSpace& space, const Orders& list) {
-  std::vector<Box> boxes;
-  boxes.reserve(list.size());
-  for (const std::uint64_t order : list) boxes.push_back(space.boxOf(placedTriangle(order)));
-  return BoxTree(boxes, 1);
-}
-
-// The instances that have kInstancesInOnePlace earlier instances of the same object in the same
-// place.
-std::vector<bool> instancesInHeaps(const Scene& scene) {
-  const auto placeOf = [](const InstanceRecord& i) {
-    const auto& [x, y, z, p] = i.toWorld;
-    return std::array{static_cast<double>(i.geometry),
-                      x.x,
-                      x.y,
-                      x.z,
-                      y.x,
-                      y.y,
-                      y.z,
-                      z.x,
-                      z.y,
-                      z.z,
-                      p.x,
-                      p.y,
-                      p.z};
-  };
-  std::map<std::array<double, 13>, int> count;
-  std::vector<bool> leftOut;
-  for (const InstanceRecord& i : scene.instances) {
-    leftOut.push_back(++count[placeOf(i)] > kInstancesInOnePlace);
-  }
-  return leftOut;
-}
-
-CoplanarFinder::CoplanarFinder(const Scene& scene, int threads)
-    : scene_(scene),
-      threads_(threads),
-      trees_(treesOf(scene, threads)),
-      world_(scene),
-      leftOut_(instancesInHeaps(scene)) {}
-
-std::vector<TriangleGroup> CoplanarFinder::everything() const {
-  std::vector<TriangleGroup> all;
-  if (!trees_[0].empty()) {
-    all.push_back({&trees_[0], kNoInstance, scene_.geometries[0].firstTriangle, true});
-  }
-  for (std::uint32_t i = 0; i < scene_.instances.size(); ++i) {
-    const std::uint32_t g = scene_.instances[i].geometry;
-    if (trees_[g].empty() || leftOut_[i]) continue;
-    all.push_back({&trees_[g], i, scene_.geometries[g].firstTriangle});
-  }
-  return all;
-}
-
-// Pairs of the triangles of a list.
-std::vector<FacetPair> CoplanarFinder::pairsOf(const Orders& list, int threads,
-                                               bool (*test)(const Facet&, const Facet&),
-                                               bool& complete) const {
-  const BoxTree tree = treeOf(world_, list);
-  const auto all = [](const TriangleGroup&, const TriangleGroup&) { return true; };
-  return findPairs({world_, {{&tree, kNoInstance, 0, true, &list}}, all, test},
-                   scene_.triangles.size(), threads, complete);
-}
-
-// Adds triangles that overlap others of the same instance. One search in the space of the geometry
-// finds the candidates for all of its instances.
-void CoplanarFinder::addWithinInstances(std::uint32_t geometry, Orders& all) {
-  std::vector<std::uint32_t> instances;
-  for (std::uint32_t i = 0; i < scene_.instances.size(); ++i) {
-    const bool own = scene_.instances[i].geometry == geometry;
-    if (own && !leftOut_[i]) instances.push_back(i);
-  }
-  if (trees_[geometry].empty() || instances.empty()) return;
-  const FacetSpace object(scene_, trees_[geometry], geometry);
-  const TriangleGroup group{&trees_[geometry], kNoInstance,
-                            scene_.geometries[geometry].firstTriangle};
-  const auto any = [](const TriangleGroup&, const TriangleGroup&) { return true; };
-  Orders candidates;
-  addBoth(pairs({object,
-                 {group},
-                 any,
-                 facetsOverlap,
-                 tooNarrowToOverlap(scene_, object, geometry, threads_)},
-                threads_),
-          candidates);
-  if (candidates.empty()) return;
-  sortUnique(candidates);
-  std::vector<Orders> found(instances.size());
-  std::vector<std::uint8_t> complete(instances.size());
-  parallelFor(threads_, instances.size(), [&](std::size_t i, int) {
-    Orders placed;
-    for (const std::uint64_t order : candidates) {
-      placed.push_back(orderOf({placedTriangle(order).triangle, instances[i]}));
-    }
-    bool whole = true;
-    addBoth(pairsOf(placed, 1, facetsOverlap, whole), found[i]);
-    sortUnique(found[i]);
-    complete[i] = whole ? 1 : 0;
-  });
-  for (const Orders& some : found) all.insert(all.end(), some.begin(), some.end());
-  if (std::find(complete.begin(), complete.end(), 0) != complete.end()) complete_ = false;
-}
-
-Orders CoplanarFinder::overlapping() {
-  const auto anyPlaces = [](const TriangleGroup& a, const TriangleGroup& b) {
-    return a.instance != b.instance || a.instance == kNoInstance;
-  };
-  Orders found;
-  PairSearch search{world_, everything(), anyPlaces, facetsOverlap};
-  search.leftOut = tooNarrowToOverlap(scene_, world_, 0, threads_);
-  addBoth(pairs(search, threads_), found);
-  for (std::uint32_t g = 1; g < scene_.geometries.size(); ++g) {
-    addWithinInstances(g, found);
-  }
-  sortUnique(found);
-  return found;
-}
-
-CoplanarTriangles CoplanarFinder::find(const Orders& overlapping) {
-  if (overlapping.empty()) return {};
-  const auto ofList = [](const TriangleGroup& a, const TriangleGroup& b) {
-    return (a.list == nullptr) != (b.list == nullptr);
-  };
-  Orders all = overlapping;
-  const BoxTree tree = treeOf(world_, overlapping);
-  PairSearch search{world_, everything(), ofList, facetsTouch};
-  search.groups.push_back({&tree, kNoInstance, 0, true, &overlapping});
-  addBoth(pairs(search, threads_), all);
-  sortUnique(all);
-  CoplanarTriangles found(scene_.triangles.size(), pairsOf(all, threads_, facetsTouch, complete_));
-  findCovered(found);
-  return found;
-}
-
-void CoplanarFinder::findCovered(CoplanarTriangles& found) const {
-  found.covered_.resize(found.partners_.size());
-  std::vector<std::uint8_t> overlaps(found.partners_.size());
-  parallelFor(threads_, found.slots_.size(), [&](std::size_t k, int) {
-    CoplanarTriangles::Slot& slot = found.slots_[k];
-    if (slot.count == 0) return;
-    const Facet own = world_.facet(slot.id);
-    for (std::size_t i = slot.first; i < slot.first + slot.count; ++i) {
-      const Facet partner = world_.facet(found.partners_[i]);
-      found.covered_[i] = coveredPart(own, partner);
-      overlaps[i] = facetsOverlap(own, partner) ? 1 : 0;
-    }
-  });
-  for (CoplanarTriangles::Slot& slot : found.slots_) {
-    if (slot.count > 0) found.fillCells(slot, overlaps);
-  }
-}
-
-// visit(cell) for those of side * side cells that the part may reach into.
-template <typename Visitor>
-void CoplanarTriangles::forEachCellOf(const CoveredPart& part, std::size_t side, Visitor&& visit) {
-  const float size = 1 / static_cast<float>(side);
-  for (std::size_t v = cellOf(part.v0, side); v <= cellOf(part.v1, side); ++v) {
-    for (std::size_t u = cellOf(part.u0, side); u <= cellOf(part.u1, side); ++u) {
-      if (part.meets(static_cast<float>(u) * size, static_cast<float>(v) * size, size)) {
-        visit(v * side + u);
-      }
-    }
-  }
-}
-
 // About as many cells as there are partners, fewer where these are so large that together they
 // would reach into several times as many: those that lie one on the other share one cell.
-void CoplanarTriangles::fillCells(Slot& slot, std::span<const std::uint8_t> overlaps) {
+void CoplanarTriangles::fillCells(Slot& slot) {
   constexpr double kMostSide = 64;
   constexpr std::size_t kReach = 8;  // cells that a partner reaches into, in the mean
   const std::span<const CoveredPart> own = std::span(covered_).subspan(slot.first, slot.count);
@@ -260,25 +40,30 @@ void CoplanarTriangles::fillCells(Slot& slot, std::span<const std::uint8_t> over
       std::clamp(2 * std::sqrt(static_cast<double>(slot.count)), 4.0, kMostSide));
   while (slot.side > 1 && reached(slot.side) > kReach * slot.count) slot.side /= 2;
   slot.firstCell = cells_.size();
-  std::vector<std::vector<std::size_t>> overlapping(slot.side * slot.side), touching = overlapping;
+  const float size = 1 / static_cast<float>(slot.side);
+  std::vector<std::vector<std::size_t>> lists(slot.side * slot.side);
   for (std::size_t i = slot.first; i < slot.first + slot.count; ++i) {
-    auto& lists = overlaps[i] != 0 ? overlapping : touching;
-    forEachCellOf(covered_[i], slot.side, [&](std::size_t cell) { lists[cell].push_back(i); });
-  }
-  for (std::size_t k = 0; k < overlapping.size(); ++k) {
-    Cell cell{inCells_.size()};
-    if (!overlapping[k].empty()) {
-      inCells_.insert(inCells_.end(), overlapping[k].begin(), overlapping[k].end());
-      inCells_.insert(inCells_.end(), touching[k].begin(), touching[k].end());
-      cell.overlapping = static_cast<std::uint32_t>(overlapping[k].size());
-      cell.count = static_cast<std::uint32_t>(inCells_.size() - cell.first);
+    const CoveredPart& part = covered_[i];
+    for (std::size_t v = cellOf(part.v0, slot.side); v <= cellOf(part.v1, slot.side); ++v) {
+      for (std::size_t u = cellOf(part.u0, slot.side); u <= cellOf(part.u1, slot.side); ++u) {
+        if (part.meets(static_cast<float>(u) * size, static_cast<float>(v) * size, size)) {
+          lists[v * slot.side + u].push_back(i);
+        }
+      }
     }
-    cells_.push_back(cell);
+  }
+  for (std::vector<std::size_t>& list : lists) {
+    const bool overlapped = std::any_of(list.begin(), list.end(),
+                                        [this](std::size_t i) { return covered_[i].overlaps; });
+    if (!overlapped) list.clear();
+    cells_.push_back({inCells_.size(), list.size()});
+    inCells_.insert(inCells_.end(), list.begin(), list.end());
   }
 }
 
-CoplanarTriangles::CoplanarTriangles(std::uint64_t triangles,
-                                     std::vector<std::pair<std::uint64_t, std::uint64_t>> pairs) {
+CoplanarTriangles::CoplanarTriangles(const Scene& scene,
+                                     std::vector<std::pair<std::uint64_t, std::uint64_t>> pairs,
+                                     int threads) {
   if (pairs.empty()) return;
   const std::size_t half = pairs.size();
   pairs.reserve(2 * half);
@@ -288,7 +73,7 @@ CoplanarTriangles::CoplanarTriangles(std::uint64_t triangles,
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     owners += i == 0 || pairs[i].first != pairs[i - 1].first;
   }
-  any_.resize(triangles / 64 + 1);
+  any_.resize(scene.triangles.size() / 64 + 1);
   slots_.resize(std::bit_ceil(2 * owners));
   partners_.reserve(pairs.size());
   for (const auto& [order, partner] : pairs) {
@@ -300,6 +85,18 @@ CoplanarTriangles::CoplanarTriangles(std::uint64_t triangles,
     partners_.push_back(placedTriangle(partner));
   }
   ranks_.resize(partners_.size());
+  covered_.resize(partners_.size());
+  parallelFor(threads, slots_.size(), [&](std::size_t k, int) {
+    const Slot& slot = slots_[k];
+    if (slot.count == 0) return;
+    const Facet own = facetOf(scene, slot.id);
+    for (std::size_t i = slot.first; i < slot.first + slot.count; ++i) {
+      covered_[i] = coveredPart(own, facetOf(scene, partners_[i]));
+    }
+  });
+  for (Slot& slot : slots_) {
+    if (slot.count > 0) fillCells(slot);
+  }
 }
 
 void CoplanarTriangles::rankBy(const Scene& scene, const SceneOrder& order) {
@@ -333,15 +130,6 @@ std::uint64_t CoplanarTriangles::bytes() const {
   return any_.size() * sizeof(any_[0]) + slots_.size() * sizeof(Slot) +
          partners_.size() * (sizeof(PlacedTriangleId) + sizeof(ranks_[0]) + sizeof(CoveredPart)) +
          cells_.size() * sizeof(Cell) + inCells_.size() * sizeof(std::size_t);
-}
-
-CoplanarTriangles findCoplanarTriangles(const Scene& scene, int threads, bool& complete) {
-  complete = scene.firstSphere <= kMostSearched;
-  if (!complete) return {};
-  CoplanarFinder finder(scene, threads);
-  CoplanarTriangles found = finder.find(finder.overlapping());
-  complete = finder.complete();
-  return found;
 }
 
 WrittenPlace SceneOrder::placeOf(const Scene& scene, PlacedTriangleId id) const {

@@ -63,8 +63,8 @@ struct SceneOrder {
   WrittenPlace placeOf(const Scene& scene, PlacedTriangleId id) const;
 };
 
-// In the weights of corners 1 and 2 of another triangle: what of it this one, in its plane, covers
-// at the most.
+// The part of a triangle that another one in its plane covers at the most, in the weights of
+// corners 1 and 2.
 struct CoveredPart {
   float u0 = 0, u1 = 0, v0 = 0, v1 = 0;  // a box around it
   // Along each of its edges: what lies outside of the edge has a * u + b * v + c < 0.
@@ -72,19 +72,17 @@ struct CoveredPart {
     float a = 0, b = 0, c = 0;
   };
   std::array<Edge, 3> edges;
+  bool overlaps = false;  // more than touches
 
   bool holds(float u, float v) const {
-    if (u < u0 || u > u1 || v < v0 || v > v1) return false;
-    const auto isInside = [&](const Edge& e) { return e.a * u + e.b * v + e.c >= 0; };
-    return isInside(edges[0]) && isInside(edges[1]) && isInside(edges[2]);
+    return u >= u0 && u <= u1 && v >= v0 && v <= v1 && meets(u, v, 0);
   }
   // Tests a square, given by its corner of the least weights. False only if the square holds no
   // point of the part.
   bool meets(float u, float v, float side) const {
-    const auto isInside = [&](const Edge& e) {
+    return std::all_of(edges.begin(), edges.end(), [&](const Edge& e) {
       return e.a * (e.a > 0 ? u + side : u) + e.b * (e.b > 0 ? v + side : v) + e.c >= 0;
-    };
-    return isInside(edges[0]) && isInside(edges[1]) && isInside(edges[2]);
+    });
   }
 };
 
@@ -92,8 +90,8 @@ class CoplanarTriangles {
  public:
   CoplanarTriangles() = default;
   // Each pair of orderOf() is given once, in any order of its two.
-  CoplanarTriangles(std::uint64_t triangles,
-                    std::vector<std::pair<std::uint64_t, std::uint64_t>> pairs);
+  CoplanarTriangles(const Scene& scene, std::vector<std::pair<std::uint64_t, std::uint64_t>> pairs,
+                    int threads);
 
   bool empty() const { return partners_.empty(); }
 
@@ -135,8 +133,9 @@ class CoplanarTriangles {
     const auto holds = [&](std::size_t i) {
       return covered_[i].holds(static_cast<float>(u), static_cast<float>(v));
     };
-    const auto overlapping = own.first(cell.overlapping);
-    if (std::none_of(overlapping.begin(), overlapping.end(), holds)) return;
+    const bool overlapped = std::any_of(
+        own.begin(), own.end(), [&](std::size_t i) { return covered_[i].overlaps && holds(i); });
+    if (!overlapped) return;
     for (const std::size_t i : own) {
       if (holds(i)) visit(partners_[i], ranks_[i]);
     }
@@ -145,8 +144,6 @@ class CoplanarTriangles {
   std::uint64_t bytes() const;
 
  private:
-  friend class CoplanarFinder;
-
   struct Slot {
     PlacedTriangleId id;
     std::uint32_t count = 0;  // 0: the slot is free
@@ -162,10 +159,7 @@ class CoplanarTriangles {
   static std::size_t cellAt(double u, double v, std::size_t side) {
     return cellOf(v, side) * side + cellOf(u, side);
   }
-  template <typename Visitor>
-  static void forEachCellOf(const CoveredPart& part, std::size_t side, Visitor&& visit);
-  void fillCells(Slot& slot, std::span<const std::uint8_t> overlaps);
-
+  void fillCells(Slot& slot);
   std::size_t slotOf(PlacedTriangleId id) const;
 
   std::vector<std::uint64_t> any_;  // a bit a triangle
@@ -173,11 +167,9 @@ class CoplanarTriangles {
   std::vector<PlacedTriangleId> partners_;
   std::vector<std::uint32_t> ranks_;  // one for each of partners_
   std::vector<CoveredPart> covered_;  // the part that each of partners_ covers of its triangle
-  // Partners by place: a cell that some partner overlaps lists all partners that reach into it; the
-  // overlapping ones come first.
+  // A cell that some partner overlaps lists all partners that reach into it.
   struct Cell {
-    std::uint64_t first = 0;  // in inCells_
-    std::uint32_t count = 0, overlapping = 0;
+    std::size_t first = 0, count = 0;  // in inCells_
   };
   std::vector<Cell> cells_;
   std::vector<std::size_t> inCells_;  // places in partners_
@@ -188,12 +180,14 @@ class CoplanarTriangles {
 // normal in the plane, leaves them less than that sum in common, and touch if none separates them
 // by more. The search finds the triangles that overlap another one in their plane, and the ones
 // that touch one of these in its plane; both are partners of all of them that they touch in their
-// plane. Triangles without area are left out. The result is the same for any number of threads.
+// plane. Triangles without area, or too narrow to overlap any other, are left out. The result is
+// the same for any number of threads.
 //
-// The work is bounded (see findPairs), and `complete` says if all pairs were found. Heaps of
-// triangles or instances that overlap deeply may exceed the bound. Of instances of one object in
-// exactly one place only the first four take part. Scenes of more triangles than kMostSearched,
-// each instanced object counted once, are not searched.
+// The work is bounded, and `complete` says if everything was searched. If instances overlap so
+// deeply that they exceed the bound, each is searched by itself; if the triangles of the world do,
+// none is found among them. Of instances of one object in exactly one place only the first four
+// take part. Scenes of more triangles than kMostSearched, each instanced object counted once, are
+// not searched.
 inline constexpr std::uint64_t kMostSearched = 4'000'000;
 CoplanarTriangles findCoplanarTriangles(const Scene& scene, int threads, bool& complete);
 

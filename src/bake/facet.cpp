@@ -7,10 +7,14 @@ namespace whit {
 
 namespace {
 
-bool isInPlaneOf(const Facet& a, const Facet& b, double slack) {
-  return std::all_of(b.corners.begin(), b.corners.end(), [&](const Vec3d& corner) {
-    return std::abs(dot(corner - a.corners[0], a.normal)) <= slack;
-  });
+bool lieInOnePlane(const Facet& a, const Facet& b) {
+  const double slack = a.error + b.error;
+  const auto isInPlaneOf = [slack](const Facet& own, const Facet& other) {
+    return std::all_of(other.corners.begin(), other.corners.end(), [&](const Vec3d& corner) {
+      return std::abs(dot(corner - own.corners[0], own.normal)) <= slack;
+    });
+  };
+  return a.normal != Vec3d{} && b.normal != Vec3d{} && isInPlaneOf(a, b) && isInPlaneOf(b, a);
 }
 
 struct Interval {
@@ -23,15 +27,17 @@ Interval extentOf(const Facet& facet, const Vec3d& origin, const Vec3d& axis) {
   return {std::min({x, y, z}), std::max({x, y, z})};
 }
 
-// True if every strip along an edge of `a` that holds both triangles' common part is wider than
+// True if every strip along an edge of either that holds the triangles' common part is wider than
 // `width`. With a `width` below zero: no edge leaves a gap as wide as that.
 bool haveInCommon(const Facet& a, const Facet& b, double width) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3d& origin = a.corners[i];
-    const Vec3d axis = cross(a.normal, a.corners[(i + 1) % 3] - origin);
-    const Interval own = extentOf(a, origin, axis), other = extentOf(b, origin, axis);
-    const double common = std::min(own.upper, other.upper) - std::max(own.lower, other.lower);
-    if (!(common > width * length(axis))) return false;
+  for (const Facet* facet : {&a, &b}) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3d& origin = facet->corners[i];
+      const Vec3d axis = cross(facet->normal, facet->corners[(i + 1) % 3] - origin);
+      const Interval own = extentOf(a, origin, axis), other = extentOf(b, origin, axis);
+      const double common = std::min(own.upper, other.upper) - std::max(own.lower, other.lower);
+      if (!(common > width * length(axis))) return false;
+    }
   }
   return true;
 }
@@ -85,7 +91,8 @@ double magnitudeOf(const Vec3d& point, const Affine* toWorld) {
   return carried.x + carried.y + carried.z;
 }
 
-void setCorners(const TriangleRecord& triangle, const Affine* toWorld, Facet& facet) {
+Facet facetOf(const TriangleRecord& triangle, const Affine* toWorld) {
+  Facet facet;
   double magnitude = 0;
   for (int i = 0; i < 3; ++i) {
     const float* p = triangle.position + 3 * i;
@@ -97,32 +104,25 @@ void setCorners(const TriangleRecord& triangle, const Affine* toWorld, Facet& fa
   const double size = length(normal);
   facet.normal = size > 0 ? normal / size : Vec3d{};
   facet.error = facet.least = kErrorOfMagnitude * magnitude;
+  return facet;
 }
 
-bool lieInOnePlane(const Facet& a, const Facet& b) {
-  const double slack = a.error + b.error;
-  return isInPlaneOf(a, b, slack) && isInPlaneOf(b, a, slack);
+Facet facetOf(const Scene& scene, PlacedTriangleId id) {
+  const bool carried = id.instance != kNoInstance;
+  return facetOf(scene.triangles[id.triangle],
+                 carried ? &scene.instances[id.instance].toWorld : nullptr);
 }
 
 bool facetsOverlap(const Facet& a, const Facet& b) {
-  const double width = a.least + b.least;
-  return haveInCommon(a, b, width) && haveInCommon(b, a, width);
-}
-
-bool isTooNarrowToOverlap(const Facet& facet) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3d& origin = facet.corners[i];
-    const Vec3d axis = cross(facet.normal, facet.corners[(i + 1) % 3] - origin);
-    const Interval own = extentOf(facet, origin, axis);
-    if (!(own.upper - own.lower > facet.least * length(axis))) return true;
-  }
-  return false;
+  return lieInOnePlane(a, b) && haveInCommon(a, b, a.least + b.least);
 }
 
 bool facetsTouch(const Facet& a, const Facet& b) {
-  const double gap = -(a.error + b.error);
-  return haveInCommon(a, b, gap) && haveInCommon(b, a, gap);
+  return lieInOnePlane(a, b) && haveInCommon(a, b, -(a.error + b.error));
 }
+
+// What a triangle has in common with another is no wider than the triangle itself.
+bool isTooNarrowToOverlap(const Facet& facet) { return !haveInCommon(facet, facet, facet.least); }
 
 CoveredPart coveredPart(const Facet& on, const Facet& of) {
   // Rounding of the hits' weights, which are floats.
@@ -143,8 +143,8 @@ CoveredPart coveredPart(const Facet& on, const Facet& of) {
   const auto bounded = [](double weight) {
     return static_cast<float>(std::clamp(weight, -1.0, 2.0));
   };
-  return {bounded(u0 - off.u), bounded(u1 + off.u), bounded(v0 - off.v), bounded(v1 + off.v),
-          edgesAround(corners, off)};
+  return {bounded(u0 - off.u), bounded(u1 + off.u),       bounded(v0 - off.v),
+          bounded(v1 + off.v), edgesAround(corners, off), facetsOverlap(on, of)};
 }
 
 }  // namespace whit

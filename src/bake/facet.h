@@ -1,5 +1,5 @@
-// A placed triangle, the test whether two of them lie in one plane, and the part that one covers of
-// the other.
+// A placed triangle, the tests whether two of them overlap or touch in one plane, and the part that
+// one covers of the other.
 #pragma once
 
 #include "bake/scene.h"
@@ -9,7 +9,7 @@ namespace whit {
 
 using Corners = std::array<Vec3d, 3>;
 
-// Carried by the map, if there is one.
+// The corners, transformed by the map if there is one.
 Corners cornersOf(const TriangleRecord& triangle, const Affine* toWorld);
 
 // The corners of a triangle of the scene (an index into Scene::triangles), transformed by the
@@ -20,8 +20,8 @@ Corners worldCorners(const Scene& scene, std::uint32_t triangle, std::uint32_t i
 // from. Rays that start there are offset by no more (Surfel::offset).
 inline constexpr double kErrorOfMagnitude = 32 * 0x1p-24;
 
-// Sum over the axes of the magnitudes that the point, carried by the map if there is one, is added
-// up from.
+// Sum over the axes of the magnitudes that the point, transformed by the map if there is one, is
+// added up from.
 double magnitudeOf(const Vec3d& point, const Affine* toWorld);
 
 struct Facet {
@@ -33,10 +33,10 @@ struct Facet {
   double error = 0, least = 0;
 };
 
-void setCorners(const TriangleRecord& triangle, const Affine* toWorld, Facet& facet);
+Facet facetOf(const TriangleRecord& triangle, const Affine* toWorld);
+Facet facetOf(const Scene& scene, PlacedTriangleId id);
 
-bool lieInOnePlane(const Facet& a, const Facet& b);
-// Both tests expect facets that lie in one plane.
+// Both tests are false for facets without area and for facets that do not lie in one plane.
 bool facetsOverlap(const Facet& a, const Facet& b);
 bool facetsTouch(const Facet& a, const Facet& b);
 // True if facetsOverlap() is false for the facet and any other one.

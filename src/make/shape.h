@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/affine.h"
@@ -33,6 +34,13 @@ struct ShapePart {
 };
 
 struct Shape {
+  Shape() = default;
+  template <typename... Parts>
+  explicit Shape(ShapePart first, Parts... others) {
+    parts.push_back(std::move(first));
+    (parts.push_back(std::move(others)), ...);
+  }
+
   std::vector<ShapePart> parts;
   // Where copies stand, in the shape's own space. Empty: one copy as it is.
   std::vector<Affine> placements;

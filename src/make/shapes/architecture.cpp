@@ -180,10 +180,6 @@ struct ColumnPlan {
   double uvRepeat = 1;
 };
 
-struct ColumnMeshes {
-  Mesh shaft, trim;
-};
-
 // Half the side of the abacus in parts of the radius: a wall above may rest on it.
 constexpr double kAbacusHalf = 1.5;
 
@@ -306,20 +302,26 @@ void addShaft(MeshBuilder& builder, const ColumnPlan& plan, int segments) {
   }
 }
 
-ColumnMeshes buildColumn(const ColumnPlan& plan) {
+Shape buildColumn(const ColumnPlan& plan) {
   int segments = plan.segments;
   if (plan.flutes > 0) {
     const int unit = 4 * plan.flutes;
     segments = std::max(unit, (plan.segments + unit - 1) / unit * unit);
   }
-  ColumnMeshes meshes;
   MeshBuilder shaft, trim;
   addShaft(shaft, plan, segments);
   addBase(trim, plan, plan.segments);
   addCapital(trim, plan, plan.segments);
-  meshes.shaft = shaft.take("shaft");
-  meshes.trim = trim.take("trim");
-  return meshes;
+  return Shape(shaft.part("shaft"), trim.part("trim"));
+}
+
+// Reads the parameters that columns and colonnades share.
+void readDetails(ShapeParameters& parameters, ColumnPlan& plan) {
+  plan.flutes = parameters.integer("flutes", plan.flutes, 0, 256);
+  plan.segments = parameters.integer("segments", plan.segments, 8, 4096);
+  plan.rings = parameters.integer("rings", plan.rings, 1, 4096);
+  plan.leaves = parameters.integer("leaves", plan.leaves, 0, 64);
+  plan.uvRepeat = parameters.number("uvRepeat", plan.uvRepeat, 1e-6, 1e9);
 }
 
 struct ColonnadePlan {
@@ -357,8 +359,8 @@ void addWall(Shape& shape, const ColonnadePlan& plan) {
     const double x = (bay - 0.5 * (wall.bays - 1)) * plan.spacing;
     arches.append(ring, Affine::translation({x, plan.column.height, 0}));
   }
-  shape.parts.push_back({"wall", walls.take("wall")});
-  shape.parts.push_back({"arch", arches.take("arch")});
+  shape.parts.push_back(walls.part("wall"));
+  shape.parts.push_back(arches.part("arch"));
 }
 
 }  // namespace
@@ -399,17 +401,9 @@ Shape makeColumn(ShapeParameters& parameters) {
   ColumnPlan plan;
   plan.radius = parameters.number("radius", plan.radius, 1e-4, 1e6);
   plan.height = parameters.number("height", plan.height, 4.5 * plan.radius, 1e6);
-  plan.flutes = parameters.integer("flutes", plan.flutes, 0, 256);
-  plan.segments = parameters.integer("segments", plan.segments, 8, 4096);
-  plan.rings = parameters.integer("rings", plan.rings, 1, 4096);
   plan.taper = parameters.number("taper", plan.taper, 0, 0.14);
-  plan.leaves = parameters.integer("leaves", plan.leaves, 0, 64);
-  plan.uvRepeat = parameters.number("uvRepeat", plan.uvRepeat, 1e-6, 1e9);
-  ColumnMeshes meshes = buildColumn(plan);
-  Shape shape;
-  shape.parts.push_back({"shaft", std::move(meshes.shaft)});
-  shape.parts.push_back({"trim", std::move(meshes.trim)});
-  return shape;
+  readDetails(parameters, plan);
+  return buildColumn(plan);
 }
 
 // Columns in a row along x, in the middle of it at the origin; slots shaft, trim, wall, arch.
@@ -420,25 +414,19 @@ Shape makeColonnade(ShapeParameters& parameters) {
   ColumnPlan& c = plan.column;
   c.radius = parameters.number("radius", 0.1 * plan.spacing, 1e-5, 0.3 * plan.spacing);
   c.height = parameters.number("height", 1.3 * plan.spacing, 4.5 * c.radius, 1e6);
-  c.flutes = parameters.integer("flutes", c.flutes, 0, 256);
-  c.segments = parameters.integer("segments", c.segments, 8, 4096);
-  c.rings = parameters.integer("rings", c.rings, 1, 4096);
-  c.leaves = parameters.integer("leaves", c.leaves, 0, 64);
-  c.uvRepeat = parameters.number("uvRepeat", c.uvRepeat, 1e-6, 1e9);
+  readDetails(parameters, c);
   plan.engaged = parameters.flag("engaged", plan.engaged);
   plan.arches = parameters.flag("arches", plan.arches);
   plan.wallAbove = parameters.number("wallAbove", plan.wallAbove, 1e-3, 1e6);
   plan.wallDepth = parameters.number("wallDepth", 2 * c.radius, 1e-3, 1e6);
-  const ColumnMeshes one = buildColumn(c);
+  const Shape one = buildColumn(c);
   MeshBuilder shafts, trims;
   for (int k = 0; k < plan.columns; ++k) {
     const Affine place = Affine::translation({(k - 0.5 * (plan.columns - 1)) * plan.spacing, 0, 0});
-    shafts.append(one.shaft, place);
-    trims.append(one.trim, place);
+    shafts.append(one.parts[0].mesh, place);
+    trims.append(one.parts[1].mesh, place);
   }
-  Shape shape;
-  shape.parts.push_back({"shaft", shafts.take("shaft")});
-  shape.parts.push_back({"trim", trims.take("trim")});
+  Shape shape(shafts.part("shaft"), trims.part("trim"));
   if (plan.arches && plan.columns + (plan.engaged ? 1 : -1) > 0) addWall(shape, plan);
   return shape;
 }
@@ -466,10 +454,7 @@ Shape makeBalustrade(ShapeParameters& parameters) {
   }
   rails.box({-length / 2, 0, -depth}, {length / 2, low, depth}, repeat);
   rails.box({-length / 2, high, -1.15 * depth}, {length / 2, height, 1.15 * depth}, repeat);
-  Shape shape;
-  shape.parts.push_back({"post", all.take("post")});
-  shape.parts.push_back({"rail", rails.take("rail")});
-  return shape;
+  return Shape(all.part("post"), rails.part("rail"));
 }
 
 }  // namespace whit::procedural

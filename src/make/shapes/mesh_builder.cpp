@@ -146,12 +146,6 @@ Mesh MeshBuilder::take(const std::string& name) {
   return std::exchange(mesh_, Mesh{});
 }
 
-Shape singlePart(Mesh mesh) {
-  Shape shape;
-  shape.parts.push_back({"surface", std::move(mesh)});
-  return shape;
-}
-
 TurnPoint turn(int i, int n) {
   const int k = ((i % n) + n) % n;
   const long long quarters = 4LL * k;
@@ -161,11 +155,6 @@ TurnPoint turn(int i, int n) {
   }
   const double angle = 2 * std::numbers::pi * k / n;
   return {std::cos(angle), std::sin(angle)};
-}
-
-std::vector<ProfilePoint> sharpProfile(const std::vector<std::array<double, 2>>& points,
-                                       double repeat) {
-  return creasedProfile(points, 0, repeat);
 }
 
 std::vector<ProfilePoint> creasedProfile(const std::vector<std::array<double, 2>>& points,

@@ -61,6 +61,8 @@ class MeshBuilder {
   void append(const Mesh& mesh, const Affine& map);
 
   Mesh take(const std::string& name);
+  // Takes the mesh as the part for a slot, which gives the mesh its name.
+  ShapePart part(const std::string& slot) { return {slot, take(slot)}; }
 
  private:
   Shading shading_;
@@ -68,7 +70,7 @@ class MeshBuilder {
 };
 
 // A shape of one part.
-Shape singlePart(Mesh mesh);
+inline Shape singlePart(Mesh mesh) { return Shape(ShapePart{"surface", std::move(mesh)}); }
 
 // The subdivided icosahedron: unit points and triangles, 20 * 4^level of them.
 std::pair<std::vector<Vec3d>, std::vector<std::array<std::uint32_t, 3>>> icosphereMesh(int level);
@@ -79,11 +81,8 @@ struct TurnPoint {
 };
 TurnPoint turn(int i, int n);
 
-// An outline through (r, y) points, with normals across each segment and edges kept sharp; v is the
-// length along it divided by `repeat`.
-std::vector<ProfilePoint> sharpProfile(const std::vector<std::array<double, 2>>& points,
-                                       double repeat = 1);
-// Makes a profile with normals averaged at corners that turn by less than `creaseDegrees`.
+// An outline through (r, y) points, with normals averaged at corners that turn by less than
+// `creaseDegrees`; v is the length along it divided by `repeat`.
 std::vector<ProfilePoint> creasedProfile(const std::vector<std::array<double, 2>>& points,
                                          double creaseDegrees, double repeat = 1);
 

@@ -20,10 +20,6 @@ struct TreePlan {
   std::uint32_t seed = 1;
 };
 
-struct TreeMeshes {
-  Mesh bark, leaves;
-};
-
 struct Twig {
   Vec3d position, direction;
 };
@@ -32,14 +28,14 @@ class TreeBuilder {
  public:
   explicit TreeBuilder(const TreePlan& plan) : plan_(plan), random_(plan.seed * 977u + 13u) {}
 
-  TreeMeshes build() {
+  Shape build() {
     if (plan_.kind == "conifer") {
       growConifer();
     } else {
       grow({0, 0, 0}, {0, 1, 0}, 0.34 * plan_.height, 0.035 * plan_.height, 0);
     }
     addLeaves();
-    return {bark_.take("bark"), leaves_.take("leaves")};
+    return Shape(bark_.part("bark"), leaves_.part("leaves"));
   }
 
  private:
@@ -257,11 +253,7 @@ void addFrond(MeshBuilder& builder, const Frond& f) {
 // Standing on y = 0: slots bark, leaves.
 Shape makeTree(ShapeParameters& parameters) {
   const auto seed = static_cast<std::uint32_t>(parameters.integer("seed", 1, 0, 1 << 30));
-  TreeMeshes meshes = TreeBuilder(readTree(parameters, "height", seed)).build();
-  Shape shape;
-  shape.parts.push_back({"bark", std::move(meshes.bark)});
-  shape.parts.push_back({"leaves", std::move(meshes.leaves)});
-  return shape;
+  return TreeBuilder(readTree(parameters, "height", seed)).build();
 }
 
 // One tree and the places of its copies on the ground of a `terrain` with the same seed, size,
@@ -270,18 +262,15 @@ Shape makeTree(ShapeParameters& parameters) {
 Shape makeForest(ShapeParameters& parameters) {
   const Ground ground(parameters);
   const auto seed = static_cast<std::uint32_t>(parameters.integer("forestSeed", 1, 0, 1 << 30));
-  TreeMeshes tree = TreeBuilder(readTree(parameters, "treeHeight", seed)).build();
+  Shape shape = TreeBuilder(readTree(parameters, "treeHeight", seed)).build();
   const double triangles = parameters.number("triangles", 0, 0, 1e10);
-  const double perTree =
-      static_cast<double>(tree.bark.triangles.size() + tree.leaves.triangles.size());
+  const auto perTree = static_cast<double>(shape.parts[0].mesh.triangles.size() +
+                                           shape.parts[1].mesh.triangles.size());
   const double asked = parameters.number("trees", 200, 1, 1e7);
   const double wanted =
       triangles > 0 ? std::clamp(std::floor(triangles / perTree), 1.0, 1e7) : asked;
   const double size = ground.size();
   const Habitat habitat = readHabitat(parameters, size);
-  Shape shape;
-  shape.parts.push_back({"bark", std::move(tree.bark)});
-  shape.parts.push_back({"leaves", std::move(tree.leaves)});
   RandomStream random(seed * 7919u + 3u);
   // Candidates that the ground refuses cost nothing but a few hashes; the bound ends the search on
   // ground that refuses nearly all of them, where the last resort is anywhere.
@@ -336,10 +325,7 @@ Shape makePlant(ShapeParameters& parameters) {
     f.start = trunk * lerp(0.6, 1, t);
     addFrond(cards, f);
   }
-  Shape shape;
-  shape.parts.push_back({"stem", stem.take("stem")});
-  shape.parts.push_back({"leaves", cards.take("leaves")});
-  return shape;
+  return Shape(stem.part("stem"), cards.part("leaves"));
 }
 
 }  // namespace whit::procedural

@@ -144,7 +144,7 @@ Shape makeIcosphere(ShapeParameters& parameters) {
 Shape makeCylinder(ShapeParameters& parameters) {
   const double r = radiusOf(parameters), h = parameters.number("height", 2, 1e-6, 1e9) / 2;
   MeshBuilder builder;
-  builder.revolve(sharpProfile({{0, -h}, {r, -h}, {r, h}, {0, h}}, 2 * std::numbers::pi * r),
+  builder.revolve(creasedProfile({{0, -h}, {r, -h}, {r, h}, {0, h}}, 0, 2 * std::numbers::pi * r),
                   segmentsOf(parameters, 64));
   return finished(builder.take("cylinder"), parameters);
 }
@@ -155,7 +155,7 @@ Shape makeCone(ShapeParameters& parameters) {
   std::vector<std::array<double, 2>> outline{{0, -h}, {r, -h}, {top, h}};
   if (top > 0) outline.push_back({0, h});
   MeshBuilder builder;
-  builder.revolve(sharpProfile(outline, 2 * std::numbers::pi * r), segmentsOf(parameters, 64));
+  builder.revolve(creasedProfile(outline, 0, 2 * std::numbers::pi * r), segmentsOf(parameters, 64));
   return finished(builder.take("cone"), parameters);
 }
 
