@@ -12,7 +12,7 @@
 #include "core/pixel.h"
 #include "core/stopwatch.h"
 #include "farm/blocks.h"
-#include "io/supply_view.h"
+#include "io/load_scene.h"
 #include "render/auto_exposure.h"
 #include "render/describe_image.h"
 #include "render/shadow_cache_schedule.h"

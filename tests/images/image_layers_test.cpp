@@ -1,12 +1,10 @@
-#include "io/image/image_layers.h"
-
 #include <png.h>
 
 #include <cmath>
 #include <limits>
 
 #include "image_samples.h"
-#include "io/image/merge_images.h"
+#include "io/image/image_layers.h"
 
 namespace whit {
 namespace {
