@@ -11,7 +11,7 @@
 #include "core/option_table.h"
 #include "core/pixel.h"
 #include "core/stopwatch.h"
-#include "io/supply_view.h"
+#include "io/load_scene.h"
 #include "render/auto_exposure.h"
 #include "render/shadow_cache_schedule.h"
 #include "simd/deform_vertices.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "io/supply_view.h"
+#include "io/load_scene.h"
 #include "make/studio_sky.h"
 #include "scene/members.h"
 #include "viewer/panel.h"

@@ -1,8 +1,8 @@
 #include <filesystem>
 #include <set>
 
+#include "io/load_scene.h"
 #include "io/scene/scene_sections.h"
-#include "io/supply_view.h"
 #include "make/studio_sky.h"
 #include "viewer/frame_tracer.h"
 

@@ -1,5 +1,5 @@
 // whit merge: crops of one image, put together.
-#include "io/image/merge_images.h"
+#include "io/image/image_layers.h"
 
 #include <limits>
 

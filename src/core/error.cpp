@@ -24,14 +24,17 @@ std::size_t beginOfLine(std::string_view where) {
   return begin;
 }
 
-// Errors of what has no file name the scene and the thing: "scene: light 'lamp'".
+// Some places are a thing in a file or in a scene that a program made: "a.png: byte 12",
+// "scene: light 'lamp'".
 ErrorPlace placeIn(const std::string& where) {
   if (const std::size_t sign = where.rfind('#'); sign != std::string::npos) {
     const std::string pointer = where.substr(sign + 1);
     if (pointer.empty() || pointer[0] == '/') return {where.substr(0, sign), pointer, ""};
   }
   if (const std::size_t thing = where.rfind(": "); thing != std::string::npos) {
-    return {"", where.substr(thing + 2), ""};
+    const std::string file = where.substr(0, thing);
+    const bool isFile = file.find_first_of("./") != std::string::npos;
+    return {isFile ? file : "", where.substr(thing + 2), ""};
   }
   const std::size_t line = beginOfLine(where);
   return {where.substr(0, line), line < where.size() ? where.substr(line + 1) : "", ""};

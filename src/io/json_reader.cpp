@@ -7,6 +7,7 @@
 #include <unordered_set>
 
 #include "core/error.h"
+#include "core/formatted.h"
 #include "core/nearest_name.h"
 #include "io/read_file.h"
 
@@ -21,22 +22,12 @@ std::string placeInJson(const std::string& file, const std::string& pointer) {
   return file + "#" + (pointer.size() > kShown ? pointer.substr(0, kShown) + "..." : pointer);
 }
 
-std::string printed(double x) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.9g", x);
-  return buffer;
-}
-
-// Asked of what is no number, where a bound that no scene comes near would only be noise.
-std::string kindText(double low, double high) {
-  if (low <= -kLargestNumber && high >= kLargestNumber) return "a number";
-  if (high >= kLargestNumber) return "a number not below " + printed(low);
-  return "a number from " + printed(low) + " to " + printed(high);
-}
-
-// Asked of a number that is out of range: both bounds, whichever it is beyond.
-std::string rangeText(double low, double high) {
-  return "a number from " + printed(low) + " to " + printed(high);
+// A bound that no scene comes near is not said of what is no number at all.
+std::string rangeText(double low, double high, bool isNumber) {
+  if (!isNumber && high >= kLargestNumber) {
+    return low <= -kLargestNumber ? "a number" : formatted("a number not below %.9g", low);
+  }
+  return formatted("a number from %.9g to %.9g", low, high);
 }
 
 using Event = Json::parse_event_t;
@@ -147,19 +138,13 @@ Json parseJson(const std::string& text, const std::string& file) {
 
 std::string isMeant(const std::string& word, const std::vector<std::string>& names) {
   const std::string nearest = nearestName(word, names);
-  return nearest.empty() ? "" : " (is " + inQuotes(nearest) + " meant?)";
+  return nearest.empty() ? "" : " (is " + inQuotes(excerpt(nearest)) + " meant?)";
 }
 
 std::string escapePointer(const std::string& token) {
   std::string result;
   for (const char c : token) {
-    if (c == '~') {
-      result += "~0";
-    } else if (c == '/') {
-      result += "~1";
-    } else {
-      result += c;
-    }
+    result += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
   }
   return result;
 }
@@ -213,10 +198,10 @@ double JsonValue::expression(const std::string& text) const {
 }
 
 double JsonValue::number(double low, double high) const {
-  if (!isNumber()) fail(kindText(low, high));
+  if (!isNumber()) fail(rangeText(low, high, false));
   const double value =
       isText() ? expression(value_->get_ref<const std::string&>()) : value_->get<double>();
-  if (!(value >= low && value <= high)) fail(rangeText(low, high));
+  if (!(value >= low && value <= high)) fail(rangeText(low, high, true));
   return value;
 }
 
@@ -368,8 +353,9 @@ JsonValue JsonObject::need(const std::string& key) {
     if (std::find(known_.begin(), known_.end(), name) == known_.end()) others.push_back(name);
   }
   const std::string meant = nearestName(key, others);
-  throwBadScene(value_.where(), "expected a member " + inQuotes(key) +
-                                    (meant.empty() ? "" : ", there is " + inQuotes(meant)));
+  throwBadScene(value_.where(),
+                "expected a member " + inQuotes(key) +
+                    (meant.empty() ? "" : ", there is " + inQuotes(excerpt(meant))));
 }
 
 float JsonObject::number(const std::string& key, double fallback, double low, double high) {

@@ -56,4 +56,14 @@ SceneDescription loadScene(const SceneText& text, const LoadOptions& options, Wa
 std::optional<JsonDocument> readDocument(const std::string& name, const LoadOptions& options);
 JsonDocument readDocument(const SceneText& text, const LoadOptions& options);
 
+// The share of the sky's light that becomes ambient light around a model: the model occludes part
+// of the sky, and lights shine as well.
+inline constexpr double kAmbientOfSky = 0.4;
+
+inline constexpr const char* kNoSky = "none";
+
+// Makes the sky for kNoSky, "studio" (make/studio_sky.h) or the file of an equirectangular image.
+// The file and its decoded texels may take `mostBytes`. Throws as readRawImage() does.
+Sky namedSky(const std::string& name, std::uint64_t mostBytes, Warnings& warnings);
+
 }  // namespace whit

@@ -4,13 +4,10 @@
 #include <map>
 #include <string>
 
-#include "core/error.h"
-
 namespace whit {
 namespace {
 
-using Opener = std::unique_ptr<Model> (*)(const std::filesystem::path&, const PathRules&,
-                                          MemoryBudget&, Warnings&, const Instant&);
+using Opener = std::unique_ptr<Model> (*)(const ModelSource&);
 
 const std::map<std::string, Opener>& openers() {
   static const std::map<std::string, Opener> all = {
@@ -35,10 +32,8 @@ std::string modelExtensions() {
   return list;
 }
 
-std::unique_ptr<Model> openModel(const std::filesystem::path& path, const PathRules& rules,
-                                 MemoryBudget& budget, Warnings& warnings, const Instant& instant) {
-  if (const Opener opener = openerOf(path)) return opener(path, rules, budget, warnings, instant);
-  throwBadScene(path.string(), "expected a model (" + modelExtensions() + ")");
+std::unique_ptr<Model> openModel(const ModelSource& source) {
+  return openerOf(source.path)(source);
 }
 
 void warnNothingToDraw(const std::string& why, const std::string& file, Warnings& warnings) {

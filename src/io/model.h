@@ -31,6 +31,15 @@ struct TexturedMaterial {
   std::function<void(Material&)> whenDecoded;
 };
 
+// A file to open, and what its reader uses; it all outlives the model.
+struct ModelSource {
+  std::filesystem::path path;
+  const PathRules& rules;
+  MemoryBudget& budget;
+  Warnings& warnings;
+  const Instant& instant;
+};
+
 // Opened first, so that textures can be asked for before the geometry is read.
 class Model {
  public:
@@ -54,17 +63,13 @@ class Model {
 // True if openModel() reads such a file, by its extension (any case).
 bool isModelFile(const std::filesystem::path& path);
 std::string modelExtensions();  // ".gltf, .obj"
-// By the extension, at an instant. `rules` and what else is given here outlive the model.
-std::unique_ptr<Model> openModel(const std::filesystem::path& path, const PathRules& rules,
-                                 MemoryBudget& budget, Warnings& warnings, const Instant& instant);
+// By the extension; isModelFile() holds.
+std::unique_ptr<Model> openModel(const ModelSource& source);
 
 // The readers that openModel() chooses from, each in the file of its format.
-std::unique_ptr<Model> openGltf(const std::filesystem::path& path, const PathRules& rules,
-                                MemoryBudget& budget, Warnings& warnings, const Instant& instant);
-std::unique_ptr<Model> openObj(const std::filesystem::path& path, const PathRules& rules,
-                               MemoryBudget& budget, Warnings& warnings, const Instant& instant);
-std::unique_ptr<Model> openPly(const std::filesystem::path& path, const PathRules& rules,
-                               MemoryBudget& budget, Warnings& warnings, const Instant& instant);
+std::unique_ptr<Model> openGltf(const ModelSource& source);
+std::unique_ptr<Model> openObj(const ModelSource& source);
+std::unique_ptr<Model> openPly(const ModelSource& source);
 
 // Said once of a model that leaves the picture empty; `why` is a fixed phrase.
 void warnNothingToDraw(const std::string& why, const std::string& file, Warnings& warnings);

@@ -104,7 +104,7 @@ fs::path PathRules::resolve(std::string text, const fs::path& folder, const std:
   fs::path path;
   if (text.starts_with(kDataVariable)) {
     if (text.size() > kDataVariable.size() && text[kDataVariable.size()] != '/') {
-      throwBadScene(where, "expected \"$WHIT_DATA/...\", found \"" + text + "\"");
+      throwBadScene(where, "expected \"$WHIT_DATA/...\", found \"" + excerpt(text) + "\"");
     }
     path = dataFolder() / fs::path(text.substr(kDataVariable.size())).relative_path();
   } else {
@@ -112,7 +112,7 @@ fs::path PathRules::resolve(std::string text, const fs::path& folder, const std:
   }
   fs::path result = realPath(path);
   if (!allowOutside_ && !inside(result)) {
-    throwBadScene(where, "\"" + text +
+    throwBadScene(where, "\"" + excerpt(text) +
                              "\" leaves the scene's folder and $WHIT_DATA (--allow-outside "
                              "permits that)");
   }
@@ -159,20 +159,6 @@ fs::path findScene(const std::string& file, const std::string& shippedScenes) {
 std::vector<fs::path> shippedScenes() {
   std::vector<fs::path> scenes;
   for (const std::string& name : shippedNames(sceneFolders())) scenes.push_back(findScene(name));
-  return scenes;
-}
-
-std::vector<fs::path> hardScenes() {
-  std::vector<fs::path> scenes;
-  for (const fs::path& folder : sceneFolders()) {
-    std::error_code error;
-    for (fs::directory_iterator i(folder / "hard", error), end; !error && i != end;
-         i.increment(error)) {
-      if (i->path().extension() == ".json") scenes.push_back(i->path());
-    }
-    if (!scenes.empty()) break;
-  }
-  std::sort(scenes.begin(), scenes.end());
   return scenes;
 }
 

@@ -46,7 +46,5 @@ SceneName parseSceneName(const std::string& name);
 std::filesystem::path findScene(const std::string& file, const std::string& shippedScenes = "");
 // All of them that are found, in order of their names.
 std::vector<std::filesystem::path> shippedScenes();
-// The scenes of hard cases to look at, shipped in the folder `hard`; in order of their names.
-std::vector<std::filesystem::path> hardScenes();
 
 }  // namespace whit

@@ -14,7 +14,9 @@ namespace {
 
 // Reads at most `maxBytes`; a longer file is Error(limit) or, with `cut`, read in part.
 std::string read(const fs::path& path, std::uint64_t maxBytes, bool cut) {
-  const std::string name = path.string();
+  constexpr std::size_t kShown = 250;
+  std::string name = path.string();
+  if (name.size() > kShown) name = excerpt(name) + name.substr(name.size() - kShown / 2);
   std::error_code error;
   const auto status = fs::status(path, error);
   if (!fs::exists(status)) throwIo(name, "cannot open " + name + ": no such file");

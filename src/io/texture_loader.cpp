@@ -12,10 +12,6 @@
 namespace whit {
 namespace {
 
-std::uint64_t texelsOf(const RawImage& raw) {
-  return static_cast<std::uint64_t>(raw.width) * static_cast<std::uint64_t>(raw.height);
-}
-
 // Returns nothing if the image has no such texture.
 std::optional<Texture> makeUse(const std::string& name, const RawImage& raw,
                                const TextureSource& source, TextureUse use, Warnings& warnings) {
@@ -108,7 +104,7 @@ void TextureLoader::addEnvironment(const std::string& path, const std::string& w
   queue_.add([this, path, where, &image] {
     const RawImage raw =
         readNamedAt(where, [&] { return readRawImage(path, limits(), warnings_); });
-    MemoryHold planes(&budget_, texelsOf(raw), 3 * sizeof(float), path);
+    MemoryHold planes(&budget_, raw.pixels(), 3 * sizeof(float), path);
     image = makeEnvironment(raw);
     planes.keep();
   });
@@ -122,9 +118,9 @@ ImageLimits TextureLoader::limits() const {
 
 std::optional<Texture> TextureLoader::make(const std::string& name, const RawImage& raw,
                                            const TextureSource& source, TextureUse use) {
-  MemoryHold texels(&budget_, texelsOf(raw), sizeof(std::uint32_t), name);
+  MemoryHold texels(&budget_, raw.pixels(), sizeof(std::uint32_t), name);
   const bool copies = use == TextureUse::mask || use == TextureUse::colorAlpha;
-  const MemoryHold copy(&budget_, copies ? texelsOf(raw) : 0, raw.linear ? sizeof(float) : 1,
+  const MemoryHold copy(&budget_, copies ? raw.pixels() : 0, raw.linear ? sizeof(float) : 1,
                         "an alpha channel");
   std::optional<Texture> texture = makeUse(name, raw, source, use, warnings_);
   if (!texture) return texture;

@@ -1,5 +1,3 @@
-#include "io/image/image_layers.h"
-
 #include <png.h>
 
 #include <algorithm>
@@ -7,7 +5,7 @@
 #include <limits>
 
 #include "image_samples.h"
-#include "io/image/merge_images.h"
+#include "io/image/image_layers.h"
 
 namespace whit {
 namespace {

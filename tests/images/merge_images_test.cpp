@@ -1,4 +1,4 @@
-#include "io/image/merge_images.h"
+#include "io/image/image_layers.h"
 
 #include "image_samples.h"
 

@@ -1,5 +1,5 @@
 // What a model gets that comes without a scene file, and the sky that is asked for.
-#include "io/supply_view.h"
+#include "io/load_scene.h"
 
 #include <gtest/gtest.h>
 

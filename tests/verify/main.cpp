@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "accuracy/report.h"
@@ -156,6 +158,21 @@ Json reportOf(const Machine& machine, const std::vector<Row>& rows,
 }
 
 constexpr int kWidth = 320, kHeight = 240, kColumns = 4, kSheetGap = 4;
+
+// The scenes in the folder `hard` beside those that are shipped, in the order of their names.
+std::vector<std::filesystem::path> hardScenes() {
+  std::vector<std::filesystem::path> scenes;
+  for (const std::filesystem::path& shipped : shippedScenes()) {
+    std::error_code error;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(shipped.parent_path() / "hard", error)) {
+      if (entry.path().extension() == ".json") scenes.push_back(entry.path());
+    }
+    if (!scenes.empty()) break;
+  }
+  std::sort(scenes.begin(), scenes.end());
+  return scenes;
+}
 
 // Renders every scene of scenes/hard at 320x240, in alphabetical order. Throws Error(io) when there
 // is none.

@@ -86,7 +86,7 @@ class GltfMaterialReader {
     m_.where = source.where();
   }
 
-  GltfMaterial convert() {
+  GltfMaterial read() {
     factors();
     maps();
     extensions();
@@ -158,18 +158,16 @@ class GltfMaterialReader {
     if (m_.emitsByMap() && third) {
       warn("texture with a third kind of coordinates in its material: those of the first taken");
     }
-    const auto apart = [&](const GltfTexture& map) {
-      return map.exists() && !(map.uv == m_.surfaceMap().uv);
+    const auto warnIfApart = [&](bool matters, const GltfTexture& map, const char* warning) {
+      if (matters && map.exists() && !(map.uv == m_.surfaceMap().uv)) warn(warning);
     };
-    if (m_.variesRoughness() && m_.surfaceMap().exists() && apart(m_.metallicRoughnessMap)) {
-      warn("roughness by a texture with other coordinates than the base color's: these taken");
-    }
-    if (m_.mixesMetal() && apart(m_.metallicRoughnessMap)) {
-      warn("metalness by a texture with other coordinates than the base color's: these taken");
-    }
-    if (m_.variesF0() && (apart(m_.specularMap) || apart(m_.specularColorMap))) {
-      warn("specular by a texture with other coordinates than the base color's: these taken");
-    }
+    warnIfApart(m_.variesRoughness() && m_.surfaceMap().exists(), m_.metallicRoughnessMap,
+                "roughness by a texture with other coordinates than the base color's: these taken");
+    warnIfApart(m_.mixesMetal(), m_.metallicRoughnessMap,
+                "metalness by a texture with other coordinates than the base color's: these taken");
+    const bool strength = m_.specularMap.exists() && !(m_.specularMap.uv == m_.surfaceMap().uv);
+    warnIfApart(m_.variesF0(), strength ? m_.specularMap : m_.specularColorMap,
+                "specular by a texture with other coordinates than the base color's: these taken");
   }
 
   void extensions() {
@@ -262,7 +260,7 @@ std::vector<GltfMaterial> readGltfMaterials(const GltfDocument& document) {
   std::vector<GltfMaterial> materials;
   const JsonValue sources = document.list("materials");
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    materials.push_back(GltfMaterialReader(document, sources[i]).convert());
+    materials.push_back(GltfMaterialReader(document, sources[i]).read());
   }
   GltfMaterial fallback;
   fallback.name = "default";

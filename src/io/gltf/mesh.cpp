@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -15,6 +16,15 @@ namespace {
 void checkLength(std::size_t found, std::size_t expected, const JsonValue& attribute) {
   if (found == expected) return;
   attribute.fail("as many as positions, " + std::to_string(expected), std::to_string(found));
+}
+
+// Empty where there is no such attribute, or nothing that it belongs to.
+std::vector<Vec3f> vectorsOf(const GltfDocument& document, const JsonValue& attribute,
+                             std::size_t expected) {
+  if (!attribute.exists() || expected == 0) return {};
+  std::vector<Vec3f> vectors = readVectors(document, attribute);
+  checkLength(vectors.size(), expected, attribute);
+  return vectors;
 }
 
 class DeformationReader {
@@ -46,16 +56,9 @@ class DeformationReader {
     for (std::size_t i = 0; i < targets.size(); ++i) {
       const bool weighs = i < given_.weights.size() && given_.weights[i] != 0;
       if (!weighs && !given_.movingWeights) continue;
-      result_.targets[i] = {vectors(targets[i]["POSITION"], result_.positions.size()),
-                            vectors(targets[i]["NORMAL"], result_.normals.size())};
+      result_.targets[i] = {vectorsOf(document_, targets[i]["POSITION"], result_.positions.size()),
+                            vectorsOf(document_, targets[i]["NORMAL"], result_.normals.size())};
     }
-  }
-
-  std::vector<Vec3f> vectors(const JsonValue& attribute, std::size_t expected) const {
-    if (!attribute.exists() || expected == 0) return {};
-    std::vector<Vec3f> moved = readVectors(document_, attribute);
-    checkLength(moved.size(), expected, attribute);
-    return moved;
   }
 
   void readSkin() {
@@ -155,9 +158,16 @@ class PrimitiveReader {
     }
     refuseDraco(position);
     mesh.positions = readVectors(document_, position);
-    readNormals(mesh);
+    mesh.normals = vectorsOf(document_, attributes_["NORMAL"], mesh.positions.size());
     mesh.uvs = textureCoordinates(mesh, coordinates_.first);
-    if (coordinates_.areTwo()) mesh.secondUvs = secondTextureCoordinates(mesh);
+    if (coordinates_.areTwo()) {
+      // Never empty: a scene without second coordinates looks all maps up with the first.
+      mesh.secondUvs = textureCoordinates(mesh, coordinates_.second);
+      if (mesh.secondUvs.empty()) {
+        document_.budget().charge(mesh.positions.size(), sizeof(Vec2f), primitive_.where());
+      }
+      mesh.secondUvs.resize(mesh.positions.size());
+    }
     readVertexColors(mesh);
     connect(mesh, corners(mesh.positions.size()));
     mesh.materials = {static_cast<std::uint32_t>(material_)};
@@ -174,13 +184,6 @@ class PrimitiveReader {
     if (stored || !primitive_["extensions"][kDraco].exists()) return;
     throwBadScene(primitive_.where(),
                   std::string("compressed by ") + kDraco + ", which is not supported");
-  }
-
-  void readNormals(Mesh& mesh) const {
-    const JsonValue normal = attributes_["NORMAL"];
-    if (!normal.exists()) return;
-    mesh.normals = readVectors(document_, normal);
-    checkLength(mesh.normals.size(), mesh.positions.size(), normal);
   }
 
   void readVertexColors(Mesh& mesh) {
@@ -206,15 +209,6 @@ class PrimitiveReader {
     return uvs;
   }
 
-  // Never empty: a scene without second coordinates looks all maps up with the first.
-  std::vector<Vec2f> secondTextureCoordinates(const Mesh& mesh) const {
-    std::vector<Vec2f> uvs = textureCoordinates(mesh, coordinates_.second);
-    if (!uvs.empty()) return uvs;
-    document_.budget().charge(mesh.positions.size(), sizeof(Vec2f), primitive_.where());
-    uvs.resize(mesh.positions.size());
-    return uvs;
-  }
-
   std::vector<std::uint32_t> corners(std::size_t vertices) {
     const JsonValue indices = primitive_["indices"];
     if (indices.exists()) return readIndices(document_, indices);
@@ -223,7 +217,7 @@ class PrimitiveReader {
     }
     document_.budget().charge(vertices, sizeof(std::uint32_t), primitive_.where());
     std::vector<std::uint32_t> all(vertices);
-    for (std::size_t i = 0; i < vertices; ++i) all[i] = static_cast<std::uint32_t>(i);
+    std::iota(all.begin(), all.end(), 0u);
     return all;
   }
 
@@ -269,10 +263,8 @@ std::vector<Mesh> readGltfMesh(const GltfDocument& document, std::size_t index,
   for (std::size_t i = 0; i < primitives.size(); ++i) {
     Mesh mesh;
     mesh.name = source["name"].textOr("");
-    PrimitiveReader reader(document, primitives[i], materials, deformation);
-    if (reader.read(mesh)) {
-      meshes.push_back(std::move(mesh));
-    }
+    const bool isSeen = PrimitiveReader(document, primitives[i], materials, deformation).read(mesh);
+    if (isSeen) meshes.push_back(std::move(mesh));
   }
   return meshes;
 }

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
 #include <map>
 #include <utility>
 #include <vector>
@@ -19,8 +18,7 @@ namespace {
 
 class GltfModel : public Model {
  public:
-  GltfModel(const std::filesystem::path& path, const PathRules& rules, MemoryBudget& budget,
-            Warnings& warnings, const Instant& instant);
+  explicit GltfModel(const ModelSource& source);
 
   const std::vector<Material>& materials() const override { return materials_; }
   TexturedMaterial withMaps(std::size_t i, Material material, const GivenMembers& given,
@@ -77,13 +75,12 @@ class MoverBodies {
   std::vector<std::uint32_t> bodies_;  // 0, the layout's scene: none yet
 };
 
-GltfModel::GltfModel(const std::filesystem::path& path, const PathRules& rules,
-                     MemoryBudget& budget, Warnings& warnings, const Instant& instant)
-    : document_(path, rules, budget, warnings),
+GltfModel::GltfModel(const ModelSource& source)
+    : document_(source.path, source.rules, source.budget, source.warnings),
       sources_(readGltfMaterials(document_)),
       maps_(document_),
-      stage_(readGltfNodes(document_, instant)) {
-  for (const GltfMaterial& source : sources_) materials_.push_back(shadedAs(source, {}));
+      stage_(readGltfNodes(document_, source.instant)) {
+  for (const GltfMaterial& material : sources_) materials_.push_back(shadedAs(material, {}));
 }
 
 TexturedMaterial GltfModel::withMaps(std::size_t i, Material material, const GivenMembers& given,
@@ -164,23 +161,20 @@ void GltfModel::addView(SceneDescription& scene) {
     if (node.parent != kNoNode) node.parent += first;
     scene.motion.rig.push_back(std::move(node));
   }
-  for (std::uint32_t i = 0; i < stage_.cameras.size(); ++i) {
-    const std::uint32_t mover = stage_.cameraMovers[i];
-    if (mover != kNoNode) scene.motion.cameras.push_back({i, first + mover, stage_.cameras[i]});
+  for (MovingCamera camera : stage_.movingCameras) {
+    camera.node += first;
+    scene.motion.cameras.push_back(camera);
   }
-  for (std::uint32_t i = 0; i < stage_.lights.size(); ++i) {
-    const Light& light = stage_.lights[i];
-    const std::uint32_t mover = stage_.lightMovers[i];
-    if (mover == kNoNode) continue;
-    scene.motion.lights.push_back({i, first + mover, light.position, light.direction});
+  for (MovingLight light : stage_.movingLights) {
+    light.node += first;
+    scene.motion.lights.push_back(light);
   }
 }
 
 }  // namespace
 
-std::unique_ptr<Model> openGltf(const std::filesystem::path& path, const PathRules& rules,
-                                MemoryBudget& budget, Warnings& warnings, const Instant& instant) {
-  return std::make_unique<GltfModel>(path, rules, budget, warnings, instant);
+std::unique_ptr<Model> openGltf(const ModelSource& source) {
+  return std::make_unique<GltfModel>(source);
 }
 
 }  // namespace whit

@@ -507,8 +507,9 @@ class TreeReader {
     camera.at = Vec3f(map.p - normalized(map.z) * std::max(1.0, length(map.p)));
     camera.up = Vec3f(normalized(map.y));
     if (stage_.cameras.empty()) stage_.aspect = aspect;
+    const auto number = static_cast<std::uint32_t>(stage_.cameras.size());
+    if (mover != kNoNode) stage_.movingCameras.push_back({number, mover, camera});
     stage_.cameras.push_back(camera);
-    stage_.cameraMovers.push_back(mover);
   }
 
   void addLight(std::size_t index, const Affine& map, std::uint32_t mover) {
@@ -535,8 +536,11 @@ class TreeReader {
     light.position = Vec3f(map.p);
     light.direction = Vec3f(-normalized(map.z));
     light.intensity = Rgb(color * (source["intensity"].numberOr(1) / kLumensPerWatt));
+    const auto place = static_cast<std::uint32_t>(stage_.lights.size());
+    if (mover != kNoNode) {
+      stage_.movingLights.push_back({place, mover, light.position, light.direction});
+    }
     stage_.lights.push_back(light);
-    stage_.lightMovers.push_back(mover);
   }
 
   // A camera is chosen by its name.

@@ -65,10 +65,10 @@ struct GltfStage {
   Rig movers;
   std::vector<GltfPlacedMesh> meshes;  // in the order of the tree
   std::vector<Camera> cameras;
-  std::vector<std::uint32_t> cameraMovers;
+  std::vector<MovingCamera> movingCameras;
   double aspect = 0;  // of the first camera; 0: none is given
   std::vector<Light> lights;
-  std::vector<std::uint32_t> lightMovers;
+  std::vector<MovingLight> movingLights;
 };
 
 // The names are distinct.

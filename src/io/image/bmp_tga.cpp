@@ -173,10 +173,6 @@ class PlainReader {
 
 }  // namespace
 
-bool isBmp(std::span<const std::uint8_t> file) {
-  return file.size() >= 2 && file[0] == 'B' && file[1] == 'M';
-}
-
 RawImage decodeBmp(const std::string& path, std::span<const std::uint8_t> file,
                    const ImageLimits& limits) {
   return PlainReader(path, file, limits).readBmp();

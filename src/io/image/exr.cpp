@@ -299,11 +299,6 @@ void writePixels(Imf::OutputFile& exr, Imf::PixelType type, const Image& image, 
 
 }  // namespace
 
-bool isExr(std::span<const std::uint8_t> beginning) {
-  constexpr std::uint8_t kMagic[] = {0x76, 0x2f, 0x31, 0x01};
-  return beginning.size() >= 4 && std::equal(kMagic, kMagic + 4, beginning.begin());
-}
-
 ExrImage decodeExr(const std::string& path, bool wholeDisplay, const ImageLimits& limits) {
   return reading(path, [&](ExrFile& file) {
     const std::vector<const char*> names = colorChannels(path, file.header().channels());
@@ -338,7 +333,7 @@ ExrImage decodeExr(const std::string& path, bool wholeDisplay, const ImageLimits
 }
 
 std::vector<ImageLayer> readLayers(const std::string& path, const ImageLimits& limits) {
-  if (!isExr(asBytes(readBeginning(path, 4)))) return {};
+  if (!isExrFile(path)) return {};
   return reading(path, [&](ExrFile& file) {
     std::vector<ImageLayer> layers = layersOf(path, file.header().channels());
     if (layers.empty()) return layers;

@@ -66,11 +66,6 @@ void readRow(ImageBytes& bytes, std::vector<Rgbe>& row) {
 
 }  // namespace
 
-bool isHdr(std::span<const std::uint8_t> file) {
-  const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
-  return text.starts_with("#?RADIANCE") || text.starts_with("#?RGBE");
-}
-
 RawImage decodeHdr(const std::string& path, std::span<const std::uint8_t> file,
                    const ImageLimits& limits) {
   constexpr std::string_view kFormat = "FORMAT=", kKnown = "32-bit_rle_rgbe";

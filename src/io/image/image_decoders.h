@@ -63,12 +63,8 @@ class ImageBytes {
   std::size_t at_ = 0;
 };
 
-// Formats except TGA are recognized by the first bytes of a file. The decoders throw as
-// readRawImage() does; a file that is cut short or has wrong checksums is badScene.
-bool isPng(std::span<const std::uint8_t> file);
-bool isJpeg(std::span<const std::uint8_t> file);
-bool isBmp(std::span<const std::uint8_t> file);
-bool isHdr(std::span<const std::uint8_t> file);
+// The decoders throw as readRawImage() does; a file that is cut short or has wrong checksums is
+// badScene.
 RawImage decodePng(const std::string& path, std::span<const std::uint8_t> file,
                    const ImageLimits& limits);
 // Refuses CMYK.
@@ -87,7 +83,7 @@ struct ExrImage {
   Crop window;                // the part of the display window that `raw` holds
   RawImage raw;               // 1 channel: Y, 2: Y A, 3: R G B, 4: R G B A
 };
-bool isExr(std::span<const std::uint8_t> beginning);
+bool isExrFile(const std::string& path);  // by its first bytes
 // Reads scanlines or tiles (level 0), any compression, any channel type. A missing one of R, G and
 // B is 0. With `wholeDisplay` the rest of the display window is 0, otherwise the image is the part
 // of the data window inside it. Throws Error(badScene) for deep images, images of luminance and

@@ -22,7 +22,9 @@ std::string sizeText(std::int64_t width, std::int64_t height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
-bool isExrFile(const std::string& path) { return isExr(asBytes(readBeginning(path, 4))); }
+std::string_view asText(std::span<const std::uint8_t> file) {
+  return {reinterpret_cast<const char*>(file.data()), file.size()};
+}
 
 // Names formats that are often used for textures but not supported.
 std::string kindOf(std::span<const std::uint8_t> file) {
@@ -31,24 +33,27 @@ std::string kindOf(std::span<const std::uint8_t> file) {
       {"\xabKTX", "a KTX texture"},  {"II*", "a TIFF image"},    {"MM", "a TIFF image"},
       {"8BPS", "a Photoshop image"}, {"<", "a page of the web"}, {"", "something else"}};
   if (file.empty()) return "an empty file";
-  const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
   return std::find_if(std::begin(kBeginnings), std::end(kBeginnings),
-                      [&](const auto& known) { return text.starts_with(known.first); })
+                      [&](const auto& known) { return asText(file).starts_with(known.first); })
       ->second;
 }
 
+// TGA has no beginning of its own.
 struct Format {
-  bool (*matches)(std::span<const std::uint8_t> file);
+  std::string_view beginning;
   RawImage (*decode)(const std::string& path, std::span<const std::uint8_t> file,
                      const ImageLimits& limits);
 };
-constexpr Format kFormats[] = {
-    {isPng, decodePng}, {isJpeg, decodeJpeg}, {isBmp, decodeBmp}, {isHdr, decodeHdr}};
+constexpr Format kFormats[] = {{"\x89PNG\r\n\x1a\n", decodePng},
+                               {"\xff\xd8\xff", decodeJpeg},
+                               {"BM", decodeBmp},
+                               {"#?RADIANCE", decodeHdr},
+                               {"#?RGBE", decodeHdr}};
 
 RawImage decodeBytes(const std::string& name, std::span<const std::uint8_t> file,
                      const ImageLimits& limits) {
   for (const Format& format : kFormats) {
-    if (format.matches(file)) return format.decode(name, file, limits);
+    if (asText(file).starts_with(format.beginning)) return format.decode(name, file, limits);
   }
   if (extensionOf(name) == ".tga") return decodeTga(name, file, limits);
   throwBadScene(
@@ -83,6 +88,8 @@ void sanitise(const std::string& path, std::vector<float>& values, Warnings& war
 }
 
 }  // namespace
+
+bool isExrFile(const std::string& path) { return readBeginning(path, 4) == "\x76\x2f\x31\x01"; }
 
 void checkImageSize(const std::string& path, std::int64_t width, std::int64_t height,
                     std::uint64_t bytesPerPixel, const ImageLimits& limits) {
@@ -133,8 +140,7 @@ RawImage decodeRawImage(const std::string& name, std::span<const std::uint8_t> f
 
 bool holdsRadiance(const std::string& path) {
   try {
-    const std::string beginning = readBeginning(path, 4);
-    return isExr(asBytes(beginning)) || beginning.starts_with("#?");
+    return isExrFile(path) || readBeginning(path, 2) == "#?";
   } catch (const Error&) {
     return false;
   }

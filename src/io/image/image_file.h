@@ -32,6 +32,10 @@ struct RawImage {
   std::vector<std::uint8_t> codes;  // when !linear
   std::vector<float> values;  // when linear; sanitised: NaN and negatives 0, inf 65504, counted
   MemoryHold held;            // the memory of codes and values
+
+  std::size_t pixels() const {
+    return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  }
 };
 
 // Reads PNG, JPEG, TGA, BMP, Radiance HDR or OpenEXR. Throws Error(io) if the file cannot be read,

@@ -114,10 +114,6 @@ class JpegReader {
 
 }  // namespace
 
-bool isJpeg(std::span<const std::uint8_t> file) {
-  return file.size() >= 3 && file[0] == 0xff && file[1] == 0xd8 && file[2] == 0xff;
-}
-
 RawImage decodeJpeg(const std::string& path, std::span<const std::uint8_t> file,
                     const ImageLimits& limits) {
   JpegReader reader(path, file);
@@ -125,9 +121,7 @@ RawImage decodeJpeg(const std::string& path, std::span<const std::uint8_t> file,
   RawImage image =
       startImage(path, reader.width(), reader.height(), reader.channels(), false, limits);
   const MemoryHold working(limits.budget, reader.workingBytes(), 1, path);
-  image.codes.resize(static_cast<std::size_t>(image.width) *
-                     static_cast<std::size_t>(image.height) *
-                     static_cast<std::size_t>(image.channels));
+  image.codes.resize(image.pixels() * static_cast<std::size_t>(image.channels));
   reader.readPixels(image.codes.data());
   return image;
 }

@@ -18,7 +18,6 @@ namespace whit {
 
 namespace {
 
-constexpr std::size_t kSignatureBytes = 8;
 constexpr std::size_t kKeywordLimit = 79;  // PNG specification 11.3.4.2
 // libpng allocates what a chunk of text claims to take before it reads any of it.
 constexpr png_alloc_size_t kTextBytesLimit = 8u << 20;
@@ -221,10 +220,6 @@ std::string encode(const Rows& rows, const ImageMetadata& metadata) {
 }
 
 }  // namespace
-
-bool isPng(std::span<const std::uint8_t> file) {
-  return file.size() >= kSignatureBytes && png_sig_cmp(file.data(), 0, kSignatureBytes) == 0;
-}
 
 RawImage decodePng(const std::string& path, std::span<const std::uint8_t> file,
                    const ImageLimits& limits) {

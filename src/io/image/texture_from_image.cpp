@@ -9,10 +9,6 @@ namespace whit {
 
 namespace {
 
-std::size_t texelCount(const RawImage& raw) {
-  return static_cast<std::size_t>(raw.width) * static_cast<std::size_t>(raw.height);
-}
-
 // Channel `c` of texel `i` as stored, codes as fractions of 255.
 float channel(const RawImage& raw, std::size_t i, int c) {
   const std::size_t at = i * static_cast<std::size_t>(raw.channels) + static_cast<std::size_t>(c);
@@ -28,16 +24,8 @@ template <typename Value>
 std::array<Value, 4> channelsOf(const std::vector<Value>& values, int channels, std::size_t i,
                                 Value one) {
   const Value* v = values.data() + i * static_cast<std::size_t>(channels);
-  switch (channels) {
-    case 1:
-      return {v[0], v[0], v[0], one};
-    case 2:
-      return {v[0], v[0], v[0], v[1]};
-    case 3:
-      return {v[0], v[1], v[2], one};
-    default:
-      return {v[0], v[1], v[2], v[3]};
-  }
+  if (channels < 3) return {v[0], v[0], v[0], channels == 2 ? v[1] : one};
+  return {v[0], v[1], v[2], channels == 4 ? v[3] : one};
 }
 
 // The 10 bits of a color texel for each sRGB code, computed once because they need square roots.
@@ -69,7 +57,7 @@ std::uint32_t texelOfValues(const std::array<float, 4>& v, TexelFormat format) {
 // Counts the pixels of a linear image with a color above the limit.
 std::uint64_t countAbove(const RawImage& raw, float limit) {
   std::uint64_t count = 0;
-  for (std::size_t i = 0; raw.linear && i < texelCount(raw); ++i) {
+  for (std::size_t i = 0; raw.linear && i < raw.pixels(); ++i) {
     const auto c = channelsOf(raw.values, raw.channels, i, 1.0f);
     count += std::max({c[0], c[1], c[2]}) > limit;
   }
@@ -84,7 +72,7 @@ Texture makeTexture(const std::string& name, const RawImage& raw, TexelFormat fo
   texture.format = format;
   texture.width = raw.width;
   texture.height = raw.height;
-  texture.texels.resize(texelCount(raw));
+  texture.texels.resize(raw.pixels());
   for (std::size_t i = 0; i < texture.texels.size(); ++i) {
     texture.texels[i] =
         raw.linear
@@ -115,7 +103,7 @@ EnvironmentImage makeEnvironment(const RawImage& raw) {
   EnvironmentImage environment;
   environment.width = raw.width;
   environment.height = raw.height;
-  const std::size_t count = texelCount(raw);
+  const std::size_t count = raw.pixels();
   for (auto* plane : {&environment.r, &environment.g, &environment.b}) plane->resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     const Rgb value = linearPixel(raw, i);
@@ -128,7 +116,7 @@ EnvironmentImage makeEnvironment(const RawImage& raw) {
 
 bool hasTranslucentAlpha(const RawImage& raw) {
   if (raw.channels != 2 && raw.channels != 4) return false;
-  const std::size_t count = texelCount(raw);
+  const std::size_t count = raw.pixels();
   for (std::size_t i = 0; i < count; ++i) {
     if (channel(raw, i, raw.channels - 1) < 1.0f) return true;
   }
@@ -141,21 +129,20 @@ RawImage alphaOf(const RawImage& raw) {
   alpha.height = raw.height;
   alpha.channels = 1;
   alpha.linear = raw.linear;
-  const std::size_t stride = static_cast<std::size_t>(raw.channels), count = texelCount(raw);
-  if (raw.linear) {
-    alpha.values.resize(count);
-    for (std::size_t i = 0; i < count; ++i) alpha.values[i] = raw.values[i * stride + stride - 1];
-  } else {
-    alpha.codes.resize(count);
-    for (std::size_t i = 0; i < count; ++i) alpha.codes[i] = raw.codes[i * stride + stride - 1];
-  }
+  const auto take = [&](const auto& from, auto& to) {
+    const auto stride = static_cast<std::size_t>(raw.channels);
+    to.reserve(from.size() / stride);
+    for (std::size_t i = stride; i <= from.size(); i += stride) to.push_back(from[i - 1]);
+  };
+  take(raw.values, alpha.values);
+  take(raw.codes, alpha.codes);
   return alpha;
 }
 
 bool looksLikeHeights(const RawImage& raw) {
   if (raw.channels < 3) return true;
   constexpr float kChromaNoise = 16.0f / 255.0f;  // in gray pictures stored as JPEG
-  const std::size_t count = texelCount(raw);
+  const std::size_t count = raw.pixels();
   for (std::size_t i = 0; i < count; ++i) {
     const float r = channel(raw, i, 0), g = channel(raw, i, 1), b = channel(raw, i, 2);
     if (std::max({r, g, b}) - std::min({r, g, b}) > kChromaNoise) return false;
@@ -170,7 +157,7 @@ Texture normalsFromHeights(const std::string& name, const RawImage& raw, float b
   texture.format = TexelFormat::data;
   texture.width = raw.width;
   texture.height = raw.height;
-  texture.texels.resize(texelCount(raw));
+  texture.texels.resize(raw.pixels());
   const auto height = [&](int x, int y) {
     const std::size_t row = static_cast<std::size_t>(wrapped(y, raw.height, wrapV));
     const std::size_t column = static_cast<std::size_t>(wrapped(x, raw.width, wrapU));

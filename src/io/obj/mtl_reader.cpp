@@ -67,11 +67,11 @@ class MtlParser {
     static const std::set<std::string> maps{"map_kd", "map_ks", "map_ke", "map_d",  "map_bump",
                                             "bump",   "norm",   "map_pr", "map_pm", "map_ns"};
     MtlStatements& material = materials_.back();
-    if (colors.count(key) > 0) {
+    if (colors.contains(key)) {
       if (const auto color = readColor()) material.numbers[key] = *color;
-    } else if (scalars.count(key) > 0) {
+    } else if (scalars.contains(key)) {
       material.numbers[key] = Rgb(readScalar());
-    } else if (maps.count(key) > 0) {
+    } else if (maps.contains(key)) {
       material.maps[key == "map_bump" ? "bump" : key] = readMap();
     }
   }
@@ -138,123 +138,77 @@ class MtlParser {
   std::vector<MtlStatements> materials_;
 };
 
-// Makes a material from its statements.
-class MtlConverter {
- public:
-  MtlConverter(const MtlStatements& source, Warnings& warnings)
-      : source_(source), warnings_(warnings) {}
-
-  MtlMaterial convert() {
-    result_.where = source_.where;
-    m_.name = source_.name;
-    maps();
-    colors();
-    roughness();
-    metalness();
-    illumination();
-    return std::move(result_);
-  }
-
- private:
-  bool has(const char* keyword) const { return source_.numbers.count(keyword) > 0; }
-  Rgb color(const char* keyword) const { return source_.numbers.at(keyword); }
-  float number(const char* keyword) const { return color(keyword).x; }
-  MtlMaterial::Map map(const char* keyword) const {
-    const auto found = source_.maps.find(keyword);
-    return found == source_.maps.end() ? MtlMaterial::Map() : found->second;
-  }
-
-  Rgb albedo(const Rgb& given) {
-    const Rgb clamped = min(max(given, Rgb(0.0f)), Rgb(1.0f));
-    if (!(given == clamped)) warnings_.add("material color clamped to [0, 1]", source_.where);
+MtlMaterial materialOf(const MtlStatements& source, Warnings& warnings) {
+  MtlMaterial result;
+  result.where = source.where;
+  Material& m = result.material;
+  m.name = source.name;
+  const auto has = [&](const char* keyword) { return source.numbers.contains(keyword); };
+  const auto number = [&](const char* keyword) { return source.numbers.at(keyword).x; };
+  const auto map = [&](const char* keyword) {
+    const auto found = source.maps.find(keyword);
+    return found == source.maps.end() ? MtlMaterial::Map() : found->second;
+  };
+  const auto color = [&](const char* keyword) {
+    const Rgb given = source.numbers.at(keyword), clamped = min(max(given, Rgb(0.0f)), Rgb(1.0f));
+    if (!(given == clamped)) warnings.add("material color clamped to [0, 1]", source.where);
     return clamped;
-  }
-  float unit(float x) {
+  };
+  const auto unit = [&](float x) {
     const float clamped = std::clamp(x, 0.0f, 1.0f);
-    if (x != clamped) warnings_.add("material value clamped to [0, 1]", source_.where);
+    if (x != clamped) warnings.add("material value clamped to [0, 1]", source.where);
     return clamped;
-  }
-
-  void maps() {
-    result_.diffuse = map("map_kd");
-    result_.specular = map("map_ks");
-    result_.normal = map("norm");
-    result_.bump = map("bump");
-    result_.alpha = map("map_d");
-    for (const char* unsupported : {"map_ke", "map_pr", "map_pm", "map_ns"}) {
-      if (source_.maps.count(unsupported) > 0) {
-        warnings_.add("map that is not supported", source_.where);
-      }
+  };
+  result.diffuse = map("map_kd");
+  result.specular = map("map_ks");
+  result.normal = map("norm");
+  result.bump = map("bump");
+  result.alpha = map("map_d");
+  for (const char* unsupported : {"map_ke", "map_pr", "map_pm", "map_ns"}) {
+    if (source.maps.contains(unsupported)) {
+      warnings.add("map that is not supported", source.where);
     }
   }
-
-  void colors() {
-    if (has("kd")) {
-      m_.diffuse = albedo(color("kd"));
-    } else if (!result_.diffuse.name.empty()) {
-      m_.diffuse = Rgb(1.0f);
-    }
-    if (has("ks")) {
-      m_.specular = albedo(color("ks"));
-    } else if (!result_.specular.name.empty()) {
-      m_.specular = Rgb(1.0f);
-    }
-    // With a map of it, Ke is a factor: without the map the whole surface would glow.
-    if (has("ke") && source_.maps.count("map_ke") == 0) {
-      m_.emission = max(color("ke"), Rgb(0.0f));
-    }
+  if (!result.diffuse.name.empty()) m.diffuse = Rgb(1.0f);
+  if (!result.specular.name.empty()) m.specular = Rgb(1.0f);
+  if (has("kd")) m.diffuse = color("kd");
+  if (has("ks")) m.specular = color("ks");
+  // With a map of it, Ke is a factor: without the map the whole surface would glow.
+  if (has("ke") && !source.maps.contains("map_ke")) {
+    m.emission = max(source.numbers.at("ke"), Rgb(0.0f));
   }
-
-  void roughness() {
-    if (has("pr")) {
-      m_.roughness = unit(number("pr"));
-    } else if (has("ns")) {
-      m_.roughness = std::pow(2.0f / (std::max(number("ns"), 0.0f) + 2.0f), 0.25f);
-    }
+  if (has("pr")) {
+    m.roughness = unit(number("pr"));
+  } else if (has("ns")) {
+    m.roughness = std::pow(2.0f / (std::max(number("ns"), 0.0f) + 2.0f), 0.25f);
   }
-
-  void metalness() {
-    if (!has("pm")) return;
+  if (has("pm")) {
     const float metal = unit(number("pm"));
-    const Rgb base = m_.hasGlossy() ? m_.specular : Rgb(kDielectricReflectance);
-    m_.specular = base * (1 - metal) + m_.diffuse * metal;
-    m_.diffuse *= 1 - metal;
+    const Rgb base = m.hasGlossy() ? m.specular : Rgb(kDielectricReflectance);
+    m.specular = base * (1 - metal) + m.diffuse * metal;
+    m.diffuse *= 1 - metal;
   }
-
-  void illumination() {
-    const float illum = has("illum") ? number("illum") : 2;
-    const bool glass = illum == 4 || illum == 6 || illum == 7 || illum == 9;
-    const float dissolve = has("d") ? unit(number("d")) : has("tr") ? unit(1 - number("tr")) : 1;
-    if (illum == 0 || illum == 1) m_.specular = Rgb(0.0f);
-    if (illum == 3 || illum == 5 || illum == 8) {
-      m_.mirror = m_.specular;
-      m_.mirrorGrazing = illum == 5 ? Rgb(1.0f) : m_.mirror;
-    }
-    if (glass) {
-      m_.transmission = has("tf") ? albedo(color("tf")) : Rgb(1 - dissolve);
-      m_.ior = index();
-      m_.diffuse *= dissolve;
-    } else {
-      m_.coverage = dissolve;
-    }
-    m_.glossyReflection = !m_.hasMirror() && !m_.hasTransmission();
-    m_.castsShadow = m_.blocksLight();
+  const float illum = has("illum") ? number("illum") : 2;
+  const float dissolve = has("d") ? unit(number("d")) : has("tr") ? unit(1 - number("tr")) : 1;
+  if (illum == 0 || illum == 1) m.specular = Rgb(0.0f);
+  if (illum == 3 || illum == 5 || illum == 8) {
+    m.mirror = m.specular;
+    m.mirrorGrazing = illum == 5 ? Rgb(1.0f) : m.mirror;
   }
-
-  float index() {
-    if (!has("ni")) return m_.ior;
-    const float clamped = std::clamp(number("ni"), 1.0f, kLargestIor);
-    if (clamped != number("ni")) {
-      warnings_.add("index of refraction clamped to [1, 10]", source_.where);
+  if (illum == 4 || illum == 6 || illum == 7 || illum == 9) {
+    m.transmission = has("tf") ? color("tf") : Rgb(1 - dissolve);
+    if (has("ni")) m.ior = std::clamp(number("ni"), 1.0f, kLargestIor);
+    if (has("ni") && m.ior != number("ni")) {
+      warnings.add("index of refraction clamped to [1, 10]", source.where);
     }
-    return clamped;
+    m.diffuse *= dissolve;
+  } else {
+    m.coverage = dissolve;
   }
-
-  const MtlStatements& source_;
-  Warnings& warnings_;
-  MtlMaterial result_;
-  Material& m_ = result_.material;
-};
+  m.glossyReflection = !m.hasMirror() && !m.hasTransmission();
+  m.castsShadow = m.blocksLight();
+  return result;
+}
 
 }  // namespace
 
@@ -262,8 +216,9 @@ void readMtl(const std::filesystem::path& path, std::map<std::string, MtlMateria
              Warnings& warnings) {
   const std::string text = readTextFile(path, kMtlBytesLimit), file = path.string();
   for (const MtlStatements& source : MtlParser(text, file, warnings).parse()) {
-    if (materials.count(source.name) > 0) continue;
-    materials.emplace(source.name, MtlConverter(source, warnings).convert());
+    if (!materials.contains(source.name)) {
+      materials.emplace(source.name, materialOf(source, warnings));
+    }
   }
 }
 

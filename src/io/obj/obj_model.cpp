@@ -267,12 +267,25 @@ class ObjReader {
   std::vector<std::array<std::uint32_t, 3>> triangles_;
 };
 
+MtlMaterial grayMaterial(const std::string& name) {
+  MtlMaterial gray;
+  gray.material.name = name;
+  gray.material.diffuse = Rgb(kModelGray);
+  return gray;
+}
+
 class ObjModel : public Model {
  public:
   // Reads the material libraries, but no geometry yet. A library or a material that is missing is a
   // warning; such materials are gray.
-  ObjModel(const std::filesystem::path& path, const PathRules& rules, MemoryBudget& budget,
-           Warnings& warnings);
+  explicit ObjModel(const ModelSource& source)
+      : source_(source),
+        file_(source.path.string()),
+        text_(readTextFile(source.path, source.budget.left())) {
+    source_.budget.charge(text_.size(), 1, file_);
+    findMaterials();
+    add(grayMaterial("default"));
+  }
 
   // One for each material that faces use, and a gray one last for faces without any.
   const std::vector<Material>& materials() const override { return materials_; }
@@ -283,19 +296,16 @@ class ObjModel : public Model {
 
  private:
   using Library = std::map<std::string, MtlMaterial>;
-  struct Use {
-    std::string name, where;
-  };
 
-  std::vector<Use> findMaterials(Library& library);
-  void readLibraries(const std::string& line, const std::string& where, Library& library);
-  void addMaterial(const MtlMaterial& source);
+  void findMaterials();
+  void readLibraries(const std::string& line, const std::string& where, Library& library) const;
+  void add(const MtlMaterial& material) {
+    sources_.push_back(material);
+    materials_.push_back(material.material);
+  }
 
-  std::filesystem::path path_;
+  ModelSource source_;
   std::string file_;
-  const PathRules& rules_;
-  MemoryBudget& budget_;
-  Warnings& warnings_;
   std::string text_;  // empty after it was parsed
   bool isParsed_ = false;
   MaterialNumbers numbers_;
@@ -304,43 +314,12 @@ class ObjModel : public Model {
   std::vector<Mesh> meshes_;
 };
 
-MtlMaterial grayMaterial(const std::string& name) {
-  MtlMaterial gray;
-  gray.material.name = name;
-  gray.material.diffuse = Rgb(kModelGray);
-  return gray;
-}
-
-ObjModel::ObjModel(const std::filesystem::path& path, const PathRules& rules, MemoryBudget& budget,
-                   Warnings& warnings)
-    : path_(path),
-      file_(path.string()),
-      rules_(rules),
-      budget_(budget),
-      warnings_(warnings),
-      text_(readTextFile(path, budget.left())) {
-  budget.charge(text_.size(), 1, file_);
-  Library library;
-  for (const Use& use : findMaterials(library)) {
-    const auto known = library.find(use.name);
-    if (known == library.end()) {
-      warnings_.add("material missing, gray instead", use.where + ": " + use.name);
-    }
-    addMaterial(known == library.end() ? grayMaterial(use.name) : known->second);
-  }
-  addMaterial(grayMaterial("default"));
-}
-
-void ObjModel::addMaterial(const MtlMaterial& source) {
-  sources_.push_back(source);
-  materials_.push_back(source.material);
-}
-
 // Searches the text for the lines "mtllib ..." and "usemtl ...", because textures are asked for
-// before the geometry is parsed. Returns each material that is used once.
-std::vector<ObjModel::Use> ObjModel::findMaterials(Library& library) {
-  std::vector<Use> uses;
+// before the geometry is parsed. Adds each material that is used once.
+void ObjModel::findMaterials() {
+  std::vector<std::pair<std::string, std::string>> uses;  // names and places
   std::set<std::string> libraries;
+  Library library;
   std::uint64_t line = 1;
   std::size_t lineStart = 0;
   for (std::size_t at = 0; (at = text_.find("mtl", at)) != std::string::npos;) {
@@ -357,19 +336,27 @@ std::vector<ObjModel::Use> ObjModel::findMaterials(Library& library) {
       readLibraries(name, reader.place(), library);
     } else if (keyword == "usemtl") {
       const auto number = static_cast<std::uint32_t>(numbers_.size());
-      if (numbers_.emplace(name, number).second) uses.push_back({name, reader.place()});
+      if (numbers_.emplace(name, number).second) uses.emplace_back(name, reader.place());
     }
   }
   if (uses.size() > kMaterialLimit) {
     throwLimit(file_ + " uses more than " + std::to_string(kMaterialLimit) + " materials");
   }
-  return uses;
+  for (const auto& [name, where] : uses) {
+    const auto known = library.find(name);
+    if (known == library.end()) {
+      source_.warnings.add("material missing, gray instead", where + ": " + excerpt(name));
+    }
+    add(known == library.end() ? grayMaterial(name) : known->second);
+  }
 }
 
 // The line is one name with blanks if such a file exists, otherwise several names.
-void ObjModel::readLibraries(const std::string& line, const std::string& where, Library& library) {
+void ObjModel::readLibraries(const std::string& line, const std::string& where,
+                             Library& library) const {
   const auto resolve = [&](const std::string& name) {
-    return rules_.resolve(name, path_.parent_path(), where, /*backslashes=*/true);
+    return source_.rules.resolve(name, source_.path.parent_path(), where,
+                                 /*backslashes=*/true);
   };
   std::error_code error;
   std::vector<std::string> names{line};
@@ -380,9 +367,9 @@ void ObjModel::readLibraries(const std::string& line, const std::string& where, 
   for (const std::string& name : names) {
     const auto file = resolve(name);
     if (std::filesystem::is_regular_file(file, error)) {
-      readMtl(file, library, warnings_);
+      readNamedAt(where, [&] { readMtl(file, library, source_.warnings); });
     } else {
-      warnings_.add("material library missing", where + ": " + name);
+      source_.warnings.add("material library missing", where + ": " + excerpt(name));
     }
   }
 }
@@ -401,25 +388,24 @@ TexturedMaterial ObjModel::withMaps(std::size_t i, Material material, const Give
     source.alpha.name.clear();
     source.alphaFromDiffuse = false;
   }
-  return {loadTextures(source, path_.parent_path(), rules_, textures), {}};
+  return {loadTextures(source, source_.path.parent_path(), source_.rules, textures), {}};
 }
 
 Body ObjModel::content(SceneLayout&, const std::vector<std::uint32_t>& materials) {
   if (!std::exchange(isParsed_, true)) {
-    meshes_ = ObjReader(text_, file_, numbers_, budget_, warnings_).read();
+    meshes_ = ObjReader(text_, file_, numbers_, source_.budget, source_.warnings).read();
     std::string().swap(text_);
-    for (Mesh& mesh : meshes_) mesh.name = path_.stem().string();
+    for (Mesh& mesh : meshes_) mesh.name = source_.path.stem().string();
   }
   Body body;
-  addParts(meshes_, materials, file_, budget_, body);
+  addParts(meshes_, materials, file_, source_.budget, body);
   return body;
 }
 
 }  // namespace
 
-std::unique_ptr<Model> openObj(const std::filesystem::path& path, const PathRules& rules,
-                               MemoryBudget& budget, Warnings& warnings, const Instant&) {
-  return std::make_unique<ObjModel>(path, rules, budget, warnings);
+std::unique_ptr<Model> openObj(const ModelSource& source) {
+  return std::make_unique<ObjModel>(source);
 }
 
 }  // namespace whit

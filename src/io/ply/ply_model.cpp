@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
 #include <limits>
 #include <map>
 #include <string>
@@ -396,15 +395,15 @@ class PlyReader {
 
 class PlyModel : public Model {
  public:
-  PlyModel(const std::filesystem::path& path, MemoryBudget& budget, Warnings& warnings)
-      : file_(path.string()), budget_(budget) {
-    const std::string text = readTextFile(path, budget.left());
-    budget.charge(text.size(), 1, file_);
-    Mesh mesh = PlyReader(text, file_, budget, warnings).read();
+  explicit PlyModel(const ModelSource& source)
+      : file_(source.path.string()), budget_(source.budget) {
+    const std::string text = readTextFile(source.path, budget_.left());
+    budget_.charge(text.size(), 1, file_);
+    Mesh mesh = PlyReader(text, file_, budget_, source.warnings).read();
     materials_[0].name = "default";
     materials_[0].diffuse = Rgb(mesh.colors.empty() ? kModelGray : 1.0f);
     if (mesh.triangles.empty()) return;
-    mesh.name = path.stem().string();
+    mesh.name = source.path.stem().string();
     mesh.materials = {0};
     meshes_.push_back(std::move(mesh));
   }
@@ -430,9 +429,8 @@ class PlyModel : public Model {
 
 }  // namespace
 
-std::unique_ptr<Model> openPly(const std::filesystem::path& path, const PathRules&,
-                               MemoryBudget& budget, Warnings& warnings, const Instant&) {
-  return std::make_unique<PlyModel>(path, budget, warnings);
+std::unique_ptr<Model> openPly(const ModelSource& source) {
+  return std::make_unique<PlyModel>(source);
 }
 
 }  // namespace whit

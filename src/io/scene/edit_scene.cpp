@@ -26,10 +26,6 @@ JsonDocument sectionsOf(const JsonDocument& document, std::initializer_list<cons
   return sections;
 }
 
-void takeOver(JsonDocument& sections, JsonDocument& document) {
-  for (auto& [name, section] : sections.root.items()) document.root[name] = std::move(section);
-}
-
 bool editLights(const LoadOptions& options, const JsonDocument& sections, Scene& scene) {
   SceneDescription read;
   JsonObject file{JsonValue(sections)};
@@ -38,13 +34,6 @@ bool editLights(const LoadOptions& options, const JsonDocument& sections, Scene&
   if (moves || read.lights.size() != scene.lights.size()) return false;
   editShading(scene, scene.materials, std::move(read.lights));
   return true;
-}
-
-bool editLights(const SceneSetting& setting, const LoadOptions& options, Scene& scene) {
-  JsonDocument described{scene.name, {{"lights", describe(scene.lights)}}, {}};
-  if (scene.motion.ofLights()) return false;
-  applySceneSetting(setting, described);
-  return editLights(options, described, scene);
 }
 
 // Edits cameras that stand still, and the image size. The positions of cameras decide which
@@ -63,15 +52,11 @@ bool editView(const LoadOptions& options, const JsonDocument& sections, Scene& s
   return true;
 }
 
-bool namesImage(const JsonDocument& document) {
-  const auto sky = document.root.find("sky");
-  return sky != document.root.end() && sky->is_object() && sky->contains("image");
-}
-
 bool editSurroundings(const LoadOptions& options, const JsonDocument& sections, Scene& scene) {
-  if (!options.sky.empty() || scene.sky.kind == Sky::Kind::image || namesImage(sections)) {
-    return false;
-  }
+  const auto given = sections.root.find("sky");
+  const bool namesImage =
+      given != sections.root.end() && given->is_object() && given->contains("image");
+  if (!options.sky.empty() || scene.sky.kind == Sky::Kind::image || namesImage) return false;
   Warnings none;
   SceneContext context("scene", options, none, nullptr);
   JsonObject file{JsonValue(sections)};
@@ -143,7 +128,10 @@ bool editSections(const SceneSetting& setting, const LoadOptions& options,
 bool editScene(const SceneSetting& setting, const LoadOptions& options, JsonDocument* document,
                Scene& scene) {
   if (!document) {
-    return setting.tokens.front() == "lights" && editLights(setting, options, scene);
+    if (setting.tokens.front() != "lights" || scene.motion.ofLights()) return false;
+    JsonDocument lights{scene.name, {{"lights", describe(scene.lights)}}, {}};
+    applySceneSetting(setting, lights);
+    return editLights(options, lights, scene);
   }
   JsonDocument sections{document->file, Json::object(), document->parameters};
   if (!editSections(setting, options, *document, sections, scene)) return false;
@@ -151,7 +139,7 @@ bool editScene(const SceneSetting& setting, const LoadOptions& options, JsonDocu
     document->root["materials"][setting.tokens[1]] =
         std::move(sections.root["materials"][setting.tokens[1]]);
   } else {
-    takeOver(sections, *document);
+    document->root.update(sections.root);
   }
   return true;
 }

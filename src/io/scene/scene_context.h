@@ -37,7 +37,7 @@ struct SceneContext {
   Model& model(const std::filesystem::path& path, const std::string& where) {
     std::unique_ptr<Model>& entry = models[path.string()];
     if (entry) return *entry;
-    entry = readNamedAt(where, [&] { return openModel(path, rules, budget, warnings, instant); });
+    entry = readNamedAt(where, [&] { return openModel({path, rules, budget, warnings, instant}); });
     for (const Animation& animation : entry->animations()) scene.animations.push_back(animation);
     return *entry;
   }

@@ -300,6 +300,7 @@ Body ItemReader::readShape(JsonObject& item, const JsonValue& name) {
 
 Body ItemReader::readModel(JsonObject& item, const JsonValue& path) {
   const auto file = context_.rules.resolve(path.text(), context_.folder, path.where());
+  if (!isModelFile(file)) path.fail("a model (" + modelExtensions() + ")");
   Model& model = context_.model(file, path.where());
   return contentOf(model, file, modelMaterials(model, item));
 }

@@ -11,9 +11,9 @@ namespace whit {
 namespace {
 
 constexpr std::uint32_t kNoObject = 0xffffffffu;
-constexpr std::uint64_t kMany = std::numeric_limits<std::uint64_t>::max();
 
 std::uint64_t saturatingSum(std::uint64_t a, std::uint64_t b) {
+  constexpr std::uint64_t kMany = std::numeric_limits<std::uint64_t>::max();
   return a > kMany - b ? kMany : a + b;
 }
 
@@ -58,6 +58,11 @@ std::uint64_t bytesOf(const Mesh& mesh) {
          (mesh.materials.size() + mesh.order.size()) * sizeof(std::uint32_t);
 }
 
+void SceneLayout::Standing::operator+=(const Standing& more) {
+  rank = saturatingSum(rank, more.rank);
+  item = saturatingSum(item, more.item);
+}
+
 std::uint32_t SceneLayout::add(const std::string& name) {
   bodies_.push_back({name, {}, {}, {}});
   return static_cast<std::uint32_t>(bodies_.size() - 1);
@@ -94,56 +99,38 @@ void SceneLayout::moveTo(SceneDescription& scene) {
     }
   }
   budget_.charge(instances, sizeof(Instance), "instances");
-  sizes_.assign(bodies_.size(), 0);
-  items_.assign(bodies_.size(), 0);
+  within_.assign(bodies_.size(), {});
   for (const std::uint32_t body : order) {
-    sizes_[body] = bodies_[body].parts.size();
-    items_[body] = bodies_[body].itemCount();
-    for (const Placement& child : bodies_[body].children) {
-      sizes_[body] += sizes_[child.body];
-      items_[body] = saturatingSum(items_[body], items_[child.body]);
-    }
+    within_[body] = {bodies_[body].parts.size(), bodies_[body].itemCount()};
+    for (const Placement& child : bodies_[body].children) within_[body] += within_[child.body];
   }
-  scene.items = items_[0];
-  scene.itemNames.resize(std::min<std::uint64_t>(items_[0], kNamedItems));
+  scene.items = within_[0].item;
+  scene.itemNames.resize(std::min<std::uint64_t>(scene.items, kNamedItems));
   place({0, Affine()}, Affine(), kNoNode, {}, scene);
 }
 
-// Counted from the body's own; one that mingles with the part before shares its rank.
-std::vector<std::uint64_t> SceneLayout::ranksOfParts(const Body& body) const {
-  std::vector<std::uint64_t> ranks(body.parts.size());
-  std::uint64_t withinChildren = 0;
+std::vector<SceneLayout::Standing> SceneLayout::standingsOfParts(const Body& body) const {
+  std::vector<Standing> standings(body.parts.size());
+  Standing children;
   auto child = body.children.begin();
-  for (std::size_t i = 0; i < ranks.size(); ++i) {
+  for (std::size_t i = 0; i < standings.size(); ++i) {
     for (; child != body.children.end() && child->partsBefore <= i; ++child) {
-      withinChildren += sizes_[child->body];
+      children += within_[child->body];
     }
-    ranks[i] = body.parts[i].mingles ? ranks[i - 1] : withinChildren + i;
+    standings[i] = children;
+    standings[i] += {i, body.parts[i].item};
+    if (body.parts[i].mingles) standings[i].rank = standings[i - 1].rank;
   }
-  return ranks;
-}
-
-// Counted from the body's first, what its children hold included.
-std::vector<std::uint64_t> SceneLayout::itemsOfParts(const Body& body) const {
-  std::vector<std::uint64_t> items(body.parts.size());
-  std::uint64_t withinChildren = 0;
-  auto child = body.children.begin();
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    for (; child != body.children.end() && child->partsBefore <= i; ++child) {
-      withinChildren = saturatingSum(withinChildren, items_[child->body]);
-    }
-    items[i] = saturatingSum(withinChildren, body.parts[i].item);
-  }
-  return items;
+  return standings;
 }
 
 // Names the body's own items; `first` is the number of the first item within the body.
 void SceneLayout::nameItems(const Body& body, const ItemName& placed, std::uint64_t first,
                             SceneDescription& scene) const {
   if (first >= scene.itemNames.size()) return;
-  const std::vector<std::uint64_t> items = itemsOfParts(body);
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    const std::uint64_t number = saturatingSum(first, items[i]);
+  const std::vector<Standing> standings = standingsOfParts(body);
+  for (std::size_t i = 0; i < standings.size(); ++i) {
+    const std::uint64_t number = saturatingSum(first, standings[i].item);
     if (number >= scene.itemNames.size()) continue;
     const ItemName& own = body.items.empty() ? placed : body.items[body.parts[i].item];
     scene.itemNames[number] = own ? *own : body.name;
@@ -160,14 +147,14 @@ Mesh SceneLayout::take(BodyPart& part, const std::string& body) {
 
 void SceneLayout::placeOnce(Body& body, const Affine& toWorld, Standing at,
                             SceneDescription& scene) {
-  const std::vector<std::uint64_t> ranks = ranksOfParts(body), items = itemsOfParts(body);
+  const std::vector<Standing> standings = standingsOfParts(body);
   for (std::size_t i = 0; i < body.parts.size(); ++i) {
     BodyPart& part = body.parts[i];
     Mesh mesh = take(part, body.name);
     if (!part.mingles) {
       scene.instances.push_back({static_cast<std::uint32_t>(scene.objects.size()),
-                                 toWorld * part.toBody, at.rank + ranks[i], kNoNode,
-                                 saturatingSum(at.item, items[i])});
+                                 toWorld * part.toBody, at.rank + standings[i].rank, kNoNode,
+                                 saturatingSum(at.item, standings[i].item)});
       scene.objects.push_back({mesh.name, {}});
     }
     scene.objects.back().meshes.push_back(std::move(mesh));
@@ -177,14 +164,14 @@ void SceneLayout::placeOnce(Body& body, const Affine& toWorld, Standing at,
 void SceneLayout::addObject(std::uint32_t index, SceneDescription& scene) {
   Body& body = bodies_[index];
   objects_[index] = static_cast<std::uint32_t>(scene.objects.size());
-  const std::vector<std::uint64_t> ranks = ranksOfParts(body), items = itemsOfParts(body);
+  const std::vector<Standing> standings = standingsOfParts(body);
   Object object{body.name, {}};
   for (std::size_t i = 0; i < body.parts.size(); ++i) {
     Mesh mesh = take(body.parts[i], body.name);
     if (!(body.parts[i].toBody == Affine())) transform(mesh, body.parts[i].toBody);
-    mesh.rank = ranks[i];
+    mesh.rank = standings[i].rank;
     mesh.item = static_cast<std::uint32_t>(
-        std::min<std::uint64_t>(items[i], std::numeric_limits<std::uint32_t>::max()));
+        std::min<std::uint64_t>(standings[i].item, std::numeric_limits<std::uint32_t>::max()));
     object.meshes.push_back(std::move(mesh));
   }
   scene.objects.push_back(std::move(object));
@@ -203,8 +190,8 @@ void SceneLayout::place(const Placement& placed, const Affine& toMover, std::uin
   }
   for (const Placement& child : body.children) {
     const Affine toChild = toMover * child.toParent;
-    const Standing ofChild{at.rank + child.partsBefore,
-                           saturatingSum(at.item, body.itemsBefore(child.partsBefore))};
+    Standing ofChild = at;
+    ofChild += {child.partsBefore, body.itemsBefore(child.partsBefore)};
     if (child.motion) {
       const auto node = static_cast<std::uint32_t>(scene.motion.rig.size());
       budget_.charge(1, sizeof(RigNode), "what moves");
@@ -213,8 +200,7 @@ void SceneLayout::place(const Placement& placed, const Affine& toMover, std::uin
     } else {
       place(child, toChild, mover, ofChild, scene);
     }
-    at.rank += sizes_[child.body];
-    at.item = saturatingSum(at.item, items_[child.body]);
+    at += within_[child.body];
   }
 }
 

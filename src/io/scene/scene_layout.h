@@ -75,12 +75,14 @@ class SceneLayout {
   void moveTo(SceneDescription& scene);
 
  private:
-  std::vector<std::uint64_t> ranksOfParts(const Body& body) const;
-  std::vector<std::uint64_t> itemsOfParts(const Body& body) const;
-  // Where in the order of the scene a body stands: counted in parts, and in items.
+  // A place in the order of the scene: counted in parts, and in items.
   struct Standing {
     std::uint64_t rank = 0, item = 0;
+    void operator+=(const Standing& more);
   };
+  // Counted from the body's beginning, what its children hold included. A part that mingles with
+  // the part before shares its rank.
+  std::vector<Standing> standingsOfParts(const Body& body) const;
   void nameItems(const Body& body, const ItemName& placed, std::uint64_t first,
                  SceneDescription& scene) const;
   // `toMover`: to the space of the rig's node that carries it, or to the world.
@@ -93,8 +95,7 @@ class SceneLayout {
   MemoryBudget& budget_;
   std::deque<Body> bodies_;  // a deque: references stay valid
   std::vector<std::uint64_t> counts_;
-  std::vector<std::uint64_t> sizes_;    // parts of bodies and of all within them
-  std::vector<std::uint64_t> items_;    // items, likewise
+  std::vector<Standing> within_;        // numbers of parts and items of bodies and all within them
   std::vector<std::uint32_t> objects_;  // of bodies placed more than once
 };
 

@@ -42,13 +42,6 @@ void requireNumbers(const Column& column, const std::string& where) {
                            std::to_string(at % column.each) + "]");
 }
 
-void requireLength(const Column& column, std::size_t vertices, const std::string& where) {
-  if (column.numbers.empty() || column.numbers.size() == column.each * vertices) return;
-  throwBadScene(where, std::string("expected ") + column.name + " for " + std::to_string(vertices) +
-                           " vertices, " + std::to_string(column.each) + " numbers each, found " +
-                           std::to_string(column.numbers.size()) + " numbers");
-}
-
 template <typename To>
 std::vector<To> copied(const Column& column) {
   static_assert(std::is_trivially_copyable_v<To>);
@@ -87,18 +80,6 @@ std::vector<std::array<std::uint32_t, 3>> trianglesOf(const GivenMesh& given, st
   return triangles;
 }
 
-std::size_t verticesOf(const GivenMesh& given, const std::string& where) {
-  if (given.positions.size() % 3 != 0) {
-    throwBadScene(where, "expected three numbers a position, found " +
-                             std::to_string(given.positions.size()) + " numbers");
-  }
-  const std::size_t vertices = given.positions.size() / 3;
-  if (vertices >= std::numeric_limits<std::uint32_t>::max()) {
-    throwLimit(where + ": more than 2^32 - 2 vertices");
-  }
-  return vertices;
-}
-
 }  // namespace
 
 std::uint64_t bytesOf(const GivenMesh& given) {
@@ -108,11 +89,24 @@ std::uint64_t bytesOf(const GivenMesh& given) {
 }
 
 Mesh meshOf(const GivenMesh& given, const std::string& where) {
-  const std::size_t vertices = verticesOf(given, where);
+  const std::size_t vertices = given.positions.size() / 3;
+  if (given.positions.size() % 3 != 0) {
+    throwBadScene(where, "expected three numbers a position, found " +
+                             std::to_string(given.positions.size()) + " numbers");
+  }
+  if (vertices >= std::numeric_limits<std::uint32_t>::max()) {
+    throwLimit(where + ": more than 2^32 - 2 vertices");
+  }
   const Column positions{given.positions, 3, "positions"}, normals{given.normals, 3, "normals"},
       uvs{given.uvs, 2, "uvs"}, colors{given.colors, 3, "colors", 0, 1};
   for (const Column& column : {positions, normals, uvs, colors}) {
-    requireLength(column, vertices, where);
+    const std::size_t expected = column.each * vertices, found = column.numbers.size();
+    if (found != 0 && found != expected) {
+      throwBadScene(where, std::string("expected ") + column.name + " for " +
+                               std::to_string(vertices) + " vertices, " +
+                               std::to_string(column.each) + " numbers each, found " +
+                               std::to_string(found) + " numbers");
+    }
     requireNumbers(column, where);
   }
   Mesh mesh;
