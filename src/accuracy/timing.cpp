@@ -5,6 +5,7 @@
 
 #include "core/quantile.h"
 #include "core/stopwatch.h"
+#include "render/render_frame.h"
 
 namespace whit::accuracy {
 
@@ -13,19 +14,6 @@ namespace {
 // The part of a point's share of the budget that time() uses. All points get an error before any
 // gets a good time; repeat() uses the rest.
 constexpr double kFirstShare = 0.25;
-
-// Subtracts the time of its lifetime from the budget.
-class BudgetUse {
- public:
-  explicit BudgetUse(double& leftMs) : leftMs_(leftMs) {}
-  ~BudgetUse() { leftMs_ -= stopwatch_.ms(); }
-  BudgetUse(const BudgetUse&) = delete;
-  BudgetUse& operator=(const BudgetUse&) = delete;
-
- private:
-  double& leftMs_;
-  Stopwatch stopwatch_;
-};
 
 // The number of values that can be left out at either end. The median of the distribution lies
 // beyond the remaining values with P(Binomial(n, 1/2) <= spare) at either end, and half of the
@@ -58,9 +46,7 @@ FrameSource::FrameSource(const Scene& scene, const Camera& camera, const RenderO
       mode_(options.mode) {}
 
 const FrameStats& FrameSource::render() {
-  stats = mode_ == Mode::reference ? renderer.renderReference(camera_, film)
-                                   : renderer.render(camera_, film);
-  return stats;
+  return stats = renderFrame(renderer, mode_, camera_, film);
 }
 
 double roundMs(const Block& block, double pointMs, double baselineMs) {
@@ -124,21 +110,22 @@ void PointTimer::measureRounds(Point& point, FrameSource& frames, int mostRounds
 
 void PointTimer::time(Point& point, FrameSource& frames, std::size_t points) {
   const double share = kFirstShare * std::max(leftMs_, 0.0) / static_cast<double>(points);
-  const BudgetUse use(leftMs_);
+  const Stopwatch stopwatch;
   TimeSamples& samples = samples_[point.label()];
   const double first = frames.stats.frameMs;
   measureRounds(point, frames, kMostRounds, share);
   if (samples.ratios.empty()) useFirstFrame(samples, first);
   point.timing = samples.timing();
+  leftMs_ -= stopwatch.ms();
 }
 
 void PointTimer::repeat(Point& point, int rounds, const Open& open) {
-  const BudgetUse use(leftMs_);
-  const Stopwatch opening;
+  const Stopwatch stopwatch;
   const std::unique_ptr<FrameSource> frames = open();
   frames->render();
-  measureRounds(point, *frames, std::min(rounds, kMostRounds), leftMs_ - opening.ms());
+  measureRounds(point, *frames, std::min(rounds, kMostRounds), leftMs_ - stopwatch.ms());
   point.timing = samples_[point.label()].timing();
+  leftMs_ -= stopwatch.ms();
 }
 
 void PointTimer::useFirstFrame(TimeSamples& samples, double ms) {
