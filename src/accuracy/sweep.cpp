@@ -208,7 +208,11 @@ class SceneSweeper {
   SceneSweep run() {
     baseline_ = std::make_unique<FrameSource>(sceneFor(base_), camera_, base_);
     baseline_->render();
-    describe();
+    sweep_.scene = scenes_.given().name;
+    sweep_.width = baseline_->film.image.windowWidth();
+    sweep_.height = baseline_->film.image.windowHeight();
+    sweep_.machine = baseline_->renderer.machine();
+    sweep_.referenceCutoff = cutoff_;
     chooseSamples();
     timer_.emplace(*baseline_, 1000 * settings_.timingSeconds.value_or(scope_.limits.timingSeconds),
                    scope_.longFrames() ? kUsesOfLongBaseline : kUsesOfBaseline);
@@ -225,14 +229,6 @@ class SceneSweeper {
  private:
   const Scene& sceneFor(const RenderOptions& options) {
     return scenes_.with(options.sphereSegments);
-  }
-
-  void describe() {
-    sweep_.scene = scenes_.given().name;
-    sweep_.width = baseline_->film.image.windowWidth();
-    sweep_.height = baseline_->film.image.windowHeight();
-    sweep_.machine = baseline_->renderer.machine();
-    sweep_.referenceCutoff = cutoff_;
   }
 
   // The rays of the exact picture decide.

@@ -5,7 +5,6 @@
 
 #include "core/quantile.h"
 #include "core/stopwatch.h"
-#include "render/render_frame.h"
 
 namespace whit::accuracy {
 
@@ -39,16 +38,6 @@ Interval medianInterval(std::vector<double> values) {
   return {values[spare], values[values.size() - 1 - spare]};
 }
 
-FrameSource::FrameSource(const Scene& scene, const Camera& camera, const RenderOptions& options)
-    : renderer(scene, options),
-      film(makeFilm(scene, options)),
-      camera_(camera),
-      mode_(options.mode) {}
-
-const FrameStats& FrameSource::render() {
-  return stats = renderFrame(renderer, mode_, camera_, film);
-}
-
 double roundMs(const Block& block, double pointMs, double baselineMs) {
   return (block.frames + block.warmUp) * (pointMs + baselineMs);
 }
@@ -80,16 +69,6 @@ std::vector<double> PointTimer::timeBlock(FrameSource& source, const Block& bloc
   return ms;
 }
 
-// The ratio is to the mean of the baseline's blocks before and after.
-void PointTimer::measureRound(TimeSamples& samples, FrameSource& frames, const Block& block) {
-  const double before = lastBlockMs_;
-  const std::vector<double> ms = timeBlock(frames, block);
-  lastBlockMs_ = quantile(timeBlock(baseline_, block), 0.5);
-  samples.ms.insert(samples.ms.end(), ms.begin(), ms.end());
-  const double around = (before + lastBlockMs_) / 2;
-  if (around > 0) samples.ratios.push_back(quantile(ms, 0.5) / around);
-}
-
 void PointTimer::measureRounds(Point& point, FrameSource& frames, int mostRounds, double budgetMs) {
   const Stopwatch stopwatch;
   TimeSamples& samples = samples_[point.label()];
@@ -101,9 +80,14 @@ void PointTimer::measureRounds(Point& point, FrameSource& frames, int mostRounds
   double left = budgetMs - roundMs(block, 0, baselineMs);
   if (left < cost) return;
   if (samples.provisional) samples = {};
-  lastBlockMs_ = quantile(timeBlock(baseline_, block), 0.5);
+  double after = quantile(timeBlock(baseline_, block), 0.5);
   while (left >= cost && samples.timing().rounds < mostRounds && samples.timing().noisy()) {
-    measureRound(samples, frames, block);
+    const double before = after;
+    const std::vector<double> ms = timeBlock(frames, block);
+    after = quantile(timeBlock(baseline_, block), 0.5);
+    samples.ms.insert(samples.ms.end(), ms.begin(), ms.end());
+    // The ratio is to the mean of the baseline's blocks before and after.
+    if (before + after > 0) samples.ratios.push_back(quantile(ms, 0.5) / ((before + after) / 2));
     left = budgetMs - stopwatch.ms();
   }
 }
@@ -114,7 +98,10 @@ void PointTimer::time(Point& point, FrameSource& frames, std::size_t points) {
   TimeSamples& samples = samples_[point.label()];
   const double first = frames.stats.frameMs;
   measureRounds(point, frames, kMostRounds, share);
-  if (samples.ratios.empty()) useFirstFrame(samples, first);
+  if (samples.ratios.empty()) {
+    if (firstFrames_++ % usesOfBaseline_ == 0) baselineMs_.push_back(baseline_.render().frameMs);
+    samples = {{first}, {first / baselineMs_.back()}, true};
+  }
   point.timing = samples.timing();
   leftMs_ -= stopwatch.ms();
 }
@@ -126,11 +113,6 @@ void PointTimer::repeat(Point& point, int rounds, const Open& open) {
   measureRounds(point, *frames, std::min(rounds, kMostRounds), leftMs_ - stopwatch.ms());
   point.timing = samples_[point.label()].timing();
   leftMs_ -= stopwatch.ms();
-}
-
-void PointTimer::useFirstFrame(TimeSamples& samples, double ms) {
-  if (firstFrames_++ % usesOfBaseline_ == 0) baselineMs_.push_back(baseline_.render().frameMs);
-  samples = {{ms}, {ms / baselineMs_.back()}, true};
 }
 
 Timing PointTimer::baselineTiming() {
