@@ -323,15 +323,18 @@ bool FrameTracer::traceReference(const FrameRequest& request, TracedFrame& frame
                                  const TraceCalls& calls) {
   const ImageSize size = filmSizeOf(frame.film);
   Comparison& comparison = frame.comparison.emplace();
-  sizeFilm(comparison.reference, size, Crop{0, 0, size.width, size.height});
+  Film& reference = comparison.reference;
+  sizeFilm(reference, size, Crop{0, 0, size.width, size.height});
+  sizeDisplay(reference);
   double msPerRow = kReferenceBandMs;
   for (int y = 0; y < size.height; y = comparison.rows) {
     const int rows = std::max(static_cast<int>(kReferenceBandMs / msPerRow), 1);
     const int end = std::min(y + rows, size.height);
     sizeFilm(band_, size, Crop{0, y, size.width, end});
     const double ms = renderer_->renderReference(request.camera, band_).frameMs;
-    std::ranges::copy(band_.image.pixels,
-                      &comparison.reference.image.pixels[comparison.reference.image.index(0, y)]);
+    const std::size_t at = reference.image.index(0, y);
+    std::ranges::copy(band_.image.pixels, &reference.image.pixels[at]);
+    std::ranges::copy(band_.display.rgba, &reference.display.rgba[4 * at]);
     comparison.referenceMs += ms;
     comparison.rows = end;
     msPerRow = std::max(ms / (end - y), 1e-3);

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "cli/app/image_output.h"
-#include "cli/app/interrupt.h"
+#include "cli/app/program.h"
 #include "core/error.h"
 #include "core/formatted.h"
 #include "core/nearest_name.h"

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <fstream>
+#include <iterator>
 #include <memory>
 #include <new>
 #include <optional>
@@ -168,13 +169,8 @@ std::string digestOf(const Image& image) {
 std::string digestOfProgram() {
   std::ifstream program("/proc/self/exe", std::ios::binary);
   if (!program) return "unknown";
-  Digester d;
-  std::vector<char> block(std::size_t{1} << 20);
-  while (program.read(block.data(), static_cast<std::streamsize>(block.size())),
-         program.gcount() > 0) {
-    d.bytes(block.data(), static_cast<std::size_t>(program.gcount()));
-  }
-  return d.hex();
+  const std::string bytes{std::istreambuf_iterator<char>(program), {}};
+  return digestOf({bytes});
 }
 
 }  // namespace whit::accuracy

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
-#include <map>
 
 #include "core/formatted.h"
 #include "core/quantile.h"
@@ -12,9 +10,6 @@
 namespace whit::accuracy {
 
 namespace {
-
-// Limits of the findings, at equal samples.
-constexpr double kWithinACodePct = 99.9, kGoodFlip = 0.01, kFastFlip = 0.03;
 
 // The upper end of the interval that holds the time of a frame.
 double longestMs(const Timing& t) {
@@ -29,46 +24,6 @@ std::string pointText(const Point& point) {
   std::string text = formatted("%s (FLIP %.4f", point.label().c_str(), point.total.flipMean);
   if (!point.timing.hasSpread()) text += "; a time without a spread";
   return text + ")";
-}
-
-bool isWithin(double value, double noise) { return std::abs(value) <= noise; }
-
-// True if the point takes less time than the baseline, beyond the noise.
-bool savesTime(const Point& point, const Noise& noise) {
-  const Timing& t = point.timing;
-  const bool noiseAlone =
-      isWithin(t.ratio - 1, noise.time) || (t.hasSpread() && t.ratioLow <= 1 && t.ratioHigh >= 1);
-  return t.ratio < 1 && !noiseAlone;
-}
-
-const Point* cheaper(const Point* a, const Point* b) {
-  return !a || b->timing.ratio < a->timing.ratio ? b : a;
-}
-
-// The points whose time has a spread, or all of them if there is none.
-std::vector<const Point*> bestTimed(const std::vector<const Point*>& values) {
-  std::vector<const Point*> timed;
-  std::copy_if(values.begin(), values.end(), std::back_inserter(timed),
-               [](const Point* point) { return point->timing.hasSpread(); });
-  return timed.empty() ? values : timed;
-}
-
-// The point that represents a knob, of all its values.
-const Point* chosenOf(const std::vector<const Point*>& values, const SceneSweep& sweep) {
-  const double baseFlip = sweep.points.front().total.flipMean;
-  const Noise noise = noiseOf(sweep);
-  const Point *saving = nullptr, *best = nullptr;
-  double least = values.front()->total.flipMean;
-  for (const Point* point : values) least = std::min(least, point->total.flipMean);
-  for (const Point* point : bestTimed(values)) {
-    const bool visible = point->total.flipMean - baseFlip >= kVisibleFlip;
-    if (savesTime(*point, noise) && !visible) saving = cheaper(saving, point);
-  }
-  if (saving) return saving;
-  for (const Point* point : values) {
-    if (isWithin(point->total.flipMean - least, noise.flip)) best = cheaper(best, point);
-  }
-  return best ? best : values.front();
 }
 
 }  // namespace
@@ -157,58 +112,6 @@ Noise noiseOf(const SceneSweep& sweep) {
   }
   const auto& rounding = sweep.points.front().sameSamples;
   return {quantile(spreads, 0.5), rounding ? rounding->flipMean : 0};
-}
-
-std::vector<const Point*> chosenPoints(const SceneSweep& sweep) {
-  std::vector<const Point*> presets, chosen;
-  std::map<std::string, std::vector<const Point*>> valuesOf;
-  for (const Point& point : sweep.points) {
-    if (point.kind == PointKind::preset) presets.push_back(&point);
-    if (point.kind == PointKind::knob) valuesOf[point.knob].push_back(&point);
-  }
-  for (const auto& [knob, values] : valuesOf) chosen.push_back(chosenOf(values, sweep));
-  std::stable_sort(chosen.begin(), chosen.end(), [](const Point* a, const Point* b) {
-    return a->timing.ratio < b->timing.ratio;
-  });
-  presets.insert(presets.end(), chosen.begin(), chosen.end());
-  return presets;
-}
-
-std::vector<Finding> findingsOf(const SceneSweep& sweep) {
-  const Point& base = sweep.points.front();
-  std::vector<Finding> findings;
-  if (base.sameSamples) {
-    const ImageDifference& d = *base.sameSamples;
-    const double withinACode = 100 - d.pixelsGe2CodesPct;
-    findings.push_back(
-        {withinACode >= kWithinACodePct && d.flipMean < kGoodFlip,
-         formatted("%s is within one code (a step of an 8-bit sRGB channel) of the exact picture "
-                   "at equal samples in %g %% of pixels, with a mean FLIP below %g",
-                   base.label().c_str(), kWithinACodePct, kGoodFlip),
-         formatted("%.3f %%, FLIP %.5f", withinACode, d.flipMean)});
-  }
-  if (base.arithmetic) {
-    const ArithmeticError& a = *base.arithmetic;
-    findings.push_back(
-        {a.samePath.maxCode <= 1,
-         "arithmetic alone moves no pixel of the same path by more than a code",
-         formatted("at most %d; path divergences (pixels where rounding at an edge or a cutoff "
-                   "led to another surface): %llu",
-                   a.samePath.maxCode, static_cast<unsigned long long>(a.divergences))});
-  }
-  const Point* fast = nullptr;
-  for (const Point& point : sweep.points) {
-    if (!point.timing.hasSpread()) continue;
-    if (point.sameSamples && point.sameSamples->flipMean < kFastFlip) fast = cheaper(fast, &point);
-  }
-  if (fast) {
-    findings.push_back(
-        {fast->timing.ratio <= 0.5,
-         formatted("half the time with a mean FLIP below %g at equal samples", kFastFlip),
-         formatted("the cheapest is %s, %.2f times the time, FLIP %.5f", fast->label().c_str(),
-                   fast->timing.ratio, fast->sameSamples->flipMean)});
-  }
-  return findings;
 }
 
 std::vector<IdleKnob> groupedByReason(const std::vector<IdleKnob>& idle) {

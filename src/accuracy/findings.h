@@ -43,17 +43,6 @@ Noise noiseOf(const SceneSweep& sweep);
 // A larger increase of FLIP is called visible.
 inline constexpr double kVisibleFlip = 0.01;
 
-// The presets, then one point of each knob, ordered by time: the value that saves the most time
-// without a visible increase of the error; if none saves time, the cheapest with the least error.
-std::vector<const Point*> chosenPoints(const SceneSweep& sweep);
-
-// A claim about the baseline or about the best saving, and the numbers that decide it.
-struct Finding {
-  bool holds = false;
-  std::string claim, found;
-};
-std::vector<Finding> findingsOf(const SceneSweep& sweep);
-
 // One entry for each reason, with the names of all that were left out for it: "depth=8, bvh".
 std::vector<IdleKnob> groupedByReason(const std::vector<IdleKnob>& idle);
 

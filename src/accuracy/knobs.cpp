@@ -63,8 +63,8 @@ std::string KnobValue::idle(EffectSet effects) const {
   return "without a cutoff the rays of both impulses double with every bounce";
 }
 
-void Knob::makeExact(RenderOptions& options, const Exactness& exactness) const {
-  setOption(options, name, spec.endless ? formatValue(OptionSpec{}, exactness.cutoff) : exact);
+void Knob::makeExact(RenderOptions& options, float cutoff) const {
+  setOption(options, name, spec.endless ? formatValue(OptionSpec{}, cutoff) : exact);
 }
 
 std::string Knob::idle(EffectSet effects) const {
@@ -100,29 +100,28 @@ std::vector<Knob> chooseKnobs(const std::vector<std::string>& names) {
   return chosen;
 }
 
-Exactness exactnessFor(EffectSet effects, bool full) {
+float exactCutoff(EffectSet effects, bool full) {
   // 1e-5 is within one 8-bit code of 1e-6 in every pixel of the shipped glass scenes.
-  if (effects.has(Effect::transmission)) return {full ? 1e-5f : 3e-5f};
-  return {0};
+  if (!effects.has(Effect::transmission)) return 0;
+  return full ? 1e-5f : 3e-5f;
 }
 
-RenderOptions exactIn(RenderOptions options, Cause cause, const Exactness& exactness) {
+RenderOptions exactIn(RenderOptions options, Cause cause, float cutoff) {
   for (const Knob& knob : allKnobs()) {
-    if (knob.cause == cause) knob.makeExact(options, exactness);
+    if (knob.cause == cause) knob.makeExact(options, cutoff);
   }
   return options;
 }
 
-RenderOptions exactAtSameSamples(const RenderOptions& options, const Exactness& exactness) {
-  RenderOptions exact = exactIn(options, Cause::algorithm, exactness);
-  exact = exactIn(exact, Cause::arithmetic, exactness);
+RenderOptions exactAtSameSamples(const RenderOptions& options, float cutoff) {
+  RenderOptions exact = exactIn(options, Cause::algorithm, cutoff);
+  exact = exactIn(exact, Cause::arithmetic, cutoff);
   exact.mode = Mode::reference;
   return exact;
 }
 
-RenderOptions referenceOptions(const RenderOptions& options, int samples,
-                               const Exactness& exactness) {
-  RenderOptions exact = exactIn(exactAtSameSamples(options, exactness), Cause::sampling, exactness);
+RenderOptions referenceOptions(const RenderOptions& options, int samples, float cutoff) {
+  RenderOptions exact = exactIn(exactAtSameSamples(options, cutoff), Cause::sampling, cutoff);
   exact.spp = samples;
   return exact;
 }
@@ -150,9 +149,8 @@ RenderOptions withoutTransport(RenderOptions options) {
 }
 
 RenderOptions transportOptions(const RenderOptions& options, int samples) {
-  const Exactness exactness{kTransportCutoff};
-  RenderOptions exact = referenceOptions(options, samples, exactness);
-  exact = exactIn(exact, Cause::transport, exactness);
+  RenderOptions exact = referenceOptions(options, samples, kTransportCutoff);
+  exact = exactIn(exact, Cause::transport, kTransportCutoff);
   exact.mode = Mode::packets;
   return exact;
 }

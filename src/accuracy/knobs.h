@@ -24,10 +24,7 @@ struct KnobValue {
 
 // The cutoff that counts as exact. It is not 0 in scenes with glass, where rays split in two at
 // every bounce and only the cutoff ends that.
-struct Exactness {
-  float cutoff = 0;
-};
-Exactness exactnessFor(EffectSet effects, bool full);
+float exactCutoff(EffectSet effects, bool full);
 
 struct Knob {
   std::string name;
@@ -36,7 +33,7 @@ struct Knob {
   KnobSpec spec;
   std::string exact;  // label
 
-  void makeExact(RenderOptions& options, const Exactness& exactness) const;
+  void makeExact(RenderOptions& options, float cutoff) const;
   // The reason why the knob changes nothing in scenes with these effects; empty if there is none.
   std::string idle(EffectSet effects) const;
 };
@@ -48,13 +45,12 @@ const std::vector<Knob>& allKnobs();
 std::vector<Knob> chooseKnobs(const std::vector<std::string>& names);
 
 // `options` with every knob of the cause at its exact value.
-RenderOptions exactIn(RenderOptions options, Cause cause, const Exactness& exactness);
+RenderOptions exactIn(RenderOptions options, Cause cause, float cutoff);
 // The picture that an image with `options` is measured against at equal samples: by the scalar
 // reference, exact in everything except sampling.
-RenderOptions exactAtSameSamples(const RenderOptions& options, const Exactness& exactness);
+RenderOptions exactAtSameSamples(const RenderOptions& options, float cutoff);
 // The same with `samples` samples in every pixel, the reference of all points.
-RenderOptions referenceOptions(const RenderOptions& options, int samples,
-                               const Exactness& exactness);
+RenderOptions referenceOptions(const RenderOptions& options, int samples, float cutoff);
 
 // True for options with light that Whitted's model leaves out.
 bool hasTransport(const RenderOptions& options);

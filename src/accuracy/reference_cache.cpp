@@ -1,5 +1,6 @@
 #include "accuracy/reference_cache.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -23,8 +24,6 @@ constexpr const char* kRaysKey = "rays";
 constexpr const char* kErrorKey = "standardError";
 constexpr const char* kRadianceKey = "meanRadiance";
 constexpr const char* kNoiseKey = "noiseFlip";
-
-double meanOf(const RgbD& c) { return (c.x + c.y + c.z) / 3; }
 
 using Numbers = std::map<std::string, double>;
 
@@ -72,49 +71,41 @@ KeptPicture readOrRender(const std::string& path, Film film, const std::string& 
 
 }  // namespace
 
-PassMean::PassMean(const Image& shape)
-    : shape_(shape.width, shape.height, shape.window),
-      mean_(shape.pixels.size()),
-      deviations_(mean_.size()),
-      evens_(mean_.size()),
-      odds_(mean_.size()) {}
-
-void PassMean::add(const Image& pass) {
-  std::vector<RgbD>& half = passes_ % 2 == 0 ? evens_ : odds_;
-  ++passes_;
-  for (std::size_t i = 0; i < mean_.size(); ++i) {
-    const RgbD value(pass.pixels[i]), before = value - mean_[i];
-    mean_[i] += before / static_cast<double>(passes_);
-    deviations_[i] += before * (value - mean_[i]);
-    half[i] += value;
+std::vector<RgbD> PassMean::means(std::size_t first, std::size_t step) const {
+  std::vector<RgbD> sums(passes_[0].pixels.size());
+  double count = 0;
+  for (std::size_t i = first; i < passes_.size(); i += step, ++count) {
+    for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += RgbD(passes_[i].pixels[k]);
   }
+  for (RgbD& sum : sums) sum = sum / count;
+  return sums;
 }
 
-Image PassMean::picture(const std::vector<RgbD>& sums, int passes) const {
-  Image image = shape_;
-  for (std::size_t i = 0; i < sums.size(); ++i) {
-    image.pixels[i] = Rgb(sums[i] / static_cast<double>(passes));
-  }
+Image PassMean::picture(std::size_t first, std::size_t step) const {
+  Image image = passes_[0];
+  std::ranges::transform(means(first, step), image.pixels.begin(),
+                         [](const RgbD& mean) { return Rgb(mean); });
   return image;
 }
 
-Image PassMean::mean() const { return picture(mean_, 1); }
-
-Image PassMean::half(bool odd) const {
-  return odd ? picture(odds_, passes_ / 2) : picture(evens_, (passes_ + 1) / 2);
-}
-
 double PassMean::standardError() const {
+  const std::vector<RgbD> mean = means(0, 1);
   double sum = 0;
-  for (const RgbD& d : deviations_) sum += meanOf(d);
-  const double variance = sum / (static_cast<double>(deviations_.size()) * (passes_ - 1));
-  return std::sqrt(variance / passes_);
+  for (const Image& pass : passes_) {
+    for (std::size_t k = 0; k < mean.size(); ++k) {
+      const RgbD off = RgbD(pass.pixels[k]) - mean[k];
+      sum += dot(off, off) / 3;
+    }
+  }
+  const auto passes = static_cast<double>(passes_.size());
+  return std::sqrt(sum / (static_cast<double>(mean.size()) * (passes - 1)) / passes);
 }
 
 double PassMean::meanRadiance() const {
+  const std::vector<RgbD> mean = means(0, 1);
   double sum = 0;
-  for (const RgbD& m : mean_) sum += meanOf(m);
-  return sum / static_cast<double>(mean_.size());
+  for (const RgbD& m : mean) sum += (m.x + m.y + m.z) / 3;
+  return sum / static_cast<double>(mean.size());
 }
 
 ReferenceCache::ReferenceCache(const Scene& scene, const Camera& camera, std::string folder,
@@ -163,7 +154,7 @@ TransportPicture ReferenceCache::transport(const RenderOptions& options, Progres
   KeptPicture kept =
       readOrRender(pathOf(digest), makeFilm(scene_, options), digest, [&](Film& film) {
         Renderer renderer(scene_, options);
-        PassMean passes(film.image);
+        PassMean passes;
         double ms = 0;
         for (int pass = 0; pass < kTransportPasses; ++pass) {
           renderer.setSeed(static_cast<std::uint32_t>(pass));

@@ -35,17 +35,13 @@ inline constexpr int kTransportPasses = 8;
 // The mean of independent pictures of one view, which differ in their noise, and its error.
 class PassMean {
  public:
-  // `shape` gives size and window.
-  explicit PassMean(const Image& shape);
-
-  void add(const Image& pass);
-  int passes() const { return passes_; }
+  void add(const Image& pass) { passes_.push_back(pass); }
 
   // Needs one pass or more.
-  Image mean() const;
+  Image mean() const { return picture(0, 1); }
   // The mean of the passes with even or odd numbers, to tell how visible noise is. Needs two passes
   // or more.
-  Image half(bool odd) const;
+  Image half(bool odd) const { return picture(odd ? 1 : 0, 2); }
   // The standard error of the mean in linear radiance: the root mean square over pixels and
   // channels. Needs two passes or more.
   double standardError() const;
@@ -53,13 +49,11 @@ class PassMean {
   double meanRadiance() const;
 
  private:
-  Image picture(const std::vector<RgbD>& sums, int passes) const;
+  // The means of every step-th pass, from `first` on.
+  std::vector<RgbD> means(std::size_t first, std::size_t step) const;
+  Image picture(std::size_t first, std::size_t step) const;
 
-  Image shape_;
-  int passes_ = 0;
-  // One value a pixel: the mean so far, the sum of squared deviations from it (Welford 1962), and
-  // the sums of even and odd passes.
-  std::vector<RgbD> mean_, deviations_, evens_, odds_;
+  std::vector<Image> passes_;
 };
 
 // Files are named by a digest of scene tables, camera, options, image window and program. A file

@@ -1,14 +1,120 @@
 #include "accuracy/report.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
 #include "accuracy/findings.h"
+#include "core/formatted.h"
+#include "core/option_table.h"
 
 namespace whit::accuracy {
 
 namespace {
+
+// JSON has no number for what is not finite.
+Json numberOf(double value) {
+  return std::isfinite(value) ? Json(value) : Json(value > 0 ? "inf" : "nan");
+}
+
+template <typename Value>
+Json orNull(bool known, const Value& value) {
+  return known ? Json(value) : Json();
+}
+
+// Null: the difference was not measured.
+void addDifference(Json& row, const std::string& group, const ImageDifference* d) {
+  const auto add = [&](const char* name, double value) {
+    row[group + name] = d ? numberOf(value) : Json();
+  };
+  const ImageDifference none, &e = d ? *d : none;
+  add("_rmse", e.rmse);
+  add("_relmse", e.relmse);
+  add("_psnr_db", e.psnrDb);
+  add("_flip", e.flipMean);
+  add("_max_code", e.maxCode);
+  add("_ge1_pct", e.pixelsGe1CodePct);
+  add("_ge2_pct", e.pixelsGe2CodesPct);
+  add("_energy", e.energyRatio);
+}
+
+void addTiming(Json& row, const Point& point) {
+  const Timing& t = point.timing;
+  row["frames"] = t.frames;
+  row["median_ms"] = t.medianMs;
+  row["least_ms"] = t.leastMs;
+  row["rounds"] = t.rounds;
+  row["x_baseline"] = numberOf(t.ratio);
+  row["x_baseline_low"] = orNull(t.hasSpread(), t.ratioLow);
+  row["x_baseline_high"] = orNull(t.hasSpread(), t.ratioHigh);
+  row["noisy"] = t.noisy();
+  row["settled_ms"] = numberOf(t.settledMs);
+  for (std::size_t k = 0; k < kRayKindCount; ++k)
+    row[std::string(kRayKinds[k].name) + "_rays"] = point.stats.meter.tally[k].rays;
+}
+
+void addErrors(Json& row, const Point& point) {
+  addDifference(row, "total", &point.total);
+  row["total_hdr_flip"] = numberOf(point.totalHdrFlip);
+  addDifference(row, "same_samples", point.sameSamples ? &*point.sameSamples : nullptr);
+  addDifference(row, "sampling", &point.sampling);
+  addDifference(row, "algorithm", &point.algorithm);
+  const ArithmeticError* const a = point.arithmetic ? &*point.arithmetic : nullptr;
+  addDifference(row, "arithmetic", a ? &a->samePath : nullptr);
+  addDifference(row, "transport", point.transport ? &*point.transport : nullptr);
+  row["path_flips"] = a ? Json(a->divergences) : Json();
+  row["path_flips_per_mpx"] = a ? numberOf(a->divergencesPerMpx) : Json();
+  row["median_ulp"] = a ? numberOf(a->medianUlp) : Json();
+  row["p999_ulp"] = a ? numberOf(a->ulp999) : Json();
+  row["worst_ulp"] = a ? numberOf(a->worstUlp) : Json();
+  row["nonfinite"] = point.total.nonFinite;
+  row["front"] = point.onFront;
+  row["covers_neighbor"] = point.coversNeighbor;
+  row["front_same_samples"] = point.onFrontSameSamples;
+}
+
+void addRun(Json& row, const SceneSweep& sweep, const Point& point, const RunFacts& facts) {
+  std::string options;
+  for (const auto& [name, value] : pictureOptions(point.options)) {
+    options += (options.empty() ? "" : " ") + name + "=" + value;
+  }
+  row["options"] = options;
+  row["reference_samples"] = sweep.referenceSamples;
+  row["reference_cutoff"] = static_cast<double>(sweep.referenceCutoff);
+  row["reference_digest"] = sweep.referenceDigest;
+  row["truth"] = kTruthNames[static_cast<std::size_t>(sweep.truth())];
+  const bool known = sweep.transport.has_value();
+  const TransportFacts t = sweep.transport.value_or(TransportFacts());
+  row["truth_passes"] = orNull(known, t.passes);
+  row["truth_samples"] = orNull(known, t.samples);
+  row["truth_standard_error"] = orNull(known, t.standardError);
+  row["truth_mean_radiance"] = orNull(known, t.meanRadiance);
+  row["truth_noise_flip"] = orNull(known, t.noiseFlip);
+  row["truth_digest"] = orNull(known, t.digest);
+  row["sweep"] = facts.full ? "full" : "quick";
+  row["seed"] = facts.seed;
+  row["cpu"] = facts.cpu;
+  row["cores"] = facts.cores;
+  row["threads"] = sweep.machine.threads;
+  row["simd"] = sweep.machine.simd;
+  row["embree"] = sweep.machine.embree;
+  row["compiler"] = facts.compiler;
+  row["commit"] = facts.commit;
+}
+
+std::string fieldOf(const Json& value) {
+  if (value.is_null()) return {};
+  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+  if (value.is_number_float()) return formatted("%.7g", value.get<double>());
+  if (!value.is_string()) return value.dump();
+  const auto& text = value.get_ref<const std::string&>();
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
 
 // The build turns report.html into a string literal.
 constexpr std::string_view kTemplate =
@@ -17,11 +123,9 @@ constexpr std::string_view kTemplate =
 
 Json pointsJson(const SceneSweep& sweep, const RunFacts& facts) {
   Json points = sweepRows(sweep, facts);
-  const std::vector<const Point*> chosen = chosenPoints(sweep);
   for (std::size_t i = 0; i < sweep.points.size(); ++i) {
     const Point& point = sweep.points[i];
     points[i]["label"] = point.label();
-    points[i]["chosen"] = std::find(chosen.begin(), chosen.end(), &point) != chosen.end();
     const auto addPicture = [&](const char* name, const std::string& png) {
       if (!png.empty()) points[i][name] = base64(png);
     };
@@ -44,7 +148,6 @@ Json sceneJson(const SceneSweep& sweep, const RunFacts& facts) {
              {"visible_flip", kVisibleFlip},
              {"noisy_pct", kNoisyPct},
              {"least_rounds", kLeastRounds},
-             {"findings", Json::array()},
              {"points", pointsJson(sweep, facts)},
              {"truth_png", base64(sweep.truthPng)},
              {"stages", stagesJson(sweep.stages)},
@@ -54,16 +157,116 @@ Json sceneJson(const SceneSweep& sweep, const RunFacts& facts) {
     scene["transport"] = transportText(sweep);
     scene["choice"] = choiceText(sweep);
   }
-  for (const Finding& finding : findingsOf(sweep)) {
-    scene["findings"].push_back(
-        {{"holds", finding.holds}, {"claim", finding.claim}, {"found", finding.found}});
-  }
   for (const IdleKnob& group : groupedByReason(sweep.idle))
     scene["not_swept"].push_back({{"names", group.name}, {"because", group.because}});
   return scene;
 }
 
+// Longer labels, which combinations have, get a line of their own.
+constexpr std::size_t kLongestLabel = 25;
+
+constexpr const char* kWords =
+    "FLIP: how visible a difference from the truth is, 0 to 1. RMSE: root of the mean squared "
+    "difference of linear radiance. Off: share of the pixels that differ by a step of an 8-bit "
+    "sRGB "
+    "channel or more. The last two columns are against the exact picture with as many samples a "
+    "pixel. +-: half the interval that holds the median time with 90 % confidence.";
+
+std::string wrapped(const std::string& text) { return whit::wrapped(text, 0, 2, kTableColumns); }
+
+// Frames of microseconds on a busy machine have spreads and ratios beyond any column.
+constexpr double kLargest = 9999;
+
+std::string spreadCell(const Point& point) {
+  const Timing& t = point.timing;
+  if (!t.hasSpread()) return "? ";
+  const double pct = t.spreadPct();
+  return (pct <= kLargest ? formatted("%.*f", pct < 10 ? 1 : 0, pct) : ">1e4") +
+         (t.noisy() ? "~" : " ");
+}
+
+std::string thousandRays(const Point& point) {
+  double rays = 0;
+  for (const RayTally& tally : point.stats.meter.tally) rays += static_cast<double>(tally.rays);
+  return formatted(rays < 1e6 ? "%.1f" : "%.0f", rays / 1e3);
+}
+
+struct Column {
+  const char* title;
+  int width;  // including the space before it
+  std::string (*cell)(const Point& point);
+};
+
+constexpr std::array kColumns{
+    Column{"ms", 9, [](const Point& p) { return formatted("%.2f", p.timing.settledMs); }},
+    Column{"+-% ", 6, spreadCell},
+    Column{"x base", 7,
+           [](const Point& p) {
+             const double ratio = p.timing.ratio;
+             return formatted(ratio <= kLargest ? "%.2f" : "%.1e", ratio);
+           }},
+    Column{"krays", 9, thousandRays},
+    Column{"FLIP", 9, [](const Point& p) { return formatted("%.5f", p.total.flipMean); }},
+    Column{"RMSE", 8, [](const Point& p) { return formatted("%.1e", p.total.rmse); }},
+    Column{"off %", 8, [](const Point& p) { return formatted("%.2f", p.total.pixelsGe1CodePct); }},
+    Column{"FLIP", 9,
+           [](const Point& p) {
+             return p.sameSamples ? formatted("%.5f", p.sameSamples->flipMean) : "-";
+           }},
+    Column{"off %", 8, [](const Point& p) {
+             return p.sameSamples ? formatted("%.3f", p.sameSamples->pixelsGe1CodePct) : "-";
+           }}};
+
+std::string rowOf(const Point& point, std::size_t labelWidth) {
+  std::string label = point.label(), row;
+  if (label.size() > labelWidth) {
+    row = wrapped(label);
+    label.clear();
+  }
+  label.resize(labelWidth, ' ');
+  row += label + (point.onFront ? "*" : " ");
+  for (const Column& c : kColumns) row += formatted("%*s", c.width, c.cell(point).c_str());
+  return row + "\n";
+}
+
 }  // namespace
+
+Json sweepRows(const SceneSweep& sweep, const RunFacts& facts) {
+  Json rows = Json::array();
+  for (const Point& point : sweep.points) {
+    Json row{{"scene", sweep.scene}, {"width", sweep.width}, {"height", sweep.height}};
+    row["kind"] = kPointKindNames[static_cast<std::size_t>(point.kind)];
+    row["knob"] = point.knob;
+    row["value"] = point.value;
+    row["cause"] = point.cause ? kCauseNames[static_cast<std::size_t>(*point.cause)] : "";
+    addTiming(row, point);
+    addErrors(row, point);
+    addRun(row, sweep, point, facts);
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+std::string csvOf(const Json& rows) {
+  std::string text;
+  const auto addLine = [&](const Json& row, const auto& field) {
+    std::string line;
+    for (const auto& item : row.items()) line += "," + field(item);
+    text += line.substr(std::min<std::size_t>(line.size(), 1)) + "\n";
+  };
+  if (rows.empty()) return text;
+  addLine(rows.front(), [](const auto& item) { return item.key(); });
+  for (const Json& row : rows) addLine(row, [](const auto& item) { return fieldOf(item.value()); });
+  return text;
+}
+
+std::string sweepCsv(const std::vector<SceneSweep>& sweeps, const RunFacts& facts) {
+  Json all = Json::array();
+  for (const SceneSweep& sweep : sweeps) {
+    for (Json& row : sweepRows(sweep, facts)) all.push_back(std::move(row));
+  }
+  return csvOf(all);
+}
 
 Json stagesJson(const std::vector<StageDifference>& stages) {
   Json json = Json::array();
@@ -107,6 +310,60 @@ std::string base64(std::string_view bytes) {
     for (std::size_t k = 0; k < 4; ++k)
       text += i + k <= bytes.size() ? kDigits[bits >> (18 - 6 * k) & 63] : '=';
   }
+  return text;
+}
+
+std::string referenceText(const SceneSweep& sweep) {
+  return formatted(
+      "reference: scalar, double precision, depth %d, cutoff %g, %d samples a pixel, "
+      "%.1f s%s, %.8s",
+      kDepthLimit, static_cast<double>(sweep.referenceCutoff), sweep.referenceSamples,
+      sweep.referenceMs / 1e3, sweep.referenceFromFile ? " (by an earlier run)" : "",
+      sweep.referenceDigest.c_str());
+}
+
+std::string transportText(const SceneSweep& sweep) {
+  if (!sweep.transport) return {};
+  const TransportFacts& t = *sweep.transport;
+  std::string text = formatted(
+      "truth: all transport, by packets, depth %d, cutoff %g, %d samples a pixel in %d independent "
+      "passes, %.1f s%s, %.8s; standard error of a pixel, root mean square: %.2e",
+      kDepthLimit, static_cast<double>(kTransportCutoff), t.samples, t.passes, t.renderMs / 1e3,
+      t.fromFile ? " (by an earlier run)" : "", t.digest.c_str(), t.standardError);
+  if (t.meanRadiance > 0)
+    text += formatted(", %.2g %% of the mean radiance", 100 * t.standardError / t.meanRadiance);
+  text += formatted("; half of its passes differ from the others by a FLIP of %.4f", t.noiseFlip);
+  const auto& arithmetic = sweep.points.front().arithmetic;
+  if (arithmetic) {
+    text += formatted("; single precision is off by %.1e", arithmetic->samePath.rmse);
+  }
+  return text;
+}
+
+std::string sweepTable(const SceneSweep& sweep, std::uint32_t seed) {
+  std::size_t width = 12;
+  for (const Point& point : sweep.points) {
+    if (point.label().size() <= kLongestLabel) width = std::max(width, point.label().size());
+  }
+  std::string text =
+      wrapped(formatted("%s, %dx%d, %d thread%s, %s, Embree %s", sweep.scene.c_str(), sweep.width,
+                        sweep.height, sweep.machine.threads, sweep.machine.threads == 1 ? "" : "s",
+                        sweep.machine.simd.c_str(), sweep.machine.embree.c_str()));
+  text += wrapped(referenceText(sweep));
+  if (sweep.transport) text += wrapped(transportText(sweep));
+  text += wrapped(kWords);
+  text += "\n" + std::string(width + 1, ' ');
+  for (const Column& c : kColumns) text += formatted("%*s", c.width, c.title);
+  text += "\n";
+  for (const Point& point : sweep.points) text += rowOf(point, width);
+  text += wrapped(formatted("* on the front of FLIP over time; ~ noisy: not known within %g %%; ? "
+                            "fewer than %d rounds, and therefore on no front; measured in random "
+                            "order, seed %u; the errors by cause are in report.html",
+                            kNoisyPct, kLeastRounds, seed)) +
+          "\n";
+  if (sweep.transport) text += wrapped(choiceText(sweep)) + "\n";
+  for (const IdleKnob& group : groupedByReason(sweep.idle))
+    text += wrapped("not swept: " + group.name + ": " + group.because);
   return text;
 }
 

@@ -13,8 +13,8 @@ namespace whit::accuracy {
 
 using Json = nlohmann::ordered_json;
 
-// A table with a row for each point, the baseline's errors by cause, and what was left out. No line
-// has more than kTableColumns letters.
+// A table with a row for each point, and the points that were left out. No line has more than
+// kTableColumns letters.
 inline constexpr std::size_t kTableColumns = 100;
 std::string sweepTable(const SceneSweep& sweep, std::uint32_t seed);
 // One line about the scalar reference, and one about the picture with all transport, which is empty
@@ -34,8 +34,7 @@ std::string sweepCsv(const std::vector<SceneSweep>& sweeps, const RunFacts& fact
 
 Json stagesJson(const std::vector<StageDifference>& stages);
 // The data of the report: {"report": "accuracy", "scenes": [...]}. The points of a scene are its
-// rows of sweep.csv, with the label, the pictures as PNG files in base64, and whether the chart of
-// knobs shows the point.
+// rows of sweep.csv, with the label and the pictures as PNG files in base64.
 Json reportJson(const std::vector<SceneSweep>& sweeps, const RunFacts& facts);
 
 // The page report.html with `data` in it; "report" of the data is "accuracy", "effects" or

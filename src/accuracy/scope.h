@@ -1,10 +1,12 @@
 // The limits of a sweep, the points that it leaves out to keep them.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 
 #include "accuracy/measurement.h"
+#include "accuracy/reference_cache.h"
 
 namespace whit::accuracy {
 
@@ -31,19 +33,46 @@ struct Scope {
   double transportPaths = 0;  // paths of a pixel in the picture with all transport, or 0 without it
 
   // Samples a pixel of the reference.
-  int samples() const;
+  int samples() const {
+    int samples = limits.samples;
+    while (samples > limits.leastSamples && samples * raysPerSample > limits.referenceRays) {
+      samples /= 2;
+    }
+    return samples;
+  }
   // Samples a pixel in each pass of the picture with all transport. `rays` is the number of rays of
   // one sample of the whole picture.
-  int transportSamples(double rays) const;
+  int transportSamples(double rays) const {
+    int count = samples();
+    while (count > 1 && kTransportPasses * count * rays > limits.transportRays) count /= 2;
+    return count;
+  }
   bool longFrames() const { return frameRays > limits.longFrameRays; }
   // The reason why the point is left out; empty if it is measured.
-  std::string leavesOut(const Point& point) const;
+  std::string leavesOut(const Point& point) const {
+    if (point.kind == PointKind::baseline) return {};
+    if (point.options.mode == Mode::reference &&
+        point.options.spp * raysPerSample > limits.scalarRays) {
+      return "the scalar reference would take too long here";
+    }
+    if (point.options.spp > std::max(samples() / 2, baselineSpp)) {
+      return "more than half of the reference's samples";
+    }
+    if (transportPaths > 0 && whit::accuracy::transportPaths(point.options) > transportPaths / 2) {
+      return "more than half of the paths that the picture with all transport has";
+    }
+    return {};
+  }
   // True if no point is begun any more after `seconds`; the sweep gives the reason below.
   bool isOver(double seconds) const { return !chosenKnobs && seconds > limits.seconds; }
   static constexpr const char* kOverBecause =
       "the minute of a quick sweep was over: --full, or --knobs with one of them, measures it";
   // True if packets are compared with the scalar reference of the same options, path by path.
-  bool comparesPaths(const Point& point) const;
+  bool comparesPaths(const Point& point) const {
+    if (point.options.mode == Mode::reference) return false;
+    if (point.kind == PointKind::baseline) return true;
+    return point.cause == Cause::arithmetic && (chosenKnobs || !longFrames());
+  }
 };
 
 }  // namespace whit::accuracy

@@ -76,17 +76,17 @@ class ErrorMeter {
   // `scene` has exact spheres. `base` has the display and the number of samples of the exact
   // picture at equal samples. The truth is `transport`, or the reference of `samples` samples if
   // that is null. Scene, cache and `transport` must outlive the meter.
-  ErrorMeter(const Scene& scene, const Camera& camera, const RenderOptions& base,
-             const Exactness& exactness, ReferenceCache& cache, int samples,
-             const TransportPicture* transport, Progress* progress)
+  ErrorMeter(const Scene& scene, const Camera& camera, const RenderOptions& base, float cutoff,
+             ReferenceCache& cache, int samples, const TransportPicture* transport,
+             Progress* progress)
       : scene_(scene),
         camera_(camera),
         base_(base),
-        exactness_(exactness),
-        reference_(cache.get(
-            referenceOptions(transport ? withoutTransport(base) : base, samples, exactness),
-            progress)),
-        exact_(cache.get(exactAtSameSamples(base, exactness), progress).image),
+        cutoff_(cutoff),
+        reference_(
+            cache.get(referenceOptions(transport ? withoutTransport(base) : base, samples, cutoff),
+                      progress)),
+        exact_(cache.get(exactAtSameSamples(base, cutoff), progress).image),
         transport_(transport),
         hdrFlip_(truth()) {
     if (transport_) leftOut_ = against(reference_.image, truth(), SrgbEncoding::exact);
@@ -105,8 +105,8 @@ class ErrorMeter {
     comparisons.emplace_back([&] { point.totalHdrFlip = hdrFlip_.mean(image); });
     comparisons.emplace_back([&] { point.total = differenceOf(image, truth()); });
     // The point has the baseline's sampling if the exact options are the same.
-    if (digestOf(exactAtSameSamples(point.options, exactness_)) ==
-        digestOf(exactAtSameSamples(base_, exactness_))) {
+    if (digestOf(exactAtSameSamples(point.options, cutoff_)) ==
+        digestOf(exactAtSameSamples(base_, cutoff_))) {
       comparisons.emplace_back([&] { point.sameSamples = differenceOf(image, exact_); });
     }
     runTogether(comparisons);
@@ -145,9 +145,8 @@ class ErrorMeter {
   }
 
   const Image& withoutApproximations(const Point& point, const Image& own) {
-    const Exactness exactness =
-        hasTransport(point.options) ? Exactness{kTransportCutoff} : exactness_;
-    const RenderOptions exact = exactIn(point.options, Cause::algorithm, exactness);
+    const float cutoff = hasTransport(point.options) ? kTransportCutoff : cutoff_;
+    const RenderOptions exact = exactIn(point.options, Cause::algorithm, cutoff);
     const std::string digest = digestOf(exact);
     if (digest == digestOf(point.options)) return own;
     const auto found = exactPackets_.find(digest);
@@ -177,7 +176,7 @@ class ErrorMeter {
   const Scene& scene_;
   Camera camera_;
   RenderOptions base_;
-  Exactness exactness_;
+  float cutoff_;
   const ReferencePicture& reference_;
   const Image& exact_;
   const TransportPicture* transport_;
@@ -202,14 +201,18 @@ class SceneSweeper {
         scope_{settings.full ? kFull : kQuick, 0, 0, !settings.knobs.empty(), base.spp, 0},
         camera_(chooseCamera(scenes.given(), base)),
         effects_(scenes.with(0).effects.without(base.disable)),
-        exactness_(exactnessFor(effects_, settings.full)),
+        cutoff_(exactCutoff(effects_, settings.full)),
         cache_(scenes.with(0), camera_, settings.cacheFolder, settings.program),
         progress_(progress) {}
 
   SceneSweep run() {
     baseline_ = std::make_unique<FrameSource>(sceneFor(base_), camera_, base_);
     baseline_->render();
-    describe();
+    sweep_.scene = scenes_.given().name;
+    sweep_.width = baseline_->film.image.windowWidth();
+    sweep_.height = baseline_->film.image.windowHeight();
+    sweep_.machine = baseline_->renderer.machine();
+    sweep_.referenceCutoff = cutoff_;
     chooseSamples();
     timer_.emplace(*baseline_, 1000 * settings_.timingSeconds.value_or(scope_.limits.timingSeconds),
                    scope_.longFrames() ? kUsesOfLongBaseline : kUsesOfBaseline);
@@ -228,18 +231,9 @@ class SceneSweeper {
     return scenes_.with(options.sphereSegments);
   }
 
-  void describe() {
-    sweep_.scene = scenes_.given().name;
-    sweep_.width = baseline_->film.image.windowWidth();
-    sweep_.height = baseline_->film.image.windowHeight();
-    sweep_.machine = baseline_->renderer.machine();
-    sweep_.referenceCutoff = exactness_.cutoff;
-  }
-
   // The rays of the exact picture decide.
   void chooseSamples() {
-    scope_.raysPerSample =
-        cache_.get(exactAtSameSamples(base_, exactness_), nullptr).rays / base_.spp;
+    scope_.raysPerSample = cache_.get(exactAtSameSamples(base_, cutoff_), nullptr).rays / base_.spp;
     scope_.frameRays = static_cast<double>(baseline_->stats.allRays());
     sweep_.referenceSamples = scope_.samples();
   }
@@ -292,7 +286,7 @@ class SceneSweeper {
   }
 
   ErrorMeter renderReferences() {
-    ErrorMeter meter(scenes_.with(0), camera_, base_, exactness_, cache_, sweep_.referenceSamples,
+    ErrorMeter meter(scenes_.with(0), camera_, base_, cutoff_, cache_, sweep_.referenceSamples,
                      transport_ ? &*transport_ : nullptr, progress_);
     const ReferencePicture& reference = meter.reference();
     sweep_.referenceDigest = reference.digest;
@@ -441,7 +435,7 @@ class SceneSweeper {
   Scope scope_;
   Camera camera_;
   EffectSet effects_;
-  Exactness exactness_;
+  float cutoff_;
   ReferenceCache cache_;
   Progress* progress_;
   std::unique_ptr<FrameSource> baseline_;

@@ -14,19 +14,6 @@ namespace {
 // gets a good time; repeat() uses the rest.
 constexpr double kFirstShare = 0.25;
 
-// Subtracts the time of its lifetime from the budget.
-class BudgetUse {
- public:
-  explicit BudgetUse(double& leftMs) : leftMs_(leftMs) {}
-  ~BudgetUse() { leftMs_ -= stopwatch_.ms(); }
-  BudgetUse(const BudgetUse&) = delete;
-  BudgetUse& operator=(const BudgetUse&) = delete;
-
- private:
-  double& leftMs_;
-  Stopwatch stopwatch_;
-};
-
 // The number of values that can be left out at either end. The median of the distribution lies
 // beyond the remaining values with P(Binomial(n, 1/2) <= spare) at either end, and half of the
 // error that the confidence allows is available for each.
@@ -49,18 +36,6 @@ Interval medianInterval(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const std::size_t spare = spareValues(values.size());
   return {values[spare], values[values.size() - 1 - spare]};
-}
-
-FrameSource::FrameSource(const Scene& scene, const Camera& camera, const RenderOptions& options)
-    : renderer(scene, options),
-      film(makeFilm(scene, options)),
-      camera_(camera),
-      mode_(options.mode) {}
-
-const FrameStats& FrameSource::render() {
-  stats = mode_ == Mode::reference ? renderer.renderReference(camera_, film)
-                                   : renderer.render(camera_, film);
-  return stats;
 }
 
 double roundMs(const Block& block, double pointMs, double baselineMs) {
@@ -94,16 +69,6 @@ std::vector<double> PointTimer::timeBlock(FrameSource& source, const Block& bloc
   return ms;
 }
 
-// The ratio is to the mean of the baseline's blocks before and after.
-void PointTimer::measureRound(TimeSamples& samples, FrameSource& frames, const Block& block) {
-  const double before = lastBlockMs_;
-  const std::vector<double> ms = timeBlock(frames, block);
-  lastBlockMs_ = quantile(timeBlock(baseline_, block), 0.5);
-  samples.ms.insert(samples.ms.end(), ms.begin(), ms.end());
-  const double around = (before + lastBlockMs_) / 2;
-  if (around > 0) samples.ratios.push_back(quantile(ms, 0.5) / around);
-}
-
 void PointTimer::measureRounds(Point& point, FrameSource& frames, int mostRounds, double budgetMs) {
   const Stopwatch stopwatch;
   TimeSamples& samples = samples_[point.label()];
@@ -115,35 +80,39 @@ void PointTimer::measureRounds(Point& point, FrameSource& frames, int mostRounds
   double left = budgetMs - roundMs(block, 0, baselineMs);
   if (left < cost) return;
   if (samples.provisional) samples = {};
-  lastBlockMs_ = quantile(timeBlock(baseline_, block), 0.5);
+  double after = quantile(timeBlock(baseline_, block), 0.5);
   while (left >= cost && samples.timing().rounds < mostRounds && samples.timing().noisy()) {
-    measureRound(samples, frames, block);
+    const double before = after;
+    const std::vector<double> ms = timeBlock(frames, block);
+    after = quantile(timeBlock(baseline_, block), 0.5);
+    samples.ms.insert(samples.ms.end(), ms.begin(), ms.end());
+    // The ratio is to the mean of the baseline's blocks before and after.
+    if (before + after > 0) samples.ratios.push_back(quantile(ms, 0.5) / ((before + after) / 2));
     left = budgetMs - stopwatch.ms();
   }
 }
 
 void PointTimer::time(Point& point, FrameSource& frames, std::size_t points) {
   const double share = kFirstShare * std::max(leftMs_, 0.0) / static_cast<double>(points);
-  const BudgetUse use(leftMs_);
+  const Stopwatch stopwatch;
   TimeSamples& samples = samples_[point.label()];
   const double first = frames.stats.frameMs;
   measureRounds(point, frames, kMostRounds, share);
-  if (samples.ratios.empty()) useFirstFrame(samples, first);
+  if (samples.ratios.empty()) {
+    if (firstFrames_++ % usesOfBaseline_ == 0) baselineMs_.push_back(baseline_.render().frameMs);
+    samples = {{first}, {first / baselineMs_.back()}, true};
+  }
   point.timing = samples.timing();
+  leftMs_ -= stopwatch.ms();
 }
 
 void PointTimer::repeat(Point& point, int rounds, const Open& open) {
-  const BudgetUse use(leftMs_);
-  const Stopwatch opening;
+  const Stopwatch stopwatch;
   const std::unique_ptr<FrameSource> frames = open();
   frames->render();
-  measureRounds(point, *frames, std::min(rounds, kMostRounds), leftMs_ - opening.ms());
+  measureRounds(point, *frames, std::min(rounds, kMostRounds), leftMs_ - stopwatch.ms());
   point.timing = samples_[point.label()].timing();
-}
-
-void PointTimer::useFirstFrame(TimeSamples& samples, double ms) {
-  if (firstFrames_++ % usesOfBaseline_ == 0) baselineMs_.push_back(baseline_.render().frameMs);
-  samples = {{ms}, {ms / baselineMs_.back()}, true};
+  leftMs_ -= stopwatch.ms();
 }
 
 Timing PointTimer::baselineTiming() {

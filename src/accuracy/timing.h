@@ -9,14 +9,20 @@
 #include <vector>
 
 #include "accuracy/measurement.h"
+#include "render/render_frame.h"
 
 namespace whit::accuracy {
 
 // Renders frames of one view.
 class FrameSource {
  public:
-  FrameSource(const Scene& scene, const Camera& camera, const RenderOptions& options);
-  const FrameStats& render();  // one frame, with packets or with the scalar reference
+  FrameSource(const Scene& scene, const Camera& camera, const RenderOptions& options)
+      : renderer(scene, options),
+        film(makeFilm(scene, options)),
+        camera_(camera),
+        mode_(options.mode) {}
+  // Renders one frame, with packets or with the scalar reference.
+  const FrameStats& render() { return stats = renderFrame(renderer, mode_, camera_, film); }
 
   Renderer renderer;
   Film film;
@@ -85,8 +91,6 @@ class PointTimer {
 
  private:
   void measureRounds(Point& point, FrameSource& frames, int mostRounds, double budgetMs);
-  void measureRound(TimeSamples& samples, FrameSource& frames, const Block& block);
-  void useFirstFrame(TimeSamples& samples, double ms);
   std::vector<double> timeBlock(FrameSource& source, const Block& block);
 
   FrameSource& baseline_;
@@ -94,7 +98,6 @@ class PointTimer {
   int usesOfBaseline_;              // number of first frames that share a frame of the baseline
   int firstFrames_ = 0;             // number of first frames that were used so far
   std::vector<double> baselineMs_;  // all frames of the baseline that count
-  double lastBlockMs_ = 0;          // median of the baseline's last block
   std::map<std::string, TimeSamples> samples_;  // key: the point's label
 };
 

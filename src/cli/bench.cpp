@@ -2,13 +2,13 @@
 #include <cstdio>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "cli/app/image_output.h"
 #include "cli/app/progress_bar.h"
 #include "cli/bench_run.h"
 #include "cli/commands.h"
 #include "cli/json_report.h"
-#include "cli/stage_table.h"
 #include "core/error.h"
 #include "render/shadow_cache_schedule.h"
 
@@ -94,31 +94,41 @@ void addRuns(BenchRuns& runs, const std::string& name, const BenchJob& job, Prog
   }
 }
 
-void checkShadowCacheTurns(const BenchJob& job) {
-  if (job.reference()) throwUsage("--ab-shadow-cache is for packets, not --mode reference");
-  if (job.widths || job.abEffects) {
-    throwUsage(
-        "--ab-shadow-cache, --ab-effects and --widths are runs of their own: give one of them");
-  }
-  if (job.common.render.shadowCache == ShadowCacheMode::off) {
-    throwUsage("--ab-shadow-cache runs without the cache as well: leave out --shadow-cache off");
-  }
-}
-
 void checkJob(const BenchJob& job) {
   requireJsonWritable(job.json);
-  if (job.reference() && job.floor) throwUsage("--floor is for packets, not --mode reference");
-  if (job.reference() && job.widths) throwUsage("--widths is for packets, not --mode reference");
-  if (job.widths && job.common.given.contains("packet")) {
-    throwUsage("--widths runs every packet width: leave out --packet");
+  const auto refuseIf = [](bool wrong, const char* why) {
+    if (wrong) throwUsage(why);
+  };
+  const std::set<std::string>& given = job.common.given;
+  const bool reference = job.reference();
+  refuseIf(reference && job.floor, "--floor is for packets, not --mode reference");
+  refuseIf(reference && job.widths, "--widths is for packets, not --mode reference");
+  refuseIf(reference && job.abEffects, "--ab-effects is for packets, not --mode reference");
+  refuseIf(reference && job.abShadowCache,
+           "--ab-shadow-cache is for packets, not --mode reference");
+  refuseIf(job.widths + job.abEffects + job.abShadowCache > 1,
+           "--ab-shadow-cache, --ab-effects and --widths are runs of their own: give one of them");
+  refuseIf(job.widths && given.contains("packet"),
+           "--widths runs every packet width: leave out --packet");
+  refuseIf(job.abEffects && given.contains("effects"),
+           "--ab-effects runs both choices of --effects: leave out --effects");
+  refuseIf(job.abShadowCache && job.common.render.shadowCache == ShadowCacheMode::off,
+           "--ab-shadow-cache runs without the cache as well: leave out --shadow-cache off");
+}
+
+// For runs that come in pairs the ratio of the second over the first is added.
+Json benchJson(const std::vector<RunSummary>& runs, RunPairs pairs) {
+  Json json{{"schema", 1}, {"machine", machineJson(runs.at(0).machine)}};
+  json["runs"] = Json::array();
+  for (const RunSummary& run : runs) json["runs"].push_back(runJson(run));
+  const char* const name = pairs == RunPairs::shadowCache ? "warm_over_off" : "all_over_auto";
+  for (std::size_t i = 0; pairs != RunPairs::none && i + 1 < runs.size(); i += 2) {
+    const RunRatio ratio = ratioOf(runs[i + 1], runs[i]);
+    json[name].push_back({{"scene", runs[i].scene},
+                          {"frame", ratio.frame},
+                          {"outside_embree", ratio.outsideEmbree}});
   }
-  if (job.abShadowCache) checkShadowCacheTurns(job);
-  if (!job.abEffects) return;
-  if (job.reference()) throwUsage("--ab-effects is for packets, not --mode reference");
-  if (job.widths) throwUsage("--ab-effects and --widths are runs of their own: give one of them");
-  if (job.common.given.contains("effects")) {
-    throwUsage("--ab-effects runs both choices of --effects: leave out --effects");
-  }
+  return json;
 }
 
 }  // namespace

@@ -3,10 +3,15 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
+#include "accuracy/digest.h"
 #include "cli/app/frame_summary.h"
 #include "cli/app/open_scene.h"
+#include "inspect/floor.h"
+#include "render/auto_exposure.h"
+#include "render/shadow_cache_schedule.h"
 
 namespace whit::cli {
 
@@ -15,24 +20,52 @@ class BenchRun {
  public:
   // `common` gives the film's size and limits, `options` everything else.
   BenchRun(std::shared_ptr<const OpenScene> open, const CommonOptions& common,
-           const RenderOptions& options, Progress* progress);
+           const RenderOptions& options, Progress* progress)
+      : open_(std::move(open)),
+        options_(options),
+        renderer_(open_->scene, options, progress),
+        camera_(chooseCamera(open_->scene, options)),
+        film_(openFilm(open_->scene, common)),
+        maxMemoryBytes_(common.load.maxMemoryBytes) {
+    settleExposure(renderer_, camera_, options_);
+    summary_ = summarize(open_->scene, options_, renderer_, film_, open_->loadMs);
+  }
 
   // Switches the shadow cache on. It is empty in all warm-up frames but the first, which goes
   // without it, and filled before the measured ones. Not in reference mode.
   void useShadowCache() { cachesShadows_ = true; }
 
-  void warmUp();
-  void measure(bool floor);  // one frame; with `floor` also Embree alone for its rays
+  void warmUp() {
+    const bool proves = cachesShadows_ && begun_ && options_.mode != Mode::reference;
+    if (proves && coldMs_.empty()) {
+      renderer_.expectFrames(
+          memoryLeft(open_->scene, renderer_, maxMemoryBytes_),
+          options_.shadowCache == ShadowCacheMode::audit ? 1 : ShadowCacheSchedule::kTurns);
+    }
+    const FrameStats stats = renderFrame(renderer_, options_.mode, camera_, film_);
+    if (proves && renderer_.decidesShadows()) coldMs_.push_back(stats.frameMs);
+    begun_ = true;
+  }
+
+  // Measures one frame; with `floor` also Embree alone for its rays.
+  void measure(bool floor) {
+    if (!coldMs_.empty() && !summary_.shadowCache) {
+      const double fillMs = renderer_.fillShadowCache().ms;
+      summary_.shadowCache = {quantile(coldMs_, 0.5), fillMs, renderer_.shadowCacheBytes()};
+    }
+    summary_.frames.push_back(renderFrame(renderer_, options_.mode, camera_, film_));
+    summary_.imageHash = accuracy::digestOf(film_.image);
+    if (floor) summary_.floorMs.push_back(measureFloor(renderer_, camera_, film_, 1).floorMs);
+  }
+
   const RunSummary& summary() const { return summary_; }
   // Memory of the scene and the renderer in 10^6 bytes; complete after a frame.
-  double memoryMb() const;
+  double memoryMb() const { return cli::memoryMb(open_->scene, renderer_); }
   // The last frame, and the options that made it.
   const Film& film() const { return film_; }
   const RenderOptions& options() const { return options_; }
 
  private:
-  void fillShadowCache();
-
   std::shared_ptr<const OpenScene> open_;
   RenderOptions options_;
   Renderer renderer_;
@@ -50,7 +83,15 @@ struct Turns {
   int warmUp = 3, counted = 20;
   bool floor = false;
 };
-// One frame of each run in turn; a floor right after its frame.
-void takeTurns(const BenchRuns& runs, const Turns& turns, Progress* progress);
+// Measures one frame of each run in turn; a floor right after its frame.
+inline void takeTurns(const BenchRuns& runs, const Turns& turns, Progress* progress) {
+  for (int i = 0; i < turns.warmUp; ++i) {
+    for (const auto& run : runs) run->warmUp();
+  }
+  for (int i = 0; i < turns.counted; ++i) {
+    reportProgress(progress, "measuring", static_cast<double>(i) / turns.counted);
+    for (const auto& run : runs) run->measure(turns.floor);
+  }
+}
 
 }  // namespace whit::cli

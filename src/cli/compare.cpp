@@ -3,10 +3,12 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <utility>
 
+#include "accuracy/report.h"
 #include "cli/app/image_output.h"
-#include "cli/app/interrupt.h"
 #include "cli/app/open_scene.h"
+#include "cli/app/program.h"
 #include "cli/app/progress_bar.h"
 #include "cli/commands.h"
 #include "cli/json_report.h"
@@ -14,6 +16,8 @@
 #include "core/formatted.h"
 #include "core/printable.h"
 #include "inspect/path_divergence.h"
+#include "inspect/stage_comparison.h"
+#include "inspect/value_difference.h"
 #include "io/image/image_layers.h"
 #include "render/auto_exposure.h"
 
@@ -38,6 +42,20 @@ struct CompareJob {
   std::string heatmap, json;
 };
 
+// The comparison of a channel that both pictures have.
+struct ChannelDifference {
+  std::string name;  // "depth.Z"
+  bool countsThings = false;
+  ValueDifference difference;
+};
+
+struct Comparison {
+  ImageDifference difference;
+  std::optional<double> pathDivergencesPerMpx;         // unknown of two files
+  std::optional<double> timeMsA, timeMsB;              // unknown of two files
+  std::optional<std::vector<StageDifference>> stages;  // with --stages
+  std::vector<ChannelDifference> channels;
+};
 struct Compared {
   Comparison numbers;
   Image a, b;
@@ -59,14 +77,13 @@ OptionList listOptions(CompareJob& job) {
 }
 
 Compared compareFiles(const CompareJob& job) {
-  if (job.stages) throwUsage("--stages needs a scene, not two images");
-  if (!job.common.render.channels.empty()) {
-    throwUsage("--channels needs a scene: of two images those are compared that both have");
-  }
-  if (!job.common.load.settings.empty()) throwUsage("--set needs a scene, not two images");
-  if (!job.common.load.sky.empty()) throwUsage("--sky needs a scene, not two images");
-  if (job.common.render.exposure.automatic) {
-    throwUsage("--exposure auto needs a scene, not two images");
+  const CommonOptions& common = job.common;
+  for (const auto& [isGiven, option] :
+       {std::pair{job.stages, "--stages"}, std::pair{!common.render.channels.empty(), "--channels"},
+        std::pair{!common.load.settings.empty(), "--set"},
+        std::pair{!common.load.sky.empty(), "--sky"},
+        std::pair{common.render.exposure.automatic, "--exposure auto"}}) {
+    if (isGiven) throwUsage(std::string(option) + " needs a scene, not two images");
   }
   Warnings warnings(job.common.render.strict);
   Compared result;
@@ -227,6 +244,35 @@ void writeHeatMap(const CompareJob& job, const Compared& compared) {
   ImageMetadata metadata{{"a", job.subjects[0]}, {"b", job.subjects.back()}};
   if (job.subjects.size() == 1) metadata = {{"a", "packets"}, {"b", "reference"}};
   writePng(job.heatmap, heatMap(compared.a, compared.b), metadata);
+}
+
+Json orNull(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+// Infinite and unknown numbers are null.
+Json compareJson(const Comparison& comparison) {
+  const ImageDifference& d = comparison.difference;
+  Json json{{"rmse", d.rmse},
+            {"relmse", d.relmse},
+            {"psnr_db", d.psnrDb},
+            {"flip_mean", d.flipMean},
+            {"max_code", d.maxCode},
+            {"pixels_ge_1_code_pct", d.pixelsGe1CodePct},
+            {"pixels_ge_2_codes_pct", d.pixelsGe2CodesPct},
+            {"energy_ratio", d.energyRatio},
+            {"path_flips_per_mpx", orNull(comparison.pathDivergencesPerMpx)},
+            {"nonfinite", d.nonFinite},
+            {"time_ms", {{"a", orNull(comparison.timeMsA)}, {"b", orNull(comparison.timeMsB)}}}};
+  for (const ChannelDifference& c : comparison.channels) {
+    Json row{{"channel", c.name}, {"pixels_differing", c.difference.differing}};
+    if (!c.countsThings) {
+      row["pixels_incomparable"] = c.difference.incomparable;
+      row["max"] = c.difference.largest;
+      row["rms"] = c.difference.rms;
+    }
+    json["channels"].push_back(std::move(row));
+  }
+  if (comparison.stages) json["stages"] = accuracy::stagesJson(*comparison.stages);
+  return json;
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 #include "accuracy/report.h"
 #include "cli/app/image_output.h"
-#include "cli/app/interrupt.h"
+#include "cli/app/program.h"
 #include "cli/app/progress_bar.h"
 #include "cli/bench_run.h"
 #include "cli/commands.h"

@@ -1,6 +1,7 @@
 #include "cli/effects_report.h"
 
 #include <algorithm>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "cli/json_report.h"
@@ -15,13 +16,10 @@ template <typename Of>
 double medianAdded(const RunSummary& run, const RunSummary& before, const Of& of) {
   std::vector<double> added;
   for (std::size_t i = 0; i < std::min(run.frames.size(), before.frames.size()); ++i) {
-    added.push_back(of(run.frames[i]) - of(before.frames[i]));
+    added.push_back(std::invoke(of, run.frames[i]) - std::invoke(of, before.frames[i]));
   }
   return quantile(added, 0.5);
 }
-
-double frameMs(const FrameStats& frame) { return frame.frameMs; }
-double outsideMs(const FrameStats& frame) { return frame.frameMs - frame.embreeMs(); }
 
 std::int64_t raysOf(const EffectStep& step) {
   return static_cast<std::int64_t>(medianFrame(step.run).allRays());
@@ -45,11 +43,13 @@ Json effectsRows(const std::vector<EffectStep>& steps) {
   for (const EffectStep& step : steps) {
     const EffectStep* const before = &step == steps.data() ? nullptr : &step - 1;
     const FrameStats frame = medianFrame(step.run);
-    Json row{{"effect", step.added},
-             {"frame_ms", frame.frameMs},
-             {"added_ms", before ? medianAdded(step.run, before->run, frameMs) : frame.frameMs},
-             {"added_outside_embree_ms",
-              before ? medianAdded(step.run, before->run, outsideMs) : outsideEmbreeMs(step.run)}};
+    Json row{
+        {"effect", step.added},
+        {"frame_ms", frame.frameMs},
+        {"added_ms",
+         before ? medianAdded(step.run, before->run, &FrameStats::frameMs) : frame.frameMs},
+        {"added_outside_embree_ms",
+         before ? medianAdded(step.run, before->run, outsideEmbreeMs) : outsideEmbreeMs(frame)}};
     for (std::size_t k = 0; k < kRayKindCount; ++k)
       row[std::string(kRayKinds[k].name) + "_rays"] = frame.meter.tally[k].rays;
     row["added_rays"] = raysOf(step) - (before ? raysOf(*before) : 0);

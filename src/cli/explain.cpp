@@ -14,6 +14,7 @@
 #include "core/display.h"
 #include "core/error.h"
 #include "core/formatted.h"
+#include "core/option_values.h"
 #include "core/printable.h"
 #include "inspect/ray_lines.h"
 #include "io/atomic_file.h"
@@ -58,9 +59,9 @@ struct PixelPlace {
 };
 PixelPlace readPixel(const std::string& text, const Image& image) {
   PixelPlace place;
-  int used = 0;
-  const bool read = std::sscanf(text.c_str(), "%d,%d%n", &place.x, &place.y, &used) == 2 &&
-                    static_cast<std::size_t>(used) == text.size();
+  const std::vector<std::string> parts = split(text, ',');
+  const bool read =
+      parts.size() == 2 && readNumber(parts[0], place.x) && readNumber(parts[1], place.y);
   if (!read) throwUsage("--pixel expected x,y, as in 240,150; found '" + text + "'");
   const bool inside =
       place.x >= 0 && place.y >= 0 && place.x < image.width && place.y < image.height;

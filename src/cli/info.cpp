@@ -8,81 +8,166 @@
 #include "cli/commands.h"
 #include "cli/json_report.h"
 #include "core/error.h"
+#include "core/nearest_name.h"
 #include "core/printable.h"
+#include "render/shadow_cache_schedule.h"
 
 namespace whit::cli {
 
 namespace {
 
-void printCounts(const OpenScene& open, const Renderer& renderer) {
-  const Scene& s = open.scene;
-  std::printf("%s\n", s.name.c_str());
-  std::printf("  %-12s%llu\n", "triangles", static_cast<unsigned long long>(s.instancedTriangles));
-  if (s.instancedSpheres > 0) {
-    std::printf("  %-12s%llu, %llu bytes each beside the BVH\n", "spheres",
-                static_cast<unsigned long long>(s.instancedSpheres),
-                static_cast<unsigned long long>(bytesPerSphere(s, renderer)));
+Json vectorJson(const Vec3f& v) { return Json::array({v.x, v.y, v.z}); }
+
+// Memory of one exact sphere without the BVH; 0 if there are none.
+std::uint64_t bytesPerSphere(const Scene& scene, const Renderer& renderer) {
+  const std::uint64_t spheres = scene.triangles.size() - scene.firstSphere;
+  return spheres == 0 ? 0 : sizeof(TriangleRecord) + renderer.accel().sphereBytes() / spheres;
+}
+
+// The shadow cache that the scene could have: its lights, its pieces of triangles, the number of
+// pixel samples from which it saves time, and otherwise why there is none.
+Json shadowCacheJson(const Scene& scene, const RenderOptions& options) {
+  const auto none = [](const char* because) {
+    return Json{{"lights", 0}, {"parts", 0}, {"samples", 0}, {"because", because}};
+  };
+  if (options.shadowCache == ShadowCacheMode::off) return none("it is off by --shadow-cache");
+  const std::size_t lights = lightsWithShadowCache(makePlan(scene, options, true)).size();
+  if (lights == 0) return none("there is no light whose shadows it could hold");
+  const std::size_t parts = ShadowParts::of(scene).count();
+  if (parts == 0) return none("the world has no triangles, too many, or too distant ones");
+  return {{"lights", lights}, {"parts", parts}, {"samples", samplesThatPay(scene)}};
+}
+
+// Every effect, whether it is on, and why.
+Json effectsJson(const Scene& scene, const RenderOptions& options) {
+  Json effects;
+  for (int i = 0; i < kEffectCount; ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    const EffectReason& reason = scene.reasons[index];
+    const bool disabled = options.disable.has(static_cast<Effect>(i));
+    effects[std::string(kEffectNames[index].name)] = {
+        {"on", reason.on && !disabled},
+        {"because", reason.on && disabled ? "disabled by --disable" : reason.because}};
   }
-  std::printf("  %-12s%zu\n", "instances", s.instances.size());
-  std::printf("  %-12s(%g, %g, %g) to (%g, %g, %g)\n", "bounds", s.lower.x, s.lower.y, s.lower.z,
-              s.upper.x, s.upper.y, s.upper.z);
-  std::printf("  %-12s%llu\n", "objects", static_cast<unsigned long long>(s.items.count));
-  std::printf("  %-12s%zu\n", "materials", s.materials.size());
-  std::printf("  %-12s%zu\n", "lights", s.lights.size());
-  std::printf("  %-12s%zu\n", "textures", s.textures.size());
-  const ShadowCacheOutlook shadowCache = shadowCacheOutlook(s, renderer.options());
-  if (shadowCache.lights > 0) {
-    std::printf(
-        "  %-12sshadow cache for %zu light%s, %zu pieces of triangles; used in films and pictures "
-        "of more than %.3g pixel samples\n",
-        "shadows", shadowCache.lights, shadowCache.lights == 1 ? "" : "s", shadowCache.parts,
-        shadowCache.samples);
+  for (const AskedFor& a : effectsAskedFor(options)) {
+    Json& row = effects[std::string(kEffectNames[static_cast<std::size_t>(a.effect)].name)];
+    if (a.asked || row["on"] == false) continue;
+    row["on"] = false;
+    row["because"] = row["because"].get<std::string>() + ", " + std::string(a.otherwise);
+  }
+  return effects;
+}
+
+Json infoJson(const OpenScene& open, const Renderer& renderer, const RenderOptions& options) {
+  const Scene& scene = open.scene;
+  Json json{{"scene", scene.name},
+            {"triangles", scene.instancedTriangles},
+            {"spheres", scene.instancedSpheres},
+            {"bytes_per_sphere", bytesPerSphere(scene, renderer)},
+            {"instances", scene.instances.size()},
+            {"bounds", {{"lower", vectorJson(scene.lower)}, {"upper", vectorJson(scene.upper)}}},
+            {"materials", scene.materials.size()},
+            {"material_names", namesIn(scene.materials)},
+            {"objects", scene.items.count},
+            {"object_names", scene.items.names},
+            {"lights", scene.lights.size()},
+            {"textures", scene.textures.size()},
+            {"sky", skyName(scene.sky)},
+            {"memory_mb", memoryMb(scene, renderer)},
+            {"shadow_cache", shadowCacheJson(scene, options)},
+            {"animations", Json::array()},
+            {"cameras", namesIn(scene.cameras)},
+            {"warnings", Json::object()},
+            {"effects", effectsJson(scene, options)},
+            {"stages", Json::array()},
+            {"kernels", Json::array()}};
+  for (const Animation& animation : scene.animations) {
+    json["animations"].push_back(
+        {{"name", animation.name}, {"seconds", animation.seconds}, {"nodes", animation.nodes}});
+  }
+  for (const auto& [kind, entry] : open.warnings.entries()) {
+    json["warnings"][kind] = {{"count", entry.count}, {"first", entry.first}};
+  }
+  for (const Stage stage : renderer.plan().stages()) {
+    json["stages"].push_back(kStageNames[static_cast<std::size_t>(stage)]);
+  }
+  for (const KernelUse& kernel : kernelsOf(renderer.plan())) {
+    json["kernels"].push_back({{"stage", kStageNames[static_cast<std::size_t>(kernel.stage)]},
+                               {"kernel", kernel.kernel},
+                               {"target", kernel.target}});
+  }
+  return json;
+}
+
+std::string textOf(const Json& value) {
+  return value.is_string() ? printable(value.get<std::string>()) : value.dump();
+}
+
+// Prints what infoJson() returns for people.
+void printInfo(const Json& info, const OpenScene& open, const Renderer& renderer) {
+  std::printf("%s\n", textOf(info["scene"]).c_str());
+  for (const char* key :
+       {"triangles", "spheres", "instances", "objects", "materials", "lights", "textures", "sky"}) {
+    std::printf("  %-12s%s\n", key, textOf(info[key]).c_str());
+  }
+  std::printf("  %-12s%s to %s\n", "bounds", info["bounds"]["lower"].dump().c_str(),
+              info["bounds"]["upper"].dump().c_str());
+  const Json& cache = info["shadow_cache"];
+  if (cache.contains("because")) {
+    std::printf("  %-12sno shadow cache: %s\n", "shadows", textOf(cache["because"]).c_str());
   } else {
-    std::printf("  %-12sno shadow cache: %s\n", "shadows", shadowCache.because.c_str());
+    std::printf(
+        "  %-12sshadow cache for %s light%s, %s pieces of triangles; used in films and pictures of "
+        "more than %.3g pixel samples\n",
+        "shadows", textOf(cache["lights"]).c_str(), cache["lights"] == 1 ? "" : "s",
+        textOf(cache["parts"]).c_str(), cache["samples"].get<double>());
   }
-  std::printf("  %-12s%s\n", "sky", printable(skyName(s.sky)).c_str());
   std::printf("  %-12s", "cameras");
-  for (const Camera& camera : s.cameras) std::printf("%s ", printable(camera.name).c_str());
-  for (const Animation& animation : s.animations) {
-    std::printf("\n  %-12s%s: %g s, moves %zu node%s", "animation",
-                printable(animation.name).c_str(), animation.seconds, animation.nodes,
-                animation.nodes == 1 ? "" : "s");
+  for (const Json& camera : info["cameras"]) std::printf("%s ", textOf(camera).c_str());
+  for (const Json& animation : info["animations"]) {
+    std::printf("\n  %-12s%s: %g s, moves %s node%s", "animation",
+                textOf(animation["name"]).c_str(), animation["seconds"].get<double>(),
+                textOf(animation["nodes"]).c_str(), animation["nodes"] == 1 ? "" : "s");
   }
-  std::printf("\n  %-12s%.1f MB\n", "memory", memoryMb(s, renderer));
+  std::printf("\n  %-12s%.1f MB\n", "memory", info["memory_mb"].get<double>());
   std::printf("  %-12s%.0f ms to load, %.0f ms to build\n", "time", open.loadMs,
               renderer.buildMs());
-}
-
-void printPlan(const OpenScene& open, const Renderer& renderer, const RenderOptions& options) {
   std::printf("\neffects\n");
-  for (const EffectRow& row : effectRows(open.scene, options)) {
-    std::printf("  %-18s%-5s%s\n", row.name.c_str(), row.on ? "on" : "-", row.because.c_str());
+  for (const auto& [name, effect] : info["effects"].items()) {
+    std::printf("  %-18s%-5s%s\n", name.c_str(), effect["on"] == true ? "on" : "-",
+                textOf(effect["because"]).c_str());
   }
   std::printf("\nstages\n");
-  for (const Stage stage : renderer.plan().stages()) {
-    std::printf("  %s\n", kStageNames[static_cast<std::size_t>(stage)].data());
-  }
+  for (const Json& stage : info["stages"]) std::printf("  %s\n", textOf(stage).c_str());
   std::printf("\nkernels\n");
-  for (const KernelUse& kernel : kernelsOf(renderer.plan())) {
-    std::printf("  %-34s%-34s%s\n", kStageNames[static_cast<std::size_t>(kernel.stage)].data(),
-                kernel.kernel.c_str(), kernel.target.c_str());
+  for (const Json& kernel : info["kernels"]) {
+    std::printf("  %-34s%-34s%s\n", textOf(kernel["stage"]).c_str(),
+                textOf(kernel["kernel"]).c_str(), textOf(kernel["target"]).c_str());
   }
-  if (open.warnings.entries().empty()) return;
-  std::printf("\nwarnings\n");
-  for (const auto& [kind, entry] : open.warnings.entries()) {
-    std::printf("  %8llu  %s (first: %s)\n", static_cast<unsigned long long>(entry.count),
-                printable(kind).c_str(), printable(entry.first).c_str());
+  if (!info["warnings"].empty()) std::printf("\nwarnings\n");
+  for (const auto& [kind, entry] : info["warnings"].items()) {
+    std::printf("  %8s  %s (first: %s)\n", textOf(entry["count"]).c_str(), printable(kind).c_str(),
+                textOf(entry["first"]).c_str());
   }
 }
 
-void printKernels() {
-  std::string targets;
-  for (const std::string& name : simd::compiledTargets()) targets += " " + name;
+// Every kernel that is compiled, for any scene.
+Json kernelsJson() {
+  Json json{{"targets", simd::compiledTargets()}};
   for (const simd::Kernel& kernel : simd::kKernels) {
-    std::printf("%-34s%s\n", kStageNames[static_cast<std::size_t>(kernel.stage)].data(),
-                std::string(kernel.name).c_str());
+    json["kernels"].push_back(
+        {{"stage", kStageNames[static_cast<std::size_t>(kernel.stage)]}, {"kernel", kernel.name}});
   }
-  std::printf("%zu kernels, each for:%s\n", simd::kKernels.size(), targets.c_str());
+  return json;
+}
+
+void printKernels(const Json& json) {
+  for (const Json& kernel : json["kernels"]) {
+    std::printf("%-34s%s\n", textOf(kernel["stage"]).c_str(), textOf(kernel["kernel"]).c_str());
+  }
+  std::printf("%zu kernels, each for:", json["kernels"].size());
+  for (const Json& target : json["targets"]) std::printf(" %s", textOf(target).c_str());
+  std::printf("\n");
 }
 
 }  // namespace
@@ -108,7 +193,7 @@ int infoCommand(const Words& words) {
     if (!scenes.empty())
       throwUsage("--kernels lists what is compiled, for any scene: leave it out");
     if (!json.empty()) writeJson(json, kernelsJson());
-    if (json != "-") printKernels();
+    if (json != "-") printKernels(kernelsJson());
     return 0;
   }
   if (scenes.empty()) throwUsage("whit info expected a SCENE");
@@ -120,12 +205,9 @@ int infoCommand(const Words& words) {
   const RenderOptions options = optionsFor(open->scene, common);
   const Renderer renderer(open->scene, options, progress.get());
   progress.reset();
-  if (!json.empty()) {
-    writeJson(json, infoJson(open->scene, renderer, options, open->warnings));
-  }
-  if (json == "-") return 0;
-  printCounts(*open, renderer);
-  printPlan(*open, renderer, options);
+  const Json info = infoJson(*open, renderer, options);
+  if (!json.empty()) writeJson(json, info);
+  if (json != "-") printInfo(info, *open, renderer);
   return 0;
 }
 

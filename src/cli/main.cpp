@@ -70,8 +70,7 @@ int complete(const Words& words) {
 }
 
 [[noreturn]] void throwNoCommand(const std::string& word) {
-  std::vector<std::string> names;
-  for (const Command& command : kCommands) names.emplace_back(command.name);
+  std::vector<std::string> names = namesIn(kCommands);
   if (word.starts_with('-')) names = {"--help", "--version", "--man", "--completion"};
   const bool isFile = word.find_first_of("./") != std::string::npos && word[0] != '-';
   const std::string meant =

@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "cli/app/image_output.h"
-#include "cli/app/interrupt.h"
 #include "cli/app/open_scene.h"
+#include "cli/app/program.h"
 #include "cli/commands.h"
 
 namespace whit::cli {

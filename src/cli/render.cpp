@@ -20,8 +20,8 @@
 #include "cli/app/progress_bar.h"
 #include "cli/commands.h"
 #include "cli/json_report.h"
-#include "cli/stage_table.h"
 #include "core/error.h"
+#include "core/formatted.h"
 #include "core/options.h"
 #include "core/printable.h"
 #include "core/stopwatch.h"
@@ -163,7 +163,7 @@ void checkJob(const RenderJob& job) {
     if (output != kStandardOutput) requireWritable(output, {".exr", ".png", kFilm});
   }
   requireJsonWritable(job.json);
-  if (job.makesFilm() && !findProgram("ffmpeg")) {
+  if (job.makesFilm() && !hasFfmpeg()) {
     throwIo("ffmpeg, which makes films, is not in $PATH: write frames, as -o frame-####.png");
   }
   if (job.frames.empty()) {
@@ -394,42 +394,18 @@ class ImageWriter {
   BackgroundWriter writer_;  // last: what it writes must outlive it
 };
 
-// How far the frames have come; those that were there take no time.
-class PathProgress : public Progress {
- public:
-  PathProgress(Progress& whole, const FrameRange& range) : whole_(whole), range_(range) {}
-
-  void begin(int frame, std::size_t kept) {
-    frame_ = frame;
-    kept_ = static_cast<double>(kept);
-    report("", 0);
-  }
-  void report(const std::string&, double fraction) override {
-    const double all = range_.last - range_.first + 1 - kept_;
-    whole_.report("frame " + std::to_string(frame_) + " of " + std::to_string(range_.first) + ".." +
-                      std::to_string(range_.last),
-                  (frame_ - range_.first - kept_ + fraction) / all);
-  }
-
- private:
-  Progress& whole_;
-  FrameRange range_;
-  int frame_ = 0;
-  double kept_ = 0;
-};
-
 void writeFilm(const RenderJob& job, ImageWriter& writer, Progress* progress) {
   const FrameRange range = parseFrameRange(job.frames);
-  std::optional<PathProgress> path;
-  if (progress) path.emplace(*progress, range);
   for (int frame = range.first; frame <= range.last; ++frame) {
     std::vector<std::string> files;
     for (const std::string& output : job.outputs) {
       files.push_back(isFilm(output) ? output : frameName(output, frame));
     }
-    if (path) path->begin(frame, writer.kept());
+    const auto kept = static_cast<double>(writer.kept());  // frames that take no time
+    reportProgress(progress, formatted("frame %d of %d..%d", frame, range.first, range.last),
+                   (frame - range.first - kept) / (range.last - range.first + 1 - kept));
     writer.moveTo(frame);
-    writer.write(files, path ? &*path : nullptr, {{"frame", std::to_string(frame)}});
+    writer.write(files, nullptr, {{"frame", std::to_string(frame)}});
   }
 }
 

@@ -16,19 +16,16 @@ namespace {
 
 constexpr std::uint64_t kSceneBytesLimit = 1u << 20;
 
-// A scene file opens with a comment that says what it is.
-std::string openingComment(const std::string& text) {
+// The comment that opens a scene file, as far as the first colon or the end of the first sentence.
+std::string aboutOf(const std::string& text) {
   std::string comment;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line) && line.starts_with("//");) {
     comment += line.substr(2);
   }
-  return comment.empty() ? comment : comment.substr(1);
-}
-
-// As far as the first colon or the end of the first sentence.
-std::string firstClause(const std::string& text) {
-  return text.substr(0, std::min({text.find(": "), text.find(". "), text.find_last_of('.')}));
+  const std::size_t end =
+      std::min({comment.find(": "), comment.find(". "), comment.find_last_of('.')});
+  return comment.substr(std::min<std::size_t>(comment.size(), 1), end - 1);
 }
 
 }  // namespace
@@ -39,8 +36,7 @@ int scenesCommand(const Words& words) {
     return 0;
   }
   for (const std::filesystem::path& scene : shippedScenes()) {
-    const std::string about =
-        firstClause(openingComment(readTextFile(scene.string(), kSceneBytesLimit)));
+    const std::string about = aboutOf(readTextFile(scene.string(), kSceneBytesLimit));
     std::printf("%-16s%s\n", printable(scene.stem().string()).c_str(), printable(about).c_str());
   }
   return 0;

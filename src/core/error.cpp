@@ -9,21 +9,6 @@ namespace whit {
 
 namespace {
 
-bool areDigits(std::string_view text) {
-  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
-}
-
-// Where the numbers of line and column begin that `where` ends with, their colon before them.
-std::size_t beginOfLine(std::string_view where) {
-  std::size_t begin = where.size();
-  for (std::size_t colon = where.rfind(':'); colon != std::string_view::npos && colon > 0;
-       colon = where.rfind(':', colon - 1)) {
-    if (!areDigits(where.substr(colon + 1, begin - colon - 1))) break;
-    begin = colon;
-  }
-  return begin;
-}
-
 // Some places are a thing in a file or in a scene that a program made: "a.png: byte 12",
 // "scene: light 'lamp'".
 ErrorPlace placeIn(const std::string& where) {
@@ -36,8 +21,10 @@ ErrorPlace placeIn(const std::string& where) {
     const bool isFile = file.find_first_of("./") != std::string::npos;
     return {isFile ? file : "", where.substr(thing + 2), ""};
   }
-  const std::size_t line = beginOfLine(where);
-  return {where.substr(0, line), line < where.size() ? where.substr(line + 1) : "", ""};
+  // "file:12:5": the numbers of line and column begin at a colon.
+  std::size_t begin = where.find_last_not_of("0123456789:") + 1;
+  begin = std::min(where.find(':', begin), where.size());
+  return {where.substr(0, begin), where.substr(std::min(begin + 1, where.size())), ""};
 }
 
 // All messages say it like that.

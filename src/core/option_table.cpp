@@ -53,19 +53,10 @@ void forEachPair(A& a, B& b, Visitor&& visit) {
 // The options of a preset, which trade time for accuracy.
 constexpr std::array kPresetOptions{"spp", "depth", "cutoff", "light-cutoff", "mode"};
 
-// Points of the fronts that `whit accuracy` finds. Rays and mean FLIP against depth 64 and a cutoff
-// of 1e-5 in double precision at equal samples, 128x128:
-//
-//            whitted          glass            mirrors         atrium          sponza-mirror
-// draft      100k  0.011      271k  0.019       93k  0.003      53k  0.000      62k  0.002
-// standard   327k  0.002     1496k  0.004       98k  0.000      53k  0.000      65k  0.000
-// fine      1110k  0.002     3766k  0.006      389k  0.000     213k  0.000     258k  0.000
-//
-// Depth costs rays only where there is something to follow, and what a lower one leaves out is seen
-// first: depth 8 with a cutoff of 4e-3 has 245k rays and 0.056 on glass. With the cutoff of
-// standard no more than one pixel in a thousand of whitted, mirrors, atrium and sponza-mirror is
-// two codes off; three times as much leaves six times as many. Without a cutoff, rays that branch
-// at every dielectric would double to the depth's limit.
+// Points of the fronts that `whit accuracy` finds on the shipped scenes (src/accuracy/README.md).
+// With the cutoff of standard at most one pixel in a thousand of whitted, mirrors, atrium and
+// sponza-mirror is two codes off; without one, rays that branch at every dielectric would double to
+// the depth's limit.
 // The rows stand in the order of Quality.
 constexpr std::array<const char*, kPresetOptions.size()> kPresets[] = {
     {"1", "64", "4e-3", "1e-3", "packets"},

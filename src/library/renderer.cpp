@@ -39,17 +39,126 @@ struct Renderer::Data {
 
   const whit::Scene& internal() const { return scene.data_->scene; }
   Scene::Data& own() { return *scene.data_; }
-  void setTime(double seconds);
-  void setTransform(const std::string& pointer, std::span<const double, 12> rows);
-  void setMember(const std::string& text, whit::Progress* told);
-  bool editScene(const SceneSetting& setting);
-  void readAgain(const std::string& setting, whit::Progress* told);
-  void ownScene();
-  void moveNow();
-  RenderOptions settledOptions() const;
-  void prepare(whit::Progress* told);
-  void prepare(Film& film) const;
-  void render(const whit::Camera& camera, Image& image, whit::Progress* told);
+
+  RenderOptions settledOptions() const {
+    RenderOptions all = options;
+    applyQuality(all, given);
+    if (internal().isModel) applyModelDefaults(all, given);
+    return all;
+  }
+
+  // After options were set: the renderer takes them over, or is made anew.
+  void prepare(whit::Progress* told) {
+    if (stale) moveNow();
+    if (!changed) return;
+    settled = settledOptions();
+    if (renderer && renderer->canSetOptions(settled)) {
+      renderer->setOptions(settled);
+    } else {
+      renderer.reset();  // two acceleration structures at a time could be too many
+      renderer = std::make_unique<whit::Renderer>(internal(), settled, told);
+    }
+    settleExposure(*renderer, chooseCamera(internal(), settled), settled);
+    changed = false;
+  }
+
+  void setTime(double seconds) {
+    if (internal().motion.empty()) {
+      throwUsage("setTime: nothing moves in " + internal().name +
+                 ", or it was loaded without LoadOptions::moves");
+    }
+    if (!std::isfinite(seconds)) throwUsage("setTime: expected a finite number of seconds");
+    ownScene();
+    this->seconds = seconds;
+    stale = true;
+  }
+
+  void setTransform(const std::string& pointer, std::span<const double, 12> rows) {
+    const auto fits = [](double x) { return std::abs(x) <= kLargestCoordinate; };
+    if (!std::all_of(rows.begin(), rows.end(), fits)) {
+      throwUsage("setTransform: expected numbers up to 1.844e18");
+    }
+    const auto column = [&](std::size_t i) { return Vec3d{rows[i], rows[i + 4], rows[i + 8]}; };
+    const Affine place{column(0), column(1), column(2), column(3)};
+    ownScene();
+    setPlace(own().scene, pointer, place);
+    places[pointer] = place;
+    stale = true;
+  }
+
+  void setMember(const std::string& text, whit::Progress* told) {
+    const SceneSetting setting = parseSceneSetting(text);
+    ownScene();
+    if (!document) document = own().document();
+    if (!editScene(setting)) return readAgain(text, told);
+    addSceneSetting(text, own().load.settings);
+    changed = true;  // an automatic exposure follows
+  }
+
+  // False: the scene has to be read again.
+  bool editScene(const SceneSetting& setting) {
+    JsonDocument* const described = document ? &*document : nullptr;
+    if (!whit::editScene(setting, own().load, described, own().scene)) return false;
+    if (!renderer) return true;
+    try {
+      renderer->camerasChanged();
+      renderer->shadingChanged();
+    } catch (...) {
+      renderer.reset();  // to be made anew of the scene as it is
+      changed = true;
+      throw;
+    }
+    return true;
+  }
+
+  void readAgain(const std::string& setting, whit::Progress* told) {
+    whit::LoadOptions load = own().load;
+    addSceneSetting(setting, load.settings);
+    std::shared_ptr<Scene::Data> next = Scene::Data::read(own().source, load, own().strict, told);
+    for (const auto& [pointer, place] : places) setPlace(next->scene, pointer, place);
+    renderer.reset();
+    scene = Scene(std::move(next));
+    document.reset();
+    changed = true;
+    stale = !internal().motion.empty();
+  }
+
+  void ownScene() {
+    if (scene.data_.use_count() == 1) return;
+    renderer.reset();  // that of the shared scene
+    scene = Scene(std::make_shared<Scene::Data>(own()));
+    changed = true;
+  }
+
+  void moveNow() {
+    moveScene(own().scene, seconds, simd::deformVertices);
+    if (renderer) renderer->sceneMoved();
+    stale = false;
+  }
+
+  void prepare(Film& film) const {
+    const ImageSize size = settled.size.value_or(ImageSize{internal().width, internal().height});
+    const Crop window = settled.crop.value_or(Crop{0, 0, size.width, size.height});
+    const whit::Image& image = film.image;
+    if (image.width == size.width && image.height == size.height && image.window == window) return;
+    film = makeFilm(internal(), settled, scene.data_->load.maxMemoryBytes);
+  }
+
+  void render(const whit::Camera& camera, Image& image, whit::Progress* told) {
+    Film& film = image.data_->film;
+    prepare(film);
+    FrameStats frame;
+    try {
+      frame = renderFrame(*renderer, settled.mode, camera, film, told);
+    } catch (...) {
+      renderer->scheduler().forgetTracers();  // where they were left
+      throw;
+    }
+    refuseNonFinite(internal(), settled, frame);
+    image.data_->metadata = describeImage(internal(), camera, *renderer, film, settled);
+    image.data_->aboutChannels = describeChannels(internal(), settled.channels);
+    statistics = statisticsOf(frame, settled.mode);
+  }
 
   Scene scene;  // shared with others until it is changed
   double seconds = 0;
@@ -64,126 +173,6 @@ struct Renderer::Data {
   std::unique_ptr<whit::Renderer> renderer;
   FrameStatistics statistics;
 };
-
-RenderOptions Renderer::Data::settledOptions() const {
-  RenderOptions all = options;
-  applyQuality(all, given);
-  if (internal().isModel) applyModelDefaults(all, given);
-  return all;
-}
-
-// After options were set: the renderer takes them over, or is made anew.
-void Renderer::Data::prepare(whit::Progress* told) {
-  if (stale) moveNow();
-  if (!changed) return;
-  settled = settledOptions();
-  if (renderer && renderer->canSetOptions(settled)) {
-    renderer->setOptions(settled);
-  } else {
-    renderer.reset();  // two acceleration structures at a time could be too many
-    renderer = std::make_unique<whit::Renderer>(internal(), settled, told);
-  }
-  settleExposure(*renderer, chooseCamera(internal(), settled), settled);
-  changed = false;
-}
-
-void Renderer::Data::setTime(double seconds) {
-  if (internal().motion.empty()) {
-    throwUsage("setTime: nothing moves in " + internal().name +
-               ", or it was loaded without LoadOptions::moves");
-  }
-  if (!std::isfinite(seconds)) throwUsage("setTime: expected a finite number of seconds");
-  ownScene();
-  this->seconds = seconds;
-  stale = true;
-}
-
-void Renderer::Data::setTransform(const std::string& pointer, std::span<const double, 12> rows) {
-  const auto fits = [](double x) { return std::abs(x) <= kLargestCoordinate; };
-  if (!std::all_of(rows.begin(), rows.end(), fits)) {
-    throwUsage("setTransform: expected numbers up to 1.844e18");
-  }
-  const auto column = [&](std::size_t i) { return Vec3d{rows[i], rows[i + 4], rows[i + 8]}; };
-  const Affine place{column(0), column(1), column(2), column(3)};
-  ownScene();
-  setPlace(own().scene, pointer, place);
-  places[pointer] = place;
-  stale = true;
-}
-
-void Renderer::Data::setMember(const std::string& text, whit::Progress* told) {
-  const SceneSetting setting = parseSceneSetting(text);
-  ownScene();
-  if (!document) document = own().document();
-  if (!editScene(setting)) return readAgain(text, told);
-  addSceneSetting(text, own().load.settings);
-  changed = true;  // an automatic exposure follows
-}
-
-// False: the scene has to be read again.
-bool Renderer::Data::editScene(const SceneSetting& setting) {
-  JsonDocument* const described = document ? &*document : nullptr;
-  if (!whit::editScene(setting, own().load, described, own().scene)) return false;
-  if (!renderer) return true;
-  try {
-    renderer->camerasChanged();
-    renderer->shadingChanged();
-  } catch (...) {
-    renderer.reset();  // to be made anew of the scene as it is
-    changed = true;
-    throw;
-  }
-  return true;
-}
-
-void Renderer::Data::readAgain(const std::string& setting, whit::Progress* told) {
-  whit::LoadOptions load = own().load;
-  addSceneSetting(setting, load.settings);
-  std::shared_ptr<Scene::Data> next = Scene::Data::read(own().source, load, own().strict, told);
-  for (const auto& [pointer, place] : places) setPlace(next->scene, pointer, place);
-  renderer.reset();
-  scene = Scene(std::move(next));
-  document.reset();
-  changed = true;
-  stale = !internal().motion.empty();
-}
-
-void Renderer::Data::ownScene() {
-  if (scene.data_.use_count() == 1) return;
-  renderer.reset();  // that of the shared scene
-  scene = Scene(std::make_shared<Scene::Data>(own()));
-  changed = true;
-}
-
-void Renderer::Data::moveNow() {
-  moveScene(own().scene, seconds, simd::deformVertices);
-  if (renderer) renderer->sceneMoved();
-  stale = false;
-}
-
-void Renderer::Data::prepare(Film& film) const {
-  const ImageSize size = settled.size.value_or(ImageSize{internal().width, internal().height});
-  const Crop window = settled.crop.value_or(Crop{0, 0, size.width, size.height});
-  const whit::Image& image = film.image;
-  if (image.width == size.width && image.height == size.height && image.window == window) return;
-  film = makeFilm(internal(), settled, scene.data_->load.maxMemoryBytes);
-}
-
-void Renderer::Data::render(const whit::Camera& camera, Image& image, whit::Progress* told) {
-  Film& film = image.data_->film;
-  prepare(film);
-  FrameStats frame;
-  try {
-    frame = renderFrame(*renderer, settled.mode, camera, film, told);
-  } catch (...) {
-    renderer->scheduler().forgetTracers();  // where they were left
-    throw;
-  }
-  refuseNonFinite(internal(), settled, frame);
-  image.data_->metadata = describeImage(internal(), camera, *renderer, film, settled);
-  image.data_->aboutChannels = describeChannels(internal(), settled.channels);
-  statistics = statisticsOf(frame, settled.mode);
-}
 
 Renderer::Renderer(Scene scene) : data_(std::make_unique<Data>(std::move(scene))) {}
 Renderer::Renderer(Renderer&& other) noexcept = default;

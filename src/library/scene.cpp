@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/nearest_name.h"
 #include "core/version.h"
 #include "library/internal.h"
 
@@ -18,13 +19,8 @@ std::vector<std::string> textsOf(const Warnings& warnings) {
   return all;
 }
 
-SceneDescription describe(const SceneSource& source, const whit::LoadOptions& load,
-                          Warnings& warnings, whit::Progress* progress) {
-  if (const auto* name = std::get_if<std::string>(&source)) {
-    return whit::loadScene(*name, load, warnings, progress);
-  }
-  return whit::loadScene(*std::get<1>(source), load, warnings, progress);
-}
+const std::string& nameOrText(const std::string& name) { return name; }
+const SceneText& nameOrText(const std::shared_ptr<const SceneText>& text) { return *text; }
 
 }  // namespace
 
@@ -51,8 +47,10 @@ std::shared_ptr<Scene::Data> Scene::Data::read(SceneSource source, const whit::L
                                                bool strict, whit::Progress* progress) {
   auto data = std::make_shared<Data>();
   Warnings warnings(strict);
-  data->scene =
-      whit::Scene::finalize(describe(source, load, warnings, progress), warnings, progress);
+  SceneDescription description = std::visit(
+      [&](const auto& from) { return whit::loadScene(nameOrText(from), load, warnings, progress); },
+      source);
+  data->scene = whit::Scene::finalize(std::move(description), warnings, progress);
   data->source = std::move(source);
   data->load = load;
   data->strict = strict;
@@ -61,8 +59,11 @@ std::shared_ptr<Scene::Data> Scene::Data::read(SceneSource source, const whit::L
 }
 
 std::optional<JsonDocument> Scene::Data::document() const {
-  if (const auto* name = std::get_if<std::string>(&source)) return readDocument(*name, load);
-  return readDocument(*std::get<1>(source), load);
+  return std::visit(
+      [&](const auto& from) -> std::optional<JsonDocument> {
+        return readDocument(nameOrText(from), load);
+      },
+      source);
 }
 
 Scene::Scene(std::shared_ptr<Data> data) : data_(std::move(data)) {}
@@ -80,19 +81,11 @@ int Scene::height() const { return data_->scene.height; }
 std::uint64_t Scene::triangles() const { return data_->scene.instancedTriangles; }
 std::vector<std::string> Scene::warnings() const { return data_->warnings; }
 
-std::vector<std::string> Scene::cameras() const {
-  std::vector<std::string> names;
-  for (const whit::Camera& camera : data_->scene.cameras) names.push_back(camera.name);
-  return names;
-}
+std::vector<std::string> Scene::cameras() const { return namesIn(data_->scene.cameras); }
 
 std::vector<std::string> Scene::objects() const { return data_->scene.items.names; }
 
-std::vector<std::string> Scene::materials() const {
-  std::vector<std::string> names;
-  for (const whit::Material& material : data_->scene.materials) names.push_back(material.name);
-  return names;
-}
+std::vector<std::string> Scene::materials() const { return namesIn(data_->scene.materials); }
 
 double Scene::pathSeconds() const {
   const std::vector<Keyframe>& path = data_->scene.cameraPath;

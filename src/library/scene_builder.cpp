@@ -8,21 +8,18 @@ namespace whit::api {
 
 namespace {
 
-void describeCone(const Light& light, Json& json) {
-  json["type"] = "spot";
-  json["innerConeAngle"] = light.innerConeAngle;
-  json["outerConeAngle"] = light.outerConeAngle;
-}
-
 Json describe(const Light& light) {
   if (light.type == Light::Type::directional) {
     return {
         {"type", "directional"}, {"direction", light.direction}, {"irradiance", light.intensity}};
   }
   Json json{{"position", light.position}, {"intensity", light.intensity}, {"radius", light.radius}};
-  if (light.type != Light::Type::spot) return json;
-  json["direction"] = light.direction;
-  describeCone(light, json);
+  if (light.type == Light::Type::spot) {
+    json.update({{"type", "spot"},
+                 {"direction", light.direction},
+                 {"innerConeAngle", light.innerConeAngle},
+                 {"outerConeAngle", light.outerConeAngle}});
+  }
   return json;
 }
 

@@ -1,5 +1,7 @@
 // The extension module _whit: the library's functions as the Python package `whit` calls them.
+// They run without the GIL, with progress and Control-C, and raise errors as whit.Error.
 #include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
 #include <array>
@@ -14,11 +16,131 @@
 #include <utility>
 #include <vector>
 
-#include "python/call.h"
+#include "library/whit.h"
 
 namespace whit::python {
 
+namespace py = pybind11;
+
 namespace {
+
+// Raises whit.Error, as Python's current exception.
+[[noreturn]] void raise(const api::Error& error) {
+  const auto orNone = [](const std::string& text) -> py::object {
+    if (text.empty()) return py::none();
+    return py::str(text);
+  };
+  const py::object type = py::module_::import("whit._error").attr("Error");
+  const py::object raised = type(error.what(), error.status(), orNone(error.file()),
+                                 orNone(error.place()), orNone(error.expected()));
+  PyErr_SetObject(type.ptr(), raised.ptr());
+  throw py::error_already_set();
+}
+
+// Counts running calls, so that the interpreter can wait for them before it exits. A thread that
+// returns to Python later would be terminated inside C++ code, which aborts the process.
+class Calls {
+ public:
+  // One running call. It must be constructed with the GIL held.
+  class Entry {
+   public:
+    Entry() {
+      if (depth++ > 0) return;
+      if (areEnding()) waitForTheEnd();
+      ++underWay;
+    }
+    // The call must not return or raise into an interpreter that is shutting down.
+    ~Entry() {
+      if (--depth > 0) return;
+      --underWay;
+      if (areEnding()) waitForTheEnd();
+    }
+    Entry(const Entry&) = delete;
+    Entry& operator=(const Entry&) = delete;
+  };
+
+  // True if the work of this thread must end.
+  static bool areEnding() { return ending && std::this_thread::get_id() != ender; }
+  // Ends all calls that report progress. `atexit` calls it.
+  static void end() {
+    constexpr std::chrono::milliseconds kStep{1};
+    constexpr int kSteps = 10000;
+    ender = std::this_thread::get_id();
+    ending = true;
+    const py::gil_scoped_release noGil;
+    for (int i = 0; i < kSteps && underWay > 0; ++i) std::this_thread::sleep_for(kStep);
+  }
+
+ private:
+  // Only daemon threads get here.
+  [[noreturn]] static void waitForTheEnd() {
+    const py::gil_scoped_release noGil;
+    for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
+  }
+
+  static inline std::atomic<int> underWay{0};
+  static inline std::atomic<bool> ending{false};
+  static inline std::thread::id ender;  // written before `ending`
+  static inline thread_local int depth = 0;
+};
+
+// Receives the progress of a call. On the calling thread it handles Python's signals and calls the
+// caller's progress function now and then.
+class Onlooker {
+ public:
+  explicit Onlooker(py::object function) : function_(std::move(function)) {}
+
+  bool operator()(const std::string& phase, double fraction) {
+    if (Calls::areEnding()) return false;
+    if (std::this_thread::get_id() != thread_ || !isTime()) return true;
+    const py::gil_scoped_acquire gil;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (function_.is_none()) return true;
+    const py::object answer = function_(phase, fraction);
+    return answer.is_none() || answer.cast<bool>();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  // Limits the rate, because each call acquires the GIL.
+  bool isTime() {
+    constexpr std::chrono::milliseconds kBetween{20};
+    const Clock::time_point now = Clock::now();
+    if (now - last_ < kBetween) return false;
+    last_ = now;
+    return true;
+  }
+
+  py::object function_;
+  std::thread::id thread_ = std::this_thread::get_id();
+  Clock::time_point last_ = Clock::now();
+};
+
+// Calls `body` without the GIL, with a progress to report to, and returns its result.
+template <typename Body>
+auto call(const py::object& function, Body&& body) {
+  const Calls::Entry entry;
+  Onlooker onlooker(function);
+  try {
+    const py::gil_scoped_release noGil;
+    return body([&onlooker](const std::string& phase, double fraction) {
+      return onlooker(phase, fraction);
+    });
+  } catch (const api::Error& error) {
+    raise(error);
+  }
+}
+
+// Calls `body` with the GIL held, for work that takes no time.
+template <typename Body>
+auto call(Body&& body) {
+  try {
+    return body();
+  } catch (const api::Error& error) {
+    raise(error);
+  }
+}
 
 // Names of options and their values, as on the command line.
 using OptionTexts = std::vector<std::pair<std::string, std::string>>;
@@ -43,99 +165,87 @@ class Session {
 
   // The options hold for this frame alone. With `pathSeconds` it is seen from the camera's path.
   Picture render(const OptionTexts& options, std::optional<double> pathSeconds,
-                 const py::object& progress);
-  void setMember(const std::string& pointer, const std::string& json, const py::object& progress);
-  void setTime(double seconds);
-  void setTransform(const std::string& pointer, const std::array<double, 12>& rows);
+                 const py::object& progress) {
+    const Turn turn(*this);
+    return call(progress, [&](const api::Progress& told) {
+      takeOptions(options);
+      renderer_.setProgress(told);
+      Picture picture;
+      if (pathSeconds) {
+        renderer_.renderOnPath(*pathSeconds, picture.image);
+      } else {
+        renderer_.render(picture.image);
+      }
+      picture.statistics = renderer_.statistics();
+      return picture;
+    });
+  }
+
+  void setMember(const std::string& pointer, const std::string& json, const py::object& progress) {
+    const Turn turn(*this);
+    call(progress, [&](const api::Progress& told) {
+      renderer_.setProgress(told);
+      renderer_.setMember(pointer, json);
+    });
+  }
+
+  void setTime(double seconds) {
+    const Turn turn(*this);
+    call([&] { renderer_.setTime(seconds); });
+  }
+
+  void setTransform(const std::string& pointer, const std::array<double, 12>& rows) {
+    const Turn turn(*this);
+    call([&] { renderer_.setTransform(pointer, rows); });
+  }
 
  private:
   // Waits without the GIL until other threads are done, and handles signals meanwhile.
   class Turn {
    public:
-    explicit Turn(Session& session);
-    ~Turn();
+    explicit Turn(Session& session) : session_(session) {
+      constexpr int kUsage = 2;
+      if (session.owner_ == std::this_thread::get_id()) {
+        raise(
+            api::Error(kUsage, "the scene is in use: a progress function cannot ask it anything"));
+      }
+      while (!wait()) {
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      }
+      session_.owner_ = std::this_thread::get_id();
+    }
+    ~Turn() {
+      session_.owner_ = std::thread::id();
+      session_.turn_.unlock();
+    }
     Turn(const Turn&) = delete;
     Turn& operator=(const Turn&) = delete;
 
    private:
-    bool wait();
+    bool wait() {
+      constexpr std::chrono::milliseconds kPatience{50};
+      if (session_.turn_.try_lock()) return true;
+      const py::gil_scoped_release noGil;
+      return session_.turn_.try_lock_for(kPatience);
+    }
+
     Calls::Entry entry_;
     Session& session_;
   };
-  void takeOptions(const OptionTexts& options);
+
+  void takeOptions(const OptionTexts& options) {
+    if (options == options_) return;
+    options_.reset();
+    renderer_.reset();
+    for (const auto& [name, value] : options) renderer_.set(name, value);
+    options_ = options;
+  }
 
   api::Renderer renderer_;
   std::optional<OptionTexts> options_ = OptionTexts();  // that the renderer has, if that is known
   std::timed_mutex turn_;
   std::atomic<std::thread::id> owner_;  // whose turn it is
 };
-
-Session::Turn::Turn(Session& session) : session_(session) {
-  constexpr int kUsage = 2;
-  if (session.owner_ == std::this_thread::get_id()) {
-    raise(api::Error(kUsage, "the scene is in use: a progress function cannot ask it anything"));
-  }
-  while (!wait()) {
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-  }
-  session_.owner_ = std::this_thread::get_id();
-}
-
-Session::Turn::~Turn() {
-  session_.owner_ = std::thread::id();
-  session_.turn_.unlock();
-}
-
-bool Session::Turn::wait() {
-  constexpr std::chrono::milliseconds kPatience{50};
-  if (session_.turn_.try_lock()) return true;
-  const py::gil_scoped_release noGil;
-  return session_.turn_.try_lock_for(kPatience);
-}
-
-void Session::takeOptions(const OptionTexts& options) {
-  if (options == options_) return;
-  options_.reset();
-  renderer_.reset();
-  for (const auto& [name, value] : options) renderer_.set(name, value);
-  options_ = options;
-}
-
-Picture Session::render(const OptionTexts& options, std::optional<double> pathSeconds,
-                        const py::object& progress) {
-  const Turn turn(*this);
-  return call(progress, [&](const api::Progress& told) {
-    takeOptions(options);
-    renderer_.setProgress(told);
-    Picture picture;
-    if (pathSeconds) {
-      renderer_.renderOnPath(*pathSeconds, picture.image);
-    } else {
-      renderer_.render(picture.image);
-    }
-    picture.statistics = renderer_.statistics();
-    return picture;
-  });
-}
-
-void Session::setMember(const std::string& pointer, const std::string& json,
-                        const py::object& progress) {
-  const Turn turn(*this);
-  call(progress, [&](const api::Progress& told) {
-    renderer_.setProgress(told);
-    renderer_.setMember(pointer, json);
-  });
-}
-
-void Session::setTime(double seconds) {
-  const Turn turn(*this);
-  call([&] { renderer_.setTime(seconds); });
-}
-
-void Session::setTransform(const std::string& pointer, const std::array<double, 12>& rows) {
-  const Turn turn(*this);
-  call([&] { renderer_.setTransform(pointer, rows); });
-}
 
 using Floats = py::array_t<float, py::array::c_style>;
 using Indices = py::array_t<std::uint32_t, py::array::c_style>;
@@ -153,30 +263,22 @@ auto spanOf(const Array& array) {
   return std::span(array.data(), static_cast<std::size_t>(array.size()));
 }
 
-// A member of the dict of loading options.
-template <typename T>
-T memberOf(const py::dict& given, const char* name) {
-  const py::object value = given[name];
-  try {
-    return value.cast<T>();
-  } catch (const py::cast_error&) {
-    throw py::type_error(std::string(name) + ": cannot take " +
-                         py::repr(value).cast<std::string>());
-  }
-}
-
 api::LoadOptions loadOptions(const py::dict& given) {
+  const auto take = [&](const char* name, auto& member) {
+    const py::object value = given[name];
+    try {
+      member = value.cast<std::decay_t<decltype(member)>>();
+    } catch (const py::cast_error&) {
+      throw py::type_error(std::string(name) + ": cannot take " +
+                           py::repr(value).cast<std::string>());
+    }
+  };
   api::LoadOptions options;
-  options.allowOutside = memberOf<bool>(given, "allow_outside");
-  options.strict = memberOf<bool>(given, "strict");
-  options.maxMemoryGb = memberOf<double>(given, "max_memory_gb");
-  options.threads = memberOf<int>(given, "threads");
-  options.sky = memberOf<std::string>(given, "sky");
-  options.sphereSegments = memberOf<int>(given, "sphere_segments");
-  options.moves = memberOf<bool>(given, "moves");
-  options.movable = memberOf<std::vector<std::string>>(given, "movable");
-  options.animation = memberOf<std::string>(given, "animation");
-  options.settings = memberOf<std::vector<std::string>>(given, "settings");
+  take("allow_outside", options.allowOutside), take("strict", options.strict);
+  take("max_memory_gb", options.maxMemoryGb), take("threads", options.threads);
+  take("sky", options.sky), take("sphere_segments", options.sphereSegments);
+  take("moves", options.moves), take("movable", options.movable);
+  take("animation", options.animation), take("settings", options.settings);
   return options;
 }
 
@@ -310,6 +412,8 @@ void defineSession(py::module_& module) {
 
 void definePicture(py::module_& module) {
   py::class_<Picture>(module, "Picture")
+      .def_property_readonly("width", [](const Picture& p) { return p.image.width(); })
+      .def_property_readonly("height", [](const Picture& p) { return p.image.height(); })
       .def_property_readonly("left", [](const Picture& p) { return p.image.left(); })
       .def_property_readonly("top", [](const Picture& p) { return p.image.top(); })
       .def_property_readonly("rgb",

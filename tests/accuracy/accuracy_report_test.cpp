@@ -98,11 +98,6 @@ TEST(AccuracyReport, SaysWhatWasMeasured) {
   EXPECT_EQ(scene["points"][1]["label"], "depth=2");
   EXPECT_EQ(scene["points"][1]["image_png"], "cG5n");
   EXPECT_FALSE(scene["points"][1].contains("same_samples_map_png"));
-  EXPECT_FALSE(scene["findings"].empty());
-  EXPECT_EQ(std::count_if(scene["points"].begin(), scene["points"].end(),
-                          [](const Json& point) { return point["chosen"] == true; }),
-            1)
-      << "of one knob one value";
 }
 
 // RFC 4648, section 10.

@@ -168,56 +168,6 @@ SceneSweep sweepOf(const std::vector<Point>& points) {
   return sweep;
 }
 
-std::vector<std::string> chosenLabels(const SceneSweep& sweep) {
-  std::vector<std::string> labels;
-  for (const Point* point : chosenPoints(sweep)) labels.push_back(point->label());
-  return labels;
-}
-
-using Labels = std::vector<std::string>;
-
-TEST(ChosenPoints, SaveTheMostWithoutVisibleHarm) {
-  EXPECT_EQ(
-      chosenLabels(sweepOf({knobPoint("depth", "1", 0.1, 0.2), knobPoint("depth", "4", 0.4, 0.045),
-                            knobPoint("depth", "8", 0.7, 0.041)})),
-      Labels{"depth=4"});
-}
-
-TEST(ChosenPoints, HaveTheLeastErrorIfNothingSavesTime) {
-  EXPECT_EQ(chosenLabels(sweepOf({knobPoint("spp", "2", 2, 0.03), knobPoint("spp", "4", 4, 0.02)})),
-            Labels{"spp=4"});
-  EXPECT_EQ(chosenLabels(
-                sweepOf({knobPoint("packet", "1", 2, 0.04), knobPoint("packet", "4", 1.1, 0.04)})),
-            Labels{"packet=4"});
-}
-
-// 0.9 of the time, known no better than within 0.8 to 1.1, is no saving.
-TEST(ChosenPoints, NoiseIsNoSaving) {
-  SceneSweep sweep =
-      sweepOf({knobPoint("bvh", "low", 0.9, 0.04), knobPoint("bvh", "high", 0.95, 0.039)});
-  EXPECT_EQ(chosenLabels(sweep), Labels{"bvh=low"});
-  for (Point& point : sweep.points) point.timing.ratioLow = 0.8, point.timing.ratioHigh = 1.1;
-  EXPECT_EQ(chosenLabels(sweep), Labels{"bvh=high"});
-}
-
-TEST(ChosenPoints, PreferTimesWithASpread) {
-  std::vector<Point> points{knobPoint("depth", "4", 0.4, 0.045),
-                            knobPoint("depth", "8", 0.7, 0.041)};
-  points[0].timing.rounds = 0;
-  EXPECT_EQ(chosenLabels(sweepOf(points)), Labels{"depth=8"});
-  points[1].timing.rounds = 0;
-  EXPECT_EQ(chosenLabels(sweepOf(points)), Labels{"depth=4"});
-}
-
-TEST(ChosenPoints, BeginWithThePresets) {
-  std::vector<Point> points{
-      knobPoint("quality", "fine", 3.8, 0.02), knobPoint("depth", "8", 0.7, 0.041),
-      knobPoint("cutoff", "0.004", 0.3, 0.045), knobPoint("", "spp=4 depth=2", 0.2, 0.03)};
-  points[0].kind = PointKind::preset;
-  points[3].kind = PointKind::joint;
-  EXPECT_EQ(chosenLabels(sweepOf(points)), (Labels{"fine", "cutoff=0.004", "depth=8"}));
-}
-
 TEST(Noise, IsTheMedianSpread) {
   SceneSweep sweep = sweepOf({knobPoint("a", "1", 1, 0), knobPoint("b", "1", 2, 0),
                               knobPoint("c", "1", 1, 0), knobPoint("d", "1", 1, 0)});
@@ -228,30 +178,6 @@ TEST(Noise, IsTheMedianSpread) {
   sweep.points[0].sameSamples.emplace().flipMean = 0.0015;
   EXPECT_NEAR(noiseOf(sweep).time, 0.1, 1e-12);
   EXPECT_EQ(noiseOf(sweep).flip, 0.0015);
-}
-
-// Bounds that are broken make a finding fail.
-TEST(Findings, FollowTheNumbers) {
-  SceneSweep sweep = sweepOf({knobPoint("depth", "2", 0.8, 0.03)});
-  Point &base = sweep.points[0], &depth = sweep.points[1];
-  base.sameSamples = ImageDifference();
-  base.arithmetic = ArithmeticError();
-  depth.sameSamples.emplace().flipMean = 0.001;
-  const auto expectHolds = [&](std::vector<bool> expected) {
-    std::vector<bool> holds;
-    for (const Finding& finding : findingsOf(sweep)) holds.push_back(finding.holds);
-    EXPECT_EQ(holds, expected);
-  };
-  expectHolds({true, true, false});  // 0.8 of the time is not half
-  EXPECT_EQ(findingsOf(sweep)[2].found,
-            "the cheapest is depth=2, 0.80 times the time, FLIP 0.00100");
-  base.sameSamples->pixelsGe2CodesPct = 0.2;
-  expectHolds({false, true, false});
-  base.arithmetic->samePath.maxCode = 2;
-  depth.timing.ratio = 0.5;
-  expectHolds({false, false, true});
-  base.sameSamples.reset(), base.arithmetic.reset(), depth.sameSamples.reset();
-  expectHolds({});
 }
 
 // The first of two points is known within 7.5 to 10.5 ms, so it may take longer than the second.

@@ -107,7 +107,7 @@ TEST(Knobs, TheReferenceIsExactInEverything) {
   RenderOptions options;
   for (const Knob& knob : allKnobs()) knob.values.back().apply(options);
   options.size = ImageSize{32, 20};
-  const RenderOptions reference = referenceOptions(options, 256, {0});
+  const RenderOptions reference = referenceOptions(options, 256, 0);
   EXPECT_EQ(reference.mode, Mode::reference);
   EXPECT_EQ(reference.spp, 256);
   EXPECT_EQ(reference.depth, kDepthLimit);
@@ -115,16 +115,16 @@ TEST(Knobs, TheReferenceIsExactInEverything) {
   EXPECT_TRUE(reference.robust);
   EXPECT_EQ(reference.shading, ShadingChoices());
   EXPECT_EQ(reference.size, options.size);
-  EXPECT_EQ(exactAtSameSamples(options, {0}).spp, options.spp);
+  EXPECT_EQ(exactAtSameSamples(options, 0).spp, options.spp);
 }
 
 // Where rays branch, only a cutoff ends them.
 TEST(Knobs, ExactnessKeepsACutoffWhereRaysBranch) {
-  EXPECT_EQ(exactnessFor(EffectSet().with(Effect::mirror), true).cutoff, 0.0f);
+  EXPECT_EQ(exactCutoff(EffectSet().with(Effect::mirror), true), 0.0f);
   const EffectSet glass = EffectSet().with(Effect::transmission);
-  EXPECT_GT(exactnessFor(glass, true).cutoff, 0.0f);
-  EXPECT_GT(exactnessFor(glass, false).cutoff, exactnessFor(glass, true).cutoff);
-  EXPECT_LT(exactnessFor(glass, false).cutoff, RenderOptions().cutoff);
+  EXPECT_GT(exactCutoff(glass, true), 0.0f);
+  EXPECT_GT(exactCutoff(glass, false), exactCutoff(glass, true));
+  EXPECT_LT(exactCutoff(glass, false), RenderOptions().cutoff);
 }
 
 // What the picture with all transport is made with, and what the model's reference leaves out.
@@ -142,7 +142,7 @@ TEST(Knobs, TransportIsWhatTheModelLeavesOut) {
   EXPECT_EQ(all.mode, Mode::packets);
   EXPECT_EQ(all.depth, kDepthLimit);
   EXPECT_EQ(all.cutoff, kTransportCutoff);
-  const RenderOptions reference = referenceOptions(RenderOptions(), 32, {0});
+  const RenderOptions reference = referenceOptions(RenderOptions(), 32, 0);
   EXPECT_FALSE(hasTransport(reference));
 }
 

@@ -107,7 +107,7 @@ class Cache : public ::testing::Test {
  protected:
   Cache() : scene_(test::finalized(room())), camera_(scene_.cameras[0]) {
     options_.size = ImageSize{8, 6};
-    options_ = referenceOptions(options_, 2, {0});
+    options_ = referenceOptions(options_, 2, 0);
     options_.threads = 1;
   }
   bool hits(const Scene& scene, const Camera& camera, const RenderOptions& options,
@@ -217,7 +217,7 @@ TEST_F(TransportCache, IsTheMeanOfItsPasses) {
   const TransportPicture picture = get(options_);
   Renderer renderer(scene_, options_);
   Film film = makeFilm(scene_, options_);
-  PassMean passes(film.image);
+  PassMean passes;
   for (std::uint32_t seed = 0; seed < 8; ++seed) {
     renderer.setSeed(seed);
     renderer.render(camera_, film);

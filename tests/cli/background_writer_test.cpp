@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "cli/app/interrupt.h"
+#include "cli/app/program.h"
 
 namespace whit::cli {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "cli/app/interrupt.h"
+#include "cli/app/program.h"
 
 namespace whit::cli {
 namespace {

@@ -3,7 +3,6 @@
 
 #include "cli/app/frame_summary.h"
 #include "cli/app/progress_bar.h"
-#include "cli/stage_table.h"
 
 namespace whit::cli {
 namespace {

@@ -193,7 +193,7 @@ TEST(TurntableCommand, TheHelmetIsAFilm) {
   const char* const data = std::getenv("WHIT_DATA");
   const std::string helmet = std::string(data ? data : "") + "/gltf/FlightHelmet/FlightHelmet.gltf";
   if (!fs::exists(helmet)) GTEST_SKIP() << "no FlightHelmet in $WHIT_DATA: NOT checked";
-  if (!findProgram("ffmpeg") || !findProgram("ffprobe")) {
+  if (!hasFfmpeg() || std::system("command -v ffprobe >/dev/null") != 0) {
     GTEST_SKIP() << "ffmpeg is not installed: films are NOT checked";
   }
   const TemporaryFolder folder;

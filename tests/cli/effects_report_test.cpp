@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "accuracy/report.h"
-#include "cli/stage_table.h"
 #include "embedded_data.h"
 
 namespace whit::cli {

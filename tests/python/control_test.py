@@ -115,7 +115,7 @@ class Control(unittest.TestCase):
             self.assertIn(words, str(caught.exception))
         with self.assertRaisesRegex(TypeError, "is 'size' meant"):
             self.scene.render(sise=SIZE)
-        with self.assertRaisesRegex(TypeError, "depth: expected int"):
+        with self.assertRaisesRegex(TypeError, "depth: expected N"):
             self.scene.render(depth=object())
 
     def test_arguments_of_the_wrong_kind(self):

@@ -15,8 +15,32 @@ FOLDER = pathlib.Path(__file__).resolve().parents[2] / "src" / "python" / "whit"
 HEADER = "# By make_stubs.py, of __init__.py and the library's table of options.\n"
 
 
+def _annotation(words):
+    """The Python type of an option's value."""
+    if words in ("", "on|off"):
+        return "bool"
+    if words == "N":
+        return "int"
+    if words in ("X", "DEG", "HEIGHT"):
+        return "float"
+    if words == "x,y,z":
+        return "Sequence[float]"
+    if words == "WxH":
+        return "Union[str, tuple[int, int]]"
+    if words == "x0,y0,x1,y1":
+        return "Union[str, tuple[int, int, int, int]]"
+    if words == "EV|auto":
+        return 'Union[float, Literal["auto"]]'
+    if "|" in words:
+        choices = [w if w.isdigit() else f'"{w}"' for w in words.split("|")]
+        return f"Literal[{', '.join(choices)}]"
+    if "," in words:
+        return "Union[str, Sequence[str]]"
+    return "str"
+
+
 def _options_of_render():
-    text = ", ".join(f"{option.keyword}: Optional[{option.annotation}] = None"
+    text = ", ".join(f"{option.keyword}: Optional[{_annotation(option.words)}] = None"
                      for option in _options.OPTIONS.values())
     function = ast.parse(f"def render(self, *, {text}): ...").body[0]
     return function.args.kwonlyargs, function.args.kw_defaults
@@ -25,7 +49,10 @@ def _options_of_render():
 def _stub(node):
     """The declaration without its body."""
     if isinstance(node, ast.ClassDef):
-        node.body = [_stub(m) for m in node.body if isinstance(m, ast.FunctionDef)]
+        node.body = [_stub(m) for m in node.body if isinstance(m, (ast.FunctionDef, ast.AnnAssign))]
+    elif isinstance(node, ast.AnnAssign):  # _native()
+        text = f"@property\ndef {node.target.id}(self) -> {ast.unparse(node.annotation)}: ..."
+        node = ast.parse(text).body[0]
     elif isinstance(node, ast.FunctionDef):
         node.body = [ast.Expr(ast.Constant(...))]
         if node.name == "render":
@@ -48,7 +75,8 @@ def stubs() -> str:
                 name = node.names[0].name
                 node.names[0].asname = name
                 kept.append(node)
-        elif isinstance(node, (ast.Import, ast.ClassDef)):
+        elif isinstance(node, ast.ClassDef) or (isinstance(node, ast.Import)
+                                                and node.names[0].name != "operator"):
             kept.append(_stub(node))
         elif isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
             if node.targets[0].id == "__version__":

@@ -12,7 +12,6 @@
 
 #include "accuracy/report.h"
 #include "cli/app/image_output.h"
-#include "cli/app/interrupt.h"
 #include "cli/app/parse_options.h"
 #include "cli/app/program.h"
 #include "cli/app/progress_bar.h"

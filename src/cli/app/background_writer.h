@@ -7,26 +7,46 @@
 #include <utility>
 #include <vector>
 
-#include "cli/app/interrupt.h"
+#include "cli/app/program.h"
 #include "core/stopwatch.h"
 
 namespace whit::cli {
 
 // One job at a time, on a thread of its own, in the order in which they come: at most one picture
 // is held beside the one that is traced, and a file is there only if all before it are.
-// Interruptions wait for a job that was started, and for no more (app/interrupt.h).
+// Interruptions wait for a job that was started, and for no more (app/program.h).
 class BackgroundWriter {
  public:
   BackgroundWriter() = default;
   // Waits for the job; what it throws is lost. Call finish() first.
-  ~BackgroundWriter();
+  ~BackgroundWriter() {
+    if (job_.valid()) job_.wait();
+  }
   BackgroundWriter(const BackgroundWriter&) = delete;
   BackgroundWriter& operator=(const BackgroundWriter&) = delete;
 
   // As finish(), then starts `write`. From the main thread.
-  void start(std::function<void()> write);
+  void start(std::function<void()> write) {
+    finish();
+    // The scope is opened here and not by the job: an interruption between the two would not know
+    // of the files.
+    job_ = std::async(std::launch::async,
+                      [write = std::move(write), scope = std::make_unique<WriteScope>()]() mutable {
+                        const std::unique_ptr<WriteScope> held = std::move(scope);
+                        const Stopwatch stopwatch;
+                        write();
+                        return stopwatch.ms();
+                      });
+  }
+
   // Waits for the job that was started last, and throws what it threw.
-  void finish();
+  void finish() {
+    if (!job_.valid()) return;
+    const Stopwatch waiting;
+    job_.wait();
+    const double waitedMs = waiting.ms();
+    times_.push_back({job_.get(), waitedMs});
+  }
 
   // How long each finished job took, and how long start() or finish() waited for it.
   struct Times {
@@ -38,30 +58,5 @@ class BackgroundWriter {
   std::future<double> job_;  // milliseconds
   std::vector<Times> times_;
 };
-
-inline BackgroundWriter::~BackgroundWriter() {
-  if (job_.valid()) job_.wait();
-}
-
-inline void BackgroundWriter::start(std::function<void()> write) {
-  finish();
-  // Opened here and not by the job: an interruption between the two would not know of the files.
-  auto scope = std::make_unique<WriteScope>();
-  job_ = std::async(std::launch::async,
-                    [write = std::move(write), scope = std::move(scope)]() mutable {
-                      const std::unique_ptr<WriteScope> held = std::move(scope);
-                      const Stopwatch stopwatch;
-                      write();
-                      return stopwatch.ms();
-                    });
-}
-
-inline void BackgroundWriter::finish() {
-  if (!job_.valid()) return;
-  const Stopwatch waiting;
-  job_.wait();
-  const double waitedMs = waiting.ms();
-  times_.push_back({job_.get(), waitedMs});
-}
 
 }  // namespace whit::cli

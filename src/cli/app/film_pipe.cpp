@@ -9,8 +9,6 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
-#include <sstream>
 
 #include "core/error.h"
 #include "core/formatted.h"
@@ -30,17 +28,7 @@ std::string quoted(const std::string& path) {
 
 }  // namespace
 
-std::optional<std::string> findProgram(const std::string& name) {
-  const char* const path = std::getenv("PATH");
-  std::istringstream folders(path ? path : "");
-  for (std::string folder; std::getline(folders, folder, ':');) {
-    const std::string file = (std::filesystem::path(folder.empty() ? "." : folder) / name).string();
-    std::error_code error;
-    if (std::filesystem::is_regular_file(file, error) && access(file.c_str(), X_OK) == 0)
-      return file;
-  }
-  return std::nullopt;
-}
+bool hasFfmpeg() { return std::system("command -v ffmpeg >/dev/null 2>&1") == 0; }
 
 FilmPipe::FilmPipe(const std::string& path, int width, int height, double fps) : path_(path) {
   const WriteScope starting;  // until the interrupt handler knows what it has to undo

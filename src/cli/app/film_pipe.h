@@ -6,13 +6,13 @@
 #include <span>
 #include <string>
 
-#include "cli/app/interrupt.h"
+#include "cli/app/program.h"
 #include "io/atomic_file.h"
 
 namespace whit::cli {
 
-// Where a program of this name is in $PATH.
-std::optional<std::string> findProgram(const std::string& name);
+// True if ffmpeg is in $PATH.
+bool hasFfmpeg();
 
 class FilmPipe {
  public:

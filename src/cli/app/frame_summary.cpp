@@ -1,8 +1,9 @@
 #include "cli/app/frame_summary.h"
 
 #include <algorithm>
+#include <utility>
 
-#include "render/shadow_cache_schedule.h"
+#include "core/formatted.h"
 
 namespace whit::cli {
 
@@ -39,16 +40,13 @@ double writtenPerSecond(const RunSummary& run) {
              : 0;
 }
 
-double outsideEmbreeMs(const RunSummary& run) {
-  const FrameStats& frame = medianFrame(run);
-  return frame.frameMs - frame.embreeMs();
-}
+double outsideEmbreeMs(const FrameStats& frame) { return frame.frameMs - frame.embreeMs(); }
 
 RunRatio ratioOf(const RunSummary& a, const RunSummary& b) {
   std::vector<double> frames, outside;
   for (std::size_t i = 0; i < std::min(a.frames.size(), b.frames.size()); ++i) {
     const FrameStats &x = a.frames[i], &y = b.frames[i];
-    const double restX = x.frameMs - x.embreeMs(), restY = y.frameMs - y.embreeMs();
+    const double restX = outsideEmbreeMs(x), restY = outsideEmbreeMs(y);
     if (y.frameMs > 0) frames.push_back(x.frameMs / y.frameMs);
     if (restY > 0) outside.push_back(restX / restY);
   }
@@ -63,25 +61,6 @@ double mraysPerSecond(std::uint64_t rays, double ms) {
   return ms > 0 ? static_cast<double>(rays) / ms / 1e3 : 0;
 }
 
-std::vector<EffectRow> effectRows(const Scene& scene, const RenderOptions& options) {
-  std::vector<EffectRow> rows;
-  for (int i = 0; i < kEffectCount; ++i) {
-    const auto index = static_cast<std::size_t>(i);
-    const EffectReason& reason = scene.reasons[index];
-    const auto effect = static_cast<Effect>(i);
-    const bool disabled = options.disable.has(effect);
-    rows.push_back({std::string(kEffectNames[index].name), reason.on && !disabled,
-                    reason.on && disabled ? "disabled by --disable" : reason.because});
-  }
-  for (const AskedFor& a : effectsAskedFor(options)) {
-    EffectRow& row = rows[static_cast<std::size_t>(a.effect)];
-    if (a.asked || !row.on) continue;
-    row.on = false;
-    row.because += ", " + std::string(a.otherwise);
-  }
-  return rows;
-}
-
 std::string surfacesText(std::uint64_t triangles, std::uint64_t spheres) {
   const auto counted = [](std::uint64_t count, const char* what) {
     return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
@@ -91,27 +70,157 @@ std::string surfacesText(std::uint64_t triangles, std::uint64_t spheres) {
   return counted(triangles, "triangle") + ", " + counted(spheres, "sphere");
 }
 
-std::uint64_t bytesPerSphere(const Scene& scene, const Renderer& renderer) {
-  const std::uint64_t spheres = scene.triangles.size() - scene.firstSphere;
-  return spheres == 0 ? 0 : sizeof(TriangleRecord) + renderer.accel().sphereBytes() / spheres;
-}
-
 std::uint64_t memoryLeft(const Scene& scene, const Renderer& renderer, std::uint64_t most) {
   const std::uint64_t taken = scene.memoryBytes() + renderer.memoryBytes();
   return most > taken ? most - taken : 0;
 }
 
-ShadowCacheOutlook shadowCacheOutlook(const Scene& scene, const RenderOptions& options) {
-  if (options.shadowCache == ShadowCacheMode::off) return {0, 0, 0, "it is off by --shadow-cache"};
-  const std::size_t lights = lightsWithShadowCache(makePlan(scene, options, true)).size();
-  if (lights == 0) return {0, 0, 0, "there is no light whose shadows it could hold"};
-  const std::size_t parts = ShadowParts::of(scene).count();
-  if (parts == 0) return {0, 0, 0, "the world has no triangles, too many, or too distant ones"};
-  return {lights, parts, samplesThatPay(scene), ""};
-}
-
 double memoryMb(const Scene& scene, const Renderer& renderer) {
   return static_cast<double>(scene.memoryBytes() + renderer.memoryBytes()) / 1e6;
+}
+
+namespace {
+
+void appendSettings(std::string& text, const RunSummary& run) {
+  const bool packets = run.options.mode == Mode::packets;
+  text += formatted("%s  %dx%d  %s  %d thread%s  ", run.scene.c_str(), run.width, run.height,
+                    surfacesText(run.triangles, run.spheres).c_str(), run.machine.threads,
+                    run.machine.threads == 1 ? "" : "s");
+  if (packets) {
+    text +=
+        formatted("packets of %d, %s, %s at a time\n", run.machine.packet, run.machine.simd.c_str(),
+                  run.options.batch == Batch::tile ? "a tile" : "the frame");
+  } else {
+    text += "scalar reference\n";
+  }
+}
+
+// In the unit in which it is not 0.0.
+std::string rateText(double perSecond) {
+  if (perSecond >= 1) return formatted("%.1f a second", perSecond);
+  if (perSecond * 60 >= 1) return formatted("%.1f a minute", perSecond * 60);
+  return formatted("%.1f an hour", perSecond * 3600);
+}
+
+void appendFrames(std::string& text, const RunSummary& run) {
+  const std::vector<double> times = frameTimes(run);
+  const double median = quantile(times, 0.5);
+  std::string rates = rateText(median > 0 ? 1e3 / median : 0);
+  if (run.writingMs.size() > 1) {
+    rates += " traced, " + rateText(writtenPerSecond(run)) + " traced and written";
+  }
+  text += formatted("  frame %.2f ms (%s)", median, rates.c_str());
+  if (times.size() > 1) {
+    text += formatted(", least %.2f, 95 %% within %.2f, of %zu frames", quantile(times, 1e-9),
+                      quantile(times, 0.95), times.size());
+  }
+  text += formatted("; load %.0f ms, build %.0f ms\n", run.loadMs, run.buildMs);
+}
+
+void appendShadowCache(std::string& text, const RunSummary& run) {
+  if (!run.shadowCache) return;
+  const FrameStats& frame = medianFrame(run);
+  const auto [lit, dark] = frame.meter.shadows;
+  const double rays = static_cast<double>(lit + dark + frame.of(RayKind::shadow).rays);
+  text += formatted("  shadow cache: %.1f %% of the shadow rays; ",
+                    rays > 0 ? 100 * static_cast<double>(lit + dark) / rays : 0);
+  if (run.shadowCache->coldMs > 0) {
+    text += formatted("with an empty one a frame took %.2f ms, ", run.shadowCache->coldMs);
+  }
+  text += formatted("filled in %.0f ms, %.1f MB\n", run.shadowCache->fillMs,
+                    static_cast<double>(run.shadowCache->bytes) / 1e6);
+}
+
+void appendStages(std::string& text, const FrameStats& frame) {
+  const double whole = frame.frameMs > 0 ? frame.frameMs : 1;
+  text += formatted("  %-34s%10s%8s\n", "stage", "ms", "%");
+  double sum = 0;
+  for (std::size_t i = 0; i < kStageCount; ++i) {
+    const double ms = frame.stageMs(static_cast<Stage>(i));
+    sum += ms;
+    text += formatted("  %-34s%10.3f%8.1f\n", kStageNames[i].data(), ms, 100 * ms / whole);
+  }
+  text += formatted("  %-34s%10.3f%8.1f\n", "between the stages, waiting", frame.frameMs - sum,
+                    100 * (frame.frameMs - sum) / whole);
+  text += formatted("  %-34s%10.3f%8.1f\n", "of all this inside Embree", frame.embreeMs(),
+                    100 * frame.embreeMs() / whole);
+}
+
+void appendRays(std::string& text, const FrameStats& frame, EffectSet effects) {
+  text += formatted("  %-14s%12s%10s%16s\n", "rays", "traced", "Mray/s", "lanes filled %");
+  for (std::size_t i = 0; i < kRayKindCount; ++i) {
+    if (!kRayKinds[i].calledForBy(effects)) continue;
+    const RayTally& tally = frame.meter.tally[i];
+    text += formatted("  %-14s%12llu%10.2f", kRayKinds[i].name.data(),
+                      static_cast<unsigned long long>(tally.rays),
+                      mraysPerSecond(tally.rays, frame.frameMs));
+    if (tally.lanes > 0) {
+      text += formatted("%16.1f\n", 100 * lanesFilled(tally));
+    } else {
+      text += formatted("%16s\n", "-");
+    }
+  }
+  const DecidedShadows& decided = frame.meter.shadows;
+  for (const auto& [name, rays] :
+       {std::pair{"shadow, lit", decided.lit}, std::pair{"shadow, dark", decided.dark}}) {
+    if (decided.lit + decided.dark == 0) continue;
+    text += formatted("  %-14s%12llu%10s%16s\n", name, static_cast<unsigned long long>(rays), "-",
+                      "cached");
+  }
+  text +=
+      formatted("  %-14s%12llu%10.2f\n", "all", static_cast<unsigned long long>(frame.allRays()),
+                mraysPerSecond(frame.allRays(), frame.frameMs));
+}
+
+}  // namespace
+
+std::string stageTable(const RunSummary& run) {
+  std::string text;
+  appendSettings(text, run);
+  appendFrames(text, run);
+  appendShadowCache(text, run);
+  const FrameStats& frame = medianFrame(run);
+  // The reference has no stages to take apart.
+  if (run.options.mode == Mode::packets) appendStages(text, frame);
+  if (!run.updateMs.empty()) {
+    text +=
+        formatted("  %-34s%10.3f\n", "updateScene, before the frame", quantile(run.updateMs, 0.5));
+  }
+  if (!run.writingMs.empty()) {
+    text += formatted("  %-34s%10.3f%8s  %.3f waited for\n", "writing the image",
+                      quantile(run.writingMs, 0.5), "", quantile(run.waitedMs, 0.5));
+  }
+  appendRays(text, frame, run.effects);
+  if (!run.floorMs.empty()) {
+    const double floor = quantile(run.floorMs, 0.5);
+    text += formatted("  floor %.2f ms (Embree alone, the same rays); frame over floor %.2f\n",
+                      floor, floor > 0 ? frame.frameMs / floor : 0);
+  }
+  if (frame.nonFinitePixels > 0) {
+    text += formatted("  %llu pixels are not finite\n",
+                      static_cast<unsigned long long>(frame.nonFinitePixels));
+  }
+  return text;
+}
+
+std::string ratioText(RunPairs pairs, const RunSummary& first, const RunSummary& second) {
+  const RunRatio ratio = ratioOf(second, first);
+  const double base = medianFrame(first).frameMs;
+  const auto row = [](const char* what, double of, double a, double b) {
+    return formatted("  %-34s%10.3f  (%.2f over %.2f ms)\n", what, of, a, b);
+  };
+  std::string text = formatted("%s, %s, medians of %zu turns\n", first.scene.c_str(),
+                               pairs == RunPairs::effects ? "every effect over the scene's"
+                                                          : "with over without shadow cache",
+                               first.frames.size());
+  text += row("whole frame", ratio.frame, medianFrame(second).frameMs, base);
+  text += row("outside Embree", ratio.outsideEmbree, outsideEmbreeMs(medianFrame(second)),
+              outsideEmbreeMs(medianFrame(first)));
+  if (second.shadowCache && base > 0) {
+    const double cold = second.shadowCache->coldMs;
+    text += row("with an empty shadow cache", cold / base, cold, base);
+  }
+  return text;
 }
 
 }  // namespace whit::cli

@@ -52,8 +52,8 @@ std::vector<double> frameTimes(const RunSummary& run);
 // Frames per second, traced and written.
 double writtenPerSecond(const RunSummary& run);
 
-// The median frame's time that is not spent inside Embree's calls.
-double outsideEmbreeMs(const RunSummary& run);
+// The frame's time that is not spent inside Embree's calls.
+double outsideEmbreeMs(const FrameStats& frame);
 
 // Runs that come in pairs: with the scene's effects and with all of them; without and with the
 // shadow cache.
@@ -70,34 +70,21 @@ RunRatio ratioOf(const RunSummary& a, const RunSummary& b);
 double lanesFilled(const RayTally& tally);
 double mraysPerSecond(std::uint64_t rays, double ms);
 
-struct EffectRow {
-  std::string name;
-  bool on = false;
-  std::string because;
-};
-// Every effect, in the order of core/effects.h; "disabled by --disable" overrides the scene's
-// reason.
-std::vector<EffectRow> effectRows(const Scene& scene, const RenderOptions& options);
-
 // "2 triangles", "3 spheres" or both.
 std::string surfacesText(std::uint64_t triangles, std::uint64_t spheres);
-
-// Memory of one exact sphere without the BVH; 0 if there are none.
-std::uint64_t bytesPerSphere(const Scene& scene, const Renderer& renderer);
 
 // Memory that --max-memory leaves for the shadow cache.
 std::uint64_t memoryLeft(const Scene& scene, const Renderer& renderer, std::uint64_t most);
 
-// The shadow cache that a scene could have: its lights, its pieces of triangles, the number of
-// pixel samples from which it saves time, and otherwise why there is none.
-struct ShadowCacheOutlook {
-  std::size_t lights = 0, parts = 0;
-  double samples = 0;
-  std::string because;
-};
-ShadowCacheOutlook shadowCacheOutlook(const Scene& scene, const RenderOptions& options);
-
 // Scene, tables, queues and acceleration structure, in 10^6 bytes.
 double memoryMb(const Scene& scene, const Renderer& renderer);
+
+// One line about the run's settings, one about its frame times, the eight stages of the median
+// frame and its rays, of the kinds that the scene calls for, what writing its image took if it was
+// written, and the floor if it was measured.
+std::string stageTable(const RunSummary& run);
+
+// The second of two runs of one scene, whose frames took turns, over the first.
+std::string ratioText(RunPairs pairs, const RunSummary& first, const RunSummary& second);
 
 }  // namespace whit::cli

@@ -4,14 +4,14 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 
-#include "cli/app/interrupt.h"
+#include "cli/app/program.h"
 #include "core/display.h"
 #include "core/error.h"
+#include "core/formatted.h"
 #include "core/option_values.h"
 
 namespace whit::cli {
@@ -21,9 +21,7 @@ namespace {
 constexpr int kFrameLimit = 10'000'000;
 
 bool readFrameNumber(const std::string& text, int& value) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size() && value >= 0 &&
-         value <= kFrameLimit;
+  return readNumber(text, value) && value >= 0 && value <= kFrameLimit;
 }
 
 void writeDisplay(const std::string& path, const DisplayImage& image,
@@ -187,9 +185,8 @@ std::string frameName(const std::string& pattern, int frame) {
                "': --frames needs a place for the frame's number, as in out-####.exr");
   }
   const std::size_t end = std::min(name.find_first_not_of('#', begin), name.size());
-  std::string digits = std::to_string(frame);
-  if (digits.size() < end - begin) digits.insert(0, end - begin - digits.size(), '0');
-  name.replace(begin, end - begin, digits);
+  const int digits = static_cast<int>(end - begin);
+  name.replace(begin, end - begin, formatted("%0*d", digits, frame));
   return (path.parent_path() / name).string();
 }
 

@@ -37,16 +37,6 @@ TypedOption splitOption(const std::string& word) {
   return {word.substr(0, equals), word.substr(equals + 1)};
 }
 
-void takeOperands(const std::vector<std::string>& operands, const OptionList::Operand& wanted) {
-  if (operands.size() < wanted.least) {
-    throwUsage("expected " + wanted.placeholder + ": " + wanted.help);
-  }
-  if (operands.size() > wanted.most) {
-    throwUsage("one word too many: '" + operands[wanted.most] + "'");
-  }
-  if (wanted.values) *wanted.values = operands;
-}
-
 // Sets every value; stops at a call for help, which is the name of its option.
 std::string takeWords(const std::vector<std::string>& words, const OptionList& list) {
   std::vector<std::string> operands;
@@ -74,7 +64,14 @@ std::string takeWords(const std::vector<std::string>& words, const OptionList& l
       throwUsage(typed.name + ": expected " + entry->placeholder + " after it");
     }
   }
-  takeOperands(operands, list.operand);
+  const OptionList::Operand& wanted = list.operand;
+  if (operands.size() < wanted.least) {
+    throwUsage("expected " + wanted.placeholder + ": " + wanted.help);
+  }
+  if (operands.size() > wanted.most) {
+    throwUsage("one word too many: '" + operands[wanted.most] + "'");
+  }
+  if (wanted.values) *wanted.values = operands;
   return "";
 }
 

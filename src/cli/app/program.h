@@ -1,4 +1,5 @@
-// The frame of main(): errors become exit statuses.
+// The frame of main(): errors become exit statuses, and an interruption (Control-C, SIGTERM) ends
+// the program at once with status 130 and leaves no half-written file.
 #pragma once
 
 #include <functional>
@@ -6,6 +7,9 @@
 #include <vector>
 
 namespace whit::cli {
+
+// Call from the main thread before any other thread is started.
+void installInterruptHandlers();
 
 // Installs the interrupt handlers and runs `body`. An Error gives its status, exhausted memory 5,
 // anything else 1, each with one line "NAME: what" on standard error.
@@ -27,5 +31,29 @@ inline constexpr ExitMeaning kExitMeanings[] = {
 };
 
 std::vector<std::string> wordsOf(int argc, char** argv);  // without the program's name
+
+inline constexpr int kInterruptedStatus = 130;
+
+// While one is alive an interruption waits: files are being written. The destructor catches up. To
+// be made on the main thread; any may destroy it.
+class WriteScope {
+ public:
+  WriteScope();
+  ~WriteScope();
+  WriteScope(const WriteScope&) = delete;
+  WriteScope& operator=(const WriteScope&) = delete;
+};
+
+// While it is alive an interruption removes the file, and ends the process that writes it, too. One
+// at a time.
+class ChildScope {
+ public:
+  explicit ChildScope(const std::string& file);
+  ~ChildScope();
+  static void begun(int process);
+  static void ended();
+  ChildScope(const ChildScope&) = delete;
+  ChildScope& operator=(const ChildScope&) = delete;
+};
 
 }  // namespace whit::cli

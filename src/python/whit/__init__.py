@@ -11,6 +11,7 @@ Errors in a scene, an option or a file raise whit.Error.
 
 from __future__ import annotations
 
+import operator
 import os
 from typing import Any, Callable, Mapping, Optional, Sequence, Union
 
@@ -27,6 +28,11 @@ __version__ = _whit.version()
 Progress = Callable[[str, float], Optional[bool]]
 
 
+def _native(name: str, doc: str) -> Any:
+    """A property that the extension's object has."""
+    return property(operator.attrgetter(f"_object.{name}"), doc=doc)
+
+
 def _shipped_scenes() -> str:
     """The folder of the shipped scenes: beside the module, or in share/whit of its prefix."""
     here = os.path.dirname(os.path.abspath(__file__))
@@ -41,17 +47,15 @@ class Picture:
     copy() gives an array that can be changed."""
 
     def __init__(self, picture: Any) -> None:
-        self._picture = picture
+        self._object = picture
 
-    @property
-    def rgb(self) -> np.ndarray:
-        """Linear radiance, Rec. 709 primaries: (height, width, 3), float32, top row first."""
-        return self._picture.rgb
+    rgb: np.ndarray = _native("rgb", (
+        "Linear radiance, Rec. 709 primaries: (height, width, 3), float32, top row first."))
 
     @property
     def srgb(self) -> np.ndarray:
         """After exposure and tone curve: (height, width, 3), uint8 sRGB codes, top row first."""
-        return self._picture.rgba[:, :, :3]
+        return self._object.rgba[:, :, :3]
 
     @property
     def channels(self) -> dict[str, np.ndarray]:
@@ -62,13 +66,13 @@ class Picture:
         where the ray hits nothing. "object" and "material" are indices into Scene.objects and
         Scene.materials.
         """
-        return {name: self[name] for name in self._picture.channels}
+        return {name: self[name] for name in self._object.channels}
 
     def __getitem__(self, name: str) -> np.ndarray:
         """A channel, "position" (height, width, 3), or one component by its name in files,
         "depth.Z" (height, width)."""
         channel, _, component = name.partition(".")
-        kept = self._picture.channels
+        kept = self._object.channels
         if channel not in kept:
             raise KeyError(f"{name}: the picture has {', '.join(kept) or 'no channels'}")
         components, values = kept[channel]
@@ -78,39 +82,22 @@ class Picture:
             return values[:, :, components.index(component) if component else 0]
         return values
 
-    @property
-    def width(self) -> int:
-        """Width in pixels, of a crop its own width."""
-        return self._picture.rgb.shape[1]
-
-    @property
-    def height(self) -> int:
-        """Height in pixels, of a crop its own height."""
-        return self._picture.rgb.shape[0]
-
-    @property
-    def left(self) -> int:
-        """Column of the left edge in the whole picture."""
-        return self._picture.left
-
-    @property
-    def top(self) -> int:
-        """Row of the top edge in the whole picture."""
-        return self._picture.top
-
-    @property
-    def statistics(self) -> dict[str, Any]:
-        """Times and counts of the frame: "frame_ms", "embree_ms" and "stages_ms" (by stage) in
-        milliseconds of wall-clock time, "rays" (by kind) and "non_finite_pixels" as numbers."""
-        return self._picture.statistics
+    width: int = _native("width", "Width in pixels, of a crop its own width.")
+    height: int = _native("height", "Height in pixels, of a crop its own height.")
+    left: int = _native("left", "Column of the left edge in the whole picture.")
+    top: int = _native("top", "Row of the top edge in the whole picture.")
+    statistics: dict[str, Any] = _native("statistics", (
+        "Times and counts of the frame: 'frame_ms', 'embree_ms' and 'stages_ms' (by stage) in "
+        "milliseconds of wall-clock time, 'rays' (by kind) and 'non_finite_pixels' as "
+        "numbers."))
 
     def write(self, path: Union[str, os.PathLike]) -> None:
         """Writes .exr (linear, float) or .png (8-bit sRGB), with the render's options."""
-        self._picture.write(os.fspath(path))
+        self._object.write(os.fspath(path))
 
     def png(self) -> bytes:
         """The bytes of a PNG."""
-        return self._picture.png()
+        return self._object.png()
 
     def _repr_png_(self) -> bytes:
         return self.png()
@@ -167,55 +154,30 @@ class Scene:
                     allow_outside=allow_outside, max_memory_gb=max_memory_gb, threads=threads)
         if isinstance(source, Mapping):
             text = description.text(dict(source))
-            self._session = _whit.build(name, text, description.meshes, description.images, load,
-                                        progress)
+            self._object = _whit.build(name, text, description.meshes, description.images, load,
+                                       progress)
         else:
-            self._session = _whit.load(os.fspath(source), load, _shipped_scenes(), progress)
+            self._object = _whit.load(os.fspath(source), load, _shipped_scenes(), progress)
 
-    @property
-    def name(self) -> str:
-        """Name of the scene's file without folder and extension."""
-        return self._session.name
+    name: str = _native("name", "Name of the scene's file without folder and extension.")
 
     @property
     def size(self) -> tuple[int, int]:
         """Default width and height of pictures in pixels."""
-        return self._session.width, self._session.height
+        return self._object.width, self._object.height
 
-    @property
-    def cameras(self) -> list[str]:
-        """Names of the cameras; the first one is the default."""
-        return self._session.cameras
-
-    @property
-    def objects(self) -> list[str]:
-        """Names of the first 65,536 objects; the channel "object" holds indices into this list."""
-        return self._session.objects
-
-    @property
-    def materials(self) -> list[str]:
-        """Names of the materials; the channel "material" holds indices into this list."""
-        return self._session.materials
-
-    @property
-    def triangles(self) -> int:
-        """Number of triangles, counted once for each instance."""
-        return self._session.triangles
-
-    @property
-    def animations(self) -> dict[str, float]:
-        """Duration of each animation in seconds, by name."""
-        return self._session.animations
-
-    @property
-    def path_seconds(self) -> float:
-        """End of the camera path in seconds; 0 without a path."""
-        return self._session.path_seconds
-
-    @property
-    def warnings(self) -> list[str]:
-        """Repairs that were made while the scene was read."""
-        return self._session.warnings
+    cameras: list[str] = _native("cameras", "Names of the cameras; the first one is the default.")
+    objects: list[str] = _native("objects", (
+        "Names of the first 65,536 objects; the channel 'object' holds indices into this "
+        "list."))
+    materials: list[str] = _native("materials", (
+        "Names of the materials; the channel 'material' holds indices into this list."))
+    triangles: int = _native("triangles", "Number of triangles, counted once for each instance.")
+    animations: dict[str, float] = _native("animations", (
+        "Duration of each animation in seconds, by name."))
+    path_seconds: float = _native("path_seconds", (
+        "End of the camera path in seconds; 0 without a path."))
+    warnings: list[str] = _native("warnings", "Repairs that were made while the scene was read.")
 
     def set(self, pointer: str, value: Any, *, progress: Optional[Progress] = None) -> None:
         """Sets a member of the scene's description for the following pictures:
@@ -228,25 +190,25 @@ class Scene:
         materials, and cameras where nothing is instanced, need no rebuild; for others the scene is
         read again. After an error the scene is unchanged.
         """
-        self._session.set_member(pointer, Description(self.name).text(value, pointer), progress)
+        self._object.set_member(pointer, Description(self.name).text(value, pointer), progress)
 
     def set_time(self, seconds: float) -> None:
         """Moves animated items, cameras and lights to a time in seconds. The scene must have been
         made with moves=True."""
-        self._session.set_time(seconds)
+        self._object.set_time(seconds)
 
     def set_transform(self, pointer: str, matrix: Any) -> None:
         """Sets the transform of one of `movable`, which replaces its own motion.
 
         matrix: (3, 4) or (4, 4), the last column the translation, in the scene's units.
         """
-        self._session.set_transform(pointer, _arrays.matrix(matrix, "matrix"))
+        self._object.set_transform(pointer, _arrays.matrix(matrix, "matrix"))
 
     def render(self, *, path_time: Optional[float] = None, progress: Optional[Progress] = None,
                **options: Any) -> Picture:
-        self._session  # noqa: B018 (the attribute is there only if __init__ came to its end)
+        self._object  # noqa: B018 (the attribute is there only if __init__ came to its end)
         texts = _options.texts(options)
-        return Picture(self._session.render(texts, path_time, progress))
+        return Picture(self._object.render(texts, path_time, progress))
 
     def __repr__(self) -> str:
         return f"<whit.Scene {self.name!r}: {self.triangles} triangles>"

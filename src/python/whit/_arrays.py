@@ -116,9 +116,6 @@ class Mesh:
         return f"<whit.Mesh: {len(self.positions)} vertices, {count} triangles>"
 
     def _arrays(self) -> tuple:
-        def given(array: Optional[np.ndarray], none: np.ndarray) -> np.ndarray:
-            return none if array is None else array
-
-        return (self.positions, given(self.triangles, _NO_INDICES),
-                given(self.normals, _NO_FLOATS), given(self.uvs, _NO_FLOATS),
-                given(self.colors, _NO_FLOATS))
+        triangles = _NO_INDICES if self.triangles is None else self.triangles
+        return (self.positions, triangles, *(_NO_FLOATS if array is None else array
+                                             for array in (self.normals, self.uvs, self.colors)))

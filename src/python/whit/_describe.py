@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 import os
-from typing import Any
+from typing import Any, Callable
 
 import numpy as np
 
@@ -36,32 +36,24 @@ class Description:
         raise Error(f"{self.name}#{pointer}: expected {expected}, found {found}", file=self.name,
                     place=pointer, expected=expected)
 
-    def _named(self, thing: Any, kind: str) -> tuple[str, bool]:
-        known = self._names.get(id(thing))
-        if known is not None:
-            return known, False
-        name = f"{kind} {len(self._held)}"
-        self._names[id(thing)] = name
-        self._held.append(thing)
-        return name, True
-
-    def _mesh(self, mesh: _arrays.Mesh) -> str:
-        name, new = self._named(mesh, "mesh")
-        if new:
-            self.meshes[name] = mesh._arrays()
-        return name
+    def _named(self, thing: Any, kept: dict, make: Callable[[], Any]) -> str:
+        """The name under which `kept` has the thing; one that several items use is there once."""
+        if id(thing) not in self._names:
+            name = f"array {len(self._held)}"
+            kept[name] = make()
+            self._names[id(thing)] = name
+            self._held.append(thing)
+        return self._names[id(thing)]
 
     def _image(self, array: np.ndarray, pointer: str) -> str:
-        name, new = self._named(array, "array")
-        if new:
-            self.images[name] = _arrays.image(array, f"{self.name}#{pointer}")
-        return name
+        return self._named(array, self.images,
+                           lambda: _arrays.image(array, f"{self.name}#{pointer}"))
 
     def _plain(self, value: Any, pointer: str, depth: int) -> Any:
         if depth > _DEEPEST:
             self._fail(pointer, f"at most {_DEEPEST} levels", "more")
         if isinstance(value, _arrays.Mesh):
-            return self._mesh(value)
+            return self._named(value, self.meshes, value._arrays)
         if isinstance(value, np.ndarray):
             tokens = pointer.split("/")
             if tokens[1:2] == ["textures"] and len(tokens) == 3:

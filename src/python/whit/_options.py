@@ -20,31 +20,6 @@ class Option(NamedTuple):
     def keyword(self) -> str:
         return self.name.replace("-", "_")
 
-    @property
-    def annotation(self) -> str:
-        """The Python type of its value."""
-        words = self.words
-        if words in ("", "on|off"):
-            return "bool"
-        if words == "N":
-            return "int"
-        if words in ("X", "DEG", "HEIGHT"):
-            return "float"
-        if words == "x,y,z":
-            return "Sequence[float]"
-        if words == "WxH":
-            return "Union[str, tuple[int, int]]"
-        if words == "x0,y0,x1,y1":
-            return "Union[str, tuple[int, int, int, int]]"
-        if words == "EV|auto":
-            return 'Union[float, Literal["auto"]]'
-        if "|" in words:
-            choices = [w if w.isdigit() else f'"{w}"' for w in words.split("|")]
-            return f"Literal[{', '.join(choices)}]"
-        if "," in words:
-            return "Union[str, Sequence[str]]"
-        return "str"
-
     def text(self, value: Any) -> str:
         """The value as on the command line."""
         if isinstance(value, (np.generic, np.ndarray)):
@@ -54,12 +29,8 @@ class Option(NamedTuple):
         if isinstance(value, (int, float, str)):
             return str(value)
         if isinstance(value, (list, tuple)):
-            return ("x" if self.words == "WxH" else ",").join(str(_plain(v)) for v in value)
-        raise TypeError(f"{self.keyword}: expected {self.annotation}, found {type(value).__name__}")
-
-
-def _plain(value: Any) -> Any:
-    return value.item() if isinstance(value, np.generic) else value
+            return ("x" if self.words == "WxH" else ",").join(str(v) for v in value)
+        raise TypeError(f"{self.keyword}: expected {self.words or 'on|off'}, found {type(value).__name__}")
 
 
 OPTIONS = {option.keyword: option for option in (Option(*row) for row in _whit.option_table())}
