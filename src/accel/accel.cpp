@@ -111,15 +111,18 @@ constexpr std::size_t kGroup = 128;
 
 template <int kWidth, typename Packet>
 struct Group {
-  explicit Group(unsigned mask) {
-    for (Packet& packet : packets) {
+  // For at most this many rays.
+  Group(unsigned mask, std::size_t rays) {
+    setLanes(rays);
+    for (std::size_t p = 0; p < count; ++p) {
       if constexpr (kWantsHits<Packet>) {
-        std::fill_n(packet.ray.mask, kWidth, mask);
+        packets[p].ray = {};
+        std::fill_n(packets[p].ray.mask, kWidth, mask);
       } else {
-        std::fill_n(packet.mask, kWidth, mask);
+        packets[p] = {};
+        std::fill_n(packets[p].mask, kWidth, mask);
       }
     }
-    setLanes(kGroup);
   }
 
   // Activates the lanes of the first `rays` rays; the other rays of the last packet are empty.
@@ -139,7 +142,7 @@ struct Group {
   };
   // Embree's robust traversal accepts hits at tnear, which is 0, so the origin must not lie on the
   // surface: it has been moved off by its error bound.
-  alignas(64) Packet packets[kGroup / kWidth]{};
+  alignas(64) Packet packets[kGroup / kWidth];
   Lanes live[kGroup / kWidth];
   std::size_t count = 0;  // packets in use
 };
@@ -151,7 +154,7 @@ std::size_t traceGroups(const EmbreeScene& scene, unsigned mask, bool coherent, 
                         double& embreeMs, const Pack& pack, const Unpack& unpack) {
   QueryContext context(coherent);
   const bool together = coherent && scene.streamWidth() == kWidth;
-  Group<kWidth, Packet> group(mask);
+  Group<kWidth, Packet> group(mask, std::min(n, kGroup));
   std::size_t lanes = 0;
   for (std::size_t begin = 0; begin < n; begin += kGroup) {
     const std::size_t rest = std::min(n - begin, kGroup);
