@@ -191,18 +191,6 @@ std::optional<double> readModelView(const std::vector<SceneSetting>& settings,
   return fromSky;
 }
 
-// A model that moves, before it does: so light and view, where they are supplied, stand still.
-SceneDescription atRest(const fs::path& path, LoadOptions options) {
-  options.instant = {};
-  Warnings said;  // of the model itself as well
-  SceneContext context(path, options, said, nullptr);
-  JsonDocument nothing{path.string(), Json::object(), {}};
-  JsonObject noMaterials{JsonValue(nothing)}, file{JsonValue(nothing)};
-  MaterialReader materials(noMaterials, context);
-  ItemReader(context, materials).readModelAlone(file, path);
-  return std::move(context.scene);
-}
-
 SceneDescription loadModelFile(const fs::path& path, const SceneName& name,
                                const LoadOptions& options, Warnings& warnings, Progress* progress) {
   if (!name.parameters.empty()) throwUsage(path.string() + " is a model: it has no parameters");
@@ -219,12 +207,8 @@ SceneDescription loadModelFile(const fs::path& path, const SceneName& name,
   JsonObject noMaterials{JsonValue(nothing)}, file{JsonValue(overrides)};
   MaterialReader materials(noMaterials, context);
   ItemReader(context, materials).readModelAlone(file, path);
+  supplyView(context);  // before the scene has another time than 0
   settleInstant(options.instant, context.scene);
-  if (options.instant.moves()) {
-    supplyView(context, atRest(path, options));
-  } else {
-    supplyView(context, context.scene);
-  }
   const bool ownAmbient = std::any_of(others.begin(), others.end(), [](const SceneSetting& s) {
     return s.tokens.front() == "ambient";
   });

@@ -44,16 +44,27 @@ void supplyLights(const ModelView& view, SceneDescription& scene) {
   scene.ambient.down = Rgb(0.1f);
 }
 
+// A supplied camera has to see the whole animation that is played.
+ModelView viewOf(const SceneContext& context) {
+  const SceneDescription& scene = context.scene;
+  const std::string& played = context.instant.animation;
+  for (const Animation& animation : scene.animations) {
+    if (!scene.cameras.empty() || !context.instant.moves()) break;
+    if (played.empty() || animation.name == played) return viewOf(scene, animation.seconds);
+  }
+  return viewOf(scene);
+}
+
 }  // namespace
 
-void supplyView(SceneContext& context, const SceneDescription& model) {
+void supplyView(SceneContext& context) {
   SceneDescription& scene = context.scene;
-  const ModelView view = viewOf(model);
+  const ModelView view = viewOf(context);
   scene.isModel = true;
   if (context.sky.empty() || context.sky == kStudio) scene.sky = studioSky();
   if (scene.lights.empty()) {
     supplyLights(view, scene);
-  } else if (const double level = lightLevel(model); level > 0) {
+  } else if (const double level = lightLevel(scene); level > 0) {
     scene.sky.scale = static_cast<float>(std::clamp(level / kUsualLevel, kDimmest, kBrightest));
   }
   if (scene.cameras.empty() && view.radius > 0) scene.cameras.push_back(view.camera);

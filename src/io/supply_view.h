@@ -15,9 +15,9 @@ namespace whit {
 inline constexpr double kAmbientOfSky = 0.4;
 
 // Completes a model whose own lights and cameras are there. The sky is the studio, unless none or
-// another was asked for, as bright as it suits the lights. `model` is the scene that light and view
-// are made for: the same scene, or where it moves the scene at rest.
-void supplyView(SceneContext& context, const SceneDescription& model);
+// another was asked for, as bright as it suits the lights.A supplied camera, and lights
+// with it, hold all of the animation that is played.
+void supplyView(SceneContext& context);
 
 // Replaces the scene's sky if LoadOptions::sky names another.
 void replaceSky(SceneContext& context);
