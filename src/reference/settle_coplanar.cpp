@@ -5,6 +5,7 @@
 
 #include "reference/find_intersections.h"
 #include "reference/media.h"
+#include "reference/sphere.h"
 
 namespace whit::reference {
 
@@ -122,6 +123,7 @@ std::vector<Place> placesAt(const Scene& scene, EffectSet effects, const Ray& ra
 
 Settled settleCoplanar(const Scene& scene, EffectSet effects, const Ray& ray,
                        const Candidate& met) {
+  if (scene.isSphere(met.triangle)) return {settleSpheres(scene, effects, ray, met), {}};
   if (scene.coplanar.empty()) return {met, {}};
   const std::vector<Place> places = placesAt(scene, effects, ray, met);
   if (places.empty()) return {met, {}};
