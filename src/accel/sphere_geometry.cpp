@@ -20,13 +20,8 @@ static_assert(offsetof(RTCRayHit8, ray) + offsetof(RTCRay8, tnear) ==
 static_assert(offsetof(RTCRayHit8, hit) + offsetof(RTCHit8, instID) ==
               kInstanceColumn * 8 * sizeof(float));
 
-// The highest priority of a dielectric; the description allows no more.
-constexpr int kHighest = std::numeric_limits<int>::max() - 2;
-
 simd::SphereInverse inverseOf(const Affine& map) {
-  const double volume = map.determinant();
-  const Vec3d rows[] = {cross(map.y, map.z) / volume, cross(map.z, map.x) / volume,
-                        cross(map.x, map.y) / volume};
+  const std::array<Vec3d, 3> rows = inverseRows(map);
   simd::SphereInverse inverse{};
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) inverse.rows[row][column] = rows[row][column];
@@ -36,13 +31,6 @@ simd::SphereInverse inverseOf(const Affine& map) {
   inverse.diagonal =
       r[0][1] == 0 && r[0][2] == 0 && r[1][0] == 0 && r[1][2] == 0 && r[2][0] == 0 && r[2][1] == 0;
   return inverse;
-}
-
-// Among coincident spheres the one of the highest rank is hit: an opaque one before a sheet, a
-// sheet before a dielectric, and dielectrics by priority.
-int rankOf(const Material& material) {
-  if (!material.passesLight()) return std::numeric_limits<int>::max();
-  return material.boundsMedium() ? std::min(material.priority, kHighest) : kHighest + 1;
 }
 
 }  // namespace
@@ -92,17 +80,11 @@ std::uint32_t SphereGeometry::numberOf(const Met& met) const {
 }
 
 // True if a sphere is chosen instead of the sphere that the ray has hit at the same distance,
-// possibly in another geometry: among equals the later one in the scene. So the order of the tests
-// does not matter.
+// possibly in another geometry, so that the order of the tests does not matter.
 bool SphereGeometry::comesBefore(const Met& sphere, const Met& other) const {
   if (other.geometry != sphere.geometry) return false;
   const std::uint32_t own = numberOf(sphere), its = numberOf(other);
-  if (!scene_.isSphere(its)) return false;
-  const auto rank = [&](std::uint32_t number) {
-    return rankOf(scene_.materials[scene_.triangles[number].material]);
-  };
-  if (rank(own) != rank(its)) return rank(own) > rank(its);
-  return std::tie(sphere.instance, own) > std::tie(other.instance, its);
+  return scene_.isSphere(its) && std::tie(sphere.instance, own) > std::tie(other.instance, its);
 }
 
 // Calls accept(ray, t, u, v) for each valid ray that meets the sphere not beyond its end. A masked

@@ -122,13 +122,17 @@ std::string digestOf(const Scene& scene) {
   const auto& [name, isModel, width, height, cameras, cameraPath, animations, lights, sky, ambient,
                materials, mediumOfMaterial, media, textures, geometries, instances, triangles,
                firstSphere, normals, colors, secondUvs, lower, upper, instancedTriangles,
-               instancedSpheres, items, coplanar, motion, effects, reasons] = scene;
+               instancedSpheres, items, coplanar, coincidentSpheres, motion, effects, reasons] =
+      scene;
   Digester d;
   addTable(d, lights), add(d, sky), add(d, sky.kind), add(d, sky.image), add(d, ambient);
   addTable(d, materials), addTable(d, mediumOfMaterial), addTable(d, media), addTable(d, textures);
   addTable(d, geometries), addTable(d, instances), addTable(d, triangles), addTable(d, normals);
   addTable(d, colors), addTable(d, secondUvs);
   addTable(d, coplanar.ranks());  // the rest of it follows from the other tables
+  for (const auto& sphere : coincidentSpheres) {
+    for (const PlacedTriangleId& id : *sphere.second) add(d, orderOf(id));
+  }
   add(d, lower), add(d, upper), add(d, instancedTriangles), add(d, effects);
   return d.hex();
 }

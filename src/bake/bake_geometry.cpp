@@ -41,7 +41,7 @@ struct PlacedSphere {
   Affine map;
   std::uint32_t material = 0;
   std::uint64_t rank = 0;  // in the order of the scene
-  std::uint32_t item = 0, number = 0;
+  std::uint32_t instance = 0, item = 0, number = 0;
 };
 
 class Baker {
@@ -251,7 +251,8 @@ void Baker::placeSpheres(const Source& source, std::size_t g) {
                       maxComponent(max(abs(box.lower), abs(box.upper))) <= kLargestCoordinate;
     const double volume = sphereMap(makeSphereRecord(map, 0)).determinant();
     if (fits && std::isnormal(volume)) {
-      spheres_[g].push_back({map, mesh.materials[0], source.place.rank, source.item, number});
+      spheres_[g].push_back(
+          {map, mesh.materials[0], source.place.rank, source.place.instance, source.item, number});
     } else {
       ++dropped;
     }
@@ -380,8 +381,9 @@ void Baker::emitSpheres(std::size_t g) {
   std::stable_sort(spheres_[g].begin(), spheres_[g].end(),
                    [](const PlacedSphere& a, const PlacedSphere& b) { return a.rank < b.rank; });
   for (const PlacedSphere& sphere : spheres_[g]) {
-    scene_.items.add(static_cast<std::uint32_t>(scene_.triangles.size()), sphere.item,
-                     sphere.number);
+    const auto number = static_cast<std::uint32_t>(scene_.triangles.size());
+    order_.spheres.push_back({sphere.rank, sphere.instance, number});
+    scene_.items.add(number, sphere.item, sphere.number);
     scene_.triangles.push_back(makeSphereRecord(sphere.map, sphere.material));
     if (withSecondUvs_) scene_.secondUvs.push_back({});
     if (withNormals_) scene_.normals.push_back({});

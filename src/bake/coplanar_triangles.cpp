@@ -133,6 +133,13 @@ std::uint64_t CoplanarTriangles::bytes() const {
 }
 
 WrittenPlace SceneOrder::placeOf(const Scene& scene, PlacedTriangleId id) const {
+  if (scene.isSphere(id.triangle)) {
+    WrittenPlace place = spheres[id.triangle - scene.firstSphere];
+    if (id.instance == kNoInstance) return place;
+    place.instance = scene.instances[id.instance].written;
+    place.rank += instances[place.instance];
+    return place;
+  }
   const std::uint32_t number = triangles[id.triangle];
   const auto meshOf = [&](std::uint32_t geometry) {
     const std::vector<PlacedMesh>& all = meshes[geometry];

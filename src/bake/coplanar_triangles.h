@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <map>
+#include <memory>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -31,6 +33,11 @@ inline std::uint64_t orderOf(PlacedTriangleId id) {
 inline PlacedTriangleId placedTriangle(std::uint64_t order) {
   return {static_cast<std::uint32_t>(order), static_cast<std::uint32_t>(order >> 32) - 1};
 }
+
+// Spheres that are coincident with others where they stand: for each, by its orderOf(), all that
+// are in its place, itself included, in the order of the scene.
+using CoincidentSpheres =
+    std::map<std::uint64_t, std::shared_ptr<const std::vector<PlacedTriangleId>>>;
 
 // The order of a scene as its author wrote it. Triangles are stored in another one: objects that
 // are used once belong to the world, other objects have geometries of their own, and the triangles
@@ -58,6 +65,7 @@ struct SceneOrder {
   };
   std::vector<std::vector<PlacedMesh>> meshes;  // one list a geometry, in the order of numbers
   std::vector<std::uint32_t> triangles;         // the number of each of Scene::triangles
+  std::vector<WrittenPlace> spheres;            // of each sphere, as if its instance were the first
   std::vector<std::uint64_t> instances;         // the rank of each of the description
 
   WrittenPlace placeOf(const Scene& scene, PlacedTriangleId id) const;

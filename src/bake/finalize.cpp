@@ -86,6 +86,7 @@ Scene Scene::finalize(SceneDescription&& description, Warnings& warnings, Progre
     warnings.add("search for coplanar faces cut short: too many triangles or overlapping instances",
                  scene.name, complete ? 0 : 1);
     scene.coplanar.rankBy(scene, order);
+    scene.coincidentSpheres = findCoincidentSpheres(scene, order);
   }
   moveScene(scene, 0, deformVertices);
   if (scene.cameras.empty()) {

@@ -22,6 +22,10 @@ SceneOrder bakeGeometry(SceneDescription& description, Scene& scene, Warnings& w
 // and of closed surfaces without holes alone, as seen from outside.
 void settleSides(SceneDescription& description);
 
+// Finds the spheres that are coincident in the world, up to rounding. None in scenes of more
+// spheres than kMostSearched.
+CoincidentSpheres findCoincidentSpheres(const Scene& scene, const SceneOrder& order);
+
 // Gives each dielectric its number. Materials that describe the same one share it, so that leaving
 // one of them counts as leaving the other. Throws Error(limit) beyond 255.
 void numberMedia(Scene& scene);

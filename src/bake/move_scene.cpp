@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bake/bake_triangles.h"
+#include "bake/finalize_steps.h"
 #include "bake/instance_bounds.h"
 #include "bake/sphere.h"
 #include "core/error.h"
@@ -159,6 +160,7 @@ void moveScene(Scene& scene, double seconds, DeformVertices deformVertices) {
   }
   Warnings expected;  // that some are flattened at times
   boundInstances(scene, motion.boxes, expected);
+  scene.coincidentSpheres = findCoincidentSpheres(scene, motion.order);
   std::vector<std::uint32_t> instances;
   for (const InstanceRecord& i : scene.instances) instances.push_back(i.written);
   if (motion.isSearched && instances == motion.instancesAtStart) {

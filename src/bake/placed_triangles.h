@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "bake/facet.h"
 #include "scene/description.h"
@@ -21,32 +22,52 @@ inline std::uint64_t placedTriangleCount(const SceneDescription& scene) {
 
 // Returns none where a corner is missing or lies beyond the range that can be traced: nothing is
 // validated yet.
-inline std::optional<Corners> placed(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle,
+inline std::optional<Corners> placed(const std::vector<Vec3f>& positions,
+                                     const std::array<std::uint32_t, 3>& triangle,
                                      const Affine& toWorld) {
   Corners corners;
   for (std::size_t i = 0; i < 3; ++i) {
-    if (triangle[i] >= mesh.positions.size()) return std::nullopt;
-    corners[i] = toWorld.point(Vec3d(mesh.positions[triangle[i]]));
+    if (triangle[i] >= positions.size()) return std::nullopt;
+    corners[i] = toWorld.point(Vec3d(positions[triangle[i]]));
     if (!(maxComponent(abs(corners[i])) < double{kLargestCoordinate})) return std::nullopt;
     if (!isFinite(corners[i])) return std::nullopt;
   }
   return corners;
 }
 
-// Calls use(corners) for every triangle, or for about `most` of them, evenly spread.
+// Calls use(corners) for every triangle, or for about `most` of them, evenly spread. In a scene
+// that moves, they are where they are after `seconds`, or else at the time of the scene.
 template <typename Use>
-void forEachPlacedTriangle(const SceneDescription& scene, std::uint64_t most, const Use& use) {
+void forEachPlacedTriangle(const SceneDescription& scene, std::uint64_t most, const Use& use,
+                           std::optional<double> seconds = {}) {
   const std::uint64_t stride = std::max<std::uint64_t>(1, placedTriangleCount(scene) / most);
+  const double time = seconds.value_or(scene.motion.seconds);
+  const std::vector<Affine> poses = poseRig(scene.motion.rig, time);
   std::uint64_t number = 0;
   for (const Instance& instance : scene.instances) {
+    const bool moves = instance.mover != kNoNode;
+    const Affine toWorld = moves ? poses[instance.mover] * instance.toWorld : instance.toWorld;
     for (const Mesh& mesh : scene.objects[instance.object].meshes) {
+      std::vector<Vec3f> bent;
+      if (const Deformation* deformation = mesh.deformation.get()) {
+        bent = deformVertices(*deformation, poseAt(*deformation, time)).positions;
+      }
+      const std::vector<Vec3f>& positions = mesh.deformation ? bent : mesh.positions;
       for (const auto& triangle : mesh.triangles) {
         if (number++ % stride != 0) continue;
-        const auto corners = placed(mesh, triangle, instance.toWorld);
+        const auto corners = placed(positions, triangle, toWorld);
         if (corners) use(*corners);
       }
     }
   }
+}
+
+// The same with use(corner).
+template <typename Use>
+void forEachPlacedCorner(const SceneDescription& scene, std::uint64_t most, const Use& use,
+                         std::optional<double> seconds = {}) {
+  const auto useAll = [&](const Corners& t) { std::for_each(t.begin(), t.end(), use); };
+  forEachPlacedTriangle(scene, most, useAll, seconds);
 }
 
 }  // namespace whit

@@ -155,7 +155,8 @@ class Scene {
 
   ItemNumbers items;
   CoplanarTriangles coplanar;  // triangles that overlap others in their plane
-  BakedMotion motion;          // see scene/move_scene.h
+  CoincidentSpheres coincidentSpheres;
+  BakedMotion motion;  // see scene/move_scene.h
 
   EffectSet effects;
   std::array<EffectReason, kEffectCount> reasons;

@@ -15,17 +15,16 @@ Vec3d fold(double x, double y) {
   return {(1 - std::abs(y)) * sign(x), (1 - std::abs(x)) * sign(y), 0};
 }
 
-// The rows of the inverse's linear part.
-std::array<Vec3d, 3> inverseRows(const Affine& m) {
-  const double volume = m.determinant();
-  return {cross(m.y, m.z) / volume, cross(m.z, m.x) / volume, cross(m.x, m.y) / volume};
+}  // namespace
+
+std::array<Vec3d, 3> inverseRows(const Affine& map) {
+  const double volume = map.determinant();
+  return {cross(map.y, map.z) / volume, cross(map.z, map.x) / volume, cross(map.x, map.y) / volume};
 }
 
 Vec3d multiply(const std::array<Vec3d, 3>& rows, const Vec3d& v) {
   return {dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)};
 }
-
-}  // namespace
 
 TriangleRecord makeSphereRecord(const Affine& toGeometry, std::uint32_t material) {
   SphereRecord record{};
@@ -46,6 +45,11 @@ Affine sphereMap(const TriangleRecord& record) {
   };
   return {column(0), column(3), column(6),
           Vec3d(double{r.center[0]}, double{r.center[1]}, double{r.center[2]})};
+}
+
+Affine sphereInWorld(const Scene& scene, PlacedTriangleId sphere) {
+  const Affine own = sphereMap(scene.triangles[sphere.triangle]);
+  return sphere.instance == kNoInstance ? own : scene.instances[sphere.instance].toWorld * own;
 }
 
 Box sphereBounds(const Affine& map) {

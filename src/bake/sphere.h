@@ -27,6 +27,11 @@ static_assert(sizeof(SphereRecord) == sizeof(TriangleRecord));
 TriangleRecord makeSphereRecord(const Affine& toGeometry, std::uint32_t material);
 // From the unit sphere to the space of the geometry.
 Affine sphereMap(const TriangleRecord& record);
+// From the unit sphere to the world.
+Affine sphereInWorld(const Scene& scene, PlacedTriangleId sphere);
+// The rows of the linear part of the map's inverse, and their product with a vector.
+std::array<Vec3d, 3> inverseRows(const Affine& map);
+Vec3d multiply(const std::array<Vec3d, 3>& rows, const Vec3d& v);
 // Around the sphere that `map` makes of the unit sphere, rounded outwards.
 Box sphereBounds(const Affine& map);
 

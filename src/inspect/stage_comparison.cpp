@@ -136,7 +136,7 @@ double bySliver(const Place<SurfelRow>& p) {
 std::optional<Affine> sphereAt(const Place<SurfelRow>& p) {
   const reference::Candidate candidate = reference::candidateOf(p.chunk, p.slot);
   if (!p.world.scene.isSphere(candidate.triangle)) return {};
-  return reference::sphereInWorld(p.world.scene, candidate.triangle, candidate.instance);
+  return sphereInWorld(p.world.scene, {candidate.triangle, candidate.instance});
 }
 Vec3d axesOf(const Affine& map) { return abs(map.x) + abs(map.y) + abs(map.z); }
 // The magnitude of a position that placeSurfel found along the ray; none where it follows from the

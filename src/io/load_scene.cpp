@@ -61,17 +61,28 @@ void supplyLights(const ModelView& view, SceneDescription& scene) {
   scene.ambient.down = Rgb(0.1f);
 }
 
+// A supplied camera has to see the whole animation that is played.
+ModelView viewOfAnimation(const SceneContext& context) {
+  const SceneDescription& scene = context.scene;
+  const std::string& played = context.instant.animation;
+  for (const Animation& animation : scene.animations) {
+    if (!scene.cameras.empty() || !context.instant.moves()) break;
+    if (played.empty() || animation.name == played) return viewOf(scene, animation.seconds);
+  }
+  return viewOf(scene);
+}
+
 // Completes a model whose own lights and cameras are there. The sky is the studio, unless none or
-// another was asked for, as bright as it suits the lights. `model` is the scene that light and view
-// are made for: the same scene, or where it moves the scene at rest.
-void supplyView(SceneContext& context, const SceneDescription& model) {
+// another was asked for, as bright as it suits the lights. A supplied camera, and lights with it,
+// hold all of the animation that is played.
+void supplyView(SceneContext& context) {
   SceneDescription& scene = context.scene;
-  const ModelView view = viewOf(model);
+  const ModelView view = viewOfAnimation(context);
   scene.isModel = true;
   if (context.sky.empty() || context.sky == kStudio) scene.sky = studioSky();
   if (scene.lights.empty()) {
     supplyLights(view, scene);
-  } else if (const double level = lightLevel(model); level > 0) {
+  } else if (const double level = lightLevel(scene); level > 0) {
     scene.sky.scale = static_cast<float>(std::clamp(level / kUsualLevel, kDimmest, kBrightest));
   }
   if (scene.cameras.empty() && view.radius > 0) scene.cameras.push_back(view.camera);
@@ -249,18 +260,6 @@ std::optional<double> readModelView(const std::vector<SceneSetting>& settings,
   return fromSky;
 }
 
-// A model that moves, before it does: so light and view, where they are supplied, stand still.
-SceneDescription atRest(const fs::path& path, LoadOptions options) {
-  options.instant = {};
-  Warnings said;  // of the model itself as well
-  SceneContext context(path, options, said, nullptr);
-  JsonDocument nothing{path.string(), Json::object(), {}};
-  JsonObject noMaterials{JsonValue(nothing)}, file{JsonValue(nothing)};
-  MaterialReader materials(noMaterials, context);
-  readModelAlone(file, path, context, materials);
-  return std::move(context.scene);
-}
-
 SceneDescription loadModelFile(const fs::path& path, const SceneName& name,
                                const LoadOptions& options, Warnings& warnings, Progress* progress) {
   if (!name.parameters.empty()) throwUsage(path.string() + " is a model: it has no parameters");
@@ -277,12 +276,8 @@ SceneDescription loadModelFile(const fs::path& path, const SceneName& name,
   JsonObject noMaterials{JsonValue(nothing)}, file{JsonValue(overrides)};
   MaterialReader materials(noMaterials, context);
   readModelAlone(file, path, context, materials);
+  supplyView(context);  // before the scene has another time than 0
   settleInstant(options.instant, context.scene);
-  if (options.instant.moves()) {
-    supplyView(context, atRest(path, options));
-  } else {
-    supplyView(context, context.scene);
-  }
   const bool ownAmbient = std::any_of(others.begin(), others.end(), [](const SceneSetting& s) {
     return s.tokens.front() == "ambient";
   });

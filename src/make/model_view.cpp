@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "bake/placed_triangles.h"
 
@@ -38,14 +40,6 @@ struct Bounds {
   Vec3d half() const { return (upper - lower) * 0.5; }
 };
 
-Bounds boundsOf(const SceneDescription& scene) {
-  Bounds bounds;
-  forEachPlacedTriangle(scene, std::numeric_limits<std::uint64_t>::max(), [&](const Corners& t) {
-    for (const Vec3d& corner : t) bounds.add(corner);
-  });
-  return bounds;
-}
-
 // The area that fronts turn to each side, whether or not something is before them.
 Vec3d bestSide(const SceneDescription& scene, double radius) {
   std::array<Vec3d, kSides.size()> sides;
@@ -64,10 +58,11 @@ Vec3d bestSide(const SceneDescription& scene, double radius) {
   return sides[static_cast<std::size_t>(found - shown.begin())];
 }
 
-// How often the surfaces wind around the point: 1 in a body, -1 in a room whose walls' fronts look
-// inwards, 0 outside of all (after van Oosterom and Strackee 1983, of the solid angle).
-double windingNumber(const SceneDescription& scene, const Vec3d& point) {
-  constexpr double kFlat = 1.0e-12;
+// True if the surfaces wind around the point as the walls of a room do, all but a few small
+// openings: their winding number is 1 in a body, -1 in a room whose walls' fronts look inwards, and
+// 0 outside of all (after van Oosterom and Strackee 1983, of the solid angle).
+bool isInRoom(const SceneDescription& scene, const Vec3d& point) {
+  constexpr double kFlat = 1.0e-12, kClosed = -0.9;
   double angle = 0;
   forEachPlacedTriangle(scene, kMostLookedAt, [&](const Corners& t) {
     const Vec3d a = t[0] - point, b = t[1] - point, c = t[2] - point;
@@ -76,13 +71,7 @@ double windingNumber(const SceneDescription& scene, const Vec3d& point) {
     if (!(std::abs(volume) > kFlat * space)) return;  // it lies in the plane: on neither side
     angle += 2 * std::atan2(volume, space + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
   });
-  return angle / (4 * std::numbers::pi);
-}
-
-// All but a few small openings.
-bool isInRoom(const SceneDescription& scene, const Vec3d& point) {
-  constexpr double kClosed = -0.9;
-  return windingNumber(scene, point) <= kClosed;
+  return angle / (4 * std::numbers::pi) <= kClosed;
 }
 
 // How far it is to the triangle along the unit direction, negative where its back is met; infinite
@@ -170,38 +159,77 @@ void lookAround(const SceneDescription& scene, const Bounds& bounds, ModelView& 
   view.ceiling = placeInRoom(scene, center + half * Vec3d{0, kBelowCeiling, 0}, center);
 }
 
-// Fits the model into the picture, looking at it from `side`.
-void lookFrom(const Vec3d& side, const SceneDescription& scene, ModelView& view) {
+// The axes of a picture that is taken from `side`, half its height at distance 1, and its width in
+// heights.
+struct Framing {
+  Vec3d side, right, up;
+  double half = 0, aspect = 1;
+};
+
+Framing framingOf(const Vec3d& side, const SceneDescription& scene, const Camera& camera) {
   constexpr double kMargin = 1.06;
-  const double aspect = static_cast<double>(scene.width) / scene.height;
-  const double half = std::tan(view.camera.fov * (std::numbers::pi / 360)) / kMargin;
-  const Vec3d right = normalized(cross(Vec3d{0, 1, 0}, side)), up = cross(side, right);
-  const auto everyCorner = [&](const auto& use) {
-    forEachPlacedTriangle(scene, kMostLookedAt, [&](const Corners& t) {
-      for (const Vec3d& corner : t) {
-        const Vec3d p = corner - view.center;
-        use(Vec3d{dot(p, right), dot(p, up), dot(p, side)});
-      }
+  const Vec3d right = normalized(cross(Vec3d{0, 1, 0}, side));
+  return {side, right, cross(side, right),
+          std::tan(camera.fov * (std::numbers::pi / 360)) / kMargin,
+          static_cast<double>(scene.width) / scene.height};
+}
+
+// Fits the points that everyPoint(use) visits into the picture.
+template <typename EveryPoint>
+void lookFrom(const Framing& f, const EveryPoint& everyPoint, ModelView& view) {
+  const auto everySeen = [&](const auto& use) {
+    everyPoint([&](const Vec3d& point) {
+      const Vec3d p = point - view.center;
+      use(Vec3d{dot(p, f.right), dot(p, f.up), dot(p, f.side)});
     });
   };
   Bounds seen;
-  everyCorner([&](const Vec3d& p) { seen.add(p); });
+  everySeen([&](const Vec3d& p) { seen.add(p); });
   const Vec3d middle = seen.center();
   double distance = 0;
-  everyCorner([&](const Vec3d& p) {
-    const double away = std::max(std::abs(p.x - middle.x) / aspect, std::abs(p.y - middle.y));
-    distance = std::max(distance, p.z - middle.z + away / half);
+  everySeen([&](const Vec3d& p) {
+    const double away = std::max(std::abs(p.x - middle.x) / f.aspect, std::abs(p.y - middle.y));
+    distance = std::max(distance, p.z - middle.z + away / f.half);
   });
-  const Vec3d at = view.center + right * middle.x + up * middle.y + side * middle.z;
+  const Vec3d at = view.center + f.right * middle.x + f.up * middle.y + f.side * middle.z;
   view.camera.at = Vec3f(at);
-  view.camera.eye = Vec3f(at + side * distance);
+  view.camera.eye = Vec3f(at + f.side * distance);
+}
+
+// Finds the points of a moving model that decide its bounds and its distance: at all times together
+// they lie farthest along the axes, along those of the picture, and towards the sides of its view.
+std::vector<Vec3d> outermostPoints(const SceneDescription& scene, double seconds,
+                                   const Framing& f) {
+  constexpr std::uint64_t kFewestTimes = 32, kMostTimes = 256, kMostPosed = 1'000'000;
+  std::vector<Vec3d> ways{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, f.right, f.up, f.side};
+  for (std::size_t i = 0; i < 6; ++i) ways.push_back(-ways[i]);
+  for (const Vec3d& way : {f.right / (f.aspect * f.half), f.up / f.half}) {
+    ways.insert(ways.end(), {f.side + way, f.side - way});
+  }
+  std::vector<double> reach(ways.size(), std::numeric_limits<double>::lowest());
+  std::vector<Vec3d> points(ways.size());
+  const std::uint64_t posed = kMostPosed / (placedTriangleCount(scene) + 1);
+  const std::uint64_t times = std::clamp(posed, kFewestTimes, kMostTimes);
+  const auto add = [&](const Vec3d& corner) {
+    for (std::size_t k = 0; k < ways.size(); ++k) {
+      const double own = dot(corner, ways[k]);
+      if (own > reach[k]) reach[k] = own, points[k] = corner;
+    }
+  };
+  for (std::uint64_t i = 0; i < times; ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(times - 1);
+    forEachPlacedCorner(scene, kMostLookedAt, add, seconds * share);
+  }
+  return points;
 }
 
 }  // namespace
 
 ModelView viewOf(const SceneDescription& scene) {
   ModelView view;
-  const Bounds bounds = boundsOf(scene);
+  Bounds bounds;
+  forEachPlacedCorner(scene, std::numeric_limits<std::uint64_t>::max(),
+                      [&](const Vec3d& corner) { bounds.add(corner); });
   if (bounds.empty()) return view;
   view.center = bounds.center();
   view.radius = length(bounds.half());
@@ -210,8 +238,27 @@ ModelView viewOf(const SceneDescription& scene) {
   if (view.inside) {
     lookAround(scene, bounds, view);
   } else {
-    lookFrom(bestSide(scene, view.radius), scene, view);
+    lookFrom(
+        framingOf(bestSide(scene, view.radius), scene, view.camera),
+        [&](const auto& use) { forEachPlacedCorner(scene, kMostLookedAt, use); }, view);
   }
+  return view;
+}
+
+ModelView viewOf(const SceneDescription& scene, double seconds) {
+  ModelView view = viewOf(scene);
+  if (view.inside) return view;
+  const double size = view.radius > 0 ? view.radius : 1;  // it may grow from nothing
+  const Framing framing = framingOf(bestSide(scene, size), scene, view.camera);
+  const std::vector<Vec3d> points = outermostPoints(scene, seconds, framing);
+  Bounds bounds;
+  for (const Vec3d& point : points) bounds.add(point);
+  view.center = bounds.center();
+  view.radius = length(bounds.half());
+  const auto everyPoint = [&](const auto& use) {
+    std::for_each(points.begin(), points.end(), use);
+  };
+  lookFrom(framing, everyPoint, view);
   return view;
 }
 

@@ -29,20 +29,16 @@ struct Outline {
   }
 };
 
-template <typename Use>
-void forEachCorner(const SceneDescription& scene, const Vec3d& center, const Use& use) {
-  forEachPlacedTriangle(scene, std::numeric_limits<std::uint64_t>::max(), [&](const Corners& t) {
-    for (const Vec3d& corner : t) use(corner - center);
-  });
-}
-
 Outline outlineOf(const SceneDescription& scene, const Vec3d& center) {
+  constexpr auto kAll = std::numeric_limits<std::uint64_t>::max();
   Outline outline;
-  forEachCorner(scene, center, [&](const Vec3d& p) {
+  forEachPlacedCorner(scene, kAll, [&](const Vec3d& corner) {
+    const Vec3d p = corner - center;
     outline.low = std::min(outline.low, p.y);
     outline.high = std::max(outline.high, p.y);
   });
-  forEachCorner(scene, center, [&](const Vec3d& p) {
+  forEachPlacedCorner(scene, kAll, [&](const Vec3d& corner) {
+    const Vec3d p = corner - center;
     double& radius = outline.radius[outline.sliceOf(p.y)];
     radius = std::max(radius, std::hypot(p.x, p.z));
   });

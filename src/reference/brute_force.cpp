@@ -1,5 +1,6 @@
 #include <limits>
 
+#include "bake/sphere.h"
 #include "reference/find_intersections.h"
 #include "reference/reference.h"
 #include "reference/sphere.h"
@@ -36,7 +37,7 @@ void forEachSurface(const Scene& scene, EffectSet effects, Visitor&& visit) {
 template <typename Visitor>
 void forEachHit(const Scene& scene, const Ray& ray, const Candidate& of, Visitor&& visit) {
   if (scene.isSphere(of.triangle)) {
-    const Affine map = sphereInWorld(scene, of.triangle, of.instance);
+    const Affine map = sphereInWorld(scene, {of.triangle, of.instance});
     for (const TriangleHit& hit : intersectSphere(ray, map)) visit(hit);
     return;
   }

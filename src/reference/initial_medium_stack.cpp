@@ -5,6 +5,7 @@
 #include "bake/eye_in_plane.h"
 #include "reference/find_intersections.h"
 #include "reference/settle_coplanar.h"
+#include "reference/sphere.h"
 
 namespace whit::reference {
 
@@ -33,6 +34,7 @@ MediaStack initialMediumStack(const Scene& scene, EffectSet effects, const Inter
   for (std::uint64_t i = 0; i < most && found < 4; ++i) {
     Candidate candidate;
     if (!intersector.closest(ray, candidate)) break;
+    candidate = settleSpheres(scene, effects, ray, candidate);
     const TriangleHit hit = refineHit(scene, ray, candidate);
     const Surfel surfel = makeSurfel(scene, EffectSet(), candidate, hit, ray);
     std::vector<Place> places = placesAt(scene, effects, ray, candidate);

@@ -1,10 +1,13 @@
 #include "reference/settle_coplanar.h"
 
 #include <algorithm>
+#include <optional>
+#include <tuple>
 #include <utility>
 
 #include "reference/find_intersections.h"
 #include "reference/media.h"
+#include "reference/sphere.h"
 
 namespace whit::reference {
 
@@ -122,6 +125,7 @@ std::vector<Place> placesAt(const Scene& scene, EffectSet effects, const Ray& ra
 
 Settled settleCoplanar(const Scene& scene, EffectSet effects, const Ray& ray,
                        const Candidate& met) {
+  if (scene.isSphere(met.triangle)) return {settleSpheres(scene, effects, ray, met), {}};
   if (scene.coplanar.empty()) return {met, {}};
   const std::vector<Place> places = placesAt(scene, effects, ray, met);
   if (places.empty()) return {met, {}};
@@ -136,6 +140,30 @@ Settled settleCoplanar(const Scene& scene, EffectSet effects, const Ray& ray,
   }
   if (places.size() > 1) settled.alsoCrossed |= kSharesPlace;
   return settled;
+}
+
+Candidate settleSpheres(const Scene& scene, EffectSet effects, const Ray& ray,
+                        const Candidate& met) {
+  const auto place = scene.coincidentSpheres.find(orderOf({met.triangle, met.instance}));
+  if (place == scene.coincidentSpheres.end()) return met;
+  const auto preference = [&](const Candidate& c) {
+    const std::uint32_t number = scene.triangles[c.triangle].material;
+    const std::uint32_t medium = scene.mediumOfMaterial[number];
+    return std::tuple(!scene.materials[number].passesLight(), medium == 0,
+                      scene.media[medium].priority);
+  };
+  const Vec3d point = ray.origin + ray.direction * refineSphereHit(scene, ray, met).t;
+  std::optional<Candidate> best;
+  for (const PlacedTriangleId& id : *place->second) {
+    if (id.instance != kNoInstance && !effects.has(Effect::instances)) continue;
+    const auto [u, v] = sphereWeights(onUnitSphere(sphereInWorld(scene, id), point));
+    const Candidate own{id.triangle, id.instance, u, v};
+    const bool isMet = id.triangle == met.triangle && id.instance == met.instance;
+    const TriangleHit hit{0, u, v};
+    if (!isMet && effects.has(Effect::alphaMasks) && cutAway(scene, id.triangle, hit)) continue;
+    if (!best || preference(own) >= preference(*best)) best = own;
+  }
+  return best.value_or(met);
 }
 
 }  // namespace whit::reference

@@ -39,4 +39,10 @@ struct Settled {
 // was painted before.
 Settled settleCoplanar(const Scene& scene, EffectSet effects, const Ray& ray, const Candidate& met);
 
+// Chooses among coincident spheres by the rule for coplanar triangles: an opaque sphere comes
+// first, then a sheet, then the dielectric of highest priority, and of equals the last in the
+// scene. A sphere does not count where its mask cuts it away.
+Candidate settleSpheres(const Scene& scene, EffectSet effects, const Ray& ray,
+                        const Candidate& met);
+
 }  // namespace whit::reference

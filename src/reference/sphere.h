@@ -12,12 +12,6 @@
 
 namespace whit::reference {
 
-// From the unit sphere to the world; `instance`: kNoHit, or that which carries the sphere.
-inline Affine sphereInWorld(const Scene& scene, std::uint32_t number, std::uint32_t instance) {
-  const Affine own = sphereMap(scene.triangles[number]);
-  return instance == kNoHit ? own : scene.instances[instance].toWorld * own;
-}
-
 // Returns none, one or two hits with t > 0, the nearer one first.
 inline std::vector<TriangleHit> intersectSphere(const Ray& ray, const Affine& fromUnit) {
   std::vector<TriangleHit> hits;
@@ -33,7 +27,7 @@ inline std::vector<TriangleHit> intersectSphere(const Ray& ray, const Affine& fr
 
 // The one that the candidate stands for, computed again.
 inline TriangleHit refineSphereHit(const Scene& scene, const Ray& ray, const Candidate& candidate) {
-  const Affine map = sphereInWorld(scene, candidate.triangle, candidate.instance);
+  const Affine map = sphereInWorld(scene, {candidate.triangle, candidate.instance});
   const Vec3d there = map.point(spherePoint(candidate.u, candidate.v));
   const double squared = dot(ray.direction, ray.direction);
   const double hint = dot(there - ray.origin, ray.direction) / squared;

@@ -142,6 +142,12 @@ class Planner {
       plan_.perQueue.push_back(amendingStep("settleCoplanar", simd::kUnpackHits, settleCoplanar,
                                             {Part::rays, Part::hits}, {Part::hits}));
     }
+    // Spheres that move may become coincident at any time.
+    const bool coincide = scene_.motion.ofGeometry || !scene_.coincidentSpheres.empty();
+    if (has(Effect::spheres) && coincide) {
+      plan_.perQueue.push_back(amendingStep("settleSpheres", simd::kUnpackHits, settleSpheres,
+                                            {Part::hits}, {Part::hits}));
+    }
     plan_.perQueue.push_back(stepOf(simd::kInterpolateSurfels));
     if (plan_.features.has(Feature::roughnessMaps)) {
       plan_.perQueue.push_back(stepOf(simd::kLookUpRoughness));

@@ -1,4 +1,4 @@
-// A step after findHits, in scenes with coplanar triangles that overlap.
+// Steps after findHits, in scenes with coplanar triangles that overlap or with coincident spheres.
 #pragma once
 
 #include <vector>
@@ -44,5 +44,8 @@ std::vector<CoplanarFace> coplanarFaces(const TracedScene& traced, const Line& r
 // crosses there. The scalar reference has an implementation of its own
 // (reference/settle_coplanar.h).
 void settleCoplanar(Chunk& c);
+
+// The same for coincident spheres. The others are as if they were not there.
+void settleSpheres(Chunk& c);
 
 }  // namespace whit

@@ -4,6 +4,7 @@
 
 #include "bake/move_scene.h"
 #include "gltf_files.h"
+#include "make/turntable.h"
 
 namespace whit {
 namespace {
@@ -123,14 +124,99 @@ TEST_F(GltfMotion, CamerasAndLightsMove) {
   EXPECT_EQ(scene.lights.at(0).position, (Vec3f{0, 0, 4}));
 }
 
-// A model that moves is looked at and lit as it is at rest, else a film of it would tremble.
-TEST_F(GltfMotion, WhatIsSuppliedStandsStill) {
+// Projects all corners at 60 times from `begin` to `end`. Returns the largest distance from the
+// middle of the picture, in halves of its height and width; infinity if a corner lies behind the
+// eye.
+double farthestInPicture(const SceneDescription& description, const Camera& camera, double begin,
+                         double end) {
+  Warnings none;
+  const double aspect = static_cast<double>(description.width) / description.height;
+  const double half = std::tan(double{camera.fov} * std::acos(-1.0) / 360);
+  Scene scene = Scene::finalize(SceneDescription(description), none);
+  const Vec3d eye(camera.eye), forward = normalized(Vec3d(camera.at) - eye);
+  const Vec3d right = normalized(cross(forward, Vec3d(camera.up))), up = cross(right, forward);
+  double farthest = 0;
+  for (int k = 0; k < 60; ++k) {
+    moveScene(scene, begin + (end - begin) * k / 59, deformVertices);
+    for (const InstanceRecord& instance : scene.instances) {
+      const Geometry& geometry = scene.geometries.at(instance.geometry);
+      for (const auto& corners : geometry.index) {
+        for (const std::uint32_t corner : corners) {
+          const Vec3d p = instance.toWorld.point(Vec3d(geometry.position.at(corner))) - eye;
+          const double depth = dot(p, forward);
+          if (!(depth > 0)) return std::numeric_limits<double>::infinity();
+          farthest = std::max({farthest, std::abs(dot(p, right)) / (depth * half * aspect),
+                               std::abs(dot(p, up)) / (depth * half)});
+        }
+      }
+    }
+  }
+  return farthest;
+}
+
+TEST_F(GltfMotion, TheSuppliedViewHoldsTheWholeAnimation) {
   GltfBuilder b;
-  const std::string times = scalars(b, {0, 1}), to = threes(b, {0, 0, 0, 4, 2, 0});
-  const std::string text = moved(b, animation(times, to, 0, "translation"));
-  const SceneDescription rest = loadText(text), later = at(0.7, text);
-  EXPECT_TRUE(sameView(rest.cameras.at(0), later.cameras.at(0)));
-  EXPECT_EQ(rest.lights.at(0).position, later.lights.at(0).position);
+  const std::string times = scalars(b, {0.5f, 2});
+  const std::string box = triangle(b), primitive = "{\"primitives\":[" + box + "]}";
+  const std::string grown = threes(b, {0, 0, 0, 1, 0, 0, 0, 1, 0});
+  const auto animated = [&](const std::string& path, const std::string& to, const char* how = "") {
+    return ",\"animations\":[" + animation(times, to, 0, path, how) + "]";
+  };
+  const std::string lid = replaced(oneMesh(box), "{\"mesh\":0}]", "{\"mesh\":0},{\"mesh\":0}]");
+  const std::string both = replaced(lid, "\"nodes\":[0]}", "\"nodes\":[0,1]}");
+  const std::string opened = fours(b, {0, 0, 0, 1, 0, 0, 0.94f, -0.34f});
+  // Leaves its keys: it starts and ends at 0 and swings to 4.5 between them.
+  const std::string swings = threes(b, {0, 0, 0, 0, 0, 0, 0, 12, 0,  //
+                                        0, -12, 0, 0, 0, 0, 0, 0, 0});
+  const std::string texts[] = {
+      oneMesh(box) + animated("translation", threes(b, {0, 0, 0, 10, 0, 0})),
+      oneMesh(box) + animated("translation", threes(b, {0, 0, -20, 0, 0, 20})),
+      oneMesh(box) + animated("translation", swings, ",\"interpolation\":\"CUBICSPLINE\""),
+      oneMesh(box) + animated("scale", threes(b, {0, 0, 0, 3, 3, 3})),
+      both + animated("rotation", opened),
+      oneMesh(triangle(b, ",\"targets\":[{\"POSITION\":" + grown + "}]")) +
+          animated("weights", scalars(b, {0, 1})),
+  };
+  for (const std::string& members : texts) {
+    SCOPED_TRACE(members);
+    const std::string text = b.json(members);
+    const SceneDescription scene = at(1.1, text), other = at(2, text);
+    const Camera& camera = scene.cameras.at(0);
+    const double farthest = farthestInPicture(scene, camera, 0, 2);
+    EXPECT_LT(farthest, 1);
+    EXPECT_GT(farthest, 0.9);
+    EXPECT_TRUE(sameView(camera, other.cameras.at(0))) << "the view trembles";
+    EXPECT_EQ(scene.lights.at(0).position, other.lights.at(0).position);
+    const Turntable turntable = aroundModel(scene, viewOf(scene), scene.width, scene.height);
+    double turning = 0;
+    for (int k = 0; k < 12; ++k) {
+      const double now = scene.motion.seconds;
+      turning = std::max(turning, farthestInPicture(scene, turned(turntable, k / 12.0), now, now));
+    }
+    EXPECT_LT(turning, 1) << "a turntable shows one time";
+    EXPECT_GT(turning, 0.8);
+  }
+}
+
+// Only the animation that is played counts, and only for a view that is supplied.
+TEST_F(GltfMotion, OtherAnimationsDoNotChangeTheSuppliedView) {
+  GltfBuilder b;
+  const std::string times = scalars(b, {0, 1}), to = threes(b, {0, 0, 0, 10, 0, 0});
+  const std::string still = threes(b, {0, 0, 0, 0, 0, 0});
+  std::string second = animation(times, still, 0, "translation");
+  second.insert(1, "\"name\":\"still\",");
+  const std::string members = oneMesh(triangle(b)) + ",\"animations\":[" +
+                              animation(times, to, 0, "translation") + "," + second + "]";
+  const SceneDescription rest = loadText(b.json(members)), moved = at(0, b.json(members)),
+                         played = at(0, b.json(members), "still");
+  EXPECT_FALSE(sameView(rest.cameras.at(0), moved.cameras.at(0)));
+  EXPECT_TRUE(sameView(rest.cameras.at(0), played.cameras.at(0)));
+  const std::string own =
+      b.json(replaced(members, "{\"mesh\":0}]",
+                      "{\"mesh\":0,\"camera\":0}],\"cameras\":[{\"type\":"
+                      "\"perspective\",\"perspective\":{\"yfov\":1,\"znear\":1}}]"));
+  options_.instant = {};
+  EXPECT_EQ(loadText(own).lights.at(0).position, at(0, own).lights.at(0).position);
 }
 
 TEST_F(GltfMotion, BrokenAnimationsAreRefusedWhenTheyArePlayed) {
@@ -206,7 +292,9 @@ class GltfSkin : public GltfMotion {
   std::vector<float> weights = {1, 0, 0, 0, 0.5f, 0.5f, 0, 0, 1, 0, 0, 0};
   std::string attributes;  // further ones
 
-  std::string text(const std::string& turn = "0,0,0.70710678,0.70710678") const {
+  // `plays`: an animation turns the upper joint by 150 degrees.
+  std::string text(const std::string& turn = "0,0,0.70710678,0.70710678",
+                   bool plays = false) const {
     GltfBuilder b;
     const std::vector<float> inverse = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0,  0, 1,
                                         1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1};
@@ -215,6 +303,10 @@ class GltfSkin : public GltfMotion {
     b.accessor(b.view(bytesOf(weights), 16), 5126, "VEC4", 3);
     b.accessor(b.view(bytesOf(inverse)), 5126, "MAT4", 2);
     b.positions({0, 0, 1, 1, 0, 0, 0, 1, 0});
+    const std::string times = scalars(b, {0, 1});
+    const std::string rotations = fours(b, {0, 0, 0, 1, 0, 0, 0.96592583f, 0.25881905f});
+    const std::string played =
+        plays ? ",\"animations\":[" + animation(times, rotations, 2, "rotation") + "]" : "";
     return b.json(
         "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"JOINTS_0\":1,\"WEIGHTS_0\":"
         "2" +
@@ -222,7 +314,7 @@ class GltfSkin : public GltfMotion {
         "}}]}],\"skins\":[{\"joints\":[1,2],\"inverseBindMatrices\":3}],\"nodes\":[{\"mesh\":0,"
         "\"skin\":0,\"translation\":[50,0,0]},{\"children\":[2]},{\"translation\":[0,1,0],"
         "\"rotation\":[" +
-        turn + "]}]");
+        turn + "]}]" + played);
   }
 };
 
@@ -251,6 +343,16 @@ TEST_F(GltfSkin, JointsArePlacedByHand) {
   expectNear(corner(scene, 2), {-1, 1, 0}, kPoseRounding);
   expectNear(corner(shared, 2), {0, 2, 0}, kPoseRounding);
   EXPECT_THROW(setPlace(scene, "/nodes/1", turned), Error);
+}
+
+TEST_F(GltfSkin, TheSuppliedViewHoldsTheWholeAnimation) {
+  const SceneDescription scene = at(0.2, text("0,0,0,1", true));
+  const double farthest = farthestInPicture(scene, scene.cameras.at(0), 0, 1);
+  EXPECT_LT(farthest, 1);
+  EXPECT_GT(farthest, 0.9);
+  options_.instant = {};
+  const Camera still = loadText(text("0,0,0,1", true)).cameras.at(0);
+  EXPECT_GE(farthestInPicture(scene, still, 0, 1), 1) << "the joint leaves the view at rest";
 }
 
 // A fan of joints under one that moves, each of which holds a corner of its own.

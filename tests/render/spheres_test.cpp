@@ -3,10 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "bake/move_scene.h"
 #include "inspect/metrics.h"
 #include "make/shapes/generators.h"
 #include "pi.h"
+#include "reference/reference.h"
 #include "render/row_of_tiles.h"
 
 namespace whit::test {
@@ -209,27 +216,170 @@ TEST(Spheres, KeepTheirBitsWhateverTheQueues) {
 
 // --- Where something else is in the way.
 
-// Of spheres in one place light meets the opaque one, of two opaque ones the later.
-TEST(Spheres, InOnePlaceTheOpaqueOneIsMetThenTheLater) {
-  for (const bool glassFirst : {true, false}) {
-    SceneBuilder builder;
-    const auto early = builder.add(emittingMaterial(0.25f)),
-               late = builder.add(emittingMaterial(0.75f)),
-               glass = builder.add(glassMaterial(1.5f, 3));
-    const Affine place = placedBall({0, 0, 0}, 1);
-    if (glassFirst) builder.add(ballOf(place, glass));
-    builder.add(ballOf(place, early));
-    builder.add(ballOf(place, late));
-    if (!glassFirst) builder.add(ballOf(place, glass));
-    builder.description.cameras = {{.eye = {0, 0, 3}, .at = {0, 0, 0}, .fov = 20}};
-    const Scene scene = builder.build();
-    for (const int packet : {1, 4, 8, 16}) {
-      RenderOptions o = smallOptions();
-      o.packet = packet;
-      for (const Rgb& pixel : render(scene, o).image.pixels) {
-        ASSERT_TRUE(pixel.x == 0.75f || pixel.x == 0) << packet << ' ' << double{pixel.x};
-      }
+// --- Coincident spheres. The eye is at (0, 0, 3) and looks at the origin.
+
+struct Piece {
+  Affine map;
+  std::uint32_t material = 0;
+  bool isInstance = false;
+  Affine toWorld = {};
+};
+
+const Affine kTurn = Affine::rotation({1, 2, 3}, 50),
+             kOtherTurn = Affine::rotation({-2, 1, 0.5}, 117);
+
+// Pictures of both modes, with packets of all widths, and of the reference with its own search.
+std::vector<std::pair<std::string, Image>> picturesOf(const Scene& scene, RenderOptions o) {
+  std::vector<std::pair<std::string, Image>> pictures;
+  for (const int packet : {1, 4, 8, 16}) {
+    o.packet = packet;
+    pictures.emplace_back("packets of " + std::to_string(packet), render(scene, o).image);
+  }
+  Renderer renderer(scene, o);
+  Film film = makeFilm(scene, o);
+  renderer.renderReference(chooseCamera(scene, o), film);
+  pictures.emplace_back("reference", film.image);
+  reference::Settings settings;
+  settings.options = o;
+  reference::render(scene, reference::BruteForce(scene), chooseCamera(scene, o), settings,
+                    film.image);
+  pictures.emplace_back("brute force", film.image);
+  return pictures;
+}
+
+class CoincidentSpheres : public testing::Test {
+ protected:
+  // Materials of the pieces: emission 0.25, 0.5 and 0.75, glass, and 0.75 where the lower half of z
+  // is, in the space of the unit sphere.
+  enum : std::uint32_t { kDim, kMiddle, kBright, kGlass, kHalfBright };
+
+  CoincidentSpheres() {
+    for (const float e : {0.25f, 0.5f, 0.75f}) builder_.add(emittingMaterial(e));
+    builder_.add(glassMaterial(1.5f, 3));
+    Material half = emittingMaterial(0.75f);
+    half.alphaMap = builder_.add(makeTexture(
+        TexelFormat::data, 2, 1, {encodeDataTexel(1, 1, 1, 1), encodeDataTexel(0, 0, 0, 0)}));
+    half.alphaCutoff = 0.5f;
+    builder_.add(half);
+  }
+
+  SceneBuilder builderOf(const std::vector<Piece>& pieces) {
+    SceneBuilder builder = builder_;
+    for (const Piece& piece : pieces) {
+      const Affine elsewhere = Affine::translation({40, 0, 0}) * piece.toWorld;
+      std::vector<Affine> places{piece.toWorld};
+      if (piece.isInstance) places.push_back(elsewhere);
+      builder.place({"ball", {ballOf(piece.map, piece.material)}}, places);
     }
+    builder.description.cameras = {{.eye = {0, 0, 3}, .at = {0, 0, 0}, .fov = 40}};
+    return builder;
+  }
+  Scene sceneOf(const std::vector<Piece>& pieces) { return builderOf(pieces).build(); }
+
+  // Compares all pictures with expected(point), where `axes` are those of an ellipsoid about the
+  // origin along x, y and z, and `point` is that of the ellipsoid that a pixel's center shows.
+  template <typename Expected>
+  void expectPictures(const char* what, const Scene& scene, const Vec3d& axes,
+                      const Expected& expected) {
+    SCOPED_TRACE(what);
+    RenderOptions o = smallOptions();
+    const double half = std::tan(20 * kPi / 180), height = o.size->height, width = o.size->width;
+    for (const auto& [mode, image] : picturesOf(scene, o)) {
+      int wrong = 0, seen = 0;
+      for (int y = 0; y < o.size->height; ++y) {
+        for (int x = 0; x < o.size->width; ++x) {
+          const Vec3d d{(x + 0.5 - width / 2) / (height / 2) * half,
+                        (height / 2 - y - 0.5) / (height / 2) * half, -1};
+          const Vec3d eye{0, 0, 3}, e{0, 0, 3 / axes.z}, v{d.x / axes.x, d.y / axes.y, -1 / axes.z};
+          const double a = dot(v, v), b = dot(e, v), inside = b * b - a * (dot(e, e) - 1);
+          if (std::fabs(inside) < 1e-3) continue;
+          const float got = image.pixels[static_cast<std::size_t>(y * o.size->width + x)].x;
+          const Vec3d point = eye + d * ((-b - std::sqrt(std::max(inside, 0.0))) / a);
+          const std::optional<float> right = inside < 0 ? 0.0f : expected(point);
+          wrong += right && *right != got;
+          seen += inside > 0;
+        }
+      }
+      EXPECT_EQ(wrong, 0) << mode;
+      EXPECT_GT(seen, 500) << mode;
+    }
+  }
+
+  void expectAll(const char* what, float expected, const std::vector<Piece>& pieces,
+                 const Vec3d& axes = Vec3d(1)) {
+    expectPictures(what, sceneOf(pieces), axes,
+                   [&](const Vec3d&) { return std::optional(expected); });
+  }
+
+ private:
+  SceneBuilder builder_;
+};
+
+TEST_F(CoincidentSpheres, TheLastInTheSceneIsHit) {
+  expectAll("equal", 0.75f, {{{}, kDim}, {{}, kBright}});
+  expectAll("the last is turned", 0.75f, {{{}, kDim}, {kTurn, kBright}});
+  expectAll("the first is turned", 0.25f, {{kTurn, kBright}, {{}, kDim}});
+  expectAll("three", 0.5f, {{kTurn, kBright}, {{}, kDim}, {kOtherTurn, kMiddle}});
+  expectAll("instances", 0.75f, {{{}, kDim, true, kOtherTurn}, {kTurn, kBright, true}});
+  expectAll("an instance after the world", 0.25f, {{{}, kBright}, {kTurn, kDim, true, kOtherTurn}});
+  expectAll("the world after an instance", 0.75f, {{{}, kDim, true, kTurn}, {{}, kBright}});
+  const Affine far = Affine::translation({-7, 3, 11});
+  expectAll("placed by an instance", 0.75f,
+            {{{}, kDim}, {far * kTurn, kBright, true, Affine::translation({7, -3, -11})}});
+  const Vec3d axes{1, 0.7, 0.05};
+  const Affine flat = Affine::scaling(axes);
+  expectAll("ellipsoids", 0.75f, {{flat * kTurn, kDim}, {flat * kOtherTurn, kBright}}, axes);
+}
+
+TEST_F(CoincidentSpheres, OpaqueOnesAreHitBeforeGlass) {
+  expectAll("glass last", 0.25f, {{{}, kDim}, {kTurn, kGlass}});
+  expectAll("glass first", 0.75f, {{kTurn, kGlass}, {{}, kBright}});
+  expectAll("glass between", 0.75f, {{kTurn, kDim}, {{}, kGlass}, {kOtherTurn, kBright, true}});
+}
+
+TEST_F(CoincidentSpheres, OthersAreHitWhereAMaskCutsThem) {
+  for (const bool turned : {false, true}) {
+    const Affine map = turned ? kTurn : Affine();
+    expectPictures("masked", sceneOf({{kOtherTurn, kDim}, {map, kHalfBright}}), Vec3d(1),
+                   [&](const Vec3d& point) -> std::optional<float> {
+                     const double z = dot(map.z, point);  // the inverse is the transpose
+                     if (std::fabs(z) < 1e-3) return std::nullopt;
+                     return z < 0 ? 0.75f : 0.25f;
+                   });
+  }
+  expectAll("masked first", 0.25f, {{kTurn, kHalfBright}, {{}, kDim}});
+}
+
+TEST_F(CoincidentSpheres, OthersKeepTheirDistance) {
+  const Affine larger = Affine::scaling(Vec3d(1 + 2e-5));
+  expectAll("larger first", 0.75f, {{larger * kTurn, kBright}, {{}, kDim}});
+  expectAll("nearer first", 0.75f, {{Affine::translation({0, 0, 3e-5}), kBright}, {kTurn, kDim}});
+  const Vec3d thin{1, 0.9, 0.01}, thinner{1, 0.9, 0.0099};
+  expectAll("thicker first", 0.75f,
+            {{Affine::scaling(thin), kBright}, {Affine::scaling(thinner) * kTurn, kDim}}, thin);
+}
+
+// Comes from aside and is at rest at 1 s.
+class Arrival : public Motion {
+ public:
+  Affine at(double seconds) const override {
+    return Affine::translation({5 * (1 - seconds), 0, 0}) * kTurn;
+  }
+};
+
+TEST_F(CoincidentSpheres, MoveIntoOnePlaceAndOut) {
+  SceneBuilder builder = builderOf({{{}, kDim}, {{}, kBright, true}});
+  RigNode node;
+  node.motion = std::make_shared<const Arrival>();
+  builder.description.motion.rig = {node};
+  for (Instance& instance : builder.description.instances) {
+    if (instance.object == builder.description.instances.back().object) instance.mover = 0;
+  }
+  Scene scene = builder.build();
+  for (const double seconds : {1.0, 0.0, 1.0}) {
+    moveScene(scene, seconds, deformVertices);
+    expectPictures("moved", scene, Vec3d(1),
+                   [&](const Vec3d&) { return std::optional(seconds == 1 ? 0.75f : 0.25f); });
   }
 }
 

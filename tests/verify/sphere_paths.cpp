@@ -264,17 +264,27 @@ std::vector<Rivals> rivals() {
 }
 
 // With `apart`, each sphere is in an object of its own that has two instances. A sphere of the
-// other material comes first in that object, so that the two have other numbers there.
-Scene sceneOfRivals(const Rivals& two, const Ball& ball, bool apart) {
+// other material comes first in that object, so that the two have other numbers there. With
+// `turned`, the second sphere is turned, by its instances if it has some.
+Scene sceneOfRivals(const Rivals& two, const Ball& ball, bool apart, bool turned) {
   SceneBuilder builder;
   const std::uint32_t materials[] = {builder.add(two.first), builder.add(two.second)};
   const Ball elsewhere{{ball.center.x + 50, ball.center.y, ball.center.z}, 0.5f};
+  const Affine toCenter = Affine::translation(Vec3d(ball.center));
+  const Affine turn = Affine::rotation({1, -2, 0.5}, 77);
   for (const int i : {0, 1}) {
     Object object;
     if (apart) object.meshes.push_back(elsewhere.mesh(materials[1 - i]));
     object.meshes.push_back(ball.mesh(materials[i]));
+    Affine& map = object.meshes.back().spheres[0];
+    Affine place;
+    if (turned && i == 1 && apart) {
+      place = toCenter * turn * Affine::translation(-Vec3d(ball.center));
+    } else if (turned && i == 1) {
+      map = map * turn;
+    }
     if (!apart) builder.add(object.meshes[0]);
-    if (apart) builder.place(std::move(object), {Affine{}, Affine::translation({0, 8, 0})});
+    if (apart) builder.place(std::move(object), {place, Affine::translation({0, 8, 0}) * place});
   }
   return builder.build();
 }
@@ -284,13 +294,15 @@ Finding ballsInOnePlace(const Setup& setup) {
   const Ball ball{{0.3f, -0.2f, 0.7f}, 0.9f};
   const std::vector<ProbeRay> rays = raysOntoBall(ball, 300, 82);
   for (const Rivals& two : rivals()) {
-    for (const bool apart : {false, true}) {
-      const Scene scene = sceneOfRivals(two, ball, apart);
+    for (const int arrangement : {0, 1, 2, 3}) {
+      const bool apart = arrangement % 2 == 1, turned = arrangement >= 2;
+      const Scene scene = sceneOfRivals(two, ball, apart, turned);
       Probe probe(scene, setup, rays);
       for (std::size_t i = 0; i < probe.size(); ++i) {
         const bool right = probe.isHit(i) && probe.surfels().material[i] == two.winner;
         finding.count(!right && ball.chord(rays[i]).aside < 1, [&] {
-          return (apart ? "instances, " : "one object, ") + describeRay(rays[i]);
+          return std::string(apart ? "instances, " : "one object, ") + (turned ? "turned, " : "") +
+                 describeRay(rays[i]);
         });
       }
     }
@@ -370,7 +382,8 @@ constexpr Case kSpherePathCases[] = {
      "heights of 0.001 to 0.1 radii; against the closed form, and the paraxial focus",
      Runs::packets, ballLens},
     {"H71m", "which of two coincident spheres is hit",
-     "opaque before glass, then by priority, then the later; as one object and as instances",
+     "opaque before glass, then by priority, then the later; as one object and as instances, "
+     "turned",
      Runs::packets, ballsInOnePlace},
     {"H71n", "spheres that overlap, touch, coincide, and lie inside one another",
      "hits and pictures that differ from those of single rays and of other tiles", Runs::packets,
