@@ -125,6 +125,7 @@ void Probe::cast(const std::vector<ProbeRay>& rays) {
   chunk_.depth = 1;  // not from an eye, which sees nothing of the surfaces that it lies in
   findHits(chunk_);
   if (chunk_.has(Feature::coplanar)) settleCoplanar(chunk_);
+  settleSpheres(chunk_);
   chunk_.depth = 0;
   interpolate();
 }
