@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -115,7 +116,39 @@ class Agreement : public testing::Test {
     describeSum("packets", packets.sampled);
   }
 
+  std::string folder_;  // kept if the test fails
+
+  // A picture of whit's, by exactly these options.
+  static whit::api::Image render(const Options& options, const std::string& file,
+                                 const std::string& mode, std::optional<double> time = {}) {
+    whit::api::LoadOptions load;
+    load.moves = time.has_value();
+    const whit::api::Scene scene = whit::api::loadScene(file, load);
+    for (const std::string& warning : scene.warnings()) {
+      EXPECT_EQ(warning.find("material whose parts exceed 1"), 0u) << warning;
+    }
+    whit::api::Renderer renderer(scene);
+    renderer.set("mode", mode).set("cutoff", "0").set("threads", "2");
+    renderer.set("spp", std::to_string(options.spp));
+    renderer.set("depth", std::to_string(options.depth));
+    renderer.set("glossy", std::to_string(options.glossy));
+    renderer.set("indirect", std::to_string(options.indirect));
+    renderer.set("roulette", std::to_string(options.roulette));
+    renderer.set("light-samples", std::to_string(options.lightSamples));
+    renderer.set("ambient-samples", std::to_string(options.ambientSamples));
+    renderer.set("terminator", options.terminator ? "on" : "off");
+    renderer.set("fresnel", options.schlickFresnel ? "schlick" : "exact");
+    renderer.set("texture-filter", nameOf(options.filter));
+    if (time) renderer.setTime(*time);
+    return renderer.render();
+  }
+
  private:
+  static std::string nameOf(Filter filter) {
+    if (filter == Filter::trilinear) return "trilinear";
+    return filter == Filter::nearest ? "nearest" : "bilinear";
+  }
+
   // What the oracle sees of a scene.
   struct Seen {
     Tracer tracer;
@@ -154,31 +187,9 @@ class Agreement : public testing::Test {
     return false;
   }
 
-  static whit::api::Image render(const Kind& kind, const std::string& file,
-                                 const std::string& mode) {
-    const whit::api::Scene scene = whit::api::loadScene(file);
-    for (const std::string& warning : scene.warnings()) {
-      EXPECT_EQ(warning.find("material whose parts exceed 1"), 0u) << warning;
-    }
-    whit::api::Renderer renderer(scene);
-    renderer.set("mode", mode).set("cutoff", "0").set("threads", "2");
-    renderer.set("depth", std::to_string(kind.options.depth));
-    renderer.set("glossy", std::to_string(kind.options.glossy));
-    renderer.set("light-samples", std::to_string(kind.options.lightSamples));
-    renderer.set("terminator", kind.options.terminator ? "on" : "off");
-    renderer.set("fresnel", kind.options.schlickFresnel ? "schlick" : "exact");
-    renderer.set("texture-filter", nameOf(kind.options.filter));
-    return renderer.render();
-  }
-
-  static std::string nameOf(Filter filter) {
-    if (filter == Filter::trilinear) return "trilinear";
-    return filter == Filter::nearest ? "nearest" : "bilinear";
-  }
-
   static void compare(const Kind& kind, const Seen& seen, const std::string& file,
                       const std::string& mode, double tolerance, Tally& all) {
-    const whit::api::Image image = render(kind, file, mode);
+    const whit::api::Image image = render(kind.options, file, mode);
     const int width = seen.scene.width, height = seen.scene.height;
     ASSERT_EQ(image.rgb().size(), static_cast<std::size_t>(3 * width * height));
     Tally tally;
@@ -225,8 +236,6 @@ class Agreement : public testing::Test {
                   x, y, got.x, got.y, got.z, wanted.x, wanted.y, wanted.z);
     return text;
   }
-
-  std::string folder_;
 };
 
 }  // namespace oracle

@@ -60,11 +60,13 @@ void Geometry::addList(const Scene& scene, std::span<const Body> bodies,
                        std::vector<Transform>& transforms) {
   for (const Body& body : bodies) {
     const Object& object = scene.objects[static_cast<std::size_t>(body.object)];
+    const std::size_t outer = transforms.size();
+    if (!body.motion.keys.empty()) transforms.push_back(placeAt(body.motion, scene.time));
     transforms.push_back(body.transform);
     addList(scene, object.before, transforms);
     addShape(scene, object, transforms);
     addList(scene, object.after, transforms);
-    transforms.pop_back();
+    transforms.resize(outer);
   }
 }
 

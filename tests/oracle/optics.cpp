@@ -191,6 +191,13 @@ Color ambientAt(const Ambient& ambient, const Sky& sky, const Vec& normal) {
   return mix(below, above, up) * (ambient.fromSky * sky.scale);
 }
 
+Vec cosineDirection(const Vec& normal, double u, double v) {
+  const Vec other = std::abs(normal.y) < 0.7 ? Vec{0, 1, 0} : Vec{1, 0, 0};
+  const Vec x = normalized(cross(other, normal)), y = cross(normal, x);
+  const double turn = 2 * kPi * v;
+  return (x * std::cos(turn) + y * std::sin(turn)) * std::sqrt(u) + normal * std::sqrt(1 - u);
+}
+
 Color transmittance(const Color& absorption, double distance) {
   const auto channel = [&](double sigma) { return sigma > 0 ? std::exp(-sigma * distance) : 1.0; };
   return {channel(absorption.x), channel(absorption.y), channel(absorption.z)};

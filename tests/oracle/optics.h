@@ -71,6 +71,10 @@ Color skyAlong(const Sky& sky, const Vec& direction);
 // Ambient radiance on a surface of this normal.
 Color ambientAt(const Ambient& ambient, const Sky& sky, const Vec& normal);
 
+// A direction about the normal, of density cosine / pi, by a point of the unit square: the square
+// of the sine is even in [0, 1].
+Vec cosineDirection(const Vec& normal, double u, double v);
+
 // What a way of this length leaves of light (Beer and Lambert).
 Color transmittance(const Color& absorption, double distance);
 

@@ -45,4 +45,33 @@ bool areMirroring(std::span<const Transform> transforms) {
   return mirroring;
 }
 
+Transform placeAt(const Motion& motion, double time) {
+  const std::vector<Motion::Key>& keys = motion.keys;
+  std::size_t next = 0;  // the first key behind `time`
+  while (next < keys.size() && keys[next].time <= time) ++next;
+  const Motion::Key& from = keys[next == 0 ? 0 : next - 1];
+  const Motion::Key& to = next == keys.size() ? from : keys[next];
+  const double way = to.time - from.time;
+  const double t = next == 0 || !(way > 0) || motion.inSteps ? 0 : (time - from.time) / way;
+  return {from.scale * (1 - t) + to.scale * t, motion.axis, from.degrees * (1 - t) + to.degrees * t,
+          from.translate * (1 - t) + to.translate * t};
+}
+
+Scene atItsTime(Scene scene) {
+  for (Light& light : scene.lights) {
+    if (light.motion.keys.empty()) continue;
+    const std::array by{placeAt(light.motion, scene.time)};
+    light.position = placed(light.position, by);
+    light.direction = placedDifference(light.direction, by);
+  }
+  Camera& camera = scene.camera;
+  if (!camera.motion.keys.empty()) {
+    const std::array by{placeAt(camera.motion, scene.time)};
+    camera.eye = placed(camera.eye, by);
+    camera.at = placed(camera.at, by);
+    camera.up = placedDifference(camera.up, by);
+  }
+  return scene;
+}
+
 }  // namespace oracle

@@ -105,6 +105,27 @@ Material SceneMaker::glass(double ior, int priority) {
   return material;
 }
 
+Material SceneMaker::painted() {
+  Material material = glossy();
+  material.diffuseMap = addColors();
+  if (random.chance(0.3)) material.specularMap = addColors();
+  if (random.chance(0.3)) material.emission = random.color(0.2, 1);
+  if (largest(material.emission) > 0) material.emissionMap = addColors();
+  return material;
+}
+
+int SceneMaker::addColors() {
+  Texture texture;
+  texture.width = 3 + random.below(12), texture.height = 2 + random.below(7);
+  for (int i = 0; i < texture.width * texture.height; ++i) {
+    const auto channel = [&] { return random.chance(0.5) ? 255 : 0; };
+    const int r = channel(), g = channel(), b = channel();
+    texture.texels.push_back({r, g, b});
+  }
+  scene.textures.push_back(texture);
+  return static_cast<int>(scene.textures.size()) - 1;
+}
+
 int SceneMaker::addData(int width, int height, const Color& low, const Color& high) {
   Texture texture;
   texture.width = width, texture.height = height, texture.isData = true;

@@ -65,6 +65,11 @@ class SceneMaker {
   // Tinted and absorbing; `priority` as it is.
   Material glass(double ior, int priority = 0);
 
+  // Glossy, of several textures.
+  Material painted();
+
+  // A texture of colors that are exact as sRGB, of a few texels; its number.
+  int addColors();
   // A texture of numbers within the box, all three of a texel at once; its number.
   int addData(int width, int height, const Color& low, const Color& high);
 

@@ -84,6 +84,31 @@ TEST_F(Sampled, LobesAsSmoothAsAMirror) {
                    {.depth = 4, .glossy = 16}});
 }
 
+// Solids, some of which shine, stand near each other and hide ambient light from each other and
+// from the floor. One of them casts no shadow.
+void occludedRoom(SceneMaker& maker) {
+  litRoom(maker);
+  maker.scene.ambient.occlusion = maker.random.between(0.4, 2.5);
+  for (int i = 0; i < 4; ++i) {
+    Material material = i % 2 == 0 ? maker.glossy() : maker.matte();
+    if (i == 1) material.emission = maker.random.color(0, 1.5);
+    if (i == 3) material.castsShadow = false;
+    maker.add(flatSolid(maker), material, maker.standing(i, 4));
+  }
+  maker.place(maker.addSphere(0.5, maker.mirror()), maker.random.placement({0, 0.4, 1.4}, 0.8));
+}
+
+TEST_F(Sampled, AmbientOcclusion) {
+  expectAgreement({"--ambient-samples 64", occludedRoom, {.ambientSamples = 64}});
+  expectAgreement({"--ambient-samples 3", occludedRoom, {.ambientSamples = 3}});
+}
+
+TEST_F(Sampled, IndirectLight) {
+  expectAgreement({"--indirect 64", occludedRoom, {.depth = 1, .indirect = 64}});
+  expectAgreement(
+      {"--indirect 5 --glossy 5", occludedRoom, {.depth = 2, .glossy = 5, .indirect = 5}});
+}
+
 // A highlight narrower than the light would be met by few samples, and by none of the oracle's.
 Material rough(SceneMaker& maker) {
   Material material = maker.glossy();

@@ -32,6 +32,7 @@ struct Material {
   Color absorption;
   int priority = 0;
   Choice glossyReflection = Choice::unsaid;
+  bool diffuseReflection = true;  // of indirect light
   bool castsShadow = true;
   int diffuseMap = kNone, specularMap = kNone, emissionMap = kNone;  // multiply what they name
 
@@ -72,10 +73,24 @@ struct Transform {
   Vec translate;
 };
 
+// Turned about one axis. What moves rests before the first key and after the last one.
+struct Motion {
+  struct Key {
+    double time = 0;
+    Vec scale{1, 1, 1};
+    double degrees = 0;
+    Vec translate;
+  };
+  std::vector<Key> keys;  // none: it does not move
+  Vec axis{0, 1, 0};
+  bool inSteps = false;  // from key to key, not linearly between them
+};
+
 struct Body {
   int object = 0;
   Transform transform;
   bool inPlace = false;  // what the object holds is written where the body stands
+  Motion motion{};       // after the transform
 };
 
 // A mesh or an exact sphere of one material, among uses of other objects. Where several bodies show
@@ -94,6 +109,7 @@ struct Light {
   double radius = 0.01;
   Vec direction{0, -1, 0};
   double innerConeAngle = 0, outerConeAngle = 45;  // degrees
+  Motion motion{};
 };
 
 struct Sky {
@@ -107,17 +123,22 @@ struct Sky {
 
 struct Ambient {
   Color up, down;
-  double fromSky = 0;  // above 0: so much of a gradient's mean instead
+  double fromSky = 0;    // above 0: so much of a gradient's mean instead
+  double occlusion = 0;  // how far a surface looks for what hides ambient light; 0: it does not
 };
 
 struct Camera {
   Vec eye{0, 1, 5}, at, up{0, 1, 0};
   double fov = 45;                // vertical, degrees
   double orthographicHeight = 0;  // above 0: parallel rays
+  double aperture = 0;            // radius of the lens
+  double focus = 0;               // distance of the plane in focus along the view; 0: that of `at`
+  Motion motion{};
 };
 
 struct Scene {
   int width = 48, height = 32;
+  double time = 0;  // of what moves, seconds
   Camera camera;
   std::vector<Light> lights;
   Sky sky;
@@ -134,7 +155,10 @@ enum class Filter { nearest, bilinear, trilinear };
 // Of a render: the options of whit of the same names.
 struct Options {
   int depth = 8;
-  int glossy = 0, lightSamples = 1;
+  int glossy = 0, indirect = 0;
+  int lightSamples = 1, ambientSamples = 0;
+  int spp = 1;          // of whit's; the oracle is told how many samples to draw
+  double roulette = 0;  // whit's alone: no mean depends on it
   bool terminator = false;
   Filter filter = Filter::bilinear;
   bool schlickFresnel = false;

@@ -81,29 +81,9 @@ TEST_F(Spheres, OpaqueOnesFromWithin) {
                    }});
 }
 
-int addColors(SceneMaker& maker) {
-  Texture texture;
-  texture.width = 3 + maker.random.below(12), texture.height = 2 + maker.random.below(7);
-  for (int i = 0; i < texture.width * texture.height; ++i) {
-    const auto channel = [&] { return maker.random.chance(0.5) ? 255 : 0; };
-    texture.texels.push_back({channel(), channel(), channel()});
-  }
-  maker.scene.textures.push_back(texture);
-  return static_cast<int>(maker.scene.textures.size()) - 1;
-}
-
-Material painted(SceneMaker& maker) {
-  Material material = maker.glossy();
-  material.diffuseMap = addColors(maker);
-  if (maker.random.chance(0.3)) material.specularMap = addColors(maker);
-  if (maker.random.chance(0.3)) material.emission = maker.random.color(0.2, 1);
-  if (largest(material.emission) > 0) material.emissionMap = addColors(maker);
-  return material;
-}
-
 void paintedBalls(SceneMaker& maker) {
   maker.room();
-  addBalls(maker, [&] { return painted(maker); });
+  addBalls(maker, [&] { return maker.painted(); });
   maker.add(pane(), maker.mirror(), maker.random.placement({0.4, 2.3, -1.2}, 1.6));
   lampsAbove(maker, 2);
 }
@@ -308,7 +288,7 @@ TEST_F(Spheres, InstancesWithMaps) {
   const auto mapped = [](SceneMaker& maker) {
     usedOften(maker, [&] {
       Material material = maker.matte();
-      material.diffuseMap = addColors(maker);
+      material.diffuseMap = maker.addColors();
       material.normalMap = maker.addData(16, 8, {80, 80, 200}, {176, 176, 255.99});
       if (maker.random.chance(0.4)) {
         material.alphaMap = maker.addData(16, 8, {}, {255.99, 1, 1});

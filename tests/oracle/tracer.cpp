@@ -4,6 +4,7 @@
 
 #include "oracle/integral.h"
 #include "oracle/optics.h"
+#include "oracle/placement.h"
 
 namespace oracle {
 
@@ -37,6 +38,7 @@ struct Tracer::Surface {
 };
 
 int Tracer::pointsASide(const Branch& branch) {
+  if (branch.drawn) return 1;
   if (branch.sampled) return kFewestPointsASide;
   return branch.depth == 0 ? kPointsASide : kFewerPointsASide;
 }
@@ -49,7 +51,7 @@ struct Tracer::Impulse {
 };
 
 Tracer::Tracer(const Scene& scene, const Options& options)
-    : scene_(scene),
+    : scene_(atItsTime(scene)),
       options_(options),
       textures_(scene.textures.begin(), scene.textures.end()),
       geometry_(scene, textures_) {}
@@ -58,7 +60,28 @@ Sight Tracer::look(double x, double y) const {
   const Ray ray = eyeRay(x, y);
   Random random(static_cast<std::uint32_t>(std::floor(y) * scene_.width + std::floor(x)));
   const double width = scene_.camera.orthographicHeight > 0 ? pixelSize() : 0;
-  return trace(ray, {0, 1, false, width, mediaAround(ray.origin)}, random);
+  return trace(ray, {0, 1, false, false, width, mediaAround(ray.origin)}, random);
+}
+
+Color Tracer::sample(int x, int y, Random& random) const {
+  const double right = random.between(0, 1), down = random.between(0, 1);
+  const Ray ray = throughLens(eyeRay(x + right, y + down), random);
+  const double width = scene_.camera.orthographicHeight > 0 ? pixelSize() : 0;
+  return trace(ray, {0, 1, false, true, width, mediaAround(ray.origin)}, random).radiance;
+}
+
+// From a point of the lens to where the ray from its center meets the plane in focus.
+Ray Tracer::throughLens(const Ray& ray, Random& random) const {
+  const Camera& camera = scene_.camera;
+  if (!(camera.aperture > 0)) return ray;
+  const Vec forward = normalized(camera.at - camera.eye);
+  const Vec right = normalized(cross(forward, camera.up)), up = cross(right, forward);
+  const double focus = camera.focus > 0 ? camera.focus : length(camera.at - camera.eye);
+  const Vec sharp = ray.origin + ray.direction * (focus / dot(ray.direction, forward));
+  const double radius = camera.aperture * std::sqrt(random.between(0, 1));
+  const double turn = random.between(0, 2 * std::numbers::pi);
+  const Vec start = ray.origin + (right * std::cos(turn) + up * std::sin(turn)) * radius;
+  return {start, normalized(sharp - start)};
 }
 
 const Face* Tracer::nearest(double x, double y) const {
@@ -263,8 +286,9 @@ Sight Tracer::trace(const Ray& ray, const Branch& branch, Random& random) const 
   surface.belowLobe = gray(1) - taken.radiance;
   surface.material.diffuse = diffuseLeft(surface, branch.media, behind) * surface.belowLobe;
   Sight seen = lightFrom(surface, there, random);
-  seen.radiance += surface.material.emission +
-                   surface.material.diffuse * ambientAt(scene_.ambient, scene_.sky, surface.normal);
+  seen.radiance += surface.material.emission;
+  const bool indirectly = options_.indirect > 0 && surface.material.diffuseReflection;
+  if (!indirectly) seen += ambientLight(surface, there, random);
   // What whit takes from the diffuse color varies with its samples, and together with what these
   // bring: the square of a sum is at most twice the sum of the squares.
   const auto grows = [](double left) { return 1 / std::max(left, 0.01); };
@@ -276,6 +300,7 @@ Sight Tracer::trace(const Ray& ray, const Branch& branch, Random& random) const 
   Sight on;
   if (there.depth < options_.depth) {
     on = impulses(surface, there, behind, random);
+    if (indirectly) seen += indirectLight(surface, there, random);
     Sight sampled = glossyReflection(surface, there, random);
     sampled.variance = sampled.variance * gray(2);
     seen += sampled * aboveLobe(surface, branch.media, behind);
@@ -340,6 +365,39 @@ Sight Tracer::lightFromSphere(const Surface& surface, const Light& light, const 
   return sight;
 }
 
+// What casts shadows hides the ambient light of its directions, as far as that is looked for.
+Sight Tracer::ambientLight(const Surface& surface, const Branch& branch, Random& random) const {
+  const Color all =
+      surface.material.diffuse * ambientAt(scene_.ambient, scene_.sky, surface.normal);
+  if (options_.ambientSamples == 0 || scene_.ambient.occlusion == 0 || !(largest(all) > 0)) {
+    return {.radiance = all};
+  }
+  Integral integral;
+  forEvenPoints(pointsASide(branch), random, [&](double u, double v) {
+    const Ray ray{surface.position, cosineDirection(surface.normal, u, v)};
+    integral.addLight(!geometry_.blocked(ray, scene_.ambient.occlusion), all, 1);
+  });
+  const int samples = branch.depth == 0 ? options_.ambientSamples : 1;
+  Sight sight = integral.mean(samples);
+  sight.largestSample = largest(all) / std::min(samples, integral.points());
+  return sight;
+}
+
+// By its samples' density cosine / pi a diffuse surface sends on the mean of what they see.
+Sight Tracer::indirectLight(const Surface& surface, const Branch& branch, Random& random) const {
+  const Color& part = surface.material.diffuse;
+  if (!(largest(part) > 0)) return {};
+  Integral integral;
+  forEvenPoints(pointsASide(branch), random, [&](double u, double v) {
+    const Branch child{
+        branch.depth + 1, branch.weight * largest(part), true, branch.drawn, branch.width,
+        branch.media};
+    const Vec direction = cosineDirection(surface.normal, u, v);
+    integral.add(trace({surface.position, direction}, child, random), part, 1);
+  });
+  return integral.mean(branch.depth == 0 ? options_.indirect : 1);
+}
+
 // Light comes neither from behind the face nor through anything that casts shadows.
 bool Tracer::lit(const Surface& surface, const Arrival& arrival) const {
   const bool lifted = options_.terminator && length(surface.lift) > 0;
@@ -356,8 +414,8 @@ bool Tracer::lit(const Surface& surface, const Arrival& arrival) const {
 Sight Tracer::follow(const Surface& surface, const Branch& branch, const Impulse& impulse,
                      Random& random) const {
   const double most = largest(impulse.part);
-  const Branch child{branch.depth + 1, branch.weight * most, branch.sampled, branch.width,
-                     impulse.media};
+  const Branch child{branch.depth + 1, branch.weight * most, branch.sampled,
+                     branch.drawn,     branch.width,         impulse.media};
   Sight seen = trace({surface.position, impulse.direction}, child, random) * impulse.part;
   if (surface.smooth && impulse.height < kSkimming) seen.undecided += most;
   return seen;
@@ -440,8 +498,9 @@ Sight Tracer::glossyReflection(const Surface& surface, const Branch& branch, Ran
     if (!(vh > 0) || !(nl > 0)) return integral.addNothing();
     const double density = facetsFacing(material, nh) * shareSeen(material, nv) / (4 * nv);
     const Color part = glossyLobe(material, normal, toViewer, toLight) * (nl / density);
-    const Branch child{branch.depth + 1, branch.weight * largest(part), true, branch.width,
-                       branch.media};
+    const Branch child{
+        branch.depth + 1, branch.weight * largest(part), true, branch.drawn, branch.width,
+        branch.media};
     Sight seen = trace({surface.position, toLight}, child, random);
     if (surface.smooth && dot(toLight, surface.plane) < kSkimming) seen.undecided += 1;
     integral.add(seen, part, 1);

@@ -21,6 +21,9 @@ class Tracer {
   // Through the image position (x, y), in pixels from the top left. All of a pixel are sampled
   // alike.
   Sight look(double x, double y) const;
+  // Returns an unbiased estimate of the pixel's mean radiance: the ray goes through a random point
+  // of the pixel and of the lens, and each integral on its path gets one sample.
+  Color sample(int x, int y, Random& random) const;
   // What lies there.
   const Face* nearest(double x, double y) const;
 
@@ -32,12 +35,14 @@ class Tracer {
     int depth = 0;
     double weight = 1;     // of the pixel
     bool sampled = false;  // one of many of its kind
+    bool drawn = false;    // of each integral one point
     double width = 0;      // of the cone about the ray, where it starts
     Media media;
   };
 
   static int pointsASide(const Branch& branch);
   Ray eyeRay(double x, double y) const;
+  Ray throughLens(const Ray& ray, Random& random) const;
   Media mediaAround(const Vec& point) const;
   void pass(Media& media, const Ray& ray, const Hit& hit) const;
   Sight trace(const Ray& ray, const Branch& branch, Random& random) const;
@@ -50,6 +55,8 @@ class Tracer {
   Sight lightFromSphere(const Surface& surface, const Light& light, const Branch& branch,
                         Random& random) const;
   bool lit(const Surface& surface, const Arrival& arrival) const;
+  Sight ambientLight(const Surface& surface, const Branch& branch, Random& random) const;
+  Sight indirectLight(const Surface& surface, const Branch& branch, Random& random) const;
   Color diffuseLeft(const Surface& surface, const Media& before, const Media& behind) const;
   Color aboveLobe(const Surface& surface, const Media& before, const Media& behind) const;
   Sight lobeWeight(const Surface& surface, const Branch& branch, Random& random) const;
@@ -59,7 +66,7 @@ class Tracer {
                Random& random) const;
   Sight glossyReflection(const Surface& surface, const Branch& branch, Random& random) const;
 
-  const Scene& scene_;
+  const Scene scene_;  // at its time
   const Options& options_;
   std::vector<MipChain> textures_;
   Geometry geometry_;

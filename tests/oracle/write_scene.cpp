@@ -41,19 +41,35 @@ std::string joined(const std::vector<Element>& elements, const Describe& describ
   return text;
 }
 
+std::string motionText(const Motion& motion) {
+  if (motion.keys.empty()) return "";
+  std::string text;
+  for (const auto& [time, scale, degrees, translate] : motion.keys) {
+    text += (text.empty() ? R"({"time": )" : R"(, {"time": )") + number(time) + R"(, "scale": )" +
+            list(scale) + R"(, "rotate": [)" + number(motion.axis.x) + ", " +
+            number(motion.axis.y) + ", " + number(motion.axis.z) + ", " + number(degrees) +
+            R"(], "translate": )" + list(translate) + "}";
+  }
+  const std::string how = motion.inSteps ? R"(, "interpolation": "step"})" : "}";
+  return R"(, "motion": {"keys": [)" + text + "]" + how;
+}
+
 std::string cameraText(const Camera& c) {
   std::string text = R"({"main": {"eye": )" + list(c.eye) + R"(, "at": )" + list(c.at) +
                      R"(, "up": )" + list(c.up) + R"(, "fov": )" + number(c.fov);
   if (c.orthographicHeight > 0) {
     text += R"(, "orthographicHeight": )" + number(c.orthographicHeight);
   }
-  return text + "}}";
+  if (c.aperture > 0) {
+    text += R"(, "aperture": )" + number(c.aperture) + R"(, "focus": )" + number(c.focus);
+  }
+  return text + motionText(c.motion) + "}}";
 }
 
 std::string lightText(const Light& light) {
   if (light.kind == Light::Kind::directional) {
     return R"({"type": "directional", "direction": )" + list(light.direction) +
-           R"(, "irradiance": )" + list(light.intensity) + "}";
+           R"(, "irradiance": )" + list(light.intensity) + motionText(light.motion) + "}";
   }
   std::string text = R"({"position": )" + list(light.position) + R"(, "intensity": )" +
                      list(light.intensity) + R"(, "radius": )" + number(light.radius);
@@ -62,7 +78,7 @@ std::string lightText(const Light& light) {
             R"(, "innerConeAngle": )" + number(light.innerConeAngle) + R"(, "outerConeAngle": )" +
             number(light.outerConeAngle);
   }
-  return text + "}";
+  return text + motionText(light.motion) + "}";
 }
 
 std::string skyText(const Sky& sky) {
@@ -75,8 +91,10 @@ std::string skyText(const Sky& sky) {
 }
 
 std::string ambientText(const Ambient& ambient) {
-  if (ambient.fromSky > 0) return R"({"fromSky": )" + number(ambient.fromSky) + "}";
-  return R"({"up": )" + list(ambient.up) + R"(, "down": )" + list(ambient.down) + "}";
+  const std::string end =
+      ambient.occlusion > 0 ? R"(, "occlusion": )" + number(ambient.occlusion) + "}" : "}";
+  if (ambient.fromSky > 0) return R"({"fromSky": )" + number(ambient.fromSky) + end;
+  return R"({"up": )" + list(ambient.up) + R"(, "down": )" + list(ambient.down) + end;
 }
 
 std::string materialText(const Material& m) {
@@ -100,6 +118,7 @@ std::string materialText(const Material& m) {
             R"(, "absorption": )" + list(m.absorption) + R"(, "priority": )" +
             std::to_string(m.priority);
   }
+  if (!m.diffuseReflection) text += R"(, "diffuseReflection": false)";
   if (m.thin) text += R"(, "thin": true)";
   if (m.glossyReflection != Choice::unsaid) {
     const bool reflects = m.glossyReflection == Choice::yes;
@@ -203,7 +222,8 @@ std::string itemText(const Scene& scene, const Body& body) {
   const Object& object = scene.objects[static_cast<std::size_t>(body.object)];
   const std::string what = body.inPlace ? R"({"group": [)" + contentText(scene, object) + "]"
                                         : R"({"use": "object)" + std::to_string(body.object) + '"';
-  return what + R"(, "transform": )" + transformText(body.transform) + "}";
+  return what + R"(, "transform": )" + transformText(body.transform) + motionText(body.motion) +
+         "}";
 }
 
 std::string sceneText(const Scene& scene) {
