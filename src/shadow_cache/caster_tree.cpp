@@ -53,13 +53,15 @@ Box boxOfGeometry(const Scene& scene, const Geometry& geometry) {
   return box;
 }
 
-Box grown(const Box& box, double by) {
-  if (!(by < double{kLargestCoordinate})) {
+// The largest distances from the origin, per axis.
+Vec3d extentOf(const Box& box) { return max(abs(Vec3d(box.lower)), abs(Vec3d(box.upper))); }
+
+Box grown(const Box& box, const Vec3d& by) {
+  if (!(maxComponent(by) < double{kLargestCoordinate})) {
     return {Vec3f(-std::numeric_limits<float>::max()), Vec3f(std::numeric_limits<float>::max())};
   }
   // Rounding to float is less than what is added beside.
-  const Vec3d size = max(abs(Vec3d(box.lower)), abs(Vec3d(box.upper)));
-  const Vec3d more = Vec3d(by) + size * 0x1p-22;
+  const Vec3d more = by + extentOf(box) * 0x1p-22;
   return {Vec3f(Vec3d(box.lower) - more), Vec3f(Vec3d(box.upper) + more)};
 }
 
@@ -90,8 +92,23 @@ float growthOf(const Scene& scene, const CasterList& list, std::size_t at,
   return static_cast<float>(std::min(influence, reach)) * (1 + 0x1p-20f);
 }
 
-// Embree's own tests of boxes, and its way into an instance's space, are off by some ulps.
+// Embree's own tests of boxes are off by some ulps.
 constexpr double kSolidMargin = 0x1p-16;
+
+// How far rounding moves a ray that is carried into an instance's space, as seen in the world: 16
+// ulps of each product that Embree adds up there, in single precision. `start` is the extent of the
+// scene, where rays start, and `own` that of the instance's geometry in its own space.
+Vec3d roundingInInstance(const Affine& m, const Vec3d& own, const Vec3d& start) {
+  const Vec3d x = abs(m.x), y = abs(m.y), z = abs(m.z);
+  const auto intoWorld = [&](const Vec3d& v) { return x * v.x + y * v.y + z * v.z; };
+  const auto cofactor = [](const Vec3d& a, const Vec3d& b, const Vec3d& v) {
+    return v.x * (a.y * b.z + a.z * b.y) + v.y * (a.z * b.x + a.x * b.z) +
+           v.z * (a.x * b.y + a.y * b.x);
+  };
+  const Vec3d world = intoWorld(own) + abs(m.p) + start;
+  const Vec3d inverse{cofactor(y, z, world), cofactor(z, x, world), cofactor(x, y, world)};
+  return intoWorld(own + inverse / std::fabs(m.determinant())) * 0x1p-20;
+}
 
 }  // namespace
 
@@ -111,13 +128,14 @@ CasterList::CasterList(const Scene& scene) {
     addSolid(sphereBounds(sphereMap(scene.triangles[world.firstSphere + i])));
   }
   std::vector<Box> boxes;
+  const Vec3d start = extentOf({scene.lower, scene.upper});
   for (const Geometry& geometry : scene.geometries) boxes.push_back(boxOfGeometry(scene, geometry));
   for (const InstanceRecord& instance : scene.instances) {
     const Box& own = boxes[instance.geometry];
     if (own.empty()) continue;
     Box placed;
     for (int i = 0; i < 8; ++i) placed.add(Vec3f(instance.toWorld.point(Vec3d(own.corner(i)))));
-    addSolid(placed);
+    addSolid(grown(placed, roundingInInstance(instance.toWorld, extentOf(own), start)));
   }
   for (const CasterRef& caster : casters) {
     const Box box = boxOf(scene, caster);
@@ -127,7 +145,7 @@ CasterList::CasterList(const Scene& scene) {
   if (casters.empty()) return;
   const Vec3f lower = min(bounds.lower, scene.lower), upper = max(bounds.upper, scene.upper);
   size = length(Vec3d(upper) - Vec3d(lower));
-  for (Box& box : solid) box = grown(box, size * kSolidMargin);
+  for (Box& box : solid) box = grown(box, Vec3d(size * kSolidMargin));
   std::vector<std::pair<std::uint64_t, CasterRef>> sorted;
   sorted.reserve(casters.size());
   for (const CasterRef& caster : casters) {
@@ -157,7 +175,7 @@ CasterTree::CasterTree(const Scene& scene, const CasterList& list, const LightPo
     const CasterRef& caster = list.casters[i];
     const Box box = list.boxOf(scene, caster);
     growth_.push_back(caster.isBox() ? 0 : growthOf(scene, list, i, light));
-    boxes.push_back(caster.isBox() ? box : grown(box, double{growth_.back()}));
+    boxes.push_back(caster.isBox() ? box : grown(box, Vec3d(double{growth_.back()})));
   }
   while (!boxes.empty()) {
     std::vector<Box> above((boxes.size() + kChildren - 1) / kChildren);
