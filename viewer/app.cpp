@@ -175,6 +175,7 @@ bool App::fetchFrame() {
   resolution_.setSampled(shown_.sampled);
   panel_.remember(shown_);
   rate_.fetched(!request.interruptible);
+  if (shown_.request.measureKnobs) settings_.measureKnobs = false;
   return true;
 }
 
@@ -214,6 +215,7 @@ FrameRequest App::requestFor(const Sharpness& sharpness, bool still) const {
   request.coarse = !finest;
   request.view = settings_.view;
   request.withReference = still && finest && settings_.compare != CompareMode::off;
+  request.measureKnobs = still && finest && settings_.measureKnobs;
   request.reloads = reloads_;
   request.edits = edits_;
   request.seconds = settings_.timeline.time();
@@ -224,7 +226,7 @@ FrameRequest App::requestFor(const Sharpness& sharpness, bool still) const {
 // More samples would blur what is compared or looked into.
 bool App::supersamples() const {
   return settings_.supersample && settings_.compare == CompareMode::off &&
-         settings_.view == DebugView::none;
+         settings_.view == DebugView::none && !settings_.measureKnobs;
 }
 
 FrameRequest App::movingRequest(const ImageSize& window) {

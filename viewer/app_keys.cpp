@@ -41,6 +41,7 @@ constexpr KeyHelp kHelp[] = {{"W A S D, Q E", "fly; down and up"},
                              {"H", "this panel"},
                              {"V", "depth, normals and other views"},
                              {"N", "more samples at rest, or not"},
+                             {"M", "measure what each knob and effect costs"},
                              {"X", "against the reference; drag the line"},
                              {"C", "print and copy the view as whit render makes it"},
                              {"F12", "save PNG, EXR, camera and command"},
@@ -149,6 +150,11 @@ void App::handleKey(int key) {
        [&] {
          settings_.supersample = !settings_.supersample;
          say(settings_.supersample ? "supersamples at rest" : "no more samples at rest");
+       }},
+      {GLFW_KEY_M,
+       [&] {
+         settings_.measureKnobs = true;
+         say("measuring what each knob and effect costs");
        }},
       {GLFW_KEY_I, [&] { settings_.inspects = !settings_.inspects; }},
       {GLFW_KEY_T, [&] { settings_.rays.lines = !settings_.rays.lines; }},

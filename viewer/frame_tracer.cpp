@@ -53,6 +53,22 @@ void finishComparison(const Film& frame, float exposure, ToneCurve curve, Compar
   comparison.difference = compareImages(frame.image, reference, exposure, curve);
 }
 
+// Sets a renderer's options for its own lifetime.
+class OptionsInUse {
+ public:
+  OptionsInUse(Renderer& renderer, const RenderOptions& options)
+      : renderer_(renderer), before_(renderer.options()) {
+    renderer_.setOptions(options);
+  }
+  ~OptionsInUse() { renderer_.setOptions(before_); }
+  OptionsInUse(const OptionsInUse&) = delete;
+  OptionsInUse& operator=(const OptionsInUse&) = delete;
+
+ private:
+  Renderer& renderer_;
+  const RenderOptions before_;
+};
+
 }  // namespace
 
 DisplayImage splitPicture(const DisplayImage& frame, const Comparison& comparison, int split) {
@@ -176,6 +192,7 @@ bool FrameTracer::trace(const FrameRequest& request, TracedFrame& frame, const T
   if (request.seconds && *request.seconds != seconds_) moveTo(*request.seconds);
   applyOptions(request);
   frame.comparison.reset();
+  frame.costs.clear();
   if (!tracePicture(request, frame, calls)) return false;
   finished_ = request;
   frame.scene = scene_;
@@ -197,7 +214,31 @@ bool FrameTracer::trace(const FrameRequest& request, TracedFrame& frame, const T
   frame.sampled = renderer_->plan().features.has(Feature::streams);
   frame.reasons = scene_->scene.reasons;
   frame.machine = renderer_->machine();
+  if (request.measureKnobs && !measure(request, frame, calls)) return false;
   return !request.withReference || traceReference(request, frame, calls);
+}
+
+bool FrameTracer::measure(const FrameRequest& request, TracedFrame& frame,
+                          const TraceCalls& calls) {
+  const ImageSize whole = request.options.size.value();
+  // The cache would make all but the first frames of a setting faster.
+  RenderOptions traced = options_;
+  traced.shadowCache = ShadowCacheMode::off;
+  const OptionsInUse used(*renderer_, traced);
+  const ImageSize size = measuredSize(whole, msPerSample_ * options_.spp);
+  sizeFilm(band_, size, Crop{0, 0, size.width, size.height});
+  const double scale = static_cast<double>(whole.width) * whole.height /
+                       (static_cast<double>(size.width) * size.height);
+  const auto show = [&](const std::vector<KnobCost>& sofar, std::size_t all) {
+    const double done = static_cast<double>(sofar.size()) / static_cast<double>(all);
+    calls.showUnfinished({request, {}, done, sofar});
+  };
+  const auto superseded = [&] {
+    calls.answer();
+    return calls.superseded();
+  };
+  frame.costs = measureKnobs(*renderer_, traced, request.camera, band_, scale, {superseded, show});
+  return !superseded();
 }
 
 bool FrameTracer::tracePicture(const FrameRequest& request, TracedFrame& frame,
@@ -250,7 +291,7 @@ bool FrameTracer::traceAtOnce(const FrameRequest& request, TracedFrame& frame,
     if (4 * seenPixels == seen.rgba.size() || sinceShown.ms() < kUnfinishedMs) return;
     sinceShown = Stopwatch();
     const double done = 4 * static_cast<double>(seenPixels) / static_cast<double>(seen.rgba.size());
-    calls.showUnfinished({request, seen, done});
+    calls.showUnfinished({request, seen, done, {}});
   };
   frame.stats = views ? watchFrame(*renderer_, request.camera, frame.film, view, watched, &hooks)
                       : renderer_->render(request.camera, frame.film, &hooks);
@@ -311,7 +352,7 @@ bool FrameTracer::traceInPasses(const FrameRequest& request, TracedFrame& frame,
     if (part.end > 1) frame.sampleError = sums.relativeError(part.end);
     if (part.end == options_.spp) break;
     const double done = static_cast<double>(part.end) / options_.spp;
-    UnfinishedFrame sight{request, {}, done, part.end, frame.sampleError};
+    UnfinishedFrame sight{request, {}, done, {}, part.end, frame.sampleError};
     if (part.end > shown) sight.display = frame.film.display;
     calls.showUnfinished(std::move(sight));
     calls.answer();

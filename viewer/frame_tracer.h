@@ -17,6 +17,7 @@
 #include "inspect/ray_lines.h"
 #include "io/image/image_file.h"
 #include "io/json_reader.h"
+#include "viewer/knob_costs.h"
 
 namespace whit::view {
 
@@ -76,6 +77,7 @@ struct FrameRequest {
   bool coarse = false;      // finer pixels will follow at rest
   DebugView view = DebugView::none;
   bool withReference = false;     // the reference's picture is traced and compared as well
+  bool measureKnobs = false;      // the cost of each knob is measured as well
   int reloads = 0, edits = 0;     // number of reloads and edits of the scene so far
   std::optional<double> seconds;  // the instant of a scene that moves
   int serial = 0;                 // the number of the request
@@ -86,8 +88,8 @@ struct FrameRequest {
 inline bool samePicture(const FrameRequest& a, const FrameRequest& b) {
   return sameView(a.camera, b.camera) && a.options == b.options && a.window == b.window &&
          a.spp == b.spp && a.depth == b.depth && a.view == b.view &&
-         a.withReference == b.withReference && a.reloads == b.reloads && a.edits == b.edits &&
-         a.seconds == b.seconds;
+         a.withReference == b.withReference && a.measureKnobs == b.measureKnobs &&
+         a.reloads == b.reloads && a.edits == b.edits && a.seconds == b.seconds;
 }
 
 // Returns whether both show the same, at any resolution.
@@ -96,6 +98,7 @@ inline bool sameSubject(const FrameRequest& a, FrameRequest b) {
   b.spp = a.spp;
   b.depth = a.depth;
   b.withReference = a.withReference;
+  b.measureKnobs = a.measureKnobs;
   return samePicture(a, b);
 }
 
@@ -142,6 +145,7 @@ struct TracedFrame {
   AmountScale scale;
   std::shared_ptr<const std::vector<WatchedPixel>> watched;
   std::optional<Comparison> comparison;  // if the request is with the reference
+  std::vector<KnobCost> costs;           // if the request measures them
 };
 
 // Returns the frame left of column `split` and the rows of the reference that are done right of it.
@@ -150,8 +154,9 @@ DisplayImage splitPicture(const DisplayImage& frame, const Comparison& compariso
 // The visible part of a frame that is being traced.
 struct UnfinishedFrame {
   FrameRequest request;
-  DisplayImage display;  // transparent where nothing was traced yet; empty: nothing new to show
+  DisplayImage display;  // transparent where nothing was traced yet; empty: knobs are measured
   double done = 0;       // share of the frame
+  std::vector<KnobCost> costs;  // costs measured so far
   // For a picture that gains samples: the samples shown, and SampleSums::relativeError().
   int samples = 0;
   double sampleError = 0;
@@ -203,7 +208,8 @@ struct TraceCalls {
   std::function<void()> answer;
   // Called with frames whose reference is under way.
   std::function<void(const TracedFrame&)> publish;
-  // Called every kUnfinishedMs while a picture is traced, by a worker.
+  // Called every kUnfinishedMs while a picture is traced, by a worker, and after each option that
+  // was measured.
   std::function<void(UnfinishedFrame)> showUnfinished;
 };
 
@@ -243,6 +249,7 @@ class FrameTracer {
   // Paints pixels of a tile of a debug view into the film's display.
   void paintTile(DebugView view, const std::vector<WatchedPixel>& watched,
                  std::span<const std::uint32_t> pixels, Film& film);
+  bool measure(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
   bool traceReference(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
 
   const cli::CommonOptions common_;
@@ -254,7 +261,7 @@ class FrameTracer {
   Sky ownSky_;                             // the scene's own sky, while it has another one
   double seconds_ = 0;                     // the instant that a moving scene is at
   std::string animation_;                  // the animation that the scene was read with
-  Film band_;                              // rows of the reference
+  Film band_;                              // rows of the reference; frames that are measured
   std::optional<FrameRequest> finished_;   // the last picture
   AmountScale scale_;  // scale of the last debug view, with which the next begins
   DebugView scaleOf_ = DebugView::none;

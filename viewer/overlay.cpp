@@ -155,11 +155,16 @@ std::string colorText(const Rgb& c) {
   return formatted("%.4g %.4g %.4g", d.x, d.y, d.z);
 }
 
+Image alone(const Rgb& radiance) {
+  Image image(1, 1);
+  image.pixels[0] = radiance;
+  return image;
+}
+
 // Returns the difference as the map of differences shows it.
 int codesApart(const Rgb& a, const Rgb& b) {
-  constexpr auto kExact = SrgbEncoding::exact;
-  return largestDifference(displayCodes(a, 1, ToneCurve::none, kExact),
-                           displayCodes(b, 1, ToneCurve::none, kExact));
+  return codeDifferences(toDisplay(alone(a), 0, ToneCurve::none),
+                         toDisplay(alone(b), 0, ToneCurve::none))[0];
 }
 
 std::string comparedText(const Comparison& comparison, const Rgb& packets, int x, int y) {

@@ -3,14 +3,12 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <array>
-#include <type_traits>
+#include <cmath>
 #include <utility>
+#include <vector>
 
 #include "cli/app/frame_summary.h"
 #include "core/formatted.h"
-#include "core/option_table.h"
-#include "core/option_values.h"
 #include "viewer/resolution_control.h"
 
 namespace whit::view {
@@ -62,7 +60,7 @@ void drawRays(const FrameStats& stats, EffectSet effects) {
 }
 
 // Draws a box for each effect, grayed where the scene does not call for it, and the reason.
-void drawEffects(const TracedFrame& frame, EffectSet& disable) {
+void drawEffects(const TracedFrame& frame, const std::vector<KnobCost>& costs, EffectSet& disable) {
   for (int i = 0; i < kEffectCount; ++i) {
     const auto effect = static_cast<Effect>(i);
     const EffectReason& reason = frame.reasons[static_cast<std::size_t>(i)];
@@ -73,97 +71,12 @@ void drawEffects(const TracedFrame& frame, EffectSet& disable) {
       disable = on ? disable.without(effect) : disable.with(effect);
     }
     ImGui::EndDisabled();
+    drawCost(costs, name);
     ImGui::SameLine();
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
     ImGui::TextWrapped("%s", reason.because.c_str());
     ImGui::PopStyleColor();
   }
-}
-
-constexpr float kControlWidth = 11;  // in heights of the font
-
-template <typename Field>
-void drawChoice(const OptionSpec& spec, Field& field) {
-  const std::string now = formatValue(spec, field);
-  if (!ImGui::BeginCombo(spec.name.data(), now.c_str())) return;
-  for (const std::string& word : choicesOf(spec)) {
-    if (ImGui::Selectable(word.c_str(), word == now)) parseValue(spec, word, field);
-  }
-  ImGui::EndCombo();
-}
-
-void drawNumber(const OptionSpec& spec, int& field) {
-  constexpr double kOpenEnd = 1 << 20;
-  const int low = static_cast<int>(std::max(spec.low, 0.0));
-  const int high = static_cast<int>(std::min(spec.high, kOpenEnd));
-  int value = field;
-  constexpr int kShort = 100;  // longer ranges need finer steps at their beginning
-  const auto flags = ImGuiSliderFlags_AlwaysClamp |
-                     (high - low > kShort ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
-  if (ImGui::SliderInt(spec.name.data(), &value, low, high, "%d", flags)) field = value;
-}
-
-void drawNumber(const OptionSpec& spec, float& field) {
-  const auto low = static_cast<float>(std::max(spec.low, 0.0));
-  const auto high = static_cast<float>(std::min(spec.high, 1.0));
-  constexpr auto kFlags = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic;
-  ImGui::SliderFloat(spec.name.data(), &field, low, high, "%.1e", kFlags);
-}
-
-template <typename Field>
-void drawKnob(const OptionSpec& spec, Field& field) {
-  if constexpr (std::is_same_v<Field, bool>) {
-    ImGui::Checkbox(spec.name.data(), &field);
-  } else if (!choicesOf(spec).empty()) {
-    drawChoice(spec, field);
-  } else if constexpr (std::is_same_v<Field, int> || std::is_same_v<Field, float>) {
-    drawNumber(spec, field);
-  }
-}
-
-// Applies a preset, but not its reference mode, which key X is for.
-RenderOptions withQuality(RenderOptions options, Quality quality) {
-  options.quality = quality;
-  applyQuality(options, {"mode"});
-  return options;
-}
-
-void drawPresets(RenderOptions& options) {
-  constexpr std::array kNames{"draft", "standard", "fine", "reference"};
-  for (std::size_t i = 0; i < kNames.size(); ++i) {
-    const RenderOptions preset = withQuality(options, static_cast<Quality>(i));
-    RenderOptions now = options;
-    now.quality = preset.quality;
-    if (i > 0) ImGui::SameLine();
-    if (ImGui::RadioButton(kNames[i], now == preset)) options = preset;
-  }
-}
-
-// Draws presets, then every option that the table of options has in the tab of knobs.
-void drawKnobs(RenderOptions& options) {
-  drawPresets(options);
-  ImGui::PushItemWidth(ImGui::GetFontSize() * kControlWidth);
-  forEachOption(options, [&](const OptionSpec& spec, auto& field) {
-    if (spec.tab != Tab::knobs) return;
-    drawKnob(spec, field);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", spec.help.data());
-  });
-  ImGui::PopItemWidth();
-}
-
-// Draws the options that the table has in the picture's tab: exposure and tone curve.
-void drawDisplay(RenderOptions& options) {
-  constexpr float kStops = 10;
-  ImGui::PushItemWidth(ImGui::GetFontSize() * kControlWidth);
-  forEachOption(options, [&](const OptionSpec& spec, auto& field) {
-    if (spec.tab != Tab::picture) return;
-    if constexpr (std::is_same_v<decltype(field), Exposure&>) {
-      ImGui::SliderFloat(spec.name.data(), &field.ev, -kStops, kStops, "%+.2f EV");
-    } else {
-      drawKnob(spec, field);
-    }
-  });
-  ImGui::PopItemWidth();
 }
 
 void drawPicture(PanelSettings& settings) {
@@ -217,13 +130,31 @@ void drawKeys() {
 
 }  // namespace
 
+bool isMeasuredView(FrameRequest measured, const FrameRequest& request) {
+  measured.options = request.options;
+  return sameSubject(measured, request);
+}
+
 void Panel::remember(const TracedFrame& frame) {
+  if (!frame.costs.empty()) {
+    costs_ = frame.costs;
+    measuredFor_ = frame.request;
+  } else if (!isMeasuredView(measuredFor_, frame.request)) {
+    costs_.clear();
+  }
   sofar_.clear();
-  if (!frame.request.interruptible) graph_.add(frame.stats.frameMs);
+  if (frame.request.measureKnobs) measured_ = 0;
+  if (frame.request.interruptible) return;
+  graph_.add(frame.stats.frameMs);
 }
 
 void Panel::remember(const UnfinishedFrame& frame) {
-  if (frame.samples > 0 && !frame.display.rgba.empty()) sofar_ = samplesText(frame);
+  const bool shown = frame.samples > 0 && !frame.display.rgba.empty();
+  if (shown) sofar_ = samplesText(frame);
+  if (!frame.request.measureKnobs || frame.costs.empty()) return;
+  measured_ = frame.done;
+  costs_ = frame.costs;
+  measuredFor_ = frame.request;
 }
 
 void Panel::drawTimes(const TracedFrame& frame) const {
@@ -263,8 +194,17 @@ bool Panel::drawTabs(const TracedFrame& frame, const RayPick& pick, PanelSetting
     drawPicture(settings);
     drawView(frame, settings);
   });
-  tab("knobs", [&] { drawKnobs(settings.options); });
-  tab("effects", [&] { drawEffects(frame, settings.options.disable); });
+  tab("knobs", [&] {
+    if (settings.measureKnobs) {
+      ImGui::ProgressBar(static_cast<float>(measured_), ImVec2(-1, 0),
+                         formatted("measuring: %.0f %%", 100 * measured_).c_str());
+    } else if (ImGui::Button("measure what each costs (M)")) {
+      settings.measureKnobs = true;
+    }
+    drawMeasured(costs_);
+    drawKnobs(settings.options, costs_);
+  });
+  tab("effects", [&] { drawEffects(frame, costs_, settings.options.disable); });
   tab("rays", [&] { drawRayTree(pick, frame, settings.rays); });
   tab("scene", [&] {
     settings.saveScene |= ImGui::Button("save as a scene file (Ctrl+S)");

@@ -26,6 +26,7 @@ inline int largestDifference(const std::array<std::uint8_t, 3>& a,
   return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
 }
 
+// The view of the rays.
 struct RayView {
   bool lines = true;                       // over the picture
   std::size_t pointedAt = kNoCounterpart;  // the node under the pointer, whose line stands out
@@ -67,6 +68,7 @@ struct PanelSettings {
   RenderOptions options;
   DebugView view = DebugView::none;
   CompareMode compare = CompareMode::off;
+  bool measureKnobs = false;  // true until the measurement is done
   RayView rays;
   Timeline timeline;
   bool inspects = true;    // the pixel under the pointer is described
@@ -86,6 +88,9 @@ class FrameGraph {
   std::size_t next_ = 0, count_ = 0;
 };
 
+// Returns whether nothing but options differs from the view that was measured.
+bool isMeasuredView(FrameRequest measured, const FrameRequest& request);
+
 class Panel {
  public:
   void remember(const TracedFrame& frame);
@@ -100,9 +105,24 @@ class Panel {
   bool drawTabs(const TracedFrame& frame, const RayPick& pick, PanelSettings& settings,
                 const SkyChoice& ownSky, ShadingEdit& scene) const;
 
-  std::string sofar_;  // samples so far of a picture that gains samples
+  std::vector<KnobCost> costs_;  // costs measured so far at the view of the last frame
+  FrameRequest measuredFor_;
+  double measured_ = 0;  // share of the knobs that are measured
+  std::string sofar_;    // samples so far of a picture that gains samples
   FrameGraph graph_;
 };
+
+// knobs.cpp, the options of a render as sliders, boxes and lists. All of it belongs between ImGui's
+// Begin and End.
+// Draws presets, then every option that the table of options has in the tab of knobs.
+void drawKnobs(RenderOptions& options, const std::vector<KnobCost>& costs);
+// Draws the options that the table has in the picture's tab: exposure and tone curve.
+void drawDisplay(RenderOptions& options);
+// Draws the cost of that knob or effect beside its control, where it was measured and can be told
+// from noise.
+void drawCost(const std::vector<KnobCost>& costs, const std::string& name);
+// Lists the costs that can be told from noise, the largest first.
+void drawMeasured(const std::vector<KnobCost>& costs);
 
 // scene_panel.cpp: draws lights, materials, sky and ambient light as controls, and unfolds what was
 // picked; `ownSky` is the scene's. Returns whether something was changed.

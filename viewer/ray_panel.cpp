@@ -109,8 +109,13 @@ class RayTreeTab {
 
   // Returns the largest difference of a channel without the node and all below it, in 8-bit codes.
   int codesAdded(const RgbD& added) const {
-    return largestDifference(codesOf(tree_.pixel),
-                             codesOf(max(tree_.pixel - Rgb(added), Rgb(0.0f))));
+    const auto with = codesOf(tree_.pixel);
+    const auto without = codesOf(max(tree_.pixel - Rgb(added), Rgb(0.0f)));
+    int most = 0;
+    for (std::size_t c = 0; c < with.size(); ++c) {
+      most = std::max(most, std::abs(int{with[c]} - int{without[c]}));
+    }
+    return most;
   }
 
   void point(std::size_t node) {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "accuracy/measurement.h"
-#include "render/render_frame.h"
+#include "render/renderer.h"
 
 namespace whit::accuracy {
 

@@ -15,9 +15,9 @@
 #include "core/error.h"
 #include "core/formatted.h"
 #include "core/printable.h"
+#include "inspect/metrics.h"
 #include "inspect/path_divergence.h"
 #include "inspect/stage_comparison.h"
-#include "inspect/value_difference.h"
 #include "io/image/image_layers.h"
 #include "render/auto_exposure.h"
 

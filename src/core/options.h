@@ -69,6 +69,9 @@ struct OptionSpec {
   // False for options that share out the work: the picture does not depend on them by design.
   bool changesPicture = true;
   Tab tab = Tab::knobs;
+  // The cheapest value that still makes a picture of the scene; the viewer measures the cost of the
+  // other values against it, and not at all if this is empty.
+  std::string_view cheapest = {};
   bool everyday = false;  // in --help; the other options are in --help-all only
   std::optional<KnobSpec> knob = {};
 };
@@ -225,6 +228,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
       Option{{.name = "depth", .words = "N", .low = 0, .high = kDepthLimit,
               .help = "maximum ray depth: bounces of reflected and refracted rays, here also "
                       "called impulses",
+              .cheapest = "0",
               .everyday = true,
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "64",
                                .values = "0 1 2 3 4 8 16 32 64", .crossed = "4 8 64",
@@ -235,6 +239,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .help = "glossy reflections: sampled rays per hit on a rough surface, one per hit "
                       "after a bounce; 0: rough surfaces reflect lights only",
               .rebuilds = Rebuild::tables,
+              .cheapest = "0",
               .everyday = true,
               .knob = KnobSpec{.cause = Cause::sampling, .exact = "4", .values = "0 1 4 16",
                                .spare = "1 4 16",
@@ -246,6 +251,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                       "diffuse surface, one per hit after a bounce, in place of the ambient light; "
                       "0: direct and ambient light only",
               .rebuilds = Rebuild::tables,
+              .cheapest = "0",
               .everyday = true,
               .knob = KnobSpec{.cause = Cause::transport, .exact = "4", .values = "0 1 4 16 64",
                                .needs = {Need{EffectSet().with(Effect::indirect),
@@ -254,6 +260,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
       Option{{.name = "cutoff", .words = "X", .low = 0, .high = 1,
               .help = "contribution to the pixel below which reflected and refracted rays are not "
                       "traced",
+              .cheapest = "0.004",
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "0",
                                .values = "0 1e-4 3e-4 1e-3 4e-3 1.6e-2",
                                .crossed = "1e-4 1e-3 4e-3", .spare = "3e-4", .endless = true,
@@ -271,6 +278,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .help = "soft shadows of area lights: shadow rays per hit and light with a radius; "
                       "1: to its center only",
               .rebuilds = Rebuild::tables,
+              .cheapest = "1",
               .everyday = true,
               .knob = KnobSpec{.cause = Cause::sampling, .exact = "4", .values = "1 4 16",
                                .needs = {Need{EffectSet().with(Effect::softShadows),
@@ -280,6 +288,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .help = "ambient occlusion: rays per hit, of the length that the scene gives; 0: "
                       "off",
               .rebuilds = Rebuild::tables,
+              .cheapest = "0",
               .everyday = true,
               .knob = KnobSpec{.cause = Cause::sampling, .exact = "4", .values = "0 1 4 16",
                                .spare = "1 16",
@@ -289,6 +298,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
       Option{{.name = "light-cutoff", .words = "X", .low = 0, .high = 1e6,
               .help = "contribution to the pixel below which a light is skipped, with its shadow "
                       "ray",
+              .cheapest = "0.004",
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "0",
                                .values = "0 1e-4 1e-3 4e-3", .crossed = "0 4e-3", .spare = "1e-4",
                                .needs = {Need{EffectSet().with(Effect::lights),
@@ -296,6 +306,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
              o.shading.lightCutoff},
       Option{{.name = "fresnel", .words = "exact|schlick",
               .help = "reflectance of dielectrics: Fresnel's equations or Schlick's approximation",
+              .cheapest = "schlick",
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "exact",
                                .values = "exact schlick",
                                .needs = {Need{EffectSet().with(Effect::transmission),
@@ -305,6 +316,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .help = "texture filtering; trilinear uses mip maps; alpha masks are always "
                       "bilinear",
               .rebuilds = Rebuild::tables,
+              .cheapest = "nearest",
               .everyday = true,
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "bilinear",
                                .values = "bilinear nearest trilinear",
@@ -315,6 +327,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
       Option{{.name = "offset", .words = "bound|fixed|wachter-binder",
               .help = "offset of ray origins from the surface, against self-intersection: the "
                       "error bound of the point, 1e-3, or 256 ulps and more",
+              .cheapest = "fixed",
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "bound",
                                .values = "bound fixed wachter-binder",
                                .spare = "fixed wachter-binder",
@@ -324,6 +337,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
       Option{{.name = "terminator", .words = "on|off",
               .help = "avoid shadow-terminator artifacts on smooth-shaded meshes: shadow rays "
                       "start above the facets, Hanika 2021",
+              .cheapest = "off",
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "off", .values = "off on",
                                .spare = "on",
                                .needs = {kNeedsVertexNormals,
@@ -333,6 +347,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
       Option{{.name = "bend", .words = "on|off",
               .help = "turn back reflected and refracted rays that a normal map sends to the "
                       "wrong side of the surface",
+              .cheapest = "off",
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "on", .values = "on off",
                                .spare = "off",
                                .needs = {Need{kNeedsVertexNormals.oneOf.with(Effect::normalMaps),
@@ -342,6 +357,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
       Option{{.name = "reciprocal", .words = "exact|refined|approximate",
               .help = "1/sqrt of normalizations in kernels: exact, or an estimate with or without "
                       "a Newton step",
+              .cheapest = "approximate",
               .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "exact",
                                .values = "exact refined approximate",
                                .spare = "refined approximate"}},
@@ -408,6 +424,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
       Option{{.name = "effects", .words = "auto|all",
               .help = "kernels for the effects that the scene uses, or for every effect",
               .rebuilds = Rebuild::tables,
+              .cheapest = "auto",
               .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "auto", .values = "auto all",
                                .spare = "all"}},
              o.effects},
@@ -430,11 +447,13 @@ decltype(auto) withOptions(Options& o, Use&& use) {
              o.toneCurve},
       Option{{.name = "film", .words = "float|half|8bit",
               .help = "precision of pixels before exposure; 8bit: sRGB codes",
+              .cheapest = "float",
               .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "float",
                                .values = "float half 8bit", .spare = "half 8bit"}},
              o.film},
       Option{{.name = "srgb", .words = "exact|table", .help = "8-bit sRGB encoding: exactly "
                       "rounded, or by a table",
+              .cheapest = "table",
               .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "exact",
                                .values = "exact table", .spare = "table"}},
              o.srgb},

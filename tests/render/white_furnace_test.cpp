@@ -201,7 +201,8 @@ class WrittenMaterials : public SceneFileTest {
         save("m.gltf", "{\"asset\":{\"version\":\"2.0\"},\"materials\":[" + materials + "]}");
     const PathRules rules(root_, false);
     MemoryBudget budget(1u << 30);
-    std::vector<Material> read = openModel(file, rules, budget, warnings_, {})->materials();
+    const Instant instant;
+    std::vector<Material> read = openModel({file, rules, budget, warnings_, instant})->materials();
     read.resize(kBalls);  // without the one of what has none
     return balls(read);
   }

@@ -49,6 +49,9 @@ TEST(OptionTable, WordsOfKnobsAreValues) {
   forEachOption(defaults, [&](const OptionSpec& spec, const auto&) {
     const std::string name(spec.name);
     RenderOptions options;
+    if (!spec.cheapest.empty()) {
+      EXPECT_NO_THROW(setOption(options, name, std::string(spec.cheapest))) << name;
+    }
     if (!spec.knob) return;
     EXPECT_TRUE(spec.changesPicture) << name;
     EXPECT_NO_THROW(setOption(options, name, std::string(spec.knob->exact))) << name;

@@ -203,6 +203,52 @@ TEST_F(RenderThreadTest, KnobsThatThisMachineLacks) {
   expectRightPicture(thread);
 }
 
+// The frames that are measured may be smaller than the picture, and how much smaller depends on how
+// busy the machine is: what is expected of their rays holds at any size.
+TEST_F(RenderThreadTest, MeasuresWhatKnobsCost) {
+  RenderThread thread(opened_, common_, [] {});
+  request_.measureKnobs = true;
+  request_.options.size = {240, 160};
+  const TracedFrame frame = traced(thread);
+  const auto costOf = [&](const std::string& name) {
+    for (const KnobCost& cost : frame.costs) {
+      if (cost.name == name) return cost;
+    }
+    ADD_FAILURE() << name << " was not measured";
+    return KnobCost();
+  };
+  const KnobCost depth = costOf("depth"), mirror = costOf("mirror");
+  EXPECT_EQ(depth.other, "0");
+  EXPECT_EQ(depth.then.of(RayKind::reflection).rays, 0u);
+  EXPECT_GT(depth.now.of(RayKind::reflection).rays, 0u);
+  EXPECT_EQ(depth.now.of(RayKind::reflection).rays, mirror.now.of(RayKind::reflection).rays);
+  EXPECT_GT(costOf("shadows").now.of(RayKind::shadow).rays, 0u);
+  EXPECT_EQ(costOf("shadows").then.of(RayKind::shadow).rays, 0u);
+  for (const KnobCost& cost : frame.costs) EXPECT_NE(cost.name, "glossy");  // the scene has none
+  request_.measureKnobs = false;
+  expectRightPicture(thread);
+}
+
+// A mirror's rays are all that a frame without impulses lacks, but for those that they cause.
+TEST_F(RenderThreadTest, CostsAreThoseOfFramesWithAndWithout) {
+  const RenderOptions& options = request_.options;
+  Renderer renderer(scene_->scene, options);
+  Film film = makeFilm(scene_->scene, options);
+  const FrameStats stats = renderer.render(request_.camera, film);
+  const std::vector<KnobCost> costs = measureKnobs(renderer, options, request_.camera, film, 1,
+                                                   {[] { return false; }, [](auto&&...) {}});
+  const auto raysOf = [&](const std::string& name) {
+    for (const KnobCost& cost : costs) {
+      if (cost.name == name) return static_cast<double>(cost.now.allRays() - cost.then.allRays());
+    }
+    ADD_FAILURE() << name << " was not measured";
+    return 0.0;
+  };
+  EXPECT_EQ(raysOf("depth"), raysOf("mirror"));
+  EXPECT_GE(raysOf("depth"), static_cast<double>(stats.of(RayKind::reflection).rays));
+  for (const KnobCost& cost : costs) EXPECT_EQ(cost.now.allRays(), stats.allRays()) << cost.name;
+}
+
 TEST_F(RenderThreadTest, EditsBetweenFrames) {
   RenderThread thread(opened_, common_, [] {});
   const TracedFrame before = traced(thread);

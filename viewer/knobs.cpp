@@ -1,0 +1,126 @@
+// The options of a render as sliders, boxes and lists, each with its cost.
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <type_traits>
+
+#include "core/option_table.h"
+#include "core/option_values.h"
+#include "viewer/panel.h"
+
+namespace whit::view {
+
+namespace {
+
+constexpr float kControlWidth = 11;  // in heights of the font
+
+template <typename Field>
+void drawChoice(const OptionSpec& spec, Field& field) {
+  const std::string now = formatValue(spec, field);
+  if (!ImGui::BeginCombo(spec.name.data(), now.c_str())) return;
+  for (const std::string& word : choicesOf(spec)) {
+    if (ImGui::Selectable(word.c_str(), word == now)) parseValue(spec, word, field);
+  }
+  ImGui::EndCombo();
+}
+
+void drawNumber(const OptionSpec& spec, int& field) {
+  constexpr double kOpenEnd = 1 << 20;
+  const int low = static_cast<int>(std::max(spec.low, 0.0));
+  const int high = static_cast<int>(std::min(spec.high, kOpenEnd));
+  int value = field;
+  constexpr int kShort = 100;  // longer ranges need finer steps at their beginning
+  const auto flags = ImGuiSliderFlags_AlwaysClamp |
+                     (high - low > kShort ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
+  if (ImGui::SliderInt(spec.name.data(), &value, low, high, "%d", flags)) field = value;
+}
+
+void drawNumber(const OptionSpec& spec, float& field) {
+  const auto low = static_cast<float>(std::max(spec.low, 0.0));
+  const auto high = static_cast<float>(std::min(spec.high, 1.0));
+  constexpr auto kFlags = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic;
+  ImGui::SliderFloat(spec.name.data(), &field, low, high, "%.1e", kFlags);
+}
+
+template <typename Field>
+void drawKnob(const OptionSpec& spec, Field& field) {
+  if constexpr (std::is_same_v<Field, bool>) {
+    ImGui::Checkbox(spec.name.data(), &field);
+  } else if (!choicesOf(spec).empty()) {
+    drawChoice(spec, field);
+  } else if constexpr (std::is_same_v<Field, int> || std::is_same_v<Field, float>) {
+    drawNumber(spec, field);
+  }
+}
+
+// Applies a preset, but not its reference mode, which key X is for.
+RenderOptions withQuality(RenderOptions options, Quality quality) {
+  options.quality = quality;
+  applyQuality(options, {"mode"});
+  return options;
+}
+
+void drawPresets(RenderOptions& options) {
+  constexpr std::array kNames{"draft", "standard", "fine", "reference"};
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    const RenderOptions preset = withQuality(options, static_cast<Quality>(i));
+    RenderOptions now = options;
+    now.quality = preset.quality;
+    if (i > 0) ImGui::SameLine();
+    if (ImGui::RadioButton(kNames[i], now == preset)) options = preset;
+  }
+}
+
+}  // namespace
+
+void drawCost(const std::vector<KnobCost>& costs, const std::string& name) {
+  const auto found = std::find_if(costs.begin(), costs.end(),
+                                  [&](const KnobCost& cost) { return cost.name == name; });
+  if (found == costs.end() || !found->significant()) return;
+  ImGui::SameLine();
+  ImGui::TextDisabled("%+.1f ms", found->ms());
+  if (!ImGui::IsItemHovered()) return;
+  const auto rays = [](const FrameStats& stats) { return static_cast<double>(stats.allRays()); };
+  ImGui::SetTooltip("%s: %+.0f %% of the rays, against %s", name.c_str(),
+                    100 * (1 - rays(found->then) / std::max(rays(found->now), 1.0)),
+                    found->other.c_str());
+}
+
+void drawMeasured(const std::vector<KnobCost>& costs) {
+  if (costs.empty()) return;
+  const std::vector<KnobCost> told = toldFromNoise(costs);
+  for (const KnobCost& cost : told) {
+    ImGui::BulletText("%s: %s", cost.name.c_str(), costText(cost).c_str());
+  }
+  const std::size_t others = costs.size() - told.size();
+  if (others > 0) ImGui::TextDisabled("%zu more make no difference above the noise", others);
+}
+
+void drawKnobs(RenderOptions& options, const std::vector<KnobCost>& costs) {
+  drawPresets(options);
+  ImGui::PushItemWidth(ImGui::GetFontSize() * kControlWidth);
+  forEachOption(options, [&](const OptionSpec& spec, auto& field) {
+    if (spec.tab != Tab::knobs) return;
+    drawKnob(spec, field);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", spec.help.data());
+    drawCost(costs, std::string(spec.name));
+  });
+  ImGui::PopItemWidth();
+}
+
+void drawDisplay(RenderOptions& options) {
+  constexpr float kStops = 10;
+  ImGui::PushItemWidth(ImGui::GetFontSize() * kControlWidth);
+  forEachOption(options, [&](const OptionSpec& spec, auto& field) {
+    if (spec.tab != Tab::picture) return;
+    if constexpr (std::is_same_v<decltype(field), Exposure&>) {
+      ImGui::SliderFloat(spec.name.data(), &field.ev, -kStops, kStops, "%+.2f EV");
+    } else {
+      drawKnob(spec, field);
+    }
+  });
+  ImGui::PopItemWidth();
+}
+
+}  // namespace whit::view
