@@ -9,6 +9,7 @@
 
 #include "accel/embree_scene.h"
 #include "bake/eye_in_plane.h"
+#include "bake/sphere.h"
 #include "core/error.h"
 #include "simd/kernels.h"
 #include "stages/packet_words.h"
@@ -341,6 +342,10 @@ Accel::~Accel() = default;
 bool Accel::isCutAway(std::uint32_t triangle, double u, double v) const noexcept {
   const TriangleRecord& record = scene_.triangles[triangle];
   const Mask mask = maskOf(scene_.materials[record.material], parts_->embree.alphaMaps());
+  if (scene_.isSphere(triangle)) {
+    const auto [s, t] = sphereUv(spherePoint(u, v));
+    return !isOpaqueAt<&Mask::cutoff>(mask, static_cast<float>(s), static_cast<float>(t));
+  }
   return !isOpaqueAt<&Mask::cutoff>(mask, record.uv, static_cast<float>(u), static_cast<float>(v));
 }
 

@@ -86,7 +86,7 @@ class Accel {
   Hit closest(const Vec3f& origin, const Vec3f& direction, float tNear = 0) const noexcept;
   bool occluded(const Vec3f& origin, const Vec3f& direction, float tFar) const noexcept;
 
-  // True if an alpha mask cuts the triangle (its number in the scene) there.
+  // True if an alpha mask cuts the triangle or sphere (its number in the scene) there.
   bool isCutAway(std::uint32_t triangle, double u, double v) const noexcept;
 
   // Returns the milliseconds that Embree needs for the rays of a log, in full packets.

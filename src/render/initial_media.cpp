@@ -65,8 +65,16 @@ std::vector<std::pair<std::uint32_t, bool>> facesAbove(const TracedScene& traced
   std::uint64_t left = 2 * scene.instancedTriangles + 4 * scene.instancedSpheres + 16;
   for (double way = 0; left > 0; --left) {
     const Vec3d start = point + up * way;
-    const Hit hit = traced.accel.closest(Vec3f(start), kUpwards);
+    Hit hit = traced.accel.closest(Vec3f(start), kUpwards);
     if (!hit.found()) break;
+    if (scene.isSphere(hit.triangle)) {
+      const PlacedTriangleId found{hit.triangle, hit.instance};
+      const SphereHit chosen = chosenSphere(traced, {found, double{hit.u}, double{hit.v}});
+      hit.triangle = chosen.id.triangle;
+      hit.instance = chosen.id.instance;
+      hit.u = static_cast<float>(chosen.u);
+      hit.v = static_cast<float>(chosen.v);
+    }
     const HitSurface surface = surfaceOf(scene, hit, start);
     const Vec3d n = normalized(surface.outside);
     const double facing = dot(up, n);

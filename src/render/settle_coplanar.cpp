@@ -191,34 +191,36 @@ void settleCoplanar(Chunk& c) {
   }
 }
 
+SphereHit chosenSphere(const TracedScene& traced, const SphereHit& found) {
+  const auto& [scene, accel, effects] = traced;
+  const auto place = scene.coincidentSpheres.find(orderOf(found.id));
+  if (place == scene.coincidentSpheres.end()) return found;
+  const Vec3d point = sphereInWorld(scene, found.id).point(spherePoint(found.u, found.v));
+  SphereHit chosen = found;
+  std::tuple<bool, bool, int> most(false, false, std::numeric_limits<int>::min());
+  for (const PlacedTriangleId& id : *place->second) {
+    if (id.instance != kNoInstance && !effects.has(Effect::instances)) continue;
+    const auto [u, v] = sphereWeights(onUnitSphere(sphereInWorld(scene, id), point));
+    if (id != found.id && accel.isCutAway(id.triangle, u, v)) continue;
+    const std::uint32_t material = scene.triangles[id.triangle].material;
+    const std::uint8_t medium = scene.mediumOfMaterial[material];
+    const std::tuple own(!scene.materials[material].passesLight(), medium == 0,
+                         scene.media[medium].priority);
+    if (own >= most) most = own, chosen = id == found.id ? found : SphereHit{id, u, v};
+  }
+  return chosen;
+}
+
 void settleSpheres(Chunk& c) {
-  const Scene& scene = *c.frame->scene;
+  const TracedScene traced{*c.frame->scene, *c.frame->accel, c.frame->effects};
   const bool instanced = c.has(Feature::instances);
-  const Accel& accel = *c.frame->accel;
   for (std::size_t i = 0; i < c.n; ++i) {
-    const PlacedTriangleId found{c.hits.triangle[i], instanced ? c.hits.instance[i] : kNoInstance};
-    const auto place = scene.coincidentSpheres.find(orderOf(found));
-    if (place == scene.coincidentSpheres.end()) continue;
-    const Vec3d unit = spherePoint(double{c.hits.u[i]}, double{c.hits.v[i]});
-    const Vec3d point = sphereInWorld(scene, found).point(unit);
-    PlacedTriangleId chosen = found;
-    std::tuple<bool, bool, int> most(false, false, std::numeric_limits<int>::min());
-    for (const PlacedTriangleId& id : *place->second) {
-      if (id.instance != kNoInstance && !instanced) continue;
-      const auto [u, v] = sphereWeights(onUnitSphere(sphereInWorld(scene, id), point));
-      if (id != found && accel.isCutAway(id.triangle, u, v)) continue;
-      const std::uint32_t material = scene.triangles[id.triangle].material;
-      const std::uint8_t medium = scene.mediumOfMaterial[material];
-      const std::tuple own(!scene.materials[material].passesLight(), medium == 0,
-                           scene.media[medium].priority);
-      if (own >= most) most = own, chosen = id;
-    }
-    if (chosen == found) continue;
-    const auto [u, v] = sphereWeights(onUnitSphere(sphereInWorld(scene, chosen), point));
-    c.hits.triangle[i] = chosen.triangle;
-    if (instanced) c.hits.instance[i] = chosen.instance;
-    c.hits.u[i] = static_cast<float>(u);
-    c.hits.v[i] = static_cast<float>(v);
+    const PlacedTriangleId id{c.hits.triangle[i], instanced ? c.hits.instance[i] : kNoInstance};
+    const SphereHit chosen = chosenSphere(traced, {id, double{c.hits.u[i]}, double{c.hits.v[i]}});
+    c.hits.triangle[i] = chosen.id.triangle;
+    if (instanced) c.hits.instance[i] = chosen.id.instance;
+    c.hits.u[i] = static_cast<float>(chosen.u);
+    c.hits.v[i] = static_cast<float>(chosen.v);
   }
 }
 

@@ -45,7 +45,14 @@ std::vector<CoplanarFace> coplanarFaces(const TracedScene& traced, const Line& r
 // (reference/settle_coplanar.h).
 void settleCoplanar(Chunk& c);
 
-// The same for coincident spheres. The others are as if they were not there.
+struct SphereHit {
+  PlacedTriangleId id;
+  double u = 0, v = 0;
+};
+
+// The one of coincident exact spheres that counts where Embree has found one of them, by the same
+// rule. The others are as if they were not there.
+SphereHit chosenSphere(const TracedScene& traced, const SphereHit& found);
 void settleSpheres(Chunk& c);
 
 }  // namespace whit

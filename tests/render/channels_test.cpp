@@ -420,7 +420,7 @@ TEST(ChannelLaws, PlansWithoutThemHaveNothingMore) {
   Renderer renderer(scene, o);
   Film film = makeFilm(scene, o);
   renderer.render(chooseCamera(scene, o), film);
-  EXPECT_EQ(film.channels.pixels(), 0u);
+  EXPECT_EQ(ChannelLayers::bytesPerPixel(film.channels.channels()), 0u);
   for (const TileTracer& tracer : renderer.scheduler().tracers()) {
     EXPECT_EQ(tracer.bufferBytes().rayCounts, 0u);
   }
