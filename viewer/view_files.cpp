@@ -216,7 +216,7 @@ std::string commandFor(const SavedScene& saved, const Scene& scene, RenderOption
 std::string savePicture(const TracedFrame& frame, const std::string& command) {
   const cli::WriteScope scope;
   const auto nameOf = [&](int i) { return frame.scene->scene.name + formatted("-%04d", i); };
-  const std::string name = freeName(nameOf, {".png", ".exr", ".json"});
+  std::string name = freeName(nameOf, {".png", ".exr", ".json"});
   cli::writeImage(name + ".png", frame.film, frame.options, frame.metadata);
   cli::writeImage(name + ".exr", frame.film, frame.options, frame.metadata);
   writeCamera(name + ".json", frame.request.camera, command);

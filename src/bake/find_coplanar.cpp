@@ -409,6 +409,7 @@ Pairs CoplanarFinder::findPairs(const Space& space, const std::vector<Group>& gr
       (groups.size() < kManyGroups ? kWork : kWorkOfInstances) +
       kWorkPerTriangle * static_cast<std::int64_t>(scene_.triangles.size());
   std::vector<PairFinder> finders;
+  finders.reserve(static_cast<std::size_t>(threads_));
   for (int i = 0; i < threads_; ++i) finders.emplace_back(space, groups, groupTree, test);
   const Node root = finders[0].rootOf(nullptr);
   std::vector<Task> tasks;

@@ -40,9 +40,9 @@ std::string shortest(T value) {
 }
 
 template <typename T>
-constexpr bool kIsOptional = false;
+inline constexpr bool kIsOptional = false;
 template <typename T>
-constexpr bool kIsOptional<std::optional<T>> = true;
+inline constexpr bool kIsOptional<std::optional<T>> = true;
 
 // Throws Error(usage) that names the option, the text and what was expected.
 template <typename T>

@@ -49,6 +49,7 @@ double replay(Renderer& renderer, const std::vector<RayLogger>& loggers) {
 FloorResult measureFloor(Renderer& renderer, const Camera& camera, Film& film, int frames) {
   std::vector<RayLogger> loggers(static_cast<std::size_t>(renderer.machine().threads));
   std::vector<StageObserver*> observers;
+  observers.reserve(loggers.size());
   for (RayLogger& logger : loggers) observers.push_back(&logger);
   renderer.render(camera, film, nullptr, observers);
   FloorResult result;

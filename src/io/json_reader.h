@@ -133,6 +133,7 @@ typename Entries::const_iterator findNamed(const Entries& entries, const JsonVal
   const auto found = entries.find(name.text());
   if (found != entries.end()) return found;
   std::vector<std::string> names;
+  names.reserve(entries.size());
   for (const auto& [known, entry] : entries) names.push_back(known);
   name.fail("the name of " + kind + isMeant(name.text(), names));
 }

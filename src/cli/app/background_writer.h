@@ -31,8 +31,8 @@ class BackgroundWriter {
     // The scope is opened here and not by the job: an interruption between the two would not know
     // of the files.
     job_ = std::async(std::launch::async,
-                      [write = std::move(write), scope = std::make_unique<WriteScope>()]() mutable {
-                        const std::unique_ptr<WriteScope> held = std::move(scope);
+                      [write = std::move(write), scope = std::make_shared<WriteScope>()]() mutable {
+                        const std::shared_ptr<WriteScope> held = std::move(scope);
                         const Stopwatch stopwatch;
                         write();
                         return stopwatch.ms();
