@@ -57,11 +57,12 @@ Box boxOfGeometry(const Scene& scene, const Geometry& geometry) {
 Vec3d extentOf(const Box& box) { return max(abs(Vec3d(box.lower)), abs(Vec3d(box.upper))); }
 
 Box grown(const Box& box, const Vec3d& by) {
-  if (!(maxComponent(by) < double{kLargestCoordinate})) {
+  const Vec3d size = extentOf(box);
+  if (!(maxComponent(by + size) < double{kLargestCoordinate})) {
     return {Vec3f(-std::numeric_limits<float>::max()), Vec3f(std::numeric_limits<float>::max())};
   }
   // Rounding to float is less than what is added beside.
-  const Vec3d more = by + extentOf(box) * 0x1p-22;
+  const Vec3d more = by + size * 0x1p-22;
   return {Vec3f(Vec3d(box.lower) - more), Vec3f(Vec3d(box.upper) + more)};
 }
 

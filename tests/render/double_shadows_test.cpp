@@ -1,0 +1,298 @@
+// Pictures of packets and of the scalar reference against brute force in double, which tries every
+// triangle for every eye ray and shadow ray. Each pixel that differs must have a cause: its eye ray
+// or a shadow ray passes an edge, a surface or the border of a mask within rounding, or a needle.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "reference/find_intersections.h"
+#include "reference/generate_rays.h"
+#include "render/random_scenes.h"
+#include "render/shipped_scene.h"
+
+namespace whit::test {
+namespace {
+
+constexpr double kUlp = 0x1p-24;  // half of one, relative
+
+struct Triangle {
+  std::array<Vec3d, 3> corner;
+  Vec3d normal;  // twice the area long
+  double longest = 0;
+  std::uint32_t number = 0;
+  // Twice the area as a share of the longest edge squared; needles have little.
+  double share() const { return length(normal) / (longest * longest); }
+  bool isNeedle() const { return share() < 0x1p-8; }
+};
+
+struct Segment {
+  Vec3d from, to;
+  Vec3d way() const { return to - from; }
+};
+
+// The least distance between two segments (Ericson 2005, "Real-Time Collision Detection", 5.1.9).
+double distanceBetween(const Segment& a, const Segment& b) {
+  const Vec3d p = a.way(), q = b.way(), r = a.from - b.from;
+  const double pp = dot(p, p), qq = dot(q, q), pq = dot(p, q), pr = dot(p, r), qr = dot(q, r);
+  const double det = pp * qq - pq * pq;
+  double s = det > 0 ? std::clamp((pq * qr - pr * qq) / det, 0.0, 1.0) : 0;
+  const double t = qq > 0 ? std::clamp((pq * s + qr) / qq, 0.0, 1.0) : 0;
+  s = pp > 0 ? std::clamp((pq * t - pr) / pp, 0.0, 1.0) : 0;
+  return length(r + p * s - q * t);
+}
+
+struct Found {
+  std::size_t triangle = 0;
+  double t = std::numeric_limits<double>::infinity();
+};
+
+// Why a pixel differs.
+enum class Cause { edge, needle, unknown };
+
+class BruteForceInDouble {
+ public:
+  explicit BruteForceInDouble(const Scene& scene) : scene_(scene) {
+    const Geometry& world = scene.geometries[0];
+    for (std::uint32_t i = 0; i < world.classBegin[kTriangleClasses]; ++i) {
+      Triangle t;
+      t.number = world.firstTriangle + i;
+      const float* p = scene.triangles[t.number].position;
+      for (std::size_t k = 0; k < 3; ++k) t.corner[k] = {p[3 * k], p[3 * k + 1], p[3 * k + 2]};
+      t.normal = cross(t.corner[1] - t.corner[0], t.corner[2] - t.corner[0]);
+      for (const Segment& e : edgesOf(t)) t.longest = std::max(t.longest, length(e.way()));
+      triangles_.push_back(t);
+    }
+  }
+
+  // The nearest triangle, its distance in lengths of the ray.
+  std::optional<Found> nearest(const Segment& ray) const {
+    Found found;
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+      const std::optional<double> t = meet(triangles_[i], ray, false);
+      if (t && *t < found.t) found = {i, *t};
+    }
+    if (!std::isfinite(found.t)) return std::nullopt;
+    return found;
+  }
+  bool blocked(const Segment& ray, std::size_t self) const {
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+      if (i == self) continue;
+      const std::optional<double> t = meet(triangles_[i], ray, true);
+      if (t && *t < 1) return true;
+    }
+    return false;
+  }
+
+  // Why rays within `reach` of this one, rounded, may find something else than it does.
+  // Shadow rays start on `self`.
+  Cause causeOf(const Segment& ray, double reach, bool forShadow,
+                std::size_t self = reference::kNoHit) const {
+    Cause cause =
+        self != reference::kNoHit && triangles_[self].isNeedle() ? Cause::needle : Cause::unknown;
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+      if (forShadow && i == self) continue;
+      if (grazes(triangles_[i], ray, reach, forShadow)) return Cause::edge;
+      if (triangles_[i].isNeedle() && !surelyMissed(triangles_[i], ray)) cause = Cause::needle;
+    }
+    return cause;
+  }
+
+  const Triangle& operator[](std::size_t i) const { return triangles_[i]; }
+
+ private:
+  static std::array<Segment, 3> edgesOf(const Triangle& t) {
+    return {{{t.corner[0], t.corner[1]}, {t.corner[1], t.corner[2]}, {t.corner[2], t.corner[0]}}};
+  }
+
+  std::optional<double> meet(const Triangle& t, const Segment& ray, bool forShadow) const {
+    const Vec3d d = ray.way();
+    std::array<double, 3> side{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      side[k] = dot(d, cross(t.corner[k] - ray.from, t.corner[(k + 1) % 3] - ray.from));
+    }
+    const double sum = side[0] + side[1] + side[2];
+    const bool in = (side[0] >= 0 && side[1] >= 0 && side[2] >= 0) ||
+                    (side[0] <= 0 && side[1] <= 0 && side[2] <= 0);
+    if (!in || sum == 0) return std::nullopt;
+    const double distance = dot(t.corner[0] - ray.from, t.normal) / dot(d, t.normal);
+    if (!(distance > 0)) return std::nullopt;
+    if (reference::cutAway(scene_, t.number, {distance, side[2] / sum, side[0] / sum}, forShadow)) {
+      return std::nullopt;
+    }
+    return distance;
+  }
+
+  bool grazes(const Triangle& t, const Segment& ray, double reach, bool forShadow) const {
+    double away = 0;
+    for (const Vec3d& p : t.corner) away = std::max(away, length(p - ray.from));
+    const double near = reach + 16 * kUlp * away;
+    for (const Segment& edge : edgesOf(t)) {
+      if (distanceBetween(ray, edge) < near) return true;
+    }
+    const Vec3d n = t.normal / length(t.normal);
+    for (const Vec3d& end : {ray.from, ray.to}) {
+      if (std::fabs(dot(end - t.corner[0], n)) > near) continue;
+      if (meet(t, {end - n, end + n}, forShadow)) return true;
+    }
+    if (scene_.materials[scene_.triangles[t.number].material].alphaMap == kNoTexture) return false;
+    // Rays beside it, for the borders of masks.
+    const Vec3d d = ray.way();
+    const double least = near / std::max(std::fabs(dot(n, d)) / length(d), 0x1p-20);
+    const Vec3d x = normalized(cross(d, n)), y = normalized(cross(d, x));
+    const bool met = meet(t, ray, forShadow).has_value();
+    for (const Vec3d& aside : {x, -x, y, -y}) {
+      const Vec3d moved = aside * least;
+      if (meet(t, {ray.from + moved, ray.to + moved}, forShadow).has_value() != met) return true;
+    }
+    return false;
+  }
+
+  // True if no rounding lets Embree find the triangle (shadow_cache/caster.h has the formulas).
+  static bool surelyMissed(const Triangle& t, const Segment& ray) {
+    const Vec3d d = ray.way();
+    double away = 0;
+    for (const Vec3d& p : t.corner) away = std::max(away, length(p - ray.from));
+    bool above = false, below = false;
+    for (const Segment& edge : edgesOf(t)) {
+      const Vec3d e = edge.way(), middle = edge.from - ray.from;
+      const double number = dot(d, cross(middle, e));
+      const double size =
+          length(e) * length(d) + 2 * (length(cross(middle, d)) + length(cross(e, d)));
+      above |= number > 16 * kUlp * away * size;
+      below |= number < -16 * kUlp * away * size;
+    }
+    return above && below;
+  }
+
+  const Scene& scene_;
+  std::vector<Triangle> triangles_;
+};
+
+// Numbers of pixels; of those that differ, by cause.
+struct Tally {
+  std::size_t pixels = 0, lit = 0, edges = 0, needles = 0, unknown = 0;
+};
+
+class Comparison {
+ public:
+  Comparison(const Scene& scene, const RenderOptions& options)
+      : scene_(scene),
+        truth_(scene),
+        frame_(makeCameraFrame(chooseCamera(scene, options), options.size->width,
+                               options.size->height)) {}
+
+  Tally compare(const Image& image) const {
+    Tally tally;
+    for (int y = 0; y < frame_.height; ++y) {
+      for (int x = 0; x < frame_.width; ++x) add(x, y, double{image.at(x, y).x}, tally);
+    }
+    return tally;
+  }
+
+ private:
+  void add(int x, int y, double value, Tally& tally) const {
+    const reference::Ray eye = reference::generateRay(frame_, x + 0.5, y + 0.5);
+    const Segment toAll{eye.origin, eye.origin + eye.direction};
+    const std::optional<Found> found = truth_.nearest(toAll);
+    ++tally.pixels;
+    tally.lit += value > 0;
+    if (!found) {
+      if (value > 0) {
+        const Segment far{eye.origin, eye.origin + eye.direction * 1e6};
+        count(truth_.causeOf(far, 4 * kUlp, false), tally);
+      }
+      return;
+    }
+    const Triangle& t = truth_[found->triangle];
+    const Vec3d p = eye.origin + eye.direction * found->t;
+    Vec3d n = normalized(t.normal);
+    if (dot(n, eye.direction) > 0) n = -n;
+    const double cosine = -dot(n, eye.direction);
+    const Vec3d sizes = abs(p) + abs(eye.origin);
+    const double reach = kUlp * (8 * (sizes.x + sizes.y + sizes.z) + 32 * t.longest +
+                                 4 * found->t / std::max(cosine, 1e-6));
+    double expected = 0, tolerance = 0;
+    std::vector<Segment> shadowRays;
+    for (const Light& light : scene_.lights) {
+      const bool directional = light.kind == Light::Kind::directional;
+      const Vec3d way = towards(light, p);
+      const Segment ray{p + n * (1e-13 * reach / kUlp), p + way * (directional ? 1e6 : 1.0)};
+      const double distance2 = directional ? 1 : std::max(dot(way, way), 1e-4);
+      const double most = double{light.intensity.x} / distance2 * 0.8 / std::numbers::pi;
+      tolerance += most * (2e-3 + 4 * reach / std::sqrt(distance2));
+      const double facing = dot(n, normalized(way));
+      if (facing < 1e-3) continue;
+      shadowRays.push_back(ray);
+      if (!truth_.blocked(ray, found->triangle)) expected += most * facing;
+    }
+    if (std::fabs(value - expected) <= tolerance) return;
+    Cause cause = truth_.causeOf({eye.origin, p}, reach, false, found->triangle);
+    if (cause != Cause::edge) {
+      for (const Segment& ray : shadowRays) {
+        const Cause other = truth_.causeOf(ray, reach, true, found->triangle);
+        if (other == Cause::edge || cause == Cause::unknown) cause = other;
+        if (cause == Cause::edge) break;
+      }
+    }
+    if (cause == Cause::unknown) {
+      std::printf("pixel %d,%d: %g for %g, triangle %u of share %g\n", x, y, value, expected,
+                  t.number, t.share());
+    }
+    count(cause, tally);
+  }
+
+  static void count(Cause cause, Tally& tally) {
+    tally.edges += cause == Cause::edge;
+    tally.needles += cause == Cause::needle;
+    tally.unknown += cause == Cause::unknown;
+  }
+
+  const Scene& scene_;
+  BruteForceInDouble truth_;
+  CameraFrame frame_;
+};
+
+// The kinds of randomScene() in which pixels are within rounding of an edge: needles, far from the
+// origin, huge triangles.
+std::size_t mostAtEdges(unsigned kind, std::size_t pixels) {
+  if (kind == 1) return pixels / 200;
+  if (kind == 5) return pixels / 20;
+  return kind == 9 ? 4 : 0;
+}
+
+TEST(DoubleShadows, H92_differOnlyWithinRoundingOfAnEdge) {
+  RenderOptions options;
+  options.size = ImageSize{80, 60};
+  options.threads = 2;
+  std::size_t pixels = 0, lit = 0;
+  for (unsigned kind = 0; kind < kRandomKinds; ++kind) {
+    for (unsigned seed = 0; seed < 4; ++seed) {
+      SCOPED_TRACE(testing::Message() << "kind " << kind << ", seed " << seed);
+      const Scene scene = randomScene(kind, seed);
+      Renderer renderer(scene, options);
+      const Camera camera = chooseCamera(scene, options);
+      Film packets = makeFilm(scene, options), reference = makeFilm(scene, options);
+      renderer.render(camera, packets);
+      renderer.renderReference(camera, reference);
+      const Comparison comparison(scene, options);
+      for (const Film* film : {&packets, &reference}) {
+        const Tally t = comparison.compare(film->image);
+        EXPECT_EQ(t.unknown, 0u);
+        EXPECT_EQ(t.needles, 0u);
+        EXPECT_LE(t.edges, mostAtEdges(kind, t.pixels));
+        pixels += t.pixels;
+        lit += t.lit;
+      }
+    }
+  }
+  EXPECT_GT(lit, pixels / 10);
+}
+
+}  // namespace
+}  // namespace whit::test
