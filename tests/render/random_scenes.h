@@ -122,7 +122,7 @@ inline Scene randomScene(unsigned kind, unsigned seed) {
   return soup.finish({2, 4, 3}, {0, 0.5f, 0}, kind == 5 ? Vec3f{1e5f, -1e5f, 3e4f} : Vec3f{});
 }
 
-inline constexpr unsigned kEffectKinds = 7, kNeedlesBesideOthers = 4;
+inline constexpr unsigned kEffectKinds = 7, kInstances = 2, kNeedlesBesideOthers = 4;
 
 // A scene of one of seven kinds with what else casts or receives shadows: masks of every cutoff and
 // partial coverage, soft and spot lights, instances, exact spheres, triangles that cast no shadow
@@ -159,18 +159,22 @@ inline Scene randomSceneWithEffects(unsigned kind, unsigned seed) {
       close(mask);
     }
   }
-  if (kind == 2) {
+  if (kind == kInstances) {
     // Some far from the origin of their own space, some flat, mirrored or both.
-    const Vec3d away = Vec3d(soup.inside(1)) * std::pow(10.0, double{soup.uniform(0, 5.5f)});
+    const Vec3d away = Vec3d(soup.inside(1)) *
+                       std::pow(10.0, double{soup.uniform(seed % 2 == 1 ? 4.f : 0.f, 5.5f)});
     Soup thing(seed);
-    for (int i = 0; i < 4; ++i)
+    const bool plain = seed % 2 == 1;  // a square whose box is as tight as it can be
+    if (plain) thing.addSquare({-0.12f, 0, -0.12f}, {0, 0, 0.25f}, {0.25f, 0, 0});
+    for (int i = 0; i < 4 && !plain; ++i)
       thing.add(thing.inside(0.4f), thing.inside(0.4f), thing.inside(0.4f));
     if (seed % 3 == 0) thing.mesh.spheres = {Affine::scaling(Vec3d(0.3))};
     transform(thing.mesh, Affine::translation(away));
     description.objects.push_back({"thing", {std::move(thing.mesh)}});
     for (int i = 0; i < 8; ++i) {
       const auto scale = [&] { return std::exp2(double{soup.uniform(-9, 1)}); };
-      const Vec3d sizes{i % 2 == 0 ? scale() : -1, i % 3 == 0 ? scale() : 1, 1};
+      const Vec3d sizes =
+          plain ? Vec3d(1) : Vec3d{i % 2 == 0 ? scale() : -1, i % 3 == 0 ? scale() : 1, 1};
       description.instances.push_back(
           {0, Affine::translation(Vec3d(above())) *
                   Affine::rotation(Vec3d(soup.inside(1)), double{soup.uniform(0, 360)}) *
@@ -183,7 +187,7 @@ inline Scene randomSceneWithEffects(unsigned kind, unsigned seed) {
                                 Affine::rotation(Vec3d(soup.inside(1)), 50) *
                                 Affine::scaling(max(abs(sizes), Vec3d(0x1p-9))));
   }
-  if (kind == 4) {
+  if (kind == kNeedlesBesideOthers) {
     Material without;
     without.castsShadow = false;
     for (int i = 0; i < 8; ++i) triangle(soup.inside(2), soup.uniform(1, 6));
