@@ -334,4 +334,15 @@ Sky namedSky(const std::string& name, std::uint64_t mostBytes, Warnings& warning
   return sky;
 }
 
+Scene finalizeScene(const std::string& file, SceneDescription description, Warnings& warnings,
+                    Progress* progress) {
+  try {
+    return Scene::finalize(std::move(description), warnings, progress);
+  } catch (const Error& error) {
+    if (error.status() != ExitStatus::badScene) throw;
+    throw Error(error.status(), file + ": " + error.what(),
+                {file, error.place().place, error.place().expected});
+  }
+}
+
 }  // namespace whit

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bake/scene.h"
 #include "core/progress.h"
 #include "core/warnings.h"
 #include "io/json_reader.h"
@@ -50,6 +51,11 @@ struct SceneText {  // NOLINT(bugprone-exception-escape): moving Json does not t
 };
 SceneDescription loadScene(const SceneText& text, const LoadOptions& options, Warnings& warnings,
                            Progress* progress = nullptr);
+
+// Scene::finalize() of what was read from `file`. Its errors name the scene; these name the file
+// too.
+Scene finalizeScene(const std::string& file, SceneDescription description, Warnings& warnings,
+                    Progress* progress = nullptr);
 
 // The document that is read as a scene's description, with settings and parameters in their places;
 // none for a model without a scene file.

@@ -21,6 +21,8 @@ std::vector<std::string> textsOf(const Warnings& warnings) {
 
 const std::string& nameOrText(const std::string& name) { return name; }
 const SceneText& nameOrText(const std::shared_ptr<const SceneText>& text) { return *text; }
+const std::string& fileOf(const std::string& name) { return name; }
+const std::string& fileOf(const std::shared_ptr<const SceneText>& text) { return text->name; }
 
 }  // namespace
 
@@ -50,7 +52,9 @@ std::shared_ptr<Scene::Data> Scene::Data::read(SceneSource source, const whit::L
   SceneDescription description = std::visit(
       [&](const auto& from) { return whit::loadScene(nameOrText(from), load, warnings, progress); },
       source);
-  data->scene = whit::Scene::finalize(std::move(description), warnings, progress);
+  const std::string& file =
+      std::visit([](const auto& from) -> const std::string& { return fileOf(from); }, source);
+  data->scene = finalizeScene(file, std::move(description), warnings, progress);
   data->source = std::move(source);
   data->load = load;
   data->strict = strict;

@@ -16,13 +16,7 @@ std::unique_ptr<OpenScene> openScene(const std::string& name, const CommonOption
   auto open = std::make_unique<OpenScene>(common.render.strict);
   SceneDescription description = loadScene(name, common.load, open->warnings, progress);
   if (look) look(description);
-  try {
-    open->scene = Scene::finalize(std::move(description), open->warnings, progress);
-  } catch (const Error& error) {  // it names the scene, and not its file
-    if (error.status() != ExitStatus::badScene) throw;
-    throw Error(error.status(), name + ": " + error.what(),
-                {name, error.place().place, error.place().expected});
-  }
+  open->scene = finalizeScene(name, std::move(description), open->warnings, progress);
   open->settings = common.load.settings;
   open->sky = common.load.sky;
   open->loadMs = stopwatch.ms();
