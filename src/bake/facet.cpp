@@ -121,7 +121,7 @@ bool facetsTouch(const Facet& a, const Facet& b) {
   return lieInOnePlane(a, b) && haveInCommon(a, b, -(a.error + b.error));
 }
 
-// What a triangle has in common with another is no wider than the triangle itself.
+// Two triangles have no part in common that is wider than either of them.
 bool isTooNarrowToOverlap(const Facet& facet) { return !haveInCommon(facet, facet, facet.least); }
 
 CoveredPart coveredPart(const Facet& on, const Facet& of) {

@@ -149,8 +149,8 @@ class Space {
     const auto& [a, b, c] = facet.corners;
     return grown(min(min(a, b), c), max(max(a, b), c), facet.error);
   }
-  // The same for what lies in a box of a tree: of the world, whose boxes are grown already, or of
-  // an instance.
+  // Returns the box in the world of a box of a tree: the world's own tree has grown boxes already,
+  // an instance's has not.
   Box boxOf(const Box& box, std::uint32_t instance) const;
 
  private:
@@ -475,7 +475,7 @@ CoplanarTriangles CoplanarFinder::find() {
     return BoxTree(std::move(items), 1);
   };
   if (all.empty()) return {};
-  // Those that overlap others, and then all that touch one of them as well.
+  // Triangles that touch one that overlaps another are added to those that overlap.
   const BoxTree overlapping = treeOfAll();
   const Group others{&overlapping};
   addBoth(findPairs(world_, everything, &others, facetsTouch), all);

@@ -62,7 +62,7 @@ void forEachPlacedTriangle(const SceneDescription& scene, std::uint64_t most, co
   }
 }
 
-// The same with use(corner).
+// Calls use(corner) for each corner of these triangles.
 template <typename Use>
 void forEachPlacedCorner(const SceneDescription& scene, std::uint64_t most, const Use& use,
                          std::optional<double> seconds = {}) {

@@ -17,8 +17,8 @@ struct ModelView {
 // From the front, a little to the right and above, near enough to fill the picture; from another
 // side where the model turns its back or its edge there; and from inside a closed room.
 ModelView viewOf(const SceneDescription& scene);
-// The same for a model that moves: from the side that suits it now, and so far away that all of it
-// stays in the picture from 0 to `seconds`. A room is seen as it is now.
+// Returns a view of a model that moves, from the side that suits it now and so far away that all of
+// it stays in the picture from 0 to `seconds`. A room is seen as it is now.
 ModelView viewOf(const SceneDescription& scene, double seconds);
 
 }  // namespace whit

@@ -118,8 +118,8 @@ class JsonShapeParameters : public ShapeParameters {
   JsonObject& object_;
 };
 
-// What the generator called `name` makes from the parameters in `object`; an error names the
-// nearest generator.
+// Runs the generator called `name` with the parameters in `object`. An error names the nearest
+// generator.
 template <typename Made>
 Made generate(const JsonValue& name, const std::map<std::string, Made (*)(ShapeParameters&)>& all,
               JsonObject& object) {
