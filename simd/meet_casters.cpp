@@ -80,7 +80,7 @@ unsigned MeetBoxes(const RoundedShaft& shaft, const BoxBlock& boxes) {
 
 // ---- casters
 
-// Caster::boundsFor.
+// The largest errors by rounding, for rays whose starts have been moved as well.
 HWY_INLINE void SetBounds(CasterBlock& block, size_t i, const CasterLight& light,
                           const CasterReceiver& receiver, const D3& normal, VD longest,
                           const VD (&edgeLength)[3], const VD (&gradient)[3], VD toLight) {
@@ -112,7 +112,7 @@ HWY_INLINE void SetBounds(CasterBlock& block, size_t i, const CasterLight& light
   hn::Store(hn::Add(hn::Add(hn::Mul(turned, away), moved), flushedAway), d, block.heightBound + i);
 }
 
-// Caster::Caster.
+// What is linear in the ray's origin, from the corners.
 void SetCasters(CasterBlock& block, const CasterLight& light, const CasterReceiver& receiver) {
   const Doubles d;
   const D3 l = All3(light.position);
@@ -150,7 +150,7 @@ struct RangeLanes {
 };
 HWY_INLINE RangeLanes Nothing() { return {hn::Inf(Doubles()), hn::Neg(hn::Inf(Doubles()))}; }
 
-// The linear numbers of Caster over a receiver.
+// Numbers linear in the ray's origin, over a receiver.
 struct Extremes {
   RangeLanes heights, slopes, edges[3];
 };
@@ -188,7 +188,7 @@ struct MeetingLanes {
   MD never, always;
 };
 
-// Caster::meet.
+// Compares the linear numbers over the receiver with their bounds.
 template <bool kDirectional>
 HWY_INLINE MeetingLanes Meet(const CasterBlock& block, size_t i, const CasterLight& light,
                              const Vec3d* corners, size_t count) {

@@ -1,6 +1,12 @@
-// Tests of several triangles at a time against the shadow rays of a convex receiver: the proofs of
-// shadow_cache/caster.h and the shafts of shadow_cache/shaft.h, in double and with the same
-// operations as the scalar code there.
+// Proofs about triangles and all shadow rays from a receiver to a light, eight triangles at a time,
+// and tests against the shaft of these rays. The proofs hold for the numbers that Embree's robust
+// traversal computes in single precision, not only for exact rays.
+// Embree's robust test ("modified Pluecker", kernels/geometry/triangle_intersector_pluecker.h) has,
+// with corners a, b, c relative to the ray's origin O and its direction D, three edge functions
+// D.(a x b), D.(b x c), D.(c x a), all of one sign where the line hits the triangle, and the
+// distance (a.N) / (D.N), N the normal. With D = L - O each of these numbers is linear in O: over a
+// convex receiver its extremes lie at the corners. Rounding may add at most 2^-24 times the lengths
+// that went into each number; the bounds below leave room beside that.
 #pragma once
 
 #include <array>

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "bake/facet.h"
 #include "bake/sphere.h"
+#include "stages/caster_rounding.h"
 
 namespace whit {
 
@@ -75,11 +77,40 @@ constexpr std::size_t kLeafNeighbors = 4;
 
 double diagonalOf(const Box& box) { return length(Vec3d(box.upper) - Vec3d(box.lower)); }
 
+// Returns how near a ray must come for Embree to find a hit where there is none, if no ray starts
+// further from the triangle than `distance`: the triangle's shape and its angle to the light
+// decide. Infinite where the light lies in its plane. With the triangle as rounding may have moved
+// it (by `turned` from its plane, where the light is), rays that cross its plane outside of it do
+// so at a distance x or more, where the least of the edge functions is below zero by cosine *
+// lowest / 2 * x or more.
+double influenceOf(const TriangleRecord& record, const LightPoint& light, double distance) {
+  constexpr double kNowhere = std::numeric_limits<double>::infinity();
+  const auto [a, b, c] = cornersOf(record, nullptr);
+  const Vec3d normal = cross(b - a, c - a);
+  const double area2 = length(normal);
+  if (!(area2 > 0)) return kNowhere;
+  const double longest = std::max({length(b - a), length(c - b), length(a - c)});
+  const Vec3d way = light.directional ? -light.position : a - light.position;
+  const double shortest = length(way);
+  const double lowest = area2 / longest;  // height over the longest edge
+  const double unit = kRoundings * kHalfUlp * distance;
+  const double toLight = shortest + (light.directional ? 0 : longest);
+  const double away = std::fabs(dot(way, normal)) / area2;
+  const double turned = unit * ((light.directional ? 0 : 1) + toLight / lowest);
+  if (!(away > 2 * turned)) return kNowhere;
+  // The point may be as far from the triangle as the light is.
+  const double cosine = away / 2 / (light.directional ? 1 : 2 * shortest);
+  const double gained = cosine * lowest / 2 - 2 * unit;
+  if (!(gained > 0)) return kNowhere;
+  const double influence = 2 * (3 * unit * longest / gained);
+  return light.directional || influence < shortest ? influence : kNowhere;
+}
+
 float growthOf(const Scene& scene, const CasterList& list, std::size_t at,
                const LightPoint& light) {
   const CasterRef& caster = list.casters[at];
   double reach = diagonalOf(list.boxOf(scene, caster)) / 2 + list.size * kLeafReach;
-  const double influence = Caster(scene.triangles[caster.number], light).influence(list.size);
+  const double influence = influenceOf(scene.triangles[caster.number], light, list.size);
   if (influence > reach) {
     Box neighbors;
     const std::size_t end = std::min(at + kLeafNeighbors + 1, list.casters.size());

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <span>
 
 namespace whit {
 
@@ -17,30 +16,6 @@ namespace {
 constexpr std::size_t kMostCasters = 1 << 14;
 constexpr std::size_t kInBlock = CasterBlock::kCasters;
 
-void setCorners(CasterBlock& block, std::size_t i, const TriangleRecord& record) {
-  for (std::size_t k = 0; k < 9; ++k) {
-    block.corner[k / 3][k % 3][i] = double{record.position[k]};
-  }
-}
-
-void copyCaster(const CasterBlock& from, std::size_t i, CasterBlock& to, std::size_t j) {
-  const auto copy = [i, j](const CasterBlock::Row& a, CasterBlock::Row& b) { b[j] = a[i]; };
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      copy(from.corner[k][axis], to.corner[k][axis]);
-      copy(from.gradient[k][axis], to.gradient[k][axis]);
-    }
-    copy(from.normal[axis], to.normal[axis]);
-    copy(from.edgeBound[axis], to.edgeBound[axis]);
-  }
-  copy(from.lightHeight, to.lightHeight);
-  copy(from.slopeBound, to.slopeBound);
-  copy(from.heightBound, to.heightBound);
-  copy(from.growth, to.growth);
-}
-
-CasterBits firstBits(std::size_t count) { return static_cast<CasterBits>((1u << count) - 1); }
-
 class PartDecider {
  public:
   PartDecider(const ShadowWorld& world, std::uint32_t self, const ReceivingTriangle& triangle,
@@ -51,13 +26,13 @@ class PartDecider {
         scratch_(scratch),
         light_{world.light.position, world.light.directional} {
     scratch_.gathered.clear();
-    scratch_.casters.clear();
+    scratch_.opaque.clear();
     scratch_.boxes.clear();
     scratch_.asked.clear();
   }
 
   PartShadow decide(const WeightSquare& square, const Receiver& receiver) {
-    if (!hiddenAsOthers(receiver)) decideAll(square, receiver);
+    decideAll(square, receiver);
     if (!result_.known()) result_.whole = ShadowState::mixed;
     return result_;
   }
@@ -68,106 +43,88 @@ class PartDecider {
             receiver.reach};
   }
 
-  // By what has hidden others.
-  bool hiddenAsOthers(const Receiver& receiver) {
-    CasterBits asked = firstBits(std::min(scratch_.hidden, kInBlock)), met = 0;
-    for (std::size_t i = 0; i < kInBlock; ++i) {
-      if (scratch_.hiderNumbers[i] == self_) asked &= static_cast<CasterBits>(~(1u << i));
-    }
-    if (asked == 0) return false;
-    world_.kernels.setCasters(scratch_.hiders, light_, seenBy(receiver));
-    const std::size_t hider =
-        world_.kernels.meetCasters({&scratch_.hiders, 1, &asked, &asked, &met}, light_,
-                                   receiver.corners.data(), receiver.count);
-    if (hider == kNoCaster) return false;
-    result_.whole = ShadowState::dark;
-    return true;
-  }
-
   // Decides all cells; `receiver` is the part.
   void decideAll(const WeightSquare& square, const Receiver& receiver) {
     const Shaft shaft(receiver, world_.light, world_.list.size);
     world_.tree.gather(world_.kernels, shaft.rounded(), scratch_.gathered);
     takeBoxes();
-    passBy(shaft);
+    keepCasters([&](CasterBlock& block, const Lanes& lanes) {
+      CasterBits met = lanes.used;
+      world_.kernels.passCasters({&block, 1, nullptr, nullptr, &met}, shaft.sides());
+      return met;
+    });
     if (scratch_.gathered.size() > kMostCasters) return;
-    const std::uint32_t hider = keepMet(receiver);
-    if (hider != self_) {
-      result_.whole = hiddenBy(hider, kCellsASide, 0, 0);
-      return;
-    }
-    auto& asked = scratch_.asked;
-    const std::size_t blocks = scratch_.casters.blockCount();
-    asked.assign(blocks, firstBits(kInBlock));
-    if (const std::size_t rest = scratch_.casters.count % kInBlock; rest != 0) {
-      asked.back() = firstBits(rest);
-    }
-    const bool any = blocks + scratch_.boxes.size() > 0;
+    keepCasters([&](CasterBlock& block, const Lanes& lanes) {
+      CasterBits met = 0;
+      world_.kernels.setCasters(block, light_, seenBy(receiver));
+      const std::size_t hider =
+          world_.kernels.meetCasters({&block, 1, &lanes.used, &lanes.opaque, &met}, light_,
+                                     receiver.corners.data(), receiver.count);
+      if (hider != kNoCaster) result_.whole = ShadowState::dark;
+      return met;
+    });
+    if (result_.known()) return;
+    loadBlocks(receiver);
+    const bool any = scratch_.gathered.size() + scratch_.boxes.size() > 0;
     result_.whole = decideBetween(square, kCellsASide, 0, 0, any, {0, 0, scratch_.boxes.size()});
   }
 
   // Boxes out of what was gathered, and the triangle itself.
   void takeBoxes() {
-    std::size_t kept = 0;
-    for (const Candidate& candidate : scratch_.gathered) {
+    std::erase_if(scratch_.gathered, [this](const Candidate& candidate) {
       const CasterRef& ref = candidate.caster;
-      if (ref.isBox()) {
-        scratch_.boxes.push_back(ref.number - CasterRef::kBox);
-      } else if (ref.number != self_) {
-        scratch_.gathered[kept++] = candidate;
-      }
-    }
-    scratch_.gathered.resize(kept);
+      if (ref.isBox()) scratch_.boxes.push_back(ref.number - CasterRef::kBox);
+      return ref.isBox() || ref.number == self_;
+    });
   }
 
-  // The next casters that were gathered, from `first` on. Returns how many.
-  std::size_t load(std::size_t first, CasterBlock& block) const {
+  struct Lanes {
+    CasterBits used = 0, opaque = 0;
+  };
+
+  // Loads the next casters that were gathered, from `first` on.
+  Lanes load(std::size_t first, CasterBlock& block) const {
+    Lanes lanes;
     const std::size_t count = std::min(kInBlock, scratch_.gathered.size() - first);
     for (std::size_t i = 0; i < count; ++i) {
       const auto& [ref, growth] = scratch_.gathered[first + i];
-      setCorners(block, i, world_.scene.triangles[ref.number]);
+      const TriangleRecord& record = world_.scene.triangles[ref.number];
+      for (std::size_t k = 0; k < 9; ++k) {
+        block.corner[k / 3][k % 3][i] = double{record.position[k]};
+      }
       block.growth[i] = double{growth};
+      lanes.used |= static_cast<CasterBits>(1u << i);
+      lanes.opaque |= static_cast<CasterBits>(unsigned{ref.opaque} << i);
     }
-    return count;
+    return lanes;
   }
 
-  // Leaves out of what was gathered what the shaft passes by.
-  void passBy(const Shaft& shaft) {
+  // Keeps those of the gathered casters that `test` returns a bit for, a block at a time, until the
+  // part is decided.
+  template <typename Test>
+  void keepCasters(const Test& test) {
     auto& gathered = scratch_.gathered;
     CasterBlock block{};
     std::size_t kept = 0;
-    for (std::size_t first = 0; first < gathered.size(); first += kInBlock) {
-      CasterBits met = firstBits(load(first, block));
-      world_.kernels.passCasters({&block, 1, nullptr, nullptr, &met}, shaft.sides());
-      for (unsigned rest = met; rest != 0; rest &= rest - 1) {
+    for (std::size_t first = 0; first < gathered.size() && !result_.known(); first += kInBlock) {
+      const Lanes lanes = load(first, block);
+      for (unsigned rest = test(block, lanes); rest != 0; rest &= rest - 1) {
         gathered[kept++] = gathered[first + static_cast<std::size_t>(std::countr_zero(rest))];
       }
     }
     gathered.resize(kept);
   }
 
-  // Collects the remaining triangles that rays may hit into blocks. Returns the number of a
-  // triangle that hides the part, or else the part's own triangle.
-  std::uint32_t keepMet(const Receiver& receiver) {
-    const auto& gathered = scratch_.gathered;
-    CasterBlock block{};
-    for (std::size_t first = 0; first < gathered.size(); first += kInBlock) {
-      const std::size_t count = load(first, block);
-      CasterBits opaque = 0, met = 0;
-      for (std::size_t i = 0; i < count; ++i) {
-        opaque |= static_cast<CasterBits>(unsigned{gathered[first + i].caster.opaque} << i);
-      }
-      const CasterBits asked = firstBits(count);
-      world_.kernels.setCasters(block, light_, seenBy(receiver));
-      const std::size_t hider = world_.kernels.meetCasters(
-          {&block, 1, &asked, &opaque, &met}, light_, receiver.corners.data(), receiver.count);
-      if (hider != kNoCaster) return gathered[first + hider].caster.number;
-      for (unsigned rest = met; rest != 0; rest &= rest - 1) {
-        const auto i = static_cast<std::size_t>(std::countr_zero(rest));
-        scratch_.casters.add(gathered[first + i].caster, block, i);
-      }
+  // Loads all casters that are left, with the bounds of the part.
+  void loadBlocks(const Receiver& receiver) {
+    const std::size_t count = (scratch_.gathered.size() + kInBlock - 1) / kInBlock;
+    if (scratch_.blocks.size() < count) scratch_.blocks.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Lanes lanes = load(i * kInBlock, scratch_.blocks[i]);
+      world_.kernels.setCasters(scratch_.blocks[i], light_, seenBy(receiver));
+      scratch_.opaque.push_back(lanes.opaque);
+      scratch_.asked.push_back(lanes.used);
     }
-    return self_;
   }
 
   // Possible occluders: the blocks asked[blocks..), and boxes[begin, end).
@@ -198,15 +155,14 @@ class PartDecider {
 
   ShadowState decidePiece(const Receiver& receiver, const WeightSquare& square, int side,
                           int column, int row, const InTheWay& way) {
-    const CasterBlocks& casters = scratch_.casters;
-    const std::size_t count = casters.blockCount(), mine = scratch_.asked.size();
+    const std::size_t count = scratch_.opaque.size(), mine = scratch_.asked.size();
     scratch_.asked.resize(mine + count);
-    const simd::CasterQuestion question{casters.blocks.data(), count,
-                                        scratch_.asked.data() + way.blocks, casters.opaque.data(),
+    const simd::CasterQuestion question{scratch_.blocks.data(), count,
+                                        scratch_.asked.data() + way.blocks, scratch_.opaque.data(),
                                         scratch_.asked.data() + mine};
     const std::size_t hider =
         world_.kernels.meetCasters(question, light_, receiver.corners.data(), receiver.count);
-    if (hider != kNoCaster) return hiddenBy(casters.numbers[hider], side, column, row);
+    if (hider != kNoCaster) return set(side, column, row, ShadowState::dark);
     const Shaft shaft(receiver, world_.light, world_.list.size);
     bool any = world_.kernels.passCasters(question, shaft.sides());
     const std::size_t begin = scratch_.boxes.size();
@@ -236,17 +192,6 @@ class PartDecider {
     return same ? all : ShadowState::mixed;
   }
 
-  ShadowState hiddenBy(std::uint32_t caster, int side, int column, int row) {
-    auto& numbers = scratch_.hiderNumbers;
-    const std::span known(numbers.data(), std::min(scratch_.hidden, kInBlock));
-    if (std::find(known.begin(), known.end(), caster) == known.end()) {
-      const std::size_t place = scratch_.hidden++ % kInBlock;
-      numbers[place] = caster;
-      setCorners(scratch_.hiders, place, world_.scene.triangles[caster]);
-    }
-    return set(side, column, row, ShadowState::dark);
-  }
-
   ShadowState set(int side, int column, int row, ShadowState state) {
     for (int y = row; y < row + side; ++y) {
       for (int x = column; x < column + side; ++x) {
@@ -267,19 +212,6 @@ class PartDecider {
 };
 
 }  // namespace
-
-void CasterBlocks::add(const CasterRef& caster, const CasterBlock& from, std::size_t i) {
-  const std::size_t block = count / kInBlock, place = count % kInBlock;
-  if (block == blocks.size()) {
-    blocks.emplace_back();
-    opaque.emplace_back();
-    numbers.resize(numbers.size() + kInBlock);
-  }
-  if (place == 0) opaque[block] = 0;
-  copyCaster(from, i, blocks[block], place);
-  opaque[block] |= static_cast<CasterBits>(unsigned{caster.opaque} << place);
-  numbers[count++] = caster.number;
-}
 
 PartShadow decidePart(const ShadowWorld& world, std::uint32_t triangle, const WeightSquare& part,
                       PartScratch& scratch) {

@@ -16,30 +16,12 @@ struct PartShadow {
   bool known() const { return divided || whole != ShadowState::unknown; }
 };
 
-// Triangles in blocks, as kernels take them.
-struct CasterBlocks {
-  std::vector<simd::CasterBlock> blocks;
-  std::vector<std::uint32_t> numbers;  // kCasters a block
-  std::vector<simd::CasterBits> opaque;
-  std::size_t count = 0;  // of casters
-
-  void clear() { count = 0; }
-  // One more, from place `i` of a block.
-  void add(const CasterRef& caster, const simd::CasterBlock& from, std::size_t i);
-  std::size_t blockCount() const {
-    return (count + simd::CasterBlock::kCasters - 1) / simd::CasterBlock::kCasters;
-  }
-};
-
 // A worker's own memory.
 struct PartScratch {
-  // Triangles that have hidden other parts recently and are likely to hide the next one.
-  simd::CasterBlock hiders{};
-  std::array<std::uint32_t, simd::CasterBlock::kCasters> hiderNumbers{};
-  std::size_t hidden = 0;  // that added one to them
   std::vector<Candidate> gathered;
-  // The triangles that may hide the part, and boxes among them.
-  CasterBlocks casters;
+  // The gathered triangles in blocks, as kernels take them, and their opaque lanes.
+  std::vector<simd::CasterBlock> blocks;
+  std::vector<simd::CasterBits> opaque;
   std::vector<std::uint32_t> boxes;     // one depth after the other
   std::vector<simd::CasterBits> asked;  // of the blocks, likewise
 };

@@ -16,6 +16,13 @@ void setBox(simd::BoxBlock& block, std::size_t i, const Box& box) {
   }
 }
 
+LightPoint LightPoint::of(const Light& light) {
+  if (light.kind == Light::Kind::directional) {
+    return {Vec3d(Vec3f(whit::towards(light, {}))), true};
+  }
+  return {Vec3d(light.position), false};
+}
+
 Shaft::Shaft(const Receiver& receiver, const LightPoint& light, double length)
     : reach_(receiver.reach) {
   Vec3d &lower = sides_.lower, &upper = sides_.upper;
@@ -86,26 +93,6 @@ bool Shaft::misses(const Box& box) const {
   for (std::size_t i = 0; i < sides_.count; ++i) {
     const auto& plane = sides_.planes[i];
     if (dot(plane.outward, center) - dot(abs(plane.outward), half) > plane.offset) return true;
-  }
-  return false;
-}
-
-bool Shaft::misses(const TriangleRecord& triangle, double distance) const {
-  const float* p = triangle.position;
-  const Vec3d a{p[0], p[1], p[2]}, b{p[3], p[4], p[5]}, c{p[6], p[7], p[8]};
-  const Vec3d lower = min(a, min(b, c)), upper = max(a, max(b, c));
-  if (lower.x - distance > sides_.upper.x || lower.y - distance > sides_.upper.y ||
-      lower.z - distance > sides_.upper.z || upper.x + distance < sides_.lower.x ||
-      upper.y + distance < sides_.lower.y || upper.z + distance < sides_.lower.z) {
-    return true;
-  }
-  for (std::size_t i = 0; i < sides_.count; ++i) {
-    const auto& plane = sides_.planes[i];
-    const double bound = plane.offset + distance;
-    if (dot(plane.outward, a) > bound && dot(plane.outward, b) > bound &&
-        dot(plane.outward, c) > bound) {
-      return true;
-    }
   }
   return false;
 }

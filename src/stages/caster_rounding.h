@@ -1,5 +1,4 @@
-// Rounding errors that the proofs about shadow rays and triangles (shadow_cache/caster.h) allow
-// for.
+// Rounding errors that the proofs about shadow rays and triangles (simd/meet_casters.h) allow for.
 #pragma once
 
 namespace whit {

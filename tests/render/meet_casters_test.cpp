@@ -8,8 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "shadow_cache/caster.h"
-#include "shadow_cache/shaft.h"
+#include "render/caster_reference.h"
 #include "simd/kernels.h"
 
 namespace whit::test {
@@ -212,7 +211,7 @@ TEST_P(CasterKernels, PassWhatTheShaftMisses) {
     const bool any = kernels.passCasters({&block, 1, nullptr, nullptr, &met}, shaft.sides());
     EXPECT_EQ(any, met != 0);
     for (std::size_t i = 0; i < kInBlock; ++i) {
-      const bool misses = shaft.misses(s.triangles[i], s.growth[i]);
+      const bool misses = shaftMisses(shaft.sides(), s.triangles[i], s.growth[i]);
       ASSERT_EQ((met >> i & 1) == 0, misses) << n;
       ++(misses ? passed : left);
       Box box;

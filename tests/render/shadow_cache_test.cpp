@@ -16,7 +16,6 @@
 #include "render/random_scenes.h"
 #include "render/shadow_cache_schedule.h"
 #include "render/shipped_scene.h"
-#include "shadow_cache/caster.h"
 #include "simd/kernels.h"
 #include "verify/scene_builder.h"
 

@@ -1,19 +1,58 @@
-#include "shadow_cache/caster.h"
+// The scalar reference of the proofs in simd/meet_casters.h: one triangle and all shadow rays from
+// a receiver to a light.
+#pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 
+#include "shadow_cache/shaft.h"
 #include "stages/caster_rounding.h"
 
 namespace whit {
 
-LightPoint LightPoint::of(const Light& light) {
-  if (light.kind == Light::Kind::directional) {
-    return {Vec3d(Vec3f(whit::towards(light, {}))), true};
-  }
-  return {Vec3d(light.position), false};
-}
+enum class Meeting {
+  never,   // no ray meets the triangle
+  always,  // every one does
+  unsure
+};
+
+class Caster {
+ public:
+  Caster(const TriangleRecord& record, const LightPoint& light);
+
+  Meeting meet(const Receiver& receiver) const;
+
+ private:
+  // A number linear in the ray's origin: (anchor - O) . gradient.
+  struct Linear {
+    Vec3d anchor, gradient;
+    double at(const Vec3d& origin) const { return dot(anchor - origin, gradient); }
+  };
+  struct Range {
+    double least = 0, most = 0;
+    bool above(double bound) const { return least > bound; }
+    bool below(double bound) const { return most < -bound; }
+    bool awayFrom(double bound) const { return above(bound) || below(bound); }
+  };
+  static Range over(const Receiver& receiver, const Linear& number);
+  // Towards the light from the receiver's corners, times the normal.
+  Range slope(const Receiver& receiver) const;
+  // An upper bound on the products of the corners' distances from the rays and the rays' lengths.
+  double farthest(const Receiver& receiver) const;
+
+  struct Bounds;
+  Bounds boundsFor(const Receiver& receiver) const;
+
+  LightPoint light_;
+  std::array<Vec3d, 3> corner_;
+  Vec3d normal_;  // twice the area long
+  double longest_ = 0, area2_ = 0;
+  std::array<Linear, 3> edges_;
+  std::array<double, 3> edgeLength_{}, gradient_{};  // lengths
+  double toLight_ = 0;                               // from corner 0; 1 for a directional light
+  double lightHeight_ = 0;                           // (v0 - L) . N; of a directional light -D.N
+};
 
 // The largest errors by rounding, for rays whose starts have been moved as well.
 struct Caster::Bounds {
@@ -24,7 +63,7 @@ struct Caster::Bounds {
   double slope = 0, height = 0;
 };
 
-Caster::Caster(const TriangleRecord& record, const LightPoint& light) : light_(light) {
+inline Caster::Caster(const TriangleRecord& record, const LightPoint& light) : light_(light) {
   for (std::size_t i = 0; i < 3; ++i) {
     const float* p = record.position + 3 * i;
     corner_[i] = Vec3d(Vec3f{p[0], p[1], p[2]});
@@ -44,7 +83,7 @@ Caster::Caster(const TriangleRecord& record, const LightPoint& light) : light_(l
       light.directional ? -dot(light.position, normal_) : dot(corner_[0] - light.position, normal_);
 }
 
-Caster::Range Caster::over(const Receiver& receiver, const Linear& number) {
+inline Caster::Range Caster::over(const Receiver& receiver, const Linear& number) {
   Range range{number.at(receiver.corners[0]), number.at(receiver.corners[0])};
   for (std::size_t i = 1; i < receiver.count; ++i) {
     const double value = number.at(receiver.corners[i]);
@@ -54,19 +93,19 @@ Caster::Range Caster::over(const Receiver& receiver, const Linear& number) {
   return range;
 }
 
-Caster::Range Caster::slope(const Receiver& receiver) const {
+inline Caster::Range Caster::slope(const Receiver& receiver) const {
   if (light_.directional) return {-lightHeight_, -lightHeight_};
   return over(receiver, {light_.position, normal_});
 }
 
-double Caster::farthest(const Receiver& receiver) const {
+inline double Caster::farthest(const Receiver& receiver) const {
   const Vec3d way = light_.towards(receiver.center);
   const double aside = length(cross(corner_[0] - receiver.center, way));
   const double spread = receiver.radius + receiver.reach;
   return aside + spread * toLight_ + longest_ * (length(way) + (light_.directional ? 0 : spread));
 }
 
-Caster::Bounds Caster::boundsFor(const Receiver& receiver) const {
+inline Caster::Bounds Caster::boundsFor(const Receiver& receiver) const {
   Bounds b;
   const double spread = receiver.radius + receiver.reach;
   b.away = length(corner_[0] - receiver.center) + longest_ + spread;
@@ -84,7 +123,7 @@ Caster::Bounds Caster::boundsFor(const Receiver& receiver) const {
   return b;
 }
 
-Meeting Caster::meet(const Receiver& receiver) const {
+inline Meeting Caster::meet(const Receiver& receiver) const {
   const Bounds bounds = boundsFor(receiver);
   const Range heights = over(receiver, {corner_[0], normal_}), slopes = slope(receiver);
   // Rays that start on the side of its plane where the light is.
@@ -123,24 +162,26 @@ Meeting Caster::meet(const Receiver& receiver) const {
   return Meeting::unsure;
 }
 
-// Told by the triangle as rounding may have moved it (by `turned` from its plane, where the light
-// is): rays that cross its plane outside of it do so at a distance x or more, where the least of
-// the edge functions is below zero by cosine * lowest / 2 * x or more.
-double Caster::influence(double distance) const {
-  constexpr double kNowhere = std::numeric_limits<double>::infinity();
-  if (!(area2_ > 0)) return kNowhere;
-  const double lowest = area2_ / longest_;  // height over the longest edge
-  const double unit = kRoundings * kHalfUlp * distance;
-  const double toLight = toLight_ + (light_.directional ? 0 : longest_);
-  const double away = std::fabs(lightHeight_) / area2_;
-  const double turned = unit * ((light_.directional ? 0 : 1) + toLight / lowest);
-  if (!(away > 2 * turned)) return kNowhere;
-  // The point may be as far from the triangle as the light is.
-  const double cosine = away / 2 / (light_.directional ? 1 : 2 * toLight);
-  const double gained = cosine * lowest / 2 - 2 * unit;
-  if (!(gained > 0)) return kNowhere;
-  const double influence = 2 * (3 * unit * longest_ / gained);
-  return light_.directional || influence < toLight ? influence : kNowhere;
+// True if the shaft surely misses the triangle by more than `distance`.
+inline bool shaftMisses(const simd::ShaftSides& sides, const TriangleRecord& triangle,
+                        double distance) {
+  const float* p = triangle.position;
+  const Vec3d a{p[0], p[1], p[2]}, b{p[3], p[4], p[5]}, c{p[6], p[7], p[8]};
+  const Vec3d lower = min(a, min(b, c)), upper = max(a, max(b, c));
+  if (lower.x - distance > sides.upper.x || lower.y - distance > sides.upper.y ||
+      lower.z - distance > sides.upper.z || upper.x + distance < sides.lower.x ||
+      upper.y + distance < sides.lower.y || upper.z + distance < sides.lower.z) {
+    return true;
+  }
+  for (std::size_t i = 0; i < sides.count; ++i) {
+    const auto& plane = sides.planes[i];
+    const double bound = plane.offset + distance;
+    if (dot(plane.outward, a) > bound && dot(plane.outward, b) > bound &&
+        dot(plane.outward, c) > bound) {
+      return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace whit
