@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/animation.h"
+#include "scene/motion.h"
 #include "viewer/frame_tracer.h"
 
 namespace whit::view {

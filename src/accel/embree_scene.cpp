@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <new>
 
-#include "bake/instance_bounds.h"
+#include "bake/scene.h"
 #include "core/error.h"
 
 namespace whit {

@@ -6,7 +6,6 @@
 
 #include "bake/bake_triangles.h"
 #include "bake/finalize_steps.h"
-#include "bake/instance_bounds.h"
 #include "bake/sphere.h"
 
 namespace whit {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bake/scene.h"
+#include "core/box.h"
 
 namespace whit {
 
@@ -29,6 +30,14 @@ CoincidentSpheres findCoincidentSpheres(const Scene& scene, const SceneOrder& or
 // Gives each dielectric its number. Materials that describe the same one share it, so that leaving
 // one of them counts as leaving the other. Throws Error(limit) beyond 255.
 void numberMedia(Scene& scene);
+
+// Counts and bounds as seen, from `boxes`: one a geometry, in its own space. Leaves out instances
+// that are so much smaller or flatter than the scene that its rays, in their space, would leave the
+// range of coordinates. Throws Error(badScene) for one that is too far away.
+void boundInstances(Scene& scene, const std::vector<Box>& boxes, Warnings& warnings);
+
+// Counts triangles and spheres as seen.
+void countInstanced(Scene& scene);
 
 // Effects that the material calls for where a triangle uses it.
 EffectSet effectsOf(const Material& material);

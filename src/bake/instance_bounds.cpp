@@ -1,8 +1,8 @@
-#include "bake/instance_bounds.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "bake/finalize_steps.h"
 
 namespace whit {
 

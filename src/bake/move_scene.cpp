@@ -7,7 +7,6 @@
 
 #include "bake/bake_triangles.h"
 #include "bake/finalize_steps.h"
-#include "bake/instance_bounds.h"
 #include "bake/sphere.h"
 #include "core/error.h"
 #include "core/usable_threads.h"

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "bake/coplanar_triangles.h"
-#include "bake/item_numbers.h"
 #include "core/box.h"
 #include "core/effects.h"
 #include "core/huge_vector.h"
@@ -81,6 +80,12 @@ struct InstanceRecord {
   std::uint32_t firstItem = 0;
 };
 
+// The largest coordinate with which a ray may start (its direction's length at most 1) so that in
+// the instance's own space it stays within kLargestCoordinate, beyond which Embree takes no rays;
+// 0 where the inverse of the map has no floats. Embree inverts it as adjoint over determinant, in
+// single precision.
+float instanceReach(const Affine& toWorld);
+
 // The vertices of a baked geometry that a mesh bends, from `firstVertex` on.
 struct BentVertices {
   std::uint32_t geometry = 0, firstVertex = 0;
@@ -106,6 +111,37 @@ struct BakedMotion {
 
   bool ofLights() const { return !given.lights.empty(); }
   bool empty() const { return !ofGeometry && !ofLights() && given.cameras.empty(); }
+};
+
+// Numbers for people of what a scene holds: its items, as its author placed them, and the triangles
+// of each. Scene::triangles has them in another order and without those that were left out.
+class ItemNumbers {
+ public:
+  // Triangles that follow each other in Scene::triangles, in their item and in its numbers.
+  struct Run {
+    std::uint32_t first = 0;   // in Scene::triangles
+    std::uint32_t item = 0;    // of instanced ones counted from InstanceRecord::firstItem
+    std::uint32_t number = 0;  // in the item, of the first
+  };
+
+  // In the order of Scene::triangles.
+  void add(std::uint32_t triangle, std::uint32_t item, std::uint32_t number) {
+    if (!runs_.empty()) {
+      const Run& last = runs_.back();
+      if (last.item == item && number - last.number == triangle - last.first) return;
+    }
+    runs_.push_back({triangle, item, number});
+  }
+  // The item of a triangle (or sphere), and its number there.
+  Run find(std::uint32_t triangle) const;
+  std::uint64_t bytes() const { return runs_.size() * sizeof(Run); }
+
+  // Names of the items 0, 1, ...: at most kNamedItems.
+  std::vector<std::string> names;
+  std::uint64_t count = 0;  // of items
+
+ private:
+  std::vector<Run> runs_;
 };
 
 struct EffectReason {
@@ -139,7 +175,7 @@ class Scene {
   std::vector<Geometry> geometries;
   std::vector<InstanceRecord> instances;
   // Triangles of all geometries, one after the other; from firstSphere on they are spheres
-  // (scene/sphere.h), in the same order.
+  // (bake/sphere.h), in the same order.
   HugeVector<TriangleRecord> triangles;
   std::uint32_t firstSphere = 0;
   // Same length, or empty when no mesh has normals other than its triangles'.
@@ -156,7 +192,7 @@ class Scene {
   ItemNumbers items;
   CoplanarTriangles coplanar;  // triangles that overlap others in their plane
   CoincidentSpheres coincidentSpheres;
-  BakedMotion motion;  // see scene/move_scene.h
+  BakedMotion motion;  // see bake/move_scene.h
 
   EffectSet effects;
   std::array<EffectReason, kEffectCount> reasons;

@@ -11,8 +11,8 @@
 #include "core/warnings.h"
 #include "io/json_reader.h"
 #include "io/scene/scene_parts.h"
-#include "scene/animation.h"
 #include "scene/description.h"
+#include "scene/motion.h"
 
 namespace whit {
 

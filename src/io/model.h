@@ -14,8 +14,8 @@
 #include "io/paths.h"
 #include "io/scene/scene_layout.h"
 #include "io/texture_loader.h"
-#include "scene/animation.h"
 #include "scene/description.h"
+#include "scene/motion.h"
 
 namespace whit {
 

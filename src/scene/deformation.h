@@ -10,8 +10,7 @@
 
 #include "core/affine.h"
 #include "core/vec3.h"
-#include "scene/rig.h"
-#include "scene/track.h"
+#include "scene/motion.h"
 
 namespace whit {
 

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "scene/animation.h"
 #include "scene/camera.h"
 #include "scene/light.h"
 #include "scene/material.h"
 #include "scene/mesh.h"
+#include "scene/motion.h"
 #include "scene/scene_motion.h"
 #include "scene/texture.h"
 
@@ -18,6 +18,9 @@ namespace whit {
 // Embree ignores triangles with a corner coordinate beyond this (its FLT_LARGE), and takes no rays
 // from there.
 inline constexpr float kLargestCoordinate = 1.844e18f;
+
+// Names are kept of so many items.
+inline constexpr std::size_t kNamedItems = 65536;
 
 struct SceneDescription {
   std::string name;               // the bare name of the file

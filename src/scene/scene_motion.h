@@ -7,7 +7,7 @@
 #include "scene/camera.h"
 #include "scene/deformation.h"
 #include "scene/light.h"
-#include "scene/rig.h"
+#include "scene/motion.h"
 
 namespace whit {
 

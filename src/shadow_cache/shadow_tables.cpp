@@ -5,7 +5,6 @@
 #include <bit>
 #include <cmath>
 
-#include "bake/instance_bounds.h"
 #include "core/stopwatch.h"
 #include "shadow_cache/decide_part.h"
 

@@ -1,5 +1,5 @@
 // Values between keys against closed forms. glTF 2.0 specification, appendix C.
-#include "scene/track.h"
+#include "scene/motion.h"
 
 #include <gtest/gtest.h>
 

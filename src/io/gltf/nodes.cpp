@@ -17,7 +17,7 @@
 #include "core/nearest_name.h"
 #include "core/options.h"
 #include "scene/description.h"
-#include "scene/track.h"
+#include "scene/motion.h"
 
 namespace whit {
 namespace {

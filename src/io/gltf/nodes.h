@@ -13,12 +13,11 @@
 #include "core/affine.h"
 #include "io/gltf/document.h"
 #include "io/gltf/material.h"
-#include "scene/animation.h"
 #include "scene/camera.h"
 #include "scene/deformation.h"
 #include "scene/light.h"
 #include "scene/mesh.h"
-#include "scene/rig.h"
+#include "scene/motion.h"
 
 namespace whit {
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "io/scene/scene_sections.h"
-#include "scene/track.h"
+#include "scene/motion.h"
 
 namespace whit {
 

@@ -4,7 +4,6 @@
 #include <limits>
 #include <utility>
 
-#include "bake/item_numbers.h"
 #include "core/error.h"
 
 namespace whit {

@@ -13,7 +13,7 @@
 #include "io/scene/scene_context.h"
 #include "make/shape.h"
 #include "scene/members.h"
-#include "scene/rig.h"
+#include "scene/motion.h"
 
 namespace whit {
 

@@ -1,4 +1,4 @@
-#include "scene/track.h"
+#include "scene/motion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -88,6 +88,18 @@ std::vector<double> valueAt(const Track& track, double time) {
   }
   if (track.rotation) normalize(value);
   return value;
+}
+
+std::vector<Affine> poseRig(const Rig& rig, double seconds) {
+  std::vector<Affine> poses;
+  poses.reserve(rig.size());
+  for (const RigNode& node : rig) {
+    Affine pose = node.toParent;
+    if (node.motion) pose = pose * node.motion->at(seconds);
+    if (node.parent != kNoNode) pose = poses[node.parent] * pose;
+    poses.push_back(pose);
+  }
+  return poses;
 }
 
 }  // namespace whit
