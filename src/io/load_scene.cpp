@@ -16,9 +16,8 @@
 #include "io/scene/scene_context.h"
 #include "io/scene/scene_sections.h"
 #include "io/scene/scene_settings.h"
-#include "make/light_level.h"
 #include "make/model_view.h"
-#include "make/shapes/generators.h"
+#include "make/shape.h"
 #include "make/studio_sky.h"
 #include "scene/generation_limit.h"
 

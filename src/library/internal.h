@@ -7,7 +7,6 @@
 #include <memory>
 #include <mutex>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "bake/scene.h"
@@ -88,20 +87,18 @@ decltype(auto) guarded(const Progress& callback, Body&& body) {
   }
 }
 
-using SceneSource = std::variant<std::string, std::shared_ptr<const SceneText>>;
-
 struct Scene::Data {
   whit::Scene scene;
-  SceneSource source;
+  std::string name;                       // of the file or shipped scene that was read
+  std::shared_ptr<const SceneText> text;  // of a scene made in memory, null for others
   whit::LoadOptions load;
   bool strict = false;
   std::vector<std::string> warnings;
 
   // Loads and bakes.
-  static std::shared_ptr<Data> read(SceneSource source, const whit::LoadOptions& load, bool strict,
+  static std::shared_ptr<Data> read(const std::string& name, std::shared_ptr<const SceneText> text,
+                                    const whit::LoadOptions& load, bool strict,
                                     whit::Progress* progress);
-  // The document that settings are put into; none for a model without a scene file.
-  std::optional<JsonDocument> document() const;
 };
 
 struct Image::Data {

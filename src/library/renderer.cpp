@@ -49,7 +49,11 @@ struct Renderer::Data {
 
   // After options were set: the renderer takes them over, or is made anew.
   void prepare(whit::Progress* told) {
-    if (stale) moveNow();
+    if (stale) {
+      moveScene(own().scene, seconds, simd::deformVertices);
+      if (renderer) renderer->sceneMoved();
+      stale = false;
+    }
     if (!changed) return;
     settled = settledOptions();
     if (renderer && renderer->canSetOptions(settled)) {
@@ -89,32 +93,28 @@ struct Renderer::Data {
   void setMember(const std::string& text, whit::Progress* told) {
     const SceneSetting setting = parseSceneSetting(text);
     ownScene();
-    if (!document) document = own().document();
-    if (!editScene(setting)) return readAgain(text, told);
-    addSceneSetting(text, own().load.settings);
-    changed = true;  // an automatic exposure follows
-  }
-
-  // False: the scene has to be read again.
-  bool editScene(const SceneSetting& setting) {
+    if (!document) {
+      document =
+          own().text ? readDocument(*own().text, own().load) : readDocument(own().name, own().load);
+    }
     JsonDocument* const described = document ? &*document : nullptr;
-    if (!whit::editScene(setting, own().load, described, own().scene)) return false;
-    if (!renderer) return true;
+    if (!editScene(setting, own().load, described, own().scene)) return readAgain(text, told);
+    changed = true;  // an automatic exposure follows
     try {
-      renderer->camerasChanged();
-      renderer->shadingChanged();
+      if (renderer) renderer->camerasChanged();
+      if (renderer) renderer->shadingChanged();
     } catch (...) {
-      renderer.reset();  // to be made anew of the scene as it is
-      changed = true;
+      renderer.reset();  // it is made anew from the scene as it is
       throw;
     }
-    return true;
+    addSceneSetting(text, own().load.settings);
   }
 
   void readAgain(const std::string& setting, whit::Progress* told) {
     whit::LoadOptions load = own().load;
     addSceneSetting(setting, load.settings);
-    std::shared_ptr<Scene::Data> next = Scene::Data::read(own().source, load, own().strict, told);
+    std::shared_ptr<Scene::Data> next =
+        Scene::Data::read(own().name, own().text, load, own().strict, told);
     for (const auto& [pointer, place] : places) setPlace(next->scene, pointer, place);
     renderer.reset();
     scene = Scene(std::move(next));
@@ -130,23 +130,14 @@ struct Renderer::Data {
     changed = true;
   }
 
-  void moveNow() {
-    moveScene(own().scene, seconds, simd::deformVertices);
-    if (renderer) renderer->sceneMoved();
-    stale = false;
-  }
-
-  void prepare(Film& film) const {
-    const ImageSize size = settled.size.value_or(ImageSize{internal().width, internal().height});
-    const Crop window = settled.crop.value_or(Crop{0, 0, size.width, size.height});
-    const whit::Image& image = film.image;
-    if (image.width == size.width && image.height == size.height && image.window == window) return;
-    film = makeFilm(internal(), settled, scene.data_->load.maxMemoryBytes);
-  }
-
   void render(const whit::Camera& camera, Image& image, whit::Progress* told) {
     Film& film = image.data_->film;
-    prepare(film);
+    const ImageSize size = settled.size.value_or(ImageSize{internal().width, internal().height});
+    const Crop window = settled.crop.value_or(Crop{0, 0, size.width, size.height});
+    const whit::Image& there = film.image;
+    if (there.width != size.width || there.height != size.height || there.window != window) {
+      film = makeFilm(internal(), settled, scene.data_->load.maxMemoryBytes);
+    }
     FrameStats frame;
     try {
       frame = renderFrame(*renderer, settled.mode, camera, film, told);

@@ -19,11 +19,6 @@ std::vector<std::string> textsOf(const Warnings& warnings) {
   return all;
 }
 
-const std::string& nameOrText(const std::string& name) { return name; }
-const SceneText& nameOrText(const std::shared_ptr<const SceneText>& text) { return *text; }
-const std::string& fileOf(const std::string& name) { return name; }
-const std::string& fileOf(const std::shared_ptr<const SceneText>& text) { return text->name; }
-
 }  // namespace
 
 whit::LoadOptions loadOptions(const LoadOptions& options, const char* shippedScenes) {
@@ -45,29 +40,21 @@ whit::LoadOptions loadOptions(const LoadOptions& options, const char* shippedSce
   return load;
 }
 
-std::shared_ptr<Scene::Data> Scene::Data::read(SceneSource source, const whit::LoadOptions& load,
-                                               bool strict, whit::Progress* progress) {
+std::shared_ptr<Scene::Data> Scene::Data::read(const std::string& name,
+                                               std::shared_ptr<const SceneText> text,
+                                               const whit::LoadOptions& load, bool strict,
+                                               whit::Progress* progress) {
   auto data = std::make_shared<Data>();
   Warnings warnings(strict);
-  SceneDescription description = std::visit(
-      [&](const auto& from) { return whit::loadScene(nameOrText(from), load, warnings, progress); },
-      source);
-  const std::string& file =
-      std::visit([](const auto& from) -> const std::string& { return fileOf(from); }, source);
-  data->scene = finalizeScene(file, std::move(description), warnings, progress);
-  data->source = std::move(source);
+  SceneDescription description = text ? whit::loadScene(*text, load, warnings, progress)
+                                      : whit::loadScene(name, load, warnings, progress);
+  data->scene = finalizeScene(name, std::move(description), warnings, progress);
+  data->name = name;
+  data->text = std::move(text);
   data->load = load;
   data->strict = strict;
   data->warnings = textsOf(warnings);
   return data;
-}
-
-std::optional<JsonDocument> Scene::Data::document() const {
-  return std::visit(
-      [&](const auto& from) -> std::optional<JsonDocument> {
-        return readDocument(nameOrText(from), load);
-      },
-      source);
 }
 
 Scene::Scene(std::shared_ptr<Data> data) : data_(std::move(data)) {}
@@ -75,7 +62,7 @@ Scene::Scene(std::shared_ptr<Data> data) : data_(std::move(data)) {}
 Scene loadScene(const std::string& name, const LoadOptions& options, const char* shippedScenes) {
   return guarded(options.progress, [&](whit::Progress* progress) {
     const whit::LoadOptions load = loadOptions(options, shippedScenes);
-    return Scene(Scene::Data::read(name, load, options.strict, progress));
+    return Scene(Scene::Data::read(name, nullptr, load, options.strict, progress));
   });
 }
 

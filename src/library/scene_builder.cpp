@@ -146,7 +146,7 @@ Scene SceneBuilder::build(const LoadOptions& options) const {
   return guarded(options.progress, [&](whit::Progress* progress) {
     const whit::LoadOptions load = loadOptions(options, WHIT_SHIPPED_SCENES);
     auto text = std::make_shared<const SceneText>(data_->text);
-    return Scene(Scene::Data::read(std::move(text), load, options.strict, progress));
+    return Scene(Scene::Data::read(text->name, text, load, options.strict, progress));
   });
 }
 

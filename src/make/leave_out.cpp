@@ -1,6 +1,6 @@
 #include "make/leave_out.h"
 
-#include "make/shapes/generators.h"
+#include "make/shape.h"
 #include "scene/members.h"
 
 namespace whit {

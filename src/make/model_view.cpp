@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <optional>
-#include <utility>
 #include <vector>
 
 #include "bake/placed_triangles.h"
@@ -74,44 +72,7 @@ bool isInRoom(const SceneDescription& scene, const Vec3d& point) {
   return angle / (4 * std::numbers::pi) <= kClosed;
 }
 
-// How far it is to the triangle along the unit direction, negative where its back is met; infinite
-// where it is missed (after Moeller and Trumbore 1997).
-double distanceTo(const Corners& t, const Vec3d& point, const Vec3d& direction) {
-  constexpr double kMissed = std::numeric_limits<double>::infinity();
-  const Vec3d a = t[1] - t[0], b = t[2] - t[0], p = cross(direction, b);
-  const double determinant = dot(a, p);
-  if (determinant == 0) return kMissed;
-  const Vec3d from = point - t[0], q = cross(from, a);
-  const double u = dot(from, p) / determinant, v = dot(direction, q) / determinant;
-  const double distance = dot(b, q) / determinant;
-  if (!(u >= 0 && v >= 0 && u + v <= 1 && distance > 0)) return kMissed;
-  return determinant > 0 ? distance : -distance;
-}
-
-// True if rays in three quarters of all directions hit fronts; a room may have a skylight. The
-// winding number alone would also take two floors, one above the other, for a room.
-bool seesWalls(const SceneDescription& scene, const Vec3d& point) {
-  constexpr std::size_t kDirections = 32, kWalls = 24;
-  std::array<Vec3d, kDirections> directions;
-  for (std::size_t i = 0; i < kDirections; ++i) {
-    constexpr double kGoldenAngle = 2.39996322972865332;
-    const double y = 1 - (2 * static_cast<double>(i) + 1) / kDirections;
-    const double r = std::sqrt(1 - y * y), turn = kGoldenAngle * static_cast<double>(i);
-    directions[i] = {r * std::cos(turn), y, r * std::sin(turn)};
-  }
-  std::array<double, kDirections> met;
-  met.fill(-std::numeric_limits<double>::infinity());
-  forEachPlacedTriangle(scene, kMostLookedAt, [&](const Corners& t) {
-    for (std::size_t i = 0; i < kDirections; ++i) {
-      const double distance = distanceTo(t, point, directions[i]);
-      if (std::abs(distance) < std::abs(met[i])) met[i] = distance;
-    }
-  });
-  const auto walls = std::count_if(met.begin(), met.end(), [](double d) { return d > 0; });
-  return static_cast<std::size_t>(walls) >= kWalls;
-}
-
-// True if most of the places in the middle see walls; some may lie inside objects.
+// True if most of the places in the middle are in a room; some may lie inside objects.
 bool isRoom(const SceneDescription& scene, const Bounds& bounds) {
   constexpr double kAside = 0.3, kFlattest = 0.05;
   constexpr std::size_t kPlaces = 7, kMostOutside = 2;
@@ -125,15 +86,9 @@ bool isRoom(const SceneDescription& scene, const Bounds& bounds) {
                                          {0, 0, half.z},
                                          {0, 0, -half.z}}};
   std::size_t outside = 0;
-  std::optional<Vec3d> inside;
-  for (const Vec3d& way : ways) {
-    if (!isInRoom(scene, center + way)) {
-      if (++outside > kMostOutside) return false;
-    } else if (!inside) {
-      inside = center + way;
-    }
-  }
-  return inside && seesWalls(scene, *inside);
+  return std::all_of(ways.begin(), ways.end(), [&](const Vec3d& way) {
+    return isInRoom(scene, center + way) || ++outside <= kMostOutside;
+  });
 }
 
 // The first of the places on the way from `from` to `to` that is in the room and not in what stands
@@ -223,6 +178,17 @@ std::vector<Vec3d> outermostPoints(const SceneDescription& scene, double seconds
   return points;
 }
 
+// Irradiance from the light at a point with the unit normal.
+double irradiance(const Light& light, const Vec3d& point, const Vec3d& normal) {
+  const Vec3d way = towards(light, point), direction = normalized(way);
+  const double cosine = std::max(0.0, dot(normal, direction));
+  if (light.kind == Light::Kind::directional) return luminance(light.intensity) * cosine;
+  const double radius{light.radius};
+  const double square = std::max(dot(way, way), radius * radius);
+  const double cone = light.kind == Light::Kind::spot ? coneOf(light).falloff(direction) : 1;
+  return square > 0 ? luminance(light.intensity) * cone * cosine / square : 0;
+}
+
 }  // namespace
 
 ModelView viewOf(const SceneDescription& scene) {
@@ -260,6 +226,22 @@ ModelView viewOf(const SceneDescription& scene, double seconds) {
   };
   lookFrom(framing, everyPoint, view);
   return view;
+}
+
+double lightLevel(const SceneDescription& scene) {
+  constexpr std::uint64_t kMostTriangles = 20'000;
+  double sum = 0, area = 0;
+  forEachPlacedTriangle(scene, kMostTriangles, [&](const Corners& t) {
+    const Vec3d normal = cross(t[1] - t[0], t[2] - t[0]);
+    const double weight = length(normal);
+    const Vec3d point = (t[0] + t[1] + t[2]) / 3.0;
+    double light = 0;
+    for (const Light& l : scene.lights) light += irradiance(l, point, normalized(normal));
+    if (!(light > 0) || !std::isfinite(light) || !std::isfinite(weight)) return;
+    sum += weight * std::log(light / std::numbers::pi);
+    area += weight;
+  });
+  return area > 0 ? std::exp(sum / area) : 0;
 }
 
 }  // namespace whit

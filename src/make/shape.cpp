@@ -1,13 +1,10 @@
 #include "make/shape.h"
 
-#include "make/patterns/generators.h"
-#include "make/shapes/generators.h"
-
 namespace whit {
 
-const std::map<std::string, ShapeGenerator>& shapeGenerators() {
+const std::map<std::string, ShapeGenerator*>& shapeGenerators() {
   using namespace procedural;
-  static const std::map<std::string, ShapeGenerator> generators{
+  static const std::map<std::string, ShapeGenerator*> generators{
       {"arch", makeArch},
       {"balustrade", makeBalustrade},
       {"box", makeBox},
@@ -38,9 +35,9 @@ const std::map<std::string, ShapeGenerator>& shapeGenerators() {
   return generators;
 }
 
-const std::map<std::string, PatternGenerator>& patternGenerators() {
+const std::map<std::string, PatternGenerator*>& patternGenerators() {
   using namespace procedural;
-  static const std::map<std::string, PatternGenerator> generators{
+  static const std::map<std::string, PatternGenerator*> generators{
       {"bricks", makeBricks},
       {"bricksNormals", makeBrickNormals},
       {"checker", makeChecker},

@@ -1,6 +1,7 @@
 // Procedural shapes and patterns: what a scene file can ask for without any model or image file.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <utility>
@@ -24,6 +25,9 @@ class ShapeParameters {
   virtual Vec3d vector(const std::string& key, const Vec3d& fallback) = 0;
   virtual std::string word(const std::string& key, const std::string& fallback,
                            const std::vector<std::string>& choices) = 0;
+  std::uint32_t seed(const std::string& key = "seed") {
+    return static_cast<std::uint32_t>(integer(key, 1, 0, 1 << 30));
+  }
 };
 
 // A generated part and the material slot it belongs to. Simple shapes have the single slot
@@ -46,13 +50,40 @@ struct Shape {
   std::vector<Affine> placements;
 };
 
-using ShapeGenerator = Shape (*)(ShapeParameters&);
-using PatternGenerator = Texture (*)(ShapeParameters&);
+using ShapeGenerator = Shape(ShapeParameters& parameters);
+using PatternGenerator = Texture(ShapeParameters& parameters);
 
 // By the name used in scene files ("sphere", "colonnade", "terrain", ...).
-const std::map<std::string, ShapeGenerator>& shapeGenerators();
+const std::map<std::string, ShapeGenerator*>& shapeGenerators();
 // Textures by formula ("checker", "bricks", "tiles", ...); "normals" of a pattern are a pattern
 // too.
-const std::map<std::string, PatternGenerator>& patternGenerators();
+const std::map<std::string, PatternGenerator*>& patternGenerators();
+
+namespace procedural {
+
+// The generators by file. A comment beside the call that reads a parameter says what it means.
+// shapes/solids.cpp: solids about the y axis and plane faces, centered on the origin.
+ShapeGenerator makeSphere, makeIcosphere, makeCylinder, makeCone, makeTorus, makeDisc, makeQuad,
+    makeBox, makeRoundedBox, makeStairs;
+// shapes/vessels.cpp, architecture.cpp, vault.cpp: standing on y = 0.
+ShapeGenerator makeVase, makeTumbler, makeColumn, makeWall, makeArch, makeColonnade, makeBalustrade,
+    makeVault, makeCornice;
+// shapes/cloth.cpp: sheets without thickness.
+ShapeGenerator makeCurtain, makeCanopy;
+// shapes/landscape.cpp
+ShapeGenerator makeTerrain, makeTree, makeForest, makePlant, makeRock;
+
+// patterns/simple.cpp
+PatternGenerator makeChecker, makeStripes, makeFabric, makeLeafMask, makeFrondMask, makeLeaf;
+// patterns/masonry.cpp
+PatternGenerator makeBricks, makeBrickNormals, makeTiles, makeTileNormals, makeRoof,
+    makeRoofNormals;
+// patterns/stone.cpp
+PatternGenerator makeNoise, makePlaster, makePlasterNormals, makeMarble, makeWood;
+
+// Replaces exact spheres by triangles: `segments` around, half as many from pole to pole.
+void tessellateSpheres(Mesh& mesh, int segments);
+
+}  // namespace procedural
 
 }  // namespace whit

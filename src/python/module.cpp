@@ -7,9 +7,10 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <exception>
+#include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
@@ -24,45 +25,42 @@ namespace py = pybind11;
 
 namespace {
 
-// Raises whit.Error, as Python's current exception.
-[[noreturn]] void raise(const api::Error& error) {
-  const auto orNone = [](const std::string& text) -> py::object {
-    if (text.empty()) return py::none();
-    return py::str(text);
-  };
-  const py::object type = py::module_::import("whit._error").attr("Error");
-  const py::object raised = type(error.what(), error.status(), orNone(error.file()),
-                                 orNone(error.place()), orNone(error.expected()));
-  PyErr_SetObject(type.ptr(), raised.ptr());
-  throw py::error_already_set();
+// Raises errors of the library as whit.Error.
+void translate(std::exception_ptr thrown) {  // NOLINT(performance-unnecessary-value-param)
+  try {
+    std::rethrow_exception(thrown);
+  } catch (const api::Error& error) {
+    const auto orNone = [](const std::string& text) -> py::object {
+      if (text.empty()) return py::none();
+      return py::str(text);
+    };
+    const py::object type = py::module_::import("whit._error").attr("Error");
+    const py::object raised = type(error.what(), error.status(), orNone(error.file()),
+                                   orNone(error.place()), orNone(error.expected()));
+    PyErr_SetObject(type.ptr(), raised.ptr());
+  }
 }
 
-// Counts running calls, so that the interpreter can wait for them before it exits. A thread that
-// returns to Python later would be terminated inside C++ code, which aborts the process.
-class Calls {
+// A running call, constructed and destroyed with the GIL held. The interpreter waits for running
+// calls before it exits: a daemon thread that returned to Python later would be terminated inside
+// C++ code, which aborts the process.
+class Call {
  public:
-  // One running call. It must be constructed with the GIL held.
-  class Entry {
-   public:
-    Entry() {
-      if (depth++ > 0) return;
-      if (areEnding()) waitForTheEnd();
-      ++underWay;
-    }
-    // The call must not return or raise into an interpreter that is shutting down.
-    ~Entry() {
-      if (--depth > 0) return;
-      --underWay;
-      if (areEnding()) waitForTheEnd();
-    }
-    Entry(const Entry&) = delete;
-    Entry& operator=(const Entry&) = delete;
-  };
+  Call() {
+    sleepAtTheEnd();
+    ++underWay;
+  }
+  ~Call() {
+    --underWay;
+    sleepAtTheEnd();
+  }
+  Call(const Call&) = delete;
+  Call& operator=(const Call&) = delete;
 
   // True if the work of this thread must end.
-  static bool areEnding() { return ending && std::this_thread::get_id() != ender; }
+  static bool mustEnd() { return ending && std::this_thread::get_id() != ender; }
   // Ends all calls that report progress. `atexit` calls it.
-  static void end() {
+  static void endAll() {
     constexpr std::chrono::milliseconds kStep{1};
     constexpr int kSteps = 10000;
     ender = std::this_thread::get_id();
@@ -72,8 +70,8 @@ class Calls {
   }
 
  private:
-  // Only daemon threads get here.
-  [[noreturn]] static void waitForTheEnd() {
+  static void sleepAtTheEnd() {
+    if (!mustEnd()) return;
     const py::gil_scoped_release noGil;
     for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
   }
@@ -81,7 +79,6 @@ class Calls {
   static inline std::atomic<int> underWay{0};
   static inline std::atomic<bool> ending{false};
   static inline std::thread::id ender;  // written before `ending`
-  static inline thread_local int depth = 0;
 };
 
 // Receives the progress of a call. On the calling thread it handles Python's signals and calls the
@@ -91,8 +88,11 @@ class Onlooker {
   explicit Onlooker(py::object function) : function_(std::move(function)) {}
 
   bool operator()(const std::string& phase, double fraction) {
-    if (Calls::areEnding()) return false;
-    if (std::this_thread::get_id() != thread_ || !isTime()) return true;
+    constexpr std::chrono::milliseconds kBetween{20};  // each call acquires the GIL
+    if (Call::mustEnd()) return false;
+    const Clock::time_point now = Clock::now();
+    if (std::this_thread::get_id() != thread_ || now - last_ < kBetween) return true;
+    last_ = now;
     const py::gil_scoped_acquire gil;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
     if (function_.is_none()) return true;
@@ -103,15 +103,6 @@ class Onlooker {
  private:
   using Clock = std::chrono::steady_clock;
 
-  // Limits the rate, because each call acquires the GIL.
-  bool isTime() {
-    constexpr std::chrono::milliseconds kBetween{20};
-    const Clock::time_point now = Clock::now();
-    if (now - last_ < kBetween) return false;
-    last_ = now;
-    return true;
-  }
-
   py::object function_;
   std::thread::id thread_ = std::this_thread::get_id();
   Clock::time_point last_ = Clock::now();
@@ -120,26 +111,10 @@ class Onlooker {
 // Calls `body` without the GIL, with a progress to report to, and returns its result.
 template <typename Body>
 auto call(const py::object& function, Body&& body) {
-  const Calls::Entry entry;
+  const Call running;
   Onlooker onlooker(function);
-  try {
-    const py::gil_scoped_release noGil;
-    return body([&onlooker](const std::string& phase, double fraction) {
-      return onlooker(phase, fraction);
-    });
-  } catch (const api::Error& error) {
-    raise(error);
-  }
-}
-
-// Calls `body` with the GIL held, for work that takes no time.
-template <typename Body>
-auto call(Body&& body) {
-  try {
-    return body();
-  } catch (const api::Error& error) {
-    raise(error);
-  }
+  const py::gil_scoped_release noGil;
+  return body(std::ref(onlooker));
 }
 
 // Names of options and their values, as on the command line.
@@ -191,45 +166,34 @@ class Session {
 
   void setTime(double seconds) {
     const Turn turn(*this);
-    call([&] { renderer_.setTime(seconds); });
+    renderer_.setTime(seconds);
   }
 
   void setTransform(const std::string& pointer, const std::array<double, 12>& rows) {
     const Turn turn(*this);
-    call([&] { renderer_.setTransform(pointer, rows); });
+    renderer_.setTransform(pointer, rows);
   }
 
  private:
-  // Waits without the GIL until other threads are done, and handles signals meanwhile.
+  // Waits until other threads are done. Python's lock handles signals meanwhile.
   class Turn {
    public:
     explicit Turn(Session& session) : session_(session) {
       constexpr int kUsage = 2;
       if (session.owner_ == std::this_thread::get_id()) {
-        raise(
-            api::Error(kUsage, "the scene is in use: a progress function cannot ask it anything"));
+        throw api::Error(kUsage, "the scene is in use: a progress function cannot ask it anything");
       }
-      while (!wait()) {
-        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-      }
-      session_.owner_ = std::this_thread::get_id();
+      session.lock_.attr("acquire")();
+      session.owner_ = std::this_thread::get_id();
     }
     ~Turn() {
       session_.owner_ = std::thread::id();
-      session_.turn_.unlock();
+      Py_XDECREF(PyObject_CallMethod(session_.lock_.ptr(), "release", nullptr));
     }
     Turn(const Turn&) = delete;
     Turn& operator=(const Turn&) = delete;
 
    private:
-    bool wait() {
-      constexpr std::chrono::milliseconds kPatience{50};
-      if (session_.turn_.try_lock()) return true;
-      const py::gil_scoped_release noGil;
-      return session_.turn_.try_lock_for(kPatience);
-    }
-
-    Calls::Entry entry_;
     Session& session_;
   };
 
@@ -243,7 +207,7 @@ class Session {
 
   api::Renderer renderer_;
   std::optional<OptionTexts> options_ = OptionTexts();  // that the renderer has, if that is known
-  std::timed_mutex turn_;
+  py::object lock_ = py::module_::import("threading").attr("Lock")();
   std::atomic<std::thread::id> owner_;  // whose turn it is
 };
 
@@ -285,11 +249,10 @@ api::LoadOptions loadOptions(const py::dict& given) {
 std::unique_ptr<Session> load(const std::string& name, const py::dict& given,
                               const std::string& shippedScenes, const py::object& progress) {
   api::LoadOptions options = loadOptions(given);
-  return call(progress, [&](const api::Progress& told) {
+  return std::make_unique<Session>(call(progress, [&](const api::Progress& told) {
     options.progress = told;
-    api::Scene scene = api::loadScene(name, options, shippedScenes.c_str());
-    return std::make_unique<Session>(std::move(scene));
-  });
+    return api::loadScene(name, options, shippedScenes.c_str());
+  }));
 }
 
 api::SceneBuilder builderOf(const std::string& name, const std::string& description,
@@ -322,13 +285,12 @@ api::SceneBuilder builderOf(const std::string& name, const std::string& descript
 std::unique_ptr<Session> build(const std::string& name, const std::string& description,
                                const py::dict& meshes, const py::dict& images,
                                const py::dict& given, const py::object& progress) {
-  const api::SceneBuilder builder =
-      call([&] { return builderOf(name, description, meshes, images); });
+  const api::SceneBuilder builder = builderOf(name, description, meshes, images);
   api::LoadOptions options = loadOptions(given);
-  return call(progress, [&](const api::Progress& told) {
+  return std::make_unique<Session>(call(progress, [&](const api::Progress& told) {
     options.progress = told;
-    return std::make_unique<Session>(builder.build(options));
-  });
+    return builder.build(options);
+  }));
 }
 
 // A read-only view of the picture's memory, which the view keeps alive.
@@ -443,11 +405,12 @@ void definePicture(py::module_& module) {
 
 PYBIND11_MODULE(_whit, module) {
   using namespace whit::python;
+  pybind11::register_exception_translator(&translate);
   defineSession(module);
   definePicture(module);
   module.def("load", &load);
   module.def("build", &build);
   module.def("option_table", &optionTable);
   module.def("version", &whit::api::version);
-  pybind11::module_::import("atexit").attr("register")(pybind11::cpp_function(&Calls::end));
+  pybind11::module_::import("atexit").attr("register")(pybind11::cpp_function(&Call::endAll));
 }

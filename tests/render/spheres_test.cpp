@@ -11,7 +11,7 @@
 
 #include "bake/move_scene.h"
 #include "inspect/metrics.h"
-#include "make/shapes/generators.h"
+#include "make/shape.h"
 #include "pi.h"
 #include "reference/reference.h"
 #include "render/row_of_tiles.h"

@@ -1,7 +1,8 @@
 // Terrain, trees and forests.
 #include <gtest/gtest.h>
 
-#include "make/shapes/terrain.h"
+#include <cmath>
+
 #include "shapes/map_parameters.h"
 #include "shapes/mesh_measures.h"
 
@@ -13,15 +14,19 @@ TEST(Terrain, HasTheTrianglesAskedFor) {
   EXPECT_EQ(generate("terrain", {{"triangles", 20100.0}}).parts[0].mesh.triangles.size(), 20000u);
 }
 
+// Heights of the ground at the nodes of a grid of `cells` x `cells`.
+Mesh terrainOf(double size, int cells) {
+  return generate("terrain", {{"seed", 5.0}, {"size", size}, {"triangles", 2.0 * cells * cells}})
+      .parts[0]
+      .mesh;
+}
+
 TEST(Terrain, LiesOnTheSameGroundAtEveryResolution) {
-  MapParameters parameters({{"seed", 5.0}, {"size", 300.0}});
-  const procedural::Ground ground(parameters);
-  for (const double triangles : {5000.0, 12800.0}) {
-    const Shape shape =
-        generate("terrain", {{"seed", 5.0}, {"size", 300.0}, {"triangles", triangles}});
-    for (const Vec3f& p : shape.parts[0].mesh.positions) {
-      // x and z were rounded to float by up to 8e-6; slopes stay below 10.
-      ASSERT_NEAR(p.y, ground.height(p.x, p.z), 3e-4);
+  const Mesh coarse = terrainOf(300, 40), fine = terrainOf(300, 80);
+  for (std::size_t j = 0; j <= 40; ++j) {
+    for (std::size_t i = 0; i <= 40; ++i) {
+      const Vec3f& p = coarse.positions[j * 41 + i];
+      ASSERT_EQ(p, fine.positions[2 * j * 81 + 2 * i]);
       ASSERT_LE(std::fabs(p.x), 150);
     }
   }
@@ -40,16 +45,24 @@ TEST(Terrain, ChangesWithItsSeed) {
 }
 
 TEST(Forest, StandsOnTheGroundOfItsTerrain) {
-  MapParameters parameters({{"seed", 3.0}, {"size", 500.0}});
-  const procedural::Ground ground(parameters);
+  constexpr int kCells = 1000;
+  const Mesh terrain = terrainOf(100, kCells);
   const Shape shape =
-      generate("forest", {{"seed", 3.0}, {"size", 500.0}, {"trees", 150.0}, {"leaves", 50.0}});
+      generate("forest", {{"seed", 5.0}, {"size", 100.0}, {"trees", 150.0}, {"leaves", 50.0}});
   ASSERT_EQ(shape.placements.size(), 150u);
-  constexpr double kSink = 0.05;  // roots go in by up to two per cent of the largest scale
+  // Roots go in by up to two per cent of the largest scale. The terrain differs from the ground
+  // between its nodes.
+  constexpr double kSink = 0.05, kBetween = 0.05;
   for (const Affine& place : shape.placements) {
-    const double y = ground.height(place.p.x, place.p.z);
-    EXPECT_LE(place.p.y, y);
-    EXPECT_GE(place.p.y, y - kSink);
+    const double u = (place.p.x / 100 + 0.5) * kCells, v = (0.5 - place.p.z / 100) * kCells;
+    const auto at = [&](double i, double j) {
+      return double{terrain.positions[static_cast<std::size_t>(j * (kCells + 1) + i)].y};
+    };
+    const double i = std::floor(u), j = std::floor(v);
+    const double y = std::lerp(std::lerp(at(i, j), at(i + 1, j), u - i),
+                               std::lerp(at(i, j + 1), at(i + 1, j + 1), u - i), v - j);
+    EXPECT_LE(place.p.y, y + kBetween);
+    EXPECT_GE(place.p.y, y - kBetween - kSink);
     EXPECT_NEAR(place.y.x, 0, 1e-12) << "upright";
     EXPECT_GT(place.determinant(), 0);
   }

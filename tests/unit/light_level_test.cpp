@@ -1,5 +1,5 @@
 // How bright lights are, and the studio that goes with them.
-#include "make/light_level.h"
+#include "make/model_view.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "bake/eye_in_plane.h"
-#include "make/shapes/generators.h"
+#include "make/shape.h"
 #include "verify/scene_builder.h"
 
 namespace whit {

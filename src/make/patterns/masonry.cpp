@@ -1,6 +1,5 @@
 #include <cmath>
 
-#include "make/patterns/generators.h"
 #include "make/patterns/noise.h"
 #include "make/patterns/paint.h"
 
@@ -47,22 +46,18 @@ Layout readLayout(ShapeParameters& parameters, int columns, int rows, double bon
 }
 
 // Heights in parts of the texture's side: joints lie `depth` deep, stones are a little uneven.
-ScalarFormula masonryHeight(const Layout& layout, double depth, double rough, std::uint32_t seed) {
-  return [=](double u, double v) {
+Texture masonryNormals(ShapeParameters& parameters, const std::string& name, const Layout& layout,
+                       double depthFallback, double roughFallback) {
+  const double depth = parameters.number("depth", depthFallback, 0, 0.5);
+  const double rough = parameters.number("rough", roughFallback, 0, 10);
+  const std::uint32_t seed = parameters.seed();
+  return paintNormals(name, sideOf(parameters), [=](double u, double v) {
     const Stone s = layout.at(u, v);
     const double grain = fractalNoise(seed + 11, 16 * u, 16 * v, 4, 16);
     const double lean = (unitHash(seed + 5, s.column, s.row) - 0.5) * (s.across - 0.5) +
                         (unitHash(seed + 6, s.column, s.row) - 0.5) * (s.up - 0.5);
     return depth * layout.face(s) * (1 + 0.5 * rough * lean) + 0.35 * depth * rough * grain;
-  };
-}
-
-Texture masonryNormals(ShapeParameters& parameters, const std::string& name, const Layout& layout,
-                       double depthFallback, double roughFallback) {
-  const double depth = parameters.number("depth", depthFallback, 0, 0.5);
-  const double rough = parameters.number("rough", roughFallback, 0, 10);
-  const std::uint32_t seed = seedOf(parameters);
-  return paintNormals(name, sideOf(parameters), masonryHeight(layout, depth, rough, seed));
+  });
 }
 
 Layout brickLayout(ShapeParameters& parameters) {
@@ -73,12 +68,6 @@ Layout tileLayout(ShapeParameters& parameters) {
   return readLayout(parameters, 4, 4, 0, 0.02, 0.015);
 }
 
-// Rounded pans in overlapping rows: the height of a roof, and how far down its row a point is.
-double roofHeight(double u, double v, int columns, int rows, double depth) {
-  const double fu = u * columns - std::floor(u * columns), fv = v * rows - std::floor(v * rows);
-  return depth * (std::sqrt(std::max(0.0, 1 - 4 * (fu - 0.5) * (fu - 0.5))) - 0.6 * fv);
-}
-
 }  // namespace
 
 Texture makeBricks(ShapeParameters& parameters) {
@@ -87,7 +76,7 @@ Texture makeBricks(ShapeParameters& parameters) {
   const Rgb color2 = colorOf(parameters, "color2", {0.28, 0.10, 0.07});
   const Rgb mortar = colorOf(parameters, "mortar", {0.45, 0.42, 0.38});
   const double stain = parameters.number("stain", 0.25, 0, 1);
-  const std::uint32_t seed = seedOf(parameters);
+  const std::uint32_t seed = parameters.seed();
   return paintColor("bricks", sideOf(parameters), [=](double u, double v) {
     const Stone s = layout.at(u, v);
     const double grain = 0.5 + 0.5 * fractalNoise(seed + 11, 16 * u, 16 * v, 5, 16);
@@ -112,7 +101,7 @@ Texture makeTiles(ShapeParameters& parameters) {
   const Rgb joint = colorOf(parameters, "mortar", {0.10, 0.09, 0.08});
   const double variation = parameters.number("variation", 0.15, 0, 1);
   const double veins = parameters.number("veins", 0.35, 0, 1);
-  const std::uint32_t seed = seedOf(parameters);
+  const std::uint32_t seed = parameters.seed();
   return paintColor("tiles", sideOf(parameters, 1024), [=](double u, double v) {
     const Stone s = layout.at(u, v);
     const bool odd = (s.column + s.row) % 2 == 1;
@@ -140,7 +129,7 @@ Texture makeRoof(ShapeParameters& parameters) {
   const int rows = parameters.integer("rows", 6, 1, 1024);
   const Rgb color = colorOf(parameters, "color", {0.45, 0.18, 0.09});
   const Rgb color2 = colorOf(parameters, "color2", {0.30, 0.13, 0.08});
-  const std::uint32_t seed = seedOf(parameters);
+  const std::uint32_t seed = parameters.seed();
   return paintColor("roof", sideOf(parameters), [=](double u, double v) {
     const double fu = u * columns - std::floor(u * columns);
     const double fv = v * rows - std::floor(v * rows);
@@ -156,8 +145,11 @@ Texture makeRoofNormals(ShapeParameters& parameters) {
   const int columns = parameters.integer("columns", 8, 1, 1024);
   const int rows = parameters.integer("rows", 6, 1, 1024);
   const double depth = parameters.number("depth", 0.03, 0, 0.5);
-  return paintNormals("roofNormals", sideOf(parameters),
-                      [=](double u, double v) { return roofHeight(u, v, columns, rows, depth); });
+  // Rounded pans lie in overlapping rows.
+  return paintNormals("roofNormals", sideOf(parameters), [=](double u, double v) {
+    const double fu = u * columns - std::floor(u * columns), fv = v * rows - std::floor(v * rows);
+    return depth * (std::sqrt(std::max(0.0, 1 - 4 * (fu - 0.5) * (fu - 0.5))) - 0.6 * fv);
+  });
 }
 
 }  // namespace whit::procedural

@@ -75,10 +75,6 @@ int sideOf(ShapeParameters& parameters, int fallback) {
   return parameters.integer("size", fallback, 1, 8192);
 }
 
-std::uint32_t seedOf(ShapeParameters& parameters) {
-  return static_cast<std::uint32_t>(parameters.integer("seed", 1, 0, 1 << 30));
-}
-
 Rgb colorOf(ShapeParameters& parameters, const std::string& key, const Vec3d& fallback) {
   return Rgb(parameters.vector(key, fallback));
 }

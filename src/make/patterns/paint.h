@@ -25,7 +25,6 @@ Texture paintScalar(const std::string& name, int side, const ScalarFormula& valu
 
 // Every pattern's `size`, texels a side.
 int sideOf(ShapeParameters& parameters, int fallback = 512);
-std::uint32_t seedOf(ShapeParameters& parameters);
 // Linear light, clamped to [0, 1] when it is encoded.
 Rgb colorOf(ShapeParameters& parameters, const std::string& key, const Vec3d& fallback);
 Rgb mix(const Rgb& a, const Rgb& b, double t);

@@ -1,6 +1,5 @@
 #include <cmath>
 
-#include "make/patterns/generators.h"
 #include "make/patterns/noise.h"
 #include "make/patterns/paint.h"
 
@@ -58,7 +57,7 @@ Texture makeFabric(ShapeParameters& parameters) {
   const int rows = parameters.integer("rows", columns, 1, 256);
   const double border = parameters.number("border", 0.06, 0, 0.5);
   const double contrast = parameters.number("contrast", 0.35, 0, 1);
-  const std::uint32_t seed = seedOf(parameters);
+  const std::uint32_t seed = parameters.seed();
   return paintColor("fabric", sideOf(parameters), [=](double u, double v) {
     const double fu = u * columns - std::floor(u * columns) - 0.5;
     const double fv = v * rows - std::floor(v * rows) - 0.5;
@@ -95,7 +94,7 @@ Texture makeLeaf(ShapeParameters& parameters) {
   const Rgb blade = colorOf(parameters, "color", {0.08, 0.22, 0.04});
   const Rgb vein = colorOf(parameters, "color2", {0.25, 0.42, 0.12});
   const int veins = parameters.integer("veins", 7, 0, 100);
-  const std::uint32_t seed = seedOf(parameters);
+  const std::uint32_t seed = parameters.seed();
   return paintColor("leaf", sideOf(parameters, 128), [=](double u, double v) {
     const double s = std::fabs(u - 0.5) * 2;
     const double along = (v - 0.3 * s) * veins;

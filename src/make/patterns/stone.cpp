@@ -1,6 +1,5 @@
 #include <cmath>
 
-#include "make/patterns/generators.h"
 #include "make/patterns/noise.h"
 #include "make/patterns/paint.h"
 
@@ -25,7 +24,7 @@ Texture makeNoise(ShapeParameters& parameters) {
   const int cells = parameters.integer("cells", 8, 1, 1024);
   const int octaves = parameters.integer("octaves", 6, 1, 12);
   const double contrast = parameters.number("contrast", 1, 0, 100);
-  const std::uint32_t seed = seedOf(parameters);
+  const std::uint32_t seed = parameters.seed();
   return paintColor("noise", sideOf(parameters), [=](double u, double v) {
     const double n = fractalNoise(seed, cells * u, cells * v, octaves, cells);
     return mix(a, b, std::clamp(0.5 + contrast * n, 0.0, 1.0));
@@ -37,7 +36,7 @@ Texture makePlaster(ShapeParameters& parameters) {
   const Rgb color2 = colorOf(parameters, "color2", {0.50, 0.40, 0.29});
   const int cells = parameters.integer("cells", 6, 1, 1024);
   const double stain = parameters.number("stain", 0.5, 0, 1);
-  const std::uint32_t seed = seedOf(parameters);
+  const std::uint32_t seed = parameters.seed();
   const ScalarFormula height = plasterHeight(cells, seed);
   return paintColor("plaster", sideOf(parameters), [=](double u, double v) {
     const double cloud = 0.5 + 0.6 * fractalNoise(seed + 40, 3 * u, 3 * v, 5, 3);
@@ -49,7 +48,7 @@ Texture makePlaster(ShapeParameters& parameters) {
 Texture makePlasterNormals(ShapeParameters& parameters) {
   const int cells = parameters.integer("cells", 6, 1, 1024);
   const double depth = parameters.number("depth", 0.004, 0, 0.5);
-  const ScalarFormula height = plasterHeight(cells, seedOf(parameters));
+  const ScalarFormula height = plasterHeight(cells, parameters.seed());
   return paintNormals("plasterNormals", sideOf(parameters),
                       [=](double u, double v) { return depth * height(u, v); });
 }
@@ -60,7 +59,7 @@ Texture makeMarble(ShapeParameters& parameters) {
   const Rgb vein = colorOf(parameters, "color2", {0.32, 0.31, 0.32});
   const int cells = parameters.integer("cells", 3, 1, 256);
   const double sharpness = parameters.number("sharpness", 10, 0.1, 1000);
-  const std::uint32_t seed = seedOf(parameters);
+  const std::uint32_t seed = parameters.seed();
   return paintColor("marble", sideOf(parameters), [=](double u, double v) {
     const double x = cells * u, y = cells * v;
     const double warp = 0.7 * fractalNoise(seed + 20, x, y, 5, cells);
@@ -80,7 +79,7 @@ Texture makeWood(ShapeParameters& parameters) {
   const Rgb color2 = colorOf(parameters, "color2", {0.19, 0.09, 0.035});
   const int boards = parameters.integer("boards", 4, 1, 256);
   const double rings = parameters.number("rings", 5, 0, 200);
-  const std::uint32_t seed = seedOf(parameters);
+  const std::uint32_t seed = parameters.seed();
   return paintColor("wood", sideOf(parameters), [=](double u, double v) {
     const int board = std::min(static_cast<int>(v * boards), boards - 1);
     const double y = v * boards - board, own = unitHash(seed, board);

@@ -2,11 +2,11 @@
 #include <array>
 #include <map>
 #include <numbers>
+#include <set>
 #include <utility>
 #include <vector>
 
 #include "make/patterns/noise.h"
-#include "make/shapes/generators.h"
 #include "make/shapes/mesh_builder.h"
 
 namespace whit::procedural {
@@ -22,18 +22,13 @@ using Edge = std::pair<PlanPoint, PlanPoint>;
 constexpr double kCreaseCosine = 0.81915204428899178968;  // 35 degrees
 
 // Edges of cells without a partner of opposite direction.
-std::map<Edge, bool> outlineOf(const std::vector<PlanCell>& plan) {
-  std::map<Edge, bool> edges;
+std::set<Edge> outlineOf(const std::vector<PlanCell>& plan) {
+  std::set<Edge> edges;
   for (const PlanCell& cell : plan) {
     for (std::size_t k = 0; k < 4; ++k) {
       const PlanPoint &a = cell[k], &b = cell[(k + 1) % 4];
       if (a == b) continue;
-      const auto partner = edges.find({b, a});
-      if (partner != edges.end()) {
-        edges.erase(partner);
-      } else {
-        edges[{a, b}] = true;
-      }
+      if (edges.erase({b, a}) == 0) edges.insert({a, b});
     }
   }
   return edges;
@@ -43,26 +38,18 @@ Vec3d outward(const Edge& e) {
   return normalized(Vec3d{e.second[1] - e.first[1], e.first[0] - e.second[0], 0});
 }
 
-void addFaces(MeshBuilder& builder, const std::vector<PlanCell>& plan, double z, double repeat) {
-  for (const PlanCell& cell : plan) {
-    std::array<Vec3d, 4> corners;
-    for (std::size_t k = 0; k < 4; ++k) corners[k] = {cell[k][0], cell[k][1], z};
-    builder.plate(corners, repeat);
-  }
-}
-
 void addSides(MeshBuilder& builder, const std::vector<PlanCell>& plan, double z0, double z1,
               double repeat) {
-  const auto outline = outlineOf(plan);
+  const std::set<Edge> outline = outlineOf(plan);
   std::map<PlanPoint, Vec3d> arriving, leaving;
-  for (const auto& [edge, present] : outline) {
+  for (const Edge& edge : outline) {
     leaving[edge.first] = outward(edge);
     arriving[edge.second] = outward(edge);
   }
   const auto smoothed = [](const Vec3d& own, const Vec3d& neighbor) {
     return dot(own, neighbor) > kCreaseCosine ? own + neighbor : own;
   };
-  for (const auto& [edge, present] : outline) {
+  for (const Edge& edge : outline) {
     const auto& [a, b] = edge;
     const Vec3d own = outward(edge);
     const Vec3d atA = smoothed(own, arriving[a]), atB = smoothed(own, leaving[b]);
@@ -85,10 +72,14 @@ void addSides(MeshBuilder& builder, const std::vector<PlanCell>& plan, double z0
 // smooth. `repeat` units of length a texture.
 Mesh extrude(const std::vector<PlanCell>& plan, double z0, double z1, double repeat) {
   MeshBuilder builder;
-  addFaces(builder, plan, z1, repeat);
-  std::vector<PlanCell> behind = plan;
-  for (PlanCell& cell : behind) std::swap(cell[1], cell[3]);
-  addFaces(builder, behind, z0, repeat);
+  for (const bool front : {true, false}) {
+    for (const PlanCell& cell : plan) {
+      std::array<Vec3d, 4> corners;
+      for (std::size_t k = 0; k < 4; ++k) corners[k] = {cell[k][0], cell[k][1], front ? z1 : z0};
+      if (!front) std::swap(corners[1], corners[3]);
+      builder.plate(corners, repeat);
+    }
+  }
   addSides(builder, plan, z0, z1, repeat);
   return builder.take("extrusion");
 }
@@ -112,17 +103,10 @@ std::vector<PlanCell> halfRing(PlanPoint center, PlanPoint inner, PlanPoint oute
 }
 
 // A wall with a row of openings, in the x-y plane, centered on x = 0 and z = 0, standing on y = 0.
+// makeWall() says what the members mean.
 struct WallPlan {
-  double spacing = 3;  // width of a bay
-  int bays = 1;        // openings, one in the middle of each bay
-  double height = 4, depth = 0.3;
-  double margin = 0;  // more wall at both ends
-  double openingWidth = 1.2;
-  double sill = 0;    // height of the opening's lower edge, 0: a door
-  double spring = 2;  // where the arch begins
-  double rise = 0.6;  // height of the arch above the spring, 0: a straight lintel
-  int segments = 24;  // of an arch
-  double uvRepeat = 1;
+  double spacing, height, depth, margin, openingWidth, spring, sill, rise, uvRepeat;
+  int bays, segments;
 };
 
 // A pier from floor to top, cut at the levels that its neighbors have corners at.
@@ -170,18 +154,13 @@ Mesh buildWall(const WallPlan& plan) {
 // A classical column standing on y = 0: square plinth, moulded base, shaft with entasis and flutes,
 // leafed bell and square abacus.
 struct ColumnPlan {
-  double radius = 0.3;  // of the shaft at its foot
-  double height = 4;    // with base and capital
-  int flutes = 0;       // 0: a smooth shaft
-  int segments = 48;    // around; rounded up to a multiple of 4 a flute
-  int rings = 16;       // along the shaft
-  double taper = 0.14;  // how much thinner the shaft is at the top, in parts of the radius
-  int leaves = 8;       // leaves in each of the capital's two rows, 0: a plain bell
-  double uvRepeat = 1;
+  double radius, height, taper, uvRepeat;
+  int flutes, segments, rings, leaves;
 };
 
 // Half the side of the abacus in parts of the radius: a wall above may rest on it.
 constexpr double kAbacusHalf = 1.5;
+constexpr double kTaper = 0.14;
 
 // Heights in parts of the radius.
 constexpr double kPlinth = 0.35, kBase = 1.0, kCapital = 2.4, kAbacus = 0.35, kNeck = 0.16;
@@ -195,7 +174,7 @@ void addHalfRound(std::vector<std::array<double, 2>>& outline, double r, double 
   }
 }
 
-void addBase(MeshBuilder& builder, const ColumnPlan& plan, int segments) {
+void addBase(MeshBuilder& builder, const ColumnPlan& plan) {
   const double r = plan.radius;
   builder.box({-1.42 * r, 0, -1.42 * r}, {1.42 * r, kPlinth * r, 1.42 * r}, plan.uvRepeat);
   // The attic base: torus, hollow, torus. It starts inside the plinth.
@@ -206,7 +185,7 @@ void addBase(MeshBuilder& builder, const ColumnPlan& plan, int segments) {
   outline.push_back({1.10 * r, 0.82 * r});
   addHalfRound(outline, 1.08 * r, 0.82 * r, kBase * r);
   outline.push_back({0, kBase * r});
-  builder.revolve(creasedProfile(outline, 45, plan.uvRepeat), segments, 4);
+  builder.revolve(creasedProfile(outline, 45, plan.uvRepeat), plan.segments, 4);
 }
 
 // Radius of the bell of the capital at t in [0, 1] from neck to abacus.
@@ -236,7 +215,7 @@ void addLeaf(MeshBuilder& builder, const ColumnPlan& plan, double angle, double 
       });
 }
 
-void addCapital(MeshBuilder& builder, const ColumnPlan& plan, int segments) {
+void addCapital(MeshBuilder& builder, const ColumnPlan& plan) {
   const double r = plan.radius, bottom = plan.height - kCapital * r;
   const double bellTop = plan.height - kAbacus * r, neckTop = bottom + kNeck * r;
   std::vector<std::array<double, 2>> outline{{0, bottom}};
@@ -247,7 +226,7 @@ void addCapital(MeshBuilder& builder, const ColumnPlan& plan, int segments) {
     outline.push_back({bellRadius(plan, t), lerp(neckTop, bellTop, t)});
   }
   outline.push_back({0, bellTop});
-  builder.revolve(creasedProfile(outline, 45, plan.uvRepeat), segments, 4);
+  builder.revolve(creasedProfile(outline, 45, plan.uvRepeat), plan.segments, 4);
   const double a = kAbacusHalf * r;
   builder.box({-a, bellTop - 0.01 * r, -a}, {a, plan.height, a}, plan.uvRepeat);
   const double bell = bellTop - neckTop;
@@ -310,76 +289,41 @@ Shape buildColumn(const ColumnPlan& plan) {
   }
   MeshBuilder shaft, trim;
   addShaft(shaft, plan, segments);
-  addBase(trim, plan, plan.segments);
-  addCapital(trim, plan, plan.segments);
+  addBase(trim, plan);
+  addCapital(trim, plan);
   return Shape(shaft.part("shaft"), trim.part("trim"));
 }
 
 // Reads the parameters that columns and colonnades share.
 void readDetails(ShapeParameters& parameters, ColumnPlan& plan) {
-  plan.flutes = parameters.integer("flutes", plan.flutes, 0, 256);
-  plan.segments = parameters.integer("segments", plan.segments, 8, 4096);
-  plan.rings = parameters.integer("rings", plan.rings, 1, 4096);
-  plan.leaves = parameters.integer("leaves", plan.leaves, 0, 64);
-  plan.uvRepeat = parameters.number("uvRepeat", plan.uvRepeat, 1e-6, 1e9);
-}
-
-struct ColonnadePlan {
-  ColumnPlan column;
-  int columns = 5;
-  double spacing = 3;
-  bool engaged = false;  // an arch more at each end, from the last column to a pier or wall
-  bool arches = true;
-  double wallAbove = 0.5;  // above the crown of the arches
-  double wallDepth = 0.6;
-};
-
-void addWall(Shape& shape, const ColonnadePlan& plan) {
-  const double width = plan.spacing - 2 * kAbacusHalf * plan.column.radius;
-  WallPlan wall;
-  wall.spacing = plan.spacing;
-  wall.bays = plan.columns + (plan.engaged ? 1 : -1);
-  wall.openingWidth = width;
-  wall.rise = width / 2;
-  // The arches begin a little above the abacus: a stilt that also keeps the wall in one piece.
-  wall.spring = 0.1 * plan.spacing;
-  wall.height = wall.spring + wall.rise + plan.wallAbove;
-  wall.depth = plan.wallDepth;
-  wall.margin = plan.engaged ? 0 : kAbacusHalf * plan.column.radius;
-  wall.segments = 24;
-  wall.uvRepeat = plan.column.uvRepeat;
-  MeshBuilder walls, arches;
-  const Affine up = Affine::translation({0, plan.column.height, 0});
-  walls.append(buildWall(wall), up);
-  const double thickness = 0.09 * width, lip = 0.012 * width;
-  const Mesh ring = extrude(halfRing({0, wall.spring}, {width / 2 - lip, width / 2 - lip},
-                                     {width / 2 + thickness, width / 2 + thickness}, wall.segments),
-                            -wall.depth / 2 - 2 * lip, wall.depth / 2 + 2 * lip, wall.uvRepeat);
-  for (int bay = 0; bay < wall.bays; ++bay) {
-    const double x = (bay - 0.5 * (wall.bays - 1)) * plan.spacing;
-    arches.append(ring, Affine::translation({x, plan.column.height, 0}));
-  }
-  shape.parts.push_back(walls.part("wall"));
-  shape.parts.push_back(arches.part("arch"));
+  plan.flutes = parameters.integer("flutes", 0, 0, 256);  // 0: a smooth shaft
+  // Around the column; rounded up to a multiple of 4 for each flute.
+  plan.segments = parameters.integer("segments", 48, 8, 4096);
+  plan.rings = parameters.integer("rings", 16, 1, 4096);  // along the shaft
+  // Leaves in each of the capital's two rows; 0: a plain bell.
+  plan.leaves = parameters.integer("leaves", 8, 0, 64);
+  plan.uvRepeat = parameters.number("uvRepeat", 1, 1e-6, 1e9);
 }
 
 }  // namespace
 
 Shape makeWall(ShapeParameters& parameters) {
-  WallPlan plan;
-  plan.spacing = parameters.number("spacing", plan.spacing, 1e-3, 1e6);
-  plan.bays = parameters.integer("bays", plan.bays, 1, 10000);
-  plan.height = parameters.number("height", plan.height, 1e-3, 1e6);
-  plan.depth = parameters.number("depth", plan.depth, 1e-3, 1e6);
-  plan.margin = parameters.number("margin", 0, 0, 1e6);
+  WallPlan plan{};
+  plan.spacing = parameters.number("spacing", 3, 1e-3, 1e6);  // width of a bay
+  plan.bays = parameters.integer("bays", 1, 1, 10000);        // one opening in the middle of each
+  plan.height = parameters.number("height", 4, 1e-3, 1e6);
+  plan.depth = parameters.number("depth", 0.3, 1e-3, 1e6);
+  plan.margin = parameters.number("margin", 0, 0, 1e6);  // more wall at both ends
   plan.openingWidth =
       parameters.number("openingWidth", 0.4 * plan.spacing, 1e-3, 0.999 * plan.spacing);
+  // Where the arch begins, the lower edge of the opening (0: a door), and the height of the arch
+  // above its spring (0: a straight lintel).
   plan.spring = parameters.number("spring", 0.5 * plan.height, 1e-3, 0.999 * plan.height);
   plan.sill = parameters.number("sill", 0, 0, 0.999 * plan.spring);
   const double room = 0.999 * (plan.height - plan.spring);
   plan.rise = parameters.number("rise", std::min(plan.openingWidth / 2, room), 0, room);
-  plan.segments = parameters.integer("segments", plan.segments, 2, 4096);
-  plan.uvRepeat = parameters.number("uvRepeat", plan.uvRepeat, 1e-6, 1e9);
+  plan.segments = parameters.integer("segments", 24, 2, 4096);  // of an arch
+  plan.uvRepeat = parameters.number("uvRepeat", 1, 1e-6, 1e9);
   return singlePart(buildWall(plan));
 }
 
@@ -398,36 +342,62 @@ Shape makeArch(ShapeParameters& parameters) {
 }
 
 Shape makeColumn(ShapeParameters& parameters) {
-  ColumnPlan plan;
-  plan.radius = parameters.number("radius", plan.radius, 1e-4, 1e6);
-  plan.height = parameters.number("height", plan.height, 4.5 * plan.radius, 1e6);
-  plan.taper = parameters.number("taper", plan.taper, 0, 0.14);
+  ColumnPlan plan{};
+  plan.radius = parameters.number("radius", 0.3, 1e-4, 1e6);  // of the shaft at its foot
+  plan.height = parameters.number("height", 4, 4.5 * plan.radius, 1e6);
+  // How much thinner the shaft is at the top, in parts of the radius.
+  plan.taper = parameters.number("taper", kTaper, 0, kTaper);
   readDetails(parameters, plan);
   return buildColumn(plan);
 }
 
 // Columns in a row along x, in the middle of it at the origin; slots shaft, trim, wall, arch.
 Shape makeColonnade(ShapeParameters& parameters) {
-  ColonnadePlan plan;
-  plan.columns = parameters.integer("columns", plan.columns, 1, 10000);
-  plan.spacing = parameters.number("spacing", plan.spacing, 1e-3, 1e6);
-  ColumnPlan& c = plan.column;
-  c.radius = parameters.number("radius", 0.1 * plan.spacing, 1e-5, 0.3 * plan.spacing);
-  c.height = parameters.number("height", 1.3 * plan.spacing, 4.5 * c.radius, 1e6);
-  readDetails(parameters, c);
-  plan.engaged = parameters.flag("engaged", plan.engaged);
-  plan.arches = parameters.flag("arches", plan.arches);
-  plan.wallAbove = parameters.number("wallAbove", plan.wallAbove, 1e-3, 1e6);
-  plan.wallDepth = parameters.number("wallDepth", 2 * c.radius, 1e-3, 1e6);
-  const Shape one = buildColumn(c);
-  MeshBuilder shafts, trims;
-  for (int k = 0; k < plan.columns; ++k) {
-    const Affine place = Affine::translation({(k - 0.5 * (plan.columns - 1)) * plan.spacing, 0, 0});
+  const int columns = parameters.integer("columns", 5, 1, 10000);
+  const double spacing = parameters.number("spacing", 3, 1e-3, 1e6);
+  ColumnPlan column{};
+  column.taper = kTaper;
+  column.radius = parameters.number("radius", 0.1 * spacing, 1e-5, 0.3 * spacing);
+  column.height = parameters.number("height", 1.3 * spacing, 4.5 * column.radius, 1e6);
+  readDetails(parameters, column);
+  // An engaged colonnade has one more arch at each end, from the last column to a pier or wall.
+  const bool engaged = parameters.flag("engaged", false);
+  const bool hasArches = parameters.flag("arches", true);
+  WallPlan wall{};
+  const double above = parameters.number("wallAbove", 0.5, 1e-3, 1e6);  // the arches' crown
+  wall.depth = parameters.number("wallDepth", 2 * column.radius, 1e-3, 1e6);
+  const Shape one = buildColumn(column);
+  MeshBuilder shafts, trims, walls, arches;
+  for (int k = 0; k < columns; ++k) {
+    const Affine place = Affine::translation({(k - 0.5 * (columns - 1)) * spacing, 0, 0});
     shafts.append(one.parts[0].mesh, place);
     trims.append(one.parts[1].mesh, place);
   }
   Shape shape(shafts.part("shaft"), trims.part("trim"));
-  if (plan.arches && plan.columns + (plan.engaged ? 1 : -1) > 0) addWall(shape, plan);
+  wall.bays = columns + (engaged ? 1 : -1);
+  if (!hasArches || wall.bays == 0) return shape;
+  const double width = spacing - 2 * kAbacusHalf * column.radius;
+  wall.spacing = spacing;
+  wall.openingWidth = width;
+  wall.rise = width / 2;
+  // The arches begin a little above the abacus: a stilt that also keeps the wall in one piece.
+  wall.spring = 0.1 * spacing;
+  wall.height = wall.spring + wall.rise + above;
+  wall.margin = engaged ? 0 : kAbacusHalf * column.radius;
+  wall.segments = 24;
+  wall.uvRepeat = column.uvRepeat;
+  walls.append(buildWall(wall), Affine::translation({0, column.height, 0}));
+  const double inner = width / 2 - 0.012 * width, outer = width / 2 + 0.09 * width;
+  const double front = wall.depth / 2 + 2 * 0.012 * width;
+  const Mesh ring =
+      extrude(halfRing({0, wall.spring}, {inner, inner}, {outer, outer}, wall.segments), -front,
+              front, wall.uvRepeat);
+  for (int bay = 0; bay < wall.bays; ++bay) {
+    const double x = (bay - 0.5 * (wall.bays - 1)) * spacing;
+    arches.append(ring, Affine::translation({x, column.height, 0}));
+  }
+  shape.parts.push_back(walls.part("wall"));
+  shape.parts.push_back(arches.part("arch"));
   return shape;
 }
 

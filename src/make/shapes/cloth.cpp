@@ -2,7 +2,6 @@
 
 #include <numbers>
 
-#include "make/shapes/generators.h"
 #include "make/shapes/mesh_builder.h"
 
 namespace whit::procedural {
@@ -13,7 +12,7 @@ struct ClothGrid {
       : nx(parameters.integer("nx", columns, 1, 4096)),
         ny(parameters.integer("ny", rows, 1, 4096)),
         repeat(parameters.number("uvRepeat", 0, 0, 1e9)),
-        seed(static_cast<std::uint32_t>(parameters.integer("seed", 1, 0, 1 << 30))) {}
+        seed(parameters.seed()) {}
   Uv uv(int i, int j, double width, double height) const {
     const double s = static_cast<double>(i) / nx, t = static_cast<double>(j) / ny;
     return repeat > 0 ? Uv{s * width / repeat, t * height / repeat} : Uv{s, t};

@@ -2,7 +2,6 @@
 #include <numbers>
 #include <utility>
 
-#include "make/shapes/generators.h"
 #include "make/shapes/mesh_builder.h"
 #include "scene/generation_limit.h"
 

@@ -1,5 +1,3 @@
-#include "make/shapes/generators.h"
-
 #include <numbers>
 
 #include "make/shapes/mesh_builder.h"

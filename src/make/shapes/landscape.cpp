@@ -1,23 +1,54 @@
-// Trees, alone and in forests, and potted plants.
+// Terrain, rocks, trees alone and in forests, and potted plants.
 #include <numbers>
 
 #include "make/patterns/noise.h"
-#include "make/shapes/generators.h"
 #include "make/shapes/mesh_builder.h"
-#include "make/shapes/terrain.h"
 #include "scene/generation_limit.h"
 
 namespace whit::procedural {
 namespace {
 
-struct TreePlan {
-  std::string kind = "broadleaf";   // or "conifer"
-  std::string leafStyle = "quads";  // "quads" for an alpha mask, "diamonds" solid, "blobs" solid
-  double height = 8;
-  int levels = 4;          // of branching
-  int leaves = 1500;       // leaves, or blobs
-  double leafSize = 0.35;  // of a leaf; blobs are eight times as big
-  std::uint32_t seed = 1;
+// Hills that rise towards ridges away from a basin at the origin, longest along z. The same seed,
+// size, height and valley give the same ground at any resolution.
+class Ground {
+ public:
+  explicit Ground(ShapeParameters& parameters)
+      : seed_(parameters.seed()),
+        size_(parameters.number("size", 400, 1e-3, 1e7)),
+        height_(parameters.number("height", 0.15 * size_, 0, 1e7)),
+        valley_(parameters.number("valley", 0.12, 0, 1)),  // half width, in parts of the size
+        floor_(parameters.number("floor", 0.04 * height_, 0, 1e7)) {}  // depth below zero
+
+  double size() const { return size_; }
+  // Height of the ground at (x, z); below zero in the valley's floor.
+  double height(double x, double z) const {
+    const double u = x / size_, v = z / size_;
+    const double bend =
+        0.35 * valley_ * std::sin(7 * v) + 0.12 * gradientNoise(seed_ + 70, 0.5, 3 * v);
+    // Half as steep along z: a long basin that closes at both ends.
+    const double away = std::hypot(u - bend * smoothStep(0, 0.2, std::fabs(v)), 0.5 * v);
+    const double slope = smoothStep(0.55 * valley_, 2.6 * valley_ + 0.08, away);
+    const double warpU = u + 0.08 * fractalNoise(seed_ + 40, 3 * u, 3 * v, 2);
+    const double warpV = v + 0.08 * fractalNoise(seed_ + 50, 3 * u + 9, 3 * v, 2);
+    const double ridges = ridgedNoise(seed_, 3.2 * warpU + 5, 3.2 * warpV, 7);
+    const double hills = 0.5 + 0.5 * fractalNoise(seed_ + 20, 6 * u, 6 * v, 6);
+    const double meadow = 0.05 * fractalNoise(seed_ + 30, 14 * u, 14 * v, 4);
+    const double shore =
+        smoothStep(0.35 * valley_, 0.9 * valley_, away + 0.3 * valley_ * (hills - 0.5));
+    return -floor_ * (1 - shore) +
+           height_ * (0.03 * shore + meadow * shore + slope * (0.75 * ridges + 0.25 * hills));
+  }
+
+  // Upward unit normal, from differences over `step`.
+  Vec3d normal(double x, double z, double step) const {
+    const double dx = height(x + step, z) - height(x - step, z);
+    const double dz = height(x, z + step) - height(x, z - step);
+    return normalized(Vec3d{-dx, 2 * step, -dz}, Vec3d{0, 1, 0});
+  }
+
+ private:
+  std::uint32_t seed_;
+  double size_, height_, valley_, floor_;
 };
 
 struct Twig {
@@ -26,13 +57,20 @@ struct Twig {
 
 class TreeBuilder {
  public:
-  explicit TreeBuilder(const TreePlan& plan) : plan_(plan), random_(plan.seed * 977u + 13u) {}
+  TreeBuilder(ShapeParameters& parameters, const std::string& heightKey, std::uint32_t seed)
+      : conifer_(parameters.word("kind", "broadleaf", {"broadleaf", "conifer"}) == "conifer"),
+        leafStyle_(parameters.word("leafStyle", "quads", {"quads", "diamonds", "blobs"})),
+        height_(parameters.number(heightKey, 8, 1e-3, 1e6)),
+        levels_(parameters.integer("levels", 4, 2, 6)),
+        leafCount_(parameters.integer("leaves", 1500, 0, 2'000'000)),
+        leafSize_(parameters.number("leafSize", 0.04 * height_, 1e-6, 1e6)),
+        random_(seed * 977u + 13u) {}
 
   Shape build() {
-    if (plan_.kind == "conifer") {
+    if (conifer_) {
       growConifer();
     } else {
-      grow({0, 0, 0}, {0, 1, 0}, 0.34 * plan_.height, 0.035 * plan_.height, 0);
+      grow({0, 0, 0}, {0, 1, 0}, 0.34 * height_, 0.035 * height_, 0);
     }
     addLeaves();
     return Shape(bark_.part("bark"), leaves_.part("leaves"));
@@ -80,12 +118,12 @@ class TreeBuilder {
       radii.push_back(radius * (1 - 0.45 * k / pieces));
     }
     limb(points, radii, level == 0 ? 10 : level == 1 ? 7 : level == 2 ? 5 : 3);
-    if (level >= plan_.levels - 2) {
+    if (level >= levels_ - 2) {
       for (std::size_t k = 1; k < points.size(); ++k) {
         twigs_.push_back({points[k], normalized(points[k] - points[k - 1])});
       }
     }
-    if (level + 1 >= plan_.levels) return;
+    if (level + 1 >= levels_) return;
     const int children = level == 0 ? 6 : 4;
     const double turnStart = random_.between(0, 2 * std::numbers::pi);
     for (int c = 0; c < children; ++c) {
@@ -102,9 +140,9 @@ class TreeBuilder {
 
   // A straight trunk with whorls of drooping boughs that shorten upwards.
   void growConifer() {
-    const double h = plan_.height;
+    const double h = height_;
     limb({{0, 0, 0}, {0, 0.5 * h, 0}, {0, h, 0}}, {0.022 * h, 0.014 * h, 0.002 * h}, 8);
-    const int whorls = 5 + 5 * plan_.levels;
+    const int whorls = 5 + 5 * levels_;
     for (int w = 0; w < whorls; ++w) {
       const double t = lerp(0.10, 0.97, static_cast<double>(w) / whorls);
       const double reach = 0.24 * h * std::pow(1 - t, 0.85) + 0.015 * h;
@@ -128,12 +166,12 @@ class TreeBuilder {
 
   void addLeaves() {
     if (twigs_.empty()) return;
-    for (int k = 0; k < plan_.leaves; ++k) {
+    for (int k = 0; k < leafCount_; ++k) {
       const auto pick =
           static_cast<std::size_t>(random_.next() * static_cast<double>(twigs_.size()));
       const Twig& twig = twigs_[std::min(pick, twigs_.size() - 1)];
-      const Vec3d p = twig.position + anyDirection() * (plan_.leafSize * random_.between(0.2, 1.2));
-      if (plan_.leafStyle == "blobs") {
+      const Vec3d p = twig.position + anyDirection() * (leafSize_ * random_.between(0.2, 1.2));
+      if (leafStyle_ == "blobs") {
         addBlob(p);
       } else {
         addLeaf(p, twig.direction);
@@ -142,21 +180,20 @@ class TreeBuilder {
   }
 
   void addLeaf(const Vec3d& p, const Vec3d& course) {
-    const bool conifer = plan_.kind == "conifer";
-    const Vec3d way = normalized(course * (conifer ? 1.6 : 0.7) + anyDirection() +
-                                 Vec3d{0, conifer ? -0.2 : -0.3, 0});
+    const Vec3d way = normalized(course * (conifer_ ? 1.6 : 0.7) + anyDirection() +
+                                 Vec3d{0, conifer_ ? -0.2 : -0.3, 0});
     const Vec3d side = normalized(cross(way, anyDirection()), Vec3d{1, 0, 0});
-    const double size = plan_.leafSize * random_.between(0.7, 1.2);
-    const Vec3d half = side * (size * (conifer ? 0.16 : 0.36)), tip = p + way * size;
+    const double size = leafSize_ * random_.between(0.7, 1.2);
+    const Vec3d half = side * (size * (conifer_ ? 0.16 : 0.36)), tip = p + way * size;
     // Leaves are lit as parts of the crown, not as single cards.
-    const Vec3d crown{0, 0.55 * plan_.height, 0};
+    const Vec3d crown{0, 0.55 * height_, 0};
     const Vec3d face = cross(half, way);
     const Vec3d normal = normalized(normalized(p - crown) + normalized(face) * 0.6);
     const bool flip = dot(face, normal) < 0;
     const auto corner = [&](const Vec3d& q, double u, double v) {
       return leaves_.vertex({q, normal, {u, v}});
     };
-    const bool diamond = plan_.leafStyle == "diamonds";
+    const bool diamond = leafStyle_ == "diamonds";
     const Vec3d middle = p + way * (0.45 * size);
     const std::uint32_t a = diamond ? corner(p, 0.5, 0) : corner(p - half, 0, 0);
     const std::uint32_t b = diamond ? corner(middle + half, 1, 0.45) : corner(p + half, 1, 0);
@@ -171,7 +208,7 @@ class TreeBuilder {
 
   void addBlob(const Vec3d& p) {
     static const auto kBall = icosphereMesh(1);
-    const double size = 4 * plan_.leafSize * random_.between(0.7, 1.2);
+    const double size = 4 * leafSize_ * random_.between(0.7, 1.2);
     const auto noiseSeed = static_cast<std::uint32_t>(random_.next() * 1e6);
     std::vector<std::uint32_t> index;
     for (const Vec3d& q : kBall.first) {
@@ -182,78 +219,75 @@ class TreeBuilder {
     for (const auto& [a, b, c] : kBall.second) leaves_.triangle(index[a], index[b], index[c]);
   }
 
-  const TreePlan& plan_;
+  bool conifer_;
+  std::string leafStyle_;  // quads are for an alpha mask, diamonds and blobs are solid
+  double height_;
+  int levels_;       // of branching
+  int leafCount_;    // leaves or blobs
+  double leafSize_;  // of a leaf; blobs are eight times as big
   RandomStream random_;
   std::vector<Twig> twigs_;
   MeshBuilder bark_, leaves_;
 };
 
-// Reads kind, leafStyle, treeHeight (or height), levels, leaves, leafSize and seed.
-TreePlan readTree(ShapeParameters& parameters, const std::string& heightKey, std::uint32_t seed) {
-  TreePlan plan;
-  plan.kind = parameters.word("kind", plan.kind, {"broadleaf", "conifer"});
-  plan.leafStyle = parameters.word("leafStyle", plan.leafStyle, {"quads", "diamonds", "blobs"});
-  plan.height = parameters.number(heightKey, plan.height, 1e-3, 1e6);
-  plan.levels = parameters.integer("levels", plan.levels, 2, 6);
-  plan.leaves = parameters.integer("leaves", plan.leaves, 0, 2'000'000);
-  plan.leafSize = parameters.number("leafSize", 0.04 * plan.height, 1e-6, 1e6);
-  plan.seed = seed;
-  return plan;
-}
-
-// Groves: trees gather where this noise is high.
-double densityAt(std::uint32_t seed, double x, double z, double size) {
-  return 0.5 + 0.5 * fractalNoise(seed, 7 * x / size, 7 * z / size, 3);
-}
-
-struct Habitat {
-  double lowest, highest, steepest, clearing;
-  Vec3d clearingAt;
-};
-
-Habitat readHabitat(ShapeParameters& parameters, double size) {
-  Habitat h{};
-  h.lowest = parameters.number("lowest", 0.004 * size, -1e7, 1e7);
-  h.highest = parameters.number("highest", 0.09 * size, -1e7, 1e7);
-  h.steepest = parameters.number("steepest", 0.75, 0, 1);  // least y of the normal
-  h.clearing = parameters.number("clearing", 0, 0, 1e7);   // radius without trees
-  h.clearingAt = parameters.vector("clearingAt", {0, 0, 0});
-  return h;
-}
-
-struct Frond {
-  double angle, lift, size, width, droop, start;
-};
-
-// A long leaf that rises from the foot and bends over; u across, v from foot to tip, for a mask.
-void addFrond(MeshBuilder& builder, const Frond& f) {
-  constexpr int kAcross = 4, kAlong = 14;
-  const Vec3d out{std::cos(f.angle), 0, -std::sin(f.angle)};
-  const Vec3d side{-std::sin(f.angle), 0, -std::cos(f.angle)};
-  std::vector<Vec3d> spine{Vec3d{0, f.start, 0}};
-  for (int k = 0; k < kAlong; ++k) {
-    const double a = f.lift - f.droop * k / (kAlong - 1.0);
-    spine.push_back(spine.back() +
-                    (out * std::cos(a) + Vec3d{0, std::sin(a), 0}) * (f.size / kAlong));
-  }
-  builder.smoothSheet(
-      kAcross, kAlong, false,
-      [&](int i, int j) {
-        const double s = 2.0 * i / kAcross - 1;
-        const double keel = 0.35 * f.width * std::fabs(s);
-        return spine[static_cast<std::size_t>(j)] + side * (s * f.width) + Vec3d{0, keel, 0};
-      },
-      [&](int i, int j) {
-        return Uv{static_cast<double>(i) / kAcross, static_cast<double>(j) / kAlong};
-      });
-}
-
 }  // namespace
 
-// Standing on y = 0: slots bark, leaves.
+// A square of `triangles` triangles (rounded down to 2 n^2), centered on the origin.
+Shape makeTerrain(ShapeParameters& parameters) {
+  const Ground ground(parameters);
+  const double triangles = parameters.number("triangles", 131072, 2, 2e8);
+  const double repeat = parameters.number("uvRepeat", 0.01 * ground.size(), 1e-6, 1e9);
+  const int n = std::max(1, static_cast<int>(std::sqrt(triangles / 2)));
+  const double size = ground.size();
+  MeshBuilder builder;
+  builder.smoothSheet(
+      n, n, false,
+      [&](int i, int j) {
+        const double x = (static_cast<double>(i) / n - 0.5) * size;
+        const double z = (0.5 - static_cast<double>(j) / n) * size;
+        return Vec3d{x, ground.height(x, z), z};
+      },
+      [&](int i, int j) {
+        return Uv{size / repeat * i / n, size / repeat * j / n};
+      });
+  return singlePart(builder.take("terrain"));
+}
+
+// A boulder or a lump of ice: a sphere pushed in and out by noise, one closed surface.
+Shape makeRock(ShapeParameters& parameters) {
+  const double radius = parameters.number("radius", 1, 1e-6, 1e9);
+  const double roughness = parameters.number("roughness", 0.3, 0, 0.9);
+  const double frequency = parameters.number("frequency", 1.3, 0, 100);
+  const Vec3d stretch = parameters.vector("stretch", {1, 1, 1});
+  const std::uint32_t seed = parameters.seed();
+  auto [points, triangles] = icosphereMesh(parameters.integer("level", 4, 0, 8));
+  const bool smooth = parameters.flag("smooth", true);
+  std::vector<Vec3d> normals(points.size());
+  std::vector<Uv> uvs;
+  for (Vec3d& p : points) {
+    uvs.push_back({0.5 + std::atan2(-p.z, p.x) / (2 * std::numbers::pi), 0.5 + p.y / 2});
+    double push = 0, amplitude = 1;
+    Vec3d q = p * frequency + Vec3d(0.37);
+    for (std::uint32_t octave = 0; octave < 4; ++octave) {
+      push += amplitude * gradientNoise3(seed + octave, q.x, q.y, q.z);
+      amplitude *= 0.45;
+      q = q * 2.1;
+    }
+    p = p * stretch * (radius * std::max(0.1, 1 + roughness * push));
+  }
+  for (const auto& [a, b, c] : triangles) {
+    const Vec3d n = cross(points[b] - points[a], points[c] - points[a]);
+    for (const std::uint32_t k : {a, b, c}) normals[k] += n;
+  }
+  MeshBuilder builder(smooth ? MeshBuilder::Shading::smooth : MeshBuilder::Shading::flat);
+  for (std::size_t k = 0; k < points.size(); ++k) builder.vertex({points[k], normals[k], uvs[k]});
+  for (const auto& [a, b, c] : triangles) builder.triangle(a, b, c);
+  return singlePart(builder.take("rock"));
+}
+
+// A tree that stands on y = 0: slots bark, leaves.
 Shape makeTree(ShapeParameters& parameters) {
-  const auto seed = static_cast<std::uint32_t>(parameters.integer("seed", 1, 0, 1 << 30));
-  return TreeBuilder(readTree(parameters, "height", seed)).build();
+  return TreeBuilder(parameters, "height", parameters.seed()).build();
 }
 
 // One tree and the places of its copies on the ground of a `terrain` with the same seed, size,
@@ -261,8 +295,8 @@ Shape makeTree(ShapeParameters& parameters) {
 // `forestSeed` tells forests on the same ground apart. Slots bark, leaves.
 Shape makeForest(ShapeParameters& parameters) {
   const Ground ground(parameters);
-  const auto seed = static_cast<std::uint32_t>(parameters.integer("forestSeed", 1, 0, 1 << 30));
-  Shape shape = TreeBuilder(readTree(parameters, "treeHeight", seed)).build();
+  const std::uint32_t seed = parameters.seed("forestSeed");
+  Shape shape = TreeBuilder(parameters, "treeHeight", seed).build();
   const double triangles = parameters.number("triangles", 0, 0, 1e10);
   const auto perTree = static_cast<double>(shape.parts[0].mesh.triangles.size() +
                                            shape.parts[1].mesh.triangles.size());
@@ -270,7 +304,11 @@ Shape makeForest(ShapeParameters& parameters) {
   const double wanted =
       triangles > 0 ? std::clamp(std::floor(triangles / perTree), 1.0, 1e7) : asked;
   const double size = ground.size();
-  const Habitat habitat = readHabitat(parameters, size);
+  const double lowest = parameters.number("lowest", 0.004 * size, -1e7, 1e7);
+  const double highest = parameters.number("highest", 0.09 * size, -1e7, 1e7);
+  const double steepest = parameters.number("steepest", 0.75, 0, 1);  // least y of the normal
+  const double clearing = parameters.number("clearing", 0, 0, 1e7);   // radius without trees
+  const Vec3d clearingAt = parameters.vector("clearingAt", {0, 0, 0});
   RandomStream random(seed * 7919u + 3u);
   // Candidates that the ground refuses cost nothing but a few hashes; the bound ends the search on
   // ground that refuses nearly all of them, where the last resort is anywhere.
@@ -281,10 +319,12 @@ Shape makeForest(ShapeParameters& parameters) {
     const double chance = random.next(), turnBy = random.between(0, 360);
     const double scale = random.between(0.75, 1.25), y = ground.height(x, z);
     if (++tried < tries) {
-      const double away = std::hypot(x - habitat.clearingAt.x, z - habitat.clearingAt.z);
-      if (away < habitat.clearing || y < habitat.lowest || y > habitat.highest) continue;
-      if (ground.normal(x, z, 0.004 * size).y < habitat.steepest) continue;
-      if (chance > smoothStep(0.35, 0.65, densityAt(seed + 3, x, z, size)) + 0.04) continue;
+      const double away = std::hypot(x - clearingAt.x, z - clearingAt.z);
+      if (away < clearing || y < lowest || y > highest) continue;
+      if (ground.normal(x, z, 0.004 * size).y < steepest) continue;
+      // Trees gather in groves, where this noise is high.
+      const double density = 0.5 + 0.5 * fractalNoise(seed + 3, 7 * x / size, 7 * z / size, 3);
+      if (chance > smoothStep(0.35, 0.65, density) + 0.04) continue;
     }
     // A little below the ground, which is coarser as a mesh than as a function.
     const double sink = 0.02 * scale;
@@ -303,8 +343,8 @@ Shape makePlant(ShapeParameters& parameters) {
   const double height = parameters.number("height", 1, 1e-3, 1e6);
   const double width = parameters.number("leafWidth", 0.16 * height, 1e-6, 1e6) / 2;
   const double trunk = parameters.number("trunk", 0.1 * height, 0, 1e6);
-  const auto seed = static_cast<std::uint32_t>(parameters.integer("seed", 1, 0, 1 << 30));
-  RandomStream random(seed * 31u + 5u);
+  constexpr int kAcross = 4, kAlong = 14;
+  RandomStream random(parameters.seed() * 31u + 5u);
   MeshBuilder stem, cards;
   const double r = 0.05 * height, top = std::max(trunk, 1e-3 * height);
   stem.revolve(creasedProfile({{0, -0.1 * height},
@@ -316,14 +356,29 @@ Shape makePlant(ShapeParameters& parameters) {
                12);
   for (int k = 0; k < leaves; ++k) {
     const double t = (k + 0.5) / leaves;  // outer leaves first, they lie lower
-    Frond f{};
-    f.angle = 2.39996 * k + random.between(-0.2, 0.2);
-    f.lift = lerp(0.55, 1.5, t) + random.between(-0.1, 0.1);
-    f.size = height * lerp(0.85, 1.1, random.next());
-    f.width = width * random.between(0.8, 1.15);
-    f.droop = lerp(1.7, 0.7, t) * random.between(0.8, 1.2);
-    f.start = trunk * lerp(0.6, 1, t);
-    addFrond(cards, f);
+    const double angle = 2.39996 * k + random.between(-0.2, 0.2);
+    const double lift = lerp(0.55, 1.5, t) + random.between(-0.1, 0.1);
+    const double size = height * lerp(0.85, 1.1, random.next());
+    const double half = width * random.between(0.8, 1.15);
+    const double droop = lerp(1.7, 0.7, t) * random.between(0.8, 1.2);
+    // A long leaf rises from the foot and bends over.
+    const Vec3d out{std::cos(angle), 0, -std::sin(angle)};
+    const Vec3d side{-std::sin(angle), 0, -std::cos(angle)};
+    std::vector<Vec3d> spine{Vec3d{0, trunk * lerp(0.6, 1, t), 0}};
+    for (int i = 0; i < kAlong; ++i) {
+      const double a = lift - droop * i / (kAlong - 1.0);
+      const Vec3d way = out * std::cos(a) + Vec3d{0, std::sin(a), 0};
+      spine.push_back(spine.back() + way * (size / kAlong));
+    }
+    cards.smoothSheet(
+        kAcross, kAlong, false,
+        [&](int i, int j) {
+          const double s = 2.0 * i / kAcross - 1, keel = 0.35 * half * std::fabs(s);
+          return spine[static_cast<std::size_t>(j)] + side * (s * half) + Vec3d{0, keel, 0};
+        },
+        [](int i, int j) {
+          return Uv{1.0 * i / kAcross, 1.0 * j / kAlong};
+        });
   }
   return Shape(stem.part("stem"), cards.part("leaves"));
 }
