@@ -31,7 +31,7 @@ int mergeCommand(const Words& words) {
   const MergedImage merged = mergeImages({files.begin() + 1, files.end()}, ImageLimits(), warnings);
   if (!common.quiet) tellWarnings(warnings);
   const WriteScope scope;
-  writeExr(files[0], merged.image, merged.metadata, ExrStorage::zip, 1, viewsOf(merged.layers));
+  writeExr(files[0], merged.image, merged.metadata, ExrStorage::zip, 1, merged.layers);
   return 0;
 }
 

@@ -1,5 +1,4 @@
-// The textures of a scene that is being read. Each image is decoded once for each use, while other
-// threads read the rest.
+// The textures of a scene that is being read. Each image is decoded once for each use.
 #pragma once
 
 #include <cstdint>
@@ -64,7 +63,7 @@ class TextureLoader {
   std::deque<std::optional<Texture>> slots_;  // a deque: tasks keep references
   std::map<Key, std::int32_t> known_;
   std::vector<std::function<void(SceneDescription&)>> changes_;
-  DecodeQueue queue_;  // last, because its workers write to the other members
+  DecodeQueue queue_;
 };
 
 }  // namespace whit

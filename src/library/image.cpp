@@ -64,7 +64,7 @@ void Image::write(const std::string& path) const {
     if (extension == ".exr") {
       ImageMetadata said = data_->metadata;
       said.insert(said.end(), data_->aboutChannels.begin(), data_->aboutChannels.end());
-      writeExr(path, data_->film.image, said, ExrStorage::zip, 1, viewsOf(data_->film.channels));
+      writeExr(path, data_->film.image, said, ExrStorage::zip, 1, layersOf(data_->film.channels));
     } else if (extension == ".png") {
       writePng(path, data_->film.display, data_->metadata);
     } else {

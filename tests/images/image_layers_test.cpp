@@ -31,7 +31,7 @@ class ImageLayers : public ImageTest {
  protected:
   std::string write(const std::string& name, const ChannelLayers& layers,
                     ExrStorage storage = ExrStorage::zip, const Crop& window = {0, 0, 4, 3}) {
-    writeExr(path(name), Image(4, 3, window), {}, storage, 1, viewsOf(layers));
+    writeExr(path(name), Image(4, 3, window), {}, storage, 1, layersOf(layers));
     return path(name);
   }
 };
@@ -94,7 +94,7 @@ TEST_F(ImageLayers, PartsAreMerged) {
   const std::string left = part("l.exr", {0, 0, 3, 3}), right = part("r.exr", {2, 0, 4, 3});
   const MergedImage merged = mergeImages({left, right}, limits_, warnings_);
   EXPECT_TRUE(warnings_.entries().empty());
-  writeExr(path("m.exr"), merged.image, {}, ExrStorage::zip, 1, viewsOf(merged.layers));
+  writeExr(path("m.exr"), merged.image, {}, ExrStorage::zip, 1, merged.layers);
   const std::vector<ImageLayer> found = readLayers(path("m.exr"), limits_);
   const std::vector<ImageLayer> wanted = readLayers(write("w.exr", whole), limits_);
   ASSERT_EQ(found.size(), wanted.size());

@@ -140,7 +140,7 @@ void writeImage(const std::string& path, const Film& film, const RenderOptions& 
   const ImageMetadata own = ownMetadata(path, format);
   said.insert(said.end(), own.begin(), own.end());
   if (extensionOf(path) == ".exr") {
-    writeExr(path, film.image, said, format.exr, format.threads, viewsOf(film.channels));
+    writeExr(path, film.image, said, format.exr, format.threads, layersOf(film.channels));
   } else if (format.channel) {
     writeChannelPng(path, film.image, film.channels, *format.channel, said);
   } else {

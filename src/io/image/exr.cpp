@@ -81,6 +81,27 @@ std::int32_t checkHeaders(const std::string& path) {
   return std::max(lines, 1);
 }
 
+// The names and types of channels to read.
+using ExrChannels = std::vector<std::pair<std::string, Imf::PixelType>>;
+
+// Moves `values`, which fill the box `from`, into the box `to`; the rest of that is 0.
+template <typename Value>
+void moveInto(const Box2i& to, const Box2i& from, std::size_t channels,
+              std::vector<Value>& values) {
+  if (to == from) return;
+  const auto offset = [&](const Box2i& box, std::int64_t x, std::int64_t y) {
+    return ((y - box.min.y) * widthOf(box) + x - box.min.x) * static_cast<std::int64_t>(channels);
+  };
+  std::vector<Value> moved(static_cast<std::size_t>(widthOf(to) * heightOf(to)) * channels);
+  const int x0 = std::max(from.min.x, to.min.x), x1 = std::min(from.max.x, to.max.x);
+  for (int y = std::max(from.min.y, to.min.y); y <= std::min(from.max.y, to.max.y); ++y) {
+    std::copy(values.begin() + offset(from, x0, y),
+              values.begin() + offset(from, std::int64_t{x1} + 1, y),
+              moved.begin() + offset(to, x0, y));
+  }
+  values = std::move(moved);
+}
+
 // An open file with checked headers; its first part is a flat image.
 class ExrFile {
  public:
@@ -116,25 +137,39 @@ class ExrFile {
     }
   }
 
-  // Reads the whole data window. The memory that OpenEXR takes meanwhile is held in the budget: of
-  // each chunk what is stored, decoded, and twice that again while the compression is undone.
-  void read(const Imf::FrameBuffer& frame, const ImageLimits& limits) {
+  // Returns the values of the channels in `box`, those of a pixel side by side; pixels outside the
+  // data window have 0. The memory that OpenEXR takes meanwhile is held in the budget: of each
+  // chunk what is stored, decoded, and twice that again while the compression is undone.
+  template <typename Value>
+  std::vector<Value> read(const Box2i& box, const ExrChannels& channels,
+                          const ImageLimits& limits) {
     const Box2i& data = header().dataWindow();
-    auto columns = static_cast<std::uint64_t>(widthOf(data));
-    auto lines = static_cast<std::uint64_t>(std::min<std::int64_t>(chunkLines_, heightOf(data)));
-    if (header().hasTileDescription()) {
-      columns += header().tileDescription().xSize;
-      lines = header().tileDescription().ySize;
-    }
+    const MemoryHold held =
+        holdImage(path_, widthOf(data), heightOf(data), channels.size() * sizeof(Value), limits);
+    const auto width = static_cast<std::uint64_t>(widthOf(data));
+    const bool isTiled = header().hasTileDescription();
+    const std::uint64_t columns = width + (isTiled ? header().tileDescription().xSize : 0);
+    const auto lines =
+        isTiled ? std::uint64_t{header().tileDescription().ySize}
+                : static_cast<std::uint64_t>(std::min<std::int64_t>(chunkLines_, heightOf(data)));
     std::uint64_t bytes = 0;
     for (auto it = header().channels().begin(); it != header().channels().end(); ++it) {
       bytes += it.channel().type == Imf::HALF ? 2 : 4;
     }
     const auto chunks = static_cast<std::uint64_t>(std::max(1, 2 * Imf::globalThreadCount()));
     const MemoryHold working(limits.budget, columns * lines * chunks, 4 * bytes, path_);
+    std::vector<Value> values(width * static_cast<std::uint64_t>(heightOf(data)) * channels.size());
+    const std::size_t stride = channels.size() * sizeof(Value);
+    Imf::FrameBuffer frame;
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+      const auto& [name, type] = channels[c];
+      frame.insert(name, Imf::Slice::Make(type, &values[c], data, stride, stride * width));
+    }
     Imf::InputPart part(file_, 0);
     part.setFrameBuffer(frame);
     part.readPixels(data.min.y, data.max.y);
+    moveInto(box, data, channels.size(), values);
+    return values;
   }
 
  private:
@@ -159,14 +194,14 @@ auto reading(const std::string& path, Use&& use) {
   }
 }
 
-// The names of the color channels to read, 1 to 4 of them; nullptr where the file lacks one.
-std::vector<const char*> colorChannels(const std::string& path, const Imf::ChannelList& list) {
+// The 1 to 4 color channels to read. OpenEXR stores 0 where the file lacks one of R, G and B.
+ExrChannels colorChannels(const std::string& path, const Imf::ChannelList& list) {
   const auto has = [&](const char* name) { return list.findChannel(name) != nullptr; };
-  std::vector<const char*> channels;
+  ExrChannels channels;
   if (has("R") || has("G") || has("B")) {
-    for (const char* name : {"R", "G", "B"}) channels.push_back(has(name) ? name : nullptr);
+    channels = {{"R", Imf::FLOAT}, {"G", Imf::FLOAT}, {"B", Imf::FLOAT}};
   } else if (has("Y") && !has("RY") && !has("BY")) {
-    channels = {"Y"};
+    channels = {{"Y", Imf::FLOAT}};
   } else {
     std::string found;
     for (auto it = list.begin(); it != list.end(); ++it) found += std::string(" ") + it.name();
@@ -174,43 +209,17 @@ std::vector<const char*> colorChannels(const std::string& path, const Imf::Chann
                   "expected the channels R, G and B, or Y without chroma, found" +
                       (found.empty() ? " none" : excerpt(found)));
   }
-  if (has("A")) channels.push_back("A");
+  if (has("A")) channels.emplace_back("A", Imf::FLOAT);
   return channels;
 }
 
-// `first` is the value of the data window's first pixel; others follow `stride` bytes apart.
-void insertChannel(Imf::FrameBuffer& frame, const std::string& name, Imf::PixelType type,
-                   const void* first, const Box2i& data, std::size_t stride) {
-  frame.insert(name, Imf::Slice::Make(type, first, data, stride,
-                                      stride * static_cast<std::size_t>(widthOf(data))));
-}
-
-// Moves `values`, which fill the box `from`, into the box `to`; the rest of that is 0.
-template <typename Value>
-void moveInto(const Box2i& to, const Box2i& from, std::size_t channels,
-              std::vector<Value>& values) {
-  if (to == from) return;
-  const auto offset = [&](const Box2i& box, std::int64_t x, std::int64_t y) {
-    return ((y - box.min.y) * widthOf(box) + x - box.min.x) * static_cast<std::int64_t>(channels);
-  };
-  std::vector<Value> moved(static_cast<std::size_t>(widthOf(to) * heightOf(to)) * channels);
-  const int x0 = std::max(from.min.x, to.min.x), x1 = std::min(from.max.x, to.max.x);
-  for (int y = std::max(from.min.y, to.min.y); y <= std::min(from.max.y, to.max.y); ++y) {
-    std::copy(values.begin() + offset(from, x0, y),
-              values.begin() + offset(from, std::int64_t{x1} + 1, y),
-              moved.begin() + offset(to, x0, y));
-  }
-  values = std::move(moved);
-}
-
-template <typename Layer>
-Imf::PixelType typeOf(const Layer& layer) {
+Imf::PixelType typeOf(const ImageLayer& layer) {
   return layer.countsThings ? Imf::UINT : Imf::FLOAT;
 }
 
-std::vector<ImageLayer> layersOf(const std::string& path, const Imf::ChannelList& list) {
+ExrChannels layerChannels(const std::string& path, const Imf::ChannelList& list) {
   constexpr const char* kColors[] = {"R", "G", "B", "A", "Y", "RY", "BY"};
-  std::vector<ImageLayer> layers;
+  ExrChannels channels;
   for (auto it = list.begin(); it != list.end(); ++it) {
     const std::string name = it.name();
     if (std::find(std::begin(kColors), std::end(kColors), name) != std::end(kColors)) continue;
@@ -218,9 +227,9 @@ std::vector<ImageLayer> layersOf(const std::string& path, const Imf::ChannelList
       throwBadScene(path + ": header",
                     "expected a value a pixel of channel " + excerpt(name) + ", found fewer");
     }
-    layers.push_back({name, it.channel().type == Imf::UINT, {}});
+    channels.emplace_back(name, it.channel().type == Imf::UINT ? Imf::UINT : Imf::FLOAT);
   }
-  return layers;
+  return channels;
 }
 
 static_assert(sizeof(Rgb) == 3 * sizeof(float), "pixels are written as they lie in memory");
@@ -263,7 +272,7 @@ void letCompress(int threads) {
 }
 
 Imf::Header makeHeader(const Image& image, const ImageMetadata& metadata, ExrStorage storage,
-                       const std::vector<LayerView>& layers) {
+                       const std::vector<ImageLayer>& layers) {
   const Crop& w = image.window;
   Imf::Header header(Imath::Box2i({0, 0}, {image.width - 1, image.height - 1}),
                      Imath::Box2i({w.x0, w.y0}, {w.x1 - 1, w.y1 - 1}));
@@ -272,7 +281,7 @@ Imf::Header makeHeader(const Image& image, const ImageMetadata& metadata, ExrSto
                                                        : Imf::ZIP_COMPRESSION;
   const Imf::Channel channel(inHalf(storage) ? Imf::HALF : Imf::FLOAT);
   for (const char* name : kRadianceLayers) header.channels().insert(name, channel);
-  for (const LayerView& layer : layers) {
+  for (const ImageLayer& layer : layers) {
     header.channels().insert(layer.name, Imf::Channel(typeOf(layer)));
   }
   for (const auto& [name, text] : metadata)
@@ -280,18 +289,18 @@ Imf::Header makeHeader(const Image& image, const ImageMetadata& metadata, ExrSto
   return header;
 }
 
-// `first` is the first value of the first pixel of the window.
-template <typename Value>
-void writePixels(Imf::OutputFile& exr, Imf::PixelType type, const Image& image, const Value* first,
-                 const std::vector<LayerView>& layers) {
+void writePixels(Imf::OutputFile& exr, Imf::PixelType type, const Image& image, const void* colors,
+                 const std::vector<ImageLayer>& layers) {
   const Box2i& data = exr.header().dataWindow();
+  const std::size_t bytes = type == Imf::HALF ? sizeof(half) : sizeof(float);
   Imf::FrameBuffer frame;
   for (std::size_t c = 0; c < kRadianceLayers.size(); ++c) {
-    insertChannel(frame, kRadianceLayers[c], type, first + c, data, 3 * sizeof(Value));
+    frame.insert(kRadianceLayers[c],
+                 Imf::Slice::Make(type, static_cast<const char*>(colors) + c * bytes, data,
+                                  kRadianceLayers.size() * bytes));
   }
-  for (const LayerView& layer : layers) {
-    insertChannel(frame, layer.name, typeOf(layer), layer.first, data,
-                  layer.stride * sizeof(float));
+  for (const ImageLayer& layer : layers) {
+    frame.insert(layer.name, Imf::Slice::Make(typeOf(layer), layer.words.data(), data));
   }
   exr.setFrameBuffer(frame);
   exr.writePixels(image.windowHeight());
@@ -301,10 +310,9 @@ void writePixels(Imf::OutputFile& exr, Imf::PixelType type, const Image& image, 
 
 ExrImage decodeExr(const std::string& path, bool wholeDisplay, const ImageLimits& limits) {
   return reading(path, [&](ExrFile& file) {
-    const std::vector<const char*> names = colorChannels(path, file.header().channels());
-    const std::size_t channels = names.size();
-    file.checkSizes(channels, limits);
-    const Box2i &display = file.header().displayWindow(), &data = file.header().dataWindow();
+    const ExrChannels channels = colorChannels(path, file.header().channels());
+    file.checkSizes(channels.size(), limits);
+    const Box2i& display = file.header().displayWindow();
     const Box2i visible = file.visible(), kept = wholeDisplay ? display : visible;
     ExrImage image;
     image.width = static_cast<int>(widthOf(display));
@@ -312,22 +320,9 @@ ExrImage decodeExr(const std::string& path, bool wholeDisplay, const ImageLimits
     // The sizes have been checked, so these differences fit.
     image.window = {kept.min.x - display.min.x, kept.min.y - display.min.y,
                     kept.max.x - display.min.x + 1, kept.max.y - display.min.y + 1};
-    const auto start = [&](const Box2i& box) {
-      return startImage(path, widthOf(box), heightOf(box), static_cast<int>(channels), true,
-                        limits);
-    };
-    RawImage raw = start(data);
-    raw.values.resize(static_cast<std::size_t>(widthOf(data) * heightOf(data)) * channels);
-    Imf::FrameBuffer frame;
-    for (std::size_t c = 0; c < channels; ++c) {
-      if (names[c] == nullptr) continue;
-      insertChannel(frame, names[c], Imf::FLOAT, raw.values.data() + c, data,
-                    channels * sizeof(float));
-    }
-    file.read(frame, limits);
-    image.raw = start(kept);
-    moveInto(kept, data, channels, raw.values);
-    image.raw.values = std::move(raw.values);
+    image.raw = startImage(path, widthOf(kept), heightOf(kept), static_cast<int>(channels.size()),
+                           true, limits);
+    image.raw.values = file.read<float>(kept, channels, limits);
     return image;
   });
 }
@@ -335,18 +330,19 @@ ExrImage decodeExr(const std::string& path, bool wholeDisplay, const ImageLimits
 std::vector<ImageLayer> readLayers(const std::string& path, const ImageLimits& limits) {
   if (!isExrFile(path)) return {};
   return reading(path, [&](ExrFile& file) {
-    std::vector<ImageLayer> layers = layersOf(path, file.header().channels());
-    if (layers.empty()) return layers;
-    file.checkSizes(layers.size(), limits);
-    const Box2i visible = file.visible(), &data = file.header().dataWindow();
-    const auto pixels = static_cast<std::size_t>(widthOf(data) * heightOf(data));
-    Imf::FrameBuffer frame;
-    for (ImageLayer& layer : layers) {
-      layer.words.resize(pixels);
-      insertChannel(frame, layer.name, typeOf(layer), layer.words.data(), data, sizeof(float));
+    std::vector<ImageLayer> layers;
+    const ExrChannels channels = layerChannels(path, file.header().channels());
+    if (channels.empty()) return layers;
+    file.checkSizes(channels.size(), limits);
+    const auto words = file.read<std::uint32_t>(file.visible(), channels, limits);
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+      ImageLayer& layer = layers.emplace_back();
+      layer.name = channels[c].first;
+      layer.countsThings = channels[c].second == Imf::UINT;
+      for (std::size_t i = c; i < words.size(); i += channels.size()) {
+        layer.words.push_back(words[i]);
+      }
     }
-    file.read(frame, limits);
-    for (ImageLayer& layer : layers) moveInto(visible, data, 1, layer.words);
     return layers;
   });
 }
@@ -366,7 +362,7 @@ ImageMetadata readExrMetadata(const std::string& path) {
 }
 
 void writeExr(const std::string& path, const Image& image, const ImageMetadata& metadata,
-              ExrStorage storage, int threads, const std::vector<LayerView>& layers) {
+              ExrStorage storage, int threads, const std::vector<ImageLayer>& layers) {
   if (image.pixels.empty()) throwUsage("cannot write '" + path + "': the image has no pixels");
   if (!layers.empty() && storage == ExrStorage::dwaa) {
     throwUsage("cannot write '" + path +

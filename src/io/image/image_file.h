@@ -62,13 +62,14 @@ Image readImage(const std::string& path, const ImageLimits& limits, Warnings& wa
 // are clamped to 65504), or half floats with OpenEXR's lossy DWAA.
 enum class ExrStorage { zip, none, half, dwaa };
 
-// Refers to the values of a channel beside the colors: one for each pixel of the window, row by row
-// from the top, `stride` values apart.
-struct LayerView {
+// A channel beside the colors, such as "depth.Z": a value for each pixel of the data window, row by
+// row from the top.
+struct ImageLayer {
   std::string name;
-  bool countsThings = false;    // 32-bit unsigned numbers, otherwise floats
-  const void* first = nullptr;  // the value of the first pixel
-  std::size_t stride = 1;
+  bool countsThings = false;         // 32-bit unsigned numbers, otherwise floats
+  std::vector<std::uint32_t> words;  // numbers, or the bits of floats
+
+  std::vector<float> floats() const;
 };
 
 // Writes linear RGB with metadata as string attributes; the data window is image.window. `layers`
@@ -76,7 +77,7 @@ struct LayerView {
 // pixels; the bytes do not depend on their number.
 void writeExr(const std::string& path, const Image& image, const ImageMetadata& metadata,
               ExrStorage storage = ExrStorage::zip, int threads = 1,
-              const std::vector<LayerView>& layers = {});
+              const std::vector<ImageLayer>& layers = {});
 // Returns the string attributes of an EXR's first part except OpenEXR's own. Throws as readImage().
 ImageMetadata readExrMetadata(const std::string& path);
 // Writes an sRGB PNG with the metadata as text chunks and without alpha. Keywords are cut at PNG's
@@ -88,7 +89,7 @@ struct DeepImage {
   int width = 0, height = 0, channels = 1;
   std::vector<std::uint16_t> values;
 };
-// Writes 16 bits per channel; `isSrgb`: three values are sRGB colors.
+// `isSrgb`: three values are sRGB colors.
 void writePng(const std::string& path, const DeepImage& image, bool isSrgb,
               const ImageMetadata& metadata);
 // Decodes a PNG and returns its text chunks. Throws Error(io) if it cannot be read, badScene if it

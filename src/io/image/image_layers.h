@@ -1,7 +1,6 @@
-// Channels of an EXR beside its colors, with names such as "depth.Z".
+// Reads, makes and merges the channels of an image beside its colors.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -13,15 +12,6 @@
 
 namespace whit {
 
-// A value for each pixel of the data window, row by row from the top.
-struct ImageLayer {
-  std::string name;
-  bool countsThings = false;         // 32-bit unsigned numbers, otherwise floats
-  std::vector<std::uint32_t> words;  // numbers, or the bits of floats
-
-  std::vector<float> floats() const;
-};
-
 // Reads all channels of an EXR's first part except the colors (R, G, B, A, or Y, RY, BY), in the
 // order of their names, for the part of the data window that lies inside the display window, as
 // readImage() does. Half floats become floats. Returns no layers for other formats. Throws as
@@ -30,10 +20,6 @@ std::vector<ImageLayer> readLayers(const std::string& path, const ImageLimits& l
 
 // Copies the channels; the layers are named as in a file.
 std::vector<ImageLayer> layersOf(const ChannelLayers& channels);
-
-// Views for writeExr(); the argument must outlive them.
-std::vector<LayerView> viewsOf(const std::vector<ImageLayer>& layers);
-std::vector<LayerView> viewsOf(const ChannelLayers& channels);
 
 // Attributes of an EXR that describe its channels: the list of channels ("channels"), and the names
 // of objects ("whit:objects", by their numbers, for the first kNamedItems) and materials

@@ -18,7 +18,6 @@ namespace whit {
 
 namespace {
 
-constexpr std::size_t kKeywordLimit = 79;  // PNG specification 11.3.4.2
 // libpng allocates what a chunk of text claims to take before it reads any of it.
 constexpr png_alloc_size_t kTextBytesLimit = 8u << 20;
 
@@ -146,18 +145,15 @@ bool isAscii(const std::string& text) {
   return std::all_of(text.begin(), text.end(), [](unsigned char c) { return c < 127; });
 }
 
-// Latin-1 chunks for plain text, UTF-8 ones for the rest. The chunks point into `metadata`, and the
-// keywords into `keywords`.
-std::vector<png_text> textChunks(const ImageMetadata& metadata,
-                                 std::vector<std::string>& keywords) {
+// Latin-1 chunks for plain text, UTF-8 ones for the rest. The chunks point into `metadata`, which
+// libpng only reads; it cuts the keywords.
+std::vector<png_text> textChunks(const ImageMetadata& metadata) {
   std::vector<png_text> chunks;
-  keywords.reserve(metadata.size());
   for (const auto& [name, text] : metadata) {
-    keywords.push_back(name.substr(0, kKeywordLimit));
     png_text chunk{};
     chunk.compression = isAscii(text) ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE;
-    chunk.key = keywords.back().data();
-    chunk.text = const_cast<char*>(text.c_str());  // libpng only reads it
+    chunk.key = const_cast<char*>(name.c_str());
+    chunk.text = const_cast<char*>(text.c_str());
     chunk.text_length = text.size();
     chunks.push_back(chunk);
   }
@@ -168,8 +164,7 @@ std::vector<png_text> textChunks(const ImageMetadata& metadata,
 struct Rows {
   int width = 0, height = 0, bits = 8;
   int colorType = PNG_COLOR_TYPE_RGB;
-  bool isSrgb = true;
-  bool hasFiller = false;  // pixels have a fourth value, which is not written
+  bool isSrgb = true;  // pixels of 8 bits have a fourth value, which is not written
   const std::uint8_t* first = nullptr;
   std::size_t stride = 0;  // bytes
 };
@@ -200,7 +195,11 @@ bool write(Libpng& writer, std::string& to, const Rows& rows, const std::vector<
   }
   png_set_text(writer.png, writer.info, texts.data(), static_cast<int>(texts.size()));
   png_write_info(writer.png, writer.info);
-  if (rows.hasFiller) png_set_filler(writer.png, 0, PNG_FILLER_AFTER);
+  if (rows.bits == 16) {
+    png_set_swap(writer.png);  // PNG stores the most significant byte first
+  } else {
+    png_set_filler(writer.png, 0, PNG_FILLER_AFTER);
+  }
   for (png_uint_32 y = 0; y < height; ++y) png_write_row(writer.png, rows.first + y * rows.stride);
   png_write_end(writer.png, writer.info);
   return true;
@@ -209,8 +208,7 @@ bool write(Libpng& writer, std::string& to, const Rows& rows, const std::vector<
 std::string encode(const Rows& rows, const ImageMetadata& metadata) {
   if (rows.width < 1 || rows.height < 1 || rows.stride < 1)
     throwUsage("cannot write a PNG without pixels");
-  std::vector<std::string> keywords;
-  const std::vector<png_text> texts = textChunks(metadata, keywords);
+  const std::vector<png_text> texts = textChunks(metadata);
   Libpng writer;
   std::string bytes;
   const bool written = write(writer, bytes, rows, texts);
@@ -234,7 +232,7 @@ ImageMetadata readPngMetadata(const std::string& path) {
 }
 
 std::string encodePng(const DisplayImage& image, const ImageMetadata& metadata) {
-  return encode({image.width, image.height, 8, PNG_COLOR_TYPE_RGB, true, true, image.rgba.data(),
+  return encode({image.width, image.height, 8, PNG_COLOR_TYPE_RGB, true, image.rgba.data(),
                  std::size_t{4} * static_cast<std::size_t>(image.width)},
                 metadata);
 }
@@ -245,16 +243,12 @@ void writePng(const std::string& path, const DisplayImage& image, const ImageMet
 
 void writePng(const std::string& path, const DeepImage& image, bool isSrgb,
               const ImageMetadata& metadata) {
-  std::vector<std::uint8_t> bytes;  // the most significant byte of each value first
-  for (const std::uint16_t value : image.values) {
-    bytes.push_back(static_cast<std::uint8_t>(value >> 8));
-    bytes.push_back(static_cast<std::uint8_t>(value & 0xFF));
-  }
   const int colorType = image.channels == 1 ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB;
-  const std::size_t stride = bytes.size() / static_cast<std::size_t>(std::max(image.height, 1));
-  writeTextFile(
-      path, encode({image.width, image.height, 16, colorType, isSrgb, false, bytes.data(), stride},
-                   metadata));
+  const std::size_t stride = sizeof(std::uint16_t) * static_cast<std::size_t>(image.channels) *
+                             static_cast<std::size_t>(image.width);
+  writeTextFile(path, encode({image.width, image.height, 16, colorType, isSrgb,
+                              reinterpret_cast<const std::uint8_t*>(image.values.data()), stride},
+                             metadata));
 }
 
 }  // namespace whit
