@@ -37,62 +37,42 @@ class Watcher {
  public:
   explicit Watcher(std::string file) : file_(std::move(file)) {}
 
-  bool operator()(int, Event event, Json& parsed) {
-    switch (event) {
-      case Event::object_start:
-      case Event::array_start:
-        push(event == Event::array_start);
-        break;
-      case Event::object_end:
-      case Event::array_end:
-        levels_.pop_back();
-        valueEnds();
-        break;
-      case Event::key:
-        key(parsed.get<std::string>());
-        break;
-      case Event::value:
-        valueEnds();
-        break;
+  bool operator()(Event event, const Json& parsed) {
+    if (event == Event::object_start || event == Event::array_start) {
+      if (levels_.size() >= kJsonDepthLimit) {
+        fail("nested deeper than " + std::to_string(kJsonDepthLimit) + " levels");
+      }
+      levels_.emplace_back();
+    } else if (event == Event::key) {
+      Level& level = levels_.back();
+      level.key = parsed.get<std::string>();
+      if (!level.keys.insert(level.key).second) fail("this key is given twice");
+      if (level.keys.size() > kJsonMembersLimit) {
+        fail("more than " + std::to_string(kJsonMembersLimit) + " members");
+      }
+    } else {
+      if (event != Event::value) levels_.pop_back();
+      if (!levels_.empty()) ++levels_.back().index;
     }
     return true;
   }
 
-  // The value that is being parsed, as file#/pointer.
-  std::string where() const {
+  // Throws badScene with the place of the value that is being parsed.
+  [[noreturn]] void fail(const std::string& what) const {
     std::string pointer;
     for (const Level& level : levels_) {
-      pointer += '/' + (level.isArray ? std::to_string(level.index) : escapePointer(level.key));
+      const bool isArray = level.keys.empty();
+      pointer += '/' + (isArray ? std::to_string(level.index) : escapePointer(level.key));
     }
-    return placeInJson(file_, pointer);
+    throwBadScene(placeInJson(file_, pointer), what);
   }
 
  private:
   struct Level {
-    bool isArray = false;
-    std::size_t index = 0;  // arrays
-    std::string key;        // objects
+    std::size_t index = 0;  // number of values that are complete
+    std::string key;        // only in objects
     std::unordered_set<std::string> keys;
   };
-
-  void push(bool isArray) {
-    if (levels_.size() >= kJsonDepthLimit) {
-      throwBadScene(where(), "nested deeper than " + std::to_string(kJsonDepthLimit) + " levels");
-    }
-    levels_.emplace_back();
-    levels_.back().isArray = isArray;
-  }
-  void valueEnds() {
-    if (!levels_.empty()) ++levels_.back().index;
-  }
-  void key(const std::string& name) {
-    Level& level = levels_.back();
-    level.key = name;
-    if (!level.keys.insert(name).second) throwBadScene(where(), "this key is given twice");
-    if (level.keys.size() > kJsonMembersLimit) {
-      throwBadScene(where(), "more than " + std::to_string(kJsonMembersLimit) + " members");
-    }
-  }
 
   std::string file_;
   std::vector<Level> levels_;
@@ -106,33 +86,27 @@ std::string placeOfByte(const std::string& text, const std::string& file, std::s
   return file + ":" + std::to_string(line + 1) + ":" + std::to_string(column);
 }
 
-// Without the library's own "[json.exception...] parse error at line ...: ", and only the end of
-// the text that it quotes.
+// Removes the library's own "[json.exception...] parse error at line ...: ", and the middle of a
+// long text that it quotes.
 std::string reason(std::string message) {
-  constexpr std::string_view kQuoted = "last read: '";
-  constexpr std::size_t kShown = 60;
-  const std::size_t column = message.find(", column ");
-  const std::size_t colon = message.find(": ", column == std::string::npos ? 0 : column);
+  constexpr std::size_t kShown = 120;
+  const std::size_t colon = message.find(": ", message.find(", column "));
   if (colon != std::string::npos) message.erase(0, colon + 2);
-  const std::size_t quote = message.find(kQuoted);
-  if (quote == std::string::npos || message.size() - quote < 2 * kShown) return message;
-  const std::size_t first = quote + kQuoted.size();
-  return message.replace(first, message.size() - first - kShown, "...");
+  if (message.size() <= 2 * kShown) return message;
+  return message.replace(kShown, message.size() - 2 * kShown, "...");
 }
 
 }  // namespace
 
 Json parseJson(const std::string& text, const std::string& file) {
   Watcher watcher(file);
-  const auto watch = [&](int depth, Event event, Json& parsed) {
-    return watcher(depth, event, parsed);
-  };
+  const auto watch = [&](int, Event event, const Json& parsed) { return watcher(event, parsed); };
   try {
     return Json::parse(text, watch, /*allow_exceptions=*/true, /*ignore_comments=*/true);
   } catch (const Json::parse_error& error) {
     throwBadScene(placeOfByte(text, file, error.byte), reason(error.what()));
   } catch (const Json::out_of_range&) {  // thrown by the parser for such a number alone
-    throwBadScene(watcher.where(), "expected a number that a double can hold");
+    watcher.fail("expected a number that a double can hold");
   }
 }
 
@@ -248,12 +222,8 @@ Rgb JsonValue::color(double high) const {
 }
 
 std::vector<JsonValue> JsonValue::elements() const {
-  if (!isArray()) fail("a list");
   std::vector<JsonValue> result;
-  result.reserve(value_->size());
-  for (std::size_t i = 0; i < value_->size(); ++i) {
-    result.push_back(child(&(*value_)[i], std::to_string(i)));
-  }
+  for (std::size_t i = 0; i < size(); ++i) result.push_back((*this)[i]);
   return result;
 }
 
@@ -263,8 +233,9 @@ std::vector<JsonValue> JsonValue::elements(std::size_t count, const std::string&
 }
 
 std::vector<std::pair<std::string, JsonValue>> JsonValue::members() const {
-  if (!isObject()) fail("an object");
   std::vector<std::pair<std::string, JsonValue>> result;
+  if (!exists()) return result;
+  if (!isObject()) fail("an object");
   for (const auto& [key, value] : value_->items()) result.emplace_back(key, child(&value, key));
   return result;
 }
@@ -272,7 +243,10 @@ std::vector<std::pair<std::string, JsonValue>> JsonValue::members() const {
 JsonValue JsonValue::operator[](const std::string& name) const {
   if (exists() && !isObject()) fail("an object");
   const Json* value = nullptr;
-  if (exists() && value_->contains(name)) value = &(*value_)[name];
+  if (exists()) {
+    const auto member = value_->find(name);
+    if (member != value_->end()) value = &*member;
+  }
   return child(value, name);
 }
 
@@ -339,15 +313,13 @@ JsonObject::JsonObject(const JsonValue& value) : value_(value) {
   if (!value.isObject()) value.fail("an object");
 }
 
-std::optional<JsonValue> JsonObject::find(const std::string& key) {
+JsonValue JsonObject::find(const std::string& key) {
   if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
-  const auto member = value_.value_->find(key);
-  if (member == value_.value_->end()) return std::nullopt;
-  return value_.child(&*member, key);
+  return value_[key];
 }
 
 JsonValue JsonObject::need(const std::string& key) {
-  if (const auto value = find(key)) return *value;
+  if (JsonValue value = find(key)) return value;
   std::vector<std::string> others;
   for (const auto& [name, member] : value_.members()) {
     if (std::find(known_.begin(), known_.end(), name) == known_.end()) others.push_back(name);
@@ -359,8 +331,8 @@ JsonValue JsonObject::need(const std::string& key) {
 }
 
 float JsonObject::number(const std::string& key, double fallback, double low, double high) {
-  const auto value = find(key);
-  return static_cast<float>(value ? value->number(low, high) : fallback);
+  const JsonValue value = find(key);
+  return static_cast<float>(value ? value.number(low, high) : fallback);
 }
 
 void JsonObject::finish() const {

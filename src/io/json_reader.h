@@ -45,7 +45,8 @@ struct JsonDocument {  // NOLINT(bugprone-exception-escape): moving Json does no
 };
 
 // A member or element that the file does not have is a value that does not exist. It has no members
-// and no elements; the functions with "Or" return their fallback for it, all others fail.
+// and no elements; the functions with "Or" return their fallback for it, and those that need a
+// value fail.
 class JsonValue {
  public:
   explicit JsonValue(const JsonDocument& document) : JsonValue(document, document.root, "") {}
@@ -58,6 +59,7 @@ class JsonValue {
   [[noreturn]] void fail(const std::string& expected, std::string found = "") const;
 
   bool exists() const { return value_ != nullptr; }
+  explicit operator bool() const { return exists(); }
   bool isObject() const { return exists() && value_->is_object(); }
   bool isArray() const { return exists() && value_->is_array(); }
   bool isNull() const { return exists() && value_->is_null(); }
@@ -86,7 +88,7 @@ class JsonValue {
   // Accepts 1e0 and 1.0 as well as 1.
   std::uint64_t wholeOr(std::uint64_t fallback, std::uint64_t limit = kLargestJsonWhole) const;
   bool flagOr(bool fallback) const { return exists() ? flag() : fallback; }
-  std::string textOr(const char* fallback) const { return exists() ? text() : fallback; }
+  std::string textOr(const std::string& fallback) const { return exists() ? text() : fallback; }
   // Empty where the list does not exist.
   std::vector<double> numbers() const;
   std::vector<double> numbers(std::size_t count) const;
@@ -110,8 +112,8 @@ class JsonObject {
   explicit JsonObject(const JsonValue& value);  // fails unless an object
 
   const JsonValue& value() const { return value_; }
-  bool has(const std::string& key) { return find(key).has_value(); }
-  std::optional<JsonValue> find(const std::string& key);
+  bool has(const std::string& key) { return find(key).exists(); }
+  JsonValue find(const std::string& key);  // does not exist where the key is missing
   JsonValue need(const std::string& key);
 
   float number(const std::string& key, double fallback, double low = -kLargestNumber,
@@ -160,9 +162,9 @@ void readMember(const JsonValue& json, const Member<Noun, Value>& member, Value&
 template <typename Noun>
 void readMembers(JsonObject& object, Noun& noun) {
   forEachMemberInFiles(noun, [&](const auto& member) {
-    const std::optional<JsonValue> json =
+    const JsonValue json =
         member.rules.required ? object.need(member.name) : object.find(member.name);
-    if (json) readMember(*json, member, noun.*member.field);
+    if (json) readMember(json, member, noun.*member.field);
   });
 }
 

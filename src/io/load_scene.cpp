@@ -98,24 +98,24 @@ void replaceSky(SceneContext& context) {
   context.textures.addEnvironment(context.sky, "--sky", sky.image);
 }
 
-std::vector<SceneSetting> parseSettings(const LoadOptions& options) {
-  std::vector<SceneSetting> settings;
-  for (const std::string& text : options.settings) settings.push_back(parseSceneSetting(text));
-  return settings;
+// Applies the settings of one section, or of all sections where it is empty.
+void applySettings(const LoadOptions& options, const std::string& section, JsonDocument& document) {
+  for (const std::string& text : options.settings) {
+    const SceneSetting setting = parseSceneSetting(text);
+    if (section.empty() || setting.tokens.front() == section) applySceneSetting(setting, document);
+  }
 }
 
 // The scene's own values, then those that were given with its name.
 void readParameters(JsonObject& file, const std::map<std::string, double>& given,
                     JsonDocument& document) {
   std::vector<std::string> names;
-  if (const auto parameters = file.find("parameters")) {
-    std::map<std::string, double> values;  // apart: parameters do not refer to each other
-    for (const auto& [name, value] : parameters->members()) {
-      values[name] = value.number();
-      names.push_back(name);
-    }
-    document.parameters = std::move(values);
+  std::map<std::string, double> values;  // apart: parameters do not refer to each other
+  for (const auto& [name, value] : file.find("parameters").members()) {
+    values[name] = value.number();
+    names.push_back(name);
   }
+  document.parameters = std::move(values);
   for (const auto& [name, value] : given) {
     const auto known = document.parameters.find(name);
     if (known == document.parameters.end()) {
@@ -128,15 +128,7 @@ void readParameters(JsonObject& file, const std::map<std::string, double>& given
   }
 }
 
-void finishTextures(SceneContext& context, std::optional<double> ambientFromSkyStrength) {
-  context.textures.finish(context.scene);
-  if (ambientFromSkyStrength) {
-    context.scene.ambient =
-        ambientFromSky(context.scene.sky, *ambientFromSkyStrength, context.scene.ambient);
-  }
-}
-
-// Before all others.
+// Adds a camera that flies the path before all others.
 void addPathCamera(SceneDescription& scene) {
   Camera camera = scene.cameraPath.front().camera;
   camera.name = "path";
@@ -196,12 +188,22 @@ void replaceSpheres(int segments, SceneContext& context) {
   }
 }
 
-// With the settings and parameters.
+// `fromSky` is the strength of ambient light that depends on the sky's image.
+SceneDescription finish(const LoadOptions& options, std::optional<double> fromSky,
+                        SceneContext& context) {
+  SceneDescription& scene = context.scene;
+  context.textures.finish(scene);
+  if (fromSky) scene.ambient = ambientFromSky(scene.sky, *fromSky, scene.ambient);
+  replaceSpheres(options.sphereSegments, context);
+  return std::move(scene);
+}
+
+// Returns the document with the settings and parameters.
 JsonDocument documentOf(const std::string& name, Json root,
                         const std::map<std::string, double>& parameters,
                         const LoadOptions& options) {
   JsonDocument document{name, std::move(root), {}};
-  for (const SceneSetting& setting : parseSettings(options)) applySceneSetting(setting, document);
+  applySettings(options, "", document);
   JsonObject file{JsonValue(document)};
   file.need("whit").integer(kSchemaVersion, kSchemaVersion);
   readParameters(file, parameters, document);
@@ -209,7 +211,6 @@ JsonDocument documentOf(const std::string& name, Json root,
 }
 
 JsonDocument documentOf(const fs::path& path, const SceneName& name, const LoadOptions& options) {
-  parseSettings(options);  // what is said beside the file is judged before it
   Json root = parseJson(readTextFile(path, kJsonBytesLimit), path.string());
   return documentOf(path.string(), std::move(root), name.parameters, options);
 }
@@ -229,63 +230,42 @@ SceneDescription readScene(const JsonDocument& document, const LoadOptions& opti
   materials.checkUnused();
   file.finish();
   settleInstant(options.instant, context.scene);
-  finishTextures(context, fromSky);
-  replaceSpheres(options.sphereSegments, context);
-  return std::move(context.scene);
-}
-
-SceneDescription loadSceneFile(const fs::path& path, const SceneName& name,
-                               const LoadOptions& options, Warnings& warnings, Progress* progress) {
-  const JsonDocument document = documentOf(path, name, options);
-  SceneContext context(path, options, warnings, progress);
-  return readScene(document, options, context);
-}
-
-// Reads the settings of a model, whose lights are there, as if a scene file contained them.
-std::optional<double> readModelView(const std::vector<SceneSetting>& settings,
-                                    const std::string& file, SceneContext& context) {
-  for (std::size_t i = 0; i < context.scene.lights.size(); ++i) {
-    context.scene.lights[i].pointer = "/lights/" + std::to_string(i);
-  }
-  if (settings.empty()) return std::nullopt;
-  JsonDocument document{file, {{"lights", describe(context.scene.lights)}}, {}};
-  for (const SceneSetting& setting : settings) applySceneSetting(setting, document);
-  JsonObject view{JsonValue(document)};
-  context.scene.lights.clear();
-  readLights(view, {}, context.scene);
-  readSky(view, context);
-  const std::optional<double> fromSky = readAmbient(view, context.scene);
-  view.finish();
-  return fromSky;
+  return finish(options, fromSky, context);
 }
 
 SceneDescription loadModelFile(const fs::path& path, const SceneName& name,
                                const LoadOptions& options, Warnings& warnings, Progress* progress) {
   if (!name.parameters.empty()) throwUsage(path.string() + " is a model: it has no parameters");
   SceneContext context(path, options, warnings, progress);
-  JsonDocument nothing{path.string(), Json::object(), {}}, overrides = nothing;
-  std::vector<SceneSetting> others;
-  for (SceneSetting& setting : parseSettings(options)) {
-    if (setting.tokens.front() == "materials") {
-      applySceneSetting(setting, overrides);
-    } else {
-      others.push_back(std::move(setting));
-    }
-  }
-  JsonObject noMaterials{JsonValue(nothing)}, file{JsonValue(overrides)};
+  SceneDescription& scene = context.scene;
+  const JsonDocument nothing{path.string(), Json::object(), {}};
+  JsonDocument overrides = nothing;
+  applySettings(options, "materials", overrides);
+  JsonObject noMaterials{JsonValue(nothing)}, items{JsonValue(overrides)};
   MaterialReader materials(noMaterials, context);
-  readModelAlone(file, path, context, materials);
+  readModelAlone(items, path, context, materials);
   supplyView(context);  // before the scene has another time than 0
-  settleInstant(options.instant, context.scene);
-  const bool ownAmbient = std::any_of(others.begin(), others.end(), [](const SceneSetting& s) {
-    return s.tokens.front() == "ambient";
-  });
-  std::optional<double> fromSky = readModelView(others, path.string(), context);
+  settleInstant(options.instant, scene);
+  // The settings are read as if a scene file contained them and the model's lights.
+  JsonDocument document = nothing;
+  if (!options.settings.empty()) document.root["lights"] = describe(scene.lights);
+  applySettings(options, "", document);
+  JsonObject file{JsonValue(document)};
+  file.find("materials");
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    scene.lights[i].pointer = "/lights/" + std::to_string(i);
+  }
+  if (file.has("lights")) {
+    scene.lights.clear();
+    readLights(file, {}, scene);
+  }
+  readSky(file, context);
+  const bool ownAmbient = file.has("ambient");
+  std::optional<double> fromSky = readAmbient(file, scene);
+  file.finish();
   replaceSky(context);
-  if (!ownAmbient && context.scene.sky.kind != Sky::Kind::none) fromSky = kAmbientOfSky;
-  finishTextures(context, fromSky);
-  replaceSpheres(options.sphereSegments, context);
-  return std::move(context.scene);
+  if (!ownAmbient && scene.sky.kind != Sky::Kind::none) fromSky = kAmbientOfSky;
+  return finish(options, fromSky, context);
 }
 
 }  // namespace
@@ -295,9 +275,13 @@ SceneDescription loadScene(const std::string& name, const LoadOptions& options, 
   const SceneName parsed = parseSceneName(name);
   const fs::path path = findScene(parsed.file, options.shippedScenes);
   if (isModelFile(path)) return loadModelFile(path, parsed, options, warnings, progress);
-  if (extensionOf(path) == ".json") return loadSceneFile(path, parsed, options, warnings, progress);
-  throwUsage("\"" + parsed.file + "\": expected a scene (.json), a model (" + modelExtensions() +
-             "), or the name of a shipped scene");
+  if (extensionOf(path) != ".json") {
+    throwUsage("\"" + parsed.file + "\": expected a scene (.json), a model (" + modelExtensions() +
+               "), or the name of a shipped scene");
+  }
+  const JsonDocument document = documentOf(path, parsed, options);
+  SceneContext context(path, options, warnings, progress);
+  return readScene(document, options, context);
 }
 
 SceneDescription loadScene(const SceneText& text, const LoadOptions& options, Warnings& warnings,

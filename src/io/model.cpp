@@ -36,6 +36,12 @@ std::unique_ptr<Model> openModel(const ModelSource& source) {
   return openerOf(source.path)(source);
 }
 
+Body MeshModel::content(SceneLayout&, const std::vector<std::uint32_t>& materials) {
+  Body body;
+  addParts(meshes_, materials, source_.path.string(), source_.budget, body);
+  return body;
+}
+
 void warnNothingToDraw(const std::string& why, const std::string& file, Warnings& warnings) {
   warnings.add("model with nothing to draw: " + why, file);
 }

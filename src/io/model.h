@@ -7,6 +7,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/warnings.h"
@@ -58,6 +59,25 @@ class Model {
   virtual void addView(SceneDescription&) {}
   // The animations of the file, whatever the instant.
   virtual std::vector<Animation> animations() const { return {}; }
+};
+
+// A model that is read when it is opened: its meshes stand in one place, and its materials have no
+// maps unless the class of the format adds some.
+class MeshModel : public Model {
+ public:
+  explicit MeshModel(const ModelSource& source) : source_(source) {}
+
+  const std::vector<Material>& materials() const override { return materials_; }
+  TexturedMaterial withMaps(std::size_t, Material material, const GivenMembers&,
+                            TextureLoader&) override {
+    return {std::move(material), {}};
+  }
+  Body content(SceneLayout& layout, const std::vector<std::uint32_t>& materials) override;
+
+ protected:
+  ModelSource source_;
+  std::vector<Material> materials_;
+  std::vector<Mesh> meshes_;
 };
 
 // True if openModel() reads such a file, by its extension (any case).

@@ -41,8 +41,10 @@ std::vector<std::int32_t> TextureLoader::add(const TextureSource& source,
   std::vector<std::int32_t> slots;
   std::vector<std::pair<TextureUse, std::optional<Texture>*>> targets;
   for (TextureUse use : uses) {
-    if (use == TextureUse::emission && !holdsRadiance(source.path)) use = TextureUse::color;
-    const Key key{source.path, use, source.wrapU, source.wrapV,
+    if (use == TextureUse::emission && !source.given && !holdsRadiance(source.path)) {
+      use = TextureUse::color;
+    }
+    const Key key{source.given ? source.where : source.path, use, source.wrapU, source.wrapV,
                   use == TextureUse::bump ? source.bumpScale : 1.0f};
     const auto [entry, isNew] = known_.emplace(key, static_cast<std::int32_t>(slots_.size()));
     slots.push_back(entry->second);
@@ -51,29 +53,25 @@ std::vector<std::int32_t> TextureLoader::add(const TextureSource& source,
   if (targets.empty()) return slots;
   queue_.add([this, source, targets] {
     RawImage raw;
+    MemoryHold copy;
     try {
-      raw = readNamedAt(source.lenient ? "" : source.where,
-                        [&] { return readRawImage(source.path, limits(), warnings_); });
+      if (source.given) {
+        copy = MemoryHold(&budget_, 1, source.given->bytes(), source.where);
+        raw = imageOf(*source.given, source.where);
+      } else {
+        raw = readNamedAt(source.lenient ? "" : source.where,
+                          [&] { return readRawImage(source.path, limits(), warnings_); });
+      }
     } catch (const Error& error) {
       if (!source.lenient || error.status() == ExitStatus::limit) throw;
       warnings_.add("texture left out", source.where + ": " + error.what());
       return;
     }
-    const std::string name = std::filesystem::path(source.path).filename().string();
+    const std::string name =
+        source.given ? source.where : std::filesystem::path(source.path).filename().string();
     for (const auto& [use, target] : targets) *target = make(name, raw, source, use);
   });
   return slots;
-}
-
-std::int32_t TextureLoader::add(const GivenImage& image, const TextureSource& source,
-                                TextureUse use) {
-  const auto slot = static_cast<std::int32_t>(slots_.size());
-  queue_.add([this, &image, source, use, target = &slots_.emplace_back()] {
-    const std::uint64_t bytes = image.codes.size_bytes() + image.values.size_bytes();
-    const MemoryHold copy(&budget_, 1, bytes, source.where);
-    *target = make(source.where, imageOf(image, source.where), source, use);
-  });
-  return slot;
 }
 
 std::vector<std::int32_t> TextureLoader::add(

@@ -20,8 +20,9 @@
 namespace whit {
 
 struct TextureSource {
-  std::string path;
+  std::string path;   // empty for an image that the calling program gives
   std::string where;  // the place that names it
+  const GivenImage* given = nullptr;
   Wrap wrapU = Wrap::repeat, wrapV = Wrap::repeat;
   float bumpScale = 1;
   bool lenient = false;  // an image that cannot be read is a warning instead of an error
@@ -35,8 +36,6 @@ class TextureLoader {
   // Returns a slot for each of `uses`; the image is decoded once for all of them. The same source
   // and use have the same slot again; emission is color if the file's format cannot exceed 1.
   std::vector<std::int32_t> add(const TextureSource& source, const std::vector<TextureUse>& uses);
-  // Adds an image of the calling program; `source` has no path.
-  std::int32_t add(const GivenImage& image, const TextureSource& source, TextureUse use);
   // Adds `count` textures that `make` computes on a worker; some of them may be empty.
   std::vector<std::int32_t> add(std::size_t count,
                                 std::function<std::vector<std::optional<Texture>>()> make);

@@ -130,7 +130,8 @@ void readMaterials(const fs::path& file) {
   const PathRules rules(file.parent_path(), false);
   SceneDescription scene;
   for (const auto& [name, source] : materials) {
-    scene.materials.push_back(loadTextures(source, file.parent_path(), rules, textures));
+    scene.materials.push_back(
+        loadTextures(source, source.material, {}, file.parent_path(), rules, textures));
   }
   textures.finish(scene);
   for (const Texture& texture : scene.textures) checkTexture(texture);

@@ -167,7 +167,7 @@ TEST_F(Ply, IndicesAndLengthsAreWhole) {
   EXPECT_EQ(triangleCount(loadPly(header("ascii", kTriangleHeader) + points + "3 0 1.5 2\n")), 0u);
   EXPECT_EQ(warned("face with a vertex index out of range dropped"), 1u);
   EXPECT_EQ(errorOfPly(header("ascii", kTriangleHeader) + points + "3.5 0 1 2\n"),
-            "3 m.ply:14: expected a list that fits into the rest of the file");
+            "3 m.ply:14: expected a list that fits into the file");
 }
 
 TEST_F(Ply, WhatOnlyFacesHaveIsCounted) {
@@ -226,13 +226,13 @@ TEST_F(Ply, ErrorsNameTheirPlace) {
   EXPECT_EQ(errorOfPly(whole + "0 0 0\n1 zero 0\n0 1 0\n3 0 1 2\n"),
             "3 m.ply:12: expected a number");
   EXPECT_EQ(errorOfPly(whole + "0 0 0\n1 0 0\n0 1 0\n255 0 1 2\n"),
-            "3 m.ply:14: expected a list that fits into the rest of the file");
+            "3 m.ply:14: expected a list that fits into the file");
   std::string many = whole;
   many.replace(many.find("vertex 3"), 8, "vertex 18446744073709551615");
   EXPECT_EQ(
       errorOfPly(many + data),
-      "3 m.ply:4: expected at most 4 elements \"vertex\", as many as fit into the 26 bytes after "
-      "the header, found 18446744073709551615");
+      "3 m.ply:4: expected at most 26 elements \"vertex\", as many as there are bytes after the "
+      "header, found 18446744073709551615");
 }
 
 TEST_F(Ply, CutShortAndFlipped) {

@@ -239,12 +239,6 @@ TEST_F(SceneItems, NestingHasALimit) {
   EXPECT_EQ(errorOfMembers(chain(4000, true)), "5 objects are nested deeper than 256");
 }
 
-TEST_F(SceneItems, ARemovedShapeIsNamedWithWhatToUse) {
-  EXPECT_EQ(
-      errorOfMembers(R"("scene": [{"shape": "grid"}])"),
-      "3 s.json#/scene/0/shape: expected \"quad\" in place of the removed shape, found \"grid\"");
-}
-
 // What a few words ask for is refused before the memory is taken.
 TEST_F(SceneItems, ShapesAndPatternsKeepToTheMemoryLimit) {
   options_.maxMemoryBytes = 1 << 20;

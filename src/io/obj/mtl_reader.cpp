@@ -20,20 +20,12 @@ namespace {
 constexpr std::uint64_t kMtlBytesLimit = 64u << 20;
 constexpr float kDielectricReflectance = 0.04f;  // of a Pm below 1, for the part that is not metal
 
-// The statements of one material; the keywords are in lower case.
-struct MtlStatements {
-  std::string name;
-  std::string where;                   // file:line of newmtl
-  std::map<std::string, Rgb> numbers;  // single numbers as gray
-  std::map<std::string, MtlMaterial::Map> maps;
-};
-
 class MtlParser {
  public:
   MtlParser(const std::string& text, const std::string& file, Warnings& warnings)
       : lines_(text, file), warnings_(warnings) {}
 
-  std::vector<MtlStatements> parse() {
+  std::vector<MtlMaterial> parse() {
     for (; !lines_.done(); lines_.nextLine()) {
       keyword_ = lines_.word();
       std::string key = keyword_;
@@ -58,7 +50,9 @@ class MtlParser {
     if (materials_.size() >= kMaterialLimit) {
       throwLimit(lines_.place() + ": more than " + std::to_string(kMaterialLimit) + " materials");
     }
-    materials_.push_back({name, lines_.place(), {}, {}});
+    MtlMaterial& material = materials_.emplace_back();
+    material.material.name = name;
+    material.where = lines_.place();
   }
 
   void statement(const std::string& key) {
@@ -66,9 +60,9 @@ class MtlParser {
     static const std::set<std::string> scalars{"ns", "ni", "d", "tr", "pr", "pm", "illum"};
     static const std::set<std::string> maps{"map_kd", "map_ks", "map_ke", "map_d",  "map_bump",
                                             "bump",   "norm",   "map_pr", "map_pm", "map_ns"};
-    MtlStatements& material = materials_.back();
+    MtlMaterial& material = materials_.back();
     if (colors.contains(key)) {
-      if (const auto color = readColor()) material.numbers[key] = *color;
+      material.numbers[key] = readColor();
     } else if (scalars.contains(key)) {
       material.numbers[key] = Rgb(readScalar());
     } else if (maps.contains(key)) {
@@ -83,16 +77,11 @@ class MtlParser {
   }
 
   // g and b may be left out; they are then equal to r.
-  std::optional<Rgb> readColor() {
+  Rgb readColor() {
     Rgb color;
     for (int i = 0; i < 3; ++i) {
       const auto value = i == 0 || lines_.hasMore() ? readNumber() : color[0];
-      if (!value) {
-        const std::string_view form = lines_.word();
-        if (i > 0 || (form != "spectral" && form != "xyz")) fail("numbers");
-        warnings_.add("material color in a form that is not supported", lines_.place());
-        return std::nullopt;
-      }
+      if (!value) fail("numbers");
       color[i] = *value;
     }
     return color;
@@ -135,20 +124,14 @@ class MtlParser {
   LineReader lines_;
   std::string keyword_;  // of this line
   Warnings& warnings_;
-  std::vector<MtlStatements> materials_;
+  std::vector<MtlMaterial> materials_;
 };
 
-MtlMaterial materialOf(const MtlStatements& source, Warnings& warnings) {
-  MtlMaterial result;
-  result.where = source.where;
-  Material& m = result.material;
-  m.name = source.name;
+// Sets what the statements of a material mean.
+void interpret(MtlMaterial& source, Warnings& warnings) {
+  Material& m = source.material;
   const auto has = [&](const char* keyword) { return source.numbers.contains(keyword); };
   const auto number = [&](const char* keyword) { return source.numbers.at(keyword).x; };
-  const auto map = [&](const char* keyword) {
-    const auto found = source.maps.find(keyword);
-    return found == source.maps.end() ? MtlMaterial::Map() : found->second;
-  };
   const auto color = [&](const char* keyword) {
     const Rgb given = source.numbers.at(keyword), clamped = min(max(given, Rgb(0.0f)), Rgb(1.0f));
     if (!(given == clamped)) warnings.add("material color clamped to [0, 1]", source.where);
@@ -159,18 +142,13 @@ MtlMaterial materialOf(const MtlStatements& source, Warnings& warnings) {
     if (x != clamped) warnings.add("material value clamped to [0, 1]", source.where);
     return clamped;
   };
-  result.diffuse = map("map_kd");
-  result.specular = map("map_ks");
-  result.normal = map("norm");
-  result.bump = map("bump");
-  result.alpha = map("map_d");
   for (const char* unsupported : {"map_ke", "map_pr", "map_pm", "map_ns"}) {
     if (source.maps.contains(unsupported)) {
       warnings.add("map that is not supported", source.where);
     }
   }
-  if (!result.diffuse.name.empty()) m.diffuse = Rgb(1.0f);
-  if (!result.specular.name.empty()) m.specular = Rgb(1.0f);
+  if (source.maps.contains("map_kd")) m.diffuse = Rgb(1.0f);
+  if (source.maps.contains("map_ks")) m.specular = Rgb(1.0f);
   if (has("kd")) m.diffuse = color("kd");
   if (has("ks")) m.specular = color("ks");
   // With a map of it, Ke is a factor: without the map the whole surface would glow.
@@ -207,7 +185,6 @@ MtlMaterial materialOf(const MtlStatements& source, Warnings& warnings) {
   }
   m.glossyReflection = !m.hasMirror() && !m.hasTransmission();
   m.castsShadow = m.blocksLight();
-  return result;
 }
 
 }  // namespace
@@ -215,17 +192,21 @@ MtlMaterial materialOf(const MtlStatements& source, Warnings& warnings) {
 void readMtl(const std::filesystem::path& path, std::map<std::string, MtlMaterial>& materials,
              Warnings& warnings) {
   const std::string text = readTextFile(path, kMtlBytesLimit), file = path.string();
-  for (const MtlStatements& source : MtlParser(text, file, warnings).parse()) {
-    if (!materials.contains(source.name)) {
-      materials.emplace(source.name, materialOf(source, warnings));
-    }
+  for (MtlMaterial& source : MtlParser(text, file, warnings).parse()) {
+    if (materials.contains(source.material.name)) continue;
+    interpret(source, warnings);
+    materials.emplace(source.material.name, source);
   }
 }
 
-Material loadTextures(const MtlMaterial& source, const std::filesystem::path& folder,
-                      const PathRules& rules, TextureLoader& textures) {
-  Material material = source.material;
-  const auto load = [&](const MtlMaterial::Map& map, const std::vector<TextureUse>& uses) {
+Material loadTextures(const MtlMaterial& source, Material material, const GivenMembers& given,
+                      const std::filesystem::path& folder, const PathRules& rules,
+                      TextureLoader& textures) {
+  const auto has = [&](const char* keyword, const char* member) {
+    return source.maps.contains(keyword) && !given.contains(member);
+  };
+  const auto load = [&](const char* keyword, const std::vector<TextureUse>& uses) {
+    const MtlMaterial::Map& map = source.maps.at(keyword);
     TextureSource image;
     image.where = source.where;
     image.path = rules.resolve(map.name, folder, source.where, /*backslashes=*/true).string();
@@ -234,24 +215,22 @@ Material loadTextures(const MtlMaterial& source, const std::filesystem::path& fo
     image.lenient = true;
     return textures.add(image, uses);
   };
-  const bool hasMask = !source.alpha.name.empty();
-  if (!source.diffuse.name.empty()) {
-    if (hasMask || !source.alphaFromDiffuse) {
-      material.diffuseMap = load(source.diffuse, {TextureUse::color})[0];
-    } else {
-      const auto slots = load(source.diffuse, {TextureUse::color, TextureUse::colorAlpha});
-      material.diffuseMap = slots[0];
-      material.alphaMap = slots[1];
-    }
+  if (has("map_kd", "diffuseMap")) {
+    std::vector<TextureUse> uses{TextureUse::color};
+    const bool usesAlpha = !source.maps.contains("map_d") && !given.contains("alphaMap");
+    if (usesAlpha) uses.push_back(TextureUse::colorAlpha);
+    const auto slots = load("map_kd", uses);
+    material.diffuseMap = slots[0];
+    if (usesAlpha) material.alphaMap = slots[1];
   }
-  if (hasMask) material.alphaMap = load(source.alpha, {TextureUse::mask})[0];
-  if (material.hasGlossy() && !source.specular.name.empty()) {
-    material.specularMap = load(source.specular, {TextureUse::color})[0];
+  if (has("map_d", "alphaMap")) material.alphaMap = load("map_d", {TextureUse::mask})[0];
+  if (material.hasGlossy() && has("map_ks", "specularMap")) {
+    material.specularMap = load("map_ks", {TextureUse::color})[0];
   }
-  if (!source.normal.name.empty()) {
-    material.normalMap = load(source.normal, {TextureUse::data})[0];
-  } else if (!source.bump.name.empty()) {
-    material.normalMap = load(source.bump, {TextureUse::bump})[0];
+  if (has("norm", "normalMap")) {
+    material.normalMap = load("norm", {TextureUse::data})[0];
+  } else if (has("bump", "normalMap")) {
+    material.normalMap = load("bump", {TextureUse::bump})[0];
   }
   return material;
 }

@@ -5,10 +5,7 @@
 #include <map>
 #include <string>
 
-#include "core/warnings.h"
-#include "io/paths.h"
-#include "io/texture_loader.h"
-#include "scene/material.h"
+#include "io/model.h"
 
 namespace whit {
 
@@ -18,29 +15,32 @@ inline constexpr std::size_t kMaterialLimit = 65536;
 // A material whose textures are not loaded yet: libraries hold many materials that no model uses.
 struct MtlMaterial {
   struct Map {
-    std::string name;  // as written in the file; empty: none
+    std::string name;  // as written in the file
     bool clamp = false;
     float bumpScale = 1;  // -bm
   };
   Material material;
-  Map diffuse, specular, normal, bump, alpha;
-  bool alphaFromDiffuse = true;  // without `alpha`, the alpha channel of `diffuse` is used
-  std::string where;             // file:line of its newmtl
+  std::string where;                   // file:line of its newmtl
+  std::map<std::string, Rgb> numbers;  // by keyword in lower case; single numbers as gray
+  std::map<std::string, Map> maps;
 };
 
-// Adds the materials of the file to `materials`; the first definition of a name wins. Statements in
-// a form that is not supported are warnings. Throws badScene "file:line" where a number is missing.
+// Adds the materials of the file to `materials`; the first definition of a name wins. Throws
+// badScene "file:line" where a number is missing.
 //
 // The statements mean: Kd is the diffuse albedo, Ks the reflectance at normal
 // incidence, Ns the exponent of Blinn's lobe (alpha = sqrt(2 / (Ns + 2)), roughness = sqrt(alpha))
 // unless Pr gives the roughness, Pm the metalness. illum 0 and 1 have no highlight; 3, 5 and 8
 // mirror with Ks (5: all at grazing incidence); 4, 6, 7 and 9 are glass with index Ni, filtered by
-// Tf, else by 1 - d. d below 1 elsewhere lets 1 - d of the light straight through.
+// Tf, else by 1 - d. d below 1 elsewhere lets 1 - d of the light straight through. Without map_d,
+// the alpha channel of map_Kd is used.
 void readMtl(const std::filesystem::path& path, std::map<std::string, MtlMaterial>& materials,
              Warnings& warnings);
 
-// Returns the material and adds its textures to `textures`; their names are relative to `folder`.
-Material loadTextures(const MtlMaterial& source, const std::filesystem::path& folder,
-                      const PathRules& rules, TextureLoader& textures);
+// Returns `material` with the maps of `source` that are not `given`, which it adds to `textures`;
+// their names are relative to `folder`.
+Material loadTextures(const MtlMaterial& source, Material material, const GivenMembers& given,
+                      const std::filesystem::path& folder, const PathRules& rules,
+                      TextureLoader& textures);
 
 }  // namespace whit

@@ -16,7 +16,6 @@
 
 #include "core/error.h"
 #include "io/line_reader.h"
-#include "io/model.h"
 #include "io/obj/mtl_reader.h"
 #include "io/polygon.h"
 #include "io/read_file.h"
@@ -28,8 +27,10 @@ namespace {
 constexpr std::int32_t kNoIndex = -1;
 constexpr std::int32_t kOutOfRange = std::numeric_limits<std::int32_t>::max();
 
-// The numbers of the materials by name.
-using MaterialNumbers = std::map<std::string, std::uint32_t, std::less<>>;
+// A name in a file, and the place that names it.
+struct ObjName {
+  std::string name, where;
+};
 
 struct ObjCorner {
   std::int32_t position = kNoIndex, uv = kNoIndex, normal = kNoIndex;  // counted from 0
@@ -54,25 +55,23 @@ struct ObjMesh {
   bool hasUvs = false;
 };
 
-constexpr std::uint32_t kNoVertex = 0xffffffffu;
+constexpr std::uint32_t kNoVertex = 0xffffffffu, kNoMaterial = 0xffffffffu;
 
 class ObjReader {
  public:
-  // Faces before the first usemtl have the material after the last one of `materials`.
-  ObjReader(const std::string& text, const std::string& file, const MaterialNumbers& materials,
-            MemoryBudget& budget, Warnings& warnings)
-      : lines_(text, file),
-        file_(file),
-        materials_(materials),
-        material_(static_cast<std::uint32_t>(materials.size())),
-        budget_(budget),
-        warnings_(warnings) {}
+  ObjReader(const std::string& text, const std::string& file, MemoryBudget& budget,
+            Warnings& warnings)
+      : lines_(text, file), file_(file), budget_(budget), warnings_(warnings) {}
 
   // Returns at most two meshes, of the faces with normals at every corner and of those without.
   // Faces with fewer than three corners or an index out of range are left out and counted; texture
-  // coordinates and normals out of range are ignored and counted.
+  // coordinates and normals out of range are ignored and counted. The materials of the meshes are
+  // indices into `materials`; faces before the first usemtl have the index after the last one.
   std::vector<Mesh> read() {
     for (; !lines_.done(); lines_.nextLine()) statement(lines_.word());
+    if (materials.size() > kMaterialLimit) {
+      throwLimit(file_ + " uses more than " + std::to_string(kMaterialLimit) + " materials");
+    }
     // Each corner may need a vertex and a triangle of its own.
     budget_.charge(
         corners_.size(),
@@ -92,6 +91,9 @@ class ObjReader {
     return finish({&smooth, &flat});
   }
 
+  // Different names of "usemtl" and of "mtllib", in the file's order; filled by read().
+  std::vector<ObjName> materials, libraries;
+
  private:
   void statement(std::string_view keyword) {
     if (keyword == "v") {
@@ -110,8 +112,17 @@ class ObjReader {
     } else if (keyword == "f") {
       face();
     } else if (keyword == "usemtl") {
-      const auto known = materials_.find(lines_.rest());
-      if (known != materials_.end()) material_ = known->second;
+      if (const std::string name(lines_.rest()); !name.empty()) {
+        const auto number = static_cast<std::uint32_t>(materials.size());
+        const auto [known, isNew] = materialNumbers_.emplace(name, number);
+        if (isNew) materials.push_back({name, lines_.place()});
+        material_ = known->second;
+      }
+    } else if (keyword == "mtllib") {
+      const std::string name(lines_.rest());
+      if (!name.empty() && libraryNames_.insert(name).second) {
+        libraries.push_back({name, lines_.place()});
+      }
     } else if (keyword == "l" || keyword == "p" || keyword == "curv" || keyword == "curv2" ||
                keyword == "surf") {
       warnings_.add("points, lines or free forms left out", lines_.place());
@@ -204,7 +215,8 @@ class ObjReader {
     if (!triangulate(points_, triangles_)) warn("polygon without a simple outline", face);
     for (const auto& t : triangles_) {
       to.mesh.triangles.push_back({vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]});
-      to.mesh.materials.push_back(face.material);
+      to.mesh.materials.push_back(
+          std::min(face.material, static_cast<std::uint32_t>(materials.size())));
       to.mesh.order.push_back(triangleCount_++);
     }
   }
@@ -252,8 +264,9 @@ class ObjReader {
 
   LineReader lines_;
   const std::string& file_;
-  const MaterialNumbers& materials_;
-  std::uint32_t material_;  // of the faces that follow
+  std::map<std::string, std::uint32_t> materialNumbers_;
+  std::set<std::string> libraryNames_;
+  std::uint32_t material_ = kNoMaterial;  // of the faces that follow
   MemoryBudget& budget_;
   Warnings& warnings_;
   std::vector<Vec3f> positions_, normals_;
@@ -274,132 +287,65 @@ MtlMaterial grayMaterial(const std::string& name) {
   return gray;
 }
 
-class ObjModel : public Model {
+class ObjModel : public MeshModel {
  public:
-  // Reads the material libraries, but no geometry yet. A library or a material that is missing is a
-  // warning; such materials are gray.
-  explicit ObjModel(const ModelSource& source)
-      : source_(source),
-        file_(source.path.string()),
-        text_(readTextFile(source.path, source.budget.left())) {
-    source_.budget.charge(text_.size(), 1, file_);
-    findMaterials();
-    add(grayMaterial("default"));
+  // Has one material for each that faces use, and a gray one last for faces without any. A library
+  // or a material that is missing is a warning; such materials are gray.
+  explicit ObjModel(const ModelSource& source) : MeshModel(source) {
+    const std::string file = source.path.string();
+    const std::string text = readTextFile(source.path, source.budget.left());
+    source.budget.charge(text.size(), 1, file);
+    ObjReader reader(text, file, source.budget, source.warnings);
+    meshes_ = reader.read();
+    for (Mesh& mesh : meshes_) mesh.name = source.path.stem().string();
+    Library library;
+    for (const ObjName& line : reader.libraries) readLibraries(line, library);
+    for (const auto& [name, where] : reader.materials) {
+      const auto known = library.find(name);
+      if (known == library.end()) {
+        source.warnings.add("material missing, gray instead", where + ": " + excerpt(name));
+      }
+      sources_.push_back(known == library.end() ? grayMaterial(name) : known->second);
+    }
+    sources_.push_back(grayMaterial("default"));
+    for (const MtlMaterial& one : sources_) materials_.push_back(one.material);
   }
 
-  // One for each material that faces use, and a gray one last for faces without any.
-  const std::vector<Material>& materials() const override { return materials_; }
   TexturedMaterial withMaps(std::size_t i, Material material, const GivenMembers& given,
-                            TextureLoader& textures) override;
-  // Parses the file at the first call, while other threads decode textures.
-  Body content(SceneLayout& layout, const std::vector<std::uint32_t>& materials) override;
+                            TextureLoader& textures) override {
+    return {loadTextures(sources_[i], std::move(material), given, source_.path.parent_path(),
+                         source_.rules, textures),
+            {}};
+  }
 
  private:
   using Library = std::map<std::string, MtlMaterial>;
 
-  void findMaterials();
-  void readLibraries(const std::string& line, const std::string& where, Library& library) const;
-  void add(const MtlMaterial& material) {
-    sources_.push_back(material);
-    materials_.push_back(material.material);
-  }
+  void readLibraries(const ObjName& line, Library& library) const;
 
-  ModelSource source_;
-  std::string file_;
-  std::string text_;  // empty after it was parsed
-  bool isParsed_ = false;
-  MaterialNumbers numbers_;
-  std::vector<MtlMaterial> sources_;
-  std::vector<Material> materials_;  // of sources_
-  std::vector<Mesh> meshes_;
+  std::vector<MtlMaterial> sources_;  // of materials_
 };
 
-// Searches the text for the lines "mtllib ..." and "usemtl ...", because textures are asked for
-// before the geometry is parsed. Adds each material that is used once.
-void ObjModel::findMaterials() {
-  std::vector<std::pair<std::string, std::string>> uses;  // names and places
-  std::set<std::string> libraries;
-  Library library;
-  std::uint64_t line = 1;
-  std::size_t lineStart = 0;
-  for (std::size_t at = 0; (at = text_.find("mtl", at)) != std::string::npos;) {
-    const std::size_t start = text_.find_last_of("\r\n", at) + 1;  // npos + 1 is 0
-    line += static_cast<std::uint64_t>(
-        std::count(text_.data() + lineStart, text_.data() + start, '\n'));
-    lineStart = start;
-    at = text_.find_first_of("\r\n", at);
-    LineReader reader(text_, file_, start, line);
-    const std::string_view keyword = reader.word();
-    const std::string name(reader.rest());
-    if (name.empty()) continue;
-    if (keyword == "mtllib" && libraries.insert(name).second) {
-      readLibraries(name, reader.place(), library);
-    } else if (keyword == "usemtl") {
-      const auto number = static_cast<std::uint32_t>(numbers_.size());
-      if (numbers_.emplace(name, number).second) uses.emplace_back(name, reader.place());
-    }
-  }
-  if (uses.size() > kMaterialLimit) {
-    throwLimit(file_ + " uses more than " + std::to_string(kMaterialLimit) + " materials");
-  }
-  for (const auto& [name, where] : uses) {
-    const auto known = library.find(name);
-    if (known == library.end()) {
-      source_.warnings.add("material missing, gray instead", where + ": " + excerpt(name));
-    }
-    add(known == library.end() ? grayMaterial(name) : known->second);
-  }
-}
-
 // The line is one name with blanks if such a file exists, otherwise several names.
-void ObjModel::readLibraries(const std::string& line, const std::string& where,
-                             Library& library) const {
+void ObjModel::readLibraries(const ObjName& line, Library& library) const {
   const auto resolve = [&](const std::string& name) {
-    return source_.rules.resolve(name, source_.path.parent_path(), where,
+    return source_.rules.resolve(name, source_.path.parent_path(), line.where,
                                  /*backslashes=*/true);
   };
   std::error_code error;
-  std::vector<std::string> names{line};
-  if (!std::filesystem::exists(resolve(line), error)) {
-    std::istringstream words(line);
+  std::vector<std::string> names{line.name};
+  if (!std::filesystem::exists(resolve(line.name), error)) {
+    std::istringstream words(line.name);
     names.assign(std::istream_iterator<std::string>(words), {});
   }
   for (const std::string& name : names) {
     const auto file = resolve(name);
     if (std::filesystem::is_regular_file(file, error)) {
-      readNamedAt(where, [&] { readMtl(file, library, source_.warnings); });
+      readNamedAt(line.where, [&] { readMtl(file, library, source_.warnings); });
     } else {
-      source_.warnings.add("material library missing", where + ": " + excerpt(name));
+      source_.warnings.add("material library missing", line.where + ": " + excerpt(name));
     }
   }
-}
-
-TexturedMaterial ObjModel::withMaps(std::size_t i, Material material, const GivenMembers& given,
-                                    TextureLoader& textures) {
-  MtlMaterial source = sources_[i];
-  source.material = std::move(material);
-  if (given.contains("diffuseMap")) source.diffuse.name.clear();
-  if (given.contains("specularMap")) source.specular.name.clear();
-  if (given.contains("normalMap")) {
-    source.normal.name.clear();
-    source.bump.name.clear();
-  }
-  if (given.contains("alphaMap")) {
-    source.alpha.name.clear();
-    source.alphaFromDiffuse = false;
-  }
-  return {loadTextures(source, source_.path.parent_path(), source_.rules, textures), {}};
-}
-
-Body ObjModel::content(SceneLayout&, const std::vector<std::uint32_t>& materials) {
-  if (!std::exchange(isParsed_, true)) {
-    meshes_ = ObjReader(text_, file_, numbers_, source_.budget, source_.warnings).read();
-    std::string().swap(text_);
-    for (Mesh& mesh : meshes_) mesh.name = source_.path.stem().string();
-  }
-  Body body;
-  addParts(meshes_, materials, file_, source_.budget, body);
-  return body;
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -70,24 +69,28 @@ struct PlyElement {
 };
 
 enum Component { kX, kY, kZ, kNx, kNy, kNz, kU, kV, kR, kG, kB, kComponents };
-const std::map<std::string, Component, std::less<>> kComponentNames = {{"x", kX},
-                                                                       {"y", kY},
-                                                                       {"z", kZ},
-                                                                       {"nx", kNx},
-                                                                       {"ny", kNy},
-                                                                       {"nz", kNz},
-                                                                       {"u", kU},
-                                                                       {"v", kV},
-                                                                       {"s", kU},
-                                                                       {"t", kV},
-                                                                       {"texture_u", kU},
-                                                                       {"texture_v", kV},
-                                                                       {"red", kR},
-                                                                       {"green", kG},
-                                                                       {"blue", kB},
-                                                                       {"diffuse_red", kR},
-                                                                       {"diffuse_green", kG},
-                                                                       {"diffuse_blue", kB}};
+constexpr std::array<std::string_view, 3> kComponentNames[kComponents] = {
+    {"x"},
+    {"y"},
+    {"z"},
+    {"nx"},
+    {"ny"},
+    {"nz"},
+    {"u", "s", "texture_u"},
+    {"v", "t", "texture_v"},
+    {"red", "diffuse_red"},
+    {"green", "diffuse_green"},
+    {"blue", "diffuse_blue"}};
+
+// kComponents where the property is none of them.
+Component componentOf(const PlyProperty& property) {
+  int component = property.countType ? int{kComponents} : 0;
+  while (component < kComponents &&
+         std::ranges::count(kComponentNames[component], property.name) == 0) {
+    ++component;
+  }
+  return static_cast<Component>(component);
+}
 
 bool isPlySpace(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
@@ -212,20 +215,13 @@ class PlyReader {
         {words.back(), &typeOf(words[words.size() - 2]), countType});
   }
 
-  // Bytes that a value takes in the file: as text at least a digit and a blank.
-  std::size_t leastBytes(const PlyType& type) const { return ascii_ ? 2 : type.bytes; }
-
+  // Each element takes at least a byte.
   void checkCount(const PlyElement& element) const {
-    std::uint64_t least = 0;
-    for (const PlyProperty& p : element.properties) {
-      least += leastBytes(p.countType ? *p.countType : *p.type);
-    }
-    const std::uint64_t left = text_.size() - at_, most = left + (ascii_ ? 1 : 0);
-    if (least == 0 || element.count <= most / least) return;
-    throwBadScene(element.where, "expected at most " + std::to_string(most / least) +
-                                     " elements \"" + excerpt(element.name) +
-                                     "\", as many as fit into the " + std::to_string(left) +
-                                     " bytes after the header, found " +
+    const std::uint64_t left = text_.size() - at_;
+    if (element.properties.empty() || element.count <= left) return;
+    throwBadScene(element.where, "expected at most " + std::to_string(left) + " elements \"" +
+                                     excerpt(element.name) +
+                                     "\", as many as there are bytes after the header, found " +
                                      std::to_string(element.count));
   }
 
@@ -261,21 +257,18 @@ class PlyReader {
 
   std::uint64_t listLength(const PlyProperty& property) {
     const double length = number(*property.countType);
-    const std::size_t most = (text_.size() - at_ + 1) / leastBytes(*property.type);
-    if (!(length >= 0 && length <= static_cast<double>(most) && length == std::floor(length))) {
-      throwBadScene(place(), "expected a list that fits into the rest of the file");
+    const auto most = static_cast<double>(text_.size());
+    if (!(length >= 0 && length <= most && length == std::floor(length))) {
+      throwBadScene(place(), "expected a list that fits into the file");
     }
     return static_cast<std::uint64_t>(length);
   }
 
   void readVertices(const PlyElement& element) {
-    std::array<bool, kComponents> has{};
+    std::array<bool, kComponents + 1> has{};
     std::vector<Component> components;
     for (const PlyProperty& property : element.properties) {
-      const auto known = kComponentNames.find(property.name);
-      const bool unknown = property.countType || known == kComponentNames.end();
-      components.push_back(unknown ? kComponents : known->second);
-      if (!unknown) has[known->second] = true;
+      has[components.emplace_back(componentOf(property))] = true;
     }
     if (!has[kX] || !has[kY] || !has[kZ] || !mesh_.positions.empty()) {
       throwBadScene(element.where, "expected one element \"vertex\" with x, y and z");
@@ -393,38 +386,22 @@ class PlyReader {
   std::vector<CornerTriple> triangles_;
 };
 
-class PlyModel : public Model {
+class PlyModel : public MeshModel {
  public:
-  explicit PlyModel(const ModelSource& source)
-      : file_(source.path.string()), budget_(source.budget) {
-    const std::string text = readTextFile(source.path, budget_.left());
-    budget_.charge(text.size(), 1, file_);
-    Mesh mesh = PlyReader(text, file_, budget_, source.warnings).read();
-    materials_[0].name = "default";
-    materials_[0].diffuse = Rgb(mesh.colors.empty() ? kModelGray : 1.0f);
+  // Has one material, which is gray, or white where vertices have colors.
+  explicit PlyModel(const ModelSource& source) : MeshModel(source) {
+    const std::string text = readTextFile(source.path, source.budget.left());
+    const std::string file = source.path.string();
+    source.budget.charge(text.size(), 1, file);
+    Mesh mesh = PlyReader(text, file, source.budget, source.warnings).read();
+    Material& material = materials_.emplace_back();
+    material.name = "default";
+    material.diffuse = Rgb(mesh.colors.empty() ? kModelGray : 1.0f);
     if (mesh.triangles.empty()) return;
     mesh.name = source.path.stem().string();
     mesh.materials = {0};
     meshes_.push_back(std::move(mesh));
   }
-
-  // A gray one; white where vertices have colors.
-  const std::vector<Material>& materials() const override { return materials_; }
-  TexturedMaterial withMaps(std::size_t, Material material, const GivenMembers&,
-                            TextureLoader&) override {
-    return {std::move(material), {}};
-  }
-  Body content(SceneLayout&, const std::vector<std::uint32_t>& materials) override {
-    Body body;
-    addParts(meshes_, materials, file_, budget_, body);
-    return body;
-  }
-
- private:
-  std::string file_;
-  MemoryBudget& budget_;
-  std::vector<Material> materials_{1};
-  std::vector<Mesh> meshes_;
 };
 
 }  // namespace

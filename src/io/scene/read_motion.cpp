@@ -27,12 +27,11 @@ class KeyReader {
       time.fail("a time after that of the key before");
     }
     times.push_back(time.number());
-    const auto translate = key.find("translate");
-    add(translate ? translate->vector() : Vec3d());
-    const auto rotate = key.find("rotate");
-    values.push_back(rotate ? readDegrees(*rotate) : 0);
-    const auto scale = key.find("scale");
-    add(scale ? readScale(*scale) : Vec3d(1.0));
+    const JsonValue translate = key.find("translate"), rotate = key.find("rotate");
+    const JsonValue scale = key.find("scale");
+    add(translate ? translate.vector() : Vec3d());
+    values.push_back(rotate ? readDegrees(rotate) : 0);
+    add(scale ? readScale(scale) : Vec3d(1.0));
     key.finish();
   }
 
@@ -87,8 +86,8 @@ void addTangents(bool loops, Track& track) {
 }
 
 Track::Interpolation readInterpolation(JsonObject& motion) {
-  const auto value = motion.find("interpolation");
-  const std::string word = value ? value->word({"linear", "step", "cubic"}) : "linear";
+  const JsonValue value = motion.find("interpolation");
+  const std::string word = value ? value.word({"linear", "step", "cubic"}) : "linear";
   if (word == "step") return Track::Interpolation::step;
   return word == "cubic" ? Track::Interpolation::cubic : Track::Interpolation::linear;
 }
@@ -137,19 +136,18 @@ std::string movableName(const JsonObject& object, const Instant& instant) {
 
 std::shared_ptr<const Motion> readMotion(JsonObject& object, const Instant& instant,
                                          SceneDescription& scene) {
-  const auto value = object.find("motion");
+  const JsonValue value = object.find("motion");
   if (!value) {
     if (movableName(object, instant).empty()) return nullptr;
     return std::make_shared<const FixedMotion>(Affine());
   }
-  JsonObject motion(*value);
+  JsonObject motion(value);
   KeyReader keys;
   const JsonValue list = motion.need("keys");
   for (const JsonValue& key : list.elements()) keys.read(key);
   if (keys.times.empty()) list.fail("at least one key");
   Track track{readInterpolation(motion), false, kKeyNumbers, keys.times, keys.values};
-  const auto loop = motion.find("loop");
-  const bool loops = loop && loop->flag();
+  const bool loops = motion.find("loop").flagOr(false);
   motion.finish();
   if (track.interpolation == Track::Interpolation::cubic) addTangents(loops, track);
   count(track.times.back(), scene);

@@ -52,13 +52,13 @@ Affine readMatrix(const JsonValue& value) {
 Affine readOne(const JsonValue& value) {
   JsonObject object(value);
   Affine result;
-  if (const auto matrix = object.find("matrix")) {
-    result = readMatrix(*matrix);
+  if (const JsonValue matrix = object.find("matrix")) {
+    result = readMatrix(matrix);
   } else {
-    if (const auto scale = object.find("scale")) result = readScale(*scale);
-    if (const auto rotate = object.find("rotate")) result = readRotations(*rotate) * result;
-    if (const auto translate = object.find("translate")) {
-      result = Affine::translation(translate->vector()) * result;
+    if (const JsonValue scale = object.find("scale")) result = readScale(scale);
+    if (const JsonValue rotate = object.find("rotate")) result = readRotations(rotate) * result;
+    if (const JsonValue translate = object.find("translate")) {
+      result = Affine::translation(translate.vector()) * result;
     }
   }
   object.finish();
@@ -82,11 +82,10 @@ Affine readTransform(const JsonValue& value) {
 // Where the copies of an item stand in its parent: "transform", then moved by multiples of the step
 // of "repeat". At least one.
 std::vector<Affine> readPlacements(JsonObject& item) {
-  const auto transform = item.find("transform");
-  const Affine once = transform ? readTransform(*transform) : Affine();
-  const auto value = item.find("repeat");
+  const JsonValue transform = item.find("transform"), value = item.find("repeat");
+  const Affine once = transform ? readTransform(transform) : Affine();
   if (!value) return {once};
-  JsonObject repeat(*value);
+  JsonObject repeat(value);
   const JsonValue countValue = repeat.need("count");
   const auto counts = countValue.elements(3, "three numbers of copies [nx, ny, nz]");
   const Vec3d step = repeat.need("step").vector();
@@ -119,12 +118,15 @@ void nameItem(Body& content, const std::string& pointer) {
   }
 }
 
-[[noreturn]] void failSlot(const JsonValue& slot, const std::string& key,
-                           const std::vector<std::string>& names, const std::string& kind) {
-  throwBadScene(slot.where(), "unknown " + kind + isMeant(key, names));
+// The index in `names` of the key of `slot`; an error suggests the nearest.
+std::size_t slotOf(const JsonValue& slot, const std::string& key,
+                   const std::vector<std::string>& names, const std::string& kind) {
+  const auto found = std::find(names.begin(), names.end(), key);
+  if (found == names.end()) throwBadScene(slot.where(), "unknown " + kind + isMeant(key, names));
+  return static_cast<std::size_t>(found - names.begin());
 }
 
-// By which scene files call them.
+// The names by which scene files call the materials of a model.
 std::vector<std::string> namesOf(const std::vector<Material>& materials) {
   std::vector<std::string> names;
   names.reserve(materials.size());
@@ -152,9 +154,8 @@ class ItemReader {
   Body readShape(JsonObject& item, const JsonValue& name);
   Body readModel(JsonObject& item, const JsonValue& path);
   Body readMesh(JsonObject& item, const JsonValue& name);
+  Body contentOf(Model& model, const std::filesystem::path& path, JsonObject& item);
   std::vector<std::uint32_t> modelMaterials(Model& model, JsonObject& item);
-  Body contentOf(Model& model, const std::filesystem::path& path,
-                 const std::vector<std::uint32_t>& materials);
   std::uint32_t readObject(NamedObject& object, const std::string& name);
 
   SceneContext& context_;
@@ -167,28 +168,21 @@ class ItemReader {
 };
 
 void ItemReader::read(JsonObject& file) {
-  const auto objects = file.find("objects");
-  if (objects) {
-    for (const auto& [name, value] : objects->members()) {
-      objects_.emplace(name, NamedObject{value});
-    }
-    for (const auto& [name, value] : objects->members()) readObject(objects_.at(name), name);
-  }
-  if (const auto scene = file.find("scene")) {
-    const std::vector<JsonValue> items = scene->elements();
-    for (std::size_t i = 0; i < items.size(); ++i) {
-      reportProgress(context_.progress, "reading scene",
-                     static_cast<double>(i) / static_cast<double>(items.size()));
-      readItem(items[i], layout_.body(0));
-    }
+  const auto objects = file.find("objects").members();
+  for (const auto& [name, value] : objects) objects_.emplace(name, NamedObject{value});
+  for (const auto& [name, value] : objects) readObject(objects_.at(name), name);
+  const std::vector<JsonValue> items = file.find("scene").elements();
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    reportProgress(context_.progress, "reading scene",
+                   static_cast<double>(i) / static_cast<double>(items.size()));
+    readItem(items[i], layout_.body(0));
   }
   layout_.moveTo(context_.scene);
 }
 
 void ItemReader::readModelAlone(JsonObject& file, const std::filesystem::path& path) {
   Model& model = context_.model(path, "");
-  const std::vector<std::uint32_t> materials = modelMaterials(model, file);
-  Body content = contentOf(model, path, materials);
+  Body content = contentOf(model, path, file);
   nameItem(content, path.stem().string());
   layout_.append(content, {Affine()}, layout_.body(0));
   layout_.moveTo(context_.scene);
@@ -219,17 +213,17 @@ void ItemReader::readItem(const JsonValue& value, Body& to) {
   }
   JsonObject item(value);
   Body content;
-  if (const auto shape = item.find("shape")) {
-    content = readShape(item, *shape);
-  } else if (const auto model = item.find("model")) {
-    content = readModel(item, *model);
-  } else if (const auto mesh = context_.parts ? item.find("mesh") : std::nullopt) {
-    content = readMesh(item, *mesh);
-  } else if (const auto use = item.find("use")) {
-    const std::string name = findNamed(objects_, *use, "an object")->first;
+  if (const JsonValue shape = item.find("shape")) {
+    content = readShape(item, shape);
+  } else if (const JsonValue model = item.find("model")) {
+    content = readModel(item, model);
+  } else if (context_.parts && item.has("mesh")) {
+    content = readMesh(item, item.find("mesh"));
+  } else if (const JsonValue use = item.find("use")) {
+    const std::string name = findNamed(objects_, use, "an object")->first;
     content.children.push_back({readObject(objects_.at(name), name), Affine(), 0});
-  } else if (const auto group = item.find("group")) {
-    readItems(*group, content);
+  } else if (const JsonValue group = item.find("group")) {
+    readItems(group, content);
   } else {
     item.finish();
     value.fail("an item with \"shape\", \"model\", \"use\" or \"group\"");
@@ -252,38 +246,22 @@ void ItemReader::readItem(const JsonValue& value, Body& to) {
   --depth_;
 }
 
-void refuseRemovedShapes(const JsonValue& name) {
-  const std::pair<std::string, std::string> removed[] = {
-      {"grid", "\"quad\""}, {"tube", "\"tumbler\", or a model of a pipe"}};
-  for (const auto& [shape, instead] : removed) {
-    if (name.isText() && name.text() == shape) {
-      name.fail(instead + " in place of the removed shape");
-    }
-  }
-}
-
 Body ItemReader::readShape(JsonObject& item, const JsonValue& name) {
-  refuseRemovedShapes(name);
   const GenerationLimit limit(context_.budget.left());
   Shape shape = generate(name, shapeGenerators(), item);
-  const auto everywhere = item.find("material");
-  const auto bySlot = item.find("materials");
+  const JsonValue everywhere = item.find("material");
   std::map<std::string, std::uint32_t> slots;
-  if (bySlot) {
-    std::vector<std::string> names;
-    for (const ShapePart& part : shape.parts) names.push_back(part.slot);
-    for (const auto& [slot, material] : bySlot->members()) {
-      if (std::find(names.begin(), names.end(), slot) == names.end()) {
-        failSlot(material, slot, names, "slot of this shape");
-      }
-      slots[slot] = materials_.find(material);
-    }
+  std::vector<std::string> names;
+  for (const ShapePart& part : shape.parts) names.push_back(part.slot);
+  for (const auto& [slot, material] : item.find("materials").members()) {
+    slotOf(material, slot, names, "slot of this shape");
+    slots[slot] = materials_.find(material);
   }
   Body content;
   for (ShapePart& part : shape.parts) {
     const auto slot = slots.find(part.slot);
     const std::uint32_t material = slot != slots.end() ? slot->second
-                                   : everywhere        ? materials_.find(*everywhere)
+                                   : everywhere        ? materials_.find(everywhere)
                                                        : materials_.defaultMaterial();
     context_.budget.charge(1, bytesOf(part.mesh), name.where());
     part.mesh.materials = {material};
@@ -302,18 +280,24 @@ Body ItemReader::readModel(JsonObject& item, const JsonValue& path) {
   const auto file = context_.rules.resolve(path.text(), context_.folder, path.where());
   if (!isModelFile(file)) path.fail("a model (" + modelExtensions() + ")");
   Model& model = context_.model(file, path.where());
-  return contentOf(model, file, modelMaterials(model, item));
+  return contentOf(model, file, item);
+}
+
+Body ItemReader::contentOf(Model& model, const std::filesystem::path& path, JsonObject& item) {
+  const std::vector<std::uint32_t> materials = modelMaterials(model, item);
+  reportProgress(context_.progress, "reading " + path.filename().string(), 0);
+  return model.content(layout_, materials);
 }
 
 // A body of its own, so that one that is placed several times is kept once.
 Body ItemReader::readMesh(JsonObject& item, const JsonValue& name) {
   const auto found = findNamed(context_.parts->meshes, name, "a mesh");
-  const auto named = item.find("material");
-  const std::uint32_t material = named ? materials_.find(*named) : materials_.defaultMaterial();
+  const JsonValue named = item.find("material");
+  const std::uint32_t material = named ? materials_.find(named) : materials_.defaultMaterial();
   const auto [entry, isNew] = meshes_.try_emplace({found->first, material}, 0);
   if (isNew) {
-    context_.budget.charge(1, bytesOf(found->second), name.where());
     Mesh mesh = meshOf(found->second, name.where());
+    context_.budget.charge(1, bytesOf(mesh), name.where());
     mesh.name = found->first;
     mesh.materials = {material};
     entry->second = layout_.add(found->first);
@@ -334,22 +318,18 @@ std::vector<std::uint32_t> ItemReader::modelMaterials(Model& model, JsonObject& 
   for (std::size_t i = 0; i < materials.size(); ++i) {
     materials[i].pointer = section + escapePointer(names[i]);
   }
-  if (const auto overrides = item.find("materials")) {
-    const auto apply = [&](const JsonValue& value, std::size_t i) {
-      JsonObject object(value);
-      materials_.override(object, materials[i], given[i]);
-      object.finish();
-    };
-    for (const auto& [name, value] : overrides->members()) {
-      if (name != "*") continue;
-      for (std::size_t i = 0; i < materials.size(); ++i) apply(value, i);
-    }
-    for (const auto& [name, value] : overrides->members()) {
-      if (name == "*") continue;
-      const auto found = std::find(names.begin(), names.end(), name);
-      if (found == names.end()) failSlot(value, name, names, "material of this model");
-      apply(value, static_cast<std::size_t>(found - names.begin()));
-    }
+  const auto apply = [&](const JsonValue& value, std::size_t i) {
+    JsonObject object(value);
+    materials_.override(object, materials[i], given[i]);
+    object.finish();
+  };
+  const auto overrides = item.find("materials").members();
+  for (const auto& [name, value] : overrides) {
+    if (name != "*") continue;
+    for (std::size_t i = 0; i < materials.size(); ++i) apply(value, i);
+  }
+  for (const auto& [name, value] : overrides) {
+    if (name != "*") apply(value, slotOf(value, name, names, "material of this model"));
   }
   std::vector<std::uint32_t> indices;
   for (std::size_t i = 0; i < materials.size(); ++i) {
@@ -361,12 +341,6 @@ std::vector<std::uint32_t> ItemReader::modelMaterials(Model& model, JsonObject& 
                                    SceneDescription& scene) { change(scene.materials[index]); });
   }
   return indices;
-}
-
-Body ItemReader::contentOf(Model& model, const std::filesystem::path& path,
-                           const std::vector<std::uint32_t>& materials) {
-  reportProgress(context_.progress, "reading " + path.filename().string(), 0);
-  return model.content(layout_, materials);
 }
 
 }  // namespace

@@ -1,54 +1,11 @@
 #include "io/scene/scene_layout.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "core/error.h"
 
 namespace whit {
-namespace {
-
-constexpr std::uint32_t kNoObject = 0xffffffffu;
-
-std::uint64_t saturatingSum(std::uint64_t a, std::uint64_t b) {
-  constexpr std::uint64_t kMany = std::numeric_limits<std::uint64_t>::max();
-  return a > kMany - b ? kMany : a + b;
-}
-
-// Bodies reachable from `body`, each behind all that it holds.
-class BodyOrder {
- public:
-  explicit BodyOrder(const std::deque<Body>& bodies) : bodies_(bodies), heights_(bodies.size()) {}
-
-  std::vector<std::uint32_t> below(std::uint32_t body) {
-    visit(body, 0);
-    return std::move(order_);
-  }
-
- private:
-  // How many bodies are within one another, from `body` down. A body that is met again may be met
-  // deeper than before.
-  int visit(std::uint32_t body, int depth) {
-    if (depth + std::max(heights_[body], 1) > kNestingLimit) {
-      throwLimit("objects are nested deeper than " + std::to_string(kNestingLimit));
-    }
-    if (heights_[body] > 0) return heights_[body];
-    int height = 1;
-    for (const Placement& child : bodies_[body].children) {
-      height = std::max(height, 1 + visit(child.body, depth + 1));
-    }
-    order_.push_back(body);
-    return heights_[body] = height;
-  }
-
-  const std::deque<Body>& bodies_;
-  std::vector<int> heights_;  // 0: not met yet
-  std::vector<std::uint32_t> order_;
-};
-
-}  // namespace
-
 std::uint64_t bytesOf(const Mesh& mesh) {
   return mesh.positions.size() * sizeof(Vec3f) + mesh.normals.size() * sizeof(Vec3f) +
          (mesh.uvs.size() + mesh.secondUvs.size()) * sizeof(Vec2f) +
@@ -57,13 +14,8 @@ std::uint64_t bytesOf(const Mesh& mesh) {
          (mesh.materials.size() + mesh.order.size()) * sizeof(std::uint32_t);
 }
 
-void SceneLayout::Standing::operator+=(const Standing& more) {
-  rank = saturatingSum(rank, more.rank);
-  item = saturatingSum(item, more.item);
-}
-
 std::uint32_t SceneLayout::add(const std::string& name) {
-  bodies_.push_back({name, {}, {}, {}});
+  bodies_.emplace_back().name = name;
   return static_cast<std::uint32_t>(bodies_.size() - 1);
 }
 
@@ -85,36 +37,48 @@ void SceneLayout::append(const Body& from, const std::vector<Affine>& placements
   }
 }
 
+// A body that is met again may be met deeper than before.
+int SceneLayout::measure(std::uint32_t index, int depth, std::vector<std::uint32_t>& order) {
+  Body& body = bodies_[index];
+  if (depth + std::max(body.height, 1) > kNestingLimit) {
+    throwLimit("objects are nested deeper than " + std::to_string(kNestingLimit));
+  }
+  if (body.height > 0) return body.height;
+  int height = 1;
+  body.within = {body.parts.size(), body.itemCount()};
+  for (const Placement& child : body.children) {
+    height = std::max(height, 1 + measure(child.body, depth + 1, order));
+    body.within += bodies_[child.body].within;
+  }
+  order.push_back(index);
+  return body.height = height;
+}
+
 void SceneLayout::moveTo(SceneDescription& scene) {
-  const std::vector<std::uint32_t> order = BodyOrder(bodies_).below(0);
-  counts_.assign(bodies_.size(), 0);
-  objects_.assign(bodies_.size(), kNoObject);
-  counts_[0] = 1;
-  std::uint64_t instances = 0;
-  for (auto body = order.rbegin(); body != order.rend(); ++body) {
-    instances = saturatingSum(instances, counts_[*body]);
-    for (const Placement& child : bodies_[*body].children) {
-      counts_[child.body] = saturatingSum(counts_[child.body], counts_[*body]);
-    }
+  std::vector<std::uint32_t> order;
+  measure(0, 0, order);
+  double instances = 0;  // may be more than an integer can hold
+  bodies_[0].places = 1;
+  for (auto index = order.rbegin(); index != order.rend(); ++index) {
+    const Body& body = bodies_[*index];
+    instances += body.places;
+    for (const Placement& child : body.children) bodies_[child.body].places += body.places;
   }
-  budget_.charge(instances, sizeof(Instance), "instances");
-  within_.assign(bodies_.size(), {});
-  for (const std::uint32_t body : order) {
-    within_[body] = {bodies_[body].parts.size(), bodies_[body].itemCount()};
-    for (const Placement& child : bodies_[body].children) within_[body] += within_[child.body];
-  }
-  scene.items = within_[0].item;
+  constexpr double kMany = 1e18;
+  budget_.charge(static_cast<std::uint64_t>(std::min(instances, kMany)), sizeof(Instance),
+                 "instances");
+  scene.items = bodies_[0].within.item;
   scene.itemNames.resize(std::min<std::uint64_t>(scene.items, kNamedItems));
   place({0, Affine()}, Affine(), kNoNode, {}, scene);
 }
 
-std::vector<SceneLayout::Standing> SceneLayout::standingsOfParts(const Body& body) const {
+std::vector<Standing> SceneLayout::standingsOfParts(const Body& body) const {
   std::vector<Standing> standings(body.parts.size());
   Standing children;
   auto child = body.children.begin();
   for (std::size_t i = 0; i < standings.size(); ++i) {
     for (; child != body.children.end() && child->partsBefore <= i; ++child) {
-      children += within_[child->body];
+      children += bodies_[child->body].within;
     }
     standings[i] = children;
     standings[i] += {i, body.parts[i].item};
@@ -129,7 +93,7 @@ void SceneLayout::nameItems(const Body& body, const ItemName& placed, std::uint6
   if (first >= scene.itemNames.size()) return;
   const std::vector<Standing> standings = standingsOfParts(body);
   for (std::size_t i = 0; i < standings.size(); ++i) {
-    const std::uint64_t number = saturatingSum(first, standings[i].item);
+    const std::uint64_t number = first + standings[i].item;
     if (number >= scene.itemNames.size()) continue;
     const ItemName& own = body.items.empty() ? placed : body.items[body.parts[i].item];
     scene.itemNames[number] = own ? *own : body.name;
@@ -153,24 +117,22 @@ void SceneLayout::placeOnce(Body& body, const Affine& toWorld, Standing at,
     if (!part.mingles) {
       scene.instances.push_back({static_cast<std::uint32_t>(scene.objects.size()),
                                  toWorld * part.toBody, at.rank + standings[i].rank, kNoNode,
-                                 saturatingSum(at.item, standings[i].item)});
+                                 at.item + standings[i].item});
       scene.objects.push_back({mesh.name, {}});
     }
     scene.objects.back().meshes.push_back(std::move(mesh));
   }
 }
 
-void SceneLayout::addObject(std::uint32_t index, SceneDescription& scene) {
-  Body& body = bodies_[index];
-  objects_[index] = static_cast<std::uint32_t>(scene.objects.size());
+void SceneLayout::addObject(Body& body, SceneDescription& scene) {
+  body.object = static_cast<std::uint32_t>(scene.objects.size());
   const std::vector<Standing> standings = standingsOfParts(body);
   Object object{body.name, {}};
   for (std::size_t i = 0; i < body.parts.size(); ++i) {
     Mesh mesh = take(body.parts[i], body.name);
     if (!(body.parts[i].toBody == Affine())) transform(mesh, body.parts[i].toBody);
     mesh.rank = standings[i].rank;
-    mesh.item = static_cast<std::uint32_t>(
-        std::min<std::uint64_t>(standings[i].item, std::numeric_limits<std::uint32_t>::max()));
+    mesh.item = static_cast<std::uint32_t>(standings[i].item);
     object.meshes.push_back(std::move(mesh));
   }
   scene.objects.push_back(std::move(object));
@@ -178,14 +140,13 @@ void SceneLayout::addObject(std::uint32_t index, SceneDescription& scene) {
 
 void SceneLayout::place(const Placement& placed, const Affine& toMover, std::uint32_t mover,
                         Standing at, SceneDescription& scene) {
-  const std::uint32_t index = placed.body;
-  Body& body = bodies_[index];
+  Body& body = bodies_[placed.body];
   nameItems(body, placed.item, at.item, scene);
-  if (counts_[index] == 1 && mover == kNoNode) {
+  if (body.places == 1 && mover == kNoNode) {
     placeOnce(body, toMover, at, scene);
   } else if (!body.parts.empty()) {
-    if (objects_[index] == kNoObject) addObject(index, scene);
-    scene.instances.push_back({objects_[index], toMover, at.rank, mover, at.item});
+    if (body.object == kNoObject) addObject(body, scene);
+    scene.instances.push_back({body.object, toMover, at.rank, mover, at.item});
   }
   for (const Placement& child : body.children) {
     const Affine toChild = toMover * child.toParent;
@@ -199,7 +160,7 @@ void SceneLayout::place(const Placement& placed, const Affine& toMover, std::uin
     } else {
       place(child, toChild, mover, ofChild, scene);
     }
-    at += within_[child.body];
+    at += bodies_[child.body].within;
   }
 }
 

@@ -21,14 +21,14 @@ Wrap readWrapWord(const JsonValue& value) {
 }
 
 void readWrap(JsonObject& object, Wrap& u, Wrap& v) {
-  const auto value = object.find("wrap");
+  const JsonValue value = object.find("wrap");
   if (!value) return;
-  if (value->isArray()) {
-    const auto both = value->elements(2, "one way to wrap, or two [u, v]");
+  if (value.isArray()) {
+    const auto both = value.elements(2, "one way to wrap, or two [u, v]");
     u = readWrapWord(both[0]);
     v = readWrapWord(both[1]);
   } else {
-    u = v = readWrapWord(*value);
+    u = v = readWrapWord(value);
   }
 }
 
@@ -48,8 +48,8 @@ Texture makePattern(const JsonValue& definition, std::uint64_t mostBytes) {
 }
 
 bool saysData(JsonObject& texture) {
-  const auto as = texture.find("as");
-  return as && as->word({"color", "data"}) == "data";
+  const JsonValue as = texture.find("as");
+  return as && as.word({"color", "data"}) == "data";
 }
 
 // Warns of a material that is given more light to send out than it gets. Thin coats over white are
@@ -81,15 +81,11 @@ void warnOfSum(const Material& m, const std::string& where, Warnings& warnings) 
 }  // namespace
 
 MaterialReader::MaterialReader(JsonObject& file, SceneContext& context) : context_(context) {
-  if (const auto textures = file.find("textures")) {
-    for (const auto& [name, value] : textures->members()) {
-      if (!value.isObject()) value.fail("an object");
-      textures_.emplace(name, NamedTexture{value, {}});
-    }
+  for (const auto& [name, value] : file.find("textures").members()) {
+    if (!value.isObject()) value.fail("an object");
+    textures_.emplace(name, NamedTexture{value, {}});
   }
-  const auto materials = file.find("materials");
-  if (!materials) return;
-  for (const auto& [name, value] : materials->members()) {
+  for (const auto& [name, value] : file.find("materials").members()) {
     JsonObject object(value);
     Material material;
     material.name = name;
@@ -137,7 +133,9 @@ std::int32_t MaterialReader::load(const JsonValue& definition, const JsonValue& 
   const JsonValue image = object.need(isArray ? "array" : "image");
   TextureSource source;
   source.where = image.where();
-  if (!isArray) {
+  if (isArray) {
+    source.given = &findNamed(context_.parts->images, image, "an array")->second;
+  } else {
     source.path = context_.rules.resolve(image.text(), context_.folder, source.where).string();
   }
   readWrap(object, source.wrapU, source.wrapV);
@@ -147,9 +145,7 @@ std::int32_t MaterialReader::load(const JsonValue& definition, const JsonValue& 
     if (is == TexelFormat::data) use = TextureUse::data;
   }
   object.finish();
-  if (!isArray) return context_.textures.add(source, {use})[0];
-  const GivenImage& given = findNamed(context_.parts->images, image, "an array")->second;
-  return context_.textures.add(given, source, use);
+  return context_.textures.add(source, {use})[0];
 }
 
 std::int32_t MaterialReader::texture(const JsonValue& name, TextureUse use) {
@@ -181,9 +177,9 @@ void MaterialReader::checkUnused() {
 void MaterialReader::read(JsonObject& object, Material& m) {
   readMembers(object, m);
   forEachMap([&](const auto& member) {
-    const auto name = object.find(member.name);
+    const JsonValue name = object.find(member.name);
     if (!name) return;
-    m.*member.field = name->isNull() ? kNoTexture : texture(*name, member.rules.use);
+    m.*member.field = name.isNull() ? kNoTexture : texture(name, member.rules.use);
   });
   // Defaults that follow from other members; see `decides` in scene/members.h.
   if (m.coverageMap != kNoTexture && m.alphaMap == kNoTexture) m.cutWhereClear();

@@ -82,12 +82,6 @@ std::vector<std::array<std::uint32_t, 3>> trianglesOf(const GivenMesh& given, st
 
 }  // namespace
 
-std::uint64_t bytesOf(const GivenMesh& given) {
-  const std::size_t triangles = std::max(given.triangles.size(), given.positions.size() / 3);
-  return given.positions.size_bytes() + given.normals.size_bytes() + given.uvs.size_bytes() +
-         given.colors.size_bytes() + triangles * sizeof(std::uint32_t);
-}
-
 Mesh meshOf(const GivenMesh& given, const std::string& where) {
   const std::size_t vertices = given.positions.size() / 3;
   if (given.positions.size() % 3 != 0) {

@@ -29,6 +29,8 @@ struct GivenImage {
   std::span<const std::uint8_t> codes;
   std::span<const float> values;
   std::shared_ptr<const void> keep;
+
+  std::size_t bytes() const { return codes.size_bytes() + values.size_bytes(); }
 };
 
 // By the names that the text calls them: {"mesh": "bunny"} in place of {"model": "bunny.ply"},
@@ -37,8 +39,6 @@ struct SceneParts {
   std::map<std::string, GivenMesh> meshes;
   std::map<std::string, GivenImage> images;
 };
-
-std::uint64_t bytesOf(const GivenMesh& given);  // that meshOf() takes
 
 // Each throws Error(badScene) at `where` for arrays whose lengths do not go together, for numbers
 // that are not finite or out of their range, and for triangles of vertices that there are not.

@@ -26,10 +26,8 @@ void readMover(JsonObject& object, const Instant& instant, SceneDescription& sce
 }
 
 void readPath(JsonObject& file, SceneDescription& scene) {
-  const auto path = file.find("path");
-  if (!path) return;
   Camera camera = scene.cameras.empty() ? Camera() : scene.cameras.front();
-  for (const JsonValue& value : path->elements()) {
+  for (const JsonValue& value : file.find("path").elements()) {
     JsonObject object(value);
     Keyframe frame;
     frame.time = static_cast<float>(object.need("time").number());
@@ -55,6 +53,20 @@ void readLight(JsonObject& object, Light& light) {
   }
 }
 
+template <typename Noun>
+Json describeMembers(const Noun& noun) {
+  Json json;
+  forEachMemberInFiles(
+      noun, [&](const auto& member) { json[member.name] = describe(noun.*member.field); });
+  return json;
+}
+
+bool leavesFolder(const std::filesystem::path& path) { return *path.begin() == ".."; }
+
+std::filesystem::path absolutePath(const std::filesystem::path& path) {
+  return std::filesystem::weakly_canonical(std::filesystem::current_path() / path);
+}
+
 }  // namespace
 
 void readCamera(JsonObject& object, Camera& camera) {
@@ -67,40 +79,35 @@ void readCamera(JsonObject& object, Camera& camera) {
 }
 
 void readCameras(JsonObject& file, const Instant& instant, SceneDescription& scene) {
-  if (const auto size = file.find("size")) {
-    const auto sides = size->elements(2, "[width, height]");
+  if (const JsonValue size = file.find("size")) {
+    const auto sides = size.elements(2, "[width, height]");
     scene.width = sides[0].integer(1, kImageSideLimit);
     scene.height = sides[1].integer(1, kImageSideLimit);
   }
-  if (const auto cameras = file.find("cameras")) {
-    for (const auto& [name, value] : cameras->members()) {
-      JsonObject object(value);
-      object.need("eye");
-      object.need("at");
-      Camera camera;
-      camera.name = name;
-      readCamera(object, camera);
-      const auto index = static_cast<std::uint32_t>(scene.cameras.size());
-      readMover(
-          object, instant, scene, [&, own = camera](const Affine& map) { carry(own, map, camera); },
-          [&](std::uint32_t node) {
-            scene.motion.cameras.push_back({index, node, camera});
-          });
-      object.finish();
-      scene.cameras.push_back(camera);
-    }
+  for (const auto& [name, value] : file.find("cameras").members()) {
+    JsonObject object(value);
+    object.need("eye");
+    object.need("at");
+    Camera camera;
+    camera.name = name;
+    readCamera(object, camera);
+    const auto index = static_cast<std::uint32_t>(scene.cameras.size());
+    readMover(
+        object, instant, scene, [&, own = camera](const Affine& map) { carry(own, map, camera); },
+        [&](std::uint32_t node) {
+          scene.motion.cameras.push_back({index, node, camera});
+        });
+    object.finish();
+    scene.cameras.push_back(camera);
   }
   readPath(file, scene);
 }
 
 void readLights(JsonObject& file, const Instant& instant, SceneDescription& scene) {
-  const auto lights = file.find("lights");
-  if (!lights) return;
-  for (const JsonValue& value : lights->elements()) {
+  for (const JsonValue& value : file.find("lights").elements()) {
     JsonObject object(value);
     Light light;
-    const auto name = object.find("name");
-    light.name = name ? name->text() : "light " + std::to_string(scene.lights.size() + 1);
+    light.name = object.find("name").textOr("light " + std::to_string(scene.lights.size() + 1));
     light.pointer = value.pointer();
     readLight(object, light);
     MovingLight moving{static_cast<std::uint32_t>(scene.lights.size()), kNoNode, light.position,
@@ -117,37 +124,37 @@ void readLights(JsonObject& file, const Instant& instant, SceneDescription& scen
 }
 
 void readSky(JsonObject& file, SceneContext& context) {
-  const auto value = file.find("sky");
+  const JsonValue value = file.find("sky");
   if (!value) return;
-  JsonObject object(*value);
+  JsonObject object(value);
   Sky& sky = context.scene.sky;
   sky = Sky();
   sky.scale = object.number("scale", sky.scale, 0);
-  if (const auto image = object.find("image")) {
+  if (const JsonValue image = object.find("image")) {
     sky.kind = Sky::Kind::image;
     sky.rotation = object.number("rotation", sky.rotation);
-    const auto path = context.rules.resolve(image->text(), context.folder, image->where());
+    const auto path = context.rules.resolve(image.text(), context.folder, image.where());
     sky.name = path.filename().string();
     if (context.sky.empty()) {
-      context.textures.addEnvironment(path.string(), image->where(), sky.image);
+      context.textures.addEnvironment(path.string(), image.where(), sky.image);
     }
-  } else if (const auto preset = object.find("preset")) {
-    preset->word({kStudio});
+  } else if (const JsonValue preset = object.find("preset")) {
+    preset.word({kStudio});
     const float scale = sky.scale;
     sky = studioSky();
     sky.scale = scale;
     sky.rotation = object.number("rotation", sky.rotation);
-  } else if (const auto color = object.find("color")) {
+  } else if (const JsonValue color = object.find("color")) {
     sky.kind = Sky::Kind::color;
-    sky.zenith = sky.horizon = sky.ground = color->color();
-  } else if (const auto zenith = object.find("zenith")) {
+    sky.zenith = sky.horizon = sky.ground = color.color();
+  } else if (const JsonValue zenith = object.find("zenith")) {
     sky.kind = Sky::Kind::gradient;
-    sky.zenith = zenith->color();
+    sky.zenith = zenith.color();
     sky.horizon = object.need("horizon").color();
     sky.ground = object.need("ground").color();
   } else {
     object.finish();
-    value->fail(
+    value.fail(
         "a sky with \"color\", with \"zenith\", \"horizon\" and \"ground\", with \"image\" or with "
         "\"preset\"");
   }
@@ -155,44 +162,26 @@ void readSky(JsonObject& file, SceneContext& context) {
 }
 
 std::optional<double> readAmbient(JsonObject& file, SceneDescription& scene) {
-  const auto value = file.find("ambient");
+  const JsonValue value = file.find("ambient");
   if (!value) return std::nullopt;
-  JsonObject object(*value);
+  JsonObject object(value);
   scene.ambient.occlusion = object.number("occlusion", 0, 0);
   std::optional<double> fromSky;
-  if (const auto strength = object.find("fromSky")) {
-    fromSky = strength->number(0);
-    if (scene.sky.kind == Sky::Kind::none) strength->fail("a scene with a sky");
-  } else if (const auto color = object.find("color")) {
-    scene.ambient.up = scene.ambient.down = color->color();
-  } else if (const auto up = object.find("up")) {
-    scene.ambient.up = up->color();
+  if (const JsonValue strength = object.find("fromSky")) {
+    fromSky = strength.number(0);
+    if (scene.sky.kind == Sky::Kind::none) strength.fail("a scene with a sky");
+  } else if (const JsonValue color = object.find("color")) {
+    scene.ambient.up = scene.ambient.down = color.color();
+  } else if (const JsonValue up = object.find("up")) {
+    scene.ambient.up = up.color();
     scene.ambient.down = object.need("down").color();
   } else {
     object.finish();
-    value->fail("\"fromSky\", \"color\", or \"up\" and \"down\"");
+    value.fail("\"fromSky\", \"color\", or \"up\" and \"down\"");
   }
   object.finish();
   return fromSky;
 }
-
-namespace {
-
-template <typename Noun>
-Json describeMembers(const Noun& noun) {
-  Json json;
-  forEachMemberInFiles(
-      noun, [&](const auto& member) { json[member.name] = describe(noun.*member.field); });
-  return json;
-}
-
-bool leavesFolder(const std::filesystem::path& path) { return *path.begin() == ".."; }
-
-std::filesystem::path absolutePath(const std::filesystem::path& path) {
-  return std::filesystem::weakly_canonical(std::filesystem::current_path() / path);
-}
-
-}  // namespace
 
 Json describe(float x) {
   const double shortest = std::strtod(formatValue(OptionSpec{}, x).c_str(), nullptr);

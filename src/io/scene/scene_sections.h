@@ -93,25 +93,25 @@ class JsonShapeParameters : public ShapeParameters {
   explicit JsonShapeParameters(JsonObject& object) : object_(object) {}
 
   double number(const std::string& key, double fallback, double low, double high) override {
-    const auto value = object_.find(key);
-    return value ? value->number(low, high) : fallback;
+    const JsonValue value = object_.find(key);
+    return value ? value.number(low, high) : fallback;
   }
   int integer(const std::string& key, int fallback, int low, int high) override {
-    const auto value = object_.find(key);
-    return value ? value->integer(low, high) : fallback;
+    const JsonValue value = object_.find(key);
+    return value ? value.integer(low, high) : fallback;
   }
   bool flag(const std::string& key, bool fallback) override {
-    const auto value = object_.find(key);
-    return value ? value->flag() : fallback;
+    const JsonValue value = object_.find(key);
+    return value ? value.flag() : fallback;
   }
   Vec3d vector(const std::string& key, const Vec3d& fallback) override {
-    const auto value = object_.find(key);
-    return value ? value->vector() : fallback;
+    const JsonValue value = object_.find(key);
+    return value ? value.vector() : fallback;
   }
   std::string word(const std::string& key, const std::string& fallback,
                    const std::vector<std::string>& choices) override {
-    const auto value = object_.find(key);
-    return value ? value->word(choices) : fallback;
+    const JsonValue value = object_.find(key);
+    return value ? value.word(choices) : fallback;
   }
 
  private:

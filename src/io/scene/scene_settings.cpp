@@ -2,9 +2,15 @@
 
 #include <algorithm>
 #include <charconv>
+#include <optional>
+#include <string_view>
 #include <utility>
 
+#include "bake/edit_shading.h"
+#include "bake/scene.h"
 #include "core/error.h"
+#include "io/load_scene.h"
+#include "io/scene/scene_sections.h"
 
 namespace whit {
 namespace {
@@ -40,6 +46,77 @@ std::size_t indexOf(const std::string& token, const Json& list, const JsonValue&
 bool areRelated(const std::vector<std::string>& a, const std::vector<std::string>& b) {
   return std::equal(
       a.begin(), a.begin() + static_cast<std::ptrdiff_t>(std::min(a.size(), b.size())), b.begin());
+}
+
+bool editLights(const LoadOptions& options, const JsonDocument& sections, Scene& scene) {
+  SceneDescription read;
+  JsonObject file{JsonValue(sections)};
+  readLights(file, options.instant, read);
+  const bool moves = scene.motion.ofLights() || !read.motion.lights.empty();
+  if (moves || read.lights.size() != scene.lights.size()) return false;
+  editShading(scene, scene.materials, std::move(read.lights));
+  return true;
+}
+
+// Edits cameras that stand still, and the image size. The positions of cameras decide which
+// instances are too small to be traced.
+bool editView(const LoadOptions& options, const JsonDocument& sections, Scene& scene) {
+  SceneDescription read;
+  JsonObject file{JsonValue(sections)};
+  readCameras(file, options.instant, read);
+  const bool moves = !scene.motion.given.cameras.empty() || !read.motion.cameras.empty();
+  if (moves || read.cameras.empty() || !scene.instances.empty()) return false;
+  scene.cameras = std::move(read.cameras);
+  scene.cameraPath = std::move(read.cameraPath);
+  scene.width = read.width;
+  scene.height = read.height;
+  gatherEffects(scene);
+  return true;
+}
+
+bool editSurroundings(const LoadOptions& options, const JsonDocument& sections, Scene& scene) {
+  if (!options.sky.empty() || scene.sky.kind == Sky::Kind::image) return false;
+  Warnings none;
+  SceneContext context("scene", options, none, nullptr);
+  JsonObject file{JsonValue(sections)};
+  const JsonValue given = file.find("sky");
+  if (given.isObject() && given["image"]) return false;
+  readSky(file, context);
+  const std::optional<double> fromSky = readAmbient(file, context.scene);
+  Sky& sky = context.scene.sky;
+  if (sky.kind == Sky::Kind::image) return false;
+  const Ambient& ambient = context.scene.ambient;
+  editSky(scene, sky, fromSky ? ambientFromSky(sky, *fromSky, ambient) : ambient);
+  return true;
+}
+
+bool isBakedIn(std::string_view name) {
+  bool baked = false;
+  forEachMember<Material>(
+      [&](const auto& member) { baked = baked || (member.rules.baked && member.name == name); });
+  return baked;
+}
+
+bool editMaterial(const SceneSetting& setting, const LoadOptions& options, JsonDocument& sections,
+                  Scene& scene) {
+  const std::string& name = setting.tokens[1];
+  const std::string pointer = "/materials/" + escapePointer(name);
+  const auto known = std::find_if(scene.materials.begin(), scene.materials.end(),
+                                  [&](const Material& m) { return m.pointer == pointer; });
+  if (known == scene.materials.end()) return false;
+  Json members = std::move(sections.root["materials"][name]);
+  forEachMap([&](const auto& member) { members.erase(member.name); });
+  sections.root["materials"] = {{name, std::move(members)}};
+  Warnings none;
+  SceneContext context("scene", options, none, nullptr);
+  JsonObject file{JsonValue(sections)};
+  MaterialReader reader(file, context);
+  Material& read = context.scene.materials.front();
+  if (read.castsShadow != known->castsShadow) return false;
+  std::vector<Material> materials = scene.materials;
+  materials[static_cast<std::size_t>(known - scene.materials.begin())] = std::move(read);
+  editShading(scene, std::move(materials), scene.lights);
+  return true;
 }
 
 }  // namespace
@@ -95,6 +172,29 @@ void applySceneSetting(const SceneSetting& setting, JsonDocument& document) {
     }
   }
   *at = setting.value;
+}
+
+bool editScene(const SceneSetting& setting, const LoadOptions& options, JsonDocument* document,
+               Scene& scene) {
+  const std::string& section = setting.tokens.front();
+  JsonDocument lights{scene.name, {{"lights", describe(scene.lights)}}, {}};
+  const JsonDocument& from = document ? *document : lights;
+  if (!document && section != "lights") return false;
+  JsonDocument sections{from.file, Json::object(), from.parameters};
+  for (const auto& [name, value] : from.root.items()) {
+    if (name != "objects" && name != "scene") sections.root[name] = value;
+  }
+  applySceneSetting(setting, sections);
+  bool done = false;
+  if (section == "lights") done = editLights(options, sections, scene);
+  if (section == "cameras" || section == "size") done = editView(options, sections, scene);
+  if (section == "sky" || section == "ambient") done = editSurroundings(options, sections, scene);
+  if (section == "materials" && setting.tokens.size() > 2 && !isBakedIn(setting.tokens[2]) &&
+      from.root.contains(Json::json_pointer{} / section / setting.tokens[1])) {
+    done = editMaterial(setting, options, sections, scene);
+  }
+  if (done && document) applySceneSetting(setting, *document);
+  return done;
 }
 
 }  // namespace whit
