@@ -6,7 +6,7 @@
 
 #include "bake/move_scene.h"
 #include "core/error.h"
-#include "core/printable.h"
+#include "core/formatted.h"
 #include "io/paths.h"
 
 namespace whit::view {

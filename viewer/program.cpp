@@ -5,7 +5,6 @@
 #include "cli/app/open_scene.h"
 #include "cli/app/progress_bar.h"
 #include "core/error.h"
-#include "core/version.h"
 #include "viewer/app.h"
 
 namespace whit::view {
@@ -65,7 +64,7 @@ int runViewer(const std::vector<std::string>& words, ScriptedUser* scripted) {
     return 0;
   }
   if (words == std::vector<std::string>{"--version"}) {
-    std::printf("whit-view %s\n", versionText());
+    std::printf("whit-view %s\n", WHIT_VERSION);
     return 0;
   }
   if (words.size() == 2 && words[0] == "--completion") {

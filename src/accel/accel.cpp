@@ -354,7 +354,6 @@ void Accel::sceneMoved() { parts_->embree.update(scene_); }
 int Accel::packet() const { return parts_->packet; }
 std::string Accel::description() const { return parts_->description; }
 std::uint64_t Accel::memoryBytes() const { return parts_->embree.memoryBytes(); }
-std::uint64_t Accel::sphereBytes() const { return parts_->embree.sphereBytes(); }
 
 void Accel::findHits(Chunk& c) const noexcept {
   for (std::size_t s = 0; s < c.segmentCount; ++s) {

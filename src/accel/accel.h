@@ -95,7 +95,6 @@ class Accel {
   int packet() const;
   std::string description() const;  // "3.13.5 avx2"
   std::uint64_t memoryBytes() const;
-  std::uint64_t sphereBytes() const;  // of it, what is kept of spheres beside the BVH
 
   struct Parts;  // accel.cpp; no other folder sees Embree
 

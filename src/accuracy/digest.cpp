@@ -7,12 +7,11 @@
 #include <iterator>
 #include <memory>
 #include <new>
-#include <optional>
 #include <tuple>
 #include <vector>
 
 #include "core/formatted.h"
-#include "core/options.h"
+#include "core/option_table.h"
 #include "scene/members.h"
 
 namespace whit::accuracy {
@@ -48,7 +47,7 @@ constexpr bool kIsOneOf = (std::is_same_v<T, Others> || ...);
 template <typename T>
 constexpr bool kPlain = std::is_arithmetic_v<T> || std::is_enum_v<T> ||
                         kIsOneOf<T, Vec3f, Vec3d, Affine, TriangleRecord, NormalRecord, ColorRecord,
-                                 UvRecord, ImageSize, Crop, EffectSet, ChannelSet>;
+                                 UvRecord, EffectSet>;
 static_assert(sizeof(Affine) == 12 * sizeof(double) &&
               sizeof(TriangleRecord) == 16 * sizeof(float) &&
               sizeof(NormalRecord) == 9 * sizeof(float) &&
@@ -59,16 +58,6 @@ constexpr bool kPlain<std::array<T, n>> = kPlain<T>;
 template <typename T>
 requires kPlain<T>
 void add(Digester& d, const T& value) { d.bytes(&value, sizeof value); }
-
-void add(Digester& d, const std::string& text) { d.text(text); }
-
-template <typename T>
-void add(Digester& d, const std::optional<T>& value) {
-  add(d, value.has_value());
-  if (value) add(d, *value);
-}
-
-void add(Digester& d, const Exposure& exposure) { add(d, exposure.ev), add(d, exposure.automatic); }
 
 // The bindings below name every member, so that a new member does not compile until it is added
 // here.
@@ -139,11 +128,9 @@ std::string digestOf(const Scene& scene) {
 
 std::string digestOf(const RenderOptions& options) {
   Digester d;
-  forEachOption(options, [&](const OptionSpec& spec, const auto& field) {
-    if (!spec.changesPicture || spec.name == "quality") return;
-    d.text(spec.name);
-    add(d, field);
-  });
+  for (const auto& [name, value] : pictureOptions(options)) {
+    if (name != "quality") d.text(name), d.text(value);
+  }
   return d.hex();
 }
 

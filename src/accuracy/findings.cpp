@@ -48,28 +48,16 @@ std::vector<std::size_t> paretoFront(const std::vector<CostAndError>& points) {
 }
 
 void markFronts(std::vector<Point>& points) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   std::vector<CostAndError> total, same;
-  std::vector<Point*> timed, withSame;
   for (Point& point : points) {
-    point.onFront = point.onFrontSameSamples = point.coversNeighbor = false;
-    if (!point.timing.hasSpread()) continue;
-    total.push_back({point.timing.settledMs, point.total.flipMean});
-    timed.push_back(&point);
-    if (!point.sameSamples) continue;
-    same.push_back({point.timing.settledMs, point.sameSamples->flipMean});
-    withSame.push_back(&point);
+    point.onFront = point.onFrontSameSamples = false;
+    const double ms = point.timing.hasSpread() ? point.timing.settledMs : kNone;
+    total.push_back({ms, point.total.flipMean});
+    same.push_back({ms, point.sameSamples ? point.sameSamples->flipMean : kNone});
   }
-  Point* before = nullptr;
-  for (const std::size_t i : paretoFront(total)) {
-    Point* const point = timed[i];
-    point->onFront = true;
-    if (before) {
-      before->coversNeighbor |= before->timing.reaches(point->timing);
-      point->coversNeighbor = point->timing.reaches(before->timing);
-    }
-    before = point;
-  }
-  for (const std::size_t i : paretoFront(same)) withSame[i]->onFrontSameSamples = true;
+  for (const std::size_t i : paretoFront(total)) points[i].onFront = true;
+  for (const std::size_t i : paretoFront(same)) points[i].onFrontSameSamples = true;
 }
 
 const Point* bestWithin(const SceneSweep& sweep, double ms) {

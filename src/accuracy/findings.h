@@ -19,8 +19,7 @@ struct CostAndError {
 // Points that are not finite are never on the front.
 std::vector<std::size_t> paretoFront(const std::vector<CostAndError>& points);
 
-// Sets onFront, coversNeighbor and onFrontSameSamples. Points whose time has no spread are left
-// out.
+// Sets onFront and onFrontSameSamples. Points whose time has no spread are left out.
 void markFronts(std::vector<Point>& points);
 
 // Frame times that the report gives a choice for: a game, a preview, a still, a long wait.

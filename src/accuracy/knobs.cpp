@@ -1,10 +1,8 @@
 #include "accuracy/knobs.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <sstream>
 
-#include "accuracy/digest.h"
 #include "core/error.h"
 #include "core/nearest_name.h"
 #include "core/option_table.h"
@@ -68,9 +66,9 @@ void Knob::makeExact(RenderOptions& options, float cutoff) const {
 }
 
 std::string Knob::idle(EffectSet effects) const {
-  for (const Need& need : spec.needs) {
-    const bool needed = need.oneOf.bits() != 0;
-    if (needed && (need.oneOf.bits() & effects.bits()) == 0) return std::string(need.without);
+  for (const EffectSet needed : spec.needs) {
+    if (needed.bits() == 0 || (needed.bits() & effects.bits()) != 0) continue;
+    return "not among the effects of the scene: " + formatValue(OptionSpec{}, needed);
   }
   return {};
 }
@@ -124,28 +122,6 @@ RenderOptions referenceOptions(const RenderOptions& options, int samples, float 
   RenderOptions exact = exactIn(exactAtSameSamples(options, cutoff), Cause::sampling, cutoff);
   exact.spp = samples;
   return exact;
-}
-
-bool hasTransport(const RenderOptions& options) {
-  return digestOf(options) != digestOf(withoutTransport(options));
-}
-
-double transportPaths(const RenderOptions& options) {
-  double ofSurfel = 0;
-  for (const Knob& knob : allKnobs()) {
-    if (knob.cause != Cause::transport) continue;
-    ofSurfel = std::max(ofSurfel, std::strtod(optionText(options, knob.name).c_str(), nullptr));
-  }
-  return options.spp * ofSurfel;
-}
-
-RenderOptions withoutTransport(RenderOptions options) {
-  const RenderOptions defaults;
-  for (const Knob& knob : allKnobs()) {
-    if (knob.cause == Cause::transport)
-      setOption(options, knob.name, optionText(defaults, knob.name));
-  }
-  return options;
 }
 
 RenderOptions transportOptions(const RenderOptions& options, int samples) {

@@ -52,12 +52,12 @@ RenderOptions exactAtSameSamples(const RenderOptions& options, float cutoff);
 // The same with `samples` samples in every pixel, the reference of all points.
 RenderOptions referenceOptions(const RenderOptions& options, int samples, float cutoff);
 
-// True for options with light that Whitted's model leaves out.
-bool hasTransport(const RenderOptions& options);
-// The options without that light.
-RenderOptions withoutTransport(RenderOptions options);
+// True for options with the light that Whitted's model leaves out, which is indirect light.
+inline bool hasTransport(const RenderOptions& options) { return options.indirect > 0; }
 // The number of paths of such light in a pixel: samples of the pixel times samples of a surfel.
-double transportPaths(const RenderOptions& options);
+inline double transportPaths(const RenderOptions& options) {
+  return options.spp * options.indirect;
+}
 // The cutoff of the picture with all transport. Paths between diffuse surfaces do not end by
 // themselves.
 inline constexpr float kTransportCutoff = 1e-4f;

@@ -8,7 +8,6 @@
 
 #include "accuracy/knobs.h"
 #include "inspect/metrics.h"
-#include "inspect/stage_comparison.h"
 #include "render/renderer.h"
 
 namespace whit::accuracy {
@@ -33,10 +32,6 @@ struct Timing {
   double settledMs = 0;  // ratio times the baseline's median: drift of the machine cancels
   bool hasSpread() const { return rounds >= kLeastRounds; }
   double spreadPct() const { return ratio > 0 ? 50 * (ratioHigh - ratioLow) / ratio : 0; }
-  // True if the other's time is within the spread of this one.
-  bool reaches(const Timing& other) const {
-    return ratioLow <= other.ratio && other.ratio <= ratioHigh;
-  }
   bool noisy() const { return rounds < kConfidentRounds || spreadPct() > kNoisyPct; }
 };
 
@@ -64,7 +59,6 @@ struct Point {
   Timing timing;
   FrameStats stats;       // of the last frame: rays by kind
   ImageDifference total;  // against the truth
-  double totalHdrFlip = 0;
   // The pipeline without approximations against its limit for many samples, which is the reference,
   // or the picture with all transport if the point has all transport.
   ImageDifference sampling;
@@ -74,9 +68,7 @@ struct Point {
   // Against the exact scalar reference with equal samples, if the point has the baseline's samples.
   std::optional<ImageDifference> sameSamples;
   std::optional<ArithmeticError> arithmetic;
-  bool onFront = false;  // of `total` over time
-  // It is on that front, and the time of a neighbor there is within the spread of its time.
-  bool coversNeighbor = false;
+  bool onFront = false;             // of `total` over time
   bool onFrontSameSamples = false;  // of `sameSamples` over time
   // PNG files: the displayed image, its difference from the truth and from the exact picture with
   // equal samples. They are empty if the picture is the baseline's, and for combinations off the
@@ -114,18 +106,9 @@ struct SceneSweep {
   std::vector<Point> points;       // the baseline first, then in the order of the table of options
   std::vector<std::string> order;  // labels in the order in which they were measured
   std::vector<IdleKnob> idle;
-  std::vector<StageDifference> stages;  // of the baseline
   std::string truthPng;
   std::optional<TransportFacts> transport;  // set if it is the truth
   Truth truth() const { return transport ? Truth::transport : Truth::model; }
-};
-
-// The machine and the settings, the same for all points of a run.
-struct RunFacts {
-  std::string cpu, compiler, commit;
-  int cores = 1;
-  std::uint32_t seed = 1;
-  bool full = false;
 };
 
 }  // namespace whit::accuracy

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <random>
-#include <set>
 
 #include "accuracy/digest.h"
 #include "accuracy/sweep.h"
@@ -19,29 +18,22 @@ RenderOptions presetOf(const RenderOptions& base, const std::string& quality) {
   return options;
 }
 
-// Collects points, without those whose options an earlier point has.
-class PointCollector {
- public:
-  explicit PointCollector(std::vector<Point>& points) : points_(points) {
-    for (const Point& point : points) seen_.insert(digestOf(point.options));
+// Adds a point, unless an earlier one has its options.
+void addPoint(std::vector<Point>& points, PointKind kind, const std::string& knob,
+              const std::string& value, std::optional<Cause> cause, const RenderOptions& options,
+              bool spare = false) {
+  const std::string digest = digestOf(options);
+  for (const Point& earlier : points) {
+    if (digestOf(earlier.options) == digest) return;
   }
-  void add(PointKind kind, const std::string& knob, const std::string& value,
-           std::optional<Cause> cause, const RenderOptions& options, bool spare = false) {
-    if (!seen_.insert(digestOf(options)).second) return;
-    Point point;
-    point.kind = kind;
-    point.knob = knob;
-    point.value = value;
-    point.cause = cause;
-    point.options = options;
-    point.spare = spare;
-    points_.push_back(std::move(point));
-  }
-
- private:
-  std::vector<Point>& points_;
-  std::set<std::string> seen_;
-};
+  Point& point = points.emplace_back();
+  point.kind = kind;
+  point.knob = knob;
+  point.value = value;
+  point.cause = cause;
+  point.options = options;
+  point.spare = spare;
+}
 
 // True if the knob's values are plain numbers of samples of pixels, lobes or lights.
 bool countsSamples(const Knob& knob) {
@@ -92,11 +84,11 @@ std::string Point::label() const { return kind == PointKind::knob ? knob + "=" +
 PointList makePoints(const RenderOptions& base, EffectSet effects, const std::vector<Knob>& knobs,
                      std::size_t jointLimit, std::uint32_t seed) {
   PointList list;
-  PointCollector collector(list.points);
   const bool standard = digestOf(base) == digestOf(presetOf(base, "standard"));
-  collector.add(PointKind::baseline, "", standard ? "standard" : "baseline", {}, base);
+  addPoint(list.points, PointKind::baseline, "", standard ? "standard" : "baseline", {}, base);
   for (const QualityPreset& preset : qualityPresets()) {
-    collector.add(PointKind::preset, "quality", preset.name, {}, presetOf(base, preset.name));
+    addPoint(list.points, PointKind::preset, "quality", preset.name, {},
+             presetOf(base, preset.name));
   }
   std::vector<Knob> active;
   for (const Knob& knob : knobs) {
@@ -114,7 +106,8 @@ PointList makePoints(const RenderOptions& base, EffectSet effects, const std::ve
       }
       RenderOptions options = base;
       value.apply(options);
-      collector.add(PointKind::knob, knob.name, value.label, knob.cause, options, value.spare);
+      addPoint(list.points, PointKind::knob, knob.name, value.label, knob.cause, options,
+               value.spare);
     }
   }
   if (jointLimit == 0) return list;
@@ -124,7 +117,7 @@ PointList makePoints(const RenderOptions& base, EffectSet effects, const std::ve
   const std::size_t limit = list.points.size() + jointLimit;
   for (const auto& [label, options] : joint) {
     if (list.points.size() >= limit) break;
-    collector.add(PointKind::joint, "", label, {}, options);
+    addPoint(list.points, PointKind::joint, "", label, {}, options);
   }
   return list;
 }
@@ -141,7 +134,6 @@ std::vector<Knob> knobsTowardsTransport() {
 
 void addTransportPoints(const RenderOptions& base, EffectSet effects,
                         const std::vector<Knob>& knobs, PointList& list) {
-  PointCollector collector(list.points);
   const auto activeOf = [&](Cause cause) {
     std::vector<Knob> chosen;
     for (const Knob& knob : knobs) {
@@ -161,13 +153,13 @@ void addTransportPoints(const RenderOptions& base, EffectSet effects,
         const std::string samples =
             options.spp == base.spp ? "" : "spp=" + std::to_string(options.spp) + " ";
         std::string label = samples + transport.name + "=" + light.label;
-        collector.add(PointKind::joint, "", label, {}, options);
+        addPoint(list.points, PointKind::joint, "", label, {}, options);
         for (const Knob& knob : samplings) {
           const KnobValue& samplesOfKnob = atMost(knob, light);
           samplesOfKnob.apply(options);
           label += " " + knob.name + "=" + samplesOfKnob.label;
         }
-        collector.add(PointKind::joint, "", label, {}, options);
+        addPoint(list.points, PointKind::joint, "", label, {}, options);
       }
     }
   }

@@ -1,7 +1,6 @@
 #include "accuracy/report.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -57,7 +56,6 @@ void addTiming(Json& row, const Point& point) {
 
 void addErrors(Json& row, const Point& point) {
   addDifference(row, "total", &point.total);
-  row["total_hdr_flip"] = numberOf(point.totalHdrFlip);
   addDifference(row, "same_samples", point.sameSamples ? &*point.sameSamples : nullptr);
   addDifference(row, "sampling", &point.sampling);
   addDifference(row, "algorithm", &point.algorithm);
@@ -71,11 +69,10 @@ void addErrors(Json& row, const Point& point) {
   row["worst_ulp"] = a ? numberOf(a->worstUlp) : Json();
   row["nonfinite"] = point.total.nonFinite;
   row["front"] = point.onFront;
-  row["covers_neighbor"] = point.coversNeighbor;
   row["front_same_samples"] = point.onFrontSameSamples;
 }
 
-void addRun(Json& row, const SceneSweep& sweep, const Point& point, const RunFacts& facts) {
+void addRun(Json& row, const SceneSweep& sweep, const Point& point, const Json& facts) {
   std::string options;
   for (const auto& [name, value] : pictureOptions(point.options)) {
     options += (options.empty() ? "" : " ") + name + "=" + value;
@@ -93,15 +90,7 @@ void addRun(Json& row, const SceneSweep& sweep, const Point& point, const RunFac
   row["truth_mean_radiance"] = orNull(known, t.meanRadiance);
   row["truth_noise_flip"] = orNull(known, t.noiseFlip);
   row["truth_digest"] = orNull(known, t.digest);
-  row["sweep"] = facts.full ? "full" : "quick";
-  row["seed"] = facts.seed;
-  row["cpu"] = facts.cpu;
-  row["cores"] = facts.cores;
-  row["threads"] = sweep.machine.threads;
-  row["simd"] = sweep.machine.simd;
-  row["embree"] = sweep.machine.embree;
-  row["compiler"] = facts.compiler;
-  row["commit"] = facts.commit;
+  row.update(facts);
 }
 
 std::string fieldOf(const Json& value) {
@@ -121,7 +110,7 @@ constexpr std::string_view kTemplate =
 #include "report_html.inc"
     ;
 
-Json pointsJson(const SceneSweep& sweep, const RunFacts& facts) {
+Json pointsJson(const SceneSweep& sweep, const Json& facts) {
   Json points = sweepRows(sweep, facts);
   for (std::size_t i = 0; i < sweep.points.size(); ++i) {
     const Point& point = sweep.points[i];
@@ -136,7 +125,7 @@ Json pointsJson(const SceneSweep& sweep, const RunFacts& facts) {
   return points;
 }
 
-Json sceneJson(const SceneSweep& sweep, const RunFacts& facts) {
+Json sceneJson(const SceneSweep& sweep, const Json& facts) {
   const Noise noise = noiseOf(sweep);
   Json scene{{"scene", sweep.scene},
              {"width", sweep.width},
@@ -150,7 +139,6 @@ Json sceneJson(const SceneSweep& sweep, const RunFacts& facts) {
              {"least_rounds", kLeastRounds},
              {"points", pointsJson(sweep, facts)},
              {"truth_png", base64(sweep.truthPng)},
-             {"stages", stagesJson(sweep.stages)},
              {"not_swept", Json::array()},
              {"order", sweep.order}};
   if (sweep.transport) {
@@ -185,37 +173,12 @@ std::string spreadCell(const Point& point) {
          (t.noisy() ? "~" : " ");
 }
 
-std::string thousandRays(const Point& point) {
-  double rays = 0;
-  for (const RayTally& tally : point.stats.meter.tally) rays += static_cast<double>(tally.rays);
-  return formatted(rays < 1e6 ? "%.1f" : "%.0f", rays / 1e3);
+// The rows below have these columns.
+std::string headOf(std::size_t labelWidth) {
+  return "\n" + std::string(labelWidth + 1, ' ') +
+         formatted("%9s%6s%7s%9s%9s%8s%8s%9s%8s\n", "ms", "+-% ", "x base", "krays", "FLIP", "RMSE",
+                   "off %", "FLIP", "off %");
 }
-
-struct Column {
-  const char* title;
-  int width;  // including the space before it
-  std::string (*cell)(const Point& point);
-};
-
-constexpr std::array kColumns{
-    Column{"ms", 9, [](const Point& p) { return formatted("%.2f", p.timing.settledMs); }},
-    Column{"+-% ", 6, spreadCell},
-    Column{"x base", 7,
-           [](const Point& p) {
-             const double ratio = p.timing.ratio;
-             return formatted(ratio <= kLargest ? "%.2f" : "%.1e", ratio);
-           }},
-    Column{"krays", 9, thousandRays},
-    Column{"FLIP", 9, [](const Point& p) { return formatted("%.5f", p.total.flipMean); }},
-    Column{"RMSE", 8, [](const Point& p) { return formatted("%.1e", p.total.rmse); }},
-    Column{"off %", 8, [](const Point& p) { return formatted("%.2f", p.total.pixelsGe1CodePct); }},
-    Column{"FLIP", 9,
-           [](const Point& p) {
-             return p.sameSamples ? formatted("%.5f", p.sameSamples->flipMean) : "-";
-           }},
-    Column{"off %", 8, [](const Point& p) {
-             return p.sameSamples ? formatted("%.3f", p.sameSamples->pixelsGe1CodePct) : "-";
-           }}};
 
 std::string rowOf(const Point& point, std::size_t labelWidth) {
   std::string label = point.label(), row;
@@ -224,14 +187,21 @@ std::string rowOf(const Point& point, std::size_t labelWidth) {
     label.clear();
   }
   label.resize(labelWidth, ' ');
+  const Timing& t = point.timing;
+  const double rays = static_cast<double>(point.stats.allRays());
   row += label + (point.onFront ? "*" : " ");
-  for (const Column& c : kColumns) row += formatted("%*s", c.width, c.cell(point).c_str());
-  return row + "\n";
+  row += formatted("%9.2f%6s", t.settledMs, spreadCell(point).c_str());
+  row += t.ratio <= kLargest ? formatted("%7.2f", t.ratio) : formatted("%7.1e", t.ratio);
+  row += formatted("%9.*f%9.5f%8.1e%8.2f", rays < 1e6 ? 1 : 0, rays / 1e3, point.total.flipMean,
+                   point.total.rmse, point.total.pixelsGe1CodePct);
+  if (!point.sameSamples) return row + formatted("%9s%8s\n", "-", "-");
+  return row + formatted("%9.5f%8.3f\n", point.sameSamples->flipMean,
+                         point.sameSamples->pixelsGe1CodePct);
 }
 
 }  // namespace
 
-Json sweepRows(const SceneSweep& sweep, const RunFacts& facts) {
+Json sweepRows(const SceneSweep& sweep, const Json& facts) {
   Json rows = Json::array();
   for (const Point& point : sweep.points) {
     Json row{{"scene", sweep.scene}, {"width", sweep.width}, {"height", sweep.height}};
@@ -260,7 +230,7 @@ std::string csvOf(const Json& rows) {
   return text;
 }
 
-std::string sweepCsv(const std::vector<SceneSweep>& sweeps, const RunFacts& facts) {
+std::string sweepCsv(const std::vector<SceneSweep>& sweeps, const Json& facts) {
   Json all = Json::array();
   for (const SceneSweep& sweep : sweeps) {
     for (Json& row : sweepRows(sweep, facts)) all.push_back(std::move(row));
@@ -268,21 +238,7 @@ std::string sweepCsv(const std::vector<SceneSweep>& sweeps, const RunFacts& fact
   return csvOf(all);
 }
 
-Json stagesJson(const std::vector<StageDifference>& stages) {
-  Json json = Json::array();
-  for (const StageDifference& row : stages) {
-    json.push_back({{"stage", kStageNames[static_cast<std::size_t>(row.stage)]},
-                    {"column", row.column},
-                    {"slots", row.slots},
-                    {"worst_ulp", row.worstUlp},
-                    {"limit_ulp", row.limitUlp},
-                    {"pixel", Json::array({row.pixelX, row.pixelY})},
-                    {"depth", row.depth}});
-  }
-  return json;
-}
-
-Json reportJson(const std::vector<SceneSweep>& sweeps, const RunFacts& facts) {
+Json reportJson(const std::vector<SceneSweep>& sweeps, const Json& facts) {
   Json report{{"report", "accuracy"}, {"scenes", Json::array()}};
   for (const SceneSweep& sweep : sweeps) report["scenes"].push_back(sceneJson(sweep, facts));
   return report;
@@ -352,9 +308,7 @@ std::string sweepTable(const SceneSweep& sweep, std::uint32_t seed) {
   text += wrapped(referenceText(sweep));
   if (sweep.transport) text += wrapped(transportText(sweep));
   text += wrapped(kWords);
-  text += "\n" + std::string(width + 1, ' ');
-  for (const Column& c : kColumns) text += formatted("%*s", c.width, c.title);
-  text += "\n";
+  text += headOf(width);
   for (const Point& point : sweep.points) text += rowOf(point, width);
   text += wrapped(formatted("* on the front of FLIP over time; ~ noisy: not known within %g %%; ? "
                             "fewer than %d rounds, and therefore on no front; measured in random "

@@ -24,18 +24,18 @@ std::string transportText(const SceneSweep& sweep);
 
 // An array of one object for each point, all with the same keys. Errors come in groups: total_
 // (against the truth), same_samples_, sampling_, algorithm_, arithmetic_ and transport_; null was
-// not measured. Times are in milliseconds, shares in per cent.
-Json sweepRows(const SceneSweep& sweep, const RunFacts& facts);
+// not measured. Times are in milliseconds, shares in per cent. All rows end with `facts`, which say
+// with which machine and settings the run was made.
+Json sweepRows(const SceneSweep& sweep, const Json& facts);
 
 // The rows as CSV, with the keys of the first as header. Null is an empty field, true is "yes", and
 // a number has seven digits.
 std::string csvOf(const Json& rows);
-std::string sweepCsv(const std::vector<SceneSweep>& sweeps, const RunFacts& facts);
+std::string sweepCsv(const std::vector<SceneSweep>& sweeps, const Json& facts);
 
-Json stagesJson(const std::vector<StageDifference>& stages);
 // The data of the report: {"report": "accuracy", "scenes": [...]}. The points of a scene are its
 // rows of sweep.csv, with the label and the pictures as PNG files in base64.
-Json reportJson(const std::vector<SceneSweep>& sweeps, const RunFacts& facts);
+Json reportJson(const std::vector<SceneSweep>& sweeps, const Json& facts);
 
 // The page report.html with `data` in it; "report" of the data is "accuracy", "effects" or
 // "verify". The page loads nothing from elsewhere.

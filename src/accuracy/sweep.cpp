@@ -14,14 +14,11 @@
 
 #include "accuracy/digest.h"
 #include "accuracy/findings.h"
-#include "accuracy/reference_cache.h"
-#include "accuracy/scope.h"
 #include "accuracy/timing.h"
 #include "core/display.h"
 #include "core/quantile.h"
 #include "core/stopwatch.h"
 #include "core/worker_pool.h"
-#include "inspect/flip.h"
 #include "inspect/path_divergence.h"
 #include "io/image/image_file.h"
 
@@ -83,12 +80,9 @@ class ErrorMeter {
         camera_(camera),
         base_(base),
         cutoff_(cutoff),
-        reference_(
-            cache.get(referenceOptions(transport ? withoutTransport(base) : base, samples, cutoff),
-                      progress)),
+        reference_(cache.get(modelOptions(base, transport, samples, cutoff), progress)),
         exact_(cache.get(exactAtSameSamples(base, cutoff), progress).image),
-        transport_(transport),
-        hdrFlip_(truth()) {
+        transport_(transport) {
     if (transport_) leftOut_ = against(reference_.image, truth(), SrgbEncoding::exact);
   }
 
@@ -102,7 +96,6 @@ class ErrorMeter {
       return against(a, b, &a == &image ? point.options.srgb : SrgbEncoding::exact);
     };
     std::vector<std::function<void()>> comparisons;
-    comparisons.emplace_back([&] { point.totalHdrFlip = hdrFlip_.mean(image); });
     comparisons.emplace_back([&] { point.total = differenceOf(image, truth()); });
     // The point has the baseline's sampling if the exact options are the same.
     if (digestOf(exactAtSameSamples(point.options, cutoff_)) ==
@@ -140,6 +133,13 @@ class ErrorMeter {
   const Image& truth() const { return transport_ ? transport_->image : reference_.image; }
 
  private:
+  // The options of the reference. If all transport is the truth, it has Whitted's model alone.
+  static RenderOptions modelOptions(RenderOptions base, const TransportPicture* transport,
+                                    int samples, float cutoff) {
+    if (transport) base.indirect = 0;
+    return referenceOptions(base, samples, cutoff);
+  }
+
   ImageDifference against(const Image& a, const Image& b, SrgbEncoding encoding) const {
     return compareImages(a, b, base_.exposure.ev, base_.toneCurve, encoding);
   }
@@ -182,14 +182,9 @@ class ErrorMeter {
   const TransportPicture* transport_;
   // The difference of the reference from the picture with all transport.
   std::optional<ImageDifference> leftOut_;
-  HdrFlip hdrFlip_;                            // against the truth
   std::map<std::string, Image> exactPackets_;  // key: digest of the options
   std::map<std::string, ReferencePaths> referencePaths_;
 };
-
-// The number of points with a single frame that share a frame of the baseline, also for long
-// frames.
-constexpr int kUsesOfBaseline = 2, kUsesOfLongBaseline = 8;
 
 class SceneSweeper {
  public:
@@ -214,14 +209,13 @@ class SceneSweeper {
     sweep_.machine = baseline_->renderer.machine();
     sweep_.referenceCutoff = cutoff_;
     chooseSamples();
-    timer_.emplace(*baseline_, 1000 * settings_.timingSeconds.value_or(scope_.limits.timingSeconds),
-                   scope_.longFrames() ? kUsesOfLongBaseline : kUsesOfBaseline);
+    timer_.emplace(*baseline_,
+                   1000 * settings_.timingSeconds.value_or(scope_.limits.timingSeconds));
     renderTransport();
     choosePoints();
     ErrorMeter meter = renderReferences();
     measureBaseline(meter);
     measurePoints(meter);
-    repeatTimes();
     finish();
     return std::move(sweep_);
   }
@@ -265,13 +259,10 @@ class SceneSweeper {
         sweep_.idle.push_back({point.label(), because});
       }
     }
-    if (!scope_.longFrames()) return;
-    const std::string& baseline = sweep_.points.front().label();
-    if (!scope_.chosenKnobs)
-      sweep_.idle.push_back(
-          {"path divergences", "measured for '" + baseline + "' only, because frames take long"});
-    sweep_.idle.push_back(
-        {"stages", "measured in the middle quarter of the picture, because frames take long"});
+    if (scope_.longFrames() && !scope_.chosenKnobs) {
+      sweep_.idle.push_back({"path divergences", "measured for '" + sweep_.points.front().label() +
+                                                     "' only, because frames take long"});
+    }
   }
 
   void renderTransport() {
@@ -298,20 +289,8 @@ class SceneSweeper {
   void measureBaseline(ErrorMeter& meter) {
     Point& point = sweep_.points.front();
     meter.measure(point, *baseline_, scope_.comparesPaths(point));
-    if (base_.mode == Mode::packets) {
-      const Film scratch = makeFilm(sceneFor(base_), scope_.longFrames() ? middleQuarter() : base_);
-      sweep_.stages = compareStages(baseline_->renderer, camera_, scratch);
-    }
     meter.addPictures(point, baseline_->film.image);
     sweep_.truthPng = meter.pngOf(meter.truth());
-  }
-
-  RenderOptions middleQuarter() const {
-    RenderOptions options = base_;
-    const Crop& w = baseline_->film.image.window;
-    const int x = (w.x1 - w.x0) / 4, y = (w.y1 - w.y0) / 4;
-    options.crop = Crop{w.x0 + x, w.y0 + y, w.x1 - x, w.y1 - y};
-    return options;
   }
 
   // A random order, in which a quick sweep puts the spare values last.
@@ -332,7 +311,7 @@ class SceneSweeper {
       Point& point = sweep_.points[order[k]];
       reportProgress(progress_, sweep_.scene + ": " + point.label(),
                      static_cast<double>(k) / static_cast<double>(order.size()));
-      if (scope_.isOver(points_.ms() / 1000)) {
+      if (scope_.isOver((points_.ms() - timer_->spentMs()) / 1000)) {
         unmeasured[point.label()] = Scope::kOverBecause;
         continue;
       }
@@ -375,7 +354,6 @@ class SceneSweeper {
   static void copyErrors(Point& point, const Point& from) {
     copyErrorsOfRays(point, from);
     point.total = from.total;
-    point.totalHdrFlip = from.totalHdrFlip;
     point.sameSamples = from.sameSamples;
     point.arithmetic = from.arithmetic;
   }
@@ -392,28 +370,6 @@ class SceneSweeper {
       if (frames.stats.meter.tally[k].rays != baseline_->stats.meter.tally[k].rays) return false;
     }
     return frames.film.image.pixels == baseline_->film.image.pixels;
-  }
-
-  // Uses the rest of the budget. Points without a spread get one first, the cheapest first; then
-  // noisy times get more rounds.
-  void repeatTimes() {
-    std::vector<Point*> points;
-    for (Point& point : sweep_.points) {
-      if (point.kind != PointKind::baseline && point.timing.noisy()) points.push_back(&point);
-    }
-    std::stable_sort(points.begin(), points.end(), [](const Point* a, const Point* b) {
-      return a->timing.ratio < b->timing.ratio;
-    });
-    for (const int rounds : {kLeastRounds, kConfidentRounds, kMostRounds}) {
-      for (Point* point : points) {
-        if (point->timing.rounds >= rounds || !point->timing.noisy()) continue;
-        if (timer_->leftMs() <= 0) return;
-        reportProgress(progress_, sweep_.scene + ": " + point->label() + " again", 1);
-        timer_->repeat(*point, rounds, [&] {
-          return std::make_unique<FrameSource>(sceneFor(point->options), camera_, point->options);
-        });
-      }
-    }
   }
 
   // Computes the baseline's time, times without drift, and fronts, which need all points.

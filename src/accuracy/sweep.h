@@ -1,6 +1,8 @@
 // The sweep of a scene, which measures one choice of options after the other.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -9,6 +11,7 @@
 #include <vector>
 
 #include "accuracy/measurement.h"
+#include "accuracy/reference_cache.h"
 #include "bake/scene.h"
 
 namespace whit::accuracy {
@@ -57,6 +60,71 @@ std::vector<Knob> knobsTowardsTransport();
 // alone and with as many samples of lobes and lights. Leaves out points that `list` has already.
 void addTransportPoints(const RenderOptions& base, EffectSet effects,
                         const std::vector<Knob>& knobs, PointList& list);
+
+// Most limits count rays, so that the reference does not depend on the speed of the machine.
+struct Limits {
+  int samples, leastSamples;
+  double referenceRays;  // for the reference
+  double transportRays;  // for the picture with all transport
+  double scalarRays;     // for a point that the scalar reference renders
+  double longFrameRays;  // a frame of the baseline with more rays is long
+  double timingSeconds;  // for all points of a scene
+  std::size_t joint;     // number of combinations of knobs
+  double seconds;        // no point is begun later, apart from the time for timing
+};
+inline constexpr Limits kQuick{64, 2, 30e6, 400e6, 20e6, 2.5e6, 20, 0, 30};
+inline constexpr Limits kFull{256, 8, 400e6, 4e9, 100e6, 1e300, 600, 40, 1e300};
+
+struct Scope {
+  Limits limits;
+  double frameRays = 0;      // rays of a frame of the baseline
+  double raysPerSample = 0;  // rays of a sample of the exact picture
+  bool chosenKnobs = false;  // the user named the knobs, and all of them are measured
+  int baselineSpp = 1;
+  double transportPaths = 0;  // paths of a pixel in the picture with all transport, or 0 without it
+
+  // Samples a pixel of the reference.
+  int samples() const {
+    int samples = limits.samples;
+    while (samples > limits.leastSamples && samples * raysPerSample > limits.referenceRays) {
+      samples /= 2;
+    }
+    return samples;
+  }
+  // Samples a pixel in each pass of the picture with all transport. `rays` is the number of rays of
+  // one sample of the whole picture.
+  int transportSamples(double rays) const {
+    int count = samples();
+    while (count > 1 && kTransportPasses * count * rays > limits.transportRays) count /= 2;
+    return count;
+  }
+  bool longFrames() const { return frameRays > limits.longFrameRays; }
+  // The reason why the point is left out; empty if it is measured.
+  std::string leavesOut(const Point& point) const {
+    if (point.kind == PointKind::baseline) return {};
+    if (point.options.mode == Mode::reference &&
+        point.options.spp * raysPerSample > limits.scalarRays) {
+      return "the scalar reference would take too long here";
+    }
+    if (point.options.spp > std::max(samples() / 2, baselineSpp)) {
+      return "more than half of the reference's samples";
+    }
+    if (transportPaths > 0 && whit::accuracy::transportPaths(point.options) > transportPaths / 2) {
+      return "more than half of the paths that the picture with all transport has";
+    }
+    return {};
+  }
+  // True if no point is begun any more after `seconds`; the sweep gives the reason below.
+  bool isOver(double seconds) const { return !chosenKnobs && seconds > limits.seconds; }
+  static constexpr const char* kOverBecause =
+      "the minute of a quick sweep was over: --full, or --knobs with one of them, measures it";
+  // True if packets are compared with the scalar reference of the same options, path by path.
+  bool comparesPaths(const Point& point) const {
+    if (point.options.mode == Mode::reference) return false;
+    if (point.kind == PointKind::baseline) return true;
+    return point.cause == Cause::arithmetic && (chosenKnobs || !longFrames());
+  }
+};
 
 struct SweepSettings {
   Truth truth = Truth::model;

@@ -10,10 +10,6 @@ namespace whit::accuracy {
 
 namespace {
 
-// The part of a point's share of the budget that time() uses. All points get an error before any
-// gets a good time; repeat() uses the rest.
-constexpr double kFirstShare = 0.25;
-
 // The number of values that can be left out at either end. The median of the distribution lies
 // beyond the remaining values with P(Binomial(n, 1/2) <= spare) at either end, and half of the
 // error that the confidence allows is available for each.
@@ -38,17 +34,6 @@ Interval medianInterval(std::vector<double> values) {
   return {values[spare], values[values.size() - 1 - spare]};
 }
 
-double roundMs(const Block& block, double pointMs, double baselineMs) {
-  return (block.frames + block.warmUp) * (pointMs + baselineMs);
-}
-
-Block blockFor(double pointMs, double baselineMs, double budgetMs) {
-  for (const Block& block : {Block{4, 1}, Block{2, 1}}) {
-    if (kConfidentRounds * roundMs(block, pointMs, baselineMs) <= budgetMs) return block;
-  }
-  return {1, 0};
-}
-
 Timing TimeSamples::timing() const {
   Timing timing;
   timing.frames = static_cast<int>(ms.size());
@@ -61,62 +46,39 @@ Timing TimeSamples::timing() const {
   return timing;
 }
 
-std::vector<double> PointTimer::timeBlock(FrameSource& source, const Block& block) {
-  for (int i = 0; i < block.warmUp; ++i) source.render();
-  std::vector<double> ms(static_cast<std::size_t>(block.frames));
-  for (double& frame : ms) frame = source.render().frameMs;
-  if (&source == &baseline_) baselineMs_.insert(baselineMs_.end(), ms.begin(), ms.end());
+// The frame before, by which the caches are those of this renderer, does not count.
+double PointTimer::secondFrameMs(FrameSource& source) {
+  source.render();
+  const double ms = source.render().frameMs;
+  if (&source == &baseline_) baselineMs_.push_back(ms);
   return ms;
 }
 
-void PointTimer::measureRounds(Point& point, FrameSource& frames, int mostRounds, double budgetMs) {
-  const Stopwatch stopwatch;
-  TimeSamples& samples = samples_[point.label()];
-  const double pointMs = frames.stats.frameMs;
-  const double baselineMs = baselineMs_.empty() ? pointMs : baselineMs_.back();
-  const Block block = blockFor(pointMs, baselineMs, budgetMs);
-  const double cost = roundMs(block, pointMs, baselineMs);
-  // The first round has a block of the baseline before it.
-  double left = budgetMs - roundMs(block, 0, baselineMs);
-  if (left < cost) return;
-  if (samples.provisional) samples = {};
-  double after = quantile(timeBlock(baseline_, block), 0.5);
-  while (left >= cost && samples.timing().rounds < mostRounds && samples.timing().noisy()) {
-    const double before = after;
-    const std::vector<double> ms = timeBlock(frames, block);
-    after = quantile(timeBlock(baseline_, block), 0.5);
-    samples.ms.insert(samples.ms.end(), ms.begin(), ms.end());
-    // The ratio is to the mean of the baseline's blocks before and after.
-    if (before + after > 0) samples.ratios.push_back(quantile(ms, 0.5) / ((before + after) / 2));
-    left = budgetMs - stopwatch.ms();
-  }
-}
-
 void PointTimer::time(Point& point, FrameSource& frames, std::size_t points) {
-  const double share = kFirstShare * std::max(leftMs_, 0.0) / static_cast<double>(points);
   const Stopwatch stopwatch;
-  TimeSamples& samples = samples_[point.label()];
-  const double first = frames.stats.frameMs;
-  measureRounds(point, frames, kMostRounds, share);
-  if (samples.ratios.empty()) {
-    if (firstFrames_++ % usesOfBaseline_ == 0) baselineMs_.push_back(baseline_.render().frameMs);
-    samples = {{first}, {first / baselineMs_.back()}, true};
+  const double shareMs = (budgetMs_ - spentMs_) / static_cast<double>(points);
+  const double first = frames.stats.frameMs, baselineMs = baselineMs_.back();
+  const double roundMs = 2 * (first + baselineMs);
+  TimeSamples samples;
+  // The first round has frames of the baseline before it.
+  if (roundMs + 2 * baselineMs <= shareMs) {
+    double after = secondFrameMs(baseline_);
+    do {
+      const double before = after;
+      samples.ms.push_back(secondFrameMs(frames));
+      after = secondFrameMs(baseline_);
+      samples.ratios.push_back(2 * samples.ms.back() / (before + after));
+      point.timing = samples.timing();
+    } while (point.timing.noisy() && point.timing.rounds < kMostRounds &&
+             stopwatch.ms() + roundMs <= shareMs);
+  } else {
+    samples = {{first}, {first / baselineMs}, true};
+    point.timing = samples.timing();
   }
-  point.timing = samples.timing();
-  leftMs_ -= stopwatch.ms();
+  spentMs_ += stopwatch.ms();
 }
 
-void PointTimer::repeat(Point& point, int rounds, const Open& open) {
-  const Stopwatch stopwatch;
-  const std::unique_ptr<FrameSource> frames = open();
-  frames->render();
-  measureRounds(point, *frames, std::min(rounds, kMostRounds), leftMs_ - stopwatch.ms());
-  point.timing = samples_[point.label()].timing();
-  leftMs_ -= stopwatch.ms();
-}
-
-Timing PointTimer::baselineTiming() {
-  if (baselineMs_.empty()) baselineMs_.push_back(baseline_.render().frameMs);
+Timing PointTimer::baselineTiming() const {
   TimeSamples samples{baselineMs_, {}, false};
   const double median = quantile(baselineMs_, 0.5);
   for (const double ms : baselineMs_) samples.ratios.push_back(ms / median);

@@ -2,10 +2,6 @@
 // ratios mean something on a busy machine too.
 #pragma once
 
-#include <functional>
-#include <map>
-#include <memory>
-#include <string>
 #include <vector>
 
 #include "accuracy/measurement.h"
@@ -48,16 +44,6 @@ inline constexpr double kMedianConfidence = 0.9;
 // of none.
 Interval medianInterval(std::vector<double> values);
 
-// Frames in a row, after `warmUp` frames that do not count.
-struct Block {
-  int frames = 1, warmUp = 0;
-};
-// The longest block of which kConfidentRounds rounds fit into `budgetMs`, or a single frame if none
-// does.
-Block blockFor(double pointMs, double baselineMs, double budgetMs);
-// The time of a round, which is a block of the point and one of the baseline.
-double roundMs(const Block& block, double pointMs, double baselineMs);
-
 // More rounds do not help a time that is still noisy.
 inline constexpr int kMostRounds = 25;
 
@@ -65,7 +51,7 @@ inline constexpr int kMostRounds = 25;
 struct TimeSamples {
   std::vector<double> ms;      // one for each frame
   std::vector<double> ratios;  // one for each round
-  bool provisional = false;    // only the first frame, which allocates; any other replaces it
+  bool provisional = false;    // only the first frame, which allocates
   Timing timing() const;       // without settledMs
 };
 
@@ -73,32 +59,24 @@ struct TimeSamples {
 // the timer.
 class PointTimer {
  public:
-  PointTimer(FrameSource& baseline, double budgetMs, int usesOfBaseline)
-      : baseline_(baseline), leftMs_(budgetMs), usesOfBaseline_(usesOfBaseline) {}
+  PointTimer(FrameSource& baseline, double budgetMs)
+      : baseline_(baseline), budgetMs_(budgetMs), baselineMs_{baseline.render().frameMs} {}
 
   // Times the first of `points` points that are still to come. Measures rounds until the time is no
-  // longer noisy, or until a part of the point's share of the remaining budget is spent. If no
-  // round fits, the frame that `frames` has rendered gives the time.
+  // longer noisy, or until the point's share of the remaining budget is spent. If no round fits,
+  // the frame that `frames` has rendered gives the time.
   void time(Point& point, FrameSource& frames, std::size_t points);
-  // Measures more rounds of a point, until it has `rounds` or is no longer noisy. `open` makes its
-  // frames.
-  using Open = std::function<std::unique_ptr<FrameSource>()>;
-  void repeat(Point& point, int rounds, const Open& open);
 
-  double leftMs() const { return leftMs_; }
+  double spentMs() const { return spentMs_; }
   // The timing of the baseline itself, from all of its frames.
-  Timing baselineTiming();
+  Timing baselineTiming() const;
 
  private:
-  void measureRounds(Point& point, FrameSource& frames, int mostRounds, double budgetMs);
-  std::vector<double> timeBlock(FrameSource& source, const Block& block);
+  double secondFrameMs(FrameSource& source);
 
   FrameSource& baseline_;
-  double leftMs_;
-  int usesOfBaseline_;              // number of first frames that share a frame of the baseline
-  int firstFrames_ = 0;             // number of first frames that were used so far
+  double budgetMs_, spentMs_ = 0;
   std::vector<double> baselineMs_;  // all frames of the baseline that count
-  std::map<std::string, TimeSamples> samples_;  // key: the point's label
 };
 
 }  // namespace whit::accuracy

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "accuracy/digest.h"
 #include "accuracy/report.h"
@@ -16,7 +15,6 @@
 #include "cli/commands.h"
 #include "cli/json_report.h"
 #include "core/error.h"
-#include "core/version.h"
 #include "io/atomic_file.h"
 #include "render/auto_exposure.h"
 
@@ -79,21 +77,15 @@ OptionList listOptions(AccuracyJob& job) {
 void checkJob(AccuracyJob& job) {
   if (job.out.empty()) throwUsage("whit accuracy expected --out DIR");
   accuracy::SweepSettings& settings = job.settings;
-  if (job.quick && settings.full) {
-    throwUsage("--quick and --full exclude each other: give one of them");
-  }
-  if (job.common.render.mode == Mode::reference) {
-    throwUsage("whit accuracy measures packets against the reference: leave out --mode");
-  }
-  std::istringstream words(job.knobs);
-  for (std::string name; std::getline(words, name, ',');) {
-    if (!name.empty()) settings.knobs.push_back(name);
-  }
+  refuseIf(job.quick && settings.full, "--quick and --full exclude each other: give one of them");
+  refuseIf(job.common.render.mode == Mode::reference,
+           "whit accuracy measures packets against the reference: leave out --mode");
+  if (!job.knobs.empty()) settings.knobs = split(job.knobs, ',');
   accuracy::chooseKnobs(settings.knobs);
   if (!settings.full && !job.common.render.size) job.common.render.size = kQuickSize;
   settings.seed = static_cast<std::uint32_t>(job.seed);
   settings.cacheFolder = (std::filesystem::path(job.out) / "cache").string();
-  settings.program = std::string(versionText()) + " " + accuracy::digestOfProgram();
+  settings.program = WHIT_VERSION " " + accuracy::digestOfProgram();
   makeFolder(job.out);
 }
 
@@ -133,11 +125,13 @@ int accuracyCommand(const Words& words) {
   settleOptions(job.common);
   checkJob(job);
   const std::vector<accuracy::SceneSweep> sweeps = sweepScenes(job);
-  accuracy::RunFacts facts = machineFacts();
-  facts.seed = job.settings.seed;
-  facts.full = job.settings.full;
+  const Machine& machine = sweeps[0].machine;
+  Json facts{{"sweep", job.settings.full ? "full" : "quick"},
+             {"seed", job.settings.seed},
+             {"threads", machine.threads}};
+  facts.update(machineJson(machine));
   for (const accuracy::SceneSweep& sweep : sweeps)
-    std::printf("%s\n", accuracy::sweepTable(sweep, facts.seed).c_str());
+    std::printf("%s\n", accuracy::sweepTable(sweep, job.settings.seed).c_str());
   const WriteScope scope;
   const std::filesystem::path folder(job.out);
   writeTextFile((folder / "sweep.csv").string(), accuracy::sweepCsv(sweeps, facts));

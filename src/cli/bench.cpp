@@ -1,8 +1,10 @@
 // whit bench: how long a frame takes, by stage and by kind of ray.
+#include <algorithm>
+#include <array>
 #include <cstdio>
+#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "cli/app/image_output.h"
 #include "cli/app/progress_bar.h"
@@ -10,6 +12,7 @@
 #include "cli/commands.h"
 #include "cli/json_report.h"
 #include "core/error.h"
+#include "core/option_table.h"
 #include "render/shadow_cache_schedule.h"
 
 namespace whit::cli {
@@ -21,13 +24,28 @@ constexpr const char* kBenchSummary =
     "Measures the time of frames by stage and by kind of ray. The frames of the runs of --widths "
     "and "
     "of the --ab options take turns, so that other load of the machine affects all of them alike.";
-constexpr int kWidths[] = {1, 4, 8, 16};
+
+// An option whose values are measured as separate runs, which take turns.
+struct Series {
+  const char *flag, *help, *option;
+  const char* values;  // separated by bars; an empty one stands for the value on the command line
+  RunPairs pairs;
+};
+constexpr Series kSeries[] = {
+    {"widths", "packets of 1, 4, 8 and 16 as separate runs", "packet", "1|4|8|16", RunPairs::none},
+    {"ab-effects", "kernels with the scene's effects and with every effect as two runs", "effects",
+     "auto|all", RunPairs::effects},
+    {"ab-shadow-cache", "without and with the shadow cache as two runs", "shadow-cache", "off|",
+     RunPairs::shadowCache},
+};
+constexpr Series kOneRun{"", "", "", "", RunPairs::none};
 
 struct BenchJob {
   CommonOptions common;
   std::vector<std::string> scenes;
   int frames = 0;  // 0: not given
-  bool floor = false, widths = false, abEffects = false, abShadowCache = false;
+  bool floor = false;
+  std::array<bool, std::size(kSeries)> wanted{};
   std::string json;
 
   bool reference() const { return common.render.mode == Mode::reference; }
@@ -35,16 +53,15 @@ struct BenchJob {
   Turns turns() const {
     Turns turns;
     if (reference()) turns = {0, 1};
-    // After the frame that fills queues, those with an empty shadow cache.
-    if (abShadowCache) turns.warmUp = 1 + ShadowCacheSchedule::kTurns;
+    // All tiles request what the shadow cache is to hold.
+    if (series().pairs == RunPairs::shadowCache) turns.warmUp = ShadowCacheSchedule::kTurns;
     if (frames > 0) turns.counted = frames;
     turns.floor = floor;
     return turns;
   }
-  bool comparesRuns() const { return widths || abEffects || abShadowCache; }
-  RunPairs pairs() const {
-    if (abShadowCache) return RunPairs::shadowCache;
-    return abEffects ? RunPairs::effects : RunPairs::none;
+  const Series& series() const {
+    const auto i = static_cast<std::size_t>(std::ranges::find(wanted, true) - wanted.begin());
+    return i < wanted.size() ? kSeries[i] : kOneRun;
   }
 };
 
@@ -54,10 +71,8 @@ OptionList listOptions(BenchJob& job) {
   list.value({"frames", "N", 1, 1e6}, "measured frames (20 after 3 to warm up; reference: 1)",
              job.frames);
   list.flag("floor", "also measure Embree alone on the same rays", job.floor);
-  list.flag("widths", "packets of 1, 4, 8 and 16 as separate runs", job.widths);
-  list.flag("ab-effects", "kernels with the scene's effects and with every effect as two runs",
-            job.abEffects);
-  list.flag("ab-shadow-cache", "without and with the shadow cache as two runs", job.abShadowCache);
+  for (std::size_t i = 0; i < job.wanted.size(); ++i)
+    list.flag(kSeries[i].flag, kSeries[i].help, job.wanted[i]);
   list.value({"json", "FILE"}, "all runs as JSON; - is standard output", job.json);
   listCommonOptions(list, job.common);
   list.operands("SCENE...", "scene files, models, or names of shipped scenes", 1,
@@ -67,53 +82,31 @@ OptionList listOptions(BenchJob& job) {
 
 void addRuns(BenchRuns& runs, const std::string& name, const BenchJob& job, Progress* progress) {
   const std::shared_ptr<const OpenScene> open = openScene(name, job.common, progress);
-  const auto add = [&](const RenderOptions& options) {
+  const Series& series = job.series();
+  bool caches = series.pairs == RunPairs::shadowCache;
+  for (const std::string& value : split(series.values, '|')) {
+    RenderOptions options = optionsFor(open->scene, job.common);
+    if (!value.empty()) setOption(options, series.option, value);
+    caches |= &series == &kOneRun && options.shadowCache == ShadowCacheMode::audit;
     runs.push_back(std::make_unique<BenchRun>(open, job.common, options, progress));
-  };
-  RenderOptions options = optionsFor(open->scene, job.common);
-  if (job.widths) {
-    for (const int width : kWidths) {
-      options.packet = width;
-      add(options);
-    }
-  } else if (job.abEffects) {
-    for (const EffectChoice choice : {EffectChoice::automatic, EffectChoice::all}) {
-      options.effects = choice;
-      add(options);
-    }
-  } else if (job.abShadowCache) {
-    for (const ShadowCacheMode shadowCache :
-         {ShadowCacheMode::off, job.common.render.shadowCache}) {
-      options.shadowCache = shadowCache;
-      add(options);
-    }
-    runs.back()->useShadowCache();
-  } else {
-    add(options);
-    if (options.shadowCache == ShadowCacheMode::audit) runs.back()->useShadowCache();
   }
+  if (caches) runs.back()->useShadowCache(job.common.load.maxMemoryBytes);
 }
 
 void checkJob(const BenchJob& job) {
   requireJsonWritable(job.json);
-  const auto refuseIf = [](bool wrong, const char* why) {
-    if (wrong) throwUsage(why);
-  };
-  const std::set<std::string>& given = job.common.given;
-  const bool reference = job.reference();
-  refuseIf(reference && job.floor, "--floor is for packets, not --mode reference");
-  refuseIf(reference && job.widths, "--widths is for packets, not --mode reference");
-  refuseIf(reference && job.abEffects, "--ab-effects is for packets, not --mode reference");
-  refuseIf(reference && job.abShadowCache,
-           "--ab-shadow-cache is for packets, not --mode reference");
-  refuseIf(job.widths + job.abEffects + job.abShadowCache > 1,
+  const Series& series = job.series();
+  const bool compares = &series != &kOneRun;
+  refuseIf(job.reference() && (job.floor || compares),
+           "--floor, --widths, --ab-effects and --ab-shadow-cache are for packets, not --mode "
+           "reference");
+  refuseIf(std::ranges::count(job.wanted, true) > 1,
            "--ab-shadow-cache, --ab-effects and --widths are runs of their own: give one of them");
-  refuseIf(job.widths && given.contains("packet"),
-           "--widths runs every packet width: leave out --packet");
-  refuseIf(job.abEffects && given.contains("effects"),
-           "--ab-effects runs both choices of --effects: leave out --effects");
-  refuseIf(job.abShadowCache && job.common.render.shadowCache == ShadowCacheMode::off,
-           "--ab-shadow-cache runs without the cache as well: leave out --shadow-cache off");
+  const bool isGiven = series.pairs == RunPairs::shadowCache
+                           ? job.common.render.shadowCache == ShadowCacheMode::off
+                           : job.common.given.contains(series.option);
+  refuseIf(isGiven, std::string("--") + series.flag + " chooses --" + series.option +
+                        " itself: leave that out");
 }
 
 // For runs that come in pairs the ratio of the second over the first is added.
@@ -145,7 +138,7 @@ int benchCommand(const Words& words) {
   for (std::size_t i = 0; i < job.scenes.size(); ++i) {
     addRuns(runs, job.scenes[i], job, progress.get());
     // Runs to be compared are held in memory together; others one after the other.
-    if (job.comparesRuns() && i + 1 < job.scenes.size()) continue;
+    if (&job.series() != &kOneRun && i + 1 < job.scenes.size()) continue;
     takeTurns(runs, job.turns(), progress.get());
     for (const auto& run : runs) summaries.push_back(run->summary());
     runs.clear();
@@ -154,11 +147,13 @@ int benchCommand(const Words& words) {
   FILE* const people = job.json == "-" ? stderr : stdout;
   if (people == stdout || !job.common.quiet) {
     for (const RunSummary& run : summaries) std::fprintf(people, "%s\n", stageTable(run).c_str());
-    for (std::size_t i = 0; job.pairs() != RunPairs::none && i + 1 < summaries.size(); i += 2) {
-      std::fprintf(people, "%s", ratioText(job.pairs(), summaries[i], summaries[i + 1]).c_str());
+    for (std::size_t i = 0; job.series().pairs != RunPairs::none && i + 1 < summaries.size();
+         i += 2) {
+      std::fprintf(people, "%s",
+                   ratioText(job.series().pairs, summaries[i], summaries[i + 1]).c_str());
     }
   }
-  if (!job.json.empty()) writeJson(job.json, benchJson(summaries, job.pairs()));
+  if (!job.json.empty()) writeJson(job.json, benchJson(summaries, job.series().pairs));
   return 0;
 }
 

@@ -25,33 +25,27 @@ class BenchRun {
         options_(options),
         renderer_(open_->scene, options, progress),
         camera_(chooseCamera(open_->scene, options)),
-        film_(openFilm(open_->scene, common)),
-        maxMemoryBytes_(common.load.maxMemoryBytes) {
+        film_(openFilm(open_->scene, common)) {
     settleExposure(renderer_, camera_, options_);
     summary_ = summarize(open_->scene, options_, renderer_, film_, open_->loadMs);
   }
 
-  // Switches the shadow cache on. It is empty in all warm-up frames but the first, which goes
-  // without it, and filled before the measured ones. Not in reference mode.
-  void useShadowCache() { cachesShadows_ = true; }
-
-  void warmUp() {
-    const bool proves = cachesShadows_ && begun_ && options_.mode != Mode::reference;
-    if (proves && coldMs_.empty()) {
-      renderer_.expectFrames(
-          memoryLeft(open_->scene, renderer_, maxMemoryBytes_),
-          options_.shadowCache == ShadowCacheMode::audit ? 1 : ShadowCacheSchedule::kTurns);
-    }
-    const FrameStats stats = renderFrame(renderer_, options_.mode, camera_, film_);
-    if (proves && renderer_.decidesShadows()) coldMs_.push_back(stats.frameMs);
-    begun_ = true;
+  // Switches the shadow cache on: warm-up frames request what it is to hold, and it is filled
+  // before the measured ones. Not in reference mode.
+  void useShadowCache(std::uint64_t maxMemoryBytes) {
+    if (options_.mode == Mode::reference) return;
+    renderer_.expectFrames(
+        memoryLeft(open_->scene, renderer_, maxMemoryBytes),
+        options_.shadowCache == ShadowCacheMode::audit ? 1 : ShadowCacheSchedule::kTurns);
   }
+
+  void warmUp() { renderFrame(renderer_, options_.mode, camera_, film_); }
 
   // Measures one frame; with `floor` also Embree alone for its rays.
   void measure(bool floor) {
-    if (!coldMs_.empty() && !summary_.shadowCache) {
+    if (renderer_.decidesShadows() && !summary_.shadowCache) {
       const double fillMs = renderer_.fillShadowCache().ms;
-      summary_.shadowCache = {quantile(coldMs_, 0.5), fillMs, renderer_.shadowCacheBytes()};
+      summary_.shadowCache = {fillMs, renderer_.shadowCacheBytes()};
     }
     summary_.frames.push_back(renderFrame(renderer_, options_.mode, camera_, film_));
     summary_.imageHash = accuracy::digestOf(film_.image);
@@ -71,9 +65,6 @@ class BenchRun {
   Renderer renderer_;
   Camera camera_;
   Film film_;
-  std::uint64_t maxMemoryBytes_;
-  bool cachesShadows_ = false, begun_ = false;
-  std::vector<double> coldMs_;
   RunSummary summary_;
 };
 

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "accuracy/report.h"
 #include "cli/app/image_output.h"
 #include "cli/app/open_scene.h"
 #include "cli/app/program.h"
@@ -14,7 +13,6 @@
 #include "cli/json_report.h"
 #include "core/error.h"
 #include "core/formatted.h"
-#include "core/printable.h"
 #include "inspect/metrics.h"
 #include "inspect/path_divergence.h"
 #include "inspect/stage_comparison.h"
@@ -83,7 +81,7 @@ Compared compareFiles(const CompareJob& job) {
         std::pair{!common.load.settings.empty(), "--set"},
         std::pair{!common.load.sky.empty(), "--sky"},
         std::pair{common.render.exposure.automatic, "--exposure auto"}}) {
-    if (isGiven) throwUsage(std::string(option) + " needs a scene, not two images");
+    refuseIf(isGiven, std::string(option) + " needs a scene, not two images");
   }
   Warnings warnings(job.common.render.strict);
   Compared result;
@@ -154,20 +152,35 @@ void printChannels(FILE* out, const std::vector<ChannelDifference>& channels) {
   }
 }
 
-void printNumbers(FILE* out, const Comparison& c) {
+Json orNull(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+// A number that sums up a comparison: its key in JSON, its title and format for people, and its
+// value, which is null if it is unknown.
+struct Number {
+  const char *key, *title, *format;
+  Json value;
+};
+
+std::vector<Number> numbersOf(const Comparison& c) {
   const ImageDifference& d = c.difference;
-  std::fprintf(out, "%-26s%.6g\n", "RMSE (linear)", d.rmse);
-  std::fprintf(out, "%-26s%.6g\n", "relMSE", d.relmse);
-  std::fprintf(out, "%-26s%.2f dB\n", "PSNR", d.psnrDb);
-  std::fprintf(out, "%-26s%.6f\n", "FLIP, mean", d.flipMean);
-  std::fprintf(out, "%-26s%d\n", "largest 8-bit difference", d.maxCode);
-  std::fprintf(out, "%-26s%.4f %%\n", "pixels off by 1 or more", d.pixelsGe1CodePct);
-  std::fprintf(out, "%-26s%.4f %%\n", "pixels off by 2 or more", d.pixelsGe2CodesPct);
-  std::fprintf(out, "%-26s%.6f\n", "energy of A over B", d.energyRatio);
-  std::fprintf(out, "%-26s%llu\n", "pixels not finite",
-               static_cast<unsigned long long>(d.nonFinite));
-  if (c.pathDivergencesPerMpx) {
-    std::fprintf(out, "%-26s%.1f per million pixels\n", "other path", *c.pathDivergencesPerMpx);
+  return {{"rmse", "RMSE (linear)", "%.6g", d.rmse},
+          {"relmse", "relMSE", "%.6g", d.relmse},
+          {"psnr_db", "PSNR", "%.2f dB", d.psnrDb},
+          {"flip_mean", "FLIP, mean", "%.6f", d.flipMean},
+          {"max_code", "largest 8-bit difference", "%.0f", d.maxCode},
+          {"pixels_ge_1_code_pct", "pixels off by 1 or more", "%.4f %%", d.pixelsGe1CodePct},
+          {"pixels_ge_2_codes_pct", "pixels off by 2 or more", "%.4f %%", d.pixelsGe2CodesPct},
+          {"energy_ratio", "energy of A over B", "%.6f", d.energyRatio},
+          {"nonfinite", "pixels not finite", "%.0f", d.nonFinite},
+          {"path_flips_per_mpx", "other path", "%.1f per million pixels",
+           orNull(c.pathDivergencesPerMpx)}};
+}
+
+void printNumbers(FILE* out, const Comparison& c) {
+  for (const Number& n : numbersOf(c)) {
+    if (n.value.is_null()) continue;
+    const std::string text = formatted(n.format, n.value.get<double>());
+    std::fprintf(out, "%-26s%s\n", n.title, text.c_str());
   }
   if (c.timeMsA && c.timeMsB) {
     std::fprintf(out, "%-26s%.1f ms, %.1f ms\n", "time of A, B", *c.timeMsA, *c.timeMsB);
@@ -246,22 +259,11 @@ void writeHeatMap(const CompareJob& job, const Compared& compared) {
   writePng(job.heatmap, heatMap(compared.a, compared.b), metadata);
 }
 
-Json orNull(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
-
 // Infinite and unknown numbers are null.
 Json compareJson(const Comparison& comparison) {
-  const ImageDifference& d = comparison.difference;
-  Json json{{"rmse", d.rmse},
-            {"relmse", d.relmse},
-            {"psnr_db", d.psnrDb},
-            {"flip_mean", d.flipMean},
-            {"max_code", d.maxCode},
-            {"pixels_ge_1_code_pct", d.pixelsGe1CodePct},
-            {"pixels_ge_2_codes_pct", d.pixelsGe2CodesPct},
-            {"energy_ratio", d.energyRatio},
-            {"path_flips_per_mpx", orNull(comparison.pathDivergencesPerMpx)},
-            {"nonfinite", d.nonFinite},
-            {"time_ms", {{"a", orNull(comparison.timeMsA)}, {"b", orNull(comparison.timeMsB)}}}};
+  Json json;
+  for (const Number& n : numbersOf(comparison)) json[n.key] = n.value;
+  json["time_ms"] = {{"a", orNull(comparison.timeMsA)}, {"b", orNull(comparison.timeMsB)}};
   for (const ChannelDifference& c : comparison.channels) {
     Json row{{"channel", c.name}, {"pixels_differing", c.difference.differing}};
     if (!c.countsThings) {
@@ -271,7 +273,17 @@ Json compareJson(const Comparison& comparison) {
     }
     json["channels"].push_back(std::move(row));
   }
-  if (comparison.stages) json["stages"] = accuracy::stagesJson(*comparison.stages);
+  if (!comparison.stages) return json;
+  json["stages"] = Json::array();
+  for (const StageDifference& row : *comparison.stages) {
+    json["stages"].push_back({{"stage", kStageNames[static_cast<std::size_t>(row.stage)]},
+                              {"column", row.column},
+                              {"slots", row.slots},
+                              {"worst_ulp", row.worstUlp},
+                              {"limit_ulp", row.limitUlp},
+                              {"pixel", {row.pixelX, row.pixelY}},
+                              {"depth", row.depth}});
+  }
   return json;
 }
 

@@ -81,12 +81,10 @@ std::vector<EffectStep> measureSteps(const EffectsJob& job, Progress* progress) 
 }
 
 void checkJob(const EffectsJob& job) {
-  if (job.out.empty()) throwUsage("whit effects expected --out DIR");
-  if (job.common.render.mode == Mode::reference) throwUsage("whit effects is for packets");
-  for (const char* option : {"effects", "disable"}) {
-    if (!job.common.given.contains(option)) continue;
-    throwUsage(std::string("whit effects chooses the effects itself: leave out --") + option);
-  }
+  refuseIf(job.out.empty(), "whit effects expected --out DIR");
+  refuseIf(job.common.render.mode == Mode::reference, "whit effects is for packets");
+  refuseIf(job.common.given.contains("effects") || job.common.given.contains("disable"),
+           "whit effects chooses the effects itself: leave out --effects and --disable");
   makeFolder(job.out);
 }
 

@@ -15,7 +15,6 @@
 #include "core/error.h"
 #include "core/formatted.h"
 #include "core/option_values.h"
-#include "core/printable.h"
 #include "inspect/ray_lines.h"
 #include "io/atomic_file.h"
 #include "io/image/image_file.h"

@@ -8,8 +8,8 @@
 #include "cli/commands.h"
 #include "cli/json_report.h"
 #include "core/error.h"
+#include "core/formatted.h"
 #include "core/nearest_name.h"
-#include "core/printable.h"
 #include "render/shadow_cache_schedule.h"
 
 namespace whit::cli {
@@ -17,12 +17,6 @@ namespace whit::cli {
 namespace {
 
 Json vectorJson(const Vec3f& v) { return Json::array({v.x, v.y, v.z}); }
-
-// Memory of one exact sphere without the BVH; 0 if there are none.
-std::uint64_t bytesPerSphere(const Scene& scene, const Renderer& renderer) {
-  const std::uint64_t spheres = scene.triangles.size() - scene.firstSphere;
-  return spheres == 0 ? 0 : sizeof(TriangleRecord) + renderer.accel().sphereBytes() / spheres;
-}
 
 // The shadow cache that the scene could have: its lights, its pieces of triangles, the number of
 // pixel samples from which it saves time, and otherwise why there is none.
@@ -63,7 +57,6 @@ Json infoJson(const OpenScene& open, const Renderer& renderer, const RenderOptio
   Json json{{"scene", scene.name},
             {"triangles", scene.instancedTriangles},
             {"spheres", scene.instancedSpheres},
-            {"bytes_per_sphere", bytesPerSphere(scene, renderer)},
             {"instances", scene.instances.size()},
             {"bounds", {{"lower", vectorJson(scene.lower)}, {"upper", vectorJson(scene.upper)}}},
             {"materials", scene.materials.size()},

@@ -57,11 +57,9 @@ void addFrames(const RunSummary& run, Json& json) {
   // The sum is the same with and without the shadow cache.
   json["rays"]["shadow"] = traced + lit + dark;
   if (run.shadowCache) {
-    const double cold = run.shadowCache->coldMs;
     json["shadow_cache"] = {{"lit", lit},
                             {"dark", dark},
                             {"traced", traced},
-                            {"cold_ms", cold > 0 ? Json(cold) : Json(nullptr)},
                             {"fill_ms", run.shadowCache->fillMs},
                             {"bytes", run.shadowCache->bytes}};
   }
@@ -86,19 +84,9 @@ void addFrames(const RunSummary& run, Json& json) {
 
 }  // namespace
 
-accuracy::RunFacts machineFacts() {
-  accuracy::RunFacts facts;
-  facts.cpu = cpuName();
-  facts.cores = affinityThreads();
-  facts.compiler = kCompiler;
-  facts.commit = WHIT_COMMIT;
-  return facts;
-}
-
 Json machineJson(const Machine& machine) {
-  const accuracy::RunFacts facts = machineFacts();
-  return {{"cpu", facts.cpu},         {"cores", facts.cores},       {"simd", machine.simd},
-          {"embree", machine.embree}, {"compiler", facts.compiler}, {"commit", facts.commit}};
+  return {{"cpu", cpuName()},         {"cores", affinityThreads()}, {"simd", machine.simd},
+          {"embree", machine.embree}, {"compiler", kCompiler},      {"commit", WHIT_COMMIT}};
 }
 
 Json runJson(const RunSummary& run) {

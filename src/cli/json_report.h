@@ -5,15 +5,13 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "accuracy/measurement.h"
 #include "cli/app/frame_summary.h"
 
 namespace whit::cli {
 
 using Json = nlohmann::ordered_json;
 
-// The machine and the build; seed and extent of a sweep are not set.
-accuracy::RunFacts machineFacts();
+// The machine and the build.
 Json machineJson(const Machine& machine);
 // `writing_ms`, where images were written, has the medians of what writing one took and of what the
 // tracing waited for it; `written_per_s` is the rate of both together. `stages_ms`, `embree_ms`,

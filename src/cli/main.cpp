@@ -8,7 +8,6 @@
 #include "cli/commands.h"
 #include "core/error.h"
 #include "core/nearest_name.h"
-#include "core/version.h"
 
 namespace whit::cli {
 
@@ -24,7 +23,7 @@ const ManPage kPage{
     "whit-view"};
 
 void showHelp() {
-  std::printf("whit %s: %s\n\nUsage: %s\n\nCommands:\n", versionText(), kPage.summary.c_str(),
+  std::printf("whit %s: %s\n\nUsage: %s\n\nCommands:\n", WHIT_VERSION, kPage.summary.c_str(),
               kPage.synopsis.c_str());
   for (const Command& c : kCommands) std::printf("  %-10s%s\n", c.name, c.summary);
   std::printf(
@@ -90,7 +89,7 @@ int run(const Words& words) {
     return 0;
   }
   if (words[0] == "--version") {
-    std::printf("whit %s\n", versionText());
+    std::printf("whit %s\n", WHIT_VERSION);
     return 0;
   }
   if (words[0] == "--man") {
@@ -106,7 +105,6 @@ int run(const Words& words) {
   if (const Command* const command = commandNamed(words[0])) {
     return command->run(Words(words.begin() + 1, words.end()));
   }
-  if (words[0] == "stress") throwUsage("whit stress is the program whit-verify now");
   throwNoCommand(words[0]);
 }
 

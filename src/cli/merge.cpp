@@ -21,8 +21,7 @@ int mergeCommand(const Words& words) {
                 std::numeric_limits<std::size_t>::max(), files);
   if (parseOptions("whit merge OUT.exr PART.exr... [options]",
                    "Merges crops of one image, with their channels, which all crops must have. The "
-                   "crops must "
-                   "cover the image; where they overlap the later one counts.",
+                   "crops must cover the image; where they overlap the later one counts.",
                    list, words) == Parsed::helpShown) {
     return 0;
   }

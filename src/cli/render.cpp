@@ -23,7 +23,6 @@
 #include "core/error.h"
 #include "core/formatted.h"
 #include "core/options.h"
-#include "core/printable.h"
 #include "core/stopwatch.h"
 #include "io/image/image_file.h"
 #include "io/paths.h"
@@ -106,14 +105,11 @@ OptionList listOptions(RenderJob& job) {
 
 void checkStandardOutput(const RenderJob& job) {
   if (!job.toStandardOutput()) return;
-  if (std::count(job.outputs.begin(), job.outputs.end(), kStandardOutput) > 1) {
-    throwUsage("-o -: standard output takes one image: give it once");
-  }
-  if (job.json == kStandardOutput) {
-    throwUsage("-o - and --json -: standard output takes one of them");
-  }
-  if (job.resume) throwUsage("-o -: what went to standard output cannot be resumed");
-  if (isatty(STDOUT_FILENO)) throwUsage("-o -: standard output is a terminal: send it elsewhere");
+  refuseIf(std::count(job.outputs.begin(), job.outputs.end(), kStandardOutput) > 1,
+           "-o -: standard output takes one image: give it once");
+  refuseIf(job.json == kStandardOutput, "-o - and --json -: standard output takes one of them");
+  refuseIf(job.resume, "-o -: what went to standard output cannot be resumed");
+  refuseIf(isatty(STDOUT_FILENO), "-o -: standard output is a terminal: send it elsewhere");
 }
 
 // Throws if no output has a place for --channels.
@@ -124,70 +120,57 @@ void checkChannels(const RenderJob& job) {
   for (const std::string& output : job.outputs) {
     const std::optional<Channel> channel = channelNamedBy(output, kept);
     written |= channel || extensionOf(output) == ".exr";
-    if (channel == Channel::position) {
-      throwUsage("'" + output + "': positions do not fit into a PNG: write an EXR");
-    }
+    refuseIf(channel == Channel::position,
+             "'" + output + "': positions do not fit into a PNG: write an EXR");
   }
-  if (!written) {
-    throwUsage(
-        "--channels: expected an EXR to keep them in, or a PNG named by one, as "
-        "out.depth.png");
-  }
-  if (job.exr == ExrStorage::dwaa) {
-    throwUsage("--exr dwaa is lossy for channels as well: give --exr zip, none or half");
-  }
+  refuseIf(!written,
+           "--channels: expected an EXR to keep them in, or a PNG named by one, as out.depth.png");
+  refuseIf(job.exr == ExrStorage::dwaa,
+           "--exr dwaa is lossy for channels as well: give --exr zip, none or half");
 }
 
 void checkFilm(const RenderJob& job) {
   if (!job.makesFilm()) return;
-  if (std::count_if(job.outputs.begin(), job.outputs.end(), isFilm) > 1) {
-    throwUsage("-o: one film at a time");
-  }
-  if (job.frames.empty()) throwUsage("a film needs --frames A..B");
-  if (job.resume) throwUsage("--resume keeps images, and a film is made as a whole");
-  if (job.common.render.crop) throwUsage("--crop: a film shows the whole picture");
-  const auto& size = job.common.render.size;
-  if (size && (size->width % 2 != 0 || size->height % 2 != 0)) {
-    throwUsage("--size: the sides of a film are even numbers of pixels");
-  }
+  refuseIf(std::count_if(job.outputs.begin(), job.outputs.end(), isFilm) > 1,
+           "-o: one film at a time");
+  refuseIf(job.frames.empty(), "a film needs --frames A..B");
+  refuseIf(job.resume, "--resume keeps images, and a film is made as a whole");
+  refuseIf(job.common.render.crop.has_value(), "--crop: a film shows the whole picture");
+  const ImageSize size = job.common.render.size.value_or(ImageSize());
+  refuseIf(size.width % 2 != 0 || size.height % 2 != 0,
+           "--size: the sides of a film are even numbers of pixels");
 }
 
 void checkJob(const RenderJob& job) {
-  if (job.outputs.empty()) {
-    throwUsage("expected a file to write: -o OUT.exr, -o OUT.png or -o FILM.mp4");
-  }
+  refuseIf(job.outputs.empty(), "expected a file to write: -o OUT.exr, -o OUT.png or -o FILM.mp4");
   checkChannels(job);
   checkFilm(job);
   checkStandardOutput(job);
   for (const std::string& output : job.outputs) {
     if (output != kStandardOutput) requireWritable(output, {".exr", ".png", kFilm});
+    if (job.frames.empty()) {
+      requireNoFrameName(output);
+    } else if (!isFilm(output)) {
+      frameName(output, 0);
+    }
   }
   requireJsonWritable(job.json);
   if (job.makesFilm() && !hasFfmpeg()) {
     throwIo("ffmpeg, which makes films, is not in $PATH: write frames, as -o frame-####.png");
   }
-  if (job.frames.empty()) {
-    for (const std::string& output : job.outputs) requireNoFrameName(output);
-    return;
-  }
+  if (job.frames.empty()) return;
   parseFrameRange(job.frames);
-  for (const std::string& output : job.outputs) {
-    if (!isFilm(output)) frameName(output, 0);
-  }
-  if (job.common.load.instant.seconds && !job.onTurntable) {
-    throwUsage("--time is one instant, --frames are many: give one");
-  }
+  refuseIf(job.common.load.instant.seconds && !job.onTurntable,
+           "--time is one instant, --frames are many: give one");
 }
 
 void checkFilmed(const RenderJob& job, const Scene& scene) {
   if (job.frames.empty() || job.onTurntable) return;
-  if (scene.cameraPath.empty() && scene.animations.empty()) {
-    throwUsage("--frames: nothing moves in scene '" + scene.name +
+  refuseIf(scene.cameraPath.empty() && scene.animations.empty(),
+           "--frames: nothing moves in scene '" + scene.name +
                "', it has no camera path and no animation");
-  }
-  if (job.common.given.contains("camera") && !scene.cameraPath.empty()) {
-    throwUsage("--camera names a still viewpoint, --frames follows the scene's path: give one");
-  }
+  refuseIf(job.common.given.contains("camera") && !scene.cameraPath.empty(),
+           "--camera names a still viewpoint, --frames follows the scene's path: give one");
 }
 
 // Opens the scene and, of a turntable, places the camera.

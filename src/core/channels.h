@@ -81,8 +81,7 @@ std::string namesOf(ChannelSet channels);  // joined by commas
 // The number of objects, materials and triangles where the ray hit nothing.
 inline constexpr std::uint32_t kNoNumber = 0xffffffffu;
 
-// All channels of a pixel but the count of its rays. What stands here is that of a pixel whose ray
-// meets nothing.
+// All channels of a pixel but the count of its rays. The defaults are those of a ray without a hit.
 struct ChannelValues {
   // Along the camera's axis, and along the ray.
   float z = std::numeric_limits<float>::infinity();
@@ -93,13 +92,13 @@ struct ChannelValues {
   std::uint32_t object = kNoNumber, material = kNoNumber, triangle = kNoNumber;
 };
 
-// The channels of a picture's pixels, in the order of those; the components of a pixel's channel
-// lie side by side.
+// The channels of a picture, in the order of its pixels; the components of a pixel's channel lie
+// side by side.
 class ChannelLayers {
  public:
   ChannelLayers() = default;
 
-  // Room for these channels of so many pixels. What they held is lost unless nothing changes.
+  // Makes room for `pixels` pixels. A change of size or channels clears all values.
   void resize(ChannelSet channels, std::size_t pixels);
   ChannelSet channels() const { return channels_; }
   std::size_t pixels() const { return pixels_; }

@@ -34,6 +34,9 @@ class Error : public std::runtime_error {
 [[noreturn]] inline void throwUsage(const std::string& what) {
   throw Error(ExitStatus::usage, what);
 }
+inline void refuseIf(bool isWrong, const std::string& why) {
+  if (isWrong) throwUsage(why);
+}
 // `where` is "file", "file:line" or "file#/json/pointer"; `what` says what was expected there.
 [[noreturn]] void throwBadScene(const std::string& where, const std::string& what);
 [[noreturn]] inline void throwIo(const std::string& what) { throw Error(ExitStatus::io, what); }

@@ -1,4 +1,4 @@
-// Text for people: printf into a string, and lines of a width.
+// Text for people: printf into a string, lines of a width, and text from files on a terminal.
 #pragma once
 
 #include <cstdarg>
@@ -40,5 +40,9 @@ inline std::string wrapped(const std::string& text, std::size_t at, std::size_t 
   }
   return lines + "\n";
 }
+
+// The text as it may be put on a terminal. Control characters, which move the cursor, color or
+// rename things, are written as "\x1b", and so are bytes that are no UTF-8.
+std::string printable(const std::string& text);
 
 }  // namespace whit

@@ -15,9 +15,9 @@
 
 namespace whit {
 
-// The words that an option takes; none if it takes others than those.
+// The only words that the option accepts; empty if it accepts others.
 std::vector<std::string> choicesOf(const OptionSpec& spec);
-// Which of them `text` is; throws naming the nearest one.
+// The index of `text` among them; throws Error(usage) that names the nearest one.
 int parseChoice(const OptionSpec& spec, const std::string& text);
 
 std::vector<std::string> split(const std::string& text, char separator);

@@ -32,12 +32,6 @@ enum class Rebuild {
 // within Whitted's model; too few samples per pixel; or light transport that the model leaves out.
 enum class Cause { arithmetic, algorithm, sampling, transport };
 
-// An option has an effect in scenes that use one of these effects.
-struct Need {
-  EffectSet oneOf;
-  std::string_view without;  // said of a scene that uses none of them
-};
-
 // An option that trades accuracy for time, as `whit accuracy` sweeps it. Values are written as on
 // the command line; lists of them are separated by blanks.
 struct KnobSpec {
@@ -52,7 +46,8 @@ struct KnobSpec {
   std::string_view alongside = {};
   // With the exact value, branching rays would never end: scenes with such rays skip it.
   bool endless = false;
-  std::array<Need, 2> needs = {};  // all of them
+  // Effects that the option changes: it is swept in scenes that use one of each set.
+  std::array<EffectSet, 2> needs = {};
 };
 
 // The tab of the viewer's panel that has a control for it.
@@ -91,10 +86,9 @@ enum class BvhQuality { low, medium, high };
 enum class ShadowCacheMode { automatic, off, audit };
 
 // Needs that several options share.
-inline constexpr Need kNeedsImpulses{EffectSet().with(Effect::mirror).with(Effect::transmission),
-                                     "nothing in the scene reflects or refracts"};
-inline constexpr Need kNeedsVertexNormals{EffectSet().with(Effect::smoothNormals),
-                                          "all surfaces are flat"};
+inline constexpr EffectSet kNeedsImpulses =
+    EffectSet().with(Effect::mirror).with(Effect::transmission);
+inline constexpr EffectSet kNeedsVertexNormals = EffectSet().with(Effect::smoothNormals);
 
 // Exposure of 8-bit output in EV. An automatic one is computed from the view by
 // render/auto_exposure.h and is 0 until then.
@@ -243,8 +237,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .everyday = true,
               .knob = KnobSpec{.cause = Cause::sampling, .exact = "4", .values = "0 1 4 16",
                                .spare = "1 4 16",
-                               .needs = {Need{EffectSet().with(Effect::glossyReflection),
-                                              "no glossy lobe in the scene reflects it"}}}},
+                               .needs = {EffectSet().with(Effect::glossyReflection)}}},
              o.glossy},
       Option{{.name = "indirect", .words = "N", .low = 0, .high = 64,
               .help = "indirect diffuse lighting, as by a path tracer: sampled rays per hit on a "
@@ -254,8 +247,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .cheapest = "0",
               .everyday = true,
               .knob = KnobSpec{.cause = Cause::transport, .exact = "4", .values = "0 1 4 16 64",
-                               .needs = {Need{EffectSet().with(Effect::indirect),
-                                              "no diffuse surface reflects the scene"}}}},
+                               .needs = {EffectSet().with(Effect::indirect)}}},
              o.indirect},
       Option{{.name = "cutoff", .words = "X", .low = 0, .high = 1,
               .help = "contribution to the pixel below which reflected and refracted rays are not "
@@ -281,8 +273,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .cheapest = "1",
               .everyday = true,
               .knob = KnobSpec{.cause = Cause::sampling, .exact = "4", .values = "1 4 16",
-                               .needs = {Need{EffectSet().with(Effect::softShadows),
-                                              "no light has a radius and a shadow"}}}},
+                               .needs = {EffectSet().with(Effect::softShadows)}}},
              o.lightSamples},
       Option{{.name = "ambient-samples", .words = "N", .low = 0, .high = 64,
               .help = "ambient occlusion: rays per hit, of the length that the scene gives; 0: "
@@ -292,8 +283,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .everyday = true,
               .knob = KnobSpec{.cause = Cause::sampling, .exact = "4", .values = "0 1 4 16",
                                .spare = "1 16",
-                               .needs = {Need{EffectSet().with(Effect::ambientOcclusion),
-                                              "the ambient light has no radius of occlusion"}}}},
+                               .needs = {EffectSet().with(Effect::ambientOcclusion)}}},
              o.ambientSamples},
       Option{{.name = "light-cutoff", .words = "X", .low = 0, .high = 1e6,
               .help = "contribution to the pixel below which a light is skipped, with its shadow "
@@ -301,16 +291,14 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .cheapest = "0.004",
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "0",
                                .values = "0 1e-4 1e-3 4e-3", .crossed = "0 4e-3", .spare = "1e-4",
-                               .needs = {Need{EffectSet().with(Effect::lights),
-                                              "the scene has no light"}}}},
+                               .needs = {EffectSet().with(Effect::lights)}}},
              o.shading.lightCutoff},
       Option{{.name = "fresnel", .words = "exact|schlick",
               .help = "reflectance of dielectrics: Fresnel's equations or Schlick's approximation",
               .cheapest = "schlick",
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "exact",
                                .values = "exact schlick",
-                               .needs = {Need{EffectSet().with(Effect::transmission),
-                                              "nothing in the scene is transparent"}}}},
+                               .needs = {EffectSet().with(Effect::transmission)}}},
              o.shading.fresnel},
       Option{{.name = "texture-filter", .words = "nearest|bilinear|trilinear",
               .help = "texture filtering; trilinear uses mip maps; alpha masks are always "
@@ -320,9 +308,8 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .everyday = true,
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "bilinear",
                                .values = "bilinear nearest trilinear",
-                               .needs = {Need{EffectSet().with(Effect::textures)
-                                                         .with(Effect::normalMaps),
-                                              "the scene has no texture"}}}},
+                               .needs = {EffectSet().with(Effect::textures)
+                                                    .with(Effect::normalMaps)}}},
              o.shading.textureFilter},
       Option{{.name = "offset", .words = "bound|fixed|wachter-binder",
               .help = "offset of ray origins from the surface, against self-intersection: the "
@@ -331,8 +318,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "bound",
                                .values = "bound fixed wachter-binder",
                                .spare = "fixed wachter-binder",
-                               .needs = {Need{kNeedsImpulses.oneOf.with(Effect::shadows),
-                                              kNeedsImpulses.without}}}},
+                               .needs = {kNeedsImpulses.with(Effect::shadows)}}},
              o.shading.offset},
       Option{{.name = "terminator", .words = "on|off",
               .help = "avoid shadow-terminator artifacts on smooth-shaded meshes: shadow rays "
@@ -341,8 +327,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "off", .values = "off on",
                                .spare = "on",
                                .needs = {kNeedsVertexNormals,
-                                         Need{EffectSet().with(Effect::shadows),
-                                              "nothing in the scene casts a shadow"}}}},
+                                         EffectSet().with(Effect::shadows)}}},
              o.shading.terminator},
       Option{{.name = "bend", .words = "on|off",
               .help = "turn back reflected and refracted rays that a normal map sends to the "
@@ -350,8 +335,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .cheapest = "off",
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "on", .values = "on off",
                                .spare = "off",
-                               .needs = {Need{kNeedsVertexNormals.oneOf.with(Effect::normalMaps),
-                                              kNeedsVertexNormals.without},
+                               .needs = {kNeedsVertexNormals.with(Effect::normalMaps),
                                          kNeedsImpulses}}},
              o.shading.bend},
       Option{{.name = "reciprocal", .words = "exact|refined|approximate",
@@ -418,8 +402,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .rebuilds = Rebuild::scene, .tab = Tab::none,
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "0",
                                .values = "0 16 48 192 384",
-                               .needs = {Need{EffectSet().with(Effect::spheres),
-                                              "the scene has no exact sphere"}}}},
+                               .needs = {EffectSet().with(Effect::spheres)}}},
              o.sphereSegments},
       Option{{.name = "effects", .words = "auto|all",
               .help = "kernels for the effects that the scene uses, or for every effect",

@@ -8,13 +8,10 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <numeric>
 #include <vector>
 
-#include "core/quantile.h"
 #include "core/srgb.h"
 #include "core/vec3.h"
-#include "inspect/metrics.h"
 
 namespace whit {
 
@@ -262,6 +259,12 @@ std::vector<float> magnitudes(const Plane& x, const Plane& y) {
   return result;
 }
 
+// The filtered channels that FLIP computes from one image.
+struct FlipSide {
+  std::vector<Vec3f> lab;          // filtered, Hunt-adjusted
+  std::vector<float> edge, point;  // magnitudes of the features
+};
+
 void findFeatures(const Plane& achromatic, FlipSide& side) {
   const FeatureTaps taps = makeFeatureTaps();
   Plane luminance = achromatic;
@@ -273,10 +276,8 @@ void findFeatures(const Plane& achromatic, FlipSide& side) {
                           filterAlongY(smooth, taps.point));
 }
 
-}  // namespace
-
-FlipSide flipSide(const std::vector<Rgb>& pixels, int width, int height) {
-  const Planes opponent = opponentPlanes(pixels, width, height);
+FlipSide flipSide(const DisplayImage& image) {
+  const Planes opponent = opponentPlanes(linearOf(image), image.width, image.height);
   FlipSide side;
   side.lab = filteredLab(opponent);
   findFeatures(opponent[0], side);
@@ -296,81 +297,10 @@ std::vector<float> flipBetween(const FlipSide& a, const FlipSide& b) {
   return flip;
 }
 
-std::vector<float> flipOfCodes(const DisplayImage& a, const DisplayImage& b) {
-  return flipBetween(flipSide(linearOf(a), a.width, a.height),
-                     flipSide(linearOf(b), b.width, b.height));
-}
-
-namespace {
-
-// (a x^2 + b x) / (c x^2 + d x + e), the fit's constants for x / 0.6.
-constexpr double kA = 0.6 * 0.6 * 2.51, kB = 0.6 * 0.03, kC = 0.6 * 0.6 * 2.43, kD = 0.6 * 0.59,
-                 kE = 0.14;
-constexpr double kTarget = 0.85;  // of full scale
-
-// Where the curve reaches the target: the larger root of (a - tc) x^2 + (b - td) x - te.
-double inputForTarget() {
-  const double a = kA - kTarget * kC, b = kB - kTarget * kD, c = -kTarget * kE;
-  return (-b + std::sqrt(b * b - 4 * a * c)) / (2 * a);
-}
-
-std::vector<double> exposuresFor(const Image& reference) {
-  std::vector<double> lit;
-  for (const Rgb& pixel : reference.pixels) {
-    const double y = luminance(pixel);
-    if (std::isfinite(y) && y > 0) lit.push_back(y);
-  }
-  if (lit.empty()) return {0, 0};
-  const double target = inputForTarget();
-  const double start = std::log2(target / quantile(lit, 1));
-  const double stop = std::log2(target / quantile(lit, 0.5));
-  const int count = std::max(2, static_cast<int>(std::ceil(stop - start)));
-  std::vector<double> exposures;
-  exposures.reserve(static_cast<std::size_t>(count));
-  for (int i = 0; i < count; ++i) exposures.push_back(start + (stop - start) * i / (count - 1));
-  return exposures;
-}
-
-FlipSide sideAt(const Image& image, double exposure) {
-  const double scale = std::exp2(exposure);
-  std::vector<Rgb> shown(image.pixels.size());
-  for (std::size_t i = 0; i < shown.size(); ++i) {
-    if (!isFinite(image.pixels[i])) continue;
-    for (int c = 0; c < 3; ++c) {
-      const double x = static_cast<double>(image.pixels[i][c]);
-      shown[i][c] = static_cast<float>(hdrFlipToneCurve(scale * x));
-    }
-  }
-  return flipSide(shown, image.windowWidth(), image.windowHeight());
-}
-
 }  // namespace
 
-double hdrFlipToneCurve(double x) {
-  const double y = std::max(x, 0.0);
-  return std::clamp((kA * y * y + kB * y) / (kC * y * y + kD * y + kE), 0.0, 1.0);
-}
-
-HdrFlip::HdrFlip(const Image& reference) : exposures_(exposuresFor(reference)) {
-  checkComparable(reference, reference);
-  shape_ = reference;
-  shape_.pixels.clear();
-  for (const double exposure : exposures_) sides_.push_back(sideAt(reference, exposure));
-}
-
-std::vector<float> HdrFlip::map(const Image& image) const {
-  checkComparable(image, shape_);
-  std::vector<float> worst(image.pixels.size());
-  for (std::size_t k = 0; k < exposures_.size(); ++k) {
-    const std::vector<float> flip = flipBetween(sideAt(image, exposures_[k]), sides_[k]);
-    for (std::size_t i = 0; i < worst.size(); ++i) worst[i] = std::max(worst[i], flip[i]);
-  }
-  return worst;
-}
-
-double HdrFlip::mean(const Image& image) const {
-  const std::vector<float> flip = map(image);
-  return std::accumulate(flip.begin(), flip.end(), 0.0) / static_cast<double>(flip.size());
+std::vector<float> flipOfCodes(const DisplayImage& a, const DisplayImage& b) {
+  return flipBetween(flipSide(a), flipSide(b));
 }
 
 }  // namespace whit

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "core/nearest_name.h"
-#include "core/version.h"
 #include "library/internal.h"
 
 namespace whit::api {
@@ -89,6 +88,6 @@ std::vector<Animation> Scene::animations() const {
   return all;
 }
 
-std::string version() { return versionText(); }
+std::string version() { return WHIT_VERSION; }
 
 }  // namespace whit::api

@@ -9,7 +9,6 @@
 #include "core/option_values.h"
 #include "core/stopwatch.h"
 #include "core/usable_threads.h"
-#include "core/version.h"
 #include "render/audit_shadows.h"
 #include "render/build_tables.h"
 #include "render/initial_media.h"
@@ -344,7 +343,7 @@ std::vector<std::pair<std::string, std::string>> describeImage(const Scene& scen
     resolved.simd = renderer.machine().simd;
   }
   std::vector<std::pair<std::string, std::string>> said{
-      {"software", std::string("whit ") + versionText()},
+      {"software", "whit " WHIT_VERSION},
       {"scene", scene.name},
       {"effectsUsed", formatValue(OptionSpec{}, renderer.plan().effects)}};
   for (auto& entry : pictureOptions(resolved)) said.push_back(std::move(entry));

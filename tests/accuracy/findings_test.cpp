@@ -180,20 +180,6 @@ TEST(Noise, IsTheMedianSpread) {
   EXPECT_EQ(noiseOf(sweep).flip, 0.0015);
 }
 
-// The first of two points is known within 7.5 to 10.5 ms, so it may take longer than the second.
-TEST(Fronts, APointWhoseSpreadReachesItsNeighborCoversIt) {
-  std::vector<Point> points{knobPoint("depth", "2", 8, 0.03), knobPoint("depth", "4", 10, 0.02)};
-  for (Point& point : points) point.timing.settledMs = point.timing.ratio;
-  points[0].timing.ratioLow = 7.5, points[0].timing.ratioHigh = 10.5;
-  markFronts(points);
-  EXPECT_TRUE(points[0].onFront && points[1].onFront);
-  EXPECT_TRUE(points[0].coversNeighbor);
-  EXPECT_FALSE(points[1].coversNeighbor);
-  points[0].timing.ratioHigh = 9.9;
-  markFronts(points);
-  EXPECT_FALSE(points[0].coversNeighbor);
-}
-
 TEST(IdleKnobs, AreGroupedByReason) {
   const auto groups = groupedByReason({{"a", "late"}, {"b", "flat"}, {"c", "late"}});
   ASSERT_EQ(groups.size(), 2u);

@@ -134,8 +134,6 @@ TEST(Knobs, TransportIsWhatTheModelLeavesOut) {
   options.spp = 4, options.indirect = 16;
   EXPECT_TRUE(hasTransport(options));
   EXPECT_EQ(transportPaths(options), 64);
-  EXPECT_EQ(withoutTransport(options).indirect, 0);
-  EXPECT_EQ(withoutTransport(options).spp, 4);
   const RenderOptions all = transportOptions(RenderOptions(), 32);
   EXPECT_TRUE(hasTransport(all));
   EXPECT_EQ(all.spp, 32);

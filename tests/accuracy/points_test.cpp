@@ -45,7 +45,7 @@ TEST(Points, WhatDoesNothingIsLeftOutWithTheReason) {
   EXPECT_FALSE(find(list, "depth=2"));
   ASSERT_EQ(list.idle.size(), 1u);
   EXPECT_EQ(list.idle[0].name, "depth");
-  EXPECT_EQ(list.idle[0].because, "nothing in the scene reflects or refracts");
+  EXPECT_EQ(list.idle[0].because, "not among the effects of the scene: mirror,transmission");
 }
 
 TEST(Points, OptionsOfTheCommandLineAreTheBaseline) {

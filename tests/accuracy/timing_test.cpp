@@ -79,22 +79,5 @@ TEST(TimeSamples, NoisyBeyondSoManyPerCent) {
   EXPECT_TRUE(samples.timing().noisy());
 }
 
-TEST(Blocks, AreAsLongAsRoundsEnoughOfThemFit) {
-  for (const double budgetMs : {100.0, 10000.0}) {
-    for (double pointMs = 0.5; pointMs < 20000; pointMs *= 1.3) {
-      for (const double baselineMs : {0.1 * pointMs, pointMs, 10 * pointMs}) {
-        const Block block = blockFor(pointMs, baselineMs, budgetMs);
-        ASSERT_GE(block.frames, 1);
-        if (block.frames > 1) {
-          EXPECT_LE(kConfidentRounds * roundMs(block, pointMs, baselineMs), budgetMs);
-        }
-      }
-    }
-  }
-  EXPECT_EQ(blockFor(10, 10, 500).frames, 4);  // 5 rounds of 2 x 5 frames
-  EXPECT_EQ(blockFor(10, 10, 300).frames, 2);  // of 2 x 3
-  EXPECT_EQ(blockFor(10, 10, 299).frames, 1);
-}
-
 }  // namespace
 }  // namespace whit::accuracy

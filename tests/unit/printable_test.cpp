@@ -1,4 +1,4 @@
-#include "core/printable.h"
+#include "core/formatted.h"
 
 #include <gtest/gtest.h>
 

@@ -20,7 +20,6 @@
 #include "core/error.h"
 #include "core/formatted.h"
 #include "core/nearest_name.h"
-#include "core/version.h"
 #include "io/atomic_file.h"
 #include "io/image/image_file.h"
 #include "io/load_scene.h"
@@ -238,7 +237,7 @@ Machine thisMachine() {
 
 int run(const std::vector<std::string>& words) {
   if (words == std::vector<std::string>{"--version"}) {
-    std::printf("whit-verify %s\n", versionText());
+    std::printf("whit-verify %s\n", WHIT_VERSION);
     return 0;
   }
   cli::CommonOptions common;

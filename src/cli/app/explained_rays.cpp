@@ -1,7 +1,6 @@
 #include "cli/app/explained_rays.h"
 
 #include "core/formatted.h"
-#include "core/printable.h"
 #include "reference/media.h"
 
 namespace whit::cli {

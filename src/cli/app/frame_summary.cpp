@@ -122,13 +122,9 @@ void appendShadowCache(std::string& text, const RunSummary& run) {
   const FrameStats& frame = medianFrame(run);
   const auto [lit, dark] = frame.meter.shadows;
   const double rays = static_cast<double>(lit + dark + frame.of(RayKind::shadow).rays);
-  text += formatted("  shadow cache: %.1f %% of the shadow rays; ",
-                    rays > 0 ? 100 * static_cast<double>(lit + dark) / rays : 0);
-  if (run.shadowCache->coldMs > 0) {
-    text += formatted("with an empty one a frame took %.2f ms, ", run.shadowCache->coldMs);
-  }
-  text += formatted("filled in %.0f ms, %.1f MB\n", run.shadowCache->fillMs,
-                    static_cast<double>(run.shadowCache->bytes) / 1e6);
+  text += formatted("  shadow cache: %.1f %% of the shadow rays; filled in %.0f ms, %.1f MB\n",
+                    rays > 0 ? 100 * static_cast<double>(lit + dark) / rays : 0,
+                    run.shadowCache->fillMs, static_cast<double>(run.shadowCache->bytes) / 1e6);
 }
 
 void appendStages(std::string& text, const FrameStats& frame) {
@@ -205,7 +201,6 @@ std::string stageTable(const RunSummary& run) {
 
 std::string ratioText(RunPairs pairs, const RunSummary& first, const RunSummary& second) {
   const RunRatio ratio = ratioOf(second, first);
-  const double base = medianFrame(first).frameMs;
   const auto row = [](const char* what, double of, double a, double b) {
     return formatted("  %-34s%10.3f  (%.2f over %.2f ms)\n", what, of, a, b);
   };
@@ -213,14 +208,9 @@ std::string ratioText(RunPairs pairs, const RunSummary& first, const RunSummary&
                                pairs == RunPairs::effects ? "every effect over the scene's"
                                                           : "with over without shadow cache",
                                first.frames.size());
-  text += row("whole frame", ratio.frame, medianFrame(second).frameMs, base);
-  text += row("outside Embree", ratio.outsideEmbree, outsideEmbreeMs(medianFrame(second)),
-              outsideEmbreeMs(medianFrame(first)));
-  if (second.shadowCache && base > 0) {
-    const double cold = second.shadowCache->coldMs;
-    text += row("with an empty shadow cache", cold / base, cold, base);
-  }
-  return text;
+  text += row("whole frame", ratio.frame, medianFrame(second).frameMs, medianFrame(first).frameMs);
+  return text + row("outside Embree", ratio.outsideEmbree, outsideEmbreeMs(medianFrame(second)),
+                    outsideEmbreeMs(medianFrame(first)));
 }
 
 }  // namespace whit::cli

@@ -15,7 +15,6 @@ namespace whit::cli {
 
 // How the shadow cache was used.
 struct ShadowCacheUse {
-  double coldMs = 0;  // the median frame with an empty cache; 0: not measured
   double fillMs = 0;  // filling it, between frames
   std::uint64_t bytes = 0;
 };

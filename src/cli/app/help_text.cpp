@@ -17,7 +17,6 @@
 #include "core/formatted.h"
 #include "core/option_table.h"
 #include "core/option_values.h"
-#include "core/version.h"
 #include "io/paths.h"
 
 namespace whit::cli {
@@ -229,10 +228,11 @@ std::string manOptions(const std::string& usage, const std::string& summary,
 }
 
 void printManual(const ManPage& page, const std::function<void()>& body) {
-  std::string text = ".TH " + roff(page.name) + " 1 \"\" \"whit " + versionText() +
-                     "\" \"User Commands\"\n" + heading("name") + roff(page.name) + " \\- " +
-                     roff(page.summary) + "\n" + heading("synopsis") + ".B " + roff(page.synopsis) +
-                     "\n" + heading("description") + roff(page.description) + "\n";
+  std::string text = ".TH " + roff(page.name) +
+                     " 1 \"\" \"whit " WHIT_VERSION "\" \"User Commands\"\n" + heading("name") +
+                     roff(page.name) + " \\- " + roff(page.summary) + "\n" + heading("synopsis") +
+                     ".B " + roff(page.synopsis) + "\n" + heading("description") +
+                     roff(page.description) + "\n";
   text += manSection("options",
                      {{"--help", "commands, or the options of a command that are used every day"},
                       {"--help-all", "all options of a command"},

@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "core/formatted.h"
 #include "core/option_table.h"
-#include "core/printable.h"
 #include "core/stopwatch.h"
 #include "io/load_scene.h"
 

@@ -9,7 +9,7 @@
 #include <exception>
 
 #include "core/error.h"
-#include "core/printable.h"
+#include "core/formatted.h"
 
 namespace whit::cli {
 

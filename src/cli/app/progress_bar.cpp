@@ -8,7 +8,6 @@
 #include <mutex>
 
 #include "core/formatted.h"
-#include "core/printable.h"
 #include "core/stopwatch.h"
 
 namespace whit::cli {
