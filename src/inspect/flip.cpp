@@ -144,11 +144,13 @@ Planes opponentPlanes(const std::vector<Rgb>& pixels, int width, int height) {
   return planes;
 }
 
-Taps normalized(const std::vector<double>& weights) {
-  double sum = 0;
-  for (const double w : weights) sum += w;
+// Returns weights whose positive ones sum to 1 and whose negative ones sum to -1.
+Taps balanced(const std::vector<double>& weights) {
+  double positive = 0, negative = 0;
+  for (const double w : weights) (w > 0 ? positive : negative) += std::abs(w);
   Taps taps;
-  for (const double w : weights) taps.push_back(static_cast<float>(w / sum));
+  for (const double w : weights)
+    taps.push_back(static_cast<float>(w / (w > 0 ? positive : negative)));
   return taps;
 }
 
@@ -173,7 +175,7 @@ Plane filterContrast(const Plane& plane, const std::vector<Gaussian>& gaussians)
       weights.push_back(std::exp(-std::numbers::pi * std::numbers::pi * d * d / g.b));
       line += weights.back();
     }
-    taps.push_back(normalized(weights));
+    taps.push_back(balanced(weights));
     masses.push_back(g.a * std::sqrt(std::numbers::pi / g.b) * line * line);
     total += masses.back();
   }
@@ -228,20 +230,15 @@ std::vector<Vec3f> filteredLab(const Planes& opponent) {
   return lab;
 }
 
-// 3.2: taps of the Gaussian, of its first derivative (edges) and its second (points); the positive
-// weights sum to 1, the negative ones to -1.
-struct FeatureTaps {
-  Taps gaussian, edge, point;
-};
-Taps balanced(const std::vector<double>& weights) {
-  double positive = 0, negative = 0;
-  for (const double w : weights) (w > 0 ? positive : negative) += std::abs(w);
-  Taps taps;
-  for (const double w : weights)
-    taps.push_back(static_cast<float>(w / (w > 0 ? positive : negative)));
-  return taps;
+std::vector<float> magnitudes(const Plane& x, const Plane& y) {
+  std::vector<float> result(x.values.size());
+  for (std::size_t i = 0; i < result.size(); ++i)
+    result[i] = std::sqrt(x.values[i] * x.values[i] + y.values[i] * y.values[i]);
+  return result;
 }
-FeatureTaps makeFeatureTaps() {
+
+// 3.2: edges by the first derivative of a Gaussian, points by the second.
+void findFeatures(const Plane& achromatic, FlipSide& side) {
   const double deviation = 0.5 * kFeatureWidth * kPixelsPerDegree;
   const int radius = static_cast<int>(std::ceil(3 * deviation));
   std::vector<double> gaussian, edge, point;
@@ -252,28 +249,17 @@ FeatureTaps makeFeatureTaps() {
     edge.push_back(-x * g);
     point.push_back((square - 1) * g);
   }
-  return {normalized(gaussian), balanced(edge), balanced(point)};
-}
-
-std::vector<float> magnitudes(const Plane& x, const Plane& y) {
-  std::vector<float> result(x.values.size());
-  for (std::size_t i = 0; i < result.size(); ++i)
-    result[i] = std::sqrt(x.values[i] * x.values[i] + y.values[i] * y.values[i]);
-  return result;
-}
-
-void findFeatures(const Plane& achromatic, FlipSide& side) {
-  const FeatureTaps taps = makeFeatureTaps();
   Plane luminance = achromatic;
   for (float& value : luminance.values) value = (value + 16) / 116;
-  const Plane smooth = filterAlongX(luminance, taps.gaussian);
-  side.edge = magnitudes(filterAlongY(filterAlongX(luminance, taps.edge), taps.gaussian),
-                         filterAlongY(smooth, taps.edge));
-  side.point = magnitudes(filterAlongY(filterAlongX(luminance, taps.point), taps.gaussian),
-                          filterAlongY(smooth, taps.point));
+  const Taps smoothing = balanced(gaussian);
+  const Plane smooth = filterAlongX(luminance, smoothing);
+  const auto magnitudesOf = [&](const Taps& taps) {
+    return magnitudes(filterAlongY(filterAlongX(luminance, taps), smoothing),
+                      filterAlongY(smooth, taps));
+  };
+  side.edge = magnitudesOf(balanced(edge));
+  side.point = magnitudesOf(balanced(point));
 }
-
-}  // namespace
 
 FlipSide flipSide(const std::vector<Rgb>& pixels, int width, int height) {
   const Planes opponent = opponentPlanes(pixels, width, height);
@@ -296,19 +282,13 @@ std::vector<float> flipBetween(const FlipSide& a, const FlipSide& b) {
   return flip;
 }
 
-std::vector<float> flipOfCodes(const DisplayImage& a, const DisplayImage& b) {
-  return flipBetween(flipSide(linearOf(a), a.width, a.height),
-                     flipSide(linearOf(b), b.width, b.height));
-}
-
-namespace {
-
 // (a x^2 + b x) / (c x^2 + d x + e), the fit's constants for x / 0.6.
 constexpr double kA = 0.6 * 0.6 * 2.51, kB = 0.6 * 0.03, kC = 0.6 * 0.6 * 2.43, kD = 0.6 * 0.59,
                  kE = 0.14;
 constexpr double kTarget = 0.85;  // of full scale
 
-// Where the curve reaches the target: the larger root of (a - tc) x^2 + (b - td) x - te.
+// Returns the input at which the curve reaches the target: the larger root of
+// (a - tc) x^2 + (b - td) x - te.
 double inputForTarget() {
   const double a = kA - kTarget * kC, b = kB - kTarget * kD, c = -kTarget * kE;
   return (-b + std::sqrt(b * b - 4 * a * c)) / (2 * a);
@@ -345,6 +325,11 @@ FlipSide sideAt(const Image& image, double exposure) {
 }
 
 }  // namespace
+
+std::vector<float> flipOfCodes(const DisplayImage& a, const DisplayImage& b) {
+  return flipBetween(flipSide(linearOf(a), a.width, a.height),
+                     flipSide(linearOf(b), b.width, b.height));
+}
 
 double hdrFlipToneCurve(double x) {
   const double y = std::max(x, 0.0);

@@ -16,11 +16,6 @@ struct FlipSide {
   std::vector<float> edge, point;  // magnitudes of the features
 };
 
-// `pixels` are linear, in [0, 1], width * height of them.
-FlipSide flipSide(const std::vector<Rgb>& pixels, int width, int height);
-// FLIP per pixel of two images of the same size.
-std::vector<float> flipBetween(const FlipSide& a, const FlipSide& b);
-
 // Computes FLIP for two encoded images of the same size.
 std::vector<float> flipOfCodes(const DisplayImage& a, const DisplayImage& b);
 
