@@ -21,8 +21,6 @@ constexpr double kMessageSeconds = 4;
 // changed, and in the third windows fit their contents.
 constexpr int kFramesToAnswer = 3;
 
-constexpr double kWatchSeconds = 0.5;  // shortest time between looks at the scene's file
-
 std::filesystem::file_time_type timeOf(const std::filesystem::path& file) {
   std::error_code error;  // a file that is just being replaced is not an error
   return std::filesystem::last_write_time(file, error);
@@ -71,7 +69,7 @@ bool App::step() {
   servePanel();
   const bool moved = moveCamera(seconds), played = play(seconds);
   restSeconds_ = moved || played ? 0 : restSeconds_ + seconds;
-  watchSceneFile(seconds);
+  watchSceneFile();
   followRays();
   askForFrame();  // before drawing, which the next picture need not wait for
   if (fresh) showPicture();
@@ -153,11 +151,10 @@ bool App::fetchFrame() {
   }
   if (auto frame = thread_.takeUnfinished()) {
     unfinished_ = std::move(frame);
-    panel_.remember(*unfinished_);
     answered = true;
   }
   if (!thread_.take(shown_)) return answered;
-  if (unfinished_ && unfinished_->request.serial <= shown_.request.serial) unfinished_.reset();
+  unfinished_.reset();
   if (shown_.scene != scene_) {
     const bool elsewhere = !opening_.empty();
     takeScene();
@@ -174,23 +171,24 @@ bool App::fetchFrame() {
   }
   resolution_.setSampled(shown_.sampled);
   panel_.remember(shown_);
-  rate_.fetched(!request.interruptible);
-  if (shown_.request.measureKnobs) settings_.measureKnobs = false;
+  constexpr double kNewest = 0.2;  // weight of the newest picture
+  const double ms = std::exchange(sincePicture_, Stopwatch()).ms();
+  pictureMs_ = request.interruptible ? 0
+               : pictureMs_ > 0      ? std::lerp(pictureMs_, ms, kNewest)
+                                     : 1000 / resolution_.rate();
+  if (shown_.measured == 1) settings_.measureKnobs = false;
   return true;
 }
 
 // Fills the window with the frame, or with its comparison with the reference.
 void App::showPicture() {
-  if (unfinished_ && !unfinished_->display.rgba.empty()) {
-    window_.uploadOver(unfinished_->display, unfinished_->request.window);
-  } else {
-    window_.dropOver();
-  }
   if (!shown_.scene) return;
   const ImageSize& madeFor = shown_.request.window;
   const DisplayImage& frame = shown_.film.display;
   const std::optional<Comparison>& comparison = shown_.comparison;
-  if (!comparison || settings_.compare == CompareMode::off) {
+  if (unfinished_) {
+    window_.upload(unfinished_->display, unfinished_->request.window);
+  } else if (!comparison || settings_.compare == CompareMode::off) {
     window_.upload(frame, madeFor);
   } else if (settings_.compare == CompareMode::heatMap && comparison->complete()) {
     window_.upload(comparison->heatMap, madeFor);
@@ -260,15 +258,15 @@ FrameRequest App::stillRequest(const ImageSize& window) {
 void App::followRays() {
   if (settings_.rays.forget) forgetRays();
   if (std::exchange(settings_.rays.fromAside, false) && rays_.scene) {
-    jump(cameraAside(rays_.rays.packets, rays_.query.camera));
+    jump(cameraAside(rays_.rays.packets, rays_.query.picture.camera));
   }
   if (!picked_) return;
   RayQuery query = *picked_;
-  query.options = settings_.options;
-  query.options.size = picked_->options.size;
-  query.reloads = reloads_;
-  query.edits = edits_;
-  query.seconds = shown_.request.seconds;
+  query.picture.options = settings_.options;
+  query.picture.options.size = picked_->picture.options.size;
+  query.picture.reloads = reloads_;
+  query.picture.edits = edits_;
+  query.picture.seconds = shown_.request.seconds;
   if (queried_ && sameRays(query, *queried_)) return;
   thread_.query(query);
   queried_ = query;
@@ -283,13 +281,10 @@ void App::askForFrame() {
   resolution_.setDepth(settings_.options.depth);
   // A new window size counts as motion, so that the first picture for it comes at once.
   if (std::exchange(windowSize_, window) != window) restSeconds_ = 0;
-  FrameRequest request =
+  const FrameRequest request =
       restSeconds_ >= kSettleSeconds ? stillRequest(window) : movingRequest(window);
   if (asked_ && samePicture(request, *asked_)) return;
-  request.serial = serial_ + 1;
-  if (!thread_.ask(request)) return;
-  ++serial_;
-  asked_ = request;
+  if (thread_.ask(request)) asked_ = request;
 }
 
 void App::drawPanel() {
@@ -330,7 +325,8 @@ void App::draw() {
   if (shown_.scene) drawRayLines(rays_, shown_.request.camera, settings_.rays);
   drawPanel();
   if (settings_.shown && shown_.scene) {
-    drawStatus(shown_, unfinished_ ? &*unfinished_ : nullptr, rate_.perSecond());
+    drawStatus(shown_, unfinished_ ? &*unfinished_ : nullptr,
+               pictureMs_ > 0 ? 1000 / pictureMs_ : 0);
   }
   inspectPointed();
   if (!error_.empty()) {
@@ -360,38 +356,34 @@ void App::watch(const std::string& scene) {
   sceneFileTime_ = timeOf(sceneFile_);
 }
 
-void App::watchSceneFile(double seconds) {
-  watchSeconds_ += seconds;
-  if (watchSeconds_ < kWatchSeconds) return;
-  watchSeconds_ = 0;
+void App::watchSceneFile() {
   const auto time = timeOf(sceneFile_);
   if (time == sceneFileTime_ || time == std::filesystem::file_time_type::min()) return;
   sceneFileTime_ = time;
   reload();
 }
 
-void App::reload() {
-  if (!opening_.empty()) return open(opening_);  // sceneName_ is still that of the old scene
+void App::load(const SceneChoice& choice, const std::string& message) {
   ++reloads_;
   restSeconds_ = 0;
   error_.clear();
-  thread_.load({sceneName_, scene_->settings, settings_.timeline.animation});
-  say("reading the scene again");
+  thread_.load(choice);
+  say(message);
+}
+
+void App::reload() {
+  if (!opening_.empty()) return open(opening_);  // sceneName_ is still that of the old scene
+  load({sceneName_, scene_->settings, settings_.timeline.animation}, "reading the scene again");
 }
 
 void App::changeAnimation() {
   settings_.timeline.seconds = 0;
   reload();
-  say("animation " + settings_.timeline.animation);
 }
 
 void App::open(const std::string& name) {
-  ++reloads_;
-  restSeconds_ = 0;
-  error_.clear();
   opening_ = name;
-  thread_.load({name, {}, {}});  // settings belong to the scene that they were given with
-  say("reading " + name);
+  load({name, {}, {}}, "reading " + name);  // settings belong to the scene that has them
 }
 
 // Opens a scene, or shows an image as the sky.
@@ -420,7 +412,6 @@ void App::takeScene() {
     settings_.timeline = timelineOf(scene(), {std::nullopt, before.animation});
     settings_.timeline.seconds = std::min(before.seconds, settings_.timeline.length);
     settings_.timeline.playing = settings_.timeline.there && before.playing;
-    settings_.timeline.loops = before.loops;
     say("the scene was read again");
     return;
   }

@@ -23,29 +23,6 @@ struct ViewOptions {
   double rate = defaultRate(usableThreads());  // frames a second to hold in motion
 };
 
-// Measures the pictures a second while something moves.
-class FrameRate {
- public:
-  // Notes that a picture has come; `moving`: its view moves.
-  void fetched(bool moving) {
-    const double ms = std::exchange(since_, Stopwatch()).ms();
-    if (moving && moving_) {
-      constexpr double kNewest = 0.2;  // weight of the newest picture
-      meanMs_ = meanMs_ > 0 ? meanMs_ + kNewest * (ms - meanMs_) : ms;
-    } else {
-      meanMs_ = 0;
-    }
-    moving_ = moving;
-  }
-  // Returns 0 when nothing moves.
-  double perSecond() const { return moving_ && meanMs_ > 0 ? 1000 / meanMs_ : 0; }
-
- private:
-  Stopwatch since_;  // since the last picture
-  double meanMs_ = 0;
-  bool moving_ = false;
-};
-
 // Takes the place of keys, mouse and clock: tests play scripts.
 class ScriptedUser {
  public:
@@ -115,8 +92,9 @@ class App {
   RenderOptions viewOptions() const;
   void saveScene();
   void servePanel();
-  void watchSceneFile(double seconds);
+  void watchSceneFile();
   void watch(const std::string& scene);
+  void load(const SceneChoice& choice, const std::string& message);
   void reload();
   void changeAnimation();
   void open(const std::string& name);
@@ -137,17 +115,17 @@ class App {
   PanelSettings settings_;
   double split_ = 0.5;  // share of the window that shows the frame rather than the reference
   TracedFrame shown_;
-  std::optional<UnfinishedFrame> unfinished_;  // lies over the frame shown
+  std::optional<UnfinishedFrame> unfinished_;  // is shown in place of the frame
   std::optional<FrameRequest> stillFor_;       // the view that is being sharpened
   ImageSize windowSize_;
-  FrameRate rate_;
+  Stopwatch sincePicture_;
+  double pictureMs_ = 0;  // mean time between pictures in motion; 0: nothing moves
   std::optional<FrameRequest> asked_;
   std::optional<RayQuery> picked_, queried_;  // the user's pick, and the last query for it
   RayPick rays_;                              // the last answer
   // The scene's shading as it was read, as it is edited, and as it was last traced.
   ShadingEdit read_, edit_, traced_;
   int reloads_ = 0, edits_ = 0, tracedEdits_ = 0;
-  int serial_ = 0;          // number of the last request
   double restSeconds_ = 0;  // time since something changed
   double undrawnSeconds_ = 0;
   int drawAgain_ = 0;     // frames to draw without waiting, see kFramesToAnswer
@@ -159,7 +137,6 @@ class App {
   double messageSeconds_ = 0;  // time for which the message is still shown
   std::filesystem::path sceneFile_;
   std::filesystem::file_time_type sceneFileTime_;
-  double watchSeconds_ = 0;
   Stopwatch sinceTick_;
 };
 

@@ -162,7 +162,7 @@ void App::handleKey(int key) {
       {GLFW_KEY_P,
        [&] {
          if (!settings_.timeline.there) return say("nothing moves in this scene");
-         settings_.timeline.playOrPause();
+         settings_.timeline.playing = !settings_.timeline.playing;
        }},
       {GLFW_KEY_F5,
        [&] {
@@ -184,10 +184,7 @@ void App::handleKey(int key) {
 
 void App::savePicture() {
   if (!shown_.scene) return;
-  say("saved " + view::savePicture(shown_, command(shown_.options)) +
-      (shown_.request.view == DebugView::none
-           ? " (.png, .exr, .json)"
-           : " (.png: the view; .exr, .json: the picture below it)"));
+  say("saved " + view::savePicture(shown_, command(shown_.options)) + " (.png, .exr, .json)");
 }
 
 void App::printView() {
@@ -196,20 +193,16 @@ void App::printView() {
   std::printf("%s\n", text.c_str());
   std::fflush(stdout);
   window_.setClipboard(text);
-  const bool accumulates = unfinished_ && unfinished_->samples > shown_.options.spp;
-  say(accumulates
-          ? formatted("the view with %d samples as whit render makes it: printed, and in the "
-                      "clipboard",
-                      shown_.options.spp)
-          : "the view as whit render makes it: printed, and in the clipboard");
+  say(formatted("the view as whit render --spp %d makes it: printed, and in the clipboard",
+                viewOptions().spp));
 }
 
 void App::saveScene() {
   if (!shown_.scene) return;
   const std::lock_guard lock(scene_->moving);
-  const SavedScene saved =
-      view::saveScene(options_.common.load, sceneName_, *scene_, edit_, control_.camera());
-  std::printf("%s\n", commandFor(saved, scene(), viewOptions()).c_str());
+  const SavedScene saved = view::saveScene(options_.common.load, sceneName_, *scene_, edit_,
+                                           control_.camera(), viewOptions());
+  std::printf("%s\n", saved.command.c_str());
   std::fflush(stdout);
   say("saved the scene as " + saved.file + "; the command that renders it is printed");
 }
@@ -254,8 +247,8 @@ void App::startOrStopPath() {
 void App::pick(const Input::Click& place) {
   if (!shown_.scene) return;
   RayQuery query;
-  query.camera = shown_.request.camera;
-  query.options.size = window_.pixels();
+  query.picture.camera = shown_.request.camera;
+  query.picture.options.size = window_.pixels();
   const auto [x, y] = window_.pixelAt(place);
   query.x = x, query.y = y;
   picked_ = query;

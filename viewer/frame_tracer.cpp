@@ -1,7 +1,6 @@
 #include "viewer/frame_tracer.h"
 
 #include <algorithm>
-#include <atomic>
 #include <mutex>
 
 #include "bake/edit_shading.h"
@@ -9,7 +8,6 @@
 #include "cli/app/frame_summary.h"
 #include "cli/app/image_output.h"
 #include "core/option_table.h"
-#include "core/pixel.h"
 #include "core/stopwatch.h"
 #include "io/load_scene.h"
 #include "render/auto_exposure.h"
@@ -46,13 +44,6 @@ std::vector<RayWords> wordsFor(const Scene& scene, const cli::ExplainedRays& ray
 
 std::ptrdiff_t rowBytes(const DisplayImage& image) { return std::ptrdiff_t{4} * image.width; }
 
-// Measures the difference of `frame` from the finished reference. Throws as compareImages().
-void finishComparison(const Film& frame, float exposure, ToneCurve curve, Comparison& comparison) {
-  const Image& reference = comparison.reference.image;
-  comparison.heatMap = heatMap(frame.image, reference, false);
-  comparison.difference = compareImages(frame.image, reference, exposure, curve);
-}
-
 // Sets a renderer's options for its own lifetime.
 class OptionsInUse {
  public:
@@ -85,13 +76,18 @@ DisplayImage splitPicture(const DisplayImage& frame, const Comparison& compariso
 }
 
 FrameTracer::FrameTracer(std::shared_ptr<cli::OpenScene> scene, const cli::CommonOptions& common)
-    : common_(common),
-      scene_(std::move(scene)),
-      options_(common.render),
-      sky_(skyOf(*scene_)),
-      seconds_(scene_->scene.motion.given.seconds),
-      animation_(common.load.instant.animation) {
-  use(std::make_unique<Renderer>(scene_->scene, options_));
+    : common_(common), options_(common.render) {
+  open(std::move(scene), common.load.instant.animation);
+}
+
+void FrameTracer::open(std::shared_ptr<cli::OpenScene> scene, const std::string& animation) {
+  use(std::make_unique<Renderer>(scene->scene, options_));
+  scene_ = std::move(scene);  // after the old renderer has gone, which needs the old scene
+  editSettings_.clear();
+  sky_ = skyOf(*scene_);
+  ownSky_ = Sky();
+  seconds_ = scene_->scene.motion.given.seconds;
+  animation_ = animation;
 }
 
 // The shadow cache is filled from the first picture on, because more will follow.
@@ -111,15 +107,7 @@ void FrameTracer::load(const SceneChoice& choice) {
   cli::CommonOptions common = common_;
   common.load.settings = choice.settings;
   common.load.instant.animation = choice.animation;
-  std::shared_ptr<cli::OpenScene> scene = cli::openScene(choice.name, common, nullptr);
-  auto renderer = std::make_unique<Renderer>(scene->scene, options_);
-  use(std::move(renderer));  // the old renderer needs the old scene, so it goes first
-  scene_ = std::move(scene);
-  editSettings_.clear();
-  sky_ = skyOf(*scene_);
-  ownSky_ = Sky();
-  seconds_ = scene_->scene.motion.given.seconds;
-  animation_ = choice.animation;
+  open(cli::openScene(choice.name, common, nullptr), choice.animation);
 }
 
 void FrameTracer::moveTo(double seconds) {
@@ -174,15 +162,13 @@ void FrameTracer::applyOptions(const FrameRequest& request) {
 
 RayPick FrameTracer::explain(const RayQuery& query) {
   RenderOptions options = renderer_->options();
-  takeOver(query.options, Rebuild::tables, options);
+  takeOver(query.picture.options, Rebuild::tables, options);
   const ImageSize size = options.size.value();
   Film film;
   sizeFilm(film, size, Crop{query.x, query.y, query.x + 1, query.y + 1});
   RayPick pick{scene_, query, {}, {}, {}};
-  const auto restore = [before = renderer_->options()](Renderer* r) { r->setOptions(before); };
-  const std::unique_ptr<Renderer, decltype(restore)> restored(renderer_.get(), restore);
-  renderer_->setOptions(options);
-  pick.rays = cli::explainRays(*renderer_, query.camera, film, query.x, query.y);
+  const OptionsInUse used(*renderer_, options);
+  pick.rays = cli::explainRays(*renderer_, query.picture.camera, film, query.x, query.y);
   pick.words = wordsFor(scene_->scene, pick.rays);
   pick.lines = linesOf(pick.rays.packets);
   return pick;
@@ -193,6 +179,7 @@ bool FrameTracer::trace(const FrameRequest& request, TracedFrame& frame, const T
   applyOptions(request);
   frame.comparison.reset();
   frame.costs.clear();
+  frame.measured = 0;
   if (!tracePicture(request, frame, calls)) return false;
   finished_ = request;
   frame.scene = scene_;
@@ -229,16 +216,18 @@ bool FrameTracer::measure(const FrameRequest& request, TracedFrame& frame,
   sizeFilm(band_, size, Crop{0, 0, size.width, size.height});
   const double scale = static_cast<double>(whole.width) * whole.height /
                        (static_cast<double>(size.width) * size.height);
-  const auto show = [&](const std::vector<KnobCost>& sofar, std::size_t all) {
-    const double done = static_cast<double>(sofar.size()) / static_cast<double>(all);
-    calls.showUnfinished({request, {}, done, sofar});
-  };
-  const auto superseded = [&] {
+  const auto goesOn = [&](const std::vector<KnobCost>& sofar, double measured) {
+    if (sofar.size() > frame.costs.size()) {
+      frame.costs = sofar;
+      frame.measured = measured;
+      calls.publish(frame);
+    }
     calls.answer();
-    return calls.superseded();
+    return !calls.superseded();
   };
-  frame.costs = measureKnobs(*renderer_, traced, request.camera, band_, scale, {superseded, show});
-  return !superseded();
+  const bool complete = measureKnobs(*renderer_, traced, request.camera, band_, scale, goesOn);
+  frame.measured = 1;
+  return complete;
 }
 
 bool FrameTracer::tracePicture(const FrameRequest& request, TracedFrame& frame,
@@ -246,8 +235,7 @@ bool FrameTracer::tracePicture(const FrameRequest& request, TracedFrame& frame,
   const ImageSize size = request.options.size.value();
   sizeFilm(frame.film, size, Crop{0, 0, size.width, size.height});
   sizeDisplay(frame.film);
-  frame.legend.clear();
-  frame.watched.reset();
+  frame.debug.reset();
   frame.sampleError = 0;
   const bool complete = accumulates(request) ? traceInPasses(request, frame, calls)
                                              : traceAtOnce(request, frame, calls);
@@ -257,69 +245,15 @@ bool FrameTracer::tracePicture(const FrameRequest& request, TracedFrame& frame,
 
 bool FrameTracer::traceAtOnce(const FrameRequest& request, TracedFrame& frame,
                               const TraceCalls& calls) {
-  constexpr double kUncertain = 8;  // factor by which the expected time may be too small
-  const DebugView view = request.view;
-  const bool views = view != DebugView::none;
-  const double expectedMs = kUncertain * msPerSample_ * samplesOf(request);
-  // The passes of adaptive sampling trace some pixels again, so none is final before the last pass.
-  // The scale of a view is not known before its first picture, which is coarse.
-  const bool shows = (expectedMs == 0 || expectedMs > kUnfinishedMs) &&
-                     (views ? scaleOf_ == view : !options_.adaptive || options_.spp == 1);
-  std::vector<WatchedPixel> watched;
-  DisplayImage seen{frame.film.display.width, frame.film.display.height, {}};
-  if (shows) seen.rgba.resize(frame.film.display.rgba.size());
-  std::mutex mutex;  // guards what is seen
-  std::size_t seenPixels = 0;
-  Stopwatch sinceShown;
-  std::atomic<bool> stopped{false};
-  FrameHooks hooks;
-  hooks.stop = [&] {
-    if (request.interruptible ? calls.superseded() || calls.queried() : calls.leaving()) {
-      stopped = true;
-    }
-    return stopped.load();
-  };
-  hooks.finished = [&](std::span<const std::uint32_t> pixels) {
-    if (!shows || stopped) return;
-    const std::lock_guard lock(mutex);
-    if (views) paintTile(view, watched, pixels, frame.film);
-    for (const std::uint32_t pixel : pixels) {
-      const std::size_t at = 4 * frame.film.image.index(pixelX(pixel), pixelY(pixel));
-      std::copy_n(&frame.film.display.rgba[at], 4, &seen.rgba[at]);
-    }
-    seenPixels += pixels.size();
-    if (4 * seenPixels == seen.rgba.size() || sinceShown.ms() < kUnfinishedMs) return;
-    sinceShown = Stopwatch();
-    const double done = 4 * static_cast<double>(seenPixels) / static_cast<double>(seen.rgba.size());
-    calls.showUnfinished({request, seen, done, {}});
-  };
-  frame.stats = views ? watchFrame(*renderer_, request.camera, frame.film, view, watched, &hooks)
-                      : renderer_->render(request.camera, frame.film, &hooks);
-  if (stopped) return false;
-  if (!views) return true;
-  scale_ = scaleOf(view, watched, options_.spp);
-  scaleOf_ = view;
-  paintView(view, watched, options_.spp, scale_, frame.film.display);
-  frame.legend = legendOf(view, scale_);
-  frame.scale = scale_;
-  frame.watched = std::make_shared<const std::vector<WatchedPixel>>(std::move(watched));
-  return true;
-}
-
-// The scale is that of the last picture of this view.
-void FrameTracer::paintTile(DebugView view, const std::vector<WatchedPixel>& watched,
-                            std::span<const std::uint32_t> pixels, Film& film) {
-  std::vector<WatchedPixel> tile;
-  for (const std::uint32_t pixel : pixels) {
-    tile.push_back(watched[film.image.index(pixelX(pixel), pixelY(pixel))]);
+  const FrameHooks hooks{calls.stopped, nullptr};
+  if (request.view == DebugView::none) {
+    frame.stats = renderer_->render(request.camera, frame.film, &hooks);
+  } else {
+    const auto debug = std::make_shared<DebugPicture>();
+    frame.stats = watchFrame(*renderer_, request.camera, frame.film, request.view, *debug, &hooks);
+    frame.debug = debug;
   }
-  DisplayImage painted{static_cast<int>(tile.size()), 1, {}};
-  painted.rgba.resize(4 * tile.size());
-  paintView(view, tile, options_.spp, scale_, painted);
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const std::size_t at = 4 * film.image.index(pixelX(pixels[i]), pixelY(pixels[i]));
-    std::copy_n(&painted.rgba[4 * i], 4, &film.display.rgba[at]);
-  }
+  return !calls.stopped();
 }
 
 bool FrameTracer::accumulates(const FrameRequest& request) const {
@@ -351,10 +285,9 @@ bool FrameTracer::traceInPasses(const FrameRequest& request, TracedFrame& frame,
     frame.stats.workers = stats.workers;
     if (part.end > 1) frame.sampleError = sums.relativeError(part.end);
     if (part.end == options_.spp) break;
-    const double done = static_cast<double>(part.end) / options_.spp;
-    UnfinishedFrame sight{request, {}, done, {}, part.end, frame.sampleError};
-    if (part.end > shown) sight.display = frame.film.display;
-    calls.showUnfinished(std::move(sight));
+    if (part.end > shown) {
+      calls.showUnfinished({request, frame.film.display, part.end, frame.sampleError});
+    }
     calls.answer();
   }
   return true;
@@ -383,7 +316,9 @@ bool FrameTracer::traceReference(const FrameRequest& request, TracedFrame& frame
     if (calls.superseded()) return false;
     calls.publish(frame);
   }
-  finishComparison(frame.film, options_.exposure.ev, options_.toneCurve, comparison);
+  comparison.heatMap = heatMap(frame.film.image, reference.image);
+  comparison.difference =
+      compareImages(frame.film.image, reference.image, options_.exposure.ev, options_.toneCurve);
   return true;
 }
 

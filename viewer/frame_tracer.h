@@ -2,14 +2,13 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
+#include "accuracy/timing.h"
 #include "cli/app/explained_rays.h"
 #include "cli/app/open_scene.h"
 #include "inspect/debug_view.h"
@@ -17,7 +16,6 @@
 #include "inspect/ray_lines.h"
 #include "io/image/image_file.h"
 #include "io/json_reader.h"
-#include "viewer/knob_costs.h"
 
 namespace whit::view {
 
@@ -62,6 +60,42 @@ ShadingEdit withoutEdits(const std::shared_ptr<const cli::OpenScene>& scene);
 // is read without --sky.
 std::vector<std::string> editSettings(const ShadingEdit& read, const ShadingEdit& edited);
 
+// knob_costs.cpp: the cost of each option and each effect at the present view. Frames with it and
+// without it are timed in turns as `whit accuracy` does.
+
+struct KnobCost {
+  std::string name;         // of the option, or of the effect
+  std::string other;        // the setting that is compared with, "off" for an effect
+  FrameStats now, then;     // with the present setting and with the other
+  accuracy::Timing timing;  // of frames with the other setting; the present one is the baseline
+  double presentMs = 0;     // of a frame of the whole window
+
+  // The time that the present setting adds to a frame of the whole window.
+  double ms() const { return presentMs * (1 - timing.ratio); }
+  // True if the difference is larger than the noise of the machine.
+  bool significant() const { return timing.ratioLow > 1 || timing.ratioHigh < 1; }
+};
+
+// The costs that can be told from noise, the largest first.
+std::vector<KnobCost> toldFromNoise(std::vector<KnobCost> costs);
+// "off would be 35 ms faster".
+std::string costText(const KnobCost& cost);
+
+// The size of the frames that are measured for a window of that size: smaller where a frame of it
+// would take longer than kMeasuredMs.
+ImageSize measuredSize(const ImageSize& window, double msPerPixel);
+inline constexpr double kMeasuredMs = 50;
+
+// Called between frames and at the end with the costs so far and the share of the knobs; returns
+// false to end the measurement.
+using MeasureCall = std::function<bool(const std::vector<KnobCost>& sofar, double measured)>;
+
+// Leaves out options that are at their cheapest setting already, and those that need another
+// acceleration structure. `film` is overwritten; a pixel of it stands for `scale` pixels of the
+// window. The renderer has `options` before and after. Returns false if `goesOn` ended it.
+bool measureKnobs(Renderer& renderer, const RenderOptions& options, const Camera& camera,
+                  Film& film, double scale, const MeasureCall& goesOn);
+
 struct SceneChoice {
   std::string name;
   std::vector<std::string> settings;
@@ -80,7 +114,6 @@ struct FrameRequest {
   bool measureKnobs = false;      // the cost of each knob is measured as well
   int reloads = 0, edits = 0;     // number of reloads and edits of the scene so far
   std::optional<double> seconds;  // the instant of a scene that moves
-  int serial = 0;                 // the number of the request
   bool interruptible = false;     // given up when another one is asked for
 };
 
@@ -140,41 +173,33 @@ struct TracedFrame {
   std::vector<std::string> settings;               // settings of the scene, then those of an edit
   std::string sky;  // the scene's --sky, unless another sky was chosen
   Machine machine;
-  // These three belong to a debug view:
-  std::string legend;
-  AmountScale scale;
-  std::shared_ptr<const std::vector<WatchedPixel>> watched;
-  std::optional<Comparison> comparison;  // if the request is with the reference
-  std::vector<KnobCost> costs;           // if the request measures them
+  std::shared_ptr<const DebugPicture> debug;  // null: the request is without a debug view
+  std::optional<Comparison> comparison;       // if the request is with the reference
+  // If the request measures knobs: the costs measured so far, and the share of the knobs.
+  std::vector<KnobCost> costs;
+  double measured = 0;
 };
 
 // Returns the frame left of column `split` and the rows of the reference that are done right of it.
 DisplayImage splitPicture(const DisplayImage& frame, const Comparison& comparison, int split);
 
-// The visible part of a frame that is being traced.
+// A picture that gains samples, with those traced so far.
 struct UnfinishedFrame {
   FrameRequest request;
-  DisplayImage display;  // transparent where nothing was traced yet; empty: knobs are measured
-  double done = 0;       // share of the frame
-  std::vector<KnobCost> costs;  // costs measured so far
-  // For a picture that gains samples: the samples shown, and SampleSums::relativeError().
+  DisplayImage display;
   int samples = 0;
-  double sampleError = 0;
+  double sampleError = 0;  // SampleSums::relativeError()
 };
 
 // A query for the rays of a pixel that the user picked; RayPick is the answer.
 struct RayQuery {
-  Camera camera;
-  RenderOptions options;  // the options of the whole picture; the size must be set
-  int x = 0, y = 0;       // from the top left
-  int reloads = 0, edits = 0;
-  std::optional<double> seconds;  // the instant of the picture on screen
+  FrameRequest picture;
+  int x = 0, y = 0;  // from the top left
 };
 
 // Returns whether both queries have the same answer.
 inline bool sameRays(const RayQuery& a, const RayQuery& b) {
-  return sameView(a.camera, b.camera) && a.options == b.options && a.x == b.x && a.y == b.y &&
-         a.reloads == b.reloads && a.edits == b.edits && a.seconds == b.seconds;
+  return samePicture(a.picture, b.picture) && a.x == b.x && a.y == b.y;
 }
 
 // The description of a node. The scene may be edited before it is shown.
@@ -192,24 +217,20 @@ struct RayPick {
   std::vector<RayLine> lines;   // the rays of the packets
 };
 
-// A picture under way is shown again after this time.
-inline constexpr double kUnfinishedMs = 25;
 // Each pass of a picture that gains samples takes about this long, with at least one sample a
 // pixel.
 inline constexpr double kPassMs = 100;
 inline constexpr double kLeastPasses = 8;  // where there are as many samples
 
 struct TraceCalls {
-  // These three are asked by the workers, between tiles and samples.
-  std::function<bool()> superseded;  // something else is wanted: pictures at rest are given up
-  std::function<bool()> queried;     // the rays of a pixel are asked for
-  std::function<bool()> leaving;     // the viewer ends: all pictures are given up
+  // These two are asked by the workers, between tiles and samples. Once true they stay true.
+  std::function<bool()> superseded;  // another picture is wanted
+  std::function<bool()> stopped;     // the picture is to be given up for anything else
   // Answers a query for the rays of a pixel; called between passes and bands.
   std::function<void()> answer;
-  // Called with frames whose reference is under way.
+  // Called with frames whose reference is under way or whose knobs are being measured.
   std::function<void(const TracedFrame&)> publish;
-  // Called every kUnfinishedMs while a picture is traced, by a worker, and after each option that
-  // was measured.
+  // Called when a picture has more samples than the one before.
   std::function<void(UnfinishedFrame)> showUnfinished;
 };
 
@@ -236,19 +257,17 @@ class FrameTracer {
   bool trace(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
 
  private:
+  void open(std::shared_ptr<cli::OpenScene> scene, const std::string& animation);
   void use(std::unique_ptr<Renderer> renderer);
   void editSurroundings(const ShadingEdit& edit, Sky opened);
   void moveTo(double seconds);
   void applyOptions(const FrameRequest& request);
   bool tracePicture(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
-  // Traces the picture as one frame, whose finished tiles are shown while it is under way.
+  // Traces the picture as one frame.
   bool traceAtOnce(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
   // At rest, where rays are sampled: pass by pass, each with some of the samples of all pixels.
   bool accumulates(const FrameRequest& request) const;
   bool traceInPasses(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
-  // Paints pixels of a tile of a debug view into the film's display.
-  void paintTile(DebugView view, const std::vector<WatchedPixel>& watched,
-                 std::span<const std::uint32_t> pixels, Film& film);
   bool measure(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
   bool traceReference(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
 
@@ -263,9 +282,7 @@ class FrameTracer {
   std::string animation_;                  // the animation that the scene was read with
   Film band_;                              // rows of the reference; frames that are measured
   std::optional<FrameRequest> finished_;   // the last picture
-  AmountScale scale_;  // scale of the last debug view, with which the next begins
-  DebugView scaleOf_ = DebugView::none;
-  double msPerSample_ = 0;  // 0: nothing traced yet
+  double msPerSample_ = 0;                 // 0: nothing traced yet
 };
 
 }  // namespace whit::view

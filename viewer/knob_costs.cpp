@@ -1,11 +1,10 @@
-#include "viewer/knob_costs.h"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "core/formatted.h"
 #include "core/option_table.h"
+#include "viewer/frame_tracer.h"
 
 namespace whit::view {
 
@@ -63,9 +62,8 @@ ImageSize measuredSize(const ImageSize& window, double msPerPixel) {
   return {scaled(window.width), scaled(window.height)};
 }
 
-std::vector<KnobCost> measureKnobs(Renderer& renderer, const RenderOptions& options,
-                                   const Camera& camera, Film& film, double scale,
-                                   const MeasureCalls& calls) {
+bool measureKnobs(Renderer& renderer, const RenderOptions& options, const Camera& camera,
+                  Film& film, double scale, const MeasureCall& goesOn) {
   // The first frame after a change fills new queues and does not count.
   const auto frameWith = [&](const RenderOptions& chosen) {
     renderer.setOptions(chosen);
@@ -73,13 +71,14 @@ std::vector<KnobCost> measureKnobs(Renderer& renderer, const RenderOptions& opti
     return renderer.render(camera, film);
   };
   std::vector<KnobCost> costs;
+  double measured = 0;
   const std::vector<Candidate> candidates = candidatesOf(renderer, options);
   FrameStats now = frameWith(options);
   for (const Candidate& candidate : candidates) {
     accuracy::TimeSamples samples;
     FrameStats then;
     for (int round = 0; round < accuracy::kConfidentRounds; ++round) {
-      if (calls.superseded()) return {};
+      if (!goesOn(costs, measured)) return false;
       const double before = now.frameMs;
       then = frameWith(candidate.options);
       now = frameWith(options);
@@ -88,9 +87,9 @@ std::vector<KnobCost> measureKnobs(Renderer& renderer, const RenderOptions& opti
     }
     const accuracy::Timing timing = samples.timing();
     costs.push_back({candidate.name, candidate.other, now, then, timing, scale * timing.medianMs});
-    calls.show(costs, candidates.size());
+    measured = static_cast<double>(costs.size()) / static_cast<double>(candidates.size());
   }
-  return costs;
+  return goesOn(costs, measured);
 }
 
 }  // namespace whit::view

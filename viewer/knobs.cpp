@@ -45,7 +45,10 @@ void drawNumber(const OptionSpec& spec, float& field) {
 
 template <typename Field>
 void drawKnob(const OptionSpec& spec, Field& field) {
-  if constexpr (std::is_same_v<Field, bool>) {
+  constexpr float kStops = 10;
+  if constexpr (std::is_same_v<Field, Exposure>) {
+    ImGui::SliderFloat(spec.name.data(), &field.ev, -kStops, kStops, "%+.2f EV");
+  } else if constexpr (std::is_same_v<Field, bool>) {
     ImGui::Checkbox(spec.name.data(), &field);
   } else if (!choicesOf(spec).empty()) {
     drawChoice(spec, field);
@@ -97,28 +100,14 @@ void drawMeasured(const std::vector<KnobCost>& costs) {
   if (others > 0) ImGui::TextDisabled("%zu more make no difference above the noise", others);
 }
 
-void drawKnobs(RenderOptions& options, const std::vector<KnobCost>& costs) {
-  drawPresets(options);
+void drawOptions(Tab tab, RenderOptions& options, const std::vector<KnobCost>& costs) {
   ImGui::PushItemWidth(ImGui::GetFontSize() * kControlWidth);
+  if (tab == Tab::knobs) drawPresets(options);
   forEachOption(options, [&](const OptionSpec& spec, auto& field) {
-    if (spec.tab != Tab::knobs) return;
+    if (spec.tab != tab) return;
     drawKnob(spec, field);
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", spec.help.data());
     drawCost(costs, std::string(spec.name));
-  });
-  ImGui::PopItemWidth();
-}
-
-void drawDisplay(RenderOptions& options) {
-  constexpr float kStops = 10;
-  ImGui::PushItemWidth(ImGui::GetFontSize() * kControlWidth);
-  forEachOption(options, [&](const OptionSpec& spec, auto& field) {
-    if (spec.tab != Tab::picture) return;
-    if constexpr (std::is_same_v<decltype(field), Exposure&>) {
-      ImGui::SliderFloat(spec.name.data(), &field.ev, -kStops, kStops, "%+.2f EV");
-    } else {
-      drawKnob(spec, field);
-    }
   });
   ImGui::PopItemWidth();
 }

@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <optional>
-#include <vector>
 
 #include "core/display.h"
 #include "core/formatted.h"
@@ -31,53 +29,16 @@ void drawLabel(const ImVec2& at, const char* text, float margin = 3, ImU32 color
   list.AddText(at, color, text);
 }
 
-// The meaning of the colors of a picture of amounts, as a bar with numbers.
-struct ColorScale {
-  // Gives the 8-bit sRGB color at a share of the way along the bar, from 0 to 1.
-  std::function<std::array<std::uint8_t, 3>(double)> color;
-  struct Tick {
-    double at;  // share of the way
-    std::string text;
-  };
-  std::vector<Tick> ticks;
-};
-
-constexpr float kBarLines = 0.8f, kTickLines = 0.25f;  // heights of the font
-
-ColorScale differenceScale() {
-  ColorScale scale{heatColor, {}};
-  for (const int codes : kHeatTicks) {
-    const bool last = codes == kHeatTicks.back();
-    scale.ticks.push_back({heatPosition(codes), std::to_string(codes) + (last ? "+" : "")});
-  }
-  return scale;
-}
-
-ColorScale scaleOfView(DebugView view, const AmountScale& amounts) {
-  ColorScale scale{[view](double share) { return colorAt(view, share); }, {}};
-  for (const double at : {0.0, 0.5, 1.0}) {
-    scale.ticks.push_back({at, formatted("%.3g", amountAt(view, amounts, at))});
-  }
-  return scale;
-}
-
-float scaleHeight() { return ImGui::GetFontSize() * (1 + kBarLines + kTickLines); }
-
-void drawColorScale(const ColorScale& scale, const ImVec2& at, float width, ImDrawList& list) {
+// Draws a bar of colors; colorOf(share) returns the color at a share of the way along it.
+template <typename ColorOf>
+void drawColorBar(const ImVec2& at, float width, ImDrawList& list, const ColorOf& colorOf) {
   constexpr int kSteps = 64;
-  const float line = ImGui::GetFontSize(), bar = at.y + kBarLines * line;
-  const auto x = [&](double share) { return at.x + static_cast<float>(share) * width; };
+  const float step = width / kSteps;
   for (int i = 0; i < kSteps; ++i) {
-    const auto c = scale.color((i + 0.5) / kSteps);
-    list.AddRectFilled(ImVec2(x(static_cast<double>(i) / kSteps), at.y),
-                       ImVec2(x((i + 1.0) / kSteps), bar), IM_COL32(c[0], c[1], c[2], 255));
-  }
-  for (const ColorScale::Tick& tick : scale.ticks) {
-    list.AddLine(ImVec2(x(tick.at), at.y), ImVec2(x(tick.at), bar + kTickLines * line), kWhite);
-    const float half = ImGui::CalcTextSize(tick.text.c_str()).x / 2;
-    // The texts at the ends stay within the bar.
-    const float left = std::clamp(x(tick.at) - half, at.x, at.x + std::max(width - 2 * half, 0.0f));
-    list.AddText(ImVec2(left, bar + kTickLines * line), kWhite, tick.text.c_str());
+    const auto c = colorOf((i + 0.5) / kSteps);
+    const float x = at.x + static_cast<float>(i) * step;
+    list.AddRectFilled(ImVec2(x, at.y), ImVec2(x + step, at.y + ImGui::GetFontSize()),
+                       IM_COL32(c[0], c[1], c[2], 255));
   }
 }
 
@@ -112,10 +73,9 @@ void drawDifference(const TracedFrame& frame, const Comparison& comparison) {
 
 void drawFindings(const TracedFrame& frame, bool heat) {
   if (heat) {
-    ImGui::TextUnformatted("difference, 8-bit codes");
-    const ColorScale scale = differenceScale();
-    const ImVec2 size(ImGui::GetFontSize() * 15, scaleHeight());
-    drawColorScale(scale, ImGui::GetCursorScreenPos(), size.x, *ImGui::GetWindowDrawList());
+    ImGui::TextUnformatted("8-bit codes apart: 0 to 16 or more");
+    const ImVec2 size(ImGui::GetFontSize() * 15, ImGui::GetFontSize());
+    drawColorBar(ImGui::GetCursorScreenPos(), size.x, *ImGui::GetWindowDrawList(), heatColor);
     ImGui::Dummy(size);
   } else {
     ImGui::TextUnformatted("packets against the reference");
@@ -155,16 +115,9 @@ std::string colorText(const Rgb& c) {
   return formatted("%.4g %.4g %.4g", d.x, d.y, d.z);
 }
 
-Image alone(const Rgb& radiance) {
-  Image image(1, 1);
-  image.pixels[0] = radiance;
-  return image;
-}
-
-// Returns the difference as the map of differences shows it.
-int codesApart(const Rgb& a, const Rgb& b) {
-  return codeDifferences(toDisplay(alone(a), 0, ToneCurve::none),
-                         toDisplay(alone(b), 0, ToneCurve::none))[0];
+// Codes as the map of differences compares them.
+std::array<std::uint8_t, 3> codesOf(const Rgb& radiance) {
+  return displayCodes(radiance, 1, ToneCurve::none, SrgbEncoding::exact);
 }
 
 std::string comparedText(const Comparison& comparison, const Rgb& packets, int x, int y) {
@@ -173,7 +126,7 @@ std::string comparedText(const Comparison& comparison, const Rgb& packets, int x
   const Image& image = comparison.reference.image;
   const Rgb reference = image.pixels[image.index(x, y)];
   return text + "\nreference " + colorText(reference) +
-         formatted("\n%d 8-bit codes apart", codesApart(packets, reference));
+         formatted("\n%d 8-bit codes apart", codesApart(codesOf(packets), codesOf(reference)));
 }
 
 }  // namespace
@@ -212,8 +165,8 @@ std::string inspect(const TracedFrame& frame, bool compared, const ImageSize& wi
   const std::size_t at = image.index(x, y);
   std::string text =
       formatted("pixel %d, %d", indexAt(shareX, madeFor.width), indexAt(shareY, madeFor.height));
-  if (frame.watched) {
-    text += "\n" + textOf(frame.request.view, (*frame.watched)[at], frame.options.spp);
+  if (frame.debug) {
+    text += "\n" + frame.debug->textOf(at);
   } else {
     const std::uint8_t* codes = &display.rgba[4 * at];
     text += formatted("\n8-bit codes %d %d %d", codes[0], codes[1], codes[2]) +
@@ -242,32 +195,23 @@ void drawInspection(const std::string& lines, double pointerX, double pointerY) 
 
 void drawStatus(const TracedFrame& frame, const UnfinishedFrame* next, double rate) {
   constexpr float kMargin = 10, kPadding = 4;
-  std::string text = sharpnessText(frame.request) + errorText(frame.sampleError);
-  const bool more = next && next->samples > frame.request.spp && !next->display.rgba.empty();
-  if (more) {
-    text = samplesText(*next);
-  }
+  std::string text =
+      next ? samplesText(*next) : sharpnessText(frame.request) + errorText(frame.sampleError);
   if (rate > 0) text += formatted(", %.0f frames/s", rate);
-  if (next && !more) {
-    text += formatted("; next %s: %.0f %%", sharpnessText(next->request).c_str(), 100 * next->done);
-  }
   const ImVec2 window = ImGui::GetIO().DisplaySize, size = ImGui::CalcTextSize(text.c_str());
   drawLabel(ImVec2(window.x - kMargin - size.x, window.y - kMargin - kPadding - size.y),
             text.c_str(), kPadding);
-  if (frame.request.view == DebugView::none) return;
+  if (!frame.debug) return;
   text = kDebugViewNames[static_cast<std::size_t>(frame.request.view)];
-  if (!frame.legend.empty()) text += ": " + frame.legend;
+  const std::string legend = frame.debug->legend();
+  if (!legend.empty()) text += ": " + legend;
   const ImVec2 said = ImGui::CalcTextSize(text.c_str());
   const ImVec2 corner(window.x - kMargin - said.x, window.y - kMargin - 3 * kPadding - 2 * size.y);
   drawLabel(corner, text.c_str(), kPadding);
-  if (!hasScale(frame.request.view)) return;
-  const ColorScale scale = scaleOfView(frame.request.view, frame.scale);
-  const float height = scaleHeight() + 2 * kPadding, top = corner.y - height - kPadding;
-  ImDrawList& list = *ImGui::GetForegroundDrawList();
-  list.AddRectFilled(ImVec2(corner.x - kPadding, top - kPadding),
-                     ImVec2(corner.x + said.x + kPadding, top + height - kPadding), kShade,
-                     kPadding);
-  drawColorScale(scale, ImVec2(corner.x, top), said.x, list);
+  if (legend.empty()) return;
+  drawColorBar(ImVec2(corner.x, corner.y - size.y - 2 * kPadding), said.x,
+               *ImGui::GetForegroundDrawList(),
+               [&](double share) { return colorAt(frame.request.view, share); });
 }
 
 void drawMessage(const std::string& message) {

@@ -25,13 +25,8 @@ void drawStages(const FrameStats& stats) {
   const double frame = std::max(stats.frameMs, 1e-9);
   for (std::size_t i = 0; i < kStageCount; ++i) {
     const double ms = stats.stageMs(static_cast<Stage>(i));
-    // The text stands beside the bar's fill, so that both stay legible.
-    const ImVec2 corner = ImGui::GetCursorPos();
-    ImGui::ProgressBar(static_cast<float>(ms / frame), ImVec2(-1, 0), "");
-    const ImVec2 below = ImGui::GetCursorPos();
-    ImGui::SetCursorPos(ImVec2(corner.x + 6, corner.y + ImGui::GetStyle().FramePadding.y));
-    ImGui::Text("%s %.2f ms", kStageNames[i].data(), ms);
-    ImGui::SetCursorPos(below);
+    ImGui::ProgressBar(static_cast<float>(ms / frame), ImVec2(-1, 0),
+                       formatted("%s %.2f ms", kStageNames[i].data(), ms).c_str());
   }
 }
 
@@ -80,7 +75,7 @@ void drawEffects(const TracedFrame& frame, const std::vector<KnobCost>& costs, E
 }
 
 void drawPicture(PanelSettings& settings) {
-  drawDisplay(settings.options);
+  drawOptions(Tab::picture, settings.options, {});
   auto rate = static_cast<float>(settings.rate);
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 11);
   if (ImGui::SliderFloat("frames/s", &rate, kLeastRate, kLargestRate, "%.0f")) {
@@ -108,7 +103,8 @@ void drawView(const TracedFrame& frame, PanelSettings& settings) {
                    static_cast<int>(kDebugViewNames.size()))) {
     settings.view = static_cast<DebugView>(view);
   }
-  if (!frame.legend.empty()) ImGui::TextWrapped("%s", frame.legend.c_str());
+  const std::string legend = frame.debug ? frame.debug->legend() : std::string();
+  if (!legend.empty()) ImGui::TextWrapped("%s", legend.c_str());
   if (settings.view == DebugView::effects) drawEffectColors();
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 11);
   if (ImGui::Combo("reference (X)", &compare, "not compared\0side by side\0differences\0")) {
@@ -128,6 +124,37 @@ void drawKeys() {
   ImGui::EndTable();
 }
 
+void drawTimes(const TracedFrame& frame) {
+  const FrameStats& stats = frame.stats;
+  ImGui::Text("%s, %s", frame.scene->scene.name.c_str(), frame.surfaces.c_str());
+  const Image& image = frame.film.image;
+  ImGui::Text("%d x %d, %d sample%s a pixel%s", image.width, image.height, frame.request.spp,
+              frame.request.spp == 1 ? "" : "s", errorText(frame.sampleError).c_str());
+  ImGui::Text("%s, packets of %d, %d thread%s", frame.machine.simd.c_str(), frame.machine.packet,
+              frame.machine.threads, frame.machine.threads == 1 ? "" : "s");
+  ImGui::Text("%.2f ms traced, %.2f in Embree", stats.frameMs, stats.embreeMs());
+}
+
+// Draws the newest time at the right, and a line at the time that a frame may take to hold `rate`
+// frames a second.
+void drawGraph(const std::vector<float>& times, double rate) {
+  const auto budget = static_cast<float>(1000 / rate);
+  const float highest = times.empty() ? 0 : *std::max_element(times.begin(), times.end());
+  const float scale = 1.25f * std::max(highest, budget);
+  const ImVec2 size(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 3);
+  const std::string text = times.empty()
+                               ? "nothing has moved yet"
+                               : formatted("at most %.1f ms; %.1f ms hold %.0f/s",
+                                           static_cast<double>(highest), 1000 / rate, rate);
+  ImGui::PlotLines("##times", times.data(), static_cast<int>(times.size()), 0, text.c_str(), 0,
+                   scale, size);
+  const float padding = ImGui::GetStyle().FramePadding.y;
+  const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
+  const float y = to.y - padding - budget / scale * (to.y - from.y - 2 * padding);
+  ImGui::GetWindowDrawList()->AddLine(ImVec2(from.x, y), ImVec2(to.x, y),
+                                      ImGui::GetColorU32(ImGuiCol_Border));
+}
+
 }  // namespace
 
 bool isMeasuredView(FrameRequest measured, const FrameRequest& request) {
@@ -142,31 +169,10 @@ void Panel::remember(const TracedFrame& frame) {
   } else if (!isMeasuredView(measuredFor_, frame.request)) {
     costs_.clear();
   }
-  sofar_.clear();
-  if (frame.request.measureKnobs) measured_ = 0;
   if (frame.request.interruptible) return;
-  graph_.add(frame.stats.frameMs);
-}
-
-void Panel::remember(const UnfinishedFrame& frame) {
-  const bool shown = frame.samples > 0 && !frame.display.rgba.empty();
-  if (shown) sofar_ = samplesText(frame);
-  if (!frame.request.measureKnobs || frame.costs.empty()) return;
-  measured_ = frame.done;
-  costs_ = frame.costs;
-  measuredFor_ = frame.request;
-}
-
-void Panel::drawTimes(const TracedFrame& frame) const {
-  const FrameStats& stats = frame.stats;
-  ImGui::Text("%s, %s", frame.scene->scene.name.c_str(), frame.surfaces.c_str());
-  const Image& image = frame.film.image;
-  ImGui::Text("%d x %d, %d sample%s a pixel%s", image.width, image.height, frame.request.spp,
-              frame.request.spp == 1 ? "" : "s", errorText(frame.sampleError).c_str());
-  if (!sofar_.empty()) ImGui::Text("so far %s", sofar_.c_str());
-  ImGui::Text("%s, packets of %d, %d thread%s", frame.machine.simd.c_str(), frame.machine.packet,
-              frame.machine.threads, frame.machine.threads == 1 ? "" : "s");
-  ImGui::Text("%.2f ms traced, %.2f in Embree", stats.frameMs, stats.embreeMs());
+  constexpr std::size_t kTimes = 120;
+  if (times_.size() == kTimes) times_.erase(times_.begin());
+  times_.push_back(static_cast<float>(frame.stats.frameMs));
 }
 
 bool Panel::drawTabs(const TracedFrame& frame, const RayPick& pick, PanelSettings& settings,
@@ -196,13 +202,13 @@ bool Panel::drawTabs(const TracedFrame& frame, const RayPick& pick, PanelSetting
   });
   tab("knobs", [&] {
     if (settings.measureKnobs) {
-      ImGui::ProgressBar(static_cast<float>(measured_), ImVec2(-1, 0),
-                         formatted("measuring: %.0f %%", 100 * measured_).c_str());
+      ImGui::ProgressBar(static_cast<float>(frame.measured), ImVec2(-1, 0),
+                         formatted("measuring: %.0f %%", 100 * frame.measured).c_str());
     } else if (ImGui::Button("measure what each costs (M)")) {
       settings.measureKnobs = true;
     }
     drawMeasured(costs_);
-    drawKnobs(settings.options, costs_);
+    drawOptions(Tab::knobs, settings.options, costs_);
   });
   tab("effects", [&] { drawEffects(frame, costs_, settings.options.disable); });
   tab("rays", [&] { drawRayTree(pick, frame, settings.rays); });
@@ -231,36 +237,12 @@ bool Panel::draw(const TracedFrame& frame, const RayPick& pick, double speed,
   bool edited = false;
   if (ImGui::Begin("whit", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
     drawTimes(frame);
-    graph_.draw(settings.rate);
+    drawGraph(times_, settings.rate);
     ImGui::Text("speed %.3g units a second", speed);
     edited = drawTabs(frame, pick, settings, ownSky, scene);
   }
   ImGui::End();
   return edited;
-}
-
-void FrameGraph::add(double ms) {
-  times_[next_] = static_cast<float>(ms);
-  next_ = (next_ + 1) % times_.size();
-  count_ = std::min(count_ + 1, times_.size());
-}
-
-void FrameGraph::draw(double rate) const {
-  const auto budget = static_cast<float>(1000 / rate);
-  const float highest = *std::max_element(times_.begin(), times_.end());
-  const float scale = 1.25f * std::max(highest, budget);
-  const ImVec2 size(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 3);
-  const int oldest = count_ < times_.size() ? 0 : static_cast<int>(next_);
-  const std::string text = count_ == 0 ? "nothing has moved yet"
-                                       : formatted("at most %.1f ms; %.1f ms hold %.0f/s",
-                                                   static_cast<double>(highest), 1000 / rate, rate);
-  ImGui::PlotLines("##times", times_.data(), static_cast<int>(count_), oldest, text.c_str(), 0,
-                   scale, size);
-  const float padding = ImGui::GetStyle().FramePadding.y;
-  const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
-  const float y = to.y - padding - budget / scale * (to.y - from.y - 2 * padding);
-  ImGui::GetWindowDrawList()->AddLine(ImVec2(from.x, y), ImVec2(to.x, y),
-                                      ImGui::GetColorU32(ImGuiCol_Border));
 }
 
 }  // namespace whit::view

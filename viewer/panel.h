@@ -21,8 +21,7 @@ inline constexpr std::array kPanelTabs{"frame", "picture", "knobs", "effects",
 inline constexpr float kPanelAlpha = 0.82f;  // how much of the picture panels cover
 
 // Returns the largest difference of a channel of two colors, in 8-bit codes.
-inline int largestDifference(const std::array<std::uint8_t, 3>& a,
-                             const std::array<std::uint8_t, 3>& b) {
+inline int codesApart(const std::array<std::uint8_t, 3>& a, const std::array<std::uint8_t, 3>& b) {
   return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
 }
 
@@ -42,14 +41,12 @@ struct Timeline {
   bool there = false;  // the scene moves
   double seconds = 0, length = 0;
   bool playing = false;
-  bool loops = true;                    // otherwise it stops at its end
   std::vector<std::string> animations;  // to choose from; empty where there is one only
   std::string animation;                // the animation that plays
   bool another = false;                 // the animation was just chosen and is to be read
 
   // Goes on by that many seconds. Returns whether it was playing.
   bool step(double later);
-  void playOrPause();
   std::optional<double> time() const { return there ? std::optional(seconds) : std::nullopt; }
 };
 
@@ -75,49 +72,31 @@ struct PanelSettings {
   bool saveScene = false;  // the scene is to be saved
 };
 
-// A graph of the times of the last frames in motion.
-class FrameGraph {
- public:
-  void add(double ms);
-  // Draws the newest frame at the right, and a line at the time that a frame may take to hold
-  // `rate` frames a second. Call between ImGui's Begin and End.
-  void draw(double rate) const;
-
- private:
-  std::array<float, 120> times_{};  // milliseconds, a ring
-  std::size_t next_ = 0, count_ = 0;
-};
-
 // Returns whether nothing but options differs from the view that was measured.
 bool isMeasuredView(FrameRequest measured, const FrameRequest& request);
 
 class Panel {
  public:
   void remember(const TracedFrame& frame);
-  void remember(const UnfinishedFrame& frame);
   // Call between ImGui's NewFrame and Render; `frame` must hold a picture. Returns whether the
   // scene was edited.
   bool draw(const TracedFrame& frame, const RayPick& pick, double speed, PanelSettings& settings,
             const SkyChoice& ownSky, ShadingEdit& scene) const;
 
  private:
-  void drawTimes(const TracedFrame& frame) const;
   bool drawTabs(const TracedFrame& frame, const RayPick& pick, PanelSettings& settings,
                 const SkyChoice& ownSky, ShadingEdit& scene) const;
 
   std::vector<KnobCost> costs_;  // costs measured so far at the view of the last frame
   FrameRequest measuredFor_;
-  double measured_ = 0;  // share of the knobs that are measured
-  std::string sofar_;    // samples so far of a picture that gains samples
-  FrameGraph graph_;
+  std::vector<float> times_;  // milliseconds of the last frames in motion
 };
 
 // knobs.cpp, the options of a render as sliders, boxes and lists. All of it belongs between ImGui's
 // Begin and End.
-// Draws presets, then every option that the table of options has in the tab of knobs.
-void drawKnobs(RenderOptions& options, const std::vector<KnobCost>& costs);
-// Draws the options that the table has in the picture's tab: exposure and tone curve.
-void drawDisplay(RenderOptions& options);
+// Draws the options that the table of options has in that tab, and presets before those of the
+// knobs.
+void drawOptions(Tab tab, RenderOptions& options, const std::vector<KnobCost>& costs);
 // Draws the cost of that knob or effect beside its control, where it was measured and can be told
 // from noise.
 void drawCost(const std::vector<KnobCost>& costs, const std::string& name);
@@ -159,8 +138,8 @@ std::string inspect(const TracedFrame& frame, bool compared, const ImageSize& wi
 // Draws such lines beside the pointer, inside the window.
 void drawInspection(const std::string& lines, double pointerX, double pointerY);
 
-// Draws into a corner of the window what is on screen, how fast it comes, what is on its way, and
-// what the colors of a view mean.
+// Draws the sharpness of the picture, the frame rate and the meaning of a view's colors into a
+// corner of the window.
 void drawStatus(const TracedFrame& frame, const UnfinishedFrame* next, double rate);
 // Draws a line at the bottom of the window.
 void drawMessage(const std::string& message);

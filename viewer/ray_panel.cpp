@@ -43,11 +43,8 @@ void drawLegend(const std::vector<RayLine>& lines) {
       if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
     }
     first = false;
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const ImVec2 end(at.x + 0.7f * side, at.y + side);
-    ImGui::GetWindowDrawList()->AddRectFilled(at, end, colorOf(look));
-    ImGui::GetWindowDrawList()->AddRect(at, end, IM_COL32(160, 160, 160, 255));
-    ImGui::Dummy(ImVec2(0.7f * side, side));
+    ImGui::ColorButton(name.c_str(), ImGui::ColorConvertU32ToFloat4(colorOf(look)),
+                       ImGuiColorEditFlags_NoTooltip, ImVec2(side, side));
     ImGui::SameLine();
     ImGui::TextUnformatted(name.c_str());
   }
@@ -85,7 +82,7 @@ class RayTreeTab {
     const Rgb p = tree_.pixel, r = pick_.rays.reference.pixel;
     const auto codes = codesOf(p), other = codesOf(r);
     ImGui::Text("pixel %d,%d of %dx%d", pick_.query.x, pick_.query.y,
-                pick_.query.options.size->width, pick_.query.options.size->height);
+                pick_.query.picture.options.size->width, pick_.query.picture.options.size->height);
     ImGui::Text("packets   %s  codes %d %d %d", textOf(RgbD(p)).c_str(), codes[0], codes[1],
                 codes[2]);
     ImGui::Text("reference %s  codes %d %d %d", textOf(RgbD(r)).c_str(), other[0], other[1],
@@ -109,13 +106,7 @@ class RayTreeTab {
 
   // Returns the largest difference of a channel without the node and all below it, in 8-bit codes.
   int codesAdded(const RgbD& added) const {
-    const auto with = codesOf(tree_.pixel);
-    const auto without = codesOf(max(tree_.pixel - Rgb(added), Rgb(0.0f)));
-    int most = 0;
-    for (std::size_t c = 0; c < with.size(); ++c) {
-      most = std::max(most, std::abs(int{with[c]} - int{without[c]}));
-    }
-    return most;
+    return codesApart(codesOf(tree_.pixel), codesOf(max(tree_.pixel - Rgb(added), Rgb(0.0f))));
   }
 
   void point(std::size_t node) {

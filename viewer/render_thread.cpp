@@ -145,8 +145,7 @@ TraceCalls RenderThread::calls() {
   };
   TraceCalls calls;
   calls.superseded = locked([this] { return isWaiting() || quit_; });
-  calls.queried = locked([this] { return query_.has_value(); });
-  calls.leaving = locked([this] { return quit_; });
+  calls.stopped = locked([this] { return quit_ || (!isCommitted() && hasWork()); });
   calls.answer = [this] { answerQuery(); };
   calls.publish = [this](const TracedFrame& frame) {
     TracedFrame copy = frame;

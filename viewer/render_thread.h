@@ -42,7 +42,7 @@ class RenderThread {
   std::optional<RayPick> takePick() { return taken(pick_); }
   // Exchanges `frame` for the newest one since the last call; false: there is none.
   bool take(TracedFrame& frame);
-  // The finished tiles of the picture that is being traced; null if there are no new ones.
+  // The samples so far of the picture that is being traced; null if there are no new ones.
   std::optional<UnfinishedFrame> takeUnfinished() { return taken(unfinished_); }
   std::string takeError() { return taken(error_); }  // empty: none
   bool busy() const;                                 // tracing, or about to

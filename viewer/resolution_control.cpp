@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <vector>
 
 namespace whit::view {
 
@@ -102,30 +101,26 @@ Sharpness ResolutionControl::moving(double windowPixels) {
   return chosen;
 }
 
-std::size_t ResolutionControl::fullStep() const {
-  return static_cast<std::size_t>(
-      std::count_if(kCoarseScales.begin(), kCoarseScales.end(),
-                    [&](double scale) { return scale < largestScale(); }));
-}
-
-double ResolutionControl::scaleOf(std::size_t step) const {
-  return step < fullStep() ? kCoarseScales[step] : largestScale();
-}
-
-std::size_t ResolutionControl::lastStep(bool supersample) const {
+std::vector<Sharpness> ResolutionControl::stepsAtRest(bool supersample) const {
+  std::vector<Sharpness> steps;
+  for (const double scale : kCoarseScales) {
+    if (scale < largestScale()) steps.push_back({scale, spp_});
+  }
   const std::size_t factors = sampled_ ? kStillSppFactors.size() : kUnsampledSppFactors;
-  return fullStep() + (supersample ? factors - 1 : 0);
+  for (std::size_t i = 0; i < (supersample ? factors : 1); ++i) {
+    steps.push_back({largestScale(), std::min(spp_ * kStillSppFactors[i], kSppLimit)});
+    if (steps.back().spp == kSppLimit) break;
+  }
+  return steps;
 }
 
 Sharpness ResolutionControl::still(bool supersample) const {
-  const std::size_t step = std::min(step_, lastStep(supersample)), full = fullStep();
-  const int factor = step > full ? kStillSppFactors[step - full] : 1;
-  return {scaleOf(step), std::min(spp_ * factor, kSppLimit), kDepthLimit};
+  const std::vector<Sharpness> steps = stepsAtRest(supersample);
+  return steps[std::min(step_, steps.size() - 1)];
 }
 
 bool ResolutionControl::sharpen(bool supersample) {
-  const bool enough = step_ >= fullStep() && still(true).spp == kSppLimit;
-  if (enough || step_ >= lastStep(supersample)) return false;
+  if (step_ + 1 >= stepsAtRest(supersample).size()) return false;
   ++step_;
   return true;
 }
@@ -134,10 +129,12 @@ void ResolutionControl::startSharpening(double windowPixels, double shownScale) 
   windowPixels_ = windowPixels;
   tier_ = 0;
   step_ = 0;
+  const std::vector<Sharpness> steps = stepsAtRest(false);
   const auto soonThere = [&](double scale) {
     return learned() && predictMs(scale) <= kFirstStillMs;
   };
-  while (step_ < fullStep() && (soonThere(scaleOf(step_ + 1)) || scaleOf(step_) < shownScale)) {
+  while (step_ + 1 < steps.size() &&
+         (soonThere(steps[step_ + 1].scale) || steps[step_].scale < shownScale)) {
     ++step_;
   }
 }

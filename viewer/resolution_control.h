@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "core/options.h"
 
@@ -69,8 +70,6 @@ class ResolutionControl {
   // Goes to the first step at rest: one that takes little time, but is no coarser than the picture
   // that is shown, whose scale is given (0: it shows something else).
   void startSharpening(double windowPixels, double shownScale);
-  // Returns whether finer pixels are still to come.
-  bool coarse() const { return step_ < fullStep(); }
 
  private:
   bool learned() const;
@@ -78,16 +77,14 @@ class ResolutionControl {
   double predictMs(double scale) const;
   void chooseLevel(double frameMs);
   void chooseDepth(double frameMs);
-  std::size_t fullStep() const;
-  double scaleOf(std::size_t step) const;
-  std::size_t lastStep(bool supersample) const;
+  std::vector<Sharpness> stepsAtRest(bool supersample) const;
 
   double rate_ = kFewCoresRate;
   int spp_, depth_ = kDepthLimit;
   bool sampled_ = false;
   std::size_t largest_ = 0, level_ = 0;  // indices of kScales
   std::size_t tier_ = 0;                 // index of kMotionDepths
-  std::size_t step_ = 0;                 // counts the scales at rest, then the samples
+  std::size_t step_ = 0;                 // index of the steps at rest
   double windowPixels_ = 0;
   std::array<double, kMotionDepths.size()> msPerSample_{};  // 0: nothing learned yet
 };

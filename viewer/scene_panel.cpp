@@ -15,6 +15,8 @@ namespace whit::view {
 namespace {
 
 constexpr auto kClamp = ImGuiSliderFlags_AlwaysClamp;  // also clamps typed values
+constexpr auto kLogarithmic = kClamp | ImGuiSliderFlags_Logarithmic;
+constexpr float kLargestScale = 1e4f, kLargestAmbient = 1e4f;
 
 bool drawColor(const char* label, Rgb& color) {
   if (!ImGui::ColorEdit3(label, &color.x, ImGuiColorEditFlags_Float)) return false;
@@ -27,8 +29,8 @@ bool drawBright(const char* label, const char* strengthLabel, float largest, Rgb
   float strength = maxComponent(value);
   Rgb color = strength > 0 ? value * (1 / strength) : Rgb{1, 1, 1};
   const bool recolored = drawColor(label, color);
-  constexpr auto kFlags = kClamp | ImGuiSliderFlags_Logarithmic;
-  const bool turned = ImGui::SliderFloat(strengthLabel, &strength, 0, largest, "%.3g", kFlags);
+  const bool turned =
+      ImGui::SliderFloat(strengthLabel, &strength, 0, largest, "%.3g", kLogarithmic);
   if (!recolored && !turned) return false;
   value = color * strength;
   return true;
@@ -108,9 +110,6 @@ bool drawItems(std::vector<Item>& items, const char* kind, std::size_t& selected
   if (items.empty()) ImGui::TextDisabled("none");
   return changed;
 }
-
-constexpr float kLargestScale = 1e4f, kLargestAmbient = 1e4f;
-constexpr auto kLogarithmic = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic;
 
 std::string nameOf(const SkyChoice& sky) {
   if (sky.source.empty()) return "the scene's own";

@@ -12,19 +12,8 @@ namespace whit::view {
 bool Timeline::step(double later) {
   if (!there || !playing) return false;
   seconds += later;
-  if (seconds <= length) return true;
-  if (loops && length > 0) {
-    seconds = std::fmod(seconds, length);
-  } else {
-    seconds = length;
-    playing = false;
-  }
+  if (seconds > length) seconds = length > 0 ? std::fmod(seconds, length) : 0;
   return true;
-}
-
-void Timeline::playOrPause() {
-  playing = !playing;
-  if (playing && seconds >= length) seconds = 0;
 }
 
 Timeline timelineOf(const Scene& scene, const Instant& instant) {
@@ -63,7 +52,7 @@ bool drawTimeline(Timeline& timeline) {
   if (ImGui::Begin("timeline", nullptr, kBare)) {
     const float line = ImGui::GetFontSize();
     if (ImGui::Button(timeline.playing ? "pause" : "play", ImVec2(4 * line, 0))) {
-      timeline.playOrPause();
+      timeline.playing = !timeline.playing;
       changed = true;
     }
     ImGui::SameLine();
@@ -76,8 +65,6 @@ bool drawTimeline(Timeline& timeline) {
       timeline.playing = false;
       changed = true;
     }
-    ImGui::SameLine();
-    ImGui::Checkbox("loop", &timeline.loops);
     if (!timeline.animations.empty()) {
       ImGui::SameLine();
       ImGui::SetNextItemWidth(9 * line);

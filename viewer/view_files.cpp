@@ -102,9 +102,6 @@ void apply(const std::vector<std::string>& settings, const std::set<std::string>
   }
 }
 
-// Returns whether the sky is the one of the scene's file.
-bool hasOwnSky(const SkyChoice& sky) { return sky.source.empty(); }
-
 Json editedFile(const fs::path& path, const SceneName& name, const std::vector<std::string>& read,
                 const ShadingEdit& edit) {
   JsonDocument document;
@@ -115,7 +112,7 @@ Json editedFile(const fs::path& path, const SceneName& name, const std::vector<s
     document.root["parameters"][parameter] = value;
   }
   apply(edit.settings, {}, document);
-  if (!hasOwnSky(edit.sky)) document.root["sky"] = describeSky(edit.sky);
+  if (!edit.sky.source.empty()) document.root["sky"] = describeSky(edit.sky);
   return std::move(document.root);
 }
 
@@ -140,7 +137,7 @@ Json sceneOfModel(const fs::path& path, const std::vector<std::string>& read, co
   const std::set<std::string> butSky{"lights", "ambient", "materials"};
   apply(read, butSky, whole);
   apply(edit.settings, butSky, whole);
-  if (!hasOwnSky(edit.sky)) whole.root["sky"] = describeSky(edit.sky);
+  if (!edit.sky.source.empty()) whole.root["sky"] = describeSky(edit.sky);
   whole.root["scene"] = Json::array({std::move(item.root)});
   return std::move(whole.root);
 }
@@ -188,29 +185,22 @@ std::string renderCommand(const std::string& scene, const cli::CommonOptions& co
 }
 
 SavedScene saveScene(const LoadOptions& load, const std::string& name, const cli::OpenScene& scene,
-                     const ShadingEdit& edit, const Camera& camera) {
+                     const ShadingEdit& edit, const Camera& camera, RenderOptions options) {
   const SceneName parsed = parseSceneName(name);
   const fs::path path = findScene(parsed.file, load.shippedScenes);
   Json root = isModelFile(path) ? sceneOfModel(path, scene.settings, scene.scene, edit)
                                 : editedFile(path, parsed, scene.settings, edit);
   lookThrough(camera, scene.scene, root);
-  SavedScene saved;
   const auto nameOf = [&](int i) {
     return scene.scene.name + "-edited" + (i == 1 ? "" : "-" + std::to_string(i));
   };
-  saved.file = freeName(nameOf, {".json"}) + ".json";
-  saved.leavesFolder = movePaths(root, path.parent_path(), ".");
+  const std::string saved = freeName(nameOf, {".json"}), file = saved + ".json";
+  const bool leavesFolder = movePaths(root, path.parent_path(), ".");
   const cli::WriteScope scope;
-  writeTextFile(saved.file, root.dump(2) + "\n");
-  return saved;
-}
-
-std::string commandFor(const SavedScene& saved, const Scene& scene, RenderOptions options) {
+  writeTextFile(file, root.dump(2) + "\n");
   clearCamera(options);
-  if (options.size == ImageSize{scene.width, scene.height}) options.size.reset();
-  const std::string name = fs::path(saved.file).stem().string();
-  return commandWith(saved.file, name, options, {}) +
-         (saved.leavesFolder ? " --allow-outside" : "");
+  if (options.size == ImageSize{scene.scene.width, scene.scene.height}) options.size.reset();
+  return {file, commandWith(file, saved, options, {}) + (leavesFolder ? " --allow-outside" : "")};
 }
 
 std::string savePicture(const TracedFrame& frame, const std::string& command) {

@@ -15,18 +15,15 @@ std::string renderCommand(const std::string& scene, const cli::CommonOptions& co
 
 struct SavedScene {
   std::string file;
-  bool leavesFolder = false;  // it names files elsewhere, so reading it needs --allow-outside
+  std::string command;  // renders the scene with its view
 };
 
 // Writes NAME-edited.json, with the first number that is free, into the current folder. It is the
 // file of the scene called `name` with its settings and edits, or a scene that holds the model
 // called `name`; its first camera is `camera`. `load` holds the options that the scene was read
-// with. Throws Error(io), and writes nothing then.
+// with, and `options` are those of the command. Throws Error(io), and writes nothing then.
 SavedScene saveScene(const LoadOptions& load, const std::string& name, const cli::OpenScene& scene,
-                     const ShadingEdit& edit, const Camera& camera);
-
-// Returns the command for a scene that was saved with its view.
-std::string commandFor(const SavedScene& saved, const Scene& scene, RenderOptions options);
+                     const ShadingEdit& edit, const Camera& camera, RenderOptions options);
 
 // Writes NAME-NNNN.png, .exr and .json (the camera, and the command that makes the picture) into
 // the current folder, with the first number that is free; returns "NAME-NNNN". Throws Error(io).

@@ -101,19 +101,19 @@ Window::Window(const std::string& title, const ImageSize& size) {
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;  // no file is left behind
-  setStyle(static_cast<float>(contentScale()));
+  float across = 1, down = 1;
+  glfwGetWindowContentScale(window_, &across, &down);
+  setStyle(std::max(1.0f, down));
   ImGui_ImplGlfw_InitForOpenGL(window_, true);  // chains the callbacks above
   ImGui_ImplOpenGL2_Init();
-  glGenTextures(1, &picture_.texture);
-  glGenTextures(1, &over_.texture);
+  glGenTextures(1, &texture_);
 }
 
 Window::~Window() {
   ImGui_ImplOpenGL2_Shutdown();
   ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext();
-  glDeleteTextures(1, &picture_.texture);
-  glDeleteTextures(1, &over_.texture);
+  glDeleteTextures(1, &texture_);
   glfwDestroyWindow(window_);
 }
 
@@ -125,12 +125,6 @@ ImageSize Window::pixels() const {
   ImageSize size;
   glfwGetFramebufferSize(window_, &size.width, &size.height);
   return size;
-}
-
-double Window::contentScale() const {
-  float x = 1, y = 1;
-  glfwGetWindowContentScale(window_, &x, &y);
-  return std::max(1.0f, y);
 }
 
 std::array<int, 2> Window::pixelAt(const Input::Click& place) const {
@@ -180,11 +174,11 @@ void Window::poll(double waitSeconds) {
 
 void Window::wake() { glfwPostEmptyEvent(); }
 
-void Window::fill(Layer& layer, const DisplayImage& image, const ImageSize& madeFor) {
-  glBindTexture(GL_TEXTURE_2D, layer.texture);
-  layer.madeFor = madeFor;
-  if (layer.size != ImageSize{image.width, image.height}) {
-    layer.size = {image.width, image.height};
+void Window::upload(const DisplayImage& image, const ImageSize& madeFor) {
+  glBindTexture(GL_TEXTURE_2D, texture_);
+  madeFor_ = madeFor;
+  if (size_ != ImageSize{image.width, image.height}) {
+    size_ = {image.width, image.height};
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, image.width, image.height, 0, GL_RGBA,
                  GL_UNSIGNED_BYTE, nullptr);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -194,13 +188,18 @@ void Window::fill(Layer& layer, const DisplayImage& image, const ImageSize& made
                   image.rgba.data());
 }
 
-void Window::drawLayer(const Layer& layer, const ImageSize& window) {
-  if (layer.size == ImageSize{}) return;
+void Window::drawImage() const {
+  const ImageSize window = pixels();
+  glViewport(0, 0, window.width, window.height);
+  glClearColor(0, 0, 0, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+  if (size_ == ImageSize{}) return;
   // Texels of the window's resolution are shown unchanged; coarser ones are blended.
-  const GLint filter = layer.size == window ? GL_NEAREST : GL_LINEAR;
-  const auto shares = sharesFilled(layer.madeFor, window);
+  const GLint filter = size_ == window ? GL_NEAREST : GL_LINEAR;
+  const auto shares = sharesFilled(madeFor_, window);
   const auto x = static_cast<float>(shares[0]), y = static_cast<float>(shares[1]);
-  glBindTexture(GL_TEXTURE_2D, layer.texture);
+  glEnable(GL_TEXTURE_2D);
+  glBindTexture(GL_TEXTURE_2D, texture_);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
   glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_REPLACE);
@@ -210,19 +209,6 @@ void Window::drawLayer(const Layer& layer, const ImageSize& window) {
   glTexCoord2f(1, 0), glVertex2f(x, y);
   glTexCoord2f(1, 1), glVertex2f(x, -y);
   glEnd();
-}
-
-void Window::drawImage() const {
-  const ImageSize size = pixels();
-  glViewport(0, 0, size.width, size.height);
-  glClearColor(0, 0, 0, 1);
-  glClear(GL_COLOR_BUFFER_BIT);
-  glEnable(GL_TEXTURE_2D);
-  drawLayer(picture_, size);
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  drawLayer(over_, size);
-  glDisable(GL_BLEND);
   glDisable(GL_TEXTURE_2D);
 }
 

@@ -73,7 +73,6 @@ class Window {
   bool closing() const;
   void close();
   ImageSize pixels() const;  // size of the framebuffer; zero when minimized
-  double contentScale() const;
   // Returns the framebuffer's pixel at that place of the window.
   std::array<int, 2> pixelAt(const Input::Click& place) const;
   void setTitle(const std::string& title);
@@ -93,15 +92,8 @@ class Window {
   static void wake();
 
   // Sets the picture. It was made for a window of that size and keeps its shape in another one.
-  void upload(const DisplayImage& image, const ImageSize& madeFor) {
-    fill(picture_, image, madeFor);
-  }
-  // Sets a second picture that lies over the first, transparent where it is not traced yet.
-  void uploadOver(const DisplayImage& image, const ImageSize& madeFor) {
-    fill(over_, image, madeFor);
-  }
-  void dropOver() { over_.size = {}; }
-  // Draws the pictures and begins a new ImGui frame over them.
+  void upload(const DisplayImage& image, const ImageSize& madeFor);
+  // Draws the picture and begins a new ImGui frame over it.
   void begin();
   void end();
   void present();
@@ -117,14 +109,8 @@ class Window {
   void followPointer();
 
   GLFWwindow* window_ = nullptr;
-  struct Layer {
-    unsigned int texture = 0;
-    ImageSize size, madeFor;  // a size of zero: there is no picture
-  };
-  static void fill(Layer& layer, const DisplayImage& image, const ImageSize& madeFor);
-  static void drawLayer(const Layer& layer, const ImageSize& window);
-
-  Layer picture_, over_;
+  unsigned int texture_ = 0;
+  ImageSize size_, madeFor_;  // of the picture; a size of zero: there is none
   double cursorX_ = 0, cursorY_ = 0;
   bool looking_ = false, orbiting_ = false;
   double pressedX_ = 0, pressedY_ = 0;  // where the left button went down

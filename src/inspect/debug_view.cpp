@@ -32,7 +32,7 @@ Rgb colorOf(EffectSet effects) {
   return sum;
 }
 
-// Sums, a pixel of the window each, of whatever the view shows.
+// Adds up what the view shows, for each pixel of the window.
 class Watcher : public StageObserver {
  public:
   Watcher(const Renderer& renderer, const Image& image, DebugView view,
@@ -123,7 +123,7 @@ class Watcher : public StageObserver {
   Clock::time_point last_;
 };
 
-// The meaning of the amounts that a view shows; empty for views without a scale.
+// The amounts that a view shows; empty for views without a scale.
 constexpr std::array<const char*, kDebugViewNames.size()> kAmounts{
     "", "distance",           "", "", "rays a pixel and sample", "microseconds a pixel and sample",
     "", "share of live lanes"};
@@ -153,62 +153,68 @@ std::array<std::uint8_t, 3> meanColor(DebugView view, const WatchedPixel& pixel)
   return {code(c.x), code(c.y), code(c.z)};
 }
 
-}  // namespace
-
-std::span<const EffectColor> effectColors() { return kEffectColors; }
-
-FrameStats watchFrame(Renderer& renderer, const Camera& camera, Film& film, DebugView view,
-                      std::vector<WatchedPixel>& pixels, const FrameHooks* hooks) {
-  Watcher watcher(renderer, film.image, view, pixels);
-  StageObserver* const observers[] = {&watcher};
-  return renderer.observe(camera, film, observers, hooks);
-}
-
-AmountScale scaleOf(DebugView view, const std::vector<WatchedPixel>& pixels, int samples) {
+void findScale(DebugPicture& picture) {
   constexpr double kOutliers = 0.005;  // share of the pixels that may be beyond the scale
   constexpr double kLongestScale = 1000;
-  if (view != DebugView::depth && !isLogarithmic(view)) return {0, 1};
+  const DebugView view = picture.view;
+  picture.low = 0, picture.high = 1;
+  if (view != DebugView::depth && !isLogarithmic(view)) return;
   std::vector<double> amounts;
-  for (const WatchedPixel& p : pixels) {
-    if (!hitsNothing(view, p)) amounts.push_back(amountOf(p, samples));
+  for (const WatchedPixel& p : picture.pixels) {
+    if (!hitsNothing(view, p)) amounts.push_back(amountOf(p, picture.samples));
   }
-  if (amounts.empty()) return {};
+  if (amounts.empty()) amounts.push_back(0);
   const auto last = static_cast<double>(amounts.size() - 1);
   const auto highest = amounts.begin() + std::lround(last * (1 - kOutliers));
   std::nth_element(amounts.begin(), highest, amounts.end());
   const double low = *std::min_element(amounts.begin(), highest + 1);
-  return {isLogarithmic(view) ? std::max(low, *highest / kLongestScale) : low, *highest};
+  picture.low = isLogarithmic(view) ? std::max(low, *highest / kLongestScale) : low;
+  picture.high = *highest;
 }
 
-void paintView(DebugView view, const std::vector<WatchedPixel>& pixels, int samples,
-               const AmountScale& scale, DisplayImage& display) {
-  const bool flat = !(scale.high > scale.low);
-  const double perLog = !flat && isLogarithmic(view) ? 1 / std::log(scale.high / scale.low) : 0;
+void paint(const DebugPicture& picture, DisplayImage& display) {
+  const DebugView view = picture.view;
+  const double low = picture.low, high = picture.high;
+  const bool hasScale = !picture.legend().empty(), flat = !(high > low);
+  const double perLog = !flat && isLogarithmic(view) ? 1 / std::log(high / low) : 0;
   const auto shareOf = [&](double amount) {
     const double share = flat                  ? 0
-                         : isLogarithmic(view) ? std::log(amount / scale.low) * perLog
-                                               : (amount - scale.low) / (scale.high - scale.low);
+                         : isLogarithmic(view) ? std::log(amount / low) * perLog
+                                               : (amount - low) / (high - low);
     return share > 0 ? std::min(share, 1.0) : 0;
   };
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const WatchedPixel& p = pixels[i];
+  for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+    const WatchedPixel& p = picture.pixels[i];
     std::array<std::uint8_t, 3> color{};
-    if (!hasScale(view)) {
+    if (!hasScale) {
       color = meanColor(view, p);
     } else if (!hitsNothing(view, p)) {
-      color = colorAt(view, shareOf(amountOf(p, samples)));
+      color = colorAt(view, shareOf(amountOf(p, picture.samples)));
     }
     std::copy(color.begin(), color.end(), &display.rgba[4 * i]);
     display.rgba[4 * i + 3] = 255;
   }
 }
 
-bool hasScale(DebugView view) { return *kAmounts[static_cast<std::size_t>(view)] != 0; }
+}  // namespace
 
-std::string legendOf(DebugView view, const AmountScale& scale) {
-  if (!hasScale(view)) return "";
-  return formatted("%s, from %.3g to %.3g", kAmounts[static_cast<std::size_t>(view)], scale.low,
-                   scale.high);
+std::span<const EffectColor> effectColors() { return kEffectColors; }
+
+FrameStats watchFrame(Renderer& renderer, const Camera& camera, Film& film, DebugView view,
+                      DebugPicture& picture, const FrameHooks* hooks) {
+  picture.view = view;
+  picture.samples = renderer.options().spp;
+  Watcher watcher(renderer, film.image, view, picture.pixels);
+  StageObserver* const observers[] = {&watcher};
+  const FrameStats stats = renderer.observe(camera, film, observers, hooks);
+  findScale(picture);
+  paint(picture, film.display);
+  return stats;
+}
+
+std::string DebugPicture::legend() const {
+  const char* const amounts = kAmounts[static_cast<std::size_t>(view)];
+  return *amounts == 0 ? "" : formatted("%s, from %.3g to %.3g", amounts, low, high);
 }
 
 std::array<std::uint8_t, 3> colorAt(DebugView view, double share) {
@@ -218,13 +224,8 @@ std::array<std::uint8_t, 3> colorAt(DebugView view, double share) {
   return {code, code, code};
 }
 
-double amountAt(DebugView view, const AmountScale& scale, double share) {
-  if (isLogarithmic(view) && scale.low > 0)
-    return scale.low * std::pow(scale.high / scale.low, share);
-  return scale.low + share * (scale.high - scale.low);
-}
-
-std::string textOf(DebugView view, const WatchedPixel& pixel, int samples) {
+std::string DebugPicture::textOf(std::size_t number) const {
+  const WatchedPixel& pixel = pixels[number];
   const double count = pixel.count, amount = amountOf(pixel, samples);
   const RgbD mean = RgbD(pixel.sum) / std::max(count, 1.0);
   switch (view) {

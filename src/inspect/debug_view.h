@@ -16,40 +16,37 @@ inline constexpr std::array kDebugViewNames{"none", "depth", "normals", "albedo"
                                             "rays", "cost",  "effects", "occupancy"};
 
 struct WatchedPixel {
-  Rgb sum{0, 0, 0};  // of `count` colors, or of amounts in x
+  Rgb sum{0, 0, 0};  // sum of `count` colors, or of amounts in x
   double count = 0;
-  EffectSet effects;  // of all surfaces that were met, for DebugView::effects
+  EffectSet effects;  // effects of all surfaces that were hit, for DebugView::effects
 };
 
-// The amounts that have the first and the last of the colors.
-struct AmountScale {
-  double low = 0, high = 0;
+struct DebugPicture {
+  DebugView view = DebugView::none;
+  int samples = 1;  // of each pixel
+  std::vector<WatchedPixel> pixels;
+  double low = 0, high = 0;  // the amounts that have the first and the last color
+
+  // "rays a pixel and sample, from 1 to 23"; empty for views without a scale.
+  std::string legend() const;
+  // The value of a pixel with its unit: "5.3 rays a sample".
+  std::string textOf(std::size_t pixel) const;
 };
 
-// Traces the frame with one worker and stores what `view` (not none) shows of the window's pixels,
-// which `hooks` may look at. film.image is what render() makes of it.
+// Traces the frame with one worker, stores what `view` (not none) shows of the window's pixels, and
+// paints it into film.display. film.image is what render() makes of it.
 //   depth      distance along the primary ray, near ones bright; black: nothing hit
 //   normals    shading normals, (n + 1) / 2 a channel
 //   albedo     diffuse reflectance, textures included
-//   rays       all that were traced for the pixel
-//   cost       the pixel's share of the time of the stages that it took part in
-//   effects    those of the surface that the primary ray hits, by effectColors(), added up
+//   rays       number of rays traced for the pixel
+//   cost       the pixel's share of the time of its stages
+//   effects    effects of the surface that the primary ray hits: the sum of their effectColors()
 //   occupancy  live lanes of the packets that carried the pixel's rays, bright when full
 FrameStats watchFrame(Renderer& renderer, const Camera& camera, Film& film, DebugView view,
-                      std::vector<WatchedPixel>& pixels, const FrameHooks* hooks = nullptr);
-// Scale, picture, legend and words for such pixels, each the mean of this many samples.
-AmountScale scaleOf(DebugView view, const std::vector<WatchedPixel>& pixels, int samples);
-void paintView(DebugView view, const std::vector<WatchedPixel>& pixels, int samples,
-               const AmountScale& scale, DisplayImage& display);
-// Describes the colors: "rays a pixel and sample, from 1 to 23"; empty for views without a scale.
-std::string legendOf(DebugView view, const AmountScale& scale);
-// The value of a pixel with its unit: "5.3 rays a sample".
-std::string textOf(DebugView view, const WatchedPixel& pixel, int samples);
+                      DebugPicture& picture, const FrameHooks* hooks = nullptr);
 
-// Views with a scale have a color and an amount at each share of the way from low to high.
-bool hasScale(DebugView view);
+// Returns the color at a share of the way from the lowest to the highest amount.
 std::array<std::uint8_t, 3> colorAt(DebugView view, double share);
-double amountAt(DebugView view, const AmountScale& scale, double share);
 
 // The colors of DebugView::effects.
 struct EffectColor {

@@ -141,11 +141,13 @@ Planes opponentPlanes(const std::vector<Rgb>& pixels, int width, int height) {
   return planes;
 }
 
-Taps normalized(const std::vector<double>& weights) {
-  double sum = 0;
-  for (const double w : weights) sum += w;
+// Returns weights whose positive ones sum to 1 and whose negative ones sum to -1.
+Taps balanced(const std::vector<double>& weights) {
+  double positive = 0, negative = 0;
+  for (const double w : weights) (w > 0 ? positive : negative) += std::abs(w);
   Taps taps;
-  for (const double w : weights) taps.push_back(static_cast<float>(w / sum));
+  for (const double w : weights)
+    taps.push_back(static_cast<float>(w / (w > 0 ? positive : negative)));
   return taps;
 }
 
@@ -170,7 +172,7 @@ Plane filterContrast(const Plane& plane, const std::vector<Gaussian>& gaussians)
       weights.push_back(std::exp(-std::numbers::pi * std::numbers::pi * d * d / g.b));
       line += weights.back();
     }
-    taps.push_back(normalized(weights));
+    taps.push_back(balanced(weights));
     masses.push_back(g.a * std::sqrt(std::numbers::pi / g.b) * line * line);
     total += masses.back();
   }
@@ -225,33 +227,6 @@ std::vector<Vec3f> filteredLab(const Planes& opponent) {
   return lab;
 }
 
-// 3.2: taps of the Gaussian, of its first derivative (edges) and its second (points); the positive
-// weights sum to 1, the negative ones to -1.
-struct FeatureTaps {
-  Taps gaussian, edge, point;
-};
-Taps balanced(const std::vector<double>& weights) {
-  double positive = 0, negative = 0;
-  for (const double w : weights) (w > 0 ? positive : negative) += std::abs(w);
-  Taps taps;
-  for (const double w : weights)
-    taps.push_back(static_cast<float>(w / (w > 0 ? positive : negative)));
-  return taps;
-}
-FeatureTaps makeFeatureTaps() {
-  const double deviation = 0.5 * kFeatureWidth * kPixelsPerDegree;
-  const int radius = static_cast<int>(std::ceil(3 * deviation));
-  std::vector<double> gaussian, edge, point;
-  for (int x = -radius; x <= radius; ++x) {
-    const double square = x * x / (deviation * deviation);
-    const double g = std::exp(-square / 2);
-    gaussian.push_back(g);
-    edge.push_back(-x * g);
-    point.push_back((square - 1) * g);
-  }
-  return {normalized(gaussian), balanced(edge), balanced(point)};
-}
-
 std::vector<float> magnitudes(const Plane& x, const Plane& y) {
   std::vector<float> result(x.values.size());
   for (std::size_t i = 0; i < result.size(); ++i)
@@ -265,15 +240,28 @@ struct FlipSide {
   std::vector<float> edge, point;  // magnitudes of the features
 };
 
+// 3.2: edges by the first derivative of a Gaussian, points by the second.
 void findFeatures(const Plane& achromatic, FlipSide& side) {
-  const FeatureTaps taps = makeFeatureTaps();
+  const double deviation = 0.5 * kFeatureWidth * kPixelsPerDegree;
+  const int radius = static_cast<int>(std::ceil(3 * deviation));
+  std::vector<double> gaussian, edge, point;
+  for (int x = -radius; x <= radius; ++x) {
+    const double square = x * x / (deviation * deviation);
+    const double g = std::exp(-square / 2);
+    gaussian.push_back(g);
+    edge.push_back(-x * g);
+    point.push_back((square - 1) * g);
+  }
   Plane luminance = achromatic;
   for (float& value : luminance.values) value = (value + 16) / 116;
-  const Plane smooth = filterAlongX(luminance, taps.gaussian);
-  side.edge = magnitudes(filterAlongY(filterAlongX(luminance, taps.edge), taps.gaussian),
-                         filterAlongY(smooth, taps.edge));
-  side.point = magnitudes(filterAlongY(filterAlongX(luminance, taps.point), taps.gaussian),
-                          filterAlongY(smooth, taps.point));
+  const Taps smoothing = balanced(gaussian);
+  const Plane smooth = filterAlongX(luminance, smoothing);
+  const auto magnitudesOf = [&](const Taps& taps) {
+    return magnitudes(filterAlongY(filterAlongX(luminance, taps), smoothing),
+                      filterAlongY(smooth, taps));
+  };
+  side.edge = magnitudesOf(balanced(edge));
+  side.point = magnitudesOf(balanced(point));
 }
 
 FlipSide flipSide(const DisplayImage& image) {

@@ -58,6 +58,18 @@ double psnr(const DisplayImage& a, const DisplayImage& b) {
          std::log10(255.0 * 255.0 * static_cast<double>(values) / static_cast<double>(squares));
 }
 
+// Returns the largest difference of a channel for each pixel, in codes.
+std::vector<std::uint8_t> codeDifferences(const DisplayImage& a, const DisplayImage& b) {
+  std::vector<std::uint8_t> differences(a.rgba.size() / 4);
+  for (std::size_t i = 0; i < differences.size(); ++i) {
+    int largest = 0;
+    for (std::size_t c = 0; c < 3; ++c)
+      largest = std::max(largest, std::abs(int{a.rgba[4 * i + c]} - int{b.rgba[4 * i + c]}));
+    differences[i] = static_cast<std::uint8_t>(largest);
+  }
+  return differences;
+}
+
 void measureCodes(const DisplayImage& a, const DisplayImage& b, ImageDifference& difference) {
   std::uint64_t one = 0, two = 0;
   const std::vector<std::uint8_t> codes = codeDifferences(a, b);
@@ -78,51 +90,6 @@ std::string describe(const Image& image) {
          std::to_string(w.y1);
 }
 
-using Color = std::array<std::uint8_t, 3>;
-
-constexpr int kLargest = kHeatTicks.back();  // codes; differences beyond have the last color
-
-// The scale beneath the image, in rows of coarse pixels from the top: gap, bar, ticks, digits, gap.
-constexpr int kBarTop = 2, kBarRows = 6, kTickRows = 2, kDigitTop = 11, kScaleRows = 18;
-constexpr int kMargin = 5;         // beside the bar, half a label
-constexpr int kLeastColumns = 64;  // below this the labels would touch
-constexpr int kColumnsPerZoom = 320;
-
-// Digits of 3x5 pixels: an octal digit for each row, the left pixel in the highest bit.
-constexpr std::array kDigits{075557, 026227, 071747, 071717, 055711,
-                             074717, 074757, 071122, 075757, 075717};
-
-// Draws the scale below row `top`; a coarse pixel has `zoom` of the image's pixels a side.
-void drawScale(DisplayImage& image, int top, int zoom) {
-  constexpr Color kInk{255, 255, 255};
-  const auto set = [&](int x, int y, const Color& color) {
-    for (int i = 0; i < zoom * zoom; ++i) {
-      const int row = top + y * zoom + i / zoom, column = x * zoom + i % zoom;
-      const std::size_t pixel = static_cast<std::size_t>(row) * image.width + column;
-      std::copy(color.begin(), color.end(), &image.rgba[4 * pixel]);
-    }
-  };
-  const int length = image.width / zoom - 2 * kMargin - 1;
-  for (int x = 0; x <= length; ++x) {
-    for (int y = 0; y < kBarRows; ++y) {
-      set(kMargin + x, kBarTop + y, heatColor(static_cast<double>(x) / length));
-    }
-  }
-  for (const int tick : kHeatTicks) {
-    const int x = kMargin + static_cast<int>(std::lround(heatPosition(tick) * length));
-    for (int y = 0; y < kTickRows; ++y) set(x, kBarTop + kBarRows + y, kInk);
-    const std::string text = std::to_string(tick);
-    int left = x - (4 * static_cast<int>(text.size()) - 1) / 2;
-    for (const char digit : text) {
-      for (int i = 0; i < 15; ++i) {
-        const bool inked = (kDigits[static_cast<std::size_t>(digit - '0')] >> (14 - i) & 1) != 0;
-        if (inked) set(left + i % 3, kDigitTop + i / 3, kInk);
-      }
-      left += 4;
-    }
-  }
-}
-
 }  // namespace
 
 void checkComparable(const Image& a, const Image& b) {
@@ -130,17 +97,6 @@ void checkComparable(const Image& a, const Image& b) {
     throwUsage("expected two images of the same size and crop, found " + describe(a) + " and " +
                describe(b));
   if (a.pixels.empty()) throwUsage("expected images with at least one pixel");
-}
-
-std::vector<std::uint8_t> codeDifferences(const DisplayImage& a, const DisplayImage& b) {
-  std::vector<std::uint8_t> differences(a.rgba.size() / 4);
-  for (std::size_t i = 0; i < differences.size(); ++i) {
-    int largest = 0;
-    for (std::size_t c = 0; c < 3; ++c)
-      largest = std::max(largest, std::abs(int{a.rgba[4 * i + c]} - int{b.rgba[4 * i + c]}));
-    differences[i] = static_cast<std::uint8_t>(largest);
-  }
-  return differences;
 }
 
 ImageDifference compareImages(const Image& a, const Image& b, float exposure, ToneCurve curve,
@@ -183,10 +139,6 @@ ValueDifference differenceOf(std::span<const std::uint32_t> a, std::span<const s
   return result;
 }
 
-double heatPosition(int codes) {
-  return std::log2(1.0 + std::min(codes, kLargest)) / std::log2(1.0 + kLargest);
-}
-
 std::array<std::uint8_t, 3> heatColor(double t) {
   constexpr std::array<std::array<double, 3>, 5> kStops{
       {{0, 0, 0}, {70, 20, 120}, {180, 50, 100}, {245, 130, 40}, {255, 245, 170}}};
@@ -200,31 +152,19 @@ std::array<std::uint8_t, 3> heatColor(double t) {
   return color;
 }
 
-DisplayImage heatMap(const Image& a, const Image& b, bool scale) {
+DisplayImage heatMap(const Image& a, const Image& b) {
+  constexpr int kLargest = 16;  // codes
   checkComparable(a, b);
-  const std::vector<std::uint8_t> codes =
-      codeDifferences(toDisplay(a, 0, ToneCurve::none), toDisplay(b, 0, ToneCurve::none));
-  const int width = a.windowWidth(), height = a.windowHeight();
-  DisplayImage map;
-  map.width = scale ? std::max(width, kLeastColumns) : width;
-  const int zoom = std::max(1, map.width / kColumnsPerZoom);
-  map.height = height + (scale ? kScaleRows * zoom : 0);
-  map.rgba.assign(
-      std::size_t{4} * static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height),
-      0);
-  for (std::size_t i = 3; i < map.rgba.size(); i += 4) map.rgba[i] = 255;
-  std::array<Color, 256> colors{};
-  for (int code = 0; code < 256; ++code) {
-    colors[static_cast<std::size_t>(code)] = heatColor(heatPosition(code));
+  DisplayImage map = toDisplay(a, 0, ToneCurve::none);
+  const std::vector<std::uint8_t> codes = codeDifferences(map, toDisplay(b, 0, ToneCurve::none));
+  std::array<std::array<std::uint8_t, 3>, kLargest + 1> colors{};
+  for (int code = 0; code <= kLargest; ++code) {
+    colors[static_cast<std::size_t>(code)] =
+        heatColor(std::log2(1.0 + code) / std::log2(1.0 + kLargest));
   }
   for (std::size_t i = 0; i < codes.size(); ++i) {
-    const std::size_t x = i % static_cast<std::size_t>(width);
-    const std::size_t y = i / static_cast<std::size_t>(width);
-    const Color& color = colors[codes[i]];
-    std::copy(color.begin(), color.end(),
-              &map.rgba[4 * (y * static_cast<std::size_t>(map.width) + x)]);
+    std::ranges::copy(colors[std::min<std::size_t>(codes[i], kLargest)], &map.rgba[4 * i]);
   }
-  if (scale) drawScale(map, height, zoom);
   return map;
 }
 

@@ -33,17 +33,11 @@ ImageDifference compareImages(const Image& a, const Image& b, float exposure = 0
 // Throws Error(usage) unless sizes and windows match and there are pixels.
 void checkComparable(const Image& a, const Image& b);
 
-// Per pixel, the largest difference of a channel of the encoded images, in codes.
-std::vector<std::uint8_t> codeDifferences(const DisplayImage& a, const DisplayImage& b);
-
-// Per-pixel code difference as a heat map on a fixed scale (0 to 16 codes, logarithmic), which may
-// be drawn beneath.
-DisplayImage heatMap(const Image& a, const Image& b, bool scale = true);
-// Where a difference of so many codes lies on that scale, 0 to 1; those that it names.
-double heatPosition(int codes);
-inline constexpr std::array kHeatTicks{0, 1, 2, 4, 8, 16};
-// Its colors: from black over violet and orange to a light yellow, lightness growing all the way.
-// `t` in [0, 1]; 8-bit sRGB.
+// Paints the difference of each pixel in codes with heatColor() on a logarithmic scale from 0 to 16
+// codes; larger differences have the last color.
+DisplayImage heatMap(const Image& a, const Image& b);
+// Returns the 8-bit sRGB color at t in [0, 1]: from black over violet and orange to light yellow,
+// with a lightness that grows all the way.
 std::array<std::uint8_t, 3> heatColor(double t);
 
 // Measures of the difference between two columns of values, a pixel each.

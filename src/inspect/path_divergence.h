@@ -1,4 +1,4 @@
-// Where the vector pipeline and the reference followed different paths.
+// Counts the pixels where the vector pipeline and the reference followed different paths.
 #pragma once
 
 #include <cstdint>

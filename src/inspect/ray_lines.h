@@ -34,8 +34,7 @@ struct RayLine {
 // Rays that leave the scene end after a fifth of the tree's extent. What weighs most comes last.
 std::vector<RayLine> linesOf(const RayTree& tree);
 
-// Where the rays are seen from unless the user says so: from aside and above, with all that they
-// met in view.
+// Returns a camera that sees all hits of the rays from aside and above.
 Camera cameraAside(const RayTree& tree, const Camera& camera);
 
 // Pixels from the top left.

@@ -126,7 +126,7 @@ class TreeObserver : public StageObserver {
   std::vector<LightContribution> shadows_;        // of the light in hand, a slot each
 };
 
-// As the reference follows its paths, one after the other.
+// Writes the tree down while the reference follows its paths, one after the other.
 class TreeIntersector : public reference::Intersector {
  public:
   TreeIntersector(const Accel& accel, RayTree& tree) : embree_(accel), tree_(tree) {}
@@ -203,7 +203,7 @@ bool sends(const RayTree& tree, const RayNode& n, RayKind kind) {
 struct Wanted {
   reference::Impulses impulses;
   reference::Crossing crossing;
-  // By the diffuse lobe. Of a glossy one all samples may end in the surface: it is not told.
+  // The diffuse lobe sends samples on. All samples of a glossy lobe may end in the surface.
   bool scattered = false;
 
   bool isWanted(RayKind kind) const {

@@ -1,6 +1,5 @@
-// The rays of one pixel as the tree that Whitted drew (1980, figure 2): what each of them met, what
-// it brought back, and where it ended. Written down by observers, so that frames pay nothing for
-// it.
+// The rays of one pixel as the tree that Whitted drew (1980, figure 2): the hit, the radiance and
+// the end of each. Observers write it down, so that frames pay nothing for it.
 #pragma once
 
 #include <array>
@@ -61,15 +60,14 @@ struct RayTree {
   Rgb pixel;                           // as the film has it
 };
 
-// By the pipeline, of a film of that size. The pixel is the mean, over the samples, of a primary
-// ray's weight times its radiance; radiance is a node's local one and then, child by child in
-// order, weight times theirs: the same sums in the same order, to the last bit. With --adaptive on
-// these are the samples that the pixel's color in the picture is the mean of.
+// Traces the tree by the pipeline. The pixel is the mean, over the samples, of a primary ray's
+// weight times its radiance. The radiance is the local radiance of a node, then child by child the
+// weight times theirs: the same sums in the same order, to the last bit. With --adaptive on the
+// samples are those of the picture.
 RayTree traceRayTree(Renderer& renderer, const Camera& camera, const Film& film, int x, int y);
 
-// By the scalar reference, through the samples of a tree of that pixel. What a node's own lights
-// add is not told apart: `local` and `emitted` stay 0, and weights do not hold what is absorbed on
-// the way, which is in the radiance.
+// Traces the samples of a tree by the scalar reference. `local` and `emitted` stay 0, and weights
+// do not hold absorption on the way, which is in the radiance.
 RayTree traceReferenceTree(Renderer& renderer, const Camera& camera, const Film& film, int x, int y,
                            const std::vector<Vec2f>& samples);
 
@@ -77,13 +75,13 @@ RayTree traceReferenceTree(Renderer& renderer, const Camera& camera, const Film&
 // path. The mean over the samples is not part of it.
 RgbD weightAtEye(const RayTree& tree, std::size_t node);
 
-// For each node of `a` its counterpart in `b`, by kind and order among siblings; kNoCounterpart
-// where there is none.
+// Returns for each node of `a` its counterpart in `b`, by kind and order among siblings, or
+// kNoCounterpart.
 inline constexpr std::size_t kNoCounterpart = std::numeric_limits<std::size_t>::max();
 std::vector<std::size_t> counterparts(const RayTree& a, const RayTree& b);
 
-bool meetsTheSame(const RayNode& a, const RayNode& b);  // surface, or nothing
-bool seesTheSame(const RayNode& a, const RayNode& b);   // of the lights: those that are not hidden
+bool meetsTheSame(const RayNode& a, const RayNode& b);  // the same surface, or none
+bool seesTheSame(const RayNode& a, const RayNode& b);   // the same lights are visible
 // True if both nodes hit and see the same surfaces and lights and send the same number of impulses.
 bool agree(const RayNode& a, const RayNode& b);
 

@@ -66,7 +66,7 @@ double ulpOf(double magnitude) {
   return static_cast<double>(std::nextafter(at, std::numeric_limits<float>::infinity()) - at);
 }
 
-// Where a row stands, and what the scalar reference says.
+// The place of a row, and the row of the scalar reference.
 template <typename Row>
 struct Place {
   const reference::World& world;
@@ -80,7 +80,7 @@ struct Place {
 constexpr double kNotHere = -1;
 template <typename Row>
 struct Quantity {
-  Stage stage;
+  std::optional<Stage> stage;  // null: every stage that writes such rows
   std::string name;
   std::vector<std::string> columns;
   double limit;
@@ -126,7 +126,7 @@ Corners cornersAt(const Place<SurfelRow>& p) {
   return cornersOf(touchingTriangle(scene.triangles[candidate.triangle], candidate.u, candidate.v),
                    placed ? &scene.instances[candidate.instance].toWorld : nullptr);
 }
-// How much the cross product of the edges amplifies their rounding.
+// The factor by which the cross product of the edges amplifies their rounding.
 double bySliver(const Place<SurfelRow>& p) {
   const Corners c = cornersAt(p);
   const Vec3d a = c[1] - c[0], b = c[2] - c[0];
@@ -300,28 +300,26 @@ struct Compared {
   Feature feature = Feature::always;
 };
 
-// The quantities of the stage from the tables, and the columns that the tables do not list.
+// Returns the quantities of the tables, and the columns that the tables do not list.
 template <typename Row>
-std::vector<Compared<Row>> comparedAt(Stage stage) {
-  const std::vector<Quantity<Row>> known = quantitiesOf(static_cast<const Row*>(nullptr));
+std::vector<Compared<Row>> comparedOf() {
   std::vector<Compared<Row>> result;
-  for (const Quantity<Row>& q : known) {
-    if (q.stage == stage) result.push_back({q});
+  for (const Quantity<Row>& q : quantitiesOf(static_cast<const Row*>(nullptr))) {
+    result.push_back({q});
   }
   const Row row;
   std::size_t place = 0;
   Row::forEachColumn(row, [&](const std::string& column, auto value, Feature feature) {
-    const auto isOf = [&](const Quantity<Row>& q) {
-      return std::find(q.columns.begin(), q.columns.end(), column) != q.columns.end();
-    };
-    if (std::none_of(known.begin(), known.end(), isOf)) {
-      const bool whole = std::is_integral_v<decltype(value)>;
-      result.push_back({{stage, column, {column}, whole ? kExact : kRoundedLimit}});
-    }
+    bool listed = false;
     for (Compared<Row>& compared : result) {
-      if (!isOf(compared.what)) continue;
+      if (std::ranges::find(compared.what.columns, column) == compared.what.columns.end()) continue;
       compared.columns.push_back(place);
       compared.feature = feature;
+      listed = true;
+    }
+    if (!listed) {
+      const double limit = std::is_integral_v<decltype(value)> ? kExact : kRoundedLimit;
+      result.push_back({{std::nullopt, column, {column}, limit}, {place}, feature});
     }
     ++place;
   });
@@ -343,7 +341,8 @@ double distance(const Values& got, const Values& wanted, const std::vector<std::
   return largest == 0 ? 0 : largest / ulpOf(magnitude);
 }
 
-// Where the step has found light: there is a shadow ray, or without shadows all is visible.
+// Returns the slots whose light was found: those of shadow rays, or without shadows the visible
+// ones.
 std::vector<std::size_t> litSlots(const Chunk& c) {
   if (c.tracesShadows()) return {c.shadows.slot, c.shadows.slot + c.shadowCount};
   std::vector<std::size_t> slots;
@@ -418,15 +417,12 @@ class StageComparer : public StageObserver {
   template <typename Row>
   void compareRow(Stage stage, const Chunk& c, std::size_t slot, const Row& got,
                   const std::type_identity_t<std::optional<Row>>& twin) {
-    static const auto compared = [] {
-      std::array<std::vector<Compared<Row>>, kStageCount> all;
-      for (std::size_t i = 0; i < kStageCount; ++i) all[i] = comparedAt<Row>(static_cast<Stage>(i));
-      return all;
-    }();
+    static const std::vector<Compared<Row>> compared = comparedOf<Row>();
     if (!twin) return;
     const auto values = got.values(), wanted = twin->values();
     const Place<Row> place{world_, c, slot, *twin};
-    for (const auto& [what, columns, feature] : compared[static_cast<std::size_t>(stage)]) {
+    for (const auto& [what, columns, feature] : compared) {
+      if (what.stage && what.stage != stage) continue;
       const double scale = what.scale ? what.scale(place) : 0;
       if (scale == kNotHere || !c.has(feature)) continue;
       note(stage, what.name, distance(values, wanted, columns, scale), what.limit,

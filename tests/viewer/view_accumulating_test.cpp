@@ -23,8 +23,7 @@ class Accumulating : public testing::Test {
     request_.options.size = request_.window = ImageSize{90, 60};
     request_.interruptible = true;
     request_.spp = 32;
-    calls_.superseded = calls_.leaving = [this] { return ++pieces_ > most_; };
-    calls_.queried = [] { return false; };
+    calls_.superseded = calls_.stopped = [this] { return ++pieces_ > most_; };
     calls_.answer = [] {};
     calls_.publish = [](const TracedFrame&) {};
     calls_.showUnfinished = [this](UnfinishedFrame sight) { sights_.push_back(std::move(sight)); };
@@ -68,7 +67,6 @@ TEST_F(Accumulating, SightsHaveMoreSamplesAndLessError) {
     const UnfinishedFrame& sight = sights_[i];
     EXPECT_EQ(sight.samples, static_cast<int>(i) + 1);
     EXPECT_EQ(sight.display.rgba.size(), std::size_t{90 * 60 * 4}) << "all pixels, in each";
-    EXPECT_DOUBLE_EQ(sight.done, (static_cast<double>(i) + 1) / 32);
   }
   EXPECT_EQ(sights_[0].sampleError, 0) << "nothing is known of it";
   EXPECT_LT(sights_[15].sampleError, sights_[3].sampleError);
@@ -85,10 +83,8 @@ TEST_F(Accumulating, NoSightHasFewerSamplesThanWhatIsShown) {
   sights_.clear();
   request_.spp = 32;
   ASSERT_TRUE(tracer.trace(request_, frame, calls_));
-  ASSERT_GE(sights_.size(), 7u);
-  for (const UnfinishedFrame& sight : sights_) {
-    EXPECT_EQ(sight.display.rgba.empty(), sight.samples <= 8) << sight.samples;
-  }
+  ASSERT_FALSE(sights_.empty());
+  for (const UnfinishedFrame& sight : sights_) EXPECT_GT(sight.samples, 8);
 }
 
 TEST_F(Accumulating, IsGivenUpInBetween) {
@@ -107,7 +103,7 @@ TEST_F(Accumulating, OnlyWhereRaysAreSampled) {
   ASSERT_TRUE(tracer.trace(request_, frame, calls_));
   EXPECT_FALSE(frame.sampled);
   EXPECT_EQ(frame.sampleError, 0);
-  for (const UnfinishedFrame& sight : sights_) EXPECT_EQ(sight.samples, 0);
+  EXPECT_TRUE(sights_.empty());
   EXPECT_EQ(frame.film.image.pixels, rendered(32).image.pixels);
 }
 

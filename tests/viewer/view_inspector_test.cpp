@@ -54,14 +54,13 @@ TEST_F(Inspector, SaysWhatTheReferenceHas) {
 }
 
 TEST_F(Inspector, SaysWhatEachViewShows) {
-  frame_.options.spp = 4;
   WatchedPixel seen;
   seen.sum = {6, 2, 0};
   seen.count = 2;
   seen.effects = EffectSet().with(Effect::mirror).with(Effect::glossy);
   const auto expectText = [&](DebugView view, const std::string& text) {
     frame_.request.view = view;
-    frame_.watched = std::make_shared<const std::vector<WatchedPixel>>(2, seen);
+    frame_.debug = std::make_shared<const DebugPicture>(DebugPicture{view, 4, {seen, seen}});
     EXPECT_EQ(right(), "pixel 150, 40\n" + text);
   };
   expectText(DebugView::depth, "distance 3 units");

@@ -1,4 +1,4 @@
-// Debug views that are shown tile by tile are those of a whole picture.
+// Debug views of the tracing thread are those of a renderer made for them.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -21,8 +21,7 @@ class ViewPieces : public testing::TestWithParam<std::size_t> {
     request_.options.size = ImageSize{100, 70};
     request_.view = static_cast<DebugView>(GetParam());
     request_.interruptible = true;
-    calls_.superseded = calls_.leaving = [this] { return ++pieces_ > most_; };
-    calls_.queried = [] { return false; };
+    calls_.superseded = calls_.stopped = [this] { return ++pieces_ > most_; };
     calls_.answer = [] {};
     calls_.publish = [](const TracedFrame&) {};
     calls_.showUnfinished = [](const UnfinishedFrame&) {};
@@ -40,15 +39,13 @@ class ViewPieces : public testing::TestWithParam<std::size_t> {
     const test::DebugFrame whole =
         test::renderDebugView(renderer, request_.camera, film, request_.view);
     EXPECT_EQ(frame.film.image.pixels, film.image.pixels);
-    ASSERT_TRUE(frame.watched);
-    ASSERT_EQ(frame.watched->size(), whole.pixels.size());
+    ASSERT_TRUE(frame.debug);
+    ASSERT_EQ(frame.debug->pixels.size(), whole.picture.pixels.size());
     if (request_.view == DebugView::cost) return;  // other times
     EXPECT_EQ(frame.film.display.rgba, film.display.rgba);
-    EXPECT_EQ(frame.legend, whole.legend);
-    for (std::size_t i = 0; i < whole.pixels.size(); ++i) {
-      ASSERT_EQ(textOf(request_.view, (*frame.watched)[i], options.spp),
-                textOf(request_.view, whole.pixels[i], options.spp))
-          << i;
+    EXPECT_EQ(frame.debug->legend(), whole.legend);
+    for (std::size_t i = 0; i < whole.picture.pixels.size(); ++i) {
+      ASSERT_EQ(frame.debug->textOf(i), whole.picture.textOf(i)) << i;
     }
   }
 
@@ -73,7 +70,7 @@ TEST_P(ViewPieces, AreGivenUpInBetween) {
   TracedFrame frame;
   most_ = 3;
   EXPECT_FALSE(tracer.trace(request_, frame, calls_));
-  EXPECT_EQ(pieces_, 4);
+  EXPECT_LT(pieces_, 20) << "workers go on";
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ViewPieces, testing::Range<std::size_t>(1, kDebugViewNames.size()),

@@ -13,8 +13,8 @@ using RayPicking = RenderThreadTest;
 
 RayQuery queryFor(const FrameRequest& request, int x, int y) {
   RayQuery query;
-  query.camera = request.camera;
-  query.options = request.options;
+  query.picture.camera = request.camera;
+  query.picture.options = request.options;
   query.x = x, query.y = y;
   return query;
 }

