@@ -49,15 +49,8 @@ struct ArithmeticError {
 enum class Truth { model, transport };
 inline constexpr const char* kTruthNames[] = {"model", "transport"};
 
-struct Point {
-  PointKind kind = PointKind::knob;
-  std::string knob, value;  // "depth", "4"; of a joint point: "", "spp=4 depth=2"
-  std::optional<Cause> cause;
-  RenderOptions options;
-  bool spare = false;  // a quick sweep measures it last
-
-  Timing timing;
-  FrameStats stats;       // of the last frame: rays by kind
+// Errors of a point. Points with the same picture share all of them.
+struct PointErrors {
   ImageDifference total;  // against the truth
   // The pipeline without approximations against its limit for many samples, which is the reference,
   // or the picture with all transport if the point has all transport.
@@ -68,6 +61,17 @@ struct Point {
   // Against the exact scalar reference with equal samples, if the point has the baseline's samples.
   std::optional<ImageDifference> sameSamples;
   std::optional<ArithmeticError> arithmetic;
+};
+
+struct Point : PointErrors {
+  PointKind kind = PointKind::knob;
+  std::string knob, value;  // "depth", "4"; of a joint point: "", "spp=4 depth=2"
+  std::optional<Cause> cause;
+  RenderOptions options;
+  bool spare = false;  // a quick sweep measures it last
+
+  Timing timing;
+  FrameStats stats;                 // of the last frame: rays by kind
   bool onFront = false;             // of `total` over time
   bool onFrontSameSamples = false;  // of `sameSamples` over time
   // PNG files: the displayed image, its difference from the truth and from the exact picture with

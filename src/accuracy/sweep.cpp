@@ -70,9 +70,9 @@ ArithmeticError arithmeticError(Renderer& renderer, const Camera& camera, const 
 // Measures the points of one scene and view.
 class ErrorMeter {
  public:
-  // `scene` has exact spheres. `base` has the display and the number of samples of the exact
-  // picture at equal samples. The truth is `transport`, or the reference of `samples` samples if
-  // that is null. Scene, cache and `transport` must outlive the meter.
+  // `base` has the display and the number of samples of the exact picture at equal samples. The
+  // truth is `transport`, or the reference of `samples` samples if that is null. Scene, cache and
+  // `transport` must outlive the meter.
   ErrorMeter(const Scene& scene, const Camera& camera, const RenderOptions& base, float cutoff,
              ReferenceCache& cache, int samples, const TransportPicture* transport,
              Progress* progress)
@@ -188,22 +188,22 @@ class ErrorMeter {
 
 class SceneSweeper {
  public:
-  SceneSweeper(SceneVariants& scenes, const RenderOptions& base, const SweepSettings& settings,
+  SceneSweeper(const Scene& scene, const RenderOptions& base, const SweepSettings& settings,
                Progress* progress)
-      : scenes_(scenes),
+      : scene_(scene),
         base_(base),
         settings_(settings),
         scope_{settings.full ? kFull : kQuick, 0, 0, !settings.knobs.empty(), base.spp, 0},
-        camera_(chooseCamera(scenes.given(), base)),
-        effects_(scenes.with(0).effects.without(base.disable)),
+        camera_(chooseCamera(scene, base)),
+        effects_(scene.effects.without(base.disable)),
         cutoff_(exactCutoff(effects_, settings.full)),
-        cache_(scenes.with(0), camera_, settings.cacheFolder, settings.program),
+        cache_(scene, camera_, settings.cacheFolder, settings.program),
         progress_(progress) {}
 
   SceneSweep run() {
-    baseline_ = std::make_unique<FrameSource>(sceneFor(base_), camera_, base_);
+    baseline_ = std::make_unique<FrameSource>(scene_, camera_, base_);
     baseline_->render();
-    sweep_.scene = scenes_.given().name;
+    sweep_.scene = scene_.name;
     sweep_.width = baseline_->film.image.windowWidth();
     sweep_.height = baseline_->film.image.windowHeight();
     sweep_.machine = baseline_->renderer.machine();
@@ -221,10 +221,6 @@ class SceneSweeper {
   }
 
  private:
-  const Scene& sceneFor(const RenderOptions& options) {
-    return scenes_.with(options.sphereSegments);
-  }
-
   // The rays of the exact picture decide.
   void chooseSamples() {
     scope_.raysPerSample = cache_.get(exactAtSameSamples(base_, cutoff_), nullptr).rays / base_.spp;
@@ -251,8 +247,7 @@ class SceneSweeper {
     if (settings_.truth == Truth::transport) addTransportPoints(base_, effects_, knobs, list);
     sweep_.idle.insert(sweep_.idle.end(), list.idle.begin(), list.idle.end());
     for (Point& point : list.points) {
-      std::string because = scope_.leavesOut(point);
-      if (because.empty()) because = scenes_.leavesOut(point.options.sphereSegments);
+      const std::string because = scope_.leavesOut(point);
       if (because.empty()) {
         sweep_.points.push_back(std::move(point));
       } else {
@@ -267,7 +262,7 @@ class SceneSweeper {
 
   void renderTransport() {
     if (settings_.truth == Truth::model) return;
-    FrameSource one(scenes_.with(0), camera_, transportOptions(base_, 1));
+    FrameSource one(scene_, camera_, transportOptions(base_, 1));
     const double rays = static_cast<double>(one.render().allRays());
     const RenderOptions options = transportOptions(base_, scope_.transportSamples(rays));
     transport_ = cache_.transport(options, progress_);
@@ -277,7 +272,7 @@ class SceneSweeper {
   }
 
   ErrorMeter renderReferences() {
-    ErrorMeter meter(scenes_.with(0), camera_, base_, cutoff_, cache_, sweep_.referenceSamples,
+    ErrorMeter meter(scene_, camera_, base_, cutoff_, cache_, sweep_.referenceSamples,
                      transport_ ? &*transport_ : nullptr, progress_);
     const ReferencePicture& reference = meter.reference();
     sweep_.referenceDigest = reference.digest;
@@ -332,7 +327,7 @@ class SceneSweeper {
   // `points` is the number of points that are still to come, including this one. Returns false if
   // the point has the rays and the picture of the baseline.
   bool measurePoint(Point& point, ErrorMeter& meter, std::size_t points) {
-    FrameSource frames(sceneFor(point.options), camera_, point.options);
+    FrameSource frames(scene_, camera_, point.options);
     frames.render();  // this frame allocates; its time counts only if there is no time for another
     if (point.kind == PointKind::knob && point.cause == Cause::algorithm && isBaseline(frames)) {
       return false;
@@ -340,7 +335,7 @@ class SceneSweeper {
     timer_->time(point, frames, points);
     if (frames.film.image.pixels == baseline_->film.image.pixels &&
         point.options.srgb == base_.srgb) {
-      copyErrors(point, sweep_.points.front());
+      static_cast<PointErrors&>(point) = static_cast<const PointErrors&>(sweep_.points.front());
       point.stats = frames.stats;
       return true;
     }
@@ -348,14 +343,6 @@ class SceneSweeper {
     if (point.cause == Cause::arithmetic) copyErrorsOfRays(point, sweep_.points.front());
     meter.addPictures(point, frames.film.image);
     return true;
-  }
-
-  // For points with the same picture.
-  static void copyErrors(Point& point, const Point& from) {
-    copyErrorsOfRays(point, from);
-    point.total = from.total;
-    point.sameSamples = from.sameSamples;
-    point.arithmetic = from.arithmetic;
   }
 
   // For points with the same samples and the same algorithm.
@@ -385,7 +372,7 @@ class SceneSweeper {
     }
   }
 
-  SceneVariants& scenes_;
+  const Scene& scene_;
   RenderOptions base_;
   SweepSettings settings_;
   Scope scope_;
@@ -403,27 +390,9 @@ class SceneSweeper {
 
 }  // namespace
 
-const Scene& SceneVariants::with(int sphereSegments) {
-  if (sphereSegments == segmentsGiven_) return given_;
-  const auto found = others_.find(sphereSegments);
-  if (found != others_.end()) return found->second;
-  return others_.emplace(sphereSegments, load_(sphereSegments)).first->second;
-}
-
-std::string SceneVariants::leavesOut(int sphereSegments) {
-  constexpr std::uint64_t kMostTriangles = 20'000'000;
-  if (sphereSegments == 0 || sphereSegments == segmentsGiven_) return {};
-  const Scene& exact = with(0);
-  const std::uint64_t spheres = exact.triangles.size() - exact.firstSphere;
-  const auto segments = static_cast<std::uint64_t>(sphereSegments);
-  if (spheres * segments * segments <= kMostTriangles) return {};
-  return std::to_string(spheres) + " spheres would be more than " +
-         std::to_string(kMostTriangles / 1'000'000) + " million triangles";
-}
-
-SceneSweep sweepScene(SceneVariants& scenes, const RenderOptions& base,
-                      const SweepSettings& settings, Progress* progress) {
-  return SceneSweeper(scenes, base, settings, progress).run();
+SceneSweep sweepScene(const Scene& scene, const RenderOptions& base, const SweepSettings& settings,
+                      Progress* progress) {
+  return SceneSweeper(scene, base, settings, progress).run();
 }
 
 }  // namespace whit::accuracy

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,31 +13,6 @@
 #include "bake/scene.h"
 
 namespace whit::accuracy {
-
-// A scene with exact spheres, or with triangles in their place: --sphere-segments changes how a
-// scene is loaded, and not how it is rendered.
-class SceneVariants {
- public:
-  // Loads the scene with `sphereSegments`; 0 stands for exact spheres.
-  using Load = std::function<Scene(int sphereSegments)>;
-
-  // `given` was loaded with `segments`, and must outlive the variants.
-  SceneVariants(const Scene& given, int segments, Load load)
-      : given_(given), segmentsGiven_(segments), load_(std::move(load)) {}
-
-  // Loads a variant at its first use.
-  const Scene& with(int sphereSegments);
-  const Scene& given() const { return given_; }
-
-  // The reason why the variant would need too much memory; empty if it does not.
-  std::string leavesOut(int sphereSegments);
-
- private:
-  const Scene& given_;
-  int segmentsGiven_;
-  Load load_;
-  std::map<int, Scene> others_;
-};
 
 // The points that a sweep measures, and what it leaves out.
 struct PointList {
@@ -137,10 +110,9 @@ struct SweepSettings {
   std::string program;  // identifies the code that renders
 };
 
-// `base` is the baseline, and scenes.given() has its --sphere-segments. kQuick and kFull limit the
-// samples of the reference and of the picture with all transport. Throws Error(io) when the cache
-// cannot be written.
-SceneSweep sweepScene(SceneVariants& scenes, const RenderOptions& base,
-                      const SweepSettings& settings, Progress* progress);
+// `base` is the baseline. kQuick and kFull limit the samples of the reference and of the picture
+// with all transport. Throws Error(io) when the cache cannot be written.
+SceneSweep sweepScene(const Scene& scene, const RenderOptions& base, const SweepSettings& settings,
+                      Progress* progress);
 
 }  // namespace whit::accuracy

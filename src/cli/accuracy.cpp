@@ -105,13 +105,7 @@ std::vector<accuracy::SceneSweep> sweepScenes(const AccuracyJob& job) {
     const auto open = openScene(name, job.common, progress.get());
     openFilm(open->scene, job.common);  // throws if the size does not fit into memory
     const RenderOptions options = sweptOptions(*open, job.common);
-    accuracy::SceneVariants scenes(open->scene, options.sphereSegments, [&](int segments) {
-      CommonOptions other = job.common;
-      other.quiet = true;  // the first variant has printed the warnings
-      other.load.sphereSegments = segments;
-      return std::move(openScene(name, other, nullptr)->scene);
-    });
-    sweeps.push_back(sweepScene(scenes, options, job.settings, progress.get()));
+    sweeps.push_back(sweepScene(open->scene, options, job.settings, progress.get()));
   }
   return sweeps;
 }

@@ -399,10 +399,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
       Option{{.name = "sphere-segments", .words = "N", .low = 0, .high = kSphereSegmentsLimit,
               .help = "triangles in place of exact spheres: N around and half as many from pole "
                       "to pole, at least 4; 0: exact",
-              .rebuilds = Rebuild::scene, .tab = Tab::none,
-              .knob = KnobSpec{.cause = Cause::algorithm, .exact = "0",
-                               .values = "0 16 48 192 384",
-                               .needs = {EffectSet().with(Effect::spheres)}}},
+              .rebuilds = Rebuild::scene, .tab = Tab::none},
              o.sphereSegments},
       Option{{.name = "effects", .words = "auto|all",
               .help = "kernels for the effects that the scene uses, or for every effect",

@@ -1,0 +1,55 @@
+// --sphere-segments from the outside: an option of every command that loads a scene.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "cli/run_program.h"
+
+namespace whit::cli {
+namespace {
+
+class SphereSegments : public testing::Test {
+ protected:
+  // A mirrored ball over a floor; `more`: members of the ball.
+  std::string sceneWith(const std::string& name, const std::string& more) const {
+    std::ofstream(folder_ / name) << R"({
+      "whit": 1, "size": [64, 48],
+      "cameras": {"front": {"eye": [0, 2, 6], "at": [0, 1, 0], "fov": 40}},
+      "lights": [{"position": [3, 6, 4], "intensity": [60, 60, 60]}],
+      "materials": {"floor": {"diffuse": 0.5},
+                    "mirror": {"diffuse": 0.1, "mirror": 0.8}},
+      "scene": [{"shape": "quad", "width": 8, "depth": 8, "material": "floor"},
+                {"shape": "sphere", "radius": 1, "material": "mirror",
+                 "transform": {"translate": [0, 1, 0], "scale": [1, 1.2, 0.9]})" +
+                                         more + "}]}";
+    return folder_ / name;
+  }
+  std::string rendered(const std::string& scene, const std::string& segments) const {
+    const std::string file = scene + segments + ".exr";
+    const Outcome outcome = runWhit({"render", scene, "--sphere-segments", segments, "-o", file});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return file;
+  }
+
+  TemporaryFolder folder_;
+};
+
+// The description's own "segments", for all spheres at once.
+TEST_F(SphereSegments, AreThoseOfTheScene) {
+  const std::string exact = sceneWith("exact.json", ""),
+                    made = sceneWith("made.json", ", \"segments\": 24");
+  const auto compared = [&](const std::string& segments) {
+    return runWhit({"compare", rendered(exact, segments), rendered(made, "0"), "--json", "-"}).out;
+  };
+  EXPECT_NE(compared("24").find("\"rmse\": 0.0,"), std::string::npos) << compared("24");
+  EXPECT_EQ(compared("0").find("\"rmse\": 0.0,"), std::string::npos) << compared("0");
+}
+
+TEST_F(SphereSegments, TooFewAreRefused) {
+  const Outcome outcome = runWhit({"info", sceneWith("exact.json", ""), "--sphere-segments", "3"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("at least 4, found 3"), std::string::npos) << outcome.err;
+}
+
+}  // namespace
+}  // namespace whit::cli
