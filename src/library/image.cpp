@@ -9,7 +9,7 @@ namespace whit::api {
 
 Image::Image() : data_(std::make_unique<Data>()) {}
 Image::Image(const Image& other) : data_(std::make_unique<Data>(*other.data_)) {}
-// NOLINTNEXTLINE(performance-noexcept-move-constructor): what it leaves behind takes memory
+// NOLINTNEXTLINE(performance-noexcept-move-constructor): the new image allocates
 Image::Image(Image&& other) : Image() { data_.swap(other.data_); }
 Image& Image::operator=(Image other) noexcept {
   data_.swap(other.data_);

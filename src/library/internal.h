@@ -1,5 +1,5 @@
-// Private data of the scenes and images that the library hands out, and the guard around its calls,
-// which turns exceptions into api::Error, except those that a callback of the caller throws.
+// Private data of the library's scenes and images, and guards around its calls, which turn
+// exceptions into api::Error, except those of the caller's own callbacks.
 #pragma once
 
 #include <cstdint>
@@ -19,13 +19,13 @@
 
 namespace whit::api {
 
-// A callback has ended the work.
+// Ends the work of the threads that report progress.
 struct Stopped : std::exception {
   const char* what() const noexcept override { return "ended by the progress callback"; }
 };
 
-// Tells a callback, one thread at a time. Once that has ended the work it is asked no more, and all
-// who report are stopped.
+// Reports progress to a callback, one thread at a time. After the callback has ended the work, it
+// is not called again, and every report throws Stopped.
 class CallbackProgress : public whit::Progress {
  public:
   explicit CallbackProgress(const api::Progress& callback) : callback_(callback) {}
@@ -64,7 +64,7 @@ class CallbackProgress : public whit::Progress {
   throw Error(static_cast<int>(failure.status), failure.what, {at.file, at.place, at.expected});
 }
 
-// Calls `body` and lets nothing out but api::Error.
+// Calls `body`, which reports no progress.
 template <typename Body>
 decltype(auto) guarded(Body&& body) {
   try {
@@ -74,7 +74,7 @@ decltype(auto) guarded(Body&& body) {
   }
 }
 
-// Guards long work: `body` is given the progress to report to, or null.
+// Calls `body` with the progress to report to, or null.
 template <typename Body>
 decltype(auto) guarded(const Progress& callback, Body&& body) {
   CallbackProgress progress(callback);
@@ -95,7 +95,6 @@ struct Scene::Data {
   bool strict = false;
   std::vector<std::string> warnings;
 
-  // Loads and bakes.
   static std::shared_ptr<Data> read(const std::string& name, std::shared_ptr<const SceneText> text,
                                     const whit::LoadOptions& load, bool strict,
                                     whit::Progress* progress);

@@ -47,7 +47,7 @@ struct Renderer::Data {
     return all;
   }
 
-  // After options were set: the renderer takes them over, or is made anew.
+  // Brings scene and renderer up to date with the time, the transforms and the options.
   void prepare(whit::Progress* told) {
     if (stale) {
       moveScene(own().scene, seconds, simd::deformVertices);
@@ -59,7 +59,7 @@ struct Renderer::Data {
     if (renderer && renderer->canSetOptions(settled)) {
       renderer->setOptions(settled);
     } else {
-      renderer.reset();  // two acceleration structures at a time could be too many
+      renderer.reset();  // two acceleration structures may need too much memory
       renderer = std::make_unique<whit::Renderer>(internal(), settled, told);
     }
     settleExposure(*renderer, chooseCamera(internal(), settled), settled);
@@ -99,12 +99,12 @@ struct Renderer::Data {
     }
     JsonDocument* const described = document ? &*document : nullptr;
     if (!editScene(setting, own().load, described, own().scene)) return readAgain(text, told);
-    changed = true;  // an automatic exposure follows
+    changed = true;  // for the automatic exposure
     try {
       if (renderer) renderer->camerasChanged();
       if (renderer) renderer->shadingChanged();
     } catch (...) {
-      renderer.reset();  // it is made anew from the scene as it is
+      renderer.reset();  // prepare() makes a new one for the present scene
       throw;
     }
     addSceneSetting(text, own().load.settings);
@@ -125,7 +125,7 @@ struct Renderer::Data {
 
   void ownScene() {
     if (scene.data_.use_count() == 1) return;
-    renderer.reset();  // that of the shared scene
+    renderer.reset();  // it refers to the shared scene
     scene = Scene(std::make_shared<Scene::Data>(own()));
     changed = true;
   }
@@ -142,7 +142,7 @@ struct Renderer::Data {
     try {
       frame = renderFrame(*renderer, settled.mode, camera, film, told);
     } catch (...) {
-      renderer->scheduler().forgetTracers();  // where they were left
+      renderer->scheduler().forgetTracers();  // their queues are not empty
       throw;
     }
     refuseNonFinite(internal(), settled, frame);
@@ -151,14 +151,14 @@ struct Renderer::Data {
     statistics = statisticsOf(frame, settled.mode);
   }
 
-  Scene scene;  // shared with others until it is changed
+  Scene scene;  // shared with others until ownScene()
   double seconds = 0;
-  std::map<std::string, Affine> places;  // of what was moved by hand, by its pointer
-  bool stale = false;                    // it is not yet where it was moved to
-  std::optional<JsonDocument> document;  // of the scene, once a member was set
-  RenderOptions options;                 // as set
+  std::map<std::string, Affine> places;  // set by setTransform(), by pointer
+  bool stale = false;                    // time or transforms have changed
+  std::optional<JsonDocument> document;  // the scene's, after setMember()
+  RenderOptions options;
   std::set<std::string> given;
-  RenderOptions settled;  // with what --quality stands for and follows from the scene
+  RenderOptions settled;  // `options` with those of --quality and the scene's defaults
   bool changed = true;
   Progress progress;
   std::unique_ptr<whit::Renderer> renderer;

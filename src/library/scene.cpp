@@ -23,8 +23,7 @@ std::vector<std::string> textsOf(const Warnings& warnings) {
 whit::LoadOptions loadOptions(const LoadOptions& options, const char* shippedScenes) {
   whit::LoadOptions load;
   load.allowOutside = options.allowOutside;
-  // A NaN is no memory; more than 64 bits hold is as much as they do.
-  constexpr double kMostGb = 1.8e10;
+  constexpr double kMostGb = 1.8e10;  // what 64 bits hold; a NaN becomes 0
   const double gigabytes = std::min(std::fmax(options.maxMemoryGb, 0.0), kMostGb);
   load.maxMemoryBytes = static_cast<std::uint64_t>(gigabytes * 1e9);
   constexpr int kMostThreads = 1024;  // as of the option "threads"

@@ -33,7 +33,7 @@ Json describe(const Camera& camera) {
           {"focus", camera.focus}};
 }
 
-// Writes only members that are given, because others may follow from them.
+// Writes only members that have a value, because the defaults of others depend on them.
 Json describe(const Material& m) {
   Json json;
   const auto add = [&]<typename T>(const char* name, const T& value) {
@@ -63,7 +63,7 @@ Json describe(const Material& m) {
 struct SceneBuilder::Data {  // NOLINT(bugprone-exception-escape): moving Json does not throw
   SceneText text;
 
-  // A member of a section; what is there is replaced.
+  // Adds or replaces a member of a section.
   std::string put(const char* section, const std::string& name, Json value) {
     text.root[section][name] = std::move(value);
     return std::string("/") + section + "/" + escapePointer(name);

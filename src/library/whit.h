@@ -4,11 +4,11 @@
 //   renderer.set("size", "1280x720").set("depth", "4");
 //   renderer.render().write("atrium.png");
 //
-// A scene can be made in memory as well (SceneBuilder), and change between frames: setTime() and
-// setTransform() move things, setMember() sets what a scene file says, a light's intensity say.
+// SceneBuilder makes scenes in memory. Scenes can change between frames: Renderer::setTime(),
+// setTransform() and setMember().
 //
 // In CMake: find_package(whit) and target_link_libraries(... whit::whit). Every function throws
-// whit::api::Error and nothing else, besides what a callback of the caller's throws.
+// whit::api::Error and nothing else, except the exceptions of the caller's own callbacks.
 #pragma once
 
 #include <array>
@@ -23,23 +23,21 @@
 #include <utility>
 #include <vector>
 
-// Where the scenes that came with the library are; find_package(whit) knows.
+// The folder of the shipped scenes; find_package(whit) defines it.
 #ifndef WHIT_SHIPPED_SCENES
 #define WHIT_SHIPPED_SCENES ""
 #endif
 
 namespace whit::api {
 
-// `status` is the exit status of the whit program: 1 other, 2 wrong usage, 3 a bad scene or image,
-// 4 cannot read or write, 5 a limit or memory ran out, 130 a callback ended the work. what() names
-// file and line or JSON pointer.
+// `status` is the exit status of the program whit: 1 other, 2 wrong usage, 3 a bad scene or image,
+// 4 cannot read or write, 5 a limit or memory ran out, 130 a callback ended the work.
 class Error : public std::runtime_error {
  public:
-  // Where the error is; members that are not known are empty.
-  struct Place {
+  struct Place {           // unknown members are empty
     std::string file;      // the file, or the name of a scene made in memory
     std::string place;     // line ("12", "12:5") or JSON pointer ("/lights/0") in it
-    std::string expected;  // what should be there
+    std::string expected;  // the content that was expected there
   };
   Error(int status, const std::string& what, Place place = {})
       : std::runtime_error(what), status_(status), place_(std::move(place)) {}
@@ -53,54 +51,48 @@ class Error : public std::runtime_error {
   Place place_;
 };
 
-// Told how far long work has come: `phase` is what is going on ("building the BVH", "tracing"),
-// `fraction` goes from 0 to 1 in each. False ends the work with an Error of status 130; scene and
-// renderer are then what they were before it. May be called from any thread, by one at a time. What
-// it throws ends the work as well and reaches the caller.
+// Receives the progress of long work: the current phase ("building the BVH", "tracing") and the
+// fraction of it that is done, 0 to 1. Returning false ends the work with an Error of status 130;
+// an exception ends it as well and reaches the caller. Scene and renderer are then unchanged. Any
+// thread may call it, but only one at a time.
 using Progress = std::function<bool(const std::string& phase, double fraction)>;
 
 struct LoadOptions {
   bool allowOutside = false;  // a scene may name files outside its own folder and $WHIT_DATA
-  bool strict = false;        // what would be repaired is an error
-  double maxMemoryGb = 16;    // 10^9 bytes that geometry and images may take
-  int threads = 0;            // 0: what affinity and cgroup quota allow
-  // In place of the scene's own sky: none, studio or the file of an image. Empty: the scene's own;
-  // of a model the studio.
+  bool strict = false;        // repairs are errors
+  double maxMemoryGb = 16;    // limit for geometry and images, in 10^9 bytes
+  int threads = 0;            // 0: as many as CPU affinity and cgroup quota allow
+  // Replaces the scene's sky: none, studio or an image file. Empty: the scene's own, or the studio
+  // for a model.
   std::string sky = {};
-  // Triangles in place of the scene's exact spheres, so many around each, 4 or more; 0: none.
-  int sphereSegments = 0;
-  // Renderers will bring it to other times than its start (Renderer::setTime). What moves is then
-  // traced as instances, which takes a little longer.
-  bool moves = false;
-  // JSON pointers to what will be moved by hand (Renderer::setTransform): items, cameras and lights
+  int sphereSegments = 0;  // triangles around each sphere, 4 or more; 0: exact spheres
+  bool moves = false;      // loads animations, for Renderer::setTime()
+  // JSON pointers to the things that Renderer::setTransform() will move: items, cameras and lights
   // of scene files ("/scene/3", "/cameras/front", "/lights/0"), nodes of glTF models ("/nodes/7").
   std::vector<std::string> movable = {};
-  // Which animation moves it, by its name; empty: the first of each model. What a scene file moves
-  // by itself ("scene") does so always.
-  std::string animation = {};
-  // Members of the scene's description, as --set of the program: "/lights/0/intensity=40".
+  std::string animation = {};  // name of the animation that each model plays; empty: its first
+  // Members of the scene's description, as with --set of the program: "/lights/0/intensity=40".
   std::vector<std::string> settings = {};
   Progress progress = {};
 };
 
-// An animation from 0 to `seconds`; before and after, everything stands still.
+// Everything rests before 0 and after `seconds`.
 struct Animation {
   std::string name;
   double seconds = 0;
 };
 
-// A scene that is ready to be rendered. A handle: copies share the scene, which never changes but
-// by a renderer that has the only one.
+// A handle of a scene that is ready to be rendered. Copies share the scene.
 class Scene {
  public:
   const std::string& name() const;
   int width() const, height() const;  // the scene's own image size, in pixels
   std::vector<std::string> cameras() const;
-  double pathSeconds() const;                 // when its camera path ends; 0 without a path
-  std::vector<Animation> animations() const;  // those to choose from
-  std::uint64_t triangles() const;            // as seen, instances multiplied out
-  std::vector<std::string> warnings() const;  // what was repaired while loading
-  // Names by the numbers in the channels "object" (of the first 65,536) and "material".
+  double pathSeconds() const;  // end of the camera path; 0 without a path
+  std::vector<Animation> animations() const;
+  std::uint64_t triangles() const;            // counted once for each instance
+  std::vector<std::string> warnings() const;  // repairs that were made while loading
+  // The channels "object" (names of the first 65,536) and "material" hold indices into these.
   std::vector<std::string> objects() const, materials() const;
 
  private:
@@ -112,18 +104,16 @@ class Scene {
   std::shared_ptr<Data> data_;
 };
 
-// `name`: a scene file (.json), a model, or the name of a shipped scene ("atrium",
-// "landscape?triangles=20000000"), which is looked for in $WHIT_SCENES, beside the program and in
-// `shippedScenes`.
+// Loads a scene file (.json), a model, or a shipped scene ("landscape?triangles=20000000") from
+// $WHIT_SCENES, from beside the program or from `shippedScenes`.
 Scene loadScene(const std::string& name, const LoadOptions& options = {},
                 const char* shippedScenes = WHIT_SHIPPED_SCENES);
 
-// Arrays of a mesh, read in place when a scene is built or read again (Renderer::setMember). Their
-// memory must be there for as long as builder, scene and its renderers are: `keep`, if given, is
-// held by those.
+// Arrays of a mesh. They are read in place when a scene is built or read again, so their memory
+// must live as long as builder, scene and renderers, which hold `keep`.
 struct MeshArrays {
   std::span<const float> positions;  // x, y, z of each vertex, y up in most scenes
-  // Three vertices a triangle, counter-clockwise seen from outside. Empty: the vertices in threes.
+  // Three vertices a triangle, counter-clockwise seen from outside. Empty: vertices come in threes.
   std::span<const std::uint32_t> triangles = {};
   std::span<const float> normals = {};  // empty (flat shading), or x, y, z of each vertex
   std::span<const float> uvs = {};      // empty (0, 0), or u, v of each vertex; v points up
@@ -131,8 +121,8 @@ struct MeshArrays {
   std::shared_ptr<const void> keep = {};
 };
 
-// Arrays of an image: 1 to 4 interleaved channels, row by row from the top; one channel is gray,
-// the second or fourth alpha. Either codes of 8 bits (of colors in sRGB) or linear values.
+// An image of 1 to 4 interleaved channels, row by row from the top; one channel is gray, the second
+// or fourth is alpha. It has either 8-bit codes (sRGB for colors) or linear values.
 struct ImageArrays {
   int width = 0, height = 0, channels = 3;
   std::span<const std::uint8_t> codes = {};
@@ -148,22 +138,22 @@ inline constexpr Matrix kIdentity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 struct Camera {
   Vector eye{0, 0, 5}, at{0, 0, 0}, up{0, 1, 0};
   double fov = 45;                // vertical, degrees
-  double orthographicHeight = 0;  // above 0: parallel rays, and what they show of the eye's plane
-  double aperture = 0;            // radius of the lens; 0: everything is sharp
-  double focus = 0;               // distance of the plane in focus; 0: it contains `at`
+  double orthographicHeight = 0;  // above 0: parallel rays, and the height of the view
+  double aperture = 0;            // radius of the lens; 0: a pinhole
+  double focus = 0;               // distance of the plane of focus; 0: it contains `at`
 };
 
 struct Light {
   enum class Type { point, spot, directional } type = Type::point;
-  Vector position{0, 0, 0};                        // of no meaning for a directional light
-  Vector direction{0, -1, 0};                      // where spot and directional lights shine
-  Vector intensity{1, 1, 1};                       // W/sr; of a directional light irradiance, W/m^2
-  double radius = 0.01;                            // of the sphere that shines, for soft shadows
-  double innerConeAngle = 0, outerConeAngle = 45;  // of spot lights, degrees from the direction
+  Vector position{0, 0, 0};                        // unused by directional lights
+  Vector direction{0, -1, 0};                      // unused by point lights
+  Vector intensity{1, 1, 1};                       // W/sr; W/m^2 for directional lights
+  double radius = 0.01;                            // for soft shadows
+  double innerConeAngle = 0, outerConeAngle = 45;  // for spot lights, degrees from the direction
 };
 
-// Members that are not given have the defaults of scene files (share/doc/whit/scenes/README.md).
-// Maps are names of textures.
+// Members without a value have the defaults of scene files (share/doc/whit/scenes/README.md). Maps
+// are names of textures.
 struct Material {
   Vector diffuse{0.8, 0.8, 0.8}, specular{0, 0, 0}, emission{0, 0, 0};
   double roughness = 0.5, coverage = 1, ior = 1.5;
@@ -172,30 +162,29 @@ struct Material {
   std::string diffuseMap, specularMap, roughnessMap, emissionMap, normalMap, alphaMap, coverageMap;
 };
 
-// A scene made in memory: validated as files are, with the same errors, and with all that scene
-// files can say. What is added says where it is, a JSON pointer, for setMember(), setTransform()
-// and LoadOptions::movable. build() reports errors.
+// Makes a scene in memory. build() validates it like a scene file and reports the same errors. The
+// functions that return a string return the JSON pointer to the new thing, for setMember(),
+// setTransform() and LoadOptions::movable.
 class SceneBuilder {
  public:
-  // `description`: what a scene file says, in JSON, to begin with. `name` stands for its file.
+  // Starts from the JSON of a scene file. Errors give `name` as the file.
   explicit SceneBuilder(const std::string& name = "scene", const std::string& description = "{}");
   SceneBuilder(const SceneBuilder& other);
   SceneBuilder(SceneBuilder&& other) noexcept;
   SceneBuilder& operator=(SceneBuilder other) noexcept;
   ~SceneBuilder();
 
-  // Meshes and textures are found by their names.
   SceneBuilder& addMesh(const std::string& name, MeshArrays arrays);
   SceneBuilder& addTexture(const std::string& name, ImageArrays arrays);
   std::string addMaterial(const std::string& name, const Material& material);
   std::string addLight(const Light& light);
-  std::string addCamera(const std::string& name, const Camera& camera);  // the first is seen from
-  // A mesh at a place; several of one mesh share its triangles. Empty: the material "default".
+  std::string addCamera(const std::string& name, const Camera& camera);  // the first is the default
+  // Instances of one mesh share its triangles. An empty name stands for the material "default".
   std::string addInstance(const std::string& mesh, const std::string& material = "",
                           const Matrix& transform = kIdentity);
-  // Any member that scene files have, in JSON: set("/sky", R"({"color": [0.4, 0.5, 0.7]})"). There
-  // are items {"mesh": NAME} besides, and textures {"array": NAME}, as addTexture() makes one where
-  // there is none of that name. Paths are relative to the working directory.
+  // Sets any member of scene files: set("/sky", R"({"color": [0.4, 0.5, 0.7]})"). Items may also be
+  // {"mesh": NAME}, and textures {"array": NAME}; addTexture() adds such a texture unless there is
+  // one of that name. Paths are relative to the working directory.
   SceneBuilder& set(const std::string& pointer, const std::string& json);
 
   Scene build(const LoadOptions& options = {}) const;
@@ -210,33 +199,32 @@ class Image {
  public:
   Image();
   Image(const Image& other);
-  Image(Image&& other);  // NOLINT(performance-noexcept-move-constructor): leaves an image
+  Image(Image&& other);  // NOLINT(performance-noexcept-move-constructor): allocates
   Image& operator=(Image other) noexcept;
   ~Image();
 
-  // Pixels that are here, and where the first of them lies in the whole image, from the top left.
+  // Size of the crop, and place of its first pixel in the whole image, from the top left.
   int width() const, height() const, left() const, top() const;
-  // Linear radiance, Rec. 709 primaries: r, g, b of each pixel, row by row from the top.
+  // Linear radiance, Rec. 709 primaries: r, g, b of each pixel, row by row from the top. The span
+  // is valid until the image has another size; frames are traced into its memory.
   std::span<const float> rgb() const;
   // 8-bit sRGB after exposure and tone curve: r, g, b, 255 of each pixel, in the same order.
   std::span<const std::uint8_t> srgb() const;
-  // A channel that set("channels", "depth,object") has asked for: a property of the surface that
-  // the sample nearest to a pixel's center hits first. scenes/README.md lists each channel, its
-  // unit and its value where nothing is hit. Data is a view of the image's own memory: one value
-  // after the other of each pixel, in the same order.
+  // A channel that set("channels", "depth,object") asked for. scenes/README.md lists the channels,
+  // their units and their values where nothing is hit. The spans are views of the image's memory,
+  // the components of a pixel one after the other.
   struct Channel {
     std::string_view name;                     // "depth"
-    std::vector<std::string_view> components;  // "Z", "distance"; so many values a pixel
-    std::span<const float> values;             // empty of numbers
-    std::span<const std::uint32_t> numbers;    // of object, material, triangle, rays
+    std::vector<std::string_view> components;  // "Z", "distance"
+    std::span<const float> values;             // empty if the channel has numbers
+    std::span<const std::uint32_t> numbers;    // for object, material, triangle and rays
   };
   std::vector<Channel> channels() const;
-  // Status 2 if it was not kept.
-  Channel channel(std::string_view name) const;
-  // .exr (linear, with the channels) or .png (sRGB), with the options that make the image again.
-  // Replaces the file when complete.
+  Channel channel(std::string_view name) const;  // status 2 if the image does not have it
+  // Writes .exr (linear, with the channels) or .png (sRGB), with the options as metadata. The file
+  // is replaced when it is complete.
   void write(const std::string& path) const;
-  std::string png() const;  // the bytes of such a file
+  std::string png() const;  // the bytes of a PNG file
 
  private:
   friend class Renderer;
@@ -245,35 +233,35 @@ class Image {
 };
 
 // Statistics of a frame. Times are milliseconds of wall-clock time. The stages add up to the frame
-// without the time that no worker spends in a stage; they are empty for the scalar reference.
+// except for the time that no worker spends in a stage; the scalar reference has none.
 struct FrameStatistics {
   struct Stage {
     std::string_view name;  // "generateRays" to "updateImage"
     double ms = 0;
   };
   struct Rays {
-    std::string_view name;  // "primary", "shadow", "reflection", ...: each kind that there is
+    std::string_view name;  // "primary", "shadow", "reflection", ...
     std::uint64_t count = 0;
   };
   double frameMs = 0;
-  double embreeMs = 0;  // the part of it spent inside Embree
+  double embreeMs = 0;  // the part of frameMs inside Embree
   std::vector<Stage> stages;
   std::vector<Rays> rays;
   std::uint64_t nonFinitePixels = 0;
 };
 
-// An option of a render, as the command line has it.
+// An option of `whit render`.
 struct OptionInfo {
   std::string_view name;   // "light-samples"
-  std::string_view words;  // what it takes: "N", "on|off", "x,y,z"; empty: a flag
+  std::string_view words;  // possible values: "N", "on|off", "x,y,z"; empty: a flag
   std::string_view help;
-  std::string preset;  // its value where nothing is said; empty where the scene decides
+  std::string preset;  // its default; empty where the scene decides
 };
 std::vector<OptionInfo> options();
 
-// Renders frames of a scene. Use one from one thread at a time; it brings its own workers. Several
-// may share a scene. The kernel target ("simd") belongs to the process: the renderer that was made
-// last has chosen it for all.
+// Renders frames of a scene with its own worker threads. Only one thread may use a renderer at a
+// time; several renderers may share a scene. The kernel target ("simd") belongs to the process: the
+// renderer that was made last has chosen it for all.
 class Renderer {
  public:
   explicit Renderer(Scene scene);
@@ -281,51 +269,44 @@ class Renderer {
   Renderer& operator=(Renderer&& other) noexcept;
   ~Renderer();
 
-  // The scene as it is now. A copy of the handle keeps it as it is: what the renderer changes from
-  // then on is a scene of its own, of which the acceleration structure is built anew.
+  // The current scene. A renderer never changes a scene that others hold: it copies it first, and
+  // builds a new acceleration structure.
   const Scene& scene() const;
 
-  // An option by its name and value on the command line of whit render, without the dashes:
-  // set("depth", "8"). For frames to come; the acceleration structure is built anew only if the
-  // option is about it.
+  // Sets an option of `whit render` for the following frames: set("depth", "8"). The acceleration
+  // structure is rebuilt only if the option changes it.
   Renderer& set(const std::string& name, const std::string& value);
-  // Its value as text; empty where the scene decides.
-  std::string get(const std::string& name) const;
-  // All options are again what they were before any was set.
-  Renderer& reset();
+  std::string get(const std::string& name) const;  // empty where the scene decides
+  Renderer& reset();                               // all options to their defaults
 
-  // A member of the scene of this renderer alone, for frames to come, as --set of the program has
-  // it: setMember("/lights/0/intensity", "40"). The picture is that of a scene which was loaded so.
-  // Nothing is built anew for lights, cameras, colors of the sky, ambient light, the image size,
-  // and numbers of the materials of a scene file or a SceneBuilder, but for what moves; for
-  // everything else the scene is read again, with the arrays of its builder. After an error the
-  // scene is what it was.
+  // Sets a member of the scene's description for the following frames, like --set of the program:
+  // setMember("/lights/0/intensity", "40"). The picture equals that of a scene which was loaded
+  // with this value. Lights, colors of the sky, ambient light, the image size, numbers of the
+  // materials of scene files and builders, and cameras need no rebuild unless they move; for other
+  // members the scene is read again. After an error the scene is unchanged.
   Renderer& setMember(const std::string& pointer, const std::string& json);
 
-  // For acceleration structures, frames and scenes read again; none: {}.
+  // Sets the callback for builds, frames and scenes that are read again; {}: none.
   Renderer& setProgress(Progress progress);
 
-  // Brings the scene of this renderer alone to a time in seconds, for frames to come: what moves,
-  // its cameras and lights. The bits of a frame follow from the time, not from the times before.
-  // Status 2 for a scene that was not loaded to move, or in which nothing does.
+  // Moves animated items, cameras and lights to a time in seconds. The bits of a frame depend on
+  // this time only, not on earlier ones. Status 2 without LoadOptions::moves, or if nothing moves.
   Renderer& setTime(double seconds);
 
-  // Moves a thing of the scene of this renderer alone, for frames to come, whatever the time:
-  // `rows` is a matrix of three rows and four columns, row by row, whose last column is the
-  // translation. It stands in place of the item's, camera's or light's "motion", or of what the
-  // node says of itself. What it flattens is left out. Status 2 for what was not among
-  // LoadOptions::movable, and for numbers that are not finite or beyond 1.844e18.
+  // Replaces the "motion" of an item, camera or light, or the transform of a node, by a matrix of
+  // three rows and four columns, row by row, whose last column is the translation. Degenerate
+  // instances are left out. Status 2 for pointers that are not in LoadOptions::movable and for
+  // numbers beyond 1.844e18.
   Renderer& setTransform(const std::string& pointer, std::span<const double, 12> rows);
 
-  // A frame from the camera that the options name. The second form reuses the image's memory.
+  // Renders a frame from the camera that the options name. The second form reuses the image's
+  // memory.
   Image render();
-  // Views of the image stay valid while its size does: rgb() is where the frame is traced to.
   void render(Image& image);
-  // From the scene's camera path, `seconds` after its begin.
+  // Renders from the scene's camera path, `seconds` after its begin.
   void renderOnPath(double seconds, Image& image);
 
-  // Statistics of the last frame.
-  const FrameStatistics& statistics() const;
+  const FrameStatistics& statistics() const;  // of the last frame
 
  private:
   struct Data;

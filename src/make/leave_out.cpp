@@ -33,7 +33,7 @@ void leaveOutOfMaterial(Material& m, EffectSet effects) {
   if (effects.has(Effect::absorption)) m.absorption = kBlack;
 }
 
-// Indices stay what they are, so an unused texture shrinks to one texel.
+// Indices of textures are kept, so an unused texture shrinks to one texel.
 void dropUnusedTexels(SceneDescription& d) {
   std::vector<bool> used(d.textures.size(), false);
   for (const Material& m : d.materials) {

@@ -13,10 +13,10 @@ namespace whit {
 
 namespace {
 
-// More than these are looked at in part only; and what is not taken for a room, to be spared that.
+// Of more triangles only a part is used; and a model of more triangles is never taken for a room.
 constexpr std::uint64_t kMostLookedAt = 4'000'000, kMostOfRoom = 1'000'000;
 
-// Towards the eye, the most usual first: the front is +z. None from below, where no light is.
+// Directions towards the eye, the most usual first. The front is +z.
 constexpr std::array<Vec3d, 7> kSides{{{0.5, 0.4, 1.0},
                                        {-0.5, 0.4, 1.0},
                                        {0.4, 0.9, 0.9},
@@ -38,7 +38,7 @@ struct Bounds {
   Vec3d half() const { return (upper - lower) * 0.5; }
 };
 
-// The area that fronts turn to each side, whether or not something is before them.
+// Finds the side to which fronts turn the largest area, occluded or not.
 Vec3d bestSide(const SceneDescription& scene, double radius) {
   std::array<Vec3d, kSides.size()> sides;
   std::transform(kSides.begin(), kSides.end(), sides.begin(),
@@ -56,9 +56,9 @@ Vec3d bestSide(const SceneDescription& scene, double radius) {
   return sides[static_cast<std::size_t>(found - shown.begin())];
 }
 
-// True if the surfaces wind around the point as the walls of a room do, all but a few small
-// openings: their winding number is 1 in a body, -1 in a room whose walls' fronts look inwards, and
-// 0 outside of all (after van Oosterom and Strackee 1983, of the solid angle).
+// True if the surfaces around the point are walls of a room with a few small openings at most. The
+// winding number is 1 in a body, -1 in a room whose walls' fronts look inwards, and 0 outside
+// (solid angles after van Oosterom and Strackee 1983).
 bool isInRoom(const SceneDescription& scene, const Vec3d& point) {
   constexpr double kFlat = 1.0e-12, kClosed = -0.9;
   double angle = 0;
@@ -91,8 +91,7 @@ bool isRoom(const SceneDescription& scene, const Bounds& bounds) {
   });
 }
 
-// The first of the places on the way from `from` to `to` that is in the room and not in what stands
-// there.
+// Returns the first place on the way from `from` to `to` that is in the room and in no object.
 Vec3d placeInRoom(const SceneDescription& scene, const Vec3d& from, const Vec3d& to) {
   constexpr int kPlaces = 4;
   for (int i = 0; i < kPlaces; ++i) {
@@ -102,7 +101,7 @@ Vec3d placeInRoom(const SceneDescription& scene, const Vec3d& from, const Vec3d&
   return to;
 }
 
-// From near a corner across the room.
+// Looks from near a corner across the room.
 void lookAround(const SceneDescription& scene, const Bounds& bounds, ModelView& view) {
   constexpr float kWide = 65;
   constexpr double kNearWall = 0.85, kBelowCeiling = 0.6;
@@ -114,11 +113,9 @@ void lookAround(const SceneDescription& scene, const Bounds& bounds, ModelView& 
   view.ceiling = placeInRoom(scene, center + half * Vec3d{0, kBelowCeiling, 0}, center);
 }
 
-// The axes of a picture that is taken from `side`, half its height at distance 1, and its width in
-// heights.
 struct Framing {
-  Vec3d side, right, up;
-  double half = 0, aspect = 1;
+  Vec3d side, right, up;        // axes of the picture; `side` points towards the eye
+  double half = 0, aspect = 1;  // half the height at distance 1, and the width over the height
 };
 
 Framing framingOf(const Vec3d& side, const SceneDescription& scene, const Camera& camera) {

@@ -7,18 +7,17 @@ namespace whit {
 
 struct ModelView {
   Vec3d center;
-  double radius = 0;  // of the sphere around its bounds; 0: there is nothing to see
-  // True if the model is a closed room: the fronts of its surfaces surround its middle.
-  bool inside = false;
+  double radius = 0;    // of the sphere around its bounds; 0: the scene is empty
+  bool inside = false;  // the model is a closed room: fronts of surfaces surround its middle
   Camera camera;
-  Vec3d ceiling;  // in a room, where a lamp would hang
+  Vec3d ceiling;  // the place of a lamp in a room
 };
 
-// From the front, a little to the right and above, near enough to fill the picture; from another
-// side where the model turns its back or its edge there; and from inside a closed room.
+// Returns a view from the front, a little to the right and above, that fills the picture; from
+// another side if the model turns its back or its edge there; or from inside a closed room.
 ModelView viewOf(const SceneDescription& scene);
-// Returns a view of a model that moves, from the side that suits it now and so far away that all of
-// it stays in the picture from 0 to `seconds`. A room is seen as it is now.
+// Returns a view of a moving model, so far away that it stays in the picture from 0 to `seconds`.
+// The side, and the view of a room, are those of the present time.
 ModelView viewOf(const SceneDescription& scene, double seconds);
 
 // The mean brightness of white surfaces that the lights reach, without shadows: the mean, over

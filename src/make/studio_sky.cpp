@@ -11,11 +11,12 @@ namespace {
 constexpr int kWidth = 256, kHeight = 128;
 constexpr double kZenith = 0.15, kHorizon = 0.20, kGround = 0.10;
 
-// Degrees: where its middle is, from -z towards +x and from the horizon up; half its sides.
+// Angles are in degrees: the azimuth of the middle from -z towards +x, its elevation, half the
+// sides.
 struct SoftBox {
   double azimuth, elevation, halfWidth, halfHeight, radiance;
 };
-// Where the supplied light is; beside it; and behind the model, for its outline.
+// The first box is around the supplied light, the second beside it, the third behind the model.
 constexpr SoftBox kBoxes[] = {
     {143, 48, 26, 17, 4.0}, {250, 40, 14, 20, 1.6}, {320, 44, 9, 20, 3.0}};
 constexpr double kSoftEdge = 7;  // degrees over which a box fades
@@ -33,7 +34,7 @@ double radianceAt(double azimuth, double elevation) {
   double radiance = kHorizon + ((sine < 0 ? kGround : kZenith) - kHorizon) * std::abs(sine);
   for (const SoftBox& box : kBoxes) {
     const double across = std::abs(std::remainder(azimuth - box.azimuth, 360.0));
-    // As wide in the image of the sky as it is to the eye.
+    // Azimuths are narrower near the zenith.
     const double width = across * std::cos(box.elevation * std::numbers::pi / 180);
     radiance += box.radiance * fade(width, box.halfWidth) *
                 fade(std::abs(elevation - box.elevation), box.halfHeight);

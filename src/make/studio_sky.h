@@ -1,4 +1,4 @@
-// The sky of a photographer's studio: for models, which bring nothing to be mirrored.
+// The sky of a photographer's studio, for models without an environment of their own.
 #pragma once
 
 #include "scene/light.h"
@@ -7,7 +7,7 @@ namespace whit {
 
 inline constexpr const char* kStudio = "studio";
 
-// A gray gradient with three soft boxes, all of them above what is seen of it beside a model.
+// A gray gradient with three soft boxes, which lie above the part that is visible beside a model.
 Sky studioSky();
 
 }  // namespace whit

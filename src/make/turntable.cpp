@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kSlices = 64;
 
-// How far the scene reaches from the axis, at each height.
+// The distance of the scene's outermost points from the axis, at each height.
 struct Outline {
   double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
   std::array<double, kSlices> radius{};
@@ -45,8 +45,8 @@ Outline outlineOf(const SceneDescription& scene, const Vec3d& center) {
   return outline;
 }
 
-// How far from the center an eye must be, in this direction upwards, to see circles of this radius
-// and height whole: `half` is half the picture's height at distance 1.
+// Returns the distance from the center at which an eye sees the whole circle of this radius and
+// height. `sine` is that of the eye's elevation, `half` half the picture's height at distance 1.
 double distanceFor(double radius, double y, double sine, double half, double aspect) {
   constexpr int kAngles = 64;
   const double cosine = std::sqrt(1 - sine * sine);
@@ -65,8 +65,7 @@ double distanceFor(double radius, double y, double sine, double half, double asp
 Camera turned(const Turntable& turntable, double turns) {
   const double whole = turns - std::floor(turns);
   if (whole == 0) return turntable.camera;
-  constexpr double kTurn = 360;
-  const Affine rotation = Affine::rotation(turntable.axis, kTurn * whole);
+  const Affine rotation = Affine::rotation(turntable.axis, 360 * whole);
   Camera camera = turntable.camera;
   const auto around = [&](const Vec3f& p) {
     return Vec3f(turntable.pivot + rotation.vector(Vec3d(p) - turntable.pivot));

@@ -1,4 +1,4 @@
-// A camera that goes around what it looks at, as if that stood on a turntable.
+// A camera that circles around its target, as if the target stood on a turntable.
 #pragma once
 
 #include "make/model_view.h"
@@ -7,20 +7,19 @@
 namespace whit {
 
 struct Turntable {
-  Camera camera;  // where it starts
-  Vec3d pivot;    // a point of the axis that it goes around
+  Camera camera;  // at the start
+  Vec3d pivot;    // a point of the axis
   Vec3d axis{0, 1, 0};
 };
 
-// The camera, light staying where it is, after so many turns. Counter-clockwise as seen against the
-// axis: what stands there seems to turn clockwise.
+// Returns the camera after a number of turns, counter-clockwise as seen against the axis.
 Camera turned(const Turntable& turntable, double turns);
 
-// Around the upright axis through the middle of the scene, from the side and the height that
-// viewOf() takes, and so far away that all of it stays in a picture of this size. In a closed room
-// it looks around from where it is.
+// Circles around the vertical axis through the middle of the scene, from the direction of `view`
+// and so far away that the whole scene stays in a picture of this size. In a closed room the camera
+// turns around itself.
 Turntable aroundModel(const SceneDescription& scene, const ModelView& view, int width, int height);
-// From the camera, around the line through the point that it looks at, in its direction up.
+// Circles around the line through the camera's target along its up vector.
 Turntable aroundTarget(const Camera& camera);
 
 }  // namespace whit

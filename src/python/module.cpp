@@ -117,10 +117,9 @@ auto call(const py::object& function, Body&& body) {
   return body(std::ref(onlooker));
 }
 
-// Names of options and their values, as on the command line.
+// Options and their values, as on the command line.
 using OptionTexts = std::vector<std::pair<std::string, std::string>>;
 
-// A picture, and what its frame cost.
 struct Picture {
   api::Image image;
   api::FrameStatistics statistics;
@@ -131,14 +130,13 @@ class Session {
  public:
   explicit Session(api::Scene scene) : renderer_(std::move(scene)) {}
 
-  // Returns the answer of a question about the scene.
   template <typename Question>
   auto ask(const Question& question) {
     const Turn turn(*this);
     return question(renderer_.scene());
   }
 
-  // The options hold for this frame alone. With `pathSeconds` it is seen from the camera's path.
+  // The options hold for this frame only. With `pathSeconds` the camera is on the camera path.
   Picture render(const OptionTexts& options, std::optional<double> pathSeconds,
                  const py::object& progress) {
     const Turn turn(*this);
@@ -206,9 +204,9 @@ class Session {
   }
 
   api::Renderer renderer_;
-  std::optional<OptionTexts> options_ = OptionTexts();  // that the renderer has, if that is known
+  std::optional<OptionTexts> options_ = OptionTexts();  // of the renderer; none after an error
   py::object lock_ = py::module_::import("threading").attr("Lock")();
-  std::atomic<std::thread::id> owner_;  // whose turn it is
+  std::atomic<std::thread::id> owner_;  // the thread that has the lock
 };
 
 using Floats = py::array_t<float, py::array::c_style>;

@@ -13,6 +13,14 @@ std::uint32_t mix(std::uint32_t h) {
   return h ^ (h >> 16);
 }
 
+// The finalizer of MurmurHash3 after each word.
+std::uint32_t hash(std::uint32_t seed, std::int32_t x, std::int32_t y, std::int32_t z) {
+  std::uint32_t h = mix(seed + 0x9e3779b9u);
+  h = mix(h ^ (static_cast<std::uint32_t>(x) + 0x7f4a7c15u));
+  h = mix(h ^ (static_cast<std::uint32_t>(y) + 0x94d049bbu));
+  return mix(h ^ (static_cast<std::uint32_t>(z) + 0x2545f491u));
+}
+
 // One round instead of four: patterns take millions of these.
 std::uint32_t latticeHash(std::uint32_t seed, std::int32_t x, std::int32_t y) {
   return mix(static_cast<std::uint32_t>(x) * 0x8da6b343u ^
@@ -47,13 +55,6 @@ double slope3(std::uint32_t h, double x, double y, double z) {
 }
 
 }  // namespace
-
-std::uint32_t hash(std::uint32_t seed, std::int32_t x, std::int32_t y, std::int32_t z) {
-  std::uint32_t h = mix(seed + 0x9e3779b9u);
-  h = mix(h ^ (static_cast<std::uint32_t>(x) + 0x7f4a7c15u));
-  h = mix(h ^ (static_cast<std::uint32_t>(y) + 0x94d049bbu));
-  return mix(h ^ (static_cast<std::uint32_t>(z) + 0x2545f491u));
-}
 
 double unitHash(std::uint32_t seed, std::int32_t x, std::int32_t y, std::int32_t z) {
   return hash(seed, x, y, z) * (1.0 / 4294967296.0);

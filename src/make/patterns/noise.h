@@ -6,10 +6,7 @@
 
 namespace whit::procedural {
 
-// A well-mixed hash of lattice coordinates (the finalizer of MurmurHash3 after each word).
-std::uint32_t hash(std::uint32_t seed, std::int32_t x, std::int32_t y = 0, std::int32_t z = 0);
-
-// The hash as a number in [0, 1).
+// A well-mixed hash of lattice coordinates as a number in [0, 1).
 double unitHash(std::uint32_t seed, std::int32_t x, std::int32_t y = 0, std::int32_t z = 0);
 
 // Smooth noise in about [-1, 1], zero at lattice points. `period` above zero repeats the lattice

@@ -69,8 +69,6 @@ def image(values: Any, what: str) -> np.ndarray:
         _fail(what, expected, f"an array of shape {np.shape(values)}")
     if array.dtype.kind == "u" and array.dtype != np.uint8:
         _fail(what, expected, f"an array of {array.dtype}")
-    if max(array.shape) > 0x7FFFFFFF:
-        _fail(what, expected, f"an array of shape {array.shape}")
     with np.errstate(over="ignore"):
         return np.ascontiguousarray(array, np.uint8 if array.dtype == np.uint8 else np.float32)
 
