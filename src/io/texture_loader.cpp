@@ -24,7 +24,7 @@ std::optional<Texture> makeUse(const std::string& name, const RawImage& raw,
     return normalsFromHeights(name, raw, source.bumpScale, source.wrapU, source.wrapV);
   }
   if (use == TextureUse::mask || use == TextureUse::colorAlpha) {
-    if (hasTranslucentAlpha(raw)) return makeTexture(name, alphaOf(raw), TexelFormat::data);
+    if (hasTranslucentAlpha(raw)) return makeAlphaTexture(name, raw);
     if (use == TextureUse::colorAlpha) return std::nullopt;
   }
   return makeTexture(name, raw, TexelFormat::data);
@@ -117,9 +117,6 @@ ImageLimits TextureLoader::limits() const {
 std::optional<Texture> TextureLoader::make(const std::string& name, const RawImage& raw,
                                            const TextureSource& source, TextureUse use) {
   MemoryHold texels(&budget_, raw.pixels(), sizeof(std::uint32_t), name);
-  const bool copies = use == TextureUse::mask || use == TextureUse::colorAlpha;
-  const MemoryHold copy(&budget_, copies ? raw.pixels() : 0, raw.linear ? sizeof(float) : 1,
-                        "an alpha channel");
   std::optional<Texture> texture = makeUse(name, raw, source, use, warnings_);
   if (!texture) return texture;
   texels.keep();

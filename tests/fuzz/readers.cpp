@@ -162,7 +162,7 @@ void readImageFile(const fs::path& file) {
   checkTexture(makeTexture("t", raw, TexelFormat::data));
   checkTexture(makeEmissionTexture("t", raw, warnings));
   checkTexture(normalsFromHeights("t", raw, 1, Wrap::repeat, Wrap::clamp));
-  if (hasTranslucentAlpha(raw)) checkTexture(makeTexture("t", alphaOf(raw), TexelFormat::data));
+  if (hasTranslucentAlpha(raw)) checkTexture(makeAlphaTexture("t", raw));
   require(!makeEnvironment(raw).r.empty(), "a sky without pixels");
   readImage(file.string(), limits, warnings);
 }

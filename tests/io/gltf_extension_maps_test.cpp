@@ -125,7 +125,7 @@ TEST_F(GltfMaterials, SpecularTexturesWithOtherCoordinatesAreCounted) {
                                 ",\"baseColorTexture\":{\"index\":0}"),
                        1}}));
   EXPECT_EQ(
-      warned("specular by a texture with other coordinates than the base color's: these taken"),
+      warned("texture looked up with the coordinates of its material's first in place of its own"),
       1u);
 }
 

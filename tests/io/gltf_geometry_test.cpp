@@ -264,7 +264,6 @@ TEST_F(GltfGeometry, SpotAndDirectionalLights) {
     EXPECT_LT(scene.lights[i].innerConeAngle, scene.lights[i].outerConeAngle);
     EXPECT_NEAR(scene.lights[i].innerConeAngle, scene.lights[i].outerConeAngle, 1e-4);
   }
-  EXPECT_EQ(warned("spot light's cone repaired"), 1u);
 }
 
 TEST_F(GltfGeometry, FilesWithoutALightAreGivenTwo) {

@@ -14,48 +14,33 @@ namespace {
 // the number of its elements.
 constexpr std::uint64_t kZeroElementLimit = 1u << 24;
 
-template <typename T>
-T loadAs(const std::uint8_t* from) {
-  T value;
-  std::memcpy(&value, from, sizeof value);
-  return value;
-}
-
 // Section 3.11 of the specification for normalized integers.
 template <typename T>
-float floatAt(const std::uint8_t* from, bool normalized) {
-  const T value = loadAs<T>(from);
-  if constexpr (std::is_floating_point_v<T>) {
-    return value;
-  } else {
-    if (!normalized) return static_cast<float>(value);
-    const double unit = static_cast<double>(value) / std::numeric_limits<T>::max();
-    return static_cast<float>(std::max(unit, -1.0));
-  }
-}
-
-template <typename T>
-std::uint32_t indexAt(const std::uint8_t* from) {
-  return loadAs<T>(from);
+double valueAs(const std::uint8_t* from, bool normalized) {
+  T value;
+  std::memcpy(&value, from, sizeof value);
+  if (std::is_floating_point_v<T> || !normalized) return value;
+  return std::max(static_cast<double>(value) / std::numeric_limits<T>::max(), -1.0);
 }
 
 struct ComponentType {
   std::uint64_t code, bytes;
-  float (*value)(const std::uint8_t* from, bool normalized);
-  std::uint32_t (*index)(const std::uint8_t* from);  // null where it cannot be an index
+  double (*value)(const std::uint8_t* from, bool normalized);
+  bool isIndex;
+
+  std::uint32_t index(const std::uint8_t* from) const {
+    return static_cast<std::uint32_t>(value(from, false));
+  }
 };
 constexpr ComponentType kComponentTypes[] = {
-    {5120, 1, floatAt<std::int8_t>, nullptr},
-    {5121, 1, floatAt<std::uint8_t>, indexAt<std::uint8_t>},
-    {5122, 2, floatAt<std::int16_t>, nullptr},
-    {5123, 2, floatAt<std::uint16_t>, indexAt<std::uint16_t>},
-    {5125, 4, floatAt<std::uint32_t>, indexAt<std::uint32_t>},
-    {5126, 4, floatAt<float>, nullptr}};
+    {5120, 1, valueAs<std::int8_t>, false},  {5121, 1, valueAs<std::uint8_t>, true},
+    {5122, 2, valueAs<std::int16_t>, false}, {5123, 2, valueAs<std::uint16_t>, true},
+    {5125, 4, valueAs<std::uint32_t>, true}, {5126, 4, valueAs<float>, false}};
 
 const ComponentType& componentTypeOf(const JsonValue& code, bool forIndices = false) {
   const std::uint64_t found = code.wholeOr(0);
   for (const ComponentType& type : kComponentTypes) {
-    if (type.code == found && (type.index || !forIndices)) return type;
+    if (type.code == found && (type.isIndex || !forIndices)) return type;
   }
   code.fail(forIndices ? "5121, 5123 or 5125" : "5120 to 5123, 5125 or 5126");
 }
@@ -141,7 +126,7 @@ class AccessorReader {
   }
 
   float at(const std::uint8_t* element, std::size_t i) const {
-    return component_.value(element + i * component_.bytes, normalized_);
+    return static_cast<float>(component_.value(element + i * component_.bytes, normalized_));
   }
 
  private:

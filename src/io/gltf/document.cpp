@@ -63,16 +63,6 @@ std::string percentDecoded(std::string_view uri) {
 // Data URIs: RFC 2397.
 bool isDataUri(const std::string& uri) { return strncasecmp(uri.c_str(), "data:", 5) == 0; }
 
-// Decodes a data URI of any type (base64: RFC 4648, padded or not).
-std::string dataOfUri(const std::string& uri, const std::string& where) {
-  constexpr std::string_view kBase64 = ";base64";
-  const std::size_t comma = uri.find(',');
-  if (comma == std::string::npos) throwBadScene(where, "expected a comma before a URI's data");
-  const std::string_view head = std::string_view(uri).substr(0, comma);
-  const std::string data = percentDecoded(std::string_view(uri).substr(comma + 1));
-  return head.ends_with(kBase64) ? base64Decoded(data, where) : data;
-}
-
 constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 constexpr std::size_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
 // Upper bound on the memory of one parsed JSON value: a member of an object with its name.
@@ -135,8 +125,6 @@ constexpr std::array<std::string_view, 11> kSupported = {
     "KHR_materials_emissive_strength", "KHR_materials_ior",    "KHR_materials_specular",
     "KHR_materials_transmission",      "KHR_materials_unlit",  "KHR_materials_volume",
     "KHR_mesh_quantization",           "KHR_texture_transform"};
-// Each unsupported extension is a kind of warning of its own, so that their number is bounded.
-constexpr std::size_t kReportedExtensions = 64, kReportedLetters = 64;
 // Upper bound on the memory that the readers need for one node, mesh, material and so on.
 constexpr std::uint64_t kBytesPerElement = 2048;
 
@@ -184,9 +172,7 @@ GltfBufferView GltfDocument::view(const JsonValue& reference) const {
 
 void GltfDocument::checkExtensions() const {
   const JsonValue version = root().need("asset").need("version");
-  if (!version.textOr("").starts_with("2.")) {
-    version.fail("2.0");
-  }
+  if (!version.textOr("").starts_with("2.")) version.fail("2.0");
   const JsonValue required = list("extensionsRequired"), used = list("extensionsUsed");
   for (std::size_t i = 0; i < required.size(); ++i) {
     const std::string extension = required[i].textOr("");
@@ -194,18 +180,21 @@ void GltfDocument::checkExtensions() const {
     throwBadScene(required[i].where(), "the file cannot be shown without " + excerpt(extension) +
                                            ", which is not supported");
   }
-  std::size_t reported = 0;
   for (std::size_t i = 0; i < used.size(); ++i) {
     const std::string extension = used[i].textOr("");
-    if (isSupported(extension) || ++reported > kReportedExtensions) continue;
-    warnings_.add("extension ignored: " + extension.substr(0, kReportedLetters), name_);
+    if (!isSupported(extension)) warnings_.add("extension ignored: " + excerpt(extension), name_);
   }
 }
 
+// Decodes a data URI of any type (base64: RFC 4648, padded or not).
 std::string GltfDocument::decodeUri(const JsonValue& uri) const {
-  const std::string text = uri.textOr("");
-  budget_.charge(text.size(), 2, uri.where());
-  return dataOfUri(text, uri.where());
+  const std::string text = uri.textOr(""), where = uri.where();
+  budget_.charge(text.size(), 2, where);
+  const std::size_t comma = text.find(',');
+  if (comma == std::string::npos) throwBadScene(where, "expected a comma before a URI's data");
+  const std::string data = percentDecoded(std::string_view(text).substr(comma + 1));
+  const bool isBase64 = std::string_view(text).substr(0, comma).ends_with(";base64");
+  return isBase64 ? base64Decoded(data, where) : data;
 }
 
 void GltfDocument::readBuffers(const std::filesystem::path& folder, const PathRules& rules) {

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/error.h"
-#include "core/srgb.h"
 #include "io/gltf/material.h"
 #include "io/image/image_decoders.h"
 #include "io/image/texture_from_image.h"
@@ -52,13 +51,13 @@ using Images = std::vector<std::optional<Texture>>;
 
 enum GltfBakedMap { kGltfDiffuse, kGltfSpecular, kGltfAlpha, kGltfBakedMaps };
 
-// Decoded; null where there is none or it cannot be read, which counts as white.
-struct GltfBakeImages {
-  std::shared_ptr<const RawImage> base, metallicRoughness, specular, specularColor;
-};
+// Names the images that are baked together. An image is null where there is none or it cannot be
+// read; it counts as white then.
+enum GltfBakeImage { kBase, kMetallicRoughness, kSpecular, kSpecularColor, kBakeImages };
+using GltfBakeImages = std::array<std::shared_ptr<const RawImage>, kBakeImages>;
 
 struct Texel {
-  Rgb color;  // linear
+  Rgb color{1, 1, 1};  // linear
   std::array<float, 4> code{1, 1, 1, 1};
 };
 
@@ -69,23 +68,11 @@ class Stretched {
       : raw_(raw), width_(width), height_(height) {}
 
   Texel at(int x, int y) const {
-    Texel texel{Rgb(1.0f), {1, 1, 1, 1}};
-    if (!raw_) return texel;
+    if (!raw_) return {};
     const auto column = static_cast<std::size_t>(std::int64_t{x} * raw_->width / width_);
     const auto row = static_cast<std::size_t>(std::int64_t{y} * raw_->height / height_);
-    const auto channels = static_cast<std::size_t>(raw_->channels);
-    const std::size_t first = (row * static_cast<std::size_t>(raw_->width) + column) * channels;
-    for (std::size_t c = 0; c < 4; ++c) {
-      const bool color = c < 3, gray = channels < 3;
-      if (!color && channels % 2 == 1) break;  // without alpha
-      const std::size_t at = first + (gray ? (color ? 0 : 1) : c);
-      texel.code[c] = raw_->linear ? raw_->values[at] : static_cast<float>(raw_->codes[at]) / 255;
-      if (color) {
-        texel.color[static_cast<int>(c)] =
-            raw_->linear ? raw_->values[at] : linearOfCode(raw_->codes[at]);
-      }
-    }
-    return texel;
+    const std::size_t i = row * static_cast<std::size_t>(raw_->width) + column;
+    return {linearPixel(*raw_, i), valuesAt(*raw_, i)};
   }
 
  private:
@@ -93,26 +80,22 @@ class Stretched {
   int width_, height_;
 };
 
-// Means of codes, scaled to 0 to 1. A gray image has one mean for r, g and b; a missing alpha is 1.
+// Holds the mean of a channel of valuesAt().
 struct ChannelMean {
   float mean = 0;
   bool varies = false;
 };
 ChannelMean meanOf(const RawImage& raw, std::size_t channel) {
-  const Stretched texels(&raw, raw.width, raw.height);
-  ChannelMean mean;
-  const float first = texels.at(0, 0).code[channel];
+  const float first = valuesAt(raw, 0)[channel];
+  ChannelMean result{first};
   double sum = 0;
-  for (int y = 0; y < raw.height; ++y) {
-    for (int x = 0; x < raw.width; ++x) {
-      const float value = texels.at(x, y).code[channel];
-      sum += value;
-      mean.varies = mean.varies || value != first;
-    }
+  for (std::size_t i = 0; i < raw.pixels(); ++i) {
+    const float value = valuesAt(raw, i)[channel];
+    sum += value;
+    result.varies = result.varies || value != first;
   }
-  mean.mean =
-      mean.varies ? static_cast<float>(sum / (static_cast<double>(raw.width) * raw.height)) : first;
-  return mean;
+  if (result.varies) result.mean = static_cast<float>(sum / static_cast<double>(raw.pixels()));
+  return result;
 }
 
 // Tests the maps of diffuse and specular. The need for an alpha map follows from the image.
@@ -122,16 +105,9 @@ bool wantsBaked(const GltfMaterial& m, GltfBakedMap map) {
                              : m.bakesSpecular() || (colored && m.metallic > 0);
 }
 
-Texture emptyTexture(const GltfMaterial& material, TexelFormat format, int width, int height) {
-  Texture texture;
-  texture.name = material.name;
-  texture.format = format;
-  texture.wrapU = material.surfaceMap().wrapU;
-  texture.wrapV = material.surfaceMap().wrapV;
-  texture.width = width;
-  texture.height = height;
-  texture.texels.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  return texture;
+void setWrap(const GltfTexture& map, Texture& texture) {
+  texture.wrapU = map.wrapU;
+  texture.wrapV = map.wrapV;
 }
 
 // The texture of the alpha channel, or none where it has the same value everywhere.
@@ -146,12 +122,9 @@ std::optional<Texture> bakeAlpha(const GltfMaterial& m, const RawImage& raw,
       return {};
     }
   }
-  // The texture, and the channel that it is made from.
-  const MemoryHold held =
-      holdImage(m.where, raw.width, raw.height, sizeof(std::uint32_t) + sizeof(float), limits);
-  Texture texture = makeTexture(m.name, alphaOf(raw), TexelFormat::data);
-  texture.wrapU = m.baseMap.wrapU;
-  texture.wrapV = m.baseMap.wrapV;
+  const MemoryHold held = holdImage(m.where, raw.width, raw.height, sizeof(std::uint32_t), limits);
+  Texture texture = makeAlphaTexture(m.name, raw);
+  setWrap(m.baseMap, texture);
   return texture;
 }
 
@@ -160,29 +133,29 @@ std::optional<Texture> bakeAlpha(const GltfMaterial& m, const RawImage& raw,
 Images bake(const GltfMaterial& m, const GltfBakeImages& images, const ImageLimits& limits,
             GltfMeans& means) {
   int width = 1, height = 1;
-  for (const auto& raw :
-       {images.base, images.metallicRoughness, images.specular, images.specularColor}) {
+  for (const auto& raw : images) {
     width = std::max(width, raw ? raw->width : 1);
     height = std::max(height, raw ? raw->height : 1);
   }
   const MemoryHold held = holdImage(m.where, width, height, 2 * sizeof(std::uint32_t), limits);
-  const Stretched bases(images.base.get(), width, height);
-  const Stretched metals(images.metallicRoughness.get(), width, height);
-  const Stretched speculars(images.specular.get(), width, height);
-  const Stretched tints(images.specularColor.get(), width, height);
+  const Stretched bases(images[kBase].get(), width, height);
+  const Stretched metals(images[kMetallicRoughness].get(), width, height);
+  const Stretched speculars(images[kSpecular].get(), width, height);
+  const Stretched tints(images[kSpecularColor].get(), width, height);
   Images maps(kGltfBakedMaps);
-  if (wantsBaked(m, kGltfDiffuse)) {
-    const bool emits = m.unlit && images.base;
-    maps[kGltfDiffuse] =
-        emptyTexture(m, emits ? emissionFormat(*images.base) : TexelFormat::color, width, height);
-  }
-  if (wantsBaked(m, kGltfSpecular)) {
-    maps[kGltfSpecular] = emptyTexture(m, TexelFormat::color, width, height);
-  }
+  const auto start = [&](GltfBakedMap map, TexelFormat format) {
+    if (!wantsBaked(m, map)) return;
+    maps[map] = emptyTexture(m.name, format, width, height);
+    setWrap(m.surfaceMap(), *maps[map]);
+  };
+  const bool emits = m.unlit && images[kBase];
+  start(kGltfDiffuse, emits ? emissionFormat(*images[kBase]) : TexelFormat::color);
+  start(kGltfSpecular, TexelFormat::color);
   RgbD colors, tintSum;
   double metallic = 0, roughness = 0, strengths = 0;
+  std::size_t i = 0;
   for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
+    for (int x = 0; x < width; ++x, ++i) {
       const Rgb base = bases.at(x, y).color, tint = tints.at(x, y).color;
       const Texel other = metals.at(x, y);
       const float metal = m.metallic * other.code[2], strength = speculars.at(x, y).code[3];
@@ -193,12 +166,12 @@ Images bake(const GltfMaterial& m, const GltfBakeImages& images, const ImageLimi
       tintSum += RgbD(tint);
       if (maps[kGltfDiffuse]) {
         const Rgb diffuse = m.mixesMetal() ? base * (1 - metal) : base;
-        maps[kGltfDiffuse]->texels.push_back(encodeTexel(diffuse, maps[kGltfDiffuse]->format));
+        maps[kGltfDiffuse]->texels[i] = encodeTexel(diffuse, maps[kGltfDiffuse]->format);
       }
       if (!maps[kGltfSpecular]) continue;
       const Rgb f0 =
           m.bakesSpecular() ? m.f0(tint, strength) * (1 - metal) + m.base * base * metal : base;
-      maps[kGltfSpecular]->texels.push_back(encodeColorTexel(f0));
+      maps[kGltfSpecular]->texels[i] = encodeColorTexel(f0);
     }
   }
   const double texels = static_cast<double>(width) * height;
@@ -207,7 +180,7 @@ Images bake(const GltfMaterial& m, const GltfBakeImages& images, const ImageLimi
   means.roughness = static_cast<float>(roughness / texels);
   means.specular = static_cast<float>(strengths / texels);
   means.specularColor = Rgb(tintSum / texels);
-  if (images.base) maps[kGltfAlpha] = bakeAlpha(m, *images.base, limits, means);
+  if (images[kBase]) maps[kGltfAlpha] = bakeAlpha(m, *images[kBase], limits, means);
   return maps;
 }
 
@@ -258,12 +231,11 @@ GltfMapMaker::GltfMapMaker(const GltfDocument& document) : warnings_(document.wa
   }
 }
 
-GltfMapMaker::~GltfMapMaker() = default;
-
 GltfMaps GltfMapMaker::ask(const GltfMaterial& m, TextureLoader& textures) {
   const auto [entry, isNew] = known_.try_emplace(keyOf(m));
   GltfMaps& maps = entry->second;
   if (!isNew) return maps;
+  Material& slots = maps.slots;
   const auto means = std::make_shared<GltfMeans>();
   maps.means = means;
   Warnings& warnings = warnings_;
@@ -271,23 +243,22 @@ GltfMaps GltfMapMaker::ask(const GltfMaterial& m, TextureLoader& textures) {
     return map.image ? images_[*map.image] : nullptr;
   };
   if (m.baseMap.exists() || m.metallicRoughnessMap.exists() || m.variesF0()) {
-    const auto slots = textures.add(kGltfBakedMaps, [=, base = image(m.baseMap),
-                                                     metal = image(m.metallicRoughnessMap),
-                                                     strength = image(m.specularMap),
-                                                     tint = image(m.specularColorMap), &textures,
-                                                     &warnings] {
+    const std::array sources{image(m.baseMap), image(m.metallicRoughnessMap), image(m.specularMap),
+                             image(m.specularColorMap)};
+    const auto baked = textures.add(kGltfBakedMaps, [=, &textures, &warnings] {
       const ImageLimits limits = textures.limits();
-      const GltfBakeImages all{decoded(base, limits), decoded(metal, limits),
-                               decoded(strength, limits), decoded(tint, limits)};
-      for (const RawImage* color : {m.unlit ? nullptr : all.base.get(), all.specularColor.get()}) {
-        if (color) warnOfClampedColors(m.where, *color, warnings);
-      }
-      return bake(m, all, limits, *means);
+      GltfBakeImages images;
+      for (std::size_t i = 0; i < kBakeImages; ++i) images[i] = decoded(sources[i], limits);
+      if (images[kBase] && !m.unlit) warnOfClampedColors(m.where, *images[kBase], warnings);
+      if (const auto& tint = images[kSpecularColor]) warnOfClampedColors(m.where, *tint, warnings);
+      return bake(m, images, limits, *means);
     });
-    if (wantsBaked(m, kGltfDiffuse)) (m.unlit ? maps.emission : maps.diffuse) = slots[kGltfDiffuse];
-    if (wantsBaked(m, kGltfSpecular)) maps.specular = slots[kGltfSpecular];
-    if (m.alphaMode != GltfMaterial::Alpha::opaque) maps.alpha = slots[kGltfAlpha];
-    if (m.alphaMode == GltfMaterial::Alpha::blend) maps.coverage = slots[kGltfAlpha];
+    if (wantsBaked(m, kGltfDiffuse)) {
+      (m.unlit ? slots.emissionMap : slots.diffuseMap) = baked[kGltfDiffuse];
+    }
+    if (wantsBaked(m, kGltfSpecular)) slots.specularMap = baked[kGltfSpecular];
+    if (m.alphaMode != GltfMaterial::Alpha::opaque) slots.alphaMap = baked[kGltfAlpha];
+    if (m.alphaMode == GltfMaterial::Alpha::blend) slots.coverageMap = baked[kGltfAlpha];
   }
   // A texture that `make` makes from one image; it may make none.
   const auto single = [&](const GltfTexture& map, const auto& make) {
@@ -299,24 +270,23 @@ GltfMaps GltfMapMaker::ask(const GltfMaterial& m, TextureLoader& textures) {
       const MemoryHold held =
           holdImage(where, raw->width, raw->height, sizeof(std::uint32_t), limits);
       made[0] = make(*raw);
-      if (!made[0]) return made;
-      made[0]->wrapU = map.wrapU;
-      made[0]->wrapV = map.wrapV;
+      if (made[0]) setWrap(map, *made[0]);
       return made;
     })[0];
   };
   if (m.normalMap.exists()) {
-    maps.normal = single(m.normalMap, [m](const RawImage& raw) { return normalTexture(m, raw); });
+    slots.normalMap =
+        single(m.normalMap, [m](const RawImage& raw) { return normalTexture(m, raw); });
   }
   if (m.variesRoughness()) {
-    maps.roughness = single(m.metallicRoughnessMap, [=](const RawImage& raw) {
+    slots.roughnessMap = single(m.metallicRoughnessMap, [=](const RawImage& raw) {
       means->roughnessByMap = meanOf(raw, 1).varies;
       return means->roughnessByMap ? std::optional(makeTexture(m.name, raw, TexelFormat::data))
                                    : std::nullopt;
     });
   }
   if (m.emitsByMap()) {
-    maps.emission = single(m.emissiveMap, [name = m.name, &warnings](const RawImage& raw) {
+    slots.emissionMap = single(m.emissiveMap, [name = m.name, &warnings](const RawImage& raw) {
       return makeEmissionTexture(name, raw, warnings);
     });
   }

@@ -71,155 +71,95 @@ GltfTexture readTexture(const GltfDocument& document, const std::string& where,
 constexpr double kLargestEmission = 1e9;    // a factor and a strength of this are finite together
 constexpr float kLeastAttenuation = 1e-6f;  // of a color; the logarithm is taken
 
-Rgb colorOf(const JsonValue& color, const Rgb& fallback) {
-  const std::vector<double> c = color.numbers(3);
-  if (c.empty()) return fallback;
-  return {static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2])};
+// Numbers are clamped, because some writers round them out of range.
+float readNumber(const JsonValue& json, double fallback, double low = 0, double high = 1) {
+  return static_cast<float>(std::clamp(json.numberOr(fallback), low, high));
 }
 
-class GltfMaterialReader {
- public:
-  GltfMaterialReader(const GltfDocument& document, const JsonValue& source)
-      : document_(document), source_(source) {
-    m_.name = source["name"].textOr("");
-    m_.doubleSided = source["doubleSided"].flagOr(false);
-    m_.where = source.where();
-  }
+Rgb colorOf(const std::vector<double>& c, double high = 1) {
+  const auto clamped = [&](double x) { return static_cast<float>(std::clamp(x, 0.0, high)); };
+  return c.empty() ? Rgb(1.0f) : Rgb(clamped(c[0]), clamped(c[1]), clamped(c[2]));
+}
 
-  GltfMaterial read() {
-    factors();
-    maps();
-    extensions();
-    countCoordinatesLeftOut();
-    return std::move(m_);
-  }
+// Returns true if a map that the material needs cannot be looked up with its own coordinates,
+// because others already take both sets.
+bool lacksCoordinates(const GltfMaterial& m) {
+  const GltfMaterial::Coordinates known = m.coordinates();
+  const auto isApart = [&](bool matters, const GltfTexture& map) {
+    return matters && map.exists() && m.surfaceMap().exists() && !(map.uv == m.surfaceMap().uv);
+  };
+  const GltfUvMap& emission = m.emissiveMap.uv;
+  return (m.emitsByMap() && !(emission == known.first) && !(emission == known.second)) ||
+         isApart(m.variesRoughness() || m.mixesMetal(), m.metallicRoughnessMap) ||
+         isApart(m.variesF0(), m.specularMap) || isApart(m.variesF0(), m.specularColorMap);
+}
 
- private:
-  void warn(const char* what) { document_.warnings().add(what, m_.where); }
-
-  JsonValue extension(const char* name) const { return source_["extensions"][name]; }
-
-  float unit(double x) {
-    if (x >= 0 && x <= 1) return static_cast<float>(x);
-    warn("material value clamped to [0, 1]");
-    return x > 0 ? 1.0f : 0.0f;
+GltfMaterial readMaterial(const GltfDocument& document, const JsonValue& source) {
+  const JsonValue pbr = source["pbrMetallicRoughness"], extensions = source["extensions"];
+  GltfMaterial m;
+  m.name = source["name"].textOr("");
+  m.where = source.where();
+  m.doubleSided = source["doubleSided"].flagOr(false);
+  m.unlit = extensions["KHR_materials_unlit"].exists();
+  const auto warnIf = [&](bool isTrue, const char* what) {
+    if (isTrue) document.warnings().add(what, m.where);
+  };
+  const auto texture = [&](const JsonValue& info) {
+    return m.unlit ? GltfTexture() : readTexture(document, m.where, info);
+  };
+  const std::vector<double> base = pbr["baseColorFactor"].numbers(4);
+  m.base = colorOf(base);
+  m.alpha = base.empty() ? 1 : static_cast<float>(std::clamp(base[3], 0.0, 1.0));
+  m.baseMap = readTexture(document, m.where, pbr["baseColorTexture"]);
+  m.metallic = m.unlit ? 0 : readNumber(pbr["metallicFactor"], 1);
+  m.roughness = readNumber(pbr["roughnessFactor"], 1);
+  m.metallicRoughnessMap = texture(pbr["metallicRoughnessTexture"]);
+  m.normalMap = texture(source["normalTexture"]);
+  m.normalScale = readNumber(source["normalTexture"]["scale"], 1, -1e3, 1e3);
+  const JsonValue emission =
+      source["emissiveFactor"];  // some writers store a strength above 1 here
+  if (emission.exists() && !m.unlit) {
+    const JsonValue strength = extensions["KHR_materials_emissive_strength"]["emissiveStrength"];
+    m.emission = colorOf(emission.numbers(3), kLargestEmission) *
+                 readNumber(strength, 1, 0, kLargestEmission);
   }
-  float emission(double x) {
-    if (x < 0) warn("negative emission taken as 0");
-    return static_cast<float>(std::clamp(x, 0.0, kLargestEmission));
+  m.emissiveMap = texture(source["emissiveTexture"]);
+  const std::string alphaMode = source["alphaMode"].textOr("OPAQUE");
+  if (alphaMode == "MASK") m.alphaMode = GltfMaterial::Alpha::mask;
+  if (alphaMode == "BLEND") m.alphaMode = GltfMaterial::Alpha::blend;
+  warnIf(alphaMode != "OPAQUE" && m.alphaMode == GltfMaterial::Alpha::opaque,
+         "unknown alpha mode taken as OPAQUE");
+  m.alphaCutoff = readNumber(source["alphaCutoff"], 0.5, 0, 2);
+  m.ior = readNumber(extensions["KHR_materials_ior"]["ior"], 1.5, 1, kLargestIor);
+  const float step = (m.ior - 1) / (m.ior + 1);
+  const JsonValue specular = extensions["KHR_materials_specular"];
+  m.f90 = readNumber(specular["specularFactor"], 1);
+  m.specularColor =
+      Rgb(step * step) * colorOf(specular["specularColorFactor"].numbers(3), kLargestEmission);
+  m.specularMap = texture(specular["specularTexture"]);
+  m.specularColorMap = texture(specular["specularColorTexture"]);
+  const JsonValue transmission = extensions["KHR_materials_transmission"];
+  m.transmission = readNumber(transmission["transmissionFactor"], 0);
+  m.transmissionMap = texture(transmission["transmissionTexture"]);
+  const JsonValue volume = extensions["KHR_materials_volume"];
+  warnIf(volume["thicknessTexture"].exists(),
+         "thickness of a volume by a texture left out: what the mesh encloses counts");
+  const double distance = volume["attenuationDistance"].numberOr(0);  // 0: nothing is absorbed
+  const Rgb kept = colorOf(volume["attenuationColor"].numbers(3));
+  for (int i = 0; distance > 0 && i < 3; ++i) {
+    const double logarithm = std::log(double{std::max(kept[i], kLeastAttenuation)});
+    m.absorption[i] = static_cast<float>(std::min(-logarithm / distance, 1e18));
   }
-  Rgb unit(const Rgb& c) { return {unit(c.x), unit(c.y), unit(c.z)}; }
-
-  void factors() {
-    const JsonValue pbr = source_["pbrMetallicRoughness"];
-    std::vector<double> base = pbr["baseColorFactor"].numbers(4);
-    if (base.empty()) base = {1, 1, 1, 1};
-    m_.base = {unit(base[0]), unit(base[1]), unit(base[2])};
-    m_.alpha = unit(base[3]);
-    m_.metallic = unit(pbr["metallicFactor"].numberOr(1));
-    m_.roughness = unit(pbr["roughnessFactor"].numberOr(1));
-    const std::vector<double> e = source_["emissiveFactor"].numbers(3);
-    // Some writers store a strength above 1 here.
-    for (std::size_t i = 0; i < e.size(); ++i) m_.emission[static_cast<int>(i)] = emission(e[i]);
-    const std::string alphaMode = source_["alphaMode"].textOr("OPAQUE");
-    if (alphaMode == "MASK") m_.alphaMode = GltfMaterial::Alpha::mask;
-    if (alphaMode == "BLEND") m_.alphaMode = GltfMaterial::Alpha::blend;
-    if (alphaMode != "OPAQUE" && m_.alphaMode == GltfMaterial::Alpha::opaque) {
-      warn("unknown alpha mode taken as OPAQUE");
-    }
-    m_.alphaCutoff = static_cast<float>(std::clamp(source_["alphaCutoff"].numberOr(0.5), 0.0, 2.0));
-  }
-
-  void maps() {
-    const JsonValue pbr = source_["pbrMetallicRoughness"], normal = source_["normalTexture"];
-    m_.baseMap = texture(pbr["baseColorTexture"]);
-    m_.unlit = extension("KHR_materials_unlit").exists();
-    if (m_.unlit) {
-      m_.metallic = 0;
-      m_.emission = Rgb();
-      return;
-    }
-    m_.metallicRoughnessMap = texture(pbr["metallicRoughnessTexture"]);
-    m_.normalMap = texture(normal);
-    m_.normalScale = static_cast<float>(std::clamp(normal["scale"].numberOr(1), -1e3, 1e3));
-    m_.emissiveMap = texture(source_["emissiveTexture"]);
-  }
-
-  GltfTexture texture(const JsonValue& info) const {
-    return readTexture(document_, m_.where, info);
-  }
-  GltfTexture extensionTexture(const JsonValue& info) const {
-    return m_.unlit ? GltfTexture() : texture(info);
-  }
-
-  void countCoordinatesLeftOut() {
-    const GltfMaterial::Coordinates known = m_.coordinates();
-    const bool third = !(m_.emissiveMap.uv == known.first) && !(m_.emissiveMap.uv == known.second);
-    if (m_.emitsByMap() && third) {
-      warn("texture with a third kind of coordinates in its material: those of the first taken");
-    }
-    const auto warnIfApart = [&](bool matters, const GltfTexture& map, const char* warning) {
-      if (matters && map.exists() && !(map.uv == m_.surfaceMap().uv)) warn(warning);
-    };
-    warnIfApart(m_.variesRoughness() && m_.surfaceMap().exists(), m_.metallicRoughnessMap,
-                "roughness by a texture with other coordinates than the base color's: these taken");
-    warnIfApart(m_.mixesMetal(), m_.metallicRoughnessMap,
-                "metalness by a texture with other coordinates than the base color's: these taken");
-    const bool strength = m_.specularMap.exists() && !(m_.specularMap.uv == m_.surfaceMap().uv);
-    warnIfApart(m_.variesF0(), strength ? m_.specularMap : m_.specularColorMap,
-                "specular by a texture with other coordinates than the base color's: these taken");
-  }
-
-  void extensions() {
-    ior(extension("KHR_materials_ior")["ior"].numberOr(1.5));
-    const float step = (m_.ior - 1) / (m_.ior + 1);
-    m_.specularColor = Rgb(step * step);
-    specular(extension("KHR_materials_specular"));
-    m_.emission *=
-        emission(extension("KHR_materials_emissive_strength")["emissiveStrength"].numberOr(1));
-    const JsonValue transmission = extension("KHR_materials_transmission");
-    m_.transmission = unit(transmission["transmissionFactor"].numberOr(0));
-    m_.transmissionMap = extensionTexture(transmission["transmissionTexture"]);
-    volume(extension("KHR_materials_volume"));
-    const JsonValue coat = extension("KHR_materials_clearcoat");
-    m_.clearcoat = unit(coat["clearcoatFactor"].numberOr(0));
-    m_.clearcoatRoughness = unit(coat["clearcoatRoughnessFactor"].numberOr(0));
-    m_.clearcoatMap = extensionTexture(coat["clearcoatTexture"]);
-    m_.clearcoatRoughnessMap = extensionTexture(coat["clearcoatRoughnessTexture"]);
-    if (coat["clearcoatNormalTexture"].exists()) warn("normal map of a clearcoat left out");
-  }
-
-  void ior(double x) {
-    if (!(x >= 1 && x <= kLargestIor)) warn("index of refraction clamped to [1, 10]");
-    m_.ior = static_cast<float>(std::clamp(x, 1.0, static_cast<double>(kLargestIor)));
-  }
-
-  void specular(const JsonValue& e) {
-    m_.f90 = unit(e["specularFactor"].numberOr(1));
-    m_.specularColor = m_.specularColor * colorOf(e["specularColorFactor"], Rgb(1.0f));
-    m_.specularMap = extensionTexture(e["specularTexture"]);
-    m_.specularColorMap = extensionTexture(e["specularColorTexture"]);
-  }
-
-  void volume(const JsonValue& e) {
-    if (e["thicknessTexture"].exists()) {
-      warn("thickness of a volume by a texture left out: what the mesh encloses counts");
-    }
-    if (e["thicknessFactor"].numberOr(0) < 0) warn("negative thickness of a volume left out");
-    if (!e["attenuationDistance"].exists()) return;  // infinite
-    const double distance = e["attenuationDistance"].numberOr(0);
-    if (!(distance > 0)) return warn("attenuation distance that is not above 0 left out");
-    const Rgb color = unit(colorOf(e["attenuationColor"], Rgb(1.0f)));
-    for (int i = 0; i < 3; ++i) {
-      const double kept = std::max(color[i], kLeastAttenuation);
-      m_.absorption[i] = static_cast<float>(std::min(-std::log(kept) / distance, 1e18));
-    }
-  }
-
-  const GltfDocument& document_;
-  JsonValue source_;
-  GltfMaterial m_;
-};
+  const JsonValue coat = extensions["KHR_materials_clearcoat"];
+  m.clearcoat = readNumber(coat["clearcoatFactor"], 0);
+  m.clearcoatRoughness = readNumber(coat["clearcoatRoughnessFactor"], 0);
+  m.clearcoatMap = texture(coat["clearcoatTexture"]);
+  m.clearcoatRoughnessMap = texture(coat["clearcoatRoughnessTexture"]);
+  warnIf(coat["clearcoatNormalTexture"].exists(), "normal map of a clearcoat left out");
+  warnIf(lacksCoordinates(m),
+         "texture looked up with the coordinates of its material's first in place of its own");
+  return m;
+}
 
 // Emits its color.
 Material unlit(Material m, const Rgb& base) {
@@ -260,7 +200,7 @@ std::vector<GltfMaterial> readGltfMaterials(const GltfDocument& document) {
   std::vector<GltfMaterial> materials;
   const JsonValue sources = document.list("materials");
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    materials.push_back(GltfMaterialReader(document, sources[i]).read());
+    materials.push_back(readMaterial(document, sources[i]));
   }
   GltfMaterial fallback;
   fallback.name = "default";

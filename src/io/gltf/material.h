@@ -125,18 +125,14 @@ Material shadedAs(const GltfMaterial& source, const GltfMeans& means);
 // An image of the document, decoded when it is asked for and for as long as somebody holds it.
 class GltfImage;
 
-// Slots of a TextureLoader.
 struct GltfMaps {
-  std::int32_t diffuse = kNoTexture, specular = kNoTexture, emission = kNoTexture;
-  std::int32_t roughness = kNoTexture;
-  std::int32_t normal = kNoTexture, alpha = kNoTexture, coverage = kNoTexture;
+  Material slots;                          // only its maps are set, to slots of a TextureLoader
   std::shared_ptr<const GltfMeans> means;  // filled in when the textures are decoded
 };
 
 class GltfMapMaker {
  public:
   explicit GltfMapMaker(const GltfDocument& document);
-  ~GltfMapMaker();
 
   // Materials with the same maps share slots. An image that cannot be read is a warning, and white.
   // Both this and the document outlive the textures' decoding.

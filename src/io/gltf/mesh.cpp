@@ -30,19 +30,17 @@ std::vector<Vec3f> vectorsOf(const GltfDocument& document, const JsonValue& attr
 class DeformationReader {
  public:
   DeformationReader(const GltfDocument& document, const JsonValue& primitive,
-                    const GltfDeformation& given, const Mesh& mesh)
-      : document_(document), primitive_(primitive), given_(given), where_(primitive.where()) {
+                    const Deformation& given, const Mesh& mesh)
+      : document_(document), primitive_(primitive), where_(primitive.where()), result_(given) {
     document_.budget().charge(2 * (mesh.positions.size() + mesh.normals.size()), sizeof(Vec3d),
                               where_);
     result_.positions = mesh.positions;
     result_.normals = mesh.normals;
-    result_.weights = given.weights;
-    result_.movingWeights = given.movingWeights;
   }
 
   Deformation read() {
     readTargets();
-    if (given_.skeleton) readSkin();
+    if (result_.skeleton) readSkin();
     return std::move(result_);
   }
 
@@ -54,8 +52,8 @@ class DeformationReader {
     const JsonValue targets = primitive_["targets"];
     result_.targets.resize(targets.size());
     for (std::size_t i = 0; i < targets.size(); ++i) {
-      const bool weighs = i < given_.weights.size() && given_.weights[i] != 0;
-      if (!weighs && !given_.movingWeights) continue;
+      const bool weighs = i < result_.weights.size() && result_.weights[i] != 0;
+      if (!weighs && !result_.movingWeights) continue;
       result_.targets[i] = {vectorsOf(document_, targets[i]["POSITION"], result_.positions.size()),
                             vectorsOf(document_, targets[i]["NORMAL"], result_.normals.size())};
     }
@@ -74,10 +72,10 @@ class DeformationReader {
       checkLength(joints.back().size() / 4, count, j);
       checkLength(weights.back().size() / 4, count, w);
     }
-    if (joints.empty())
+    if (joints.empty()) {
+      result_.skeleton = nullptr;
       return warn("skinned mesh without joints and weights shown as it was modelled");
-    result_.skeleton = given_.skeleton;
-    result_.joints = given_.joints;
+    }
     document_.budget().charge(count, sizeof(std::uint32_t) + 4 * joints.size() * sizeof(Influence),
                               where_);
     result_.firstInfluence.push_back(0);
@@ -111,14 +109,13 @@ class DeformationReader {
 
   const GltfDocument& document_;
   JsonValue primitive_;
-  const GltfDeformation& given_;
   std::string where_;
   Deformation result_;
 };
 
 // Deforms the mesh as it is at the start, and gives it the deformation where that depends on time.
 void deform(const GltfDocument& document, const JsonValue& primitive,
-            const GltfDeformation& deformation, Mesh& mesh) {
+            const Deformation& deformation, Mesh& mesh) {
   Deformation own = DeformationReader(document, primitive, deformation, mesh).read();
   DeformedVertices start = deformVertices(own, poseAt(own, 0));
   mesh.positions = std::move(start.positions);
@@ -131,16 +128,15 @@ void deform(const GltfDocument& document, const JsonValue& primitive,
 
 // Values of a primitive's mode; smaller ones are points and lines.
 constexpr std::uint64_t kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6;
-constexpr char kDraco[] = "KHR_draco_mesh_compression";
 
 class PrimitiveReader {
  public:
   PrimitiveReader(const GltfDocument& document, const JsonValue& primitive,
-                  const std::vector<GltfMaterial>& materials, const GltfDeformation& deformation)
+                  const std::vector<GltfMaterial>& materials, const GltfPlacedMesh& placed)
       : document_(document),
         primitive_(primitive),
         attributes_(primitive.need("attributes")),
-        deformation_(deformation),
+        placed_(placed),
         mode_(primitive["mode"].wholeOr(kTriangles, kTriangleFan)),
         material_(primitive["material"]
                       .indexInto(document.list("materials"))
@@ -156,7 +152,6 @@ class PrimitiveReader {
                               : "primitive without positions left out");
       return false;
     }
-    refuseDraco(position);
     mesh.positions = readVectors(document_, position);
     mesh.normals = vectorsOf(document_, attributes_["NORMAL"], mesh.positions.size());
     mesh.uvs = textureCoordinates(mesh, coordinates_.first);
@@ -171,20 +166,12 @@ class PrimitiveReader {
     readVertexColors(mesh);
     connect(mesh, corners(mesh.positions.size()));
     mesh.materials = {static_cast<std::uint32_t>(material_)};
-    if (!deformation_.none()) deform(document_, primitive_, deformation_, mesh);
+    if (placed_.isDeformed()) deform(document_, primitive_, placed_.deformation, mesh);
     return !mesh.triangles.empty();
   }
 
  private:
   void warn(const char* what) { document_.warnings().add(what, primitive_.where()); }
-
-  // A fallback that is not compressed is read as if there were no extension.
-  void refuseDraco(const JsonValue& position) const {
-    const bool stored = accessorOf(document_, position)["bufferView"].exists();
-    if (stored || !primitive_["extensions"][kDraco].exists()) return;
-    throwBadScene(primitive_.where(),
-                  std::string("compressed by ") + kDraco + ", which is not supported");
-  }
 
   void readVertexColors(Mesh& mesh) {
     const JsonValue color = attributes_["COLOR_0"];
@@ -241,7 +228,7 @@ class PrimitiveReader {
 
   const GltfDocument& document_;
   JsonValue primitive_, attributes_;
-  const GltfDeformation& deformation_;
+  const GltfPlacedMesh& placed_;
   std::uint64_t mode_;
   std::size_t material_;
   GltfMaterial::Coordinates coordinates_;
@@ -250,20 +237,21 @@ class PrimitiveReader {
 
 }  // namespace
 
-bool GltfDeformation::none() const {
-  return !skeleton && !movingWeights &&
-         std::all_of(weights.begin(), weights.end(), [](double weight) { return weight == 0; });
+bool GltfPlacedMesh::isDeformed() const {
+  const std::vector<double>& weights = deformation.weights;
+  return deformation.skeleton || deformation.movingWeights ||
+         std::any_of(weights.begin(), weights.end(), [](double weight) { return weight != 0; });
 }
 
-std::vector<Mesh> readGltfMesh(const GltfDocument& document, std::size_t index,
-                               const std::vector<GltfMaterial>& materials,
-                               const GltfDeformation& deformation) {
-  const JsonValue source = document.list("meshes")[index], primitives = source.need("primitives");
+std::vector<Mesh> readGltfMesh(const GltfDocument& document, const GltfPlacedMesh& placed,
+                               const std::vector<GltfMaterial>& materials) {
+  const JsonValue source = document.list("meshes")[placed.mesh];
+  const JsonValue primitives = source.need("primitives");
   std::vector<Mesh> meshes;
   for (std::size_t i = 0; i < primitives.size(); ++i) {
     Mesh mesh;
     mesh.name = source["name"].textOr("");
-    const bool isSeen = PrimitiveReader(document, primitives[i], materials, deformation).read(mesh);
+    const bool isSeen = PrimitiveReader(document, primitives[i], materials, placed).read(mesh);
     if (isSeen) meshes.push_back(std::move(mesh));
   }
   return meshes;

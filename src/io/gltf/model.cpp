@@ -16,31 +16,6 @@ namespace whit {
 
 namespace {
 
-class GltfModel : public Model {
- public:
-  explicit GltfModel(const ModelSource& source);
-
-  const std::vector<Material>& materials() const override { return materials_; }
-  TexturedMaterial withMaps(std::size_t i, Material material, const GivenMembers& given,
-                            TextureLoader& textures) override;
-  // A body for each mesh of the file, which nodes share unless they bend it.
-  Body content(SceneLayout& layout, const std::vector<std::uint32_t>& materials) override;
-  // The picture takes the first camera's aspect ratio.
-  void addView(SceneDescription& scene) override;
-  std::vector<Animation> animations() const override { return listGltfAnimations(document_); }
-
- private:
-  std::uint32_t addBody(const GltfPlacedMesh& placed, SceneLayout& layout,
-                        const std::vector<std::uint32_t>& materials) const;
-  std::string nameOf(const GltfPlacedMesh& placed) const;
-
-  GltfDocument document_;
-  std::vector<GltfMaterial> sources_;
-  std::vector<Material> materials_;  // of sources_
-  GltfMapMaker maps_;
-  GltfStage stage_;
-};
-
 // Replaces what a scene file has not `given` by what `fresh` has. Maps stay.
 void renew(Material& to, const Material& fresh, const GivenMembers& given) {
   const float cutoff = to.alphaCutoff;
@@ -75,101 +50,112 @@ class MoverBodies {
   std::vector<std::uint32_t> bodies_;  // 0, the layout's scene: none yet
 };
 
-GltfModel::GltfModel(const ModelSource& source)
-    : document_(source.path, source.rules, source.budget, source.warnings),
-      sources_(readGltfMaterials(document_)),
-      maps_(document_),
-      stage_(readGltfNodes(document_, source.instant)) {
-  for (const GltfMaterial& material : sources_) materials_.push_back(shadedAs(material, {}));
-}
+class GltfModel : public Model {
+ public:
+  explicit GltfModel(const ModelSource& source)
+      : document_(source.path, source.rules, source.budget, source.warnings),
+        sources_(readGltfMaterials(document_)),
+        maps_(document_),
+        stage_(readGltfNodes(document_, source.instant)) {
+    for (const GltfMaterial& material : sources_) materials_.push_back(shadedAs(material, {}));
+  }
 
-TexturedMaterial GltfModel::withMaps(std::size_t i, Material material, const GivenMembers& given,
-                                     TextureLoader& textures) {
-  const GltfMaps maps = maps_.ask(sources_[i], textures);
-  if (!given.contains("diffuseMap")) material.diffuseMap = maps.diffuse;
-  if (!given.contains("specularMap")) material.specularMap = maps.specular;
-  // A roughness that is given is meant as it stands.
-  if (!given.contains("roughness") && !given.contains("roughnessMap")) {
-    material.roughnessMap = maps.roughness;
-  }
-  if (!given.contains("emissionMap")) material.emissionMap = maps.emission;
-  if (!given.contains("normalMap")) material.normalMap = maps.normal;
-  if (!given.contains("alphaMap")) material.alphaMap = maps.alpha;
-  if (!given.contains("coverage") && !given.contains("coverageMap")) {
-    material.coverageMap = maps.coverage;
-  }
-  const auto renewed = [source = sources_[i], given, means = maps.means](Material& m) {
-    renew(m, shadedAs(source, *means), given);
-  };
-  return {std::move(material), renewed};
-}
+  const std::vector<Material>& materials() const override { return materials_; }
+  std::vector<Animation> animations() const override { return listGltfAnimations(document_); }
 
-std::uint32_t GltfModel::addBody(const GltfPlacedMesh& placed, SceneLayout& layout,
-                                 const std::vector<std::uint32_t>& materials) const {
-  const std::uint32_t body = layout.add(document_.list("meshes")[placed.mesh]["name"].textOr(""));
-  addParts(readGltfMesh(document_, placed.mesh, sources_, placed.deformation), materials,
-           document_.name(), document_.budget(), layout.body(body));
-  return body;
-}
+  TexturedMaterial withMaps(std::size_t i, Material material, const GivenMembers& given,
+                            TextureLoader& textures) override {
+    const GltfMaps maps = maps_.ask(sources_[i], textures);
+    forEachMap([&](const auto& member) {
+      // A roughness or coverage that is given is meant as it stands.
+      const bool isReplaced =
+          (member.field == &Material::roughnessMap && given.contains("roughness")) ||
+          (member.field == &Material::coverageMap && given.contains("coverage"));
+      if (isReplaced || given.contains(member.name)) return;
+      material.*member.field = maps.slots.*member.field;
+    });
+    const auto renewed = [source = sources_[i], given, means = maps.means](Material& m) {
+      renew(m, shadedAs(source, *means), given);
+    };
+    return {std::move(material), renewed};
+  }
 
-// The node's, or its mesh's.
-std::string GltfModel::nameOf(const GltfPlacedMesh& placed) const {
-  std::string node = document_.list("nodes")[placed.node]["name"].textOr("");
-  if (!node.empty()) return node;
-  std::string mesh = document_.list("meshes")[placed.mesh]["name"].textOr("");
-  return mesh.empty() ? "/nodes/" + std::to_string(placed.node) : mesh;
-}
+  // A body for each mesh of the file, which nodes share unless they bend it.
+  Body content(SceneLayout& layout, const std::vector<std::uint32_t>& materials) override {
+    std::map<std::size_t, std::uint32_t> bodies;
+    bool empty = true;
+    Body all;
+    MoverBodies movers(stage_.movers, layout, all);
+    for (const GltfPlacedMesh& placed : stage_.meshes) {
+      const auto known = bodies.find(placed.mesh);
+      const bool shared = !placed.isDeformed() && known != bodies.end();
+      const std::uint32_t body = shared ? known->second : addBody(placed, layout, materials);
+      if (!placed.isDeformed()) bodies.emplace(placed.mesh, body);
+      empty = empty && layout.body(body).parts.empty();
+      movers.of(placed.mover)
+          .children.push_back({body,
+                               placed.toMover,
+                               0,
+                               nullptr,
+                               {},
+                               std::make_shared<const std::string>(nameOf(placed))});
+    }
+    if (empty) {
+      warnNothingToDraw(document_.list("meshes").size() == 0 ? "no meshes"
+                        : stage_.meshes.empty()              ? "no node shows a mesh"
+                                                             : "its meshes have no triangles",
+                        document_.name(), document_.warnings());
+    }
+    return all;
+  }
 
-Body GltfModel::content(SceneLayout& layout, const std::vector<std::uint32_t>& materials) {
-  std::map<std::size_t, std::uint32_t> bodies;
-  bool empty = true;
-  Body all;
-  MoverBodies movers(stage_.movers, layout, all);
-  for (const GltfPlacedMesh& placed : stage_.meshes) {
-    const auto known = bodies.find(placed.mesh);
-    const bool shared = placed.deformation.none() && known != bodies.end();
-    const std::uint32_t body = shared ? known->second : addBody(placed, layout, materials);
-    if (placed.deformation.none()) bodies.emplace(placed.mesh, body);
-    empty = empty && layout.body(body).parts.empty();
-    movers.of(placed.mover)
-        .children.push_back({body,
-                             placed.toMover,
-                             0,
-                             nullptr,
-                             {},
-                             std::make_shared<const std::string>(nameOf(placed))});
+  // The picture takes the first camera's aspect ratio.
+  void addView(SceneDescription& scene) override {
+    constexpr double kNarrowest = 0.1, kWidest = 10;
+    if (stage_.aspect > 0) {
+      const double aspect = std::clamp(stage_.aspect, kNarrowest, kWidest);
+      scene.width = static_cast<int>(std::lround(aspect * scene.height));
+    }
+    scene.cameras = stage_.cameras;
+    scene.lights = stage_.lights;
+    const auto first = static_cast<std::uint32_t>(scene.motion.rig.size());
+    for (RigNode node : stage_.movers) {
+      if (node.parent != kNoNode) node.parent += first;
+      scene.motion.rig.push_back(std::move(node));
+    }
+    for (MovingCamera camera : stage_.movingCameras) {
+      camera.node += first;
+      scene.motion.cameras.push_back(camera);
+    }
+    for (MovingLight light : stage_.movingLights) {
+      light.node += first;
+      scene.motion.lights.push_back(light);
+    }
   }
-  if (empty) {
-    warnNothingToDraw(document_.list("meshes").size() == 0 ? "no meshes"
-                      : stage_.meshes.empty()              ? "no node shows a mesh"
-                                                           : "its meshes have no triangles",
-                      document_.name(), document_.warnings());
-  }
-  return all;
-}
 
-void GltfModel::addView(SceneDescription& scene) {
-  constexpr double kNarrowest = 0.1, kWidest = 10;
-  if (stage_.aspect > 0) {
-    const double aspect = std::clamp(stage_.aspect, kNarrowest, kWidest);
-    scene.width = static_cast<int>(std::lround(aspect * scene.height));
+ private:
+  std::uint32_t addBody(const GltfPlacedMesh& placed, SceneLayout& layout,
+                        const std::vector<std::uint32_t>& materials) const {
+    const std::uint32_t body = layout.add(document_.list("meshes")[placed.mesh]["name"].textOr(""));
+    addParts(readGltfMesh(document_, placed, sources_), materials, document_.name(),
+             document_.budget(), layout.body(body));
+    return body;
   }
-  scene.cameras = stage_.cameras;
-  scene.lights = stage_.lights;
-  const auto first = static_cast<std::uint32_t>(scene.motion.rig.size());
-  for (RigNode node : stage_.movers) {
-    if (node.parent != kNoNode) node.parent += first;
-    scene.motion.rig.push_back(std::move(node));
+
+  // The node's, or its mesh's.
+  std::string nameOf(const GltfPlacedMesh& placed) const {
+    std::string node = document_.list("nodes")[placed.node]["name"].textOr("");
+    if (!node.empty()) return node;
+    std::string mesh = document_.list("meshes")[placed.mesh]["name"].textOr("");
+    return mesh.empty() ? "/nodes/" + std::to_string(placed.node) : mesh;
   }
-  for (MovingCamera camera : stage_.movingCameras) {
-    camera.node += first;
-    scene.motion.cameras.push_back(camera);
-  }
-  for (MovingLight light : stage_.movingLights) {
-    light.node += first;
-    scene.motion.lights.push_back(light);
-  }
-}
+
+  GltfDocument document_;
+  std::vector<GltfMaterial> sources_;
+  std::vector<Material> materials_;  // of sources_
+  GltfMapMaker maps_;
+  GltfStage stage_;
+};
 
 }  // namespace
 

@@ -48,124 +48,81 @@ Track::Interpolation interpolationOf(const JsonValue& sampler) {
   return name == "CUBICSPLINE" ? Track::Interpolation::cubic : Track::Interpolation::linear;
 }
 
-class AnimationReader {
- public:
-  AnimationReader(const GltfDocument& document, const JsonValue& animation)
-      : document_(document), animation_(animation), nodes_(document.list("nodes")) {}
-
-  // Time of the last key of all samplers in use.
-  double seconds() const {
-    double last = 0;
-    forEachChannel([&](std::size_t, const Target&, const JsonValue& sampler) {
-      const JsonValue most = accessorOf(document_, sampler.need("input"))["max"];
-      if (most.size() > 0) last = std::max(last, most[0].numberOr(0));
-    });
-    return last;
-  }
-
-  std::size_t movedNodes() const {
-    std::set<std::size_t> moved;
-    forEachChannel([&](std::size_t node, const Target&, const JsonValue&) { moved.insert(node); });
-    return moved.size();
-  }
-
-  void read(std::vector<GltfTracks>& tracks) const {
-    forEachChannel([&](std::size_t node, const Target& target, const JsonValue& sampler) {
-      Track track = readTrack(target, node, sampler);
-      if (track.components > 0) tracks[node].*target.track = std::move(track);
-    });
-  }
-
- private:
-  // Skips channels without a node and those that move what only an extension can move.
-  template <typename Use>
-  void forEachChannel(const Use& use) const {
-    const JsonValue channels = animation_["channels"], samplers = animation_["samplers"];
-    for (std::size_t i = 0; i < channels.size(); ++i) {
-      const JsonValue target = channels[i].need("target");
-      const auto node = target["node"].indexInto(nodes_);
-      const std::string path = target.need("path").textOr("");
-      for (const Target& known : kTargets) {
-        if (!node || known.path != path) continue;
-        use(*node, known, samplers[channels[i].need("sampler").indexInto(samplers).value_or(0)]);
-      }
+// Calls use(node, target, sampler) for each channel, except those without a node and those that
+// move what only an extension can move.
+template <typename Use>
+void forEachChannel(const GltfDocument& document, const JsonValue& animation, const Use& use) {
+  const JsonValue channels = animation["channels"], samplers = animation["samplers"];
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    const JsonValue target = channels[i].need("target");
+    const auto node = target["node"].indexInto(document.list("nodes"));
+    const std::string path = target.need("path").textOr("");
+    for (const Target& known : kTargets) {
+      if (!node || known.path != path) continue;
+      use(*node, known, samplers[channels[i].need("sampler").indexInto(samplers).value_or(0)]);
     }
   }
-
-  std::size_t morphTargets(std::size_t node) const {
-    const JsonValue meshes = document_.list("meshes");
-    const auto mesh = nodes_[node]["mesh"].indexInto(meshes);
-    return mesh ? meshes[*mesh]["primitives"][std::size_t{0}]["targets"].size() : 0;
-  }
-
-  Track readTrack(const Target& target, std::size_t node, const JsonValue& sampler) const {
-    Track track;
-    track.interpolation = interpolationOf(sampler);
-    track.rotation = target.path == "rotation";
-    track.components = target.components > 0 ? target.components : morphTargets(node);
-    if (track.components == 0) return track;
-    track.times = readTimes(sampler.need("input"));
-    const JsonValue output = sampler.need("output");
-    const std::vector<float> values =
-        readTuples(document_, output, std::max<std::size_t>(target.components, 1));
-    const std::size_t each = track.interpolation == Track::Interpolation::cubic ? 3 : 1;
-    const std::size_t expected = track.times.size() * track.components * each;
-    if (values.size() != expected) {
-      output.fail(std::to_string(expected) + " numbers for " + std::to_string(track.times.size()) +
-                      " times",
-                  std::to_string(values.size()));
-    }
-    if (!std::all_of(values.begin(), values.end(), [](float x) { return std::isfinite(x); })) {
-      output.fail("finite numbers", "one that is not");
-    }
-    track.values.assign(values.begin(), values.end());
-    return track;
-  }
-
-  std::vector<double> readTimes(const JsonValue& input) const {
-    const std::vector<float> times = readTuples(document_, input, 1);
-    if (times.empty()) input.fail("at least one time", "none");
-    for (std::size_t i = 0; i < times.size(); ++i) {
-      if (std::isfinite(times[i]) && (i == 0 || times[i] > times[i - 1])) continue;
-      input.fail("finite times that increase",
-                 formatted("%g at index %zu", static_cast<double>(times[i]), i));
-    }
-    return {times.begin(), times.end()};
-  }
-
-  const GltfDocument& document_;
-  JsonValue animation_, nodes_;
-};
-
-}  // namespace
-
-std::vector<Animation> listGltfAnimations(const GltfDocument& document) {
-  const JsonValue animations = document.list("animations");
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < animations.size(); ++i) {
-    const std::string name = animations[i]["name"].textOr("");
-    names.push_back(name.empty() ? "animation " + std::to_string(i) : name);
-  }
-  names = distinctNames(names);
-  std::vector<Animation> all;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const AnimationReader reader(document, animations[i]);
-    all.push_back({names[i], reader.seconds(), reader.movedNodes()});
-  }
-  return all;
 }
 
-namespace {
+std::size_t morphTargets(const GltfDocument& document, std::size_t node) {
+  const JsonValue meshes = document.list("meshes");
+  const auto mesh = document.list("nodes")[node]["mesh"].indexInto(meshes);
+  return mesh ? meshes[*mesh]["primitives"][std::size_t{0}]["targets"].size() : 0;
+}
 
+std::vector<double> readTimes(const GltfDocument& document, const JsonValue& input) {
+  const std::vector<float> times = readTuples(document, input, 1);
+  if (times.empty()) input.fail("at least one time", "none");
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (std::isfinite(times[i]) && (i == 0 || times[i] > times[i - 1])) continue;
+    input.fail("finite times that increase",
+               formatted("%g at index %zu", static_cast<double>(times[i]), i));
+  }
+  return {times.begin(), times.end()};
+}
+
+Track readTrack(const GltfDocument& document, const Target& target, std::size_t components,
+                const JsonValue& sampler) {
+  Track track;
+  track.interpolation = interpolationOf(sampler);
+  track.rotation = target.path == "rotation";
+  track.components = components;
+  track.times = readTimes(document, sampler.need("input"));
+  const JsonValue output = sampler.need("output");
+  const std::vector<float> values =
+      readTuples(document, output, std::max<std::size_t>(target.components, 1));
+  const std::size_t each = track.interpolation == Track::Interpolation::cubic ? 3 : 1;
+  const std::size_t expected = track.times.size() * components * each;
+  if (values.size() != expected) {
+    output.fail(
+        std::to_string(expected) + " numbers for " + std::to_string(track.times.size()) + " times",
+        std::to_string(values.size()));
+  }
+  if (!std::all_of(values.begin(), values.end(), [](float x) { return std::isfinite(x); })) {
+    output.fail("finite numbers", "one that is not");
+  }
+  track.values.assign(values.begin(), values.end());
+  return track;
+}
+
+// Returns the tracks of each node.
 std::vector<GltfTracks> readTracks(const GltfDocument& document, const Instant& instant) {
   std::vector<GltfTracks> tracks(document.list("nodes").size());
   if (!instant.moves()) return tracks;
   const std::vector<Animation> all = listGltfAnimations(document);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!instant.animation.empty() && all[i].name != instant.animation) continue;
-    AnimationReader(document, document.list("animations")[i]).read(tracks);
-    break;
-  }
+  const auto played = std::find_if(all.begin(), all.end(), [&](const Animation& animation) {
+    return instant.animation.empty() || animation.name == instant.animation;
+  });
+  if (played == all.end()) return tracks;
+  const JsonValue source =
+      document.list("animations")[static_cast<std::size_t>(played - all.begin())];
+  forEachChannel(document, source,
+                 [&](std::size_t node, const Target& target, const JsonValue& sampler) {
+                   const std::size_t components =
+                       target.components > 0 ? target.components : morphTargets(document, node);
+                   if (components == 0) return;
+                   tracks[node].*target.track = readTrack(document, target, components, sampler);
+                 });
   return tracks;
 }
 
@@ -179,12 +136,8 @@ Vec3d tripleOr(const std::vector<double>& v, const Vec3d& fallback) {
 
 using Quaternion = std::array<double, 4>;
 
-double squareOf(const Quaternion& q) {
-  return q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
-}
-
 Affine rotationOf(const Quaternion& q) {
-  const double norm = squareOf(q);
+  const double norm = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
   if (!(norm > 0) || !std::isfinite(norm)) return {};
   const double x = q[0], y = q[1], z = q[2], w = q[3], s = 2 / norm;
   return {{1 - s * (y * y + z * z), s * (x * y + z * w), s * (x * z - y * w)},
@@ -325,56 +278,41 @@ class TreeReader {
   }
 
   // The node within its parent: it has a place or a motion.
-  RigNode nodeOf(std::size_t index) {
-    RigNode node = asInFile(index);
+  RigNode nodeOf(std::size_t index) const {
+    const std::vector<double> matrix = nodes_[index]["matrix"].numbers(16);
     const std::string name = "/nodes/" + std::to_string(index);
+    RigNode node;
+    if (tracks_[index].place()) {
+      node.motion = std::make_shared<const NodeMotion>(placeOf(index), tracks_[index]);
+    } else {
+      node.toParent = matrix.empty() ? placeOf(index).map() : mapOf(matrix);
+    }
     if (!movable_.contains(name)) return node;
     if (!node.motion) node.motion = std::make_shared<const FixedMotion>(node.toParent);
     return {kNoNode, Affine(), node.motion, name};
   }
 
-  RigNode asInFile(std::size_t index) {
-    const GltfTracks& tracks = tracks_[index];
-    const std::vector<double> m = nodes_[index]["matrix"].numbers(16);
-    if (tracks.place()) {
-      return {kNoNode, Affine(), std::make_shared<const NodeMotion>(placeOf(index), tracks)};
-    }
-    if (m.empty()) return {kNoNode, placeOf(index).map(), nullptr};
-    if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) {
-      warn("last row of a matrix, other than 0 0 0 1, left out", index);
-    }
-    return {kNoNode, mapOf(m), nullptr};
-  }
-
-  NodePlace placeOf(std::size_t index) {
+  NodePlace placeOf(std::size_t index) const {
     const JsonValue node = nodes_[index];
     NodePlace place{tripleOr(node["translation"].numbers(3), {}),
                     {0, 0, 0, 1},
                     tripleOr(node["scale"].numbers(3), {1, 1, 1})};
     const std::vector<double> turn = node["rotation"].numbers(4);
     std::copy(turn.begin(), turn.end(), place.rotation.begin());
-    checkRotation(place.rotation, index);
     return place;
-  }
-
-  // The tolerance is what 8 bits a component can tell.
-  void checkRotation(const Quaternion& q, std::size_t index) {
-    constexpr double kRounding = 0.0077;
-    if (std::abs(std::sqrt(squareOf(q)) - 1) <= kRounding) return;
-    warn("rotation that is not of unit length normalized", index);
   }
 
   void placeMesh(std::size_t index, const Affine& map, std::uint32_t mover) {
     const JsonValue copies = nodes_[index]["extensions"]["EXT_mesh_gpu_instancing"];
     const std::size_t mesh = *nodes_[index]["mesh"].indexInto(document_.list("meshes"));
-    const GltfDeformation deformation = deformationOf(index, mesh);
+    const Deformation deformation = deformationOf(index, mesh);
     if (deformation.skeleton) {
       return stage_.meshes.push_back({mesh, Affine(), kNoNode, deformation, index});
     }
     if (!copies.exists()) {
       return stage_.meshes.push_back({mesh, map, mover, deformation, index});
     }
-    for (const Affine& copy : readCopies(copies.need("attributes"), index)) {
+    for (const Affine& copy : readCopies(copies.need("attributes"))) {
       const Affine toMover = map * copy;
       if (isUsable(toMover)) {
         stage_.meshes.push_back({mesh, toMover, mover, deformation, index});
@@ -384,9 +322,9 @@ class TreeReader {
     }
   }
 
-  GltfDeformation deformationOf(std::size_t index, std::size_t mesh) {
+  Deformation deformationOf(std::size_t index, std::size_t mesh) {
     const JsonValue node = nodes_[index];
-    GltfDeformation deformation;
+    Deformation deformation;
     if (const auto skin = node["skin"].indexInto(document_.list("skins"))) {
       deformation = skinOf(*skin);
       document_.budget().charge(deformation.joints.size(), sizeof(Deformation::Joint),
@@ -401,7 +339,7 @@ class TreeReader {
   }
 
   // Joints may come later in the tree than the meshes they hold.
-  const GltfDeformation& skinOf(std::size_t index) {
+  const Deformation& skinOf(std::size_t index) {
     const auto [known, isNew] = skins_.try_emplace(index);
     if (!isNew) return known->second;
     const JsonValue skin = document_.list("skins")[index];
@@ -447,7 +385,7 @@ class TreeReader {
   }
 
   // EXT_mesh_gpu_instancing: the places of the copies within the node.
-  std::vector<Affine> readCopies(const JsonValue& attributes, std::size_t index) {
+  std::vector<Affine> readCopies(const JsonValue& attributes) const {
     const JsonValue translation = attributes["TRANSLATION"], rotation = attributes["ROTATION"];
     const JsonValue scale = attributes["SCALE"];
     std::vector<Vec3f> translations, scales;
@@ -469,7 +407,6 @@ class TreeReader {
     for (std::size_t i = 0; i < count; ++i) {
       Quaternion turn{0, 0, 0, 1};
       if (turns > 0) std::copy_n(&rotations[4 * i], 4, turn.begin());
-      checkRotation(turn, index);
       const NodePlace place{translations.empty() ? Vec3d() : Vec3d(translations[i]), turn,
                             scales.empty() ? Vec3d(1.0) : Vec3d(scales[i])};
       copies.push_back(place.map());
@@ -523,7 +460,7 @@ class TreeReader {
     const std::string type = source.need("type").textOr("");
     if (type == "spot") {
       light.kind = Light::Kind::spot;
-      if (!setCone(source.need("spot"), light)) warn("spot light's cone repaired", index);
+      setCone(source.need("spot"), light);
     } else if (type == "directional") {
       light.kind = Light::Kind::directional;
     } else if (type != "point") {
@@ -551,19 +488,15 @@ class TreeReader {
     for (std::size_t i = 0; i < names.size(); ++i) stage_.cameras[i].name = names[i];
   }
 
-  // Returns whether 0 <= inner <= outer and half a degree <= outer <= a right angle. Equal angles,
-  // a sharp edge, are accepted: the extension forbids them, but writers produce them.
-  static bool setCone(const JsonValue& spot, Light& light) {
+  // Equal angles, a sharp edge, are accepted: the extension forbids them, but writers produce them.
+  static void setCone(const JsonValue& spot, Light& light) {
     constexpr double kRightAngle = std::numbers::pi / 2, kLeastOuter = std::numbers::pi / 360;
     const double outerAngle = spot["outerConeAngle"].numberOr(std::numbers::pi / 4);
-    const double innerAngle = spot["innerConeAngle"].numberOr(0);
     const double outer = std::clamp(outerAngle, kLeastOuter, kRightAngle);
-    const double inner = std::clamp(innerAngle, 0.0, outer);
+    const double inner = std::clamp(spot["innerConeAngle"].numberOr(0), 0.0, outer);
     light.outerConeAngle = static_cast<float>(outer * 180 / std::numbers::pi);
     light.innerConeAngle = std::min(static_cast<float>(inner * 180 / std::numbers::pi),
                                     std::nextafter(light.outerConeAngle, 0.0f));
-    constexpr double kRounding = 1e-5;
-    return std::abs(outer - outerAngle) < kRounding && std::abs(inner - innerAngle) < kRounding;
   }
 
   const GltfDocument& document_;
@@ -571,12 +504,35 @@ class TreeReader {
   const std::vector<GltfTracks>& tracks_;
   const std::set<std::string>& movable_;
   std::vector<std::size_t> parents_;
-  std::map<std::size_t, GltfDeformation> skins_;
+  std::map<std::size_t, Deformation> skins_;
   std::vector<bool> seen_;
   GltfStage stage_;
 };
 
 }  // namespace
+
+std::vector<Animation> listGltfAnimations(const GltfDocument& document) {
+  const JsonValue animations = document.list("animations");
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < animations.size(); ++i) {
+    const std::string name = animations[i]["name"].textOr("");
+    names.push_back(name.empty() ? "animation " + std::to_string(i) : name);
+  }
+  names = distinctNames(names);
+  std::vector<Animation> all;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    std::set<std::size_t> moved;
+    double last = 0;  // the time of the last key of all samplers in use
+    forEachChannel(document, animations[i],
+                   [&](std::size_t node, const Target&, const JsonValue& sampler) {
+                     moved.insert(node);
+                     const JsonValue most = accessorOf(document, sampler.need("input"))["max"];
+                     if (most.size() > 0) last = std::max(last, most[0].numberOr(0));
+                   });
+    all.push_back({names[i], last, moved.size()});
+  }
+  return all;
+}
 
 GltfStage readGltfNodes(const GltfDocument& document, const Instant& instant) {
   return TreeReader(document, readTracks(document, instant), instant.movable).read();

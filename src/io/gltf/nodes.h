@@ -5,8 +5,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,15 +26,16 @@ inline constexpr int kGltfDepthLimit = 256;
 // lux and W/m^2 of directional lights.
 inline constexpr double kLumensPerWatt = 683;
 
-// How a node bends its mesh.
-struct GltfDeformation {
-  std::vector<double> weights;  // of morph targets; those that are missing are zero
-  std::optional<Track> movingWeights;
-  std::shared_ptr<const Rig> skeleton;  // in the space of the document; none: no skin
-  std::vector<Deformation::Joint> joints;
+// The nodes that move, a parent before its children. Meshes, cameras and lights refer to their node
+// by index; kNoNode stands for the scene.
+struct GltfPlacedMesh {
+  std::size_t mesh = 0;
+  Affine toMover;  // of a skinned mesh the identity: its joints place it
+  std::uint32_t mover = kNoNode;
+  Deformation deformation;  // only weights, skeleton and joints are set; the mesh has the rest
+  std::size_t node = 0;     // that shows it
 
-  // True if the mesh is not deformed.
-  bool none() const;
+  bool isDeformed() const;
 };
 
 // One Mesh for each primitive that consists of triangles, strips or fans, with one material: an
@@ -46,19 +45,8 @@ struct GltfDeformation {
 // deformed as at the start; tangents are left out, because the directions of normal maps follow
 // from texture coordinates. Throws as the accessors do, and badScene where attributes differ in
 // length.
-std::vector<Mesh> readGltfMesh(const GltfDocument& document, std::size_t mesh,
-                               const std::vector<GltfMaterial>& materials,
-                               const GltfDeformation& deformation = {});
-
-// The nodes that move, a parent before its children. Meshes, cameras and lights refer to their node
-// by index; kNoNode stands for the scene.
-struct GltfPlacedMesh {
-  std::size_t mesh = 0;
-  Affine toMover;  // of a skinned mesh the identity: its joints place it
-  std::uint32_t mover = kNoNode;
-  GltfDeformation deformation;
-  std::size_t node = 0;  // that shows it
-};
+std::vector<Mesh> readGltfMesh(const GltfDocument& document, const GltfPlacedMesh& placed,
+                               const std::vector<GltfMaterial>& materials);
 
 struct GltfStage {
   Rig movers;
@@ -74,8 +62,8 @@ struct GltfStage {
 std::vector<Animation> listGltfAnimations(const GltfDocument& document);
 
 // Places the nodes of the default scene, else of the first one, else all nodes. Nodes that flatten
-// space are left out with their content; the ranges of lights are left out; rotations are
-// normalized: each is counted in the document's warnings. Cameras have distinct names. The tracks
+// space are left out with their content, and so are the ranges of lights: each is counted in the
+// document's warnings. Rotations are normalized. Cameras have distinct names. The tracks
 // of the animation that `instant` plays replace the properties of their nodes; the nodes
 // `instant.movable` ("/nodes/i") always move. Throws badScene "file#/nodes/i" where the nodes are
 // no tree or deeper than kGltfDepthLimit, and "file#/animations/i/..." where the animation is

@@ -18,7 +18,7 @@ namespace whit {
 
 class DecodeQueue {
  public:
-  // threads 0: all that this process may use.
+  // With 0 threads, it uses as many as this process may use.
   DecodeQueue(int threads, Progress* progress, std::string phase)
       : progress_(progress),
         phase_(std::move(phase)),

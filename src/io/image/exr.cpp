@@ -81,7 +81,7 @@ std::int32_t checkHeaders(const std::string& path) {
   return std::max(lines, 1);
 }
 
-// The names and types of channels to read.
+// Names the channels to read, with the types that their values get.
 using ExrChannels = std::vector<std::pair<std::string, Imf::PixelType>>;
 
 // Moves `values`, which fill the box `from`, into the box `to`; the rest of that is 0.
@@ -194,7 +194,8 @@ auto reading(const std::string& path, Use&& use) {
   }
 }
 
-// The 1 to 4 color channels to read. OpenEXR stores 0 where the file lacks one of R, G and B.
+// Returns the 1 to 4 color channels to read. OpenEXR stores 0 where the file lacks one of R, G and
+// B.
 ExrChannels colorChannels(const std::string& path, const Imf::ChannelList& list) {
   const auto has = [&](const char* name) { return list.findChannel(name) != nullptr; };
   ExrChannels channels;

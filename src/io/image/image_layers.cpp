@@ -28,7 +28,7 @@ bool isColor(Channel channel) {
   return channel == Channel::normal || channel == Channel::albedo || channel == Channel::uv;
 }
 
-// The 16-bit code of a value before it is rounded; it may be out of range.
+// Returns the 16-bit code of a value before it is rounded; it may be out of range.
 double codeOf(Channel channel, double value) {
   switch (channel) {
     case Channel::depth:

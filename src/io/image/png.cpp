@@ -145,8 +145,8 @@ bool isAscii(const std::string& text) {
   return std::all_of(text.begin(), text.end(), [](unsigned char c) { return c < 127; });
 }
 
-// Latin-1 chunks for plain text, UTF-8 ones for the rest. The chunks point into `metadata`, which
-// libpng only reads; it cuts the keywords.
+// Stores plain text in Latin-1 chunks and the rest in UTF-8 ones. The chunks point into `metadata`,
+// which libpng only reads; it cuts the keywords.
 std::vector<png_text> textChunks(const ImageMetadata& metadata) {
   std::vector<png_text> chunks;
   for (const auto& [name, text] : metadata) {

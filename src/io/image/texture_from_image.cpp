@@ -9,12 +9,6 @@ namespace whit {
 
 namespace {
 
-// Channel `c` of texel `i` as stored, codes as fractions of 255.
-float channel(const RawImage& raw, std::size_t i, int c) {
-  const std::size_t at = i * static_cast<std::size_t>(raw.channels) + static_cast<std::size_t>(c);
-  return raw.linear ? raw.values[at] : static_cast<float>(raw.codes[at]) / 255.0f;
-}
-
 int wrapped(int i, int size, Wrap wrap) {
   return wrap == Wrap::repeat ? (i + size) % size : std::clamp(i, 0, size - 1);
 }
@@ -66,18 +60,40 @@ std::uint64_t countAbove(const RawImage& raw, float limit) {
 
 }  // namespace
 
-Texture makeTexture(const std::string& name, const RawImage& raw, TexelFormat format) {
+std::array<float, 4> valuesAt(const RawImage& raw, std::size_t i) {
+  if (raw.linear) return channelsOf(raw.values, raw.channels, i, 1.0f);
+  const auto codes = channelsOf(raw.codes, raw.channels, i, std::uint8_t{255});
+  std::array<float, 4> values{};
+  for (std::size_t c = 0; c < 4; ++c) values[c] = static_cast<float>(codes[c]) / 255.0f;
+  return values;
+}
+
+Texture emptyTexture(const std::string& name, TexelFormat format, int width, int height) {
   Texture texture;
   texture.name = name;
   texture.format = format;
-  texture.width = raw.width;
-  texture.height = raw.height;
-  texture.texels.resize(raw.pixels());
+  texture.width = width;
+  texture.height = height;
+  texture.texels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  return texture;
+}
+
+Texture makeTexture(const std::string& name, const RawImage& raw, TexelFormat format) {
+  Texture texture = emptyTexture(name, format, raw.width, raw.height);
   for (std::size_t i = 0; i < texture.texels.size(); ++i) {
     texture.texels[i] =
         raw.linear
             ? texelOfValues(channelsOf(raw.values, raw.channels, i, 1.0f), format)
             : texelOfCodes(channelsOf(raw.codes, raw.channels, i, std::uint8_t{255}), format);
+  }
+  return texture;
+}
+
+Texture makeAlphaTexture(const std::string& name, const RawImage& raw) {
+  Texture texture = emptyTexture(name, TexelFormat::data, raw.width, raw.height);
+  for (std::size_t i = 0; i < texture.texels.size(); ++i) {
+    const float alpha = valuesAt(raw, i)[3];
+    texture.texels[i] = encodeDataTexel(alpha, alpha, alpha, 1);
   }
   return texture;
 }
@@ -115,36 +131,18 @@ EnvironmentImage makeEnvironment(const RawImage& raw) {
 }
 
 bool hasTranslucentAlpha(const RawImage& raw) {
-  if (raw.channels != 2 && raw.channels != 4) return false;
-  const std::size_t count = raw.pixels();
-  for (std::size_t i = 0; i < count; ++i) {
-    if (channel(raw, i, raw.channels - 1) < 1.0f) return true;
+  const bool hasAlpha = raw.channels == 2 || raw.channels == 4;
+  for (std::size_t i = 0; hasAlpha && i < raw.pixels(); ++i) {
+    if (valuesAt(raw, i)[3] < 1.0f) return true;
   }
   return false;
-}
-
-RawImage alphaOf(const RawImage& raw) {
-  RawImage alpha;
-  alpha.width = raw.width;
-  alpha.height = raw.height;
-  alpha.channels = 1;
-  alpha.linear = raw.linear;
-  const auto take = [&](const auto& from, auto& to) {
-    const auto stride = static_cast<std::size_t>(raw.channels);
-    to.reserve(from.size() / stride);
-    for (std::size_t i = stride; i <= from.size(); i += stride) to.push_back(from[i - 1]);
-  };
-  take(raw.values, alpha.values);
-  take(raw.codes, alpha.codes);
-  return alpha;
 }
 
 bool looksLikeHeights(const RawImage& raw) {
   if (raw.channels < 3) return true;
   constexpr float kChromaNoise = 16.0f / 255.0f;  // in gray pictures stored as JPEG
-  const std::size_t count = raw.pixels();
-  for (std::size_t i = 0; i < count; ++i) {
-    const float r = channel(raw, i, 0), g = channel(raw, i, 1), b = channel(raw, i, 2);
+  for (std::size_t i = 0; i < raw.pixels(); ++i) {
+    const auto [r, g, b, a] = valuesAt(raw, i);
     if (std::max({r, g, b}) - std::min({r, g, b}) > kChromaNoise) return false;
   }
   return true;
@@ -152,16 +150,11 @@ bool looksLikeHeights(const RawImage& raw) {
 
 Texture normalsFromHeights(const std::string& name, const RawImage& raw, float bumpScale,
                            Wrap wrapU, Wrap wrapV) {
-  Texture texture;
-  texture.name = name;
-  texture.format = TexelFormat::data;
-  texture.width = raw.width;
-  texture.height = raw.height;
-  texture.texels.resize(raw.pixels());
+  Texture texture = emptyTexture(name, TexelFormat::data, raw.width, raw.height);
   const auto height = [&](int x, int y) {
     const std::size_t row = static_cast<std::size_t>(wrapped(y, raw.height, wrapV));
     const std::size_t column = static_cast<std::size_t>(wrapped(x, raw.width, wrapU));
-    return channel(raw, row * static_cast<std::size_t>(raw.width) + column, 0);
+    return valuesAt(raw, row * static_cast<std::size_t>(raw.width) + column)[0];
   };
   // Slopes per tile width, so that the relief does not depend on the resolution.
   const float scaleX = bumpScale / kTileHeights * static_cast<float>(raw.width) / 2;

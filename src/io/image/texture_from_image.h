@@ -1,6 +1,7 @@
 // Converts decoded images to what shading reads: textures, environments, normal maps.
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "io/image/image_file.h"
@@ -25,8 +26,13 @@ EnvironmentImage makeEnvironment(const RawImage& raw);
 
 // True if there is an alpha channel (2 or 4 channels) with a texel below opaque.
 bool hasTranslucentAlpha(const RawImage& raw);
-// Returns the alpha channel as an image of one channel.
-RawImage alphaOf(const RawImage& raw);
+// Makes a data texture of the alpha channel alone.
+Texture makeAlphaTexture(const std::string& name, const RawImage& raw);
+// Returns a texture whose texels are 0.
+Texture emptyTexture(const std::string& name, TexelFormat format, int width, int height);
+// Returns the stored channels of pixel `i` as r, g, b, a; codes become fractions of 255. A gray
+// image has one value for r, g and b; a missing alpha is 1.
+std::array<float, 4> valuesAt(const RawImage& raw, std::size_t i);
 
 // Returns true if a bump map holds heights: it has one or two channels, or is gray. Normal maps are
 // never gray: their blue is near 1 where red and green are near 1/2.
