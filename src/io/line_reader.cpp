@@ -64,13 +64,8 @@ std::string_view LineReader::rest() {
 
 bool LineReader::number(double& value) {
   skipBlanks();
-  const char* after = parseNumber(at_, end_, value);
-  if (after == nullptr) return false;
-  if (*after == '#' && after[-1] == '.') {  // old Microsoft libraries print "-1.#IND"
-    value = std::numeric_limits<double>::quiet_NaN();
-    while (!isWordEnd(++after)) continue;
-  }
-  if (!isWordEnd(after)) return false;
+  const char* const after = parseNumber(at_, end_, value);
+  if (after == nullptr || !isWordEnd(after)) return false;
   at_ = after;
   return true;
 }

@@ -11,9 +11,7 @@
 #include "io/image/image_file.h"
 #include "io/image/texture_from_image.h"
 #include "io/json_reader.h"
-#include "io/paths.h"
 #include "io/read_file.h"
-#include "io/scene/scene_context.h"
 #include "io/scene/scene_sections.h"
 #include "io/scene/scene_settings.h"
 #include "make/model_view.h"
@@ -160,8 +158,7 @@ void requireMovable(const std::string& pointer, const SceneDescription& scene) {
 
 // The instant that was asked for is one of something that moves.
 void settleInstant(const Instant& instant, SceneDescription& scene) {
-  std::vector<std::string> names;
-  for (const Animation& animation : scene.animations) names.push_back(animation.name);
+  const std::vector<std::string> names = namesIn(scene.animations);
   const bool known = std::find(names.begin(), names.end(), instant.animation) != names.end();
   if (!instant.animation.empty() && !known) {
     throwUsage(scene.name + " has no animation '" + instant.animation + "'" +

@@ -4,9 +4,9 @@
 
 #include <condition_variable>
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <string>
-#include <utility>
 
 #include "core/error.h"
 
@@ -28,9 +28,23 @@ class MemoryBudget {
     return limit_ - used_ - held_;
   }
 
- private:
-  friend class MemoryHold;
+  // A MemoryHold calls these two.
+  void hold(std::uint64_t count, std::uint64_t size, const std::string& what) {
+    const std::lock_guard lock(mutex_);
+    take(count, size, what);
+    used_ -= count * size;
+    held_ += count * size;
+  }
+  void endHold(std::uint64_t bytes, std::uint64_t kept) {
+    {
+      const std::lock_guard lock(mutex_);
+      held_ -= bytes;
+      used_ += kept;
+    }
+    givenBack_.notify_all();
+  }
 
+ private:
   bool fits(std::uint64_t count, std::uint64_t size) const {
     return size == 0 || count <= (limit_ - used_ - held_) / size;
   }
@@ -56,40 +70,27 @@ class MemoryHold {
   MemoryHold() = default;
   // Does not wait, so that those who hold something cannot wait for each other: throws
   // Error(limit) at once where it does not fit.
-  MemoryHold(MemoryBudget* budget, std::uint64_t count, std::uint64_t size, const std::string& what)
-      : budget_(budget) {
+  MemoryHold(MemoryBudget* budget, std::uint64_t count, std::uint64_t size,
+             const std::string& what) {
     if (!budget) return;
-    const std::lock_guard lock(budget->mutex_);
-    budget->take(count, size, what);
-    budget->used_ -= count * size;
-    budget->held_ += bytes_ = count * size;
+    budget->hold(count, size, what);
+    held_ = std::unique_ptr<MemoryBudget, GiveBack>(budget, GiveBack{count * size});
   }
-  MemoryHold(MemoryHold&& other) noexcept
-      : budget_(std::exchange(other.budget_, nullptr)), bytes_(std::exchange(other.bytes_, 0)) {}
-  MemoryHold& operator=(MemoryHold&& other) noexcept {
-    std::swap(budget_, other.budget_);
-    std::swap(bytes_, other.bytes_);
-    return *this;
-  }
-  ~MemoryHold() { end(false); }
 
-  // For good: what was held is now charged.
-  void keep() { end(true); }
+  // Charges the budget for good with what was held.
+  void keep() {
+    const std::uint64_t bytes = held_.get_deleter().bytes;
+    if (MemoryBudget* const budget = held_.release()) budget->endHold(bytes, bytes);
+  }
 
  private:
-  void end(bool keep) {
-    if (!budget_) return;
-    {
-      const std::lock_guard lock(budget_->mutex_);
-      budget_->held_ -= bytes_;
-      if (keep) budget_->used_ += bytes_;
-    }
-    budget_->givenBack_.notify_all();
-    budget_ = nullptr;
-  }
+  struct GiveBack {
+    std::uint64_t bytes;
 
-  MemoryBudget* budget_ = nullptr;
-  std::uint64_t bytes_ = 0;
+    void operator()(MemoryBudget* budget) const { budget->endHold(bytes, 0); }
+  };
+
+  std::unique_ptr<MemoryBudget, GiveBack> held_;
 };
 
 }  // namespace whit

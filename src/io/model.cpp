@@ -9,15 +9,12 @@ namespace {
 
 using Opener = std::unique_ptr<Model> (*)(const ModelSource&);
 
-const std::map<std::string, Opener>& openers() {
-  static const std::map<std::string, Opener> all = {
-      {".glb", openGltf}, {".gltf", openGltf}, {".obj", openObj}, {".ply", openPly}};
-  return all;
-}
+const std::map<std::string, Opener> kOpeners = {
+    {".glb", openGltf}, {".gltf", openGltf}, {".obj", openObj}, {".ply", openPly}};
 
 Opener openerOf(const std::filesystem::path& path) {
-  const auto found = openers().find(extensionOf(path));
-  return found == openers().end() ? nullptr : found->second;
+  const auto found = kOpeners.find(extensionOf(path));
+  return found == kOpeners.end() ? nullptr : found->second;
 }
 
 }  // namespace
@@ -26,7 +23,7 @@ bool isModelFile(const std::filesystem::path& path) { return openerOf(path) != n
 
 std::string modelExtensions() {
   std::string list;
-  for (const auto& [extension, opener] : openers()) {
+  for (const auto& [extension, opener] : kOpeners) {
     list += (list.empty() ? "" : ", ") + extension;
   }
   return list;

@@ -6,7 +6,7 @@
 namespace whit {
 namespace {
 
-using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+using Triangles = std::vector<CornerTriple>;
 
 struct Point {
   double x = 0, y = 0;
@@ -52,11 +52,9 @@ void quad(const std::vector<Vec3d>& p, Triangles& triangles) {
   const bool even = bothFaceAlike(0, 1, 2, 3), odd = bothFaceAlike(1, 2, 3, 0);
   const Vec3d d02 = p[2] - p[0], d13 = p[3] - p[1];
   if (even == odd ? dot(d02, d02) <= dot(d13, d13) : even) {
-    triangles.push_back({0, 1, 2});
-    triangles.push_back({0, 2, 3});
+    triangles.insert(triangles.end(), {{0, 1, 2}, {0, 2, 3}});
   } else {
-    triangles.push_back({1, 2, 3});
-    triangles.push_back({1, 3, 0});
+    triangles.insert(triangles.end(), {{1, 2, 3}, {1, 3, 0}});
   }
 }
 

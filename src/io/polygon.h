@@ -10,6 +10,8 @@
 
 namespace whit {
 
+using CornerTriple = std::array<std::uint32_t, 3>;
+
 // Beyond this many corners only a fan is tried: clipping ears takes up to the cube of it.
 inline constexpr std::size_t kEarCornerLimit = 512;
 
@@ -18,19 +20,15 @@ inline constexpr std::size_t kEarCornerLimit = 512;
 // clipping ears (Meisters 1975, "Polygons have ears") in the plane of Newell's normal. Returns
 // false where that was not possible (crossing edges, no plane, too many corners of a concave
 // polygon) and a fan was made instead.
-bool triangulate(const std::vector<Vec3d>& corners,
-                 std::vector<std::array<std::uint32_t, 3>>& triangles);
+bool triangulate(const std::vector<Vec3d>& corners, std::vector<CornerTriple>& triangles);
 
-using CornerTriple = std::array<std::uint32_t, 3>;
-
-// Strips and fans join their parts by triangles that have a corner twice: nothing is to be seen of
-// those.
+// Strips and fans join their parts by triangles that have a corner twice, which are left out.
 inline void addJoined(const CornerTriple& corners, std::vector<CornerTriple>& to) {
   const auto& [a, b, c] = corners;
   if (a != b && b != c && c != a) to.push_back(corners);
 }
 
-// Every other triangle the other way round, so that all face the same side.
+// Turns every other triangle round, so that all face the same side.
 inline void addStrip(std::span<const std::uint32_t> corners, std::vector<CornerTriple>& to) {
   for (std::size_t i = 0; i + 2 < corners.size(); ++i) {
     addJoined({corners[i], corners[i + 1 + i % 2], corners[i + 2 - i % 2]}, to);

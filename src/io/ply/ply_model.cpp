@@ -92,8 +92,6 @@ Component componentOf(const PlyProperty& property) {
   return static_cast<Component>(component);
 }
 
-bool isPlySpace(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
-
 // Nothing is allocated that the file cannot fill. Elements other than vertex, face and tristrips
 // are skipped; faces with vertices out of range are counted in the warnings.
 class PlyReader {
@@ -133,8 +131,7 @@ class PlyReader {
  private:
   // "file:line", or "file: byte N" in binary data.
   std::string place() const {
-    if (ascii_) return file_ + ":" + std::to_string(line_);
-    return file_ + ": byte " + std::to_string(at_);
+    return ascii_ ? lines_.place() : file_ + ": byte " + std::to_string(at_);
   }
   [[noreturn]] void failInHeader(const std::string& what) const {
     throwBadScene(lines_.place(), what);
@@ -162,7 +159,6 @@ class PlyReader {
     if (!hasFormat) failInHeader("expected a line \"format\" before the header's end");
     lines_.nextLine();
     at_ = lines_.at();
-    line_ = lines_.line();
     for (const PlyElement& element : elements_) checkCount(element);
   }
 
@@ -244,14 +240,9 @@ class PlyReader {
   }
 
   double textNumber() {
-    for (; at_ < text_.size() && isPlySpace(text_[at_]); ++at_) line_ += text_[at_] == '\n';
+    while (!lines_.hasMore() && !lines_.done()) lines_.nextLine();
     double value = 0;
-    const char* const end = text_.data() + text_.size();
-    const char* const rest = parseNumber(text_.data() + at_, end, value);
-    if (rest == nullptr || (rest != end && !isPlySpace(*rest))) {
-      throwBadScene(place(), "expected a number");
-    }
-    at_ = static_cast<std::size_t>(rest - text_.data());
+    if (!lines_.number(value)) throwBadScene(place(), "expected a number");
     return value;
   }
 
@@ -372,13 +363,12 @@ class PlyReader {
 
   const std::string& text_;
   const std::string& file_;
-  LineReader lines_;  // of the header
+  LineReader lines_;  // the header, and the data where it is text
   MemoryBudget& budget_;
   Warnings& warnings_;
   bool ascii_ = false, reversed_ = false;
   std::vector<PlyElement> elements_;
-  std::size_t at_ = 0;      // in the data
-  std::uint64_t line_ = 0;  // at that place
+  std::size_t at_ = 0;  // in binary data
   Mesh mesh_;
   // The face that is being added.
   std::vector<Vec3d> points_;

@@ -18,46 +18,38 @@ constexpr double kLeastScale = 1e-9, kLargestScale = 1e9;
 // Numbers of a key: three of translation, the degrees, three of scale.
 constexpr std::size_t kKeyNumbers = 7;
 
-class KeyReader {
- public:
-  void read(const JsonValue& value) {
-    JsonObject key(value);
-    const JsonValue time = key.need("time");
-    if (!times.empty() && !(time.number() > times.back())) {
-      time.fail("a time after that of the key before");
-    }
-    times.push_back(time.number());
-    const JsonValue translate = key.find("translate"), rotate = key.find("rotate");
-    const JsonValue scale = key.find("scale");
-    add(translate ? translate.vector() : Vec3d());
-    values.push_back(rotate ? readDegrees(rotate) : 0);
-    add(scale ? readScale(scale) : Vec3d(1.0));
-    key.finish();
+Vec3d readKeyScale(const JsonValue& value) {
+  const Vec3d scale = value.isNumber() ? Vec3d(value.number()) : value.vector();
+  for (const double s : {scale.x, scale.y, scale.z}) {
+    if (!(s >= kLeastScale && s <= kLargestScale)) value.fail("a scale above 0");
   }
+  return scale;
+}
 
-  std::vector<double> times, values;
-  Vec3d axis;  // none: nothing is turned
+// `axis` is 0 before the first rotation.
+double readDegrees(const JsonValue& value, Vec3d& axis) {
+  const auto e = value.elements(4, "a rotation [x, y, z, degrees]");
+  const Vec3d about{e[0].number(), e[1].number(), e[2].number()};
+  if (about == Vec3d()) value.fail("an axis other than 0");
+  if (axis == Vec3d()) axis = about;
+  if (!(axis == about)) value.fail("the axis of the keys before: groups turn about several");
+  return e[3].number();
+}
 
- private:
-  void add(const Vec3d& v) { values.insert(values.end(), {v.x, v.y, v.z}); }
-
-  static Vec3d readScale(const JsonValue& value) {
-    const Vec3d scale = value.isNumber() ? Vec3d(value.number()) : value.vector();
-    for (const double s : {scale.x, scale.y, scale.z}) {
-      if (!(s >= kLeastScale && s <= kLargestScale)) value.fail("a scale above 0");
-    }
-    return scale;
+void readKey(const JsonValue& value, Track& track, Vec3d& axis) {
+  JsonObject key(value);
+  const JsonValue time = key.need("time"), translate = key.find("translate");
+  const JsonValue rotate = key.find("rotate"), scale = key.find("scale");
+  if (!track.times.empty() && !(time.number() > track.times.back())) {
+    time.fail("a time after that of the key before");
   }
-
-  double readDegrees(const JsonValue& value) {
-    const auto e = value.elements(4, "a rotation [x, y, z, degrees]");
-    const Vec3d about{e[0].number(), e[1].number(), e[2].number()};
-    if (about == Vec3d()) value.fail("an axis other than 0");
-    if (axis == Vec3d()) axis = about;
-    if (!(axis == about)) value.fail("the axis of the keys before: groups turn about several");
-    return e[3].number();
-  }
-};
+  track.times.push_back(time.number());
+  const Vec3d t = translate ? translate.vector() : Vec3d();
+  const double degrees = rotate ? readDegrees(rotate, axis) : 0;
+  const Vec3d s = scale ? readKeyScale(scale) : Vec3d(1.0);
+  track.values.insert(track.values.end(), {t.x, t.y, t.z, degrees, s.x, s.y, s.z});
+  key.finish();
+}
 
 // Along the line between the neighbors; at the ends along that to the only one, but where a loop
 // ends as it begins: there it goes on.
@@ -142,16 +134,16 @@ std::shared_ptr<const Motion> readMotion(JsonObject& object, const Instant& inst
     return std::make_shared<const FixedMotion>(Affine());
   }
   JsonObject motion(value);
-  KeyReader keys;
   const JsonValue list = motion.need("keys");
-  for (const JsonValue& key : list.elements()) keys.read(key);
-  if (keys.times.empty()) list.fail("at least one key");
-  Track track{readInterpolation(motion), false, kKeyNumbers, keys.times, keys.values};
+  Track track{readInterpolation(motion), false, kKeyNumbers, {}, {}};
+  Vec3d axis;  // 0: nothing is turned
+  for (const JsonValue& key : list.elements()) readKey(key, track, axis);
+  if (track.times.empty()) list.fail("at least one key");
   const bool loops = motion.find("loop").flagOr(false);
   motion.finish();
   if (track.interpolation == Track::Interpolation::cubic) addTangents(loops, track);
   count(track.times.back(), scene);
-  return std::make_shared<const KeyedMotion>(std::move(track), keys.axis, loops);
+  return std::make_shared<const KeyedMotion>(std::move(track), axis, loops);
 }
 
 }  // namespace whit

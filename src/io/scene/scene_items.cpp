@@ -126,14 +126,6 @@ std::size_t slotOf(const JsonValue& slot, const std::string& key,
   return static_cast<std::size_t>(found - names.begin());
 }
 
-// The names by which scene files call the materials of a model.
-std::vector<std::string> namesOf(const std::vector<Material>& materials) {
-  std::vector<std::string> names;
-  names.reserve(materials.size());
-  for (const Material& material : materials) names.push_back(material.name);
-  return distinctNames(names);
-}
-
 class ItemReader {
  public:
   ItemReader(SceneContext& context, MaterialReader& materials)
@@ -313,7 +305,7 @@ Body ItemReader::readMesh(JsonObject& item, const JsonValue& name) {
 std::vector<std::uint32_t> ItemReader::modelMaterials(Model& model, JsonObject& item) {
   std::vector<Material> materials = model.materials();
   std::vector<GivenMembers> given(materials.size());
-  const std::vector<std::string> names = namesOf(materials);
+  const std::vector<std::string> names = distinctNames(namesIn(materials));
   const std::string section = item.value().pointer() + "/materials/";
   for (std::size_t i = 0; i < materials.size(); ++i) {
     materials[i].pointer = section + escapePointer(names[i]);

@@ -47,11 +47,6 @@ Texture makePattern(const JsonValue& definition, std::uint64_t mostBytes) {
             formatName(is) + ")");
 }
 
-bool saysData(JsonObject& texture) {
-  const JsonValue as = texture.find("as");
-  return as && as.word({"color", "data"}) == "data";
-}
-
 // Warns of a material that is given more light to send out than it gets. Thin coats over white are
 // common, so a tenth too much is let pass. Parts with a map, and a lobe that only lights show, may
 // send out less than they state and are left out.
@@ -119,12 +114,13 @@ std::uint32_t MaterialReader::defaultMaterial() {
 }
 
 std::int32_t MaterialReader::load(const JsonValue& definition, const JsonValue& name,
-                                  TextureUse use) {
+                                  std::optional<TextureUse> use) {
   JsonObject object(definition);
   if (object.has("pattern")) {
     return context_.textures.add(1, [definition, name, use, &budget = context_.budget] {
       std::vector<std::optional<Texture>> made{makePattern(definition, budget.left())};
-      if (made[0]->format != formatOf(use)) failFormat(name, made[0]->format, formatOf(use));
+      if (!use) return made;
+      if (made[0]->format != formatOf(*use)) failFormat(name, made[0]->format, formatOf(*use));
       made[0]->name = name.text();
       return made;
     })[0];
@@ -139,13 +135,15 @@ std::int32_t MaterialReader::load(const JsonValue& definition, const JsonValue& 
     source.path = context_.rules.resolve(image.text(), context_.folder, source.where).string();
   }
   readWrap(object, source.wrapU, source.wrapV);
-  if (object.has("as")) {
-    const TexelFormat is = saysData(object) ? TexelFormat::data : TexelFormat::color;
-    if (is != formatOf(use)) failFormat(name, is, formatOf(use));
-    if (is == TexelFormat::data) use = TextureUse::data;
+  TextureUse readAs = use.value_or(TextureUse::color);
+  if (const JsonValue as = object.find("as")) {
+    const bool isData = as.word({"color", "data"}) == "data";
+    const TexelFormat is = isData ? TexelFormat::data : TexelFormat::color;
+    if (use && is != formatOf(*use)) failFormat(name, is, formatOf(*use));
+    if (isData) readAs = TextureUse::data;
   }
   object.finish();
-  return context_.textures.add(source, {use})[0];
+  return context_.textures.add(source, {readAs})[0];
 }
 
 std::int32_t MaterialReader::texture(const JsonValue& name, TextureUse use) {
@@ -161,16 +159,7 @@ std::int32_t MaterialReader::texture(const JsonValue& name, TextureUse use) {
 
 void MaterialReader::checkUnused() {
   for (const auto& [name, texture] : textures_) {
-    if (!texture.slots.empty()) continue;
-    JsonObject object(texture.definition);
-    if (object.has("pattern")) {
-      context_.textures.add(1, [definition = texture.definition, &budget = context_.budget] {
-        return std::vector<std::optional<Texture>>{makePattern(definition, budget.left())};
-      });
-    } else {
-      load(texture.definition, texture.definition,
-           saysData(object) ? TextureUse::data : TextureUse::color);
-    }
+    if (texture.slots.empty()) load(texture.definition, texture.definition, std::nullopt);
   }
 }
 

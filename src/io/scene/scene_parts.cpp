@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/formatted.h"
 #include "core/options.h"
 #include "scene/texture.h"
 
@@ -24,21 +25,18 @@ struct Column {
   float high = std::numeric_limits<float>::max();
 };
 
-std::string shown(float x) {
-  return std::isnan(x) ? "nan" : std::isinf(x) ? (x < 0 ? "-inf" : "inf") : std::to_string(x);
-}
-
 void requireNumbers(const Column& column, const std::string& where) {
   const auto fits = [&](float x) { return x >= column.low && x <= column.high; };
   const auto bad = std::find_if_not(column.numbers.begin(), column.numbers.end(), fits);
   if (bad == column.numbers.end()) return;
   const bool anyFinite = column.high == std::numeric_limits<float>::max();
-  const std::string range = anyFinite
-                                ? "finite numbers"
-                                : "numbers from " + shown(column.low) + " to " + shown(column.high);
+  const std::string range = anyFinite ? "finite numbers"
+                                      : "numbers from " + formatted("%g", double{column.low}) +
+                                            " to " + formatted("%g", double{column.high});
   const auto at = static_cast<std::size_t>(bad - column.numbers.begin());
-  throwBadScene(where, "expected " + range + " in " + column.name + ", found " + shown(*bad) +
-                           " at [" + std::to_string(at / column.each) + ", " +
+  throwBadScene(where, "expected " + range + " in " + column.name + ", found " +
+                           formatted("%g", double{*bad}) + " at [" +
+                           std::to_string(at / column.each) + ", " +
                            std::to_string(at % column.each) + "]");
 }
 

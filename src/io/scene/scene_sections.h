@@ -9,13 +9,58 @@
 #include <string>
 #include <vector>
 
+#include "core/progress.h"
+#include "core/warnings.h"
 #include "io/json_reader.h"
-#include "io/scene/scene_context.h"
+#include "io/load_scene.h"
+#include "io/memory_budget.h"
+#include "io/model.h"
+#include "io/paths.h"
+#include "io/read_file.h"
+#include "io/texture_loader.h"
 #include "make/shape.h"
+#include "scene/description.h"
 #include "scene/members.h"
 #include "scene/motion.h"
 
 namespace whit {
+
+// The state of a scene's reading, which the readers of its sections share.
+struct SceneContext {
+  SceneContext(const std::filesystem::path& file, const LoadOptions& options, Warnings& warnings_,
+               Progress* progress_)
+      : folder(file.parent_path()),
+        rules(folder, options.allowOutside),
+        budget(options.maxMemoryBytes),
+        warnings(warnings_),
+        progress(progress_),
+        sky(options.sky),
+        instant(options.instant),
+        textures(options.threads, budget, warnings, progress) {
+    scene.name = file.stem().string();
+  }
+
+  // The model at `path`, which `where` names, opened once.
+  Model& model(const std::filesystem::path& path, const std::string& where) {
+    std::unique_ptr<Model>& entry = models[path.string()];
+    if (entry) return *entry;
+    entry = readNamedAt(where, [&] { return openModel({path, rules, budget, warnings, instant}); });
+    for (const Animation& animation : entry->animations()) scene.animations.push_back(animation);
+    return *entry;
+  }
+
+  std::filesystem::path folder;
+  PathRules rules;
+  MemoryBudget budget;
+  Warnings& warnings;
+  Progress* progress;
+  SceneDescription scene;
+  const SceneParts* parts = nullptr;  // of a scene that a program makes
+  std::string sky;                    // this and the next as in LoadOptions
+  Instant instant;
+  std::map<std::string, std::unique_ptr<Model>> models;
+  TextureLoader textures;  // last: its workers write to the scene
+};
 
 // Reads the members of a camera that are given; the others keep their values.
 void readCamera(JsonObject& object, Camera& camera);
@@ -30,15 +75,12 @@ void readSky(JsonObject& file, SceneContext& context);
 // is there.
 std::optional<double> readAmbient(JsonObject& file, SceneDescription& scene);
 
-// The member "motion" of `object`: where it takes what it moves, in the space that this stands in,
-// after its other transforms; null where there is none. {"keys": [{"time", "translate", "rotate",
-// "scale"}, ...], "interpolation": "linear" | "step" | "cubic", "loop": true}; scale comes first,
-// translate last. "rotate" is [x, y, z, degrees], the axis the same in all keys. Cubic goes
-// smoothly through the keys (Catmull and Rom 1974). Counts as the scene's animation kSceneMotion.
-// A thing that is moved by hand always has a motion.
+// The member "motion" of `object` (scenes/README.md), which follows the object's other transforms;
+// null where there is none. Counts as the scene's animation kSceneMotion. An object that is moved
+// by hand always has a motion.
 std::shared_ptr<const Motion> readMotion(JsonObject& object, const Instant& instant,
                                          SceneDescription& scene);
-// The pointer to an object of which that motion was read, where it is moved by hand; empty else.
+// The pointer to the object if it is moved by hand, otherwise empty.
 std::string movableName(const JsonObject& object, const Instant& instant);
 
 // The sections "textures" and "materials".
@@ -71,7 +113,9 @@ class MaterialReader {
 
   void read(JsonObject& object, Material& material);
   std::int32_t texture(const JsonValue& name, TextureUse use);
-  std::int32_t load(const JsonValue& definition, const JsonValue& name, TextureUse use);
+  // Without a use, the texture is read for its errors only.
+  std::int32_t load(const JsonValue& definition, const JsonValue& name,
+                    std::optional<TextureUse> use);
 
   SceneContext& context_;
   std::map<std::string, NamedTexture> textures_;

@@ -17,26 +17,25 @@ struct SceneSetting {
   Json value;
 };
 
-// "/lights/0/intensity=40". The value is everything after the first '=' that JSON follows, for
-// names may hold that sign as well. Throws Error(usage).
+// Reads "/lights/0/intensity=40". The value is everything after the first '=' that JSON follows,
+// because names may hold that sign as well. Throws Error(usage).
 SceneSetting parseSceneSetting(const std::string& text);
 
-// Adds one to settings that are taken in their order, in place of those that it leaves nothing of:
-// a member that is set again and again is one setting.
+// Adds a setting to those that are applied in their order. A member that is set again and again
+// stays one setting.
 void addSceneSetting(const std::string& text, std::vector<std::string>& settings);
 
-// Puts the value into the description, whatever was there; objects that lead to it are made
-// where there are none, and "-" stands for a new element of a list. Whether such a member makes
-// sense is for the reader of the scene to say. Throws badScene with "file#/json/pointer".
+// Puts the value into the description. Objects that lead to it are made where they are missing, and
+// "-" stands for a new element of a list. The reader of the scene judges the member. Throws
+// badScene with "file#/json/pointer".
 void applySceneSetting(const SceneSetting& setting, JsonDocument& document);
 
-// Sets the member in `document` and does to `scene`, which was read of it with `options`, what a
-// reader would have done, bit for bit: to lights, colors of the sky, ambient light, numbers of
-// materials, and of scenes without instances to cameras and the image size. Without a document (a
-// model) to lights. False, with nothing done: the scene has to be read again with the setting,
-// since geometry, images, their number or what moves would be others. Throws as the reader does,
-// with nothing done. Renderers of the scene have to be told (Renderer::shadingChanged,
-// camerasChanged) before their next frame.
+// Sets the member in `document` and changes `scene`, which was read from it with `options`, as a
+// reader would have, bit for bit: lights, colors of the sky, ambient light, numbers of materials,
+// and in scenes without instances cameras and the image size. Without a document (a model) only
+// lights. Returns false, with nothing done, where the scene has to be read again with the setting.
+// Throws as the reader does, with nothing done. Renderers of the scene have to be told
+// (Renderer::shadingChanged, camerasChanged) before their next frame.
 bool editScene(const SceneSetting& setting, const LoadOptions& options, JsonDocument* document,
                Scene& scene);
 
