@@ -73,7 +73,7 @@ void drawDifference(const TracedFrame& frame, const Comparison& comparison) {
 
 void drawFindings(const TracedFrame& frame, bool heat) {
   if (heat) {
-    ImGui::TextUnformatted("8-bit codes apart: 0 to 16 or more");
+    ImGui::TextUnformatted("codes apart: 0 to 16+");
     const ImVec2 size(ImGui::GetFontSize() * 15, ImGui::GetFontSize());
     drawColorBar(ImGui::GetCursorScreenPos(), size.x, *ImGui::GetWindowDrawList(), heatColor);
     ImGui::Dummy(size);
@@ -115,7 +115,7 @@ std::string colorText(const Rgb& c) {
   return formatted("%.4g %.4g %.4g", d.x, d.y, d.z);
 }
 
-// Codes as the map of differences compares them.
+// Returns the codes that the map of differences compares.
 std::array<std::uint8_t, 3> codesOf(const Rgb& radiance) {
   return displayCodes(radiance, 1, ToneCurve::none, SrgbEncoding::exact);
 }

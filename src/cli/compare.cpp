@@ -67,7 +67,9 @@ OptionList listOptions(CompareJob& job) {
   list.flag("stages", "also each vector stage with its scalar reference", job.stages);
   list.value({"tolerance", "X", 0}, "largest RMSE that passes; else the exit status is 1",
              job.tolerance);
-  list.value({"heatmap", "FILE"}, "PNG of the differences: black is 0, light yellow 16 8-bit steps or more", job.heatmap);
+  list.value({"heatmap", "FILE"},
+             "PNG of the differences: black is 0, light yellow 16 8-bit steps or more",
+             job.heatmap);
   list.value({"json", "FILE"}, "the numbers as JSON; - is standard output", job.json);
   listCommonOptions(list, job.common);
   list.operands("SCENE, or A B", "a scene, or two image files", 1, 2, job.subjects);
