@@ -1,5 +1,5 @@
 // Directions drawn by their cosine to a normal (the scalar reference:
-// src/sampling/cosine_lobe.cpp).
+// src/sampling/cosine_lobe.h).
 #if defined(WHIT_SIMD_COSINE_LOBE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef WHIT_SIMD_COSINE_LOBE_INL_H_
 #undef WHIT_SIMD_COSINE_LOBE_INL_H_

@@ -144,7 +144,8 @@ mutations() {
     'std::tuple(face.opaque,' 'std::tuple(!face.opaque,'
   plant glass-before-opaque-in-reference src/reference/settle_coplanar.cpp \
     'return a.opaque;' 'return b.opaque;'
-  plant not-robust src/render/renderer.cpp '.robust = options.robust,' '.robust = false,'
+  plant not-robust src/accel/embree_scene.cpp 'options.robust ? RTC_SCENE_FLAG_ROBUST' \
+    'false ? RTC_SCENE_FLAG_ROBUST'
   plant sphere-in-floats simd/meet_sphere.cpp \
     'const auto inside = hn::Sub(one, DotOf<D>(nearest, nearest));' \
     'const auto inside = hn::PromoteTo(d, hn::DemoteTo(df, hn::Sub(hn::Mul(b, middle),

@@ -5,20 +5,19 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "accel/embree_scene.h"
 #include "bake/eye_in_plane.h"
 #include "bake/sphere.h"
-#include "core/error.h"
 #include "simd/kernels.h"
 #include "stages/packet_words.h"
 
 namespace whit {
 
 struct Accel::Parts {
-  Parts(const Scene& scene, const AccelOptions& options, Progress* progress)
-      : embree(scene, options, progress) {}
+  Parts(const Scene& scene, const RenderOptions& options, EffectSet effects, int threads,
+        Progress* progress)
+      : embree(scene, options, effects, threads, progress) {}
 
   // The width of a packet of shadow rays.
   int shadowPacket(bool coherent) const {
@@ -317,31 +316,24 @@ Vec3f nudged(const Vec3f& d, int attempt) {
 
 }  // namespace
 
-Accel::Accel(const Scene& scene, const AccelOptions& options, Progress* progress)
-    : scene_(scene), parts_(std::make_unique<Parts>(scene, options, progress)) {
-  const RTCDevice device = parts_->embree.device();
-  const bool native16 = rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED);
-  const bool native8 = rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED);
-  const int widest = native16 ? 16 : native8 ? 8 : 4;
-  const int wanted = options.packet;
-  if (wanted != 0 && wanted != 1 && wanted != 4 && wanted != 8 && wanted != 16) {
-    throwUsage("--packet takes auto, 1, 4, 8 or 16");
-  }
-  parts_->packet = wanted == 0 ? widest : wanted;
-  const auto version = rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION);
+Accel::Accel(const Scene& scene, const RenderOptions& options, EffectSet effects, int threads,
+             Progress* progress)
+    : scene_(scene), parts_(std::make_unique<Parts>(scene, options, effects, threads, progress)) {
+  const int widest = parts_->embree.widestPacket();
+  parts_->packet = options.packet == 0 ? widest : options.packet;
+  const auto version = rtcGetDeviceProperty(parts_->embree.device(), RTC_DEVICE_PROPERTY_VERSION);
   parts_->description = std::to_string(version / 10000) + "." +
                         std::to_string(version / 100 % 100) + "." + std::to_string(version % 100) +
-                        " " +
-                        (native16  ? "avx512"
-                         : native8 ? "avx2"
-                                   : "sse4.2");
+                        (widest == 16  ? " avx512"
+                         : widest == 8 ? " avx2"
+                                       : " sse4.2");
 }
 
 Accel::~Accel() = default;
 
 bool Accel::isCutAway(std::uint32_t triangle, double u, double v) const noexcept {
   const TriangleRecord& record = scene_.triangles[triangle];
-  const Mask mask = maskOf(scene_.materials[record.material], parts_->embree.alphaMaps());
+  const Mask& mask = parts_->embree.masks()[record.material];
   if (scene_.isSphere(triangle)) {
     const auto [s, t] = sphereUv(spherePoint(u, v));
     return !isOpaqueAt<&Mask::cutoff>(mask, static_cast<float>(s), static_cast<float>(t));
@@ -394,50 +386,6 @@ Hit Accel::closest(const Vec3f& origin, const Vec3f& direction, float tNear) con
 
 bool Accel::occluded(const Vec3f& origin, const Vec3f& direction, float tFar) const noexcept {
   return isOccluded(parts_->embree, origin, direction, tFar);
-}
-
-void RayLog::append(bool anyHit, bool coherent, const std::array<const float*, 7>& rays,
-                    std::size_t n) {
-  auto stream = std::find_if(streams_.begin(), streams_.end(), [&](const Stream& s) {
-    return s.anyHit == anyHit && s.coherent == coherent;
-  });
-  if (stream == streams_.end()) stream = streams_.insert(stream, {anyHit, coherent, 0, {}});
-  for (std::size_t c = 0; c < rays.size(); ++c) {
-    if (!rays[c]) continue;
-    std::vector<float>& column = stream->columns[c];
-    column.resize(stream->count);
-    column.insert(column.end(), rays[c], rays[c] + n);
-    column.resize(roundUpToBlock(stream->count + n));
-  }
-  stream->count += n;
-}
-
-double Accel::replay(const RayLog& log) const {
-  double ms = 0;
-  for (const RayLog::Stream& stream : log.streams()) {
-    const std::size_t room = roundUpToBlock(stream.count) + kBlock;
-    std::vector<std::uint32_t> numbers(room);
-    std::array<std::vector<float>, 3> results;
-    for (std::vector<float>& column : results) column.resize(room);
-    // Kernels only read them.
-    const auto column = [&](std::size_t c) { return const_cast<float*>(stream.columns[c].data()); };
-    if (stream.anyHit) {
-      std::iota(numbers.begin(), numbers.end(), 0u);
-      const ShadowColumns rays{column(0), column(1), column(2), column(3),
-                               column(4), column(5), column(6), numbers.data()};
-      traceAll(*parts_, parts_->shadowPacket(stream.coherent),
-               ShadowRange{rays, results[0].data(), stream.count, stream.coherent}, ms);
-      continue;
-    }
-    RayColumns rays;
-    rays.orgX = column(0), rays.orgY = column(1), rays.orgZ = column(2);
-    rays.dirX = column(3), rays.dirY = column(4), rays.dirZ = column(5);
-    HitColumns hits;
-    hits.triangle = numbers.data();
-    hits.t = results[0].data(), hits.u = results[1].data(), hits.v = results[2].data();
-    traceAll(*parts_, parts_->packet, HitRange{rays, hits, stream.count, stream.coherent}, ms);
-  }
-  return ms;
 }
 
 void findHits(Chunk& c) { c.frame->accel->findHits(c); }

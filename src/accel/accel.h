@@ -2,11 +2,9 @@
 // Embree in packets of 1, 4, 8 or 16, and come back as hits in columns.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "bake/scene.h"
 #include "core/options.h"
@@ -14,36 +12,6 @@
 #include "stages/chunk.h"
 
 namespace whit {
-
-struct AccelOptions {
-  bool robust = true;  // watertight traversal
-  BvhQuality quality = BvhQuality::medium;
-  bool alphaMasks = true;  // respect them (a filter on masked triangles only)
-  bool instances = true;   // there at all
-  bool spheres = true;     // likewise
-  int threads = 0;         // for building; 0: all
-  int packet = 0;          // 0: the widest the CPU runs natively
-  std::string isa;         // "avx512", "avx2", "avx", "sse4.2"; empty: the CPU's best
-};
-
-// Rays as they went to Embree, for measuring the floor. Rays of one kind of call lie together, in
-// the order in which they were traced.
-class RayLog {
- public:
-  struct Stream {
-    bool anyHit = false;  // for calls that test for any hit, not for the closest one
-    bool coherent = false;
-    std::size_t count = 0;
-    // Origin, direction, and tFar of any-hit rays; filled up to whole blocks.
-    std::array<std::vector<float>, 7> columns;
-  };
-  // Takes n rays from columns in the order of Stream::columns; the last is null for closest hits.
-  void append(bool anyHit, bool coherent, const std::array<const float*, 7>& rays, std::size_t n);
-  const std::vector<Stream>& streams() const { return streams_; }
-
- private:
-  std::vector<Stream> streams_;
-};
 
 // The hit of a single ray; the numbers are those of HitColumns.
 struct Hit {
@@ -54,10 +22,12 @@ struct Hit {
 
 class Accel {
  public:
-  // `scene` must outlive the structure. Rays are packed by kernels of the SIMD target that is
-  // chosen now (simd/kernels.h). Throws Error(limit) when memory runs out, Error(usage) when the
-  // packet width or ISA is not there.
-  Accel(const Scene& scene, const AccelOptions& options, Progress* progress = nullptr);
+  // `scene` must outlive the structure. Only masks, instances and spheres of these effects are
+  // there. `threads` build it; 0: all. Rays are packed by kernels of the SIMD target that is chosen
+  // now (simd/kernels.h). Throws Error(limit) when memory runs out, Error(usage) when Embree lacks
+  // the target's instruction set.
+  Accel(const Scene& scene, const RenderOptions& options, EffectSet effects = EffectSet::all(),
+        int threads = 0, Progress* progress = nullptr);
   ~Accel();
   Accel(const Accel&) = delete;
   Accel& operator=(const Accel&) = delete;
@@ -88,9 +58,6 @@ class Accel {
 
   // True if an alpha mask cuts the triangle or sphere (its number in the scene) there.
   bool isCutAway(std::uint32_t triangle, double u, double v) const noexcept;
-
-  // Returns the milliseconds that Embree needs for the rays of a log, in full packets.
-  double replay(const RayLog& log) const;
 
   int packet() const;
   std::string description() const;  // "3.13.5 avx2"

@@ -36,29 +36,18 @@ class AlphaMap {
   std::vector<Bounds> cells_;  // of every footprint whose lower texel lies in the cell
 };
 
-// One map for each texture of the scene; null where no material uses it as a mask.
-using AlphaMaps = std::vector<std::unique_ptr<AlphaMap>>;
-AlphaMaps makeAlphaMaps(const Scene& scene);
-
-// The members of a masked triangle that a lookup reads take half a cache line; its record for
-// shading takes a whole one.
-struct alignas(32) MaskedTriangle {
-  float uv[6];
-  std::uint32_t mask;  // index into MaskedGeometry::masks
-};
-
 // A material's mask; all is opaque where there is no map.
 struct Mask {
-  const AlphaMap* map = nullptr;
+  std::shared_ptr<const AlphaMap> map;
   float cutoff = 0, shadowCutoff = 0;
-  // For shadows besides, where the map above says nothing of coverage.
-  const AlphaMap* coverage = nullptr;
+  // Shadows are cut by this map as well, where the map above says nothing of coverage.
+  std::shared_ptr<const AlphaMap> coverage;
   float coverageCutoff = 0;
   bool doubleSided = true;
 };
 
-// `maps` must outlive it; where they are empty there is no mask.
-Mask maskOf(const Material& material, const AlphaMaps& maps);
+// One mask a material; none of them has a map unless the scene is `cut`.
+std::vector<Mask> makeMasks(const Scene& scene, bool cut);
 
 // False where the mask, cut at that member of it, cuts the point with these texture coordinates;
 // for shadows also where less than half of it is there.
@@ -80,30 +69,19 @@ bool isOpaqueAt(const Mask& mask, const float (&uv)[6], float u, float v) noexce
                              uv[1] * w + uv[3] * u + uv[5] * v);
 }
 
-// The masked triangles of one Embree geometry, in its order.
-struct MaskedGeometry {
-  // Takes the triangles of scene.triangles from `first` to before `end`. `maps` must outlive it;
-  // where they are empty there are no masks.
-  MaskedGeometry(const Scene& scene, const AlphaMaps& maps, std::uint32_t first, std::uint32_t end);
-  // After moveScene(): a skin may have turned triangles over. `records` begin with the first.
-  void update(const TriangleRecord* records);
+// The triangles of one Embree geometry, as its filters read them.
+struct FilteredTriangles {
+  const TriangleRecord* records;  // of the first triangle
+  const Mask* masks;              // one a material of the scene
 
-  std::vector<MaskedTriangle> triangles;
-  std::vector<Mask> masks;  // one a material of the scene
-  bool anyMask = false, anySingleSided = false;
+  const Mask& maskOf(std::uint32_t primitive) const { return masks[records[primitive].material]; }
 };
 
-// True if rays pass the back of this triangle.
-inline bool isSingleSided(const MaskedGeometry& geometry, std::uint32_t primitive) noexcept {
-  return !geometry.masks[geometry.triangles[primitive].mask].doubleSided;
-}
-
-// True if the triangle's point (u, v) is cut away.
+// False if the mask cuts the triangle's point (u, v) away.
 template <float Mask::*kCutoff>
-bool isOpaqueAt(const MaskedGeometry& geometry, std::uint32_t primitive, float u,
+bool isOpaqueAt(const FilteredTriangles& triangles, std::uint32_t primitive, float u,
                 float v) noexcept {
-  const MaskedTriangle& t = geometry.triangles[primitive];
-  return isOpaqueAt<kCutoff>(geometry.masks[t.mask], t.uv, u, v);
+  return isOpaqueAt<kCutoff>(triangles.maskOf(primitive), triangles.records[primitive].uv, u, v);
 }
 
 }  // namespace whit

@@ -27,11 +27,14 @@ constexpr bool isColumn(std::size_t offset, std::size_t column) {
   return offset == column * 8 * sizeof(float);
 }
 static_assert(isColumn(offsetof(RTCRay8, org_x), packet_column::orgX) &&
+              isColumn(offsetof(RTCRay8, tnear), packet_column::tNear) &&
               isColumn(offsetof(RTCRay8, dir_x), packet_column::dirX) &&
               isColumn(offsetof(RTCRay8, tfar), packet_column::tFar) &&
               isColumn(offsetof(RTCRayHit8, hit) + offsetof(RTCHit8, u), packet_column::u) &&
               isColumn(offsetof(RTCRayHit8, hit) + offsetof(RTCHit8, geomID),
-                       packet_column::geometry));
+                       packet_column::geometry) &&
+              isColumn(offsetof(RTCRayHit8, hit) + offsetof(RTCHit8, instID),
+                       packet_column::instance));
 
 // Embree's function for a packet: closest hits if there is room for them, otherwise any hit.
 template <typename Packet>

@@ -5,6 +5,7 @@
 
 #include "bake/scene.h"
 #include "core/error.h"
+#include "simd/kernels.h"
 
 namespace whit {
 
@@ -41,26 +42,26 @@ bool isBehind(const RTCFilterFunctionNArguments& args, unsigned lane) {
 
 // Filters hits for rays that pass the backs of single-sided surfaces.
 void filterBySide(const RTCFilterFunctionNArguments* args) {
-  const auto& geometry = *static_cast<const MaskedGeometry*>(args->geometryUserPtr);
+  const auto& triangles = *static_cast<const FilteredTriangles*>(args->geometryUserPtr);
   for (unsigned lane = 0; lane < args->N; ++lane) {
     if (args->valid[lane] == 0) continue;
     const unsigned primitive = RTCHitN_primID(args->hit, args->N, lane);
     const float u = RTCHitN_u(args->hit, args->N, lane), v = RTCHitN_v(args->hit, args->N, lane);
-    const bool passed = isSingleSided(geometry, primitive) && isBehind(*args, lane);
-    if (passed || !isOpaqueAt<&Mask::cutoff>(geometry, primitive, u, v)) args->valid[lane] = 0;
+    const bool passed = !triangles.maskOf(primitive).doubleSided && isBehind(*args, lane);
+    if (passed || !isOpaqueAt<&Mask::cutoff>(triangles, primitive, u, v)) args->valid[lane] = 0;
   }
 }
 
 // Called for each hit on a masked triangle, with as many lanes as Embree has at hand.
 template <float Mask::*kCutoff>
 void filterByAlpha(const RTCFilterFunctionNArguments* args) {
-  const auto& geometry = *static_cast<const MaskedGeometry*>(args->geometryUserPtr);
+  const auto& triangles = *static_cast<const FilteredTriangles*>(args->geometryUserPtr);
   for (unsigned lane = 0; lane < args->N; ++lane) {
     if (args->valid[lane] == 0) continue;
     const unsigned primitive = RTCHitN_primID(args->hit, args->N, lane);
     const float u = RTCHitN_u(args->hit, args->N, lane), v = RTCHitN_v(args->hit, args->N, lane);
     // Without a branch: nothing could predict it.
-    args->valid[lane] *= static_cast<int>(isOpaqueAt<kCutoff>(geometry, primitive, u, v));
+    args->valid[lane] *= static_cast<int>(isOpaqueAt<kCutoff>(triangles, primitive, u, v));
   }
 }
 
@@ -76,17 +77,24 @@ RTCBuildQuality buildQuality(BvhQuality quality) {
   return RTC_BUILD_QUALITY_MEDIUM;
 }
 
-std::string deviceConfiguration(const AccelOptions& options) {
-  std::string text = "threads=" + std::to_string(options.threads);
-  if (!options.isa.empty()) text += ",max_isa=" + options.isa;
-  return text;
+// Embree gets the instruction set of the kernels' target, so that a picture does not depend on
+// whether the target was named or chosen automatically (sanitized builds choose less than the
+// processor's best).
+std::string deviceConfiguration(int threads) {
+  const std::string target = simd::chosenTarget();
+  const char* isa = "";
+  if (target == "avx3" || target == "avx3_dl") isa = ",max_isa=avx512";
+  if (target == "avx2") isa = ",max_isa=avx2";
+  if (target == "sse4") isa = ",max_isa=sse4.2";
+  if (target == "sse2" || target == "scalar") isa = ",max_isa=sse2";
+  return "threads=" + std::to_string(threads) + isa;
 }
 
 // A missing instruction set is the user's choice; every other failure means that a resource ran
 // out.
-[[noreturn]] void throwNoDevice(const AccelOptions& options) {
+[[noreturn]] void throwNoDevice(const std::string& configuration) {
   const RTCError error = rtcGetDeviceError(nullptr);
-  const std::string what = "Embree has no device for '" + deviceConfiguration(options) + "'";
+  const std::string what = "Embree has no device for '" + configuration + "'";
   if (error == RTC_ERROR_UNSUPPORTED_CPU || error == RTC_ERROR_INVALID_ARGUMENT) throwUsage(what);
   throwLimit(what + ": memory or threads ran out");
 }
@@ -107,46 +115,47 @@ void requireRoomForThreads(int threads) {
 
 }  // namespace
 
-EmbreeScene::EmbreeScene(const Scene& scene, const AccelOptions& options, Progress* progress) {
-  requireRoomForThreads(options.threads);
-  device_.reset(rtcNewDevice(deviceConfiguration(options).c_str()));
-  if (!device_) throwNoDevice(options);
+EmbreeScene::EmbreeScene(const Scene& scene, const RenderOptions& options, EffectSet effects,
+                         int threads, Progress* progress)
+    : masks_(makeMasks(scene, effects.has(Effect::alphaMasks))),
+      instances_(effects.has(Effect::instances)) {
+  requireRoomForThreads(threads);
+  const std::string configuration = deviceConfiguration(threads);
+  device_.reset(rtcNewDevice(configuration.c_str()));
+  if (!device_) throwNoDevice(configuration);
   const auto has = [this](RTCDeviceProperty what) {
     return rtcGetDeviceProperty(device(), what) != 0;
   };
-  const bool native16 = has(RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED);
-  if (QueryContext::kStreams && !native16 && has(RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED))
-    streamWidth_ = 8;
+  if (has(RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED)) widestPacket_ = 8;
+  if (has(RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED)) widestPacket_ = 16;
   const bool moves = scene.motion.ofGeometry;
-  mayHang_ = WHIT_EMBREE_MAJOR == 3 && native16 && (moves || !scene.instances.empty());
+  mayHang_ = WHIT_EMBREE_MAJOR == 3 && widestPacket_ == 16 && (moves || !scene.instances.empty());
   rtcSetDeviceMemoryMonitorFunction(device(), countMemory, &bytes_);
-  if (options.alphaMasks) alphaMaps_ = makeAlphaMaps(scene);
-  instances_ = options.instances;
   const auto newScene = [&] {
     SceneHandle made(rtcNewScene(device()));
     rtcSetSceneFlags(made.get(), options.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
-    rtcSetSceneBuildQuality(made.get(), buildQuality(options.quality));
+    rtcSetSceneBuildQuality(made.get(), buildQuality(options.bvh));
     return made;
   };
   for (std::size_t i = 0; i < scene.geometries.size(); ++i) {
     scenes_.push_back(newScene());
     addGeometry(i, scene);
-    if (options.spheres) addSpheres(i, scene);
+    if (effects.has(Effect::spheres)) addSpheres(i, scene);
     if (i != 0 || moves) commit(scenes_[i].get(), progress);
   }
   if (moves) {
     top_ = newScene();
-    addWorld();
+    addInstance(0, Affine(), kWorldId);
   }
   addInstances(scene);
   commit(top(), progress);
 }
 
-void EmbreeScene::addWorld() {
+void EmbreeScene::addInstance(std::uint32_t geometry, const Affine& toWorld, unsigned id) {
   const GeometryHandle held(rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_INSTANCE));
-  rtcSetGeometryInstancedScene(held.get(), scenes_[0].get());
-  placeInstance(held.get(), Affine());
-  rtcAttachGeometryByID(top(), held.get(), kWorldId);
+  rtcSetGeometryInstancedScene(held.get(), scenes_[geometry].get());
+  placeInstance(held.get(), toWorld);
+  rtcAttachGeometryByID(top(), held.get(), id);
 }
 
 void EmbreeScene::numberTriangles(const Scene& scene) {
@@ -174,9 +183,7 @@ void EmbreeScene::addGeometry(std::size_t index, const Scene& scene) {
                                sizeof(source.index[0]), end - first);
     rtcSetGeometryMask(geometry, (c & kNoShadowBit) != 0 ? kSeenMask : kSeenMask | kShadowMask);
     if ((c & kMaskedBit) != 0) {
-      masked_.push_back(std::make_unique<MaskedGeometry>(
-          scene, alphaMaps_, source.firstTriangle + first, source.firstTriangle + end));
-      setFilters(*masked_.back(), geometry);
+      setFilters(scene.triangles.data() + source.firstTriangle + first, end - first, geometry);
     }
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(scenes_[index].get(), geometry, c);
@@ -185,26 +192,32 @@ void EmbreeScene::addGeometry(std::size_t index, const Scene& scene) {
 
 void EmbreeScene::addSpheres(std::size_t index, const Scene& scene) {
   if (scene.geometries[index].spheres == 0) return;
-  spheres_.push_back(std::make_unique<SphereGeometry>(scene, alphaMaps_, scene.geometries[index]));
+  SphereGeometry& spheres = spheres_.emplace_back(scene, masks_, scene.geometries[index]);
   const GeometryHandle held(rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_USER));
   RTCGeometry geometry = held.get();
-  spheres_.back()->attachTo(geometry);
+  spheres.attachTo(geometry);
   rtcSetGeometryMask(geometry, kSeenMask | kShadowMask);
   rtcCommitGeometry(geometry);
   rtcAttachGeometryByID(scenes_[index].get(), geometry, kSpheresId);
 }
 
 // Shadows are cast by both sides.
-void EmbreeScene::setFilters(MaskedGeometry& filtered, RTCGeometry geometry) {
-  rtcSetGeometryUserData(geometry, &filtered);
-  if (filtered.anySingleSided) {
+void EmbreeScene::setFilters(const TriangleRecord* records, std::size_t count,
+                             RTCGeometry geometry) {
+  filtered_.push_back({records, masks_.data()});
+  FilteredTriangles& triangles = filtered_.back();
+  bool anyMask = false, anySingleSided = false;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    anyMask = anyMask || triangles.maskOf(i).map;
+    anySingleSided = anySingleSided || !triangles.maskOf(i).doubleSided;
+  }
+  rtcSetGeometryUserData(geometry, &triangles);
+  if (anySingleSided) {
     rtcSetGeometryIntersectFilterFunction(geometry, filterBySide);
-  } else if (filtered.anyMask) {
+  } else if (anyMask) {
     rtcSetGeometryIntersectFilterFunction(geometry, filterByAlpha<&Mask::cutoff>);
   }
-  if (filtered.anyMask) {
-    rtcSetGeometryOccludedFilterFunction(geometry, filterByAlpha<&Mask::shadowCutoff>);
-  }
+  if (anyMask) rtcSetGeometryOccludedFilterFunction(geometry, filterByAlpha<&Mask::shadowCutoff>);
 }
 
 void EmbreeScene::placeInstance(RTCGeometry geometry, const Affine& m) const {
@@ -221,11 +234,8 @@ void EmbreeScene::addInstances(const Scene& scene) {
   if (!instances_) return;
   for (const InstanceRecord& instance : scene.instances) {
     reach_ = std::min(reach_, instanceReach(instance.toWorld));
-    const GeometryHandle held(rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_INSTANCE));
-    rtcSetGeometryInstancedScene(held.get(), scenes_[instance.geometry].get());
-    placeInstance(held.get(), instance.toWorld);
-    rtcAttachGeometryByID(top(), held.get(),
-                          kFirstInstanceId + static_cast<unsigned>(instanced_.size()));
+    addInstance(instance.geometry, instance.toWorld,
+                kFirstInstanceId + static_cast<unsigned>(instanced_.size()));
     instanced_.push_back(instance.geometry);
   }
 }
@@ -247,10 +257,6 @@ void EmbreeScene::bendMeshes(const Scene& scene) {
     for (unsigned c = 0; c < kTriangleClasses; ++c) {
       if (source.classBegin[c] == source.classBegin[c + 1]) continue;
       RTCGeometry geometry = rtcGetGeometry(own, c);
-      if ((c & kMaskedBit) != 0) {
-        static_cast<MaskedGeometry*>(rtcGetGeometryUserData(geometry))
-            ->update(scene.triangles.data() + source.firstTriangle + source.classBegin[c]);
-      }
       rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0);
       rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
       rtcCommitGeometry(geometry);

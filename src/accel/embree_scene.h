@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <type_traits>
 #include <vector>
@@ -32,7 +33,9 @@ using GeometryHandle =
 
 class EmbreeScene {
  public:
-  EmbreeScene(const Scene& scene, const AccelOptions& options, Progress* progress);
+  // As Accel's constructor.
+  EmbreeScene(const Scene& scene, const RenderOptions& options, EffectSet effects, int threads,
+              Progress* progress);
   EmbreeScene(const EmbreeScene&) = delete;
   EmbreeScene& operator=(const EmbreeScene&) = delete;
 
@@ -40,12 +43,12 @@ class EmbreeScene {
   void update(const Scene& scene);
 
   RTCScene top() const { return (top_ ? top_ : scenes_[0]).get(); }
-  const AlphaMaps& alphaMaps() const { return alphaMaps_; }  // empty if masks are left out
+  const std::vector<Mask>& masks() const { return masks_; }  // one a material
   RTCDevice device() const { return device_.get(); }
   std::uint64_t memoryBytes() const { return bytes_ + sphereBytes(); }
   std::uint64_t sphereBytes() const {
     std::uint64_t bytes = 0;
-    for (const auto& spheres : spheres_) bytes += spheres->memoryBytes();
+    for (const SphereGeometry& spheres : spheres_) bytes += spheres.memoryBytes();
     return bytes;
   }
 
@@ -64,10 +67,12 @@ class EmbreeScene {
   }
   // Rays with an origin or a direction beyond this are left out (see instanceReach).
   float reach() const { return reach_; }
+  // The widest packets that the processor runs natively.
+  int widestPacket() const { return widestPacket_; }
   // The width of packets that Embree leads through its BVH several at a time when their rays are
   // coherent (rtcIntersectNM), 0: none. That takes packets as wide as the CPU, and was measured on
   // AVX2 only: a twentieth less time inside Embree.
-  int streamWidth() const { return streamWidth_; }
+  int streamWidth() const { return QueryContext::kStreams && widestPacket_ == 8 ? 8 : 0; }
   // True if rtcOccluded16 may never return when its rays are said to be coherent. For AVX-512 and
   // scenes of instances, Debian's Embree 3.13.5 is compiled such that the mask of rays left to
   // trace is stored in 16 bits and read in 64 (BVHNIntersectorKHybrid::occludedCoherent): where the
@@ -78,8 +83,8 @@ class EmbreeScene {
  private:
   void addGeometry(std::size_t index, const Scene& scene);
   void addSpheres(std::size_t index, const Scene& scene);
-  static void setFilters(MaskedGeometry& filtered, RTCGeometry geometry);
-  void addWorld();
+  void setFilters(const TriangleRecord* records, std::size_t count, RTCGeometry geometry);
+  void addInstance(std::uint32_t geometry, const Affine& toWorld, unsigned id);
   void numberTriangles(const Scene& scene);
   void addInstances(const Scene& scene);
   void placeInstance(RTCGeometry geometry, const Affine& toWorld) const;
@@ -88,9 +93,9 @@ class EmbreeScene {
   void commit(RTCScene scene, Progress* progress);
 
   std::atomic<std::uint64_t> bytes_{0};  // outlives the device, which counts here to its end
-  AlphaMaps alphaMaps_;
-  std::vector<std::unique_ptr<MaskedGeometry>> masked_;
-  std::vector<std::unique_ptr<SphereGeometry>> spheres_;
+  std::vector<Mask> masks_;
+  std::deque<FilteredTriangles> filtered_;  // Embree keeps pointers to them
+  std::deque<SphereGeometry> spheres_;      // likewise
   std::vector<std::uint32_t> triangleBase_;
   DeviceHandle device_;
   std::vector<SceneHandle> scenes_;  // one a Scene::geometries
@@ -100,7 +105,7 @@ class EmbreeScene {
   std::vector<std::uint32_t> instanced_;  // the geometries of the instances that are there
   bool instances_ = true;
   float reach_ = kLargestCoordinate;
-  int streamWidth_ = 0;
+  int widestPacket_ = 4;
   bool mayHang_ = false;
 };
 

@@ -13,12 +13,7 @@ namespace whit {
 
 namespace {
 
-// Where Embree's packets have what kernels do not look at.
-constexpr std::size_t kNearColumn = 3, kInstanceColumn = 19, kWidest = 16;
-static_assert(offsetof(RTCRayHit8, ray) + offsetof(RTCRay8, tnear) ==
-              kNearColumn * 8 * sizeof(float));
-static_assert(offsetof(RTCRayHit8, hit) + offsetof(RTCHit8, instID) ==
-              kInstanceColumn * 8 * sizeof(float));
+constexpr std::size_t kWidestPacket = 16;
 
 simd::SphereInverse inverseOf(const Affine& map) {
   const std::array<Vec3d, 3> rows = inverseRows(map);
@@ -35,18 +30,18 @@ simd::SphereInverse inverseOf(const Affine& map) {
 
 }  // namespace
 
-SphereGeometry::SphereGeometry(const Scene& scene, const AlphaMaps& maps, const Geometry& of)
+SphereGeometry::SphereGeometry(const Scene& scene, const std::vector<Mask>& masks,
+                               const Geometry& of)
     : scene_(scene),
       records_(scene.triangles.data() + of.firstSphere),
       firstPrimitive_(of.firstSphere - of.firstTriangle) {
-  for (const Material& material : scene.materials) masks_.push_back(maskOf(material, maps));
   spheres_.reserve(of.spheres);
   for (std::uint32_t i = 0; i < of.spheres; ++i) {
     const Material& material = scene.materials[records_[i].material];
     Sphere& sphere = spheres_.emplace_back();
     sphere.inverse = inverseOf(sphereMap(records_[i]));
     sphere.castsShadow = material.castsShadow;
-    const Mask& mask = masks_[records_[i].material];
+    const Mask& mask = masks[records_[i].material];
     if (mask.map) sphere.mask = &mask;
   }
 }
@@ -93,10 +88,10 @@ template <float Mask::*kCutoff, typename Accept>
 void SphereGeometry::meet(unsigned primitive, float* words, unsigned width, const int* valid,
                           const Accept& accept) const {
   const Sphere& sphere = spheres_[primitive];
-  std::array<float, kWidest> t, u, v;
+  std::array<float, kWidestPacket> t, u, v;
   const bool asksWhere = kCutoff == &Mask::cutoff || sphere.mask;
   const simd::SphereHits hits{t.data(), asksWhere ? u.data() : nullptr, v.data()};
-  const float* const tNear = words + kNearColumn * width;
+  const float* const tNear = words + packet_column::tNear * width;
   meeter_(sphere.inverse, words, width, valid, tNear, hits);
   const auto isCut = [&](unsigned i) {
     const auto [s, r] = sphereUv(spherePoint(double{u[i]}, double{v[i]}));
@@ -104,7 +99,7 @@ void SphereGeometry::meet(unsigned primitive, float* words, unsigned width, cons
   };
   const float* const tFar = words + packet_column::tFar * width;
   if (sphere.mask) {
-    std::array<float, kWidest> after{};
+    std::array<float, kWidestPacket> after{};
     for (unsigned i = 0; i < width; ++i) {
       const bool cut = valid[i] != 0 && t[i] <= tFar[i] && isCut(i);
       after[i] = cut ? std::nextafter(t[i], std::numeric_limits<float>::infinity()) : tNear[i];
@@ -129,13 +124,13 @@ void SphereGeometry::intersect(const RTCIntersectFunctionNArguments* args) {
     };
     float& tFar = words[packet_column::tFar * width + i];
     const Met here{placeOf(args->context->instID[0]), 0, own.firstPrimitive_ + args->primID};
-    const Met before{placeOf(number(kInstanceColumn)), number(packet_column::geometry),
+    const Met before{placeOf(number(packet_column::instance)), number(packet_column::geometry),
                      number(packet_column::primitive)};
     if (t == tFar && !own.comesBefore(here, before)) return;
     tFar = t;
     words[packet_column::u * width + i] = u;
     words[packet_column::v * width + i] = v;
-    number(kInstanceColumn) = here.instance;
+    number(packet_column::instance) = here.instance;
     number(packet_column::geometry) = here.geometry;
     number(packet_column::primitive) = here.primitive;
   };

@@ -24,8 +24,8 @@ inline bool isInWorld(unsigned instance) {
 // first triangle class of that geometry: the primitive's number is counted from there.
 class SphereGeometry {
  public:
-  // `maps` and the scene must outlive it; where `maps` is empty there are no masks.
-  SphereGeometry(const Scene& scene, const AlphaMaps& maps, const Geometry& of);
+  // The scene and `masks`, one a material, must outlive it.
+  SphereGeometry(const Scene& scene, const std::vector<Mask>& masks, const Geometry& of);
 
   // Makes `geometry`, which this must outlive, answer for the spheres.
   void attachTo(RTCGeometry geometry);
@@ -58,7 +58,6 @@ class SphereGeometry {
   const Scene& scene_;
   const TriangleRecord* records_ = nullptr;  // of the first sphere
   std::uint32_t firstPrimitive_ = 0;         // as hits have it
-  std::vector<Mask> masks_;                  // one a material of the scene
   std::vector<Sphere> spheres_;
 };
 

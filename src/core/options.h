@@ -104,6 +104,7 @@ struct ImageSize {
 // Pixels [x0, x1) x [y0, y1), from the top left.
 struct Crop {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  bool contains(int x, int y) const { return x >= x0 && x < x1 && y >= y0 && y < y1; }
   bool operator==(const Crop&) const = default;
 };
 

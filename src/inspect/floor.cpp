@@ -1,6 +1,7 @@
 #include "inspect/floor.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -11,35 +12,88 @@ namespace whit {
 
 namespace {
 
-// Notes the rays that go to Embree, in the order in which they do.
+// Rays of one kind of call, in the order in which they were traced.
+struct RayStream {
+  bool anyHit = false, coherent = false;
+  std::size_t count = 0;
+  // Origin, direction, and tFar of any-hit rays; filled up to whole blocks.
+  std::array<std::vector<float>, 7> columns{};
+};
+
+// Notes the rays that go to Embree.
 class RayLogger : public StageObserver {
  public:
   void after(Stage stage, const Chunk& c) override {
     if (stage == Stage::findIntersections) {
-      for (std::size_t s = 0; s < c.segmentCount; ++s) {
-        const Segment& segment = c.segments[s];
-        const RayColumns r = advanced(c.rays, segment.begin);
-        log_.append(false, c.coherent, {r.orgX, r.orgY, r.orgZ, r.dirX, r.dirY, r.dirZ, nullptr},
-                    segment.end - segment.begin);
-      }
+      const RayColumns& r = c.rays;
+      append({false, c.coherent}, {r.orgX, r.orgY, r.orgZ, r.dirX, r.dirY, r.dirZ, nullptr}, c.n);
     } else if (stage == Stage::checkShadows) {
       const ShadowColumns& r = c.shadows;
-      log_.append(true, c.shadowsAreCoherent(),
-                  {r.orgX, r.orgY, r.orgZ, r.dirX, r.dirY, r.dirZ, r.tFar}, c.shadowCount);
+      append({true, c.shadowsAreCoherent()},
+             {r.orgX, r.orgY, r.orgZ, r.dirX, r.dirY, r.dirZ, r.tFar}, c.shadowCount);
     }
   }
-  const RayLog& log() const { return log_; }
+  const std::vector<RayStream>& streams() const { return streams_; }
 
  private:
-  RayLog log_;
+  void append(const RayStream& kind, const std::array<const float*, 7>& rays, std::size_t n) {
+    auto stream = std::find_if(streams_.begin(), streams_.end(), [&](const RayStream& s) {
+      return s.anyHit == kind.anyHit && s.coherent == kind.coherent;
+    });
+    if (stream == streams_.end()) stream = streams_.insert(stream, kind);
+    for (std::size_t c = 0; c < rays.size() && rays[c]; ++c) {
+      std::vector<float>& column = stream->columns[c];
+      column.resize(stream->count);
+      column.insert(column.end(), rays[c], rays[c] + n);
+      column.resize(roundUpToBlock(stream->count + n));
+    }
+    stream->count += n;
+  }
+
+  std::vector<RayStream> streams_;
 };
+
+// Returns the milliseconds that Embree needs for the rays, in full packets.
+double replay(const Accel& accel, const RayStream& stream) {
+  const FrameConstants constants{};
+  TraceMeter meter;
+  Chunk c;
+  c.frame = &constants;
+  c.meter = &meter;
+  c.coherent = stream.coherent;
+  c.depth = 1;  // rays of depth 0 would be traced again where their eye lies in a surface
+  // Rays are only read.
+  const auto column = [&](std::size_t i) { return const_cast<float*>(stream.columns[i].data()); };
+  if (stream.anyHit) {
+    std::vector<std::uint32_t> slots(roundUpToBlock(stream.count));
+    std::iota(slots.begin(), slots.end(), 0u);
+    const ColumnStore<UnshadowedColumns> results(stream.count, {});
+    c.unshadowed = *results;
+    c.shadows = {column(0), column(1), column(2), column(3),
+                 column(4), column(5), column(6), slots.data()};
+    c.shadowCount = stream.count;
+    accel.checkShadows(c);
+    return meter.embreeMs;
+  }
+  const ColumnStore<HitColumns> results(stream.count, {});
+  c.hits = *results;
+  c.rays.orgX = column(0), c.rays.orgY = column(1), c.rays.orgZ = column(2);
+  c.rays.dirX = column(3), c.rays.dirY = column(4), c.rays.dirZ = column(5);
+  c.n = stream.count;
+  c.segments[0] = {RayKind::primary, 0, c.n};
+  c.segmentCount = 1;
+  accel.findHits(c);
+  return meter.embreeMs;
+}
 
 // Returns the wall-clock time of the replay of all logs, one for each worker.
 double replay(Renderer& renderer, const std::vector<RayLogger>& loggers) {
   std::vector<double> ms(loggers.size());
   renderer.scheduler().pool().run([&](int worker) {
     const auto w = static_cast<std::size_t>(worker);
-    ms[w] = renderer.accel().replay(loggers[w].log());
+    for (const RayStream& stream : loggers[w].streams()) {
+      ms[w] += replay(renderer.accel(), stream);
+    }
   });
   return std::accumulate(ms.begin(), ms.end(), 0.0) / static_cast<double>(ms.size());
 }
@@ -54,7 +108,7 @@ FloorResult measureFloor(Renderer& renderer, const Camera& camera, Film& film, i
   renderer.render(camera, film, nullptr, observers);
   FloorResult result;
   for (const RayLogger& logger : loggers) {
-    for (const RayLog::Stream& stream : logger.log().streams()) result.rays += stream.count;
+    for (const RayStream& stream : logger.streams()) result.rays += stream.count;
   }
   std::vector<double> floors, whole;
   for (int frame = 0; frame < std::max(frames, 1); ++frame) {

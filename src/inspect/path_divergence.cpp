@@ -4,7 +4,6 @@
 
 #include "core/pixel.h"
 #include "reference/reference.h"
-#include "render/embree_intersector.h"
 
 namespace whit {
 

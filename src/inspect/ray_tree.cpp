@@ -6,7 +6,6 @@
 #include "reference/add_impulses.h"
 #include "reference/find_intersections.h"
 #include "reference/update_image.h"
-#include "render/embree_intersector.h"
 #include "render/frame.h"
 
 namespace whit {

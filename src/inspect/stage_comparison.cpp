@@ -21,7 +21,6 @@
 #include "reference/twin.h"
 #include "reference/update_image.h"
 #include "reference/write_emitted_and_reflective_ambient.h"
-#include "render/embree_intersector.h"
 #include "render/frame.h"
 #include "scene/light.h"
 

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "reference/fresnel.h"
-#include "reference/ray_origin.h"
 #include "sampling/cosine_lobe.h"
 
 namespace whit::reference {

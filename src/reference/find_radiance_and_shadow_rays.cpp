@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "reference/fresnel.h"
-#include "reference/ray_origin.h"
 #include "reference/write_emitted_and_reflective_ambient.h"
 #include "sampling/cosine_lobe.h"
 

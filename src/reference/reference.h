@@ -16,7 +16,7 @@
 #include "core/options.h"
 #include "core/progress.h"
 #include "reference/intersector.h"
-#include "sampling/pixel_edges.h"
+#include "sampling/refinement.h"
 #include "stages/lobes.h"
 #include "stages/ray_kinds.h"
 
@@ -108,20 +108,5 @@ RayCounts render(const Scene& scene, const Intersector& intersector, const Camer
 // with adaptive sampling.
 void keepChannels(const Scene& scene, const Intersector& intersector, const Camera& camera,
                   const Settings& settings, const Image& image, ChannelLayers& layers);
-
-// Every triangle, instances included, in double. Quadratic; for small scenes and as an oracle.
-// Alpha masks and instances are the effects that matter here: without them masks cut no holes and
-// instanced geometry is not there.
-class BruteForce : public Intersector {
- public:
-  explicit BruteForce(const Scene& scene, EffectSet effects = EffectSet::all())
-      : scene_(scene), effects_(effects) {}
-  bool closest(const Ray& ray, Candidate& candidate) const override;
-  bool occluded(const Ray& ray, double tFar) const override;
-
- private:
-  const Scene& scene_;
-  EffectSet effects_;
-};
 
 }  // namespace whit::reference

@@ -4,33 +4,33 @@
 #include <functional>
 #include <vector>
 
+#include "bake/sphere.h"
 #include "core/display.h"
 #include "core/worker_pool.h"
+#include "reference/add_impulses.h"
 #include "reference/find_intersections.h"
 #include "reference/generate_rays.h"
 #include "reference/initial_medium_stack.h"
 #include "reference/reference.h"
 #include "reference/settle_coplanar.h"
 #include "reference/update_image.h"
-#include "sampling/probe_samples.h"
 
 namespace whit::reference {
 
 namespace {
 
-PixelSurface surfaceOf(const Surfel& s, const Candidate& candidate) {
-  return {s.material, candidate.instance, Vec3f(s.position), Vec3f(s.geometricNormal)};
-}
+using PixelTask = std::function<void(int x, int y, RayCounts& counts)>;
 
-using RowTask = std::function<void(int y, RayCounts& counts)>;
-
-// Every row of the window once, shared among threads.
-RayCounts forEachRow(const Crop& window, int threads, Progress* progress, const RowTask& task) {
+// Calls the task for every pixel of the window; threads share the rows.
+RayCounts forEachPixel(const Crop& window, int threads, Progress* progress, const PixelTask& task) {
   std::vector<RayCounts> counts(static_cast<std::size_t>(std::max(1, threads)));
   const int rows = window.y1 - window.y0;
   std::atomic<int> rowsDone{0};
   parallelFor(threads, static_cast<std::size_t>(rows), [&](std::size_t row, int worker) {
-    task(window.y0 + static_cast<int>(row), counts[static_cast<std::size_t>(worker)]);
+    const int y = window.y0 + static_cast<int>(row);
+    for (int x = window.x0; x < window.x1; ++x) {
+      task(x, y, counts[static_cast<std::size_t>(worker)]);
+    }
     reportProgress(progress, "tracing the reference", static_cast<double>(++rowsDone) / rows);
   });
   RayCounts sum;
@@ -38,81 +38,61 @@ RayCounts forEachRow(const Crop& window, int threads, Progress* progress, const 
   return sum;
 }
 
-// The picture of pixels' centers, and what is seen there.
-struct FirstPicture {
-  Image image;
-  std::vector<PixelSurface> surfaces;
-};
-
-RayCounts traceCenters(const Tracer& tracer, const CameraFrame& frame, const Settings& settings,
-                       FirstPicture& first, Progress* progress) {
-  Image& image = first.image;
-  return forEachRow(image.window, settings.threads, progress, [&](int y, RayCounts& rowCounts) {
-    for (int x = image.window.x0; x < image.window.x1; ++x) {
-      first.surfaces[image.index(x, y)] = tracer.surfaceAtCenter(frame, x, y);
-      image.at(x, y) = quantized(settings.options.film, Rgb(tracer.center(frame, x, y, rowCounts)));
-    }
-  });
-}
-
-// Pixels at edges: the mean of the probe samples, and those samples' codes.
-RayCounts traceProbes(const Tracer& tracer, const CameraFrame& frame, const Settings& settings,
-                      const Crop& window, const std::vector<std::uint8_t>& edges,
-                      FirstPicture& first, ProbeSamples& probes, Progress* progress) {
-  const RenderOptions& options = settings.options;
-  const double scale = std::exp2(static_cast<double>(options.exposure.ev));
-  const int samples = std::min(options.spp, kProbeSamples);
-  const auto trace = [&](int x, int y, RayCounts& counts) {
-    PixelProbes& own = probes.at(x, y);
-    for (int s = 0; s < samples; ++s) {
-      const auto number = static_cast<std::size_t>(s);
-      const RgbD value = tracer.sample(frame, x, y, number, counts);
-      addSample(own.total, value, s + 1.0);
-      own.codes[number] = displayCode(Rgb(value), scale, options.toneCurve, options.srgb);
-    }
-    first.image.at(x, y) = quantized(options.film, Rgb(own.total));
-  };
-  return forEachRow(window, settings.threads, progress, [&](int y, RayCounts& counts) {
-    for (int x = window.x0; x < window.x1; ++x) {
-      if (edges[first.image.index(x, y)] != 0) trace(x, y, counts);
-    }
-  });
-}
-
-// The centers of all pixels first; where that picture, as it would be displayed, has edges then the
-// probe samples, and all where these differ.
+// Traces the centers of all pixels first; where that picture, as it would be displayed, has edges,
+// the probe samples; and all samples where these differ.
 RayCounts renderAdaptively(const Tracer& tracer, const CameraFrame& frame, const Settings& settings,
                            Image& image, Progress* progress) {
   const RenderOptions& options = settings.options;
-  FirstPicture first;
-  first.image =
-      Image(image.width, image.height, grown(image.window, kPassReach, image.width, image.height));
-  first.surfaces.resize(first.image.pixels.size());
-  RayCounts counts = traceCenters(tracer, frame, settings, first, progress);
-  std::vector<std::uint8_t> edges(first.image.pixels.size());
+  RayCounts counts;
+  const auto forEach = [&](const Crop& window, const PixelTask& task) {
+    counts += forEachPixel(window, settings.threads, progress, task);
+  };
+  const auto grownBy = [&](int more) {
+    return grown(image.window, more, image.width, image.height);
+  };
+  Image first(image.width, image.height, grownBy(kPassReach));
+  std::vector<PixelSurface> surfaces(first.pixels.size());
+  forEach(first.window, [&](int x, int y, RayCounts& own) {
+    surfaces[first.index(x, y)] = tracer.surfaceAtCenter(frame, x, y);
+    first.at(x, y) = quantized(options.film, Rgb(tracer.center(frame, x, y, own)));
+  });
+  std::vector<std::uint8_t> edges(first.pixels.size());
   const DisplayImage display =
-      toDisplay(first.image, options.exposure.ev, options.toneCurve, options.srgb);
-  findEdges(display, first.surfaces, options.contrast, 0, first.image.windowHeight(), edges);
-  ProbeSamples probes(first.image.window, edges,
-                      samplePattern(std::max(options.spp, kProbeSamples)));
-  counts += traceProbes(tracer, frame, settings, grown(image.window, 1, image.width, image.height),
-                        edges, first, probes, progress);
-  const auto refined = [&](int x, int y, RayCounts& rowCounts) {
+      toDisplay(first, options.exposure.ev, options.toneCurve, options.srgb);
+  findEdges(display, surfaces, options.contrast, 0, first.windowHeight(), edges);
+  ProbeSamples probes(first.window, edges, samplePattern(std::max(options.spp, kProbeSamples)));
+  const double scale = std::exp2(static_cast<double>(options.exposure.ev));
+  forEach(grownBy(1), [&](int x, int y, RayCounts& own) {
+    if (edges[first.index(x, y)] == 0) return;
+    PixelProbes& pixel = probes.at(x, y);
+    for (int s = 0; s < std::min(options.spp, kProbeSamples); ++s) {
+      const auto number = static_cast<std::size_t>(s);
+      const RgbD value = tracer.sample(frame, x, y, number, own);
+      addSample(pixel.total, value, s + 1.0);
+      pixel.codes[number] = displayCode(Rgb(value), scale, options.toneCurve, options.srgb);
+    }
+    first.at(x, y) = quantized(options.film, Rgb(pixel.total));
+  });
+  forEach(image.window, [&](int x, int y, RayCounts& own) {
+    image.at(x, y) = first.at(x, y);
+    if (options.spp <= kProbeSamples || edges[first.index(x, y)] == 0) return;
+    if (!probes.differ(x, y, options.contrast)) return;
     RgbD mean = probes.at(x, y).total;
     for (int s = kProbeSamples; s < options.spp; ++s) {
-      const auto number = static_cast<std::size_t>(s);
-      addSample(mean, tracer.sample(frame, x, y, number, rowCounts), s + 1.0);
+      addSample(mean, tracer.sample(frame, x, y, static_cast<std::size_t>(s), own), s + 1.0);
     }
-    return quantized(options.film, Rgb(mean));
-  };
-  counts += forEachRow(image.window, settings.threads, progress, [&](int y, RayCounts& rowCounts) {
-    for (int x = image.window.x0; x < image.window.x1; ++x) {
-      const bool more = options.spp > kProbeSamples && edges[first.image.index(x, y)] != 0 &&
-                        probes.differ(x, y, options.contrast);
-      image.at(x, y) = more ? refined(x, y, rowCounts) : first.image.at(x, y);
-    }
+    image.at(x, y) = quantized(options.film, Rgb(mean));
   });
   return counts;
+}
+
+Vec2f uvAt(const Scene& scene, std::uint32_t triangle, const TriangleHit& hit) {
+  if (scene.isSphere(triangle)) {
+    const std::array<double, 2> uv = sphereUv(spherePoint(hit.u, hit.v));
+    return {static_cast<float>(uv[0]), static_cast<float>(uv[1])};
+  }
+  const TexturePoint point = texturePoint(scene.uvsOf(triangle, false), hit);
+  return {static_cast<float>(point.u), static_cast<float>(point.v)};
 }
 
 }  // namespace
@@ -149,7 +129,34 @@ PixelSurface Tracer::surfaceAtCenter(const CameraFrame& camera, int x, int y) co
   if (!met) return {};
   const TriangleHit hit = refineHit(scene_, ray, met->candidate);
   const Surfel s = makeSurfel(scene_, effects_, met->candidate, hit, ray);
-  return surfaceOf(s, met->candidate);
+  return {s.material, met->candidate.instance, Vec3f(s.position), Vec3f(s.geometricNormal)};
+}
+
+ChannelValues Tracer::channels(const CameraFrame& camera, int x, int y, const Vec2f& at,
+                               std::size_t sample) const {
+  const auto [ray, path] = primaryRay(camera, x, y, at, sample);
+  const std::optional<Settled> met = nearest(ray, 0);
+  ChannelValues values;
+  if (!met) return values;
+  const Candidate& candidate = met->candidate;
+  const TriangleHit hit = refineHit(scene_, ray, candidate);
+  Surfel surfel = surfelAt(ray, *met, hit);
+  const MediaStack media = mediaAtStart(scene_, effects_, intersector_, camera, ray);
+  limitDiffuse(
+      scene_, effects_,
+      crossMedia(scene_, effects_, surfel.material, surfel.entering, media, met->alsoCrossed),
+      options_.shading, {path.number, lobeSampling(0, options_.glossy, path.sample)}, surfel);
+  values.distance = static_cast<float>(hit.t);
+  values.z = static_cast<float>(hit.t * dot(ray.direction, camera.forward));
+  values.position = Vec3f(surfel.position);
+  values.normal = Vec3f(surfel.shadingNormal);
+  values.albedo = Rgb(surfel.diffuse);
+  values.uv = uvAt(scene_, candidate.triangle, hit);
+  const Scene::MetNumbers numbers = scene_.numbersOf(candidate.triangle, candidate.instance);
+  values.object = numbers.item;
+  values.triangle = numbers.triangle;
+  values.material = surfel.material;
+  return values;
 }
 
 RayCounts render(const Scene& scene, const Intersector& intersector, const Camera& camera,
@@ -160,10 +167,28 @@ RayCounts render(const Scene& scene, const Intersector& intersector, const Camer
   if (tracer.samplesAdaptively()) {
     return renderAdaptively(tracer, frame, settings, image, progress);
   }
-  return forEachRow(image.window, settings.threads, progress, [&](int y, RayCounts& counts) {
-    for (int x = image.window.x0; x < image.window.x1; ++x) {
-      image.at(x, y) = quantized(settings.options.film, Rgb(tracer.pixel(frame, x, y, counts)));
-    }
+  return forEachPixel(image.window, settings.threads, progress,
+                      [&](int x, int y, RayCounts& counts) {
+                        const Rgb mean(tracer.pixel(frame, x, y, counts));
+                        image.at(x, y) = quantized(settings.options.film, mean);
+                      });
+}
+
+void keepChannels(const Scene& scene, const Intersector& intersector, const Camera& camera,
+                  const Settings& settings, const Image& image, ChannelLayers& layers) {
+  const CameraFrame frame =
+      frameWithMedia(scene, settings.effects, intersector, camera, image.width, image.height);
+  const Tracer tracer(scene, intersector, settings);
+  const std::vector<Vec2f> samples =
+      samplePattern(tracer.samplesAdaptively() ? 1 : settings.options.spp);
+  const std::size_t number = nearestToCenter(samples);
+  forEachPixel(image.window, settings.threads, nullptr, [&](int x, int y, RayCounts&) {
+    const std::size_t pixel = image.index(x, y);
+    layers.keep(pixel, tracer.channels(frame, x, y, samples[number], number));
+    if (!layers.channels().has(Channel::rays)) return;
+    RayCounts counts;
+    tracer.sampled(frame, x, y, samples[number], number, counts);
+    layers.numbers(Channel::rays)[pixel] = static_cast<std::uint32_t>(counts.all());
   });
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <tuple>
 #include <utility>
 
 #include "reference/find_intersections.h"
@@ -146,24 +145,22 @@ Candidate settleSpheres(const Scene& scene, EffectSet effects, const Ray& ray,
                         const Candidate& met) {
   const auto place = scene.coincidentSpheres.find(orderOf({met.triangle, met.instance}));
   if (place == scene.coincidentSpheres.end()) return met;
-  const auto preference = [&](const Candidate& c) {
-    const std::uint32_t number = scene.triangles[c.triangle].material;
-    const std::uint32_t medium = scene.mediumOfMaterial[number];
-    return std::tuple(!scene.materials[number].passesLight(), medium == 0,
-                      scene.media[medium].priority);
-  };
   const Vec3d point = ray.origin + ray.direction * refineSphereHit(scene, ray, met).t;
-  std::optional<Candidate> best;
+  std::optional<Place> best;
+  std::uint32_t rank = 0;
   for (const PlacedTriangleId& id : *place->second) {
     if (id.instance != kNoInstance && !effects.has(Effect::instances)) continue;
     const auto [u, v] = sphereWeights(onUnitSphere(sphereInWorld(scene, id), point));
-    const Candidate own{id.triangle, id.instance, u, v};
-    const bool isMet = id.triangle == met.triangle && id.instance == met.instance;
     const TriangleHit hit{0, u, v};
+    const bool isMet = id == idOf(met);
     if (!isMet && effects.has(Effect::alphaMasks) && cutAway(scene, id.triangle, hit)) continue;
-    if (!best || preference(own) >= preference(*best)) best = own;
+    const std::uint32_t material = scene.triangles[id.triangle].material;
+    const Place own{{id.triangle, id.instance, u, v},         hit,
+                    scene.mediumOfMaterial[material],         false,
+                    !scene.materials[material].passesLight(), rank++};
+    if (!best || comesFirst(scene, own, *best)) best = own;
   }
-  return best.value_or(met);
+  return best ? best->candidate : met;
 }
 
 }  // namespace whit::reference

@@ -57,9 +57,8 @@ FrameStats AdaptiveSampler::render(const Frame& frame) {
   startOver(frame);
   FrameStats stats = traceCenters(frame);
   stats.add(traceProbes(frame));
+  stats.nonFinitePixels = 0;  // only pixels of the film count
   stats.add(findContrast(frame));
-  stats.nonFinitePixels = 0;  // of pictures that are kept only
-  stats.add(keepFirstPicture(frame));
   Frame rest = frame;
   rest.constants.channels = {};
   if (frame.samples.size() > kProbeSamples) {
@@ -100,7 +99,7 @@ FrameStats AdaptiveSampler::traceCenters(const Frame& frame) {
   centers.endSample = 1;
   centers.film = &first_;
   centers.observer = &recorder;
-  return scheduler_.trace(centers, scheduler_.allPixels());
+  return scheduler_.trace(centers, scheduler_.tiles());
 }
 
 FrameStats AdaptiveSampler::traceProbes(const Frame& frame) {
@@ -123,39 +122,27 @@ FrameStats AdaptiveSampler::traceProbes(const Frame& frame) {
   return stats;
 }
 
-// Calls visit(x, y) for every pixel of the film's window; workers share the rows.
-template <typename Visit>
-FrameStats AdaptiveSampler::forFilm(const Frame& frame, const Visit& visit) {
-  const Crop &traced = scheduler_.window(), &window = frame.film->image.window;
-  return scheduler_.forRows([&](int begin, int end) {
+// Marks the pixels whose probe samples do not agree, if there are more samples than those. The film
+// takes all other pixels over; workers share the rows.
+FrameStats AdaptiveSampler::findContrast(const Frame& frame) {
+  Film& film = *frame.film;
+  const int contrast = frame.constants.options.contrast;
+  const bool more = samples_ > kProbeSamples;
+  const Crop &traced = scheduler_.window(), &window = film.image.window;
+  std::atomic<std::uint64_t> nonFinite{0};
+  FrameStats stats = scheduler_.forRows([&](int begin, int end) {
     const int last = std::min(traced.y0 + end, window.y1);
     for (int y = std::max(traced.y0 + begin, window.y0); y < last; ++y) {
-      for (int x = window.x0; x < window.x1; ++x) visit(x, y);
+      for (int x = window.x0; x < window.x1; ++x) {
+        const std::size_t source = first_.image.index(x, y), target = film.image.index(x, y);
+        contrasting_[source] = more && edges_[source] != 0 && probes_->differ(x, y, contrast);
+        if (contrasting_[source] != 0) continue;
+        const Rgb value = film.image.pixels[target] = first_.image.pixels[source];
+        if (!isFinite(value)) ++nonFinite;
+        if (!film.wantDisplay) continue;
+        std::memcpy(&film.display.rgba[4 * target], &first_.display.rgba[4 * source], 4);
+      }
     }
-  });
-}
-
-// Where the probe samples do not agree, if there are more samples than those.
-FrameStats AdaptiveSampler::findContrast(const Frame& frame) {
-  if (samples_ <= kProbeSamples) return {};
-  const int contrast = frame.constants.options.contrast;
-  return forFilm(frame, [&](int x, int y) {
-    const std::size_t i = first_.image.index(x, y);
-    contrasting_[i] = edges_[i] != 0 && probes_->differ(x, y, contrast);
-  });
-}
-
-// The film takes over what is not traced anew.
-FrameStats AdaptiveSampler::keepFirstPicture(const Frame& frame) {
-  Film& film = *frame.film;
-  std::atomic<std::uint64_t> nonFinite{0};
-  FrameStats stats = forFilm(frame, [&](int x, int y) {
-    const std::size_t source = first_.image.index(x, y), target = film.image.index(x, y);
-    if (contrasting_[source] != 0) return;
-    const Rgb value = film.image.pixels[target] = first_.image.pixels[source];
-    if (!isFinite(value)) ++nonFinite;
-    if (!film.wantDisplay) return;
-    std::memcpy(&film.display.rgba[4 * target], &first_.display.rgba[4 * source], 4);
   });
   stats.nonFinitePixels += nonFinite;
   return stats;
@@ -163,25 +150,19 @@ FrameStats AdaptiveSampler::keepFirstPicture(const Frame& frame) {
 
 FrameStats AdaptiveSampler::traceMarked(const Frame& frame, const Crop& window,
                                         const std::vector<std::uint8_t>& marks) {
-  return scheduler_.trace(frame, scheduler_.workOf(markedPixels(window, marks)));
-}
-
-// In the order of the tiles, so that neighbors stay together.
-PixelLists AdaptiveSampler::markedPixels(const Crop& window,
-                                         const std::vector<std::uint8_t>& marks) const {
+  // In the order of the tiles, so that neighbors stay together.
   PixelLists lists;
-  for (const auto& tile : scheduler_.allPixels().tiles) {
+  for (const auto& tile : scheduler_.tiles()) {
     for (const std::uint32_t pixel : tile) {
       const int x = pixelX(pixel), y = pixelY(pixel);
-      const bool inside = x >= window.x0 && x < window.x1 && y >= window.y0 && y < window.y1;
-      if (!inside || marks[first_.image.index(x, y)] == 0) continue;
+      if (!window.contains(x, y) || marks[first_.image.index(x, y)] == 0) continue;
       if (lists.empty() || lists.back().size() == kListLength) {
-        lists.emplace_back().reserve(kListLength);
+        lists.emplace_back().reserve(kListLength + kListPadding);
       }
       lists.back().push_back(pixel);
     }
   }
-  return lists;
+  return scheduler_.trace(frame, lists);
 }
 
 }  // namespace whit

@@ -1,6 +1,6 @@
 // Adaptive sampling (--adaptive): a frame in several passes. The center of every pixel is traced
 // first; where that picture has edges, probe samples; and where these differ, all samples
-// (sampling/probe_samples.h). What happens to a pixel in the later passes depends on whole pictures
+// (sampling/refinement.h). What happens to a pixel in the later passes depends on whole pictures
 // of the earlier ones and on nothing else, so that the result is the same for any tiles and
 // threads. Channels are those of the centers.
 #pragma once
@@ -11,7 +11,6 @@
 
 #include "render/frame.h"
 #include "render/scheduler.h"
-#include "sampling/pixel_edges.h"
 
 namespace whit {
 
@@ -32,13 +31,9 @@ class AdaptiveSampler {
   void startOver(const Frame& frame);
   FrameStats traceCenters(const Frame& frame);
   FrameStats traceProbes(const Frame& frame);
-  template <typename Visit>
-  FrameStats forFilm(const Frame& frame, const Visit& visit);
   FrameStats findContrast(const Frame& frame);
-  FrameStats keepFirstPicture(const Frame& frame);
   FrameStats traceMarked(const Frame& frame, const Crop& window,
                          const std::vector<std::uint8_t>& marks);
-  PixelLists markedPixels(const Crop& window, const std::vector<std::uint8_t>& marks) const;
 
   Scheduler& scheduler_;
   // The picture of the first pass, then of the probe samples as well, and what is seen there.

@@ -1,11 +1,11 @@
-#include "render/audit_shadows.h"
-
 #include <algorithm>
 #include <vector>
 
 #include "accel/accel.h"
 #include "core/error.h"
 #include "core/formatted.h"
+#include "render/frame.h"
+#include "render/steps.h"
 #include "simd/kernels.h"
 
 namespace whit {

@@ -9,7 +9,6 @@
 #include "core/worker_pool.h"
 #include "reference/initial_medium_stack.h"
 #include "reference/reference.h"
-#include "render/embree_intersector.h"
 
 namespace whit {
 

@@ -1,6 +1,7 @@
 #include "render/build_tables.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/error.h"
@@ -14,6 +15,10 @@ void copy3(const Rgb& from, float* to) {
   to[0] = from.x;
   to[1] = from.y;
   to[2] = from.z;
+}
+
+std::array<std::int32_t, 6> mapsOf(const MaterialRecord& r) {
+  return {r.diffuseMap, r.specularMap, r.roughnessMap, r.emissionMap, r.normalMap, r.coverageMap};
 }
 
 // `onOthers`: a sheet may lie on a dielectric's face, which reflects through it.
@@ -55,8 +60,7 @@ MaterialRecord recordOf(const Material& m, std::uint32_t medium, bool onOthers, 
   const float roughness = std::max(m.roughness, kMinRoughness);
   r.alpha = roughness * roughness;
   r.flags = flagsOf(m, onOthers, effects);
-  for (const std::int32_t map :
-       {r.diffuseMap, r.specularMap, r.emissionMap, r.normalMap, r.roughnessMap, r.coverageMap}) {
+  for (const std::int32_t map : mapsOf(r)) {
     if (map != kNoTexture) r.flags |= kMaterialMapped;
   }
   r.medium = (r.flags & kMaterialTransmits) != 0 ? medium : 0;
@@ -101,30 +105,6 @@ void addMedia(const Scene& scene, ShadingTables& tables) {
   }
 }
 
-void addInstances(const Scene& scene, ShadingTables& tables) {
-  tables.instances.clear();
-  for (const InstanceRecord& instance : scene.instances) {
-    InstanceTransform t{};
-    const Affine& m = instance.toWorld;
-    const Vec3d columns[4] = {m.x, m.y, m.z, m.p};
-    const Vec3d normals[3] = {m.normal({1, 0, 0}), m.normal({0, 1, 0}), m.normal({0, 0, 1})};
-    int exponent = 0;
-    std::frexp(maxComponent(max(abs(normals[0]), max(abs(normals[1]), abs(normals[2])))),
-               &exponent);
-    for (int row = 0; row < 3; ++row) {
-      for (int column = 0; column < 4; ++column) {
-        t.toWorld[row * 4 + column] = static_cast<float>(columns[column][row]);
-        if (column == 3) continue;
-        t.normal[row * 4 + column] =
-            static_cast<float>(std::ldexp(normals[column][row], -exponent));
-      }
-    }
-    t.handedness = m.determinant() < 0 ? -1.0f : 1.0f;
-    tables.instances.push_back(t);
-  }
-  if (tables.instances.empty()) tables.instances.push_back({});
-}
-
 // Texels lie in tiles of 4x4, a cache line each (Blinn 1990, "The truth about texture mapping"),
 // which overlap by one: the four texels of a bilinear lookup always share a line, at the price of
 // 16/9 of the memory.
@@ -132,15 +112,10 @@ constexpr std::size_t kSide = kTexelTile, kTile = kSide * kSide;
 constexpr TextureRecord kUnused{0, 1, 1, 0};
 
 // One flag a texture of the scene.
-std::vector<bool> usedTextures(const Scene& scene, EffectSet effects, const ShadingTables& tables) {
+std::vector<bool> usedTextures(const Scene& scene, const ShadingTables& tables) {
   std::vector<bool> used(scene.textures.size(), false);
-  if (!effects.has(Effect::textures) && !effects.has(Effect::normalMaps) &&
-      !effects.has(Effect::coverage)) {
-    return used;
-  }
   for (const MaterialRecord& m : tables.materials) {
-    for (const std::int32_t map :
-         {m.diffuseMap, m.specularMap, m.roughnessMap, m.emissionMap, m.normalMap, m.coverageMap}) {
+    for (const std::int32_t map : mapsOf(m)) {
       if (map != kNoTexture) used[static_cast<std::size_t>(map)] = true;
     }
   }
@@ -196,9 +171,8 @@ void addMipLevels(const MipMaps& maps, std::size_t texture, ShadingTables& table
 
 // Adds the textures that the materials of `tables` use, with mip levels where lookups are
 // trilinear.
-void addTextures(const Scene& scene, EffectSet effects, TextureFilter filter, int threads,
-                 ShadingTables& tables) {
-  const std::vector<bool> used = usedTextures(scene, effects, tables);
+void addTextures(const Scene& scene, TextureFilter filter, int threads, ShadingTables& tables) {
+  const std::vector<bool> used = usedTextures(scene, tables);
   const bool trilinear = filter == TextureFilter::trilinear;
   const MipMaps maps(scene.textures, trilinear ? used : std::vector<bool>(used.size()), threads);
   std::size_t total = 0;
@@ -263,25 +237,43 @@ ShadingTables buildTables(const Scene& scene, EffectSet effects, const ShadingCh
   tables.colorStride = scene.colors.empty() ? 0 : sizeof(ColorRecord) / sizeof(float);
   tables.secondUvs = scene.secondUvs.empty() ? nullptr : scene.secondUvs.data();
   addMaterials(scene, effects, tables);
-  addTextures(scene, effects, shading.textureFilter, threads, tables);
-  addInstances(scene, tables);
+  addTextures(scene, shading.textureFilter, threads, tables);
+  refreshInstances(scene, tables);
   addLighting(scene, effects, tables);
   return tables;
 }
 
-void refreshInstances(const Scene& scene, ShadingTables& tables) { addInstances(scene, tables); }
+void refreshInstances(const Scene& scene, ShadingTables& tables) {
+  tables.instances.clear();
+  for (const InstanceRecord& instance : scene.instances) {
+    InstanceTransform t{};
+    const Affine& m = instance.toWorld;
+    const Vec3d columns[4] = {m.x, m.y, m.z, m.p};
+    const Vec3d normals[3] = {m.normal({1, 0, 0}), m.normal({0, 1, 0}), m.normal({0, 0, 1})};
+    int exponent = 0;
+    std::frexp(maxComponent(max(abs(normals[0]), max(abs(normals[1]), abs(normals[2])))),
+               &exponent);
+    for (int row = 0; row < 3; ++row) {
+      for (int column = 0; column < 4; ++column) {
+        t.toWorld[row * 4 + column] = static_cast<float>(columns[column][row]);
+        if (column == 3) continue;
+        t.normal[row * 4 + column] =
+            static_cast<float>(std::ldexp(normals[column][row], -exponent));
+      }
+    }
+    t.handedness = m.determinant() < 0 ? -1.0f : 1.0f;
+    tables.instances.push_back(t);
+  }
+  if (tables.instances.empty()) tables.instances.push_back({});
+}
 
 void refreshShading(const Scene& scene, EffectSet effects, const ShadingChoices& shading,
                     int threads, ShadingTables& tables) {
   const std::vector<MaterialRecord> before = tables.materials;
   addMaterials(scene, effects, tables);
-  const bool sameTextures =
-      std::equal(before.begin(), before.end(), tables.materials.begin(), tables.materials.end(),
-                 [](const MaterialRecord& a, const MaterialRecord& b) {
-                   return a.diffuseMap == b.diffuseMap && a.specularMap == b.specularMap &&
-                          a.roughnessMap == b.roughnessMap && a.emissionMap == b.emissionMap &&
-                          a.normalMap == b.normalMap && a.coverageMap == b.coverageMap;
-                 });
+  const bool sameTextures = std::equal(
+      before.begin(), before.end(), tables.materials.begin(), tables.materials.end(),
+      [](const MaterialRecord& a, const MaterialRecord& b) { return mapsOf(a) == mapsOf(b); });
   if (sameTextures) {
     addLighting(scene, effects, tables);
   } else {

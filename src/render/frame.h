@@ -12,7 +12,7 @@
 #include "core/channels.h"
 #include "core/image.h"
 #include "core/options.h"
-#include "sampling/probe_samples.h"
+#include "sampling/refinement.h"
 #include "scene/camera.h"
 #include "simd/kernels.h"
 #include "stages/chunk.h"
@@ -69,6 +69,10 @@ Film makeFilm(const Scene& scene, const RenderOptions& options,
               std::uint64_t maxBytes = std::numeric_limits<std::uint64_t>::max());
 // Throws Error(badScene) for a frame with pixels that are not finite when the options are strict.
 void refuseNonFinite(const Scene& scene, const RenderOptions& options, const FrameStats& frame);
+
+// Throws Error(checkFailed), naming light, triangle and ray, for a frame whose rays have
+// contradicted the shadow cache.
+void requireRightShadows(const FrameStats& stats, const Scene& scene);
 
 // Samples of the pattern, [first, end).
 struct SampleRange {

@@ -4,10 +4,9 @@
 #include <stdexcept>
 
 #include "accel/accel.h"
-#include "render/audit_shadows.h"
 #include "render/initial_media.h"
 #include "render/settle_coplanar.h"
-#include "render/update_image.h"
+#include "render/steps.h"
 #include "simd/kernels.h"
 #include "stages/lobes.h"
 
@@ -80,16 +79,23 @@ Step stepOf(const simd::Kernel& kernel) {
           .kernels = {useOf(kernel)}};
 }
 
+// A step that is no kernel is counted with the kernel whose columns it amends.
+Step amendingStep(const char* name, const simd::Kernel& kernel, StepFunction run, Parts reads,
+                  Parts writes) {
+  return {.name = name,
+          .number = simd::indexOf(kernel),
+          .stage = kernel.stage,
+          .run = run,
+          .reads = reads,
+          .writes = writes,
+          .kernels = {}};
+}
+
 // Rays to Embree and back: one at a time, or in packets that kernels fill and empty.
 Step embreeStep(const char* name, const char* call, StepFunction run, const simd::Kernel& pack,
                 const simd::Kernel& unpack, bool packets) {
-  Step step{.name = name,
-            .number = simd::indexOf(pack),
-            .stage = pack.stage,
-            .run = run,
-            .reads = pack.reads,
-            .writes = unpack.writes,
-            .kernels = {{pack.stage, call, "embree"}}};
+  Step step = amendingStep(name, pack, run, pack.reads, unpack.writes);
+  step.kernels = {{pack.stage, call, "embree"}};
   if (packets) step.kernels = {useOf(pack), step.kernels[0], useOf(unpack)};
   return step;
 }
@@ -125,8 +131,14 @@ class Planner {
     }
     addImpulses();
     if (has(Effect::absorption)) plan_.atEye = {stepOf(simd::kReturnToEye)};
-    keepChannels();
-    plan_.perTile = {updateImageStep()};
+    if (countsRays()) {
+      plan_.atEye.push_back(amendingStep("keepRayCounts", simd::kReturnToEye, keepRayCounts,
+                                         {Part::rayCounts}, {Part::channels}));
+    }
+    plan_.perTile = {amendingStep("updateImage", simd::kEncodeDisplay, updateImage,
+                                  {Part::radiance, Part::pixels},
+                                  {Part::radiance, Part::codes, Part::film})};
+    plan_.perTile[0].kernels = {useOf(simd::kEncodeDisplay)};
     markEndsOfStages();
     return std::move(plan_);
   }
@@ -134,10 +146,15 @@ class Planner {
  private:
   bool has(Effect effect) const { return plan_.effects.has(effect); }
   bool inPackets() const { return options_.packet != 1; }
+  bool countsRays() const { return plan_.channels.has(Channel::rays); }
 
   void findIntersections() {
-    plan_.perQueue = {embreeStep("findHits", "intersect", findHits, simd::kPackRays,
-                                 simd::kUnpackHits, inPackets())};
+    if (countsRays()) {
+      plan_.perQueue = {
+          amendingStep("countRays", simd::kPackRays, countRays, {Part::rays}, {Part::rayCounts})};
+    }
+    plan_.perQueue.push_back(embreeStep("findHits", "intersect", findHits, simd::kPackRays,
+                                        simd::kUnpackHits, inPackets()));
     if (plan_.features.has(Feature::coplanar)) {
       plan_.perQueue.push_back(amendingStep("settleCoplanar", simd::kUnpackHits, settleCoplanar,
                                             {Part::rays, Part::hits}, {Part::hits}));
@@ -164,44 +181,35 @@ class Planner {
     if (plan_.features.has(Feature::lift)) {
       plan_.perQueue.push_back(stepOf(simd::kLiftShadowOrigins));
     }
-  }
-
-  bool countsRays() const { return plan_.channels.has(Channel::rays); }
-
-  void keepChannels() {
-    if (plan_.channels.empty()) return;
-    // Behind the other steps of findIntersections.
-    const auto isLater = [](const Step& step) { return step.stage != Stage::findIntersections; };
-    const auto at = std::find_if(plan_.perQueue.begin(), plan_.perQueue.end(), isLater);
-    plan_.perQueue.insert(
-        at, amendingStep("keepChannels", simd::kInterpolateSurfels, whit::keepChannels,
-                         {Part::rays, Part::hits, Part::surfels}, {Part::channels}));
-    if (!countsRays()) return;
-    plan_.perQueue.insert(
-        plan_.perQueue.begin(),
-        amendingStep("countRays", simd::kPackRays, countRays, {Part::rays}, {Part::rayCounts}));
-    for (LightSteps& light : plan_.perLight) {
-      light.steps.insert(light.steps.begin() + 1,
-                         amendingStep("countShadowRays", simd::kFindRadianceAndShadowRays,
-                                      countShadowRays, {Part::shadows}, {Part::rayCounts}));
+    if (!plan_.channels.empty()) {
+      plan_.perQueue.push_back(amendingStep("keepChannels", simd::kInterpolateSurfels, keepChannels,
+                                            {Part::rays, Part::hits, Part::surfels},
+                                            {Part::channels}));
     }
-    if (!plan_.impulses.empty()) {
-      plan_.onReturn.push_back(amendingStep("returnRayCounts", simd::kReturnImpulses,
-                                            returnRayCounts, {Part::rays, Part::rayCounts}, {}));
-    }
-    plan_.atEye.push_back(amendingStep("keepRayCounts", simd::kReturnToEye, keepRayCounts,
-                                       {Part::rayCounts}, {Part::channels}));
   }
 
   void addAmbientLight() {
     const auto samples = static_cast<std::uint32_t>(options_.ambientSamples);
     for (std::uint32_t k = 0; k < samples; ++k) {
-      plan_.perLight.push_back({.light = kAmbientLight,
-                                .sample = k,
-                                .samples = samples,
-                                .steps = {stepOf(simd::kFindAmbientAndOcclusionRays),
-                                          checkShadowsStep(), stepOf(simd::kAddShading)}});
+      LightSteps& ambient =
+          startLight(kAmbientLight, k, samples, simd::kFindAmbientAndOcclusionRays);
+      ambient.steps.push_back(checkShadowsStep());
+      ambient.steps.push_back(stepOf(simd::kAddShading));
     }
+  }
+
+  LightSteps& startLight(std::size_t light, std::uint32_t sample, std::uint32_t samples,
+                         const simd::Kernel& first) {
+    LightSteps& started = plan_.perLight.emplace_back();
+    started.light = light;
+    started.sample = sample;
+    started.samples = samples;
+    started.steps = {stepOf(first)};
+    if (countsRays()) {
+      started.steps.push_back(amendingStep("countShadowRays", simd::kFindRadianceAndShadowRays,
+                                           countShadowRays, {Part::shadows}, {Part::rayCounts}));
+    }
+    return started;
   }
 
   Step checkShadowsStep() const {
@@ -218,20 +226,16 @@ class Planner {
   void addLight(std::size_t index, std::uint32_t sample, std::uint32_t samples) {
     const bool directional = scene_.lights[index].kind == Light::Kind::directional;
     if (directional && !has(Effect::directionalLights)) return;
-    LightSteps lightSteps{.light = index,
-                          .sample = sample,
-                          .samples = samples,
-                          .steps = {stepOf(simd::kFindRadianceAndShadowRays)}};
+    std::vector<Step>& steps =
+        startLight(index, sample, samples, simd::kFindRadianceAndShadowRays).steps;
     if (has(Effect::shadows)) {
       if (shadowTables_ && samples == 1 && canDecide(plan_, options_)) {
-        lightSteps.steps.push_back(stepOf(simd::kDecideShadows));
-        if (options_.shadowCache == ShadowCacheMode::audit)
-          lightSteps.steps.back().run = auditShadows;
+        steps.push_back(stepOf(simd::kDecideShadows));
+        if (options_.shadowCache == ShadowCacheMode::audit) steps.back().run = auditShadows;
       }
-      lightSteps.steps.push_back(checkShadowsStep());
+      steps.push_back(checkShadowsStep());
     }
-    lightSteps.steps.push_back(stepOf(simd::kAddShading));
-    plan_.perLight.push_back(std::move(lightSteps));
+    steps.push_back(stepOf(simd::kAddShading));
   }
 
   // In the order in which a queue holds its rays, kind by kind.
@@ -248,6 +252,10 @@ class Planner {
     if (plan_.impulses.empty()) return;
     plan_.depth = options_.depth;
     plan_.onReturn = {stepOf(simd::kReturnImpulses)};
+    if (countsRays()) {
+      plan_.onReturn.push_back(amendingStep("returnRayCounts", simd::kReturnImpulses,
+                                            returnRayCounts, {Part::rays, Part::rayCounts}, {}));
+    }
     // Primary rays and the impulses of flat mirrors are coherent; Embree then traverses packets as
     // frustums. Paths that have met more than two surfaces no longer are, and samples of lobes
     // never were: told so, frames with 8 of them took 0.7 of the time, to the same bits. Sorting
@@ -268,28 +276,6 @@ class Planner {
     step.childrenAtEye = atEye;
     step.childrenBeyond = 1;
     plan_.impulses.push_back(std::move(step));
-  }
-
-  // A step that is no kernel is counted with the kernel whose columns it amends.
-  static Step amendingStep(const char* name, const simd::Kernel& after, StepFunction run,
-                           Parts reads, Parts writes) {
-    return {.name = name,
-            .number = simd::indexOf(after),
-            .stage = after.stage,
-            .run = run,
-            .reads = reads,
-            .writes = writes,
-            .kernels = {}};
-  }
-
-  static Step updateImageStep() {
-    return {.name = "updateImage",
-            .number = simd::indexOf(simd::kEncodeDisplay),
-            .stage = Stage::updateImage,
-            .run = updateImage,
-            .reads = {Part::radiance, Part::pixels},
-            .writes = {Part::radiance, Part::codes, Part::film},
-            .kernels = {useOf(simd::kEncodeDisplay)}};
   }
 
   void markEndsOfStages() {

@@ -4,12 +4,13 @@
 #include <atomic>
 #include <cmath>
 
+#include "core/display.h"
 #include "core/error.h"
 #include "core/option_table.h"
 #include "core/option_values.h"
 #include "core/stopwatch.h"
 #include "core/usable_threads.h"
-#include "render/audit_shadows.h"
+#include "reference/initial_medium_stack.h"
 #include "render/build_tables.h"
 #include "render/initial_media.h"
 #include "sampling/sample_pattern.h"
@@ -54,34 +55,11 @@ bool isEnclosed(const Scene& scene, const Accel& accel) {
   return true;
 }
 
-// Embree's name for the ISA that goes with a kernel target.
-std::string embreeIsa(const std::string& target) {
-  if (target == "avx3" || target == "avx3_dl") return "avx512";
-  if (target == "avx2") return "avx2";
-  if (target == "sse4") return "sse4.2";
-  if (target == "sse2" || target == "scalar") return "sse2";
-  return "";
-}
-
 void chooseSimd(const std::string& name) {
   if (simd::chooseTarget(name)) return;
   std::string have;
   for (const std::string& target : simd::availableTargets()) have += " " + target;
   throwUsage("--simd " + name + " is not available here; there are: auto" + have);
-}
-
-AccelOptions accelOptions(const RenderOptions& options, EffectSet effects, int threads) {
-  // The ISA is passed on also when the target was chosen by itself: kernels of another target than
-  // the processor's best, as in sanitized builds, would otherwise meet an Embree that asking for
-  // that target by name does not give.
-  return {.robust = options.robust,
-          .quality = options.bvh,
-          .alphaMasks = effects.has(Effect::alphaMasks),
-          .instances = effects.has(Effect::instances),
-          .spheres = effects.has(Effect::spheres),
-          .threads = threads,
-          .packet = options.packet,
-          .isa = embreeIsa(simd::chosenTarget())};
 }
 
 // The effects of a plan that are built into the acceleration structure.
@@ -105,7 +83,7 @@ Renderer::Renderer(const Scene& scene, const RenderOptions& options, Progress* p
   chooseSimd(options.simd);
   plan_ = makePlan(scene, options);
   const int threads = scheduler_.threads();
-  accel_.emplace(scene, accelOptions(options, plan_.effects, threads), progress);
+  accel_.emplace(scene, options, plan_.effects, threads, progress);
   lookAround();
   tables_ = buildTables(scene, plan_.effects, options.shading, threads);
   machine_ = {simd::chosenTarget(), accel_->description(), accel_->packet(), threads};
@@ -156,9 +134,10 @@ const std::vector<Vec2f>& Renderer::pattern() {
   return pattern_;
 }
 
-Frame Renderer::frameOf(const Camera& camera, Film& film, const Crop& window,
-                        const FrameHooks* hooks) {
-  scheduler_.layOut(plan_, options_, window);
+Frame Renderer::frameOf(const Camera& camera, Film& film, const FrameHooks* hooks,
+                        std::span<StageObserver* const> observers, bool adaptively) {
+  scheduler_.layOut(plan_, options_,
+                    adaptively ? AdaptiveSampler::tracedWindow(film.image) : film.image.window);
   sizeDisplay(film);
   Frame frame;
   frame.constants = constantsOf(lookFrom(camera, film));
@@ -171,12 +150,15 @@ Frame Renderer::frameOf(const Camera& camera, Film& film, const Crop& window,
   }
   frame.film = &film;
   frame.hooks = hooks;
+  frame.observers = observers;
+  if (!observers.empty()) frame.constants.shadowCache = nullptr;  // observers see all rays
   return frame;
 }
 
-FrameStats Renderer::timed(const Frame& frame, const std::function<FrameStats()>& trace) {
+FrameStats Renderer::trace(const Frame& frame, bool adaptively) {
   const Stopwatch stopwatch;
-  FrameStats stats = trace();
+  FrameStats stats =
+      adaptively ? adaptive_.render(frame) : scheduler_.trace(frame, scheduler_.tiles());
   stats.frameMs = stopwatch.ms();
   if (!frame.observers.empty()) return stats;
   stats.workers = machine_.threads;
@@ -187,31 +169,21 @@ FrameStats Renderer::timed(const Frame& frame, const std::function<FrameStats()>
 
 FrameStats Renderer::render(const Camera& camera, Film& film, const FrameHooks* hooks,
                             std::span<StageObserver* const> observers) {
-  Frame frame =
-      frameOf(camera, film,
-              adaptive() ? AdaptiveSampler::tracedWindow(film.image) : film.image.window, hooks);
-  frame.observers = observers;
-  if (!observers.empty()) frame.constants.shadowCache = nullptr;  // observers see all rays
-  return timed(frame, [&] {
-    return adaptive() ? adaptive_.render(frame) : scheduler_.trace(frame, scheduler_.allPixels());
-  });
+  return trace(frameOf(camera, film, hooks, observers, adaptive()), adaptive());
 }
 
 FrameStats Renderer::accumulate(const Camera& camera, Film& film, const SampleRange& samples,
                                 SampleSums& sums, const FrameHooks* hooks) {
-  Frame frame = frameOf(camera, film, film.image.window, hooks);
+  Frame frame = frameOf(camera, film, hooks);
   frame.firstSample = static_cast<std::size_t>(samples.first);
   frame.endSample = static_cast<std::size_t>(samples.end);
   frame.sums = &sums;
-  return timed(frame, [&] { return scheduler_.trace(frame, scheduler_.allPixels()); });
+  return trace(frame);
 }
 
 FrameStats Renderer::observe(const Camera& camera, Film& film,
                              std::span<StageObserver* const> observers, const FrameHooks* hooks) {
-  Frame frame = frameOf(camera, film, film.image.window, hooks);
-  frame.observers = observers;
-  frame.constants.shadowCache = nullptr;
-  return timed(frame, [&] { return scheduler_.trace(frame, scheduler_.allPixels()); });
+  return trace(frameOf(camera, film, hooks, observers));
 }
 
 std::vector<Vec2f> Renderer::observePixel(const Camera& camera, Film& film,
@@ -222,13 +194,11 @@ std::vector<Vec2f> Renderer::observePixel(const Camera& camera, Film& film,
     render(camera, film);
     samples = adaptive_.samplesAt(pixel.x0, pixel.y0, std::move(samples));
   }
-  Frame frame = frameOf(camera, film, pixel, nullptr);
-  frame.constants.shadowCache = nullptr;
+  StageObserver* const observers[] = {&observer};
+  Frame frame = frameOf(camera, film, nullptr, observers);
   frame.samples = samples;
   frame.endSample = samples.size();
-  StageObserver* const observers[] = {&observer};
-  frame.observers = observers;
-  scheduler_.trace(frame, scheduler_.allPixels());
+  trace(frame);
   return samples;
 }
 
@@ -304,6 +274,55 @@ void Renderer::setOptions(const RenderOptions& options) {
 bool Renderer::canSetOptions(const RenderOptions& options) const {
   return rebuildNeeded(options_, options) <= Rebuild::tables &&
          builtIn(makePlan(scene_, options)) == builtIn(plan_);
+}
+
+bool EmbreeIntersector::closest(const reference::Ray& ray, reference::Candidate& c) const {
+  const Hit hit =
+      accel_.closest(Vec3f(ray.origin), Vec3f(ray.direction), static_cast<float>(ray.tNear));
+  c.triangle = hit.triangle;
+  c.instance = hit.instance;
+  c.u = static_cast<double>(hit.u);
+  c.v = static_cast<double>(hit.v);
+  return hit.found();
+}
+
+bool EmbreeIntersector::occluded(const reference::Ray& ray, double tFar) const {
+  return accel_.occluded(Vec3f(ray.origin), Vec3f(ray.direction), static_cast<float>(tFar));
+}
+
+reference::Settings Renderer::referenceSettings() const {
+  return {options_, plan_.effects, machine_.threads};
+}
+
+CameraFrame Renderer::referenceFrame(const Camera& camera, const Film& film) {
+  lookFrom(camera, film);
+  return reference::frameWithMedia(scene_, plan_.effects, EmbreeIntersector(*accel_), camera,
+                                   film.image.width, film.image.height);
+}
+
+FrameStats Renderer::renderReference(const Camera& camera, Film& film, Progress* progress) {
+  const Stopwatch stopwatch;
+  lookFrom(camera, film);
+  const EmbreeIntersector intersector(*accel_);
+  const reference::RayCounts counts =
+      reference::render(scene_, intersector, camera, referenceSettings(), film.image, progress);
+  film.channels.resize(plan_.channels, film.image.pixels.size());
+  if (!plan_.channels.empty()) {
+    reference::keepChannels(scene_, intersector, camera, referenceSettings(), film.image,
+                            film.channels);
+  }
+  if (film.wantDisplay) {
+    film.display = toDisplay(film.image, options_.exposure.ev, options_.toneCurve, options_.srgb);
+  }
+  FrameStats stats;
+  stats.frameMs = stopwatch.ms();
+  stats.workers = machine_.threads;
+  for (std::size_t k = 0; k < kRayKindCount; ++k) {
+    const std::uint64_t rays = counts[static_cast<RayKind>(k)];
+    stats.meter.tally[k] = {rays, rays};
+  }
+  for (const Rgb& pixel : film.image.pixels) stats.nonFinitePixels += !isFinite(pixel);
+  return stats;
 }
 
 FrameStats renderFrame(Renderer& renderer, Mode mode, const Camera& camera, Film& film,

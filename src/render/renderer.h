@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -32,6 +31,18 @@ struct Machine {
   std::string embree;  // version and ISA, "3.13.5 avx2"
   int packet = 8;
   int threads = 1;
+};
+
+// Embree as the reference's finder of candidate triangles. Origins and directions are rounded to
+// float for it; the reference computes the hit again in double.
+class EmbreeIntersector : public reference::Intersector {
+ public:
+  explicit EmbreeIntersector(const Accel& accel) : accel_(accel) {}
+  bool closest(const reference::Ray& ray, reference::Candidate& candidate) const override;
+  bool occluded(const reference::Ray& ray, double tFar) const override;
+
+ private:
+  const Accel& accel_;
 };
 
 // Functions that change a renderer or its scene take effect from the next frame on. They must not
@@ -120,8 +131,9 @@ class Renderer {
 
  private:
   bool adaptive() const { return samplesAdaptively(options_, scene_.effects); }
-  Frame frameOf(const Camera& camera, Film& film, const Crop& window, const FrameHooks* hooks);
-  FrameStats timed(const Frame& frame, const std::function<FrameStats()>& trace);
+  Frame frameOf(const Camera& camera, Film& film, const FrameHooks* hooks,
+                std::span<StageObserver* const> observers = {}, bool adaptively = false);
+  FrameStats trace(const Frame& frame, bool adaptively = false);
   const std::vector<Vec2f>& pattern();
   void replan(Plan next);
   bool usesShadowCache(const RenderOptions& options) const;

@@ -30,6 +30,17 @@ std::vector<std::uint32_t> mortonOrder(int side) {
   return order;
 }
 
+// The lists dealt out in turn, so that every worker gets its share of each part of the image.
+PixelLists dealOut(const PixelLists& lists, std::size_t workers) {
+  PixelLists shares(workers);
+  for (std::size_t i = 0; i < lists.size(); ++i) {
+    std::vector<std::uint32_t>& share = shares[i % workers];
+    share.insert(share.end(), lists[i].begin(), lists[i].end());
+  }
+  for (auto& share : shares) share.reserve(share.size() + kListPadding);
+  return shares;
+}
+
 }  // namespace
 
 PixelLists makeTiles(const Crop& window, int side) {
@@ -38,6 +49,7 @@ PixelLists makeTiles(const Crop& window, int side) {
   for (int y0 = window.y0; y0 < window.y1; y0 += side) {
     for (int x0 = window.x0; x0 < window.x1; x0 += side) {
       std::vector<std::uint32_t>& tile = tiles.emplace_back();
+      tile.reserve(order.size() + kListPadding);
       for (const std::uint32_t offset : order) {
         const int x = x0 + pixelX(offset), y = y0 + pixelY(offset);
         if (x >= window.x1 || y >= window.y1) continue;
@@ -48,30 +60,17 @@ PixelLists makeTiles(const Crop& window, int side) {
   return tiles;
 }
 
-PixelLists dealOut(const PixelLists& lists, std::size_t workers) {
-  PixelLists shares(workers);
-  for (std::size_t i = 0; i < lists.size(); ++i) {
-    std::vector<std::uint32_t>& share = shares[i % workers];
-    share.insert(share.end(), lists[i].begin(), lists[i].end());
-  }
-  return shares;
-}
-
-void padForVectors(PixelLists& lists) {
-  for (auto& list : lists) list.reserve(list.size() + 2 * kBlock);
-}
-
 void Scheduler::layOut(const Plan& plan, const RenderOptions& options, const Crop& window) {
   if (!tracers_.empty() && window_ == window) return;
   window_ = window;
   inBatches_ = options.batch == Batch::frame;
-  all_ = workOf(makeTiles(window, options.tile));
+  tiles_ = makeTiles(window, options.tile);
   const auto workers = static_cast<std::size_t>(threads_);
   const auto side = static_cast<std::size_t>(options.tile);
   std::size_t capacity = side * side;
   if (inBatches_) {
     capacity = kBlock;
-    for (const auto& batch : all_.batches) capacity = std::max(capacity, batch.size());
+    for (const auto& batch : dealOut(tiles_, workers)) capacity = std::max(capacity, batch.size());
   }
   if (options.queue > 0) capacity = static_cast<std::size_t>(options.queue);
   if (!tracers_.empty() && capacity == capacity_) return;
@@ -81,17 +80,9 @@ void Scheduler::layOut(const Plan& plan, const RenderOptions& options, const Cro
   capacity_ = capacity;
 }
 
-PixelWork Scheduler::workOf(PixelLists lists) const {
-  PixelWork work{std::move(lists), {}};
-  if (inBatches_) work.batches = dealOut(work.tiles, static_cast<std::size_t>(threads_));
-  padForVectors(work.tiles);
-  padForVectors(work.batches);
-  return work;
-}
-
-FrameStats Scheduler::trace(const Frame& frame, const PixelWork& work) {
-  return inBatches_ && frame.observers.empty() ? traceBatches(frame, work.batches)
-                                               : traceTiles(frame, work.tiles);
+FrameStats Scheduler::trace(const Frame& frame, const PixelLists& lists) {
+  if (!inBatches_ || !frame.observers.empty()) return traceTiles(frame, lists);
+  return traceBatches(frame, dealOut(lists, static_cast<std::size_t>(threads_)));
 }
 
 FrameStats Scheduler::forWorkers(

@@ -15,28 +15,19 @@ namespace whit {
 
 using PixelLists = std::vector<std::vector<std::uint32_t>>;
 
+// Kernels read whole vectors of pixels: lists have room for so many behind their end.
+inline constexpr std::size_t kListPadding = 2 * kBlock;
+
 // The packed pixels of each tile of the window, in Morton order: any 4, 8 or 16 that follow each
 // other make up 2x2, 4x2 or 4x4 pixels, the most coherent packet there is. Tiles that the window
 // cuts lose their outer pixels and close the gaps.
 PixelLists makeTiles(const Crop& window, int side);
 
-// The lists dealt out in turn, so that every worker gets its share of each part of the image.
-PixelLists dealOut(const PixelLists& lists, std::size_t workers);
-
-// Kernels read whole vectors of pixels: room for what they read beyond a list's end.
-void padForVectors(PixelLists& lists);
-
-// Pixels that are traced together, in lists: for workers that take one list after the other, and
-// dealt out to all of them at once.
-struct PixelWork {
-  PixelLists tiles, batches;
-};
-
 class Scheduler {
  public:
   explicit Scheduler(int threads) : pool_(threads), threads_(threads) {}
 
-  // Tiles, batches and tracers for frames of `window`, unless they are there already. The plan must
+  // Tiles and tracers for frames of `window`, unless they are there already. The plan must
   // outlive them.
   void layOut(const Plan& plan, const RenderOptions& options, const Crop& window);
   // For another plan: the next layOut() makes tracers anew.
@@ -44,11 +35,10 @@ class Scheduler {
 
   const Crop& window() const { return window_; }
   // Every pixel of the window that was laid out.
-  const PixelWork& allPixels() const { return all_; }
-  // The lists for workers, dealt out for batches where these are asked for.
-  PixelWork workOf(PixelLists lists) const;
+  const PixelLists& tiles() const { return tiles_; }
 
-  FrameStats trace(const Frame& frame, const PixelWork& work);
+  // Workers take one list after the other; with --batch frame each takes its share of all at once.
+  FrameStats trace(const Frame& frame, const PixelLists& lists);
   // task(first row, last row) of the window for each worker; the time is updateImage's.
   FrameStats forRows(const std::function<void(int, int)>& task);
 
@@ -66,7 +56,7 @@ class Scheduler {
   int threads_;
   Crop window_;
   bool inBatches_ = false;
-  PixelWork all_;
+  PixelLists tiles_;
   std::vector<TileTracer> tracers_;  // one a worker; none after another plan
   std::size_t capacity_ = 0;         // rays, of each
 };

@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "core/pixel.h"
-#include "render/update_image.h"
+#include "render/steps.h"
 
 namespace whit {
 

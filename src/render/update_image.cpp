@@ -1,4 +1,4 @@
-#include "render/update_image.h"
+#include "render/steps.h"
 
 #include <algorithm>
 #include <array>
@@ -49,7 +49,7 @@ void forEachKept(const Chunk& c, Keep&& keep) {
   for (std::size_t i = 0; i < c.n; ++i) {
     const std::uint32_t pixel = c.pixels[c.first + i];
     const int x = pixelX(pixel), y = pixelY(pixel);
-    if (x < w.x0 || x >= w.x1 || y < w.y0 || y >= w.y1) continue;
+    if (!w.contains(x, y)) continue;
     keep(i, static_cast<std::size_t>(y - w.y0) * width + static_cast<std::size_t>(x - w.x0));
   }
 }

@@ -14,7 +14,6 @@
 #include "stages/columns.h"
 #include "stages/features.h"
 #include "stages/ray_kinds.h"
-#include "stages/ray_tally.h"
 #include "stages/shading_tables.h"
 #include "stages/shadow_cache_view.h"
 #include "stages/stage.h"
@@ -61,6 +60,11 @@ struct Segment {
 };
 // The kinds that a queue may hold: at depth 0 primary rays, below it reflections, then refractions.
 inline constexpr std::size_t kSegmentLimit = kRayKindCount;
+
+struct RayTally {
+  std::uint64_t rays = 0;   // traced
+  std::uint64_t lanes = 0;  // lanes sent to Embree for them: packets times width
+};
 
 // Numbers of shadow rays that the shadow cache decided, so that they were not traced.
 struct DecidedShadows {

@@ -116,7 +116,6 @@ class BenchTile {
     std::vector<std::uint32_t> best;
     std::size_t most = 0;
     PixelLists tiles = makeTiles(Crop{0, 0, kSize.width, kSize.height}, 32);
-    padForVectors(tiles);
     for (const auto& tile : tiles) {
       if (tile.size() != kTileRays) continue;
       pixels_ = tile;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "brute_force.h"
 #include "reference/reference.h"
 #include "reference/twin.h"
 #include "stages/chunk.h"

@@ -1,6 +1,7 @@
 // Scenes of a few polygons, and rays through them.
 #pragma once
 
+#include "brute_force.h"
 #include "reference/reference.h"
 #include "verify/scene_builder.h"
 

@@ -1,1 +1,1 @@
-whit_tests(reference whit_make whit_reference)
+whit_tests(reference whit_make test_brute_force)

@@ -109,11 +109,11 @@ TEST(EdgeHits, H59_doNotDependOnTheRaysBeside) {
   const Scene scene = finalized(sceneOf(mesh));
   std::vector<std::size_t> order(kRays);
   std::iota(order.begin(), order.end(), 0);
-  AccelOptions single;
+  RenderOptions single;
   single.packet = 1;
   const std::vector<HitBits> expected = trace(Accel(scene, single), rays, order, true);
   for (const int packet : {4, 8, 16}) {
-    AccelOptions options;
+    RenderOptions options;
     options.packet = packet;
     const Accel accel(scene, options);
     for (int turn = 0; turn < 4; ++turn) {

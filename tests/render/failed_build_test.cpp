@@ -61,14 +61,14 @@ TEST(FailedBuild, GivesBackWhatEmbreeCounts) {
   const Scene scene = test::load("mirrors");  // has instances: several Embree scenes
   const int before = heldReferences;
   {
-    const Accel whole(scene, AccelOptions{});
+    const Accel whole(scene, RenderOptions{});
     EXPECT_GE(heldReferences - before, 3) << "this test's functions are not those that are called";
   }
   EXPECT_EQ(heldReferences, before);
   for (const int built : {0, 1}) {
     errorFreeAnswers = built;
     try {
-      const Accel failed(scene, AccelOptions{});
+      const Accel failed(scene, RenderOptions{});
       ADD_FAILURE() << "built after " << built << " scenes";
     } catch (const Error& error) {
       EXPECT_EQ(error.status(), ExitStatus::limit);

@@ -12,7 +12,6 @@
 
 #include "bake/edit_shading.h"
 #include "core/error.h"
-#include "render/audit_shadows.h"
 #include "render/random_scenes.h"
 #include "render/shadow_cache_schedule.h"
 #include "render/shipped_scene.h"

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bake/move_scene.h"
+#include "brute_force.h"
 #include "inspect/metrics.h"
 #include "make/shape.h"
 #include "pi.h"

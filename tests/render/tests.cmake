@@ -1,1 +1,1 @@
-whit_tests(render whit_inspect whit_io)
+whit_tests(render whit_inspect whit_io test_brute_force)

@@ -32,8 +32,8 @@ class UsedStack : public testing::TestWithParam<int> {
   }
   ~UsedStack() override { alarm(0); }
 
-  static AccelOptions optionsOf(int packet) {
-    AccelOptions options;
+  static RenderOptions optionsOf(int packet) {
+    RenderOptions options;
     options.threads = 1;
     options.packet = packet;
     return options;

@@ -1,5 +1,5 @@
 // Which pixels count as edges.
-#include "sampling/pixel_edges.h"
+#include "sampling/refinement.h"
 
 #include <gtest/gtest.h>
 

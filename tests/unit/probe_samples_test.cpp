@@ -1,5 +1,5 @@
 // Which pixels get every sample: worked out by hand on three pixels in a row.
-#include "sampling/probe_samples.h"
+#include "sampling/refinement.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,14 @@
-// Steps that write to the film: the last stage, and those that store channels (--channels).
+// Steps of a plan that are no kernels, besides those of accel/accel.h, render/settle_coplanar.h and
+// render/initial_media.h.
 #pragma once
 
 #include "stages/chunk.h"
 
 namespace whit {
+
+// Replaces decideShadows (--shadow-cache audit): it does the same, traces every ray that was decided,
+// and stores the first ray that contradicts the cache in the chunk's meter.
+void auditShadows(Chunk& c);
 
 // Rounds radiance to what the film keeps (--film), encodes it where display codes are wanted, and
 // writes both to the pixels.

@@ -1,8 +1,9 @@
+#include "brute_force.h"
+
 #include <limits>
 
 #include "bake/sphere.h"
 #include "reference/find_intersections.h"
-#include "reference/reference.h"
 #include "reference/sphere.h"
 #include "reference/triangle.h"
 

@@ -1,12 +1,15 @@
-// Which pixels need more than one sample: those that differ from a neighbor in surface or in
-// contrast, as in the adaptive sampling of Whitted 1980 ("An improved illumination model for shaded
-// display", section on aliasing). The same rule for reference and kernels.
+// The pixels that adaptive sampling refines (Whitted 1980, "An improved illumination model for shaded
+// display", section on aliasing). A pixel that differs from a neighbor in surface or in contrast gets
+// a few probe samples; one whose probes differ, from one another or from those of the pixel next to
+// it, gets every sample. The same rules for reference and kernels.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "core/image.h"
+#include "sampling/sample_pattern.h"
 
 namespace whit {
 
@@ -35,5 +38,32 @@ inline constexpr int kPassReach = 2;
 // `display`. Rows may be shared out among threads.
 void findEdges(const DisplayImage& display, const std::vector<PixelSurface>& surfaces, int contrast,
                int row0, int row1, std::vector<std::uint8_t>& edges);
+
+// The probes of one pixel.
+struct PixelProbes {
+  std::array<std::uint32_t, kProbeSamples> codes{};  // as displayed: r | g << 8 | b << 16
+  RgbD total;  // their sum, or their mean: for who goes on with more samples
+};
+
+class ProbeSamples {
+ public:
+  // Room for the window's pixels. `edges`, one a pixel: not 0 where probes are traced. They must
+  // outlive the probes. The pattern is that of all samples, kProbeSamples or more.
+  ProbeSamples(const Crop& window, const std::vector<std::uint8_t>& edges,
+               const std::vector<Vec2f>& pattern);
+
+  PixelProbes& at(int x, int y) { return samples_[shape_.index(x, y)]; }
+  const PixelProbes& at(int x, int y) const { return samples_[shape_.index(x, y)]; }
+  // True if the probes of this pixel and of its eight neighbors differ. All of them must have
+  // probes.
+  bool differ(int x, int y, int contrast) const;
+  std::size_t bytes() const { return samples_.capacity() * sizeof(PixelProbes); }
+
+ private:
+  Image shape_;  // without pixels
+  const std::vector<std::uint8_t>& edges_;
+  std::array<std::size_t, 9> nearest_{};  // of each neighbor's probes, row by row
+  std::vector<PixelProbes> samples_;
+};
 
 }  // namespace whit
