@@ -105,6 +105,7 @@ int run(const Words& words) {
   if (const Command* const command = commandNamed(words[0])) {
     return command->run(Words(words.begin() + 1, words.end()));
   }
+  if (words[0] == "stress") throwUsage("whit stress is the program whit-verify now");
   throwNoCommand(words[0]);
 }
 

@@ -38,7 +38,8 @@ void visitOption(Options& options, const std::string& name, Visitor&& visit) {
     found = true;
     visit(spec, field);
   });
-  if (!found) throwUsage("there is no option '" + name + "'" + didYouMean(name, names));
+  if (found) return;
+  throwNoOption(name, names);
 }
 
 // Calls visit(spec, a's, b's) for each option.
@@ -65,6 +66,15 @@ constexpr std::array<const char*, kPresetOptions.size()> kPresets[] = {
 };
 
 }  // namespace
+
+void throwNoOption(const std::string& name, const std::vector<std::string>& names) {
+  for (const auto& [former, present] :
+       {std::pair{"verdicts", "shadow-cache"}, std::pair{"ab-verdicts", "ab-shadow-cache"}}) {
+    if (name == former || name == std::string("--") + former)
+      throwUsage(std::string("--") + former + " is now called --" + present);
+  }
+  throwUsage("there is no option '" + name + "'" + didYouMean(name, names));
+}
 
 void setOption(RenderOptions& options, const std::string& name, const std::string& text) {
   visitOption(options, name,

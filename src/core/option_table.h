@@ -10,6 +10,10 @@
 
 namespace whit {
 
+// Throws Error(usage) for a name, with or without "--", that no option has: with the present name
+// of one that was renamed, or with a near one of `names`.
+[[noreturn]] void throwNoOption(const std::string& name, const std::vector<std::string>& names);
+
 // Set or format the option of this name. They throw Error(usage), which for an unknown name
 // suggests a near one.
 void setOption(RenderOptions& options, const std::string& name, const std::string& text);

@@ -66,6 +66,17 @@ TEST(Verify, ASheetOfAllScenes) {
   EXPECT_EQ(readFile(sheet).substr(1, 3), "PNG");
 }
 
+TEST(Verify, FormerNamesLeadToThePresentOnes) {
+  const Outcome outcome = runWhit({"stress"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("whit stress is the program whit-verify now"), std::string::npos)
+      << outcome.err;
+  const Outcome option = runWhit({"render", "whitted", "--verdicts", "off"});
+  EXPECT_EQ(option.status, 2);
+  EXPECT_NE(option.err.find("--verdicts is now called --shadow-cache"), std::string::npos)
+      << option.err;
+}
+
 TEST(Verify, HelpListsTheOptions) {
   const Outcome outcome = runVerify({"--help"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;

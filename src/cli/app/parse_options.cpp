@@ -16,7 +16,7 @@ namespace {
 [[noreturn]] void throwUnknownOption(const std::string& name, const OptionList& list) {
   std::vector<std::string> names{"--help", "--help-all"};
   for (const OptionList::Entry& e : list.entries) names.push_back("--" + e.name);
-  throwUsage("there is no option '" + name + "'" + didYouMean(name, names));
+  throwNoOption(name, names);
 }
 
 // An option as it was typed: "--name=value", "--name" or, of one letter, "-n", "-nvalue".
