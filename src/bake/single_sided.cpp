@@ -1,5 +1,5 @@
-// Where back faces are to be passed at all: the filter that does so is not for surfaces that have
-// none to be seen.
+// Decides which single-sided materials need the filter that passes back faces. Closed surfaces show
+// none, so they do not.
 #include <algorithm>
 #include <array>
 #include <numeric>
@@ -109,7 +109,7 @@ void settleSides(SceneDescription& description) {
              !description.materials[m].boundsMedium();
     });
   };
-  // Through which its inside is seen.
+  // The inside of such a mesh can be seen.
   const auto hasHoles = [&](const Mesh& mesh) {
     return std::any_of(mesh.materials.begin(), mesh.materials.end(), [&](std::uint32_t m) {
       if (m >= culls.size()) return false;

@@ -90,38 +90,27 @@ RgbD skyRadiance(const Sky& sky, const Vec3d& d) {
   return lookUp(sky.image, u, v) * sky.scale;
 }
 
-namespace {
-
-// Means over the upper and the lower hemisphere.
-struct Means {
-  Rgb up{0, 0, 0}, down{0, 0, 0};
-};
-
-// Cosine-weighted means of the sky, times `factor`.
-Means meansOf(const Sky& sky, double factor) {
+Ambient ambientFromSky(const Sky& sky, double strength, Ambient before) {
   // The cosine-weighted mean of the sine of the elevation: integral of 2 y * y over [0, 1].
   constexpr double kMeanSine = 2.0 / 3.0;
+  RgbD up, down;
   switch (sky.kind) {
     case Sky::Kind::none:
-      return {};
-    case Sky::Kind::color:
-      return {Rgb(RgbD(sky.zenith) * factor), Rgb(RgbD(sky.zenith) * factor)};
-    case Sky::Kind::gradient:
-      return {Rgb(mix(sky.horizon, sky.zenith, kMeanSine) * factor),
-              Rgb(mix(sky.horizon, sky.ground, kMeanSine) * factor)};
-    case Sky::Kind::image:
       break;
+    case Sky::Kind::color:
+      up = down = RgbD(sky.zenith);
+      break;
+    case Sky::Kind::gradient:
+      up = mix(sky.horizon, sky.zenith, kMeanSine);
+      down = mix(sky.horizon, sky.ground, kMeanSine);
+      break;
+    case Sky::Kind::image:
+      up = hemisphereMean(sky.image, true);
+      down = hemisphereMean(sky.image, false);
   }
-  return {Rgb(hemisphereMean(sky.image, true) * factor),
-          Rgb(hemisphereMean(sky.image, false) * factor)};
-}
-
-}  // namespace
-
-Ambient ambientFromSky(const Sky& sky, double strength, Ambient before) {
-  const auto [up, down] = meansOf(sky, strength * sky.scale);
-  before.up = up;
-  before.down = down;
+  const double factor = strength * sky.scale;
+  before.up = Rgb(up * factor);
+  before.down = Rgb(down * factor);
   before.ofSky = strength;
   return before;
 }

@@ -37,9 +37,7 @@ std::uint64_t placeOnCurve(const Vec3f& p, const Box& bounds) {
 
 Box boxOfTriangle(const TriangleRecord& record) {
   Box box;
-  for (int i = 0; i < 3; ++i) {
-    box.add({record.position[3 * i], record.position[3 * i + 1], record.position[3 * i + 2]});
-  }
+  for (const Vec3d& corner : cornersOf(record, nullptr)) box.add(Vec3f(corner));
   return box;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bake/facet.h"
+
 namespace whit {
 
 namespace {
@@ -43,10 +45,9 @@ Polygon cut(const Polygon& polygon, const Distance& distance) {
 
 }  // namespace
 
-ReceivingTriangle::ReceivingTriangle(const TriangleRecord& record, int parts) : rim_(kRim / parts) {
+ReceivingTriangle::ReceivingTriangle(const TriangleRecord& record, int parts)
+    : corner_(cornersOf(record, nullptr)), rim_(kRim / parts) {
   for (std::size_t i = 0; i < 3; ++i) {
-    const float* p = record.position + 3 * i;
-    corner_[i] = Vec3d(Vec3f{p[0], p[1], p[2]});
     const Vec3d extent = abs(corner_[i]);
     size_[i] = extent.x + extent.y + extent.z;
   }

@@ -50,15 +50,6 @@ int partsASide(double edge, double cell) {
   return static_cast<int>(std::min<double>(power, kMostPartsASide));
 }
 
-double longestEdge(const TriangleRecord& record) {
-  const auto corner = [&](int i) {
-    const float* p = record.position + 3 * i;
-    return Vec3d(Vec3f{p[0], p[1], p[2]});
-  };
-  return std::max({length(corner(1) - corner(0)), length(corner(2) - corner(0)),
-                   length(corner(2) - corner(1))});
-}
-
 }  // namespace
 
 ShadowParts ShadowParts::of(const Scene& scene) {
@@ -69,7 +60,7 @@ ShadowParts ShadowParts::of(const Scene& scene) {
   if (!inRange(scene)) return parts;
   std::vector<double> edges(count);
   for (std::size_t i = 0; i < count; ++i) {
-    edges[i] = longestEdge(scene.triangles[world.firstTriangle + i]);
+    edges[i] = ReceivingTriangle(scene.triangles[world.firstTriangle + i], 1).longest();
   }
   double cell = length(Vec3d(scene.upper) - Vec3d(scene.lower)) * kFinestCell;
   std::size_t total = 0;

@@ -153,7 +153,8 @@ class BruteForceInDouble {
     return false;
   }
 
-  // True if no rounding lets Embree find the triangle (shadow_cache/caster_tree.cpp has the formulas).
+  // True if no rounding lets Embree find the triangle (shadow_cache/caster_tree.cpp has the
+  // formulas).
   static bool surelyMissed(const Triangle& t, const Segment& ray) {
     const Vec3d d = ray.way();
     double away = 0;
