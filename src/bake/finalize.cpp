@@ -16,7 +16,7 @@ bool sameMedium(const Medium& a, const Medium& b) {
   return a.ior == b.ior && a.absorption == b.absorption && a.priority == b.priority;
 }
 
-// Looks from the front, a little from the right and from above, and sees the whole bounding sphere.
+// From the front, a little to the right and above, far enough for all of the bounds' sphere.
 Camera framingCamera(const Scene& scene) {
   Camera camera;
   const Vec3d lower(scene.lower), upper(scene.upper);

@@ -157,7 +157,6 @@ class PairFinder {
     const std::int64_t before = left_ = work;
     begin_ = block * kChildren;
     end_ = std::min(begin_ + kChildren, first_.orders.size());
-    least_ = &first_ == &second_ ? begin_ : 0;
     box_ = Box();
     for (std::size_t i = begin_; i < end_; ++i) {
       facets_[i - begin_] = facetOf(scene_, placedTriangle(first_.orders[i]));
@@ -173,7 +172,6 @@ class PairFinder {
   void descend(std::size_t level, std::size_t number) {
     const std::vector<Box>& boxes = second_.levels[level];
     const std::size_t end = std::min(number + kChildren, boxes.size());
-    number = std::max(number, least_ >> 3 * level);
     left_ -= static_cast<std::int64_t>(kChildren);
     for (; number < end && left_ > 0; ++number) {
       if (!meet(boxes[number], box_)) continue;
@@ -188,11 +186,10 @@ class PairFinder {
   void compare(std::size_t number) {
     const std::uint64_t other = second_.orders[number];
     const Facet facet = facetOf(scene_, placedTriangle(other));
-    const std::size_t end = &first_ == &second_ ? std::min(end_, number) : end_;
     left_ -= static_cast<std::int64_t>(kChildren);
-    for (std::size_t i = begin_; i < end; ++i) {
+    for (std::size_t i = begin_; i < end_; ++i) {
       const std::uint64_t own = first_.orders[i];
-      if (own == other) continue;
+      if (own == other || (own > other && &first_ == &second_)) continue;
       if (!meet(first_.levels[0][i], second_.levels[0][number])) continue;
       left_ -= kWorkOfFacets;
       if (!test_(facets_[i - begin_], facet)) continue;
@@ -204,9 +201,8 @@ class PairFinder {
   const Scene& scene_;
   const BoxTree &first_, &second_;
   FacetTest test_;
-  std::int64_t left_ = 0;            // work
-  std::size_t begin_ = 0, end_ = 0;  // the block in the first tree
-  std::size_t least_ = 0;            // the first triangle of the second tree to compare
+  std::int64_t left_ = 0;  // work
+  std::size_t begin_ = 0, end_ = 0;
   std::array<Facet, kChildren> facets_;
   Box box_;
   Pairs found_;

@@ -1,5 +1,5 @@
-// Decides which single-sided materials need the filter that passes back faces. Closed surfaces show
-// none, so they do not.
+// Where back faces are to be passed at all: the filter that does so is not for surfaces that have
+// none to be seen.
 #include <algorithm>
 #include <array>
 #include <numeric>
@@ -109,7 +109,7 @@ void settleSides(SceneDescription& description) {
              !description.materials[m].boundsMedium();
     });
   };
-  // The inside of such a mesh can be seen.
+  // Through which its inside is seen.
   const auto hasHoles = [&](const Mesh& mesh) {
     return std::any_of(mesh.materials.begin(), mesh.materials.end(), [&](std::uint32_t m) {
       if (m >= culls.size()) return false;
