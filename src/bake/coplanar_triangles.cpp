@@ -1,9 +1,8 @@
 #include "bake/coplanar_triangles.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <numeric>
-#include <tuple>
 #include <utility>
 
 #include "bake/facet.h"
@@ -11,12 +10,24 @@
 
 namespace whit {
 
+namespace {
+
+// The finalizer of SplitMix64 (Steele, Lea, Flood 2014).
+std::size_t hashOf(PlacedTriangleId id) {
+  std::uint64_t x = orderOf(id);
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return static_cast<std::size_t>(x ^ (x >> 31));
+}
+
+}  // namespace
+
 // About as many cells as there are partners, fewer where these are so large that together they
 // would reach into several times as many: those that lie one on the other share one cell.
-void CoplanarTriangles::fillCells(Owner& owner) {
+void CoplanarTriangles::fillCells(Slot& slot) {
   constexpr double kMostSide = 64;
   constexpr std::size_t kReach = 8;  // cells that a partner reaches into, in the mean
-  const std::span<const CoveredPart> own = std::span(covered_).subspan(owner.first, owner.count);
+  const std::span<const CoveredPart> own = std::span(covered_).subspan(slot.first, slot.count);
   const auto reached = [&](std::size_t side) {
     std::size_t sum = 0;
     for (const CoveredPart& e : own) {
@@ -25,18 +36,18 @@ void CoplanarTriangles::fillCells(Owner& owner) {
     }
     return sum;
   };
-  owner.side = static_cast<std::size_t>(
-      std::clamp(2 * std::sqrt(static_cast<double>(owner.count)), 4.0, kMostSide));
-  while (owner.side > 1 && reached(owner.side) > kReach * owner.count) owner.side /= 2;
-  owner.firstCell = cells_.size();
-  const float size = 1 / static_cast<float>(owner.side);
-  std::vector<std::vector<std::size_t>> lists(owner.side * owner.side);
-  for (std::size_t i = owner.first; i < owner.first + owner.count; ++i) {
+  slot.side = static_cast<std::size_t>(
+      std::clamp(2 * std::sqrt(static_cast<double>(slot.count)), 4.0, kMostSide));
+  while (slot.side > 1 && reached(slot.side) > kReach * slot.count) slot.side /= 2;
+  slot.firstCell = cells_.size();
+  const float size = 1 / static_cast<float>(slot.side);
+  std::vector<std::vector<std::size_t>> lists(slot.side * slot.side);
+  for (std::size_t i = slot.first; i < slot.first + slot.count; ++i) {
     const CoveredPart& part = covered_[i];
-    for (std::size_t v = cellOf(part.v0, owner.side); v <= cellOf(part.v1, owner.side); ++v) {
-      for (std::size_t u = cellOf(part.u0, owner.side); u <= cellOf(part.u1, owner.side); ++u) {
+    for (std::size_t v = cellOf(part.v0, slot.side); v <= cellOf(part.v1, slot.side); ++v) {
+      for (std::size_t u = cellOf(part.u0, slot.side); u <= cellOf(part.u1, slot.side); ++u) {
         if (part.meets(static_cast<float>(u) * size, static_cast<float>(v) * size, size)) {
-          lists[v * owner.side + u].push_back(i);
+          lists[v * slot.side + u].push_back(i);
         }
       }
     }
@@ -57,54 +68,66 @@ CoplanarTriangles::CoplanarTriangles(const Scene& scene,
   const std::size_t half = pairs.size();
   pairs.reserve(2 * half);
   for (std::size_t i = 0; i < half; ++i) pairs.emplace_back(pairs[i].second, pairs[i].first);
-  const auto keyOf = [](const auto& pair) {
-    const PlacedTriangleId id = placedTriangle(pair.first);
-    return std::tuple(id.triangle, id.instance, pair.second);
-  };
-  std::sort(pairs.begin(), pairs.end(),
-            [&](const auto& a, const auto& b) { return keyOf(a) < keyOf(b); });
-  firstOwner_.resize(scene.triangles.size() + 1);
+  std::sort(pairs.begin(), pairs.end());
+  std::size_t owners = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    owners += i == 0 || pairs[i].first != pairs[i - 1].first;
+  }
+  any_.resize(scene.triangles.size() / 64 + 1);
+  slots_.resize(std::bit_ceil(2 * owners));
   partners_.reserve(pairs.size());
   for (const auto& [order, partner] : pairs) {
     const PlacedTriangleId id = placedTriangle(order);
-    if (owners_.empty() || owners_.back().id != id) {
-      owners_.push_back({id, 0, 0, partners_.size()});
-      ++firstOwner_[id.triangle + 1];
-    }
-    ++owners_.back().count;
+    any_[id.triangle / 64] |= std::uint64_t{1} << id.triangle % 64;
+    Slot& slot = slots_[slotOf(id)];
+    if (slot.count == 0) slot = {id, 0, 0, partners_.size()};
+    ++slot.count;
     partners_.push_back(placedTriangle(partner));
   }
-  std::partial_sum(firstOwner_.begin(), firstOwner_.end(), firstOwner_.begin());
   ranks_.resize(partners_.size());
   covered_.resize(partners_.size());
-  parallelFor(threads, owners_.size(), [&](std::size_t k, int) {
-    const Owner& owner = owners_[k];
-    const Facet own = facetOf(scene, owner.id);
-    for (std::size_t i = owner.first; i < owner.first + owner.count; ++i) {
+  parallelFor(threads, slots_.size(), [&](std::size_t k, int) {
+    const Slot& slot = slots_[k];
+    if (slot.count == 0) return;
+    const Facet own = facetOf(scene, slot.id);
+    for (std::size_t i = slot.first; i < slot.first + slot.count; ++i) {
       covered_[i] = coveredPart(own, facetOf(scene, partners_[i]));
     }
   });
-  for (Owner& owner : owners_) fillCells(owner);
+  for (Slot& slot : slots_) {
+    if (slot.count > 0) fillCells(slot);
+  }
 }
 
 void CoplanarTriangles::rankBy(const Scene& scene, const SceneOrder& order) {
-  std::vector<std::pair<WrittenPlace, Owner*>> all;
-  for (Owner& owner : owners_) all.emplace_back(order.placeOf(scene, owner.id), &owner);
+  std::vector<std::pair<WrittenPlace, std::size_t>> all;  // of slots
+  for (std::size_t k = 0; k < slots_.size(); ++k) {
+    if (slots_[k].count > 0) all.emplace_back(order.placeOf(scene, slots_[k].id), k);
+  }
   std::sort(all.begin(), all.end());
   for (std::size_t i = 0; i < all.size(); ++i) {
-    all[i].second->rank = static_cast<std::uint32_t>(i);
+    slots_[all[i].second].rank = static_cast<std::uint32_t>(i);
   }
   for (std::size_t i = 0; i < partners_.size(); ++i) ranks_[i] = rankOf(partners_[i]);
 }
 
+// The slot of the triangle, or the free slot where it would be stored.
+std::size_t CoplanarTriangles::slotOf(PlacedTriangleId id) const {
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t i = hashOf(id) & mask;
+  while (slots_[i].count != 0 && slots_[i].id != id) i = (i + 1) & mask;
+  return i;
+}
+
 std::span<const PlacedTriangleId> CoplanarTriangles::partnersOf(PlacedTriangleId id) const {
-  const Owner* owner = empty() ? nullptr : ownerOf(id);
-  if (!owner) return {};
-  return std::span(partners_).subspan(owner->first, owner->count);
+  if (empty()) return {};
+  const Slot& slot = slots_[slotOf(id)];
+  return std::span(partners_).subspan(slot.first, slot.count);
 }
 
 std::uint64_t CoplanarTriangles::bytes() const {
-  return firstOwner_.size() * sizeof(firstOwner_[0]) + owners_.size() * sizeof(Owner) +
+  if (empty()) return 0;
+  return any_.size() * sizeof(any_[0]) + slots_.size() * sizeof(Slot) +
          partners_.size() * (sizeof(PlacedTriangleId) + sizeof(ranks_[0]) + sizeof(CoveredPart)) +
          cells_.size() * sizeof(Cell) + inCells_.size() * sizeof(std::size_t);
 }

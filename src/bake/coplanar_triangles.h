@@ -106,8 +106,8 @@ class CoplanarTriangles {
   // True if the triangle is coplanar with another one in some placement of it. False for numbers
   // that no triangle has.
   bool any(std::uint32_t triangle) const {
-    const std::size_t next = std::size_t{triangle} + 1;
-    return next < firstOwner_.size() && firstOwner_[triangle] < firstOwner_[next];
+    const std::size_t word = triangle / 64;
+    return word < any_.size() && (any_[word] >> triangle % 64 & 1) != 0;
   }
 
   // The triangles that lie in the plane of this one and touch it, itself excluded, ascending by
@@ -116,15 +116,15 @@ class CoplanarTriangles {
 
   // False only if forEachPartnerAt() visits none. The scene must have coplanar triangles.
   bool anyAt(PlacedTriangleId id, double u, double v) const {
-    const Owner* owner = ownerOf(id);
-    return owner && cells_[owner->firstCell + cellAt(u, v, owner->side)].count != 0;
+    const Slot& slot = slots_[slotOf(id)];
+    return slot.count != 0 && cells_[slot.firstCell + cellAt(u, v, slot.side)].count != 0;
   }
 
   // Numbers the coplanar triangles in the order of the scene file; all ranks are 0 before this.
   void rankBy(const Scene& scene, const SceneOrder& order);
 
   // The triangle must be coplanar with another one.
-  std::uint32_t rankOf(PlacedTriangleId id) const { return ownerOf(id)->rank; }
+  std::uint32_t rankOf(PlacedTriangleId id) const { return slots_[slotOf(id)].rank; }
 
   // The ranks of the partners of all triangles, one after the other.
   std::span<const std::uint32_t> ranks() const { return ranks_; }
@@ -134,9 +134,9 @@ class CoplanarTriangles {
   template <typename Visitor>
   void forEachPartnerAt(PlacedTriangleId id, double u, double v, Visitor&& visit) const {
     if (empty()) return;
-    const Owner* owner = ownerOf(id);
-    if (!owner) return;
-    const Cell& cell = cells_[owner->firstCell + cellAt(u, v, owner->side)];
+    const Slot& slot = slots_[slotOf(id)];
+    if (slot.count == 0) return;
+    const Cell& cell = cells_[slot.firstCell + cellAt(u, v, slot.side)];
     const auto own = std::span(inCells_).subspan(cell.first, cell.count);
     const auto holds = [&](std::size_t i) {
       return covered_[i].holds(static_cast<float>(u), static_cast<float>(v));
@@ -152,10 +152,10 @@ class CoplanarTriangles {
   std::uint64_t bytes() const;
 
  private:
-  // A placed triangle that has partners.
-  struct Owner {
+  struct Slot {
     PlacedTriangleId id;
-    std::uint32_t count = 0, rank = 0;
+    std::uint32_t count = 0;  // 0: the slot is free
+    std::uint32_t rank = 0;
     std::uint64_t first = 0;    // in partners_
     std::size_t firstCell = 0;  // in cells_
     std::size_t side = 1;       // the number of cells along each side of a square
@@ -167,19 +167,11 @@ class CoplanarTriangles {
   static std::size_t cellAt(double u, double v, std::size_t side) {
     return cellOf(v, side) * side + cellOf(u, side);
   }
-  void fillCells(Owner& owner);
-  // Returns null if the triangle has no partners.
-  const Owner* ownerOf(PlacedTriangleId id) const {
-    const auto end = owners_.begin() + firstOwner_[id.triangle + 1];
-    const auto owner = std::lower_bound(
-        owners_.begin() + firstOwner_[id.triangle], end, id.instance,
-        [](const Owner& o, std::uint32_t instance) { return o.id.instance < instance; });
-    return owner != end && owner->id == id ? &*owner : nullptr;
-  }
+  void fillCells(Slot& slot);
+  std::size_t slotOf(PlacedTriangleId id) const;
 
-  // Owners of the triangle i are owners_[firstOwner_[i], firstOwner_[i + 1]), by their instances.
-  std::vector<std::uint32_t> firstOwner_;
-  std::vector<Owner> owners_;
+  std::vector<std::uint64_t> any_;  // a bit a triangle
+  std::vector<Slot> slots_;         // a hash table with open addressing, at most half full
   std::vector<PlacedTriangleId> partners_;
   std::vector<std::uint32_t> ranks_;  // one for each of partners_
   std::vector<CoveredPart> covered_;  // the part that each of partners_ covers of its triangle
@@ -199,11 +191,11 @@ class CoplanarTriangles {
 // plane. Triangles without area, or too narrow to overlap any other, are left out. The result is
 // the same for any number of threads.
 //
-// The work is bounded, and `complete` says if everything was searched. Instances are left out if
-// they overlap so deeply that they exceed the bound, or if the scene has more than kMostSearched
-// triangles with them; nothing is found if the triangles of the world alone exceed it. Of instances
-// of one object in exactly one place only the first four take part. Scenes of more triangles than
-// kMostSearched, each instanced object counted once, are not searched.
+// The work is bounded, and `complete` says if everything was searched. If instances overlap so
+// deeply that they exceed the bound, each is searched by itself; if the triangles of the world do,
+// none is found among them. Of instances of one object in exactly one place only the first four
+// take part. Scenes of more triangles than kMostSearched, each instanced object counted once, are
+// not searched.
 inline constexpr std::uint64_t kMostSearched = 4'000'000;
 CoplanarTriangles findCoplanarTriangles(const Scene& scene, int threads, bool& complete);
 

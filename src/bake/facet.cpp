@@ -103,7 +103,7 @@ Facet facetOf(const TriangleRecord& triangle, const Affine* toWorld) {
   const Vec3d normal = cross(b - a, c - a);
   const double size = length(normal);
   facet.normal = size > 0 ? normal / size : Vec3d{};
-  facet.error = kErrorOfMagnitude * magnitude;
+  facet.error = facet.least = kErrorOfMagnitude * magnitude;
   return facet;
 }
 
@@ -114,7 +114,7 @@ Facet facetOf(const Scene& scene, PlacedTriangleId id) {
 }
 
 bool facetsOverlap(const Facet& a, const Facet& b) {
-  return lieInOnePlane(a, b) && haveInCommon(a, b, a.error + b.error);
+  return lieInOnePlane(a, b) && haveInCommon(a, b, a.least + b.least);
 }
 
 bool facetsTouch(const Facet& a, const Facet& b) {
@@ -122,7 +122,7 @@ bool facetsTouch(const Facet& a, const Facet& b) {
 }
 
 // Two triangles have no part in common that is wider than either of them.
-bool isTooNarrowToOverlap(const Facet& facet) { return !haveInCommon(facet, facet, facet.error); }
+bool isTooNarrowToOverlap(const Facet& facet) { return !haveInCommon(facet, facet, facet.least); }
 
 CoveredPart coveredPart(const Facet& on, const Facet& of) {
   // Rounding of the hits' weights, which are floats.

@@ -28,8 +28,9 @@ struct Facet {
   Corners corners;
   Vec3d normal;  // unit; zero for a triangle without area
   // Its share of how far two triangles in one plane may be apart, and of how much two that overlap
-  // must have in common: kErrorOfMagnitude times the largest magnitude of a corner.
-  double error = 0;
+  // must have in common. Both are kErrorOfMagnitude times the largest magnitude of a corner, except
+  // in the search of a geometry for all of its instances at once.
+  double error = 0, least = 0;
 };
 
 Facet facetOf(const TriangleRecord& triangle, const Affine* toWorld);

@@ -1,9 +1,10 @@
-// The search for coplanar triangles. A tree of bounding boxes holds all placed triangles, and each
-// eight neighbors in it are compared with the triangles whose boxes meet theirs.
+// The search for coplanar triangles. It descends trees of bounding boxes, two nodes at a time, and
+// compares triangles whose boxes meet.
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <bit>
+#include <cmath>
 #include <map>
 #include <span>
 #include <utility>
@@ -21,18 +22,23 @@ namespace {
 constexpr int kInstancesInOnePlace = 4;
 
 // Limits of the work, in comparisons of two boxes. An ordinary mesh takes less than a hundred for
-// each triangle.
+// each triangle. Many instances that overlap are given less: they seldom have coplanar faces.
 constexpr std::int64_t kWork = std::int64_t{1} << 28, kWorkPerTriangle = 256;
-constexpr std::int64_t kWorkOfFacets = 4;  // of comparing two facets
-constexpr std::int64_t kWorkOfPair = 128;  // of a pair that is found, because it takes memory
+constexpr std::int64_t kWorkOfInstances = std::int64_t{1} << 24;
+constexpr std::size_t kManyGroups = 64;
+constexpr std::int64_t kWorkOfNodes = 16;   // of splitting two nodes
+constexpr std::int64_t kWorkOfFacets = 4;   // of comparing two facets
+constexpr std::int64_t kWorkOfPair = 128;   // of a pair that is found, because it takes memory
+constexpr std::int64_t kWorkOfTask = 1024;  // likewise
 
-// Trees of more triangles are built by several threads.
-constexpr std::size_t kSharedTriangles = 8192;
+// Pairs of nodes with at most this many triangles become tasks for threads.
+constexpr std::uint64_t kTaskTriangles = 8192;
 
 using Orders = std::vector<std::uint64_t>;  // orderOf() of triangles
 using Pairs = std::vector<std::pair<std::uint64_t, std::uint64_t>>;
 
 void addBoth(const Pairs& pairs, Orders& orders) {
+  if (pairs.empty()) return;
   for (const auto& [a, b] : pairs) orders.insert(orders.end(), {a, b});
   std::sort(orders.begin(), orders.end());
   orders.erase(std::unique(orders.begin(), orders.end()), orders.end());
@@ -46,180 +52,373 @@ bool meet(const Box& a, const Box& b) {
   return (x & y & z) != 0;
 }
 
-// A box that holds everything that can touch the triangle.
-Box boxOf(const Facet& facet) {
+Box grown(const Vec3d& lower, const Vec3d& upper, double error) {
   // 1 would do but for the rounding of the box to float and for corners of two triangles that no
   // edge separates, though they are farther apart.
   constexpr double kGrowth = 2;
-  const auto& [a, b, c] = facet.corners;
-  const Vec3d growth(kGrowth * facet.error);
-  return {Vec3f(min(min(a, b), c) - growth), Vec3f(max(max(a, b), c) + growth)};
+  return {Vec3f(lower - Vec3d(kGrowth * error)), Vec3f(upper + Vec3d(kGrowth * error))};
 }
 
-struct BoxedTriangle {
-  std::uint64_t order = 0;  // orderOf()
+// An item of a BoxTree and its box.
+struct BoxedItem {
+  std::uint64_t item = 0;
   Box box;
   Vec3f center() const { return box.lower * 0.5f + box.upper * 0.5f; }
 };
 
-constexpr std::size_t kChildren = 8;
-
-// Halves the triangles across their longest extent, again and again, so that neighbors follow each
+// Halves the items across their longest extent, again and again, so that neighbors follow each
 // other and all nodes but the last of a level are full.
-void sortInSpace(std::span<BoxedTriangle> all, int threads) {
-  std::size_t full = 1;  // the triangles of the largest full node that is smaller than all
-  while (full * kChildren < all.size()) full *= kChildren;
+void sortInSpace(std::span<BoxedItem> items, std::size_t children, int threads) {
+  std::size_t full = 1;  // the items of the largest full node that is smaller than all
+  while (full * children < items.size()) full *= children;
   if (full == 1) return;
   Box box;
-  for (const BoxedTriangle& triangle : all) box.add(triangle.center());
+  for (const BoxedItem& item : items) box.add(item.center());
   const Vec3f size = box.upper - box.lower;
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  const std::size_t middle = ((all.size() + full - 1) / full + 1) / 2 * full;
-  std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(middle), all.end(),
-                   [axis](const BoxedTriangle& a, const BoxedTriangle& b) {
+  const std::size_t middle = ((items.size() + full - 1) / full + 1) / 2 * full;
+  std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(middle), items.end(),
+                   [axis](const BoxedItem& a, const BoxedItem& b) {
                      return a.box.lower[axis] + a.box.upper[axis] <
                             b.box.lower[axis] + b.box.upper[axis];
                    });
   const auto sortHalf = [&](std::size_t half, int) {
-    sortInSpace(half == 0 ? all.first(middle) : all.subspan(middle), threads / 2);
+    sortInSpace(half == 0 ? items.first(middle) : items.subspan(middle), children, threads / 2);
   };
   if (threads > 1) return parallelFor(threads, 2, sortHalf);
   sortHalf(0, 0);
   sortHalf(1, 0);
 }
 
-// Eight neighbors share a box of the next level, up to at most eight boxes that hold all. Level 0
-// are the triangles.
-struct BoxTree {
-  BoxTree(std::vector<BoxedTriangle> all, int threads) {
-    sortInSpace(all, all.size() > kSharedTriangles ? threads : 1);
-    orders.reserve(all.size());
-    levels.emplace_back().reserve(all.size());
-    for (const BoxedTriangle& triangle : all) {
-      orders.push_back(triangle.order);
-      levels[0].push_back(triangle.box);
+// A tree over boxes: eight neighbors share a box of the next level, up to the one box that holds
+// all. Level 0 are the items.
+class BoxTree {
+ public:
+  static constexpr std::uint32_t kChildren = 8;
+
+  BoxTree() = default;
+  BoxTree(std::vector<BoxedItem> items, int threads) {
+    if (items.empty()) return;
+    sortInSpace(items, kChildren, items.size() > kTaskTriangles ? threads : 1);
+    items_.reserve(items.size());
+    levels_.emplace_back().reserve(items.size());
+    for (const BoxedItem& item : items) {
+      items_.push_back(item.item);
+      levels_[0].push_back(item.box);
     }
-    while (levels.back().size() > kChildren) {
-      const std::vector<Box>& below = levels.back();
+    while (levels_.back().size() > 1) {
+      const std::vector<Box>& below = levels_.back();
       std::vector<Box> boxes((below.size() + kChildren - 1) / kChildren);
       for (std::size_t i = 0; i < below.size(); ++i) {
         boxes[i / kChildren].add(below[i].lower);
         boxes[i / kChildren].add(below[i].upper);
       }
-      levels.push_back(std::move(boxes));
+      levels_.push_back(std::move(boxes));
     }
   }
-  std::size_t blocks() const { return (orders.size() + kChildren - 1) / kChildren; }
 
-  Orders orders;
-  std::vector<std::vector<Box>> levels;
+  bool empty() const { return items_.empty(); }
+  std::uint32_t top() const { return static_cast<std::uint32_t>(levels_.size() - 1); }
+  std::uint32_t count(std::uint32_t level) const {
+    return static_cast<std::uint32_t>(levels_[level].size());
+  }
+  const Box& box(std::uint32_t level, std::uint32_t number) const { return levels_[level][number]; }
+  std::uint64_t item(std::uint32_t number) const { return items_[number]; }
+
+ private:
+  std::vector<std::uint64_t> items_;
+  std::vector<std::vector<Box>> levels_;
 };
 
-// The triangles that can overlap others.
-BoxTree treeOfPlaced(const Scene& scene, bool withInstances, int threads) {
-  std::vector<BoxedTriangle> all;
-  const auto add = [&](const Geometry& geometry, std::uint32_t instance) {
-    for (std::uint32_t i = 0; i < geometry.index.size(); ++i) {
-      all.push_back({orderOf({geometry.firstTriangle + i, instance}), {}});
-    }
-  };
-  add(scene.geometries[0], kNoInstance);
-  std::map<std::pair<std::uint32_t, std::array<double, 12>>, int> coincident;
-  for (std::uint32_t i = 0; withInstances && i < scene.instances.size(); ++i) {
-    const InstanceRecord& instance = scene.instances[i];
-    const auto map = std::bit_cast<std::array<double, 12>>(instance.toWorld);
-    if (++coincident[{instance.geometry, map}] > kInstancesInOnePlace) continue;
-    add(scene.geometries[instance.geometry], i);
+// The space that is searched: the world, or that of one instanced geometry for all of its instances
+// at once.
+class Space {
+ public:
+  explicit Space(const Scene& scene) : scene_(scene) {}
+  // Two triangles of the geometry that overlap in one plane in some instance do so in this space.
+  Space(const Scene& scene, std::uint32_t geometry);
+
+  Facet facet(PlacedTriangleId id) const {
+    Facet facet = facetOf(scene_, id);
+    facet.least *= leastShare_;
+    if (error_ > 0) facet.error = error_;
+    return facet;
   }
-  constexpr std::size_t kChunk = 4096;
-  parallelFor(threads, (all.size() + kChunk - 1) / kChunk, [&](std::size_t chunk, int) {
-    for (std::size_t i = chunk * kChunk; i < std::min((chunk + 1) * kChunk, all.size()); ++i) {
-      const Facet facet = facetOf(scene, placedTriangle(all[i].order));
-      if (!isTooNarrowToOverlap(facet)) all[i].box = boxOf(facet);
+  // A box that holds everything that can touch the triangle.
+  Box boxOf(const Facet& facet) const {
+    const auto& [a, b, c] = facet.corners;
+    return grown(min(min(a, b), c), max(max(a, b), c), facet.error);
+  }
+  // Returns the box in the world of a box of a tree: the world's own tree has grown boxes already,
+  // an instance's has not.
+  Box boxOf(const Box& box, std::uint32_t instance) const;
+
+ private:
+  const Scene& scene_;
+  double error_ = 0;       // of all facets, if it is not 0
+  double leastShare_ = 1;  // of a facet's own error in Facet::least
+};
+
+Space::Space(const Scene& scene, std::uint32_t geometry) : scene_(scene) {
+  // Coordinates are smaller than this, and floats reach much farther.
+  constexpr double kLargestError = 8.0 * kLargestCoordinate;
+  const Geometry& g = scene.geometries[geometry];
+  Vec3d far;
+  for (std::uint32_t i = 0; i < g.index.size(); ++i) {
+    for (const Vec3d& corner : worldCorners(scene, g.firstTriangle + i, kNoInstance)) {
+      far = max(far, abs(corner));
     }
-  });
-  std::erase_if(all, [](const BoxedTriangle& triangle) { return triangle.box.empty(); });
-  return {std::move(all), threads};
+  }
+  for (const InstanceRecord& instance : scene.instances) {
+    if (instance.geometry != geometry) continue;
+    // Bounds of the lengths to which the map takes unit vectors. Of the three singular values the
+    // product of two is at most half the sum of all squares.
+    const Affine& map = instance.toWorld;
+    const double squares = dot(map.x, map.x) + dot(map.y, map.y) + dot(map.z, map.z);
+    const double least = 2 * std::abs(map.determinant()) / squares, most = std::sqrt(squares);
+    const double error = kErrorOfMagnitude * magnitudeOf(far, &map);
+    error_ = std::min(std::max(error_, error / least), kLargestError);
+    // A corner's magnitude in the world is no less than the length of what its map's linear part
+    // makes of it; its magnitude here is at most sqrt(3) times its length. Widths grow by `most`
+    // at most.
+    leastShare_ = std::min(leastShare_, least / most / std::sqrt(3.0));
+  }
 }
 
-using FacetTest = bool (*)(const Facet& a, const Facet& b);
+Box Space::boxOf(const Box& box, std::uint32_t instance) const {
+  const Vec3d lower(box.lower), upper(box.upper);
+  if (instance == kNoInstance) return error_ > 0 ? grown(lower, upper, error_) : box;
+  const Affine& map = scene_.instances[instance].toWorld;
+  const Vec3d center = map.point((lower + upper) * 0.5), half = (upper - lower) * 0.5;
+  const Vec3d reach = abs(map.x) * half.x + abs(map.y) * half.y + abs(map.z) * half.z;
+  return grown(center - reach, center + reach,
+               kErrorOfMagnitude * magnitudeOf(max(abs(lower), abs(upper)), &map));
+}
 
-// Finds the pairs of a triangle of one tree and another one of a second tree that pass the test. If
-// both are the same tree, each pair is found once.
+// Triangles that are searched: the items of the tree are their orderOf(), or, in an instance, their
+// numbers.
+struct Group {
+  const BoxTree* tree = nullptr;
+  std::uint32_t instance = kNoInstance;
+};
+
+// A node of a group's tree or, without a group, of the tree over all groups.
+struct Node {
+  Box box;
+  const Group* group = nullptr;
+  std::uint32_t level = 0, number = 0;
+
+  bool isTriangle() const { return group && level == 0; }
+  // The node of greater height is split first.
+  std::uint32_t height() const { return group ? level : level + 64; }
+  bool operator==(const Node& other) const {
+    return group == other.group && level == other.level && number == other.number;
+  }
+  std::uint64_t mostTriangles() const { return std::uint64_t{1} << 3 * level; }
+};
+
+using FacetTest = bool (*)(const Facet& a, const Facet& b);
+using Task = std::pair<Node, Node>;
+
+// Finds the pairs of triangles below two nodes that pass the test. Pairs of nodes that are small
+// enough become tasks instead, if there is a list for them.
 class PairFinder {
  public:
-  PairFinder(const Scene& scene, const BoxTree& first, const BoxTree& second, FacetTest test)
-      : scene_(scene), first_(first), second_(second), test_(test) {}
+  PairFinder(const Space& space, const std::vector<Group>& groups, const BoxTree& groupTree,
+             FacetTest test)
+      : space_(space), groups_(groups), groupTree_(groupTree), test_(test) {}
 
-  // Searches with eight triangles of the first tree. Takes its share of the work from `work` and
-  // stops when nothing is left.
-  void search(std::size_t block, std::atomic<std::int64_t>& work) {
+  Node rootOf(const Group* group) const {
+    return nodeOf(group, (group ? *group->tree : groupTree_).top(), 0);
+  }
+  // Takes its share of the work from `work` and stops where nothing is left.
+  void search(const Node& a, const Node& b, std::atomic<std::int64_t>& work,
+              std::vector<Task>* tasks = nullptr) {
     const std::int64_t before = left_ = work;
-    begin_ = block * kChildren;
-    end_ = std::min(begin_ + kChildren, first_.orders.size());
-    box_ = Box();
-    for (std::size_t i = begin_; i < end_; ++i) {
-      facets_[i - begin_] = facetOf(scene_, placedTriangle(first_.orders[i]));
-      box_.add(first_.levels[0][i].lower);
-      box_.add(first_.levels[0][i].upper);
-    }
-    descend(second_.levels.size() - 1, 0);
+    tasks_ = tasks;
+    search(a, b);
     work -= before - left_;
   }
   const Pairs& found() const { return found_; }
 
  private:
-  void descend(std::size_t level, std::size_t number) {
-    const std::vector<Box>& boxes = second_.levels[level];
-    const std::size_t end = std::min(number + kChildren, boxes.size());
-    left_ -= static_cast<std::int64_t>(kChildren);
-    for (; number < end && left_ > 0; ++number) {
-      if (!meet(boxes[number], box_)) continue;
-      if (level == 0) {
-        compare(number);
-      } else {
-        descend(level - 1, number * kChildren);
-      }
+  Node nodeOf(const Group* group, std::uint32_t level, std::uint32_t number) const {
+    if (!group && level == 0) {
+      group = &groups_[groupTree_.item(number)];
+      level = group->tree->top();
+      number = 0;
     }
+    const Box& box = (group ? *group->tree : groupTree_).box(level, number);
+    return {group ? space_.boxOf(box, group->instance) : box, group, level, number};
   }
+  void split(const Node& node, const Node& other);
+  void search(const Node& a, const Node& b);
+  void compare(const Node& a, const Node& b);
+  const Facet& facetOf(const Node& node, PlacedTriangleId id);
 
-  void compare(std::size_t number) {
-    const std::uint64_t other = second_.orders[number];
-    const Facet facet = facetOf(scene_, placedTriangle(other));
-    left_ -= static_cast<std::int64_t>(kChildren);
-    for (std::size_t i = begin_; i < end_; ++i) {
-      const std::uint64_t own = first_.orders[i];
-      if (own == other || (own > other && &first_ == &second_)) continue;
-      if (!meet(first_.levels[0][i], second_.levels[0][number])) continue;
-      left_ -= kWorkOfFacets;
-      if (!test_(facets_[i - begin_], facet)) continue;
-      left_ -= kWorkOfPair;
-      found_.emplace_back(own, other);
-    }
-  }
-
-  const Scene& scene_;
-  const BoxTree &first_, &second_;
+  const Space& space_;
+  const std::vector<Group>& groups_;
+  const BoxTree& groupTree_;
   FacetTest test_;
   std::int64_t left_ = 0;  // work
-  std::size_t begin_ = 0, end_ = 0;
-  std::array<Facet, kChildren> facets_;
-  Box box_;
+  std::vector<Task>* tasks_ = nullptr;
+  std::vector<Node> stack_;  // children of the nodes that are split
+  // A cache, because neighbors are compared again and again.
+  std::array<std::pair<PlacedTriangleId, Facet>, 512> known_{};
   Pairs found_;
 };
 
-// Sets `complete` to false and returns nothing if the search takes too much work.
-Pairs findPairs(const Scene& scene, const BoxTree& first, const BoxTree& second, FacetTest test,
-                int threads, bool& complete) {
+// Pushes the node's children that meet the other node, or the node itself if the other is higher.
+void PairFinder::split(const Node& node, const Node& other) {
+  if (node.height() < other.height()) {
+    stack_.push_back(node);
+    return;
+  }
+  const BoxTree& tree = node.group ? *node.group->tree : groupTree_;
+  const std::uint32_t first = node.number * BoxTree::kChildren,
+                      end = std::min(first + BoxTree::kChildren, tree.count(node.level - 1));
+  for (std::uint32_t number = first; number < end; ++number) {
+    const Node child = nodeOf(node.group, node.level - 1, number);
+    if (meet(child.box, other.box)) stack_.push_back(child);
+  }
+}
+
+const Facet& PairFinder::facetOf(const Node& node, PlacedTriangleId id) {
+  auto& [known, facet] = known_[node.number % known_.size()];
+  // The cache starts with facets without normals for the first triangle.
+  if (known != id || facet.normal == Vec3d{}) facet = space_.facet(known = id);
+  return facet;
+}
+
+void PairFinder::compare(const Node& nodeA, const Node& nodeB) {
+  const auto idOf = [](const Node& node) {
+    PlacedTriangleId id = placedTriangle(node.group->tree->item(node.number));
+    if (node.group->instance != kNoInstance) id.instance = node.group->instance;
+    return id;
+  };
+  const PlacedTriangleId a = idOf(nodeA), b = idOf(nodeB);
+  if (a == b) return;
+  left_ -= kWorkOfFacets;
+  const Facet facet = facetOf(nodeA, a);  // the second may take its place in the cache
+  if (!test_(facet, facetOf(nodeB, b))) return;
+  left_ -= kWorkOfPair;
+  found_.emplace_back(orderOf(a), orderOf(b));
+}
+
+void PairFinder::search(const Node& a, const Node& b) {
+  const bool isSame = a == b;
+  if (left_ <= 0 || (isSame && a.isTriangle())) return;
+  if (a.group && b.group) {
+    // Triangles of one instance are compared in the space of their geometry.
+    if (a.group->instance != kNoInstance && a.group->instance == b.group->instance) return;
+    if (a.isTriangle() && b.isTriangle()) return compare(a, b);
+    if (tasks_ && a.mostTriangles() + b.mostTriangles() <= kTaskTriangles) {
+      left_ -= kWorkOfTask;
+      tasks_->emplace_back(a, b);
+      return;
+    }
+  }
+  const bool isWanted = a.group && b.group;  // and so are the triangles of both
+  const std::size_t beginA = stack_.size();
+  split(a, b);
+  const std::size_t endA = stack_.size(), beginB = isSame ? beginA : endA;
+  if (!isSame) split(b, a);
+  const std::size_t endB = stack_.size();
+  left_ -= kWorkOfNodes + static_cast<std::int64_t>((endA - beginA) * (endB - beginB));
+  for (std::size_t i = beginA; i < endA; ++i) {
+    for (std::size_t k = isSame ? i : beginB; k < endB; ++k) {
+      if (!meet(stack_[i].box, stack_[k].box)) continue;
+      if (stack_[i].isTriangle() && stack_[k].isTriangle() && isWanted) {
+        compare(stack_[i], stack_[k]);
+      } else {
+        const Node first = stack_[i], second = stack_[k];  // The search moves the stack.
+        search(first, second);
+      }
+    }
+  }
+  stack_.resize(beginA);
+}
+
+class CoplanarFinder {
+ public:
+  CoplanarFinder(const Scene& scene, int threads);
+
+  CoplanarTriangles find();
+  bool complete() const { return complete_; }
+
+ private:
+  BoxTree treeOf(std::uint32_t geometry, int threads) const;
+  Pairs findPairs(const Space& space, const std::vector<Group>& groups, const Group* others,
+                  FacetTest test);
+  void addWithinInstances(std::uint32_t geometry, Orders& all);
+
+  const Scene& scene_;
+  int threads_;
+  Space world_;
+  std::vector<BoxTree> trees_;  // one a geometry
+  std::vector<bool> leftOut_;   // one an instance
+  bool complete_ = true;
+};
+
+CoplanarFinder::CoplanarFinder(const Scene& scene, int threads)
+    : scene_(scene), threads_(threads), world_(scene), trees_(scene.geometries.size()) {
+  const int outer = trees_.size() > 1 ? threads : 1, inner = trees_.size() > 1 ? 1 : threads;
+  parallelFor(outer, trees_.size(), [&](std::size_t i, int) {
+    trees_[i] = treeOf(static_cast<std::uint32_t>(i), inner);
+  });
+  // Instances in one place are counted by their geometries and maps.
+  std::map<std::pair<std::uint32_t, std::array<double, 12>>, int> count;
+  for (const InstanceRecord& i : scene.instances) {
+    const auto map = std::bit_cast<std::array<double, 12>>(i.toWorld);
+    leftOut_.push_back(++count[{i.geometry, map}] > kInstancesInOnePlace);
+  }
+}
+
+// The triangles of a geometry that can overlap others.
+BoxTree CoplanarFinder::treeOf(std::uint32_t geometry, int threads) const {
+  const Geometry& g = scene_.geometries[geometry];
+  const Space space = geometry == 0 ? world_ : Space(scene_, geometry);
+  std::vector<BoxedItem> items(g.index.size());
+  constexpr std::size_t kChunk = 4096;
+  const std::size_t chunks = (items.size() + kChunk - 1) / kChunk;
+  parallelFor(threads, chunks, [&](std::size_t chunk, int) {
+    for (std::size_t i = chunk * kChunk; i < std::min((chunk + 1) * kChunk, items.size()); ++i) {
+      const PlacedTriangleId id{g.firstTriangle + static_cast<std::uint32_t>(i), kNoInstance};
+      const Facet facet = space.facet(id);
+      if (isTooNarrowToOverlap(facet)) continue;
+      items[i].item = orderOf(id);
+      for (const Vec3d& corner : facet.corners) items[i].box.add(Vec3f(corner));
+      if (geometry == 0) items[i].box = space.boxOf(facet);
+    }
+  });
+  std::erase_if(items, [](const BoxedItem& item) { return item.box.empty(); });
+  return {std::move(items), threads};
+}
+
+// The pairs of the groups, or of the groups with the others.
+Pairs CoplanarFinder::findPairs(const Space& space, const std::vector<Group>& groups,
+                                const Group* others, FacetTest test) {
+  if (groups.empty()) return {};
+  std::vector<BoxedItem> boxes;
+  for (const Group& group : groups) {
+    const Box& box = group.tree->box(group.tree->top(), 0);
+    boxes.push_back({boxes.size(), space.boxOf(box, group.instance)});
+  }
+  const BoxTree groupTree(std::move(boxes), 1);
   std::atomic<std::int64_t> work =
-      kWork + kWorkPerTriangle * static_cast<std::int64_t>(scene.instancedTriangles);
-  std::vector<PairFinder> finders(static_cast<std::size_t>(threads),
-                                  PairFinder(scene, first, second, test));
-  parallelFor(threads, first.blocks(), [&](std::size_t block, int worker) {
-    finders[static_cast<std::size_t>(worker)].search(block, work);
+      (groups.size() < kManyGroups ? kWork : kWorkOfInstances) +
+      kWorkPerTriangle * static_cast<std::int64_t>(scene_.triangles.size());
+  std::vector<PairFinder> finders;
+  finders.reserve(static_cast<std::size_t>(threads_));
+  for (int i = 0; i < threads_; ++i) finders.emplace_back(space, groups, groupTree, test);
+  const Node root = finders[0].rootOf(nullptr);
+  std::vector<Task> tasks;
+  finders[0].search(root, others ? finders[0].rootOf(others) : root, work, &tasks);
+  parallelFor(threads_, tasks.size(), [&](std::size_t i, int worker) {
+    finders[static_cast<std::size_t>(worker)].search(tasks[i].first, tasks[i].second, work);
   });
   if (work <= 0) {
-    complete = false;
+    complete_ = false;
     return {};
   }
   Pairs pairs;
@@ -229,33 +428,70 @@ Pairs findPairs(const Scene& scene, const BoxTree& first, const BoxTree& second,
   return pairs;
 }
 
+// Adds triangles that overlap others of the same instance. One search in the space of the geometry
+// finds the candidates for all of its instances.
+void CoplanarFinder::addWithinInstances(std::uint32_t geometry, Orders& all) {
+  if (trees_[geometry].empty()) return;
+  const Pairs candidates =
+      findPairs(Space(scene_, geometry), {{&trees_[geometry]}}, nullptr, facetsOverlap);
+  if (candidates.size() * scene_.instances.size() > std::uint64_t{kWorkOfInstances}) {
+    complete_ = false;
+    return;
+  }
+  Pairs found;
+  for (std::uint32_t i = 0; i < scene_.instances.size(); ++i) {
+    if (scene_.instances[i].geometry != geometry || leftOut_[i]) continue;
+    for (const auto& [first, second] : candidates) {
+      const PlacedTriangleId a{placedTriangle(first).triangle, i},
+          b{placedTriangle(second).triangle, i};
+      if (facetsOverlap(world_.facet(a), world_.facet(b))) {
+        found.emplace_back(orderOf(a), orderOf(b));
+      }
+    }
+  }
+  addBoth(found, all);
+}
+
+CoplanarTriangles CoplanarFinder::find() {
+  std::vector<Group> everything;
+  if (!trees_[0].empty()) everything.push_back({&trees_[0]});
+  for (std::uint32_t i = 0; i < scene_.instances.size(); ++i) {
+    const BoxTree& tree = trees_[scene_.instances[i].geometry];
+    if (!tree.empty() && !leftOut_[i]) everything.push_back({&tree, i});
+  }
+  Orders all;
+  Pairs pairs = findPairs(world_, everything, nullptr, facetsOverlap);
+  if (!complete_ && everything.size() > 1) {  // The instances overlap too much.
+    everything.resize(trees_[0].empty() ? 0 : 1);
+    pairs = findPairs(world_, everything, nullptr, facetsOverlap);
+  }
+  addBoth(pairs, all);
+  for (std::uint32_t g = 1; g < trees_.size(); ++g) addWithinInstances(g, all);
+  const auto treeOfAll = [&] {
+    std::vector<BoxedItem> items;
+    for (const std::uint64_t order : all) {
+      items.push_back({order, world_.boxOf(world_.facet(placedTriangle(order)))});
+    }
+    return BoxTree(std::move(items), 1);
+  };
+  if (all.empty()) return {};
+  // Triangles that touch one that overlaps another are added to those that overlap.
+  const BoxTree overlapping = treeOfAll();
+  const Group others{&overlapping};
+  addBoth(findPairs(world_, everything, &others, facetsTouch), all);
+  const BoxTree tree = treeOfAll();
+  return {scene_, findPairs(world_, {{&tree}}, nullptr, facetsTouch), threads_};
+}
+
 }  // namespace
 
 CoplanarTriangles findCoplanarTriangles(const Scene& scene, int threads, bool& complete) {
   complete = scene.firstSphere <= kMostSearched;
   if (!complete) return {};
-  const bool withInstances = scene.instancedTriangles <= kMostSearched;
-  complete = withInstances;
-  BoxTree placed = treeOfPlaced(scene, withInstances, threads);
-  Pairs pairs = findPairs(scene, placed, placed, facetsOverlap, threads, complete);
-  if (withInstances && !complete && !scene.instances.empty()) {
-    placed = treeOfPlaced(scene, false, threads);
-    pairs = findPairs(scene, placed, placed, facetsOverlap, threads, complete);
-  }
-  Orders all;
-  addBoth(pairs, all);
-  if (all.empty()) return {};
-  const auto treeOfAll = [&] {
-    std::vector<BoxedTriangle> boxed;
-    for (const std::uint64_t order : all) {
-      boxed.push_back({order, boxOf(facetOf(scene, placedTriangle(order)))});
-    }
-    return BoxTree(std::move(boxed), 1);
-  };
-  // Triangles that touch one that overlaps another are added to those that overlap.
-  addBoth(findPairs(scene, treeOfAll(), placed, facetsTouch, threads, complete), all);
-  const BoxTree tree = treeOfAll();
-  return {scene, findPairs(scene, tree, tree, facetsTouch, threads, complete), threads};
+  CoplanarFinder finder(scene, threads);
+  CoplanarTriangles found = finder.find();
+  complete = finder.complete();
+  return found;
 }
 
 }  // namespace whit
