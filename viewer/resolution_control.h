@@ -51,7 +51,7 @@ class ResolutionControl {
   double rate() const { return rate_; }
   void setSpp(int spp) { spp_ = spp; }
   void setDepth(int depth) { depth_ = depth; }
-  // Where rays are sampled, noise only goes with many samples.
+  // Pictures whose rays are sampled get more samples at rest.
   void setSampled(bool sampled) { sampled_ = sampled; }
 
   // Moves the largest scale, also that at rest, by `steps` towards finer or coarser pixels.

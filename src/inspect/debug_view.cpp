@@ -1,7 +1,6 @@
 #include "inspect/debug_view.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -10,13 +9,12 @@
 #include "core/formatted.h"
 #include "core/option_values.h"
 #include "core/pixel.h"
+#include "core/stopwatch.h"
 #include "inspect/metrics.h"
 
 namespace whit {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr EffectColor kEffectColors[] = {
     {Effect::textures, {0.25f, 0.25f, 0.25f}},   {Effect::normalMaps, {0.35f, 0.05f, 0.35f}},
@@ -37,12 +35,12 @@ class Watcher : public StageObserver {
  public:
   Watcher(const Renderer& renderer, const Image& image, DebugView view,
           std::vector<WatchedPixel>& pixels)
-      : renderer_(renderer), image_(image), view_(view), pixels_(pixels), last_(Clock::now()) {
+      : renderer_(renderer), image_(image), view_(view), pixels_(pixels) {
     pixels_.assign(image.pixels.size(), WatchedPixel());
   }
 
   void after(Stage stage, const Chunk& chunk) override {
-    const double us = std::chrono::duration<double, std::micro>(Clock::now() - last_).count();
+    const double us = 1000 * sinceLast_.ms();
     tracker_.follow(stage, chunk);
     const bool hits = stage == Stage::findIntersections;
     if (view_ == DebugView::cost) {
@@ -55,7 +53,7 @@ class Watcher : public StageObserver {
     } else if (hits && chunk.depth == 0) {
       lookAtSurfels(chunk);
     }
-    last_ = Clock::now();
+    sinceLast_ = Stopwatch();
   }
 
  private:
@@ -120,7 +118,7 @@ class Watcher : public StageObserver {
   const DebugView view_;
   std::vector<WatchedPixel>& pixels_;
   PixelTracker tracker_;
-  Clock::time_point last_;
+  Stopwatch sinceLast_;
 };
 
 // The amounts that a view shows; empty for views without a scale.
