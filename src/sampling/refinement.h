@@ -1,7 +1,7 @@
-// The pixels that adaptive sampling refines (Whitted 1980, "An improved illumination model for shaded
-// display", section on aliasing). A pixel that differs from a neighbor in surface or in contrast gets
-// a few probe samples; one whose probes differ, from one another or from those of the pixel next to
-// it, gets every sample. The same rules for reference and kernels.
+// The pixels that adaptive sampling refines (Whitted 1980, "An improved illumination model for
+// shaded display", section on aliasing). A pixel that differs from a neighbor in surface or in
+// contrast gets a few probe samples; one whose probes differ, from one another or from those of the
+// pixel next to it, gets every sample. The same rules for reference and kernels.
 #pragma once
 
 #include <array>
