@@ -50,7 +50,7 @@ class EmbreeIntersector : public reference::Intersector {
 class Renderer {
  public:
   // Builds the acceleration structure and the shading tables. `scene` must outlive the renderer.
-  // Throws Error(usage) for a SIMD target or packet width that this machine does not have.
+  // Throws Error(usage) for a SIMD target that this machine does not have.
   Renderer(const Scene& scene, const RenderOptions& options, Progress* progress = nullptr);
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;

@@ -162,7 +162,7 @@ TEST_F(RenderThreadTest, KnobsThatThisMachineLacks) {
   RenderThread thread(opened_, common_, [] {});
   expectRightPicture(thread);
   const RenderOptions good = request_.options;
-  request_.options.packet = 5;
+  request_.options.simd = "none";
   thread.ask(request_);
   ASSERT_TRUE(waitFor(thread));
   EXPECT_NE(thread.takeError(), "");
