@@ -176,11 +176,8 @@ def frame_table(data):
     cells += [["**" + "frame" + "**"] + ["**" + number(r["frame_ms"]["median"]) + "**" for r in runs]]
     for name, value in [
             ("95 % of the frames within", lambda r: number(r["frame_ms"]["p95"])),
-            ("frames a second", lambda r: number(r["fps"])),
             ("Embree alone, same rays", lambda r: number(r["floor_ms"])),
-            ("frame over that floor", lambda r: number(r["frame_over_floor"], 2)),
             ("million rays", lambda r: number(million_rays(r), 2)),
-            ("Mray/s", lambda r: number(r["mrays_per_s"])),
             ("lanes filled, shadow rays", lambda r: number(r["lanes_filled"]["shadow"], 3)),
             ("lanes filled, reflections", lambda r: number(r["lanes_filled"]["reflection"], 3)),
             ("reading and decoding, ms", lambda r: number(r["load_ms"], 0)),
