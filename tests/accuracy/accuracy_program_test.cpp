@@ -22,7 +22,7 @@ std::string sourceFile(const std::string& name) {
 
 // Shipped scenes of little time, with every knob: the terminal's table, the rows and the report.
 TEST(AccuracyProgram, WhatIsSaidOfShippedScenesHolds) {
-  const std::vector<std::string> scenes{"whitted", "mirrors", "matte", "glossy"};
+  const std::vector<std::string> scenes{"whitted", "glossy"};
   const cli::TemporaryFolder folder;
   const std::string out = folder / "out";
   std::vector<std::string> words{"accuracy"};

@@ -65,45 +65,65 @@ HTML
 chrome() {
   timeout 120 "$browser" --headless=new --no-sandbox --disable-gpu --disable-dev-shm-usage \
     --hide-scrollbars --allow-file-access-from-files --user-data-dir="$folder/profile" \
-    --virtual-time-budget=5000 "$@" 2> "$folder/browser.log"
+    --virtual-time-budget=10000 "$@" 2> "$folder/browser.log"
 }
 
-status=0
-# look PAGE NAME: at the three widths
-look() {
-  local page=$1 name=$2 width found
-  cat "$page" "$folder/measures.html" > "$(dirname "$page")/checked.html"
-  for width in 360 800 1400; do
-    cat > "$(dirname "$page")/frame.html" <<HTML
-<body style="margin:0"><iframe src="checked.html" style="border:0;width:${width}px;height:2600px">
-</iframe><pre id="found"></pre><script>
-addEventListener('message', event => document.getElementById('found').textContent = event.data);
-</script></body>
-HTML
-    found=$(chrome --dump-dom "file://$(dirname "$page")/frame.html" | sed -n '/<pre id="found">/,/<\/pre>/p')
-    if ! grep -q "<pre id=\"found\">fits $width</pre>" <<< "$found"; then
-      echo "$name at $width pixels:" "${found:-$(tail -n 3 "$folder/browser.log")}"
-      status=1
-    fi
+# frame PAGE WIDTH
+frame() { echo "<iframe src=\"$1\" style=\"border:0;width:$2px;height:2600px\"></iframe>"; }
+
+widths=(360 800 1400) names=()
+# add PAGE NAME: frames of the three widths in frames.html.
+add() {
+  local page=$1 name=$2 width
+  cat "$page" "$folder/measures.html" > "$(dirname "$page")/$name-checked.html"
+  for width in "${widths[@]}"; do
+    names+=("$name at $width pixels")
+    frame "$(basename "$(dirname "$page")")/$name-checked.html" "$width" >> "$folder/frames.html"
     if [ -n "$keep" ]; then
       mkdir -p "$keep"
-      sed -i "s/checked.html/$(basename "$page")/" "$(dirname "$page")/frame.html"
+      { echo '<body style="margin:0">' && frame "file://$page" "$width"; } > "$folder/frame.html"
       chrome --window-size="$width,2600" --screenshot="$keep/report-$name-$width.png" \
-        "file://$(dirname "$page")/frame.html"
+        "file://$folder/frame.html"
     fi
   done
 }
 
-# sweep TRUTH KNOBS
+# The script stands before the frames, so that it hears what every one of them says.
+cat > "$folder/frames.html" <<'HTML'
+<pre id="found"></pre><script>
+const answers = {}, frames = document.getElementsByTagName('iframe');
+addEventListener('message', event => {
+  answers[[...frames].findIndex(frame => frame.contentWindow === event.source)] = event.data;
+  document.getElementById('found').textContent = Object.entries(answers).map(
+    ([number, answer]) => answer.split('\n').map(line => `${number}: ${line}\n`).join('')).join('');
+});
+</script>
+HTML
+
+# sweep SCENE TRUTH KNOBS
 sweep() {
-  "$whit" accuracy mirrors --truth "$1" --knobs "$2" --size 48x32 --time-budget 2 --quiet \
-    --out "$folder/$1" > /dev/null
-  look "$folder/$1/report.html" "$1"
+  local scene=$1 truth=$2
+  "$whit" accuracy "$scene" --truth "$truth" --knobs "$3" --size 16x10 --time-budget 0.5 --quiet \
+    --out "$folder/$truth" > /dev/null
+  add "$folder/$truth/report.html" "$truth"
 }
-sweep model depth,cutoff,spp,packet
-sweep transport spp,indirect
+sweep mirrors model depth,cutoff,spp,packet
+sweep matte transport spp,indirect
 "$whit" effects --size 48x30 --frames 2 --quiet --out "$folder/effects" > /dev/null
-look "$folder/effects/report.html" effects
-"$verify" --only H38,H16 --html "$folder/verify.html" > /dev/null
-look "$folder/verify.html" verify
+add "$folder/effects/report.html" effects
+mkdir "$folder/cases"
+"$verify" --only H38,H16 --html "$folder/cases/verify.html" > /dev/null
+add "$folder/cases/verify.html" verify
+
+# Starting the browser takes longer than looking at a page: all pages are looked at at once.
+found=$(chrome --dump-dom "file://$folder/frames.html" | sed -n '/<pre id="found">/,/<\/pre>/p' |
+  sed 's/.*<pre id="found">//')
+status=0
+for i in "${!names[@]}"; do
+  answer=$(grep "^$i: " <<< "$found" || true)
+  if [ "$answer" != "$i: fits ${widths[i % ${#widths[@]}]}" ]; then
+    echo "${names[i]}:" "${answer:-no answer: $(tail -n 3 "$folder/browser.log")}"
+    status=1
+  fi
+done
 exit $status

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "io/load_scene.h"
 #include "render/renderer.h"
 #include "simd/kernels.h"
 
@@ -18,9 +17,11 @@ inline constexpr std::size_t kTileRays = 32 * 32;
 
 class BenchTile {
  public:
-  // `name` of a scene; `target` is the SIMD target of its kernels.
-  BenchTile(const std::string& name, const std::string& target, const RenderOptions& choices = {})
-      : scene_(load(name)),
+  // `target` is the SIMD target of its kernels. The scene must outlive the tile. Without `pixels`
+  // the tile is chosen.
+  BenchTile(const Scene& scene, const std::string& target, const RenderOptions& choices,
+            const std::vector<std::uint32_t>& pixels)
+      : scene_(scene),
         options_(timed(choices, target)),
         renderer_(scene_, options_),
         film_(makeFilm(scene_, options_)),
@@ -28,7 +29,8 @@ class BenchTile {
         work_(plan(), kTileRays) {
     sizeDisplay(film_);
     work_.reserveCodes(kTileRays);
-    pixels_ = pickTile();
+    pixels_ = pixels.empty() ? pickTile() : pixels;
+    pixels_.reserve(kTileRays + 2 * kBlock);
     run();
   }
 
@@ -97,13 +99,15 @@ class BenchTile {
   const Chunk& chunk() const { return chunk_; }
   Renderer& renderer() { return renderer_; }
   Camera camera() const { return chooseCamera(scene_, options_); }
-  Film film() const { return makeFilm(scene_, options_); }
+  const std::vector<std::uint32_t>& pixels() const { return pixels_; }
+  // A film for a picture of the whole scene that is rendered quickly.
+  Film smallFilm() const {
+    RenderOptions options = options_;
+    options.size = ImageSize{96, 60};
+    return makeFilm(scene_, options);
+  }
 
  private:
-  static Scene load(const std::string& name) {
-    Warnings warnings;
-    return Scene::finalize(loadScene(name, LoadOptions{}, warnings), warnings);
-  }
   static RenderOptions timed(RenderOptions o, const std::string& target) {
     o.size = kSize;
     o.threads = 1;
@@ -119,14 +123,13 @@ class BenchTile {
     for (const auto& tile : tiles) {
       if (tile.size() != kTileRays) continue;
       pixels_ = tile;
-      pixels_.reserve(tile.size() + 2 * kBlock);
+      pixels_.reserve(kTileRays + 2 * kBlock);
       run();
       if (best.empty() || chunk_.childCount > most) {
         best = tile;
         most = chunk_.childCount;
       }
     }
-    best.reserve(best.size() + 2 * kBlock);
     return best;
   }
 
@@ -140,7 +143,7 @@ class BenchTile {
     });
   }
 
-  Scene scene_;
+  const Scene& scene_;
   RenderOptions options_;
   Renderer renderer_;
   Film film_;

@@ -12,6 +12,7 @@
 
 #include "bench/bench_tile.h"
 #include "inspect/stage_comparison.h"
+#include "io/load_scene.h"
 #include "simd/deform_vertices.h"
 
 namespace whit::bench {
@@ -79,7 +80,8 @@ class PacketBench {
 
 // Empty, or which stage is how far from its twin.
 std::string twinsDiffer(BenchTile& tile) {
-  for (const StageDifference& row : compareStages(tile.renderer(), tile.camera(), tile.film())) {
+  for (const StageDifference& row :
+       compareStages(tile.renderer(), tile.camera(), tile.smallFilm())) {
     if (row.worstUlp <= row.limitUlp) continue;
     return std::string(kStageNames[static_cast<std::size_t>(row.stage)]) + " " + row.column +
            " differs from its twin by " + std::to_string(row.worstUlp) + " ulp";
@@ -90,13 +92,16 @@ std::string twinsDiffer(BenchTile& tile) {
 // A tile and its verdict, made when its first benchmark runs.
 struct Subject {
   Input input;
+  const Scene& scene;
+  std::vector<std::uint32_t>& pixels;  // of the input's tile, chosen by the first target
   std::string target;
   std::unique_ptr<BenchTile> tile;
   std::string verdict;
 
   BenchTile& made() {
     if (!tile) {
-      tile = std::make_unique<BenchTile>(input.scene, target, optionsOf(input));
+      tile = std::make_unique<BenchTile>(scene, target, optionsOf(input), pixels);
+      pixels = tile->pixels();
       verdict = twinsDiffer(*tile);
       simd::chooseTarget(target);
     }
@@ -189,13 +194,23 @@ void registerSkin() {
   }
 }
 
+Scene load(const std::string& name) {
+  Warnings warnings;
+  return Scene::finalize(loadScene(name, LoadOptions{}, warnings), warnings);
+}
+
 int runAll() {
+  std::map<std::string, Scene> scenes;
+  std::map<const Input*, std::vector<std::uint32_t>> pixels;
   std::vector<std::unique_ptr<Subject>> subjects;
   std::vector<std::unique_ptr<PacketBench>> packets;
   std::vector<std::string> known;
   for (const Input& input : kInputs) {
+    if (!scenes.contains(input.scene)) scenes.emplace(input.scene, load(input.scene));
+    const Scene& scene = scenes.at(input.scene);
     for (const std::string& target : simd::availableTargets()) {
-      Subject& subject = *subjects.emplace_back(new Subject{input, target, nullptr, {}});
+      Subject& subject =
+          *subjects.emplace_back(new Subject{input, scene, pixels[&input], target, nullptr, {}});
       registerAll(subject, known);
       if (&input != kInputs.data()) continue;
       simd::chooseTarget(target);
