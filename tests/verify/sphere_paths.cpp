@@ -1,4 +1,8 @@
 // H71, continued: paths that leave exact spheres and go through them, and coincident spheres.
+#include <optional>
+#include <utility>
+
+#include "scene/camera.h"
 #include "verify/balls.h"
 
 namespace whit::verify {
@@ -363,6 +367,115 @@ Finding ballsInPackets(const Setup& setup) {
   return finding;
 }
 
+// Pairs of spheres that are mirror images of each other about the plane x = 0 and cross there,
+// among others that do not reach the plane, all in random order. The distances from a point of the
+// plane to both of a pair are the same, bit for bit.
+std::vector<Ball> mirroredBalls() {
+  Numbers numbers(85);
+  std::vector<Ball> balls;
+  for (int i = 0; i < 40; ++i) {
+    const auto radius = static_cast<float>(numbers.in(0.3, 0.9));
+    const auto x = radius * static_cast<float>(numbers.in(0.1, 0.9));
+    const Vec3f center(x, static_cast<float>(numbers.in(-3, 3)),
+                       static_cast<float>(numbers.in(-3, 3)));
+    balls.push_back({center, radius});
+    balls.push_back({{-x, center.y, center.z}, radius});
+    balls.push_back({{i % 2 == 0 ? 1.0f : -1.0f, center.z, center.y}, 0.75f});
+  }
+  for (std::size_t i = balls.size() - 1; i > 0; --i) {
+    std::swap(balls[i], balls[static_cast<std::size_t>(numbers.in(0, static_cast<double>(i + 1)))]);
+  }
+  return balls;
+}
+
+constexpr float kGlow = 0x1p-7f;  // Ball i emits i + 1 times as much.
+
+enum class Placement : std::uint8_t { world, oneObject, objects };
+
+Scene sceneOfMirrored(const std::vector<Ball>& balls, Placement placement) {
+  const std::vector<Affine> twice{Affine{}, Affine::translation({0, 50, 0})};
+  SceneBuilder builder;
+  Object object;
+  for (const Ball& ball : balls) {
+    const auto number = static_cast<float>(builder.description.materials.size() + 1);
+    const std::uint32_t material = builder.add(emittingMaterial(number * kGlow));
+    if (placement == Placement::world) builder.add(ball.mesh(material));
+    if (placement == Placement::oneObject) object.meshes.push_back(ball.mesh(material));
+    if (placement == Placement::objects) {
+      const Affine toCenter = Affine::translation(Vec3d(ball.center));
+      builder.place({"ball", {Ball{{}, ball.radius}.mesh(material)}},
+                    {twice[0] * toCenter, twice[1] * toCenter});
+    }
+  }
+  if (placement == Placement::oneObject) builder.place(std::move(object), twice);
+  return builder.build();
+}
+
+// The ball that the ray hits first, of two at the same distance the later one. None where roundings
+// decide which ball that is, and where the ray hits no ball.
+std::optional<std::size_t> firstHit(const std::vector<Ball>& balls, const ProbeRay& ray) {
+  constexpr long double kDoubt = 1e-4L;
+  long double nearest = kNoBound, next = kNoBound;
+  std::optional<std::size_t> first;
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    const BallChord chord = balls[i].chord(ray);
+    if (chord.aside > 1 + kDoubt) continue;
+    const long double least = std::min(std::fabs(chord.near), std::fabs(chord.far));
+    if (chord.aside > 1 - kDoubt || least < kDoubt) return std::nullopt;
+    const long double t = chord.near > 0 ? chord.near : chord.far;
+    if (t < 0 || t > nearest) {
+      if (t > 0) next = std::min(next, t);
+      continue;
+    }
+    if (t < nearest) next = nearest;
+    nearest = t;
+    first = i;
+  }
+  return next - nearest < kDoubt ? std::nullopt : first;
+}
+
+Finding mirroredInAnyOrder(const Setup& setup) {
+  Finding finding(0);
+  const std::vector<Ball> balls = mirroredBalls();
+  const Camera camera{.eye = {0, 1, 9}, .at = {0, 0, 0}, .fov = 50};
+  const CameraFrame frame = makeCameraFrame(camera, 3, 256);
+  const std::vector<ProbeRay> rays = randomRays(800, 86, [](Numbers& numbers, int i) {
+    const auto inPlane = [&](double size) {
+      return Vec3f(Vec3d{0, numbers.in(-size, size), numbers.in(-size, size)});
+    };
+    const Vec3f from = inPlane(i % 2 == 0 ? 9 : 3);
+    return rayThrough(from, inPlane(3));
+  });
+  int seen = 0;
+  for (const Placement placement : {Placement::world, Placement::oneObject, Placement::objects}) {
+    const Scene scene = sceneOfMirrored(balls, placement);
+    const auto expect = [&](const ProbeRay& ray, const auto& shown) {
+      const std::optional<std::size_t> first = firstHit(balls, ray);
+      if (!first) return;
+      ++seen;
+      finding.count(!shown(*first), described(ray));
+    };
+    const Probe probe(scene, setup, rays);
+    for (std::size_t i = 0; i < probe.size(); ++i) {
+      expect(rays[i], [&](std::size_t first) {
+        return probe.isHit(i) && probe.surfels().material[i] == first;
+      });
+    }
+    // The middle column of pixels lies in the plane.
+    for (const Image& image :
+         picturesOf(scene, camera, optionsOf(setup, {frame.width, frame.height}))) {
+      for (int y = 0; y < image.height; ++y) {
+        const Vec3d d = normalized(frame.forward + asideOf(frame, 1, y));
+        expect({camera.eye, Vec3f(d)}, [&](std::size_t first) {
+          return image.at(1, y).x == static_cast<float>(first + 1) * kGlow;
+        });
+      }
+    }
+  }
+  finding.count(seen < 1500, [] { return "too few rays that hit two spheres"; });
+  return finding;
+}
+
 constexpr Case kSpherePathCases[] = {
     {"H71g", "no ray that leaves a sphere hits it again",
      "reflected and shadow rays, from radii of 1e-6 to 1e6 and up to the limb", Runs::packets,
@@ -388,6 +501,10 @@ constexpr Case kSpherePathCases[] = {
     {"H71n", "spheres that overlap, touch, coincide, and lie inside one another",
      "hits and pictures that differ from those of single rays and of other tiles", Runs::packets,
      ballsInPackets},
+    {"H71o", "of two spheres at the same distance the later one is hit",
+     "40 pairs of mirror images that cross, in random order among others, seen from the plane of "
+     "the mirror; in the world, in one object, in objects of their own; rays and pixels",
+     Runs::packets, mirroredInAnyOrder},
 };
 
 }  // namespace
