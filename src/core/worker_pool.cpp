@@ -42,9 +42,17 @@ void WorkerPool::sendHome() {
 }
 
 void WorkerPool::run(const std::function<void(int)>& job) {
+  begin(job);
+  finish();
+}
+
+void WorkerPool::begin(const std::function<void(int)>& job) {
   job_ = &job;
   error_ = nullptr;
   start_.arrive_and_wait();
+}
+
+void WorkerPool::finish() {
   call(0);
   finish_.arrive_and_wait();
   if (error_) std::rethrow_exception(error_);

@@ -31,6 +31,13 @@ class WorkerPool {
   // returns when all are done. Rethrows the first exception. Not reentrant.
   void run(const std::function<void(int)>& job);
 
+  // The two halves of run(), for a caller that has something else to do in between: begin() lets
+  // workers 1 and up go, finish() calls job(0), waits for them and rethrows. `job` must live until
+  // then; between the two the pool must not be destroyed.
+  void begin(const std::function<void(int)>& job);
+  void begin(const std::function<void(int)>&& job) = delete;
+  void finish();
+
  private:
   void work(int worker);
   void call(int worker) noexcept;

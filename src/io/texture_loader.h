@@ -1,4 +1,5 @@
-// The textures of a scene that is being read. Each image is decoded once for each use.
+// The textures of a scene that is being read. Each image is decoded once for each use, while other
+// threads read the rest.
 #pragma once
 
 #include <cstdint>
@@ -62,7 +63,7 @@ class TextureLoader {
   std::deque<std::optional<Texture>> slots_;  // a deque: tasks keep references
   std::map<Key, std::int32_t> known_;
   std::vector<std::function<void(SceneDescription&)>> changes_;
-  DecodeQueue queue_;
+  DecodeQueue queue_;  // last, because its workers write to the other members
 };
 
 }  // namespace whit

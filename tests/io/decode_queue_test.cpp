@@ -65,6 +65,16 @@ TEST(DecodeQueue, WhatAnObserverThrowsReachesTheCallerOfFinish) {
     EXPECT_THROW(queue.finish(), std::runtime_error) << threads;
     EXPECT_GE(runs, 1);
   }
+  DecodeQueue dropped(2, nullptr, "never asked for");
+}
+
+TEST(DecodeQueue, MayBeDroppedUnfinished) {
+  std::atomic<int> runs{0};
+  {
+    DecodeQueue queue(3, nullptr, "dropped");
+    for (int i = 0; i < 50; ++i) queue.add([&] { ++runs; });
+  }
+  EXPECT_LE(runs, 50);
 }
 
 }  // namespace

@@ -56,6 +56,25 @@ TEST(WorkerPool, AnExceptionReachesTheCallerAndThePoolLivesOn) {
   EXPECT_EQ(calls, 2);
 }
 
+TEST(WorkerPool, TheCallerMayWorkBetweenBeginAndFinish) {
+  for (const int workers : {1, 2, 4}) {
+    WorkerPool pool(workers);
+    for (int round = 0; round < 20; ++round) {
+      std::vector<int> calls(static_cast<std::size_t>(workers), 0);
+      std::atomic<bool> ready{false};
+      const std::function<void(int)> job = [&](int worker) {
+        while (!ready) std::this_thread::yield();
+        ++calls[static_cast<std::size_t>(worker)];
+      };
+      pool.begin(job);
+      ready = true;  // a begin() that waited for the job would never get here
+      EXPECT_EQ(calls[0], 0);
+      pool.finish();
+      for (const int c : calls) EXPECT_EQ(c, 1);
+    }
+  }
+}
+
 TEST(ParallelFor, EveryIndexOnceByWorkersOfTheirOwn) {
   for (const int threads : {0, 1, 3, 8}) {
     for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{1000}}) {

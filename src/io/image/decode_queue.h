@@ -1,67 +1,58 @@
-// Runs the tasks that decode and make the textures of a scene.
+// Runs tasks while a scene is read: textures are decoded and made.
 #pragma once
 
-#include <atomic>
+#include <condition_variable>
 #include <cstddef>
+#include <deque>
 #include <exception>
 #include <functional>
+#include <mutex>
+#include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
-#include "core/error.h"
 #include "core/progress.h"
-#include "core/usable_threads.h"
 #include "core/worker_pool.h"
 
 namespace whit {
 
+// Starts tasks at once on up to threads - 1 workers; the caller of finish() is the last worker. A
+// task that throws Error(limit) is run once more, alone, after all others have ended and given
+// their memory back. Tasks must allow to be run again.
 class DecodeQueue {
  public:
   // With 0 threads, it uses as many as this process may use.
-  DecodeQueue(int threads, Progress* progress, std::string phase)
-      : progress_(progress),
-        phase_(std::move(phase)),
-        threads_(threads > 0 ? threads : usableThreads()) {}
+  DecodeQueue(int threads, Progress* progress, std::string phase);
+  ~DecodeQueue();  // drops tasks that have not begun and waits for the others
+  DecodeQueue(const DecodeQueue&) = delete;
+  DecodeQueue& operator=(const DecodeQueue&) = delete;
 
-  void add(std::function<void()> task) { tasks_.push_back(std::move(task)); }
-
-  // Runs all tasks. A task that throws Error(limit) is run once more, alone, after all others have
-  // ended and given their memory back. Of several failed tasks, the one added first has its
+  // Call before finish(). Throws as WorkerPool does.
+  void add(std::function<void()> task);
+  // Returns when every task has ended. Of several failed tasks, the one added first has its
   // exception rethrown, in whatever order they failed.
-  void finish() {
-    std::vector<std::exception_ptr> failures(tasks_.size());
-    std::vector<char> lackedMemory(tasks_.size());
-    const auto run = [&](std::size_t i) {
-      try {
-        failures[i] = nullptr;
-        tasks_[i]();
-      } catch (const Error& error) {
-        failures[i] = std::current_exception();
-        lackedMemory[i] = error.status() == ExitStatus::limit;
-      } catch (...) {
-        failures[i] = std::current_exception();
-      }
-    };
-    std::atomic<std::size_t> ended{0};
-    parallelFor(threads_, tasks_.size(), [&](std::size_t i, int) {
-      run(i);
-      const auto count = static_cast<double>(tasks_.size());
-      reportProgress(progress_, phase_, static_cast<double>(++ended) / count);
-    });
-    for (std::size_t i = 0; i < tasks_.size(); ++i) {
-      if (lackedMemory[i]) run(i);
-    }
-    for (const std::exception_ptr& failure : failures) {
-      if (failure) std::rethrow_exception(failure);
-    }
-  }
+  void finish();
 
  private:
+  struct Task {
+    std::function<void()> work;  // empty after it has ended
+    std::exception_ptr failure;
+  };
+
+  void work();
+  void close();
+  void run(Task& task, std::unique_lock<std::mutex>& lock);
+
   Progress* progress_;
   std::string phase_;
   int threads_;
-  std::vector<std::function<void()>> tasks_;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::deque<Task> tasks_;  // a deque: references stay valid while more are added
+  std::size_t begun_ = 0, ended_ = 0;
+  bool closing_ = false;  // no more tasks will be added
+  const std::function<void(int)> job_ = [this](int) { work(); };
+  std::optional<WorkerPool> pool_;  // from the first task on
+  bool running_ = false;            // between begin() and finish() of the pool
 };
 
 }  // namespace whit
