@@ -24,6 +24,7 @@
 #include "io/image/image_file.h"
 #include "io/load_scene.h"
 #include "io/paths.h"
+#include "verify/image_hashes.h"
 #include "verify/probe.h"
 
 namespace whit::verify {
@@ -229,6 +230,57 @@ std::vector<std::string> caseNames(const std::vector<std::string>& lists) {
   return names;
 }
 
+// The published pictures of this size, of these scenes or of all. Throws Error(usage) if there are
+// none.
+std::vector<PublishedHash> picturesToHash(const std::string& size,
+                                          const std::vector<std::string>& scenes) {
+  std::vector<PublishedHash> pictures;
+  std::vector<std::string> sizes, known;
+  for (const PublishedHash& picture : publishedHashes()) {
+    sizes.emplace_back(picture.size);
+    if (picture.size != size) continue;
+    known.emplace_back(picture.scene.substr(0, picture.scene.find(' ')));
+    const bool isAsked = std::find(scenes.begin(), scenes.end(), known.back()) != scenes.end();
+    if (scenes.empty() || isAsked) pictures.push_back(picture);
+  }
+  refuseIf(known.empty(), "--hashes takes " + sizes[0] + " or " + sizes[1] + ", not " + size);
+  for (const std::string& scene : scenes) {
+    const bool isKnown = std::find(known.begin(), known.end(), scene) != known.end();
+    refuseIf(!isKnown, "no hash of '" + scene + "' is published" + didYouMean(scene, known));
+  }
+  return pictures;
+}
+
+// Prints a line for each picture. Returns false if a hash is not the published one.
+bool comparesHashes(const std::vector<PublishedHash>& pictures, const std::string& simd) {
+  std::vector<std::string> different, leftOut;
+  for (const PublishedHash& picture : pictures) {
+    const std::string name(picture.scene);
+    std::string hash = "-", verdict = "left out";
+    try {
+      const HashedScene scene(picture);
+      RenderOptions options = scene.options();
+      options.simd = simd;
+      hash = scene.hash(options);
+      verdict = hash == picture.hash   ? "as published"
+                : picture.hash.empty() ? "NOT PUBLISHED"
+                                       : "DIFFERS from " + std::string(picture.hash);
+      if (hash != picture.hash) different.push_back(name);
+    } catch (const Error& error) {
+      if (error.status() != ExitStatus::io) throw;
+      leftOut.push_back(name + " (" + error.what() + ")");
+    }
+    std::printf("%-20s %-7s %-32s %s\n", name.c_str(), picture.size.data(), hash.c_str(),
+                verdict.c_str());
+    std::fflush(stdout);
+  }
+  for (const std::string& name : leftOut) std::fprintf(stderr, "left out: %s\n", name.c_str());
+  for (const std::string& name : different) {
+    std::fprintf(stderr, "not as published: %s\n", name.c_str());
+  }
+  return different.empty() && leftOut.size() < pictures.size();
+}
+
 Machine thisMachine() {
   Warnings warnings;
   const Scene nothing = Scene::finalize({}, warnings);
@@ -241,8 +293,8 @@ int run(const std::vector<std::string>& words) {
     return 0;
   }
   cli::CommonOptions common;
-  std::vector<std::string> only, operands;
-  std::string json, html, sheet;
+  std::vector<std::string> only, hashed;
+  std::string json, html, sheet, hashes, simd = "auto";
   cli::OptionList list;
   list.group("Running");
   list.many({"only", "H1,H2a"}, "run only these cases; may be given more than once", only);
@@ -251,14 +303,24 @@ int run(const std::vector<std::string>& words) {
              "write the table as a page, with pictures of the scenes in scenes/hard", html);
   list.value({"sheet", "FILE.png"},
              "run no case: write pictures of the scenes in scenes/hard on one sheet", sheet);
+  list.value({"hashes", "SIZE"},
+             "run no case: compare the hashes of pictures of the shipped scenes, 480x300 or 48x30, "
+             "with those that are published",
+             hashes);
+  list.value({"simd", "TARGET"}, "SIMD target of --hashes (default: auto)", simd);
   cli::listReportOptions(list, common);
-  list.operands("Cases", "a run prints them all", 0, 0, operands);
+  list.operands("[SCENE...]", "scenes of --hashes; without any, all of them", 0, 100, hashed);
   const auto parsed = cli::parseOptions(
-      "whit-verify [options]",
+      "whit-verify [options] [SCENE...]",
       "Runs the catalogue of hard cases with every SIMD target and packet width of this machine.\n"
-      "The exit status is 1 when a case breaks its bound.",
+      "The exit status is 1 when a case breaks its bound, or when a hash is not the published one.",
       list, words);
   if (parsed == cli::Parsed::helpShown) return 0;
+  refuseIf(hashes.empty() && !hashed.empty(), "scenes are for --hashes SIZE");
+  if (!hashes.empty()) {
+    const bool same = comparesHashes(picturesToHash(hashes, hashed), simd);
+    return static_cast<int>(same ? ExitStatus::done : ExitStatus::checkFailed);
+  }
   cli::requireJsonWritable(json);
   if (!html.empty()) cli::requireWritable(html, {".html"});
   if (!sheet.empty()) cli::requireWritable(sheet, {".png"});
