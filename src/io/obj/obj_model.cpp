@@ -5,6 +5,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <string>
@@ -58,7 +59,26 @@ class ObjReader {
  public:
   ObjReader(const std::string& text, const std::string& file, MemoryBudget& budget,
             Warnings& warnings)
-      : lines_(text, file), file_(file), budget_(budget), warnings_(warnings) {}
+      : text_(text), lines_(text, file), file_(file), budget_(budget), warnings_(warnings) {}
+
+  // Fills `materials` and `libraries` without reading the rest of the file, so that textures are
+  // decoded while read() does that.
+  void findNames() {
+    std::uint64_t number = 1;
+    std::size_t begin = 0;
+    for (std::size_t at = 0; (at = text_.find("mtl", at)) != std::string::npos;) {
+      const std::size_t start = text_.find_last_of("\r\n", at) + 1;  // npos + 1 is 0
+      number +=
+          static_cast<std::uint64_t>(std::count(text_.data() + begin, text_.data() + start, '\n'));
+      begin = start;
+      at = text_.find_first_of("\r\n", at);
+      LineReader line(text_, file_, start, number);
+      noteName(line.word(), line);
+    }
+    if (materials.size() > kMaterialLimit) {
+      throwLimit(file_ + " uses more than " + std::to_string(kMaterialLimit) + " materials");
+    }
+  }
 
   // Returns at most two meshes, of the faces with normals at every corner and of those without.
   // Faces with fewer than three corners or with an index that is not among the vertices so far are
@@ -66,17 +86,15 @@ class ObjReader {
   // The materials of the meshes are indices into `materials`; faces before the first usemtl have
   // the index after the last one.
   std::vector<Mesh> read() {
+    const auto count = static_cast<std::uint32_t>(materials.size());
+    material_ = kNoMaterial;
     for (; !lines_.done(); lines_.nextLine()) statement(lines_.word());
-    if (materials.size() > kMaterialLimit) {
-      throwLimit(file_ + " uses more than " + std::to_string(kMaterialLimit) + " materials");
-    }
     std::vector<Mesh> meshes;
     for (ObjMesh* const part : {&smooth_, &flat_}) {
       if (part->mesh.triangles.empty()) continue;
       Mesh& mesh = meshes.emplace_back(std::move(part->mesh));
       if (!part->hasUvs) mesh.uvs.clear();
-      const auto count = static_cast<std::uint32_t>(materials.size());
-      std::ranges::replace(mesh.materials, kNoMaterial, count);
+      for (std::uint32_t& material : mesh.materials) material = std::min(material, count);
       if (std::ranges::count(mesh.materials, mesh.materials[0]) == std::ssize(mesh.materials)) {
         mesh.materials.resize(1);
       }
@@ -88,7 +106,7 @@ class ObjReader {
     return meshes;
   }
 
-  // Different names of "usemtl" and of "mtllib", in the file's order; filled by read().
+  // Different names of "usemtl" and of "mtllib", in the file's order.
   std::vector<ObjName> materials, libraries;
 
  private:
@@ -108,21 +126,24 @@ class ObjReader {
       uvs_.push_back({static_cast<float>(u), static_cast<float>(v)});
     } else if (keyword == "f") {
       face();
-    } else if (keyword == "usemtl") {
-      if (const std::string name(lines_.rest()); !name.empty()) {
-        const auto number = static_cast<std::uint32_t>(materials.size());
-        const auto [known, isNew] = materialNumbers_.emplace(name, number);
-        if (isNew) materials.push_back({name, lines_.place()});
-        material_ = known->second;
-      }
-    } else if (keyword == "mtllib") {
-      const std::string name(lines_.rest());
-      if (!name.empty() && libraryNames_.insert(name).second) {
-        libraries.push_back({name, lines_.place()});
-      }
+    } else if (keyword == "usemtl" || keyword == "mtllib") {
+      noteName(keyword, lines_);
     } else if (keyword == "l" || keyword == "p" || keyword == "curv" || keyword == "curv2" ||
                keyword == "surf") {
       warnings_.add("points, lines or free forms left out", lines_.place());
+    }
+  }
+
+  void noteName(std::string_view keyword, LineReader& line) {
+    const std::string name(line.rest());
+    if (name.empty()) return;
+    if (keyword == "usemtl") {
+      const auto number = static_cast<std::uint32_t>(materials.size());
+      const auto [known, isNew] = materialNumbers_.emplace(name, number);
+      if (isNew) materials.push_back({name, line.place()});
+      material_ = known->second;
+    } else if (keyword == "mtllib" && libraryNames_.insert(name).second) {
+      libraries.push_back({name, line.place()});
     }
   }
 
@@ -222,6 +243,7 @@ class ObjReader {
     return number;
   }
 
+  const std::string& text_;
   LineReader lines_;
   const std::string& file_;
   std::map<std::string, std::uint32_t> materialNumbers_;
@@ -253,17 +275,14 @@ class ObjModel : public MeshModel {
  public:
   // Has one material for each that faces use, and a gray one last for faces without any. A library
   // or a material that is missing is a warning; such materials are gray.
-  explicit ObjModel(const ModelSource& source) : MeshModel(source) {
-    const std::string file = source.path.string();
-    const std::string text = readTextFile(source.path, source.budget.left());
-    if (text.size() > kLargestText) throwLimit(file + " has more than 2^32 bytes");
-    source.budget.charge(text.size(), 1 + kBytesPerLetter, file);
-    ObjReader reader(text, file, source.budget, source.warnings);
-    meshes_ = reader.read();
-    for (Mesh& mesh : meshes_) mesh.name = source.path.stem().string();
+  explicit ObjModel(const ModelSource& source) : MeshModel(source), file_(source.path.string()) {
+    text_ = readTextFile(source.path, source.budget.left());
+    if (text_.size() > kLargestText) throwLimit(file_ + " has more than 2^32 bytes");
+    source.budget.charge(text_.size(), 1 + kBytesPerLetter, file_);
+    reader_.emplace(text_, file_, source.budget, source.warnings).findNames();
     Library library;
-    for (const ObjName& line : reader.libraries) readLibraries(line, library);
-    for (const auto& [name, where] : reader.materials) {
+    for (const ObjName& line : reader_->libraries) readLibraries(line, library);
+    for (const auto& [name, where] : reader_->materials) {
       const auto known = library.find(name);
       if (known == library.end()) {
         source.warnings.add("material missing, gray instead", where + ": " + excerpt(name));
@@ -274,6 +293,9 @@ class ObjModel : public MeshModel {
     for (const MtlMaterial& one : sources_) materials_.push_back(one.material);
   }
 
+  ObjModel(const ObjModel&) = delete;
+  ObjModel& operator=(const ObjModel&) = delete;
+
   TexturedMaterial withMaps(std::size_t i, Material material, const GivenMembers& given,
                             TextureLoader& textures) override {
     return {loadTextures(sources_[i], std::move(material), given, source_.path.parent_path(),
@@ -281,11 +303,23 @@ class ObjModel : public MeshModel {
             {}};
   }
 
+  Body content(SceneLayout& layout, const std::vector<std::uint32_t>& materials) override {
+    if (reader_) {
+      meshes_ = reader_->read();
+      for (Mesh& mesh : meshes_) mesh.name = source_.path.stem().string();
+      reader_.reset();
+      std::string().swap(text_);
+    }
+    return MeshModel::content(layout, materials);
+  }
+
  private:
   using Library = std::map<std::string, MtlMaterial>;
 
   void readLibraries(const ObjName& line, Library& library) const;
 
+  std::string file_, text_;
+  std::optional<ObjReader> reader_;   // until the geometry is asked for
   std::vector<MtlMaterial> sources_;  // of materials_
 };
 
