@@ -408,7 +408,7 @@ void AddRefractions(Chunk& c) noexcept {
     const VF height = Dot(r, lanes.ng);
     // Under the geometric normal the ray would leave this steeply, if at all; normals that agree
     // change nothing.
-    const VF g2 = hn::MulAdd(lanes.facing, lanes.facing, interface.k);
+    const VF g2 = MulThenAdd(lanes.facing, lanes.facing, interface.k);
     const VF leaving = hn::Div(hn::Sqrt(hn::Max(g2, hn::Zero(d))), interface.eta);
     const VF lift = LeastElevation(job, hn::IfThenElse(hn::Gt(g2, hn::Zero(d)), leaving, one));
     const MF high = hn::Gt(height, hn::Neg(lift));

@@ -6,7 +6,6 @@
 #define WHIT_SIMD_AZIMUTH_INL_H_
 #endif
 
-#include "hwy/contrib/math/math-inl.h"
 #include "simd/vec3-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -7,7 +7,6 @@
 #define WHIT_SIMD_COSINE_LOBE_INL_H_
 #endif
 
-#include "hwy/contrib/math/math-inl.h"
 #include "sampling/cosine_lobe.h"
 #include "simd/random_streams-inl.h"
 

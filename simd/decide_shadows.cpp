@@ -99,7 +99,7 @@ HWY_INLINE StartLanes FindStarts(VI word, const HitWords& hits) {
   s.cell = hn::ConvertTo(di, hn::Mul(hn::Sub(partU, hn::ConvertTo(d, column)), cells));
   s.row = hn::ConvertTo(di, hn::Mul(hn::Sub(partV, hn::ConvertTo(d, row)), cells));
   const VI before =
-      hn::ConvertTo(di, hn::MulAdd(hn::ConvertTo(d, row), side, hn::ConvertTo(d, column)));
+      hn::ConvertTo(di, MulThenAdd(hn::ConvertTo(d, row), side, hn::ConvertTo(d, column)));
   s.part = hn::Add(hn::ShiftRight<kPartBits>(word), before);
   return s;
 }

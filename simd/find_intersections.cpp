@@ -119,7 +119,7 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
   const VF cosine = Dot(Load3(rays.dirX, rays.dirY, rays.dirZ, i), s.ng);
   if (job.cones) {
     const VF width =
-        hn::MulAdd(hn::Set(d, job.coneSpread), hn::Load(d, hits.t + i), hn::Load(d, rays.cone + i));
+        MulThenAdd(hn::Set(d, job.coneSpread), hn::Load(d, hits.t + i), hn::Load(d, rays.cone + i));
     hn::Store(width, d, surfels.cone + i);
     at.footprint = TextureFootprint(t.uv, s.edge1, s.edge2, width, cosine);
   }

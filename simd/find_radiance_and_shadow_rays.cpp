@@ -21,12 +21,12 @@ HWY_INLINE V3 GlossyLobe(const V3& f0, VF alpha, VF nl, VF nv, const V3& n, cons
   // lobe the cosine alone has lost it (4 digits at alpha = 0.001).
   const VF nh = Dot(n, h);
   const V3 across = Cross(n, h);
-  const VF denominator = hn::MulAdd(hn::Mul(nh, nh), a2, Dot(across, across));
+  const VF denominator = MulThenAdd(hn::Mul(nh, nh), a2, Dot(across, across));
   const VF distribution =
       hn::Div(a2, hn::Mul(hn::Set(d, 3.14159265f), hn::Mul(denominator, denominator)));
   const VF rest = hn::Sub(one, a2);
-  const VF maskV = hn::Mul(nl, hn::Sqrt(hn::MulAdd(hn::Mul(nv, nv), rest, a2)));
-  const VF maskL = hn::Mul(nv, hn::Sqrt(hn::MulAdd(hn::Mul(nl, nl), rest, a2)));
+  const VF maskV = hn::Mul(nl, hn::Sqrt(MulThenAdd(hn::Mul(nv, nv), rest, a2)));
+  const VF maskL = hn::Mul(nv, hn::Sqrt(MulThenAdd(hn::Mul(nl, nl), rest, a2)));
   const VF visibility = hn::Div(hn::Set(d, 0.5f), hn::Add(maskV, maskL));
   const VF f90 = hn::Min(one, hn::Mul(hn::Set(d, 25.0f), MaxComponent(f0)));
   const VF m = hn::Sub(one, vh), m2 = hn::Mul(m, m);

@@ -35,7 +35,7 @@ HWY_INLINE VF SchlickReflectance(VF iorBefore, VF iorBehind, VF c, VF g) {
   const VF f0 = hn::Mul(normal, normal);
   const VF refracted = hn::Mul(g, hn::Div(iorBefore, iorBehind));
   const VF cosine = hn::IfThenElse(hn::Lt(iorBehind, iorBefore), refracted, c);
-  return hn::MulAdd(hn::Sub(hn::Set(d, 1.0f), f0), SchlickTerm(cosine), f0);
+  return MulThenAdd(hn::Sub(hn::Set(d, 1.0f), f0), SchlickTerm(cosine), f0);
 }
 
 // c: cosine between the viewer and the normal, in [0, 1].
@@ -46,7 +46,7 @@ HWY_INLINE Interface DielectricInterface(FresnelModel model, VF iorBefore, VF io
   // eta^2 - 1, factored over the iors themselves.
   const VF k = hn::Div(hn::Mul(hn::Sub(iorBehind, iorBefore), hn::Add(iorBehind, iorBefore)),
                        hn::Mul(iorBefore, iorBefore));
-  const VF g2 = hn::MulAdd(c, c, k);
+  const VF g2 = MulThenAdd(c, c, k);
   const MF straight = hn::Eq(k, zero);
   const MF total = hn::Or(hn::Le(g2, zero), hn::Le(c, zero));
   const VF g = hn::Sqrt(hn::Max(g2, zero));
@@ -56,7 +56,7 @@ HWY_INLINE Interface DielectricInterface(FresnelModel model, VF iorBefore, VF io
   const VF etaSquaredC = hn::Mul(hn::Mul(eta, eta), c);
   const VF rp = hn::Div(hn::Mul(k, hn::Sub(c, hn::Div(one, sum))),
                         hn::Max(hn::Add(etaSquaredC, g), hn::Set(d, 1e-30f)));
-  VF f = hn::Mul(hn::Set(d, 0.5f), hn::MulAdd(rs, rs, hn::Mul(rp, rp)));
+  VF f = hn::Mul(hn::Set(d, 0.5f), MulThenAdd(rs, rs, hn::Mul(rp, rp)));
   if (model == FresnelModel::schlick) f = SchlickReflectance(iorBefore, iorBehind, c, g);
   f = hn::IfThenElse(total, one, hn::Min(f, one));
   f = hn::IfThenElse(straight, zero, f);

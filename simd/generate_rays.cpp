@@ -7,7 +7,6 @@
 #define HWY_TARGET_INCLUDE "simd/generate_rays.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 
-#include "hwy/contrib/math/math-inl.h"
 #include "simd/random_streams-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -21,7 +20,7 @@ struct DiskPoints {
 HWY_INLINE DiskPoints DiskPointsOf(const UnitPoints& square) {
   const FloatTag d;
   const VF one = hn::Set(d, 1.0f), two = hn::Set(d, 2.0f);
-  const VF a = hn::MulSub(two, square.u, one), b = hn::MulSub(two, square.v, one);
+  const VF a = MulThenSub(two, square.u, one), b = MulThenSub(two, square.v, one);
   const MF byA = hn::Gt(hn::Abs(a), hn::Abs(b));
   const VF radius = hn::IfThenElse(byA, a, b), other = hn::IfThenElse(byA, b, a);
   const VF divisor = hn::IfThenElse(hn::Eq(radius, hn::Zero(d)), one, radius);

@@ -6,7 +6,6 @@
 #define WHIT_SIMD_GLOSSY_INL_H_
 #endif
 
-#include "hwy/contrib/math/math-inl.h"
 #include "scene/material.h"
 #include "simd/fresnel-inl.h"
 #include "simd/random_streams-inl.h"
@@ -66,7 +65,7 @@ HWY_INLINE V3 VisibleNormal(const GlossyLobes& lobes, const UnitPoints& at) {
   const VF squared = hn::Mul(fall, hn::Sub(hn::Set(d, 2.0f), fall));
   const VF radius = hn::Mul(hn::Sqrt(hn::Max(squared, hn::Zero(d))), lobes.alpha);
   const VF turn = hn::Mul(at.u, hn::Set(d, 6.28318531f));
-  const VF x = hn::MulAdd(lobes.seenX, lobes.alpha, hn::Mul(radius, hn::Cos(d, turn)));
+  const VF x = MulThenAdd(lobes.seenX, lobes.alpha, hn::Mul(radius, hn::Cos(d, turn)));
   const VF y = hn::Mul(radius, hn::Sin(d, turn));
   const VF z = hn::Mul(hn::Sub(one, at.v), height);
   return NormalizeOr(MulAdd3(lobes.x, x, MulAdd3(lobes.y, y, Scale3(lobes.z, z))), lobes.z);
@@ -86,10 +85,10 @@ HWY_INLINE LobeSample SampleLobe(const GlossyLobes& lobes, const UnitPoints& at)
   const VF nl = Dot(lobes.z, l), nv = lobes.nv;
   // G2 / G1.
   const VF a2 = hn::Mul(lobes.alpha, lobes.alpha), rest = hn::Sub(one, a2);
-  const VF maskV = hn::Sqrt(hn::MulAdd(hn::Mul(nv, nv), rest, a2));
-  const VF maskL = hn::Sqrt(hn::MulAdd(hn::Mul(nl, nl), rest, a2));
+  const VF maskV = hn::Sqrt(MulThenAdd(hn::Mul(nv, nv), rest, a2));
+  const VF maskL = hn::Sqrt(MulThenAdd(hn::Mul(nl, nl), rest, a2));
   const VF passes =
-      hn::Div(hn::Mul(nl, hn::Add(nv, maskV)), hn::MulAdd(nl, maskV, hn::Mul(nv, maskL)));
+      hn::Div(hn::Mul(nl, hn::Add(nv, maskV)), MulThenAdd(nl, maskV, hn::Mul(nv, maskL)));
   const VF schlick = SchlickTerm(hn::Min(hn::Max(vh, zero), one));
   const V3 grazing{hn::Sub(lobes.f90, lobes.f0.x), hn::Sub(lobes.f90, lobes.f0.y),
                    hn::Sub(lobes.f90, lobes.f0.z)};

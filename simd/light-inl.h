@@ -8,7 +8,6 @@
 
 #include <limits>
 
-#include "hwy/contrib/math/math-inl.h"
 #include "scene/light.h"
 #include "simd/random_streams-inl.h"
 #include "simd/vec3-inl.h"
@@ -73,10 +72,10 @@ class LightLanes {
     const V3 x = NormalizeOr(Cross(z, axis), axis), y = Cross(z, x);
     const V3 l = MulAdd3(x, hn::Mul(s, hn::Cos(d, turn)),
                          MulAdd3(y, hn::Mul(s, hn::Sin(d, turn)), Scale3(z, hn::Sub(one, h))));
-    const VF far = hn::Mul(hn::Sub(one, at.u), hn::NegMulAdd(height, hn::Add(one, at.u), two));
+    const VF far = hn::Mul(hn::Sub(one, at.u), NegMulThenAdd(height, hn::Add(one, at.u), two));
     const VF inside = hn::Sqrt(hn::Div(far, hn::Sub(two, height)));
     const VF way =
-        hn::NegMulAdd(hn::Sqrt(radiusSquared_), inside, hn::Mul(distance, hn::Sub(one, h)));
+        NegMulThenAdd(hn::Sqrt(radiusSquared_), inside, hn::Mul(distance, hn::Sub(one, h)));
     const VF area = hn::Div(radiusSquared_, hn::Add(height, height));
     return {Select3(outside, Scale3(l, way), toCenter),
             hn::IfThenElse(outside, area, Area(squared))};

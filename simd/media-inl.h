@@ -9,7 +9,6 @@
 #define WHIT_SIMD_MEDIA_INL_H_
 #endif
 
-#include "hwy/contrib/math/math-inl.h"
 #include "simd/records-inl.h"
 #include "stages/columns.h"
 #include "stages/shading_tables.h"

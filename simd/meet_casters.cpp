@@ -7,6 +7,7 @@
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 #include "hwy/highway.h"
 #include "simd/double3-inl.h"
+#include "simd/product-inl.h"
 #include "stages/caster_rounding.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -63,12 +64,12 @@ unsigned MeetBoxes(const RoundedShaft& shaft, const BoxBlock& boxes) {
     for (size_t i = 0; i < shaft.count; ++i) {
       const float *o = shaft.outward[i], *e = shaft.size[i];
       const auto center =
-          hn::MulAdd(hn::Set(d, o[2]), z,
-                     hn::MulAdd(hn::Set(d, o[1]), y,
-                                hn::MulSub(hn::Set(d, o[0]), x, hn::Set(d, shaft.offset[i]))));
-      const auto away = hn::NegMulAdd(
+          MulThenAdd(hn::Set(d, o[2]), z,
+                     MulThenAdd(hn::Set(d, o[1]), y,
+                                MulThenSub(hn::Set(d, o[0]), x, hn::Set(d, shaft.offset[i]))));
+      const auto away = NegMulThenAdd(
           hn::Set(d, e[2]), hz,
-          hn::NegMulAdd(hn::Set(d, e[1]), hy, hn::NegMulAdd(hn::Set(d, e[0]), hx, center)));
+          NegMulThenAdd(hn::Set(d, e[1]), hy, NegMulThenAdd(hn::Set(d, e[0]), hx, center)));
       far = hn::Max(far, away);
     }
     uint8_t bytes[8] = {};

@@ -7,7 +7,7 @@
 #define HWY_TARGET_INCLUDE "simd/meet_sphere.cpp"
 #include "bake/sphere.h"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
-#include "hwy/highway.h"
+#include "simd/product-inl.h"
 #include "stages/packet_words.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -22,7 +22,7 @@ struct Vec3Of {
 
 template <class D>
 HWY_INLINE hn::Vec<D> DotOf(const Vec3Of<D>& a, const Vec3Of<D>& b) {
-  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
+  return MulThenAdd(a.x, b.x, MulThenAdd(a.y, b.y, hn::Mul(a.z, b.z)));
 }
 
 template <class D>
@@ -50,7 +50,7 @@ HWY_INLINE void StoreWeights(D d, const Vec3Of<D>& p, size_t i, const SphereHits
   const auto flatY = hn::IfThenElse(below, hn::CopySign(hn::Sub(one, hn::Abs(x)), y), y);
   const auto begin = hn::Set(d, kSphereWeightBegin), scale = hn::Set(d, kSphereWeightScale);
   const auto store = [&](hn::Vec<D> flat, float* column) HWY_ATTR {
-    const auto weight = hn::MulAdd(hn::Add(flat, one), scale, begin);
+    const auto weight = MulThenAdd(hn::Add(flat, one), scale, begin);
     hn::StoreU(hn::DemoteTo(df, weight), df, column + i);
   };
   store(flatX, to.u);
@@ -74,8 +74,8 @@ HWY_INLINE void MeetLanes(D d, const SphereInverse& sphere, const float* words, 
   const auto one = hn::Set(d, 1.0), zero = hn::Zero(d);
   const auto a = DotOf<D>(v, v), b = hn::Neg(DotOf<D>(f, v)), inverse = hn::Div(one, a);
   const auto middle = hn::Mul(b, inverse);
-  const Vec3Of<D> nearest{hn::MulAdd(v.x, middle, f.x), hn::MulAdd(v.y, middle, f.y),
-                          hn::MulAdd(v.z, middle, f.z)};
+  const Vec3Of<D> nearest{MulThenAdd(v.x, middle, f.x), MulThenAdd(v.y, middle, f.y),
+                          MulThenAdd(v.z, middle, f.z)};
   const auto inside = hn::Sub(one, DotOf<D>(nearest, nearest));
   const auto met = hn::Ge(inside, zero);
   if (hn::AllFalse(d, met)) {
@@ -91,7 +91,7 @@ HWY_INLINE void MeetLanes(D d, const SphereInverse& sphere, const float* words, 
   const auto there = hn::And(hn::And(met, hn::Ne(q, zero)), hn::Gt(t, start));
   hn::StoreU(hn::DemoteTo(df, hn::IfThenElse(there, t, hn::NaN(d))), df, to.t + i);
   if (!to.u) return;
-  StoreWeights(d, {hn::MulAdd(v.x, t, f.x), hn::MulAdd(v.y, t, f.y), hn::MulAdd(v.z, t, f.z)}, i,
+  StoreWeights(d, {MulThenAdd(v.x, t, f.x), MulThenAdd(v.y, t, f.y), MulThenAdd(v.z, t, f.z)}, i,
                to);
 }
 

@@ -22,7 +22,7 @@ HWY_INLINE VF MovedByUlps(VF p, VF n) {
   const VI away =
       hn::IfThenElse(hn::RebindMask(di, hn::Lt(p, hn::Zero(d))), hn::Sub(hn::Zero(di), ulps), ulps);
   const VF far = hn::BitCast(d, hn::Add(hn::BitCast(di, p), away));
-  const VF near = hn::MulAdd(n, hn::Set(d, 1.0f / 65536), p);
+  const VF near = MulThenAdd(n, hn::Set(d, 1.0f / 65536), p);
   return hn::IfThenElse(hn::Lt(hn::Abs(p), hn::Set(d, 1.0f / 32)), near, far);
 }
 

@@ -6,7 +6,6 @@
 #define WHIT_SIMD_SKY_INL_H_
 #endif
 
-#include "hwy/contrib/math/math-inl.h"
 #include "simd/azimuth-inl.h"
 #include "simd/vec3-inl.h"
 #include "stages/shading_tables.h"
@@ -34,8 +33,8 @@ HWY_INLINE V3 ImageSky(const SkyTable& sky, const V3& direction, MF live) {
   turn = hn::Sub(turn, hn::Floor(turn));
   const VF y = hn::Min(hn::Max(direction.y, hn::Set(d, -1.0f)), hn::Set(d, 1.0f));
   const VF polar = hn::Mul(hn::Acos(d, y), hn::Set(d, 0.318309886f));
-  const VF px = hn::MulSub(turn, width, hn::Set(d, 0.5f));
-  const VF py = hn::MulSub(polar, height, hn::Set(d, 0.5f));
+  const VF px = MulThenSub(turn, width, hn::Set(d, 0.5f));
+  const VF py = MulThenSub(polar, height, hn::Set(d, 0.5f));
   const VF floorX = hn::Floor(px), floorY = hn::Floor(py);
   const VF fx = hn::Sub(px, floorX), fy = hn::Sub(py, floorY);
   const VI lastX = hn::Set(di, sky.width - 1), lastY = hn::Set(di, sky.height - 1);
@@ -55,8 +54,8 @@ HWY_INLINE V3 ImageSky(const SkyTable& sky, const V3& direction, MF live) {
   const auto channel = [&](const float* plane) HWY_ATTR {
     const VF a = hn::GatherIndex(d, plane, i00), b = hn::GatherIndex(d, plane, i10);
     const VF c = hn::GatherIndex(d, plane, i01), e = hn::GatherIndex(d, plane, i11);
-    const VF upper = hn::MulAdd(hn::Sub(b, a), fx, a), lower = hn::MulAdd(hn::Sub(e, c), fx, c);
-    return hn::Mul(hn::MulAdd(hn::Sub(lower, upper), fy, upper), hn::Set(d, sky.scale));
+    const VF upper = MulThenAdd(hn::Sub(b, a), fx, a), lower = MulThenAdd(hn::Sub(e, c), fx, c);
+    return hn::Mul(MulThenAdd(hn::Sub(lower, upper), fy, upper), hn::Set(d, sky.scale));
   };
   return {channel(sky.r), channel(sky.g), channel(sky.b)};
 }

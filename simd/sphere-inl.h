@@ -45,7 +45,7 @@ HWY_INLINE SphereLanes LoadSpheres(const ShadingTables& tables, const HitColumns
   const VF one = hn::Set(d, 1.0f), begin = hn::Set(d, static_cast<float>(kSphereWeightBegin));
   const VF scale = hn::Set(d, static_cast<float>(1 / kSphereWeightScale));
   const auto coordinate = [&](const float* weight) HWY_ATTR {
-    return hn::MulSub(hn::Sub(hn::Load(d, weight + i), begin), scale, one);
+    return MulThenSub(hn::Sub(hn::Load(d, weight + i), begin), scale, one);
   };
   const VF u = coordinate(hits.u), v = coordinate(hits.v);
   const VF height = hn::Sub(hn::Sub(one, hn::Abs(u)), hn::Abs(v));
@@ -78,7 +78,7 @@ HWY_INLINE void TouchSpheres(const SphereLanes& s, Surface& surface, TriangleLan
   const FloatTag d;
   const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
   const V3& q = s.unit;
-  const VF rho2 = hn::MulAdd(q.x, q.x, hn::Mul(q.z, q.z));
+  const VF rho2 = MulThenAdd(q.x, q.x, hn::Mul(q.z, q.z));
   const MF turned = hn::Gt(rho2, hn::Set(d, 1e-30f));
   const VF rho = hn::Sqrt(rho2), inverse = hn::Div(one, hn::IfThenElse(turned, rho, one));
   const VF cosine = hn::IfThenElse(turned, hn::Mul(q.x, inverse), one);

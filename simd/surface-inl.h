@@ -73,7 +73,7 @@ HWY_INLINE Weights LoadWeights(const HitColumns& hits, size_t i) {
 }
 
 HWY_INLINE VF Interpolate(const Weights& w, VF a, VF b, VF c) {
-  return hn::MulAdd(a, w.w0, hn::MulAdd(b, w.w1, hn::Mul(c, w.w2)));
+  return MulThenAdd(a, w.w0, MulThenAdd(b, w.w1, hn::Mul(c, w.w2)));
 }
 HWY_INLINE V3 Interpolate3(const Weights& w, const V3& a, const V3& b, const V3& c) {
   return {Interpolate(w, a.x, b.x, c.x), Interpolate(w, a.y, b.y, c.y),
@@ -219,10 +219,10 @@ HWY_INLINE void StoreClearance(const Surface& s, VF t, size_t i, const SurfelCol
   const FloatTag d;
   const V3 edges = s.spans, n = Abs3(s.ng);
   const VF point = SumOf(s.magnitude), sides = SumOf(edges);
-  const VF most = hn::MulAdd(point, hn::Set(d, 0x1p-19f), hn::Mul(sides, hn::Set(d, 0x1p-20f)));
+  const VF most = MulThenAdd(point, hn::Set(d, 0x1p-19f), hn::Mul(sides, hn::Set(d, 0x1p-20f)));
   const VF least = hn::Mul(hn::Add(point, sides), hn::Set(d, 0x1p-30f));
-  const VF along = hn::MulAdd(Dot(n, s.magnitude), hn::Set(d, 0x1p-22f),
-                              hn::MulAdd(Dot(n, edges), hn::Set(d, 0x1p-20f), least));
+  const VF along = MulThenAdd(Dot(n, s.magnitude), hn::Set(d, 0x1p-22f),
+                              MulThenAdd(Dot(n, edges), hn::Set(d, 0x1p-20f), least));
   const VF across = hn::Mul(s.across, hn::Set(d, 0x1p-24f));
   const VF half = hn::Set(d, 0.5f), back = hn::Min(hn::Mul(most, half), hn::Mul(t, half));
   hn::Store(hn::IfThenElse(s.inDoubt, most, along), d, surfels.offset + i);
@@ -261,15 +261,15 @@ HWY_INLINE void FollowRay(const TriangleLanes& t, const RayColumns& rays, VF dis
   const V3 edges = s.spans;
   const VF sides = SumOf(edges);
   const VF two = hn::Set(d, 2.0f), eight = hn::Set(d, 8.0f);
-  s.across = hn::MulAdd(SumOf(s.magnitude), two, sides);
+  s.across = MulThenAdd(SumOf(s.magnitude), two, sides);
   const MF large = hn::AndNot(s.inDoubt, hn::Lt(hn::Mul(distance, eight), sides));
   if (HWY_LIKELY(hn::AllFalse(d, large))) return;
   const V3 origin = Load3(rays.orgX, rays.orgY, rays.orgZ, i);
   const V3 point = MulAdd3(Load3(rays.dirX, rays.dirY, rays.dirZ, i), distance, origin);
   const VF height = Dot(Sub3(point, t.p0), s.ng);
   s.position = Select3(large, MulAdd3(s.ng, hn::Neg(height), point), s.position);
-  const VF ofRay = hn::MulAdd(distance, eight, hn::Mul(Dot(Abs3(s.ng), edges), two));
-  const VF near = hn::MulAdd(SumOf(Abs3(s.position)), two, ofRay);
+  const VF ofRay = MulThenAdd(distance, eight, hn::Mul(Dot(Abs3(s.ng), edges), two));
+  const VF near = MulThenAdd(SumOf(Abs3(s.position)), two, ofRay);
   s.across = hn::IfThenElse(large, near, s.across);
 }
 

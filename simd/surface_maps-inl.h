@@ -6,7 +6,6 @@
 #define WHIT_SIMD_SURFACE_MAPS_INL_H_
 #endif
 
-#include "hwy/contrib/math/math-inl.h"
 #include "simd/material-inl.h"
 #include "simd/sphere-inl.h"
 #include "simd/surface-inl.h"
@@ -228,8 +227,8 @@ HWY_INLINE void ApplyNormalMap(const SurfelJob& job, const BlockTextures& block,
   const SurfelColumns& surfels = job.surfels;
   const V3 code = FilterMap(job, block.normal, slot,
                             [](const Footprint& f) HWY_ATTR { return FilterData3(f); });
-  const V3 m{hn::MulSub(code.x, two, one), hn::MulSub(code.y, two, one),
-             hn::MulSub(code.z, two, one)};
+  const V3 m{MulThenSub(code.x, two, one), MulThenSub(code.y, two, one),
+             MulThenSub(code.z, two, one)};
   const V3 tangent = Load3(block.tangent[0], block.tangent[1], block.tangent[2], slot);
   const V3 bitangent = Load3(block.tangent[3], block.tangent[4], block.tangent[5], slot);
   const V3 ns = Load3(surfels.nsX, surfels.nsY, surfels.nsZ, i);

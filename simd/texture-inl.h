@@ -25,7 +25,7 @@ struct AxisTexels {
 // tiles (TextureRecord).
 HWY_INLINE AxisTexels FootprintAt(VF held, VF size) {
   const FloatTag d;
-  const VF x = hn::MulSub(held, size, hn::Set(d, 0.5f));
+  const VF x = MulThenSub(held, size, hn::Set(d, 0.5f));
   const VF floored = hn::Floor(x);
   return {hn::Add(floored, hn::Set(d, 1.0f)), hn::Sub(x, floored)};
 }
@@ -71,7 +71,7 @@ HWY_INLINE MF QueuedLanes(const TexelQueue& queue, size_t slot) {
 HWY_INLINE VF TileOf(VF x) {
   const FloatTag d;
   constexpr float kPerCell = 1.0f / kTexelCells;
-  return hn::Floor(hn::MulAdd(x, hn::Set(d, kPerCell), hn::Set(d, kPerCell / 2)));
+  return hn::Floor(MulThenAdd(x, hn::Set(d, kPerCell), hn::Set(d, kPerCell / 2)));
 }
 
 // Converts whole numbers from 0 to 2^23 without the care for other numbers: the result is the low
@@ -89,10 +89,10 @@ HWY_INLINE VI TexelOf(VF footprintX, VF footprintY, VF width) {
   const VF tileX = TileOf(footprintX), tileY = TileOf(footprintY);
   const VF cells = hn::Set(d, static_cast<float>(kTexelCells));
   const VF side = hn::Set(d, static_cast<float>(kTexelTile));
-  const VF x = hn::NegMulAdd(tileX, cells, footprintX), y = hn::NegMulAdd(tileY, cells, footprintY);
+  const VF x = NegMulThenAdd(tileX, cells, footprintX), y = NegMulThenAdd(tileY, cells, footprintY);
   const VF tilesAcross = hn::Add(TileOf(width), hn::Set(d, 1.0f));
   const VI rowOfTiles = hn::Mul(IndexOf(tileY), IndexOf(hn::Mul(tilesAcross, hn::Mul(side, side))));
-  const VF inRow = hn::MulAdd(hn::MulAdd(tileX, side, y), side, x);
+  const VF inRow = MulThenAdd(MulThenAdd(tileX, side, y), side, x);
   return hn::Add(rowOfTiles, IndexOf(inRow));
 }
 
@@ -180,9 +180,9 @@ HWY_INLINE VF SquaredCode(VU texel) {
 template <int kShift>
 HWY_INLINE VF FilterColorChannel(const Footprint& f) {
   VF sum = hn::Mul(SquaredCode<kShift>(f.t00), f.w00);
-  sum = hn::MulAdd(SquaredCode<kShift>(f.t10), f.w10, sum);
-  sum = hn::MulAdd(SquaredCode<kShift>(f.t01), f.w01, sum);
-  sum = hn::MulAdd(SquaredCode<kShift>(f.t11), f.w11, sum);
+  sum = MulThenAdd(SquaredCode<kShift>(f.t10), f.w10, sum);
+  sum = MulThenAdd(SquaredCode<kShift>(f.t01), f.w01, sum);
+  sum = MulThenAdd(SquaredCode<kShift>(f.t11), f.w11, sum);
   return hn::Mul(sum, hn::Set(FloatTag(), 1.0f / (1023.0f * 1023.0f)));
 }
 HWY_INLINE V3 FilterColor(const Footprint& f) {
@@ -206,8 +206,8 @@ HWY_INLINE V3 FilterRadiance(const Footprint& f) {
   const VF w00 = RadianceWeight(f.t00, f.w00), w10 = RadianceWeight(f.t10, f.w10);
   const VF w01 = RadianceWeight(f.t01, f.w01), w11 = RadianceWeight(f.t11, f.w11);
   const auto sum = [&](const V4& code) HWY_ATTR {
-    const VF lower = hn::MulAdd(code.y, w10, hn::Mul(code.x, w00));
-    return hn::MulAdd(code.w, w11, hn::MulAdd(code.z, w01, lower));
+    const VF lower = MulThenAdd(code.y, w10, hn::Mul(code.x, w00));
+    return MulThenAdd(code.w, w11, MulThenAdd(code.z, w01, lower));
   };
   return {sum({RadianceCode<0>(f.t00), RadianceCode<0>(f.t10), RadianceCode<0>(f.t01),
                RadianceCode<0>(f.t11)}),
@@ -227,9 +227,9 @@ HWY_INLINE VF Code(VU texel) {
 template <int kShift>
 HWY_INLINE VF FilterDataChannel(const Footprint& f) {
   VF sum = hn::Mul(Code<kShift>(f.t00), f.w00);
-  sum = hn::MulAdd(Code<kShift>(f.t10), f.w10, sum);
-  sum = hn::MulAdd(Code<kShift>(f.t01), f.w01, sum);
-  sum = hn::MulAdd(Code<kShift>(f.t11), f.w11, sum);
+  sum = MulThenAdd(Code<kShift>(f.t10), f.w10, sum);
+  sum = MulThenAdd(Code<kShift>(f.t01), f.w01, sum);
+  sum = MulThenAdd(Code<kShift>(f.t11), f.w11, sum);
   return hn::Mul(sum, hn::Set(FloatTag(), 1.0f / 255.0f));
 }
 HWY_INLINE V3 FilterData3(const Footprint& f) {

@@ -17,12 +17,12 @@ constexpr float kNear = 0x1p-10f;
 HWY_INLINE VF NearCode(VF x) {
   const FloatTag d;
   const VF t = hn::Sqrt(hn::Sqrt(x));
-  VF curve = hn::MulAdd(t, hn::Set(d, 15.7422484f), hn::Set(d, -75.0331475f));
-  curve = hn::MulAdd(t, curve, hn::Set(d, 158.355582f));
-  curve = hn::MulAdd(t, curve, hn::Set(d, -210.446404f));
-  curve = hn::MulAdd(t, curve, hn::Set(d, 345.416025f));
-  curve = hn::MulAdd(t, curve, hn::Set(d, 36.1993571f));
-  curve = hn::MulAdd(t, curve, hn::Set(d, -15.2334479f));
+  VF curve = MulThenAdd(t, hn::Set(d, 15.7422484f), hn::Set(d, -75.0331475f));
+  curve = MulThenAdd(t, curve, hn::Set(d, 158.355582f));
+  curve = MulThenAdd(t, curve, hn::Set(d, -210.446404f));
+  curve = MulThenAdd(t, curve, hn::Set(d, 345.416025f));
+  curve = MulThenAdd(t, curve, hn::Set(d, 36.1993571f));
+  curve = MulThenAdd(t, curve, hn::Set(d, -15.2334479f));
   const VF line = hn::Mul(x, hn::Set(d, 255 * 12.92f));
   return hn::IfThenElse(hn::Gt(x, hn::Set(d, 0.0031308f)), curve, line);
 }
@@ -51,8 +51,8 @@ HWY_INLINE VF HableCurve(VF x) {
   const FloatTag d;
   const VF a = hn::Set(d, 0.15f), b = hn::Set(d, 0.50f), cb = hn::Set(d, 0.05f);
   const VF de = hn::Set(d, 0.20f * 0.02f), df = hn::Set(d, 0.20f * 0.30f);
-  const VF numerator = hn::MulAdd(x, hn::MulAdd(a, x, cb), de);
-  const VF denominator = hn::MulAdd(x, hn::MulAdd(a, x, b), df);
+  const VF numerator = MulThenAdd(x, MulThenAdd(a, x, cb), de);
+  const VF denominator = MulThenAdd(x, MulThenAdd(a, x, b), df);
   return hn::Sub(hn::Div(numerator, denominator), hn::Set(d, 0.02f / 0.30f));
 }
 

@@ -10,7 +10,7 @@
 
 #include "core/shading_choices.h"
 #include "core/vec3.h"
-#include "hwy/highway.h"
+#include "simd/product-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
@@ -62,7 +62,7 @@ HWY_INLINE V3 Scale3(const V3& a, VF s) {
 }
 // a * s + b
 HWY_INLINE V3 MulAdd3(const V3& a, VF s, const V3& b) {
-  return {hn::MulAdd(a.x, s, b.x), hn::MulAdd(a.y, s, b.y), hn::MulAdd(a.z, s, b.z)};
+  return {MulThenAdd(a.x, s, b.x), MulThenAdd(a.y, s, b.y), MulThenAdd(a.z, s, b.z)};
 }
 HWY_INLINE V3 Abs3(const V3& a) { return {hn::Abs(a.x), hn::Abs(a.y), hn::Abs(a.z)}; }
 HWY_INLINE V3 Select3(MF m, const V3& yes, const V3& no) {
@@ -70,16 +70,12 @@ HWY_INLINE V3 Select3(MF m, const V3& yes, const V3& no) {
           hn::IfThenElse(m, yes.z, no.z)};
 }
 HWY_INLINE VF Dot(const V3& a, const V3& b) {
-  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
+  return MulThenAdd(a.x, b.x, MulThenAdd(a.y, b.y, hn::Mul(a.z, b.z)));
 }
 HWY_INLINE VF MaxComponent(const V3& a) { return hn::Max(a.x, hn::Max(a.y, a.z)); }
 
-// a * b - c * d without the cancellation of rounding errors (Kahan's difference of products; with a
-// fused multiply-add the error is at most 1.5 ulp, without one it is the plain formula).
 HWY_INLINE VF DifferenceOfProducts(VF a, VF b, VF c, VF d) {
-  const VF cd = hn::Mul(c, d);
-  const VF error = hn::NegMulAdd(c, d, cd);
-  return hn::Add(hn::MulSub(a, b, cd), error);
+  return MulThenSub(a, b, hn::Mul(c, d));
 }
 HWY_INLINE V3 Cross(const V3& a, const V3& b) {
   return {DifferenceOfProducts(a.y, b.z, a.z, b.y), DifferenceOfProducts(a.z, b.x, a.x, b.z),
@@ -97,7 +93,7 @@ HWY_INLINE VF InverseSqrt(VF a, Reciprocal how) {
   constexpr int kSteps = HWY_TARGET == HWY_NEON ? 2 : 1;
   const VF half = hn::Mul(hn::Set(d, -0.5f), a);
   for (int step = 0; step < kSteps; ++step) {
-    const VF factor = hn::MulAdd(hn::Mul(half, estimate), estimate, hn::Set(d, 1.5f));
+    const VF factor = MulThenAdd(hn::Mul(half, estimate), estimate, hn::Set(d, 1.5f));
     estimate = hn::Mul(estimate, factor);
   }
   return estimate;

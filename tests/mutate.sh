@@ -81,7 +81,7 @@ mutations() {
   plant wrong-offset-side simd/add_impulses.cpp \
     'ChildOrigin(job, lanes, i, -1.0f)' 'ChildOrigin(job, lanes, i, 1.0f)'
   plant unfactored-fresnel simd/fresnel-inl.h \
-    'const VF g2 = hn::MulAdd(c, c, k);' \
+    'const VF g2 = MulThenAdd(c, c, k);' \
     'const VF g2 = hn::Add(hn::Sub(hn::Mul(eta, eta), one), hn::Mul(c, c));'
   plant no-total-reflection simd/fresnel-inl.h \
     'f = hn::IfThenElse(total, one, hn::Min(f, one));' \
