@@ -49,8 +49,109 @@ void UnpackHits(const PacketWords& from, size_t n, const uint32_t* triangleBase,
            [&](auto width) HWY_ATTR { UnpackHitsOf<width()>(from, n, triangleBase, hits); });
 }
 
+// Fetches records of so many floats for all hits of a run, before the first of them is needed.
+template <class Record>
+HWY_INLINE void PrefetchRecords(const Record* table, size_t stride, const uint32_t* hit,
+                                size_t begin, size_t end) {
+  for (size_t i = begin; i < end; ++i) {
+    hwy::Prefetch(reinterpret_cast<const float*>(table) + (hit[i] == kMiss ? 0 : hit[i]) * stride);
+  }
+}
+
+// The corner 0 of a triangle as seen from the ray's start, and the edges from there.
+struct SeenTriangle {
+  V3 corner, edge1, edge2;
+};
+
+HWY_INLINE void CarryToWorld(const HitTables& tables, const HitColumns& hits, MF valid, size_t i,
+                             const V3& corner, const V3& origin, SeenTriangle& t) {
+  using R = InstanceTransform;
+  const auto [placed, instance] = LoadInstances(hits, valid, i);
+  if (hn::AllFalse(FloatTag(), placed)) return;
+  const SharedRecords<R> records(tables.instances, instance, placed);
+  const MatrixLanes m{records.Load4<offsetof(R, toWorld[0])>(),
+                      records.Load4<offsetof(R, toWorld[4])>(),
+                      records.Load4<offsetof(R, toWorld[8])>()};
+  // The difference of the origins first: what is far from the world's origin keeps its bits.
+  const V3 from = Sub3({m.row0.w, m.row1.w, m.row2.w}, origin);
+  t.corner = Select3(placed, Add3(TransformVector(m, corner), from), t.corner);
+  t.edge1 = Select3(placed, TransformVector(m, t.edge1), t.edge1);
+  t.edge2 = Select3(placed, TransformVector(m, t.edge2), t.edge2);
+}
+
+struct HitPoint {
+  VF t, u, v;
+};
+
+// For hits that rounding has put beside the triangle, ahead of the ray's start or nowhere: the
+// nearest weights that belong to a point of the triangle, and how far away this is.
+HWY_INLINE HitPoint MoveOntoTriangle(const SeenTriangle& t, const V3& direction,
+                                     const HitPoint& p) {
+  const FloatTag d;
+  const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f), third = hn::Set(d, 1.0f / 3);
+  const VF most = hn::Set(d, 0x1p60f);
+  const MF known = hn::And(hn::Le(hn::Abs(p.u), most), hn::Le(hn::Abs(p.v), most));
+  const VF u = hn::Max(hn::IfThenElse(known, p.u, third), zero);
+  const VF v = hn::Max(hn::IfThenElse(known, p.v, third), zero);
+  const VF sum = hn::Add(hn::Add(hn::Max(hn::Sub(hn::Sub(one, u), v), zero), u), v);
+  const VF onU = hn::Div(u, sum), onV = hn::Div(v, sum);
+  const V3 point = MulAdd3(t.edge1, onU, MulAdd3(t.edge2, onV, t.corner));
+  return {hn::Div(Dot(point, direction), Dot(direction, direction)), onU, onV};
+}
+
+// The distance and the weights by Cramer's rule (Moeller and Trumbore 1997, "Fast, minimum storage
+// ray/triangle intersection"). The scalar reference is refineHit in
+// src/reference/find_intersections.cpp.
+HWY_INLINE HitPoint PierceTriangle(const SeenTriangle& t, const V3& direction, MF on) {
+  const FloatTag d;
+  const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  const V3 normal = Cross(t.edge1, t.edge2), moment = Cross(direction, t.corner);
+  const VF slope = Dot(normal, direction);
+  HitPoint p{hn::Div(Dot(normal, t.corner), slope), hn::Div(Dot(t.edge2, moment), hn::Neg(slope)),
+             hn::Div(Dot(t.edge1, moment), slope)};
+  const VF least = hn::Min(hn::Min(p.u, p.v), hn::Sub(hn::Sub(one, p.u), p.v));
+  const MF ahead = hn::And(hn::Ge(p.t, zero), hn::Lt(p.t, hn::Inf(d)));
+  const MF beside = hn::AndNot(hn::And(ahead, hn::Ge(least, hn::Set(d, -0x1p-12f))), on);
+  if (HWY_UNLIKELY(!hn::AllFalse(d, beside))) {
+    const HitPoint moved = MoveOntoTriangle(t, direction, p);
+    p = {hn::IfThenElse(beside, moved.t, p.t), hn::IfThenElse(beside, moved.u, p.u),
+         hn::IfThenElse(beside, moved.v, p.v)};
+  }
+  const VF u = hn::Max(p.u, zero), v = hn::Max(p.v, zero);
+  const VF excess = hn::Max(hn::Sub(hn::Add(u, v), one), zero);
+  const MF more = hn::Ge(u, v);
+  return {hn::Max(p.t, zero), hn::Sub(u, hn::IfThenElseZero(more, excess)),
+          hn::Sub(v, hn::IfThenZeroElse(more, excess))};
+}
+
+void RefineHits(const HitTables& tables, const RayColumns& rays, size_t n, const HitColumns& hits) {
+  const FloatTag d;
+  constexpr size_t kStride = kFloatsOf<TriangleRecord>, kRun = 64;
+  for (size_t i = 0; i < n; i += hn::Lanes(d)) {
+    if (i % kRun == 0) {
+      const size_t end = i + kRun < n ? i + kRun : n;
+      PrefetchRecords(tables.triangles, kStride, hits.triangle, i, end);
+    }
+    const auto [valid, triangle] = LoadHits(hits, i);
+    const MF on = hn::And(AreTriangles(triangle, tables.firstSphere), valid);
+    if (hn::AllFalse(d, on)) continue;
+    const auto [c0, c1, c2] = LoadCorners(tables.triangles, kStride, triangle);
+    const auto load = [&](const float* column) HWY_ATTR { return hn::LoadU(d, column + i); };
+    const V3 origin{load(rays.orgX), load(rays.orgY), load(rays.orgZ)};
+    const V3 direction{load(rays.dirX), load(rays.dirY), load(rays.dirZ)};
+    SeenTriangle t{Sub3(c0, origin), Sub3(c1, c0), Sub3(c2, c0)};
+    if (tables.instances) CarryToWorld(tables, hits, valid, i, c0, origin, t);
+    const HitPoint p = PierceTriangle(t, direction, on);
+    const auto put = [&](VF value, float* column)
+                         HWY_ATTR { hn::BlendedStore(value, on, d, column + i); };
+    put(p.t, hits.t);
+    put(p.u, hits.u);
+    put(p.v, hits.v);
+  }
+}
+
 PacketKernels FindPacketKernels() {
-  return {PackRays, PackShadowRays, UnpackHits, UnpackVisibility};
+  return {PackRays, PackShadowRays, UnpackHits, RefineHits, UnpackVisibility};
 }
 
 // The factors by which vertex colors multiply each color of a material, according to its flags.
@@ -186,20 +287,6 @@ HWY_INLINE void ApplyTextures(const SurfelJob& job, const BlockTextures& block, 
   if (job.normalMaps) ApplyNormalMap(job, block, slot, i);
 }
 
-HWY_INLINE void PrefetchTriangles(const ShadingTables& tables, const HitColumns& hits, bool smooth,
-                                  size_t begin, size_t end) {
-  // Locals: what memory may alias would be read again for every ray.
-  const uint32_t* const hit = hits.triangle;
-  const TriangleRecord* const triangles = tables.triangles;
-  const auto* const normals = reinterpret_cast<const float*>(tables.normals);
-  const auto stride = static_cast<size_t>(tables.normalStride);
-  for (size_t i = begin; i < end; ++i) {
-    const size_t triangle = hit[i] == kMiss ? 0 : hit[i];
-    hwy::Prefetch(triangles + triangle);
-    if (smooth) hwy::Prefetch(normals + triangle * stride);
-  }
-}
-
 void InterpolateSurfels(Chunk& c) noexcept {
   const UintTag du;
   const size_t lanes = hn::Lanes(du), n = c.n;
@@ -208,7 +295,10 @@ void InterpolateSurfels(Chunk& c) noexcept {
   BlockTextures block;
   for (size_t begin = 0; begin < n; begin += TexelQueue::kRays) {
     const size_t end = begin + TexelQueue::kRays < n ? begin + TexelQueue::kRays : n;
-    PrefetchTriangles(job.tables, job.hits, job.smooth, begin, end);
+    if (job.smooth) {
+      const auto stride = static_cast<size_t>(job.tables.normalStride);
+      PrefetchRecords(job.tables.normals, stride, job.hits.triangle, begin, end);
+    }
     for (size_t i = begin; i < end; i += lanes) {
       flags = hn::Or(flags, InterpolateVector(job, i, i - begin, block));
       if (HWY_UNLIKELY(job.secondUvs)) QueueByOwnUvs(job, i, i - begin, block);

@@ -165,6 +165,13 @@ constexpr std::size_t indexOf(const Kernel& kernel) {
   return index;
 }
 
+// What the numbers of hits mean.
+struct HitTables {
+  const TriangleRecord* triangles = nullptr;
+  std::uint32_t firstSphere = 0;                 // from here on they are spheres
+  const InstanceTransform* instances = nullptr;  // none: all hits are in the world
+};
+
 // Between columns and Embree's packets. Lanes left over get empty rays, and so do rays that Embree
 // cannot take: it ends the program at a NaN or where the sum of the coordinates' sizes is beyond
 // `reach` (hard case H28).
@@ -175,6 +182,11 @@ struct PacketKernels {
   // For scenes without instances: a triangle's number is the number of its class's first triangle
   // plus its own.
   void (*unpackHits)(const PacketWords& from, std::size_t n, const std::uint32_t* triangleBase,
+                     const HitColumns& hits);
+  // Computes t, u and v of the hits on triangles from the rays and the corners. Embree divides by
+  // its processor's approximate reciprocal, so that its own have other last bits on another one.
+  // Columns as for kernels.
+  void (*refineHits)(const HitTables& tables, const RayColumns& rays, std::size_t n,
                      const HitColumns& hits);
   // visible[slot[i]]: 1 where ray i met nothing, otherwise 0.
   void (*unpackVisibility)(const PacketWords& from, std::size_t n, const std::uint32_t* slot,

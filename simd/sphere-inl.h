@@ -27,13 +27,8 @@ HWY_INLINE SphereLanes LoadSpheres(const ShadingTables& tables, const HitColumns
                                    VI number, size_t i) {
   using R = SphereRecord;
   const FloatTag d;
-  const UintTag du;
   SphereLanes s;
-  // As unsigned numbers, of which Highway compares none: both are moved by half of their range.
-  const VU half = hn::Set(du, 0x80000000u);
-  const VI moved = hn::BitCast(IntTag(), hn::Xor(hn::BitCast(du, number), half));
-  const VI first = hn::Set(IntTag(), static_cast<int32_t>(tables.firstSphere ^ 0x80000000u));
-  s.on = hn::AndNot(hn::RebindMask(d, hn::Lt(moved, first)), valid);
+  s.on = hn::AndNot(AreTriangles(number, tables.firstSphere), valid);
   if (hn::AllFalse(d, s.on)) return s;
   const SharedRecords<R> records(reinterpret_cast<const R*>(tables.triangles), number, s.on);
   const V4 a = records.Load4<offsetof(R, axes[0]), offsetof(R, axes[3])>();

@@ -61,6 +61,16 @@ HWY_INLINE HitLanes LoadHits(const HitColumns& hits, size_t i) {
   return {valid, hn::IfThenElseZero(hn::RebindMask(di, valid), hn::BitCast(di, hit))};
 }
 
+// The lanes whose number is a triangle's and not a sphere's. Highway compares no unsigned numbers,
+// so both are moved by half of their range.
+HWY_INLINE MF AreTriangles(VI number, uint32_t firstSphere) {
+  const UintTag du;
+  const VU half = hn::Set(du, 0x80000000u);
+  const VI moved = hn::BitCast(IntTag(), hn::Xor(hn::BitCast(du, number), half));
+  const VI first = hn::Set(IntTag(), static_cast<int32_t>(firstSphere ^ 0x80000000u));
+  return hn::RebindMask(FloatTag(), hn::Lt(moved, first));
+}
+
 // Barycentric weights of the corners.
 struct Weights {
   VF w0, w1, w2;
@@ -102,7 +112,7 @@ HWY_INLINE NormalLanes GeometricNormal(const V3& edge1, const V3& edge2, Recipro
   const VF largest = hn::Max(MaxComponent(Abs3(edge1)), MaxComponent(Abs3(edge2)));
   const VF scale = InverseExponent(largest);
   const V3 unit{hn::Zero(d), hn::Zero(d), hn::Set(d, 1.0f)};
-  const V3 a = Scale3(edge1, scale), b = Scale3(edge2, scale), area = Cross(a, b);
+  const V3 a = Scale3(edge1, scale), b = Scale3(edge2, scale), area = ExactCross(a, b);
   const VF sides = hn::Mul(SumOf(Abs3(a)), SumOf(Abs3(b)));
   return {NormalizeOr(area, unit, how),
           hn::Le(SumOf(Abs3(area)), hn::Mul(sides, hn::Set(d, 0x1p-14f)))};

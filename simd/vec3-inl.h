@@ -82,6 +82,31 @@ HWY_INLINE V3 Cross(const V3& a, const V3& b) {
           DifferenceOfProducts(a.x, b.y, a.y, b.x)};
 }
 
+// a * b - c * e where the products are exact.
+HWY_INLINE VF ExactDifferenceOfProducts(VF a, VF b, VF c, VF e) {
+  const FloatTag d;
+  const auto differenceOf = [&](auto df, auto p, auto q, auto r, auto s) HWY_ATTR {
+    const hn::Rebind<double, decltype(df)> dd;
+    const auto pq = hn::Mul(hn::PromoteTo(dd, p), hn::PromoteTo(dd, q));
+    return hn::DemoteTo(df, hn::Sub(pq, hn::Mul(hn::PromoteTo(dd, r), hn::PromoteTo(dd, s))));
+  };
+#if HWY_TARGET == HWY_SCALAR
+  return differenceOf(d, a, b, c, e);
+#else
+  const hn::Half<FloatTag> half;
+  const auto low = [&](VF v) HWY_ATTR { return hn::LowerHalf(half, v); };
+  const auto high = [&](VF v) HWY_ATTR { return hn::UpperHalf(half, v); };
+  return hn::Combine(d, differenceOf(half, high(a), high(b), high(c), high(e)),
+                     differenceOf(half, low(a), low(b), low(c), low(e)));
+#endif
+}
+// For planes, which the rounding of products would turn where a triangle is a needle.
+HWY_INLINE V3 ExactCross(const V3& a, const V3& b) {
+  return {ExactDifferenceOfProducts(a.y, b.z, a.z, b.y),
+          ExactDifferenceOfProducts(a.z, b.x, a.x, b.z),
+          ExactDifferenceOfProducts(a.x, b.y, a.y, b.x)};
+}
+
 // 1 / sqrt(a); of `a` above zero and normal. Exact: true division and square root, the same bits on
 // every target.
 HWY_INLINE VF InverseSqrt(VF a, Reciprocal how) {

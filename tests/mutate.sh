@@ -46,10 +46,10 @@ plant() {
   cp "$root/$file" "$copy/$file"
 }
 
-# hardCases SHARD: half of the tests.
+# hardCases SHARD: half of the tests. Image hashes would see every mistake and show no hard case.
 hardCases() {
   WHIT_SOURCE_DIR=$copy GTEST_TOTAL_SHARDS=2 GTEST_SHARD_INDEX=$1 \
-    timeout 600 "$copy/build/tests/hard_test" >"$copy/test.$1.log" 2>&1
+    timeout 600 "$copy/build/tests/hard_test" --gtest_filter=-Hard/HashTest.* >"$copy/test.$1.log" 2>&1
 }
 
 # Builds and tests the copy as it is now: 0 all green, 1 red, 2 not built. What is red goes to $red.
@@ -80,6 +80,9 @@ mutations() {
   plant normal-offset-only simd/ray_origin-inl.h 'hn::Neg(clearance.retreat)' 'hn::Zero(d)'
   plant wrong-offset-side simd/add_impulses.cpp \
     'ChildOrigin(job, lanes, i, -1.0f)' 'ChildOrigin(job, lanes, i, 1.0f)'
+  plant approximate-distance simd/find_intersections.cpp \
+    'HitPoint p{hn::Div(Dot(normal, t.corner), slope),' \
+    'HitPoint p{hn::Mul(hn::Div(Dot(normal, t.corner), slope), hn::Set(d, 1.0f + 0x1p-20f)),'
   plant unfactored-fresnel simd/fresnel-inl.h \
     'const VF g2 = MulThenAdd(c, c, k);' \
     'const VF g2 = hn::Add(hn::Sub(hn::Mul(eta, eta), one), hn::Mul(c, c));'

@@ -5,6 +5,8 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <vector>
 
 #include "accel/embree_scene.h"
 #include "bake/eye_in_plane.h"
@@ -24,7 +26,15 @@ struct Accel::Parts {
     return coherent && embree.coherentAnyHitMayHang(packet) ? 8 : packet;
   }
 
+  void placeInstances(const Scene& scene) {
+    instances.resize(scene.instances.size());
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+      instances[i].setToWorld(scene.instances[i].toWorld);
+    }
+  }
+
   EmbreeScene embree;
+  std::vector<InstanceTransform> instances;
   simd::PacketKernels kernels = simd::findPacketKernels();
   int packet = 8;
   std::string description;
@@ -85,11 +95,21 @@ RTCRayHit singleRay(const EmbreeScene& scene, const Vec3f& origin, const Vec3f& 
   return r;
 }
 
-Hit findHit(const EmbreeScene& scene, const Vec3f& origin, const Vec3f& direction,
-            bool coherent = false, float tNear = 0) noexcept {
+// Columns of one ray.
+struct SingleColumns {
+  const float *orgX, *orgY, *orgZ, *dirX, *dirY, *dirZ;
+};
+SingleColumns columnsOf(const Vec3f& o, const Vec3f& d) {
+  return {&o.x, &o.y, &o.z, &d.x, &d.y, &d.z};
+}
+
+// Hit with t, u and v as Embree has them, which another processor rounds otherwise.
+Hit findUnrefined(const EmbreeScene& scene, const Vec3f& origin, const Vec3f& direction,
+                  bool coherent, float tNear) noexcept {
   constexpr float kUnbounded = std::numeric_limits<float>::infinity();
   RTCRayHit r = singleRay(scene, origin, direction, tNear, kUnbounded, kSeenMask);
   QueryContext context(coherent);
+  context.setRays(columnsOf(origin, direction));
   context.trace(scene.top(), r);
   const unsigned instance = r.hit.instID[0];
   if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {kMiss, kMiss, r.ray.tfar, r.hit.u, r.hit.v};
@@ -101,8 +121,34 @@ bool isOccluded(const EmbreeScene& scene, const Vec3f& origin, const Vec3f& dire
                 bool coherent = false) noexcept {
   RTCRayHit r = singleRay(scene, origin, direction, 0, tFar, kShadowMask);
   QueryContext context(coherent);
+  context.setRays(columnsOf(origin, direction));
   context.trace(scene.top(), r.ray);
   return !(r.ray.tfar >= 0);
+}
+
+void refine(const Accel::Parts& parts, const Scene& scene, bool instances, const RayColumns& rays,
+            std::size_t n, const HitColumns& hits) {
+  parts.kernels.refineHits(
+      {scene.triangles.data(), scene.firstSphere, instances ? parts.instances.data() : nullptr},
+      rays, n, hits);
+}
+
+Hit findHit(const Accel::Parts& parts, const Scene& scene, const Vec3f& origin,
+            const Vec3f& direction, float tNear = 0) noexcept {
+  Hit hit = findUnrefined(parts.embree, origin, direction, false, tNear);
+  if (!hit.found()) return hit;
+  // One block of columns, of which the first slot is in use.
+  alignas(64) float words[9][kBlock] = {};
+  alignas(64) std::uint32_t triangle[kBlock], instance[kBlock];
+  std::fill_n(triangle, kBlock, kMiss);
+  std::fill_n(instance, kBlock, kMiss);
+  for (int i = 0; i < 3; ++i) words[i][0] = origin[i], words[3 + i][0] = direction[i];
+  triangle[0] = hit.triangle, instance[0] = hit.instance;
+  words[6][0] = hit.t, words[7][0] = hit.u, words[8][0] = hit.v;
+  RayColumns rays{words[0], words[1], words[2], words[3], words[4], words[5]};
+  refine(parts, scene, hit.instance != kMiss, rays, 1,
+         {triangle, words[6], words[7], words[8], instance});
+  return {hit.triangle, hit.instance, words[6][0], words[7][0], words[8][0]};
 }
 
 // Packets are filled, traced and emptied in groups of this many rays, so that the clock around
@@ -114,13 +160,16 @@ struct Group {
   // For at most this many rays.
   Group(unsigned mask, std::size_t rays) {
     setLanes(rays);
+    const auto start = [&](auto& ray, std::size_t first) {
+      ray = {};
+      std::fill_n(ray.mask, kWidth, mask);
+      std::iota(ray.id, ray.id + kWidth, static_cast<unsigned>(first));
+    };
     for (std::size_t p = 0; p < count; ++p) {
       if constexpr (kWantsHits<Packet>) {
-        packets[p].ray = {};
-        std::fill_n(packets[p].ray.mask, kWidth, mask);
+        start(packets[p].ray, p * kWidth);
       } else {
-        packets[p] = {};
-        std::fill_n(packets[p].mask, kWidth, mask);
+        start(packets[p], p * kWidth);
       }
     }
   }
@@ -147,19 +196,21 @@ struct Group {
   std::size_t count = 0;  // packets in use
 };
 
-// Calls pack(group, first ray, number of rays), Embree and unpack(...) for one group of the n rays
-// after the other. Returns the number of lanes, and adds to the time inside Embree.
-template <int kWidth, typename Packet, typename Pack, typename Unpack>
-std::size_t traceGroups(const EmbreeScene& scene, unsigned mask, bool coherent, std::size_t n,
+// Calls pack(group, first ray, number of rays), Embree and unpack(...) for one group of the range's
+// rays after the other. Returns the number of lanes, and adds to the time inside Embree.
+template <int kWidth, typename Packet, typename Range, typename Pack, typename Unpack>
+std::size_t traceGroups(const EmbreeScene& scene, unsigned mask, const Range& range,
                         double& embreeMs, const Pack& pack, const Unpack& unpack) {
-  QueryContext context(coherent);
-  const bool together = coherent && scene.streamWidth() == kWidth;
+  const std::size_t n = range.n;
+  QueryContext context(range.coherent);
+  const bool together = range.coherent && scene.streamWidth() == kWidth;
   Group<kWidth, Packet> group(mask, std::min(n, kGroup));
   std::size_t lanes = 0;
   for (std::size_t begin = 0; begin < n; begin += kGroup) {
     const std::size_t rest = std::min(n - begin, kGroup);
     if (rest < kGroup) group.setLanes(rest);
     pack(group, begin, rest);
+    context.setRays(advanced(range.rays, begin));
     const auto start = Clock::now();
     if (together) {
       context.traceStream(scene.top(), group.packets, kWidth, group.count);
@@ -207,8 +258,7 @@ std::size_t traceRange(const Accel::Parts& parts, const HitRange& range, double&
     parts.kernels.unpackHits(group.words(), n, scene.triangleBase(0), to);
     if (range.instances) storeInstances<kWidth>(scene, group.packets, n, to);
   };
-  return traceGroups<kWidth, RayHits<kWidth>>(scene, kSeenMask, range.coherent, range.n, embreeMs,
-                                              pack, unpack);
+  return traceGroups<kWidth, RayHits<kWidth>>(scene, kSeenMask, range, embreeMs, pack, unpack);
 }
 
 template <int kWidth>
@@ -220,13 +270,13 @@ std::size_t traceRange(const Accel::Parts& parts, const ShadowRange& range, doub
   const auto unpack = [&](auto& group, std::size_t begin, std::size_t n) {
     parts.kernels.unpackVisibility(group.words(), n, range.rays.slot + begin, range.visible);
   };
-  return traceGroups<kWidth, Rays<kWidth>>(scene, kShadowMask, range.coherent, range.n, embreeMs,
-                                           pack, unpack);
+  return traceGroups<kWidth, Rays<kWidth>>(scene, kShadowMask, range, embreeMs, pack, unpack);
 }
 
 void traceSingly(const EmbreeScene& scene, const HitRange& range, std::size_t i) {
-  store(findHit(scene, originAt(range.rays, i), directionAt(range.rays, i), range.coherent), range,
-        i);
+  store(
+      findUnrefined(scene, originAt(range.rays, i), directionAt(range.rays, i), range.coherent, 0),
+      range, i);
 }
 
 void traceSingly(const EmbreeScene& scene, const ShadowRange& range, std::size_t i) {
@@ -260,7 +310,7 @@ int isNearEdge(float u, float v) {
 
 // Which of several triangles at one distance stays depends on the order in which Embree tests them,
 // which a packet's other rays change. A ray alone has but one order.
-void settleEdges(const EmbreeScene& scene, const HitRange& range) noexcept {
+void settleEdges(const Accel::Parts& parts, const Scene& scene, const HitRange& range) noexcept {
   constexpr std::size_t kRun = 4 * kBlock;  // hits looked at together before any is by itself
   const HitColumns& hits = range.hits;
   for (std::size_t begin = 0; begin < range.n; begin += kRun) {
@@ -271,7 +321,7 @@ void settleEdges(const EmbreeScene& scene, const HitRange& range) noexcept {
     if (any == 0) continue;
     for (std::size_t i = begin; i < end; ++i) {
       if (hits.triangle[i] == kMiss || isNearEdge(u[i], v[i]) == 0) continue;
-      const Hit hit = findHit(scene, originAt(range.rays, i), directionAt(range.rays, i));
+      const Hit hit = findHit(parts, scene, originAt(range.rays, i), directionAt(range.rays, i));
       if (hit.found()) store(hit, range, i);
     }
   }
@@ -319,6 +369,7 @@ Vec3f nudged(const Vec3f& d, int attempt) {
 Accel::Accel(const Scene& scene, const RenderOptions& options, EffectSet effects, int threads,
              Progress* progress)
     : scene_(scene), parts_(std::make_unique<Parts>(scene, options, effects, threads, progress)) {
+  parts_->placeInstances(scene);
   const int widest = parts_->embree.widestPacket();
   parts_->packet = options.packet == 0 ? widest : options.packet;
   const auto version = rtcGetDeviceProperty(parts_->embree.device(), RTC_DEVICE_PROPERTY_VERSION);
@@ -336,36 +387,42 @@ bool Accel::isCutAway(std::uint32_t triangle, double u, double v) const noexcept
   const Mask& mask = parts_->embree.masks()[record.material];
   if (scene_.isSphere(triangle)) {
     const auto [s, t] = sphereUv(spherePoint(u, v));
-    return !isOpaqueAt<&Mask::cutoff>(mask, static_cast<float>(s), static_cast<float>(t));
+    return marginAt<&Mask::cutoff>(mask, static_cast<float>(s), static_cast<float>(t)) < 0;
   }
-  return !isOpaqueAt<&Mask::cutoff>(mask, record.uv, static_cast<float>(u), static_cast<float>(v));
+  return marginAt<&Mask::cutoff>(mask, record.uv, static_cast<float>(u), static_cast<float>(v)) < 0;
 }
 
-void Accel::sceneMoved() { parts_->embree.update(scene_); }
+void Accel::sceneMoved() {
+  parts_->embree.update(scene_);
+  parts_->placeInstances(scene_);
+}
 
 int Accel::packet() const { return parts_->packet; }
 std::string Accel::description() const { return parts_->description; }
 std::uint64_t Accel::memoryBytes() const { return parts_->embree.memoryBytes(); }
 
 void Accel::findHits(Chunk& c) const noexcept {
+  const bool instances = c.has(Feature::instances);
   for (std::size_t s = 0; s < c.segmentCount; ++s) {
     const Segment& segment = c.segments[s];
     const HitRange range{advanced(c.rays, segment.begin), advanced(c.hits, segment.begin),
-                         segment.end - segment.begin, c.coherent, c.has(Feature::instances)};
+                         segment.end - segment.begin, c.coherent, instances};
     if (range.n == 0) continue;
     RayTally& tally = c.meter->tally[static_cast<std::size_t>(segment.kind)];
     tally.rays += range.n;
     tally.lanes += traceAll(*parts_, parts_->packet, range, c.meter->embreeMs);
-    if (parts_->packet != 1) settleEdges(parts_->embree, range);
-    for (std::size_t i = 0; enclosed_ && i < range.n; ++i) {
-      if (range.hits.triangle[i] != kMiss) continue;
-      const Hit hit = closest(originAt(range.rays, i), directionAt(range.rays, i));
-      if (hit.found()) store(hit, range, i);
-    }
-    if (c.depth == 0) lookPastEye(*this, scene_, range);
   }
   // Kernels run over whole vectors.
   std::fill(c.hits.triangle + c.n, c.hits.triangle + roundUpToBlock(c.n), kMiss);
+  refine(*parts_, scene_, instances, c.rays, c.n, c.hits);
+  const HitRange all{c.rays, c.hits, c.n, c.coherent, instances};
+  if (parts_->packet != 1) settleEdges(*parts_, scene_, all);
+  for (std::size_t i = 0; enclosed_ && i < all.n; ++i) {
+    if (c.hits.triangle[i] != kMiss) continue;
+    const Hit hit = closest(originAt(c.rays, i), directionAt(c.rays, i));
+    if (hit.found()) store(hit, all, i);
+  }
+  if (c.depth == 0) lookPastEye(*this, scene_, all);
 }
 
 void Accel::checkShadows(Chunk& c) const noexcept {
@@ -377,9 +434,9 @@ void Accel::checkShadows(Chunk& c) const noexcept {
 }
 
 Hit Accel::closest(const Vec3f& origin, const Vec3f& direction, float tNear) const noexcept {
-  Hit hit = findHit(parts_->embree, origin, direction, false, tNear);
+  Hit hit = findHit(*parts_, scene_, origin, direction, tNear);
   for (int attempt = 0; enclosed_ && !hit.found() && attempt < 3; ++attempt) {
-    hit = findHit(parts_->embree, origin, nudged(direction, attempt), false, tNear);
+    hit = findHit(*parts_, scene_, origin, nudged(direction, attempt), tNear);
   }
   return hit;
 }

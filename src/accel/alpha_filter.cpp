@@ -76,16 +76,17 @@ AlphaMap::Bounds AlphaMap::boundsOf(int cellX, int cellY) const {
   return bounds;
 }
 
-bool AlphaMap::isOpaqueAt(float u, float v, float cutoff) const noexcept {
+float AlphaMap::marginAt(float u, float v, float cutoff) const noexcept {
   const AxisTexels x = wrapAxis(wrapU_, u, width_);
   const AxisTexels y = wrapAxis(wrapV_, 1.0f - v, height_);
   const int cell = (y.lower >> kCellShift) * cellsAcross_ + (x.lower >> kCellShift);
   const Bounds bounds = cells_[static_cast<std::size_t>(cell)];
   const float wanted = cutoff * 255.0f;
+  const float slack = bounds.least == bounds.most ? kRounding : 255 * kCloseCall;
   // Which of the two a cell is cannot be predicted; that it is one of them nearly always can.
-  const bool everywhere = static_cast<float>(bounds.least) >= wanted + kRounding,
-             somewhere = static_cast<float>(bounds.most) >= wanted - kRounding;
-  if (everywhere == somewhere) return everywhere;
+  const bool everywhere = static_cast<float>(bounds.least) >= wanted + slack,
+             somewhere = static_cast<float>(bounds.most) >= wanted - slack;
+  if (everywhere == somewhere) return everywhere ? 1.0f : -1.0f;
   const auto texel = [&](int row, int column) {
     return static_cast<float>(alpha_[index(row, column)]) * (1.0f / 255.0f);
   };
@@ -93,7 +94,7 @@ bool AlphaMap::isOpaqueAt(float u, float v, float cutoff) const noexcept {
       texel(y.lower, x.lower) * (1 - x.fraction) + texel(y.lower, x.upper) * x.fraction;
   const float bottom =
       texel(y.upper, x.lower) * (1 - x.fraction) + texel(y.upper, x.upper) * x.fraction;
-  return top * (1 - y.fraction) + bottom * y.fraction >= cutoff;
+  return top * (1 - y.fraction) + bottom * y.fraction - cutoff;
 }
 
 std::vector<Mask> makeMasks(const Scene& scene, bool cut) {

@@ -1,6 +1,7 @@
 // Decides for Embree whether a hit on a filtered triangle is really there.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -15,8 +16,9 @@ class AlphaMap {
  public:
   explicit AlphaMap(const Texture& texture);
 
-  // True if the bilinear alpha at texture coordinates (u, v) is at least `cutoff`.
-  bool isOpaqueAt(float u, float v, float cutoff) const noexcept;
+  // By how much the bilinear alpha at texture coordinates (u, v) is above `cutoff`; 1 or -1 where
+  // the cell's bounds alone say that it is well above or below.
+  float marginAt(float u, float v, float cutoff) const noexcept;
 
  private:
   struct Bounds {
@@ -49,39 +51,42 @@ struct Mask {
 // One mask a material; none of them has a map unless the scene is `cut`.
 std::vector<Mask> makeMasks(const Scene& scene, bool cut);
 
-// False where the mask, cut at that member of it, cuts the point with these texture coordinates;
+// Margins of alpha below this may have another sign where u and v are rounded differently, which
+// Embree does on other processors.
+inline constexpr float kCloseCall = 1.0f / 64;
+
+// Below 0 where the mask, cut at that member of it, cuts the point with these texture coordinates;
 // for shadows also where less than half of it is there.
 template <float Mask::*kCutoff>
-bool isOpaqueAt(const Mask& mask, float s, float t) noexcept {
-  if (!mask.map) return true;
-  const bool opaque = mask.map->isOpaqueAt(s, t, mask.*kCutoff);
+float marginAt(const Mask& mask, float s, float t) noexcept {
+  if (!mask.map) return 1;
+  const float margin = mask.map->marginAt(s, t, mask.*kCutoff);
   if constexpr (kCutoff == &Mask::shadowCutoff) {
-    if (mask.coverage) return opaque && mask.coverage->isOpaqueAt(s, t, mask.coverageCutoff);
+    if (mask.coverage) {
+      return std::min(margin, mask.coverage->marginAt(s, t, mask.coverageCutoff));
+    }
   }
-  return opaque;
+  return margin;
 }
 
 // The same for the point (u, v) of a triangle with these texture coordinates at its corners.
 template <float Mask::*kCutoff>
-bool isOpaqueAt(const Mask& mask, const float (&uv)[6], float u, float v) noexcept {
+float marginAt(const Mask& mask, const float (&uv)[6], float u, float v) noexcept {
   const float w = 1.0f - u - v;
-  return isOpaqueAt<kCutoff>(mask, uv[0] * w + uv[2] * u + uv[4] * v,
-                             uv[1] * w + uv[3] * u + uv[5] * v);
+  return marginAt<kCutoff>(mask, uv[0] * w + uv[2] * u + uv[4] * v,
+                           uv[1] * w + uv[3] * u + uv[5] * v);
 }
 
 // The triangles of one Embree geometry, as its filters read them.
 struct FilteredTriangles {
-  const TriangleRecord* records;  // of the first triangle
-  const Mask* masks;              // one a material of the scene
+  const Scene& scene;
+  std::uint32_t first;  // number of the first triangle
+  const Mask* masks;    // one a material of the scene
 
-  const Mask& maskOf(std::uint32_t primitive) const { return masks[records[primitive].material]; }
+  const TriangleRecord& recordOf(std::uint32_t primitive) const {
+    return scene.triangles[first + primitive];
+  }
+  const Mask& maskOf(std::uint32_t primitive) const { return masks[recordOf(primitive).material]; }
 };
-
-// False if the mask cuts the triangle's point (u, v) away.
-template <float Mask::*kCutoff>
-bool isOpaqueAt(const FilteredTriangles& triangles, std::uint32_t primitive, float u,
-                float v) noexcept {
-  return isOpaqueAt<kCutoff>(triangles.maskOf(primitive), triangles.records[primitive].uv, u, v);
-}
 
 }  // namespace whit

@@ -10,6 +10,7 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include "core/vec3.h"
 #include "stages/packet_words.h"
 
 namespace whit {
@@ -30,6 +31,7 @@ static_assert(isColumn(offsetof(RTCRay8, org_x), packet_column::orgX) &&
               isColumn(offsetof(RTCRay8, tnear), packet_column::tNear) &&
               isColumn(offsetof(RTCRay8, dir_x), packet_column::dirX) &&
               isColumn(offsetof(RTCRay8, tfar), packet_column::tFar) &&
+              isColumn(offsetof(RTCRay8, id), packet_column::id) &&
               isColumn(offsetof(RTCRayHit8, hit) + offsetof(RTCHit8, u), packet_column::u) &&
               isColumn(offsetof(RTCRayHit8, hit) + offsetof(RTCHit8, geomID),
                        packet_column::geometry) &&
@@ -60,16 +62,49 @@ inline constexpr bool kWantsHits = requires(Packet packet) {
   packet.hit;
 };
 
-// Traces rays that are coherent or not. A packet comes with the mask of its live lanes.
+// A ray as it is in the world, and a query's columns of such rays: on an instance Embree's
+// callbacks get a ray that was rounded otherwise on other processors. A ray's id is its place in
+// the columns.
+struct WorldRay {
+  Vec3d origin, direction;
+};
+#if WHIT_EMBREE_MAJOR == 4
+using EmbreeContext = RTCRayQueryContext;
+#else
+using EmbreeContext = RTCIntersectContext;
+#endif
+struct ContextWithRays : EmbreeContext {
+  const float *orgX, *orgY, *orgZ, *dirX, *dirY, *dirZ;
+};
+inline const ContextWithRays& withRays(const EmbreeContext* context) {
+  return static_cast<const ContextWithRays&>(*context);
+}
+inline WorldRay worldRay(const EmbreeContext* context, unsigned id) {
+  const ContextWithRays& c = withRays(context);
+  return {Vec3d(Vec3f{c.orgX[id], c.orgY[id], c.orgZ[id]}),
+          Vec3d(Vec3f{c.dirX[id], c.dirY[id], c.dirZ[id]})};
+}
+
+// Traces rays that are coherent or not. A packet comes with the mask of its live lanes, and its
+// rays with their places in the columns that were set last.
 class QueryContext {
  public:
+  template <typename Columns>
+  void setRays(const Columns& c) {
+    context_.orgX = c.orgX, context_.orgY = c.orgY, context_.orgZ = c.orgZ;
+    context_.dirX = c.dirX, context_.dirY = c.dirY, context_.dirZ = c.dirZ;
+  }
 #if WHIT_EMBREE_MAJOR == 4
   explicit QueryContext(bool coherent) {
     rtcInitIntersectArguments(&intersect_);
     rtcInitOccludedArguments(&occluded_);
+    rtcInitRayQueryContext(&context_);
+    intersect_.context = occluded_.context = &context_;
     intersect_.flags = occluded_.flags =
         coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
   }
+  QueryContext(const QueryContext&) = delete;
+  QueryContext& operator=(const QueryContext&) = delete;
   template <typename Packet, typename... Live>
   void trace(RTCScene scene, Packet& rays, Live... live) {
     if constexpr (kWantsHits<Packet>) {
@@ -110,8 +145,8 @@ class QueryContext {
   }
 
  private:
-  RTCIntersectContext context_;
 #endif
+  ContextWithRays context_;
 };
 
 }  // namespace whit

@@ -1,8 +1,10 @@
 #include "accel/embree_scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 
+#include "bake/facet.h"
 #include "bake/scene.h"
 #include "core/error.h"
 #include "simd/kernels.h"
@@ -28,16 +30,56 @@ bool reportBuild(void* user, double fraction) {
   }
 }
 
-// True if the ray of this lane hits the triangle from behind. On an instance, ray and triangle are
-// in the space of its object.
+// The hit of this lane in double, from the ray and the triangle as they are in the world. `slope`
+// is above 0 where the ray hits the triangle from behind.
+struct ExactHit {
+  double u, v, slope;
+};
+
+ExactHit exactHit(const RTCFilterFunctionNArguments& args, unsigned lane) {
+  const auto& triangles = *static_cast<const FilteredTriangles*>(args.geometryUserPtr);
+  const unsigned placed = args.context->instID[0];
+  const std::uint32_t instance = isInWorld(placed) ? kNoInstance : placed - kFirstInstanceId;
+  const std::uint32_t triangle = triangles.first + RTCHitN_primID(args.hit, args.N, lane);
+  const Corners corners = worldCorners(triangles.scene, triangle, instance);
+  const auto [origin, direction] = worldRay(args.context, RTCRayN_id(args.ray, args.N, lane));
+  const Vec3d e1 = corners[1] - corners[0], e2 = corners[2] - corners[0];
+  const double slope = dot(cross(e1, e2), direction);
+  const Vec3d moment = cross(direction, corners[0] - origin);
+  const bool mirrored =
+      instance != kNoInstance && triangles.scene.instances[instance].toWorld.determinant() < 0;
+  return {-dot(e2, moment) / slope, dot(e1, moment) / slope, mirrored ? -slope : slope};
+}
+
+// True if the ray of this lane hits the triangle from behind. On an instance, Embree has ray and
+// triangle in the space of its object.
 bool isBehind(const RTCFilterFunctionNArguments& args, unsigned lane) {
   RTCHitN* const hit = args.hit;
   RTCRayN* const ray = args.ray;
   const unsigned n = args.N;
-  return RTCHitN_Ng_x(hit, n, lane) * RTCRayN_dir_x(ray, n, lane) +
-             RTCHitN_Ng_y(hit, n, lane) * RTCRayN_dir_y(ray, n, lane) +
-             RTCHitN_Ng_z(hit, n, lane) * RTCRayN_dir_z(ray, n, lane) >
-         0;
+  const Vec3f terms{RTCHitN_Ng_x(hit, n, lane) * RTCRayN_dir_x(ray, n, lane),
+                    RTCHitN_Ng_y(hit, n, lane) * RTCRayN_dir_y(ray, n, lane),
+                    RTCHitN_Ng_z(hit, n, lane) * RTCRayN_dir_z(ray, n, lane)};
+  const Vec3f sizes = abs(terms);
+  const float slope = terms.x + terms.y + terms.z;
+  const bool close = std::abs(slope) <= 0x1p-12f * (sizes.x + sizes.y + sizes.z);
+  return (close ? exactHit(args, lane).slope : double{slope}) > 0;
+}
+
+// False if the mask cuts the triangle where this lane hits it.
+template <float Mask::*kCutoff>
+bool isOpaque(const RTCFilterFunctionNArguments& args, unsigned lane) {
+  const auto& triangles = *static_cast<const FilteredTriangles*>(args.geometryUserPtr);
+  const TriangleRecord& record = triangles.recordOf(RTCHitN_primID(args.hit, args.N, lane));
+  const Mask& mask = triangles.masks[record.material];
+  float margin = marginAt<kCutoff>(mask, record.uv, RTCHitN_u(args.hit, args.N, lane),
+                                   RTCHitN_v(args.hit, args.N, lane));
+  if (std::abs(margin) < kCloseCall) {
+    const ExactHit hit = exactHit(args, lane);
+    const auto u = static_cast<float>(hit.u), v = static_cast<float>(hit.v);
+    margin = marginAt<kCutoff>(mask, record.uv, u, v);
+  }
+  return margin >= 0;
 }
 
 // Filters hits for rays that pass the backs of single-sided surfaces.
@@ -46,22 +88,18 @@ void filterBySide(const RTCFilterFunctionNArguments* args) {
   for (unsigned lane = 0; lane < args->N; ++lane) {
     if (args->valid[lane] == 0) continue;
     const unsigned primitive = RTCHitN_primID(args->hit, args->N, lane);
-    const float u = RTCHitN_u(args->hit, args->N, lane), v = RTCHitN_v(args->hit, args->N, lane);
     const bool passed = !triangles.maskOf(primitive).doubleSided && isBehind(*args, lane);
-    if (passed || !isOpaqueAt<&Mask::cutoff>(triangles, primitive, u, v)) args->valid[lane] = 0;
+    if (passed || !isOpaque<&Mask::cutoff>(*args, lane)) args->valid[lane] = 0;
   }
 }
 
 // Called for each hit on a masked triangle, with as many lanes as Embree has at hand.
 template <float Mask::*kCutoff>
 void filterByAlpha(const RTCFilterFunctionNArguments* args) {
-  const auto& triangles = *static_cast<const FilteredTriangles*>(args->geometryUserPtr);
   for (unsigned lane = 0; lane < args->N; ++lane) {
     if (args->valid[lane] == 0) continue;
-    const unsigned primitive = RTCHitN_primID(args->hit, args->N, lane);
-    const float u = RTCHitN_u(args->hit, args->N, lane), v = RTCHitN_v(args->hit, args->N, lane);
     // Without a branch: nothing could predict it.
-    args->valid[lane] *= static_cast<int>(isOpaqueAt<kCutoff>(triangles, primitive, u, v));
+    args->valid[lane] *= static_cast<int>(isOpaque<kCutoff>(*args, lane));
   }
 }
 
@@ -183,7 +221,7 @@ void EmbreeScene::addGeometry(std::size_t index, const Scene& scene) {
                                sizeof(source.index[0]), end - first);
     rtcSetGeometryMask(geometry, (c & kNoShadowBit) != 0 ? kSeenMask : kSeenMask | kShadowMask);
     if ((c & kMaskedBit) != 0) {
-      setFilters(scene.triangles.data() + source.firstTriangle + first, end - first, geometry);
+      setFilters(scene, source.firstTriangle + first, end - first, geometry);
     }
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(scenes_[index].get(), geometry, c);
@@ -202,9 +240,9 @@ void EmbreeScene::addSpheres(std::size_t index, const Scene& scene) {
 }
 
 // Shadows are cast by both sides.
-void EmbreeScene::setFilters(const TriangleRecord* records, std::size_t count,
+void EmbreeScene::setFilters(const Scene& scene, std::uint32_t first, std::uint32_t count,
                              RTCGeometry geometry) {
-  filtered_.push_back({records, masks_.data()});
+  filtered_.push_back({scene, first, masks_.data()});
   FilteredTriangles& triangles = filtered_.back();
   bool anyMask = false, anySingleSided = false;
   for (std::uint32_t i = 0; i < count; ++i) {

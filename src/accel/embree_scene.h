@@ -83,7 +83,8 @@ class EmbreeScene {
  private:
   void addGeometry(std::size_t index, const Scene& scene);
   void addSpheres(std::size_t index, const Scene& scene);
-  void setFilters(const TriangleRecord* records, std::size_t count, RTCGeometry geometry);
+  void setFilters(const Scene& scene, std::uint32_t first, std::uint32_t count,
+                  RTCGeometry geometry);
   void addInstance(std::uint32_t geometry, const Affine& toWorld, unsigned id);
   void numberTriangles(const Scene& scene);
   void addInstances(const Scene& scene);

@@ -28,6 +28,23 @@ simd::SphereInverse inverseOf(const Affine& map) {
   return inverse;
 }
 
+// On an instance Embree hands over rays in its space, rounded as its processor does. These are as
+// they are in the world.
+void carryRays(const EmbreeContext* context, const float* words, unsigned width, const int* valid,
+               float* to) {
+  const auto* const ids = reinterpret_cast<const unsigned*>(words) + packet_column::id * width;
+  const ContextWithRays& from = withRays(context);
+  for (unsigned i = 0; i < width; ++i) {
+    if (valid[i] == 0) continue;
+    const auto put = [&](std::size_t column, const float* values) {
+      to[column * width + i] = values[ids[i]];
+    };
+    put(packet_column::orgX, from.orgX), put(packet_column::orgY, from.orgY);
+    put(packet_column::orgZ, from.orgZ), put(packet_column::dirX, from.dirX);
+    put(packet_column::dirY, from.dirY), put(packet_column::dirZ, from.dirZ);
+  }
+}
+
 }  // namespace
 
 SphereGeometry::SphereGeometry(const Scene& scene, const std::vector<Mask>& masks,
@@ -85,17 +102,29 @@ bool SphereGeometry::comesBefore(const Met& sphere, const Met& other) const {
 // Calls accept(ray, t, u, v) for each valid ray that meets the sphere not beyond its end. A masked
 // sphere may be cut where it is met first, and there where the ray leaves it.
 template <float Mask::*kCutoff, typename Accept>
-void SphereGeometry::meet(unsigned primitive, float* words, unsigned width, const int* valid,
-                          const Accept& accept) const {
+void SphereGeometry::meet(unsigned primitive, const EmbreeContext* context, float* words,
+                          unsigned width, const int* valid, const Accept& accept) const {
   const Sphere& sphere = spheres_[primitive];
+  const float* rays = words;
+  const simd::SphereInverse* inverse = &sphere.inverse;
+  simd::SphereInverse inverseInWorld;
+  std::array<float, (packet_column::dirZ + 1) * kWidestPacket> inWorld;
+  const unsigned instance = context->instID[0];
+  if (!isInWorld(instance)) {
+    carryRays(context, words, width, valid, inWorld.data());
+    rays = inWorld.data();
+    const std::uint32_t number = numberOf({instance, 0, firstPrimitive_ + primitive});
+    inverseInWorld = inverseOf(sphereInWorld(scene_, {number, instance - kFirstInstanceId}));
+    inverse = &inverseInWorld;
+  }
   std::array<float, kWidestPacket> t, u, v;
   const bool asksWhere = kCutoff == &Mask::cutoff || sphere.mask;
   const simd::SphereHits hits{t.data(), asksWhere ? u.data() : nullptr, v.data()};
   const float* const tNear = words + packet_column::tNear * width;
-  meeter_(sphere.inverse, words, width, valid, tNear, hits);
+  meeter_(*inverse, rays, width, valid, tNear, hits);
   const auto isCut = [&](unsigned i) {
     const auto [s, r] = sphereUv(spherePoint(double{u[i]}, double{v[i]}));
-    return !isOpaqueAt<kCutoff>(*sphere.mask, static_cast<float>(s), static_cast<float>(r));
+    return marginAt<kCutoff>(*sphere.mask, static_cast<float>(s), static_cast<float>(r)) < 0;
   };
   const float* const tFar = words + packet_column::tFar * width;
   if (sphere.mask) {
@@ -104,7 +133,7 @@ void SphereGeometry::meet(unsigned primitive, float* words, unsigned width, cons
       const bool cut = valid[i] != 0 && t[i] <= tFar[i] && isCut(i);
       after[i] = cut ? std::nextafter(t[i], std::numeric_limits<float>::infinity()) : tNear[i];
     }
-    meeter_(sphere.inverse, words, width, valid, after.data(), hits);
+    meeter_(*inverse, rays, width, valid, after.data(), hits);
   }
   for (unsigned i = 0; i < width; ++i) {
     if (valid[i] == 0 || !(t[i] <= tFar[i])) continue;
@@ -134,7 +163,7 @@ void SphereGeometry::intersect(const RTCIntersectFunctionNArguments* args) {
     number(packet_column::geometry) = here.geometry;
     number(packet_column::primitive) = here.primitive;
   };
-  own.meet<&Mask::cutoff>(args->primID, words, width, args->valid, put);
+  own.meet<&Mask::cutoff>(args->primID, args->context, words, width, args->valid, put);
 }
 
 void SphereGeometry::occlude(const RTCOccludedFunctionNArguments* args) {
@@ -143,7 +172,7 @@ void SphereGeometry::occlude(const RTCOccludedFunctionNArguments* args) {
   auto* const words = reinterpret_cast<float*>(args->ray);
   const unsigned width = args->N;
   own.meet<&Mask::shadowCutoff>(
-      args->primID, words, width, args->valid, [&](unsigned i, float, float, float) {
+      args->primID, args->context, words, width, args->valid, [&](unsigned i, float, float, float) {
         words[packet_column::tFar * width + i] = -std::numeric_limits<float>::infinity();
       });
 }

@@ -48,8 +48,8 @@ class SphereGeometry {
   static void intersect(const RTCIntersectFunctionNArguments* args);
   static void occlude(const RTCOccludedFunctionNArguments* args);
   template <float Mask::*kCutoff, typename Accept>
-  void meet(unsigned primitive, float* words, unsigned width, const int* valid,
-            const Accept& accept) const;
+  void meet(unsigned primitive, const EmbreeContext* context, float* words, unsigned width,
+            const int* valid, const Accept& accept) const;
   static unsigned placeOf(unsigned instance);
   std::uint32_t numberOf(const Met& met) const;
   bool comesBefore(const Met& sphere, const Met& other) const;

@@ -248,15 +248,13 @@ void refreshInstances(const Scene& scene, ShadingTables& tables) {
   for (const InstanceRecord& instance : scene.instances) {
     InstanceTransform t{};
     const Affine& m = instance.toWorld;
-    const Vec3d columns[4] = {m.x, m.y, m.z, m.p};
+    t.setToWorld(m);
     const Vec3d normals[3] = {m.normal({1, 0, 0}), m.normal({0, 1, 0}), m.normal({0, 0, 1})};
     int exponent = 0;
     std::frexp(maxComponent(max(abs(normals[0]), max(abs(normals[1]), abs(normals[2])))),
                &exponent);
     for (int row = 0; row < 3; ++row) {
-      for (int column = 0; column < 4; ++column) {
-        t.toWorld[row * 4 + column] = static_cast<float>(columns[column][row]);
-        if (column == 3) continue;
+      for (int column = 0; column < 3; ++column) {
         t.normal[row * 4 + column] =
             static_cast<float>(std::ldexp(normals[column][row], -exponent));
       }

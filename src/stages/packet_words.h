@@ -16,7 +16,7 @@ struct PacketWords {
 // the same and go on with the hit.
 namespace packet_column {
 inline constexpr std::size_t orgX = 0, orgY = 1, orgZ = 2, tNear = 3, dirX = 4, dirY = 5, dirZ = 6,
-                             tFar = 8;
+                             tFar = 8, id = 10;
 inline constexpr std::size_t u = 15, v = 16, primitive = 17, geometry = 18, instance = 19;
 }  // namespace packet_column
 

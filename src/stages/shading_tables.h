@@ -73,6 +73,11 @@ struct alignas(64) InstanceTransform {
   float normal[12];   // row-major 3x3, rows padded to four
   float handedness;   // -1 if the transform mirrors
   float spare[7];
+
+  void setToWorld(const Affine& m) {
+    const Vec3d columns[4] = {m.x, m.y, m.z, m.p};
+    for (int i = 0; i < 12; ++i) toWorld[i] = static_cast<float>(columns[i % 4][i / 4]);
+  }
 };
 static_assert(sizeof(InstanceTransform) == 128);
 

@@ -324,6 +324,82 @@ Finding instanced(const Setup& setup) {
   return finding;
 }
 
+// Two orthogonal edges of half a unit at random corners between -2 and 2.
+Mesh looseTriangles(std::size_t count, std::uint32_t material) {
+  Numbers numbers(3);
+  Mesh mesh;
+  mesh.materials = {material};
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Vec3d corner{numbers.in(-2, 2), numbers.in(-2, 2), numbers.in(-2, 2)};
+    const Vec3d n = numbers.direction(), e1 = normalized(cross(n, numbers.direction()));
+    for (const Vec3d& p : {corner, corner + e1 * 0.5, corner + cross(n, e1) * 0.5}) {
+      mesh.positions.emplace_back(p);
+    }
+    mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  return mesh;
+}
+
+// How far a hit is from where the ray pierces the plane, along the ray or across it, in roundings
+// of the distance; 0 where the ray grazes the plane.
+double hitError(const ProbeRay& ray, const Corners& corners, const double (&hit)[3]) {
+  struct Vector {
+    long double x, y, z;
+  };
+  const auto minus = [](const Vec3d& a, const Vec3d& b) {
+    return Vector{static_cast<long double>(a.x) - b.x, static_cast<long double>(a.y) - b.y,
+                  static_cast<long double>(a.z) - b.z};
+  };
+  const auto dotOf = [](const Vector& a, const Vector& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+  };
+  const auto crossOf = [](const Vector& a, const Vector& b) {
+    return Vector{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  };
+  const Vector way = minus(Vec3d(ray.direction), {}), from = minus(Vec3d(ray.origin), corners[0]);
+  const Vector e1 = minus(corners[1], corners[0]), e2 = minus(corners[2], corners[0]);
+  const Vector normal = crossOf(e1, e2);
+  const long double slope = dotOf(normal, way), area = std::sqrt(dotOf(normal, normal));
+  if (std::fabs(slope) < area / 2) return 0;
+  const long double t = -dotOf(normal, from) / slope;
+  const long double u = dotOf(crossOf(e2, way), from) / slope;
+  const long double v = dotOf(crossOf(way, e1), from) / slope;
+  const long double side = std::sqrt(area);
+  const long double off =
+      std::max({std::fabs(hit[0] - t), std::fabs(hit[1] - u) * side, std::fabs(hit[2] - v) * side});
+  return static_cast<double>(off / (0x1p-24L * t));
+}
+
+// The distance and the weights of hits in the world and on instances that scale, turn and mirror
+// without rounding.
+Finding hitsAreExact(const Setup& setup) {
+  Finding finding(8);
+  SceneBuilder builder;
+  const std::uint32_t material = builder.add(diffuseMaterial(1));
+  builder.add(looseTriangles(400, material));
+  Object object;
+  object.meshes.push_back(looseTriangles(400, material));
+  builder.place(object, {Affine{{0, 0, 2}, {0, 2, 0}, {-2, 0, 0}, {16, 0, 0}},
+                         Affine{{0, 1, 0}, {1, 0, 0}, {0, 0, 1}, {-16, 3, 0}}});
+  const Scene scene = builder.build();
+  Numbers numbers(54);
+  std::vector<ProbeRay> rays;
+  for (std::size_t i = 0; i < 6000; ++i) {
+    const Vec3d middle = i % 3 == 0 ? Vec3d{} : i % 3 == 1 ? Vec3d{16, 0, 0} : Vec3d{-16, 3, 0};
+    const Vec3d target{numbers.in(-2, 2), numbers.in(-2, 2), numbers.in(-2, 2)};
+    const Vec3f from(middle + numbers.direction() * 9.0);
+    rays.push_back(rayThrough(from, Vec3f(middle + target)));
+  }
+  Probe probe(scene, setup, rays);
+  const HitColumns& hits = probe.hits();
+  for (std::size_t i = 0; i < probe.size(); ++i) {
+    if (!probe.isHit(i)) continue;
+    const Corners corners = worldCorners(scene, hits.triangle[i], hits.instance[i]);
+    finding.note(hitError(rays[i], corners, {hits.t[i], hits.u[i], hits.v[i]}), described(rays[i]));
+  }
+  return finding;
+}
+
 constexpr Case kLeavingSurfaceCases[] = {
     {"H1", "no ray hits the convex body that it leaves, at any size",
      "icospheres of radius 1e-4 to 1e6; reflected and shadow rays", Runs::packets, scaleSweep},
@@ -338,6 +414,9 @@ constexpr Case kLeavingSurfaceCases[] = {
     {"H3", "hit points lie on the triangle, whatever the distance of the eye",
      "patch seen from 1e5; distance to its plane over gamma(7) times the coordinates",
      Runs::packets, pointsFromFarAway},
+    {"H3b", "the distance and the weights of a hit are rounded a few times only",
+     "1200 triangles in the world and on instances; error over 2^-24 of the distance",
+     Runs::packets, hitsAreExact},
     {"H4", "the offset bounds the error of the hit point",
      "4096 triangles with coordinates of 1e-8 to 1e8; distance to the plane over offset",
      Runs::targets, offsetBoundsTheError},
