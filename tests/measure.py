@@ -6,6 +6,7 @@
   tests/measure.py --accuracy      accuracy: src/accuracy/README.md and the table in README.md (6 min)
   tests/measure.py --transport     against all transport: src/accuracy/README.md and its charts (7 min)
   tests/measure.py --tables-only   only the tables, from what was measured before
+  tests/measure.py --hashes        image hashes: tests/README.md and tests/verify/image_hashes.cpp
 
 What the programs in build/ say lies in build/measured/, as JSON and CSV. A table stands between two
 comments of its name; the text around them is written by hand. All figures of a page, and those against
@@ -43,6 +44,7 @@ COMPARED = ["matte", "whitted", "glass", "mirrors", "atrium", "landscape", "spon
 SWEPT = ["whitted", "mirrors", "atrium", "sponza-mirror", "glass"]
 TRANSPORTED = ["atrium", "whitted", "glass", "sponza-mirror"]
 TRANSPORT_SIZE, TRANSPORT_BUDGET = "96x60", "20"
+HASHED_SIZES = ["480x300", "48x30"]
 STAGES = ["generateRays", "findIntersections", "writeEmittedAndReflectiveAmbient",
           "findRadianceAndShadowRays", "checkShadows", "addShading", "addImpulses", "updateImage"]
 
@@ -134,10 +136,6 @@ def measure_accuracy():
     keep("compare.json", {"machine": bench("matte", "--size", "8x8", "--frames", "1")["machine"],
                           "runs": compared})
     run([BUILD / "whit", "accuracy", *here(SWEPT), "--quick", "--out", OUT / "accuracy", "--quiet"])
-    try:
-        keep("targets.json", {"text": run([ROOT / "tests/targets.sh", BUILD / "whit"])})
-    except subprocess.CalledProcessError:
-        complain("tests/targets.sh fails: its columns stay empty")
 
 
 def measure_transport():
@@ -245,30 +243,15 @@ def sphere_table(data):
                   "million rays"], rows)
 
 
-def compare_table(data, targets):
+def compare_table(data):
     def row(r):
         worst = max(s["worst_ulp"] / s["limit_ulp"] if s["limit_ulp"] else s["worst_ulp"]
                     for s in r["stages"])
         return [r["scene"], f"{100 - r['pixels_ge_2_codes_pct']:.3f} %", f"{r['flip_mean']:.5f}",
                 f"{r['rmse']:.1e}", number(r["path_flips_per_mpx"], 0), number(worst, 2),
-                str(r["nonfinite"]), *targets.get(r["scene"], ["", ""])]
+                str(r["nonfinite"])]
     return table(["scene", "within one code", "FLIP", "RMSE", "path divergences a Mpixel",
-                  "worst stage, share of its limit", "not finite", "SIMD targets, depth 64",
-                  "SIMD targets, depth 8"], [row(r) for r in data["runs"]])
-
-
-def worst_targets(text):
-    """By scene, for both tables of tests/targets.sh: the worst of all pairs of targets."""
-    scenes = {}
-    for block, lines in enumerate(text.split("At depth 8")):
-        for line in lines.splitlines():
-            cells = [cell.strip() for cell in line.strip().strip("|").split("|")]
-            if len(cells) == 5 and " and " in cells[0]:
-                pairs = scenes.setdefault(cells[0].split(",")[0], ([], []))[block]
-                pairs.append((float(cells[2].removesuffix(" %")), float(cells[3])))
-    def worst(pairs):
-        return f"{min(w for w, _ in pairs):.3f} %, {max(largest for _, largest in pairs):.0f}"
-    return {scene: [worst(default), worst(eight)] for scene, (default, eight) in scenes.items()}
+                  "worst stage, share of its limit", "not finite"], [row(r) for r in data["runs"]])
 
 
 def transport_table(rows):
@@ -478,7 +461,7 @@ def put_charts(folder, pictures):
 
 
 def write_accuracy():
-    compared, targets, rows = read("compare.json"), read("targets.json"), sweep()
+    compared, rows = read("compare.json"), sweep()
     if not compared:
         return complain(f"{OUT} has no comparisons: the tables of accuracy stay as they are")
     swept = {key: rows[0][key] for key in compared["machine"]} if rows else None
@@ -486,7 +469,7 @@ def write_accuracy():
         swept["cores"] = int(swept["cores"])
     require_one_machine([("compare.json", compared["machine"]), ("sweep.csv", swept)])
     tables = {"machine": machine_line(compared, "compare.json"),
-              "compare": compare_table(compared, worst_targets(targets["text"]) if targets else {})}
+              "compare": compare_table(compared)}
     if rows:
         tables |= {"presets": preset_table(rows), "knobs": knob_table(rows),
                    "adaptive": adaptive_table(rows)}
@@ -508,6 +491,21 @@ def write_transport():
          transport_table(rows)])})
 
 
+def write_hashes():
+    """Publishes the image hashes of this machine, for the page and for whit-verify."""
+    source = ROOT / "tests/verify/image_hashes.cpp"
+    text = source.read_text()
+    for size in HASHED_SIZES:
+        said = subprocess.run([BUILD / "whit-verify", "--hashes", size], stdout=subprocess.PIPE,
+                              text=True, check=False).stdout
+        for scene, digest in re.findall(r"^(.*?) +\d+x\d+ +([0-9a-f]{32}) ", said, re.M):
+            text = re.sub(rf'({{"{re.escape(scene)}", "{size}", ")[0-9a-f]*', rf"\g<1>{digest}", text)
+    source.write_text(text)
+    rows = re.findall(rf'{{"(.*)", "{HASHED_SIZES[0]}", "(.*)"}}', text)
+    put("tests/README.md", {"hashes": table([f"scene, {HASHED_SIZES[0]}", "`image_hash`"],
+                                            [[f"`{word}`" for word in row] for row in rows])})
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -515,7 +513,10 @@ def main():
     parser.add_argument("--accuracy", action="store_true")
     parser.add_argument("--transport", action="store_true")
     parser.add_argument("--tables-only", action="store_true")
+    parser.add_argument("--hashes", action="store_true")
     job = parser.parse_args()
+    if job.hashes:
+        return write_hashes()
     every = not job.speed and not job.accuracy and not job.transport
     if not job.tables_only:
         if not (BUILD / "whit").exists():

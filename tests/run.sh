@@ -7,8 +7,8 @@
 #                          in Release as well, and both commands of README.md in fresh systems: forty
 #                          minutes
 #   tests/run.sh --deep    every test in the fresh systems a second time, as a user with sudo, and in
-#                          Clang's and g++'s other builds, a deeper clang-tidy and 64-bit ARM under
-#                          emulation as well: more than an hour more
+#                          Clang's and g++'s other builds, a deeper clang-tidy, 64-bit ARM and an
+#                          older PC under emulation as well: more than an hour more
 # What this system has no way to is named at the end.
 set -uo pipefail
 
@@ -131,6 +131,7 @@ fi
 if ! $full || $deep || [[ " ${leftOut[*]-} " == *" fresh systems "* ]]; then
   step "release" buildAndTest release -DWHIT_WERROR=ON -DWHIT_PYTHON=ON
 fi
+if $deep; then step "other processors" tests/emulated.sh; fi
 
 if [ ${#leftOut[@]} -gt 0 ]; then
   echo "NOT CHECKED on this system: ${leftOut[*]}" >&2
