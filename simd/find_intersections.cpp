@@ -65,15 +65,12 @@ struct SeenTriangle {
 
 HWY_INLINE void CarryToWorld(const HitTables& tables, const HitColumns& hits, MF valid, size_t i,
                              const V3& corner, const V3& origin, SeenTriangle& t) {
-  using R = InstanceTransform;
   const auto [placed, instance] = LoadInstances(hits, valid, i);
   if (hn::AllFalse(FloatTag(), placed)) return;
-  const SharedRecords<R> records(tables.instances, instance, placed);
-  const MatrixLanes m{records.Load4<offsetof(R, toWorld[0])>(),
-                      records.Load4<offsetof(R, toWorld[4])>(),
-                      records.Load4<offsetof(R, toWorld[8])>()};
+  const PlacementLanes p = LoadPlacements(tables.instances, instance, placed);
+  const MatrixLanes& m = p.toWorld;
   // The difference of the origins first: what is far from the world's origin keeps its bits.
-  const V3 from = Sub3({m.row0.w, m.row1.w, m.row2.w}, origin);
+  const V3 from = Sub3(p.origin, origin);
   t.corner = Select3(placed, Add3(TransformVector(m, corner), from), t.corner);
   t.edge1 = Select3(placed, TransformVector(m, t.edge1), t.edge1);
   t.edge2 = Select3(placed, TransformVector(m, t.edge2), t.edge2);
@@ -140,7 +137,7 @@ void RefineHits(const HitTables& tables, const RayColumns& rays, size_t n, const
     const V3 origin{load(rays.orgX), load(rays.orgY), load(rays.orgZ)};
     const V3 direction{load(rays.dirX), load(rays.dirY), load(rays.dirZ)};
     SeenTriangle t{Sub3(c0, origin), Sub3(c1, c0), Sub3(c2, c0)};
-    if (tables.instances) CarryToWorld(tables, hits, valid, i, c0, origin, t);
+    if (hits.instance) CarryToWorld(tables, hits, valid, i, c0, origin, t);
     const HitPoint p = PierceTriangle(t, direction, on);
     const auto put = [&](VF value, float* column)
                          HWY_ATTR { hn::BlendedStore(value, on, d, column + i); };
@@ -412,7 +409,7 @@ struct WorldCorners {
 };
 
 HWY_INLINE void CarryToWorld(const ShadingTables& tables, const InstanceHits& on, WorldCorners& w) {
-  const PlacementLanes to = LoadPlacements(tables, on.instance, on.placed);
+  const PlacementLanes to = LoadPlacements(tables.instances.data(), on.instance, on.placed);
   for (V3* p : {&w.position.c0, &w.position.c1, &w.position.c2}) {
     *p = Select3(on.placed, Add3(TransformVector(to.toWorld, *p), to.origin), *p);
   }

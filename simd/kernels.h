@@ -168,8 +168,8 @@ constexpr std::size_t indexOf(const Kernel& kernel) {
 // What the numbers of hits mean.
 struct HitTables {
   const TriangleRecord* triangles = nullptr;
-  std::uint32_t firstSphere = 0;                 // from here on they are spheres
-  const InstanceTransform* instances = nullptr;  // none: all hits are in the world
+  std::uint32_t firstSphere = 0;  // from here on they are spheres
+  const InstanceTransform* instances = nullptr;
 };
 
 // Between columns and Embree's packets. Lanes left over get empty rays, and so do rays that Embree
@@ -183,9 +183,8 @@ struct PacketKernels {
   // plus its own.
   void (*unpackHits)(const PacketWords& from, std::size_t n, const std::uint32_t* triangleBase,
                      const HitColumns& hits);
-  // Computes t, u and v of the hits on triangles from the rays and the corners. Embree divides by
-  // its processor's approximate reciprocal, so that its own have other last bits on another one.
-  // Columns as for kernels.
+  // Computes t, u and v of hits on triangles from the corners: the last bits of Embree's depend on
+  // the processor. Hits are in the world unless there is a column of instances.
   void (*refineHits)(const HitTables& tables, const RayColumns& rays, std::size_t n,
                      const HitColumns& hits);
   // visible[slot[i]]: 1 where ray i met nothing, otherwise 0.

@@ -171,9 +171,9 @@ struct PlacementLanes {
   VF handedness;
 };
 
-HWY_INLINE PlacementLanes LoadPlacements(const ShadingTables& tables, VI instance, MF placed) {
+HWY_INLINE PlacementLanes LoadPlacements(const InstanceTransform* table, VI instance, MF placed) {
   using R = InstanceTransform;
-  const SharedRecords<R> records(tables.instances.data(), instance, placed);
+  const SharedRecords<R> records(table, instance, placed);
   PlacementLanes p;
   p.toWorld = {records.Load4<offsetof(R, toWorld[0])>(), records.Load4<offsetof(R, toWorld[4])>(),
                records.Load4<offsetof(R, toWorld[8])>()};
@@ -246,7 +246,7 @@ HWY_INLINE void CarryToWorld(const ShadingTables& tables, const HitColumns& hits
   const auto [placed, instance] = LoadInstances(hits, valid, i);
   if (hn::AllFalse(d, placed)) return;
   const VF one = hn::Set(d, 1.0f);
-  const PlacementLanes p = LoadPlacements(tables, instance, placed);
+  const PlacementLanes p = LoadPlacements(tables.instances.data(), instance, placed);
   const MatrixLanes &m = p.toWorld, &normal = p.normal;
   const MatrixLanes abs{{hn::Abs(m.row0.x), hn::Abs(m.row0.y), hn::Abs(m.row0.z), one},
                         {hn::Abs(m.row1.x), hn::Abs(m.row1.y), hn::Abs(m.row1.z), one},

@@ -31,10 +31,12 @@ struct Accel::Parts {
     for (std::size_t i = 0; i < instances.size(); ++i) {
       instances[i].setToWorld(scene.instances[i].toWorld);
     }
+    tables = {scene.triangles.data(), scene.firstSphere, instances.data()};
   }
 
   EmbreeScene embree;
   std::vector<InstanceTransform> instances;
+  simd::HitTables tables;
   simd::PacketKernels kernels = simd::findPacketKernels();
   int packet = 8;
   std::string description;
@@ -95,21 +97,13 @@ RTCRayHit singleRay(const EmbreeScene& scene, const Vec3f& origin, const Vec3f& 
   return r;
 }
 
-// Columns of one ray.
-struct SingleColumns {
-  const float *orgX, *orgY, *orgZ, *dirX, *dirY, *dirZ;
-};
-SingleColumns columnsOf(const Vec3f& o, const Vec3f& d) {
-  return {&o.x, &o.y, &o.z, &d.x, &d.y, &d.z};
-}
-
 // Hit with t, u and v as Embree has them, which another processor rounds otherwise.
 Hit findUnrefined(const EmbreeScene& scene, const Vec3f& origin, const Vec3f& direction,
                   bool coherent, float tNear) noexcept {
   constexpr float kUnbounded = std::numeric_limits<float>::infinity();
   RTCRayHit r = singleRay(scene, origin, direction, tNear, kUnbounded, kSeenMask);
   QueryContext context(coherent);
-  context.setRays(columnsOf(origin, direction));
+  context.setRay(origin, direction);
   context.trace(scene.top(), r);
   const unsigned instance = r.hit.instID[0];
   if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {kMiss, kMiss, r.ray.tfar, r.hit.u, r.hit.v};
@@ -121,20 +115,13 @@ bool isOccluded(const EmbreeScene& scene, const Vec3f& origin, const Vec3f& dire
                 bool coherent = false) noexcept {
   RTCRayHit r = singleRay(scene, origin, direction, 0, tFar, kShadowMask);
   QueryContext context(coherent);
-  context.setRays(columnsOf(origin, direction));
+  context.setRay(origin, direction);
   context.trace(scene.top(), r.ray);
   return !(r.ray.tfar >= 0);
 }
 
-void refine(const Accel::Parts& parts, const Scene& scene, bool instances, const RayColumns& rays,
-            std::size_t n, const HitColumns& hits) {
-  parts.kernels.refineHits(
-      {scene.triangles.data(), scene.firstSphere, instances ? parts.instances.data() : nullptr},
-      rays, n, hits);
-}
-
-Hit findHit(const Accel::Parts& parts, const Scene& scene, const Vec3f& origin,
-            const Vec3f& direction, float tNear = 0) noexcept {
+Hit findHit(const Accel::Parts& parts, const Vec3f& origin, const Vec3f& direction,
+            float tNear = 0) noexcept {
   Hit hit = findUnrefined(parts.embree, origin, direction, false, tNear);
   if (!hit.found()) return hit;
   // One block of columns, of which the first slot is in use.
@@ -146,8 +133,8 @@ Hit findHit(const Accel::Parts& parts, const Scene& scene, const Vec3f& origin,
   triangle[0] = hit.triangle, instance[0] = hit.instance;
   words[6][0] = hit.t, words[7][0] = hit.u, words[8][0] = hit.v;
   RayColumns rays{words[0], words[1], words[2], words[3], words[4], words[5]};
-  refine(parts, scene, hit.instance != kMiss, rays, 1,
-         {triangle, words[6], words[7], words[8], instance});
+  parts.kernels.refineHits(parts.tables, rays, 1,
+                           {triangle, words[6], words[7], words[8], instance});
   return {hit.triangle, hit.instance, words[6][0], words[7][0], words[8][0]};
 }
 
@@ -310,7 +297,7 @@ int isNearEdge(float u, float v) {
 
 // Which of several triangles at one distance stays depends on the order in which Embree tests them,
 // which a packet's other rays change. A ray alone has but one order.
-void settleEdges(const Accel::Parts& parts, const Scene& scene, const HitRange& range) noexcept {
+void settleEdges(const Accel::Parts& parts, const HitRange& range) noexcept {
   constexpr std::size_t kRun = 4 * kBlock;  // hits looked at together before any is by itself
   const HitColumns& hits = range.hits;
   for (std::size_t begin = 0; begin < range.n; begin += kRun) {
@@ -321,7 +308,7 @@ void settleEdges(const Accel::Parts& parts, const Scene& scene, const HitRange& 
     if (any == 0) continue;
     for (std::size_t i = begin; i < end; ++i) {
       if (hits.triangle[i] == kMiss || isNearEdge(u[i], v[i]) == 0) continue;
-      const Hit hit = findHit(parts, scene, originAt(range.rays, i), directionAt(range.rays, i));
+      const Hit hit = findHit(parts, originAt(range.rays, i), directionAt(range.rays, i));
       if (hit.found()) store(hit, range, i);
     }
   }
@@ -414,9 +401,9 @@ void Accel::findHits(Chunk& c) const noexcept {
   }
   // Kernels run over whole vectors.
   std::fill(c.hits.triangle + c.n, c.hits.triangle + roundUpToBlock(c.n), kMiss);
-  refine(*parts_, scene_, instances, c.rays, c.n, c.hits);
+  parts_->kernels.refineHits(parts_->tables, c.rays, c.n, c.hits);
   const HitRange all{c.rays, c.hits, c.n, c.coherent, instances};
-  if (parts_->packet != 1) settleEdges(*parts_, scene_, all);
+  if (parts_->packet != 1) settleEdges(*parts_, all);
   for (std::size_t i = 0; enclosed_ && i < all.n; ++i) {
     if (c.hits.triangle[i] != kMiss) continue;
     const Hit hit = closest(originAt(c.rays, i), directionAt(c.rays, i));
@@ -434,9 +421,9 @@ void Accel::checkShadows(Chunk& c) const noexcept {
 }
 
 Hit Accel::closest(const Vec3f& origin, const Vec3f& direction, float tNear) const noexcept {
-  Hit hit = findHit(*parts_, scene_, origin, direction, tNear);
+  Hit hit = findHit(*parts_, origin, direction, tNear);
   for (int attempt = 0; enclosed_ && !hit.found() && attempt < 3; ++attempt) {
-    hit = findHit(*parts_, scene_, origin, nudged(direction, attempt), tNear);
+    hit = findHit(*parts_, origin, nudged(direction, attempt), tNear);
   }
   return hit;
 }

@@ -1,6 +1,7 @@
 // Embree's packet types and calls by width, and whatever differs between its major versions.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <type_traits>
 
@@ -62,27 +63,19 @@ inline constexpr bool kWantsHits = requires(Packet packet) {
   packet.hit;
 };
 
-// A ray as it is in the world, and a query's columns of such rays: on an instance Embree's
-// callbacks get a ray that was rounded otherwise on other processors. A ray's id is its place in
-// the columns.
-struct WorldRay {
-  Vec3d origin, direction;
-};
+// A query's columns of rays as they are in the world, three of origins and three of directions: on
+// an instance Embree's callbacks get rays that other processors round otherwise. A ray's id is its
+// place in the columns.
 #if WHIT_EMBREE_MAJOR == 4
 using EmbreeContext = RTCRayQueryContext;
 #else
 using EmbreeContext = RTCIntersectContext;
 #endif
 struct ContextWithRays : EmbreeContext {
-  const float *orgX, *orgY, *orgZ, *dirX, *dirY, *dirZ;
+  std::array<const float*, 6> rays;
 };
-inline const ContextWithRays& withRays(const EmbreeContext* context) {
-  return static_cast<const ContextWithRays&>(*context);
-}
-inline WorldRay worldRay(const EmbreeContext* context, unsigned id) {
-  const ContextWithRays& c = withRays(context);
-  return {Vec3d(Vec3f{c.orgX[id], c.orgY[id], c.orgZ[id]}),
-          Vec3d(Vec3f{c.dirX[id], c.dirY[id], c.dirZ[id]})};
+inline const std::array<const float*, 6>& raysOf(const EmbreeContext* context) {
+  return static_cast<const ContextWithRays*>(context)->rays;
 }
 
 // Traces rays that are coherent or not. A packet comes with the mask of its live lanes, and its
@@ -91,8 +84,10 @@ class QueryContext {
  public:
   template <typename Columns>
   void setRays(const Columns& c) {
-    context_.orgX = c.orgX, context_.orgY = c.orgY, context_.orgZ = c.orgZ;
-    context_.dirX = c.dirX, context_.dirY = c.dirY, context_.dirZ = c.dirZ;
+    context_.rays = {c.orgX, c.orgY, c.orgZ, c.dirX, c.dirY, c.dirZ};
+  }
+  void setRay(const Vec3f& o, const Vec3f& d) {
+    context_.rays = {&o.x, &o.y, &o.z, &d.x, &d.y, &d.z};
   }
 #if WHIT_EMBREE_MAJOR == 4
   explicit QueryContext(bool coherent) {

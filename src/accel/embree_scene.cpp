@@ -42,7 +42,9 @@ ExactHit exactHit(const RTCFilterFunctionNArguments& args, unsigned lane) {
   const std::uint32_t instance = isInWorld(placed) ? kNoInstance : placed - kFirstInstanceId;
   const std::uint32_t triangle = triangles.first + RTCHitN_primID(args.hit, args.N, lane);
   const Corners corners = worldCorners(triangles.scene, triangle, instance);
-  const auto [origin, direction] = worldRay(args.context, RTCRayN_id(args.ray, args.N, lane));
+  const unsigned id = RTCRayN_id(args.ray, args.N, lane);
+  const auto& r = raysOf(args.context);
+  const Vec3d origin{r[0][id], r[1][id], r[2][id]}, direction{r[3][id], r[4][id], r[5][id]};
   const Vec3d e1 = corners[1] - corners[0], e2 = corners[2] - corners[0];
   const double slope = dot(cross(e1, e2), direction);
   const Vec3d moment = cross(direction, corners[0] - origin);

@@ -33,15 +33,11 @@ simd::SphereInverse inverseOf(const Affine& map) {
 void carryRays(const EmbreeContext* context, const float* words, unsigned width, const int* valid,
                float* to) {
   const auto* const ids = reinterpret_cast<const unsigned*>(words) + packet_column::id * width;
-  const ContextWithRays& from = withRays(context);
   for (unsigned i = 0; i < width; ++i) {
-    if (valid[i] == 0) continue;
-    const auto put = [&](std::size_t column, const float* values) {
-      to[column * width + i] = values[ids[i]];
-    };
-    put(packet_column::orgX, from.orgX), put(packet_column::orgY, from.orgY);
-    put(packet_column::orgZ, from.orgZ), put(packet_column::dirX, from.dirX);
-    put(packet_column::dirY, from.dirY), put(packet_column::dirZ, from.dirZ);
+    for (std::size_t k = 0; k < 6 && valid[i] != 0; ++k) {
+      const std::size_t column = k < 3 ? packet_column::orgX + k : packet_column::dirX + k - 3;
+      to[column * width + i] = raysOf(context)[k][ids[i]];
+    }
   }
 }
 
