@@ -165,7 +165,7 @@ constexpr std::size_t indexOf(const Kernel& kernel) {
   return index;
 }
 
-// What the numbers of hits mean.
+// The tables that the numbers of hits refer to.
 struct HitTables {
   const TriangleRecord* triangles = nullptr;
   std::uint32_t firstSphere = 0;  // from here on they are spheres
