@@ -170,7 +170,9 @@ class TreeBuilder {
       const auto pick =
           static_cast<std::size_t>(random_.next() * static_cast<double>(twigs_.size()));
       const Twig& twig = twigs_[std::min(pick, twigs_.size() - 1)];
-      const Vec3d p = twig.position + anyDirection() * (leafSize_ * random_.between(0.2, 1.2));
+      // Drawn by itself: compilers differ in which operand of a product they evaluate first.
+      const double distance = leafSize_ * random_.between(0.2, 1.2);
+      const Vec3d p = twig.position + anyDirection() * distance;
       if (leafStyle_ == "blobs") {
         addBlob(p);
       } else {
