@@ -97,6 +97,7 @@ if [ "${1:-}" = --differ ]; then
   compile whit
   differ
 else
-  compile "${areas[@]/%/_test}"
+  compile "${areas[@]/%/_test}" whit-verify
   runTests
+  "$build/whit-verify" --hashes 48x30
 fi
