@@ -57,6 +57,7 @@ struct ImpulseLanes {
   MF dielectric;  // and bounds a medium
   MF hidden;      // and is not there, because a higher priority fills its place
   MF scatters;    // the surfel's glossy lobe is sampled
+  MF blurs;       // or it reflects the blurred sky
   V3 direction, ng, ns;
   VF facing;  // cosine between viewer and geometric normal
   VF cosine;  // between viewer and shading normal, in [0, 1]
@@ -82,12 +83,15 @@ HWY_INLINE ImpulseLanes LoadImpulseLanes(const ImpulseJob& job, size_t i) {
   ImpulseLanes lanes;
   lanes.material = hn::Load(di, reinterpret_cast<const int32_t*>(surfels.material) + i);
   lanes.live = hn::RebindMask(d, NonNegative(lanes.material));
-  lanes.dielectric = lanes.hidden = lanes.scatters = hn::MaskFromVec(hn::Zero(d));
+  lanes.dielectric = lanes.hidden = lanes.scatters = lanes.blurs = hn::MaskFromVec(hn::Zero(d));
   if (hn::AllFalse(d, lanes.live)) return lanes;
   const VU flags = MaterialLanes(job.tables, lanes.material, lanes.live).Lobe().flags;
   lanes.live = hn::And(lanes.live, HasFlags(flags, kWanted));
   if (hn::AllFalse(d, lanes.live)) return lanes;
-  if (job.glossy) lanes.scatters = hn::And(lanes.live, HasFlags(flags, kMaterialScatters));
+  if (job.glossy) {
+    lanes.scatters = hn::And(lanes.live, HasFlags(flags, kMaterialScatters));
+    lanes.blurs = hn::And(lanes.live, HasFlags(flags, kMaterialBlursSky));
+  }
   if (kWanted == kMaterialTransmits || job.transmission) {
     lanes.dielectric = hn::And(lanes.live, HasFlags(flags, kMaterialTransmits));
     lanes.hidden = hn::And(lanes.dielectric, HasFlags(hn::Load(du, surfels.flags + i), kHidden));
@@ -228,8 +232,7 @@ void AddReflections(Chunk& c) noexcept {
     }
     // d - 2 (d.n) n
     const VF twice = hn::Mul(hn::Set(d, -2.0f), Dot(lanes.direction, lanes.ns));
-    const V3 mirrored =
-        Normalize3(MulAdd3(lanes.ns, twice, lanes.direction), job.shading.reciprocal);
+    const V3 mirrored = Normalize3(MulAdd3(lanes.ns, twice, lanes.direction));
     const V3 r = Lifted(mirrored, lanes.ng, LeastElevation(job, lanes.facing), lanes.live);
     const Child child{ChildOrigin(job, lanes, i, 1.0f),
                       r,
@@ -295,12 +298,18 @@ HWY_INLINE V3 LeftAboveLobe(const ImpulseJob& job, const ImpulseLanes& lanes, si
   return Scale3(left, hn::Sub(one, f));
 }
 
-// The light that the samples of the glossy lobes, the same that AddSamples() takes, leave for
-// transmission and diffuse color.
+// The light that the samples of the glossy lobes, the same that AddSamples() takes, or reflections
+// of the blurred sky leave for transmission and diffuse color.
 HWY_INLINE V3 LeftBelowLobe(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i) {
   const FloatTag d;
   const VF one = hn::Set(d, 1.0f), zero = hn::Zero(d);
   V3 taken{zero, zero, zero};
+  if (!hn::AllFalse(d, lanes.blurs)) {
+    const SurfelColumns& s = job.surfels;
+    const V3 lobe = LobeAlbedo(Load3(s.specularR, s.specularG, s.specularB, i), lanes.cosine,
+                               hn::Sqrt(hn::Load(d, s.alpha + i)));
+    return Select3(lanes.blurs, Sub3({one, one, one}, lobe), {one, one, one});
+  }
   if (hn::AllFalse(d, lanes.scatters)) return {one, one, one};
   const GlossySamples samples(job, lanes, i);
   const VU path = hn::Load(UintTag(), job.rays.path + i);
@@ -403,8 +412,7 @@ void AddRefractions(Chunk& c) noexcept {
     }
     const V3 weight = Select3(lanes.hidden, {one, one, one}, Scale3(transmittance, through));
     const V3 bent = MulAdd3(lanes.ns, hn::Neg(interface.bend), lanes.direction);
-    V3 r = NormalizeOr(Scale3(bent, hn::Div(one, interface.eta)), lanes.direction,
-                       job.shading.reciprocal);
+    V3 r = NormalizeOr(Scale3(bent, hn::Div(one, interface.eta)), lanes.direction);
     const VF height = Dot(r, lanes.ng);
     // Under the geometric normal the ray would leave this steeply, if at all; normals that agree
     // change nothing.

@@ -202,7 +202,7 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
   }
   TriangleLanes t = LoadTriangles(tables, triangle);
   Weights w = LoadWeights(hits, i);
-  Surface s = InterpolateSurface(tables, t, triangle, w, job.shading.reciprocal, job.smooth);
+  Surface s = InterpolateSurface(tables, t, triangle, w, job.smooth);
   if (job.spheres) PutOnSpheres(tables, hits, valid, triangle, i, s, t, w);
   if (job.instances) CarryToWorld(tables, hits, valid, i, s);
   const VU others = job.coplanar ? hn::Load(du, hits.alsoCrossed + i) : hn::Zero(du);
@@ -326,7 +326,7 @@ HWY_INLINE void QueueDataMap(const SurfelJob& job, size_t i, size_t slot, MapOf&
   const MF mapped = MappedLanes(map, valid);
   if (hn::AllFalse(d, mapped)) return;
   Weights w = LoadWeights(job.hits, i);
-  Surface s = InterpolateSurface(job.tables, t, triangle, w, job.shading.reciprocal, false);
+  Surface s = InterpolateSurface(job.tables, t, triangle, w, false);
   if (job.spheres) PutOnSpheres(job.tables, job.hits, valid, triangle, i, s, t, w);
   if (job.instances) CarryToWorld(job.tables, job.hits, valid, i, s);
   const VF cosine = Dot(Load3(job.rays.dirX, job.rays.dirY, job.rays.dirZ, i), s.ng);

@@ -92,7 +92,7 @@ void FindRadianceAndShadowRays(Chunk& c) noexcept {
       hn::Store(zero, d, unshadowed.visible + i);
       continue;
     }
-    const VF inverseDistance = InverseSqrt(distanceSquared, choices.reciprocal);
+    const VF inverseDistance = InverseSqrt(distanceSquared);
     const V3 l = Scale3(toLight, inverseDistance);
     const VF nl = Dot(ns, l);
     V3 bsdf = Scale3(Load3(surfels.diffuseR, surfels.diffuseG, surfels.diffuseB, i),

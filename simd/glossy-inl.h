@@ -95,6 +95,22 @@ HWY_INLINE LobeSample SampleLobe(const GlossyLobes& lobes, const UnitPoints& at)
   return {l, Scale3(MulAdd3(grazing, schlick, lobes.f0), passes), nl};
 }
 
+// The counterpart of lobeAlbedo().
+HWY_INLINE V3 LobeAlbedo(const V3& f0, VF cosine, VF r) {
+  const FloatTag d;
+  const auto number = [&](float x) HWY_ATTR { return hn::Set(d, x); };
+  const VF q = hn::Sub(number(1), cosine), q2 = hn::Mul(q, q), r2 = hn::Mul(r, r);
+  const VF side = MulThenAdd(q2, number(-0.55f), MulThenAdd(r, number(-0.563f), number(0.975f)));
+  const VF lost =
+      MulThenAdd(q, side, MulThenAdd(hn::Mul(r, cosine), number(0.561f), number(0.165f)));
+  const VF all = hn::Sub(number(1), hn::Mul(r2, lost));
+  const VF schlick = MulThenAdd(r, MulThenAdd(r, number(1.17f), number(-2.3f)), number(1.1f));
+  const VF grazing = hn::Mul(q2, MulThenAdd(hn::Mul(q2, q), schlick, hn::Mul(r2, number(0.057f))));
+  const VF f90 = hn::Min(number(1), hn::Mul(number(25), MaxComponent(f0)));
+  const VF rest = hn::Mul(f90, grazing);
+  return MulAdd3(f0, hn::Sub(all, grazing), {rest, rest, rest});
+}
+
 }  // namespace whit::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -198,7 +198,6 @@ PacketKernels findPacketKernels();
 struct EncodeArgs {
   float exposureScale = 1;
   ToneCurve curve = ToneCurve::none;
-  SrgbEncoding encoding = SrgbEncoding::exact;
   RadianceColumns radiance;
   std::size_t n = 0;
   std::uint32_t* codes = nullptr;

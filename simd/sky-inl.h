@@ -23,8 +23,9 @@ HWY_INLINE V3 GradientSky(const SkyTable& sky, const V3& direction) {
   return Mix3(horizon, end, hn::Min(hn::Abs(direction.y), hn::Set(d, 1.0f)));
 }
 
-// Bilinear in an equirectangular map; wraps around in azimuth, stops at the poles.
-HWY_INLINE V3 ImageSky(const SkyTable& sky, const V3& direction, MF live) {
+// Bilinear in an equirectangular map; wraps around in azimuth, stops at the poles. `image` numbers
+// images below each other.
+HWY_INLINE V3 ImageSky(const SkyTable& sky, const V3& direction, MF live, VI image) {
   const FloatTag d;
   const IntTag di;
   const VF width = hn::Set(d, static_cast<float>(sky.width));
@@ -45,9 +46,10 @@ HWY_INLINE V3 ImageSky(const SkyTable& sky, const V3& direction, MF live) {
   const VI right = hn::IfThenZeroElse(hn::Gt(x1, lastX), x1);
   const VI top = hn::Min(hn::Max(y0, zero), lastY), bottom = hn::Min(hn::Max(y1, zero), lastY);
   const VI stride = hn::Set(di, sky.width);
+  const VI first = hn::Mul(image, hn::Set(di, sky.height));
   const auto liveInt = hn::RebindMask(di, live);
   const auto index = [&](VI row, VI column) HWY_ATTR {
-    return hn::IfThenElseZero(liveInt, hn::Add(hn::Mul(row, stride), column));
+    return hn::IfThenElseZero(liveInt, hn::Add(hn::Mul(hn::Add(first, row), stride), column));
   };
   const VI i00 = index(top, left), i10 = index(top, right);
   const VI i01 = index(bottom, left), i11 = index(bottom, right);
@@ -68,11 +70,22 @@ HWY_INLINE V3 SkyRadiance(const SkyTable& sky, const V3& direction, MF live) {
     case Sky::Kind::gradient:
       return GradientSky(sky, direction);
     case Sky::Kind::image:
-      return ImageSky(sky, direction, live);
+      return ImageSky(sky, direction, live, hn::Zero(IntTag()));
     case Sky::Kind::none:
       break;
   }
   return Broadcast3(Vec3f());
+}
+
+// The counterpart of blurredRadiance().
+HWY_INLINE V3 BlurredRadiance(const SkyTable& blurred, const V3& direction, VF roughness, MF live) {
+  const FloatTag d;
+  const VF blur = hn::Mul(roughness, hn::Set(d, kSkyBlurs - 1.0f));
+  const VF level = hn::Min(hn::Floor(blur), hn::Set(d, kSkyBlurs - 2.0f));
+  const VI image = hn::ConvertTo(IntTag(), level);
+  const V3 sharper = ImageSky(blurred, direction, live, image);
+  const VI next = hn::Add(image, hn::Set(IntTag(), 1));
+  return Mix3(sharper, ImageSky(blurred, direction, live, next), hn::Sub(blur, level));
 }
 
 }  // namespace whit::simd::HWY_NAMESPACE

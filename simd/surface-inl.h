@@ -107,15 +107,14 @@ struct NormalLanes {
 
 // Edges are brought to the order of 1 by a power of two first, so that the products of tiny or huge
 // edges stay in range and scaling a scene by 2^k changes no bit.
-HWY_INLINE NormalLanes GeometricNormal(const V3& edge1, const V3& edge2, Reciprocal how) {
+HWY_INLINE NormalLanes GeometricNormal(const V3& edge1, const V3& edge2) {
   const FloatTag d;
   const VF largest = hn::Max(MaxComponent(Abs3(edge1)), MaxComponent(Abs3(edge2)));
   const VF scale = InverseExponent(largest);
   const V3 unit{hn::Zero(d), hn::Zero(d), hn::Set(d, 1.0f)};
   const V3 a = Scale3(edge1, scale), b = Scale3(edge2, scale), area = ExactCross(a, b);
   const VF sides = hn::Mul(SumOf(Abs3(a)), SumOf(Abs3(b)));
-  return {NormalizeOr(area, unit, how),
-          hn::Le(SumOf(Abs3(area)), hn::Mul(sides, hn::Set(d, 0x1p-14f)))};
+  return {NormalizeOr(area, unit), hn::Le(SumOf(Abs3(area)), hn::Mul(sides, hn::Set(d, 0x1p-14f)))};
 }
 
 // A vector for each corner.
@@ -148,10 +147,10 @@ HWY_INLINE V3 VertexColor(const ShadingTables& tables, VI triangle, VF u, VF v) 
   return {hn::Max(there.x, zero), hn::Max(there.y, zero), hn::Max(there.z, zero)};
 }
 
-HWY_INLINE V3 SmoothNormal(const ShadingTables& tables, VI triangle, const Weights& w, const V3& ng,
-                           Reciprocal how) {
+HWY_INLINE V3 SmoothNormal(const ShadingTables& tables, VI triangle, const Weights& w,
+                           const V3& ng) {
   const Corners n = LoadNormals(tables, triangle);
-  return NormalizeOr(Interpolate3(w, n.c0, n.c1, n.c2), ng, how);
+  return NormalizeOr(Interpolate3(w, n.c0, n.c1, n.c2), ng);
 }
 
 // A matrix a lane, its rows.
@@ -207,16 +206,16 @@ struct Surface {
 };
 
 HWY_INLINE Surface InterpolateSurface(const ShadingTables& tables, const TriangleLanes& t,
-                                      VI triangle, const Weights& w, Reciprocal how, bool smooth) {
+                                      VI triangle, const Weights& w, bool smooth) {
   Surface s;
   s.edge1 = Sub3(t.p1, t.p0), s.edge2 = Sub3(t.p2, t.p0);
   s.spans = Add3(Abs3(s.edge1), Abs3(s.edge2));
   s.position = InterpolatePosition(w, t.p0, t.p1, t.p2);
-  const NormalLanes found = GeometricNormal(s.edge1, s.edge2, how);
+  const NormalLanes found = GeometricNormal(s.edge1, s.edge2);
   s.ng = found.normal;
   s.inDoubt = found.inDoubt;
   s.ns = s.ng;
-  if (smooth) s.ns = SmoothNormal(tables, triangle, w, s.ng, how);
+  if (smooth) s.ns = SmoothNormal(tables, triangle, w, s.ng);
   const Weights absolute{hn::Abs(w.w0), hn::Abs(w.w1), hn::Abs(w.w2)};
   s.magnitude = Interpolate3(absolute, Abs3(t.p0), Abs3(t.p1), Abs3(t.p2));
   s.handedness = hn::Set(FloatTag(), 1.0f);

@@ -303,7 +303,7 @@ inline HWY_NOINLINE void QueueByOwnUvs(const SurfelJob& job, size_t i, size_t sl
   if (hn::AllFalse(d, valid)) return;
   TriangleLanes t = LoadTriangles(tables, triangle);
   Weights w = LoadWeights(job.hits, i);
-  Surface s = InterpolateSurface(tables, t, triangle, w, job.shading.reciprocal, job.smooth);
+  Surface s = InterpolateSurface(tables, t, triangle, w, job.smooth);
   if (job.spheres) PutOnSpheres(tables, job.hits, valid, triangle, i, s, t, w);
   if (job.instances) CarryToWorld(tables, job.hits, valid, i, s);
   const VF cosine = Dot(Load3(job.rays.dirX, job.rays.dirY, job.rays.dirZ, i), s.ng);

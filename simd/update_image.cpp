@@ -28,7 +28,7 @@ HWY_INLINE VF NearCode(VF x) {
 }
 
 // round(255 * srgb(x)), exactly as the scalar srgbCode of the same float.
-HWY_INLINE VU SrgbCode(const SrgbTables& tables, VF x) {
+HWY_INLINE VU SrgbCode(const float* leastOfCodes, VF x) {
   const FloatTag d;
   const IntTag di;
   const VF one = hn::Set(d, 1.0f);
@@ -41,7 +41,7 @@ HWY_INLINE VU SrgbCode(const SrgbTables& tables, VF x) {
   const VI code = hn::ConvertTo(di, whole);
   const MF open = hn::Ge(hn::Sub(least, whole), hn::Set(d, 1 - 2 * kNear));
   if (HWY_LIKELY(hn::AllFalse(d, open))) return hn::BitCast(UintTag(), code);
-  const VF next = hn::GatherIndex(d, tables.least.data(), hn::Add(code, hn::Set(di, 1)));
+  const VF next = hn::GatherIndex(d, leastOfCodes, hn::Add(code, hn::Set(di, 1)));
   const VI step = hn::IfThenElseZero(hn::RebindMask(di, hn::Ge(clamped, next)), hn::Set(di, 1));
   return hn::BitCast(UintTag(), hn::Add(code, step));
 }
@@ -75,30 +75,16 @@ HWY_INLINE VF ToneCurved(ToneCurve curve, VF x) {
   return positive;
 }
 
-// The code of the nearest step: srgbCodeByTable in float.
-HWY_INLINE VU SrgbCodeByTable(const SrgbTables& tables, VF x) {
-  const FloatTag d;
-  const IntTag di;
-  const VF clamped = hn::Min(hn::IfThenElseZero(hn::Gt(x, hn::Zero(d)), x), hn::Set(d, 1.0f));
-  const VF step =
-      hn::Add(hn::Mul(clamped, hn::Set(d, static_cast<float>(kSrgbSteps))), hn::Set(d, 0.5f));
-  return hn::BitCast(UintTag(),
-                     hn::GatherIndex(di, tables.codeOfStep.data(), hn::ConvertTo(di, step)));
-}
-
 void EncodeDisplay(const EncodeArgs& args) {
   const FloatTag d;
   const UintTag du;
-  const SrgbTables& tables = srgbTables();
+  const float* leastOfCodes = leastWithCodes().data();
   const ToneCurve curve = args.curve;
-  const SrgbEncoding encoding = args.encoding;
   const RadianceColumns radiance = args.radiance;
   const VF scale = hn::Set(d, args.exposureScale);
   for (size_t i = 0; i < args.n; i += hn::Lanes(d)) {
     const auto encode = [&](const float* column) HWY_ATTR {
-      const VF curved = ToneCurved(curve, hn::Mul(hn::Load(d, column + i), scale));
-      return encoding == SrgbEncoding::table ? SrgbCodeByTable(tables, curved)
-                                             : SrgbCode(tables, curved);
+      return SrgbCode(leastOfCodes, ToneCurved(curve, hn::Mul(hn::Load(d, column + i), scale)));
     };
     const VU r = encode(radiance.r), g = hn::ShiftLeft<8>(encode(radiance.g));
     const VU b = hn::ShiftLeft<16>(encode(radiance.b));

@@ -107,33 +107,18 @@ HWY_INLINE V3 ExactCross(const V3& a, const V3& b) {
           ExactDifferenceOfProducts(a.x, b.y, a.y, b.x)};
 }
 
-// 1 / sqrt(a); of `a` above zero and normal. Exact: true division and square root, the same bits on
-// every target.
-HWY_INLINE VF InverseSqrt(VF a, Reciprocal how) {
-  const FloatTag d;
-  if (HWY_LIKELY(how == Reciprocal::exact)) return hn::Div(hn::Set(d, 1.0f), hn::Sqrt(a));
-  VF estimate = hn::ApproximateReciprocalSqrt(a);
-  if (how == Reciprocal::approximate) return estimate;
-  // y' = y (3 - a y^2) / 2. NEON's first estimate has 8 bits, where x86-64 has 12.
-  constexpr int kSteps = HWY_TARGET == HWY_NEON ? 2 : 1;
-  const VF half = hn::Mul(hn::Set(d, -0.5f), a);
-  for (int step = 0; step < kSteps; ++step) {
-    const VF factor = MulThenAdd(hn::Mul(half, estimate), estimate, hn::Set(d, 1.5f));
-    estimate = hn::Mul(estimate, factor);
-  }
-  return estimate;
-}
+// 1 / sqrt(a); of `a` above zero and normal. True division and square root have the same bits on
+// every target; estimates with Newton steps saved no time.
+HWY_INLINE VF InverseSqrt(VF a) { return hn::Div(hn::Set(FloatTag(), 1.0f), hn::Sqrt(a)); }
 
 // Vectors of ordinary length only.
-HWY_INLINE V3 Normalize3(const V3& a, Reciprocal how = Reciprocal::exact) {
-  return Scale3(a, InverseSqrt(Dot(a, a), how));
-}
+HWY_INLINE V3 Normalize3(const V3& a) { return Scale3(a, InverseSqrt(Dot(a, a))); }
 // `a` normalized, or `fallback` where it has no length.
-HWY_INLINE V3 NormalizeOr(const V3& a, const V3& fallback, Reciprocal how = Reciprocal::exact) {
+HWY_INLINE V3 NormalizeOr(const V3& a, const V3& fallback) {
   const FloatTag d;
   const VF squared = Dot(a, a);
   const MF good = hn::Gt(squared, hn::Set(d, 1e-30f));
-  const VF inverse = InverseSqrt(hn::IfThenElse(good, squared, hn::Set(d, 1.0f)), how);
+  const VF inverse = InverseSqrt(hn::IfThenElse(good, squared, hn::Set(d, 1.0f)));
   return Select3(good, Scale3(a, inverse), fallback);
 }
 // The power of two 2^-e where 2^e <= a < 2^(e+1); products with it are exact. `a` above zero and

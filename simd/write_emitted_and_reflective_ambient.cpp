@@ -24,7 +24,8 @@ void WriteEmittedAndReflectiveAmbient(Chunk& c) noexcept {
   const bool emission = c.has(Feature::emission) && (c.materialFlags & kMaterialEmits) != 0;
   const bool factors = c.has(Feature::emissionFactors), ambient = c.has(Feature::ambient);
   const bool coverage = c.has(Feature::coverage);
-  const bool sky = c.has(Feature::sky), hidden = c.has(Feature::transmission);
+  const bool sky = c.has(Feature::sky) && !c.options().background.hidesSky(c.depth);
+  const bool hidden = c.has(Feature::transmission);
   const V3 black = Broadcast3(Vec3f());
   const ReflectedAmbient reflected(c);
   for (size_t i = 0; i < n; i += hn::Lanes(d)) {

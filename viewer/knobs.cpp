@@ -65,7 +65,7 @@ RenderOptions withQuality(RenderOptions options, Quality quality) {
 }
 
 void drawPresets(RenderOptions& options) {
-  constexpr std::array kNames{"draft", "standard", "fine", "reference"};
+  constexpr std::array kNames{"good", "draft", "standard", "fine", "reference"};
   for (std::size_t i = 0; i < kNames.size(); ++i) {
     const RenderOptions preset = withQuality(options, static_cast<Quality>(i));
     RenderOptions now = options;

@@ -117,7 +117,7 @@ std::string colorText(const Rgb& c) {
 
 // Returns the codes that the map of differences compares.
 std::array<std::uint8_t, 3> codesOf(const Rgb& radiance) {
-  return displayCodes(radiance, 1, ToneCurve::none, SrgbEncoding::exact);
+  return displayCodes(radiance, 1, ToneCurve::none);
 }
 
 std::string comparedText(const Comparison& comparison, const Rgb& packets, int x, int y) {

@@ -59,7 +59,6 @@ class RayTreeTab {
     const RenderOptions& options = frame.request.options;
     scale_ = std::exp2(double{options.exposure.ev});
     curve_ = options.toneCurve;
-    encoding_ = options.srgb;
   }
 
   void draw() {
@@ -75,7 +74,7 @@ class RayTreeTab {
 
  private:
   std::array<std::uint8_t, 3> codesOf(const Rgb& pixel) const {
-    return displayCodes(pixel, scale_, curve_, encoding_);
+    return displayCodes(pixel, scale_, curve_);
   }
 
   void drawPixel() const {
@@ -171,7 +170,6 @@ class RayTreeTab {
   RayView& view_;
   double scale_ = 1;
   ToneCurve curve_ = ToneCurve::none;
-  SrgbEncoding encoding_ = SrgbEncoding::exact;
 };
 
 // Cuts the line to the window, because huge coordinates are drawn wrongly. Returns whether any of

@@ -207,8 +207,8 @@ std::string savePicture(const TracedFrame& frame, const std::string& command) {
   const cli::WriteScope scope;
   const auto nameOf = [&](int i) { return frame.scene->scene.name + formatted("-%04d", i); };
   std::string name = freeName(nameOf, {".png", ".exr", ".json"});
-  cli::writeImage(name + ".png", frame.film, frame.options, frame.metadata);
-  cli::writeImage(name + ".exr", frame.film, frame.options, frame.metadata);
+  cli::writeImage(name + ".png", frame.film, frame.metadata);
+  cli::writeImage(name + ".exr", frame.film, frame.metadata);
   writeCamera(name + ".json", frame.request.camera, command);
   return name;
 }

@@ -108,9 +108,9 @@ void add(Digester& d, const EnvironmentImage& image) {
 }  // namespace
 
 std::string digestOf(const Scene& scene) {
-  const auto& [name, isModel, width, height, cameras, cameraPath, animations, lights, sky, ambient,
-               materials, mediumOfMaterial, media, textures, geometries, instances, triangles,
-               firstSphere, normals, colors, secondUvs, lower, upper, instancedTriangles,
+  const auto& [name, isModel, width, height, cameras, cameraPath, animations, lights, sky, blurred,
+               ambient, materials, mediumOfMaterial, media, textures, geometries, instances,
+               triangles, firstSphere, normals, colors, secondUvs, lower, upper, instancedTriangles,
                instancedSpheres, items, coplanar, coincidentSpheres, motion, effects, reasons] =
       scene;
   Digester d;

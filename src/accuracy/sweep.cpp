@@ -83,7 +83,7 @@ class ErrorMeter {
         reference_(cache.get(modelOptions(base, transport, samples, cutoff), progress)),
         exact_(cache.get(exactAtSameSamples(base, cutoff), progress).image),
         transport_(transport) {
-    if (transport_) leftOut_ = against(reference_.image, truth(), SrgbEncoding::exact);
+    if (transport_) leftOut_ = against(reference_.image, truth());
   }
 
   // Sets the point's errors from its last frame. Errors of arithmetic are measured only if
@@ -92,15 +92,12 @@ class ErrorMeter {
   void measure(Point& point, FrameSource& frames, bool arithmetic) {
     point.stats = frames.stats;
     const Image& image = frames.film.image;
-    const auto differenceOf = [&](const Image& a, const Image& b) {
-      return against(a, b, &a == &image ? point.options.srgb : SrgbEncoding::exact);
-    };
     std::vector<std::function<void()>> comparisons;
-    comparisons.emplace_back([&] { point.total = differenceOf(image, truth()); });
+    comparisons.emplace_back([&] { point.total = against(image, truth()); });
     // The point has the baseline's sampling if the exact options are the same.
     if (digestOf(exactAtSameSamples(point.options, cutoff_)) ==
         digestOf(exactAtSameSamples(base_, cutoff_))) {
-      comparisons.emplace_back([&] { point.sameSamples = differenceOf(image, exact_); });
+      comparisons.emplace_back([&] { point.sameSamples = against(image, exact_); });
     }
     runTogether(comparisons);
     const bool transports = transport_ && hasTransport(point.options);
@@ -108,8 +105,8 @@ class ErrorMeter {
       const Image& unapproximated = withoutApproximations(point, image);
       // The picture that more samples of the point converge to.
       const Image& limit = transports ? truth() : reference_.image;
-      runTogether({[&] { point.sampling = differenceOf(unapproximated, limit); },
-                   [&] { point.algorithm = differenceOf(image, unapproximated); }});
+      runTogether({[&] { point.sampling = against(unapproximated, limit); },
+                   [&] { point.algorithm = against(image, unapproximated); }});
     }
     if (transport_) point.transport = transports ? noDifference() : *leftOut_;
     if (!arithmetic) return;
@@ -140,8 +137,8 @@ class ErrorMeter {
     return referenceOptions(base, samples, cutoff);
   }
 
-  ImageDifference against(const Image& a, const Image& b, SrgbEncoding encoding) const {
-    return compareImages(a, b, base_.exposure.ev, base_.toneCurve, encoding);
+  ImageDifference against(const Image& a, const Image& b) const {
+    return compareImages(a, b, base_.exposure.ev, base_.toneCurve);
   }
 
   const Image& withoutApproximations(const Point& point, const Image& own) {
@@ -161,9 +158,6 @@ class ErrorMeter {
   const ReferencePaths& referencePaths(const Point& point, FrameSource& frames) {
     const RenderOptions defaults;
     RenderOptions seen = point.options;
-    seen.shading.reciprocal = defaults.shading.reciprocal;
-    seen.film = defaults.film;
-    seen.srgb = defaults.srgb;
     seen.packet = defaults.packet;
     const std::string digest = digestOf(seen);
     const auto found = referencePaths_.find(digest);
@@ -333,8 +327,7 @@ class SceneSweeper {
       return false;
     }
     timer_->time(point, frames, points);
-    if (frames.film.image.pixels == baseline_->film.image.pixels &&
-        point.options.srgb == base_.srgb) {
+    if (frames.film.image.pixels == baseline_->film.image.pixels) {
       static_cast<PointErrors&>(point) = static_cast<const PointErrors&>(sweep_.points.front());
       point.stats = frames.stats;
       return true;

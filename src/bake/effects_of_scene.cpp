@@ -136,6 +136,14 @@ void Gatherer::surroundings() {
   set(Effect::sky, sky, "the sky is not black", "the sky is black");
   set(Effect::skyImage, image, "the sky is an image",
       sky ? "the sky is not an image" : "the sky is black");
+  const bool rough = scene_.effects.has(Effect::glossyReflection);
+  set(Effect::blurredSky, sky && rough && scene_.ambient.reflection > 0,
+      "a glossy lobe reflects the sky",
+      !sky    ? "the sky is black"
+      : rough ? "the ambient light has a reflection of 0"
+              : "no mesh uses a material whose glossy lobe reflects the scene");
+  const bool blurred = scene_.effects.has(Effect::blurredSky);
+  scene_.blurredSky = blurred ? blurredSky(scene_.sky) : EnvironmentImage();
   const bool ambient = !isBlack(scene_.ambient.up) || !isBlack(scene_.ambient.down);
   set(Effect::ambient, ambient, "the ambient light is not black", "the ambient light is black");
   set(Effect::ambientOcclusion, ambient && scene_.ambient.occlusion > 0,

@@ -165,6 +165,7 @@ class Scene {
   std::vector<Animation> animations;
   std::vector<Light> lights;
   Sky sky;
+  EnvironmentImage blurredSky;  // blurredSky(sky), where some frame reflects it
   Ambient ambient;
   std::vector<Material> materials;
   std::vector<std::uint8_t> mediumOfMaterial;  // 0 where the material bounds none

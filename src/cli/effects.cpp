@@ -75,7 +75,7 @@ std::vector<EffectStep> measureSteps(const EffectsJob& job, Progress* progress) 
     steps[i].run = runs[i]->summary();
     steps[i].memoryMb = runs[i]->memoryMb();
     writeImage((std::filesystem::path(job.out) / pictureName(steps, i)).string(), runs[i]->film(),
-               runs[i]->options(), {{"scene", name}, {"effects", "up to " + steps[i].added}});
+               {{"scene", name}, {"effects", "up to " + steps[i].added}});
   }
   return steps;
 }

@@ -82,7 +82,7 @@ struct Explained {
 std::string textOf(const RgbD& c) { return formatted("%.5f %.5f %.5f", c.x, c.y, c.z); }
 
 std::array<std::uint8_t, 3> codesOf(const Rgb& pixel, const RenderOptions& o) {
-  return displayCodes(pixel, std::exp2(double{o.exposure.ev}), o.toneCurve, o.srgb);
+  return displayCodes(pixel, std::exp2(double{o.exposure.ev}), o.toneCurve);
 }
 
 // Lists what adds more than so much, and counts the rest.

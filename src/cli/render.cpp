@@ -46,7 +46,7 @@ constexpr const char* kTurntableUsage = "whit turntable SCENE -o FILM.mp4|FRAMES
 constexpr const char* kTurntableSummary =
     "Renders a model on a turntable: supplies a view and light, moves the camera once around the "
     "model and leaves the light where it is. In a scene file the camera goes around the point that "
-    "it looks at. ffmpeg makes the film.";
+    "it looks at. ffmpeg makes the film. Its --quality is good unless another is given.";
 
 constexpr const char* kFilm = ".mp4";
 bool isFilm(const std::string& output) { return extensionOf(output) == kFilm; }
@@ -73,7 +73,8 @@ OptionList listOptions(RenderJob& job) {
   OptionList list;
   list.group("Output");
   list.many({"output", "FILE"},
-            "image to write, .exr (linear) or .png, or a film of all frames, .mp4; - writes a PNG "
+            "image to write, .exr (linear), .png or .jpg, or a film of all frames, .mp4; - writes "
+            "a PNG "
             "to standard output; may be repeated",
             job.outputs)
       .shortName = "o";
@@ -114,6 +115,8 @@ void checkStandardOutput(const RenderJob& job) {
 
 // Throws if no output has a place for --channels.
 void checkChannels(const RenderJob& job) {
+  refuseIf(job.exr == ExrStorage::dwaa && !keptChannels(job.common.render).empty(),
+           "--exr dwaa is lossy for channels and alpha as well: give --exr zip, none or half");
   const ChannelSet kept = job.common.render.channels;
   if (kept.empty()) return;
   bool written = false;
@@ -125,8 +128,6 @@ void checkChannels(const RenderJob& job) {
   }
   refuseIf(!written,
            "--channels: expected an EXR to keep them in, or a PNG named by one, as out.depth.png");
-  refuseIf(job.exr == ExrStorage::dwaa,
-           "--exr dwaa is lossy for channels as well: give --exr zip, none or half");
 }
 
 void checkFilm(const RenderJob& job) {
@@ -147,7 +148,13 @@ void checkJob(const RenderJob& job) {
   checkFilm(job);
   checkStandardOutput(job);
   for (const std::string& output : job.outputs) {
-    if (output != kStandardOutput) requireWritable(output, {".exr", ".png", kFilm});
+    const bool transparent = job.common.render.background.kind == Background::Kind::transparent;
+    refuseIf(transparent && (isJpeg(output) || isFilm(output)),
+             "--background transparent: '" + output + "' has no alpha: write a PNG or an EXR");
+    refuseIf(job.resume && isJpeg(output),
+             "--resume: a JPEG does not hold the options it was made with");
+    if (output != kStandardOutput)
+      requireWritable(output, {".exr", ".png", ".jpg", ".jpeg", kFilm});
     if (job.frames.empty()) {
       requireNoFrameName(output);
     } else if (!isFilm(output)) {
@@ -349,10 +356,9 @@ class ImageWriter {
     writer_.start([=, this, &film, metadata = std::move(metadata)] {
       for (std::size_t i = 0; i < files.size(); ++i) {
         if (isFilm(files[i])) {
-          DisplayImage made;
-          pipe_->add(displayOf(film, options_, made).rgba);
+          pipe_->add(film.display.rgba);
         } else {
-          writeImage(files[i], film, options_, metadata, formatOf(i));
+          writeImage(files[i], film, metadata, formatOf(i));
         }
       }
     });
@@ -432,7 +438,7 @@ int render(RenderJob& job) {
   if (traced && !job.common.quiet) {
     std::fputs(stageTable(writer.run()).c_str(), stderr);
     if (optionsFor(open->scene, job.common).exposure.automatic) {
-      std::fprintf(stderr, "exposure %+g EV\n", static_cast<double>(writer.exposure().ev));
+      std::fprintf(stderr, "exposure %g EV\n", static_cast<double>(writer.exposure().ev));
     }
   }
   if (!job.common.quiet) tellWritten(writer, stopwatch.ms() / 1000);
@@ -451,6 +457,7 @@ int renderCommand(const Words& words) {
 int turntableCommand(const Words& words) {
   RenderJob job;
   job.onTurntable = true;
+  job.common.render.quality = Quality::good;
   const auto parsed = parseOptions(kTurntableUsage, kTurntableSummary, listOptions(job), words);
   if (parsed == Parsed::helpShown) return 0;
   if (job.frames.empty()) job.frames = "0.." + std::to_string(job.turntableFrames - 1);

@@ -1,5 +1,5 @@
 // The extra output channels of a picture (AOVs, --channels): properties of the first hit of each
-// pixel's ray.
+// pixel's ray; and alpha, a mean over its samples.
 #pragma once
 
 #include <array>
@@ -24,9 +24,10 @@ enum class Channel : std::uint8_t {
   object,
   material,
   triangle,
-  rays
+  rays,
+  alpha
 };
-inline constexpr int kChannelCount = 9;
+inline constexpr int kChannelCount = 10;
 
 struct ChannelInfo {
   std::string_view name;
@@ -43,7 +44,8 @@ inline constexpr std::array<ChannelInfo, kChannelCount> kChannels{
      {"object", true, 1, {"id"}},
      {"material", true, 1, {"id"}},
      {"triangle", true, 1, {"id"}},
-     {"rays", true, 1, {"count"}}}};
+     {"rays", true, 1, {"count"}},
+     {"alpha", false, 1, {"A"}}}};
 inline constexpr const ChannelInfo& infoOf(Channel channel) {
   return kChannels[static_cast<std::size_t>(channel)];
 }
@@ -81,7 +83,8 @@ std::string namesOf(ChannelSet channels);  // joined by commas
 // The number of objects, materials and triangles where the ray hit nothing.
 inline constexpr std::uint32_t kNoNumber = 0xffffffffu;
 
-// All channels of a pixel but the count of its rays. The defaults are those of a ray without a hit.
+// All channels of a pixel but the count of its rays and its alpha. The defaults are those of a ray
+// without a hit.
 struct ChannelValues {
   // Along the camera's axis, and along the ray.
   float z = std::numeric_limits<float>::infinity();

@@ -1,7 +1,6 @@
 #include "core/display.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace whit {
@@ -19,36 +18,7 @@ constexpr double kHableWhite = 11.2;
 // Both curves have converged here; beyond it x * x could overflow.
 constexpr double kCurveEnd = 1e30;
 
-constexpr float kLargestHalf = 65504.0f, kLeastNormalHalf = 0x1p-14f, kHalfStep = 0x1p-24f;
-constexpr int kDroppedBits = 23 - 10;  // of the significand
-
 }  // namespace
-
-float roundedToHalf(float x) {
-  if (!std::isfinite(x)) return x;
-  const float magnitude = std::fabs(x);
-  if (magnitude >= kLargestHalf) return std::copysign(kLargestHalf, x);
-  if (magnitude < kLeastNormalHalf) return std::nearbyint(x / kHalfStep) * kHalfStep;
-  auto bits = std::bit_cast<std::uint32_t>(x);
-  const std::uint32_t odd = bits >> kDroppedBits & 1u;
-  bits += (1u << (kDroppedBits - 1)) - 1 + odd;
-  return std::bit_cast<float>(bits >> kDroppedBits << kDroppedBits);
-}
-
-Rgb quantized(FilmPrecision precision, const Rgb& pixel) {
-  const auto eachChannel = [&](auto&& keep) {
-    return Rgb{keep(pixel.x), keep(pixel.y), keep(pixel.z)};
-  };
-  switch (precision) {
-    case FilmPrecision::single:
-      break;
-    case FilmPrecision::half:
-      return eachChannel(roundedToHalf);
-    case FilmPrecision::eightBit:
-      return eachChannel([](float x) { return linearOfCode(srgbCode(static_cast<double>(x))); });
-  }
-  return pixel;
-}
 
 double applyToneCurve(ToneCurve curve, double x) {
   switch (curve) {
@@ -63,30 +33,51 @@ double applyToneCurve(ToneCurve curve, double x) {
   return x;
 }
 
-std::array<std::uint8_t, 3> displayCodes(const Rgb& pixel, double exposureScale, ToneCurve curve,
-                                         SrgbEncoding encoding) {
+std::array<std::uint8_t, 3> displayCodes(const Rgb& pixel, double exposureScale, ToneCurve curve) {
   const auto encode = [&](float channel) {
     const double exposed = exposureScale * static_cast<double>(channel);
     // NaN and negatives are black before the curve, which is only defined from 0 on.
-    const double curved = exposed > 0 ? applyToneCurve(curve, exposed) : 0.0;
-    return static_cast<std::uint8_t>(encoding == SrgbEncoding::table
-                                         ? srgbCodeByTable(static_cast<float>(curved))
-                                         : srgbCode(curved));
+    return static_cast<std::uint8_t>(srgbCode(exposed > 0 ? applyToneCurve(curve, exposed) : 0.0));
   };
   return {encode(pixel.x), encode(pixel.y), encode(pixel.z)};
 }
 
-DisplayImage toDisplay(const Image& image, float exposure, ToneCurve curve, SrgbEncoding encoding) {
+DisplayImage toDisplay(const Image& image, float exposure, ToneCurve curve) {
   DisplayImage display;
   display.width = image.windowWidth();
   display.height = image.windowHeight();
   display.rgba.reserve(image.pixels.size() * 4);
   const double scale = std::exp2(static_cast<double>(exposure));
   for (const Rgb& pixel : image.pixels) {
-    for (const std::uint8_t code : displayCodes(pixel, scale, curve, encoding)) {
+    for (const std::uint8_t code : displayCodes(pixel, scale, curve)) {
       display.rgba.push_back(code);
     }
     display.rgba.push_back(255);
+  }
+  return display;
+}
+
+DisplayImage overBackground(const Image& image, std::span<const float> alpha,
+                            const RenderOptions& options) {
+  const Background& background = options.background;
+  DisplayImage display{image.windowWidth(),
+                       image.windowHeight(),
+                       {},
+                       background.kind == Background::Kind::transparent};
+  display.rgba.reserve(image.pixels.size() * 4);
+  const double scale = std::exp2(static_cast<double>(options.exposure.ev));
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    const Rgb surfaces = alpha[i] > 0 ? image.pixels[i] / alpha[i] : Rgb(0.0f);
+    const auto codes = displayCodes(surfaces, scale, options.toneCurve);
+    const double covered{alpha[i]};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double behind{linearOfCode(background.color[c])};
+      const double mixed = behind + (double{linearOfCode(codes[c])} - behind) * covered;
+      display.rgba.push_back(display.hasAlpha ? codes[c]
+                                              : static_cast<std::uint8_t>(srgbCode(mixed)));
+    }
+    const double opacity = display.hasAlpha ? covered : 1;
+    display.rgba.push_back(static_cast<std::uint8_t>(std::lround(255 * opacity)));
   }
   return display;
 }

@@ -19,6 +19,7 @@ namespace whit {
   X(smoothNormals, "interpolated vertex normals")   \
   X(glossy, "glossy highlights of lights")          \
   X(glossyReflection, "sampled glossy reflections") \
+  X(blurredSky, "blurred sky in rough surfaces")    \
   X(emission, "emissive surfaces")                  \
   X(emissionMaps, "emission textures")              \
   X(vertexColors, "vertex colors")                  \

@@ -34,10 +34,11 @@ struct Image {
   const Rgb& at(int x, int y) const { return pixels[index(x, y)]; }
 };
 
-// 8-bit sRGB, RGBA with opaque alpha, row by row from the top.
+// 8-bit sRGB, RGBA, row by row from the top.
 struct DisplayImage {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgba;
+  bool hasAlpha = false;  // else it is opaque
 };
 
 }  // namespace whit

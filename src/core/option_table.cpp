@@ -51,18 +51,22 @@ void forEachPair(A& a, B& b, Visitor&& visit) {
 }
 
 // The options of a preset, which trade time for accuracy.
-constexpr std::array kPresetOptions{"spp", "depth", "cutoff", "light-cutoff", "mode"};
+constexpr std::array kPresetOptions{"spp",           "depth",  "cutoff",        "light-cutoff",
+                                    "mode",          "glossy", "light-samples", "ambient-samples",
+                                    "texture-filter"};
 
 // Points of the fronts that `whit accuracy` finds on the shipped scenes (src/accuracy/README.md).
 // With the cutoff of standard at most one pixel in a thousand of whitted, mirrors, atrium and
 // sponza-mirror is two codes off; without one, rays that branch at every dielectric would double to
-// the depth's limit.
+// the depth's limit. `good` has the effects that are left out by default, a sample or two of each
+// for every sample of a pixel.
 // The rows stand in the order of Quality.
 constexpr std::array<const char*, kPresetOptions.size()> kPresets[] = {
-    {"1", "64", "4e-3", "1e-3", "packets"},
-    {"1", "64", "1e-4", "0", "packets"},
-    {"4", "64", "1e-4", "1e-4", "packets"},
-    {"16", "64", "1e-5", "0", "reference"},
+    {"16", "64", "1e-3", "1e-3", "packets", "1", "2", "1", "trilinear"},
+    {"1", "64", "4e-3", "1e-3", "packets", "0", "1", "0", "bilinear"},
+    {"1", "64", "1e-4", "0", "packets", "0", "1", "0", "bilinear"},
+    {"4", "64", "1e-4", "1e-4", "packets", "0", "1", "0", "bilinear"},
+    {"16", "64", "1e-5", "0", "reference", "0", "1", "0", "bilinear"},
 };
 
 }  // namespace

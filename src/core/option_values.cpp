@@ -2,6 +2,7 @@
 
 #include <sstream>
 
+#include "core/formatted.h"
 #include "core/nearest_name.h"
 
 namespace whit {
@@ -11,6 +12,27 @@ std::vector<std::string> split(const std::string& text, char separator) {
   std::istringstream in(text + separator);
   for (std::string part; std::getline(in, part, separator);) parts.push_back(part);
   return parts;
+}
+
+bool readBackground(const std::string& text, Background& value) {
+  using Kind = Background::Kind;
+  value.kind = text == "sky" ? Kind::sky : text == "transparent" ? Kind::transparent : Kind::color;
+  if (value.kind != Kind::color) return true;
+  std::string digits = text.substr(text.starts_with('#') ? 1 : 0);
+  if (text == "white" || text == "black") digits = text == "white" ? "ffffff" : "000000";
+  for (std::size_t i = 0; i < 3 && digits.size() == 6; ++i) {
+    const char* const first = digits.data() + 2 * i;
+    const auto [stop, error] = std::from_chars(first, first + 2, value.color[i], 16);
+    if (error != std::errc() || stop != first + 2) return false;
+  }
+  return digits.size() == 6;
+}
+
+std::string backgroundText(const Background& b) {
+  if (b.kind == Background::Kind::color) {
+    return formatted("%02x%02x%02x", b.color[0], b.color[1], b.color[2]);
+  }
+  return b.kind == Background::Kind::sky ? "sky" : "transparent";
 }
 
 std::string rangeText(const std::string& noun, const OptionSpec& spec) {

@@ -22,6 +22,8 @@ int parseChoice(const OptionSpec& spec, const std::string& text);
 
 std::vector<std::string> split(const std::string& text, char separator);
 std::vector<std::string> effectNames(EffectSet effects);
+bool readBackground(const std::string& text, Background& value);
+std::string backgroundText(const Background& background);
 // "a number from 0 to 1", by the limits of the option.
 std::string rangeText(const std::string& noun, const OptionSpec& spec);
 
@@ -77,6 +79,8 @@ void parseValue(const OptionSpec& spec, const std::string& text, T& value) {
   } else if constexpr (std::is_same_v<T, Exposure>) {
     v.automatic = text == "auto";
     if (!v.automatic) parseNumber("auto or a number", v.ev);
+  } else if constexpr (std::is_same_v<T, Background>) {
+    expect(readBackground(text, v), "sky, transparent, white, black, or six digits as ff8000");
   } else if constexpr (std::is_same_v<T, ImageSize>) {
     expect(readAll('x', v.width, v.height) && std::min(v.width, v.height) >= 1 &&
                std::max(v.width, v.height) <= kImageSideLimit,
@@ -117,6 +121,8 @@ std::string formatValue(const OptionSpec& spec, const T& v) {
     return shortest(v);
   } else if constexpr (std::is_same_v<T, Exposure>) {
     return v.automatic ? "auto" : shortest(v.ev);
+  } else if constexpr (std::is_same_v<T, Background>) {
+    return backgroundText(v);
   } else if constexpr (std::is_same_v<T, ImageSize>) {
     return joined("x", v.width, v.height);
   } else if constexpr (std::is_same_v<T, Crop>) {

@@ -75,11 +75,7 @@ enum class Mode { packets, reference };
 enum class Batch { tile, frame };
 enum class EffectChoice { automatic, all };
 enum class ToneCurve { none, filmic, reinhard };
-// The precision of pixels before exposure and encoding.
-enum class FilmPrecision { single, half, eightBit };
-// sRGB codes are rounded exactly, or looked up at the nearest of 4096 equal steps of linear light.
-enum class SrgbEncoding { exact, table };
-enum class Quality { draft, standard, fine, reference };
+enum class Quality { good, draft, standard, fine, reference };
 enum class BvhQuality { low, medium, high };
 // The shadow cache (shadow_cache/shadow_tables.h): used where it saves time; never; or checked
 // against traced rays, where the frame fails if one differs.
@@ -97,6 +93,14 @@ struct Exposure {
   bool automatic = false;
   bool operator==(const Exposure&) const = default;
 };
+// What primary rays show that hit nothing: the sky, nothing, or a color in sRGB codes.
+struct Background {
+  enum class Kind { sky, transparent, color } kind = Kind::sky;
+  std::array<std::uint8_t, 3> color{};
+  // True if rays of this depth do not see the sky.
+  bool hidesSky(int depth) const { return kind != Kind::sky && depth == 0; }
+  bool operator==(const Background&) const = default;
+};
 struct ImageSize {
   int width = 0, height = 0;
   bool operator==(const ImageSize&) const = default;
@@ -113,6 +117,7 @@ inline constexpr int kSphereSegmentsLimit = 4096;
 
 // The members stand in the order of their entries below.
 struct RenderOptions {
+  Quality quality = Quality::standard;
   std::optional<ImageSize> size;
   std::string camera;
   std::optional<Vec3f> eye, at, up;
@@ -122,7 +127,7 @@ struct RenderOptions {
   bool adaptive = false;
   int contrast = 8;  // neighbors that differ by more in some 8-bit code show an edge
   int depth = kDepthLimit;
-  int glossy = 0;    // rays that sample a rough surface's lobe; 0: it reflects lights only
+  int glossy = 0;    // rays that sample a rough surface's lobe; 0: it reflects lights and a blurred sky
   int indirect = 0;  // rays that sample indirect light on a diffuse surface; 0: none
   float cutoff = 1.0e-4f;
   float roulette = 0;      // Russian roulette below this throughput; 0: off
@@ -139,12 +144,10 @@ struct RenderOptions {
   ShadowCacheMode shadowCache = ShadowCacheMode::automatic;
   int sphereSegments = 0;  // triangles around each sphere that replace it; 0: it is exact
   EffectChoice effects = EffectChoice::automatic;
-  Quality quality = Quality::standard;
   EffectSet disable;
   Exposure exposure;
   ToneCurve toneCurve = ToneCurve::none;
-  FilmPrecision film = FilmPrecision::single;
-  SrgbEncoding srgb = SrgbEncoding::exact;
+  Background background;
   int tile = 32;  // pixels a side
   int queue = 0;  // rays a queue holds before the deeper one is drained; 0: one tile
   ChannelSet channels;
@@ -171,6 +174,11 @@ template <typename Options, typename Use>
 decltype(auto) withOptions(Options& o, Use&& use) {
   // clang-format off
   return use(
+      Option{{.name = "quality", .words = "good|draft|standard|fine|reference",
+              .help = "preset of other options, see below; good: a picture to show (default: "
+                      "standard, one sample per pixel)",
+              .rebuilds = Rebuild::nothing, .tab = Tab::none, .everyday = true},
+             o.quality},
       Option{{.name = "size", .words = "WxH",
               .help = "image size in pixels (default: the scene's, else 480x300)",
               .rebuilds = Rebuild::nothing, .tab = Tab::none, .everyday = true},
@@ -185,8 +193,9 @@ decltype(auto) withOptions(Options& o, Use&& use) {
       Option{{.name = "at", .words = "x,y,z", .help = "point that the camera looks at",
               .rebuilds = Rebuild::nothing, .tab = Tab::none, .everyday = true},
              o.at},
-      Option{{.name = "up", .words = "x,y,z", .help = "direction that is up in the image",
-              .rebuilds = Rebuild::nothing, .tab = Tab::none},
+      Option{{.name = "up", .words = "x,y,z", .help = "direction that is up in the image; or y, z or x: the axis that is up in an OBJ "
+                      "or PLY model",
+              .rebuilds = Rebuild::nothing, .tab = Tab::none, .everyday = true},
              o.up},
       Option{{.name = "fov", .words = "DEG", .low = kLeastFov, .high = kLargestFov,
               .help = "vertical field of view in degrees",
@@ -232,7 +241,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
       // The exact value is that of each of the many samples per pixel of the reference.
       Option{{.name = "glossy", .words = "N", .low = 0, .high = 64,
               .help = "glossy reflections: sampled rays per hit on a rough surface, one per hit "
-                      "after a bounce; 0: rough surfaces reflect lights only",
+                      "after a bounce; 0: rough surfaces reflect lights and a blurred sky",
               .rebuilds = Rebuild::tables,
               .cheapest = "0",
               .everyday = true,
@@ -339,14 +348,6 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                                .needs = {kNeedsVertexNormals.with(Effect::normalMaps),
                                          kNeedsImpulses}}},
              o.shading.bend},
-      Option{{.name = "reciprocal", .words = "exact|refined|approximate",
-              .help = "1/sqrt of normalizations in kernels: exact, or an estimate with or without "
-                      "a Newton step",
-              .cheapest = "approximate",
-              .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "exact",
-                               .values = "exact refined approximate",
-                               .spare = "refined approximate"}},
-             o.shading.reciprocal},
       Option{{.name = "threads", .words = "N", .low = 0, .high = 1024,
               .help = "worker threads (default: those that CPU affinity and cgroup quota allow)",
               .rebuilds = Rebuild::workers, .changesPicture = false, .tab = Tab::none, .everyday = true},
@@ -409,10 +410,6 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "auto", .values = "auto all",
                                .spare = "all"}},
              o.effects},
-      Option{{.name = "quality", .words = "draft|standard|fine|reference",
-              .help = "preset of other options, see below",
-              .rebuilds = Rebuild::nothing, .tab = Tab::none, .everyday = true},
-             o.quality},
       Option{{.name = "disable", .words = "a,b",
               .help = "effects to leave out, by the names that whit info prints",
               .rebuilds = Rebuild::tables, .tab = Tab::none},
@@ -426,18 +423,11 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .help = "tone curve of 8-bit output",
               .tab = Tab::picture, .everyday = true},
              o.toneCurve},
-      Option{{.name = "film", .words = "float|half|8bit",
-              .help = "precision of pixels before exposure; 8bit: sRGB codes",
-              .cheapest = "float",
-              .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "float",
-                               .values = "float half 8bit", .spare = "half 8bit"}},
-             o.film},
-      Option{{.name = "srgb", .words = "exact|table", .help = "8-bit sRGB encoding: exactly "
-                      "rounded, or by a table",
-              .cheapest = "table",
-              .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "exact",
-                               .values = "exact table", .spare = "table"}},
-             o.srgb},
+      Option{{.name = "background", .words = "sky|transparent|COLOR",
+              .help = "what is behind all surfaces: the sky; nothing, as alpha in PNG and EXR; or "
+                      "a color, as ff8000, white or black, which an EXR leaves transparent",
+              .tab = Tab::none, .everyday = true},
+             o.background},
       Option{{.name = "tile", .words = "N", .low = 1, .high = 4096,
               .help = "side of a tile in pixels",
               .rebuilds = Rebuild::workers, .changesPicture = false},
@@ -449,7 +439,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
       Option{{.name = "channels", .words = "a,b",
               .help = "extra output channels (AOVs) of the first hit, at the sample nearest to "
                       "the pixel's center: depth, position, normal, albedo, uv, object, material, "
-                      "triangle, rays",
+                      "triangle, rays; and alpha, the share of samples that hit a surface",
               .rebuilds = Rebuild::frame, .changesPicture = false, .tab = Tab::none,
               .everyday = true},
              o.channels},
@@ -466,14 +456,20 @@ void forEachOption(Options& o, Visitor&& visit) {
   withOptions(o, [&](const auto&... option) { (visit(option.spec, option.field), ...); });
 }
 
+// The channels that frames keep.
+inline ChannelSet keptChannels(const RenderOptions& o) {
+  return o.background.hidesSky(0) ? o.channels.with(Channel::alpha) : o.channels;
+}
+
 // Effects that a scene does not switch on by itself: an option must ask for them as well.
 struct AskedFor {
   Effect effect;
   bool asked;
   std::string_view otherwise;  // said if it does not
 };
-inline std::array<AskedFor, 5> effectsAskedFor(const RenderOptions& o) {
+inline std::array<AskedFor, 6> effectsAskedFor(const RenderOptions& o) {
   return {{{Effect::glossyReflection, o.glossy > 0, "but --glossy is 0"},
+           {Effect::blurredSky, o.glossy == 0, "but --glossy samples reflections"},
            {Effect::softShadows, o.lightSamples > 1, "but --light-samples is 1"},
            {Effect::indirect, o.indirect > 0, "but --indirect is 0"},
            {Effect::ambientOcclusion, o.ambientSamples > 0, "but --ambient-samples is 0"},

@@ -35,12 +35,6 @@ inline constexpr float kFixedOffset = 1e-3f;
 // what Embree finds at its end are not: by some ulps of the way, whatever the place.
 inline constexpr float kShadowReach = 1.0f - 0x1p-20f;
 
-// How kernels find 1 / sqrt(x), where they normalize: by division and root, both correctly rounded;
-// or by the processor's estimate, alone (approximate: 12 bits on x86-64) or after one step of
-// Newton's method (refined: 22 bits). The estimates differ among processors. The reference is exact
-// always.
-enum class Reciprocal { exact, refined, approximate };
-
 struct ShadingChoices {
   // A light that adds less than this to the pixel, at most, is left out, shadow ray and all. The
   // pixel's error is at most this times the number of such lights and surfels.
@@ -55,10 +49,6 @@ struct ShadingChoices {
   // Impulses that a bent shading normal sends to the wrong side of the surface are turned back to
   // the right one (hard case H32); else they start into the solid, or out of it.
   bool bend = true;
-
-  // For normals, and the directions of impulses and to the lights: once or twice a surfel, light
-  // and impulse. Fresnel's equations, where a root decides what is reflected totally, stay exact.
-  Reciprocal reciprocal = Reciprocal::exact;
 
   bool operator==(const ShadingChoices&) const = default;
 };

@@ -27,16 +27,13 @@ float leastWithCode(int code) {
   return high;
 }
 
-SrgbTables makeSrgbTables() {
-  SrgbTables tables;
+std::array<float, 257> makeLeastWithCodes() {
+  std::array<float, 257> least{};
   for (int code = 0; code < 256; ++code) {
-    tables.least[static_cast<std::size_t>(code)] = leastWithCode(code);
+    least[static_cast<std::size_t>(code)] = leastWithCode(code);
   }
-  tables.least[256] = std::numeric_limits<float>::infinity();
-  for (int i = 0; i <= kSrgbSteps; ++i) {
-    tables.codeOfStep[static_cast<std::size_t>(i)] = srgbCode(static_cast<double>(i) / kSrgbSteps);
-  }
-  return tables;
+  least[256] = std::numeric_limits<float>::infinity();
+  return least;
 }
 
 }  // namespace
@@ -60,15 +57,9 @@ int srgbCode(double linear) {
   return static_cast<int>(std::floor(255 * linearToSrgb(linear) + 0.5));
 }
 
-int srgbCodeByTable(float linear) {
-  if (!(linear > 0)) return 0;  // NaN too
-  const float step = std::min(linear, 1.0f) * static_cast<float>(kSrgbSteps) + 0.5f;
-  return srgbTables().codeOfStep[static_cast<std::size_t>(step)];
-}
-
-const SrgbTables& srgbTables() {
-  static const SrgbTables tables = makeSrgbTables();
-  return tables;
+const std::array<float, 257>& leastWithCodes() {
+  static const std::array<float, 257> least = makeLeastWithCodes();
+  return least;
 }
 
 }  // namespace whit

@@ -17,15 +17,7 @@ float linearOfCode(int code);
 // round(255 * srgb(x)) with x clamped to [0, 1]; NaN and negatives give 0.
 int srgbCode(double linear);
 
-// The cheaper encoding: the code of the nearest of kSrgbSteps + 1 equally spaced values.
-inline constexpr int kSrgbSteps = 4095;
-int srgbCodeByTable(float linear);
-
-// The lookup tables of the vector encoders.
-struct SrgbTables {
-  std::array<float, 257> least;  // the least float of each code; least[256] is out of reach
-  std::array<std::int32_t, kSrgbSteps + 1> codeOfStep;  // of the cheaper encoding
-};
-const SrgbTables& srgbTables();
+// The least float of each code, for the vector encoder; the last is out of reach.
+const std::array<float, 257>& leastWithCodes();
 
 }  // namespace whit

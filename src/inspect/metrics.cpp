@@ -99,12 +99,11 @@ void checkComparable(const Image& a, const Image& b) {
   if (a.pixels.empty()) throwUsage("expected images with at least one pixel");
 }
 
-ImageDifference compareImages(const Image& a, const Image& b, float exposure, ToneCurve curve,
-                              SrgbEncoding encodingOfA) {
+ImageDifference compareImages(const Image& a, const Image& b, float exposure, ToneCurve curve) {
   checkComparable(a, b);
   ImageDifference difference;
   measureLinear(a, b, difference);
-  const DisplayImage shownA = toDisplay(a, exposure, curve, encodingOfA);
+  const DisplayImage shownA = toDisplay(a, exposure, curve);
   const DisplayImage shownB = toDisplay(b, exposure, curve);
   difference.psnrDb = psnr(shownA, shownB);
   measureCodes(shownA, shownB, difference);

@@ -24,11 +24,9 @@ struct ImageDifference {
 };
 
 // `b` is the reference. Sizes and windows must match and hold a pixel, else Error(usage). Exposure
-// and tone curve as given are applied before anything that looks at codes. The codes of `b` are
-// exact, those of `a` by `encodingOfA`.
+// and tone curve as given are applied before anything that looks at codes.
 ImageDifference compareImages(const Image& a, const Image& b, float exposure = 0,
-                              ToneCurve curve = ToneCurve::none,
-                              SrgbEncoding encodingOfA = SrgbEncoding::exact);
+                              ToneCurve curve = ToneCurve::none);
 
 // Throws Error(usage) unless sizes and windows match and there are pixels.
 void checkComparable(const Image& a, const Image& b);

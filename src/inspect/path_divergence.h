@@ -18,7 +18,7 @@ struct PathComparison {
 };
 PathComparison comparePaths(Renderer& renderer, const Camera& camera, const Film& film);
 
-// The reference's part of it. What changes nothing but the kernels (packet width, reciprocals, how
+// The reference's part of it. What changes nothing but the kernels (packet width, how
 // the film is kept) leaves it as it is, so that renderers may share it.
 struct ReferencePaths {
   Image image;

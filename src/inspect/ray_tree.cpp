@@ -295,7 +295,7 @@ RayTree traceReferenceTree(Renderer& renderer, const Camera& camera, const Film&
     intersector.endSample(radiance);
     reference::addSample(mean, radiance, static_cast<double>(s + 1));
   }
-  tree.pixel = quantized(renderer.options().film, Rgb(mean));
+  tree.pixel = Rgb(mean);
   fillHits(renderer.scene(), tree);
   return tree;
 }

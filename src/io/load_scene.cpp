@@ -28,6 +28,8 @@ constexpr int kSchemaVersion = 1;
 
 // The usual level of the supplied light, which the studio's brightness suits.
 constexpr double kUsualLevel = 0.5;
+// The radius of ambient occlusion over the model's.
+constexpr float kOcclusion = 0.3f;
 constexpr double kDimmest = 1.0e-6, kBrightest = 1.0e6;
 
 // White surfaces that face the light from `distance` are seen as `level`.
@@ -76,6 +78,7 @@ void supplyView(SceneContext& context) {
   SceneDescription& scene = context.scene;
   const ModelView view = viewOfAnimation(context);
   scene.isModel = true;
+  scene.ambient.occlusion = kOcclusion * static_cast<float>(view.radius);
   if (context.sky.empty() || context.sky == kStudio) scene.sky = studioSky();
   if (scene.lights.empty()) {
     supplyLights(view, scene);
@@ -212,12 +215,20 @@ JsonDocument documentOf(const fs::path& path, const SceneName& name, const LoadO
   return documentOf(path.string(), std::move(root), name.parameters, options);
 }
 
+// Supplied cameras fit the picture that is asked for.
+void takeSize(const LoadOptions& options, SceneDescription& scene) {
+  if (!options.size || !scene.cameras.empty()) return;
+  scene.width = options.size->width;
+  scene.height = options.size->height;
+}
+
 SceneDescription readScene(const JsonDocument& document, const LoadOptions& options,
                            SceneContext& context) {
   JsonObject file{JsonValue(document)};
   file.need("whit");
   file.find("parameters");
   readCameras(file, options.instant, context.scene);
+  takeSize(options, context.scene);
   readLights(file, options.instant, context.scene);
   readSky(file, context);
   const std::optional<double> fromSky = readAmbient(file, context.scene);
@@ -235,9 +246,11 @@ SceneDescription loadModelFile(const fs::path& path, const SceneName& name,
   if (!name.parameters.empty()) throwUsage(path.string() + " is a model: it has no parameters");
   SceneContext context(path, options, warnings, progress);
   SceneDescription& scene = context.scene;
+  takeSize(options, scene);
   const JsonDocument nothing{path.string(), Json::object(), {}};
   JsonDocument overrides = nothing;
   applySettings(options, "materials", overrides);
+  applySettings(options, "up", overrides);
   JsonObject noMaterials{JsonValue(nothing)}, items{JsonValue(overrides)};
   MaterialReader materials(noMaterials, context);
   readModelAlone(items, path, context, materials);
@@ -249,6 +262,7 @@ SceneDescription loadModelFile(const fs::path& path, const SceneName& name,
   applySettings(options, "", document);
   JsonObject file{JsonValue(document)};
   file.find("materials");
+  file.find("up");
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     scene.lights[i].pointer = "/lights/" + std::to_string(i);
   }

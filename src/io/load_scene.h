@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bake/scene.h"
+#include "core/options.h"
 #include "core/progress.h"
 #include "core/warnings.h"
 #include "io/json_reader.h"
@@ -22,11 +23,14 @@ struct LoadOptions {
   int threads = 0;                             // decoders; 0: all
   std::string shippedScenes;                   // where else shipped scenes are; empty: nowhere
   // "POINTER=VALUE", see scene_settings.h, taken for parts of the scene file. Of a model: members
-  // of "materials" by their names there, its "lights" or those supplied, "sky" and "ambient".
+  // of "materials" by their names there, its "lights" or those supplied, "sky" and "ambient"; of an
+  // OBJ or PLY file "up", the axis that is up in it: "x", "y" or "z".
   std::vector<std::string> settings;
   // In place of the scene's own sky: "none", "studio" (scene/studio_sky.h) or an equirectangular
   // image. Empty: the scene's own; of a model, which has none, the studio.
   std::string sky;
+  // Of the picture, for cameras that are supplied; none: the scene's own.
+  std::optional<ImageSize> size;
   // When the scene is looked at. With seconds that nothing in the scene follows, or an animation
   // that no model has: Error(usage).
   Instant instant;

@@ -91,7 +91,8 @@ void leaveOut(SceneDescription& d, EffectSet effects) {
                          effects.has(Effect::emissionMaps);
   if (fewerMaps) dropUnusedTexels(d);
   leaveOutOfSky(d.sky, effects);
-  if (effects.has(Effect::ambient)) d.ambient = Ambient();
+  if (effects.has(Effect::ambient)) d.ambient = {.reflection = d.ambient.reflection};
+  if (effects.has(Effect::blurredSky)) d.ambient.reflection = 0;
   if (effects.has(Effect::ambientOcclusion)) d.ambient.occlusion = 0;
   leaveOutOfLights(d.lights, effects);
   if (effects.has(Effect::instances)) keepFirstUses(d);

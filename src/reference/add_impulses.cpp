@@ -162,6 +162,10 @@ LobePoints lobePointsOf(const Chunk& chunk, std::size_t slot) {
 void shareWithLobe(const Scene& scene, EffectSet effects, const Crossing& crossing,
                    const ShadingChoices& choices, const LobePoints& points, Surfel& surfel) {
   const Material& material = scene.materials[surfel.material];
+  if (!crossing.hidden && material.reflectsBlurredSky(effects) && !scene.blurredSky.r.empty()) {
+    const double cosine = std::clamp(dot(surfel.shadingNormal, surfel.view), 0.0, 1.0);
+    surfel.belowLobe = RgbD(1.0) - lobeAlbedo(surfel.specular, cosine, std::sqrt(surfel.alpha));
+  }
   if (crossing.hidden || !material.scatters(effects)) return;
   Surfel alone = surfel;
   alone.coverage = 1;

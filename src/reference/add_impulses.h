@@ -3,6 +3,7 @@
 // of what a diffuse one sees.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "core/options.h"
@@ -50,8 +51,18 @@ struct LobePoints {
 
 LobePoints lobePointsOf(const Chunk& chunk, std::size_t slot);
 
-// Sets aboveLobe and belowLobe of a surfel whose glossy lobe is sampled (scene/material.h has the
-// rule).
+// The share of even light that a GGX lobe reflects of this reflectance and roughness: polynomials
+// fitted to the samples' mean weight, off by at most 0.07 and by 0.024 in the root mean square.
+// `all` is the share with F = 1, `grazing` that of Schlick's term.
+inline RgbD lobeAlbedo(const RgbD& f0, double cosine, double roughness) {
+  const double q = 1 - cosine, q2 = q * q, r = roughness, r2 = r * r;
+  const double all = 1 - r2 * (0.165 + q * (0.975 - 0.563 * r - 0.55 * q2) + 0.561 * r * cosine);
+  const double grazing = q2 * (q2 * q * (1.1 - 2.3 * r + 1.17 * r2) + 0.057 * r2);
+  return f0 * (all - grazing) + RgbD(std::min(1.0, 25 * maxComponent(f0)) * grazing);
+}
+
+// Sets aboveLobe and belowLobe of a surfel whose glossy lobe is sampled or reflects the blurred sky
+// (scene/material.h has the rule).
 void shareWithLobe(const Scene& scene, EffectSet effects, const Crossing& crossing,
                    const ShadingChoices& choices, const LobePoints& points, Surfel& surfel);
 

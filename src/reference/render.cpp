@@ -54,11 +54,10 @@ RayCounts renderAdaptively(const Tracer& tracer, const CameraFrame& frame, const
   std::vector<PixelSurface> surfaces(first.pixels.size());
   forEach(first.window, [&](int x, int y, RayCounts& own) {
     surfaces[first.index(x, y)] = tracer.surfaceAtCenter(frame, x, y);
-    first.at(x, y) = quantized(options.film, Rgb(tracer.center(frame, x, y, own)));
+    first.at(x, y) = Rgb(tracer.center(frame, x, y, own));
   });
   std::vector<std::uint8_t> edges(first.pixels.size());
-  const DisplayImage display =
-      toDisplay(first, options.exposure.ev, options.toneCurve, options.srgb);
+  const DisplayImage display = toDisplay(first, options.exposure.ev, options.toneCurve);
   findEdges(display, surfaces, options.contrast, 0, first.windowHeight(), edges);
   ProbeSamples probes(first.window, edges, samplePattern(std::max(options.spp, kProbeSamples)));
   const double scale = std::exp2(static_cast<double>(options.exposure.ev));
@@ -69,9 +68,9 @@ RayCounts renderAdaptively(const Tracer& tracer, const CameraFrame& frame, const
       const auto number = static_cast<std::size_t>(s);
       const RgbD value = tracer.sample(frame, x, y, number, own);
       addSample(pixel.total, value, s + 1.0);
-      pixel.codes[number] = displayCode(Rgb(value), scale, options.toneCurve, options.srgb);
+      pixel.codes[number] = displayCode(Rgb(value), scale, options.toneCurve);
     }
-    first.at(x, y) = quantized(options.film, Rgb(pixel.total));
+    first.at(x, y) = Rgb(pixel.total);
   });
   forEach(image.window, [&](int x, int y, RayCounts& own) {
     image.at(x, y) = first.at(x, y);
@@ -81,7 +80,7 @@ RayCounts renderAdaptively(const Tracer& tracer, const CameraFrame& frame, const
     for (int s = kProbeSamples; s < options.spp; ++s) {
       addSample(mean, tracer.sample(frame, x, y, static_cast<std::size_t>(s), own), s + 1.0);
     }
-    image.at(x, y) = quantized(options.film, Rgb(mean));
+    image.at(x, y) = Rgb(mean);
   });
   return counts;
 }
@@ -169,8 +168,7 @@ RayCounts render(const Scene& scene, const Intersector& intersector, const Camer
   }
   return forEachPixel(image.window, settings.threads, progress,
                       [&](int x, int y, RayCounts& counts) {
-                        const Rgb mean(tracer.pixel(frame, x, y, counts));
-                        image.at(x, y) = quantized(settings.options.film, mean);
+                        image.at(x, y) = Rgb(tracer.pixel(frame, x, y, counts));
                       });
 }
 
@@ -185,6 +183,14 @@ void keepChannels(const Scene& scene, const Intersector& intersector, const Came
   forEachPixel(image.window, settings.threads, nullptr, [&](int x, int y, RayCounts&) {
     const std::size_t pixel = image.index(x, y);
     layers.keep(pixel, tracer.channels(frame, x, y, samples[number], number));
+    if (layers.channels().has(Channel::alpha)) {
+      double hits = 0;
+      for (std::size_t i = 0; i < samples.size(); ++i) {
+        hits += tracer.channels(frame, x, y, samples[i], i).material != kNoNumber;
+      }
+      layers.floats(Channel::alpha)[pixel] =
+          static_cast<float>(hits / static_cast<double>(samples.size()));
+    }
     if (!layers.channels().has(Channel::rays)) return;
     RayCounts counts;
     tracer.sampled(frame, x, y, samples[number], number, counts);

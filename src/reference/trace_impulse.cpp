@@ -39,6 +39,7 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
   const bool absorbs = effects_.has(Effect::absorption) && media != 0;
   const std::optional<Settled> met = nearest(ray, depth);
   if (!met) {
+    if (options_.background.hidesSky(depth)) return {};
     const RgbD sky = skyAlong(scene_, effects_, ray.direction);
     constexpr double kForEver = std::numeric_limits<double>::infinity();
     return absorbs ? sky * transmittance(scene_, media, kForEver) : sky;

@@ -1,6 +1,10 @@
 // writeEmittedAndReflectiveAmbient: what a ray brings without lights and without further rays.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
+#include "reference/add_impulses.h"
 #include "reference/twin.h"
 
 namespace whit::reference {
@@ -12,13 +16,21 @@ inline RgbD skyAlong(const Scene& scene, EffectSet effects, const Vec3d& directi
   return skyRadiance(scene.sky, direction);
 }
 
-// Ambient light reflected by the diffuse color, of the part of the surface that is there: black
-// where that reflects the scene instead.
+// Ambient light reflected by the diffuse color, of the part of the surface that is there, but black
+// where that reflects the scene instead; and the blurred sky where the glossy lobe reflects it.
 inline RgbD reflectedAmbient(const Scene& scene, EffectSet effects, const Surfel& surfel) {
-  if (!effects.has(Effect::ambient)) return {};
-  if (scene.materials[surfel.material].diffuses(effects)) return {};
-  const RgbD up(scene.ambient.up), down(scene.ambient.down);
-  return surfel.diffuse * (down + (up - down) * (0.5 + 0.5 * surfel.shadingNormal.y));
+  const Material& material = scene.materials[surfel.material];
+  RgbD light;
+  if (effects.has(Effect::ambient) && !material.diffuses(effects)) {
+    const RgbD up(scene.ambient.up), down(scene.ambient.down);
+    light = surfel.diffuse * (down + (up - down) * (0.5 + 0.5 * surfel.shadingNormal.y));
+  }
+  if (!material.reflectsBlurredSky(effects) || scene.blurredSky.r.empty()) return light;
+  const double cosine = dot(surfel.shadingNormal, surfel.view), roughness = std::sqrt(surfel.alpha);
+  const Vec3d mirrored = normalized(surfel.shadingNormal * (2 * cosine) - surfel.view);
+  const RgbD sky = blurredRadiance(scene.sky, scene.blurredSky, mirrored, roughness) *
+                   double{scene.ambient.reflection};
+  return light + sky * lobeAlbedo(surfel.specular, std::max(cosine, 0.0), roughness);
 }
 
 // Emission, and ambient light that nothing is looked for to hold off.
@@ -36,6 +48,7 @@ inline RadianceRow writeEmittedAndReflectiveAmbient(const World& world, const Ch
                                                     std::size_t slot) {
   RgbD radiance;
   if (chunk.surfels.material[slot] == kMiss) {
+    if (chunk.options().background.hidesSky(chunk.depth)) return {};
     radiance = skyAlong(world.scene, world.effects, rayOf(chunk, slot).direction);
   } else if (!isHidden(chunk, slot)) {
     radiance = emittedAndAmbient(world.scene, world.effects, surfelOf(chunk, slot));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/display.h"
 #include "core/quantile.h"
 #include "core/vec3.h"
 #include "core/worker_pool.h"
@@ -15,9 +16,11 @@ namespace whit {
 namespace {
 
 constexpr int kLongSide = 64, kDepth = 8;
-constexpr double kMiddle = 0.3;  // what the mean of the surfaces becomes
-// This share of the surfaces' pixels stays below white.
-constexpr double kBrightShare = 0.93, kBright = 0.95;
+// Levels are those of the picture, after the tone curve. The mean of the surfaces becomes kMiddle.
+constexpr double kMiddle = 0.3;
+// This share of the surfaces' pixels stays below kBright, and this share of all pixels below
+// kClear, so that a background does not burn out around a dark model.
+constexpr double kBrightShare = 0.93, kBright = 0.95, kClearShare = 0.8, kClear = 0.8;
 // For half of the sky to stay below this the surfaces may be that many EV darker: what is dark
 // before a gray sky is meant to be dark.
 constexpr double kSky = 0.5, kMostForSky = 2;
@@ -37,7 +40,8 @@ Luminances luminancesOf(const Renderer& renderer, const Camera& camera) {
   const int width = side(scene.width), height = side(scene.height);
   reference::Settings settings;
   settings.options.depth = kDepth;
-  settings.effects = renderer.plan().effects.without(notAskedFor(settings.options));
+  settings.options.disable = renderer.options().disable;
+  settings.effects = makePlan(scene, settings.options, false).effects;
   const EmbreeIntersector intersector(renderer.accel());
   const reference::Tracer tracer(scene, intersector, settings);
   const CameraFrame frame =
@@ -61,22 +65,34 @@ Luminances luminancesOf(const Renderer& renderer, const Camera& camera) {
   return all;
 }
 
-// By which the surfaces are well seen.
-double evOf(const std::vector<double>& surfaces, double bright) {
-  double sum = 0;
-  for (const double l : surfaces) sum += std::log2(std::clamp(l, kDarkest * bright, bright));
-  const double mean = sum / static_cast<double>(surfaces.size());
-  return std::min(std::log2(kMiddle) - mean, std::log2(kBright / bright));
+// Log2 of the exposed luminance that the tone curve turns into `level`.
+double exposed(ToneCurve curve, double level) {
+  double low = -kMostEv, high = kMostEv;
+  for (int i = 0; i < 64; ++i) {
+    const double middle = (low + high) / 2;
+    (applyToneCurve(curve, std::exp2(middle)) < level ? low : high) = middle;
+  }
+  return low;
 }
 
 }  // namespace
 
 float exposureFor(const Renderer& renderer, const Camera& camera) {
-  const Luminances seen = luminancesOf(renderer, camera);
-  const double bright = quantile(seen.surfaces, kBrightShare), sky = quantile(seen.sky, 0.5);
+  auto [surfaces, sky] = luminancesOf(renderer, camera);
+  const auto curve = renderer.options().toneCurve;
+  const double bright = quantile(surfaces, kBrightShare), middleOfSky = quantile(sky, 0.5);
   if (!(bright > 0)) return 0;
-  double ev = evOf(seen.surfaces, bright);
-  if (sky > 0) ev = std::clamp(std::log2(kSky / sky), ev - kMostForSky, ev);
+  double mean = 0;
+  for (const double l : surfaces) {
+    mean +=
+        std::log2(std::clamp(l, kDarkest * bright, bright)) / static_cast<double>(surfaces.size());
+  }
+  double ev = std::min(exposed(curve, kMiddle) - mean, exposed(curve, kBright) - std::log2(bright));
+  if (middleOfSky > 0) {
+    ev = std::clamp(exposed(curve, kSky) - std::log2(middleOfSky), ev - kMostForSky, ev);
+  }
+  surfaces.insert(surfaces.end(), sky.begin(), sky.end());
+  ev = std::min(ev, exposed(curve, kClear) - std::log2(quantile(surfaces, kClearShare)));
   // Not -0, which would be said as such.
   return static_cast<float>(std::clamp(std::round(ev * kSteps) / kSteps, -kMostEv, kMostEv) + 0.0);
 }

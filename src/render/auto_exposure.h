@@ -6,7 +6,7 @@
 
 namespace whit {
 
-// In steps of 1/8 EV. Follows from scene, camera and effects alone, not from size, crop or how the
+// In steps of 1/8 EV. Follows from scene, camera, effects and tone curve alone, not from size, crop or how the
 // picture is computed: the reference traces a small picture of the scene's own shape first.
 float exposureFor(const Renderer& renderer, const Camera& camera);
 

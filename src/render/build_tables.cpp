@@ -30,6 +30,7 @@ std::uint32_t flagsOf(const Material& m, bool onOthers, EffectSet effects) {
   if (transmits) flags |= kMaterialTransmits;
   if (maxComponent(m.emission) > 0) flags |= kMaterialEmits;
   if (m.hasGlossy()) flags |= kMaterialGlossy;
+  if (m.reflectsBlurredSky(effects)) flags |= kMaterialBlursSky;
   if (m.limitsDiffuse(effects)) flags |= kMaterialLimitsDiffuse;
   if (effects.has(Effect::textures) && m.variesRoughness()) flags |= kMaterialVariesRoughness;
   if (effects.has(Effect::coverage) && m.isPartlyThere()) flags |= kMaterialIsPartlyThere;
@@ -195,6 +196,14 @@ void addTextures(const Scene& scene, TextureFilter filter, int threads, ShadingT
   if (tables.textures.empty()) tables.textures.push_back(kUnused);
 }
 
+void setImage(const EnvironmentImage& image, int height, SkyTable& table) {
+  table.r = image.r.data();
+  table.g = image.g.data();
+  table.b = image.b.data();
+  table.width = image.width;
+  table.height = height;
+}
+
 SkyTable skyTable(const Sky& sky, EffectSet effects) {
   SkyTable table;
   const bool image = sky.kind == Sky::Kind::image;
@@ -203,11 +212,7 @@ SkyTable skyTable(const Sky& sky, EffectSet effects) {
   table.zenith = sky.zenith * sky.scale;
   table.horizon = sky.horizon * sky.scale;
   table.ground = sky.ground * sky.scale;
-  table.r = sky.image.r.data();
-  table.g = sky.image.g.data();
-  table.b = sky.image.b.data();
-  table.width = sky.image.width;
-  table.height = sky.image.height;
+  setImage(sky.image, sky.image.height, table);
   table.scale = sky.scale;
   table.turn = sky.rotation / 360.0f;
   return table;
@@ -217,7 +222,10 @@ void addLighting(const Scene& scene, EffectSet effects, ShadingTables& tables) {
   addMedia(scene, tables);
   if (effects.has(Effect::lights)) tables.lights = scene.lights;
   tables.sky = skyTable(scene.sky, effects);
-  tables.ambient = scene.ambient;
+  tables.blurredSky = tables.sky;
+  setImage(scene.blurredSky, kBlurRows, tables.blurredSky);
+  tables.blurredSky.scale *= scene.ambient.reflection;
+  tables.ambient = effects.has(Effect::ambient) ? scene.ambient : Ambient();
 }
 
 }  // namespace

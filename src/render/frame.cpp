@@ -54,16 +54,17 @@ Film makeFilm(const Scene& scene, const RenderOptions& options, std::uint64_t ma
     throwUsage("--crop must lie within the image of " + std::to_string(size.width) + "x" +
                std::to_string(size.height) + " pixels and hold at least one");
   }
-  const std::uint64_t bytes = static_cast<std::uint64_t>(window.x1 - window.x0) *
-                              static_cast<std::uint64_t>(window.y1 - window.y0) *
-                              (kBytesPerPixel + ChannelLayers::bytesPerPixel(options.channels));
+  const std::uint64_t bytes =
+      static_cast<std::uint64_t>(window.x1 - window.x0) *
+      static_cast<std::uint64_t>(window.y1 - window.y0) *
+      (kBytesPerPixel + ChannelLayers::bytesPerPixel(keptChannels(options)));
   if (bytes > maxBytes) {
     throwLimit("the image needs " + std::to_string(bytes / 1000000) +
                " MB, more than --max-memory allows");
   }
   Film film;
   film.image = Image(size.width, size.height, window);
-  film.channels.resize(options.channels, film.image.pixels.size());
+  film.channels.resize(keptChannels(options), film.image.pixels.size());
   return film;
 }
 

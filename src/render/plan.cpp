@@ -15,18 +15,23 @@ namespace whit {
 namespace {
 
 // Effects that mean nothing without another one go with it.
-EffectSet consistent(EffectSet e) {
-  if (!e.has(Effect::glossy)) e = e.without(Effect::glossyReflection);
+EffectSet consistent(const Scene& scene, EffectSet e) {
+  if (!e.has(Effect::sky)) e = e.without(Effect::skyImage);
+  const bool showsSky =
+      scene.sky.kind == Sky::Kind::image ? e.has(Effect::skyImage) : e.has(Effect::sky);
+  if (!showsSky || scene.blurredSky.r.empty()) e = e.without(Effect::blurredSky);
+  if (!e.has(Effect::glossy)) e = e.without(Effect::glossyReflection).without(Effect::blurredSky);
   if (!e.has(Effect::lights)) {
     e = e.without(Effect::shadows);
     e = e.without(Effect::spotLights).without(Effect::directionalLights);
-    if (!e.has(Effect::glossyReflection)) e = e.without(Effect::glossy);
+    if (!e.has(Effect::glossyReflection) && !e.has(Effect::blurredSky)) {
+      e = e.without(Effect::glossy);
+    }
   }
   if (!e.has(Effect::shadows)) e = e.without(Effect::softShadows);
   if (!e.has(Effect::ambient)) e = e.without(Effect::ambientOcclusion);
   if (!e.has(Effect::textures) || !e.has(Effect::emission)) e = e.without(Effect::emissionMaps);
   if (!e.has(Effect::transmission)) e = e.without(Effect::absorption).without(Effect::coverage);
-  if (!e.has(Effect::sky)) e = e.without(Effect::skyImage);
   return e;
 }
 
@@ -34,7 +39,8 @@ FeatureSet featuresOf(const Scene& scene, const RenderOptions& options, EffectSe
   const bool maps = e.has(Effect::textures) || e.has(Effect::normalMaps) || e.has(Effect::coverage);
   const bool emission = e.has(Effect::emission);
   return FeatureSet()
-      .with(Feature::ambient, e.has(Effect::ambient) && !isOccluded(scene.ambient, e))
+      .with(Feature::ambient,
+            (e.has(Effect::ambient) || e.has(Effect::blurredSky)) && !isOccluded(scene.ambient, e))
       .with(Feature::emission, emission)
       .with(Feature::emissionFactors,
             e.has(Effect::emissionMaps) || (emission && e.has(Effect::vertexColors)))
@@ -112,9 +118,10 @@ class Planner {
       : scene_(scene), options_(options), shadowTables_(shadowCache) {
     const bool all = options.effects == EffectChoice::all;
     const EffectSet called = all ? EffectSet::all() : scene.effects;
-    plan_.effects = consistent(called.without(options.disable).without(notAskedFor(options)));
+    plan_.effects =
+        consistent(scene, called.without(options.disable).without(notAskedFor(options)));
     plan_.features = featuresOf(scene, options, plan_.effects);
-    plan_.channels = options.channels;
+    plan_.channels = keptChannels(options);
   }
 
   Plan make() {

@@ -155,10 +155,16 @@ Frame Renderer::frameOf(const Camera& camera, Film& film, const FrameHooks* hook
   return frame;
 }
 
+void Renderer::showBackground(Film& film) const {
+  if (!film.wantDisplay || !options_.background.hidesSky(0)) return;
+  film.display = overBackground(film.image, film.channels.floats(Channel::alpha), options_);
+}
+
 FrameStats Renderer::trace(const Frame& frame, bool adaptively) {
   const Stopwatch stopwatch;
   FrameStats stats =
       adaptively ? adaptive_.render(frame) : scheduler_.trace(frame, scheduler_.tiles());
+  showBackground(*frame.film);
   stats.frameMs = stopwatch.ms();
   if (!frame.observers.empty()) return stats;
   stats.workers = machine_.threads;
@@ -312,8 +318,9 @@ FrameStats Renderer::renderReference(const Camera& camera, Film& film, Progress*
                             film.channels);
   }
   if (film.wantDisplay) {
-    film.display = toDisplay(film.image, options_.exposure.ev, options_.toneCurve, options_.srgb);
+    film.display = toDisplay(film.image, options_.exposure.ev, options_.toneCurve);
   }
+  showBackground(film);
   FrameStats stats;
   stats.frameMs = stopwatch.ms();
   stats.workers = machine_.threads;

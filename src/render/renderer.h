@@ -133,6 +133,7 @@ class Renderer {
   bool adaptive() const { return samplesAdaptively(options_, scene_.effects); }
   Frame frameOf(const Camera& camera, Film& film, const FrameHooks* hooks,
                 std::span<StageObserver* const> observers = {}, bool adaptively = false);
+  void showBackground(Film& film) const;
   FrameStats trace(const Frame& frame, bool adaptively = false);
   const std::vector<Vec2f>& pattern();
   void replan(Plan next);

@@ -7,32 +7,13 @@
 
 #include "bake/scene.h"
 #include "bake/sphere.h"
-#include "core/display.h"
 #include "core/pixel.h"
-#include "core/srgb.h"
 #include "render/frame.h"
 #include "simd/kernels.h"
 
 namespace whit {
 
 namespace {
-
-void keepAsHalves(const RadianceColumns& radiance, std::size_t n) {
-  for (float* const column : {radiance.r, radiance.g, radiance.b}) {
-    for (std::size_t i = 0; i < n; ++i) column[i] = roundedToHalf(column[i]);
-  }
-}
-
-void keepAsCodes(const Chunk& c) {
-  const RadianceColumns radiance = c.radiance;
-  const std::uint32_t* const codes = c.codes;
-  simd::encodeDisplay({.radiance = radiance, .n = c.n, .codes = c.codes});
-  for (std::size_t i = 0; i < c.n; ++i) {
-    radiance.r[i] = linearOfCode(static_cast<int>(codes[i] & 0xFFu));
-    radiance.g[i] = linearOfCode(static_cast<int>(codes[i] >> 8 & 0xFFu));
-    radiance.b[i] = linearOfCode(static_cast<int>(codes[i] >> 16 & 0xFFu));
-  }
-}
 
 // True if this chunk belongs to the sample whose channels are stored.
 bool isKept(const Chunk& c) {
@@ -98,12 +79,10 @@ ChannelValues valuesOf(const Chunk& c, std::size_t i) {
 
 void encodeForDisplay(Chunk& c) {
   const RenderOptions& o = c.options();
-  simd::encodeDisplay({std::exp2(o.exposure.ev), o.toneCurve, o.srgb, c.radiance, c.n, c.codes});
+  simd::encodeDisplay({std::exp2(o.exposure.ev), o.toneCurve, c.radiance, c.n, c.codes});
 }
 
 void updateImage(Chunk& c) {
-  if (c.options().film == FilmPrecision::half) keepAsHalves(c.radiance, c.n);
-  if (c.options().film == FilmPrecision::eightBit) keepAsCodes(c);
   Film& film = *c.film;
   if (film.wantDisplay) encodeForDisplay(c);
   // Locals: what memory may alias would be read again for every pixel.
@@ -132,8 +111,20 @@ std::uint64_t countNonFinite(const Chunk& c) {
   return count;
 }
 
+// The mean over the samples so far of whether a surface is hit.
+void addToAlpha(const Chunk& c) {
+  const std::span<float> alpha = c.frame->channels.layers->floats(Channel::alpha);
+  forEachKept(c, [&](std::size_t slot, std::size_t pixel) {
+    const float hit = c.surfels.material[slot] == kMiss ? 0.0f : 1.0f;
+    const float before = c.sampleNumber == 0 ? hit : alpha[pixel];
+    alpha[pixel] = before + (hit - before) / static_cast<float>(c.sampleNumber + 1);
+  });
+}
+
 void keepChannels(Chunk& c) {
-  if (c.depth > 0 || !isKept(c)) return;
+  if (c.depth > 0 || !c.frame->channels.layers) return;
+  if (c.frame->channels.layers->channels().has(Channel::alpha)) addToAlpha(c);
+  if (!isKept(c)) return;
   forEachKept(c, [&](std::size_t slot, std::size_t pixel) {
     c.frame->channels.layers->keep(pixel, valuesOf(c, slot));
   });

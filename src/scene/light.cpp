@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <vector>
 
 namespace whit {
 
@@ -16,17 +18,99 @@ RgbD texel(const EnvironmentImage& image, int x, int y) {
   return {image.r[i], image.g[i], image.b[i]};
 }
 
-// Bilinear at (u, v) in turns from -z and in half-turns from the zenith.
-RgbD lookUp(const EnvironmentImage& image, double u, double v) {
+// Bilinear along `d` in an image that starts at -z and the zenith: in the `rows` rows from
+// `first` on.
+RgbD lookUp(const EnvironmentImage& image, double rotation, const Vec3d& d, int first, int rows) {
+  const double u = std::atan2(d.x, -d.z) / (2 * std::numbers::pi) + rotation / 360.0;
+  // Unlike acos this keeps its precision near the poles.
+  const double v = std::atan2(std::hypot(d.x, d.z), d.y) / std::numbers::pi;
   const double x = (u - std::floor(u)) * image.width - 0.5;
-  const double y = std::clamp(v * image.height - 0.5, 0.0, image.height - 1.0);
+  const double y = first + std::clamp(v * rows - 0.5, 0.0, rows - 1.0);
   const double x0 = std::floor(x), y0 = std::floor(y);
   const int left = x0 < 0 ? image.width - 1 : static_cast<int>(x0);
   const int right = left + 1 < image.width ? left + 1 : 0;
-  const int top = static_cast<int>(y0), bottom = std::min(top + 1, image.height - 1);
+  const int top = static_cast<int>(y0), bottom = std::min(top + 1, first + rows - 1);
   const double s = x - x0, t = y - y0;
   return (texel(image, left, top) * (1 - s) + texel(image, right, top) * s) * (1 - t) +
          (texel(image, left, bottom) * (1 - s) + texel(image, right, bottom) * s) * t;
+}
+
+// Radiance of a sky that is the same all around, at a sine of the elevation, without its scale.
+RgbD evenRadiance(const Sky& sky, double sine) {
+  if (sky.kind == Sky::Kind::none) return {};
+  if (sky.kind == Sky::Kind::color) return RgbD(sky.zenith);
+  return mix(sky.horizon, sine < 0 ? sky.ground : sky.zenith, std::abs(sine));
+}
+
+double polarAngle(int row, int rows) { return std::numbers::pi * (row + 0.5) / rows; }
+
+// Such a sky as an image of one column.
+EnvironmentImage columnOf(const Sky& sky) {
+  EnvironmentImage column{1, 8 * kBlurRows, {}, {}, {}};
+  for (int y = 0; y < column.height; ++y) {
+    const Rgb radiance(evenRadiance(sky, std::cos(polarAngle(y, column.height))));
+    column.r.push_back(radiance.x);
+    column.g.push_back(radiance.y);
+    column.b.push_back(radiance.z);
+  }
+  return column;
+}
+
+// A plane of the image in fewer texels: means over their solid angles.
+std::vector<float> shrunk(const std::vector<float>& plane, const EnvironmentImage& image, int width,
+                          int height) {
+  std::vector<float> means;
+  for (int y = 0; y < height; ++y) {
+    const int top = y * image.height / height;
+    const int bottom = std::max(top + 1, (y + 1) * image.height / height);
+    for (int x = 0; x < width; ++x) {
+      const int left = x * image.width / width;
+      const int right = std::max(left + 1, (x + 1) * image.width / width);
+      double sum = 0, weights = 0;
+      for (int row = top; row < bottom; ++row) {
+        const double weight = std::sin(polarAngle(row, image.height));
+        const auto first = plane.begin() + std::ptrdiff_t{row} * image.width;
+        sum += weight * std::accumulate(first + left, first + right, 0.0);
+        weights += weight * (right - left);
+      }
+      means.push_back(static_cast<float>(sum / weights));
+    }
+  }
+  return means;
+}
+
+// Appends to a plane of kBlurRows rows what lobes of each further roughness see of it: the mean
+// weighted by D(h) cos(theta), for a view and a normal along the direction (Karis 2013, "Real
+// Shading in Unreal Engine 4").
+std::vector<float> blurs(std::vector<float> plane, int width) {
+  std::vector<float> around;  // each row twice, for sums across the seam
+  for (auto row = plane.begin(); row != plane.end(); row += width) {
+    for (int turn = 0; turn < 2; ++turn) around.insert(around.end(), row, row + width);
+  }
+  for (int level = 1; level < kSkyBlurs; ++level) {
+    const double a2 = std::pow(level / (kSkyBlurs - 1.0), 4);
+    for (int y = 0; y < kBlurRows; ++y) {
+      const double polar = polarAngle(y, kBlurRows);
+      std::vector<float> sums(static_cast<std::size_t>(width));
+      double weights = 0;
+      for (int from = 0; from < kBlurRows; ++from) {
+        const double other = polarAngle(from, kBlurRows);
+        for (int turn = 0; turn < width; ++turn) {
+          const double cosine =
+              std::cos(polar) * std::cos(other) +
+              std::sin(polar) * std::sin(other) * std::cos(2 * std::numbers::pi * turn / width);
+          if (!(cosine > 0)) continue;
+          const double spread = 1 - (1 - a2) * (1 + cosine) / 2;
+          const double weight = std::sin(other) * cosine / (spread * spread);
+          weights += weight;
+          const float* row = around.data() + std::ptrdiff_t{2} * width * from + turn;
+          for (float& sum : sums) sum += static_cast<float>(weight) * *row++;
+        }
+      }
+      for (const float sum : sums) plane.push_back(sum / static_cast<float>(weights));
+    }
+  }
+  return plane;
 }
 
 // The cosine-weighted mean over one hemisphere. A row between polar angles a and b weighs
@@ -74,20 +158,30 @@ std::string skyName(const Sky& sky) {
 }
 
 RgbD skyRadiance(const Sky& sky, const Vec3d& d) {
-  switch (sky.kind) {
-    case Sky::Kind::none:
-      return {};
-    case Sky::Kind::color:
-      return RgbD(sky.zenith) * sky.scale;
-    case Sky::Kind::gradient:
-      return mix(sky.horizon, d.y < 0 ? sky.ground : sky.zenith, std::abs(d.y)) * sky.scale;
-    case Sky::Kind::image:
-      break;
+  if (sky.kind != Sky::Kind::image) return evenRadiance(sky, d.y) * sky.scale;
+  return lookUp(sky.image, sky.rotation, d, 0, sky.image.height) * sky.scale;
+}
+
+EnvironmentImage blurredSky(const Sky& sky) {
+  constexpr int kWidth = 2 * kBlurRows;
+  const EnvironmentImage source = sky.kind == Sky::Kind::image ? sky.image : columnOf(sky);
+  EnvironmentImage blurred{kWidth, kBlurRows * kSkyBlurs, {}, {}, {}};
+  for (auto plane : {&EnvironmentImage::r, &EnvironmentImage::g, &EnvironmentImage::b}) {
+    blurred.*plane = shrunk(source.*plane, source, kWidth, kBlurRows);
+    blurred.*plane = blurs(blurred.*plane, kWidth);
   }
-  const double u = std::atan2(d.x, -d.z) / (2 * std::numbers::pi) + sky.rotation / 360.0;
-  // Unlike acos this keeps its precision near the poles.
-  const double v = std::atan2(std::hypot(d.x, d.z), d.y) / std::numbers::pi;
-  return lookUp(sky.image, u, v) * sky.scale;
+  return blurred;
+}
+
+RgbD blurredRadiance(const Sky& sky, const EnvironmentImage& blurred, const Vec3d& d,
+                     double roughness) {
+  const double blur = roughness * (kSkyBlurs - 1);
+  const int level = std::clamp(static_cast<int>(blur), 0, kSkyBlurs - 2);
+  const auto at = [&](int k) {
+    return lookUp(blurred, sky.rotation, d, k * kBlurRows, kBlurRows) * sky.scale;
+  };
+  const RgbD sharper = at(level);
+  return sharper + (at(level + 1) - sharper) * (blur - level);
 }
 
 Ambient ambientFromSky(const Sky& sky, double strength, Ambient before) {

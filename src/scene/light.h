@@ -73,6 +73,8 @@ struct Ambient {
   double ofSky = 0;  // strength that ambientFromSky() was called with; 0: it was not
   // Radius of ambient occlusion; 0: none. Frames take --ambient-samples of it.
   float occlusion = 0;
+  // The share of the sky that rough surfaces reflect, blurred, in frames without --glossy samples.
+  float reflection = 1;
 
   bool operator==(const Ambient&) const = default;
 };
@@ -87,6 +89,13 @@ inline bool isOccluded(const Ambient& ambient, EffectSet effects) {
 std::string skyName(const Sky& sky);
 // Radiance of the sky along the unit direction `d` (double precision; the kernels' oracle).
 RgbD skyRadiance(const Sky& sky, const Vec3d& d);
+// The sky as GGX lobes see it that look straight along a direction: of roughness 0, 0.2, ... 1, one
+// image of kBlurRows rows below the other, without Sky::scale and Sky::rotation.
+inline constexpr int kSkyBlurs = 6, kBlurRows = 32;
+EnvironmentImage blurredSky(const Sky& sky);
+// Radiance of the blurred sky along the unit direction `d`, linear in the roughness from 0 to 1.
+RgbD blurredRadiance(const Sky& sky, const EnvironmentImage& blurred, const Vec3d& d,
+                     double roughness);
 // Replaces the light of `before` by the cosine-weighted means of the sky over the upper and the
 // lower hemisphere, times `strength`; the other members of `before` stay.
 Ambient ambientFromSky(const Sky& sky, double strength, Ambient before = {});

@@ -27,7 +27,9 @@
 // specification, appendix B: mix(diffuse, specular, F)). G is the mean weight of the very samples
 // that are taken, whose expected value is the lobe's albedo towards the viewer; so the sum is at
 // most 1 at every angle and for every number of samples, and 1 where nothing absorbs. A lobe that
-// is not sampled shows lights only and leaves the diffuse color as it is.
+// is not sampled shows lights, and in place of the scene a blurred sky: with S the sky as a lobe of
+// its roughness sees it along the mirrored view and A the lobe's albedo, A * S is added, and 1 - A
+// is what transmission and diffuse color count.
 #pragma once
 
 #include <algorithm>
@@ -106,6 +108,10 @@ struct Material {
   bool diffuses(EffectSet effects) const {
     return effects.has(Effect::indirect) && hasDiffuseReflection();
   }
+  // In frames with these effects the lobe reflects the blurred sky.
+  bool reflectsBlurredSky(EffectSet effects) const {
+    return effects.has(Effect::blurredSky) && hasGlossyReflection() && !hasMirror();
+  }
   // In frames with these effects the lobe is sampled, and takes light from what lies below it.
   bool scatters(EffectSet effects) const {
     return effects.has(Effect::glossyReflection) && hasGlossyReflection();
@@ -114,7 +120,8 @@ struct Material {
   bool limitsDiffuse(EffectSet effects) const {
     const float coat = std::max(maxComponent(mirror), maxComponent(mirrorGrazing));
     const float color = maxComponent(diffuse);
-    return color > 0 && (hasTransmission() || scatters(effects) || (coat > 0 && coat + color > 1));
+    return color > 0 && (hasTransmission() || scatters(effects) || reflectsBlurredSky(effects) ||
+                         (coat > 0 && coat + color > 1));
   }
   bool hasMirror() const { return maxComponent(mirror) > 0 || maxComponent(mirrorGrazing) > 0; }
   bool hasTransmission() const { return maxComponent(transmission) > 0; }

@@ -155,6 +155,7 @@ inline constexpr auto kMembers<Ambient> = std::tuple{
     Member{"up", &Ambient::up, {.kind = kColorMember}},
     Member{"down", &Ambient::down, {.kind = kColorMember}},
     Member{"occlusion", &Ambient::occlusion, {.low = 0}},
+    Member{"reflection", &Ambient::reflection, {.low = 0, .high = 1}},
 };
 
 // Calls visit(member) for each member of the noun.

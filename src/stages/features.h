@@ -10,7 +10,7 @@ namespace whit {
 // name, what it is there for
 #define WHIT_FEATURES(X)                                                  \
   X(always, "every frame")                                                \
-  X(ambient, "ambient light")                                             \
+  X(ambient, "ambient light, blurred sky")                                \
   X(spotLights, "cones of spot lights")                                   \
   X(emission, "materials that emit")                                      \
   X(emissionFactors, "emission by maps or vertex colors")                 \

@@ -53,7 +53,8 @@ constexpr bool samplesLobes(EffectSet effects) {
 // picture would be too dark. `effects` are the scene's.
 inline bool samplesAdaptively(const RenderOptions& options, EffectSet effects) {
   const EffectSet used = effects.without(options.disable).without(notAskedFor(options));
-  return options.adaptive && options.spp > 1 && !samplesLobes(used);
+  const bool alpha = keptChannels(options).has(Channel::alpha);  // a mean over all samples
+  return options.adaptive && options.spp > 1 && !samplesLobes(used) && !alpha;
 }
 
 // Sample k of the surfel that `path` has led to.

@@ -47,6 +47,8 @@ inline constexpr std::uint32_t kMaterialVariesRoughness = 1024, kMaterialIsPartl
 inline constexpr std::uint32_t kMaterialMapped = 4096;
 // Under --indirect its diffuse color reflects the scene, in place of ambient light.
 inline constexpr std::uint32_t kMaterialDiffuses = 8192;
+// Material::reflectsBlurredSky() in such frames.
+inline constexpr std::uint32_t kMaterialBlursSky = 32768;
 // Material::limitsDiffuse() in such frames.
 inline constexpr std::uint32_t kMaterialLimitsDiffuse = 16384;
 
@@ -114,7 +116,7 @@ struct ShadingTables {
   std::vector<InstanceTransform> instances;  // at least one
   std::vector<MediumRecord> media;           // [0] is vacuum
   std::vector<Light> lights;
-  SkyTable sky;
+  SkyTable sky, blurredSky;  // the latter kSkyBlurs images of this size, one below the other
   Ambient ambient;
   bool samePriority = true;   // no medium outranks another
   bool radianceMaps = false;  // some material has kMaterialEmissionIsRadiance

@@ -12,7 +12,7 @@ Scope quick(double frameRays, double raysPerSample) {
 
 Point arithmeticPoint() {
   Point point;
-  point.knob = "film", point.value = "half";
+  point.knob = "robust", point.value = "off";
   point.cause = Cause::arithmetic;
   return point;
 }

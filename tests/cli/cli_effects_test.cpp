@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <nlohmann/json.hpp>
 
 #include "cli/run_program.h"
@@ -133,7 +134,7 @@ TEST(EffectsCommand, WritesATableAndAPicture) {
   // The head, the matte scene, and all effects but its lights and their shadows, and those that
   // have to be asked for.
   const auto kLines =
-      static_cast<std::ptrdiff_t>(2 + kEffectCount - 2 - effectsAskedFor(RenderOptions()).size());
+      std::ptrdiff_t{2} + kEffectCount - 2 - std::popcount(notAskedFor(RenderOptions()).bits());
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), kLines) << csv;
   EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), kLines + 4) << outcome.out;
   const auto codes = [&](const char* name) {

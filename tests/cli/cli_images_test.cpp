@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <set>
@@ -277,6 +278,72 @@ TEST(Images, SayHowAnExrIsStoredAndResumeByIt) {
   const ino_t first = fileNumber(image);
   render({tiny, "-o", image, "--exr", "half", "--resume"});
   EXPECT_EQ(fileNumber(image), first) << "traced again";
+}
+
+RawImage codes(const std::string& path) {
+  Warnings warnings;
+  return readRawImage(path, ImageLimits(), warnings);
+}
+
+// PNG has straight colors, EXR premultiplied ones; both have the same alpha.
+TEST(Images, ATransparentBackgroundIsAlpha) {
+  const TemporaryFolder folder;
+  render({"glossy", "-o", folder / "a.png", "-o", folder / "a.exr", "--size", "64x32", "--spp", "4",
+          "--background", "transparent", "--quiet"});
+  const RawImage png = codes(folder / "a.png"), exr = codes(folder / "a.exr");
+  ASSERT_EQ(png.channels, 4);
+  ASSERT_EQ(exr.channels, 4);
+  int partly = 0;
+  for (std::size_t i = 0; i < png.pixels(); ++i) {
+    const float alpha = exr.values[4 * i + 3];
+    EXPECT_EQ(png.codes[4 * i + 3], std::lround(255 * alpha));
+    partly += alpha > 0 && alpha < 1;
+    if (alpha == 0) {
+      EXPECT_EQ(exr.values[4 * i], 0);
+    }
+  }
+  EXPECT_EQ(png.codes[3], 0) << "the sky";
+  EXPECT_EQ(png.codes.back(), 255) << "the floor";
+  EXPECT_GT(partly, 10);
+}
+
+TEST(Images, ABackgroundColorIsShownAsItIs) {
+  const TemporaryFolder folder;
+  render({"glossy", "-o", folder / "a.png", "--size", "64x32", "--background", "ff8000",
+          "--exposure", "2", "--tonemap", "filmic", "--quiet"});
+  const RawImage png = codes(folder / "a.png");
+  ASSERT_EQ(png.channels, 3);
+  EXPECT_EQ(std::vector<int>(png.codes.begin(), png.codes.begin() + 3),
+            (std::vector<int>{255, 128, 0}));
+}
+
+// 8: JPEG's losses at this quality in flat and textured parts alike.
+TEST(Images, AreWrittenAsJpeg) {
+  const TemporaryFolder folder;
+  render({"matte", "-o", folder / "a.png", "-o", folder / "a.jpg", "--size", "96x64", "--quiet"});
+  const RawImage png = codes(folder / "a.png"), jpeg = codes(folder / "a.jpg");
+  ASSERT_EQ(jpeg.channels, 3);
+  ASSERT_EQ(jpeg.codes.size(), png.codes.size());
+  double sum = 0;
+  for (std::size_t i = 0; i < png.codes.size(); ++i) sum += std::abs(png.codes[i] - jpeg.codes[i]);
+  EXPECT_LT(sum / static_cast<double>(png.codes.size()), 8);
+  EXPECT_GT(sum, 0);
+}
+
+TEST(Images, WhatHasNoAlphaIsSaid) {
+  const TemporaryFolder folder;
+  const std::string tiny = writeTinyScene(folder);
+  const auto refusal = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"render", tiny});
+    const Outcome outcome = runWhit(words);
+    EXPECT_EQ(outcome.status, 2);
+    return outcome.err;
+  };
+  EXPECT_NE(refusal({"-o", folder / "a.jpg", "--background", "transparent"}).find("has no alpha"),
+            std::string::npos);
+  EXPECT_NE(refusal({"-o", folder / "a.jpg", "--resume"}).find("JPEG"), std::string::npos);
+  EXPECT_NE(refusal({"-o", folder / "a.png", "--background", "orange"}).find("ff8000"),
+            std::string::npos);
 }
 
 TEST(Images, AnInterruptionLeavesOnlyWholeFiles) {

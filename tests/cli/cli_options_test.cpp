@@ -185,7 +185,7 @@ TEST(Options, EveryChoiceGoesBothWays) {
   options.crop = Crop{1, 2, 3, 4};
   options.disable = EffectSet::all();
   for (const Quality quality :
-       {Quality::draft, Quality::standard, Quality::fine, Quality::reference}) {
+       {Quality::good, Quality::draft, Quality::standard, Quality::fine, Quality::reference}) {
     options.quality = quality;
     options.mode = Mode::reference;
     options.batch = Batch::frame;
@@ -204,6 +204,7 @@ TEST(Options, ChoicesAreNamedRight) {
   EXPECT_EQ(parsed({"--effects", "auto"}).render.effects, EffectChoice::automatic);
   EXPECT_EQ(parsed({"--tonemap", "none"}).render.toneCurve, ToneCurve::none);
   EXPECT_EQ(parsed({"--tonemap", "reinhard"}).render.toneCurve, ToneCurve::reinhard);
+  EXPECT_EQ(parsed({"--quality", "good"}).render.quality, Quality::good);
   EXPECT_EQ(parsed({"--quality", "draft"}).render.quality, Quality::draft);
   EXPECT_EQ(parsed({"--quality", "standard"}).render.quality, Quality::standard);
   EXPECT_EQ(parsed({"--quality", "fine"}).render.quality, Quality::fine);
@@ -230,6 +231,30 @@ TEST(Quality, PresetsGiveWayToWhatIsGiven) {
   EXPECT_EQ(reference.depth, kDepthLimit);
   EXPECT_EQ(reference.cutoff, 1e-5f);
   EXPECT_EQ(reference.mode, Mode::reference);
+}
+
+// Everything that is left out by default.
+TEST(Quality, GoodHasAllEffectsAndIsNamedFirst) {
+  const RenderOptions good = parsed({"--quality", "good", "--ambient-samples", "4"}).render;
+  EXPECT_GE(good.spp, 16);
+  EXPECT_GT(good.glossy, 0);
+  EXPECT_GT(good.lightSamples, 1);
+  EXPECT_EQ(good.ambientSamples, 4);
+  EXPECT_EQ(good.shading.textureFilter, TextureFilter::trilinear);
+  EXPECT_EQ(qualityPresets()[0].name, "good");
+}
+
+TEST(Background, GoesBothWays) {
+  EXPECT_EQ(parsed({"--background", "white"}).render.background.color,
+            (std::array<std::uint8_t, 3>{255, 255, 255}));
+  for (const char* text : {"sky", "transparent", "ff8000", "000000"}) {
+    EXPECT_EQ(optionText(parsed({"--background", text}).render, "background"), text);
+  }
+  for (const char* text : {"", "fff", "ff80zz", "ff800000", "#", "Sky"}) {
+    EXPECT_NE(usageError({"s", "--background", text}).find("--background: expected"),
+              std::string::npos)
+        << text;
+  }
 }
 
 TEST(Frames, RangesAndNames) {

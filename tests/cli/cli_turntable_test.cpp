@@ -133,7 +133,7 @@ TEST(TurntableCommand, WrongUsageIsSaid) {
     EXPECT_EQ(namesIn(folder), (std::vector<std::string>{"cube.obj"}));
   };
   refuse(2, "expected a file to write", {});
-  refuse(2, "ends in .exr or .png or .mp4", {"-o", folder / "a.gif"});
+  refuse(2, "ends in .exr or .png or .jpg or .jpeg or .mp4", {"-o", folder / "a.gif"});
   refuse(2, "one film", {"-o", folder / "a.mp4", "-o", folder / "b.mp4"});
   refuse(2, "--resume", {"-o", folder / "a.mp4", "--resume"});
   refuse(2, "####", {"-o", folder / "a.png"});

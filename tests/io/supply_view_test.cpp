@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "core/box.h"
 #include "make/studio_sky.h"
 #include "scene_files.h"
 
@@ -99,6 +102,74 @@ TEST_F(SuppliedView, ASkyThatIsNotThere) {
   EXPECT_EQ(errorOf([&] { loadObj(kTriangleObj); }).substr(0, 2), "4 ");
   options_.sky = save("text.hdr", "not an image");
   EXPECT_EQ(errorOf([&] { loadObj(kTriangleObj); }).substr(0, 2), "3 ");
+}
+
+// A bar that stands on z = 0, astride y = 0.
+const std::string kZUpObj =
+    "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv -1 -1 4\nv 1 -1 4\nv 1 1 4\nv -1 1 4\n"
+    "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 1 5 8 4\n";
+
+Box boundsOf(const SceneDescription& scene) {
+  Box box;
+  for (const Instance& instance : scene.instances) {
+    for (const Mesh& mesh : scene.objects[instance.object].meshes) {
+      for (const Vec3f& p : mesh.positions) box.add(Vec3f(instance.toWorld.point(Vec3d(p))));
+    }
+  }
+  return box;
+}
+
+TEST_F(SuppliedView, AnAxisIsTurnedUp) {
+  options_.settings = {"/up=\"y\""};
+  EXPECT_EQ(boundsOf(loadObj(kZUpObj)).upper, (Vec3f{1, 1, 4}));
+  options_.settings = {"/up=\"z\""};
+  const Box z = boundsOf(loadObj(kZUpObj));
+  EXPECT_EQ(z.lower, (Vec3f{-1, 0, -1}));
+  EXPECT_EQ(z.upper, (Vec3f{1, 4, 1}));
+  options_.settings = {"/up=\"x\""};
+  EXPECT_EQ(boundsOf(loadObj("v 0 0 0\nv 5 1 0\nv 0 1 2\nf 1 2 3\n")).upper, (Vec3f{0, 5, 2}));
+  options_.settings = {"/up=\"w\""};
+  EXPECT_NE(errorOf([&] { loadObj(kZUpObj); }).find("\"x\", \"y\" or \"z\""), std::string::npos);
+  options_.settings = {"/up=\"z\""};
+  EXPECT_NE(errorOf([&] { loadLit(1); }).find("y is up in glTF"), std::string::npos);
+}
+
+TEST_F(SuppliedView, AGuessOfTheAxisIsSaid) {
+  EXPECT_EQ(boundsOf(loadObj(kZUpObj)).upper, (Vec3f{1, 4, 1}));
+  ASSERT_EQ(warnings_.entries().size(), 1u);
+  EXPECT_NE(warnings_.entries().begin()->first.find("z seems to be up"), std::string::npos);
+  // Flat, or with y up and z astride, or astride neither: as they are.
+  for (const char* text :
+       {kTriangleObj, "v -1 0 -1\nv 1 0 1\nv 0 4 0\nf 1 2 3\n",
+        "v 0 0 0\nv 1 0 1\nv 0 1 3\nf 1 2 3\n", "v -1 -1 -1\nv 1 1 1\nv -1 1 1\nf 1 2 3\n"}) {
+    const Box box = boundsOf(loadObj(text));
+    options_.settings = {"/up=\"y\""};
+    EXPECT_EQ(box.upper, boundsOf(loadObj(text)).upper) << text;
+    options_.settings = {};
+  }
+}
+
+// The corners touch the margin of the picture, whatever its shape, and none is outside.
+TEST_F(SuppliedView, TheModelFillsThePictureThatIsAskedFor) {
+  for (const ImageSize size : {ImageSize{480, 300}, {300, 300}, {200, 320}, {1200, 300}}) {
+    options_.size = size;
+    const SceneDescription scene = loadObj(kZUpObj);
+    EXPECT_EQ(scene.width, size.width);
+    const Camera& camera = scene.cameras[0];
+    const Vec3d forward = normalized(Vec3d(camera.at) - Vec3d(camera.eye));
+    const Vec3d right = normalized(cross(forward, Vec3d(camera.up))), up = cross(right, forward);
+    const double half = std::tan(double{camera.fov} * 3.14159265358979323846 / 360);
+    const double aspect = static_cast<double>(size.width) / size.height;
+    double most = 0;
+    for (const Vec3f& p : scene.objects[scene.instances[0].object].meshes[0].positions) {
+      const Vec3d way = scene.instances[0].toWorld.point(Vec3d(p)) - Vec3d(camera.eye);
+      const double depth = dot(way, forward) * half;
+      most = std::max(
+          {most, std::abs(dot(way, right)) / (depth * aspect), std::abs(dot(way, up)) / depth});
+    }
+    EXPECT_LE(most, 1) << size.width;
+    EXPECT_GT(most, 0.85) << size.width;
+  }
 }
 
 }  // namespace

@@ -31,6 +31,8 @@ def _annotation(words):
         return "Union[str, tuple[int, int, int, int]]"
     if words == "EV|auto":
         return 'Union[float, Literal["auto"]]'
+    if words == "sky|transparent|COLOR":
+        return "str"
     if "|" in words:
         choices = [w if w.isdigit() else f'"{w}"' for w in words.split("|")]
         return f"Literal[{', '.join(choices)}]"

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "reference/small_chunk.h"
 #include "reference/small_scenes.h"
 
@@ -50,6 +52,38 @@ TEST(Sky, NeedsItsEffects) {
   const Scene image = withImage.build();
   EXPECT_EQ(skyAlong(image, EffectSet::all(), {0, 1, 0}), RgbD(1, 2, 3));
   EXPECT_EQ(skyAlong(image, EffectSet::all().without(Effect::skyImage), {0, 1, 0}), RgbD());
+}
+
+// White light from all sides: a lobe takes from the diffuse color what it reflects, so that no
+// surface is brighter than the light; metals reflect their lobe's albedo.
+TEST(BlurredSky, IsReflectedByRoughSurfaces) {
+  Scene scene;
+  scene.materials.resize(1);
+  scene.materials[0].specular = Rgb(1.0f);
+  scene.ambient = {Rgb(1.0f), Rgb(1.0f)};
+  scene.sky.kind = Sky::Kind::color;
+  scene.sky.zenith = Rgb(1.0f);
+  scene.blurredSky = blurredSky(scene.sky);
+  const EffectSet effects =
+      EffectSet::all().without(Effect::indirect).without(Effect::glossyReflection);
+  Surfel s;
+  s.shadingNormal = {0, 1, 0};
+  s.view = normalized(Vec3d(1, 1, 0));
+  s.alpha = 0.25;
+  s.specular = {1, 0.5, 0.04};
+  const RgbD metal = emittedAndAmbient(scene, effects, s);
+  const RgbD albedo = lobeAlbedo(s.specular, std::sqrt(0.5), 0.5);
+  EXPECT_NEAR(metal.x, albedo.x, 1e-6);
+  EXPECT_NEAR(metal.z, albedo.z, 1e-6);
+  s.diffuse = RgbD(1.0);
+  limitDiffuse(scene, effects, {}, {}, {}, s);
+  EXPECT_NEAR(s.diffuse.x, 1 - albedo.x, 1e-12);
+  EXPECT_NEAR(emittedAndAmbient(scene, effects, s).y, 1, 1e-6);
+  EXPECT_EQ(emittedAndAmbient(scene, effects.without(Effect::blurredSky), s), s.diffuse);
+  scene.ambient.reflection = 0.5f;
+  EXPECT_NEAR(emittedAndAmbient(scene, effects, s).x, 1 - albedo.x / 2, 1e-6);
+  scene.materials[0].mirror = Rgb(0.1f);
+  EXPECT_EQ(emittedAndAmbient(scene, effects, s), s.diffuse) << "the mirror shows the scene";
 }
 
 TEST(AmbientTwin, TellsSkySurfelsAndHiddenOnesApart) {

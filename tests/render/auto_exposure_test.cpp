@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "core/display.h"
 #include "core/option_table.h"
 #include "shipped_scene.h"
 
@@ -47,11 +48,24 @@ TEST(AutoExposure, NothingToSeeStaysAsItIs) {
   EXPECT_EQ(exposureOf(glowing(Rgb(5.0f), Rgb(1.0f), 1.0e-6f)), 0) << "sky only";
 }
 
-// A sky beside a dark surface holds it down, but not without end.
+// A sky beside a dark surface holds it down, but not without end unless it fills the picture: then
+// it must not burn out.
 TEST(AutoExposure, TheSkyIsHeardToo) {
   EXPECT_EQ(exposureOf(glowing(Rgb(0.0375f), Rgb(0.0625f), 1)), 3);
   EXPECT_EQ(exposureOf(glowing(Rgb(0.0375f), Rgb(0.125f), 1)), 2);
-  EXPECT_EQ(exposureOf(glowing(Rgb(0.0375f), Rgb(50.0f), 1)), 1);
+  EXPECT_EQ(exposureOf(glowing(Rgb(0.0375f), Rgb(0.35f), 1)), 1);
+  EXPECT_EQ(exposureOf(glowing(Rgb(0.0375f), Rgb(50.0f), 1)),
+            std::round(8 * std::log2(0.8 / 50)) / 8);
+}
+
+TEST(AutoExposure, LevelsAreThoseBehindTheToneCurve) {
+  RenderOptions options;
+  options.toneCurve = ToneCurve::reinhard;
+  EXPECT_EQ(exposureOf(glowing(Rgb(0.3f / 0.7f)), options), 0);  // x / (1 + x) = 0.3
+  options.toneCurve = ToneCurve::filmic;
+  const float ev = exposureOf(glowing(Rgb(0.1f)), options);
+  EXPECT_NEAR(applyToneCurve(ToneCurve::filmic, 0.1 * std::exp2(double{ev})), 0.3, 0.02)
+      << "steps of 1/8 EV";
 }
 
 TEST(AutoExposure, IsTheSameHoweverThePictureIsComputed) {
@@ -70,7 +84,6 @@ TEST(AutoExposure, IsTheSameHoweverThePictureIsComputed) {
                                     {"exposure", "3"},
                                     {"glossy", "4"},
                                     {"light-samples", "4"},
-                                    {"film", "8bit"},
                                     {"effects", "all"}}) {
     RenderOptions options;
     setOption(options, name, value);

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "bake/move_scene.h"
+#include "core/option_table.h"
 #include "sampling/sample_pattern.h"
 #include "shipped_scene.h"
 #include "simd/deform_vertices.h"
@@ -111,6 +112,67 @@ class Channels : public testing::TestWithParam<Mode> {
     return o;
   }
 };
+
+// The square is 4 / (10 tan 30 degrees) of the height wide. 1 %: 16 samples of each pixel at its
+// edges.
+TEST_P(Channels, AlphaIsTheShareOfThePixelThatIsCovered) {
+  const Scene scene = finalized(squareScene());
+  RenderOptions o = options("alpha");
+  o.spp = 16;
+  o.adaptive = true;  // takes all samples
+  const Film film = filmOf(scene, o);
+  const double side = 4 / (10 * std::tan(3.14159265358979323846 / 6)) * film.image.height;
+  double sum = 0;
+  int edges = 0;
+  for (const float alpha : film.channels.floats(Channel::alpha)) {
+    EXPECT_TRUE(alpha >= 0 && alpha <= 1);
+    edges += alpha > 0 && alpha < 1;
+    sum += double{alpha};
+  }
+  EXPECT_NEAR(sum, side * side, 0.01 * side * side);
+  EXPECT_GT(edges, side);
+  EXPECT_EQ(floatsAt(film, Channel::alpha, 0, 0)[0], 0);
+  EXPECT_EQ(floatsAt(film, Channel::alpha, film.image.width / 2, film.image.height / 2)[0], 1);
+}
+
+// Surfaces keep their radiance, times their share of the pixel; the sky is left out of primary rays
+// alone.
+TEST_P(Channels, ABackgroundTakesThePlaceOfTheSky) {
+  SceneDescription d = squareScene();
+  d.ambient.up = d.ambient.down = Rgb(1.0f);
+  const Scene alone = finalized(d);
+  d.sky.kind = Sky::Kind::color;
+  d.sky.zenith = Rgb(3.0f);
+  const Scene scene = finalized(d);
+  RenderOptions o = options("");
+  o.spp = 4;
+  const Film black = filmOf(alone, o);
+  setOption(o, "background", "transparent");
+  setOption(o, "exposure", "1");
+  const Film clear = filmOf(scene, o);
+  EXPECT_EQ(clear.image.pixels, black.image.pixels);
+  ASSERT_TRUE(clear.display.hasAlpha);
+  setOption(o, "background", "#0080ff");
+  setOption(o, "tonemap", "filmic");
+  const Film colored = filmOf(scene, o);
+  EXPECT_EQ(colored.image.pixels, black.image.pixels);
+  const auto codes = [](const Film& film, std::size_t i) {
+    const auto at = film.display.rgba.begin() + static_cast<std::ptrdiff_t>(4 * i);
+    return std::vector<int>(at, at + 4);
+  };
+  const std::size_t middle = clear.image.index(clear.image.width / 2, clear.image.height / 2);
+  EXPECT_EQ(codes(clear, 0), (std::vector<int>{0, 0, 0, 0}));
+  EXPECT_EQ(codes(clear, middle), (std::vector<int>{255, 188, 124, 255}));  // 1, 0.5, 0.2
+  EXPECT_EQ(codes(colored, 0), (std::vector<int>{0, 128, 255, 255})) << "whatever the tone curve";
+  const std::span<const float> alpha = clear.channels.floats(Channel::alpha);
+  for (std::size_t i = 0; i < alpha.size(); ++i) {
+    EXPECT_EQ(codes(clear, i)[3], std::lround(255 * alpha[i]));
+    // Straight: an edge has the color of the square, not a darker one.
+    if (alpha[i] > 0) {
+      EXPECT_EQ(codes(clear, i)[0], 255);
+    }
+  }
+}
 
 TEST_P(Channels, OfASquareAreItsOwn) {
   const Scene scene = finalized(squareScene());

@@ -29,11 +29,13 @@ EffectSet withDependents(Effect effect) {
     case Effect::emission:
       return set.with(Effect::emissionMaps);
     case Effect::sky:
-      return set.with(Effect::skyImage);
+      return set.with(Effect::skyImage).with(Effect::blurredSky);
     case Effect::transmission:
       return set.with(Effect::absorption).with(Effect::coverage);
     case Effect::glossy:
-      return set.with(Effect::glossyReflection);
+      return set.with(Effect::glossyReflection).with(Effect::blurredSky);
+    case Effect::glossyReflection:
+      return set.with(Effect::blurredSky);
     case Effect::ambient:
       return set.with(Effect::ambientOcclusion);
     default:

@@ -23,6 +23,7 @@ const char* sceneWith(Effect effect) {
     case Effect::ambientOcclusion:
     case Effect::skyImage:
     case Effect::glossyReflection:
+    case Effect::blurredSky:
     case Effect::coverage:
     case Effect::emissionMaps:
     case Effect::vertexColors:

@@ -29,9 +29,6 @@ const std::vector<Choice>& choices() {
       {"unbent", [](RenderOptions& o) { o.shading.bend = false; }},
       {"nearestTexel", [](RenderOptions& o) { o.shading.textureFilter = TextureFilter::nearest; }},
       {"trilinear", [](RenderOptions& o) { o.shading.textureFilter = TextureFilter::trilinear; }},
-      {"halfFilm", [](RenderOptions& o) { o.film = FilmPrecision::half; }},
-      {"eightBitFilm", [](RenderOptions& o) { o.film = FilmPrecision::eightBit; }},
-      {"srgbTable", [](RenderOptions& o) { o.srgb = SrgbEncoding::table; }},
   };
   return all;
 }

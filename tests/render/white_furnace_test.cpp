@@ -230,15 +230,20 @@ TEST_F(WrittenMaterials, WhatDoesNotAbsorbVanishes) {
   }
 }
 
-// A lobe that no ray samples shows lights only: the diffuse color is as without it.
-TEST(WhiteFurnace, LobesThatAreNotSampledTakeNothing) {
+// A lobe that no ray samples reflects the blurred sky, and takes that from the diffuse color.
+TEST(WhiteFurnace, LobesThatAreNotSampledTakeWhatTheyReflect) {
   Material m = diffuseMaterial(0.9f);
   Material plastic = m;
   plastic.specular = Rgb(0.3f);
   RenderOptions o = furnace();
   o.glossy = 0;
   for (const bool packets : {false, true}) {
+    const auto [least, largest] = rangeOf(balls({plastic}), o, packets);
+    EXPECT_LE(largest, 1 + kRoundingsOfAPath) << packets;
+    EXPECT_GE(least, 0.9 - kRoundingsOfAPath) << packets;
+    o.disable = EffectSet().with(Effect::blurredSky);
     EXPECT_EQ(rangeOf(balls({plastic}), o, packets), rangeOf(balls({m}), o, packets));
+    o.disable = {};
   }
 }
 

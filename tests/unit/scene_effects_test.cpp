@@ -81,6 +81,13 @@ const std::vector<Rule>& rules() {
       {Effect::glossyReflection, [](auto& d) { first(d).specular = Rgb(0.04f); },
        "1 material whose glossy lobe reflects the scene, 2 triangles use it",
        EffectSet().with(Effect::glossy)},
+      {Effect::blurredSky,
+       [](auto& d) {
+         first(d).specular = Rgb(0.04f);
+         useSky(d, Sky::Kind::color);
+       },
+       "a glossy lobe reflects the sky",
+       EffectSet().with(Effect::glossy).with(Effect::glossyReflection).with(Effect::sky)},
       {Effect::indirect,
        [](auto& d) { first(d).diffuseReflection = true; },
        "1 material whose diffuse color reflects the scene, 2 triangles use it",

@@ -9,10 +9,10 @@
 #include <filesystem>
 
 #include "cli/app/program.h"
-#include "core/display.h"
 #include "core/error.h"
 #include "core/formatted.h"
 #include "core/option_values.h"
+#include "io/atomic_file.h"
 
 namespace whit::cli {
 
@@ -61,6 +61,10 @@ ImageMetadata comparable(ImageMetadata metadata, const RenderOptions& options) {
 }
 
 }  // namespace
+
+bool isJpeg(const std::string& path) {
+  return extensionOf(path) == ".jpg" || extensionOf(path) == ".jpeg";
+}
 
 void requireWritable(const std::string& path, const std::vector<std::string>& extensions) {
   const auto found = std::find(extensions.begin(), extensions.end(), extensionOf(path));
@@ -127,14 +131,8 @@ ImageMetadata ownMetadata(const std::string& path, const ImageFormat& format) {
   return own;
 }
 
-const DisplayImage& displayOf(const Film& film, const RenderOptions& options, DisplayImage& made) {
-  if (options.mode == Mode::packets && film.wantDisplay) return film.display;
-  made = toDisplay(film.image, options.exposure.ev, options.toneCurve, options.srgb);
-  return made;
-}
-
-void writeImage(const std::string& path, const Film& film, const RenderOptions& options,
-                const ImageMetadata& metadata, const ImageFormat& format) {
+void writeImage(const std::string& path, const Film& film, const ImageMetadata& metadata,
+                const ImageFormat& format) {
   const WriteScope scope;
   ImageMetadata said = metadata;
   const ImageMetadata own = ownMetadata(path, format);
@@ -143,9 +141,10 @@ void writeImage(const std::string& path, const Film& film, const RenderOptions& 
     writeExr(path, film.image, said, format.exr, format.threads, layersOf(film.channels));
   } else if (format.channel) {
     writeChannelPng(path, film.image, film.channels, *format.channel, said);
+  } else if (isJpeg(path)) {
+    writeTextFile(path, encodeJpeg(film.display));
   } else {
-    DisplayImage made;
-    writeDisplay(path, displayOf(film, options, made), metadata);
+    writeDisplay(path, film.display, metadata);
   }
 }
 

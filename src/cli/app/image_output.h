@@ -16,6 +16,7 @@ namespace whit::cli {
 // Before the work starts: Error(usage) unless `path` ends in one of `extensions`, Error(io) unless
 // its folder is there and can be written to. No extensions: any name will do.
 void requireWritable(const std::string& path, const std::vector<std::string>& extensions);
+bool isJpeg(const std::string& path);  // by its extension
 // Makes the folder of results if it is not there. Throws Error(io).
 void makeFolder(const std::string& path);
 // As requireWritable() for the value of --json: empty and "-" are fine.
@@ -42,13 +43,10 @@ struct ImageFormat {
 // end or before the frame's number: "out.depth.png", "normal-####.png". None: the picture.
 std::optional<Channel> channelNamedBy(const std::string& path, ChannelSet kept);
 
-// The 8-bit picture of a film: its own, or in reference mode, which makes none, `made` of it.
-const DisplayImage& displayOf(const Film& film, const RenderOptions& options, DisplayImage& made);
-
-// Writes .exr (linear, with the film's channels) or .png (display, or a channel) by the name's
-// extension; a PNG to standard output. Throws Error(io), and what writeChannelPng() throws.
-void writeImage(const std::string& path, const Film& film, const RenderOptions& options,
-                const ImageMetadata& metadata, const ImageFormat& format = {});
+// Writes .exr (linear, with the film's channels), .jpg or .png (display, or a channel) by the
+// name's extension; a PNG to standard output. Throws Error(io), and what writeChannelPng() throws.
+void writeImage(const std::string& path, const Film& film, const ImageMetadata& metadata,
+                const ImageFormat& format = {});
 // The metadata that writeImage() adds: for an EXR its channels and an unusual storage, for the PNG
 // of a channel its name.
 ImageMetadata ownMetadata(const std::string& path, const ImageFormat& format);

@@ -91,6 +91,10 @@ void listCommonOptions(OptionList& list, CommonOptions& common) {
     OptionList::Entry& entry = list.value(spec, std::string(spec.help), field);
     entry.everyday = spec.everyday;
     entry.set = [set = std::move(entry.set), &common, name = entry.name](const std::string& text) {
+      if (name == "up" && (text == "x" || text == "y" || text == "z")) {
+        common.load.settings.push_back("/up=\"" + text + "\"");
+        return;
+      }
       set(text);
       common.given.insert(name);
     };
@@ -124,6 +128,7 @@ void listCommonOptions(OptionList& list, CommonOptions& common) {
 void settleOptions(CommonOptions& common) {
   applyQuality(common.render, common.given);
   common.load.threads = common.render.threads;
+  common.load.size = common.render.size;
   common.load.sphereSegments = common.render.sphereSegments;
   common.load.maxMemoryBytes = static_cast<std::uint64_t>(common.maxMemoryGb * 1e9);
 }

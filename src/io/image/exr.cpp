@@ -219,7 +219,7 @@ Imf::PixelType typeOf(const ImageLayer& layer) {
 }
 
 ExrChannels layerChannels(const std::string& path, const Imf::ChannelList& list) {
-  constexpr const char* kColors[] = {"R", "G", "B", "A", "Y", "RY", "BY"};
+  constexpr const char* kColors[] = {"R", "G", "B", "Y", "RY", "BY"};
   ExrChannels channels;
   for (auto it = list.begin(); it != list.end(); ++it) {
     const std::string name = it.name();

@@ -80,8 +80,10 @@ void writeExr(const std::string& path, const Image& image, const ImageMetadata& 
               const std::vector<ImageLayer>& layers = {});
 // Returns the string attributes of an EXR's first part except OpenEXR's own. Throws as readImage().
 ImageMetadata readExrMetadata(const std::string& path);
-// Writes an sRGB PNG with the metadata as text chunks and without alpha. Keywords are cut at PNG's
-// 79 bytes.
+// Returns the bytes of an sRGB JPEG; alpha is dropped.
+std::string encodeJpeg(const DisplayImage& image);
+// Writes an sRGB PNG with the metadata as text chunks, with alpha if the image has some. Keywords
+// are cut at PNG's 79 bytes.
 void writePng(const std::string& path, const DisplayImage& image, const ImageMetadata& metadata);
 
 // 16-bit values, one or three for each pixel, rows from the top.

@@ -39,6 +39,8 @@ double codeOf(Channel channel, double value) {
       return linearToSrgb(std::clamp(value, 0.0, 1.0)) * kWhite16;
     case Channel::uv:
       return (value - std::floor(value)) * kWhite16;
+    case Channel::alpha:
+      return value * kWhite16;
     case Channel::rays:
       return value;
     default:  // the largest code says that nothing was hit
@@ -90,7 +92,8 @@ std::vector<ImageLayer> layersOf(const ChannelLayers& channels) {
     const ChannelInfo& info = infoOf(channel);
     for (std::size_t c = 0; c < info.components; ++c) {
       ImageLayer& layer = layers.emplace_back();
-      layer.name = std::string(info.name) + "." + std::string(info.suffixes[c]);
+      const std::string prefix = channel == Channel::alpha ? "" : std::string(info.name) + ".";
+      layer.name = prefix + std::string(info.suffixes[c]);
       layer.countsThings = info.countsThings;
       layer.words.reserve(channels.pixels());
       for (std::size_t at = c; at < channels.pixels() * info.components; at += info.components) {

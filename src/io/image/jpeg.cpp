@@ -1,4 +1,4 @@
-// Reading JPEG, by libjpeg.
+// Reading and writing JPEG, by libjpeg.
 #include <cstddef>
 #include <cstdio>
 // libjpeg's header needs the two above.
@@ -7,10 +7,12 @@
 
 #include <algorithm>
 #include <csetjmp>
+#include <cstdlib>
 #include <iterator>
 
 #include "core/error.h"
 #include "io/image/image_decoders.h"
+#include "io/image/image_file.h"
 
 namespace whit {
 
@@ -112,6 +114,47 @@ class JpegReader {
   char message_[JMSG_LENGTH_MAX] = "out of memory";
 };
 
+struct JpegWriter {
+  jpeg_compress_struct encoder{};
+  jpeg_error_mgr errors{};
+  std::jmp_buf escape{};
+  char message[JMSG_LENGTH_MAX] = "out of memory";
+  unsigned char* bytes = nullptr;
+  unsigned long size = 0;
+};
+
+// Returns false on an error, which `writer.message` describes.
+bool write(JpegWriter& writer, const DisplayImage& image, std::vector<std::uint8_t>& row) {
+  constexpr int kQuality = 93;
+  jpeg_compress_struct& encoder = writer.encoder;
+  encoder.err = jpeg_std_error(&writer.errors);
+  encoder.client_data = &writer;
+  writer.errors.error_exit = [](j_common_ptr common) {
+    auto& self = *static_cast<JpegWriter*>(common->client_data);
+    common->err->format_message(common, self.message);
+    std::longjmp(self.escape, 1);
+  };
+  if (setjmp(writer.escape) != 0) return false;
+  jpeg_create_compress(&encoder);
+  jpeg_mem_dest(&encoder, &writer.bytes, &writer.size);
+  encoder.image_width = static_cast<JDIMENSION>(image.width);
+  encoder.image_height = static_cast<JDIMENSION>(image.height);
+  encoder.input_components = 3;
+  encoder.in_color_space = JCS_RGB;
+  jpeg_set_defaults(&encoder);
+  jpeg_set_quality(&encoder, kQuality, TRUE);
+  jpeg_start_compress(&encoder, TRUE);
+  while (encoder.next_scanline < encoder.image_height) {
+    const std::uint8_t* pixel =
+        image.rgba.data() + std::size_t{encoder.next_scanline} * row.size() / 3 * 4;
+    for (std::size_t i = 0; i < row.size(); i += 3, pixel += 4) std::copy_n(pixel, 3, &row[i]);
+    JSAMPROW first = row.data();
+    jpeg_write_scanlines(&encoder, &first, 1);
+  }
+  jpeg_finish_compress(&encoder);
+  return true;
+}
+
 }  // namespace
 
 RawImage decodeJpeg(const std::string& path, std::span<const std::uint8_t> file,
@@ -124,6 +167,17 @@ RawImage decodeJpeg(const std::string& path, std::span<const std::uint8_t> file,
   image.codes.resize(image.pixels() * static_cast<std::size_t>(image.channels));
   reader.readPixels(image.codes.data());
   return image;
+}
+
+std::string encodeJpeg(const DisplayImage& image) {
+  std::vector<std::uint8_t> row(std::size_t{3} * static_cast<std::size_t>(image.width));
+  JpegWriter writer;
+  const bool written = write(writer, image, row);
+  std::string bytes(reinterpret_cast<const char*>(writer.bytes), written ? writer.size : 0);
+  jpeg_destroy_compress(&writer.encoder);
+  std::free(writer.bytes);
+  if (!written) throwIo(std::string("cannot encode a JPEG: ") + writer.message);
+  return bytes;
 }
 
 }  // namespace whit

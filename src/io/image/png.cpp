@@ -164,7 +164,7 @@ std::vector<png_text> textChunks(const ImageMetadata& metadata) {
 struct Rows {
   int width = 0, height = 0, bits = 8;
   int colorType = PNG_COLOR_TYPE_RGB;
-  bool isSrgb = true;  // pixels of 8 bits have a fourth value, which is not written
+  bool isSrgb = true;  // pixels of 8 bits have a fourth value, alpha, if it is written
   const std::uint8_t* first = nullptr;
   std::size_t stride = 0;  // bytes
 };
@@ -197,7 +197,7 @@ bool write(Libpng& writer, std::string& to, const Rows& rows, const std::vector<
   png_write_info(writer.png, writer.info);
   if (rows.bits == 16) {
     png_set_swap(writer.png);  // PNG stores the most significant byte first
-  } else {
+  } else if (rows.colorType == PNG_COLOR_TYPE_RGB) {
     png_set_filler(writer.png, 0, PNG_FILLER_AFTER);
   }
   for (png_uint_32 y = 0; y < height; ++y) png_write_row(writer.png, rows.first + y * rows.stride);
@@ -232,7 +232,8 @@ ImageMetadata readPngMetadata(const std::string& path) {
 }
 
 std::string encodePng(const DisplayImage& image, const ImageMetadata& metadata) {
-  return encode({image.width, image.height, 8, PNG_COLOR_TYPE_RGB, true, image.rgba.data(),
+  const int colorType = image.hasAlpha ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB;
+  return encode({image.width, image.height, 8, colorType, true, image.rgba.data(),
                  std::size_t{4} * static_cast<std::size_t>(image.width)},
                 metadata);
 }

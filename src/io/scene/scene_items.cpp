@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/affine.h"
+#include "core/box.h"
 #include "core/error.h"
 #include "core/nearest_name.h"
 #include "io/json_reader.h"
@@ -126,6 +127,26 @@ std::size_t slotOf(const JsonValue& slot, const std::string& key,
   return static_cast<std::size_t>(found - names.begin());
 }
 
+// The map that turns an axis up.
+Affine uprightFrom(char up) {
+  if (up == 'z') return {{1, 0, 0}, {0, 0, -1}, {0, 1, 0}, {}};
+  if (up == 'x') return {{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}, {}};
+  return {};
+}
+
+// True for a model that stands on the plane z = 0, is not flat, and extends to both sides of y = 0.
+bool seemsZUp(const Body& content) {
+  constexpr float kOnPlane = 0.02f, kAstride = 0.25f, kLeastHeight = 0.5f;
+  Box box;
+  for (const BodyPart& part : content.parts) {
+    for (const Vec3f& p : part.mesh->positions) box.add(p);
+  }
+  const Vec3f size = box.upper - box.lower;
+  return !box.empty() && std::abs(box.lower.z) <= kOnPlane * size.z &&
+         size.z >= kLeastHeight * std::max(size.x, size.y) &&
+         std::min(-box.lower.y, box.upper.y) >= kAstride * size.y;
+}
+
 class ItemReader {
  public:
   ItemReader(SceneContext& context, MaterialReader& materials)
@@ -135,6 +156,8 @@ class ItemReader {
   void readModelAlone(JsonObject& file, const std::filesystem::path& path);
 
  private:
+  Affine upright(JsonObject& file, const std::filesystem::path& path, const Body& content);
+
   struct NamedObject {
     JsonValue definition;
     enum class State { unread, reading, read } state = State::unread;
@@ -176,9 +199,25 @@ void ItemReader::readModelAlone(JsonObject& file, const std::filesystem::path& p
   Model& model = context_.model(path, "");
   Body content = contentOf(model, path, file);
   nameItem(content, path.stem().string());
-  layout_.append(content, {Affine()}, layout_.body(0));
+  layout_.append(content, {upright(file, path, content)}, layout_.body(0));
   layout_.moveTo(context_.scene);
   model.addView(context_.scene);
+}
+
+// Files of OBJ and PLY do not say which axis is up.
+Affine ItemReader::upright(JsonObject& file, const std::filesystem::path& path,
+                           const Body& content) {
+  const bool says = extensionOf(path).starts_with(".gl");
+  if (const JsonValue up = file.find("up")) {
+    const std::string axis = up.text();
+    if (says) up.fail("no axis, because y is up in glTF files");
+    if (axis != "x" && axis != "y" && axis != "z") up.fail("\"x\", \"y\" or \"z\"");
+    return uprightFrom(axis[0]);
+  }
+  if (says || !seemsZUp(content)) return {};
+  context_.warnings.add("model in which z seems to be up was turned (--up y leaves it as it is)",
+                        path.filename().string());
+  return uprightFrom('z');
 }
 
 std::uint32_t ItemReader::readObject(NamedObject& object, const std::string& name) {

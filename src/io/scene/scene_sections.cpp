@@ -161,11 +161,16 @@ void readSky(JsonObject& file, SceneContext& context) {
   object.finish();
 }
 
+// The ambient light's share of the sky says how open the scene is.
+float usualReflection(std::optional<double> fromSky) {
+  return static_cast<float>(std::min(fromSky.value_or(1), 1.0));
+}
+
 std::optional<double> readAmbient(JsonObject& file, SceneDescription& scene) {
   const JsonValue value = file.find("ambient");
   if (!value) return std::nullopt;
   JsonObject object(value);
-  scene.ambient.occlusion = object.number("occlusion", 0, 0);
+  scene.ambient.occlusion = object.number("occlusion", scene.ambient.occlusion, 0);
   std::optional<double> fromSky;
   if (const JsonValue strength = object.find("fromSky")) {
     fromSky = strength.number(0);
@@ -179,6 +184,7 @@ std::optional<double> readAmbient(JsonObject& file, SceneDescription& scene) {
     object.finish();
     value.fail("\"fromSky\", \"color\", or \"up\" and \"down\"");
   }
+  scene.ambient.reflection = object.number("reflection", usualReflection(fromSky), 0, 1);
   object.finish();
   return fromSky;
 }
@@ -197,6 +203,8 @@ Json describe(const Ambient& ambient) {
                   ? Json{{"fromSky", ambient.ofSky}}
                   : Json{{"up", describe(ambient.up)}, {"down", describe(ambient.down)}};
   if (ambient.occlusion > 0) json["occlusion"] = describe(ambient.occlusion);
+  const bool usual = ambient.reflection == usualReflection(ambient.ofSky > 0 ? ambient.ofSky : 1);
+  if (!usual) json["reflection"] = describe(ambient.reflection);
   return json;
 }
 
