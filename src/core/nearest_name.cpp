@@ -5,6 +5,8 @@
 #include <numeric>
 #include <set>
 #include <sstream>
+#include <string_view>
+#include <utility>
 
 #include "core/error.h"
 
@@ -27,11 +29,32 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
   return row[b.size()];
 }
 
+// Options of other programs and of former versions, and what they are called here.
+constexpr std::pair<std::string_view, std::string_view> kSynonyms[] = {
+    {"ao", "ambient-samples"},
+    {"bounces", "depth"},
+    {"gi", "indirect"},
+    {"height", "size"},
+    {"j", "threads"},
+    {"out", "output"},
+    {"resolution", "size"},
+    {"samples", "spp"},
+    {"verdicts", "shadow-cache"},
+    {"width", "size"},
+    {"ab-verdicts", "ab-shadow-cache"}};
+
 }  // namespace
 
 std::string nearestName(const std::string& word, const std::vector<std::string>& names) {
+  const std::size_t dashes = std::min(word.find_first_not_of('-'), word.size());
+  for (const auto& [theirs, ours] : kSynonyms) {
+    const std::string name = (dashes > 0 ? "--" : "") + std::string(ours);
+    const bool isKnown = std::find(names.begin(), names.end(), name) != names.end();
+    if (isKnown && word.compare(dashes, std::string::npos, theirs) == 0) return name;
+  }
   std::string nearest;
-  std::size_t least = std::min(std::max<std::size_t>(2, word.size() / 3) + 1, word.size());
+  const std::size_t letters = word.size() - dashes;
+  std::size_t least = std::min(std::max<std::size_t>(1, (letters + 1) / 3) + 1, letters);
   for (const std::string& name : names) {
     const std::size_t edits = editDistance(word, name);
     if (edits >= least) continue;
