@@ -127,7 +127,8 @@ struct RenderOptions {
   bool adaptive = false;
   int contrast = 8;  // neighbors that differ by more in some 8-bit code show an edge
   int depth = kDepthLimit;
-  int glossy = 0;    // rays that sample a rough surface's lobe; 0: it reflects lights and a blurred sky
+  int glossy =
+      0;  // rays that sample a rough surface's lobe; 0: it reflects lights and a blurred sky
   int indirect = 0;  // rays that sample indirect light on a diffuse surface; 0: none
   float cutoff = 1.0e-4f;
   float roulette = 0;      // Russian roulette below this throughput; 0: off

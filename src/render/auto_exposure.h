@@ -6,8 +6,9 @@
 
 namespace whit {
 
-// In steps of 1/8 EV. Follows from scene, camera, effects and tone curve alone, not from size, crop or how the
-// picture is computed: the reference traces a small picture of the scene's own shape first.
+// In steps of 1/8 EV. Follows from scene, camera, effects and tone curve alone, not from size, crop
+// or how the picture is computed: the reference traces a small picture of the scene's own shape
+// first.
 float exposureFor(const Renderer& renderer, const Camera& camera);
 
 // Gives an automatic exposure of the options its value, and tells the renderer.

@@ -98,8 +98,7 @@ TEST(Channels, OfCropsAreMerged) {
   part("left.exr", {"--crop", "0,0,20,32"});
   part("right.exr", {"--crop", "20,0,48,32"});
   expectDone({"merge", folder / "merged.exr", folder / "left.exr", folder / "right.exr"});
-  EXPECT_EQ(textOf(folder / "merged.exr", "objects"),
-            textOf(folder / "whole.exr", "objects"));
+  EXPECT_EQ(textOf(folder / "merged.exr", "objects"), textOf(folder / "whole.exr", "objects"));
   const Outcome compared = runWhit(
       {"compare", folder / "merged.exr", folder / "whole.exr", "--tolerance", "0", "--json", "-"});
   EXPECT_EQ(compared.status, 0) << compared.err;

@@ -73,8 +73,7 @@ TEST(Verify, FormerNamesLeadToThePresentOnes) {
       << outcome.err;
   const Outcome option = runWhit({"render", "whitted", "--verdicts", "off"});
   EXPECT_EQ(option.status, 2);
-  EXPECT_NE(option.err.find("did you mean '--shadow-cache'?"), std::string::npos)
-      << option.err;
+  EXPECT_NE(option.err.find("did you mean '--shadow-cache'?"), std::string::npos) << option.err;
 }
 
 TEST(Verify, HelpListsTheOptions) {
