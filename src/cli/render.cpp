@@ -409,10 +409,7 @@ void writeFilm(const RenderJob& job, ImageWriter& writer, Progress* progress) {
 void tellWritten(const ImageWriter& writer, double seconds) {
   const std::vector<std::string>& files = writer.written();
   std::string what = std::to_string(files.size()) + " images";
-  const bool isShown = files.size() == 2 && files[1] == kStandardOutput;
-  if (files.size() == 1 || isShown) {
-    what = files[0] == kStandardOutput ? "an image" : printable(files[0]);
-  }
+  if (files.size() == 1) what = files[0] == kStandardOutput ? "an image" : printable(files[0]);
   std::string kept;
   if (writer.kept() > 0) kept = ", kept " + std::to_string(writer.kept());
   std::fprintf(stderr, "wrote %s%s, %.1f s\n", what.c_str(), kept.c_str(), seconds);

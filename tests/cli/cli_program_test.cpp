@@ -117,8 +117,8 @@ TEST(Program, WithoutWordsShowsHelpAndFails) {
 TEST(Program, RefusesWrongUsage) {
   const TemporaryFolder folder;
   const std::string tiny = writeTinyScene(folder);
-  expectFailure({"render", tiny}, 2, "-o OUT");
-  expectFailure({"render", tiny, "-o", folder / "a.jpg"}, 2, ".exr or .png");
+  expectFailure({"render", tiny, "--frames", "0..1"}, 2, "-o FILM.mp4");
+  expectFailure({"render", tiny, "-o", folder / "a.gif"}, 2, ".exr or .png");
   expectFailure({"render", tiny, "-o", folder / "a.exr", "--frames", "0..1"}, 2, "####");
   expectFailure({"render", tiny, "-o", folder / "a#.exr", "--frames", "2..1"}, 2, "--frames");
   expectFailure({"render", tiny, "-o", folder / "a####.exr"}, 2, "no --frames A..B");
