@@ -108,7 +108,9 @@ HWY_INLINE V3 LobeAlbedo(const V3& f0, VF cosine, VF r) {
   const VF grazing = hn::Mul(q2, MulThenAdd(hn::Mul(q2, q), schlick, hn::Mul(r2, number(0.057f))));
   const VF f90 = hn::Min(number(1), hn::Mul(number(25), MaxComponent(f0)));
   const VF rest = hn::Mul(f90, grazing);
-  return MulAdd3(f0, hn::Sub(all, grazing), {rest, rest, rest});
+  const V3 share = MulAdd3(f0, hn::Sub(all, grazing), {rest, rest, rest});
+  const auto held = [&](VF x) HWY_ATTR { return hn::Min(hn::Max(x, hn::Zero(d)), number(1)); };
+  return {held(share.x), held(share.y), held(share.z)};
 }
 
 }  // namespace whit::simd::HWY_NAMESPACE

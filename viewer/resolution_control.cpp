@@ -45,6 +45,7 @@ Sharpness ResolutionControl::moving(double windowPixels) {
 
 std::vector<Sharpness> ResolutionControl::stepsAtRest(bool supersample) const {
   std::vector<Sharpness> steps;
+  steps.reserve(std::size(kCoarseScales) + kStillSppFactors.size());
   for (const double scale : kCoarseScales) steps.push_back({scale, spp_});
   const std::size_t factors = sampled_ ? kStillSppFactors.size() : kUnsampledSppFactors;
   for (std::size_t i = 0; i < (supersample ? factors : 1); ++i) {

@@ -58,7 +58,8 @@ inline RgbD lobeAlbedo(const RgbD& f0, double cosine, double roughness) {
   const double q = 1 - cosine, q2 = q * q, r = roughness, r2 = r * r;
   const double all = 1 - r2 * (0.165 + q * (0.975 - 0.563 * r - 0.55 * q2) + 0.561 * r * cosine);
   const double grazing = q2 * (q2 * q * (1.1 - 2.3 * r + 1.17 * r2) + 0.057 * r2);
-  return f0 * (all - grazing) + RgbD(std::min(1.0, 25 * maxComponent(f0)) * grazing);
+  const RgbD share = f0 * (all - grazing) + RgbD(std::min(1.0, 25 * maxComponent(f0)) * grazing);
+  return min(max(share, RgbD(0.0)), RgbD(1.0));
 }
 
 // Sets aboveLobe and belowLobe of a surfel whose glossy lobe is sampled or reflects the blurred sky
