@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <functional>
 #include <iterator>
 #include <memory>
@@ -36,7 +35,7 @@ namespace whit::cli {
 
 namespace {
 
-constexpr const char* kRenderUsage = "whit render SCENE [-o OUT.exr|OUT.png|FILM.mp4] [options]";
+constexpr const char* kRenderUsage = "whit render SCENE -o OUT.exr|OUT.png|FILM.mp4 [options]";
 constexpr const char* kRenderSummary =
     "Renders one image, or with --frames those of the scene's animation and camera path, as images "
     "or, where ffmpeg is installed, as a film. On standard output (-o -) frames follow each other "
@@ -75,7 +74,8 @@ OptionList listOptions(RenderJob& job) {
   list.group("Output");
   list.many({"output", "FILE"},
             "image to write, .exr (linear), .png or .jpg, or a film of all frames, .mp4; - writes "
-            "a PNG to standard output; may be repeated (default: SCENE.png)",
+            "a PNG "
+            "to standard output; may be repeated",
             job.outputs)
       .shortName = "o";
   if (job.onTurntable) {
@@ -110,8 +110,7 @@ void checkStandardOutput(const RenderJob& job) {
            "-o -: standard output takes one image: give it once");
   refuseIf(job.json == kStandardOutput, "-o - and --json -: standard output takes one of them");
   refuseIf(job.resume, "-o -: what went to standard output cannot be resumed");
-  refuseIf(isatty(STDOUT_FILENO),
-           "-o -: a terminal cannot show pictures: send standard output elsewhere");
+  refuseIf(isatty(STDOUT_FILENO), "-o -: standard output is a terminal: send it elsewhere");
 }
 
 // Throws if no output has a place for --channels.
@@ -143,15 +142,8 @@ void checkFilm(const RenderJob& job) {
            "--size: the sides of a film are even numbers of pixels");
 }
 
-// A picture without -o goes to SCENE.png.
-void chooseOutputs(RenderJob& job) {
-  if (!job.outputs.empty()) return;
-  refuseIf(!job.frames.empty(), "expected a file to write: -o FILM.mp4 or -o FRAMES####.png");
-  const std::filesystem::path scene(parseSceneName(job.scenes[0]).file);
-  job.outputs.push_back(scene.stem().string() + ".png");
-}
-
 void checkJob(const RenderJob& job) {
+  refuseIf(job.outputs.empty(), "expected a file to write: -o OUT.exr, -o OUT.png or -o FILM.mp4");
   checkChannels(job);
   checkFilm(job);
   checkStandardOutput(job);
@@ -428,7 +420,6 @@ void writeReport(const RenderJob& job, const ImageWriter& writer) {
 int render(RenderJob& job) {
   const Stopwatch stopwatch;
   settleOptions(job.common);
-  chooseOutputs(job);
   checkJob(job);
 
   auto progress = makeProgressBar(job.common);

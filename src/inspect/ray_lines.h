@@ -32,12 +32,10 @@ struct RayLine {
 };
 
 // Rays that leave the scene end after a fifth of the tree's extent. What weighs most comes last.
-// `camera` is that of the rays.
-std::vector<RayLine> linesOf(const RayTree& tree, const Camera& camera);
+std::vector<RayLine> linesOf(const RayTree& tree);
 
-// Returns a camera that sees the hits of the rays, if possible from aside and above: of a number of
-// places around them the one from which the most of them, by their weight, are seen apart.
-Camera cameraAside(const RayTree& tree, const Camera& camera, const Accel& accel);
+// Returns a camera that sees all hits of the rays from aside and above.
+Camera cameraAside(const RayTree& tree, const Camera& camera);
 
 // Pixels from the top left.
 struct ScreenLine {
