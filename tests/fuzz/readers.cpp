@@ -15,6 +15,7 @@
 
 #include "bake/scene.h"
 #include "core/error.h"
+#include "io/gltf/document.h"
 #include "io/image/image_file.h"
 #include "io/image/texture_from_image.h"
 #include "io/load_scene.h"
@@ -131,7 +132,7 @@ void readMaterials(const fs::path& file) {
   SceneDescription scene;
   for (const auto& [name, source] : materials) {
     scene.materials.push_back(
-        loadTextures(source, source.material, {}, file.parent_path(), rules, textures));
+        loadTextures(source, source.material, {}, file.parent_path(), rules, textures, warnings));
   }
   textures.finish(scene);
   for (const Texture& texture : scene.textures) checkTexture(texture);
@@ -184,13 +185,15 @@ bool mayCause(ExitStatus status) {
 }  // namespace
 
 const std::vector<Reader>& readers() {
-  static const std::vector<Reader> all = {
+  static std::vector<Reader> all = {
       {"scene", ".json", readScene},   {"obj", ".obj", readScene},
       {"mtl", ".mtl", readMaterials},  {"gltf", ".gltf", readScene},  // .glb by its signature
       {"ply", ".ply", readScene},      {"png", ".png", readPng},
       {"jpeg", ".jpg", readImageFile}, {"tga", ".tga", readImageFile},
       {"bmp", ".bmp", readImageFile},  {"hdr", ".hdr", readImageFile},
       {"exr", ".exr", readExr}};
+  static const bool readsWebp = GltfDocument::reads("EXT_texture_webp");
+  if (readsWebp && all.back().name != "webp") all.push_back({"webp", ".webp", readImageFile});
   return all;
 }
 

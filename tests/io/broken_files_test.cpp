@@ -95,7 +95,6 @@ std::vector<Broken> otherModels() {
   return {
       {"m.obj", "v 0 0 0\nv 1 2\n", kBad, ":2"},
       {"m.obj", "vt " + kLong, kBad, ":1"},
-      {"m.obj", "mtllib ../../" + kLong + "\n", kBad, ":1"},
       {"m.ply", kLong + "\n", kBad, ":1"},
       {"m.ply", "ply\nformat " + kLong + " 1.0\n", kBad, ":2"},
       {"m.ply", ply + "element vertex many\n", kBad, ":3"},

@@ -127,8 +127,8 @@ class MtlParser {
   std::vector<MtlMaterial> materials_;
 };
 
-// Sets what the statements of a material mean.
-void interpret(MtlMaterial& source, Warnings& warnings) {
+// Sets what the statements of a material mean. MeshLab writes Tr where others write d.
+void interpret(MtlMaterial& source, bool isFromMeshLab, Warnings& warnings) {
   Material& m = source.material;
   const auto has = [&](const char* keyword) { return source.numbers.contains(keyword); };
   const auto number = [&](const char* keyword) { return source.numbers.at(keyword).x; };
@@ -167,13 +167,20 @@ void interpret(MtlMaterial& source, Warnings& warnings) {
     m.diffuse *= 1 - metal;
   }
   const float illum = has("illum") ? number("illum") : 2;
-  const float dissolve = has("d") ? unit(number("d")) : has("tr") ? unit(1 - number("tr")) : 1;
+  const bool isGlass = illum == 4 || illum == 6 || illum == 7 || illum == 9;
+  // Nobody means a material that is not there.
+  const bool isGone = has("tr") && !has("d") && !isFromMeshLab && number("tr") == 1 && !isGlass;
+  if (isGone) warnings.add("material that Tr 1 makes invisible taken as opaque", source.where);
+  const float transparency = has("tr") && !isGone ? unit(number("tr")) : 0;
+  const float dissolve = has("d")        ? unit(number("d"))
+                         : isFromMeshLab ? (has("tr") ? transparency : 1)
+                                         : 1 - transparency;
   if (illum == 0 || illum == 1) m.specular = Rgb(0.0f);
   if (illum == 3 || illum == 5 || illum == 8) {
     m.mirror = m.specular;
     m.mirrorGrazing = illum == 5 ? Rgb(1.0f) : m.mirror;
   }
-  if (illum == 4 || illum == 6 || illum == 7 || illum == 9) {
+  if (isGlass) {
     m.transmission = has("tf") ? color("tf") : Rgb(1 - dissolve);
     if (has("ni")) m.ior = std::clamp(number("ni"), 1.0f, kLargestIor);
     if (has("ni") && m.ior != number("ni")) {
@@ -192,16 +199,17 @@ void interpret(MtlMaterial& source, Warnings& warnings) {
 void readMtl(const std::filesystem::path& path, std::map<std::string, MtlMaterial>& materials,
              Warnings& warnings) {
   const std::string text = readTextFile(path, kMtlBytesLimit), file = path.string();
+  const bool isFromMeshLab = text.find("# Converted by Meshlab") < text.find("newmtl");
   for (MtlMaterial& source : MtlParser(text, file, warnings).parse()) {
     if (materials.contains(source.material.name)) continue;
-    interpret(source, warnings);
+    interpret(source, isFromMeshLab, warnings);
     materials.emplace(source.material.name, source);
   }
 }
 
 Material loadTextures(const MtlMaterial& source, Material material, const GivenMembers& given,
                       const std::filesystem::path& folder, const PathRules& rules,
-                      TextureLoader& textures) {
+                      TextureLoader& textures, Warnings& warnings) {
   const auto has = [&](const char* keyword, const char* member) {
     return source.maps.contains(keyword) && !given.contains(member);
   };
@@ -209,7 +217,12 @@ Material loadTextures(const MtlMaterial& source, Material material, const GivenM
     const MtlMaterial::Map& map = source.maps.at(keyword);
     TextureSource image;
     image.where = source.where;
-    image.path = rules.resolve(map.name, folder, source.where, /*backslashes=*/true).string();
+    try {
+      image.path = rules.resolve(map.name, folder, source.where, /*backslashes=*/true).string();
+    } catch (const Error& error) {
+      warnings.add("texture left out", error.what());
+      return std::vector(uses.size(), kNoTexture);
+    }
     image.wrapU = image.wrapV = map.clamp ? Wrap::clamp : Wrap::repeat;
     image.bumpScale = map.bumpScale;
     image.lenient = true;

@@ -32,15 +32,15 @@ struct MtlMaterial {
 // incidence, Ns the exponent of Blinn's lobe (alpha = sqrt(2 / (Ns + 2)), roughness = sqrt(alpha))
 // unless Pr gives the roughness, Pm the metalness. illum 0 and 1 have no highlight; 3, 5 and 8
 // mirror with Ks (5: all at grazing incidence); 4, 6, 7 and 9 are glass with index Ni, filtered by
-// Tf, else by 1 - d. d below 1 elsewhere lets 1 - d of the light straight through. Without map_d,
-// the alpha channel of map_Kd is used.
+// Tf, else by 1 - d. Tr is 1 - d, but d in files of MeshLab. d below 1 elsewhere lets 1 - d of the
+// light straight through. Without map_d, the alpha channel of map_Kd is used.
 void readMtl(const std::filesystem::path& path, std::map<std::string, MtlMaterial>& materials,
              Warnings& warnings);
 
 // Returns `material` with the maps of `source` that are not `given`, which it adds to `textures`;
-// their names are relative to `folder`.
+// their names are relative to `folder`. A map that cannot be read is a warning.
 Material loadTextures(const MtlMaterial& source, Material material, const GivenMembers& given,
                       const std::filesystem::path& folder, const PathRules& rules,
-                      TextureLoader& textures);
+                      TextureLoader& textures, Warnings& warnings);
 
 }  // namespace whit

@@ -299,7 +299,7 @@ class ObjModel : public MeshModel {
   TexturedMaterial withMaps(std::size_t i, Material material, const GivenMembers& given,
                             TextureLoader& textures) override {
     return {loadTextures(sources_[i], std::move(material), given, source_.path.parent_path(),
-                         source_.rules, textures),
+                         source_.rules, textures, source_.warnings),
             {}};
   }
 
@@ -325,9 +325,14 @@ class ObjModel : public MeshModel {
 
 // The line is one name with blanks if such a file exists, otherwise several names.
 void ObjModel::readLibraries(const ObjName& line, Library& library) const {
+  // Empty for a library that may not be read.
   const auto resolve = [&](const std::string& name) {
-    return source_.rules.resolve(name, source_.path.parent_path(), line.where,
-                                 /*backslashes=*/true);
+    try {
+      return source_.rules.resolve(name, source_.path.parent_path(), line.where,
+                                   /*backslashes=*/true);
+    } catch (const Error&) {
+      return std::filesystem::path();
+    }
   };
   std::error_code error;
   std::vector<std::string> names{line.name};
