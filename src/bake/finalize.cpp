@@ -67,6 +67,7 @@ Scene Scene::finalize(SceneDescription&& description, Warnings& warnings, Progre
   scene.cameras = std::move(d.cameras);
   scene.cameraPath = std::move(d.cameraPath);
   scene.animations = std::move(d.animations);
+  scene.variants = std::move(d.variants);
   scene.lights = std::move(d.lights);
   scene.sky = std::move(d.sky);
   scene.ambient = d.ambient;

@@ -163,6 +163,7 @@ class Scene {
   std::vector<Camera> cameras;  // at least one
   std::vector<Keyframe> cameraPath;
   std::vector<Animation> animations;
+  std::vector<std::string> variants;  // of models' materials
   std::vector<Light> lights;
   Sky sky;
   EnvironmentImage blurredSky;  // blurredSky(sky), where some frame reflects it

@@ -159,14 +159,18 @@ void requireMovable(const std::string& pointer, const SceneDescription& scene) {
              "of a glTF model that holds something");
 }
 
-// The instant that was asked for is one of something that moves.
-void settleInstant(const Instant& instant, SceneDescription& scene) {
+void requireOneOf(const std::vector<std::string>& names, const std::string& name, const char* kind,
+                  const SceneDescription& scene) {
+  if (name.empty() || std::ranges::count(names, name) > 0) return;
+  throwUsage(scene.name + " has no " + kind + " '" + name + "'" + didYouMean(name, names));
+}
+
+// The variant and the instant that were asked for are there, and something moves.
+void settleChoices(const LoadOptions& options, SceneDescription& scene) {
+  const Instant& instant = options.instant;
   const std::vector<std::string> names = namesIn(scene.animations);
-  const bool known = std::find(names.begin(), names.end(), instant.animation) != names.end();
-  if (!instant.animation.empty() && !known) {
-    throwUsage(scene.name + " has no animation '" + instant.animation + "'" +
-               didYouMean(instant.animation, names));
-  }
+  requireOneOf(names, instant.animation, "animation", scene);
+  requireOneOf(scene.variants, options.variant, "variant", scene);
   scene.motion.seconds = instant.seconds.value_or(0);
   if (instant.seconds && scene.cameraPath.empty() && names.empty()) {
     throwUsage("--time: nothing moves in " + scene.name);
@@ -237,7 +241,7 @@ SceneDescription readScene(const JsonDocument& document, const LoadOptions& opti
   readItems(file, context, materials);
   materials.checkUnused();
   file.finish();
-  settleInstant(options.instant, context.scene);
+  settleChoices(options, context.scene);
   return finish(options, fromSky, context);
 }
 
@@ -255,7 +259,7 @@ SceneDescription loadModelFile(const fs::path& path, const SceneName& name,
   MaterialReader materials(noMaterials, context);
   readModelAlone(items, path, context, materials);
   supplyView(context);  // before the scene has another time than 0
-  settleInstant(options.instant, scene);
+  settleChoices(options, scene);
   // The settings are read as if a scene file contained them and the model's lights.
   JsonDocument document = nothing;
   if (!options.settings.empty()) document.root["lights"] = describe(scene.lights);

@@ -31,6 +31,8 @@ struct LoadOptions {
   std::string sky;
   // Of the picture, for cameras that are supplied; none: the scene's own.
   std::optional<ImageSize> size;
+  // The variant of materials that glTF models show. One that no model has: Error(usage).
+  std::string variant;
   // When the scene is looked at. With seconds that nothing in the scene follows, or an animation
   // that no model has: Error(usage).
   Instant instant;

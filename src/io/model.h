@@ -39,6 +39,7 @@ struct ModelSource {
   MemoryBudget& budget;
   Warnings& warnings;
   const Instant& instant;
+  const std::string& variant;  // of the materials; empty: the model's own
 };
 
 // Opened first, so that textures can be asked for before the geometry is read.
@@ -59,6 +60,8 @@ class Model {
   virtual void addView(SceneDescription&) {}
   // The animations of the file, whatever the instant.
   virtual std::vector<Animation> animations() const { return {}; }
+  // The names of the variants of its materials.
+  virtual std::vector<std::string> variants() const { return {}; }
 };
 
 // A model that is read when it is opened: its meshes stand in one place, and its materials have no

@@ -33,6 +33,7 @@ whit::LoadOptions loadOptions(const LoadOptions& options, const char* shippedSce
   load.instant.plays = options.moves;
   load.instant.movable = {options.movable.begin(), options.movable.end()};
   load.instant.animation = options.animation;
+  load.variant = options.variant;
   load.settings = options.settings;
   load.shippedScenes = shippedScenes;
   return load;

@@ -240,7 +240,8 @@ api::LoadOptions loadOptions(const py::dict& given) {
   take("max_memory_gb", options.maxMemoryGb), take("threads", options.threads);
   take("sky", options.sky), take("sphere_segments", options.sphereSegments);
   take("moves", options.moves), take("movable", options.movable);
-  take("animation", options.animation), take("settings", options.settings);
+  take("animation", options.animation), take("variant", options.variant);
+  take("settings", options.settings);
   return options;
 }
 

@@ -29,6 +29,7 @@ struct SceneDescription {
   std::vector<Camera> cameras;    // the first is the default
   std::vector<Keyframe> cameraPath;
   std::vector<Animation> animations;  // of its models, in the order in which they are read
+  std::vector<std::string> variants;  // likewise: names of sets of materials
   std::vector<Light> lights;
   Sky sky;
   Ambient ambient;

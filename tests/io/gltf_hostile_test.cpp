@@ -78,9 +78,8 @@ TEST_F(GltfHostile, ErrorsNameTheirPlace) {
       {"\"scene\":0", "\"scene\":3",
        "#/scene: expected an index into scenes, from 0 to 0, found 3"},
       {"\"nodes\":[0]", "\"nodes\":0", "#/scenes/0/nodes: expected a list, found 0"},
-      {"\"scene\":0", "\"scene\":0,\"extensionsRequired\":[\"KHR_draco_mesh_compression\"]",
-       "#/extensionsRequired/0: the file cannot be shown without KHR_draco_mesh_compression, which "
-       "is not supported"},
+      {"\"scene\":0", "\"scene\":0,\"extensionsRequired\":[\"KHR_none\"]",
+       "#/extensionsRequired/0: the file cannot be shown without KHR_none, which is not supported"},
       {"data:application/octet-stream;base64,", "http://example.org/",
        "#/buffers/0/uri: expected the path of a file on this machine, found "
        "http://example.org/"

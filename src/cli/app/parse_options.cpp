@@ -118,6 +118,8 @@ void listCommonOptions(OptionList& list, CommonOptions& common) {
              common.load.instant.seconds);
   list.value({"animation", "NAME"}, "animation that is played (default: the first of each model)",
              common.load.instant.animation);
+  list.value({"variant", "NAME"}, "variant of the materials that a glTF model shows",
+             common.load.variant);
   list.value({"max-memory", "GB", 0.001, 1e6}, "limit of memory for geometry and images",
              common.maxMemoryGb)
       .everyday = false;

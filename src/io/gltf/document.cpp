@@ -3,7 +3,6 @@
 #include <strings.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cstring>
 #include <optional>
@@ -11,6 +10,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "io/gltf/compressed.h"
 #include "io/read_file.h"
 
 namespace whit {
@@ -120,22 +120,44 @@ Json readGltfFile(const std::filesystem::path& path, MemoryBudget& budget,
   return parseJson(std::string(text), name);
 }
 
-constexpr std::array<std::string_view, 11> kSupported = {
-    "EXT_mesh_gpu_instancing",         "KHR_lights_punctual",  "KHR_materials_clearcoat",
-    "KHR_materials_emissive_strength", "KHR_materials_ior",    "KHR_materials_specular",
-    "KHR_materials_transmission",      "KHR_materials_unlit",  "KHR_materials_volume",
-    "KHR_mesh_quantization",           "KHR_texture_transform"};
+constexpr std::string_view kSupported[] = {
+#ifdef WHIT_DRACO
+    "KHR_draco_mesh_compression",
+#endif
+#ifdef WHIT_MESHOPT
+    "EXT_meshopt_compression",    "KHR_meshopt_compression",
+#endif
+#ifdef WHIT_WEBP
+    "EXT_texture_webp",
+#endif
+    "EXT_mesh_gpu_instancing",    "KHR_lights_punctual",
+    "KHR_materials_clearcoat",    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",          "KHR_materials_specular",
+    "KHR_materials_transmission", "KHR_materials_unlit",
+    "KHR_materials_variants",     "KHR_materials_volume",
+    "KHR_mesh_quantization",      "KHR_texture_transform"};
+
+// What to do about an extension that is not supported.
+std::string adviceOn(const std::string& extension) {
+  constexpr std::pair<std::string_view, std::string_view> kAdvice[] = {
+      {"KHR_texture_basisu", ": `gltf-transform ktxdecompress IN OUT` converts the file"},
+      {"KHR_draco_mesh_compression", ": this whit was built without libdraco"},
+      {"EXT_meshopt_compression", ": this whit was built without libmeshoptimizer"},
+      {"KHR_meshopt_compression", ": this whit was built without libmeshoptimizer"},
+      {"EXT_texture_webp", ": this whit was built without libwebp"}};
+  for (const auto& [name, advice] : kAdvice) {
+    if (name == extension) return std::string(advice);
+  }
+  return "";
+}
+
 // Upper bound on the memory that the readers need for one node, mesh, material and so on.
 constexpr std::uint64_t kBytesPerElement = 2048;
-
-bool isSupported(const std::string& extension) {
-  return std::find(kSupported.begin(), kSupported.end(), extension) != kSupported.end();
-}
 
 }  // namespace
 
 GltfDocument::GltfDocument(const std::filesystem::path& path, const PathRules& rules,
-                           MemoryBudget& budget, Warnings& warnings)
+                           MemoryBudget& budget, Warnings& warnings, const std::string& variant)
     : name_(path.string()), budget_(budget), warnings_(warnings) {
   std::optional<std::string> binary;
   json_ = std::make_unique<const JsonDocument>(
@@ -148,26 +170,49 @@ GltfDocument::GltfDocument(const std::filesystem::path& path, const PathRules& r
   buffers_.resize(list("buffers").size());
   if (!buffers_.empty() && !list("buffers")[0]["uri"].exists()) buffers_[0] = std::move(binary);
   readBuffers(path.parent_path(), rules);
+  for (std::size_t i = 0; i < list("bufferViews").size(); ++i) {
+    if (auto bytes = decodeMeshopt(*this, list("bufferViews")[i]))
+      decodedViews_[i] = std::move(*bytes);
+  }
+  decodedAccessors_ = decodeDraco(*this);
   readImages(path.parent_path(), rules);
+  for (std::size_t i = 0; i < variants().size(); ++i) {
+    if (variants()[i]["name"].textOr("") == variant) variant_ = i;
+  }
+}
+
+bool GltfDocument::reads(const std::string& extension) {
+  return std::ranges::count(kSupported, extension) > 0;
+}
+
+Bytes GltfDocument::range(const JsonValue& source) const {
+  const JsonValue buffers = list("buffers");
+  const std::size_t number = source.need("buffer").indexInto(buffers).value_or(0);
+  const std::optional<std::string>& buffer = buffers_[number];
+  if (!buffer) buffers[number].need("uri");
+  const std::uint64_t size = buffer->size(), offset = source["byteOffset"].wholeOr(0);
+  const std::uint64_t length = source.need("byteLength").wholeOr(0);
+  if (offset > size || length > size - offset) {
+    source.fail("a range within the buffer's " + std::to_string(size) + " bytes",
+                std::to_string(length) + " from byte " + std::to_string(offset));
+  }
+  return asBytes(*buffer).subspan(offset, length);
 }
 
 GltfBufferView GltfDocument::view(const JsonValue& reference) const {
-  const std::optional<std::size_t> index = reference.indexInto(list("bufferViews"));
+  const JsonValue views = list("bufferViews");
+  const std::optional<std::size_t> index = reference.indexInto(views);
   if (!index) reference.fail("a buffer view");
-  const JsonValue view = list("bufferViews")[*index];
-  const JsonValue buffers = list("buffers");
-  const std::size_t number = view.need("buffer").indexInto(buffers).value_or(0);
-  const std::optional<std::string>& buffer = buffers_[number];
-  if (!buffer) buffers[number].need("uri");
-  const std::uint64_t size = buffer->size(), offset = view["byteOffset"].wholeOr(0);
-  const std::uint64_t length = view.need("byteLength").wholeOr(0);
-  if (offset > size || length > size - offset) {
-    view.fail("a range within the buffer's " + std::to_string(size) + " bytes",
-              std::to_string(length) + " from byte " + std::to_string(offset));
-  }
+  const JsonValue view = views[*index];
   const std::uint64_t stride = view["byteStride"].wholeOr(0, 252);
   if (stride % 4 != 0) view["byteStride"].fail("a multiple of 4");
-  return {asBytes(*buffer).subspan(offset, length), *index, stride};
+  const auto decoded = decodedViews_.find(*index);
+  return {decoded == decodedViews_.end() ? range(view) : asBytes(decoded->second), *index, stride};
+}
+
+std::optional<Bytes> GltfDocument::decoded(const JsonValue& accessor) const {
+  const auto found = decodedAccessors_.find(accessor.pointer());
+  return found == decodedAccessors_.end() ? std::nullopt : std::optional(asBytes(found->second));
 }
 
 void GltfDocument::checkExtensions() const {
@@ -176,13 +221,13 @@ void GltfDocument::checkExtensions() const {
   const JsonValue required = list("extensionsRequired"), used = list("extensionsUsed");
   for (std::size_t i = 0; i < required.size(); ++i) {
     const std::string extension = required[i].textOr("");
-    if (isSupported(extension)) continue;
+    if (reads(extension)) continue;
     throwBadScene(required[i].where(), "the file cannot be shown without " + excerpt(extension) +
-                                           ", which is not supported");
+                                           ", which is not supported" + adviceOn(extension));
   }
   for (std::size_t i = 0; i < used.size(); ++i) {
     const std::string extension = used[i].textOr("");
-    if (!isSupported(extension)) warnings_.add("extension ignored: " + excerpt(extension), name_);
+    if (!reads(extension)) warnings_.add("extension ignored: " + excerpt(extension), name_);
   }
 }
 
@@ -230,7 +275,11 @@ void GltfDocument::readImages(const std::filesystem::path& folder, const PathRul
       image.own = decodeUri(uri);
       image.bytes = asBytes(image.own);
     } else {
-      image.path = rules.resolve(percentDecoded(uri.textOr("")), folder, uri.where()).string();
+      try {
+        image.path = rules.resolve(percentDecoded(uri.textOr("")), folder, uri.where()).string();
+      } catch (const Error&) {
+        image.error = std::current_exception();
+      }
     }
   }
 }

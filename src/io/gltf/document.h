@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -22,9 +24,10 @@ using Bytes = std::span<const std::uint8_t>;
 
 // An image that is not decoded yet: `path`, or the bytes of a file.
 struct GltfImageSource {
-  std::string where;  // "file#/images/3"
-  std::string path;   // empty: `bytes`
-  std::string own;    // content of a data URI
+  std::string where;         // "file#/images/3"
+  std::string path;          // empty: `bytes`
+  std::exception_ptr error;  // thrown where the path cannot be used
+  std::string own;           // content of a data URI
   Bytes bytes;
 };
 
@@ -42,7 +45,7 @@ class GltfDocument {
   // (PathRules), and for buffers and images without their data. Other extensions that are not
   // supported are warnings, once each. Everything else is checked by whoever reads it.
   GltfDocument(const std::filesystem::path& path, const PathRules& rules, MemoryBudget& budget,
-               Warnings& warnings);
+               Warnings& warnings, const std::string& variant);
   GltfDocument(const GltfDocument&) = delete;
   GltfDocument& operator=(const GltfDocument&) = delete;
 
@@ -50,9 +53,18 @@ class GltfDocument {
   JsonValue root() const { return JsonValue(*json_); }
   // A list of the root object, "nodes" for example.
   JsonValue list(const std::string& name) const { return root()[name]; }
+  JsonValue variants() const { return root()["extensions"]["KHR_materials_variants"]["variants"]; }
+  // True if this build reads the extension.
+  static bool reads(const std::string& extension);
+  // The index in variants() of the one that is shown; none: primitives have their own materials.
+  std::optional<std::size_t> variant() const { return variant_; }
   // The buffer view whose index is `reference`. Throws badScene where it does not exist or reaches
   // beyond its buffer.
   GltfBufferView view(const JsonValue& reference) const;
+  // The bytes of "buffer" from "byteOffset", "byteLength" of them. Throws as view() does.
+  Bytes range(const JsonValue& source) const;
+  // The elements of an accessor that are compressed by Draco, tightly packed; none: they are not.
+  std::optional<Bytes> decoded(const JsonValue& accessor) const;
   const std::vector<GltfImageSource>& images() const { return images_; }
   Warnings& warnings() const { return warnings_; }
   MemoryBudget& budget() const { return budget_; }
@@ -68,7 +80,10 @@ class GltfDocument {
   Warnings& warnings_;
   std::unique_ptr<const JsonDocument> json_;
   std::vector<std::optional<std::string>> buffers_;
+  std::map<std::size_t, std::string> decodedViews_;
+  std::map<std::string, std::string> decodedAccessors_;  // by their pointers
   std::vector<GltfImageSource> images_;
+  std::optional<std::size_t> variant_;
 };
 
 // In the following, `reference` is the index of an accessor. Every component type, normalized or

@@ -24,6 +24,7 @@ class GltfImage {
     if (broken_) return nullptr;
     if (auto raw = decoded_.lock()) return raw;
     try {
+      if (source_.error) std::rethrow_exception(source_.error);
       auto raw = std::make_shared<const RawImage>(
           source_.path.empty() ? decodeRawImage(source_.where, source_.bytes, limits, warnings_)
                                : readRawImage(source_.path, limits, warnings_));

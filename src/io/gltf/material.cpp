@@ -47,7 +47,9 @@ GltfTexture readTexture(const GltfDocument& document, const std::string& where,
   if (!info.exists()) return result;
   const JsonValue textures = document.list("textures"), samplers = document.list("samplers");
   const JsonValue texture = textures[info.need("index").indexInto(textures).value_or(0)];
-  result.image = texture["source"].indexInto(document.list("images"));
+  const JsonValue webp = texture["extensions"]["EXT_texture_webp"]["source"];
+  const JsonValue source = webp && document.reads("EXT_texture_webp") ? webp : texture["source"];
+  result.image = source.indexInto(document.list("images"));
   if (!result.image) {
     document.warnings().add("texture in a format that is not supported left out", where);
     return result;

@@ -72,12 +72,8 @@ class DeformationReader {
       checkLength(joints.back().size() / 4, count, j);
       checkLength(weights.back().size() / 4, count, w);
     }
-    if (joints.empty()) {
-      result_.skeleton = nullptr;
-      return warn("skinned mesh without joints and weights shown as it was modelled");
-    }
-    document_.budget().charge(count, sizeof(std::uint32_t) + 4 * joints.size() * sizeof(Influence),
-                              where_);
+    document_.budget().charge(
+        count, sizeof(std::uint32_t) + (4 * joints.size() + 1) * sizeof(Influence), where_);
     result_.firstInfluence.push_back(0);
     for (std::size_t i = 0; i < count; ++i) {
       for (std::size_t set = 0; set < joints.size(); ++set) {
@@ -89,7 +85,7 @@ class DeformationReader {
 
   void hold(float joint, double weight) {
     if (!(weight > 0)) return;
-    if (joint >= 0 && joint < static_cast<float>(result_.joints.size())) {
+    if (joint >= 0 && joint < static_cast<float>(result_.joints.size() - 1)) {
       result_.influences.push_back({static_cast<std::uint32_t>(joint), weight});
     } else {
       warn("joint that the skin does not have left out");
@@ -101,8 +97,9 @@ class DeformationReader {
     double sum = 0;
     for (std::size_t i = result_.firstInfluence.back(); i < all.size(); ++i) sum += all[i].weight;
     if (!(sum > 0) || !std::isfinite(sum)) {
-      warn("vertex that no joint holds left where it was modelled");
+      warn("vertex that no joint holds placed by its node");
       all.resize(result_.firstInfluence.back());
+      all.push_back({static_cast<std::uint32_t>(result_.joints.size() - 1), 1});
     }
     result_.firstInfluence.push_back(static_cast<std::uint32_t>(all.size()));
   }
@@ -129,6 +126,20 @@ void deform(const GltfDocument& document, const JsonValue& primitive,
 // Values of a primitive's mode; smaller ones are points and lines.
 constexpr std::uint64_t kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6;
 
+// The index of the primitive's material in the variant that is shown (KHR_materials_variants).
+JsonValue materialOf(const GltfDocument& document, const JsonValue& primitive) {
+  const JsonValue mappings = primitive["extensions"]["KHR_materials_variants"]["mappings"];
+  for (std::size_t i = 0; document.variant() && i < mappings.size(); ++i) {
+    const JsonValue variants = mappings[i]["variants"];
+    for (std::size_t k = 0; k < variants.size(); ++k) {
+      if (variants[k].indexInto(document.variants()) == document.variant()) {
+        return mappings[i]["material"];
+      }
+    }
+  }
+  return primitive["material"];
+}
+
 class PrimitiveReader {
  public:
   PrimitiveReader(const GltfDocument& document, const JsonValue& primitive,
@@ -138,7 +149,7 @@ class PrimitiveReader {
         attributes_(primitive.need("attributes")),
         placed_(placed),
         mode_(primitive["mode"].wholeOr(kTriangles, kTriangleFan)),
-        material_(primitive["material"]
+        material_(materialOf(document, primitive)
                       .indexInto(document.list("materials"))
                       .value_or(materials.size() - 1)),
         coordinates_(materials[material_].coordinates()),
@@ -198,7 +209,11 @@ class PrimitiveReader {
 
   std::vector<std::uint32_t> corners(std::size_t vertices) {
     const JsonValue indices = primitive_["indices"];
-    if (indices.exists()) return readIndices(document_, indices);
+    if (indices.exists()) {
+      // Decoded strips are separate triangles.
+      if (document_.decoded(accessorOf(document_, indices))) mode_ = kTriangles;
+      return readIndices(document_, indices);
+    }
     if (vertices > std::numeric_limits<std::uint32_t>::max()) {
       throwLimit(primitive_.where() + ": more than 2^32 - 1 vertices");
     }

@@ -53,7 +53,7 @@ class MoverBodies {
 class GltfModel : public Model {
  public:
   explicit GltfModel(const ModelSource& source)
-      : document_(source.path, source.rules, source.budget, source.warnings),
+      : document_(source.path, source.rules, source.budget, source.warnings, source.variant),
         sources_(readGltfMaterials(document_)),
         maps_(document_),
         stage_(readGltfNodes(document_, source.instant)) {
@@ -62,6 +62,14 @@ class GltfModel : public Model {
 
   const std::vector<Material>& materials() const override { return materials_; }
   std::vector<Animation> animations() const override { return listGltfAnimations(document_); }
+
+  std::vector<std::string> variants() const override {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < document_.variants().size(); ++i) {
+      names.push_back(document_.variants()[i]["name"].textOr(""));
+    }
+    return names;
+  }
 
   TexturedMaterial withMaps(std::size_t i, Material material, const GivenMembers& given,
                             TextureLoader& textures) override {

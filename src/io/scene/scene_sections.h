@@ -35,6 +35,7 @@ struct SceneContext {
         warnings(warnings_),
         progress(progress_),
         sky(options.sky),
+        variant(options.variant),
         instant(options.instant),
         textures(options.threads, budget, warnings, progress) {
     scene.name = file.stem().string();
@@ -44,8 +45,11 @@ struct SceneContext {
   Model& model(const std::filesystem::path& path, const std::string& where) {
     std::unique_ptr<Model>& entry = models[path.string()];
     if (entry) return *entry;
-    entry = readNamedAt(where, [&] { return openModel({path, rules, budget, warnings, instant}); });
+    entry = readNamedAt(where, [&] {
+      return openModel({path, rules, budget, warnings, instant, variant});
+    });
     for (const Animation& animation : entry->animations()) scene.animations.push_back(animation);
+    for (const std::string& name : entry->variants()) scene.variants.push_back(name);
     return *entry;
   }
 
@@ -56,7 +60,7 @@ struct SceneContext {
   Progress* progress;
   SceneDescription scene;
   const SceneParts* parts = nullptr;  // of a scene that a program makes
-  std::string sky;                    // this and the next as in LoadOptions
+  std::string sky, variant;           // these and the next as in LoadOptions
   Instant instant;
   std::map<std::string, std::unique_ptr<Model>> models;
   TextureLoader textures;  // last: its workers write to the scene

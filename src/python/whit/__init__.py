@@ -128,6 +128,7 @@ class Scene:
         of scene files and dicts ("/scene/3", "/cameras/front", "/lights/0"), nodes of models
         ("/nodes/7").
     animation: name of the model's animation that is played; empty: the first.
+    variant: name of the variant of a model's materials; empty: the model's own materials.
     sphere_segments: triangles around each sphere in place of exact spheres; 0: exact spheres.
     strict: raises an error instead of a repair (`warnings`).
     allow_outside: a scene may name files outside its own folder and $WHIT_DATA.
@@ -143,15 +144,16 @@ class Scene:
     def __init__(self, source: Union[str, os.PathLike, Mapping[str, Any]], *,
                  settings: Optional[Mapping[str, Any]] = None, sky: Union[str, os.PathLike] = "",
                  moves: bool = False, movable: Sequence[str] = (), animation: str = "",
-                 sphere_segments: int = 0, strict: bool = False, allow_outside: bool = False,
-                 max_memory_gb: float = 16.0, threads: int = 0,
+                 variant: str = "", sphere_segments: int = 0, strict: bool = False,
+                 allow_outside: bool = False, max_memory_gb: float = 16.0, threads: int = 0,
                  progress: Optional[Progress] = None, name: str = "scene") -> None:
         description = Description(name)
         texts = [f"{pointer}={description.text(value, pointer)}"
                  for pointer, value in (settings or {}).items()]
         load = dict(settings=texts, sky=os.fspath(sky), moves=moves, movable=list(movable),
-                    animation=animation, sphere_segments=sphere_segments, strict=strict,
-                    allow_outside=allow_outside, max_memory_gb=max_memory_gb, threads=threads)
+                    animation=animation, variant=variant, sphere_segments=sphere_segments,
+                    strict=strict, allow_outside=allow_outside, max_memory_gb=max_memory_gb,
+                    threads=threads)
         if isinstance(source, Mapping):
             text = description.text(dict(source))
             self._object = _whit.build(name, text, description.meshes, description.images, load,
