@@ -45,11 +45,16 @@ std::optional<std::string> decodeMeshopt(const GltfDocument& document, const Jso
                            (filter == "QUATERNION" && stride != 8))) {
     source["filter"].fail("a filter that suits mode and stride");
   }
-  document.budget().charge(count, stride, source.where());
-  std::string bytes(count * stride, '\0');
+  // A byte stands for at most 64, so that small files do not take much memory.
+  constexpr std::uint64_t kLargestRatio = 64;
+  const bool isShort = count * stride / kLargestRatio > packed.size();
+  const std::uint64_t size = isShort ? 0 : count * stride;
+  document.budget().charge(1, size, source.where());
+  std::string bytes(size, '\0');
   const auto* from = packed.data();
   const int failed =
-      mode == "TRIANGLES"
+      isShort ? 1
+      : mode == "TRIANGLES"
           ? meshopt_decodeIndexBuffer(bytes.data(), count, stride, from, packed.size())
       : isIndex ? meshopt_decodeIndexSequence(bytes.data(), count, stride, from, packed.size())
                 : meshopt_decodeVertexBuffer(bytes.data(), count, stride, from, packed.size());
