@@ -59,6 +59,7 @@ Scene Scene::finalize(SceneDescription&& description, Warnings& warnings, Progre
   SceneDescription d = std::move(description);
   validate(d, warnings);
   settleSides(d);
+  if (d.isModel && !d.cameras.empty()) noteHiddenSides(d, warnings);
   Scene scene;
   scene.name = std::move(d.name);
   scene.isModel = d.isModel;

@@ -132,6 +132,28 @@ TEST_F(GltfMaterials, AreSingleSidedUnlessTheFileSaysOtherwise) {
                     "materials_transmission\":{\"transmissionFactor\":1}}"));
 }
 
+TEST_F(GltfMaterials, MeshesThatAreOnlySeenFromBehindAreNoted) {
+  constexpr char kNote[] = "single-sided mesh that every camera is behind, so that it is not seen";
+  const auto notes = [&](const std::string& node, const std::string& material) {
+    GltfBuilder b;
+    const std::string text =
+        b.json("\"materials\":[{" + material + "}],\"meshes\":[{\"primitives\":[" +
+               triangle(b, ",\"material\":0") +
+               "]}],\"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":1}}],"
+               "\"nodes\":[{\"mesh\":0" +
+               node + "},{\"camera\":0,\"translation\":[0,0,5]}]");
+    Warnings strict(true);  // what is only noted is not refused
+    Scene::finalize(loadText(text), strict);
+    return strict.entries().contains(kNote);
+  };
+  const std::string turned = ",\"rotation\":[0,1,0,0]", mirrored = ",\"scale\":[1,1,-1]";
+  EXPECT_FALSE(notes("", ""));
+  EXPECT_TRUE(notes(turned, ""));
+  EXPECT_FALSE(notes(turned, "\"doubleSided\":true"));
+  EXPECT_TRUE(notes(mirrored, ""));
+  EXPECT_FALSE(notes(mirrored + turned, ""));
+}
+
 TEST_F(GltfMaterials, RoughnessThatIsTheSameAllOverNeedsNoMap) {
   save("even.tga", tga(2, 1, {{0, 51, 255}, {0, 51, 0}}));
   save("uneven.tga", tga(2, 1, {{0, 51, 255}, {0, 153, 255}}));
