@@ -3,8 +3,11 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <linux/seccomp.h>
+#include <sys/prctl.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <stdexcept>
@@ -81,13 +84,14 @@ TEST(Confined, AnswersAreLimited) {
 }
 
 TEST(Confined, TheSystemIsOutOfReach) {
+  // A kernel with seccomp looks for the filter, which is not there.
+  const bool filters = prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, nullptr) != 0 && errno == EFAULT;
+  if (!filters) GTEST_SKIP() << "no seccomp here";
   const auto open = [](const ConfinedWriter&) {
     if (::open("/dev/null", O_RDONLY) >= 0) _exit(0);
     throw std::runtime_error("the file cannot be opened");
   };
-  const std::string failure = failureOf(open);
-  if (failure.empty()) GTEST_SKIP() << "no seccomp here";
-  EXPECT_EQ(failure, "it called the system");
+  EXPECT_EQ(failureOf(open), "it called the system");
   EXPECT_EQ(failureOf([](const ConfinedWriter&) { kill(getppid(), SIGTERM); }),
             "it called the system");
   EXPECT_EQ(failureOf([](const ConfinedWriter&) {
