@@ -93,7 +93,7 @@ struct Exposure {
   bool automatic = false;
   bool operator==(const Exposure&) const = default;
 };
-// What primary rays show that hit nothing: the sky, nothing, or a color in sRGB codes.
+// Primary rays that hit nothing show the sky, nothing, or a color in sRGB codes.
 struct Background {
   enum class Kind { sky, transparent, color } kind = Kind::sky;
   std::array<std::uint8_t, 3> color{};

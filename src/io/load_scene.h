@@ -29,7 +29,7 @@ struct LoadOptions {
   // In place of the scene's own sky: "none", "studio" (scene/studio_sky.h) or an equirectangular
   // image. Empty: the scene's own; of a model, which has none, the studio.
   std::string sky;
-  // Of the picture, for cameras that are supplied; none: the scene's own.
+  // Supplied cameras fit a picture of this size; none: of the scene's own.
   std::optional<ImageSize> size;
   // When the scene is looked at. With seconds that nothing in the scene follows, or an animation
   // that no model has: Error(usage).

@@ -44,7 +44,7 @@ RgbD evenRadiance(const Sky& sky, double sine) {
 
 double polarAngle(int row, int rows) { return std::numbers::pi * (row + 0.5) / rows; }
 
-// Such a sky as an image of one column.
+// A sky that is the same for every azimuth, as an image of one column.
 EnvironmentImage columnOf(const Sky& sky) {
   EnvironmentImage column{1, 8 * kBlurRows, {}, {}, {}};
   for (int y = 0; y < column.height; ++y) {
