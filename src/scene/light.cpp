@@ -42,13 +42,18 @@ RgbD evenRadiance(const Sky& sky, double sine) {
   return mix(sky.horizon, sine < 0 ? sky.ground : sky.zenith, std::abs(sine));
 }
 
+// The last bits of sines and cosines differ between C libraries and processors.
+double rounded(double x) { return std::round(x * 0x1p40) * 0x1p-40; }
+double sineOf(double angle) { return rounded(std::sin(angle)); }
+double cosineOf(double angle) { return rounded(std::cos(angle)); }
+
 double polarAngle(int row, int rows) { return std::numbers::pi * (row + 0.5) / rows; }
 
 // A sky that is the same for every azimuth, as an image of one column.
 EnvironmentImage columnOf(const Sky& sky) {
   EnvironmentImage column{1, 8 * kBlurRows, {}, {}, {}};
   for (int y = 0; y < column.height; ++y) {
-    const Rgb radiance(evenRadiance(sky, std::cos(polarAngle(y, column.height))));
+    const Rgb radiance(evenRadiance(sky, cosineOf(polarAngle(y, column.height))));
     column.r.push_back(radiance.x);
     column.g.push_back(radiance.y);
     column.b.push_back(radiance.z);
@@ -68,7 +73,7 @@ std::vector<float> shrunk(const std::vector<float>& plane, const EnvironmentImag
       const int right = std::max(left + 1, (x + 1) * image.width / width);
       double sum = 0, weights = 0;
       for (int row = top; row < bottom; ++row) {
-        const double weight = std::sin(polarAngle(row, image.height));
+        const double weight = sineOf(polarAngle(row, image.height));
         const auto first = plane.begin() + std::ptrdiff_t{row} * image.width;
         sum += weight * std::accumulate(first + left, first + right, 0.0);
         weights += weight * (right - left);
@@ -88,7 +93,8 @@ std::vector<float> blurs(std::vector<float> plane, int width) {
     for (int turn = 0; turn < 2; ++turn) around.insert(around.end(), row, row + width);
   }
   for (int level = 1; level < kSkyBlurs; ++level) {
-    const double a2 = std::pow(level / (kSkyBlurs - 1.0), 4);
+    const double roughness = level / (kSkyBlurs - 1.0), alpha = roughness * roughness;
+    const double a2 = alpha * alpha;
     for (int y = 0; y < kBlurRows; ++y) {
       const double polar = polarAngle(y, kBlurRows);
       std::vector<float> sums(static_cast<std::size_t>(width));
@@ -97,11 +103,11 @@ std::vector<float> blurs(std::vector<float> plane, int width) {
         const double other = polarAngle(from, kBlurRows);
         for (int turn = 0; turn < width; ++turn) {
           const double cosine =
-              std::cos(polar) * std::cos(other) +
-              std::sin(polar) * std::sin(other) * std::cos(2 * std::numbers::pi * turn / width);
+              cosineOf(polar) * cosineOf(other) +
+              sineOf(polar) * sineOf(other) * cosineOf(2 * std::numbers::pi * turn / width);
           if (!(cosine > 0)) continue;
           const double spread = 1 - (1 - a2) * (1 + cosine) / 2;
-          const double weight = std::sin(other) * cosine / (spread * spread);
+          const double weight = sineOf(other) * cosine / (spread * spread);
           weights += weight;
           const float* row = around.data() + std::ptrdiff_t{2} * width * from + turn;
           for (float& sum : sums) sum += static_cast<float>(weight) * *row++;

@@ -21,7 +21,7 @@ constexpr PublishedHash kPublished[] = {
     {"glass", "48x30", "9964facb5814d489fd9bb03aff5008e8"},
     {"mirrors", "480x300", "a18f31a055461f66f922ed7e5e0adf35"},
     {"mirrors", "48x30", "7757b6334cc2c316866aff3a041bcdc0"},
-    {"glossy", "480x300", "81a3a659bbd8aa430529b8ebe078e8fa"},
+    {"glossy", "480x300", "1e261d9bf84032b47995fd393d9c0507"},
     {"glossy", "48x30", "5b12b5b939c8a1e6e06fdb06949da43c"},
     {"effects", "480x300", "42b59f4a76a047d8128f66e4a9728164"},
     {"effects", "48x30", "348ebac0d495ee87b5e3148fc569cebd"},
