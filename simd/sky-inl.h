@@ -40,7 +40,9 @@ HWY_INLINE V3 ImageSky(const SkyTable& sky, const V3& direction, MF live, VI ima
   const VF fx = hn::Sub(px, floorX), fy = hn::Sub(py, floorY);
   const VI lastX = hn::Set(di, sky.width - 1), lastY = hn::Set(di, sky.height - 1);
   const VI zero = hn::Zero(di), one = hn::Set(di, 1);
-  const VI x0 = hn::ConvertTo(di, floorX), y0 = hn::ConvertTo(di, floorY);
+  // Not a number has no integer: other lanes may hold it.
+  const VI x0 = hn::ConvertTo(di, hn::IfThenElseZero(live, floorX));
+  const VI y0 = hn::ConvertTo(di, hn::IfThenElseZero(live, floorY));
   const VI x1 = hn::Add(x0, one), y1 = hn::Add(y0, one);
   const VI left = hn::IfThenElse(hn::Lt(x0, zero), lastX, hn::Min(x0, lastX));
   const VI right = hn::IfThenZeroElse(hn::Gt(x1, lastX), x1);
@@ -82,7 +84,7 @@ HWY_INLINE V3 BlurredRadiance(const SkyTable& blurred, const V3& direction, VF r
   const FloatTag d;
   const VF blur = hn::Mul(roughness, hn::Set(d, kSkyBlurs - 1.0f));
   const VF level = hn::Min(hn::Floor(blur), hn::Set(d, kSkyBlurs - 2.0f));
-  const VI image = hn::ConvertTo(IntTag(), level);
+  const VI image = hn::ConvertTo(IntTag(), hn::IfThenElseZero(live, level));
   const V3 sharper = ImageSky(blurred, direction, live, image);
   const VI next = hn::Add(image, hn::Set(IntTag(), 1));
   return Mix3(sharper, ImageSky(blurred, direction, live, next), hn::Sub(blur, level));
