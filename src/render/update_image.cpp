@@ -94,12 +94,21 @@ void updateImage(Chunk& c) {
   auto* const display = reinterpret_cast<std::uint32_t*>(film.display.rgba.data());
   Rgb* const image = film.image.pixels.data();
   const std::size_t n = c.n;
+  const auto placeOf = [&](std::uint32_t pixel) {
+    return static_cast<std::size_t>(pixelY(pixel) - top) * width +
+           static_cast<std::size_t>(pixelX(pixel) - left);
+  };
+  // The film is larger than the caches: its lines are asked for before they are written.
+  constexpr std::size_t kAhead = 64;
   for (std::size_t i = 0; i < n; ++i) {
-    const auto x = static_cast<std::size_t>(pixelX(pixels[i]) - left);
-    const auto y = static_cast<std::size_t>(pixelY(pixels[i]) - top);
-    Rgb& pixel = image[y * width + x];
-    pixel.x = r[i], pixel.y = g[i], pixel.z = b[i];
-    if (codes) display[y * width + x] = codes[i];
+    const std::size_t next = placeOf(pixels[std::min(i + kAhead, n - 1)]);
+    __builtin_prefetch(image + next, 1);
+    const std::size_t place = placeOf(pixels[i]);
+    image[place].x = r[i], image[place].y = g[i], image[place].z = b[i];
+    if (codes) {
+      __builtin_prefetch(display + next, 1);
+      display[place] = codes[i];
+    }
   }
 }
 
