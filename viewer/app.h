@@ -11,6 +11,7 @@
 #include "viewer/panel.h"
 #include "viewer/render_thread.h"
 #include "viewer/resolution_control.h"
+#include "viewer/view_files.h"
 #include "viewer/window.h"
 
 namespace whit::view {
@@ -40,12 +41,16 @@ class ScriptedUser {
 
 class App {
  public:
+  // May run on another thread than the window's, which must not use the window meanwhile but to
+  // draw it.
   App(const ViewOptions& options, const std::shared_ptr<cli::OpenScene>& scene, Window& window,
-      ScriptedUser* scripted = nullptr);
+      const KeptSettings& kept, ScriptedUser* scripted = nullptr);
 
   // Returns when the user quits. Errors are shown and survived; throws Error(checkFailed) where a
   // scripted user does not survive them.
   void run();
+  // The settings as the user left them; the window's size stays.
+  void keep(KeptSettings& kept) const;
 
  private:
   // app.cpp:
@@ -74,15 +79,15 @@ class App {
   const Scene& scene() const { return scene_->scene; }
 
   // app_keys.cpp:
-  static CameraMotion motionOf(const Input& input);
+  CameraMotion motionOf(const Input& input) const;
+  void show(const Camera& camera);
+  void fitView();
   void handleInput();
   void handleKey(int key);
   void savePicture();
   void printView();
   void expose(float step);
-  void stepScale(int steps);
   void showNextView();
-  void compareNext();
   void startOrStopPath();
   void pick(const Input::Click& place);
   void forgetRays();
@@ -113,7 +118,6 @@ class App {
   ResolutionControl resolution_;
   Panel panel_;
   PanelSettings settings_;
-  double split_ = 0.5;  // share of the window that shows the frame rather than the reference
   TracedFrame shown_;
   std::optional<UnfinishedFrame> unfinished_;  // is shown in place of the frame
   std::optional<FrameRequest> stillFor_;       // the view that is being sharpened
@@ -122,7 +126,10 @@ class App {
   double pictureMs_ = 0;  // mean time between pictures in motion; 0: nothing moves
   std::optional<FrameRequest> asked_;
   std::optional<RayQuery> picked_, queried_;  // the user's pick, and the last query for it
-  RayPick rays_;                              // the last answer
+  std::optional<Input::Click> clicked_;  // the last click, until it is too old for a double one
+  double clickSeconds_ = 0;              // time since then
+  bool shownBeforeClick_ = false;        // the panel was
+  RayPick rays_;                         // the last answer
   // The scene's shading as it was read, as it is edited, and as it was last traced.
   ShadingEdit read_, edit_, traced_;
   int reloads_ = 0, edits_ = 0, tracedEdits_ = 0;
@@ -132,6 +139,7 @@ class App {
   bool sharp_ = false;    // the frame shown gets no finer
   bool selects_ = false;  // the next answer selects a material and a light
   std::optional<double> pathTime_;
+  std::optional<Camera> remembered_;     // by F5
   std::optional<std::size_t> followed_;  // the scene's camera whose view is shown
   std::string message_, error_;
   double messageSeconds_ = 0;  // time for which the message is still shown

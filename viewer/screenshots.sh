@@ -41,8 +41,6 @@ gone=("wait 250 frames" "wait sharp")  # messages
 shot viewer atrium 800x450 "key N" "key W 0.2" "${sharp[@]}" "${gone[@]}"
 shot viewer-knobs matte 960x600 "key N" "panel knobs" "${sharp[@]}" "key M" "${sharp[@]}" \
   "${gone[@]}"
-shot viewer-reference whitted 1280x720 "key X" "panel effects" "${sharp[@]}" "mouse left 120 0" \
-  "${gone[@]}"
 shot viewer-tree "whitted --depth 7" 960x600 "key N" "${sharp[@]}" "click 480 333" "${sharp[@]}" \
   "mouse right 200 -60" "${sharp[@]}" "${gone[@]}"
 shot viewer-rays whitted 800x500 "key V" "key V" "key V" "key V" "panel picture" "${sharp[@]}" \

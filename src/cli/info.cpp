@@ -18,8 +18,8 @@ namespace {
 
 Json vectorJson(const Vec3f& v) { return Json::array({v.x, v.y, v.z}); }
 
-// The shadow cache that the scene could have: its lights, its pieces of triangles, the number of
-// pixel samples from which it saves time, and otherwise why there is none.
+// The shadow cache that the scene could have: its lights, its cells, the number of samples of
+// pixels from which it saves time, and otherwise why there is none.
 Json shadowCacheJson(const Scene& scene, const RenderOptions& options) {
   const auto none = [](const char* because) {
     return Json{{"lights", 0}, {"parts", 0}, {"samples", 0}, {"because", because}};
@@ -107,13 +107,15 @@ void printInfo(const Json& info, const OpenScene& open, const Renderer& renderer
               info["bounds"]["upper"].dump().c_str());
   const Json& cache = info["shadow_cache"];
   if (cache.contains("because")) {
-    std::printf("  %-12sno shadow cache: %s\n", "shadows", textOf(cache["because"]).c_str());
+    std::printf("  %-12snot cached: %s\n", "shadows", textOf(cache["because"]).c_str());
   } else {
     std::printf(
-        "  %-12sshadow cache for %s light%s, %s pieces of triangles; used in films and pictures of "
-        "more than %.3g pixel samples\n",
+        "  %-12scached for %s light%s (%s cells) in films of %zu frames and pictures of %zu "
+        "samples a "
+        "pixel or more\n",
         "shadows", textOf(cache["lights"]).c_str(), cache["lights"] == 1 ? "" : "s",
-        textOf(cache["parts"]).c_str(), cache["samples"].get<double>());
+        textOf(cache["parts"]).c_str(), ShadowCacheSchedule::kFewestFrames,
+        ShadowCacheSchedule::kFewestSamples);
   }
   std::printf("  %-12s", "cameras");
   for (const Json& camera : info["cameras"]) std::printf("%s ", textOf(camera).c_str());

@@ -35,7 +35,7 @@ std::set<RayLook> looksIn(const RenderOptions& options) {
     const RayTree tree =
         traceRayTree(renderer, chooseCamera(scene, options), film, x, options.size->height / 2);
     std::size_t shadows = 0;
-    for (const RayLine& line : linesOf(tree)) {
+    for (const RayLine& line : linesOf(tree, chooseCamera(scene, options))) {
       looks.insert(line.look);
       shadows += isDashed(line.look);
       if (isDashed(line.look)) continue;

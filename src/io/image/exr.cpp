@@ -6,6 +6,7 @@
 #include <ImfMultiPartInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfPartType.h>
+#include <ImfStandardAttributes.h>
 #include <ImfStdIO.h>
 #include <ImfStringAttribute.h>
 #include <ImfThreading.h>
@@ -15,19 +16,23 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <new>
+#include <numbers>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include "core/error.h"
+#include "core/option_table.h"
 #include "io/atomic_file.h"
 #include "io/image/image_decoders.h"
 #include "io/image/image_layers.h"
 #include "io/read_file.h"
+#include "scene/camera.h"
 
 namespace whit {
 
@@ -236,18 +241,42 @@ ExrChannels layerChannels(const std::string& path, const Imf::ChannelList& list)
 static_assert(sizeof(Rgb) == 3 * sizeof(float), "pixels are written as they lie in memory");
 static_assert(sizeof(float) == sizeof(std::uint32_t), "layers have one stride");
 
-const std::string kPrefix = "whit.";
+// Of the names of attributes that hold our text, which OpenEXR's own names do not have.
+const std::string kPrefix = "whit:";
 constexpr std::array<const char*, 3> kRadianceLayers = {"R", "G", "B"};
 
-// Attributes that mean something to OpenEXR itself, and so cannot carry our text.
-bool isReserved(const std::string& name) {
-  constexpr std::array<const char*, 5> kReserved = {"chunkCount", "name", "type", "version",
-                                                    "view"};
-  return std::find(kReserved.begin(), kReserved.end(), name) != kReserved.end();
-}
-
-std::string attributeName(const Imf::Header& header, const std::string& name) {
-  return isReserved(name) || header.find(name) != header.end() ? kPrefix + name : name;
+// Adds the matrices of the camera that the metadata describe, as OpenEXR defines them: row vectors
+// are multiplied from the left, camera space has x to the right, y up and z forwards, and NDC (0,
+// 0) is the upper left corner of the picture.
+void addCamera(const ImageMetadata& metadata, const Image& image, Imf::Header& header) {
+  RenderOptions options;
+  for (const auto& [name, text] : metadata) {
+    const bool isOfCamera = name == "eye" || name == "at" || name == "up" || name == "fov";
+    if (isOfCamera || name == "ortho") setOption(options, name, text);
+  }
+  if (!options.eye || !options.at) return;
+  const Vec3d eye(*options.eye), z = normalized(Vec3d(*options.at) - eye);
+  const Vec3d x = normalized(cross(z, Vec3d(options.up.value_or(Vec3f{0, 1, 0}))));
+  const Vec3d y = cross(x, z);
+  const auto single = [](double value) { return static_cast<float>(value); };
+  Imath::M44f toCamera, toNdc;
+  for (int i = 0; i < 3; ++i) {
+    toCamera[i][0] = single(x[i]), toCamera[i][1] = single(y[i]), toCamera[i][2] = single(z[i]);
+  }
+  toCamera[3][0] = single(-dot(eye, x)), toCamera[3][1] = single(-dot(eye, y));
+  toCamera[3][2] = single(-dot(eye, z));
+  const bool parallel = options.ortho.value_or(0) > 0;
+  const double half = std::tan(options.fov.value_or(Camera().fov) * std::numbers::pi / 360);
+  const double height = parallel ? double{*options.ortho} : 2 * half;
+  toNdc[0][0] = single(image.height / (height * image.width));
+  toNdc[1][1] = single(-1 / height);
+  // Of perspective cameras the depth divides.
+  const int offset = parallel ? 3 : 2;
+  toNdc[2][2] = toNdc[3][3] = parallel ? 1 : 0;
+  toNdc[2][3] = toNdc[3][2] = parallel ? 0 : 1;
+  toNdc[offset][0] = toNdc[offset][1] = 0.5f;
+  Imf::addWorldToCamera(header, toCamera);
+  Imf::addWorldToNDC(header, toCamera * toNdc);
 }
 
 bool inHalf(ExrStorage storage) {
@@ -286,7 +315,9 @@ Imf::Header makeHeader(const Image& image, const ImageMetadata& metadata, ExrSto
     header.channels().insert(layer.name, Imf::Channel(typeOf(layer)));
   }
   for (const auto& [name, text] : metadata)
-    header.insert(attributeName(header, name), Imf::StringAttribute(text));
+    header.insert(kPrefix + name, Imf::StringAttribute(text));
+  Imf::addChromaticities(header, Imf::Chromaticities());  // of Rec. 709
+  addCamera(metadata, image, header);
   return header;
 }
 
@@ -354,9 +385,8 @@ ImageMetadata readExrMetadata(const std::string& path) {
     for (auto it = file.header().begin(); it != file.header().end(); ++it) {
       const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute());
       const std::string name = it.name();
-      if (text == nullptr || isReserved(name)) continue;
-      metadata.emplace_back(name.starts_with(kPrefix) ? name.substr(kPrefix.size()) : name,
-                            text->value());
+      if (text == nullptr || !name.starts_with(kPrefix)) continue;
+      metadata.emplace_back(name.substr(kPrefix.size()), text->value());
     }
     return metadata;
   });
