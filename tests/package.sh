@@ -41,7 +41,8 @@ within() {
   chroot "$clean" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root \
     DEBIAN_FRONTEND=noninteractive "$@"
 }
-within apt-get install -y -qq --no-install-recommends $(cd "$clean" && printf ' /%s' *.deb) >"$work/install.log" 2>&1 ||
+packages=$(cd "$clean" && printf ' /%s' *.deb)
+within apt-get install -y -qq --no-install-recommends $packages >"$work/install.log" 2>&1 ||
   { tail -20 "$work/install.log"; exit 1; }
 
 within whit render whitted --size 64x40 -o /tmp/there.exr --quiet
@@ -73,7 +74,7 @@ for program in whit whit-view; do
   fi
   within "$program" --help >/dev/null
   within test -s "/usr/share/bash-completion/completions/$program"
-  within sh -c "test -s /usr/share/man/man1/$program.1 || test -s /usr/share/man/man1/$program.1.gz"
+  within test -s "/usr/share/man/man1/$program.1.gz"
 done
 within dpkg --purge python3-whit whit-view whit >/dev/null
 within test ! -e /usr/bin/whit

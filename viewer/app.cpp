@@ -41,11 +41,8 @@ App::App(const ViewOptions& options, const std::shared_ptr<cli::OpenScene>& scen
       read_(withoutEdits(scene)),
       edit_(read_),
       traced_(read_) {
-  settings_.recent = kept.recent;
-  settings_.shown = kept.panel;
-  settings_.inspects = kept.inspector;
-  settings_.supersample = kept.supersample;
-  settings_.tab = settings_.tabShown = kept.tab;
+  static_cast<KeptSettings&>(settings_) = kept;
+  settings_.tab = kept.tabShown;
   watch(options.scene);
   settings_.rate = resolution_.rate();
   settings_.options = options.common.render;
@@ -64,14 +61,6 @@ App::App(const ViewOptions& options, const std::shared_ptr<cli::OpenScene>& scen
 void App::run() {
   while (!window_.closing() && step()) {
   }
-}
-
-void App::keep(KeptSettings& kept) const {
-  kept.recent = settings_.recent;
-  kept.panel = settings_.shown;
-  kept.inspector = settings_.inspects;
-  kept.supersample = settings_.supersample;
-  kept.tab = settings_.tabShown;
 }
 
 bool App::step() {

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <optional>
-#include <utility>
 
 #include "core/stopwatch.h"
 #include "core/usable_threads.h"
@@ -11,7 +10,6 @@
 #include "viewer/panel.h"
 #include "viewer/render_thread.h"
 #include "viewer/resolution_control.h"
-#include "viewer/view_files.h"
 #include "viewer/window.h"
 
 namespace whit::view {
@@ -50,7 +48,7 @@ class App {
   // scripted user does not survive them.
   void run();
   // The settings as the user left them; the window's size stays.
-  void keep(KeptSettings& kept) const;
+  const KeptSettings& kept() const { return settings_; }
 
  private:
   // app.cpp:
@@ -139,7 +137,6 @@ class App {
   bool sharp_ = false;    // the frame shown gets no finer
   bool selects_ = false;  // the next answer selects a material and a light
   std::optional<double> pathTime_;
-  std::optional<Camera> remembered_;     // by F5
   std::optional<std::size_t> followed_;  // the scene's camera whose view is shown
   std::string message_, error_;
   double messageSeconds_ = 0;  // time for which the message is still shown

@@ -36,7 +36,6 @@ constexpr KeyHelp kHelp[] = {{"left drag", "orbit a model; look around in a room
                              {"click; T", "the rays of that pixel; their lines, or not"},
                              {"I", "what the pixel under the pointer holds, or not"},
                              {"1 ... 9", "cameras of the scene"},
-                             {"F5 F9", "remember the camera, go back to it"},
                              {"Space", "fly the camera path"},
                              {"P", "play or pause what moves"},
                              {"[ ]", "exposure"},
@@ -92,9 +91,7 @@ void App::fitView() {
   if (!control_.orbits()) return jumpToNumber(0);
   const ImageSize window = window_.size();
   control_.fit(static_cast<double>(window.width) / std::max(window.height, 1));
-  followed_.reset();
-  pathTime_.reset();
-  restSeconds_ = 0;
+  jump(control_.camera());
 }
 
 void App::handleInput() {
@@ -177,16 +174,6 @@ void App::handleKey(int key) {
        [&] {
          if (!settings_.timeline.there) return say("nothing moves in this scene");
          settings_.timeline.playing = !settings_.timeline.playing;
-       }},
-      {GLFW_KEY_F5,
-       [&] {
-         remembered_ = control_.camera();
-         say("F9 goes back to this camera");
-       }},
-      {GLFW_KEY_F9,
-       [&] {
-         if (!remembered_) return say("F5 remembers the camera that F9 goes back to");
-         jump(*remembered_);
        }},
   };
   const auto found = actions.find(key);

@@ -8,8 +8,6 @@ namespace whit::view {
 
 namespace {
 
-double diagonalOf(const Box& box) { return length(Vec3d(box.upper) - Vec3d(box.lower)); }
-
 double halfHeightAtOne(const Camera& camera) {
   return std::tan(double{camera.fov} * std::numbers::pi / 360);
 }
@@ -18,13 +16,13 @@ double halfHeightAtOne(const Camera& camera) {
 
 double cruisingSpeed(const Scene& scene) {
   constexpr double kSeconds = 12, kLeast = 1e-3;
-  const double size = diagonalOf({scene.lower, scene.upper});
+  const double size = Box{scene.lower, scene.upper}.diagonal();
   return std::isfinite(size) ? std::max(size / kSeconds, kLeast) : 1;
 }
 
 Box boundsToOrbit(const Scene& scene, const Camera& camera) {
   const Box box{scene.lower, scene.upper};
-  const double size = diagonalOf(box);
+  const double size = box.diagonal();
   const bool inside = min(max(camera.eye, box.lower), box.upper) == camera.eye;
   return scene.isModel && !inside && size > 0 && std::isfinite(size) ? box : Box();
 }
@@ -40,8 +38,7 @@ void CameraControl::set(const Camera& camera, const Box& model) {
   elevation_ = std::asin(std::clamp(dot(frame.forward, up_), -1.0, 1.0));
   double distance = length(Vec3d(camera.at) - eye_);
   if (orbits() && !camera.hasLens()) {  // a lens may be focused at `at`
-    const Vec3d middle = (Vec3d(model_.lower) + Vec3d(model_.upper)) * 0.5;
-    const double ahead = dot(middle - eye_, frame.forward);
+    const double ahead = dot(model_.center() - eye_, frame.forward);
     if (ahead > 0) distance = ahead;
   }
   distance_ = distance > 0 && std::isfinite(distance) ? distance : 1;
@@ -84,7 +81,7 @@ bool CameraControl::drag(const CameraMotion& m) {
     return true;
   }
   middle = min(max(middle, Vec3d(reach_.lower)), Vec3d(reach_.upper));
-  const double size = diagonalOf(model_);
+  const double size = model_.diagonal();
   const auto zoomed = [&](double length) {
     return std::clamp(length * zoom, std::min(kNearest * size, length),
                       std::max(kFarthest * size, length));
@@ -120,7 +117,7 @@ bool CameraControl::step(const CameraMotion& m, double seconds) {
 
 void CameraControl::fit(double aspect) {
   const Vec3d ahead = forward(), above = cross(right_, ahead);
-  const Vec3d middle = (Vec3d(model_.lower) + Vec3d(model_.upper)) * 0.5;
+  const Vec3d middle = model_.center();
   const double half = halfHeightAtOne(camera_);
   double distance = 0, height = 0;
   for (int corner = 0; corner < 8; ++corner) {
@@ -131,7 +128,7 @@ void CameraControl::fit(double aspect) {
   }
   if (camera_.orthographicHeight > 0) {
     camera_.orthographicHeight = static_cast<float>(height);
-    distance = std::max(distance, diagonalOf(model_));
+    distance = std::max(distance, model_.diagonal());
   }
   lookFrom(middle, distance);
   reach_ = model_;

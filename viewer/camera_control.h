@@ -1,8 +1,6 @@
 // Flying, looking around and orbiting, without knowledge of window and clock.
 #pragma once
 
-#include <optional>
-
 #include "bake/scene.h"
 
 namespace whit::view {

@@ -8,7 +8,6 @@
 #include "cli/app/frame_summary.h"
 #include "cli/app/image_output.h"
 #include "core/option_table.h"
-#include "core/stopwatch.h"
 #include "io/load_scene.h"
 #include "render/auto_exposure.h"
 #include "render/shadow_cache_schedule.h"

@@ -194,7 +194,7 @@ struct TraceCalls {
   // These two are asked by the workers, between tiles and samples. Once true they stay true.
   std::function<bool()> superseded;  // another picture is wanted
   std::function<bool()> stopped;     // the picture is to be given up for anything else
-  // Answers a query for the rays of a pixel; called between passes and bands.
+  // Answers a query for the rays of a pixel; called between passes and measured frames.
   std::function<void()> answer;
   // Called with frames whose knobs are being measured.
   std::function<void(const TracedFrame&)> publish;

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <optional>
 
-#include "core/display.h"
 #include "core/formatted.h"
 #include "viewer/window.h"
 

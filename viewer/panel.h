@@ -12,6 +12,7 @@
 
 #include "scene/motion.h"
 #include "viewer/frame_tracer.h"
+#include "viewer/view_files.h"
 
 namespace whit::view {
 
@@ -55,22 +56,17 @@ struct Timeline {
 Timeline timelineOf(const Scene& scene, const Instant& instant);
 
 // The settings that the panel and the keys change.
-struct PanelSettings {
-  bool words = true;                // anything is written or drawn over the picture
-  bool shown = false;               // the panel is
-  std::optional<float> keepClear;   // a place across the window that the panel must not cover
-  std::vector<std::string> recent;  // names of scenes, the last one first
-  std::string open;                 // a scene to open
-  std::string tabShown;             // of kPanelTabs
-  std::string tab;                  // the tab of kPanelTabs to turn to; empty: it stays
-  double rate = 60;                 // frames a second to hold
-  bool supersample = true;          // at rest
+struct PanelSettings : KeptSettings {
+  bool words = true;               // anything is written or drawn over the picture
+  std::optional<float> keepClear;  // a place across the window that the panel must not cover
+  std::string open;                // a scene to open
+  std::string tab;                 // the tab of kPanelTabs to turn to; empty: it stays
+  double rate = 60;                // frames a second to hold
   RenderOptions options;
   DebugView view = DebugView::none;
   bool measureKnobs = false;  // true until the measurement is done
   RayView rays;
   Timeline timeline;
-  bool inspects = false;   // the pixel under the pointer is described
   bool saveScene = false;  // the scene is to be saved
 };
 
@@ -91,7 +87,6 @@ class Panel {
 
   std::vector<KnobCost> costs_;  // costs measured so far at the view of the last frame
   FrameRequest measuredFor_;
-  std::vector<float> times_;    // milliseconds of the last frames in motion
   float left_ = 0, width_ = 0;  // of the panel in the last frame
 };
 

@@ -68,11 +68,6 @@ class LoadingProgress : public Progress {
   std::string text_;
 };
 
-// Tells the window's thread at its end, also after an error.
-struct Waker {
-  ~Waker() { Window::wake(); }
-};
-
 const cli::ManPage kPage{"whit-view", "flies through a scene that is ray traced as it is seen",
                          kUsage,
                          "Traces the scene anew for every picture, at the resolution that holds "
@@ -112,7 +107,7 @@ int runViewer(const std::vector<std::string>& words, ScriptedUser* scripted) {
   cli::settleOptions(options.common);
   check(options);
   options.common.load.instant.plays = true;
-  KeptSettings kept = readKeptSettings();
+  const KeptSettings kept = readKeptSettings();
   if (scenes.empty()) scenes = kept.recent;
   if (scenes.empty()) throwUsage("expected SCENE: " + list.operand.help);
   options.scene = scenes[0];
@@ -126,13 +121,14 @@ int runViewer(const std::vector<std::string>& words, ScriptedUser* scripted) {
   LoadingProgress progress;
   // The picture of the window is drawn by this thread, until the other one has read the scene.
   auto loading = std::async(std::launch::async, [&] {
-    const Waker waker;
     const std::shared_ptr<cli::OpenScene> scene =
         cli::openScene(options.scene, options.common, &progress);
     opened = sizeFor({scene->scene.width, scene->scene.height});
     options.common.render = cli::optionsFor(scene->scene, options.common);
     progress.report("building the acceleration structure", 0);
-    return std::make_unique<App>(options, scene, window, kept, scripted);
+    auto app = std::make_unique<App>(options, scene, window, kept, scripted);
+    Window::wake();
+    return app;
   });
   while (loading.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
     if (window.closing()) std::quick_exit(0);  // nothing has been written
@@ -146,9 +142,9 @@ int runViewer(const std::vector<std::string>& words, ScriptedUser* scripted) {
   const std::unique_ptr<App> app = loading.get();
   if (opened != window.size()) window.resize(opened);
   app->run();
-  app->keep(kept);
-  if (!window.isFullScreen() && window.size() != opened) kept.window = window.size();
-  writeKeptSettings(kept);
+  KeptSettings left = app->kept();
+  if (!window.isFullScreen() && window.size() != opened) left.window = window.size();
+  writeKeptSettings(left);
   return 0;
 }
 

@@ -84,13 +84,7 @@ class RayTreeTab {
                 codes[2]);
     ImGui::Text("reference %s  codes %d %d %d", cli::textOf(RgbD(r)).c_str(), other[0], other[1],
                 other[2]);
-    std::size_t shadows = 0;
-    for (const RayNode& n : tree_.nodes) {
-      shadows += static_cast<std::size_t>(
-          std::count_if(n.lights.begin(), n.lights.end(),
-                        [](const LightContribution& light) { return light.traced; }));
-    }
-    ImGui::Text("rays: %zu, shadow rays: %zu", tree_.nodes.size(), shadows);
+    ImGui::Text("rays: %zu, shadow rays: %zu", tree_.nodes.size(), tree_.shadowRays());
   }
 
   void drawButtons() {

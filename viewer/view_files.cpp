@@ -170,12 +170,10 @@ void resetOwnSize(const LoadOptions& load, const Scene& scene, RenderOptions& op
 }
 
 std::string settingsFile() {
-  const auto folder = [](const char* variable, const char* below) {
-    const char* const value = std::getenv(variable);
-    return value && *value ? value + std::string(below) : std::string();
-  };
-  const std::string config = folder("XDG_CONFIG_HOME", "");
-  return (config.empty() ? folder("HOME", "/.config") : config) + "/whit/viewer.json";
+  const char* const config = std::getenv("XDG_CONFIG_HOME");
+  if (config && *config) return std::string(config) + "/whit/viewer.json";
+  const char* const home = std::getenv("HOME");
+  return std::string(home ? home : "") + "/.config/whit/viewer.json";
 }
 
 }  // namespace
@@ -234,10 +232,10 @@ KeptSettings readKeptSettings() try {
   const std::string file = settingsFile();
   const Json json = parseJson(readTextFile(file, kSettingsBytesLimit), file);
   KeptSettings kept;
-  kept.panel = json.at("panel");
-  kept.inspector = json.at("inspector");
+  kept.shown = json.at("panel");
+  kept.inspects = json.at("inspector");
   kept.supersample = json.at("supersample");
-  kept.tab = json.at("tab");
+  kept.tabShown = json.at("tab");
   kept.window = {json.at("window").at(0), json.at("window").at(1)};
   kept.recent = json.at("recent").get<std::vector<std::string>>();
   return kept;
@@ -246,10 +244,10 @@ KeptSettings readKeptSettings() try {
 }
 
 void writeKeptSettings(const KeptSettings& kept) try {
-  const Json json{{"panel", kept.panel},
-                  {"inspector", kept.inspector},
+  const Json json{{"panel", kept.shown},
+                  {"inspector", kept.inspects},
                   {"supersample", kept.supersample},
-                  {"tab", kept.tab},
+                  {"tab", kept.tabShown},
                   {"window", {kept.window.width, kept.window.height}},
                   {"recent", kept.recent}};
   const fs::path file = settingsFile();

@@ -65,7 +65,6 @@ void setStyle(float scale) {
       ImVec4(0.11f, 0.15f, 0.22f, 1);
   style.Colors[ImGuiCol_Header] = ImVec4(0.16f, 0.24f, 0.36f, 1);
   style.Colors[ImGuiCol_PlotHistogram] = ImVec4(0.2f, 0.42f, 0.7f, 1);  // bars have text on them
-  style.Colors[ImGuiCol_PlotLines] = ImVec4(0.55f, 0.8f, 1, 1);
   style.Colors[ImGuiCol_TextDisabled] = ImVec4(0.62f, 0.65f, 0.7f, 1);
   style.ScaleAllSizes(scale);
 }

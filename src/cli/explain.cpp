@@ -35,7 +35,6 @@ struct ExplainJob {
   CommonOptions common;
   std::vector<std::string> scenes;
   std::string pixel, json, svg;
-  std::optional<Vec3f> seenFrom;
   double least = 0.01;
 };
 
@@ -45,9 +44,7 @@ OptionList listOptions(ExplainJob& job) {
   list.value({"pixel", "x,y"}, "the pixel, from the top left", job.pixel);
   list.value({"least", "X", 0, 1}, "smallest share of the pixel's radiance that is listed",
              job.least);
-  list.value({"svg", "FILE"}, "the rays drawn over a picture of the scene", job.svg);
-  list.value({"seen-from", "x,y,z"},
-             "position of the camera of that picture (default: aside and above)", job.seenFrom);
+  list.value({"svg", "FILE"}, "the rays drawn over a picture of the scene from aside", job.svg);
   list.value({"json", "FILE"}, "the whole trees as JSON; - is standard output", job.json);
   listCommonOptions(list, job.common);
   list.operands("SCENE", "a scene file, a model, or the name of a shipped scene", 1, 1, job.scenes);
@@ -138,18 +135,14 @@ std::string headOf(const Explained& e) {
     return formatted("  %-11s%.6f %.6f %.6f  codes %d %d %d\n", name, double{pixel.x},
                      double{pixel.y}, double{pixel.z}, codes[0], codes[1], codes[2]);
   };
-  std::size_t shadowRays = 0, parted = 0;
-  for (std::size_t i = 0; i < e.rays.packets.nodes.size(); ++i) {
-    for (const LightContribution& light : e.rays.packets.nodes[i].lights)
-      shadowRays += light.traced;
-    parted += e.rays.partsAt(i);
-  }
-  const std::size_t rays = e.rays.packets.nodes.size();
+  const std::size_t rays = e.rays.packets.nodes.size(), shadowRays = e.rays.packets.shadowRays();
+  bool parts = false;
+  for (std::size_t i = 0; i < rays; ++i) parts |= e.rays.partsAt(i);
   return formatted("%s, pixel %d,%d: %zu ray%s and %zu shadow ray%s\n",
                    printable(e.scene.name).c_str(), e.place.x, e.place.y, rays,
                    rays == 1 ? "" : "s", shadowRays, shadowRays == 1 ? "" : "s") +
          line("packets", e.rays.packets.pixel) + line("reference", e.rays.reference.pixel) +
-         (parted == 0 ? "" : "  their paths part\n") + "\n";
+         (parts ? "  their paths part\n" : "") + "\n";
 }
 
 Json jsonOf(const RgbD& v) { return Json::array({v.x, v.y, v.z}); }
@@ -280,8 +273,7 @@ std::string rayDiagram(const RayTree& tree, const Camera& eye, const Camera& cam
 
 void drawDiagram(const ExplainJob& job, const Explained& e, Renderer& renderer,
                  const Camera& camera) {
-  Camera seen = cameraAside(e.rays.packets, camera, renderer.accel());
-  if (job.seenFrom) seen.eye = *job.seenFrom;
+  const Camera seen = cameraAside(e.rays.packets, camera, renderer.accel());
   RenderOptions options = e.options;
   options.size = kDiagramSize;
   options.crop.reset();

@@ -7,7 +7,6 @@
 #include "cli/app/progress_bar.h"
 #include "cli/commands.h"
 #include "cli/json_report.h"
-#include "core/error.h"
 #include "core/formatted.h"
 #include "core/nearest_name.h"
 #include "render/shadow_cache_schedule.h"
@@ -18,8 +17,8 @@ namespace {
 
 Json vectorJson(const Vec3f& v) { return Json::array({v.x, v.y, v.z}); }
 
-// The shadow cache that the scene could have: its lights, its cells, the number of samples of
-// pixels from which it saves time, and otherwise why there is none.
+// The shadow cache that the scene could have: its lights, its pieces of triangles, the number of
+// pixel samples from which it saves time, and otherwise why there is none.
 Json shadowCacheJson(const Scene& scene, const RenderOptions& options) {
   const auto none = [](const char* because) {
     return Json{{"lights", 0}, {"parts", 0}, {"samples", 0}, {"because", because}};
@@ -107,15 +106,13 @@ void printInfo(const Json& info, const OpenScene& open, const Renderer& renderer
               info["bounds"]["upper"].dump().c_str());
   const Json& cache = info["shadow_cache"];
   if (cache.contains("because")) {
-    std::printf("  %-12snot cached: %s\n", "shadows", textOf(cache["because"]).c_str());
+    std::printf("  %-12sno shadow cache: %s\n", "shadows", textOf(cache["because"]).c_str());
   } else {
     std::printf(
-        "  %-12scached for %s light%s (%s cells) in films of %zu frames and pictures of %zu "
-        "samples a "
-        "pixel or more\n",
+        "  %-12sshadow cache for %s light%s, %s pieces of triangles; used in films and pictures of "
+        "more than %.3g pixel samples\n",
         "shadows", textOf(cache["lights"]).c_str(), cache["lights"] == 1 ? "" : "s",
-        textOf(cache["parts"]).c_str(), ShadowCacheSchedule::kFewestFrames,
-        ShadowCacheSchedule::kFewestSamples);
+        textOf(cache["parts"]).c_str(), cache["samples"].get<double>());
   }
   std::printf("  %-12s", "cameras");
   for (const Json& camera : info["cameras"]) std::printf("%s ", textOf(camera).c_str());
@@ -146,52 +143,23 @@ void printInfo(const Json& info, const OpenScene& open, const Renderer& renderer
   }
 }
 
-// Every kernel that is compiled, for any scene.
-Json kernelsJson() {
-  Json json{{"targets", simd::compiledTargets()}};
-  for (const simd::Kernel& kernel : simd::kKernels) {
-    json["kernels"].push_back(
-        {{"stage", kStageNames[static_cast<std::size_t>(kernel.stage)]}, {"kernel", kernel.name}});
-  }
-  return json;
-}
-
-void printKernels(const Json& json) {
-  for (const Json& kernel : json["kernels"]) {
-    std::printf("%-34s%s\n", textOf(kernel["stage"]).c_str(), textOf(kernel["kernel"]).c_str());
-  }
-  std::printf("%zu kernels, each for:", json["kernels"].size());
-  for (const Json& target : json["targets"]) std::printf(" %s", textOf(target).c_str());
-  std::printf("\n");
-}
-
 }  // namespace
 
 int infoCommand(const Words& words) {
   CommonOptions common;
   std::vector<std::string> scenes;
   std::string json;
-  bool kernels = false;
   OptionList list;
-  list.flag("kernels", "list every kernel and the SIMD targets, without a scene", kernels);
   list.value({"json", "FILE"}, "the same as JSON; - is standard output", json);
   listCommonOptions(list, common);
-  list.operands("SCENE", "a scene file, a model, or the name of a shipped scene", 0, 1, scenes);
-  if (parseOptions("whit info SCENE [options], or whit info --kernels",
+  list.operands("SCENE", "a scene file, a model, or the name of a shipped scene", 1, 1, scenes);
+  if (parseOptions("whit info SCENE [options]",
                    "Lists the contents of a scene, its effects and why they are on, and the "
                    "kernels that run.",
                    list, words) == Parsed::helpShown) {
     return 0;
   }
   settleOptions(common);
-  if (kernels) {
-    if (!scenes.empty())
-      throwUsage("--kernels lists what is compiled, for any scene: leave it out");
-    if (!json.empty()) writeJson(json, kernelsJson());
-    if (json != "-") printKernels(kernelsJson());
-    return 0;
-  }
-  if (scenes.empty()) throwUsage("whit info expected a SCENE");
   requireJsonWritable(json);
   auto progress = makeProgressBar(common);
   CommonOptions loading = common;

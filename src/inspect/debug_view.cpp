@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "core/display.h"
 #include "core/formatted.h"
@@ -41,12 +40,11 @@ class Watcher : public StageObserver {
   }
 
  private:
-  WatchedPixel& add(const Chunk& chunk, std::size_t slot, const Rgb& value, double count) {
+  void add(const Chunk& chunk, std::size_t slot, const Rgb& value, double count) {
     const std::uint32_t at = tracker_.pixel(chunk, slot);
     WatchedPixel& pixel = pixels_[image_.index(pixelX(at), pixelY(at))];
     pixel.sum += value;
     pixel.count += count;
-    return pixel;
   }
 
   // Ray i of n that go to Embree together.
@@ -78,8 +76,7 @@ class Watcher : public StageObserver {
   void lookAtSurfels(const Chunk& chunk) {
     const SurfelColumns& s = chunk.surfels;
     for (std::size_t i = 0; i < chunk.n; ++i) {
-      const bool hit = s.material[i] != kMiss;
-      if (!hit) {
+      if (s.material[i] == kMiss) {
         add(chunk, i, {0, 0, 0}, view_ == DebugView::depth ? 0 : 1);
       } else if (view_ == DebugView::depth) {
         add(chunk, i, {chunk.hits.t[i], 0, 0}, 1);

@@ -25,8 +25,6 @@ Box extentOf(const RayTree& tree, const Camera& camera) {
   return box;
 }
 
-double diagonalOf(const Box& box) { return length(Vec3d(box.upper) - Vec3d(box.lower)); }
-
 RayLook lookOf(const LightContribution& light) {
   return {shadowKind(light.light == kAmbientLight), !light.visible};
 }
@@ -94,7 +92,7 @@ std::vector<RayLook> rayLooks() {
 
 std::vector<RayLine> linesOf(const RayTree& tree, const Camera& camera) {
   constexpr double kShownOfEndless = 0.2, kWidest = 2.5, kNarrowest = 0.4, kShadow = 0.5;
-  const double extent = std::max(diagonalOf(extentOf(tree, camera)), 1e-6);
+  const double extent = std::max(extentOf(tree, camera).diagonal(), 1e-6);
   std::vector<RayLine> lines;
   for (std::size_t i = tree.nodes.size(); i-- > 0;) {
     const RayNode& n = tree.nodes[i];
@@ -116,11 +114,11 @@ Camera cameraAside(const RayTree& tree, const Camera& camera, const Accel& accel
   constexpr std::array kAways{1.0, 0.7, 0.4, 0.2}, kElevations{0.35, 0.0, 0.9, -0.3};
   constexpr int kAzimuths = 16;
   const Box box = extentOf(tree, camera);
-  const Vec3d center = (Vec3d(box.lower) + Vec3d(box.upper)) * 0.5;
+  const Vec3d center = box.center();
   const Vec3d toEye = Vec3d(camera.eye) - center;
   const Vec3d up = normalized(Vec3d(camera.up), Vec3d{0, 1, 0});
   const Vec3d aside = normalized(cross(up, toEye), Vec3d{1, 0, 0});
-  const double away = std::max(length(toEye), diagonalOf(box));
+  const double away = std::max(length(toEye), box.diagonal());
   const std::vector<SeenPoint> points = pointsToSee(tree, 1e-3 * away);
   Camera seen;
   seen.up = camera.up;

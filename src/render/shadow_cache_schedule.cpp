@@ -18,6 +18,8 @@ constexpr std::size_t kFramesInView = 96;
 // lost 6 % of their time by tables, with 264 they neither lost nor gained, with 337 they gained 4
 // %.
 constexpr double kSamplesATriangle = 250;
+// One of the samples of a view is spent on collecting requests, if there are many.
+constexpr std::size_t kFewestFrames = 2 * ShadowCacheSchedule::kTurns, kFewestSamples = 32;
 constexpr double kMostCounted = 255;
 
 std::size_t samplesOf(const Scene& scene, const RenderOptions& options) {
@@ -26,10 +28,7 @@ std::size_t samplesOf(const Scene& scene, const RenderOptions& options) {
 
 bool pays(const Scene& scene, const RenderOptions& options, const ShadowCacheRun& run) {
   const std::size_t samples = samplesOf(scene, options);
-  if (run.frames < ShadowCacheSchedule::kFewestFrames &&
-      samples < ShadowCacheSchedule::kFewestSamples) {
-    return false;
-  }
+  if (run.frames < kFewestFrames && samples < kFewestSamples) return false;
   const double traced = static_cast<double>(run.frames) * static_cast<double>(run.pixels) *
                         static_cast<double>(samples);
   return traced >= samplesThatPay(scene);

@@ -22,8 +22,6 @@ class ShadowCacheSchedule {
  public:
   // One tile of this many collects requests in each frame.
   static constexpr std::uint32_t kTurns = 8;
-  // One of the samples of a view is spent on collecting requests, if there are many.
-  static constexpr std::size_t kFewestFrames = 2 * kTurns, kFewestSamples = 32;
 
   // `renderer` must outlive it. Nothing happens where the cache would not save time, or
   // --shadow-cache is off.

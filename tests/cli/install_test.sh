@@ -30,7 +30,7 @@ done
 for program in bin/*; do
   name=$(basename "$program")
   [ "$name" != whit-verify ] || continue  # a test program: --help is its manual
-  test -s "share/man/man1/$name.1"
+  gzip -dc "share/man/man1/$name.1.gz" | cmp - "$build/$name.1"
   test -s "share/bash-completion/completions/$name"
   test -s "share/zsh/vendor-completions/_$name"
   test -s "share/fish/vendor_completions.d/$name.fish"

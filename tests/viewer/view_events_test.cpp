@@ -77,8 +77,8 @@ void expectSameFile(const std::string& viewed, const std::string& rendered) {
 TEST_F(Viewer, EditsComeBackFromThePrintedCommand) {
   const cli::Outcome outcome = play(
       "key N\nkey W 0.3\nmouse left 10 5\npanel scene\nwait 10 frames\n"
-      "click 30 244\nwait 5 frames\nclick 100 313\nclick 60 265 130 265\n"         // the lamp
-      "click 30 394\nwait 5 frames\nclick 60 439 90 439\nclick 110 415 140 415\n"  // the mirror
+      "click 30 200\nwait 5 frames\nclick 100 269\nclick 60 221 130 221\n"         // the lamp
+      "click 30 350\nwait 5 frames\nclick 60 395 90 395\nclick 110 371 140 371\n"  // the mirror
       "bare\nwait 20 frames\nwait sharp\nscreenshot shown.png\nkey C\nkey F12\n",
       {"--size", "800x480"});
   const std::vector<std::string> lines = linesOf(outcome.out);

@@ -31,7 +31,7 @@ class SavedScenes : public Viewer {
 TEST_F(SavedScenes, KeepWhatWasNotEdited) {
   const cli::Outcome outcome = play(
       "key N\nkey W 0.3\nwait 10 frames\npanel scene\nwait 10 frames\n"
-      "click 30 244\nwait 5 frames\nclick 100 313\nbare\nwait 20 frames\nwait sharp\n"
+      "click 30 200\nwait 5 frames\nclick 100 269\nbare\nwait 20 frames\nwait sharp\n"
       "screenshot shown.png\nkey Ctrl+S\nkey Ctrl+S\n",
       {"--size", "800x480"});
   const std::vector<std::string> lines = linesOf(outcome.out);
@@ -144,7 +144,7 @@ TEST_F(SavedScenes, HaveTheSkyThatWasChosen) {
 TEST_F(SavedScenes, HaveTheSurroundingsOfThePanel) {
   const cli::Outcome outcome = play(
       "drop sky.exr\nkey N\npanel scene\nwait 30 frames\nwait sharp\n"
-      "click 93 361 120 361\nclick 60 385 150 385\nclick 30 409\nwait 5 frames\n"
+      "click 93 317 120 317\nclick 60 341 150 341\nclick 30 365\nwait 5 frames\n"
       "bare\nwait 30 frames\nwait sharp\nscreenshot shown.png\nkey C\n"
       "key Ctrl+S\n",
       {"--size", "800x560"});
@@ -165,7 +165,7 @@ TEST_F(SavedScenes, ASkyThatCannotBeReadLeavesTheOneThatIsThere) {
   EXPECT_NE(outcome.err.find("bad.hdr"), std::string::npos) << outcome.err;
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 2u) << outcome.out;
-  EXPECT_EQ(lines[1], "whit render tiny.json -o tiny.png");
+  EXPECT_EQ(lines[1], "whit render tiny.json -o tiny.png --size=48x32");
   EXPECT_FALSE(read("tiny-edited.json").contains("sky"));
 }
 

@@ -26,8 +26,9 @@ TEST_F(Viewer, ShowsWhatThePrintedCommandRenders) {
 // Pasted into a shell as it is.
 TEST_F(Viewer, OnlyWhatDiffersIsPrinted) {
   const cli::Outcome outcome = play(
-      "bare\nkey N\nwait sharp\nscreenshot first.png\nkey C\nkey 2\nwait 20 frames\nwait sharp\n"
-      "screenshot second.png\nkey C\n");
+      "bare\nkey N\nresize 48 32\nwait 20 frames\nwait sharp\nscreenshot first.png\nkey C\nkey 2\n"
+      "wait 20 frames\nwait sharp\nscreenshot second.png\nkey C\n",
+      {"--size", "scene"});
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 2u) << outcome.out;
   EXPECT_EQ(lines[0], "whit render tiny.json -o tiny.png");
@@ -85,8 +86,8 @@ TEST_F(Viewer, SavesThePictureAndPrintsItsCommand) {
 
 TEST_F(Viewer, KeysChooseCameras) {
   const cli::Outcome outcome = play(
-      "key 2\nwait 3 frames\nwait sharp\nkey C\nkey F5\nkey S 0.3\nwait 3 frames\nwait sharp\n"
-      "key C\nkey F9\nwait 3 frames\nwait sharp\nkey C\n");
+      "key 2\nwait 3 frames\nwait sharp\nkey C\nkey S 0.3\nwait 3 frames\nwait sharp\n"
+      "key C\nkey 2\nwait 3 frames\nwait sharp\nkey C\n");
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 3u) << outcome.out;
   EXPECT_NE(lines[0].find(" --camera=side"), std::string::npos) << lines[0];

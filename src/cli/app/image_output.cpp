@@ -9,7 +9,6 @@
 #include <filesystem>
 
 #include "cli/app/program.h"
-#include "core/display.h"
 #include "core/error.h"
 #include "core/formatted.h"
 #include "core/option_values.h"

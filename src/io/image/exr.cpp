@@ -21,7 +21,6 @@
 #include <fstream>
 #include <iterator>
 #include <new>
-#include <numbers>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -32,7 +31,7 @@
 #include "io/image/image_decoders.h"
 #include "io/image/image_layers.h"
 #include "io/read_file.h"
-#include "scene/camera.h"
+#include "scene/members.h"
 
 namespace whit {
 
@@ -241,7 +240,7 @@ ExrChannels layerChannels(const std::string& path, const Imf::ChannelList& list)
 static_assert(sizeof(Rgb) == 3 * sizeof(float), "pixels are written as they lie in memory");
 static_assert(sizeof(float) == sizeof(std::uint32_t), "layers have one stride");
 
-// Of the names of attributes that hold our text, which OpenEXR's own names do not have.
+// The prefix of the attributes that hold our text: OpenEXR's own attributes do not have it.
 const std::string kPrefix = "whit:";
 constexpr std::array<const char*, 3> kRadianceLayers = {"R", "G", "B"};
 
@@ -255,25 +254,24 @@ void addCamera(const ImageMetadata& metadata, const Image& image, Imf::Header& h
     if (isOfCamera || name == "ortho") setOption(options, name, text);
   }
   if (!options.eye || !options.at) return;
-  const Vec3d eye(*options.eye), z = normalized(Vec3d(*options.at) - eye);
-  const Vec3d x = normalized(cross(z, Vec3d(options.up.value_or(Vec3f{0, 1, 0}))));
-  const Vec3d y = cross(x, z);
-  const auto single = [](double value) { return static_cast<float>(value); };
+  Camera camera;
+  forEachCameraOption([&](auto option, auto member) {
+    if (options.*option) camera.*member = *(options.*option);
+  });
+  const CameraFrame frame = makeCameraFrame(camera, image.width, image.height);
+  const double pixel = length(frame.up);
+  const Vec3d axes[] = {frame.right * (1 / pixel), frame.up * (1 / pixel), frame.forward};
   Imath::M44f toCamera, toNdc;
   for (int i = 0; i < 3; ++i) {
-    toCamera[i][0] = single(x[i]), toCamera[i][1] = single(y[i]), toCamera[i][2] = single(z[i]);
+    for (int k = 0; k < 3; ++k) toCamera[k][i] = static_cast<float>(axes[i][k]);
+    toCamera[3][i] = static_cast<float>(-dot(frame.eye, axes[i]));
   }
-  toCamera[3][0] = single(-dot(eye, x)), toCamera[3][1] = single(-dot(eye, y));
-  toCamera[3][2] = single(-dot(eye, z));
-  const bool parallel = options.ortho.value_or(0) > 0;
-  const double half = std::tan(options.fov.value_or(Camera().fov) * std::numbers::pi / 360);
-  const double height = parallel ? double{*options.ortho} : 2 * half;
-  toNdc[0][0] = single(image.height / (height * image.width));
-  toNdc[1][1] = single(-1 / height);
-  // Of perspective cameras the depth divides.
-  const int offset = parallel ? 3 : 2;
-  toNdc[2][2] = toNdc[3][3] = parallel ? 1 : 0;
-  toNdc[2][3] = toNdc[3][2] = parallel ? 0 : 1;
+  toNdc[0][0] = static_cast<float>(1 / (pixel * image.width));
+  toNdc[1][1] = static_cast<float>(-1 / (pixel * image.height));
+  // A perspective camera divides by the depth.
+  const int offset = frame.orthographic ? 3 : 2;
+  toNdc[2][2] = toNdc[3][3] = frame.orthographic ? 1 : 0;
+  toNdc[2][3] = toNdc[3][2] = frame.orthographic ? 0 : 1;
   toNdc[offset][0] = toNdc[offset][1] = 0.5f;
   Imf::addWorldToCamera(header, toCamera);
   Imf::addWorldToNDC(header, toCamera * toNdc);
