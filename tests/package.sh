@@ -27,7 +27,7 @@ for deb in "$work"/*.deb; do
   dpkg-deb --info "$deb" | grep -E ' (Package|Version|Depends):'
 done
 if command -v lintian >/dev/null; then
-  lintian --fail-on error "$work"/*.deb
+  lintian --fail-on error,warning "$work"/*.deb
 else
   echo "!! lintian is not installed: it is NOT asked" >&2
 fi

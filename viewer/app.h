@@ -39,15 +39,15 @@ class ScriptedUser {
 
 class App {
  public:
-  // May run on another thread than the window's, which must not use the window meanwhile but to
-  // draw it.
+  // The constructor may run on another thread than the window's, which may only draw the window
+  // meanwhile.
   App(const ViewOptions& options, const std::shared_ptr<cli::OpenScene>& scene, Window& window,
       const KeptSettings& kept, ScriptedUser* scripted = nullptr);
 
   // Returns when the user quits. Errors are shown and survived; throws Error(checkFailed) where a
   // scripted user does not survive them.
   void run();
-  // The settings as the user left them; the window's size stays.
+  // Returns the settings as the user left them, with the window's size as it was read.
   const KeptSettings& kept() const { return settings_; }
 
  private:

@@ -38,7 +38,7 @@ class CameraControl {
     set(camera);
   }
 
-  // `model`: the bounds that hold the point to orbit, or empty.
+  // `model` bounds the point to orbit; an empty box means that nothing is orbited.
   void set(const Camera& camera, const Box& model = {});
   // The camera of the last set(), bit for bit, until something moves it.
   const Camera& camera() const { return camera_; }

@@ -51,7 +51,7 @@ ImageSize fitted(const ImageSize& picture, const ImageSize& room) {
   return {scaled(picture.width), scaled(picture.height)};
 }
 
-// Keeps the words for the thread that draws the window.
+// Keeps the latest progress for the thread that draws the window.
 class LoadingProgress : public Progress {
  public:
   void report(const std::string& phase, double fraction) override {
@@ -119,7 +119,7 @@ int runViewer(const std::vector<std::string>& words, ScriptedUser* scripted) {
   ImageSize opened = sizeFor({Scene().width, Scene().height});
   Window window("whit: " + options.scene, opened);
   LoadingProgress progress;
-  // The picture of the window is drawn by this thread, until the other one has read the scene.
+  // This thread draws the window until the other one has read the scene.
   auto loading = std::async(std::launch::async, [&] {
     const std::shared_ptr<cli::OpenScene> scene =
         cli::openScene(options.scene, options.common, &progress);

@@ -40,9 +40,9 @@ struct KeptSettings {
 };
 // Returns the default settings where there is no file, or none that can be read.
 KeptSettings readKeptSettings();
-// Says on standard error when that is not possible.
+// Reports a failure on standard error.
 void writeKeptSettings(const KeptSettings& kept);
-// Puts a scene in front, files by their whole paths.
+// Moves a scene to the front of the list. A file is listed by its absolute path.
 void rememberRecent(const std::string& scene, std::vector<std::string>& recent);
 
 }  // namespace whit::view

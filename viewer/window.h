@@ -63,7 +63,7 @@ class Display {
   Display(const Display&) = delete;
   Display& operator=(const Display&) = delete;
 
-  // Two thirds of the screen, in the units of windows.
+  // Returns two thirds of the screen, in the units of windows.
   static ImageSize room();
 };
 
@@ -88,7 +88,7 @@ class Window {
   bool isFullScreen() const;
   void resize(const ImageSize& size);
   ImageSize size() const;  // in the units of the pointer's places
-  // Pixels of the pointer's motion that are one at the usual density of screens.
+  // Returns how many pixels of pointer motion make one pixel on a screen of the usual density.
   double scale() const { return scale_; }
 
   // Returns the last click on the picture since the last call.

@@ -54,8 +54,8 @@ std::vector<SeenPoint> pointsToSee(const RayTree& tree, double before) {
   return points;
 }
 
-// Returns the share of the points, by weight, that the camera sees; more if they are far apart in
-// its picture.
+// Returns the share of the points, by weight, that the camera sees, and adds up to a tenth if they
+// are far apart in its picture.
 double shareSeen(const std::vector<SeenPoint>& points, const Camera& camera, const Accel& accel) {
   constexpr int kWidth = 480, kHeight = 300;
   constexpr double kMargin = 8, kApart = 0.1;
@@ -128,7 +128,7 @@ Camera cameraAside(const RayTree& tree, const Camera& camera, const Accel& accel
   for (const double share : kAways) {
     for (const double elevation : kElevations) {
       for (int i = 0; i < kAzimuths; ++i) {
-        // The first direction is the most usual one; the others turn to both sides in turns.
+        // The first direction is the usual one; the next ones alternate between both sides.
         const double turn = (i % 2 == 0 ? i : -i - 1) * std::numbers::pi / kAzimuths - 0.9;
         const Vec3d level = cross(aside, up) * -std::cos(turn) - aside * std::sin(turn);
         seen.eye = Vec3f(center + normalized(level + up * elevation) * (1.2 * share * away));

@@ -30,7 +30,7 @@ std::string lightName(const Scene& scene, std::uint32_t light);
 std::string mediumName(const Scene& scene, std::uint32_t media);
 const char* nameOf(PathEnd end);  // "" for none
 
-// What there is to say about a ray of the packets.
+// The words that describe a ray of the packets.
 struct RayText {
   std::string met, medium;         // "glass, 2.5 away" and "vacuum"
   std::vector<std::string> lines;  // where the reference parts, what the ray adds, and how it ends
