@@ -23,19 +23,26 @@ cmake -G Ninja -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DWHIT_TESTS=OF
   { cat "$work/log"; exit 1; }
 cmake --build "$build" --parallel "$(nproc)"
 (cd "$build" && cpack -G DEB -B "$work" >"$work/cpack.log") || { cat "$work/cpack.log"; exit 1; }
-deb=$(echo "$work"/*.deb)
-dpkg-deb --info "$deb" | grep -E ' (Package|Version|Depends):'
+for deb in "$work"/*.deb; do
+  dpkg-deb --info "$deb" | grep -E ' (Package|Version|Depends):'
+done
+if command -v lintian >/dev/null; then
+  lintian --fail-on error,warning "$work"/*.deb
+else
+  echo "!! lintian is not installed: it is NOT asked" >&2
+fi
 
 clean=$work/clean
 makeCleanSystem "$VERSION_CODENAME" "$clean" "$work/debootstrap.log"
 # The container's steps in copies of it. Its release is theirs.
 if [ "$VERSION_CODENAME" = bookworm ]; then "$root/tests/container.sh" "$clean"; fi
-cp "$deb" "$clean/whit.deb"
+cp "$work"/*.deb "$clean/"
 within() {
   chroot "$clean" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root \
     DEBIAN_FRONTEND=noninteractive "$@"
 }
-within apt-get install -y -qq --no-install-recommends /whit.deb >"$work/install.log" 2>&1 ||
+packages=$(cd "$clean" && printf ' /%s' *.deb)
+within apt-get install -y -qq --no-install-recommends $packages >"$work/install.log" 2>&1 ||
   { tail -20 "$work/install.log"; exit 1; }
 
 within whit render whitted --size 64x40 -o /tmp/there.exr --quiet
@@ -58,7 +65,7 @@ within whit render /tmp/sheet.obj --size 64x40 -o /tmp/sheet.exr --quiet
 within whit compare /tmp/module-sheet.exr /tmp/sheet.exr --tolerance 0 --quiet >/dev/null
 within whit compare /tmp/module.exr /tmp/there.exr --tolerance 0 --quiet >/dev/null
 within whit info atrium --quiet | grep triangles >/dev/null
-within test -s /usr/share/doc/whit/example/embed.cpp
+within test -s /usr/share/doc/whit/tests/example/embed.cpp
 if [ -x "$build/whit-view" ]; then within test -s /usr/share/applications/whit-view.desktop; fi
 for program in whit whit-view; do
   if [ ! -x "$build/$program" ]; then
@@ -67,9 +74,9 @@ for program in whit whit-view; do
   fi
   within "$program" --help >/dev/null
   within test -s "/usr/share/bash-completion/completions/$program"
-  within sh -c "test -s /usr/share/man/man1/$program.1 || test -s /usr/share/man/man1/$program.1.gz"
+  within test -s "/usr/share/man/man1/$program.1.gz"
 done
-within dpkg --purge whit >/dev/null
+within dpkg --purge python3-whit whit-view whit >/dev/null
 within test ! -e /usr/bin/whit
 within test ! -e /usr/lib/python3/dist-packages/whit
 echo "package: installed, used and removed in a clean $VERSION_CODENAME"

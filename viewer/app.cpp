@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "bake/move_scene.h"
 #include "core/error.h"
@@ -29,7 +30,7 @@ std::filesystem::file_time_type timeOf(const std::filesystem::path& file) {
 }  // namespace
 
 App::App(const ViewOptions& options, const std::shared_ptr<cli::OpenScene>& scene, Window& window,
-         ScriptedUser* scripted)
+         const KeptSettings& kept, ScriptedUser* scripted)
     : options_(options),
       scene_(scene),
       scripted_(scripted),
@@ -40,12 +41,18 @@ App::App(const ViewOptions& options, const std::shared_ptr<cli::OpenScene>& scen
       read_(withoutEdits(scene)),
       edit_(read_),
       traced_(read_) {
+  static_cast<KeptSettings&>(settings_) = kept;
+  settings_.tab = kept.tabShown;
   watch(options.scene);
   settings_.rate = resolution_.rate();
   settings_.options = options.common.render;
   settings_.view = options.view;
   settings_.timeline = timelineOf(scene->scene, options.common.load.instant);
   const Camera start = control_.camera();
+  show(start);
+  say(control_.orbits() ? "H: help. Drag to orbit, Shift to pan, wheel to move closer"
+                        : "H: help. Drag to look around, W A S D to walk");
+  messageSeconds_ = std::numeric_limits<double>::infinity();  // until a key or a click
   for (std::size_t i = 0; i < scene->scene.cameras.size() && !followed_; ++i) {
     if (sameView(scene->scene.cameras[i], start)) followed_ = i;
   }
@@ -76,6 +83,7 @@ bool App::step() {
   if (worthDrawing(fresh, seconds)) draw();
   window_.input.endFrame();
   messageSeconds_ -= seconds;
+  clickSeconds_ += seconds;
   return true;
 }
 
@@ -124,14 +132,14 @@ bool App::play(double seconds) {
 // Follows a camera that moves until the user moves the view.
 void App::followCamera() {
   if (!followed_ || !settings_.timeline.there) return;
-  control_.set(whit::cameraAt(scene(), *followed_, settings_.timeline.seconds));
+  show(whit::cameraAt(scene(), *followed_, settings_.timeline.seconds));
 }
 
 void App::flyPath(double seconds) {
   const std::vector<Keyframe>& path = scene().cameraPath;
   *pathTime_ += seconds;
   if (*pathTime_ > path.back().time) *pathTime_ = path.front().time;
-  control_.set(cameraAt(path, *pathTime_));
+  show(cameraAt(path, *pathTime_));
 }
 
 bool App::fetchFrame() {
@@ -167,7 +175,7 @@ bool App::fetchFrame() {
     traced_ = edit_;
   }
   if (request.view == settings_.view) {
-    resolution_.learn(shown_.stats.frameMs, samplesOf(request), request.depth);
+    resolution_.learn(shown_.stats.frameMs, samplesOf(request));
   }
   resolution_.setSampled(shown_.sampled);
   panel_.remember(shown_);
@@ -180,21 +188,13 @@ bool App::fetchFrame() {
   return true;
 }
 
-// Fills the window with the frame, or with its comparison with the reference.
+// Fills the window with the frame.
 void App::showPicture() {
   if (!shown_.scene) return;
-  const ImageSize& madeFor = shown_.request.window;
-  const DisplayImage& frame = shown_.film.display;
-  const std::optional<Comparison>& comparison = shown_.comparison;
   if (unfinished_) {
     window_.upload(unfinished_->display, unfinished_->request.window);
-  } else if (!comparison || settings_.compare == CompareMode::off) {
-    window_.upload(frame, madeFor);
-  } else if (settings_.compare == CompareMode::heatMap && comparison->complete()) {
-    window_.upload(comparison->heatMap, madeFor);
   } else {
-    const int split = static_cast<int>(std::lround(split_ * frame.width));
-    window_.upload(splitPicture(frame, *comparison, split), madeFor);
+    window_.upload(shown_.film.display, shown_.request.window);
   }
 }
 
@@ -202,17 +202,15 @@ FrameRequest App::requestFor(const Sharpness& sharpness, bool still) const {
   const auto side = [&](int pixels) {
     return std::max(1, static_cast<int>(std::lround(pixels * sharpness.scale)));
   };
-  const bool finest = sharpness.scale >= resolution_.largestScale();
+  const bool finest = sharpness.scale >= 1;
   FrameRequest request;
   request.window = window_.pixels();
   request.camera = control_.camera();
   request.options = settings_.options;
   request.options.size = ImageSize{side(request.window.width), side(request.window.height)};
   request.spp = sharpness.spp;
-  request.depth = sharpness.depth;
   request.coarse = !finest;
   request.view = settings_.view;
-  request.withReference = still && finest && settings_.compare != CompareMode::off;
   request.measureKnobs = still && finest && settings_.measureKnobs;
   request.reloads = reloads_;
   request.edits = edits_;
@@ -221,10 +219,9 @@ FrameRequest App::requestFor(const Sharpness& sharpness, bool still) const {
   return request;
 }
 
-// More samples would blur what is compared or looked into.
+// More samples would blur what is looked into.
 bool App::supersamples() const {
-  return settings_.supersample && settings_.compare == CompareMode::off &&
-         settings_.view == DebugView::none && !settings_.measureKnobs;
+  return settings_.supersample && settings_.view == DebugView::none && !settings_.measureKnobs;
 }
 
 FrameRequest App::movingRequest(const ImageSize& window) {
@@ -258,7 +255,7 @@ FrameRequest App::stillRequest(const ImageSize& window) {
 void App::followRays() {
   if (settings_.rays.forget) forgetRays();
   if (std::exchange(settings_.rays.fromAside, false) && rays_.scene) {
-    jump(cameraAside(rays_.rays.packets, rays_.query.picture.camera));
+    jump(rays_.aside);
   }
   if (!picked_) return;
   RayQuery query = *picked_;
@@ -278,7 +275,6 @@ void App::askForFrame() {
   if (window.width < 1 || window.height < 1) return;
   resolution_.setRate(settings_.rate);
   resolution_.setSpp(settings_.options.spp);
-  resolution_.setDepth(settings_.options.depth);
   // A new window size counts as motion, so that the first picture for it comes at once.
   if (std::exchange(windowSize_, window) != window) restSeconds_ = 0;
   const FrameRequest request =
@@ -299,7 +295,6 @@ void App::drawPanel() {
   if (edited || settings_.options != before.options || settings_.view != before.view) {
     restSeconds_ = 0;
   }
-  if (settings_.compare != before.compare) showPicture();
 }
 
 void App::passOnEdit() {
@@ -310,30 +305,24 @@ void App::passOnEdit() {
 
 void App::inspectPointed() const {
   const bool somebodyPoints = !scripted_ || window_.input.pointer;
-  if (!settings_.shown || !settings_.inspects || !somebodyPoints) return;
+  if (!settings_.words || !settings_.inspects || !somebodyPoints || !shown_.scene) return;
   const auto at = window_.pointed();
   if (!at) return;
-  const bool compared = settings_.compare != CompareMode::off;
-  drawInspection(inspect(shown_, compared, window_.pixels(), window_.pixelAt(*at)), at->x, at->y);
+  drawInspection(inspect(shown_, window_.pixels(), window_.pixelAt(*at)), at->x, at->y);
 }
 
 void App::draw() {
   window_.begin();
-  if (settings_.compare != CompareMode::off && shown_.scene) {
-    drawComparison(shown_, settings_.compare, split_, settings_.shown);
-  }
   if (shown_.scene) drawRayLines(rays_, shown_.request.camera, settings_.rays);
   drawPanel();
-  if (settings_.shown && shown_.scene) {
+  const bool says = settings_.words && messageSeconds_ > 0 && error_.empty();
+  if (says) drawMessage(message_);
+  if (shown_.scene && settings_.words && (settings_.shown || shown_.debug)) {
     drawStatus(shown_, unfinished_ ? &*unfinished_ : nullptr,
-               pictureMs_ > 0 ? 1000 / pictureMs_ : 0);
+               pictureMs_ > 0 ? 1000 / pictureMs_ : 0, says);
   }
   inspectPointed();
-  if (!error_.empty()) {
-    if (!drawError(error_)) error_.clear();
-  } else if (settings_.shown && messageSeconds_ > 0) {
-    drawMessage(message_);
-  }
+  if (!error_.empty() && !drawError(error_)) error_.clear();
   window_.end();
   if (scripted_) scripted_->drawn();
   window_.present();
@@ -352,6 +341,7 @@ void App::fail(const std::string& error) {
 
 void App::watch(const std::string& scene) {
   sceneName_ = scene;
+  rememberRecent(scene, settings_.recent);
   sceneFile_ = findScene(parseSceneName(scene).file);
   sceneFileTime_ = timeOf(sceneFile_);
 }
@@ -422,6 +412,7 @@ void App::takeScene() {
   }
   forgetRays();
   control_ = CameraControl(scene().cameras.front(), cruisingSpeed(scene()));
+  show(control_.camera());
   pathTime_.reset();
   followed_ = 0;
   settings_.timeline = timelineOf(scene(), {});

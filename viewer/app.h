@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <optional>
-#include <utility>
 
 #include "core/stopwatch.h"
 #include "core/usable_threads.h"
@@ -40,12 +39,16 @@ class ScriptedUser {
 
 class App {
  public:
+  // The constructor may run on another thread than the window's, which may only draw the window
+  // meanwhile.
   App(const ViewOptions& options, const std::shared_ptr<cli::OpenScene>& scene, Window& window,
-      ScriptedUser* scripted = nullptr);
+      const KeptSettings& kept, ScriptedUser* scripted = nullptr);
 
   // Returns when the user quits. Errors are shown and survived; throws Error(checkFailed) where a
   // scripted user does not survive them.
   void run();
+  // Returns the settings as the user left them, with the window's size as it was read.
+  const KeptSettings& kept() const { return settings_; }
 
  private:
   // app.cpp:
@@ -74,15 +77,15 @@ class App {
   const Scene& scene() const { return scene_->scene; }
 
   // app_keys.cpp:
-  static CameraMotion motionOf(const Input& input);
+  CameraMotion motionOf(const Input& input) const;
+  void show(const Camera& camera);
+  void fitView();
   void handleInput();
   void handleKey(int key);
   void savePicture();
   void printView();
   void expose(float step);
-  void stepScale(int steps);
   void showNextView();
-  void compareNext();
   void startOrStopPath();
   void pick(const Input::Click& place);
   void forgetRays();
@@ -113,7 +116,6 @@ class App {
   ResolutionControl resolution_;
   Panel panel_;
   PanelSettings settings_;
-  double split_ = 0.5;  // share of the window that shows the frame rather than the reference
   TracedFrame shown_;
   std::optional<UnfinishedFrame> unfinished_;  // is shown in place of the frame
   std::optional<FrameRequest> stillFor_;       // the view that is being sharpened
@@ -122,7 +124,10 @@ class App {
   double pictureMs_ = 0;  // mean time between pictures in motion; 0: nothing moves
   std::optional<FrameRequest> asked_;
   std::optional<RayQuery> picked_, queried_;  // the user's pick, and the last query for it
-  RayPick rays_;                              // the last answer
+  std::optional<Input::Click> clicked_;  // the last click, until it is too old for a double one
+  double clickSeconds_ = 0;              // time since then
+  bool shownBeforeClick_ = false;        // the panel was
+  RayPick rays_;                         // the last answer
   // The scene's shading as it was read, as it is edited, and as it was last traced.
   ShadingEdit read_, edit_, traced_;
   int reloads_ = 0, edits_ = 0, tracedEdits_ = 0;

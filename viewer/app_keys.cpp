@@ -3,6 +3,7 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <string_view>
@@ -17,35 +18,34 @@ namespace whit::view {
 namespace {
 
 constexpr float kExposureStep = 0.25f, kExposureLimit = 64;
-
-std::string cameraFile(const Scene& scene) { return scene.name + "-camera.json"; }
+constexpr double kPixelsPerNotch = 20;  // dragged with the right button to move closer to a model
+constexpr double kDoubleClickSeconds = 0.35, kDoubleClickPixels = 6;
 
 // GLFW's codes of letters are their ASCII codes.
 bool flies(int key) {
   return key < 128 && std::string_view("WASDQE").find(static_cast<char>(key)) != std::string::npos;
 }
 
-constexpr KeyHelp kHelp[] = {{"W A S D, Q E", "fly; down and up"},
-                             {"Shift", "four times as fast"},
-                             {"wheel", "speed"},
-                             {"left drag, arrows", "look around"},
-                             {"right drag", "orbit"},
+constexpr KeyHelp kHelp[] = {{"left drag", "orbit a model; look around in a room"},
+                             {"middle or Shift drag", "pan"},
+                             {"right drag", "move closer to a model; orbit in a room"},
+                             {"wheel", "move closer to a model; speed in a room"},
+                             {"Home, double click", "fit the model; first camera of a room"},
+                             {"W A S D, Q E", "walk; down and up"},
+                             {"Shift, arrows", "four times as fast; look around"},
                              {"click; T", "the rays of that pixel; their lines, or not"},
                              {"I", "what the pixel under the pointer holds, or not"},
                              {"1 ... 9", "cameras of the scene"},
                              {"Space", "fly the camera path"},
                              {"P", "play or pause what moves"},
-                             {"+ -", "finer, coarser pixels"},
                              {"[ ]", "exposure"},
                              {"F", "full screen"},
                              {"H", "this panel"},
                              {"V", "depth, normals and other views"},
                              {"N", "more samples at rest, or not"},
                              {"M", "measure what each knob and effect costs"},
-                             {"X", "against the reference; drag the line"},
                              {"C", "print and copy the view as whit render makes it"},
-                             {"F12", "save PNG, EXR, camera and command"},
-                             {"F5 F9", "save, restore the camera"},
+                             {"F12", "save PNG and EXR, print the command"},
                              {"R", "reload the scene"},
                              {"Ctrl+S", "save what was edited as a scene file"},
                              {"drop a file", "open it; an HDR or EXR image as the sky"},
@@ -55,7 +55,7 @@ constexpr KeyHelp kHelp[] = {{"W A S D, Q E", "fly; down and up"},
 
 std::span<const KeyHelp> keyHelp() { return kHelp; }
 
-CameraMotion App::motionOf(const Input& input) {
+CameraMotion App::motionOf(const Input& input) const {
   const auto axis = [&](int positive, int negative) {
     return static_cast<double>(input.isHeld(positive)) -
            static_cast<double>(input.isHeld(negative));
@@ -67,25 +67,39 @@ CameraMotion App::motionOf(const Input& input) {
   motion.fast = input.isHeld(GLFW_KEY_LEFT_SHIFT) || input.isHeld(GLFW_KEY_RIGHT_SHIFT);
   motion.turnRight = axis(GLFW_KEY_RIGHT, GLFW_KEY_LEFT);
   motion.turnUp = axis(GLFW_KEY_UP, GLFW_KEY_DOWN);
-  motion.lookX = input.lookX;
-  motion.lookY = input.lookY;
-  motion.orbitX = input.orbitX;
-  motion.orbitY = input.orbitY;
   motion.wheel = input.wheel;
+  const double scale = 1 / window_.scale();
+  const bool orbits = control_.orbits();
+  const Input::Drag& orbit = orbits ? input.left : input.right;
+  motion.orbitX = orbit.x * scale;
+  motion.orbitY = orbit.y * scale;
+  if (orbits) {
+    motion.wheel -= input.right.y * scale / kPixelsPerNotch;
+  } else {
+    motion.lookX = input.left.x * scale;
+    motion.lookY = input.left.y * scale;
+  }
+  const double height = std::max(window_.size().height, 1);
+  motion.panX = input.middle.x / height;
+  motion.panY = input.middle.y / height;
   return motion;
+}
+
+void App::show(const Camera& camera) { control_.set(camera, boundsToOrbit(scene(), camera)); }
+
+void App::fitView() {
+  if (!control_.orbits()) return jumpToNumber(0);
+  const ImageSize window = window_.size();
+  control_.fit(static_cast<double>(window.width) / std::max(window.height, 1));
+  jump(control_.camera());
 }
 
 void App::handleInput() {
   Input& input = window_.input;
-  const bool looks = input.lookX != 0 || input.lookY != 0;
-  if (settings_.compare == CompareMode::split && shown_.comparison && looks) {
-    split_ = std::clamp(split_ + input.lookX / std::max(window_.pixels().width, 1), 0.0, 1.0);
-    input.lookX = input.lookY = 0;
-    showPicture();
-  }
-  const bool dragged =
-      input.lookX != 0 || input.lookY != 0 || input.orbitX != 0 || input.orbitY != 0;
-  if (dragged) pathTime_.reset();
+  if (input.left.any() || input.right.any() || input.middle.any()) pathTime_.reset();
+  const auto click = window_.takeClick();
+  const bool hinted = std::isinf(messageSeconds_);
+  if (hinted && (click || !input.pressed.empty() || !input.commands.empty())) messageSeconds_ = 0;
   for (const int key : input.pressed) {
     if (flies(key)) pathTime_.reset();
     try {
@@ -98,7 +112,7 @@ void App::handleInput() {
     settings_.saveScene |= key == GLFW_KEY_S;
     if (key == GLFW_KEY_C) printView();
   }
-  if (const auto click = window_.takeClick()) pick(*click);
+  if (click) pick(*click);
   if (!input.dropped.empty()) openFile(input.dropped.front());
 }
 
@@ -106,6 +120,7 @@ void App::servePanel() {
   try {
     if (std::exchange(settings_.saveScene, false)) saveScene();
     if (std::exchange(settings_.timeline.another, false)) changeAnimation();
+    if (!settings_.open.empty()) openFile(std::exchange(settings_.open, std::string()));
   } catch (const std::exception& error) {
     fail(error.what());
   }
@@ -122,10 +137,9 @@ std::string App::command(const RenderOptions& options) const {
 RenderOptions App::viewOptions() const {
   RenderOptions options = shown_.options;
   if (shown_.request.coarse || !shown_.request.interruptible) {
-    const Sharpness full{resolution_.largestScale(), settings_.options.spp, kDepthLimit};
+    const Sharpness full{1, settings_.options.spp};
     options.size = requestFor(full, true).options.size;
     options.spp = full.spp;
-    options.depth = settings_.options.depth;
   }
   return options;
 }
@@ -135,17 +149,13 @@ void App::handleKey(int key) {
       {GLFW_KEY_ESCAPE, [&] { window_.close(); }},
       {GLFW_KEY_F, [&] { window_.toggleFullScreen(); }},
       {GLFW_KEY_H, [&] { settings_.shown = !settings_.shown; }},
+      {GLFW_KEY_HOME, [&] { fitView(); }},
       {GLFW_KEY_R, [&] { reload(); }},
       {GLFW_KEY_F12, [&] { savePicture(); }},
       {GLFW_KEY_C, [&] { printView(); }},
       {GLFW_KEY_LEFT_BRACKET, [&] { expose(-kExposureStep); }},
       {GLFW_KEY_RIGHT_BRACKET, [&] { expose(kExposureStep); }},
-      {GLFW_KEY_EQUAL, [&] { stepScale(1); }},  // many keyboards have plus there, with Shift
-      {GLFW_KEY_KP_ADD, [&] { stepScale(1); }},
-      {GLFW_KEY_MINUS, [&] { stepScale(-1); }},
-      {GLFW_KEY_KP_SUBTRACT, [&] { stepScale(-1); }},
       {GLFW_KEY_V, [&] { showNextView(); }},
-      {GLFW_KEY_X, [&] { compareNext(); }},
       {GLFW_KEY_N,
        [&] {
          settings_.supersample = !settings_.supersample;
@@ -153,7 +163,8 @@ void App::handleKey(int key) {
        }},
       {GLFW_KEY_M,
        [&] {
-         settings_.measureKnobs = true;
+         settings_.measureKnobs = settings_.shown = true;
+         settings_.tab = "knobs";
          say("measuring what each knob and effect costs");
        }},
       {GLFW_KEY_I, [&] { settings_.inspects = !settings_.inspects; }},
@@ -163,16 +174,6 @@ void App::handleKey(int key) {
        [&] {
          if (!settings_.timeline.there) return say("nothing moves in this scene");
          settings_.timeline.playing = !settings_.timeline.playing;
-       }},
-      {GLFW_KEY_F5,
-       [&] {
-         writeCamera(cameraFile(scene()), control_.camera());
-         say("saved the camera as " + cameraFile(scene()));
-       }},
-      {GLFW_KEY_F9,
-       [&] {
-         jump(readCamera(cameraFile(scene())));
-         say("camera of " + cameraFile(scene()));
        }},
   };
   const auto found = actions.find(key);
@@ -184,7 +185,10 @@ void App::handleKey(int key) {
 
 void App::savePicture() {
   if (!shown_.scene) return;
-  say("saved " + view::savePicture(shown_, command(shown_.options)) + " (.png, .exr, .json)");
+  const std::string name = view::savePicture(shown_);
+  std::printf("%s\n", command(shown_.options).c_str());
+  std::fflush(stdout);
+  say("saved " + name + ".png and .exr; the command that renders them is printed");
 }
 
 void App::printView() {
@@ -214,24 +218,11 @@ void App::expose(float step) {
   say(formatted("exposure %+.2f EV", static_cast<double>(exposure)));
 }
 
-void App::stepScale(int steps) {
-  resolution_.stepLargestScale(steps);
-  restSeconds_ = 0;
-  say("largest scale " + std::to_string(std::lround(100 * resolution_.largestScale())) + " %");
-}
-
 void App::showNextView() {
   const std::size_t next = (static_cast<std::size_t>(settings_.view) + 1) % kDebugViewNames.size();
   settings_.view = static_cast<DebugView>(next);
   restSeconds_ = 0;
   say(std::string("view: ") + kDebugViewNames[next]);
-}
-
-void App::compareNext() {
-  settings_.compare = settings_.compare == CompareMode::off     ? CompareMode::split
-                      : settings_.compare == CompareMode::split ? CompareMode::heatMap
-                                                                : CompareMode::off;
-  showPicture();
 }
 
 void App::startOrStopPath() {
@@ -246,6 +237,18 @@ void App::startOrStopPath() {
 
 void App::pick(const Input::Click& place) {
   if (!shown_.scene) return;
+  const double slack = kDoubleClickPixels * window_.scale();
+  const bool again = clicked_ && clickSeconds_ < kDoubleClickSeconds &&
+                     std::abs(place.x - clicked_->x) + std::abs(place.y - clicked_->y) <= slack;
+  if (again) {
+    clicked_.reset();
+    forgetRays();
+    settings_.shown = shownBeforeClick_;
+    return fitView();
+  }
+  clicked_ = place;
+  clickSeconds_ = 0;
+  shownBeforeClick_ = settings_.shown;
   RayQuery query;
   query.picture.camera = shown_.request.camera;
   query.picture.options.size = window_.pixels();
@@ -254,7 +257,9 @@ void App::pick(const Input::Click& place) {
   picked_ = query;
   settings_.rays.lines = true;
   selects_ = true;
-  if (settings_.tabShown != "scene") settings_.tab = "rays";
+  if (!settings_.shown || settings_.tabShown != "scene") settings_.tab = "rays";
+  settings_.shown = true;
+  settings_.keepClear = static_cast<float>(place.x);
 }
 
 void App::forgetRays() {
@@ -276,7 +281,7 @@ void App::jumpToNumber(std::size_t number) {
 }
 
 void App::jump(const Camera& camera) {
-  control_.set(camera);
+  show(camera);
   followed_.reset();
   pathTime_.reset();
   restSeconds_ = 0;

@@ -2,25 +2,48 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace whit::view {
 
+namespace {
+
+double halfHeightAtOne(const Camera& camera) {
+  return std::tan(double{camera.fov} * std::numbers::pi / 360);
+}
+
+}  // namespace
+
 double cruisingSpeed(const Scene& scene) {
   constexpr double kSeconds = 12, kLeast = 1e-3;
-  const double size = length(Vec3d(scene.upper) - Vec3d(scene.lower));
+  const double size = Box{scene.lower, scene.upper}.diagonal();
   return std::isfinite(size) ? std::max(size / kSeconds, kLeast) : 1;
 }
 
-void CameraControl::set(const Camera& camera) {
+Box boundsToOrbit(const Scene& scene, const Camera& camera) {
+  const Box box{scene.lower, scene.upper};
+  const double size = box.diagonal();
+  const bool inside = min(max(camera.eye, box.lower), box.upper) == camera.eye;
+  return scene.isModel && !inside && size > 0 && std::isfinite(size) ? box : Box();
+}
+
+void CameraControl::set(const Camera& camera, const Box& model) {
   camera_ = camera;
+  model_ = model;
   const CameraFrame frame = makeCameraFrame(camera, 1, 1);
   eye_ = frame.eye;
   up_ = normalized(Vec3d(camera.up), Vec3d{0, 1, 0});
   const Vec3d across = normalized(frame.right);
   right_ = normalized(across - up_ * dot(across, up_), across);
   elevation_ = std::asin(std::clamp(dot(frame.forward, up_), -1.0, 1.0));
-  const double distance = length(Vec3d(camera.at) - eye_);
+  double distance = length(Vec3d(camera.at) - eye_);
+  if (orbits() && !camera.hasLens()) {  // a lens may be focused at `at`
+    const double ahead = dot(model_.center() - eye_, frame.forward);
+    if (ahead > 0) distance = ahead;
+  }
   distance_ = distance > 0 && std::isfinite(distance) ? distance : 1;
+  reach_ = model_;
+  reach_.add(Vec3f(center()));
 }
 
 Vec3d CameraControl::forward() const {
@@ -36,32 +59,80 @@ void CameraControl::turn(double rightwards, double upwards) {
 
 void CameraControl::writeCamera() {
   camera_.eye = Vec3f(eye_);
-  camera_.at = Vec3f(eye_ + forward() * distance_);
+  camera_.at = Vec3f(center());
+}
+
+void CameraControl::lookFrom(const Vec3d& center, double distance) {
+  distance_ = distance;
+  eye_ = center - forward() * distance;
+}
+
+bool CameraControl::drag(const CameraMotion& m) {
+  const double zoom = orbits() ? std::pow(kZoomFactor, m.wheel) : 1;
+  if (m.orbitX == 0 && m.orbitY == 0 && m.panX == 0 && m.panY == 0 && zoom == 1) return false;
+  Vec3d middle = center();
+  turn(m.orbitX * kRadiansPerPixel, -m.orbitY * kRadiansPerPixel);
+  const bool parallel = camera_.orthographicHeight > 0;
+  const double height =
+      parallel ? double{camera_.orthographicHeight} : 2 * halfHeightAtOne(camera_) * distance_;
+  middle = middle + (cross(right_, forward()) * m.panY - right_ * m.panX) * height;
+  if (!orbits()) {
+    lookFrom(middle, distance_);
+    return true;
+  }
+  middle = min(max(middle, Vec3d(reach_.lower)), Vec3d(reach_.upper));
+  const double size = model_.diagonal();
+  const auto zoomed = [&](double length) {
+    return std::clamp(length * zoom, std::min(kNearest * size, length),
+                      std::max(kFarthest * size, length));
+  };
+  if (parallel) camera_.orthographicHeight = static_cast<float>(zoomed(height));
+  lookFrom(middle, parallel ? distance_ : zoomed(distance_));
+  return true;
 }
 
 bool CameraControl::step(const CameraMotion& m, double seconds) {
-  speed_ = std::clamp(speed_ * std::pow(kWheelFactor, m.wheel), firstSpeed_ / kSpeedRange,
-                      firstSpeed_ * kSpeedRange);
+  if (!orbits()) {
+    speed_ = std::clamp(speed_ * std::pow(kWheelFactor, m.wheel), firstSpeed_ / kSpeedRange,
+                        firstSpeed_ * kSpeedRange);
+  }
   const double arrows = kRadiansPerSecond * seconds;
   const double right = m.lookX * kRadiansPerPixel + m.turnRight * arrows;
   const double up = -m.lookY * kRadiansPerPixel + m.turnUp * arrows;
   const bool turns = right != 0 || up != 0;
   if (turns) turn(right, up);
-  const bool orbits = m.orbitX != 0 || m.orbitY != 0;
-  if (orbits) {
-    const Vec3d center = eye_ + forward() * distance_;
-    turn(m.orbitX * kRadiansPerPixel, -m.orbitY * kRadiansPerPixel);
-    eye_ = center - forward() * distance_;
-  }
+  const Vec3d before = eye_;
+  bool changed = drag(m) || turns;
   const Vec3d direction =
       normalized(forward() * m.forward + right_ * m.right + up_ * m.up);  // zero when at rest
-  const Vec3d there = eye_ + direction * (speed_ * seconds * (m.fast ? kFastFactor : 1));
-  const bool moves = direction != Vec3d() && seconds > 0 &&
-                     maxComponent(abs(there)) + distance_ < static_cast<double>(kLargestCoordinate);
-  if (moves) eye_ = there;
-  if (!turns && !orbits && !moves) return false;
+  if (seconds > 0) eye_ = eye_ + direction * (speed_ * seconds * (m.fast ? kFastFactor : 1));
+  const auto largest = static_cast<double>(kLargestCoordinate);
+  if (!(maxComponent(abs(eye_)) + distance_ < largest)) eye_ = before;
+  changed |= eye_ != before;
+  if (!changed) return false;
+  reach_.add(Vec3f(center()));
   writeCamera();
   return true;
+}
+
+void CameraControl::fit(double aspect) {
+  const Vec3d ahead = forward(), above = cross(right_, ahead);
+  const Vec3d middle = model_.center();
+  const double half = halfHeightAtOne(camera_);
+  double distance = 0, height = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3d p = Vec3d(model_.corner(corner)) - middle;
+    const double away = std::max(std::abs(dot(p, right_)) / aspect, std::abs(dot(p, above)));
+    distance = std::max(distance, away / half - dot(p, ahead));
+    height = std::max(height, 2 * away);
+  }
+  if (camera_.orthographicHeight > 0) {
+    camera_.orthographicHeight = static_cast<float>(height);
+    distance = std::max(distance, model_.diagonal());
+  }
+  lookFrom(middle, distance);
+  reach_ = model_;
+  writeCamera();
 }
 
 }  // namespace whit::view

@@ -12,18 +12,24 @@ struct CameraMotion {
   double turnRight = 0, turnUp = 0;  // arrow keys
   double lookX = 0, lookY = 0;       // pixels dragged; y grows downwards
   double orbitX = 0, orbitY = 0;     // pixels dragged
+  double panX = 0, panY = 0;         // dragged shares of the window's height
   double wheel = 0;                  // notches
 };
 
 inline constexpr double kFastFactor = 4;
 inline constexpr double kWheelFactor = 1.25;           // of speed, a notch
+inline constexpr double kZoomFactor = 0.88;            // of the distance to a model, a notch
 inline constexpr double kSpeedRange = 1e6;             // largest factor up or down from the start
 inline constexpr double kRadiansPerPixel = 0.004;      // mouse
 inline constexpr double kRadiansPerSecond = 1.2;       // arrow keys
 inline constexpr double kSteepestRadians = 1.5533430;  // 89 degrees: `up` stays meaningful
+inline constexpr double kNearest = 1e-3, kFarthest = 10;  // distances, in diagonals of the model
 
 // Returns the speed to begin with, in units a second: it crosses the scene in twelve seconds.
 double cruisingSpeed(const Scene& scene);
+
+// Returns the bounds of a model that the camera sees from outside; empty where it is in a room.
+Box boundsToOrbit(const Scene& scene, const Camera& camera);
 
 class CameraControl {
  public:
@@ -32,22 +38,32 @@ class CameraControl {
     set(camera);
   }
 
-  void set(const Camera& camera);
+  // `model` bounds the point to orbit; an empty box means that nothing is orbited.
+  void set(const Camera& camera, const Box& model = {});
   // The camera of the last set(), bit for bit, until something moves it.
   const Camera& camera() const { return camera_; }
   double speed() const { return speed_; }
+  bool orbits() const { return !model_.empty(); }
 
-  // Turns first, then moves, but not out of the range of coordinates that scenes have. Returns
-  // whether the camera changed.
+  // Turns first, then moves, but not out of the range of coordinates that scenes have. Dragging
+  // and the wheel leave the point that is orbited in the model's bounds and in the middle of the
+  // picture. Returns whether the camera changed.
   bool step(const CameraMotion& motion, double seconds);
+
+  // Goes back or closer until the model fills a picture of this width over height.
+  void fit(double aspect);
 
  private:
   Vec3d forward() const;
+  Vec3d center() const { return eye_ + forward() * distance_; }
   void turn(double rightwards, double upwards);
+  bool drag(const CameraMotion& motion);
+  void lookFrom(const Vec3d& center, double distance);
   void writeCamera();
 
   Camera camera_;
   double firstSpeed_, speed_;
+  Box model_, reach_;  // bounds of the model, and of the points that may be orbited
   // In double, so that slow motion far from the origin does not stall.
   Vec3d eye_, up_, right_;  // right_ is perpendicular to up_, both of unit length
   double elevation_ = 0;    // of the view over the plane perpendicular to up_, radians

@@ -8,7 +8,6 @@
 #include "cli/app/frame_summary.h"
 #include "cli/app/image_output.h"
 #include "core/option_table.h"
-#include "core/stopwatch.h"
 #include "io/load_scene.h"
 #include "render/auto_exposure.h"
 #include "render/shadow_cache_schedule.h"
@@ -18,31 +17,12 @@ namespace whit::view {
 
 namespace {
 
-constexpr double kReferenceBandMs = 80;  // target time of a band; each band is shown
-
 ImageSize filmSizeOf(const Film& film) { return {film.image.width, film.image.height}; }
 
 void sizeFilm(Film& film, const ImageSize& size, const Crop& window) {
   if (filmSizeOf(film) == size && film.image.window == window) return;
   film.image = Image(size.width, size.height, window);
 }
-
-std::vector<RayWords> wordsFor(const Scene& scene, const cli::ExplainedRays& rays) {
-  std::vector<RayWords> words;
-  for (std::size_t i = 0; i < rays.packets.nodes.size(); ++i) {
-    const RayNode& n = rays.packets.nodes[i];
-    RayWords& w = words.emplace_back();
-    w.met = cli::metText(scene, n);
-    w.medium = cli::mediumName(scene, n.media);
-    if (rays.partsFirstAt(i)) w.parting = cli::partingText(scene, rays, i);
-    for (const LightContribution& light : n.lights) {
-      w.lights.push_back(cli::lightName(scene, light.light));
-    }
-  }
-  return words;
-}
-
-std::ptrdiff_t rowBytes(const DisplayImage& image) { return std::ptrdiff_t{4} * image.width; }
 
 // Sets a renderer's options for its own lifetime.
 class OptionsInUse {
@@ -61,19 +41,6 @@ class OptionsInUse {
 };
 
 }  // namespace
-
-DisplayImage splitPicture(const DisplayImage& frame, const Comparison& comparison, int split) {
-  DisplayImage picture = frame;
-  const DisplayImage& reference = comparison.reference.display;
-  if (reference.width != frame.width || reference.height != frame.height) return picture;
-  const std::ptrdiff_t left = std::ptrdiff_t{4} * std::clamp(split, 0, frame.width);
-  for (int y = 0; y < comparison.rows; ++y) {
-    const auto row = reference.rgba.begin() + y * rowBytes(reference);
-    std::copy(row + left, row + rowBytes(reference),
-              picture.rgba.begin() + y * rowBytes(picture) + left);
-  }
-  return picture;
-}
 
 FrameTracer::FrameTracer(std::shared_ptr<cli::OpenScene> scene, const cli::CommonOptions& common)
     : common_(common), options_(common.render) {
@@ -150,7 +117,6 @@ void FrameTracer::editSurroundings(const ShadingEdit& edit, Sky opened) {
 void FrameTracer::applyOptions(const FrameRequest& request) {
   RenderOptions next = request.options;
   next.spp = request.spp;
-  next.depth = std::min(next.depth, request.depth);
   if (renderer_->canSetOptions(next)) {
     renderer_->setOptions(next);
   } else {
@@ -166,18 +132,20 @@ RayPick FrameTracer::explain(const RayQuery& query) {
   const ImageSize size = options.size.value();
   Film film;
   sizeFilm(film, size, Crop{query.x, query.y, query.x + 1, query.y + 1});
-  RayPick pick{scene_, query, {}, {}, {}};
+  RayPick pick{scene_, query, {}, {}, {}, {}};
   const OptionsInUse used(*renderer_, options);
   pick.rays = cli::explainRays(*renderer_, query.picture.camera, film, query.x, query.y);
-  pick.words = wordsFor(scene_->scene, pick.rays);
-  pick.lines = linesOf(pick.rays.packets);
+  for (std::size_t i = 0; i < pick.rays.packets.nodes.size(); ++i) {
+    pick.words.push_back(cli::describeRay(scene_->scene, pick.rays, i));
+  }
+  pick.lines = linesOf(pick.rays.packets, query.picture.camera);
+  pick.aside = cameraAside(pick.rays.packets, query.picture.camera, renderer_->accel());
   return pick;
 }
 
 bool FrameTracer::trace(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls) {
   if (request.seconds && *request.seconds != seconds_) moveTo(*request.seconds);
   applyOptions(request);
-  frame.comparison.reset();
   frame.costs.clear();
   frame.measured = 0;
   if (!tracePicture(request, frame, calls)) return false;
@@ -201,8 +169,7 @@ bool FrameTracer::trace(const FrameRequest& request, TracedFrame& frame, const T
   frame.sampled = renderer_->plan().features.has(Feature::streams);
   frame.reasons = scene_->scene.reasons;
   frame.machine = renderer_->machine();
-  if (request.measureKnobs && !measure(request, frame, calls)) return false;
-  return !request.withReference || traceReference(request, frame, calls);
+  return !request.measureKnobs || measure(request, frame, calls);
 }
 
 bool FrameTracer::measure(const FrameRequest& request, TracedFrame& frame,
@@ -290,35 +257,6 @@ bool FrameTracer::traceInPasses(const FrameRequest& request, TracedFrame& frame,
     }
     calls.answer();
   }
-  return true;
-}
-
-bool FrameTracer::traceReference(const FrameRequest& request, TracedFrame& frame,
-                                 const TraceCalls& calls) {
-  const ImageSize size = filmSizeOf(frame.film);
-  Comparison& comparison = frame.comparison.emplace();
-  Film& reference = comparison.reference;
-  sizeFilm(reference, size, Crop{0, 0, size.width, size.height});
-  sizeDisplay(reference);
-  double msPerRow = kReferenceBandMs;
-  for (int y = 0; y < size.height; y = comparison.rows) {
-    const int rows = std::max(static_cast<int>(kReferenceBandMs / msPerRow), 1);
-    const int end = std::min(y + rows, size.height);
-    sizeFilm(band_, size, Crop{0, y, size.width, end});
-    const double ms = renderer_->renderReference(request.camera, band_).frameMs;
-    const std::size_t at = reference.image.index(0, y);
-    std::ranges::copy(band_.image.pixels, &reference.image.pixels[at]);
-    std::ranges::copy(band_.display.rgba, &reference.display.rgba[4 * at]);
-    comparison.referenceMs += ms;
-    comparison.rows = end;
-    msPerRow = std::max(ms / (end - y), 1e-3);
-    calls.answer();
-    if (calls.superseded()) return false;
-    calls.publish(frame);
-  }
-  comparison.heatMap = heatMap(frame.film.image, reference.image);
-  comparison.difference =
-      compareImages(frame.film.image, reference.image, options_.exposure.ev, options_.toneCurve);
   return true;
 }
 

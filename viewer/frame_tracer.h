@@ -12,7 +12,6 @@
 #include "cli/app/explained_rays.h"
 #include "cli/app/open_scene.h"
 #include "inspect/debug_view.h"
-#include "inspect/metrics.h"
 #include "inspect/ray_lines.h"
 #include "io/image/image_file.h"
 #include "io/json_reader.h"
@@ -104,13 +103,11 @@ struct SceneChoice {
 
 struct FrameRequest {
   Camera camera;
-  RenderOptions options;    // the user's options; the size must be set
-  ImageSize window;         // the window that the picture is to fill
-  int spp = 1;              // samples that are traced: the options', or more at rest
-  int depth = kDepthLimit;  // upper limit of the depth in motion
-  bool coarse = false;      // finer pixels will follow at rest
+  RenderOptions options;  // the user's options; the size must be set
+  ImageSize window;       // the window that the picture is to fill
+  int spp = 1;            // samples that are traced: the options', or more at rest
+  bool coarse = false;    // finer pixels will follow at rest
   DebugView view = DebugView::none;
-  bool withReference = false;     // the reference's picture is traced and compared as well
   bool measureKnobs = false;      // the cost of each knob is measured as well
   int reloads = 0, edits = 0;     // number of reloads and edits of the scene so far
   std::optional<double> seconds;  // the instant of a scene that moves
@@ -120,8 +117,7 @@ struct FrameRequest {
 // Returns whether both ask for the same picture.
 inline bool samePicture(const FrameRequest& a, const FrameRequest& b) {
   return sameView(a.camera, b.camera) && a.options == b.options && a.window == b.window &&
-         a.spp == b.spp && a.depth == b.depth && a.view == b.view &&
-         a.withReference == b.withReference && a.measureKnobs == b.measureKnobs &&
+         a.spp == b.spp && a.view == b.view && a.measureKnobs == b.measureKnobs &&
          a.reloads == b.reloads && a.edits == b.edits && a.seconds == b.seconds;
 }
 
@@ -129,8 +125,6 @@ inline bool samePicture(const FrameRequest& a, const FrameRequest& b) {
 inline bool sameSubject(const FrameRequest& a, FrameRequest b) {
   b.options.size = a.options.size;
   b.spp = a.spp;
-  b.depth = a.depth;
-  b.withReference = a.withReference;
   b.measureKnobs = a.measureKnobs;
   return samePicture(a, b);
 }
@@ -139,23 +133,6 @@ inline double samplesOf(const FrameRequest& request) {
   const ImageSize size = request.options.size.value();
   return static_cast<double>(size.width) * size.height * request.spp;
 }
-
-enum class CompareMode { off, split, heatMap };
-
-// Grows row by row from the top while the reference is traced.
-struct Comparison {
-  Film reference;  // rows [0, rows) are done
-  int rows = 0;
-  double referenceMs = 0;
-  // These two are set when all rows are done:
-  std::optional<ImageDifference> difference;
-  DisplayImage heatMap;  // as large as the frame
-
-  bool complete() const { return difference.has_value(); }
-  double progress() const {
-    return reference.image.height > 0 ? static_cast<double>(rows) / reference.image.height : 0;
-  }
-};
 
 struct TracedFrame {
   std::shared_ptr<const cli::OpenScene> scene;  // null: nothing traced yet
@@ -174,14 +151,10 @@ struct TracedFrame {
   std::string sky;  // the scene's --sky, unless another sky was chosen
   Machine machine;
   std::shared_ptr<const DebugPicture> debug;  // null: the request is without a debug view
-  std::optional<Comparison> comparison;       // if the request is with the reference
   // If the request measures knobs: the costs measured so far, and the share of the knobs.
   std::vector<KnobCost> costs;
   double measured = 0;
 };
-
-// Returns the frame left of column `split` and the rows of the reference that are done right of it.
-DisplayImage splitPicture(const DisplayImage& frame, const Comparison& comparison, int split);
 
 // A picture that gains samples, with those traced so far.
 struct UnfinishedFrame {
@@ -202,19 +175,14 @@ inline bool sameRays(const RayQuery& a, const RayQuery& b) {
   return samePicture(a.picture, b.picture) && a.x == b.x && a.y == b.y;
 }
 
-// The description of a node. The scene may be edited before it is shown.
-struct RayWords {
-  std::string met, medium;
-  std::string parting;              // where the reference takes another path; empty: it does not
-  std::vector<std::string> lights;  // names of the node's lights
-};
-
 struct RayPick {
   std::shared_ptr<const cli::OpenScene> scene;  // null: nothing was picked
   RayQuery query;
   cli::ExplainedRays rays;
-  std::vector<RayWords> words;  // one for each node of the packets
-  std::vector<RayLine> lines;   // the rays of the packets
+  // One for each node of the packets: the scene may be edited before they are shown.
+  std::vector<cli::RayText> words;
+  std::vector<RayLine> lines;  // the rays of the packets
+  Camera aside;                // sees them
 };
 
 // Each pass of a picture that gains samples takes about this long, with at least one sample a
@@ -226,9 +194,9 @@ struct TraceCalls {
   // These two are asked by the workers, between tiles and samples. Once true they stay true.
   std::function<bool()> superseded;  // another picture is wanted
   std::function<bool()> stopped;     // the picture is to be given up for anything else
-  // Answers a query for the rays of a pixel; called between passes and bands.
+  // Answers a query for the rays of a pixel; called between passes and measured frames.
   std::function<void()> answer;
-  // Called with frames whose reference is under way or whose knobs are being measured.
+  // Called with frames whose knobs are being measured.
   std::function<void(const TracedFrame&)> publish;
   // Called when a picture has more samples than the one before.
   std::function<void(UnfinishedFrame)> showUnfinished;
@@ -269,7 +237,6 @@ class FrameTracer {
   bool accumulates(const FrameRequest& request) const;
   bool traceInPasses(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
   bool measure(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
-  bool traceReference(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
 
   const cli::CommonOptions common_;
   std::shared_ptr<cli::OpenScene> scene_;
@@ -280,7 +247,7 @@ class FrameTracer {
   Sky ownSky_;                             // the scene's own sky, while it has another one
   double seconds_ = 0;                     // the instant that a moving scene is at
   std::string animation_;                  // the animation that the scene was read with
-  Film band_;                              // rows of the reference; frames that are measured
+  Film band_;                              // frames that are measured
   std::optional<FrameRequest> finished_;   // the last picture
   double msPerSample_ = 0;                 // 0: nothing traced yet
 };

@@ -57,7 +57,7 @@ void drawKnob(const OptionSpec& spec, Field& field) {
   }
 }
 
-// Applies a preset, but not its reference mode, which key X is for.
+// Applies a preset, but not its reference mode, which is too slow.
 RenderOptions withQuality(RenderOptions options, Quality quality) {
   options.quality = quality;
   applyQuality(options, {"mode"});

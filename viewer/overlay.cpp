@@ -7,7 +7,6 @@
 #include <cmath>
 #include <optional>
 
-#include "core/display.h"
 #include "core/formatted.h"
 #include "viewer/window.h"
 
@@ -46,51 +45,6 @@ constexpr ImGuiWindowFlags kBare = ImGuiWindowFlags_NoDecoration |
                                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove |
                                    ImGuiWindowFlags_NoFocusOnAppearing;
 
-// The line lies behind the panels and the words above them, because in a small window a panel may
-// cover their place.
-void drawSplit(double split, bool labels) {
-  const ImVec2 window = ImGui::GetIO().DisplaySize;
-  ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  const float x = static_cast<float>(split) * window.x, gap = ImGui::GetFontSize();
-  const float y = window.y - 5 * gap;
-  list.AddLine(ImVec2(x + 1, 0), ImVec2(x + 1, window.y), kShade, 3);
-  list.AddLine(ImVec2(x, 0), ImVec2(x, window.y), kWhite, 1);
-  if (!labels) return;
-  drawLabel(ImVec2(x - gap - ImGui::CalcTextSize("packets").x, y), "packets");
-  drawLabel(ImVec2(x + gap, y), "reference");
-}
-
-// The lines are short enough for the room beside the panel in a small window.
-void drawDifference(const TracedFrame& frame, const Comparison& comparison) {
-  const ImageDifference& d = *comparison.difference;
-  ImGui::Text("RMSE  %.3g   PSNR %.1f dB", d.rmse, d.psnrDb);
-  ImGui::Text("FLIP  %.2g", d.flipMean);
-  ImGui::Text("8-bit codes: largest %d", d.maxCode);
-  ImGui::Text("             over 1 in %.3f %%", d.pixelsGe2CodesPct);
-  ImGui::Text("packets   %.1f ms", frame.stats.frameMs);
-  ImGui::Text("reference %.0f ms", comparison.referenceMs);
-}
-
-void drawFindings(const TracedFrame& frame, bool heat) {
-  if (heat) {
-    ImGui::TextUnformatted("codes apart: 0 to 16+");
-    const ImVec2 size(ImGui::GetFontSize() * 15, ImGui::GetFontSize());
-    drawColorBar(ImGui::GetCursorScreenPos(), size.x, *ImGui::GetWindowDrawList(), heatColor);
-    ImGui::Dummy(size);
-  } else {
-    ImGui::TextUnformatted("packets against the reference");
-  }
-  if (!frame.comparison) {
-    ImGui::TextDisabled("waits until nothing moves");
-  } else if (frame.comparison->complete()) {
-    drawDifference(frame, *frame.comparison);
-  } else {
-    const double done = frame.comparison->progress();
-    ImGui::ProgressBar(static_cast<float>(done), ImVec2(ImGui::GetFontSize() * 15, 0),
-                       formatted("reference: %.0f %%", 100 * done).c_str());
-  }
-}
-
 // All scales are multiples of 1/16.
 std::string fraction(double scale) {
   int above = static_cast<int>(std::lround(scale * 16)), below = 16;
@@ -115,20 +69,6 @@ std::string colorText(const Rgb& c) {
   return formatted("%.4g %.4g %.4g", d.x, d.y, d.z);
 }
 
-// Returns the codes that the map of differences compares.
-std::array<std::uint8_t, 3> codesOf(const Rgb& radiance) {
-  return displayCodes(radiance, 1, ToneCurve::none);
-}
-
-std::string comparedText(const Comparison& comparison, const Rgb& packets, int x, int y) {
-  std::string text = "\npackets   " + colorText(packets);
-  if (y >= comparison.rows) return text + "\nreference: not traced yet";
-  const Image& image = comparison.reference.image;
-  const Rgb reference = image.pixels[image.index(x, y)];
-  return text + "\nreference " + colorText(reference) +
-         formatted("\n%d 8-bit codes apart", codesApart(codesOf(packets), codesOf(reference)));
-}
-
 }  // namespace
 
 std::string errorText(double sampleError) {
@@ -144,12 +84,11 @@ std::string sharpnessText(const FrameRequest& request) {
   const int window = std::max(request.window.width, 1);
   const int width = request.options.size ? request.options.size->width : window;
   std::string text = fraction(static_cast<double>(width) / window);
-  if (request.depth < request.options.depth) text += formatted(", depth %d", request.depth);
   if (request.spp != 1) text += formatted(", %d samples", request.spp);
   return text;
 }
 
-std::string inspect(const TracedFrame& frame, bool compared, const ImageSize& window,
+std::string inspect(const TracedFrame& frame, const ImageSize& window,
                     const std::array<int, 2>& pixel) {
   const Image& image = frame.film.image;
   const DisplayImage& display = frame.film.display;
@@ -170,11 +109,7 @@ std::string inspect(const TracedFrame& frame, bool compared, const ImageSize& wi
   } else {
     const std::uint8_t* codes = &display.rgba[4 * at];
     text += formatted("\n8-bit codes %d %d %d", codes[0], codes[1], codes[2]) +
-            "\nradiance, W/sr a square unit";
-    if (!compared || !frame.comparison) text += "\n" + colorText(image.pixels[at]);
-  }
-  if (compared && frame.comparison) {
-    text += comparedText(*frame.comparison, image.pixels[at], x, y);
+            "\nradiance, W/sr a square unit\n" + colorText(image.pixels[at]);
   }
   return text;
 }
@@ -193,23 +128,27 @@ void drawInspection(const std::string& lines, double pointerX, double pointerY) 
             lines.c_str(), kMargin, kBrightWhite, kDarkShade);
 }
 
-void drawStatus(const TracedFrame& frame, const UnfinishedFrame* next, double rate) {
+void drawStatus(const TracedFrame& frame, const UnfinishedFrame* next, double rate, bool raised) {
   constexpr float kMargin = 10, kPadding = 4;
+  const float line = ImGui::GetFontSize() + 2 * kPadding;
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  float y = window.y - kMargin - (raised ? 2 * line : line);
+  const auto draw = [&](const std::string& text) {
+    const ImVec2 at(window.x - kMargin - ImGui::CalcTextSize(text.c_str()).x, y + kPadding);
+    drawLabel(at, text.c_str(), kPadding);
+    y -= line;
+    return at.x;
+  };
   std::string text =
       next ? samplesText(*next) : sharpnessText(frame.request) + errorText(frame.sampleError);
   if (rate > 0) text += formatted(", %.0f frames/s", rate);
-  const ImVec2 window = ImGui::GetIO().DisplaySize, size = ImGui::CalcTextSize(text.c_str());
-  drawLabel(ImVec2(window.x - kMargin - size.x, window.y - kMargin - kPadding - size.y),
-            text.c_str(), kPadding);
+  draw(text);
   if (!frame.debug) return;
   text = kDebugViewNames[static_cast<std::size_t>(frame.request.view)];
   const std::string legend = frame.debug->legend();
-  if (!legend.empty()) text += ": " + legend;
-  const ImVec2 said = ImGui::CalcTextSize(text.c_str());
-  const ImVec2 corner(window.x - kMargin - said.x, window.y - kMargin - 3 * kPadding - 2 * size.y);
-  drawLabel(corner, text.c_str(), kPadding);
+  const float left = draw(legend.empty() ? text : text + ": " + legend);
   if (legend.empty()) return;
-  drawColorBar(ImVec2(corner.x, corner.y - size.y - 2 * kPadding), said.x,
+  drawColorBar(ImVec2(left, y + kPadding), window.x - kMargin - left,
                *ImGui::GetForegroundDrawList(),
                [&](double share) { return colorAt(frame.request.view, share); });
 }
@@ -233,19 +172,6 @@ bool drawError(const std::string& error) {
   }
   ImGui::End();
   return open;
-}
-
-void drawComparison(const TracedFrame& frame, CompareMode mode, double split, bool words) {
-  const bool under = frame.comparison.has_value();
-  const bool heat = mode == CompareMode::heatMap && under && frame.comparison->complete();
-  if (under && !heat) drawSplit(split, words);
-  if (!words) return;
-  const float gap = 10;
-  ImGui::SetNextWindowPos(ImVec2(ImGui::GetIO().DisplaySize.x - gap, gap), ImGuiCond_Always,
-                          ImVec2(1, 0));
-  ImGui::SetNextWindowBgAlpha(kPanelAlpha);
-  if (ImGui::Begin("comparison", nullptr, kBare)) drawFindings(frame, heat);
-  ImGui::End();
 }
 
 }  // namespace whit::view

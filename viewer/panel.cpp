@@ -3,7 +3,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -84,31 +83,13 @@ void drawPicture(PanelSettings& settings) {
   ImGui::Checkbox("supersample at rest (N)", &settings.supersample);
 }
 
-void drawEffectColors() {
-  for (const EffectColor& c : effectColors()) {
-    const auto& name = kEffectNames[static_cast<std::size_t>(c.effect)].name;
-    const ImVec4 color(c.color[0], c.color[1], c.color[2], 1);
-    ImGui::ColorButton(name.data(), color, ImGuiColorEditFlags_NoTooltip,
-                       ImVec2(ImGui::GetFontSize(), ImGui::GetFontSize()));
-    ImGui::SameLine();
-    ImGui::TextUnformatted(name.data());
-  }
-}
-
-// Draws the choice of debug view and comparison.
-void drawView(const TracedFrame& frame, PanelSettings& settings) {
-  int view = static_cast<int>(settings.view), compare = static_cast<int>(settings.compare);
+// Draws the choice of debug view.
+void drawView(PanelSettings& settings) {
+  int view = static_cast<int>(settings.view);
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 11);
   if (ImGui::Combo("view (V)", &view, kDebugViewNames.data(),
                    static_cast<int>(kDebugViewNames.size()))) {
     settings.view = static_cast<DebugView>(view);
-  }
-  const std::string legend = frame.debug ? frame.debug->legend() : std::string();
-  if (!legend.empty()) ImGui::TextWrapped("%s", legend.c_str());
-  if (settings.view == DebugView::effects) drawEffectColors();
-  ImGui::SetNextItemWidth(ImGui::GetFontSize() * 11);
-  if (ImGui::Combo("reference (X)", &compare, "not compared\0side by side\0differences\0")) {
-    settings.compare = static_cast<CompareMode>(compare);
   }
 }
 
@@ -124,6 +105,14 @@ void drawKeys() {
   ImGui::EndTable();
 }
 
+void drawRecent(PanelSettings& settings) {
+  if (!ImGui::BeginCombo("##recent", "open a recent scene")) return;
+  for (const std::string& name : settings.recent) {
+    if (ImGui::Selectable(name.c_str())) settings.open = name;
+  }
+  ImGui::EndCombo();
+}
+
 void drawTimes(const TracedFrame& frame) {
   const FrameStats& stats = frame.stats;
   ImGui::Text("%s, %s", frame.scene->scene.name.c_str(), frame.surfaces.c_str());
@@ -133,26 +122,6 @@ void drawTimes(const TracedFrame& frame) {
   ImGui::Text("%s, packets of %d, %d thread%s", frame.machine.simd.c_str(), frame.machine.packet,
               frame.machine.threads, frame.machine.threads == 1 ? "" : "s");
   ImGui::Text("%.2f ms traced, %.2f in Embree", stats.frameMs, stats.embreeMs());
-}
-
-// Draws the newest time at the right, and a line at the time that a frame may take to hold `rate`
-// frames a second.
-void drawGraph(const std::vector<float>& times, double rate) {
-  const auto budget = static_cast<float>(1000 / rate);
-  const float highest = times.empty() ? 0 : *std::max_element(times.begin(), times.end());
-  const float scale = 1.25f * std::max(highest, budget);
-  const ImVec2 size(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 3);
-  const std::string text = times.empty()
-                               ? "nothing has moved yet"
-                               : formatted("at most %.1f ms; %.1f ms hold %.0f/s",
-                                           static_cast<double>(highest), 1000 / rate, rate);
-  ImGui::PlotLines("##times", times.data(), static_cast<int>(times.size()), 0, text.c_str(), 0,
-                   scale, size);
-  const float padding = ImGui::GetStyle().FramePadding.y;
-  const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
-  const float y = to.y - padding - budget / scale * (to.y - from.y - 2 * padding);
-  ImGui::GetWindowDrawList()->AddLine(ImVec2(from.x, y), ImVec2(to.x, y),
-                                      ImGui::GetColorU32(ImGuiCol_Border));
 }
 
 }  // namespace
@@ -169,10 +138,6 @@ void Panel::remember(const TracedFrame& frame) {
   } else if (!isMeasuredView(measuredFor_, frame.request)) {
     costs_.clear();
   }
-  if (frame.request.interruptible) return;
-  constexpr std::size_t kTimes = 120;
-  if (times_.size() == kTimes) times_.erase(times_.begin());
-  times_.push_back(static_cast<float>(frame.stats.frameMs));
 }
 
 bool Panel::drawTabs(const TracedFrame& frame, const RayPick& pick, PanelSettings& settings,
@@ -198,7 +163,7 @@ bool Panel::drawTabs(const TracedFrame& frame, const RayPick& pick, PanelSetting
   });
   tab("picture", [&] {
     drawPicture(settings);
-    drawView(frame, settings);
+    drawView(settings);
   });
   tab("knobs", [&] {
     if (settings.measureKnobs) {
@@ -216,31 +181,39 @@ bool Panel::drawTabs(const TracedFrame& frame, const RayPick& pick, PanelSetting
     settings.saveScene |= ImGui::Button("save as a scene file (Ctrl+S)");
     edited = drawSceneTab(ownSky, settings.rays, scene);
   });
-  tab("keys", drawKeys);
+  tab("keys", [&] {
+    drawRecent(settings);
+    drawKeys();
+  });
   ImGui::EndTabBar();
   return edited;
 }
 
 bool Panel::draw(const TracedFrame& frame, const RayPick& pick, double speed,
-                 PanelSettings& settings, const SkyChoice& ownSky, ShadingEdit& scene) const {
-  constexpr float kMargin = 10, kWidth = 32;  // pixels; heights of the font
-  // The panel folds in windows that are narrower, where the font has the usual height.
-  constexpr float kFolds = 800, kUsualFont = 13;
-  const float width = ImGui::GetFontSize() * kWidth;
-  const float height = std::max(ImGui::GetIO().DisplaySize.y - 2 * kMargin, kMargin);
-  ImGui::SetNextWindowPos(ImVec2(kMargin, kMargin), ImGuiCond_FirstUseEver);
-  ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, height));
+                 PanelSettings& settings, const SkyChoice& ownSky, ShadingEdit& scene) {
+  constexpr float kMargin = 10, kWidth = 32, kLeastWidth = 12;  // pixels; heights of the font
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  const float em = ImGui::GetFontSize(), height = std::max(window.y - 2 * kMargin, kMargin);
+  const float widest = std::min(em * kWidth, window.x - 2 * kMargin);
+  if (width_ == 0) left_ = kMargin, width_ = widest;
+  const auto x = std::exchange(settings.keepClear, std::nullopt);
+  const bool covered = x && *x > left_ - kMargin && *x < left_ + width_ + kMargin;
+  if (covered) {
+    const bool rightwards = *x < window.x / 2;
+    const float room = (rightwards ? window.x - *x : *x) - 3 * kMargin;
+    width_ = std::clamp(room, std::min(em * kLeastWidth, widest), widest);
+    left_ = rightwards ? window.x - kMargin - width_ : kMargin;
+  }
+  ImGui::SetNextWindowPos(ImVec2(left_, kMargin), covered ? ImGuiCond_Always : ImGuiCond_Appearing);
+  ImGui::SetNextWindowSizeConstraints(ImVec2(width_, 0), ImVec2(width_, height));
   ImGui::SetNextWindowBgAlpha(kPanelAlpha);
-  // In a narrow window it would hide much of the picture; the user can unfold it.
-  const bool narrow = ImGui::GetIO().DisplaySize.x < kFolds * ImGui::GetFontSize() / kUsualFont;
-  if (std::exchange(settings.narrow, narrow) != narrow) ImGui::SetNextWindowCollapsed(narrow);
   bool edited = false;
-  if (ImGui::Begin("whit", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
+  if (ImGui::Begin("whit", &settings.shown, ImGuiWindowFlags_AlwaysAutoResize)) {
     drawTimes(frame);
-    drawGraph(times_, settings.rate);
     ImGui::Text("speed %.3g units a second", speed);
     edited = drawTabs(frame, pick, settings, ownSky, scene);
   }
+  left_ = ImGui::GetWindowPos().x;
   ImGui::End();
   return edited;
 }

@@ -1,4 +1,4 @@
-// All that is drawn over the picture: the panel with its tabs, rays, messages, the comparison.
+// All that is drawn over the picture: the panel with its tabs, rays, messages.
 #pragma once
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 
 #include "scene/motion.h"
 #include "viewer/frame_tracer.h"
+#include "viewer/view_files.h"
 
 namespace whit::view {
 
@@ -55,20 +56,17 @@ struct Timeline {
 Timeline timelineOf(const Scene& scene, const Instant& instant);
 
 // The settings that the panel and the keys change.
-struct PanelSettings {
-  bool shown = true;
-  bool narrow = false;      // the window is narrow, and the panel was folded for it
-  std::string tabShown;     // of kPanelTabs
-  std::string tab;          // the tab of kPanelTabs to turn to; empty: it stays
-  double rate = 60;         // frames a second to hold
-  bool supersample = true;  // at rest
+struct PanelSettings : KeptSettings {
+  bool words = true;               // anything is written or drawn over the picture
+  std::optional<float> keepClear;  // a place across the window that the panel must not cover
+  std::string open;                // a scene to open
+  std::string tab;                 // the tab of kPanelTabs to turn to; empty: it stays
+  double rate = 60;                // frames a second to hold
   RenderOptions options;
   DebugView view = DebugView::none;
-  CompareMode compare = CompareMode::off;
   bool measureKnobs = false;  // true until the measurement is done
   RayView rays;
   Timeline timeline;
-  bool inspects = true;    // the pixel under the pointer is described
   bool saveScene = false;  // the scene is to be saved
 };
 
@@ -77,11 +75,11 @@ bool isMeasuredView(FrameRequest measured, const FrameRequest& request);
 
 class Panel {
  public:
-  void remember(const TracedFrame& frame);
+  void remember(const TracedFrame& frame);  // its costs
   // Call between ImGui's NewFrame and Render; `frame` must hold a picture. Returns whether the
   // scene was edited.
   bool draw(const TracedFrame& frame, const RayPick& pick, double speed, PanelSettings& settings,
-            const SkyChoice& ownSky, ShadingEdit& scene) const;
+            const SkyChoice& ownSky, ShadingEdit& scene);
 
  private:
   bool drawTabs(const TracedFrame& frame, const RayPick& pick, PanelSettings& settings,
@@ -89,7 +87,7 @@ class Panel {
 
   std::vector<KnobCost> costs_;  // costs measured so far at the view of the last frame
   FrameRequest measuredFor_;
-  std::vector<float> times_;  // milliseconds of the last frames in motion
+  float left_ = 0, width_ = 0;  // of the panel in the last frame
 };
 
 // knobs.cpp, the options of a render as sliders, boxes and lists. All of it belongs between ImGui's
@@ -128,27 +126,23 @@ bool drawTimeline(Timeline& timeline);
 std::string errorText(double sampleError);
 // "100 of 256 samples, within about 0.8 %": of a picture that gains samples.
 std::string samplesText(const UnfinishedFrame& frame);
-// "1/4, depth 4": the share of the window's pixels a side, and what else differs from the options.
+// "1/4, 16 samples": the share of the window's pixels a side, and the samples.
 std::string sharpnessText(const FrameRequest& request);
 
 // Describes that pixel of a window of this size in lines, with units: by the view that was traced,
-// or by its radiance; with `compared` also by the reference's. Empty beside the picture.
-std::string inspect(const TracedFrame& frame, bool compared, const ImageSize& window,
+// or by its radiance. Empty beside the picture.
+std::string inspect(const TracedFrame& frame, const ImageSize& window,
                     const std::array<int, 2>& pixel);
 // Draws such lines beside the pointer, inside the window.
 void drawInspection(const std::string& lines, double pointerX, double pointerY);
 
 // Draws the sharpness of the picture, the frame rate and the meaning of a view's colors into a
-// corner of the window.
-void drawStatus(const TracedFrame& frame, const UnfinishedFrame* next, double rate);
+// corner of the window; `raised`: a line higher, above a message.
+void drawStatus(const TracedFrame& frame, const UnfinishedFrame* next, double rate, bool raised);
 // Draws a line at the bottom of the window.
 void drawMessage(const std::string& message);
 // Draws an error, which stays until it is clicked away; returns false then.
 bool drawError(const std::string& error);
-
-// Draws the line between both pictures at the share `split` of the window's width; with `words`
-// also their names, and the measures of their difference.
-void drawComparison(const TracedFrame& frame, CompareMode mode, double split, bool words);
 
 // app_keys.cpp: the keys, and what they do.
 struct KeyHelp {

@@ -1,17 +1,22 @@
 // The command line of whit-view.
+#include <algorithm>
+#include <chrono>
 #include <cstdio>
+#include <cstdlib>
+#include <future>
+#include <mutex>
 
 #include "cli/app/help_text.h"
 #include "cli/app/open_scene.h"
-#include "cli/app/progress_bar.h"
 #include "core/error.h"
+#include "core/formatted.h"
 #include "viewer/app.h"
 
 namespace whit::view {
 
 namespace {
 
-constexpr const char* kUsage = "whit-view SCENE [options]";
+constexpr const char* kUsage = "whit-view [SCENE] [options]";
 constexpr const char* kSummary = "Shows a scene in a window, to fly through. H shows the keys.";
 
 cli::OptionList listOptions(ViewOptions& options, std::vector<std::string>& scenes) {
@@ -20,10 +25,12 @@ cli::OptionList listOptions(ViewOptions& options, std::vector<std::string>& scen
   list.value({"rate", "N", kLeastRate, kLargestRate},
              "frames a second to hold while something moves (default: 60, on up to four cores 30)",
              options.rate);
-  list.value({"view", "none|depth|normals|albedo|rays|cost|effects|occupancy"},
+  list.value({"view", "none|depth|normals|albedo|rays|cost|occupancy"},
              "what to show instead of the picture", options.view);
   cli::listCommonOptions(list, options.common);
-  list.operands("SCENE", "a scene file, a model, or the name of a shipped scene", 1, 1, scenes);
+  list.operands("SCENE",
+                "a scene file, a model, or the name of a shipped scene (default: the last one)", 0,
+                1, scenes);
   return list;
 }
 
@@ -35,6 +42,31 @@ void check(const ViewOptions& options) {
     throwUsage("--mode reference is too slow to look around with; use whit render");
   }
 }
+
+// Returns the largest size with the picture's aspect that fits into `room`.
+ImageSize fitted(const ImageSize& picture, const ImageSize& room) {
+  const double scale = std::min(static_cast<double>(room.width) / picture.width,
+                                static_cast<double>(room.height) / picture.height);
+  const auto scaled = [&](int side) { return std::max(static_cast<int>(side * scale), 1); };
+  return {scaled(picture.width), scaled(picture.height)};
+}
+
+// Keeps the latest progress for the thread that draws the window.
+class LoadingProgress : public Progress {
+ public:
+  void report(const std::string& phase, double fraction) override {
+    const std::lock_guard lock(mutex_);
+    text_ = formatted(": %s, %.0f %%", phase.c_str(), 100 * fraction);
+  }
+  std::string text() {
+    const std::lock_guard lock(mutex_);
+    return text_;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::string text_;
+};
 
 const cli::ManPage kPage{"whit-view", "flies through a scene that is ray traced as it is seen",
                          kUsage,
@@ -72,20 +104,47 @@ int runViewer(const std::vector<std::string>& words, ScriptedUser* scripted) {
     return 0;
   }
   if (cli::parseOptions(kUsage, kSummary, list, words) == cli::Parsed::helpShown) return 0;
-  options.scene = scenes[0];
   cli::settleOptions(options.common);
   check(options);
   options.common.load.instant.plays = true;
-  const Display display;  // fails before a scene is loaded in vain
-  const cli::CommonOptions& common = options.common;
-  auto progress = cli::makeProgressBar(common);
-  const std::shared_ptr<cli::OpenScene> scene =
-      cli::openScene(options.scene, common, progress.get());
-  progress.reset();
-  options.common.render = cli::optionsFor(scene->scene, common);
-  const ImageSize own{scene->scene.width, scene->scene.height};
-  Window window("whit: " + scene->scene.name, common.render.size.value_or(own));
-  App(options, scene, window, scripted).run();
+  const KeptSettings kept = readKeptSettings();
+  if (scenes.empty()) scenes = kept.recent;
+  if (scenes.empty()) throwUsage("expected SCENE: " + list.operand.help);
+  options.scene = scenes[0];
+  const Display display;
+  const auto sizeFor = [&](const ImageSize& picture) {
+    const ImageSize room = kept.window == ImageSize() ? Display::room() : kept.window;
+    return options.common.render.size.value_or(fitted(picture, room));
+  };
+  ImageSize opened = sizeFor({Scene().width, Scene().height});
+  Window window("whit: " + options.scene, opened);
+  LoadingProgress progress;
+  // This thread draws the window until the other one has read the scene.
+  auto loading = std::async(std::launch::async, [&] {
+    const std::shared_ptr<cli::OpenScene> scene =
+        cli::openScene(options.scene, options.common, &progress);
+    opened = sizeFor({scene->scene.width, scene->scene.height});
+    options.common.render = cli::optionsFor(scene->scene, options.common);
+    progress.report("building the acceleration structure", 0);
+    auto app = std::make_unique<App>(options, scene, window, kept, scripted);
+    Window::wake();
+    return app;
+  });
+  while (loading.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+    if (window.closing()) std::quick_exit(0);  // nothing has been written
+    window.begin();
+    drawMessage("reading " + options.scene + progress.text());
+    window.end();
+    window.present();
+    constexpr double kSecondsBetweenTexts = 0.1;
+    window.poll(kSecondsBetweenTexts);
+  }
+  const std::unique_ptr<App> app = loading.get();
+  if (opened != window.size()) window.resize(opened);
+  app->run();
+  KeptSettings left = app->kept();
+  if (!window.isFullScreen() && window.size() != opened) left.window = window.size();
+  writeKeptSettings(left);
   return 0;
 }
 

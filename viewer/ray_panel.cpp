@@ -50,8 +50,6 @@ void drawLegend(const std::vector<RayLine>& lines) {
   }
 }
 
-std::string textOf(const RgbD& c) { return formatted("%.4f %.4f %.4f", c.x, c.y, c.z); }
-
 class RayTreeTab {
  public:
   RayTreeTab(const RayPick& pick, const TracedFrame& frame, RayView& view)
@@ -82,17 +80,11 @@ class RayTreeTab {
     const auto codes = codesOf(p), other = codesOf(r);
     ImGui::Text("pixel %d,%d of %dx%d", pick_.query.x, pick_.query.y,
                 pick_.query.picture.options.size->width, pick_.query.picture.options.size->height);
-    ImGui::Text("packets   %s  codes %d %d %d", textOf(RgbD(p)).c_str(), codes[0], codes[1],
+    ImGui::Text("packets   %s  codes %d %d %d", cli::textOf(RgbD(p)).c_str(), codes[0], codes[1],
                 codes[2]);
-    ImGui::Text("reference %s  codes %d %d %d", textOf(RgbD(r)).c_str(), other[0], other[1],
+    ImGui::Text("reference %s  codes %d %d %d", cli::textOf(RgbD(r)).c_str(), other[0], other[1],
                 other[2]);
-    std::size_t shadows = 0;
-    for (const RayNode& n : tree_.nodes) {
-      shadows += static_cast<std::size_t>(
-          std::count_if(n.lights.begin(), n.lights.end(),
-                        [](const LightContribution& light) { return light.traced; }));
-    }
-    ImGui::Text("rays: %zu, shadow rays: %zu", tree_.nodes.size(), shadows);
+    ImGui::Text("rays: %zu, shadow rays: %zu", tree_.nodes.size(), tree_.shadowRays());
   }
 
   void drawButtons() {
@@ -119,7 +111,7 @@ class RayTreeTab {
     ImGui::PushID(static_cast<int>(number));
     ImGui::SetNextItemOpen(share >= kLeastUnfolded, ImGuiCond_Once);
     ImGui::PushStyleColor(ImGuiCol_Text, textColorOf(n.kind));
-    const std::string text = formatted("%s to %s: %d codes", rowOf(n.kind).name.data(),
+    const std::string text = formatted("%s: %s, %d codes", rowOf(n.kind).name.data(),
                                        pick_.words[number].met.c_str(), codesAdded(added));
     const bool open =
         ImGui::TreeNodeEx("node", ImGuiTreeNodeFlags_SpanFullWidth, "%s", text.c_str());
@@ -134,35 +126,14 @@ class RayTreeTab {
   }
 
   void drawOwn(std::size_t number) {
-    const RayNode& n = tree_.nodes[number];
-    const RayWords& words = pick_.words[number];
-    const auto adds = [&](const char* what, const RgbD& own) {
-      ImGui::BulletText("%s adds %s", what, textOf(cli::addedBy(tree_, number, own)).c_str());
-      point(number);
-    };
-    ImGui::BulletText("weight %s, in %s", textOf(n.weight).c_str(), words.medium.c_str());
+    const cli::RayText& words = pick_.words[number];
+    ImGui::BulletText("weight %s, in %s", cli::textOf(tree_.nodes[number].weight).c_str(),
+                      words.medium.c_str());
     point(number);
-    if (maxComponent(n.emitted) > 0) {
-      adds(n.triangle == kMiss ? "sky" : "emission and ambient", n.emitted);
+    for (const std::string& line : words.lines) {
+      ImGui::BulletText("%s", line.c_str());
+      point(number);
     }
-    for (std::size_t l = 0; l < n.lights.size(); ++l) {
-      const LightContribution& light = n.lights[l];
-      const std::string& name = words.lights[l];
-      if (light.visible) {
-        adds(name.c_str(), light.radiance);
-      } else {
-        ImGui::BulletText("%s is in shadow", name.c_str());
-        point(number);
-      }
-    }
-    for (const RayKind kind : kImpulseKinds) {
-      const PathEnd end = n.endOf(kind);
-      if (end != PathEnd::none)
-        ImGui::BulletText("no %s: %s", rowOf(kind).light.data(), cli::nameOf(end));
-    }
-    if (words.parting.empty()) return;
-    ImGui::TextColored(ImVec4(1, 0.75f, 0.3f, 1), "here the reference parts: %s",
-                       words.parting.c_str());
   }
 
   const RayPick& pick_;

@@ -1,11 +1,11 @@
-// Chooses the resolution, samples and depth of the next frame, without knowledge of window and
+// Chooses the resolution and samples of the next frame, without knowledge of window and
 // clock.
 //
 // In motion it takes a scale of the window's size that holds the frame rate, by the cost of recent
-// samples. Where the picture would be too coarse it reduces the depth, and where the coarsest scale
-// is still too slow, the samples. At rest it goes step by step through 1/8, 1/4, 1/2 and all of the
-// window's pixels, beginning with a step that takes little time, then through 4 and 16 times the
-// samples, and where rays are sampled 64 and 256 times.
+// samples, and where the coarsest scale is still too slow, fewer samples. At rest it goes step by
+// step through 1/8, 1/4, 1/2 and all of the window's pixels, beginning with a step that takes
+// little time, then through 4 and 16 times the samples, and where rays are sampled 64 and 256
+// times.
 #pragma once
 
 #include <array>
@@ -19,7 +19,6 @@ namespace whit::view {
 struct Sharpness {
   double scale = 1;  // factor of the window's sides
   int spp = 1;
-  int depth = kDepthLimit;  // upper limit, as are the options'
   bool operator==(const Sharpness&) const = default;
 };
 
@@ -29,11 +28,6 @@ inline constexpr double defaultRate(int cores) {
   return cores > kFewCores ? kDefaultRate : kFewCoresRate;
 }
 inline constexpr std::array kScales{1.0, 0.875, 0.75, 0.625, 0.5, 0.375, 0.25, 0.1875, 0.125};
-inline constexpr std::size_t kLegibleLevel = 4;  // coarsest of kScales that is legible
-inline constexpr std::array kMotionDepths{kDepthLimit, 8, 4};
-inline constexpr int kFirstDepth = 4;  // the depth before any cost is known
-// A smaller depth must save this share of the time.
-inline constexpr double kDepthSaves = 0.15;
 inline constexpr std::array kCoarseScales{0.125, 0.25, 0.5};  // at rest
 inline constexpr std::array kStillSppFactors{1, 4, 16, 64, 256};
 inline constexpr std::size_t kUnsampledSppFactors = 3;  // factors used where no rays are sampled
@@ -50,16 +44,11 @@ class ResolutionControl {
   void setRate(double framesPerSecond);  // brought into [kLeastRate, kLargestRate]
   double rate() const { return rate_; }
   void setSpp(int spp) { spp_ = spp; }
-  void setDepth(int depth) { depth_ = depth; }
   // Pictures whose rays are sampled get more samples at rest.
   void setSampled(bool sampled) { sampled_ = sampled; }
 
-  // Moves the largest scale, also that at rest, by `steps` towards finer or coarser pixels.
-  void stepLargestScale(int steps);
-  double largestScale() const { return kScales[largest_]; }
-
-  // Notes the time of a frame with this number of samples, traced to this depth.
-  void learn(double ms, double samples, int depth = kDepthLimit);
+  // Notes the time of a frame with this number of samples.
+  void learn(double ms, double samples);
 
   // Returns the choice for a frame in motion.
   Sharpness moving(double windowPixels);
@@ -72,21 +61,19 @@ class ResolutionControl {
   void startSharpening(double windowPixels, double shownScale);
 
  private:
-  bool learned() const;
-  double costOf(std::size_t tier) const;  // ms a sample
-  double predictMs(double scale) const;
+  double predictMs(double scale) const {
+    return msPerSample_ * windowPixels_ * scale * scale * spp_;
+  }
   void chooseLevel(double frameMs);
-  void chooseDepth(double frameMs);
   std::vector<Sharpness> stepsAtRest(bool supersample) const;
 
   double rate_ = kFewCoresRate;
-  int spp_, depth_ = kDepthLimit;
+  int spp_;
   bool sampled_ = false;
-  std::size_t largest_ = 0, level_ = 0;  // indices of kScales
-  std::size_t tier_ = 0;                 // index of kMotionDepths
-  std::size_t step_ = 0;                 // index of the steps at rest
+  std::size_t level_ = 0;  // index of kScales
+  std::size_t step_ = 0;   // index of the steps at rest
   double windowPixels_ = 0;
-  std::array<double, kMotionDepths.size()> msPerSample_{};  // 0: nothing learned yet
+  double msPerSample_ = 0;  // 0: nothing learned yet
 };
 
 }  // namespace whit::view

@@ -26,7 +26,7 @@ shot() {
   shift 3
   printf '%s\n' "$@" "screenshot $work/$name.png" > "$work/$name.txt"
   # shellcheck disable=SC2086  # words
-  (cd "$root" && xvfb-run -a -s "-screen 0 1280x720x24" \
+  (cd "$root" && XDG_CONFIG_HOME=$work/$name xvfb-run -a -s "-screen 0 1280x720x24" \
     "$view" $scene --size "$size" --quiet --script "$work/$name.txt")
   if [ "$(stat -c %s "$work/$name.png")" -gt $largest ]; then
     echo "viewer/screenshots.sh: $name.png is larger than $largest bytes" >&2
@@ -38,12 +38,10 @@ shot() {
 
 sharp=("wait 30 frames" "wait sharp")
 gone=("wait 250 frames" "wait sharp")  # messages
-shot viewer atrium 800x450 "key N" "key W 0.2" "${sharp[@]}" "${gone[@]}"
+shot viewer atrium 800x450 "key N" "panel frame" "key W 0.2" "${sharp[@]}" "${gone[@]}"
 shot viewer-knobs matte 960x600 "key N" "panel knobs" "${sharp[@]}" "key M" "${sharp[@]}" \
-  "${gone[@]}"
-shot viewer-reference whitted 1280x720 "key X" "panel effects" "${sharp[@]}" "mouse left 120 0" \
   "${gone[@]}"
 shot viewer-tree "whitted --depth 7" 960x600 "key N" "${sharp[@]}" "click 480 333" "${sharp[@]}" \
   "mouse right 200 -60" "${sharp[@]}" "${gone[@]}"
-shot viewer-rays whitted 800x500 "key V" "key V" "key V" "key V" "panel picture" "${sharp[@]}" \
+shot viewer-rays whitted 800x500 "key V" "key V" "key V" "key V" "${sharp[@]}" \
   "${gone[@]}"

@@ -41,11 +41,11 @@ Timeline timelineOf(const Scene& scene, const Instant& instant) {
 
 bool drawTimeline(Timeline& timeline) {
   if (!timeline.there) return false;
-  constexpr float kFromBottom = 36;  // pixels; messages are below
+  const float fromBottom = 3.5f * ImGui::GetFontSize();  // messages are below
   constexpr auto kBare = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
                          ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoFocusOnAppearing;
   const ImVec2 window = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos(ImVec2(window.x / 2, window.y - kFromBottom), ImGuiCond_Always,
+  ImGui::SetNextWindowPos(ImVec2(window.x / 2, window.y - fromBottom), ImGuiCond_Always,
                           ImVec2(0.5f, 1));
   ImGui::SetNextWindowBgAlpha(kPanelAlpha);
   bool changed = false;

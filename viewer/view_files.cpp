@@ -1,6 +1,8 @@
 #include "viewer/view_files.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <set>
 
@@ -23,6 +25,8 @@ namespace whit::view {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr std::uint64_t kSettingsBytesLimit = 1 << 16;
 
 std::string quoted(const std::string& word) {
   constexpr const char* kPlain =
@@ -165,6 +169,13 @@ void resetOwnSize(const LoadOptions& load, const Scene& scene, RenderOptions& op
   if (!load.size && options.size == ImageSize{scene.width, scene.height}) options.size.reset();
 }
 
+std::string settingsFile() {
+  const char* const config = std::getenv("XDG_CONFIG_HOME");
+  if (config && *config) return std::string(config) + "/whit/viewer.json";
+  const char* const home = std::getenv("HOME");
+  return std::string(home ? home : "") + "/.config/whit/viewer.json";
+}
+
 }  // namespace
 
 std::string renderCommand(const std::string& scene, const cli::CommonOptions& common,
@@ -208,34 +219,53 @@ SavedScene saveScene(const LoadOptions& load, const std::string& name, const cli
   return {file, commandWith(file, saved, options, {}) + (leavesFolder ? " --allow-outside" : "")};
 }
 
-std::string savePicture(const TracedFrame& frame, const std::string& command) {
+std::string savePicture(const TracedFrame& frame) {
   const cli::WriteScope scope;
   const auto nameOf = [&](int i) { return frame.scene->scene.name + formatted("-%04d", i); };
-  std::string name = freeName(nameOf, {".png", ".exr", ".json"});
+  std::string name = freeName(nameOf, {".png", ".exr"});
   cli::writeImage(name + ".png", frame.film, frame.metadata);
   cli::writeImage(name + ".exr", frame.film, frame.metadata);
-  writeCamera(name + ".json", frame.request.camera, command);
   return name;
 }
 
-void writeCamera(const std::string& file, const Camera& camera, const std::string& command) {
-  Json json = describe(camera);
-  if (!command.empty()) json["command"] = command;
-  const cli::WriteScope scope;
-  writeTextFile(file, json.dump(2) + "\n");
+KeptSettings readKeptSettings() try {
+  const std::string file = settingsFile();
+  const Json json = parseJson(readTextFile(file, kSettingsBytesLimit), file);
+  KeptSettings kept;
+  kept.shown = json.at("panel");
+  kept.inspects = json.at("inspector");
+  kept.supersample = json.at("supersample");
+  kept.tabShown = json.at("tab");
+  kept.window = {json.at("window").at(0), json.at("window").at(1)};
+  kept.recent = json.at("recent").get<std::vector<std::string>>();
+  return kept;
+} catch (const std::exception&) {
+  return {};
 }
 
-Camera readCamera(const std::string& file) {
-  const JsonDocument document{file, parseJson(readTextFile(file, kJsonBytesLimit), file), {}};
-  JsonObject object((JsonValue(document)));
-  object.need("eye");
-  object.need("at");
-  object.find("command");
-  Camera camera;
-  camera.name = "saved";
-  whit::readCamera(object, camera);
-  object.finish();
-  return camera;
+void writeKeptSettings(const KeptSettings& kept) try {
+  const Json json{{"panel", kept.shown},
+                  {"inspector", kept.inspects},
+                  {"supersample", kept.supersample},
+                  {"tab", kept.tabShown},
+                  {"window", {kept.window.width, kept.window.height}},
+                  {"recent", kept.recent}};
+  const fs::path file = settingsFile();
+  fs::create_directories(file.parent_path());
+  const cli::WriteScope scope;
+  writeTextFile(file, json.dump(2) + "\n");
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "whit-view: the settings are not kept: %s\n",
+               printable(error.what()).c_str());
+}
+
+void rememberRecent(const std::string& scene, std::vector<std::string>& recent) {
+  constexpr std::size_t kMostRecent = 10;
+  const bool isFile = scene.find_first_of("./") != std::string::npos;
+  const std::string name = isFile ? fs::absolute(scene).lexically_normal().string() : scene;
+  std::erase(recent, name);
+  recent.insert(recent.begin(), name);
+  recent.resize(std::min(recent.size(), kMostRecent));
 }
 
 }  // namespace whit::view

@@ -25,14 +25,24 @@ struct SavedScene {
 SavedScene saveScene(const LoadOptions& load, const std::string& name, const cli::OpenScene& scene,
                      const ShadingEdit& edit, const Camera& camera, RenderOptions options);
 
-// Writes NAME-NNNN.png, .exr and .json (the camera, and the command that makes the picture) into
-// the current folder, with the first number that is free; returns "NAME-NNNN". Throws Error(io).
-std::string savePicture(const TracedFrame& frame, const std::string& command);
+// Writes NAME-NNNN.png and .exr into the current folder, with the first number that is free;
+// returns "NAME-NNNN". Throws Error(io).
+std::string savePicture(const TracedFrame& frame);
 
-// Writes a camera as scene files have it, and "command" unless that is empty.
-void writeCamera(const std::string& file, const Camera& camera, const std::string& command = "");
-// Throws Error(io) when the file cannot be read, and Error(badScene) with the place and the
-// expectation.
-Camera readCamera(const std::string& file);
+// Settings that stay from one run to the next, in whit/viewer.json below $XDG_CONFIG_HOME.
+struct KeptSettings {
+  bool shown = false;               // the panel is
+  bool inspects = false;            // the pixel under the pointer is described
+  bool supersample = true;          // at rest
+  std::string tabShown = "keys";    // of kPanelTabs
+  ImageSize window;                 // zero: the user has not changed it
+  std::vector<std::string> recent;  // names of scenes, the last one first
+};
+// Returns the default settings where there is no file, or none that can be read.
+KeptSettings readKeptSettings();
+// Reports a failure on standard error.
+void writeKeptSettings(const KeptSettings& kept);
+// Moves a scene to the front of the list. A file is listed by its absolute path.
+void rememberRecent(const std::string& scene, std::vector<std::string>& recent);
 
 }  // namespace whit::view

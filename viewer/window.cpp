@@ -65,7 +65,6 @@ void setStyle(float scale) {
       ImVec4(0.11f, 0.15f, 0.22f, 1);
   style.Colors[ImGuiCol_Header] = ImVec4(0.16f, 0.24f, 0.36f, 1);
   style.Colors[ImGuiCol_PlotHistogram] = ImVec4(0.2f, 0.42f, 0.7f, 1);  // bars have text on them
-  style.Colors[ImGuiCol_PlotLines] = ImVec4(0.55f, 0.8f, 1, 1);
   style.Colors[ImGuiCol_TextDisabled] = ImVec4(0.62f, 0.65f, 0.7f, 1);
   style.ScaleAllSizes(scale);
 }
@@ -83,6 +82,15 @@ Display::Display() {
 }
 
 Display::~Display() { glfwTerminate(); }
+
+ImageSize Display::room() {
+  ImageSize screen{1280, 800};
+  if (GLFWmonitor* const monitor = glfwGetPrimaryMonitor()) {
+    int x = 0, y = 0;
+    glfwGetMonitorWorkarea(monitor, &x, &y, &screen.width, &screen.height);
+  }
+  return {screen.width * 2 / 3, screen.height * 2 / 3};
+}
 
 Window::Window(const std::string& title, const ImageSize& size) {
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 2);
@@ -104,6 +112,9 @@ Window::Window(const std::string& title, const ImageSize& size) {
   float across = 1, down = 1;
   glfwGetWindowContentScale(window_, &across, &down);
   setStyle(std::max(1.0f, down));
+  const double pixelsPerPoint =
+      static_cast<double>(pixels().height) / std::max(this->size().height, 1);
+  scale_ = std::max(1.0, static_cast<double>(down) / pixelsPerPoint);
   ImGui_ImplGlfw_InitForOpenGL(window_, true);  // chains the callbacks above
   ImGui_ImplOpenGL2_Init();
   glGenTextures(1, &texture_);
@@ -127,9 +138,16 @@ ImageSize Window::pixels() const {
   return size;
 }
 
+ImageSize Window::size() const {
+  ImageSize size;
+  glfwGetWindowSize(window_, &size.width, &size.height);
+  return size;
+}
+
+void Window::resize(const ImageSize& size) { glfwSetWindowSize(window_, size.width, size.height); }
+
 std::array<int, 2> Window::pixelAt(const Input::Click& place) const {
-  int width = 0, height = 0;
-  glfwGetWindowSize(window_, &width, &height);
+  const auto [width, height] = this->size();
   const ImageSize size = pixels();
   const auto pixel = [](double at, int points, int most) {
     return std::clamp(static_cast<int>(at * most / std::max(points, 1)), 0, std::max(most - 1, 0));
@@ -143,8 +161,10 @@ void Window::setClipboard(const std::string& text) {
   glfwSetClipboardString(window_, text.c_str());
 }
 
+bool Window::isFullScreen() const { return glfwGetWindowMonitor(window_) != nullptr; }
+
 void Window::toggleFullScreen() {
-  if (glfwGetWindowMonitor(window_)) {
+  if (isFullScreen()) {
     glfwSetWindowMonitor(window_, nullptr, windowedX_, windowedY_, windowed_.width,
                          windowed_.height, GLFW_DONT_CARE);
     return;
@@ -153,12 +173,12 @@ void Window::toggleFullScreen() {
   if (!monitor) return;
   const GLFWvidmode* mode = glfwGetVideoMode(monitor);
   glfwGetWindowPos(window_, &windowedX_, &windowedY_);
-  glfwGetWindowSize(window_, &windowed_.width, &windowed_.height);
+  windowed_ = size();
   glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
 }
 
 std::optional<Input::Click> Window::pointed() const {
-  if (ImGui::GetIO().WantCaptureMouse || looking_ || orbiting_) return std::nullopt;
+  if (ImGui::GetIO().WantCaptureMouse || dragged_) return std::nullopt;
   if (input.pointer) return Input::Click{input.pointer->x, input.pointer->y};
   if (!glfwGetWindowAttrib(window_, GLFW_HOVERED)) return std::nullopt;
   return Input::Click{cursorX_, cursorY_};
@@ -256,30 +276,33 @@ void Window::onKey(GLFWwindow* window, int key, int, int action, int mods) {
   }
 }
 
-void Window::onButton(GLFWwindow* window, int button, int action, int) {
+void Window::onButton(GLFWwindow* window, int button, int action, int mods) {
   Window& self = windowOf(window);
   self.input.happened = true;
-  const bool drag = action == GLFW_PRESS && !ImGui::GetIO().WantCaptureMouse;
-  if (button == GLFW_MOUSE_BUTTON_LEFT) {
-    if (drag) self.pressedX_ = self.cursorX_, self.pressedY_ = self.cursorY_;
+  if (action == GLFW_RELEASE) {
     const double moved =
         std::abs(self.cursorX_ - self.pressedX_) + std::abs(self.cursorY_ - self.pressedY_);
-    if (self.looking_ && action == GLFW_RELEASE && moved <= kClickSlack) {
-      self.click_ = {self.cursorX_, self.cursorY_};
-    }
-    self.looking_ = drag;
+    const bool clicks = button == GLFW_MOUSE_BUTTON_LEFT && self.dragged_ == &Input::left;
+    if (clicks && moved <= kClickSlack * self.scale_) self.click_ = {self.cursorX_, self.cursorY_};
+    self.dragged_ = nullptr;
+  } else if (!ImGui::GetIO().WantCaptureMouse && button <= GLFW_MOUSE_BUTTON_MIDDLE) {
+    const bool left = button == GLFW_MOUSE_BUTTON_LEFT && (mods & GLFW_MOD_SHIFT) == 0;
+    self.dragged_ = left                                ? &Input::left
+                    : button == GLFW_MOUSE_BUTTON_RIGHT ? &Input::right
+                                                        : &Input::middle;
+    self.pressedX_ = self.cursorX_, self.pressedY_ = self.cursorY_;
   }
-  if (button == GLFW_MOUSE_BUTTON_RIGHT) self.orbiting_ = drag;
 }
 
 void Window::onCursor(GLFWwindow* window, double x, double y) {
   Window& self = windowOf(window);
-  const double dx = x - self.cursorX_, dy = y - self.cursorY_;
   self.input.happened = true;
+  if (self.dragged_) {
+    Input::Drag& drag = self.input.*self.dragged_;
+    drag.x += x - self.cursorX_, drag.y += y - self.cursorY_;
+  }
   self.cursorX_ = x;
   self.cursorY_ = y;
-  if (self.looking_) self.input.lookX += dx, self.input.lookY += dy;
-  if (self.orbiting_) self.input.orbitX += dx, self.input.orbitY += dy;
 }
 
 void Window::onScroll(GLFWwindow* window, double, double y) {

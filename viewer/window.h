@@ -16,11 +16,14 @@ namespace whit::view {
 
 // The input by keys and mouse since the last frame. The window or a script fills it.
 struct Input {
-  std::set<int> held;                // keys that are down, by their GLFW codes
-  std::vector<int> pressed;          // keys that went down since the last frame
-  std::vector<int> commands;         // keys that went down with Ctrl; `pressed` lacks them
-  double lookX = 0, lookY = 0;       // pixels dragged with the left button; y grows downwards
-  double orbitX = 0, orbitY = 0;     // with the right button
+  std::set<int> held;         // keys that are down, by their GLFW codes
+  std::vector<int> pressed;   // keys that went down since the last frame
+  std::vector<int> commands;  // keys that went down with Ctrl; `pressed` lacks them
+  struct Drag {
+    double x = 0, y = 0;  // pixels; y grows downwards
+    bool any() const { return x != 0 || y != 0; }
+  };
+  Drag left, right, middle;          // by button; with Shift the left one counts as the middle one
   double wheel = 0;                  // notches
   bool happened = false;             // there was an event, on the panel or beside it
   std::vector<std::string> dropped;  // files
@@ -42,7 +45,8 @@ struct Input {
     pressed.clear();
     commands.clear();
     dropped.clear();
-    lookX = lookY = orbitX = orbitY = wheel = 0;
+    left = right = middle = Drag();
+    wheel = 0;
     happened = false;
   }
 };
@@ -58,6 +62,9 @@ class Display {
   ~Display();
   Display(const Display&) = delete;
   Display& operator=(const Display&) = delete;
+
+  // Returns two thirds of the screen, in the units of windows.
+  static ImageSize room();
 };
 
 class Window {
@@ -78,6 +85,11 @@ class Window {
   void setTitle(const std::string& title);
   void setClipboard(const std::string& text);
   void toggleFullScreen();
+  bool isFullScreen() const;
+  void resize(const ImageSize& size);
+  ImageSize size() const;  // in the units of the pointer's places
+  // Returns how many pixels of pointer motion make one pixel on a screen of the usual density.
+  double scale() const { return scale_; }
 
   // Returns the last click on the picture since the last call.
   std::optional<Input::Click> takeClick() { return std::exchange(click_, std::nullopt); }
@@ -112,8 +124,9 @@ class Window {
   unsigned int texture_ = 0;
   ImageSize size_, madeFor_;  // of the picture; a size of zero: there is none
   double cursorX_ = 0, cursorY_ = 0;
-  bool looking_ = false, orbiting_ = false;
-  double pressedX_ = 0, pressedY_ = 0;  // where the left button went down
+  double scale_ = 1;
+  Input::Drag Input::*dragged_ = nullptr;  // null: no button is down on the picture
+  double pressedX_ = 0, pressedY_ = 0;     // where it went down
   std::optional<Input::Click> click_;
   std::optional<Input::Click> pointed_;  // where a script's pointer went down on the picture
   int windowedX_ = 0, windowedY_ = 0;    // place and size before full screen

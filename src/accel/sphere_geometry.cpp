@@ -1,6 +1,5 @@
 #include "accel/sphere_geometry.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>

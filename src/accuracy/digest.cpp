@@ -8,7 +8,6 @@
 #include <memory>
 #include <new>
 #include <tuple>
-#include <vector>
 
 #include "core/formatted.h"
 #include "core/option_table.h"

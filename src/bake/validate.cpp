@@ -1,6 +1,5 @@
 #include <cmath>
 #include <limits>
-#include <set>
 
 #include "bake/finalize_steps.h"
 #include "core/formatted.h"

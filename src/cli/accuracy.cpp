@@ -1,5 +1,4 @@
 // whit accuracy: measures time and error with one knob of accuracy changed at a time.
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <limits>

@@ -49,15 +49,13 @@ class BenchRun {
     }
     summary_.frames.push_back(renderFrame(renderer_, options_.mode, camera_, film_));
     summary_.imageHash = accuracy::digestOf(film_.image);
-    if (floor) summary_.floorMs.push_back(measureFloor(renderer_, camera_, film_, 1).floorMs);
+    if (floor) summary_.floorMs.push_back(measureFloor(renderer_, camera_, film_));
   }
 
   const RunSummary& summary() const { return summary_; }
   // Memory of the scene and the renderer in 10^6 bytes; complete after a frame.
   double memoryMb() const { return cli::memoryMb(open_->scene, renderer_); }
-  // The last frame, and the options that made it.
-  const Film& film() const { return film_; }
-  const RenderOptions& options() const { return options_; }
+  const Film& film() const { return film_; }  // the last frame
 
  private:
   std::shared_ptr<const OpenScene> open_;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "accuracy/report.h"
@@ -34,7 +35,6 @@ struct ExplainJob {
   CommonOptions common;
   std::vector<std::string> scenes;
   std::string pixel, json, svg;
-  std::optional<Vec3f> seenFrom;
   double least = 0.01;
 };
 
@@ -44,9 +44,7 @@ OptionList listOptions(ExplainJob& job) {
   list.value({"pixel", "x,y"}, "the pixel, from the top left", job.pixel);
   list.value({"least", "X", 0, 1}, "smallest share of the pixel's radiance that is listed",
              job.least);
-  list.value({"svg", "FILE"}, "the rays drawn over a picture of the scene", job.svg);
-  list.value({"seen-from", "x,y,z"},
-             "position of the camera of that picture (default: aside and above)", job.seenFrom);
+  list.value({"svg", "FILE"}, "the rays drawn over a picture of the scene from aside", job.svg);
   list.value({"json", "FILE"}, "the whole trees as JSON; - is standard output", job.json);
   listCommonOptions(list, job.common);
   list.operands("SCENE", "a scene file, a model, or the name of a shipped scene", 1, 1, job.scenes);
@@ -79,8 +77,6 @@ struct Explained {
   ExplainedRays rays;
 };
 
-std::string textOf(const RgbD& c) { return formatted("%.5f %.5f %.5f", c.x, c.y, c.z); }
-
 std::array<std::uint8_t, 3> codesOf(const Rgb& pixel, const RenderOptions& o) {
   return displayCodes(pixel, std::exp2(double{o.exposure.ev}), o.toneCurve);
 }
@@ -112,37 +108,11 @@ class TreeText {
       leaveOut(number);
       return;
     }
-    text_ +=
-        indent(n) + formatted("%s, weight %s, in %s: ", std::string(rowOf(n.kind).name).c_str(),
-                              textOf(n.weight).c_str(), mediumName(e_.scene, n.media).c_str());
-    text_ += metText(e_.scene, n) + "\n";
-    if (e_.rays.partsFirstAt(number)) {
-      text_ += indent(n, 1) +
-               "here the reference parts: " + partingText(e_.scene, e_.rays, number) + "\n";
-    }
-    appendOwn(number);
+    const RayText ray = describeRay(e_.scene, e_.rays, number);
+    text_ += indent(n) + std::string(rowOf(n.kind).name) + ", weight " + textOf(n.weight) +
+             ", in " + ray.medium + ": " + ray.met + "\n";
+    for (const std::string& line : ray.lines) text_ += indent(n, 1) + line + "\n";
     for (const std::size_t child : n.children) appendNode(child);
-  }
-
-  void appendOwn(std::size_t number) {
-    const RayNode& n = e_.rays.packets.nodes[number];
-    const RgbD emitted = addedBy(e_.rays.packets, number, n.emitted);
-    if (maxComponent(emitted) > 0) {
-      text_ += indent(n, 1) + (n.triangle == kMiss ? "sky" : "emission and ambient") + " adds " +
-               textOf(emitted) + "\n";
-    }
-    for (const LightContribution& light : n.lights) {
-      const std::string name = lightName(e_.scene, light.light);
-      text_ += indent(n, 1) + name +
-               (light.visible ? " adds " + textOf(addedBy(e_.rays.packets, number, light.radiance))
-                              : std::string(" is in shadow")) +
-               "\n";
-    }
-    for (const RayKind kind : kImpulseKinds) {
-      const PathEnd end = n.endOf(kind);
-      if (end == PathEnd::none) continue;
-      text_ += indent(n, 1) + formatted("no %s: %s\n", rowOf(kind).light.data(), nameOf(end));
-    }
   }
 
   void leaveOut(std::size_t number) {
@@ -165,18 +135,14 @@ std::string headOf(const Explained& e) {
     return formatted("  %-11s%.6f %.6f %.6f  codes %d %d %d\n", name, double{pixel.x},
                      double{pixel.y}, double{pixel.z}, codes[0], codes[1], codes[2]);
   };
-  std::size_t shadowRays = 0, parted = 0;
-  for (std::size_t i = 0; i < e.rays.packets.nodes.size(); ++i) {
-    for (const LightContribution& light : e.rays.packets.nodes[i].lights)
-      shadowRays += light.traced;
-    parted += e.rays.partsAt(i);
-  }
-  const std::size_t rays = e.rays.packets.nodes.size();
+  const std::size_t rays = e.rays.packets.nodes.size(), shadowRays = e.rays.packets.shadowRays();
+  bool parts = false;
+  for (std::size_t i = 0; i < rays; ++i) parts |= e.rays.partsAt(i);
   return formatted("%s, pixel %d,%d: %zu ray%s and %zu shadow ray%s\n",
                    printable(e.scene.name).c_str(), e.place.x, e.place.y, rays,
                    rays == 1 ? "" : "s", shadowRays, shadowRays == 1 ? "" : "s") +
          line("packets", e.rays.packets.pixel) + line("reference", e.rays.reference.pixel) +
-         (parted == 0 ? "" : "  their paths part\n") + "\n";
+         (parts ? "  their paths part\n" : "") + "\n";
 }
 
 Json jsonOf(const RgbD& v) { return Json::array({v.x, v.y, v.z}); }
@@ -238,36 +204,76 @@ Json treeJson(const Explained& e, const RayTree& tree, bool ofPackets) {
   return json;
 }
 
-std::string lineSvg(const ScreenLine& line, RayLook look, double width) {
+std::string colorOf(RayLook look) {
   const auto& color = styleOf(look).color;
+  return formatted("#%02x%02x%02x", color[0], color[1], color[2]);
+}
+
+std::string lineSvg(const ScreenLine& line, RayLook look, double width) {
   return formatted(
-      "<line x1=\"%.2f\" y1=\"%.2f\" x2=\"%.2f\" y2=\"%.2f\" stroke=\"#%02x%02x%02x\" "
+      "<line x1=\"%.2f\" y1=\"%.2f\" x2=\"%.2f\" y2=\"%.2f\" stroke=\"%s\" "
       "stroke-width=\"%.2f\"%s/>\n",
-      line.x1, line.y1, line.x2, line.y2, color[0], color[1], color[2], width,
+      line.x1, line.y1, line.x2, line.y2, colorOf(look).c_str(), width,
       isDashed(look) ? " stroke-dasharray=\"4 3\"" : "");
 }
 
+// White letters with a black edge, which are legible on any picture.
+std::string wordSvg(double x, double y, std::string_view word) {
+  return formatted("<text x=\"%.1f\" y=\"%.1f\">%s</text>\n", x, y, std::string(word).c_str());
+}
+
+// Lists the colors of the lines in the lower left corner.
+std::string legendSvg(const std::vector<RayLine>& lines, int height) {
+  constexpr double kLine = 18, kLeft = 12, kSample = 30;
+  std::string svg;
+  double y = height - kLine;
+  for (const RayLook look : rayLooks()) {
+    const auto isDrawn = [&](const RayLine& line) { return line.look == look; };
+    if (std::none_of(lines.begin(), lines.end(), isDrawn)) continue;
+    svg += lineSvg({kLeft, y - 4, kLeft + kSample, y - 4}, look, 2);
+    svg += wordSvg(kLeft + kSample + 8, y, styleOf(look).name);
+    y -= kLine;
+  }
+  return svg;
+}
+
 // An SVG of the picture's size with the rays as lines over it, as in Whitted's figure of 1980;
-// shadow rays are dashed. `picture` is a PNG of the scene by that camera.
-std::string rayDiagram(const RayTree& tree, const Camera& camera, int width, int height,
-                       const std::string& picture) {
+// shadow rays are dashed. The eye, the lights, and the heaviest ray of each kind have their names
+// beside them. `picture` is a PNG of the scene by `camera`; `eye` is the camera of the rays.
+std::string rayDiagram(const RayTree& tree, const Camera& eye, const Camera& camera, int width,
+                       int height, const std::string& picture) {
   std::string svg = formatted(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" "
       "viewBox=\"0 0 %d %d\">\n<image width=\"%d\" height=\"%d\" href=\"",
       width, height, width, height, width, height);
   svg += "data:image/png;base64," + accuracy::base64(picture) + "\"/>\n";
   const LineView view(camera, width, height);
-  for (const RayLine& line : linesOf(tree)) {
+  const std::vector<RayLine> lines = linesOf(tree, eye);
+  std::map<std::string, ScreenLine> places;  // of the words; lines that weigh more come later
+  for (const RayLine& line : lines) {
     const auto seen = view.see(line.from, line.to);
-    if (seen) svg += lineSvg(*seen, line.look, line.width);
+    if (!seen) continue;
+    svg += lineSvg(*seen, line.look, line.width);
+    const ScreenLine middle{(seen->x1 + seen->x2) / 2, (seen->y1 + seen->y2) / 2};
+    const bool isShadow = line.look == RayLook{RayKind::shadow};
+    const bool isPrimary = line.look.kind == RayKind::primary;
+    const auto end = isShadow ? view.see(line.to, line.to) : view.see(line.from, line.from);
+    if (end && (isShadow || isPrimary)) places[isShadow ? "light" : "eye"] = *end;
+    if (!isDashed(line.look)) places[std::string(styleOf(line.look).name)] = middle;
   }
-  return svg + "</svg>\n";
+  svg +=
+      "<g font-family=\"sans-serif\" font-size=\"14\" fill=\"#fff\" stroke=\"#000\" "
+      "stroke-width=\"3\" paint-order=\"stroke\">\n";
+  for (const auto& [word, at] : places) {
+    const bool inside = at.x1 >= 0 && at.y1 >= 20 && at.x1 < width - 80 && at.y1 < height;
+    if (inside) svg += wordSvg(at.x1 + 6, at.y1 - 6, word);
+  }
+  return svg + legendSvg(lines, height) + "</g>\n</svg>\n";
 }
 
 void drawDiagram(const ExplainJob& job, const Explained& e, Renderer& renderer,
                  const Camera& camera) {
-  Camera seen = cameraAside(e.rays.packets, camera);
-  if (job.seenFrom) seen.eye = *job.seenFrom;
+  const Camera seen = cameraAside(e.rays.packets, camera, renderer.accel());
   RenderOptions options = e.options;
   options.size = kDiagramSize;
   options.crop.reset();
@@ -275,8 +281,8 @@ void drawDiagram(const ExplainJob& job, const Explained& e, Renderer& renderer,
   renderer.render(seen, film);
   const std::string picture =
       encodePng(toDisplay(film.image, options.exposure.ev, options.toneCurve));
-  writeTextFile(job.svg,
-                rayDiagram(e.rays.packets, seen, kDiagramSize.width, kDiagramSize.height, picture));
+  writeTextFile(job.svg, rayDiagram(e.rays.packets, camera, seen, kDiagramSize.width,
+                                    kDiagramSize.height, picture));
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include "cli/app/progress_bar.h"
 #include "cli/commands.h"
 #include "cli/json_report.h"
-#include "core/error.h"
 #include "core/formatted.h"
 #include "core/nearest_name.h"
 #include "render/shadow_cache_schedule.h"
@@ -144,52 +143,23 @@ void printInfo(const Json& info, const OpenScene& open, const Renderer& renderer
   }
 }
 
-// Every kernel that is compiled, for any scene.
-Json kernelsJson() {
-  Json json{{"targets", simd::compiledTargets()}};
-  for (const simd::Kernel& kernel : simd::kKernels) {
-    json["kernels"].push_back(
-        {{"stage", kStageNames[static_cast<std::size_t>(kernel.stage)]}, {"kernel", kernel.name}});
-  }
-  return json;
-}
-
-void printKernels(const Json& json) {
-  for (const Json& kernel : json["kernels"]) {
-    std::printf("%-34s%s\n", textOf(kernel["stage"]).c_str(), textOf(kernel["kernel"]).c_str());
-  }
-  std::printf("%zu kernels, each for:", json["kernels"].size());
-  for (const Json& target : json["targets"]) std::printf(" %s", textOf(target).c_str());
-  std::printf("\n");
-}
-
 }  // namespace
 
 int infoCommand(const Words& words) {
   CommonOptions common;
   std::vector<std::string> scenes;
   std::string json;
-  bool kernels = false;
   OptionList list;
-  list.flag("kernels", "list every kernel and the SIMD targets, without a scene", kernels);
   list.value({"json", "FILE"}, "the same as JSON; - is standard output", json);
   listCommonOptions(list, common);
-  list.operands("SCENE", "a scene file, a model, or the name of a shipped scene", 0, 1, scenes);
-  if (parseOptions("whit info SCENE [options], or whit info --kernels",
+  list.operands("SCENE", "a scene file, a model, or the name of a shipped scene", 1, 1, scenes);
+  if (parseOptions("whit info SCENE [options]",
                    "Lists the contents of a scene, its effects and why they are on, and the "
                    "kernels that run.",
                    list, words) == Parsed::helpShown) {
     return 0;
   }
   settleOptions(common);
-  if (kernels) {
-    if (!scenes.empty())
-      throwUsage("--kernels lists what is compiled, for any scene: leave it out");
-    if (!json.empty()) writeJson(json, kernelsJson());
-    if (json != "-") printKernels(kernelsJson());
-    return 0;
-  }
-  if (scenes.empty()) throwUsage("whit info expected a SCENE");
   requireJsonWritable(json);
   auto progress = makeProgressBar(common);
   CommonOptions loading = common;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <iterator>
+#include <utility>
 
 #include "cli/app/help_text.h"
 #include "cli/app/program.h"
@@ -69,6 +70,10 @@ int complete(const Words& words) {
 }
 
 [[noreturn]] void throwNoCommand(const std::string& word) {
+  for (const auto& [command, program] :
+       {std::pair{"stress", "whit-verify"}, std::pair{"view", "whit-view"}}) {
+    if (word == command) throwUsage("whit " + word + " is a program of its own: " + program);
+  }
   std::vector<std::string> names = namesIn(kCommands);
   if (word.starts_with('-')) names = {"--help", "--version", "--man", "--completion"};
   const bool isFile = word.find_first_of("./") != std::string::npos && word[0] != '-';
@@ -105,7 +110,6 @@ int run(const Words& words) {
   if (const Command* const command = commandNamed(words[0])) {
     return command->run(Words(words.begin() + 1, words.end()));
   }
-  if (words[0] == "stress") throwUsage("whit stress is the program whit-verify now");
   throwNoCommand(words[0]);
 }
 

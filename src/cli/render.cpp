@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <functional>
 #include <iterator>
 #include <memory>
@@ -35,7 +36,7 @@ namespace whit::cli {
 
 namespace {
 
-constexpr const char* kRenderUsage = "whit render SCENE -o OUT.exr|OUT.png|FILM.mp4 [options]";
+constexpr const char* kRenderUsage = "whit render SCENE [-o OUT.exr|OUT.png|FILM.mp4] [options]";
 constexpr const char* kRenderSummary =
     "Renders one image, or with --frames those of the scene's animation and camera path, as images "
     "or, where ffmpeg is installed, as a film. On standard output (-o -) frames follow each other "
@@ -74,8 +75,7 @@ OptionList listOptions(RenderJob& job) {
   list.group("Output");
   list.many({"output", "FILE"},
             "image to write, .exr (linear), .png or .jpg, or a film of all frames, .mp4; - writes "
-            "a PNG "
-            "to standard output; may be repeated",
+            "a PNG to standard output; may be repeated (default: SCENE.png)",
             job.outputs)
       .shortName = "o";
   if (job.onTurntable) {
@@ -110,7 +110,8 @@ void checkStandardOutput(const RenderJob& job) {
            "-o -: standard output takes one image: give it once");
   refuseIf(job.json == kStandardOutput, "-o - and --json -: standard output takes one of them");
   refuseIf(job.resume, "-o -: what went to standard output cannot be resumed");
-  refuseIf(isatty(STDOUT_FILENO), "-o -: standard output is a terminal: send it elsewhere");
+  refuseIf(isatty(STDOUT_FILENO),
+           "-o -: a terminal cannot show pictures: send standard output elsewhere");
 }
 
 // Throws if no output has a place for --channels.
@@ -142,8 +143,15 @@ void checkFilm(const RenderJob& job) {
            "--size: the sides of a film are even numbers of pixels");
 }
 
+// A picture without -o goes to SCENE.png.
+void chooseOutputs(RenderJob& job) {
+  if (!job.outputs.empty()) return;
+  refuseIf(!job.frames.empty(), "expected a file to write: -o FILM.mp4 or -o FRAMES####.png");
+  const std::filesystem::path scene(parseSceneName(job.scenes[0]).file);
+  job.outputs.push_back(scene.stem().string() + ".png");
+}
+
 void checkJob(const RenderJob& job) {
-  refuseIf(job.outputs.empty(), "expected a file to write: -o OUT.exr, -o OUT.png or -o FILM.mp4");
   checkChannels(job);
   checkFilm(job);
   checkStandardOutput(job);
@@ -420,6 +428,7 @@ void writeReport(const RenderJob& job, const ImageWriter& writer) {
 int render(RenderJob& job) {
   const Stopwatch stopwatch;
   settleOptions(job.common);
+  chooseOutputs(job);
   checkJob(job);
 
   auto progress = makeProgressBar(job.common);

@@ -15,6 +15,8 @@ struct Box {
     lower = min(lower, p);
     upper = max(upper, p);
   }
+  double diagonal() const { return length(Vec3d(upper) - Vec3d(lower)); }
+  Vec3d center() const { return (Vec3d(lower) + Vec3d(upper)) * 0.5; }
   // Corner i of eight: bit k of `i` chooses the lower or the upper end of axis k.
   Vec3f corner(int i) const {
     return {i & 1 ? upper.x : lower.x, i & 2 ? upper.y : lower.y, i & 4 ? upper.z : lower.z};

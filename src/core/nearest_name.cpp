@@ -5,6 +5,8 @@
 #include <numeric>
 #include <set>
 #include <sstream>
+#include <string_view>
+#include <utility>
 
 #include "core/error.h"
 
@@ -12,26 +14,48 @@ namespace whit {
 
 namespace {
 
+// Neighbors that changed places count as one edit (Damerau 1964).
 std::size_t editDistance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
+  std::vector<std::size_t> older, old, row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
   for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
+    older = std::exchange(old, row);
     row[0] = i + 1;
     for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t substituted = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({substituted, row[j] + 1, row[j + 1] + 1});
+      row[j + 1] = std::min({old[j] + (a[i] == b[j] ? 0 : 1), row[j] + 1, old[j + 1] + 1});
+      const bool swapped = i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j];
+      if (swapped) row[j + 1] = std::min(row[j + 1], older[j - 1] + 1);
     }
   }
   return row[b.size()];
 }
 
+// Options of other programs and of former versions, and what they are called here.
+constexpr std::pair<std::string_view, std::string_view> kSynonyms[] = {
+    {"ao", "ambient-samples"},
+    {"bounces", "depth"},
+    {"gi", "indirect"},
+    {"height", "size"},
+    {"j", "threads"},
+    {"out", "output"},
+    {"resolution", "size"},
+    {"samples", "spp"},
+    {"verdicts", "shadow-cache"},
+    {"width", "size"},
+    {"ab-verdicts", "ab-shadow-cache"}};
+
 }  // namespace
 
 std::string nearestName(const std::string& word, const std::vector<std::string>& names) {
+  const std::size_t dashes = std::min(word.find_first_not_of('-'), word.size());
+  for (const auto& [theirs, ours] : kSynonyms) {
+    std::string name = (dashes > 0 ? "--" : "") + std::string(ours);
+    const bool isKnown = std::find(names.begin(), names.end(), name) != names.end();
+    if (isKnown && word.compare(dashes, std::string::npos, theirs) == 0) return name;
+  }
   std::string nearest;
-  std::size_t least = std::min(std::max<std::size_t>(2, word.size() / 3) + 1, word.size());
+  const std::size_t letters = word.size() - dashes;
+  std::size_t least = std::min(std::max<std::size_t>(1, (letters + 1) / 3) + 1, letters);
   for (const std::string& name : names) {
     const std::size_t edits = editDistance(word, name);
     if (edits >= least) continue;

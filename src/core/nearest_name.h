@@ -8,8 +8,8 @@
 
 namespace whit {
 
-// The name at the smallest edit distance from `word`, if that is at most 2, or a third of the word,
-// and less than the whole word; otherwise empty.
+// The name that other programs, or former versions, call `word`; else the name at the smallest edit
+// distance from it, if that is about a third of the word at most; otherwise empty.
 std::string nearestName(const std::string& word, const std::vector<std::string>& names);
 
 // "; did you mean 'NAME'?" for the end of a message; empty if no name is near.

@@ -72,11 +72,6 @@ constexpr std::array<const char*, kPresetOptions.size()> kPresets[] = {
 }  // namespace
 
 void throwNoOption(const std::string& name, const std::vector<std::string>& names) {
-  for (const auto& [former, present] :
-       {std::pair{"verdicts", "shadow-cache"}, std::pair{"ab-verdicts", "ab-shadow-cache"}}) {
-    if (name == former || name == std::string("--") + former)
-      throwUsage(std::string("--") + former + " is now called --" + present);
-  }
   throwUsage("there is no option '" + name + "'" + didYouMean(name, names));
 }
 

@@ -1,6 +1,5 @@
 #include "core/srgb.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -2,12 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
-#include "bake/finalize_steps.h"
 #include "core/display.h"
 #include "core/formatted.h"
-#include "core/option_values.h"
 #include "core/pixel.h"
 #include "core/stopwatch.h"
 #include "inspect/metrics.h"
@@ -15,20 +12,6 @@
 namespace whit {
 
 namespace {
-
-constexpr EffectColor kEffectColors[] = {
-    {Effect::textures, {0.25f, 0.25f, 0.25f}},   {Effect::normalMaps, {0.35f, 0.05f, 0.35f}},
-    {Effect::alphaMasks, {0.05f, 0.35f, 0.05f}}, {Effect::glossy, {0.45f, 0.4f, 0.0f}},
-    {Effect::emission, {0.7f, 0.25f, 0.0f}},     {Effect::mirror, {0.0f, 0.2f, 0.65f}},
-    {Effect::transmission, {0.0f, 0.5f, 0.35f}}, {Effect::sky, {0.08f, 0.1f, 0.15f}}};
-
-Rgb colorOf(EffectSet effects) {
-  Rgb sum{0, 0, 0};
-  for (const EffectColor& c : kEffectColors) {
-    if (effects.has(c.effect)) sum += Rgb{c.color[0], c.color[1], c.color[2]};
-  }
-  return sum;
-}
 
 // Adds up what the view shows, for each pixel of the window.
 class Watcher : public StageObserver {
@@ -57,12 +40,11 @@ class Watcher : public StageObserver {
   }
 
  private:
-  WatchedPixel& add(const Chunk& chunk, std::size_t slot, const Rgb& value, double count) {
+  void add(const Chunk& chunk, std::size_t slot, const Rgb& value, double count) {
     const std::uint32_t at = tracker_.pixel(chunk, slot);
     WatchedPixel& pixel = pixels_[image_.index(pixelX(at), pixelY(at))];
     pixel.sum += value;
     pixel.count += count;
-    return pixel;
   }
 
   // Ray i of n that go to Embree together.
@@ -94,14 +76,7 @@ class Watcher : public StageObserver {
   void lookAtSurfels(const Chunk& chunk) {
     const SurfelColumns& s = chunk.surfels;
     for (std::size_t i = 0; i < chunk.n; ++i) {
-      const bool hit = s.material[i] != kMiss;
-      if (view_ == DebugView::effects) {
-        const EffectSet sky = EffectSet().with(Effect::sky);
-        const EffectSet all = hit ? effectsOf(renderer_.scene().materials[s.material[i]]) : sky;
-        const EffectSet on(all.bits() & renderer_.plan().effects.bits());
-        WatchedPixel& pixel = add(chunk, i, colorOf(on), 1);
-        pixel.effects = EffectSet(pixel.effects.bits() | on.bits());
-      } else if (!hit) {
+      if (s.material[i] == kMiss) {
         add(chunk, i, {0, 0, 0}, view_ == DebugView::depth ? 0 : 1);
       } else if (view_ == DebugView::depth) {
         add(chunk, i, {chunk.hits.t[i], 0, 0}, 1);
@@ -123,8 +98,13 @@ class Watcher : public StageObserver {
 
 // The amounts that a view shows; empty for views without a scale.
 constexpr std::array<const char*, kDebugViewNames.size()> kAmounts{
-    "", "distance",           "", "", "rays a pixel and sample", "microseconds a pixel and sample",
-    "", "share of live lanes"};
+    "",
+    "distance",
+    "",
+    "",
+    "rays a pixel and sample",
+    "microseconds a pixel and sample",
+    "share of live lanes"};
 
 // A few pixels take tens of times what most do.
 bool isLogarithmic(DebugView view) { return view == DebugView::rays || view == DebugView::cost; }
@@ -196,8 +176,6 @@ void paint(const DebugPicture& picture, DisplayImage& display) {
 
 }  // namespace
 
-std::span<const EffectColor> effectColors() { return kEffectColors; }
-
 FrameStats watchFrame(Renderer& renderer, const Camera& camera, Film& film, DebugView view,
                       DebugPicture& picture, const FrameHooks* hooks) {
   picture.view = view;
@@ -238,9 +216,6 @@ std::string DebugPicture::textOf(std::size_t number) const {
       return formatted("%.4g ray%s a sample", amount, amount == 1 ? "" : "s");
     case DebugView::cost:
       return formatted("%.3g microseconds a sample", amount);
-    case DebugView::effects:
-      return "effects: " +
-             (pixel.effects == EffectSet() ? "none" : formatValue(OptionSpec{}, pixel.effects));
     case DebugView::occupancy:
       return formatted("%.1f %% of the lanes live", 100 * amount);
     case DebugView::none:

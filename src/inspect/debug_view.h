@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -11,14 +10,13 @@
 
 namespace whit {
 
-enum class DebugView { none, depth, normals, albedo, rays, cost, effects, occupancy };
-inline constexpr std::array kDebugViewNames{"none", "depth", "normals", "albedo",
-                                            "rays", "cost",  "effects", "occupancy"};
+enum class DebugView { none, depth, normals, albedo, rays, cost, occupancy };
+inline constexpr std::array kDebugViewNames{"none", "depth", "normals",  "albedo",
+                                            "rays", "cost",  "occupancy"};
 
 struct WatchedPixel {
   Rgb sum{0, 0, 0};  // sum of `count` colors, or of amounts in x
   double count = 0;
-  EffectSet effects;  // effects of all surfaces that were hit, for DebugView::effects
 };
 
 struct DebugPicture {
@@ -40,19 +38,11 @@ struct DebugPicture {
 //   albedo     diffuse reflectance, textures included
 //   rays       number of rays traced for the pixel
 //   cost       the pixel's share of the time of its stages
-//   effects    effects of the surface that the primary ray hits: the sum of their effectColors()
 //   occupancy  live lanes of the packets that carried the pixel's rays, bright when full
 FrameStats watchFrame(Renderer& renderer, const Camera& camera, Film& film, DebugView view,
                       DebugPicture& picture, const FrameHooks* hooks = nullptr);
 
 // Returns the color at a share of the way from the lowest to the highest amount.
 std::array<std::uint8_t, 3> colorAt(DebugView view, double share);
-
-// The colors of DebugView::effects.
-struct EffectColor {
-  Effect effect;
-  std::array<float, 3> color;  // as displayed, 0 to 1
-};
-std::span<const EffectColor> effectColors();
 
 }  // namespace whit

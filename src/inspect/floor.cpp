@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
-#include <utility>
 #include <vector>
-
-#include "core/quantile.h"
 
 namespace whit {
 
@@ -100,24 +97,15 @@ double replay(Renderer& renderer, const std::vector<RayLogger>& loggers) {
 
 }  // namespace
 
-FloorResult measureFloor(Renderer& renderer, const Camera& camera, Film& film, int frames) {
+double measureFloor(Renderer& renderer, const Camera& camera, Film& film) {
   std::vector<RayLogger> loggers(static_cast<std::size_t>(renderer.machine().threads));
   std::vector<StageObserver*> observers;
   observers.reserve(loggers.size());
   for (RayLogger& logger : loggers) observers.push_back(&logger);
   renderer.render(camera, film, nullptr, observers);
-  FloorResult result;
-  for (const RayLogger& logger : loggers) {
-    for (const RayStream& stream : logger.streams()) result.rays += stream.count;
-  }
-  std::vector<double> floors, whole;
-  for (int frame = 0; frame < std::max(frames, 1); ++frame) {
-    whole.push_back(renderer.render(camera, film).frameMs);
-    floors.push_back(replay(renderer, loggers));
-  }
-  result.floorMs = quantile(std::move(floors), 0.5);
-  result.frameMs = quantile(std::move(whole), 0.5);
-  return result;
+  // A frame without observers comes before the replay, so that caches hold what a frame leaves.
+  renderer.render(camera, film);
+  return replay(renderer, loggers);
 }
 
 }  // namespace whit

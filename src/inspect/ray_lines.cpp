@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "core/box.h"
@@ -11,20 +12,70 @@ namespace whit {
 namespace {
 
 // Only the end of a primary ray counts, because the eye may be far away.
-Box extentOf(const RayTree& tree) {
+Box extentOf(const RayTree& tree, const Camera& camera) {
   Box box;
   for (const RayNode& n : tree.nodes) {
     if (n.kind != RayKind::primary) box.add(Vec3f(n.origin));
     if (n.triangle != kMiss) box.add(Vec3f(n.position));
   }
-  if (box.empty()) box.add(Vec3f(tree.nodes.front().origin));
+  if (!box.empty()) return box;
+  const RayNode& n = tree.nodes.front();
+  box.add(Vec3f(n.origin));
+  box.add(Vec3f(n.origin + n.direction * length(Vec3d(camera.at) - Vec3d(camera.eye))));
   return box;
 }
 
-double diagonalOf(const Box& box) { return length(Vec3d(box.upper) - Vec3d(box.lower)); }
-
 RayLook lookOf(const LightContribution& light) {
   return {shadowKind(light.light == kAmbientLight), !light.visible};
+}
+
+struct SeenPoint {
+  Vec3d position;  // a little before the surface
+  double weight = 0;
+};
+
+std::vector<SeenPoint> pointsToSee(const RayTree& tree, double before) {
+  constexpr std::size_t kMost = 48;
+  constexpr double kLeast = 0.02;  // weight of a point that adds nothing to the pixel
+  constexpr double kEye = 0.4;     // weight of the eye against all hits
+  std::vector<SeenPoint> points;
+  double sum = 0;
+  for (std::size_t i = 0; i < tree.nodes.size() && points.size() < kMost; ++i) {
+    const RayNode& n = tree.nodes[i];
+    if (n.triangle == kMiss) continue;
+    const double weight = kLeast + std::min(1.0, maxComponent(weightAtEye(tree, i)));
+    const double back = std::min(before, 0.5 * n.distance * length(n.direction));
+    points.push_back({n.position - normalized(n.direction) * back, weight});
+    sum += weight;
+  }
+  const double eye = std::max(kEye * sum, kLeast);
+  points.push_back({tree.nodes.front().origin, eye});
+  for (SeenPoint& point : points) point.weight /= sum + eye;
+  return points;
+}
+
+// Returns the share of the points, by weight, that the camera sees, and adds up to a tenth if they
+// are far apart in its picture.
+double shareSeen(const std::vector<SeenPoint>& points, const Camera& camera, const Accel& accel) {
+  constexpr int kWidth = 480, kHeight = 300;
+  constexpr double kMargin = 8, kApart = 0.1;
+  const LineView view(camera, kWidth, kHeight);
+  double share = 0, left = kWidth, right = 0, top = kHeight, bottom = 0;
+  for (const SeenPoint& point : points) {
+    const auto at = view.see(point.position, point.position);
+    if (!at || at->x1 < kMargin || at->x1 > kWidth - kMargin || at->y1 < kMargin ||
+        at->y1 > kHeight - kMargin) {
+      continue;
+    }
+    const Vec3f way = Vec3f(Vec3d(camera.eye) - point.position);
+    const Hit hit = accel.closest(Vec3f(point.position), way);
+    if (hit.found() && hit.t < 1) continue;
+    share += point.weight;
+    left = std::min(left, at->x1), right = std::max(right, at->x1);
+    top = std::min(top, at->y1), bottom = std::max(bottom, at->y1);
+  }
+  const double across = std::hypot(std::max(right - left, 0.0), std::max(bottom - top, 0.0));
+  return share > 0 ? share + kApart * std::min(across / kHeight, 1.0) : 0;
 }
 
 }  // namespace
@@ -39,9 +90,9 @@ std::vector<RayLook> rayLooks() {
   return looks;
 }
 
-std::vector<RayLine> linesOf(const RayTree& tree) {
+std::vector<RayLine> linesOf(const RayTree& tree, const Camera& camera) {
   constexpr double kShownOfEndless = 0.2, kWidest = 2.5, kNarrowest = 0.4, kShadow = 0.5;
-  const double extent = std::max(diagonalOf(extentOf(tree)), 1e-6);
+  const double extent = std::max(extentOf(tree, camera).diagonal(), 1e-6);
   std::vector<RayLine> lines;
   for (std::size_t i = tree.nodes.size(); i-- > 0;) {
     const RayNode& n = tree.nodes[i];
@@ -59,19 +110,36 @@ std::vector<RayLine> linesOf(const RayTree& tree) {
   return lines;
 }
 
-Camera cameraAside(const RayTree& tree, const Camera& camera) {
-  const Box box = extentOf(tree);
-  const Vec3d center = (Vec3d(box.lower) + Vec3d(box.upper)) * 0.5;
+Camera cameraAside(const RayTree& tree, const Camera& camera, const Accel& accel) {
+  constexpr std::array kAways{1.0, 0.7, 0.4, 0.2}, kElevations{0.35, 0.0, 0.9, -0.3};
+  constexpr int kAzimuths = 16;
+  const Box box = extentOf(tree, camera);
+  const Vec3d center = box.center();
   const Vec3d toEye = Vec3d(camera.eye) - center;
   const Vec3d up = normalized(Vec3d(camera.up), Vec3d{0, 1, 0});
   const Vec3d aside = normalized(cross(up, toEye), Vec3d{1, 0, 0});
-  const double away = std::max(length(toEye), diagonalOf(box));
+  const double away = std::max(length(toEye), box.diagonal());
+  const std::vector<SeenPoint> points = pointsToSee(tree, 1e-3 * away);
   Camera seen;
   seen.up = camera.up;
-  seen.eye = Vec3f(center + normalized(toEye + aside * (0.8 * away) + up * (0.35 * away), up) *
-                                (1.2 * away));
   seen.at = Vec3f(center);
-  return seen;
+  Camera best = seen;
+  double most = -1;
+  for (const double share : kAways) {
+    for (const double elevation : kElevations) {
+      for (int i = 0; i < kAzimuths; ++i) {
+        // The first direction is the usual one; the next ones alternate between both sides.
+        const double turn = (i % 2 == 0 ? i : -i - 1) * std::numbers::pi / kAzimuths - 0.9;
+        const Vec3d level = cross(aside, up) * -std::cos(turn) - aside * std::sin(turn);
+        seen.eye = Vec3f(center + normalized(level + up * elevation) * (1.2 * share * away));
+        const double shown = shareSeen(points, seen, accel);
+        if (shown <= most) continue;
+        most = shown;
+        best = seen;
+      }
+    }
+  }
+  return best;
 }
 
 LineView::LineView(const Camera& camera, int width, int height)

@@ -32,10 +32,12 @@ struct RayLine {
 };
 
 // Rays that leave the scene end after a fifth of the tree's extent. What weighs most comes last.
-std::vector<RayLine> linesOf(const RayTree& tree);
+// `camera` is the camera that sent the rays.
+std::vector<RayLine> linesOf(const RayTree& tree, const Camera& camera);
 
-// Returns a camera that sees all hits of the rays from aside and above.
-Camera cameraAside(const RayTree& tree, const Camera& camera);
+// Returns a camera that sees the hits of the rays, if possible from aside and above. It is the one
+// of a number of places around the hits that sees most of them, by their weight, and far apart.
+Camera cameraAside(const RayTree& tree, const Camera& camera, const Accel& accel);
 
 // Pixels from the top left.
 struct ScreenLine {

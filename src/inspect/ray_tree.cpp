@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/display.h"
 #include "reference/add_impulses.h"
 #include "reference/find_intersections.h"
 #include "reference/update_image.h"
@@ -268,6 +267,14 @@ void fillHits(const Scene& scene, RayTree& tree) {
 }
 
 }  // namespace
+
+std::size_t RayTree::shadowRays() const {
+  std::size_t traced = 0;
+  for (const RayNode& n : nodes) {
+    for (const LightContribution& light : n.lights) traced += light.traced;
+  }
+  return traced;
+}
 
 RayTree traceRayTree(Renderer& renderer, const Camera& camera, const Film& film, int x, int y) {
   RayTree tree;

@@ -7,7 +7,6 @@
 #include <limits>
 #include <vector>
 
-#include "core/image.h"
 #include "core/vec3.h"
 #include "render/renderer.h"
 #include "stages/ray_kinds.h"
@@ -58,6 +57,8 @@ struct RayTree {
   std::vector<std::size_t> primaries;  // one a sample of the pixel
   std::vector<Vec2f> samples;          // their places in the pixel
   Rgb pixel;                           // as the film has it
+
+  std::size_t shadowRays() const;  // that were traced
 };
 
 // Traces the tree by the pipeline. The pixel is the mean, over the samples, of a primary ray's

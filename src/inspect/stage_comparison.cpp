@@ -1,7 +1,6 @@
 #include "inspect/stage_comparison.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>

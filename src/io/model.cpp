@@ -1,6 +1,5 @@
 #include "io/model.h"
 
-#include <algorithm>
 #include <map>
 #include <string>
 

@@ -53,7 +53,6 @@ std::vector<fs::path> sceneFolders(const std::string& shippedScenes = "") {
     folders.push_back(program.parent_path().parent_path() / "scenes");
   }
   if (!shippedScenes.empty()) folders.emplace_back(shippedScenes);
-  folders.emplace_back(WHIT_SCENES_DIR);
   return folders;
 }
 
@@ -79,17 +78,17 @@ std::string extensionOf(const fs::path& path) {
 }
 
 fs::path dataFolder() {
-  if (const char* variable = std::getenv("WHIT_DATA"); variable && *variable) return variable;
-  return fs::path(WHIT_SOURCE_DIR).parent_path() / "shared/data";
+  const char* const variable = std::getenv("WHIT_DATA");
+  return variable ? variable : "";
 }
 
 PathRules::PathRules(const fs::path& sceneFolder, bool allowOutside)
     : sceneFolder_(realPath(sceneFolder.empty() ? "." : sceneFolder)),
-      dataFolder_(realPath(dataFolder())),
+      dataFolder_(dataFolder().empty() ? fs::path() : realPath(dataFolder())),
       allowOutside_(allowOutside) {}
 
 bool PathRules::inside(const fs::path& path) const {
-  return isBelow(path, sceneFolder_) || isBelow(path, dataFolder_);
+  return isBelow(path, sceneFolder_) || (!dataFolder_.empty() && isBelow(path, dataFolder_));
 }
 
 fs::path PathRules::resolve(std::string text, const fs::path& folder, const std::string& where,
@@ -105,6 +104,10 @@ fs::path PathRules::resolve(std::string text, const fs::path& folder, const std:
   if (text.starts_with(kDataVariable)) {
     if (text.size() > kDataVariable.size() && text[kDataVariable.size()] != '/') {
       throwBadScene(where, "expected \"$WHIT_DATA/...\", found \"" + excerpt(text) + "\"");
+    }
+    if (dataFolder_.empty()) {
+      throwBadScene(where,
+                    "expected $WHIT_DATA to be set to the folder of \"" + excerpt(text) + "\"");
     }
     path = dataFolder() / fs::path(text.substr(kDataVariable.size())).relative_path();
   } else {

@@ -10,7 +10,7 @@ namespace whit {
 
 std::string extensionOf(const std::filesystem::path& path);  // in lower case, ".exr"
 
-// $WHIT_DATA, else the folder `shared/data` beside the source tree.
+// $WHIT_DATA; empty where that is not set.
 std::filesystem::path dataFolder();
 
 // Which files a scene may name: those below its own folder or below the data folder, unless

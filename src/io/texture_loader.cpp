@@ -1,6 +1,5 @@
 #include "io/texture_loader.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <utility>
 

@@ -2,7 +2,6 @@
 // exceptions into api::Error, except those of the caller's own callbacks.
 #pragma once
 
-#include <cstdint>
 #include <exception>
 #include <memory>
 #include <mutex>

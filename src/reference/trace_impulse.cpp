@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <limits>
 
 #include "bake/eye_in_plane.h"

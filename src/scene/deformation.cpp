@@ -1,7 +1,6 @@
 #include "scene/deformation.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace whit {
 

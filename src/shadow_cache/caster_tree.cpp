@@ -73,8 +73,6 @@ Box grown(const Box& box, const Vec3d& by) {
 constexpr double kLeafReach = 1.0 / 1024;
 constexpr std::size_t kLeafNeighbors = 4;
 
-double diagonalOf(const Box& box) { return length(Vec3d(box.upper) - Vec3d(box.lower)); }
-
 // Returns how near a ray must come for Embree to find a hit where there is none, if no ray starts
 // further from the triangle than `distance`: the triangle's shape and its angle to the light
 // decide. Infinite where the light lies in its plane. With the triangle as rounding may have moved
@@ -107,7 +105,7 @@ double influenceOf(const TriangleRecord& record, const LightPoint& light, double
 float growthOf(const Scene& scene, const CasterList& list, std::size_t at,
                const LightPoint& light) {
   const CasterRef& caster = list.casters[at];
-  double reach = diagonalOf(list.boxOf(scene, caster)) / 2 + list.size * kLeafReach;
+  double reach = list.boxOf(scene, caster).diagonal() / 2 + list.size * kLeafReach;
   const double influence = influenceOf(scene.triangles[caster.number], light, list.size);
   if (influence > reach) {
     Box neighbors;
@@ -117,7 +115,7 @@ float growthOf(const Scene& scene, const CasterList& list, std::size_t at,
       neighbors.add(box.lower);
       neighbors.add(box.upper);
     }
-    reach = std::max(reach, diagonalOf(neighbors));
+    reach = std::max(reach, neighbors.diagonal());
   }
   return static_cast<float>(std::min(influence, reach)) * (1 + 0x1p-20f);
 }

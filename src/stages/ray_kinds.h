@@ -39,7 +39,7 @@ inline constexpr std::array kRayKinds{
     RayKindRow{RayKind::primary, "primary", EffectSet(), "",
                {"primary", {255, 255, 255}}, {}},
     RayKindRow{RayKind::shadow, "shadow", EffectSet().with(Effect::shadows), "",
-               {"lit", {255, 224, 64}}, {"in shadow", {0, 0, 0}}},
+               {"to a light", {255, 224, 64}}, {"to a light, blocked", {0, 0, 0}}},
     RayKindRow{RayKind::reflection, "reflection",
                EffectSet().with(Effect::mirror).with(Effect::glossyReflection), "reflection",
                {"reflection", {255, 64, 64}}, {}},
@@ -49,7 +49,7 @@ inline constexpr std::array kRayKinds{
     RayKindRow{RayKind::indirect, "indirect", EffectSet().with(Effect::indirect), "indirect light",
                {"indirect", {64, 224, 96}}, {}},
     RayKindRow{RayKind::occlusion, "occlusion", EffectSet().with(Effect::ambientOcclusion), "",
-               {"open", {240, 128, 255}}, {"occluded", {112, 0, 144}}}};
+               {"ambient, open", {240, 128, 255}}, {"ambient, occluded", {112, 0, 144}}}};
 // clang-format on
 inline constexpr std::size_t kRayKindCount = kRayKinds.size();
 static_assert([] {

@@ -51,8 +51,8 @@ TEST(Channels, AreBesideThePicture) {
   EXPECT_EQ(readFile(folder / "a.png"), readFile(folder / "plain.png"));
   EXPECT_NE(readFile(folder / "a.depth.png"), readFile(folder / "plain.png"));
   EXPECT_EQ(textOf(exr, "channels"), kAll);
-  EXPECT_EQ(Json::parse(textOf(exr, "whit:objects")), (Json{{"0", "/scene/0"}, {"1", "/scene/1"}}));
-  const Json materials = Json::parse(textOf(exr, "whit:materials"));
+  EXPECT_EQ(Json::parse(textOf(exr, "objects")), (Json{{"0", "/scene/0"}, {"1", "/scene/1"}}));
+  const Json materials = Json::parse(textOf(exr, "materials"));
   const Outcome info = runWhit({"info", scene, "--json", "-"});
   const Json said = Json::parse(info.out);
   EXPECT_EQ(said["objects"], 2);
@@ -98,8 +98,7 @@ TEST(Channels, OfCropsAreMerged) {
   part("left.exr", {"--crop", "0,0,20,32"});
   part("right.exr", {"--crop", "20,0,48,32"});
   expectDone({"merge", folder / "merged.exr", folder / "left.exr", folder / "right.exr"});
-  EXPECT_EQ(textOf(folder / "merged.exr", "whit:objects"),
-            textOf(folder / "whole.exr", "whit:objects"));
+  EXPECT_EQ(textOf(folder / "merged.exr", "objects"), textOf(folder / "whole.exr", "objects"));
   const Outcome compared = runWhit(
       {"compare", folder / "merged.exr", folder / "whole.exr", "--tolerance", "0", "--json", "-"});
   EXPECT_EQ(compared.status, 0) << compared.err;

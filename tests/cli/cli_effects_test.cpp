@@ -1,4 +1,4 @@
-// Effects on the command line: which kernels there are, and what compiling them in costs.
+// Effects on the command line: which are on, and what compiling their kernels in costs.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,18 +14,6 @@ namespace whit::cli {
 namespace {
 
 using Json = nlohmann::json;
-
-TEST(InfoKernels, ListsEveryKernel) {
-  const Outcome outcome = runWhit({"info", "--kernels"});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  for (const char* text : {"interpolateSurfels", "encodeDisplay", "22 kernels, each for:"}) {
-    EXPECT_NE(outcome.out.find(text), std::string::npos) << text << "\n" << outcome.out;
-  }
-  const Json json = Json::parse(runWhit({"info", "--kernels", "--json", "-"}).out);
-  EXPECT_FALSE(json["targets"].empty());
-  const auto lines = std::count(outcome.out.begin(), outcome.out.end(), '\n');
-  EXPECT_EQ(json["kernels"].size() + 1, static_cast<std::size_t>(lines));
-}
 
 TEST(InfoEffects, DepthOfFieldNeedsAnApertureAndSamples) {
   const auto line = [](const std::vector<std::string>& more) {
@@ -43,11 +31,6 @@ TEST(InfoEffects, DepthOfFieldNeedsAnApertureAndSamples) {
             std::string::npos);
   EXPECT_NE(line({"--set", "/cameras/lens/aperture=0"}).find("no camera has an aperture"),
             std::string::npos);
-}
-
-TEST(InfoKernels, EitherASceneOrTheList) {
-  EXPECT_EQ(runWhit({"info"}).status, 2);
-  EXPECT_EQ(runWhit({"info", "--kernels", "matte"}).status, 2);
 }
 
 TEST(AbEffects, MeasuresTheSceneTwice) {

@@ -47,6 +47,20 @@ bool handlesInterrupts(pid_t child) {
   return false;
 }
 
+TEST(Render, WithoutOutputWritesTheScenesName) {
+  const TemporaryFolder folder;
+  writeTinyScene(folder);
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  const Outcome outcome = runWhit({"render", "tiny.json"});
+  std::filesystem::current_path(before);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "");  // it is no terminal
+  EXPECT_NE(outcome.err.find("wrote tiny.png"), std::string::npos) << outcome.err;
+  EXPECT_EQ(readFile(folder / "tiny.png").substr(1, 3), "PNG");
+  EXPECT_EQ(runWhit({"render", folder / "tiny.json", "--frames", "0..1"}).status, 2);
+}
+
 TEST(Images, TheSameRenderGivesTheSameBytes) {
   const TemporaryFolder folder;
   const std::string tiny = writeTinyScene(folder);

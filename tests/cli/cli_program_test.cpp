@@ -45,6 +45,46 @@ TEST(Program, NamesTheNearestCommandAndOption) {
   expectFailure({"merge", "--stric", "a.exr", "b.exr"}, 2, "'--strict'");
 }
 
+TEST(Program, WordsOfOtherProgramsLeadToOurs) {
+  for (const auto& [words, meant] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{"render", "whitted", "--samples", "4"}, "did you mean '--spp'?"},
+           {{"render", "whitted", "--width=100"}, "did you mean '--size'?"},
+           {{"render", "whitted", "--ao", "4"}, "did you mean '--ambient-samples'?"},
+           {{"render", "whitted", "--gi", "4"}, "did you mean '--indirect'?"},
+           {{"render", "whitted", "-j", "4"}, "did you mean '--threads'?"},
+           {{"helmet.glb"}, "did you mean 'whit render helmet.glb'?"},
+           {{"view", "helmet.glb"}, "whit view is a program of its own: whit-view"}}) {
+    const Outcome outcome = runWhit(words);
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_NE(outcome.err.find(meant), std::string::npos) << outcome.err;
+  }
+  EXPECT_EQ(runWhit({"help", "render"}).out, runWhit({"render", "--help"}).out);
+}
+
+TEST(Program, SaysThatASceneIsDark) {
+  const TemporaryFolder folder;
+  std::string text = readFile(writeTinyScene(folder));
+  const std::string black = folder / "black.json";
+  text.replace(text.find("[60, 60, 60]"), 12, "[0, 0, 0]");
+  std::ofstream(black) << text;
+  const auto errorsOf = [&](const std::string& scene) {
+    return runWhit({"render", scene, "-o", folder / "out.png"}).err;
+  };
+  EXPECT_NE(errorsOf(black).find("black is black: it has no lights"), std::string::npos);
+  EXPECT_EQ(errorsOf(folder / "tiny.json").find("is black"), std::string::npos);
+}
+
+TEST(Program, SaysThatAFileIsNoGlb) {
+  const TemporaryFolder folder;
+  for (const char* text : {"", "garbage", "\x89PNG", "  [1]"}) {
+    std::ofstream(folder / "bad.glb") << text;
+    const Outcome outcome = runWhit({"render", folder / "bad.glb", "-o", folder / "out.png"});
+    EXPECT_EQ(outcome.status, 3);
+    EXPECT_NE(outcome.err.find("expected a GLB, which begins with \"glTF\""), std::string::npos)
+        << outcome.err;
+  }
+}
+
 TEST(Program, ListsTheShippedScenes) {
   const Outcome outcome = runWhit({"scenes"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
@@ -77,7 +117,7 @@ TEST(Program, WithoutWordsShowsHelpAndFails) {
 TEST(Program, RefusesWrongUsage) {
   const TemporaryFolder folder;
   const std::string tiny = writeTinyScene(folder);
-  expectFailure({"render", tiny}, 2, "-o OUT");
+  expectFailure({"render", tiny, "--frames", "0..1"}, 2, "-o FILM.mp4");
   expectFailure({"render", tiny, "-o", folder / "a.gif"}, 2, ".exr or .png");
   expectFailure({"render", tiny, "-o", folder / "a.exr", "--frames", "0..1"}, 2, "####");
   expectFailure({"render", tiny, "-o", folder / "a#.exr", "--frames", "2..1"}, 2, "--frames");

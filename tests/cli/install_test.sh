@@ -1,6 +1,7 @@
 #!/bin/sh
 # Installs what was built into a folder of its own and uses it there: install_test.sh BUILD-FOLDER
 set -eu
+build=$(realpath "$1")
 
 prefix=$(mktemp -d)
 trap 'rm -rf "$prefix"' EXIT
@@ -12,14 +13,24 @@ cd "$prefix"
 bin/whit render only-installed --size 32x20 -o picture.png --quiet
 test -s picture.png
 bin/whit info only-installed --quiet | grep triangles >/dev/null
-test -s share/doc/whit/LICENSE
-cmp share/doc/whit/scenes/README.md "$WHIT_SOURCE_DIR/scenes/README.md"
-test -s share/doc/whit/example/embed.cpp
-test -s share/doc/whit/example/CMakeLists.txt
+test -s share/doc/whit/copyright
+test -s share/doc/whit/tests/example/CMakeLists.txt
+# Links of installed pages lead to installed files.
+find share/doc/whit -name '*.md' | while read -r page; do
+  grep -oE '\]\([^)#]+' "$page" | sed 's/](//' | grep -v '^http' | while read -r link; do
+    test -s "$(dirname "$page")/$link" || { echo "$page: there is no $link" >&2; exit 1; }
+  done
+done
+# No folder of this machine is part of a program.
+for program in bin/*; do
+  for folder in "$WHIT_SOURCE_DIR" "$build"; do
+    ! grep -qaF "$folder" "$program" || { echo "$program names $folder" >&2; exit 1; }
+  done
+done
 for program in bin/*; do
   name=$(basename "$program")
   [ "$name" != whit-verify ] || continue  # a test program: --help is its manual
-  test -s "share/man/man1/$name.1"
+  gzip -dc "share/man/man1/$name.1.gz" | cmp - "$build/$name.1"
   test -s "share/bash-completion/completions/$name"
   test -s "share/zsh/vendor-completions/_$name"
   test -s "share/fish/vendor_completions.d/$name.fish"

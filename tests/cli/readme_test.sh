@@ -25,6 +25,7 @@ ln -s "$whit" "$work/build/whit"
 ln -s "$(dirname "$whit")/whit-verify" "$work/build/whit-verify"
 if [ -n "$view" ]; then ln -s "$view" "$work/build/whit-view"; fi
 cd "$work" || exit 1
+export XDG_CONFIG_HOME=$work  # nobody's settings
 
 # The files that the commands take as given: a model of one triangle, and two images.
 littleEndian() {

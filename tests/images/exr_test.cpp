@@ -6,6 +6,7 @@
 #include <ImfOutputFile.h>
 #include <ImfOutputPart.h>
 #include <ImfPartType.h>
+#include <ImfStandardAttributes.h>
 #include <ImfTiledOutputFile.h>
 
 #include <bit>
@@ -137,6 +138,38 @@ TEST_F(ExrTest, MetadataComesBackAndTheBytesAreReproducible) {
   for (const auto& entry : metadata)
     EXPECT_NE(std::find(back.begin(), back.end(), entry), back.end()) << entry.first;
   EXPECT_EQ(readImage(path("a.exr"), limits_, warnings_).pixels.size(), 16u);
+}
+
+// Points of the world and where they are seen, worked out by hand: the eye looks along -z.
+TEST_F(ExrTest, SaysHowTheWorldIsSeen) {
+  const ImageMetadata metadata = {
+      {"eye", "1,2,6"}, {"at", "1,2,0"}, {"up", "0,1,0"}, {"fov", "90"}};
+  const auto matrices = [&](const ImageMetadata& said) {
+    writeExr(path("a.exr"), Image(4, 2), said);
+    const Imf::InputFile file(path("a.exr").c_str());
+    EXPECT_EQ(file.header().find("eye"), file.header().end());  // whit:eye
+    EXPECT_TRUE(Imf::hasChromaticities(file.header()));
+    return std::pair{Imf::worldToCamera(file.header()), Imf::worldToNDC(file.header())};
+  };
+  const auto expectAt = [](const Imath::M44f& matrix, const Imath::V3f& point,
+                           const Imath::V3f& there) {
+    Imath::V3f result;
+    matrix.multVecMatrix(point, result);
+    EXPECT_NEAR(result.x, there.x, 1e-6);
+    EXPECT_NEAR(result.y, there.y, 1e-6);
+    EXPECT_NEAR(result.z, there.z, 1e-6);
+  };
+  const auto [camera, ndc] = matrices(metadata);
+  expectAt(camera, {1, 2, 6}, {0, 0, 0});
+  expectAt(camera, {1.5f, 3, 2}, {0.5f, 1, 4});
+  expectAt(ndc, {1, 2, 2}, {0.5f, 0.5f, 0.25f});
+  expectAt(ndc, {1, 6, 2}, {0.5f, 0, 0.25f});  // the upper border, 45 degrees above
+  expectAt(ndc, {9, -2, 2}, {1, 1, 0.25f});    // the lower right corner: twice as wide as high
+  ImageMetadata parallel = metadata;
+  parallel.emplace_back("ortho", "3");
+  const auto [sameCamera, flat] = matrices(parallel);
+  EXPECT_EQ(sameCamera, camera);
+  expectAt(flat, {4, 0.5f, -7}, {1, 1, 13});
 }
 
 TEST_F(ExrTest, EveryCompressionIsRead) {

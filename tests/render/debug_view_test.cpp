@@ -102,22 +102,6 @@ TEST(DebugView, FullPacketsAreBright) {
   EXPECT_LT(alone[0] + alone[1] + alone[2], 128);
 }
 
-TEST(DebugView, EffectsOfTheSurface) {
-  const Code matte = {0, 0, 0};
-  expectAll(view(wall(), DebugView::effects), matte);
-  const auto mirror = [](SceneDescription& d) { d.materials[0].mirror = {0.5f, 0.5f, 0.5f}; };
-  for (const EffectColor& c : effectColors()) {
-    if (c.effect != Effect::mirror) continue;
-    expectAll(view(wall(mirror), DebugView::effects),
-              {static_cast<int>(std::lround(255 * c.color[0])),
-               static_cast<int>(std::lround(255 * c.color[1])),
-               static_cast<int>(std::lround(255 * c.color[2]))});
-  }
-  RenderOptions without = smallOptions();
-  without.disable = without.disable.with(Effect::mirror);
-  expectAll(view(wall(mirror), DebugView::effects, without), matte);
-}
-
 TEST(DebugView, ThePictureItselfIsAsEver) {
   const Scene scene = load("whitted");
   for (const DebugView what : {DebugView::rays, DebugView::cost, DebugView::occupancy}) {

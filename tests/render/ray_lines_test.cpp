@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <set>
 
 #include "render/shipped_scene.h"
@@ -35,19 +34,13 @@ std::set<RayLook> looksIn(const RenderOptions& options) {
     const RayTree tree =
         traceRayTree(renderer, chooseCamera(scene, options), film, x, options.size->height / 2);
     std::size_t shadows = 0;
-    for (const RayLine& line : linesOf(tree)) {
+    for (const RayLine& line : linesOf(tree, chooseCamera(scene, options))) {
       looks.insert(line.look);
       shadows += isDashed(line.look);
       if (isDashed(line.look)) continue;
       EXPECT_EQ(line.look, RayLook{tree.nodes[line.node].kind});
     }
-    std::size_t traced = 0;
-    for (const RayNode& n : tree.nodes) {
-      traced += static_cast<std::size_t>(
-          std::count_if(n.lights.begin(), n.lights.end(),
-                        [](const LightContribution& light) { return light.traced; }));
-    }
-    EXPECT_EQ(shadows, traced);
+    EXPECT_EQ(shadows, tree.shadowRays());
   }
   return looks;
 }

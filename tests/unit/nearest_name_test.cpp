@@ -32,5 +32,23 @@ TEST(NearestName, OnlyANearOneCanBeMeant) {
   EXPECT_EQ(didYouMean("rendre", {"merge", "render"}), "; did you mean 'render'?");
 }
 
+TEST(NearestName, ShortWordsNeedToBeNearer) {
+  EXPECT_EQ(nearestName("--az", {"--at", "--up"}), "--at");
+  EXPECT_EQ(nearestName("--gh", {"--at", "--up"}), "");
+  EXPECT_EQ(nearestName("--dpeth", {"--depth"}), "--depth");
+}
+
+TEST(NearestName, WordsOfOtherProgramsLeadToOurs) {
+  const std::vector<std::string> names{"--spp",     "--size", "--ambient-samples", "--indirect",
+                                       "--threads", "--at",   "--sample"};
+  EXPECT_EQ(nearestName("--samples", names), "--spp");
+  EXPECT_EQ(nearestName("--width", names), "--size");
+  EXPECT_EQ(nearestName("--ao", names), "--ambient-samples");
+  EXPECT_EQ(nearestName("--gi", names), "--indirect");
+  EXPECT_EQ(nearestName("-j", names), "--threads");
+  EXPECT_EQ(nearestName("samples", {"spp"}), "spp");
+  EXPECT_EQ(nearestName("--samples", {"--sample"}), "--sample");  // there is no --spp
+}
+
 }  // namespace
 }  // namespace whit

@@ -23,10 +23,10 @@ using Words = std::vector<std::string>;
 constexpr double kLargestNumber = 1e6;
 
 constexpr std::pair<const char*, int> kNamed[] = {
-    {"Left", GLFW_KEY_LEFT},      {"Right", GLFW_KEY_RIGHT},    {"Up", GLFW_KEY_UP},
-    {"Down", GLFW_KEY_DOWN},      {"Space", GLFW_KEY_SPACE},    {"Shift", GLFW_KEY_LEFT_SHIFT},
-    {"Escape", GLFW_KEY_ESCAPE},  {"+", GLFW_KEY_KP_ADD},       {"-", GLFW_KEY_MINUS},
-    {"[", GLFW_KEY_LEFT_BRACKET}, {"]", GLFW_KEY_RIGHT_BRACKET}};
+    {"Left", GLFW_KEY_LEFT},     {"Right", GLFW_KEY_RIGHT},    {"Up", GLFW_KEY_UP},
+    {"Down", GLFW_KEY_DOWN},     {"Space", GLFW_KEY_SPACE},    {"Shift", GLFW_KEY_LEFT_SHIFT},
+    {"Escape", GLFW_KEY_ESCAPE}, {"Home", GLFW_KEY_HOME},      {"+", GLFW_KEY_KP_ADD},
+    {"-", GLFW_KEY_MINUS},       {"[", GLFW_KEY_LEFT_BRACKET}, {"]", GLFW_KEY_RIGHT_BRACKET}};
 
 [[noreturn]] void expected(const std::string& what) { throwUsage("expected " + what); }
 
@@ -78,14 +78,17 @@ ScriptCommand keyCommand(const Words& words) {
 }
 
 ScriptCommand mouseCommand(const Words& words) {
-  if (words.size() != 4 || (words[1] != "left" && words[1] != "right")) {
-    expected("mouse left|right DX DY");
+  constexpr std::pair<const char*, Input::Drag Input::*> kButtons[] = {
+      {"left", &Input::left}, {"right", &Input::right}, {"middle", &Input::middle}};
+  for (const auto& [name, button] : kButtons) {
+    if (words.size() != 4 || words[1] != name) continue;
+    return {[button = button, x = number(words[2]), y = number(words[3])](int, Input& input,
+                                                                          ScriptStep&) {
+      (input.*button).x += x;
+      (input.*button).y += y;
+    }};
   }
-  const bool looks = words[1] == "left";
-  return {[looks, x = number(words[2]), y = number(words[3])](int, Input& input, ScriptStep&) {
-    (looks ? input.lookX : input.orbitX) += x;
-    (looks ? input.lookY : input.orbitY) += y;
-  }};
+  expected("mouse left|right|middle DX DY");
 }
 
 ScriptCommand wheelCommand(const Words& words) {
@@ -174,6 +177,7 @@ constexpr std::pair<const char*, ScriptCommand (*)(const Words&)> kCommands[] = 
 constexpr std::pair<const char*, bool ScriptStep::*> kPlainCommands[] = {
     {"minimize", &ScriptStep::minimize},
     {"restore", &ScriptStep::restore},
+    {"bare", &ScriptStep::bare},
     {"quit", &ScriptStep::quit}};
 
 ScriptCommand commandOf(const Words& words) {
@@ -186,7 +190,7 @@ ScriptCommand commandOf(const Words& words) {
   }
   expected(
       "key, mouse, wheel, wait, screenshot, click, point, panel, drop, resize, minimize, restore, "
-      "errors or quit, got '" +
+      "bare, errors or quit, got '" +
       words[0] + "'");
 }
 

@@ -2,7 +2,7 @@
 //
 //   key NAME [SECONDS]            held for so long; without SECONDS for one frame
 //   key Ctrl+NAME
-//   mouse left|right DX DY        dragged by so many pixels
+//   mouse left|right|middle DX DY    dragged by so many pixels
 //   wheel NOTCHES
 //   wait N frames | wait N seconds | wait sharp     sharp: until the picture gets no finer
 //   screenshot FILE.png           what the window shows
@@ -11,6 +11,7 @@
 //   panel NAME                    turns to that tab of the panel
 //   drop FILE                     a file dropped on the window
 //   resize W H | minimize | restore
+//   bare                          the picture alone, without panel, words and messages
 //   errors show | errors end      errors are shown as to a user; by default they end the script
 //   quit
 //
@@ -31,7 +32,7 @@ struct ScriptStep {
   std::string screenshot;  // of this frame, after drawing; empty: none
   bool quit = false;       // the end of the script quits too
   std::optional<ImageSize> resize;
-  bool minimize = false, restore = false;
+  bool minimize = false, restore = false, bare = false;
   std::string tab;                     // of the panel; empty: it stays
   std::optional<Input::Pointer> rest;  // of the pointer, from now on
   std::optional<bool> showErrors;      // false: they end the script

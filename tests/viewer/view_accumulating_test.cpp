@@ -129,7 +129,7 @@ TEST_F(Viewer, AccumulatesAtRest) {
               {"shape": "sphere", "radius": 1, "material": "rough",
                "transform": {"translate": [0, 1, 0]}}]
   })";
-  std::ofstream(folder_ / "script.txt") << "key H\nwait sharp\nscreenshot shown.png\nkey C\n";
+  std::ofstream(folder_ / "script.txt") << "bare\nwait sharp\nscreenshot shown.png\nkey C\n";
   const cli::Outcome outcome = runOn(display_.name(), folder_.path().string(),
                                      {WHIT_VIEW_SCRIPT_PROGRAM, "rough.json", "--quiet", "--glossy",
                                       "1", "--script", "script.txt"});

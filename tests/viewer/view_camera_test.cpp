@@ -152,5 +152,109 @@ TEST(CameraControl, ViewAlongUpCanTurn) {
   EXPECT_NEAR(length(control.camera().at - control.camera().eye), 5, kTolerance);
 }
 
+// A model in a box of sides 2 about the origin.
+CameraControl aroundModel(const Camera& camera = facingOrigin()) {
+  CameraControl control(camera, 1);
+  control.set(camera, Box{{-1, -1, -1}, {1, 1, 1}});
+  return control;
+}
+
+TEST(CameraControl, TheWheelMovesCloserToAModel) {
+  CameraControl control = aroundModel();
+  CameraMotion motion;
+  motion.wheel = 2;
+  EXPECT_TRUE(control.step(motion, 0));
+  expectNear(control.camera().eye, {0, 0, static_cast<float>(5 * kZoomFactor * kZoomFactor)});
+  expectNear(control.camera().at, {0, 0, 0});
+  motion.wheel = 1e4;
+  control.step(motion, 0);
+  EXPECT_NEAR(control.camera().eye.z, kNearest * std::sqrt(12.0), kTolerance);
+  motion.wheel = -1e5;
+  control.step(motion, 0);
+  EXPECT_NEAR(control.camera().eye.z, kFarthest * std::sqrt(12.0), 10 * kTolerance);
+  EXPECT_EQ(control.speed(), 1);
+}
+
+// A drag across the window's height moves the point that is orbited by the height seen there.
+TEST(CameraControl, PansWithThePointer) {
+  CameraMotion motion;
+  motion.panX = 0.1;
+  motion.panY = 0.05;
+  const float height = 2 * 5 * std::tan(22.5f * static_cast<float>(kPi) / 180);
+  for (const bool model : {false, true}) {
+    CameraControl control = model ? aroundModel() : CameraControl(facingOrigin(), 1);
+    EXPECT_TRUE(control.step(motion, 0));
+    expectNear(control.camera().eye, {-0.1f * height, 0.05f * height, 5});
+    expectNear(control.camera().at, {-0.1f * height, 0.05f * height, 0});
+  }
+}
+
+TEST(CameraControl, NoDragLosesAModel) {
+  CameraControl control = aroundModel();
+  CameraMotion motion;
+  motion.panX = -50;
+  motion.panY = 70;
+  motion.orbitX = 1234;
+  motion.orbitY = -777;
+  motion.wheel = -3;
+  for (int i = 0; i < 100; ++i) {
+    control.step(motion, 0);
+    EXPECT_LE(maxComponent(abs(control.camera().at)), 1 + kTolerance);
+  }
+}
+
+// The point that is orbited lies at the depth of the model's middle, wherever `at` is.
+TEST(CameraControl, OrbitsAModelWhoseCameraLooksAtAPointNearby) {
+  Camera camera = facingOrigin();
+  camera.at = {0, 0, 4.5f};
+  CameraControl control = aroundModel(camera);
+  EXPECT_EQ(control.camera().at, camera.at);
+  CameraMotion motion;
+  motion.orbitX = kQuarterTurn;
+  control.step(motion, 0);
+  expectNear(control.camera().eye, {-5, 0, 0});
+}
+
+// The corner (1, 1, 1) is at the border: its height is that of half the view.
+TEST(CameraControl, FitsAModel) {
+  for (const double aspect : {1.0, 2.0, 0.5}) {
+    CameraControl control = aroundModel();
+    CameraMotion motion;
+    motion.wheel = -9;
+    motion.panX = 0.3;
+    control.step(motion, 0);
+    control.fit(aspect);
+    const double away = 1 + std::max(1.0, 1 / aspect) / std::tan(kPi / 8);
+    expectNear(control.camera().eye, {0, 0, static_cast<float>(away)});
+    expectNear(control.camera().at, {0, 0, 0});
+  }
+}
+
+TEST(CameraControl, ParallelRaysComeCloserToo) {
+  Camera camera = facingOrigin();
+  camera.orthographicHeight = 4;
+  CameraControl control = aroundModel(camera);
+  CameraMotion motion;
+  motion.wheel = 1;
+  control.step(motion, 0);
+  EXPECT_NEAR(control.camera().orthographicHeight, 4 * kZoomFactor, kTolerance);
+  expectNear(control.camera().eye, {0, 0, 5});
+  control.fit(2);
+  EXPECT_NEAR(control.camera().orthographicHeight, 2, kTolerance);
+}
+
+TEST(CameraControl, OnlyModelsSeenFromOutsideAreOrbited) {
+  Scene scene;
+  scene.lower = {-1, -1, -1};
+  scene.upper = {1, 1, 1};
+  Camera camera = facingOrigin();
+  EXPECT_TRUE(boundsToOrbit(scene, camera).empty());
+  scene.isModel = true;
+  EXPECT_FALSE(boundsToOrbit(scene, camera).empty());
+  camera.eye = {0.5f, 0, 0};
+  EXPECT_TRUE(boundsToOrbit(scene, camera).empty());
+  EXPECT_FALSE(CameraControl(facingOrigin(), 1).orbits());
+}
+
 }  // namespace
 }  // namespace whit::view

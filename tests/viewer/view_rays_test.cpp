@@ -94,7 +94,7 @@ TEST_F(RayPicking, LinesEndWhereThePictureShowsWhatTheyMeet) {
   const Vec3d eye(request_.camera.eye), back = eye - Vec3d(request_.camera.at);
   EXPECT_FALSE(view.see(eye + back, eye + back * 2));
   // From aside, all that was met is in the picture.
-  const LineView aside(cameraAside(pick->rays.packets, request_.camera), 48, 32);
+  const LineView aside(pick->aside, 48, 32);
   for (const RayNode& n : pick->rays.packets.nodes) {
     if (n.triangle == kMiss) continue;
     const auto at = aside.see(n.position, n.position);
@@ -105,7 +105,9 @@ TEST_F(RayPicking, LinesEndWhereThePictureShowsWhatTheyMeet) {
 
 TEST_F(Viewer, AClickDrawsTheRaysIntoTheScene) {
   play(
-      "key H\nkey N\nwait sharp\nscreenshot plain.png\nclick 120 70\nwait 2 frames\nwait sharp\n"
+      "bare\nkey N\nwait sharp\nscreenshot plain.png\nclick 120 70\nwait 2 frames\nbare\nwait 2 "
+      "frames\nwait "
+      "sharp\n"
       "screenshot rays.png\nkey T\nwait 2 frames\nscreenshot hidden.png\nkey T\n"
       "mouse right 60 0\nwait 20 frames\nwait sharp\nscreenshot aside.png\nkey T\nwait 2 frames\n"
       "screenshot plain-aside.png\n",

@@ -54,16 +54,6 @@ TEST_F(RenderThreadTest, ShadowsAreProvedAtRest) {
   expectRightPicture(thread);
 }
 
-TEST_F(RenderThreadTest, ASmallerDepthIsTracedOnlyWhereItIsAskedFor) {
-  RenderThread thread(opened_, common_, [] {});
-  request_.depth = 0;
-  const TracedFrame flat = traced(thread);
-  EXPECT_EQ(flat.stats.of(RayKind::reflection).rays, 0u);
-  EXPECT_EQ(flat.options.depth, 0);
-  request_.depth = kDepthLimit;
-  expectRightPicture(thread);
-}
-
 TEST_F(RenderThreadTest, TheNewestRequestWins) {
   RenderThread thread(opened_, common_, [] {});
   request_.interruptible = true;

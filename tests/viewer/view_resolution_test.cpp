@@ -11,12 +11,10 @@ namespace {
 
 constexpr double kPixels = 1e6;
 
-// As after many frames of `ms` for the whole window, at any depth.
+// As after many frames of `ms` for the whole window.
 ResolutionControl learned(double ms, double rate = kDefaultRate) {
   ResolutionControl control(rate, 1);
-  for (int i = 0; i < 100; ++i) {
-    for (const int depth : kMotionDepths) control.learn(ms, kPixels, depth);
-  }
+  for (int i = 0; i < 100; ++i) control.learn(ms, kPixels);
   return control;
 }
 
@@ -28,7 +26,7 @@ double scaleOf(ResolutionControl& control) {
 
 TEST(ResolutionControl, BeginsWithWhatIsSoonThere) {
   ResolutionControl control(kDefaultRate, 3);
-  EXPECT_EQ(control.moving(kPixels), (Sharpness{kScales.back(), 1, kFirstDepth}));
+  EXPECT_EQ(control.moving(kPixels), (Sharpness{kScales.back(), 1}));
 }
 
 TEST(ResolutionControl, FewCoresAreAskedForLess) {
@@ -138,40 +136,6 @@ TEST(ResolutionControl, SamplesStayWithinTheirLimit) {
   ResolutionControl control(kDefaultRate, kSppLimit);
   const Sharpness last = stepsAtRest(control, true).back();
   EXPECT_EQ(last, (Sharpness{1, kSppLimit}));
-}
-
-// All pixels take 400 ms at full depth, 120 at 8, 60 at 4, of which half the sides need 15.
-TEST(ResolutionControl, ASmallerDepthPaysForResolution) {
-  ResolutionControl control(kDefaultRate, 1);
-  control.learn(400, kPixels);
-  control.learn(120, kPixels, 8);
-  control.learn(60, kPixels, 4);
-  scaleOf(control);
-  EXPECT_EQ(control.moving(kPixels), (Sharpness{0.5, 1, 4}));
-  control.setRate(30);  // 33.3 ms: 30 for half the sides at 8, but not well below it
-  scaleOf(control);
-  EXPECT_EQ(control.moving(kPixels).depth, 4);
-  control.setRate(25);
-  scaleOf(control);
-  EXPECT_EQ(control.moving(kPixels), (Sharpness{0.5, 1, 8}));
-  control.setDepth(4);  // what the user asks for is never exceeded
-  EXPECT_EQ(control.moving(kPixels).depth, kDepthLimit);
-}
-
-TEST(ResolutionControl, ADepthThatSavesNothingIsLeftAlone) {
-  ResolutionControl control = learned(1000);
-  EXPECT_EQ(control.moving(kPixels).depth, kDepthLimit);
-}
-
-TEST(ResolutionControl, LargestScaleHoldsAtRestAndInMotion) {
-  ResolutionControl control = learned(1);
-  control.stepLargestScale(-2);
-  EXPECT_EQ(stepsAtRest(control, false).back().scale, 0.75);
-  EXPECT_EQ(scaleOf(control), 0.75);
-  control.stepLargestScale(-100);
-  EXPECT_EQ(control.largestScale(), kScales.back());
-  control.stepLargestScale(100);
-  EXPECT_EQ(scaleOf(control), 1);
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ class SavedScenes : public Viewer {
 TEST_F(SavedScenes, KeepWhatWasNotEdited) {
   const cli::Outcome outcome = play(
       "key N\nkey W 0.3\nwait 10 frames\npanel scene\nwait 10 frames\n"
-      "click 30 244\nwait 5 frames\nclick 100 313\nkey H\nwait 20 frames\nwait sharp\n"
+      "click 30 200\nwait 5 frames\nclick 100 269\nbare\nwait 20 frames\nwait sharp\n"
       "screenshot shown.png\nkey Ctrl+S\nkey Ctrl+S\n",
       {"--size", "800x480"});
   const std::vector<std::string> lines = linesOf(outcome.out);
@@ -77,7 +77,7 @@ TEST_F(SavedScenes, FindTheirFilesFromElsewhere) {
     "objects": {"o": [{"group": [{"model": "m.obj"}]}]},
     "scene": [{"shape": "quad", "material": "m"}, {"use": "o"}]})";
   const cli::Outcome outcome = play(
-      "drop sub/s.json?fov=55\nwait 60 frames\nkey D 0.2\nwait 20 frames\nwait sharp\nkey H\n"
+      "drop sub/s.json?fov=55\nwait 60 frames\nkey D 0.2\nwait 20 frames\nwait sharp\nbare\n"
       "wait 2 frames\nscreenshot shown.png\nkey Ctrl+S\n");
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 1u) << outcome.out;
@@ -93,7 +93,7 @@ TEST_F(SavedScenes, SayWhenTheirFilesLieOutside) {
     "scene": [{"shape": "sphere"}]})";
   const cli::Outcome outcome =
       play("drop " + (elsewhere / "far.json") +
-           "\nwait 60 frames\nwait sharp\nkey H\nwait 2 frames\nscreenshot shown.png\n"
+           "\nwait 60 frames\nwait sharp\nbare\nwait 2 frames\nscreenshot shown.png\n"
            "key Ctrl+S\n");
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 1u) << outcome.out;
@@ -107,7 +107,7 @@ TEST_F(SavedScenes, OfAModelHoldIt) {
   std::ofstream(folder_ / "models/m.obj")
       << "mtllib m.mtl\nusemtl a/b~c\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nv 0 0 1\nf 1 3 4\n";
   const cli::Outcome outcome = play(
-      "drop models/m.obj\nwait 60 frames\nkey D 0.2\nkey H\nwait 20 frames\nwait sharp\n"
+      "drop models/m.obj\nwait 60 frames\nkey D 0.2\nbare\nwait 20 frames\nwait sharp\n"
       "screenshot shown.png\nkey C\nkey Ctrl+S\ndrop sky.exr\nwait 30 frames\nwait sharp\n"
       "screenshot sky.png\nkey Ctrl+S\n",
       {"--size", "120x80"});
@@ -127,7 +127,7 @@ TEST_F(SavedScenes, HaveTheSkyThatWasChosen) {
     std::vector<std::string> all{"--size", "120x80"};
     all.insert(all.end(), words.begin(), words.end());
     const cli::Outcome outcome = play(
-        "key H\nwait sharp\nscreenshot own.png\nkey Ctrl+S\ndrop sky.exr\nwait 30 frames\n"
+        "bare\nwait sharp\nscreenshot own.png\nkey Ctrl+S\ndrop sky.exr\nwait 30 frames\n"
         "wait sharp\nscreenshot sky.png\nkey C\nkey Ctrl+S\n",
         all);
     const std::vector<std::string> lines = linesOf(outcome.out);
@@ -144,8 +144,8 @@ TEST_F(SavedScenes, HaveTheSkyThatWasChosen) {
 TEST_F(SavedScenes, HaveTheSurroundingsOfThePanel) {
   const cli::Outcome outcome = play(
       "drop sky.exr\nkey N\npanel scene\nwait 30 frames\nwait sharp\n"
-      "click 93 361 120 361\nclick 60 385 150 385\nclick 30 409\nwait 5 frames\n"
-      "key H\nwait 30 frames\nwait sharp\nscreenshot shown.png\nkey C\n"
+      "click 93 317 120 317\nclick 60 341 150 341\nclick 30 365\nwait 5 frames\n"
+      "bare\nwait 30 frames\nwait sharp\nscreenshot shown.png\nkey C\n"
       "key Ctrl+S\n",
       {"--size", "800x560"});
   const std::vector<std::string> lines = linesOf(outcome.out);
@@ -160,12 +160,12 @@ TEST_F(SavedScenes, HaveTheSurroundingsOfThePanel) {
 TEST_F(SavedScenes, ASkyThatCannotBeReadLeavesTheOneThatIsThere) {
   std::ofstream(folder_ / "bad.hdr") << "#?RADIANCE\n\n-Y 1 +X 1000000\n";
   const cli::Outcome outcome = play(
-      "errors show\nkey H\nkey N\nwait sharp\ndrop bad.hdr\nwait 30 frames\nwait sharp\nkey H\n"
+      "errors show\nbare\nkey N\nwait sharp\ndrop bad.hdr\nwait 30 frames\nwait sharp\nbare\n"
       "key Ctrl+S\nkey C\n");
   EXPECT_NE(outcome.err.find("bad.hdr"), std::string::npos) << outcome.err;
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 2u) << outcome.out;
-  EXPECT_EQ(lines[1], "whit render tiny.json -o tiny.png");
+  EXPECT_EQ(lines[1], "whit render tiny.json -o tiny.png --size=48x32");
   EXPECT_FALSE(read("tiny-edited.json").contains("sky"));
 }
 

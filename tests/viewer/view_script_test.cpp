@@ -31,14 +31,14 @@ TEST(Script, ErrorsNameTheLine) {
   EXPECT_EQ(errorOf("quit\n\n# all is well\nkey Lft\n"),
             "walk.txt:4: there is no key 'Lft'; did you mean 'Left'?");
   EXPECT_EQ(errorOf("wait 3"), "walk.txt:1: expected wait N frames, wait N seconds or wait sharp");
-  EXPECT_EQ(errorOf("mouse middle 1 2"), "walk.txt:1: expected mouse left|right DX DY");
+  EXPECT_EQ(errorOf("mouse wheel 1 2"), "walk.txt:1: expected mouse left|right|middle DX DY");
   EXPECT_EQ(errorOf("wheel x"), "walk.txt:1: expected a number of at most 1e6, got 'x'");
   EXPECT_EQ(errorOf("wheel 1e9"), "walk.txt:1: expected a number of at most 1e6, got '1e9'");
   EXPECT_EQ(errorOf("wheel nan"), "walk.txt:1: expected a number of at most 1e6, got 'nan'");
   EXPECT_EQ(errorOf("screenshot a.jpg"), "walk.txt:1: expected screenshot FILE.png");
   EXPECT_EQ(errorOf("jump"),
             "walk.txt:1: expected key, mouse, wheel, wait, screenshot, click, point, panel, drop, "
-            "resize, minimize, restore, errors or quit, got 'jump'");
+            "resize, minimize, restore, bare, errors or quit, got 'jump'");
 }
 
 TEST(Script, ErrorsOfCommandsToTheWindow) {
@@ -103,13 +103,16 @@ TEST(Script, KeysAreHeldForTheirTime) {
 }
 
 TEST(Script, MouseAndWheel) {
-  ScriptPlayer player(parseScript("mouse left 3 -4\nmouse right 5 6\nwheel -2", "walk.txt"));
+  ScriptPlayer player(
+      parseScript("mouse left 3 -4\nmouse right 5 6\nmouse middle 7 8\nwheel -2", "walk.txt"));
   Input input;
-  for (int frame = 0; frame < 3; ++frame) player.next(true, input);
-  EXPECT_EQ(input.lookX, 3);
-  EXPECT_EQ(input.lookY, -4);
-  EXPECT_EQ(input.orbitX, 5);
-  EXPECT_EQ(input.orbitY, 6);
+  for (int frame = 0; frame < 4; ++frame) player.next(true, input);
+  EXPECT_EQ(input.left.x, 3);
+  EXPECT_EQ(input.left.y, -4);
+  EXPECT_EQ(input.right.x, 5);
+  EXPECT_EQ(input.right.y, 6);
+  EXPECT_EQ(input.middle.x, 7);
+  EXPECT_EQ(input.middle.y, 8);
   EXPECT_EQ(input.wheel, -2);
 }
 

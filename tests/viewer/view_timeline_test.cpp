@@ -103,7 +103,7 @@ TEST_F(MovingPictures, KeepWhatWasEdited) {
 TEST_F(Viewer, PlaysUntilItIsPaused) {
   writeMovingScene(folder_);
   const cli::Outcome outcome = play(
-      "key H\nkey N\nwait 58 frames\nkey P\nwait 3 frames\nwait sharp\nscreenshot shown.png\nkey "
+      "bare\nkey N\nwait 58 frames\nkey P\nwait 3 frames\nwait sharp\nscreenshot shown.png\nkey "
       "C\n"
       "key A 0.2\nkey P\nwait 30 frames\nkey P\nwait sharp\nkey C\n",
       {"--size", "240x160"});

@@ -12,7 +12,7 @@ namespace {
 
 TEST_F(Viewer, ShowsWhatThePrintedCommandRenders) {
   const cli::Outcome outcome = play(
-      "key H\nkey W 0.5\nmouse left 40 -25\nmouse right -30 5\nkey ]\nwait 3 frames\nwait sharp\n"
+      "bare\nkey W 0.5\nmouse left 40 -25\nmouse right -30 5\nkey ]\nwait 3 frames\nwait sharp\n"
       "screenshot shown.png\nkey C\n",
       {"--size", "240x160"});
   const std::vector<std::string> lines = linesOf(outcome.out);
@@ -26,8 +26,9 @@ TEST_F(Viewer, ShowsWhatThePrintedCommandRenders) {
 // Pasted into a shell as it is.
 TEST_F(Viewer, OnlyWhatDiffersIsPrinted) {
   const cli::Outcome outcome = play(
-      "key H\nkey N\nwait sharp\nscreenshot first.png\nkey C\nkey 2\nwait 20 frames\nwait sharp\n"
-      "screenshot second.png\nkey C\n");
+      "bare\nkey N\nresize 48 32\nwait 20 frames\nwait sharp\nscreenshot first.png\nkey C\nkey 2\n"
+      "wait 20 frames\nwait sharp\nscreenshot second.png\nkey C\n",
+      {"--size", "scene"});
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 2u) << outcome.out;
   EXPECT_EQ(lines[0], "whit render tiny.json -o tiny.png");
@@ -40,36 +41,37 @@ TEST_F(Viewer, OnlyWhatDiffersIsPrinted) {
 
 TEST_F(Viewer, ParallelRaysComeBackFromThePrintedCommand) {
   const cli::Outcome outcome =
-      play("key H\nkey D 0.3\nwait 3 frames\nwait sharp\nscreenshot shown.png\nkey C\nkey F12\n",
+      play("bare\nkey D 0.3\nwait 3 frames\nwait sharp\nscreenshot shown.png\nkey C\nkey F12\n",
            {"--size", "240x160", "--ortho", "3"});
   const std::vector<std::string> lines = linesOf(outcome.out);
-  ASSERT_EQ(lines.size(), 1u) << outcome.out;
+  ASSERT_EQ(lines.size(), 2u) << outcome.out;
+  EXPECT_EQ(lines[1], lines[0]);
   EXPECT_NE(lines[0].find("--ortho=3"), std::string::npos) << lines[0];
   render(lines[0], "again.png");
   expectSameCodes("shown.png", "again.png");
-  EXPECT_EQ(readCamera(folder_ / "tiny-0001.json").orthographicHeight, 3);
 }
 
 // No option gives a lens, so the camera that has it is named.
 TEST_F(Viewer, ALensComesBackFromThePrintedCommand) {
   const cli::Outcome outcome =
-      play("key H\nkey D 0.3\nwait 3 frames\nwait sharp\nscreenshot shown.png\nkey C\nkey F12\n",
+      play("bare\nkey D 0.3\nwait 3 frames\nwait sharp\nscreenshot shown.png\nkey C\nkey F12\n",
            {"--size", "240x160", "--spp", "4", "--camera", "side", "--set",
             "/cameras/side/aperture=0.3"});
   const std::vector<std::string> lines = linesOf(outcome.out);
-  ASSERT_EQ(lines.size(), 1u) << outcome.out;
+  ASSERT_EQ(lines.size(), 2u) << outcome.out;
   EXPECT_NE(lines[0].find("--camera=side"), std::string::npos) << lines[0];
   EXPECT_NE(lines[0].find("--eye="), std::string::npos) << lines[0];
   render(lines[0], "again.png");
   expectSameCodes("shown.png", "again.png");
-  EXPECT_EQ(readCamera(folder_ / "tiny-0001.json").aperture, 0.3f);
 }
 
-TEST_F(Viewer, SavesThePictureAndItsCamera) {
+TEST_F(Viewer, SavesThePictureAndPrintsItsCommand) {
   const cli::Outcome outcome =
       play("key A 0.2\nwait 3 frames\nwait sharp\nkey F12\nkey F12\nkey C\n");
   const std::vector<std::string> lines = linesOf(outcome.out);
-  ASSERT_EQ(lines.size(), 1u) << outcome.out;
+  ASSERT_EQ(lines.size(), 3u) << outcome.out;
+  EXPECT_EQ(lines[0], lines[2]);
+  EXPECT_NE(lines[0].find("--eye=-"), std::string::npos) << lines[0];  // it flew to the left
   render(lines[0], "again.png");
   render(lines[0], "again.exr");
   expectSameCodes("tiny-0001.png", "again.png");
@@ -80,15 +82,12 @@ TEST_F(Viewer, SavesThePictureAndItsCamera) {
   ASSERT_EQ(saved.pixels.size(), again.pixels.size());
   EXPECT_EQ(
       std::memcmp(saved.pixels.data(), again.pixels.data(), saved.pixels.size() * sizeof(Rgb)), 0);
-  const Camera camera = readCamera(folder_ / "tiny-0001.json");
-  EXPECT_EQ(camera.fov, 40);
-  EXPECT_LT(camera.eye.x, 0);  // it flew to the left
 }
 
 TEST_F(Viewer, KeysChooseCameras) {
   const cli::Outcome outcome = play(
-      "key 2\nwait 3 frames\nwait sharp\nkey C\nkey F5\nkey S 0.3\nwait 3 frames\nwait sharp\n"
-      "key C\nkey F9\nwait 3 frames\nwait sharp\nkey C\n");
+      "key 2\nwait 3 frames\nwait sharp\nkey C\nkey S 0.3\nwait 3 frames\nwait sharp\n"
+      "key C\nkey 2\nwait 3 frames\nwait sharp\nkey C\n");
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 3u) << outcome.out;
   EXPECT_NE(lines[0].find(" --camera=side"), std::string::npos) << lines[0];
@@ -97,10 +96,95 @@ TEST_F(Viewer, KeysChooseCameras) {
   EXPECT_EQ(lines[2], lines[0]);
 }
 
-TEST_F(Viewer, ThePanelCoversThePicture) {
-  play("wait sharp\nscreenshot with.png\nkey H\nwait 2 frames\nscreenshot without.png\n",
-       {"--size", "400x300"});
-  EXPECT_NE(codes("with.png").codes, codes("without.png").codes);
+// The bytes of a rectangle of both pictures are equal.
+bool sameIn(const RawImage& a, const RawImage& b, int x0, int y0, int x1, int y1) {
+  const auto channels = static_cast<std::size_t>(a.channels);
+  for (int y = y0; y < y1; ++y) {
+    const std::size_t from = static_cast<std::size_t>(y * a.width + x0) * channels;
+    const std::size_t bytes = static_cast<std::size_t>(x1 - x0) * channels;
+    if (std::memcmp(&a.codes[from], &b.codes[from], bytes) != 0) return false;
+  }
+  return true;
+}
+
+// One line at the bottom names the key for help, until a key is pressed; H opens the panel.
+TEST_F(Viewer, StartsWithThePictureAndOneLine) {
+  play(
+      "wait sharp\nwait 300 frames\nscreenshot start.png\nkey Shift\nwait 2 frames\n"
+      "screenshot picture.png\nkey H\nwait 4 frames\nscreenshot panel.png\nbare\n"
+      "wait 2 frames\nscreenshot bare.png\n",
+      {"--size", "500x300"});
+  const RawImage start = codes("start.png"), bare = codes("bare.png"), panel = codes("panel.png");
+  EXPECT_TRUE(sameIn(start, bare, 0, 0, 500, 260));
+  EXPECT_FALSE(sameIn(start, bare, 0, 260, 500, 300));
+  expectSameCodes("picture.png", "bare.png");
+  EXPECT_FALSE(sameIn(panel, bare, 10, 10, 400, 200));
+}
+
+// The window of a picture of 480x300 on a screen of 800x600.
+TEST_F(Viewer, OpensAtTwoThirdsOfTheScreenAndKeepsItsSettings) {
+  const cli::Outcome first =
+      play("wait sharp\nkey C\nkey I\nkey H\nwait 2 frames\n", {"--size", "scene"});
+  EXPECT_NE(first.out.find(" --size=533x355"), std::string::npos) << first.out;
+  const std::string kept = cli::readFile(folder_ / "whit/viewer.json");
+  EXPECT_NE(kept.find("\"inspector\": true"), std::string::npos) << kept;
+  EXPECT_NE(kept.find("\"panel\": true"), std::string::npos) << kept;
+  EXPECT_NE(kept.find("/tiny.json\""), std::string::npos) << kept;
+  play("wait sharp\nresize 300 300\nwait 10 frames\nkey I\n", {"--size", "scene"});
+  const cli::Outcome third = play("wait sharp\nkey C\n", {"--size", "scene"});
+  EXPECT_NE(third.out.find(" --size=300x200"), std::string::npos) << third.out;
+  EXPECT_NE(cli::readFile(folder_ / "whit/viewer.json").find("\"inspector\": false"),
+            std::string::npos);
+}
+
+TEST_F(Viewer, WithoutASceneTheLastOneOpens) {
+  EXPECT_EQ(runOn(display_.name(), folder_.path().string(), {WHIT_VIEW_PROGRAM}).status, 2);
+  play("wait sharp\n");
+  std::ofstream(folder_ / "script.txt") << "wait sharp\nkey C\n";
+  const cli::Outcome outcome =
+      runOn(display_.name(), folder_.path().string(),
+            {WHIT_VIEW_SCRIPT_PROGRAM, "--size", "48x32", "--script", "script.txt"});
+  EXPECT_NE(outcome.out.find("/tiny.json -o tiny.png"), std::string::npos) << outcome.out;
+}
+
+// A pixel is clicked on at the left, then one at the right: the panel is on the other side.
+TEST_F(Viewer, ThePanelLeavesTheClickedPointFree) {
+  play(
+      "bare\nkey N\nwait sharp\nscreenshot bare.png\nclick 60 100\nwait 2 frames\nkey T\n"
+      "wait 4 frames\nwait sharp\nscreenshot left.png\nbare\nwait 2 frames\nclick 240 160\n"
+      "wait 2 frames\nkey T\nwait 4 frames\nwait sharp\nscreenshot middle.png\n",
+      {"--size", "500x300"});
+  const RawImage bare = codes("bare.png");
+  EXPECT_TRUE(sameIn(codes("left.png"), bare, 0, 0, 70, 300));
+  EXPECT_FALSE(sameIn(codes("left.png"), bare, 100, 0, 500, 300));
+  EXPECT_TRUE(sameIn(codes("middle.png"), bare, 230, 0, 250, 300));
+  EXPECT_FALSE(sameIn(codes("middle.png"), bare, 0, 0, 500, 300));
+}
+
+// No drag loses a model; Home and a double click fit it.
+TEST_F(Viewer, AModelStaysInThePicture) {
+  std::ofstream(folder_ / "box.obj")
+      << "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
+         "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+  const cli::Outcome outcome = play(
+      "bare\nkey N\ndrop box.obj\nwait 60 frames\nmouse left 900 -700\nmouse middle 5000 -3000\n"
+      "wheel -500\nmouse right 100 4000\nwait 3 frames\nwait sharp\nscreenshot far.png\n"
+      "key Home\nwait 3 frames\nwait sharp\nscreenshot fit.png\nwheel 3\nmouse middle 30 9\n"
+      "wait 3 frames\nwait sharp\nclick 100 60\nclick 100 60\nbare\nwait 3 frames\nwait sharp\n"
+      "screenshot again.png\n",
+      {"--size", "240x160"});
+  const auto covered = [&](const char* file) {
+    const RawImage image = codes(file);
+    const auto channels = static_cast<std::size_t>(image.channels);
+    std::size_t other = 0;
+    for (std::size_t i = channels; i < image.codes.size(); i += channels) {
+      other += std::memcmp(&image.codes[0], &image.codes[i], 3) != 0;
+    }
+    return static_cast<double>(other) / (240 * 160);
+  };
+  EXPECT_GT(covered("far.png"), 0.001);
+  EXPECT_GT(covered("fit.png"), 0.2);
+  expectSameCodes("again.png", "fit.png");
 }
 
 TEST(Letterbox, AnotherWindowKeepsThePicturesShape) {
@@ -112,10 +196,10 @@ TEST(Letterbox, AnotherWindowKeepsThePicturesShape) {
 }
 
 TEST_F(Viewer, ErrorsEndAScript) {
-  std::ofstream(folder_ / "script.txt") << "key F9\n";  // nothing was saved
+  std::ofstream(folder_ / "script.txt") << "drop missing.json\nwait 60 frames\nwait sharp\n";
   const cli::Outcome outcome = view({"--script", "script.txt"});
   EXPECT_EQ(outcome.status, 1);
-  EXPECT_NE(outcome.err.find("tiny-camera.json"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("missing.json"), std::string::npos) << outcome.err;
   std::ofstream(folder_ / "script.txt") << "wait\n";
   EXPECT_EQ(view({"--script", "script.txt"}).status, 3);
 }
@@ -136,45 +220,6 @@ TEST(ViewerAlone, RefusesWhatItCannotShow) {
     all.insert(all.end(), words.begin(), words.end());
     EXPECT_EQ(runOn("", folder.path().string(), all).status, 2) << words[0];
   }
-}
-
-TEST(ViewFiles, CamerasComeBackBitForBit) {
-  const cli::TemporaryFolder folder;
-  Camera camera;
-  camera.eye = {0.1f, -1e-20f, 3.3333333e7f};
-  camera.at = {1.0f / 3, 2, -0.0f};
-  camera.up = {0.7f, 0.1f, 0};
-  camera.fov = 33.3f;
-  camera.aperture = 0.07f;
-  camera.focus = 1.9f;
-  writeCamera(folder / "camera.json", camera);
-  const Camera read = readCamera(folder / "camera.json");
-  EXPECT_EQ(read.eye, camera.eye);
-  EXPECT_EQ(read.at, camera.at);
-  EXPECT_EQ(read.up, camera.up);
-  EXPECT_EQ(read.fov, camera.fov);
-  EXPECT_TRUE(sameView(read, camera));
-}
-
-TEST(ViewFiles, BadCamerasSayWhere) {
-  const cli::TemporaryFolder folder;
-  const auto errorOf = [&](const std::string& text) {
-    std::ofstream(folder / "camera.json") << text;
-    try {
-      readCamera(folder / "camera.json");
-    } catch (const Error& error) {
-      return std::string(error.what()).substr(folder.path().string().size() + 1);
-    }
-    return std::string("no error");
-  };
-  EXPECT_EQ(errorOf("[]"), "camera.json#: expected an object, found a list of 0");
-  EXPECT_EQ(errorOf(R"({"eye": [0, 0]})"), "camera.json#: expected a member \"at\"");
-  EXPECT_EQ(errorOf(R"({"eye": [0, 0], "at": [0, 0, 0]})"),
-            "camera.json#/eye: expected three numbers [x, y, z], found a list of 2");
-  EXPECT_EQ(errorOf(R"({"eye": [0, 0, 1], "at": [0, 0, 1]})"),
-            "camera.json#: expected eye and at to differ, found an object of 2");
-  EXPECT_EQ(errorOf(R"({"eye": [0, 0, 1], "at": [0, 0, 0], "fov": 0})"),
-            "camera.json#/fov: expected a number from 0.001 to 179.9, found 0");
 }
 
 }  // namespace

@@ -66,6 +66,7 @@ inline cli::Outcome runOn(const std::string& display, const std::string& folder,
     unsetenv("WAYLAND_DISPLAY");
     unsetenv("DISPLAY");
     if (!display.empty()) setenv("DISPLAY", display.c_str(), 1);
+    setenv("XDG_CONFIG_HOME", folder.c_str(), 1);  // nobody's settings
     if (chdir(folder.c_str()) != 0) _exit(126);
     execv(argv[0], argv.data());
     _exit(127);

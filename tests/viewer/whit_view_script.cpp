@@ -40,7 +40,8 @@ class PlayedScript : public ScriptedUser {
     if (step.resize) glfwSetWindowSize(window, step.resize->width, step.resize->height);
     if (step.minimize) glfwIconifyWindow(window);
     if (step.restore) glfwRestoreWindow(window);
-    if (!step.tab.empty()) settings.tab = step.tab;
+    if (!step.tab.empty()) settings.tab = step.tab, settings.shown = true;
+    if (step.bare) settings.words = settings.shown = false;
     if (step.showErrors) survivesErrors_ = *step.showErrors;
     screenshot_ = step.screenshot;
     return !step.quit;

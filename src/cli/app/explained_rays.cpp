@@ -1,6 +1,5 @@
 #include "cli/app/explained_rays.h"
 
-#include "core/formatted.h"
 #include "reference/media.h"
 
 namespace whit::cli {
@@ -9,6 +8,20 @@ namespace {
 
 std::string nameOf(const std::string& name, const char* kind, std::size_t number) {
   return name.empty() ? kind + (" " + std::to_string(number)) : printable(name);
+}
+
+std::string metText(const Scene& scene, const RayNode& node) {
+  if (node.triangle == kMiss) return "leaves the scene";
+  return formatted("%s, %.6g away%s", materialName(scene, node.material).c_str(), node.distance,
+                   node.hidden ? ", hidden in another medium" : "");
+}
+
+std::string partingText(const Scene& scene, const ExplainedRays& rays, std::size_t node) {
+  const std::size_t other = rays.counterpart[node];
+  if (other == kNoCounterpart) return "it does not follow this ray";
+  const RayNode &n = rays.packets.nodes[node], &reference = rays.reference.nodes[other];
+  if (!meetsTheSame(n, reference)) return metText(scene, reference);
+  return seesTheSame(n, reference) ? "it sends on other rays" : "it sees other lights";
 }
 
 }  // namespace
@@ -69,18 +82,32 @@ const char* nameOf(PathEnd end) {
   return "";
 }
 
-std::string metText(const Scene& scene, const RayNode& node) {
-  if (node.triangle == kMiss) return "leaves the scene";
-  return formatted("%s, %.6g away%s", materialName(scene, node.material).c_str(), node.distance,
-                   node.hidden ? ", hidden in another medium" : "");
-}
-
-std::string partingText(const Scene& scene, const ExplainedRays& rays, std::size_t node) {
-  const std::size_t other = rays.counterpart[node];
-  if (other == kNoCounterpart) return "it does not follow this ray";
-  const RayNode &n = rays.packets.nodes[node], &reference = rays.reference.nodes[other];
-  if (!meetsTheSame(n, reference)) return metText(scene, reference);
-  return seesTheSame(n, reference) ? "it sends on other rays" : "it sees other lights";
+RayText describeRay(const Scene& scene, const ExplainedRays& rays, std::size_t node) {
+  const RayNode& n = rays.packets.nodes[node];
+  RayText text{metText(scene, n), mediumName(scene, n.media), {}};
+  const auto adds = [&](const std::string& what, const RgbD& own) {
+    text.lines.push_back(what + " adds " + textOf(addedBy(rays.packets, node, own)));
+  };
+  if (rays.partsFirstAt(node)) {
+    text.lines.push_back("here the reference parts: " + partingText(scene, rays, node));
+  }
+  if (maxComponent(n.emitted) > 0) {
+    adds(n.triangle == kMiss ? "sky" : "emission and ambient", n.emitted);
+  }
+  for (const LightContribution& light : n.lights) {
+    const std::string name = lightName(scene, light.light);
+    if (light.visible) {
+      adds(name, light.radiance);
+    } else {
+      text.lines.push_back(name + " is in shadow");
+    }
+  }
+  for (const RayKind kind : kImpulseKinds) {
+    const PathEnd end = n.endOf(kind);
+    if (end == PathEnd::none) continue;
+    text.lines.push_back(formatted("no %s: %s", rowOf(kind).light.data(), nameOf(end)));
+  }
+  return text;
 }
 
 }  // namespace whit::cli

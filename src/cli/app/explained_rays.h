@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/formatted.h"
 #include "inspect/ray_tree.h"
 
 namespace whit::cli {
@@ -28,9 +29,14 @@ std::string lightName(const Scene& scene, std::uint32_t light);
 // The name of the medium in which a ray travels.
 std::string mediumName(const Scene& scene, std::uint32_t media);
 const char* nameOf(PathEnd end);  // "" for none
-// "glass, 2.5 away", or that it leaves the scene.
-std::string metText(const Scene& scene, const RayNode& node);
-// How the reference goes on where it parts.
-std::string partingText(const Scene& scene, const ExplainedRays& rays, std::size_t node);
+
+// The words that describe a ray of the packets.
+struct RayText {
+  std::string met, medium;         // "glass, 2.5 away" and "vacuum"
+  std::vector<std::string> lines;  // where the reference parts, what the ray adds, and how it ends
+};
+RayText describeRay(const Scene& scene, const ExplainedRays& rays, std::size_t node);
+
+inline std::string textOf(const RgbD& c) { return formatted("%.5f %.5f %.5f", c.x, c.y, c.z); }
 
 }  // namespace whit::cli

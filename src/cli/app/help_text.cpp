@@ -10,7 +10,6 @@
 #include <functional>
 #include <map>
 #include <regex>
-#include <sstream>
 
 #include "cli/app/parse_options.h"
 #include "cli/app/program.h"

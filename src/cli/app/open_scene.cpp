@@ -21,6 +21,15 @@ std::unique_ptr<OpenScene> openScene(const std::string& name, const CommonOption
   open->sky = common.load.sky;
   open->loadMs = stopwatch.ms();
   if (!common.quiet) tellWarnings(open->warnings);
+  const EffectSet effects = open->scene.effects;
+  const bool shines = effects.has(Effect::lights) || effects.has(Effect::sky) ||
+                      effects.has(Effect::ambient) || effects.has(Effect::emission);
+  if (!common.quiet && !shines) {
+    std::fprintf(stderr,
+                 "whit: warning: %s is black: it has no lights, no sky, no ambient light and no "
+                 "emissive surface\n",
+                 printable(open->scene.name).c_str());
+  }
   return open;
 }
 

@@ -112,8 +112,13 @@ Json readGltfFile(const std::filesystem::path& path, MemoryBudget& budget,
                   std::optional<std::string>& binary) {
   const std::string bytes = readTextFile(path, budget.left() / 2), name = path.string();
   budget.charge(bytes.size(), 2, name);
+  const bool isBinary = bytes.starts_with("glTF");
+  const std::size_t first = bytes.find_first_not_of(" \t\r\n");
+  if (!isBinary && (first == std::string::npos || bytes[first] != '{')) {
+    throwBadScene(name, "expected a GLB, which begins with \"glTF\", or JSON, which begins with {");
+  }
   const std::string_view text =
-      bytes.starts_with("glTF") ? splitBinary(bytes, name, binary) : std::string_view(bytes);
+      isBinary ? splitBinary(bytes, name, binary) : std::string_view(bytes);
   const auto values = std::count_if(text.begin(), text.end(),
                                     [](char c) { return c == ',' || c == '[' || c == '{'; });
   budget.charge(static_cast<std::uint64_t>(values), kBytesPerJsonValue, name);

@@ -4,7 +4,6 @@
 #include <mutex>
 #include <optional>
 #include <sstream>
-#include <utility>
 
 #include "core/error.h"
 #include "io/gltf/material.h"

@@ -6,6 +6,7 @@
 #include <ImfMultiPartInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfPartType.h>
+#include <ImfStandardAttributes.h>
 #include <ImfStdIO.h>
 #include <ImfStringAttribute.h>
 #include <ImfThreading.h>
@@ -15,6 +16,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -24,10 +26,12 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/option_table.h"
 #include "io/atomic_file.h"
 #include "io/image/image_decoders.h"
 #include "io/image/image_layers.h"
 #include "io/read_file.h"
+#include "scene/members.h"
 
 namespace whit {
 
@@ -236,18 +240,41 @@ ExrChannels layerChannels(const std::string& path, const Imf::ChannelList& list)
 static_assert(sizeof(Rgb) == 3 * sizeof(float), "pixels are written as they lie in memory");
 static_assert(sizeof(float) == sizeof(std::uint32_t), "layers have one stride");
 
-const std::string kPrefix = "whit.";
+// The prefix of the attributes that hold our text: OpenEXR's own attributes do not have it.
+const std::string kPrefix = "whit:";
 constexpr std::array<const char*, 3> kRadianceLayers = {"R", "G", "B"};
 
-// Attributes that mean something to OpenEXR itself, and so cannot carry our text.
-bool isReserved(const std::string& name) {
-  constexpr std::array<const char*, 5> kReserved = {"chunkCount", "name", "type", "version",
-                                                    "view"};
-  return std::find(kReserved.begin(), kReserved.end(), name) != kReserved.end();
-}
-
-std::string attributeName(const Imf::Header& header, const std::string& name) {
-  return isReserved(name) || header.find(name) != header.end() ? kPrefix + name : name;
+// Adds the matrices of the camera that the metadata describe, as OpenEXR defines them: row vectors
+// are multiplied from the left, camera space has x to the right, y up and z forwards, and NDC (0,
+// 0) is the upper left corner of the picture.
+void addCamera(const ImageMetadata& metadata, const Image& image, Imf::Header& header) {
+  RenderOptions options;
+  for (const auto& [name, text] : metadata) {
+    const bool isOfCamera = name == "eye" || name == "at" || name == "up" || name == "fov";
+    if (isOfCamera || name == "ortho") setOption(options, name, text);
+  }
+  if (!options.eye || !options.at) return;
+  Camera camera;
+  forEachCameraOption([&](auto option, auto member) {
+    if (options.*option) camera.*member = *(options.*option);
+  });
+  const CameraFrame frame = makeCameraFrame(camera, image.width, image.height);
+  const double pixel = length(frame.up);
+  const Vec3d axes[] = {frame.right * (1 / pixel), frame.up * (1 / pixel), frame.forward};
+  Imath::M44f toCamera, toNdc;
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) toCamera[k][i] = static_cast<float>(axes[i][k]);
+    toCamera[3][i] = static_cast<float>(-dot(frame.eye, axes[i]));
+  }
+  toNdc[0][0] = static_cast<float>(1 / (pixel * image.width));
+  toNdc[1][1] = static_cast<float>(-1 / (pixel * image.height));
+  // A perspective camera divides by the depth.
+  const int offset = frame.orthographic ? 3 : 2;
+  toNdc[2][2] = toNdc[3][3] = frame.orthographic ? 1 : 0;
+  toNdc[2][3] = toNdc[3][2] = frame.orthographic ? 0 : 1;
+  toNdc[offset][0] = toNdc[offset][1] = 0.5f;
+  Imf::addWorldToCamera(header, toCamera);
+  Imf::addWorldToNDC(header, toCamera * toNdc);
 }
 
 bool inHalf(ExrStorage storage) {
@@ -286,7 +313,9 @@ Imf::Header makeHeader(const Image& image, const ImageMetadata& metadata, ExrSto
     header.channels().insert(layer.name, Imf::Channel(typeOf(layer)));
   }
   for (const auto& [name, text] : metadata)
-    header.insert(attributeName(header, name), Imf::StringAttribute(text));
+    header.insert(kPrefix + name, Imf::StringAttribute(text));
+  Imf::addChromaticities(header, Imf::Chromaticities());  // of Rec. 709
+  addCamera(metadata, image, header);
   return header;
 }
 
@@ -354,9 +383,8 @@ ImageMetadata readExrMetadata(const std::string& path) {
     for (auto it = file.header().begin(); it != file.header().end(); ++it) {
       const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute());
       const std::string name = it.name();
-      if (text == nullptr || isReserved(name)) continue;
-      metadata.emplace_back(name.starts_with(kPrefix) ? name.substr(kPrefix.size()) : name,
-                            text->value());
+      if (text == nullptr || !name.starts_with(kPrefix)) continue;
+      metadata.emplace_back(name.substr(kPrefix.size()), text->value());
     }
     return metadata;
   });

@@ -110,12 +110,12 @@ ImageMetadata describeChannels(const Scene& scene, ChannelSet channels) {
   if (channels.empty()) return {};
   ImageMetadata said{{"channels", namesOf(channels)}};
   if (channels.has(Channel::object)) {
-    said.emplace_back("whit:objects", manifest(scene.items.names));
+    said.emplace_back("objects", manifest(scene.items.names));
   }
   if (channels.has(Channel::material)) {
     std::vector<std::string> names;
     for (const Material& material : scene.materials) names.push_back(material.name);
-    said.emplace_back("whit:materials", manifest(names));
+    said.emplace_back("materials", manifest(names));
   }
   return said;
 }

@@ -1,7 +1,6 @@
 #include "io/obj/mtl_reader.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 #include <optional>

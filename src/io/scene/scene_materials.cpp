@@ -1,5 +1,4 @@
 // The sections "textures" and "materials" of a scene file.
-#include <algorithm>
 #include <cstdint>
 #include <utility>
 

@@ -1,7 +1,6 @@
 #include "io/scene/scene_parts.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <limits>
 #include <type_traits>

@@ -225,7 +225,8 @@ bool movePaths(Json& json, const std::filesystem::path& from, const std::filesys
     const auto text = value.get<std::string>();
     if (text.starts_with("$")) continue;  // $WHIT_DATA, wherever the scene is
     const std::filesystem::path file = absolutePath(from / text);
-    const auto inData = file.lexically_relative(absolutePath(dataFolder()));
+    const auto data = dataFolder();
+    const auto inData = data.empty() ? data : file.lexically_relative(absolutePath(data));
     const auto inFolder = file.lexically_relative(absolutePath(to));
     const bool isData = !inData.empty() && !leavesFolder(inData);
     value = (isData ? "$WHIT_DATA" / inData : inFolder).string();
