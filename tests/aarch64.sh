@@ -49,9 +49,10 @@ END
 cmake -G Ninja -S "$root" -B "$build" -DCMAKE_TOOLCHAIN_FILE="$build/toolchain.cmake" \
   -DCMAKE_BUILD_TYPE=Release -DWHIT_WERROR=ON >"$build/configure.log" 2>&1 ||
   { cat "$build/configure.log"; exit 1; }
-cmake --build "$build" --parallel "$(nproc)" --target whit render_test
+cmake --build "$build" --parallel "$(nproc)" --target whit whit-verify render_test
 
 emulated() { WHIT_SOURCE_DIR=$root qemu-aarch64 -L "$sysroot" "$@"; }
 emulated "$build/whit" bench matte --size 8x8 --frames 1 --json - --quiet |
   grep -E '"(simd|embree|packet)"'
+emulated "$build/whit-verify" --hashes 48x30
 emulated "$build/tests/render_test" --gtest_filter="$filter" --gtest_brief=1 | tail -40
