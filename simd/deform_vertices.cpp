@@ -60,11 +60,10 @@ void AddTarget(const float* moved, double weight, size_t count, double* to) {
   for (; i < count; ++i) to[i] += static_cast<double>(moved[i]) * weight;
 }
 
-// The maps of eight vertices: component by component, and whether joints hold them.
+// The maps of eight vertices, component by component.
 struct alignas(64) Maps {
   static constexpr size_t kComponents = 12;  // of an Affine: x, y, z, p
   double of[kComponents][kVertices];
-  double held[kVertices];
 
   HWY_INLINE D3 Column(size_t column, size_t i) const {
     const Doubles d;
@@ -91,30 +90,20 @@ HWY_INLINE void Blend(const Affine* joints, const Influence* begin, const Influe
     hn::Store(hn::Mul(blended, scale), d, map + k);
   }
   for (size_t k = 0; k < Maps::kComponents; ++k) maps.of[k][vertex] = map[k];
-  maps.held[vertex] = 1;
 }
 
 // Affine::point and Affine::normal, and the sign of the determinant.
 HWY_INLINE void Apply(const Maps& maps, size_t i, double* positions, double* normals,
                       double* sides) {
   const Doubles d;
-  const VD zero = hn::Zero(d);
-  const auto held = hn::Ne(hn::Load(d, maps.held + i), zero);
   const D3 x = maps.Column(0, i), y = maps.Column(1, i), z = maps.Column(2, i);
-  const auto kept = [&](const D3& moved, const D3& before) HWY_ATTR {
-    return D3{hn::IfThenElse(held, moved.x, before.x), hn::IfThenElse(held, moved.y, before.y),
-              hn::IfThenElse(held, moved.z, before.z)};
-  };
-  const D3 position = Loaded(positions);
-  Stored(kept(Add3(Combined(x, y, z, position), maps.Column(3, i)), position), positions);
+  Stored(Add3(Combined(x, y, z, Loaded(positions)), maps.Column(3, i)), positions);
   const D3 yz = Cross3(y, z);
-  const auto mirrored = hn::And(held, hn::Lt(Dot3(x, yz), zero));
+  const auto mirrored = hn::Lt(Dot3(x, yz), hn::Zero(d));
   const VD sign = hn::IfThenElse(mirrored, hn::Set(d, -1.0), hn::Set(d, 1.0));
   hn::StoreU(sign, d, sides);
   if (!normals) return;
-  const D3 normal = Loaded(normals);
-  const D3 moved = Scale3(Combined(yz, Cross3(z, x), Cross3(x, y), normal), sign);
-  Stored(kept(moved, normal), normals);
+  Stored(Scale3(Combined(yz, Cross3(z, x), Cross3(x, y), Loaded(normals)), sign), normals);
 }
 
 void Skin(const Deformation& deformation, const Affine* joints, size_t count, double* positions,
@@ -124,9 +113,8 @@ void Skin(const Deformation& deformation, const Affine* joints, size_t count, do
   for (size_t first = 0; first < count; first += kVertices) {
     Maps maps = {};
     for (size_t k = 0; k < kVertices && first + k < count; ++k) {
-      const uint32_t begin = deformation.firstInfluence[first + k];
-      const uint32_t end = deformation.firstInfluence[first + k + 1];
-      if (begin != end) Blend(joints, all + begin, all + end, k, maps);
+      Blend(joints, all + deformation.firstInfluence[first + k],
+            all + deformation.firstInfluence[first + k + 1], k, maps);
     }
     for (size_t i = 0; i < kVertices; i += lanes) {
       const size_t at = 3 * (first + i);

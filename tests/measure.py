@@ -135,7 +135,7 @@ def measure_accuracy():
         compared.append({"scene": scene, **json.loads(text)})
     keep("compare.json", {"machine": bench("matte", "--size", "8x8", "--frames", "1")["machine"],
                           "runs": compared})
-    run([BUILD / "whit", "accuracy", *here(SWEPT), "--quick", "--out", OUT / "accuracy", "--quiet"])
+    run([BUILD / "whit", "accuracy", *here(SWEPT), "--out", OUT / "accuracy", "--quiet"])
 
 
 def measure_transport():

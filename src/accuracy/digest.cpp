@@ -3,8 +3,6 @@
 #include <xxhash.h>
 
 #include <array>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <new>
 #include <tuple>
@@ -133,18 +131,6 @@ std::string digestOf(const RenderOptions& options) {
   return d.hex();
 }
 
-std::string digestOf(const Camera& camera) {
-  Digester d;
-  add(d, camera);
-  return d.hex();
-}
-
-std::string digestOf(std::initializer_list<std::string_view> texts) {
-  Digester d;
-  for (const std::string_view text : texts) d.text(text);
-  return d.hex();
-}
-
 std::string digestOf(const Image& image) {
   Digester d;
   for (const int n : {image.width, image.height, image.window.x0, image.window.y0, image.window.x1,
@@ -154,13 +140,6 @@ std::string digestOf(const Image& image) {
   static_assert(sizeof(Rgb) == 3 * sizeof(float));
   d.bytes(image.pixels.data(), image.pixels.size() * sizeof(Rgb));
   return d.hex();
-}
-
-std::string digestOfProgram() {
-  std::ifstream program("/proc/self/exe", std::ios::binary);
-  if (!program) return "unknown";
-  const std::string bytes{std::istreambuf_iterator<char>(program), {}};
-  return digestOf({bytes});
 }
 
 }  // namespace whit::accuracy

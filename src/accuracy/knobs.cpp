@@ -33,13 +33,10 @@ Knob knobOf(const std::string& name, const KnobSpec& spec) {
     return all;
   };
   const std::string exact = labelOf(name, std::string(spec.exact));
-  const std::vector<std::string> crossed = labels(spec.crossed), spare = labels(spec.spare);
-  const auto isIn = [](const std::vector<std::string>& words, const std::string& word) {
-    return std::find(words.begin(), words.end(), word) != words.end();
-  };
+  const std::vector<std::string> spare = labels(spec.spare);
   Knob knob{name, spec.cause, {}, spec, exact};
   for (const std::string& label : labels(spec.values)) {
-    KnobValue value{name, label, isIn(crossed, label), isIn(spare, label), false, {}};
+    KnobValue value{name, label, std::ranges::count(spare, label) > 0, false, {}};
     value.endless = label == exact && spec.endless;
     if (label != exact) value.alongside = wordsOf(spec.alongside);
     knob.values.push_back(std::move(value));

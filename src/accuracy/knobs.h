@@ -11,10 +11,10 @@ namespace whit::accuracy {
 inline constexpr const char* kCauseNames[] = {"arithmetic", "algorithm", "sampling", "transport"};
 
 struct KnobValue {
-  std::string knob, label;              // as on the command line: --KNOB LABEL
-  bool crossed = false, spare = false;  // see KnobSpec
-  bool endless = false;                 // branching rays never end with it
-  std::vector<std::string> alongside;   // other options that it sets, as on the command line
+  std::string knob, label;             // as on the command line: --KNOB LABEL
+  bool spare = false;                  // see KnobSpec
+  bool endless = false;                // branching rays never end with it
+  std::vector<std::string> alongside;  // other options that it sets, as on the command line
 
   void apply(RenderOptions& options) const;
   // The reason why the value is impossible in scenes with these effects, beyond the knob's own;

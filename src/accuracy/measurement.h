@@ -94,8 +94,6 @@ struct TransportFacts {
   double standardError = 0, meanRadiance = 0;  // see PassMean
   double noiseFlip = 0;                        // mean FLIP between the even passes and the odd ones
   double renderMs = 0;
-  bool fromFile = false;
-  std::string digest;
 };
 
 struct SceneSweep {
@@ -104,9 +102,7 @@ struct SceneSweep {
   Machine machine;
   int referenceSamples = 0;
   float referenceCutoff = 0;
-  std::string referenceDigest;
   double referenceMs = 0;
-  bool referenceFromFile = false;
   std::vector<Point> points;       // the baseline first, then in the order of the table of options
   std::vector<std::string> order;  // labels in the order in which they were measured
   std::vector<IdleKnob> idle;

@@ -1,7 +1,6 @@
 // The choice of the options that a sweep measures.
 #include <algorithm>
 #include <cstdlib>
-#include <random>
 
 #include "accuracy/digest.h"
 #include "accuracy/sweep.h"
@@ -53,36 +52,11 @@ const KnobValue& atMost(const Knob& knob, const KnobValue& other) {
   return *best;
 }
 
-// All combinations of the knobs' crossed values. The label of a combination has the values that
-// differ from `base`.
-std::vector<std::pair<std::string, RenderOptions>> combinations(const RenderOptions& base,
-                                                                const std::vector<Knob>& knobs) {
-  std::vector<std::pair<std::string, RenderOptions>> all{{"", base}};
-  for (const Knob& knob : knobs) {
-    std::vector<std::pair<std::string, RenderOptions>> more;
-    for (const auto& [label, options] : all) {
-      for (const KnobValue& value : knob.values) {
-        if (!value.crossed) continue;
-        RenderOptions changed = options, alone = base;
-        value.apply(changed);
-        value.apply(alone);
-        std::string name = label;
-        if (digestOf(alone) != digestOf(base))
-          name += (name.empty() ? "" : " ") + knob.name + "=" + value.label;
-        more.emplace_back(name, changed);
-      }
-    }
-    if (!more.empty()) all = std::move(more);
-  }
-  return all;
-}
-
 }  // namespace
 
 std::string Point::label() const { return kind == PointKind::knob ? knob + "=" + value : value; }
 
-PointList makePoints(const RenderOptions& base, EffectSet effects, const std::vector<Knob>& knobs,
-                     std::size_t jointLimit, std::uint32_t seed) {
+PointList makePoints(const RenderOptions& base, EffectSet effects, const std::vector<Knob>& knobs) {
   PointList list;
   const bool standard = digestOf(base) == digestOf(presetOf(base, "standard"));
   addPoint(list.points, PointKind::baseline, "", standard ? "standard" : "baseline", {}, base);
@@ -90,14 +64,12 @@ PointList makePoints(const RenderOptions& base, EffectSet effects, const std::ve
     addPoint(list.points, PointKind::preset, "quality", preset.name, {},
              presetOf(base, preset.name));
   }
-  std::vector<Knob> active;
   for (const Knob& knob : knobs) {
     const std::string because = knob.idle(effects);
     if (!because.empty()) {
       list.idle.push_back({knob.name, because});
       continue;
     }
-    active.push_back(knob);
     for (const KnobValue& value : knob.values) {
       const std::string unable = value.idle(effects);
       if (!unable.empty()) {
@@ -109,15 +81,6 @@ PointList makePoints(const RenderOptions& base, EffectSet effects, const std::ve
       addPoint(list.points, PointKind::knob, knob.name, value.label, knob.cause, options,
                value.spare);
     }
-  }
-  if (jointLimit == 0) return list;
-  auto joint = combinations(base, active);
-  std::mt19937 random(seed);
-  std::shuffle(joint.begin(), joint.end(), random);
-  const std::size_t limit = list.points.size() + jointLimit;
-  for (const auto& [label, options] : joint) {
-    if (list.points.size() >= limit) break;
-    addPoint(list.points, PointKind::joint, "", label, {}, options);
   }
   return list;
 }

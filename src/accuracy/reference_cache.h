@@ -1,5 +1,5 @@
-// The pictures that points are measured against, rendered once and kept in files: those of the
-// scalar reference and the picture with all transport.
+// The pictures that points are measured against: those of the scalar reference, each rendered once,
+// and the picture with all transport.
 #pragma once
 
 #include <map>
@@ -16,10 +16,8 @@ namespace whit::accuracy {
 
 struct ReferencePicture {
   Image image;
-  std::string digest;     // covers everything that the picture depends on; the file's name
-  double renderMs = 0;    // the time that rendering took
-  double rays = 0;        // number of rays
-  bool fromFile = false;  // rendered by an earlier run
+  double renderMs = 0;  // the time that rendering took
+  double rays = 0;      // number of rays
 };
 
 // The picture with all light that whit can transport. Packets render it in several passes of
@@ -56,30 +54,22 @@ class PassMean {
   std::vector<Image> passes_;
 };
 
-// Files are named by a digest of scene tables, camera, options, image window and program. A file
-// with another digest, or one that cannot be read, is rendered again.
+// The mean of kTransportPasses passes with these options, which must have Mode::packets; each has
+// options.spp samples.
+TransportPicture renderTransport(const Scene& scene, const Camera& camera,
+                                 const RenderOptions& options, Progress* progress);
+
+// Keeps the pictures of one scene and camera by their options.
 class ReferenceCache {
  public:
-  // Makes `folder` if it does not exist. `program` identifies the code that renders, including
-  // Embree and the compiler.
-  ReferenceCache(const Scene& scene, const Camera& camera, std::string folder,
-                 const std::string& program);
+  ReferenceCache(const Scene& scene, const Camera& camera) : scene_(scene), camera_(camera) {}
 
-  // `options` must have Mode::reference. Throws Error(io) when the folder cannot be written.
+  // `options` must have Mode::reference.
   const ReferencePicture& get(const RenderOptions& options, Progress* progress);
 
-  // The mean of kTransportPasses passes with these options, which must have Mode::packets; each has
-  // options.spp samples. Throws Error(io) when the folder cannot be written.
-  TransportPicture transport(const RenderOptions& options, Progress* progress) const;
-
-  std::string digest(const RenderOptions& options) const;
-
  private:
-  std::string pathOf(const std::string& digest) const;
-
   const Scene& scene_;
   Camera camera_;
-  std::string folder_, sceneDigest_;
   std::map<std::string, ReferencePicture> pictures_;
 };
 

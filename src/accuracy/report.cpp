@@ -80,7 +80,6 @@ void addRun(Json& row, const SceneSweep& sweep, const Point& point, const Json& 
   row["options"] = options;
   row["reference_samples"] = sweep.referenceSamples;
   row["reference_cutoff"] = static_cast<double>(sweep.referenceCutoff);
-  row["reference_digest"] = sweep.referenceDigest;
   row["truth"] = kTruthNames[static_cast<std::size_t>(sweep.truth())];
   const bool known = sweep.transport.has_value();
   const TransportFacts t = sweep.transport.value_or(TransportFacts());
@@ -89,7 +88,6 @@ void addRun(Json& row, const SceneSweep& sweep, const Point& point, const Json& 
   row["truth_standard_error"] = orNull(known, t.standardError);
   row["truth_mean_radiance"] = orNull(known, t.meanRadiance);
   row["truth_noise_flip"] = orNull(known, t.noiseFlip);
-  row["truth_digest"] = orNull(known, t.digest);
   row.update(facts);
 }
 
@@ -272,10 +270,9 @@ std::string base64(std::string_view bytes) {
 std::string referenceText(const SceneSweep& sweep) {
   return formatted(
       "reference: scalar, double precision, depth %d, cutoff %g, %d samples a pixel, "
-      "%.1f s%s, %.8s",
+      "%.1f s",
       kDepthLimit, static_cast<double>(sweep.referenceCutoff), sweep.referenceSamples,
-      sweep.referenceMs / 1e3, sweep.referenceFromFile ? " (by an earlier run)" : "",
-      sweep.referenceDigest.c_str());
+      sweep.referenceMs / 1e3);
 }
 
 std::string transportText(const SceneSweep& sweep) {
@@ -283,9 +280,9 @@ std::string transportText(const SceneSweep& sweep) {
   const TransportFacts& t = *sweep.transport;
   std::string text = formatted(
       "truth: all transport, by packets, depth %d, cutoff %g, %d samples a pixel in %d independent "
-      "passes, %.1f s%s, %.8s; standard error of a pixel, root mean square: %.2e",
+      "passes, %.1f s; standard error of a pixel, root mean square: %.2e",
       kDepthLimit, static_cast<double>(kTransportCutoff), t.samples, t.passes, t.renderMs / 1e3,
-      t.fromFile ? " (by an earlier run)" : "", t.digest.c_str(), t.standardError);
+      t.standardError);
   if (t.meanRadiance > 0)
     text += formatted(", %.2g %% of the mean radiance", 100 * t.standardError / t.meanRadiance);
   text += formatted("; half of its passes differ from the others by a FLIP of %.4f", t.noiseFlip);

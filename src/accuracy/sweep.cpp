@@ -191,7 +191,7 @@ class SceneSweeper {
         camera_(chooseCamera(scene, base)),
         effects_(scene.effects.without(base.disable)),
         cutoff_(exactCutoff(effects_, settings.full)),
-        cache_(scene, camera_, settings.cacheFolder, settings.program),
+        cache_(scene, camera_),
         progress_(progress) {}
 
   SceneSweep run() {
@@ -237,7 +237,7 @@ class SceneSweeper {
 
   void choosePoints() {
     const std::vector<Knob> knobs = sweptKnobs();
-    PointList list = makePoints(base_, effects_, knobs, scope_.limits.joint, settings_.seed);
+    PointList list = makePoints(base_, effects_, knobs);
     if (settings_.truth == Truth::transport) addTransportPoints(base_, effects_, knobs, list);
     sweep_.idle.insert(sweep_.idle.end(), list.idle.begin(), list.idle.end());
     for (Point& point : list.points) {
@@ -259,7 +259,7 @@ class SceneSweeper {
     FrameSource one(scene_, camera_, transportOptions(base_, 1));
     const double rays = static_cast<double>(one.render().allRays());
     const RenderOptions options = transportOptions(base_, scope_.transportSamples(rays));
-    transport_ = cache_.transport(options, progress_);
+    transport_ = accuracy::renderTransport(scene_, camera_, options, progress_);
     scope_.transportPaths = transport_->passes * transportPaths(options);
     sweep_.transport = static_cast<const TransportFacts&>(*transport_);
     points_ = Stopwatch();
@@ -268,10 +268,7 @@ class SceneSweeper {
   ErrorMeter renderReferences() {
     ErrorMeter meter(scene_, camera_, base_, cutoff_, cache_, sweep_.referenceSamples,
                      transport_ ? &*transport_ : nullptr, progress_);
-    const ReferencePicture& reference = meter.reference();
-    sweep_.referenceDigest = reference.digest;
-    sweep_.referenceMs = reference.renderMs;
-    sweep_.referenceFromFile = reference.fromFile;
+    sweep_.referenceMs = meter.reference().renderMs;
     return meter;
   }
 

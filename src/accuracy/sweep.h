@@ -20,11 +20,9 @@ struct PointList {
   std::vector<IdleKnob> idle;
 };
 
-// `base` with one knob changed at a time, the presets of --quality, and up to `jointLimit`
-// combinations of the knobs' crossed values, chosen at random with `seed`. Knobs that change
-// nothing in a scene with these effects are left out.
-PointList makePoints(const RenderOptions& base, EffectSet effects, const std::vector<Knob>& knobs,
-                     std::size_t jointLimit, std::uint32_t seed);
+// `base` with one knob changed at a time, and the presets of --quality. Knobs that change nothing
+// in a scene with these effects are left out.
+PointList makePoints(const RenderOptions& base, EffectSet effects, const std::vector<Knob>& knobs);
 
 // The knobs that lead from a draft to all transport: numbers of samples of a pixel, a lobe or a
 // light, and light that the model leaves out.
@@ -42,11 +40,10 @@ struct Limits {
   double scalarRays;     // for a point that the scalar reference renders
   double longFrameRays;  // a frame of the baseline with more rays is long
   double timingSeconds;  // for all points of a scene
-  std::size_t joint;     // number of combinations of knobs
   double seconds;        // no point is begun later, apart from the time for timing
 };
-inline constexpr Limits kQuick{64, 2, 30e6, 400e6, 20e6, 2.5e6, 20, 0, 30};
-inline constexpr Limits kFull{256, 8, 400e6, 4e9, 100e6, 1e300, 600, 40, 1e300};
+inline constexpr Limits kQuick{64, 2, 30e6, 400e6, 20e6, 2.5e6, 20, 30};
+inline constexpr Limits kFull{256, 8, 400e6, 4e9, 100e6, 1e300, 600, 1e300};
 
 struct Scope {
   Limits limits;
@@ -106,12 +103,10 @@ struct SweepSettings {
   std::vector<std::string> knobs;
   std::uint32_t seed = 1;               // gives the order of the points
   std::optional<double> timingSeconds;  // for all points of a scene; see Limits for the default
-  std::string cacheFolder;
-  std::string program;  // identifies the code that renders
 };
 
 // `base` is the baseline. kQuick and kFull limit the samples of the reference and of the picture
-// with all transport. Throws Error(io) when the cache cannot be written.
+// with all transport.
 SceneSweep sweepScene(const Scene& scene, const RenderOptions& base, const SweepSettings& settings,
                       Progress* progress);
 

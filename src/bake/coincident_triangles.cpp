@@ -12,13 +12,6 @@ namespace {
 // place share a bit.
 constexpr std::uint64_t kBitsPerTriangle = 32;
 
-// The finalizer of SplitMix64 (Steele, Lea, Flood 2014).
-std::uint64_t mixed(std::uint64_t x) {
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
-}
-
 // Both zeros are the same place.
 std::uint64_t bitsOf(float x) { return std::bit_cast<std::uint32_t>(x + 0.0f); }
 

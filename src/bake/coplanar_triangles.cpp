@@ -10,18 +10,6 @@
 
 namespace whit {
 
-namespace {
-
-// The finalizer of SplitMix64 (Steele, Lea, Flood 2014).
-std::size_t hashOf(PlacedTriangleId id) {
-  std::uint64_t x = orderOf(id);
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return static_cast<std::size_t>(x ^ (x >> 31));
-}
-
-}  // namespace
-
 // About as many cells as there are partners, fewer where these are so large that together they
 // would reach into several times as many: those that lie one on the other share one cell.
 void CoplanarTriangles::fillCells(Slot& slot) {
@@ -114,7 +102,7 @@ void CoplanarTriangles::rankBy(const Scene& scene, const SceneOrder& order) {
 // The slot of the triangle, or the free slot where it would be stored.
 std::size_t CoplanarTriangles::slotOf(PlacedTriangleId id) const {
   const std::size_t mask = slots_.size() - 1;
-  std::size_t i = hashOf(id) & mask;
+  std::size_t i = mixed(orderOf(id)) & mask;
   while (slots_[i].count != 0 && slots_[i].id != id) i = (i + 1) & mask;
   return i;
 }

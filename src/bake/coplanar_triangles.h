@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -34,6 +34,13 @@ inline PlacedTriangleId placedTriangle(std::uint64_t order) {
   return {static_cast<std::uint32_t>(order), static_cast<std::uint32_t>(order >> 32) - 1};
 }
 
+// The finalizer of SplitMix64 (Steele, Lea, Flood 2014).
+inline std::uint64_t mixed(std::uint64_t x) {
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
 // Spheres that are coincident with others where they stand: for each, by its orderOf(), all that
 // are in its place, itself included, in the order of the scene.
 using CoincidentSpheres =
@@ -49,10 +56,7 @@ struct WrittenPlace {
   std::uint32_t instance = 0;  // in SceneDescription::instances
   std::uint32_t triangle = 0;  // in what the instance places
 
-  bool operator<(const WrittenPlace& other) const {
-    return std::tie(rank, instance, triangle) <
-           std::tie(other.rank, other.instance, other.triangle);
-  }
+  auto operator<=>(const WrittenPlace&) const = default;
 };
 
 // Filled while the scene is baked.

@@ -29,29 +29,17 @@ void keepBaked(const Material& from, Material& to) {
   });
 }
 
-// Validates like Scene::finalize(): throws, or repairs to the nearest sensible value.
-void checkAndMend(const Scene& scene, std::vector<Material>& materials,
-                  std::vector<Light>& lights) {
-  SceneDescription d;
-  d.name = scene.name;
-  d.lights = lights;
-  d.materials = materials;
-  for (Material& m : d.materials) {  // maps were judged with the textures that they name
-    forEachMap([&](const auto& member) { m.*member.field = kNoTexture; });
-  }
-  Warnings warnings(false);
-  validate(d, warnings);
-  materials = std::move(d.materials);
-  lights = std::move(d.lights);
-}
-
 }  // namespace
 
 void editShading(Scene& scene, std::vector<Material> materials, std::vector<Light> lights) {
   if (materials.size() != scene.materials.size() || lights.size() != scene.lights.size()) {
     throwUsage("an edit cannot change the number of materials or lights");
   }
-  checkAndMend(scene, materials, lights);
+  SceneDescription d;
+  d.name = scene.name;
+  d.lights = lights;
+  d.materials = materials;
+  validate(d);
   for (std::size_t i = 0; i < materials.size(); ++i) keepBaked(scene.materials[i], materials[i]);
   const bool kindsStay =
       std::equal(materials.begin(), materials.end(), scene.materials.begin(), sameKind) &&
@@ -71,18 +59,8 @@ void editShading(Scene& scene, std::vector<Material> materials, std::vector<Ligh
 }
 
 void editSky(Scene& scene, Sky& sky, const Ambient& ambient) {
-  SceneDescription d;
-  d.name = scene.name;
-  d.sky = std::move(sky);
-  d.ambient = ambient;
-  Warnings warnings(false);
-  try {
-    validate(d, warnings);
-  } catch (...) {
-    sky = std::move(d.sky);
-    throw;
-  }
-  sky = std::exchange(scene.sky, std::move(d.sky));
+  validate(scene.name, sky, ambient);
+  std::swap(scene.sky, sky);
   scene.ambient = ambient;
   gatherEffects(scene);
 }

@@ -21,18 +21,12 @@ bool isSkyBlack(const Sky& sky) {
   const auto isDark = [&](const std::vector<float>& p) {
     return std::none_of(p.begin(), p.end(), bright);
   };
-  if (!(sky.scale > 0)) return true;
-  switch (sky.kind) {
-    case Sky::Kind::none:
-      return true;
-    case Sky::Kind::color:
-      return isBlack(sky.zenith);
-    case Sky::Kind::gradient:
-      return isBlack(sky.zenith) && isBlack(sky.horizon) && isBlack(sky.ground);
-    case Sky::Kind::image:
-      break;
+  if (!(sky.scale > 0) || sky.kind == Sky::Kind::none) return true;
+  if (sky.kind == Sky::Kind::image) {
+    return isDark(sky.image.r) && isDark(sky.image.g) && isDark(sky.image.b);
   }
-  return isDark(sky.image.r) && isDark(sky.image.g) && isDark(sky.image.b);
+  const bool isOneColor = sky.kind == Sky::Kind::color;
+  return isBlack(sky.zenith) && (isOneColor || (isBlack(sky.horizon) && isBlack(sky.ground)));
 }
 
 // An effect that is on when some triangle's material has what it takes; `what` completes "a

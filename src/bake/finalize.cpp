@@ -12,10 +12,6 @@ namespace {
 
 constexpr std::size_t kMediaLimit = std::numeric_limits<std::uint8_t>::max();
 
-bool sameMedium(const Medium& a, const Medium& b) {
-  return a.ior == b.ior && a.absorption == b.absorption && a.priority == b.priority;
-}
-
 // From the front, a little to the right and above, far enough for all of the bounds' sphere.
 Camera framingCamera(const Scene& scene) {
   Camera camera;
@@ -46,8 +42,7 @@ void numberMedia(Scene& scene) {
     const Material& m = scene.materials[i];
     if (!m.boundsMedium() || uses[i] == 0) continue;
     const Medium medium{m.ior, m.absorption, m.priority};
-    const auto known = std::find_if(scene.media.begin() + 1, scene.media.end(),
-                                    [&](const Medium& other) { return sameMedium(medium, other); });
+    const auto known = std::find(scene.media.begin() + 1, scene.media.end(), medium);
     const auto number = static_cast<std::size_t>(known - scene.media.begin());
     if (number > kMediaLimit) throwLimit(scene.name + ": more than 255 different dielectrics");
     scene.mediumOfMaterial[i] = static_cast<std::uint8_t>(number);
@@ -57,7 +52,7 @@ void numberMedia(Scene& scene) {
 
 Scene Scene::finalize(SceneDescription&& description, Warnings& warnings, Progress* progress) {
   SceneDescription d = std::move(description);
-  validate(d, warnings);
+  validate(d);
   settleSides(d);
   Scene scene;
   scene.name = std::move(d.name);

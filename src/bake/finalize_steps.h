@@ -9,9 +9,11 @@
 
 namespace whit {
 
-// Throws Error(badScene), naming the thing at fault, for anything but triangles that cannot be
-// rendered; repairs and counts what has an obvious nearest sensible value.
-void validate(SceneDescription& description, Warnings& warnings);
+// Throws Error(badScene), naming the thing at fault, for numbers of lights, materials, sky, ambient
+// light and transforms that cannot be rendered. The readers answer for everything else: sizes of
+// tables, indices, texels and cameras.
+void validate(const SceneDescription& description);
+void validate(const std::string& scene, const Sky& sky, const Ambient& ambient);
 
 // Moves the meshes of `description` into scene.geometries, instances, triangles and normals, and
 // fills in bounds and instancedTriangles. scene.materials and textures must be in place. Of scenes

@@ -69,6 +69,7 @@ struct Medium {
   float ior = 1;
   Rgb absorption{0, 0, 0};
   int priority = 0;
+  bool operator==(const Medium&) const = default;
 };
 
 struct InstanceRecord {

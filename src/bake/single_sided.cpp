@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "bake/finalize_steps.h"
+#include "core/usable_threads.h"
+#include "core/worker_pool.h"
 
 namespace whit {
 
@@ -105,7 +107,7 @@ void settleSides(SceneDescription& description) {
   std::vector<bool> culls(description.materials.size(), false);
   const auto isSingle = [&](const Mesh& mesh) {
     return std::any_of(mesh.materials.begin(), mesh.materials.end(), [&](std::uint32_t m) {
-      return m < culls.size() && !culls[m] && !description.materials[m].doubleSided &&
+      return m < culls.size() && !description.materials[m].doubleSided &&
              !description.materials[m].boundsMedium();
     });
   };
@@ -117,13 +119,19 @@ void settleSides(SceneDescription& description) {
       return material.alphaMap != kNoTexture || material.passesLight();
     });
   };
+  std::vector<const Mesh*> meshes;
   for (const Object& object : description.objects) {
     for (const Mesh& mesh : object.meshes) {
-      if (!isSingle(mesh)) continue;
-      if (!hasHoles(mesh) && isShell(mesh)) continue;
-      for (const std::uint32_t m : mesh.materials) {
-        if (m < culls.size()) culls[m] = true;
-      }
+      if (isSingle(mesh)) meshes.push_back(&mesh);
+    }
+  }
+  std::vector<std::uint8_t> isClosed(meshes.size(), 0);
+  parallelFor(usableThreads(), meshes.size(), [&](std::size_t i, int) {
+    isClosed[i] = !hasHoles(*meshes[i]) && isShell(*meshes[i]);
+  });
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    for (const std::uint32_t m : meshes[i]->materials) {
+      if (m < culls.size() && isClosed[i] == 0) culls[m] = true;
     }
   }
   for (std::size_t i = 0; i < culls.size(); ++i) {

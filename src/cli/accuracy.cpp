@@ -4,7 +4,6 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "accuracy/digest.h"
 #include "accuracy/report.h"
 #include "accuracy/sweep.h"
 #include "cli/app/image_output.h"
@@ -21,21 +20,19 @@ namespace whit::cli {
 
 namespace {
 
-constexpr const char* kAccuracyUsage =
-    "whit accuracy SCENE... --out DIR [--quick|--full] [options]";
+constexpr const char* kAccuracyUsage = "whit accuracy SCENE... --out DIR [--full] [options]";
 constexpr const char* kAccuracySummary =
     "Renders each scene with one knob of accuracy changed at a time, and says what that costs in\n"
     "time and in error against a double-precision reference, or against a picture with all light\n"
     "that can be transported. Writes DIR/report.html, a page with charts, pictures and tables, "
     "and\n"
-    "DIR/sweep.csv; references are kept in DIR/cache.";
+    "DIR/sweep.csv.";
 constexpr ImageSize kQuickSize{256, 256};
 
 struct AccuracyJob {
   CommonOptions common;
   std::vector<std::string> scenes;
   std::string out, knobs;
-  bool quick = false;
   int seed = 1;
   accuracy::SweepSettings settings;
 };
@@ -55,11 +52,9 @@ OptionList listOptions(AccuracyJob& job) {
              "what errors are measured against: Whitted's model without approximations, or all "
              "transport of light, with points from a draft to that",
              job.settings.truth);
-  list.flag(
-      "quick",
-      "256x256 pixels, up to 64 reference samples, points until a minute is over (the default)",
-      job.quick);
-  list.flag("full", "the scene's size, 256 reference samples, combinations of knobs",
+  list.flag("full",
+            "the scene's size and 256 reference samples, in place of 256x256 pixels, up to 64 "
+            "reference samples and points until a minute is over",
             job.settings.full);
   list.value({"knobs", "a,b"}, knobHelp(), job.knobs);
   list.value(
@@ -76,15 +71,12 @@ OptionList listOptions(AccuracyJob& job) {
 void checkJob(AccuracyJob& job) {
   if (job.out.empty()) throwUsage("whit accuracy expected --out DIR");
   accuracy::SweepSettings& settings = job.settings;
-  refuseIf(job.quick && settings.full, "--quick and --full exclude each other: give one of them");
   refuseIf(job.common.render.mode == Mode::reference,
            "whit accuracy measures packets against the reference: leave out --mode");
   if (!job.knobs.empty()) settings.knobs = split(job.knobs, ',');
   accuracy::chooseKnobs(settings.knobs);
   if (!settings.full && !job.common.render.size) job.common.render.size = kQuickSize;
   settings.seed = static_cast<std::uint32_t>(job.seed);
-  settings.cacheFolder = (std::filesystem::path(job.out) / "cache").string();
-  settings.program = WHIT_VERSION " " + accuracy::digestOfProgram();
   makeFolder(job.out);
 }
 

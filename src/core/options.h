@@ -37,8 +37,7 @@ enum class Cause { arithmetic, algorithm, sampling, transport };
 struct KnobSpec {
   Cause cause = Cause::algorithm;
   std::string_view exact = {};
-  std::string_view values = {};   // the sweep
-  std::string_view crossed = {};  // values in the combinations of a full sweep
+  std::string_view values = {};  // the sweep
   // Values between others, or that make the same picture by construction: a quick sweep measures
   // them last, if there is time.
   std::string_view spare = {};
@@ -214,7 +213,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .help = "samples per pixel, for anti-aliasing",
               .everyday = true,
               .knob = KnobSpec{.cause = Cause::sampling, .exact = "1",
-                               .values = "1 2 4 8 16", .crossed = "1 4 16", .spare = "2"}},
+                               .values = "1 2 4 8 16", .spare = "2"}},
              o.spp},
       // It is swept with 24 samples, not 16, to make up for the pixels that get one.
       Option{{.name = "adaptive", .words = "on|off",
@@ -236,7 +235,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .cheapest = "0",
               .everyday = true,
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "64",
-                               .values = "0 1 2 3 4 8 16 32 64", .crossed = "4 8 64",
+                               .values = "0 1 2 3 4 8 16 32 64",
                                .spare = "1 3 16 32", .needs = {kNeedsImpulses}}},
              o.depth},
       // The exact value is that of each of the many samples per pixel of the reference.
@@ -266,7 +265,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .cheapest = "0.004",
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "0",
                                .values = "0 1e-4 3e-4 1e-3 4e-3 1.6e-2",
-                               .crossed = "1e-4 1e-3 4e-3", .spare = "3e-4", .endless = true,
+                               .spare = "3e-4", .endless = true,
                                .needs = {kNeedsImpulses}}},
              o.cutoff},
       Option{{.name = "roulette", .words = "X", .low = 0, .high = 1,
@@ -301,7 +300,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                       "ray",
               .cheapest = "0.004",
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "0",
-                               .values = "0 1e-4 1e-3 4e-3", .crossed = "0 4e-3", .spare = "1e-4",
+                               .values = "0 1e-4 1e-3 4e-3", .spare = "1e-4",
                                .needs = {EffectSet().with(Effect::lights)}}},
              o.shading.lightCutoff},
       Option{{.name = "fresnel", .words = "exact|schlick",
@@ -376,8 +375,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
              o.batch},
       Option{{.name = "robust", .words = "on|off", .help = "Embree's watertight traversal",
               .rebuilds = Rebuild::acceleration,
-              .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "on", .values = "on off",
-                               .crossed = "on off"}},
+              .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "on", .values = "on off"}},
              o.robust},
       Option{{.name = "retry", .words = "on|off",
               .help = "trace rays of --robust that miss in a closed scene once more",

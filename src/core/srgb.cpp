@@ -7,14 +7,6 @@ namespace whit {
 
 namespace {
 
-std::array<float, 256> makeLinearOfCode() {
-  std::array<float, 256> table{};
-  for (int code = 0; code < 256; ++code) {
-    table[static_cast<std::size_t>(code)] = static_cast<float>(srgbToLinear(code / 255.0));
-  }
-  return table;
-}
-
 // The least float in [0, 1] whose code is at least `code`, by bisection over the bits.
 float leastWithCode(int code) {
   float low = 0.0f, high = 1.0f;
@@ -45,9 +37,12 @@ double linearToSrgb(double linear) {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
 }
 
-float linearOfCode(int code) {
-  static const std::array<float, 256> table = makeLinearOfCode();
-  return table[static_cast<std::size_t>(code)];
+std::array<float, 256> makeLinearOfCode() {
+  std::array<float, 256> table{};
+  for (int code = 0; code < 256; ++code) {
+    table[static_cast<std::size_t>(code)] = static_cast<float>(srgbToLinear(code / 255.0));
+  }
+  return table;
 }
 
 int srgbCode(double linear) {

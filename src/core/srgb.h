@@ -11,7 +11,11 @@ double srgbToLinear(double code);
 double linearToSrgb(double linear);
 
 // Linear light of an 8-bit code, rounded to float.
-float linearOfCode(int code);
+std::array<float, 256> makeLinearOfCode();
+inline float linearOfCode(int code) {
+  static const std::array<float, 256> table = makeLinearOfCode();
+  return table[static_cast<std::size_t>(code)];
+}
 
 // round(255 * srgb(x)) with x clamped to [0, 1]; NaN and negatives give 0.
 int srgbCode(double linear);

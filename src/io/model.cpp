@@ -42,13 +42,13 @@ void warnNothingToDraw(const std::string& why, const std::string& file, Warnings
   warnings.add("model with nothing to draw: " + why, file);
 }
 
-void addParts(const std::vector<Mesh>& meshes, const std::vector<std::uint32_t>& materials,
+void addParts(std::vector<Mesh> meshes, const std::vector<std::uint32_t>& materials,
               const std::string& file, MemoryBudget& budget, Body& to) {
-  for (const Mesh& mesh : meshes) {
+  for (Mesh& mesh : meshes) {
     budget.charge(1, bytesOf(mesh), file);
-    auto copy = std::make_shared<Mesh>(mesh);
-    for (std::uint32_t& material : copy->materials) material = materials[material];
-    to.parts.push_back({std::move(copy), Affine(), !mesh.order.empty() && &mesh != &meshes[0]});
+    for (std::uint32_t& material : mesh.materials) material = materials[material];
+    const bool mingles = !mesh.order.empty() && &mesh != &meshes[0];
+    to.parts.push_back({std::make_shared<Mesh>(std::move(mesh)), Affine(), mingles});
   }
 }
 

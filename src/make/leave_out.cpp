@@ -1,7 +1,6 @@
 #include "make/leave_out.h"
 
 #include "make/shape.h"
-#include "scene/members.h"
 
 namespace whit {
 
@@ -31,24 +30,6 @@ void leaveOutOfMaterial(Material& m, EffectSet effects) {
   }
   if (effects.has(Effect::transmission)) m.transmission = kBlack;
   if (effects.has(Effect::absorption)) m.absorption = kBlack;
-}
-
-// Indices of textures are kept, so an unused texture shrinks to one texel.
-void dropUnusedTexels(SceneDescription& d) {
-  std::vector<bool> used(d.textures.size(), false);
-  for (const Material& m : d.materials) {
-    forEachMap([&](const auto& member) {
-      const std::int32_t map = m.*member.field;
-      if (map != kNoTexture) used[static_cast<std::size_t>(map)] = true;
-    });
-  }
-  for (std::size_t i = 0; i < used.size(); ++i) {
-    if (used[i]) continue;
-    Texture& t = d.textures[i];
-    t.width = t.height = 1;
-    t.texels.resize(1);
-    t.texels.shrink_to_fit();
-  }
 }
 
 void leaveOutOfSky(Sky& sky, EffectSet effects) {
@@ -87,9 +68,6 @@ constexpr int kSegmentsOfSphere = 64;
 
 void leaveOut(SceneDescription& d, EffectSet effects) {
   for (Material& m : d.materials) leaveOutOfMaterial(m, effects);
-  const bool fewerMaps = effects.has(Effect::textures) || effects.has(Effect::normalMaps) ||
-                         effects.has(Effect::emissionMaps);
-  if (fewerMaps) dropUnusedTexels(d);
   leaveOutOfSky(d.sky, effects);
   if (effects.has(Effect::ambient)) d.ambient = {.reflection = d.ambient.reflection};
   if (effects.has(Effect::blurredSky)) d.ambient.reflection = 0;

@@ -10,10 +10,10 @@
 namespace whit {
 
 // Removes what turns each effect on (see effects_of_scene.cpp), so that the scene calls for all
-// other effects and for none of these. Textures lose their texels when no material is left that
-// uses them, masked surfaces become solid, a sky image becomes a gradient, glass becomes opaque,
-// spheres become triangles, and of each object the first instance remains. Without mirror
-// dielectrics get the refractive index of the vacuum, because others reflect.
+// other effects and for none of these. Masked surfaces become solid, a sky image becomes a
+// gradient, glass becomes opaque, spheres become triangles, and of each object the first instance
+// remains. Without mirror dielectrics get the refractive index of the vacuum, because others
+// reflect.
 void leaveOut(SceneDescription& description, EffectSet effects);
 
 // Effects of the matte scene: primary and shadow rays, lights that shine all around.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bake/placed_triangles.h"
+#include "core/box.h"
 
 namespace whit {
 
@@ -27,16 +28,7 @@ constexpr std::array<Vec3d, 7> kSides{{{0.5, 0.4, 1.0},
 // A more usual side is preferred if it shows this share of what the best side shows.
 constexpr double kEnough = 0.6;
 
-struct Bounds {
-  Vec3d lower{std::numeric_limits<double>::max()}, upper{std::numeric_limits<double>::lowest()};
-  void add(const Vec3d& p) {
-    lower = min(lower, p);
-    upper = max(upper, p);
-  }
-  bool empty() const { return !(lower.x <= upper.x); }
-  Vec3d center() const { return (lower + upper) * 0.5; }
-  Vec3d half() const { return (upper - lower) * 0.5; }
-};
+using Bounds = BoxOf<Vec3d>;
 
 // Finds the side to which fronts turn the largest area, occluded or not.
 Vec3d bestSide(const SceneDescription& scene, double radius) {

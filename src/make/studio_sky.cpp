@@ -1,8 +1,9 @@
 #include "make/studio_sky.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "make/patterns/noise.h"
 
 namespace whit {
 
@@ -21,13 +22,10 @@ constexpr SoftBox kBoxes[] = {
     {143, 48, 26, 17, 4.0}, {250, 40, 14, 20, 1.6}, {320, 44, 9, 20, 3.0}};
 constexpr double kSoftEdge = 7;  // degrees over which a box fades
 
-double smooth(double x) {
-  const double t = std::clamp(x, 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
-
 // 1 within `half` of the middle, 0 beyond the edge.
-double fade(double distance, double half) { return smooth((half - distance) / kSoftEdge + 1); }
+double fade(double distance, double half) {
+  return procedural::smoothStep(0, 1, (half - distance) / kSoftEdge + 1);
+}
 
 double radianceAt(double azimuth, double elevation) {
   const double sine = std::sin(elevation * std::numbers::pi / 180);

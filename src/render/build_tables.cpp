@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/error.h"
+#include "core/worker_pool.h"
 #include "stages/lobes.h"
 
 namespace whit {
@@ -143,30 +145,15 @@ std::vector<std::size_t> texelsOfAxis(int size, Wrap wrap) {
   return texels;
 }
 
-TextureRecord addTexels(const Texture& t, HugeVector<std::uint32_t>& texels) {
-  const std::size_t first = texels.size();
+void copyTexels(const Texture& t, std::uint32_t* first) {
   const std::vector<std::size_t> columns = texelsOfAxis(t.width, t.wrapU);
   const std::vector<std::size_t> rows = texelsOfAxis(t.height, t.wrapV);
-  texels.resize(first + rows.size() * columns.size());
   for (std::size_t y = 0; y < rows.size(); ++y) {
     const std::uint32_t* from = t.texels.data() + rows[y] * static_cast<std::size_t>(t.width);
-    std::uint32_t* to =
-        texels.data() + first + y / kSide * columns.size() * kSide + y % kSide * kSide;
+    std::uint32_t* to = first + y / kSide * columns.size() * kSide + y % kSide * kSide;
     for (std::size_t x = 0; x < columns.size(); x += kSide, to += kTile) {
       for (std::size_t within = 0; within < kSide; ++within) to[within] = from[columns[x + within]];
     }
-  }
-  return {static_cast<std::uint32_t>(first), t.width, t.height,
-          static_cast<std::uint32_t>(t.wrapU) | static_cast<std::uint32_t>(t.wrapV) << 8};
-}
-
-void addMipLevels(const MipMaps& maps, std::size_t texture, ShadingTables& tables) {
-  TextureRecord record = tables.textures[texture];
-  for (int level = 0; level < kMipStride; ++level) {
-    if (level > 0 && level < maps.levels(texture)) {
-      record = addTexels(maps.level(texture, level), tables.texels);
-    }
-    tables.mipLevels.push_back(record);
   }
 }
 
@@ -177,21 +164,29 @@ void addTextures(const Scene& scene, TextureFilter filter, int threads, ShadingT
   const bool trilinear = filter == TextureFilter::trilinear;
   const MipMaps maps(scene.textures, trilinear ? used : std::vector<bool>(used.size()), threads);
   std::size_t total = 0;
+  std::vector<std::pair<const Texture*, std::size_t>> copies;  // and where their texels begin
   for (std::size_t i = 0; i < used.size(); ++i) {
-    for (int level = 0; used[i] && level < maps.levels(i); ++level) {
-      const Texture& t = maps.level(i, level);
-      if (std::max(t.width, t.height) > kTextureSideLimit) {
-        throwLimit("texture '" + t.name + "' has more than 2^20 texels a side");
+    TextureRecord record = kUnused;
+    for (int level = 0; level < (trilinear ? kMipStride : 1); ++level) {
+      if (used[i] && level < maps.levels(i)) {
+        const Texture& t = maps.level(i, level);
+        if (std::max(t.width, t.height) > kTextureSideLimit) {
+          throwLimit("texture '" + t.name + "' has more than 2^20 texels a side");
+        }
+        record = {static_cast<std::uint32_t>(total), t.width, t.height,
+                  static_cast<std::uint32_t>(t.wrapU) | static_cast<std::uint32_t>(t.wrapV) << 8};
+        copies.emplace_back(&t, total);
+        total += tiledTexels(t);
+        if (total > 0x7fffffffu) throwLimit("textures hold more than 2^31 texels");
       }
-      total += tiledTexels(t);
+      if (level == 0) tables.textures.push_back(record);
+      if (trilinear) tables.mipLevels.push_back(record);
     }
   }
-  if (total > 0x7fffffffu) throwLimit("textures hold more than 2^31 texels");
-  tables.texels.reserve(total + 1);
-  for (std::size_t i = 0; i < used.size(); ++i) {
-    tables.textures.push_back(used[i] ? addTexels(scene.textures[i], tables.texels) : kUnused);
-    if (trilinear) addMipLevels(maps, i, tables);
-  }
+  tables.texels.resize(total);
+  parallelFor(threads, copies.size(), [&](std::size_t i, int) {
+    copyTexels(*copies[i].first, tables.texels.data() + copies[i].second);
+  });
   if (tables.texels.empty()) tables.texels.push_back(0);
   if (tables.textures.empty()) tables.textures.push_back(kUnused);
 }

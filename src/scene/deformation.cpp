@@ -77,10 +77,8 @@ DeformedVertices deformVertices(const Deformation& deformation, const Deformatio
     bent.sides.assign(positions.size(), 1);
     for (std::size_t i = 0; i < positions.size(); ++i) {
       const Influence* const all = deformation.influences.data();
-      const std::uint32_t begin = deformation.firstInfluence[i];
-      const std::uint32_t end = deformation.firstInfluence[i + 1];
-      if (begin == end) continue;
-      const Affine map = blended(pose.joints, all + begin, all + end);
+      const Affine map = blended(pose.joints, all + deformation.firstInfluence[i],
+                                 all + deformation.firstInfluence[i + 1]);
       positions[i] = map.point(positions[i]);
       if (i < normals.size()) normals[i] = map.normal(normals[i]);
       if (map.determinant() < 0) bent.sides[i] = -1;

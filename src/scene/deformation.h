@@ -35,8 +35,7 @@ struct Deformation {
     Affine fromMesh;         // from the mesh as it was modelled to the joint's own space
   };
   std::vector<Joint> joints;
-  // Vertex i has the influences from firstInfluence[i] to firstInfluence[i + 1]. A vertex without
-  // influences stays where it was modelled.
+  // Vertex i has the influences from firstInfluence[i] to firstInfluence[i + 1], at least one.
   std::vector<std::uint32_t> firstInfluence;
   std::vector<Influence> influences;
 

@@ -13,18 +13,18 @@ constexpr int kRadianceUnit = 24;  // with the exponent 0, a code counts 2^-24
 // NaN becomes 0, because it compares false.
 float unit(float x) { return x > 0 ? std::min(x, 1.0f) : 0.0f; }
 
+// std::lround() of a code from 0 to 1023, without a call. The double below 1/2, because 1/2 itself
+// would round the double below 1/2 up.
+std::uint32_t roundedCode(double code) {
+  return static_cast<std::uint32_t>(code + 0x1.fffffffffffffp-2);
+}
+
 std::uint32_t colorCode(float linear) {
-  return static_cast<std::uint32_t>(
-      std::lround(std::sqrt(static_cast<double>(unit(linear))) * kColorMax));
+  return roundedCode(std::sqrt(static_cast<double>(unit(linear))) * kColorMax);
 }
 
 std::uint32_t dataCode(float value) {
-  return static_cast<std::uint32_t>(std::lround(static_cast<double>(unit(value)) * kDataMax));
-}
-
-// The square of a code is exact in float, so that one rounding is left.
-float colorValue(std::uint32_t code) {
-  return static_cast<float>(code * code) * (1.0f / static_cast<float>(kColorMax * kColorMax));
+  return roundedCode(static_cast<double>(unit(value)) * kDataMax);
 }
 
 }  // namespace
@@ -58,11 +58,6 @@ Rgb decodeRadianceTexel(std::uint32_t texel) {
     return std::ldexp(static_cast<float>(texel >> shift & kRadianceMax), exponent);
   };
   return {value(0), value(9), value(18)};
-}
-
-Rgb decodeColorTexel(std::uint32_t texel) {
-  return {colorValue(texel & kColorMax), colorValue(texel >> 10 & kColorMax),
-          colorValue(texel >> 20 & kColorMax)};
 }
 
 }  // namespace whit

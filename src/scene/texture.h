@@ -55,7 +55,6 @@ struct Texture {
 std::uint32_t encodeColorTexel(const Rgb& linear);
 std::uint32_t encodeDataTexel(float r, float g, float b, float a);
 std::uint32_t encodeRadianceTexel(const Rgb& radiance);
-Rgb decodeColorTexel(std::uint32_t texel);
 Rgb decodeRadianceTexel(std::uint32_t texel);  // exact
 
 inline constexpr float kLargestRadianceTexel = 65408;  // 511 * 2^7

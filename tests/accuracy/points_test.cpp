@@ -20,7 +20,7 @@ const Point* find(const PointList& list, const std::string& label) {
 }
 
 TEST(Points, TheBaselineComesFirstAndNothingTwice) {
-  const PointList list = makePoints(RenderOptions(), kMirrored, allKnobs(), 40, 1);
+  const PointList list = makePoints(RenderOptions(), kMirrored, allKnobs());
   EXPECT_EQ(list.points.front().kind, PointKind::baseline);
   EXPECT_EQ(list.points.front().label(), "standard");
   std::set<std::string> digests;
@@ -29,7 +29,7 @@ TEST(Points, TheBaselineComesFirstAndNothingTwice) {
 }
 
 TEST(Points, OneKnobAtATime) {
-  const PointList list = makePoints(RenderOptions(), kMirrored, allKnobs(), 0, 1);
+  const PointList list = makePoints(RenderOptions(), kMirrored, allKnobs());
   const Point* depth = find(list, "depth=2");
   ASSERT_TRUE(depth);
   RenderOptions expected;
@@ -41,7 +41,7 @@ TEST(Points, OneKnobAtATime) {
 }
 
 TEST(Points, WhatDoesNothingIsLeftOutWithTheReason) {
-  const PointList list = makePoints(RenderOptions(), EffectSet(), chooseKnobs({"depth"}), 0, 1);
+  const PointList list = makePoints(RenderOptions(), EffectSet(), chooseKnobs({"depth"}));
   EXPECT_FALSE(find(list, "depth=2"));
   ASSERT_EQ(list.idle.size(), 1u);
   EXPECT_EQ(list.idle[0].name, "depth");
@@ -51,7 +51,7 @@ TEST(Points, WhatDoesNothingIsLeftOutWithTheReason) {
 TEST(Points, OptionsOfTheCommandLineAreTheBaseline) {
   RenderOptions base;
   base.spp = 4;
-  const PointList list = makePoints(base, kMirrored, chooseKnobs({"depth"}), 0, 1);
+  const PointList list = makePoints(base, kMirrored, chooseKnobs({"depth"}));
   EXPECT_EQ(list.points.front().label(), "baseline");
   ASSERT_TRUE(find(list, "depth=2"));
   EXPECT_EQ(find(list, "depth=2")->options.spp, 4);
@@ -64,7 +64,7 @@ const EffectSet kSoftAndRough =
 // From a draft to all transport: each number of its samples, alone and with more of a pixel, and
 // with as many of lobes and lights, as far as their knobs go.
 TEST(TransportPoints, LeadToAllTransport) {
-  PointList list = makePoints(RenderOptions(), kSoftAndRough, knobsTowardsTransport(), 0, 1);
+  PointList list = makePoints(RenderOptions(), kSoftAndRough, knobsTowardsTransport());
   addTransportPoints(RenderOptions(), kSoftAndRough, knobsTowardsTransport(), list);
   for (const char* label :
        {"standard", "draft", "indirect=1", "indirect=4", "indirect=16", "indirect=64",
@@ -103,21 +103,6 @@ TEST(TransportPoints, AreNoneWhereNothingIsLeftOut) {
   PointList list;
   addTransportPoints(RenderOptions(), kMirrored, knobsTowardsTransport(), list);
   EXPECT_TRUE(list.points.empty());
-}
-
-TEST(Points, CombinationsAreLimitedAndRepeatable) {
-  const auto labels = [](std::uint32_t seed) {
-    std::vector<std::string> all;
-    for (const Point& p : makePoints(RenderOptions(), kMirrored, allKnobs(), 10, seed).points) {
-      if (p.kind == PointKind::joint) all.push_back(p.label());
-    }
-    return all;
-  };
-  EXPECT_EQ(labels(1).size(), 10u);
-  for (const std::string& label : labels(1))
-    EXPECT_EQ(label.find("depth=64"), std::string::npos) << label << ": the default";
-  EXPECT_EQ(labels(1), labels(1));
-  EXPECT_NE(labels(1), labels(2));
 }
 
 }  // namespace

@@ -124,7 +124,7 @@ TEST(SweepCsv, SaysWhatTheTruthIs) {
   EXPECT_EQ(rowsOf(sweep)[0].at("truth"), "model");
   EXPECT_EQ(rowsOf(sweep)[0].at("truth_standard_error"), "");
   EXPECT_EQ(rowsOf(sweep)[0].at("transport_flip"), "");
-  sweep.transport = {8, 512, 0.002, 0.5, 0.0123, 4000, false, "abc"};
+  sweep.transport = {8, 512, 0.002, 0.5, 0.0123, 4000};
   sweep.points[1].transport.emplace().flipMean = 0.0777;
   const CsvRow row = rowsOf(sweep)[1];
   EXPECT_EQ(row.at("truth"), "transport");
@@ -138,7 +138,7 @@ TEST(SweepCsv, SaysWhatTheTruthIs) {
 
 TEST(CheckErrors, AnotherTruthCannotBeCompared) {
   SceneSweep now = sweepOfTwo();
-  now.transport = {8, 512, 0.002, 0.5, 0.0123, 4000, false, "abc"};
+  now.transport = {8, 512, 0.002, 0.5, 0.0123, 4000};
   EXPECT_FALSE(grownErrors(rowsOf(sweepOfTwo()), rowsOf(now), {}).empty());
   EXPECT_TRUE(grownErrors(rowsOf(now), rowsOf(now), {}).empty());
 }

@@ -18,8 +18,7 @@ SceneSweep widest() {
   sweep.machine.simd = "avx3_zen4", sweep.machine.embree = "4.3.3 avx512";
   sweep.referenceSamples = 256;
   sweep.referenceMs = 1e7;
-  sweep.referenceFromFile = true;
-  PointList list = makePoints(RenderOptions(), EffectSet::all(), allKnobs(), 60, 1);
+  PointList list = makePoints(RenderOptions(), EffectSet::all(), allKnobs());
   sweep.points = std::move(list.points);
   sweep.idle = std::move(list.idle);
   for (Point& point : sweep.points) {

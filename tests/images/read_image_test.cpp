@@ -59,6 +59,30 @@ TEST_F(ReadImage, JpegOfOneCoefficient) {
   EXPECT_EQ(image.codes, Bytes(64, 200));
 }
 
+// Inks of 200, 150, 100 and 128 of 255, which Adobe's mark makes the light that they let through.
+TEST_F(ReadImage, JpegOfInks) {
+  const auto expectCodes = [&](const Bytes& file, int r, int g, int b) {
+    const RawImage image = raw("a.jpg", file);
+    ASSERT_EQ(image.channels, 3);
+    ASSERT_EQ(image.codes.size(), 192u);
+    EXPECT_NEAR(image.codes[0], r, 1);
+    EXPECT_NEAR(image.codes[190], g, 1);
+    EXPECT_NEAR(image.codes[191], b, 1);
+  };
+  const auto file = [](const std::string& name) {
+    const char* source = std::getenv("WHIT_SOURCE_DIR");
+    std::ifstream in(std::string(source ? source : ".") + "/tests/fuzz/corpus/jpeg/" + name,
+                     std::ios::binary);
+    return Bytes(std::istreambuf_iterator<char>(in), {});
+  };
+  Bytes flat = file("inksFlat.jpg");
+  expectCodes(flat, 100, 75, 50);
+  expectCodes(file("ycck.jpg"), 100, 75, 50);
+  ASSERT_EQ(flat.at(3), 0xee);  // APP14
+  flat.erase(flat.begin() + 2, flat.begin() + 18);
+  expectCodes(flat, 27, 52, 77);
+}
+
 // value = mantissa * 2^(exponent - 136); exponent 0 is black whatever the mantissa.
 TEST_F(ReadImage, RadianceIsLinear) {
   const RawImage image =

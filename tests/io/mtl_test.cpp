@@ -1,6 +1,7 @@
 // What MTL statements mean.
 #include <cmath>
 
+#include "decoded_texel.h"
 #include "scene/texture.h"
 #include "scene_files.h"
 

@@ -176,8 +176,7 @@ TEST_F(Ply, WhatOnlyFacesHaveIsCounted) {
   loadPly(header("ascii", vertices + "element face 1\nproperty list uchar int vertex_indices\n"
                                      "property list uchar float texcoord\nproperty uchar red\n") +
           "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 6 0 0 1 0 0 1 255\n");
-  EXPECT_EQ(warned("texture coordinates of a face's corners left out"), 1u);
-  EXPECT_EQ(warned("colors of faces left out"), 1u);
+  EXPECT_EQ(warned("properties of faces left out"), 2u);
 }
 
 TEST_F(Ply, NothingToDrawIsSaidWithItsReason) {

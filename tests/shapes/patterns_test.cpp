@@ -1,6 +1,7 @@
 // Procedural textures: exact squares, seams, normals, masks.
 #include <gtest/gtest.h>
 
+#include "decoded_texel.h"
 #include "make/patterns/noise.h"
 #include "shapes/map_parameters.h"
 

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "core/srgb.h"
+#include "decoded_texel.h"
 
 namespace whit {
 namespace {

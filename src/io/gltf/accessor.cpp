@@ -90,7 +90,10 @@ class AccessorReader {
         count_(accessor.need("count").wholeOr(0)),
         normalized_(accessor["normalized"].flagOr(false)) {
     if (accessor.need("type").textOr("") != typeOf(components)) accessor["type"].fail(expected);
-    if (accessor["bufferView"].exists()) {
+    if (const std::optional<Bytes> bytes = document.decoded(accessor)) {
+      count_ = bytes->size() / bytes_;  // the accessor's own count is often wrong
+      dense_ = {bytes->data(), bytes_};
+    } else if (accessor["bufferView"].exists()) {
       dense_ = elementsWithin(document, accessor, true, bytes_, count_);
     } else if (count_ > kZeroElementLimit) {
       accessor.fail("a buffer view for " + std::to_string(count_) + " elements", "none");

@@ -3,7 +3,6 @@
 #include <strings.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cstring>
 #include <optional>
@@ -11,29 +10,24 @@
 #include <utility>
 
 #include "core/error.h"
+#include "io/gltf/compressed.h"
 #include "io/read_file.h"
 
 namespace whit {
 
 namespace {
 
-// Below 0: no digit.
-int base64Value(char c) {
-  if (c >= 'A' && c <= 'Z') return c - 'A';
-  if (c >= 'a' && c <= 'z') return c - 'a' + 26;
-  if (c >= '0' && c <= '9') return c - '0' + 52;
-  return c == '+' ? 62 : c == '/' ? 63 : -1;
-}
-
 std::string base64Decoded(std::string_view digits, const std::string& where) {
+  constexpr std::string_view kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   while (digits.ends_with('=')) digits.remove_suffix(1);
   std::string bytes;
   bytes.reserve(digits.size() / 4 * 3 + 2);
   std::uint32_t held = 0;
   int bits = 0;
   for (const char c : digits) {
-    const int value = base64Value(c);
-    if (value < 0) {
+    const std::size_t value = kDigits.find(c);
+    if (value == std::string_view::npos) {
       throwBadScene(where, "expected base64, found a letter that is none of its digits");
     }
     held = held << 6 | static_cast<std::uint32_t>(value);
@@ -125,17 +119,33 @@ Json readGltfFile(const std::filesystem::path& path, MemoryBudget& budget,
   return parseJson(std::string(text), name);
 }
 
-constexpr std::array<std::string_view, 11> kSupported = {
-    "EXT_mesh_gpu_instancing",         "KHR_lights_punctual",  "KHR_materials_clearcoat",
-    "KHR_materials_emissive_strength", "KHR_materials_ior",    "KHR_materials_specular",
-    "KHR_materials_transmission",      "KHR_materials_unlit",  "KHR_materials_volume",
-    "KHR_mesh_quantization",           "KHR_texture_transform"};
+constexpr std::string_view kSupported[] = {
+#ifdef WHIT_DRACO
+    "KHR_draco_mesh_compression",
+#endif
+#ifdef WHIT_WEBP
+    "EXT_texture_webp",
+#endif
+    "EXT_mesh_gpu_instancing",    "KHR_lights_punctual",
+    "KHR_materials_clearcoat",    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",          "KHR_materials_specular",
+    "KHR_materials_transmission", "KHR_materials_unlit",
+    "KHR_materials_volume",       "KHR_mesh_quantization",
+    "KHR_texture_transform"};
+
+// What to do about an extension that is not supported.
+std::string adviceOn(const std::string& extension) {
+  if (extension == "KHR_texture_basisu") {
+    return ": `gltf-transform ktxdecompress IN OUT` converts the file";
+  }
+  const char* const library = extension == "KHR_draco_mesh_compression" ? "libdraco"
+                              : extension == "EXT_texture_webp"         ? "libwebp"
+                                                                        : nullptr;
+  return library ? std::string(": this whit was built without ") + library : "";
+}
+
 // Upper bound on the memory that the readers need for one node, mesh, material and so on.
 constexpr std::uint64_t kBytesPerElement = 2048;
-
-bool isSupported(const std::string& extension) {
-  return std::find(kSupported.begin(), kSupported.end(), extension) != kSupported.end();
-}
 
 }  // namespace
 
@@ -153,7 +163,12 @@ GltfDocument::GltfDocument(const std::filesystem::path& path, const PathRules& r
   buffers_.resize(list("buffers").size());
   if (!buffers_.empty() && !list("buffers")[0]["uri"].exists()) buffers_[0] = std::move(binary);
   readBuffers(path.parent_path(), rules);
+  decodedAccessors_ = decodeDraco(*this);
   readImages(path.parent_path(), rules);
+}
+
+bool GltfDocument::reads(const std::string& extension) {
+  return std::ranges::count(kSupported, extension) > 0;
 }
 
 GltfBufferView GltfDocument::view(const JsonValue& reference) const {
@@ -175,19 +190,24 @@ GltfBufferView GltfDocument::view(const JsonValue& reference) const {
   return {asBytes(*buffer).subspan(offset, length), *index, stride};
 }
 
+std::optional<Bytes> GltfDocument::decoded(const JsonValue& accessor) const {
+  const auto found = decodedAccessors_.find(accessor.pointer());
+  return found == decodedAccessors_.end() ? std::nullopt : std::optional(asBytes(found->second));
+}
+
 void GltfDocument::checkExtensions() const {
   const JsonValue version = root().need("asset").need("version");
   if (!version.textOr("").starts_with("2.")) version.fail("2.0");
   const JsonValue required = list("extensionsRequired"), used = list("extensionsUsed");
   for (std::size_t i = 0; i < required.size(); ++i) {
     const std::string extension = required[i].textOr("");
-    if (isSupported(extension)) continue;
+    if (reads(extension)) continue;
     throwBadScene(required[i].where(), "the file cannot be shown without " + excerpt(extension) +
-                                           ", which is not supported");
+                                           ", which is not supported" + adviceOn(extension));
   }
   for (std::size_t i = 0; i < used.size(); ++i) {
     const std::string extension = used[i].textOr("");
-    if (!isSupported(extension)) warnings_.add("extension ignored: " + excerpt(extension), name_);
+    if (!reads(extension)) warnings_.add("extension ignored: " + excerpt(extension), name_);
   }
 }
 
@@ -235,7 +255,11 @@ void GltfDocument::readImages(const std::filesystem::path& folder, const PathRul
       image.own = decodeUri(uri);
       image.bytes = asBytes(image.own);
     } else {
-      image.path = rules.resolve(percentDecoded(uri.textOr("")), folder, uri.where()).string();
+      try {
+        image.path = rules.resolve(percentDecoded(uri.textOr("")), folder, uri.where()).string();
+      } catch (const Error&) {
+        image.error = std::current_exception();
+      }
     }
   }
 }

@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -22,9 +24,10 @@ using Bytes = std::span<const std::uint8_t>;
 
 // An image that is not decoded yet: `path`, or the bytes of a file.
 struct GltfImageSource {
-  std::string where;  // "file#/images/3"
-  std::string path;   // empty: `bytes`
-  std::string own;    // content of a data URI
+  std::string where;         // "file#/images/3"
+  std::string path;          // empty: `bytes`
+  std::exception_ptr error;  // thrown where the path cannot be used
+  std::string own;           // content of a data URI
   Bytes bytes;
 };
 
@@ -50,9 +53,13 @@ class GltfDocument {
   JsonValue root() const { return JsonValue(*json_); }
   // A list of the root object, "nodes" for example.
   JsonValue list(const std::string& name) const { return root()[name]; }
+  // True if this build reads the extension.
+  static bool reads(const std::string& extension);
   // The buffer view whose index is `reference`. Throws badScene where it does not exist or reaches
   // beyond its buffer.
   GltfBufferView view(const JsonValue& reference) const;
+  // The elements of an accessor that are compressed by Draco, tightly packed; none: they are not.
+  std::optional<Bytes> decoded(const JsonValue& accessor) const;
   const std::vector<GltfImageSource>& images() const { return images_; }
   Warnings& warnings() const { return warnings_; }
   MemoryBudget& budget() const { return budget_; }
@@ -68,6 +75,7 @@ class GltfDocument {
   Warnings& warnings_;
   std::unique_ptr<const JsonDocument> json_;
   std::vector<std::optional<std::string>> buffers_;
+  std::map<std::string, std::string> decodedAccessors_;  // by their pointers
   std::vector<GltfImageSource> images_;
 };
 

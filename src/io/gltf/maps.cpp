@@ -23,6 +23,7 @@ class GltfImage {
     if (broken_) return nullptr;
     if (auto raw = decoded_.lock()) return raw;
     try {
+      if (source_.error) std::rethrow_exception(source_.error);
       auto raw = std::make_shared<const RawImage>(
           source_.path.empty() ? decodeRawImage(source_.where, source_.bytes, limits, warnings_)
                                : readRawImage(source_.path, limits, warnings_));
@@ -64,19 +65,26 @@ struct Texel {
 class Stretched {
  public:
   Stretched(const RawImage* raw, int width, int height)
-      : raw_(raw), width_(width), height_(height) {}
+      : raw_(raw), stretched_(raw && (raw->width != width || raw->height != height)) {
+    for (int x = 0; stretched_ && x < width; ++x) {
+      columns_.push_back(static_cast<std::size_t>(std::int64_t{x} * raw->width / width));
+    }
+    for (int y = 0; stretched_ && y < height; ++y) {
+      rows_.push_back(static_cast<std::size_t>(std::int64_t{y} * raw->height / height));
+    }
+  }
 
-  Texel at(int x, int y) const {
+  // `i` counts texels of the stretched image.
+  Texel at(std::size_t i, std::size_t x, std::size_t y) const {
     if (!raw_) return {};
-    const auto column = static_cast<std::size_t>(std::int64_t{x} * raw_->width / width_);
-    const auto row = static_cast<std::size_t>(std::int64_t{y} * raw_->height / height_);
-    const std::size_t i = row * static_cast<std::size_t>(raw_->width) + column;
+    if (stretched_) i = rows_[y] * static_cast<std::size_t>(raw_->width) + columns_[x];
     return {linearPixel(*raw_, i), valuesAt(*raw_, i)};
   }
 
  private:
   const RawImage* raw_;
-  int width_, height_;
+  bool stretched_;
+  std::vector<std::size_t> columns_, rows_;
 };
 
 // Holds the mean of a channel of valuesAt().
@@ -153,11 +161,11 @@ Images bake(const GltfMaterial& m, const GltfBakeImages& images, const ImageLimi
   RgbD colors, tintSum;
   double metallic = 0, roughness = 0, strengths = 0;
   std::size_t i = 0;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x, ++i) {
-      const Rgb base = bases.at(x, y).color, tint = tints.at(x, y).color;
-      const Texel other = metals.at(x, y);
-      const float metal = m.metallic * other.code[2], strength = speculars.at(x, y).code[3];
+  for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y) {
+    for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x, ++i) {
+      const Rgb base = bases.at(i, x, y).color, tint = tints.at(i, x, y).color;
+      const Texel other = metals.at(i, x, y);
+      const float metal = m.metallic * other.code[2], strength = speculars.at(i, x, y).code[3];
       colors += RgbD(base);
       metallic += other.code[2];
       roughness += other.code[1];

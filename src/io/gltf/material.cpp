@@ -47,7 +47,9 @@ GltfTexture readTexture(const GltfDocument& document, const std::string& where,
   if (!info.exists()) return result;
   const JsonValue textures = document.list("textures"), samplers = document.list("samplers");
   const JsonValue texture = textures[info.need("index").indexInto(textures).value_or(0)];
-  result.image = texture["source"].indexInto(document.list("images"));
+  const JsonValue webp = texture["extensions"]["EXT_texture_webp"]["source"];
+  const JsonValue source = webp && document.reads("EXT_texture_webp") ? webp : texture["source"];
+  result.image = source.indexInto(document.list("images"));
   if (!result.image) {
     document.warnings().add("texture in a format that is not supported left out", where);
     return result;
@@ -213,7 +215,7 @@ Material shadedAs(const GltfMaterial& g, const GltfMeans& means) {
   Material m;
   m.name = g.name;
   m.doubleSided = g.doubleSided;
-  const float roughness = g.roughness * means.roughness;
+  const float roughness = std::min(g.roughness * means.roughness, 1.0f);
   m.roughness = means.roughnessByMap ? g.roughness : roughness;
   m.emission = g.emission;
   const GltfMaterial::Coordinates coordinates = g.coordinates();
@@ -223,7 +225,7 @@ Material shadedAs(const GltfMaterial& g, const GltfMeans& means) {
                       ? std::min(g.alphaCutoff / g.alpha, 1.0f)
                       : 0.5f;
   if (g.alphaMode == GltfMaterial::Alpha::blend) {
-    m.coverage = g.alpha * means.alpha;
+    m.coverage = std::min(g.alpha * means.alpha, 1.0f);
     m.thin = means.alphaByMap;
     if (means.alphaByMap) m.alphaCutoff = kClearCoverage;
   }

@@ -27,96 +27,65 @@ std::vector<Vec3f> vectorsOf(const GltfDocument& document, const JsonValue& attr
   return vectors;
 }
 
-class DeformationReader {
- public:
-  DeformationReader(const GltfDocument& document, const JsonValue& primitive,
-                    const Deformation& given, const Mesh& mesh)
-      : document_(document), primitive_(primitive), where_(primitive.where()), result_(given) {
-    document_.budget().charge(2 * (mesh.positions.size() + mesh.normals.size()), sizeof(Vec3d),
-                              where_);
-    result_.positions = mesh.positions;
-    result_.normals = mesh.normals;
+// Reads the targets that have a weight at some time.
+void readTargets(const GltfDocument& document, const JsonValue& targets, Deformation& to) {
+  to.targets.resize(targets.size());
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const bool weighs = i < to.weights.size() && to.weights[i] != 0;
+    if (!weighs && !to.movingWeights) continue;
+    to.targets[i] = {vectorsOf(document, targets[i]["POSITION"], to.positions.size()),
+                     vectorsOf(document, targets[i]["NORMAL"], to.normals.size())};
   }
+}
 
-  Deformation read() {
-    readTargets();
-    if (result_.skeleton) readSkin();
-    return std::move(result_);
+// The last joint is the node that shows the mesh; it holds the vertices that have no weights.
+void readSkin(const GltfDocument& document, const JsonValue& primitive, Deformation& to) {
+  const JsonValue attributes = primitive["attributes"];
+  const std::string where = primitive.where();
+  const std::size_t count = to.positions.size(), own = to.joints.size() - 1;
+  std::vector<std::vector<float>> joints, weights;
+  for (int set = 0;; ++set) {
+    const JsonValue j = attributes["JOINTS_" + std::to_string(set)];
+    const JsonValue w = attributes["WEIGHTS_" + std::to_string(set)];
+    if (!j.exists() || !w.exists()) break;
+    joints.push_back(readTuples(document, j, 4));
+    weights.push_back(readTuples(document, w, 4));
+    checkLength(joints.back().size() / 4, count, j);
+    checkLength(weights.back().size() / 4, count, w);
   }
-
- private:
-  void warn(const char* what) const { document_.warnings().add(what, where_); }
-
-  // Reads the targets that have a weight at some time.
-  void readTargets() {
-    const JsonValue targets = primitive_["targets"];
-    result_.targets.resize(targets.size());
-    for (std::size_t i = 0; i < targets.size(); ++i) {
-      const bool weighs = i < result_.weights.size() && result_.weights[i] != 0;
-      if (!weighs && !result_.movingWeights) continue;
-      result_.targets[i] = {vectorsOf(document_, targets[i]["POSITION"], result_.positions.size()),
-                            vectorsOf(document_, targets[i]["NORMAL"], result_.normals.size())};
-    }
-  }
-
-  void readSkin() {
-    const std::size_t count = result_.positions.size();
-    std::vector<std::vector<float>> joints, weights;
-    for (int set = 0;; ++set) {
-      const JsonValue attributes = primitive_["attributes"];
-      const JsonValue j = attributes["JOINTS_" + std::to_string(set)];
-      const JsonValue w = attributes["WEIGHTS_" + std::to_string(set)];
-      if (!j.exists() || !w.exists()) break;
-      joints.push_back(readTuples(document_, j, 4));
-      weights.push_back(readTuples(document_, w, 4));
-      checkLength(joints.back().size() / 4, count, j);
-      checkLength(weights.back().size() / 4, count, w);
-    }
-    if (joints.empty()) {
-      result_.skeleton = nullptr;
-      return warn("skinned mesh without joints and weights shown as it was modelled");
-    }
-    document_.budget().charge(count, sizeof(std::uint32_t) + 4 * joints.size() * sizeof(Influence),
-                              where_);
-    result_.firstInfluence.push_back(0);
-    for (std::size_t i = 0; i < count; ++i) {
-      for (std::size_t set = 0; set < joints.size(); ++set) {
-        for (std::size_t k = 4 * i; k < 4 * i + 4; ++k) hold(joints[set][k], weights[set][k]);
-      }
-      closeVertex();
-    }
-  }
-
-  void hold(float joint, double weight) {
-    if (!(weight > 0)) return;
-    if (joint >= 0 && joint < static_cast<float>(result_.joints.size())) {
-      result_.influences.push_back({static_cast<std::uint32_t>(joint), weight});
-    } else {
-      warn("joint that the skin does not have left out");
-    }
-  }
-
-  void closeVertex() {
-    std::vector<Influence>& all = result_.influences;
+  document.budget().charge(
+      count, sizeof(std::uint32_t) + (4 * joints.size() + 1) * sizeof(Influence), where);
+  to.firstInfluence.push_back(0);
+  for (std::size_t i = 0; i < 4 * count; i += 4) {
     double sum = 0;
-    for (std::size_t i = result_.firstInfluence.back(); i < all.size(); ++i) sum += all[i].weight;
-    if (!(sum > 0) || !std::isfinite(sum)) {
-      warn("vertex that no joint holds left where it was modelled");
-      all.resize(result_.firstInfluence.back());
+    for (std::size_t k = i; k < i + 4 * joints.size(); ++k) {
+      const std::size_t set = (k - i) / 4, at = i + (k - i) % 4;
+      const float joint = joints[set][at], weight = weights[set][at];
+      if (!(weight > 0)) continue;
+      if (joint >= 0 && joint < static_cast<float>(own)) {
+        to.influences.push_back({static_cast<std::uint32_t>(joint), weight});
+        sum += to.influences.back().weight;
+      } else {
+        document.warnings().add("joint that the skin does not have left out", where);
+      }
     }
-    result_.firstInfluence.push_back(static_cast<std::uint32_t>(all.size()));
+    if (!(sum > 0) || !std::isfinite(sum)) {
+      document.warnings().add("vertex that no joint holds placed by its node", where);
+      to.influences.resize(to.firstInfluence.back());
+      to.influences.push_back({static_cast<std::uint32_t>(own), 1});
+    }
+    to.firstInfluence.push_back(static_cast<std::uint32_t>(to.influences.size()));
   }
-
-  const GltfDocument& document_;
-  JsonValue primitive_;
-  std::string where_;
-  Deformation result_;
-};
+}
 
 // Deforms the mesh as it is at the start, and gives it the deformation where that depends on time.
-void deform(const GltfDocument& document, const JsonValue& primitive,
-            const Deformation& deformation, Mesh& mesh) {
-  Deformation own = DeformationReader(document, primitive, deformation, mesh).read();
+void deform(const GltfDocument& document, const JsonValue& primitive, Deformation own, Mesh& mesh) {
+  document.budget().charge(2 * (mesh.positions.size() + mesh.normals.size()), sizeof(Vec3d),
+                           primitive.where());
+  own.positions = mesh.positions;
+  own.normals = mesh.normals;
+  readTargets(document, primitive["targets"], own);
+  if (own.skeleton) readSkin(document, primitive, own);
   DeformedVertices start = deformVertices(own, poseAt(own, 0));
   mesh.positions = std::move(start.positions);
   mesh.normals = std::move(start.normals);
@@ -198,7 +167,11 @@ class PrimitiveReader {
 
   std::vector<std::uint32_t> corners(std::size_t vertices) {
     const JsonValue indices = primitive_["indices"];
-    if (indices.exists()) return readIndices(document_, indices);
+    if (indices.exists()) {
+      // Decoded strips are separate triangles.
+      if (document_.decoded(accessorOf(document_, indices))) mode_ = kTriangles;
+      return readIndices(document_, indices);
+    }
     if (vertices > std::numeric_limits<std::uint32_t>::max()) {
       throwLimit(primitive_.where() + ": more than 2^32 - 1 vertices");
     }

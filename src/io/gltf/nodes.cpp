@@ -206,7 +206,7 @@ class TreeReader {
         seen_(nodes_.size()) {}
 
   GltfStage read() {
-    checkTree();
+    findParents();
     for (const std::size_t root : roots()) visit(root, Affine(), kNoNode, 0);
     nameCameras();
     return std::move(stage_);
@@ -223,18 +223,13 @@ class TreeReader {
                   "nested deeper than " + std::to_string(kGltfDepthLimit) + " nodes");
   }
 
-  // No node may have two parents. A node that is its own ancestor is found by visit().
-  void checkTree() {
+  // A node with two parents or that is its own ancestor is found by visit().
+  void findParents() {
     parents_.assign(nodes_.size(), kTopmost);
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
       const JsonValue children = nodes_[i]["children"];
       for (std::size_t k = 0; k < children.size(); ++k) {
-        std::size_t& parent = parents_[children[k].indexInto(nodes_).value_or(0)];
-        if (parent != kTopmost) {
-          children.fail("a tree", "node " + std::to_string(*children[k].indexInto(nodes_)) +
-                                      " with two parents");
-        }
-        parent = i;
+        parents_[children[k].indexInto(nodes_).value_or(0)] = i;
       }
     }
   }
@@ -327,6 +322,7 @@ class TreeReader {
     Deformation deformation;
     if (const auto skin = node["skin"].indexInto(document_.list("skins"))) {
       deformation = skinOf(*skin);
+      addOwnJoint(index, *skin, deformation);
       document_.budget().charge(deformation.joints.size(), sizeof(Deformation::Joint),
                                 node.where());
     }
@@ -346,7 +342,7 @@ class TreeReader {
     const JsonValue joints = skin.need("joints"), inverse = skin["inverseBindMatrices"];
     std::vector<Deformation::Joint>& all = known->second.joints;
     Rig rig;
-    std::map<std::size_t, std::uint32_t> places;
+    std::map<std::size_t, std::uint32_t>& places = jointPlaces_[index];
     for (std::size_t i = 0; i < joints.size(); ++i) {
       all.push_back({placeJoint(joints[i].indexInto(nodes_).value_or(0), places, rig), Affine()});
     }
@@ -363,6 +359,14 @@ class TreeReader {
                                numbers.begin() + static_cast<std::ptrdiff_t>(16 * (i + 1))});
     }
     return known->second;
+  }
+
+  // The last joint is the node that shows the mesh, for vertices without weights.
+  void addOwnJoint(std::size_t index, std::size_t skin, Deformation& deformation) {
+    Rig rig = *deformation.skeleton;
+    std::map<std::size_t, std::uint32_t> places = jointPlaces_[skin];
+    deformation.joints.push_back({placeJoint(index, places, rig), Affine()});
+    deformation.skeleton = std::make_shared<const Rig>(std::move(rig));
   }
 
   // Returns the node's index in the skeleton `rig`, after adding the node and its ancestors to it.
@@ -505,6 +509,7 @@ class TreeReader {
   const std::set<std::string>& movable_;
   std::vector<std::size_t> parents_;
   std::map<std::size_t, Deformation> skins_;
+  std::map<std::size_t, std::map<std::size_t, std::uint32_t>> jointPlaces_;  // in each skin's rig
   std::vector<bool> seen_;
   GltfStage stage_;
 };

@@ -66,8 +66,9 @@ class ImageBytes {
 // badScene.
 RawImage decodePng(const std::string& path, std::span<const std::uint8_t> file,
                    const ImageLimits& limits);
-// Refuses CMYK.
 RawImage decodeJpeg(const std::string& path, std::span<const std::uint8_t> file,
+                    const ImageLimits& limits);
+RawImage decodeWebp(const std::string& path, std::span<const std::uint8_t> file,
                     const ImageLimits& limits);
 RawImage decodeBmp(const std::string& path, std::span<const std::uint8_t> file,
                    const ImageLimits& limits);

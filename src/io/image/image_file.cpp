@@ -29,9 +29,15 @@ std::string_view asText(std::span<const std::uint8_t> file) {
 // Names formats that are often used for textures but not supported.
 std::string kindOf(std::span<const std::uint8_t> file) {
   constexpr std::pair<std::string_view, const char*> kBeginnings[] = {
-      {"GIF8", "a GIF image"},       {"RIFF", "a WebP image"},   {"DDS ", "a DDS texture"},
-      {"\xabKTX", "a KTX texture"},  {"II*", "a TIFF image"},    {"MM", "a TIFF image"},
-      {"8BPS", "a Photoshop image"}, {"<", "a page of the web"}, {"", "something else"}};
+      {"GIF8", "a GIF image"},
+      {"RIFF", "a WebP image (this whit was built without libwebp)"},
+      {"DDS ", "a DDS texture"},
+      {"\xabKTX", "a KTX texture (`ktx extract --transcode rgba8 IN OUT.png` converts it)"},
+      {"II*", "a TIFF image"},
+      {"MM", "a TIFF image"},
+      {"8BPS", "a Photoshop image"},
+      {"<", "a page of the web"},
+      {"", "something else"}};
   if (file.empty()) return "an empty file";
   return std::find_if(std::begin(kBeginnings), std::end(kBeginnings),
                       [&](const auto& known) { return asText(file).starts_with(known.first); })
@@ -46,6 +52,9 @@ struct Format {
 };
 constexpr Format kFormats[] = {{"\x89PNG\r\n\x1a\n", decodePng},
                                {"\xff\xd8\xff", decodeJpeg},
+#ifdef WHIT_WEBP
+                               {"RIFF", decodeWebp},
+#endif
                                {"BM", decodeBmp},
                                {"#?RADIANCE", decodeHdr},
                                {"#?RGBE", decodeHdr}};
@@ -57,7 +66,8 @@ RawImage decodeBytes(const std::string& name, std::span<const std::uint8_t> file
   }
   if (extensionOf(name) == ".tga") return decodeTga(name, file, limits);
   throwBadScene(
-      name, "expected a PNG, JPEG, TGA, BMP, Radiance HDR or OpenEXR image, found " + kindOf(file));
+      name,
+      "expected a PNG, JPEG, WebP, TGA, BMP, Radiance HDR or OpenEXR image, found " + kindOf(file));
 }
 
 RawImage decodeOther(const std::string& path, const ImageLimits& limits) {

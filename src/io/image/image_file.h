@@ -38,11 +38,11 @@ struct RawImage {
   }
 };
 
-// Reads PNG, JPEG, TGA, BMP, Radiance HDR or OpenEXR. Throws Error(io) if the file cannot be read,
-// badScene if it is not a valid image, limit if it is larger than `limits` allow.
+// Reads PNG, JPEG, WebP, TGA, BMP, Radiance HDR or OpenEXR. Throws Error(io) if the file cannot be
+// read, badScene if it is not a valid image, limit if it is larger than `limits` allow.
 RawImage readRawImage(const std::string& path, const ImageLimits& limits, Warnings& warnings);
 
-// Decodes a file that is in memory: PNG, JPEG, BMP or Radiance HDR. `name` is for errors.
+// Decodes a file that is in memory: PNG, JPEG, WebP, BMP or Radiance HDR. `name` is for errors.
 RawImage decodeRawImage(const std::string& name, std::span<const std::uint8_t> file,
                         const ImageLimits& limits, Warnings& warnings);
 

@@ -45,6 +45,7 @@ class JpegReader {
   void readPixels(std::uint8_t* codes) {
     guarded([this, codes] {
       if (channels() == 3) decoder_.out_color_space = JCS_RGB;
+      if (channels() == 4) decoder_.out_color_space = JCS_CMYK;
       jpeg_start_decompress(&decoder_);
       const std::size_t stride = std::size_t{decoder_.output_width} * decoder_.output_components;
       while (decoder_.output_scanline < decoder_.output_height) {
@@ -60,8 +61,11 @@ class JpegReader {
   int channels() const {
     if (decoder_.jpeg_color_space == JCS_GRAYSCALE) return 1;
     if (decoder_.num_components == 3) return 3;
-    refuse("gray or RGB, found " + std::to_string(decoder_.num_components) + " inks");
+    if (decoder_.num_components == 4) return 4;
+    refuse("gray, RGB or CMYK, found " + std::to_string(decoder_.num_components) + " inks");
   }
+  // Adobe's programs store how much light an ink lets through, others how much of it there is.
+  bool isInverted() const { return decoder_.saw_Adobe_marker != 0; }
   // Upper bound on libjpeg's memory for decoding: some rows of each component, and all of its
   // coefficients where they come in more than one scan.
   std::uint64_t workingBytes() {
@@ -155,6 +159,19 @@ bool write(JpegWriter& writer, const DisplayImage& image, std::vector<std::uint8
   return true;
 }
 
+// Cyan, magenta, yellow and black as red, green and blue: each ink lets through what black does.
+void printInks(RawImage& image, bool isInverted) {
+  for (std::size_t i = 0; i < image.pixels(); ++i) {
+    const std::uint8_t* const inks = &image.codes[4 * i];
+    const auto light = [&](std::size_t k) { return isInverted ? inks[k] : 255 - inks[k]; };
+    for (std::size_t k = 0; k < 3; ++k) {
+      image.codes[3 * i + k] = static_cast<std::uint8_t>((light(k) * light(3) + 127) / 255);
+    }
+  }
+  image.channels = 3;
+  image.codes.resize(3 * image.pixels());
+}
+
 }  // namespace
 
 RawImage decodeJpeg(const std::string& path, std::span<const std::uint8_t> file,
@@ -166,6 +183,7 @@ RawImage decodeJpeg(const std::string& path, std::span<const std::uint8_t> file,
   const MemoryHold working(limits.budget, reader.workingBytes(), 1, path);
   image.codes.resize(image.pixels() * static_cast<std::size_t>(image.channels));
   reader.readPixels(image.codes.data());
+  if (image.channels == 4) printInks(image, reader.isInverted());
   return image;
 }
 

@@ -302,10 +302,8 @@ class PlyReader {
       throwBadScene(element.where,
                     "expected the vertices before the element \"" + element.name + "\"");
     }
-    for (const auto& [property, warning] :
-         {std::pair("texcoord", "texture coordinates of a face's corners left out"),
-          std::pair("red", "colors of faces left out")}) {
-      if (element.find(property) && element.count > 0) warnings_.add(warning, file_);
+    for (const char* property : {"texcoord", "red"}) {
+      if (element.find(property)) warnings_.add("properties of faces left out", file_);
     }
     std::vector<double> face;
     for (std::uint64_t i = 0; i < element.count; ++i) {

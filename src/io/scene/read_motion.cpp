@@ -28,12 +28,10 @@ Vec3d readKeyScale(const JsonValue& value) {
 
 // `axis` is 0 before the first rotation.
 double readDegrees(const JsonValue& value, Vec3d& axis) {
-  const auto e = value.elements(4, "a rotation [x, y, z, degrees]");
-  const Vec3d about{e[0].number(), e[1].number(), e[2].number()};
-  if (about == Vec3d()) value.fail("an axis other than 0");
+  const auto [about, degrees] = readTurn(value);
   if (axis == Vec3d()) axis = about;
   if (!(axis == about)) value.fail("the axis of the keys before: groups turn about several");
-  return e[3].number();
+  return degrees;
 }
 
 void readKey(const JsonValue& value, Track& track, Vec3d& axis) {
@@ -120,6 +118,13 @@ void count(double seconds, SceneDescription& scene) {
 }
 
 }  // namespace
+
+std::pair<Vec3d, double> readTurn(const JsonValue& value) {
+  const auto e = value.elements(4, "a rotation [x, y, z, degrees]");
+  const Vec3d axis{e[0].number(), e[1].number(), e[2].number()};
+  if (axis == Vec3d()) value.fail("an axis other than 0");
+  return {axis, e[3].number()};
+}
 
 std::string movableName(const JsonObject& object, const Instant& instant) {
   const std::string& pointer = object.value().pointer();

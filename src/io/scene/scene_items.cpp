@@ -27,18 +27,15 @@ Affine readScale(const JsonValue& value) {
   return Affine::scaling(scale);
 }
 
-Affine readRotation(const JsonValue& value) {
-  const auto e = value.elements(4, "a rotation [x, y, z, degrees] or a list of such");
-  const Vec3d axis{e[0].number(), e[1].number(), e[2].number()};
-  if (axis == Vec3d()) value.fail("an axis other than 0");
-  return Affine::rotation(axis, e[3].number());
-}
-
 Affine readRotations(const JsonValue& value) {
   const auto elements = value.elements();
-  if (elements.empty() || !elements[0].isArray()) return readRotation(value);
+  const auto rotation = [](const JsonValue& turn) {
+    const auto [axis, degrees] = readTurn(turn);
+    return Affine::rotation(axis, degrees);
+  };
+  if (elements.empty() || !elements[0].isArray()) return rotation(value);
   Affine result;
-  for (const JsonValue& element : elements) result = readRotation(element) * result;
+  for (const JsonValue& element : elements) result = rotation(element) * result;
   return result;
 }
 

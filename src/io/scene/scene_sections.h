@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/progress.h"
@@ -74,6 +75,9 @@ void readSky(JsonObject& file, SceneContext& context);
 // "ambient". Returns the strength that ambientFromSky() is to be called with, once the sky's image
 // is there.
 std::optional<double> readAmbient(JsonObject& file, SceneDescription& scene);
+
+// A rotation [x, y, z, degrees]: the axis, which is not 0, and the degrees.
+std::pair<Vec3d, double> readTurn(const JsonValue& value);
 
 // The member "motion" of `object` (scenes/README.md), which follows the object's other transforms;
 // null where there is none. Counts as the scene's animation kSceneMotion. An object that is moved

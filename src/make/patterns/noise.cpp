@@ -29,8 +29,14 @@ std::uint32_t latticeHash(std::uint32_t seed, std::int32_t x, std::int32_t y) {
 
 double fade(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }
 
+// std::floor() without a call, for what fits into 32 bits.
+std::int32_t floorOf(double x) {
+  const auto i = static_cast<std::int32_t>(x);
+  return i - (i > x);
+}
+
 std::int32_t wrapped(std::int32_t i, int period) {
-  if (period <= 0) return i;
+  if (period <= 0 || (i >= 0 && i < period)) return i;  // mostly, and a division takes long
   const std::int32_t r = i % period;
   return r < 0 ? r + period : r;
 }
@@ -68,11 +74,10 @@ double smoothStep(double low, double high, double x) {
 }
 
 double gradientNoise(std::uint32_t seed, double x, double y, int period) {
-  const double fx = std::floor(x), fy = std::floor(y);
-  const auto ix = static_cast<std::int32_t>(fx), iy = static_cast<std::int32_t>(fy);
+  const std::int32_t ix = floorOf(x), iy = floorOf(y);
   const std::int32_t x0 = wrapped(ix, period), x1 = wrapped(ix + 1, period);
   const std::int32_t y0 = wrapped(iy, period), y1 = wrapped(iy + 1, period);
-  const double tx = x - fx, ty = y - fy, u = fade(tx), v = fade(ty);
+  const double tx = x - ix, ty = y - iy, u = fade(tx), v = fade(ty);
   const double low = lerp(slope2(latticeHash(seed, x0, y0), tx, ty),
                           slope2(latticeHash(seed, x1, y0), tx - 1, ty), u);
   const double high = lerp(slope2(latticeHash(seed, x0, y1), tx, ty - 1),
@@ -81,10 +86,8 @@ double gradientNoise(std::uint32_t seed, double x, double y, int period) {
 }
 
 double gradientNoise3(std::uint32_t seed, double x, double y, double z) {
-  const double fx = std::floor(x), fy = std::floor(y), fz = std::floor(z);
-  const auto ix = static_cast<std::int32_t>(fx), iy = static_cast<std::int32_t>(fy),
-             iz = static_cast<std::int32_t>(fz);
-  const double tx = x - fx, ty = y - fy, tz = z - fz, u = fade(tx), v = fade(ty);
+  const std::int32_t ix = floorOf(x), iy = floorOf(y), iz = floorOf(z);
+  const double tx = x - ix, ty = y - iy, tz = z - iz, u = fade(tx), v = fade(ty);
   const auto plane = [&](int k) {
     const auto corner = [&](int i, int j) {
       return slope3(hash(seed, ix + i, iy + j, iz + k), tx - i, ty - j, tz - k);

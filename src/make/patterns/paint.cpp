@@ -45,7 +45,8 @@ Texture paintNormals(const std::string& name, int side, const ScalarFormula& hei
   heights.reserve(texelsOf(side));
   forEachTexel(side, [&](double u, double v) { heights.push_back(height(u, v)); });
   const auto at = [&](int row, int column) {
-    const int r = (row + side) % side, c = (column + side) % side;
+    const int r = row < 0 ? side - 1 : row < side ? row : 0;
+    const int c = column < 0 ? side - 1 : column < side ? column : 0;
     return heights[static_cast<std::size_t>(r) * static_cast<std::size_t>(side) +
                    static_cast<std::size_t>(c)];
   };

@@ -1,0 +1,131 @@
+// What a confined child process can do, and what ends it.
+#include "io/confined.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <linux/seccomp.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "sanitized.h"
+
+namespace whit {
+namespace {
+
+constexpr std::uint64_t kMemory = 64u << 20;
+
+std::string failureOf(const std::function<void(const ConfinedWriter&)>& work) {
+  return runConfined(work, kMemory, 20).failure;
+}
+
+TEST(Confined, AnswersWithWhatItComputes) {
+  int seen = 7;
+  const std::string text = "what the parent knows";
+  const ConfinedAnswer answer = runConfined(
+      [&](const ConfinedWriter& write) {
+        seen = 8;
+        const std::vector<char> much(1 << 20, 'x');  // more than a pipe holds
+        write(text.data(), text.size());
+        write(much.data(), much.size());
+      },
+      kMemory, 20);
+  EXPECT_EQ(answer.failure, "");
+  EXPECT_EQ(answer.bytes, text + std::string(1 << 20, 'x'));
+  EXPECT_EQ(seen, 7) << "the child changed the parent";
+}
+
+TEST(Confined, CrashesAreReported) {
+  EXPECT_EQ(failureOf([](const ConfinedWriter&) { throw std::runtime_error("no"); }), "it gave up");
+  if (kSanitized) GTEST_SKIP() << "sanitizers report crashes, which calls the system";
+  EXPECT_EQ(failureOf([](const ConfinedWriter&) { *static_cast<volatile int*>(nullptr) = 1; }),
+            "it crashed (signal 11)");
+}
+
+TEST(Confined, BytesBeforeACrashArrive) {
+  const ConfinedAnswer answer = runConfined(
+      [](const ConfinedWriter& write) {
+        write("half", 4);
+        throw std::runtime_error("no");
+      },
+      kMemory, 20);
+  EXPECT_EQ(answer.bytes, "half");
+  EXPECT_NE(answer.failure, "");
+}
+
+TEST(Confined, TimeIsLimited) {
+  const auto forever = [](const ConfinedWriter&) {
+    const volatile bool goesOn = true;
+    while (goesOn) continue;
+  };
+  EXPECT_EQ(runConfined(forever, kMemory, 1).failure, "it took too long");
+}
+
+TEST(Confined, MemoryIsLimited) {
+  if (kSanitized) GTEST_SKIP() << "sanitizers end a process without memory in their own way";
+  EXPECT_EQ(failureOf([](const ConfinedWriter&) {
+              const std::vector<char> all(2 * kMemory, 'x');
+              if (all[1] != 'x') std::abort();
+            }),
+            "it needs more memory");
+}
+
+TEST(Confined, AnswersAreLimited) {
+  EXPECT_EQ(failureOf([](const ConfinedWriter& write) {
+              const std::vector<char> some(1 << 20);
+              for (;;) write(some.data(), some.size());
+            }),
+            "its answer is too long");
+}
+
+// Threads that allocate hold locks of malloc() at any time.
+TEST(Confined, StartsFromAProgramWithThreads) {
+  std::atomic<bool> goesOn{true};
+  std::vector<std::thread> others;
+  for (int i = 0; i < 3; ++i) {
+    others.emplace_back([&] {
+      while (goesOn) std::vector<std::string>(200, std::string(100, 'x')).clear();
+    });
+  }
+  for (int i = 0; i < 40; ++i) {
+    const ConfinedAnswer answer = runConfined(
+        [](const ConfinedWriter& write) {
+          const std::vector<std::string> many(1000, std::string(1000, 'y'));
+          write(many[999].data(), 1000);
+        },
+        kMemory, 20);
+    EXPECT_EQ(answer.failure, "");
+    EXPECT_EQ(answer.bytes, std::string(1000, 'y'));
+  }
+  goesOn = false;
+  for (std::thread& other : others) other.join();
+  EXPECT_TRUE(waitpid(-1, nullptr, WNOHANG) < 0 && errno == ECHILD) << "a child is left";
+}
+
+TEST(Confined, TheSystemIsOutOfReach) {
+  // A kernel with seccomp looks for the filter, which is not there.
+  const bool filters = prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, nullptr) != 0 && errno == EFAULT;
+  if (!filters) GTEST_SKIP() << "no seccomp here";
+  const auto open = [](const ConfinedWriter&) {
+    if (::open("/dev/null", O_RDONLY) >= 0) _exit(0);
+    throw std::runtime_error("the file cannot be opened");
+  };
+  EXPECT_EQ(failureOf(open), "it called the system");
+  EXPECT_EQ(failureOf([](const ConfinedWriter&) { kill(getppid(), SIGTERM); }),
+            "it called the system");
+  EXPECT_EQ(failureOf([](const ConfinedWriter&) {
+              if (::write(STDERR_FILENO, "x", 1) == 1) _exit(0);
+            }),
+            "it called the system");
+}
+
+}  // namespace
+}  // namespace whit
