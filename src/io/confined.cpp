@@ -131,6 +131,11 @@ ConfinedAnswer runConfined(const std::function<void(const ConfinedWriter&)>& wor
     std::copy_n(static_cast<const char*>(bytes), count, answer + *length);
     *length += count;
   };
+  // The first exception of a process makes tables by a system call that the child may not make.
+  try {
+    throw 0;
+  } catch (int) {
+  }
   const std::uint64_t mostAddresses = addressSpace() + mostBytes;
   const pid_t child = fork();
   if (child == 0) beChild(work, writer, mostAddresses, seconds);

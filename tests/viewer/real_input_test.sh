@@ -87,6 +87,15 @@ window=$(timeout 60 xdotool search --sync --onlyvisible --name '^whit' | head -n
   fail "no window"
 xdotool windowactivate --sync "$window"
 
+# The window is there before its scene, and keys count from then on.
+answers() {
+  xdotool key c
+  sleep 0.5
+  printed 1
+}
+within answers
+sleep 1
+prints=$(grep -c '^whit render' "$work/out")
 look
 hold eye "keydown w" "keyup w"
 hold eye "keydown shift keydown d" "keyup d keyup shift"
