@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <array>
-#include <compare>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -56,7 +56,10 @@ struct WrittenPlace {
   std::uint32_t instance = 0;  // in SceneDescription::instances
   std::uint32_t triangle = 0;  // in what the instance places
 
-  auto operator<=>(const WrittenPlace&) const = default;
+  bool operator<(const WrittenPlace& other) const {
+    return std::tie(rank, instance, triangle) <
+           std::tie(other.rank, other.instance, other.triangle);
+  }
 };
 
 // Filled while the scene is baked.

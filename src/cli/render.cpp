@@ -143,12 +143,24 @@ void checkFilm(const RenderJob& job) {
            "--size: the sides of a film are even numbers of pixels");
 }
 
-// A picture without -o goes to SCENE.png.
+bool isOurPicture(const std::string& file) try {
+  const ImageMetadata texts = readPngMetadata(file);
+  return std::any_of(texts.begin(), texts.end(), [](const auto& text) {
+    return text.first == "software" && text.second.starts_with("whit ");
+  });
+} catch (const Error&) {
+  return false;
+}
+
+// A picture without -o goes to SCENE.png. A model may have a texture of that name, which is kept.
 void chooseOutputs(RenderJob& job) {
   if (!job.outputs.empty()) return;
   refuseIf(!job.frames.empty(), "expected a file to write: -o FILM.mp4 or -o FRAMES####.png");
   const std::filesystem::path scene(parseSceneName(job.scenes[0]).file);
-  job.outputs.push_back(scene.stem().string() + ".png");
+  const std::string file = scene.stem().string() + ".png";
+  refuseIf(std::filesystem::exists(file) && !isOurPicture(file),
+           "'" + file + "' is there and is no picture by whit: name another file with -o");
+  job.outputs.push_back(file);
 }
 
 void checkJob(const RenderJob& job) {

@@ -53,8 +53,16 @@ TEST(Render, WithoutOutputWritesTheScenesName) {
   const std::filesystem::path before = std::filesystem::current_path();
   std::filesystem::current_path(folder.path());
   const Outcome outcome = runWhit({"render", "tiny.json"});
+  const Outcome again = runWhit({"render", "tiny.json"});
+  std::ofstream("other.png") << "a texture";
+  std::filesystem::copy_file("tiny.json", "other.json");
+  const Outcome refused = runWhit({"render", "other.json"});
   std::filesystem::current_path(before);
   EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("'other.png' is there"), std::string::npos) << refused.err;
+  EXPECT_EQ(readFile(folder / "other.png"), "a texture");
   EXPECT_EQ(outcome.out, "");  // it is no terminal
   EXPECT_NE(outcome.err.find("wrote tiny.png"), std::string::npos) << outcome.err;
   EXPECT_EQ(readFile(folder / "tiny.png").substr(1, 3), "PNG");
