@@ -3,6 +3,7 @@
 #include <strings.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstring>
 #include <optional>
@@ -17,17 +18,26 @@ namespace whit {
 
 namespace {
 
-std::string base64Decoded(std::string_view digits, const std::string& where) {
+// By letter; -1: no digit.
+constexpr auto kBase64Values = [] {
   constexpr std::string_view kDigits =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::array<int, 256> values{};
+  values.fill(-1);
+  int next = 0;
+  for (const char c : kDigits) values[static_cast<unsigned char>(c)] = next++;
+  return values;
+}();
+
+std::string base64Decoded(std::string_view digits, const std::string& where) {
   while (digits.ends_with('=')) digits.remove_suffix(1);
   std::string bytes;
   bytes.reserve(digits.size() / 4 * 3 + 2);
   std::uint32_t held = 0;
   int bits = 0;
   for (const char c : digits) {
-    const std::size_t value = kDigits.find(c);
-    if (value == std::string_view::npos) {
+    const int value = kBase64Values[static_cast<unsigned char>(c)];
+    if (value < 0) {
       throwBadScene(where, "expected base64, found a letter that is none of its digits");
     }
     held = held << 6 | static_cast<std::uint32_t>(value);
