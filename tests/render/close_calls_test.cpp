@@ -15,17 +15,17 @@ namespace {
 constexpr int kCloseRays = 200000;
 
 // Alpha is 0 and 1 in turn from column to column, so that 0.5 is crossed once in a texel.
-constexpr int kColumns = 64;
+constexpr int kStripes = 64;
 
 SceneDescription stripedSquare() {
   SceneDescription d = sceneOf(square());
   d.objects[0].meshes[0].uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   Texture stripes;
   stripes.format = TexelFormat::data;
-  stripes.width = kColumns;
+  stripes.width = kStripes;
   stripes.height = 1;
   stripes.wrapU = stripes.wrapV = Wrap::clamp;
-  for (int i = 0; i < kColumns; ++i) {
+  for (int i = 0; i < kStripes; ++i) {
     stripes.texels.push_back(encodeDataTexel(i % 2 == 0 ? 1.0f : 0.0f, 0, 0, 1));
   }
   d.textures = {stripes};
@@ -35,7 +35,7 @@ SceneDescription stripedSquare() {
 }
 
 double alphaOfStripes(double x) {
-  const double column = x * kColumns - 0.5, left = std::floor(column);
+  const double column = x * kStripes - 0.5, left = std::floor(column);
   const double fraction = column - left;
   return static_cast<int>(left) % 2 == 0 ? 1 - fraction : fraction;
 }
@@ -45,15 +45,15 @@ double alphaOfStripes(double x) {
 TEST(CloseCalls, OfMasksAreDecidedByTheRay) {
   // Alpha's rounding in float: a coordinate's last bit times the number of columns, some times
   // over.
-  constexpr double kOpen = 8 * kColumns * 0x1p-24;
+  constexpr double kOpen = 8 * kStripes * 0x1p-24;
   const Scene scene = finalized(stripedSquare());
   const Accel accel(scene, RenderOptions());
   std::mt19937 random(3);
-  std::uniform_int_distribution<int> edge(1, kColumns - 2);
+  std::uniform_int_distribution<int> edge(1, kStripes - 2);
   std::uniform_real_distribution<float> beside(-1e-4f, 1e-4f), height(0.1f, 0.9f), off(-30, 30);
   int decided = 0, wrong = 0;
   for (int i = 0; i < kCloseRays; ++i) {
-    const float x = (static_cast<float>(edge(random))) / kColumns + beside(random);
+    const float x = (static_cast<float>(edge(random))) / kStripes + beside(random);
     const Vec3f origin{off(random), off(random), 200};
     const Vec3f direction = Vec3f{x, height(random), 0} - origin;
     const double t = -double{origin.z} / double{direction.z};
