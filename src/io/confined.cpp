@@ -54,8 +54,10 @@ void limit(__rlimit_resource resource, std::uint64_t most) {
 // Ends the process at any system call but those that follow. A kernel without seccomp refuses the
 // filter; the other limits then stand alone.
 void filterSystemCalls() {
-  constexpr std::uint32_t kAllowed[] = {__NR_brk,     __NR_mmap,     __NR_munmap, __NR_mremap,
-                                        __NR_madvise, __NR_mprotect, __NR_exit,   __NR_exit_group};
+  // Address sanitizer asks for the stack of signals before an exception or an end.
+  constexpr std::uint32_t kAllowed[] = {__NR_brk,    __NR_mmap,       __NR_munmap,
+                                        __NR_mremap, __NR_madvise,    __NR_mprotect,
+                                        __NR_exit,   __NR_exit_group, __NR_sigaltstack};
   constexpr std::uint8_t kCount = std::size(kAllowed);
   constexpr std::uint16_t kLoad = BPF_LD | BPF_W | BPF_ABS, kReturn = BPF_RET | BPF_K,
                           kSkipIfEqual = BPF_JMP | BPF_JEQ | BPF_K;
