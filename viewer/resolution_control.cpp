@@ -1,7 +1,6 @@
 #include "viewer/resolution_control.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace whit::view {
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <type_traits>
 
 #include "core/error.h"
 #include "core/nearest_name.h"

@@ -1,6 +1,5 @@
 #include "io/polygon.h"
 
-#include <cmath>
 #include <numeric>
 
 namespace whit {

@@ -3,7 +3,6 @@
 #include <strings.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cstring>
 #include <optional>
@@ -18,16 +17,13 @@ namespace whit {
 
 namespace {
 
-// By letter; -1: no digit.
-constexpr auto kBase64Values = [] {
-  constexpr std::string_view kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::array<int, 256> values{};
-  values.fill(-1);
-  int next = 0;
-  for (const char c : kDigits) values[static_cast<unsigned char>(c)] = next++;
-  return values;
-}();
+// Returns a number below 0 for a letter that is no digit.
+int base64Value(char c) {
+  if (c >= 'A' && c <= 'Z') return c - 'A';
+  if (c >= 'a' && c <= 'z') return c - 'a' + 26;
+  if (c >= '0' && c <= '9') return c - '0' + 52;
+  return c == '+' ? 62 : c == '/' ? 63 : -1;
+}
 
 std::string base64Decoded(std::string_view digits, const std::string& where) {
   while (digits.ends_with('=')) digits.remove_suffix(1);
@@ -36,7 +32,7 @@ std::string base64Decoded(std::string_view digits, const std::string& where) {
   std::uint32_t held = 0;
   int bits = 0;
   for (const char c : digits) {
-    const int value = kBase64Values[static_cast<unsigned char>(c)];
+    const int value = base64Value(c);
     if (value < 0) {
       throwBadScene(where, "expected base64, found a letter that is none of its digits");
     }
@@ -143,7 +139,7 @@ constexpr std::string_view kSupported[] = {
     "KHR_materials_volume",       "KHR_mesh_quantization",
     "KHR_texture_transform"};
 
-// What to do about an extension that is not supported.
+// Says what the user can do about an extension that is not supported; may be empty.
 std::string adviceOn(const std::string& extension) {
   if (extension == "KHR_texture_basisu") {
     return ": `gltf-transform ktxdecompress IN OUT` converts the file";
