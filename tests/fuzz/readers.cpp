@@ -185,11 +185,14 @@ bool mayCause(ExitStatus status) {
 
 const std::vector<Reader>& readers() {
   static const std::vector<Reader> all = {
-      {"scene", ".json", readScene},   {"obj", ".obj", readScene},
-      {"mtl", ".mtl", readMaterials},  {"gltf", ".gltf", readScene},  // .glb by its signature
-      {"ply", ".ply", readScene},      {"png", ".png", readPng},
-      {"jpeg", ".jpg", readImageFile}, {"tga", ".tga", readImageFile},
-      {"bmp", ".bmp", readImageFile},  {"hdr", ".hdr", readImageFile},
+      {"scene", ".json", readScene},    {"obj", ".obj", readScene},
+      {"mtl", ".mtl", readMaterials},   {"gltf", ".gltf", readScene},  // .glb by its signature
+      {"ply", ".ply", readScene},       {"png", ".png", readPng},
+#ifdef WHIT_WEBP
+      {"webp", ".webp", readImageFile},
+#endif
+      {"jpeg", ".jpg", readImageFile},  {"tga", ".tga", readImageFile},
+      {"bmp", ".bmp", readImageFile},   {"hdr", ".hdr", readImageFile},
       {"exr", ".exr", readExr}};
   return all;
 }

@@ -53,6 +53,10 @@ fuzz() {
 status=0
 running=0
 for reader in "${readers[@]}"; do
+  if ! [ -x "$build/tests/fuzz_$reader" ]; then
+    echo "!! $reader: this build has no such reader, it is NOT fuzzed" >&2
+    continue
+  fi
   if [ "$running" -ge "$(nproc)" ]; then
     wait -n || status=1
     running=$((running - 1))
