@@ -123,12 +123,8 @@ HWY_INLINE HitPoint PierceTriangle(const SeenTriangle& t, const V3& direction, M
 
 void RefineHits(const HitTables& tables, const RayColumns& rays, size_t n, const HitColumns& hits) {
   const FloatTag d;
-  constexpr size_t kStride = kFloatsOf<TriangleRecord>, kRun = 64;
+  constexpr size_t kStride = kFloatsOf<TriangleRecord>;
   for (size_t i = 0; i < n; i += hn::Lanes(d)) {
-    if (i % kRun == 0) {
-      const size_t end = i + kRun < n ? i + kRun : n;
-      PrefetchRecords(tables.triangles, kStride, hits.triangle, i, end);
-    }
     const auto [valid, triangle] = LoadHits(hits, i);
     const MF on = hn::And(AreTriangles(triangle, tables.firstSphere), valid);
     if (hn::AllFalse(d, on)) continue;

@@ -244,6 +244,10 @@ std::size_t traceRange(const Accel::Parts& parts, const HitRange& range, double&
     const HitColumns to = advanced(range.hits, begin);
     parts.kernels.unpackHits(group.words(), n, scene.triangleBase(0), to);
     if (range.instances) storeInstances<kWidth>(scene, group.packets, n, to);
+    // Their corners are read when all rays of the chunk are traced.
+    for (std::size_t i = 0; i < n; ++i) {
+      if (to.triangle[i] != kMiss) __builtin_prefetch(parts.tables.triangles + to.triangle[i]);
+    }
   };
   return traceGroups<kWidth, RayHits<kWidth>>(scene, kSeenMask, range, embreeMs, pack, unpack);
 }
