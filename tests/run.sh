@@ -14,6 +14,10 @@ set -uo pipefail
 
 root=$(cd "$(dirname "$0")/.." && pwd)
 cd "$root" || exit 1
+if [ -z "${WHIT_DATA:-}" ] && [ -d ../shared/data ]; then
+  WHIT_DATA=$(cd ../shared/data && pwd)
+  export WHIT_DATA
+fi
 . tests/compiler_cache.sh
 full=false
 deep=false
@@ -49,12 +53,18 @@ step() {
 }
 
 # buildAndTest PRESET CMAKE-ARGUMENTS... More tests at a time than processors: many wait for a window,
-# a process or the disk.
+# a process or the disk. Why tests were skipped is said, once each.
 buildAndTest() {
-  local preset=$1
+  local preset=$1 folder=build-$1 status
+  if [ "$1" = release ]; then folder=build; fi
   shift
-  cmake --preset "$preset" "$@" >/dev/null && cmake --build --preset "$preset" --parallel "$(nproc)" &&
-    ctest --preset "$preset" --no-label-summary --parallel $((2 * $(nproc)))
+  cmake --preset "$preset" "$@" >/dev/null &&
+    cmake --build --preset "$preset" --parallel "$(nproc)" || return 1
+  ctest --preset "$preset" --no-label-summary --parallel $((2 * $(nproc)))
+  status=$?
+  grep -A 1 ': Skipped$' "$folder/Testing/Temporary/LastTest.log" |
+    sed -n -e '/: Skipped$/d' -e '/^--$/d' -e 's/^/!! NOT TESTED: /p' | sort -u
+  return $status
 }
 
 # The worker pool, pictures by many threads, the viewer's tracing thread with all that it runs, and its

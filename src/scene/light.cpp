@@ -92,6 +92,10 @@ std::vector<float> blurs(std::vector<float> plane, int width) {
   for (auto row = plane.begin(); row != plane.end(); row += width) {
     for (int turn = 0; turn < 2; ++turn) around.insert(around.end(), row, row + width);
   }
+  std::vector<double> cosines;
+  for (int turn = 0; turn < width; ++turn) {
+    cosines.push_back(cosineOf(2 * std::numbers::pi * turn / width));
+  }
   for (int level = 1; level < kSkyBlurs; ++level) {
     const double roughness = level / (kSkyBlurs - 1.0), alpha = roughness * roughness;
     const double a2 = alpha * alpha;
@@ -101,13 +105,13 @@ std::vector<float> blurs(std::vector<float> plane, int width) {
       double weights = 0;
       for (int from = 0; from < kBlurRows; ++from) {
         const double other = polarAngle(from, kBlurRows);
+        const double toPole = cosineOf(polar) * cosineOf(other);
+        const double aside = sineOf(polar) * sineOf(other), area = sineOf(other);
         for (int turn = 0; turn < width; ++turn) {
-          const double cosine =
-              cosineOf(polar) * cosineOf(other) +
-              sineOf(polar) * sineOf(other) * cosineOf(2 * std::numbers::pi * turn / width);
+          const double cosine = toPole + aside * cosines[static_cast<std::size_t>(turn)];
           if (!(cosine > 0)) continue;
           const double spread = 1 - (1 - a2) * (1 + cosine) / 2;
-          const double weight = sineOf(other) * cosine / (spread * spread);
+          const double weight = area * cosine / (spread * spread);
           weights += weight;
           const float* row = around.data() + std::ptrdiff_t{2} * width * from + turn;
           for (float& sum : sums) sum += static_cast<float>(weight) * *row++;

@@ -6,6 +6,7 @@
 #include "cli/app/film_pipe.h"
 #include "core/option_values.h"
 #include "io/image/image_file.h"
+#include "io/paths.h"
 #include "run_program.h"
 
 namespace whit::cli {
@@ -190,8 +191,7 @@ TEST(TurntableCommand, SceneFilesTurnAboutWhatIsLookedAt) {
 
 // With ffmpeg, and a model of the real world.
 TEST(TurntableCommand, TheHelmetIsAFilm) {
-  const char* const data = std::getenv("WHIT_DATA");
-  const std::string helmet = std::string(data ? data : "") + "/gltf/FlightHelmet/FlightHelmet.gltf";
+  const std::string helmet = (dataFolder() / "gltf/FlightHelmet/FlightHelmet.gltf").string();
   if (!fs::exists(helmet)) GTEST_SKIP() << "no FlightHelmet in $WHIT_DATA: NOT checked";
   if (!hasFfmpeg() || std::system("command -v ffprobe >/dev/null") != 0) {
     GTEST_SKIP() << "ffmpeg is not installed: films are NOT checked";

@@ -10,6 +10,7 @@
 
 #include "cli/run_program.h"
 #include "fuzz/damage.h"
+#include "io/paths.h"
 #include "sanitized.h"
 
 namespace whit::fuzz {
@@ -22,12 +23,6 @@ using cli::TemporaryFolder;
 std::uint64_t setting(const char* name, std::uint64_t fallback) {
   const char* text = std::getenv(name);
   return text ? std::strtoull(text, nullptr, 10) : fallback;
-}
-
-fs::path dataFolder() {
-  if (const char* given = std::getenv("WHIT_DATA"); given && *given) return given;
-  const char* source = std::getenv("WHIT_SOURCE_DIR");
-  return fs::path(source ? source : ".") / "../shared/data";
 }
 
 // Of every kind the smallest, or all up to WHIT_DAMAGED_BYTES.

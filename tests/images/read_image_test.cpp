@@ -1,5 +1,6 @@
 // Reading 8-bit and Radiance files: every sample's pixels are known from how its bytes were made.
 #include "image_samples.h"
+#include "io/paths.h"
 
 namespace whit {
 namespace {
@@ -143,9 +144,7 @@ TEST_F(ReadImage, WhatIsNoImageIsSaidSo) {
 }
 
 TEST_F(ReadImage, RealFilesLoad) {
-  const char* data = std::getenv("WHIT_DATA");
-  const char* source = std::getenv("WHIT_SOURCE_DIR");
-  const std::string folder = data ? data : std::string(source ? source : ".") + "/../shared/data";
+  const std::string folder = dataFolder().string();
   if (!std::filesystem::exists(folder + "/env"))
     GTEST_SKIP() << "SKIPPED: no test data in '" << folder << "'; set WHIT_DATA";
   int read = 0;
@@ -168,10 +167,7 @@ TEST_F(ReadImage, RealFilesLoad) {
 
 // The same picture twice, scanlines of DWAB and tiles of ZIP.
 TEST_F(ReadImage, RealScanlinesAndTilesAgree) {
-  const char* data = std::getenv("WHIT_DATA");
-  const char* source = std::getenv("WHIT_SOURCE_DIR");
-  const std::string folder =
-      (data ? data : std::string(source ? source : ".") + "/../shared/data") + "/env/";
+  const std::string folder = dataFolder().string() + "/env/";
   if (!std::filesystem::exists(folder + "courtyard_zip.exr"))
     GTEST_SKIP() << "SKIPPED: no '" << folder << "courtyard_zip.exr'; set WHIT_DATA";
   const RawImage lines = readRawImage(folder + "courtyard.exr", limits_, warnings_);

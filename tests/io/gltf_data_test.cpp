@@ -2,20 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 
 #include "io/load_scene.h"
+#include "io/paths.h"
 #include "render/renderer.h"
 
 namespace whit {
 namespace {
-
-std::filesystem::path gltfFolder() {
-  if (const char* data = std::getenv("WHIT_DATA")) return std::filesystem::path(data) / "gltf";
-  const char* source = std::getenv("WHIT_SOURCE_DIR");
-  return std::filesystem::path(source ? source : ".") / "../shared/data/gltf";
-}
 
 struct File {
   const char* path;
@@ -25,7 +19,7 @@ struct File {
 class GltfData : public testing::TestWithParam<File> {};
 
 TEST_P(GltfData, LoadsAndAgreesWithTheReference) {
-  const std::filesystem::path path = gltfFolder() / GetParam().path;
+  const std::filesystem::path path = dataFolder() / "gltf" / GetParam().path;
   if (!std::filesystem::exists(path)) {
     GTEST_SKIP() << "NOT TESTED: " << path << " is not there; set WHIT_DATA";
   }

@@ -1,21 +1,15 @@
 // A real model: Crytek Sponza, where the data is there.
-#include <cstdlib>
 #include <filesystem>
 
 #include "bake/scene.h"
+#include "io/paths.h"
 #include "scene_files.h"
 
 namespace whit {
 namespace {
 
-std::filesystem::path dataFolderOfTests() {
-  if (const char* data = std::getenv("WHIT_DATA")) return data;
-  const char* source = std::getenv("WHIT_SOURCE_DIR");
-  return std::filesystem::path(source ? source : ".") / "../shared/data";
-}
-
 TEST(Sponza, LoadsCompletely) {
-  const std::filesystem::path model = dataFolderOfTests() / "crytek_sponza/sponza.obj";
+  const std::filesystem::path model = dataFolder() / "crytek_sponza/sponza.obj";
   if (!std::filesystem::exists(model)) {
     GTEST_SKIP() << "NOT TESTED: " << model << " is not there; set WHIT_DATA";
   }
@@ -43,7 +37,7 @@ TEST(Sponza, LoadsCompletely) {
 }
 
 TEST(Sponza, LoadsAlikeForAnyNumberOfThreads) {
-  const std::filesystem::path model = dataFolderOfTests() / "crytek_sponza/sponza.obj";
+  const std::filesystem::path model = dataFolder() / "crytek_sponza/sponza.obj";
   if (!std::filesystem::exists(model)) {
     GTEST_SKIP() << "NOT TESTED: " << model << " is not there; set WHIT_DATA";
   }

@@ -6,6 +6,7 @@
 
 #include "bake/scene.h"
 #include "io/load_scene.h"
+#include "io/paths.h"
 
 namespace whit::test {
 namespace {
@@ -74,11 +75,8 @@ TEST(Scenes, LandscapeHasAboutTheTrianglesAskedFor) {
 }
 
 TEST(Scenes, SponzaHasAMirrorFloor) {
-  const char* data = std::getenv("WHIT_DATA");
-  const auto folder = data ? std::filesystem::path(data) : sourceDir() / ".." / "shared" / "data";
-  if (!std::filesystem::exists(folder / "crytek_sponza" / "sponza.obj")) {
-    GTEST_SKIP() << "NOT TESTED: crytek_sponza/sponza.obj is not under " << folder
-                 << " (set WHIT_DATA)";
+  if (!std::filesystem::exists(dataFolder() / "crytek_sponza/sponza.obj")) {
+    GTEST_SKIP() << "NOT TESTED: no crytek_sponza in '" << dataFolder() << "'; set WHIT_DATA";
   }
   Warnings warnings;
   const std::string file = (sourceDir() / "scenes" / "sponza-mirror.json").string();
