@@ -20,7 +20,7 @@
 namespace oracle {
 namespace {
 
-constexpr int kScenes = 200;
+constexpr int kScenes = 100;
 // The scalar reference is slower, and it shares its random numbers with the packets: it renders
 // every fourth scene.
 constexpr int kScenesPerReference = 4;
@@ -29,8 +29,8 @@ constexpr int kWidth = 32, kHeight = 24, kBlock = 8;  // pixels
 constexpr int kSpp = 16, kDrawn = 16;
 
 // A block has 64 pixels, so its difference in standard errors follows Student's distribution of 63
-// degrees of freedom. By this one of the 7,200 numbers (blocks and channels) exceeds 5.5 with a
-// probability of 0.005, each of them exceeds 3 with 0.39 %, and the mean of their squares is 63
+// degrees of freedom. By this one of the 3,600 numbers (blocks and channels) exceeds 5.5 with a
+// probability of 0.0025, each of them exceeds 3 with 0.39 %, and the mean of their squares is 63
 // / 61. The last two may be five standard errors off, where the three channels count as one number.
 constexpr double kLargestOfBlocks = 5.5, kManyErrors = 3, kShareOfMany = 0.0039;
 constexpr double kMeanSquare = 63.0 / 61, kSpreadOfSquare = 1.6;

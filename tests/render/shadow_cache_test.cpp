@@ -105,7 +105,7 @@ RenderOptions soupOptions() {
 
 constexpr unsigned kSeeds = 12;
 // Under sanitizers one random scene takes as long as many do without.
-constexpr unsigned kRandomSeeds = kSanitized ? 6 : 30, kEffectSeeds = kSanitized ? 4 : 12,
+constexpr unsigned kRandomSeeds = kSanitized ? 6 : 12, kEffectSeeds = kSanitized ? 4 : 8,
                    kInstanceSeeds = kSanitized ? 6 : 14;
 
 TEST(ShadowCache, H84_lightInAPlaneOrAtAnEdge) {
