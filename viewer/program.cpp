@@ -124,7 +124,6 @@ int runViewer(const std::vector<std::string>& words, ScriptedUser* scripted) {
     const std::shared_ptr<cli::OpenScene> scene =
         cli::openScene(options.scene, options.common, &progress);
     opened = sizeFor({scene->scene.width, scene->scene.height});
-    options.common.render = cli::optionsFor(scene->scene, options.common);
     progress.report("building the acceleration structure", 0);
     auto app = std::make_unique<App>(options, scene, window, kept, scripted);
     Window::wake();

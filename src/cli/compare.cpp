@@ -103,7 +103,8 @@ Compared compareModes(const CompareJob& job) {
   Renderer renderer(open->scene, options, progress.get());
   const Camera camera = chooseCamera(open->scene, options);
   settleExposure(renderer, camera, options);
-  Film packets = openFilm(open->scene, job.common), reference = packets;
+  Film packets = makeFilm(open->scene, options, job.common.load.maxMemoryBytes);
+  Film reference = packets;
   Compared result;
   result.exposure = options.exposure.ev;
   result.numbers.timeMsA = renderer.render(camera, packets).frameMs;
@@ -112,7 +113,7 @@ Compared compareModes(const CompareJob& job) {
   result.numbers.pathDivergencesPerMpx =
       static_cast<double>(comparePaths(renderer, camera, packets).divergences) / megapixels;
   if (job.stages) {
-    Film scratch = openFilm(open->scene, job.common);
+    Film scratch = makeFilm(open->scene, options, job.common.load.maxMemoryBytes);
     result.numbers.stages = compareStages(renderer, camera, scratch);
   }
   result.layersA = layersOf(packets.channels);

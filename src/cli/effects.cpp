@@ -60,8 +60,8 @@ std::vector<EffectStep> measureSteps(const EffectsJob& job, Progress* progress) 
   const auto add = [&](std::string_view added, EffectSet kept) {
     steps.push_back({std::string(added), {}, 0});
     const std::shared_ptr<OpenScene> step = openStep(whole, kept, job);
-    runs.push_back(std::make_unique<BenchRun>(step, job.common, optionsFor(step->scene, job.common),
-                                              progress));
+    runs.push_back(std::make_unique<BenchRun>(step, job.common,
+                                              optionsToMeasure(step->scene, job.common), progress));
   };
   EffectSet kept = kMatteEffects;
   add("matte", kept);

@@ -299,7 +299,7 @@ int explainCommand(const Words& words) {
   auto progress = makeProgressBar(job.common);
   const auto open = openScene(job.scenes[0], job.common, progress.get());
   RenderOptions options = optionsFor(open->scene, job.common);
-  const Film film = openFilm(open->scene, job.common);
+  const Film film = makeFilm(open->scene, options, job.common.load.maxMemoryBytes);
   const PixelPlace place = readPixel(job.pixel, film.image);
   Renderer renderer(open->scene, options, progress.get());
   const Camera camera = chooseCamera(open->scene, options);

@@ -114,10 +114,19 @@ void checkStandardOutput(const RenderJob& job) {
            "-o -: a terminal cannot show pictures: send standard output elsewhere");
 }
 
-// Throws if no output has a place for --channels.
-void checkChannels(const RenderJob& job) {
+// Throws if an output cannot hold the background.
+void checkBackground(const RenderJob& job) {
   refuseIf(job.exr == ExrStorage::dwaa && !keptChannels(job.common.render).empty(),
            "--exr dwaa is lossy for channels and alpha as well: give --exr zip, none or half");
+  if (job.common.render.background.kind != Background::Kind::transparent) return;
+  for (const std::string& output : job.outputs) {
+    refuseIf(isJpeg(output) || isFilm(output),
+             "--background transparent: '" + output + "' has no alpha: write a PNG or an EXR");
+  }
+}
+
+// Throws if no output has a place for --channels.
+void checkChannels(const RenderJob& job) {
   const ChannelSet kept = job.common.render.channels;
   if (kept.empty()) return;
   bool written = false;
@@ -164,13 +173,11 @@ void chooseOutputs(RenderJob& job) {
 }
 
 void checkJob(const RenderJob& job) {
+  checkBackground(job);
   checkChannels(job);
   checkFilm(job);
   checkStandardOutput(job);
   for (const std::string& output : job.outputs) {
-    const bool transparent = job.common.render.background.kind == Background::Kind::transparent;
-    refuseIf(transparent && (isJpeg(output) || isFilm(output)),
-             "--background transparent: '" + output + "' has no alpha: write a PNG or an EXR");
     refuseIf(job.resume && isJpeg(output),
              "--resume: a JPEG does not hold the options it was made with");
     if (output != kStandardOutput)
@@ -219,6 +226,8 @@ std::unique_ptr<OpenScene> openFor(RenderJob& job, Progress* progress) {
     camera.orthographicHeight = options.ortho.value_or(camera.orthographicHeight);
   };
   auto open = openScene(job.scenes[0], job.common, progress, look);
+  options = optionsFor(open->scene, job.common);
+  checkBackground(job);
   checkFilmed(job, open->scene);
   if (job.onTurntable && !job.turntable) {
     job.turntable = aroundTarget(chooseCamera(open->scene, options));
@@ -229,13 +238,13 @@ std::unique_ptr<OpenScene> openFor(RenderJob& job, Progress* progress) {
 // Two films where frames follow each other and both find room: one is written while the other is
 // traced.
 std::vector<Film> openFilms(const RenderJob& job, const Scene& scene) {
-  CommonOptions half = job.common;
-  half.load.maxMemoryBytes /= 2;
+  const RenderOptions& options = job.common.render;
+  const std::uint64_t most = job.common.load.maxMemoryBytes;
   bool wantDisplay = false;
   for (const std::string& output : job.outputs) wantDisplay |= extensionOf(output) != ".exr";
-  std::vector<Film> films{openFilm(scene, job.common)};
+  std::vector<Film> films{makeFilm(scene, options, most)};
   try {
-    if (!job.frames.empty()) films.push_back(openFilm(scene, half));
+    if (!job.frames.empty()) films.push_back(makeFilm(scene, options, most / 2));
   } catch (const Error& limit) {
     if (limit.status() != ExitStatus::limit) throw;
   }
@@ -247,10 +256,7 @@ std::vector<Film> openFilms(const RenderJob& job, const Scene& scene) {
 class ImageWriter {
  public:
   ImageWriter(const RenderJob& job, OpenScene& open, Progress* progress)
-      : job_(job),
-        open_(&open),
-        options_(optionsFor(open.scene, job.common)),
-        films_(openFilms(job, open.scene)) {
+      : job_(job), open_(&open), options_(job.common.render), films_(openFilms(job, open.scene)) {
     renderer_.emplace(open.scene, options_, progress);
     camera_ = job.turntable ? job.turntable->camera : chooseCamera(open.scene, options_);
     std::size_t frames = 1;
@@ -458,7 +464,7 @@ int render(RenderJob& job) {
   const bool traced = !writer.run().frames.empty();  // else all images were there
   if (traced && !job.common.quiet) {
     std::fputs(stageTable(writer.run()).c_str(), stderr);
-    if (optionsFor(open->scene, job.common).exposure.automatic) {
+    if (job.common.render.exposure.automatic) {
       std::fprintf(stderr, "exposure %g EV\n", static_cast<double>(writer.exposure().ev));
     }
   }

@@ -1,6 +1,7 @@
 // Access to the table of options in core/options.h by name, and presets of its values.
 #pragma once
 
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -25,6 +26,8 @@ std::vector<std::pair<std::string, std::string>> pictureOptions(const RenderOpti
 
 // The rebuild that a renderer with options `a` needs for frames with options `b`.
 Rebuild rebuildNeeded(const RenderOptions& a, const RenderOptions& b);
+// The names of the options whose values differ.
+std::set<std::string> differingOptions(const RenderOptions& a, const RenderOptions& b);
 // Copies the options that need no larger rebuild than `most`.
 void takeOver(const RenderOptions& from, Rebuild most, RenderOptions& to);
 
@@ -36,7 +39,12 @@ struct QualityPreset {
   std::string name, options;
 };
 std::vector<QualityPreset> qualityPresets();
-// Applies the defaults for models without a scene file, likewise.
-void applyModelDefaults(RenderOptions& options, const std::set<std::string>& given);
+
+// The options that a scene may state: they describe the picture, not how or where it is made.
+std::vector<std::string> sceneOptionNames();
+// Applies the options that a scene states, names and values as on the command line, except those in
+// `given` and, if that has "quality", those of presets. A preset of the scene leaves `mode` alone.
+void applySceneOptions(const std::map<std::string, std::string>& stated,
+                       std::set<std::string> given, RenderOptions& options);
 
 }  // namespace whit

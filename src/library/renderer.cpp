@@ -43,7 +43,7 @@ struct Renderer::Data {
   RenderOptions settledOptions() const {
     RenderOptions all = options;
     applyQuality(all, given);
-    if (internal().isModel) applyModelDefaults(all, given);
+    applySceneOptions(internal().options, given, all);
     return all;
   }
 

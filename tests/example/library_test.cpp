@@ -69,6 +69,21 @@ struct Inside {
   RenderOptions options;
 };
 
+TEST(SceneOptions, HoldUntilAnotherValueIsSet) {
+  SceneBuilder builder("scene", R"({"options": {"spp": 2, "exposure": 1, "tonemap": "filmic"},
+                                    "scene": [{"shape": "box"}]})");
+  Renderer renderer(builder.build());
+  renderer.set("size", "8x8").set("tonemap", "none");
+  EXPECT_EQ(renderer.get("spp"), "2");
+  EXPECT_EQ(renderer.get("exposure"), "1");
+  EXPECT_EQ(renderer.get("tonemap"), "none");
+  EXPECT_EQ(renderer.set("quality", "good").get("spp"), "16");
+  renderer.setMember("/options/exposure", "2");
+  EXPECT_EQ(renderer.get("exposure"), "2");
+  EXPECT_EQ(statusOf([&] { renderer.setMember("/options/exposure", "\"bright\""); }), 3);
+  EXPECT_EQ(renderer.reset().get("spp"), "2");
+}
+
 TEST(Library, RendersTheSameBits) {
   Inside inside;
   Renderer renderer = smallRenderer();
