@@ -176,9 +176,7 @@ bool App::fetchFrame() {
     tracedEdits_ = edits_;
     traced_ = edit_;
   }
-  if (request.view == settings_.view) {
-    resolution_.learn(shown_.stats.frameMs, samplesOf(request));
-  }
+  if (request.view == settings_.view) resolution_.learn(shown_.stats.frameMs, samplesOf(request));
   resolution_.setSampled(shown_.sampled);
   panel_.remember(shown_);
   constexpr double kNewest = 0.2;  // weight of the newest picture
@@ -256,9 +254,7 @@ FrameRequest App::stillRequest(const ImageSize& window) {
 // Asks for the rays of the picked pixel again when anything but the viewpoint has changed.
 void App::followRays() {
   if (settings_.rays.forget) forgetRays();
-  if (std::exchange(settings_.rays.fromAside, false) && rays_.scene) {
-    jump(rays_.aside);
-  }
+  if (std::exchange(settings_.rays.fromAside, false) && rays_.scene) jump(rays_.aside);
   if (!picked_) return;
   RayQuery query = *picked_;
   query.picture.options = settings_.options;
@@ -395,11 +391,10 @@ void App::showSky(const std::string& file) {
 // Takes the options of the scene that was just read where the user has not changed them. The
 // exposure for one scene says nothing about another.
 void App::takeOptions() {
-  std::set<std::string> changed = differingOptions(settings_.options, own_);
-  if (!opening_.empty()) changed.erase("exposure");
-  own_ = cli::optionsFor(scene(), options_.common);
+  const RenderOptions before = std::exchange(own_, cli::optionsFor(scene(), options_.common));
   for (const std::string& name : sceneOptionNames()) {
-    if (changed.contains(name)) continue;
+    const bool isKept = opening_.empty() || name != "exposure";
+    if (isKept && optionText(settings_.options, name) != optionText(before, name)) continue;
     setOption(settings_.options, name, optionText(own_, name));
   }
 }

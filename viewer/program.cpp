@@ -103,8 +103,7 @@ int runViewer(const std::vector<std::string>& words, ScriptedUser* scripted) {
     std::fputs(cli::completionScript(words[1], kPage.name).c_str(), stdout);
     return 0;
   }
-  if (cli::parseOptions(kUsage, kSummary, list, words) == cli::Parsed::helpShown) return 0;
-  cli::settleOptions(options.common);
+  if (!cli::parseOptions(kUsage, kSummary, list, words)) return 0;
   check(options);
   options.common.load.instant.plays = true;
   const KeptSettings kept = readKeptSettings();

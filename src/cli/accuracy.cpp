@@ -105,9 +105,7 @@ std::vector<accuracy::SceneSweep> sweepScenes(const AccuracyJob& job) {
 
 int accuracyCommand(const Words& words) {
   AccuracyJob job;
-  if (parseOptions(kAccuracyUsage, kAccuracySummary, listOptions(job), words) == Parsed::helpShown)
-    return 0;
-  settleOptions(job.common);
+  if (!parseOptions(kAccuracyUsage, kAccuracySummary, listOptions(job), words)) return 0;
   checkJob(job);
   const std::vector<accuracy::SceneSweep> sweeps = sweepScenes(job);
   const Machine& machine = sweeps[0].machine;

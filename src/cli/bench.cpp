@@ -128,9 +128,7 @@ Json benchJson(const std::vector<RunSummary>& runs, RunPairs pairs) {
 
 int benchCommand(const Words& words) {
   BenchJob job;
-  if (parseOptions(kBenchUsage, kBenchSummary, listOptions(job), words) == Parsed::helpShown)
-    return 0;
-  settleOptions(job.common);
+  if (!parseOptions(kBenchUsage, kBenchSummary, listOptions(job), words)) return 0;
   checkJob(job);
   auto progress = makeProgressBar(job.common);
   std::vector<RunSummary> summaries;

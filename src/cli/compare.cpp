@@ -99,7 +99,7 @@ Compared compareFiles(const CompareJob& job) {
 Compared compareModes(const CompareJob& job) {
   const auto progress = makeProgressBar(job.common);
   const auto open = openScene(job.subjects[0], job.common, progress.get());
-  RenderOptions options = optionsFor(open->scene, job.common);
+  RenderOptions options = optionsToMeasure(open->scene, job.common);
   Renderer renderer(open->scene, options, progress.get());
   const Camera camera = chooseCamera(open->scene, options);
   settleExposure(renderer, camera, options);
@@ -294,9 +294,7 @@ Json compareJson(const Comparison& comparison) {
 
 int compareCommand(const Words& words) {
   CompareJob job;
-  if (parseOptions(kCompareUsage, kCompareSummary, listOptions(job), words) == Parsed::helpShown)
-    return 0;
-  settleOptions(job.common);
+  if (!parseOptions(kCompareUsage, kCompareSummary, listOptions(job), words)) return 0;
   requireJsonWritable(job.json);
   if (!job.heatmap.empty()) requireWritable(job.heatmap, {".png"});
   Compared compared = job.subjects.size() == 2 ? compareFiles(job) : compareModes(job);

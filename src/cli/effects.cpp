@@ -100,8 +100,7 @@ int effectsCommand(const Words& words) {
   listCommonOptions(list, job.common);
   list.operands("SCENE", "a scene file, or the name of a shipped scene (effects)", 0, 1,
                 job.scenes);
-  if (parseOptions(kEffectsUsage, kEffectsSummary, list, words) == Parsed::helpShown) return 0;
-  settleOptions(job.common);
+  if (!parseOptions(kEffectsUsage, kEffectsSummary, list, words)) return 0;
   checkJob(job);
   auto progress = makeProgressBar(job.common);
   const std::vector<EffectStep> steps = measureSteps(job, progress.get());

@@ -289,10 +289,7 @@ void drawDiagram(const ExplainJob& job, const Explained& e, Renderer& renderer,
 
 int explainCommand(const Words& words) {
   ExplainJob job;
-  if (parseOptions(kExplainUsage, kExplainSummary, listOptions(job), words) == Parsed::helpShown) {
-    return 0;
-  }
-  settleOptions(job.common);
+  if (!parseOptions(kExplainUsage, kExplainSummary, listOptions(job), words)) return 0;
   if (job.pixel.empty()) throwUsage("whit explain expected --pixel x,y");
   if (!job.svg.empty()) requireWritable(job.svg, {".svg"});
   requireJsonWritable(job.json);

@@ -181,13 +181,12 @@ int infoCommand(const Words& words) {
   list.value({"json", "FILE"}, "the same as JSON; - is standard output", json);
   listCommonOptions(list, common);
   list.operands("SCENE", "a scene file, a model, or the name of a shipped scene", 1, 1, scenes);
-  if (parseOptions("whit info SCENE [options]",
-                   "Lists the contents of a scene, its effects and why they are on, and the "
-                   "kernels that run.",
-                   list, words) == Parsed::helpShown) {
+  if (!parseOptions("whit info SCENE [options]",
+                    "Lists the contents of a scene, its effects and why they are on, and the "
+                    "kernels that run.",
+                    list, words)) {
     return 0;
   }
-  settleOptions(common);
   requireJsonWritable(json);
   auto progress = makeProgressBar(common);
   CommonOptions loading = common;

@@ -445,7 +445,6 @@ void writeReport(const RenderJob& job, const ImageWriter& writer) {
 
 int render(RenderJob& job) {
   const Stopwatch stopwatch;
-  settleOptions(job.common);
   chooseOutputs(job);
   checkJob(job);
 
@@ -477,16 +476,14 @@ int render(RenderJob& job) {
 
 int renderCommand(const Words& words) {
   RenderJob job;
-  const auto parsed = parseOptions(kRenderUsage, kRenderSummary, listOptions(job), words);
-  return parsed == Parsed::helpShown ? 0 : render(job);
+  return parseOptions(kRenderUsage, kRenderSummary, listOptions(job), words) ? render(job) : 0;
 }
 
 int turntableCommand(const Words& words) {
   RenderJob job;
   job.onTurntable = true;
   job.common.render.quality = Quality::good;
-  const auto parsed = parseOptions(kTurntableUsage, kTurntableSummary, listOptions(job), words);
-  if (parsed == Parsed::helpShown) return 0;
+  if (!parseOptions(kTurntableUsage, kTurntableSummary, listOptions(job), words)) return 0;
   if (job.frames.empty()) job.frames = "0.." + std::to_string(job.turntableFrames - 1);
   return render(job);
 }

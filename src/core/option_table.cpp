@@ -104,14 +104,6 @@ Rebuild rebuildNeeded(const RenderOptions& a, const RenderOptions& b) {
   return needed;
 }
 
-std::set<std::string> differingOptions(const RenderOptions& a, const RenderOptions& b) {
-  std::set<std::string> names;
-  forEachPair(a, b, [&](const OptionSpec& spec, const auto& first, const auto& second) {
-    if (!(first == second)) names.emplace(spec.name);
-  });
-  return names;
-}
-
 void takeOver(const RenderOptions& from, Rebuild most, RenderOptions& to) {
   forEachPair(from, to, [&](const OptionSpec& spec, const auto& source, auto& target) {
     if (spec.rebuilds <= most) target = source;

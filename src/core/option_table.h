@@ -26,8 +26,6 @@ std::vector<std::pair<std::string, std::string>> pictureOptions(const RenderOpti
 
 // The rebuild that a renderer with options `a` needs for frames with options `b`.
 Rebuild rebuildNeeded(const RenderOptions& a, const RenderOptions& b);
-// The names of the options whose values differ.
-std::set<std::string> differingOptions(const RenderOptions& a, const RenderOptions& b);
 // Copies the options that need no larger rebuild than `most`.
 void takeOver(const RenderOptions& from, Rebuild most, RenderOptions& to);
 

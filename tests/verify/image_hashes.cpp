@@ -57,7 +57,6 @@ HashedScene::HashedScene(const PublishedHash& picture) {
   cli::listCommonOptions(list, common);
   list.operands("SCENE", "", 1, 1, names);
   cli::parseOptions("", "", list, words);
-  cli::settleOptions(common);
   open_ = cli::openScene(names[0], common, nullptr);
   options_ = cli::optionsFor(open_->scene, common);
 }

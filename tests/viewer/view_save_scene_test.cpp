@@ -98,7 +98,7 @@ TEST_F(SavedScenes, StateTheOptionsThatWereChosen) {
   ASSERT_EQ(lines.size(), 3u) << outcome.out;
   EXPECT_EQ(lines[0], "whit render tiny.json -o tiny.png --size=48x32 --spp=2 --fresnel=schlick");
   EXPECT_EQ(lines[1], lines[0] + " --exposure=0.25");
-  EXPECT_EQ(lines[2], "whit render tiny-edited.json -o tiny-edited.png");
+  EXPECT_EQ(lines[2], "whit render tiny-edited.json -o tiny-edited.png --size=48x32");
   for (const std::string& line : {lines[1], lines[2]}) expectThatItShows("shown.png", line);
   EXPECT_EQ(read("tiny-edited.json")["options"], (Json{{"depth", 2},
                                                        {"spp", 2},

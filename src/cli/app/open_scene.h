@@ -35,8 +35,8 @@ std::unique_ptr<OpenScene> openScene(const std::string& name, const CommonOption
 // The options of a picture of the scene: those that were given, else those that the scene states.
 // An automatic exposure is still to be settled (render/auto_exposure.h).
 RenderOptions optionsFor(const Scene& scene, const CommonOptions& common);
-// The options of frames whose cost is measured. The options of a scene file do not count, so that
-// figures of different scenes and of one option alone can be compared.
+// The options of frames whose cost or accuracy is measured: without those of a scene file, so that
+// figures of different scenes, and of one option alone, can be compared.
 RenderOptions optionsToMeasure(const Scene& scene, const CommonOptions& common);
 
 // Prints what was repaired, one line each, to standard error.
