@@ -10,6 +10,7 @@
 #include <fstream>
 #include <functional>
 
+#include "core/option_table.h"
 #include "io/image/image_file.h"
 #include "io/image/image_layers.h"
 #include "io/load_scene.h"
@@ -260,6 +261,7 @@ TEST(Library, ScenesMoveAndComeBack) {
         whit::Scene::finalize(whit::loadScene("orrery", then, warnings), warnings);
     RenderOptions options;
     options.size = ImageSize{40, 24};
+    applySceneOptions(expected.options, {}, options);
     options.threads = 1;
     whit::Renderer inside(expected, options);
     Film film = makeFilm(expected, options);
