@@ -21,6 +21,7 @@
 #include "cli/app/progress_bar.h"
 #include "cli/commands.h"
 #include "cli/json_report.h"
+#include "cli/terminal_picture.h"
 #include "core/error.h"
 #include "core/formatted.h"
 #include "core/options.h"
@@ -61,8 +62,9 @@ struct RenderJob {
   ExrStorage exr = ExrStorage::zip;
   bool onTurntable = false;
   double turns = 1;
-  std::optional<Turntable> turntable;  // once the scene is open
-  int turntableFrames = 96;            // of all turns together
+  TerminalGraphics graphics = TerminalGraphics::none;  // shows the picture on standard output
+  std::optional<Turntable> turntable;                  // once the scene is open
+  int turntableFrames = 96;                            // of all turns together
 
   bool toStandardOutput() const {
     return std::find(outputs.begin(), outputs.end(), kStandardOutput) != outputs.end();
@@ -111,7 +113,7 @@ void checkStandardOutput(const RenderJob& job) {
   refuseIf(job.json == kStandardOutput, "-o - and --json -: standard output takes one of them");
   refuseIf(job.resume, "-o -: what went to standard output cannot be resumed");
   refuseIf(isatty(STDOUT_FILENO),
-           "-o -: a terminal cannot show pictures: send standard output elsewhere");
+           "-o -: this terminal shows no pictures: send standard output elsewhere");
 }
 
 // Throws if an output cannot hold the background.
@@ -161,9 +163,16 @@ bool isOurPicture(const std::string& file) try {
   return false;
 }
 
-// A picture without -o goes to SCENE.png. A model may have a texture of that name, which is kept.
+// A picture without -o goes to SCENE.png, and to a terminal that shows pictures. A model may have a
+// texture of that name, which is kept.
 void chooseOutputs(RenderJob& job) {
-  if (!job.outputs.empty()) return;
+  const bool isPlain = job.outputs.empty();
+  const bool isForTerminal = isPlain ? !job.common.quiet : job.toStandardOutput();
+  if (isForTerminal && job.frames.empty() && !job.resume && job.json != kStandardOutput) {
+    job.graphics = terminalGraphics();
+  }
+  if (job.graphics != TerminalGraphics::none) std::erase(job.outputs, kStandardOutput);
+  if (!isPlain) return;
   refuseIf(!job.frames.empty(), "expected a file to write: -o FILM.mp4 or -o FRAMES####.png");
   const std::filesystem::path scene(parseSceneName(job.scenes[0]).file);
   const std::string file = scene.stem().string() + ".png";
@@ -240,7 +249,7 @@ std::unique_ptr<OpenScene> openFor(RenderJob& job, Progress* progress) {
 std::vector<Film> openFilms(const RenderJob& job, const Scene& scene) {
   const RenderOptions& options = job.common.render;
   const std::uint64_t most = job.common.load.maxMemoryBytes;
-  bool wantDisplay = false;
+  bool wantDisplay = job.graphics != TerminalGraphics::none;
   for (const std::string& output : job.outputs) wantDisplay |= extensionOf(output) != ".exr";
   std::vector<Film> films{makeFilm(scene, options, most)};
   try {
@@ -333,6 +342,7 @@ class ImageWriter {
 
   const RunSummary& run() const { return run_; }
   std::size_t kept() const { return run_.kept; }
+  const DisplayImage& firstPicture() const { return films_[0].display; }
   const Exposure& exposure() const { return options_.exposure; }
   const std::vector<std::string>& written() const { return written_; }
 
@@ -467,7 +477,12 @@ int render(RenderJob& job) {
       std::fprintf(stderr, "exposure %g EV\n", static_cast<double>(writer.exposure().ev));
     }
   }
-  if (!job.common.quiet) tellWritten(writer, stopwatch.ms() / 1000);
+  if (job.graphics != TerminalGraphics::none) {
+    const WriteScope scope;
+    std::fputs(terminalPicture(writer.firstPicture(), job.graphics).c_str(), stdout);
+    std::fflush(stdout);
+  }
+  if (!job.common.quiet && !job.outputs.empty()) tellWritten(writer, stopwatch.ms() / 1000);
   if (!job.json.empty()) writeReport(job, writer);
   return 0;
 }
