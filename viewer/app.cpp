@@ -8,6 +8,7 @@
 #include "bake/move_scene.h"
 #include "core/error.h"
 #include "core/formatted.h"
+#include "core/option_table.h"
 #include "io/paths.h"
 
 namespace whit::view {
@@ -38,6 +39,7 @@ App::App(const ViewOptions& options, const std::shared_ptr<cli::OpenScene>& scen
       thread_(scene, options.common, &Window::wake),
       control_(chooseCamera(scene->scene, options.common.render), cruisingSpeed(scene->scene)),
       resolution_(options.rate, options.common.render.spp),
+      own_(cli::optionsFor(scene->scene, options.common)),
       read_(withoutEdits(scene)),
       edit_(read_),
       traced_(read_) {
@@ -45,7 +47,7 @@ App::App(const ViewOptions& options, const std::shared_ptr<cli::OpenScene>& scen
   settings_.tab = kept.tabShown;
   watch(options.scene);
   settings_.rate = resolution_.rate();
-  settings_.options = options.common.render;
+  settings_.options = own_;
   settings_.view = options.view;
   settings_.timeline = timelineOf(scene->scene, options.common.load.instant);
   const Camera start = control_.camera();
@@ -174,9 +176,7 @@ bool App::fetchFrame() {
     tracedEdits_ = edits_;
     traced_ = edit_;
   }
-  if (request.view == settings_.view) {
-    resolution_.learn(shown_.stats.frameMs, samplesOf(request));
-  }
+  if (request.view == settings_.view) resolution_.learn(shown_.stats.frameMs, samplesOf(request));
   resolution_.setSampled(shown_.sampled);
   panel_.remember(shown_);
   constexpr double kNewest = 0.2;  // weight of the newest picture
@@ -254,9 +254,7 @@ FrameRequest App::stillRequest(const ImageSize& window) {
 // Asks for the rays of the picked pixel again when anything but the viewpoint has changed.
 void App::followRays() {
   if (settings_.rays.forget) forgetRays();
-  if (std::exchange(settings_.rays.fromAside, false) && rays_.scene) {
-    jump(rays_.aside);
-  }
+  if (std::exchange(settings_.rays.fromAside, false) && rays_.scene) jump(rays_.aside);
   if (!picked_) return;
   RayQuery query = *picked_;
   query.picture.options = settings_.options;
@@ -390,12 +388,24 @@ void App::showSky(const std::string& file) {
   say("sky: " + file);
 }
 
+// Takes the options of the scene that was just read where the user has not changed them. The
+// exposure for one scene says nothing about another.
+void App::takeOptions() {
+  const RenderOptions before = std::exchange(own_, cli::optionsFor(scene(), options_.common));
+  for (const std::string& name : sceneOptionNames()) {
+    const bool isKept = opening_.empty() || name != "exposure";
+    if (isKept && optionText(settings_.options, name) != optionText(before, name)) continue;
+    setOption(settings_.options, name, optionText(own_, name));
+  }
+}
+
 // Called when the frame that was just fetched shows another scene, or the scene read again.
 void App::takeScene() {
   scene_ = shown_.scene;
   const std::lock_guard lock(scene_->moving);
   read_ = edit_ = traced_ = withoutEdits(scene_);
   edits_ = tracedEdits_ = 0;
+  takeOptions();
   if (opening_.empty()) {
     if (scene().cameraPath.empty()) pathTime_.reset();
     const Timeline before = settings_.timeline;
@@ -407,9 +417,6 @@ void App::takeScene() {
   }
   watch(opening_);
   opening_.clear();
-  if (!options_.common.given.contains("exposure")) {
-    settings_.options.exposure = {0, scene().isModel};
-  }
   forgetRays();
   control_ = CameraControl(scene().cameras.front(), cruisingSpeed(scene()));
   show(control_.camera());

@@ -103,6 +103,7 @@ class App {
   void open(const std::string& name);
   void openFile(const std::string& file);
   void showSky(const std::string& file);
+  void takeOptions();
   void takeScene();
 
   const ViewOptions& options_;
@@ -128,6 +129,7 @@ class App {
   double clickSeconds_ = 0;              // time since then
   bool shownBeforeClick_ = false;        // the panel was
   RayPick rays_;                         // the last answer
+  RenderOptions own_;                    // without the user's changes
   // The scene's shading as it was read, as it is edited, and as it was last traced.
   ShadingEdit read_, edit_, traced_;
   int reloads_ = 0, edits_ = 0, tracedEdits_ = 0;

@@ -205,7 +205,7 @@ void App::saveScene() {
   if (!shown_.scene) return;
   const std::lock_guard lock(scene_->moving);
   const SavedScene saved = view::saveScene(options_.common.load, sceneName_, *scene_, edit_,
-                                           control_.camera(), viewOptions());
+                                           control_.camera(), viewOptions(), settings_.options);
   std::printf("%s\n", saved.command.c_str());
   std::fflush(stdout);
   say("saved the scene as " + saved.file + "; the command that renders it is printed");

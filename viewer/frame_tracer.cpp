@@ -43,7 +43,7 @@ class OptionsInUse {
 }  // namespace
 
 FrameTracer::FrameTracer(std::shared_ptr<cli::OpenScene> scene, const cli::CommonOptions& common)
-    : common_(common), options_(common.render) {
+    : common_(common), options_(cli::optionsFor(scene->scene, common)) {
   open(std::move(scene), common.load.instant.animation);
 }
 

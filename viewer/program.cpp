@@ -103,8 +103,7 @@ int runViewer(const std::vector<std::string>& words, ScriptedUser* scripted) {
     std::fputs(cli::completionScript(words[1], kPage.name).c_str(), stdout);
     return 0;
   }
-  if (cli::parseOptions(kUsage, kSummary, list, words) == cli::Parsed::helpShown) return 0;
-  cli::settleOptions(options.common);
+  if (!cli::parseOptions(kUsage, kSummary, list, words)) return 0;
   check(options);
   options.common.load.instant.plays = true;
   const KeptSettings kept = readKeptSettings();
@@ -124,7 +123,6 @@ int runViewer(const std::vector<std::string>& words, ScriptedUser* scripted) {
     const std::shared_ptr<cli::OpenScene> scene =
         cli::openScene(options.scene, options.common, &progress);
     opened = sizeFor({scene->scene.width, scene->scene.height});
-    options.common.render = cli::optionsFor(scene->scene, options.common);
     progress.report("building the acceleration structure", 0);
     auto app = std::make_unique<App>(options, scene, window, kept, scripted);
     Window::wake();

@@ -12,6 +12,7 @@
 #include "core/formatted.h"
 #include "core/nearest_name.h"
 #include "core/option_table.h"
+#include "core/option_values.h"
 #include "io/atomic_file.h"
 #include "io/model.h"
 #include "io/paths.h"
@@ -76,13 +77,12 @@ std::string commandWith(const std::string& scene, const std::string& picture, Re
                         const RenderOptions& usual) {
   // The options that a preset sets are stated one by one.
   options.quality = usual.quality;
-  const auto said = pictureOptions(usual);
   std::string text = "whit render " + quoted(scene) + " -o " + quoted(picture + ".png");
-  for (const auto& option : pictureOptions(options)) {
-    if (std::find(said.begin(), said.end(), option) != said.end()) continue;
-    const auto& [name, value] = option;
+  forEachOption(options, [&](const OptionSpec& spec, const auto& field) {
+    const std::string name(spec.name), value = formatValue(spec, field);
+    if (!spec.changesPicture || value == optionText(usual, name)) return;
     text += " " + (name == "strict" ? "--strict" : quoted("--" + name + "=" + value));
-  }
+  });
   return text;
 }
 
@@ -133,12 +133,12 @@ Json sceneOfModel(const fs::path& path, const std::vector<std::string>& read, co
   }
   root["lights"] = describe(edit.lights);
   root["ambient"] = describe(edit.ambient);
-  const std::set<std::string> inItem{"lights", "ambient", "sky"};
+  const std::set<std::string> inItem{"lights", "ambient", "sky", "options"};
   JsonDocument item{path.string(), {{"model", path.filename().string()}}, {}};
   apply(read, inItem, item);
   apply(edit.settings, inItem, item);
   JsonDocument whole{path.string(), std::move(root), {}};
-  const std::set<std::string> butSky{"lights", "ambient", "materials"};
+  const std::set<std::string> butSky{"lights", "ambient", "materials", "options"};
   apply(read, butSky, whole);
   apply(edit.settings, butSky, whole);
   if (!edit.sky.source.empty()) whole.root["sky"] = describeSky(edit.sky);
@@ -164,6 +164,17 @@ void lookThrough(const Camera& camera, const Scene& scene, Json& root) {
   }
 }
 
+// Writes the options that differ from those that the scene states so far, which are in `stated`.
+void stateOptions(const RenderOptions& chosen, RenderOptions& stated, Json& root) {
+  for (const std::string& name : sceneOptionNames()) {
+    const std::string value = optionText(chosen, name);
+    if (name == "quality" || value == optionText(stated, name)) continue;
+    setOption(stated, name, value);
+    const bool isNumber = name != "background" && Json::accept(value);
+    root["options"][name] = isNumber ? Json::parse(value) : Json(value);
+  }
+}
+
 // A command does not name the size that the scene has by itself.
 void resetOwnSize(const LoadOptions& load, const Scene& scene, RenderOptions& options) {
   if (!load.size && options.size == ImageSize{scene.width, scene.height}) options.size.reset();
@@ -185,7 +196,7 @@ std::string renderCommand(const std::string& scene, const cli::CommonOptions& co
   setCamera(shown, frame.request.camera, options);
   resetOwnSize(common.load, shown, options);
   RenderOptions usual;
-  if (shown.isModel) applyModelDefaults(usual, {});
+  applySceneOptions(shown.options, {}, usual);
   std::string text = commandWith(scene, shown.name, options, usual);
   if (frame.request.seconds) text += formatted(" --time %.17g", *frame.request.seconds);
   if (frame.request.seconds && !frame.animation.empty()) {
@@ -201,12 +212,17 @@ std::string renderCommand(const std::string& scene, const cli::CommonOptions& co
 }
 
 SavedScene saveScene(const LoadOptions& load, const std::string& name, const cli::OpenScene& scene,
-                     const ShadingEdit& edit, const Camera& camera, RenderOptions options) {
+                     const ShadingEdit& edit, const Camera& camera, RenderOptions options,
+                     const RenderOptions& chosen) {
   const SceneName parsed = parseSceneName(name);
   const fs::path path = findScene(parsed.file, load.shippedScenes);
-  Json root = isModelFile(path) ? sceneOfModel(path, scene.settings, scene.scene, edit)
-                                : editedFile(path, parsed, scene.settings, edit);
+  const bool isModel = isModelFile(path);
+  Json root = isModel ? sceneOfModel(path, scene.settings, scene.scene, edit)
+                      : editedFile(path, parsed, scene.settings, edit);
   lookThrough(camera, scene.scene, root);
+  RenderOptions stated;
+  if (!isModel) applySceneOptions(scene.scene.options, {}, stated);
+  stateOptions(chosen, stated, root);
   const auto nameOf = [&](int i) {
     return scene.scene.name + "-edited" + (i == 1 ? "" : "-" + std::to_string(i));
   };
@@ -216,7 +232,8 @@ SavedScene saveScene(const LoadOptions& load, const std::string& name, const cli
   writeTextFile(file, root.dump(2) + "\n");
   clearCamera(options);
   resetOwnSize(load, scene.scene, options);
-  return {file, commandWith(file, saved, options, {}) + (leavesFolder ? " --allow-outside" : "")};
+  return {file,
+          commandWith(file, saved, options, stated) + (leavesFolder ? " --allow-outside" : "")};
 }
 
 std::string savePicture(const TracedFrame& frame) {

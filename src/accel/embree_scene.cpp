@@ -106,15 +106,9 @@ void filterByAlpha(const RTCFilterFunctionNArguments* args) {
 }
 
 RTCBuildQuality buildQuality(BvhQuality quality) {
-  switch (quality) {
-    case BvhQuality::low:
-      return RTC_BUILD_QUALITY_LOW;
-    case BvhQuality::high:
-      return RTC_BUILD_QUALITY_HIGH;
-    case BvhQuality::medium:
-      break;
-  }
-  return RTC_BUILD_QUALITY_MEDIUM;
+  return quality == BvhQuality::low    ? RTC_BUILD_QUALITY_LOW
+         : quality == BvhQuality::high ? RTC_BUILD_QUALITY_HIGH
+                                       : RTC_BUILD_QUALITY_MEDIUM;
 }
 
 // Embree gets the instruction set of the kernels' target, so that a picture does not depend on

@@ -287,9 +287,7 @@ std::string transportText(const SceneSweep& sweep) {
     text += formatted(", %.2g %% of the mean radiance", 100 * t.standardError / t.meanRadiance);
   text += formatted("; half of its passes differ from the others by a FLIP of %.4f", t.noiseFlip);
   const auto& arithmetic = sweep.points.front().arithmetic;
-  if (arithmetic) {
-    text += formatted("; single precision is off by %.1e", arithmetic->samePath.rmse);
-  }
+  if (arithmetic) text += formatted("; single precision is off by %.1e", arithmetic->samePath.rmse);
   return text;
 }
 

@@ -59,6 +59,7 @@ Scene Scene::finalize(SceneDescription&& description, Warnings& warnings, Progre
   scene.isModel = d.isModel;
   scene.width = d.width;
   scene.height = d.height;
+  scene.options = std::move(d.options);
   scene.cameras = std::move(d.cameras);
   scene.cameraPath = std::move(d.cameraPath);
   scene.animations = std::move(d.animations);

@@ -161,6 +161,7 @@ class Scene {
   std::string name;
   bool isModel = false;  // as in SceneDescription
   int width = 480, height = 300;
+  std::map<std::string, std::string> options;
   std::vector<Camera> cameras;  // at least one
   std::vector<Keyframe> cameraPath;
   std::vector<Animation> animations;

@@ -82,7 +82,7 @@ void checkJob(AccuracyJob& job) {
 
 // Automatic exposure is computed once, so that all pictures of a sweep have the same.
 RenderOptions sweptOptions(const OpenScene& open, const CommonOptions& common) {
-  RenderOptions options = optionsFor(open.scene, common);
+  RenderOptions options = optionsToMeasure(open.scene, common);
   if (!options.exposure.automatic) return options;
   Renderer renderer(open.scene, options);
   settleExposure(renderer, chooseCamera(open.scene, options), options);
@@ -94,8 +94,8 @@ std::vector<accuracy::SceneSweep> sweepScenes(const AccuracyJob& job) {
   std::vector<accuracy::SceneSweep> sweeps;
   for (const std::string& name : job.scenes) {
     const auto open = openScene(name, job.common, progress.get());
-    openFilm(open->scene, job.common);  // throws if the size does not fit into memory
     const RenderOptions options = sweptOptions(*open, job.common);
+    makeFilm(open->scene, options, job.common.load.maxMemoryBytes);  // throws if it does not fit
     sweeps.push_back(sweepScene(open->scene, options, job.settings, progress.get()));
   }
   return sweeps;
@@ -105,9 +105,7 @@ std::vector<accuracy::SceneSweep> sweepScenes(const AccuracyJob& job) {
 
 int accuracyCommand(const Words& words) {
   AccuracyJob job;
-  if (parseOptions(kAccuracyUsage, kAccuracySummary, listOptions(job), words) == Parsed::helpShown)
-    return 0;
-  settleOptions(job.common);
+  if (!parseOptions(kAccuracyUsage, kAccuracySummary, listOptions(job), words)) return 0;
   checkJob(job);
   const std::vector<accuracy::SceneSweep> sweeps = sweepScenes(job);
   const Machine& machine = sweeps[0].machine;

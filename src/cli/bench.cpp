@@ -85,7 +85,7 @@ void addRuns(BenchRuns& runs, const std::string& name, const BenchJob& job, Prog
   const Series& series = job.series();
   bool caches = series.pairs == RunPairs::shadowCache;
   for (const std::string& value : split(series.values, '|')) {
-    RenderOptions options = optionsFor(open->scene, job.common);
+    RenderOptions options = optionsToMeasure(open->scene, job.common);
     if (!value.empty()) setOption(options, series.option, value);
     caches |= &series == &kOneRun && options.shadowCache == ShadowCacheMode::audit;
     runs.push_back(std::make_unique<BenchRun>(open, job.common, options, progress));
@@ -128,9 +128,7 @@ Json benchJson(const std::vector<RunSummary>& runs, RunPairs pairs) {
 
 int benchCommand(const Words& words) {
   BenchJob job;
-  if (parseOptions(kBenchUsage, kBenchSummary, listOptions(job), words) == Parsed::helpShown)
-    return 0;
-  settleOptions(job.common);
+  if (!parseOptions(kBenchUsage, kBenchSummary, listOptions(job), words)) return 0;
   checkJob(job);
   auto progress = makeProgressBar(job.common);
   std::vector<RunSummary> summaries;

@@ -18,14 +18,13 @@ namespace whit::cli {
 // A scene with one choice of options.
 class BenchRun {
  public:
-  // `common` gives the film's size and limits, `options` everything else.
   BenchRun(std::shared_ptr<const OpenScene> open, const CommonOptions& common,
            const RenderOptions& options, Progress* progress)
       : open_(std::move(open)),
         options_(options),
         renderer_(open_->scene, options, progress),
         camera_(chooseCamera(open_->scene, options)),
-        film_(openFilm(open_->scene, common)) {
+        film_(makeFilm(open_->scene, options, common.load.maxMemoryBytes)) {
     settleExposure(renderer_, camera_, options_);
     summary_ = summarize(open_->scene, options_, renderer_, film_, open_->loadMs);
   }

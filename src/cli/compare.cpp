@@ -99,11 +99,12 @@ Compared compareFiles(const CompareJob& job) {
 Compared compareModes(const CompareJob& job) {
   const auto progress = makeProgressBar(job.common);
   const auto open = openScene(job.subjects[0], job.common, progress.get());
-  RenderOptions options = optionsFor(open->scene, job.common);
+  RenderOptions options = optionsToMeasure(open->scene, job.common);
   Renderer renderer(open->scene, options, progress.get());
   const Camera camera = chooseCamera(open->scene, options);
   settleExposure(renderer, camera, options);
-  Film packets = openFilm(open->scene, job.common), reference = packets;
+  Film packets = makeFilm(open->scene, options, job.common.load.maxMemoryBytes);
+  Film reference = packets;
   Compared result;
   result.exposure = options.exposure.ev;
   result.numbers.timeMsA = renderer.render(camera, packets).frameMs;
@@ -112,7 +113,7 @@ Compared compareModes(const CompareJob& job) {
   result.numbers.pathDivergencesPerMpx =
       static_cast<double>(comparePaths(renderer, camera, packets).divergences) / megapixels;
   if (job.stages) {
-    Film scratch = openFilm(open->scene, job.common);
+    Film scratch = makeFilm(open->scene, options, job.common.load.maxMemoryBytes);
     result.numbers.stages = compareStages(renderer, camera, scratch);
   }
   result.layersA = layersOf(packets.channels);
@@ -293,9 +294,7 @@ Json compareJson(const Comparison& comparison) {
 
 int compareCommand(const Words& words) {
   CompareJob job;
-  if (parseOptions(kCompareUsage, kCompareSummary, listOptions(job), words) == Parsed::helpShown)
-    return 0;
-  settleOptions(job.common);
+  if (!parseOptions(kCompareUsage, kCompareSummary, listOptions(job), words)) return 0;
   requireJsonWritable(job.json);
   if (!job.heatmap.empty()) requireWritable(job.heatmap, {".png"});
   Compared compared = job.subjects.size() == 2 ? compareFiles(job) : compareModes(job);

@@ -60,8 +60,8 @@ std::vector<EffectStep> measureSteps(const EffectsJob& job, Progress* progress) 
   const auto add = [&](std::string_view added, EffectSet kept) {
     steps.push_back({std::string(added), {}, 0});
     const std::shared_ptr<OpenScene> step = openStep(whole, kept, job);
-    runs.push_back(std::make_unique<BenchRun>(step, job.common, optionsFor(step->scene, job.common),
-                                              progress));
+    runs.push_back(std::make_unique<BenchRun>(step, job.common,
+                                              optionsToMeasure(step->scene, job.common), progress));
   };
   EffectSet kept = kMatteEffects;
   add("matte", kept);
@@ -100,8 +100,7 @@ int effectsCommand(const Words& words) {
   listCommonOptions(list, job.common);
   list.operands("SCENE", "a scene file, or the name of a shipped scene (effects)", 0, 1,
                 job.scenes);
-  if (parseOptions(kEffectsUsage, kEffectsSummary, list, words) == Parsed::helpShown) return 0;
-  settleOptions(job.common);
+  if (!parseOptions(kEffectsUsage, kEffectsSummary, list, words)) return 0;
   checkJob(job);
   auto progress = makeProgressBar(job.common);
   const std::vector<EffectStep> steps = measureSteps(job, progress.get());

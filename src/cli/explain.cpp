@@ -289,17 +289,14 @@ void drawDiagram(const ExplainJob& job, const Explained& e, Renderer& renderer,
 
 int explainCommand(const Words& words) {
   ExplainJob job;
-  if (parseOptions(kExplainUsage, kExplainSummary, listOptions(job), words) == Parsed::helpShown) {
-    return 0;
-  }
-  settleOptions(job.common);
+  if (!parseOptions(kExplainUsage, kExplainSummary, listOptions(job), words)) return 0;
   if (job.pixel.empty()) throwUsage("whit explain expected --pixel x,y");
   if (!job.svg.empty()) requireWritable(job.svg, {".svg"});
   requireJsonWritable(job.json);
   auto progress = makeProgressBar(job.common);
   const auto open = openScene(job.scenes[0], job.common, progress.get());
   RenderOptions options = optionsFor(open->scene, job.common);
-  const Film film = openFilm(open->scene, job.common);
+  const Film film = makeFilm(open->scene, options, job.common.load.maxMemoryBytes);
   const PixelPlace place = readPixel(job.pixel, film.image);
   Renderer renderer(open->scene, options, progress.get());
   const Camera camera = chooseCamera(open->scene, options);

@@ -9,6 +9,7 @@
 #include "cli/json_report.h"
 #include "core/formatted.h"
 #include "core/nearest_name.h"
+#include "core/option_table.h"
 #include "render/shadow_cache_schedule.h"
 
 namespace whit::cli {
@@ -51,7 +52,27 @@ Json effectsJson(const Scene& scene, const RenderOptions& options) {
   return effects;
 }
 
-Json infoJson(const OpenScene& open, const Renderer& renderer, const RenderOptions& options) {
+// The options of the picture that were given or are not the defaults, and who chose them.
+Json optionsJson(const Scene& scene, const CommonOptions& common, const RenderOptions& options) {
+  const RenderOptions defaults;
+  RenderOptions stated;
+  applySceneOptions(scene.options, {}, stated);
+  Json rows = Json::object();
+  for (const std::string& name : sceneOptionNames()) {
+    const std::string value = optionText(options, name);
+    const bool isGiven = common.given.contains(name), isStated = scene.options.contains(name);
+    if (!isGiven && !isStated && value == optionText(defaults, name)) continue;
+    const char* const from = isGiven                             ? "command line"
+                             : value != optionText(stated, name) ? "--quality"
+                             : scene.isModel                     ? "model"
+                                                                 : "scene";
+    rows[name] = {{"value", value}, {"from", from}};
+  }
+  return rows;
+}
+
+Json infoJson(const OpenScene& open, const Renderer& renderer, const CommonOptions& common,
+              const RenderOptions& options) {
   const Scene& scene = open.scene;
   Json json{{"scene", scene.name},
             {"triangles", scene.instancedTriangles},
@@ -69,6 +90,7 @@ Json infoJson(const OpenScene& open, const Renderer& renderer, const RenderOptio
             {"shadow_cache", shadowCacheJson(scene, options)},
             {"animations", Json::array()},
             {"cameras", namesIn(scene.cameras)},
+            {"options", optionsJson(scene, common, options)},
             {"warnings", Json::object()},
             {"effects", effectsJson(scene, options)},
             {"stages", Json::array()},
@@ -121,6 +143,12 @@ void printInfo(const Json& info, const OpenScene& open, const Renderer& renderer
                 textOf(animation["name"]).c_str(), animation["seconds"].get<double>(),
                 textOf(animation["nodes"]).c_str(), animation["nodes"] == 1 ? "" : "s");
   }
+  const char* before = "\n  options     ";
+  for (const auto& [name, option] : info["options"].items()) {
+    std::printf("%s%s %s (%s)", before, name.c_str(), textOf(option["value"]).c_str(),
+                textOf(option["from"]).c_str());
+    before = ", ";
+  }
   std::printf("\n  %-12s%.1f MB\n", "memory", info["memory_mb"].get<double>());
   std::printf("  %-12s%.0f ms to load, %.0f ms to build\n", "time", open.loadMs,
               renderer.buildMs());
@@ -153,13 +181,12 @@ int infoCommand(const Words& words) {
   list.value({"json", "FILE"}, "the same as JSON; - is standard output", json);
   listCommonOptions(list, common);
   list.operands("SCENE", "a scene file, a model, or the name of a shipped scene", 1, 1, scenes);
-  if (parseOptions("whit info SCENE [options]",
-                   "Lists the contents of a scene, its effects and why they are on, and the "
-                   "kernels that run.",
-                   list, words) == Parsed::helpShown) {
+  if (!parseOptions("whit info SCENE [options]",
+                    "Lists the contents of a scene, its effects and why they are on, and the "
+                    "kernels that run.",
+                    list, words)) {
     return 0;
   }
-  settleOptions(common);
   requireJsonWritable(json);
   auto progress = makeProgressBar(common);
   CommonOptions loading = common;
@@ -168,7 +195,7 @@ int infoCommand(const Words& words) {
   const RenderOptions options = optionsFor(open->scene, common);
   const Renderer renderer(open->scene, options, progress.get());
   progress.reset();
-  const Json info = infoJson(*open, renderer, options);
+  const Json info = infoJson(*open, renderer, common, options);
   if (!json.empty()) writeJson(json, info);
   if (json != "-") printInfo(info, *open, renderer);
   return 0;

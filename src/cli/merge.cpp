@@ -19,10 +19,11 @@ int mergeCommand(const Words& words) {
   listReportOptions(list, common);
   list.operands("OUT.exr PART.exr...", "the image to write, and the crops it is made of", 2,
                 std::numeric_limits<std::size_t>::max(), files);
-  if (parseOptions("whit merge OUT.exr PART.exr... [options]",
-                   "Merges crops of one image, with their channels, which all crops must have. The "
-                   "crops must cover the image; where they overlap the later one counts.",
-                   list, words) == Parsed::helpShown) {
+  if (!parseOptions(
+          "whit merge OUT.exr PART.exr... [options]",
+          "Merges crops of one image, with their channels, which all crops must have. The "
+          "crops must cover the image; where they overlap the later one counts.",
+          list, words)) {
     return 0;
   }
   requireWritable(files[0], {".exr"});

@@ -21,6 +21,7 @@
 #include "cli/app/progress_bar.h"
 #include "cli/commands.h"
 #include "cli/json_report.h"
+#include "cli/terminal_picture.h"
 #include "core/error.h"
 #include "core/formatted.h"
 #include "core/options.h"
@@ -61,8 +62,9 @@ struct RenderJob {
   ExrStorage exr = ExrStorage::zip;
   bool onTurntable = false;
   double turns = 1;
-  std::optional<Turntable> turntable;  // once the scene is open
-  int turntableFrames = 96;            // of all turns together
+  TerminalGraphics graphics = TerminalGraphics::none;  // shows the picture on standard output
+  std::optional<Turntable> turntable;                  // once the scene is open
+  int turntableFrames = 96;                            // of all turns together
 
   bool toStandardOutput() const {
     return std::find(outputs.begin(), outputs.end(), kStandardOutput) != outputs.end();
@@ -111,13 +113,22 @@ void checkStandardOutput(const RenderJob& job) {
   refuseIf(job.json == kStandardOutput, "-o - and --json -: standard output takes one of them");
   refuseIf(job.resume, "-o -: what went to standard output cannot be resumed");
   refuseIf(isatty(STDOUT_FILENO),
-           "-o -: a terminal cannot show pictures: send standard output elsewhere");
+           "-o -: this terminal shows no pictures: send standard output elsewhere");
+}
+
+// Throws if an output cannot hold the background.
+void checkBackground(const RenderJob& job) {
+  refuseIf(job.exr == ExrStorage::dwaa && !keptChannels(job.common.render).empty(),
+           "--exr dwaa is lossy for channels and alpha as well: give --exr zip, none or half");
+  if (job.common.render.background.kind != Background::Kind::transparent) return;
+  for (const std::string& output : job.outputs) {
+    refuseIf(isJpeg(output) || isFilm(output),
+             "--background transparent: '" + output + "' has no alpha: write a PNG or an EXR");
+  }
 }
 
 // Throws if no output has a place for --channels.
 void checkChannels(const RenderJob& job) {
-  refuseIf(job.exr == ExrStorage::dwaa && !keptChannels(job.common.render).empty(),
-           "--exr dwaa is lossy for channels and alpha as well: give --exr zip, none or half");
   const ChannelSet kept = job.common.render.channels;
   if (kept.empty()) return;
   bool written = false;
@@ -152,9 +163,16 @@ bool isOurPicture(const std::string& file) try {
   return false;
 }
 
-// A picture without -o goes to SCENE.png. A model may have a texture of that name, which is kept.
+// A picture without -o goes to SCENE.png, and to a terminal that shows pictures. A model may have a
+// texture of that name, which is kept.
 void chooseOutputs(RenderJob& job) {
-  if (!job.outputs.empty()) return;
+  const bool isPlain = job.outputs.empty();
+  const bool isForTerminal = isPlain ? !job.common.quiet : job.toStandardOutput();
+  if (isForTerminal && job.frames.empty() && !job.resume && job.json != kStandardOutput) {
+    job.graphics = terminalGraphics();
+  }
+  if (job.graphics != TerminalGraphics::none) std::erase(job.outputs, kStandardOutput);
+  if (!isPlain) return;
   refuseIf(!job.frames.empty(), "expected a file to write: -o FILM.mp4 or -o FRAMES####.png");
   const std::filesystem::path scene(parseSceneName(job.scenes[0]).file);
   const std::string file = scene.stem().string() + ".png";
@@ -164,13 +182,11 @@ void chooseOutputs(RenderJob& job) {
 }
 
 void checkJob(const RenderJob& job) {
+  checkBackground(job);
   checkChannels(job);
   checkFilm(job);
   checkStandardOutput(job);
   for (const std::string& output : job.outputs) {
-    const bool transparent = job.common.render.background.kind == Background::Kind::transparent;
-    refuseIf(transparent && (isJpeg(output) || isFilm(output)),
-             "--background transparent: '" + output + "' has no alpha: write a PNG or an EXR");
     refuseIf(job.resume && isJpeg(output),
              "--resume: a JPEG does not hold the options it was made with");
     if (output != kStandardOutput)
@@ -219,6 +235,8 @@ std::unique_ptr<OpenScene> openFor(RenderJob& job, Progress* progress) {
     camera.orthographicHeight = options.ortho.value_or(camera.orthographicHeight);
   };
   auto open = openScene(job.scenes[0], job.common, progress, look);
+  options = optionsFor(open->scene, job.common);
+  checkBackground(job);
   checkFilmed(job, open->scene);
   if (job.onTurntable && !job.turntable) {
     job.turntable = aroundTarget(chooseCamera(open->scene, options));
@@ -229,13 +247,13 @@ std::unique_ptr<OpenScene> openFor(RenderJob& job, Progress* progress) {
 // Two films where frames follow each other and both find room: one is written while the other is
 // traced.
 std::vector<Film> openFilms(const RenderJob& job, const Scene& scene) {
-  CommonOptions half = job.common;
-  half.load.maxMemoryBytes /= 2;
-  bool wantDisplay = false;
+  const RenderOptions& options = job.common.render;
+  const std::uint64_t most = job.common.load.maxMemoryBytes;
+  bool wantDisplay = job.graphics != TerminalGraphics::none;
   for (const std::string& output : job.outputs) wantDisplay |= extensionOf(output) != ".exr";
-  std::vector<Film> films{openFilm(scene, job.common)};
+  std::vector<Film> films{makeFilm(scene, options, most)};
   try {
-    if (!job.frames.empty()) films.push_back(openFilm(scene, half));
+    if (!job.frames.empty()) films.push_back(makeFilm(scene, options, most / 2));
   } catch (const Error& limit) {
     if (limit.status() != ExitStatus::limit) throw;
   }
@@ -247,10 +265,7 @@ std::vector<Film> openFilms(const RenderJob& job, const Scene& scene) {
 class ImageWriter {
  public:
   ImageWriter(const RenderJob& job, OpenScene& open, Progress* progress)
-      : job_(job),
-        open_(&open),
-        options_(optionsFor(open.scene, job.common)),
-        films_(openFilms(job, open.scene)) {
+      : job_(job), open_(&open), options_(job.common.render), films_(openFilms(job, open.scene)) {
     renderer_.emplace(open.scene, options_, progress);
     camera_ = job.turntable ? job.turntable->camera : chooseCamera(open.scene, options_);
     std::size_t frames = 1;
@@ -327,6 +342,7 @@ class ImageWriter {
 
   const RunSummary& run() const { return run_; }
   std::size_t kept() const { return run_.kept; }
+  const DisplayImage& firstPicture() const { return films_[0].display; }
   const Exposure& exposure() const { return options_.exposure; }
   const std::vector<std::string>& written() const { return written_; }
 
@@ -439,7 +455,6 @@ void writeReport(const RenderJob& job, const ImageWriter& writer) {
 
 int render(RenderJob& job) {
   const Stopwatch stopwatch;
-  settleOptions(job.common);
   chooseOutputs(job);
   checkJob(job);
 
@@ -458,11 +473,16 @@ int render(RenderJob& job) {
   const bool traced = !writer.run().frames.empty();  // else all images were there
   if (traced && !job.common.quiet) {
     std::fputs(stageTable(writer.run()).c_str(), stderr);
-    if (optionsFor(open->scene, job.common).exposure.automatic) {
+    if (job.common.render.exposure.automatic) {
       std::fprintf(stderr, "exposure %g EV\n", static_cast<double>(writer.exposure().ev));
     }
   }
-  if (!job.common.quiet) tellWritten(writer, stopwatch.ms() / 1000);
+  if (job.graphics != TerminalGraphics::none) {
+    const WriteScope scope;
+    std::fputs(terminalPicture(writer.firstPicture(), job.graphics).c_str(), stdout);
+    std::fflush(stdout);
+  }
+  if (!job.common.quiet && !job.outputs.empty()) tellWritten(writer, stopwatch.ms() / 1000);
   if (!job.json.empty()) writeReport(job, writer);
   return 0;
 }
@@ -471,16 +491,14 @@ int render(RenderJob& job) {
 
 int renderCommand(const Words& words) {
   RenderJob job;
-  const auto parsed = parseOptions(kRenderUsage, kRenderSummary, listOptions(job), words);
-  return parsed == Parsed::helpShown ? 0 : render(job);
+  return parseOptions(kRenderUsage, kRenderSummary, listOptions(job), words) ? render(job) : 0;
 }
 
 int turntableCommand(const Words& words) {
   RenderJob job;
   job.onTurntable = true;
   job.common.render.quality = Quality::good;
-  const auto parsed = parseOptions(kTurntableUsage, kTurntableSummary, listOptions(job), words);
-  if (parsed == Parsed::helpShown) return 0;
+  if (!parseOptions(kTurntableUsage, kTurntableSummary, listOptions(job), words)) return 0;
   if (job.frames.empty()) job.frames = "0.." + std::to_string(job.turntableFrames - 1);
   return render(job);
 }

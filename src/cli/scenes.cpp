@@ -32,9 +32,7 @@ std::string aboutOf(const std::string& text) {
 
 int scenesCommand(const Words& words) {
   const OptionList list;
-  if (parseOptions("whit scenes", "Lists the shipped scenes.", list, words) == Parsed::helpShown) {
-    return 0;
-  }
+  if (!parseOptions("whit scenes", "Lists the shipped scenes.", list, words)) return 0;
   for (const std::filesystem::path& scene : shippedScenes()) {
     const std::string about = aboutOf(readTextFile(scene.string(), kSceneBytesLimit));
     std::printf("%-16s%s\n", printable(scene.stem().string()).c_str(), printable(about).c_str());

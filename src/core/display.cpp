@@ -21,16 +21,9 @@ constexpr double kCurveEnd = 1e30;
 }  // namespace
 
 double applyToneCurve(ToneCurve curve, double x) {
-  switch (curve) {
-    case ToneCurve::none:
-      return x;
-    case ToneCurve::reinhard:
-      x = std::min(x, kCurveEnd);
-      return x / (1 + x);
-    case ToneCurve::filmic:
-      return hable(std::min(x, kCurveEnd)) / hable(kHableWhite);
-  }
-  return x;
+  if (curve == ToneCurve::none) return x;
+  x = std::min(x, kCurveEnd);
+  return curve == ToneCurve::reinhard ? x / (1 + x) : hable(x) / hable(kHableWhite);
 }
 
 std::array<std::uint8_t, 3> displayCodes(const Rgb& pixel, double exposureScale, ToneCurve curve) {
@@ -49,9 +42,7 @@ DisplayImage toDisplay(const Image& image, float exposure, ToneCurve curve) {
   display.rgba.reserve(image.pixels.size() * 4);
   const double scale = std::exp2(static_cast<double>(exposure));
   for (const Rgb& pixel : image.pixels) {
-    for (const std::uint8_t code : displayCodes(pixel, scale, curve)) {
-      display.rgba.push_back(code);
-    }
+    for (const std::uint8_t code : displayCodes(pixel, scale, curve)) display.rgba.push_back(code);
     display.rgba.push_back(255);
   }
   return display;

@@ -135,9 +135,29 @@ std::vector<QualityPreset> qualityPresets() {
   return all;
 }
 
-void applyModelDefaults(RenderOptions& options, const std::set<std::string>& given) {
-  if (!given.contains("exposure")) options.exposure = {0, true};
-  if (!given.contains("terminator")) options.shading.terminator = true;
+std::vector<std::string> sceneOptionNames() {
+  std::vector<std::string> names{"quality"};
+  const RenderOptions defaults;
+  forEachOption(defaults, [&](const OptionSpec& spec, const auto&) {
+    const bool ofFrames = spec.rebuilds == Rebuild::frame || spec.rebuilds == Rebuild::tables;
+    const bool ofKernels = spec.knob && spec.knob->cause == Cause::arithmetic;
+    if (spec.changesPicture && ofFrames && !ofKernels) names.emplace_back(spec.name);
+  });
+  return names;
+}
+
+void applySceneOptions(const std::map<std::string, std::string>& stated,
+                       std::set<std::string> given, RenderOptions& options) {
+  if (given.contains("quality")) {
+    given.insert(kPresetOptions.begin(), kPresetOptions.end());
+  } else if (const auto quality = stated.find("quality"); quality != stated.end()) {
+    given.insert("mode");
+    setOption(options, quality->first, quality->second);
+    applyQuality(options, given);
+  }
+  for (const auto& [name, value] : stated) {
+    if (!given.contains(name)) setOption(options, name, value);
+  }
 }
 
 }  // namespace whit

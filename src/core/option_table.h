@@ -1,6 +1,7 @@
 // Access to the table of options in core/options.h by name, and presets of its values.
 #pragma once
 
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -36,7 +37,12 @@ struct QualityPreset {
   std::string name, options;
 };
 std::vector<QualityPreset> qualityPresets();
-// Applies the defaults for models without a scene file, likewise.
-void applyModelDefaults(RenderOptions& options, const std::set<std::string>& given);
+
+// The options that a scene may state: they describe the picture, not how or where it is made.
+std::vector<std::string> sceneOptionNames();
+// Applies the options that a scene states, names and values as on the command line, except those in
+// `given` and, if that has "quality", those of presets. A preset of the scene leaves `mode` alone.
+void applySceneOptions(const std::map<std::string, std::string>& stated,
+                       std::set<std::string> given, RenderOptions& options);
 
 }  // namespace whit

@@ -53,7 +53,7 @@ int parseChoice(const OptionSpec& spec, const std::string& text) {
   const auto found = std::find(choices.begin(), choices.end(), text);
   if (found == choices.end()) {
     throwUsage("--" + std::string(spec.name) + ": expected one of " + std::string(spec.words) +
-               ", got '" + text + "'" + didYouMean(text, choices));
+               ", found '" + text + "'" + didYouMean(text, choices));
   }
   return static_cast<int>(found - choices.begin());
 }

@@ -51,7 +51,7 @@ template <typename T>
 void parseValue(const OptionSpec& spec, const std::string& text, T& value) {
   const auto expect = [&](bool good, const std::string& expected) {
     if (good) return;
-    throwUsage("--" + std::string(spec.name) + ": expected " + expected + ", got '" + text + "'");
+    throwUsage("--" + std::string(spec.name) + ": expected " + expected + ", found '" + text + "'");
   };
   const auto parseNumber = [&](const std::string& noun, auto& number) {
     const bool read = readNumber(text, number);

@@ -88,9 +88,7 @@ double replay(Renderer& renderer, const std::vector<RayLogger>& loggers) {
   std::vector<double> ms(loggers.size());
   renderer.scheduler().pool().run([&](int worker) {
     const auto w = static_cast<std::size_t>(worker);
-    for (const RayStream& stream : loggers[w].streams()) {
-      ms[w] += replay(renderer.accel(), stream);
-    }
+    for (const RayStream& stream : loggers[w].streams()) ms[w] += replay(renderer.accel(), stream);
   });
   return std::accumulate(ms.begin(), ms.end(), 0.0) / static_cast<double>(ms.size());
 }

@@ -78,6 +78,7 @@ void supplyView(SceneContext& context) {
   SceneDescription& scene = context.scene;
   const ModelView view = viewOfAnimation(context);
   scene.isModel = true;
+  scene.options = {{"exposure", "auto"}, {"terminator", "on"}};
   scene.ambient.occlusion = kOcclusion * static_cast<float>(view.radius);
   if (context.sky.empty() || context.sky == kStudio) scene.sky = studioSky();
   if (scene.lights.empty()) {
@@ -229,6 +230,7 @@ SceneDescription readScene(const JsonDocument& document, const LoadOptions& opti
   file.find("parameters");
   readCameras(file, options.instant, context.scene);
   takeSize(options, context.scene);
+  readOptions(file, context.scene);
   readLights(file, options.instant, context.scene);
   readSky(file, context);
   const std::optional<double> fromSky = readAmbient(file, context.scene);
@@ -270,6 +272,7 @@ SceneDescription loadModelFile(const fs::path& path, const SceneName& name,
     scene.lights.clear();
     readLights(file, {}, scene);
   }
+  readOptions(file, scene);
   readSky(file, context);
   const bool ownAmbient = file.has("ambient");
   std::optional<double> fromSky = readAmbient(file, scene);

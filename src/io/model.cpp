@@ -22,9 +22,7 @@ bool isModelFile(const std::filesystem::path& path) { return openerOf(path) != n
 
 std::string modelExtensions() {
   std::string list;
-  for (const auto& [extension, opener] : kOpeners) {
-    list += (list.empty() ? "" : ", ") + extension;
-  }
+  for (const auto& [extension, opener] : kOpeners) list += (list.empty() ? "" : ", ") + extension;
   return list;
 }
 

@@ -43,7 +43,7 @@ struct Renderer::Data {
   RenderOptions settledOptions() const {
     RenderOptions all = options;
     applyQuality(all, given);
-    if (internal().isModel) applyModelDefaults(all, given);
+    applySceneOptions(internal().options, given, all);
     return all;
   }
 
@@ -198,24 +198,19 @@ Renderer& Renderer::setProgress(Progress progress) {
 }
 
 Renderer& Renderer::setMember(const std::string& pointer, const std::string& json) {
-  return guarded(data_->progress, [&](whit::Progress* told) -> Renderer& {
-    data_->setMember(pointer + "=" + json, told);
-    return *this;
-  });
+  guarded(data_->progress,
+          [&](whit::Progress* told) { data_->setMember(pointer + "=" + json, told); });
+  return *this;
 }
 
 Renderer& Renderer::setTime(double seconds) {
-  return guarded([&]() -> Renderer& {
-    data_->setTime(seconds);
-    return *this;
-  });
+  guarded([&] { data_->setTime(seconds); });
+  return *this;
 }
 
 Renderer& Renderer::setTransform(const std::string& pointer, std::span<const double, 12> rows) {
-  return guarded([&]() -> Renderer& {
-    data_->setTransform(pointer, rows);
-    return *this;
-  });
+  guarded([&] { data_->setTransform(pointer, rows); });
+  return *this;
 }
 
 Image Renderer::render() {

@@ -273,11 +273,11 @@ class Renderer {
   // builds a new acceleration structure.
   const Scene& scene() const;
 
-  // Sets an option of `whit render` for the following frames: set("depth", "8"). The acceleration
-  // structure is rebuilt only if the option changes it.
+  // Sets an option of `whit render` for the following frames: set("depth", "8"). It wins over the
+  // options that the scene states. The acceleration structure is rebuilt only if that is needed.
   Renderer& set(const std::string& name, const std::string& value);
   std::string get(const std::string& name) const;  // empty where the scene decides
-  Renderer& reset();                               // all options to their defaults
+  Renderer& reset();                               // all options to those of the scene
 
   // Sets a member of the scene's description for the following frames, like --set of the program:
   // setMember("/lights/0/intensity", "40"). The picture equals that of a scene which was loaded

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,8 @@ struct SceneDescription {
   std::string name;               // the bare name of the file
   bool isModel = false;           // without a scene file: light, sky and view are supplied
   int width = 480, height = 300;  // the scene's own image size
-  std::vector<Camera> cameras;    // the first is the default
+  std::map<std::string, std::string> options;  // of the picture, see applySceneOptions()
+  std::vector<Camera> cameras;                 // the first is the default
   std::vector<Keyframe> cameraPath;
   std::vector<Animation> animations;  // of its models, in the order in which they are read
   std::vector<Light> lights;

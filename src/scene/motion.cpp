@@ -53,14 +53,8 @@ std::vector<double> splined(const Track& track, std::size_t key, double t) {
 std::vector<double> between(const Track& track, std::size_t key, double time) {
   const double t = (time - track.times[key]) / (track.times[key + 1] - track.times[key]);
   const Values a = valueOf(track, key), b = valueOf(track, key + 1);
-  switch (track.interpolation) {
-    case Track::Interpolation::step:
-      return {a.begin(), a.end()};
-    case Track::Interpolation::cubic:
-      return splined(track, key, t);
-    case Track::Interpolation::linear:
-      break;
-  }
+  if (track.interpolation == Track::Interpolation::step) return {a.begin(), a.end()};
+  if (track.interpolation == Track::Interpolation::cubic) return splined(track, key, t);
   return track.rotation ? slerped(a, b, t) : blended(a, 1 - t, b, t);
 }
 

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <functional>
 
+#include "core/option_table.h"
 #include "io/image/image_file.h"
 #include "io/image/image_layers.h"
 #include "io/load_scene.h"
@@ -68,6 +69,21 @@ struct Inside {
   whit::Scene scene;
   RenderOptions options;
 };
+
+TEST(SceneOptions, HoldUntilAnotherValueIsSet) {
+  SceneBuilder builder("scene", R"({"options": {"spp": 2, "exposure": 1, "tonemap": "filmic"},
+                                    "scene": [{"shape": "box"}]})");
+  Renderer renderer(builder.build());
+  renderer.set("size", "8x8").set("tonemap", "none");
+  EXPECT_EQ(renderer.get("spp"), "2");
+  EXPECT_EQ(renderer.get("exposure"), "1");
+  EXPECT_EQ(renderer.get("tonemap"), "none");
+  EXPECT_EQ(renderer.set("quality", "good").get("spp"), "16");
+  renderer.setMember("/options/exposure", "2");
+  EXPECT_EQ(renderer.get("exposure"), "2");
+  EXPECT_EQ(statusOf([&] { renderer.setMember("/options/exposure", "\"bright\""); }), 3);
+  EXPECT_EQ(renderer.reset().get("spp"), "2");
+}
 
 TEST(Library, RendersTheSameBits) {
   Inside inside;
@@ -245,6 +261,7 @@ TEST(Library, ScenesMoveAndComeBack) {
         whit::Scene::finalize(whit::loadScene("orrery", then, warnings), warnings);
     RenderOptions options;
     options.size = ImageSize{40, 24};
+    applySceneOptions(expected.options, {}, options);
     options.threads = 1;
     whit::Renderer inside(expected, options);
     Film film = makeFilm(expected, options);

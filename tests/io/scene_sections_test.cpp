@@ -47,6 +47,38 @@ TEST_F(SceneSections, CamerasHaveALens) {
   }
 }
 
+TEST_F(SceneSections, OptionsOfThePicture) {
+  const SceneDescription scene = loadMembers(
+      R"("parameters": {"n": 4}, "options": {"indirect": "$n", "exposure": "auto", "cutoff": 1e-3,
+         "adaptive": true, "fresnel": "schlick", "background": "ff8000"})");
+  const std::map<std::string, std::string> expected{
+      {"indirect", "4"},  {"exposure", "auto"},   {"cutoff", "0.001"},
+      {"adaptive", "on"}, {"fresnel", "schlick"}, {"background", "ff8000"}};
+  EXPECT_EQ(scene.options, expected);
+  EXPECT_TRUE(loadMembers("\"scene\": []").options.empty());
+}
+
+TEST_F(SceneSections, OptionsThatAreNone) {
+  const auto error = [&](const std::string& member) {
+    return errorOfMembers("\"options\": {" + member + "}");
+  };
+  EXPECT_EQ(error("\"indirct\": 4"),
+            "3 s.json#/options/indirct: expected an option of the picture (is \"indirect\" "
+            "meant?), found \"indirct\"");
+  EXPECT_EQ(error("\"threads\": 4"),
+            "3 s.json#/options/threads: expected an option of the picture, found \"threads\"");
+  EXPECT_EQ(error("\"indirect\": 65"),
+            "3 s.json#/options/indirect: expected a whole number from 0 to 64, found '65'");
+  EXPECT_EQ(error("\"fresnel\": \"shlick\""),
+            "3 s.json#/options/fresnel: expected one of exact|schlick, found 'shlick'; did you "
+            "mean 'schlick'?");
+  EXPECT_EQ(error("\"disable\": \"mirrr\""),
+            "3 s.json#/options/disable: no effect is called 'mirrr'; did you mean 'mirror'?");
+  EXPECT_EQ(error("\"spp\": [4]"),
+            "3 s.json#/options/spp: expected a number, a word, true or false, found a list of 1");
+  EXPECT_EQ(errorOfMembers("\"options\": 4"), "3 s.json#/options: expected an object, found 4");
+}
+
 TEST_F(SceneSections, KeyframesRepeatWhatIsMissing) {
   const SceneDescription scene = loadMembers(
       "\"path\": [{\"time\": 0, \"eye\": [0,0,5], \"at\": [0,0,0], \"fov\": 30},"

@@ -106,6 +106,16 @@ TEST_F(SceneSettings, OfAModel) {
   EXPECT_EQ(errorOf([&] { modelWith({"/camera=1"}); }).find("3 m.obj#/camera"), 0u);
 }
 
+TEST_F(SceneSettings, OptionsOfAModel) {
+  save("m.obj", kTriangleObj);
+  EXPECT_EQ(load(root_ + "m.obj").options,
+            (std::map<std::string, std::string>{{"exposure", "auto"}, {"terminator", "on"}}));
+  options_.settings = {"/options/exposure=2", "/options/spp=4"};
+  EXPECT_EQ(
+      load(root_ + "m.obj").options,
+      (std::map<std::string, std::string>{{"exposure", "2"}, {"spp", "4"}, {"terminator", "on"}}));
+}
+
 TEST_F(SceneSettings, ItemsWithoutAMaterialHaveTheDefaultOne) {
   const char* const members = "\"scene\": [{\"shape\": \"quad\"}]";
   EXPECT_EQ(with({}, members).materials[0].pointer, "/materials/default");

@@ -105,15 +105,5 @@ TEST(AutoExposure, IsSettledOnce) {
   EXPECT_EQ(options.exposure.ev, 1.5f);
 }
 
-TEST(AutoExposure, IsTheDefaultOfModels) {
-  RenderOptions options;
-  applyModelDefaults(options, {});
-  EXPECT_TRUE(options.exposure.automatic);
-  EXPECT_TRUE(options.shading.terminator);
-  RenderOptions given;
-  applyModelDefaults(given, {"exposure", "terminator"});
-  EXPECT_EQ(given, RenderOptions());
-}
-
 }  // namespace
 }  // namespace whit

@@ -21,15 +21,15 @@ constexpr PublishedHash kPublished[] = {
     {"glass", "48x30", "9964facb5814d489fd9bb03aff5008e8"},
     {"mirrors", "480x300", "a18f31a055461f66f922ed7e5e0adf35"},
     {"mirrors", "48x30", "7757b6334cc2c316866aff3a041bcdc0"},
-    {"glossy", "480x300", "1e261d9bf84032b47995fd393d9c0507"},
-    {"glossy", "48x30", "5b12b5b939c8a1e6e06fdb06949da43c"},
+    {"glossy", "480x300", "e8e6fb603a3a57c3f8540df3cea18c72"},
+    {"glossy", "48x30", "89b0db8aee0784533a2e44dc4e2500e0"},
     {"effects", "480x300", "42b59f4a76a047d8128f66e4a9728164"},
     {"effects", "48x30", "348ebac0d495ee87b5e3148fc569cebd"},
-    {"cornell --indirect 4", "480x300", "19e07649db4e547e85cbec16b3224d83"},
-    {"cornell --indirect 4", "48x30", "9203cdbbe702e49e71f59b406c115e89"},
-    {"orrery --time 3", "480x300", "be7e8ab985097b2a175c386de04a22ec",
-     "44172b79f038e1b22bf52f4e22f301ea"},
-    {"orrery --time 3", "48x30", "df2b236f8b84c3c41ca870e1a985e1eb"},
+    {"cornell", "480x300", "44a60f9eb35e1771a2b4176a17ac0ea8"},
+    {"cornell", "48x30", "3269eaba84c8fe27d2290e77314b4a41"},
+    {"orrery --time 3", "480x300", "ab134025cb85fb817034ffc8d095442d",
+     "0061437dcaaebbd148c2f061cdf7e69e"},
+    {"orrery --time 3", "48x30", "b5764e38e911552a5dd9bd65bb0562d1"},
     {"atrium", "480x300", "1eec5c0673f7f52327837967b093622d"},
     {"atrium", "48x30", "aa8b6aefe14e121331ca35d74efae184"},
     {"landscape", "480x300", "b8b4e478eaa55017cdc7fabb40adc6c5",
@@ -57,7 +57,6 @@ HashedScene::HashedScene(const PublishedHash& picture) {
   cli::listCommonOptions(list, common);
   list.operands("SCENE", "", 1, 1, names);
   cli::parseOptions("", "", list, words);
-  cli::settleOptions(common);
   open_ = cli::openScene(names[0], common, nullptr);
   options_ = cli::optionsFor(open_->scene, common);
 }

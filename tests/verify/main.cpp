@@ -312,12 +312,12 @@ int run(const std::vector<std::string>& words) {
   list.value({"simd", "TARGET"}, "SIMD target of --hashes (default: auto)", simd);
   cli::listReportOptions(list, common);
   list.operands("[SCENE...]", "scenes of --hashes; without any, all of them", 0, 100, hashed);
-  const auto parsed = cli::parseOptions(
+  const bool runs = cli::parseOptions(
       "whit-verify [options] [SCENE...]",
       "Runs the catalogue of hard cases with every SIMD target and packet width of this machine.\n"
       "The exit status is 1 when a case breaks its bound, or when a hash is not the published one.",
       list, words);
-  if (parsed == cli::Parsed::helpShown) return 0;
+  if (!runs) return 0;
   refuseIf(hashes.empty() && !hashed.empty(), "scenes are for --hashes SIZE");
   if (!hashes.empty()) {
     const bool same = comparesHashes(picturesToHash(hashes, hashed), simd);

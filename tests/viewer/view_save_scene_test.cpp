@@ -86,6 +86,44 @@ TEST_F(SavedScenes, FindTheirFilesFromElsewhere) {
   EXPECT_EQ(read("s-edited.json")["textures"]["t"]["image"], "sub/maps/t.png");
 }
 
+TEST_F(SavedScenes, StateTheOptionsThatWereChosen) {
+  Json scene = read("tiny.json");
+  scene["options"] = {{"depth", 2}, {"spp", 4}, {"background", "ff8000"}};
+  std::ofstream(folder_ / "tiny.json") << scene.dump();
+  const cli::Outcome outcome = play(
+      "bare\nkey N\nwait sharp\nkey C\nkey ]\nwait 20 frames\nwait sharp\n"
+      "screenshot shown.png\nkey C\nkey Ctrl+S\n",
+      {"--spp", "2", "--fresnel", "schlick"});
+  const std::vector<std::string> lines = linesOf(outcome.out);
+  ASSERT_EQ(lines.size(), 3u) << outcome.out;
+  EXPECT_EQ(lines[0], "whit render tiny.json -o tiny.png --size=48x32 --spp=2 --fresnel=schlick");
+  EXPECT_EQ(lines[1], lines[0] + " --exposure=0.25");
+  EXPECT_EQ(lines[2], "whit render tiny-edited.json -o tiny-edited.png --size=48x32");
+  for (const std::string& line : {lines[1], lines[2]}) expectThatItShows("shown.png", line);
+  EXPECT_EQ(read("tiny-edited.json")["options"], (Json{{"depth", 2},
+                                                       {"spp", 2},
+                                                       {"background", "ff8000"},
+                                                       {"fresnel", "schlick"},
+                                                       {"exposure", 0.25}}));
+}
+
+// The exposure that was chosen for the scene before says nothing about another one.
+TEST_F(SavedScenes, OptionsOfAnotherSceneAreTaken) {
+  Json scene = read("tiny.json");
+  scene["options"] = {{"depth", 1}, {"exposure", 1}, {"spp", 4}};
+  std::ofstream(folder_ / "other.json") << scene.dump();
+  const cli::Outcome outcome = play(
+      "bare\nkey N\nkey ]\nwait sharp\nkey C\ndrop other.json\nwait 60 frames\nwait sharp\n"
+      "screenshot shown.png\nkey C\ndrop tiny.json\nwait 60 frames\nwait sharp\nkey C\n",
+      {"--spp", "2"});
+  const std::vector<std::string> lines = linesOf(outcome.out);
+  ASSERT_EQ(lines.size(), 3u) << outcome.out;
+  EXPECT_EQ(lines[0], "whit render tiny.json -o tiny.png --size=48x32 --spp=2 --exposure=0.25");
+  EXPECT_EQ(lines[1], "whit render other.json -o other.png --size=48x32 --spp=2");
+  EXPECT_EQ(lines[2], "whit render tiny.json -o tiny.png --size=48x32 --spp=2");
+  expectThatItShows("shown.png", lines[1]);
+}
+
 TEST_F(SavedScenes, SayWhenTheirFilesLieOutside) {
   const cli::TemporaryFolder elsewhere;
   fs::copy(folder_ / "sky.exr", elsewhere / "sky.exr");

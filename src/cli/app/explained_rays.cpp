@@ -67,19 +67,8 @@ std::string mediumName(const Scene& scene, std::uint32_t media) {
 }
 
 const char* nameOf(PathEnd end) {
-  switch (end) {
-    case PathEnd::depth:
-      return "depth";
-    case PathEnd::cutoff:
-      return "cutoff";
-    case PathEnd::roulette:
-      return "roulette";
-    case PathEnd::totalReflection:
-      return "total reflection";
-    case PathEnd::none:
-      break;
-  }
-  return "";
+  constexpr const char* kNames[] = {"", "depth", "cutoff", "roulette", "total reflection"};
+  return kNames[static_cast<std::size_t>(end)];
 }
 
 RayText describeRay(const Scene& scene, const ExplainedRays& rays, std::size_t node) {

@@ -150,11 +150,8 @@ void appendRays(std::string& text, const FrameStats& frame, EffectSet effects) {
     text += formatted("  %-14s%12llu%10.2f", kRayKinds[i].name.data(),
                       static_cast<unsigned long long>(tally.rays),
                       mraysPerSecond(tally.rays, frame.frameMs));
-    if (tally.lanes > 0) {
-      text += formatted("%16.1f\n", 100 * lanesFilled(tally));
-    } else {
-      text += formatted("%16s\n", "-");
-    }
+    const std::string filled = formatted("%.1f", 100 * lanesFilled(tally));
+    text += formatted("%16s\n", tally.lanes > 0 ? filled.c_str() : "-");
   }
   const DecidedShadows& decided = frame.meter.shadows;
   for (const auto& [name, rays] :

@@ -169,7 +169,7 @@ FrameRange parseFrameRange(const std::string& text) {
                               readFrameNumber(text.substr(dots + 2), range.last);
   if (dots == std::string::npos) range.last = range.first;
   if (!good || range.last < range.first) {
-    throwUsage("--frames: expected a frame number, or first..last as 0..47, got '" + text + "'");
+    throwUsage("--frames: expected a frame number, or first..last as 0..47, found '" + text + "'");
   }
   return range;
 }

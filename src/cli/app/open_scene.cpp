@@ -35,8 +35,12 @@ std::unique_ptr<OpenScene> openScene(const std::string& name, const CommonOption
 
 RenderOptions optionsFor(const Scene& scene, const CommonOptions& common) {
   RenderOptions options = common.render;
-  if (scene.isModel) applyModelDefaults(options, common.given);
+  applySceneOptions(scene.options, common.given, options);
   return options;
+}
+
+RenderOptions optionsToMeasure(const Scene& scene, const CommonOptions& common) {
+  return scene.isModel ? optionsFor(scene, common) : common.render;
 }
 
 void tellWarnings(const Warnings& warnings) {
@@ -44,10 +48,6 @@ void tellWarnings(const Warnings& warnings) {
     std::fprintf(stderr, "whit: warning: %s (%llu times, first: %s)\n", printable(kind).c_str(),
                  static_cast<unsigned long long>(entry.count), printable(entry.first).c_str());
   }
-}
-
-Film openFilm(const Scene& scene, const CommonOptions& common) {
-  return makeFilm(scene, common.render, common.load.maxMemoryBytes);
 }
 
 }  // namespace whit::cli

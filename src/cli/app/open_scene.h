@@ -32,14 +32,14 @@ using LookAtScene = std::function<void(const SceneDescription&)>;
 std::unique_ptr<OpenScene> openScene(const std::string& name, const CommonOptions& common,
                                      Progress* progress, const LookAtScene& look = {});
 
-// The options of a frame of the scene: models have defaults of their own. An automatic exposure is
-// still to be settled (render/auto_exposure.h).
+// The options of a picture of the scene: those that were given, else those that the scene states.
+// An automatic exposure is still to be settled (render/auto_exposure.h).
 RenderOptions optionsFor(const Scene& scene, const CommonOptions& common);
+// The options of frames whose cost or accuracy is measured: without those of a scene file, so that
+// figures of different scenes, and of one option alone, can be compared.
+RenderOptions optionsToMeasure(const Scene& scene, const CommonOptions& common);
 
 // Prints what was repaired, one line each, to standard error.
 void tellWarnings(const Warnings& warnings);
-
-// A film as the options want it. Throws Error(limit) when it would not fit into --max-memory.
-Film openFilm(const Scene& scene, const CommonOptions& common);
 
 }  // namespace whit::cli

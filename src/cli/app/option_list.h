@@ -54,6 +54,7 @@ class OptionList {
 
   std::vector<Entry> entries;
   Operand operand;
+  std::function<void()> settle;  // called when all values are set
 
  private:
   Entry& push(const OptionSpec& spec, const std::string& help,

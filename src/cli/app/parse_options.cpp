@@ -123,31 +123,33 @@ void listCommonOptions(OptionList& list, CommonOptions& common) {
       .everyday = false;
   for (std::size_t i = own; i < list.entries.size(); ++i) list.entries[i].common = true;
   listReportOptions(list, common);
+  list.settle = [&common] {
+    applyQuality(common.render, common.given);
+    common.load.threads = common.render.threads;
+    common.load.size = common.render.size;
+    common.load.sphereSegments = common.render.sphereSegments;
+    common.load.maxMemoryBytes = static_cast<std::uint64_t>(common.maxMemoryGb * 1e9);
+  };
 }
 
-void settleOptions(CommonOptions& common) {
-  applyQuality(common.render, common.given);
-  common.load.threads = common.render.threads;
-  common.load.size = common.render.size;
-  common.load.sphereSegments = common.render.sphereSegments;
-  common.load.maxMemoryBytes = static_cast<std::uint64_t>(common.maxMemoryGb * 1e9);
-}
-
-Parsed parseOptions(const std::string& usage, const std::string& summary, const OptionList& list,
-                    const std::vector<std::string>& words) {
+bool parseOptions(const std::string& usage, const std::string& summary, const OptionList& list,
+                  const std::vector<std::string>& words) {
   if (words == std::vector<std::string>{"--man"}) {
     std::fputs(manOptions(usage, summary, list).c_str(), stdout);
-    return Parsed::helpShown;
+    return false;
   }
   if (!words.empty() && words[0] == "--complete") {
     std::fputs(completions({words.begin() + 1, words.end()}, list).c_str(), stdout);
-    return Parsed::helpShown;
+    return false;
   }
   const std::string help = takeWords(words, list);
-  if (help.empty()) return Parsed::run;
+  if (help.empty()) {
+    if (list.settle) list.settle();
+    return true;
+  }
   const HelpTier tier = help == "--help-all" ? HelpTier::all : HelpTier::everyday;
   std::fputs(helpText(usage, summary, list, tier, helpWidth()).c_str(), stdout);
-  return Parsed::helpShown;
+  return false;
 }
 
 }  // namespace whit::cli

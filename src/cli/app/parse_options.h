@@ -24,16 +24,12 @@ struct CommonOptions {
 // Lists forEachOption's options, and those about loading and reporting.
 void listCommonOptions(OptionList& list, CommonOptions& common);
 void listReportOptions(OptionList& list, CommonOptions& common);
-// After parsing: presets, and what follows from one option for another.
-void settleOptions(CommonOptions& common);
-
-enum class Parsed { run, helpShown };
 
 // Parses `words` (without the names of program and command). --help and --help-all print the help
 // text, which begins with `usage` and `summary`; a first word --man prints the command's part of
-// the manual page, and --complete what a shell may complete the words after it to. Throws
-// Error(usage).
-Parsed parseOptions(const std::string& usage, const std::string& summary, const OptionList& list,
-                    const std::vector<std::string>& words);
+// the manual page, and --complete what a shell may complete the words after it to. Returns false
+// then. Throws Error(usage).
+bool parseOptions(const std::string& usage, const std::string& summary, const OptionList& list,
+                  const std::vector<std::string>& words);
 
 }  // namespace whit::cli

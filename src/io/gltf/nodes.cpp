@@ -304,9 +304,7 @@ class TreeReader {
     if (deformation.skeleton) {
       return stage_.meshes.push_back({mesh, Affine(), kNoNode, deformation, index});
     }
-    if (!copies.exists()) {
-      return stage_.meshes.push_back({mesh, map, mover, deformation, index});
-    }
+    if (!copies.exists()) return stage_.meshes.push_back({mesh, map, mover, deformation, index});
     for (const Affine& copy : readCopies(copies.need("attributes"))) {
       const Affine toMover = map * copy;
       if (isUsable(toMover)) {

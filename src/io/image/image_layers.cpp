@@ -109,9 +109,7 @@ std::vector<ImageLayer> layersOf(const ChannelLayers& channels) {
 ImageMetadata describeChannels(const Scene& scene, ChannelSet channels) {
   if (channels.empty()) return {};
   ImageMetadata said{{"channels", namesOf(channels)}};
-  if (channels.has(Channel::object)) {
-    said.emplace_back("objects", manifest(scene.items.names));
-  }
+  if (channels.has(Channel::object)) said.emplace_back("objects", manifest(scene.items.names));
   if (channels.has(Channel::material)) {
     std::vector<std::string> names;
     for (const Material& material : scene.materials) names.push_back(material.name);

@@ -190,9 +190,7 @@ bool write(Libpng& writer, std::string& to, const Rows& rows, const std::vector<
   // flat areas of `matte`). libdeflate at its first level is no faster.
   png_set_filter(writer.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
   png_set_compression_strategy(writer.png, Z_RLE);
-  if (rows.isSrgb) {
-    png_set_sRGB_gAMA_and_cHRM(writer.png, writer.info, PNG_sRGB_INTENT_PERCEPTUAL);
-  }
+  if (rows.isSrgb) png_set_sRGB_gAMA_and_cHRM(writer.png, writer.info, PNG_sRGB_INTENT_PERCEPTUAL);
   png_set_text(writer.png, writer.info, texts.data(), static_cast<int>(texts.size()));
   png_write_info(writer.png, writer.info);
   if (rows.bits == 16) {

@@ -142,9 +142,7 @@ void interpret(MtlMaterial& source, bool isFromMeshLab, Warnings& warnings) {
     return clamped;
   };
   for (const char* unsupported : {"map_ke", "map_pr", "map_pm", "map_ns"}) {
-    if (source.maps.contains(unsupported)) {
-      warnings.add("map that is not supported", source.where);
-    }
+    if (source.maps.contains(unsupported)) warnings.add("map that is not supported", source.where);
   }
   if (source.maps.contains("map_kd")) m.diffuse = Rgb(1.0f);
   if (source.maps.contains("map_ks")) m.specular = Rgb(1.0f);

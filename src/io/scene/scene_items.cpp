@@ -91,9 +91,7 @@ std::vector<Affine> readPlacements(JsonObject& item) {
   int n[3];
   double total = 1;
   for (std::size_t i = 0; i < 3; ++i) total *= n[i] = counts[i].integer(1, kRepeatLimit);
-  if (total > kRepeatLimit) {
-    countValue.fail("at most " + std::to_string(kRepeatLimit) + " copies");
-  }
+  if (total > kRepeatLimit) countValue.fail("at most " + std::to_string(kRepeatLimit) + " copies");
   std::vector<Affine> result;
   result.reserve(static_cast<std::size_t>(total));
   for (int z = 0; z < n[2]; ++z) {

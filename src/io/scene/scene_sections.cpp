@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "core/error.h"
+#include "core/option_table.h"
 #include "core/option_values.h"
-#include "core/options.h"
 #include "io/paths.h"
 #include "make/studio_sky.h"
 
@@ -101,6 +102,31 @@ void readCameras(JsonObject& file, const Instant& instant, SceneDescription& sce
     scene.cameras.push_back(camera);
   }
   readPath(file, scene);
+}
+
+void readOptions(JsonObject& file, SceneDescription& scene) {
+  const std::vector<std::string> names = sceneOptionNames();
+  RenderOptions checked;
+  for (const auto& [name, value] : file.find("options").members()) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) {
+      throwBadScene(value.where(), "expected an option of the picture" + isMeant(name, names) +
+                                       ", found \"" + excerpt(name) + "\"");
+    }
+    if (value.isObject() || value.isArray() || value.isNull()) {
+      value.fail("a number, a word, true or false");
+    }
+    const std::string text = value.isNumber() ? shortest(value.number())
+                             : value.isText() ? value.text()
+                             : value.flag()   ? "on"
+                                              : "off";
+    try {
+      setOption(checked, name, text);
+    } catch (const Error& error) {
+      const std::string what = error.what(), prefix = "--" + name + ": ";
+      throwBadScene(value.where(), what.substr(what.starts_with(prefix) ? prefix.size() : 0));
+    }
+    scene.options[name] = text;
+  }
 }
 
 void readLights(JsonObject& file, const Instant& instant, SceneDescription& scene) {

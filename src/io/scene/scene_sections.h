@@ -68,6 +68,8 @@ void readCamera(JsonObject& object, Camera& camera);
 // "size", "cameras" and "path". A camera has "eye", "at", "up" and either "fov", vertical in
 // degrees, or "orthographicHeight", what parallel rays show of the plane through the eye.
 void readCameras(JsonObject& file, const Instant& instant, SceneDescription& scene);
+// "options": see sceneOptionNames().
+void readOptions(JsonObject& file, SceneDescription& scene);
 // "lights": see scene/members.h for what each type has. "name" is free.
 void readLights(JsonObject& file, const Instant& instant, SceneDescription& scene);
 // "sky"; its image is there after context.textures.finish().

@@ -1,0 +1,183 @@
+// Options that a scene file states, against those of the command line.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "core/option_table.h"
+#include "io/image/image_file.h"
+#include "run_program.h"
+
+namespace whit::cli {
+namespace {
+
+// The tiny scene with these options, written as members of a JSON object.
+std::string writeStating(const TemporaryFolder& folder, const std::string& options) {
+  std::string text = readFile(writeTinyScene(folder));
+  text.replace(text.find('{'), 1, "{\"options\": {" + options + "}, ");
+  std::ofstream(folder / "stating.json") << text;
+  return folder / "stating.json";
+}
+
+Outcome picture(const std::string& scene, const std::string& image,
+                std::vector<std::string> words = {}) {
+  words.insert(words.begin(), {"render", scene, "-o", image, "--quiet"});
+  return runWhit(words);
+}
+
+std::map<std::string, std::string> statedIn(const std::string& image) {
+  std::map<std::string, std::string> all;
+  for (const auto& [name, text] : readExrMetadata(image)) all[name] = text;
+  return all;
+}
+
+RenderOptions settled(const std::map<std::string, std::string>& stated,
+                      const std::map<std::string, std::string>& given) {
+  RenderOptions options;
+  std::set<std::string> names;
+  for (const auto& [name, value] : given) {
+    setOption(options, name, value);
+    names.insert(name);
+  }
+  applyQuality(options, names);
+  applySceneOptions(stated, names, options);
+  return options;
+}
+
+TEST(SceneOptions, AreThoseOfThePlainCommand) {
+  const TemporaryFolder folder;
+  const std::string scene = writeStating(
+      folder, R"("spp": 2, "depth": 1, "terminator": true, "exposure": 1.5, "tonemap": "filmic")");
+  for (const std::string type : {".exr", ".png"}) {
+    const std::string plain = folder / ("a" + type), asked = folder / ("b" + type);
+    ASSERT_EQ(picture(scene, plain).status, 0);
+    ASSERT_EQ(picture(folder / "tiny.json", asked,
+                      {"--spp", "2", "--depth", "1", "--terminator", "on", "--exposure", "1.5",
+                       "--tonemap", "filmic"})
+                  .status,
+              0);
+    Warnings warnings;
+    EXPECT_EQ(readRawImage(plain, ImageLimits(), warnings).codes,
+              readRawImage(asked, ImageLimits(), warnings).codes);
+  }
+  const auto stated = statedIn(folder / "a.exr");
+  EXPECT_EQ(stated.at("spp"), "2");
+  EXPECT_EQ(stated.at("exposure"), "1.5");
+}
+
+TEST(SceneOptions, GiveWayToTheUser) {
+  const std::map<std::string, std::string> scene{
+      {"spp", "8"}, {"glossy", "16"}, {"indirect", "4"}, {"exposure", "1"}};
+  const RenderOptions one = settled(scene, {{"spp", "2"}, {"exposure", "auto"}});
+  EXPECT_EQ(one.spp, 2);
+  EXPECT_EQ(one.glossy, 16);
+  EXPECT_EQ(one.indirect, 4);
+  EXPECT_TRUE(one.exposure.automatic);
+  const RenderOptions preset = settled(scene, {{"quality", "good"}});
+  EXPECT_EQ(preset.spp, 16);
+  EXPECT_EQ(preset.glossy, 1);
+  EXPECT_EQ(preset.indirect, 4) << "no preset says anything about it";
+  const RenderOptions both = settled(scene, {{"quality", "good"}, {"glossy", "2"}});
+  EXPECT_EQ(both.glossy, 2);
+}
+
+TEST(SceneOptions, MayNameAPresetButNotTheReference) {
+  const RenderOptions own = settled({{"quality", "reference"}, {"depth", "5"}}, {{"spp", "3"}});
+  EXPECT_EQ(own.cutoff, 1e-5f);
+  EXPECT_EQ(own.depth, 5);
+  EXPECT_EQ(own.spp, 3);
+  EXPECT_EQ(own.mode, Mode::packets);
+  const RenderOptions given = settled({{"quality", "fine"}}, {{"quality", "draft"}});
+  EXPECT_EQ(given.quality, Quality::draft);
+  EXPECT_EQ(given.cutoff, 4e-3f);
+}
+
+TEST(SceneOptions, AreThoseThatDescribeThePicture) {
+  const std::vector<std::string> names = sceneOptionNames();
+  const std::set<std::string> all(names.begin(), names.end());
+  for (const char* name : {"quality", "spp", "adaptive", "depth", "glossy", "indirect", "cutoff",
+                           "light-samples", "ambient-samples", "fresnel", "texture-filter",
+                           "terminator", "disable", "exposure", "tonemap", "background"}) {
+    EXPECT_TRUE(all.contains(name)) << name;
+  }
+  for (const char* name : {"threads", "packet", "simd",  "mode",         "batch",
+                           "robust",  "retry",  "bvh",   "shadow-cache", "sphere-segments",
+                           "effects", "tile",   "queue", "channels",     "strict",
+                           "size",    "camera", "eye",   "at",           "up",
+                           "fov",     "ortho",  "crop"}) {
+    EXPECT_FALSE(all.contains(name)) << name;
+  }
+}
+
+TEST(SceneOptions, InfoSaysWhereTheyComeFrom) {
+  const TemporaryFolder folder;
+  const std::string scene = writeStating(folder, R"("spp": 8, "indirect": 4, "glossy": 2)");
+  const auto info = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"info", scene});
+    return runWhit(words).out;
+  };
+  EXPECT_NE(info({}).find("options     spp 8 (scene), glossy 2 (scene), indirect 4 (scene)"),
+            std::string::npos)
+      << info({});
+  const auto rows =
+      nlohmann::json::parse(info({"--quality", "good", "--glossy", "3", "--json", "-"}))["options"];
+  const auto row = [&](const char* name) {
+    return rows[name]["value"].get<std::string>() + " " + rows[name]["from"].get<std::string>();
+  };
+  EXPECT_EQ(row("spp"), "16 --quality");
+  EXPECT_EQ(row("glossy"), "3 command line");
+  EXPECT_EQ(row("indirect"), "4 scene");
+  EXPECT_FALSE(rows.contains("depth"));
+  EXPECT_EQ(
+      nlohmann::json::parse(runWhit({"info", folder / "tiny.json", "--json", "-"}).out)["options"]
+          .size(),
+      0u);
+}
+
+TEST(SceneOptions, AreResumedAndCropped) {
+  const TemporaryFolder folder;
+  const std::string scene = writeStating(folder, R"("spp": 2, "exposure": 1)");
+  const std::string image = folder / "a.exr";
+  const auto file = [&] {
+    struct stat about {};
+    stat(image.c_str(), &about);
+    return about.st_ino;
+  };
+  ASSERT_EQ(picture(scene, image, {"--resume"}).status, 0);
+  const auto first = file();
+  ASSERT_EQ(picture(scene, image, {"--resume"}).status, 0);
+  EXPECT_EQ(file(), first) << "traced again";
+  ASSERT_EQ(picture(scene, folder / "l.exr", {"--crop", "0,0,20,32"}).status, 0);
+  ASSERT_EQ(picture(scene, folder / "r.exr", {"--crop", "20,0,48,32"}).status, 0);
+  ASSERT_EQ(runWhit({"merge", folder / "m.exr", folder / "l.exr", folder / "r.exr"}).status, 0);
+  Warnings warnings;
+  EXPECT_EQ(readRawImage(folder / "m.exr", ImageLimits(), warnings).codes,
+            readRawImage(image, ImageLimits(), warnings).codes);
+  writeStating(folder, R"("spp": 3, "exposure": 1)");
+  ASSERT_EQ(picture(scene, image, {"--resume"}).status, 0);
+  EXPECT_NE(file(), first);
+}
+
+TEST(SceneOptions, ABackgroundNeedsAFileWithAlpha) {
+  const TemporaryFolder folder;
+  const std::string scene = writeStating(folder, R"("background": "transparent")");
+  const Outcome refused = picture(scene, folder / "a.jpg");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("has no alpha"), std::string::npos) << refused.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.jpg"));
+  ASSERT_EQ(picture(scene, folder / "a.exr").status, 0);
+  EXPECT_FALSE(readLayers(folder / "a.exr", ImageLimits()).empty());
+  EXPECT_EQ(picture(scene, folder / "a.jpg", {"--background", "sky"}).status, 0);
+}
+
+TEST(SceneOptions, AreNotMeasured) {
+  const TemporaryFolder folder;
+  const std::string scene = writeStating(folder, R"("spp": 4)");
+  const auto run = nlohmann::json::parse(
+      runWhit({"bench", scene, "--frames", "1", "--json", "-", "--quiet"}).out)["runs"][0];
+  EXPECT_EQ(run["rays"]["primary"], 48 * 32) << run.dump();
+}
+
+}  // namespace
+}  // namespace whit::cli

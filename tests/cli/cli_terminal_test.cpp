@@ -1,0 +1,179 @@
+// Pictures on a terminal: the program writes to a pseudo-terminal, and what it wrote is decoded.
+#include <gtest/gtest.h>
+#include <sys/ioctl.h>
+#include <termios.h>
+
+#include <map>
+#include <regex>
+
+#include "io/image/image_file.h"
+#include "run_program.h"
+
+namespace whit::cli {
+namespace {
+
+using Variables = std::map<std::string, std::string>;
+
+// Runs the program in `folder` with standard output on a terminal of 100x50 characters, and returns
+// what it wrote there.
+Outcome runOnTerminal(const std::vector<std::string>& words, const TemporaryFolder& folder,
+                      const Variables& variables) {
+  const int reader = posix_openpt(O_RDWR | O_NOCTTY);
+  EXPECT_TRUE(grantpt(reader) == 0 && unlockpt(reader) == 0);
+  const int terminal = open(ptsname(reader), O_RDWR | O_NOCTTY);
+  termios raw{};
+  tcgetattr(terminal, &raw);
+  cfmakeraw(&raw);
+  tcsetattr(terminal, TCSANOW, &raw);
+  const winsize size{50, 100, 0, 0};
+  ioctl(terminal, TIOCSWINSZ, &size);
+  const pid_t child = startWhit(words, folder, [&] {
+    for (const char* name : {"TERM", "TERM_PROGRAM", "COLORTERM", "KITTY_WINDOW_ID", "LC_TERMINAL",
+                             "KONSOLE_VERSION", "TMUX", "STY"}) {
+      unsetenv(name);
+    }
+    for (const auto& [name, value] : variables) setenv(name.c_str(), value.c_str(), 1);
+    dup2(terminal, STDOUT_FILENO);
+    if (chdir(folder.path().c_str()) != 0) _exit(1);
+  });
+  close(terminal);
+  Outcome outcome;
+  char buffer[4096];
+  for (ssize_t n; (n = ::read(reader, buffer, sizeof buffer)) > 0;) {
+    outcome.out.append(buffer, static_cast<std::size_t>(n));
+  }
+  close(reader);
+  outcome.status = waitFor(child);
+  outcome.err = readFile(folder / "stderr");
+  return outcome;
+}
+
+std::string decoded(const std::string& base64) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  std::uint32_t bits = 0;
+  int count = 0;
+  for (const char c : base64.substr(0, base64.find('='))) {
+    bits = bits << 6 | static_cast<std::uint32_t>(digits.find(c));
+    count += 6;
+    if (count >= 8) bytes += static_cast<char>(bits >> (count -= 8) & 255);
+  }
+  return bytes;
+}
+
+class TerminalPictures : public testing::Test {
+ protected:
+  void SetUp() override { writeTinyScene(folder_); }
+
+  Outcome render(const Variables& variables, std::vector<std::string> words = {}) {
+    words.insert(words.begin(), {"render", "tiny.json"});
+    return runOnTerminal(words, folder_, variables);
+  }
+  std::vector<std::uint8_t> codesOf(const std::string& file) {
+    Warnings warnings;
+    return readRawImage(folder_ / file, ImageLimits(), warnings).codes;
+  }
+  // The data, decoded, is a PNG with the pixels of tiny.png.
+  void expectThePicture(const std::string& data) {
+    std::ofstream(folder_ / "shown.png", std::ios::binary) << decoded(data);
+    EXPECT_EQ(codesOf("shown.png"), codesOf("tiny.png"));
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(TerminalPictures, ByTheProtocolOfKitty) {
+  for (const Variables& variables : {Variables{{"TERM", "xterm-kitty"}},
+                                     {{"TERM", "xterm"}, {"TERM_PROGRAM", "ghostty"}},
+                                     {{"TERM", "xterm"}, {"KONSOLE_VERSION", "220401"}}}) {
+    const Outcome outcome = render(variables, {"--size", "200x140"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const std::regex part("\x1b_G([a-zA-Z0-9=,]*);([^\x1b]*)\x1b\\\\");
+    std::string data, rest = outcome.out;
+    std::vector<std::string> heads;
+    for (std::smatch m; std::regex_search(rest, m, part); rest = m.suffix()) {
+      EXPECT_EQ(m.position(), 0);
+      EXPECT_LE(m[2].length(), 4096);
+      heads.push_back(m[1]);
+      data += m[2];
+    }
+    EXPECT_EQ(rest, "\n");
+    ASSERT_GT(heads.size(), 1u) << "one chunk tests nothing";
+    EXPECT_EQ(heads.front(), "a=T,f=100,q=2,c=25,m=1");
+    EXPECT_EQ(heads.back(), "m=0");
+    expectThePicture(data);
+    EXPECT_NE(outcome.err.find("wrote tiny.png"), std::string::npos) << outcome.err;
+  }
+}
+
+TEST_F(TerminalPictures, ByTheProtocolOfIterm) {
+  const Outcome outcome = render({{"TERM", "xterm"}, {"TERM_PROGRAM", "iTerm.app"}});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  std::smatch m;
+  ASSERT_TRUE(std::regex_match(
+      outcome.out, m, std::regex("\x1b\\]1337;File=inline=1;size=(\\d+);width=6:([^\a]*)\a\n")))
+      << outcome.out.substr(0, 60);
+  EXPECT_EQ(std::stoul(m[1]), decoded(m[2]).size());
+  expectThePicture(m[2]);
+}
+
+TEST_F(TerminalPictures, AsHalfBlocksInColor) {
+  const Outcome outcome = render({{"TERM", "xterm"}, {"COLORTERM", "truecolor"}});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const RawImage image = [&] {
+    Warnings warnings;
+    return readRawImage(folder_ / "tiny.png", ImageLimits(), warnings);
+  }();
+  const std::size_t channels = image.codes.size() / (48 * 32);
+  std::string expected;
+  for (std::size_t y = 0; y < 32; y += 2) {
+    for (std::size_t x = 0; x < 48; ++x) {
+      for (const std::size_t row : {y, y + 1}) {
+        const std::uint8_t* const c = &image.codes[channels * (row * 48 + x)];
+        expected += (row == y ? "\x1b[38;2;" : "\x1b[48;2;") + std::to_string(c[0]) + ";" +
+                    std::to_string(c[1]) + ";" + std::to_string(c[2]) + "m";
+      }
+      expected += "\u2580";
+    }
+    expected += "\x1b[0m\n";
+  }
+  EXPECT_EQ(outcome.out, expected);
+}
+
+TEST_F(TerminalPictures, LargeOnesFitTheTerminal) {
+  const Variables colors{{"TERM", "xterm"}, {"COLORTERM", "24bit"}};
+  const auto blocks = [](const std::string& text) {
+    std::size_t count = 0;
+    for (std::size_t at = 0; (at = text.find("\u2580", at)) != std::string::npos; ++at) ++count;
+    return count;
+  };
+  const std::string wide = render(colors, {"--size", "300x40"}).out;
+  EXPECT_EQ(blocks(wide.substr(0, wide.find('\n'))), 100u);
+  const std::string high = render(colors, {"--size", "60x490"}).out;
+  EXPECT_EQ(std::count(high.begin(), high.end(), '\n'), 49);
+  EXPECT_EQ(blocks(high.substr(0, high.find('\n'))), 12u);
+}
+
+TEST_F(TerminalPictures, NothingWhereItWouldNotBeSeen) {
+  const Variables kitty{{"TERM", "xterm-kitty"}};
+  EXPECT_EQ(render({{"TERM", "xterm"}}).out, "");
+  EXPECT_EQ(render({{"TERM", "dumb"}, {"COLORTERM", "truecolor"}}).out, "");
+  EXPECT_EQ(render({{"TERM", "screen"}, {"TMUX", "/tmp/x"}, {"KITTY_WINDOW_ID", "1"}}).out, "");
+  EXPECT_EQ(render(kitty, {"--quiet"}).out, "");
+  EXPECT_EQ(render(kitty, {"-o", "a.png"}).out, "");
+  const std::string json = render(kitty, {"--json", "-"}).out;
+  EXPECT_EQ(json.substr(0, 1), "{") << json;
+}
+
+TEST_F(TerminalPictures, AskedForByADash) {
+  const Outcome shown = render({{"TERM", "xterm-kitty"}}, {"-o", "-", "--quiet"});
+  EXPECT_EQ(shown.status, 0) << shown.err;
+  EXPECT_EQ(shown.out.substr(0, 3), "\x1b_G");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "tiny.png"));
+  const Outcome refused = render({{"TERM", "xterm"}}, {"-o", "-"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("shows no pictures"), std::string::npos) << refused.err;
+}
+
+}  // namespace
+}  // namespace whit::cli
