@@ -51,10 +51,9 @@ std::string takeWords(const std::vector<std::string>& words, const OptionList& l
     onlyOperands = word == "--";
     if (onlyOperands) continue;
     const TypedOption typed = splitOption(word);
-    const auto entry =
-        std::find_if(list.entries.begin(), list.entries.end(), [&](const OptionList::Entry& e) {
-          return typed.isLetter ? typed.name == "-" + e.shortName : typed.name == "--" + e.name;
-        });
+    const auto entry = std::ranges::find_if(list.entries, [&](const OptionList::Entry& e) {
+      return typed.isLetter ? typed.name == "-" + e.shortName : typed.name == "--" + e.name;
+    });
     if (entry == list.entries.end()) throwUnknownOption(typed.name, list);
     if (typed.value || entry->placeholder.empty()) {
       entry->set(typed.value.value_or("true"));

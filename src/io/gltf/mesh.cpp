@@ -213,15 +213,14 @@ class PrimitiveReader {
 bool GltfPlacedMesh::isDeformed() const {
   const std::vector<double>& weights = deformation.weights;
   return deformation.skeleton || deformation.movingWeights ||
-         std::any_of(weights.begin(), weights.end(), [](double weight) { return weight != 0; });
+         std::ranges::any_of(weights, [](double weight) { return weight != 0; });
 }
 
 std::vector<Mesh> readGltfMesh(const GltfDocument& document, const GltfPlacedMesh& placed,
                                const std::vector<GltfMaterial>& materials) {
   const JsonValue source = document.list("meshes")[placed.mesh];
-  const JsonValue primitives = source.need("primitives");
   std::vector<Mesh> meshes;
-  for (std::size_t i = 0; i < primitives.size(); ++i) {
+  for (const JsonValue& primitive : source.need("primitives").elements()) {
     Mesh mesh;
     mesh.name = source["name"].textOr("");
     const bool isSeen = PrimitiveReader(document, primitives[i], materials, placed).read(mesh);

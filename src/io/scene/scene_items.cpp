@@ -119,7 +119,7 @@ void nameItem(Body& content, const std::string& pointer) {
 // The index in `names` of the key of `slot`; an error suggests the nearest.
 std::size_t slotOf(const JsonValue& slot, const std::string& key,
                    const std::vector<std::string>& names, const std::string& kind) {
-  const auto found = std::find(names.begin(), names.end(), key);
+  const auto found = std::ranges::find(names, key);
   if (found == names.end()) throwBadScene(slot.where(), "unknown " + kind + isMeant(key, names));
   return static_cast<std::size_t>(found - names.begin());
 }
