@@ -105,8 +105,8 @@ void add(Digester& d, const EnvironmentImage& image) {
 }  // namespace
 
 std::string digestOf(const Scene& scene) {
-  const auto& [name, isModel, width, height, cameras, cameraPath, animations, lights, sky, ambient,
-               materials, textures] = static_cast<const SceneContents&>(scene);
+  const auto& [name, isModel, width, height, cameras, cameraPath, animations, variants, lights, sky,
+               ambient, materials, textures] = static_cast<const SceneContents&>(scene);
   const auto& [blurred, mediumOfMaterial, media, geometries, instances, triangles, firstSphere,
                normals, colors, secondUvs, lower, upper, instancedTriangles, instancedSpheres,
                items, coplanar, coincidentSpheres, motion, effects, reasons] =

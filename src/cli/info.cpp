@@ -68,6 +68,7 @@ Json infoJson(const OpenScene& open, const Renderer& renderer, const RenderOptio
             {"memory_mb", memoryMb(scene, renderer)},
             {"shadow_cache", shadowCacheJson(scene, options)},
             {"animations", Json::array()},
+            {"variants", scene.variants},
             {"cameras", namesIn(scene.cameras)},
             {"warnings", Json::object()},
             {"effects", effectsJson(scene, options)},
@@ -120,6 +121,9 @@ void printInfo(const Json& info, const OpenScene& open, const Renderer& renderer
     std::printf("\n  %-12s%s: %g s, moves %s node%s", "animation",
                 textOf(animation["name"]).c_str(), animation["seconds"].get<double>(),
                 textOf(animation["nodes"]).c_str(), animation["nodes"] == 1 ? "" : "s");
+  }
+  for (const Json& variant : info["variants"]) {
+    std::printf("\n  %-12s%s", "variant", textOf(variant).c_str());
   }
   std::printf("\n  %-12s%.1f MB\n", "memory", info["memory_mb"].get<double>());
   std::printf("  %-12s%.0f ms to load, %.0f ms to build\n", "time", open.loadMs,

@@ -250,6 +250,7 @@ SceneDescription loadModelFile(const fs::path& path, const SceneName& name,
   JsonDocument overrides = nothing;
   applySettings(options, "materials", overrides);
   applySettings(options, "up", overrides);
+  applySettings(options, "variant", overrides);
   JsonObject noMaterials{JsonValue(nothing)}, items{JsonValue(overrides)};
   MaterialReader materials(noMaterials, context);
   readModelAlone(items, path, context, materials);
@@ -262,6 +263,7 @@ SceneDescription loadModelFile(const fs::path& path, const SceneName& name,
   JsonObject file{JsonValue(document)};
   file.find("materials");
   file.find("up");
+  file.find("variant");
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     scene.lights[i].pointer = "/lights/" + std::to_string(i);
   }

@@ -30,6 +30,7 @@ struct SceneContents {
   std::vector<Camera> cameras;    // the first is the default
   std::vector<Keyframe> cameraPath;
   std::vector<Animation> animations;  // of its models, in the order in which they are read
+  std::vector<std::string> variants;  // likewise
   std::vector<Light> lights;
   Sky sky;
   Ambient ambient;

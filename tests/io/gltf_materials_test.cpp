@@ -334,5 +334,39 @@ TEST_F(GltfMaterials, NormalMaps) {
               Rgb(static_cast<float>(arriving * half)), kCode);
 }
 
+// Of two primitives only one has mappings.
+TEST_F(GltfMaterials, AVariantHasMaterialsOfItsOwn) {
+  GltfBuilder b;
+  const std::string mapped =
+      ",\"material\":0,\"extensions\":{\"KHR_materials_variants\":{\"mappings\":["
+      "{\"material\":1,\"variants\":[0]},{\"material\":2,\"variants\":[1,2]}]}}";
+  const std::string first = triangle(b, mapped), second = triangle(b, ",\"material\":0");
+  const std::string model =
+      save("m.gltf",
+           b.json("\"materials\":[{\"name\":\"plain\"},{\"name\":\"red\"},{\"name\":\"blue\"}],"
+                  "\"extensions\":{\"KHR_materials_variants\":{\"variants\":[{\"name\":\"a\"},"
+                  "{\"name\":\"b\"},{\"name\":\"c\"}]}}," +
+                  oneMesh(first + "," + second)));
+  const auto names = [](const SceneDescription& scene) {
+    std::string found;
+    for (const Object& object : scene.objects) {
+      found += scene.materials.at(object.meshes.at(0).materials.at(0)).name + " ";
+    }
+    return found;
+  };
+  const SceneDescription plain = load(model);
+  EXPECT_EQ(names(plain), "plain plain ");
+  EXPECT_EQ(plain.variants, (std::vector<std::string>{"a", "b", "c"}));
+  EXPECT_EQ(names(loadMembers(R"("scene": [{"model": "m.gltf", "variant": "a"}])")), "red plain ");
+  options_.settings = {"/variant=\"c\""};
+  EXPECT_EQ(names(load(model)), "blue plain ");
+  options_.settings = {"/variant=\"cc\""};
+  EXPECT_NE(
+      errorOf([&] { load(model); }).find("m.gltf#/variant: expected one of \"a\", \"b\", \"c\""),
+      std::string::npos);
+  const std::string obj = save("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_NE(errorOf([&] { load(obj); }).find("the model has none"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace whit

@@ -117,6 +117,12 @@ void listCommonOptions(OptionList& list, CommonOptions& common) {
              common.load.instant.seconds);
   list.value({"animation", "NAME"}, "animation that is played (default: the first of each model)",
              common.load.instant.animation);
+  list.many({"variant", "NAME"}, "materials of a glTF model that has several sets (see whit info)",
+            common.load.settings)
+      .set = [&common](const std::string& name) {
+    common.load.settings.push_back("/variant=" +
+                                   Json(name).dump(-1, ' ', false, Json::error_handler_t::replace));
+  };
   list.value({"max-memory", "GB", 0.001, 1e6}, "limit of memory for geometry and images",
              common.maxMemoryGb)
       .everyday = false;

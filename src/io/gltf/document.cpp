@@ -136,8 +136,8 @@ constexpr std::string_view kSupported[] = {
     "KHR_materials_clearcoat",    "KHR_materials_emissive_strength",
     "KHR_materials_ior",          "KHR_materials_specular",
     "KHR_materials_transmission", "KHR_materials_unlit",
-    "KHR_materials_volume",       "KHR_mesh_quantization",
-    "KHR_texture_transform"};
+    "KHR_materials_variants",     "KHR_materials_volume",
+    "KHR_mesh_quantization",      "KHR_texture_transform"};
 
 // Says what the user can do about an extension that is not supported; may be empty.
 std::string adviceOn(const std::string& extension) {

@@ -314,6 +314,12 @@ Body ItemReader::readModel(JsonObject& item, const JsonValue& path) {
 Body ItemReader::contentOf(Model& model, const std::filesystem::path& path, JsonObject& item) {
   const std::vector<std::uint32_t> materials = modelMaterials(model, item);
   reportProgress(context_.progress, "reading " + path.filename().string(), 0);
+  model.variant.reset();
+  if (const JsonValue name = item.find("variant")) {
+    const std::vector<std::string> names = model.variants();
+    if (names.empty()) name.fail("no variant, because the model has none");
+    model.variant = std::ranges::find(names, name.word(names)) - names.begin();
+  }
   return model.content(layout_, materials);
 }
 
