@@ -54,6 +54,7 @@ Scene Scene::finalize(SceneDescription&& description, Warnings& warnings, Progre
   SceneDescription d = std::move(description);
   validate(d);
   settleSides(d);
+  if (d.isModel && d.motion.rig.empty()) noteHiddenSides(d, warnings);
   Scene scene;
   SceneContents& contents = d;
   static_cast<SceneContents&>(scene) = std::move(contents);

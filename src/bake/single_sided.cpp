@@ -137,4 +137,33 @@ void settleSides(SceneDescription& description) {
   }
 }
 
+void noteHiddenSides(const SceneDescription& description, Warnings& warnings) {
+  for (const Instance& instance : description.instances) {
+    const Object& object = description.objects[instance.object];
+    const bool mirrored = instance.toWorld.determinant() < 0;
+    for (const Mesh& mesh : object.meshes) {
+      const bool isSingle = std::ranges::all_of(mesh.materials, [&](std::uint32_t m) {
+        return m < description.materials.size() && !description.materials[m].doubleSided;
+      });
+      const auto isSeen = [&](const std::array<std::uint32_t, 3>& t) {
+        if (std::ranges::max(t) >= mesh.positions.size()) return false;
+        const auto corner = [&](std::size_t i) {
+          return instance.toWorld.point(Vec3d(mesh.positions[t[i]]));
+        };
+        const Vec3d p = corner(0), normal = cross(corner(1) - p, corner(2) - p);
+        return std::ranges::any_of(description.cameras, [&](const Camera& camera) {
+          const Vec3d target = camera.orthographicHeight > 0 ? Vec3d(camera.at) : p;
+          const double side = dot(Vec3d(camera.eye) - target, normal);
+          return mirrored ? side < 0 : side > 0;
+        });
+      };
+      if (!isSingle || std::ranges::any_of(mesh.triangles, isSeen)) continue;
+      warnings.note(
+          "single-sided mesh that every camera is behind is not seen (to show its back: "
+          "--set /materials/*/doubleSided=true)",
+          description.name + (object.name.empty() ? "" : ": " + object.name));
+    }
+  }
+}
+
 }  // namespace whit

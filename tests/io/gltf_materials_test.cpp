@@ -132,6 +132,30 @@ TEST_F(GltfMaterials, AreSingleSidedUnlessTheFileSaysOtherwise) {
                     "materials_transmission\":{\"transmissionFactor\":1}}"));
 }
 
+TEST_F(GltfMaterials, MeshesThatAreOnlySeenFromBehindAreNoted) {
+  const auto notes = [&](const std::string& node, const std::string& material) {
+    GltfBuilder b;
+    const std::string text =
+        b.json("\"materials\":[{" + material + "}],\"meshes\":[{\"primitives\":[" +
+               triangle(b, ",\"material\":0") +
+               "]}],\"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":1}}],"
+               "\"nodes\":[{\"mesh\":0" +
+               node + "},{\"camera\":0,\"translation\":[0,0,5]}]");
+    Warnings strict(true);  // what is only noted is not refused
+    Scene::finalize(loadText(text), strict);
+    return strict.entries().size();
+  };
+  const std::string turned = ",\"rotation\":[0,1,0,0]", mirrored = ",\"scale\":[1,1,-1]";
+  EXPECT_EQ(notes("", ""), 0u);
+  EXPECT_EQ(notes(turned, ""), 1u);
+  EXPECT_EQ(notes(turned, "\"doubleSided\":true"), 0u);
+  options_.settings = {"/materials/*/doubleSided=true"};  // as the note says
+  EXPECT_EQ(notes(turned, ""), 0u);
+  options_.settings.clear();
+  EXPECT_EQ(notes(mirrored, ""), 1u);
+  EXPECT_EQ(notes(mirrored + turned, ""), 0u);
+}
+
 TEST_F(GltfMaterials, RoughnessThatIsTheSameAllOverNeedsNoMap) {
   save("even.tga", tga(2, 1, {{0, 51, 255}, {0, 51, 0}}));
   save("uneven.tga", tga(2, 1, {{0, 51, 255}, {0, 153, 255}}));
