@@ -148,8 +148,8 @@ inline HWY_NOINLINE void QueueLevels(const ShadingTables& tables, VI map, MF liv
   const TextureRecord* levels = tables.mipLevels.data();
   const VI full =
       hn::IfThenElseZero(hn::RebindMask(di, live), hn::Mul(map, hn::Set(di, kMipStride)));
-  const auto [first, width, height, wrap] = LoadTextures(levels, full, live);
-  const VF level = MipLevel(hn::Mul(hn::Mul(at.footprint, width), height));
+  const auto [first, height, width, wrap] = LoadTextures(levels, full, live);
+  const VF level = MipLevel(hn::Mul(hn::Mul(at.footprint, width), hn::ConvertTo(d, height)));
   const VF whole = hn::Floor(level);
   const VI lower = hn::Add(full, hn::ConvertTo(di, whole));
   const auto queueAt = [&](VI index, TexelQueue& to) HWY_ATTR {

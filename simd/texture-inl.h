@@ -22,7 +22,7 @@ struct AxisTexels {
 
 // `held` in texture coordinates from 0 to 1, `size` in texels: footprints 0 to `size`, also where
 // rounding takes s - floor(s) to exactly 1 (hard case H69). What lies beyond the borders is in the
-// tiles (TextureRecord).
+// strips (TextureRecord).
 HWY_INLINE AxisTexels FootprintAt(VF held, VF size) {
   const FloatTag d;
   const VF x = MulThenSub(held, size, hn::Set(d, 0.5f));
@@ -66,14 +66,6 @@ HWY_INLINE MF QueuedLanes(const TexelQueue& queue, size_t slot) {
   return hn::Ge(hn::Load(d, queue.fractionX + slot), hn::Zero(d));
 }
 
-// floor(x / kTexelCells) of whole numbers up to kTextureSideLimit: half a step away from where
-// rounding matters.
-HWY_INLINE VF TileOf(VF x) {
-  const FloatTag d;
-  constexpr float kPerCell = 1.0f / kTexelCells;
-  return hn::Floor(MulThenAdd(x, hn::Set(d, kPerCell), hn::Set(d, kPerCell / 2)));
-}
-
 // Converts whole numbers from 0 to 2^23 without the care for other numbers: the result is the low
 // bits of the sum with 2^23.
 HWY_INLINE VI IndexOf(VF whole) {
@@ -83,22 +75,24 @@ HWY_INLINE VI IndexOf(VF whole) {
   return hn::Sub(hn::BitCast(di, shifted), hn::BitCast(di, hn::Set(d, 0x1p23f)));
 }
 
-// The first texel of a footprint, counted from the first of its texture.
-HWY_INLINE VI TexelOf(VF footprintX, VF footprintY, VF width) {
+// The first texel of a footprint, counted from the first of its texture. The strip is floor(x /
+// kTexelCells) of whole numbers up to kTextureSideLimit, half a step away from where rounding
+// matters.
+HWY_INLINE VI TexelOf(VF footprintX, VF footprintY, VI height) {
   const FloatTag d;
-  const VF tileX = TileOf(footprintX), tileY = TileOf(footprintY);
-  const VF cells = hn::Set(d, static_cast<float>(kTexelCells));
-  const VF side = hn::Set(d, static_cast<float>(kTexelTile));
-  const VF x = NegMulThenAdd(tileX, cells, footprintX), y = NegMulThenAdd(tileY, cells, footprintY);
-  const VF tilesAcross = hn::Add(TileOf(width), hn::Set(d, 1.0f));
-  const VI rowOfTiles = hn::Mul(IndexOf(tileY), IndexOf(hn::Mul(tilesAcross, hn::Mul(side, side))));
-  const VF inRow = MulThenAdd(MulThenAdd(tileX, side, y), side, x);
-  return hn::Add(rowOfTiles, IndexOf(inRow));
+  const IntTag di;
+  constexpr float kPerCell = 1.0f / kTexelCells;
+  const VF strip =
+      hn::Floor(MulThenAdd(footprintX, hn::Set(d, kPerCell), hn::Set(d, kPerCell / 2)));
+  const VF inStrip = NegMulThenAdd(strip, hn::Set(d, float{kTexelCells}), footprintX);
+  const VI rows = hn::Add(height, hn::Set(di, kTexelBorder));
+  const VI row = hn::Add(hn::Mul(IndexOf(strip), rows), IndexOf(footprintY));
+  return hn::Add(hn::Mul(row, hn::Set(di, kTexelStrip)), IndexOf(inStrip));
 }
 
 struct TextureLanes {
-  VI firstTexel;
-  VF width, height;
+  VI firstTexel, height;
+  VF width;
   VI wrap;
 };
 
@@ -109,8 +103,8 @@ HWY_INLINE TextureLanes LoadTextures(const TextureRecord* table, VI texture, MF 
   const IntTag di;
   const SharedRecords<R> records(table, texture, live);
   const V4 r = records.Load4<offsetof(R, firstTexel), offsetof(R, wrap)>();
-  return {hn::BitCast(di, r.x), hn::ConvertTo(d, hn::BitCast(di, r.y)),
-          hn::ConvertTo(d, hn::BitCast(di, r.z)), hn::BitCast(di, r.w)};
+  return {hn::BitCast(di, r.x), hn::BitCast(di, r.z), hn::ConvertTo(d, hn::BitCast(di, r.y)),
+          hn::BitCast(di, r.w)};
 }
 
 // Queues the four texels around (u, v) for the lanes of `live`; in these, `texture` is an index
@@ -122,25 +116,28 @@ HWY_INLINE void QueueTexels(TextureFilter filter, const TextureRecord* table,
   const IntTag di;
   queue.any[slot] = !hn::AllFalse(d, live);
   if (!queue.any[slot]) return;
-  const auto [first, width, height, wrap] = LoadTextures(table, texture, live);
+  const auto [first, height, width, wrap] = LoadTextures(table, texture, live);
   const VI wrapU = hn::And(wrap, hn::Set(di, 0xFF));
   const VI wrapV = hn::ShiftRight<8>(wrap);
   // Image rows run downwards, v upwards.
   const AxisTexels x = WrapAxis(TameCoordinate(u), width, wrapU);
-  const AxisTexels y = WrapAxis(hn::Sub(hn::Set(d, 1.0f), TameCoordinate(v)), height, wrapV);
-  VI texel = hn::Add(first, TexelOf(x.footprint, y.footprint, width));
+  const AxisTexels y =
+      WrapAxis(hn::Sub(hn::Set(d, 1.0f), TameCoordinate(v)), hn::ConvertTo(d, height), wrapV);
+  VI texel = hn::Add(first, TexelOf(x.footprint, y.footprint, height));
   if (filter == TextureFilter::nearest) {
     const auto nearer = [&](VF fraction, int32_t step) HWY_ATTR {
       const MF upper = hn::Ge(fraction, hn::Set(d, 0.5f));
       return hn::IfThenElseZero(hn::RebindMask(di, upper), hn::Set(di, step));
     };
-    texel = hn::Add(texel, hn::Add(nearer(x.fraction, 1), nearer(y.fraction, kTexelTile)));
+    texel = hn::Add(texel, hn::Add(nearer(x.fraction, 1), nearer(y.fraction, kTexelStrip)));
   }
   hn::Store(hn::IfThenElseZero(hn::RebindMask(di, live), texel), di, queue.texel + slot);
   hn::Store(hn::IfThenElse(live, x.fraction, hn::Set(d, -1.0f)), d, queue.fractionX + slot);
   hn::Store(y.fraction, d, queue.fractionY + slot);
   for (size_t lane = slot; lane < slot + hn::Lanes(d); ++lane) {
+    // A footprint may lie in two cache lines.
     hwy::Prefetch(texels + queue.texel[lane]);
+    hwy::Prefetch(texels + queue.texel[lane] + kTexelStrip);
   }
 }
 
@@ -164,26 +161,34 @@ HWY_INLINE Footprint FetchTexels(TextureFilter filter, const uint32_t* texels,
   }
   const VF fx = hn::Load(d, queue.fractionX + slot), fy = hn::Load(d, queue.fractionY + slot);
   const VF gx = hn::Sub(one, fx), gy = hn::Sub(one, fy);
-  const V4 t = LoadSquares(texels, kTexelTile, queue.texel + slot);
+  const V4 t = LoadSquares(texels, kTexelStrip, queue.texel + slot);
   return {hn::BitCast(du, t.x), hn::BitCast(du, t.y), hn::BitCast(du, t.z), hn::BitCast(du, t.w),
           hn::Mul(gx, gy),      hn::Mul(fx, gy),      hn::Mul(gx, fy),      hn::Mul(fx, fy)};
 }
 
+// The bits of `kMask` from `kShift` on, as a number.
+template <int kShift, uint32_t kMask>
+HWY_INLINE VF CodeOf(VU texel) {
+  const VU code = hn::And(hn::ShiftRight<kShift>(texel), hn::Set(UintTag(), kMask));
+  return hn::ConvertTo(FloatTag(), hn::BitCast(IntTag(), code));
+}
+
+template <class Decode>
+HWY_INLINE VF FilterChannel(const Footprint& f, const Decode& decode) {
+  VF sum = hn::Mul(decode(f.t00), f.w00);
+  sum = MulThenAdd(decode(f.t10), f.w10, sum);
+  sum = MulThenAdd(decode(f.t01), f.w01, sum);
+  return MulThenAdd(decode(f.t11), f.w11, sum);
+}
+
 // (code / 1023)^2: linear light of a 10-bit channel (TexelFormat::color).
 template <int kShift>
-HWY_INLINE VF SquaredCode(VU texel) {
-  const UintTag du;
-  const VU code = hn::And(hn::ShiftRight<kShift>(texel), hn::Set(du, 1023u));
-  const VF value = hn::ConvertTo(FloatTag(), hn::BitCast(IntTag(), code));
-  return hn::Mul(value, value);
-}
-template <int kShift>
 HWY_INLINE VF FilterColorChannel(const Footprint& f) {
-  VF sum = hn::Mul(SquaredCode<kShift>(f.t00), f.w00);
-  sum = MulThenAdd(SquaredCode<kShift>(f.t10), f.w10, sum);
-  sum = MulThenAdd(SquaredCode<kShift>(f.t01), f.w01, sum);
-  sum = MulThenAdd(SquaredCode<kShift>(f.t11), f.w11, sum);
-  return hn::Mul(sum, hn::Set(FloatTag(), 1.0f / (1023.0f * 1023.0f)));
+  const VF squares = FilterChannel(f, [](VU texel) HWY_ATTR {
+    const VF code = CodeOf<kShift, 1023>(texel);
+    return hn::Mul(code, code);
+  });
+  return hn::Mul(squares, hn::Set(FloatTag(), 1.0f / (1023.0f * 1023.0f)));
 }
 HWY_INLINE V3 FilterColor(const Footprint& f) {
   return {FilterColorChannel<0>(f), FilterColorChannel<10>(f), FilterColorChannel<20>(f)};
@@ -197,39 +202,18 @@ HWY_INLINE VF RadianceWeight(VU texel, VF weight) {
   const VU exponent = hn::Add(hn::ShiftRight<27>(texel), hn::Set(du, kBias));
   return hn::Mul(weight, hn::BitCast(FloatTag(), hn::ShiftLeft<23>(exponent)));
 }
-template <int kShift>
-HWY_INLINE VF RadianceCode(VU texel) {
-  const VU code = hn::And(hn::ShiftRight<kShift>(texel), hn::Set(UintTag(), 511u));
-  return hn::ConvertTo(FloatTag(), hn::BitCast(IntTag(), code));
-}
-HWY_INLINE V3 FilterRadiance(const Footprint& f) {
-  const VF w00 = RadianceWeight(f.t00, f.w00), w10 = RadianceWeight(f.t10, f.w10);
-  const VF w01 = RadianceWeight(f.t01, f.w01), w11 = RadianceWeight(f.t11, f.w11);
-  const auto sum = [&](const V4& code) HWY_ATTR {
-    const VF lower = MulThenAdd(code.y, w10, hn::Mul(code.x, w00));
-    return MulThenAdd(code.w, w11, MulThenAdd(code.z, w01, lower));
-  };
-  return {sum({RadianceCode<0>(f.t00), RadianceCode<0>(f.t10), RadianceCode<0>(f.t01),
-               RadianceCode<0>(f.t11)}),
-          sum({RadianceCode<9>(f.t00), RadianceCode<9>(f.t10), RadianceCode<9>(f.t01),
-               RadianceCode<9>(f.t11)}),
-          sum({RadianceCode<18>(f.t00), RadianceCode<18>(f.t10), RadianceCode<18>(f.t01),
-               RadianceCode<18>(f.t11)})};
+HWY_INLINE V3 FilterRadiance(Footprint f) {
+  f.w00 = RadianceWeight(f.t00, f.w00), f.w10 = RadianceWeight(f.t10, f.w10);
+  f.w01 = RadianceWeight(f.t01, f.w01), f.w11 = RadianceWeight(f.t11, f.w11);
+  return {FilterChannel(f, [](VU texel) HWY_ATTR { return CodeOf<0, 511>(texel); }),
+          FilterChannel(f, [](VU texel) HWY_ATTR { return CodeOf<9, 511>(texel); }),
+          FilterChannel(f, [](VU texel) HWY_ATTR { return CodeOf<18, 511>(texel); })};
 }
 
 // code / 255 of an 8-bit channel (TexelFormat::data).
 template <int kShift>
-HWY_INLINE VF Code(VU texel) {
-  const UintTag du;
-  const VU code = hn::And(hn::ShiftRight<kShift>(texel), hn::Set(du, 255u));
-  return hn::ConvertTo(FloatTag(), hn::BitCast(IntTag(), code));
-}
-template <int kShift>
 HWY_INLINE VF FilterDataChannel(const Footprint& f) {
-  VF sum = hn::Mul(Code<kShift>(f.t00), f.w00);
-  sum = MulThenAdd(Code<kShift>(f.t10), f.w10, sum);
-  sum = MulThenAdd(Code<kShift>(f.t01), f.w01, sum);
-  sum = MulThenAdd(Code<kShift>(f.t11), f.w11, sum);
+  const VF sum = FilterChannel(f, [](VU texel) HWY_ATTR { return CodeOf<kShift, 255>(texel); });
   return hn::Mul(sum, hn::Set(FloatTag(), 1.0f / 255.0f));
 }
 HWY_INLINE V3 FilterData3(const Footprint& f) {

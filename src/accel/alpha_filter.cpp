@@ -53,8 +53,9 @@ AlphaMap::AlphaMap(const Texture& texture)
       height_(texture.height),
       cellsAcross_(((texture.width - 1) >> kCellShift) + 1),
       alpha_(texture.texels.size()) {
-  std::transform(texture.texels.begin(), texture.texels.end(), alpha_.begin(),
-                 [](std::uint32_t texel) { return static_cast<std::uint8_t>(texel & 255u); });
+  std::ranges::transform(texture.texels, alpha_.begin(), [](std::uint32_t texel) {
+    return static_cast<std::uint8_t>(texel & 255u);
+  });
   const int cellsDown = ((height_ - 1) >> kCellShift) + 1;
   cells_.reserve(static_cast<std::size_t>(cellsAcross_) * static_cast<std::size_t>(cellsDown));
   for (int y = 0; y < cellsDown; ++y) {

@@ -105,11 +105,13 @@ void add(Digester& d, const EnvironmentImage& image) {
 }  // namespace
 
 std::string digestOf(const Scene& scene) {
-  const auto& [name, isModel, width, height, options, cameras, cameraPath, animations, lights, sky,
-               blurred, ambient, materials, mediumOfMaterial, media, textures, geometries,
-               instances, triangles, firstSphere, normals, colors, secondUvs, lower, upper,
-               instancedTriangles, instancedSpheres, items, coplanar, coincidentSpheres, motion,
-               effects, reasons] = scene;
+  const auto& [name, isModel, width, height, options, cameras, cameraPath, animations, variants,
+               lights, sky, ambient, materials, textures] =
+      static_cast<const SceneContents&>(scene);
+  const auto& [blurred, mediumOfMaterial, media, geometries, instances, triangles, firstSphere,
+               normals, colors, secondUvs, lower, upper, instancedTriangles, instancedSpheres,
+               items, coplanar, coincidentSpheres, motion, effects, reasons] =
+      static_cast<const SceneTables&>(scene);
   Digester d;
   addTable(d, lights), add(d, sky), add(d, sky.kind), add(d, sky.image), add(d, ambient);
   addTable(d, materials), addTable(d, mediumOfMaterial), addTable(d, media), addTable(d, textures);

@@ -106,7 +106,7 @@ std::vector<IdleKnob> groupedByReason(const std::vector<IdleKnob>& idle) {
   std::vector<IdleKnob> groups;
   for (const IdleKnob& knob : idle) {
     const auto same = [&](const IdleKnob& group) { return group.because == knob.because; };
-    const auto group = std::find_if(groups.begin(), groups.end(), same);
+    const auto group = std::ranges::find_if(groups, same);
     if (group == groups.end()) {
       groups.push_back(knob);
     } else {

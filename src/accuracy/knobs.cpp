@@ -86,7 +86,7 @@ std::vector<Knob> chooseKnobs(const std::vector<std::string>& names) {
   if (names.empty()) return allKnobs();
   std::vector<Knob> chosen;
   for (const Knob& knob : allKnobs()) {
-    if (std::find(names.begin(), names.end(), knob.name) != names.end()) chosen.push_back(knob);
+    if (std::ranges::find(names, knob.name) != names.end()) chosen.push_back(knob);
   }
   for (const std::string& name : names) {
     if (std::ranges::find(chosen, name, &Knob::name) != chosen.end()) continue;

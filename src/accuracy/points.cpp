@@ -36,7 +36,7 @@ void addPoint(std::vector<Point>& points, PointKind kind, const std::string& kno
 
 // True if the knob's values are plain numbers of samples of pixels, lobes or lights.
 bool countsSamples(const Knob& knob) {
-  return std::all_of(knob.values.begin(), knob.values.end(), [](const KnobValue& value) {
+  return std::ranges::all_of(knob.values, [](const KnobValue& value) {
     const bool whole = value.label.find_first_not_of("0123456789") == std::string::npos;
     return whole && value.alongside.empty();
   });

@@ -29,7 +29,7 @@ std::size_t spareValues(std::size_t n) {
 
 Interval medianInterval(std::vector<double> values) {
   if (values.empty()) return {};
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   const std::size_t spare = spareValues(values.size());
   return {values[spare], values[values.size() - 1 - spare]};
 }

@@ -105,21 +105,21 @@ class Baker {
 void Baker::findWhatMoves() {
   BakedMotion& motion = scene_.motion;
   const auto isBent = [&](const InstanceRecord& i) {
-    return std::any_of(motion.bent.begin(), motion.bent.end(),
-                       [&](const BentVertices& b) { return b.geometry == i.geometry; });
+    return std::ranges::any_of(motion.bent,
+                               [&](const BentVertices& b) { return b.geometry == i.geometry; });
   };
   for (const InstanceRecord& i : scene_.instances) {
     motion.ofGeometry |= i.mover != kNoNode || isBent(i);
   }
   const auto& cameras = motion.given.cameras;
-  const bool carried = std::any_of(cameras.begin(), cameras.end(),
-                                   [](const MovingCamera& m) { return m.node != kNoNode; });
+  const bool carried =
+      std::ranges::any_of(cameras, [](const MovingCamera& m) { return m.node != kNoNode; });
   motion.ofGeometry |= carried && !scene_.instances.empty();
 }
 
 bool bends(const Object& object) {
-  return std::any_of(object.meshes.begin(), object.meshes.end(),
-                     [](const Mesh& mesh) { return mesh.deformation != nullptr; });
+  return std::ranges::any_of(object.meshes,
+                             [](const Mesh& mesh) { return mesh.deformation != nullptr; });
 }
 
 void Baker::nameItems() {

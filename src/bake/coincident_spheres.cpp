@@ -64,9 +64,7 @@ CoincidentSpheres findCoincidentSpheres(const Scene& scene, const SceneOrder& or
   for (std::uint32_t k = 0; k < scene.instances.size(); ++k) {
     add(scene.geometries[scene.instances[k].geometry], k);
   }
-  std::sort(all.begin(), all.end(), [](const Along& a, const Along& b) {
-    return std::pair(a.way, orderOf(a.id)) < std::pair(b.way, orderOf(b.id));
-  });
+  std::ranges::sort(all, {}, [](const Along& a) { return std::pair(a.way, orderOf(a.id)); });
   for (std::size_t i = 0; i + 1 < all.size(); ++i) {
     const Affine map = sphereInWorld(scene, all[i].id);
     const double reach = maxComponent(abs(map.x) + abs(map.y) + abs(map.z));
@@ -78,9 +76,7 @@ CoincidentSpheres findCoincidentSpheres(const Scene& scene, const SceneOrder& or
       if (!isPlaced && coincide(map, sphereInWorld(scene, all[k].id))) place.push_back(all[k].id);
     }
     if (place.size() == 1) continue;
-    std::sort(place.begin(), place.end(), [&](PlacedTriangleId a, PlacedTriangleId b) {
-      return order.placeOf(scene, a) < order.placeOf(scene, b);
-    });
+    std::ranges::sort(place, {}, [&](PlacedTriangleId id) { return order.placeOf(scene, id); });
     const auto shared = std::make_shared<const std::vector<PlacedTriangleId>>(std::move(place));
     for (const PlacedTriangleId& id : *shared) found.emplace(orderOf(id), shared);
   }

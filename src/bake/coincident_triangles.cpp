@@ -38,8 +38,8 @@ bool isTurned(const PlacedTriangle& t) {
 bool coincide(PlacedTriangle a, PlacedTriangle b) {
   if (a.material != b.material) return false;
   if (!a.bothSides && isTurned(a) != isTurned(b)) return false;
-  std::sort(a.corners.begin(), a.corners.end(), isBefore);
-  std::sort(b.corners.begin(), b.corners.end(), isBefore);
+  std::ranges::sort(a.corners, isBefore);
+  std::ranges::sort(b.corners, isBefore);
   return a.corners == b.corners;
 }
 

@@ -41,8 +41,8 @@ void CoplanarTriangles::fillCells(Slot& slot) {
     }
   }
   for (std::vector<std::size_t>& list : lists) {
-    const bool overlapped = std::any_of(list.begin(), list.end(),
-                                        [this](std::size_t i) { return covered_[i].overlaps; });
+    const bool overlapped =
+        std::ranges::any_of(list, [this](std::size_t i) { return covered_[i].overlaps; });
     if (!overlapped) list.clear();
     cells_.push_back({inCells_.size(), list.size()});
     inCells_.insert(inCells_.end(), list.begin(), list.end());
@@ -56,7 +56,7 @@ CoplanarTriangles::CoplanarTriangles(const Scene& scene,
   const std::size_t half = pairs.size();
   pairs.reserve(2 * half);
   for (std::size_t i = 0; i < half; ++i) pairs.emplace_back(pairs[i].second, pairs[i].first);
-  std::sort(pairs.begin(), pairs.end());
+  std::ranges::sort(pairs);
   std::size_t owners = 0;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     owners += i == 0 || pairs[i].first != pairs[i - 1].first;
@@ -92,7 +92,7 @@ void CoplanarTriangles::rankBy(const Scene& scene, const SceneOrder& order) {
   for (std::size_t k = 0; k < slots_.size(); ++k) {
     if (slots_[k].count > 0) all.emplace_back(order.placeOf(scene, slots_[k].id), k);
   }
-  std::sort(all.begin(), all.end());
+  std::ranges::sort(all);
   for (std::size_t i = 0; i < all.size(); ++i) {
     slots_[all[i].second].rank = static_cast<std::uint32_t>(i);
   }

@@ -9,7 +9,6 @@
 #include <map>
 #include <memory>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -56,10 +55,7 @@ struct WrittenPlace {
   std::uint32_t instance = 0;  // in SceneDescription::instances
   std::uint32_t triangle = 0;  // in what the instance places
 
-  bool operator<(const WrittenPlace& other) const {
-    return std::tie(rank, instance, triangle) <
-           std::tie(other.rank, other.instance, other.triangle);
-  }
+  auto operator<=>(const WrittenPlace&) const = default;
 };
 
 // Filled while the scene is baked.
@@ -95,7 +91,7 @@ struct CoveredPart {
   // Tests a square, given by its corner of the least weights. False only if the square holds no
   // point of the part.
   bool meets(float u, float v, float side) const {
-    return std::all_of(edges.begin(), edges.end(), [&](const Edge& e) {
+    return std::ranges::all_of(edges, [&](const Edge& e) {
       return e.a * (e.a > 0 ? u + side : u) + e.b * (e.b > 0 ? v + side : v) + e.c >= 0;
     });
   }
@@ -148,8 +144,8 @@ class CoplanarTriangles {
     const auto holds = [&](std::size_t i) {
       return covered_[i].holds(static_cast<float>(u), static_cast<float>(v));
     };
-    const bool overlapped = std::any_of(
-        own.begin(), own.end(), [&](std::size_t i) { return covered_[i].overlaps && holds(i); });
+    const bool overlapped =
+        std::ranges::any_of(own, [&](std::size_t i) { return covered_[i].overlaps && holds(i); });
     if (!overlapped) return;
     for (const std::size_t i : own) {
       if (holds(i)) visit(partners_[i], ranks_[i]);

@@ -18,9 +18,7 @@ std::string counted(std::uint64_t n, const std::string& noun) {
 
 bool isSkyBlack(const Sky& sky) {
   const auto bright = [](float x) { return x > 0; };
-  const auto isDark = [&](const std::vector<float>& p) {
-    return std::none_of(p.begin(), p.end(), bright);
-  };
+  const auto isDark = [&](const std::vector<float>& p) { return std::ranges::none_of(p, bright); };
   if (!(sky.scale > 0) || sky.kind == Sky::Kind::none) return true;
   if (sky.kind == Sky::Kind::image) {
     return isDark(sky.image.r) && isDark(sky.image.g) && isDark(sky.image.b);
@@ -172,10 +170,9 @@ void Gatherer::lights() {
 }
 
 void Gatherer::cameras() {
-  const auto wide = std::count_if(scene_.cameras.begin(), scene_.cameras.end(),
-                                  [](const Camera& camera) { return camera.hasLens(); });
-  const bool path = std::any_of(scene_.cameraPath.begin(), scene_.cameraPath.end(),
-                                [](const Keyframe& key) { return key.camera.hasLens(); });
+  const auto wide = std::ranges::count_if(scene_.cameras, &Camera::hasLens);
+  const bool path = std::ranges::any_of(scene_.cameraPath,
+                                        [](const Keyframe& key) { return key.camera.hasLens(); });
   set(Effect::depthOfField, wide > 0 || path,
       wide > 0 ? counted(static_cast<std::uint64_t>(wide), "camera") + " with an aperture"
                : "the camera path has an aperture",
@@ -193,8 +190,8 @@ std::vector<std::uint64_t> trianglesOfMaterials(const Scene& scene) {
 bool hasSmoothNormals(const Scene& scene) {
   if (scene.normals.empty()) return false;
   const auto& bent = scene.motion.bent;
-  if (std::any_of(bent.begin(), bent.end(),
-                  [](const BentVertices& b) { return !b.deformation->normals.empty(); })) {
+  if (std::ranges::any_of(bent,
+                          [](const BentVertices& b) { return !b.deformation->normals.empty(); })) {
     return true;
   }
   for (std::uint32_t i = 0; i < scene.firstSphere; ++i) {
@@ -209,9 +206,8 @@ bool hasSmoothNormals(const Scene& scene) {
 }
 
 bool hasVertexColors(const Scene& scene) {
-  return std::any_of(scene.colors.begin(), scene.colors.end(), [](const ColorRecord& record) {
-    return std::any_of(std::begin(record.color), std::end(record.color),
-                       [](float x) { return x != 1; });
+  return std::ranges::any_of(scene.colors, [](const ColorRecord& record) {
+    return std::ranges::any_of(record.color, [](float x) { return x != 1; });
   });
 }
 

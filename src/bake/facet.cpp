@@ -10,7 +10,7 @@ namespace {
 bool lieInOnePlane(const Facet& a, const Facet& b) {
   const double slack = a.error + b.error;
   const auto isInPlaneOf = [slack](const Facet& own, const Facet& other) {
-    return std::all_of(other.corners.begin(), other.corners.end(), [&](const Vec3d& corner) {
+    return std::ranges::all_of(other.corners, [&](const Vec3d& corner) {
       return std::abs(dot(corner - own.corners[0], own.normal)) <= slack;
     });
   };

@@ -24,6 +24,8 @@ SceneOrder bakeGeometry(SceneDescription& description, Scene& scene, Warnings& w
 // Makes materials double-sided whose back faces nobody can pass or see: of what transmits light,
 // and of closed surfaces without holes alone, as seen from outside.
 void settleSides(SceneDescription& description);
+// Notes the meshes that are not seen because all cameras are behind their single-sided triangles.
+void noteHiddenSides(const SceneDescription& description, Warnings& warnings);
 
 // Finds the spheres that are coincident in the world, up to rounding. None in scenes of more
 // spheres than kMostSearched.

@@ -40,7 +40,7 @@ using Pairs = std::vector<std::pair<std::uint64_t, std::uint64_t>>;
 void addBoth(const Pairs& pairs, Orders& orders) {
   if (pairs.empty()) return;
   for (const auto& [a, b] : pairs) orders.insert(orders.end(), {a, b});
-  std::sort(orders.begin(), orders.end());
+  std::ranges::sort(orders);
   orders.erase(std::unique(orders.begin(), orders.end()), orders.end());
 }
 

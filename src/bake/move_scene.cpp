@@ -69,8 +69,7 @@ void bend(Scene& scene, BentVertices& bent, double seconds, DeformVertices defor
   Geometry& geometry = scene.geometries[bent.geometry];
   DeformedVertices vertices = deformVertices(*bent.deformation, poseAt(*bent.deformation, seconds));
   if (bent.sides.empty()) bent.sides = vertices.sides;
-  std::copy(vertices.positions.begin(), vertices.positions.end(),
-            geometry.position.begin() + bent.firstVertex);
+  std::ranges::copy(vertices.positions, geometry.position.begin() + bent.firstVertex);
   const std::size_t count = vertices.positions.size();
   for (std::size_t i = 0; i < geometry.index.size(); ++i) {
     auto& corners = geometry.index[i];
@@ -117,8 +116,7 @@ bool setMotion(const std::string& name, const std::shared_ptr<const Motion>& mot
 
 Camera cameraAt(const Scene& scene, std::size_t camera, double seconds) {
   const SceneMotion& motion = scene.motion.given;
-  const auto moving = std::find_if(motion.cameras.begin(), motion.cameras.end(),
-                                   [&](const MovingCamera& m) { return m.camera == camera; });
+  const auto moving = std::ranges::find(motion.cameras, camera, &MovingCamera::camera);
   if (moving == motion.cameras.end()) return scene.cameras[camera];
   Camera carried = moving->own;
   moveCamera(scene, *moving, poseRig(motion.rig, seconds), seconds, carried);

@@ -150,29 +150,11 @@ struct EffectReason {
   std::string because;  // "3 materials have a mirror", "no mesh uses a material that light passes"
 };
 
-class Scene {
- public:
-  // Validates and bakes. Non-finite or enormous vertices (beyond Embree's 1.844e18), out-of-range
-  // indices and degenerate triangles are dropped and counted in `warnings`. Throws Error(badScene)
-  // where nothing sensible remains, Error(limit) beyond 2^32 - 1 triangles or 255 media.
-  static Scene finalize(SceneDescription&& description, Warnings& warnings,
-                        Progress* progress = nullptr);
-
-  std::string name;
-  bool isModel = false;  // as in SceneDescription
-  int width = 480, height = 300;
-  std::map<std::string, std::string> options;
-  std::vector<Camera> cameras;  // at least one
-  std::vector<Keyframe> cameraPath;
-  std::vector<Animation> animations;
-  std::vector<Light> lights;
-  Sky sky;
-  EnvironmentImage blurredSky;  // blurredSky(sky), where some frame reflects it
-  Ambient ambient;
-  std::vector<Material> materials;
+// The members of a scene that are made of its geometry, materials and sky.
+struct SceneTables {
+  EnvironmentImage blurredSky;                 // blurredSky(sky), where some frame reflects it
   std::vector<std::uint8_t> mediumOfMaterial;  // 0 where the material bounds none
   std::vector<Medium> media;                   // [0] is vacuum
-  std::vector<Texture> textures;
 
   // Geometry 0 is the world (may be empty), the others are instanced.
   std::vector<Geometry> geometries;
@@ -199,6 +181,16 @@ class Scene {
 
   EffectSet effects;
   std::array<EffectReason, kEffectCount> reasons;
+};
+
+// Has at least one camera.
+class Scene : public SceneContents, public SceneTables {
+ public:
+  // Validates and bakes. Non-finite or enormous vertices (beyond Embree's 1.844e18), out-of-range
+  // indices and degenerate triangles are dropped and counted in `warnings`. Throws Error(badScene)
+  // where nothing sensible remains, Error(limit) beyond 2^32 - 1 triangles or 255 media.
+  static Scene finalize(SceneDescription&& description, Warnings& warnings,
+                        Progress* progress = nullptr);
 
   // The number of the item that a triangle (or sphere) belongs to where it stands, `instance` being
   // kNoInstance in the world; and its own among that item's triangles. What is beyond 2^32 - 2 has

@@ -39,7 +39,7 @@ class WeldedMesh {
         edges.emplace_back(std::array{std::min(a, b), std::max(a, b)}, a < b ? 1 : -1);
       }
     }
-    std::sort(edges.begin(), edges.end());
+    std::ranges::sort(edges);
     int balance = 0;
     for (std::size_t i = 0; i < edges.size(); ++i) {
       balance += edges[i].second;
@@ -67,8 +67,7 @@ class WeldedMesh {
       const auto at = [&](std::size_t i) { return Vec3d(positions_[t[i]] - positions_[own]); };
       volume[own] += dot(at(0), cross(at(1), at(2)));
     }
-    return std::all_of(triangles_.begin(), triangles_.end(),
-                       [&](const auto& t) { return volume[partOf(t[0])] > 0; });
+    return std::ranges::all_of(triangles_, [&](const auto& t) { return volume[partOf(t[0])] > 0; });
   }
 
  private:
@@ -79,9 +78,7 @@ class WeldedMesh {
     const auto key = [&](std::uint32_t i) {
       return std::array{positions_[i].x, positions_[i].y, positions_[i].z};
     };
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return std::pair(key(a), a) < std::pair(key(b), b);
-    });
+    std::ranges::sort(order, {}, [&](std::uint32_t i) { return std::pair(key(i), i); });
     for (std::size_t i = 0; i < order.size(); ++i) {
       const bool same = i > 0 && key(order[i]) == key(order[i - 1]);
       first[order[i]] = same ? first[order[i - 1]] : order[i];
@@ -94,8 +91,8 @@ class WeldedMesh {
 };
 
 bool isShell(const Mesh& mesh) {
-  const bool finite = std::all_of(mesh.positions.begin(), mesh.positions.end(),
-                                  [](const Vec3f& p) { return isFinite(Vec3d(p)); });
+  const bool finite =
+      std::ranges::all_of(mesh.positions, [](const Vec3f& p) { return isFinite(Vec3d(p)); });
   if (!finite) return false;
   const WeldedMesh welded(mesh);
   return welded.isClosed() && welded.facesOutwards();
@@ -106,14 +103,14 @@ bool isShell(const Mesh& mesh) {
 void settleSides(SceneDescription& description) {
   std::vector<bool> culls(description.materials.size(), false);
   const auto isSingle = [&](const Mesh& mesh) {
-    return std::any_of(mesh.materials.begin(), mesh.materials.end(), [&](std::uint32_t m) {
+    return std::ranges::any_of(mesh.materials, [&](std::uint32_t m) {
       return m < culls.size() && !description.materials[m].doubleSided &&
              !description.materials[m].boundsMedium();
     });
   };
   // Through which its inside is seen.
   const auto hasHoles = [&](const Mesh& mesh) {
-    return std::any_of(mesh.materials.begin(), mesh.materials.end(), [&](std::uint32_t m) {
+    return std::ranges::any_of(mesh.materials, [&](std::uint32_t m) {
       if (m >= culls.size()) return false;
       const Material& material = description.materials[m];
       return material.alphaMap != kNoTexture || material.passesLight();
@@ -137,6 +134,35 @@ void settleSides(SceneDescription& description) {
   for (std::size_t i = 0; i < culls.size(); ++i) {
     Material& m = description.materials[i];
     m.doubleSided = m.doubleSided || m.boundsMedium() || !culls[i];
+  }
+}
+
+void noteHiddenSides(const SceneDescription& description, Warnings& warnings) {
+  for (const Instance& instance : description.instances) {
+    const Object& object = description.objects[instance.object];
+    const bool mirrored = instance.toWorld.determinant() < 0;
+    for (const Mesh& mesh : object.meshes) {
+      const bool isSingle = std::ranges::all_of(mesh.materials, [&](std::uint32_t m) {
+        return m < description.materials.size() && !description.materials[m].doubleSided;
+      });
+      const auto isSeen = [&](const std::array<std::uint32_t, 3>& t) {
+        if (std::ranges::max(t) >= mesh.positions.size()) return false;
+        const auto corner = [&](std::size_t i) {
+          return instance.toWorld.point(Vec3d(mesh.positions[t[i]]));
+        };
+        const Vec3d p = corner(0), normal = cross(corner(1) - p, corner(2) - p);
+        return std::ranges::any_of(description.cameras, [&](const Camera& camera) {
+          const Vec3d target = camera.orthographicHeight > 0 ? Vec3d(camera.at) : p;
+          const double side = dot(Vec3d(camera.eye) - target, normal);
+          return mirrored ? side < 0 : side > 0;
+        });
+      };
+      if (!isSingle || std::ranges::any_of(mesh.triangles, isSeen)) continue;
+      warnings.note(
+          "single-sided mesh that every camera is behind is not seen (to show its back: "
+          "--set /materials/*/doubleSided=true)",
+          description.name + (object.name.empty() ? "" : ": " + object.name));
+    }
   }
 }
 

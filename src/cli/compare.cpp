@@ -127,10 +127,9 @@ Compared compareModes(const CompareJob& job) {
 std::vector<ChannelDifference> compareChannels(const Compared& compared) {
   std::vector<ChannelDifference> differences;
   for (const ImageLayer& a : compared.layersA) {
-    const auto b = std::find_if(
-        compared.layersB.begin(), compared.layersB.end(), [&](const ImageLayer& layer) {
-          return layer.name == a.name && layer.countsThings == a.countsThings;
-        });
+    const auto b = std::ranges::find_if(compared.layersB, [&](const ImageLayer& layer) {
+      return layer.name == a.name && layer.countsThings == a.countsThings;
+    });
     if (b == compared.layersB.end()) continue;
     differences.push_back(
         {a.name, a.countsThings,

@@ -229,7 +229,7 @@ std::string legendSvg(const std::vector<RayLine>& lines, int height) {
   double y = height - kLine;
   for (const RayLook look : rayLooks()) {
     const auto isDrawn = [&](const RayLine& line) { return line.look == look; };
-    if (std::none_of(lines.begin(), lines.end(), isDrawn)) continue;
+    if (std::ranges::none_of(lines, isDrawn)) continue;
     svg += lineSvg({kLeft, y - 4, kLeft + kSample, y - 4}, look, 2);
     svg += wordSvg(kLeft + kSample + 8, y, styleOf(look).name);
     y -= kLine;

@@ -89,6 +89,7 @@ Json infoJson(const OpenScene& open, const Renderer& renderer, const CommonOptio
             {"memory_mb", memoryMb(scene, renderer)},
             {"shadow_cache", shadowCacheJson(scene, options)},
             {"animations", Json::array()},
+            {"variants", scene.variants},
             {"cameras", namesIn(scene.cameras)},
             {"options", optionsJson(scene, common, options)},
             {"warnings", Json::object()},
@@ -148,6 +149,9 @@ void printInfo(const Json& info, const OpenScene& open, const Renderer& renderer
     std::printf("%s%s %s (%s)", before, name.c_str(), textOf(option["value"]).c_str(),
                 textOf(option["from"]).c_str());
     before = ", ";
+  }
+  for (const Json& variant : info["variants"]) {
+    std::printf("\n  %-12s%s", "variant", textOf(variant).c_str());
   }
   std::printf("\n  %-12s%.1f MB\n", "memory", info["memory_mb"].get<double>());
   std::printf("  %-12s%.0f ms to load, %.0f ms to build\n", "time", open.loadMs,

@@ -47,8 +47,8 @@ void showManual() {
 }
 
 const Command* commandNamed(const std::string& name) {
-  const auto found = std::find_if(std::begin(kCommands), std::end(kCommands),
-                                  [&](const Command& command) { return name == command.name; });
+  const auto found =
+      std::ranges::find_if(kCommands, [&](const Command& command) { return name == command.name; });
   return found == std::end(kCommands) ? nullptr : found;
 }
 

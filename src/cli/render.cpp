@@ -67,9 +67,9 @@ struct RenderJob {
   int turntableFrames = 96;                            // of all turns together
 
   bool toStandardOutput() const {
-    return std::find(outputs.begin(), outputs.end(), kStandardOutput) != outputs.end();
+    return std::ranges::find(outputs, kStandardOutput) != outputs.end();
   }
-  bool makesFilm() const { return std::any_of(outputs.begin(), outputs.end(), isFilm); }
+  bool makesFilm() const { return std::ranges::any_of(outputs, isFilm); }
 };
 
 OptionList listOptions(RenderJob& job) {
@@ -108,7 +108,7 @@ OptionList listOptions(RenderJob& job) {
 
 void checkStandardOutput(const RenderJob& job) {
   if (!job.toStandardOutput()) return;
-  refuseIf(std::count(job.outputs.begin(), job.outputs.end(), kStandardOutput) > 1,
+  refuseIf(std::ranges::count(job.outputs, kStandardOutput) > 1,
            "-o -: standard output takes one image: give it once");
   refuseIf(job.json == kStandardOutput, "-o - and --json -: standard output takes one of them");
   refuseIf(job.resume, "-o -: what went to standard output cannot be resumed");
@@ -144,8 +144,7 @@ void checkChannels(const RenderJob& job) {
 
 void checkFilm(const RenderJob& job) {
   if (!job.makesFilm()) return;
-  refuseIf(std::count_if(job.outputs.begin(), job.outputs.end(), isFilm) > 1,
-           "-o: one film at a time");
+  refuseIf(std::ranges::count_if(job.outputs, isFilm) > 1, "-o: one film at a time");
   refuseIf(job.frames.empty(), "a film needs --frames A..B");
   refuseIf(job.resume, "--resume keeps images, and a film is made as a whole");
   refuseIf(job.common.render.crop.has_value(), "--crop: a film shows the whole picture");
@@ -156,7 +155,7 @@ void checkFilm(const RenderJob& job) {
 
 bool isOurPicture(const std::string& file) try {
   const ImageMetadata texts = readPngMetadata(file);
-  return std::any_of(texts.begin(), texts.end(), [](const auto& text) {
+  return std::ranges::any_of(texts, [](const auto& text) {
     return text.first == "software" && text.second.starts_with("whit ");
   });
 } catch (const Error&) {
@@ -281,7 +280,7 @@ class ImageWriter {
     run_ = summarize(open.scene, options_, *renderer_, films_[0], open.loadMs);
     sceneDigest_ = accuracy::digestOf(open.scene);
     aboutChannels_ = describeChannels(open.scene, options_.channels);
-    const auto film = std::find_if(job.outputs.begin(), job.outputs.end(), isFilm);
+    const auto film = std::ranges::find_if(job.outputs, isFilm);
     if (film == job.outputs.end()) return;
     const Image& image = films_[0].image;
     pipe_.emplace(*film, image.width, image.height, job.fps);
@@ -372,7 +371,7 @@ class ImageWriter {
 
   bool areWhole(const std::vector<std::string>& files, const Image& image,
                 const ImageMetadata& metadata) const {
-    return std::all_of(files.begin(), files.end(), [&](const std::string& file) {
+    return std::ranges::all_of(files, [&](const std::string& file) {
       ImageMetadata expected = metadata;
       const auto number = static_cast<std::size_t>(&file - files.data());
       const ImageMetadata own = ownMetadata(file, formatOf(number));
@@ -398,7 +397,7 @@ class ImageWriter {
         }
       }
     });
-    std::copy_if(files.begin(), files.end(), std::back_inserter(written_), std::not_fn(isFilm));
+    std::ranges::copy_if(files, std::back_inserter(written_), std::not_fn(isFilm));
     if (films_.size() == 1) writer_.finish();
     film_ = (film_ + 1) % films_.size();  // the one before has been written
   }

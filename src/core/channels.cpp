@@ -9,8 +9,7 @@ namespace whit {
 namespace {
 
 void keep(std::span<float> layer, std::size_t pixel, std::initializer_list<float> values) {
-  std::copy(values.begin(), values.end(),
-            layer.begin() + static_cast<std::ptrdiff_t>(pixel * values.size()));
+  std::ranges::copy(values, layer.begin() + static_cast<std::ptrdiff_t>(pixel * values.size()));
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ std::string nearestName(const std::string& word, const std::vector<std::string>&
   const std::size_t dashes = std::min(word.find_first_not_of('-'), word.size());
   for (const auto& [theirs, ours] : kSynonyms) {
     std::string name = (dashes > 0 ? "--" : "") + std::string(ours);
-    const bool isKnown = std::find(names.begin(), names.end(), name) != names.end();
+    const bool isKnown = std::ranges::find(names, name) != names.end();
     if (isKnown && word.compare(dashes, std::string::npos, theirs) == 0) return name;
   }
   std::string nearest;
@@ -76,7 +76,7 @@ std::vector<std::size_t> indicesOf(const std::string& commaSeparated,
   std::istringstream in(commaSeparated);
   for (std::string word; std::getline(in, word, ',');) {
     if (word.empty()) continue;
-    const auto found = std::find(names.begin(), names.end(), word);
+    const auto found = std::ranges::find(names, word);
     if (found == names.end()) {
       throwUsage("no " + kind + " is called '" + word + "'" + didYouMean(word, names));
     }

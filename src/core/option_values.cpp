@@ -50,7 +50,7 @@ std::vector<std::string> choicesOf(const OptionSpec& spec) {
 
 int parseChoice(const OptionSpec& spec, const std::string& text) {
   const std::vector<std::string> choices = choicesOf(spec);
-  const auto found = std::find(choices.begin(), choices.end(), text);
+  const auto found = std::ranges::find(choices, text);
   if (found == choices.end()) {
     throwUsage("--" + std::string(spec.name) + ": expected one of " + std::string(spec.words) +
                ", found '" + text + "'" + didYouMean(text, choices));

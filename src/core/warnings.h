@@ -25,6 +25,10 @@ class Warnings {
   void add(const std::string& kind, const std::string& where, std::uint64_t count = 1) {
     if (count == 0) return;
     if (strict_) throwBadScene(where, kind + " (refused by --strict)");
+    note(kind, where, count);
+  }
+  // Adds something that is as the file has it, but perhaps not as it is expected: never refused.
+  void note(const std::string& kind, const std::string& where, std::uint64_t count = 1) {
     const std::lock_guard lock(mutex_);
     Entry& entry = entries_[kind];
     if (entry.count == 0) entry.first = where;

@@ -169,7 +169,7 @@ void paint(const DebugPicture& picture, DisplayImage& display) {
     } else if (!hitsNothing(view, p)) {
       color = colorAt(view, shareOf(amountOf(p, picture.samples)));
     }
-    std::copy(color.begin(), color.end(), &display.rgba[4 * i]);
+    std::ranges::copy(color, &display.rgba[4 * i]);
     display.rgba[4 * i + 3] = 255;
   }
 }

@@ -34,7 +34,7 @@ class RayLogger : public StageObserver {
 
  private:
   void append(const RayStream& kind, const std::array<const float*, 7>& rays, std::size_t n) {
-    auto stream = std::find_if(streams_.begin(), streams_.end(), [&](const RayStream& s) {
+    auto stream = std::ranges::find_if(streams_, [&](const RayStream& s) {
       return s.anyHit == kind.anyHit && s.coherent == kind.coherent;
     });
     if (stream == streams_.end()) stream = streams_.insert(stream, kind);

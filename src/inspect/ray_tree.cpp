@@ -193,8 +193,8 @@ Rgb sumRadiance(RayTree& tree, std::size_t number) {
 }
 
 bool sends(const RayTree& tree, const RayNode& n, RayKind kind) {
-  return std::any_of(n.children.begin(), n.children.end(),
-                     [&](std::size_t child) { return tree.nodes[child].kind == kind; });
+  return std::ranges::any_of(n.children,
+                             [&](std::size_t child) { return tree.nodes[child].kind == kind; });
 }
 
 // The impulses that the surface would have sent, according to the reference.
@@ -325,9 +325,8 @@ std::vector<std::size_t> counterparts(const RayTree& a, const RayTree& b) {
     if (found[i] == kNoCounterpart) continue;
     std::vector<std::size_t> left = b.nodes[found[i]].children;
     for (const std::size_t child : a.nodes[i].children) {
-      const auto same = std::find_if(left.begin(), left.end(), [&](std::size_t other) {
-        return b.nodes[other].kind == a.nodes[child].kind;
-      });
+      const auto same = std::ranges::find_if(
+          left, [&](std::size_t other) { return b.nodes[other].kind == a.nodes[child].kind; });
       if (same == left.end()) continue;
       found[child] = *same;
       left.erase(same);

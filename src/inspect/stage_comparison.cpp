@@ -391,16 +391,15 @@ class StageComparer : public StageObserver {
  private:
   // True if the rows of the stage have as many slots as they need.
   bool enough(Stage stage) const {
-    return std::any_of(rows.begin(), rows.end(), [&](const StageDifference& row) {
+    return std::ranges::any_of(rows, [&](const StageDifference& row) {
       return row.stage == stage && row.slots > kSlotsPerStage;
     });
   }
 
   void note(Stage stage, const std::string& name, double ulp, double limit, std::uint32_t pixel,
             int depth) {
-    auto row = std::find_if(rows.begin(), rows.end(), [&](const StageDifference& r) {
-      return r.stage == stage && r.column == name;
-    });
+    auto row = std::ranges::find_if(
+        rows, [&](const StageDifference& r) { return r.stage == stage && r.column == name; });
     if (row == rows.end()) row = rows.insert(row, {stage, name, 0, 0, limit, 0, 0, 0});
     ++row->slots;
     // Written so that a NaN counts as worse than anything.

@@ -200,7 +200,7 @@ std::string JsonValue::text() const {
 std::string JsonValue::word(const std::vector<std::string>& choices) const {
   if (isText()) {
     std::string chosen = text();
-    if (std::find(choices.begin(), choices.end(), chosen) != choices.end()) return chosen;
+    if (std::ranges::find(choices, chosen) != choices.end()) return chosen;
   }
   std::string list;
   for (const std::string& choice : choices) list += (list.empty() ? "" : ", ") + inQuotes(choice);
@@ -311,7 +311,7 @@ JsonObject::JsonObject(const JsonValue& value) : value_(value) {
 }
 
 JsonValue JsonObject::find(const std::string& key) {
-  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
+  if (std::ranges::find(known_, key) == known_.end()) known_.push_back(key);
   return value_[key];
 }
 
@@ -319,7 +319,7 @@ JsonValue JsonObject::need(const std::string& key) {
   if (JsonValue value = find(key)) return value;
   std::vector<std::string> others;
   for (const auto& [name, member] : value_.members()) {
-    if (std::find(known_.begin(), known_.end(), name) == known_.end()) others.push_back(name);
+    if (std::ranges::find(known_, name) == known_.end()) others.push_back(name);
   }
   const std::string meant = nearestName(key, others);
   throwBadScene(value_.where(),
@@ -334,7 +334,7 @@ float JsonObject::number(const std::string& key, double fallback, double low, do
 
 void JsonObject::finish() const {
   for (const auto& [key, value] : value_.members()) {
-    if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
+    if (std::ranges::find(known_, key) != known_.end()) continue;
     throwBadScene(value.where(), "unknown key" + isMeant(key, known_));
   }
 }

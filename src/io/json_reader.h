@@ -150,7 +150,7 @@ void readMember(const JsonValue& json, const Member<Noun, Value>& member, Value&
     value = rules.kind == MemberKind::color ? json.color(rules.high) : Vec3f(json.vector());
   } else if constexpr (std::is_same_v<Value, Light::Kind>) {
     const std::string word = json.word({kLightKindNames.begin(), kLightKindNames.end()});
-    const auto* const found = std::find(kLightKindNames.begin(), kLightKindNames.end(), word);
+    const auto* const found = std::ranges::find(kLightKindNames, word);
     value = static_cast<Value>(found - kLightKindNames.begin());
   } else {
     value = static_cast<Value>(json.number(rules.low, rules.high));

@@ -135,16 +135,15 @@ void addPathCamera(SceneDescription& scene) {
   Camera camera = scene.cameraPath.front().camera;
   camera.name = "path";
   const auto taken = [](const Camera& other) { return other.name == "path"; };
-  if (std::any_of(scene.cameras.begin(), scene.cameras.end(), taken))
-    camera.name += " of the scene";
+  if (std::ranges::any_of(scene.cameras, taken)) camera.name += " of the scene";
   scene.cameras.insert(scene.cameras.begin(), camera);
   for (MovingCamera& moving : scene.motion.cameras) ++moving.camera;
   scene.motion.cameras.push_back({0, kNoNode, camera});
 }
 
 bool has(const Rig& rig, const std::string& name) {
-  return std::any_of(rig.begin(), rig.end(),
-                     [&](const RigNode& n) { return !n.name.empty() && n.name == name; });
+  return std::ranges::any_of(rig,
+                             [&](const RigNode& n) { return !n.name.empty() && n.name == name; });
 }
 
 void requireMovable(const std::string& pointer, const SceneDescription& scene) {
@@ -163,7 +162,7 @@ void requireMovable(const std::string& pointer, const SceneDescription& scene) {
 // The instant that was asked for is one of something that moves.
 void settleInstant(const Instant& instant, SceneDescription& scene) {
   const std::vector<std::string> names = namesIn(scene.animations);
-  const bool known = std::find(names.begin(), names.end(), instant.animation) != names.end();
+  const bool known = std::ranges::find(names, instant.animation) != names.end();
   if (!instant.animation.empty() && !known) {
     throwUsage(scene.name + " has no animation '" + instant.animation + "'" +
                didYouMean(instant.animation, names));
@@ -253,6 +252,7 @@ SceneDescription loadModelFile(const fs::path& path, const SceneName& name,
   JsonDocument overrides = nothing;
   applySettings(options, "materials", overrides);
   applySettings(options, "up", overrides);
+  applySettings(options, "variant", overrides);
   JsonObject noMaterials{JsonValue(nothing)}, items{JsonValue(overrides)};
   MaterialReader materials(noMaterials, context);
   readModelAlone(items, path, context, materials);
@@ -265,6 +265,7 @@ SceneDescription loadModelFile(const fs::path& path, const SceneName& name,
   JsonObject file{JsonValue(document)};
   file.find("materials");
   file.find("up");
+  file.find("variant");
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     scene.lights[i].pointer = "/lights/" + std::to_string(i);
   }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -59,6 +60,10 @@ class Model {
   virtual void addView(SceneDescription&) {}
   // The animations of the file, whatever the instant.
   virtual std::vector<Animation> animations() const { return {}; }
+  // Names of the sets of materials that the file lets choose from.
+  virtual std::vector<std::string> variants() const { return {}; }
+
+  std::optional<std::size_t> variant;  // the one of variants() that content() has
 };
 
 // A model that is read when it is opened: its meshes stand in one place, and its materials have no

@@ -64,7 +64,7 @@ std::vector<std::string> shippedNames(const std::vector<fs::path>& folders) {
       if (i->path().extension() == ".json") names.push_back(i->path().stem().string());
     }
   }
-  std::sort(names.begin(), names.end());
+  std::ranges::sort(names);
   names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;
 }

@@ -71,7 +71,7 @@ struct LoadOptions {
   // of scene files ("/scene/3", "/cameras/front", "/lights/0"), nodes of glTF models ("/nodes/7").
   std::vector<std::string> movable = {};
   std::string animation = {};  // name of the animation that each model plays; empty: its first
-  // Members of the scene's description, as with --set of the program: "/lights/0/intensity=40".
+  // As with --set of the program: "/lights/0/intensity=40", and of glTF files "/variant=\"red\"".
   std::vector<std::string> settings = {};
   Progress progress = {};
 };

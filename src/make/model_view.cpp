@@ -33,8 +33,7 @@ using Bounds = BoxOf<Vec3d>;
 // Finds the side to which fronts turn the largest area, occluded or not.
 Vec3d bestSide(const SceneDescription& scene, double radius) {
   std::array<Vec3d, kSides.size()> sides;
-  std::transform(kSides.begin(), kSides.end(), sides.begin(),
-                 [](const Vec3d& side) { return normalized(side); });
+  std::ranges::transform(kSides, sides.begin(), [](const Vec3d& side) { return normalized(side); });
   std::array<double, kSides.size()> shown{};
   forEachPlacedTriangle(scene, kMostLookedAt, [&](const Corners& t) {
     const Vec3d area = cross((t[1] - t[0]) / radius, (t[2] - t[0]) / radius);
@@ -42,9 +41,8 @@ Vec3d bestSide(const SceneDescription& scene, double radius) {
       shown[i] += std::max(0.0, dot(area, sides[i]));
     }
   });
-  const double enough = kEnough * *std::max_element(shown.begin(), shown.end());
-  const auto found =
-      std::find_if(shown.begin(), shown.end(), [&](double area) { return area >= enough; });
+  const double enough = kEnough * *std::ranges::max_element(shown);
+  const auto found = std::ranges::find_if(shown, [&](double area) { return area >= enough; });
   return sides[static_cast<std::size_t>(found - shown.begin())];
 }
 
@@ -78,7 +76,7 @@ bool isRoom(const SceneDescription& scene, const Bounds& bounds) {
                                          {0, 0, half.z},
                                          {0, 0, -half.z}}};
   std::size_t outside = 0;
-  return std::all_of(ways.begin(), ways.end(), [&](const Vec3d& way) {
+  return std::ranges::all_of(ways, [&](const Vec3d& way) {
     return isInRoom(scene, center + way) || ++outside <= kMostOutside;
   });
 }

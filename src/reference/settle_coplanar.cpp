@@ -27,7 +27,7 @@ int cornersBetween(const Corners& a, const Corners& b, const TriangleHit& hit) {
   const double weights[] = {1 - hit.u - hit.v, hit.u, hit.v};
   int shared = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const bool isShared = std::find(b.begin(), b.end(), a[i]) != b.end();
+    const bool isShared = std::ranges::find(b, a[i]) != b.end();
     if (!isShared && weights[i] > kRounding) return 0;
     shared += isShared;
   }
@@ -47,13 +47,11 @@ bool areNeighbors(const Scene& scene, const Place& a, const Place& b) {
 
 // Keeps the first of neighboring triangles.
 void mergeNeighbors(const Scene& scene, std::vector<Place>& places) {
-  std::sort(places.begin(), places.end(),
-            [](const Place& a, const Place& b) { return a.rank < b.rank; });
+  std::ranges::sort(places, [](const Place& a, const Place& b) { return a.rank < b.rank; });
   std::vector<Place> surfaces;
   for (const Place& place : places) {
-    const bool known = std::any_of(surfaces.begin(), surfaces.end(), [&](const Place& other) {
-      return areNeighbors(scene, other, place);
-    });
+    const bool known = std::ranges::any_of(
+        surfaces, [&](const Place& other) { return areNeighbors(scene, other, place); });
     if (!known) surfaces.push_back(place);
   }
   places = std::move(surfaces);
@@ -73,9 +71,7 @@ double distanceError(const Scene& scene, const Ray& ray, const Place& place) {
 // Keeps the places that are no farther than the nearest one, as far as floats can tell.
 void keepNearest(const Scene& scene, const Ray& ray, std::vector<Place>& places) {
   if (places.empty()) return;
-  const auto nearest =
-      std::min_element(places.begin(), places.end(),
-                       [](const Place& a, const Place& b) { return a.hit.t < b.hit.t; });
+  const auto nearest = std::ranges::min_element(places, {}, [](const Place& p) { return p.hit.t; });
   const double least = nearest->hit.t + distanceError(scene, ray, *nearest);
   std::erase_if(places, [&](const Place& place) {
     return place.hit.t - distanceError(scene, ray, place) > least;

@@ -108,10 +108,6 @@ void addMedia(const Scene& scene, ShadingTables& tables) {
   }
 }
 
-// Texels lie in tiles of 4x4, a cache line each (Blinn 1990, "The truth about texture mapping"),
-// which overlap by one: the four texels of a bilinear lookup always share a line, at the price of
-// 16/9 of the memory.
-constexpr std::size_t kSide = kTexelTile, kTile = kSide * kSide;
 constexpr TextureRecord kUnused{0, 1, 1, 0};
 
 // One flag a texture of the scene.
@@ -125,34 +121,27 @@ std::vector<bool> usedTextures(const Scene& scene, const ShadingTables& tables) 
   return used;
 }
 
-// One footprint more than there are texels: the border is met from either side.
-std::size_t tilesAcross(int texels) { return static_cast<std::size_t>(texels) / kTexelCells + 1; }
-std::size_t tiledTexels(const Texture& t) {
-  return tilesAcross(t.width) * tilesAcross(t.height) * kTile;
+// There is one footprint more than there are texels, because the border is met from either side.
+std::size_t stripTexels(const Texture& t) {
+  const std::size_t strips = static_cast<std::size_t>(t.width) / kTexelCells + 1;
+  return strips * (static_cast<std::size_t>(t.height) + kTexelBorder) * kTexelStrip;
 }
 
-// Texels -1 to `size` and beyond, which fills up the last tile; one tile after the other.
-std::vector<std::size_t> texelsOfAxis(int size, Wrap wrap) {
-  std::vector<std::size_t> texels;
-  for (int tile = 0; tile < static_cast<int>(tilesAcross(size)); ++tile) {
-    for (int within = 0; within < kTexelTile; ++within) {
-      const int texel = tile * kTexelCells + within - 1;
-      const int index =
-          wrap == Wrap::repeat ? (texel + size) % size : std::clamp(texel, 0, size - 1);
-      texels.push_back(static_cast<std::size_t>(index));
+std::size_t wrapped(int texel, int size, Wrap wrap) {
+  return static_cast<std::size_t>(wrap == Wrap::repeat ? (texel + size) % size
+                                                       : std::clamp(texel, 0, size - 1));
+}
+
+void copyTexels(const Texture& t, std::uint32_t* to) {
+  for (int first = -1; first < t.width; first += kTexelCells) {
+    std::array<std::size_t, kTexelStrip> columns{};
+    for (int column = first; std::size_t & from : columns) {
+      from = wrapped(column++, t.width, t.wrapU);
     }
-  }
-  return texels;
-}
-
-void copyTexels(const Texture& t, std::uint32_t* first) {
-  const std::vector<std::size_t> columns = texelsOfAxis(t.width, t.wrapU);
-  const std::vector<std::size_t> rows = texelsOfAxis(t.height, t.wrapV);
-  for (std::size_t y = 0; y < rows.size(); ++y) {
-    const std::uint32_t* from = t.texels.data() + rows[y] * static_cast<std::size_t>(t.width);
-    std::uint32_t* to = first + y / kSide * columns.size() * kSide + y % kSide * kSide;
-    for (std::size_t x = 0; x < columns.size(); x += kSide, to += kTile) {
-      for (std::size_t within = 0; within < kSide; ++within) to[within] = from[columns[x + within]];
+    for (int row = -1; row <= t.height; ++row) {
+      const std::uint32_t* from =
+          t.texels.data() + wrapped(row, t.height, t.wrapV) * static_cast<std::size_t>(t.width);
+      for (const std::size_t column : columns) *to++ = from[column];
     }
   }
 }
@@ -176,7 +165,7 @@ void addTextures(const Scene& scene, TextureFilter filter, int threads, ShadingT
         record = {static_cast<std::uint32_t>(total), t.width, t.height,
                   static_cast<std::uint32_t>(t.wrapU) | static_cast<std::uint32_t>(t.wrapV) << 8};
         copies.emplace_back(&t, total);
-        total += tiledTexels(t);
+        total += stripTexels(t);
         if (total > 0x7fffffffu) throwLimit("textures hold more than 2^31 texels");
       }
       if (level == 0) tables.textures.push_back(record);

@@ -49,8 +49,7 @@ FeatureSet featuresOf(const Scene& scene, const RenderOptions& options, EffectSe
       .with(Feature::glossy, e.has(Effect::glossy))
       .with(Feature::roughnessMaps,
             e.has(Effect::glossy) && e.has(Effect::textures) &&
-                std::any_of(scene.materials.begin(), scene.materials.end(),
-                            [](const Material& m) { return m.variesRoughness(); }))
+                std::ranges::any_of(scene.materials, &Material::variesRoughness))
       .with(Feature::coverage, e.has(Effect::coverage))
       .with(Feature::streams, samplesLobes(e) || e.has(Effect::softShadows) ||
                                   isOccluded(scene.ambient, e) || options.roulette > 0)
@@ -180,8 +179,8 @@ class Planner {
     if (plan_.features.has(Feature::coverage)) {
       plan_.perQueue.push_back(stepOf(simd::kLookUpCoverage));
     }
-    if (std::any_of(scene_.materials.begin(), scene_.materials.end(),
-                    [&](const Material& m) { return m.limitsDiffuse(plan_.effects); })) {
+    if (std::ranges::any_of(scene_.materials,
+                            [&](const Material& m) { return m.limitsDiffuse(plan_.effects); })) {
       plan_.perQueue.push_back(stepOf(simd::kLimitDiffuse));
       plan_.perQueue.back().wants = kMaterialLimitsDiffuse;
     }
@@ -321,7 +320,7 @@ void requireOrder(const Plan& plan) {
 std::vector<Stage> Plan::stages() const {
   std::vector<Stage> list;
   forEachStep([&](const Step& step) {
-    if (std::find(list.begin(), list.end(), step.stage) == list.end()) list.push_back(step.stage);
+    if (std::ranges::find(list, step.stage) == list.end()) list.push_back(step.stage);
   });
   return list;
 }
@@ -335,9 +334,8 @@ Plan makePlan(const Scene& scene, const RenderOptions& options, bool shadowCache
 std::vector<std::size_t> lightsWithShadowCache(const Plan& plan) {
   std::vector<std::size_t> lights;
   for (const LightSteps& light : plan.perLight) {
-    const bool decides = std::any_of(light.steps.begin(), light.steps.end(), [](const Step& step) {
-      return step.name == simd::kDecideShadows.name;
-    });
+    const bool decides = std::ranges::any_of(
+        light.steps, [](const Step& step) { return step.name == simd::kDecideShadows.name; });
     if (decides) lights.push_back(light.light);
   }
   return lights;
@@ -347,7 +345,7 @@ std::vector<KernelUse> kernelsOf(const Plan& plan) {
   std::vector<KernelUse> uses;
   plan.forEachStep([&](const Step& step) {
     for (const KernelUse& use : step.kernels) {
-      if (std::find(uses.begin(), uses.end(), use) == uses.end()) uses.push_back(use);
+      if (std::ranges::find(uses, use) == uses.end()) uses.push_back(use);
     }
   });
   // Lights begin with different kernels of the same stage.

@@ -31,8 +31,7 @@ Vec3f latticeDirection(int i, int n) {
 
 bool moves(const Scene& scene, std::uint32_t camera) {
   const std::vector<MovingCamera>& moving = scene.motion.given.cameras;
-  return std::any_of(moving.begin(), moving.end(),
-                     [&](const MovingCamera& m) { return m.camera == camera; });
+  return std::ranges::any_of(moving, [&](const MovingCamera& m) { return m.camera == camera; });
 }
 
 // True if 256 rays from the eye, evenly in all directions, hit something.

@@ -44,7 +44,7 @@ int sharedCorners(const Corners& a, const LineHit& hit, const Corners& b) {
   const std::array<double, 3> weights{1 - hit.u - hit.v, hit.u, hit.v};
   int shared = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    if (std::find(b.begin(), b.end(), a[i]) != b.end()) {
+    if (std::ranges::find(b, a[i]) != b.end()) {
       ++shared;
     } else if (weights[i] > kRounding) {
       return 0;
@@ -64,8 +64,7 @@ class FacesOfRay {
     if (faces_.empty()) return {};
     add(found, coplanar.rankOf(found), true);
     dropFarther();
-    std::sort(faces_.begin(), faces_.end(),
-              [](const Face& a, const Face& b) { return a.rank < b.rank; });
+    std::ranges::sort(faces_, [](const Face& a, const Face& b) { return a.rank < b.rank; });
     dropNeighbors();
     return std::move(faces_);
   }
@@ -111,8 +110,7 @@ class FacesOfRay {
   // Keeps the nearest face and the ones that floats cannot tell from it.
   void dropFarther() {
     const auto nearest =
-        std::min_element(faces_.begin(), faces_.end(),
-                         [](const Face& a, const Face& b) { return a.hit.t < b.hit.t; });
+        std::ranges::min_element(faces_, {}, [](const Face& f) { return f.hit.t; });
     std::erase_if(faces_,
                   [most = nearest->farthest](const Face& face) { return face.nearest > most; });
   }
@@ -131,7 +129,7 @@ class FacesOfRay {
     std::vector<Face> kept;
     for (const Face& face : faces_) {
       const auto isNeighbor = [&](const Face& other) { return areNeighbors(other, face); };
-      if (std::none_of(kept.begin(), kept.end(), isNeighbor)) kept.push_back(face);
+      if (std::ranges::none_of(kept, isNeighbor)) kept.push_back(face);
     }
     faces_ = std::move(kept);
   }
@@ -145,9 +143,7 @@ const Face& chosenOf(const std::vector<Face>& faces, const std::vector<Medium>& 
   const auto preference = [&](const Face& face) {
     return std::tuple(face.opaque, face.medium == 0, media[face.medium].priority, face.rank);
   };
-  return *std::max_element(faces.begin(), faces.end(), [&](const Face& a, const Face& b) {
-    return preference(a) < preference(b);
-  });
+  return *std::ranges::max_element(faces, {}, preference);
 }
 
 // HitColumns::alsoCrossed.

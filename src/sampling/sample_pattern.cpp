@@ -20,7 +20,7 @@ std::vector<Vec2f> rooks(int spp) {
     const double y = 0.5 + i / kGoldenRatio;
     byHeight.emplace_back(y - std::floor(y), i);
   }
-  std::sort(byHeight.begin(), byHeight.end());
+  std::ranges::sort(byHeight);
   const auto middleOf = [&](int cell) { return static_cast<float>((cell + 0.5) / spp); };
   std::vector<Vec2f> samples(byHeight.size());
   for (int row = 0; row < spp; ++row) {
@@ -113,7 +113,7 @@ std::vector<std::size_t> spreadOrder(const std::vector<Vec2f>& samples,
     }
   };
   const auto next = [&] {
-    const std::int64_t farthest = *std::max_element(distance.begin(), distance.end());
+    const std::int64_t farthest = *std::ranges::max_element(distance);
     std::size_t best = samples.size();
     std::int64_t least = std::numeric_limits<std::int64_t>::max();
     for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -135,8 +135,7 @@ std::size_t nearestToCenter(const std::vector<Vec2f>& samples) {
     constexpr Vec2f kCenter{0.5f, 0.5f};
     return squaredDistance(a, kCenter) < squaredDistance(b, kCenter);
   };
-  return static_cast<std::size_t>(std::min_element(samples.begin(), samples.end(), isNearer) -
-                                  samples.begin());
+  return static_cast<std::size_t>(std::ranges::min_element(samples, isNearer) - samples.begin());
 }
 
 std::vector<Vec2f> samplePattern(int spp) {

@@ -42,7 +42,7 @@ Affine blended(const std::vector<Affine>& joints, const Influence* begin, const 
 }  // namespace
 
 bool Deformation::none() const {
-  const bool still = std::all_of(weights.begin(), weights.end(), [](double w) { return w == 0; });
+  const bool still = std::ranges::all_of(weights, [](double w) { return w == 0; });
   return !hasSkin() && (targets.empty() || (still && !movingWeights));
 }
 

@@ -23,7 +23,8 @@ inline constexpr float kLargestCoordinate = 1.844e18f;
 // Names are kept of so many items.
 inline constexpr std::size_t kNamedItems = 65536;
 
-struct SceneDescription {
+// The members of a scene that baking leaves as they are.
+struct SceneContents {
   std::string name;               // the bare name of the file
   bool isModel = false;           // without a scene file: light, sky and view are supplied
   int width = 480, height = 300;  // the scene's own image size
@@ -31,11 +32,15 @@ struct SceneDescription {
   std::vector<Camera> cameras;                 // the first is the default
   std::vector<Keyframe> cameraPath;
   std::vector<Animation> animations;  // of its models, in the order in which they are read
+  std::vector<std::string> variants;  // likewise
   std::vector<Light> lights;
   Sky sky;
   Ambient ambient;
   std::vector<Material> materials;
   std::vector<Texture> textures;
+};
+
+struct SceneDescription : SceneContents {
   std::vector<Object> objects;
   std::vector<Instance> instances;
   SceneMotion motion;  // given where the scene is to move

@@ -107,7 +107,7 @@ inline constexpr auto kMembers<Material> = std::tuple{
     Member{"vertexTint", &Material::vertexTint, {.inFiles = false}},
     Member{"emissionBySecondUvs", &Material::emissionBySecondUvs, {.inFiles = false, .baked = true}},
     Member{"normalBySecondUvs", &Material::normalBySecondUvs, {.inFiles = false, .baked = true}},
-    Member{"doubleSided", &Material::doubleSided, {.inFiles = false, .baked = true}},
+    Member{"doubleSided", &Material::doubleSided, {.baked = true}},
 };
 // clang-format on
 

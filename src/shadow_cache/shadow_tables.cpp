@@ -33,7 +33,7 @@ bool isNear(const Vec3f& lower, const Vec3f& upper) {
 // True if the proofs hold for the scene's coordinates.
 bool inRange(const Scene& scene) {
   return isNear(scene.lower, scene.upper) &&
-         std::all_of(scene.instances.begin(), scene.instances.end(), [](const auto& instance) {
+         std::ranges::all_of(scene.instances, [](const auto& instance) {
            return instanceReach(instance.toWorld) > kNeededReach;
          });
 }
@@ -116,9 +116,9 @@ struct ShadowTables::OfLight {
   void forget() {
     tree.reset();
     cells.resize(kWordsAPlace);
-    std::fill(triangles.begin(), triangles.end(), 0);
-    std::fill(parts.begin(), parts.end(), 0);
-    std::fill(wanted.begin(), wanted.end(), std::uint8_t{0});
+    std::ranges::fill(triangles, 0);
+    std::ranges::fill(parts, 0);
+    std::ranges::fill(wanted, std::uint8_t{0});
     seen = mixed = 0;
   }
   // The last answer of each part that was asked for.
@@ -218,8 +218,7 @@ FillReport ShadowTables::fill(WorkerPool& pool, const FillLimits& limits) {
 }
 
 void ShadowTables::forgetAsked() {
-  for (auto& light : lights_)
-    std::fill(light->wanted.begin(), light->wanted.end(), std::uint8_t{0});
+  for (auto& light : lights_) std::ranges::fill(light->wanted, std::uint8_t{0});
 }
 
 // Returns how many parts it looked at.

@@ -44,8 +44,7 @@ inline constexpr std::array kLobes{kGlossyLobe, kDiffuseLobe};
 
 // True if frames with these effects sample any lobe.
 constexpr bool samplesLobes(EffectSet effects) {
-  return std::any_of(kLobes.begin(), kLobes.end(),
-                     [&](const Lobe& lobe) { return effects.has(lobe.effect); });
+  return std::ranges::any_of(kLobes, [&](const Lobe& lobe) { return effects.has(lobe.effect); });
 }
 
 // True if --adaptive decides how many samples each pixel gets. It does not where lobes are sampled:

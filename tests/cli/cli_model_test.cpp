@@ -38,6 +38,38 @@ TEST(Models, InfoNamesTheSky) {
   EXPECT_NE(runWhit({"info", model}).out.find("sky         studio"), std::string::npos);
 }
 
+// A triangle that is black, or in its variant "glowing \"red\"" not.
+TEST(Models, VariantsAreListedAndChosen) {
+  const TemporaryFolder folder;
+  const std::string model = folder / "variants.gltf", picture = folder / "p.png";
+  std::ofstream(model) << R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}],
+    "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0},
+      "material": 0, "extensions": {"KHR_materials_variants": {"mappings": [
+        {"material": 1, "variants": [1]}]}}}]}],
+    "materials": [{"name": "dark", "emissiveFactor": [0, 0, 0]},
+                  {"name": "red", "emissiveFactor": [1, 0, 0]}],
+    "extensions": {"KHR_materials_variants": {"variants": [
+      {"name": "plain"}, {"name": "glowing \"red\""}]}},
+    "accessors": [{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 3,
+      "min": [0, 0, 0], "max": [1, 1, 0]}], "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+  const nlohmann::json listed =
+      nlohmann::json::parse(runWhit({"info", model, "--json", "-"}).out)["variants"];
+  EXPECT_EQ(listed, nlohmann::json::parse(R"(["plain", "glowing \"red\""])"));
+  EXPECT_NE(runWhit({"info", model}).out.find("variant     plain\n"), std::string::npos);
+  const auto effects = [&](const std::string& variant) {
+    const Outcome info = runWhit({"info", model, "--variant", variant, "--json", "-"});
+    return nlohmann::json::parse(info.out)["effects"]["emission"]["on"].get<bool>();
+  };
+  EXPECT_FALSE(effects("plain"));
+  EXPECT_TRUE(effects("glowing \"red\""));
+  const Outcome refused = runWhit({"render", model, "-o", picture, "--variant", "blue"});
+  EXPECT_NE(refused.status, 0);
+  EXPECT_NE(refused.err.find("/variant: expected one of \"plain\", \"glowing \"red\"\""),
+            std::string::npos)
+      << refused.err;
+}
+
 TEST(Models, ThePictureTellsItsExposureAndIsMadeAgainWithIt) {
   const TemporaryFolder folder;
   const std::string model = writeModel(folder), a = folder / "a.png", b = folder / "b.png";

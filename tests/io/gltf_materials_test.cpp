@@ -132,6 +132,30 @@ TEST_F(GltfMaterials, AreSingleSidedUnlessTheFileSaysOtherwise) {
                     "materials_transmission\":{\"transmissionFactor\":1}}"));
 }
 
+TEST_F(GltfMaterials, MeshesThatAreOnlySeenFromBehindAreNoted) {
+  const auto notes = [&](const std::string& node, const std::string& material) {
+    GltfBuilder b;
+    const std::string text =
+        b.json("\"materials\":[{" + material + "}],\"meshes\":[{\"primitives\":[" +
+               triangle(b, ",\"material\":0") +
+               "]}],\"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":1}}],"
+               "\"nodes\":[{\"mesh\":0" +
+               node + "},{\"camera\":0,\"translation\":[0,0,5]}]");
+    Warnings strict(true);  // what is only noted is not refused
+    Scene::finalize(loadText(text), strict);
+    return strict.entries().size();
+  };
+  const std::string turned = ",\"rotation\":[0,1,0,0]", mirrored = ",\"scale\":[1,1,-1]";
+  EXPECT_EQ(notes("", ""), 0u);
+  EXPECT_EQ(notes(turned, ""), 1u);
+  EXPECT_EQ(notes(turned, "\"doubleSided\":true"), 0u);
+  options_.settings = {"/materials/*/doubleSided=true"};  // as the note says
+  EXPECT_EQ(notes(turned, ""), 0u);
+  options_.settings.clear();
+  EXPECT_EQ(notes(mirrored, ""), 1u);
+  EXPECT_EQ(notes(mirrored + turned, ""), 0u);
+}
+
 TEST_F(GltfMaterials, RoughnessThatIsTheSameAllOverNeedsNoMap) {
   save("even.tga", tga(2, 1, {{0, 51, 255}, {0, 51, 0}}));
   save("uneven.tga", tga(2, 1, {{0, 51, 255}, {0, 153, 255}}));
@@ -332,6 +356,40 @@ TEST_F(GltfMaterials, NormalMaps) {
   const double half = (0.3 + 0.8) / std::sqrt(2 * (0.09 + 0.64));
   expectColor(show("3,0,3", "right.tga", ",\"scale\":0.5"),
               Rgb(static_cast<float>(arriving * half)), kCode);
+}
+
+// Of two primitives only one has mappings.
+TEST_F(GltfMaterials, AVariantHasMaterialsOfItsOwn) {
+  GltfBuilder b;
+  const std::string mapped =
+      ",\"material\":0,\"extensions\":{\"KHR_materials_variants\":{\"mappings\":["
+      "{\"material\":1,\"variants\":[0]},{\"material\":2,\"variants\":[1,2]}]}}";
+  const std::string first = triangle(b, mapped), second = triangle(b, ",\"material\":0");
+  const std::string model =
+      save("m.gltf",
+           b.json("\"materials\":[{\"name\":\"plain\"},{\"name\":\"red\"},{\"name\":\"blue\"}],"
+                  "\"extensions\":{\"KHR_materials_variants\":{\"variants\":[{\"name\":\"a\"},"
+                  "{\"name\":\"b\"},{\"name\":\"c\"}]}}," +
+                  oneMesh(first + "," + second)));
+  const auto names = [](const SceneDescription& scene) {
+    std::string found;
+    for (const Object& object : scene.objects) {
+      found += scene.materials.at(object.meshes.at(0).materials.at(0)).name + " ";
+    }
+    return found;
+  };
+  const SceneDescription plain = load(model);
+  EXPECT_EQ(names(plain), "plain plain ");
+  EXPECT_EQ(plain.variants, (std::vector<std::string>{"a", "b", "c"}));
+  EXPECT_EQ(names(loadMembers(R"("scene": [{"model": "m.gltf", "variant": "a"}])")), "red plain ");
+  options_.settings = {"/variant=\"c\""};
+  EXPECT_EQ(names(load(model)), "blue plain ");
+  options_.settings = {"/variant=\"cc\""};
+  EXPECT_NE(
+      errorOf([&] { load(model); }).find("m.gltf#/variant: expected one of \"a\", \"b\", \"c\""),
+      std::string::npos);
+  const std::string obj = save("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_NE(errorOf([&] { load(obj); }).find("the model has none"), std::string::npos);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Texels in tiles: each footprint is where the kernels look for it.
+// Texels in strips: each footprint is where the kernels look for it.
 #include <gtest/gtest.h>
 
 #include <numeric>
@@ -20,11 +20,11 @@ Texture numbered(int width, int height) {
   return makeTexture(TexelFormat::color, width, height, texels);
 }
 
-TEST(TextureTables, EveryFootprintIsWholeInOneTile) {
+TEST(TextureTables, EveryFootprintIsWholeInOneStrip) {
   SceneBuilder builder;
   Material floor = diffuseMaterial(0.5f);
-  // Rows and columns left over, whole tiles, less than one, and a single texel.
-  const std::vector<std::pair<int, int>> sizes{{9, 6}, {3, 2}, {1, 1}, {8, 4}, {2, 11}};
+  // Columns left over, whole strips, less than one, and a single texel.
+  const std::vector<std::pair<int, int>> sizes{{9, 6}, {7, 2}, {1, 1}, {22, 4}, {2, 11}};
   for (const Wrap wrap : {Wrap::repeat, Wrap::mirror, Wrap::clamp}) {
     for (const auto& [width, height] : sizes) {
       Texture texture = numbered(width, height);
@@ -39,16 +39,15 @@ TEST(TextureTables, EveryFootprintIsWholeInOneTile) {
   for (std::size_t i = 0; i < tables.textures.size(); ++i) {
     const TextureRecord& record = tables.textures[i];
     const Texture& texture = scene.textures[i];
-    EXPECT_EQ(record.firstTexel % 16, 0u) << "a cache line begins here";
-    const int tilesInARow = record.width / 3 + 1;
+    EXPECT_EQ(record.firstTexel % 8, 0u) << "no row crosses a cache line";
     // Footprint (x, y) has its upper texels at (x, y): the last is half beyond the border.
     for (int y = 0; y <= record.height; ++y) {
       for (int x = 0; x <= record.width; ++x) {
-        const int tile = y / 3 * tilesInARow + x / 3, within = y % 3 * 4 + x % 3;
+        const int first = (x / 7 * (record.height + 2) + y) * 8 + x % 7;
         for (const auto& [stepX, stepY] : {std::pair{0, 0}, {1, 0}, {0, 1}, {1, 1}}) {
           const int column = wrappedTexel(x - 1 + stepX, record.width, texture.wrapU);
           const int row = wrappedTexel(y - 1 + stepY, record.height, texture.wrapV);
-          const int place = tile * 16 + within + stepY * 4 + stepX;
+          const int place = first + stepY * 8 + stepX;
           EXPECT_EQ(tables.texels[record.firstTexel + static_cast<std::size_t>(place)],
                     texture.texels[static_cast<std::size_t>(row * record.width + column)])
               << "texture " << i << ", footprint " << x << "," << y << " step " << stepX << stepY;
@@ -71,7 +70,7 @@ Scene paintedOver(int width) {
   return builder.build();
 }
 
-// The kernels find its tiles in float: at its right end, where that is coarsest, too.
+// The kernels find its strips in float: at its right end, where that is coarsest, too.
 TEST(TextureTables, TheWidestTextureIsReadAsByTheReference) {
   expectStagesAgreeOnEveryTarget(paintedOver(kTextureSideLimit), smallOptions());
 }

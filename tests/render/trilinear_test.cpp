@@ -119,13 +119,13 @@ TEST(Trilinear, CostsColumnsAndTexelsOnlyWhereItIsAskedFor) {
     return std::tuple(renderer.plan().features.has(Feature::cones), tables.texels.size(),
                       tables.mipLevels.size());
   };
-  // Full textures, and what their halves add: 33x64, 16x16, 8x1 and 16x50, in tiles of 4x4 that
-  // hold 3x3 footprints of the width + 1 by height + 1 that there are.
-  constexpr std::size_t kTile = 16;
-  constexpr std::size_t kFull = kTile * (12 * 22 + 6 * 6 + 3 * 1 + 6 * 17);
+  // Full textures, and what their halves add: 33x64, 16x16, 8x1 and 16x50, in strips of 8 columns
+  // that hold 7 of the width + 1 footprints, in height + 2 rows.
+  constexpr std::size_t kRow = 8;
+  constexpr std::size_t kFull = kRow * (5 * 66 + 3 * 18 + 2 * 3 + 3 * 52);
   constexpr std::size_t kLevels =
-      kTile * ((6 * 11 + 3 * 6 + 2 * 3 + 2 + 1 + 1) + (3 * 3 + 2 * 2 + 1 + 1) + (2 + 1 + 1) +
-               (3 * 9 + 2 * 5 + 3 + 2 + 1));
+      kRow * ((3 * 34 + 2 * 18 + 10 + 6 + 4 + 3) + (2 * 10 + 6 + 4 + 3) + (3 + 3 + 3) +
+              (2 * 27 + 14 + 8 + 5 + 3));
   EXPECT_EQ(parts(scene, smallOptions()), std::tuple(false, kFull, std::size_t{0}));
   EXPECT_EQ(parts(scene, trilinear()), std::tuple(true, kFull + kLevels, 4u * kMipStride));
   EXPECT_FALSE(plain.effects.has(Effect::textures));

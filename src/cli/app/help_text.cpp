@@ -94,8 +94,8 @@ std::string valueLines(const std::string& word, const OptionList::Entry& entry) 
   const std::string done = word.substr(0, word.rfind(',') + 1);  // of a list
   for (const std::string& name : entry.names) lines += completionLine(word, done + name);
   for (const std::string& choice : choicesOf({.words = entry.placeholder})) {
-    const bool stands = std::any_of(choice.begin(), choice.end(),  // for a value, as FILE does
-                                    [](unsigned char c) { return std::isupper(c) != 0; });
+    const bool stands = std::ranges::any_of(choice,  // for a value, as FILE does
+                                            [](unsigned char c) { return std::isupper(c) != 0; });
     if (!stands) lines += completionLine(word, choice);
   }
   return lines;

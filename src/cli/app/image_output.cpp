@@ -56,7 +56,7 @@ ImageMetadata comparable(ImageMetadata metadata, const RenderOptions& options) {
     return entry.second.empty() || (entry.first == "simd" && options.simd == "auto") ||
            (entry.first == "packet" && options.packet == 0);
   });
-  std::sort(metadata.begin(), metadata.end());
+  std::ranges::sort(metadata);
   return metadata;
 }
 
@@ -67,7 +67,7 @@ bool isJpeg(const std::string& path) {
 }
 
 void requireWritable(const std::string& path, const std::vector<std::string>& extensions) {
-  const auto found = std::find(extensions.begin(), extensions.end(), extensionOf(path));
+  const auto found = std::ranges::find(extensions, extensionOf(path));
   if (!extensions.empty() && found == extensions.end()) {
     std::string known;
     for (const std::string& e : extensions) known += (known.empty() ? "" : " or ") + e;

@@ -51,10 +51,9 @@ std::string takeWords(const std::vector<std::string>& words, const OptionList& l
     onlyOperands = word == "--";
     if (onlyOperands) continue;
     const TypedOption typed = splitOption(word);
-    const auto entry =
-        std::find_if(list.entries.begin(), list.entries.end(), [&](const OptionList::Entry& e) {
-          return typed.isLetter ? typed.name == "-" + e.shortName : typed.name == "--" + e.name;
-        });
+    const auto entry = std::ranges::find_if(list.entries, [&](const OptionList::Entry& e) {
+      return typed.isLetter ? typed.name == "-" + e.shortName : typed.name == "--" + e.name;
+    });
     if (entry == list.entries.end()) throwUnknownOption(typed.name, list);
     if (typed.value || entry->placeholder.empty()) {
       entry->set(typed.value.value_or("true"));
@@ -118,6 +117,12 @@ void listCommonOptions(OptionList& list, CommonOptions& common) {
              common.load.instant.seconds);
   list.value({"animation", "NAME"}, "animation that is played (default: the first of each model)",
              common.load.instant.animation);
+  list.many({"variant", "NAME"}, "materials of a glTF model that has several sets (see whit info)",
+            common.load.settings)
+      .set = [&common](const std::string& name) {
+    common.load.settings.push_back("/variant=" +
+                                   Json(name).dump(-1, ' ', false, Json::error_handler_t::replace));
+  };
   list.value({"max-memory", "GB", 0.001, 1e6}, "limit of memory for geometry and images",
              common.maxMemoryGb)
       .everyday = false;

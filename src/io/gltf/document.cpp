@@ -119,8 +119,8 @@ Json readGltfFile(const std::filesystem::path& path, MemoryBudget& budget,
   }
   const std::string_view text =
       isBinary ? splitBinary(bytes, name, binary) : std::string_view(bytes);
-  const auto values = std::count_if(text.begin(), text.end(),
-                                    [](char c) { return c == ',' || c == '[' || c == '{'; });
+  const auto values =
+      std::ranges::count_if(text, [](char c) { return c == ',' || c == '[' || c == '{'; });
   budget.charge(static_cast<std::uint64_t>(values), kBytesPerJsonValue, name);
   return parseJson(std::string(text), name);
 }
@@ -136,8 +136,8 @@ constexpr std::string_view kSupported[] = {
     "KHR_materials_clearcoat",    "KHR_materials_emissive_strength",
     "KHR_materials_ior",          "KHR_materials_specular",
     "KHR_materials_transmission", "KHR_materials_unlit",
-    "KHR_materials_volume",       "KHR_mesh_quantization",
-    "KHR_texture_transform"};
+    "KHR_materials_variants",     "KHR_materials_volume",
+    "KHR_mesh_quantization",      "KHR_texture_transform"};
 
 // Says what the user can do about an extension that is not supported; may be empty.
 std::string adviceOn(const std::string& extension) {
@@ -204,15 +204,14 @@ std::optional<Bytes> GltfDocument::decoded(const JsonValue& accessor) const {
 void GltfDocument::checkExtensions() const {
   const JsonValue version = root().need("asset").need("version");
   if (!version.textOr("").starts_with("2.")) version.fail("2.0");
-  const JsonValue required = list("extensionsRequired"), used = list("extensionsUsed");
-  for (std::size_t i = 0; i < required.size(); ++i) {
-    const std::string extension = required[i].textOr("");
+  for (const JsonValue& required : list("extensionsRequired").elements()) {
+    const std::string extension = required.textOr("");
     if (reads(extension)) continue;
-    throwBadScene(required[i].where(), "the file cannot be shown without " + excerpt(extension) +
-                                           ", which is not supported" + adviceOn(extension));
+    throwBadScene(required.where(), "the file cannot be shown without " + excerpt(extension) +
+                                        ", which is not supported" + adviceOn(extension));
   }
-  for (std::size_t i = 0; i < used.size(); ++i) {
-    const std::string extension = used[i].textOr("");
+  for (const JsonValue& used : list("extensionsUsed").elements()) {
+    const std::string extension = used.textOr("");
     if (!reads(extension)) warnings_.add("extension ignored: " + excerpt(extension), name_);
   }
 }

@@ -200,9 +200,8 @@ GltfMaterial::Coordinates GltfMaterial::coordinates() const {
 
 std::vector<GltfMaterial> readGltfMaterials(const GltfDocument& document) {
   std::vector<GltfMaterial> materials;
-  const JsonValue sources = document.list("materials");
-  for (std::size_t i = 0; i < sources.size(); ++i) {
-    materials.push_back(readMaterial(document, sources[i]));
+  for (const JsonValue& source : document.list("materials").elements()) {
+    materials.push_back(readMaterial(document, source));
   }
   GltfMaterial fallback;
   fallback.name = "default";

@@ -95,19 +95,31 @@ void deform(const GltfDocument& document, const JsonValue& primitive, Deformatio
   if (own.moves()) mesh.deformation = std::make_shared<const Deformation>(std::move(own));
 }
 
+// The material of a primitive, in the variant of the file that was chosen (KHR_materials_variants).
+JsonValue materialOf(const JsonValue& primitive, std::optional<std::size_t> variant) {
+  const JsonValue mappings = primitive["extensions"]["KHR_materials_variants"]["mappings"];
+  for (const JsonValue& mapping : mappings.elements()) {
+    for (const JsonValue& number : mapping.need("variants").elements()) {
+      if (variant && number.wholeOr(*variant + 1) == *variant) return mapping.need("material");
+    }
+  }
+  return primitive["material"];
+}
+
 // Values of a primitive's mode; smaller ones are points and lines.
 constexpr std::uint64_t kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6;
 
 class PrimitiveReader {
  public:
   PrimitiveReader(const GltfDocument& document, const JsonValue& primitive,
-                  const std::vector<GltfMaterial>& materials, const GltfPlacedMesh& placed)
+                  const std::vector<GltfMaterial>& materials, const GltfPlacedMesh& placed,
+                  std::optional<std::size_t> variant)
       : document_(document),
         primitive_(primitive),
         attributes_(primitive.need("attributes")),
         placed_(placed),
         mode_(primitive["mode"].wholeOr(kTriangles, kTriangleFan)),
-        material_(primitive["material"]
+        material_(materialOf(primitive, variant)
                       .indexInto(document.list("materials"))
                       .value_or(materials.size() - 1)),
         coordinates_(materials[material_].coordinates()),
@@ -213,19 +225,19 @@ class PrimitiveReader {
 bool GltfPlacedMesh::isDeformed() const {
   const std::vector<double>& weights = deformation.weights;
   return deformation.skeleton || deformation.movingWeights ||
-         std::any_of(weights.begin(), weights.end(), [](double weight) { return weight != 0; });
+         std::ranges::any_of(weights, [](double weight) { return weight != 0; });
 }
 
 std::vector<Mesh> readGltfMesh(const GltfDocument& document, const GltfPlacedMesh& placed,
-                               const std::vector<GltfMaterial>& materials) {
+                               const std::vector<GltfMaterial>& materials,
+                               std::optional<std::size_t> variant) {
   const JsonValue source = document.list("meshes")[placed.mesh];
-  const JsonValue primitives = source.need("primitives");
   std::vector<Mesh> meshes;
-  for (std::size_t i = 0; i < primitives.size(); ++i) {
+  for (const JsonValue& primitive : source.need("primitives").elements()) {
     Mesh mesh;
     mesh.name = source["name"].textOr("");
-    const bool isSeen = PrimitiveReader(document, primitives[i], materials, placed).read(mesh);
-    if (isSeen) meshes.push_back(std::move(mesh));
+    PrimitiveReader reader(document, primitive, materials, placed, variant);
+    if (reader.read(mesh)) meshes.push_back(std::move(mesh));
   }
   return meshes;
 }

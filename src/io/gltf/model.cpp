@@ -62,6 +62,12 @@ class GltfModel : public Model {
 
   const std::vector<Material>& materials() const override { return materials_; }
   std::vector<Animation> animations() const override { return listGltfAnimations(document_); }
+  std::vector<std::string> variants() const override {
+    std::vector<std::string> names;
+    const JsonValue all = document_.root()["extensions"]["KHR_materials_variants"]["variants"];
+    for (const JsonValue& v : all.elements()) names.push_back(v.need("name").textOr(""));
+    return names;
+  }
 
   TexturedMaterial withMaps(std::size_t i, Material material, const GivenMembers& given,
                             TextureLoader& textures) override {
@@ -137,7 +143,7 @@ class GltfModel : public Model {
   std::uint32_t addBody(const GltfPlacedMesh& placed, SceneLayout& layout,
                         const std::vector<std::uint32_t>& materials) const {
     const std::uint32_t body = layout.add(document_.list("meshes")[placed.mesh]["name"].textOr(""));
-    addParts(readGltfMesh(document_, placed, sources_), materials, document_.name(),
+    addParts(readGltfMesh(document_, placed, sources_, variant), materials, document_.name(),
              document_.budget(), layout.body(body));
     return body;
   }

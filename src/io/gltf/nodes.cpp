@@ -52,14 +52,14 @@ Track::Interpolation interpolationOf(const JsonValue& sampler) {
 // move what only an extension can move.
 template <typename Use>
 void forEachChannel(const GltfDocument& document, const JsonValue& animation, const Use& use) {
-  const JsonValue channels = animation["channels"], samplers = animation["samplers"];
-  for (std::size_t i = 0; i < channels.size(); ++i) {
-    const JsonValue target = channels[i].need("target");
+  const JsonValue samplers = animation["samplers"];
+  for (const JsonValue& channel : animation["channels"].elements()) {
+    const JsonValue target = channel.need("target");
     const auto node = target["node"].indexInto(document.list("nodes"));
     const std::string path = target.need("path").textOr("");
     for (const Target& known : kTargets) {
       if (!node || known.path != path) continue;
-      use(*node, known, samplers[channels[i].need("sampler").indexInto(samplers).value_or(0)]);
+      use(*node, known, samplers[channel.need("sampler").indexInto(samplers).value_or(0)]);
     }
   }
 }
@@ -98,7 +98,7 @@ Track readTrack(const GltfDocument& document, const Target& target, std::size_t 
         std::to_string(expected) + " numbers for " + std::to_string(track.times.size()) + " times",
         std::to_string(values.size()));
   }
-  if (!std::all_of(values.begin(), values.end(), [](float x) { return std::isfinite(x); })) {
+  if (!std::ranges::all_of(values, [](float x) { return std::isfinite(x); })) {
     output.fail("finite numbers", "one that is not");
   }
   track.values.assign(values.begin(), values.end());
@@ -110,7 +110,7 @@ std::vector<GltfTracks> readTracks(const GltfDocument& document, const Instant& 
   std::vector<GltfTracks> tracks(document.list("nodes").size());
   if (!instant.moves()) return tracks;
   const std::vector<Animation> all = listGltfAnimations(document);
-  const auto played = std::find_if(all.begin(), all.end(), [&](const Animation& animation) {
+  const auto played = std::ranges::find_if(all, [&](const Animation& animation) {
     return instant.animation.empty() || animation.name == instant.animation;
   });
   if (played == all.end()) return tracks;
@@ -186,7 +186,7 @@ class NodeMotion : public Motion {
     place.translation = tripleOr(value(tracks_.translation), own_.translation);
     place.scale = tripleOr(value(tracks_.scale), own_.scale);
     const std::vector<double> turn = value(tracks_.rotation);
-    std::copy(turn.begin(), turn.end(), place.rotation.begin());
+    std::ranges::copy(turn, place.rotation.begin());
     return place.map();
   }
 
@@ -227,9 +227,8 @@ class TreeReader {
   void findParents() {
     parents_.assign(nodes_.size(), kTopmost);
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      const JsonValue children = nodes_[i]["children"];
-      for (std::size_t k = 0; k < children.size(); ++k) {
-        parents_[children[k].indexInto(nodes_).value_or(0)] = i;
+      for (const JsonValue& child : nodes_[i]["children"].elements()) {
+        parents_[child.indexInto(nodes_).value_or(0)] = i;
       }
     }
   }
@@ -243,9 +242,8 @@ class TreeReader {
         if (parents_[i] == kTopmost) all.push_back(i);
       }
     }
-    const JsonValue nodes = scenes[scene.value_or(0)]["nodes"];
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      all.push_back(nodes[i].indexInto(nodes_).value_or(0));
+    for (const JsonValue& node : scenes[scene.value_or(0)]["nodes"].elements()) {
+      all.push_back(node.indexInto(nodes_).value_or(0));
     }
     return all;
   }
@@ -266,9 +264,8 @@ class TreeReader {
     if (node["mesh"].exists()) placeMesh(index, map, mover);
     if (node["camera"].exists()) addCamera(index, map, mover);
     if (node["extensions"][kLights].exists()) addLight(index, map, mover);
-    const JsonValue children = node["children"];
-    for (std::size_t k = 0; k < children.size(); ++k) {
-      visit(*children[k].indexInto(nodes_), map, mover, depth + 1);
+    for (const JsonValue& child : node["children"].elements()) {
+      visit(*child.indexInto(nodes_), map, mover, depth + 1);
     }
   }
 
@@ -293,7 +290,7 @@ class TreeReader {
                     {0, 0, 0, 1},
                     tripleOr(node["scale"].numbers(3), {1, 1, 1})};
     const std::vector<double> turn = node["rotation"].numbers(4);
-    std::copy(turn.begin(), turn.end(), place.rotation.begin());
+    std::ranges::copy(turn, place.rotation.begin());
     return place;
   }
 
@@ -341,8 +338,8 @@ class TreeReader {
     std::vector<Deformation::Joint>& all = known->second.joints;
     Rig rig;
     std::map<std::size_t, std::uint32_t>& places = jointPlaces_[index];
-    for (std::size_t i = 0; i < joints.size(); ++i) {
-      all.push_back({placeJoint(joints[i].indexInto(nodes_).value_or(0), places, rig), Affine()});
+    for (const JsonValue& joint : joints.elements()) {
+      all.push_back({placeJoint(joint.indexInto(nodes_).value_or(0), places, rig), Affine()});
     }
     if (all.empty()) joints.fail("at least one joint");
     known->second.skeleton = std::make_shared<const Rig>(std::move(rig));

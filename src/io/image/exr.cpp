@@ -226,7 +226,7 @@ ExrChannels layerChannels(const std::string& path, const Imf::ChannelList& list)
   ExrChannels channels;
   for (auto it = list.begin(); it != list.end(); ++it) {
     const std::string name = it.name();
-    if (std::find(std::begin(kColors), std::end(kColors), name) != std::end(kColors)) continue;
+    if (std::ranges::find(kColors, name) != std::end(kColors)) continue;
     if (it.channel().xSampling != 1 || it.channel().ySampling != 1) {
       throwBadScene(path + ": header",
                     "expected a value a pixel of channel " + excerpt(name) + ", found fewer");

@@ -39,8 +39,8 @@ std::string kindOf(std::span<const std::uint8_t> file) {
       {"<", "a page of the web"},
       {"", "something else"}};
   if (file.empty()) return "an empty file";
-  return std::find_if(std::begin(kBeginnings), std::end(kBeginnings),
-                      [&](const auto& known) { return asText(file).starts_with(known.first); })
+  return std::ranges::find_if(
+             kBeginnings, [&](const auto& known) { return asText(file).starts_with(known.first); })
       ->second;
 }
 

@@ -107,7 +107,7 @@ class JpegReader {
     constexpr int kDamage[] = {JWRN_JPEG_EOF, JWRN_HIT_MARKER, JWRN_HUFF_BAD_CODE,
                                JWRN_MUST_RESYNC};
     const int code = common->err->msg_code;
-    if (level < 0 && std::count(std::begin(kDamage), std::end(kDamage), code) > 0) fail(common);
+    if (level < 0 && std::ranges::count(kDamage, code) > 0) fail(common);
   }
 
   const std::string& path_;

@@ -32,7 +32,7 @@ void requireSameLayers(const std::string& path, const std::vector<ImageLayer>& l
     const auto isWanted = [&](const ImageLayer& l) {
       return l.name == wanted.name && l.countsThings == wanted.countsThings;
     };
-    if (std::any_of(all.begin(), all.end(), isWanted)) return;
+    if (std::ranges::any_of(all, isWanted)) return;
     throwUsage(lacks + ": lacks the channel " + wanted.name + ", which '" + has + "' has");
   };
   for (const ImageLayer& layer : firstLayers) require(layers, layer, path, firstPath);
@@ -88,10 +88,10 @@ MergedImage mergeImages(const std::vector<std::string>& paths, const ImageLimits
     const ImageMetadata said = readExrMetadata(path);
     if (std::exchange(isFirstExr, false)) merged.metadata = said;
     std::erase_if(merged.metadata, [&](const auto& entry) {
-      return entry.first == "crop" || std::find(said.begin(), said.end(), entry) == said.end();
+      return entry.first == "crop" || std::ranges::find(said, entry) == said.end();
     });
   }
-  const auto gap = std::find(covered.begin(), covered.end(), false);
+  const auto gap = std::ranges::find(covered, false);
   if (gap == covered.end()) return merged;
   const auto at = static_cast<int>(gap - covered.begin());
   throwUsage("the parts leave " + std::to_string(std::count(gap, covered.end(), false)) +

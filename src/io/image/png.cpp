@@ -142,7 +142,7 @@ RawImage decode(const std::string& path, std::span<const std::uint8_t> file,
 }
 
 bool isAscii(const std::string& text) {
-  return std::all_of(text.begin(), text.end(), [](unsigned char c) { return c < 127; });
+  return std::ranges::all_of(text, [](unsigned char c) { return c < 127; });
 }
 
 // Stores plain text in Latin-1 chunks and the rest in UTF-8 ones. The chunks point into `metadata`,

@@ -29,7 +29,7 @@ template <typename T>
 double valueOf(const char* data, bool reversed) {
   std::array<char, sizeof(T)> bytes;
   std::memcpy(bytes.data(), data, sizeof(T));
-  if (reversed) std::reverse(bytes.begin(), bytes.end());
+  if (reversed) std::ranges::reverse(bytes);
   return static_cast<double>(std::bit_cast<T>(bytes));
 }
 
@@ -62,8 +62,7 @@ struct PlyElement {
   std::vector<PlyProperty> properties;
 
   const PlyProperty* find(std::string_view property) const {
-    const auto found = std::find_if(properties.begin(), properties.end(),
-                                    [&](const PlyProperty& p) { return p.name == property; });
+    const auto found = std::ranges::find(properties, property, &PlyProperty::name);
     return found == properties.end() ? nullptr : &*found;
   }
 };
@@ -190,9 +189,8 @@ class PlyReader {
   }
 
   const PlyType& typeOf(const std::string& word) const {
-    const auto* const found = std::find_if(
-        std::begin(kTypes), std::end(kTypes),
-        [&](const PlyType& type) { return word == type.name || word == type.otherName; });
+    const auto* const found = std::ranges::find_if(
+        kTypes, [&](const PlyType& type) { return word == type.name || word == type.otherName; });
     if (found == std::end(kTypes)) {
       failInHeader("\"" + excerpt(word) + "\" is no type of a property");
     }

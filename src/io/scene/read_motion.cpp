@@ -109,8 +109,7 @@ class KeyedMotion : public Motion {
 };
 
 void count(double seconds, SceneDescription& scene) {
-  const auto known = std::find_if(scene.animations.begin(), scene.animations.end(),
-                                  [](const Animation& a) { return a.name == kSceneMotion; });
+  const auto known = std::ranges::find(scene.animations, kSceneMotion, &Animation::name);
   Animation& all = known != scene.animations.end() ? *known : scene.animations.emplace_back();
   all.name = kSceneMotion;
   all.seconds = std::max(all.seconds, seconds);

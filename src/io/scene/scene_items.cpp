@@ -117,7 +117,7 @@ void nameItem(Body& content, const std::string& pointer) {
 // The index in `names` of the key of `slot`; an error suggests the nearest.
 std::size_t slotOf(const JsonValue& slot, const std::string& key,
                    const std::vector<std::string>& names, const std::string& kind) {
-  const auto found = std::find(names.begin(), names.end(), key);
+  const auto found = std::ranges::find(names, key);
   if (found == names.end()) throwBadScene(slot.where(), "unknown " + kind + isMeant(key, names));
   return static_cast<std::size_t>(found - names.begin());
 }
@@ -312,6 +312,12 @@ Body ItemReader::readModel(JsonObject& item, const JsonValue& path) {
 Body ItemReader::contentOf(Model& model, const std::filesystem::path& path, JsonObject& item) {
   const std::vector<std::uint32_t> materials = modelMaterials(model, item);
   reportProgress(context_.progress, "reading " + path.filename().string(), 0);
+  model.variant.reset();
+  if (const JsonValue name = item.find("variant")) {
+    const std::vector<std::string> names = model.variants();
+    if (names.empty()) name.fail("no variant, because the model has none");
+    model.variant = std::ranges::find(names, name.word(names)) - names.begin();
+  }
   return model.content(layout_, materials);
 }
 

@@ -66,7 +66,7 @@ std::vector<std::array<std::uint32_t, 3>> trianglesOf(const GivenMesh& given, st
                              std::to_string(given.triangles.size()) + " numbers");
   }
   const auto outside = [&](std::uint32_t vertex) { return vertex >= vertices; };
-  const auto bad = std::find_if(given.triangles.begin(), given.triangles.end(), outside);
+  const auto bad = std::ranges::find_if(given.triangles, outside);
   if (bad != given.triangles.end()) {
     throwBadScene(where, "expected vertices below " + std::to_string(vertices) + ", found " +
                              std::to_string(*bad) + " in triangle " +

@@ -47,6 +47,7 @@ struct SceneContext {
     if (entry) return *entry;
     entry = readNamedAt(where, [&] { return openModel({path, rules, budget, warnings, instant}); });
     for (const Animation& animation : entry->animations()) scene.animations.push_back(animation);
+    for (const std::string& variant : entry->variants()) scene.variants.push_back(variant);
     return *entry;
   }
 

@@ -25,7 +25,7 @@ std::vector<std::string> tokensOf(const std::string& text) {
   } catch (const Json::parse_error&) {
     return {};
   }
-  std::reverse(tokens.begin(), tokens.end());
+  std::ranges::reverse(tokens);
   return tokens;
 }
 
@@ -101,8 +101,7 @@ bool editMaterial(const SceneSetting& setting, const LoadOptions& options, JsonD
                   Scene& scene) {
   const std::string& name = setting.tokens[1];
   const std::string pointer = "/materials/" + escapePointer(name);
-  const auto known = std::find_if(scene.materials.begin(), scene.materials.end(),
-                                  [&](const Material& m) { return m.pointer == pointer; });
+  const auto known = std::ranges::find(scene.materials, pointer, &Material::pointer);
   if (known == scene.materials.end()) return false;
   Json members = std::move(sections.root["materials"][name]);
   forEachMap([&](const auto& member) { members.erase(member.name); });
@@ -144,7 +143,7 @@ SceneSetting parseSceneSetting(const std::string& text) {
 void addSceneSetting(const std::string& text, std::vector<std::string>& settings) {
   const std::vector<std::string> tokens = parseSceneSetting(text).tokens;
   const std::string section = "/" + escapePointer(tokens.front());
-  const bool appends = std::find(tokens.begin(), tokens.end(), "-") != tokens.end();
+  const bool appends = std::ranges::find(tokens, "-") != tokens.end();
   for (std::size_t i = settings.size(); i-- > 0 && !appends;) {
     if (!settings[i].starts_with(section)) continue;
     const std::vector<std::string> other = parseSceneSetting(settings[i]).tokens;

@@ -121,7 +121,7 @@ class Scene:
         codes or linear floats, or {"array": array, "wrap": "clamp"}. A Mesh that several items use
         is stored once.
         Lengths, positions and transforms are in the scene's own units, y up.
-    settings: values for members of the description by their JSON pointers, as in set().
+    settings: values by their JSON pointers, as in set(), and {"/variant": "red"} of a glTF file.
     sky: replaces the scene's sky: "none", "studio" or an image file.
     moves: loads animations, so that set_time() works.
     movable: JSON pointers to the things that set_transform() will move: items, cameras and lights
