@@ -27,7 +27,7 @@ std::string variable(const char* name) {
 int columnsOf(const DisplayImage& picture, const winsize& terminal, double width, double height) {
   const double fits = std::min({1.0, terminal.ws_col * width / picture.width,
                                 (terminal.ws_row - 1) * height / picture.height});
-  return std::max(1, static_cast<int>(std::lround(picture.width * fits / width)));
+  return std::max(1, static_cast<int>(picture.width * fits / width + 1e-6));
 }
 
 // The protocol takes at most 4096 bytes at a time. Without q=2 the terminal would answer.

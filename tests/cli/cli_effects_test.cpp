@@ -20,8 +20,8 @@ TEST(InfoEffects, DepthOfFieldNeedsAnApertureAndSamples) {
     std::vector<std::string> words{"info", "effects"};
     words.insert(words.end(), more.begin(), more.end());
     const std::string out = runWhit(words).out;
-    const std::size_t begin = out.find("depthOfField");
-    return begin == std::string::npos ? out : out.substr(begin, out.find('\n', begin) - begin);
+    const std::size_t begin = out.find("\n  depthOfField");
+    return begin == std::string::npos ? out : out.substr(begin, out.find('\n', begin + 1) - begin);
   };
   EXPECT_NE(line({}).find("1 camera with an aperture, but --spp is 1"), std::string::npos);
   const std::string two = line({"--spp", "2"});

@@ -149,9 +149,9 @@ TEST_F(TerminalPictures, LargeOnesFitTheTerminal) {
   };
   const std::string wide = render(colors, {"--size", "300x40"}).out;
   EXPECT_EQ(blocks(wide.substr(0, wide.find('\n'))), 100u);
-  const std::string high = render(colors, {"--size", "60x490"}).out;
+  const std::string high = render(colors, {"--size", "300x490"}).out;
   EXPECT_EQ(std::count(high.begin(), high.end(), '\n'), 49);
-  EXPECT_EQ(blocks(high.substr(0, high.find('\n'))), 12u);
+  EXPECT_EQ(blocks(high.substr(0, high.find('\n'))), 60u);
 }
 
 TEST_F(TerminalPictures, NothingWhereItWouldNotBeSeen) {
