@@ -204,11 +204,10 @@ struct EncodeArgs {
 };
 void encodeDisplay(const EncodeArgs& args) noexcept;
 
-// Names as in --simd, best first: of the targets that the kernels were compiled for, and of those
-// among them that this machine has. chooseTarget("auto") takes the best; false: this machine or
-// build lacks it. Functions that were found before stay those of the target before. Other
-// threads may choose the same target and call kernels of it meanwhile, and no other.
-std::vector<std::string> compiledTargets();
+// Names as in --simd, best first, of the compiled targets that this machine has.
+// chooseTarget("auto") takes the best; false: this machine or build lacks it. Functions that were
+// found before stay those of the target before. Other threads may choose the same target and call
+// kernels of it meanwhile, and no other.
 std::vector<std::string> availableTargets();
 bool chooseTarget(const std::string& name);
 std::string chosenTarget();

@@ -63,14 +63,6 @@ std::vector<std::string> availableTargets() {
   return names;
 }
 
-std::vector<std::string> compiledTargets() {
-  std::vector<std::string> names;
-  for (const TargetName& target : kTargetNames) {
-    if ((HWY_TARGETS & target.bit) != 0) names.emplace_back(target.name);
-  }
-  return names;
-}
-
 bool chooseTarget(const std::string& name) {
   static std::mutex mutex;
   static std::string chosen;

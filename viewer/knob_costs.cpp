@@ -41,7 +41,7 @@ std::vector<Candidate> candidatesOf(const Renderer& renderer, const RenderOption
 
 std::vector<KnobCost> toldFromNoise(std::vector<KnobCost> costs) {
   std::erase_if(costs, [](const KnobCost& cost) { return !cost.significant(); });
-  std::stable_sort(costs.begin(), costs.end(), [](const KnobCost& a, const KnobCost& b) {
+  std::ranges::stable_sort(costs, [](const KnobCost& a, const KnobCost& b) {
     return std::abs(a.ms()) > std::abs(b.ms());
   });
   return costs;

@@ -78,8 +78,8 @@ void drawPresets(RenderOptions& options) {
 }  // namespace
 
 void drawCost(const std::vector<KnobCost>& costs, const std::string& name) {
-  const auto found = std::find_if(costs.begin(), costs.end(),
-                                  [&](const KnobCost& cost) { return cost.name == name; });
+  const auto found =
+      std::ranges::find_if(costs, [&](const KnobCost& cost) { return cost.name == name; });
   if (found == costs.end() || !found->significant()) return;
   ImGui::SameLine();
   ImGui::TextDisabled("%+.1f ms", found->ms());

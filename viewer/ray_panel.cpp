@@ -31,8 +31,7 @@ void drawLegend(const std::vector<RayLine>& lines) {
   const float side = ImGui::GetFontSize();
   bool first = true;
   for (const RayLook look : rayLooks()) {
-    if (std::none_of(lines.begin(), lines.end(),
-                     [&](const RayLine& line) { return line.look == look; })) {
+    if (std::ranges::none_of(lines, [&](const RayLine& line) { return line.look == look; })) {
       continue;
     }
     const std::string name(styleOf(look).name);

@@ -68,7 +68,7 @@ std::string freeName(const Name& name, const std::vector<const char*>& extension
   constexpr int kLimit = 9999;
   for (int i = 1; i <= kLimit; ++i) {
     const auto taken = [&](const char* extension) { return fs::exists(name(i) + extension); };
-    if (std::none_of(extensions.begin(), extensions.end(), taken)) return name(i);
+    if (std::ranges::none_of(extensions, taken)) return name(i);
   }
   throwIo("'" + name(kLimit) + "' is taken: there are too many saved files in this folder");
 }

@@ -301,9 +301,9 @@ void EmbreeScene::bendMeshes(const Scene& scene) {
 
 // New ones only where others are there than before.
 void EmbreeScene::moveInstances(const Scene& scene) {
-  const bool same = std::equal(
-      scene.instances.begin(), scene.instances.end(), instanced_.begin(), instanced_.end(),
-      [](const InstanceRecord& i, std::uint32_t g) { return i.geometry == g; });
+  const bool same =
+      std::ranges::equal(scene.instances, instanced_,
+                         [](const InstanceRecord& i, std::uint32_t g) { return i.geometry == g; });
   if (!same || !instances_) {
     for (unsigned k = 0; k < instanced_.size(); ++k) rtcDetachGeometry(top(), kFirstInstanceId + k);
     return addInstances(scene);

@@ -42,9 +42,9 @@ template <typename T, typename... Others>
 constexpr bool kIsOneOf = (std::is_same_v<T, Others> || ...);
 // True for types without padding and pointers, whose bytes are their value.
 template <typename T>
-constexpr bool kPlain = std::is_arithmetic_v<T> || std::is_enum_v<T> ||
-                        kIsOneOf<T, Vec3f, Vec3d, Affine, TriangleRecord, NormalRecord, ColorRecord,
-                                 UvRecord, EffectSet>;
+constexpr bool kPlain =
+    std::is_arithmetic_v<T> || std::is_enum_v<T> ||
+    kIsOneOf<T, Vec3f, Affine, TriangleRecord, NormalRecord, ColorRecord, UvRecord>;
 static_assert(sizeof(Affine) == 12 * sizeof(double) &&
               sizeof(TriangleRecord) == 16 * sizeof(float) &&
               sizeof(NormalRecord) == 9 * sizeof(float) &&
@@ -58,10 +58,6 @@ void add(Digester& d, const T& value) { d.bytes(&value, sizeof value); }
 
 // The bindings below name every member, so that a new member does not compile until it is added
 // here.
-void add(Digester& d, const Medium& medium) {
-  const auto& [ior, absorption, priority] = medium;
-  add(d, ior), add(d, absorption), add(d, priority);
-}
 void add(Digester& d, const InstanceRecord& instance) {
   const auto& [geometry, written, toWorld, mover, toMover, firstItem] = instance;
   add(d, geometry), add(d, toWorld);
@@ -113,15 +109,11 @@ std::string digestOf(const Scene& scene) {
                items, coplanar, coincidentSpheres, motion, effects, reasons] =
       static_cast<const SceneTables&>(scene);
   Digester d;
+  // Media, bounds, effects and coincident surfaces follow from these, but for the ranks.
   addTable(d, lights), add(d, sky), add(d, sky.kind), add(d, sky.image), add(d, ambient);
-  addTable(d, materials), addTable(d, mediumOfMaterial), addTable(d, media), addTable(d, textures);
-  addTable(d, geometries), addTable(d, instances), addTable(d, triangles), addTable(d, normals);
-  addTable(d, colors), addTable(d, secondUvs);
-  addTable(d, coplanar.ranks());  // the rest of it follows from the other tables
-  for (const auto& sphere : coincidentSpheres) {
-    for (const PlacedTriangleId& id : *sphere.second) add(d, orderOf(id));
-  }
-  add(d, lower), add(d, upper), add(d, instancedTriangles), add(d, effects);
+  addTable(d, materials), addTable(d, textures), addTable(d, geometries), addTable(d, instances);
+  addTable(d, triangles), addTable(d, normals), addTable(d, colors), addTable(d, secondUvs);
+  addTable(d, coplanar.ranks());
   return d.hex();
 }
 

@@ -33,7 +33,7 @@ std::vector<std::size_t> paretoFront(const std::vector<CostAndError>& points) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (std::isfinite(points[i].cost) && std::isfinite(points[i].error)) order.push_back(i);
   }
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
     if (points[a].cost != points[b].cost) return points[a].cost < points[b].cost;
     return points[a].error < points[b].error;
   });

@@ -232,7 +232,7 @@ void Baker::place(std::size_t g) {
 std::vector<std::uint32_t> Baker::fromTheLast(std::size_t g) const {
   std::vector<std::uint32_t> numbers(sources_[g].size());
   std::iota(numbers.rbegin(), numbers.rend(), 0u);
-  std::stable_sort(numbers.begin(), numbers.end(), [&](std::uint32_t a, std::uint32_t b) {
+  std::ranges::stable_sort(numbers, [&](std::uint32_t a, std::uint32_t b) {
     return sources_[g][a].place.rank > sources_[g][b].place.rank;
   });
   return numbers;
@@ -376,8 +376,8 @@ void Baker::emitSpheres(std::size_t g) {
   Geometry& geometry = scene_.geometries[g];
   geometry.firstSphere = static_cast<std::uint32_t>(scene_.triangles.size());
   geometry.spheres = static_cast<std::uint32_t>(spheres_[g].size());
-  std::stable_sort(spheres_[g].begin(), spheres_[g].end(),
-                   [](const PlacedSphere& a, const PlacedSphere& b) { return a.rank < b.rank; });
+  std::ranges::stable_sort(
+      spheres_[g], [](const PlacedSphere& a, const PlacedSphere& b) { return a.rank < b.rank; });
   for (const PlacedSphere& sphere : spheres_[g]) {
     const auto number = static_cast<std::uint32_t>(scene_.triangles.size());
     order_.spheres.push_back({sphere.rank, sphere.instance, number});

@@ -41,9 +41,8 @@ void editShading(Scene& scene, std::vector<Material> materials, std::vector<Ligh
   d.materials = materials;
   validate(d);
   for (std::size_t i = 0; i < materials.size(); ++i) keepBaked(scene.materials[i], materials[i]);
-  const bool kindsStay =
-      std::equal(materials.begin(), materials.end(), scene.materials.begin(), sameKind) &&
-      std::equal(lights.begin(), lights.end(), scene.lights.begin(), sameKindOfLight);
+  const bool kindsStay = std::ranges::equal(materials, scene.materials, sameKind) &&
+                         std::ranges::equal(lights, scene.lights, sameKindOfLight);
   scene.materials.swap(materials);
   scene.lights.swap(lights);
   if (kindsStay) return;

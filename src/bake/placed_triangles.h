@@ -66,7 +66,7 @@ void forEachPlacedTriangle(const SceneDescription& scene, std::uint64_t most, co
 template <typename Use>
 void forEachPlacedCorner(const SceneDescription& scene, std::uint64_t most, const Use& use,
                          std::optional<double> seconds = {}) {
-  const auto useAll = [&](const Corners& t) { std::for_each(t.begin(), t.end(), use); };
+  const auto useAll = [&](const Corners& t) { std::ranges::for_each(t, use); };
   forEachPlacedTriangle(scene, most, useAll, seconds);
 }
 

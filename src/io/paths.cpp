@@ -99,7 +99,7 @@ fs::path PathRules::resolve(std::string text, const fs::path& folder, const std:
     throwBadScene(where, "expected the path of a file on this machine, found " +
                              (nul ? "a NUL byte" : excerpt(text)));
   }
-  if (backslashes) std::replace(text.begin(), text.end(), '\\', '/');
+  if (backslashes) std::ranges::replace(text, '\\', '/');
   fs::path path;
   if (text.starts_with(kDataVariable)) {
     if (text.size() > kDataVariable.size() && text[kDataVariable.size()] != '/') {

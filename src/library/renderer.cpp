@@ -79,7 +79,7 @@ struct Renderer::Data {
 
   void setTransform(const std::string& pointer, std::span<const double, 12> rows) {
     const auto fits = [](double x) { return std::abs(x) <= kLargestCoordinate; };
-    if (!std::all_of(rows.begin(), rows.end(), fits)) {
+    if (!std::ranges::all_of(rows, fits)) {
       throwUsage("setTransform: expected numbers up to 1.844e18");
     }
     const auto column = [&](std::size_t i) { return Vec3d{rows[i], rows[i + 4], rows[i + 8]}; };

@@ -208,9 +208,7 @@ ModelView viewOf(const SceneDescription& scene, double seconds) {
   for (const Vec3d& point : points) bounds.add(point);
   view.center = bounds.center();
   view.radius = length(bounds.half());
-  const auto everyPoint = [&](const auto& use) {
-    std::for_each(points.begin(), points.end(), use);
-  };
+  const auto everyPoint = [&](const auto& use) { std::ranges::for_each(points, use); };
   lookFrom(framing, everyPoint, view);
   return view;
 }

@@ -261,8 +261,8 @@ void refreshShading(const Scene& scene, EffectSet effects, const ShadingChoices&
                     int threads, ShadingTables& tables) {
   const std::vector<MaterialRecord> before = tables.materials;
   addMaterials(scene, effects, tables);
-  const bool sameTextures = std::equal(
-      before.begin(), before.end(), tables.materials.begin(), tables.materials.end(),
+  const bool sameTextures = std::ranges::equal(
+      before, tables.materials,
       [](const MaterialRecord& a, const MaterialRecord& b) { return mapsOf(a) == mapsOf(b); });
   if (sameTextures) {
     addLighting(scene, effects, tables);

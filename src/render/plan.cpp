@@ -349,8 +349,8 @@ std::vector<KernelUse> kernelsOf(const Plan& plan) {
     }
   });
   // Lights begin with different kernels of the same stage.
-  std::stable_sort(uses.begin(), uses.end(),
-                   [](const KernelUse& a, const KernelUse& b) { return a.stage < b.stage; });
+  std::ranges::stable_sort(
+      uses, [](const KernelUse& a, const KernelUse& b) { return a.stage < b.stage; });
   return uses;
 }
 

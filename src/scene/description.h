@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "scene/camera.h"
+#include "scene/deformation.h"
 #include "scene/light.h"
 #include "scene/material.h"
 #include "scene/mesh.h"
 #include "scene/motion.h"
-#include "scene/scene_motion.h"
 #include "scene/texture.h"
 
 namespace whit {
@@ -22,6 +22,30 @@ inline constexpr float kLargestCoordinate = 1.844e18f;
 
 // Names are kept of so many items.
 inline constexpr std::size_t kNamedItems = 65536;
+
+// Cameras and lights in the space of the node that moves them. A camera without a node follows the
+// scene's camera path.
+struct MovingCamera {
+  std::uint32_t camera = 0, node = kNoNode;
+  Camera own;
+};
+struct MovingLight {
+  std::uint32_t light = 0, node = 0;
+  Vec3f position, direction;
+};
+
+// Transforms a camera or a light by the map from its node to the world. A camera's target is as far
+// away as the map says, but never so near, compared with the distance from the origin, that the
+// rounding of both would turn the view.
+void carry(const Camera& own, const Affine& map, Camera& camera);
+void carry(const MovingLight& own, const Affine& map, Light& light);
+
+struct SceneMotion {
+  Rig rig;  // instances refer to its nodes
+  std::vector<MovingCamera> cameras;
+  std::vector<MovingLight> lights;
+  double seconds = 0;  // when the scene is looked at
+};
 
 // The members of a scene that baking leaves as they are.
 struct SceneContents {

@@ -71,7 +71,7 @@ void normalize(std::vector<double>& quaternion) {
 }  // namespace
 
 std::vector<double> valueAt(const Track& track, double time) {
-  const auto next = std::upper_bound(track.times.begin(), track.times.end(), time);
+  const auto next = std::ranges::upper_bound(track.times, time);
   const auto after = static_cast<std::size_t>(next - track.times.begin());
   std::vector<double> value;
   if (after == 0 || after == track.times.size()) {

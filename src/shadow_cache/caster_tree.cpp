@@ -180,8 +180,7 @@ CasterList::CasterList(const Scene& scene) {
     const Box box = boxOf(scene, caster);
     sorted.emplace_back(placeOnCurve((box.lower + box.upper) * 0.5f, bounds), caster);
   }
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::ranges::stable_sort(sorted, [](const auto& a, const auto& b) { return a.first < b.first; });
   for (std::size_t i = 0; i < sorted.size(); ++i) casters[i] = sorted[i].second;
 }
 

@@ -53,13 +53,6 @@ TEST(Kernels, BelongToStagesInOrder) {
   }
 }
 
-TEST(Kernels, AreCompiledForEveryTargetThatCanBeChosen) {
-  const std::vector<std::string> compiled = simd::compiledTargets();
-  for (const std::string& target : simd::availableTargets()) {
-    EXPECT_NE(std::find(compiled.begin(), compiled.end(), target), compiled.end()) << target;
-  }
-}
-
 TEST(KernelsOfAPlan, RunInTheOrderOfItsStagesAndComeFromTheTable) {
   for (const EffectSet effects : manySets()) {
     const Plan plan = planOf(effects);

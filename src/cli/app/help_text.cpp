@@ -179,7 +179,7 @@ std::string completionLine(const std::string& word, const std::string& name,
 std::string completionScript(const std::string& shell, const std::string& program) {
   const OptionSpec spec{.name = "completion", .words = "bash|zsh|fish"};
   std::string function = program;
-  std::replace(function.begin(), function.end(), '-', '_');
+  std::ranges::replace(function, '-', '_');
   const std::string script =
       std::regex_replace(kScripts[parseChoice(spec, shell)], std::regex("FUNCTION"), function);
   return std::regex_replace(script, std::regex("NAME"), program);

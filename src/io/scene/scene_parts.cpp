@@ -26,7 +26,7 @@ struct Column {
 
 void requireNumbers(const Column& column, const std::string& where) {
   const auto fits = [&](float x) { return x >= column.low && x <= column.high; };
-  const auto bad = std::find_if_not(column.numbers.begin(), column.numbers.end(), fits);
+  const auto bad = std::ranges::find_if_not(column.numbers, fits);
   if (bad == column.numbers.end()) return;
   const bool anyFinite = column.high == std::numeric_limits<float>::max();
   const std::string range = anyFinite ? "finite numbers"

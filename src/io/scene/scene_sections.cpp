@@ -108,7 +108,7 @@ void readOptions(JsonObject& file, SceneDescription& scene) {
   const std::vector<std::string> names = sceneOptionNames();
   RenderOptions checked;
   for (const auto& [name, value] : file.find("options").members()) {
-    if (std::find(names.begin(), names.end(), name) == names.end()) {
+    if (std::ranges::find(names, name) == names.end()) {
       throwBadScene(value.where(), "expected an option of the picture" + isMeant(name, names) +
                                        ", found \"" + excerpt(name) + "\"");
     }

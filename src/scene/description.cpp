@@ -1,4 +1,4 @@
-#include "scene/scene_motion.h"
+#include "scene/description.h"
 
 #include <algorithm>
 
