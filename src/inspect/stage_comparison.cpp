@@ -17,8 +17,8 @@
 #include "reference/generate_rays.h"
 #include "reference/sphere.h"
 #include "reference/triangle.h"
-#include "reference/twin.h"
 #include "reference/update_image.h"
+#include "reference/world.h"
 #include "reference/write_emitted_and_reflective_ambient.h"
 #include "render/frame.h"
 #include "scene/light.h"
@@ -70,7 +70,7 @@ struct Place {
   const reference::World& world;
   const Chunk& chunk;
   std::size_t slot;
-  const Row& twin;
+  const Row& scalar;
 };
 
 // Columns that are compared as one, and the magnitude that its ulps are at least those of: the rule
@@ -99,13 +99,13 @@ double byEye(const Place<RayRow>& p) { return maxComponent(abs(p.world.camera.ey
 // refracted ray goes to zero with it.
 template <double (*kScale)(const Place<RayRow>&)>
 double whereItCounts(const Place<RayRow>& p) {
-  const double largest = std::max({p.twin.weightR, p.twin.weightG, p.twin.weightB});
+  const double largest = std::max({p.scalar.weightR, p.scalar.weightG, p.scalar.weightB});
   return largest < 0.05 ? kNotHere : kScale(p);
 }
 double byItself(const Place<RayRow>&) { return 0; }
 
 double cosineOf(const Place<SurfelRow>& p) {
-  const SurfelRow& s = p.twin;
+  const SurfelRow& s = p.scalar;
   return std::fabs(dot(Vec3d{s.ngX, s.ngY, s.ngZ}, reference::rayOf(p.chunk, p.slot).direction));
 }
 // A surface seen edge on may be entered in one precision and left in the other.
@@ -150,7 +150,7 @@ std::optional<double> alongRay(const Place<SurfelRow>& p) {
   if (placed || shared || (!sphere && bySliver(p) > 0x1p11) ||
       !(8 * t < edges.x + edges.y + edges.z))
     return {};
-  const SurfelRow& s = p.twin;
+  const SurfelRow& s = p.scalar;
   const double across = dot(abs(Vec3d{s.ngX, s.ngY, s.ngZ}), edges);
   return std::fabs(s.posX) + std::fabs(s.posY) + std::fabs(s.posZ) + 4 * t + across;
 }
@@ -165,12 +165,12 @@ double byMagnitude(const Place<SurfelRow>& p) {
   }
   Vec3d largest;
   for (const Vec3d& corner : cornersAt(p)) largest = max(largest, abs(corner));
-  return std::max(largest.x + largest.y + largest.z, p.twin.offset * 0x1p19);
+  return std::max(largest.x + largest.y + largest.z, p.scalar.offset * 0x1p19);
 }
 // From slivers of 2^14 on another offset counts; rounding decides what is one.
 double byOffset(const Place<SurfelRow>& p) {
   const double sliver = bySliver(p);
-  return sliver > 0x1p11 ? kNotHere : sliver * p.twin.offset;
+  return sliver > 0x1p11 ? kNotHere : sliver * p.scalar.offset;
 }
 double bySliverIfMapped(const Place<SurfelRow>& p) {
   return p.world.effects.has(Effect::normalMaps) ? bySliver(p) : kNotHere;
@@ -204,7 +204,7 @@ double byGrazing(const Place<UnshadowedRow>& p) {
   const reference::Surfel s = reference::surfelOf(p.chunk, p.slot);
   const Vec3d l = normalized(reference::arrivalAt(p.world, p.chunk, p.slot).shadowRay.direction);
   const double width = maxComponent(s.specular) > 0 ? s.alpha : 1;
-  const double scale = byPointOfLight(p.chunk) * std::max({p.twin.r, p.twin.g, p.twin.b}) /
+  const double scale = byPointOfLight(p.chunk) * std::max({p.scalar.r, p.scalar.g, p.scalar.b}) /
                        (std::max(dot(l, s.shadingNormal), 1e-4) * width);
   if (light.kind != Light::Kind::spot) return scale;
   // The cosine to the cone's axis has an absolute error too, relative to the width of its edge.
@@ -218,7 +218,7 @@ double byBothEnds(const Place<ShadowRow>& p) {
   if (light.kind == Light::Kind::directional) return 1;
   return byPointOfLight(p.chunk) *
          (maxComponent(abs(Vec3d(light.position))) +
-          maxComponent(abs(Vec3d{p.twin.orgX, p.twin.orgY, p.twin.orgZ})));
+          maxComponent(abs(Vec3d{p.scalar.orgX, p.scalar.orgY, p.scalar.orgZ})));
 }
 
 std::vector<std::string> xyz(const std::string& s) { return {s + "X", s + "Y", s + "Z"}; }
@@ -375,10 +375,10 @@ class StageComparer : public StageObserver {
     for (int y = window.y0; y < window.y1; ++y) {
       for (int x = window.x0; x < window.x1; ++x) {
         const std::size_t pixel = film.image.index(x, y);
-        const std::uint32_t twin = reference::updateImage(options_, film.image.pixels[pixel]);
+        const std::uint32_t scalar = reference::updateImage(options_, film.image.pixels[pixel]);
         int worst = 0;
         for (std::size_t channel = 0; channel < 3; ++channel) {
-          const int code = static_cast<int>(twin >> (8 * channel) & 0xFFu);
+          const int code = static_cast<int>(scalar >> (8 * channel) & 0xFFu);
           worst = std::max(worst, std::abs(code - int{film.display.rgba[4 * pixel + channel]}));
         }
         note(Stage::updateImage, "code", worst, kExact, packedPixel(x, y), 0);
@@ -413,11 +413,11 @@ class StageComparer : public StageObserver {
   // `slot` is that of the surfel that the row is about; some rows have no reference.
   template <typename Row>
   void compareRow(Stage stage, const Chunk& c, std::size_t slot, const Row& got,
-                  const std::type_identity_t<std::optional<Row>>& twin) {
+                  const std::type_identity_t<std::optional<Row>>& scalar) {
     static const std::vector<Compared<Row>> compared = comparedOf<Row>();
-    if (!twin) return;
-    const auto values = got.values(), wanted = twin->values();
-    const Place<Row> place{world_, c, slot, *twin};
+    if (!scalar) return;
+    const auto values = got.values(), wanted = scalar->values();
+    const Place<Row> place{world_, c, slot, *scalar};
     for (const auto& [what, columns, feature] : compared) {
       if (what.stage && what.stage != stage) continue;
       const double scale = what.scale ? what.scale(place) : 0;
@@ -428,11 +428,11 @@ class StageComparer : public StageObserver {
   }
 
   // All rows of `columns`; `slots` are those of their surfels where they are not the same.
-  template <typename Row, typename Twin>
+  template <typename Row, typename Scalar>
   void compareRows(Stage stage, const Chunk& c, const typename Row::Columns& columns,
-                   std::size_t count, Twin&& twin, const std::uint32_t* slots = nullptr) {
+                   std::size_t count, Scalar&& scalar, const std::uint32_t* slots = nullptr) {
     for (std::size_t i = 0; i < count; ++i) {
-      compareRow(stage, c, slots ? slots[i] : i, Row::at(columns, i), twin(world_, c, i));
+      compareRow(stage, c, slots ? slots[i] : i, Row::at(columns, i), scalar(world_, c, i));
     }
   }
 

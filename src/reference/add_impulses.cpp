@@ -266,21 +266,21 @@ RayRow addImpulses(const World& world, const Chunk& chunk, std::size_t child) {
   const RayKind kind = kindOf(chunk, child);
   RayRow row;
   row.path = childStream(path, branchOf(kind));
-  LobeChild twin;
+  LobeChild traced;
   if (const auto sample = sampleOfLobe(chunk, child, kind, surfel)) {
-    twin = *sample;
+    traced = *sample;
     row.path = chunk.children.path[child];
   } else {
-    twin.impulse =
+    traced.impulse =
         findImpulses(world.scene, world.effects, surfel, crossing, stack, chunk.options().shading)
             .of(kind);
   }
-  const Impulse& impulse = twin.impulse;
+  const Impulse& impulse = traced.impulse;
   const double contribution = double{chunk.rays.throughput[slot]} * maxComponent(impulse.weight);
   const double grows = growthOfSurvivors(chunk.options(), contribution);
   put(impulse.ray.origin, row.orgX, row.orgY, row.orgZ);
   put(impulse.ray.direction, row.dirX, row.dirY, row.dirZ);
-  put(impulse.weight * (grows / twin.rays), row.weightR, row.weightG, row.weightB);
+  put(impulse.weight * (grows / traced.rays), row.weightR, row.weightG, row.weightB);
   row.throughput = contribution * grows;
   row.parent = slot;
   row.media = impulse.media;

@@ -8,7 +8,7 @@
 
 #include "core/options.h"
 #include "reference/media.h"
-#include "reference/twin.h"
+#include "reference/world.h"
 #include "sampling/random_streams.h"
 #include "stages/lobes.h"
 

@@ -1,7 +1,7 @@
 // addShading: the radiance from a light, once its shadow is known.
 #pragma once
 
-#include "reference/twin.h"
+#include "reference/world.h"
 
 namespace whit::reference {
 

@@ -1,7 +1,7 @@
 // checkShadows: whether a shadow ray meets nothing that casts shadows.
 #pragma once
 
-#include "reference/twin.h"
+#include "reference/world.h"
 
 namespace whit::reference {
 

@@ -10,7 +10,7 @@
 #include "core/shading_choices.h"
 #include "reference/surfel.h"
 #include "reference/triangle.h"
-#include "reference/twin.h"
+#include "reference/world.h"
 
 namespace whit::reference {
 

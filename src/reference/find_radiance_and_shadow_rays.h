@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "core/shading_choices.h"
-#include "reference/twin.h"
+#include "reference/world.h"
 #include "sampling/random_streams.h"
 
 namespace whit::reference {

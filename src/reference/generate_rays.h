@@ -2,7 +2,7 @@
 #pragma once
 
 #include "reference/reference.h"
-#include "reference/twin.h"
+#include "reference/world.h"
 
 namespace whit::reference {
 

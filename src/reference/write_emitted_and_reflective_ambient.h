@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "reference/add_impulses.h"
-#include "reference/twin.h"
+#include "reference/world.h"
 
 namespace whit::reference {
 

@@ -1,7 +1,7 @@
 // What each step of the plan takes a ray, for every SIMD target of this machine; steps that call
 // Embree are timed with it, and the kernels that fill and empty its packets once more alone:
 //   build/tests/kernels_bench [--benchmark_filter=interpolate] [...]
-// Before it is timed, a target's kernels are compared with their scalar twins; afterwards its
+// Before it is timed, a target's kernels are compared with their scalar reference; afterwards its
 // columns must still hold the same bits.
 #include <benchmark/benchmark.h>
 
@@ -78,13 +78,13 @@ class PacketBench {
   ColumnStore<HitColumns> hits_;
 };
 
-// Empty, or which stage is how far from its twin.
-std::string twinsDiffer(BenchTile& tile) {
+// Empty, or which stage is how far from the scalar reference.
+std::string referenceDiffers(BenchTile& tile) {
   for (const StageDifference& row :
        compareStages(tile.renderer(), tile.camera(), tile.smallFilm())) {
     if (row.worstUlp <= row.limitUlp) continue;
     return std::string(kStageNames[static_cast<std::size_t>(row.stage)]) + " " + row.column +
-           " differs from its twin by " + std::to_string(row.worstUlp) + " ulp";
+           " differs from its scalar by " + std::to_string(row.worstUlp) + " ulp";
   }
   return {};
 }
@@ -102,7 +102,7 @@ struct Subject {
     if (!tile) {
       tile = std::make_unique<BenchTile>(scene, target, optionsOf(input), pixels);
       pixels = tile->pixels();
-      verdict = twinsDiffer(*tile);
+      verdict = referenceDiffers(*tile);
       simd::chooseTarget(target);
     }
     return *tile;
@@ -168,7 +168,7 @@ Deformation makeSkin() {
   return skin;
 }
 
-// The twin, and each target's kernels.
+// The scalar reference, and each target's kernels.
 void registerSkin() {
   const auto skin = std::make_shared<const Deformation>(makeSkin());
   const auto pose = std::make_shared<DeformationPose>();
@@ -179,16 +179,16 @@ void registerSkin() {
     benchmark::RegisterBenchmark(("deformVertices/" + name).c_str(), [=](benchmark::State& state) {
       simd::chooseTarget(target);
       for (auto _ : state) benchmark::DoNotOptimize(deform(*skin, *pose));
-      const DeformedVertices twin = deformVertices(*skin, *pose), bent = deform(*skin, *pose);
-      if (bent.positions != twin.positions || bent.normals != twin.normals) {
-        state.SkipWithError("differs from its twin");
+      const DeformedVertices scalar = deformVertices(*skin, *pose), bent = deform(*skin, *pose);
+      if (bent.positions != scalar.positions || bent.normals != scalar.normals) {
+        state.SkipWithError("differs from its scalar");
       }
       state.counters["per_vertex"] = benchmark::Counter(
           static_cast<double>(skin->positions.size()),
           benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
     });
   };
-  add("twin", deformVertices, "auto");
+  add("scalar", deformVertices, "auto");
   for (const std::string& target : simd::availableTargets()) {
     add(target, simd::deformVertices, target);
   }

@@ -30,7 +30,7 @@ inline constexpr std::array kAccounted{
     Accounted{53, "true reciprocals and roots", "tests/render/reciprocal_test.cpp",
               "ReciprocalRoot.H53_isExactOnEveryTarget"},
     Accounted{54, "contraction and targets", "tests/render/twins_test.cpp",
-              "Twins.TargetsAgreeWithEachOther"},
+              "StagesOfScenes.TargetsAgreeWithEachOther"},
     Accounted{55, "workers flush denormals, nobody else does", "tests/unit/worker_pool_test.cpp",
               "WorkerPool.H55_denormalsAreFlushedInEveryWorkerAndNowhereElse"},
     Accounted{57, "sky and image texels are repaired and counted", "tests/images/exr_test.cpp",

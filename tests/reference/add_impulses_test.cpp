@@ -213,7 +213,7 @@ TEST_F(HallOfMirrors, DisabledMirrorsReflectNothing) {
 }
 
 // Down onto a mirror of 0.5 that a ray of throughput 0.25 has met.
-TEST(AddImpulsesTwin, IsTheChildOfItsKind) {
+TEST(AddImpulsesReference, IsTheChildOfItsKind) {
   Material mirror = test::blackMaterial();
   mirror.mirror = mirror.mirrorGrazing = Rgb(0.5f);
   const Scene scene = sceneOf(mirror);

@@ -29,7 +29,7 @@ TEST(Lights, AddUpAndKeepTheirColors) {
   EXPECT_NEAR(seen.z, 0.25 / kPi * 3, 1e-12);
 }
 
-TEST(AddShadingTwin, AddsWhatIsVisible) {
+TEST(AddShadingReference, AddsWhatIsVisible) {
   const Scene scene = SceneBuilder().build();
   test::SmallChunk small(scene);
   small.chunk.unshadowed.r[0] = 0.5f;

@@ -144,7 +144,7 @@ TEST(CheckShadows, WhatEndsBeforeTheScreenIsVisible) {
   EXPECT_TRUE(isVisible(bruteForce, {{1.001, 2, 0.5}, {0, -4, 0}}, 1));
 }
 
-TEST(CheckShadowsTwin, AnswersForTheSlotOfTheRay) {
+TEST(CheckShadowsReference, AnswersForTheSlotOfTheRay) {
   SceneBuilder builder;
   builder.add(test::floorAt(1, 1, 0));
   const Scene scene = builder.build();

@@ -350,7 +350,7 @@ TEST(AlphaMask, CutsWhereItFallsBelowTheCutoff) {
 }
 
 // Every column of the row is the surfel's; a ray that has met nothing has none.
-TEST(FindIntersectionsTwin, IsTheSurfelOfTheHit) {
+TEST(FindIntersectionsReference, IsTheSurfelOfTheHit) {
   SceneBuilder builder;
   builder.add(test::floorAt(1, 2, builder.add(test::glassMaterial(1.5f))));
   const Scene scene = builder.build();

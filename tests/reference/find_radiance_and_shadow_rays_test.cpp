@@ -215,7 +215,7 @@ TEST(DirectionalLight, HasAHighlight) {
 }
 
 // White, 2 below a light of 4 pi^2: 4 pi^2 / 4 / pi.
-TEST(FindRadianceTwin, LooksFromTheSurfelToTheLight) {
+TEST(FindRadianceReference, LooksFromTheSurfelToTheLight) {
   const Scene scene = SceneBuilder().build();
   test::SmallChunk small(scene, FeatureSet::all().without(Feature::lift));
   const Light light = lightAt({0, 2, 0}, static_cast<float>(4 * kPi));

@@ -79,7 +79,7 @@ TEST(PrimaryRay, PassesTheLensAndMeetsThePlaneOfFocus) {
   }
 }
 
-TEST(GenerateRaysTwin, TakesTheLensOfItsSample) {
+TEST(GenerateRaysReference, TakesTheLensOfItsSample) {
   const Scene scene = test::SceneBuilder().build();
   test::SmallChunk small(scene);
   Camera camera;
@@ -96,7 +96,7 @@ TEST(GenerateRaysTwin, TakesTheLensOfItsSample) {
   EXPECT_NE(ray.origin, Vec3d(camera.eye));
 }
 
-TEST(GenerateRaysTwin, StartsAPathAPixel) {
+TEST(GenerateRaysReference, StartsAPathAPixel) {
   const Scene scene = test::SceneBuilder().build();
   test::SmallChunk small(scene);
   small.world.camera = makeCameraFrame(Camera(), 8, 8);

@@ -1,11 +1,11 @@
-// A chunk of one block of slots, for the twins of the stages.
+// A chunk of one block of slots, for the scalar reference of the stages.
 #pragma once
 
 #include <algorithm>
 
 #include "brute_force.h"
 #include "reference/reference.h"
-#include "reference/twin.h"
+#include "reference/world.h"
 #include "stages/chunk.h"
 
 namespace whit::test {

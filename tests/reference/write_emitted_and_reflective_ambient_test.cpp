@@ -86,7 +86,7 @@ TEST(BlurredSky, IsReflectedByRoughSurfaces) {
   EXPECT_EQ(emittedAndAmbient(scene, effects, s), s.diffuse) << "the mirror shows the scene";
 }
 
-TEST(AmbientTwin, TellsSkySurfelsAndHiddenOnesApart) {
+TEST(AmbientReference, TellsSkySurfelsAndHiddenOnesApart) {
   SceneBuilder builder;
   builder.sky(2);
   Material glowing = test::blackMaterial();

@@ -20,7 +20,7 @@ class AmbientOcclusion : public testing::TestWithParam<std::string> {
   Scene scene_;
 };
 
-TEST_P(AmbientOcclusion, EveryStageAgreesWithItsTwinOnEveryTarget) {
+TEST_P(AmbientOcclusion, EveryStageAgreesWithItsReferenceOnEveryTarget) {
   RenderOptions o = options();
   o.spp = 2;
   o.depth = 3;

@@ -408,7 +408,7 @@ TEST(ChannelLaws, AdaptiveSamplingKeepsTheCenters) {
 }
 
 // What both ways to trace keep, but where paths part by rounding.
-TEST(ChannelLaws, AgreeWithTheTwin) {
+TEST(ChannelLaws, AgreeWithTheReference) {
   constexpr double kMostParted = 0.01;  // of the pixels, whose rays pass an edge or a cutoff
   for (const std::string& name : smallScenes()) {
     const Scene scene = load(name);

@@ -19,7 +19,7 @@ Scene blocks() {
   });
 }
 
-TEST(CoatedGlass, EveryStageAgreesWithItsTwinOnEveryTarget) {
+TEST(CoatedGlass, EveryStageAgreesWithItsReferenceOnEveryTarget) {
   expectStagesAgreeOnEveryTarget(blocks(), smallOptions());
 }
 

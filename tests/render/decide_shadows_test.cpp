@@ -194,7 +194,7 @@ class MadeUp {
   std::size_t count_ = 0;
 };
 
-void expectAsTheTwin(MadeUp& made, bool empty, bool asks) {
+void expectAsTheReference(MadeUp& made, bool empty, bool asks) {
   FrameConstants constants;
   ShadingTables shading;
   ShadowCacheView view;
@@ -234,7 +234,7 @@ void expectAsTheTwin(MadeUp& made, bool empty, bool asks) {
   }
 }
 
-TEST(DecideShadows, DoesAsItsTwinOnEveryTarget) {
+TEST(DecideShadows, DoesAsItsReferenceOnEveryTarget) {
   for (const std::string& target : simd::availableTargets()) {
     simd::chooseTarget(target);
     for (unsigned seed = 0; seed < 20; ++seed) {
@@ -242,7 +242,7 @@ TEST(DecideShadows, DoesAsItsTwinOnEveryTarget) {
       for (const bool empty : {false, true}) {
         for (const bool asks : {false, true}) {
           MadeUp made(seed);
-          expectAsTheTwin(made, empty, asks);
+          expectAsTheReference(made, empty, asks);
         }
       }
     }

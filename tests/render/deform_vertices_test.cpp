@@ -1,4 +1,4 @@
-// The kernels that bend meshes, against their scalar twin, bit for bit.
+// The kernels that bend meshes, against their scalar reference, bit for bit.
 #include "simd/deform_vertices.h"
 
 #include <gtest/gtest.h>
@@ -66,12 +66,12 @@ class AnyDeformation {
   std::size_t count_;
 };
 
-void expectTwins(const Deformation& deformation, const DeformationPose& pose) {
-  const DeformedVertices twin = deformVertices(deformation, pose);
+void expectReference(const Deformation& deformation, const DeformationPose& pose) {
+  const DeformedVertices scalar = deformVertices(deformation, pose);
   const DeformedVertices bent = simd::deformVertices(deformation, pose);
-  EXPECT_EQ(bent.positions, twin.positions);
-  EXPECT_EQ(bent.normals, twin.normals);
-  EXPECT_EQ(bent.sides, twin.sides);
+  EXPECT_EQ(bent.positions, scalar.positions);
+  EXPECT_EQ(bent.normals, scalar.normals);
+  EXPECT_EQ(bent.sides, scalar.sides);
 }
 
 class DeformKernels : public testing::TestWithParam<std::string> {
@@ -80,14 +80,14 @@ class DeformKernels : public testing::TestWithParam<std::string> {
   void TearDown() override { simd::chooseTarget("auto"); }
 };
 
-TEST_P(DeformKernels, BendAsTheirTwin) {
+TEST_P(DeformKernels, BendAsTheirReference) {
   for (const std::size_t count : {0u, 1u, 7u, 8u, 9u, 200u}) {
     for (const bool normals : {false, true}) {
       for (const bool skin : {false, true}) {
         AnyDeformation any(static_cast<std::uint32_t>(count), count);
         const Deformation deformation = any.make(normals, skin);
         SCOPED_TRACE(std::to_string(count) + (normals ? " normals" : "") + (skin ? " skin" : ""));
-        expectTwins(deformation, any.pose(deformation));
+        expectReference(deformation, any.pose(deformation));
       }
     }
   }
@@ -104,8 +104,8 @@ TEST_P(DeformKernels, KeepNormalsThatAreTinyOrHuge) {
       joint = {joint.x * size, joint.y * size, joint.z * size, joint.p};
     }
     SCOPED_TRACE(size);
-    const DeformedVertices twin = deformVertices(deformation, pose);
-    EXPECT_EQ(simd::deformVertices(deformation, pose).normals, twin.normals);
+    const DeformedVertices scalar = deformVertices(deformation, pose);
+    EXPECT_EQ(simd::deformVertices(deformation, pose).normals, scalar.normals);
   }
 }
 

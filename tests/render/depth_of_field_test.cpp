@@ -212,7 +212,7 @@ RenderOptions lensOptions(int spp) {
   return o;
 }
 
-TEST(DepthOfField, EveryStageAgreesWithItsTwinOnEveryTarget) {
+TEST(DepthOfField, EveryStageAgreesWithItsReferenceOnEveryTarget) {
   expectStagesAgreeOnEveryTarget(load("effects"), lensOptions(2));
   expectStagesAgreeOnEveryTarget(sceneOf({4, 8, true}), optionsOf(2));
 }

@@ -22,7 +22,7 @@ class Glossy : public testing::TestWithParam<std::string> {
   Scene scene_;
 };
 
-TEST_P(Glossy, EveryStageAgreesWithItsTwinOnEveryTarget) {
+TEST_P(Glossy, EveryStageAgreesWithItsReferenceOnEveryTarget) {
   RenderOptions o = options();
   o.spp = 2;
   o.depth = 3;

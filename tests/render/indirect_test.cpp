@@ -22,7 +22,7 @@ class Indirect : public testing::TestWithParam<std::string> {
   Scene scene_;
 };
 
-TEST_P(Indirect, EveryStageAgreesWithItsTwinOnEveryTarget) {
+TEST_P(Indirect, EveryStageAgreesWithItsReferenceOnEveryTarget) {
   RenderOptions o = options();
   o.spp = 2;
   o.depth = 3;

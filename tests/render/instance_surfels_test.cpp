@@ -26,7 +26,7 @@ TEST(InstanceOffset, GrowsWithTheTranslationInBothPaths) {
       const double rounding = 12 * 0x1p-24 * wanted;
       EXPECT_NEAR(static_cast<double>(kernel.chunk().surfels.offset[0]), wanted, rounding)
           << target << " " << far;
-      EXPECT_NEAR(kernel.twin(0).offset, wanted, 1e-15 * wanted) << far;
+      EXPECT_NEAR(kernel.scalar(0).offset, wanted, 1e-15 * wanted) << far;
     }
   }
   simd::chooseTarget("auto");
@@ -50,8 +50,8 @@ TEST(InstanceNormals, TurnWithTheInstanceWhateverItsScale) {
       const Vec3d ng(s.ngX[0], s.ngY[0], s.ngZ[0]), ns(s.nsX[0], s.nsY[0], s.nsZ[0]);
       EXPECT_LE(length(ng - wanted), 1e-6) << target << " " << scale;
       EXPECT_LE(length(ns - wanted), 1e-6) << target << " " << scale;
-      const SurfelRow twin = kernel.twin(0);
-      EXPECT_LE(length(Vec3d(twin.nsX, twin.nsY, twin.nsZ) - wanted), 1e-6) << scale;
+      const SurfelRow scalar = kernel.scalar(0);
+      EXPECT_LE(length(Vec3d(scalar.nsX, scalar.nsY, scalar.nsZ) - wanted), 1e-6) << scale;
     }
   }
   simd::chooseTarget("auto");

@@ -1,4 +1,5 @@
-// interpolateSurfels by itself, on hits made by hand: what the kernel writes, and its twin.
+// interpolateSurfels by itself, on hits made by hand: what the kernel writes, and its scalar
+// reference.
 #pragma once
 
 #include "reference/find_intersections.h"
@@ -41,7 +42,7 @@ class KernelSurfels {
   void interpolate() { simd::kInterpolateSurfels.find()(chunk()); }
 
   Chunk& chunk() { return small_.chunk; }
-  SurfelRow twin(std::size_t slot) {
+  SurfelRow scalar(std::size_t slot) {
     return *reference::findIntersections(small_.world, chunk(), slot);
   }
 

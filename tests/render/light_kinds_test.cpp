@@ -85,7 +85,7 @@ TEST(LightKinds, ADirectionalLightIsEvenAndFacesTheSurface) {
   EXPECT_EQ(below.stats.of(RayKind::shadow).rays, 0u) << "the floor faces away";
 }
 
-// Every stage against its twin, on every target, and the picture against the reference.
+// Every stage against the scalar reference, on every target, and the picture against the reference.
 TEST(LightKinds, AgreeWithTheReference) {
   const Scene scene = load("effects");
   expectStagesAgreeOnEveryTarget(scene, smallOptions());

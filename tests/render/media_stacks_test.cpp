@@ -54,10 +54,10 @@ void expectTheStacksOfTheReference(const Scene& scene, const std::string& simd) 
     const double left = reference::transmittance(scene, stack, 1).x;
     const Chunk& c = kernel.chunk();
     for (std::size_t slot = 0; slot < 2 * kMedia; ++slot) {
-      const SurfelRow twin = kernel.twin(slot);
-      ASSERT_EQ(c.surfels.mediaBehind[slot], twin.mediaBehind)
+      const SurfelRow scalar = kernel.scalar(slot);
+      ASSERT_EQ(c.surfels.mediaBehind[slot], scalar.mediaBehind)
           << simd << " stack " << std::hex << stack << " slot " << slot;
-      ASSERT_EQ(c.surfels.flags[slot], twin.flags)
+      ASSERT_EQ(c.surfels.flags[slot], scalar.flags)
           << simd << " stack " << std::hex << stack << " slot " << slot;
       ASSERT_NEAR(static_cast<double>(c.rays.weightR[slot]), left, kAbsorbed)
           << simd << " stack " << std::hex << stack << " slot " << slot;

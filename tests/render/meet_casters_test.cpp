@@ -145,7 +145,7 @@ class OnEachTarget : public testing::TestWithParam<std::string> {
 
 using CasterKernels = OnEachTarget;
 
-TEST_P(CasterKernels, MeetWhatTheirTwinMeets) {
+TEST_P(CasterKernels, MeetWhatTheirReferenceMeets) {
   const simd::CasterKernels kernels = simd::findCasterKernels();
   Settings settings;
   int never = 0, always = 0, unsure = 0;
@@ -156,9 +156,9 @@ TEST_P(CasterKernels, MeetWhatTheirTwinMeets) {
     if (receiving.isSliver() || receiver.count == 0) continue;
     simd::CasterBlock block = s.block();
     kernels.setCasters(block, s.lightLanes(), lanesOf(receiver));
-    const Bits bits = meet(kernels, block, s, receiver), twin = expected(s, receiver);
-    ASSERT_EQ(bits.met, twin.met) << n;
-    ASSERT_EQ(bits.hiding, twin.hiding) << n;
+    const Bits bits = meet(kernels, block, s, receiver), scalar = expected(s, receiver);
+    ASSERT_EQ(bits.met, scalar.met) << n;
+    ASSERT_EQ(bits.hiding, scalar.hiding) << n;
     for (unsigned i = 0; i < kInBlock; ++i) {
       ++((bits.hiding >> i & 1) != 0 ? always : (bits.met >> i & 1) != 0 ? unsure : never);
     }

@@ -10,8 +10,8 @@
 
 namespace whit::test {
 
-// Every stage is as near to its scalar twin as its limit says, on every SIMD target of the machine.
-// Leaves the target as it is by default.
+// Every stage is as near to its scalar reference as its limit says, on every SIMD target of the
+// machine. Leaves the target as it is by default.
 inline void expectStagesAgreeOnEveryTarget(const Scene& scene, RenderOptions options) {
   for (const std::string& target : simd::availableTargets()) {
     options.simd = target;

@@ -8,8 +8,9 @@
 namespace whit::test {
 namespace {
 
-// Each stage against its twin on the same input: normals, and the directions of mirrored rays. An
-// estimate with a step of Newton's method would be off by some ulps more than the limit.
+// Each stage against the scalar reference on the same input: normals, and the directions of
+// mirrored rays. An estimate with a step of Newton's method would be off by some ulps more than the
+// limit.
 TEST(ReciprocalRoot, H53_isExactOnEveryTarget) {
   const Scene scene = load("mirrors");
   for (const std::string& target : simd::availableTargets()) {

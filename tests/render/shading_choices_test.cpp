@@ -49,7 +49,7 @@ class ShadingChoice : public testing::TestWithParam<std::string> {
   void TearDown() override { simd::chooseTarget("auto"); }
 };
 
-TEST_P(ShadingChoice, EveryStageAgreesWithItsTwinOnEveryTarget) {
+TEST_P(ShadingChoice, EveryStageAgreesWithItsReferenceOnEveryTarget) {
   const Scene scene = load(GetParam());
   for (const std::string& target : simd::availableTargets()) {
     for (const Choice& choice : choices()) {

@@ -28,7 +28,7 @@ class SoftShadows : public testing::TestWithParam<std::string> {
   Scene scene_;
 };
 
-TEST_P(SoftShadows, EveryStageAgreesWithItsTwinOnEveryTarget) {
+TEST_P(SoftShadows, EveryStageAgreesWithItsReferenceOnEveryTarget) {
   RenderOptions o = options();
   o.spp = 2;
   o.depth = 3;

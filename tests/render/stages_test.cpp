@@ -1,5 +1,5 @@
-// Every vector stage against its scalar twin, and whole pictures against the reference, for every
-// SIMD target and packet width of this machine.
+// Every vector stage against the scalar reference, and whole pictures against the reference, for
+// every SIMD target and packet width of this machine.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -33,18 +33,18 @@ void expectPictureAgrees(const std::string& name, int depth = smallOptions().dep
   EXPECT_EQ(d.nonFinite, 0u);
 }
 
-class Twins : public testing::TestWithParam<std::string> {
+class StagesOfScenes : public testing::TestWithParam<std::string> {
  protected:
   void TearDown() override { simd::chooseTarget("auto"); }
 };
 
-TEST_P(Twins, EveryStageAgreesWithItsTwinOnEveryTarget) {
+TEST_P(StagesOfScenes, EveryStageAgreesWithItsReferenceOnEveryTarget) {
   expectStagesAgreeOnEveryTarget(load(GetParam()), smallOptions());
 }
 
-TEST_P(Twins, PicturesAgreeWithTheReference) { expectPictureAgrees(GetParam()); }
+TEST_P(StagesOfScenes, PicturesAgreeWithTheReference) { expectPictureAgrees(GetParam()); }
 
-TEST_P(Twins, PicturesOfTheDefaultDepthAgreeWithTheReference) {
+TEST_P(StagesOfScenes, PicturesOfTheDefaultDepthAgreeWithTheReference) {
   const bool glass = GetParam() == "glass";
   expectPictureAgrees(GetParam(), RenderOptions().depth,
                       glass ? kPartedInGlassPct : kPixelsGe2CodesPct);
@@ -59,7 +59,7 @@ TEST(LargeScenes, SponzaAgreesWithTheReference) {
   expectPictureAgrees("sponza-mirror");
 }
 
-TEST_P(Twins, TargetsAgreeWithEachOther) {
+TEST_P(StagesOfScenes, TargetsAgreeWithEachOther) {
   const Scene scene = load(GetParam());
   const Image expected = render(scene, smallOptions()).image;
   for (const std::string& target : simd::availableTargets()) {
@@ -72,9 +72,10 @@ TEST_P(Twins, TargetsAgreeWithEachOther) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Shipped, Twins, testing::ValuesIn(smallScenes()), [](const auto& info) {
-  return info.param.substr(0, info.param.find('?'));
-});
+INSTANTIATE_TEST_SUITE_P(Shipped, StagesOfScenes, testing::ValuesIn(smallScenes()),
+                         [](const auto& info) {
+                           return info.param.substr(0, info.param.find('?'));
+                         });
 
 }  // namespace
 }  // namespace whit::test
