@@ -99,7 +99,7 @@ TEST(AccuracyProgram, MeasuresAgainstAllTransport) {
   const std::string scene = cli::writeTinyScene(folder), out = folder / "out";
   const std::vector<std::string> words{"accuracy",      scene,       "--out",  out,
                                        "--truth",       "transport", "--size", "24x16",
-                                       "--time-budget", "10"};
+                                       "--time-budget", "40"};
   const cli::Outcome outcome = runWhit(words);
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("truth: all transport, by packets"), std::string::npos) << outcome.out;
