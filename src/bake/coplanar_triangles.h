@@ -55,6 +55,7 @@ struct WrittenPlace {
   std::uint32_t instance = 0;  // in SceneDescription::instances
   std::uint32_t triangle = 0;  // in what the instance places
 
+  // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy takes the 0 of the language for a pointer.
   auto operator<=>(const WrittenPlace&) const = default;
 };
 

@@ -92,9 +92,9 @@ std::vector<float> blurs(std::vector<float> plane, int width) {
   for (auto row = plane.begin(); row != plane.end(); row += width) {
     for (int turn = 0; turn < 2; ++turn) around.insert(around.end(), row, row + width);
   }
-  std::vector<double> cosines;
-  for (int turn = 0; turn < width; ++turn) {
-    cosines.push_back(cosineOf(2 * std::numbers::pi * turn / width));
+  std::vector<double> cosines(static_cast<std::size_t>(width));
+  for (double turn = 0; double& cosine : cosines) {
+    cosine = cosineOf(2 * std::numbers::pi * turn++ / width);
   }
   for (int level = 1; level < kSkyBlurs; ++level) {
     const double roughness = level / (kSkyBlurs - 1.0), alpha = roughness * roughness;
