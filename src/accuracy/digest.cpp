@@ -109,11 +109,14 @@ std::string digestOf(const Scene& scene) {
                items, coplanar, coincidentSpheres, motion, effects, reasons] =
       static_cast<const SceneTables&>(scene);
   Digester d;
-  // Media, bounds, effects and coincident surfaces follow from these, but for the ranks.
+  // Media, bounds and effects follow from these; the order in which things were written does not.
   addTable(d, lights), add(d, sky), add(d, sky.kind), add(d, sky.image), add(d, ambient);
   addTable(d, materials), addTable(d, textures), addTable(d, geometries), addTable(d, instances);
   addTable(d, triangles), addTable(d, normals), addTable(d, colors), addTable(d, secondUvs);
   addTable(d, coplanar.ranks());
+  for (const auto& sphere : coincidentSpheres) {
+    for (const PlacedTriangleId& id : *sphere.second) add(d, orderOf(id));
+  }
   return d.hex();
 }
 

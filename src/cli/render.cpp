@@ -116,7 +116,7 @@ void checkStandardOutput(const RenderJob& job) {
            "-o -: this terminal shows no pictures: send standard output elsewhere");
 }
 
-// Throws if an output cannot hold the background.
+// Throws if an output cannot hold the alpha or the channels of the picture.
 void checkBackground(const RenderJob& job) {
   refuseIf(job.exr == ExrStorage::dwaa && !keptChannels(job.common.render).empty(),
            "--exr dwaa is lossy for channels and alpha as well: give --exr zip, none or half");

@@ -7,7 +7,6 @@
 
 namespace whit::cli {
 
-// The ways in which terminals show pictures.
 enum class TerminalGraphics { none, kitty, iterm, halfBlocks };
 
 // The best way of the terminal on standard output, as the environment tells.

@@ -82,6 +82,24 @@ TEST(SceneDigest, TheOrderOfCoplanarFacesMatters) {
   EXPECT_NE(withRanks(0, 1), withRanks(1, 0));
 }
 
+// One object is used twice and has a geometry of its own, whatever its place in the order.
+TEST(SceneDigest, TheOrderOfCoincidentSpheresMatters) {
+  const auto withRanks = [](std::uint64_t first, std::uint64_t second) {
+    return digestAfter([&](SceneDescription& d) {
+      Mesh ball;
+      ball.spheres = {Affine()};
+      ball.materials = {0};
+      d.objects.push_back({"twice", {ball}});
+      d.objects.push_back({"once", {ball}});
+      d.instances.push_back({1, Affine(), first});
+      d.instances.push_back({1, Affine::translation({9, 0, 0}), first});
+      d.instances.push_back({2, Affine(), second});
+    });
+  };
+  EXPECT_EQ(withRanks(0, 1), withRanks(3, 7));
+  EXPECT_NE(withRanks(0, 1), withRanks(1, 0));
+}
+
 TEST(OptionsDigest, CoversWhatShapesThePictureAndNothingElse) {
   RenderOptions options;
   const std::string before = digestOf(options);

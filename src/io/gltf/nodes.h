@@ -40,12 +40,11 @@ struct GltfPlacedMesh {
 
 // One Mesh for each primitive that consists of triangles, strips or fans, with one material: an
 // index into `materials`, whose last entry is that of primitives without one. Texture coordinates
-// are those of the material, with its transforms applied, v pointing up. `variant` of the file has
-// materials of its own (KHR_materials_variants). Points, lines, the alpha
-// of vertex colors and vertices without joints are counted in the document's warnings. The mesh is
-// deformed as at the start; tangents are left out, because the directions of normal maps follow
-// from texture coordinates. Throws as the accessors do, and badScene where attributes differ in
-// length.
+// are those of the material, with its transforms applied, v pointing up. `variant` is the number of
+// the chosen variant of the materials. Points, lines, the alpha of vertex colors and vertices
+// without joints are counted in the document's warnings. The mesh is deformed as at the start;
+// tangents are left out, because the directions of normal maps follow from texture coordinates.
+// Throws as the accessors do, and badScene where attributes differ in length.
 std::vector<Mesh> readGltfMesh(const GltfDocument& document, const GltfPlacedMesh& placed,
                                const std::vector<GltfMaterial>& materials,
                                std::optional<std::size_t> variant);
