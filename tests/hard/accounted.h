@@ -29,7 +29,7 @@ inline constexpr std::array kAccounted{
               "Normalized.UnitLengthFromTheSmallestToTheLargestFloat"},
     Accounted{53, "true reciprocals and roots", "tests/render/reciprocal_test.cpp",
               "ReciprocalRoot.H53_isExactOnEveryTarget"},
-    Accounted{54, "contraction and targets", "tests/render/twins_test.cpp",
+    Accounted{54, "contraction and targets", "tests/render/stages_test.cpp",
               "StagesOfScenes.TargetsAgreeWithEachOther"},
     Accounted{55, "workers flush denormals, nobody else does", "tests/unit/worker_pool_test.cpp",
               "WorkerPool.H55_denormalsAreFlushedInEveryWorkerAndNowhereElse"},
