@@ -9,6 +9,7 @@
 #include "accuracy/sweep_rows.h"
 #include "cli/run_program.h"
 #include "embedded_data.h"
+#include "sanitized.h"
 
 namespace whit::accuracy {
 namespace {
@@ -97,9 +98,11 @@ TEST(AccuracyProgram, SweepsATinyScene) {
 TEST(AccuracyProgram, MeasuresAgainstAllTransport) {
   const cli::TemporaryFolder folder;
   const std::string scene = cli::writeTinyScene(folder), out = folder / "out";
-  const std::vector<std::string> words{"accuracy",      scene,       "--out",  out,
-                                       "--truth",       "transport", "--size", "24x16",
-                                       "--time-budget", "40"};
+  const std::vector<std::string> words{"accuracy",      scene,
+                                       "--out",         out,
+                                       "--truth",       "transport",
+                                       "--size",        "24x16",
+                                       "--time-budget", kSanitized ? "40" : "10"};
   const cli::Outcome outcome = runWhit(words);
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("truth: all transport, by packets"), std::string::npos) << outcome.out;

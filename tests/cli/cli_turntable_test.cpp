@@ -198,7 +198,7 @@ TEST(TurntableCommand, TheHelmetIsAFilm) {
   }
   const TemporaryFolder folder;
   const std::string film = folder / "helmet.mp4";
-  const Outcome outcome = turn(helmet, {"-o", film, "--size", "160x120"});
+  const Outcome outcome = turn(helmet, {"-o", film, "--size", "80x60"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const std::string said = folder / "said";
   const std::string probe =
@@ -207,8 +207,8 @@ TEST(TurntableCommand, TheHelmetIsAFilm) {
       film + "' > '" + said + "'";
   ASSERT_EQ(std::system(probe.c_str()), 0);
   const Json stream = Json::parse(readFile(said))["streams"][0];
-  EXPECT_EQ(stream["width"], 160);
-  EXPECT_EQ(stream["height"], 120);
+  EXPECT_EQ(stream["width"], 80);
+  EXPECT_EQ(stream["height"], 60);
   EXPECT_EQ(stream["nb_frames"], "96");
   EXPECT_EQ(std::stod(stream["duration"].get<std::string>()), 4.0);
 }

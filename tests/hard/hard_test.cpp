@@ -1,6 +1,7 @@
 // The catalogue of hard cases (tests/verify), a test a case: Hard/CaseTest.Holds/H13.
 #include <gtest/gtest.h>
 
+#include "sanitized.h"
 #include "verify/case.h"
 
 namespace whit::verify {
@@ -22,7 +23,10 @@ class CaseTest : public testing::TestWithParam<Case> {};
 
 TEST_P(CaseTest, Holds) {
   const Case& c = GetParam();
-  for (const verify::Setup& setup : setupsOf(c.runs)) {
+  const std::vector<verify::Setup> setups = setupsOf(c.runs);
+  // A sanitizer sees the same code with a third of the setups, which differ in target and packets.
+  for (std::size_t i = 0; i < setups.size(); i += kSanitized ? 3 : 1) {
+    const verify::Setup& setup = setups[i];
     const Finding finding = runCase(c, setup);
     std::printf("%s, %s, packet %d: worst %.4g, bound %.4g of %llu\n", std::string(c.name).c_str(),
                 setup.simd.c_str(), setup.packet, finding.worst(), finding.bound(),

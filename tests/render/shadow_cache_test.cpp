@@ -103,10 +103,9 @@ RenderOptions soupOptions() {
   return options;
 }
 
-constexpr unsigned kSeeds = 12;
 // Under sanitizers one random scene takes as long as many do without.
-constexpr unsigned kRandomSeeds = kSanitized ? 6 : 12, kEffectSeeds = kSanitized ? 4 : 8,
-                   kInstanceSeeds = kSanitized ? 6 : 14;
+constexpr unsigned kSeeds = kSanitized ? 4 : 12, kEffectSeeds = kSanitized ? 2 : 8,
+                   kInstanceSeeds = kSanitized ? 3 : 14;
 
 TEST(ShadowCache, H84_lightInAPlaneOrAtAnEdge) {
   for (unsigned seed = 0; seed < kSeeds; ++seed) {
@@ -192,7 +191,7 @@ TEST(ShadowCache, H88_randomScenesOfTenKinds) {
   RenderOptions options = soupOptions();
   options.size = ImageSize{32, 24};
   for (unsigned kind = 0; kind < 10; ++kind) {
-    for (unsigned seed = 0; seed < kRandomSeeds; ++seed) {
+    for (unsigned seed = 0; seed < kSeeds; ++seed) {
       SCOPED_TRACE(testing::Message() << "kind " << kind << ", seed " << seed);
       expectRight(randomScene(kind, seed), options);
     }

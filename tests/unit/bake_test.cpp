@@ -204,7 +204,9 @@ TEST(Bake, InstancedTrianglesAreCountedIn64Bits) {
     mesh.triangles.push_back({0, i, i + 1});
   }
   SceneDescription d = sceneOf(mesh);  // 2^17 triangles
-  for (int i = 1; i < 1 << 16; ++i) d.instances.push_back({0, {}});
+  for (int i = 1; i < 1 << 16; ++i) {
+    d.instances.push_back({0, Affine::translation({0, 0, static_cast<double>(i)})});
+  }
   EXPECT_EQ(finalized(std::move(d)).instancedTriangles, std::uint64_t{1} << 33);
 }
 
