@@ -153,8 +153,8 @@ inline HWY_NOINLINE void QueueLevels(const ShadingTables& tables, VI map, MF liv
   const VF whole = hn::Floor(level);
   const VI lower = hn::Add(full, hn::ConvertTo(di, whole));
   const auto queueAt = [&](VI index, TexelQueue& to) HWY_ATTR {
-    QueueTexels(TextureFilter::bilinear, levels, tables.texels.data(), index, live, at.u, at.v,
-                slot, to);
+    QueueTexels(TextureFilter::bilinear, levels, tables.texels.get(), index, live, at.u, at.v, slot,
+                to);
   };
   queueAt(lower, queue.level);
   queueAt(hn::Add(lower, hn::Set(di, 1)), queue.above);
@@ -173,7 +173,7 @@ HWY_INLINE void QueueMap(const SurfelJob& job, VI map, MF live, const TexturePoi
     QueueLevels(tables, map, mapped, at, slot, queue);
     return;
   }
-  QueueTexels(job.shading.textureFilter, tables.textures.data(), tables.texels.data(), map, mapped,
+  QueueTexels(job.shading.textureFilter, tables.textures.data(), tables.texels.get(), map, mapped,
               at.u, at.v, slot, queue.level);
 }
 
@@ -182,7 +182,7 @@ template <class Filter>
 HWY_INLINE V3 FilterMap(const SurfelJob& job, const MapQueue& queue, size_t slot,
                         const Filter& filter) {
   const TextureFilter choice = job.shading.textureFilter;
-  const uint32_t* texels = job.tables.texels.data();
+  const uint32_t* texels = job.tables.texels.get();
   const V3 value = filter(FetchTexels(choice, texels, queue.level, slot));
   if (HWY_LIKELY(choice != TextureFilter::trilinear)) return value;
   const V3 above = filter(FetchTexels(choice, texels, queue.above, slot));

@@ -52,10 +52,12 @@ AlphaMap::AlphaMap(const Texture& texture)
       width_(texture.width),
       height_(texture.height),
       cellsAcross_(((texture.width - 1) >> kCellShift) + 1),
-      alpha_(texture.texels.size()) {
-  std::ranges::transform(texture.texels, alpha_.begin(), [](std::uint32_t texel) {
-    return static_cast<std::uint8_t>(texel & 255u);
-  });
+      alpha_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_)) {
+  for (int y = 0; y < height_; ++y) {
+    for (int x = 0; x < width_; ++x) {
+      alpha_[index(y, x)] = static_cast<std::uint8_t>(texture.texel(x, y) & 255u);
+    }
+  }
   const int cellsDown = ((height_ - 1) >> kCellShift) + 1;
   cells_.reserve(static_cast<std::size_t>(cellsAcross_) * static_cast<std::size_t>(cellsDown));
   for (int y = 0; y < cellsDown; ++y) {

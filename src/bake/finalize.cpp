@@ -55,6 +55,7 @@ Scene Scene::finalize(SceneDescription&& description, Warnings& warnings, Progre
   validate(d);
   settleSides(d);
   if (d.isModel && d.motion.rig.empty()) noteHiddenSides(d, warnings);
+  packTextures(d.textures, usableThreads());
   Scene scene;
   SceneContents& contents = d;
   static_cast<SceneContents&>(scene) = std::move(contents);
@@ -104,7 +105,7 @@ std::uint64_t Scene::memoryBytes() const {
                         bytesOf(sky.image.g) + bytesOf(sky.image.b) + coplanar.bytes() +
                         items.bytes();
   for (const Geometry& g : geometries) bytes += bytesOf(g.position) + bytesOf(g.index);
-  for (const Texture& t : textures) bytes += bytesOf(t.texels);
+  for (const Texture& t : textures) bytes += t.packedSize() * sizeof(std::uint32_t);
   return bytes;
 }
 

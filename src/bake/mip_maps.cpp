@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/worker_pool.h"
 
@@ -54,10 +55,8 @@ std::uint32_t meanTexel(const Texture& texture, const Cover& columns, const Cove
   std::array<double, 4> sum{};
   const int channels = texture.format == TexelFormat::data ? 4 : 3;
   for (std::size_t row = 0; row < rows.count; ++row) {
-    const auto first = static_cast<std::size_t>(rows.texel[row]) * texture.width;
     for (std::size_t column = 0; column < columns.count; ++column) {
-      const std::uint32_t texel =
-          texture.texels[first + static_cast<std::size_t>(columns.texel[column])];
+      const std::uint32_t texel = texture.texel(columns.texel[column], rows.texel[row]);
       const double share = rows.share[row] * columns.share[column];
       for (int c = 0; c < channels; ++c) {
         sum[static_cast<std::size_t>(c)] += share * valueOf(texture.format, texel, c);
@@ -128,6 +127,11 @@ const Texture& MipMaps::level(std::size_t texture, int level) const {
   const std::vector<Texture>& smaller = smaller_[texture];
   if (level == 0 || smaller.empty()) return (*textures_)[texture];
   return smaller[std::min(static_cast<std::size_t>(level), smaller.size()) - 1];
+}
+
+Texture MipMaps::take(std::size_t texture, int level) {
+  if (level == 0) return (*textures_)[texture];
+  return std::move(smaller_[texture][static_cast<std::size_t>(level) - 1]);
 }
 
 int MipMaps::levels(std::size_t texture) const {

@@ -44,11 +44,7 @@ template <typename Decode>
 double filtered(const Texture& texture, double u, double v, TextureFilter filter, Decode&& decode) {
   const Between x = texelsAround(tame(u), texture.width, texture.wrapU);
   const Between y = texelsAround(1 - tame(v), texture.height, texture.wrapV);
-  const auto value = [&](int column, int row) {
-    const std::size_t stride = static_cast<std::size_t>(texture.width);
-    return decode(
-        texture.texels[static_cast<std::size_t>(row) * stride + static_cast<std::size_t>(column)]);
-  };
+  const auto value = [&](int column, int row) { return decode(texture.texel(column, row)); };
   if (filter == TextureFilter::nearest) return value(x.nearest(), y.nearest());
   const double upperRow =
       value(x.lower, y.lower) * (1 - x.fraction) + value(x.upper, y.lower) * x.fraction;

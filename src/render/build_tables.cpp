@@ -121,62 +121,37 @@ std::vector<bool> usedTextures(const Scene& scene, const ShadingTables& tables) 
   return used;
 }
 
-// There is one footprint more than there are texels, because the border is met from either side.
-std::size_t stripTexels(const Texture& t) {
-  const std::size_t strips = static_cast<std::size_t>(t.width) / kTexelCells + 1;
-  return strips * (static_cast<std::size_t>(t.height) + kTexelBorder) * kTexelStrip;
-}
-
-std::size_t wrapped(int texel, int size, Wrap wrap) {
-  return static_cast<std::size_t>(wrap == Wrap::repeat ? (texel + size) % size
-                                                       : std::clamp(texel, 0, size - 1));
-}
-
-void copyTexels(const Texture& t, std::uint32_t* to) {
-  for (int first = -1; first < t.width; first += kTexelCells) {
-    std::array<std::size_t, kTexelStrip> columns{};
-    for (int column = first; std::size_t & from : columns) {
-      from = wrapped(column++, t.width, t.wrapU);
-    }
-    for (int row = -1; row <= t.height; ++row) {
-      const std::uint32_t* from =
-          t.texels.data() + wrapped(row, t.height, t.wrapV) * static_cast<std::size_t>(t.width);
-      for (const std::size_t column : columns) *to++ = from[column];
-    }
-  }
-}
-
-// Adds the textures that the materials of `tables` use, with mip levels where lookups are
-// trilinear.
+// Adds the textures that the materials of `tables` use: those of the scene, or where lookups are
+// trilinear copies of them with their mip levels.
 void addTextures(const Scene& scene, TextureFilter filter, int threads, ShadingTables& tables) {
+  static const TexelStrips none(new std::uint32_t[1]{});
   const std::vector<bool> used = usedTextures(scene, tables);
   const bool trilinear = filter == TextureFilter::trilinear;
-  const MipMaps maps(scene.textures, trilinear ? used : std::vector<bool>(used.size()), threads);
-  std::size_t total = 0;
-  std::vector<std::pair<const Texture*, std::size_t>> copies;  // and where their texels begin
+  MipMaps maps(scene.textures, trilinear ? used : std::vector<bool>(used.size()), threads);
+  std::vector<Texture> levels;
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    for (int level = 0; used[i] && level < maps.levels(i); ++level) {
+      levels.push_back(maps.take(i, level));
+    }
+  }
+  if (trilinear) {
+    packTextures(levels, threads);
+    for (const Texture& t : levels) tables.copiedTexels += t.packedSize();
+  }
+  tables.texels = levels.empty() ? none : levels.front().strips;
+  auto next = levels.begin();
   for (std::size_t i = 0; i < used.size(); ++i) {
     TextureRecord record = kUnused;
     for (int level = 0; level < (trilinear ? kMipStride : 1); ++level) {
       if (used[i] && level < maps.levels(i)) {
-        const Texture& t = maps.level(i, level);
-        if (std::max(t.width, t.height) > kTextureSideLimit) {
-          throwLimit("texture '" + t.name + "' has more than 2^20 texels a side");
-        }
-        record = {static_cast<std::uint32_t>(total), t.width, t.height,
+        const Texture& t = *next++;
+        record = {static_cast<std::uint32_t>(t.firstTexel), t.width, t.height,
                   static_cast<std::uint32_t>(t.wrapU) | static_cast<std::uint32_t>(t.wrapV) << 8};
-        copies.emplace_back(&t, total);
-        total += stripTexels(t);
-        if (total > 0x7fffffffu) throwLimit("textures hold more than 2^31 texels");
       }
       if (level == 0) tables.textures.push_back(record);
       if (trilinear) tables.mipLevels.push_back(record);
     }
   }
-  tables.texels.resize(total);
-  parallelFor(threads, copies.size(), [&](std::size_t i, int) {
-    copyTexels(*copies[i].first, tables.texels.data() + copies[i].second);
-  });
-  if (tables.texels.empty()) tables.texels.push_back(0);
   if (tables.textures.empty()) tables.textures.push_back(kUnused);
 }
 

@@ -107,8 +107,8 @@ void Renderer::sceneMoved() {
 }
 
 std::uint64_t Renderer::memoryBytes() const {
-  return accel_->memoryBytes() + tables_.texels.size() * sizeof(std::uint32_t) +
-         scheduler_.bytes() + adaptive_.bytes() + (shadowTables_ ? shadowTables_->bytes() : 0);
+  return accel_->memoryBytes() + tables_.copiedTexels * sizeof(std::uint32_t) + scheduler_.bytes() +
+         adaptive_.bytes() + (shadowTables_ ? shadowTables_->bytes() : 0);
 }
 
 CameraFrame Renderer::lookFrom(const Camera& camera, const Film& film) {

@@ -1,7 +1,12 @@
 #include "scene/texture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "core/error.h"
+#include "core/huge_vector.h"
+#include "core/worker_pool.h"
 
 namespace whit {
 
@@ -27,7 +32,47 @@ std::uint32_t dataCode(float value) {
   return roundedCode(static_cast<double>(unit(value)) * kDataMax);
 }
 
+int wrapped(int texel, int size, Wrap wrap) {
+  return wrap == Wrap::repeat ? (texel + size) % size : std::clamp(texel, 0, size - 1);
+}
+
+void copyTexels(const Texture& t, std::uint32_t* to) {
+  if (t.strips) std::copy_n(t.strips.get() + t.firstTexel, t.packedSize(), to);
+  for (int first = -1; !t.strips && first < t.width; first += kTexelCells) {
+    std::array<int, kTexelStrip> columns{};
+    for (int column = first; int& from : columns) from = wrapped(column++, t.width, t.wrapU);
+    for (int row = -1; row <= t.height; ++row) {
+      const int from = wrapped(row, t.height, t.wrapV);
+      for (const int column : columns) *to++ = t.texel(column, from);
+    }
+  }
+}
+
 }  // namespace
+
+void packTextures(std::vector<Texture>& textures, int threads) {
+  std::vector<std::size_t> begins;
+  std::size_t total = 0;
+  for (const Texture& t : textures) {
+    if (std::max(t.width, t.height) > kTextureSideLimit) {
+      throwLimit("texture '" + t.name + "' has more than 2^20 texels a side");
+    }
+    begins.push_back(total);
+    total += t.packedSize();
+    if (total > 0x7fffffffu) throwLimit("textures hold more than 2^31 texels");
+  }
+  if (total == 0) return;
+  HugePageAllocator<std::uint32_t> memory;
+  const std::shared_ptr<std::uint32_t[]> strips(
+      memory.allocate(total), [=](std::uint32_t* all) mutable { memory.deallocate(all, total); });
+  parallelFor(threads, textures.size(), [&](std::size_t i, int) {
+    Texture& t = textures[i];
+    copyTexels(t, strips.get() + begins[i]);
+    t.texels = std::vector<std::uint32_t>();
+    t.strips = strips;
+    t.firstTexel = begins[i];
+  });
+}
 
 std::uint32_t encodeColorTexel(const Rgb& linear) {
   return colorCode(linear.x) | colorCode(linear.y) << 10 | colorCode(linear.z) << 20;

@@ -1,7 +1,9 @@
 // Images sampled on surfaces and in the sky. Frozen after loading.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -40,6 +42,19 @@ inline TexelFormat formatOf(TextureUse use) {
 
 enum class Wrap : std::uint8_t { repeat, mirror, clamp };
 
+// The texels of packed textures, at a multiple of 64 bytes, in strips of kTexelStrip columns, row
+// after row, so that the four texels of a bilinear footprint are two neighbors and the two that
+// follow kTexelStrip texels later. A strip holds the kTexelCells columns of footprints that begin
+// in it whole, so that neighbors repeat a column of texels. Footprint (0, 0) has its upper texels
+// at (0, 0), the last its lower ones at (width - 1, height - 1); the texels beyond the borders are
+// those that the wrap modes name.
+using TexelStrips = std::shared_ptr<const std::uint32_t[]>;
+inline constexpr int kTexelStrip = 8, kTexelCells = kTexelStrip - 1;
+// A texture of this height has height + 2 rows, because footprints reach beyond either border.
+inline constexpr int kTexelBorder = 2;
+// Kernels find strips in float: exact up to here.
+inline constexpr int kTextureSideLimit = 1 << 20;
+
 // `texels` holds width * height rows from the top: texel (0, 0) is at uv (0, 1), as in OBJ, where v
 // points up. Sampling is bilinear with texel centers at half-integers.
 struct Texture {
@@ -48,7 +63,25 @@ struct Texture {
   Wrap wrapU = Wrap::repeat, wrapV = Wrap::repeat;
   int width = 1, height = 1;
   std::vector<std::uint32_t> texels;
+  // In place of `texels` after packTextures().
+  TexelStrips strips;
+  std::size_t firstTexel = 0;
+
+  std::uint32_t texel(int column, int row) const {
+    if (!strips) return texels[static_cast<std::size_t>(row) * width + column];
+    const std::size_t strip = (column + 1) / kTexelCells, cell = (column + 1) % kTexelCells;
+    return strips[firstTexel + (strip * (height + kTexelBorder) + row + 1) * kTexelStrip + cell];
+  }
+  // Texels of its strips.
+  std::size_t packedSize() const {
+    return std::size_t{1} * (width / kTexelCells + 1) * (height + kTexelBorder) * kTexelStrip;
+  }
 };
+
+// Moves the texels of all textures into strips that they share, one texture after the other, so
+// that they are hardly ever in memory twice. Throws Error(limit) when a 31-bit index does not reach
+// them.
+void packTextures(std::vector<Texture>& textures, int threads);
 
 // One texel of each format from channels in [0, 1], of radiance to kLargestRadianceTexel;
 // out-of-range and NaN channels are clamped.

@@ -52,16 +52,6 @@ inline constexpr std::uint32_t kMaterialBlursSky = 32768;
 // Material::limitsDiffuse() in such frames.
 inline constexpr std::uint32_t kMaterialLimitsDiffuse = 16384;
 
-// Texels are kept in strips of kTexelStrip columns, row after row, so that the four texels of a
-// bilinear footprint are two neighbors and the two that follow kTexelStrip texels later. A strip
-// holds the kTexelCells columns of footprints that begin in it whole, so that neighbors repeat a
-// column of texels. Footprint (0, 0) has its upper texels at (0, 0), the last its lower ones at
-// (width - 1, height - 1); the texels beyond the borders are those that the wrap modes name.
-inline constexpr int kTexelStrip = 8, kTexelCells = kTexelStrip - 1;
-// A texture of this height has height + 2 rows, because footprints reach beyond either border.
-inline constexpr int kTexelBorder = 2;
-// Kernels find strips in float: exact up to here.
-inline constexpr int kTextureSideLimit = 1 << 20;
 struct TextureRecord {
   std::uint32_t firstTexel;  // index into texels
   std::int32_t width, height;
@@ -115,7 +105,8 @@ struct ShadingTables {
   std::vector<TextureRecord> textures;    // at least one
   // kMipStride a texture, from the full one on; none unless lookups are trilinear.
   std::vector<TextureRecord> mipLevels;
-  HugeVector<std::uint32_t> texels;          // all textures of the frame's effects
+  TexelStrips texels;                        // at least one
+  std::size_t copiedTexels = 0;              // of them; the others are the scene's
   std::vector<InstanceTransform> instances;  // at least one
   std::vector<MediumRecord> media;           // [0] is vacuum
   std::vector<Light> lights;

@@ -108,7 +108,9 @@ Cost costWithout(EffectSet effects) {
   cost.stats = renderer.render(chooseCamera(scene, o), film);
   cost.buffers = renderer.scheduler().tracers().at(0).bufferBytes();
   cost.capacity = static_cast<std::size_t>(o.tile * o.tile);
-  cost.texels = renderer.tables().texels.size();
+  for (const TextureRecord& t : renderer.tables().textures) {
+    cost.texels += static_cast<std::size_t>(t.width) * static_cast<std::size_t>(t.height) - 1;
+  }
   cost.instances = renderer.tables().instances.size();
   cost.lights = renderer.tables().lights.size();
   cost.skyImage = renderer.tables().sky.r != nullptr;
@@ -240,7 +242,7 @@ TEST(AbsentEffects, WithoutCoverageNoKernelAndNoColumn) {
 TEST(AbsentEffects, WithoutTexturesNoTexels) {
   const EffectSet maps = EffectSet().with(Effect::textures).with(Effect::normalMaps);
   const Cost all = costWithout(EffectSet()), none = costWithout(maps);
-  EXPECT_EQ(none.texels, 1u);  // what masked lanes read
+  EXPECT_EQ(none.texels, 0u);
   for (const Effect effect : {Effect::textures, Effect::normalMaps}) {
     const Cost one = costWithout(EffectSet().with(effect));
     EXPECT_GT(one.texels, none.texels) << nameOf(effect);

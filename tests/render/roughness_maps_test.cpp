@@ -53,8 +53,10 @@ TEST(RoughnessMaps, KeepTheirBitsWhateverTheQueues) {
 TEST(RoughnessMaps, OfOnesChangeNothingBeyondRounding) {
   Scene scene = roughTiles();
   for (Texture& t : scene.textures) {
-    for (std::uint32_t& texel : t.texels) texel = encodeDataTexel(0, 1, 0, 0);
+    t.texels.assign(std::size_t{1} * t.width * t.height, encodeDataTexel(0, 1, 0, 0));
+    t.strips = nullptr;
   }
+  packTextures(scene.textures, 1);
   const Image ones = render(scene, withSamples()).image;
   for (Material& m : scene.materials) m.roughnessMap = kNoTexture;
   const Image none = render(scene, withSamples()).image;

@@ -39,6 +39,7 @@ TEST(TextureTables, EveryFootprintIsWholeInOneStrip) {
   for (std::size_t i = 0; i < tables.textures.size(); ++i) {
     const TextureRecord& record = tables.textures[i];
     const Texture& texture = scene.textures[i];
+    const Texture rows = numbered(record.width, record.height);
     EXPECT_EQ(record.firstTexel % 8, 0u) << "no row crosses a cache line";
     // Footprint (x, y) has its upper texels at (x, y): the last is half beyond the border.
     for (int y = 0; y <= record.height; ++y) {
@@ -49,7 +50,7 @@ TEST(TextureTables, EveryFootprintIsWholeInOneStrip) {
           const int row = wrappedTexel(y - 1 + stepY, record.height, texture.wrapV);
           const int place = first + stepY * 8 + stepX;
           EXPECT_EQ(tables.texels[record.firstTexel + static_cast<std::size_t>(place)],
-                    texture.texels[static_cast<std::size_t>(row * record.width + column)])
+                    rows.texel(column, row))
               << "texture " << i << ", footprint " << x << "," << y << " step " << stepX << stepY;
         }
       }
