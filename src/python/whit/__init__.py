@@ -1,10 +1,10 @@
 """Whitted ray tracing on CPUs: scenes from files or numpy arrays, pictures as numpy arrays.
 
     import whit
-    scene = whit.Scene("helmet.glb")
+    scene = whit.Scene("scenes/chess.glb")
     picture = scene.render(size=(640, 480), spp=4)
     picture.rgb            # (480, 640, 3), float32, linear radiance, top row first
-    picture.write("helmet.png")
+    picture.write("chess.png")
 
 Errors in a scene, an option or a file raise whit.Error.
 """
