@@ -1,7 +1,10 @@
 // glTF files with compressed meshes and textures, as gltfpack and gltf-transform write them. Each
-// of tests/fuzz/corpus/gltf/{draco,webp}.glb holds the grid that expectGrid() describes.
+// of tests/fuzz/corpus/gltf/{draco,meshopt,webp}.glb holds the grid that expectGrid() describes.
 #include <cmath>
 #include <cstdlib>
+#ifdef WHIT_MESHOPT
+#include <meshoptimizer.h>
+#endif
 
 #include "decoded_texel.h"
 #include "fuzz/damage.h"
@@ -98,6 +101,132 @@ TEST_F(GltfCompressed, WrongCountsOfDracoAccessorsDoNotMatter) {
   expectGrid(loadBytes(text));
 }
 
+// The file is one that gltfpack has written.
+TEST_F(GltfCompressed, MeshoptIsDecoded) {
+  if (!GltfDocument::reads("EXT_meshopt_compression")) GTEST_SKIP() << "without libmeshoptimizer";
+  const std::string whole = bytesOfFile("meshopt.glb");
+  expectGrid(loadBytes(whole));
+  EXPECT_EQ(kinds(), "");
+  struct Case {
+    const char *what, *by, *error;
+  };
+  const std::string size = "/byteStride: expected a size of elements that mode and filter have";
+  const Case cases[] = {
+      {"\"byteStride\":8,\"mode\"", "\"byteStride\":6,\"mode\"", "0/+, found 6"},
+      {"\"byteStride\":2,\"mode\"", "\"byteStride\":8,\"mode\"", "3/+, found 8"},
+      {"OCTAHEDRAL", "QUATERNION", "1/+, found 4"},
+      {"\"ATTRIBUTES\",\"filter\"", "\"TRIANGLES\" ,\"filter\"", "1/+, found 4"},
+      {"\"TRIANGLES\",\"count\":24", "\"TRIANGLES\",\"count\":23",
+       "3/byteLength: expected the 46 bytes that are compressed, found 48"},
+      {"48,\"target\":34963,\"extensions\":{\"EXT_meshopt_compression\":{\"buffer\":0,"
+       "\"byteOffset\":"
+       "164,\"byteLength\":25,\"byteStride\":2,\"mode\":\"TRIANGLES\",\"count\":24",
+       "46,\"target\":34963,\"extensions\":{\"EXT_meshopt_compression\":{\"buffer\":0,"
+       "\"byteOffset\":"
+       "164,\"byteLength\":25,\"byteStride\":2,\"mode\":\"TRIANGLES\",\"count\":23",
+       "3/-/count: expected a multiple of 3, found 23"},
+      {"\"byteLength\":71", "\"byteLength\":70",
+       "0/-: expected data that meshoptimizer can decode, found damaged data"},
+      {"\"byteLength\":25", "\"byteLength\":99",
+       "3/-: expected a range within the buffer's 192 bytes, found 99 from byte 164"},
+  };
+  for (const auto& [what, by, error] : cases) {
+    std::string expected = error;
+    if (expected[2] == '+') expected.replace(2, 1, "-" + size);
+    if (expected[2] == '-') expected.replace(2, 1, "extensions/EXT_meshopt_compression");
+    EXPECT_EQ(errorOf([&, what = what, by = by] { loadBytes(replaced(whole, what, by)); }),
+              "3 m.glb#/bufferViews/" + expected);
+  }
+}
+
+TEST_F(GltfCompressed, DamagedMeshoptIsReadOrRefused) {
+  if (!GltfDocument::reads("EXT_meshopt_compression")) GTEST_SKIP() << "without libmeshoptimizer";
+  const std::string whole = bytesOfFile("meshopt.glb");
+  const std::size_t head = whole.size() - 192;  // the rest is the buffer
+  const std::vector<std::uint8_t> tail(whole.begin() + static_cast<std::ptrdiff_t>(head),
+                                       whole.end());
+  int refused = 0;
+  for (std::uint32_t seed = 0; seed < 100; ++seed) {
+    std::vector<std::uint8_t> bad = fuzz::damaged(tail, seed);
+    bad.resize(tail.size());
+    const std::string error =
+        errorOf([&] { loadBytes(whole.substr(0, head) + std::string(bad.begin(), bad.end())); });
+    refused += error != "no error";
+    EXPECT_TRUE(error == "no error" || error[0] == '3') << error;
+  }
+  EXPECT_GT(refused, 10);
+}
+
+#ifdef WHIT_MESHOPT
+// A triangle that is shown twice, once turned by half a turn around z: what gltfpack's file lacks.
+TEST_F(GltfCompressed, EveryModeAndFilterOfMeshoptIsDecoded) {
+  meshopt_encodeVertexVersion(0);
+  std::string data, views;
+  const auto add = [&](const std::string& encoded, std::size_t count, std::size_t stride,
+                       const std::string& mode) {
+    views += std::string(views.empty() ? "" : ",") +
+             "{\"buffer\":1,\"byteLength\":" + std::to_string(count * stride) +
+             ",\"extensions\":{\"EXT_meshopt_compression\":{\"buffer\":0,\"byteOffset\":" +
+             std::to_string(data.size()) + ",\"byteLength\":" + std::to_string(encoded.size()) +
+             ",\"byteStride\":" + std::to_string(stride) + ",\"count\":" + std::to_string(count) +
+             ",\"mode\":" + mode + "}}}";
+    data += encoded;
+  };
+  const auto addVertices = [&](const std::string& bytes, std::size_t stride,
+                               const std::string& filter) {
+    const std::size_t count = bytes.size() / stride;
+    std::vector<unsigned char> all(meshopt_encodeVertexBufferBound(count, stride));
+    all.resize(meshopt_encodeVertexBuffer(all.data(), all.size(), bytes.data(), count, stride));
+    add({all.begin(), all.end()}, count, stride, "\"ATTRIBUTES\",\"filter\":" + filter);
+  };
+  // Floats are an exponent above a mantissa of 24 bits: here the whole numbers 0 and 1.
+  addVertices(bytesOf<std::uint32_t>({0, 0, 0, 1, 0, 0, 0, 1, 0}), 12, "\"EXPONENTIAL\"");
+  addVertices(bytesOf<std::int16_t>({0, 0, 32767, 0, 0, 0, 32767, 0, 0, 0, 32767, 0}), 8,
+              "\"OCTAHEDRAL\"");
+  // The last component has the number of the largest one, which is left out, in its lowest bits.
+  addVertices(bytesOf<std::int16_t>({0, 0, 0, 2047, 0, 0, 0, 2046}), 8, "\"QUATERNION\"");
+  const std::vector<unsigned int> indices{0, 1, 2};
+  std::vector<unsigned char> all(meshopt_encodeIndexSequenceBound(3, 3));
+  all.resize(meshopt_encodeIndexSequence(all.data(), all.size(), indices.data(), 3));
+  add({all.begin(), all.end()}, 3, 4, "\"INDICES\"");
+  const std::string text =
+      "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"EXT_meshopt_compression\","
+      "\"EXT_mesh_gpu_instancing\"],\"buffers\":[{\"byteLength\":" +
+      std::to_string(data.size()) + ",\"uri\":\"data:;base64," + base64(data) +
+      "\"},{\"byteLength\":88,\"uri\":\"missing.bin\",\"extensions\":{\"EXT_meshopt_compression\":"
+      "{\"fallback\":true}}}],\"bufferViews\":[" +
+      views +
+      "],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"type\":\"VEC3\",\"count\":3},"
+      "{\"bufferView\":1,\"componentType\":5122,\"normalized\":true,\"type\":\"VEC3\",\"count\":3},"
+      "{\"bufferView\":2,\"componentType\":5122,\"normalized\":true,\"type\":\"VEC4\",\"count\":2},"
+      "{\"bufferView\":3,\"componentType\":5125,\"type\":\"SCALAR\",\"count\":3}],"
+      "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":1},\"indices\":3}]}]"
+      ","
+      "\"nodes\":[{\"mesh\":0,\"extensions\":{\"EXT_mesh_gpu_instancing\":{\"attributes\":"
+      "{\"ROTATION\":2}}}}],\"scenes\":[{\"nodes\":[0]}],\"scene\":0}";
+  const SceneDescription scene = loadText(text);
+  EXPECT_EQ(kinds(), "");
+  ASSERT_EQ(scene.instances.size(), 2u);
+  for (const int i : {0, 1}) {
+    const double x = i == 0 ? 1 : -1;
+    const auto instance = static_cast<std::size_t>(i);
+    expectNear(cornerOf(scene, instance, 0, 0), {0, 0, 0}, 1e-9);
+    expectNear(cornerOf(scene, instance, 0, 1), {x, 0, 0}, 1e-3);
+    expectNear(cornerOf(scene, instance, 0, 2), {0, x, 0}, 1e-3);
+  }
+  expectNear(Vec3d(scene.objects.at(0).meshes.at(0).normals.at(0)), {0, 0, 1}, 1e-3);
+
+  EXPECT_EQ(errorOfText(replaced(text, "\"buffer\":0", "\"buffer\":1")),
+            "3 m.gltf#/buffers/1: expected a buffer with data, found none");
+  const std::string large =
+      replaced(replaced(text, "\"byteLength\":36", "\"byteLength\":1200000000000"),
+               "\"byteStride\":12,\"count\":3", "\"byteStride\":12,\"count\":100000000000");
+  EXPECT_EQ(
+      errorOfText(large).substr(0, 90),
+      "5 m.gltf#/bufferViews/0/extensions/EXT_meshopt_compression needs 100000000000 x 12 bytes, ");
+}
+#endif
+
 TEST_F(GltfCompressed, WebpTexturesAreRead) {
   if (!GltfDocument::reads("EXT_texture_webp")) GTEST_SKIP() << "built without libwebp";
   const SceneDescription scene = loadBytes(bytesOfFile("webp.glb"));
@@ -114,6 +243,11 @@ TEST_F(GltfCompressed, MissingExtensionsAreRefusedWithAdvice) {
                         "[\"KHR_texture_basisu\"]}"),
             "3 m.gltf#/extensionsRequired/0: the file cannot be shown without KHR_texture_basisu, "
             "which is not supported: `gltf-transform ktxdecompress IN OUT` converts the file");
+  EXPECT_EQ(errorOfText("{\"asset\":{\"version\":\"2.0\"},\"extensionsRequired\":"
+                        "[\"KHR_meshopt_compression\"]}"),
+            "3 m.gltf#/extensionsRequired/0: the file cannot be shown without "
+            "KHR_meshopt_compression, which is not supported: `gltfpack -c -i IN -o OUT` converts "
+            "the file");
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ TEST_F(GltfOdd, BuffersThatNobodyUsesNeedNoData) {
                                      "},{\"byteLength\":9}],\"bufferViews\"");
   EXPECT_EQ(triangleCount(loadText(whole)), 1u);
   EXPECT_EQ(errorOfText(replaced(whole, "\"buffer\":0", "\"buffer\":1")),
-            "3 m.gltf#/buffers/1: expected a member \"uri\"");
+            "3 m.gltf#/buffers/1: expected a buffer with data, found none");
 }
 
 TEST_F(GltfOdd, DataMayBeOfAnyTypeAndSpelling) {

@@ -3,6 +3,9 @@
 #ifdef WHIT_DRACO
 #include <draco/compression/decode.h>
 #endif
+#ifdef WHIT_MESHOPT
+#include <meshoptimizer.h>
+#endif
 
 #include <algorithm>
 #include <cstring>
@@ -118,12 +121,10 @@ void decodeArrays(const std::vector<DracoArray>& arrays, const ConfinedWriter& w
   }
 }
 
-}  // namespace
-
-std::map<std::string, std::string> decodeDraco(const GltfDocument& document) {
-  std::map<std::string, std::string> decoded;
+// Draco's decoder runs in a process of its own (runConfined), because damaged data can break it.
+void decodeDraco(const GltfDocument& document, std::map<std::string, std::string>& decoded) {
   const std::vector<DracoArray> arrays = dracoArrays(document);
-  if (arrays.empty()) return decoded;
+  if (arrays.empty()) return;
   const ConfinedAnswer answer =
       runConfined([&](const ConfinedWriter& write) { decodeArrays(arrays, write); },
                   document.budget().left() / 2, kSeconds);
@@ -140,11 +141,65 @@ std::map<std::string, std::string> decodeDraco(const GltfDocument& document) {
     decoded[array.accessor] = left.substr(sizeof size, size);
     left.remove_prefix(sizeof size + size);
   }
-  return decoded;
 }
 
-#else
-std::map<std::string, std::string> decodeDraco(const GltfDocument&) { return {}; }
+}  // namespace
+
 #endif
+#ifdef WHIT_MESHOPT
+
+namespace {
+
+// The decoders of meshoptimizer are made for damaged data, but rely on the arguments checked here.
+std::string decodeView(const GltfDocument& document, const JsonValue& view,
+                       const JsonValue& source) {
+  const std::string mode = source.need("mode").word({"ATTRIBUTES", "TRIANGLES", "INDICES"});
+  const JsonValue named = source["filter"];
+  const std::string filter =
+      named ? named.word({"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL"}) : "NONE";
+  const std::uint64_t count = source.need("count").wholeOr(0);
+  const auto stride = static_cast<std::size_t>(source.need("byteStride").integer(2, 256));
+  const bool suits = mode != "ATTRIBUTES"     ? filter == "NONE" && (stride == 2 || stride == 4)
+                     : filter == "QUATERNION" ? stride == 8
+                     : filter == "OCTAHEDRAL" ? stride == 4 || stride == 8
+                                              : stride % 4 == 0;
+  if (!suits) source["byteStride"].fail("a size of elements that mode and filter have");
+  if (view.need("byteLength").wholeOr(0) != count * stride) {
+    view["byteLength"].fail("the " + std::to_string(count * stride) + " bytes that are compressed");
+  }
+  if (mode == "TRIANGLES" && count % 3 != 0) source["count"].fail("a multiple of 3");
+  document.budget().charge(count, stride, source.where());
+  std::string all(count * stride, '\0');
+  const Bytes from = document.range(source);
+  const int failure =
+      mode == "ATTRIBUTES"
+          ? meshopt_decodeVertexBuffer(all.data(), count, stride, from.data(), from.size())
+      : mode == "TRIANGLES"
+          ? meshopt_decodeIndexBuffer(all.data(), count, stride, from.data(), from.size())
+          : meshopt_decodeIndexSequence(all.data(), count, stride, from.data(), from.size());
+  if (failure != 0) source.fail("data that meshoptimizer can decode", "damaged data");
+  if (filter == "OCTAHEDRAL") meshopt_decodeFilterOct(all.data(), count, stride);
+  if (filter == "QUATERNION") meshopt_decodeFilterQuat(all.data(), count, stride);
+  if (filter == "EXPONENTIAL") meshopt_decodeFilterExp(all.data(), count, stride);
+  return all;
+}
+
+}  // namespace
+
+#endif
+
+std::map<std::string, std::string> decodeCompressed([[maybe_unused]] const GltfDocument& document) {
+  std::map<std::string, std::string> decoded;
+#ifdef WHIT_MESHOPT
+  for (const JsonValue& view : document.list("bufferViews").elements()) {
+    const JsonValue source = view["extensions"]["EXT_meshopt_compression"];
+    if (source) decoded[view.pointer()] = decodeView(document, view, source);
+  }
+#endif
+#ifdef WHIT_DRACO
+  decodeDraco(document, decoded);
+#endif
+  return decoded;
+}
 
 }  // namespace whit

@@ -1,5 +1,5 @@
-// Compressed meshes of a glTF file: KHR_draco_mesh_compression. A build without libdraco does not
-// know this extension.
+// Compressed meshes of a glTF file: KHR_draco_mesh_compression, EXT_meshopt_compression. A build
+// without the library of an extension does not know it.
 #pragma once
 
 #include <map>
@@ -9,10 +9,10 @@
 
 namespace whit {
 
-// The elements of all accessors without a buffer view that primitives compressed by Draco stand
-// for, by the accessors' pointers, tightly packed and of the accessors' own types. Draco's decoder
-// runs in a process of its own (runConfined), because damaged data can break it. Throws badScene
-// "file#/meshes/i/primitives/k/..." where that decoder fails.
-std::map<std::string, std::string> decodeDraco(const GltfDocument& document);
+// Decodes all buffer views that meshoptimizer has compressed, and all accessors without a buffer
+// view that primitives compressed by Draco stand for, tightly packed and of the accessors' own
+// types. Returns the bytes by the pointers of views and accessors. Throws badScene
+// "file#/bufferViews/i/..." or "file#/meshes/i/primitives/k/..." where that fails.
+std::map<std::string, std::string> decodeCompressed(const GltfDocument& document);
 
 }  // namespace whit

@@ -129,6 +129,9 @@ constexpr std::string_view kSupported[] = {
 #ifdef WHIT_DRACO
     "KHR_draco_mesh_compression",
 #endif
+#ifdef WHIT_MESHOPT
+    "EXT_meshopt_compression",
+#endif
 #ifdef WHIT_WEBP
     "EXT_texture_webp",
 #endif
@@ -141,13 +144,14 @@ constexpr std::string_view kSupported[] = {
 
 // Says what the user can do about an extension that is not supported; may be empty.
 std::string adviceOn(const std::string& extension) {
-  if (extension == "KHR_texture_basisu") {
-    return ": `gltf-transform ktxdecompress IN OUT` converts the file";
-  }
-  const char* const library = extension == "KHR_draco_mesh_compression" ? "libdraco"
-                              : extension == "EXT_texture_webp"         ? "libwebp"
-                                                                        : nullptr;
-  return library ? std::string(": this whit was built without ") + library : "";
+  const std::map<std::string, std::string> advice{
+      {"KHR_texture_basisu", ": `gltf-transform ktxdecompress IN OUT` converts the file"},
+      {"KHR_meshopt_compression", ": `gltfpack -c -i IN -o OUT` converts the file"},
+      {"KHR_draco_mesh_compression", ": this whit was built without libdraco"},
+      {"EXT_meshopt_compression", ": this whit was built without libmeshoptimizer"},
+      {"EXT_texture_webp", ": this whit was built without libwebp"}};
+  const auto found = advice.find(extension);
+  return found == advice.end() ? "" : found->second;
 }
 
 // Upper bound on the memory that the readers need for one node, mesh, material and so on.
@@ -169,7 +173,7 @@ GltfDocument::GltfDocument(const std::filesystem::path& path, const PathRules& r
   buffers_.resize(list("buffers").size());
   if (!buffers_.empty() && !list("buffers")[0]["uri"].exists()) buffers_[0] = std::move(binary);
   readBuffers(path.parent_path(), rules);
-  decodedAccessors_ = decodeDraco(*this);
+  decoded_ = decodeCompressed(*this);
   readImages(path.parent_path(), rules);
 }
 
@@ -177,28 +181,33 @@ bool GltfDocument::reads(const std::string& extension) {
   return std::ranges::count(kSupported, extension) > 0;
 }
 
+Bytes GltfDocument::range(const JsonValue& source) const {
+  const JsonValue buffers = list("buffers");
+  const std::size_t number = source.need("buffer").indexInto(buffers).value_or(0);
+  const std::optional<std::string>& buffer = buffers_[number];
+  if (!buffer) buffers[number].fail("a buffer with data", "none");
+  const std::uint64_t size = buffer->size(), offset = source["byteOffset"].wholeOr(0);
+  const std::uint64_t length = source.need("byteLength").wholeOr(0);
+  if (offset > size || length > size - offset) {
+    source.fail("a range within the buffer's " + std::to_string(size) + " bytes",
+                std::to_string(length) + " from byte " + std::to_string(offset));
+  }
+  return asBytes(*buffer).subspan(offset, length);
+}
+
 GltfBufferView GltfDocument::view(const JsonValue& reference) const {
   const std::optional<std::size_t> index = reference.indexInto(list("bufferViews"));
   if (!index) reference.fail("a buffer view");
   const JsonValue view = list("bufferViews")[*index];
-  const JsonValue buffers = list("buffers");
-  const std::size_t number = view.need("buffer").indexInto(buffers).value_or(0);
-  const std::optional<std::string>& buffer = buffers_[number];
-  if (!buffer) buffers[number].need("uri");
-  const std::uint64_t size = buffer->size(), offset = view["byteOffset"].wholeOr(0);
-  const std::uint64_t length = view.need("byteLength").wholeOr(0);
-  if (offset > size || length > size - offset) {
-    view.fail("a range within the buffer's " + std::to_string(size) + " bytes",
-              std::to_string(length) + " from byte " + std::to_string(offset));
-  }
   const std::uint64_t stride = view["byteStride"].wholeOr(0, 252);
   if (stride % 4 != 0) view["byteStride"].fail("a multiple of 4");
-  return {asBytes(*buffer).subspan(offset, length), *index, stride};
+  const std::optional<Bytes> bytes = decoded(view);
+  return {bytes ? *bytes : range(view), *index, stride};
 }
 
-std::optional<Bytes> GltfDocument::decoded(const JsonValue& accessor) const {
-  const auto found = decodedAccessors_.find(accessor.pointer());
-  return found == decodedAccessors_.end() ? std::nullopt : std::optional(asBytes(found->second));
+std::optional<Bytes> GltfDocument::decoded(const JsonValue& value) const {
+  const auto found = decoded_.find(value.pointer());
+  return found == decoded_.end() ? std::nullopt : std::optional(asBytes(found->second));
 }
 
 void GltfDocument::checkExtensions() const {
@@ -232,6 +241,9 @@ void GltfDocument::readBuffers(const std::filesystem::path& folder, const PathRu
     const JsonValue buffer = list("buffers")[i], uri = buffer["uri"];
     const std::uint64_t length = buffer.need("byteLength").wholeOr(0);
     std::optional<std::string>& bytes = buffers_[i];
+    // Such a buffer has the bytes of views for those who cannot decode them.
+    const JsonValue fallback = buffer["extensions"]["EXT_meshopt_compression"]["fallback"];
+    if (fallback.flagOr(false) && reads("EXT_meshopt_compression")) continue;
     if (isDataUri(uri.textOr(""))) {
       bytes = decodeUri(uri);
     } else if (uri.exists()) {

@@ -58,8 +58,10 @@ class GltfDocument {
   // The buffer view whose index is `reference`. Throws badScene where it does not exist or reaches
   // beyond its buffer.
   GltfBufferView view(const JsonValue& reference) const;
-  // The elements of an accessor that are compressed by Draco, tightly packed; none: they are not.
-  std::optional<Bytes> decoded(const JsonValue& accessor) const;
+  // The bytes of the buffer that `source`, a buffer view or its compressed form, refers to.
+  Bytes range(const JsonValue& source) const;
+  // The bytes of an accessor or a buffer view that is compressed; none: it is not.
+  std::optional<Bytes> decoded(const JsonValue& value) const;
   const std::vector<GltfImageSource>& images() const { return images_; }
   Warnings& warnings() const { return warnings_; }
   MemoryBudget& budget() const { return budget_; }
@@ -75,7 +77,7 @@ class GltfDocument {
   Warnings& warnings_;
   std::unique_ptr<const JsonDocument> json_;
   std::vector<std::optional<std::string>> buffers_;
-  std::map<std::string, std::string> decodedAccessors_;  // by their pointers
+  std::map<std::string, std::string> decoded_;  // accessors and buffer views, by their pointers
   std::vector<GltfImageSource> images_;
 };
 
