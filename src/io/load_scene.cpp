@@ -237,6 +237,11 @@ SceneDescription readScene(const JsonDocument& document, const LoadOptions& opti
   MaterialReader materials(file, context);
   readItems(file, context, materials);
   materials.checkUnused();
+  if (const JsonValue variant = JsonValue(document)["variant"]) {
+    throwBadScene(variant.where(),
+                  "variants are those of glTF files: a scene states one in the item of the model, "
+                  "as {\"model\": \"shoe.glb\", \"variant\": \"NAME\"}");
+  }
   file.finish();
   settleInstant(options.instant, context.scene);
   return finish(options, fromSky, context);

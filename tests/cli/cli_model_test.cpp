@@ -68,6 +68,12 @@ TEST(Models, VariantsAreListedAndChosen) {
   EXPECT_NE(refused.err.find("/variant: expected one of \"plain\", \"glowing \"red\"\""),
             std::string::npos)
       << refused.err;
+  writeTinyScene(folder);
+  const Outcome ofScene = runWhit({"info", folder / "tiny.json", "--variant", "plain"});
+  EXPECT_NE(ofScene.err.find("tiny.json#/variant: variants are those of glTF files: a scene states "
+                             "one in the item of the model, as {\"model\": \"shoe.glb\", \"vari"),
+            std::string::npos)
+      << ofScene.err;
 }
 
 TEST(Models, ThePictureTellsItsExposureAndIsMadeAgainWithIt) {
