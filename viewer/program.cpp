@@ -111,8 +111,8 @@ int runViewer(const std::vector<std::string>& words, ScriptedUser* scripted) {
   if (scenes.empty()) throwUsage("expected SCENE: " + list.operand.help);
   options.scene = scenes[0];
   const Display display;
+  const ImageSize room = Display::room(kept.window);
   const auto sizeFor = [&](const ImageSize& picture) {
-    const ImageSize room = kept.window == ImageSize() ? Display::room() : kept.window;
     return options.common.render.size.value_or(fitted(picture, room));
   };
   ImageSize opened = sizeFor({Scene().width, Scene().height});

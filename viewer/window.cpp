@@ -83,13 +83,14 @@ Display::Display() {
 
 Display::~Display() { glfwTerminate(); }
 
-ImageSize Display::room() {
+ImageSize Display::room(const ImageSize& kept) {
   ImageSize screen{1280, 800};
   if (GLFWmonitor* const monitor = glfwGetPrimaryMonitor()) {
     int x = 0, y = 0;
     glfwGetMonitorWorkarea(monitor, &x, &y, &screen.width, &screen.height);
   }
-  return {screen.width * 2 / 3, screen.height * 2 / 3};
+  if (kept == ImageSize()) return {screen.width * 2 / 3, screen.height * 2 / 3};
+  return {std::min(kept.width, screen.width), std::min(kept.height, screen.height)};
 }
 
 Window::Window(const std::string& title, const ImageSize& size) {

@@ -63,8 +63,9 @@ class Display {
   Display(const Display&) = delete;
   Display& operator=(const Display&) = delete;
 
-  // Returns two thirds of the screen, in the units of windows.
-  static ImageSize room();
+  // Returns the size that was kept, limited to the screen's work area, or if there is none two
+  // thirds of that area, in the units of windows.
+  static ImageSize room(const ImageSize& kept);
 };
 
 class Window {

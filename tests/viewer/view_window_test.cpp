@@ -137,6 +137,15 @@ TEST_F(Viewer, OpensAtTwoThirdsOfTheScreenAndKeepsItsSettings) {
             std::string::npos);
 }
 
+TEST_F(Viewer, AKeptWindowIsLimitedToTheScreen) {
+  play("wait sharp\nresize 2400 2400\nwait 10 frames\n", {"--size", "scene"});
+  const std::string kept = cli::readFile(folder_ / "whit/viewer.json");
+  EXPECT_NE(kept.find("2400,\n    2400"), std::string::npos) << kept;
+  const cli::Outcome second = play("wait sharp\nkey C\n", {"--size", "scene"});
+  EXPECT_NE(second.out.find(" --size=800x533"), std::string::npos) << second.out;
+  EXPECT_EQ(cli::readFile(folder_ / "whit/viewer.json"), kept);  // for a larger screen
+}
+
 TEST_F(Viewer, WithoutASceneTheLastOneOpens) {
   EXPECT_EQ(runOn(display_.name(), folder_.path().string(), {WHIT_VIEW_PROGRAM}).status, 2);
   play("wait sharp\n");
