@@ -62,29 +62,20 @@ struct Texel {
 };
 
 // Nearest texels of an image that is stretched to another size; white without an image.
-class Stretched {
- public:
-  Stretched(const RawImage* raw, int width, int height)
-      : raw_(raw), stretched_(raw && (raw->width != width || raw->height != height)) {
-    for (int x = 0; stretched_ && x < width; ++x) {
-      columns_.push_back(static_cast<std::size_t>(std::int64_t{x} * raw->width / width));
-    }
-    for (int y = 0; stretched_ && y < height; ++y) {
-      rows_.push_back(static_cast<std::size_t>(std::int64_t{y} * raw->height / height));
-    }
-  }
+struct Stretched {
+  const RawImage* raw;
+  int width, height;
 
-  // `i` counts texels of the stretched image.
-  Texel at(std::size_t i, std::size_t x, std::size_t y) const {
-    if (!raw_) return {};
-    if (stretched_) i = rows_[y] * static_cast<std::size_t>(raw_->width) + columns_[x];
-    return {linearPixel(*raw_, i), valuesAt(*raw_, i)};
+  Texel at(std::size_t x, std::size_t y) const {
+    if (!raw) return {};
+    const auto own = [](std::size_t place, int from, int to) {  // divisions take time
+      return from == to ? place
+                        : place * static_cast<std::size_t>(to) / static_cast<std::size_t>(from);
+    };
+    const std::size_t i = own(y, height, raw->height) * static_cast<std::size_t>(raw->width) +
+                          own(x, width, raw->width);
+    return {linearPixel(*raw, i), valuesAt(*raw, i)};
   }
-
- private:
-  const RawImage* raw_;
-  bool stretched_;
-  std::vector<std::size_t> columns_, rows_;
 };
 
 // Holds the mean of a channel of valuesAt().
@@ -145,10 +136,10 @@ Images bake(const GltfMaterial& m, const GltfBakeImages& images, const ImageLimi
     height = std::max(height, raw ? raw->height : 1);
   }
   const MemoryHold held = holdImage(m.where, width, height, 2 * sizeof(std::uint32_t), limits);
-  const Stretched bases(images[kBase].get(), width, height);
-  const Stretched metals(images[kMetallicRoughness].get(), width, height);
-  const Stretched speculars(images[kSpecular].get(), width, height);
-  const Stretched tints(images[kSpecularColor].get(), width, height);
+  const Stretched bases{images[kBase].get(), width, height};
+  const Stretched metals{images[kMetallicRoughness].get(), width, height};
+  const Stretched speculars{images[kSpecular].get(), width, height};
+  const Stretched tints{images[kSpecularColor].get(), width, height};
   Images maps(kGltfBakedMaps);
   const auto start = [&](GltfBakedMap map, TexelFormat format) {
     if (!wantsBaked(m, map)) return;
@@ -163,9 +154,9 @@ Images bake(const GltfMaterial& m, const GltfBakeImages& images, const ImageLimi
   std::size_t i = 0;
   for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y) {
     for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x, ++i) {
-      const Rgb base = bases.at(i, x, y).color, tint = tints.at(i, x, y).color;
-      const Texel other = metals.at(i, x, y);
-      const float metal = m.metallic * other.code[2], strength = speculars.at(i, x, y).code[3];
+      const Rgb base = bases.at(x, y).color, tint = tints.at(x, y).color;
+      const Texel other = metals.at(x, y);
+      const float metal = m.metallic * other.code[2], strength = speculars.at(x, y).code[3];
       colors += RgbD(base);
       metallic += other.code[2];
       roughness += other.code[1];

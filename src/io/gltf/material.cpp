@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <utility>
 
 #include "io/gltf/document.h"
 #include "scene/material.h"
@@ -163,15 +162,6 @@ GltfMaterial readMaterial(const GltfDocument& document, const JsonValue& source)
   return m;
 }
 
-// Emits its color.
-Material unlit(Material m, const Rgb& base) {
-  m.diffuse = Rgb(0.0f);
-  m.emission = base;
-  m.vertexTint = VertexTint::emission;
-  m.castsShadow = m.blocksLight();
-  return m;
-}
-
 Rgb mix(const Rgb& a, const Rgb& b, float t) { return a * (1 - t) + b * t; }
 
 }  // namespace
@@ -230,7 +220,13 @@ Material shadedAs(const GltfMaterial& g, const GltfMeans& means) {
   }
   // A mask that cuts everything, with or without a map.
   if (g.alphaMode == GltfMaterial::Alpha::mask && g.alpha < g.alphaCutoff) m.coverage = 0;
-  if (g.unlit) return unlit(std::move(m), g.base);
+  if (g.unlit) {
+    m.diffuse = Rgb(0.0f);
+    m.emission = g.base;
+    m.vertexTint = VertexTint::emission;
+    m.castsShadow = m.blocksLight();
+    return m;
+  }
   const Rgb base = g.base * means.base;
   const Rgb f0 = g.f0(means.specularColor, means.specular);
   const float f90 = g.f90 * means.specular;

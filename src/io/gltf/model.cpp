@@ -98,13 +98,9 @@ class GltfModel : public Model {
       const std::uint32_t body = shared ? known->second : addBody(placed, layout, materials);
       if (!placed.isDeformed()) bodies.emplace(placed.mesh, body);
       empty = empty && layout.body(body).parts.empty();
-      movers.of(placed.mover)
-          .children.push_back({body,
-                               placed.toMover,
-                               0,
-                               nullptr,
-                               {},
-                               std::make_shared<const std::string>(nameOf(placed))});
+      Placement shown{body, placed.toMover};
+      shown.item = std::make_shared<const std::string>(nameOf(placed));
+      movers.of(placed.mover).children.push_back(std::move(shown));
     }
     if (empty) {
       warnNothingToDraw(document_.list("meshes").size() == 0 ? "no meshes"
