@@ -41,7 +41,9 @@ Vec3d bestSide(const SceneDescription& scene, double radius) {
       shown[i] += std::max(0.0, dot(area, sides[i]));
     }
   });
-  const double enough = kEnough * *std::ranges::max_element(shown);
+  const double most = *std::ranges::max_element(shown);
+  if (most == 0) return normalized(Vec3d{0.3, -1.5, 0.5});  // all fronts look down
+  const double enough = kEnough * most;
   const auto found = std::ranges::find_if(shown, [&](double area) { return area >= enough; });
   return sides[static_cast<std::size_t>(found - shown.begin())];
 }
