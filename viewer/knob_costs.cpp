@@ -23,14 +23,11 @@ std::vector<Candidate> candidatesOf(const Renderer& renderer, const RenderOption
     setOption(candidate.options, candidate.name, candidate.other);
     candidates.push_back(std::move(candidate));
   });
-  for (int i = 0; i < kEffectCount; ++i) {
-    const auto effect = static_cast<Effect>(i);
-    if (!renderer.plan().effects.has(effect)) continue;
-    Candidate candidate{std::string(kEffectNames[static_cast<std::size_t>(i)].name), "off",
-                        options};
+  renderer.plan().effects.forEach([&](Effect effect) {
+    Candidate candidate{std::string(nameOf(effect)), "off", options};
     candidate.options.disable = candidate.options.disable.with(effect);
     candidates.push_back(std::move(candidate));
-  }
+  });
   std::erase_if(candidates, [&](const Candidate& c) {
     return c.options == options || !renderer.canSetOptions(c.options);
   });

@@ -68,7 +68,7 @@ std::vector<EffectStep> measureSteps(const EffectsJob& job, Progress* progress) 
   for (const Effect effect : kAddedEffects) {
     kept = kept.with(effect);
     const bool left = notAskedFor(job.common.render).has(effect);
-    if (has.has(effect) && !left) add(kEffectNames[static_cast<std::size_t>(effect)].name, kept);
+    if (has.has(effect) && !left) add(nameOf(effect), kept);
   }
   takeTurns(runs, Turns{3, job.frames, false}, progress);
   for (std::size_t i = 0; i < steps.size(); ++i) {

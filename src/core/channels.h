@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/enum_set.h"
 #include "core/vec3.h"
 
 namespace whit {
@@ -50,31 +51,7 @@ inline constexpr const ChannelInfo& infoOf(Channel channel) {
   return kChannels[static_cast<std::size_t>(channel)];
 }
 
-class ChannelSet {
- public:
-  constexpr ChannelSet() = default;
-
-  constexpr bool has(Channel c) const { return (bits_ & bit(c)) != 0; }
-  constexpr bool empty() const { return bits_ == 0; }
-  constexpr ChannelSet with(Channel c) const {
-    ChannelSet more;
-    more.bits_ = bits_ | bit(c);
-    return more;
-  }
-  constexpr bool operator==(const ChannelSet&) const = default;
-
-  // visit(channel) for each, in the order above.
-  template <typename Visitor>
-  constexpr void forEach(Visitor&& visit) const {
-    for (int i = 0; i < kChannelCount; ++i) {
-      if (has(static_cast<Channel>(i))) visit(static_cast<Channel>(i));
-    }
-  }
-
- private:
-  static constexpr std::uint32_t bit(Channel c) { return 1u << static_cast<std::uint32_t>(c); }
-  std::uint32_t bits_ = 0;
-};
+using ChannelSet = EnumSet<Channel, kChannelCount>;
 
 // Parses "depth,normal"; throws a usage Error that names the nearest channel for an unknown one.
 ChannelSet parseChannels(const std::string& commaSeparated);

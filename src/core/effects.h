@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/enum_set.h"
+
 namespace whit {
 
 // name, what it stands for
@@ -59,24 +61,11 @@ inline constexpr std::array<EffectName, kEffectCount> kEffectNames{{
 #undef WHIT_EFFECT_NAME
 }};
 
-class EffectSet {
- public:
-  constexpr EffectSet() = default;
-  constexpr explicit EffectSet(std::uint32_t bits) : bits_(bits) {}
-  static constexpr EffectSet all() { return EffectSet((1u << kEffectCount) - 1); }
+constexpr std::string_view nameOf(Effect e) {
+  return kEffectNames[static_cast<std::size_t>(e)].name;
+}
 
-  constexpr bool has(Effect e) const { return (bits_ & bit(e)) != 0; }
-  constexpr EffectSet with(Effect e) const { return EffectSet(bits_ | bit(e)); }
-  constexpr EffectSet without(Effect e) const { return EffectSet(bits_ & ~bit(e)); }
-  constexpr EffectSet without(EffectSet s) const { return EffectSet(bits_ & ~s.bits_); }
-  constexpr std::uint32_t bits() const { return bits_; }
-  constexpr bool operator==(const EffectSet&) const = default;
-
-  static constexpr std::uint32_t bit(Effect e) { return 1u << static_cast<std::uint32_t>(e); }
-
- private:
-  std::uint32_t bits_ = 0;
-};
+using EffectSet = EnumSet<Effect, kEffectCount>;
 
 // Parses "shadows,mirror"; throws a usage Error that names the nearest effect for an unknown one.
 EffectSet parseEffects(const std::string& commaSeparated);

@@ -68,10 +68,7 @@ EffectSet parseEffects(const std::string& commaSeparated) {
 
 std::vector<std::string> effectNames(EffectSet effects) {
   std::vector<std::string> names;
-  for (int i = 0; i < kEffectCount; ++i) {
-    if (!effects.has(static_cast<Effect>(i))) continue;
-    names.emplace_back(kEffectNames[static_cast<std::size_t>(i)].name);
-  }
+  effects.forEach([&](Effect e) { names.emplace_back(nameOf(e)); });
   return names;
 }
 

@@ -4,7 +4,8 @@
 #pragma once
 
 #include <cstdint>
-#include <initializer_list>
+
+#include "core/enum_set.h"
 
 namespace whit {
 
@@ -24,23 +25,6 @@ enum class Part : std::uint8_t {
   channels    // of the film
 };
 
-class Parts {
- public:
-  constexpr Parts() = default;
-  constexpr Parts(std::initializer_list<Part> parts) {
-    for (const Part part : parts) bits_ |= bit(part);
-  }
-  constexpr bool has(Part part) const { return (bits_ & bit(part)) != 0; }
-  constexpr bool holds(Parts others) const { return (others.bits_ & ~bits_) == 0; }
-  constexpr Parts with(Parts others) const {
-    Parts sum;
-    sum.bits_ = bits_ | others.bits_;
-    return sum;
-  }
-
- private:
-  static constexpr std::uint32_t bit(Part part) { return 1u << static_cast<std::uint32_t>(part); }
-  std::uint32_t bits_ = 0;
-};
+using Parts = EnumSet<Part, static_cast<int>(Part::channels) + 1>;
 
 }  // namespace whit

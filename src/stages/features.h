@@ -5,6 +5,8 @@
 
 #include <cstdint>
 
+#include "core/enum_set.h"
+
 namespace whit {
 
 // name, what it is there for
@@ -43,23 +45,6 @@ enum class Feature : std::uint8_t {
 inline constexpr int kFeatureCount = 0 WHIT_FEATURES(WHIT_FEATURE_COUNT);
 #undef WHIT_FEATURE_COUNT
 
-class FeatureSet {
- public:
-  constexpr FeatureSet() = default;
-  static constexpr FeatureSet all() { return FeatureSet((1u << kFeatureCount) - 1); }
-
-  constexpr bool has(Feature f) const { return (bits_ & bit(f)) != 0; }
-  constexpr FeatureSet with(Feature f, bool on = true) const {
-    return FeatureSet(on ? bits_ | bit(f) : bits_);
-  }
-  constexpr FeatureSet without(Feature f) const { return FeatureSet(bits_ & ~bit(f)); }
-  constexpr bool operator==(const FeatureSet&) const = default;
-
- private:
-  constexpr explicit FeatureSet(std::uint32_t bits) : bits_(bits | bit(Feature::always)) {}
-  static constexpr std::uint32_t bit(Feature f) { return 1u << static_cast<std::uint32_t>(f); }
-
-  std::uint32_t bits_ = bit(Feature::always);
-};
+using FeatureSet = EnumSet<Feature, kFeatureCount, 1u>;  // always has Feature::always
 
 }  // namespace whit

@@ -53,10 +53,6 @@ RenderOptions glossyOptions() {
   return o;
 }
 
-std::string nameOf(Effect effect) {
-  return std::string(kEffectNames[static_cast<std::size_t>(effect)].name);
-}
-
 class AbsentEffect : public testing::TestWithParam<int> {
  protected:
   Effect effect() const { return static_cast<Effect>(GetParam()); }
@@ -259,8 +255,9 @@ TEST(AbsentEffects, WithoutASkyImageNoPlanes) {
   EXPECT_FALSE(costWithout(EffectSet().with(Effect::skyImage)).skyImage);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, AbsentEffect, testing::Range(0, kEffectCount),
-                         [](const auto& info) { return nameOf(static_cast<Effect>(info.param)); });
+INSTANTIATE_TEST_SUITE_P(All, AbsentEffect, testing::Range(0, kEffectCount), [](const auto& info) {
+  return std::string(nameOf(static_cast<Effect>(info.param)));
+});
 
 }  // namespace
 }  // namespace whit::test
