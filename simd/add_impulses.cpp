@@ -9,11 +9,8 @@
 #define HWY_TARGET_INCLUDE "simd/add_impulses.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 #include "simd/compact-inl.h"
-#include "simd/cosine_lobe-inl.h"
-#include "simd/fresnel-inl.h"
-#include "simd/glossy-inl.h"
+#include "simd/lobes-inl.h"
 #include "simd/material-inl.h"
-#include "simd/media-inl.h"
 #include "simd/random_streams-inl.h"
 #include "simd/ray_origin-inl.h"
 

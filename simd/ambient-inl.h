@@ -1,5 +1,5 @@
-// Ambient light that surfels reflect (the scalar reference: src/reference/
-// write_emitted_and_reflective_ambient.cpp).
+// Radiance of the sky along unit directions, and ambient light that surfels reflect (the scalar
+// reference: src/reference/write_emitted_and_reflective_ambient.cpp).
 #if defined(WHIT_SIMD_AMBIENT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef WHIT_SIMD_AMBIENT_INL_H_
 #undef WHIT_SIMD_AMBIENT_INL_H_
@@ -7,13 +7,90 @@
 #define WHIT_SIMD_AMBIENT_INL_H_
 #endif
 
-#include "simd/glossy-inl.h"
+#include "simd/lobes-inl.h"
 #include "simd/material-inl.h"
-#include "simd/sky-inl.h"
 #include "stages/chunk.h"
+#include "stages/shading_tables.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
+
+HWY_INLINE V3 Mix3(const V3& a, const V3& b, VF t) { return MulAdd3(Sub3(b, a), t, a); }
+
+HWY_INLINE V3 GradientSky(const SkyTable& sky, const V3& direction) {
+  const FloatTag d;
+  const V3 horizon = Broadcast3(sky.horizon);
+  const MF above = hn::Ge(direction.y, hn::Zero(d));
+  const V3 end = Select3(above, Broadcast3(sky.zenith), Broadcast3(sky.ground));
+  return Mix3(horizon, end, hn::Min(hn::Abs(direction.y), hn::Set(d, 1.0f)));
+}
+
+// Bilinear in an equirectangular map; wraps around in azimuth, stops at the poles. `image` numbers
+// images below each other.
+HWY_INLINE V3 ImageSky(const SkyTable& sky, const V3& direction, MF live, VI image) {
+  const FloatTag d;
+  const IntTag di;
+  const VF width = hn::Set(d, static_cast<float>(sky.width));
+  const VF height = hn::Set(d, static_cast<float>(sky.height));
+  VF turn = hn::Add(AzimuthFraction(direction.x, direction.z), hn::Set(d, sky.turn));
+  turn = hn::Sub(turn, hn::Floor(turn));
+  const VF y = hn::Min(hn::Max(direction.y, hn::Set(d, -1.0f)), hn::Set(d, 1.0f));
+  const VF polar = hn::Mul(hn::Acos(d, y), hn::Set(d, 0.318309886f));
+  const VF px = MulThenSub(turn, width, hn::Set(d, 0.5f));
+  const VF py = MulThenSub(polar, height, hn::Set(d, 0.5f));
+  const VF floorX = hn::Floor(px), floorY = hn::Floor(py);
+  const VF fx = hn::Sub(px, floorX), fy = hn::Sub(py, floorY);
+  const VI lastX = hn::Set(di, sky.width - 1), lastY = hn::Set(di, sky.height - 1);
+  const VI zero = hn::Zero(di), one = hn::Set(di, 1);
+  // Not a number has no integer: other lanes may hold it.
+  const VI x0 = hn::ConvertTo(di, hn::IfThenElseZero(live, floorX));
+  const VI y0 = hn::ConvertTo(di, hn::IfThenElseZero(live, floorY));
+  const VI x1 = hn::Add(x0, one), y1 = hn::Add(y0, one);
+  const VI left = hn::IfThenElse(hn::Lt(x0, zero), lastX, hn::Min(x0, lastX));
+  const VI right = hn::IfThenZeroElse(hn::Gt(x1, lastX), x1);
+  const VI top = hn::Min(hn::Max(y0, zero), lastY), bottom = hn::Min(hn::Max(y1, zero), lastY);
+  const VI stride = hn::Set(di, sky.width);
+  const VI first = hn::Mul(image, hn::Set(di, sky.height));
+  const auto liveInt = hn::RebindMask(di, live);
+  const auto index = [&](VI row, VI column) HWY_ATTR {
+    return hn::IfThenElseZero(liveInt, hn::Add(hn::Mul(hn::Add(first, row), stride), column));
+  };
+  const VI i00 = index(top, left), i10 = index(top, right);
+  const VI i01 = index(bottom, left), i11 = index(bottom, right);
+  const auto channel = [&](const float* plane) HWY_ATTR {
+    const VF a = hn::GatherIndex(d, plane, i00), b = hn::GatherIndex(d, plane, i10);
+    const VF c = hn::GatherIndex(d, plane, i01), e = hn::GatherIndex(d, plane, i11);
+    const VF upper = MulThenAdd(hn::Sub(b, a), fx, a), lower = MulThenAdd(hn::Sub(e, c), fx, c);
+    return hn::Mul(MulThenAdd(hn::Sub(lower, upper), fy, upper), hn::Set(d, sky.scale));
+  };
+  return {channel(sky.r), channel(sky.g), channel(sky.b)};
+}
+
+// `live` lanes only; the others may hold anything.
+HWY_INLINE V3 SkyRadiance(const SkyTable& sky, const V3& direction, MF live) {
+  switch (sky.kind) {
+    case Sky::Kind::color:
+      return Broadcast3(sky.zenith);
+    case Sky::Kind::gradient:
+      return GradientSky(sky, direction);
+    case Sky::Kind::image:
+      return ImageSky(sky, direction, live, hn::Zero(IntTag()));
+    case Sky::Kind::none:
+      break;
+  }
+  return Broadcast3(Vec3f());
+}
+
+// The counterpart of blurredRadiance().
+HWY_INLINE V3 BlurredRadiance(const SkyTable& blurred, const V3& direction, VF roughness, MF live) {
+  const FloatTag d;
+  const VF blur = hn::Mul(roughness, hn::Set(d, kSkyBlurs - 1.0f));
+  const VF level = hn::Min(hn::Floor(blur), hn::Set(d, kSkyBlurs - 2.0f));
+  const VI image = hn::ConvertTo(IntTag(), hn::IfThenElseZero(live, level));
+  const V3 sharper = ImageSky(blurred, direction, live, image);
+  const VI next = hn::Add(image, hn::Set(IntTag(), 1));
+  return Mix3(sharper, ImageSky(blurred, direction, live, next), hn::Sub(blur, level));
+}
 
 class ReflectedAmbient {
  public:

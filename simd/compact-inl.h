@@ -6,7 +6,8 @@
 #define WHIT_SIMD_COMPACT_INL_H_
 #endif
 
-#include "simd/compact_order.h"
+#include <array>
+
 #include "simd/vec3-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -17,6 +18,22 @@ namespace whit::simd::HWY_NAMESPACE {
 // stack for every vector, which took three quarters of the light kernel's time; here the
 // permutation is fetched once and serves all columns.
 #define WHIT_COMPACT_BY_TABLE (HWY_TARGET != HWY_SCALAR && HWY_TARGET > HWY_AVX3)
+
+// For each mask of up to eight lanes, the numbers of its live lanes, in order.
+using CompactOrders = std::array<std::array<uint8_t, 8>, 256>;
+
+constexpr CompactOrders makeCompactOrders() {
+  CompactOrders orders{};
+  for (unsigned mask = 0; mask < 256; ++mask) {
+    unsigned next = 0;
+    for (unsigned lane = 0; lane < 8; ++lane) {
+      if ((mask >> lane & 1u) != 0) orders[mask][next++] = static_cast<uint8_t>(lane);
+    }
+  }
+  return orders;
+}
+
+alignas(64) inline constexpr CompactOrders kCompactOrder = makeCompactOrders();
 
 // Writes whole vectors; what lies behind the live lanes is overwritten by the next one.
 class Compactor {

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <bit>
 
-#include "core/pixel.h"
+#include "core/image.h"
 #include "simd/kernels.h"
 
 #undef HWY_TARGET_INCLUDE

@@ -6,7 +6,7 @@
 #define HWY_TARGET_INCLUDE "simd/deform_vertices.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 #include "hwy/highway.h"
-#include "simd/double3-inl.h"
+#include "simd/product-inl.h"
 
 #ifndef WHIT_DEFORM_KERNELS
 #define WHIT_DEFORM_KERNELS

@@ -6,7 +6,7 @@
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 #include "simd/ambient-inl.h"
 #include "simd/compact-inl.h"
-#include "simd/cosine_lobe-inl.h"
+#include "simd/lobes-inl.h"
 #include "simd/ray_origin-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -6,7 +6,6 @@
 #define HWY_TARGET_INCLUDE "simd/find_intersections.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 #include "simd/material-inl.h"
-#include "simd/media-inl.h"
 #include "simd/packets-inl.h"
 #include "simd/surface-inl.h"
 #include "simd/surface_maps-inl.h"

@@ -22,8 +22,8 @@
 #include <vector>
 
 #include "stages/chunk.h"
-#include "stages/contract.h"
 #include "stages/packet_words.h"
+#include "stages/stage.h"
 
 namespace whit::simd {
 

@@ -1,4 +1,7 @@
-// Materials at surfels, by the names of their records' members.
+// Materials at surfels, by the names of their records' members; media along rays and at the
+// surfaces that they meet. A ray travels in a stack of nested dielectrics: four bytes of an
+// integer, each a medium's number, the one entered last in the low byte, 0 for none. Overlaps are
+// settled by priority (Schmidt and Budge 2002, "Simple Nested Dielectrics in Ray Traced Images").
 #if defined(WHIT_SIMD_MATERIAL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef WHIT_SIMD_MATERIAL_INL_H_
 #undef WHIT_SIMD_MATERIAL_INL_H_
@@ -7,6 +10,7 @@
 #endif
 
 #include "simd/records-inl.h"
+#include "stages/columns.h"
 #include "stages/shading_tables.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -100,6 +104,117 @@ class MaterialLanes {
 HWY_INLINE MF HasFlags(VU flags, uint32_t bits) {
   const UintTag du;
   return hn::RebindMask(FloatTag(), hn::Ne(hn::And(flags, hn::Set(du, bits)), hn::Zero(du)));
+}
+
+HWY_INLINE VU PushMedium(VU stack, VU medium) { return hn::Or(hn::ShiftLeft<8>(stack), medium); }
+
+// Drops the lowest byte equal to `medium` (not 0) and closes the gap; unchanged if there is none.
+HWY_INLINE VU RemoveMedium(VU stack, VU medium) {
+  const UintTag du;
+  const auto byteIs = [&](VU shifted)
+                          HWY_ATTR { return hn::Eq(hn::And(shifted, hn::Set(du, 0xFFu)), medium); };
+  const VU above = hn::ShiftRight<8>(stack);
+  const auto without = [&](uint32_t keep) HWY_ATTR {
+    return hn::Or(hn::And(stack, hn::Set(du, keep)), hn::And(above, hn::Set(du, ~keep)));
+  };
+  VU result = stack;
+  result = hn::IfThenElse(byteIs(hn::ShiftRight<24>(stack)), without(0x00FFFFFFu), result);
+  // The byte that moves down from beyond the top is zero.
+  result = hn::IfThenElse(byteIs(hn::ShiftRight<16>(stack)), without(0x0000FFFFu), result);
+  result = hn::IfThenElse(byteIs(above), without(0x000000FFu), result);
+  return hn::IfThenElse(byteIs(stack), above, result);
+}
+
+HWY_INLINE VF PriorityOf(const ShadingTables& tables, VU medium) {
+  return GatherMember<offsetof(MediumRecord, priority)>(tables.media.data(),
+                                                        hn::BitCast(IntTag(), medium));
+}
+
+// The medium that counts: highest priority, entered last among equals; 0 outside everything.
+HWY_INLINE VU CurrentMedium(const ShadingTables& tables, VU stack) {
+  const UintTag du;
+  const FloatTag d;
+  const VU byte = hn::Set(du, 0xFFu);
+  VU best = hn::And(stack, byte);
+  if (tables.samePriority) return best;
+  VF bestPriority = PriorityOf(tables, best);
+  const auto consider = [&](VU candidate) HWY_ATTR {
+    const VF priority = PriorityOf(tables, candidate);
+    const auto filled = hn::RebindMask(d, hn::Ne(candidate, hn::Zero(du)));
+    const auto wins = hn::And(filled, hn::Gt(priority, bestPriority));
+    best = hn::IfThenElse(hn::RebindMask(du, wins), candidate, best);
+    bestPriority = hn::IfThenElse(wins, priority, bestPriority);
+  };
+  consider(hn::And(hn::ShiftRight<8>(stack), byte));
+  consider(hn::And(hn::ShiftRight<16>(stack), byte));
+  consider(hn::ShiftRight<24>(stack));
+  return best;
+}
+
+// The index of refraction of the medium on top of the stack by priority.
+HWY_INLINE VF IorOf(const ShadingTables& tables, VU stack) {
+  return GatherMember<offsetof(MediumRecord, ior)>(
+      tables.media.data(), hn::BitCast(IntTag(), CurrentMedium(tables, stack)));
+}
+
+// The stack behind the dielectrics whose faces share the place of the one that was crossed
+// (HitColumns::alsoCrossed).
+HWY_INLINE VU CrossOthers(VU stack, VU others) {
+  const UintTag du;
+  const VU zero = hn::Zero(du), one = hn::Set(du, 1u);
+  while (!hn::AllTrue(du, hn::Eq(others, zero))) {
+    const VU other = hn::And(others, hn::Set(du, 0x3FFu)), medium = hn::ShiftRight<1>(other);
+    const auto enters = hn::Eq(hn::And(other, one), one);
+    const VU behind =
+        hn::IfThenElse(enters, PushMedium(stack, medium), RemoveMedium(stack, medium));
+    stack = hn::IfThenElse(hn::Ne(medium, zero), behind, stack);
+    others = hn::ShiftRight<10>(others);
+  }
+  return stack;
+}
+
+// Media on both sides of the surface, and whether it is there at all. `others`: as CrossOthers has
+// it.
+HWY_INLINE void StoreMedia(const ShadingTables& tables, const RayColumns& rays, VU medium,
+                           MF entering, VU others, size_t i, const SurfelColumns& surfels) {
+  const UintTag du;
+  const VU stack = hn::Load(du, rays.media + i);
+  const auto dielectric = hn::Ne(medium, hn::Zero(du));
+  const auto enters = hn::RebindMask(du, entering);
+  VU behind = hn::IfThenElse(enters, PushMedium(stack, medium), RemoveMedium(stack, medium));
+  behind = CrossOthers(hn::IfThenElse(dielectric, behind, stack), others);
+  const auto same = hn::Eq(CurrentMedium(tables, stack), CurrentMedium(tables, behind));
+  const VU hidden = hn::IfThenElseZero(hn::And(dielectric, same), hn::Set(du, kHidden));
+  hn::Store(hn::Or(hn::IfThenElseZero(enters, hn::Set(du, kEntering)), hidden), du,
+            surfels.flags + i);
+  hn::Store(behind, du, surfels.mediaBehind + i);
+}
+
+// exp(-sigma * t) into weight and throughput of rays that crossed an absorbing medium.
+HWY_INLINE void Absorb(const ShadingTables& tables, const RayColumns& rays, const HitColumns& hits,
+                       MF valid, size_t i) {
+  const FloatTag d;
+  const IntTag di;
+  const UintTag du;
+  const VU stack = hn::Load(du, rays.media + i);
+  if (hn::AllTrue(du, hn::Eq(stack, hn::Zero(du)))) return;
+  const VI medium = hn::BitCast(di, CurrentMedium(tables, stack));
+  const Records<MediumRecord> records(tables.media.data(), medium);
+  const V4 record =
+      records.Load4<offsetof(MediumRecord, ior), offsetof(MediumRecord, absorption[2])>();
+  const VF t = hn::Load(d, hits.t + i);
+  const auto transmittance = [&](VF sigma) HWY_ATTR {
+    // 88 is past where exp underflows to zero; the limit keeps infinity out of the polynomial.
+    const VF depth = hn::Min(hn::Mul(sigma, t), hn::Set(d, 104.0f));
+    const VF hit = hn::IfThenElseZero(hn::Lt(depth, hn::Set(d, 87.0f)), hn::Exp(d, hn::Neg(depth)));
+    const VF through = hn::IfThenElseZero(valid, hit);
+    return hn::IfThenElse(hn::Gt(sigma, hn::Zero(d)), through, hn::Set(d, 1.0f));
+  };
+  const V3 factor{transmittance(record.y), transmittance(record.z), transmittance(record.w)};
+  const V3 weight = Load3(rays.weightR, rays.weightG, rays.weightB, i);
+  Store3(Mul3(weight, factor), rays.weightR, rays.weightG, rays.weightB, i);
+  const VF throughput = hn::Load(d, rays.throughput + i);
+  hn::Store(hn::Mul(throughput, MaxComponent(factor)), d, rays.throughput + i);
 }
 
 }  // namespace whit::simd::HWY_NAMESPACE

@@ -6,9 +6,8 @@
 #define HWY_TARGET_INCLUDE "simd/meet_casters.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 #include "hwy/highway.h"
-#include "simd/double3-inl.h"
 #include "simd/product-inl.h"
-#include "stages/caster_rounding.h"
+#include "stages/shadow_cache_view.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {

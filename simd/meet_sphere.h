@@ -13,7 +13,7 @@ struct SphereInverse {
 };
 
 // A ray's hit: its distance, NaN where there is none, and the weights of the point
-// (scene/sphere.h), unless nobody asks for them (null).
+// (bake/sphere.h), unless nobody asks for them (null).
 struct SphereHits {
   float *t, *u, *v;
 };

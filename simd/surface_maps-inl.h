@@ -7,7 +7,6 @@
 #endif
 
 #include "simd/material-inl.h"
-#include "simd/sphere-inl.h"
 #include "simd/surface-inl.h"
 #include "simd/texture-inl.h"
 #include "stages/chunk.h"

@@ -1,5 +1,5 @@
 // The 8-bit half of updateImage.
-#include "core/srgb.h"
+#include "core/display.h"
 #include "simd/kernels.h"
 
 #undef HWY_TARGET_INCLUDE

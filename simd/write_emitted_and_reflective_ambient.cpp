@@ -6,7 +6,6 @@
 #define HWY_TARGET_INCLUDE "simd/write_emitted_and_reflective_ambient.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 #include "simd/ambient-inl.h"
-#include "simd/sky-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {

@@ -4,8 +4,7 @@
 
 #include "bake/sphere.h"
 #include "reference/find_intersections.h"
-#include "reference/sphere.h"
-#include "reference/triangle.h"
+#include "reference/intersect.h"
 
 namespace whit::reference {
 

@@ -83,18 +83,18 @@ mutations() {
   plant approximate-distance simd/find_intersections.cpp \
     'HitPoint p{hn::Div(Dot(normal, t.corner), slope),' \
     'HitPoint p{hn::Mul(hn::Div(Dot(normal, t.corner), slope), hn::Set(d, 1.0f + 0x1p-20f)),'
-  plant unfactored-fresnel simd/fresnel-inl.h \
+  plant unfactored-fresnel simd/lobes-inl.h \
     'const VF g2 = MulThenAdd(c, c, k);' \
     'const VF g2 = hn::Add(hn::Sub(hn::Mul(eta, eta), one), hn::Mul(c, c));'
-  plant no-total-reflection simd/fresnel-inl.h \
+  plant no-total-reflection simd/lobes-inl.h \
     'f = hn::IfThenElse(total, one, hn::Min(f, one));' \
     'f = hn::IfThenElse(total, zero, hn::Min(f, one));'
-  plant same-index-reflects simd/fresnel-inl.h 'f = hn::IfThenElse(straight, zero, f);' ''
+  plant same-index-reflects simd/lobes-inl.h 'f = hn::IfThenElse(straight, zero, f);' ''
   plant light-behind-surface simd/find_radiance_and_shadow_rays.cpp \
     'hn::And(front, hn::Gt(Dot(ns, toLight), zero))' 'hn::Gt(Dot(ns, toLight), zero)'
-  plant shadow-ray-too-long simd/light-inl.h \
+  plant shadow-ray-too-long simd/find_radiance_and_shadow_rays.cpp \
     'infinity() : kShadowReach)' 'infinity() : kShadowReach + 0x1p-10f)'
-  plant light-without-radius simd/light-inl.h \
+  plant light-without-radius simd/find_radiance_and_shadow_rays.cpp \
     'hn::Max(distanceSquared, radiusSquared_)' \
     'distanceSquared'
   plant flipped-normal simd/surface-inl.h \
@@ -116,7 +116,7 @@ mutations() {
   plant nan-throughput simd/add_impulses.cpp \
     'hn::And(live, hn::And(worth, hn::Gt(child.largest, hn::Zero(d))))' \
     'hn::And(live, hn::Or(worth, hn::Ne(throughput, throughput)))'
-  plant media-not-removed simd/media-inl.h \
+  plant media-not-removed simd/material-inl.h \
     'return hn::IfThenElse(byteIs(stack), above, result);' 'return result;'
   plant far-texture-coordinate simd/texture-inl.h \
     'hn::Le(hn::Abs(s), hn::Set(d, 1048576.0f))' 'hn::Le(hn::Abs(s), hn::Set(d, 1e38f))'
@@ -139,7 +139,7 @@ mutations() {
   plant eye-in-vacuum simd/generate_rays.cpp 'hn::Set(du, camera.media)' 'hn::Zero(du)'
   plant media-never-entered src/render/initial_media.cpp \
     'around.erase(std::next(last).base());' ''
-  plant media-never-entered-in-reference src/reference/initial_medium_stack.cpp \
+  plant media-never-entered-in-reference src/reference/media.cpp \
     '++entered[place.medium];' ''
   plant eye-beside-the-surface src/render/initial_media.cpp \
     ': liesOnDielectric(traced, Vec3f(frame.eye));' ': false;'
@@ -155,14 +155,14 @@ mutations() {
                                                                     hn::Sub(DotOf<D>(f, f), one))));'
   plant sphere-without-far-side simd/meet_sphere.cpp \
     'hn::IfThenElse(hn::Gt(low, start), low, high)' 'hn::IfThenElse(hn::Gt(low, start), low, low)'
-  plant sphere-without-lower-half simd/sphere-inl.h \
+  plant sphere-without-lower-half simd/surface-inl.h \
     '{hn::IfThenElse(below, foldedU, u), hn::IfThenElse(below, foldedV, v), height}' \
     '{u, v, height}; (void)foldedU, (void)foldedV, (void)below'
   plant sphere-inverse-transposed src/accel/sphere_geometry.cpp \
     'inverse.rows[row][column] = rows[row][column]' 'inverse.rows[row][column] = rows[column][row]'
   plant sphere-mirrored-inside-out src/bake/sphere.cpp \
     'record.outward = toGeometry.determinant() < 0 ? -1.0f : 1.0f;' 'record.outward = 1.0f;'
-  plant sphere-without-offset simd/sphere-inl.h \
+  plant sphere-without-offset simd/surface-inl.h \
     'surface.magnitude = Select3(s.on, magnitude, surface.magnitude);' \
     'surface.magnitude = Select3(s.on, Scale3(magnitude, hn::Zero(d)), surface.magnitude);'
   plant spheres-in-any-order src/accel/sphere_geometry.cpp \

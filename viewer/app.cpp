@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <limits>
 
-#include "bake/move_scene.h"
+#include "bake/edit_scene.h"
 #include "core/error.h"
-#include "core/formatted.h"
 #include "core/option_table.h"
+#include "core/text.h"
 #include "io/paths.h"
 
 namespace whit::view {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "core/stopwatch.h"
-#include "core/usable_threads.h"
+#include "core/worker_pool.h"
 #include "viewer/camera_control.h"
 #include "viewer/panel.h"
 #include "viewer/render_thread.h"

@@ -8,8 +8,8 @@
 #include <map>
 #include <string_view>
 
-#include "bake/move_scene.h"
-#include "core/formatted.h"
+#include "bake/edit_scene.h"
+#include "core/text.h"
 #include "viewer/app.h"
 #include "viewer/view_files.h"
 

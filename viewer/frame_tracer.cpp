@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <mutex>
 
-#include "bake/edit_shading.h"
-#include "bake/move_scene.h"
+#include "bake/edit_scene.h"
 #include "cli/app/frame_summary.h"
 #include "cli/app/image_output.h"
 #include "core/option_table.h"
 #include "io/load_scene.h"
-#include "render/auto_exposure.h"
+#include "render/renderer.h"
 #include "render/shadow_cache_schedule.h"
 #include "simd/deform_vertices.h"
 

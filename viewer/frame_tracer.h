@@ -12,7 +12,7 @@
 #include "cli/app/explained_rays.h"
 #include "cli/app/open_scene.h"
 #include "inspect/debug_view.h"
-#include "inspect/ray_lines.h"
+#include "inspect/ray_tree.h"
 #include "io/image/image_file.h"
 #include "io/json_reader.h"
 
@@ -42,7 +42,7 @@ inline bool sameAmbient(const Ambient& a, Ambient b) {
   return a == b;
 }
 
-// The edited materials, lights, sky and ambient light of a scene; see bake/edit_shading.h.
+// The edited materials, lights, sky and ambient light of a scene; see bake/edit_scene.h.
 struct ShadingEdit {
   std::shared_ptr<const cli::OpenScene> scene;
   std::vector<Material> materials;

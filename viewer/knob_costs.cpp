@@ -2,8 +2,8 @@
 #include <cmath>
 #include <utility>
 
-#include "core/formatted.h"
 #include "core/option_table.h"
+#include "core/text.h"
 #include "viewer/frame_tracer.h"
 
 namespace whit::view {

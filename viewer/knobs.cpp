@@ -6,7 +6,6 @@
 #include <type_traits>
 
 #include "core/option_table.h"
-#include "core/option_values.h"
 #include "viewer/panel.h"
 
 namespace whit::view {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cli/app/frame_summary.h"
-#include "core/formatted.h"
+#include "core/text.h"
 #include "viewer/resolution_control.h"
 
 namespace whit::view {

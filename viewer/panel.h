@@ -116,7 +116,7 @@ void drawRayTree(const RayPick& pick, const TracedFrame& frame, RayView& view);
 // Render.
 void drawRayLines(const RayPick& pick, const Camera& camera, const RayView& view);
 
-// timeline.cpp: draws a bar at the bottom of the window if the scene moves. Returns whether
+// overlay.cpp: draws a bar at the bottom of the window if the scene moves. Returns whether
 // something was changed. Call between ImGui's NewFrame and Render.
 bool drawTimeline(Timeline& timeline);
 

@@ -9,7 +9,7 @@
 #include "cli/app/help_text.h"
 #include "cli/app/open_scene.h"
 #include "core/error.h"
-#include "core/formatted.h"
+#include "core/text.h"
 #include "viewer/app.h"
 
 namespace whit::view {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/display.h"
-#include "core/formatted.h"
+#include "core/text.h"
 
 namespace whit::view {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "accel/embree_scene.h"
-#include "bake/eye_in_plane.h"
+#include "bake/facet.h"
 #include "bake/sphere.h"
 #include "simd/kernels.h"
 #include "stages/packet_words.h"
@@ -318,7 +318,7 @@ void settleEdges(const Accel::Parts& parts, const HitRange& range) noexcept {
   }
 }
 
-// True if a hit is so near that the ray may start in its plane (bake/eye_in_plane.h), if the cosine
+// True if a hit is so near that the ray may start in its plane (bake/facet.h), if the cosine
 // between ray and normal is at least 2^-10.
 int isNearEye(const RayColumns& rays, const float* t, std::size_t i) {
   constexpr float kNear = 0x1p-12f;

@@ -38,7 +38,7 @@ class Accel {
 
   // The nearest hits of the chunk's rays, segment by segment; those behind the last are misses, up
   // to a whole block. A ray's hit does not depend on the rays beside it, but where two surfaces lie
-  // in each other's place (settled afterwards: render/settle_coplanar.h) or cross at its very
+  // in each other's place (settled afterwards: render/steps.h) or cross at its very
   // distance (to the last bit): which of them it meets is then left to Embree. Rays of depth 0 do
   // not meet what their eye lies in.
   void findHits(Chunk& c) const noexcept;

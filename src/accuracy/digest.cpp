@@ -7,8 +7,8 @@
 #include <new>
 #include <tuple>
 
-#include "core/formatted.h"
 #include "core/option_table.h"
+#include "core/text.h"
 #include "scene/members.h"
 
 namespace whit::accuracy {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/formatted.h"
 #include "core/quantile.h"
+#include "core/text.h"
 
 namespace whit::accuracy {
 

@@ -1,4 +1,4 @@
-#include "accuracy/reference_cache.h"
+#include "accuracy/sweep.h"
 
 #include <algorithm>
 #include <cmath>

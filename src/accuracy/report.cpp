@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "accuracy/findings.h"
-#include "core/formatted.h"
 #include "core/option_table.h"
+#include "core/text.h"
 
 namespace whit::accuracy {
 

@@ -1,5 +1,5 @@
-// A placed triangle, the tests whether two of them overlap or touch in one plane, and the part that
-// one covers of the other.
+// A placed triangle, the tests whether two of them overlap or touch in one plane, the part that one
+// covers of the other, and surfaces that the eye lies in.
 #pragma once
 
 #include "bake/scene.h"
@@ -43,5 +43,19 @@ bool facetsTouch(const Facet& a, const Facet& b);
 bool isTooNarrowToOverlap(const Facet& facet);
 // The part of `on` that `of`, in its plane, covers.
 CoveredPart coveredPart(const Facet& on, const Facet& of);
+
+// True if the eye lies in the triangle's plane, up to the rounding of the eye's coordinates. It
+// sees nothing of such a surface, on whichever side a rounded distance of next to 0 would put it.
+bool liesInPlane(const Vec3d& eye, const Corners& corners);
+
+// True if the eye lies in a surface of the scene, given by its number: a triangle's plane, or a
+// sphere.
+bool liesInSurface(const Scene& scene, const Vec3d& eye, std::uint32_t number,
+                   std::uint32_t instance);
+
+// Along a ray from the eye: how far, in lengths of its direction, what lies in the eye is passed
+// over at the first attempt, numbered 0; twice as far at each further one.
+double wayPastEye(const Vec3d& eye, int attempt);
+inline constexpr int kAttemptsPastEye = 40;
 
 }  // namespace whit

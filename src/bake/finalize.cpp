@@ -1,10 +1,14 @@
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <utility>
 
+#include "bake/edit_scene.h"
 #include "bake/finalize_steps.h"
-#include "bake/move_scene.h"
-#include "core/usable_threads.h"
+#include "core/text.h"
+#include "core/worker_pool.h"
+#include "scene/members.h"
 
 namespace whit {
 
@@ -30,6 +34,94 @@ Camera framingCamera(const Scene& scene) {
 template <typename Vector>
 std::uint64_t bytesOf(const Vector& v) {
   return static_cast<std::uint64_t>(v.size()) * sizeof(typename Vector::value_type);
+}
+
+std::string place(const std::string& scene, const std::string& kind, std::size_t i,
+                  const std::string& name) {
+  const std::string thing = kind + (name.empty() ? " " + std::to_string(i) : " '" + name + "'");
+  return scene.empty() ? thing : scene + ": " + thing;
+}
+
+template <typename Noun>
+void checkMembers(const Noun& noun, const std::string& where) {
+  forEachMember<Noun>([&](const auto& member) {
+    const auto& value = noun.*member.field;
+    using Value = std::remove_cvref_t<decltype(value)>;
+    if constexpr (std::is_same_v<Value, Vec3f>) {
+      if (!isFinite(value)) throwBadScene(where, std::string("expected a finite ") + member.name);
+      if (member.rules.kind == MemberKind::color && value != max(value, Vec3f(0.0f))) {
+        throwBadScene(where, std::string("expected channels of 0 or more in ") + member.name);
+      }
+    } else if constexpr (!std::is_enum_v<Value>) {
+      const double low = member.rules.low, high = member.rules.high;
+      if (value >= low && value <= high) return;
+      throwBadScene(where, formatted("expected %s to be from %g to %g", member.name, low, high));
+    }
+  });
+}
+
+void checkLights(const SceneDescription& d) {
+  for (std::size_t i = 0; i < d.lights.size(); ++i) {
+    const Light& light = d.lights[i];
+    const std::string where = place(d.name, "light", i, light.name);
+    checkMembers(light, where);
+    if (hasDirection(light) && !(maxComponent(abs(light.direction)) > 0)) {
+      throwBadScene(where, "expected a direction that is not 0");
+    }
+    if (hasCone(light) && !(light.innerConeAngle < light.outerConeAngle)) {
+      throwBadScene(where, "expected cone angles with inner < outer");
+    }
+  }
+}
+
+// Relative to the lengths of its columns, so that a uniformly tiny map is not taken for singular.
+bool isSingular(const Affine& a) {
+  constexpr double kSmallestSine = 1e-14;
+  const double volume = length(a.x) * length(a.y) * length(a.z);
+  return !(std::abs(a.determinant()) > kSmallestSine * volume);
+}
+
+void checkInstances(const SceneDescription& d) {
+  for (std::size_t i = 0; i < d.instances.size(); ++i) {
+    const Affine& map = d.instances[i].toWorld;
+    const std::string where = place(d.name, "instance", i, d.objects[d.instances[i].object].name);
+    for (const Vec3d& column : {map.x, map.y, map.z, map.p}) {
+      if (maxComponent(abs(column)) <= kLargestCoordinate && isFinite(column)) continue;
+      throwBadScene(where, "expected a transform of finite numbers up to 1.844e18");
+    }
+    if (isSingular(map)) {
+      throwBadScene(where, "expected a transform that can be undone; this one flattens space");
+    }
+  }
+}
+
+// The box of an instance is that of its object, moved: exact unless it is turned.
+void addInstance(const Scene& scene, const InstanceRecord& instance, const std::vector<Box>& boxes,
+                 Box& all) {
+  const Box& own = boxes[instance.geometry];
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3d world = instance.toWorld.point(Vec3d(own.corner(corner)));
+    if (!(maxComponent(abs(world)) <= kLargestCoordinate)) {
+      throwBadScene(scene.name + ": instance of geometry " + std::to_string(instance.geometry),
+                    "expected coordinates up to 1.844e18 after its transform");
+    }
+    all.add(Vec3f(world));
+  }
+}
+
+// The largest coordinate of everything that rays start from: surfaces and eyes.
+float farthestStart(const Scene& scene, const std::vector<Box>& boxes) {
+  Box all = boxes[0];
+  for (const InstanceRecord& instance : scene.instances) addInstance(scene, instance, boxes, all);
+  float farthest = 0;
+  const auto add = [&](const Vec3f& p) { farthest = std::max(farthest, maxComponent(abs(p))); };
+  if (!all.empty()) add(all.lower), add(all.upper);
+  const auto addStarts = [&](const Camera& camera) {
+    add(abs(camera.eye) + Vec3f(camera.aperture));
+  };
+  for (const Camera& camera : scene.cameras) addStarts(camera);
+  for (const Keyframe& frame : scene.cameraPath) addStarts(frame.camera);
+  return farthest;
 }
 
 }  // namespace
@@ -107,6 +199,64 @@ std::uint64_t Scene::memoryBytes() const {
   for (const Geometry& g : geometries) bytes += bytesOf(g.position) + bytesOf(g.index);
   for (const Texture& t : textures) bytes += t.packedSize() * sizeof(std::uint32_t);
   return bytes;
+}
+
+void validate(const std::string& scene, const Sky& sky, const Ambient& ambient) {
+  const std::string prefix = scene.empty() ? "" : scene + ": ";
+  checkMembers(sky, prefix + "sky");
+  checkMembers(ambient, prefix + "ambient");
+}
+
+void validate(const SceneDescription& description) {
+  checkLights(description);
+  for (std::size_t i = 0; i < description.materials.size(); ++i) {
+    const Material& material = description.materials[i];
+    checkMembers(material, place(description.name, "material", i, material.name));
+  }
+  validate(description.name, description.sky, description.ambient);
+  checkInstances(description);
+}
+
+void boundInstances(Scene& scene, const std::vector<Box>& boxes, Warnings& warnings) {
+  const float farthest = farthestStart(scene, boxes);
+  const auto lost = std::erase_if(scene.instances, [&](const InstanceRecord& instance) {
+    return !(instanceReach(instance.toWorld) > farthest);
+  });
+  warnings.add("instance too small or too flat to be traced left out", scene.name, lost);
+  Box box = boxes[0];
+  for (const InstanceRecord& instance : scene.instances) addInstance(scene, instance, boxes, box);
+  countInstanced(scene);
+  if (scene.instancedTriangles + scene.instancedSpheres == 0) return;
+  scene.lower = box.lower;
+  scene.upper = box.upper;
+}
+
+void countInstanced(Scene& scene) {
+  scene.instancedTriangles = scene.geometries[0].index.size();
+  scene.instancedSpheres = scene.geometries[0].spheres;
+  for (const InstanceRecord& instance : scene.instances) {
+    scene.instancedTriangles += scene.geometries[instance.geometry].index.size();
+    scene.instancedSpheres += scene.geometries[instance.geometry].spheres;
+  }
+}
+
+float instanceReach(const Affine& toWorld) {
+  // Far from where products of three floats lose bits or leave their range.
+  constexpr double kSmallest = 1e-35, kLargest = 1e35;
+  const double determinant = std::abs(toWorld.determinant());
+  if (!(determinant >= kSmallest && determinant <= kLargest)) return 0;
+  const std::array<Vec3d, 3> adjoint{cross(toWorld.y, toWorld.z), cross(toWorld.z, toWorld.x),
+                                     cross(toWorld.x, toWorld.y)};
+  double stretch = 0, shift = 0;
+  for (const Vec3d& row : adjoint) {
+    const Vec3d size = abs(row);
+    if (!(maxComponent(size) <= kLargest)) return 0;
+    stretch = std::max(stretch, (size.x + size.y + size.z) / determinant);
+    shift = std::max(shift, dot(size, abs(toWorld.p)) / determinant);
+  }
+  // Half of the range is for the rounding of all this.
+  const double room = 0.5 * kLargestCoordinate - shift;
+  return room > 0 ? static_cast<float>(std::min<double>(room / stretch, kLargestCoordinate)) : 0.0f;
 }
 
 }  // namespace whit

@@ -177,7 +177,7 @@ struct SceneTables {
   ItemNumbers items;
   CoplanarTriangles coplanar;  // triangles that overlap others in their plane
   CoincidentSpheres coincidentSpheres;
-  BakedMotion motion;  // see bake/move_scene.h
+  BakedMotion motion;  // see bake/edit_scene.h
 
   EffectSet effects;
   std::array<EffectReason, kEffectCount> reasons;

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "bake/finalize_steps.h"
-#include "core/usable_threads.h"
 #include "core/worker_pool.h"
 
 namespace whit {

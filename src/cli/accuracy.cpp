@@ -9,12 +9,10 @@
 #include "cli/app/image_output.h"
 #include "cli/app/open_scene.h"
 #include "cli/app/program.h"
-#include "cli/app/progress_bar.h"
 #include "cli/commands.h"
-#include "cli/json_report.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
-#include "render/auto_exposure.h"
+#include "render/renderer.h"
 
 namespace whit::cli {
 

@@ -7,10 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/app/image_output.h"
-#include "cli/app/progress_bar.h"
+#include "cli/app/open_scene.h"
 #include "cli/bench_run.h"
 #include "cli/commands.h"
-#include "cli/json_report.h"
 #include "core/error.h"
 #include "core/option_table.h"
 #include "render/shadow_cache_schedule.h"

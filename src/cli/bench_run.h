@@ -10,7 +10,7 @@
 #include "cli/app/frame_summary.h"
 #include "cli/app/open_scene.h"
 #include "inspect/floor.h"
-#include "render/auto_exposure.h"
+#include "render/renderer.h"
 #include "render/shadow_cache_schedule.h"
 
 namespace whit::cli {

@@ -8,16 +8,14 @@
 #include "cli/app/image_output.h"
 #include "cli/app/open_scene.h"
 #include "cli/app/program.h"
-#include "cli/app/progress_bar.h"
 #include "cli/commands.h"
-#include "cli/json_report.h"
 #include "core/error.h"
-#include "core/formatted.h"
+#include "core/text.h"
 #include "inspect/metrics.h"
 #include "inspect/path_divergence.h"
 #include "inspect/stage_comparison.h"
 #include "io/image/image_layers.h"
-#include "render/auto_exposure.h"
+#include "render/renderer.h"
 
 namespace whit::cli {
 

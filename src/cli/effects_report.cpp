@@ -4,8 +4,8 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "cli/json_report.h"
-#include "core/formatted.h"
+#include "cli/commands.h"
+#include "core/text.h"
 
 namespace whit::cli {
 

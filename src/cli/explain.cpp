@@ -9,17 +9,15 @@
 #include "cli/app/explained_rays.h"
 #include "cli/app/image_output.h"
 #include "cli/app/open_scene.h"
-#include "cli/app/progress_bar.h"
 #include "cli/commands.h"
-#include "cli/json_report.h"
 #include "core/display.h"
 #include "core/error.h"
-#include "core/formatted.h"
-#include "core/option_values.h"
-#include "inspect/ray_lines.h"
+#include "core/option_table.h"
+#include "core/text.h"
+#include "inspect/ray_tree.h"
 #include "io/atomic_file.h"
 #include "io/image/image_file.h"
-#include "render/auto_exposure.h"
+#include "render/renderer.h"
 
 namespace whit::cli {
 

@@ -4,12 +4,9 @@
 
 #include "cli/app/image_output.h"
 #include "cli/app/open_scene.h"
-#include "cli/app/progress_bar.h"
 #include "cli/commands.h"
-#include "cli/json_report.h"
-#include "core/formatted.h"
-#include "core/nearest_name.h"
 #include "core/option_table.h"
+#include "core/text.h"
 #include "render/shadow_cache_schedule.h"
 
 namespace whit::cli {

@@ -1,4 +1,4 @@
-#include "cli/json_report.h"
+#include "cli/commands.h"
 
 #include <sys/resource.h>
 
@@ -8,8 +8,7 @@
 
 #include "cli/app/program.h"
 #include "core/option_table.h"
-#include "core/option_values.h"
-#include "core/usable_threads.h"
+#include "core/worker_pool.h"
 #include "io/atomic_file.h"
 
 namespace whit::cli {

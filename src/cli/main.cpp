@@ -8,7 +8,7 @@
 #include "cli/app/program.h"
 #include "cli/commands.h"
 #include "core/error.h"
-#include "core/nearest_name.h"
+#include "core/text.h"
 
 namespace whit::cli {
 

@@ -6,7 +6,7 @@
 #include "cli/app/option_list.h"
 #include "cli/app/parse_options.h"
 #include "cli/commands.h"
-#include "core/formatted.h"
+#include "core/text.h"
 #include "io/paths.h"
 #include "io/read_file.h"
 

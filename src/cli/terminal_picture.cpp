@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "accuracy/report.h"
-#include "core/formatted.h"
+#include "core/text.h"
 #include "core/vec3.h"
 #include "io/image/image_file.h"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/nearest_name.h"
+#include "core/text.h"
 
 namespace whit {
 

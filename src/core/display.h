@@ -1,5 +1,5 @@
-// Scalar post-processing: from linear radiance to 8-bit display codes. The scalar reference of
-// updateImage's encoding.
+// From linear radiance to 8-bit display codes: the transfer function of sRGB (IEC 61966-2-1) with
+// its exact branches, and scalar post-processing, which is the reference of updateImage's encoding.
 #pragma once
 
 #include <array>
@@ -7,9 +7,26 @@
 
 #include "core/image.h"
 #include "core/options.h"
-#include "core/srgb.h"
 
 namespace whit {
+
+// Linear light of an sRGB value in [0, 1] (a code divided by its largest).
+double srgbToLinear(double code);
+// And back; `linear` in [0, 1].
+double linearToSrgb(double linear);
+
+// Linear light of an 8-bit code, rounded to float.
+std::array<float, 256> makeLinearOfCode();
+inline float linearOfCode(int code) {
+  static const std::array<float, 256> table = makeLinearOfCode();
+  return table[static_cast<std::size_t>(code)];
+}
+
+// round(255 * srgb(x)) with x clamped to [0, 1]; NaN and negatives give 0.
+int srgbCode(double linear);
+
+// The least float of each code, for the vector encoder; the last is out of reach.
+const std::array<float, 257>& leastWithCodes();
 
 // Tone curve on linear values at or above 0. `none` is the identity, reinhard x / (1 + x), filmic
 // Hable's curve as published by J. Hable, "Filmic Tonemapping Operators" (2010), white point 11.2.

@@ -86,7 +86,7 @@ inline constexpr EffectSet kNeedsImpulses =
 inline constexpr EffectSet kNeedsVertexNormals = EffectSet().with(Effect::smoothNormals);
 
 // Exposure of 8-bit output in EV. An automatic one is computed from the view by
-// render/auto_exposure.h and is 0 until then.
+// render/renderer.h and is 0 until then.
 struct Exposure {
   float ev = 0;
   bool automatic = false;

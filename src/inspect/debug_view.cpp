@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "core/display.h"
-#include "core/formatted.h"
-#include "core/pixel.h"
+#include "core/image.h"
 #include "core/stopwatch.h"
+#include "core/text.h"
 #include "inspect/metrics.h"
 
 namespace whit {

@@ -1,7 +1,7 @@
 // LDR-FLIP: P. Andersson, J. Nilsson, T. Akenine-Moeller, M. Oskarsson, K. Astroem, M. D.
 // Fairchild, "FLIP: A Difference Evaluator for Alternating Images", HPG 2020. Section numbers are
 // the paper's.
-#include "inspect/flip.h"
+#include "inspect/metrics.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/srgb.h"
+#include "core/display.h"
 #include "core/vec3.h"
 
 namespace whit {

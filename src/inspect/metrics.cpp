@@ -10,7 +10,6 @@
 
 #include "core/display.h"
 #include "core/error.h"
-#include "inspect/flip.h"
 
 namespace whit {
 

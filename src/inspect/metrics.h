@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "core/image.h"
 #include "core/options.h"
@@ -47,5 +48,8 @@ struct ValueDifference {
 // Both have the same length.
 ValueDifference differenceOf(std::span<const float> a, std::span<const float> b);
 ValueDifference differenceOf(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b);
+
+// Computes FLIP (LDR-FLIP) for two encoded images, as they are displayed, of the same size.
+std::vector<float> flipOfCodes(const DisplayImage& a, const DisplayImage& b);
 
 }  // namespace whit

@@ -2,7 +2,7 @@
 
 #include <atomic>
 
-#include "core/pixel.h"
+#include "core/image.h"
 #include "reference/reference.h"
 
 namespace whit {

@@ -8,15 +8,14 @@
 #include <vector>
 
 #include "bake/sphere.h"
-#include "core/pixel.h"
+#include "core/image.h"
 #include "reference/add_impulses.h"
 #include "reference/add_shading.h"
 #include "reference/check_shadows.h"
 #include "reference/find_intersections.h"
 #include "reference/find_radiance_and_shadow_rays.h"
 #include "reference/generate_rays.h"
-#include "reference/sphere.h"
-#include "reference/triangle.h"
+#include "reference/intersect.h"
 #include "reference/update_image.h"
 #include "reference/world.h"
 #include "reference/write_emitted_and_reflective_ambient.h"

@@ -6,8 +6,7 @@
 #include <unordered_set>
 
 #include "core/error.h"
-#include "core/formatted.h"
-#include "core/nearest_name.h"
+#include "core/text.h"
 #include "io/read_file.h"
 
 namespace whit {

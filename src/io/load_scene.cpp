@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/error.h"
-#include "core/nearest_name.h"
+#include "core/text.h"
 #include "io/image/image_file.h"
 #include "io/image/texture_from_image.h"
 #include "io/json_reader.h"

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/nearest_name.h"
+#include "core/text.h"
 #include "io/read_file.h"
 
 namespace whit {

@@ -4,13 +4,11 @@
 #include <set>
 #include <utility>
 
-#include "bake/move_scene.h"
+#include "bake/edit_scene.h"
 #include "core/option_table.h"
-#include "core/option_values.h"
 #include "io/image/image_layers.h"
 #include "io/scene/scene_settings.h"
 #include "library/internal.h"
-#include "render/auto_exposure.h"
 #include "render/renderer.h"
 #include "simd/deform_vertices.h"
 

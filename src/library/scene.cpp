@@ -2,7 +2,9 @@
 #include <cmath>
 #include <utility>
 
-#include "core/nearest_name.h"
+#include "core/text.h"
+#include "io/json_reader.h"
+#include "io/scene/scene_settings.h"
 #include "library/internal.h"
 
 namespace whit::api {
@@ -16,6 +18,56 @@ std::vector<std::string> textsOf(const Warnings& warnings) {
                   ")");
   }
   return all;
+}
+
+Json describe(const Light& light) {
+  if (light.type == Light::Type::directional) {
+    return {
+        {"type", "directional"}, {"direction", light.direction}, {"irradiance", light.intensity}};
+  }
+  Json json{{"position", light.position}, {"intensity", light.intensity}, {"radius", light.radius}};
+  if (light.type == Light::Type::spot) {
+    json.update({{"type", "spot"},
+                 {"direction", light.direction},
+                 {"innerConeAngle", light.innerConeAngle},
+                 {"outerConeAngle", light.outerConeAngle}});
+  }
+  return json;
+}
+
+Json describe(const Camera& camera) {
+  return {{"eye", camera.eye},
+          {"at", camera.at},
+          {"up", camera.up},
+          {"fov", camera.fov},
+          {"orthographicHeight", camera.orthographicHeight},
+          {"aperture", camera.aperture},
+          {"focus", camera.focus}};
+}
+
+// Writes only members that have a value, because the defaults of others depend on them.
+Json describe(const Material& m) {
+  Json json;
+  const auto add = [&]<typename T>(const char* name, const T& value) {
+    if constexpr (std::is_same_v<T, std::string>) {
+      if (!value.empty()) json[name] = value;
+    } else if constexpr (std::is_same_v<T, double> || std::is_same_v<T, Vector>) {
+      json[name] = value;
+    } else if (value) {
+      json[name] = *value;
+    }
+  };
+  add("diffuse", m.diffuse), add("diffuseMap", m.diffuseMap);
+  add("specular", m.specular), add("specularMap", m.specularMap);
+  add("roughness", m.roughness), add("roughnessMap", m.roughnessMap);
+  add("emission", m.emission), add("emissionMap", m.emissionMap);
+  add("normalMap", m.normalMap), add("alphaMap", m.alphaMap);
+  add("coverage", m.coverage), add("coverageMap", m.coverageMap);
+  add("mirror", m.mirror), add("mirrorGrazing", m.mirrorGrazing);
+  add("transmission", m.transmission), add("thin", m.thin);
+  add("ior", m.ior), add("absorption", m.absorption);
+  add("glossyReflection", m.glossyReflection), add("castsShadow", m.castsShadow);
+  return json;
 }
 
 }  // namespace
@@ -88,5 +140,95 @@ std::vector<Animation> Scene::animations() const {
 }
 
 std::string version() { return WHIT_VERSION; }
+
+struct SceneBuilder::Data {  // NOLINT(bugprone-exception-escape): moving Json does not throw
+  SceneText text;
+
+  // Adds or replaces a member of a section.
+  std::string put(const char* section, const std::string& name, Json value) {
+    text.root[section][name] = std::move(value);
+    return std::string("/") + section + "/" + escapePointer(name);
+  }
+  std::string append(const char* section, Json value) {
+    Json& list = text.root[section];
+    list.push_back(std::move(value));
+    return std::string("/") + section + "/" + std::to_string(list.size() - 1);
+  }
+};
+
+SceneBuilder::SceneBuilder(const std::string& name, const std::string& description)
+    : data_(std::make_unique<Data>()) {
+  guarded([&] {
+    data_->text.name = name;
+    data_->text.root = parseJson(description, name);
+    if (!data_->text.root.is_object()) throwBadScene(name, "expected an object");
+    if (!data_->text.root.contains("whit")) data_->text.root["whit"] = 1;
+  });
+}
+SceneBuilder::SceneBuilder(const SceneBuilder& other)
+    : data_(std::make_unique<Data>(*other.data_)) {}
+SceneBuilder::SceneBuilder(SceneBuilder&& other) noexcept = default;
+SceneBuilder& SceneBuilder::operator=(SceneBuilder other) noexcept {
+  data_.swap(other.data_);
+  return *this;
+}
+SceneBuilder::~SceneBuilder() = default;
+
+SceneBuilder& SceneBuilder::addMesh(const std::string& name, MeshArrays arrays) {
+  return guarded([&]() -> SceneBuilder& {
+    data_->text.parts.meshes[name] = {arrays.positions, arrays.normals,   arrays.uvs,
+                                      arrays.colors,    arrays.triangles, std::move(arrays.keep)};
+    return *this;
+  });
+}
+
+SceneBuilder& SceneBuilder::addTexture(const std::string& name, ImageArrays arrays) {
+  return guarded([&]() -> SceneBuilder& {
+    data_->text.parts.images[name] = {arrays.width, arrays.height, arrays.channels,
+                                      arrays.codes, arrays.values, std::move(arrays.keep)};
+    Json& textures = data_->text.root["textures"];
+    if (!textures.contains(name)) textures[name] = {{"array", name}};
+    return *this;
+  });
+}
+
+std::string SceneBuilder::addMaterial(const std::string& name, const Material& material) {
+  return guarded([&] { return data_->put("materials", name, describe(material)); });
+}
+
+std::string SceneBuilder::addLight(const Light& light) {
+  return guarded([&] { return data_->append("lights", describe(light)); });
+}
+
+std::string SceneBuilder::addCamera(const std::string& name, const Camera& camera) {
+  return guarded([&] { return data_->put("cameras", name, describe(camera)); });
+}
+
+std::string SceneBuilder::addInstance(const std::string& mesh, const std::string& material,
+                                      const Matrix& transform) {
+  return guarded([&] {
+    Json item{{"mesh", mesh}};
+    if (!material.empty()) item["material"] = material;
+    if (transform != kIdentity) item["transform"] = {{"matrix", transform}};
+    return data_->append("scene", std::move(item));
+  });
+}
+
+SceneBuilder& SceneBuilder::set(const std::string& pointer, const std::string& json) {
+  return guarded([&]() -> SceneBuilder& {
+    JsonDocument document{data_->text.name, data_->text.root, {}};
+    applySceneSetting(parseSceneSetting(pointer + "=" + json), document);
+    data_->text.root = std::move(document.root);
+    return *this;
+  });
+}
+
+Scene SceneBuilder::build(const LoadOptions& options) const {
+  return guarded(options.progress, [&](whit::Progress* progress) {
+    const whit::LoadOptions load = loadOptions(options, WHIT_SHIPPED_SCENES);
+    auto text = std::make_shared<const SceneText>(data_->text);
+    return Scene(Scene::Data::read(text->name, text, load, options.strict, progress));
+  });
+}
 
 }  // namespace whit::api

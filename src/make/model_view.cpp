@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bake/placed_triangles.h"
+#include "core/affine.h"
 #include "core/box.h"
 
 namespace whit {
@@ -178,6 +179,53 @@ double irradiance(const Light& light, const Vec3d& point, const Vec3d& normal) {
   return square > 0 ? luminance(light.intensity) * cone * cosine / square : 0;
 }
 
+constexpr std::size_t kSlices = 64;
+
+// The distance of the scene's outermost points from the axis, at each height.
+struct Outline {
+  double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
+  std::array<double, kSlices> radius{};
+
+  std::size_t sliceOf(double y) const {
+    const double share = high > low ? (y - low) / (high - low) : 0;
+    return std::min(static_cast<std::size_t>(share * kSlices), kSlices - 1);
+  }
+  double begin(std::size_t slice) const {
+    return low + (high - low) * static_cast<double>(slice) / kSlices;
+  }
+};
+
+Outline outlineOf(const SceneDescription& scene, const Vec3d& center) {
+  constexpr auto kAll = std::numeric_limits<std::uint64_t>::max();
+  Outline outline;
+  forEachPlacedCorner(scene, kAll, [&](const Vec3d& corner) {
+    const Vec3d p = corner - center;
+    outline.low = std::min(outline.low, p.y);
+    outline.high = std::max(outline.high, p.y);
+  });
+  forEachPlacedCorner(scene, kAll, [&](const Vec3d& corner) {
+    const Vec3d p = corner - center;
+    double& radius = outline.radius[outline.sliceOf(p.y)];
+    radius = std::max(radius, std::hypot(p.x, p.z));
+  });
+  return outline;
+}
+
+// Returns the distance from the center at which an eye sees the whole circle of this radius and
+// height. `sine` is that of the eye's elevation, `half` half the picture's height at distance 1.
+double distanceFor(double radius, double y, double sine, double half, double aspect) {
+  constexpr int kAngles = 64;
+  const double cosine = std::sqrt(1 - sine * sine);
+  double distance = 0;
+  for (int i = 0; i < kAngles; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kAngles;
+    const double across = radius * std::sin(angle), along = radius * std::cos(angle);
+    const double up = y * cosine - along * sine, near = along * cosine + y * sine;
+    distance = std::max(distance, near + std::max(std::abs(across) / aspect, std::abs(up)) / half);
+  }
+  return distance;
+}
+
 }  // namespace
 
 ModelView viewOf(const SceneDescription& scene) {
@@ -229,6 +277,44 @@ double lightLevel(const SceneDescription& scene) {
     area += weight;
   });
   return area > 0 ? std::exp(sum / area) : 0;
+}
+
+Camera turned(const Turntable& turntable, double turns) {
+  const double whole = turns - std::floor(turns);
+  if (whole == 0) return turntable.camera;
+  const Affine rotation = Affine::rotation(turntable.axis, 360 * whole);
+  Camera camera = turntable.camera;
+  const auto around = [&](const Vec3f& p) {
+    return Vec3f(turntable.pivot + rotation.vector(Vec3d(p) - turntable.pivot));
+  };
+  camera.eye = around(camera.eye);
+  camera.at = around(camera.at);
+  camera.up = Vec3f(rotation.vector(Vec3d(camera.up)));
+  return camera;
+}
+
+Turntable aroundModel(const SceneDescription& scene, const ModelView& view, int width, int height) {
+  constexpr double kMargin = 1.06;
+  Turntable turntable{view.camera, Vec3d(view.camera.eye)};
+  if (view.inside || !(view.radius > 0)) return turntable;
+  const Vec3d side = normalized(Vec3d(view.camera.eye) - Vec3d(view.camera.at));
+  const double half = std::tan(view.camera.fov * (std::numbers::pi / 360)) / kMargin;
+  const double aspect = static_cast<double>(width) / height;
+  const Outline outline = outlineOf(scene, view.center);
+  double distance = 0;
+  for (std::size_t i = 0; i < kSlices; ++i) {
+    for (const double y : {outline.begin(i), outline.begin(i + 1)}) {
+      distance = std::max(distance, distanceFor(outline.radius[i], y, side.y, half, aspect));
+    }
+  }
+  turntable.pivot = view.center;
+  turntable.camera.at = Vec3f(view.center);
+  turntable.camera.eye = Vec3f(view.center + side * distance);
+  return turntable;
+}
+
+Turntable aroundTarget(const Camera& camera) {
+  return {camera, Vec3d(camera.at), normalized(Vec3d(camera.up), Vec3d{0, 1, 0})};
 }
 
 }  // namespace whit

@@ -1,4 +1,5 @@
-// How a model without a camera is shown, and how bright the lights of a model are.
+// How a model without a camera is shown, how bright the lights of a model are, and cameras that
+// circle around a model as if it stood on a turntable.
 #pragma once
 
 #include "scene/description.h"
@@ -23,5 +24,21 @@ ModelView viewOf(const SceneDescription& scene, double seconds);
 // The mean brightness of white surfaces that the lights reach, without shadows: the mean, over
 // their area, of the logarithm of irradiance / pi. It is 0 where no light reaches any.
 double lightLevel(const SceneDescription& scene);
+
+struct Turntable {
+  Camera camera;  // at the start
+  Vec3d pivot;    // a point of the axis
+  Vec3d axis{0, 1, 0};
+};
+
+// Returns the camera after a number of turns, counter-clockwise as seen against the axis.
+Camera turned(const Turntable& turntable, double turns);
+
+// Circles around the vertical axis through the middle of the scene, from the direction of `view`
+// and so far away that the whole scene stays in a picture of this size. In a closed room the camera
+// turns around itself.
+Turntable aroundModel(const SceneDescription& scene, const ModelView& view, int width, int height);
+// Circles around the line through the camera's target along its up vector.
+Turntable aroundTarget(const Camera& camera);
 
 }  // namespace whit

@@ -65,21 +65,20 @@ namespace procedural {
 // shapes/solids.cpp: solids about the y axis and plane faces, centered on the origin.
 ShapeGenerator makeSphere, makeIcosphere, makeCylinder, makeCone, makeTorus, makeDisc, makeQuad,
     makeBox, makeRoundedBox, makeStairs;
-// shapes/vessels.cpp, architecture.cpp, vault.cpp: standing on y = 0.
-ShapeGenerator makeVase, makeTumbler, makeColumn, makeWall, makeArch, makeColonnade, makeBalustrade,
-    makeVault, makeCornice;
-// shapes/cloth.cpp: sheets without thickness.
-ShapeGenerator makeCurtain, makeCanopy;
+// shapes/architecture.cpp: standing on y = 0.
+ShapeGenerator makeColumn, makeWall, makeArch, makeColonnade, makeBalustrade, makeVault,
+    makeCornice;
+// shapes/furnishing.cpp: vessels that stand on y = 0, and sheets without thickness.
+ShapeGenerator makeVase, makeTumbler, makeCurtain, makeCanopy;
 // shapes/landscape.cpp
 ShapeGenerator makeTerrain, makeTree, makeForest, makePlant, makeRock;
 
-// patterns/simple.cpp
-PatternGenerator makeChecker, makeStripes, makeFabric, makeLeafMask, makeFrondMask, makeLeaf;
+// patterns/patterns.cpp
+PatternGenerator makeChecker, makeStripes, makeFabric, makeLeafMask, makeFrondMask, makeLeaf,
+    makeNoise, makePlaster, makePlasterNormals, makeMarble, makeWood;
 // patterns/masonry.cpp
 PatternGenerator makeBricks, makeBrickNormals, makeTiles, makeTileNormals, makeRoof,
     makeRoofNormals;
-// patterns/stone.cpp
-PatternGenerator makeNoise, makePlaster, makePlasterNormals, makeMarble, makeWood;
 
 // Replaces exact spheres by triangles: `segments` around, half as many from pole to pole.
 void tessellateSpheres(Mesh& mesh, int segments);

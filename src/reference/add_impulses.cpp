@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "reference/fresnel.h"
-#include "sampling/cosine_lobe.h"
+#include "sampling/random_streams.h"
 
 namespace whit::reference {
 

@@ -6,8 +6,8 @@
 
 #include "bake/sphere.h"
 #include "reference/add_impulses.h"
+#include "reference/intersect.h"
 #include "reference/media.h"
-#include "reference/sphere.h"
 #include "reference/texture_sampling.h"
 
 namespace whit::reference {

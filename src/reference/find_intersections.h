@@ -8,8 +8,8 @@
 #include "bake/scene.h"
 #include "core/effects.h"
 #include "core/shading_choices.h"
+#include "reference/intersect.h"
 #include "reference/surfel.h"
-#include "reference/triangle.h"
 #include "reference/world.h"
 
 namespace whit::reference {

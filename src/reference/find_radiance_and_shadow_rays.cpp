@@ -7,7 +7,7 @@
 
 #include "reference/fresnel.h"
 #include "reference/write_emitted_and_reflective_ambient.h"
-#include "sampling/cosine_lobe.h"
+#include "sampling/random_streams.h"
 
 namespace whit::reference {
 

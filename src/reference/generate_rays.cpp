@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/pixel.h"
-#include "reference/initial_medium_stack.h"
+#include "core/image.h"
+#include "reference/media.h"
 #include "sampling/random_streams.h"
 
 namespace whit::reference {

@@ -1,9 +1,11 @@
-// Nested dielectrics: which media a ray is inside of, and which of them counts.
+// Nested dielectrics: which media a ray is inside of, for eyes under water from its start on, and
+// which of them counts.
 #pragma once
 
 #include <cstdint>
 
 #include "bake/scene.h"
+#include "reference/intersector.h"
 
 namespace whit::reference {
 
@@ -37,5 +39,13 @@ Crossing crossMedia(const Scene& scene, EffectSet effects, std::uint32_t materia
 // Beer's law: what is left of each channel after `distance` in the current medium; an infinite
 // distance leaves nothing of the channels that are absorbed at all.
 RgbD transmittance(const Scene& scene, MediaStack stack, double distance);
+
+// The camera for a picture of that size, and the media around it.
+CameraFrame frameWithMedia(const Scene& scene, EffectSet effects, const Intersector& intersector,
+                           const Camera& camera, int width, int height);
+
+// Around the start of a ray of the camera, just past what the eye lies in.
+MediaStack mediaAtStart(const Scene& scene, EffectSet effects, const Intersector& intersector,
+                        const CameraFrame& camera, const Ray& ray);
 
 }  // namespace whit::reference

@@ -16,7 +16,7 @@
 #include "core/options.h"
 #include "core/progress.h"
 #include "reference/intersector.h"
-#include "sampling/refinement.h"
+#include "sampling/sample_pattern.h"
 #include "stages/lobes.h"
 #include "stages/ray_kinds.h"
 

@@ -10,7 +10,7 @@
 #include "reference/add_impulses.h"
 #include "reference/find_intersections.h"
 #include "reference/generate_rays.h"
-#include "reference/initial_medium_stack.h"
+#include "reference/media.h"
 #include "reference/reference.h"
 #include "reference/settle_coplanar.h"
 #include "reference/update_image.h"

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "reference/find_intersections.h"
+#include "reference/intersect.h"
 #include "reference/media.h"
-#include "reference/sphere.h"
 
 namespace whit::reference {
 

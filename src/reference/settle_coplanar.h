@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "reference/intersect.h"
 #include "reference/intersector.h"
-#include "reference/triangle.h"
 
 namespace whit::reference {
 

@@ -1,6 +1,6 @@
 #include <limits>
 
-#include "bake/eye_in_plane.h"
+#include "bake/facet.h"
 #include "reference/add_impulses.h"
 #include "reference/check_shadows.h"
 #include "reference/find_intersections.h"

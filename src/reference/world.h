@@ -7,7 +7,7 @@
 #include "reference/intersector.h"
 #include "reference/surfel.h"
 #include "stages/chunk.h"
-#include "stages/rows.h"
+#include "stages/columns.h"
 
 namespace whit::reference {
 

@@ -4,7 +4,7 @@
 #include <atomic>
 #include <cstring>
 
-#include "core/pixel.h"
+#include "core/image.h"
 #include "sampling/sample_pattern.h"
 
 namespace whit {

@@ -1,8 +1,8 @@
 // Adaptive sampling (--adaptive): a frame in several passes. The center of every pixel is traced
 // first; where that picture has edges, probe samples; and where these differ, all samples
-// (sampling/refinement.h). What happens to a pixel in the later passes depends on whole pictures
-// of the earlier ones and on nothing else, so that the result is the same for any tiles and
-// threads. Channels are those of the centers.
+// (sampling/sample_pattern.h). What happens to a pixel in the later passes depends on whole
+// pictures of the earlier ones and on nothing else, so that the result is the same for any tiles
+// and threads. Channels are those of the centers.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "render/auto_exposure.h"
+#include "render/renderer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "core/quantile.h"
 #include "core/vec3.h"
 #include "core/worker_pool.h"
-#include "reference/initial_medium_stack.h"
+#include "reference/media.h"
 #include "reference/reference.h"
 
 namespace whit {

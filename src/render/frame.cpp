@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "core/nearest_name.h"
+#include "core/text.h"
 #include "scene/members.h"
 
 namespace whit {

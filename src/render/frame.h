@@ -12,7 +12,7 @@
 #include "core/channels.h"
 #include "core/image.h"
 #include "core/options.h"
-#include "sampling/refinement.h"
+#include "sampling/sample_pattern.h"
 #include "scene/camera.h"
 #include "simd/kernels.h"
 #include "stages/chunk.h"

@@ -1,4 +1,4 @@
-#include "render/initial_media.h"
+#include "render/steps.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "bake/eye_in_plane.h"
+#include "bake/facet.h"
 #include "bake/sphere.h"
 
 namespace whit {

@@ -4,8 +4,6 @@
 #include <stdexcept>
 
 #include "accel/accel.h"
-#include "render/initial_media.h"
-#include "render/settle_coplanar.h"
 #include "render/steps.h"
 #include "simd/kernels.h"
 #include "stages/lobes.h"

@@ -10,7 +10,7 @@
 #include "bake/scene.h"
 #include "core/options.h"
 #include "stages/chunk.h"
-#include "stages/contract.h"
+#include "stages/stage.h"
 
 namespace whit {
 

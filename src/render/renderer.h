@@ -174,4 +174,12 @@ std::vector<std::pair<std::string, std::string>> describeImage(const Scene& scen
                                                                const Film& film,
                                                                const RenderOptions& options);
 
+// The exposure that a view calls for (--exposure auto), in steps of 1/8 EV. Follows from scene,
+// camera, effects and tone curve alone, not from size, crop or how the picture is computed: the
+// reference traces a small picture of the scene's own shape first.
+float exposureFor(const Renderer& renderer, const Camera& camera);
+
+// Gives an automatic exposure of the options its value, and tells the renderer.
+void settleExposure(Renderer& renderer, const Camera& camera, RenderOptions& options);
+
 }  // namespace whit

@@ -5,7 +5,7 @@
 #include <barrier>
 #include <memory>
 
-#include "core/pixel.h"
+#include "core/image.h"
 
 namespace whit {
 

@@ -1,4 +1,4 @@
-#include "render/settle_coplanar.h"
+#include "render/steps.h"
 
 #include <algorithm>
 #include <array>

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "core/pixel.h"
+#include "core/image.h"
 #include "render/steps.h"
 
 namespace whit {
@@ -52,7 +52,7 @@ Sums sumsOf(const Chunk& c) {
 
 #endif
 
-// Runs the step. Builds without NDEBUG hold it to its contract (stages/contract.h): a step that
+// Runs the step. Builds without NDEBUG hold it to its contract (stages/stage.h): a step that
 // writes into a part of its chunk that it does not name ends the program with a message.
 void runChecked(const Step& step, Chunk& chunk) {
 #ifdef NDEBUG

@@ -1,9 +1,13 @@
 // Random numbers of paths. Each path of rays has a number that follows from its pixel, its sample
 // and the branches that it took, and from nothing else: so the picture's noise does not depend on
-// who traces which ray when, and kernels and reference see the same.
+// who traces which ray when, and kernels and reference see the same. Directions are drawn by them.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <numbers>
+
+#include "core/vec3.h"
 
 namespace whit {
 
@@ -16,7 +20,7 @@ constexpr std::uint32_t mixed(std::uint32_t x) {
   return x ^ (x >> 16);
 }
 
-// The first ray's: its pixel is packed (core/pixel.h), `sample` its place in the sample pattern.
+// The first ray's: its pixel is packed (core/image.h), `sample` its place in the sample pattern.
 // The samples of a pixel are equal steps apart. Frames of different seeds have noise of their own;
 // pictures have seed 0.
 inline constexpr std::uint32_t kPixelSalt = 0x9e3779b9u, kSampleStep = 0x6d2b79f5u;
@@ -92,6 +96,22 @@ constexpr UnitPoint lightPoint(std::uint32_t path, const LobeSampling& sampling,
 inline constexpr std::uint32_t kRouletteSalt = 0x14057b7eu;
 constexpr float rouletteDraw(std::uint32_t path) {
   return static_cast<float>(mixed(path ^ kRouletteSalt) >> 8) * 0x1p-24f;
+}
+
+// The frame about a normal begins with the x axis, or where the normal's own x is this large or
+// larger with the y axis. Normals that differ by rounding have to get directions that differ by no
+// more: few surfaces are turned by just this.
+inline constexpr float kFrameAlongY = 0.55f;
+
+// The unit direction at `at`, of density cosine / pi by solid angle (Malley's method: Pharr, Jakob
+// and Humphreys 2023, "Physically Based Rendering", section A.5.3). Never in the plane of the unit
+// normal: its cosine is 2^-12 at least.
+inline Vec3d cosineDirection(const Vec3d& normal, const UnitPoint& at) {
+  const Vec3d axis = std::fabs(normal.x) < double{kFrameAlongY} ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0);
+  const Vec3d x = normalized(cross(normal, axis)), y = cross(normal, x);
+  const double turn = 2 * std::numbers::pi * double{at.u}, sine2 = double{at.v};
+  const double sine = std::sqrt(sine2), cosine = std::sqrt(1 - sine2);
+  return normalized(x * (sine * std::cos(turn)) + y * (sine * std::sin(turn)) + normal * cosine);
 }
 
 }  // namespace whit

@@ -128,6 +128,45 @@ std::vector<std::size_t> spreadOrder(const std::vector<Vec2f>& samples,
   return order;
 }
 
+constexpr double kCosOfTurn = 0.99619469809;  // 5 degrees
+constexpr double kSinOfTurn = 0.08715574275;
+
+bool contrasts(const std::uint8_t* a, const std::uint8_t* b, int contrast) {
+  for (int channel = 0; channel < 3; ++channel) {
+    if (std::abs(int{a[channel]} - int{b[channel]}) > contrast) return true;
+  }
+  return false;
+}
+
+// In units of the contrast that makes neighboring centers an edge. Samples of one pixel that
+// differ by less than twice that have a mean that is off by less than it; and only part of what
+// begins beyond the border lies within. With half of both, whitted at 16 samples and contrast 16
+// took 1.1 times the rays for 0.98 times the FLIP.
+constexpr int kWithinPixel = 2, kAcrossBorder = 4;
+
+int largestDifference(std::uint32_t a, std::uint32_t b) {
+  int largest = 0;
+  for (int shift = 0; shift < 24; shift += 8) {
+    const int difference =
+        static_cast<int>(a >> shift & 0xFFu) - static_cast<int>(b >> shift & 0xFFu);
+    largest = std::max(largest, std::abs(difference));
+  }
+  return largest;
+}
+
+// Among the probes of the pixel at (dx, dy) relative to another pixel, the one nearest to that
+// other pixel's center.
+std::size_t nearestProbe(const std::vector<Vec2f>& pattern, int dx, int dy) {
+  std::size_t nearest = 0;
+  float least = std::numeric_limits<float>::infinity();
+  for (std::size_t k = 0; k < kProbeSamples; ++k) {
+    const float x = static_cast<float>(dx) + pattern[k].x - 0.5f;
+    const float y = static_cast<float>(dy) + pattern[k].y - 0.5f;
+    if (x * x + y * y < least) least = x * x + y * y, nearest = k;
+  }
+  return nearest;
+}
+
 }  // namespace
 
 std::size_t nearestToCenter(const std::vector<Vec2f>& samples) {
@@ -148,6 +187,81 @@ std::vector<Vec2f> samplePattern(int spp) {
     ordered.push_back(samples[i]);
   }
   return ordered;
+}
+
+bool onSameSurface(const PixelSurface& a, const PixelSurface& b) {
+  if (a.material != b.material || a.instance != b.instance) return false;
+  if (a.material == PixelSurface::kNothing) return true;
+  const Vec3d na(a.normal), nb(b.normal), between = Vec3d(b.position) - Vec3d(a.position);
+  if (!(dot(na, nb) >= kCosOfTurn)) return false;
+  const double rise = std::max(std::fabs(dot(na, between)), std::fabs(dot(nb, between)));
+  return rise * rise <= kSinOfTurn * kSinOfTurn * dot(between, between);
+}
+
+Crop grown(const Crop& window, int more, int width, int height) {
+  return {std::max(window.x0 - more, 0), std::max(window.y0 - more, 0),
+          std::min(window.x1 + more, width), std::min(window.y1 + more, height)};
+}
+
+void findEdges(const DisplayImage& display, const std::vector<PixelSurface>& surfaces, int contrast,
+               int row0, int row1, std::vector<std::uint8_t>& edges) {
+  const int width = display.width, height = display.height;
+  const auto at = [&](int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+           static_cast<std::size_t>(x);
+  };
+  std::fill(edges.begin() + static_cast<std::ptrdiff_t>(at(0, row0)),
+            edges.begin() + static_cast<std::ptrdiff_t>(at(0, row1)), std::uint8_t{0});
+  // Pairs are looked at once, from the upper or left pixel; those that reach across the ends of the
+  // rows also from the other side.
+  const auto compare = [&](int x, int y, int dx, int dy) {
+    const int nx = x + dx, ny = y + dy;
+    if (nx < 0 || nx >= width || ny >= height) return;
+    const std::size_t a = at(x, y), b = at(nx, ny);
+    const bool markA = y >= row0 && edges[a] == 0, markB = ny < row1 && edges[b] == 0;
+    if (!markA && !markB) return;
+    const std::uint8_t* codes = display.rgba.data();
+    if (!contrasts(codes + 4 * a, codes + 4 * b, contrast) &&
+        onSameSurface(surfaces[a], surfaces[b])) {
+      return;
+    }
+    if (markA) edges[a] = 1;
+    if (markB) edges[b] = 1;
+  };
+  for (int y = std::max(row0 - 1, 0); y < row1; ++y) {
+    for (int x = 0; x < width; ++x) {
+      if (y >= row0) compare(x, y, 1, 0);
+      for (int dx = -1; dx <= 1; ++dx) compare(x, y, dx, 1);
+    }
+  }
+}
+
+ProbeSamples::ProbeSamples(const Crop& window, const std::vector<std::uint8_t>& edges,
+                           const std::vector<Vec2f>& pattern)
+    : edges_(edges), samples_(edges.size()) {
+  shape_.window = window;
+  for (std::size_t i = 0; i < nearest_.size(); ++i) {
+    const int place = static_cast<int>(i);
+    nearest_[i] = nearestProbe(pattern, place % 3 - 1, place / 3 - 1);
+  }
+}
+
+bool ProbeSamples::differ(int x, int y, int contrast) const {
+  const PixelProbes& own = at(x, y);
+  for (std::size_t a = 1; a < kProbeSamples; ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      if (largestDifference(own.codes[a], own.codes[b]) > kWithinPixel * contrast) return true;
+    }
+  }
+  for (std::size_t i = 0; i < nearest_.size(); ++i) {
+    const int nextX = x + static_cast<int>(i) % 3 - 1, nextY = y + static_cast<int>(i) / 3 - 1;
+    if (!shape_.window.contains(nextX, nextY) || edges_[shape_.index(nextX, nextY)] == 0) continue;
+    const std::uint32_t beyond = at(nextX, nextY).codes[nearest_[i]];
+    for (const std::uint32_t code : own.codes) {
+      if (largestDifference(code, beyond) > kAcrossBorder * contrast) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace whit

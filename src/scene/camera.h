@@ -53,7 +53,7 @@ struct CameraFrame {
   // Half the sides of the box around the points where rays start; 0: all start at the eye.
   Vec3d reach;
   // The dielectrics that the eye is inside of, as rays carry them (stages/columns.h); whoever
-  // renders looks for them (reference/initial_medium_stack.h).
+  // renders looks for them (reference/media.h).
   std::uint32_t media = 0;
   bool orthographic = false;
   bool mediaVary = false;  // each ray may start in others

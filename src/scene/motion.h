@@ -81,11 +81,11 @@ struct Instant {
   std::optional<double> seconds;
   // By its name; empty: the first one of each model.
   std::string animation;
-  // The scene is to be moved (bake/move_scene.h), whatever the seconds.
+  // The scene is to be moved (bake/edit_scene.h), whatever the seconds.
   bool plays = false;
   // It is looked at from its camera's path, where it has one; at given seconds it is anyway.
   bool alongPath = false;
-  // JSON pointers to what is moved by hand (setPlace() in bake/move_scene.h): items, cameras and
+  // JSON pointers to what is moved by hand (setPlace() in bake/edit_scene.h): items, cameras and
   // lights of scene files, nodes of glTF models.
   std::set<std::string> movable = {};
 

@@ -8,7 +8,7 @@
 
 #include "bake/facet.h"
 #include "bake/sphere.h"
-#include "stages/caster_rounding.h"
+#include "stages/shadow_cache_view.h"
 
 namespace whit {
 

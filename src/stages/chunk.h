@@ -92,7 +92,7 @@ struct TraceMeter {
 
 struct Chunk {
   const FrameConstants* frame = nullptr;
-  std::span<const std::uint32_t> pixels;  // of the queue of depth 0, packed (core/pixel.h)
+  std::span<const std::uint32_t> pixels;  // of the queue of depth 0, packed (core/image.h)
   // Where in the pixel the sample lies, and its place in the pattern.
   Vec2f sample{0.5f, 0.5f};
   std::uint32_t sampleNumber = 0;

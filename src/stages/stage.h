@@ -1,11 +1,14 @@
 // The eight stages of a frame. The names here are those of the kernels' files, of the timing tables
-// and of the text (after the stages of the 2016 report that this system takes up).
+// and of the text (after the stages of the 2016 report that this system takes up). Steps of stages
+// state what they read and write.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
+
+#include "core/enum_set.h"
 
 namespace whit {
 
@@ -44,5 +47,26 @@ inline constexpr std::array kStageNames{
 #undef WHIT_STAGE_NAME
 };
 inline constexpr std::size_t kStageCount = kStageNames.size();
+
+// The parts of a chunk that a step reads and writes. Builds without NDEBUG check that steps keep to
+// it (render/tile_tracer.cpp), and plans are checked for steps that read a part which no earlier
+// step has written.
+enum class Part : std::uint8_t {
+  pixels,
+  rays,  // of the chunk
+  hits,
+  surfels,
+  radiance,
+  unshadowed,  // one light's radiance, and whether it is visible
+  shadows,     // shadow rays
+  children,    // rays of the next depth
+  parentRadiance,
+  codes,
+  film,
+  rayCounts,  // of each ray and all that follow from it
+  channels    // of the film
+};
+
+using Parts = EnumSet<Part, static_cast<int>(Part::channels) + 1>;
 
 }  // namespace whit

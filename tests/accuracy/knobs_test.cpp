@@ -1,5 +1,5 @@
 // The knobs against the options of the command line.
-#include "accuracy/knobs.h"
+#include "accuracy/measurement.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // Digests, and the pictures that points are measured against.
-#include "accuracy/reference_cache.h"
+#include "accuracy/sweep.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 
 #include "accuracy/digest.h"
-#include "accuracy/knobs.h"
+#include "accuracy/measurement.h"
 #include "render/renderer.h"
 #include "unit/scene_builder.h"
 

@@ -10,7 +10,7 @@
 
 #include "accuracy/measurement.h"
 #include "core/error.h"
-#include "core/formatted.h"
+#include "core/text.h"
 
 namespace whit::accuracy {
 

@@ -1,5 +1,5 @@
 // Files written beside other work: in order, one at a time, errors told, interruptions waited for.
-#include "cli/app/background_writer.h"
+#include "cli/app/film_pipe.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>

@@ -8,7 +8,6 @@
 #include "cli/app/parse_options.h"
 #include "core/error.h"
 #include "core/option_table.h"
-#include "core/option_values.h"
 
 namespace whit::cli {
 namespace {

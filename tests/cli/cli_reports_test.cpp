@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/app/frame_summary.h"
-#include "cli/app/progress_bar.h"
+#include "cli/app/open_scene.h"
 
 namespace whit::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/app/film_pipe.h"
-#include "core/option_values.h"
+#include "core/option_table.h"
 #include "io/image/image_file.h"
 #include "io/paths.h"
 #include "run_program.h"

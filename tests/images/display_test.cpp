@@ -6,8 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/srgb.h"
-
 namespace whit {
 namespace {
 

@@ -6,9 +6,7 @@
 #include <cmath>
 
 #include "core/display.h"
-#include "core/srgb.h"
 #include "flat_image.h"
-#include "inspect/flip.h"
 #include "inspect/metrics.h"
 
 namespace whit {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/display.h"
 #include "core/error.h"
-#include "core/srgb.h"
 #include "flat_image.h"
 
 namespace whit {

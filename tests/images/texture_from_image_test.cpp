@@ -1,5 +1,5 @@
 #include "io/image/texture_from_image.h"
-#include "core/srgb.h"
+#include "core/display.h"
 #include "image_samples.h"
 
 namespace whit {

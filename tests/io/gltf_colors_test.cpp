@@ -1,6 +1,6 @@
 // Emission by textures, unlit materials, vertex colors, and what is counted because it is left
 // out.
-#include "core/srgb.h"
+#include "core/display.h"
 #include "gltf_pictures.h"
 
 namespace whit {

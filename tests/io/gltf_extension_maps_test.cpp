@@ -1,5 +1,5 @@
 // Textures of KHR_materials_specular, _transmission and _clearcoat.
-#include "core/srgb.h"
+#include "core/display.h"
 #include "gltf_pictures.h"
 
 namespace whit {

@@ -1,5 +1,5 @@
 // Materials of glTF files: pictures of a square, their colors worked out by hand.
-#include "core/srgb.h"
+#include "core/display.h"
 #include "gltf_pictures.h"
 
 namespace whit {

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <limits>
 
-#include "bake/move_scene.h"
+#include "bake/edit_scene.h"
 #include "gltf_files.h"
-#include "make/turntable.h"
+#include "make/model_view.h"
 
 namespace whit {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/srgb.h"
+#include "core/display.h"
 #include "gltf_files.h"
 #include "io/image/image_file.h"
 #include "pi.h"

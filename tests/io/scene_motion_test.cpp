@@ -1,7 +1,7 @@
 // "motion" in scene files, against positions worked out by hand.
 #include <cmath>
 
-#include "bake/move_scene.h"
+#include "bake/edit_scene.h"
 #include "scene_files.h"
 
 namespace whit {

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/pixel.h"
+#include "core/image.h"
 #include "reference/small_chunk.h"
 #include "reference/small_scenes.h"
 #include "sampling/random_streams.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "core/pixel.h"
+#include "core/image.h"
 #include "pi.h"
 #include "reference/add_impulses.h"
 #include "reference/find_radiance_and_shadow_rays.h"

@@ -10,7 +10,7 @@
 #include "reference/add_impulses.h"
 #include "reference/sample_mean.h"
 #include "reference/small_scenes.h"
-#include "sampling/cosine_lobe.h"
+#include "sampling/random_streams.h"
 
 namespace whit::reference {
 namespace {

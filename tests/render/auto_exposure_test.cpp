@@ -1,5 +1,5 @@
 // The exposure that a view calls for.
-#include "render/auto_exposure.h"
+#include "render/renderer.h"
 
 #include <gtest/gtest.h>
 

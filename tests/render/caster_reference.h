@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "shadow_cache/shaft.h"
-#include "stages/caster_rounding.h"
+#include "stages/shadow_cache_view.h"
 
 namespace whit {
 

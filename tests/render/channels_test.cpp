@@ -9,7 +9,7 @@
 #include <fstream>
 #include <limits>
 
-#include "bake/move_scene.h"
+#include "bake/edit_scene.h"
 #include "core/option_table.h"
 #include "sampling/sample_pattern.h"
 #include "shipped_scene.h"

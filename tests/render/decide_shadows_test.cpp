@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/pixel.h"
+#include "core/image.h"
 #include "simd/kernels.h"
 #include "stages/columns.h"
 #include "stages/shadow_cache_view.h"

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "bake/edit_shading.h"
+#include "bake/edit_scene.h"
 #include "core/error.h"
 #include "make/studio_sky.h"
 #include "shipped_scene.h"

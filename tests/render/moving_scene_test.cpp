@@ -1,5 +1,5 @@
 // Scenes that move: pictures by closed forms, and that they follow from the time alone.
-#include "bake/move_scene.h"
+#include "bake/edit_scene.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

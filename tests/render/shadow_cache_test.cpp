@@ -10,7 +10,7 @@
 #include <functional>
 #include <random>
 
-#include "bake/edit_shading.h"
+#include "bake/edit_scene.h"
 #include "core/error.h"
 #include "render/random_scenes.h"
 #include "render/shadow_cache_schedule.h"

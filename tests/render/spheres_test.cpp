@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "bake/move_scene.h"
+#include "bake/edit_scene.h"
 #include "brute_force.h"
 #include "inspect/metrics.h"
 #include "make/shape.h"

@@ -8,7 +8,6 @@
 #include <sstream>
 
 #include "core/error.h"
-#include "core/option_values.h"
 
 namespace whit {
 namespace {

@@ -1,5 +1,5 @@
 // Which pixels count as edges.
-#include "sampling/refinement.h"
+#include "sampling/sample_pattern.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/formatted.h"
+#include "core/text.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Which pixels get every sample: worked out by hand on three pixels in a row.
-#include "sampling/refinement.h"
+#include "sampling/sample_pattern.h"
 
 #include <gtest/gtest.h>
 

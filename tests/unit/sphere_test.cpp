@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "bake/eye_in_plane.h"
+#include "bake/facet.h"
 #include "make/shape.h"
 #include "verify/scene_builder.h"
 

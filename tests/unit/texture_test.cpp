@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "core/srgb.h"
+#include "core/display.h"
 #include "decoded_texel.h"
 
 namespace whit {

@@ -1,4 +1,4 @@
-#include "make/turntable.h"
+#include "make/model_view.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,5 +1,5 @@
 // Quotas of control groups, read from folders that look like the kernel's.
-#include "core/usable_threads.h"
+#include "core/worker_pool.h"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/formatted.h"
+#include "core/text.h"
 #include "simd/kernels.h"
 
 namespace whit::verify {

@@ -1,7 +1,7 @@
 // H23 to H29: triangles without area, of extreme sizes, and with coordinates that are not numbers.
 #include <array>
 #include <bit>
-#include "reference/triangle.h"
+#include "reference/intersect.h"
 #include "verify/bodies.h"
 
 namespace whit::verify {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <array>
 
-#include "reference/triangle.h"
+#include "reference/intersect.h"
 #include "verify/bodies.h"
 
 namespace whit::verify {

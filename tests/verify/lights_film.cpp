@@ -1,6 +1,6 @@
 // H65 to H76: lights at no distance, texture coordinates, film, camera.
 
-#include "core/pixel.h"
+#include "core/image.h"
 #include "reference/generate_rays.h"
 #include "simd/kernels.h"
 #include "verify/bodies.h"

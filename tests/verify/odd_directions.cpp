@@ -1,5 +1,5 @@
 // H19 to H22 and H30: rays along axes and planes, and coincident surfaces.
-#include "reference/triangle.h"
+#include "reference/intersect.h"
 #include "verify/bodies.h"
 
 namespace whit::verify {

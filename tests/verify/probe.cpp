@@ -4,7 +4,7 @@
 #include <bit>
 #include <cstring>
 
-#include "render/settle_coplanar.h"
+#include "render/steps.h"
 #include "simd/kernels.h"
 
 namespace whit::verify {

@@ -4,7 +4,7 @@
 #include <array>
 #include <filesystem>
 
-#include "core/formatted.h"
+#include "core/text.h"
 #include "io/image/image_file.h"
 #include "io/load_scene.h"
 #include "simd/kernels.h"

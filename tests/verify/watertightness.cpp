@@ -1,5 +1,5 @@
 // H12 to H18: rays through edges and corners.
-#include "core/pixel.h"
+#include "core/image.h"
 #include "simd/kernels.h"
 #include "verify/bodies.h"
 

@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "core/error.h"
-#include "core/nearest_name.h"
+#include "core/text.h"
 #include "viewer/panel.h"
 
 namespace whit::view {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/formatted.h"
+#include "core/text.h"
 #include "inspect/ray_tree.h"
 
 namespace whit::cli {

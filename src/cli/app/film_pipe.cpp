@@ -11,7 +11,7 @@
 #include <cstring>
 
 #include "core/error.h"
-#include "core/formatted.h"
+#include "core/text.h"
 
 extern char** environ;
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/formatted.h"
+#include "core/text.h"
 
 namespace whit::cli {
 

@@ -13,9 +13,8 @@
 
 #include "cli/app/parse_options.h"
 #include "cli/app/program.h"
-#include "core/formatted.h"
 #include "core/option_table.h"
-#include "core/option_values.h"
+#include "core/text.h"
 #include "io/paths.h"
 
 namespace whit::cli {

@@ -10,8 +10,8 @@
 
 #include "cli/app/program.h"
 #include "core/error.h"
-#include "core/formatted.h"
-#include "core/option_values.h"
+#include "core/option_table.h"
+#include "core/text.h"
 #include "io/atomic_file.h"
 
 namespace whit::cli {

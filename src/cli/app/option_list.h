@@ -6,8 +6,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/nearest_name.h"
-#include "core/option_values.h"
+#include "core/option_table.h"
+#include "core/text.h"
 
 namespace whit::cli {
 

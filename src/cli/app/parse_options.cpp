@@ -6,8 +6,8 @@
 
 #include "cli/app/help_text.h"
 #include "core/error.h"
-#include "core/nearest_name.h"
 #include "core/option_table.h"
+#include "core/text.h"
 
 namespace whit::cli {
 

@@ -9,7 +9,7 @@
 #include <exception>
 
 #include "core/error.h"
-#include "core/formatted.h"
+#include "core/text.h"
 
 namespace whit::cli {
 

@@ -13,9 +13,8 @@
 #include <utility>
 
 #include "core/error.h"
-#include "core/formatted.h"
-#include "core/nearest_name.h"
 #include "core/options.h"
+#include "core/text.h"
 #include "scene/description.h"
 #include "scene/motion.h"
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "core/usable_threads.h"
+#include "core/worker_pool.h"
 
 namespace whit {
 

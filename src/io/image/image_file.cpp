@@ -6,8 +6,8 @@
 #include <iterator>
 #include <string_view>
 
+#include "core/display.h"
 #include "core/error.h"
-#include "core/srgb.h"
 #include "io/image/image_decoders.h"
 #include "io/paths.h"
 #include "io/read_file.h"

@@ -7,9 +7,9 @@
 #include <bit>
 #include <cmath>
 
+#include "core/display.h"
 #include "core/error.h"
-#include "core/formatted.h"
-#include "core/srgb.h"
+#include "core/text.h"
 
 namespace whit {
 

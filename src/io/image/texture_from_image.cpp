@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "core/srgb.h"
+#include "core/display.h"
 
 namespace whit {
 

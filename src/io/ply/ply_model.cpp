@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/display.h"
 #include "core/error.h"
-#include "core/srgb.h"
 #include "io/line_reader.h"
 #include "io/model.h"
 #include "io/polygon.h"

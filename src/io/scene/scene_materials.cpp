@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "core/formatted.h"
+#include "core/text.h"
 #include "io/scene/scene_sections.h"
 #include "scene/generation_limit.h"
 

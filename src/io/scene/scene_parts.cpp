@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/formatted.h"
 #include "core/options.h"
+#include "core/text.h"
 #include "scene/texture.h"
 
 namespace whit {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "bake/edit_shading.h"
+#include "bake/edit_scene.h"
 #include "bake/scene.h"
 #include "core/error.h"
 #include "io/load_scene.h"

@@ -4,10 +4,14 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <vector>
 
+#include "accel/accel.h"
 #include "bake/scene.h"
 #include "bake/sphere.h"
-#include "core/pixel.h"
+#include "core/error.h"
+#include "core/image.h"
+#include "core/text.h"
 #include "render/frame.h"
 #include "simd/kernels.h"
 
@@ -73,6 +77,25 @@ ChannelValues valuesOf(const Chunk& c, std::size_t i) {
     values.triangle = numbers.triangle;
   }
   return values;
+}
+
+// A shadow ray, kept before the kernel packs what is left more closely.
+struct KeptRay {
+  std::uint32_t slot;
+  Vec3f origin, direction;
+  float tFar;
+};
+
+std::vector<KeptRay> raysOf(const Chunk& c) {
+  std::vector<KeptRay> rays;
+  const ShadowColumns& s = c.shadows;
+  for (std::size_t i = 0; i < c.shadowCount; ++i) {
+    rays.push_back({s.slot[i],
+                    {s.orgX[i], s.orgY[i], s.orgZ[i]},
+                    {s.dirX[i], s.dirY[i], s.dirZ[i]},
+                    s.tFar[i]});
+  }
+  return rays;
 }
 
 }  // namespace
@@ -153,6 +176,35 @@ void keepRayCounts(Chunk& c) {
   if (!isKept(c)) return;
   const std::span<std::uint32_t> rays = c.frame->channels.layers->numbers(Channel::rays);
   forEachKept(c, [&](std::size_t slot, std::size_t pixel) { rays[pixel] = c.rayCounts[slot]; });
+}
+
+void auditShadows(Chunk& c) {
+  const std::vector<KeptRay> rays = raysOf(c);
+  simd::kDecideShadows.find()(c);
+  const std::uint32_t *const slots = c.shadows.slot, *const end = slots + c.shadowCount;
+  for (const KeptRay& ray : rays) {
+    if (std::binary_search(slots, end, ray.slot)) continue;
+    const bool lit = c.unshadowed.visible[ray.slot] > 0;
+    if (c.frame->accel->occluded(ray.origin, ray.direction, ray.tFar) != lit) continue;
+    if (c.meter->wrongShadow) return;
+    c.meter->wrongShadow = {true,       lit,          c.lightNumber, c.hits.triangle[ray.slot],
+                            ray.origin, ray.direction};
+    return;
+  }
+}
+
+void requireRightShadows(const FrameStats& stats, const Scene& scene) {
+  const WrongShadow& wrong = stats.meter.wrongShadow;
+  if (!wrong) return;
+  const Vec3f &o = wrong.origin, &d = wrong.direction;
+  const std::string& name = scene.lights[wrong.light].name;
+  throw Error(
+      ExitStatus::checkFailed,
+      formatted("the shadow cache is wrong: light %u%s%s, triangle %u, the ray from (%.9g, %.9g, "
+                "%.9g) along (%.9g, %.9g, %.9g) is %s, and the cache says %s",
+                wrong.light, name.empty() ? "" : " ", name.c_str(), wrong.triangle, o.x, o.y, o.z,
+                d.x, d.y, d.z, wrong.saidLit ? "blocked" : "not blocked",
+                wrong.saidLit ? "lit" : "dark"));
 }
 
 }  // namespace whit

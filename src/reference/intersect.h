@@ -1,16 +1,32 @@
-// Where a ray meets a sphere, in double precision. The hit's weights say which point of the unit
-// sphere it is (scene/sphere.h).
+// Where a ray meets a triangle or a sphere, in double precision. On a sphere the hit's weights say
+// which point of the unit sphere it is (bake/sphere.h).
 #pragma once
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
+#include "bake/facet.h"
 #include "bake/scene.h"
 #include "bake/sphere.h"
-#include "reference/triangle.h"
+#include "reference/intersector.h"
 
 namespace whit::reference {
+
+// t counts in lengths of the ray's direction; u and v weigh corners 1 and 2.
+struct TriangleHit {
+  double t = 0, u = 0, v = 0;
+};
+
+// Where the ray's line pierces the triangle's plane: any t, any u and v. None if the ray runs along
+// the plane or the triangle has no area.
+std::optional<TriangleHit> piercePlane(const Ray& ray, const Corners& corners);
+
+// Returns only hits on the triangle, border included, with t > 0. Nothing slips between triangles
+// that share an edge or a corner (Woop, Benthin and Wald 2013, "Watertight ray/triangle
+// intersection"; border hits count for every triangle that they touch).
+std::optional<TriangleHit> intersectTriangle(const Ray& ray, const Corners& corners);
 
 // Returns none, one or two hits with t > 0, the nearer one first.
 inline std::vector<TriangleHit> intersectSphere(const Ray& ray, const Affine& fromUnit) {

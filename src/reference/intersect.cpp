@@ -1,4 +1,4 @@
-#include "reference/triangle.h"
+#include "reference/intersect.h"
 
 #include <cmath>
 
