@@ -10,7 +10,7 @@
 //
 // Each kernel is compiled once for every SIMD target, and looked up once a plan. What a frame lacks
 // leaves out whole kernels (render/plan.h) or is a branch that goes the same way for a whole call
-// (stages/features.h). Template bits for effects, with one function for each subset of them, gained
+// (stages/columns.h). Template bits for effects, with one function for each subset of them, gained
 // less than the noise of a measurement and multiplied the time to compile.
 #pragma once
 

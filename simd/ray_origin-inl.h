@@ -1,4 +1,4 @@
-// Where rays leave a surface (the scalar reference: src/reference/surfel.h).
+// Where rays leave a surface (the scalar reference: src/reference/world.h).
 #if defined(WHIT_SIMD_RAY_ORIGIN_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef WHIT_SIMD_RAY_ORIGIN_INL_H_
 #undef WHIT_SIMD_RAY_ORIGIN_INL_H_

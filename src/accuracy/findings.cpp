@@ -1,4 +1,4 @@
-#include "accuracy/findings.h"
+#include "accuracy/report.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
-#include "accuracy/findings.h"
 #include "core/option_table.h"
 #include "core/text.h"
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "accuracy/digest.h"
-#include "accuracy/findings.h"
+#include "accuracy/report.h"
 #include "accuracy/timing.h"
 #include "core/display.h"
 #include "core/quantile.h"

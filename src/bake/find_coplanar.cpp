@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "bake/facet.h"
-#include "core/box.h"
+#include "core/vec3.h"
 #include "core/worker_pool.h"
 
 namespace whit {

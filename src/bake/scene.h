@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "bake/coplanar_triangles.h"
-#include "core/box.h"
 #include "core/effects.h"
 #include "core/huge_vector.h"
 #include "core/progress.h"
+#include "core/vec3.h"
 #include "core/warnings.h"
 #include "scene/description.h"
 

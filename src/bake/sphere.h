@@ -10,7 +10,7 @@
 
 #include "bake/scene.h"
 #include "core/affine.h"
-#include "core/box.h"
+#include "core/vec3.h"
 
 namespace whit {
 

@@ -1,9 +1,10 @@
 // Three-component vectors, for points, directions and linear RGB. Plain data; float in the scene
-// and the kernels' tables, double in the reference.
+// and the kernels' tables, double in the reference. And boxes along the axes.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace whit {
 
@@ -100,5 +101,26 @@ inline double luminance(const Rgb& c) {
   return 0.2126 * static_cast<double>(c.x) + 0.7152 * static_cast<double>(c.y) +
          0.0722 * static_cast<double>(c.z);
 }
+
+// A box along the axes, grown around points.
+template <typename Vector>
+struct BoxOf {
+  using Limits = std::numeric_limits<decltype(Vector::x)>;
+  Vector lower{Limits::max()}, upper{Limits::lowest()};
+
+  bool empty() const { return !(lower.x <= upper.x); }
+  void add(const Vector& p) {
+    lower = min(lower, p);
+    upper = max(upper, p);
+  }
+  double diagonal() const { return length(Vec3d(upper) - Vec3d(lower)); }
+  Vec3d center() const { return (Vec3d(lower) + Vec3d(upper)) * 0.5; }
+  Vector half() const { return (upper - lower) * 0.5; }
+  // Corner i of eight: bit k of `i` chooses the lower or the upper end of axis k.
+  Vector corner(int i) const {
+    return {i & 1 ? upper.x : lower.x, i & 2 ? upper.y : lower.y, i & 4 ? upper.z : lower.z};
+  }
+};
+using Box = BoxOf<Vec3f>;
 
 }  // namespace whit

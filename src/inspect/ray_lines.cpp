@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "core/box.h"
+#include "core/vec3.h"
 
 namespace whit {
 

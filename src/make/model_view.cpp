@@ -5,11 +5,12 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <vector>
 
-#include "bake/placed_triangles.h"
+#include "bake/facet.h"
 #include "core/affine.h"
-#include "core/box.h"
+#include "core/vec3.h"
 
 namespace whit {
 
@@ -30,6 +31,63 @@ constexpr std::array<Vec3d, 7> kSides{{{0.5, 0.4, 1.0},
 constexpr double kEnough = 0.6;
 
 using Bounds = BoxOf<Vec3d>;
+
+std::uint64_t placedTriangleCount(const SceneDescription& scene) {
+  std::uint64_t count = 0;
+  for (const Instance& instance : scene.instances) {
+    for (const Mesh& mesh : scene.objects[instance.object].meshes) count += mesh.triangles.size();
+  }
+  return count;
+}
+
+// Returns none where a corner is missing or lies beyond the range that can be traced: nothing is
+// validated yet.
+std::optional<Corners> placed(const std::vector<Vec3f>& positions,
+                              const std::array<std::uint32_t, 3>& triangle, const Affine& toWorld) {
+  Corners corners;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (triangle[i] >= positions.size()) return std::nullopt;
+    corners[i] = toWorld.point(Vec3d(positions[triangle[i]]));
+    if (!(maxComponent(abs(corners[i])) < double{kLargestCoordinate})) return std::nullopt;
+    if (!isFinite(corners[i])) return std::nullopt;
+  }
+  return corners;
+}
+
+// Calls use(corners) for every triangle, or for about `most` of them, evenly spread. In a scene
+// that moves, they are where they are after `seconds`, or else at the time of the scene.
+template <typename Use>
+void forEachPlacedTriangle(const SceneDescription& scene, std::uint64_t most, const Use& use,
+                           std::optional<double> seconds = {}) {
+  const std::uint64_t stride = std::max<std::uint64_t>(1, placedTriangleCount(scene) / most);
+  const double time = seconds.value_or(scene.motion.seconds);
+  const std::vector<Affine> poses = poseRig(scene.motion.rig, time);
+  std::uint64_t number = 0;
+  for (const Instance& instance : scene.instances) {
+    const bool moves = instance.mover != kNoNode;
+    const Affine toWorld = moves ? poses[instance.mover] * instance.toWorld : instance.toWorld;
+    for (const Mesh& mesh : scene.objects[instance.object].meshes) {
+      std::vector<Vec3f> bent;
+      if (const Deformation* deformation = mesh.deformation.get()) {
+        bent = deformVertices(*deformation, poseAt(*deformation, time)).positions;
+      }
+      const std::vector<Vec3f>& positions = mesh.deformation ? bent : mesh.positions;
+      for (const auto& triangle : mesh.triangles) {
+        if (number++ % stride != 0) continue;
+        const auto corners = placed(positions, triangle, toWorld);
+        if (corners) use(*corners);
+      }
+    }
+  }
+}
+
+// Calls use(corner) for each corner of these triangles.
+template <typename Use>
+void forEachPlacedCorner(const SceneDescription& scene, std::uint64_t most, const Use& use,
+                         std::optional<double> seconds = {}) {
+  const auto useAll = [&](const Corners& t) { std::ranges::for_each(t, use); };
+  forEachPlacedTriangle(scene, most, useAll, seconds);
+}
 
 // Finds the side to which fronts turn the largest area, occluded or not.
 Vec3d bestSide(const SceneDescription& scene, double radius) {

@@ -9,7 +9,6 @@
 #include "core/effects.h"
 #include "core/shading_choices.h"
 #include "reference/intersect.h"
-#include "reference/surfel.h"
 #include "reference/world.h"
 
 namespace whit::reference {

@@ -11,9 +11,9 @@
 
 #include "accel/accel.h"
 #include "bake/scene.h"
-#include "core/box.h"
 #include "core/options.h"
 #include "core/progress.h"
+#include "core/vec3.h"
 #include "reference/reference.h"
 #include "render/adaptive.h"
 #include "render/frame.h"

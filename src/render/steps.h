@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "accel/accel.h"
-#include "core/box.h"
 #include "core/image.h"
+#include "core/vec3.h"
 #include "scene/camera.h"
 #include "stages/chunk.h"
 

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/box.h"
 #include "core/huge_vector.h"
+#include "core/vec3.h"
 #include "shadow_cache/shaft.h"
 
 namespace whit {

@@ -5,7 +5,6 @@
 #include <array>
 
 #include "bake/scene.h"
-#include "core/box.h"
 #include "core/vec3.h"
 #include "scene/light.h"
 #include "simd/meet_casters.h"

@@ -12,7 +12,6 @@
 #include "core/options.h"
 #include "scene/camera.h"
 #include "stages/columns.h"
-#include "stages/features.h"
 #include "stages/ray_kinds.h"
 #include "stages/shading_tables.h"
 #include "stages/shadow_cache_view.h"

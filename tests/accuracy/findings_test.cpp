@@ -1,6 +1,6 @@
 // Fronts, choices and findings of made-up sweeps whose best points are plain to see, and the front
 // against its definition by brute force.
-#include "accuracy/findings.h"
+#include "accuracy/report.h"
 
 #include <gtest/gtest.h>
 

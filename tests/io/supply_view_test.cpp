@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "core/box.h"
+#include "core/vec3.h"
 #include "make/studio_sky.h"
 #include "scene_files.h"
 

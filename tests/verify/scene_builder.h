@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bake/scene.h"
-#include "core/box.h"
+#include "core/vec3.h"
 
 namespace whit::verify {
 

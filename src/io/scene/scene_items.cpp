@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "core/affine.h"
-#include "core/box.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "core/vec3.h"
 #include "io/json_reader.h"
 #include "io/scene/scene_layout.h"
 #include "io/scene/scene_sections.h"
