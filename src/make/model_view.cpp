@@ -101,7 +101,10 @@ Vec3d bestSide(const SceneDescription& scene, double radius) {
     }
   });
   const double most = *std::ranges::max_element(shown);
-  if (most == 0) return normalized(Vec3d{0.3, -1.5, 0.5});  // all fronts look down
+  const auto isSingleSided = [](const Material& m) { return !m.doubleSided; };
+  if (most == 0 && std::ranges::any_of(scene.materials, isSingleSided)) {
+    return normalized(Vec3d{0.3, -1.5, 0.5});  // all fronts look down, and there is nothing above
+  }
   const double enough = kEnough * most;
   const auto found = std::ranges::find_if(shown, [&](double area) { return area >= enough; });
   return sides[static_cast<std::size_t>(found - shown.begin())];

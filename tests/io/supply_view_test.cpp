@@ -149,15 +149,6 @@ TEST_F(SuppliedView, AGuessOfTheAxisIsSaid) {
   }
 }
 
-TEST_F(SuppliedView, AModelWhoseFrontsLookDownIsSeenFromBelow) {
-  options_.settings = {"/up=\"y\""};
-  for (const bool down : {false, true}) {
-    const std::string face = down ? "f 1 2 3\n" : "f 1 3 2\n";
-    const Camera camera = loadObj("v 0 0 0\nv 1 0 0\nv 0 0 1\n" + face).cameras.at(0);
-    EXPECT_EQ(camera.eye.y < 0, down);
-  }
-}
-
 // The corners touch the margin of the picture, whatever its shape, and none is outside.
 TEST_F(SuppliedView, TheModelFillsThePictureThatIsAskedFor) {
   for (const ImageSize size : {ImageSize{480, 300}, {300, 300}, {200, 320}, {1200, 300}}) {

@@ -66,7 +66,10 @@ TEST(ModelViews, APlateIsNotSeenEdgeOn) {
     }
   }
   const Affine down = Affine::rotation({1, 0, 0}, 90);
-  EXPECT_GT(towardsEye(viewOf(plate(down))).y, 0.2) << "from above nevertheless";
+  SceneDescription scene = plate(down);
+  EXPECT_GT(towardsEye(viewOf(scene)).y, 0.2) << "from above nevertheless";
+  scene.materials.at(0).doubleSided = false;
+  EXPECT_LT(towardsEye(viewOf(scene)).y, -0.2) << "its back is not seen";
 }
 
 // Every corner is in the picture, and one of them near its edge.
