@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds and tests. Exits non-zero when anything fails.
 #   tests/run.sh           Release with warnings as errors and every test of it; formatting where
-#                          clang-format is: six and a half minutes on two cores once it is built
+#                          clang-format is: under six minutes on two cores once it is built
 #   tests/run.sh --full    clang-tidy, thread sanitizer, address and undefined-behavior sanitizers with
 #                          Clang, fuzzing, the Debian package in a clean system, Embree 4 with Clang
 #                          in Release as well, and both commands of README.md in fresh systems: forty
