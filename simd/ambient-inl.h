@@ -1,5 +1,5 @@
 // Radiance of the sky along unit directions, and ambient light that surfels reflect (the scalar
-// reference: src/reference/write_emitted_and_reflective_ambient.cpp).
+// reference: src/reference/write_emitted_and_reflective_ambient.h).
 #if defined(WHIT_SIMD_AMBIENT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef WHIT_SIMD_AMBIENT_INL_H_
 #undef WHIT_SIMD_AMBIENT_INL_H_
