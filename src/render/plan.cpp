@@ -309,7 +309,7 @@ void requireOrder(const Plan& plan) {
       throw std::logic_error("step " + step.name + " reads what no step before it writes");
     }
     written = written.with(step.writes);
-    if (step.childrenBeyond > 0) written = written.with({Part::parentRadiance});
+    if (step.childrenBeyond > 0) written = written.with(Part::parentRadiance);
   });
 }
 
