@@ -11,8 +11,7 @@ import sys
 SIDES = 36  # of a round
 STEPS = 4  # of a curve between two points of a profile
 
-# Profiles from the foot up: (radius, height) in centimeters. A height below the one before begins a
-# new curve there; a repeated point is a crease.
+# Profiles go from the foot up, as (radius, height) in centimeters. A repeated point is a crease.
 FOOT = [(1.7, 0), (1.75, 0.25), (1.75, 0.25), (1.5, 0.5), (1.5, 0.5), (1.6, 0.75), (1.1, 1.05)]
 PAWN = FOOT + [(0.6, 1.7), (0.5, 2.5), (0.5, 2.5), (0.95, 2.65), (0.5, 2.85), (0.5, 2.85),
                (0.85, 3.2), (0.9, 3.6), (0.6, 4.15), (0, 4.4)]

@@ -30,7 +30,7 @@ class MipMaps {
   // 0 is the texture itself, and so is its only level if it is not wanted; what follows the single
   // texel is that texel.
   const Texture& level(std::size_t texture, int level) const;
-  // Moves a smaller level out; of the texture itself it is a copy.
+  // Moves a smaller level out, or copies the texture itself.
   Texture take(std::size_t texture, int level);
   int levels(std::size_t texture) const;  // distinct ones, at least 1
 

@@ -6,7 +6,7 @@
 
 namespace whit {
 
-// `kAlways`: bits that every set has.
+// Every set has the bits `kAlways`.
 template <typename Enum, int kCount, std::uint32_t kAlways = 0>
 class EnumSet {
  public:

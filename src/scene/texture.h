@@ -42,12 +42,12 @@ inline TexelFormat formatOf(TextureUse use) {
 
 enum class Wrap : std::uint8_t { repeat, mirror, clamp };
 
-// The texels of packed textures, at a multiple of 64 bytes, in strips of kTexelStrip columns, row
-// after row, so that the four texels of a bilinear footprint are two neighbors and the two that
-// follow kTexelStrip texels later. A strip holds the kTexelCells columns of footprints that begin
-// in it whole, so that neighbors repeat a column of texels. Footprint (0, 0) has its upper texels
-// at (0, 0), the last its lower ones at (width - 1, height - 1); the texels beyond the borders are
-// those that the wrap modes name.
+// Packed textures share their texels, which begin at a multiple of 64 bytes. They lie in strips of
+// kTexelStrip columns, row after row, so that the four texels of a bilinear footprint are two
+// neighbors and the two that follow kTexelStrip texels later. A strip holds the kTexelCells columns
+// of footprints that begin in it whole, so that neighbors repeat a column of texels. Footprint (0,
+// 0) has its upper texels at (0, 0), the last its lower ones at (width - 1, height - 1); the texels
+// beyond the borders are those that the wrap modes name.
 using TexelStrips = std::shared_ptr<const std::uint32_t[]>;
 inline constexpr int kTexelStrip = 8, kTexelCells = kTexelStrip - 1;
 // A texture of this height has height + 2 rows, because footprints reach beyond either border.
@@ -63,7 +63,7 @@ struct Texture {
   Wrap wrapU = Wrap::repeat, wrapV = Wrap::repeat;
   int width = 1, height = 1;
   std::vector<std::uint32_t> texels;
-  // In place of `texels` after packTextures().
+  // These take the place of `texels` in packTextures().
   TexelStrips strips;
   std::size_t firstTexel = 0;
 
@@ -72,7 +72,7 @@ struct Texture {
     const std::size_t strip = (column + 1) / kTexelCells, cell = (column + 1) % kTexelCells;
     return strips[firstTexel + (strip * (height + kTexelBorder) + row + 1) * kTexelStrip + cell];
   }
-  // Texels of its strips.
+  // Returns the number of texels in its strips.
   std::size_t packedSize() const {
     return std::size_t{1} * (width / kTexelCells + 1) * (height + kTexelBorder) * kTexelStrip;
   }

@@ -241,7 +241,7 @@ void GltfDocument::readBuffers(const std::filesystem::path& folder, const PathRu
     const JsonValue buffer = list("buffers")[i], uri = buffer["uri"];
     const std::uint64_t length = buffer.need("byteLength").wholeOr(0);
     std::optional<std::string>& bytes = buffers_[i];
-    // Such a buffer has the bytes of views for those who cannot decode them.
+    // A fallback buffer is for programs that cannot decode its views.
     const JsonValue fallback = buffer["extensions"]["EXT_meshopt_compression"]["fallback"];
     if (fallback.flagOr(false) && reads("EXT_meshopt_compression")) continue;
     if (isDataUri(uri.textOr(""))) {
