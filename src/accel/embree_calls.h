@@ -73,9 +73,13 @@ using EmbreeContext = RTCIntersectContext;
 #endif
 struct ContextWithRays : EmbreeContext {
   std::array<const float*, 6> rays;
+  void* batch;  // of rays of a program, instead (ray_queries.cpp)
 };
 inline const std::array<const float*, 6>& raysOf(const EmbreeContext* context) {
   return static_cast<const ContextWithRays*>(context)->rays;
+}
+inline void* batchOf(const EmbreeContext* context) {
+  return static_cast<const ContextWithRays*>(context)->batch;
 }
 
 // Traces rays that are coherent or not. A packet comes with the mask of its live lanes, and its
@@ -89,6 +93,7 @@ class QueryContext {
   void setRay(const Vec3f& o, const Vec3f& d) {
     context_.rays = {&o.x, &o.y, &o.z, &d.x, &d.y, &d.z};
   }
+  void setBatch(void* batch) { context_.batch = batch; }
 #if WHIT_EMBREE_MAJOR == 4
   explicit QueryContext(bool coherent) {
     rtcInitIntersectArguments(&intersect_);

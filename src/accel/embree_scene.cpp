@@ -149,14 +149,35 @@ void requireRoomForThreads(int threads) {
 
 }  // namespace
 
+DeviceHandle newDevice(int threads) {
+  requireRoomForThreads(threads);
+  const std::string configuration = deviceConfiguration(threads);
+  DeviceHandle device(rtcNewDevice(configuration.c_str()));
+  if (!device) throwNoDevice(configuration);
+  return device;
+}
+
+void commitScene(RTCDevice device, RTCScene scene, Progress* progress) {
+  rtcSetSceneProgressMonitorFunction(scene, progress ? reportBuild : nullptr, progress);
+  rtcCommitScene(scene);
+  const RTCError error = rtcGetDeviceError(device);
+  // Progress that ended the build throws again, which is allowed here.
+  if (error == RTC_ERROR_CANCELLED) reportProgress(progress, kBuilding, 1);
+  if (error == RTC_ERROR_NONE) return;
+  const std::string what = std::string("Embree failed while ") + kBuilding;
+  if (error == RTC_ERROR_OUT_OF_MEMORY) throwLimit(what + ": out of memory");
+  // An exception within its tasking system. What is built has been validated: it ran out of
+  // something.
+  if (error == RTC_ERROR_UNKNOWN) throwLimit(what + ": memory or threads ran out");
+
+  throw std::runtime_error(what + " (error " + std::to_string(static_cast<int>(error)) + ")");
+}
+
 EmbreeScene::EmbreeScene(const Scene& scene, const RenderOptions& options, EffectSet effects,
                          int threads, Progress* progress)
     : masks_(makeMasks(scene, effects.has(Effect::alphaMasks))),
       instances_(effects.has(Effect::instances)) {
-  requireRoomForThreads(threads);
-  const std::string configuration = deviceConfiguration(threads);
-  device_.reset(rtcNewDevice(configuration.c_str()));
-  if (!device_) throwNoDevice(configuration);
+  device_ = newDevice(threads);
   const auto has = [this](RTCDeviceProperty what) {
     return rtcGetDeviceProperty(device(), what) != 0;
   };
@@ -313,22 +334,6 @@ void EmbreeScene::moveInstances(const Scene& scene) {
     reach_ = std::min(reach_, instanceReach(scene.instances[k].toWorld));
     placeInstance(rtcGetGeometry(top(), kFirstInstanceId + k), scene.instances[k].toWorld);
   }
-}
-
-void EmbreeScene::commit(RTCScene scene, Progress* progress) {
-  rtcSetSceneProgressMonitorFunction(scene, progress ? reportBuild : nullptr, progress);
-  rtcCommitScene(scene);
-  const RTCError error = rtcGetDeviceError(device());
-  // Progress that ended the build throws again, which is allowed here.
-  if (error == RTC_ERROR_CANCELLED) reportProgress(progress, kBuilding, 1);
-  if (error == RTC_ERROR_NONE) return;
-  const std::string what = std::string("Embree failed while ") + kBuilding;
-  if (error == RTC_ERROR_OUT_OF_MEMORY) throwLimit(what + ": out of memory");
-  // An exception within its tasking system. What is built has been validated: it ran out of
-  // something.
-  if (error == RTC_ERROR_UNKNOWN) throwLimit(what + ": memory or threads ran out");
-
-  throw std::runtime_error(what + " (error " + std::to_string(static_cast<int>(error)) + ")");
 }
 
 }  // namespace whit

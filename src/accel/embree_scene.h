@@ -31,6 +31,10 @@ using SceneHandle = std::unique_ptr<std::remove_pointer_t<RTCScene>, Release<rtc
 using GeometryHandle =
     std::unique_ptr<std::remove_pointer_t<RTCGeometry>, Release<rtcReleaseGeometry>>;
 
+// Throw as Accel's constructor.
+DeviceHandle newDevice(int threads);
+void commitScene(RTCDevice device, RTCScene scene, Progress* progress);
+
 class EmbreeScene {
  public:
   // As Accel's constructor.
@@ -91,7 +95,7 @@ class EmbreeScene {
   void placeInstance(RTCGeometry geometry, const Affine& toWorld) const;
   void moveInstances(const Scene& scene);
   void bendMeshes(const Scene& scene);
-  void commit(RTCScene scene, Progress* progress);
+  void commit(RTCScene scene, Progress* progress) { commitScene(device(), scene, progress); }
 
   std::atomic<std::uint64_t> bytes_{0};  // outlives the device, which counts here to its end
   std::vector<Mask> masks_;

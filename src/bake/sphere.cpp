@@ -128,6 +128,19 @@ std::array<double, 2> sphereUv(const Vec3d& unit) {
   return {turn < 0 ? turn + 1 : turn, std::atan2(rho, -unit.y) / std::numbers::pi};
 }
 
+Vec2f uvAt(const Scene& scene, std::uint32_t number, double u, double v) {
+  if (scene.isSphere(number)) {
+    const std::array<double, 2> uv = sphereUv(spherePoint(u, v));
+    return {static_cast<float>(uv[0]), static_cast<float>(uv[1])};
+  }
+  const float* const uvs = scene.uvsOf(number, false);
+  const auto at = [&](std::size_t i) {
+    return static_cast<float>((1 - u - v) * double{uvs[i]} + u * double{uvs[i + 2]} +
+                              v * double{uvs[i + 4]});
+  };
+  return {at(0), at(1)};
+}
+
 TriangleRecord touchingTriangle(const TriangleRecord& sphere, double u, double v) {
   const Affine map = sphereMap(sphere);
   const Vec3d q = spherePoint(u, v);

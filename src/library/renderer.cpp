@@ -9,6 +9,7 @@
 #include "io/image/image_layers.h"
 #include "io/scene/scene_settings.h"
 #include "library/internal.h"
+#include "library/rays.h"
 #include "render/renderer.h"
 #include "simd/deform_vertices.h"
 
@@ -45,13 +46,25 @@ struct Renderer::Data {
     return all;
   }
 
+  // Brings the scene to its time and the transforms.
+  void move() {
+    if (!stale) return;
+    moveScene(own().scene, seconds, simd::deformVertices);
+    queries.reset();
+    if (renderer) renderer->sceneMoved();
+    stale = false;
+  }
+
+  Queried queried(whit::Progress* told) {
+    move();
+    const int asked = settledOptions().threads, threads = asked > 0 ? asked : usableThreads();
+    if (!queries) queries = std::make_unique<RayQueries>(internal(), threads, told);
+    return {internal(), *queries, threads, told};
+  }
+
   // Brings scene and renderer up to date with the time, the transforms and the options.
   void prepare(whit::Progress* told) {
-    if (stale) {
-      moveScene(own().scene, seconds, simd::deformVertices);
-      if (renderer) renderer->sceneMoved();
-      stale = false;
-    }
+    move();
     if (!changed) return;
     settled = settledOptions();
     if (renderer && renderer->canSetOptions(settled)) {
@@ -91,6 +104,7 @@ struct Renderer::Data {
   void setMember(const std::string& text, whit::Progress* told) {
     const SceneSetting setting = parseSceneSetting(text);
     ownScene();
+    queries.reset();  // they know the materials' masks
     if (!document) {
       document =
           own().text ? readDocument(*own().text, own().load) : readDocument(own().name, own().load);
@@ -123,7 +137,8 @@ struct Renderer::Data {
 
   void ownScene() {
     if (scene.data_.use_count() == 1) return;
-    renderer.reset();  // it refers to the shared scene
+    renderer.reset();  // they refer to the shared scene
+    queries.reset();
     scene = Scene(std::make_shared<Scene::Data>(own()));
     changed = true;
   }
@@ -160,6 +175,7 @@ struct Renderer::Data {
   bool changed = true;
   Progress progress;
   std::unique_ptr<whit::Renderer> renderer;
+  std::unique_ptr<RayQueries> queries;  // none before the first query
   FrameStatistics statistics;
 };
 
@@ -232,6 +248,36 @@ void Renderer::renderOnPath(double seconds, Image& image) {
 }
 
 const FrameStatistics& Renderer::statistics() const { return data_->statistics; }
+
+RayHits Renderer::closest(const Rays& rays) {
+  return guarded(data_->progress,
+                 [&](whit::Progress* told) { return api::closest(data_->queried(told), rays); });
+}
+
+RayHits Renderer::allHits(const Rays& rays, std::size_t limit) {
+  return guarded(data_->progress, [&](whit::Progress* told) {
+    return api::allHits(data_->queried(told), rays, limit);
+  });
+}
+
+RayAnswers Renderer::occluded(const Rays& rays) {
+  return guarded(data_->progress,
+                 [&](whit::Progress* told) { return api::occluded(data_->queried(told), rays); });
+}
+
+RayAnswers Renderer::visible(const Numbers& from, const Numbers& to, const Numbers& fromNormals,
+                             const Numbers& toNormals) {
+  return guarded(data_->progress, [&](whit::Progress* told) {
+    return api::visible(data_->queried(told), from, to, fromNormals, toNormals);
+  });
+}
+
+std::vector<float> Renderer::ambientOcclusion(const Numbers& points, const Numbers& normals,
+                                              double radius, int samples) {
+  return guarded(data_->progress, [&](whit::Progress* told) {
+    return api::ambientOcclusion(data_->queried(told), points, normals, radius, samples);
+  });
+}
 
 std::vector<OptionInfo> options() {
   return guarded([] {

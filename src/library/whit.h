@@ -232,6 +232,52 @@ class Image {
   std::unique_ptr<Data> data_;
 };
 
+// Numbers of a program, in single or in double precision. They are read in place.
+struct Numbers {
+  std::span<const float> floats = {};
+  std::span<const double> doubles = {};  // read where there are no floats
+
+  std::size_t size() const { return floats.empty() ? doubles.size() : floats.size(); }
+  double operator[](std::size_t i) const { return floats.empty() ? doubles[i] : double{floats[i]}; }
+};
+
+// Rays that ask what they hit. Origins and directions are x, y, z of each ray, in the world; a
+// direction may have any length but zero, and distances count in lengths of it.
+struct Rays {
+  Numbers origins, directions;
+  // Hits count from `near` to `far`, both included: a number for each ray or one for all; empty: 0
+  // and infinity.
+  Numbers near = {}, far = {};
+};
+
+// What rays hit, in columns. A ray that hits nothing has an infinite t, 0xffffffff as its triangle,
+// object and material, and zeros. The spans are valid as long as `memory` is held.
+struct RayHits {
+  std::span<double> t, tError;  // tError bounds the error of t
+  std::span<double> points;     // x, y, z of each
+  // x, y, z of each, of unit length, on the front (where corners are counter-clockwise).
+  std::span<float> geometricNormals, shadingNormals;
+  std::span<float> weights;  // of corners 1 and 2 of the triangle; on a sphere of no meaning
+  std::span<float> uvs;      // texture coordinates
+  // Numbers as those of the channels. An instance is 0xffffffff for what is used once.
+  std::span<std::uint32_t> triangles, objects, materials, instances;
+  std::span<std::int8_t> sides;  // 1: the front is hit, -1: the back, 0: nothing
+  // 0: something else lies within rounding errors of the ray, so that another surface or none may
+  // be hit; 1: all is as stated. Borders of surfaces that are seen at less than a sixteenth of
+  // their area are not watched: one that is met within the rounding of single precision may be
+  // passed.
+  std::span<std::uint8_t> certain;
+  std::vector<std::uint64_t>
+      offsets;  // of allHits(): the hits of ray i are [offsets[i], offsets[i + 1])
+  std::shared_ptr<void> memory;
+};
+
+// One element a ray: 1 for yes.
+struct RayAnswers {
+  std::vector<std::uint8_t> yes;
+  std::vector<std::uint8_t> certain;  // as in RayHits
+};
+
 // Statistics of a frame. Times are milliseconds of wall-clock time. The stages add up to the frame
 // except for the time that no worker spends in a stage; the scalar reference has none.
 struct FrameStatistics {
@@ -307,6 +353,24 @@ class Renderer {
   void renderOnPath(double seconds, Image& image);
 
   const FrameStatistics& statistics() const;  // of the last frame
+
+  // Queries of the scene as it is at its present time, without a picture. Surfaces count as the eye
+  // sees them: alpha masks cut them, single-sided ones are passed from behind, and of coplanar ones
+  // that overlap one is hit, as in pictures. An answer depends on its ray alone: not on the other
+  // rays, threads or processor. The first query builds an acceleration structure of its own.
+  RayHits closest(const Rays& rays);
+  RayAnswers occluded(const Rays& rays);  // whether closest() finds anything
+  // All hits of each ray, ordered by t, at most `limit`; coplanar ones that overlap count once.
+  RayHits allHits(const Rays& rays, std::size_t limit = static_cast<std::size_t>(-1));
+  // Whether nothing lies between points of surfaces, x, y, z of each. With normals, one for each
+  // point or none, the way starts off the surface by the bound on a point's rounding, as rays of
+  // pictures do; without, what is within four times that bound of an end does not count.
+  RayAnswers visible(const Numbers& from, const Numbers& to, const Numbers& fromNormals = {},
+                     const Numbers& toNormals = {});
+  // The share of the directions about each point's normal, weighted by their cosine, in which
+  // nothing is nearer than `radius`: 1 is open. Which directions are drawn follows from the point.
+  std::vector<float> ambientOcclusion(const Numbers& points, const Numbers& normals, double radius,
+                                      int samples);
 
  private:
   struct Data;

@@ -162,6 +162,16 @@ class Session {
     });
   }
 
+  // Asks the renderer about rays, without the GIL.
+  template <typename Question>
+  auto trace(const py::object& progress, const Question& question) {
+    const Turn turn(*this);
+    return call(progress, [&](const api::Progress& told) {
+      renderer_.setProgress(told);
+      return question(renderer_);
+    });
+  }
+
   void setTime(double seconds) {
     const Turn turn(*this);
     renderer_.setTime(seconds);
@@ -223,6 +233,11 @@ std::shared_ptr<const void> kept(const py::object& object) {
 template <typename Array>
 auto spanOf(const Array& array) {
   return std::span(array.data(), static_cast<std::size_t>(array.size()));
+}
+
+template <typename T>
+py::array_t<T> arrayOf(const std::vector<T>& values) {
+  return py::array_t<T>(static_cast<py::ssize_t>(values.size()), values.data());
 }
 
 api::LoadOptions loadOptions(const py::dict& given) {
@@ -346,6 +361,75 @@ std::map<std::string, double> animationsOf(Session& session) {
   });
 }
 
+// Of float32 or float64, C-contiguous.
+api::Numbers numbersOf(const py::array& array) {
+  const auto count = static_cast<std::size_t>(array.size());
+  if (array.dtype().is(py::dtype::of<float>())) {
+    return {{static_cast<const float*>(array.data()), count}, {}};
+  }
+  return {{}, {static_cast<const double*>(array.data()), count}};
+}
+
+py::dict describe(const api::RayHits& hits) {
+  const py::capsule owner(new std::shared_ptr<void>(hits.memory),
+                          [](void* held) { delete static_cast<std::shared_ptr<void>*>(held); });
+  py::dict columns;
+  const auto put = [&](const char* name, auto span) {
+    using Element = typename decltype(span)::element_type;
+    columns[name] = py::array_t<Element>(static_cast<py::ssize_t>(span.size()), span.data(), owner);
+  };
+  put("t", hits.t), put("t_error", hits.tError), put("point", hits.points);
+  put("geometric_normal", hits.geometricNormals), put("shading_normal", hits.shadingNormals);
+  put("weights", hits.weights), put("uv", hits.uvs);
+  put("triangle", hits.triangles), put("object", hits.objects);
+  put("material", hits.materials), put("instance", hits.instances);
+  put("side", hits.sides), put("certain", hits.certain);
+  if (!hits.offsets.empty()) columns["offsets"] = arrayOf(hits.offsets);
+  return columns;
+}
+
+py::tuple describe(const api::RayAnswers& answers) {
+  return py::make_tuple(arrayOf(answers.yes), arrayOf(answers.certain));
+}
+
+void defineRays(py::class_<Session>& session) {
+  // Origins, directions, near and far.
+  using Four = std::array<py::array, 4>;
+  const auto raysOf = [](const Four& given) {
+    return api::Rays{numbersOf(given[0]), numbersOf(given[1]), numbersOf(given[2]),
+                     numbersOf(given[3])};
+  };
+  session
+      .def("closest",
+           [raysOf](Session& s, const Four& given, const py::object& progress) {
+             const api::Rays rays = raysOf(given);
+             return describe(s.trace(progress, [&](auto& r) { return r.closest(rays); }));
+           })
+      .def("all_hits",
+           [raysOf](Session& s, const Four& given, std::size_t limit, const py::object& progress) {
+             const api::Rays rays = raysOf(given);
+             return describe(s.trace(progress, [&](auto& r) { return r.allHits(rays, limit); }));
+           })
+      .def("occluded",
+           [raysOf](Session& s, const Four& given, const py::object& progress) {
+             const api::Rays rays = raysOf(given);
+             return describe(s.trace(progress, [&](auto& r) { return r.occluded(rays); }));
+           })
+      .def("visible",
+           [](Session& s, const Four& given, const py::object& progress) {
+             const std::array<api::Numbers, 4> of{numbersOf(given[0]), numbersOf(given[1]),
+                                                  numbersOf(given[2]), numbersOf(given[3])};
+             return describe(
+                 s.trace(progress, [&](auto& r) { return r.visible(of[0], of[1], of[2], of[3]); }));
+           })
+      .def("ambient_occlusion", [](Session& s, const py::array& points, const py::array& normals,
+                                   double radius, int samples, const py::object& progress) {
+        const api::Numbers at = numbersOf(points), about = numbersOf(normals);
+        return arrayOf(s.trace(
+            progress, [&](auto& r) { return r.ambientOcclusion(at, about, radius, samples); }));
+      });
+}
+
 void defineSession(py::module_& module) {
   // Queries a scene while no other thread uses it.
   const auto asked = [](auto member) {
@@ -353,8 +437,9 @@ void defineSession(py::module_& module) {
       return session.ask([&](const api::Scene& scene) { return (scene.*member)(); });
     };
   };
-  py::class_<Session>(module, "Session")
-      .def_property_readonly("name", asked(&api::Scene::name))
+  py::class_<Session> session(module, "Session");
+  defineRays(session);
+  session.def_property_readonly("name", asked(&api::Scene::name))
       .def_property_readonly("width", asked(&api::Scene::width))
       .def_property_readonly("height", asked(&api::Scene::height))
       .def_property_readonly("cameras", asked(&api::Scene::cameras))

@@ -39,19 +39,6 @@ void forEachKept(const Chunk& c, Keep&& keep) {
   }
 }
 
-Vec2f uvAt(const Scene& scene, std::uint32_t triangle, double u, double v) {
-  if (scene.isSphere(triangle)) {
-    const std::array<double, 2> uv = sphereUv(spherePoint(u, v));
-    return {static_cast<float>(uv[0]), static_cast<float>(uv[1])};
-  }
-  const float* const uvs = scene.uvsOf(triangle, false);
-  const auto at = [&](std::size_t i) {
-    return static_cast<float>((1 - u - v) * double{uvs[i]} + u * double{uvs[i + 2]} +
-                              v * double{uvs[i + 4]});
-  };
-  return {at(0), at(1)};
-}
-
 ChannelValues valuesOf(const Chunk& c, std::size_t i) {
   ChannelValues values;
   const SurfelColumns& s = c.surfels;

@@ -37,6 +37,15 @@ class Examples(unittest.TestCase):
         said = self.run_example("A picture", "whitted.png")
         self.assertTrue(said.startswith("(480, 640, 3) float32\n"), said)
 
+    def test_what_rays_hit(self):
+        said = self.run_example("What rays hit")
+        points, components, certain, *shares = (float(x) for x in re.findall(r"[0-9.e-]+", said))
+        self.assertGreater(points, 30000)
+        self.assertEqual(components, 3)
+        self.assertGreater(certain, 0.999)
+        for share in shares:
+            self.assertTrue(0.1 < share < 1, said)
+
     def test_depth_of_a_mesh(self):
         nearest, farthest = map(float, self.run_example(
             "The depth of a mesh made of arrays").split())
@@ -47,7 +56,7 @@ class Examples(unittest.TestCase):
         self.run_example("A film", *[f"frame{i:04}.png" for i in range(12)])
 
     def test_all_are_tested(self):
-        self.assertEqual(len(examples()), 3)
+        self.assertEqual(len(examples()), 4)
 
 
 class Signatures(unittest.TestCase):

@@ -17,12 +17,13 @@ from typing import Any, Callable, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
-from . import _arrays, _options, _whit
+from . import _arrays, _options, _rays, _whit
 from ._arrays import Mesh
 from ._describe import Description
 from ._error import Error
+from ._rays import Hits
 
-__all__ = ["Error", "Mesh", "Picture", "Scene"]
+__all__ = ["Error", "Hits", "Mesh", "Picture", "Scene"]
 __version__ = _whit.version()
 
 Progress = Callable[[str, float], Optional[bool]]
@@ -209,6 +210,79 @@ class Scene:
         self._object  # noqa: B018 (the attribute is there only if __init__ came to its end)
         texts = _options.texts(options)
         return Picture(self._object.render(texts, path_time, progress))
+
+    def closest(self, origins: Any, directions: Any, *, t_near: Any = 0.0, t_far: Any = np.inf,
+                progress: Optional[Progress] = None) -> Hits:
+        """The nearest hit of each ray with the scene as it is at its present time.
+
+        origins, directions: (..., 3), float32 or float64, in the world; shapes are broadcast. A
+            direction may have any length but zero.
+        t_near, t_far: hits count from t_near to t_far, both included, in lengths of the direction;
+            a number, or one for each ray.
+
+        Surfaces count as the eye sees them: alpha masks cut them, single-sided ones are passed from
+        behind, and of coplanar ones that overlap one is hit, as in pictures. An answer depends on
+        its ray alone. C-contiguous arrays are read in place, on all threads and without the GIL.
+        The first query builds a structure of its own for the scene.
+        """
+        rays, shape = self._rays(origins, directions, t_near, t_far)
+        return _rays.hits(self._object.closest(rays, progress), shape)
+
+    def all_hits(self, origins: Any, directions: Any, *, t_near: Any = 0.0, t_far: Any = np.inf,
+                 limit: Optional[int] = None, progress: Optional[Progress] = None) -> Hits:
+        """All hits of each ray, by their distance: at most `limit`; None: all. Coplanar surfaces
+        that overlap count once, as do triangles whose common edge is hit. Arguments as in
+        closest()."""
+        rays, _ = self._rays(origins, directions, t_near, t_far)
+        most = 2**64 - 1 if limit is None else max(operator.index(limit), 0)
+        columns = self._object.all_hits(rays, most, progress)
+        return _rays.hits(columns, columns["t"].shape)
+
+    def occluded(self, origins: Any, directions: Any, *, t_near: Any = 0.0, t_far: Any = np.inf,
+                 return_certain: bool = False, progress: Optional[Progress] = None) -> Any:
+        """Whether each ray hits anything: (...), bool; with return_certain, also whether rounding
+        leaves no doubt. Arguments as in closest(), which takes longer."""
+        rays, shape = self._rays(origins, directions, t_near, t_far)
+        return self._answers(self._object.occluded(rays, progress), shape, return_certain)
+
+    def visible(self, points_a: Any, points_b: Any, *, normals_a: Optional[Any] = None,
+                normals_b: Optional[Any] = None, return_certain: bool = False,
+                progress: Optional[Progress] = None) -> Any:
+        """Whether nothing lies between points, which may be points of surfaces: (...), bool.
+
+        points_a, points_b: (..., 3); shapes are broadcast.
+        normals_a, normals_b: of the surfaces at the points, unit vectors on either side: the way
+            then starts off the surface by the bound on the point's rounding, as rays of pictures
+            do. None: what is within four times that bound of the end does not count.
+        """
+        ends = _rays.alike({"points_a": points_a, "points_b": points_b},
+                           {"normals_a": normals_a, "normals_b": normals_b})
+        return self._answers(self._object.visible(ends, progress), ends[0].shape[:-1],
+                             return_certain)
+
+    def ambient_occlusion(self, points: Any, normals: Any, radius: float, samples: int = 64, *,
+                          progress: Optional[Progress] = None) -> np.ndarray:
+        """How open the surroundings of points of surfaces are: (...), float32, the share of the
+        directions about the normal, weighted by their cosine, in which nothing is nearer than
+        `radius`; 1 is open, 0 is closed.
+
+        points, normals: (..., 3), the normals on the side that is asked about; shapes are broadcast.
+        samples: directions for each point; they follow from the point alone.
+        """
+        at, about = _rays.alike({"points": points, "normals": normals}, {})
+        open_ = self._object.ambient_occlusion(at, about, radius, samples, progress)
+        return open_.reshape(at.shape[:-1])
+
+    def _rays(self, origins: Any, directions: Any, t_near: Any, t_far: Any) -> tuple[list, tuple]:
+        starts, ways = _rays.alike({"origins": origins, "directions": directions}, {})
+        shape = starts.shape[:-1]
+        return [starts, ways, _rays.limits(t_near, "t_near", shape),
+                _rays.limits(t_far, "t_far", shape)], shape
+
+    @staticmethod
+    def _answers(found: tuple, shape: tuple, return_certain: bool) -> Any:
+        yes, certain = (array.view(np.bool_).reshape(shape) for array in found)
+        return (yes, certain) if return_certain else yes
 
     def __repr__(self) -> str:
         return f"<whit.Scene {self.name!r}: {self.triangles} triangles>"

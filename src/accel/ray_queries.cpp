@@ -1,0 +1,794 @@
+#include "accel/ray_queries.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <deque>
+#include <numeric>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "accel/alpha_filter.h"
+#include "accel/embree_scene.h"
+#include "bake/facet.h"
+#include "bake/sphere.h"
+#include "core/error.h"
+#include "core/worker_pool.h"
+
+namespace whit {
+
+// From the space of a geometry to Embree's: (point - center) / scale.
+struct QueryFrame {
+  Vec3d center;
+  double scale = 1;
+  Vec3d of(const Vec3d& point) const { return (point - center) / scale; }
+};
+
+namespace {
+
+// Embree gets the scene moved and scaled such that all of it lies in the unit ball, and rays from
+// where they enter a ball about it. Then its errors have one size, however far away a ray starts.
+constexpr double kBall = 1.25;
+// In these units: more than rounding moves a ray against a triangle's edges as seen along the ray,
+// unless an edge is foreshortened to less than a sixteenth of its length; and along the ray, unless
+// a triangle is seen at less than a thousandth of its area.
+constexpr double kRim = 0x1p-17, kAlong = 0x1p-13;
+// Beyond this distance of its origin a ray's way into the ball is not known to the width of a rim.
+constexpr double kFarthestOrigin = 0x1p30;
+// Triangles with a sharper corner than this sine, and all of objects that are this small against
+// the error of carrying a ray to them, are not enlarged: each is tested where Embree finds its box.
+constexpr double kSharpest = 0x1p-10, kWidestRim = 0x1p-6, kWidestBox = 1e6;
+// Products with shorter or longer directions could leave the range of numbers.
+constexpr double kShortest = 1e-100, kLongest = 1e100;
+
+constexpr unsigned kTriangles = 0, kBoxed = 1, kFirstInstance = 2;  // numbers of Embree geometries
+constexpr std::size_t kPacket = 16;
+constexpr float kNowhere = -std::numeric_limits<float>::infinity();
+// The sum of the squares by which origins and directions of rays of a packet differ.
+constexpr float kCoherent = 0.02f;
+
+QueryFrame frameAround(const Box& box) {
+  if (box.empty()) return {};
+  int exponent = 0;
+  std::frexp(std::max(box.diagonal() / 2, 0x1p-120), &exponent);
+  return {box.center(), std::ldexp(1.0, exponent)};
+}
+
+// Moves the edges of a triangle outwards; false where a corner is too sharp for that.
+bool enlarge(Corners& corners, double by) {
+  const Corners old = corners;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3d one = normalized(old[(i + 1) % 3] - old[i]),
+                other = normalized(old[(i + 2) % 3] - old[i]);
+    const double sine = length(cross(one, other));
+    if (!(sine > kSharpest)) return false;
+    corners[i] = old[i] - (one + other) * (by / sine);
+  }
+  return true;
+}
+
+double sumOf(const Vec3d& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
+
+// How an inexact number lies to a limit.
+enum class Lies { below, unknown, above };
+Lies lies(double value, double error) {
+  return value > error ? Lies::above : value < -error ? Lies::below : Lies::unknown;
+}
+
+// False where the hit is surely before or behind the ray's part that counts; leaves in doubt what
+// is not surely in it.
+bool isOnRay(const QueryRay& ray, QueryHit& hit) {
+  if (hit.t + hit.tError < ray.tNear || hit.t - hit.tError > ray.tFar) return false;
+  hit.certain = hit.certain && hit.t - hit.tError >= ray.tNear && hit.t + hit.tError <= ray.tFar;
+  return true;
+}
+
+}  // namespace
+
+// The triangles of an Embree geometry, as its filter reads them.
+struct EnlargedTriangles {
+  std::uint32_t first = 0;  // in Scene::triangles
+  // Where all weights of a hit on the enlarged triangle are above this, the hit lies surely within
+  // the triangle. Infinite where a mask or the side counts as well.
+  std::vector<float> margins;
+};
+
+// What is tested by itself where Embree finds its box: spheres, and triangles that are too sharp.
+struct BoxedItems {
+  std::vector<std::uint32_t> numbers;  // in Scene::triangles
+  std::vector<Box> boxes;
+};
+
+struct RayQueries::Parts {
+  Parts(const Scene& scene_, int threads, Progress* progress);
+
+  void addGeometry(std::size_t index, double rim, int threads);
+  void addInstance(std::uint32_t number);
+  float marginOf(std::uint32_t number, const Corners& corners, double rim) const;
+
+  std::optional<QueryHit> meetTriangle(const QueryRay& ray, PlacedTriangleId id) const;
+  int meetSphere(const QueryRay& ray, PlacedTriangleId id, QueryHit (&hits)[2]) const;
+  bool arePartners(PlacedTriangleId a, PlacedTriangleId b) const;
+  bool comesBefore(PlacedTriangleId a, PlacedTriangleId b) const;
+  bool areNeighbors(const QueryHit& a, const QueryHit& b) const;
+  QueryHit nearestOf(std::vector<QueryHit>& hits) const;
+  void keepDistinct(std::vector<QueryHit>& hits) const;
+
+  const Scene& scene;
+  std::vector<Mask> masks;
+  std::vector<QueryFrame> frames;  // one a geometry; the first is the world's
+  std::deque<EnlargedTriangles> enlarged;
+  std::deque<BoxedItems> boxed;
+  DeviceHandle device;
+  std::vector<SceneHandle> scenes;  // one a geometry
+};
+
+namespace {
+
+enum class Ask { closest, any, all };
+
+// Rays that are traced together, and what is found for each.
+class RayBatch {
+ public:
+  static constexpr std::size_t kRays = 256;
+
+  RayBatch(const RayQueries::Parts& parts, Ask ask) : parts_(parts), ask_(ask) {}
+
+  // At most kRays.
+  void trace(std::span<const QueryRay> rays);
+  // Of a ray of those that were traced last.
+  const Blocked& answer(std::size_t ray) const { return answers_[ray]; }
+  // The first that was found for it; all there is where no other may be the nearest, or where no
+  // other is.
+  const QueryHit& first(std::size_t ray) const { return first_[ray]; }
+  bool hasOthers() const { return !others_.empty(); }
+  std::vector<QueryHit>& hits(std::size_t ray);
+
+  // Decides about a candidate of a ray. True if the ray ends there, at `tFar` of Embree's.
+  bool meet(unsigned ray, PlacedTriangleId id, float& tFar);
+  // The same of a triangle that is surely hit, at `tFar`; if it can, it leaves the rest for later,
+  // when nothing nearer is found. False if it cannot.
+  bool postpone(unsigned ray, PlacedTriangleId id, float& tFar);
+
+ private:
+  // In Embree's space.
+  struct Start {
+    Vec3f origin, direction;
+    double perT = 1, shift = 0;  // Embree's distance is t * perT - shift
+    float tFar = kNowhere;       // below 0: the ray meets nothing
+    float end = 0;               // tFar before anything is met
+    // The nearest that is postponed, and where it is hit.
+    PlacedTriangleId postponed{kMiss, kNoInstance};
+    float at = 0;
+  };
+
+  bool start(const QueryRay& ray, Start& to) const;
+  bool keep(unsigned ray, const QueryHit& hit, float& tFar);
+  template <typename Single, typename Packet>
+  void traceAs();
+
+  const RayQueries::Parts& parts_;
+  Ask ask_;
+  std::span<const QueryRay> rays_;
+  std::array<Start, kRays> starts_;
+  std::array<Blocked, kRays> answers_;
+  std::array<QueryHit, kRays> first_;                       // of all that is found for a ray
+  std::vector<std::pair<std::uint32_t, QueryHit>> others_;  // with the ray
+  std::vector<QueryHit> hits_;
+};
+
+PlacedTriangleId placed(const EmbreeContext* context, std::uint32_t number) {
+  const unsigned instance = context->instID[0];
+  const bool inWorld = instance == RTC_INVALID_GEOMETRY_ID;
+  return {number, inWorld ? kNoInstance : instance - kFirstInstance};
+}
+
+// True where single precision is enough to say that the ray hits the triangle, and where.
+bool isSurelyHit(const RTCFilterFunctionNArguments& args, unsigned lane, float margin) {
+  RTCHitN* const hit = args.hit;
+  RTCRayN* const ray = args.ray;
+  const unsigned n = args.N;
+  const float u = RTCHitN_u(hit, n, lane), v = RTCHitN_v(hit, n, lane);
+  if (!(std::min({u, v, 1 - u - v}) > margin)) return false;
+  constexpr float kLeastSlope = 0x1p-6f;
+  const Vec3f normal{RTCHitN_Ng_x(hit, n, lane), RTCHitN_Ng_y(hit, n, lane),
+                     RTCHitN_Ng_z(hit, n, lane)};
+  const Vec3f way{RTCRayN_dir_x(ray, n, lane), RTCRayN_dir_y(ray, n, lane),
+                  RTCRayN_dir_z(ray, n, lane)};
+  const float slope = dot(normal, way);
+  return slope * slope > kLeastSlope * kLeastSlope * dot(normal, normal) * dot(way, way);
+}
+
+void filterCandidates(const RTCFilterFunctionNArguments* args) {
+  RayBatch& batch = *static_cast<RayBatch*>(batchOf(args->context));
+  const auto& triangles = *static_cast<const EnlargedTriangles*>(args->geometryUserPtr);
+  for (unsigned lane = 0; lane < args->N; ++lane) {
+    if (args->valid[lane] == 0) continue;
+    const std::uint32_t primitive = RTCHitN_primID(args->hit, args->N, lane);
+    const PlacedTriangleId id = placed(args->context, triangles.first + primitive);
+    const unsigned ray = RTCRayN_id(args->ray, args->N, lane);
+    float& tFar = RTCRayN_tfar(args->ray, args->N, lane);
+    const bool ends =
+        (isSurelyHit(*args, lane, triangles.margins[primitive]) && batch.postpone(ray, id, tFar)) ||
+        batch.meet(ray, id, tFar);
+    args->valid[lane] = ends ? -1 : 0;
+  }
+}
+
+void boundBox(const RTCBoundsFunctionArguments* args) {
+  const Box& box = static_cast<const BoxedItems*>(args->geometryUserPtr)->boxes[args->primID];
+  RTCBounds& to = *args->bounds_o;
+  to.lower_x = box.lower.x, to.lower_y = box.lower.y, to.lower_z = box.lower.z;
+  to.upper_x = box.upper.x, to.upper_y = box.upper.y, to.upper_z = box.upper.z;
+}
+
+template <typename Arguments>
+void meetBoxed(const Arguments& args, RTCRayN* rays) {
+  RayBatch& batch = *static_cast<RayBatch*>(batchOf(args.context));
+  const auto& items = *static_cast<const BoxedItems*>(args.geometryUserPtr);
+  const PlacedTriangleId id = placed(args.context, items.numbers[args.primID]);
+  for (unsigned lane = 0; lane < args.N; ++lane) {
+    if (args.valid[lane] == 0) continue;
+    float& tFar = RTCRayN_tfar(rays, args.N, lane);
+    float end = tFar;
+    if (batch.meet(RTCRayN_id(rays, args.N, lane), id, end)) tFar = std::min(tFar, end);
+  }
+}
+
+void intersectBoxed(const RTCIntersectFunctionNArguments* args) {
+  meetBoxed(*args, RTCRayHitN_RayN(args->rayhit, args->N));
+}
+void occludeBoxed(const RTCOccludedFunctionNArguments* args) { meetBoxed(*args, args->ray); }
+
+// False where it is not known what of the scene the ray may meet.
+bool RayBatch::start(const QueryRay& ray, Start& to) const {
+  to.tFar = kNowhere;
+  to.postponed.triangle = kMiss;
+  const double size = length(ray.direction);
+  if (!isFinite(ray.origin) || !(size > kShortest && size < kLongest)) return false;
+  if (!(ray.tNear <= ray.tFar)) return ray.tNear > ray.tFar;
+  const QueryFrame& frame = parts_.frames[0];
+  const Vec3d unit = ray.direction / size;
+  const Vec3d origin = frame.of(ray.origin);
+  const double along = -dot(origin, unit);  // to the point next to the center
+  const Vec3d nearest = origin + unit * along;
+  const double room = kBall * kBall - dot(nearest, nearest);
+  const bool known = maxComponent(abs(origin)) < kFarthestOrigin;
+  if (!(room > 0)) return known;
+  const double half = std::sqrt(room);
+  to.perT = size / frame.scale;
+  to.shift = std::max(along - half, ray.tNear * to.perT) - kAlong;
+  to.origin = Vec3f(nearest + unit * (to.shift - along));
+  to.direction = Vec3f(unit);
+  to.tFar = static_cast<float>(std::min(along + half, ray.tFar * to.perT) + kAlong - to.shift);
+  to.end = to.tFar;
+  return known;
+}
+
+bool RayBatch::postpone(unsigned ray, PlacedTriangleId id, float& tFar) {
+  constexpr auto kApart = static_cast<float>(kAlong);
+  if (ask_ == Ask::all) return false;
+  Start& start = starts_[ray];
+  const float t = tFar;
+  if (!(t > 2 * kApart && t < start.end - 2 * kApart)) return false;
+  if (ask_ == Ask::any) {
+    answers_[ray] = {true, true};
+    tFar = kNowhere;
+    return true;
+  }
+  if (start.postponed.triangle != kMiss && t >= start.at - kApart) return false;
+  start.postponed = id;
+  start.at = t;
+  __builtin_prefetch(&parts_.scene.triangles[id.triangle]);
+  tFar = start.tFar = std::min(start.tFar, t + kApart);
+  return true;
+}
+
+bool RayBatch::keep(unsigned ray, const QueryHit& hit, float& tFar) {
+  if (ask_ == Ask::any) {
+    answers_[ray] = {true, hit.certain};
+    tFar = kNowhere;
+    return hit.certain;
+  }
+  const auto isSurelyBefore = [](const QueryHit& a, const QueryHit& b) {
+    return a.certain && a.t + a.tError < b.t - b.tError;
+  };
+  QueryHit& first = first_[ray];
+  const bool nearest = ask_ == Ask::closest;
+  if (!first.found() || (nearest && isSurelyBefore(hit, first))) {
+    first = hit;
+  } else if (!nearest || !isSurelyBefore(first, hit)) {
+    others_.emplace_back(ray, hit);
+  }
+  if (!nearest || !hit.certain) return false;
+  // What lies at this distance as well must be found, whatever is tested first.
+  Start& start = starts_[ray];
+  const double end = (hit.t + hit.tError) * start.perT - start.shift + kAlong;
+  start.tFar = std::min(start.tFar, static_cast<float>(end));
+  tFar = start.tFar;
+  return true;
+}
+
+bool RayBatch::meet(unsigned ray, PlacedTriangleId id, float& tFar) {
+  if (parts_.scene.isSphere(id.triangle)) {
+    QueryHit hits[2];
+    const int count = parts_.meetSphere(rays_[ray], id, hits);
+    bool ends = false;
+    for (int i = 0; i < count; ++i) ends = keep(ray, hits[i], tFar) || ends;
+    return ends;
+  }
+  const std::optional<QueryHit> hit = parts_.meetTriangle(rays_[ray], id);
+  return hit && keep(ray, *hit, tFar);
+}
+
+template <typename Packet>
+auto& rayOf(Packet& packet) {
+  if constexpr (kWantsHits<Packet>) {
+    return packet.ray;
+  } else {
+    return packet;
+  }
+}
+
+template <typename Packet>
+void clearHit(Packet& packet) {
+  if constexpr (kWantsHits<Packet>)
+    packet.hit.geomID = packet.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+}
+
+// Rays that start and go together are traced as a packet, others one by one.
+template <typename Single, typename Packet>
+void RayBatch::traceAs() {
+  RTCScene const scene = parts_.scenes[0].get();
+  // Any hits of coherent packets may hang (EmbreeScene::coherentAnyHitMayHang).
+  QueryContext alone(false), together(kWantsHits<Packet>);
+  alone.setBatch(this);
+  together.setBatch(this);
+  for (std::size_t begin = 0; begin < rays_.size(); begin += kPacket) {
+    const std::size_t n = std::min(kPacket, rays_.size() - begin);
+    const auto run = std::span<const Start>(starts_).subspan(begin, n);
+    const bool coherent = n == kPacket && std::ranges::all_of(run, [&](const Start& s) {
+                            const Vec3f turn = s.direction - run[0].direction,
+                                        apart = s.origin - run[0].origin;
+                            return s.tFar >= 0 && dot(turn, turn) + dot(apart, apart) < kCoherent;
+                          });
+    if (coherent) {
+      alignas(64) Packet packet{};
+      alignas(64) int live[kPacket];
+      auto& rays = rayOf(packet);
+      for (std::size_t i = 0; i < kPacket; ++i) {
+        const Start& s = run[i];
+        rays.org_x[i] = s.origin.x, rays.org_y[i] = s.origin.y, rays.org_z[i] = s.origin.z;
+        rays.dir_x[i] = s.direction.x, rays.dir_y[i] = s.direction.y, rays.dir_z[i] = s.direction.z;
+        rays.tfar[i] = s.tFar;
+        rays.mask[i] = ~0u;
+        rays.id[i] = static_cast<unsigned>(begin + i);
+        live[i] = -1;
+      }
+      if constexpr (kWantsHits<Packet>) {
+        std::fill_n(packet.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
+        std::fill_n(packet.hit.instID[0], kPacket, RTC_INVALID_GEOMETRY_ID);
+      }
+      together.trace(scene, packet, live);
+      continue;
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      const Start& s = run[i];
+      if (!(s.tFar >= 0)) continue;
+      Single single{};
+      rayOf(single) = {s.origin.x,
+                       s.origin.y,
+                       s.origin.z,
+                       0,
+                       s.direction.x,
+                       s.direction.y,
+                       s.direction.z,
+                       0,
+                       s.tFar,
+                       ~0u,
+                       static_cast<unsigned>(begin + i),
+                       0};
+      clearHit(single);
+      alone.trace(scene, single);
+    }
+  }
+}
+
+void RayBatch::trace(std::span<const QueryRay> rays) {
+  rays_ = rays;
+  others_.clear();
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    answers_[i] = {false, start(rays[i], starts_[i])};
+    first_[i] = {};
+  }
+  if (ask_ == Ask::any) {
+    traceAs<RTCRay, RTCRay16>();
+  } else {
+    traceAs<RTCRayHit, RTCRayHit16>();
+    for (unsigned i = 0; i < rays.size(); ++i) {
+      float tFar = 0;
+      if (starts_[i].postponed.triangle != kMiss) meet(i, starts_[i].postponed, tFar);
+    }
+  }
+  std::ranges::stable_sort(others_, {}, [](const auto& other) { return other.first; });
+}
+
+std::vector<QueryHit>& RayBatch::hits(std::size_t ray) {
+  hits_.clear();
+  if (!first_[ray].found()) return hits_;
+  hits_.push_back(first_[ray]);
+  const auto own = std::ranges::equal_range(others_, static_cast<std::uint32_t>(ray), {},
+                                            [](const auto& other) { return other.first; });
+  for (const auto& [number, hit] : own) hits_.push_back(hit);
+  return hits_;
+}
+
+}  // namespace
+
+RayQueries::Parts::Parts(const Scene& scene_, int threads, Progress* progress)
+    : scene(scene_), masks(makeMasks(scene_, true)), device(newDevice(threads)) {
+  Box world;
+  world.lower = scene.lower, world.upper = scene.upper;
+  std::vector<double> rims(scene.geometries.size(), kRim);
+  for (std::size_t g = 0; g < scene.geometries.size(); ++g) {
+    const Geometry& geometry = scene.geometries[g];
+    Box box = g == 0 ? world : Box();
+    if (g != 0) {
+      for (const Vec3f& p : geometry.position) box.add(p);
+      for (std::uint32_t i = 0; i < geometry.spheres; ++i) {
+        const Box sphere = sphereBounds(sphereMap(scene.triangles[geometry.firstSphere + i]));
+        box.add(sphere.lower), box.add(sphere.upper);
+      }
+    }
+    frames.push_back(frameAround(box));
+    scenes.emplace_back(rtcNewScene(device.get()));
+    rtcSetSceneFlags(scenes[g].get(), RTC_SCENE_FLAG_ROBUST);
+  }
+  // Embree carries rays to an instance with the error that they have in the world.
+  for (const InstanceRecord& instance : scene.instances) {
+    const Affine& map = instance.toWorld;
+    const double squares = dot(map.x, map.x) + dot(map.y, map.y) + dot(map.z, map.z);
+    const double least = 2 * std::abs(map.determinant()) / squares;
+    double& rim = rims[instance.geometry];
+    rim = std::max(rim, kRim * (1 + frames[0].scale / (frames[instance.geometry].scale * least)));
+  }
+  for (std::size_t g = scene.geometries.size(); g-- > 0;) {
+    addGeometry(g, rims[g], threads);
+    for (std::uint32_t i = 0; g == 0 && i < scene.instances.size(); ++i) addInstance(i);
+    commitScene(device.get(), scenes[g].get(), progress);
+  }
+}
+
+void RayQueries::Parts::addGeometry(std::size_t index, double rim, int threads) {
+  const Geometry& source = scene.geometries[index];
+  const QueryFrame& frame = frames[index];
+  const std::size_t count = source.index.size();
+  RTCScene const to = scenes[index].get();
+  BoxedItems& items = boxed.emplace_back();
+  const auto addBoxed = [&](std::uint32_t number, const Box& box) {
+    const Vec3f room(static_cast<float>(std::min(2 * rim + kRim, kWidestBox)));
+    items.numbers.push_back(number);
+    Box& own = items.boxes.emplace_back();
+    own.lower = Vec3f(frame.of(Vec3d(box.lower))) - room;
+    own.upper = Vec3f(frame.of(Vec3d(box.upper))) + room;
+  };
+  if (count > 0) {
+    const GeometryHandle held(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
+    auto* const vertices = static_cast<Vec3f*>(rtcSetNewGeometryBuffer(
+        held.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f), 3 * count));
+    auto* const indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
+        held.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), count));
+    if (!vertices || !indices) throwLimit("rays: Embree is out of memory");
+    EnlargedTriangles& triangles = enlarged.emplace_back();
+    triangles.first = source.firstTriangle;
+    triangles.margins.resize(count);
+    std::vector<std::uint8_t> isBoxed(count);
+    std::iota(indices, indices + 3 * count, 0u);
+    constexpr std::size_t kChunk = 4096;
+    parallelFor(threads, (count + kChunk - 1) / kChunk, [&](std::size_t chunk, int) {
+      for (std::size_t i = chunk * kChunk; i < std::min((chunk + 1) * kChunk, count); ++i) {
+        const auto number = source.firstTriangle + static_cast<std::uint32_t>(i);
+        Corners corners = worldCorners(scene, number, kNoInstance);
+        for (Vec3d& corner : corners) corner = frame.of(corner);
+        triangles.margins[i] = marginOf(number, corners, rim);
+        isBoxed[i] = rim > kWidestRim || !enlarge(corners, rim) ? 1 : 0;
+        // A triangle of one point is never hit.
+        for (std::size_t k = 0; k < 3; ++k) {
+          vertices[3 * i + k] = isBoxed[i] != 0 ? Vec3f() : Vec3f(corners[k]);
+        }
+      }
+    });
+    for (std::size_t i = 0; i < count; ++i) {
+      if (isBoxed[i] == 0) continue;
+      const auto number = source.firstTriangle + static_cast<std::uint32_t>(i);
+      Box box;
+      for (const Vec3d& corner : worldCorners(scene, number, kNoInstance)) box.add(Vec3f(corner));
+      addBoxed(number, box);
+    }
+    rtcSetGeometryUserData(held.get(), &triangles);
+    rtcSetGeometryIntersectFilterFunction(held.get(), filterCandidates);
+    rtcSetGeometryOccludedFilterFunction(held.get(), filterCandidates);
+    rtcCommitGeometry(held.get());
+    rtcAttachGeometryByID(to, held.get(), kTriangles);
+  }
+  for (std::uint32_t i = 0; i < source.spheres; ++i) {
+    const std::uint32_t number = source.firstSphere + i;
+    addBoxed(number, sphereBounds(sphereMap(scene.triangles[number])));
+  }
+  if (items.numbers.empty()) return;
+  const GeometryHandle held(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
+  rtcSetGeometryUserPrimitiveCount(held.get(), static_cast<unsigned>(items.numbers.size()));
+  rtcSetGeometryUserData(held.get(), &items);
+  rtcSetGeometryBoundsFunction(held.get(), boundBox, nullptr);
+  rtcSetGeometryIntersectFunction(held.get(), intersectBoxed);
+  rtcSetGeometryOccludedFunction(held.get(), occludeBoxed);
+  rtcCommitGeometry(held.get());
+  rtcAttachGeometryByID(to, held.get(), kBoxed);
+}
+
+// Twice the rim in weights: along the least height a weight grows from 0 to 1.
+float RayQueries::Parts::marginOf(std::uint32_t number, const Corners& corners, double rim) const {
+  const Mask& mask = masks[scene.triangles[number].material];
+  if (mask.map || !mask.doubleSided) return std::numeric_limits<float>::infinity();
+  const Vec3d ab = corners[1] - corners[0], bc = corners[2] - corners[1],
+              ca = corners[0] - corners[2];
+  const double longest = std::max({length(ab), length(bc), length(ca)});
+  const double height = length(cross(ab, ca)) / longest;
+  return static_cast<float>(std::min(2 * rim / height, 1.0));
+}
+
+void RayQueries::Parts::addInstance(std::uint32_t number) {
+  const InstanceRecord& instance = scene.instances[number];
+  const QueryFrame& own = frames[instance.geometry];
+  const Affine& map = instance.toWorld;
+  const double factor = own.scale / frames[0].scale;
+  const Vec3f columns[4] = {Vec3f(map.x * factor), Vec3f(map.y * factor), Vec3f(map.z * factor),
+                            Vec3f(frames[0].of(map.point(own.center)))};
+  const GeometryHandle held(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE));
+  rtcSetGeometryInstancedScene(held.get(), scenes[instance.geometry].get());
+  rtcSetGeometryTransform(held.get(), 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+  rtcCommitGeometry(held.get());
+  rtcAttachGeometryByID(scenes[0].get(), held.get(), kFirstInstance + number);
+}
+
+// The signs of three volumes say on which sides of its edges a ray passes a triangle. All errors
+// are bounded by products of sums of magnitudes, which are above the lengths of the vectors.
+std::optional<QueryHit> RayQueries::Parts::meetTriangle(const QueryRay& ray,
+                                                        PlacedTriangleId id) const {
+  // Of a product of three vectors: seven roundings in a row, each of at most twice the bound.
+  constexpr double kRounding = 16 * 0x1p-53;
+  const Corners corners = worldCorners(scene, id.triangle, id.instance);
+  const Vec3d a = corners[0] - ray.origin, b = corners[1] - ray.origin, c = corners[2] - ray.origin;
+  const Vec3d ab = corners[1] - corners[0], bc = corners[2] - corners[1],
+              ca = corners[0] - corners[2];
+  const double sizeA = sumOf(a), sizeB = sumOf(b), sizeC = sumOf(c), sizeD = sumOf(ray.direction);
+  const double sizeAB = sumOf(ab), sizeBC = sumOf(bc), sizeCA = sumOf(ca);
+  double moved = 0;  // error of a carried corner
+  if (id.instance != kNoInstance) {
+    const Affine& map = scene.instances[id.instance].toWorld;
+    const float* p = scene.triangles[id.triangle].position;
+    for (int i = 0; i < 9; i += 3) {
+      moved = std::max(moved, 8 * 0x1p-53 * magnitudeOf({p[i], p[i + 1], p[i + 2]}, &map));
+    }
+  }
+  const auto errorOf = [&](double size, double edge) {
+    return sizeD * (kRounding * size * edge + 4 * moved * (size + edge + moved));
+  };
+  const double wa = dot(ray.direction, cross(b, bc)), wb = dot(ray.direction, cross(c, ca)),
+               wc = dot(ray.direction, cross(a, ab));
+  const double ea = errorOf(sizeB, sizeBC), eb = errorOf(sizeC, sizeCA),
+               ec = errorOf(sizeA, sizeAB);
+  const Lies la = lies(wa, ea), lb = lies(wb, eb), lc = lies(wc, ec);
+  const bool below = la == Lies::below || lb == Lies::below || lc == Lies::below;
+  const bool above = la == Lies::above || lb == Lies::above || lc == Lies::above;
+  if (below && above) return std::nullopt;
+  QueryHit hit;
+  hit.id = id;
+  hit.certain = la == lb && lb == lc && la != Lies::unknown;
+  const Vec3d normal = cross(ab, -ca);
+  const double height = dot(normal, a), slope = dot(normal, ray.direction);
+  const double area = kRounding * sizeAB * sizeCA + 4 * moved * (sizeAB + sizeCA + moved);
+  const double slopeError = area * sizeD;
+  if (std::abs(slope) <= slopeError) {
+    // The ray lies in the plane, where nothing is hit, or next to it.
+    if (std::abs(height) > area * sizeA + moved * sizeAB * sizeCA) return std::nullopt;
+    hit.t = dot(a, ray.direction) / dot(ray.direction, ray.direction);
+    hit.tError = (sizeAB + sizeCA) / length(ray.direction);
+    hit.certain = false;
+    return isOnRay(ray, hit) ? std::optional(hit) : std::nullopt;
+  }
+  hit.t = height / slope;
+  hit.tError = (area * sizeA + moved * sizeAB * sizeCA + std::abs(hit.t) * slopeError) /
+                   (std::abs(slope) - slopeError) +
+               0x1p-51 * std::abs(hit.t);
+  if (!isOnRay(ray, hit)) return std::nullopt;
+  const double sum = wa + wb + wc;
+  hit.u = std::clamp(wb / sum, 0.0, 1.0), hit.v = std::clamp(wc / sum, 0.0, 1.0 - hit.u);
+  const bool mirrored =
+      id.instance != kNoInstance && scene.instances[id.instance].toWorld.determinant() < 0;
+  hit.back = (slope > 0) != mirrored;
+  const TriangleRecord& record = scene.triangles[id.triangle];
+  const Mask& mask = masks[record.material];
+  if (hit.back && !mask.doubleSided) return std::nullopt;
+  if (mask.map) {
+    const float margin = marginAt<&Mask::cutoff>(mask, record.uv, static_cast<float>(hit.u),
+                                                 static_cast<float>(hit.v));
+    if (margin < 0) return std::nullopt;
+    hit.certain = hit.certain && margin > 0x1p-16f;
+  }
+  return hit;
+}
+
+// On the unit sphere the point of the ray next to the center says whether it is met, without
+// cancellation (see meetSphere() in bake/sphere.h).
+int RayQueries::Parts::meetSphere(const QueryRay& ray, PlacedTriangleId id,
+                                  QueryHit (&hits)[2]) const {
+  const Affine map = sphereInWorld(scene, id);
+  const std::array<Vec3d, 3> rows = inverseRows(map);
+  const Vec3d origin = multiply(rows, ray.origin - map.p), way = multiply(rows, ray.direction);
+  const double square = dot(way, way), along = -dot(origin, way) / square;
+  const Vec3d nearest = origin + way * along;
+  const double stretch = (sumOf(rows[0]) + sumOf(rows[1]) + sumOf(rows[2])) *
+                         (sumOf(map.x) + sumOf(map.y) + sumOf(map.z));
+  const double error = 64 * 0x1p-53 * stretch * (1 + sumOf(origin));
+  const double room = 1 - dot(nearest, nearest);
+  if (!(room > -error)) return 0;
+  const double half = std::sqrt(std::max(room, 0.0));
+  int count = 0;
+  for (const double sign : {-1.0, 1.0}) {
+    QueryHit hit;
+    hit.id = id;
+    hit.t = along + sign * half / std::sqrt(square);
+    hit.tError = (error + error / std::max(half, std::sqrt(error))) / std::sqrt(square);
+    hit.certain = room > error;
+    hit.back = sign > 0;
+    if (!isOnRay(ray, hit)) continue;
+    const std::array<double, 2> weights = sphereWeights(origin + way * hit.t);
+    hit.u = weights[0], hit.v = weights[1];
+    const Mask& mask = masks[scene.triangles[id.triangle].material];
+    if (mask.map) {
+      const auto [s, t] = sphereUv(spherePoint(hit.u, hit.v));
+      const float margin =
+          marginAt<&Mask::cutoff>(mask, static_cast<float>(s), static_cast<float>(t));
+      if (margin < 0) continue;
+      hit.certain = hit.certain && margin > 0x1p-16f;
+    }
+    hits[count++] = hit;
+  }
+  return count;
+}
+
+// True for surfaces in one place, for which the scene has a rule.
+bool RayQueries::Parts::arePartners(PlacedTriangleId a, PlacedTriangleId b) const {
+  if (scene.isSphere(a.triangle)) {
+    const auto place = scene.coincidentSpheres.find(orderOf(a));
+    return place != scene.coincidentSpheres.end() &&
+           std::ranges::find(*place->second, b) != place->second->end();
+  }
+  if (!scene.coplanar.any(a.triangle)) return false;
+  const auto partners = scene.coplanar.partnersOf(a);
+  return std::ranges::find(partners, b) != partners.end();
+}
+
+// The rule of render/settle_coplanar.cpp.
+bool RayQueries::Parts::comesBefore(PlacedTriangleId a, PlacedTriangleId b) const {
+  const auto preference = [&](PlacedTriangleId id) {
+    const std::uint32_t material = scene.triangles[id.triangle].material;
+    const std::uint8_t medium = scene.mediumOfMaterial[material];
+    const std::uint64_t rank =
+        scene.isSphere(id.triangle) ? orderOf(id) : scene.coplanar.rankOf(id);
+    return std::tuple(!scene.materials[material].passesLight(), medium == 0,
+                      scene.media[medium].priority, rank);
+  };
+  return preference(a) > preference(b);
+}
+
+// True where both are met on an edge or a corner that they share, from one side.
+bool RayQueries::Parts::areNeighbors(const QueryHit& a, const QueryHit& b) const {
+  if (a.certain || b.certain || a.back != b.back || a.id.instance != b.id.instance ||
+      scene.isSphere(a.id.triangle) || scene.isSphere(b.id.triangle)) {
+    return false;
+  }
+  const Corners own = worldCorners(scene, a.id.triangle, kNoInstance),
+                other = worldCorners(scene, b.id.triangle, kNoInstance);
+  return std::ranges::find_first_of(own, other) != own.end();
+}
+
+namespace {
+
+bool isNearer(const QueryHit& a, const QueryHit& b) {
+  return std::tuple(a.t, orderOf(a.id)) < std::tuple(b.t, orderOf(b.id));
+}
+bool mayBeAtOnce(const QueryHit& a, const QueryHit& b) {
+  return std::abs(a.t - b.t) <= a.tError + b.tError;
+}
+
+}  // namespace
+
+QueryHit RayQueries::Parts::nearestOf(std::vector<QueryHit>& hits) const {
+  if (hits.empty()) return {};
+  if (hits.size() == 1) return hits[0];
+  std::ranges::sort(hits, isNearer);
+  QueryHit nearest = hits[0];
+  for (const QueryHit& hit : hits) {
+    if (mayBeAtOnce(hit, hits[0]) && arePartners(nearest.id, hit.id) &&
+        comesBefore(hit.id, nearest.id)) {
+      nearest = hit;
+    }
+  }
+  for (const QueryHit& hit : hits) {
+    if (hit.id == nearest.id || hit.t - hit.tError > nearest.t + nearest.tError) continue;
+    // In the place of what the rule prefers another surface changes nothing.
+    if (!arePartners(nearest.id, hit.id)) nearest.certain = false;
+  }
+  return nearest;
+}
+
+void RayQueries::Parts::keepDistinct(std::vector<QueryHit>& hits) const {
+  std::ranges::sort(hits, isNearer);
+  std::vector<QueryHit> kept;
+  for (const QueryHit& hit : hits) {
+    bool isNew = true;
+    for (std::size_t i = kept.size(); i-- > 0 && isNew && mayBeAtOnce(kept[i], hit);) {
+      if (arePartners(kept[i].id, hit.id)) {
+        if (comesBefore(hit.id, kept[i].id)) kept[i] = hit;
+        isNew = false;
+      } else {
+        isNew = kept[i].id != hit.id && !areNeighbors(kept[i], hit);
+        // Which of the two is first is not known.
+        if (isNew) kept[i].certain = false;
+      }
+    }
+    if (isNew) kept.push_back(hit);
+  }
+  hits = std::move(kept);
+}
+
+RayQueries::RayQueries(const Scene& scene, int threads, Progress* progress)
+    : parts_(std::make_unique<Parts>(scene, threads, progress)) {}
+RayQueries::~RayQueries() = default;
+
+namespace {
+
+// Calls visit(batch, ray of the batch, ray) for each ray when it has been traced.
+template <typename Visitor>
+void ask(const RayQueries::Parts& parts, Ask what, std::span<const QueryRay> rays,
+         const Visitor& visit) {
+  RayBatch batch(parts, what);
+  for (std::size_t begin = 0; begin < rays.size(); begin += RayBatch::kRays) {
+    const std::size_t n = std::min(RayBatch::kRays, rays.size() - begin);
+    batch.trace(rays.subspan(begin, n));
+    for (std::size_t i = 0; i < n; ++i) visit(batch, i, begin + i);
+  }
+}
+
+}  // namespace
+
+void RayQueries::closest(std::span<const QueryRay> rays, QueryHit* hits) const {
+  ask(*parts_, Ask::closest, rays, [&](RayBatch& batch, std::size_t i, std::size_t ray) {
+    hits[ray] = batch.hasOthers() ? parts_->nearestOf(batch.hits(i)) : batch.first(i);
+    hits[ray].certain = hits[ray].certain && batch.answer(i).certain;
+  });
+}
+
+void RayQueries::blocked(std::span<const QueryRay> rays, Blocked* answers) const {
+  ask(*parts_, Ask::any, rays, [&](RayBatch& batch, std::size_t i, std::size_t ray) {
+    answers[ray] = batch.answer(i);
+  });
+}
+
+void RayQueries::all(std::span<const QueryRay> rays, std::size_t limit, std::vector<QueryHit>& hits,
+                     std::size_t* counts) const {
+  ask(*parts_, Ask::all, rays, [&](RayBatch& batch, std::size_t i, std::size_t ray) {
+    std::vector<QueryHit>& found = batch.hits(i);
+    parts_->keepDistinct(found);
+    counts[ray] = std::min(found.size(), limit);
+    for (std::size_t k = 0; k < counts[ray]; ++k) {
+      hits.push_back(found[k]);
+      hits.back().certain = found[k].certain && batch.answer(i).certain;
+    }
+  });
+}
+
+}  // namespace whit

@@ -1,0 +1,502 @@
+// Queries of rays through the public header: against whole numbers without rounding, against closed
+// forms, and against each other.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <random>
+#include <vector>
+
+#include "exact_rays.h"
+#include "library/whit.h"
+#include "library_scenes.h"
+
+namespace whit::api {
+namespace {
+
+using test::ExactHit;
+using test::WholePoint;
+using test::WholeRay;
+using test::WholeTriangle;
+
+// Rays of each kind. $WHIT_RAYS multiplies them: 20 asks some 10 million.
+std::size_t raysOfAKind() {
+  const char* const more = std::getenv("WHIT_RAYS");
+  return 12000 * static_cast<std::size_t>(more ? std::atoi(more) : 1);
+}
+
+// Triangles in whole numbers, and the factor, a power of two, that makes them coordinates.
+struct WholeScene {
+  std::vector<WholeTriangle> triangles;
+  double unit = 1;
+
+  Renderer renderer() const {
+    std::vector<float> positions;
+    for (const WholeTriangle& triangle : triangles) {
+      for (const WholePoint& corner : triangle) {
+        for (const std::int64_t x : corner) {
+          positions.push_back(static_cast<float>(static_cast<double>(x) * unit));
+        }
+      }
+    }
+    SceneBuilder builder;
+    builder.addMesh("mesh", {positions});
+    builder.addInstance("mesh");
+    Renderer made(builder.build());
+    made.closest({});  // reads the positions before they are gone
+    return made;
+  }
+};
+
+WholePoint randomPoint(std::mt19937& random, std::int64_t reach, const WholePoint& center = {}) {
+  std::uniform_int_distribution<std::int64_t> offset(-reach, reach);
+  return {center[0] + offset(random), center[1] + offset(random), center[2] + offset(random)};
+}
+
+// Triangles that cross each other.
+WholeScene crossing(std::mt19937& random, std::int64_t reach, const WholePoint& center) {
+  WholeScene scene;
+  for (int i = 0; i < 40; ++i) {
+    const WholePoint about = randomPoint(random, reach / 2, center);
+    const std::int64_t size = std::max<std::int64_t>(reach / (1 + i % 7), 2);
+    scene.triangles.push_back({randomPoint(random, size, about), randomPoint(random, size, about),
+                               randomPoint(random, size, about)});
+  }
+  return scene;
+}
+
+// A closed surface: a bumpy octahedron, whose triangles are divided three times.
+WholeScene closed(std::mt19937& random, std::int64_t reach, const WholePoint& center) {
+  std::uniform_real_distribution<double> bump(0.6, 1);
+  std::vector<std::array<double, 3>> points = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
+                                               {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
+  std::vector<std::array<std::size_t, 3>> faces = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
+                                                   {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+  for (int level = 0; level < 2; ++level) {
+    std::map<std::pair<std::size_t, std::size_t>, std::size_t> middles;
+    std::vector<std::array<std::size_t, 3>> finer;
+    const auto middle = [&](std::size_t a, std::size_t b) {
+      const auto [place, isNew] = middles.try_emplace(std::minmax(a, b), points.size());
+      if (isNew) {
+        std::array<double, 3> p;
+        for (std::size_t k = 0; k < 3; ++k) p[k] = points[a][k] + points[b][k];
+        const double length = std::hypot(p[0], p[1], p[2]);
+        for (double& x : p) x /= length;
+        points.push_back(p);
+      }
+      return place->second;
+    };
+    for (const auto& [a, b, c] : faces) {
+      const std::size_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+      finer.insert(finer.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+    }
+    faces = finer;
+  }
+  std::vector<WholePoint> corners;
+  for (const auto& p : points) {
+    const double size = bump(random) * static_cast<double>(reach);
+    WholePoint corner = center;
+    for (std::size_t k = 0; k < 3; ++k) corner[k] += std::llround(p[k] * size);
+    corners.push_back(corner);
+  }
+  WholeScene scene;
+  for (const auto& [a, b, c] : faces) {
+    scene.triangles.push_back({corners[a], corners[b], corners[c]});
+  }
+  return scene;
+}
+
+enum class Aim { anywhere, edges, corners };
+
+std::vector<WholeRay> randomRays(std::mt19937& random, const WholeScene& scene, Aim aim,
+                                 std::int64_t reach, const WholePoint& center, std::size_t count) {
+  std::vector<WholeRay> rays;
+  std::uniform_int_distribution<std::size_t> any(0, scene.triangles.size() - 1);
+  for (std::size_t i = 0; i < count; ++i) {
+    const WholePoint origin = randomPoint(random, 4 * reach, center);
+    const WholeTriangle& triangle = scene.triangles[any(random)];
+    WholePoint at = randomPoint(random, reach, center);
+    if (aim == Aim::corners) at = triangle[i % 3];
+    WholeRay ray{origin, {}};
+    for (std::size_t k = 0; k < 3; ++k) {
+      ray.direction[k] = at[k] - origin[k];
+      // Through the middle of an edge exactly: the direction is twice as long.
+      if (aim == Aim::edges) {
+        ray.direction[k] = triangle[i % 3][k] + triangle[(i + 1) % 3][k] - 2 * origin[k];
+      }
+    }
+    if (ray.direction != WholePoint{}) rays.push_back(ray);
+  }
+  return rays;
+}
+
+struct Columns {
+  std::vector<double> origins, directions;
+  Rays rays() const { return {{{}, origins}, {{}, directions}}; }
+};
+
+Columns columnsOf(const std::vector<WholeRay>& rays, double unit) {
+  Columns columns;
+  for (const WholeRay& ray : rays) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      columns.origins.push_back(static_cast<double>(ray.origin[k]) * unit);
+      columns.directions.push_back(static_cast<double>(ray.direction[k]) * unit);
+    }
+  }
+  return columns;
+}
+
+struct Tally {
+  std::size_t rays = 0, certain = 0, open = 0, wrong = 0;
+};
+
+// True if rounding may leave open what is hit at this place of the exact hits: on an edge, or
+// together with another.
+bool isOpen(const std::vector<ExactHit>& exact, std::size_t i) {
+  const auto together = [&](std::size_t a, std::size_t b) {
+    return b < exact.size() && !test::isNearer(exact[a], exact[b]);
+  };
+  return exact[i].onEdge || together(i, i + 1) || (i > 0 && together(i - 1, i));
+}
+
+// A border that is met exactly, of a triangle that is nearly seen from its edge: it may be missed.
+bool isBeyondPromise(const ExactHit& hit) {
+  constexpr double kLeastCosine = 1.0 / 16;
+  return hit.onEdge && hit.cosine < kLeastCosine;
+}
+
+void compare(const WholeScene& scene, const std::vector<WholeRay>& rays, Tally& tally) {
+  Renderer renderer = scene.renderer();
+  const Columns columns = columnsOf(rays, scene.unit);
+  const RayHits hits = renderer.closest(columns.rays());
+  const RayAnswers blocked = renderer.occluded(columns.rays());
+  const RayHits all = renderer.allHits(columns.rays());
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const std::vector<ExactHit> exact = test::exactHits(scene.triangles, rays[i]);
+    if (std::ranges::any_of(exact, isBeyondPromise)) continue;
+    ++tally.rays;
+    tally.certain += hits.certain[i];
+    tally.open += !exact.empty() && isOpen(exact, 0) ? 1 : 0;
+    bool right = hits.certain[i] == 0;
+    if (!right && exact.empty()) right = hits.sides[i] == 0;
+    if (!right && !exact.empty()) {
+      right = !isOpen(exact, 0) && hits.triangles[i] == exact[0].triangle &&
+              hits.sides[i] == (exact[0].front ? 1 : -1) &&
+              std::abs(hits.t[i] - exact[0].t()) <= hits.tError[i] + 0x1p-52 * hits.t[i];
+    }
+    if (blocked.certain[i] != 0) right = right && (blocked.yes[i] != 0) == !exact.empty();
+    right = right && (blocked.yes[i] != 0) == (hits.sides[i] != 0);
+    const std::size_t first = all.offsets[i], count = all.offsets[i + 1] - first;
+    const bool allCertain =
+        std::all_of(all.certain.begin() + static_cast<std::ptrdiff_t>(first),
+                    all.certain.begin() + static_cast<std::ptrdiff_t>(first + count),
+                    [](std::uint8_t c) { return c != 0; });
+    if (allCertain && hits.certain[i] != 0) {
+      right = right && count == exact.size();
+      for (std::size_t k = 0; right && k < count; ++k) {
+        right = all.triangles[first + k] == exact[k].triangle && !isOpen(exact, k);
+      }
+    }
+    if (right) continue;
+    ++tally.wrong;
+    ADD_FAILURE() << "ray " << i << ": t " << hits.t[i] << " of triangle " << hits.triangles[i]
+                  << ", " << count << " of " << exact.size() << " hits, exactly "
+                  << (exact.empty() ? -1 : exact[0].t()) << " of "
+                  << (exact.empty() ? 0 : exact[0].triangle);
+    if (tally.wrong > 5) return;
+  }
+}
+
+constexpr std::int64_t kReaches[] = {12, 1 << 10, 1 << 20};
+constexpr int kExponents[] = {-70, -20, 0, 24};
+
+template <typename MakeScene>
+Tally compareAll(const MakeScene& make, Aim aim) {
+  Tally tally;
+  std::mt19937 random(7);
+  for (const std::int64_t reach : kReaches) {
+    for (const int exponent : kExponents) {
+      // Near the origin, and as far from it as floats have these whole numbers.
+      for (const std::int64_t away : {std::int64_t{0}, (std::int64_t{1} << 24) - 2 * reach}) {
+        const WholePoint center{away, -away, away / 2};
+        WholeScene scene = make(random, reach, center);
+        scene.unit = std::ldexp(1.0, exponent);
+        const std::size_t count = raysOfAKind() / 24 + 1;
+        compare(scene, randomRays(random, scene, aim, reach, center, count), tally);
+      }
+    }
+  }
+  std::printf("%zu rays, %zu of them on edges, %zu certain, %zu wrong\n", tally.rays, tally.open,
+              tally.certain, tally.wrong);
+  return tally;
+}
+
+TEST(RayQueries, AreExactForRandomRays) {
+  // In scenes of few coordinates rays meet edges by chance; the others are certain.
+  for (const Tally& tally :
+       {compareAll(crossing, Aim::anywhere), compareAll(closed, Aim::anywhere)}) {
+    EXPECT_EQ(tally.wrong, 0u);
+    EXPECT_GE(tally.certain, (tally.rays - tally.open) * 999 / 1000);
+  }
+}
+
+TEST(RayQueries, FlagWhatPassesAnEdgeOrACorner) {
+  for (const Aim aim : {Aim::edges, Aim::corners}) {
+    EXPECT_EQ(compareAll(closed, aim).wrong, 0u);
+    EXPECT_EQ(compareAll(crossing, aim).wrong, 0u);
+  }
+}
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::uint32_t kNone = 0xffffffffu;
+
+Renderer rendererOf(const char* json) {
+  return Renderer(SceneBuilder("rays", json).build({.moves = true}));
+}
+
+// Rays down the z axis through points of the plane z = 0, from z = 4.
+struct Downwards {
+  explicit Downwards(const std::vector<std::array<double, 2>>& points) {
+    for (const auto& [x, y] : points) {
+      origins.insert(origins.end(), {x, y, 4});
+      directions.insert(directions.end(), {0, 0, -2});
+    }
+  }
+  Rays rays() const { return {{{}, origins}, {{}, directions}}; }
+  std::vector<double> origins, directions;
+};
+
+// Has the mesh of a square of side 1 about the origin, in the plane z = 0.
+SceneBuilder withSquare(const std::string& json) {
+  static constexpr float kPositions[] = {-.5f, -.5f, 0, .5f, -.5f, 0, .5f, .5f, 0, -.5f, .5f, 0};
+  static constexpr float kUvs[] = {0, 0, 1, 0, 1, 1, 0, 1};
+  static constexpr std::uint32_t kTriangles[] = {0, 1, 2, 0, 2, 3};
+  SceneBuilder builder("rays", json);
+  builder.addMesh("square", {kPositions, kTriangles, {}, kUvs});
+  return builder;
+}
+
+TEST(RayQueries, FindSpheresInClosedForm) {
+  Renderer renderer = rendererOf(R"({"scene": [
+      {"shape": "sphere", "radius": 1},
+      {"shape": "sphere", "radius": 1, "transform": {"translate": [10, 0, 0], "scale": [2, 1, 0.5]}}]})");
+  std::vector<std::array<double, 2>> points;
+  for (int i = 0; i < 400; ++i) points.push_back({-1.2 + 0.006 * i, 0.3});
+  for (int i = 0; i < 400; ++i) points.push_back({7.5 + 0.0125 * i, -0.4});
+  const Downwards down(points);
+  const RayHits hits = renderer.closest(down.rays()), all = renderer.allHits(down.rays());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto& [x, y] = points[i];
+    const bool first = i < 400;
+    const double room = first ? 1 - x * x - y * y : 1 - (x - 10) * (x - 10) / 4 - y * y;
+    ASSERT_EQ(hits.certain[i], 1) << i;
+    ASSERT_EQ(hits.sides[i], room > 0 ? 1 : 0) << i;
+    ASSERT_EQ(all.offsets[i + 1] - all.offsets[i], room > 0 ? 2u : 0u) << i;
+    if (room < 0) continue;
+    const double z = std::sqrt(room) * (first ? 1 : 0.5);
+    EXPECT_NEAR(hits.t[i], (4 - z) / 2, hits.tError[i]);
+    EXPECT_LT(hits.tError[i], 1e-11);              // a root of two roundings where it grazes
+    EXPECT_NEAR(hits.points[3 * i + 2], z, 1e-6);  // the point's weights are in float
+    EXPECT_NEAR(all.t[all.offsets[i] + 1], (4 + z) / 2, all.tError[all.offsets[i] + 1]);
+    EXPECT_EQ(all.sides[all.offsets[i] + 1], -1);
+    EXPECT_EQ(hits.objects[i], first ? 0u : 1u);
+    // The normal of x^2/a^2 + y^2/b^2 + z^2/c^2 = 1.
+    const double nx = first ? x : (x - 10) / 4, ny = y, nz = first ? z : z / 0.25;
+    EXPECT_NEAR(hits.shadingNormals[3 * i], nx / std::hypot(nx, ny, nz), 1e-5);
+  }
+}
+
+TEST(RayQueries, FindInstancesWhereTheyStand) {
+  // Mirrored, turned, stretched, and very small beside the others.
+  SceneBuilder builder = withSquare("{}");
+  const std::vector<Matrix> places{{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0},
+                                   {-3, 0, 0, 5, 0, 1, 0, 0, 0, 0, 1, 1},
+                                   {0, -2, 0, 0, 1, 0, 0, 5, 0, 0, 1, -1},
+                                   {1e-4, 0, 0, 5, 0, 1e-4, 0, 5, 0, 0, 1, 2}};
+  for (const Matrix& place : places) builder.addInstance("square", "", place);
+  Renderer renderer(builder.build());
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> inside(-0.49, 0.49);
+  std::vector<std::array<double, 2>> points;
+  for (int i = 0; i < 400; ++i) {
+    const Matrix& m = places[static_cast<std::size_t>(i % 4)];
+    const double x = inside(random), y = inside(random);
+    points.push_back({m[0] * x + m[1] * y + m[3], m[4] * x + m[5] * y + m[7]});
+  }
+  const Downwards down(points);
+  const RayHits hits = renderer.closest(down.rays());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    ASSERT_EQ(hits.instances[i], i % 4);
+    EXPECT_EQ(hits.objects[i], i % 4);
+    EXPECT_EQ(hits.certain[i], 1);
+    EXPECT_NEAR(hits.t[i], (4 - places[i % 4][11]) / 2, hits.tError[i]);
+    EXPECT_EQ(hits.sides[i], 1);  // a mirrored front is a front
+    EXPECT_FLOAT_EQ(hits.geometricNormals[3 * i + 2], 1);
+  }
+}
+
+TEST(RayQueries, HitOneOfCoplanarSurfaces) {
+  SceneBuilder builder = withSquare(R"({"materials": {"a": {}, "b": {}}})");
+  builder.addInstance("square", "a");
+  builder.addInstance("square", "b");  // written later, so it is hit
+  Renderer renderer(builder.build());
+  const Downwards down({{0.1, 0.2}, {-0.3, 0.05}, {0.7, 0}});
+  const RayHits hits = renderer.closest(down.rays()), all = renderer.allHits(down.rays());
+  EXPECT_EQ(hits.certain[0] + hits.certain[1] + hits.certain[2], 3);
+  EXPECT_EQ(hits.objects[0], 1u);
+  EXPECT_EQ(hits.objects[1], 1u);
+  EXPECT_EQ(hits.objects[2], kNone);
+  EXPECT_EQ(all.t.size(), 2u);
+}
+
+TEST(RayQueries, CutMasksAndPassBacksAsPicturesDo) {
+  SceneBuilder builder = withSquare(R"({"materials": {
+      "holes": {"alphaMap": "mask"}, "front": {"doubleSided": false}}})");
+  static constexpr float kMask[] = {1, 1, 1, 0};  // gray and alpha: the right half is cut
+  builder.addTexture("mask", {2, 1, 2, {}, kMask});
+  builder.addInstance("square", "holes", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1});
+  builder.addInstance("square", "front", {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0});
+  builder.addInstance("square", "", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, -1});
+  Renderer renderer(builder.build());
+  const Downwards down({{-0.3, 0.1}, {0.3, 0.1}});
+  const RayHits hits = renderer.closest(down.rays());
+  EXPECT_DOUBLE_EQ(hits.t[0], 1.5);
+  EXPECT_EQ(hits.objects[1], hits.t[1] == 2 ? 1u : 2u);
+  EXPECT_EQ(hits.certain[0] + hits.certain[1], 2);
+}
+
+TEST(RayQueries, AnswerAtThePresentTime) {
+  Renderer renderer = rendererOf(R"({"scene": [{"shape": "sphere", "radius": 1, "motion":
+      {"keys": [{"time": 0}, {"time": 2, "translate": [0, 0, 2]}]}}]})");
+  const Downwards down({{0, 0}});
+  EXPECT_DOUBLE_EQ(renderer.closest(down.rays()).t[0], 1.5);
+  renderer.setTime(1);
+  EXPECT_DOUBLE_EQ(renderer.closest(down.rays()).t[0], 1);
+}
+
+TEST(RayQueries, CountHitsBetweenTheLimits) {
+  Renderer renderer = rendererOf(R"({"scene": [{"shape": "sphere", "radius": 1}]})");
+  const Downwards down({{0.1, 0.1}});
+  const double near = renderer.closest(down.rays()).t[0];
+  const auto tOf = [&](double from, double to) {
+    const double limits[] = {from, to};
+    Rays rays = down.rays();
+    rays.near.doubles = {limits, 1}, rays.far.doubles = {limits + 1, 1};
+    return renderer.closest(rays).t[0];
+  };
+  EXPECT_EQ(tOf(near - 0.01, near + 0.01), near);
+  EXPECT_GT(tOf(near + 0.01, 9), near + 0.1);
+  EXPECT_EQ(tOf(0, near - 0.01), kInfinity);
+  EXPECT_EQ(tOf(3, 2), kInfinity);
+}
+
+TEST(RayQueries, DoNotDependOnTheOtherRays) {
+  std::mt19937 random(11);
+  const WholeScene scene = crossing(random, 1 << 10, {});
+  std::vector<WholeRay> rays = randomRays(random, scene, Aim::anywhere, 1 << 10, {}, 3000);
+  for (int i = 0; i < 3000; ++i) rays[static_cast<std::size_t>(i)].origin[0] += i % 2;
+  // Rays of a camera, which go as packets.
+  for (int i = 0; i < 4096; ++i) {
+    rays.push_back({{100, 200, 4000}, {i % 64 * 40 - 1280, i / 64 * 40 - 1280, -4000}});
+  }
+  Renderer renderer = scene.renderer();
+  const Columns columns = columnsOf(rays, 1);
+  const RayHits together = renderer.set("threads", "3").closest(columns.rays());
+  for (std::size_t i = 0; i < rays.size(); i += 7) {
+    const Columns one = columnsOf({rays[i]}, 1);
+    const RayHits alone = renderer.closest(one.rays());
+    ASSERT_EQ(alone.t[0], together.t[i]) << i;
+    ASSERT_EQ(alone.triangles[0], together.triangles[i]) << i;
+    ASSERT_EQ(alone.certain[0], together.certain[i]) << i;
+  }
+}
+
+TEST(RayQueries, TakeFloatsAsDoubles) {
+  Renderer renderer = rendererOf(R"({"scene": [{"shape": "sphere", "radius": 1}]})");
+  const float origin[] = {0.1f, 0.2f, 4}, direction[] = {0, 0.1f, -1};
+  const double origin2[] = {double{0.1f}, double{0.2f}, 4}, direction2[] = {0, double{0.1f}, -1};
+  const RayHits a = renderer.closest({{origin, {}}, {direction, {}}}),
+                b = renderer.closest({{{}, origin2}, {{}, direction2}});
+  EXPECT_EQ(a.t[0], b.t[0]);
+  EXPECT_TRUE(std::isfinite(a.t[0]));
+}
+
+TEST(RayQueries, SayWhatTheyCannotTake) {
+  Renderer renderer = rendererOf(R"({"scene": [{"shape": "sphere", "radius": 1}]})");
+  const std::vector<double> three{0, 0, 4}, six{0, 0, -1, 0, 0, -1}, four{0, 0, -1, 0};
+  const auto statusOfRays = [&](const Rays& rays) {
+    return errorOf([&] { renderer.closest(rays); }).status();
+  };
+  EXPECT_EQ(statusOfRays({{{}, three}, {{}, six}}), 2);
+  EXPECT_EQ(statusOfRays({{{}, four}, {{}, four}}), 2);
+  EXPECT_EQ(statusOfRays({{{}, six}, {{}, six}, {{}, three}}), 2);
+  EXPECT_EQ(errorOf([&] {
+              renderer.ambientOcclusion({{}, three}, {{}, three}, 0, 4);
+            }).status(),
+            2);
+  // Rays that go nowhere hit nothing, and it is not certain that they mean it.
+  const double nan = std::nan("");
+  const std::vector<double> origins{0, 0, 4, nan, 0, 4, 0, 0, kInfinity, 1e60, 0, 0};
+  const std::vector<double> directions{0, 0, 0, 0, 0, -1, 0, 0, -1, -1, 0, 0};
+  const RayHits hits = renderer.closest({{{}, origins}, {{}, directions}});
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(hits.t[i], kInfinity);
+    EXPECT_EQ(hits.certain[i], 0);
+  }
+  EXPECT_EQ(hits.certain[3], 0);
+  const RayHits none = renderer.closest({});
+  EXPECT_EQ(none.t.size(), 0u);
+}
+
+// A square above the point, of half-side a in the height h, hides this share of the light of an
+// even sky: its form factor (Siegel and Howell, "Thermal Radiation Heat Transfer", a corner of a
+// parallel rectangle, four times).
+double coveredBySquare(double a, double h) {
+  const double x = a / h, root = std::sqrt(1 + x * x);
+  return 4 * 2 * (x / root * std::atan(x / root)) / (2 * std::numbers::pi);
+}
+
+TEST(RayQueries, FindAmbientOcclusionInClosedForm) {
+  SceneBuilder builder = withSquare("{}");
+  builder.addInstance("square", "", {100, 0, 0, 0, 0, 100, 0, 0, 0, 0, 1, 0});
+  builder.addInstance("square", "", {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1, 1});
+  Renderer renderer(builder.build());
+  const double point[] = {0, 0, 0}, normal[] = {0, 0, 1};
+  constexpr int kSamples = 4096;
+  // An even lattice of N points is off by less than the half of 1/sqrt(N) of random ones.
+  EXPECT_NEAR(renderer.ambientOcclusion({{}, point}, {{}, normal}, 10, kSamples)[0],
+              1 - coveredBySquare(1, 1), 0.5 / std::sqrt(kSamples));
+  EXPECT_EQ(renderer.ambientOcclusion({{}, point}, {{}, normal}, 0.5, kSamples)[0], 1);
+}
+
+TEST(RayQueries, SeeFromSurfaceToSurface) {
+  SceneBuilder builder = withSquare("{}");
+  // A floor, a ceiling and a screen between, far from the origin.
+  for (const double height : {0.0, 2.0}) {
+    builder.addInstance("square", "", {8, 0, 0, 3000, 0, 8, 0, 1000, 0, 0, 1, height});
+  }
+  builder.addInstance("square", "", {1, 0, 0, 3000, 0, 1, 0, 1000, 0, 0, 1, 1});
+  Renderer renderer(builder.build());
+  std::vector<double> floor, ceiling, normals;
+  std::vector<std::uint8_t> expected;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> place(-3.9, 3.9);
+  for (int i = 0; i < 2000; ++i) {
+    const double a[] = {place(random), place(random)}, b[] = {place(random), place(random)};
+    const double x = (a[0] + b[0]) / 2, y = (a[1] + b[1]) / 2;
+    floor.insert(floor.end(), {3000 + a[0], 1000 + a[1], 0});
+    ceiling.insert(ceiling.end(), {3000 + b[0], 1000 + b[1], 2});
+    normals.insert(normals.end(), {0, 0, 1});
+    expected.push_back(std::max(std::abs(x), std::abs(y)) > 0.5 ? 1 : 0);
+  }
+  const Numbers from{{}, floor}, to{{}, ceiling}, about{{}, normals};
+  EXPECT_EQ(renderer.visible(from, to).yes, expected);
+  EXPECT_EQ(renderer.visible(from, to, about, about).yes, expected);
+}
+
+}  // namespace
+}  // namespace whit::api

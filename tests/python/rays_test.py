@@ -1,0 +1,110 @@
+"""Queries of rays from arrays: shapes, kinds of numbers, and what is refused. What they find is
+tested in tests/example/rays_test.cpp."""
+
+import threading
+import unittest
+
+import numpy as np
+
+import whit
+from samples import square_scene
+
+DOWN = np.array([0.0, -1.0, 0.0])
+
+
+def grid(rows, columns):
+    """Points above the square, which lies in y = 0 from -1 to 1."""
+    x, z = np.meshgrid(np.linspace(-1.5, 1.5, columns), np.linspace(-1.4, 1.4, rows))
+    return np.stack([x, np.full_like(x, 2.0), z], -1)
+
+
+class Rays(unittest.TestCase):
+    def setUp(self):
+        self.scene = whit.Scene(square_scene())
+
+    def test_shapes_and_values(self):
+        points = grid(4, 5)
+        hits = self.scene.closest(points, DOWN)
+        inside = (abs(points[..., 0]) < 1) & (abs(points[..., 2]) < 1)
+        np.testing.assert_array_equal(hits.hit, inside)
+        np.testing.assert_array_equal(hits.t, np.where(inside, 2.0, np.inf))
+        np.testing.assert_allclose(hits.point[inside], points[inside] * (1, 0, 1), atol=1e-15)
+        self.assertEqual(hits.geometric_normal.shape, (4, 5, 3))
+        np.testing.assert_array_equal(hits.geometric_normal[inside] * hits.side[inside, None],
+                                      np.tile([0, 1, 0], (inside.sum(), 1)))
+        self.assertTrue((hits.object[inside] == 0).all())
+        self.assertTrue((hits.object[~inside] == 0xffffffff).all())
+        np.testing.assert_array_equal(self.scene.occluded(points, DOWN), inside)
+        everything = self.scene.all_hits(points, DOWN)
+        np.testing.assert_array_equal(np.diff(everything.offsets.astype(int)), inside.ravel())
+        self.assertEqual(everything.point.shape, (inside.sum(), 3))
+
+    def test_any_kind_of_numbers(self):
+        points = grid(3, 3).astype(np.float32)
+        expected = self.scene.closest(points, DOWN).t
+        for kind in (np.float64, np.float16, list):
+            same = points.tolist() if kind is list else points.astype(kind)
+            tolerance = 1e-2 if kind is np.float16 else 0
+            np.testing.assert_allclose(self.scene.closest(same, DOWN).t, expected, tolerance)
+        strided = np.asfortranarray(points)[::-1]
+        np.testing.assert_array_equal(self.scene.closest(strided, DOWN).t, expected[::-1])
+
+    def test_limits(self):
+        points = grid(3, 3)
+        self.assertFalse(self.scene.occluded(points, DOWN, t_far=1.9).any())
+        far = np.full((3, 3), 2.5)
+        far[1, 1] = 1
+        self.assertFalse(self.scene.occluded(points, DOWN, t_far=far)[1, 1])
+
+    def test_between_surfaces(self):
+        points = np.array([[0.5, 0, 0], [0, 0, 0.5]])
+        self.assertTrue(self.scene.visible(points, [0, 3, 0]).all())
+        seen, certain = self.scene.visible(points + [0, -1, 0], [0, 3, 0], return_certain=True)
+        self.assertFalse(seen.any())
+        self.assertEqual(certain.shape, (2,))
+        open_ = self.scene.ambient_occlusion(points, [0, 1, 0], 10, 16)
+        np.testing.assert_array_equal(open_, [1, 1])
+
+    def test_nothing_to_ask(self):
+        hits = self.scene.closest(np.empty((0, 3)), np.empty((0, 3)))
+        self.assertEqual(hits.point.shape, (0, 3))
+        self.assertEqual(self.scene.all_hits(grid(1, 1) + 9, DOWN).t.shape, (0,))
+
+    def test_what_is_refused(self):
+        for origins, directions, words in ((np.zeros((2, 2)), DOWN, "origins"),
+                                           (np.zeros((2, 3)), np.zeros((3, 3)), "directions"),
+                                           ("here", DOWN, "origins"),
+                                           (np.zeros(3), None, "directions")):
+            with self.assertRaisesRegex(whit.Error, words):
+                self.scene.closest(origins, directions)
+        with self.assertRaisesRegex(whit.Error, "t_far"):
+            self.scene.closest(np.zeros((2, 3)), DOWN, t_far=np.zeros(3))
+        with self.assertRaisesRegex(whit.Error, "radius"):
+            self.scene.ambient_occlusion(np.zeros(3), DOWN, -1)
+
+    def test_progress_can_end_it(self):
+        points = np.zeros((300000, 3)) + [0, 1, 0]
+        with self.assertRaises(whit.Error) as raised:
+            self.scene.closest(points, DOWN, progress=lambda phase, done: False)
+        self.assertEqual(raised.exception.exit_status, 130)
+        self.assertTrue(self.scene.occluded([0, 1, 0], DOWN))
+
+    def test_threads_ask_in_turn(self):
+        points = grid(40, 40)
+        expected = self.scene.closest(points, DOWN).t
+        found = [None] * 4
+
+        def ask(i):
+            found[i] = self.scene.closest(points, DOWN).t
+
+        threads = [threading.Thread(target=ask, args=(i,)) for i in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        for t in found:
+            np.testing.assert_array_equal(t, expected)
+
+
+if __name__ == "__main__":
+    unittest.main()
