@@ -36,13 +36,15 @@ constexpr double kBall = 1.25;
 constexpr double kRim = 0x1p-17, kAlong = 0x1p-13;
 // Beyond this distance of its origin a ray's way into the ball is not known to the width of a rim.
 constexpr double kFarthestOrigin = 0x1p30;
-// Triangles with a sharper corner than this sine, and all of objects that are this small against
-// the error of carrying a ray to them, are not enlarged: each is tested where Embree finds its box.
-constexpr double kSharpest = 0x1p-10, kWidestRim = 0x1p-6, kWidestBox = 1e6;
+// Sharper corners than this sine grow in length as those with this sine do.
+constexpr double kSharpest = 0x1p-10;
+// Of an object that is vanishingly small beside the scene: floats have to hold what it becomes.
+constexpr double kWidestRim = 1e6;
 // Products with shorter or longer directions could leave the range of numbers.
 constexpr double kShortest = 1e-100, kLongest = 1e100;
 
-constexpr unsigned kTriangles = 0, kBoxed = 1, kFirstInstance = 2;  // numbers of Embree geometries
+constexpr unsigned kTriangles = 0, kSpheres = 1,
+                   kFirstInstance = 2;  // numbers of Embree geometries
 constexpr std::size_t kPacket = 16;
 constexpr float kNowhere = -std::numeric_limits<float>::infinity();
 // The sum of the squares by which origins and directions of rays of a packet differ.
@@ -55,17 +57,15 @@ QueryFrame frameAround(const Box& box) {
   return {box.center(), std::ldexp(1.0, exponent)};
 }
 
-// Moves the edges of a triangle outwards; false where a corner is too sharp for that.
-bool enlarge(Corners& corners, double by) {
-  const Corners old = corners;
+// Moves the edges of a triangle outwards.
+Corners enlarged(const Corners& corners, double by) {
+  Corners result;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3d one = normalized(old[(i + 1) % 3] - old[i]),
-                other = normalized(old[(i + 2) % 3] - old[i]);
-    const double sine = length(cross(one, other));
-    if (!(sine > kSharpest)) return false;
-    corners[i] = old[i] - (one + other) * (by / sine);
+    const Vec3d one = normalized(corners[(i + 1) % 3] - corners[i]),
+                other = normalized(corners[(i + 2) % 3] - corners[i]);
+    result[i] = corners[i] - (one + other) * (by / std::max(length(cross(one, other)), kSharpest));
   }
-  return true;
+  return result;
 }
 
 double sumOf(const Vec3d& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
@@ -94,16 +94,17 @@ struct EnlargedTriangles {
   std::vector<float> margins;
 };
 
-// What is tested by itself where Embree finds its box: spheres, and triangles that are too sharp.
-struct BoxedItems {
-  std::vector<std::uint32_t> numbers;  // in Scene::triangles
+// The spheres of an Embree geometry. Each is tested where Embree finds its box.
+struct QuerySpheres {
+  std::uint32_t first = 0;  // in Scene::triangles
   std::vector<Box> boxes;
 };
 
 struct RayQueries::Parts {
   Parts(const Scene& scene_, int threads, Progress* progress);
 
-  void addGeometry(std::size_t index, double rim, int threads);
+  void addTriangles(std::size_t index, double rim, int threads);
+  void addSpheres(std::size_t index, double rim);
   void addInstance(std::uint32_t number);
   float marginOf(std::uint32_t number, const Corners& corners, double rim) const;
 
@@ -118,8 +119,8 @@ struct RayQueries::Parts {
   const Scene& scene;
   std::vector<Mask> masks;
   std::vector<QueryFrame> frames;  // one a geometry; the first is the world's
-  std::deque<EnlargedTriangles> enlarged;
-  std::deque<BoxedItems> boxed;
+  std::deque<EnlargedTriangles> triangles;
+  std::deque<QuerySpheres> spheres;
   DeviceHandle device;
   std::vector<SceneHandle> scenes;  // one a geometry
 };
@@ -217,17 +218,17 @@ void filterCandidates(const RTCFilterFunctionNArguments* args) {
 }
 
 void boundBox(const RTCBoundsFunctionArguments* args) {
-  const Box& box = static_cast<const BoxedItems*>(args->geometryUserPtr)->boxes[args->primID];
+  const Box& box = static_cast<const QuerySpheres*>(args->geometryUserPtr)->boxes[args->primID];
   RTCBounds& to = *args->bounds_o;
   to.lower_x = box.lower.x, to.lower_y = box.lower.y, to.lower_z = box.lower.z;
   to.upper_x = box.upper.x, to.upper_y = box.upper.y, to.upper_z = box.upper.z;
 }
 
 template <typename Arguments>
-void meetBoxed(const Arguments& args, RTCRayN* rays) {
+void meetSpheres(const Arguments& args, RTCRayN* rays) {
   RayBatch& batch = *static_cast<RayBatch*>(batchOf(args.context));
-  const auto& items = *static_cast<const BoxedItems*>(args.geometryUserPtr);
-  const PlacedTriangleId id = placed(args.context, items.numbers[args.primID]);
+  const auto& spheres = *static_cast<const QuerySpheres*>(args.geometryUserPtr);
+  const PlacedTriangleId id = placed(args.context, spheres.first + args.primID);
   for (unsigned lane = 0; lane < args.N; ++lane) {
     if (args.valid[lane] == 0) continue;
     float& tFar = RTCRayN_tfar(rays, args.N, lane);
@@ -236,10 +237,10 @@ void meetBoxed(const Arguments& args, RTCRayN* rays) {
   }
 }
 
-void intersectBoxed(const RTCIntersectFunctionNArguments* args) {
-  meetBoxed(*args, RTCRayHitN_RayN(args->rayhit, args->N));
+void intersectSpheres(const RTCIntersectFunctionNArguments* args) {
+  meetSpheres(*args, RTCRayHitN_RayN(args->rayhit, args->N));
 }
-void occludeBoxed(const RTCOccludedFunctionNArguments* args) { meetBoxed(*args, args->ray); }
+void occludeSpheres(const RTCOccludedFunctionNArguments* args) { meetSpheres(*args, args->ray); }
 
 // False where it is not known what of the scene the ray may meet.
 bool RayBatch::start(const QueryRay& ray, Start& to) const {
@@ -451,80 +452,69 @@ RayQueries::Parts::Parts(const Scene& scene_, int threads, Progress* progress)
     const double squares = dot(map.x, map.x) + dot(map.y, map.y) + dot(map.z, map.z);
     const double least = 2 * std::abs(map.determinant()) / squares;
     double& rim = rims[instance.geometry];
-    rim = std::max(rim, kRim * (1 + frames[0].scale / (frames[instance.geometry].scale * least)));
+    const double carried = 1 + frames[0].scale / (frames[instance.geometry].scale * least);
+    rim = std::min(std::max(rim, kRim * carried), kWidestRim);
   }
   for (std::size_t g = scene.geometries.size(); g-- > 0;) {
-    addGeometry(g, rims[g], threads);
+    addTriangles(g, rims[g], threads);
+    addSpheres(g, rims[g]);
     for (std::uint32_t i = 0; g == 0 && i < scene.instances.size(); ++i) addInstance(i);
     commitScene(device.get(), scenes[g].get(), progress);
   }
 }
 
-void RayQueries::Parts::addGeometry(std::size_t index, double rim, int threads) {
+void RayQueries::Parts::addTriangles(std::size_t index, double rim, int threads) {
   const Geometry& source = scene.geometries[index];
-  const QueryFrame& frame = frames[index];
   const std::size_t count = source.index.size();
-  RTCScene const to = scenes[index].get();
-  BoxedItems& items = boxed.emplace_back();
-  const auto addBoxed = [&](std::uint32_t number, const Box& box) {
-    const Vec3f room(static_cast<float>(std::min(2 * rim + kRim, kWidestBox)));
-    items.numbers.push_back(number);
-    Box& own = items.boxes.emplace_back();
-    own.lower = Vec3f(frame.of(Vec3d(box.lower))) - room;
-    own.upper = Vec3f(frame.of(Vec3d(box.upper))) + room;
-  };
-  if (count > 0) {
-    const GeometryHandle held(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
-    auto* const vertices = static_cast<Vec3f*>(rtcSetNewGeometryBuffer(
-        held.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f), 3 * count));
-    auto* const indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-        held.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), count));
-    if (!vertices || !indices) throwLimit("rays: Embree is out of memory");
-    EnlargedTriangles& triangles = enlarged.emplace_back();
-    triangles.first = source.firstTriangle;
-    triangles.margins.resize(count);
-    std::vector<std::uint8_t> isBoxed(count);
-    std::iota(indices, indices + 3 * count, 0u);
-    constexpr std::size_t kChunk = 4096;
-    parallelFor(threads, (count + kChunk - 1) / kChunk, [&](std::size_t chunk, int) {
-      for (std::size_t i = chunk * kChunk; i < std::min((chunk + 1) * kChunk, count); ++i) {
-        const auto number = source.firstTriangle + static_cast<std::uint32_t>(i);
-        Corners corners = worldCorners(scene, number, kNoInstance);
-        for (Vec3d& corner : corners) corner = frame.of(corner);
-        triangles.margins[i] = marginOf(number, corners, rim);
-        isBoxed[i] = rim > kWidestRim || !enlarge(corners, rim) ? 1 : 0;
-        // A triangle of one point is never hit.
-        for (std::size_t k = 0; k < 3; ++k) {
-          vertices[3 * i + k] = isBoxed[i] != 0 ? Vec3f() : Vec3f(corners[k]);
-        }
-      }
-    });
-    for (std::size_t i = 0; i < count; ++i) {
-      if (isBoxed[i] == 0) continue;
-      const auto number = source.firstTriangle + static_cast<std::uint32_t>(i);
-      Box box;
-      for (const Vec3d& corner : worldCorners(scene, number, kNoInstance)) box.add(Vec3f(corner));
-      addBoxed(number, box);
+  if (count == 0) return;
+  const GeometryHandle held(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
+  auto* const vertices = static_cast<Vec3f*>(rtcSetNewGeometryBuffer(
+      held.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f), 3 * count));
+  auto* const indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
+      held.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), count));
+  if (!vertices || !indices) throwLimit("rays: Embree is out of memory");
+  std::iota(indices, indices + 3 * count, 0u);
+  EnlargedTriangles& own = triangles.emplace_back();
+  own.first = source.firstTriangle;
+  own.margins.resize(count);
+  constexpr std::size_t kChunk = 4096;
+  parallelFor(threads, (count + kChunk - 1) / kChunk, [&](std::size_t chunk, int) {
+    for (std::size_t i = chunk * kChunk; i < std::min((chunk + 1) * kChunk, count); ++i) {
+      const auto number = own.first + static_cast<std::uint32_t>(i);
+      Corners corners = worldCorners(scene, number, kNoInstance);
+      for (Vec3d& corner : corners) corner = frames[index].of(corner);
+      own.margins[i] = marginOf(number, corners, rim);
+      corners = enlarged(corners, rim);
+      std::ranges::transform(corners, vertices + 3 * i, [](const Vec3d& p) { return Vec3f(p); });
     }
-    rtcSetGeometryUserData(held.get(), &triangles);
-    rtcSetGeometryIntersectFilterFunction(held.get(), filterCandidates);
-    rtcSetGeometryOccludedFilterFunction(held.get(), filterCandidates);
-    rtcCommitGeometry(held.get());
-    rtcAttachGeometryByID(to, held.get(), kTriangles);
-  }
-  for (std::uint32_t i = 0; i < source.spheres; ++i) {
-    const std::uint32_t number = source.firstSphere + i;
-    addBoxed(number, sphereBounds(sphereMap(scene.triangles[number])));
-  }
-  if (items.numbers.empty()) return;
-  const GeometryHandle held(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
-  rtcSetGeometryUserPrimitiveCount(held.get(), static_cast<unsigned>(items.numbers.size()));
-  rtcSetGeometryUserData(held.get(), &items);
-  rtcSetGeometryBoundsFunction(held.get(), boundBox, nullptr);
-  rtcSetGeometryIntersectFunction(held.get(), intersectBoxed);
-  rtcSetGeometryOccludedFunction(held.get(), occludeBoxed);
+  });
+  rtcSetGeometryUserData(held.get(), &own);
+  rtcSetGeometryIntersectFilterFunction(held.get(), filterCandidates);
+  rtcSetGeometryOccludedFilterFunction(held.get(), filterCandidates);
   rtcCommitGeometry(held.get());
-  rtcAttachGeometryByID(to, held.get(), kBoxed);
+  rtcAttachGeometryByID(scenes[index].get(), held.get(), kTriangles);
+}
+
+void RayQueries::Parts::addSpheres(std::size_t index, double rim) {
+  const Geometry& source = scene.geometries[index];
+  if (source.spheres == 0) return;
+  QuerySpheres& own = spheres.emplace_back();
+  own.first = source.firstSphere;
+  for (std::uint32_t i = 0; i < source.spheres; ++i) {
+    const Box box = sphereBounds(sphereMap(scene.triangles[own.first + i]));
+    const Vec3d room(2 * rim + kRim);
+    Box& to = own.boxes.emplace_back();
+    to.lower = Vec3f(frames[index].of(Vec3d(box.lower)) - room);
+    to.upper = Vec3f(frames[index].of(Vec3d(box.upper)) + room);
+  }
+  const GeometryHandle held(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
+  rtcSetGeometryUserPrimitiveCount(held.get(), source.spheres);
+  rtcSetGeometryUserData(held.get(), &own);
+  rtcSetGeometryBoundsFunction(held.get(), boundBox, nullptr);
+  rtcSetGeometryIntersectFunction(held.get(), intersectSpheres);
+  rtcSetGeometryOccludedFunction(held.get(), occludeSpheres);
+  rtcCommitGeometry(held.get());
+  rtcAttachGeometryByID(scenes[index].get(), held.get(), kSpheres);
 }
 
 // Twice the rim in weights: along the least height a weight grows from 0 to 1.
@@ -773,9 +763,8 @@ void RayQueries::closest(std::span<const QueryRay> rays, QueryHit* hits) const {
 }
 
 void RayQueries::blocked(std::span<const QueryRay> rays, Blocked* answers) const {
-  ask(*parts_, Ask::any, rays, [&](RayBatch& batch, std::size_t i, std::size_t ray) {
-    answers[ray] = batch.answer(i);
-  });
+  ask(*parts_, Ask::any, rays,
+      [&](RayBatch& batch, std::size_t i, std::size_t ray) { answers[ray] = batch.answer(i); });
 }
 
 void RayQueries::all(std::span<const QueryRay> rays, std::size_t limit, std::vector<QueryHit>& hits,
