@@ -353,6 +353,17 @@ TEST(RayQueries, HitOneOfCoplanarSurfaces) {
   EXPECT_EQ(all.t.size(), 2u);
 }
 
+TEST(RayQueries, CountASharedEdgeOnce) {
+  SceneBuilder builder = withSquare("{}");
+  builder.addInstance("square");
+  Renderer renderer(builder.build());
+  const Downwards down({{0.25, 0.25}});  // on the diagonal
+  const RayHits all = renderer.allHits(down.rays());
+  ASSERT_EQ(all.t.size(), 1u);
+  EXPECT_EQ(all.certain[0], 0);
+  EXPECT_DOUBLE_EQ(all.t[0], 2);
+}
+
 TEST(RayQueries, CutMasksAndPassBacksAsPicturesDo) {
   SceneBuilder builder = withSquare(R"({"materials": {
       "holes": {"alphaMap": "mask"}, "front": {"doubleSided": false}}})");
@@ -365,7 +376,8 @@ TEST(RayQueries, CutMasksAndPassBacksAsPicturesDo) {
   const Downwards down({{-0.3, 0.1}, {0.3, 0.1}});
   const RayHits hits = renderer.closest(down.rays());
   EXPECT_DOUBLE_EQ(hits.t[0], 1.5);
-  EXPECT_EQ(hits.objects[1], hits.t[1] == 2 ? 1u : 2u);
+  EXPECT_DOUBLE_EQ(hits.t[1], 2.5);
+  EXPECT_EQ(hits.objects[1], 2u);
   EXPECT_EQ(hits.certain[0] + hits.certain[1], 2);
 }
 
