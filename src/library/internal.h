@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "accel/ray_queries.h"
 #include "bake/scene.h"
 #include "core/error.h"
 #include "core/progress.h"
@@ -103,6 +104,23 @@ struct Image::Data {
   Film film;
   ImageMetadata metadata, aboutChannels;
 };
+
+// The queries of whit.h (rays.cpp): rays come as the program's numbers, are answered on all
+// threads, and go back in columns.
+struct Queried {
+  const whit::Scene& scene;
+  const RayQueries& queries;
+  int threads;
+  whit::Progress* progress;
+};
+
+RayHits closest(const Queried& at, const Rays& rays);
+RayHits allHits(const Queried& at, const Rays& rays, std::size_t limit);
+RayAnswers occluded(const Queried& at, const Rays& rays);
+RayAnswers visible(const Queried& at, const Numbers& from, const Numbers& to,
+                   const Numbers& fromNormals, const Numbers& toNormals);
+std::vector<float> ambientOcclusion(const Queried& at, const Numbers& points,
+                                    const Numbers& normals, double radius, int samples);
 
 whit::LoadOptions loadOptions(const LoadOptions& options, const char* shippedScenes);
 

@@ -1,5 +1,3 @@
-#include "library/rays.h"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -11,6 +9,7 @@
 #include "core/error.h"
 #include "core/huge_vector.h"
 #include "core/worker_pool.h"
+#include "library/internal.h"
 #include "sampling/random_streams.h"
 
 namespace whit::api {

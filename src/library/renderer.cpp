@@ -9,7 +9,6 @@
 #include "io/image/image_layers.h"
 #include "io/scene/scene_settings.h"
 #include "library/internal.h"
-#include "library/rays.h"
 #include "render/renderer.h"
 #include "simd/deform_vertices.h"
 
