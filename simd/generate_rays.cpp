@@ -2,6 +2,7 @@
 #include "simd/kernels.h"
 
 #include <algorithm>
+#include <array>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/generate_rays.cpp"
@@ -54,6 +55,195 @@ class Lens {
   VF forward_;
 };
 
+// A point of an image plane, in focal lengths, and where it lies within what the lens shows.
+struct PlanePoints {
+  VF x, y;
+  MF seen;
+};
+
+// Bends places in the picture to directions (the scalar reference: reference/generate_rays.cpp).
+class Projector {
+ public:
+  explicit Projector(const CameraFrame& camera) : camera_(camera) {
+    for (size_t i = 0; i < lens_.size(); ++i) lens_[i] = static_cast<float>(camera.distortion[i]);
+  }
+
+  // Directions along right, up and forward through points x, y pixels right of and above the
+  // center, and where there is something to see.
+  HWY_INLINE V3 Bend(VF x, VF y, MF& seen) const {
+    const FloatTag d;
+    if (camera_.projection == Projection::directions) {
+      const VF azimuth = Entry(camera_.azimuths, x, camera_.viewWidth);
+      return Towards(azimuth, Entry(camera_.elevations, hn::Neg(y), camera_.viewHeight));
+    }
+    x = hn::Mul(x, hn::Set(d, static_cast<float>(length(camera_.right))));
+    y = hn::Mul(y, hn::Set(d, static_cast<float>(length(camera_.up))));
+    if (camera_.projection == Projection::panorama) return Towards(x, y);
+    if (camera_.projection != Projection::perspective) return Fisheye(x, y, seen);
+    const PlanePoints point = Undistorted(x, hn::Neg(y));
+    seen = point.seen;
+    return {point.x, hn::Neg(point.y), hn::Set(d, 1.0f)};
+  }
+
+ private:
+  HWY_INLINE VF Lens(size_t i) const { return hn::Set(FloatTag(), lens_[i]); }
+  HWY_INLINE VF Times(float factor, size_t i) const {
+    return hn::Set(FloatTag(), factor * lens_[i]);
+  }
+
+  HWY_INLINE PlanePoints Undistorted(VF u, VF v) const {
+    const FloatTag d;
+    const VF one = hn::Set(d, 1.0f), two = hn::Set(d, 2.0f), zero = hn::Zero(d);
+    const VF p1 = Lens(2), p2 = Lens(3);
+    VF x = u, y = v;
+    for (int step = 0;; ++step) {
+      const VF x2 = hn::Mul(x, x), y2 = hn::Mul(y, y), xy = hn::Mul(x, y), r2 = hn::Add(x2, y2);
+      const auto polynomial = [&](VF c0, VF c1, VF c2)
+                                  HWY_ATTR { return MulThenAdd(MulThenAdd(c2, r2, c1), r2, c0); };
+      const VF above = MulThenAdd(polynomial(Lens(0), Lens(1), Lens(4)), r2, one);
+      const VF below = MulThenAdd(polynomial(Lens(5), Lens(6), Lens(7)), r2, one);
+      const VF scale = hn::Div(above, below);
+      const VF slope = hn::Div(NegMulThenAdd(scale, polynomial(Lens(5), Times(2, 6), Times(3, 7)),
+                                             polynomial(Lens(0), Times(2, 1), Times(3, 4))),
+                               below);
+      const auto off = [&](VF at, VF at2, VF p, VF q, VF wanted) HWY_ATTR {
+        const VF tangential = MulThenAdd(hn::Mul(two, p), xy, hn::Mul(q, MulThenAdd(two, at2, r2)));
+        return hn::Add(MulThenSub(at, scale, wanted), tangential);
+      };
+      const VF offX = off(x, x2, p1, p2, u), offY = off(y, y2, p2, p1, v);
+      const VF p1x = hn::Mul(p1, x), p1y = hn::Mul(p1, y);
+      const VF p2x = hn::Mul(p2, x), p2y = hn::Mul(p2, y);
+      const VF three = hn::Set(d, 3.0f), slope2 = hn::Mul(two, slope);
+      const VF xx = MulThenAdd(two, MulThenAdd(three, p2x, p1y), MulThenAdd(slope2, x2, scale));
+      const VF yy = MulThenAdd(two, MulThenAdd(three, p1y, p2x), MulThenAdd(slope2, y2, scale));
+      const VF cross = MulThenAdd(slope2, xy, hn::Mul(two, hn::Add(p1x, p2y)));
+      const VF determinant = DifferenceOfProducts(xx, yy, cross, cross);
+      if (step == kLensSteps) {
+        const VF error = hn::Add(hn::Abs(offX), hn::Abs(offY));
+        const MF solved = hn::Lt(error, hn::Set(d, static_cast<float>(kLensError)));
+        const MF upright = hn::And(hn::Gt(scale, zero), hn::Gt(below, zero));
+        return {x, y, hn::And(hn::And(solved, upright), hn::Gt(determinant, zero))};
+      }
+      x = hn::Sub(x, hn::Div(DifferenceOfProducts(offX, yy, offY, cross), determinant));
+      y = hn::Sub(y, hn::Div(DifferenceOfProducts(offY, xx, offX, cross), determinant));
+    }
+  }
+
+  HWY_INLINE V3 Fisheye(VF x, VF y, MF& seen) const {
+    const FloatTag d;
+    const VF one = hn::Set(d, 1.0f), two = hn::Set(d, 2.0f), zero = hn::Zero(d);
+    const VF radius = hn::Sqrt(MulThenAdd(x, x, hn::Mul(y, y)));
+    const VF limit = hn::Set(d, static_cast<float>(camera_.limit));
+    VF sine, cosine;
+    if (camera_.projection == Projection::equisolid) {
+      const VF half = hn::Mul(radius, hn::Set(d, 0.5f));  // sine of half the angle
+      const VF half2 = hn::Mul(half, half);
+      sine = hn::Mul(radius, hn::Sqrt(hn::Max(hn::Sub(one, half2), zero)));
+      cosine = NegMulThenAdd(two, half2, one);
+      seen = hn::Le(half, hn::Set(d, static_cast<float>(std::sin(camera_.limit / 2))));
+    } else {
+      VF angle = radius;
+      seen = hn::Le(angle, limit);
+      if (camera_.distorted) {
+        for (int step = 0;; ++step) {
+          const VF a2 = hn::Mul(angle, angle);
+          const auto polynomial = [&](VF c1, VF c2, VF c3, VF c4) HWY_ATTR {
+            const VF inner = MulThenAdd(MulThenAdd(c4, a2, c3), a2, c2);
+            return MulThenAdd(MulThenAdd(inner, a2, c1), a2, one);
+          };
+          const VF off = MulThenSub(angle, polynomial(Lens(0), Lens(1), Lens(2), Lens(3)), radius);
+          const VF slope = polynomial(Times(3, 0), Times(5, 1), Times(7, 2), Times(9, 3));
+          if (step == kLensSteps) {
+            const VF error = hn::Set(d, static_cast<float>(kLensError));
+            seen = hn::And(hn::Lt(hn::Abs(off), error), hn::Gt(slope, zero));
+            seen = hn::And(seen, hn::Le(angle, limit));
+            break;
+          }
+          angle = hn::Sub(angle, hn::Div(off, slope));
+        }
+      }
+      angle = hn::IfThenElseZero(seen, angle);
+      sine = hn::Sin(d, angle), cosine = hn::Cos(d, angle);
+    }
+    const MF center = hn::Eq(radius, zero);
+    const VF across =
+        hn::IfThenZeroElse(center, hn::Div(sine, hn::IfThenElse(center, one, radius)));
+    return {hn::Mul(x, across), hn::Mul(y, across), cosine};
+  }
+
+  HWY_INLINE static V3 Towards(VF azimuth, VF elevation) {
+    const FloatTag d;
+    const VF level = hn::Cos(d, elevation);
+    return {hn::Mul(hn::Sin(d, azimuth), level), hn::Sin(d, elevation),
+            hn::Mul(hn::Cos(d, azimuth), level)};
+  }
+
+  // In radians. The table is stretched over `pixels` pixels; `at` counts them from the center.
+  HWY_INLINE static VF Entry(const std::vector<float>& degrees, VF at, int pixels) {
+    const FloatTag d;
+    const IntTag di;
+    const int last = static_cast<int>(degrees.size()) - 1;
+    const auto scale = static_cast<float>(static_cast<double>(degrees.size()) / pixels);
+    const VF pixel = hn::Add(at, hn::Set(d, static_cast<float>(pixels) / 2));
+    VF place = MulThenSub(pixel, hn::Set(d, scale), hn::Set(d, 0.5f));
+    place = hn::Min(hn::Max(place, hn::Zero(d)), hn::Set(d, static_cast<float>(last)));
+    const VI before = hn::ConvertTo(di, place);
+    const VI after = hn::Min(hn::Add(before, hn::Set(di, 1)), hn::Set(di, last));
+    const VF a = hn::GatherIndex(d, degrees.data(), before);
+    const VF b = hn::GatherIndex(d, degrees.data(), after);
+    const VF share = hn::Sub(place, hn::ConvertTo(d, before));
+    constexpr float kRadians = 0.0174532925f;
+    return hn::Mul(MulThenAdd(hn::Sub(b, a), share, a), hn::Set(d, kRadians));
+  }
+
+  const CameraFrame& camera_;
+  std::array<float, 8> lens_;
+};
+
+// The views of a frame, as a table of twelve numbers each.
+class ViewTable {
+ public:
+  explicit ViewTable(const CameraFrame& camera)
+      : width_(camera.viewWidth), height_(camera.viewHeight) {
+    if (camera.views.empty()) return;
+    columns_ = camera.width / width_;
+    rows_ = static_cast<int>(camera.views.size()) / columns_;
+    float* to = numbers_.data();
+    for (const CameraView& view : camera.views) {
+      for (const Vec3d& v : {camera.eye + view.aside, view.forward, view.right, view.up}) {
+        for (int i = 0; i < 3; ++i) *to++ = static_cast<float>(v[i]);
+      }
+    }
+  }
+
+  bool IsEmpty() const { return rows_ == 0; }
+
+  // Moves pixels into their view.
+  HWY_INLINE void Choose(VI& px, VI& py, V3& eye, V3& forward, V3& right, V3& up) const {
+    const FloatTag d;
+    const IntTag di;
+    const auto part = [&](VI& at, int size, int count) HWY_ATTR {
+      const VF number = hn::Div(hn::ConvertTo(d, at), hn::Set(d, static_cast<float>(size)));
+      const VI whole = hn::Min(hn::ConvertTo(di, number), hn::Set(di, count - 1));
+      at = hn::Sub(at, hn::Mul(whole, hn::Set(di, size)));
+      return whole;
+    };
+    const VI column = part(px, width_, columns_), row = part(py, height_, rows_);
+    const VI view = hn::Add(hn::Mul(row, hn::Set(di, columns_)), column);
+    VI index = hn::Mul(view, hn::Set(di, 12));
+    for (V3* v : {&eye, &forward, &right, &up}) {
+      for (VF* to : {&v->x, &v->y, &v->z}) {
+        *to = hn::GatherIndex(d, numbers_.data(), index);
+        index = hn::Add(index, hn::Set(di, 1));
+      }
+    }
+  }
+
+ private:
+  std::array<float, 6 * 12> numbers_{};
+  int width_, height_, columns_ = 0, rows_ = 0;
+};
+
 void GenerateRays(Chunk& c) noexcept {
   const FloatTag d;
   const IntTag di;
@@ -66,34 +256,48 @@ void GenerateRays(Chunk& c) noexcept {
   const uint32_t sampleNumber = c.sampleNumber, seed = c.frame->seed;
   const bool media = c.has(Feature::transmission), cones = c.has(Feature::cones);
   const bool streams = c.has(Feature::streams);
-  const V3 eye = Broadcast3(Vec3f(camera.eye)), forward = Broadcast3(Vec3f(camera.forward));
-  const V3 right = Broadcast3(Vec3f(camera.right)), up = Broadcast3(Vec3f(camera.up));
+  V3 eye = Broadcast3(Vec3f(camera.eye)), forward = Broadcast3(Vec3f(camera.forward));
+  V3 right = Broadcast3(Vec3f(camera.right)), up = Broadcast3(Vec3f(camera.up));
   const auto coneWidth = static_cast<float>(pixelCone(camera).width);
   // Whole pixels minus half the size are exact in float; the sample's place is added last.
   const VF shiftX = hn::Set(d, c.sample.x), shiftY = hn::Set(d, c.sample.y);
-  const VF halfWidth = hn::Set(d, static_cast<float>(camera.width) / 2);
-  const VF halfHeight = hn::Set(d, static_cast<float>(camera.height) / 2);
+  const VF centerX = hn::Set(d, static_cast<float>(camera.centerX));
+  const VF centerY = hn::Set(d, static_cast<float>(camera.centerY));
+  const VF skew = hn::Set(d, static_cast<float>(camera.skew));
+  const VF widthOfPixel = hn::Set(d, static_cast<float>(1 / length(camera.right)));
+  const VF heightOfPixel = hn::Set(d, static_cast<float>(1 / length(camera.up)));
+  const Projector projector(camera);
+  const ViewTable views(camera);
+  const bool isStraight = camera.isStraight();
   const VF one = hn::Set(d, 1.0f);
   const Lens lens(camera);
   const bool hasLens = camera.aperture > 0;
   const LobeSampling lensSampling = lightSampling(0, 1, sampleNumber);
   for (size_t i = 0; i < n; i += hn::Lanes(d)) {
     const VU packed = hn::LoadU(du, pixels + i);
-    const VI px = hn::BitCast(di, hn::And(packed, hn::Set(du, 0xFFFFu)));
-    const VI py = hn::BitCast(di, hn::ShiftRight<16>(packed));
-    const VF x = hn::Add(hn::Sub(hn::ConvertTo(d, px), halfWidth), shiftX);
-    const VF y = hn::Sub(hn::Sub(halfHeight, hn::ConvertTo(d, py)), shiftY);
+    VI px = hn::BitCast(di, hn::And(packed, hn::Set(du, 0xFFFFu)));
+    VI py = hn::BitCast(di, hn::ShiftRight<16>(packed));
+    if (!views.IsEmpty()) views.Choose(px, py, eye, forward, right, up);
+    VF x = hn::Add(hn::Sub(hn::ConvertTo(d, px), centerX), shiftX);
+    const VF y = hn::Sub(hn::Sub(centerY, hn::ConvertTo(d, py)), shiftY);
+    x = MulThenAdd(skew, y, x);
+    MF seen = hn::Eq(x, x);
     V3 origin = eye, direction = forward;
     if (camera.orthographic) {
       origin = MulAdd3(right, x, MulAdd3(up, y, eye));
-    } else {
+    } else if (isStraight) {
       direction = MulAdd3(right, x, MulAdd3(up, y, forward));
+    } else {
+      const V3 along = projector.Bend(x, y, seen);
+      direction = MulAdd3(right, hn::Mul(along.x, widthOfPixel), Scale3(forward, along.z));
+      direction = MulAdd3(up, hn::Mul(along.y, heightOfPixel), direction);
     }
     if (hasLens) {
       const VU path = StreamOfPixel(packed, sampleNumber, seed);
       lens.Bend(DiskPointsOf(SaltedPoints(path, lensSampling, kLensSalt, 0)), origin, direction);
     }
     if (hasLens || !camera.orthographic) direction = Normalize3(direction);
+    if (!isStraight) direction = Select3(seen, direction, Broadcast3(Vec3f()));
     Store3(origin, rays.orgX, rays.orgY, rays.orgZ, i);
     Store3(direction, rays.dirX, rays.dirY, rays.dirZ, i);
     Store3({one, one, one}, rays.weightR, rays.weightG, rays.weightB, i);
