@@ -55,17 +55,11 @@ class Lens {
   VF forward_;
 };
 
-// A point of an image plane, in focal lengths, and where it lies within what the lens shows.
-struct PlanePoints {
-  VF x, y;
-  MF seen;
-};
-
 // Bends places in the picture to directions (the scalar reference: reference/generate_rays.cpp).
 class Projector {
  public:
   explicit Projector(const CameraFrame& camera) : camera_(camera) {
-    for (size_t i = 0; i < lens_.size(); ++i) lens_[i] = static_cast<float>(camera.distortion[i]);
+    for (size_t i = 0; i < 8; ++i) lens_[i] = static_cast<float>(camera.distortion[i]);
   }
 
   // Directions along right, up and forward through points x, y pixels right of and above the
@@ -80,95 +74,79 @@ class Projector {
     y = hn::Mul(y, hn::Set(d, static_cast<float>(length(camera_.up))));
     if (camera_.projection == Projection::panorama) return Towards(x, y);
     if (camera_.projection != Projection::perspective) return Fisheye(x, y, seen);
-    const PlanePoints point = Undistorted(x, hn::Neg(y));
-    seen = point.seen;
-    return {point.x, hn::Neg(point.y), hn::Set(d, 1.0f)};
+    return Undistorted(x, hn::Neg(y), seen);
   }
 
  private:
-  HWY_INLINE VF Lens(size_t i) const { return hn::Set(FloatTag(), lens_[i]); }
-  HWY_INLINE VF Times(float factor, size_t i) const {
+  HWY_INLINE VF Lens(size_t i, float factor = 1) const {
     return hn::Set(FloatTag(), factor * lens_[i]);
   }
 
-  HWY_INLINE PlanePoints Undistorted(VF u, VF v) const {
+  HWY_INLINE V3 Undistorted(VF u, VF v, MF& seen) const {
     const FloatTag d;
     const VF one = hn::Set(d, 1.0f), two = hn::Set(d, 2.0f), zero = hn::Zero(d);
-    const VF p1 = Lens(2), p2 = Lens(3);
     VF x = u, y = v;
     for (int step = 0;; ++step) {
-      const VF x2 = hn::Mul(x, x), y2 = hn::Mul(y, y), xy = hn::Mul(x, y), r2 = hn::Add(x2, y2);
+      const VF x2 = hn::Mul(x, x), y2 = hn::Mul(y, y), r2 = hn::Add(x2, y2);
+      const VF twoXY = hn::Mul(two, hn::Mul(x, y));
       const auto polynomial = [&](VF c0, VF c1, VF c2)
                                   HWY_ATTR { return MulThenAdd(MulThenAdd(c2, r2, c1), r2, c0); };
       const VF above = MulThenAdd(polynomial(Lens(0), Lens(1), Lens(4)), r2, one);
       const VF below = MulThenAdd(polynomial(Lens(5), Lens(6), Lens(7)), r2, one);
       const VF scale = hn::Div(above, below);
-      const VF slope = hn::Div(NegMulThenAdd(scale, polynomial(Lens(5), Times(2, 6), Times(3, 7)),
-                                             polynomial(Lens(0), Times(2, 1), Times(3, 4))),
-                               below);
+      const VF change = NegMulThenAdd(scale, polynomial(Lens(5), Lens(6, 2), Lens(7, 3)),
+                                      polynomial(Lens(0), Lens(1, 2), Lens(4, 3)));
+      const VF slope = hn::Mul(two, hn::Div(change, below));
+      const VF radial = MulThenAdd(slope, r2, scale);
       const auto off = [&](VF at, VF at2, VF p, VF q, VF wanted) HWY_ATTR {
-        const VF tangential = MulThenAdd(hn::Mul(two, p), xy, hn::Mul(q, MulThenAdd(two, at2, r2)));
+        const VF tangential = MulThenAdd(p, twoXY, hn::Mul(q, MulThenAdd(two, at2, r2)));
         return hn::Add(MulThenSub(at, scale, wanted), tangential);
       };
-      const VF offX = off(x, x2, p1, p2, u), offY = off(y, y2, p2, p1, v);
-      const VF p1x = hn::Mul(p1, x), p1y = hn::Mul(p1, y);
-      const VF p2x = hn::Mul(p2, x), p2y = hn::Mul(p2, y);
-      const VF three = hn::Set(d, 3.0f), slope2 = hn::Mul(two, slope);
-      const VF xx = MulThenAdd(two, MulThenAdd(three, p2x, p1y), MulThenAdd(slope2, x2, scale));
-      const VF yy = MulThenAdd(two, MulThenAdd(three, p1y, p2x), MulThenAdd(slope2, y2, scale));
-      const VF cross = MulThenAdd(slope2, xy, hn::Mul(two, hn::Add(p1x, p2y)));
-      const VF determinant = DifferenceOfProducts(xx, yy, cross, cross);
+      const VF offX = off(x, x2, Lens(2), Lens(3), u), offY = off(y, y2, Lens(3), Lens(2), v);
       if (step == kLensSteps) {
-        const VF error = hn::Add(hn::Abs(offX), hn::Abs(offY));
-        const MF solved = hn::Lt(error, hn::Set(d, static_cast<float>(kLensError)));
-        const MF upright = hn::And(hn::Gt(scale, zero), hn::Gt(below, zero));
-        return {x, y, hn::And(hn::And(solved, upright), hn::Gt(determinant, zero))};
+        const VF error = hn::Max(hn::Abs(offX), hn::Abs(offY));
+        const VF least = hn::Min(hn::Min(scale, below), radial);
+        seen = hn::And(hn::Lt(error, Lens(8)), hn::Gt(least, zero));
+        return {x, hn::Neg(y), one};
       }
-      x = hn::Sub(x, hn::Div(DifferenceOfProducts(offX, yy, offY, cross), determinant));
-      y = hn::Sub(y, hn::Div(DifferenceOfProducts(offY, xx, offX, cross), determinant));
+      const VF share = hn::Div(hn::Mul(slope, MulThenAdd(x, offX, hn::Mul(y, offY))), radial);
+      x = hn::Sub(x, hn::Div(NegMulThenAdd(x, share, offX), scale));
+      y = hn::Sub(y, hn::Div(NegMulThenAdd(y, share, offY), scale));
+    }
+  }
+
+  HWY_INLINE VF FisheyeAngle(VF radius, MF& seen) const {
+    const FloatTag d;
+    if (camera_.projection == Projection::equisolid) {
+      const VF half = hn::Asin(d, hn::Mul(radius, hn::Set(d, 0.5f)));
+      return hn::Add(half, half);
+    }
+    VF angle = radius;
+    for (int step = 0;; ++step) {
+      const VF a2 = hn::Mul(angle, angle);
+      const auto polynomial = [&](VF c1, VF c2, VF c3, VF c4) HWY_ATTR {
+        const VF inner = MulThenAdd(MulThenAdd(c4, a2, c3), a2, c2);
+        return MulThenAdd(MulThenAdd(inner, a2, c1), a2, hn::Set(d, 1.0f));
+      };
+      const VF off = MulThenSub(angle, polynomial(Lens(0), Lens(1), Lens(2), Lens(3)), radius);
+      const VF slope = polynomial(Lens(0, 3), Lens(1, 5), Lens(2, 7), Lens(3, 9));
+      if (step == kLensSteps) {
+        seen = hn::And(hn::Lt(hn::Abs(off), Lens(8)), hn::Gt(slope, hn::Zero(d)));
+        return angle;
+      }
+      angle = hn::Sub(angle, hn::Div(off, slope));
     }
   }
 
   HWY_INLINE V3 Fisheye(VF x, VF y, MF& seen) const {
     const FloatTag d;
-    const VF one = hn::Set(d, 1.0f), two = hn::Set(d, 2.0f), zero = hn::Zero(d);
     const VF radius = hn::Sqrt(MulThenAdd(x, x, hn::Mul(y, y)));
-    const VF limit = hn::Set(d, static_cast<float>(camera_.limit));
-    VF sine, cosine;
-    if (camera_.projection == Projection::equisolid) {
-      const VF half = hn::Mul(radius, hn::Set(d, 0.5f));  // sine of half the angle
-      const VF half2 = hn::Mul(half, half);
-      sine = hn::Mul(radius, hn::Sqrt(hn::Max(hn::Sub(one, half2), zero)));
-      cosine = NegMulThenAdd(two, half2, one);
-      seen = hn::Le(half, hn::Set(d, static_cast<float>(std::sin(camera_.limit / 2))));
-    } else {
-      VF angle = radius;
-      seen = hn::Le(angle, limit);
-      if (camera_.distorted) {
-        for (int step = 0;; ++step) {
-          const VF a2 = hn::Mul(angle, angle);
-          const auto polynomial = [&](VF c1, VF c2, VF c3, VF c4) HWY_ATTR {
-            const VF inner = MulThenAdd(MulThenAdd(c4, a2, c3), a2, c2);
-            return MulThenAdd(MulThenAdd(inner, a2, c1), a2, one);
-          };
-          const VF off = MulThenSub(angle, polynomial(Lens(0), Lens(1), Lens(2), Lens(3)), radius);
-          const VF slope = polynomial(Times(3, 0), Times(5, 1), Times(7, 2), Times(9, 3));
-          if (step == kLensSteps) {
-            const VF error = hn::Set(d, static_cast<float>(kLensError));
-            seen = hn::And(hn::Lt(hn::Abs(off), error), hn::Gt(slope, zero));
-            seen = hn::And(seen, hn::Le(angle, limit));
-            break;
-          }
-          angle = hn::Sub(angle, hn::Div(off, slope));
-        }
-      }
-      angle = hn::IfThenElseZero(seen, angle);
-      sine = hn::Sin(d, angle), cosine = hn::Cos(d, angle);
-    }
-    const MF center = hn::Eq(radius, zero);
-    const VF across =
-        hn::IfThenZeroElse(center, hn::Div(sine, hn::IfThenElse(center, one, radius)));
-    return {hn::Mul(x, across), hn::Mul(y, across), cosine};
+    VF angle = FisheyeAngle(radius, seen);
+    seen = hn::And(seen, hn::Le(angle, hn::Set(d, static_cast<float>(camera_.limit))));
+    angle = hn::IfThenElseZero(seen, angle);
+    const VF divisor = hn::Max(radius, hn::Set(d, 1e-30f));
+    const VF across = hn::Div(hn::Sin(d, angle), divisor);
+    return {hn::Mul(x, across), hn::Mul(y, across), hn::Cos(d, angle)};
   }
 
   HWY_INLINE static V3 Towards(VF azimuth, VF elevation) {
@@ -197,52 +175,30 @@ class Projector {
   }
 
   const CameraFrame& camera_;
-  std::array<float, 8> lens_;
+  std::array<float, 9> lens_{0, 0, 0, 0, 0, 0, 0, 0, static_cast<float>(kLensError)};
 };
 
-// The views of a frame, as a table of twelve numbers each.
-class ViewTable {
- public:
-  explicit ViewTable(const CameraFrame& camera)
-      : width_(camera.viewWidth), height_(camera.viewHeight) {
-    if (camera.views.empty()) return;
-    columns_ = camera.width / width_;
-    rows_ = static_cast<int>(camera.views.size()) / columns_;
-    float* to = numbers_.data();
-    for (const CameraView& view : camera.views) {
-      for (const Vec3d& v : {camera.eye + view.aside, view.forward, view.right, view.up}) {
-        for (int i = 0; i < 3; ++i) *to++ = static_cast<float>(v[i]);
-      }
+// Numbers of a frame's views, twelve each.
+std::array<float, 72> ViewNumbers(const CameraFrame& camera) {
+  std::array<float, 72> numbers{};
+  float* to = numbers.data();
+  for (const CameraView& view : camera.views) {
+    for (const Vec3d& v : {camera.eye + view.aside, view.forward, view.right, view.up}) {
+      for (int i = 0; i < 3; ++i) *to++ = static_cast<float>(v[i]);
     }
   }
+  return numbers;
+}
 
-  bool IsEmpty() const { return rows_ == 0; }
-
-  // Moves pixels into their view.
-  HWY_INLINE void Choose(VI& px, VI& py, V3& eye, V3& forward, V3& right, V3& up) const {
-    const FloatTag d;
-    const IntTag di;
-    const auto part = [&](VI& at, int size, int count) HWY_ATTR {
-      const VF number = hn::Div(hn::ConvertTo(d, at), hn::Set(d, static_cast<float>(size)));
-      const VI whole = hn::Min(hn::ConvertTo(di, number), hn::Set(di, count - 1));
-      at = hn::Sub(at, hn::Mul(whole, hn::Set(di, size)));
-      return whole;
-    };
-    const VI column = part(px, width_, columns_), row = part(py, height_, rows_);
-    const VI view = hn::Add(hn::Mul(row, hn::Set(di, columns_)), column);
-    VI index = hn::Mul(view, hn::Set(di, 12));
-    for (V3* v : {&eye, &forward, &right, &up}) {
-      for (VF* to : {&v->x, &v->y, &v->z}) {
-        *to = hn::GatherIndex(d, numbers_.data(), index);
-        index = hn::Add(index, hn::Set(di, 1));
-      }
-    }
-  }
-
- private:
-  std::array<float, 6 * 12> numbers_{};
-  int width_, height_, columns_ = 0, rows_ = 0;
-};
+// Takes a place in the picture to its place in a view, whose number it returns.
+HWY_INLINE VI ViewAt(VI& place, int size, int count) {
+  const FloatTag d;
+  const IntTag di;
+  const VF number = hn::Div(hn::ConvertTo(d, place), hn::Set(d, static_cast<float>(size)));
+  const VI whole = hn::Min(hn::ConvertTo(di, number), hn::Set(di, count - 1));
+  place = hn::Sub(place, hn::Mul(whole, hn::Set(di, size)));
+  return whole;
+}
 
 void GenerateRays(Chunk& c) noexcept {
   const FloatTag d;
@@ -267,7 +223,8 @@ void GenerateRays(Chunk& c) noexcept {
   const VF widthOfPixel = hn::Set(d, static_cast<float>(1 / length(camera.right)));
   const VF heightOfPixel = hn::Set(d, static_cast<float>(1 / length(camera.up)));
   const Projector projector(camera);
-  const ViewTable views(camera);
+  const std::array<float, 72> views = ViewNumbers(camera);
+  const int columns = camera.width / camera.viewWidth, rows = camera.height / camera.viewHeight;
   const bool isStraight = camera.isStraight();
   const VF one = hn::Set(d, 1.0f);
   const Lens lens(camera);
@@ -277,7 +234,18 @@ void GenerateRays(Chunk& c) noexcept {
     const VU packed = hn::LoadU(du, pixels + i);
     VI px = hn::BitCast(di, hn::And(packed, hn::Set(du, 0xFFFFu)));
     VI py = hn::BitCast(di, hn::ShiftRight<16>(packed));
-    if (!views.IsEmpty()) views.Choose(px, py, eye, forward, right, up);
+    if (!camera.views.empty()) {
+      const VI row = ViewAt(py, camera.viewHeight, rows);
+      const VI column = ViewAt(px, camera.viewWidth, columns);
+      const VI view = hn::Add(hn::Mul(row, hn::Set(di, columns)), column);
+      VI at = hn::Mul(view, hn::Set(di, 12));
+      for (V3* v : {&eye, &forward, &right, &up}) {
+        for (VF* to : {&v->x, &v->y, &v->z}) {
+          *to = hn::GatherIndex(d, views.data(), at);
+          at = hn::Add(at, hn::Set(di, 1));
+        }
+      }
+    }
     VF x = hn::Add(hn::Sub(hn::ConvertTo(d, px), centerX), shiftX);
     const VF y = hn::Sub(hn::Sub(centerY, hn::ConvertTo(d, py)), shiftY);
     x = MulThenAdd(skew, y, x);

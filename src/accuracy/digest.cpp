@@ -63,19 +63,9 @@ void add(Digester& d, const InstanceRecord& instance) {
   add(d, geometry), add(d, toWorld);
 }
 
-template <typename Table>
-void addTable(Digester& d, const Table& table);
-
 template <typename Noun>
 requires(std::tuple_size_v<decltype(kMembers<Noun>)> > 0) void add(Digester& d, const Noun& noun) {
-  forEachMember<Noun>([&](const auto& member) {
-    using Value = typename std::remove_cvref_t<decltype(member)>::Type;
-    if constexpr (std::is_same_v<Value, std::vector<float>>) {
-      addTable(d, noun.*member.field);
-    } else {
-      add(d, noun.*member.field);
-    }
-  });
+  forEachMember<Noun>([&](const auto& member) { add(d, noun.*member.field); });
 }
 
 void add(Digester& d, const Texture& texture);

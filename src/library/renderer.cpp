@@ -205,10 +205,7 @@ Renderer& Renderer::lookThrough(const std::string& camera) {
       readCamera(object, own.emplace());
       object.finish();
     }
-    if (own.has_value() != data_->lookedThrough.has_value() ||
-        (own && !sameView(*own, *data_->lookedThrough))) {
-      data_->changed = true;  // for the automatic exposure
-    }
+    data_->changed |= own || data_->lookedThrough;  // for the automatic exposure
     data_->lookedThrough = std::move(own);
     return *this;
   });

@@ -39,8 +39,9 @@ Ray throughLens(const CameraFrame& camera, const Ray& central, const Path& path)
   return {central.origin + aside, normalized(toFocus - aside, central.direction), central.cone};
 }
 
-// The point that OpenCV's model of a lens distorts to (u, v), both with y downwards; none where
-// Newton's method does not find one, or finds one beyond a fold of the picture.
+// The point that OpenCV's model of a lens distorts to (u, v), both with y downwards. There is none
+// where Newton's method, by the radial part's derivative, does not find one, or finds one beyond a
+// fold of the picture.
 std::optional<std::array<double, 2>> undistorted(const CameraFrame& camera, double u, double v) {
   const auto [k1, k2, p1, p2, k3, k4, k5, k6] = camera.distortion;
   double x = u, y = v;
@@ -49,21 +50,19 @@ std::optional<std::array<double, 2>> undistorted(const CameraFrame& camera, doub
     const double above = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));
     const double below = 1 + r2 * (k4 + r2 * (k5 + r2 * k6));
     const double scale = above / below;
-    const double slope =
-        (k1 + r2 * (2 * k2 + r2 * 3 * k3) - scale * (k4 + r2 * (2 * k5 + r2 * 3 * k6))) / below;
+    const double change =
+        k1 + r2 * (2 * k2 + r2 * 3 * k3) - scale * (k4 + r2 * (2 * k5 + r2 * 3 * k6));
+    const double slope = 2 * change / below, radial = scale + r2 * slope;
     const double offX = x * scale + 2 * p1 * x * y + p2 * (r2 + 2 * x * x) - u;
     const double offY = y * scale + 2 * p2 * x * y + p1 * (r2 + 2 * y * y) - v;
-    const double xx = scale + 2 * x * x * slope + 2 * p1 * y + 6 * p2 * x;
-    const double xy = 2 * (x * y * slope + p1 * x + p2 * y);
-    const double yy = scale + 2 * y * y * slope + 6 * p1 * y + 2 * p2 * x;
-    const double determinant = xx * yy - xy * xy;
     if (step == kLensSteps) {
-      const bool found = std::fabs(offX) + std::fabs(offY) < kLensError;
-      if (!(found && determinant > 0 && scale > 0 && below > 0)) return std::nullopt;
+      const bool found = std::max(std::fabs(offX), std::fabs(offY)) < kLensError;
+      if (!(found && std::min({scale, below, radial}) > 0)) return std::nullopt;
       return std::array{x, y};
     }
-    x -= (offX * yy - offY * xy) / determinant;
-    y -= (offY * xx - offX * xy) / determinant;
+    const double share = slope * (x * offX + y * offY) / radial;
+    x -= (offX - x * share) / scale;
+    y -= (offY - y * share) / scale;
   }
 }
 
@@ -71,8 +70,8 @@ std::optional<std::array<double, 2>> undistorted(const CameraFrame& camera, doub
 // lengths; NaN where there is none.
 double fisheyeAngle(const CameraFrame& camera, double radius) {
   if (camera.projection == Projection::equisolid) return 2 * std::asin(radius / 2);
-  if (!camera.distorted) return radius;
-  const auto [k1, k2, k3, k4, k5, k6, k7, k8] = camera.distortion;
+  const double k1 = camera.distortion[0], k2 = camera.distortion[1];
+  const double k3 = camera.distortion[2], k4 = camera.distortion[3];
   double angle = radius;
   for (int step = 0;; ++step) {
     const double a2 = angle * angle;
@@ -129,9 +128,8 @@ Vec3d bent(const CameraFrame& camera, double X, double Y) {
 Ray generateRay(const CameraFrame& camera, double x, double y) {
   CameraView view{{}, camera.forward, camera.right, camera.up};
   if (!camera.views.empty()) {
-    const int columns = camera.width / camera.viewWidth;
+    const int columns = camera.width / camera.viewWidth, rows = camera.height / camera.viewHeight;
     const int column = std::min(static_cast<int>(x / camera.viewWidth), columns - 1);
-    const int rows = static_cast<int>(camera.views.size()) / columns;
     const int row = std::min(static_cast<int>(y / camera.viewHeight), rows - 1);
     view = camera.views[static_cast<std::size_t>(row * columns + column)];
     x -= column * camera.viewWidth;

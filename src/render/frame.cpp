@@ -17,8 +17,8 @@ constexpr std::uint64_t kBytesPerPixel = 32;
 }  // namespace
 
 Camera aimed(Camera camera, const RenderOptions& options) {
-  const bool isFixed = !isPerspective(camera) || !camera.k.empty();
-  if (isFixed && (options.fov || options.ortho.value_or(0) > 0)) {
+  const bool hasFov = isPerspective(camera) && camera.k.empty();
+  if (!hasFov && (options.fov || options.ortho.value_or(0) > 0)) {
     throwUsage("--fov and --ortho: camera '" + camera.name +
                "' has a matrix k or another projection than \"perspective\"");
   }

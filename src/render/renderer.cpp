@@ -8,7 +8,6 @@
 #include "core/error.h"
 #include "core/option_table.h"
 #include "core/stopwatch.h"
-#include "core/text.h"
 #include "core/worker_pool.h"
 #include "reference/media.h"
 #include "render/build_tables.h"
@@ -360,7 +359,7 @@ std::vector<std::pair<std::string, std::string>> describeImage(const Scene& scen
     const auto& value = camera.*member;
     if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, float>) {
       if (value == 0 && !(options.*option)) return;
-      if (!isPerspective(camera) || !camera.k.empty()) return;  // nothing follows from it
+      if (!isFramedByOptions(camera)) return;
     }
     resolved.*option = value;
   });
@@ -372,16 +371,9 @@ std::vector<std::pair<std::string, std::string>> describeImage(const Scene& scen
       {"software", "whit " WHIT_VERSION},
       {"scene", scene.name},
       {"effectsUsed", formatValue(OptionSpec{}, renderer.plan().effects)}};
-  const CameraFrame frame = makeCameraFrame(camera, film.image.width, film.image.height);
-  if (!frame.isLinear()) {
+  if (!isFramedByOptions(camera)) {
     said.emplace_back("projection",
-                      std::string(kWords<Projection>[static_cast<std::size_t>(camera.projection)]) +
-                          (frame.distorted ? ", distorted" : "") +
-                          (isStereo(camera) ? ", stereo" : ""));
-  } else if (!camera.k.empty()) {
-    said.emplace_back(
-        "k", formatted("%.9g,%.9g,%.9g,%.9g,%.9g", 1 / length(frame.right), 1 / length(frame.up),
-                       frame.centerX - 0.5, frame.centerY - 0.5, frame.skew / length(frame.up)));
+                      kWords<Projection>[static_cast<std::size_t>(camera.projection)]);
   }
   for (auto& entry : pictureOptions(resolved)) said.push_back(std::move(entry));
   return said;

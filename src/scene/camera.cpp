@@ -53,20 +53,6 @@ double meanStep(const std::vector<float>& degrees, int pixels) {
   return std::max(std::abs(span) * (std::numbers::pi / 180) / pixels, kLeast);
 }
 
-// Focal length of a fisheye whose image circle touches the nearer sides of a picture.
-double fisheyeFocal(const Camera& camera, double limit, int side) {
-  double radius = limit;
-  if (camera.projection == Projection::equisolid) radius = 2 * std::sin(limit / 2);
-  if (camera.projection == Projection::fisheye) {
-    double sum = 0;
-    for (auto c = camera.distortion.rbegin(); c != camera.distortion.rend(); ++c) {
-      sum = (sum + double{*c}) * limit * limit;
-    }
-    radius = limit * (1 + sum);
-  }
-  return side / (2 * radius);
-}
-
 // Tangents or radians that one pixel spans in a picture of this size, at its center.
 std::array<double, 2> pixelSteps(const Camera& camera, const CameraFrame& frame, int width,
                                  int height) {
@@ -74,19 +60,21 @@ std::array<double, 2> pixelSteps(const Camera& camera, const CameraFrame& frame,
     return {camera.kSize[0] / (double{camera.k[0]} * width),
             camera.kSize[1] / (double{camera.k[1]} * height)};
   }
+  const double radius = std::min(width, height) / 2.0;  // of a fisheye's image circle
   switch (camera.projection) {
     case Projection::perspective:
       break;
+    case Projection::equidistant:
+    case Projection::fisheye:
+      return {frame.limit / radius, frame.limit / radius};
+    case Projection::equisolid:
+      return {2 * std::sin(frame.limit / 2) / radius, 2 * std::sin(frame.limit / 2) / radius};
     case Projection::panorama:
       return {2 * std::numbers::pi / width, std::numbers::pi / height};
     case Projection::directions:
       return {meanStep(camera.azimuths, width), meanStep(camera.elevations, height)};
     case Projection::cubeMap:
       return {2.0 / width, 2.0 / height};
-    default: {
-      const double step = 1 / fisheyeFocal(camera, frame.limit, std::min(width, height));
-      return {step, step};
-    }
   }
   const double asked = camera.fov;
   const double fov = asked > kLeastFov ? std::min(asked, kLargestFov) : kLeastFov;

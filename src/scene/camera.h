@@ -11,8 +11,7 @@
 
 namespace whit {
 
-// Names of the projections: kProjectionNames in scene/members.h. What each one means is stated in
-// scenes/README.md.
+// scenes/README.md says what each one means.
 enum class Projection : std::uint8_t {
   perspective,
   equidistant,
@@ -39,14 +38,14 @@ struct Camera {
   // Distance of the plane that is in focus, along the view axis; 0: it contains `at`.
   float focus = 0;
   // fx, fy, cx, cy and perhaps the skew, in pixels of a picture of the size `kSize`, whose first
-  // pixel has its center at (0, 0). Empty: `fov`, or `angle`, decides.
+  // pixel has its center at (0, 0).
   std::vector<float> k = {}, kSize = {};
   // As OpenCV orders them: k1, k2, p1, p2, k3, k4, k5, k6; of a fisheye k1 to k4.
   std::vector<float> distortion = {};
   float angle = 180;                                  // of a fisheye's image circle, degrees
   std::vector<float> azimuths = {}, elevations = {};  // of columns and rows, degrees
   Stereo stereo = Stereo::none;
-  float eyeDistance = 0.065f;
+  float eyeDistance = 0.065f;  // in scene units
 
   bool hasLens() const { return aperture > 0; }
   double focusDistance() const;

@@ -59,6 +59,10 @@ constexpr bool hasMatrix(const Camera& c) { return isPerspective(c) || isFisheye
 constexpr bool isDistorted(const Camera& c) {
   return isPerspective(c) || c.projection == Projection::fisheye;
 }
+// True if eye, at, up, fov and orthographicHeight say where each point is seen.
+inline bool isFramedByOptions(const Camera& c) {
+  return isPerspective(c) && c.k.empty() && c.distortion.empty() && c.stereo == Stereo::none;
+}
 constexpr bool isTable(const Camera& c) { return c.projection == Projection::directions; }
 constexpr bool isNoCubeMap(const Camera& c) { return c.projection != Projection::cubeMap; }
 constexpr bool isStereo(const Camera& c) { return isNoCubeMap(c) && c.stereo != Stereo::none; }

@@ -61,7 +61,7 @@ TEST_F(SceneSections, CamerasHaveAProjection) {
   const Camera round = camera(R"("projection": "equisolid", "angle": 220)");
   EXPECT_EQ(round.projection, Projection::equisolid);
   EXPECT_EQ(round.angle, 220);
-  EXPECT_EQ(camera(R"("projection": "fisheye")").angle, 180);
+  EXPECT_EQ(camera(R"("projection": "equidistant")").angle, 180);
   const Camera table =
       camera(R"("projection": "directions", "azimuths": [-5, 0, 5], "elevations": [2, -2])");
   EXPECT_EQ(table.azimuths, (std::vector<float>{-5, 0, 5}));
@@ -82,9 +82,11 @@ TEST_F(SceneSections, CamerasThatImageNothing) {
                  "\"fisheye\", \"panorama\", \"directions\", \"cubeMap\" (is \"panorama\" "
                  "meant?), found \"panoramic\"");
   EXPECT_EQ(error(R"("k": [5, 5, 2], "kSize": [4, 4])"),
-            at + "/k: expected [fx, fy, cx, cy] and perhaps the skew, found a list of 3");
+            at + "/k: expected [fx, fy, cx, cy], fx and fy above 0, and perhaps the skew, found a "
+                 "list of 3");
   EXPECT_EQ(error(R"("k": [5, 0, 2, 2], "kSize": [4, 4])"),
-            at + "/k: expected focal lengths above 0, found a list of 4");
+            at + "/k: expected [fx, fy, cx, cy], fx and fy above 0, and perhaps the skew, found a "
+                 "list of 4");
   EXPECT_EQ(error(R"("k": [5, 5, "x", 2])").substr(0, at.size() + 5), at + "/k/2:");
   EXPECT_EQ(error(R"("k": [5, 5, 2, 2])"), at + ": expected a member \"kSize\"");
   EXPECT_EQ(error(R"("k": [5, 5, 2, 2], "kSize": [4])"),
@@ -92,14 +94,19 @@ TEST_F(SceneSections, CamerasThatImageNothing) {
                  "of 1");
   EXPECT_EQ(error(R"("k": [5, 5, 2, 2], "kSize": [0, 4])").substr(0, at.size() + 9),
             at + "/kSize/0:");
-  EXPECT_EQ(error(R"("projection": "fisheye", "distortion": [0, 0, 0, 0, 1])"),
-            at + "/distortion: expected at most 4 coefficients, found a list of 5");
+  EXPECT_EQ(
+      error(
+          R"("projection": "fisheye", "k": [5, 5, 2, 2], "kSize": [4, 4], "distortion": [0, 0, 0, 0, 1])"),
+      at + "/distortion: expected at most 4 coefficients, found a list of 5");
   EXPECT_EQ(error(R"("distortion": [0.1], "orthographicHeight": 2)"),
             at + ": expected no orthographicHeight beside k or distortion, found an object of 4");
-  EXPECT_EQ(error(R"("projection": "directions", "azimuths": [1])"),
-            at + ": expected a member \"elevations\"");
-  EXPECT_EQ(error(R"("projection": "directions", "azimuths": [], "elevations": [1])"),
-            at + "/azimuths: expected an azimuth a column, found a list of 0");
+  EXPECT_EQ(
+      error(R"("projection": "directions", "azimuths": [1])"),
+      at + ": expected azimuths of the columns and elevations of the rows, found an object of 4");
+  EXPECT_EQ(
+      error(R"("projection": "directions", "azimuths": [], "elevations": [1])"),
+      at + ": expected azimuths of the columns and elevations of the rows, found an object of 5");
+  EXPECT_EQ(error(R"("projection": "fisheye")"), at + ": expected a member \"k\"");
   EXPECT_EQ(error(R"("projection": "directions", "azimuths": [0], "elevations": [91])")
                 .substr(0, at.size() + 13),
             at + "/elevations/0");

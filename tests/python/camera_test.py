@@ -78,7 +78,7 @@ class Cameras(unittest.TestCase):
             np.testing.assert_array_equal(camera.k, K)
             np.testing.assert_array_equal(camera.pose, given.pose)
         back = scene.camera("b", axes="opengl")
-        self.assertEqual(back.fov, 30)
+        self.assertAlmostEqual(back.fov, 30)
         wanted = np.eye(4)
         wanted[2, 3] = 5
         np.testing.assert_allclose(back.pose, wanted, atol=1e-12)

@@ -150,6 +150,7 @@ TEST(Projections, FisheyesImageAnglesAsDistances) {
                   [](double theta) { return 2 * std::sin(theta / 2); });
     camera.projection = Projection::fisheye;
     camera.distortion = {0.03f, -0.005f, 0.0007f, -0.00002f};
+    camera.kSize = {kWide, kTall};
     const auto radius = [&](double theta) {
       double sum = theta;
       for (int i = 0; i < 4; ++i) {
@@ -157,7 +158,9 @@ TEST(Projections, FisheyesImageAnglesAsDistances) {
       }
       return sum;
     };
-    expectFisheye(camera, angle, 100 / radius(limit), radius);
+    const auto focal = static_cast<float>(100 / radius(limit));
+    camera.k = {focal, focal, kWide / 2 - 0.5f, kTall / 2 - 0.5f};
+    expectFisheye(camera, angle, double{focal}, radius);
   }
 }
 

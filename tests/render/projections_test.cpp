@@ -33,7 +33,10 @@ std::map<std::string, Camera> projectedCameras(const Camera& pose) {
   lens.distortion = {-0.2f, 0.05f, 0.002f, -0.003f, 0.01f, 0.02f, 0.01f, 0.003f};
   add("equidistant", Projection::equidistant);
   add("equisolid", Projection::equisolid).angle = 250;
-  add("fisheye", Projection::fisheye).distortion = {0.05f, -0.01f, 0.002f, -0.0001f};
+  Camera& calibrated = add("fisheye", Projection::fisheye);
+  calibrated.k = {25, 24, 52, 34};
+  calibrated.kSize = {107, 67};
+  calibrated.distortion = {0.05f, -0.01f, 0.002f, -0.0001f};
   add("panorama", Projection::panorama);
   Camera& table = add("directions", Projection::directions);
   for (int i = 0; i < 31; ++i) table.azimuths.push_back(static_cast<float>(3 * i - 45));

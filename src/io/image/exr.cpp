@@ -16,12 +16,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <new>
-#include <sstream>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -250,43 +248,34 @@ constexpr std::array<const char*, 3> kRadianceLayers = {"R", "G", "B"};
 // 0) is the upper left corner of the picture.
 void addCamera(const ImageMetadata& metadata, const Image& image, Imf::Header& header) {
   RenderOptions options;
-  Camera camera;
-  bool isLinear = true;
+  bool isLinear = true;  // false: more than the options decides where points are seen
   for (const auto& [name, text] : metadata) {
     const bool isOfCamera = name == "eye" || name == "at" || name == "up" || name == "fov";
     if (isOfCamera || name == "ortho") setOption(options, name, text);
     if (name == "projection") isLinear = false;
-    if (name == "k") {
-      std::istringstream numbers(text);
-      for (std::string number; std::getline(numbers, number, ',');) {
-        camera.k.push_back(std::strtof(number.c_str(), nullptr));
-      }
-      camera.kSize = {static_cast<float>(image.width), static_cast<float>(image.height)};
-    }
   }
   if (!options.eye || !options.at) return;
+  Camera camera;
   forEachCameraOption([&](auto option, auto member) {
     if (options.*option) camera.*member = *(options.*option);
   });
   const CameraFrame frame = makeCameraFrame(camera, image.width, image.height);
-  const double wide = length(frame.right) * image.width, high = length(frame.up) * image.height;
-  const Vec3d axes[] = {normalized(frame.right), normalized(frame.up), frame.forward};
+  const double pixel = length(frame.up);
+  const Vec3d axes[] = {frame.right * (1 / pixel), frame.up * (1 / pixel), frame.forward};
   Imath::M44f toCamera, toNdc;
   for (int i = 0; i < 3; ++i) {
     for (int k = 0; k < 3; ++k) toCamera[k][i] = static_cast<float>(axes[i][k]);
     toCamera[3][i] = static_cast<float>(-dot(frame.eye, axes[i]));
   }
   Imf::addWorldToCamera(header, toCamera);
-  if (!isLinear) return;  // no matrix images the scene
-  toNdc[0][0] = static_cast<float>(1 / wide);
-  toNdc[1][0] = static_cast<float>(-frame.skew * image.height / (high * image.width));
-  toNdc[1][1] = static_cast<float>(-1 / high);
+  if (!isLinear) return;
+  toNdc[0][0] = static_cast<float>(1 / (pixel * image.width));
+  toNdc[1][1] = static_cast<float>(-1 / (pixel * image.height));
   // A perspective camera divides by the depth.
   const int offset = frame.orthographic ? 3 : 2;
   toNdc[2][2] = toNdc[3][3] = frame.orthographic ? 1 : 0;
   toNdc[2][3] = toNdc[3][2] = frame.orthographic ? 0 : 1;
-  toNdc[offset][0] = static_cast<float>(frame.centerX / image.width);
-  toNdc[offset][1] = static_cast<float>(frame.centerY / image.height);
+  toNdc[offset][0] = toNdc[offset][1] = 0.5f;
   Imf::addWorldToNDC(header, toCamera * toNdc);
 }
 

@@ -52,13 +52,12 @@ void readPath(JsonObject& file, SceneDescription& scene) {
 // Checks members that depend on each other.
 void checkProjection(JsonObject& object, const Camera& camera) {
   const std::vector<float>& k = camera.k;
-  if (!k.empty()) {
-    if (k.size() < 4 || k.size() > 5)
-      object.need("k").fail("[fx, fy, cx, cy] and perhaps the skew");
-    if (!(k[0] > 0 && k[1] > 0)) object.need("k").fail("focal lengths above 0");
-    if (camera.kSize.size() != 2) {
-      object.need("kSize").fail("the [width, height] of the picture that k is for");
-    }
+  if (camera.projection == Projection::fisheye) object.need("k");
+  if (!k.empty() && !(k.size() >= 4 && k.size() <= 5 && k[0] > 0 && k[1] > 0)) {
+    object.need("k").fail("[fx, fy, cx, cy], fx and fy above 0, and perhaps the skew");
+  }
+  if (!k.empty() && camera.kSize.size() != 2) {
+    object.need("kSize").fail("the [width, height] of the picture that k is for");
   }
   const std::size_t most = isPerspective(camera) ? 8 : 4;
   if (camera.distortion.size() > most) {
@@ -67,10 +66,8 @@ void checkProjection(JsonObject& object, const Camera& camera) {
   if (camera.orthographicHeight > 0 && !(k.empty() && camera.distortion.empty())) {
     object.value().fail("no orthographicHeight beside k or distortion");
   }
-  for (const char* table : {"azimuths", "elevations"}) {
-    const bool rows = table[0] == 'e';
-    if (!isTable(camera) || !(rows ? camera.elevations : camera.azimuths).empty()) continue;
-    object.need(table).fail(rows ? "an elevation a row" : "an azimuth a column");
+  if (isTable(camera) && (camera.azimuths.empty() || camera.elevations.empty())) {
+    object.value().fail("azimuths of the columns and elevations of the rows");
   }
 }
 

@@ -87,18 +87,16 @@ class Camera:
             k[0] = fx * x, skew * x, (cx + 0.5) * x - 0.5
             k[1, 1:] = fy * y, (cy + 0.5) * y - 0.5
         else:
-            k[0, 0] = k[1, 1] = height / 2 / np.tan(np.radians(self.fov) / 2)
+            k[0, 0] = k[1, 1] = height / 2 / np.tan(np.radians(self.members.get("fov", 45)) / 2)
             k[:2, 2] = (width - 1) / 2, (height - 1) / 2
         return k
 
     @property
     def fov(self) -> float:
         """Vertical field of view in degrees, of a lens without distortion."""
-        if self.members.get("k"):
-            below = (self.k[1, 2] + 0.5) / self.k[1, 1]
-            above = self.size[1] / self.k[1, 1] - below
-            return float(np.degrees(np.arctan(above) + np.arctan(below)))
-        return float(self.members.get("fov", 45))
+        above = (self.k[1, 2] + 0.5) / self.k[1, 1]
+        below = self.size[1] / self.k[1, 1] - above
+        return float(np.degrees(np.arctan(above) + np.arctan(below)))
 
     def project(self, points: Any) -> np.ndarray:
         """Pixels (..., 2) where points (..., 3) of the scene are seen; NaN where a point is not in
