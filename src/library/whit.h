@@ -145,7 +145,7 @@ struct Camera {
   double focus = 0;               // distance of the plane of focus; 0: it contains `at`
   // As in scene files (share/doc/whit/scenes/README.md).
   std::string projection = "perspective", stereo = "none";
-  std::vector<double> k, kSize, distortion, azimuths, elevations;
+  std::vector<double> k = {}, kSize = {}, distortion = {}, azimuths = {}, elevations = {};
   double angle = 180, eyeDistance = 0.065;
 };
 
