@@ -2,6 +2,7 @@
 #include "simd/kernels.h"
 
 #include <algorithm>
+#include <array>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/generate_rays.cpp"
@@ -54,6 +55,151 @@ class Lens {
   VF forward_;
 };
 
+// Bends places in the picture to directions (the scalar reference: reference/generate_rays.cpp).
+class Projector {
+ public:
+  explicit Projector(const CameraFrame& camera) : camera_(camera) {
+    for (size_t i = 0; i < 8; ++i) lens_[i] = static_cast<float>(camera.distortion[i]);
+  }
+
+  // Directions along right, up and forward through points x, y pixels right of and above the
+  // center, and where there is something to see.
+  HWY_INLINE V3 Bend(VF x, VF y, MF& seen) const {
+    const FloatTag d;
+    if (camera_.projection == Projection::directions) {
+      const VF azimuth = Entry(camera_.azimuths, x, camera_.viewWidth);
+      return Towards(azimuth, Entry(camera_.elevations, hn::Neg(y), camera_.viewHeight));
+    }
+    x = hn::Mul(x, hn::Set(d, static_cast<float>(length(camera_.right))));
+    y = hn::Mul(y, hn::Set(d, static_cast<float>(length(camera_.up))));
+    if (camera_.projection == Projection::panorama) return Towards(x, y);
+    if (camera_.projection != Projection::perspective) return Fisheye(x, y, seen);
+    return Undistorted(x, hn::Neg(y), seen);
+  }
+
+ private:
+  HWY_INLINE VF Lens(size_t i, float factor = 1) const {
+    return hn::Set(FloatTag(), factor * lens_[i]);
+  }
+
+  HWY_INLINE V3 Undistorted(VF u, VF v, MF& seen) const {
+    const FloatTag d;
+    const VF one = hn::Set(d, 1.0f), two = hn::Set(d, 2.0f), zero = hn::Zero(d);
+    VF x = u, y = v;
+    for (int step = 0;; ++step) {
+      const VF x2 = hn::Mul(x, x), y2 = hn::Mul(y, y), r2 = hn::Add(x2, y2);
+      const VF twoXY = hn::Mul(two, hn::Mul(x, y));
+      const auto polynomial = [&](VF c0, VF c1, VF c2)
+                                  HWY_ATTR { return MulThenAdd(MulThenAdd(c2, r2, c1), r2, c0); };
+      const VF above = MulThenAdd(polynomial(Lens(0), Lens(1), Lens(4)), r2, one);
+      const VF below = MulThenAdd(polynomial(Lens(5), Lens(6), Lens(7)), r2, one);
+      const VF scale = hn::Div(above, below);
+      const VF change = NegMulThenAdd(scale, polynomial(Lens(5), Lens(6, 2), Lens(7, 3)),
+                                      polynomial(Lens(0), Lens(1, 2), Lens(4, 3)));
+      const VF slope = hn::Mul(two, hn::Div(change, below));
+      const VF radial = MulThenAdd(slope, r2, scale);
+      const auto off = [&](VF at, VF at2, VF p, VF q, VF wanted) HWY_ATTR {
+        const VF tangential = MulThenAdd(p, twoXY, hn::Mul(q, MulThenAdd(two, at2, r2)));
+        return hn::Add(MulThenSub(at, scale, wanted), tangential);
+      };
+      const VF offX = off(x, x2, Lens(2), Lens(3), u), offY = off(y, y2, Lens(3), Lens(2), v);
+      if (step == kLensSteps) {
+        const VF error = hn::Max(hn::Abs(offX), hn::Abs(offY));
+        const VF least = hn::Min(hn::Min(scale, below), radial);
+        seen = hn::And(hn::Lt(error, Lens(8)), hn::Gt(least, zero));
+        return {x, hn::Neg(y), one};
+      }
+      const VF share = hn::Div(hn::Mul(slope, MulThenAdd(x, offX, hn::Mul(y, offY))), radial);
+      x = hn::Sub(x, hn::Div(NegMulThenAdd(x, share, offX), scale));
+      y = hn::Sub(y, hn::Div(NegMulThenAdd(y, share, offY), scale));
+    }
+  }
+
+  HWY_INLINE VF FisheyeAngle(VF radius, MF& seen) const {
+    const FloatTag d;
+    if (camera_.projection == Projection::equisolid) {
+      const VF half = hn::Asin(d, hn::Mul(radius, hn::Set(d, 0.5f)));
+      return hn::Add(half, half);
+    }
+    VF angle = radius;
+    for (int step = 0;; ++step) {
+      const VF a2 = hn::Mul(angle, angle);
+      const auto polynomial = [&](VF c1, VF c2, VF c3, VF c4) HWY_ATTR {
+        const VF inner = MulThenAdd(MulThenAdd(c4, a2, c3), a2, c2);
+        return MulThenAdd(MulThenAdd(inner, a2, c1), a2, hn::Set(d, 1.0f));
+      };
+      const VF off = MulThenSub(angle, polynomial(Lens(0), Lens(1), Lens(2), Lens(3)), radius);
+      const VF slope = polynomial(Lens(0, 3), Lens(1, 5), Lens(2, 7), Lens(3, 9));
+      if (step == kLensSteps) {
+        seen = hn::And(hn::Lt(hn::Abs(off), Lens(8)), hn::Gt(slope, hn::Zero(d)));
+        return angle;
+      }
+      angle = hn::Sub(angle, hn::Div(off, slope));
+    }
+  }
+
+  HWY_INLINE V3 Fisheye(VF x, VF y, MF& seen) const {
+    const FloatTag d;
+    const VF radius = hn::Sqrt(MulThenAdd(x, x, hn::Mul(y, y)));
+    VF angle = FisheyeAngle(radius, seen);
+    seen = hn::And(seen, hn::Le(angle, hn::Set(d, static_cast<float>(camera_.limit))));
+    angle = hn::IfThenElseZero(seen, angle);
+    const VF divisor = hn::Max(radius, hn::Set(d, 1e-30f));
+    const VF across = hn::Div(hn::Sin(d, angle), divisor);
+    return {hn::Mul(x, across), hn::Mul(y, across), hn::Cos(d, angle)};
+  }
+
+  HWY_INLINE static V3 Towards(VF azimuth, VF elevation) {
+    const FloatTag d;
+    const VF level = hn::Cos(d, elevation);
+    return {hn::Mul(hn::Sin(d, azimuth), level), hn::Sin(d, elevation),
+            hn::Mul(hn::Cos(d, azimuth), level)};
+  }
+
+  // In radians. The table is stretched over `pixels` pixels; `at` counts them from the center.
+  HWY_INLINE static VF Entry(const std::vector<float>& degrees, VF at, int pixels) {
+    const FloatTag d;
+    const IntTag di;
+    const int last = static_cast<int>(degrees.size()) - 1;
+    const auto scale = static_cast<float>(static_cast<double>(degrees.size()) / pixels);
+    const VF pixel = hn::Add(at, hn::Set(d, static_cast<float>(pixels) / 2));
+    VF place = MulThenSub(pixel, hn::Set(d, scale), hn::Set(d, 0.5f));
+    place = hn::Min(hn::Max(place, hn::Zero(d)), hn::Set(d, static_cast<float>(last)));
+    const VI before = hn::ConvertTo(di, place);
+    const VI after = hn::Min(hn::Add(before, hn::Set(di, 1)), hn::Set(di, last));
+    const VF a = hn::GatherIndex(d, degrees.data(), before);
+    const VF b = hn::GatherIndex(d, degrees.data(), after);
+    const VF share = hn::Sub(place, hn::ConvertTo(d, before));
+    constexpr float kRadians = 0.0174532925f;
+    return hn::Mul(MulThenAdd(hn::Sub(b, a), share, a), hn::Set(d, kRadians));
+  }
+
+  const CameraFrame& camera_;
+  std::array<float, 9> lens_{0, 0, 0, 0, 0, 0, 0, 0, static_cast<float>(kLensError)};
+};
+
+// Numbers of a frame's views, twelve each.
+std::array<float, 72> ViewNumbers(const CameraFrame& camera) {
+  std::array<float, 72> numbers{};
+  float* to = numbers.data();
+  for (const CameraView& view : camera.views) {
+    for (const Vec3d& v : {camera.eye + view.aside, view.forward, view.right, view.up}) {
+      for (int i = 0; i < 3; ++i) *to++ = static_cast<float>(v[i]);
+    }
+  }
+  return numbers;
+}
+
+// Takes a place in the picture to its place in a view, whose number it returns.
+HWY_INLINE VI ViewAt(VI& place, int size, int count) {
+  const FloatTag d;
+  const IntTag di;
+  const VF number = hn::Div(hn::ConvertTo(d, place), hn::Set(d, static_cast<float>(size)));
+  const VI whole = hn::Min(hn::ConvertTo(di, number), hn::Set(di, count - 1));
+  place = hn::Sub(place, hn::Mul(whole, hn::Set(di, size)));
+  return whole;
+}
+
 void GenerateRays(Chunk& c) noexcept {
   const FloatTag d;
   const IntTag di;
@@ -66,34 +212,60 @@ void GenerateRays(Chunk& c) noexcept {
   const uint32_t sampleNumber = c.sampleNumber, seed = c.frame->seed;
   const bool media = c.has(Feature::transmission), cones = c.has(Feature::cones);
   const bool streams = c.has(Feature::streams);
-  const V3 eye = Broadcast3(Vec3f(camera.eye)), forward = Broadcast3(Vec3f(camera.forward));
-  const V3 right = Broadcast3(Vec3f(camera.right)), up = Broadcast3(Vec3f(camera.up));
+  V3 eye = Broadcast3(Vec3f(camera.eye)), forward = Broadcast3(Vec3f(camera.forward));
+  V3 right = Broadcast3(Vec3f(camera.right)), up = Broadcast3(Vec3f(camera.up));
   const auto coneWidth = static_cast<float>(pixelCone(camera).width);
   // Whole pixels minus half the size are exact in float; the sample's place is added last.
   const VF shiftX = hn::Set(d, c.sample.x), shiftY = hn::Set(d, c.sample.y);
-  const VF halfWidth = hn::Set(d, static_cast<float>(camera.width) / 2);
-  const VF halfHeight = hn::Set(d, static_cast<float>(camera.height) / 2);
+  const VF centerX = hn::Set(d, static_cast<float>(camera.centerX));
+  const VF centerY = hn::Set(d, static_cast<float>(camera.centerY));
+  const VF skew = hn::Set(d, static_cast<float>(camera.skew));
+  const VF widthOfPixel = hn::Set(d, static_cast<float>(1 / length(camera.right)));
+  const VF heightOfPixel = hn::Set(d, static_cast<float>(1 / length(camera.up)));
+  const Projector projector(camera);
+  const std::array<float, 72> views = ViewNumbers(camera);
+  const int columns = camera.width / camera.viewWidth, rows = camera.height / camera.viewHeight;
+  const bool isStraight = camera.isStraight();
   const VF one = hn::Set(d, 1.0f);
   const Lens lens(camera);
   const bool hasLens = camera.aperture > 0;
   const LobeSampling lensSampling = lightSampling(0, 1, sampleNumber);
   for (size_t i = 0; i < n; i += hn::Lanes(d)) {
     const VU packed = hn::LoadU(du, pixels + i);
-    const VI px = hn::BitCast(di, hn::And(packed, hn::Set(du, 0xFFFFu)));
-    const VI py = hn::BitCast(di, hn::ShiftRight<16>(packed));
-    const VF x = hn::Add(hn::Sub(hn::ConvertTo(d, px), halfWidth), shiftX);
-    const VF y = hn::Sub(hn::Sub(halfHeight, hn::ConvertTo(d, py)), shiftY);
+    VI px = hn::BitCast(di, hn::And(packed, hn::Set(du, 0xFFFFu)));
+    VI py = hn::BitCast(di, hn::ShiftRight<16>(packed));
+    if (!camera.views.empty()) {
+      const VI row = ViewAt(py, camera.viewHeight, rows);
+      const VI column = ViewAt(px, camera.viewWidth, columns);
+      const VI view = hn::Add(hn::Mul(row, hn::Set(di, columns)), column);
+      VI at = hn::Mul(view, hn::Set(di, 12));
+      for (V3* v : {&eye, &forward, &right, &up}) {
+        for (VF* to : {&v->x, &v->y, &v->z}) {
+          *to = hn::GatherIndex(d, views.data(), at);
+          at = hn::Add(at, hn::Set(di, 1));
+        }
+      }
+    }
+    VF x = hn::Add(hn::Sub(hn::ConvertTo(d, px), centerX), shiftX);
+    const VF y = hn::Sub(hn::Sub(centerY, hn::ConvertTo(d, py)), shiftY);
+    x = MulThenAdd(skew, y, x);
+    MF seen = hn::Eq(x, x);
     V3 origin = eye, direction = forward;
     if (camera.orthographic) {
       origin = MulAdd3(right, x, MulAdd3(up, y, eye));
-    } else {
+    } else if (isStraight) {
       direction = MulAdd3(right, x, MulAdd3(up, y, forward));
+    } else {
+      const V3 along = projector.Bend(x, y, seen);
+      direction = MulAdd3(right, hn::Mul(along.x, widthOfPixel), Scale3(forward, along.z));
+      direction = MulAdd3(up, hn::Mul(along.y, heightOfPixel), direction);
     }
     if (hasLens) {
       const VU path = StreamOfPixel(packed, sampleNumber, seed);
       lens.Bend(DiskPointsOf(SaltedPoints(path, lensSampling, kLensSalt, 0)), origin, direction);
     }
     if (hasLens || !camera.orthographic) direction = Normalize3(direction);
+    if (!isStraight) direction = Select3(seen, direction, Broadcast3(Vec3f()));
     Store3(origin, rays.orgX, rays.orgY, rays.orgZ, i);
     Store3(direction, rays.dirX, rays.dirY, rays.dirZ, i);
     Store3({one, one, one}, rays.weightR, rays.weightG, rays.weightB, i);

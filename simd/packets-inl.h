@@ -30,12 +30,12 @@ struct RaySource {
   const float *orgX, *orgY, *orgZ, *dirX, *dirY, *dirZ, *tFar;
 };
 
-// One sum, because nearly all rays are fine.
+// One sum, because nearly all rays are fine. A direction of 0 belongs to a pixel that sees nothing.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE hn::Mask<D> Traceable(D d, V ox, V oy, V oz, V dx, V dy, V dz, float reach) {
   const V org = hn::Add(hn::Add(hn::Abs(ox), hn::Abs(oy)), hn::Abs(oz));
-  const V sum = hn::Add(hn::Add(hn::Add(org, hn::Abs(dx)), hn::Abs(dy)), hn::Abs(dz));
-  return hn::Le(sum, hn::Set(d, reach));
+  const V way = hn::Add(hn::Add(hn::Abs(dx), hn::Abs(dy)), hn::Abs(dz));
+  return hn::And(hn::Le(hn::Add(org, way), hn::Set(d, reach)), hn::Gt(way, hn::Zero(d)));
 }
 
 template <size_t kWidth>

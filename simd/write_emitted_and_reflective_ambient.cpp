@@ -53,6 +53,9 @@ void WriteEmittedAndReflectiveAmbient(Chunk& c) noexcept {
     if (sky) {
       const V3 direction = Load3(rays.dirX, rays.dirY, rays.dirZ, i);
       beyond = SkyRadiance(tables.sky, direction, hn::Not(hit));
+      // A direction of 0 belongs to a pixel that sees nothing.
+      const MF seen = hn::Gt(MaxComponent(Abs3(direction)), hn::Zero(d));
+      beyond = Select3(seen, beyond, black);
     }
     Store3(Select3(hit, result, beyond), radiance.r, radiance.g, radiance.b, i);
   }

@@ -89,7 +89,8 @@ RTCRayHit singleRay(const EmbreeScene& scene, const Vec3f& origin, const Vec3f& 
                     float tNear, float tFar, unsigned mask) {
   const Vec3f size = abs(origin), way = abs(direction);
   const float reach = scene.reach(), place = 0.25f * reach;
-  const bool traceable = size.x + size.y + size.z + way.x + way.y + way.z <= reach;
+  const bool traceable =
+      size.x + size.y + size.z + way.x + way.y + way.z <= reach && direction != Vec3f();
   const Vec3f o = traceable ? origin : Vec3f(place), d = traceable ? direction : Vec3f{0, 0, 1};
   RTCRayHit r{};
   r.ray = {o.x, o.y, o.z, tNear, d.x, d.y, d.z, 0, traceable ? tFar : -1, mask, 0, 0};

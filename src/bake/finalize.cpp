@@ -117,7 +117,7 @@ float farthestStart(const Scene& scene, const std::vector<Box>& boxes) {
   const auto add = [&](const Vec3f& p) { farthest = std::max(farthest, maxComponent(abs(p))); };
   if (!all.empty()) add(all.lower), add(all.upper);
   const auto addStarts = [&](const Camera& camera) {
-    add(abs(camera.eye) + Vec3f(camera.aperture));
+    add(abs(camera.eye) + Vec3f(camera.aperture + camera.eyeDistance));
   };
   for (const Camera& camera : scene.cameras) addStarts(camera);
   for (const Keyframe& frame : scene.cameraPath) addStarts(frame.camera);

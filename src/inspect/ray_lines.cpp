@@ -147,6 +147,7 @@ LineView::LineView(const Camera& camera, int width, int height)
       near_(1e-3 * length(Vec3d(camera.at) - Vec3d(camera.eye))) {}
 
 std::optional<ScreenLine> LineView::see(Vec3d from, Vec3d to) const {
+  if (!frame_.isLinear()) return std::nullopt;  // lines are curves there
   double a = dot(from - frame_.eye, frame_.forward), b = dot(to - frame_.eye, frame_.forward);
   if (std::max(a, b) < near_) return std::nullopt;
   if (a > b) std::swap(a, b), std::swap(from, to);
@@ -161,7 +162,7 @@ std::array<double, 2> LineView::project(const Vec3d& point) const {
   const double depth = frame_.orthographic ? 1 : dot(d, frame_.forward);
   const double x = dot(d, frame_.right) / (dot(frame_.right, frame_.right) * depth);
   const double y = dot(d, frame_.up) / (dot(frame_.up, frame_.up) * depth);
-  return {frame_.width / 2.0 + x, frame_.height / 2.0 - y};
+  return {frame_.centerX + x - frame_.skew * y, frame_.centerY - y};
 }
 
 }  // namespace whit

@@ -148,10 +148,15 @@ void readMember(const JsonValue& json, const Member<Noun, Value>& member, Value&
     value = json.integer(static_cast<int>(rules.low), static_cast<int>(rules.high));
   } else if constexpr (std::is_same_v<Value, Vec3f>) {
     value = rules.kind == MemberKind::color ? json.color(rules.high) : Vec3f(json.vector());
-  } else if constexpr (std::is_same_v<Value, Light::Kind>) {
-    const std::string word = json.word({kLightKindNames.begin(), kLightKindNames.end()});
-    const auto* const found = std::ranges::find(kLightKindNames, word);
-    value = static_cast<Value>(found - kLightKindNames.begin());
+  } else if constexpr (std::is_enum_v<Value>) {
+    constexpr auto& kNames = kWords<Value>;
+    const auto* const found = std::ranges::find(kNames, json.word({kNames.begin(), kNames.end()}));
+    value = static_cast<Value>(found - kNames.begin());
+  } else if constexpr (std::is_same_v<Value, std::vector<float>>) {
+    value.clear();
+    for (const JsonValue& element : json.elements()) {
+      value.push_back(static_cast<float>(element.number(rules.low, rules.high)));
+    }
   } else {
     value = static_cast<Value>(json.number(rules.low, rules.high));
   }

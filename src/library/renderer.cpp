@@ -7,6 +7,7 @@
 #include "bake/edit_scene.h"
 #include "core/option_table.h"
 #include "io/image/image_layers.h"
+#include "io/scene/scene_sections.h"
 #include "io/scene/scene_settings.h"
 #include "library/internal.h"
 #include "render/renderer.h"
@@ -61,6 +62,10 @@ struct Renderer::Data {
     return {internal(), *queries, threads, told};
   }
 
+  whit::Camera view() const {
+    return lookedThrough ? aimed(*lookedThrough, settled) : chooseCamera(internal(), settled);
+  }
+
   // Brings scene and renderer up to date with the time, the transforms and the options.
   void prepare(whit::Progress* told) {
     move();
@@ -72,7 +77,7 @@ struct Renderer::Data {
       renderer.reset();  // two acceleration structures may need too much memory
       renderer = std::make_unique<whit::Renderer>(internal(), settled, told);
     }
-    settleExposure(*renderer, chooseCamera(internal(), settled), settled);
+    settleExposure(*renderer, view(), settled);
     changed = false;
   }
 
@@ -165,9 +170,10 @@ struct Renderer::Data {
 
   Scene scene;  // shared with others until ownScene()
   double seconds = 0;
-  std::map<std::string, Affine> places;  // set by setTransform(), by pointer
-  bool stale = false;                    // time or transforms have changed
-  std::optional<JsonDocument> document;  // the scene's, after setMember()
+  std::map<std::string, Affine> places;       // set by setTransform(), by pointer
+  bool stale = false;                         // time or transforms have changed
+  std::optional<JsonDocument> document;       // the scene's, after setMember()
+  std::optional<whit::Camera> lookedThrough;  // in place of the scene's cameras
   RenderOptions options;
   std::set<std::string> given;
   RenderOptions settled;  // `options` with those of --quality and the scene's defaults
@@ -205,6 +211,21 @@ Renderer& Renderer::reset() {
   return *this;
 }
 
+Renderer& Renderer::lookThrough(const std::string& camera) {
+  return guarded([&]() -> Renderer& {
+    std::optional<whit::Camera> own;
+    if (!camera.empty()) {
+      const JsonDocument document{"camera", parseJson(camera, "camera"), {}};
+      JsonObject object{JsonValue(document)};
+      readCamera(object, own.emplace());
+      object.finish();
+    }
+    data_->changed |= own || data_->lookedThrough;  // for the automatic exposure
+    data_->lookedThrough = std::move(own);
+    return *this;
+  });
+}
+
 Renderer& Renderer::setProgress(Progress progress) {
   data_->progress = std::move(progress);
   return *this;
@@ -235,7 +256,7 @@ Image Renderer::render() {
 void Renderer::render(Image& image) {
   guarded(data_->progress, [&](whit::Progress* told) {
     data_->prepare(told);
-    data_->render(chooseCamera(data_->internal(), data_->settled), image, told);
+    data_->render(data_->view(), image, told);
   });
 }
 

@@ -4,6 +4,7 @@
 
 #include "core/text.h"
 #include "io/json_reader.h"
+#include "io/scene/scene_sections.h"
 #include "io/scene/scene_settings.h"
 #include "library/internal.h"
 
@@ -36,13 +37,19 @@ Json describe(const Light& light) {
 }
 
 Json describe(const Camera& camera) {
-  return {{"eye", camera.eye},
-          {"at", camera.at},
-          {"up", camera.up},
-          {"fov", camera.fov},
-          {"orthographicHeight", camera.orthographicHeight},
-          {"aperture", camera.aperture},
-          {"focus", camera.focus}};
+  Json json{{"eye", camera.eye}, {"at", camera.at}, {"up", camera.up}};
+  // Which other members there may be depends on the projection.
+  const auto add = [&](const char* name, auto member) {
+    if (camera.*member != Camera().*member) json[name] = camera.*member;
+  };
+  add("projection", &Camera::projection), add("fov", &Camera::fov);
+  add("orthographicHeight", &Camera::orthographicHeight);
+  add("aperture", &Camera::aperture), add("focus", &Camera::focus);
+  add("k", &Camera::k), add("kSize", &Camera::kSize), add("distortion", &Camera::distortion);
+  add("angle", &Camera::angle);
+  add("azimuths", &Camera::azimuths), add("elevations", &Camera::elevations);
+  add("stereo", &Camera::stereo), add("eyeDistance", &Camera::eyeDistance);
+  return json;
 }
 
 // Writes only members that have a value, because the defaults of others depend on them.
@@ -123,6 +130,14 @@ std::uint64_t Scene::triangles() const { return data_->scene.instancedTriangles;
 std::vector<std::string> Scene::warnings() const { return data_->warnings; }
 
 std::vector<std::string> Scene::cameras() const { return namesIn(data_->scene.cameras); }
+
+std::string Scene::camera(const std::string& name) const {
+  return guarded([&] {
+    RenderOptions options;
+    options.camera = name;
+    return whit::describe(chooseCamera(data_->scene, options)).dump();
+  });
+}
 
 std::vector<std::string> Scene::objects() const { return data_->scene.items.names; }
 

@@ -88,6 +88,8 @@ class Scene {
   const std::string& name() const;
   int width() const, height() const;  // the scene's own image size, in pixels
   std::vector<std::string> cameras() const;
+  // The camera of this name as JSON, as in a scene file; empty: the first one.
+  std::string camera(const std::string& name = {}) const;
   double pathSeconds() const;  // end of the camera path; 0 without a path
   std::vector<Animation> animations() const;
   std::uint64_t triangles() const;            // counted once for each instance
@@ -141,6 +143,10 @@ struct Camera {
   double orthographicHeight = 0;  // above 0: parallel rays, and the height of the view
   double aperture = 0;            // radius of the lens; 0: a pinhole
   double focus = 0;               // distance of the plane of focus; 0: it contains `at`
+  // As in scene files (share/doc/whit/scenes/README.md).
+  std::string projection = "perspective", stereo = "none";
+  std::vector<double> k = {}, kSize = {}, distortion = {}, azimuths = {}, elevations = {};
+  double angle = 180, eyeDistance = 0.065;
 };
 
 struct Light {
@@ -331,6 +337,10 @@ class Renderer {
   // materials of scene files and builders, and cameras need no rebuild unless they move; for other
   // members the scene is read again. After an error the scene is unchanged.
   Renderer& setMember(const std::string& pointer, const std::string& json);
+
+  // Looks through this camera, in JSON as in a scene file, in place of the scene's; empty: through
+  // those again. "eye" and the other options that replace a camera's members still do so.
+  Renderer& lookThrough(const std::string& camera);
 
   // Sets the callback for builds, frames and scenes that are read again; {}: none.
   Renderer& setProgress(Progress progress);

@@ -136,12 +136,14 @@ class Session {
     return question(renderer_.scene());
   }
 
-  // The options hold for this frame only. With `pathSeconds` the camera is on the camera path.
+  // The options and the camera hold for this frame only. With `pathSeconds` the camera is on the
+  // camera path.
   Picture render(const OptionTexts& options, std::optional<double> pathSeconds,
-                 const py::object& progress) {
+                 const py::object& progress, const std::string& camera) {
     const Turn turn(*this);
     return call(progress, [&](const api::Progress& told) {
       takeOptions(options);
+      renderer_.lookThrough(camera);
       renderer_.setProgress(told);
       Picture picture;
       if (pathSeconds) {
@@ -449,6 +451,10 @@ void defineSession(py::module_& module) {
       .def_property_readonly("warnings", asked(&api::Scene::warnings))
       .def_property_readonly("path_seconds", asked(&api::Scene::pathSeconds))
       .def_property_readonly("animations", &animationsOf)
+      .def("camera",
+           [](Session& session, const std::string& name) {
+             return session.ask([&](const api::Scene& scene) { return scene.camera(name); });
+           })
       .def("render", &Session::render)
       .def("set_member", &Session::setMember)
       .def("set_time", &Session::setTime)

@@ -1,8 +1,11 @@
 #include "reference/generate_rays.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <vector>
 
 #include "core/image.h"
 #include "reference/media.h"
@@ -28,7 +31,7 @@ std::array<double, 2> diskPoint(const UnitPoint& square) {
 // The ray that starts at the path's point of the lens and meets `central`, which starts at the
 // center of the lens, in the plane of focus.
 Ray throughLens(const CameraFrame& camera, const Ray& central, const Path& path) {
-  if (!(camera.aperture > 0)) return central;
+  if (!(camera.aperture > 0) || central.direction == Vec3d()) return central;
   const auto [x, y] =
       diskPoint(saltedPoint(path.number, lightSampling(0, 1, path.sample), kLensSalt, 0));
   const Vec3d aside = (normalized(camera.right) * x + normalized(camera.up) * y) * camera.aperture;
@@ -36,17 +39,116 @@ Ray throughLens(const CameraFrame& camera, const Ray& central, const Path& path)
   return {central.origin + aside, normalized(toFocus - aside, central.direction), central.cone};
 }
 
+// The point that OpenCV's model of a lens distorts to (u, v), both with y downwards. There is none
+// where Newton's method, by the radial part's derivative, does not find one, or finds one beyond a
+// fold of the picture.
+std::optional<std::array<double, 2>> undistorted(const CameraFrame& camera, double u, double v) {
+  const auto [k1, k2, p1, p2, k3, k4, k5, k6] = camera.distortion;
+  double x = u, y = v;
+  for (int step = 0;; ++step) {
+    const double r2 = x * x + y * y;
+    const double above = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));
+    const double below = 1 + r2 * (k4 + r2 * (k5 + r2 * k6));
+    const double scale = above / below;
+    const double change =
+        k1 + r2 * (2 * k2 + r2 * 3 * k3) - scale * (k4 + r2 * (2 * k5 + r2 * 3 * k6));
+    const double slope = 2 * change / below, radial = scale + r2 * slope;
+    const double offX = x * scale + 2 * p1 * x * y + p2 * (r2 + 2 * x * x) - u;
+    const double offY = y * scale + 2 * p2 * x * y + p1 * (r2 + 2 * y * y) - v;
+    if (step == kLensSteps) {
+      const bool found = std::max(std::fabs(offX), std::fabs(offY)) < kLensError;
+      if (!(found && std::min({scale, below, radial}) > 0)) return std::nullopt;
+      return std::array{x, y};
+    }
+    const double share = slope * (x * offX + y * offY) / radial;
+    x -= (offX - x * share) / scale;
+    y -= (offY - y * share) / scale;
+  }
+}
+
+// The angle to the axis of the ray that a fisheye images at this distance from the center, in focal
+// lengths; NaN where there is none.
+double fisheyeAngle(const CameraFrame& camera, double radius) {
+  if (camera.projection == Projection::equisolid) return 2 * std::asin(radius / 2);
+  const double k1 = camera.distortion[0], k2 = camera.distortion[1];
+  const double k3 = camera.distortion[2], k4 = camera.distortion[3];
+  double angle = radius;
+  for (int step = 0;; ++step) {
+    const double a2 = angle * angle;
+    const double off = angle * (1 + a2 * (k1 + a2 * (k2 + a2 * (k3 + a2 * k4)))) - radius;
+    const double slope = 1 + a2 * (3 * k1 + a2 * (5 * k2 + a2 * (7 * k3 + a2 * 9 * k4)));
+    if (step == kLensSteps) {
+      return std::fabs(off) < kLensError && slope > 0 ? angle : std::nan("");
+    }
+    angle -= off / slope;
+  }
+}
+
+// The entry of a table that is stretched over `pixels` pixels, at this place among them.
+double entryAt(const std::vector<float>& table, double pixel, int pixels) {
+  const auto last = static_cast<double>(table.size() - 1);
+  const double at = std::clamp(pixel * static_cast<double>(table.size()) / pixels - 0.5, 0.0, last);
+  const auto before = static_cast<std::size_t>(at);
+  const double a = table[before], b = table[std::min(before + 1, table.size() - 1)];
+  return a + (b - a) * (at - static_cast<double>(before));
+}
+
+Vec3d towards(double azimuth, double elevation) {
+  return {std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
+          std::cos(azimuth) * std::cos(elevation)};
+}
+
+// The direction, along right, up and forward, through the point X, Y pixels right of and above the
+// center; 0: nothing is seen there.
+Vec3d bent(const CameraFrame& camera, double X, double Y) {
+  constexpr double kRadians = std::numbers::pi / 180;
+  const double x = X * length(camera.right), y = Y * length(camera.up);
+  switch (camera.projection) {
+    case Projection::perspective: {
+      const auto point = undistorted(camera, x, -y);
+      return point ? normalized(Vec3d{(*point)[0], -(*point)[1], 1}) : Vec3d();
+    }
+    case Projection::panorama:
+      return towards(x, y);
+    case Projection::directions:
+      return towards(
+          kRadians * entryAt(camera.azimuths, X + camera.viewWidth / 2.0, camera.viewWidth),
+          kRadians * entryAt(camera.elevations, camera.viewHeight / 2.0 - Y, camera.viewHeight));
+    default: {
+      const double radius = std::hypot(x, y), angle = fisheyeAngle(camera, radius);
+      if (!(angle <= camera.limit)) return {};
+      const double across = radius > 0 ? std::sin(angle) / radius : 0;
+      return {x * across, y * across, std::cos(angle)};
+    }
+  }
+}
+
 }  // namespace
 
 Ray generateRay(const CameraFrame& camera, double x, double y) {
-  if (camera.orthographic) {
-    const Vec3d aside =
-        camera.right * (x - camera.width / 2.0) - camera.up * (y - camera.height / 2.0);
-    return {camera.eye + aside, camera.forward, pixelCone(camera)};
+  CameraView view{{}, camera.forward, camera.right, camera.up};
+  if (!camera.views.empty()) {
+    const int columns = camera.width / camera.viewWidth, rows = camera.height / camera.viewHeight;
+    const int column = std::min(static_cast<int>(x / camera.viewWidth), columns - 1);
+    const int row = std::min(static_cast<int>(y / camera.viewHeight), rows - 1);
+    view = camera.views[static_cast<std::size_t>(row * columns + column)];
+    x -= column * camera.viewWidth;
+    y -= row * camera.viewHeight;
   }
-  const Vec3d through = camera.forward + camera.right * (x - camera.width / 2.0) -
-                        camera.up * (y - camera.height / 2.0);
-  return {camera.eye, normalized(through, camera.forward), pixelCone(camera)};
+  const Vec3d start = camera.eye + view.aside;
+  y = camera.centerY - y;
+  x = x - camera.centerX + camera.skew * y;
+  if (camera.orthographic) {
+    return {start + (view.right * x + view.up * y), view.forward, pixelCone(camera)};
+  }
+  if (camera.isStraight()) {
+    const Vec3d through = view.forward + view.right * x + view.up * y;
+    return {start, normalized(through, view.forward), pixelCone(camera)};
+  }
+  const Vec3d d = bent(camera, x, y);
+  const Vec3d direction =
+      normalized(view.right) * d.x + normalized(view.up) * d.y + view.forward * d.z;
+  return {start, direction, pixelCone(camera)};
 }
 
 PrimaryRay primaryRay(const CameraFrame& camera, int x, int y, const Vec2f& at,

@@ -11,7 +11,7 @@ namespace whit::reference {
 
 // Radiance of the sky along the unit direction, black where the effects leave it out.
 inline RgbD skyAlong(const Scene& scene, EffectSet effects, const Vec3d& direction) {
-  if (!effects.has(Effect::sky)) return {};
+  if (!effects.has(Effect::sky) || direction == Vec3d()) return {};  // 0 sees nothing
   if (scene.sky.kind == Sky::Kind::image && !effects.has(Effect::skyImage)) return {};
   return skyRadiance(scene.sky, direction);
 }

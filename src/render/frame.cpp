@@ -14,14 +14,19 @@ namespace {
 // Linear pixel, display code, and what the encoder needs while it writes.
 constexpr std::uint64_t kBytesPerPixel = 32;
 
+}  // namespace
+
 Camera aimed(Camera camera, const RenderOptions& options) {
+  const bool hasFov = isPerspective(camera) && camera.k.empty();
+  if (!hasFov && (options.fov || options.ortho.value_or(0) > 0)) {
+    throwUsage("--fov and --ortho: camera '" + camera.name +
+               "' has a matrix k or another projection than \"perspective\"");
+  }
   forEachCameraOption([&](auto option, auto member) {
     if (options.*option) camera.*member = *(options.*option);
   });
   return camera;
 }
-
-}  // namespace
 
 Camera chooseCamera(const Scene& scene, const RenderOptions& options) {
   Camera camera = scene.cameras.front();

@@ -359,6 +359,7 @@ std::vector<std::pair<std::string, std::string>> describeImage(const Scene& scen
     const auto& value = camera.*member;
     if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, float>) {
       if (value == 0 && !(options.*option)) return;
+      if (!isFramedByOptions(camera)) return;
     }
     resolved.*option = value;
   });
@@ -370,6 +371,10 @@ std::vector<std::pair<std::string, std::string>> describeImage(const Scene& scen
       {"software", "whit " WHIT_VERSION},
       {"scene", scene.name},
       {"effectsUsed", formatValue(OptionSpec{}, renderer.plan().effects)}};
+  if (!isFramedByOptions(camera)) {
+    said.emplace_back("projection",
+                      kWords<Projection>[static_cast<std::size_t>(camera.projection)]);
+  }
   for (auto& entry : pictureOptions(resolved)) said.push_back(std::move(entry));
   return said;
 }

@@ -1,7 +1,10 @@
 #include "scene/camera.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <numbers>
+#include <type_traits>
 
 #include "scene/members.h"
 
@@ -20,6 +23,12 @@ float between(float a, float b, double s) { return static_cast<float>(a * (1 - s
 Vec3f between(const Vec3f& a, const Vec3f& b, double s) {
   return Vec3f(Vec3d(a) * (1 - s) + Vec3d(b) * s);
 }
+std::vector<float> between(std::vector<float> a, const std::vector<float>& b, double s) {
+  for (std::size_t i = 0; a.size() == b.size() && i < a.size(); ++i) a[i] = between(a[i], b[i], s);
+  return a;
+}
+template <typename Enum>
+requires std::is_enum_v<Enum> Enum between(Enum a, Enum /*b*/, double /*s*/) { return a; }
 
 // Velocity at keyframe i: the slope between its neighbors, or towards the only one there is.
 Vec3d velocity(const std::vector<Keyframe>& path, std::size_t i, Vec3f Camera::*point) {
@@ -34,6 +43,64 @@ Vec3d velocity(const std::vector<Keyframe>& path, std::size_t i, Vec3f Camera::*
 Vec3d fallbackRight(const Vec3d& forward) {
   const bool vertical = std::abs(forward.y) > 0.999;
   return normalized(cross(forward, vertical ? Vec3d{0, 0, forward.y} : Vec3d{0, 1, 0}));
+}
+
+// Radians between neighbors of a table of degrees that is stretched over so many pixels.
+double meanStep(const std::vector<float>& degrees, int pixels) {
+  constexpr double kLeast = 1e-6;  // of a table with one entry
+  if (degrees.empty()) return kLeast;
+  const double span = double{degrees.back()} - double{degrees.front()};
+  return std::max(std::abs(span) * (std::numbers::pi / 180) / pixels, kLeast);
+}
+
+// Tangents or radians that one pixel spans in a picture of this size, at its center.
+std::array<double, 2> pixelSteps(const Camera& camera, const CameraFrame& frame, int width,
+                                 int height) {
+  if (!camera.k.empty() && hasMatrix(camera)) {
+    return {camera.kSize[0] / (double{camera.k[0]} * width),
+            camera.kSize[1] / (double{camera.k[1]} * height)};
+  }
+  const double radius = std::min(width, height) / 2.0;  // of a fisheye's image circle
+  switch (camera.projection) {
+    case Projection::perspective:
+      break;
+    case Projection::equidistant:
+    case Projection::fisheye:
+      return {frame.limit / radius, frame.limit / radius};
+    case Projection::equisolid:
+      return {2 * std::sin(frame.limit / 2) / radius, 2 * std::sin(frame.limit / 2) / radius};
+    case Projection::panorama:
+      return {2 * std::numbers::pi / width, std::numbers::pi / height};
+    case Projection::directions:
+      return {meanStep(camera.azimuths, width), meanStep(camera.elevations, height)};
+    case Projection::cubeMap:
+      return {2.0 / width, 2.0 / height};
+  }
+  const double asked = camera.fov;
+  const double fov = asked > kLeastFov ? std::min(asked, kLargestFov) : kLeastFov;
+  const double pixel = (frame.orthographic ? double{camera.orthographicHeight}
+                                           : 2 * std::tan(fov * (std::numbers::pi / 360))) /
+                       height;
+  return {pixel, pixel};
+}
+
+// The views of a stereo pair or of a cube map: right, left, up, down, forward, backward, each as it
+// is seen when one turns there from the forward view.
+std::vector<CameraView> viewsOf(const Camera& camera, const CameraFrame& frame) {
+  const Vec3d &f = frame.forward, &r = frame.right, &u = frame.up;
+  if (camera.projection == Projection::cubeMap) {
+    const double step = length(r), tall = length(u);
+    const Vec3d right = normalized(r), up = normalized(u);
+    return {{{}, right, f * -step, u},
+            {{}, -right, f * step, u},
+            {{}, up, r, f * -tall},
+            {{}, -up, r, f * tall},
+            {{}, f, r, u},
+            {{}, -f, -r, u}};
+  }
+  if (!isStereo(camera)) return {};
+  const Vec3d aside = normalized(r) * (camera.eyeDistance / 2.0);
+  return {{-aside, f, r, u}, {aside, f, r, u}};
 }
 
 }  // namespace
@@ -78,16 +145,34 @@ CameraFrame makeCameraFrame(const Camera& camera, int width, int height) {
   const Vec3d forward = normalized(Vec3d(camera.at) - eye, Vec3d{0, 0, -1});
   const Vec3d across = cross(forward, normalized(Vec3d(camera.up)));
   const Vec3d right = length(across) > kParallel ? normalized(across) : fallbackRight(forward);
-  const double asked = camera.fov;
-  const double fov = asked > kLeastFov ? std::min(asked, kLargestFov) : kLeastFov;
-  const bool orthographic = camera.orthographicHeight > 0;
-  const double pixel =
-      (orthographic ? camera.orthographicHeight : 2 * std::tan(fov * (std::numbers::pi / 360))) /
-      height;
-  CameraFrame frame{eye, forward, right * pixel, cross(right, forward) * pixel, width, height,
-                    {},  0,       orthographic};
-  if (orthographic) frame.reach = abs(frame.right * (width / 2.0)) + abs(frame.up * (height / 2.0));
-  if (!camera.hasLens()) return frame;
+  CameraFrame frame{eye, forward, right, cross(right, forward), width, height, {}};
+  frame.projection = camera.projection;
+  frame.orthographic = isPerspective(camera) && camera.orthographicHeight > 0;
+  if (isFisheye(camera)) frame.limit = camera.angle * (std::numbers::pi / 360);
+  const bool cube = camera.projection == Projection::cubeMap, inRow = width >= 4 * height;
+  const int columns = cube ? (inRow ? 6 : 3) : camera.stereo == Stereo::leftRight ? 2 : 1;
+  const int rows = cube ? (inRow ? 1 : 2) : camera.stereo == Stereo::topBottom ? 2 : 1;
+  const int w = frame.viewWidth = std::max(width / columns, 1);
+  const int h = frame.viewHeight = std::max(height / rows, 1);
+  const auto [stepX, stepY] = pixelSteps(camera, frame, w, h);
+  frame.right = frame.right * stepX;
+  frame.up = frame.up * stepY;
+  frame.centerX = w / 2.0, frame.centerY = h / 2.0;
+  if (!camera.k.empty() && hasMatrix(camera)) {
+    const double scaleX = w / double{camera.kSize[0]}, scaleY = h / double{camera.kSize[1]};
+    frame.centerX = (double{camera.k[2]} + 0.5) * scaleX;
+    frame.centerY = (double{camera.k[3]} + 0.5) * scaleY;
+    if (camera.k.size() > 4) frame.skew = double{camera.k[4]} * scaleX * stepY;
+  }
+  if (isDistorted(camera) && !frame.orthographic) {
+    std::ranges::copy(camera.distortion, frame.distortion.begin());
+    frame.distorted = std::ranges::any_of(frame.distortion, [](double c) { return c != 0; });
+  }
+  if (isTable(camera)) frame.azimuths = camera.azimuths, frame.elevations = camera.elevations;
+  frame.views = viewsOf(camera, frame);
+  if (frame.orthographic) frame.reach = abs(frame.right * (w / 2.0)) + abs(frame.up * (h / 2.0));
+  if (!frame.views.empty()) frame.reach += abs(frame.views.front().aside);
+  if (!camera.hasLens() || !isPerspective(camera)) return frame;
   frame.aperture = camera.aperture;
   const double focus = camera.focusDistance();
   if (focus > 0 && std::isfinite(focus)) frame.focus = focus;

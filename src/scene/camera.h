@@ -1,13 +1,27 @@
-// Pinhole and orthographic cameras, with or without a lens, and camera paths.
+// Cameras of all projections, and camera paths.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/vec3.h"
 
 namespace whit {
+
+// scenes/README.md says what each one means.
+enum class Projection : std::uint8_t {
+  perspective,
+  equidistant,
+  equisolid,
+  fisheye,  // OpenCV's
+  panorama,
+  directions,
+  cubeMap
+};
+enum class Stereo : std::uint8_t { none, leftRight, topBottom };
 
 // Members are listed in scene/members.h.
 struct Camera {
@@ -15,6 +29,7 @@ struct Camera {
   Vec3f eye{0, 0, 5};
   Vec3f at{0, 0, 0};
   Vec3f up{0, 1, 0};
+  Projection projection = Projection::perspective;
   float fov = 45;  // vertical, degrees
   // Above 0: rays are parallel and start in the plane through the eye, of which the picture shows
   // this height; there is no fov.
@@ -22,6 +37,15 @@ struct Camera {
   float aperture = 0;  // radius of the lens, in scene units; 0: everything is sharp
   // Distance of the plane that is in focus, along the view axis; 0: it contains `at`.
   float focus = 0;
+  // fx, fy, cx, cy and perhaps the skew, in pixels of a picture of the size `kSize`, whose first
+  // pixel has its center at (0, 0).
+  std::vector<float> k = {}, kSize = {};
+  // As OpenCV orders them: k1, k2, p1, p2, k3, k4, k5, k6; of a fisheye k1 to k4.
+  std::vector<float> distortion = {};
+  float angle = 180;                                  // of a fisheye's image circle, degrees
+  std::vector<float> azimuths = {}, elevations = {};  // of columns and rows, degrees
+  Stereo stereo = Stereo::none;
+  float eyeDistance = 0.065f;  // in scene units
 
   bool hasLens() const { return aperture > 0; }
   double focusDistance() const;
@@ -39,11 +63,19 @@ struct Keyframe {
 // members. Clamped to the ends. Needs at least one keyframe, in order of time.
 Camera cameraAt(const std::vector<Keyframe>& path, double time);
 
+// One of the pictures of equal size that a stereo pair or a cube map consists of.
+struct CameraView {
+  Vec3d aside, forward, right, up;
+};
+
 // Input of the ray generator, computed once a frame in double: the direction through image
-// position (x, y), in pixels from the top left, is forward + (x - w/2) * right - (y - h/2) * up,
-// normalized. Directions never come from a difference of world positions, so a camera far from the
-// origin loses nothing (hard case H75). Orthographic rays have the direction forward and start as
-// far aside of the eye.
+// position (x, y), in pixels from the top left, is forward + X * right + Y * up, normalized, with
+// Y = centerY - y and X = x - centerX + skew * Y. Directions never come from a difference of world
+// positions, so a camera far from the origin loses nothing (hard case H75). Orthographic rays have
+// the direction forward and start as far aside of the eye.
+//
+// Other projections bend X |right| and Y |up|, which are tangents, radians or whatever the
+// projection takes, into a direction. A ray that sees nothing has the direction 0.
 //
 // With a lens, a ray starts at a point of the disk of radius `aperture` about that start, which is
 // perpendicular to `forward`, and meets the ray from the center in the plane of focus.
@@ -58,7 +90,28 @@ struct CameraFrame {
   bool orthographic = false;
   bool mediaVary = false;  // each ray may start in others
   double aperture = 0, focus = 1;
+  Projection projection = Projection::perspective;
+  double centerX = 0, centerY = 0, skew = 0;
+  std::array<double, 8> distortion{};
+  bool distorted = false;
+  double limit = 0;  // angle to the axis beyond which a fisheye sees nothing
+  std::vector<float> azimuths = {}, elevations = {};  // degrees
+  // Row by row; empty: the whole picture is one. Each is viewWidth pixels wide.
+  std::vector<CameraView> views = {};
+  int viewWidth = 0, viewHeight = 0;
+
+  // True if the sum above is the direction.
+  bool isStraight() const {
+    return projection == Projection::cubeMap ||
+           (projection == Projection::perspective && !distorted);
+  }
+  // True if one matrix maps the scene to the picture.
+  bool isLinear() const { return isStraight() && views.empty(); }
 };
+// The ray generators invert a lens's distortion by so many of Newton's steps. A solution is taken
+// if the lens images it this near, in focal lengths; otherwise the ray sees nothing.
+inline constexpr int kLensSteps = 10;
+inline constexpr double kLensError = 1e-5;
 // Distinguishes the random numbers that choose points of the lens (sampling/random_streams.h).
 inline constexpr std::uint32_t kLensSalt = 0x3c1d5e97u;
 

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <tuple>
 #include <type_traits>
+#include <vector>
 
 #include "core/options.h"
 #include "scene/camera.h"
@@ -50,15 +51,52 @@ Member(const char*, Value Noun::*, MemberRules<Noun> = {}) -> Member<Noun, Value
 template <typename Noun>
 inline constexpr auto kMembers = std::tuple{};
 
+constexpr bool isPerspective(const Camera& c) { return c.projection == Projection::perspective; }
+constexpr bool isFisheye(const Camera& c) {
+  return c.projection >= Projection::equidistant && c.projection <= Projection::fisheye;
+}
+constexpr bool hasMatrix(const Camera& c) { return isPerspective(c) || isFisheye(c); }
+constexpr bool isDistorted(const Camera& c) {
+  return isPerspective(c) || c.projection == Projection::fisheye;
+}
+// True if eye, at, up, fov and orthographicHeight say where each point is seen.
+inline bool isFramedByOptions(const Camera& c) {
+  return isPerspective(c) && c.k.empty() && c.distortion.empty() && c.stereo == Stereo::none;
+}
+constexpr bool isTable(const Camera& c) { return c.projection == Projection::directions; }
+constexpr bool isNoCubeMap(const Camera& c) { return c.projection != Projection::cubeMap; }
+constexpr bool isStereo(const Camera& c) { return isNoCubeMap(c) && c.stereo != Stereo::none; }
+
+// Words that stand for the enumerators of a member's type, in their order.
+template <typename Enum>
+inline constexpr std::array<std::string_view, 0> kWords{};
+template <>
+inline constexpr std::array<std::string_view, 7> kWords<Projection>{
+    "perspective", "equidistant", "equisolid", "fisheye", "panorama", "directions", "cubeMap"};
+template <>
+inline constexpr std::array<std::string_view, 3> kWords<Stereo>{"none", "leftRight", "topBottom"};
+template <>
+inline constexpr std::array<std::string_view, 3> kWords<Light::Kind>{"point", "spot",
+                                                                     "directional"};
+
 template <>
 inline constexpr auto kMembers<Camera> = std::tuple{
     Member{"eye", &Camera::eye},
     Member{"at", &Camera::at},
     Member{"up", &Camera::up},
-    Member{"fov", &Camera::fov, {.low = kLeastFov, .high = kLargestFov}},
-    Member{"orthographicHeight", &Camera::orthographicHeight, {.low = 0}},
-    Member{"aperture", &Camera::aperture, {.low = 0}},
-    Member{"focus", &Camera::focus, {.low = 0}},
+    Member{"projection", &Camera::projection},
+    Member{"fov", &Camera::fov, {.low = kLeastFov, .high = kLargestFov, .exists = isPerspective}},
+    Member{"orthographicHeight", &Camera::orthographicHeight, {.low = 0, .exists = isPerspective}},
+    Member{"aperture", &Camera::aperture, {.low = 0, .exists = isPerspective}},
+    Member{"focus", &Camera::focus, {.low = 0, .exists = isPerspective}},
+    Member{"k", &Camera::k, {.exists = hasMatrix}},
+    Member{"kSize", &Camera::kSize, {.low = 1, .high = kImageSideLimit, .exists = hasMatrix}},
+    Member{"distortion", &Camera::distortion, {.exists = isDistorted}},
+    Member{"angle", &Camera::angle, {.low = 1, .high = 360, .exists = isFisheye}},
+    Member{"azimuths", &Camera::azimuths, {.low = -360, .high = 360, .exists = isTable}},
+    Member{"elevations", &Camera::elevations, {.low = -90, .high = 90, .exists = isTable}},
+    Member{"stereo", &Camera::stereo, {.exists = isNoCubeMap}},
+    Member{"eyeDistance", &Camera::eyeDistance, {.low = 0, .exists = isStereo}},
 };
 
 constexpr MemberRules<Material> mapOf(TextureUse use) {
@@ -114,8 +152,6 @@ inline constexpr auto kMembers<Material> = std::tuple{
 constexpr bool hasPlace(const Light& light) { return light.kind != Light::Kind::directional; }
 constexpr bool hasDirection(const Light& light) { return light.kind != Light::Kind::point; }
 constexpr bool hasCone(const Light& light) { return light.kind == Light::Kind::spot; }
-
-inline constexpr std::array<std::string_view, 3> kLightKindNames{"point", "spot", "directional"};
 
 // The square of the radius is divided by, so it has to be a normal number.
 inline constexpr double kLeastLightRadius = 1.1e-19;

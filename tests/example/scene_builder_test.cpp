@@ -107,6 +107,29 @@ TEST(SceneBuilder, CamerasHaveALens) {
   EXPECT_FALSE(samePictures(picture(camera), blurred));
 }
 
+TEST(SceneBuilder, CamerasHaveAProjection) {
+  SceneBuilder builder = sheetBuilder();
+  builder.addInstance("sheet", "red");
+  const Image plain = smallRenderer(builder.build()).render();
+  Camera camera = kCamera;
+  camera.projection = "equisolid";
+  camera.angle = 90;
+  builder.addCamera("front", camera);
+  Renderer renderer = smallRenderer(builder.build());
+  EXPECT_NE(renderer.scene().camera().find("equisolid"), std::string::npos);
+  const Image round = renderer.render();
+  EXPECT_FALSE(samePictures(round, plain));
+  // A camera in JSON holds until it is taken back.
+  EXPECT_TRUE(samePictures(
+      renderer.lookThrough(R"({"eye": [0.5, 2, 4], "at": [0, 0, 0]})").render(), plain));
+  EXPECT_TRUE(samePictures(renderer.lookThrough("").render(), round));
+  camera.fov = 30;  // a panorama has none
+  camera.projection = "panorama";
+  camera.angle = 180;
+  builder.addCamera("front", camera);
+  EXPECT_THROW(builder.build(), Error);
+}
+
 TEST(SceneBuilder, VerticesComeInThreesWithoutTriangles) {
   constexpr std::array<float, 18> kSoup{-1, 0, -1, 1,  0,    1, 1, 0, -1,
                                         -1, 0, -1, -1, 0.5f, 1, 1, 0, 1};

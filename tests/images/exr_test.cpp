@@ -170,6 +170,11 @@ TEST_F(ExrTest, SaysHowTheWorldIsSeen) {
   const auto [sameCamera, flat] = matrices(parallel);
   EXPECT_EQ(sameCamera, camera);
   expectAt(flat, {4, 0.5f, -7}, {1, 1, 13});
+  writeExr(path("a.exr"), Image(4, 2),
+           {{"eye", "1,2,6"}, {"at", "1,2,0"}, {"projection", "panorama"}});
+  const Imf::InputFile panorama(path("a.exr").c_str());
+  EXPECT_EQ(Imf::worldToCamera(panorama.header()), camera);
+  EXPECT_FALSE(Imf::hasWorldToNDC(panorama.header()));
 }
 
 TEST_F(ExrTest, EveryCompressionIsRead) {

@@ -47,6 +47,78 @@ TEST_F(SceneSections, CamerasHaveALens) {
   }
 }
 
+TEST_F(SceneSections, CamerasHaveAProjection) {
+  const auto camera = [&](const std::string& members) {
+    const std::string all = "\"cameras\": {\"a\": {\"eye\": [0,0,9], \"at\": [0,0,5], " + members;
+    return loadMembers(all + "}}").cameras.at(0);
+  };
+  const Camera pinhole =
+      camera(R"("k": [500, 510, 320, 240, 1.5], "kSize": [640, 480], "distortion": [-0.1, 0.02])");
+  EXPECT_EQ(pinhole.projection, Projection::perspective);
+  EXPECT_EQ(pinhole.k, (std::vector<float>{500, 510, 320, 240, 1.5f}));
+  EXPECT_EQ(pinhole.kSize, (std::vector<float>{640, 480}));
+  EXPECT_EQ(pinhole.distortion, (std::vector<float>{-0.1f, 0.02f}));
+  const Camera round = camera(R"("projection": "equisolid", "angle": 220)");
+  EXPECT_EQ(round.projection, Projection::equisolid);
+  EXPECT_EQ(round.angle, 220);
+  EXPECT_EQ(camera(R"("projection": "equidistant")").angle, 180);
+  const Camera table =
+      camera(R"("projection": "directions", "azimuths": [-5, 0, 5], "elevations": [2, -2])");
+  EXPECT_EQ(table.azimuths, (std::vector<float>{-5, 0, 5}));
+  EXPECT_EQ(table.elevations, (std::vector<float>{2, -2}));
+  const Camera pair = camera(R"("projection": "panorama", "stereo": "topBottom")");
+  EXPECT_EQ(pair.stereo, Stereo::topBottom);
+  EXPECT_EQ(pair.eyeDistance, 0.065f);
+}
+
+TEST_F(SceneSections, CamerasThatImageNothing) {
+  const auto error = [&](const std::string& members) {
+    return errorOfMembers("\"cameras\": {\"a\": {\"eye\": [0,0,9], \"at\": [0,0,5], " + members +
+                          "}}");
+  };
+  const std::string at = "3 s.json#/cameras/a";
+  EXPECT_EQ(error(R"("projection": "panoramic")"),
+            at + "/projection: expected one of \"perspective\", \"equidistant\", \"equisolid\", "
+                 "\"fisheye\", \"panorama\", \"directions\", \"cubeMap\" (is \"panorama\" "
+                 "meant?), found \"panoramic\"");
+  EXPECT_EQ(error(R"("k": [5, 5, 2], "kSize": [4, 4])"),
+            at + "/k: expected [fx, fy, cx, cy], fx and fy above 0, and perhaps the skew, found a "
+                 "list of 3");
+  EXPECT_EQ(error(R"("k": [5, 0, 2, 2], "kSize": [4, 4])"),
+            at + "/k: expected [fx, fy, cx, cy], fx and fy above 0, and perhaps the skew, found a "
+                 "list of 4");
+  EXPECT_EQ(error(R"("k": [5, 5, "x", 2])").substr(0, at.size() + 5), at + "/k/2:");
+  EXPECT_EQ(error(R"("k": [5, 5, 2, 2])"), at + ": expected a member \"kSize\"");
+  EXPECT_EQ(error(R"("k": [5, 5, 2, 2], "kSize": [4])"),
+            at + "/kSize: expected the [width, height] of the picture that k is for, found a list "
+                 "of 1");
+  EXPECT_EQ(error(R"("k": [5, 5, 2, 2], "kSize": [0, 4])").substr(0, at.size() + 9),
+            at + "/kSize/0:");
+  EXPECT_EQ(
+      error(
+          R"("projection": "fisheye", "k": [5, 5, 2, 2], "kSize": [4, 4], "distortion": [0, 0, 0, 0, 1])"),
+      at + "/distortion: expected at most 4 coefficients, found a list of 5");
+  EXPECT_EQ(error(R"("distortion": [0.1], "orthographicHeight": 2)"),
+            at + ": expected no orthographicHeight beside k or distortion, found an object of 4");
+  EXPECT_EQ(
+      error(R"("projection": "directions", "azimuths": [1])"),
+      at + ": expected azimuths of the columns and elevations of the rows, found an object of 4");
+  EXPECT_EQ(
+      error(R"("projection": "directions", "azimuths": [], "elevations": [1])"),
+      at + ": expected azimuths of the columns and elevations of the rows, found an object of 5");
+  EXPECT_EQ(error(R"("projection": "fisheye")"), at + ": expected a member \"k\"");
+  EXPECT_EQ(error(R"("projection": "directions", "azimuths": [0], "elevations": [91])")
+                .substr(0, at.size() + 13),
+            at + "/elevations/0");
+  // Members of other projections are unknown.
+  for (const char* member : {"\"aperture\": 1", "\"fov\": 40", "\"orthographicHeight\": 1",
+                             "\"k\": [1, 1, 0, 0]", "\"azimuths\": [1]"}) {
+    EXPECT_NE(error(std::string(R"("projection": "panorama", )") + member).find("unknown"),
+              std::string::npos)
+        << error(std::string(R"("projection": "panorama", )") + member);
+  }
+}
+
 TEST_F(SceneSections, OptionsOfThePicture) {
   const SceneDescription scene = loadMembers(
       R"("parameters": {"n": 4}, "options": {"indirect": "$n", "exposure": "auto", "cutoff": 1e-3,

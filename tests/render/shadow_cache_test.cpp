@@ -12,6 +12,7 @@
 
 #include "bake/edit_scene.h"
 #include "core/error.h"
+#include "render/caster_reference.h"
 #include "render/random_scenes.h"
 #include "render/shadow_cache_schedule.h"
 #include "render/shipped_scene.h"

@@ -248,9 +248,11 @@ constexpr std::array<const char*, 3> kRadianceLayers = {"R", "G", "B"};
 // 0) is the upper left corner of the picture.
 void addCamera(const ImageMetadata& metadata, const Image& image, Imf::Header& header) {
   RenderOptions options;
+  bool isLinear = true;  // false: more than the options decides where points are seen
   for (const auto& [name, text] : metadata) {
     const bool isOfCamera = name == "eye" || name == "at" || name == "up" || name == "fov";
     if (isOfCamera || name == "ortho") setOption(options, name, text);
+    if (name == "projection") isLinear = false;
   }
   if (!options.eye || !options.at) return;
   Camera camera;
@@ -265,6 +267,8 @@ void addCamera(const ImageMetadata& metadata, const Image& image, Imf::Header& h
     for (int k = 0; k < 3; ++k) toCamera[k][i] = static_cast<float>(axes[i][k]);
     toCamera[3][i] = static_cast<float>(-dot(frame.eye, axes[i]));
   }
+  Imf::addWorldToCamera(header, toCamera);
+  if (!isLinear) return;
   toNdc[0][0] = static_cast<float>(1 / (pixel * image.width));
   toNdc[1][1] = static_cast<float>(-1 / (pixel * image.height));
   // A perspective camera divides by the depth.
@@ -272,7 +276,6 @@ void addCamera(const ImageMetadata& metadata, const Image& image, Imf::Header& h
   toNdc[2][2] = toNdc[3][3] = frame.orthographic ? 1 : 0;
   toNdc[2][3] = toNdc[3][2] = frame.orthographic ? 0 : 1;
   toNdc[offset][0] = toNdc[offset][1] = 0.5f;
-  Imf::addWorldToCamera(header, toCamera);
   Imf::addWorldToNDC(header, toCamera * toNdc);
 }
 

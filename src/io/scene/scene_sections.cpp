@@ -49,6 +49,28 @@ void readPath(JsonObject& file, SceneDescription& scene) {
   }
 }
 
+// Checks members that depend on each other.
+void checkProjection(JsonObject& object, const Camera& camera) {
+  const std::vector<float>& k = camera.k;
+  if (camera.projection == Projection::fisheye) object.need("k");
+  if (!k.empty() && !(k.size() >= 4 && k.size() <= 5 && k[0] > 0 && k[1] > 0)) {
+    object.need("k").fail("[fx, fy, cx, cy], fx and fy above 0, and perhaps the skew");
+  }
+  if (!k.empty() && camera.kSize.size() != 2) {
+    object.need("kSize").fail("the [width, height] of the picture that k is for");
+  }
+  const std::size_t most = isPerspective(camera) ? 8 : 4;
+  if (camera.distortion.size() > most) {
+    object.need("distortion").fail("at most " + std::to_string(most) + " coefficients");
+  }
+  if (camera.orthographicHeight > 0 && !(k.empty() && camera.distortion.empty())) {
+    object.value().fail("no orthographicHeight beside k or distortion");
+  }
+  if (isTable(camera) && (camera.azimuths.empty() || camera.elevations.empty())) {
+    object.value().fail("azimuths of the columns and elevations of the rows");
+  }
+}
+
 void readLight(JsonObject& object, Light& light) {
   readMembers(object, light);
   if (light.kind != Light::Kind::point && !(maxComponent(abs(light.direction)) > 0)) {
@@ -63,8 +85,10 @@ void readLight(JsonObject& object, Light& light) {
 template <typename Noun>
 Json describeMembers(const Noun& noun) {
   Json json;
-  forEachMemberInFiles(
-      noun, [&](const auto& member) { json[member.name] = describe(noun.*member.field); });
+  forEachMemberInFiles(noun, [&](const auto& member) {
+    Json value = describe(noun.*member.field);
+    if (value != Json::array()) json[member.name] = std::move(value);
+  });
   return json;
 }
 
@@ -186,6 +210,7 @@ void readCamera(JsonObject& object, Camera& camera) {
   const Vec3d right = cross(normalized(forward), normalized(Vec3d(camera.up)));
   constexpr double kLeastSine = 1e-6;
   if (!(length(right) > kLeastSine)) object.value().fail("an up that is not along the view");
+  checkProjection(object, camera);
 }
 
 void readCameras(JsonObject& file, const Instant& instant, SceneDescription& scene) {
@@ -330,6 +355,12 @@ Json describe(float x) {
 }
 
 Json describe(const Vec3f& v) { return Json::array({describe(v.x), describe(v.y), describe(v.z)}); }
+
+Json describe(const std::vector<float>& numbers) {
+  Json list = Json::array();
+  for (const float x : numbers) list.push_back(describe(x));
+  return list;
+}
 
 Json describe(const Camera& camera) { return describeMembers(camera); }
 

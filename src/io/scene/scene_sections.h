@@ -186,7 +186,11 @@ Json describe(float x);  // the shortest decimals that are read as this float
 Json describe(const Vec3f& v);
 inline Json describe(bool x) { return x; }
 inline Json describe(int x) { return x; }
-inline Json describe(Light::Kind kind) { return kLightKindNames[static_cast<std::size_t>(kind)]; }
+template <typename Enum>
+requires std::is_enum_v<Enum> Json describe(Enum value) {
+  return kWords<Enum>[static_cast<std::size_t>(value)];
+}
+Json describe(const std::vector<float>& numbers);
 Json describe(const Camera& camera);
 Json describe(const std::vector<Light>& lights);
 Json describe(const Ambient& ambient);

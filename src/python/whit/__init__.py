@@ -11,6 +11,7 @@ Errors in a scene, an option or a file raise whit.Error.
 
 from __future__ import annotations
 
+import json
 import operator
 import os
 from typing import Any, Callable, Mapping, Optional, Sequence, Union
@@ -19,11 +20,12 @@ import numpy as np
 
 from . import _arrays, _options, _rays, _whit
 from ._arrays import Mesh
+from ._camera import Camera
 from ._describe import Description
 from ._error import Error
 from ._rays import Hits
 
-__all__ = ["Error", "Hits", "Mesh", "Picture", "Scene"]
+__all__ = ["Camera", "Error", "Hits", "Mesh", "Picture", "Scene"]
 __version__ = _whit.version()
 
 Progress = Callable[[str, float], Optional[bool]]
@@ -205,11 +207,19 @@ class Scene:
         """
         self._object.set_transform(pointer, _arrays.matrix(matrix, "matrix"))
 
+    def camera(self, name: str = "", *, axes: str = "opencv") -> Camera:
+        """One of `cameras` as it is now, for pictures of the scene's `size`; empty: the first."""
+        return Camera(json.loads(self._object.camera(name)), self.size, axes=axes)
+
     def render(self, *, path_time: Optional[float] = None, progress: Optional[Progress] = None,
                **options: Any) -> Picture:
         self._object  # noqa: B018 (the attribute is there only if __init__ came to its end)
-        texts = _options.texts(options)
-        return Picture(self._object.render(texts, path_time, progress))
+        camera = options.get("camera")
+        if not isinstance(camera, Camera):
+            return Picture(self._object.render(_options.texts(options), path_time, progress, ""))
+        texts = _options.texts({"size": camera.size, **options, "camera": None})
+        text = Description("camera").text(camera.members)
+        return Picture(self._object.render(texts, path_time, progress, text))
 
     def closest(self, origins: Any, directions: Any, *, t_near: Any = 0.0, t_far: Any = np.inf,
                 progress: Optional[Progress] = None) -> Hits:
@@ -290,6 +300,7 @@ class Scene:
 
 Scene.render.__doc__ = f"""Renders the picture of `whit render` with these options, bit for bit.
 
+        camera: a name, or a whit.Camera, whose `size` is then the picture's where none is given.
         path_time: time in seconds at which the camera path places the camera.
         progress: called now and then, by the thread that renders, with the current phase and the
             fraction done, 0 to 1; returning False raises an Error of exit status 130.

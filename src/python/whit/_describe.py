@@ -10,6 +10,7 @@ from typing import Any, Callable
 import numpy as np
 
 from . import _arrays
+from ._camera import Camera
 from ._error import Error
 
 _DEEPEST = 64
@@ -54,6 +55,8 @@ class Description:
             self._fail(pointer, f"at most {_DEEPEST} levels", "more")
         if isinstance(value, _arrays.Mesh):
             return self._named(value, self.meshes, value._arrays)
+        if isinstance(value, Camera):
+            return self._plain(value.members, pointer, depth)
         if isinstance(value, np.ndarray):
             tokens = pointer.split("/")
             if tokens[1:2] == ["textures"] and len(tokens) == 3:

@@ -1,0 +1,118 @@
+"""Cameras with a matrix K: poses, pixels, depths and points, against pictures."""
+
+import unittest
+
+import numpy as np
+
+import whit
+from samples import square_scene
+
+SIZE = (64, 48)
+K = np.array([[70.0, 3, 30.5], [0, 66, 21.25], [0, 0, 1]])
+
+
+def pose(axes="opencv"):
+    """Camera to scene: 4 units in front of the origin, turned a little about all axes."""
+    a, b = 0.2, -0.15
+    turn = (np.array([[np.cos(a), 0, np.sin(a)], [0, 1, 0], [-np.sin(a), 0, np.cos(a)]])
+            @ np.array([[1, 0, 0], [0, np.cos(b), -np.sin(b)], [0, np.sin(b), np.cos(b)]]))
+    matrix = np.eye(4)
+    matrix[:3, :3] = turn @ np.diag([1, -1, -1]) if axes == "opencv" else turn
+    matrix[:3, 3] = turn @ (0.3, -0.2, 4)
+    return matrix
+
+
+def wall():
+    return whit.Scene({"scene": [{"shape": "quad", "width": 40, "depth": 40,
+                                  "transform": {"rotate": [1, 0, 0, 90]}}]})
+
+
+class Cameras(unittest.TestCase):
+    def test_the_pose_comes_back_in_both_axes(self):
+        for axes in ("opencv", "opengl"):
+            camera = whit.Camera.from_k(K, pose(axes), SIZE, axes)
+            np.testing.assert_allclose(camera.pose, pose(axes), atol=1e-6)
+            np.testing.assert_array_equal(camera.k, K)
+        same = whit.Camera.from_k(K, pose("opengl"), SIZE, axes="opengl")
+        np.testing.assert_allclose(same.members["at"], whit.Camera.from_k(
+            K, pose("opencv"), SIZE).members["at"], atol=1e-12)
+
+    def test_pixels_are_those_of_opencv(self):
+        camera = whit.Camera.from_k(K, pose(), SIZE)
+        points = np.random.default_rng(1).uniform(-1, 1, (5, 7, 3))
+        seen = (points - pose()[:3, 3]) @ pose()[:3, :3] @ K.T
+        np.testing.assert_allclose(camera.project(points), seen[..., :2] / seen[..., 2:], atol=1e-4)
+        behind = pose()[:3, 3] - pose()[:3, 2]
+        self.assertTrue(np.isnan(camera.project(behind)).all())
+
+    def test_points_come_back_from_pixels_and_depths(self):
+        camera = whit.Camera.from_k(K, pose(), SIZE)
+        points = np.random.default_rng(2).uniform(-1, 1, (6, 3))
+        depths = (points - camera.pose[:3, 3]) @ camera.pose[:3, 2]
+        back = camera.unproject(depths, camera.project(points))
+        np.testing.assert_allclose(back, points, atol=1e-12)
+
+    def test_a_depth_picture_becomes_points(self):
+        camera = whit.Camera.from_k(K, pose("opengl"), SIZE, "opengl")
+        picture = wall().render(camera=camera, channels=["depth", "position"])
+        self.assertEqual((picture.width, picture.height), SIZE)
+        points = camera.unproject(picture["depth.Z"])
+        np.testing.assert_allclose(points, picture["position"], atol=2e-5)
+        np.testing.assert_allclose(points[..., 2], 0, atol=2e-5)
+        x, y = np.meshgrid(np.arange(SIZE[0]), np.arange(SIZE[1]))
+        np.testing.assert_allclose(camera.project(points), np.stack([x, y], -1), atol=1e-3)
+
+    def test_distortion_moves_what_is_projected(self):
+        camera = whit.Camera.from_k(K, pose(), SIZE, distortion=[-0.2, 0.05, 0.01, -0.02, 0.01])
+        picture = wall().render(camera=camera, channels=["position"])
+        x, y = np.meshgrid(np.arange(SIZE[0]), np.arange(SIZE[1]))
+        np.testing.assert_allclose(camera.project(picture["position"]), np.stack([x, y], -1), atol=2e-3)
+        with self.assertRaisesRegex(whit.Error, "position"):
+            camera.unproject(np.ones(SIZE[::-1]))
+
+    def test_a_description_takes_a_camera_and_gives_it_back(self):
+        given = whit.Camera.from_k(K, pose(), SIZE)
+        scene = whit.Scene({"size": SIZE, "cameras": {"a": given, "b": {
+            "eye": [0, 0, 5], "at": [0, 0, 0], "fov": 30}}, "scene": []})
+        for camera in (scene.camera(), scene.camera("a")):
+            np.testing.assert_array_equal(camera.k, K)
+            np.testing.assert_array_equal(camera.pose, given.pose)
+        back = scene.camera("b", axes="opengl")
+        self.assertAlmostEqual(back.fov, 30)
+        wanted = np.eye(4)
+        wanted[2, 3] = 5
+        np.testing.assert_allclose(back.pose, wanted, atol=1e-12)
+        np.testing.assert_allclose(back.k[1, 1], 24 / np.tan(np.radians(15)))
+        np.testing.assert_array_equal(back.k[:2, 2], [31.5, 23.5])
+        self.assertAlmostEqual(given.fov, np.degrees(np.arctan(21.75 / 66) + np.arctan(26.25 / 66)))
+        with self.assertRaisesRegex(whit.Error, "'c'"):
+            scene.camera("c")
+
+    def test_a_camera_holds_for_one_picture(self):
+        scene = whit.Scene(square_scene())
+        before = scene.render(size=SIZE).rgb
+        same = scene.render(camera=scene.camera(), size=SIZE)
+        np.testing.assert_array_equal(same.rgb, before)
+        other = scene.render(camera=whit.Camera.from_k(K, pose(), SIZE))
+        self.assertFalse(np.array_equal(other.rgb, before))
+        np.testing.assert_array_equal(scene.render(size=SIZE).rgb, before)
+
+    def test_what_is_no_camera(self):
+        for k, place, axes, what in ((np.eye(2), pose(), "opencv", "K"),
+                                     (np.ones((3, 3)), pose(), "opencv", "K"),
+                                     (K, 2 * np.eye(3, 4), "opencv", "pose"),
+                                     (K, np.diag([1, 1, -1, 1]), "opencv", "pose"),
+                                     (K, pose(), "opencl", "axes")):
+            with self.assertRaisesRegex(whit.Error, f"^{what}: expected"):
+                whit.Camera.from_k(k, place, SIZE, axes)
+        panorama = whit.Camera({"eye": [0, 0, 1], "at": [0, 0, 0], "projection": "panorama"}, SIZE)
+        self.assertEqual(whit.Scene(square_scene()).render(camera=panorama).width, SIZE[0])
+        with self.assertRaisesRegex(whit.Error, "^k: expected a perspective camera"):
+            panorama.project([0, 0, 0])
+        panorama.members["fov"] = 30
+        with self.assertRaisesRegex(whit.Error, "camera#/fov"):
+            whit.Scene(square_scene()).render(camera=panorama)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,260 @@
+// The rays of each projection against formulas that lead from a direction to a place in the
+// picture.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "pi.h"
+#include "reference/generate_rays.h"
+
+namespace whit::reference {
+namespace {
+
+constexpr int kWide = 320, kTall = 200;
+
+Camera askew() {
+  Camera camera;
+  camera.eye = {1, 2, 3};
+  camera.at = {4, -1, -7};
+  camera.up = {0.2f, 1, 0.1f};
+  return camera;
+}
+
+// A direction in OpenCV's axes: x to the right, y down, z forward.
+Vec3d inCamera(const CameraFrame& frame, const Vec3d& direction) {
+  const Vec3d right = normalized(cross(frame.forward, Vec3d(askew().up)));
+  return {dot(direction, right), -dot(direction, cross(right, frame.forward)),
+          dot(direction, frame.forward)};
+}
+
+// Checks that imaging each pixel's direction leads back to it, as far as a hundredth of a pixel
+// counts for `worst`. Returns how many pixels see nothing.
+int expectImaged(const Camera& camera, double worst,
+                 const std::function<Vec2f(const Vec3d&)>& imageOf) {
+  const CameraFrame frame = makeCameraFrame(camera, kWide, kTall);
+  int blind = 0;
+  for (int y = 0; y < kTall; y += 3) {
+    for (int x = 0; x < kWide; x += 3) {
+      const Ray ray = generateRay(frame, x + 0.25, y + 0.75);
+      EXPECT_EQ(ray.origin, frame.eye);
+      if (ray.direction == Vec3d()) {
+        ++blind;
+        continue;
+      }
+      EXPECT_NEAR(length(ray.direction), 1, 1e-15);
+      const Vec2f at = imageOf(inCamera(frame, ray.direction));
+      EXPECT_NEAR(at.x, x + 0.25, worst) << x << "," << y;
+      EXPECT_NEAR(at.y, y + 0.75, worst) << x << "," << y;
+    }
+  }
+  return blind;
+}
+
+Vec2f placeAt(double x, double y) { return {static_cast<float>(x), static_cast<float>(y)}; }
+
+constexpr double kFloatPlace = 2e-5;  // rounding of a place below 512
+
+TEST(Projections, AMatrixImagesAsInOpenCv) {
+  Camera camera = askew();
+  camera.k = {310, 290, 140.5f, 110.25f, 12};
+  camera.kSize = {kWide, kTall};
+  const auto image = [](const Vec3d& d) {
+    const double x = d.x / d.z, y = d.y / d.z;
+    // OpenCV's first pixel has its center at 0.
+    return placeAt(310 * x + 12 * y + 140.5 + 0.5, 290 * y + 110.25 + 0.5);
+  };
+  EXPECT_EQ(expectImaged(camera, kFloatPlace, image), 0);
+  // A picture of twice the size shows the same.
+  const Ray small = generateRay(makeCameraFrame(camera, kWide, kTall), 40, 30);
+  const Ray large = generateRay(makeCameraFrame(camera, 2 * kWide, 2 * kTall), 80, 60);
+  EXPECT_LT(length(small.direction - large.direction), 1e-15);
+  EXPECT_NEAR(pixelCone(makeCameraFrame(camera, kWide, kTall)).spread, 1 / 290.0, 1e-15);
+}
+
+TEST(Projections, AMatrixOfAFieldOfViewChangesNothing) {
+  Camera camera = askew();
+  camera.fov = 90;
+  const CameraFrame plain = makeCameraFrame(camera, kWide, kTall);
+  camera.k = {100, 100, 159.5f, 99.5f};
+  camera.kSize = {kWide, kTall};
+  const CameraFrame frame = makeCameraFrame(camera, kWide, kTall);
+  for (const double x : {0.5, 17.25, 319.5}) {
+    EXPECT_LT(length(generateRay(plain, x, 60).direction - generateRay(frame, x, 60).direction),
+              1e-15);
+  }
+}
+
+TEST(Projections, ALensDistortsAsInOpenCv) {
+  Camera camera = askew();
+  camera.k = {310, 290, 140.5f, 110.25f};
+  camera.kSize = {kWide, kTall};
+  // Barrel, pincushion and rational models.
+  for (const std::vector<float>& c : {std::vector<float>{-0.25f, 0.06f, 0.002f, -0.003f, 0.01f},
+                                      {0.3f, 0.1f},
+                                      {0.6f, -0.2f, -0.001f, 0.004f, 0.05f, 0.9f, 0.1f, 0.02f}}) {
+    camera.distortion = c;
+    std::vector<double> k(c.begin(), c.end());
+    k.resize(8);
+    const auto image = [&](const Vec3d& d) {
+      const double x = d.x / d.z, y = d.y / d.z, r2 = x * x + y * y, r4 = r2 * r2;
+      const double radial = (1 + k[0] * r2 + k[1] * r4 + k[4] * r4 * r2) /
+                            (1 + k[5] * r2 + k[6] * r4 + k[7] * r4 * r2);
+      const double u = x * radial + 2 * k[2] * x * y + k[3] * (r2 + 2 * x * x);
+      const double v = y * radial + k[2] * (r2 + 2 * y * y) + 2 * k[3] * x * y;
+      return placeAt(310 * u + 141, 290 * v + 110.75);
+    };
+    EXPECT_EQ(expectImaged(camera, 2 * kFloatPlace, image), 0) << c[0];
+  }
+}
+
+// x (1 - 0.3 x^2) is at most 2/3 x where 0.9 x^2 = 1: nothing is imaged further out.
+TEST(Projections, BeyondTheFoldOfALensThereIsNothing) {
+  Camera camera = askew();
+  camera.k = {100, 100, 159.5f, 99.5f};
+  camera.kSize = {kWide, kTall};
+  camera.distortion = {-0.3f};
+  const CameraFrame frame = makeCameraFrame(camera, kWide, kTall);
+  const double fold = 100 * 2 / (3 * std::sqrt(0.9));
+  EXPECT_NE(generateRay(frame, 160 + fold - 1, 100).direction, Vec3d());
+  for (const double beyond : {1.0, 10.0, 80.0}) {
+    EXPECT_EQ(generateRay(frame, 160 + fold + beyond, 100).direction, Vec3d()) << beyond;
+  }
+}
+
+// Distance from the center in focal lengths, by the angle to the axis.
+void expectFisheye(Camera camera, double angle, double focal,
+                   const std::function<double(double)>& radiusOf) {
+  camera.angle = static_cast<float>(angle);
+  const auto image = [&](const Vec3d& d) {
+    const double off = std::hypot(d.x, d.y), theta = std::atan2(off, d.z);
+    EXPECT_LE(theta, angle * kPi / 360 + 1e-12);
+    const double scale = off > 0 ? focal * radiusOf(theta) / off : 0;
+    return placeAt(d.x * scale + kWide / 2.0, d.y * scale + kTall / 2.0);
+  };
+  // The circle touches the upper and lower side.
+  const int blind = expectImaged(camera, 2 * kFloatPlace, image);
+  const double circle = kPi * kTall * kTall / 4.0 / (kWide * kTall);
+  EXPECT_NEAR(blind / (107.0 * 67), 1 - circle, 0.01);
+}
+
+TEST(Projections, FisheyesImageAnglesAsDistances) {
+  for (const double angle : {120.0, 180.0, 300.0}) {
+    const double limit = angle * kPi / 360;
+    Camera camera = askew();
+    camera.projection = Projection::equidistant;
+    expectFisheye(camera, angle, 100 / limit, [](double theta) { return theta; });
+    camera.projection = Projection::equisolid;
+    expectFisheye(camera, angle, 100 / (2 * std::sin(limit / 2)),
+                  [](double theta) { return 2 * std::sin(theta / 2); });
+    camera.projection = Projection::fisheye;
+    camera.distortion = {0.03f, -0.005f, 0.0007f, -0.00002f};
+    camera.kSize = {kWide, kTall};
+    const auto radius = [&](double theta) {
+      double sum = theta;
+      for (int i = 0; i < 4; ++i) {
+        sum += double{camera.distortion[static_cast<std::size_t>(i)]} * std::pow(theta, 3 + 2 * i);
+      }
+      return sum;
+    };
+    const auto focal = static_cast<float>(100 / radius(limit));
+    camera.k = {focal, focal, kWide / 2 - 0.5f, kTall / 2 - 0.5f};
+    expectFisheye(camera, angle, double{focal}, radius);
+  }
+}
+
+TEST(Projections, AFisheyeHasAMatrix) {
+  Camera camera = askew();
+  camera.projection = Projection::fisheye;
+  camera.k = {150, 160, 150.5f, 90.5f, 4};
+  camera.kSize = {kWide, kTall};
+  const auto image = [](const Vec3d& d) {
+    const double off = std::hypot(d.x, d.y), scale = std::atan2(off, d.z) / off;
+    return placeAt(151 + 150 * d.x * scale + 4 * d.y * scale, 91 + 160 * d.y * scale);
+  };
+  EXPECT_EQ(expectImaged(camera, 2 * kFloatPlace, image), 0);
+}
+
+TEST(Projections, APanoramaShowsAllDirections) {
+  Camera camera = askew();
+  camera.projection = Projection::panorama;
+  const auto image = [](const Vec3d& d) {
+    return placeAt(kWide * (0.5 + std::atan2(d.x, d.z) / (2 * kPi)),
+                   kTall * (0.5 + std::asin(d.y) / kPi));
+  };
+  EXPECT_EQ(expectImaged(camera, 2 * kFloatPlace, image), 0);
+  EXPECT_NEAR(pixelCone(makeCameraFrame(camera, kWide, kTall)).spread, kPi / kTall, 1e-15);
+}
+
+TEST(Projections, ATableStatesTheDirectionsOfRowsAndColumns) {
+  Camera camera = askew();
+  camera.projection = Projection::directions;
+  camera.azimuths = {-90, 10, 25.5f, 180};
+  camera.elevations = {15, -2, -30};
+  const CameraFrame frame = makeCameraFrame(camera, 4, 3);
+  const auto expectAngles = [&](double x, double y, double azimuth, double elevation) {
+    const Vec3d d = inCamera(frame, generateRay(frame, x, y).direction);
+    const double a = azimuth * kPi / 180, e = elevation * kPi / 180;
+    const Vec3d wanted{std::sin(a) * std::cos(e), -std::sin(e), std::cos(a) * std::cos(e)};
+    EXPECT_LT(length(d - wanted), 1e-15) << x << "," << y;
+  };
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 4; ++column) {
+      expectAngles(column + 0.5, row + 0.5,
+                   double{camera.azimuths[static_cast<std::size_t>(column)]},
+                   double{camera.elevations[static_cast<std::size_t>(row)]});
+    }
+  }
+  expectAngles(1.75, 0.75, 10 + 15.5 / 4, 15 - 17 / 4.0);  // between its neighbors
+  expectAngles(0.25, 2.9, -90, -30);                       // the first and the last hold beyond
+}
+
+TEST(Projections, TheFacesOfACubeMapJoin) {
+  Camera camera = askew();
+  camera.projection = Projection::cubeMap;
+  const CameraFrame inRow = makeCameraFrame(camera, 600, 100);
+  const CameraFrame inRows = makeCameraFrame(camera, 300, 200);
+  // Right, left, up, down, forward, backward in OpenCV's axes.
+  const std::vector<Vec3d> centers{{1, 0, 0}, {-1, 0, 0}, {0, -1, 0},
+                                   {0, 1, 0}, {0, 0, 1},  {0, 0, -1}};
+  const auto at = [&](const CameraFrame& frame, int face, double x, double y) {
+    const int column = &frame == &inRow ? face : face % 3, row = &frame == &inRow ? 0 : face / 3;
+    return inCamera(frame, generateRay(frame, column * 100 + x, row * 100 + y).direction);
+  };
+  for (int face = 0; face < 6; ++face) {
+    for (const CameraFrame* frame : {&inRow, &inRows}) {
+      EXPECT_LT(length(at(*frame, face, 50, 50) - centers[static_cast<std::size_t>(face)]), 1e-15);
+    }
+    EXPECT_LT(length(at(inRow, face, 13, 71) - at(inRows, face, 13, 71)), 1e-15);
+  }
+  constexpr double kEnd = 100 - 1e-9;
+  for (const double s : {10.0, 60.0}) {
+    EXPECT_LT(length(at(inRow, 4, kEnd, s) - at(inRow, 0, 0, s)), 1e-10);  // forward to right
+    EXPECT_LT(length(at(inRow, 1, kEnd, s) - at(inRow, 4, 0, s)), 1e-10);  // left to forward
+    EXPECT_LT(length(at(inRow, 0, kEnd, s) - at(inRow, 5, 0, s)), 1e-10);  // right to backward
+    EXPECT_LT(length(at(inRow, 4, s, 0) - at(inRow, 2, s, kEnd)), 1e-10);  // forward to up
+    EXPECT_LT(length(at(inRow, 4, s, kEnd) - at(inRow, 3, s, 0)), 1e-10);  // forward to down
+  }
+}
+
+TEST(Projections, AStereoPairLooksThroughTwoEyes) {
+  Camera camera = askew();
+  camera.eyeDistance = 0.5f;
+  const CameraFrame one = makeCameraFrame(camera, 100, 80);
+  const Vec3d aside = normalized(one.right) * 0.25;
+  for (const Stereo stereo : {Stereo::leftRight, Stereo::topBottom}) {
+    camera.stereo = stereo;
+    const bool beside = stereo == Stereo::leftRight;
+    const CameraFrame two = makeCameraFrame(camera, beside ? 200 : 100, beside ? 80 : 160);
+    const Ray wanted = generateRay(one, 30.5, 20.5), left = generateRay(two, 30.5, 20.5);
+    const Ray right = generateRay(two, beside ? 130.5 : 30.5, beside ? 20.5 : 100.5);
+    EXPECT_EQ(left.direction, wanted.direction);
+    EXPECT_EQ(right.direction, wanted.direction);
+    EXPECT_LT(length(left.origin - (one.eye - aside)), 1e-15);
+    EXPECT_LT(length(right.origin - (one.eye + aside)), 1e-15);
+  }
+}
+
+}  // namespace
+}  // namespace whit::reference
