@@ -306,8 +306,9 @@ struct OptionInfo {
 std::vector<OptionInfo> options();
 
 // Renders frames of a scene with its own worker threads. Only one thread may use a renderer at a
-// time; several renderers may share a scene. The kernel target ("simd") belongs to the process: the
-// renderer that was made last has chosen it for all.
+// time; several renderers may share a scene. A forked child may go on with the renderers that no
+// thread was using, and their worker threads start anew there. The kernel target ("simd") belongs
+// to the process: the renderer that was made last has chosen it for all.
 class Renderer {
  public:
   explicit Renderer(Scene scene);

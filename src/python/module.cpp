@@ -3,6 +3,8 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <sys/types.h>
+#include <unistd.h>
 
 #include <array>
 #include <atomic>
@@ -68,6 +70,8 @@ class Call {
     const py::gil_scoped_release noGil;
     for (int i = 0; i < kSteps && underWay > 0; ++i) std::this_thread::sleep_for(kStep);
   }
+  // Forgets the calls of other threads, which a forked child does not have.
+  static void forgetOthers() { underWay = 0; }
 
  private:
   static void sleepAtTheEnd() {
@@ -129,6 +133,9 @@ struct Picture {
 class Session {
  public:
   explicit Session(api::Scene scene) : renderer_(std::move(scene)) {}
+  ~Session() {
+    if (isLost()) new api::Renderer(std::move(renderer_));  // leaks what the other thread left
+  }
 
   template <typename Question>
   auto ask(const Question& question) {
@@ -191,6 +198,12 @@ class Session {
       if (session.owner_ == std::this_thread::get_id()) {
         throw api::Error(kUsage, "the scene is in use: a progress function cannot ask it anything");
       }
+      if (session.isLost()) {
+        throw api::Error(kUsage,
+                         "another thread used the scene when this process was forked: make a new "
+                         "scene here, or fork while no thread uses it");
+      }
+      session.process_ = getpid();
       session.lock_.attr("acquire")();
       session.owner_ = std::this_thread::get_id();
     }
@@ -205,6 +218,9 @@ class Session {
     Session& session_;
   };
 
+  // True in a forked child if a thread that it does not have was using the scene.
+  bool isLost() const { return process_ != getpid() && owner_ != std::thread::id(); }
+
   void takeOptions(const OptionTexts& options) {
     if (options == options_) return;
     options_.reset();
@@ -217,6 +233,7 @@ class Session {
   std::optional<OptionTexts> options_ = OptionTexts();  // of the renderer; none after an error
   py::object lock_ = py::module_::import("threading").attr("Lock")();
   std::atomic<std::thread::id> owner_;  // the thread that has the lock
+  pid_t process_ = getpid();            // the process that used the scene last
 };
 
 using Floats = py::array_t<float, py::array::c_style>;
@@ -496,4 +513,6 @@ PYBIND11_MODULE(_whit, module) {
   module.def("option_table", &optionTable);
   module.def("version", &whit::api::version);
   pybind11::module_::import("atexit").attr("register")(pybind11::cpp_function(&Call::endAll));
+  pybind11::module_::import("os").attr("register_at_fork")(
+      pybind11::arg("after_in_child") = pybind11::cpp_function(&Call::forgetOthers));
 }
