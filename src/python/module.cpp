@@ -36,10 +36,10 @@ void translate(std::exception_ptr thrown) {  // NOLINT(performance-unnecessary-v
       if (text.empty()) return py::none();
       return py::str(text);
     };
-    const py::object type = py::module_::import("whit._error").attr("Error");
-    const py::object raised = type(error.what(), error.status(), orNone(error.file()),
+    const py::object make = py::module_::import("whit._error").attr("of_library");
+    const py::object raised = make(error.what(), error.status(), orNone(error.file()),
                                    orNone(error.place()), orNone(error.expected()));
-    PyErr_SetObject(type.ptr(), raised.ptr());
+    PyErr_SetObject(py::type::handle_of(raised).ptr(), raised.ptr());
   }
 }
 

@@ -12,6 +12,7 @@ import numpy as np
 import whit
 from samples import SIZE, square_scene, temporary_folder
 from whit import _options
+from whit._error import in_python
 
 HERE = pathlib.Path(__file__).resolve().parent
 PAGE = (HERE.parents[1] / "src" / "python" / "README.md").read_text()
@@ -68,7 +69,7 @@ class Signatures(unittest.TestCase):
     def test_every_option_is_told_of(self):
         for keyword, option in _options.OPTIONS.items():
             self.assertIn(f"{keyword} (", whit.Scene.render.__doc__)
-            self.assertIn(option.help, whit.Scene.render.__doc__)
+            self.assertIn(in_python(option.help), whit.Scene.render.__doc__)
 
     def test_every_option_takes_its_preset(self):
         scene = whit.Scene("whitted")
