@@ -126,6 +126,8 @@ std::vector<std::string> Scene::cameras() const { return namesIn(data_->scene.ca
 
 std::vector<std::string> Scene::objects() const { return data_->scene.items.names; }
 
+const std::vector<std::string>& Scene::settings() const { return data_->load.settings; }
+
 std::vector<std::string> Scene::materials() const { return namesIn(data_->scene.materials); }
 
 double Scene::pathSeconds() const {

@@ -94,6 +94,9 @@ class Scene {
   std::vector<std::string> warnings() const;  // repairs that were made while loading
   // The channels "object" (names of the first 65,536) and "material" hold indices into these.
   std::vector<std::string> objects() const, materials() const;
+  // LoadOptions::settings and those of Renderer::setMember(): a scene that is read with them equals
+  // this one.
+  const std::vector<std::string>& settings() const;
 
  private:
   friend class Renderer;
@@ -225,6 +228,10 @@ class Image {
   // is replaced when it is complete.
   void write(const std::string& path) const;
   std::string png() const;  // the bytes of a PNG file
+  // All of the image as bytes, which the same version of the library reads. fromBytes() throws
+  // status 3 for others.
+  std::string bytes() const;
+  static Image fromBytes(std::string_view bytes);
 
  private:
   friend class Renderer;

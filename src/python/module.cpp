@@ -301,7 +301,7 @@ api::SceneBuilder builderOf(const std::string& name, const std::string& descript
     api::ImageArrays image{static_cast<int>(array.shape(1)), static_cast<int>(array.shape(0)),
                            static_cast<int>(array.shape(2))};
     const auto count = static_cast<std::size_t>(array.size());
-    if (array.dtype().is(py::dtype::of<std::uint8_t>())) {
+    if (py::isinstance<py::array_t<std::uint8_t>>(array)) {
       image.codes = {static_cast<const std::uint8_t*>(array.data()), count};
     } else {
       image.values = {static_cast<const float*>(array.data()), count};
@@ -464,6 +464,7 @@ void defineSession(py::module_& module) {
       .def_property_readonly("materials", asked(&api::Scene::materials))
       .def_property_readonly("triangles", asked(&api::Scene::triangles))
       .def_property_readonly("warnings", asked(&api::Scene::warnings))
+      .def_property_readonly("settings", asked(&api::Scene::settings))
       .def_property_readonly("path_seconds", asked(&api::Scene::pathSeconds))
       .def_property_readonly("animations", &animationsOf)
       .def("render", &Session::render)
@@ -494,9 +495,15 @@ void definePicture(py::module_& module) {
            [](const Picture& p, const std::string& path) {
              call(py::none(), [&](const api::Progress&) { p.image.write(path); });
            })
-      .def("png", [](const Picture& p) {
-        return py::bytes(call(py::none(), [&](const api::Progress&) { return p.image.png(); }));
-      });
+      .def(
+          "png",
+          [](const Picture& p) {
+            return py::bytes(call(py::none(), [&](const api::Progress&) { return p.image.png(); }));
+          })
+      .def("bytes", [](const Picture& p) { return py::bytes(p.image.bytes()); });
+  module.def("picture", [](const py::bytes& bytes) {
+    return Picture{api::Image::fromBytes(std::string_view(bytes)), {}};
+  });
 }
 
 }  // namespace
