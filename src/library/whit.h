@@ -7,7 +7,8 @@
 // SceneBuilder makes scenes in memory. Scenes can change between frames: Renderer::setTime(),
 // setTransform() and setMember().
 //
-// In CMake: find_package(whit) and target_link_libraries(... whit::whit). Every function throws
+// In CMake: find_package(whit) and target_link_libraries(... whit::whit); elsewhere pkg-config's
+// package whit, whose variable `scenes` is the folder of the shipped scenes. Every function throws
 // whit::api::Error and nothing else, except the exceptions of the caller's own callbacks.
 #pragma once
 
@@ -23,10 +24,17 @@
 #include <utility>
 #include <vector>
 
+#define WHIT_VERSION "0.1.0"
+#define WHIT_VERSION_MAJOR 0
+#define WHIT_VERSION_MINOR 1
+#define WHIT_VERSION_PATCH 0
+
 // The folder of the shipped scenes; find_package(whit) defines it.
 #ifndef WHIT_SHIPPED_SCENES
 #define WHIT_SHIPPED_SCENES ""
 #endif
+
+#pragma GCC visibility push(default)  // for a shared library
 
 namespace whit::api {
 
@@ -49,6 +57,18 @@ class Error : public std::runtime_error {
  private:
   int status_;
   Place place_;
+};
+
+// A handle's pointer to its data. A handle that was moved from throws an Error of status 2.
+template <typename Pointer>
+class DataPointer : public Pointer {
+ public:
+  DataPointer(Pointer pointer) : Pointer(std::move(pointer)) {}  // NOLINT(google-explicit-*)
+  auto* operator->() const {
+    if (!*this) throw Error(2, "a Scene, SceneBuilder or Renderer was used after a move from it");
+    return this->get();
+  }
+  auto& operator*() const { return *operator->(); }
 };
 
 // Receives the progress of long work: the current phase ("building the BVH", "tracing") and the
@@ -104,7 +124,7 @@ class Scene {
   friend Scene loadScene(const std::string&, const LoadOptions&, const char*);
   struct Data;
   explicit Scene(std::shared_ptr<Data> data);
-  std::shared_ptr<Data> data_;
+  DataPointer<std::shared_ptr<Data>> data_;
 };
 
 // Loads a scene file (.json), a model, or a shipped scene ("landscape?triangles=20000000") from
@@ -194,7 +214,7 @@ class SceneBuilder {
 
  private:
   struct Data;
-  std::unique_ptr<Data> data_;
+  DataPointer<std::unique_ptr<Data>> data_;
 };
 
 // A rendered picture, or a crop of one.
@@ -382,9 +402,11 @@ class Renderer {
 
  private:
   struct Data;
-  std::unique_ptr<Data> data_;
+  DataPointer<std::unique_ptr<Data>> data_;
 };
 
 std::string version();  // "0.1.0"
 
 }  // namespace whit::api
+
+#pragma GCC visibility pop
