@@ -323,15 +323,13 @@ std::unique_ptr<Session> build(const std::string& name, const std::string& descr
   }));
 }
 
-// A read-only view of the picture's memory, which the view keeps alive.
+// A view of the picture's memory, which the view keeps alive. DLPack exports no read-only arrays.
 template <typename T>
 py::array viewOf(const py::object& picture, std::span<const T> data, std::size_t components) {
   const api::Image& image = picture.cast<const Picture&>().image;
-  py::array_t<T> view({static_cast<std::size_t>(image.height()),
-                       static_cast<std::size_t>(image.width()), components},
-                      data.data(), picture);
-  view.attr("flags").attr("writeable") = false;
-  return view;
+  return py::array_t<T>({static_cast<std::size_t>(image.height()),
+                         static_cast<std::size_t>(image.width()), components},
+                        data.data(), picture);
 }
 
 // Maps each channel's name to the names of its components and its values.

@@ -44,8 +44,9 @@ def _shipped_scenes() -> str:
 
 
 class Picture:
-    """A rendered picture, or a crop of one. Its arrays are read-only views of the picture's memory;
-    copy() gives an array that can be changed.
+    """A rendered picture, or a crop of one. Its arrays are C-contiguous, except `srgb`; torch and
+    others take them by DLPack or the buffer protocol without a copy. They are views of the
+    picture's memory: what is written to them gets into its files.
 
     Pickles keep all of a picture, for the same version of whit.
     """
@@ -53,6 +54,7 @@ class Picture:
     def __init__(self, picture: Any, statistics: Optional[dict[str, Any]] = None) -> None:
         self._object = picture
         self._statistics = picture.statistics if statistics is None else statistics
+        self._components: dict[str, np.ndarray] = {}
 
     def __reduce__(self) -> tuple:
         return _picture, (self._object.bytes(), self._statistics)
@@ -78,7 +80,7 @@ class Picture:
 
     def __getitem__(self, name: str) -> np.ndarray:
         """A channel, "position" (height, width, 3), or one component by its name in files,
-        "depth.Z" (height, width)."""
+        "depth.Z" (height, width), which is a copy."""
         channel, _, component = name.partition(".")
         kept = self._object.channels
         if channel not in kept:
@@ -86,9 +88,14 @@ class Picture:
         components, values = kept[channel]
         if component and component not in components:
             raise KeyError(f"{name}: the channel has {', '.join(components)}")
-        if component or len(components) == 1:
-            return values[:, :, components.index(component) if component else 0]
-        return values
+        if len(components) == 1:
+            return values[:, :, 0]
+        if not component:
+            return values
+        if name not in self._components:
+            one = values[:, :, components.index(component)]
+            self._components[name] = np.ascontiguousarray(one)
+        return self._components[name]
 
     width: int = _native("width", "Width in pixels, of a crop its own width.")
     height: int = _native("height", "Height in pixels, of a crop its own height.")
