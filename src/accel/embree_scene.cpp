@@ -157,9 +157,7 @@ class Building {
  public:
   Building() {
     if (count > 0 && process != getpid()) {
-      throwUsage(
-          "nothing can be built in this process: it was forked while another thread was building "
-          "an acceleration structure");
+      throwUsage("this process was forked while another thread built: nothing can be built here");
     }
     process = getpid();
     ++count;

@@ -63,7 +63,7 @@ class Error : public std::runtime_error {
 template <typename Pointer>
 class DataPointer : public Pointer {
  public:
-  DataPointer(Pointer pointer) : Pointer(std::move(pointer)) {}  // NOLINT(google-explicit-*)
+  DataPointer(Pointer pointer) : Pointer(std::move(pointer)) {}
   auto* operator->() const {
     if (!*this) throw Error(2, "a Scene, SceneBuilder or Renderer was used after a move from it");
     return this->get();

@@ -71,6 +71,18 @@ class Fork(unittest.TestCase):
 
         self.in_child(build)
 
+    def test_a_child_asks_for_hits(self):
+        origins = np.random.default_rng(1).normal(size=(1000, 3)) * 5
+        expected = self.scene.closest(origins, -origins).t
+
+        def ask():
+            np.testing.assert_array_equal(self.scene.closest(origins, -origins).t, expected)
+            other = whit.Scene("orrery", moves=True)
+            np.testing.assert_array_equal(other.closest(origins, -origins).t, expected)
+
+        self.assertTrue(np.isfinite(expected).any())
+        self.in_child(ask)
+
     def test_a_fork_in_another_thread(self):
         statuses = []
         thread = threading.Thread(target=lambda: statuses.append(status_of_child(self.render)))
@@ -124,6 +136,32 @@ class Fork(unittest.TestCase):
         thread.start()
         begun.wait()
         try:
+            self.in_child(in_child)
+        finally:
+            stop.set()
+            thread.join()
+
+    def test_a_fork_while_another_thread_builds(self):
+        """Embree's locks may be held for ever in the child: an error says so."""
+        begun, stop = threading.Event(), threading.Event()
+
+        def progress(phase, fraction):
+            if phase.startswith("building"):
+                begun.set()
+                stop.wait(SECONDS)
+            return True
+
+        theirs = whit.Scene("landscape?triangles=400000")
+        thread = threading.Thread(target=lambda: theirs.render(size=SIZE, progress=progress))
+
+        def in_child():
+            self.render()
+            with self.assertRaisesRegex(whit.Error, "forked while another thread built"):
+                whit.Scene(square_scene()).render(size=SIZE)
+
+        thread.start()
+        try:
+            self.assertTrue(begun.wait(SECONDS))
             self.in_child(in_child)
         finally:
             stop.set()

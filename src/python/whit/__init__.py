@@ -101,12 +101,9 @@ class Picture:
     height: int = _native("height", "Height in pixels, of a crop its own height.")
     left: int = _native("left", "Column of the left edge in the whole picture.")
     top: int = _native("top", "Row of the top edge in the whole picture.")
-
-    @property
-    def statistics(self) -> dict[str, Any]:
-        """Times and counts of the frame: 'frame_ms', 'embree_ms' and 'stages_ms' (by stage) in
-        milliseconds of wall-clock time, 'rays' (by kind) and 'non_finite_pixels' as numbers."""
-        return self._statistics
+    statistics: dict[str, Any] = property(operator.attrgetter("_statistics"), doc=(
+        "Times and counts of the frame: 'frame_ms', 'embree_ms' and 'stages_ms' (by stage) in "
+        "milliseconds of wall-clock time, 'rays' (by kind) and 'non_finite_pixels' as numbers."))
 
     def write(self, path: Union[str, os.PathLike]) -> None:
         """Writes .exr (linear, float) or .png (8-bit sRGB), with the render's options."""

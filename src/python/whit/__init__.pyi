@@ -3,13 +3,8 @@ import os
 from typing import Any, Callable, Literal, Mapping, Optional, Sequence, Union
 import numpy as np
 from ._arrays import Mesh as Mesh
-<<<<<<< HEAD
-from ._error import Error as Error
-__all__ = ['Error', 'Hits', 'Mesh', 'Picture', 'Scene']
-=======
 from ._error import Error as Error, in_python
-__all__ = ['Error', 'Mesh', 'Picture', 'Scene']
->>>>>>> b46a97d (python, library: pickle and copy scenes and pictures)
+__all__ = ['Error', 'Hits', 'Mesh', 'Picture', 'Scene']
 __version__: str
 Progress = Callable[[str, float], Optional[bool]]
 class Picture:
