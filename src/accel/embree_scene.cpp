@@ -1,6 +1,10 @@
 #include "accel/embree_scene.h"
 
+#include <sys/types.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <new>
 
@@ -147,9 +151,30 @@ void requireRoomForThreads(int threads) {
   }
 }
 
+// Counts the threads that are building. A child that was forked meanwhile has copies of the locks
+// that they held, and would wait for them.
+class Building {
+ public:
+  Building() {
+    if (count > 0 && process != getpid()) {
+      throwUsage("this process was forked while another thread built: nothing can be built here");
+    }
+    process = getpid();
+    ++count;
+  }
+  ~Building() { --count; }
+  Building(const Building&) = delete;
+  Building& operator=(const Building&) = delete;
+
+ private:
+  static inline std::atomic<int> count{0};
+  static inline std::atomic<pid_t> process{0};
+};
+
 }  // namespace
 
 DeviceHandle newDevice(int threads) {
+  const Building building;
   requireRoomForThreads(threads);
   const std::string configuration = deviceConfiguration(threads);
   DeviceHandle device(rtcNewDevice(configuration.c_str()));
@@ -158,6 +183,7 @@ DeviceHandle newDevice(int threads) {
 }
 
 void commitScene(RTCDevice device, RTCScene scene, Progress* progress) {
+  const Building building;
   rtcSetSceneProgressMonitorFunction(scene, progress ? reportBuild : nullptr, progress);
   rtcCommitScene(scene);
   const RTCError error = rtcGetDeviceError(device);

@@ -164,6 +164,8 @@ class RayBatch {
     float at = 0;
   };
 
+  using Other = std::pair<std::uint32_t, QueryHit>;  // with the ray
+
   bool start(const QueryRay& ray, Start& to) const;
   bool keep(unsigned ray, const QueryHit& hit, float& tFar);
   template <typename Single, typename Packet>
@@ -174,8 +176,8 @@ class RayBatch {
   std::span<const QueryRay> rays_;
   std::array<Start, kRays> starts_;
   std::array<Blocked, kRays> answers_;
-  std::array<QueryHit, kRays> first_;                       // of all that is found for a ray
-  std::vector<std::pair<std::uint32_t, QueryHit>> others_;  // with the ray
+  std::array<QueryHit, kRays> first_;  // of all that is found for a ray
+  std::vector<Other> others_;
   std::vector<QueryHit> hits_;
 };
 
@@ -419,9 +421,9 @@ std::vector<QueryHit>& RayBatch::hits(std::size_t ray) {
   hits_.clear();
   if (!first_[ray].found()) return hits_;
   hits_.push_back(first_[ray]);
-  const auto own = std::ranges::equal_range(others_, static_cast<std::uint32_t>(ray), {},
-                                            [](const auto& other) { return other.first; });
-  for (const auto& [number, hit] : own) hits_.push_back(hit);
+  const auto isBefore = [](const Other& other, std::size_t own) { return other.first < own; };
+  auto next = std::lower_bound(others_.begin(), others_.end(), ray, isBefore);
+  for (; next != others_.end() && next->first == ray; ++next) hits_.push_back(next->second);
   return hits_;
 }
 

@@ -24,30 +24,43 @@
 namespace whit {
 
 WorkerPool::WorkerPool(int workers, Denormals denormals)
-    : workers_(workers), denormals_(denormals), start_(workers), finish_(workers) {
+    : workers_(workers), denormals_(denormals) {
+  startCrew();
+}
+
+WorkerPool::~WorkerPool() {
+  if (hasCrew()) sendHome();
+  forgetDeadCrew();
+}
+
+void WorkerPool::startCrew() {
+  forgetDeadCrew();
+  crew_ = std::make_unique<Crew>(workers_);
+  std::vector<std::thread>& threads = crew_->threads;
   const auto turnBack = [&] {
     // The workers that have started leave the barrier; nobody waits for the missing ones.
-    for (int i = static_cast<int>(threads_.size()) + 1; i < workers; ++i) start_.arrive_and_drop();
+    for (int i = static_cast<int>(threads.size()) + 1; i < workers_; ++i) {
+      crew_->start.arrive_and_drop();
+    }
     sendHome();
+    crew_.reset();
   };
   try {
-    threads_.reserve(static_cast<std::size_t>(workers));
-    for (int i = 1; i < workers; ++i) threads_.emplace_back([this, i] { work(i); });
+    threads.reserve(static_cast<std::size_t>(workers_));
+    for (int i = 1; i < workers_; ++i) threads.emplace_back([this, i] { work(i); });
   } catch (const std::system_error& error) {
     turnBack();
-    throwLimit("cannot start " + std::to_string(workers) + " threads: " + error.what());
+    throwLimit("cannot start " + std::to_string(workers_) + " threads: " + error.what());
   } catch (...) {
     turnBack();
     throw;
   }
 }
 
-WorkerPool::~WorkerPool() { sendHome(); }
-
 void WorkerPool::sendHome() {
   job_ = nullptr;
-  start_.arrive_and_wait();
-  for (std::thread& thread : threads_) thread.join();
+  crew_->start.arrive_and_wait();
+  for (std::thread& thread : crew_->threads) thread.join();
 }
 
 void WorkerPool::run(const std::function<void(int)>& job) {
@@ -56,23 +69,25 @@ void WorkerPool::run(const std::function<void(int)>& job) {
 }
 
 void WorkerPool::begin(const std::function<void(int)>& job) {
+  if (!hasCrew()) startCrew();
   job_ = &job;
   error_ = nullptr;
-  start_.arrive_and_wait();
+  crew_->start.arrive_and_wait();
 }
 
 void WorkerPool::finish() {
   call(0);
-  finish_.arrive_and_wait();
+  if (!hasCrew()) throwUsage("this process was forked while its worker threads had work to do");
+  crew_->finish.arrive_and_wait();
   if (error_) std::rethrow_exception(error_);
 }
 
 void WorkerPool::work(int worker) {
   for (;;) {
-    start_.arrive_and_wait();
+    crew_->start.arrive_and_wait();
     if (!job_) return;
     call(worker);
-    finish_.arrive_and_wait();
+    crew_->finish.arrive_and_wait();
   }
 }
 
@@ -82,7 +97,7 @@ void WorkerPool::call(int worker) noexcept {
     if (denormals_ == Denormals::flushed) flush.emplace();
     (*job_)(worker);
   } catch (...) {
-    const std::lock_guard lock(mutex_);
+    const std::lock_guard lock(crew_->mutex);
     if (!error_) error_ = std::current_exception();
   }
 }

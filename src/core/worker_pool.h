@@ -2,11 +2,15 @@
 // index at a time, and how many threads this process may use at once.
 #pragma once
 
+#include <sys/types.h>
+#include <unistd.h>
+
 #include <barrier>
 #include <cstddef>
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -17,7 +21,8 @@ namespace whit {
 // Treatment of denormal numbers by the workers.
 enum class Denormals { kept, flushed };
 
-// Two barriers a run; nobody spins for ever, so a stolen core costs its share and no more.
+// Two barriers a run; nobody spins for ever, so a stolen core costs its share and no more. In a
+// child that was forked between two runs, the next run starts new workers.
 class WorkerPool {
  public:
   // `workers` including the calling thread; at least 1. Throws Error(limit) where the system has no
@@ -41,17 +46,29 @@ class WorkerPool {
   void finish();
 
  private:
+  struct Crew {
+    explicit Crew(int workers) : start(workers), finish(workers) {}
+    std::barrier<> start, finish;
+    std::mutex mutex;
+    std::vector<std::thread> threads;
+    pid_t process = getpid();  // a child of this process has no threads of the crew
+  };
+
   void work(int worker);
   void call(int worker) noexcept;
+  void startCrew();
   void sendHome();
+  // Leaks the crew of a parent process, because destructors would wait for its threads.
+  void forgetDeadCrew() {
+    if (!hasCrew()) static_cast<void>(crew_.release());
+  }
+  bool hasCrew() const { return crew_ && crew_->process == getpid(); }
 
   int workers_;
   Denormals denormals_;
-  std::barrier<> start_, finish_;
   const std::function<void(int)>* job_ = nullptr;  // null: the crew goes home
-  std::mutex mutex_;
   std::exception_ptr error_;
-  std::vector<std::thread> threads_;
+  std::unique_ptr<Crew> crew_;  // null after it could not be started
 };
 
 // Calls task(i, worker) once for every i below `count`, in this order as workers become free, on

@@ -1,11 +1,37 @@
+#include <algorithm>
+#include <array>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "core/channels.h"
 #include "core/error.h"
 #include "io/image/image_layers.h"
+#include "io/json_reader.h"
 #include "io/paths.h"
 #include "library/internal.h"
 
 namespace whit::api {
+
+namespace {
+
+template <typename T>
+Json binary(std::span<const T> values) {
+  const auto* const first = reinterpret_cast<const std::uint8_t*>(values.data());
+  return Json::binary({first, first + values.size_bytes()});
+}
+
+template <typename T>
+void takeBinary(const Json& json, std::span<T> values) {
+  const Json::binary_t& bytes = json.get_binary();
+  if (bytes.size() != values.size_bytes()) {
+    throwBadScene("the bytes of an image", "expected " + std::to_string(values.size_bytes()) +
+                                               " of them, found " + std::to_string(bytes.size()));
+  }
+  std::ranges::copy(bytes, reinterpret_cast<std::uint8_t*>(values.data()));
+}
+
+}  // namespace
 
 Image::Image() : data_(std::make_unique<Data>()) {}
 Image::Image(const Image& other) : data_(std::make_unique<Data>(*other.data_)) {}
@@ -75,6 +101,61 @@ void Image::write(const std::string& path) const {
 
 std::string Image::png() const {
   return guarded([&] { return encodePng(data_->film.display, data_->metadata); });
+}
+
+std::string Image::bytes() const {
+  return guarded([&] {
+    const whit::Image& image = data_->film.image;
+    const DisplayImage& display = data_->film.display;
+    const Crop& w = image.window;
+    Json all{{"whit", version()},
+             {"size", {image.width, image.height}},
+             {"window", {w.x0, w.y0, w.x1, w.y1}},
+             {"pixels", binary(rgb())},
+             {"rgba", binary(srgb())},
+             {"hasAlpha", display.hasAlpha},
+             {"metadata", data_->metadata},
+             {"aboutChannels", data_->aboutChannels}};
+    for (const Channel& c : channels()) {
+      all["channels"][c.name] = c.numbers.empty() ? binary(c.values) : binary(c.numbers);
+    }
+    std::string bytes;
+    Json::to_cbor(all, bytes);
+    return bytes;
+  });
+}
+
+Image Image::fromBytes(std::string_view bytes) {
+  return guarded([&] {
+    const Json all = Json::from_cbor(bytes, true, false);
+    if (!all.is_object() || all.value("whit", "") != version()) {
+      throwBadScene("the bytes of an image", "expected those of whit " + version());
+    }
+    Image made;
+    Film& film = made.data_->film;
+    const auto size = all.at("size").get<std::array<int, 2>>();
+    const auto w = all.at("window").get<std::array<int, 4>>();
+    film.image = whit::Image(size[0], size[1], {w[0], w[1], w[2], w[3]});
+    std::vector<Rgb>& pixels = film.image.pixels;
+    takeBinary(all.at("pixels"), std::span(pixels));
+    const std::vector<std::uint8_t>& rgba = all.at("rgba").get_binary();
+    film.display = {made.width(), made.height(), rgba, all.at("hasAlpha").get<bool>()};
+    all.at("metadata").get_to(made.data_->metadata);
+    all.at("aboutChannels").get_to(made.data_->aboutChannels);
+    std::string names;
+    const Json channels = all.value("channels", Json::object());
+    for (const auto& [name, values] : channels.items()) names += (names.empty() ? "" : ",") + name;
+    film.channels.resize(parseChannels(names), pixels.size());
+    film.channels.channels().forEach([&](whit::Channel c) {
+      const Json& values = channels.at(std::string(infoOf(c).name));
+      if (infoOf(c).countsThings) {
+        takeBinary(values, film.channels.numbers(c));
+      } else {
+        takeBinary(values, film.channels.floats(c));
+      }
+    });
+    return made;
+  });
 }
 
 }  // namespace whit::api

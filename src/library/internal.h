@@ -69,6 +69,8 @@ template <typename Body>
 decltype(auto) guarded(Body&& body) {
   try {
     return body();
+  } catch (const Error&) {
+    throw;
   } catch (const std::exception& error) {
     throwAsOwn(error);
   }
@@ -82,6 +84,8 @@ decltype(auto) guarded(const Progress& callback, Body&& body) {
     return body(callback ? &progress : nullptr);
   } catch (const Stopped&) {
     progress.rethrow();
+  } catch (const Error&) {
+    throw;
   } catch (const std::exception& error) {
     throwAsOwn(error);
   }

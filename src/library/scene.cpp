@@ -141,6 +141,8 @@ std::string Scene::camera(const std::string& name) const {
 
 std::vector<std::string> Scene::objects() const { return data_->scene.items.names; }
 
+const std::vector<std::string>& Scene::settings() const { return data_->load.settings; }
+
 std::vector<std::string> Scene::materials() const { return namesIn(data_->scene.materials); }
 
 double Scene::pathSeconds() const {

@@ -7,7 +7,8 @@
 // SceneBuilder makes scenes in memory. Scenes can change between frames: Renderer::setTime(),
 // setTransform() and setMember().
 //
-// In CMake: find_package(whit) and target_link_libraries(... whit::whit). Every function throws
+// In CMake: find_package(whit) and target_link_libraries(... whit::whit); elsewhere pkg-config's
+// package whit, whose variable `scenes` is the folder of the shipped scenes. Every function throws
 // whit::api::Error and nothing else, except the exceptions of the caller's own callbacks.
 #pragma once
 
@@ -23,10 +24,17 @@
 #include <utility>
 #include <vector>
 
+#define WHIT_VERSION "0.1.0"
+#define WHIT_VERSION_MAJOR 0
+#define WHIT_VERSION_MINOR 1
+#define WHIT_VERSION_PATCH 0
+
 // The folder of the shipped scenes; find_package(whit) defines it.
 #ifndef WHIT_SHIPPED_SCENES
 #define WHIT_SHIPPED_SCENES ""
 #endif
+
+#pragma GCC visibility push(default)  // for a shared library
 
 namespace whit::api {
 
@@ -49,6 +57,18 @@ class Error : public std::runtime_error {
  private:
   int status_;
   Place place_;
+};
+
+// A handle's pointer to its data. A handle that was moved from throws an Error of status 2.
+template <typename Pointer>
+class DataPointer : public Pointer {
+ public:
+  DataPointer(Pointer pointer) : Pointer(std::move(pointer)) {}
+  auto* operator->() const {
+    if (!*this) throw Error(2, "a Scene, SceneBuilder or Renderer was used after a move from it");
+    return this->get();
+  }
+  auto& operator*() const { return *operator->(); }
 };
 
 // Receives the progress of long work: the current phase ("building the BVH", "tracing") and the
@@ -96,6 +116,9 @@ class Scene {
   std::vector<std::string> warnings() const;  // repairs that were made while loading
   // The channels "object" (names of the first 65,536) and "material" hold indices into these.
   std::vector<std::string> objects() const, materials() const;
+  // LoadOptions::settings and those of Renderer::setMember(): a scene that is read with them equals
+  // this one.
+  const std::vector<std::string>& settings() const;
 
  private:
   friend class Renderer;
@@ -103,7 +126,7 @@ class Scene {
   friend Scene loadScene(const std::string&, const LoadOptions&, const char*);
   struct Data;
   explicit Scene(std::shared_ptr<Data> data);
-  std::shared_ptr<Data> data_;
+  DataPointer<std::shared_ptr<Data>> data_;
 };
 
 // Loads a scene file (.json), a model, or a shipped scene ("landscape?triangles=20000000") from
@@ -197,7 +220,7 @@ class SceneBuilder {
 
  private:
   struct Data;
-  std::unique_ptr<Data> data_;
+  DataPointer<std::unique_ptr<Data>> data_;
 };
 
 // A rendered picture, or a crop of one.
@@ -231,6 +254,10 @@ class Image {
   // is replaced when it is complete.
   void write(const std::string& path) const;
   std::string png() const;  // the bytes of a PNG file
+  // All of the image as bytes, which the same version of the library reads. fromBytes() throws
+  // status 3 for others.
+  std::string bytes() const;
+  static Image fromBytes(std::string_view bytes);
 
  private:
   friend class Renderer;
@@ -312,8 +339,9 @@ struct OptionInfo {
 std::vector<OptionInfo> options();
 
 // Renders frames of a scene with its own worker threads. Only one thread may use a renderer at a
-// time; several renderers may share a scene. The kernel target ("simd") belongs to the process: the
-// renderer that was made last has chosen it for all.
+// time; several renderers may share a scene. A forked child may go on with the renderers that no
+// thread was using, and their worker threads start anew there. The kernel target ("simd") belongs
+// to the process: the renderer that was made last has chosen it for all.
 class Renderer {
  public:
   explicit Renderer(Scene scene);
@@ -384,9 +412,11 @@ class Renderer {
 
  private:
   struct Data;
-  std::unique_ptr<Data> data_;
+  DataPointer<std::unique_ptr<Data>> data_;
 };
 
 std::string version();  // "0.1.0"
 
 }  // namespace whit::api
+
+#pragma GCC visibility pop

@@ -19,6 +19,7 @@ ROOT = HERE.parent.parent
 def _build(folder):
     """The files of the package, from their paths to their bytes."""
     if not (folder / "CMakeCache.txt").exists():
+        print("whit: compiling takes minutes; pip install -v shows how far it is", flush=True)
         subprocess.run(["cmake", "-S", ROOT, "-B", folder, "-DCMAKE_BUILD_TYPE=Release",
                         "-DWHIT_PYTHON=ON", "-DWHIT_TESTS=OFF",
                         f"-DPython_EXECUTABLE={sys.executable}"], check=True)

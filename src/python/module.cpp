@@ -3,6 +3,8 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <sys/types.h>
+#include <unistd.h>
 
 #include <array>
 #include <atomic>
@@ -34,10 +36,10 @@ void translate(std::exception_ptr thrown) {  // NOLINT(performance-unnecessary-v
       if (text.empty()) return py::none();
       return py::str(text);
     };
-    const py::object type = py::module_::import("whit._error").attr("Error");
-    const py::object raised = type(error.what(), error.status(), orNone(error.file()),
+    const py::object make = py::module_::import("whit._error").attr("of_library");
+    const py::object raised = make(error.what(), error.status(), orNone(error.file()),
                                    orNone(error.place()), orNone(error.expected()));
-    PyErr_SetObject(type.ptr(), raised.ptr());
+    PyErr_SetObject(py::type::handle_of(raised).ptr(), raised.ptr());
   }
 }
 
@@ -68,6 +70,8 @@ class Call {
     const py::gil_scoped_release noGil;
     for (int i = 0; i < kSteps && underWay > 0; ++i) std::this_thread::sleep_for(kStep);
   }
+  // Forgets the calls of other threads, which a forked child does not have.
+  static void forgetOthers() { underWay = 0; }
 
  private:
   static void sleepAtTheEnd() {
@@ -129,6 +133,9 @@ struct Picture {
 class Session {
  public:
   explicit Session(api::Scene scene) : renderer_(std::move(scene)) {}
+  ~Session() {
+    if (isLost()) new api::Renderer(std::move(renderer_));  // leaks what the other thread left
+  }
 
   template <typename Question>
   auto ask(const Question& question) {
@@ -193,6 +200,12 @@ class Session {
       if (session.owner_ == std::this_thread::get_id()) {
         throw api::Error(kUsage, "the scene is in use: a progress function cannot ask it anything");
       }
+      if (session.isLost()) {
+        throw api::Error(kUsage,
+                         "another thread used the scene when this process was forked: make a new "
+                         "scene here, or fork while no thread uses it");
+      }
+      session.process_ = getpid();
       session.lock_.attr("acquire")();
       session.owner_ = std::this_thread::get_id();
     }
@@ -207,6 +220,9 @@ class Session {
     Session& session_;
   };
 
+  // True in a forked child if a thread that it does not have was using the scene.
+  bool isLost() const { return process_ != getpid() && owner_ != std::thread::id(); }
+
   void takeOptions(const OptionTexts& options) {
     if (options == options_) return;
     options_.reset();
@@ -219,6 +235,7 @@ class Session {
   std::optional<OptionTexts> options_ = OptionTexts();  // of the renderer; none after an error
   py::object lock_ = py::module_::import("threading").attr("Lock")();
   std::atomic<std::thread::id> owner_;  // the thread that has the lock
+  pid_t process_ = getpid();            // the process that used the scene last
 };
 
 using Floats = py::array_t<float, py::array::c_style>;
@@ -286,7 +303,7 @@ api::SceneBuilder builderOf(const std::string& name, const std::string& descript
     api::ImageArrays image{static_cast<int>(array.shape(1)), static_cast<int>(array.shape(0)),
                            static_cast<int>(array.shape(2))};
     const auto count = static_cast<std::size_t>(array.size());
-    if (array.dtype().is(py::dtype::of<std::uint8_t>())) {
+    if (py::isinstance<py::array_t<std::uint8_t>>(array)) {
       image.codes = {static_cast<const std::uint8_t*>(array.data()), count};
     } else {
       image.values = {static_cast<const float*>(array.data()), count};
@@ -308,15 +325,13 @@ std::unique_ptr<Session> build(const std::string& name, const std::string& descr
   }));
 }
 
-// A read-only view of the picture's memory, which the view keeps alive.
+// A view of the picture's memory, which the view keeps alive. DLPack exports no read-only arrays.
 template <typename T>
 py::array viewOf(const py::object& picture, std::span<const T> data, std::size_t components) {
   const api::Image& image = picture.cast<const Picture&>().image;
-  py::array_t<T> view({static_cast<std::size_t>(image.height()),
-                       static_cast<std::size_t>(image.width()), components},
-                      data.data(), picture);
-  view.attr("flags").attr("writeable") = false;
-  return view;
+  return py::array_t<T>({static_cast<std::size_t>(image.height()),
+                         static_cast<std::size_t>(image.width()), components},
+                        data.data(), picture);
 }
 
 // Maps each channel's name to the names of its components and its values.
@@ -449,6 +464,7 @@ void defineSession(py::module_& module) {
       .def_property_readonly("materials", asked(&api::Scene::materials))
       .def_property_readonly("triangles", asked(&api::Scene::triangles))
       .def_property_readonly("warnings", asked(&api::Scene::warnings))
+      .def_property_readonly("settings", asked(&api::Scene::settings))
       .def_property_readonly("path_seconds", asked(&api::Scene::pathSeconds))
       .def_property_readonly("animations", &animationsOf)
       .def("camera",
@@ -483,9 +499,15 @@ void definePicture(py::module_& module) {
            [](const Picture& p, const std::string& path) {
              call(py::none(), [&](const api::Progress&) { p.image.write(path); });
            })
-      .def("png", [](const Picture& p) {
-        return py::bytes(call(py::none(), [&](const api::Progress&) { return p.image.png(); }));
-      });
+      .def(
+          "png",
+          [](const Picture& p) {
+            return py::bytes(call(py::none(), [&](const api::Progress&) { return p.image.png(); }));
+          })
+      .def("bytes", [](const Picture& p) { return py::bytes(p.image.bytes()); });
+  module.def("picture", [](const py::bytes& bytes) {
+    return Picture{api::Image::fromBytes(std::string_view(bytes)), {}};
+  });
 }
 
 }  // namespace
@@ -502,4 +524,6 @@ PYBIND11_MODULE(_whit, module) {
   module.def("option_table", &optionTable);
   module.def("version", &whit::api::version);
   pybind11::module_::import("atexit").attr("register")(pybind11::cpp_function(&Call::endAll));
+  pybind11::module_::import("os").attr("register_at_fork")(
+      pybind11::arg("after_in_child") = pybind11::cpp_function(&Call::forgetOthers));
 }

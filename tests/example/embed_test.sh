@@ -31,6 +31,21 @@ usr/bin/whit compare looped.exr rendered.exr --tolerance 0 --quiet >log || { cat
 build/made made.png | grep -qx '8192 triangles'
 usr/bin/whit compare made.png made.png --quiet >log || { cat log; exit 1; }
 
+# By pkg-config as well, if it is there.
+if command -v pkg-config >/dev/null; then
+  pc=$(find "$work/usr" -name whit.pc)
+  PKG_CONFIG_PATH=$(dirname "$pc")
+  export PKG_CONFIG_PATH
+  test "whit $(pkg-config --modversion whit)" = "$(usr/bin/whit --version)"
+  "$3" -std=c++20 "$here/embed.cpp" \
+    $(pkg-config --cflags --libs whit) -o packaged
+  WHIT_SCENES=$(pkg-config --variable=scenes whit) LD_LIBRARY_PATH=$(dirname "$pc")/.. \
+    ./packaged only-installed packaged.exr
+  cmp packaged.exr embedded.exr
+else
+  echo "!! pkg-config is not installed: whit.pc is NOT checked" >&2
+fi
+
 status=0
 build/embed no-such-scene none.exr 2>said || status=$?
 test "$status" = 2

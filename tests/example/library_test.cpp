@@ -199,6 +199,51 @@ TEST(Library, ImagesAreValues) {
   EXPECT_EQ(second.width(), 40);
 }
 
+TEST(Library, HandlesThatWereMovedFromSaySo) {
+  Renderer renderer = smallRenderer();
+  Scene scene = renderer.scene();
+  SceneBuilder builder;
+  const Renderer renderer2 = std::move(renderer);
+  const Scene scene2 = std::move(scene);
+  const SceneBuilder builder2 = std::move(builder);
+  const auto refuses = [](const auto& use) {
+    try {
+      use();
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("after a move"), std::string::npos) << error.what();
+      return error.status();
+    }
+    return 0;
+  };
+  Image image;
+  EXPECT_EQ(refuses([&] { renderer.render(); }), 2);
+  EXPECT_EQ(refuses([&] { renderer.renderOnPath(0, image); }), 2);
+  EXPECT_EQ(refuses([&] { renderer.set("depth", "3"); }), 2);
+  EXPECT_EQ(refuses([&] { renderer.get("depth"); }), 2);
+  EXPECT_EQ(refuses([&] { renderer.reset(); }), 2);
+  EXPECT_EQ(refuses([&] { renderer.setTime(1); }), 2);
+  EXPECT_EQ(refuses([&] { renderer.setTransform("/scene/0", kIdentity); }), 2);
+  EXPECT_EQ(refuses([&] { renderer.setMember("/lights/0/intensity", "4"); }), 2);
+  EXPECT_EQ(refuses([&] { renderer.setProgress({}); }), 2);
+  EXPECT_EQ(refuses([&] { static_cast<void>(renderer.scene()); }), 2);
+  EXPECT_EQ(refuses([&] { static_cast<void>(renderer.statistics()); }), 2);
+  EXPECT_EQ(refuses([&] { static_cast<void>(scene.name()); }), 2);
+  EXPECT_EQ(refuses([&] { scene.warnings(); }), 2);
+  EXPECT_EQ(refuses([&] { Renderer(scene).render(); }), 2);
+  EXPECT_EQ(refuses([&] { builder.addLight({}); }), 2);
+  EXPECT_EQ(refuses([&] { builder.build(); }), 2);
+  EXPECT_EQ(refuses([&] { SceneBuilder copy(builder); }), 2);
+  renderer = smallRenderer();  // and can be assigned to
+  EXPECT_EQ(renderer.render().width(), 40);
+}
+
+TEST(Library, TheVersionIsInTheHeader) {
+  EXPECT_EQ(version(), WHIT_VERSION);
+  EXPECT_EQ(version(), std::to_string(WHIT_VERSION_MAJOR) + "." +
+                           std::to_string(WHIT_VERSION_MINOR) + "." +
+                           std::to_string(WHIT_VERSION_PATCH));
+}
+
 TEST(Library, FailsWithTheProgramsStatus) {
   Renderer renderer = smallRenderer();
   EXPECT_EQ(statusOf([&] { renderer.set("detph", "3"); }), 2);

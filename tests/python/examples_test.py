@@ -1,17 +1,20 @@
 """The examples of the module's page, as they stand there, and its signatures."""
 
+import gc
 import os
 import pathlib
 import re
 import subprocess
 import sys
+import types
 import unittest
 
 import numpy as np
 
 import whit
-from samples import SIZE, square_scene, temporary_folder
+from samples import SIZE, program, square_scene, temporary_folder
 from whit import _options
+from whit._error import in_python
 
 HERE = pathlib.Path(__file__).resolve().parent
 PAGE = (HERE.parents[1] / "src" / "python" / "README.md").read_text()
@@ -68,7 +71,7 @@ class Signatures(unittest.TestCase):
     def test_every_option_is_told_of(self):
         for keyword, option in _options.OPTIONS.items():
             self.assertIn(f"{keyword} (", whit.Scene.render.__doc__)
-            self.assertIn(option.help, whit.Scene.render.__doc__)
+            self.assertIn(in_python(option.help), whit.Scene.render.__doc__)
 
     def test_every_option_takes_its_preset(self):
         scene = whit.Scene("whitted")
@@ -96,9 +99,57 @@ class Pictures(unittest.TestCase):
         self.assertEqual((picture.rgb.shape, picture.rgb.dtype), ((30, 48, 3), np.float32))
         self.assertEqual((picture.srgb.shape, picture.srgb.dtype), ((30, 48, 3), np.uint8))
         self.assertTrue(np.shares_memory(picture.rgb, picture.rgb))
-        self.assertFalse(picture.rgb.flags.writeable or picture.srgb.flags.writeable)
         self.assertEqual(np.asarray(picture).shape, (30, 48, 3))
         self.assertEqual(np.asarray(picture, np.float64).dtype, np.float64)
+
+    def test_arrays_for_other_libraries(self):
+        picture = whit.Scene("whitted").render(size=SIZE, channels=["depth", "object", "normal"])
+        for array in (picture.rgb, picture["depth.Z"], picture["depth.distance"], picture["normal.X"],
+                      picture["object"], picture["object.id"], *picture.channels.values()):
+            self.assertTrue(array.flags.c_contiguous)
+            self.assertTrue(np.shares_memory(np.from_dlpack(array), array))
+            self.assertEqual(memoryview(array).tobytes(), array.tobytes())
+        self.assertTrue(np.shares_memory(np.from_dlpack(picture.srgb), picture.srgb))
+        self.assertIs(picture["depth.Z"], picture["depth.Z"])
+        np.testing.assert_array_equal(picture["depth.distance"], picture["depth"][:, :, 1])
+        np.testing.assert_array_equal(picture["normal.Z"], picture["normal"][:, :, 2])
+
+    def test_arrays_outlive_their_picture(self):
+        scene = whit.Scene("whitted")
+        expected = scene.render(size=SIZE).rgb.copy()
+        array = np.from_dlpack(scene.render(size=SIZE).rgb)
+        gc.collect()
+        scene.render(size=SIZE, spp=4)
+        np.testing.assert_array_equal(array, expected)
+
+    def test_what_is_written_to_arrays_is_in_files(self):
+        with temporary_folder():
+            picture = whit.Scene("whitted").render(size=SIZE)
+            picture.rgb[:] = 0.5
+            picture.srgb[:] = 188
+            for name in ("a.exr", "a.png"):
+                picture.write(name)
+            program("compare", "a.exr", "a.png", "--tolerance", "0.01", "--quiet")
+
+    def test_a_mesh_of_trimesh(self):
+        """The page's line, with a stand-in that has trimesh's members and kinds of arrays."""
+        line = re.search(r"`(whit\.Mesh\(m\.vertices.*?\))`", PAGE)[1]
+
+        class TrackedArray(np.ndarray):
+            pass
+
+        def tracked(values, kind):
+            return np.array(values, kind).view(TrackedArray)
+
+        m = types.SimpleNamespace(
+            vertices=tracked([[-1, 0, -1], [-1, 0, 1], [1, 0, 1], [1, 0, -1]], np.float64),
+            faces=tracked([[0, 1, 2], [0, 2, 3]], np.int64),
+            vertex_normals=tracked([[0, 1, 0]] * 4, np.float64),
+            visual=types.SimpleNamespace(uv=np.array([[0, 1], [0, 0], [1, 0], [1, 1]], float)))
+        mesh = eval(line, {"whit": whit, "m": m})
+        expected = whit.Scene(square_scene()).render(size=SIZE).rgb
+        np.testing.assert_array_equal(whit.Scene(square_scene(mesh)).render(size=SIZE).rgb, expected)
+        self.assertEqual(mesh.uvs.shape, (4, 2))
 
     def test_the_top_row_comes_first(self):
         sky = {"zenith": [0, 0, 1], "horizon": [1, 1, 1], "ground": [0, 1, 0]}

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -9,6 +11,7 @@
 #include <cstdlib>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <stdexcept>
 #include <thread>
@@ -54,6 +57,54 @@ TEST(WorkerPool, AnExceptionReachesTheCallerAndThePoolLivesOn) {
   std::atomic<int> calls{0};
   pool.run([&](int) { ++calls; });
   EXPECT_EQ(calls, 2);
+}
+
+// Calls `body` in a forked child and returns the child's exit status: body's, or -1 if a signal
+// ended it, also that of the alarm after ten seconds.
+int statusOfChild(const std::function<int()>& body) {
+  const pid_t child = fork();
+  if (child == 0) {
+    alarm(10);
+    _exit(body());
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST(WorkerPool, AForkedChildStartsWorkersOfItsOwn) {
+  if (kSanitized) GTEST_SKIP() << "sanitizers allow no threads in a forked child";
+  WorkerPool pool(3);
+  std::vector<int> calls(3, 0);
+  const std::function<void(int)> job = [&](int w) { ++calls[static_cast<std::size_t>(w)]; };
+  pool.run(job);
+  EXPECT_EQ(statusOfChild([&] {
+              WorkerPool copy(2);  // the parent's pool is left alone while others are used
+              copy.run(job);
+              for (int round = 0; round < 3; ++round) pool.run(job);
+              return calls == std::vector<int>{5, 5, 4} ? 0 : 1;
+            }),
+            0);
+  pool.run(job);
+  EXPECT_EQ(calls, (std::vector<int>{2, 2, 2}));
+}
+
+TEST(WorkerPool, AForkedChildCannotFinishTheWorkOfItsParent) {
+  if (kSanitized) GTEST_SKIP() << "sanitizers allow no threads in a forked child";
+  auto pool = std::make_unique<WorkerPool>(2);
+  const std::function<void(int)> job = [](int) {};
+  pool->begin(job);
+  EXPECT_EQ(statusOfChild([&] {
+              try {
+                pool->finish();
+              } catch (const Error& error) {
+                pool.reset();
+                return static_cast<int>(error.status());
+              }
+              return 0;
+            }),
+            static_cast<int>(ExitStatus::usage));
+  pool->finish();
 }
 
 TEST(WorkerPool, TheCallerMayWorkBetweenBeginAndFinish) {

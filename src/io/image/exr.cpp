@@ -293,10 +293,11 @@ std::vector<half> inHalf(const Image& image) {
   return values;
 }
 
-// Where there is no room for the library's threads, it does without.
+// Where there is no room for the library's threads, it does without. A single thread is the
+// caller's: a forked child does not have the library's threads, and would wait for them.
 void letCompress(int threads) {
   try {
-    if (threads > Imf::globalThreadCount()) Imf::setGlobalThreadCount(threads);
+    if (threads > 1 && threads > Imf::globalThreadCount()) Imf::setGlobalThreadCount(threads);
   } catch (const std::system_error&) {
   }
 }

@@ -22,7 +22,7 @@ from . import _arrays, _options, _rays, _whit
 from ._arrays import Mesh
 from ._camera import Camera
 from ._describe import Description
-from ._error import Error
+from ._error import Error, in_python
 from ._rays import Hits
 
 __all__ = ["Camera", "Error", "Hits", "Mesh", "Picture", "Scene"]
@@ -46,11 +46,20 @@ def _shipped_scenes() -> str:
 
 
 class Picture:
-    """A rendered picture, or a crop of one. Its arrays are read-only views of the picture's memory;
-    copy() gives an array that can be changed."""
+    """A rendered picture, or a crop of one. Its arrays are C-contiguous, except `srgb`; torch and
+    others take them by DLPack or the buffer protocol without a copy. They are views of the
+    picture's memory: what is written to them gets into its files.
 
-    def __init__(self, picture: Any) -> None:
+    Pickles keep all of a picture, for the same version of whit.
+    """
+
+    def __init__(self, picture: Any, statistics: Optional[dict[str, Any]] = None) -> None:
         self._object = picture
+        self._statistics = picture.statistics if statistics is None else statistics
+        self._components: dict[str, np.ndarray] = {}
+
+    def __reduce__(self) -> tuple:
+        return _picture, (self._object.bytes(), self._statistics)
 
     rgb: np.ndarray = _native("rgb", (
         "Linear radiance, Rec. 709 primaries: (height, width, 3), float32, top row first."))
@@ -73,7 +82,7 @@ class Picture:
 
     def __getitem__(self, name: str) -> np.ndarray:
         """A channel, "position" (height, width, 3), or one component by its name in files,
-        "depth.Z" (height, width)."""
+        "depth.Z" (height, width), which is a copy."""
         channel, _, component = name.partition(".")
         kept = self._object.channels
         if channel not in kept:
@@ -81,18 +90,22 @@ class Picture:
         components, values = kept[channel]
         if component and component not in components:
             raise KeyError(f"{name}: the channel has {', '.join(components)}")
-        if component or len(components) == 1:
-            return values[:, :, components.index(component) if component else 0]
-        return values
+        if len(components) == 1:
+            return values[:, :, 0]
+        if not component:
+            return values
+        if name not in self._components:
+            one = values[:, :, components.index(component)]
+            self._components[name] = np.ascontiguousarray(one)
+        return self._components[name]
 
     width: int = _native("width", "Width in pixels, of a crop its own width.")
     height: int = _native("height", "Height in pixels, of a crop its own height.")
     left: int = _native("left", "Column of the left edge in the whole picture.")
     top: int = _native("top", "Row of the top edge in the whole picture.")
-    statistics: dict[str, Any] = _native("statistics", (
+    statistics: dict[str, Any] = property(operator.attrgetter("_statistics"), doc=(
         "Times and counts of the frame: 'frame_ms', 'embree_ms' and 'stages_ms' (by stage) in "
-        "milliseconds of wall-clock time, 'rays' (by kind) and 'non_finite_pixels' as "
-        "numbers."))
+        "milliseconds of wall-clock time, 'rays' (by kind) and 'non_finite_pixels' as numbers."))
 
     def write(self, path: Union[str, os.PathLike]) -> None:
         """Writes .exr (linear, float) or .png (8-bit sRGB), with the render's options."""
@@ -111,6 +124,11 @@ class Picture:
 
     def __repr__(self) -> str:
         return f"<whit.Picture: {self.width} x {self.height}>"
+
+
+def _picture(data: bytes, statistics: dict[str, Any]) -> Picture:
+    """A picture from its pickle."""
+    return Picture(_whit.picture(data), statistics)
 
 
 class Scene:
@@ -140,7 +158,11 @@ class Scene:
         False ends the work.
     name: name of a dict's scene in errors.
 
-    Threads may use one scene; they take turns. Several scenes render at the same time.
+    Threads may use one scene; they take turns. Several scenes render at the same time. Forked child
+    processes may use the scenes that no thread was using.
+
+    Pickles and copies keep the arguments, with the arrays of a dict and the path of a file, and
+    what set(), set_time() and set_transform() have changed. They read the scene again.
     """
 
     def __init__(self, source: Union[str, os.PathLike, Mapping[str, Any]], *,
@@ -155,12 +177,36 @@ class Scene:
         load = dict(settings=texts, sky=os.fspath(sky), moves=moves, movable=list(movable),
                     animation=animation, sphere_segments=sphere_segments, strict=strict,
                     allow_outside=allow_outside, max_memory_gb=max_memory_gb, threads=threads)
+        self._load = load
+        self._time: Optional[float] = None
+        self._transforms: dict[str, list[float]] = {}
         if isinstance(source, Mapping):
             text = description.text(dict(source))
-            self._object = _whit.build(name, text, description.meshes, description.images, load,
-                                       progress)
+            self._source = (name, text, description.meshes, description.images)
         else:
-            self._object = _whit.load(os.fspath(source), load, _shipped_scenes(), progress)
+            self._source = (os.fspath(source),)
+        self._read(progress)
+        if len(self._source) == 1 and os.path.exists(source):  # copies may be read elsewhere
+            self._source = (os.path.abspath(source),)
+
+    def _read(self, progress: Optional[Progress]) -> None:
+        if len(self._source) > 1:
+            self._object = _whit.build(*self._source, self._load, progress)
+        else:
+            self._object = _whit.load(*self._source, self._load, _shipped_scenes(), progress)
+
+    def __getstate__(self) -> dict[str, Any]:
+        state = {**self.__dict__, "_load": {**self._load, "settings": self._object.settings}}
+        del state["_object"]
+        return state
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        self._read(None)
+        if self._time is not None:
+            self._object.set_time(self._time)
+        for pointer, matrix in self._transforms.items():
+            self._object.set_transform(pointer, matrix)
 
     name: str = _native("name", "Name of the scene's file without folder and extension.")
 
@@ -180,7 +226,11 @@ class Scene:
         "Duration of each animation in seconds, by name."))
     path_seconds: float = _native("path_seconds", (
         "End of the camera path in seconds; 0 without a path."))
-    warnings: list[str] = _native("warnings", "Repairs that were made while the scene was read.")
+
+    @property
+    def warnings(self) -> list[str]:
+        """Repairs that were made while the scene was read."""
+        return [in_python(text) for text in self._object.warnings]
 
     def set(self, pointer: str, value: Any, *, progress: Optional[Progress] = None) -> None:
         """Sets a member of the scene's description for the following pictures:
@@ -199,13 +249,16 @@ class Scene:
         """Moves animated items, cameras and lights to a time in seconds. The scene must have been
         made with moves=True."""
         self._object.set_time(seconds)
+        self._time = seconds
 
     def set_transform(self, pointer: str, matrix: Any) -> None:
         """Sets the transform of one of `movable`, which replaces its own motion.
 
         matrix: (3, 4) or (4, 4), the last column the translation, in the scene's units.
         """
-        self._object.set_transform(pointer, _arrays.matrix(matrix, "matrix"))
+        rows = _arrays.matrix(matrix, "matrix")
+        self._object.set_transform(pointer, rows)
+        self._transforms[pointer] = rows
 
     def camera(self, name: str = "", *, axes: str = "opencv") -> Camera:
         """One of `cameras` as it is now, for pictures of the scene's `size`; empty: the first."""

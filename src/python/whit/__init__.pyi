@@ -10,7 +10,10 @@ __version__: str
 Progress = Callable[[str, float], Optional[bool]]
 class Picture:
 
-    def __init__(self, picture: Any) -> None:
+    def __init__(self, picture: Any, statistics: Optional[dict[str, Any]]=None) -> None:
+        ...
+
+    def __reduce__(self) -> tuple:
         ...
 
     @property
@@ -65,6 +68,15 @@ class Picture:
 class Scene:
 
     def __init__(self, source: Union[str, os.PathLike, Mapping[str, Any]], *, settings: Optional[Mapping[str, Any]]=None, sky: Union[str, os.PathLike]='', moves: bool=False, movable: Sequence[str]=(), animation: str='', sphere_segments: int=0, strict: bool=False, allow_outside: bool=False, max_memory_gb: float=16.0, threads: int=0, progress: Optional[Progress]=None, name: str='scene') -> None:
+        ...
+
+    def _read(self, progress: Optional[Progress]) -> None:
+        ...
+
+    def __getstate__(self) -> dict[str, Any]:
+        ...
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
         ...
 
     @property

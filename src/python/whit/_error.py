@@ -1,14 +1,18 @@
-"""The exception of the module."""
+"""The exception of the module, and its messages, which name what Python users know."""
 
 from __future__ import annotations
 
-from typing import Optional
+import os
+import re
+from typing import Any, Optional
 
 
 class Error(Exception):
     """An error in a scene, an option or a file.
 
-    str() is the message in one line. An attribute is None if it is unknown.
+    It is a ValueError as well for wrong usage and bad scenes, an OSError for files that cannot be
+    read or written (FileNotFoundError where there is none), and a MemoryError for limits. str() is
+    the message in one line. An attribute is None if it is unknown.
     """
 
     exit_status: int
@@ -21,6 +25,15 @@ class Error(Exception):
     expected: Optional[str]
     """The content that was expected there."""
 
+    def __new__(cls, message: str, exit_status: int = 3, file: Optional[str] = None,
+                *rest: Any, **named: Any) -> Error:
+        kind = cls
+        if cls is Error:
+            kind = {2: UsageError, 3: UsageError, 4: FileError, 5: LimitError}.get(exit_status, cls)
+            if kind is FileError and file and not os.path.exists(file):
+                kind = MissingFileError
+        return (OSError if issubclass(kind, OSError) else Exception).__new__(kind, message)
+
     def __init__(self, message: str, exit_status: int = 3, file: Optional[str] = None,
                  place: Optional[str] = None, expected: Optional[str] = None) -> None:
         super().__init__(message)
@@ -30,4 +43,45 @@ class Error(Exception):
         self.expected = expected
 
     def __reduce__(self):
-        return Error, (str(self), self.exit_status, self.file, self.place, self.expected)
+        return type(self), (str(self), self.exit_status, self.file, self.place, self.expected)
+
+
+class UsageError(Error, ValueError):
+    pass
+
+
+class FileError(Error, OSError):
+    pass
+
+
+class MissingFileError(FileError, FileNotFoundError):
+    pass
+
+
+class LimitError(Error, MemoryError):
+    pass
+
+
+_NAMES = (  # what the library says, and what Python says; the first that fits counts
+    (r"it was loaded without LoadOptions::moves", "the scene was made without moves=True"),
+    (r"\bsetTime\b", "set_time"),
+    (r"\bsetTransform\b", "set_transform"),
+    (r"expected POINTER=VALUE, a JSON pointer .*", "expected a JSON pointer such as /lights/0"),
+    (r"--set (/\S+)=true", r'settings={"\1": True}'),
+    (r"--set ", ""),
+    (r"--up y", 'settings={"/up": "y"}'),
+    (r"--(strict|allow-outside)\b", lambda found: found[1].replace("-", "_") + "=True"),
+    (r"--max-memory\b", "max_memory_gb"),
+    (r"(?<![\w-])--([a-z][a-z-]*)", lambda found: found[1].replace("-", "_")),
+)
+
+
+def in_python(text: str) -> str:
+    """A text of the library with Python's names in place of those of C++ and the command line."""
+    for pattern, name in _NAMES:
+        text = re.sub(pattern, name, text)
+    return text
+
+
+def of_library(message: str, status: int, *place: Optional[str]) -> Error:
+    return Error(in_python(message), status, *(text and in_python(text) for text in place))

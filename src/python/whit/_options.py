@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from . import _whit
+from ._error import in_python
 
 
 class Option(NamedTuple):
@@ -52,5 +53,5 @@ def documentation() -> str:
     lines = []
     for option in OPTIONS.values():
         preset = f" [{option.preset}]" if option.preset else ""
-        lines.append(f"{option.keyword} ({option.words or 'on|off'}){preset}: {option.help}")
+        lines.append(f"{option.keyword} ({option.words or 'on|off'}){preset}: {in_python(option.help)}")
     return "\n".join(f"    {line}" for line in lines)

@@ -1,0 +1,224 @@
+"""Scenes in child processes, which os.fork and multiprocessing make, from several threads."""
+
+import multiprocessing
+import os
+import signal
+import subprocess
+import sys
+import threading
+import traceback
+import unittest
+
+import numpy as np
+
+import whit
+from samples import SIZE, square_scene, temporary_folder
+
+SECONDS = 60  # a child that hangs is ended by its alarm
+
+
+def status_of_child(body):
+    """Calls body() in a forked child. Returns its exit status: 0, 1 after an exception, or the
+    negative number of the signal that ended it."""
+    child = os.fork()
+    if child == 0:
+        signal.alarm(SECONDS)
+        try:
+            body()
+        except BaseException:
+            traceback.print_exc()
+            sys.stderr.flush()
+            os._exit(1)
+        os._exit(0)
+    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+
+
+def render_into(scene, queue):
+    signal.alarm(SECONDS)
+    queue.put(scene.render(size=SIZE).rgb)
+
+
+class Fork(unittest.TestCase):
+    def setUp(self):
+        self.scene = whit.Scene("orrery", moves=True)
+        self.expected = self.scene.render(size=SIZE).rgb.copy()
+
+    def in_child(self, body):
+        self.assertEqual(status_of_child(body), 0)
+
+    def render(self):
+        np.testing.assert_array_equal(self.scene.render(size=SIZE).rgb, self.expected)
+
+    def test_a_child_renders(self):
+        self.in_child(self.render)
+        self.render()
+
+    def test_a_child_of_a_child_renders(self):
+        self.in_child(lambda: self.in_child(self.render))
+
+    def test_a_child_builds(self):
+        self.scene.set_time(2)
+        later = self.scene.render(size=SIZE).rgb.copy()
+        self.scene.set_time(0)
+
+        def build():
+            self.scene.set_time(2)
+            np.testing.assert_array_equal(self.scene.render(size=SIZE).rgb, later)
+            other = whit.Scene("orrery", moves=True)
+            np.testing.assert_array_equal(other.render(size=SIZE).rgb, self.expected)
+            whit.Scene(square_scene()).render(size=SIZE)
+            del other, self.scene
+
+        self.in_child(build)
+
+    def test_a_child_asks_for_hits(self):
+        origins = np.random.default_rng(1).normal(size=(1000, 3)) * 5
+        expected = self.scene.closest(origins, -origins).t
+
+        def ask():
+            np.testing.assert_array_equal(self.scene.closest(origins, -origins).t, expected)
+            other = whit.Scene("orrery", moves=True)
+            np.testing.assert_array_equal(other.closest(origins, -origins).t, expected)
+
+        self.assertTrue(np.isfinite(expected).any())
+        self.in_child(ask)
+
+    def test_a_fork_in_another_thread(self):
+        statuses = []
+        thread = threading.Thread(target=lambda: statuses.append(status_of_child(self.render)))
+        thread.start()
+        thread.join()
+        self.assertEqual(statuses, [0])
+
+    def test_a_scene_rendered_in_another_thread(self):
+        scenes = []
+
+        def make():
+            scenes.append(whit.Scene("whitted"))
+            scenes.append(scenes[0].render(size=SIZE).rgb)
+
+        thread = threading.Thread(target=make)
+        thread.start()
+        thread.join()
+        scene, expected = scenes
+        self.in_child(lambda: np.testing.assert_array_equal(scene.render(size=SIZE).rgb, expected))
+
+    def test_pictures_are_written(self):
+        with temporary_folder():
+            picture = self.scene.render(size=SIZE)
+            for name in ("a.exr", "a.png"):
+                picture.write(name)
+            self.in_child(lambda: [picture.write(name) for name in ("b.exr", "b.png")])
+            for kind in ("exr", "png"):
+                with open(f"a.{kind}", "rb") as a, open(f"b.{kind}", "rb") as b:
+                    self.assertEqual(a.read(), b.read())
+
+    def test_other_threads_that_render(self):
+        """The child has its own scene; the other thread's gives an error."""
+        theirs = whit.Scene("whitted")
+        begun, stop = threading.Event(), threading.Event()
+
+        def progress(phase, fraction):
+            begun.set()
+            return not stop.is_set()
+
+        def work():
+            with self.assertRaises(whit.Error):
+                while True:
+                    theirs.render(size=(640, 400), spp=64, progress=progress)
+
+        def in_child():
+            self.render()
+            with self.assertRaisesRegex(whit.Error, "another thread used the scene"):
+                theirs.render(size=SIZE)
+
+        thread = threading.Thread(target=work)
+        thread.start()
+        begun.wait()
+        try:
+            self.in_child(in_child)
+        finally:
+            stop.set()
+            thread.join()
+
+    def test_a_fork_while_another_thread_builds(self):
+        """Embree's locks may be held for ever in the child: an error says so."""
+        begun, stop = threading.Event(), threading.Event()
+
+        def progress(phase, fraction):
+            if phase.startswith("building"):
+                begun.set()
+                stop.wait(SECONDS)
+            return True
+
+        theirs = whit.Scene("landscape?triangles=400000")
+        thread = threading.Thread(target=lambda: theirs.render(size=SIZE, progress=progress))
+
+        def in_child():
+            self.render()
+            with self.assertRaisesRegex(whit.Error, "forked while another thread built"):
+                whit.Scene(square_scene()).render(size=SIZE)
+
+        thread.start()
+        try:
+            self.assertTrue(begun.wait(SECONDS))
+            self.in_child(in_child)
+        finally:
+            stop.set()
+            thread.join()
+
+    def test_a_child_ends(self):
+        """While a thread of the parent renders, the child exits at once, with its scenes."""
+        program = ("import os, signal, sys, threading, time, whit\n"
+                   "scene, other = whit.Scene('whitted'), whit.Scene('whitted')\n"
+                   "scene.render(size=(64, 40))\n"
+                   "def work():\n"
+                   "    while True: other.render(size=(64, 40), spp=256)\n"
+                   "threading.Thread(target=work, daemon=True).start()\n"
+                   "time.sleep(0.2)\n"
+                   "if os.fork() == 0:\n"
+                   "    signal.alarm(8)\n"
+                   "    scene.render(size=(64, 40))\n"
+                   "    sys.exit(0)\n"
+                   "sys.exit(os.waitstatus_to_exitcode(os.wait()[1]))\n")
+        done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True,
+                              check=False, timeout=SECONDS)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_a_fork_by_a_progress_function(self):
+        children = []
+
+        def progress(phase, fraction):
+            if phase.startswith("tracing") and not children:
+                children.append(os.fork())
+                if children[0] == 0:
+                    signal.alarm(SECONDS)
+
+        try:
+            self.scene.render(size=(640, 400), spp=8, progress=progress)
+        except whit.Error as error:
+            if children[0] == 0:
+                self.render()
+                os._exit(7 if "forked" in str(error) else 1)
+            raise
+        if children[0] == 0:
+            os._exit(1)
+        self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(children[0], 0)[1]), 7)
+
+    def test_multiprocessing(self):
+        for method in ("fork",):
+            context = multiprocessing.get_context(method)
+            queue = context.Queue()
+            processes = [context.Process(target=render_into, args=(self.scene, queue))
+                         for _ in range(2)]
+            for process in processes:
+                process.start()
+            for process in processes:
+                np.testing.assert_array_equal(queue.get(timeout=SECONDS), self.expected)
+            for process in processes:
+                process.join()
+                self.assertEqual(process.exitcode, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,86 @@
+"""Errors as Python users expect them: by their types, and by names that Python has."""
+
+import inspect
+import pathlib
+import re
+import unittest
+
+import whit
+from samples import SIZE, temporary_folder
+from whit import _options
+from whit._error import in_python
+
+SOURCES = pathlib.Path(__file__).resolve().parents[2] / "src"
+NOT_IN_THE_LIBRARY = ("cli", "accuracy", "python")
+COMMAND_LINE = re.compile(r"(?<![\w-])--[a-z]|[A-Za-z]::[a-z]|POINTER=VALUE|\bset[A-Z][a-z]+\b")
+
+
+def literals():
+    """The string literals of the library's sources; those that the compiler joins are one."""
+    for path in sorted(SOURCES.rglob("*")):
+        room = path.relative_to(SOURCES).parts[0]
+        if path.suffix not in (".cpp", ".h") or room in NOT_IN_THE_LIBRARY:
+            continue
+        code = re.sub(r"^\s*(//|#).*$", "", path.read_text(), flags=re.M)
+        for joined in re.findall(r'(?:"(?:[^"\\\n]|\\.)*"\s*)+', code):
+            yield "".join(re.findall(r'"((?:[^"\\\n]|\\.)*)"', joined)), path
+
+
+class Messages(unittest.TestCase):
+    def test_every_message_names_what_python_has(self):
+        known = set(_options.OPTIONS) | set(inspect.signature(whit.Scene.__init__).parameters)
+        known |= {"set", "max_memory", "up"}  # have rules of their own
+        known |= {"time", "ab_shadow_cache"}  # of the programs alone
+        seen = 0
+        for text, path in literals():
+            if "ktx extract" in text or text in ("--", " --"):  # another program; an option follows
+                continue
+            for word in re.findall(r"(?<![\w-])--([a-z][a-z-]*)", text):
+                seen += 1
+                self.assertIn(word.replace("-", "_"), known, path)
+            self.assertIsNone(COMMAND_LINE.search(in_python(text)), f"{path}: {text}")
+        self.assertGreater(seen, 20)
+
+    def test_the_documentation_of_render(self):
+        self.assertIsNone(COMMAND_LINE.search(whit.Scene.render.__doc__), whit.Scene.render.__doc__)
+
+    def test_errors(self):
+        scene = whit.Scene("whitted")
+        cases = [
+            (lambda: scene.render(spp=0), ValueError, "^spp: expected"),
+            (lambda: scene.render(size=SIZE, light_samples="x"), ValueError, "^light_samples: exp"),
+            (lambda: scene.render(size=SIZE, crop=(0, 0, 99, 9)), ValueError, "^crop must lie"),
+            (lambda: scene.render(simd="sse9"), ValueError, "^simd"),
+            (lambda: scene.set_time(1), ValueError, "^set_time: .* made without moves=True$"),
+            (lambda: scene.set_transform("/scene/0", [[1e30] * 4] * 3), ValueError, "^set_transf"),
+            (lambda: scene.set("lights", 4), ValueError, "^'lights=4': expected a JSON pointer such"),
+            (lambda: whit.Scene("whitted", sphere_segments=2), ValueError, "^sphere_segments exp"),
+            (lambda: whit.Scene("no-such-scene"), ValueError, "no-such-scene"),
+            (lambda: whit.Scene({"lights": 4}), ValueError, "/lights"),
+            (lambda: whit.Scene("none.json"), FileNotFoundError, "none.json"),
+            (lambda: scene.render(size=SIZE).write("/no/such/a.png"), FileNotFoundError, "such/a.png"),
+            (lambda: scene.render(size=SIZE).write("/proc/a.png"), OSError, "/proc/a.png"),
+            (lambda: whit.Scene("atrium", max_memory_gb=1e-5), MemoryError, "."),
+            (lambda: whit.Scene("landscape", progress=lambda *_: False), whit.Error, "progress"),
+        ]
+        for number, (call, kind, words) in enumerate(cases):
+            with self.subTest(number=number), self.assertRaisesRegex(kind, words) as caught:
+                call()
+            self.assertIsInstance(caught.exception, whit.Error)
+            self.assertIsNone(COMMAND_LINE.search(str(caught.exception)))
+
+    def test_files_outside_and_strict(self):
+        with temporary_folder():
+            with open("a.json", "w", encoding="utf-8") as file:
+                file.write('{"whit": 1, "sky": {"image": "/etc/passwd"}, "scene": []}')
+            with self.assertRaisesRegex(ValueError, r"\(allow_outside=True permits that\)"):
+                whit.Scene("a.json")
+            with open("a.obj", "w", encoding="utf-8") as file:
+                file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 1 2\n")
+            self.assertTrue(whit.Scene("a.obj").warnings)
+            with self.assertRaisesRegex(ValueError, r"\(refused by strict=True\)"):
+                whit.Scene("a.obj", strict=True)
+
+
+if __name__ == "__main__":
+    unittest.main()

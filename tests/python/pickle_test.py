@@ -1,0 +1,124 @@
+"""Pickles and copies of scenes and pictures, and scenes in spawned processes."""
+
+import copy
+import multiprocessing
+import os
+import pickle
+import signal
+import unittest
+
+import numpy as np
+
+import whit
+from samples import SIZE, square, square_scene, temporary_folder
+
+SECONDS = 60  # a child that hangs is ended by its alarm
+
+
+def render_into(scene, queue):
+    signal.alarm(SECONDS)
+    queue.put(scene.render(size=SIZE))
+
+
+def restored(thing):
+    return pickle.loads(pickle.dumps(thing))
+
+
+class Pickles(unittest.TestCase):
+    def assert_same(self, one, other):
+        np.testing.assert_array_equal(one.render(size=SIZE).rgb, other.render(size=SIZE).rgb)
+        self.assertEqual(one.name, other.name)
+
+    def test_scenes(self):
+        image = np.random.default_rng(3).integers(0, 256, (4, 4, 3)).astype(np.uint8)
+        textured = square_scene(square(uvs=np.array([[0, 0], [0, 1], [1, 1], [1, 0]])),
+                                textures={"noise": image},
+                                materials={"red": {"diffuseMap": "noise"}})
+        mesh = square()
+        for scene in (whit.Scene("whitted"), whit.Scene(square_scene(mesh), name="mine"),
+                      whit.Scene(textured, sky="studio"),
+                      whit.Scene("whitted", settings={"/lights/0/intensity": 9})):
+            for other in (restored(scene), copy.copy(scene), copy.deepcopy(scene),
+                          restored(restored(scene))):
+                self.assert_same(scene, other)
+
+    def test_changes_are_kept(self):
+        scene = whit.Scene("orrery", moves=True, movable=["/scene/0"])
+        before = scene.render(size=SIZE).rgb.copy()
+        scene.set("/lights/0/intensity", 5)
+        scene.set("/lights/-", {"position": [0, 9, 0], "intensity": 30})
+        scene.set("/lights/0/intensity", 7)
+        scene.set("/lights/1/intensity", 31)
+        scene.set_time(2.5)
+        scene.set_transform("/scene/0", np.diag([1, 1.5, 1, 1]))
+        self.assertTrue((scene.render(size=SIZE).rgb != before).any())
+        other = restored(scene)
+        self.assert_same(scene, other)
+        other.set("/lights/0/intensity", 50)  # the first one is not changed by it
+        self.assert_same(scene, restored(scene))
+        self.assertTrue((scene.render(size=SIZE).rgb != other.render(size=SIZE).rgb).any())
+
+    def test_a_file_is_found_from_another_folder(self):
+        with temporary_folder():
+            with open("a.json", "w", encoding="utf-8") as file:
+                file.write('{"whit": 1, "cameras": {"a": {"eye": [0, 0, 5], "at": [0, 0, 0]}}, '
+                           '"scene": [{"shape": "sphere"}], "ambient": {"color": [1, 1, 1]}}')
+            scene = whit.Scene("a.json")
+            os.mkdir("b")
+            os.chdir("b")
+            self.assert_same(scene, restored(scene))
+
+    def test_pictures(self):
+        scene = whit.Scene("whitted")
+        names = ["depth", "position", "normal", "albedo", "uv", "object", "material", "triangle",
+                 "rays", "alpha"]
+        with temporary_folder():
+            for options in ({}, {"channels": names}, {"crop": (5, 6, 40, 21), "channels": ["uv"]},
+                            {"background": "transparent", "exposure": 1.5}):
+                picture = scene.render(size=SIZE, **options)
+                for other in (restored(picture), copy.copy(picture), copy.deepcopy(picture)):
+                    np.testing.assert_array_equal(picture.rgb, other.rgb)
+                    np.testing.assert_array_equal(picture.srgb, other.srgb)
+                    self.assertEqual(list(picture.channels), list(other.channels))
+                    for name, values in picture.channels.items():
+                        np.testing.assert_array_equal(values, other[name])
+                        self.assertEqual(values.dtype, other[name].dtype)
+                    for name in ("width", "height", "left", "top", "statistics"):
+                        self.assertEqual(getattr(picture, name), getattr(other, name))
+                    self.assertEqual(picture.png(), other.png())
+                    picture.write("a.exr")
+                    other.write("b.exr")
+                    with open("a.exr", "rb") as a, open("b.exr", "rb") as b:
+                        self.assertEqual(a.read(), b.read())
+
+    def test_bytes_that_are_no_picture(self):
+        make, (data, statistics) = whit.Scene("whitted").render(size=(4, 3)).__reduce__()
+        version = whit.__version__.encode()
+        for wrong in (b"", b"hello", data[:-9], data + b"x"):
+            with self.assertRaises(whit.Error):
+                make(wrong, statistics)
+        with self.assertRaisesRegex(ValueError, f"expected those of whit {whit.__version__}"):
+            make(data.replace(version, b"9" * len(version)), statistics)
+
+    def test_errors(self):
+        for error in (whit.Error("a"), whit.Error("a", 4, "/no/such/file", "1:2", "all"),
+                      whit.Error("a", 4, "/"), whit.Error("a", 5), whit.Error("a", 130)):
+            other = restored(error)
+            self.assertEqual((type(other), str(other), vars(other)),
+                             (type(error), str(error), vars(error)))
+
+    def test_spawned_processes(self):
+        scene = whit.Scene(square_scene())
+        scene.set("/lights/0/intensity", 20)
+        context = multiprocessing.get_context("spawn")
+        queue = context.Queue()
+        process = context.Process(target=render_into, args=(scene, queue))
+        process.start()
+        picture = queue.get(timeout=SECONDS)
+        process.join()
+        self.assertEqual(process.exitcode, 0)
+        np.testing.assert_array_equal(picture.rgb, scene.render(size=SIZE).rgb)
+
+
+if __name__ == "__main__":
+    unittest.main()
