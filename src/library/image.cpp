@@ -138,8 +138,9 @@ Image Image::fromBytes(std::string_view bytes) {
     film.image = whit::Image(size[0], size[1], {w[0], w[1], w[2], w[3]});
     std::vector<Rgb>& pixels = film.image.pixels;
     takeBinary(all.at("pixels"), std::span(pixels));
-    const std::vector<std::uint8_t>& rgba = all.at("rgba").get_binary();
-    film.display = {made.width(), made.height(), rgba, all.at("hasAlpha").get<bool>()};
+    std::vector<std::uint8_t> rgba(4 * pixels.size());
+    takeBinary(all.at("rgba"), std::span(rgba));
+    film.display = {made.width(), made.height(), std::move(rgba), all.at("hasAlpha").get<bool>()};
     all.at("metadata").get_to(made.data_->metadata);
     all.at("aboutChannels").get_to(made.data_->aboutChannels);
     std::string names;
