@@ -131,7 +131,8 @@ Ray generateRay(const CameraFrame& camera, double x, double y) {
     const int columns = camera.width / camera.viewWidth, rows = camera.height / camera.viewHeight;
     const int column = std::min(static_cast<int>(x / camera.viewWidth), columns - 1);
     const int row = std::min(static_cast<int>(y / camera.viewHeight), rows - 1);
-    view = camera.views[static_cast<std::size_t>(row * columns + column)];
+    const int number = row * columns + column;
+    view = camera.views[static_cast<std::size_t>(number)];
     x -= column * camera.viewWidth;
     y -= row * camera.viewHeight;
   }
