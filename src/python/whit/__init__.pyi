@@ -4,7 +4,7 @@ import os
 from typing import Any, Callable, Literal, Mapping, Optional, Sequence, Union
 import numpy as np
 from ._arrays import Mesh as Mesh
-from ._error import Error as Error
+from ._error import Error as Error, in_python
 __all__ = ['Camera', 'Error', 'Hits', 'Mesh', 'Picture', 'Scene']
 __version__: str
 Progress = Callable[[str, float], Optional[bool]]
