@@ -38,7 +38,7 @@ constexpr double kRim = 0x1p-17, kAlong = 0x1p-13;
 constexpr double kFarthestOrigin = 0x1p30;
 // Sharper corners than this sine grow in length as those with this sine do.
 constexpr double kSharpest = 0x1p-10;
-// Of an object that is vanishingly small beside the scene: floats have to hold what it becomes.
+// A rim is limited to this for objects that vanish beside the scene, so that floats can hold them.
 constexpr double kWidestRim = 1e6;
 // Products with shorter or longer directions could leave the range of numbers.
 constexpr double kShortest = 1e-100, kLongest = 1e100;
@@ -138,7 +138,7 @@ class RayBatch {
 
   // At most kRays.
   void trace(std::span<const QueryRay> rays);
-  // Of a ray of those that were traced last.
+  // These functions return what was found for a ray of the last trace().
   const Blocked& answer(std::size_t ray) const { return answers_[ray]; }
   // The first that was found for it; all there is where no other may be the nearest, or where no
   // other is.
@@ -305,7 +305,7 @@ bool RayBatch::keep(unsigned ray, const QueryHit& hit, float& tFar) {
     others_.emplace_back(ray, hit);
   }
   if (!nearest || !hit.certain) return false;
-  // What lies at this distance as well must be found, whatever is tested first.
+  // Embree must go on to find what lies at this distance as well, whatever it tests first.
   Start& start = starts_[ray];
   const double end = (hit.t + hit.tError) * start.perT - start.shift + kAlong;
   start.tFar = std::min(start.tFar, static_cast<float>(end));
@@ -548,7 +548,7 @@ void RayQueries::Parts::addInstance(std::uint32_t number) {
 // are bounded by products of sums of magnitudes, which are above the lengths of the vectors.
 std::optional<QueryHit> RayQueries::Parts::meetTriangle(const QueryRay& ray,
                                                         PlacedTriangleId id) const {
-  // Of a product of three vectors: seven roundings in a row, each of at most twice the bound.
+  // A product of three vectors has seven roundings in a row, each of at most twice the bound.
   constexpr double kRounding = 16 * 0x1p-53;
   const Corners corners = worldCorners(scene, id.triangle, id.instance);
   const Vec3d a = corners[0] - ray.origin, b = corners[1] - ray.origin, c = corners[2] - ray.origin;

@@ -50,7 +50,7 @@ class RayQueries {
   // Surfaces count as the eye sees them: alpha masks cut them, single-sided ones are passed from
   // behind, and of surfaces in one place one is hit, as in pictures. Threads may ask at once.
   void closest(std::span<const QueryRay> rays, QueryHit* hits) const;
-  // Whether closest() finds anything.
+  // A ray is blocked if closest() finds anything.
   void blocked(std::span<const QueryRay> rays, Blocked* answers) const;
   // Appends the first `limit` hits of each ray to `hits`, by their distance, and writes how many
   // they are.

@@ -45,7 +45,7 @@ Vec3d spherePoint(double u, double v);
 // The texture coordinates of a point of the unit sphere: u turns about y from +x towards -z, v
 // rises from the lower pole to the upper one.
 std::array<double, 2> sphereUv(const Vec3d& unit);
-// Those of a hit on a triangle or a sphere, the first ones.
+// Returns the first texture coordinates of a hit on a triangle or a sphere.
 Vec2f uvAt(const Scene& scene, std::uint32_t number, double u, double v);
 
 // A triangle as one that touches the sphere at the point has it, but that the point, its first
