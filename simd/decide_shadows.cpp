@@ -3,7 +3,6 @@
 #include <atomic>
 #include <bit>
 
-#include "core/image.h"
 #include "simd/kernels.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -104,114 +103,62 @@ HWY_INLINE StartLanes FindStarts(VI word, const HitWords& hits) {
   return s;
 }
 
-// Rays that are looked up together. A look-up is a chain of loads that mostly miss the nearest
-// cache: a link is followed for all rays before the next one, so that they wait together.
-struct LookUps {
-  static constexpr size_t kRays = 256;
-  HWY_ALIGN int32_t part[kRays];  // of a ray without parts, in the rim or decided: -1
-  HWY_ALIGN int32_t row[kRays], cell[kRays];
-  // A word of ShadowCacheView::triangles first, then one of ::parts, then a ShadowState.
-  HWY_ALIGN int32_t word[kRays];
-};
-
-constexpr auto kUnknown = static_cast<int32_t>(ShadowState::unknown);
 constexpr auto kMixed = static_cast<int32_t>(ShadowState::mixed);
-
-// Looks up whole triangles. A ray in the rim of a triangle looks up the triangle's parts, whose
-// rims are narrower. Returns true if any ray needs more than to be traced.
-HWY_INLINE bool LookUpTriangles(const Chunk& c, const ShadowCacheView& view, size_t begin,
-                                size_t end, LookUps& looked) {
-  const FloatTag d;
-  const IntTag di;
-  const UintTag du;
-  const VF rim = hn::Set(d, kShadowRim), one = hn::Set(d, 1.0f);
-  const VI mixed = hn::Set(di, kMixed);
-  VI any = hn::Zero(di);
-  for (size_t i = begin; i < end; i += hn::Lanes(di)) {
-    const RayLanes rays = LoadRays(c, i, end);
-    const auto world =
-        hn::And(hn::RebindMask(di, rays.live), hn::Eq(rays.hits.instance, hn::Set(di, -1)));
-    const VI triangle = hn::IfThenElseZero(world, rays.hits.triangle);
-    const VU bits = hn::BitCast(du, GatherWord(view.triangles, hn::ShiftRight<4>(triangle)));
-    const VU shift =
-        hn::BitCast(du, hn::ShiftLeft<1>(hn::And(triangle, hn::Set(di, kTrianglesAWord - 1))));
-    VI word = hn::And(hn::BitCast(di, hn::Shr(bits, shift)), mixed);
-    const VF u = rays.hits.u, v = rays.hits.v;
-    const MF inside = hn::Ge(hn::Min(hn::Min(u, v), hn::Sub(hn::Sub(one, u), v)), rim);
-    const auto known = hn::Ne(word, hn::Zero(di));
-    word = hn::IfThenElse(hn::AndNot(hn::RebindMask(di, inside), known), mixed, word);
-    word = hn::IfThenElseZero(world, word);
-    any = hn::Or(any, word);
-    hn::Store(word, di, looked.word + (i - begin));
-  }
-  return !hn::AllTrue(di, hn::Eq(any, hn::Zero(di)));
-}
-
-// Looks up the parts for the rays that whole triangles do not decide. Rays whose triangles are
-// unknown look for their parts only to request them.
-HWY_INLINE void FindParts(const Chunk& c, const ShadowCacheView& view, bool asks, size_t begin,
-                          size_t end, LookUps& looked) {
-  const IntTag di;
-  const VI none = hn::Set(di, -1), least = hn::Set(di, asks ? kUnknown : kMixed);
-  const VI noParts = hn::Set(di, static_cast<int32_t>(kNoParts));
-  for (size_t i = begin; i < end; i += hn::Lanes(di)) {
-    const size_t at = i - begin;
-    const VI word = hn::Load(di, looked.word + at);
-    auto further = hn::Or(hn::Eq(word, hn::Set(di, kMixed)), hn::Eq(word, least));
-    if (hn::AllFalse(di, further)) {
-      hn::Store(none, di, looked.part + at);
-      continue;
-    }
-    const RayLanes rays = LoadRays(c, i, end);
-    further = hn::And(further, hn::RebindMask(di, rays.live));
-    further = hn::And(further, hn::Eq(rays.hits.instance, none));
-    const VI first = GatherWord(view.first, hn::IfThenElseZero(further, rays.hits.triangle));
-    const StartLanes s = FindStarts(hn::IfThenElse(further, first, noParts), rays.hits);
-    const auto live = hn::RebindMask(di, s.live);
-    hn::Store(hn::IfThenElse(live, s.part, none), di, looked.part + at);
-    hn::Store(hn::IfThenElseZero(live, s.row), di, looked.row + at);
-    hn::Store(hn::IfThenElseZero(live, s.cell), di, looked.cell + at);
-    // In the rim, or without parts: traced, and nothing to note.
-    hn::Store(hn::IfThenElse(further, hn::Set(di, kMixed), word), di, looked.word + at);
-  }
-}
-
-HWY_INLINE void LookUpParts(const ShadowCacheView& view, size_t count, LookUps& looked) {
-  const IntTag di;
-  const VI zero = hn::Zero(di);
-  for (size_t at = 0; at < count; at += hn::Lanes(di)) {
-    const VI part = hn::Load(di, looked.part + at);
-    const auto without = hn::Lt(part, zero);
-    if (hn::AllTrue(di, without)) continue;
-    const VI word = GatherWord(view.parts, hn::Max(part, zero));
-    hn::Store(hn::IfThenElse(without, hn::Load(di, looked.word + at), word), di, looked.word + at);
-  }
-}
 
 constexpr int ShiftFor(int powerOfTwo) {
   return std::countr_zero(static_cast<unsigned>(powerOfTwo));
 }
 
-HWY_INLINE void LookUpCells(const ShadowCacheView& view, size_t count, LookUps& looked) {
+// The states of the cells in the lanes whose part is divided.
+HWY_INLINE VI LookUpCells(const ShadowCacheView& view, hn::Mask<IntTag> divided, VI word,
+                          const StartLanes& s) {
   const IntTag di;
   const UintTag du;
   constexpr int kPlaceShift = ShiftFor(kWordsAPlace), kRowShift = ShiftFor(kWordsARow),
                 kCellShift = ShiftFor(kCellsAWord);
-  const VI three = hn::Set(di, kMixed);
-  for (size_t at = 0; at < count; at += hn::Lanes(di)) {
-    const VI word = hn::Load(di, looked.word + at);
-    const auto divided = hn::Gt(word, three);
-    if (hn::AllFalse(di, divided)) continue;
-    const VI place = hn::Sub(hn::ShiftRight<2>(word), hn::Set(di, 1));
-    const VI row = hn::Load(di, looked.row + at), cell = hn::Load(di, looked.cell + at);
-    const VI rows = hn::Add(hn::ShiftLeft<kPlaceShift>(place), hn::ShiftLeft<kRowShift>(row));
-    const VI index = hn::Add(rows, hn::ShiftRight<kCellShift>(cell));
-    const VU bits = hn::BitCast(du, GatherWord(view.cells, hn::IfThenElseZero(divided, index)));
-    const VI inWord = hn::And(cell, hn::Set(di, kCellsAWord - 1));
-    const VI state =
-        hn::And(hn::BitCast(di, hn::Shr(bits, hn::BitCast(du, hn::Add(inWord, inWord)))), three);
-    hn::Store(hn::IfThenElse(divided, state, word), di, looked.word + at);
+  const VI place = hn::Sub(hn::ShiftRight<2>(word), hn::Set(di, 1));
+  const VI rows = hn::Add(hn::ShiftLeft<kPlaceShift>(place), hn::ShiftLeft<kRowShift>(s.row));
+  const VI index = hn::Add(rows, hn::ShiftRight<kCellShift>(s.cell));
+  const VU bits = hn::BitCast(du, GatherWord(view.cells, hn::IfThenElseZero(divided, index)));
+  const VI inWord = hn::And(s.cell, hn::Set(di, kCellsAWord - 1));
+  const VI state = hn::BitCast(di, hn::Shr(bits, hn::BitCast(du, hn::Add(inWord, inWord))));
+  return hn::And(state, hn::Set(di, kMixed));
+}
+
+// Counts the requests of rays whose parts are unknown.
+HWY_INLINE void NoteWanted(const ShadowCacheView& view, hn::Mask<IntTag> unknown, VI part) {
+  const IntTag di;
+  if (HWY_LIKELY(hn::AllFalse(di, unknown))) return;
+  HWY_ALIGN int32_t parts[16];
+  hn::Store(hn::IfThenElse(unknown, part, hn::Set(di, -1)), di, parts);
+  for (size_t lane = 0; lane < hn::Lanes(di); ++lane) {
+    if (parts[lane] < 0) continue;
+    const std::atomic_ref<uint8_t> wanted(view.wanted[parts[lane]]);
+    const uint8_t rays = wanted.load(std::memory_order_relaxed);
+    if (rays < UINT8_MAX) {
+      wanted.store(static_cast<uint8_t>(rays + 1), std::memory_order_relaxed);
+    }
   }
+}
+
+// The ShadowState of each ray; mixed for those that the tables say nothing of.
+HWY_INLINE VI LookUp(const ShadowCacheView& view, const RayLanes& rays) {
+  const IntTag di;
+  const VI mixed = hn::Set(di, kMixed);
+  const auto world =
+      hn::And(hn::RebindMask(di, rays.live), hn::Eq(rays.hits.instance, hn::Set(di, -1)));
+  const VI first = GatherWord(view.first, hn::IfThenElseZero(world, rays.hits.triangle));
+  const VI noParts = hn::Set(di, static_cast<int32_t>(kNoParts));
+  const StartLanes s = FindStarts(hn::IfThenElse(world, first, noParts), rays.hits);
+  const auto live = hn::RebindMask(di, s.live);
+  const VI part = hn::IfThenElseZero(live, s.part);
+  VI word = hn::IfThenElse(live, GatherWord(view.parts, part), mixed);
+  const auto divided = hn::Gt(word, mixed);
+  if (!hn::AllFalse(di, divided)) {
+    word = hn::IfThenElse(divided, LookUpCells(view, divided, word, s), word);
+  }
+  NoteWanted(view, hn::Eq(word, hn::Zero(di)), part);
+  return word;
 }
 
 // True in lanes whose rays start as near to the points of their weights as the shadow cache
@@ -228,18 +175,6 @@ HWY_INLINE MF StartsNear(const Chunk& c, MF live, const HitWords& hits, const V3
   const VF size = SumOf(Interpolate3(w, Abs3(p0), Abs3(p1), Abs3(p2)));
   const VF away = MaxComponent(Abs3(Sub3(start, Interpolate3(w, p0, p1, p2))));
   return hn::Le(away, hn::Mul(size, hn::Set(d, kCachedShadowReach)));
-}
-
-// Counts the requests of rays whose parts are unknown.
-HWY_INLINE void NoteWanted(const ShadowCacheView& view, const LookUps& looked, size_t count) {
-  for (size_t i = 0; i < count; ++i) {
-    if (looked.part[i] < 0 || looked.word[i] != kUnknown) continue;
-    const std::atomic_ref<uint8_t> wanted(view.wanted[looked.part[i]]);
-    const uint8_t rays = wanted.load(std::memory_order_relaxed);
-    if (rays < UINT8_MAX) {
-      wanted.store(static_cast<uint8_t>(rays + 1), std::memory_order_relaxed);
-    }
-  }
 }
 
 // visible[slot] = 1 where rays are lit.
@@ -276,20 +211,23 @@ HWY_INLINE void KeepRest(const ShadowColumns& rays, MF kept, size_t i, size_t& c
   count += rest.Count();
 }
 
-// Removes the decided rays of [begin, end); the others are written from `count` on.
-HWY_INLINE void TakeDecided(Chunk& c, size_t begin, size_t end, const LookUps& looked,
-                            size_t& count) {
+void DecideShadows(Chunk& c) noexcept {
+  if (!c.frame->shadowCache) return;
+  const ShadowCacheView& view = c.frame->shadowCache[c.lightNumber];
+  if (!view.serves()) return;
   const FloatTag d;
   const IntTag di;
   const ShadowColumns& columns = c.shadows;
-  for (size_t i = begin; i < end; i += hn::Lanes(d)) {
-    const VI state = hn::Load(di, looked.word + (i - begin));
+  const size_t n = c.shadowCount;
+  size_t count = 0;
+  for (size_t i = 0; i < n; i += hn::Lanes(d)) {
+    const RayLanes rays = LoadRays(c, i, n);
+    const VI state = LookUp(view, rays);
     const auto is = [&](ShadowState which) HWY_ATTR {
       return hn::RebindMask(d, hn::Eq(state, hn::Set(di, static_cast<int32_t>(which))));
     };
-    MF lit = is(ShadowState::lit), dark = is(ShadowState::dark), live = hn::FirstN(d, end - i);
+    MF lit = is(ShadowState::lit), dark = is(ShadowState::dark), rest = rays.live;
     if (!hn::AllFalse(d, hn::Or(lit, dark))) {
-      const RayLanes rays = LoadRays(c, i, end);
       const MF near = StartsNear(c, hn::Or(lit, dark), rays.hits,
                                  Load3(columns.orgX, columns.orgY, columns.orgZ, i));
       lit = hn::And(lit, near);
@@ -297,45 +235,9 @@ HWY_INLINE void TakeDecided(Chunk& c, size_t begin, size_t end, const LookUps& l
       ShowLit(c.unshadowed.visible, lit, rays.slot, columns.slot[i]);
       c.meter->shadows.lit += hn::CountTrue(d, lit);
       c.meter->shadows.dark += hn::CountTrue(d, dark);
-      live = hn::AndNot(hn::Or(lit, dark), live);
-      if (!hn::AllFalse(d, live)) KeepRest(columns, live, i, count);
-    } else if (count < i) {
-      KeepRest(columns, live, i, count);
-    } else {
-      count += hn::CountTrue(d, live);  // all of them stay, where they are
+      rest = hn::AndNot(hn::Or(lit, dark), rest);
     }
-  }
-}
-
-// Tiles take turns (AskingTurn).
-bool Asks(const Chunk& c) {
-  const AskingTurn& asking = c.frame->asking;
-  if (asking.turns <= 1 || c.pixels.empty()) return true;
-  const auto side = static_cast<uint32_t>(c.options().tile);
-  const uint32_t x = static_cast<uint32_t>(pixelX(c.pixels[0])) / side;
-  const uint32_t y = static_cast<uint32_t>(pixelY(c.pixels[0])) / side;
-  return (x + 3 * y + asking.turn) % asking.turns == 0;
-}
-
-void DecideShadows(Chunk& c) noexcept {
-  if (!c.frame->shadowCache) return;
-  const ShadowCacheView& view = c.frame->shadowCache[c.lightNumber];
-  if (!view.serves()) return;
-  const bool asks = Asks(c);
-  if (view.empty && !asks) return;
-  LookUps looked;
-  const size_t n = c.shadowCount;
-  size_t count = 0;
-  for (size_t begin = 0; begin < n; begin += LookUps::kRays) {
-    const size_t end = begin + LookUps::kRays < n ? begin + LookUps::kRays : n;
-    const bool known = LookUpTriangles(c, view, begin, end, looked);
-    if (known || asks) {
-      FindParts(c, view, asks, begin, end, looked);
-      LookUpParts(view, end - begin, looked);
-      LookUpCells(view, end - begin, looked);
-      if (asks) NoteWanted(view, looked, end - begin);
-    }
-    TakeDecided(c, begin, end, looked, count);
+    if (!hn::AllFalse(d, rest)) KeepRest(columns, rest, i, count);
   }
   c.shadowCount = count;
 }

@@ -9,7 +9,6 @@
 #include "core/option_table.h"
 #include "io/load_scene.h"
 #include "render/renderer.h"
-#include "render/shadow_cache_schedule.h"
 #include "simd/deform_vertices.h"
 
 namespace whit::view {
@@ -60,8 +59,7 @@ void FrameTracer::open(std::shared_ptr<cli::OpenScene> scene, const std::string&
 void FrameTracer::use(std::unique_ptr<Renderer> renderer) {
   renderer_ = std::move(renderer);
   const std::uint64_t most = common_.load.maxMemoryBytes;
-  renderer_->expectFrames(cli::memoryLeft(renderer_->scene(), *renderer_, most),
-                          ShadowCacheSchedule::kTurns);
+  renderer_->expectFrames(cli::memoryLeft(renderer_->scene(), *renderer_, most));
 }
 
 bool FrameTracer::proveSome() {

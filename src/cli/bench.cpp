@@ -12,7 +12,6 @@
 #include "cli/commands.h"
 #include "core/error.h"
 #include "core/option_table.h"
-#include "render/shadow_cache_schedule.h"
 
 namespace whit::cli {
 
@@ -52,8 +51,6 @@ struct BenchJob {
   Turns turns() const {
     Turns turns;
     if (reference()) turns = {0, 1};
-    // All tiles request what the shadow cache is to hold.
-    if (series().pairs == RunPairs::shadowCache) turns.warmUp = ShadowCacheSchedule::kTurns;
     if (frames > 0) turns.counted = frames;
     turns.floor = floor;
     return turns;

@@ -11,7 +11,6 @@
 #include "cli/app/open_scene.h"
 #include "inspect/floor.h"
 #include "render/renderer.h"
-#include "render/shadow_cache_schedule.h"
 
 namespace whit::cli {
 
@@ -33,9 +32,7 @@ class BenchRun {
   // before the measured ones. Not in reference mode.
   void useShadowCache(std::uint64_t maxMemoryBytes) {
     if (options_.mode == Mode::reference) return;
-    renderer_.expectFrames(
-        memoryLeft(open_->scene, renderer_, maxMemoryBytes),
-        options_.shadowCache == ShadowCacheMode::audit ? 1 : ShadowCacheSchedule::kTurns);
+    renderer_.expectFrames(memoryLeft(open_->scene, renderer_, maxMemoryBytes));
   }
 
   void warmUp() { renderFrame(renderer_, options_.mode, camera_, film_); }

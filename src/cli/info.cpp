@@ -129,8 +129,8 @@ void printInfo(const Json& info, const OpenScene& open, const Renderer& renderer
     std::printf("  %-12sno shadow cache: %s\n", "shadows", textOf(cache["because"]).c_str());
   } else {
     std::printf(
-        "  %-12sshadow cache for %s light%s, %s pieces of triangles; used in films and pictures of "
-        "more than %.3g pixel samples\n",
+        "  %-12sshadow cache for %s light%s, %s pieces of triangles; used in pictures of more "
+        "than %.3g pixel samples\n",
         "shadows", textOf(cache["lights"]).c_str(), cache["lights"] == 1 ? "" : "s",
         textOf(cache["parts"]).c_str(), cache["samples"].get<double>());
   }

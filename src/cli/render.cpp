@@ -264,14 +264,7 @@ class ImageWriter {
       : job_(job), open_(&open), options_(job.common.render), films_(openFilms(job, open.scene)) {
     renderer_.emplace(open.scene, options_, progress);
     camera_ = job.turntable ? job.turntable->camera : chooseCamera(open.scene, options_);
-    std::size_t frames = 1;
-    if (!job.frames.empty()) {
-      const FrameRange range = parseFrameRange(job.frames);
-      frames = static_cast<std::size_t>(range.last - range.first) + 1;
-    }
-    const std::uint64_t most = job.common.load.maxMemoryBytes;
-    schedule_.emplace(*renderer_, ShadowCacheRun{frames, films_[0].image.pixels.size(),
-                                                 memoryLeft(open.scene, *renderer_, most)});
+    shadowCacheBytes_ = memoryLeft(open.scene, *renderer_, job.common.load.maxMemoryBytes);
     // One for all frames, whichever of them are asked for.
     settleExposure(*renderer_, camera_, options_);
     run_ = summarize(open.scene, options_, *renderer_, films_[0], open.loadMs);
@@ -315,13 +308,11 @@ class ImageWriter {
       ++run_.kept;
       return;
     }
-    prepareAudit(film);
-    schedule_->prepare(camera_, film);
+    fillShadowCache(film);
     run_.frames.push_back(renderFrame(*renderer_, options_.mode, camera_, film, progress));
     refuseNonFinite(open_->scene, options_, run_.frames.back());
     run_.imageHash = accuracy::digestOf(film.image);
     startWriting(film, files, std::move(metadata));
-    fillShadowCache();
     run_.tracedAndWrittenMs += stopwatch.ms();
   }
 
@@ -343,27 +334,12 @@ class ImageWriter {
   const std::vector<std::string>& written() const { return written_; }
 
  private:
-  // --shadow-cache audit: an extra first frame requests what the cache then holds.
-  void prepareAudit(Film& film) {
-    if (options_.shadowCache != ShadowCacheMode::audit || options_.mode == Mode::reference) return;
-    if (run_.shadowCache) return;
-    const std::uint64_t most = job_.common.load.maxMemoryBytes;
-    renderer_->expectFrames(memoryLeft(open_->scene, *renderer_, most));
-    if (!renderer_->decidesShadows()) return;
-    run_.shadowCache.emplace();
-    renderer_->render(camera_, film);
-    fillShadowCache();
-  }
-
-  void fillShadowCache() {
-    if (options_.shadowCache == ShadowCacheMode::audit && run_.shadowCache) {
-      run_.shadowCache->fillMs += renderer_->fillShadowCache().ms;
-    } else if (schedule_->used()) {
-      schedule_->frameDone();
-      if (!run_.shadowCache) run_.shadowCache.emplace();
-      run_.shadowCache->fillMs = schedule_->fillMs();
-    }
-    if (run_.shadowCache) run_.shadowCache->bytes = renderer_->shadowCacheBytes();
+  void fillShadowCache(Film& film) {
+    const auto fillMs = prepareShadowCache(*renderer_, shadowCacheBytes_, camera_, film);
+    if (!fillMs) return;
+    if (!run_.shadowCache) run_.shadowCache.emplace();
+    run_.shadowCache->fillMs += *fillMs;
+    run_.shadowCache->bytes = renderer_->shadowCacheBytes();
   }
 
   bool areWhole(const std::vector<std::string>& files, const Image& image,
@@ -404,7 +380,7 @@ class ImageWriter {
   Camera camera_;
   RenderOptions options_;  // with an automatic exposure settled
   std::optional<Renderer> renderer_;
-  std::optional<ShadowCacheSchedule> schedule_;
+  std::uint64_t shadowCacheBytes_ = 0;  // that its tables may take
   std::vector<Film> films_;
   std::size_t film_ = 0;  // that is traced next
   RunSummary run_;

@@ -392,8 +392,8 @@ decltype(auto) withOptions(Options& o, Use&& use) {
              o.bvh},
       Option{{.name = "shadow-cache", .words = "auto|off|audit",
               .help = "cache of visibility that is proved for pieces of triangles, whose shadow rays "
-                      "are then not traced; auto: in films and pictures of many samples, in the "
-                      "viewer and in bench --ab-shadow-cache; audit: bench and render also trace "
+                      "are then not traced; auto: in pictures of many samples, in the viewer "
+                      "and in bench --ab-shadow-cache; audit: bench and render also trace "
                       "the rays that the cache answers, and end where one differs",
               .rebuilds = Rebuild::tables, .changesPicture = false, .tab = Tab::none},
              o.shadowCache},

@@ -122,8 +122,8 @@ CameraFrame Renderer::lookFrom(const Camera& camera, const Film& film) {
 FrameConstants Renderer::constantsOf(const CameraFrame& camera) const {
   const ShadowCacheView* const shadowCache =
       shadowTables_ ? shadowTables_->views().data() : nullptr;
-  return {&scene_,  &tables_, &*accel_, shadowCache, plan_.effects, plan_.features,
-          options_, camera,   asking_,  {},          seed_};
+  return {&scene_,        &tables_, &*accel_, shadowCache, plan_.effects,
+          plan_.features, options_, camera,   {},          seed_};
 }
 
 const std::vector<Vec2f>& Renderer::pattern() {
@@ -166,7 +166,6 @@ FrameStats Renderer::trace(const Frame& frame, bool adaptively) {
   stats.frameMs = stopwatch.ms();
   if (!frame.observers.empty()) return stats;
   stats.workers = machine_.threads;
-  ++asking_.turn;
   requireRightShadows(stats, scene_);
   return stats;
 }
@@ -220,9 +219,8 @@ bool Renderer::usesShadowCache(const RenderOptions& options) const {
   return standsStill && shadowCacheBytes_ > 0 && options.shadowCache != ShadowCacheMode::off;
 }
 
-void Renderer::expectFrames(std::uint64_t mostBytes, std::uint32_t askingTurns) {
+void Renderer::expectFrames(std::uint64_t mostBytes) {
   shadowCacheBytes_ = mostBytes;
-  asking_ = {0, askingTurns};
   replan(makePlan(scene_, options_, usesShadowCache(options_)));
   renewShadowCache();
 }

@@ -99,9 +99,8 @@ class Renderer {
   void sceneMoved();
 
   // Announces more frames of this scene: a shadow cache of at most this many bytes may be used from
-  // now on (--shadow-cache). In each frame one of `askingTurns` tiles collects requests, which
-  // takes time, so that all have done so after as many frames.
-  void expectFrames(std::uint64_t mostBytes, std::uint32_t askingTurns = 1);
+  // now on (--shadow-cache).
+  void expectFrames(std::uint64_t mostBytes);
   // Computes the parts of triangles that shadow rays have requested.
   FillReport fillShadowCache(const FillLimits& limits = {});
   // Drops the requests of rays for cells of the shadow cache that were not computed yet.
@@ -147,7 +146,6 @@ class Renderer {
   std::optional<Accel> accel_;
   std::uint64_t shadowCacheBytes_ = 0;  // that tables may take; 0: no more frames are expected
   std::optional<ShadowTables> shadowTables_;
-  AskingTurn asking_;
   Machine machine_;
   Scheduler scheduler_;
   AdaptiveSampler adaptive_;

@@ -1,6 +1,5 @@
 #include "render/shadow_cache_schedule.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "stages/lobes.h"
@@ -12,26 +11,19 @@ namespace {
 // Proving a part takes as long as tracing this many shadow rays, or twice as many (whit bench
 // --ab-shadow-cache).
 constexpr double kRaysAProof = 400;
-// A part is expected to stay in view for at most this many frames of a moving camera.
-constexpr std::size_t kFramesInView = 96;
 // Measured in films along sponza-mirror's path: with 53 samples of pixels for each triangle they
 // lost 6 % of their time by tables, with 264 they neither lost nor gained, with 337 they gained 4
 // %.
 constexpr double kSamplesATriangle = 250;
-// One of the samples of a view is spent on collecting requests, if there are many.
-constexpr std::size_t kFewestFrames = 2 * ShadowCacheSchedule::kTurns, kFewestSamples = 32;
-constexpr double kMostCounted = 255;
+// One sample is spent on collecting requests.
+constexpr int kFewestSamples = 32;
 
-std::size_t samplesOf(const Scene& scene, const RenderOptions& options) {
-  return samplesAdaptively(options, scene.effects) ? 1 : static_cast<std::size_t>(options.spp);
-}
-
-bool pays(const Scene& scene, const RenderOptions& options, const ShadowCacheRun& run) {
-  const std::size_t samples = samplesOf(scene, options);
-  if (run.frames < kFewestFrames && samples < kFewestSamples) return false;
-  const double traced = static_cast<double>(run.frames) * static_cast<double>(run.pixels) *
-                        static_cast<double>(samples);
-  return traced >= samplesThatPay(scene);
+bool pays(const Renderer& renderer, const Film& film) {
+  const RenderOptions& options = renderer.options();
+  if (samplesAdaptively(options, renderer.scene().effects)) return false;
+  return options.spp >= kFewestSamples &&
+         static_cast<double>(film.image.pixels.size()) * options.spp >=
+             samplesThatPay(renderer.scene());
 }
 
 }  // namespace
@@ -40,41 +32,23 @@ double samplesThatPay(const Scene& scene) {
   return kSamplesATriangle * static_cast<double>(scene.triangles.size());
 }
 
-ShadowCacheSchedule::ShadowCacheSchedule(Renderer& renderer, const ShadowCacheRun& run)
-    : renderer_(renderer), run_(run) {
-  const RenderOptions& options = renderer.options();
-  if (options.shadowCache != ShadowCacheMode::automatic || options.mode == Mode::reference) return;
-  if (!pays(renderer.scene(), options, run)) return;
-  renderer_.expectFrames(run.mostBytes, kTurns);
-  used_ = renderer_.decidesShadows();
-}
-
-void ShadowCacheSchedule::prepare(const Camera& camera, Film& film) {
-  const std::size_t samples = samplesOf(renderer_.scene(), renderer_.options());
-  if (!used_ || done_ > 0 || samples < kFewestSamples) return;
-  const RenderOptions all = renderer_.options();
-  RenderOptions one = all;
-  one.spp = 1;
-  renderer_.expectFrames(run_.mostBytes, 1);
-  renderer_.setOptions(one);
-  renderer_.render(camera, film);
-  renderer_.setOptions(all);
-  fill(static_cast<double>(samples * std::min(run_.frames, kFramesInView)));
-  renderer_.expectFrames(run_.mostBytes, kTurns);
-}
-
-void ShadowCacheSchedule::frameDone() {
-  if (!used_ || ++done_ % kTurns != 0 || done_ >= run_.frames) return;
-  fill(static_cast<double>(std::min(run_.frames - done_, kFramesInView)));
-}
-
-// Each request is expected to occur this many more times.
-void ShadowCacheSchedule::fill(double repeats) {
-  const double least = std::ceil(kRaysAProof / repeats);
-  if (least <= kMostCounted) {
-    fillMs_ += renderer_.fillShadowCache({.leastRays = static_cast<unsigned>(least)}).ms;
-  }
-  renderer_.forgetShadowRequests();
+std::optional<double> prepareShadowCache(Renderer& renderer, std::uint64_t mostBytes,
+                                         const Camera& camera, Film& film) {
+  const RenderOptions all = renderer.options();
+  const bool audit = all.shadowCache == ShadowCacheMode::audit;
+  if (all.mode == Mode::reference || !(audit || pays(renderer, film))) return std::nullopt;
+  renderer.expectFrames(mostBytes);
+  if (!renderer.decidesShadows()) return std::nullopt;
+  RenderOptions asking = all;
+  if (!audit) asking.spp = 1;
+  renderer.setOptions(asking);
+  renderer.render(camera, film);
+  renderer.setOptions(all);
+  // Each request of that sample is expected to occur once more for each of the others.
+  const double least = audit ? 1 : std::ceil(kRaysAProof / all.spp);
+  const double ms = renderer.fillShadowCache({.leastRays = static_cast<unsigned>(least)}).ms;
+  renderer.forgetShadowRequests();
+  return ms;
 }
 
 }  // namespace whit

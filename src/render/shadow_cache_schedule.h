@@ -1,49 +1,21 @@
-// Decides when a run of frames fills the shadow cache: for parts of triangles that enough rays
-// request, so that proofs cost less than the rays that they save.
+// Fills the shadow cache for frames of so many samples that proofs take less time than the rays
+// that they save.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "render/renderer.h"
 
 namespace whit {
 
-// The frames and samples of a run that may use the shadow cache.
-struct ShadowCacheRun {
-  std::size_t frames = 1;       // to come, of neighboring views
-  std::size_t pixels = 0;       // of each
-  std::uint64_t mostBytes = 0;  // that tables may take
-};
-
-// The least number of samples of pixels in a run for which the shadow cache saves time.
+// The least number of samples of pixels in a frame for which the shadow cache saves time.
 double samplesThatPay(const Scene& scene);
 
-class ShadowCacheSchedule {
- public:
-  // One tile of this many collects requests in each frame.
-  static constexpr std::uint32_t kTurns = 8;
-
-  // `renderer` must outlive it. Nothing happens where the cache would not save time, or
-  // --shadow-cache is off.
-  ShadowCacheSchedule(Renderer& renderer, const ShadowCacheRun& run);
-
-  // Before a frame of many samples: one of a single sample asks for what all of them will. `film`
-  // is overwritten.
-  void prepare(const Camera& camera, Film& film);
-  // After each frame.
-  void frameDone();
-
-  bool used() const { return used_; }
-  double fillMs() const { return fillMs_; }
-
- private:
-  void fill(double repeats);
-
-  Renderer& renderer_;
-  ShadowCacheRun run_;
-  bool used_ = false;
-  std::size_t done_ = 0;
-  double fillMs_ = 0;
-};
+// Before a frame: one of a single sample, which overwrites `film`, requests what all of its samples
+// will, in tables of at most this many bytes. Returns the milliseconds that filling them took, or
+// nothing where the cache is not used. An audit uses it for every frame, with all samples.
+std::optional<double> prepareShadowCache(Renderer& renderer, std::uint64_t mostBytes,
+                                         const Camera& camera, Film& film);
 
 }  // namespace whit

@@ -88,35 +88,24 @@ ShadowParts ShadowParts::of(const Scene& scene) {
 
 // The table of one light.
 struct ShadowTables::OfLight {
-  OfLight(const Light& light, std::size_t n, std::size_t triangleCount, std::size_t partCount,
-          std::size_t most)
-      : number(n),
-        point(LightPoint::of(light)),
-        triangles(wordsFor(triangleCount)),
-        parts(partCount),
-        wanted(partCount) {
+  OfLight(const Light& light, std::size_t n, std::size_t partCount, std::size_t most)
+      : number(n), point(LightPoint::of(light)), parts(partCount), wanted(partCount) {
     // Kernels may look up where nothing is yet.
     cells.resize(kWordsAPlace);
     mostCells = most;
   }
 
-  static std::size_t wordsFor(std::size_t triangleCount) {
-    return triangleCount / kTrianglesAWord + 1;
-  }
   // Memory of the tables without the cells.
-  static std::uint64_t fixedBytes(std::size_t triangleCount, std::size_t partCount,
-                                  std::size_t casters) {
-    return wordsFor(triangleCount) * sizeof(std::uint32_t) +
-           partCount * (sizeof(std::uint32_t) + 1) + CasterTree::bytesFor(casters);
+  static std::uint64_t fixedBytes(std::size_t partCount, std::size_t casters) {
+    return partCount * (sizeof(std::uint32_t) + 1) + CasterTree::bytesFor(casters);
   }
   std::uint64_t bytes() const {
-    return (triangles.size() + parts.size() + cells.capacity()) * sizeof(std::uint32_t) +
-           wanted.size() + (tree ? tree->bytes() : 0);
+    return (parts.size() + cells.capacity()) * sizeof(std::uint32_t) + wanted.size() +
+           (tree ? tree->bytes() : 0);
   }
   void forget() {
     tree.reset();
     cells.resize(kWordsAPlace);
-    std::ranges::fill(triangles, 0);
     std::ranges::fill(parts, 0);
     std::ranges::fill(wanted, std::uint8_t{0});
     seen = mixed = 0;
@@ -135,32 +124,14 @@ struct ShadowTables::OfLight {
     if (whole == ShadowState::mixed) ++mixed;
     parts[part] = static_cast<std::uint32_t>(whole);
   }
-  // Updates the state of a triangle (ShadowCacheView::triangles) from its `count` parts from
-  // `begin` on.
-  void sumUp(std::uint32_t triangle, std::size_t begin, std::size_t count) {
-    const std::uint32_t first = parts[begin];
-    bool alike = true, any = false;
-    for (std::size_t i = begin; i < begin + count; ++i) {
-      alike = alike && parts[i] == first;
-      any = any || (parts[i] != kUnknownWord && parts[i] != kMixedWord);
-    }
-    const std::uint32_t sum = !any                          ? kUnknownWord
-                              : alike && first < kMixedWord ? first
-                                                            : kMixedWord;
-    const unsigned shift = 2 * (triangle % kTrianglesAWord);
-    std::uint32_t& word = triangles[triangle / kTrianglesAWord];
-    word = (word & ~(3u << shift)) | sum << shift;
-  }
   // True if so few parts are decided that filling the cache costs more than it saves.
   bool idle() const { return seen >= kTried && mixed > seen - seen / kLeastUse; }
 
-  static constexpr auto kUnknownWord = static_cast<std::uint32_t>(ShadowState::unknown);
-  static constexpr auto kMixedWord = static_cast<std::uint32_t>(ShadowState::mixed);
   static constexpr std::size_t kTried = 4096, kLeastUse = 8;
   std::size_t number;
   LightPoint point;
   std::unique_ptr<CasterTree> tree;  // from the first filling on
-  HugeVector<std::uint32_t> triangles, parts, cells;
+  HugeVector<std::uint32_t> parts, cells;
   std::vector<std::uint8_t> wanted;
   std::size_t mostCells;  // places of cells
   std::size_t seen = 0, mixed = 0;
@@ -174,13 +145,12 @@ ShadowTables::ShadowTables(const Scene& scene, const std::vector<std::size_t>& l
   const std::uint64_t shared = bytes();
   if (shared > mostBytes) return;
   const std::uint64_t each = std::min((mostBytes - shared) / lights.size(), kMostBytesALight);
-  const std::uint64_t fixed =
-      OfLight::fixedBytes(scene.triangles.size(), parts_.count(), casters_->casters.size());
+  const std::uint64_t fixed = OfLight::fixedBytes(parts_.count(), casters_->casters.size());
   if (fixed > each) return;
   const std::size_t mostCells = (each - fixed) / (kWordsAPlace * sizeof(std::uint32_t));
   for (const std::size_t number : lights) {
-    lights_.push_back(std::make_unique<OfLight>(scene.lights[number], number,
-                                                scene.triangles.size(), parts_.count(), mostCells));
+    lights_.push_back(
+        std::make_unique<OfLight>(scene.lights[number], number, parts_.count(), mostCells));
     serve(*lights_.back());
   }
 }
@@ -191,8 +161,7 @@ void ShadowTables::serve(OfLight& light) {
   ShadowCacheView& view = views_[light.number];
   view = ShadowCacheView();
   if (!inRange(light.point) || light.idle()) return;
-  view = {light.triangles.data(), parts_.first.data(), light.parts.data(),
-          light.cells.data(),     light.wanted.data(), light.seen == 0};
+  view = {parts_.first.data(), light.parts.data(), light.cells.data(), light.wanted.data()};
 }
 
 void ShadowTables::forgetMovedLights() {
@@ -240,18 +209,7 @@ std::uint64_t ShadowTables::fillLight(OfLight& light, WorkerPool& pool,
     }
   });
   for (std::size_t i = 0; i < asked.size(); ++i) light.keep(asked[i], shadowCache[i]);
-  sumUp(light, asked);
   return asked.size();
-}
-
-// Updates the states of the triangles of these parts, which are in order.
-void ShadowTables::sumUp(OfLight& light, const std::vector<std::uint32_t>& parts) const {
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const std::uint32_t triangle = parts_.owner[parts[i]], word = parts_.first[triangle];
-    if (i > 0 && triangle == parts_.owner[parts[i - 1]]) continue;
-    const unsigned power = word & ((1u << kPartBits) - 1);
-    light.sumUp(triangle, word >> kPartBits, std::size_t{1} << (2 * power));
-  }
 }
 
 PartShadow ShadowTables::decide(const OfLight& light, std::uint32_t part,

@@ -72,7 +72,6 @@ class ShadowTables {
   struct OfLight;
 
   std::uint64_t fillLight(OfLight& light, WorkerPool& pool, const FillLimits& limits) const;
-  void sumUp(OfLight& light, const std::vector<std::uint32_t>& parts) const;
   void serve(OfLight& light);
   PartShadow decide(const OfLight& light, std::uint32_t part, const simd::CasterKernels& kernels,
                     PartScratch& scratch) const;

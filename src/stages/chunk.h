@@ -23,12 +23,6 @@ class Accel;
 class Scene;
 struct Film;
 
-// Requesting parts of the shadow cache takes time: one tile of `turns` does so, another one in each
-// frame.
-struct AskingTurn {
-  std::uint32_t turn = 0, turns = 1;
-};
-
 // Where the channels of a picture's pixels go, and of which sample. Each pixel is written by one
 // worker. Null: none are kept.
 struct ChannelTarget {
@@ -47,7 +41,6 @@ struct FrameConstants {
   FeatureSet features;
   RenderOptions options;
   CameraFrame camera;
-  AskingTurn asking;
   ChannelTarget channels;
   std::uint32_t seed = 0;  // of the random numbers
 };

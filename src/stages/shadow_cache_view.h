@@ -32,13 +32,7 @@ inline constexpr float kShadowRim = 0x1p-8f;
 // which rays are lifted is less, except on slivers.
 inline constexpr float kCachedShadowReach = 0x1p-20f;
 
-// The state of all parts of a triangle together, two bits each: unknown if none is decided, lit or
-// dark if all are, mixed if the parts have to be looked up.
-inline constexpr int kTrianglesAWord = 16;
-
 struct ShadowCacheView {
-  // kTrianglesAWord triangles a word.
-  const std::uint32_t* triangles = nullptr;
   // A word a triangle: the number of its first part, shifted by kPartBits; kNoParts.
   const std::uint32_t* first = nullptr;
   // A word a part, row by row of the second weight: a ShadowState, or from 4 on the place of its
@@ -49,7 +43,6 @@ struct ShadowCacheView {
   // A byte a part: the number of rays that have requested it, at most 255, and less where workers
   // count at once. Written while frames are traced, by any worker.
   std::uint8_t* wanted = nullptr;
-  bool empty = true;  // nothing is known yet
   bool serves() const { return first != nullptr; }
 };
 

@@ -326,67 +326,31 @@ TEST(ShadowCache, TablesMayBeFilledInPartsAndBeTooSmall) {
 
 // ---- when to look for them
 
-// So many frames of one view, each with the bits of `plain`. Returns how many rays the last one did
-// not trace.
-std::uint64_t decidedInRun(const Scene& scene, RenderOptions options, std::size_t frames) {
+// Returns how many rays a frame with the bits of a plain one did not trace.
+std::uint64_t decidedWhenItPays(const Scene& scene, const RenderOptions& options) {
   const Image plain = render(scene, options).image;
   Renderer renderer(scene, options);
   Film film = makeFilm(scene, options);
   const Camera camera = chooseCamera(scene, options);
-  ShadowCacheSchedule schedule(renderer, {frames, film.image.pixels.size(), kPlenty});
-  FrameStats last;
-  for (std::size_t i = 0; i < frames; ++i) {
-    schedule.prepare(camera, film);
-    last = renderer.render(camera, film);
-    schedule.frameDone();
-    EXPECT_EQ(firstDifference(film.image, plain), "") << i;
-  }
-  EXPECT_EQ(schedule.used(), decided(last) > 0);
-  return decided(last);
+  const bool used = prepareShadowCache(renderer, kPlenty, camera, film).has_value();
+  const FrameStats stats = renderer.render(camera, film);
+  EXPECT_EQ(firstDifference(film.image, plain), "");
+  EXPECT_EQ(used, decided(stats) > 0);
+  return decided(stats);
 }
 
 TEST(ShadowCacheSchedule, LooksForThemWhereManySamplesFollow) {
   const Scene& scene = load("matte");
   RenderOptions options = smallOptions();
+  EXPECT_EQ(decidedWhenItPays(scene, options), 0u);
   const double pixels = static_cast<double>(makeFilm(scene, options).image.pixels.size());
-  const auto enough = static_cast<std::size_t>(samplesThatPay(scene) / pixels) + 32;
-  EXPECT_GT(decidedInRun(scene, options, enough), 0u);
-  EXPECT_EQ(decidedInRun(scene, options, 2), 0u);
+  options.spp = static_cast<int>(samplesThatPay(scene) / pixels) + 32;
+  EXPECT_GT(decidedWhenItPays(scene, options), 0u);
   RenderOptions off = options;
   off.shadowCache = ShadowCacheMode::off;
-  EXPECT_EQ(decidedInRun(scene, off, enough), 0u);
-  // One frame alone, of many samples.
-  options.spp = static_cast<int>(enough);
-  EXPECT_GT(decidedInRun(scene, options, 1), 0u);
+  EXPECT_EQ(decidedWhenItPays(scene, off), 0u);
   options.adaptive = true;
-  EXPECT_EQ(decidedInRun(scene, options, 1), 0u);
-}
-
-// Each tile has asked after as many frames as there are turns, and only once.
-TEST(ShadowCacheSchedule, TilesTakeTurnsInAsking) {
-  const Scene& scene = load("matte");
-  RenderOptions options = smallOptions();
-  options.size = ImageSize{130, 70};
-  Renderer renderer(scene, options);
-  Film film = makeFilm(scene, options);
-  const Camera camera = chooseCamera(scene, options);
-  constexpr std::uint32_t kTurns = ShadowCacheSchedule::kTurns;
-  renderer.expectFrames(kPlenty, kTurns);
-  std::uint64_t parts = 0;
-  for (std::uint32_t i = 0; i < kTurns; ++i) {
-    renderer.render(camera, film);
-    const std::uint64_t found = renderer.fillShadowCache().parts;
-    EXPECT_LT(found, 2000u);
-    parts += found;
-  }
-  Renderer all(scene, options);
-  all.expectFrames(kPlenty);
-  all.render(camera, film);
-  EXPECT_EQ(all.fillShadowCache().parts, parts);
-  for (std::uint32_t i = 0; i < kTurns; ++i) {
-    renderer.render(camera, film);
-    EXPECT_EQ(renderer.fillShadowCache().parts, 0u);
-  }
+  EXPECT_EQ(decidedWhenItPays(scene, options), 0u);
 }
 
 TEST(ShadowTables, LookAtWhatManyAskForAndAtSomeAtATime) {

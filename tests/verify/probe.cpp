@@ -44,7 +44,6 @@ Probe::Probe(const Scene& scene, const Setup& setup)
                  renderer_.options(),
                  {},
                  {},
-                 {},
                  0} {
   chunk_.frame = &constants_;
   chunk_.meter = &meter_;
