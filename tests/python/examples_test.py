@@ -42,12 +42,14 @@ class Examples(unittest.TestCase):
 
     def test_what_rays_hit(self):
         said = self.run_example("What rays hit")
-        points, components, certain, *shares = (float(x) for x in re.findall(r"[0-9.e-]+", said))
+        cloud, camera = said.splitlines()
+        points, components, certain, *shares = (float(x) for x in re.findall(r"[0-9.e-]+", cloud))
         self.assertGreater(points, 30000)
         self.assertEqual(components, 3)
         self.assertGreater(certain, 0.999)
         for share in shares:
             self.assertTrue(0.1 < share < 1, said)
+        self.assertRegex(camera, r"^True \d+$")
 
     def test_depth_of_a_mesh(self):
         nearest, farthest = map(float, self.run_example(
@@ -56,7 +58,8 @@ class Examples(unittest.TestCase):
         self.assertAlmostEqual(farthest, 3.25, delta=0.01)
 
     def test_a_film(self):
-        self.run_example("A film", *[f"frame{i:04}.png" for i in range(12)])
+        self.run_example("A film, and a lidar that turns while things move",
+                         *[f"frame{i:04}.png" for i in range(12)])
 
     def test_all_are_tested(self):
         self.assertEqual(len(examples()), 4)
