@@ -334,12 +334,6 @@ auto& rayOf(Packet& packet) {
   }
 }
 
-template <typename Packet>
-void clearHit(Packet& packet) {
-  if constexpr (kWantsHits<Packet>)
-    packet.hit.geomID = packet.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-}
-
 // Rays that start and go together are traced as a packet, others one by one.
 template <typename Single, typename Packet>
 void RayBatch::traceAs() {
@@ -379,20 +373,13 @@ void RayBatch::traceAs() {
     for (std::size_t i = 0; i < n; ++i) {
       const Start& s = run[i];
       if (!(s.tFar >= 0)) continue;
+      const Vec3f &o = s.origin, &d = s.direction;
+      const auto number = static_cast<unsigned>(begin + i);
       Single single{};
-      rayOf(single) = {s.origin.x,
-                       s.origin.y,
-                       s.origin.z,
-                       0,
-                       s.direction.x,
-                       s.direction.y,
-                       s.direction.z,
-                       0,
-                       s.tFar,
-                       ~0u,
-                       static_cast<unsigned>(begin + i),
-                       0};
-      clearHit(single);
+      rayOf(single) = {o.x, o.y, o.z, 0, d.x, d.y, d.z, 0, s.tFar, ~0u, number, 0};
+      if constexpr (kWantsHits<Single>) {
+        single.hit.geomID = single.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+      }
       alone.trace(scene, single);
     }
   }

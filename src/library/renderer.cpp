@@ -55,11 +55,15 @@ struct Renderer::Data {
     stale = false;
   }
 
-  Queried queried(whit::Progress* told) {
-    move();
-    const int asked = settledOptions().threads, threads = asked > 0 ? asked : usableThreads();
-    if (!queries) queries = std::make_unique<RayQueries>(internal(), threads, told);
-    return {internal(), *queries, threads, told};
+  // Calls one of the queries of rays.
+  template <typename Query, typename... Asked>
+  auto ask(const Query& query, const Asked&... asked) {
+    return guarded(progress, [&](whit::Progress* told) {
+      move();
+      const int wanted = settledOptions().threads, threads = wanted > 0 ? wanted : usableThreads();
+      if (!queries) queries = std::make_unique<RayQueries>(internal(), threads, told);
+      return query(Queried{internal(), *queries, threads, told}, asked...);
+    });
   }
 
   whit::Camera view() const {
@@ -269,34 +273,22 @@ void Renderer::renderOnPath(double seconds, Image& image) {
 
 const FrameStatistics& Renderer::statistics() const { return data_->statistics; }
 
-RayHits Renderer::closest(const Rays& rays) {
-  return guarded(data_->progress,
-                 [&](whit::Progress* told) { return api::closest(data_->queried(told), rays); });
-}
+RayHits Renderer::closest(const Rays& rays) { return data_->ask(api::closest, rays); }
 
 RayHits Renderer::allHits(const Rays& rays, std::size_t limit) {
-  return guarded(data_->progress, [&](whit::Progress* told) {
-    return api::allHits(data_->queried(told), rays, limit);
-  });
+  return data_->ask(api::allHits, rays, limit);
 }
 
-RayAnswers Renderer::occluded(const Rays& rays) {
-  return guarded(data_->progress,
-                 [&](whit::Progress* told) { return api::occluded(data_->queried(told), rays); });
-}
+RayAnswers Renderer::occluded(const Rays& rays) { return data_->ask(api::occluded, rays); }
 
 RayAnswers Renderer::visible(const Numbers& from, const Numbers& to, const Numbers& fromNormals,
                              const Numbers& toNormals) {
-  return guarded(data_->progress, [&](whit::Progress* told) {
-    return api::visible(data_->queried(told), from, to, fromNormals, toNormals);
-  });
+  return data_->ask(api::visible, from, to, fromNormals, toNormals);
 }
 
 std::vector<float> Renderer::ambientOcclusion(const Numbers& points, const Numbers& normals,
                                               double radius, int samples) {
-  return guarded(data_->progress, [&](whit::Progress* told) {
-    return api::ambientOcclusion(data_->queried(told), points, normals, radius, samples);
-  });
+  return data_->ask(api::ambientOcclusion, points, normals, radius, samples);
 }
 
 std::vector<OptionInfo> options() {

@@ -409,42 +409,34 @@ py::tuple describe(const api::RayAnswers& answers) {
   return py::make_tuple(arrayOf(answers.yes), arrayOf(answers.certain));
 }
 
-void defineRays(py::class_<Session>& session) {
-  // Origins, directions, near and far.
-  using Four = std::array<py::array, 4>;
-  const auto raysOf = [](const Four& given) {
-    return api::Rays{numbersOf(given[0]), numbersOf(given[1]), numbersOf(given[2]),
-                     numbersOf(given[3])};
-  };
-  session
-      .def("closest",
-           [raysOf](Session& s, const Four& given, const py::object& progress) {
-             const api::Rays rays = raysOf(given);
-             return describe(s.trace(progress, [&](auto& r) { return r.closest(rays); }));
-           })
-      .def("all_hits",
-           [raysOf](Session& s, const Four& given, std::size_t limit, const py::object& progress) {
-             const api::Rays rays = raysOf(given);
-             return describe(s.trace(progress, [&](auto& r) { return r.allHits(rays, limit); }));
-           })
-      .def("occluded",
-           [raysOf](Session& s, const Four& given, const py::object& progress) {
-             const api::Rays rays = raysOf(given);
-             return describe(s.trace(progress, [&](auto& r) { return r.occluded(rays); }));
-           })
-      .def("visible",
-           [](Session& s, const Four& given, const py::object& progress) {
-             const std::array<api::Numbers, 4> of{numbersOf(given[0]), numbersOf(given[1]),
-                                                  numbersOf(given[2]), numbersOf(given[3])};
-             return describe(
-                 s.trace(progress, [&](auto& r) { return r.visible(of[0], of[1], of[2], of[3]); }));
-           })
-      .def("ambient_occlusion", [](Session& s, const py::array& points, const py::array& normals,
-                                   double radius, int samples, const py::object& progress) {
-        const api::Numbers at = numbersOf(points), about = numbersOf(normals);
-        return arrayOf(s.trace(
-            progress, [&](auto& r) { return r.ambientOcclusion(at, about, radius, samples); }));
-      });
+py::array describe(const std::vector<float>& values) { return arrayOf(values); }
+
+// Defines a function that asks the renderer a question about arrays, and more.
+template <typename... More, typename Question>
+void defineQuery(py::class_<Session>& session, const char* name, Question question) {
+  session.def(name, [question](Session& s, const std::vector<py::array>& arrays, More... more,
+                               const py::object& progress) {
+    std::vector<api::Numbers> numbers;
+    for (const py::array& array : arrays) numbers.push_back(numbersOf(array));
+    return describe(
+        s.trace(progress, [&](api::Renderer& r) { return question(r, numbers, more...); }));
+  });
+}
+
+void defineQueries(py::class_<Session>& session) {
+  using Given = std::vector<api::Numbers>;
+  const auto raysOf = [](const Given& n) { return api::Rays{n[0], n[1], n[2], n[3]}; };
+  defineQuery(session, "closest", [=](auto& r, const Given& n) { return r.closest(raysOf(n)); });
+  defineQuery(session, "occluded", [=](auto& r, const Given& n) { return r.occluded(raysOf(n)); });
+  defineQuery<std::size_t>(session, "all_hits", [=](auto& r, const Given& n, std::size_t limit) {
+    return r.allHits(raysOf(n), limit);
+  });
+  defineQuery(session, "visible",
+              [](auto& r, const Given& n) { return r.visible(n[0], n[1], n[2], n[3]); });
+  defineQuery<double, int>(session, "ambient_occlusion",
+                           [](auto& r, const Given& n, double radius, int samples) {
+                             return r.ambientOcclusion(n[0], n[1], radius, samples);
+                           });
 }
 
 void defineSession(py::module_& module) {
@@ -455,7 +447,7 @@ void defineSession(py::module_& module) {
     };
   };
   py::class_<Session> session(module, "Session");
-  defineRays(session);
+  defineQueries(session);
   session.def_property_readonly("name", asked(&api::Scene::name))
       .def_property_readonly("width", asked(&api::Scene::width))
       .def_property_readonly("height", asked(&api::Scene::height))

@@ -85,7 +85,8 @@ inline constexpr auto kMembers<Camera> = std::tuple{
     Member{"at", &Camera::at},
     Member{"up", &Camera::up},
     Member{"projection", &Camera::projection},
-    Member{"fov", &Camera::fov, {.low = kLeastFov, .high = kLargestFov, .exists = isPerspective}},
+    // Of perspective cameras; others pass over it, so that the projection alone can be changed.
+    Member{"fov", &Camera::fov, {.low = kLeastFov, .high = kLargestFov}},
     Member{"orthographicHeight", &Camera::orthographicHeight, {.low = 0, .exists = isPerspective}},
     Member{"aperture", &Camera::aperture, {.low = 0, .exists = isPerspective}},
     Member{"focus", &Camera::focus, {.low = 0, .exists = isPerspective}},

@@ -332,9 +332,9 @@ class Scene:
         points, normals: (..., 3), the normals on the side that is asked about; shapes are broadcast.
         samples: directions for each point; they follow from the point alone.
         """
-        at, about = _rays.alike({"points": points, "normals": normals}, {})
-        open_ = self._object.ambient_occlusion(at, about, radius, samples, progress)
-        return open_.reshape(at.shape[:-1])
+        arrays = _rays.alike({"points": points, "normals": normals}, {})
+        open_ = self._object.ambient_occlusion(arrays, radius, samples, progress)
+        return open_.reshape(arrays[0].shape[:-1])
 
     def _rays(self, origins: Any, directions: Any, t_near: Any, t_far: Any) -> tuple[list, tuple]:
         starts, ways = _rays.alike({"origins": origins, "directions": directions}, {})
