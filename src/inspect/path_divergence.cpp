@@ -78,7 +78,7 @@ class RecordingIntersector : public reference::Intersector {
 }  // namespace
 
 ReferencePaths traceReferencePaths(Renderer& renderer, const Camera& camera, const Film& film) {
-  const CameraFrame frame = renderer.referenceFrame(camera, film);
+  const CameraFrame frame = renderer.lookFrom(camera, film);
   const reference::Settings settings = renderer.referenceSettings();
   ReferencePaths paths{film.image, std::vector<std::uint64_t>(film.image.pixels.size())};
   const Crop& window = film.image.window;

@@ -293,7 +293,7 @@ RayTree traceReferenceTree(Renderer& renderer, const Camera& camera, const Film&
   tree.samples = samples;
   TreeIntersector intersector(renderer.accel(), tree);
   const reference::Tracer tracer(renderer.scene(), intersector, renderer.referenceSettings());
-  const CameraFrame frame = renderer.referenceFrame(camera, film);
+  const CameraFrame frame = renderer.lookFrom(camera, film);
   reference::RayCounts counts;
   RgbD mean;
   for (std::size_t s = 0; s < samples.size(); ++s) {
