@@ -315,7 +315,6 @@ class ImageWriter {
       ++run_.kept;
       return;
     }
-    prepareAudit(film);
     schedule_->prepare(camera_, film);
     run_.frames.push_back(renderFrame(*renderer_, options_.mode, camera_, film, progress));
     refuseNonFinite(open_->scene, options_, run_.frames.back());
@@ -343,27 +342,10 @@ class ImageWriter {
   const std::vector<std::string>& written() const { return written_; }
 
  private:
-  // --shadow-cache audit: an extra first frame requests what the cache then holds.
-  void prepareAudit(Film& film) {
-    if (options_.shadowCache != ShadowCacheMode::audit || options_.mode == Mode::reference) return;
-    if (run_.shadowCache) return;
-    const std::uint64_t most = job_.common.load.maxMemoryBytes;
-    renderer_->expectFrames(memoryLeft(open_->scene, *renderer_, most));
-    if (!renderer_->decidesShadows()) return;
-    run_.shadowCache.emplace();
-    renderer_->render(camera_, film);
-    fillShadowCache();
-  }
-
   void fillShadowCache() {
-    if (options_.shadowCache == ShadowCacheMode::audit && run_.shadowCache) {
-      run_.shadowCache->fillMs += renderer_->fillShadowCache().ms;
-    } else if (schedule_->used()) {
-      schedule_->frameDone();
-      if (!run_.shadowCache) run_.shadowCache.emplace();
-      run_.shadowCache->fillMs = schedule_->fillMs();
-    }
-    if (run_.shadowCache) run_.shadowCache->bytes = renderer_->shadowCacheBytes();
+    if (!schedule_->used()) return;
+    schedule_->frameDone();
+    run_.shadowCache = {schedule_->fillMs(), renderer_->shadowCacheBytes()};
   }
 
   bool areWhole(const std::vector<std::string>& files, const Image& image,

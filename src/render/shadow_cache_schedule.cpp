@@ -43,15 +43,20 @@ double samplesThatPay(const Scene& scene) {
 ShadowCacheSchedule::ShadowCacheSchedule(Renderer& renderer, const ShadowCacheRun& run)
     : renderer_(renderer), run_(run) {
   const RenderOptions& options = renderer.options();
-  if (options.shadowCache != ShadowCacheMode::automatic || options.mode == Mode::reference) return;
-  if (!pays(renderer.scene(), options, run)) return;
-  renderer_.expectFrames(run.mostBytes, kTurns);
+  if (options.shadowCache == ShadowCacheMode::off || options.mode == Mode::reference) return;
+  if (!audits() && !pays(renderer.scene(), options, run)) return;
+  renderer_.expectFrames(run.mostBytes, audits() ? 1 : kTurns);
   used_ = renderer_.decidesShadows();
 }
 
 void ShadowCacheSchedule::prepare(const Camera& camera, Film& film) {
   const std::size_t samples = samplesOf(renderer_.scene(), renderer_.options());
-  if (!used_ || done_ > 0 || samples < kFewestSamples) return;
+  if (!used_ || done_ > 0) return;
+  if (audits()) {
+    renderer_.render(camera, film);
+    return fill(1);
+  }
+  if (samples < kFewestSamples) return;
   const RenderOptions all = renderer_.options();
   RenderOptions one = all;
   one.spp = 1;
@@ -64,13 +69,16 @@ void ShadowCacheSchedule::prepare(const Camera& camera, Film& film) {
 }
 
 void ShadowCacheSchedule::frameDone() {
-  if (!used_ || ++done_ % kTurns != 0 || done_ >= run_.frames) return;
+  if (!used_) return;
+  ++done_;
+  if (audits()) return fill(1);
+  if (done_ % kTurns != 0 || done_ >= run_.frames) return;
   fill(static_cast<double>(std::min(run_.frames - done_, kFramesInView)));
 }
 
 // Each request is expected to occur this many more times.
 void ShadowCacheSchedule::fill(double repeats) {
-  const double least = std::ceil(kRaysAProof / repeats);
+  const double least = audits() ? 1 : std::ceil(kRaysAProof / repeats);
   if (least <= kMostCounted) {
     fillMs_ += renderer_.fillShadowCache({.leastRays = static_cast<unsigned>(least)}).ms;
   }

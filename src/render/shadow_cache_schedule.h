@@ -24,11 +24,11 @@ class ShadowCacheSchedule {
   static constexpr std::uint32_t kTurns = 8;
 
   // `renderer` must outlive it. Nothing happens where the cache would not save time, or
-  // --shadow-cache is off.
+  // --shadow-cache is off. An audit fills all that is requested, whether that saves time or not.
   ShadowCacheSchedule(Renderer& renderer, const ShadowCacheRun& run);
 
-  // Before a frame of many samples: one of a single sample asks for what all of them will. `film`
-  // is overwritten.
+  // Before a frame of many samples: one of a single sample asks for what all of them will. Before
+  // an audit's first frame: the same frame asks. `film` is overwritten.
   void prepare(const Camera& camera, Film& film);
   // After each frame.
   void frameDone();
@@ -37,6 +37,7 @@ class ShadowCacheSchedule {
   double fillMs() const { return fillMs_; }
 
  private:
+  bool audits() const { return renderer_.options().shadowCache == ShadowCacheMode::audit; }
   void fill(double repeats);
 
   Renderer& renderer_;

@@ -66,25 +66,6 @@ ChannelValues valuesOf(const Chunk& c, std::size_t i) {
   return values;
 }
 
-// A shadow ray, kept before the kernel packs what is left more closely.
-struct KeptRay {
-  std::uint32_t slot;
-  Vec3f origin, direction;
-  float tFar;
-};
-
-std::vector<KeptRay> raysOf(const Chunk& c) {
-  std::vector<KeptRay> rays;
-  const ShadowColumns& s = c.shadows;
-  for (std::size_t i = 0; i < c.shadowCount; ++i) {
-    rays.push_back({s.slot[i],
-                    {s.orgX[i], s.orgY[i], s.orgZ[i]},
-                    {s.dirX[i], s.dirY[i], s.dirZ[i]},
-                    s.tFar[i]});
-  }
-  return rays;
-}
-
 }  // namespace
 
 void encodeForDisplay(Chunk& c) {
@@ -166,16 +147,19 @@ void keepRayCounts(Chunk& c) {
 }
 
 void auditShadows(Chunk& c) {
-  const std::vector<KeptRay> rays = raysOf(c);
+  // The rays as they are before the kernel packs what is left more closely.
+  std::vector<ShadowRow> rays;
+  for (std::size_t i = 0; i < c.shadowCount; ++i) rays.push_back(ShadowRow::at(c.shadows, i));
   simd::kDecideShadows.find()(c);
   const std::uint32_t *const slots = c.shadows.slot, *const end = slots + c.shadowCount;
-  for (const KeptRay& ray : rays) {
+  for (const ShadowRow& ray : rays) {
     if (std::binary_search(slots, end, ray.slot)) continue;
     const bool lit = c.unshadowed.visible[ray.slot] > 0;
-    if (c.frame->accel->occluded(ray.origin, ray.direction, ray.tFar) != lit) continue;
+    const Vec3f origin(Vec3d{ray.orgX, ray.orgY, ray.orgZ});
+    const Vec3f direction(Vec3d{ray.dirX, ray.dirY, ray.dirZ});
+    if (c.frame->accel->occluded(origin, direction, static_cast<float>(ray.tFar)) != lit) continue;
     if (c.meter->wrongShadow) return;
-    c.meter->wrongShadow = {true,       lit,          c.lightNumber, c.hits.triangle[ray.slot],
-                            ray.origin, ray.direction};
+    c.meter->wrongShadow = {true, lit, c.lightNumber, c.hits.triangle[ray.slot], origin, direction};
     return;
   }
 }
