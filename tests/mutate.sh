@@ -137,15 +137,11 @@ mutations() {
   plant no-retry src/render/renderer.cpp \
     'options_.retry && isEnclosed(scene_, *accel_)' 'false && isEnclosed(scene_, *accel_)'
   plant eye-in-vacuum simd/generate_rays.cpp 'hn::Set(du, camera.media)' 'hn::Zero(du)'
-  plant media-never-entered src/render/initial_media.cpp \
-    'around.erase(std::next(last).base());' ''
-  plant media-never-entered-in-reference src/reference/media.cpp \
+  plant media-never-entered src/reference/media.cpp \
     '++entered[place.medium];' ''
-  plant eye-beside-the-surface src/render/initial_media.cpp \
-    ': liesOnDielectric(traced, Vec3f(frame.eye));' ': false;'
-  plant glass-before-opaque src/render/settle_coplanar.cpp \
-    'std::tuple(face.opaque,' 'std::tuple(!face.opaque,'
-  plant glass-before-opaque-in-reference src/reference/settle_coplanar.cpp \
+  plant eye-beside-the-surface src/reference/media.cpp \
+    '|| liesOnDielectric(scene, effects, intersector, frame.eye);' ';'
+  plant glass-before-opaque src/reference/settle_coplanar.cpp \
     'return a.opaque;' 'return b.opaque;'
   plant not-robust src/accel/embree_scene.cpp 'options.robust ? RTC_SCENE_FLAG_ROBUST' \
     'false ? RTC_SCENE_FLAG_ROBUST'

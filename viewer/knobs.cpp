@@ -56,17 +56,12 @@ void drawKnob(const OptionSpec& spec, Field& field) {
   }
 }
 
-// Applies a preset, but not its reference mode, which is too slow.
-RenderOptions withQuality(RenderOptions options, Quality quality) {
-  options.quality = quality;
-  applyQuality(options, {"mode"});
-  return options;
-}
-
 void drawPresets(RenderOptions& options) {
   constexpr std::array kNames{"good", "draft", "standard", "fine", "reference"};
   for (std::size_t i = 0; i < kNames.size(); ++i) {
-    const RenderOptions preset = withQuality(options, static_cast<Quality>(i));
+    RenderOptions preset = options;
+    preset.quality = static_cast<Quality>(i);
+    applyQuality(preset, {"mode"});  // the reference is too slow here
     RenderOptions now = options;
     now.quality = preset.quality;
     if (i > 0) ImGui::SameLine();

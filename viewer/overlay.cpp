@@ -64,11 +64,6 @@ std::optional<std::array<double, 2>> placeIn(const ImageSize& madeFor, const Ima
 
 int indexAt(double share, int pixels) { return static_cast<int>(share * pixels); }
 
-std::string colorText(const Rgb& c) {
-  const RgbD d(c);
-  return formatted("%.4g %.4g %.4g", d.x, d.y, d.z);
-}
-
 }  // namespace
 
 std::string errorText(double sampleError) {
@@ -108,8 +103,9 @@ std::string inspect(const TracedFrame& frame, const ImageSize& window,
     text += "\n" + frame.debug->textOf(at);
   } else {
     const std::uint8_t* codes = &display.rgba[4 * at];
-    text += formatted("\n8-bit codes %d %d %d", codes[0], codes[1], codes[2]) +
-            "\nradiance, W/sr a square unit\n" + colorText(image.pixels[at]);
+    const RgbD radiance(image.pixels[at]);
+    text += formatted("\n8-bit codes %d %d %d\nradiance, W/sr a square unit\n%.4g %.4g %.4g",
+                      codes[0], codes[1], codes[2], radiance.x, radiance.y, radiance.z);
   }
   return text;
 }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/display.h"
 #include "core/text.h"
 
 namespace whit::view {
@@ -30,10 +29,7 @@ ImVec4 textColorOf(RayKind kind) {
 void drawLegend(const std::vector<RayLine>& lines) {
   const float side = ImGui::GetFontSize();
   bool first = true;
-  for (const RayLook look : rayLooks()) {
-    if (std::ranges::none_of(lines, [&](const RayLine& line) { return line.look == look; })) {
-      continue;
-    }
+  for (const RayLook look : looksOf(lines)) {
     const std::string name(styleOf(look).name);
     const float width =
         side + ImGui::CalcTextSize(name.c_str()).x + ImGui::GetStyle().ItemSpacing.x;
@@ -52,11 +48,7 @@ void drawLegend(const std::vector<RayLine>& lines) {
 class RayTreeTab {
  public:
   RayTreeTab(const RayPick& pick, const TracedFrame& frame, RayView& view)
-      : pick_(pick), tree_(pick.rays.packets), view_(view) {
-    const RenderOptions& options = frame.request.options;
-    scale_ = std::exp2(double{options.exposure.ev});
-    curve_ = options.toneCurve;
-  }
+      : pick_(pick), tree_(pick.rays.packets), options_(frame.request.options), view_(view) {}
 
   void draw() {
     drawPixel();
@@ -71,7 +63,7 @@ class RayTreeTab {
 
  private:
   std::array<std::uint8_t, 3> codesOf(const Rgb& pixel) const {
-    return displayCodes(pixel, scale_, curve_);
+    return cli::codesOf(pixel, options_);
   }
 
   void drawPixel() const {
@@ -137,9 +129,8 @@ class RayTreeTab {
 
   const RayPick& pick_;
   const RayTree& tree_;
+  const RenderOptions& options_;
   RayView& view_;
-  double scale_ = 1;
-  ToneCurve curve_ = ToneCurve::none;
 };
 
 // Cuts the line to the window, because huge coordinates are drawn wrongly. Returns whether any of

@@ -4,11 +4,7 @@
 
 namespace whit::view {
 
-namespace {
-
 constexpr double kNewest = 0.3;  // weight of the newest frame in the mean cost
-
-}  // namespace
 
 void ResolutionControl::setRate(double framesPerSecond) {
   rate_ = std::clamp(framesPerSecond, kLeastRate, kLargestRate);

@@ -164,14 +164,6 @@ bool drawAmbient(bool skyThere, Ambient& ambient) {
   return changed;
 }
 
-bool drawSurroundings(const SkyChoice& ownSky, ShadingEdit& scene) {
-  ImGui::PushItemWidth(ImGui::GetFontSize() * 13);
-  bool changed = drawSky(ownSky, scene.sky);
-  changed |= drawAmbient(scene.sky.kind != Sky::Kind::none, scene.ambient);
-  ImGui::PopItemWidth();
-  return changed;
-}
-
 }  // namespace
 
 bool drawSceneTab(const SkyChoice& ownSky, RayView& picked, ShadingEdit& scene) {
@@ -180,7 +172,11 @@ bool drawSceneTab(const SkyChoice& ownSky, RayView& picked, ShadingEdit& scene) 
   ImGui::TextDisabled("materials");
   edited |= drawItems(scene.materials, "material", picked.material, drawMembers<Material>);
   ImGui::TextDisabled("surroundings");
-  return drawSurroundings(ownSky, scene) || edited;
+  ImGui::PushItemWidth(ImGui::GetFontSize() * 13);
+  edited |= drawSky(ownSky, scene.sky);
+  edited |= drawAmbient(scene.sky.kind != Sky::Kind::none, scene.ambient);
+  ImGui::PopItemWidth();
+  return edited;
 }
 
 }  // namespace whit::view

@@ -374,16 +374,6 @@ Accel::Accel(const Scene& scene, const RenderOptions& options, EffectSet effects
 
 Accel::~Accel() = default;
 
-bool Accel::isCutAway(std::uint32_t triangle, double u, double v) const noexcept {
-  const TriangleRecord& record = scene_.triangles[triangle];
-  const Mask& mask = parts_->embree.masks()[record.material];
-  if (scene_.isSphere(triangle)) {
-    const auto [s, t] = sphereUv(spherePoint(u, v));
-    return marginAt<&Mask::cutoff>(mask, static_cast<float>(s), static_cast<float>(t)) < 0;
-  }
-  return marginAt<&Mask::cutoff>(mask, record.uv, static_cast<float>(u), static_cast<float>(v)) < 0;
-}
-
 void Accel::sceneMoved() {
   parts_->embree.update(scene_);
   parts_->placeInstances(scene_);

@@ -56,9 +56,6 @@ class Accel {
   Hit closest(const Vec3f& origin, const Vec3f& direction, float tNear = 0) const noexcept;
   bool occluded(const Vec3f& origin, const Vec3f& direction, float tFar) const noexcept;
 
-  // True if an alpha mask cuts the triangle or sphere (its number in the scene) there.
-  bool isCutAway(std::uint32_t triangle, double u, double v) const noexcept;
-
   int packet() const;
   std::string description() const;  // "3.13.5 avx2"
   std::uint64_t memoryBytes() const;

@@ -47,7 +47,6 @@ class EmbreeScene {
   void update(const Scene& scene);
 
   RTCScene top() const { return (top_ ? top_ : scenes_[0]).get(); }
-  const std::vector<Mask>& masks() const { return masks_; }  // one a material
   RTCDevice device() const { return device_.get(); }
   std::uint64_t memoryBytes() const { return bytes_ + sphereBytes(); }
   std::uint64_t sphereBytes() const {

@@ -650,7 +650,7 @@ bool RayQueries::Parts::arePartners(PlacedTriangleId a, PlacedTriangleId b) cons
   return std::ranges::find(partners, b) != partners.end();
 }
 
-// The rule of render/settle_coplanar.cpp.
+// The rule of reference/settle_coplanar.h.
 bool RayQueries::Parts::comesBefore(PlacedTriangleId a, PlacedTriangleId b) const {
   const auto preference = [&](PlacedTriangleId id) {
     const std::uint32_t material = scene.triangles[id.triangle].material;

@@ -67,119 +67,6 @@ ArithmeticError arithmeticError(Renderer& renderer, const Camera& camera, const 
   return error;
 }
 
-// Measures the points of one scene and view.
-class ErrorMeter {
- public:
-  // `base` has the display and the number of samples of the exact picture at equal samples. The
-  // truth is `transport`, or the reference of `samples` samples if that is null. Scene, cache and
-  // `transport` must outlive the meter.
-  ErrorMeter(const Scene& scene, const Camera& camera, const RenderOptions& base, float cutoff,
-             ReferenceCache& cache, int samples, const TransportPicture* transport,
-             Progress* progress)
-      : scene_(scene),
-        camera_(camera),
-        base_(base),
-        cutoff_(cutoff),
-        reference_(cache.get(modelOptions(base, transport, samples, cutoff), progress)),
-        exact_(cache.get(exactAtSameSamples(base, cutoff), progress).image),
-        transport_(transport) {
-    if (transport_) leftOut_ = against(reference_.image, truth());
-  }
-
-  // Sets the point's errors from its last frame. Errors of arithmetic are measured only if
-  // `arithmetic` is true. For a knob of arithmetic the errors of sampling and algorithm are not
-  // set, because they are the baseline's.
-  void measure(Point& point, FrameSource& frames, bool arithmetic) {
-    point.stats = frames.stats;
-    const Image& image = frames.film.image;
-    std::vector<std::function<void()>> comparisons;
-    comparisons.emplace_back([&] { point.total = against(image, truth()); });
-    // The point has the baseline's sampling if the exact options are the same.
-    if (digestOf(exactAtSameSamples(point.options, cutoff_)) ==
-        digestOf(exactAtSameSamples(base_, cutoff_))) {
-      comparisons.emplace_back([&] { point.sameSamples = against(image, exact_); });
-    }
-    runTogether(comparisons);
-    const bool transports = transport_ && hasTransport(point.options);
-    if (point.cause != Cause::arithmetic) {
-      const Image& unapproximated = withoutApproximations(point, image);
-      // The picture that more samples of the point converge to.
-      const Image& limit = transports ? truth() : reference_.image;
-      runTogether({[&] { point.sampling = against(unapproximated, limit); },
-                   [&] { point.algorithm = against(image, unapproximated); }});
-    }
-    if (transport_) point.transport = transports ? noDifference() : *leftOut_;
-    if (!arithmetic) return;
-    point.arithmetic =
-        arithmeticError(frames.renderer, camera_, frames.film, referencePaths(point, frames));
-  }
-
-  // Sets the point's pictures, which stay in memory.
-  void addPictures(Point& point, const Image& image) const {
-    point.imagePng = pngOf(image);
-    point.totalMapPng = encodePng(heatMap(image, truth()));
-    if (point.sameSamples) point.sameSamplesMapPng = encodePng(heatMap(image, exact_));
-  }
-
-  // The displayed image.
-  std::string pngOf(const Image& image) const {
-    return encodePng(toDisplay(image, base_.exposure.ev, base_.toneCurve));
-  }
-
-  const ReferencePicture& reference() const { return reference_; }
-  const Image& truth() const { return transport_ ? transport_->image : reference_.image; }
-
- private:
-  // The options of the reference. If all transport is the truth, it has Whitted's model alone.
-  static RenderOptions modelOptions(RenderOptions base, const TransportPicture* transport,
-                                    int samples, float cutoff) {
-    if (transport) base.indirect = 0;
-    return referenceOptions(base, samples, cutoff);
-  }
-
-  ImageDifference against(const Image& a, const Image& b) const {
-    return compareImages(a, b, base_.exposure.ev, base_.toneCurve);
-  }
-
-  const Image& withoutApproximations(const Point& point, const Image& own) {
-    const float cutoff = hasTransport(point.options) ? kTransportCutoff : cutoff_;
-    const RenderOptions exact = exactIn(point.options, Cause::algorithm, cutoff);
-    const std::string digest = digestOf(exact);
-    if (digest == digestOf(point.options)) return own;
-    const auto found = exactPackets_.find(digest);
-    if (found != exactPackets_.end()) return found->second;
-    FrameSource frames(scene_, camera_, exact);
-    frames.render();
-    return exactPackets_.emplace(digest, std::move(frames.film.image)).first->second;
-  }
-
-  // Paths of the scalar reference with the point's own options. Points whose options differ only in
-  // ways that the scalar reference ignores share them.
-  const ReferencePaths& referencePaths(const Point& point, FrameSource& frames) {
-    const RenderOptions defaults;
-    RenderOptions seen = point.options;
-    seen.packet = defaults.packet;
-    const std::string digest = digestOf(seen);
-    const auto found = referencePaths_.find(digest);
-    if (found != referencePaths_.end()) return found->second;
-    return referencePaths_
-        .emplace(digest, traceReferencePaths(frames.renderer, camera_, frames.film))
-        .first->second;
-  }
-
-  const Scene& scene_;
-  Camera camera_;
-  RenderOptions base_;
-  float cutoff_;
-  const ReferencePicture& reference_;
-  const Image& exact_;
-  const TransportPicture* transport_;
-  // The difference of the reference from the picture with all transport.
-  std::optional<ImageDifference> leftOut_;
-  std::map<std::string, Image> exactPackets_;  // key: digest of the options
-  std::map<std::string, ReferencePaths> referencePaths_;
-};
-
 class SceneSweeper {
  public:
   SceneSweeper(const Scene& scene, const RenderOptions& base, const SweepSettings& settings,
@@ -207,9 +94,9 @@ class SceneSweeper {
                    1000 * settings_.timingSeconds.value_or(scope_.limits.timingSeconds));
     renderTransport();
     choosePoints();
-    ErrorMeter meter = renderReferences();
-    measureBaseline(meter);
-    measurePoints(meter);
+    renderReferences();
+    measureBaseline();
+    measurePoints();
     finish();
     return std::move(sweep_);
   }
@@ -265,18 +152,92 @@ class SceneSweeper {
     points_ = Stopwatch();
   }
 
-  ErrorMeter renderReferences() {
-    ErrorMeter meter(scene_, camera_, base_, cutoff_, cache_, sweep_.referenceSamples,
-                     transport_ ? &*transport_ : nullptr, progress_);
-    sweep_.referenceMs = meter.reference().renderMs;
-    return meter;
+  // If all transport is the truth, the reference has Whitted's model alone.
+  void renderReferences() {
+    RenderOptions model = base_;
+    if (transport_) model.indirect = 0;
+    reference_ = &cache_.get(referenceOptions(model, sweep_.referenceSamples, cutoff_), progress_);
+    exact_ = &cache_.get(exactAtSameSamples(base_, cutoff_), progress_).image;
+    if (transport_) leftOut_ = against(reference_->image, truth());
+    sweep_.referenceMs = reference_->renderMs;
   }
 
-  void measureBaseline(ErrorMeter& meter) {
+  const Image& truth() const { return transport_ ? transport_->image : reference_->image; }
+
+  // Sets the point's errors from its last frame. For a knob of arithmetic the errors of sampling
+  // and algorithm are not set, because they are the baseline's.
+  void measureErrors(Point& point, FrameSource& frames) {
+    point.stats = frames.stats;
+    const Image& image = frames.film.image;
+    std::vector<std::function<void()>> comparisons;
+    comparisons.emplace_back([&] { point.total = against(image, truth()); });
+    // The point has the baseline's sampling if the exact options are the same.
+    if (digestOf(exactAtSameSamples(point.options, cutoff_)) ==
+        digestOf(exactAtSameSamples(base_, cutoff_))) {
+      comparisons.emplace_back([&] { point.sameSamples = against(image, *exact_); });
+    }
+    runTogether(comparisons);
+    const bool transports = transport_ && hasTransport(point.options);
+    if (point.cause != Cause::arithmetic) {
+      const Image& unapproximated = withoutApproximations(point, image);
+      // The picture that more samples of the point converge to.
+      const Image& limit = transports ? truth() : reference_->image;
+      runTogether({[&] { point.sampling = against(unapproximated, limit); },
+                   [&] { point.algorithm = against(image, unapproximated); }});
+    }
+    if (transport_) point.transport = transports ? noDifference() : *leftOut_;
+    if (!scope_.comparesPaths(point)) return;
+    point.arithmetic =
+        arithmeticError(frames.renderer, camera_, frames.film, referencePaths(point, frames));
+  }
+
+  // Sets the point's pictures, which stay in memory.
+  void addPictures(Point& point, const Image& image) const {
+    point.imagePng = pngOf(image);
+    point.totalMapPng = encodePng(heatMap(image, truth()));
+    if (point.sameSamples) point.sameSamplesMapPng = encodePng(heatMap(image, *exact_));
+  }
+
+  // The displayed image.
+  std::string pngOf(const Image& image) const {
+    return encodePng(toDisplay(image, base_.exposure.ev, base_.toneCurve));
+  }
+
+  ImageDifference against(const Image& a, const Image& b) const {
+    return compareImages(a, b, base_.exposure.ev, base_.toneCurve);
+  }
+
+  const Image& withoutApproximations(const Point& point, const Image& own) {
+    const float cutoff = hasTransport(point.options) ? kTransportCutoff : cutoff_;
+    const RenderOptions exact = exactIn(point.options, Cause::algorithm, cutoff);
+    const std::string digest = digestOf(exact);
+    if (digest == digestOf(point.options)) return own;
+    const auto found = exactPackets_.find(digest);
+    if (found != exactPackets_.end()) return found->second;
+    FrameSource frames(scene_, camera_, exact);
+    frames.render();
+    return exactPackets_.emplace(digest, std::move(frames.film.image)).first->second;
+  }
+
+  // Paths of the scalar reference with the point's own options. Points whose options differ only in
+  // ways that the scalar reference ignores share them.
+  const ReferencePaths& referencePaths(const Point& point, FrameSource& frames) {
+    const RenderOptions defaults;
+    RenderOptions seen = point.options;
+    seen.packet = defaults.packet;
+    const std::string digest = digestOf(seen);
+    const auto found = referencePaths_.find(digest);
+    if (found != referencePaths_.end()) return found->second;
+    return referencePaths_
+        .emplace(digest, traceReferencePaths(frames.renderer, camera_, frames.film))
+        .first->second;
+  }
+
+  void measureBaseline() {
     Point& point = sweep_.points.front();
-    meter.measure(point, *baseline_, scope_.comparesPaths(point));
-    meter.addPictures(point, baseline_->film.image);
-    sweep_.truthPng = meter.pngOf(meter.truth());
+    measureErrors(point, *baseline_);
+    addPictures(point, baseline_->film.image);
+    sweep_.truthPng = pngOf(truth());
   }
 
   // A random order, in which a quick sweep puts the spare values last.
@@ -290,7 +251,7 @@ class SceneSweeper {
     return order;
   }
 
-  void measurePoints(ErrorMeter& meter) {
+  void measurePoints() {
     std::map<std::string, std::string> unmeasured;  // label and reason
     const std::vector<std::size_t> order = chooseOrder();
     for (std::size_t k = 0; k < order.size(); ++k) {
@@ -301,7 +262,7 @@ class SceneSweeper {
         unmeasured[point.label()] = Scope::kOverBecause;
         continue;
       }
-      if (measurePoint(point, meter, order.size() - k)) {
+      if (measurePoint(point, order.size() - k)) {
         sweep_.order.push_back(point.label());
       } else {
         unmeasured[point.label()] =
@@ -317,7 +278,7 @@ class SceneSweeper {
 
   // `points` is the number of points that are still to come, including this one. Returns false if
   // the point has the rays and the picture of the baseline.
-  bool measurePoint(Point& point, ErrorMeter& meter, std::size_t points) {
+  bool measurePoint(Point& point, std::size_t points) {
     FrameSource frames(scene_, camera_, point.options);
     frames.render();  // this frame allocates; its time counts only if there is no time for another
     if (point.kind == PointKind::knob && point.cause == Cause::algorithm && isBaseline(frames)) {
@@ -329,9 +290,9 @@ class SceneSweeper {
       point.stats = frames.stats;
       return true;
     }
-    meter.measure(point, frames, scope_.comparesPaths(point));
+    measureErrors(point, frames);
     if (point.cause == Cause::arithmetic) copyErrorsOfRays(point, sweep_.points.front());
-    meter.addPictures(point, frames.film.image);
+    addPictures(point, frames.film.image);
     return true;
   }
 
@@ -374,7 +335,15 @@ class SceneSweeper {
   std::unique_ptr<FrameSource> baseline_;
   std::optional<PointTimer> timer_;
   std::optional<TransportPicture> transport_;  // set if it is the truth
-  Stopwatch points_;                           // runs without the picture with all transport
+  // The reference, or the part of Whitted's model in the picture with all transport, and the exact
+  // picture at equal samples; both are the cache's.
+  const ReferencePicture* reference_ = nullptr;
+  const Image* exact_ = nullptr;
+  // The difference of the reference from the picture with all transport.
+  std::optional<ImageDifference> leftOut_;
+  std::map<std::string, Image> exactPackets_;  // key: digest of the options
+  std::map<std::string, ReferencePaths> referencePaths_;
+  Stopwatch points_;  // runs without the picture with all transport
   SceneSweep sweep_;
 };
 

@@ -246,12 +246,6 @@ std::string verdict(const CompareJob& job, const Comparison& c, bool passed) {
   return "verdict: " + text + (judged ? judgment : "");
 }
 
-bool stagesPass(const Comparison& comparison) {
-  if (!comparison.stages) return true;
-  return std::all_of(comparison.stages->begin(), comparison.stages->end(),
-                     [](const StageDifference& row) { return row.worstUlp <= row.limitUlp; });
-}
-
 void writeHeatMap(const CompareJob& job, const Compared& compared) {
   const WriteScope scope;
   ImageMetadata metadata{{"a", job.subjects[0]}, {"b", job.subjects.back()}};
@@ -307,7 +301,11 @@ int compareCommand(const Words& words) {
   if (!job.json.empty()) writeJson(job.json, compareJson(compared.numbers));
   if (!job.heatmap.empty()) writeHeatMap(job, compared);
   const bool pictures = picturesPass(job, compared.numbers.difference);
-  const bool passed = stagesPass(compared.numbers) && pictures;
+  const bool stages = !compared.numbers.stages ||
+                      std::ranges::all_of(*compared.numbers.stages, [](const StageDifference& row) {
+                        return row.worstUlp <= row.limitUlp;
+                      });
+  const bool passed = stages && pictures;
   if (people == stdout || !job.common.quiet) {
     std::fprintf(people, "%s\n", verdict(job, compared.numbers, passed).c_str());
   }

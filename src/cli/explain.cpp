@@ -1,6 +1,5 @@
 // whit explain: the tree of rays of one pixel, as text, as JSON and drawn over the scene.
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -74,10 +73,6 @@ struct Explained {
   PixelPlace place;
   ExplainedRays rays;
 };
-
-std::array<std::uint8_t, 3> codesOf(const Rgb& pixel, const RenderOptions& o) {
-  return displayCodes(pixel, std::exp2(double{o.exposure.ev}), o.toneCurve);
-}
 
 // Lists what adds more than so much, and counts the rest.
 class TreeText {
@@ -225,9 +220,7 @@ std::string legendSvg(const std::vector<RayLine>& lines, int height) {
   constexpr double kLine = 18, kLeft = 12, kSample = 30;
   std::string svg;
   double y = height - kLine;
-  for (const RayLook look : rayLooks()) {
-    const auto isDrawn = [&](const RayLine& line) { return line.look == look; };
-    if (std::ranges::none_of(lines, isDrawn)) continue;
+  for (const RayLook look : looksOf(lines)) {
     svg += lineSvg({kLeft, y - 4, kLeft + kSample, y - 4}, look, 2);
     svg += wordSvg(kLeft + kSample + 8, y, styleOf(look).name);
     y -= kLine;

@@ -6,14 +6,6 @@
 
 namespace whit {
 
-namespace {
-
-void keep(std::span<float> layer, std::size_t pixel, std::initializer_list<float> values) {
-  std::ranges::copy(values, layer.begin() + static_cast<std::ptrdiff_t>(pixel * values.size()));
-}
-
-}  // namespace
-
 ChannelSet parseChannels(const std::string& commaSeparated) {
   ChannelSet set;
   for (const std::size_t i : indicesOf(commaSeparated, namesIn(kChannels), "channel")) {
@@ -51,7 +43,7 @@ void ChannelLayers::resize(ChannelSet channels, std::size_t pixels) {
 
 void ChannelLayers::keep(std::size_t pixel, const ChannelValues& v) {
   const auto keepFloats = [&](Channel c, std::initializer_list<float> values) {
-    if (channels_.has(c)) whit::keep(floats(c), pixel, values);
+    if (channels_.has(c)) std::ranges::copy(values, &floats(c)[pixel * values.size()]);
   };
   const auto keepNumber = [&](Channel c, std::uint32_t number) {
     if (channels_.has(c)) numbers(c)[pixel] = number;

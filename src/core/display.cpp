@@ -19,15 +19,6 @@ float leastWithCode(int code) {
   return high;
 }
 
-std::array<float, 257> makeLeastWithCodes() {
-  std::array<float, 257> least{};
-  for (int code = 0; code < 256; ++code) {
-    least[static_cast<std::size_t>(code)] = leastWithCode(code);
-  }
-  least[256] = std::numeric_limits<float>::infinity();
-  return least;
-}
-
 // Hable's rational curve with the published parameters: shoulder, linear strength and angle, toe
 // strength, toe numerator and denominator.
 double hable(double x) {
@@ -64,7 +55,12 @@ int srgbCode(double linear) {
 }
 
 const std::array<float, 257>& leastWithCodes() {
-  static const std::array<float, 257> least = makeLeastWithCodes();
+  static const std::array<float, 257> least = [] {
+    std::array<float, 257> of{};
+    for (int code = 0; code < 256; ++code) of[static_cast<std::size_t>(code)] = leastWithCode(code);
+    of[256] = std::numeric_limits<float>::infinity();
+    return of;
+  }();
   return least;
 }
 

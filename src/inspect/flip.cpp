@@ -121,21 +121,14 @@ Vec3f xyzOfOpponent(const Vec3f& o) {
 
 using Planes = std::array<Plane, 3>;
 
-std::vector<Rgb> linearOf(const DisplayImage& image) {
-  std::vector<Rgb> pixels(image.rgba.size() / 4);
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const std::uint8_t* code = image.rgba.data() + 4 * i;
-    pixels[i] = {linearOfCode(code[0]), linearOfCode(code[1]), linearOfCode(code[2])};
-  }
-  return pixels;
-}
-
-Planes opponentPlanes(const std::vector<Rgb>& pixels, int width, int height) {
+Planes opponentPlanes(const DisplayImage& image) {
   const Matrix& toXyz = colorSpace().toXyz;
   Planes planes;
-  planes.fill(Plane(width, height));
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const Vec3f o = opponentOfXyz(toXyz * pixels[i]);
+  planes.fill(Plane(image.width, image.height));
+  for (std::size_t i = 0; i < planes[0].values.size(); ++i) {
+    const std::uint8_t* code = image.rgba.data() + 4 * i;
+    const Vec3f o = opponentOfXyz(
+        toXyz * Rgb{linearOfCode(code[0]), linearOfCode(code[1]), linearOfCode(code[2])});
     for (int c = 0; c < 3; ++c) planes[static_cast<std::size_t>(c)].values[i] = o[c];
   }
   return planes;
@@ -227,13 +220,6 @@ std::vector<Vec3f> filteredLab(const Planes& opponent) {
   return lab;
 }
 
-std::vector<float> magnitudes(const Plane& x, const Plane& y) {
-  std::vector<float> result(x.values.size());
-  for (std::size_t i = 0; i < result.size(); ++i)
-    result[i] = std::sqrt(x.values[i] * x.values[i] + y.values[i] * y.values[i]);
-  return result;
-}
-
 // The filtered channels that FLIP computes from one image.
 struct FlipSide {
   std::vector<Vec3f> lab;          // filtered, Hunt-adjusted
@@ -257,22 +243,29 @@ void findFeatures(const Plane& achromatic, FlipSide& side) {
   const Taps smoothing = balanced(gaussian);
   const Plane smooth = filterAlongX(luminance, smoothing);
   const auto magnitudesOf = [&](const Taps& taps) {
-    return magnitudes(filterAlongY(filterAlongX(luminance, taps), smoothing),
-                      filterAlongY(smooth, taps));
+    const Plane x = filterAlongY(filterAlongX(luminance, taps), smoothing);
+    const Plane y = filterAlongY(smooth, taps);
+    std::vector<float> result(x.values.size());
+    for (std::size_t i = 0; i < result.size(); ++i)
+      result[i] = std::sqrt(x.values[i] * x.values[i] + y.values[i] * y.values[i]);
+    return result;
   };
   side.edge = magnitudesOf(balanced(edge));
   side.point = magnitudesOf(balanced(point));
 }
 
 FlipSide flipSide(const DisplayImage& image) {
-  const Planes opponent = opponentPlanes(linearOf(image), image.width, image.height);
+  const Planes opponent = opponentPlanes(image);
   FlipSide side;
   side.lab = filteredLab(opponent);
   findFeatures(opponent[0], side);
   return side;
 }
 
-std::vector<float> flipBetween(const FlipSide& a, const FlipSide& b) {
+}  // namespace
+
+std::vector<float> flipOfCodes(const DisplayImage& first, const DisplayImage& second) {
+  const FlipSide a = flipSide(first), b = flipSide(second);
   std::vector<float> flip(a.lab.size());
   for (std::size_t i = 0; i < flip.size(); ++i) {
     const float color = redistribute(hyAb(a.lab[i], b.lab[i]));
@@ -283,12 +276,6 @@ std::vector<float> flipBetween(const FlipSide& a, const FlipSide& b) {
     flip[i] = std::pow(color, 1 - std::min(scaled, 1.0f));
   }
   return flip;
-}
-
-}  // namespace
-
-std::vector<float> flipOfCodes(const DisplayImage& a, const DisplayImage& b) {
-  return flipBetween(flipSide(a), flipSide(b));
 }
 
 }  // namespace whit

@@ -50,6 +50,6 @@ ValueDifference differenceOf(std::span<const float> a, std::span<const float> b)
 ValueDifference differenceOf(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b);
 
 // Computes FLIP (LDR-FLIP) for two encoded images, as they are displayed, of the same size.
-std::vector<float> flipOfCodes(const DisplayImage& a, const DisplayImage& b);
+std::vector<float> flipOfCodes(const DisplayImage& first, const DisplayImage& second);
 
 }  // namespace whit

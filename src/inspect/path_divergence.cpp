@@ -2,6 +2,7 @@
 
 #include <atomic>
 
+#include "bake/coplanar_triangles.h"
 #include "core/image.h"
 #include "reference/reference.h"
 
@@ -9,17 +10,11 @@ namespace whit {
 
 namespace {
 
-// splitmix64's finalizer: sums of it tell multisets apart.
-std::uint64_t mixed(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15u;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
-}
+// Sums of mixed numbers tell multisets apart. 0 is no event, because it mixes to 0.
 std::uint64_t hitEvent(std::uint32_t triangle, std::uint32_t instance) {
-  return mixed(mixed(triangle) ^ instance);
+  return mixed(orderOf({triangle, instance}) + 3);
 }
-std::uint64_t shadowEvent(bool visible) { return mixed(visible ? 0x51 : 0x52); }
+std::uint64_t shadowEvent(bool visible) { return mixed(std::uint64_t{visible ? 1u : 2u}); }
 
 // A pixel's signature: the sum of its events, whatever their order. Observers of workers that share
 // the tiles write to the same signatures, one a pixel of the window.
@@ -55,30 +50,24 @@ class SignatureObserver : public StageObserver {
   std::vector<std::uint64_t>& signatures_;
 };
 
-class RecordingIntersector : public reference::Intersector {
+class RecordingIntersector : public EmbreeIntersector {
  public:
-  explicit RecordingIntersector(const Accel& accel) : embree_(accel) {}
-  bool closest(const reference::Ray& ray, reference::Candidate& c) const override {
-    return embree_.closest(ray, c);
-  }
+  using EmbreeIntersector::EmbreeIntersector;
   void met(const reference::Candidate& c) const override {
     signature += hitEvent(c.triangle, c.instance);
   }
   bool occluded(const reference::Ray& ray, double tFar) const override {
-    const bool blocked = embree_.occluded(ray, tFar);
+    const bool blocked = EmbreeIntersector::occluded(ray, tFar);
     signature += shadowEvent(!blocked);
     return blocked;
   }
   mutable std::uint64_t signature = 0;
-
- private:
-  EmbreeIntersector embree_;
 };
 
 }  // namespace
 
 ReferencePaths traceReferencePaths(Renderer& renderer, const Camera& camera, const Film& film) {
-  const CameraFrame frame = renderer.referenceFrame(camera, film);
+  const CameraFrame frame = renderer.lookFrom(camera, film);
   const reference::Settings settings = renderer.referenceSettings();
   ReferencePaths paths{film.image, std::vector<std::uint64_t>(film.image.pixels.size())};
   const Crop& window = film.image.window;

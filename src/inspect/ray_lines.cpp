@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <utility>
 
 #include "core/vec3.h"
@@ -80,14 +81,12 @@ double shareSeen(const std::vector<SeenPoint>& points, const Camera& camera, con
 
 }  // namespace
 
-std::vector<RayLook> rayLooks() {
-  std::vector<RayLook> looks;
-  for (const RayKindRow& row : kRayKinds) {
-    looks.push_back({row.kind, false});
-    if (row.onlyAsk()) looks.push_back({row.kind, true});
-  }
-  std::stable_partition(looks.begin(), looks.end(), [](RayLook look) { return !isDashed(look); });
-  return looks;
+std::vector<RayLook> looksOf(const std::vector<RayLine>& lines) {
+  std::set<RayLook> looks;
+  for (const RayLine& line : lines) looks.insert(line.look);
+  std::vector<RayLook> sorted(looks.begin(), looks.end());
+  std::ranges::stable_sort(sorted, {}, isDashed);
+  return sorted;
 }
 
 std::vector<RayLine> linesOf(const RayTree& tree, const Camera& camera) {

@@ -125,9 +125,9 @@ class TreeObserver : public StageObserver {
 };
 
 // Writes the tree down while the reference follows its paths, one after the other.
-class TreeIntersector : public reference::Intersector {
+class TreeIntersector : public EmbreeIntersector {
  public:
-  TreeIntersector(const Accel& accel, RayTree& tree) : embree_(accel), tree_(tree) {}
+  TreeIntersector(const Accel& accel, RayTree& tree) : EmbreeIntersector(accel), tree_(tree) {}
 
   void beginSample() {
     current_ = tree_.nodes.size();
@@ -141,7 +141,7 @@ class TreeIntersector : public reference::Intersector {
     RayNode& n = tree_.nodes[current_];
     n.origin = ray.origin;
     n.direction = ray.direction;
-    return embree_.closest(ray, c);
+    return EmbreeIntersector::closest(ray, c);
   }
   void met(const reference::Candidate& c) const override {
     RayNode& n = tree_.nodes[current_];
@@ -154,7 +154,7 @@ class TreeIntersector : public reference::Intersector {
     light.traced = true;
     light.origin = ray.origin;
     light.toLight = ray.direction;
-    light.visible = !embree_.occluded(ray, tFar);
+    light.visible = !EmbreeIntersector::occluded(ray, tFar);
     tree_.nodes[current_].lights.push_back(light);
     return !light.visible;
   }
@@ -176,7 +176,6 @@ class TreeIntersector : public reference::Intersector {
   }
 
  private:
-  EmbreeIntersector embree_;
   RayTree& tree_;
   mutable std::size_t current_ = 0;
 };
@@ -293,7 +292,7 @@ RayTree traceReferenceTree(Renderer& renderer, const Camera& camera, const Film&
   tree.samples = samples;
   TreeIntersector intersector(renderer.accel(), tree);
   const reference::Tracer tracer(renderer.scene(), intersector, renderer.referenceSettings());
-  const CameraFrame frame = renderer.referenceFrame(camera, film);
+  const CameraFrame frame = renderer.lookFrom(camera, film);
   reference::RayCounts counts;
   RgbD mean;
   for (std::size_t s = 0; s < samples.size(); ++s) {

@@ -96,8 +96,6 @@ struct RayLook {
 
   auto operator<=>(const RayLook&) const = default;
 };
-// In the order of a legend: rays that go on before those that only ask.
-std::vector<RayLook> rayLooks();
 constexpr const RayStyle& styleOf(RayLook look) {
   return look.blocked ? rowOf(look.kind).blocked : rowOf(look.kind).style;
 }
@@ -109,6 +107,10 @@ struct RayLine {
   std::size_t node = 0;  // of the tree; of a shadow ray that which sent it
   double width = 0;      // pixels; thinner for what weighs less at the eye
 };
+
+// The looks that some of the lines have, in the order of a legend: rays that go on before those
+// that only ask.
+std::vector<RayLook> looksOf(const std::vector<RayLine>& lines);
 
 // Rays that leave the scene end after a fifth of the tree's extent. What weighs most comes last.
 // `camera` is the camera that sent the rays.

@@ -358,7 +358,7 @@ class StageComparer : public StageObserver {
         intersector_(renderer.accel()),
         maps_(trilinear(renderer) ? MipMaps(renderer.scene()) : MipMaps()),
         world_{renderer.scene(), renderer.plan().effects, trilinear(renderer) ? &maps_ : nullptr,
-               renderer.referenceFrame(camera, film), intersector_} {}
+               renderer.lookFrom(camera, film), intersector_} {}
 
   void after(Stage stage, const Chunk& chunk) override {
     tracker_.follow(stage, chunk);

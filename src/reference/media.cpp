@@ -45,7 +45,7 @@ MediaStack initialMediumStack(const Scene& scene, EffectSet effects, const Inter
   for (std::uint64_t i = 0; i < most && found < 4; ++i) {
     Candidate candidate;
     if (!intersector.closest(ray, candidate)) break;
-    candidate = settleSpheres(scene, effects, ray, candidate);
+    candidate = settleSpheres(scene, effects, candidate);
     const TriangleHit hit = refineHit(scene, ray, candidate);
     const Surfel surfel = makeSurfel(scene, EffectSet(), candidate, hit, ray);
     std::vector<Place> places = placesAt(scene, effects, ray, candidate);

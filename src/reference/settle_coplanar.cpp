@@ -120,7 +120,7 @@ std::vector<Place> placesAt(const Scene& scene, EffectSet effects, const Ray& ra
 
 Settled settleCoplanar(const Scene& scene, EffectSet effects, const Ray& ray,
                        const Candidate& met) {
-  if (scene.isSphere(met.triangle)) return {settleSpheres(scene, effects, ray, met), {}};
+  if (scene.isSphere(met.triangle)) return {settleSpheres(scene, effects, met), {}};
   if (scene.coplanar.empty()) return {met, {}};
   const std::vector<Place> places = placesAt(scene, effects, ray, met);
   if (places.empty()) return {met, {}};
@@ -137,19 +137,20 @@ Settled settleCoplanar(const Scene& scene, EffectSet effects, const Ray& ray,
   return settled;
 }
 
-Candidate settleSpheres(const Scene& scene, EffectSet effects, const Ray& ray,
-                        const Candidate& met) {
-  const auto place = scene.coincidentSpheres.find(orderOf({met.triangle, met.instance}));
+Candidate settleSpheres(const Scene& scene, EffectSet effects, const Candidate& met) {
+  const auto place = scene.coincidentSpheres.find(orderOf(idOf(met)));
   if (place == scene.coincidentSpheres.end()) return met;
-  const Vec3d point = ray.origin + ray.direction * refineSphereHit(scene, ray, met).t;
+  const PlacedTriangleId sphere = idOf(met);
+  const Vec3d point = sphereInWorld(scene, sphere).point(spherePoint(met.u, met.v));
   std::optional<Place> best;
   std::uint32_t rank = 0;
   for (const PlacedTriangleId& id : *place->second) {
     if (id.instance != kNoInstance && !effects.has(Effect::instances)) continue;
     const auto [u, v] = sphereWeights(onUnitSphere(sphereInWorld(scene, id), point));
     const TriangleHit hit{0, u, v};
-    const bool isMet = id == idOf(met);
-    if (!isMet && effects.has(Effect::alphaMasks) && cutAway(scene, id.triangle, hit)) continue;
+    if (id != sphere && effects.has(Effect::alphaMasks) && cutAway(scene, id.triangle, hit)) {
+      continue;
+    }
     const std::uint32_t material = scene.triangles[id.triangle].material;
     const Place own{{id.triangle, id.instance, u, v},         hit,
                     scene.mediumOfMaterial[material],         false,

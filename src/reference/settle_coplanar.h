@@ -42,7 +42,6 @@ Settled settleCoplanar(const Scene& scene, EffectSet effects, const Ray& ray, co
 // Chooses among coincident spheres by the rule for coplanar triangles: an opaque sphere comes
 // first, then a sheet, then the dielectric of highest priority, and of equals the last in the
 // scene. A sphere does not count where its mask cuts it away.
-Candidate settleSpheres(const Scene& scene, EffectSet effects, const Ray& ray,
-                        const Candidate& met);
+Candidate settleSpheres(const Scene& scene, EffectSet effects, const Candidate& met);
 
 }  // namespace whit::reference

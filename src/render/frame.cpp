@@ -29,21 +29,15 @@ Camera aimed(Camera camera, const RenderOptions& options) {
 }
 
 Camera chooseCamera(const Scene& scene, const RenderOptions& options) {
-  Camera camera = scene.cameras.front();
-  if (!options.camera.empty()) {
-    std::vector<std::string> names;
-    const Camera* found = nullptr;
-    for (const Camera& c : scene.cameras) {
-      names.push_back(c.name);
-      if (c.name == options.camera) found = &c;
-    }
-    if (!found) {
-      throwUsage("scene '" + scene.name + "' has no camera '" + options.camera + "'" +
-                 didYouMean(options.camera, names));
-    }
-    camera = *found;
+  if (options.camera.empty()) return aimed(scene.cameras.front(), options);
+  const auto& cameras = scene.cameras;
+  const auto found = std::find_if(cameras.rbegin(), cameras.rend(),
+                                  [&](const Camera& c) { return c.name == options.camera; });
+  if (found == cameras.rend()) {
+    throwUsage("scene '" + scene.name + "' has no camera '" + options.camera + "'" +
+               didYouMean(options.camera, namesIn(cameras)));
   }
-  return aimed(camera, options);
+  return aimed(*found, options);
 }
 
 Camera cameraOnPath(const Scene& scene, const RenderOptions& options, double seconds) {

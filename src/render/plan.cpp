@@ -72,26 +72,22 @@ KernelUse useOf(const simd::Kernel& kernel) {
   return {kernel.stage, std::string(kernel.name), simd::chosenTarget()};
 }
 
-Step stepOf(const simd::Kernel& kernel) {
-  return {.name = std::string(kernel.name),
-          .number = simd::indexOf(kernel),
-          .stage = kernel.stage,
-          .run = kernel.find(),
-          .reads = kernel.reads,
-          .writes = kernel.writes,
-          .kernels = {useOf(kernel)}};
-}
-
 // A step that is no kernel is counted with the kernel whose columns it amends.
-Step amendingStep(const char* name, const simd::Kernel& kernel, StepFunction run, Parts reads,
+Step amendingStep(std::string_view name, const simd::Kernel& kernel, StepFunction run, Parts reads,
                   Parts writes) {
-  return {.name = name,
+  return {.name = std::string(name),
           .number = simd::indexOf(kernel),
           .stage = kernel.stage,
           .run = run,
           .reads = reads,
           .writes = writes,
           .kernels = {}};
+}
+
+Step stepOf(const simd::Kernel& kernel) {
+  Step step = amendingStep(kernel.name, kernel, kernel.find(), kernel.reads, kernel.writes);
+  step.kernels = {useOf(kernel)};
+  return step;
 }
 
 // Rays to Embree and back: one at a time, or in packets that kernels fill and empty.

@@ -116,7 +116,10 @@ CameraFrame Renderer::lookFrom(const Camera& camera, const Film& film) {
     accel_->setEnclosed(false);
     accel_->setEnclosed(isEnclosed(*accel_, camera.eye));
   }
-  return frameWithMedia({scene_, *accel_, plan_.effects}, camera, film.image, dielectrics_);
+  CameraFrame frame = reference::frameWithMedia(scene_, plan_.effects, EmbreeIntersector(*accel_),
+                                                camera, film.image.width, film.image.height);
+  if (frame.reach != Vec3d()) frame.mediaVary = startsMeet(frame, dielectrics_);
+  return frame;
 }
 
 FrameConstants Renderer::constantsOf(const CameraFrame& camera) const {
@@ -294,12 +297,6 @@ bool EmbreeIntersector::occluded(const reference::Ray& ray, double tFar) const {
 
 reference::Settings Renderer::referenceSettings() const {
   return {options_, plan_.effects, machine_.threads};
-}
-
-CameraFrame Renderer::referenceFrame(const Camera& camera, const Film& film) {
-  lookFrom(camera, film);
-  return reference::frameWithMedia(scene_, plan_.effects, EmbreeIntersector(*accel_), camera,
-                                   film.image.width, film.image.height);
 }
 
 FrameStats Renderer::renderReference(const Camera& camera, Film& film, Progress* progress) {

@@ -116,11 +116,9 @@ class Renderer {
   const Machine& machine() const { return machine_; }
   Scheduler& scheduler() { return scheduler_; }
 
-  // The camera for a film of that size, and the media around it, as kernels and as the reference
-  // compute them. Rays that find nothing are retried if the eye, too, is where the scene is closed:
-  // outside, most of them find nothing for good.
+  // The camera for a film of that size, and the media around it. Rays that find nothing are retried
+  // if the eye, too, is where the scene is closed: outside, most of them find nothing for good.
   CameraFrame lookFrom(const Camera& camera, const Film& film);
-  CameraFrame referenceFrame(const Camera& camera, const Film& film);
   FrameConstants constantsOf(const CameraFrame& camera) const;
   reference::Settings referenceSettings() const;
 

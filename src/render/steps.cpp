@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -12,7 +13,10 @@
 #include "core/error.h"
 #include "core/image.h"
 #include "core/text.h"
-#include "render/frame.h"
+#include "reference/media.h"
+#include "reference/settle_coplanar.h"
+#include "reference/world.h"
+#include "render/renderer.h"
 #include "simd/kernels.h"
 
 namespace whit {
@@ -66,23 +70,30 @@ ChannelValues valuesOf(const Chunk& c, std::size_t i) {
   return values;
 }
 
-// A shadow ray, kept before the kernel packs what is left more closely.
-struct KeptRay {
-  std::uint32_t slot;
-  Vec3f origin, direction;
-  float tFar;
-};
+void setSurface(const reference::Candidate& chosen, std::size_t i, Chunk& c) {
+  c.hits.triangle[i] = chosen.triangle;
+  if (c.has(Feature::instances)) c.hits.instance[i] = chosen.instance;
+  c.hits.u[i] = static_cast<float>(chosen.u);
+  c.hits.v[i] = static_cast<float>(chosen.v);
+}
 
-std::vector<KeptRay> raysOf(const Chunk& c) {
-  std::vector<KeptRay> rays;
-  const ShadowColumns& s = c.shadows;
-  for (std::size_t i = 0; i < c.shadowCount; ++i) {
-    rays.push_back({s.slot[i],
-                    {s.orgX[i], s.orgY[i], s.orgZ[i]},
-                    {s.dirX[i], s.dirY[i], s.dirZ[i]},
-                    s.tFar[i]});
+Box boundsWithin(const Scene& scene, const Geometry& geometry) {
+  Box box;
+  for (std::size_t i = 0; i < geometry.index.size(); ++i) {
+    const TriangleRecord& triangle = scene.triangles[geometry.firstTriangle + i];
+    if (scene.mediumOfMaterial[triangle.material] == 0) continue;
+    for (int k = 0; k < 9; k += 3) {
+      box.add({triangle.position[k], triangle.position[k + 1], triangle.position[k + 2]});
+    }
   }
-  return rays;
+  for (std::uint32_t i = 0; i < geometry.spheres; ++i) {
+    const TriangleRecord& sphere = scene.triangles[geometry.firstSphere + i];
+    if (scene.mediumOfMaterial[sphere.material] == 0) continue;
+    const Box own = sphereBounds(sphereMap(sphere));
+    box.add(own.lower);
+    box.add(own.upper);
+  }
+  return box;
 }
 
 }  // namespace
@@ -166,16 +177,19 @@ void keepRayCounts(Chunk& c) {
 }
 
 void auditShadows(Chunk& c) {
-  const std::vector<KeptRay> rays = raysOf(c);
+  // The rays as they are before the kernel packs what is left more closely.
+  std::vector<ShadowRow> rays;
+  for (std::size_t i = 0; i < c.shadowCount; ++i) rays.push_back(ShadowRow::at(c.shadows, i));
   simd::kDecideShadows.find()(c);
   const std::uint32_t *const slots = c.shadows.slot, *const end = slots + c.shadowCount;
-  for (const KeptRay& ray : rays) {
+  for (const ShadowRow& ray : rays) {
     if (std::binary_search(slots, end, ray.slot)) continue;
     const bool lit = c.unshadowed.visible[ray.slot] > 0;
-    if (c.frame->accel->occluded(ray.origin, ray.direction, ray.tFar) != lit) continue;
+    const Vec3f origin(Vec3d{ray.orgX, ray.orgY, ray.orgZ});
+    const Vec3f direction(Vec3d{ray.dirX, ray.dirY, ray.dirZ});
+    if (c.frame->accel->occluded(origin, direction, static_cast<float>(ray.tFar)) != lit) continue;
     if (c.meter->wrongShadow) return;
-    c.meter->wrongShadow = {true,       lit,          c.lightNumber, c.hits.triangle[ray.slot],
-                            ray.origin, ray.direction};
+    c.meter->wrongShadow = {true, lit, c.lightNumber, c.hits.triangle[ray.slot], origin, direction};
     return;
   }
 }
@@ -192,6 +206,69 @@ void requireRightShadows(const FrameStats& stats, const Scene& scene) {
                 wrong.light, name.empty() ? "" : " ", name.c_str(), wrong.triangle, o.x, o.y, o.z,
                 d.x, d.y, d.z, wrong.saidLit ? "blocked" : "not blocked",
                 wrong.saidLit ? "lit" : "dark"));
+}
+
+void settleCoplanar(Chunk& c) {
+  const Scene& scene = *c.frame->scene;
+  std::fill_n(c.hits.alsoCrossed, c.n, 0u);
+  for (std::size_t i = 0; i < c.n; ++i) {
+    if (!scene.coplanar.any(c.hits.triangle[i])) continue;
+    const reference::Settled settled = reference::settleCoplanar(
+        scene, c.frame->effects, reference::rayOf(c, i), reference::candidateOf(c, i));
+    if (!settled.isCoplanar) continue;
+    setSurface(settled.candidate, i, c);
+    c.hits.t[i] = static_cast<float>(settled.hit.t);
+    c.hits.alsoCrossed[i] = settled.alsoCrossed;
+  }
+}
+
+void settleSpheres(Chunk& c) {
+  for (std::size_t i = 0; i < c.n; ++i) {
+    const reference::Candidate found = reference::candidateOf(c, i);
+    const reference::Candidate chosen =
+        reference::settleSpheres(*c.frame->scene, c.frame->effects, found);
+    const bool isFound = chosen.triangle == found.triangle && chosen.instance == found.instance;
+    if (!isFound) setSurface(chosen, i, c);
+  }
+}
+
+Box dielectricBounds(const Scene& scene) {
+  std::vector<Box> boxes;
+  for (const Geometry& geometry : scene.geometries) boxes.push_back(boundsWithin(scene, geometry));
+  Box all = boxes.empty() ? Box() : boxes[0];
+  for (const InstanceRecord& instance : scene.instances) {
+    const Box& own = boxes[instance.geometry];
+    for (int i = 0; i < 8 && !own.empty(); ++i) {
+      all.add(Vec3f(instance.toWorld.point(Vec3d(own.corner(i)))));
+    }
+  }
+  return all;
+}
+
+bool startsMeet(const CameraFrame& camera, const Box& dielectrics) {
+  if (dielectrics.empty()) return false;
+  const Vec3d lower = Vec3d(dielectrics.lower), upper = Vec3d(dielectrics.upper);
+  double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
+  for (int i = 0; i < 8; ++i) {
+    const double ahead = dot(Vec3d(dielectrics.corner(i)) - camera.eye, camera.forward);
+    nearest = std::min(nearest, ahead);
+    farthest = std::max(farthest, ahead);
+  }
+  if (nearest > 0 || farthest < 0) return false;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (camera.eye[axis] + camera.reach[axis] < lower[axis]) return false;
+    if (camera.eye[axis] - camera.reach[axis] > upper[axis]) return false;
+  }
+  return true;
+}
+
+void findInitialMedia(Chunk& c) {
+  if (!c.frame->camera.mediaVary) return;
+  const EmbreeIntersector intersector(*c.frame->accel);
+  for (std::size_t i = 0; i < c.n; ++i) {
+    c.rays.media[i] = reference::mediaAtStart(*c.frame->scene, c.frame->effects, intersector,
+                                              c.frame->camera, reference::rayOf(c, i));
+  }
 }
 
 }  // namespace whit

@@ -1,10 +1,9 @@
 // Steps of a plan that are no kernels, besides those of accel/accel.h.
 #pragma once
 
-#include <vector>
+#include <cstdint>
 
-#include "accel/accel.h"
-#include "core/image.h"
+#include "bake/scene.h"
 #include "core/vec3.h"
 #include "scene/camera.h"
 #include "stages/chunk.h"
@@ -36,66 +35,25 @@ void returnRayCounts(Chunk& c);  // to the parents
 void keepRayCounts(Chunk& c);
 
 // Steps after findHits, in scenes with coplanar triangles that overlap or with coincident spheres.
-
-// A scene as the steps of a plan trace it.
-struct TracedScene {
-  const Scene& scene;
-  const Accel& accel;
-  EffectSet effects;  // of the plan
-};
-
-struct Line {
-  Vec3d origin, direction;
-};
-
-struct LineHit {
-  double t = 0, u = 0, v = 0;
-};
-
-// A triangle that the ray hits, and what it is to the rule.
-struct CoplanarFace {
-  PlacedTriangleId id;
-  LineHit hit;
-  double nearest = 0, farthest = 0;  // bounds of the distance t, which was computed from floats
-  std::uint32_t rank = 0, medium = 0;
-  bool opaque = true, entering = false;
-};
-
-// The faces that the ray hits in the place of the triangle that Embree has found, that one
-// included, in the order of the scene. Empty if no other triangle lies there.
-std::vector<CoplanarFace> coplanarFaces(const TracedScene& traced, const Line& ray,
-                                        PlacedTriangleId found, double u, double v);
-
-// Chooses among the coplanar triangles that a ray hits in one place. Rounding decides which of them
-// Embree reports, so the choice depends on the scene and the ray's line alone: an opaque surface
-// comes first, then a sheet, then the dielectric of highest priority, and of equals the last in the
-// scene. Where a dielectric is chosen, `alsoCrossed` lists the other dielectrics that the ray
-// crosses there. The scalar reference has an implementation of its own
-// (reference/settle_coplanar.h).
+// They choose among the surfaces that a ray hits in one place, by the rule of
+// reference/settle_coplanar.h, and note the dielectrics that the ray crosses there
+// (HitColumns::alsoCrossed). The rule is the reference's own: few rays need it, and it has to be
+// computed in double.
 void settleCoplanar(Chunk& c);
-
-struct SphereHit {
-  PlacedTriangleId id;
-  double u = 0, v = 0;
-};
-
-// The one of coincident exact spheres that counts where Embree has found one of them, by the same
-// rule. The others are as if they were not there.
-SphereHit chosenSphere(const TracedScene& traced, const SphereHit& found);
 void settleSpheres(Chunk& c);
 
-// The dielectrics that primary rays start inside of. All rays of a perspective camera start in one
-// point, which may lie on the surface of a dielectric; those of a parallel camera start all over a
-// rectangle, through which such a surface may cut. Then each ray starts in media of its own. The
-// scalar reference has an implementation of its own (reference/media.h).
+// The dielectrics that primary rays start inside of (reference/media.h). All rays of a perspective
+// camera start in one point, which may lie on the surface of a dielectric; those of a parallel
+// camera start all over a rectangle, through which such a surface may cut. Then each ray starts in
+// media of its own.
 
 // A box around all surfaces of dielectrics, instances included; empty without any.
 Box dielectricBounds(const Scene& scene);
 
-// The camera for an image of that size, and the media around it; `dielectrics` are the bounds
+// True if rays that start at different points, all in the plane through the eye, may start in
+// different media. The test is conservative because it compares boxes; `dielectrics` are the bounds
 // above.
-CameraFrame frameWithMedia(const TracedScene& traced, Camera camera, const Image& image,
-                           const Box& dielectrics);
+bool startsMeet(const CameraFrame& camera, const Box& dielectrics);
 
 // A step after generateRays: the media of each ray, where they vary.
 void findInitialMedia(Chunk& c);

@@ -12,10 +12,11 @@
 
 #include <array>
 #include <barrier>
-#include <chrono>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "core/stopwatch.h"
 #include "render/frame.h"
 #include "render/plan.h"
 #include "stages/chunk.h"
@@ -26,23 +27,20 @@ namespace whit {
 // Splits a worker's time among the stages.
 class StageClock {
  public:
-  explicit StageClock(FrameStats& stats) : stats_(stats), last_(std::chrono::steady_clock::now()) {}
+  explicit StageClock(FrameStats& stats) : stats_(stats) {}
 
   // The time since the last lap belongs to `stage`; below depth 0 all of it is addImpulses.
   void lap(Stage stage, int depth) {
-    const auto now = std::chrono::steady_clock::now();
     const Stage account = depth == 0 || stage == Stage::updateImage ? stage : Stage::addImpulses;
-    stats_.stageWorkerMs[static_cast<std::size_t>(account)] +=
-        std::chrono::duration<double, std::milli>(now - last_).count();
+    stats_.stageWorkerMs[static_cast<std::size_t>(account)] += std::exchange(last_, {}).ms();
     ++stats_.stageCalls[static_cast<std::size_t>(stage)];
-    last_ = now;
   }
   // Time that no stage should be charged with, such as waiting for the others.
-  void skip() { last_ = std::chrono::steady_clock::now(); }
+  void skip() { last_ = Stopwatch(); }
 
  private:
   FrameStats& stats_;
-  std::chrono::steady_clock::time_point last_;
+  Stopwatch last_;
 };
 
 // Memory of each set of columns over all depths; 0 if the plan does not use the set.

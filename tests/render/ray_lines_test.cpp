@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "render/shipped_scene.h"
@@ -11,16 +12,24 @@ namespace whit::test {
 namespace {
 
 TEST(RayLines, EveryLookHasAColorOfItsOwn) {
+  std::vector<RayLine> lines;
+  for (const RayKindRow& row : kRayKinds) {
+    if (row.onlyAsk()) lines.push_back({{}, {}, {row.kind, true}});
+    lines.push_back({{}, {}, {row.kind, false}});
+    lines.push_back(lines.back());
+  }
+  const std::vector<RayLook> looks = looksOf(lines);
+  EXPECT_TRUE(std::ranges::is_sorted(looks, {}, isDashed));
   std::set<std::array<std::uint8_t, 3>> colors;
   std::set<std::string_view> names;
   std::set<RayKind> kinds;
-  for (const RayLook look : rayLooks()) {
+  for (const RayLook look : looks) {
     colors.insert(styleOf(look).color);
     names.insert(styleOf(look).name);
     kinds.insert(look.kind);
   }
-  EXPECT_EQ(colors.size(), rayLooks().size());
-  EXPECT_EQ(names.size(), rayLooks().size());
+  EXPECT_EQ(colors.size(), looks.size());
+  EXPECT_EQ(names.size(), looks.size());
   EXPECT_EQ(kinds.size(), kRayKindCount);
 }
 

@@ -1,9 +1,13 @@
 // The rays of a pixel as both ways to trace have found them, and the words for what is in them.
 #pragma once
 
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
+#include "core/display.h"
 #include "core/text.h"
 #include "inspect/ray_tree.h"
 
@@ -37,6 +41,9 @@ struct RayText {
 };
 RayText describeRay(const Scene& scene, const ExplainedRays& rays, std::size_t node);
 
+inline std::array<std::uint8_t, 3> codesOf(const Rgb& pixel, const RenderOptions& o) {
+  return displayCodes(pixel, std::exp2(double{o.exposure.ev}), o.toneCurve);
+}
 inline std::string textOf(const RgbD& c) { return formatted("%.5f %.5f %.5f", c.x, c.y, c.z); }
 
 }  // namespace whit::cli

@@ -11,22 +11,12 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "core/option_table.h"
 #include "core/text.h"
 
 extern char** environ;
 
 namespace whit::cli {
-
-namespace {
-
-// The path as a word of a shell's command. A leading dash would make it an option of ffmpeg.
-std::string quoted(const std::string& path) {
-  std::string word = path.starts_with('-') ? "'./" : "'";
-  for (const char c : path) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return word + "'";
-}
-
-}  // namespace
 
 bool hasFfmpeg() { return std::system("command -v ffmpeg >/dev/null 2>&1") == 0; }
 
@@ -35,21 +25,25 @@ FilmPipe::FilmPipe(const std::string& path, int width, int height, double fps) :
   file_.emplace(path);
   if (file_->temporaryPath() != path) scope_.emplace(file_->temporaryPath());
   // H.264 that all players show.
-  std::string command = formatted(
-      "exec ffmpeg -v error -f rawvideo -pix_fmt rgb0 -s %dx%d -r %.17g -i - -c:v libx264 -crf 18 "
-      "-pix_fmt yuv420p -movflags +faststart -f mp4 -y %s",
-      width, height, fps, quoted(file_->temporaryPath()).c_str());
+  std::vector<std::string> words = split(
+      formatted("ffmpeg -v error -f rawvideo -pix_fmt rgb0 -s %dx%d -r %.17g -i - -c:v libx264 "
+                "-crf 18 -pix_fmt yuv420p -movflags +faststart -f mp4 -y",
+                width, height, fps),
+      ' ');
+  // A leading dash would make the path an option.
+  words.push_back((path.starts_with('-') ? "./" : "") + file_->temporaryPath());
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
   signal(SIGPIPE, SIG_IGN);  // a program that has ended is then an error of the write
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throwIo(std::string("cannot make a pipe: ") + strerror(errno));
   pipe_ = ends[1];
-  std::string shell = "sh", option = "-c";
-  char* const words[] = {shell.data(), option.data(), command.data(), nullptr};
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
-  const int error = posix_spawn(&process_, "/bin/sh", &actions, nullptr, words, environ);
+  const int error = posix_spawnp(&process_, "ffmpeg", &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   close(ends[0]);
   if (error != 0) {

@@ -42,8 +42,6 @@ struct RunSummary {
 RunSummary summarize(const Scene& scene, const RenderOptions& options, const Renderer& renderer,
                      const Film& film, double loadMs);
 
-using whit::quantile;
-
 // The frame of median duration (the lower of the two middle ones): its stages add up.
 const FrameStats& medianFrame(const RunSummary& run);
 std::vector<double> frameTimes(const RunSummary& run);
