@@ -33,10 +33,10 @@ struct BodyPart {
 struct Placement {
   std::uint32_t body = 0;
   Affine toParent;
-  std::size_t partsBefore = 0;                     // number of the parent's parts that precede it
-  std::shared_ptr<const Motion> motion = nullptr;  // applied before toParent
-  std::string mover = {};                          // RigNode::name
-  ItemName item = nullptr;                         // the name of a body that is one item
+  std::size_t partsBefore = 0;    // number of the parent's parts that precede it
+  SharedMotion motion = nullptr;  // applied before toParent
+  std::string mover = {};         // RigNode::name
+  ItemName item = nullptr;        // the name of a body that is one item
 };
 
 // Numbers of parts and of items, which are also a place in the order of the scene.
