@@ -19,20 +19,8 @@ struct Source {
   Affine toGeometry;
   std::uint32_t firstVertex = 0;
   SceneOrder::PlacedMesh place;
-  std::uint32_t item = 0, firstOfItem = 0;  // the item's first triangle, as numberOf() has it
+  std::uint32_t item = 0, firstOfItem = 0;  // the item's first triangle, in the file's order
   TriangleClassification classified;
-
-  // The number of a triangle in the order of the file.
-  std::uint32_t numberOf(std::size_t triangle) const {
-    const std::vector<std::uint32_t>& order = mesh->order;
-    return place.firstTriangle +
-           (order.empty() ? static_cast<std::uint32_t>(triangle) : order[triangle]);
-  }
-  // True if the triangles of both are interleaved.
-  bool mingles(const Source& other) const {
-    return !mesh->order.empty() && !other.mesh->order.empty() && place.rank == other.place.rank &&
-           place.instance == other.place.instance;
-  }
 };
 
 struct PlacedSphere {
@@ -195,8 +183,7 @@ void Baker::numberTriangles(std::size_t g) {
   std::vector<Source>& sources = sources_[g];
   std::uint32_t end = 0;
   for (std::size_t s = 0; s < sources.size(); ++s) {
-    const bool mingles = s > 0 && sources[s].mingles(sources[s - 1]);
-    sources[s].place.firstTriangle = mingles ? sources[s - 1].place.firstTriangle : end;
+    sources[s].place.firstTriangle = end;
     const bool goesOn = s > 0 && sources[s].item == sources[s - 1].item;
     sources[s].firstOfItem = goesOn ? sources[s - 1].firstOfItem : sources[s].place.firstTriangle;
     end += static_cast<std::uint32_t>(sources[s].mesh->triangles.size());
@@ -404,9 +391,10 @@ void Baker::emitClass(const Source& source, std::size_t wanted, Geometry& geomet
       box.add(geometry.position[corner]);
     }
     geometry.index.push_back(corners);
-    if (isSearched_) order_.triangles.push_back(source.numberOf(i));
+    const auto number = static_cast<std::uint32_t>(source.place.firstTriangle + i);
+    if (isSearched_) order_.triangles.push_back(number);
     scene_.items.add(static_cast<std::uint32_t>(scene_.triangles.size()), source.item,
-                     source.numberOf(i) - source.firstOfItem);
+                     number - source.firstOfItem);
     std::uint64_t uvs = 0, normals = 0, colors = 0;
     const MaterialUse& use = uses_[mesh.material(i)];
     scene_.triangles.push_back(makeTriangleRecord(mesh, i, geometry.position, corners, use, uvs));

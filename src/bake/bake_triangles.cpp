@@ -180,7 +180,7 @@ NormalRecord makeNormalRecord(const Mesh& mesh, std::size_t triangle, const Tria
     Vec3f n;
     if (!mesh.normals.empty()) {
       n = mesh.normals[mesh.triangles[triangle][i]];
-      repaired += n == Vec3f{};
+      repaired += n == Vec3f{} && !mesh.hasFlatFaces;
     }
     if (n == Vec3f{}) {
       if (face == Vec3f{}) face = Vec3f(faceNormal(record));
