@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -19,20 +20,8 @@ struct Source {
   Affine toGeometry;
   std::uint32_t firstVertex = 0;
   SceneOrder::PlacedMesh place;
-  std::uint32_t item = 0, firstOfItem = 0;  // the item's first triangle, as numberOf() has it
+  std::uint32_t item = 0, firstOfItem = 0;  // the item's first triangle, in the file's order
   TriangleClassification classified;
-
-  // The number of a triangle in the order of the file.
-  std::uint32_t numberOf(std::size_t triangle) const {
-    const std::vector<std::uint32_t>& order = mesh->order;
-    return place.firstTriangle +
-           (order.empty() ? static_cast<std::uint32_t>(triangle) : order[triangle]);
-  }
-  // True if the triangles of both are interleaved.
-  bool mingles(const Source& other) const {
-    return !mesh->order.empty() && !other.mesh->order.empty() && place.rank == other.place.rank &&
-           place.instance == other.place.instance;
-  }
 };
 
 struct PlacedSphere {
@@ -40,6 +29,37 @@ struct PlacedSphere {
   std::uint32_t material = 0;
   std::uint64_t rank = 0;  // in the order of the scene
   std::uint32_t instance = 0, item = 0, number = 0;
+};
+
+bool isBefore(const Vec3f& a, const Vec3f& b) {
+  return std::array{a.x, a.y, a.z} < std::array{b.x, b.y, b.z};
+}
+
+// A triangle by its baked corners in ascending order, and what must be equal too for one of two in
+// the same place to be redundant. Which of them a ray meets would be left to the order in which
+// they are tested, and with it the last bits of the picture.
+struct PlacedTriangle {
+  PlacedTriangle(const Vec3f& a, const Vec3f& b, const Vec3f& c, std::uint32_t number,
+                 bool bothSides)
+      : corners{a, b, c}, material(number) {
+    const bool odd = isBefore(b, a) != isBefore(c, a);
+    turned = !bothSides && odd != isBefore(c, b);
+    std::ranges::sort(corners, isBefore);
+  }
+  bool operator==(const PlacedTriangle&) const = default;
+  std::uint64_t hash() const {
+    std::uint64_t all = material;
+    for (const Vec3f& p : corners) {
+      // Both zeros are the same place.
+      for (const float x : {p.x, p.y, p.z})
+        all = mixed(all + std::bit_cast<std::uint32_t>(x + 0.0f));
+    }
+    return all;
+  }
+
+  std::array<Vec3f, 3> corners;
+  std::uint32_t material;
+  bool turned = false;  // its corners run in the opposite direction, and one side alone is seen
 };
 
 class Baker {
@@ -195,8 +215,7 @@ void Baker::numberTriangles(std::size_t g) {
   std::vector<Source>& sources = sources_[g];
   std::uint32_t end = 0;
   for (std::size_t s = 0; s < sources.size(); ++s) {
-    const bool mingles = s > 0 && sources[s].mingles(sources[s - 1]);
-    sources[s].place.firstTriangle = mingles ? sources[s - 1].place.firstTriangle : end;
+    sources[s].place.firstTriangle = end;
     const bool goesOn = s > 0 && sources[s].item == sources[s - 1].item;
     sources[s].firstOfItem = goesOn ? sources[s - 1].firstOfItem : sources[s].place.firstTriangle;
     end += static_cast<std::uint32_t>(sources[s].mesh->triangles.size());
@@ -272,7 +291,7 @@ void Baker::dropCoincident(std::size_t g) {
     const Source& source = sources_[g][s];
     if (source.mesh->deformation) continue;
     for (auto i = static_cast<std::uint32_t>(source.mesh->triangles.size()); i-- > 0;) {
-      if (source.classified.has(i, kDroppedClass)) continue;
+      if (source.classified.classes[i] == kDroppedClass) continue;
       if (scene_.materials[source.mesh->material(i)].hasTransmission()) continue;
       places.push_back({s, i});
     }
@@ -283,13 +302,29 @@ void Baker::dropCoincident(std::size_t g) {
     const auto& [a, b, c] = source.mesh->triangles[i];
     const Vec3f* own = position.data() + source.firstVertex;
     const std::uint32_t material = source.mesh->material(i);
-    return PlacedTriangle{
-        {own[a], own[b], own[c]}, material, scene_.materials[material].doubleSided};
+    return PlacedTriangle(own[a], own[b], own[c], material, scene_.materials[material].doubleSided);
   };
-  for (const std::uint64_t k : findCoincident(places.size(), triangle)) {
+  std::vector<std::pair<std::uint64_t, std::size_t>> order(places.size());  // by their hashes
+  for (std::size_t k = 0; k < order.size(); ++k) order[k] = {triangle(k).hash(), k};
+  std::ranges::sort(order);
+  std::vector<std::size_t> again;
+  std::vector<PlacedTriangle> kept;  // of one hash
+  for (std::size_t n = 1; n < order.size(); ++n) {
+    const auto [hash, k] = order[n];
+    if (hash != order[n - 1].first) {
+      kept.clear();
+      continue;
+    }
+    if (kept.empty()) kept.push_back(triangle(order[n - 1].second));
+    const PlacedTriangle own = triangle(k);
+    const bool isKnown = std::ranges::find(kept, own) != kept.end();
+    isKnown ? again.push_back(k) : kept.push_back(own);
+  }
+  std::ranges::sort(again);
+  for (const std::size_t k : again) {
     const auto& [s, i] = places[k];
     Source& source = sources_[g][s];
-    source.classified.drop(i, source.mesh->triangles.size());
+    source.classified.drop(i);
     warnings_.add("triangle in the place of another of its material dropped",
                   "mesh '" + source.mesh->name + "', triangle " + std::to_string(i));
   }
@@ -397,16 +432,17 @@ void Baker::emitClass(const Source& source, std::size_t wanted, Geometry& geomet
   const Mesh& mesh = *source.mesh;
   Tally badUv, badNormal, badColor;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (!source.classified.has(i, wanted)) continue;
+    if (source.classified.classes[i] != wanted) continue;
     auto corners = mesh.triangles[i];
     for (std::uint32_t& corner : corners) {
       corner += source.firstVertex;
       box.add(geometry.position[corner]);
     }
     geometry.index.push_back(corners);
-    if (isSearched_) order_.triangles.push_back(source.numberOf(i));
+    const auto number = static_cast<std::uint32_t>(source.place.firstTriangle + i);
+    if (isSearched_) order_.triangles.push_back(number);
     scene_.items.add(static_cast<std::uint32_t>(scene_.triangles.size()), source.item,
-                     source.numberOf(i) - source.firstOfItem);
+                     number - source.firstOfItem);
     std::uint64_t uvs = 0, normals = 0, colors = 0;
     const MaterialUse& use = uses_[mesh.material(i)];
     scene_.triangles.push_back(makeTriangleRecord(mesh, i, geometry.position, corners, use, uvs));

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -55,17 +54,10 @@ ColorRecord makeColorRecord(const Mesh& mesh, std::size_t triangle, std::uint64_
 inline constexpr std::uint8_t kDroppedClass = kTriangleClasses;
 
 struct TriangleClassification {
-  // Class or kDroppedClass, one a triangle; empty where all triangles are of `only`.
-  std::vector<std::uint8_t> classes;
-  std::uint8_t only = kDroppedClass;
+  std::vector<std::uint8_t> classes;  // class or kDroppedClass, one a triangle
   std::array<std::uint32_t, kTriangleClasses + 1> count{};
 
-  bool has(std::size_t triangle, std::size_t wanted) const {
-    return (classes.empty() ? only : classes[triangle]) == wanted;
-  }
-  // `triangles` is the number of triangles of the mesh.
-  void drop(std::size_t triangle, std::size_t triangles) {
-    if (classes.empty()) classes.assign(triangles, only);
+  void drop(std::size_t triangle) {
     --count[classes[triangle]];
     classes[triangle] = kDroppedClass;
     ++count[kDroppedClass];
@@ -91,20 +83,5 @@ struct Tally {
 TriangleClassification classifyTriangles(const Mesh& mesh, const Vec3f* position,
                                          std::size_t vertices, const std::vector<MaterialUse>& uses,
                                          Warnings& warnings);
-
-// A triangle by its baked corners, and what must be equal too for one of two in the same place to
-// be redundant. Which of them a ray meets would be left to the order in which they are tested, and
-// with it the last bits of the picture.
-struct PlacedTriangle {
-  std::array<Vec3f, 3> corners;
-  std::uint32_t material = 0;
-  bool bothSides = true;  // whichever way round its corners go
-};
-
-// Numbers, ascending, of triangles that have the three corners, in whatever order, and the material
-// of one with a lower number. `triangle(i)` is asked for each i below `count`, more than once.
-// Takes 8 bytes a triangle while it runs.
-std::vector<std::uint64_t> findCoincident(
-    std::uint64_t count, const std::function<PlacedTriangle(std::uint64_t)>& triangle);
 
 }  // namespace whit

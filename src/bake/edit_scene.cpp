@@ -121,7 +121,7 @@ Box boxOf(const Scene& scene, const Geometry& geometry) {
   return box;
 }
 
-bool setMotion(const std::string& name, const std::shared_ptr<const Motion>& motion, Rig& rig) {
+bool setMotion(const std::string& name, const SharedMotion& motion, Rig& rig) {
   bool found = false;
   for (RigNode& node : rig) {
     if (node.name.empty() || node.name != name) continue;  // most have none
@@ -176,7 +176,7 @@ Camera cameraAt(const Scene& scene, std::size_t camera, double seconds) {
 }
 
 void setPlace(Scene& scene, const std::string& pointer, const Affine& place) {
-  const auto motion = std::make_shared<const FixedMotion>(place);
+  const SharedMotion motion = fixedMotion(place);
   bool found = setMotion(pointer, motion, scene.motion.given.rig);
   for (BentVertices& bent : scene.motion.bent) {
     if (!bent.deformation->hasSkin()) continue;

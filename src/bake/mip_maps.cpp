@@ -87,18 +87,15 @@ std::vector<bool> seenTextures(const Scene& scene) {
 }  // namespace
 
 Texture halved(const Texture& texture) {
-  Texture half;
-  half.name = texture.name;
-  half.format = texture.format;
+  Texture half = emptyTexture(texture.name, texture.format, std::max(1, texture.width / 2),
+                              std::max(1, texture.height / 2));
   half.wrapU = texture.wrapU;
   half.wrapV = texture.wrapV;
-  half.width = std::max(1, texture.width / 2);
-  half.height = std::max(1, texture.height / 2);
-  half.texels.reserve(static_cast<std::size_t>(half.width) * static_cast<std::size_t>(half.height));
+  std::uint32_t* to = half.texels.data();
   const std::vector<Cover> columns = coversOf(texture.width, half.width);
   const std::vector<Cover> rows = coversOf(texture.height, half.height);
   for (const Cover& row : rows) {
-    for (const Cover& column : columns) half.texels.push_back(meanTexel(texture, column, row));
+    for (const Cover& column : columns) *to++ = meanTexel(texture, column, row);
   }
   return half;
 }

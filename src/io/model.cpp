@@ -32,7 +32,8 @@ std::unique_ptr<Model> openModel(const ModelSource& source) {
 
 Body MeshModel::content(SceneLayout&, const std::vector<std::uint32_t>& materials) {
   Body body;
-  addParts(meshes_, materials, source_.path.string(), source_.budget, body);
+  if (mesh_.triangles.empty()) return body;
+  addParts({mesh_}, materials, source_.path.string(), source_.budget, body);
   return body;
 }
 
@@ -45,8 +46,7 @@ void addParts(std::vector<Mesh> meshes, const std::vector<std::uint32_t>& materi
   for (Mesh& mesh : meshes) {
     budget.charge(1, bytesOf(mesh), file);
     for (std::uint32_t& material : mesh.materials) material = materials[material];
-    const bool mingles = !mesh.order.empty() && &mesh != &meshes[0];
-    to.parts.push_back({std::make_shared<Mesh>(std::move(mesh)), Affine(), mingles});
+    to.parts.push_back({std::make_shared<Mesh>(std::move(mesh)), Affine()});
   }
 }
 

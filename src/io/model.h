@@ -66,8 +66,7 @@ class Model {
   std::optional<std::size_t> variant;  // the one of variants() that content() has
 };
 
-// A model that is read when it is opened: its meshes stand in one place, and its materials have no
-// maps unless the class of the format adds some.
+// A model that is one mesh, whose materials have no maps unless the class of the format adds some.
 class MeshModel : public Model {
  public:
   explicit MeshModel(const ModelSource& source) : source_(source) {}
@@ -82,7 +81,7 @@ class MeshModel : public Model {
  protected:
   ModelSource source_;
   std::vector<Material> materials_;
-  std::vector<Mesh> meshes_;
+  Mesh mesh_;
 };
 
 // True if openModel() reads such a file, by its extension (any case).

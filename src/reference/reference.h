@@ -67,8 +67,6 @@ class Tracer {
                     RayCounts& counts, Path path = {}) const;
   // Mean over the sample pattern of the pixel.
   RgbD pixel(const CameraFrame& camera, int x, int y, RayCounts& counts) const;
-  // Through one place of the sample pattern.
-  RgbD sample(const CameraFrame& camera, int x, int y, std::size_t number, RayCounts& counts) const;
   // Through the pixel's center alone, and what that ray meets.
   RgbD center(const CameraFrame& camera, int x, int y, RayCounts& counts) const;
   PixelSurface surfaceAtCenter(const CameraFrame& camera, int x, int y) const;

@@ -59,6 +59,7 @@ RayCounts renderAdaptively(const Tracer& tracer, const CameraFrame& frame, const
   std::vector<std::uint8_t> edges(first.pixels.size());
   const DisplayImage display = toDisplay(first, options.exposure.ev, options.toneCurve);
   findEdges(display, surfaces, options.contrast, 0, first.windowHeight(), edges);
+  const std::vector<Vec2f> pattern = samplePattern(options.spp);
   ProbeSamples probes(first.window, edges, samplePattern(std::max(options.spp, kProbeSamples)));
   const double scale = std::exp2(static_cast<double>(options.exposure.ev));
   forEach(grownBy(1), [&](int x, int y, RayCounts& own) {
@@ -66,7 +67,7 @@ RayCounts renderAdaptively(const Tracer& tracer, const CameraFrame& frame, const
     PixelProbes& pixel = probes.at(x, y);
     for (int s = 0; s < std::min(options.spp, kProbeSamples); ++s) {
       const auto number = static_cast<std::size_t>(s);
-      const RgbD value = tracer.sample(frame, x, y, number, own);
+      const RgbD value = tracer.sampled(frame, x, y, pattern[number], number, own);
       addSample(pixel.total, value, s + 1.0);
       pixel.codes[number] = displayCode(Rgb(value), scale, options.toneCurve);
     }
@@ -77,21 +78,12 @@ RayCounts renderAdaptively(const Tracer& tracer, const CameraFrame& frame, const
     if (options.spp <= kProbeSamples || edges[first.index(x, y)] == 0) return;
     if (!probes.differ(x, y, options.contrast)) return;
     RgbD mean = probes.at(x, y).total;
-    for (int s = kProbeSamples; s < options.spp; ++s) {
-      addSample(mean, tracer.sample(frame, x, y, static_cast<std::size_t>(s), own), s + 1.0);
+    for (std::size_t s = kProbeSamples; s < pattern.size(); ++s) {
+      addSample(mean, tracer.sampled(frame, x, y, pattern[s], s, own), static_cast<double>(s + 1));
     }
     image.at(x, y) = Rgb(mean);
   });
   return counts;
-}
-
-Vec2f uvAt(const Scene& scene, std::uint32_t triangle, const TriangleHit& hit) {
-  if (scene.isSphere(triangle)) {
-    const std::array<double, 2> uv = sphereUv(spherePoint(hit.u, hit.v));
-    return {static_cast<float>(uv[0]), static_cast<float>(uv[1])};
-  }
-  const TexturePoint point = texturePoint(scene.uvsOf(triangle, false), hit);
-  return {static_cast<float>(point.u), static_cast<float>(point.v)};
 }
 
 }  // namespace
@@ -100,14 +92,9 @@ RgbD Tracer::pixel(const CameraFrame& camera, int x, int y, RayCounts& counts) c
   RgbD mean;
   double taken = 0;
   for (std::size_t s = 0; s < samples_.size(); ++s) {
-    addSample(mean, sample(camera, x, y, s, counts), ++taken);
+    addSample(mean, sampled(camera, x, y, samples_[s], s, counts), ++taken);
   }
   return mean;
-}
-
-RgbD Tracer::sample(const CameraFrame& camera, int x, int y, std::size_t number,
-                    RayCounts& counts) const {
-  return sampled(camera, x, y, samples_[number], number, counts);
 }
 
 RgbD Tracer::center(const CameraFrame& camera, int x, int y, RayCounts& counts) const {
@@ -150,7 +137,7 @@ ChannelValues Tracer::channels(const CameraFrame& camera, int x, int y, const Ve
   values.position = Vec3f(surfel.position);
   values.normal = Vec3f(surfel.shadingNormal);
   values.albedo = Rgb(surfel.diffuse);
-  values.uv = uvAt(scene_, candidate.triangle, hit);
+  values.uv = uvAt(scene_, candidate.triangle, hit.u, hit.v);
   const Scene::MetNumbers numbers = scene_.numbersOf(candidate.triangle, candidate.instance);
   values.object = numbers.item;
   values.triangle = numbers.triangle;

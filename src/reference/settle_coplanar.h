@@ -29,8 +29,6 @@ std::vector<Place> placesAt(const Scene& scene, EffectSet effects, const Ray& ra
 
 struct Settled {
   Candidate candidate;
-  TriangleHit hit;                // valid if `isCoplanar`
-  bool isCoplanar = false;        // other triangles lie in the same place
   std::uint32_t alsoCrossed = 0;  // dielectrics whose faces lie there too (reference/media.h)
 };
 

@@ -41,11 +41,6 @@ Affine blended(const std::vector<Affine>& joints, const Influence* begin, const 
 
 }  // namespace
 
-bool Deformation::none() const {
-  const bool still = std::ranges::all_of(weights, [](double w) { return w == 0; });
-  return !hasSkin() && (targets.empty() || (still && !movingWeights));
-}
-
 bool Deformation::moves() const {
   if (movingWeights && !targets.empty()) return true;
   return hasSkin() && std::any_of(skeleton->begin(), skeleton->end(),

@@ -40,8 +40,6 @@ struct Deformation {
   std::vector<Influence> influences;
 
   bool hasSkin() const { return skeleton != nullptr; }
-  // True if the mesh keeps its modelled shape at all times.
-  bool none() const;
   // True if the shape depends on time.
   bool moves() const;
 };

@@ -24,15 +24,13 @@ struct Mesh {
   std::vector<Affine> spheres;  // from the unit sphere (bake/sphere.h); of the first material
   // One index into SceneDescription::materials a triangle, or a single one for all.
   std::vector<std::uint32_t> materials;
-  Affine fromModel;  // what transform() has applied so far
+  Affine fromModel;           // what transform() has applied so far
+  bool hasFlatFaces = false;  // some faces have no normals: those of their corners are zero
   // Not none: it bends while the scene moves, and has the vertices of its start here.
   std::shared_ptr<const Deformation> deformation;
 
   // Where it stands in the order of the scene, counted from Instance::rank.
   std::uint64_t rank = 0;
-  // Empty: its triangles come one after the other. Or a number for each, all different, by which
-  // they and those of the neighbors of its rank, in its object, come among each other.
-  std::vector<std::uint32_t> order;
   // The item of the scene that it is part of, counted from Instance::firstItem. Meshes of one item
   // follow each other.
   std::uint32_t item = 0;

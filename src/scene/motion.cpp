@@ -89,7 +89,7 @@ std::vector<Affine> poseRig(const Rig& rig, double seconds) {
   poses.reserve(rig.size());
   for (const RigNode& node : rig) {
     Affine pose = node.toParent;
-    if (node.motion) pose = pose * node.motion->at(seconds);
+    if (node.motion) pose = pose * (*node.motion)(seconds);
     if (node.parent != kNoNode) pose = poses[node.parent] * pose;
     poses.push_back(pose);
   }

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -33,30 +34,22 @@ struct Track {
 // Clamped to the first and the last key.
 std::vector<double> valueAt(const Track& track, double time);
 
-// Where something is at a time, in the space that it moves in.
-class Motion {
- public:
-  virtual ~Motion() = default;
-  virtual Affine at(double seconds) const = 0;
-};
+// Where something is after some seconds, in the space that it moves in.
+using Motion = std::function<Affine(double seconds)>;
+using SharedMotion = std::shared_ptr<const Motion>;
 
 // At all times the same.
-class FixedMotion : public Motion {
- public:
-  explicit FixedMotion(const Affine& map) : map_(map) {}
-  Affine at(double) const override { return map_; }
-
- private:
-  Affine map_;
-};
+inline SharedMotion fixedMotion(const Affine& map) {
+  return std::make_shared<const Motion>([map](double) { return map; });
+}
 
 inline constexpr std::uint32_t kNoNode = 0xffffffffu;
 
 struct RigNode {
-  std::uint32_t parent = kNoNode;        // comes before it
-  Affine toParent;                       // where its motion takes place
-  std::shared_ptr<const Motion> motion;  // none: it stands still there
-  std::string name = {};                 // of what is moved by hand: its place in the file
+  std::uint32_t parent = kNoNode;  // comes before it
+  Affine toParent;                 // where its motion takes place
+  SharedMotion motion;             // none: it stands still there
+  std::string name = {};           // of what is moved by hand: its place in the file
 };
 
 // A hierarchy of frames of reference that move, each in the frame of its parent.

@@ -32,23 +32,33 @@ std::uint32_t dataCode(float value) {
   return roundedCode(static_cast<double>(unit(value)) * kDataMax);
 }
 
-int wrapped(int texel, int size, Wrap wrap) {
-  return wrap == Wrap::repeat ? (texel + size) % size : std::clamp(texel, 0, size - 1);
-}
-
 void copyTexels(const Texture& t, std::uint32_t* to) {
   if (t.strips) std::copy_n(t.strips.get() + t.firstTexel, t.packedSize(), to);
   for (int first = -1; !t.strips && first < t.width; first += kTexelCells) {
     std::array<int, kTexelStrip> columns{};
-    for (int column = first; int& from : columns) from = wrapped(column++, t.width, t.wrapU);
+    for (int column = first; int& from : columns) from = wrapTexel(column++, t.width, t.wrapU);
     for (int row = -1; row <= t.height; ++row) {
-      const int from = wrapped(row, t.height, t.wrapV);
+      const int from = wrapTexel(row, t.height, t.wrapV);
       for (const int column : columns) *to++ = t.texel(column, from);
     }
   }
 }
 
 }  // namespace
+
+int wrapTexel(int texel, int size, Wrap wrap) {
+  return wrap == Wrap::repeat ? (texel + size) % size : std::clamp(texel, 0, size - 1);
+}
+
+Texture emptyTexture(const std::string& name, TexelFormat format, int width, int height) {
+  Texture texture;
+  texture.name = name;
+  texture.format = format;
+  texture.width = width;
+  texture.height = height;
+  texture.texels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  return texture;
+}
 
 void packTextures(std::vector<Texture>& textures, int threads) {
   std::vector<std::size_t> begins;

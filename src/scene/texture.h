@@ -78,6 +78,12 @@ struct Texture {
   }
 };
 
+// The texel that a wrap mode names, up to one row or column beyond the borders.
+int wrapTexel(int texel, int size, Wrap wrap);
+
+// A texture whose texels are 0.
+Texture emptyTexture(const std::string& name, TexelFormat format, int width, int height);
+
 // Moves the texels of all textures into strips that they share, one texture after the other, so
 // that they are hardly ever in memory twice. Throws Error(limit) when a 31-bit index does not reach
 // them.

@@ -79,16 +79,20 @@ TEST_F(ObjFaces, TextureCoordinatesAndNormalsArriveAtTheirCorners) {
   EXPECT_EQ(mesh.normals[t[1]], Vec3f(0, 1, 0));
 }
 
-TEST_F(ObjFaces, FacesWithAndWithoutNormalsAreKeptApart) {
+TEST_F(ObjFaces, FacesThatLackANormalAreFlat) {
   const SceneDescription scene =
-      loadObj(std::string(kSquare) + "vn 0 0 1\nf 1//1 2//1 3//1\nf 1 3 4\nf 1//1 2 3//1\n");
-  std::map<bool, std::size_t> triangles;
-  for (const Object& object : scene.objects) {
-    for (const Mesh& mesh : object.meshes)
-      triangles[!mesh.normals.empty()] += mesh.triangles.size();
+      loadObj(std::string(kSquare) + "vn 0 0 1\nf 1//1 2//1 3//1\nf 1 3 4\nf 2//1 4 1//1\n");
+  const Mesh& mesh = onlyMesh(scene);
+  EXPECT_TRUE(mesh.hasFlatFaces);
+  ASSERT_EQ(mesh.triangles.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (const std::uint32_t corner : mesh.triangles[i]) {
+      EXPECT_EQ(mesh.normals[corner], i == 0 ? Vec3f(0, 0, 1) : Vec3f()) << i;
+    }
   }
-  EXPECT_EQ(triangles[true], 1u);
-  EXPECT_EQ(triangles[false], 2u);
+  const Scene baked = Scene::finalize(SceneDescription(scene), warnings_);
+  EXPECT_EQ(baked.triangles.size(), 3u);
+  EXPECT_TRUE(warnings_.entries().empty());
 }
 
 TEST_F(ObjFaces, ConcavePolygonsAreCovered) {

@@ -175,12 +175,7 @@ TEST_F(MovingFile, CoplanarSquaresMoveTogether) {
 }
 
 // From 1 s on it mirrors at x = 0.
-class Mirroring : public Motion {
- public:
-  Affine at(double seconds) const override {
-    return Affine::scaling({seconds < 1 ? 1.0 : -1.0, 1, 1});
-  }
-};
+Affine mirroring(double seconds) { return Affine::scaling({seconds < 1 ? 1.0 : -1.0, 1, 1}); }
 
 // A vault along y: heights and normals depend on x alone, and x and -x are alike.
 void addVault(float shift, Mesh& mesh) {
@@ -208,7 +203,7 @@ std::shared_ptr<const Deformation> mirroredSkin(const Mesh& mesh) {
   for (const Vec3f& p : mesh.positions) d.targets[0].positions.push_back({0, 0, 0.1f * p.x * p.x});
   d.weights = {0.5};
   d.skeleton = std::make_shared<const Rig>(
-      Rig{{kNoNode, Affine(), std::make_shared<const Mirroring>()}, {}});
+      Rig{{kNoNode, Affine(), std::make_shared<const Motion>(mirroring)}, {}});
   d.joints = {{0, Affine()}, {1, Affine()}};
   d.firstInfluence = {0};
   for (const Vec3f& p : mesh.positions) {
@@ -232,7 +227,7 @@ Scene mirroredVault(Mirrors what, bool doubleSided) {
   Object object;
   object.meshes = {mesh};
   builder.place(std::move(object), {Affine()});
-  builder.description.motion.rig = {{kNoNode, Affine(), std::make_shared<const Mirroring>()}};
+  builder.description.motion.rig = {{kNoNode, Affine(), std::make_shared<const Motion>(mirroring)}};
   if (what == Mirrors::node) builder.description.instances[0].mover = 0;
   builder.description.lights = {test::lightAt({0, 2, 5}, 60)};
   builder.description.cameras = {{.eye = {1.03f, 0, 9}, .at = {1.03f, 0, 0}, .fov = 40}};

@@ -361,17 +361,12 @@ TEST_F(CoincidentSpheres, OthersKeepTheirDistance) {
 }
 
 // Comes from aside and is at rest at 1 s.
-class Arrival : public Motion {
- public:
-  Affine at(double seconds) const override {
-    return Affine::translation({5 * (1 - seconds), 0, 0}) * kTurn;
-  }
-};
+Affine arrival(double seconds) { return Affine::translation({5 * (1 - seconds), 0, 0}) * kTurn; }
 
 TEST_F(CoincidentSpheres, MoveIntoOnePlaceAndOut) {
   SceneBuilder builder = builderOf({{{}, kDim}, {{}, kBright, true}});
   RigNode node;
-  node.motion = std::make_shared<const Arrival>();
+  node.motion = std::make_shared<const Motion>(arrival);
   builder.description.motion.rig = {node};
   for (Instance& instance : builder.description.instances) {
     if (instance.object == builder.description.instances.back().object) instance.mover = 0;

@@ -1,5 +1,4 @@
-#include "io/gltf/compressed.h"
-
+// Compressed meshes of a glTF file.
 #ifdef WHIT_DRACO
 #include <draco/compression/decode.h>
 #endif
@@ -16,6 +15,7 @@
 
 #include "core/error.h"
 #include "io/confined.h"
+#include "io/gltf/document.h"
 
 namespace whit {
 

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "core/error.h"
-#include "io/gltf/compressed.h"
 #include "io/read_file.h"
 
 namespace whit {

@@ -100,4 +100,12 @@ GltfColors readColors(const GltfDocument& document, const JsonValue& reference);
 // The accessor itself.
 JsonValue accessorOf(const GltfDocument& document, const JsonValue& reference);
 
+// Decodes all buffer views that meshoptimizer has compressed (EXT_meshopt_compression), and all
+// accessors without a buffer view that primitives compressed by Draco stand for
+// (KHR_draco_mesh_compression), tightly packed and of the accessors' own types. A build without the
+// library of an extension does not know it. Returns the bytes by the pointers of views and
+// accessors. Throws badScene "file#/bufferViews/i/..." or "file#/meshes/i/primitives/k/..." where
+// that fails.
+std::map<std::string, std::string> decodeCompressed(const GltfDocument& document);
+
 }  // namespace whit

@@ -104,9 +104,10 @@ Track readTrack(const GltfDocument& document, const Target& target, std::size_t 
   return track;
 }
 
-// Returns the tracks of each node.
-std::vector<GltfTracks> readTracks(const GltfDocument& document, const Instant& instant) {
-  std::vector<GltfTracks> tracks(document.list("nodes").size());
+using AllTracks = std::vector<GltfTracks>;  // of each node
+
+AllTracks readTracks(const GltfDocument& document, const Instant& instant) {
+  AllTracks tracks(document.list("nodes").size());
   if (!instant.moves()) return tracks;
   const std::vector<Animation> all = listGltfAnimations(document);
   const auto played = std::ranges::find_if(all, [&](const Animation& animation) {
@@ -173,34 +174,23 @@ struct NodePlace {
   }
 };
 
-class NodeMotion : public Motion {
- public:
-  NodeMotion(const NodePlace& own, const GltfTracks& tracks) : own_(own), tracks_(tracks) {}
-
-  Affine at(double seconds) const override {
-    NodePlace place = own_;
-    const auto value = [&](const std::optional<Track>& track) {
-      return track ? valueAt(*track, seconds) : std::vector<double>();
-    };
-    place.translation = tripleOr(value(tracks_.translation), own_.translation);
-    place.scale = tripleOr(value(tracks_.scale), own_.scale);
-    const std::vector<double> turn = value(tracks_.rotation);
-    std::ranges::copy(turn, place.rotation.begin());
-    return place.map();
-  }
-
- private:
-  NodePlace own_;
-  GltfTracks tracks_;
-};
+Affine placeAt(double seconds, NodePlace place, const GltfTracks& tracks) {
+  const auto value = [&](const std::optional<Track>& track) {
+    return track ? valueAt(*track, seconds) : std::vector<double>();
+  };
+  place.translation = tripleOr(value(tracks.translation), place.translation);
+  place.scale = tripleOr(value(tracks.scale), place.scale);
+  const std::vector<double> turn = value(tracks.rotation);
+  std::ranges::copy(turn, place.rotation.begin());
+  return place.map();
+}
 
 class TreeReader {
  public:
-  TreeReader(const GltfDocument& document, const std::vector<GltfTracks>& tracks,
-             const std::set<std::string>& movable)
+  TreeReader(const GltfDocument& document, AllTracks tracks, const std::set<std::string>& movable)
       : document_(document),
         nodes_(document.list("nodes")),
-        tracks_(tracks),
+        tracks_(std::make_shared<const AllTracks>(std::move(tracks))),
         movable_(movable),
         seen_(nodes_.size()) {}
 
@@ -273,13 +263,16 @@ class TreeReader {
     const std::vector<double> matrix = nodes_[index]["matrix"].numbers(16);
     const std::string name = "/nodes/" + std::to_string(index);
     RigNode node;
-    if (tracks_[index].place()) {
-      node.motion = std::make_shared<const NodeMotion>(placeOf(index), tracks_[index]);
+    if ((*tracks_)[index].place()) {
+      const auto at = [index, own = placeOf(index), all = tracks_](double seconds) {
+        return placeAt(seconds, own, (*all)[index]);
+      };
+      node.motion = std::make_shared<const Motion>(at);
     } else {
       node.toParent = matrix.empty() ? placeOf(index).map() : mapOf(matrix);
     }
     if (!movable_.contains(name)) return node;
-    if (!node.motion) node.motion = std::make_shared<const FixedMotion>(node.toParent);
+    if (!node.motion) node.motion = fixedMotion(node.toParent);
     return {kNoNode, Affine(), node.motion, name};
   }
 
@@ -315,8 +308,7 @@ class TreeReader {
     const JsonValue node = nodes_[index];
     Deformation deformation;
     if (const auto skin = node["skin"].indexInto(document_.list("skins"))) {
-      deformation = skinOf(*skin);
-      addOwnJoint(index, *skin, deformation);
+      deformation = skinOf(*skin, index);
       document_.budget().charge(deformation.joints.size(), sizeof(Deformation::Joint),
                                 node.where());
     }
@@ -324,43 +316,36 @@ class TreeReader {
     if (deformation.weights.empty()) {
       deformation.weights = document_.list("meshes")[mesh]["weights"].numbers();
     }
-    deformation.movingWeights = tracks_[index].weights;
+    deformation.movingWeights = (*tracks_)[index].weights;
     return deformation;
   }
 
-  // Joints may come later in the tree than the meshes they hold.
-  const Deformation& skinOf(std::size_t index) {
-    const auto [known, isNew] = skins_.try_emplace(index);
-    if (!isNew) return known->second;
+  // Joints may come later in the tree than the meshes they hold. The last joint is the node that
+  // shows the mesh, for vertices without weights.
+  Deformation skinOf(std::size_t index, std::size_t showing) {
     const JsonValue skin = document_.list("skins")[index];
     const JsonValue joints = skin.need("joints"), inverse = skin["inverseBindMatrices"];
-    std::vector<Deformation::Joint>& all = known->second.joints;
+    Deformation deformation;
+    std::vector<Deformation::Joint>& all = deformation.joints;
     Rig rig;
-    std::map<std::size_t, std::uint32_t>& places = jointPlaces_[index];
+    std::map<std::size_t, std::uint32_t> places;
     for (const JsonValue& joint : joints.elements()) {
       all.push_back({placeJoint(joint.indexInto(nodes_).value_or(0), places, rig), Affine()});
     }
     if (all.empty()) joints.fail("at least one joint");
-    known->second.skeleton = std::make_shared<const Rig>(std::move(rig));
-    if (!inverse.exists()) return known->second;
-    const std::vector<float> numbers = readTuples(document_, inverse, 16);
-    if (numbers.size() < 16 * all.size()) {
+    std::vector<float> numbers;
+    if (inverse.exists()) numbers = readTuples(document_, inverse, 16);
+    if (inverse.exists() && numbers.size() < 16 * all.size()) {
       inverse.fail("a matrix for each of " + std::to_string(all.size()) + " joints",
                    std::to_string(numbers.size() / 16));
     }
-    for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t i = 0; i < all.size() && !numbers.empty(); ++i) {
       all[i].fromMesh = mapOf({numbers.begin() + static_cast<std::ptrdiff_t>(16 * i),
                                numbers.begin() + static_cast<std::ptrdiff_t>(16 * (i + 1))});
     }
-    return known->second;
-  }
-
-  // The last joint is the node that shows the mesh, for vertices without weights.
-  void addOwnJoint(std::size_t index, std::size_t skin, Deformation& deformation) {
-    Rig rig = *deformation.skeleton;
-    std::map<std::size_t, std::uint32_t> places = jointPlaces_[skin];
-    deformation.joints.push_back({placeJoint(index, places, rig), Affine()});
+    all.push_back({placeJoint(showing, places, rig), Affine()});
     deformation.skeleton = std::make_shared<const Rig>(std::move(rig));
+    return deformation;
   }
 
   // Returns the node's index in the skeleton `rig`, after adding the node and its ancestors to it.
@@ -499,11 +484,9 @@ class TreeReader {
 
   const GltfDocument& document_;
   JsonValue nodes_;
-  const std::vector<GltfTracks>& tracks_;
+  std::shared_ptr<const AllTracks> tracks_;
   const std::set<std::string>& movable_;
   std::vector<std::size_t> parents_;
-  std::map<std::size_t, Deformation> skins_;
-  std::map<std::size_t, std::map<std::size_t, std::uint32_t>> jointPlaces_;  // in each skin's rig
   std::vector<bool> seen_;
   GltfStage stage_;
 };

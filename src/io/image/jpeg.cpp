@@ -20,14 +20,30 @@ namespace {
 
 // libjpeg reports errors by longjmp, so the functions that it may leave that way hold nothing that
 // has a destructor; this object lives outside of them.
+struct JpegErrors {
+  template <typename Coder>
+  void watch(Coder& coder) {
+    coder.err = jpeg_std_error(&manager);
+    coder.client_data = this;
+    manager.error_exit = [](j_common_ptr common) { leave(common); };
+  }
+  [[noreturn]] static void leave(j_common_ptr common) {
+    JpegErrors& self = *static_cast<JpegErrors*>(common->client_data);
+    common->err->format_message(common, self.message);
+    std::longjmp(self.escape, 1);
+  }
+
+  jpeg_error_mgr manager{};
+  std::jmp_buf escape{};
+  char message[JMSG_LENGTH_MAX] = "out of memory";
+};
+
 class JpegReader {
  public:
   JpegReader(const std::string& path, std::span<const std::uint8_t> file)
       : path_(path), file_(file) {
-    decoder_.err = jpeg_std_error(&errors_);
-    decoder_.client_data = this;
-    errors_.error_exit = [](j_common_ptr common) { fail(common); };
-    errors_.emit_message = onMessage;
+    errors_.watch(decoder_);
+    errors_.manager.emit_message = onMessage;
   }
   ~JpegReader() { jpeg_destroy_decompress(&decoder_); }
   JpegReader(const JpegReader&) = delete;
@@ -92,53 +108,40 @@ class JpegReader {
 
   template <typename Use>
   void guarded(Use use) {
-    if (setjmp(escape_) != 0) refuse(std::string("valid JPEG data, found an error: ") + message_);
+    if (setjmp(errors_.escape) != 0) {
+      refuse(std::string("valid JPEG data, found an error: ") + errors_.message);
+    }
     use();
   }
 
-  [[noreturn]] static void fail(j_common_ptr common) {
-    JpegReader& self = *static_cast<JpegReader*>(common->client_data);
-    common->err->format_message(common, self.message_);
-    std::longjmp(self.escape_, 1);
-  }
   // libjpeg only warns of missing and damaged data, and makes up pixels. Its other warnings are
   // about oddities that every viewer ignores.
   static void onMessage(j_common_ptr common, int level) {
     constexpr int kDamage[] = {JWRN_JPEG_EOF, JWRN_HIT_MARKER, JWRN_HUFF_BAD_CODE,
                                JWRN_MUST_RESYNC};
     const int code = common->err->msg_code;
-    if (level < 0 && std::ranges::count(kDamage, code) > 0) fail(common);
+    if (level < 0 && std::ranges::count(kDamage, code) > 0) JpegErrors::leave(common);
   }
 
   const std::string& path_;
   std::span<const std::uint8_t> file_;
   jpeg_decompress_struct decoder_{};
-  jpeg_error_mgr errors_{};
-  std::jmp_buf escape_{};
-  char message_[JMSG_LENGTH_MAX] = "out of memory";
+  JpegErrors errors_;
 };
 
 struct JpegWriter {
   jpeg_compress_struct encoder{};
-  jpeg_error_mgr errors{};
-  std::jmp_buf escape{};
-  char message[JMSG_LENGTH_MAX] = "out of memory";
+  JpegErrors errors;
   unsigned char* bytes = nullptr;
   unsigned long size = 0;
 };
 
-// Returns false on an error, which `writer.message` describes.
+// Returns false on an error, which `writer.errors` describes.
 bool write(JpegWriter& writer, const DisplayImage& image, std::vector<std::uint8_t>& row) {
   constexpr int kQuality = 93;
   jpeg_compress_struct& encoder = writer.encoder;
-  encoder.err = jpeg_std_error(&writer.errors);
-  encoder.client_data = &writer;
-  writer.errors.error_exit = [](j_common_ptr common) {
-    auto& self = *static_cast<JpegWriter*>(common->client_data);
-    common->err->format_message(common, self.message);
-    std::longjmp(self.escape, 1);
-  };
-  if (setjmp(writer.escape) != 0) return false;
+  writer.errors.watch(encoder);
+  if (setjmp(writer.errors.escape) != 0) return false;
   jpeg_create_compress(&encoder);
   jpeg_mem_dest(&encoder, &writer.bytes, &writer.size);
   encoder.image_width = static_cast<JDIMENSION>(image.width);
@@ -194,7 +197,7 @@ std::string encodeJpeg(const DisplayImage& image) {
   std::string bytes(reinterpret_cast<const char*>(writer.bytes), written ? writer.size : 0);
   jpeg_destroy_compress(&writer.encoder);
   std::free(writer.bytes);
-  if (!written) throwIo(std::string("cannot encode a JPEG: ") + writer.message);
+  if (!written) throwIo(std::string("cannot encode a JPEG: ") + writer.errors.message);
   return bytes;
 }
 

@@ -3,57 +3,16 @@
 #include <algorithm>
 #include <array>
 
-#include "core/display.h"
-
 namespace whit {
 
 namespace {
-
-int wrapped(int i, int size, Wrap wrap) {
-  return wrap == Wrap::repeat ? (i + size) % size : std::clamp(i, 0, size - 1);
-}
-
-// The channels of pixel `i` as r, g, b, a; `one` replaces a missing alpha.
-template <typename Value>
-std::array<Value, 4> channelsOf(const std::vector<Value>& values, int channels, std::size_t i,
-                                Value one) {
-  const Value* v = values.data() + i * static_cast<std::size_t>(channels);
-  if (channels < 3) return {v[0], v[0], v[0], channels == 2 ? v[1] : one};
-  return {v[0], v[1], v[2], channels == 4 ? v[3] : one};
-}
-
-// The 10 bits of a color texel for each sRGB code, computed once because they need square roots.
-const std::array<std::uint32_t, 256>& colorBitsOfCode() {
-  static const std::array<std::uint32_t, 256> table = [] {
-    std::array<std::uint32_t, 256> bits{};
-    for (int code = 0; code < 256; ++code) {
-      bits[static_cast<std::size_t>(code)] = encodeColorTexel({linearOfCode(code), 0, 0}) & 1023u;
-    }
-    return bits;
-  }();
-  return table;
-}
-
-std::uint32_t texelOfCodes(const std::array<std::uint8_t, 4>& c, TexelFormat format) {
-  if (format == TexelFormat::color) {
-    const auto& bits = colorBitsOfCode();
-    return bits[c[0]] | bits[c[1]] << 10 | bits[c[2]] << 20;
-  }
-  return std::uint32_t{c[0]} | std::uint32_t{c[1]} << 8 | std::uint32_t{c[2]} << 16 |
-         std::uint32_t{c[3]} << 24;
-}
-
-std::uint32_t texelOfValues(const std::array<float, 4>& v, TexelFormat format) {
-  if (format == TexelFormat::data) return encodeDataTexel(v[0], v[1], v[2], v[3]);
-  return encodeTexel({v[0], v[1], v[2]}, format);
-}
 
 // Counts the pixels of a linear image with a color above the limit.
 std::uint64_t countAbove(const RawImage& raw, float limit) {
   std::uint64_t count = 0;
   for (std::size_t i = 0; raw.linear && i < raw.pixels(); ++i) {
-    const auto c = channelsOf(raw.values, raw.channels, i, 1.0f);
-    count += std::max({c[0], c[1], c[2]}) > limit;
+    const auto [r, g, b, a] = valuesAt(raw, i);
+    count += std::max({r, g, b}) > limit;
   }
   return count;
 }
@@ -61,30 +20,25 @@ std::uint64_t countAbove(const RawImage& raw, float limit) {
 }  // namespace
 
 std::array<float, 4> valuesAt(const RawImage& raw, std::size_t i) {
-  if (raw.linear) return channelsOf(raw.values, raw.channels, i, 1.0f);
-  const auto codes = channelsOf(raw.codes, raw.channels, i, std::uint8_t{255});
-  std::array<float, 4> values{};
-  for (std::size_t c = 0; c < 4; ++c) values[c] = static_cast<float>(codes[c]) / 255.0f;
-  return values;
-}
-
-Texture emptyTexture(const std::string& name, TexelFormat format, int width, int height) {
-  Texture texture;
-  texture.name = name;
-  texture.format = format;
-  texture.width = width;
-  texture.height = height;
-  texture.texels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  return texture;
+  const std::size_t first = i * static_cast<std::size_t>(raw.channels);
+  const auto value = [&](std::size_t c) {
+    return raw.linear ? raw.values[first + c] : static_cast<float>(raw.codes[first + c]) / 255.0f;
+  };
+  if (raw.channels < 3) {
+    return {value(0), value(0), value(0), raw.channels == 2 ? value(1) : 1.0f};
+  }
+  return {value(0), value(1), value(2), raw.channels == 4 ? value(3) : 1.0f};
 }
 
 Texture makeTexture(const std::string& name, const RawImage& raw, TexelFormat format) {
   Texture texture = emptyTexture(name, format, raw.width, raw.height);
   for (std::size_t i = 0; i < texture.texels.size(); ++i) {
-    texture.texels[i] =
-        raw.linear
-            ? texelOfValues(channelsOf(raw.values, raw.channels, i, 1.0f), format)
-            : texelOfCodes(channelsOf(raw.codes, raw.channels, i, std::uint8_t{255}), format);
+    if (format == TexelFormat::data) {
+      const auto [r, g, b, a] = valuesAt(raw, i);
+      texture.texels[i] = encodeDataTexel(r, g, b, a);
+    } else {
+      texture.texels[i] = encodeTexel(linearPixel(raw, i), format);
+    }
   }
   return texture;
 }
@@ -152,8 +106,8 @@ Texture normalsFromHeights(const std::string& name, const RawImage& raw, float b
                            Wrap wrapU, Wrap wrapV) {
   Texture texture = emptyTexture(name, TexelFormat::data, raw.width, raw.height);
   const auto height = [&](int x, int y) {
-    const std::size_t row = static_cast<std::size_t>(wrapped(y, raw.height, wrapV));
-    const std::size_t column = static_cast<std::size_t>(wrapped(x, raw.width, wrapU));
+    const std::size_t row = static_cast<std::size_t>(wrapTexel(y, raw.height, wrapV));
+    const std::size_t column = static_cast<std::size_t>(wrapTexel(x, raw.width, wrapU));
     return valuesAt(raw, row * static_cast<std::size_t>(raw.width) + column)[0];
   };
   // Slopes per tile width, so that the relief does not depend on the resolution.

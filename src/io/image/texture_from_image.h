@@ -28,8 +28,6 @@ EnvironmentImage makeEnvironment(const RawImage& raw);
 bool hasTranslucentAlpha(const RawImage& raw);
 // Makes a data texture of the alpha channel alone.
 Texture makeAlphaTexture(const std::string& name, const RawImage& raw);
-// Returns a texture whose texels are 0.
-Texture emptyTexture(const std::string& name, TexelFormat format, int width, int height);
 // Returns the stored channels of pixel `i` as r, g, b, a; codes become fractions of 255. A gray
 // image has one value for r, g and b; a missing alpha is 1.
 std::array<float, 4> valuesAt(const RawImage& raw, std::size_t i);

@@ -40,17 +40,9 @@ struct ObjCorner {
   std::int32_t position = kNoIndex, uv = kNoIndex, normal = kNoIndex;  // counted from 0
 };
 
-// A mesh of faces that all have normals, or that all have none.
-struct ObjMesh {
-  struct Vertex {
-    std::int32_t uv, normal;
-    std::uint32_t older;  // another one at the same position
-  };
-
-  Mesh mesh;
-  std::vector<Vertex> vertices;
-  std::vector<std::uint32_t> newest;  // of the vertices at each position
-  bool hasUvs = false;
+struct ObjVertex {
+  std::int32_t uv, normal;
+  std::uint32_t older;  // another one at the same position
 };
 
 constexpr std::uint32_t kNoVertex = 0xffffffffu, kNoMaterial = 0xffffffffu;
@@ -80,30 +72,25 @@ class ObjReader {
     }
   }
 
-  // Returns at most two meshes, of the faces with normals at every corner and of those without.
   // Faces with fewer than three corners or with an index that is not among the vertices so far are
   // left out and counted; such indices of texture coordinates and normals are ignored and counted.
-  // The materials of the meshes are indices into `materials`; faces before the first usemtl have
-  // the index after the last one.
-  std::vector<Mesh> read() {
+  // The materials of the mesh are indices into `materials`; faces before the first usemtl have the
+  // index after the last one.
+  Mesh read() {
     const auto count = static_cast<std::uint32_t>(materials.size());
     material_ = kNoMaterial;
     for (; !lines_.done(); lines_.nextLine()) statement(lines_.word());
-    std::vector<Mesh> meshes;
-    for (ObjMesh* const part : {&smooth_, &flat_}) {
-      if (part->mesh.triangles.empty()) continue;
-      Mesh& mesh = meshes.emplace_back(std::move(part->mesh));
-      if (!part->hasUvs) mesh.uvs.clear();
-      for (std::uint32_t& material : mesh.materials) material = std::min(material, count);
-      if (std::ranges::count(mesh.materials, mesh.materials[0]) == std::ssize(mesh.materials)) {
-        mesh.materials.resize(1);
-      }
-    }
-    if (meshes.size() == 1) meshes[0].order.clear();
-    if (meshes.empty()) {
+    if (mesh_.triangles.empty()) {
       warnNothingToDraw(hasFaces_ ? "no face that can be built" : "no faces", file_, warnings_);
+      return {};
     }
-    return meshes;
+    if (!hasUvs_) mesh_.uvs.clear();
+    if (!hasNormals_) mesh_.normals.clear();
+    for (std::uint32_t& material : mesh_.materials) material = std::min(material, count);
+    if (std::ranges::count(mesh_.materials, mesh_.materials[0]) == std::ssize(mesh_.materials)) {
+      mesh_.materials.resize(1);
+    }
+    return std::move(mesh_);
   }
 
   // Different names of "usemtl" and of "mtllib", in the file's order.
@@ -162,8 +149,8 @@ class ObjReader {
     while (lines_.hasMore()) {
       // The corner itself, a vertex and a triangle.
       budget_.charge(1,
-                     sizeof(ObjCorner) + sizeof(ObjMesh::Vertex) + 2 * sizeof(Vec3f) +
-                         sizeof(Vec2f) + 5 * sizeof(std::uint32_t),
+                     sizeof(ObjCorner) + sizeof(ObjVertex) + 2 * sizeof(Vec3f) + sizeof(Vec2f) +
+                         5 * sizeof(std::uint32_t),
                      file_);
       ObjCorner& corner = corners_.emplace_back();
       corner.position = index(positions_.size());
@@ -202,44 +189,44 @@ class ObjReader {
   }
 
   void addFace() {
+    // A face that lacks a normal has none.
     const bool isFlat =
         std::ranges::any_of(corners_, [](const ObjCorner& c) { return c.normal == kNoIndex; });
-    ObjMesh& to = isFlat ? flat_ : smooth_;
+    mesh_.hasFlatFaces |= isFlat;
+    hasNormals_ |= !isFlat;
     points_.clear();
     vertices_.clear();
     triangles_.clear();
     for (ObjCorner corner : corners_) {
       if (isFlat) corner.normal = kNoIndex;
       points_.emplace_back(positions_[static_cast<std::size_t>(corner.position)]);
-      vertices_.push_back(vertex(corner, to));
+      vertices_.push_back(vertex(corner));
     }
     if (!triangulate(points_, triangles_)) warn("polygon without a simple outline");
     for (const auto& t : triangles_) {
-      to.mesh.triangles.push_back({vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]});
-      to.mesh.materials.push_back(material_);
-      to.mesh.order.push_back(triangleCount_++);
+      mesh_.triangles.push_back({vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]});
+      mesh_.materials.push_back(material_);
     }
   }
 
   // Corners that agree in position, texture coordinates and normal share a vertex.
-  std::uint32_t vertex(const ObjCorner& corner, ObjMesh& to) const {
+  std::uint32_t vertex(const ObjCorner& corner) {
     const auto position = static_cast<std::size_t>(corner.position);
-    if (to.newest.size() <= position) to.newest.resize(positions_.size(), kNoVertex);
-    std::uint32_t& newest = to.newest[position];
+    if (newest_.size() <= position) newest_.resize(positions_.size(), kNoVertex);
+    std::uint32_t& newest = newest_[position];
     // The search is short, so that files with many vertices at one position stay fast.
     int left = 64;
-    for (std::uint32_t v = newest; v != kNoVertex && left > 0; v = to.vertices[v].older, --left) {
-      if (to.vertices[v].uv == corner.uv && to.vertices[v].normal == corner.normal) return v;
+    for (std::uint32_t v = newest; v != kNoVertex && left > 0; v = known_[v].older, --left) {
+      if (known_[v].uv == corner.uv && known_[v].normal == corner.normal) return v;
     }
-    const auto number = static_cast<std::uint32_t>(to.vertices.size());
-    to.vertices.push_back({corner.uv, corner.normal, std::exchange(newest, number)});
-    to.mesh.positions.push_back(positions_[position]);
-    const bool hasUv = corner.uv != kNoIndex;
-    to.mesh.uvs.push_back(hasUv ? uvs_[static_cast<std::size_t>(corner.uv)] : Vec2f());
-    to.hasUvs |= hasUv;
-    if (corner.normal != kNoIndex) {
-      to.mesh.normals.push_back(normals_[static_cast<std::size_t>(corner.normal)]);
-    }
+    const auto number = static_cast<std::uint32_t>(known_.size());
+    known_.push_back({corner.uv, corner.normal, std::exchange(newest, number)});
+    mesh_.positions.push_back(positions_[position]);
+    const bool hasUv = corner.uv != kNoIndex, hasNormal = corner.normal != kNoIndex;
+    mesh_.uvs.push_back(hasUv ? uvs_[static_cast<std::size_t>(corner.uv)] : Vec2f());
+    mesh_.normals.push_back(hasNormal ? normals_[static_cast<std::size_t>(corner.normal)]
+                                      : Vec3f());
+    hasUvs_ |= hasUv;
     return number;
   }
 
@@ -253,9 +240,10 @@ class ObjReader {
   Warnings& warnings_;
   std::vector<Vec3f> positions_, normals_;
   std::vector<Vec2f> uvs_;
-  ObjMesh smooth_, flat_;
-  std::uint32_t triangleCount_ = 0;
-  bool hasFaces_ = false;
+  Mesh mesh_;
+  std::vector<ObjVertex> known_;       // one for each vertex of the mesh
+  std::vector<std::uint32_t> newest_;  // of the vertices at each position
+  bool hasFaces_ = false, hasUvs_ = false, hasNormals_ = false;
   // The face that is being added.
   std::uint64_t line_ = 0;
   std::vector<ObjCorner> corners_;
@@ -305,8 +293,8 @@ class ObjModel : public MeshModel {
 
   Body content(SceneLayout& layout, const std::vector<std::uint32_t>& materials) override {
     if (reader_) {
-      meshes_ = reader_->read();
-      for (Mesh& mesh : meshes_) mesh.name = source_.path.stem().string();
+      mesh_ = reader_->read();
+      mesh_.name = source_.path.stem().string();
       reader_.reset();
       std::string().swap(text_);
     }

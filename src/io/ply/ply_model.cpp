@@ -379,14 +379,12 @@ class PlyModel : public MeshModel {
     const std::string text = readTextFile(source.path, source.budget.left());
     const std::string file = source.path.string();
     source.budget.charge(text.size(), 1, file);
-    Mesh mesh = PlyReader(text, file, source.budget, source.warnings).read();
+    mesh_ = PlyReader(text, file, source.budget, source.warnings).read();
     Material& material = materials_.emplace_back();
     material.name = "default";
-    material.diffuse = Rgb(mesh.colors.empty() ? kModelGray : 1.0f);
-    if (mesh.triangles.empty()) return;
-    mesh.name = source.path.stem().string();
-    mesh.materials = {0};
-    meshes_.push_back(std::move(mesh));
+    material.diffuse = Rgb(mesh_.colors.empty() ? kModelGray : 1.0f);
+    mesh_.name = source.path.stem().string();
+    mesh_.materials = {0};
   }
 };
 

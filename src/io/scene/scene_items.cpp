@@ -256,7 +256,7 @@ void ItemReader::readItem(const JsonValue& value, Body& to) {
   }
   nameItem(content, value.pointer());
   std::vector<Affine> placements = readPlacements(item);
-  const std::shared_ptr<const Motion> motion = readMotion(item, context_.instant, context_.scene);
+  const SharedMotion motion = readMotion(item, context_.instant, context_.scene);
   item.finish();
   if (motion && context_.instant.moves()) {
     const std::uint32_t carried = layout_.add("");
@@ -265,7 +265,7 @@ void ItemReader::readItem(const JsonValue& value, Body& to) {
         {carried, Affine(), to.parts.size(), motion, movableName(item, context_.instant)});
   } else {
     if (motion) {
-      for (Affine& placement : placements) placement = motion->at(0) * placement;
+      for (Affine& placement : placements) placement = (*motion)(0) * placement;
     }
     layout_.append(content, placements, to);
   }

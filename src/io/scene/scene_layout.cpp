@@ -10,8 +10,7 @@ std::uint64_t bytesOf(const Mesh& mesh) {
   return mesh.positions.size() * sizeof(Vec3f) + mesh.normals.size() * sizeof(Vec3f) +
          (mesh.uvs.size() + mesh.secondUvs.size()) * sizeof(Vec2f) +
          mesh.colors.size() * sizeof(Rgb) + mesh.triangles.size() * 3 * sizeof(std::uint32_t) +
-         mesh.spheres.size() * sizeof(Affine) +
-         (mesh.materials.size() + mesh.order.size()) * sizeof(std::uint32_t);
+         mesh.spheres.size() * sizeof(Affine) + mesh.materials.size() * sizeof(std::uint32_t);
 }
 
 std::uint32_t SceneLayout::add(const std::string& name) {
@@ -27,7 +26,7 @@ void SceneLayout::append(const Body& from, const std::vector<Affine>& placements
     const std::size_t before = to.parts.size();
     const auto items = static_cast<std::uint32_t>(to.items.size());
     for (const BodyPart& part : from.parts) {
-      to.parts.push_back({part.mesh, placement * part.toBody, part.mingles, items + part.item});
+      to.parts.push_back({part.mesh, placement * part.toBody, items + part.item});
     }
     to.items.insert(to.items.end(), from.items.begin(), from.items.end());
     for (const Placement& child : from.children) {
@@ -82,7 +81,6 @@ std::vector<Standing> SceneLayout::standingsOfParts(const Body& body) const {
     }
     standings[i] = children;
     standings[i] += {i, body.parts[i].item};
-    if (body.parts[i].mingles) standings[i].rank = standings[i - 1].rank;
   }
   return standings;
 }
@@ -114,12 +112,10 @@ void SceneLayout::placeOnce(Body& body, const Affine& toWorld, Standing at,
   for (std::size_t i = 0; i < body.parts.size(); ++i) {
     BodyPart& part = body.parts[i];
     Mesh mesh = take(part, body.name);
-    if (!part.mingles) {
-      scene.instances.push_back({static_cast<std::uint32_t>(scene.objects.size()),
-                                 toWorld * part.toBody, at.rank + standings[i].rank, kNoNode,
-                                 at.item + standings[i].item});
-      scene.objects.push_back({mesh.name, {}});
-    }
+    scene.instances.push_back({static_cast<std::uint32_t>(scene.objects.size()),
+                               toWorld * part.toBody, at.rank + standings[i].rank, kNoNode,
+                               at.item + standings[i].item});
+    scene.objects.push_back({mesh.name, {}});
     scene.objects.back().meshes.push_back(std::move(mesh));
   }
 }

@@ -26,17 +26,16 @@ using ItemName = std::shared_ptr<const std::string>;
 struct BodyPart {
   std::shared_ptr<Mesh> mesh;  // shared by copies of the part
   Affine toBody;
-  bool mingles = false;    // its triangles come among those of the part before, see Mesh::order
   std::uint32_t item = 0;  // index into Body::items
 };
 
 struct Placement {
   std::uint32_t body = 0;
   Affine toParent;
-  std::size_t partsBefore = 0;                     // number of the parent's parts that precede it
-  std::shared_ptr<const Motion> motion = nullptr;  // applied before toParent
-  std::string mover = {};                          // RigNode::name
-  ItemName item = nullptr;                         // the name of a body that is one item
+  std::size_t partsBefore = 0;    // number of the parent's parts that precede it
+  SharedMotion motion = nullptr;  // applied before toParent
+  std::string mover = {};         // RigNode::name
+  ItemName item = nullptr;        // the name of a body that is one item
 };
 
 // Numbers of parts and of items, which are also a place in the order of the scene.
@@ -92,8 +91,7 @@ class SceneLayout {
   // Computes `within` and `height` of a body and of all that it holds, and adds these to `order`,
   // each behind its children. Returns the height.
   int measure(std::uint32_t index, int depth, std::vector<std::uint32_t>& order);
-  // Places counted from the body's beginning, with what its children hold. A part that mingles with
-  // the part before shares its rank.
+  // Places counted from the body's beginning, with what its children hold.
   std::vector<Standing> standingsOfParts(const Body& body) const;
   void nameItems(const Body& body, const ItemName& placed, std::uint64_t first,
                  SceneDescription& scene) const;

@@ -18,18 +18,11 @@ namespace whit {
 
 namespace {
 
-// Reads the motion of a camera or light: calls carry(map) with its place at the start, and where
-// the scene moves, add(node) with the node of the rig that carries it.
-template <typename Carry, typename Add>
-void readMover(JsonObject& object, const Instant& instant, SceneDescription& scene,
-               const Carry& carry, const Add& add) {
-  const std::shared_ptr<const Motion> motion = readMotion(object, instant, scene);
-  if (!motion) return;
-  if (instant.moves()) {
-    add(static_cast<std::uint32_t>(scene.motion.rig.size()));
-    scene.motion.rig.push_back({kNoNode, Affine(), motion, movableName(object, instant)});
-  }
-  carry(motion->at(0));
+// Adds what carries a camera or light to the scene's rig, and returns its number there.
+std::uint32_t addMover(const JsonObject& object, const Instant& instant, const SharedMotion& motion,
+                       SceneDescription& scene) {
+  scene.motion.rig.push_back({kNoNode, Affine(), motion, movableName(object, instant)});
+  return static_cast<std::uint32_t>(scene.motion.rig.size() - 1);
 }
 
 void readPath(JsonObject& file, SceneDescription& scene) {
@@ -174,25 +167,6 @@ double looped(double seconds, double first, double last) {
   return first + (within < 0 ? within + period : within);
 }
 
-class KeyedMotion : public Motion {
- public:
-  KeyedMotion(Track track, const Vec3d& axis, bool loops)
-      : track_(std::move(track)), axis_(axis), loops_(loops) {}
-
-  Affine at(double seconds) const override {
-    const std::vector<double> v = valueAt(
-        track_, loops_ ? looped(seconds, track_.times.front(), track_.times.back()) : seconds);
-    const Vec3d scale = max(Vec3d(v[4], v[5], v[6]), Vec3d(kLeastScale));  // cubic may overshoot
-    return Affine::translation({v[0], v[1], v[2]}) * Affine::rotation(axis_, v[3]) *
-           Affine::scaling(scale);
-  }
-
- private:
-  Track track_;
-  Vec3d axis_;
-  bool loops_;
-};
-
 void count(double seconds, SceneDescription& scene) {
   const auto known = std::ranges::find(scene.animations, kSceneMotion, &Animation::name);
   Animation& all = known != scene.animations.end() ? *known : scene.animations.emplace_back();
@@ -227,11 +201,12 @@ void readCameras(JsonObject& file, const Instant& instant, SceneDescription& sce
     camera.name = name;
     readCamera(object, camera);
     const auto index = static_cast<std::uint32_t>(scene.cameras.size());
-    readMover(
-        object, instant, scene, [&, own = camera](const Affine& map) { carry(own, map, camera); },
-        [&](std::uint32_t node) {
-          scene.motion.cameras.push_back({index, node, camera});
-        });
+    if (const SharedMotion motion = readMotion(object, instant, scene)) {
+      if (instant.moves()) {
+        scene.motion.cameras.push_back({index, addMover(object, instant, motion, scene), camera});
+      }
+      carry(Camera(camera), (*motion)(0), camera);
+    }
     object.finish();
     scene.cameras.push_back(camera);
   }
@@ -272,12 +247,13 @@ void readLights(JsonObject& file, const Instant& instant, SceneDescription& scen
     readLight(object, light);
     MovingLight moving{static_cast<std::uint32_t>(scene.lights.size()), kNoNode, light.position,
                        light.direction};
-    readMover(
-        object, instant, scene, [&](const Affine& map) { carry(moving, map, light); },
-        [&](std::uint32_t node) {
-          moving.node = node;
-          scene.motion.lights.push_back(moving);
-        });
+    if (const SharedMotion motion = readMotion(object, instant, scene)) {
+      if (instant.moves()) {
+        moving.node = addMover(object, instant, motion, scene);
+        scene.motion.lights.push_back(moving);
+      }
+      carry(moving, (*motion)(0), light);
+    }
     object.finish();
     scene.lights.push_back(light);
   }
@@ -413,12 +389,11 @@ std::string movableName(const JsonObject& object, const Instant& instant) {
   return instant.movable.contains(pointer) ? pointer : std::string();
 }
 
-std::shared_ptr<const Motion> readMotion(JsonObject& object, const Instant& instant,
-                                         SceneDescription& scene) {
+SharedMotion readMotion(JsonObject& object, const Instant& instant, SceneDescription& scene) {
   const JsonValue value = object.find("motion");
   if (!value) {
     if (movableName(object, instant).empty()) return nullptr;
-    return std::make_shared<const FixedMotion>(Affine());
+    return fixedMotion(Affine());
   }
   JsonObject motion(value);
   const JsonValue list = motion.need("keys");
@@ -430,7 +405,13 @@ std::shared_ptr<const Motion> readMotion(JsonObject& object, const Instant& inst
   motion.finish();
   if (track.interpolation == Track::Interpolation::cubic) addTangents(loops, track);
   count(track.times.back(), scene);
-  return std::make_shared<const KeyedMotion>(std::move(track), axis, loops);
+  return std::make_shared<const Motion>([track, axis, loops](double seconds) {
+    const std::vector<double> v =
+        valueAt(track, loops ? looped(seconds, track.times.front(), track.times.back()) : seconds);
+    const Vec3d scale = max(Vec3d(v[4], v[5], v[6]), Vec3d(kLeastScale));  // cubic may overshoot
+    return Affine::translation({v[0], v[1], v[2]}) * Affine::rotation(axis, v[3]) *
+           Affine::scaling(scale);
+  });
 }
 
 }  // namespace whit

@@ -85,8 +85,7 @@ std::pair<Vec3d, double> readTurn(const JsonValue& value);
 // The member "motion" of `object` (scenes/README.md), which follows the object's other transforms;
 // null where there is none. Counts as the scene's animation kSceneMotion. An object that is moved
 // by hand always has a motion.
-std::shared_ptr<const Motion> readMotion(JsonObject& object, const Instant& instant,
-                                         SceneDescription& scene);
+SharedMotion readMotion(JsonObject& object, const Instant& instant, SceneDescription& scene);
 // The pointer to the object if it is moved by hand, otherwise empty.
 std::string movableName(const JsonObject& object, const Instant& instant);
 

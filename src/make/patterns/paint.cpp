@@ -11,12 +11,7 @@ std::size_t texelsOf(int side) {
 
 Texture blank(const std::string& name, int side, TexelFormat format) {
   GenerationLimit::charge(texelsOf(side), sizeof(std::uint32_t));
-  Texture texture;
-  texture.name = name;
-  texture.format = format;
-  texture.width = texture.height = side;
-  texture.texels.reserve(texelsOf(side));
-  return texture;
+  return emptyTexture(name, format, side, side);
 }
 
 // Calls visit(u, v) at the texel centers, row by row from the top.
@@ -33,8 +28,8 @@ void forEachTexel(int side, Visitor&& visit) {
 
 Texture paintColor(const std::string& name, int side, const ColorFormula& color) {
   Texture texture = blank(name, side, TexelFormat::color);
-  forEachTexel(
-      side, [&](double u, double v) { texture.texels.push_back(encodeColorTexel(color(u, v))); });
+  std::uint32_t* to = texture.texels.data();
+  forEachTexel(side, [&](double u, double v) { *to++ = encodeColorTexel(color(u, v)); });
   return texture;
 }
 
@@ -51,13 +46,14 @@ Texture paintNormals(const std::string& name, int side, const ScalarFormula& hei
                    static_cast<std::size_t>(c)];
   };
   const double reach = 2.0 / side;  // between the neighbors on both sides
+  std::uint32_t* to = texture.texels.data();
   for (int row = 0; row < side; ++row) {
     for (int column = 0; column < side; ++column) {
       const double du = at(row, column + 1) - at(row, column - 1);
       const double dv = at(row - 1, column) - at(row + 1, column);
       const Vec3d n = normalized(Vec3d{-du, -dv, reach});
       const auto code = [](double x) { return static_cast<float>(0.5 + 0.5 * x); };
-      texture.texels.push_back(encodeDataTexel(code(n.x), code(n.y), code(n.z), 1));
+      *to++ = encodeDataTexel(code(n.x), code(n.y), code(n.z), 1);
     }
   }
   return texture;
@@ -65,9 +61,10 @@ Texture paintNormals(const std::string& name, int side, const ScalarFormula& hei
 
 Texture paintScalar(const std::string& name, int side, const ScalarFormula& value) {
   Texture texture = blank(name, side, TexelFormat::data);
+  std::uint32_t* to = texture.texels.data();
   forEachTexel(side, [&](double u, double v) {
     const auto x = static_cast<float>(value(u, v));
-    texture.texels.push_back(encodeDataTexel(x, x, x, 1));
+    *to++ = encodeDataTexel(x, x, x, 1);
   });
   return texture;
 }

@@ -45,29 +45,21 @@ void MeshBuilder::quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::u
   triangle(a, c, d);
 }
 
-void MeshBuilder::plate(const std::array<Vec3d, 4>& corners, const std::array<Uv, 4>& uvs) {
-  const Vec3d normal = cross(corners[2] - corners[0], corners[3] - corners[1]);
-  std::array<std::uint32_t, 4> index{};
-  for (std::size_t k = 0; k < 4; ++k) index[k] = vertex({corners[k], normal, uvs[k]});
-  quad(index[0], index[1], index[2], index[3]);
-}
-
 void MeshBuilder::plate(const std::array<Vec3d, 4>& corners, double repeat) {
   const Vec3d normal = cross(corners[2] - corners[0], corners[3] - corners[1]);
   const Vec3d size = abs(normal);
-  std::array<Uv, 4> uvs{};
+  std::array<std::uint32_t, 4> index{};
   for (std::size_t k = 0; k < 4; ++k) {
     const Vec3d& p = corners[k];
+    Uv uv{normal.x > 0 ? -p.z : p.z, p.y};
     if (size.y >= size.x && size.y >= size.z) {
-      uvs[k] = {p.x, normal.y > 0 ? -p.z : p.z};
+      uv = {p.x, normal.y > 0 ? -p.z : p.z};
     } else if (size.z >= size.x) {
-      uvs[k] = {normal.z > 0 ? p.x : -p.x, p.y};
-    } else {
-      uvs[k] = {normal.x > 0 ? -p.z : p.z, p.y};
+      uv = {normal.z > 0 ? p.x : -p.x, p.y};
     }
-    uvs[k] = {uvs[k].u / repeat, uvs[k].v / repeat};
+    index[k] = vertex({p, normal, {uv.u / repeat, uv.v / repeat}});
   }
-  plate(corners, uvs);
+  quad(index[0], index[1], index[2], index[3]);
 }
 
 void MeshBuilder::sheet(int nu, int nv, const std::function<SurfacePoint(int, int)>& at) {

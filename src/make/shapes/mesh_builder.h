@@ -39,10 +39,8 @@ class MeshBuilder {
   // Leaves out triangles with two equal corners (the poles of a sphere, say).
   void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
   void quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d);
-  // Four corners, counter-clockwise, with the plane's normal.
-  void plate(const std::array<Vec3d, 4>& corners, const std::array<Uv, 4>& uvs);
-  // Adds a plate with uvs from projecting along the normal's largest axis, `repeat` units a
-  // texture.
+  // Four corners, counter-clockwise, with the plane's normal, and uvs from projecting along its
+  // largest axis, `repeat` units a texture.
   void plate(const std::array<Vec3d, 4>& corners, double repeat);
 
   // A sheet of nu x nv cells; at(i, j) for 0 <= i <= nu, 0 <= j <= nv. Outside is where i x j
