@@ -36,52 +36,45 @@ struct StartLanes {
   VI part, cell, row;  // the number of its part, and column and row of the cell in it
 };
 
-// The hits of the rays' surfels. Mostly rays of a vector belong to slots that follow one another.
-struct HitWords {
-  VI triangle, instance;
+// A vector of rays of a chunk, with the hits of their surfels.
+struct RayLanes {
+  MF live;
+  VI slot, triangle, instance;
   VF u, v;
 };
 
-HWY_INLINE HitWords LoadHitWords(const Chunk& c, MF live, VI slot, uint32_t first) {
+// Loads the rays from `i` on. Mostly rays of a vector belong to slots that follow one another.
+HWY_INLINE RayLanes LoadRays(const Chunk& c, size_t i, size_t end) {
   const FloatTag d;
   const IntTag di;
   const bool instances = c.has(Feature::instances);
-  const VI row = RowFrom(first);
-  const MF apart = hn::AndNot(hn::RebindMask(d, hn::Eq(slot, row)), live);
+  const uint32_t* const slots = c.shadows.slot + i;
+  const uint32_t first = slots[0];
+  RayLanes rays;
+  rays.live = hn::FirstN(d, end - i);
+  rays.slot = hn::IfThenElseZero(hn::RebindMask(di, rays.live),
+                                 hn::BitCast(di, hn::Load(UintTag(), slots)));
+  rays.instance = hn::Set(di, -1);
+  const MF apart = hn::AndNot(hn::RebindMask(d, hn::Eq(rays.slot, RowFrom(first))), rays.live);
   if (HWY_LIKELY(hn::AllFalse(d, apart))) {
     const auto load = [&](const uint32_t* words) HWY_ATTR {
       return hn::LoadU(di, reinterpret_cast<const int32_t*>(words) + first);
     };
-    return {load(c.hits.triangle), instances ? load(c.hits.instance) : hn::Set(di, -1),
-            hn::LoadU(d, c.hits.u + first), hn::LoadU(d, c.hits.v + first)};
+    rays.triangle = load(c.hits.triangle);
+    if (instances) rays.instance = load(c.hits.instance);
+    rays.u = hn::LoadU(d, c.hits.u + first);
+    rays.v = hn::LoadU(d, c.hits.v + first);
+  } else {
+    rays.triangle = GatherWord(c.hits.triangle, rays.slot);
+    if (instances) rays.instance = GatherWord(c.hits.instance, rays.slot);
+    rays.u = hn::GatherIndex(d, c.hits.u, rays.slot);
+    rays.v = hn::GatherIndex(d, c.hits.v, rays.slot);
   }
-  return {GatherWord(c.hits.triangle, slot),
-          instances ? GatherWord(c.hits.instance, slot) : hn::Set(di, -1),
-          hn::GatherIndex(d, c.hits.u, slot), hn::GatherIndex(d, c.hits.v, slot)};
-}
-
-// A vector of rays of a chunk, from `i` on.
-struct RayLanes {
-  MF live;
-  VI slot;
-  HitWords hits;
-};
-
-HWY_INLINE RayLanes LoadRays(const Chunk& c, size_t i, size_t end) {
-  const FloatTag d;
-  const IntTag di;
-  const UintTag du;
-  const uint32_t* const slots = c.shadows.slot + i;
-  RayLanes rays;
-  rays.live = hn::FirstN(d, end - i);
-  rays.slot =
-      hn::IfThenElseZero(hn::RebindMask(di, rays.live), hn::BitCast(di, hn::Load(du, slots)));
-  rays.hits = LoadHitWords(c, rays.live, rays.slot, slots[0]);
   return rays;
 }
 
 // Where a ray with these weights starts on a triangle with this word of ShadowCacheView::first.
-HWY_INLINE StartLanes FindStarts(VI word, const HitWords& hits) {
+HWY_INLINE StartLanes FindStarts(VI word, VF hitU, VF hitV) {
   const FloatTag d;
   const IntTag di;
   const VF one = hn::Set(d, 1.0f);
@@ -89,9 +82,9 @@ HWY_INLINE StartLanes FindStarts(VI word, const HitWords& hits) {
   const MF divided = hn::RebindMask(d, hn::Ne(word, hn::Set(di, static_cast<int32_t>(kNoParts))));
   const VI power = hn::And(word, hn::Set(di, (1 << kPartBits) - 1));
   const VF rim = hn::Mul(PowerOfTwo(hn::Neg(power)), hn::Set(d, kShadowRim));
-  const VF least = hn::Min(hn::Min(hits.u, hits.v), hn::Sub(hn::Sub(one, hits.u), hits.v));
+  const VF least = hn::Min(hn::Min(hitU, hitV), hn::Sub(hn::Sub(one, hitU), hitV));
   s.live = hn::And(divided, hn::Ge(least, rim));
-  const VF u = hn::IfThenElseZero(s.live, hits.u), v = hn::IfThenElseZero(s.live, hits.v);
+  const VF u = hn::IfThenElseZero(s.live, hitU), v = hn::IfThenElseZero(s.live, hitV);
   const VF side = PowerOfTwo(power), cells = hn::Set(d, static_cast<float>(kCellsASide));
   const VF partU = hn::Mul(u, side), partV = hn::Mul(v, side);
   const VI column = hn::ConvertTo(di, partU), row = hn::ConvertTo(di, partV);
@@ -145,11 +138,10 @@ HWY_INLINE void NoteWanted(const ShadowCacheView& view, hn::Mask<IntTag> unknown
 HWY_INLINE VI LookUp(const ShadowCacheView& view, const RayLanes& rays) {
   const IntTag di;
   const VI mixed = hn::Set(di, kMixed);
-  const auto world =
-      hn::And(hn::RebindMask(di, rays.live), hn::Eq(rays.hits.instance, hn::Set(di, -1)));
-  const VI first = GatherWord(view.first, hn::IfThenElseZero(world, rays.hits.triangle));
+  const auto world = hn::And(hn::RebindMask(di, rays.live), hn::Eq(rays.instance, hn::Set(di, -1)));
+  const VI first = GatherWord(view.first, hn::IfThenElseZero(world, rays.triangle));
   const VI noParts = hn::Set(di, static_cast<int32_t>(kNoParts));
-  const StartLanes s = FindStarts(hn::IfThenElse(world, first, noParts), rays.hits);
+  const StartLanes s = FindStarts(hn::IfThenElse(world, first, noParts), rays.u, rays.v);
   const auto live = hn::RebindMask(di, s.live);
   const VI part = hn::IfThenElseZero(live, s.part);
   VI word = hn::IfThenElse(live, GatherWord(view.parts, part), mixed);
@@ -163,7 +155,7 @@ HWY_INLINE VI LookUp(const ShadowCacheView& view, const RayLanes& rays) {
 
 // True in lanes whose rays start as near to the points of their weights as the shadow cache
 // requires (kCachedShadowReach).
-HWY_INLINE MF StartsNear(const Chunk& c, MF live, const HitWords& hits, const V3& start) {
+HWY_INLINE MF StartsNear(const Chunk& c, MF live, const RayLanes& hits, const V3& start) {
   using R = TriangleRecord;
   const FloatTag d;
   const SharedRecords<R> records(c.tables().triangles, hits.triangle, live);
@@ -228,7 +220,7 @@ void DecideShadows(Chunk& c) noexcept {
     };
     MF lit = is(ShadowState::lit), dark = is(ShadowState::dark), rest = rays.live;
     if (!hn::AllFalse(d, hn::Or(lit, dark))) {
-      const MF near = StartsNear(c, hn::Or(lit, dark), rays.hits,
+      const MF near = StartsNear(c, hn::Or(lit, dark), rays,
                                  Load3(columns.orgX, columns.orgY, columns.orgZ, i));
       lit = hn::And(lit, near);
       dark = hn::And(dark, near);

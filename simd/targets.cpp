@@ -1,5 +1,7 @@
 // Which SIMD target the kernels run on.
+#include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <mutex>
 #include <string>
 
@@ -68,20 +70,14 @@ bool chooseTarget(const std::string& name) {
   static std::string chosen;
   const std::lock_guard lock(mutex);
   if (name == chosen) return true;  // others may be calling kernels
-  const std::int64_t detected = detectedTargets();
-  if (name == "auto") {
-    use(0);
-    chosen = name;
-    return true;
-  }
-  for (const TargetName& target : kTargetNames) {
-    if (target.name == name && (detected & target.bit) != 0) {
-      use(target.bit);
-      chosen = name;
-      return true;
-    }
-  }
-  return false;
+  const auto* const known = std::ranges::find_if(kTargetNames, [&](const TargetName& target) {
+    return target.name == name && (detectedTargets() & target.bit) != 0;
+  });
+  const bool any = name == "auto";
+  if (!any && known == std::end(kTargetNames)) return false;
+  use(any ? 0 : known->bit);
+  chosen = name;
+  return true;
 }
 
 std::string chosenTarget() {

@@ -10,7 +10,6 @@
 
 #include "accel/embree_scene.h"
 #include "bake/facet.h"
-#include "bake/sphere.h"
 #include "simd/kernels.h"
 #include "stages/packet_words.h"
 

@@ -74,6 +74,12 @@ inline constexpr std::size_t roundUpToBlock(std::size_t n) {
     }                                                     \
   }
 
+// Three columns of a vector or a color.
+#define WHIT_XYZ(X, name, feature) \
+  X(float, name##X, feature) X(float, name##Y, feature) X(float, name##Z, feature)
+#define WHIT_RGB(X, name, feature) \
+  X(float, name##R, feature) X(float, name##G, feature) X(float, name##B, feature)
+
 // X(type, name, feature). Directions are unit vectors; `parent` is the slot at the depth above (a
 // pixel's at depth 0) that gets weight * radiance; `throughput` bounds what the ray's radiance is
 // multiplied with on its way to the eye; `media` is the stack of dielectrics it travels in, a byte
@@ -81,15 +87,9 @@ inline constexpr std::size_t roundUpToBlock(std::size_t n) {
 // where lobes are sampled; `cone` is the width of its cone (RayCone) where it starts, for mip
 // levels: the spread is that of the camera's pixels at every depth.
 #define WHIT_RAY_COLUMNS(X)             \
-  X(float, orgX, always)                \
-  X(float, orgY, always)                \
-  X(float, orgZ, always)                \
-  X(float, dirX, always)                \
-  X(float, dirY, always)                \
-  X(float, dirZ, always)                \
-  X(float, weightR, always)             \
-  X(float, weightG, always)             \
-  X(float, weightB, always)             \
+  WHIT_XYZ(X, org, always)              \
+  WHIT_XYZ(X, dir, always)              \
+  WHIT_RGB(X, weight, always)           \
   X(float, throughput, always)          \
   X(std::uint32_t, parent, always)      \
   X(std::uint32_t, media, transmission) \
@@ -117,46 +117,28 @@ inline constexpr std::uint32_t kSharesPlace = 1u << 30;
 // is there: of all that it sends so much arrives, and through the rest light goes straight on;
 // `lift` is added to the position where shadow rays start; `cone` is the width that the ray's cone
 // has reached, and its children's start with.
-#define WHIT_SURFEL_COLUMNS(X)          \
-  X(float, posX, always)                \
-  X(float, posY, always)                \
-  X(float, posZ, always)                \
-  X(float, ngX, always)                 \
-  X(float, ngY, always)                 \
-  X(float, ngZ, always)                 \
-  X(float, nsX, always)                 \
-  X(float, nsY, always)                 \
-  X(float, nsZ, always)                 \
-  X(float, offset, always)              \
-  X(float, retreat, always)             \
-  X(float, diffuseR, always)            \
-  X(float, diffuseG, always)            \
-  X(float, diffuseB, always)            \
-  X(std::uint32_t, material, always)    \
-  X(float, specularR, glossy)           \
-  X(float, specularG, glossy)           \
-  X(float, specularB, glossy)           \
-  X(float, alpha, glossy)               \
-  X(float, emissionR, emissionFactors)  \
-  X(float, emissionG, emissionFactors)  \
-  X(float, emissionB, emissionFactors)  \
-  X(float, coverage, coverage)          \
-  X(float, liftX, lift)                 \
-  X(float, liftY, lift)                 \
-  X(float, liftZ, lift)                 \
-  X(float, cone, cones)                 \
-  X(std::uint32_t, flags, transmission) \
+#define WHIT_SURFEL_COLUMNS(X)           \
+  WHIT_XYZ(X, pos, always)               \
+  WHIT_XYZ(X, ng, always)                \
+  WHIT_XYZ(X, ns, always)                \
+  X(float, offset, always)               \
+  X(float, retreat, always)              \
+  WHIT_RGB(X, diffuse, always)           \
+  X(std::uint32_t, material, always)     \
+  WHIT_RGB(X, specular, glossy)          \
+  X(float, alpha, glossy)                \
+  WHIT_RGB(X, emission, emissionFactors) \
+  X(float, coverage, coverage)           \
+  WHIT_XYZ(X, lift, lift)                \
+  X(float, cone, cones)                  \
+  X(std::uint32_t, flags, transmission)  \
   X(std::uint32_t, mediaBehind, transmission)
 
 // Shadow rays of one light, compacted. Directions reach from the surfel to the light, not
 // normalized; `slot` is the surfel's.
 #define WHIT_SHADOW_COLUMNS(X) \
-  X(float, orgX, always)       \
-  X(float, orgY, always)       \
-  X(float, orgZ, always)       \
-  X(float, dirX, always)       \
-  X(float, dirY, always)       \
-  X(float, dirZ, always)       \
+  WHIT_XYZ(X, org, always)     \
+  WHIT_XYZ(X, dir, always)     \
   X(float, tFar, always)       \
   X(std::uint32_t, slot, always)
 
