@@ -2,7 +2,6 @@
 #include "accel/accel.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -10,6 +9,7 @@
 
 #include "accel/embree_scene.h"
 #include "bake/facet.h"
+#include "core/stopwatch.h"
 #include "simd/kernels.h"
 #include "stages/packet_words.h"
 
@@ -42,12 +42,6 @@ struct Accel::Parts {
 };
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double millisecondsSince(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 // Rays that are traced with one kind of call. Closest hits belong to one segment of a chunk.
 struct HitRange {
@@ -198,7 +192,7 @@ std::size_t traceGroups(const EmbreeScene& scene, unsigned mask, const Range& ra
     if (rest < kGroup) group.setLanes(rest);
     pack(group, begin, rest);
     context.setRays(advanced(range.rays, begin));
-    const auto start = Clock::now();
+    const Stopwatch stopwatch;
     if (together) {
       context.traceStream(scene.top(), group.packets, kWidth, group.count);
     } else {
@@ -206,7 +200,7 @@ std::size_t traceGroups(const EmbreeScene& scene, unsigned mask, const Range& ra
         context.trace(scene.top(), group.packets[p], group.live[p].lanes);
       }
     }
-    embreeMs += millisecondsSince(start);
+    embreeMs += stopwatch.ms();
     unpack(group, begin, rest);
     lanes += group.count * kWidth;
   }
@@ -282,9 +276,9 @@ std::size_t traceAll(const Accel::Parts& parts, int packet, const Range& range, 
   if (packet == 16) return traceRange<16>(parts, range, embreeMs);
   if (packet == 8) return traceRange<8>(parts, range, embreeMs);
   if (packet == 4) return traceRange<4>(parts, range, embreeMs);
-  const auto start = Clock::now();
+  const Stopwatch stopwatch;
   for (std::size_t i = 0; i < range.n; ++i) traceSingly(parts.embree, range, i);
-  embreeMs += millisecondsSince(start);
+  embreeMs += stopwatch.ms();
   return range.n;
 }
 

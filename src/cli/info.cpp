@@ -7,7 +7,7 @@
 #include "cli/commands.h"
 #include "core/option_table.h"
 #include "core/text.h"
-#include "render/shadow_cache_schedule.h"
+#include "render/renderer.h"
 
 namespace whit::cli {
 

@@ -27,7 +27,6 @@
 #include "io/paths.h"
 #include "make/model_view.h"
 #include "render/renderer.h"
-#include "render/shadow_cache_schedule.h"
 #include "simd/deform_vertices.h"
 
 namespace whit::cli {
@@ -337,9 +336,8 @@ class ImageWriter {
   void fillShadowCache(Film& film) {
     const auto fillMs = prepareShadowCache(*renderer_, shadowCacheBytes_, camera_, film);
     if (!fillMs) return;
-    if (!run_.shadowCache) run_.shadowCache.emplace();
-    run_.shadowCache->fillMs += *fillMs;
-    run_.shadowCache->bytes = renderer_->shadowCacheBytes();
+    const double before = run_.shadowCache ? run_.shadowCache->fillMs : 0;
+    run_.shadowCache = {before + *fillMs, renderer_->shadowCacheBytes()};
   }
 
   bool areWhole(const std::vector<std::string>& files, const Image& image,

@@ -89,14 +89,14 @@ std::string describe(const Image& image) {
          std::to_string(w.y1);
 }
 
-}  // namespace
-
 void checkComparable(const Image& a, const Image& b) {
   if (a.width != b.width || a.height != b.height || a.window != b.window)
     throwUsage("expected two images of the same size and crop, found " + describe(a) + " and " +
                describe(b));
   if (a.pixels.empty()) throwUsage("expected images with at least one pixel");
 }
+
+}  // namespace
 
 ImageDifference compareImages(const Image& a, const Image& b, float exposure, ToneCurve curve) {
   checkComparable(a, b);

@@ -28,9 +28,6 @@ struct ImageDifference {
 ImageDifference compareImages(const Image& a, const Image& b, float exposure = 0,
                               ToneCurve curve = ToneCurve::none);
 
-// Throws Error(usage) unless sizes and windows match and there are pixels.
-void checkComparable(const Image& a, const Image& b);
-
 // Paints the difference of each pixel in codes with heatColor() on a logarithmic scale from 0 to 16
 // codes; larger differences have the last color.
 DisplayImage heatMap(const Image& a, const Image& b);

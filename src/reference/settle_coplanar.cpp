@@ -128,7 +128,7 @@ Settled settleCoplanar(const Scene& scene, EffectSet effects, const Ray& ray,
   for (const Place& place : places) {
     if (comesFirst(scene, place, *first)) first = &place;
   }
-  Settled settled{first->candidate};
+  Settled settled{first->candidate, first->hit};
   for (const Place& place : places) {
     if (&place == first || first->opaque || place.medium == 0) continue;
     settled.alsoCrossed = withCrossing(settled.alsoCrossed, place.medium, place.entering);

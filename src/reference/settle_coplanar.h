@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "reference/intersect.h"
@@ -29,7 +30,8 @@ std::vector<Place> placesAt(const Scene& scene, EffectSet effects, const Ray& ra
 
 struct Settled {
   Candidate candidate;
-  std::uint32_t alsoCrossed = 0;  // dielectrics whose faces lie there too (reference/media.h)
+  std::optional<TriangleHit> hit;  // where other triangles lie in the same place
+  std::uint32_t alsoCrossed = 0;   // dielectrics whose faces lie there too (reference/media.h)
 };
 
 // Light meets the opaque surface; of dielectrics alone the one of highest priority, and with it all

@@ -274,7 +274,6 @@ class Planner {
     step.wants = flag;
     step.childKind = kind;
     step.childrenAtEye = atEye;
-    step.childrenBeyond = 1;
     plan_.impulses.push_back(std::move(step));
   }
 
@@ -305,7 +304,7 @@ void requireOrder(const Plan& plan) {
       throw std::logic_error("step " + step.name + " reads what no step before it writes");
     }
     written = written.with(step.writes);
-    if (step.childrenBeyond > 0) written = written.with(Part::parentRadiance);
+    if (step.childrenAtEye > 0) written = written.with(Part::parentRadiance);
   });
 }
 

@@ -29,17 +29,17 @@ struct Step {
   StepFunction run;
   Parts reads, writes;
   std::uint32_t wants = 0;  // kMaterial flags: chunks of which no surfel has any of them skip it
-  // For steps that write children: the kind of the children, and upper bounds on their number per
-  // surfel, for primary hits and for deeper ones.
+  // For steps that write children: the kind of the children, and an upper bound on their number per
+  // surfel of a primary hit. Deeper ones have one at most.
   RayKind childKind = RayKind::reflection;
-  std::size_t childrenAtEye = 0, childrenBeyond = 0;
+  std::size_t childrenAtEye = 0;
   std::vector<KernelUse> kernels;  // what it consists of
   bool endsStage = false;          // no other step of its stage follows
 
   bool runsFor(std::uint32_t materialFlags) const {
     return wants == 0 || (materialFlags & wants) != 0;
   }
-  std::size_t childrenAt(int depth) const { return depth == 0 ? childrenAtEye : childrenBeyond; }
+  std::size_t childrenAt(int depth) const { return depth == 0 ? childrenAtEye : 1; }
 };
 
 // All that one light, or one sample of it, goes through.

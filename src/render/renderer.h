@@ -178,4 +178,13 @@ float exposureFor(const Renderer& renderer, const Camera& camera);
 // Gives an automatic exposure of the options its value, and tells the renderer.
 void settleExposure(Renderer& renderer, const Camera& camera, RenderOptions& options);
 
+// The least number of samples of pixels in a frame for which the shadow cache saves time.
+double samplesThatPay(const Scene& scene);
+
+// Before a frame: one of a single sample, which overwrites `film`, requests what all of its samples
+// will, in tables of at most this many bytes. Returns the milliseconds that filling them took, or
+// nothing where the cache would not save time. An audit uses it for every frame, with all samples.
+std::optional<double> prepareShadowCache(Renderer& renderer, std::uint64_t mostBytes,
+                                         const Camera& camera, Film& film);
+
 }  // namespace whit

@@ -1,7 +1,8 @@
-#include "render/shadow_cache_schedule.h"
-
+// When a frame fills the shadow cache: if it has so many samples that proofs take less time than
+// the rays that they save.
 #include <cmath>
 
+#include "render/renderer.h"
 #include "stages/lobes.h"
 
 namespace whit {
@@ -42,13 +43,12 @@ std::optional<double> prepareShadowCache(Renderer& renderer, std::uint64_t mostB
   RenderOptions asking = all;
   if (!audit) asking.spp = 1;
   renderer.setOptions(asking);
+  renderer.forgetShadowRequests();
   renderer.render(camera, film);
   renderer.setOptions(all);
   // Each request of that sample is expected to occur once more for each of the others.
   const double least = audit ? 1 : std::ceil(kRaysAProof / all.spp);
-  const double ms = renderer.fillShadowCache({.leastRays = static_cast<unsigned>(least)}).ms;
-  renderer.forgetShadowRequests();
-  return ms;
+  return renderer.fillShadowCache({.leastRays = static_cast<unsigned>(least)}).ms;
 }
 
 }  // namespace whit

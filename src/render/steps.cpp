@@ -215,9 +215,9 @@ void settleCoplanar(Chunk& c) {
     if (!scene.coplanar.any(c.hits.triangle[i])) continue;
     const reference::Settled settled = reference::settleCoplanar(
         scene, c.frame->effects, reference::rayOf(c, i), reference::candidateOf(c, i));
-    if (!settled.isCoplanar) continue;
+    if (!settled.hit) continue;
     setSurface(settled.candidate, i, c);
-    c.hits.t[i] = static_cast<float>(settled.hit.t);
+    c.hits.t[i] = static_cast<float>(settled.hit->t);
     c.hits.alsoCrossed[i] = settled.alsoCrossed;
   }
 }

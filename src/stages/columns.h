@@ -75,10 +75,10 @@ inline constexpr std::size_t roundUpToBlock(std::size_t n) {
   }
 
 // Three columns of a vector or a color.
-#define WHIT_XYZ(X, name, feature) \
-  X(float, name##X, feature) X(float, name##Y, feature) X(float, name##Z, feature)
-#define WHIT_RGB(X, name, feature) \
-  X(float, name##R, feature) X(float, name##G, feature) X(float, name##B, feature)
+#define WHIT_XYZ(VISIT, name, feature) \
+  VISIT(float, name##X, feature) VISIT(float, name##Y, feature) VISIT(float, name##Z, feature)
+#define WHIT_RGB(VISIT, name, feature) \
+  VISIT(float, name##R, feature) VISIT(float, name##G, feature) VISIT(float, name##B, feature)
 
 // X(type, name, feature). Directions are unit vectors; `parent` is the slot at the depth above (a
 // pixel's at depth 0) that gets weight * radiance; `throughput` bounds what the ray's radiance is

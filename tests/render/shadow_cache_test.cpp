@@ -14,7 +14,7 @@
 #include "core/error.h"
 #include "render/caster_reference.h"
 #include "render/random_scenes.h"
-#include "render/shadow_cache_schedule.h"
+#include "render/renderer.h"
 #include "render/shipped_scene.h"
 #include "sanitized.h"
 #include "simd/kernels.h"
