@@ -73,9 +73,8 @@ bool chooseTarget(const std::string& name) {
   const auto* const known = std::ranges::find_if(kTargetNames, [&](const TargetName& target) {
     return target.name == name && (detectedTargets() & target.bit) != 0;
   });
-  const bool any = name == "auto";
-  if (!any && known == std::end(kTargetNames)) return false;
-  use(any ? 0 : known->bit);
+  if (name != "auto" && known == std::end(kTargetNames)) return false;
+  use(name == "auto" ? 0 : known->bit);
   chosen = name;
   return true;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <utility>
 
 namespace whit {
 
@@ -10,6 +11,11 @@ class Stopwatch {
  public:
   double ms() const {
     return std::chrono::duration<double, std::milli>(Clock::now() - start_).count();
+  }
+  // The same, and runs from now on.
+  double restart() {
+    const Clock::time_point start = std::exchange(start_, Clock::now());
+    return std::chrono::duration<double, std::milli>(start_ - start).count();
   }
 
  private:

@@ -13,7 +13,6 @@
 #include <array>
 #include <barrier>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "core/stopwatch.h"
@@ -32,11 +31,11 @@ class StageClock {
   // The time since the last lap belongs to `stage`; below depth 0 all of it is addImpulses.
   void lap(Stage stage, int depth) {
     const Stage account = depth == 0 || stage == Stage::updateImage ? stage : Stage::addImpulses;
-    stats_.stageWorkerMs[static_cast<std::size_t>(account)] += std::exchange(last_, {}).ms();
+    stats_.stageWorkerMs[static_cast<std::size_t>(account)] += last_.restart();
     ++stats_.stageCalls[static_cast<std::size_t>(stage)];
   }
   // Time that no stage should be charged with, such as waiting for the others.
-  void skip() { last_ = Stopwatch(); }
+  void skip() { last_.restart(); }
 
  private:
   FrameStats& stats_;

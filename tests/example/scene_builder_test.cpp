@@ -123,7 +123,7 @@ TEST(SceneBuilder, CamerasHaveAProjection) {
   EXPECT_TRUE(samePictures(
       renderer.lookThrough(R"({"eye": [0.5, 2, 4], "at": [0, 0, 0]})").render(), plain));
   EXPECT_TRUE(samePictures(renderer.lookThrough("").render(), round));
-  camera.fov = 30;  // a panorama has none
+  camera.aperture = 0.1;  // a panorama has none
   camera.projection = "panorama";
   camera.angle = 180;
   builder.addCamera("front", camera);
