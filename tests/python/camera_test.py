@@ -109,8 +109,8 @@ class Cameras(unittest.TestCase):
         self.assertEqual(whit.Scene(square_scene()).render(camera=panorama).width, SIZE[0])
         with self.assertRaisesRegex(whit.Error, "^k: expected a perspective camera"):
             panorama.project([0, 0, 0])
-        panorama.members["fov"] = 30
-        with self.assertRaisesRegex(whit.Error, "camera#/fov"):
+        panorama.members["aperture"] = 0.1
+        with self.assertRaisesRegex(whit.Error, "camera#/aperture"):
             whit.Scene(square_scene()).render(camera=panorama)
 
 
