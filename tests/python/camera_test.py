@@ -52,6 +52,16 @@ class Cameras(unittest.TestCase):
         back = camera.unproject(depths, camera.project(points))
         np.testing.assert_allclose(back, points, atol=1e-12)
 
+    def test_pictures_of_other_sizes_scale_the_matrix(self):
+        members = whit.Camera.from_k(K, pose(), SIZE).members
+        camera = whit.Camera(members, (2 * SIZE[0], 3 * SIZE[1]))
+        # From corner to corner of a pixel, as centers do not scale.
+        scale = np.array([[2, 0, 0.5], [0, 3, 1], [0, 0, 1]])
+        np.testing.assert_allclose(camera.k, scale @ K, atol=1e-12)
+        picture = wall().render(camera=camera, channels=["depth", "position"])
+        np.testing.assert_allclose(camera.unproject(picture["depth.Z"]), picture["position"],
+                                   atol=2e-5)
+
     def test_a_depth_picture_becomes_points(self):
         camera = whit.Camera.from_k(K, pose("opengl"), SIZE, "opengl")
         picture = wall().render(camera=camera, channels=["depth", "position"])
@@ -100,6 +110,7 @@ class Cameras(unittest.TestCase):
     def test_what_is_no_camera(self):
         for k, place, axes, what in ((np.eye(2), pose(), "opencv", "K"),
                                      (np.ones((3, 3)), pose(), "opencv", "K"),
+                                     (K + [[0, 0, 0], [1, 0, 0], [0, 0, 0]], pose(), "opencv", "K"),
                                      (K, 2 * np.eye(3, 4), "opencv", "pose"),
                                      (K, np.diag([1, 1, -1, 1]), "opencv", "pose"),
                                      (K, pose(), "opencl", "axes")):
