@@ -177,6 +177,10 @@ for word in "$@"; do
 done
 if [ "$mode" = run ]; then
   mkdir -p "$copy"
+  # What has gone since the last run would be built again.
+  (cd "$copy" && find src simd scenes viewer tests -type f 2>/dev/null) | while read -r file; do
+    [ -e "$root/$file" ] || rm "$copy/$file"
+  done
   (cd "$root" && cp -ru CMakeLists.txt src simd scenes viewer tests "$copy/") || exit 1
   # shellcheck disable=SC2086  # a list of words
   cmake -G Ninja -S "$copy" -B "$copy/build" -DCMAKE_BUILD_TYPE=Release -DWHIT_SIMD_TARGETS=TWO \
