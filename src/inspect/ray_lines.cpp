@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <set>
+#include <tuple>
 #include <utility>
 
 #include "core/vec3.h"
@@ -82,11 +82,12 @@ double shareSeen(const std::vector<SeenPoint>& points, const Camera& camera, con
 }  // namespace
 
 std::vector<RayLook> looksOf(const std::vector<RayLine>& lines) {
-  std::set<RayLook> looks;
-  for (const RayLine& line : lines) looks.insert(line.look);
-  std::vector<RayLook> sorted(looks.begin(), looks.end());
-  std::ranges::stable_sort(sorted, {}, isDashed);
-  return sorted;
+  std::vector<RayLook> looks(lines.size());
+  std::ranges::transform(lines, looks.begin(), &RayLine::look);
+  std::ranges::sort(looks, {},
+                    [](RayLook l) { return std::tuple(isDashed(l), l.kind, l.blocked); });
+  looks.erase(std::unique(looks.begin(), looks.end()), looks.end());
+  return looks;
 }
 
 std::vector<RayLine> linesOf(const RayTree& tree, const Camera& camera) {

@@ -225,10 +225,9 @@ void settleCoplanar(Chunk& c) {
 void settleSpheres(Chunk& c) {
   for (std::size_t i = 0; i < c.n; ++i) {
     const reference::Candidate found = reference::candidateOf(c, i);
-    const reference::Candidate chosen =
+    const reference::Candidate best =
         reference::settleSpheres(*c.frame->scene, c.frame->effects, found);
-    const bool isFound = chosen.triangle == found.triangle && chosen.instance == found.instance;
-    if (!isFound) setSurface(chosen, i, c);
+    if (best.triangle != found.triangle || best.instance != found.instance) setSurface(best, i, c);
   }
 }
 

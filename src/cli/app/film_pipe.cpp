@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -32,9 +33,8 @@ FilmPipe::FilmPipe(const std::string& path, int width, int height, double fps) :
       ' ');
   // A leading dash would make the path an option.
   words.push_back((path.starts_with('-') ? "./" : "") + file_->temporaryPath());
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
+  std::vector<char*> arguments(words.size() + 1);  // null is the last
+  std::ranges::transform(words, arguments.begin(), [](std::string& word) { return word.data(); });
   signal(SIGPIPE, SIG_IGN);  // a program that has ended is then an error of the write
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throwIo(std::string("cannot make a pipe: ") + strerror(errno));
