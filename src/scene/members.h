@@ -85,7 +85,7 @@ inline constexpr auto kMembers<Camera> = std::tuple{
     Member{"at", &Camera::at},
     Member{"up", &Camera::up},
     Member{"projection", &Camera::projection},
-    // Of perspective cameras; others pass over it, so that the projection alone can be changed.
+    // Other projections pass over it, so that the projection of a camera can be changed alone.
     Member{"fov", &Camera::fov, {.low = kLeastFov, .high = kLargestFov}},
     Member{"orthographicHeight", &Camera::orthographicHeight, {.low = 0, .exists = isPerspective}},
     Member{"aperture", &Camera::aperture, {.low = 0, .exists = isPerspective}},
