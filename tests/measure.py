@@ -117,8 +117,8 @@ def measure_speed():
          merged([(bench(f"landscape?triangles={n}", "--size", "480x300", "--frames", "5"), {})
                  for n in TRIANGLES]))
     keep("long-paths.json",
-         merged([(bench(*here(LONG_PATHS), "--size", "480x300", "--frames", "3", "--quality", quality),
-                  {"quality": quality}) for quality in ["standard", "draft"]]))
+         merged([(bench(*here(LONG_PATHS), "--size", "480x300", "--frames", "3", "--cutoff", cutoff),
+                  {"cutoff": cutoff}) for cutoff in CUTOFFS]))
     measure_spheres()
     run([BUILD / "whit", "effects", "--out", OUT / "effects", "--quiet"])
 
@@ -221,11 +221,13 @@ def triangle_table(data):
 
 
 def long_path_table(data):
-    draft = {r["scene"]: r for r in data["runs"] if r["quality"] == "draft"}
-    return table(["", "ms", "million rays", "ms with `--quality draft`"],
-                 [[scene_of(r), number(r["frame_ms"]["median"]), number(million_rays(r), 2),
-                   number(draft[r["scene"]]["frame_ms"]["median"])]
-                  for r in data["runs"] if r["quality"] == "standard"])
+    runs = {(r["scene"], r["cutoff"]): r for r in data["runs"]}
+    columns = [f"{what}, `--cutoff {cutoff}`" for cutoff in CUTOFFS for what in ["ms", "million rays"]]
+    return table(["", *columns],
+                 [[scene_of(r), *(cell for cutoff in CUTOFFS for run in [runs[r["scene"], cutoff]]
+                                  for cell in [number(run["frame_ms"]["median"]),
+                                               number(million_rays(run), 2)])]
+                  for r in data["runs"] if r["cutoff"] == CUTOFFS[0]])
 
 
 def sphere_table(data):
@@ -330,7 +332,7 @@ def preset_table(rows):
         row = baseline(rows, scene) if name == "standard" else find(rows, scene, "quality", name)
         return (f"{number(value(row, 'x_baseline'), 2)}, {number(value(row, 'total_flip'), 4)}"
                 if row else "")
-    names = ["draft", "standard", "fine", "reference"]
+    names = ["standard", "fine", "reference"]
     cells = []
     for scene in sweep_scenes(rows):
         row, eight = baseline(rows, scene), find(rows, scene, "depth", "8")

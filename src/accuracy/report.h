@@ -32,7 +32,7 @@ inline constexpr std::array kChoiceMs{16.0, 100.0, 1000.0, 10000.0};
 // `ms`; the fastest of equal errors; null if there is none.
 const Point* bestWithin(const SceneSweep& sweep, double ms);
 
-// One sentence: "whitted at 256x256 pixels: in 16 ms choose draft (FLIP 0.0812), in 100 ms ...".
+// One sentence: "whitted at 256x256 pixels: in 16 ms choose standard (FLIP 0.0812), in 100 ms ...".
 std::string choiceText(const SceneSweep& sweep);
 
 // Smaller changes against the baseline cannot be told from none.

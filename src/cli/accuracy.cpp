@@ -48,7 +48,7 @@ OptionList listOptions(AccuracyJob& job) {
   list.value({"out", "DIR"}, "folder for the results; it is made if it does not exist", job.out);
   list.value({"truth", "model|transport"},
              "what errors are measured against: Whitted's model without approximations, or all "
-             "transport of light, with points from a draft to that",
+             "transport of light, with points from one sample to that",
              job.settings.truth);
   list.flag("full",
             "the scene's size and 256 reference samples, in place of 256x256 pixels, up to 64 "

@@ -55,15 +55,14 @@ constexpr std::array kPresetOptions{"spp",           "depth",  "cutoff",        
                                     "texture-filter"};
 
 // Points of the fronts that `whit accuracy` finds on the shipped scenes (src/accuracy/README.md).
-// With the cutoff of standard at most one pixel in a thousand of whitted, mirrors, atrium and
-// sponza-mirror is two codes off; without one, rays that branch at every dielectric would double to
-// the depth's limit. `good` has the effects that are left out by default, a sample or two of each
+// The cutoff of standard takes 0.4 of the time of 1e-4 on glass, with a mean FLIP of 0.004 between
+// the two pictures. Without a cutoff, rays that branch at every dielectric would double to the
+// depth's limit. `good` has the effects that are left out by default, a sample or two of each
 // for every sample of a pixel.
 // The rows stand in the order of Quality.
 constexpr std::array<const char*, kPresetOptions.size()> kPresets[] = {
     {"16", "64", "1e-3", "1e-3", "packets", "1", "2", "1", "trilinear"},
-    {"1", "64", "4e-3", "1e-3", "packets", "0", "1", "0", "bilinear"},
-    {"1", "64", "1e-4", "0", "packets", "0", "1", "0", "bilinear"},
+    {"1", "64", "1e-3", "0", "packets", "0", "1", "0", "bilinear"},
     {"4", "64", "1e-4", "1e-4", "packets", "0", "1", "0", "bilinear"},
     {"16", "64", "1e-5", "0", "reference", "0", "1", "0", "bilinear"},
 };

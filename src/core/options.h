@@ -74,7 +74,7 @@ enum class Mode { packets, reference };
 enum class Batch { tile, frame };
 enum class EffectChoice { automatic, all };
 enum class ToneCurve { none, filmic, reinhard };
-enum class Quality { good, draft, standard, fine, reference };
+enum class Quality { good, standard, fine, reference };
 enum class BvhQuality { low, medium, high };
 // The shadow cache (shadow_cache/shadow_tables.h): used where it saves time; never; or checked
 // against traced rays, where the frame fails if one differs.
@@ -129,7 +129,7 @@ struct RenderOptions {
   int glossy =
       0;  // rays that sample a rough surface's lobe; 0: it reflects lights and a blurred sky
   int indirect = 0;  // rays that sample indirect light on a diffuse surface; 0: none
-  float cutoff = 1.0e-4f;
+  float cutoff = 1.0e-3f;
   float roulette = 0;      // Russian roulette below this throughput; 0: off
   int lightSamples = 1;    // points of a light with a radius; 1: its center
   int ambientSamples = 0;  // ambient occlusion rays; 0: off
@@ -174,7 +174,7 @@ template <typename Options, typename Use>
 decltype(auto) withOptions(Options& o, Use&& use) {
   // clang-format off
   return use(
-      Option{{.name = "quality", .words = "good|draft|standard|fine|reference",
+      Option{{.name = "quality", .words = "good|standard|fine|reference",
               .help = "preset of other options, see below; good: a picture to show (default: "
                       "standard, one sample per pixel)",
               .rebuilds = Rebuild::nothing, .tab = Tab::none, .everyday = true},

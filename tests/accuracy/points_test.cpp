@@ -37,7 +37,7 @@ TEST(Points, OneKnobAtATime) {
   EXPECT_EQ(digestOf(depth->options), digestOf(expected));
   EXPECT_EQ(depth->cause, Cause::algorithm);
   EXPECT_FALSE(find(list, "depth=64")) << "the default is the baseline";
-  EXPECT_TRUE(find(list, "draft"));
+  EXPECT_TRUE(find(list, "fine"));
 }
 
 TEST(Points, WhatDoesNothingIsLeftOutWithTheReason) {
@@ -61,13 +61,13 @@ TEST(Points, OptionsOfTheCommandLineAreTheBaseline) {
 const EffectSet kSoftAndRough =
     kMirrored.with(Effect::indirect).with(Effect::glossyReflection).with(Effect::softShadows);
 
-// From a draft to all transport: each number of its samples, alone and with more of a pixel, and
+// From one sample to all transport: each number of its samples, alone and with more of a pixel, and
 // with as many of lobes and lights, as far as their knobs go.
 TEST(TransportPoints, LeadToAllTransport) {
   PointList list = makePoints(RenderOptions(), kSoftAndRough, knobsTowardsTransport());
   addTransportPoints(RenderOptions(), kSoftAndRough, knobsTowardsTransport(), list);
   for (const char* label :
-       {"standard", "draft", "indirect=1", "indirect=4", "indirect=16", "indirect=64",
+       {"standard", "indirect=1", "indirect=4", "indirect=16", "indirect=64",
         "spp=4 indirect=16", "spp=16 indirect=64", "indirect=4 glossy=4 light-samples=4",
         "spp=4 indirect=64 glossy=16 light-samples=16"}) {
     EXPECT_TRUE(find(list, label)) << label;

@@ -150,7 +150,7 @@ TEST(Help, FitsTheTerminal) {
 
 TEST(Help, SaysWhatThePresetsStandFor) {
   const std::string help = helpOf(HelpTier::everyday, 120);
-  EXPECT_NE(help.find("  draft                     --cutoff 0.004 --light-cutoff 0.001\n"),
+  EXPECT_NE(help.find("  fine                      --spp 4 --cutoff 1e-04 --light-cutoff 1e-04\n"),
             std::string::npos)
       << help;
   EXPECT_NE(help.find("  standard                  the defaults\n"), std::string::npos) << help;
@@ -183,7 +183,7 @@ TEST(Options, EveryChoiceGoesBothWays) {
   options.crop = Crop{1, 2, 3, 4};
   options.disable = EffectSet::all();
   for (const Quality quality :
-       {Quality::good, Quality::draft, Quality::standard, Quality::fine, Quality::reference}) {
+       {Quality::good, Quality::standard, Quality::fine, Quality::reference}) {
     options.quality = quality;
     options.mode = Mode::reference;
     options.batch = Batch::frame;
@@ -203,7 +203,6 @@ TEST(Options, ChoicesAreNamedRight) {
   EXPECT_EQ(parsed({"--tonemap", "none"}).render.toneCurve, ToneCurve::none);
   EXPECT_EQ(parsed({"--tonemap", "reinhard"}).render.toneCurve, ToneCurve::reinhard);
   EXPECT_EQ(parsed({"--quality", "good"}).render.quality, Quality::good);
-  EXPECT_EQ(parsed({"--quality", "draft"}).render.quality, Quality::draft);
   EXPECT_EQ(parsed({"--quality", "standard"}).render.quality, Quality::standard);
   EXPECT_EQ(parsed({"--quality", "fine"}).render.quality, Quality::fine);
   EXPECT_EQ(parsed({"--quality", "reference"}).render.quality, Quality::reference);
@@ -220,10 +219,10 @@ TEST(Quality, StandardIsTheDefaults) {
 }
 
 TEST(Quality, PresetsGiveWayToWhatIsGiven) {
-  const RenderOptions draft = parsed({"--depth", "6", "--quality", "draft"}).render;
-  EXPECT_EQ(draft.depth, 6);
-  EXPECT_EQ(draft.cutoff, 4e-3f);
-  EXPECT_EQ(draft.shading.lightCutoff, 1e-3f);
+  const RenderOptions fine = parsed({"--depth", "6", "--quality", "fine"}).render;
+  EXPECT_EQ(fine.depth, 6);
+  EXPECT_EQ(fine.cutoff, 1e-4f);
+  EXPECT_EQ(fine.shading.lightCutoff, 1e-4f);
   const RenderOptions reference = parsed({"--quality", "reference", "--spp", "2"}).render;
   EXPECT_EQ(reference.spp, 2);
   EXPECT_EQ(reference.depth, kDepthLimit);

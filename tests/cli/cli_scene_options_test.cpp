@@ -88,9 +88,9 @@ TEST(SceneOptions, MayNameAPresetButNotTheReference) {
   EXPECT_EQ(own.depth, 5);
   EXPECT_EQ(own.spp, 3);
   EXPECT_EQ(own.mode, Mode::packets);
-  const RenderOptions given = settled({{"quality", "fine"}}, {{"quality", "draft"}});
-  EXPECT_EQ(given.quality, Quality::draft);
-  EXPECT_EQ(given.cutoff, 4e-3f);
+  const RenderOptions given = settled({{"quality", "reference"}}, {{"quality", "fine"}});
+  EXPECT_EQ(given.quality, Quality::fine);
+  EXPECT_EQ(given.cutoff, 1e-4f);
 }
 
 TEST(SceneOptions, AreThoseThatDescribeThePicture) {

@@ -137,7 +137,7 @@ TEST(Library, PresetsGiveWayToWhatIsSaid) {
   renderer.set("depth", "3").set("quality", "fine");
   EXPECT_EQ(renderer.get("depth"), "3");
   EXPECT_EQ(renderer.get("spp"), "4");
-  EXPECT_EQ(renderer.set("quality", "draft").get("spp"), "1");
+  EXPECT_EQ(renderer.set("quality", "standard").get("spp"), "1");
 }
 
 TEST(Library, TellsWhatAFrameCost) {
