@@ -178,6 +178,15 @@ HWY_INLINE void QueueNormal(const SurfelJob& job, VI map, const UvLanes& uv, MF 
   StoreFrame(frame, flip, slot, block);
 }
 
+// The highest number of a map of the lane's material; negative if it has none.
+HWY_INLINE VI HighestMap(const SurfelJob& job, const MaterialLanes& material) {
+  VI map = material.Diffuse().diffuseMap;
+  if (job.normalMaps) map = hn::Max(map, material.Emission().normalMap);
+  if (job.emissionFactors) map = hn::Max(map, material.Lobe().emissionMap);
+  if (job.glossy) map = hn::Max(map, material.Specular().specularMap);
+  return map;
+}
+
 // Everything but textures, which are queued, for the vector of rays at i; returns the flags of
 // their materials.
 HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, BlockTextures& block) {
@@ -214,7 +223,9 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
     const VF width =
         MulThenAdd(hn::Set(d, job.coneSpread), hn::Load(d, hits.t + i), hn::Load(d, rays.cone + i));
     hn::Store(width, d, surfels.cone + i);
-    at.footprint = TextureFootprint(t.uv, s.edge1, s.edge2, width, cosine);
+    if (!hn::AllFalse(d, MappedLanes(HighestMap(job, material), valid))) {
+      at.footprint = TextureFootprint(t.uv, s.edge1, s.edge2, width, cosine);
+    }
   }
   const MF entering = hn::Lt(cosine, hn::Zero(d));
   const VF flip = TurnToViewer(entering);

@@ -137,7 +137,6 @@ HWY_INLINE VF MipLevel(VF texels) {
   return hn::Min(hn::Max(level, hn::Zero(d)), hn::Set(d, kMipLevels - 1));
 }
 
-// Not inlined: frames that do not mix levels shall not carry this along.
 inline HWY_NOINLINE void QueueLevels(const ShadingTables& tables, VI map, MF live,
                                      const TexturePoints& at, size_t slot, MapQueue& queue) {
   const FloatTag d;
@@ -150,14 +149,18 @@ inline HWY_NOINLINE void QueueLevels(const ShadingTables& tables, VI map, MF liv
   const auto [first, height, width, wrap] = LoadTextures(levels, full, live);
   const VF level = MipLevel(hn::Mul(hn::Mul(at.footprint, width), hn::ConvertTo(d, height)));
   const VF whole = hn::Floor(level);
+  const VF between = hn::IfThenElseZero(live, hn::Sub(level, whole));
   const VI lower = hn::Add(full, hn::ConvertTo(di, whole));
   const auto queueAt = [&](VI index, TexelQueue& to) HWY_ATTR {
     QueueTexels(TextureFilter::bilinear, levels, tables.texels.get(), index, live, at.u, at.v, slot,
                 to);
   };
   queueAt(lower, queue.level);
+  // Where textures are magnified the level above counts for nothing.
+  queue.above.any[slot] = false;
+  if (hn::AllTrue(d, hn::Eq(between, hn::Zero(d)))) return;
   queueAt(hn::Add(lower, hn::Set(di, 1)), queue.above);
-  hn::Store(hn::Sub(level, whole), d, queue.between + slot);
+  hn::Store(between, d, queue.between + slot);
 }
 
 HWY_INLINE MF MappedLanes(VI map, MF valid) {
@@ -168,7 +171,7 @@ HWY_INLINE void QueueMap(const SurfelJob& job, VI map, MF live, const TexturePoi
                          size_t slot, MapQueue& queue) {
   const ShadingTables& tables = job.tables;
   const MF mapped = MappedLanes(map, live);
-  if (HWY_UNLIKELY(job.shading.textureFilter == TextureFilter::trilinear)) {
+  if (HWY_LIKELY(job.shading.textureFilter == TextureFilter::trilinear)) {
     QueueLevels(tables, map, mapped, at, slot, queue);
     return;
   }
@@ -183,7 +186,7 @@ HWY_INLINE V3 FilterMap(const SurfelJob& job, const MapQueue& queue, size_t slot
   const TextureFilter choice = job.shading.textureFilter;
   const uint32_t* texels = job.tables.texels.get();
   const V3 value = filter(FetchTexels(choice, texels, queue.level, slot));
-  if (HWY_LIKELY(choice != TextureFilter::trilinear)) return value;
+  if (choice != TextureFilter::trilinear || !queue.above.any[slot]) return value;
   const V3 above = filter(FetchTexels(choice, texels, queue.above, slot));
   return MulAdd3(Sub3(above, value), hn::Load(FloatTag(), queue.between + slot), value);
 }

@@ -12,6 +12,8 @@
 #include "cli/commands.h"
 #include "core/error.h"
 #include "core/option_table.h"
+#include "core/text.h"
+#include "core/worker_pool.h"
 
 namespace whit::cli {
 
@@ -19,18 +21,22 @@ namespace {
 
 constexpr const char* kBenchUsage = "whit bench SCENE... [options]";
 constexpr const char* kBenchSummary =
-    "Measures the time of frames by stage and by kind of ray. The frames of the runs of --widths "
-    "and "
-    "of the --ab options take turns, so that other load of the machine affects all of them alike.";
+    "Measures the time of frames by stage and by kind of ray. The frames of the runs of --widths, "
+    "--threads-scaling and the --ab options take turns, so that other load of the machine affects "
+    "all of them alike.";
 
 // An option whose values are measured as separate runs, which take turns.
 struct Series {
   const char *flag, *help, *option;
-  const char* values;  // separated by bars; an empty one stands for the value on the command line
+  // Separated by bars. An empty one stands for the value on the command line, dots for all powers
+  // of two below the number of threads, and that.
+  const char* values;
   RunPairs pairs;
 };
 constexpr Series kSeries[] = {
     {"widths", "packets of 1, 4, 8 and 16 as separate runs", "packet", "1|4|8|16", RunPairs::none},
+    {"threads-scaling", "1, 2, 4, ... threads as separate runs, with speed-up and efficiency",
+     "threads", "...", RunPairs::none},
     {"ab-effects", "kernels with the scene's effects and with every effect as two runs", "effects",
      "auto|all", RunPairs::effects},
     {"ab-shadow-cache", "without and with the shadow cache as two runs", "shadow-cache", "off|",
@@ -76,11 +82,20 @@ OptionList listOptions(BenchJob& job) {
   return list;
 }
 
+std::vector<std::string> valuesOf(const Series& series) {
+  std::vector<std::string> values = split(series.values, '|');
+  if (values[0] != "...") return values;
+  values.clear();
+  for (int n = 1; n < usableThreads(); n *= 2) values.push_back(std::to_string(n));
+  values.push_back(std::to_string(usableThreads()));
+  return values;
+}
+
 void addRuns(BenchRuns& runs, const std::string& name, const BenchJob& job, Progress* progress) {
   const std::shared_ptr<const OpenScene> open = openScene(name, job.common, progress);
   const Series& series = job.series();
   bool caches = series.pairs == RunPairs::shadowCache;
-  for (const std::string& value : split(series.values, '|')) {
+  for (const std::string& value : valuesOf(series)) {
     RenderOptions options = optionsToMeasure(open->scene, job.common);
     if (!value.empty()) setOption(options, series.option, value);
     caches |= &series == &kOneRun && options.shadowCache == ShadowCacheMode::audit;
@@ -94,15 +109,30 @@ void checkJob(const BenchJob& job) {
   const Series& series = job.series();
   const bool compares = &series != &kOneRun;
   refuseIf(job.reference() && (job.floor || compares),
-           "--floor, --widths, --ab-effects and --ab-shadow-cache are for packets, not --mode "
-           "reference");
+           "--floor, --widths, --threads-scaling, --ab-effects and --ab-shadow-cache are for "
+           "packets, not --mode reference");
   refuseIf(std::ranges::count(job.wanted, true) > 1,
-           "--ab-shadow-cache, --ab-effects and --widths are runs of their own: give one of them");
+           "--ab-shadow-cache, --ab-effects, --threads-scaling and --widths are runs of their own: "
+           "give one of them");
   const bool isGiven = series.pairs == RunPairs::shadowCache
                            ? job.common.render.shadowCache == ShadowCacheMode::off
                            : job.common.given.contains(series.option);
   refuseIf(isGiven, std::string("--") + series.flag + " chooses --" + series.option +
                         " itself: leave that out");
+}
+
+// How much faster frames are than those of one thread, and the share of the threads that this is.
+std::string scalingText(const std::vector<RunSummary>& runs) {
+  std::string text = "threads        ms  speed-up  efficiency %\n";
+  double alone = 0;
+  for (const RunSummary& run : runs) {
+    const int threads = run.machine.threads;
+    const double ms = medianFrame(run).frameMs;
+    if (threads == 1) alone = ms;
+    text += formatted("%7d%10.2f%10.2f%14.1f  %s\n", threads, ms, alone / ms,
+                      100 * alone / ms / threads, run.scene.c_str());
+  }
+  return text;
 }
 
 // For runs that come in pairs the ratio of the second over the first is added.
@@ -141,6 +171,9 @@ int benchCommand(const Words& words) {
   FILE* const people = job.json == "-" ? stderr : stdout;
   if (people == stdout || !job.common.quiet) {
     for (const RunSummary& run : summaries) std::fprintf(people, "%s\n", stageTable(run).c_str());
+    if (std::string_view(job.series().option) == "threads") {
+      std::fprintf(people, "%s", scalingText(summaries).c_str());
+    }
     for (std::size_t i = 0; job.series().pairs != RunPairs::none && i + 1 < summaries.size();
          i += 2) {
       std::fprintf(people, "%s",

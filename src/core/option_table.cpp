@@ -50,9 +50,8 @@ void forEachPair(A& a, B& b, Visitor&& visit) {
 }
 
 // The options of a preset, which trade time for accuracy.
-constexpr std::array kPresetOptions{"spp",           "depth",  "cutoff",        "light-cutoff",
-                                    "mode",          "glossy", "light-samples", "ambient-samples",
-                                    "texture-filter"};
+constexpr std::array kPresetOptions{"spp",  "depth",  "cutoff",        "light-cutoff",
+                                    "mode", "glossy", "light-samples", "ambient-samples"};
 
 // Points of the fronts that `whit accuracy` finds on the shipped scenes (src/accuracy/README.md).
 // The cutoff of standard takes 0.4 of the time of 1e-4 on glass, with a mean FLIP of 0.004 between
@@ -61,10 +60,10 @@ constexpr std::array kPresetOptions{"spp",           "depth",  "cutoff",        
 // for every sample of a pixel.
 // The rows stand in the order of Quality.
 constexpr std::array<const char*, kPresetOptions.size()> kPresets[] = {
-    {"16", "64", "1e-3", "1e-3", "packets", "1", "2", "1", "trilinear"},
-    {"1", "64", "1e-3", "0", "packets", "0", "1", "0", "bilinear"},
-    {"4", "64", "1e-4", "1e-4", "packets", "0", "1", "0", "bilinear"},
-    {"16", "64", "1e-5", "0", "reference", "0", "1", "0", "bilinear"},
+    {"16", "64", "1e-3", "1e-3", "packets", "1", "2", "1"},
+    {"1", "64", "1e-3", "0", "packets", "0", "1", "0"},
+    {"4", "64", "1e-4", "1e-4", "packets", "0", "1", "0"},
+    {"16", "64", "1e-5", "0", "reference", "0", "1", "0"},
 };
 
 }  // namespace

@@ -149,7 +149,7 @@ struct RenderOptions {
   ToneCurve toneCurve = ToneCurve::none;
   Background background;
   int tile = 32;  // pixels a side
-  int queue = 0;  // rays a queue holds before the deeper one is drained; 0: one tile
+  int queue = 0;  // rays a queue holds before the deeper one is drained; 0: two tiles
   ChannelSet channels;
   bool strict = false;
 
@@ -316,8 +316,8 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .rebuilds = Rebuild::tables,
               .cheapest = "nearest",
               .everyday = true,
-              .knob = KnobSpec{.cause = Cause::algorithm, .exact = "bilinear",
-                               .values = "bilinear nearest trilinear",
+              .knob = KnobSpec{.cause = Cause::algorithm, .exact = "trilinear",
+                               .values = "trilinear bilinear nearest",
                                .needs = {EffectSet().with(Effect::textures)
                                                     .with(Effect::normalMaps)}}},
              o.shading.textureFilter},
@@ -432,7 +432,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .rebuilds = Rebuild::workers, .changesPicture = false},
              o.tile},
       Option{{.name = "queue", .words = "N", .low = 0, .high = 1 << 24,
-              .help = "rays in a queue before the next depth is traced (0: one tile)",
+              .help = "rays in a queue before the next depth is traced (0: two tiles)",
               .rebuilds = Rebuild::workers, .changesPicture = false},
              o.queue},
       Option{{.name = "channels", .words = "a,b",

@@ -40,7 +40,7 @@ struct ShadingChoices {
   // pixel's error is at most this times the number of such lights and surfels.
   float lightCutoff = 0;
   FresnelModel fresnel = FresnelModel::exact;
-  TextureFilter textureFilter = TextureFilter::bilinear;
+  TextureFilter textureFilter = TextureFilter::trilinear;
   OffsetMethod offset = OffsetMethod::bound;
   // Shadow rays start above the facet, where the surface that its vertex normals stand for would be
   // (Hanika 2021, "Hacking the shadow terminator", Ray Tracing Gems II, chapter 4).

@@ -292,7 +292,8 @@ RayTree traceReferenceTree(Renderer& renderer, const Camera& camera, const Film&
   tree.samples = samples;
   TreeIntersector intersector(renderer.accel(), tree);
   const reference::Tracer tracer(renderer.scene(), intersector, renderer.referenceSettings());
-  const CameraFrame frame = renderer.lookFrom(camera, film);
+  CameraFrame frame = renderer.lookFrom(camera, film);
+  if (samples.size() == 1) frame.footprint = 1;  // as observePixel() does
   reference::RayCounts counts;
   RgbD mean;
   for (std::size_t s = 0; s < samples.size(); ++s) {

@@ -147,10 +147,13 @@ RgbD transmittance(const Scene& scene, MediaStack stack, double distance) {
 }
 
 CameraFrame frameWithMedia(const Scene& scene, EffectSet effects, const Intersector& intersector,
-                           const Camera& camera, int width, int height) {
+                           const Camera& camera, int width, int height, int samples) {
   Camera seen = camera;
   if (!effects.has(Effect::depthOfField)) seen.aperture = 0;
   CameraFrame frame = makeCameraFrame(seen, width, height);
+  // The samples of a pixel blur textures among themselves. With the square root of their number the
+  // picture would be more blurred than that of many samples.
+  frame.footprint = 1.0 / samples;
   frame.media = initialMediumStack(scene, effects, intersector, frame.eye);
   frame.mediaVary =
       frame.reach != Vec3d() || liesOnDielectric(scene, effects, intersector, frame.eye);

@@ -40,9 +40,9 @@ Crossing crossMedia(const Scene& scene, EffectSet effects, std::uint32_t materia
 // distance leaves nothing of the channels that are absorbed at all.
 RgbD transmittance(const Scene& scene, MediaStack stack, double distance);
 
-// The camera for a picture of that size, and the media around it.
+// The camera for a picture of that size with so many samples of each pixel, and the media around it.
 CameraFrame frameWithMedia(const Scene& scene, EffectSet effects, const Intersector& intersector,
-                           const Camera& camera, int width, int height);
+                           const Camera& camera, int width, int height, int samples);
 
 // Around the start of a ray of the camera, just past what the eye lies in.
 MediaStack mediaAtStart(const Scene& scene, EffectSet effects, const Intersector& intersector,

@@ -52,9 +52,11 @@ RayCounts renderAdaptively(const Tracer& tracer, const CameraFrame& frame, const
   };
   Image first(image.width, image.height, grownBy(kPassReach));
   std::vector<PixelSurface> surfaces(first.pixels.size());
+  CameraFrame wholePixels = frame;
+  wholePixels.footprint = 1;
   forEach(first.window, [&](int x, int y, RayCounts& own) {
-    surfaces[first.index(x, y)] = tracer.surfaceAtCenter(frame, x, y);
-    first.at(x, y) = Rgb(tracer.center(frame, x, y, own));
+    surfaces[first.index(x, y)] = tracer.surfaceAtCenter(wholePixels, x, y);
+    first.at(x, y) = Rgb(tracer.center(wholePixels, x, y, own));
   });
   std::vector<std::uint8_t> edges(first.pixels.size());
   const DisplayImage display = toDisplay(first, options.exposure.ev, options.toneCurve);
@@ -147,8 +149,8 @@ ChannelValues Tracer::channels(const CameraFrame& camera, int x, int y, const Ve
 
 RayCounts render(const Scene& scene, const Intersector& intersector, const Camera& camera,
                  const Settings& settings, Image& image, Progress* progress) {
-  const CameraFrame frame =
-      frameWithMedia(scene, settings.effects, intersector, camera, image.width, image.height);
+  const CameraFrame frame = frameWithMedia(scene, settings.effects, intersector, camera,
+                                           image.width, image.height, settings.options.spp);
   const Tracer tracer(scene, intersector, settings);
   if (tracer.samplesAdaptively()) {
     return renderAdaptively(tracer, frame, settings, image, progress);
@@ -161,11 +163,11 @@ RayCounts render(const Scene& scene, const Intersector& intersector, const Camer
 
 void keepChannels(const Scene& scene, const Intersector& intersector, const Camera& camera,
                   const Settings& settings, const Image& image, ChannelLayers& layers) {
-  const CameraFrame frame =
-      frameWithMedia(scene, settings.effects, intersector, camera, image.width, image.height);
   const Tracer tracer(scene, intersector, settings);
-  const std::vector<Vec2f> samples =
-      samplePattern(tracer.samplesAdaptively() ? 1 : settings.options.spp);
+  const int spp = tracer.samplesAdaptively() ? 1 : settings.options.spp;
+  const CameraFrame frame =
+      frameWithMedia(scene, settings.effects, intersector, camera, image.width, image.height, spp);
+  const std::vector<Vec2f> samples = samplePattern(spp);
   const std::size_t number = nearestToCenter(samples);
   forEachPixel(image.window, settings.threads, nullptr, [&](int x, int y, RayCounts&) {
     const std::size_t pixel = image.index(x, y);

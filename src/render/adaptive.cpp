@@ -95,6 +95,7 @@ FrameStats AdaptiveSampler::traceCenters(const Frame& frame) {
   Frame centers = frame;
   SurfaceRecorder recorder(first_.image, surfaces_);
   centers.samples = samplePattern(1);
+  centers.constants.camera.footprint = 1;
   centers.constants.channels.sample = 0;
   centers.endSample = 1;
   centers.film = &first_;

@@ -45,7 +45,7 @@ Luminances luminancesOf(const Renderer& renderer, const Camera& camera) {
   const EmbreeIntersector intersector(renderer.accel());
   const reference::Tracer tracer(scene, intersector, settings);
   const CameraFrame frame =
-      reference::frameWithMedia(scene, settings.effects, intersector, camera, width, height);
+      reference::frameWithMedia(scene, settings.effects, intersector, camera, width, height, 1);
   std::vector<Luminances> rows(static_cast<std::size_t>(height));
   parallelFor(renderer.machine().threads, rows.size(), [&](std::size_t row, int) {
     reference::RayCounts counts;

@@ -116,8 +116,9 @@ CameraFrame Renderer::lookFrom(const Camera& camera, const Film& film) {
     accel_->setEnclosed(false);
     accel_->setEnclosed(isEnclosed(*accel_, camera.eye));
   }
-  CameraFrame frame = reference::frameWithMedia(scene_, plan_.effects, EmbreeIntersector(*accel_),
-                                                camera, film.image.width, film.image.height);
+  CameraFrame frame =
+      reference::frameWithMedia(scene_, plan_.effects, EmbreeIntersector(*accel_), camera,
+                                film.image.width, film.image.height, options_.spp);
   if (frame.reach != Vec3d()) frame.mediaVary = startsMeet(frame, dielectrics_);
   return frame;
 }
@@ -204,6 +205,8 @@ std::vector<Vec2f> Renderer::observePixel(const Camera& camera, Film& film,
   Frame frame = frameOf(camera, film, nullptr, observers);
   frame.samples = samples;
   frame.endSample = samples.size();
+  // A pixel that adaptive sampling gave its center alone.
+  if (samples.size() == 1) frame.constants.camera.footprint = 1;
   trace(frame);
   return samples;
 }

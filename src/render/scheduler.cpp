@@ -67,7 +67,8 @@ void Scheduler::layOut(const Plan& plan, const RenderOptions& options, const Cro
   tiles_ = makeTiles(window, options.tile);
   const auto workers = static_cast<std::size_t>(threads_);
   const auto side = static_cast<std::size_t>(options.tile);
-  std::size_t capacity = side * side;
+  // Deep queues of two tiles fill their chunks better; longer ones gain no more.
+  std::size_t capacity = 2 * side * side;
   if (inBatches_) {
     capacity = kBlock;
     for (const auto& batch : dealOut(tiles_, workers)) capacity = std::max(capacity, batch.size());
@@ -75,8 +76,12 @@ void Scheduler::layOut(const Plan& plan, const RenderOptions& options, const Cro
   if (options.queue > 0) capacity = static_cast<std::size_t>(options.queue);
   if (!tracers_.empty() && capacity == capacity_) return;
   tracers_.clear();
-  tracers_.reserve(workers);
-  for (std::size_t i = 0; i < workers; ++i) tracers_.emplace_back(plan, capacity);
+  Tracers made(workers);
+  // Each worker makes its own, so that the system can put the memory near it.
+  pool_.run([&](int worker) {
+    made[static_cast<std::size_t>(worker)] = std::make_unique<TileTracer>(plan, capacity);
+  });
+  tracers_ = std::move(made);
   capacity_ = capacity;
 }
 
@@ -106,7 +111,7 @@ FrameStats Scheduler::traceTiles(const Frame& frame, const PixelLists& lists) {
     if (observed && worker >= frame.observers.size()) return;
     StageObserver* const observer = observed ? frame.observers[worker] : nullptr;
     for (std::size_t i = next++; i < lists.size() && !frame.stops(); i = next++) {
-      tracers_[worker].trace(frame, lists[i], stats, nullptr, observer);
+      tracers_[worker]->trace(frame, lists[i], stats, nullptr, observer);
       if (frame.hooks && frame.hooks->finished) frame.hooks->finished(lists[i]);
     }
   });
@@ -118,7 +123,7 @@ FrameStats Scheduler::traceBatches(const Frame& frame, const PixelLists& lists) 
     // Also when memory runs out: the others may have deeper queues, and would wait for ever.
     const std::unique_ptr<std::barrier<>, void (*)(std::barrier<>*)> leave(
         &stageBarrier, [](std::barrier<>* barrier) { barrier->arrive_and_drop(); });
-    tracers_[worker].trace(frame, lists[worker], stats, &stageBarrier);
+    tracers_[worker]->trace(frame, lists[worker], stats, &stageBarrier);
   });
 }
 
@@ -134,7 +139,7 @@ FrameStats Scheduler::forRows(const std::function<void(int, int)>& task) {
 
 std::size_t Scheduler::bytes() const {
   std::size_t sum = 0;
-  for (const TileTracer& tracer : tracers_) sum += tracer.bytes();
+  for (const auto& tracer : tracers_) sum += tracer->bytes();
   return sum;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "core/worker_pool.h"
@@ -22,6 +23,8 @@ inline constexpr std::size_t kListPadding = 2 * kBlock;
 // other make up 2x2, 4x2 or 4x4 pixels, the most coherent packet there is. Tiles that the window
 // cuts lose their outer pixels and close the gaps.
 PixelLists makeTiles(const Crop& window, int side);
+
+using Tracers = std::vector<std::unique_ptr<TileTracer>>;
 
 class Scheduler {
  public:
@@ -44,7 +47,7 @@ class Scheduler {
 
   WorkerPool& pool() { return pool_; }
   int threads() const { return threads_; }
-  const std::vector<TileTracer>& tracers() const { return tracers_; }
+  const Tracers& tracers() const { return tracers_; }
   std::size_t bytes() const;
 
  private:
@@ -57,8 +60,8 @@ class Scheduler {
   Crop window_;
   bool inBatches_ = false;
   PixelLists tiles_;
-  std::vector<TileTracer> tracers_;  // one a worker; none after another plan
-  std::size_t capacity_ = 0;         // rays, of each
+  Tracers tracers_;           // one a worker; none after another plan
+  std::size_t capacity_ = 0;  // rays, of each
 };
 
 }  // namespace whit

@@ -181,8 +181,8 @@ CameraFrame makeCameraFrame(const Camera& camera, int width, int height) {
 }
 
 RayCone pixelCone(const CameraFrame& camera) {
-  const double pixel = length(camera.up);
-  return camera.orthographic ? RayCone{pixel, 0} : RayCone{0, pixel};
+  const double width = length(camera.up) * camera.footprint;
+  return camera.orthographic ? RayCone{width, 0} : RayCone{0, width};
 }
 
 }  // namespace whit

@@ -90,6 +90,9 @@ struct CameraFrame {
   bool orthographic = false;
   bool mediaVary = false;  // each ray may start in others
   double aperture = 0, focus = 1;
+  // Side of the square that one ray stands for in texture lookups, in pixels: less than 1 where
+  // several samples of a pixel are averaged.
+  double footprint = 1;
   Projection projection = Projection::perspective;
   double centerX = 0, centerY = 0, skew = 0;
   std::array<double, 8> distortion{};
@@ -117,8 +120,8 @@ inline constexpr std::uint32_t kLensSalt = 0x3c1d5e97u;
 
 CameraFrame makeCameraFrame(const Camera& camera, int width, int height);
 
-// The footprint of a pixel: how wide it is where its ray starts, and how much wider with each unit
-// of the way.
+// The footprint of a ray: how wide it is where the ray starts, and how much wider with each unit of
+// the way.
 struct RayCone {
   double width = 0, spread = 0;
   double widthAt(double way) const { return width + spread * way; }

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/worker_pool.h"
 #include "run_program.h"
 
 namespace whit::cli {
@@ -88,6 +89,18 @@ TEST_F(JsonResults, BenchFloorAndWidths) {
     EXPECT_NEAR(run["frame_over_floor"].get<double>() * run["floor_ms"].get<double>(),
                 run["frame_ms"]["median"].get<double>(), 1e-6);
   }
+}
+
+TEST_F(JsonResults, BenchOfPowersOfTwoThreads) {
+  const Json json = resultOf({"bench", tiny_, "--frames", "1", "--threads-scaling"});
+  const int all = usableThreads();
+  int expected = 1;
+  for (const Json& run : json["runs"]) {
+    EXPECT_EQ(run["threads"], expected);
+    EXPECT_EQ(run["image_hash"], json["runs"][0]["image_hash"]);
+    expected = expected == all ? 0 : std::min(2 * expected, all);
+  }
+  EXPECT_EQ(expected, 0) << "the last run has all threads";
 }
 
 TEST_F(JsonResults, BenchOfTheReferenceTakesOneFrame) {

@@ -72,6 +72,7 @@ class GltfMaterials : public GltfTest {
     RenderOptions options;
     options.size = ImageSize{n, n};
     options.threads = 1;
+    options.shading.textureFilter = TextureFilter::bilinear;  // the tests compare texels
     Renderer renderer(scene, options);
     Film film = makeFilm(scene, options);
     renderer.render(scene.cameras[0], film);

@@ -483,8 +483,8 @@ TEST(ChannelLaws, PlansWithoutThemHaveNothingMore) {
   Film film = makeFilm(scene, o);
   renderer.render(chooseCamera(scene, o), film);
   EXPECT_EQ(ChannelLayers::bytesPerPixel(film.channels.channels()), 0u);
-  for (const TileTracer& tracer : renderer.scheduler().tracers()) {
-    EXPECT_EQ(tracer.bufferBytes().rayCounts, 0u);
+  for (const auto& tracer : renderer.scheduler().tracers()) {
+    EXPECT_EQ(tracer->bufferBytes().rayCounts, 0u);
   }
   o.channels = parseChannels("depth");
   EXPECT_EQ(steps().find("countRays"), std::string::npos);

@@ -102,8 +102,8 @@ Cost costWithout(EffectSet effects) {
   Film film = makeFilm(scene, o);
   Cost cost;
   cost.stats = renderer.render(chooseCamera(scene, o), film);
-  cost.buffers = renderer.scheduler().tracers().at(0).bufferBytes();
-  cost.capacity = static_cast<std::size_t>(o.tile * o.tile);
+  cost.buffers = renderer.scheduler().tracers().at(0)->bufferBytes();
+  cost.capacity = static_cast<std::size_t>(2 * o.tile * o.tile);
   for (const TextureRecord& t : renderer.tables().textures) {
     cost.texels += static_cast<std::size_t>(t.width) * static_cast<std::size_t>(t.height) - 1;
   }
@@ -121,6 +121,7 @@ template <typename Columns>
 std::size_t columnBytes(const Cost& cost, bool glossy, bool transmission, bool instances) {
   const FeatureSet features = FeatureSet()
                                   .with(Feature::emissionFactors)
+                                  .with(Feature::cones)
                                   .with(Feature::streams)
                                   .with(Feature::coplanar, cost.coplanar)
                                   .with(Feature::glossy, glossy)
