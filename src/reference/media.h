@@ -40,7 +40,7 @@ Crossing crossMedia(const Scene& scene, EffectSet effects, std::uint32_t materia
 // distance leaves nothing of the channels that are absorbed at all.
 RgbD transmittance(const Scene& scene, MediaStack stack, double distance);
 
-// The camera for a picture of that size with so many samples of each pixel, and the media around it.
+// The camera for a picture of that size and number of samples per pixel, and the media around it.
 CameraFrame frameWithMedia(const Scene& scene, EffectSet effects, const Intersector& intersector,
                            const Camera& camera, int width, int height, int samples);
 
