@@ -6,7 +6,7 @@
   tests/measure.py --accuracy      accuracy: src/accuracy/README.md and the table in README.md (6 min)
   tests/measure.py --transport     against all transport: src/accuracy/README.md and its charts (7 min)
   tests/measure.py --tables-only   only the tables, from what was measured before
-  tests/measure.py --hashes        image hashes: tests/README.md and tests/verify/image_hashes.cpp
+  tests/measure.py --hashes        image hashes: tests/verify/image_hashes.cpp
 
 What the programs in build/ say lies in build/measured/, as JSON and CSV. A table stands between two
 comments of its name; the text around them is written by hand. All figures of a page, and those against
@@ -39,6 +39,7 @@ CHOICES = ["--batch frame", "--robust off", "--threads 1", "--threads 8", "--mod
 ROUNDS = 3
 TRIANGLES = [1000000, 20000000]
 LONG_PATHS = ["matte", "sponza-mirror", "mirrors", "whitted", "glass"]
+CUTOFFS = ["1e-3", "1e-4"]
 SEGMENTS = [0, 16, 48, 192]
 COMPARED = ["matte", "whitted", "glass", "mirrors", "atrium", "landscape", "sponza-mirror"]
 SWEPT = ["whitted", "mirrors", "atrium", "sponza-mirror", "glass"]
@@ -494,7 +495,7 @@ def write_transport():
 
 
 def write_hashes():
-    """Publishes the image hashes of this machine, for the page and for whit-verify."""
+    """Publishes the image hashes of this machine for whit-verify."""
     source = ROOT / "tests/verify/image_hashes.cpp"
     text = source.read_text()
     found = {}
@@ -511,12 +512,6 @@ def write_hashes():
                       rf"\g<1>" + "".join(f', "{digest}"' for digest in hashes), text)
     source.write_text(text)
     subprocess.run(["clang-format", "-i", source], check=True)
-    rows = []
-    for scene in dict.fromkeys(scene for scene, _ in found):
-        hashes = found[scene, HASHED_SIZES[0]]
-        rows.append([f"`{word}`" for word in (scene, hashes[0], hashes[-1])])
-    put("tests/README.md", {"hashes": table([f"scene, {HASHED_SIZES[0]}", "AVX2, AVX-512",
-                                             "SSE4, scalar"], rows)})
 
 
 def main():
