@@ -87,7 +87,7 @@ struct PointList {
 // in a scene with these effects are left out.
 PointList makePoints(const RenderOptions& base, EffectSet effects, const std::vector<Knob>& knobs);
 
-// The knobs that lead from one sample a pixel to all transport: numbers of samples of a pixel, a lobe or a
+// The knobs that lead from one sample to all transport: numbers of samples of a pixel, a lobe or a
 // light, and light that the model leaves out.
 std::vector<Knob> knobsTowardsTransport();
 // Adds combinations of the presets' samples a pixel with each value of the knobs of transport,

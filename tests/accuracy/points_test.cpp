@@ -67,8 +67,8 @@ TEST(TransportPoints, LeadToAllTransport) {
   PointList list = makePoints(RenderOptions(), kSoftAndRough, knobsTowardsTransport());
   addTransportPoints(RenderOptions(), kSoftAndRough, knobsTowardsTransport(), list);
   for (const char* label :
-       {"standard", "indirect=1", "indirect=4", "indirect=16", "indirect=64",
-        "spp=4 indirect=16", "spp=16 indirect=64", "indirect=4 glossy=4 light-samples=4",
+       {"standard", "indirect=1", "indirect=4", "indirect=16", "indirect=64", "spp=4 indirect=16",
+        "spp=16 indirect=64", "indirect=4 glossy=4 light-samples=4",
         "spp=4 indirect=64 glossy=16 light-samples=16"}) {
     EXPECT_TRUE(find(list, label)) << label;
   }
