@@ -28,8 +28,8 @@ constexpr const char* kBenchSummary =
 // An option whose values are measured as separate runs, which take turns.
 struct Series {
   const char *flag, *help, *option;
-  // Separated by bars. An empty one stands for the value on the command line, dots for all powers
-  // of two below the number of threads, and that.
+  // Separated by bars. An empty one stands for the value on the command line, and "..." for the
+  // powers of two below the number of usable threads and that number.
   const char* values;
   RunPairs pairs;
 };

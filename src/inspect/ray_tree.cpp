@@ -293,7 +293,7 @@ RayTree traceReferenceTree(Renderer& renderer, const Camera& camera, const Film&
   TreeIntersector intersector(renderer.accel(), tree);
   const reference::Tracer tracer(renderer.scene(), intersector, renderer.referenceSettings());
   CameraFrame frame = renderer.lookFrom(camera, film);
-  if (samples.size() == 1) frame.footprint = 1;  // as observePixel() does
+  if (samples.size() == 1) frame.footprint = 1;  // adaptive sampling took the center alone
   reference::RayCounts counts;
   RgbD mean;
   for (std::size_t s = 0; s < samples.size(); ++s) {

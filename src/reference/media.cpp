@@ -151,8 +151,8 @@ CameraFrame frameWithMedia(const Scene& scene, EffectSet effects, const Intersec
   Camera seen = camera;
   if (!effects.has(Effect::depthOfField)) seen.aperture = 0;
   CameraFrame frame = makeCameraFrame(seen, width, height);
-  // The samples of a pixel blur textures among themselves. With the square root of their number the
-  // picture would be more blurred than that of many samples.
+  // Averaging the samples of a pixel filters textures as well: with 1 / sqrt(samples) pictures are
+  // more blurred than those of many samples.
   frame.footprint = 1.0 / samples;
   frame.media = initialMediumStack(scene, effects, intersector, frame.eye);
   frame.mediaVary =
