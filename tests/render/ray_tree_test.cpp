@@ -60,7 +60,7 @@ TEST_P(ShippedRayTree, SumsUpToThePixel) {
 TEST_P(ShippedRayTree, TracesTheSamplesOfAdaptivePixels) {
   const Scene scene = load(GetParam());
   RenderOptions options;
-  options.size = ImageSize{60, 40};
+  options.size = kSanitized ? ImageSize{30, 20} : ImageSize{60, 40};
   options.spp = 9;
   options.adaptive = true;
   Renderer renderer(scene, options);
@@ -70,9 +70,9 @@ TEST_P(ShippedRayTree, TracesTheSamplesOfAdaptivePixels) {
   renderer.renderReference(camera, reference);
   std::map<std::size_t, int> pixels;
   int otherReference = 0;
-  const int step = kSanitized ? 9 : 3;
-  for (int y = 0; y < 40; y += step) {
-    for (int x = 0; x < 60; x += step + 1) {
+  const int step = kSanitized ? 5 : 3;
+  for (int y = 0; y < options.size->height; y += step) {
+    for (int x = 0; x < options.size->width; x += step + 1) {
       const RayTree tree = traceRayTree(renderer, camera, film, x, y);
       ASSERT_EQ(tree.pixel, film.image.at(x, y)) << x << "," << y;
       ASSERT_EQ(tree.primaries.size(), tree.samples.size());
