@@ -241,14 +241,16 @@ Json reportJson(const std::vector<SceneSweep>& sweeps, const Json& facts) {
   return report;
 }
 
-std::string reportPage(const Json& data) {
+std::string reportPage(const Json& data) { return pageWith(kTemplate, data); }
+
+std::string pageWith(std::string_view html, const Json& data) {
   constexpr std::string_view kPlace = "{{data}}";
-  const std::size_t place = kTemplate.find(kPlace);
-  std::string page(kTemplate.substr(0, place));
+  const std::size_t place = html.find(kPlace);
+  std::string page(html.substr(0, place));
   // Only strings hold a '<' in JSON. Escaped, it cannot end the element <script>.
   for (const char c : data.dump(-1, ' ', false, Json::error_handler_t::replace))
     c == '<' ? page += "\\u003c" : page += c;
-  return page.append(kTemplate.substr(place + kPlace.size()));
+  return page.append(html.substr(place + kPlace.size()));
 }
 
 std::string base64(std::string_view bytes) {

@@ -77,6 +77,8 @@ Json reportJson(const std::vector<SceneSweep>& sweeps, const Json& facts);
 // The page report.html with `data` in it; "report" of the data is "accuracy", "effects" or
 // "verify". The page loads nothing from elsewhere.
 std::string reportPage(const Json& data);
+// Any page, with `data` in the place of its "{{data}}", which is the text of a script element.
+std::string pageWith(std::string_view html, const Json& data);
 std::string base64(std::string_view bytes);
 
 }  // namespace whit::accuracy

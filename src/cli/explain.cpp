@@ -9,6 +9,7 @@
 #include "cli/app/image_output.h"
 #include "cli/app/open_scene.h"
 #include "cli/commands.h"
+#include "cli/lesson.h"
 #include "core/display.h"
 #include "core/error.h"
 #include "core/option_table.h"
@@ -31,7 +32,7 @@ constexpr ImageSize kDiagramSize{960, 600};
 struct ExplainJob {
   CommonOptions common;
   std::vector<std::string> scenes;
-  std::string pixel, json, svg;
+  std::string pixel, json, svg, html;
   double least = 0.01;
 };
 
@@ -42,6 +43,10 @@ OptionList listOptions(ExplainJob& job) {
   list.value({"least", "X", 0, 1}, "smallest share of the pixel's radiance that is listed",
              job.least);
   list.value({"svg", "FILE"}, "the rays drawn over a picture of the scene from aside", job.svg);
+  list.value({"html", "FILE"},
+             "a page for a lesson: picture, rays and what each adds, and the stages of the pixel's "
+             "tile, to step through; needs no network",
+             job.html);
   list.value({"json", "FILE"}, "the whole trees as JSON; - is standard output", job.json);
   listCommonOptions(list, job.common);
   list.operands("SCENE", "a scene file, a model, or the name of a shipped scene", 1, 1, job.scenes);
@@ -202,12 +207,13 @@ std::string colorOf(RayLook look) {
   return formatted("#%02x%02x%02x", color[0], color[1], color[2]);
 }
 
-std::string lineSvg(const ScreenLine& line, RayLook look, double width) {
+std::string lineSvg(const ScreenLine& line, RayLook look, double width,
+                    const std::string& more = "") {
   return formatted(
       "<line x1=\"%.2f\" y1=\"%.2f\" x2=\"%.2f\" y2=\"%.2f\" stroke=\"%s\" "
-      "stroke-width=\"%.2f\"%s/>\n",
+      "stroke-width=\"%.2f\"%s%s/>\n",
       line.x1, line.y1, line.x2, line.y2, colorOf(look).c_str(), width,
-      isDashed(look) ? " stroke-dasharray=\"4 3\"" : "");
+      isDashed(look) ? " stroke-dasharray=\"4 3\"" : "", more.c_str());
 }
 
 // White letters with a black edge, which are legible on any picture.
@@ -244,7 +250,7 @@ std::string rayDiagram(const RayTree& tree, const Camera& eye, const Camera& cam
   for (const RayLine& line : lines) {
     const auto seen = view.see(line.from, line.to);
     if (!seen) continue;
-    svg += lineSvg(*seen, line.look, line.width);
+    svg += lineSvg(*seen, line.look, line.width, formatted(" data-node=\"%zu\"", line.node));
     const ScreenLine middle{(seen->x1 + seen->x2) / 2, (seen->y1 + seen->y2) / 2};
     const bool isShadow = line.look == RayLook{RayKind::shadow};
     const bool isPrimary = line.look.kind == RayKind::primary;
@@ -262,18 +268,67 @@ std::string rayDiagram(const RayTree& tree, const Camera& eye, const Camera& cam
   return svg + legendSvg(lines, height) + "</g>\n</svg>\n";
 }
 
-void drawDiagram(const ExplainJob& job, const Explained& e, Renderer& renderer,
-                 const Camera& camera) {
-  const Camera seen = cameraAside(e.rays.packets, camera, renderer.accel());
-  RenderOptions options = e.options;
-  options.size = kDiagramSize;
+// The picture by `camera` as a PNG.
+std::string pictureBy(const Camera& camera, RenderOptions options, ImageSize size,
+                      Renderer& renderer, const ExplainJob& job) {
+  options.size = size;
   options.crop.reset();
-  Film film = makeFilm(e.scene, options, job.common.load.maxMemoryBytes);
-  renderer.render(seen, film);
-  const std::string picture =
-      encodePng(toDisplay(film.image, options.exposure.ev, options.toneCurve));
-  writeTextFile(job.svg, rayDiagram(e.rays.packets, camera, seen, kDiagramSize.width,
-                                    kDiagramSize.height, picture));
+  Film film = makeFilm(renderer.scene(), options, job.common.load.maxMemoryBytes);
+  renderer.render(camera, film);
+  return encodePng(toDisplay(film.image, options.exposure.ev, options.toneCurve));
+}
+
+std::string drawDiagram(const ExplainJob& job, const Explained& e, Renderer& renderer,
+                        const Camera& camera) {
+  const Camera seen = cameraAside(e.rays.packets, camera, renderer.accel());
+  return rayDiagram(e.rays.packets, camera, seen, kDiagramSize.width, kDiagramSize.height,
+                    pictureBy(seen, e.options, kDiagramSize, renderer, job));
+}
+
+Json lessonNode(const Explained& e, std::size_t number) {
+  const RayNode& n = e.rays.packets.nodes[number];
+  const RayText text = describeRay(e.scene, e.rays, number);
+  const bool primary = n.parent == number;
+  return {{"parent", primary ? Json() : Json(n.parent)},
+          {"kind", rowOf(n.kind).name},
+          {"color", colorOf({n.kind})},
+          {"met", text.met},
+          {"medium", text.medium},
+          {"lines", text.lines},
+          {"weight", jsonOf(n.weight)},
+          {"adds", jsonOf(addedBy(e.rays.packets, number, n.local))}};
+}
+
+// The build turns lesson.html into a string literal.
+constexpr std::string_view kLesson =
+#include "lesson_html.inc"
+    ;
+
+std::string lessonPage(const ExplainJob& job, const Explained& e, const std::string& diagram,
+                       Renderer& renderer, const Camera& camera, const Film& film) {
+  constexpr int kLargestTile = 64;  // the page holds every column of all its pixels
+  const int side = std::min(e.options.tile, kLargestTile);
+  const Crop& window = film.image.window;
+  const int x0 = e.place.x - (e.place.x - window.x0) % side,
+            y0 = e.place.y - (e.place.y - window.y0) % side;
+  const Crop tile{x0, y0, std::min(x0 + side, window.x1), std::min(y0 + side, window.y1)};
+  const ImageSize size{film.image.width, film.image.height};
+  Json nodes = Json::array();
+  for (std::size_t i = 0; i < e.rays.packets.nodes.size(); ++i) nodes.push_back(lessonNode(e, i));
+  const std::string picture = pictureBy(camera, e.options, size, renderer, job);
+  return accuracy::pageWith(
+      kLesson, {{"scene", e.scene.name},
+                {"size", {size.width, size.height}},
+                {"pixel", {e.place.x, e.place.y}},
+                {"radiance", jsonOf(RgbD(e.rays.packets.pixel))},
+                {"reference", jsonOf(RgbD(e.rays.reference.pixel))},
+                {"codes", codesOf(e.rays.packets.pixel, e.options)},
+                {"shadow_rays", e.rays.packets.shadowRays()},
+                {"picture", accuracy::base64(picture)},
+                {"diagram", diagram},
+                {"nodes", std::move(nodes)},
+                {"tile", {tile.x0, tile.y0, tile.x1, tile.y1}},
+                {"recorded", recordStages(renderer, camera, film, tile, e.place.x, e.place.y)}});
 }
 
 }  // namespace
@@ -283,6 +338,7 @@ int explainCommand(const Words& words) {
   if (!parseOptions(kExplainUsage, kExplainSummary, listOptions(job), words)) return 0;
   if (job.pixel.empty()) throwUsage("whit explain expected --pixel x,y");
   if (!job.svg.empty()) requireWritable(job.svg, {".svg"});
+  if (!job.html.empty()) requireWritable(job.html, {".html"});
   requireJsonWritable(job.json);
   auto progress = makeProgressBar(job.common);
   const auto open = openScene(job.scenes[0], job.common, progress.get());
@@ -295,7 +351,13 @@ int explainCommand(const Words& words) {
   progress.reset();
 
   Explained e{open->scene, options, place, explainRays(renderer, camera, film, place.x, place.y)};
-  if (!job.svg.empty()) drawDiagram(job, e, renderer, camera);
+  if (!job.svg.empty() || !job.html.empty()) {
+    const std::string diagram = drawDiagram(job, e, renderer, camera);
+    if (!job.svg.empty()) writeTextFile(job.svg, diagram);
+    if (!job.html.empty()) {
+      writeTextFile(job.html, lessonPage(job, e, diagram, renderer, camera, film));
+    }
+  }
   if (!job.json.empty()) {
     writeJson(job.json, Json{{"scene", open->scene.name},
                              {"size", {film.image.width, film.image.height}},

@@ -45,6 +45,48 @@ TEST(Explain, TellsTheTreeOfAPixel) {
   EXPECT_NE(drawing.find("</svg>"), std::string::npos);
 }
 
+// The data of the page: what all rays add is the pixel, the stages come in their order with columns
+// of as many floats as the tile has pixels, and the last holds the pixel.
+TEST(Explain, WritesALesson) {
+  const TemporaryFolder folder;
+  const auto lesson = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"explain", "--quiet", "--html", folder / "lesson.html"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome outcome = runWhit(words);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    const std::string page = readFile(folder / "lesson.html"), start = "id=\"data\">";
+    const std::size_t from = page.find(start) + start.size();
+    return nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from));
+  };
+  const nlohmann::json data =
+      lesson({"whitted", "--size", "90x50", "--pixel", "30,20", "--spp", "2", "--tile", "16"});
+  EXPECT_EQ(data["tile"], nlohmann::json({16, 16, 32, 32}));
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    double sum = 0;
+    for (const nlohmann::json& node : data["nodes"]) sum += node["adds"][channel].get<double>();
+    const double radiance = data["radiance"][channel].get<double>();
+    EXPECT_NEAR(sum, radiance, 1e-6 * radiance);
+  }
+  std::vector<std::string> stages;
+  for (const nlohmann::json& step : data["recorded"]["steps"]) {
+    stages.push_back(step["stage"]);
+    EXPECT_FALSE(step["columns"].empty()) << step["stage"];
+    for (const nlohmann::json& column : step["columns"]) {
+      EXPECT_EQ(column["values"].get<std::string>().size(), (16 * 16 * 4 + 2) / 3 * 4);
+    }
+  }
+  EXPECT_EQ(stages, (std::vector<std::string>{"generateRays", "findIntersections",
+                                              "writeEmittedAndReflectiveAmbient",
+                                              "findRadianceAndShadowRays", "checkShadows",
+                                              "addShading", "addImpulses", "updateImage"}));
+  EXPECT_EQ(data["recorded"]["depths"][0], 256);
+  EXPECT_GT(data["recorded"]["depths"][1], 0);
+  // Without lights, by a ray that hits nothing.
+  const nlohmann::json bare =
+      lesson({writeTinyScene(folder), "--set", "/lights=[]", "--size", "8x8", "--pixel", "0,0"});
+  EXPECT_EQ(bare["tile"], nlohmann::json({0, 0, 8, 8}));
+}
+
 // The room is closed: each path of light between its walls ends by chance, by no other cause.
 TEST(Explain, SaysThatRouletteEndsAPath) {
   const TemporaryFolder folder;

@@ -24,6 +24,8 @@ if(NOT WHIT_SANITIZE)
   set_tests_properties(readme.commands_work PROPERTIES TIMEOUT 600 COST 1000)
 endif()
 whit_program_test(cli install.works_where_it_is_put ${folder}/install_test.sh ${CMAKE_BINARY_DIR})
+whit_program_test(cli lesson.adds_up_in_a_browser ${folder}/lesson_in_browser_test.sh
+                  $<TARGET_FILE:whit>)
 whit_program_test(cli channels.read_by_others ${folder}/openexr_test.sh $<TARGET_FILE:whit>)
 whit_program_test(cli farm.goes_on_after_a_kill ${folder}/farm_test.sh $<TARGET_FILE:whit>)
 set_tests_properties(farm.goes_on_after_a_kill PROPERTIES TIMEOUT 300)

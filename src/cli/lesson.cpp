@@ -1,0 +1,167 @@
+#include "cli/lesson.h"
+
+#include <algorithm>
+#include <limits>
+#include <ranges>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "accuracy/report.h"
+#include "cli/app/explained_rays.h"
+
+namespace whit::cli {
+
+namespace {
+
+constexpr std::size_t kMostLights = 4;  // of whose stages the columns are kept
+
+Json columnJson(const std::string& name, bool whole, const std::vector<float>& values) {
+  const auto* bytes = reinterpret_cast<const char*>(values.data());
+  return {{"name", name},
+          {"whole", whole},
+          {"values", accuracy::base64({bytes, values.size() * sizeof(float)})}};
+}
+
+class StageRecorder : public StageObserver {
+ public:
+  StageRecorder(const Scene& scene, const Image& image, std::uint32_t pixel)
+      : scene_(scene),
+        image_(image),
+        pixel_(pixel),
+        depths_(Json::array()),
+        steps_(Json::array()) {}
+
+  void after(Stage stage, const Chunk& c) override {
+    if (c.sampleNumber != 0) return;
+    tracker_.follow(stage, c);
+    if (stage == Stage::findIntersections) {
+      const auto depth = static_cast<std::size_t>(c.depth);
+      while (depths_.size() <= depth) depths_.push_back(0);
+      depths_[depth] = depths_[depth].get<std::size_t>() + c.n;
+    }
+    if (c.depth == 0 && holdsPixel(c)) recordStep(stage, c);
+  }
+
+  // Observers do not see updateImage, whose result is in the picture.
+  Json recorded() {
+    columns_ = Json::array();
+    for (int channel = 0; channel < 3; ++channel) {
+      std::vector<float> values(image_.pixels.size());
+      std::ranges::transform(image_.pixels, values.begin(),
+                             [&](const Rgb& pixel) { return pixel[channel]; });
+      columns_.push_back(columnJson(std::string("film ") + "rgb"[channel], false, values));
+    }
+    endStep(Stage::updateImage);
+    return {{"depths", std::move(depths_)}, {"steps", std::move(steps_)}};
+  }
+
+ private:
+  // Small queues hold a tile in several chunks.
+  bool holdsPixel(const Chunk& c) const {
+    const auto all = std::views::iota(std::size_t{0}, c.n);
+    return std::ranges::any_of(all, [&](std::size_t i) { return tracker_.pixel(c, i) == pixel_; });
+  }
+
+  void recordStep(Stage stage, const Chunk& c) {
+    const bool ofLight = stage == Stage::findRadianceAndShadowRays ||
+                         stage == Stage::checkShadows || stage == Stage::addShading;
+    if (ofLight && c.lightSample > 0) return;
+    if (ofLight && stage == Stage::findRadianceAndShadowRays) ++lights_;
+    if (ofLight && lights_ > kMostLights) return;
+    columns_ = Json::array();
+    switch (stage) {
+      case Stage::generateRays:
+        keepAll("", c, c.rays);
+        break;
+      case Stage::findIntersections:
+        keepAll("", c, c.hits);
+        keepAll("", c, c.surfels);
+        break;
+      case Stage::findRadianceAndShadowRays:
+        keepAll("unshadowed ", c, c.unshadowed);
+        keepRows("shadow ray ", c, c.shadows, {0, c.shadowCount}, c.shadows.slot);
+        break;
+      case Stage::checkShadows:
+        keepAll("unshadowed ", c, c.unshadowed);
+        break;
+      case Stage::addImpulses:
+        for (std::size_t i = 0; i < c.childSegmentCount; ++i) {
+          const Segment& kind = c.childSegments[i];
+          keepRows(std::string(rowOf(kind.kind).name) + " ", c, c.children, {kind.begin, kind.end},
+                   c.children.parent);
+        }
+        break;
+      case Stage::writeEmittedAndReflectiveAmbient:
+      case Stage::addShading:
+        keepAll("radiance ", c, c.radiance);
+        break;
+      case Stage::updateImage:
+        break;
+    }
+    endStep(stage);
+    if (ofLight) steps_.back()["light"] = lightName(scene_, c.lightNumber);
+  }
+
+  void endStep(Stage stage) {
+    steps_.push_back({{"stage", kStageNames[static_cast<std::size_t>(stage)]},
+                      {"columns", std::move(columns_)}});
+  }
+
+  template <typename Columns>
+  void keepAll(const std::string& set, const Chunk& c, const Columns& columns) {
+    keepRows(set, c, columns, {0, c.n}, nullptr);
+  }
+
+  struct Rows {
+    std::size_t begin, end;
+  };
+  // `slots` has the chunk's slot of each row; null where rows and slots are the same. Left out are
+  // surfels of rays that have left the scene and radiance of lights behind the surface, which hold
+  // nothing.
+  template <typename Columns>
+  void keepRows(const std::string& set, const Chunk& c, const Columns& columns, Rows rows,
+                const std::uint32_t* slots) {
+    constexpr bool kOfHits =
+        std::is_same_v<Columns, SurfelColumns> || std::is_same_v<Columns, HitColumns>;
+    constexpr bool kOfLight = std::is_same_v<Columns, UnshadowedColumns>;
+    std::vector<bool> lit(c.n, !kOfLight);
+    for (std::size_t i = 0; kOfLight && i < c.n; ++i) lit[i] = c.unshadowed.visible[i] > 0;
+    for (std::size_t i = 0; kOfLight && i < c.shadowCount; ++i) lit[c.shadows.slot[i]] = true;
+    Columns::forEachColumn(columns, [&](const char* name, const auto* column, Feature) {
+      if (!column) return;
+      std::vector<float> values(image_.pixels.size(), std::numeric_limits<float>::quiet_NaN());
+      for (std::size_t row = rows.begin; row < rows.end; ++row) {
+        const std::size_t slot = slots ? slots[row] : row;
+        if ((kOfHits && c.surfels.material[slot] == kMiss) || !lit[slot]) continue;
+        const std::uint32_t at = tracker_.pixel(c, slot);
+        values[image_.index(pixelX(at), pixelY(at))] = static_cast<float>(column[row]);
+      }
+      using Value = std::remove_cvref_t<decltype(*column)>;
+      columns_.push_back(columnJson(set + name, std::is_integral_v<Value>, values));
+    });
+  }
+
+  const Scene& scene_;
+  const Image& image_;
+  const std::uint32_t pixel_;
+  PixelTracker tracker_;
+  Json depths_, steps_, columns_;
+  std::size_t lights_ = 0;
+};
+
+}  // namespace
+
+Json recordStages(Renderer& renderer, const Camera& camera, const Film& film, const Crop& tile,
+                  int x, int y) {
+  RenderOptions options = renderer.options();
+  options.size = ImageSize{film.image.width, film.image.height};
+  options.crop = tile;
+  Film small = makeFilm(renderer.scene(), options);
+  StageRecorder recorder(renderer.scene(), small.image, packedPixel(x, y));
+  StageObserver* const observers[] = {&recorder};
+  renderer.observe(camera, small, observers);
+  return recorder.recorded();
+}
+
+}  // namespace whit::cli

@@ -1,0 +1,53 @@
+#!/bin/bash
+# The page of whit explain --html as a browser shows it, 360 and 1200 pixels wide: it loads nothing, what its
+# rays add is the pixel, a click on a ray marks it in the tree, and the slider goes through the eight stages,
+# of which the last shows the pixel.
+# lesson_in_browser_test.sh WHIT
+set -euo pipefail
+whit=$1
+browser=$(command -v chromium || command -v chromium-browser || command -v google-chrome || true)
+if [ -z "$browser" ]; then
+  echo "no Chromium here: the lesson is not looked at"
+  exit 77
+fi
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+"$whit" explain whitted --size 96x60 --pixel 53,36 --quiet --html "$folder/lesson.html" > /dev/null
+cat "$folder/lesson.html" - > "$folder/checked.html" <<'HTML'
+<script>
+const wrong = [], say = text => wrong.push(text), element = document.documentElement;
+if (element.scrollWidth > innerWidth) say(`the page is ${element.scrollWidth} of ${innerWidth} pixels wide`);
+// Of sums of floats: one ulp of each ray.
+if (!(find('sum').dataset.difference <= 1e-6 * largest(data.radiance))) say(find('sum').textContent);
+const line = document.querySelector('line[data-node="1"]');
+line.dispatchEvent(new MouseEvent('click'));
+if (!rows[1].classList.contains('picked') || !line.classList.contains('picked')) say('a ray is not marked');
+const stages = Object.keys(meanings);
+for (let i = 0; i <= Number(find('step').max); ++i) {
+  find('step').value = i;
+  find('step').oninput();
+  const expected = `${i + 1}. ${stages[i]}`;
+  if (!find('stage').textContent.startsWith(expected)) say(`${find('stage').textContent}, not ${expected}`);
+  if (!document.querySelector('#maps .new canvas').width) say(`${expected} shows no column`);
+}
+const film = document.querySelector('#maps .new div').textContent;
+if (film !== data.radiance.map(digits).join(', ')) say(`the film has ${film}`);
+if (/undefined|NaN|\[object/.test(document.querySelector('main').textContent)) say('a value is missing');
+if (performance.getEntriesByType('resource').some(entry => !entry.name.startsWith('data:'))) say('loads something');
+parent.postMessage(wrong.join('; ') || `fits ${innerWidth}`, '*');
+</script>
+HTML
+cat > "$folder/frames.html" <<'HTML'
+<pre id="found"></pre>
+<script>addEventListener('message', event => found.append(event.data, '\n'));</script>
+<iframe src="checked.html" style="width:360px;height:900px;border:0"></iframe>
+<iframe src="checked.html" style="width:1200px;height:900px;border:0"></iframe>
+HTML
+found=$(timeout 120 "$browser" --headless=new --no-sandbox --disable-gpu --disable-dev-shm-usage \
+  --allow-file-access-from-files --user-data-dir="$folder/profile" --virtual-time-budget=10000 \
+  --dump-dom "file://$folder/frames.html" 2> "$folder/browser.log" |
+  sed -n '/<pre id="found">/,/<\/pre>/p' | sed -e 's/<[^>]*>//g' -e '/^$/d' | sort)
+if [ "$found" != $'fits 1200\nfits 360' ]; then
+  echo "the lesson: ${found:-no answer: $(tail -n 3 "$folder/browser.log")}"
+  exit 1
+fi
