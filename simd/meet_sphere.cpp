@@ -59,8 +59,9 @@ HWY_INLINE void StoreWeights(D d, const Vec3Of<D>& p, size_t i, const SphereHits
 
 // The scalar reference is meetSphere in src/bake/sphere.cpp.
 template <class D>
-HWY_INLINE void MeetLanes(D d, const SphereInverse& sphere, const float* words, size_t width,
-                          size_t i, const float* after, const SphereHits& to) {
+HWY_INLINE uint32_t MeetLanes(D d, const SphereInverse& sphere, const float* words, size_t width,
+                              size_t i, const int* valid, const float* after, const float* end,
+                              const SphereHits& to) {
   const hn::Rebind<float, D> df;
   const auto load = [&](size_t column) HWY_ATTR {
     return hn::PromoteTo(d, hn::LoadU(df, words + column * width + i));
@@ -78,10 +79,7 @@ HWY_INLINE void MeetLanes(D d, const SphereInverse& sphere, const float* words, 
                           MulThenAdd(v.z, middle, f.z)};
   const auto inside = hn::Sub(one, DotOf<D>(nearest, nearest));
   const auto met = hn::Ge(inside, zero);
-  if (hn::AllFalse(d, met)) {
-    hn::StoreU(hn::NaN(df), df, to.t + i);
-    return;
-  }
+  if (hn::AllFalse(d, met)) return 0;
   const auto root = hn::Sqrt(hn::Mul(a, hn::IfThenElseZero(met, inside)));
   const auto q = hn::Add(b, hn::CopySign(root, b));
   const auto first = hn::Div(hn::Sub(DotOf<D>(f, f), one), q), second = hn::Mul(q, inverse);
@@ -89,36 +87,47 @@ HWY_INLINE void MeetLanes(D d, const SphereInverse& sphere, const float* words, 
   const auto start = hn::PromoteTo(d, hn::LoadU(df, after + i));
   const auto t = hn::IfThenElse(hn::Gt(low, start), low, high);
   const auto there = hn::And(hn::And(met, hn::Ne(q, zero)), hn::Gt(t, start));
-  hn::StoreU(hn::DemoteTo(df, hn::IfThenElse(there, t, hn::NaN(d))), df, to.t + i);
-  if (!to.u) return;
-  StoreWeights(d, {MulThenAdd(v.x, t, f.x), MulThenAdd(v.y, t, f.y), MulThenAdd(v.z, t, f.z)}, i,
-               to);
+  const auto rounded = hn::DemoteTo(df, hn::IfThenElse(there, t, hn::NaN(d)));
+  hn::StoreU(rounded, df, to.t + i);
+  const hn::Rebind<int32_t, D> di;
+  const auto asks = hn::RebindMask(df, hn::Ne(hn::LoadU(di, valid + i), hn::Zero(di)));
+  uint8_t bits[8] = {};  // as many as masks of any vector may store
+  hn::StoreMaskBits(df, hn::And(asks, hn::Le(rounded, hn::LoadU(df, end + i))), bits);
+  if (bits[0] != 0 && to.u) {
+    StoreWeights(d, {MulThenAdd(v.x, t, f.x), MulThenAdd(v.y, t, f.y), MulThenAdd(v.z, t, f.z)}, i,
+                 to);
+  }
+  return uint32_t{bits[0]} << i;
 }
 
 // Vectors without a ray that asks are passed over: Embree asks for single rays of packets, too.
 template <size_t kWidth>
-HWY_INLINE void MeetPacket(const SphereInverse& sphere, const float* words, size_t width,
-                           const int* valid, const float* after, const SphereHits& to) {
+HWY_INLINE uint32_t MeetPacket(const SphereInverse& sphere, const float* words, size_t width,
+                               const int* valid, const float* after, const float* end,
+                               const SphereHits& to) {
   const hn::CappedTag<double, kWidth> d;
   const size_t lanes = hn::Lanes(d);
+  static_assert(hn::MaxLanes(d) <= 8);
+  uint32_t met = 0;
   for (size_t i = 0; i < width; i += lanes) {
     int any = 0;
     for (size_t lane = 0; lane < lanes; ++lane) any |= valid[i + lane];
-    if (any != 0) MeetLanes(d, sphere, words, width, i, after, to);
+    if (any != 0) met |= MeetLanes(d, sphere, words, width, i, valid, after, end, to);
   }
+  return met;
 }
 
-void MeetSphere(const SphereInverse& sphere, const float* words, size_t width, const int* valid,
-                const float* after, const SphereHits& to) {
+uint32_t MeetSphere(const SphereInverse& sphere, const float* words, size_t width, const int* valid,
+                    const float* after, const float* end, const SphereHits& to) {
   switch (width) {
     case 16:
-      return MeetPacket<16>(sphere, words, width, valid, after, to);
+      return MeetPacket<16>(sphere, words, width, valid, after, end, to);
     case 8:
-      return MeetPacket<8>(sphere, words, width, valid, after, to);
+      return MeetPacket<8>(sphere, words, width, valid, after, end, to);
     case 4:
-      return MeetPacket<4>(sphere, words, width, valid, after, to);
+      return MeetPacket<4>(sphere, words, width, valid, after, end, to);
     default:
-      return MeetPacket<1>(sphere, words, width, valid, after, to);
+      return MeetPacket<1>(sphere, words, width, valid, after, end, to);
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 namespace whit::simd {
 
@@ -12,17 +13,19 @@ struct SphereInverse {
   bool diagonal;  // nothing else in the rows
 };
 
-// A ray's hit: its distance, NaN where there is none, and the weights of the point
-// (bake/sphere.h), unless nobody asks for them (null).
+// A ray's hit: its distance and the weights of the point (bake/sphere.h), unless nobody asks for
+// them (null).
 struct SphereHits {
   float *t, *u, *v;
 };
 
-// `words` are those of Embree's packet of `width` rays (stages/packet_words.h). Of each ray that is
-// valid (not 0) the first place where it meets the sphere farther than `after`; what others get may
-// be anything. A ray's hit does not depend on the width.
-using SphereMeeter = void (*)(const SphereInverse& sphere, const float* words, std::size_t width,
-                              const int* valid, const float* after, const SphereHits& to);
+// `words` are those of Embree's packet of `width` rays (stages/packet_words.h). Returns a bit for
+// each ray that is valid (not 0) and meets the sphere farther than `after`, but not beyond `end`;
+// its hit is the first such place, and what others get may be anything. A ray's hit does not depend
+// on the width.
+using SphereMeeter = std::uint32_t (*)(const SphereInverse& sphere, const float* words,
+                                       std::size_t width, const int* valid, const float* after,
+                                       const float* end, const SphereHits& to);
 // Returns the kernel for the chosen target.
 SphereMeeter findMeetSphere();
 

@@ -1,6 +1,7 @@
 #include "accel/sphere_geometry.h"
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <tuple>
@@ -116,22 +117,22 @@ void SphereGeometry::meet(unsigned primitive, const EmbreeContext* context, floa
   const bool asksWhere = kCutoff == &Mask::cutoff || sphere.mask;
   const simd::SphereHits hits{t.data(), asksWhere ? u.data() : nullptr, v.data()};
   const float* const tNear = words + packet_column::tNear * width;
-  meeter_(*inverse, rays, width, valid, tNear, hits);
+  const float* const tFar = words + packet_column::tFar * width;
+  std::uint32_t met = meeter_(*inverse, rays, width, valid, tNear, tFar, hits);
   const auto isCut = [&](unsigned i) {
     const auto [s, r] = sphereUv(spherePoint(double{u[i]}, double{v[i]}));
     return marginAt<kCutoff>(*sphere.mask, static_cast<float>(s), static_cast<float>(r)) < 0;
   };
-  const float* const tFar = words + packet_column::tFar * width;
   if (sphere.mask) {
     std::array<float, kWidestPacket> after{};
     for (unsigned i = 0; i < width; ++i) {
-      const bool cut = valid[i] != 0 && t[i] <= tFar[i] && isCut(i);
+      const bool cut = (met >> i & 1) != 0 && isCut(i);
       after[i] = cut ? std::nextafter(t[i], std::numeric_limits<float>::infinity()) : tNear[i];
     }
-    meeter_(*inverse, rays, width, valid, after.data(), hits);
+    met = meeter_(*inverse, rays, width, valid, after.data(), tFar, hits);
   }
-  for (unsigned i = 0; i < width; ++i) {
-    if (valid[i] == 0 || !(t[i] <= tFar[i])) continue;
+  for (; met != 0; met &= met - 1) {
+    const auto i = static_cast<unsigned>(std::countr_zero(met));
     if (sphere.mask && isCut(i)) continue;
     accept(i, t[i], u[i], v[i]);
   }
@@ -142,15 +143,17 @@ void SphereGeometry::intersect(const RTCIntersectFunctionNArguments* args) {
   const unsigned width = args->N;
   auto* const words = reinterpret_cast<float*>(args->rayhit);
   auto* const numbers = reinterpret_cast<unsigned*>(args->rayhit);
+  const Met here{placeOf(args->context->instID[0]), 0, own.firstPrimitive_ + args->primID};
   const auto put = [&](unsigned i, float t, float u, float v) {
     const auto number = [&](std::size_t column) -> unsigned& {
       return numbers[column * width + i];
     };
     float& tFar = words[packet_column::tFar * width + i];
-    const Met here{placeOf(args->context->instID[0]), 0, own.firstPrimitive_ + args->primID};
-    const Met before{placeOf(number(packet_column::instance)), number(packet_column::geometry),
-                     number(packet_column::primitive)};
-    if (t == tFar && !own.comesBefore(here, before)) return;
+    if (t == tFar) {
+      const Met before{placeOf(number(packet_column::instance)), number(packet_column::geometry),
+                       number(packet_column::primitive)};
+      if (!own.comesBefore(here, before)) return;
+    }
     tFar = t;
     words[packet_column::u * width + i] = u;
     words[packet_column::v * width + i] = v;
