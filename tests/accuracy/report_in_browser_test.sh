@@ -1,7 +1,8 @@
 #!/bin/bash
 # The reports of whit accuracy, whit effects and whit-verify as a browser lays them out, 360, 800 and 1400
-# pixels wide: every table has as many headers as cells, nothing is wider than the page, the charts' letters
-# can be read and do not overlap, and a click on a row or a point shows its picture beside the reference.
+# pixels wide: every table has as many headers as cells, each cell of "Every point" stands below its header,
+# nothing is wider than the page, the charts' letters can be read and do not overlap, and a click on a row or
+# a point shows its picture beside the reference.
 # report_in_browser_test.sh WHIT VERIFY [FOLDER]: with a folder, screenshots are kept there.
 set -euo pipefail
 whit=$1 verify=$2 keep=${3:-}
@@ -44,6 +45,31 @@ tables.forEach(table => {
   const counts = [...table.rows].map(row => [...row.cells].reduce((sum, cell) => sum + cell.colSpan, 0));
   if (new Set(counts).size !== 1 || table.tBodies[0].rows.length < 1) say(`rows of ${counts} cells`);
 });
+// The cell of the first row of "Every point" below these headers, found by their places on the page.
+function cellBelow(table, group, title) {
+  const groups = [...table.tHead.rows[0].cells], [, titles] = table.tHead.rows;
+  const over = groups.find(cell => cell.textContent === group)?.getBoundingClientRect();
+  const header = [...titles.cells].find(cell => cell.textContent === title && over &&
+    cell.getBoundingClientRect().left >= over.left - 1 && cell.getBoundingClientRect().right <= over.right + 1);
+  const place = header?.getBoundingClientRect();
+  return [...table.tBodies[0].rows[0].cells].find(cell =>
+    place && Math.abs(cell.getBoundingClientRect().left - place.left) < 1)?.textContent;
+}
+if (data.report === 'accuracy') {
+  const heading = [...document.querySelectorAll('h3')].find(h => h.textContent === 'Every point');
+  let block = heading;
+  while (!block.querySelector('table')) block = block.nextElementSibling;
+  const [scene] = data.scenes, [point] = scene.points, thousand = key => (point[key] / 1e3).toFixed(1);
+  const expected = [['time', 'ms', point.settled_ms.toFixed(2)], ['time', 'frames', String(point.frames)],
+    ['against ' + truthOf(scene), 'FLIP', point.total_flip.toFixed(5)],
+    ['at equal samples', 'FLIP', point.same_samples_flip.toFixed(5)],
+    ...Object.keys(point).filter(key => key.endsWith('_rays') && point[key]).map(
+      key => ['thousand rays', key.replace('_rays', ''), thousand(key)])];
+  expected.forEach(([group, title, value]) => {
+    const found = cellBelow(block.querySelector('table'), group, title);
+    if (found !== value) say(`below ${group}, ${title} stands ${found}, not ${value}`);
+  });
+}
 if (/undefined|NaN|\[object/.test(document.querySelector('main').textContent)) say('a value is missing');
 const links = [...document.querySelectorAll('svg a')];
 if (data.report === 'accuracy' && links.length < 20) say(`${links.length} links`);
