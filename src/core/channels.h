@@ -1,5 +1,5 @@
 // The extra output channels of a picture (AOVs, --channels): properties of the first hit of each
-// pixel's ray; and alpha, a mean over its samples.
+// pixel's ray; alpha, a mean over its samples; and the error of the picture's mean over them.
 #pragma once
 
 #include <array>
@@ -26,9 +26,10 @@ enum class Channel : std::uint8_t {
   material,
   triangle,
   rays,
-  alpha
+  alpha,
+  error
 };
-inline constexpr int kChannelCount = 10;
+inline constexpr int kChannelCount = 11;
 
 struct ChannelInfo {
   std::string_view name;
@@ -46,7 +47,8 @@ inline constexpr std::array<ChannelInfo, kChannelCount> kChannels{
      {"material", true, 1, {"id"}},
      {"triangle", true, 1, {"id"}},
      {"rays", true, 1, {"count"}},
-     {"alpha", false, 1, {"A"}}}};
+     {"alpha", false, 1, {"A"}},
+     {"error", false, 1, {"standard"}}}};
 inline constexpr const ChannelInfo& infoOf(Channel channel) {
   return kChannels[static_cast<std::size_t>(channel)];
 }
@@ -60,8 +62,8 @@ std::string namesOf(ChannelSet channels);  // joined by commas
 // The number of objects, materials and triangles where the ray hit nothing.
 inline constexpr std::uint32_t kNoNumber = 0xffffffffu;
 
-// All channels of a pixel but the count of its rays and its alpha. The defaults are those of a ray
-// without a hit.
+// All channels of a pixel but the count of its rays, its alpha and its error. The defaults are
+// those of a ray without a hit.
 struct ChannelValues {
   // Along the camera's axis, and along the ray.
   float z = std::numeric_limits<float>::infinity();

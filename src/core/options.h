@@ -438,7 +438,8 @@ decltype(auto) withOptions(Options& o, Use&& use) {
       Option{{.name = "channels", .words = "a,b",
               .help = "extra output channels (AOVs) of the first hit, at the sample nearest to "
                       "the pixel's center: depth, position, normal, albedo, uv, object, material, "
-                      "triangle, rays; and alpha, the share of samples that hit a surface",
+                      "triangle, rays; alpha, the share of samples that hit a surface; and error, the "
+                      "standard error of the mean of the samples",
               .rebuilds = Rebuild::frame, .changesPicture = false, .tab = Tab::none,
               .everyday = true},
              o.channels},

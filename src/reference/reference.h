@@ -67,6 +67,9 @@ class Tracer {
                     RayCounts& counts, Path path = {}) const;
   // Mean over the sample pattern of the pixel.
   RgbD pixel(const CameraFrame& camera, int x, int y, RayCounts& counts) const;
+  // The standard error of that mean: of the mean of the three colors, as if samples were
+  // independent.
+  double standardError(const CameraFrame& camera, int x, int y, RayCounts& counts) const;
   // Through the pixel's center alone, and what that ray meets.
   RgbD center(const CameraFrame& camera, int x, int y, RayCounts& counts) const;
   PixelSurface surfaceAtCenter(const CameraFrame& camera, int x, int y) const;

@@ -2,6 +2,7 @@
 #include <atomic>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "bake/sphere.h"
@@ -99,6 +100,19 @@ RgbD Tracer::pixel(const CameraFrame& camera, int x, int y, RayCounts& counts) c
   return mean;
 }
 
+// By the running sum of squared deviations (Welford 1962), which does not cancel.
+double Tracer::standardError(const CameraFrame& camera, int x, int y, RayCounts& counts) const {
+  if (samples_.size() < 2) return std::numeric_limits<double>::infinity();
+  double mean = 0, deviations = 0, taken = 0;
+  for (std::size_t s = 0; s < samples_.size(); ++s) {
+    const RgbD sample = sampled(camera, x, y, samples_[s], s, counts);
+    const double value = (sample.x + sample.y + sample.z) / 3, before = value - mean;
+    mean += before / ++taken;
+    deviations += before * (value - mean);
+  }
+  return std::sqrt(deviations / (taken - 1) / taken);
+}
+
 RgbD Tracer::center(const CameraFrame& camera, int x, int y, RayCounts& counts) const {
   return sampled(camera, x, y, {0.5f, 0.5f}, 0, counts);
 }
@@ -180,8 +194,13 @@ void keepChannels(const Scene& scene, const Intersector& intersector, const Came
       layers.floats(Channel::alpha)[pixel] =
           static_cast<float>(hits / static_cast<double>(samples.size()));
     }
-    if (!layers.channels().has(Channel::rays)) return;
     RayCounts counts;
+    if (layers.channels().has(Channel::error)) {
+      layers.floats(Channel::error)[pixel] =
+          static_cast<float>(tracer.standardError(frame, x, y, counts));
+    }
+    if (!layers.channels().has(Channel::rays)) return;
+    counts = {};
     tracer.sampled(frame, x, y, samples[number], number, counts);
     layers.numbers(Channel::rays)[pixel] = static_cast<std::uint32_t>(counts.all());
   });

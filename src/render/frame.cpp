@@ -74,6 +74,25 @@ void sizeDisplay(Film& film) {
   film.display.rgba.resize(film.image.pixels.size() * 4);
 }
 
+void poolErrors(Film& film) {
+  if (!film.channels.channels().has(Channel::error)) return;
+  const std::span<float> errors = film.channels.floats(Channel::error);
+  const std::vector<float> own(errors.begin(), errors.end());
+  const Crop& w = film.image.window;
+  for (int y = w.y0; y < w.y1; ++y) {
+    for (int x = w.x0; x < w.x1; ++x) {
+      double squares = 0, count = 0;
+      for (int j = std::max(y - kPoolReach, w.y0); j <= std::min(y + kPoolReach, w.y1 - 1); ++j) {
+        for (int i = std::max(x - kPoolReach, w.x0); i <= std::min(x + kPoolReach, w.x1 - 1); ++i) {
+          const double error = double{own[film.image.index(i, j)]};
+          squares += error * error, ++count;
+        }
+      }
+      errors[film.image.index(x, y)] = static_cast<float>(std::sqrt(squares / count));
+    }
+  }
+}
+
 void refuseNonFinite(const Scene& scene, const RenderOptions& options, const FrameStats& frame) {
   if (!options.strict || frame.nonFinitePixels == 0) return;
   throw Error(ExitStatus::badScene, scene.name + ": the image has " +
@@ -98,13 +117,17 @@ void FrameStats::add(const FrameStats& worker) {
   nonFinitePixels += worker.nonFinitePixels;
 }
 
+double SampleSum::standardError(int samples) const {
+  if (samples < 2) return std::numeric_limits<double>::infinity();
+  const double n = samples, mean = (total.x + total.y + total.z) / (3 * n);
+  return std::sqrt(std::max(squares / n - mean * mean, 0.0) / (n - 1));
+}
+
 double SampleSums::relativeError(int samples) const {
-  const double n = samples;
   double errors = 0, radiance = 0;
   for (const SampleSum& sum : sums_) {
-    const double mean = (sum.total.x + sum.total.y + sum.total.z) / (3 * n);
-    errors += std::sqrt(std::max(sum.squares / n - mean * mean, 0.0) / (n - 1));
-    radiance += mean;
+    errors += sum.standardError(samples);
+    radiance += (sum.total.x + sum.total.y + sum.total.z) / (3.0 * samples);
   }
   return radiance > 0 ? errors / radiance : 0;
 }

@@ -70,6 +70,10 @@ Camera cameraOnPath(const Scene& scene, const RenderOptions& options, double sec
 // outside the image, Error(limit) when it and what writes it would take more than `maxBytes`.
 Film makeFilm(const Scene& scene, const RenderOptions& options,
               std::uint64_t maxBytes = std::numeric_limits<std::uint64_t>::max());
+// The standard errors of the film's pixels, each the root of the mean square of those around it.
+// By itself a pixel whose few samples all missed the light would claim to be exact.
+void poolErrors(Film& film);
+inline constexpr int kPoolReach = 2;  // pixels to each side, within the film's window
 // Throws Error(badScene) for a frame with pixels that are not finite when the options are strict.
 void refuseNonFinite(const Scene& scene, const RenderOptions& options, const FrameStats& frame);
 
@@ -85,6 +89,9 @@ struct SampleRange {
 struct SampleSum {
   RgbD total;          // in the order of the pattern
   double squares = 0;  // of the samples' mean channel, linear radiance
+  // The standard error of the mean of `samples` samples, as if they were independent; infinite for
+  // one sample.
+  double standardError(int samples) const;
 };
 
 // The sums of a window's pixels, for pictures that gain samples over time. They start empty.

@@ -166,6 +166,7 @@ FrameStats Renderer::trace(const Frame& frame, bool adaptively) {
   const Stopwatch stopwatch;
   FrameStats stats =
       adaptively ? adaptive_.render(frame) : scheduler_.trace(frame, scheduler_.tiles());
+  poolErrors(*frame.film);
   showBackground(*frame.film);
   stats.frameMs = stopwatch.ms();
   if (!frame.observers.empty()) return stats;
@@ -312,6 +313,7 @@ FrameStats Renderer::renderReference(const Camera& camera, Film& film, Progress*
   if (!plan_.channels.empty()) {
     reference::keepChannels(scene_, intersector, camera, referenceSettings(), film.image,
                             film.channels);
+    poolErrors(film);
   }
   if (film.wantDisplay) {
     film.display = toDisplay(film.image, options_.exposure.ev, options_.toneCurve);

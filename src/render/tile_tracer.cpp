@@ -215,11 +215,13 @@ void TileTracer::trace(const Frame& frame, std::span<const std::uint32_t> pixels
     if (frame.samples.size() == 1 && !frame.probes && !frame.sums) {
       chunk_.sample = frame.samples[0];
       chunk_.sampleNumber = 0;
+      sums_.assign(keepsErrors(frame) ? chunk_.pixels.size() : 0, SampleSum());
       traceSample(watch);
     } else if (!traceSamples(frame, watch)) {
       return;
     }
     work_.returnToPixels(chunk_);
+    if (keepsErrors(frame)) keepErrors(frame);
     for (const Step& step : plan_.perTile) run(step, stats);
     stats.nonFinitePixels += countNonFinite(chunk_);
     clock.lap(Stage::updateImage, 0);
@@ -255,10 +257,19 @@ void TileTracer::addSample(const Frame& frame) {
   for (std::size_t i = 0; i < n; ++i) {
     sums_[i].total += RgbD(Rgb{radiance.r[i], radiance.g[i], radiance.b[i]});
   }
-  if (!frame.sums) return;
+  if (!frame.sums && !keepsErrors(frame)) return;
   for (std::size_t i = 0; i < n; ++i) {
     const double mean = (double{radiance.r[i]} + double{radiance.g[i]} + double{radiance.b[i]}) / 3;
     sums_[i].squares += mean * mean;
+  }
+}
+
+void TileTracer::keepErrors(const Frame& frame) {
+  const std::span<float> errors = frame.film->channels.floats(Channel::error);
+  for (std::size_t i = 0; i < chunk_.pixels.size(); ++i) {
+    const std::uint32_t pixel = chunk_.pixels[i];
+    errors[frame.film->image.index(pixelX(pixel), pixelY(pixel))] =
+        static_cast<float>(sums_[i].standardError(static_cast<int>(frame.endSample)));
   }
 }
 

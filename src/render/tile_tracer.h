@@ -132,6 +132,10 @@ class TileTracer {
 
   bool traceSamples(const Frame& frame, const Watch& watch);
   void addSample(const Frame& frame);
+  bool keepsErrors(const Frame& frame) const {
+    return frame.constants.channels.layers && plan_.channels.has(Channel::error);
+  }
+  void keepErrors(const Frame& frame);
   // Loads the sums of the earlier samples.
   void takeUpSums(const Frame& frame);
   void leaveSums(const Frame& frame);

@@ -52,8 +52,9 @@ constexpr bool samplesLobes(EffectSet effects) {
 // picture would be too dark. `effects` are the scene's.
 inline bool samplesAdaptively(const RenderOptions& options, EffectSet effects) {
   const EffectSet used = effects.without(options.disable).without(notAskedFor(options));
-  const bool alpha = keptChannels(options).has(Channel::alpha);  // a mean over all samples
-  return options.adaptive && options.spp > 1 && !samplesLobes(used) && !alpha;
+  const ChannelSet kept = keptChannels(options);
+  const bool overAll = kept.has(Channel::alpha) || kept.has(Channel::error);  // need all samples
+  return options.adaptive && options.spp > 1 && !samplesLobes(used) && !overAll;
 }
 
 // Sample k of the surfel that `path` has led to.

@@ -40,6 +40,7 @@ double codeOf(Channel channel, double value) {
     case Channel::uv:
       return (value - std::floor(value)) * kWhite16;
     case Channel::alpha:
+    case Channel::error:
       return value * kWhite16;
     case Channel::rays:
       return value;

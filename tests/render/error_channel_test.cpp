@@ -1,0 +1,127 @@
+// The channel `error`: a closed form where every sample is black or of one color, and whether the
+// interval that it states holds the true error where light is sampled.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/channels.h"
+#include "shipped_scene.h"
+
+namespace whit::test {
+namespace {
+
+Film filmWithErrors(const Scene& scene, const RenderOptions& options) {
+  Renderer renderer(scene, options);
+  Film film = makeFilm(scene, options);
+  renderFrame(renderer, options.mode, chooseCamera(scene, options), film);
+  return film;
+}
+
+double meanOf(const Rgb& p) { return (double{p.x} + double{p.y} + double{p.z}) / 3; }
+
+// A shining disc before nothing: samples are 0 or 0.6 in the mean.
+Scene discScene() {
+  SceneDescription d;
+  d.name = "disc";
+  d.materials.resize(2);
+  d.materials[1].diffuse = {0, 0, 0};
+  d.materials[1].emission = {0.3f, 0.6f, 0.9f};
+  Mesh mesh;
+  mesh.positions = {{-2, -2, 0}, {2, -1.7f, 0}, {0.3f, 2, 0}};
+  mesh.triangles = {{0, 1, 2}};
+  mesh.materials = {1};
+  d.objects.push_back({"disc", {mesh}});
+  d.instances.push_back({0, Affine{}});
+  d.cameras.resize(1);
+  d.cameras[0].fov = 60;
+  Warnings warnings;
+  return Scene::finalize(std::move(d), warnings);
+}
+
+class ErrorChannel : public testing::TestWithParam<Mode> {};
+
+// The share p of samples that hit gives the error of a pixel: 0.6 sqrt(p (1 - p) / (n - 1)).
+TEST_P(ErrorChannel, IsThatOfABinomialAtAnEdge) {
+  constexpr double kRadiance = 0.6;
+  const Scene scene = discScene();
+  RenderOptions o = smallOptions();
+  o.mode = GetParam();
+  o.spp = 16;
+  o.channels = parseChannels("error,alpha");
+  const Film film = filmWithErrors(scene, o);
+  const auto errors = film.channels.floats(Channel::error),
+             hits = film.channels.floats(Channel::alpha);
+  const int width = film.image.width, height = film.image.height;
+  double largest = 0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      double squares = 0, count = 0;
+      for (int j = std::max(y - kPoolReach, 0); j <= std::min(y + kPoolReach, height - 1); ++j) {
+        for (int i = std::max(x - kPoolReach, 0); i <= std::min(x + kPoolReach, width - 1); ++i) {
+          const double p = double{hits[film.image.index(i, j)]};
+          squares += kRadiance * kRadiance * p * (1 - p) / (o.spp - 1), ++count;
+        }
+      }
+      const double expected = std::sqrt(squares / count);
+      // Sums in double of numbers in float; equal samples leave the root of their rounding.
+      EXPECT_NEAR(double{errors[film.image.index(x, y)]}, expected, 1e-6) << x << "," << y;
+      largest = std::max(largest, expected);
+    }
+  }
+  EXPECT_GT(largest, 0.03);
+}
+
+TEST_P(ErrorChannel, IsInfiniteForOneSample) {
+  RenderOptions o = smallOptions();
+  o.mode = GetParam();
+  o.channels = parseChannels("error");
+  const Film film = filmWithErrors(discScene(), o);
+  for (const float error : film.channels.floats(Channel::error)) {
+    EXPECT_EQ(error, std::numeric_limits<float>::infinity());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Modes, ErrorChannel, testing::Values(Mode::packets, Mode::reference));
+
+struct Sampled {
+  const char* scene;
+  int indirect, ambientSamples;
+};
+
+// With soft shadows, glossy reflections and indirect light or ambient occlusion.
+TEST(ErrorChannelCoverage, HoldsTheTrueErrorOfNineTenthsOfThePixels) {
+  constexpr double kDeviations = 1.96;  // 95 % of a normal distribution
+  constexpr double kLeastCovered = 0.9;
+  for (const Sampled& sampled : {Sampled{"cornell", 1, 0}, Sampled{"cornell", 0, 1},
+                                 Sampled{"glossy", 0, 0}, Sampled{"whitted", 0, 0}}) {
+    RenderOptions o = smallOptions();
+    o.size = ImageSize{64, 48};
+    o.lightSamples = 2;
+    o.glossy = 1;
+    o.indirect = sampled.indirect;
+    o.ambientSamples = sampled.ambientSamples;
+    o.channels = parseChannels("error");
+    const Scene scene = load(sampled.scene);
+    RenderOptions many = o;
+    many.spp = 1024;
+    o.spp = 16;
+    const Image truth = filmWithErrors(scene, many).image;
+    const Film film = filmWithErrors(scene, o);
+    double covered = 0, noisy = 0;
+    for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
+      const double apart = std::abs(meanOf(film.image.pixels[i]) - meanOf(truth.pixels[i]));
+      const double error = double{film.channels.floats(Channel::error)[i]};
+      const double rounding = 1e-6 * meanOf(truth.pixels[i]);
+      covered += apart <= kDeviations * error + rounding;
+      noisy += error > 1e-3 * meanOf(truth.pixels[i]);
+    }
+    const auto pixels = static_cast<double>(truth.pixels.size());
+    EXPECT_GE(covered / pixels, kLeastCovered) << sampled.scene << sampled.indirect;
+    EXPECT_GT(noisy / pixels, 0.1) << sampled.scene << ": hardly anything is sampled";
+  }
+}
+
+}  // namespace
+}  // namespace whit::test
