@@ -27,15 +27,6 @@ namespace {
 
 constexpr std::uint64_t kSettingsBytesLimit = 1 << 16;
 
-std::string quoted(const std::string& word) {
-  constexpr const char* kPlain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,:/%@";
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
-
 void clearCamera(RenderOptions& options) {
   options.camera.clear();
   forEachCameraOption([&](auto option, auto /*member*/) { (options.*option).reset(); });

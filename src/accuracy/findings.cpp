@@ -61,16 +61,10 @@ void markFronts(std::vector<Point>& points) {
 }
 
 const Point* bestWithin(const SceneSweep& sweep, double ms) {
-  const Point* best = nullptr;
-  for (const Point& point : sweep.points) {
-    const double error = point.total.flipMean;
-    if (!std::isfinite(error) || !(longestMs(point.timing) <= ms)) continue;
-    const bool better =
-        !best || error < best->total.flipMean ||
-        (error == best->total.flipMean && point.timing.settledMs < best->timing.settledMs);
-    if (better) best = &point;
-  }
-  return best;
+  std::vector<CostAndError> points;
+  for (const Point& p : sweep.points) points.push_back({longestMs(p.timing), p.total.flipMean});
+  const auto best = whit::bestWithin(points, ms);
+  return best ? &sweep.points[*best] : nullptr;
 }
 
 std::string choiceText(const SceneSweep& sweep) {

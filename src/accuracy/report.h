@@ -13,10 +13,6 @@
 
 namespace whit::accuracy {
 
-struct CostAndError {
-  double cost = 0, error = 0;
-};
-
 // Indices of the Pareto front, in order of cost: no other point has at most the same cost and at
 // most the same error, and less of one of them. The first of several equal points represents them.
 // Points that are not finite are never on the front.

@@ -37,8 +37,7 @@ struct AccuracyJob {
 
 std::string knobHelp() {
   std::string names;
-  for (const accuracy::Knob& knob : accuracy::allKnobs())
-    names += (names.empty() ? "" : ", ") + knob.name;
+  for (const Knob& knob : allKnobs()) names += (names.empty() ? "" : ", ") + knob.name;
   return "knobs to sweep (default: all: " + names + ")";
 }
 
@@ -72,7 +71,7 @@ void checkJob(AccuracyJob& job) {
   refuseIf(job.common.render.mode == Mode::reference,
            "whit accuracy measures packets against the reference: leave out --mode");
   if (!job.knobs.empty()) settings.knobs = split(job.knobs, ',');
-  accuracy::chooseKnobs(settings.knobs);
+  chooseKnobs(settings.knobs);
   if (!settings.full && !job.common.render.size) job.common.render.size = kQuickSize;
   settings.seed = static_cast<std::uint32_t>(job.seed);
   makeFolder(job.out);

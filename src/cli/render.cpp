@@ -23,6 +23,7 @@
 #include "core/options.h"
 #include "core/stopwatch.h"
 #include "core/text.h"
+#include "inspect/budget.h"
 #include "io/image/image_file.h"
 #include "io/paths.h"
 #include "make/model_view.h"
@@ -52,7 +53,8 @@ bool isFilm(const std::string& output) { return extensionOf(output) == kFilm; }
 struct RenderJob {
   CommonOptions common;
   std::vector<std::string> scenes, outputs;
-  std::string frames, json;
+  std::string frames, json, time, target, command;
+  Budget budget;
   double fps = 24;
   bool resume = false;
   ExrStorage exr = ExrStorage::zip;
@@ -83,6 +85,13 @@ OptionList listOptions(RenderJob& job) {
     list.value({"range", "A..B"}, "frames that are rendered, counted from 0 (default: all)",
                job.frames);
   } else {
+    list.value({"budget", "TIME"},
+               "choose the options that are not given for the least visible error within a time, "
+               "as 50ms or 10s, with all that is measured for that; prints what was chosen",
+               job.time);
+    list.value({"target", "ERROR"},
+               "choose them for the least time within an error, as 0.5codes or flip=0.01",
+               job.target);
     list.value({"frames", "A..B"},
                "frames of the animation and the camera path; FILE has #### for the number",
                job.frames);
@@ -176,7 +185,16 @@ void chooseOutputs(RenderJob& job) {
   job.outputs.push_back(file);
 }
 
-void checkJob(const RenderJob& job) {
+void checkBudget(RenderJob& job) {
+  job.budget = parseBudget(job.time, job.target);
+  if (!job.budget.isSet()) return;
+  const std::string option = job.time.empty() ? "--target" : "--budget";
+  refuseIf(!job.frames.empty(), option + " is of one picture: leave out --frames");
+  refuseIf(job.resume, option + ": what is chosen differs from run to run: leave out --resume");
+}
+
+void checkJob(RenderJob& job) {
+  checkBudget(job);
   checkBackground(job);
   checkChannels(job);
   checkFilm(job);
@@ -266,6 +284,11 @@ class ImageWriter {
     shadowCacheBytes_ = memoryLeft(open.scene, *renderer_, job.common.load.maxMemoryBytes);
     // One for all frames, whichever of them are asked for.
     settleExposure(*renderer_, camera_, options_);
+    if (job.budget.isSet()) {
+      reportProgress(progress, "choosing options", 0);
+      receipt_ = chooseOptions(*renderer_, camera_, job.common.given, job.budget, films_[0]);
+      options_ = receipt_->options;
+    }
     run_ = summarize(open.scene, options_, *renderer_, films_[0], open.loadMs);
     sceneDigest_ = accuracy::digestOf(open.scene);
     aboutChannels_ = describeChannels(open.scene, options_.channels);
@@ -307,8 +330,9 @@ class ImageWriter {
       ++run_.kept;
       return;
     }
-    fillShadowCache(film);
+    if (!receipt_) fillShadowCache(film);
     run_.frames.push_back(renderFrame(*renderer_, options_.mode, camera_, film, progress));
+    if (receipt_) receipt_->measuredMs = stopwatch.ms();
     refuseNonFinite(open_->scene, options_, run_.frames.back());
     run_.imageHash = accuracy::digestOf(film.image);
     startWriting(film, files, std::move(metadata));
@@ -331,6 +355,7 @@ class ImageWriter {
   const DisplayImage& firstPicture() const { return films_[0].display; }
   const Exposure& exposure() const { return options_.exposure; }
   const std::vector<std::string>& written() const { return written_; }
+  const std::optional<Receipt>& receipt() const { return receipt_; }
 
  private:
   void fillShadowCache(Film& film) {
@@ -376,7 +401,8 @@ class ImageWriter {
   const RenderJob& job_;
   OpenScene* open_;
   Camera camera_;
-  RenderOptions options_;  // with an automatic exposure settled
+  RenderOptions options_;  // with an automatic exposure settled, and those that --budget chose
+  std::optional<Receipt> receipt_;
   std::optional<Renderer> renderer_;
   std::uint64_t shadowCacheBytes_ = 0;  // that its tables may take
   std::vector<Film> films_;
@@ -423,6 +449,19 @@ void writeReport(const RenderJob& job, const ImageWriter& writer) {
   writeJson(job.json, json);
 }
 
+// The command without these options and their values.
+std::string commandWithout(const std::vector<std::string>& options, const Words& words) {
+  std::string command = "whit render";
+  bool isValue = false;
+  for (const std::string& word : words) {
+    const bool isLeftOut =
+        std::ranges::find(options, word.substr(0, word.find('='))) != options.end();
+    if (!isLeftOut && !isValue) command += " " + printable(quoted(word));
+    isValue = isLeftOut && word.find('=') == std::string::npos;
+  }
+  return command;
+}
+
 int render(RenderJob& job) {
   const Stopwatch stopwatch;
   chooseOutputs(job);
@@ -443,6 +482,9 @@ int render(RenderJob& job) {
   const bool traced = !writer.run().frames.empty();  // else all images were there
   if (traced && !job.common.quiet) {
     std::fputs(stageTable(writer.run()).c_str(), stderr);
+    if (writer.receipt()) {
+      std::fputs(receiptText(*writer.receipt(), job.command).c_str(), stderr);
+    }
     if (job.common.render.exposure.automatic) {
       std::fprintf(stderr, "exposure %g EV\n", static_cast<double>(writer.exposure().ev));
     }
@@ -461,6 +503,7 @@ int render(RenderJob& job) {
 
 int renderCommand(const Words& words) {
   RenderJob job;
+  job.command = commandWithout({"--budget", "--target"}, words);
   return parseOptions(kRenderUsage, kRenderSummary, listOptions(job), words) ? render(job) : 0;
 }
 

@@ -63,6 +63,15 @@ constexpr std::pair<std::string_view, std::string_view> kSynonyms[] = {
 
 }  // namespace
 
+std::string quoted(const std::string& word) {
+  constexpr const char* kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,:/%@";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
 std::string printable(const std::string& text) {
   constexpr char kDigits[] = "0123456789abcdef";
   std::string result;

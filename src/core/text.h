@@ -45,6 +45,9 @@ inline std::string wrapped(const std::string& text, std::size_t at, std::size_t 
   return lines + "\n";
 }
 
+// The word, in quotation marks for a POSIX shell where they are needed.
+std::string quoted(const std::string& word);
+
 // The text as it may be put on a terminal. Control characters, which move the cursor, color or
 // rename things, are written as "\x1b", and so are bytes that are no UTF-8.
 std::string printable(const std::string& text);

@@ -6,6 +6,8 @@
 
 #include "bake/edit_scene.h"
 #include "core/option_table.h"
+#include "core/stopwatch.h"
+#include "inspect/budget.h"
 #include "io/image/image_layers.h"
 #include "io/scene/scene_sections.h"
 #include "io/scene/scene_settings.h"
@@ -151,7 +153,7 @@ struct Renderer::Data {
     changed = true;
   }
 
-  void render(const whit::Camera& camera, Image& image, whit::Progress* told) {
+  void sizeFilm(Image& image) const {
     Film& film = image.data_->film;
     const ImageSize size = settled.size.value_or(ImageSize{internal().width, internal().height});
     const Crop window = settled.crop.value_or(Crop{0, 0, size.width, size.height});
@@ -159,6 +161,11 @@ struct Renderer::Data {
     if (there.width != size.width || there.height != size.height || there.window != window) {
       film = makeFilm(internal(), settled, scene.data_->load.maxMemoryBytes);
     }
+  }
+
+  void render(const whit::Camera& camera, Image& image, whit::Progress* told) {
+    sizeFilm(image);
+    Film& film = image.data_->film;
     FrameStats frame;
     try {
       frame = renderFrame(*renderer, settled.mode, camera, film, told);
@@ -261,6 +268,25 @@ void Renderer::render(Image& image) {
   guarded(data_->progress, [&](whit::Progress* told) {
     data_->prepare(told);
     data_->render(data_->view(), image, told);
+  });
+}
+
+Receipt Renderer::renderWithin(const std::string& budget, const std::string& target, Image& image) {
+  return guarded(data_->progress, [&](whit::Progress* told) {
+    const Budget wanted = parseBudget(budget, target);
+    if (!wanted.isSet()) throwUsage("renderWithin: expected a budget or a target");
+    data_->prepare(told);
+    data_->sizeFilm(image);
+    const whit::Camera camera = data_->view();
+    whit::Receipt made =
+        chooseOptions(*data_->renderer, camera, data_->given, wanted, image.data_->film);
+    data_->settled = made.options;
+    data_->changed = true;  // the next frame has the options of set() again
+    const Stopwatch stopwatch;
+    data_->render(camera, image, told);
+    made.measuredMs = stopwatch.ms();
+    return Receipt{made.chosen, made.probeMs, made.expectedMs, made.measuredMs,      made.error,
+                   made.low,    made.high,    made.note,       receiptText(made, "")};
   });
 }
 

@@ -338,6 +338,15 @@ struct OptionInfo {
 };
 std::vector<OptionInfo> options();
 
+// What Renderer::renderWithin() has chosen.
+struct Receipt {
+  std::vector<std::pair<std::string, std::string>> chosen;  // options and their values
+  double chooseMs = 0, expectedMs = 0, pictureMs = 0;       // expected is the time of the picture
+  double error = 0, errorLow = 0, errorHigh = 0;  // mean FLIP, or codes if the target is in codes
+  std::string note;                               // why budget or target are not met; else empty
+  std::string text;                               // all of it for people
+};
+
 // Renders frames of a scene with its own worker threads. Only one thread may use a renderer at a
 // time; several renderers may share a scene. A forked child may go on with the renderers that no
 // thread was using, and their worker threads start anew there. The kernel target ("simd") belongs
@@ -387,6 +396,10 @@ class Renderer {
   // memory.
   Image render();
   void render(Image& image);
+  // Chooses the options that set() has not set, for the least visible error within a time ("50ms",
+  // "10s") or for the least time within an error ("0.5codes", "flip=0.01"); one is empty. The same
+  // options set by set() give the same picture.
+  Receipt renderWithin(const std::string& budget, const std::string& target, Image& image);
   // Renders from the scene's camera path, `seconds` after its begin.
   void renderOnPath(double seconds, Image& image);
 

@@ -127,6 +127,7 @@ using OptionTexts = std::vector<std::pair<std::string, std::string>>;
 struct Picture {
   api::Image image;
   api::FrameStatistics statistics;
+  std::optional<api::Receipt> receipt;
 };
 
 // A scene with its renderer. Threads take turns at it.
@@ -146,14 +147,17 @@ class Session {
   // The options and the camera hold for this frame only. With `pathSeconds` the camera is on the
   // camera path.
   Picture render(const OptionTexts& options, std::optional<double> pathSeconds,
-                 const py::object& progress, const std::string& camera) {
+                 const py::object& progress, const std::string& camera,
+                 const std::pair<std::string, std::string>& within) {
     const Turn turn(*this);
     return call(progress, [&](const api::Progress& told) {
       takeOptions(options);
       renderer_.lookThrough(camera);
       renderer_.setProgress(told);
       Picture picture;
-      if (pathSeconds) {
+      if (within != std::pair<std::string, std::string>()) {
+        picture.receipt = renderer_.renderWithin(within.first, within.second, picture.image);
+      } else if (pathSeconds) {
         renderer_.renderOnPath(*pathSeconds, picture.image);
       } else {
         renderer_.render(picture.image);
@@ -348,6 +352,23 @@ py::dict channelsOf(const py::object& picture) {
   return all;
 }
 
+py::dict describe(const api::Receipt& r) {
+  py::dict chosen, all;
+  for (const auto& [name, value] : r.chosen) chosen[py::str(name)] = value;
+  all["chosen"] = chosen;
+  for (const auto& [key, value] : {std::pair{"choose_ms", r.chooseMs},
+                                   {"expected_ms", r.expectedMs},
+                                   {"picture_ms", r.pictureMs},
+                                   {"error", r.error},
+                                   {"error_low", r.errorLow},
+                                   {"error_high", r.errorHigh}}) {
+    all[key] = value;
+  }
+  all["note"] = r.note;
+  all["text"] = r.text;
+  return all;
+}
+
 py::dict describe(const api::FrameStatistics& frame) {
   py::dict stages, rays;
   for (const auto& stage : frame.stages) stages[py::str(std::string(stage.name))] = stage.ms;
@@ -486,7 +507,12 @@ void definePicture(py::module_& module) {
                                              4);
                              })
       .def_property_readonly("channels", &channelsOf)
-      .def_property_readonly("statistics", [](const Picture& p) { return describe(p.statistics); })
+      .def_property_readonly("statistics",
+                             [](const Picture& p) {
+                               py::dict all = describe(p.statistics);
+                               if (p.receipt) all["receipt"] = describe(*p.receipt);
+                               return all;
+                             })
       .def("write",
            [](const Picture& p, const std::string& path) {
              call(py::none(), [&](const api::Progress&) { p.image.write(path); });
@@ -498,7 +524,7 @@ void definePicture(py::module_& module) {
           })
       .def("bytes", [](const Picture& p) { return py::bytes(p.image.bytes()); });
   module.def("picture", [](const py::bytes& bytes) {
-    return Picture{api::Image::fromBytes(std::string_view(bytes)), {}};
+    return Picture{api::Image::fromBytes(std::string_view(bytes)), {}, {}};
   });
 }
 

@@ -180,6 +180,15 @@ FrameStats Renderer::render(const Camera& camera, Film& film, const FrameHooks* 
   return trace(frameOf(camera, film, hooks, observers, adaptive()), adaptive());
 }
 
+FrameStats Renderer::renderLists(const Camera& camera, Film& film, const PixelLists& lists) {
+  const Frame frame = frameOf(camera, film, nullptr);
+  const Stopwatch stopwatch;
+  FrameStats stats = scheduler_.trace(frame, lists);
+  stats.frameMs = stopwatch.ms();
+  stats.workers = machine_.threads;
+  return stats;
+}
+
 FrameStats Renderer::accumulate(const Camera& camera, Film& film, const SampleRange& samples,
                                 SampleSums& sums, const FrameHooks* hooks) {
   Frame frame = frameOf(camera, film, hooks);
@@ -271,9 +280,12 @@ void Renderer::setOptions(const RenderOptions& options) {
         "built anew");
   }
   const bool lacksMips = plan.features.has(Feature::cones) && tables_.mipLevels.empty();
-  if (rebuildNeeded(options_, options) >= Rebuild::tables &&
-      (plan.effects != plan_.effects || lacksMips)) {
-    tables_ = buildTables(scene_, plan.effects, options.shading, machine_.threads);
+  if (rebuildNeeded(options_, options) >= Rebuild::tables) {
+    if (lacksMips) {
+      tables_ = buildTables(scene_, plan.effects, options.shading, machine_.threads);
+    } else if (plan.effects != plan_.effects) {
+      refreshShading(scene_, plan.effects, options.shading, machine_.threads, tables_);
+    }
   }
   replan(std::move(plan));
   takeOver(options, Rebuild::tables, options_);

@@ -59,6 +59,10 @@ class Renderer {
   FrameStats render(const Camera& camera, Film& film, const FrameHooks* hooks = nullptr,
                     std::span<StageObserver* const> observers = {});
 
+  // Traces all samples of some of the film's pixels, without adaptive sampling. Lists are those of
+  // tiles (render/scheduler.h), of pixels from any places.
+  FrameStats renderLists(const Camera& camera, Film& film, const PixelLists& lists);
+
   // Traces some of the samples of the film's pixels, without adaptive sampling, and adds them to
   // `sums`, which has those before them. The film shows the mean of all so far: with the last of
   // options().spp samples it is render()'s, bit for bit. The window of `sums` holds the film's.

@@ -107,6 +107,12 @@ class Picture:
         "Times and counts of the frame: 'frame_ms', 'embree_ms' and 'stages_ms' (by stage) in "
         "milliseconds of wall-clock time, 'rays' (by kind) and 'non_finite_pixels' as numbers."))
 
+    @property
+    def receipt(self) -> Optional[dict[str, Any]]:
+        """What render(budget=...) has chosen: 'chosen' (options), 'choose_ms', 'expected_ms' and
+        'picture_ms', 'error' with 'error_low' and 'error_high', 'note' and 'text'."""
+        return self._statistics.get("receipt")
+
     def write(self, path: Union[str, os.PathLike]) -> None:
         """Writes .exr (linear, float) or .png (8-bit sRGB), with the render's options."""
         self._object.write(os.fspath(path))
@@ -264,15 +270,16 @@ class Scene:
         """One of `cameras` as it is now, for pictures of the scene's `size`; empty: the first."""
         return Camera(json.loads(self._object.camera(name)), self.size, axes=axes)
 
-    def render(self, *, path_time: Optional[float] = None, progress: Optional[Progress] = None,
-               **options: Any) -> Picture:
+    def render(self, *, path_time: Optional[float] = None, budget: str = "", target: str = "",
+               progress: Optional[Progress] = None, **options: Any) -> Picture:
         self._object  # noqa: B018 (the attribute is there only if __init__ came to its end)
         camera = options.get("camera")
         if not isinstance(camera, Camera):
-            return Picture(self._object.render(_options.texts(options), path_time, progress, ""))
+            return Picture(self._object.render(_options.texts(options), path_time, progress, "",
+                                               (budget, target)))
         texts = _options.texts({"size": camera.size, **options, "camera": None})
         text = Description("camera").text(camera.members)
-        return Picture(self._object.render(texts, path_time, progress, text))
+        return Picture(self._object.render(texts, path_time, progress, text, (budget, target)))
 
     def closest(self, origins: Any, directions: Any, *, t_near: Any = 0.0, t_far: Any = np.inf,
                 progress: Optional[Progress] = None) -> Hits:
@@ -355,6 +362,9 @@ Scene.render.__doc__ = f"""Renders the picture of `whit render` with these optio
 
         camera: a name, or a whit.Camera, whose `size` is then the picture's where none is given.
         path_time: time in seconds at which the camera path places the camera.
+        budget: a time, as "50ms" or "10s": the options that are not given are chosen for the least
+            visible error within it, and `receipt` tells which.
+        target: an error, as "0.5codes" or "flip=0.01": they are chosen for the least time within it.
         progress: called now and then, by the thread that renders, with the current phase and the
             fraction done, 0 to 1; returning False raises an Error of exit status 130.
 

@@ -1,0 +1,58 @@
+// A picture within a time, or of an error (--budget, --target): the options are chosen by a model
+// of cost and error that small pictures of the view are measured for.
+//
+// Costs of knobs are factors of the time of a sample. Errors of knobs that approximate add up in
+// squares; noise is a power of the number of samples. The number of samples is chosen last, by the
+// time that the chosen options take for some tiles of the very picture.
+#pragma once
+
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/options.h"
+#include "render/renderer.h"
+
+namespace whit {
+
+struct Budget {
+  double ms = 0;         // time of the picture and of all that is measured for it; 0: any
+  double error = 0;      // 0: any
+  bool inCodes = false;  // the error is in 8-bit codes, the mean over pixels of the largest of
+                         // three channels; else it is the mean FLIP
+  bool isSet() const { return ms > 0 || error > 0; }
+};
+
+// Reads "50ms", "10s" or "2min", and "0.5codes" or "flip=0.01"; either may be empty. Throws
+// Error(usage) for others, and if both are given.
+Budget parseBudget(const std::string& time, const std::string& target);
+
+// What was chosen, and why.
+struct Receipt {
+  struct Knob {
+    std::string name, value, exact;
+    double error = 0;  // that this value leaves, by itself
+  };
+  Budget budget;
+  RenderOptions options;
+  std::vector<std::pair<std::string, std::string>> chosen;  // options and values, as given
+  std::vector<Knob> approximate;                            // knobs that are not exact
+  double probeMs = 0;                                       // spent on measuring and choosing
+  double expectedMs = 0;                                    // of the picture
+  double measuredMs = 0;                                    // of the picture, set by who renders it
+  double error = 0, low = 0, high = 0;
+  std::string note;  // empty, or why budget or target are not met
+
+  double usedMs() const { return probeMs + measuredMs; }
+};
+
+// Chooses the options that are not in `fixed`. `film` is that of the picture, whose pixels are
+// overwritten. The renderer is left with the chosen options.
+Receipt chooseOptions(Renderer& renderer, const Camera& camera, const std::set<std::string>& fixed,
+                      const Budget& budget, Film& film);
+
+// Lines for people; the last is the command without the budget, if `command` begins it.
+std::string receiptText(const Receipt& receipt, const std::string& command);
+
+}  // namespace whit

@@ -1,0 +1,65 @@
+// The knobs, which are options that trade accuracy for time (core/options.h has their table): their
+// values, which of them a scene calls for, and options that are exact. `whit accuracy` sweeps them,
+// and --budget chooses among them.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/options.h"
+
+namespace whit {
+
+struct KnobValue {
+  std::string knob, label;             // as on the command line: --KNOB LABEL
+  bool spare = false;                  // see KnobSpec
+  bool endless = false;                // branching rays never end with it
+  std::vector<std::string> alongside;  // other options that it sets, as on the command line
+
+  void apply(RenderOptions& options) const;
+  // The reason why the value is impossible in scenes with these effects, beyond the knob's own;
+  // empty if there is none.
+  std::string idle(EffectSet effects) const;
+};
+
+// The cutoff that counts as exact. It is not 0 in scenes with glass, where rays split in two at
+// every bounce and only the cutoff ends that.
+float exactCutoff(EffectSet effects, bool full);
+
+struct Knob {
+  std::string name;
+  Cause cause = Cause::algorithm;
+  std::vector<KnobValue> values;
+  KnobSpec spec;
+  std::string exact;  // label
+
+  void makeExact(RenderOptions& options, float cutoff) const;
+  // The reason why the knob changes nothing in scenes with these effects; empty if there is none.
+  std::string idle(EffectSet effects) const;
+};
+
+const std::vector<Knob>& allKnobs();
+
+// The knobs with these names, or all knobs if there are no names, in the table's order. Throws
+// Error(usage) with the nearest name for an unknown one.
+std::vector<Knob> chooseKnobs(const std::vector<std::string>& names);
+
+// `options` with every knob of the cause at its exact value.
+RenderOptions exactIn(RenderOptions options, Cause cause, float cutoff);
+// The picture that an image with `options` is measured against at equal samples: by the scalar
+// reference, exact in everything except sampling.
+RenderOptions exactAtSameSamples(const RenderOptions& options, float cutoff);
+// The same with `samples` samples in every pixel, the reference of all points.
+RenderOptions referenceOptions(const RenderOptions& options, int samples, float cutoff);
+
+struct CostAndError {
+  double cost = 0, error = 0;
+};
+
+// Index of the least error whose cost is at most `most`, of the least cost among equal errors.
+// Points that are not finite are never the best.
+std::optional<std::size_t> bestWithin(const std::vector<CostAndError>& points, double most);
+
+}  // namespace whit

@@ -1,0 +1,168 @@
+// --budget and --target: what they read, choose and say. Times are never compared with a clock.
+#include "inspect/budget.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "core/error.h"
+#include "core/option_table.h"
+#include "inspect/knobs.h"
+#include "io/load_scene.h"
+
+namespace whit {
+namespace {
+
+Scene load(const std::string& name) {
+  Warnings warnings;
+  return Scene::finalize(loadScene(name, LoadOptions{}, warnings), warnings);
+}
+
+struct Chosen {
+  Receipt receipt;
+  Image image;
+};
+
+Chosen chooseFor(const Scene& scene, const Budget& budget, const std::set<std::string>& fixed = {},
+                 RenderOptions options = {}) {
+  options.size = ImageSize{64, 48};
+  options.threads = 2;
+  Renderer renderer(scene, options);
+  Film film = makeFilm(scene, options);
+  const Camera camera = chooseCamera(scene, options);
+  Chosen chosen{chooseOptions(renderer, camera, fixed, budget, film), {}};
+  renderer.render(camera, film);
+  chosen.image = film.image;
+  return chosen;
+}
+
+std::string errorOf(const std::string& time, const std::string& target) {
+  try {
+    parseBudget(time, target);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), ExitStatus::usage);
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Budgets, AreRead) {
+  EXPECT_EQ(parseBudget("50ms", "").ms, 50);
+  EXPECT_EQ(parseBudget("1.5s", "").ms, 1500);
+  EXPECT_EQ(parseBudget("2min", "").ms, 120000);
+  EXPECT_EQ(parseBudget("", "flip=0.01").error, 0.01);
+  EXPECT_FALSE(parseBudget("", "flip=0.01").inCodes);
+  EXPECT_EQ(parseBudget("", "0.5codes").error, 0.5);
+  EXPECT_TRUE(parseBudget("", "0.5codes").inCodes);
+  EXPECT_FALSE(parseBudget("", "").isSet());
+}
+
+TEST(Budgets, OfOtherWordsAreRefused) {
+  for (const char* const time : {"50", "ms", "-1s", "0ms", "1h", "nans", "1e99s"}) {
+    EXPECT_NE(errorOf(time, "").find("--budget: expected a time of at least 1 ms"),
+              std::string::npos)
+        << time;
+  }
+  for (const char* const target : {"0.5", "flip", "flip=0", "flip=2", "-1codes", "codes"}) {
+    EXPECT_NE(errorOf("", target).find("--target: expected an error above 0"), std::string::npos)
+        << target;
+  }
+  EXPECT_NE(errorOf("1s", "flip=0.1").find("give one of them"), std::string::npos);
+}
+
+TEST(BestWithin, IsTheLeastErrorThatFits) {
+  const std::vector<CostAndError> points{{5, 1}, {2, 3}, {1, 3}, {9, 0}, {1, std::nan("")}};
+  EXPECT_EQ(bestWithin(points, 6), 0u);
+  EXPECT_EQ(bestWithin(points, 4), 2u) << "the cheaper of equal errors";
+  EXPECT_EQ(bestWithin(points, 9), 3u);
+  EXPECT_EQ(bestWithin(points, 0.5), std::nullopt);
+}
+
+TEST(Budgets, ChooseOptionsThatMakeTheSamePicture) {
+  const Scene scene = load("whitted");
+  const Chosen chosen = chooseFor(scene, {.ms = 200});
+  RenderOptions same;
+  same.size = ImageSize{64, 48};
+  for (const auto& [name, value] : chosen.receipt.chosen) setOption(same, name, value);
+  Renderer renderer(scene, same);
+  Film film = makeFilm(scene, same);
+  renderer.render(chooseCamera(scene, same), film);
+  EXPECT_EQ(film.image.pixels, chosen.image.pixels);
+  EXPECT_LE(chosen.receipt.low, chosen.receipt.error);
+  EXPECT_GE(chosen.receipt.high, chosen.receipt.error);
+}
+
+TEST(Budgets, KeepWhatIsGiven) {
+  const Scene scene = load("mirrors");
+  RenderOptions options;
+  options.spp = 3;
+  options.depth = 5;
+  const Receipt receipt = chooseFor(scene, {.ms = 100}, {"spp", "depth", "size"}, options).receipt;
+  EXPECT_EQ(receipt.options.spp, 3);
+  EXPECT_EQ(receipt.options.depth, 5);
+  for (const auto& [name, value] : receipt.chosen) {
+    EXPECT_NE(name, "spp");
+    EXPECT_NE(name, "depth");
+  }
+}
+
+TEST(Budgets, ThatAreTooSmallSaySo) {
+  const Receipt receipt = chooseFor(load("cornell"), {.ms = 1}).receipt;
+  EXPECT_NE(receipt.note.find("too small"), std::string::npos);
+  EXPECT_EQ(receipt.options.spp, 1);
+}
+
+// A single color in every pixel: one sample is as good as many.
+TEST(Budgets, ThatBuyNothingEndEarly) {
+  SceneDescription d;
+  d.name = "plain";
+  d.cameras.resize(1);
+  Warnings warnings;
+  const Scene scene = Scene::finalize(std::move(d), warnings);
+  const Receipt receipt = chooseFor(scene, {.ms = 2000}).receipt;
+  EXPECT_EQ(receipt.options.spp, 1);
+  EXPECT_NE(receipt.note.find("done early"), std::string::npos) << receipt.note;
+}
+
+TEST(Targets, NeedMoreSamplesForLessError) {
+  const Scene scene = load("matte");
+  const Receipt coarse = chooseFor(scene, {.error = 0.05}).receipt;
+  const Receipt fine = chooseFor(scene, {.error = 0.01}).receipt;
+  EXPECT_LT(coarse.options.spp, fine.options.spp);
+  EXPECT_LE(coarse.error, 0.05);
+  EXPECT_LE(fine.error, 0.01);
+  const Receipt codes = chooseFor(scene, {.error = 0.5, .inCodes = true}).receipt;
+  EXPECT_LE(codes.error, 0.5);
+}
+
+TEST(Targets, OutOfReachSaySo) {
+  const Receipt receipt = chooseFor(load("matte"), {.error = 1e-6}, {"spp"}).receipt;
+  EXPECT_NE(receipt.note.find("out of reach"), std::string::npos);
+}
+
+TEST(Budgets, RefuseWhatTheyWouldChoose) {
+  const Scene scene = load("matte");
+  EXPECT_THROW(chooseFor(scene, {.ms = 50}, {"quality"}), Error);
+  RenderOptions reference;
+  reference.mode = Mode::reference;
+  EXPECT_THROW(chooseFor(scene, {.ms = 50}, {}, reference), Error);
+}
+
+TEST(Receipts, HaveTheCommandWithoutTheBudget) {
+  Receipt receipt;
+  receipt.budget.ms = 100;
+  receipt.chosen = {{"spp", "4"}, {"depth", "8"}};
+  receipt.approximate = {{"depth", "8", "64", 0.002}};
+  receipt.probeMs = 10, receipt.measuredMs = 85, receipt.expectedMs = 80;
+  receipt.error = 0.02, receipt.low = 0.015, receipt.high = 0.025;
+  EXPECT_EQ(receiptText(receipt, "whit render atrium"),
+            "  chosen --spp 4 --depth 8\n"
+            "  left out depth 64 (FLIP 0.0020)\n"
+            "  time 95 ms: 10 to choose, 85 for the picture (expected 80), 95 % of the budget\n"
+            "  error 0.0200 FLIP, between 0.0150 and 0.0250\n"
+            "  the same picture: whit render atrium --spp 4 --depth 8\n");
+}
+
+}  // namespace
+}  // namespace whit
