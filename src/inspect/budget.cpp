@@ -31,49 +31,49 @@ constexpr std::array kChosenKnobs{"glossy",       "ambient-samples", "light-samp
 constexpr int kBlockSide = 8, kPacketSide = 4, kTimedSide = 16, kTimedSpp = 3;
 constexpr std::size_t kListPixels = 1024;
 
-// Shares of the budget: of all measurements, at least some and at most some. The chosen options
-// are timed on a share of the picture's pixels.
+// Shares of the budget: of all measurements, with a least and a largest; and the share of the
+// picture's time that measuring it takes.
 constexpr double kProbeShare = 0.06, kMostProbeShare = 0.2, kLeastProbeMs = 12,
-                 kPicturesShare = 0.05;
-constexpr double kLeastPackets = 128, kLeastTimed = 16;
-constexpr double kProbeMsOfTarget = 300;
-// The time that is aimed at, as a share of the rest: a little less than all of it, and whole
-// samples round to a little more at most.
+                 kPictureShare = 0.05;
+constexpr double kProbeMsOfTarget = 300, kShortMs = 40;
+constexpr double kLeastBlocks = 16, kMostBlocks = 1000, kLeastPackets = 128, kLeastTimed = 16;
+constexpr int kRounds = 3;
+// The time that is aimed at, over the rest of the budget: whole samples leave some of it, and
+// measured times are a little too long, by caches that are cold.
 constexpr double kAim = 1.06;
-// Samples of the probes, and of the probe that stands for the truth.
-constexpr int kFewSpp = 2, kSomeSpp = 4, kTruthFactor = 4, kMany = 4;
-// A value has to save this share of the time to be worth an error.
-constexpr double kLeastSaving = 0.02;
-// The share by which sums of the model have been off (src/accuracy/README.md).
-constexpr double kModelError = 0.25;
-// Noise below this share of the baseline's is not believed.
+// Samples of the probes; the probe that stands for the truth has so many times as many.
+constexpr int kFewSpp = 2, kSomeSpp = 4, kTruthFactor = 4;
+// Times that are expected of a probe: over that of the middle, and of a pixel's FLIP.
+constexpr double kCostOfProbe = 1.5, kFlipMicroseconds = 0.6;
+// The share by which sums of the model have been off (src/accuracy/README.md), and the powers of
+// the number of samples that squared noise may fall with.
+constexpr double kModelError = 0.25, kLeastPower = 0.5, kMostPower = 1.5;
+// Noise below this share of the middle's is not believed.
 constexpr double kLeastNoise = 0.02;
-constexpr double kFlipMicrosecondsAPixel = 0.6;
+constexpr double kUnseenFlip = 2e-4, kUnseenCodes = 0.02;
 
 constexpr double squared(double x) { return x * x; }
 
-// Places of the lattice of the plastic number (Roberts 2018): the first few lie all over the
-// square.
-std::vector<std::size_t> spreadCells(int columns, int rows, std::size_t count) {
+// Cells of a grid by the lattice of the plastic number (Roberts 2018): the first few lie all over
+// it.
+std::vector<std::pair<int, int>> spreadCells(int columns, int rows, double count) {
   const auto all = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
-  std::vector<std::size_t> cells;
+  std::vector<std::pair<int, int>> cells;
   std::vector<bool> taken(all);
-  const auto take = [&](std::size_t cell) {
-    if (!taken[cell] && cells.size() < count) cells.push_back(cell);
+  for (std::size_t k = 0; k < 8 * all && static_cast<double>(cells.size()) < count; ++k) {
+    double u = 0.5 + 0.7548776662466927 * static_cast<double>(k), whole = 0;
+    double v = 0.5 + 0.5698402909980532 * static_cast<double>(k);
+    u = std::modf(u, &whole), v = std::modf(v, &whole);
+    const int x = static_cast<int>(u * columns), y = static_cast<int>(v * rows);
+    const std::size_t cell = static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) +
+                             static_cast<std::size_t>(x);
+    if (!taken[cell]) cells.emplace_back(x, y);
     taken[cell] = true;
-  };
-  for (std::size_t k = 0; k < 4 * all; ++k) {
-    const double u = 0.5 + 0.7548776662466927 * static_cast<double>(k);
-    const double v = 0.5 + 0.5698402909980532 * static_cast<double>(k);
-    const auto x = static_cast<std::size_t>((u - std::floor(u)) * columns);
-    const auto y = static_cast<std::size_t>((v - std::floor(v)) * rows);
-    take(y * static_cast<std::size_t>(columns) + x);
   }
-  for (std::size_t cell = 0; cell < all; ++cell) take(cell);
   return cells;
 }
 
-// A picture of the blocks, side by side, and its codes' features for FLIP.
+// A picture of blocks, side by side, and its features for FLIP.
 struct Mosaic {
   DisplayImage codes;
   FlipSide side;
@@ -83,7 +83,7 @@ struct Measured {
   double mean = 0, standardError = 0;  // over the blocks
 };
 
-// Renders some of the picture's pixels.
+// Renders some of the picture's pixels, in blocks.
 class Prober {
  public:
   Prober(Renderer& renderer, const Camera& camera, Film& film, bool inCodes)
@@ -91,40 +91,39 @@ class Prober {
 
   double pixels() const { return static_cast<double>(film_.image.pixels.size()); }
 
-  // From now on so many blocks are rendered.
-  void chooseBlocks(int side, std::size_t count) {
+  // From now on so many blocks are rendered, or all.
+  void chooseBlocks(int side, double count) {
     const Image& image = film_.image;
     side_ = std::min({side, image.windowWidth(), image.windowHeight()});
-    const int columns = image.windowWidth() / side_, rows = image.windowHeight() / side_;
-    const Crop& w = image.window;
-    const PixelLists all =  // row by row
-        makeTiles({w.x0, w.y0, w.x0 + columns * side_, w.y0 + rows * side_}, side_);
     blocks_.clear();
-    for (const std::size_t cell : spreadCells(columns, rows, count)) blocks_.push_back(all[cell]);
+    for (const auto& [column, row] :
+         spreadCells(image.windowWidth() / side_, image.windowHeight() / side_, count)) {
+      const int x = image.window.x0 + column * side_, y = image.window.y0 + row * side_;
+      blocks_.push_back(makeTiles({x, y, x + side_, y + side_}, side_)[0]);
+    }
     const auto lists = 2 * static_cast<std::size_t>(renderer_.machine().threads);
     const std::size_t most = std::max<std::size_t>(kListPixels / blocks_[0].size(), 1);
     const std::size_t together = std::clamp<std::size_t>(blocks_.size() / lists, 1, most);
     lists_.clear();
     for (std::size_t i = 0; i < blocks_.size(); ++i) {
-      if (i % together == 0) {
-        lists_.emplace_back().reserve(together * blocks_[i].size() + kListPadding);
-      }
+      const std::size_t room = together * blocks_[i].size() + kListPadding;
+      if (i % together == 0) lists_.emplace_back().reserve(room);
       lists_.back().insert(lists_.back().end(), blocks_[i].begin(), blocks_[i].end());
     }
   }
-  double probedPixels() const { return static_cast<double>(blocks_.size()) * side_ * side_; }
+  double probed() const { return static_cast<double>(blocks_.size()) * side_ * side_; }
+
+  FrameStats render(RenderOptions options, int spp) {
+    options.spp = spp;
+    renderer_.setOptions(options);
+    return renderer_.renderLists(camera_, film_, lists_);
+  }
 
   // Microseconds of a sample of a pixel. The first frame after a change fills new queues and does
   // not count.
-  double time(RenderOptions options) {
-    const int spp = options.spp;
-    options.spp = 1;
-    renderer_.setOptions(options);
-    const FrameStats first = renderer_.renderLists(camera_, film_, lists_);
-    if (spp == 1) return 1e3 * first.frameMs / probedPixels();
-    options.spp = spp;
-    renderer_.setOptions(options);
-    return 1e3 * renderer_.renderLists(camera_, film_, lists_).frameMs / (probedPixels() * spp);
+  double time(const RenderOptions& options, int spp) {
+    render(options, 1);
+    return 1e3 * render(options, spp).frameMs / (probed() * spp);
   }
 
   // The blocks as last rendered.
@@ -135,11 +134,10 @@ class Prober {
     Image image(columns * side_, (count + columns - 1) / columns * side_);
     for (int b = 0; b < count; ++b) {
       const std::vector<std::uint32_t>& block = blocks_[static_cast<std::size_t>(b)];
-      const int left = pixelX(block[0]), top = pixelY(block[0]);
       for (const std::uint32_t pixel : block) {
-        const int x = pixelX(pixel), y = pixelY(pixel);
-        image.at(b % columns * side_ + x - left, b / columns * side_ + y - top) =
-            film_.image.at(x, y);
+        image.at(b % columns * side_ + pixelX(pixel) - pixelX(block[0]),
+                 b / columns * side_ + pixelY(pixel) - pixelY(block[0])) =
+            film_.image.at(pixelX(pixel), pixelY(pixel));
       }
     }
     Mosaic made{toDisplay(image, o.exposure.ev, o.toneCurve), {}};
@@ -149,7 +147,7 @@ class Prober {
 
   Measured difference(const Mosaic& a, const Mosaic& b) const {
     const std::vector<float> each =
-        inCodes_ ? codes(a.codes, b.codes) : flipOfSides(a.side, b.side);
+        inCodes_ ? codesApart(a.codes, b.codes) : flipOfSides(a.side, b.side);
     const int columns = a.codes.width / side_;
     std::vector<double> means(blocks_.size());
     for (std::size_t i = 0; i < each.size(); ++i) {
@@ -159,40 +157,29 @@ class Prober {
     }
     const double n = static_cast<double>(means.size());
     Measured m{std::accumulate(means.begin(), means.end(), 0.0) / n, 0};
-    double deviations = 0;
-    for (const double mean : means) deviations += squared(mean - m.mean);
-    m.standardError = std::sqrt(deviations / std::max(n - 1, 1.0) / n);
+    for (const double mean : means) m.standardError += squared(mean - m.mean);
+    m.standardError = std::sqrt(m.standardError / std::max(n - 1, 1.0) / n);
     return m;
   }
 
   // Milliseconds of the whole picture, by the rays of packets from all over it, which stand for it
-  // better than a few tiles, and by the time of a ray in whole tiles, whose rays are as coherent as
-  // those of the picture.
+  // better than a few tiles, and by the time of a ray in larger blocks, whose rays are as coherent
+  // as those of the picture. Takes about the share of the picture's time.
   double wholePictureMs(const RenderOptions& options, double share) {
-    RenderOptions one = options;
-    one.spp = 1;
-    const double packets = pixels() / squared(kPacketSide);
-    chooseBlocks(kPacketSide, static_cast<std::size_t>(std::clamp(share * options.spp / 2 * packets,
-                                                                  kLeastPackets, packets)));
-    renderer_.setOptions(one);
-    const auto rays = static_cast<double>(renderer_.renderLists(camera_, film_, lists_).allRays()) /
-                      probedPixels() * pixels() * options.spp;
-    const int few = std::min(options.spp, kTimedSpp);
-    const double blocks = pixels() / squared(kTimedSide);
-    chooseBlocks(kTimedSide, static_cast<std::size_t>(std::clamp(share * options.spp / few * blocks,
-                                                                 kLeastTimed, blocks)));
-    renderer_.renderLists(camera_, film_, lists_);  // fills new queues
-    RenderOptions timedOptions = options;
-    timedOptions.spp = few;
-    renderer_.setOptions(timedOptions);
-    const FrameStats timed = renderer_.renderLists(camera_, film_, lists_);
+    const int spp = options.spp, few = std::min(spp, kTimedSpp);
+    const double packets = pixels() / squared(kPacketSide), blocks = pixels() / squared(kTimedSide);
+    chooseBlocks(kPacketSide, std::max(share * spp / 2 * packets, kLeastPackets));
+    const double rays = static_cast<double>(render(options, 1).allRays()) / probed();
+    chooseBlocks(kTimedSide, std::max(share * spp / few * blocks, kLeastTimed));
+    render(options, 1);  // fills new queues
+    const FrameStats timed = render(options, few);
     const double ms = std::accumulate(timed.stageWorkerMs.begin(), timed.stageWorkerMs.end(), 0.0) /
                       timed.workers;
-    return ms / static_cast<double>(timed.allRays()) * rays;
+    return ms / static_cast<double>(timed.allRays()) * rays * pixels() * spp;
   }
 
  private:
-  static std::vector<float> codes(const DisplayImage& a, const DisplayImage& b) {
+  static std::vector<float> codesApart(const DisplayImage& a, const DisplayImage& b) {
     std::vector<float> each(a.rgba.size() / 4);
     for (std::size_t i = 0; i < a.rgba.size(); ++i) {
       const auto apart = static_cast<float>(std::abs(int{a.rgba[i]} - int{b.rgba[i]}));
@@ -217,9 +204,8 @@ struct Level {
   double noise2 = 0;  // added to the squared error of one sample
 };
 struct Ladder {
-  std::string name, exact;
-  bool samples = false;       // numbers of samples
-  std::vector<Level> levels;  // the first is the one of the middle
+  std::string name, exact, off;  // off: without samples; empty for other knobs
+  std::vector<Level> levels;     // the first is the one of the middle
 };
 
 struct Combination {
@@ -236,6 +222,7 @@ class Chooser {
         fixed_(fixed),
         budget_(budget),
         channels_(renderer.options().channels),
+        wasAdaptive_(renderer.options().adaptive),
         middle_(renderer.options()),
         prober_(renderer, camera, film, budget.inCodes) {
     middle_.channels = {};
@@ -243,195 +230,131 @@ class Chooser {
   }
 
   Receipt choose() {
-    chooseLadders();
+    for (const char* const name : kChosenKnobs) addLadder(chooseKnobs({name}).front());
+    chooseBlocks();
     measure();
     Combination best = search();
-    // Measured by whole tiles, another combination may be better.
-    constexpr int kRounds = 3;
+    // Measured as a whole, another combination may be better.
     for (int round = 0; round < kRounds; ++round) {
-      scale_ *= prober_.wholePictureMs(optionsOf(best), kPicturesShare) / best.total.cost;
+      scale_ *= prober_.wholePictureMs(optionsOf(best), kPictureShare) / best.total.cost;
       const Combination next = search();
       const bool same = next.levels == best.levels;
-      if (same || round + 1 < kRounds) {
-        best = next;
-      } else {
-        complete(best, leftMs());
-      }
+      if (same || round + 1 < kRounds) best = next;
+      complete(best, leftMs());
       if (same) break;
     }
     return receiptOf(best);
   }
 
  private:
+  bool timed() const { return budget_.ms > 0; }
+  double leftMs() const { return budget_.ms - clock_.ms(); }
   double probeMs() const {
-    if (budget_.ms == 0) return kProbeMsOfTarget;
-    return std::min(std::max(kProbeShare * budget_.ms, kLeastProbeMs),
-                    kMostProbeShare * budget_.ms);
+    const double most = kMostProbeShare * budget_.ms;
+    return timed() ? std::clamp(kProbeShare * budget_.ms, std::min(kLeastProbeMs, most), most)
+                   : kProbeMsOfTarget;
   }
 
-  void chooseLadders() {
+  // The middle has one sample of each lobe and light that the scene calls for, and of the other
+  // knobs the values of the options. Cheap values come first and the exact one last, in case there
+  // is no time for all.
+  void addLadder(const Knob& knob) {
     const EffectSet effects = renderer_.scene().effects.without(middle_.disable);
-    const float cutoff = exactCutoff(effects, false);
-    for (const char* const name : kChosenKnobs) {
-      const Knob knob = chooseKnobs({name}).front();
-      const bool transports = knob.cause != Cause::transport || middle_.indirect > 0;
-      if (fixed_.contains(name) || !knob.idle(effects).empty() || !transports) continue;
-      RenderOptions exact = middle_;
-      knob.makeExact(exact, cutoff);
-      Ladder ladder{name, optionText(exact, name), knob.cause != Cause::algorithm, {}};
-      std::vector<std::string> values;
-      if (ladder.samples) {
-        ladder.exact = std::to_string(kMany);
-        const bool on = knob.cause == Cause::transport;
-        values = ladder.name == "light-samples" ? std::vector<std::string>{"2", "1", "4"}
-                 : on                           ? std::vector<std::string>{"1", "4"}
-                                                : std::vector<std::string>{"1", "0", "4"};
-        setOption(middle_, name, values.front());
-      } else {
-        const std::string own = optionText(middle_, name);
-        values = {own};
-        if (own != ladder.exact) values.push_back(ladder.exact);
-        for (const KnobValue& value : knob.values) {
-          const bool known = std::ranges::find(values, value.label) != values.end();
-          if (!known && !value.endless && !value.spare) values.push_back(value.label);
-        }
+    const bool transports = knob.cause == Cause::transport;
+    if (fixed_.contains(knob.name) || !knob.idle(effects).empty()) return;
+    if (transports && middle_.indirect == 0) return;
+    RenderOptions exact = middle_;
+    knob.makeExact(exact, exactCutoff(effects, false));
+    Ladder ladder{knob.name, optionText(exact, knob.name), {}, {}};
+    if (knob.cause == Cause::algorithm) {
+      ladder.levels = {{optionText(middle_, knob.name)}};
+      for (const KnobValue& value : knob.values) {
+        const bool known = value.label == ladder.levels[0].value || value.label == ladder.exact;
+        if (!known && !value.endless && !value.spare) ladder.levels.push_back({value.label});
       }
-      for (const std::string& value : values) ladder.levels.push_back({value});
-      ladders_.push_back(std::move(ladder));
+      if (ladder.levels[0].value != ladder.exact) ladder.levels.push_back({ladder.exact});
+    } else {
+      const bool ofLights = knob.name == "light-samples";
+      ladder.off = ofLights ? "1" : "0";
+      ladder.levels = {{ofLights ? "2" : "1"}};
+      if (!transports) ladder.levels.push_back({ladder.off});
+      ladder.levels.push_back({ladder.exact});
+      setOption(middle_, knob.name, ladder.levels[0].value);
     }
+    ladders_.push_back(std::move(ladder));
   }
 
-  // The middle without samples of lights and lobes, where there is no time for one of each.
-  void leaveOutSamples() {
-    std::erase_if(ladders_, [&](const Ladder& ladder) {
-      if (!ladder.samples) return false;
-      for (const Level& level : ladder.levels) {
-        if (isOff(ladder, level)) setOption(middle_, ladder.name, level.value);
-      }
-      return true;
-    });
-  }
+  double sampleOfMiddle() { return prober_.time(middle_, 1) * prober_.pixels() / 1e3; }
 
-  // As many blocks as there is time for, by the time of a few of them.
+  // As many blocks as there is time for, by the time of a few packets. Where not even one sample of
+  // the middle fits, lobes and lights are not sampled.
   void chooseBlocks() {
-    const auto sampleOfMiddle = [&] {
-      RenderOptions one = middle_;
-      one.spp = 1;
-      prober_.time(one);
-      return prober_.time(one);
-    };
-    prober_.chooseBlocks(kPacketSide, static_cast<std::size_t>(kLeastPackets));
-    double sample = sampleOfMiddle();
-    if (budget_.ms > 0 && sample * prober_.pixels() > 1e3 * budget_.ms) {
-      leaveOutSamples();
-      sample = sampleOfMiddle();
+    prober_.chooseBlocks(kPacketSide, kLeastPackets);
+    double ms = sampleOfMiddle();
+    if (timed() && ms > budget_.ms) {
+      for (Ladder& ladder : ladders_) {
+        if (ladder.off.empty() || ladder.name == "indirect") continue;
+        ladder.levels = {{ladder.off}};
+        setOption(middle_, ladder.name, ladder.off);
+      }
+      ms = sampleOfMiddle();
     }
-    constexpr double kShortMs = 40;
-    if (probeMs() < kShortMs) probeSpp_ = kFewSpp;
-    tight_ = budget_.ms > 0 && sample * prober_.pixels() > 1e3 * budget_.ms;
-    if (tight_) probeSpp_ = 1;
-    double probes = 3;
-    for (const Ladder& ladder : ladders_) probes += static_cast<double>(ladder.levels.size() - 1);
-    constexpr double kCostOfExact = 1.5;  // of the values that are measured, against the middle
-    const double costOfPixel = sample * kCostOfExact * (probeSpp_ + 1) * (probes + kTruthFactor) +
-                               kFlipMicrosecondsAPixel * probes;
-    const double pixels = 1e3 * (probeMs() - clock_.ms()) / costOfPixel;
-    constexpr double kLeastBlocks = 16, kMostBlocks = 1000;
-    prober_.chooseBlocks(kBlockSide, static_cast<std::size_t>(std::clamp(
-                                         pixels / squared(kBlockSide), kLeastBlocks, kMostBlocks)));
+    probeSpp_ = timed() && ms > budget_.ms ? 1 : probeMs() < kShortMs ? kFewSpp : kSomeSpp;
+    double probes = kTruthFactor;
+    for (const Ladder& ladder : ladders_) probes += static_cast<double>(ladder.levels.size());
+    const double microseconds = 1e3 * ms / prober_.pixels() * kCostOfProbe * (probeSpp_ + 1);
+    const double pixels =
+        1e3 * (probeMs() - clock_.ms()) / probes / (microseconds + kFlipMicroseconds);
+    prober_.chooseBlocks(kBlockSide,
+                         std::clamp(pixels / squared(kBlockSide), kLeastBlocks, kMostBlocks));
   }
 
   void measure() {
-    chooseBlocks();
-    RenderOptions truth = middle_;
-    for (const Ladder& ladder : ladders_) {
-      if (ladder.samples) setOption(truth, ladder.name, ladder.exact);
-    }
-    truth.spp = (kTruthFactor * probeSpp_);
-    prober_.time(truth);
-    const Mosaic many = prober_.mosaic();
-    RenderOptions middle = middle_;
-    middle.spp = 1;
-    prober_.time(middle);
-    const Measured one = prober_.difference(prober_.mosaic(), many);
-    middle.spp = probeSpp_;
-    sampleUs_ = prober_.time(middle);
+    prober_.time(middle_, kTruthFactor * probeSpp_);
+    const Mosaic truth = prober_.mosaic();
+    prober_.render(middle_, 1);
+    const Measured one = prober_.difference(prober_.mosaic(), truth);
+    sampleUs_ = prober_.time(middle_, probeSpp_);
     const Mosaic own = prober_.mosaic();
-    const Measured some = prober_.difference(own, many);
-    fitNoise(one, some);
-    for (Ladder& ladder : ladders_) measureLadder(middle, own, some, many, ladder);
-  }
-
-  // The noise of the truth is a part of both.
-  void fitNoise(const Measured& one, const Measured& some) {
-    constexpr double kLeastPower = 0.5, kMostPower = 1.5;  // of squared errors
-    noise2_ = squared(one.mean);
-    double some2 = squared(some.mean);
-    for (int i = 0; i < 3 && noise2_ > 0 && probeSpp_ > 1; ++i) {
-      const double rest = noise2_ * std::pow((kTruthFactor * probeSpp_), -power_);
-      some2 = std::max(squared(some.mean) - rest, squared(some.mean) / 4);
-      power_ = std::clamp(std::log(noise2_ / std::max(some2, 1e-12)) / std::log(probeSpp_),
-                          kLeastPower, kMostPower);
-    }
+    const double some = prober_.difference(own, truth).mean;
     spread_ = one.mean > 0 ? one.standardError / one.mean : 0;
+    noise2_ = squared(one.mean);
+    for (int i = 0; i < 3 && noise2_ > 0 && probeSpp_ > 1; ++i) {  // the truth is noisy as well
+      const double rest = noise2_ * std::pow(kTruthFactor * probeSpp_, -power_);
+      const double some2 = std::max(squared(some) - rest, squared(some) / 4);
+      power_ = std::clamp(std::log(noise2_ / some2) / std::log(probeSpp_), kLeastPower, kMostPower);
+    }
+    for (Ladder& ladder : ladders_) measureLadder(own, some, truth, ladder);
   }
 
-  void measureLadder(const RenderOptions& middle, const Mosaic& own, const Measured& some,
-                     const Mosaic& many, Ladder& ladder) {
-    std::optional<Mosaic> exact;
-    std::vector<Level> wanted = ladder.levels;
-    ladder.levels.resize(1);
-    if (tight_) {  // the cheapest first, which may be all that there is time for
-      std::erase_if(wanted, [&](const Level& l) {
-        return l.value == ladder.exact && l.value != wanted[0].value;
-      });
-      if (ladder.name != "depth") std::reverse(wanted.begin() + 1, wanted.end());
-    }
-    for (std::size_t i = 1; i < wanted.size(); ++i) {
-      const bool isLate = budget_.ms > 0 && clock_.ms() > kMostProbeShare * budget_.ms;
-      if (isLate && !(tight_ && i == 1)) break;
-      Level level = wanted[i];
-      RenderOptions options = middle;
-      setOption(options, ladder.name, level.value);
-      level.cost = prober_.time(options) / sampleUs_;
-      const Mosaic shown = prober_.mosaic();
-      if (ladder.samples) {
-        const double more = squared(prober_.difference(shown, many).mean) - squared(some.mean);
-        if (isOff(ladder, level)) {
-          level.bias2 = std::max(more, 0.0);
-        } else {
-          level.noise2 = std::min(more, 0.0) * std::pow(probeSpp_, power_);
-        }
-      } else if (level.value == ladder.exact) {
-        exact = shown;
-        ladder.levels[0].bias2 = squared(prober_.difference(own, shown).mean);
-      } else {
-        level.bias2 = squared(prober_.difference(shown, exact ? *exact : own).mean);
+  void measureLadder(const Mosaic& own, double some, const Mosaic& truth, Ladder& ladder) {
+    std::vector<Mosaic> shown{own};
+    for (std::size_t i = 1; i < ladder.levels.size(); ++i) {
+      const bool isLate = timed() && clock_.ms() > kMostProbeShare * budget_.ms;
+      if (isLate && (i > 1 || probeSpp_ > 1)) {
+        ladder.levels.resize(i);
+        break;
       }
-      ladder.levels.push_back(level);
+      RenderOptions options = middle_;
+      setOption(options, ladder.name, ladder.levels[i].value);
+      ladder.levels[i].cost = prober_.time(options, probeSpp_) / sampleUs_;
+      shown.push_back(prober_.mosaic());
     }
-    dropUseless(ladder);
+    const Mosaic& exact = ladder.levels.back().value == ladder.exact ? shown.back() : own;
+    for (std::size_t i = 0; i < ladder.levels.size(); ++i) {
+      Level& level = ladder.levels[i];
+      if (ladder.off.empty()) {
+        level.bias2 = squared(prober_.difference(shown[i], exact).mean);
+      } else if (i > 0) {
+        const double more = squared(prober_.difference(shown[i], truth).mean) - squared(some);
+        const bool isOff = level.value == ladder.off;
+        (isOff ? level.bias2 : level.noise2) =
+            isOff ? std::max(more, 0.0) : std::min(more, 0.0) * std::pow(probeSpp_, power_);
+      }
+    }
   }
 
-  static bool isOff(const Ladder& ladder, const Level& level) {
-    return level.value == (ladder.name == "light-samples" ? "1" : "0");
-  }
-
-  // A value that another one beats in both, or nearly so, is left out.
-  static void dropUseless(Ladder& ladder) {
-    const std::vector<Level> all = ladder.levels;
-    std::erase_if(ladder.levels, [&](const Level& a) {
-      return std::ranges::any_of(all, [&](const Level& b) {
-        const bool better = b.bias2 <= a.bias2 && b.noise2 <= a.noise2 &&
-                            (b.bias2 < a.bias2 || b.noise2 < a.noise2 || b.cost < a.cost);
-        return b.value != a.value && better && b.cost * (1 - kLeastSaving) <= a.cost;
-      });
-    });
-  }
-
-  double leftMs() const {
-    return budget_.ms > 0 ? budget_.ms - clock_.ms() : std::numeric_limits<double>::infinity();
-  }
+  double wantedError() const { return budget_.error / (1 + kModelError); }
 
   // By the levels of the combination, the cost and error of the picture with as many samples as
   // fit.
@@ -444,13 +367,14 @@ class Chooser {
     noise2 = std::max(noise2, kLeastNoise * noise2_);
     c.spp = middle_.spp;
     if (!fixed_.contains("spp")) {
-      const double rest2 = squared(wantedError()) - bias2;
-      const double spp = budget_.ms > 0 ? kAim * leftMs / ms
-                         : rest2 > 0    ? std::ceil(std::pow(noise2 / rest2, 1 / power_))
-                                        : kSppLimit;
+      const auto samplesFor = [&](double error2) {
+        return error2 > 0 ? std::ceil(std::pow(noise2 / error2, 1 / power_)) : kSppLimit;
+      };
       // More samples than take the noise below what anybody could see buy nothing.
-      const double useful = std::ceil(std::pow(noise2 / squared(unseen()), 1 / power_));
-      c.spp = static_cast<int>(std::clamp(std::min(spp, useful), 1.0, double{kSppLimit}));
+      const double unseen = budget_.inCodes ? kUnseenCodes : kUnseenFlip;
+      const double spp = timed() ? std::min(kAim * leftMs / ms, samplesFor(squared(unseen)))
+                                 : samplesFor(squared(wantedError()) - bias2);
+      c.spp = static_cast<int>(std::clamp(spp, 1.0, double{kSppLimit}));
     }
     c.total = {ms * c.spp, std::sqrt(bias2 + noise2 * std::pow(c.spp, -power_))};
   }
@@ -473,14 +397,10 @@ class Chooser {
       }
     }
     constexpr double kAny = std::numeric_limits<double>::infinity(), kRounding = 1 + 1e-9;
-    const bool timed = budget_.ms > 0;
     const auto best =
-        timed ? bestWithin(costs, kAim * left) : bestWithin(errors, wantedError() * kRounding);
-    return all[best.value_or(bestWithin(timed ? errors : costs, kAny).value_or(0))];
+        timed() ? bestWithin(costs, kAim * left) : bestWithin(errors, wantedError() * kRounding);
+    return all[best.value_or(bestWithin(timed() ? errors : costs, kAny).value_or(0))];
   }
-
-  double unseen() const { return budget_.inCodes ? 0.02 : 2e-4; }
-  double wantedError() const { return budget_.error / (1 + kModelError); }
 
   RenderOptions optionsOf(const Combination& c) const {
     RenderOptions options = middle_;
@@ -498,11 +418,12 @@ class Chooser {
     r.options.channels = channels_;
     renderer_.setOptions(r.options);
     if (!fixed_.contains("spp")) r.chosen.emplace_back("spp", std::to_string(best.spp));
+    if (wasAdaptive_ && !middle_.adaptive) r.chosen.emplace_back("adaptive", "off");
     for (std::size_t i = 0; i < ladders_.size(); ++i) {
       const Ladder& ladder = ladders_[i];
       const Level& level = ladder.levels[best.levels[i]];
       r.chosen.emplace_back(ladder.name, level.value);
-      if (level.bias2 > 0) {
+      if (level.bias2 > 0 || level.value == ladder.off) {
         r.approximate.push_back({ladder.name, level.value, ladder.exact, std::sqrt(level.bias2)});
       }
     }
@@ -511,9 +432,9 @@ class Chooser {
     r.low = r.error / (1 + spread), r.high = r.error * (1 + spread);
     r.expectedMs = best.total.cost;
     const double left = leftMs();
-    if (budget_.ms > 0 && r.expectedMs > kAim * left) {
+    if (timed() && r.expectedMs > kAim * left) {
       r.note = "the budget is too small: this is the cheapest choice";
-    } else if (budget_.ms > 0 && r.expectedMs * (1 + 1.0 / best.spp) < left) {
+    } else if (timed() && r.expectedMs * (1 + 1.0 / best.spp) < left) {
       r.note = "more time would buy nothing that was measured: the picture is done early";
     } else if (budget_.error > 0 && r.error > budget_.error) {
       r.note = "the target is out of reach: this is the least error";
@@ -527,13 +448,13 @@ class Chooser {
   const std::set<std::string>& fixed_;
   Budget budget_;
   ChannelSet channels_;
+  bool wasAdaptive_;
   RenderOptions middle_;  // of which one knob at a time is changed
   Prober prober_;
   std::vector<Ladder> ladders_;
   int probeSpp_ = kSomeSpp;
-  bool tight_ = false;                          // not even one sample of the middle fits
   double sampleUs_ = 0, scale_ = 1;             // of a sample of the middle
-  double noise2_ = 0, power_ = 1, spread_ = 0;  // squared error of one sample; see fitNoise()
+  double noise2_ = 0, power_ = 1, spread_ = 0;  // squared error of one sample; see measure()
 };
 
 [[noreturn]] void refuse(const std::string& option, const std::string& expected,
@@ -590,7 +511,8 @@ std::string receiptText(const Receipt& r, const std::string& command) {
   text += options.empty() ? "nothing: every option was given" : options.substr(1);
   text += "\n  left out";
   for (const Receipt::Knob& knob : r.approximate) {
-    text += formatted(" %s %s (%s %.4f)", knob.name.c_str(), knob.exact.c_str(), unit, knob.error);
+    text += " " + knob.name + " " + knob.exact;
+    if (knob.error > 0) text += formatted(" (%s %.4f)", unit, knob.error);
   }
   if (r.approximate.empty()) text += " nothing but samples";
   text += formatted("\n  time %.0f ms: %.0f to choose, %.0f for the picture (expected %.0f)",

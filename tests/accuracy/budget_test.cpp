@@ -93,6 +93,21 @@ TEST(Budgets, ChooseOptionsThatMakeTheSamePicture) {
   EXPECT_GE(chosen.receipt.high, chosen.receipt.error);
 }
 
+// The scene states samples of its own, which the choice has to name even where it takes none.
+TEST(Budgets, NameWhatTheSceneStatesOtherwise) {
+  const Scene scene = load("cornell");
+  RenderOptions stated;
+  applySceneOptions(scene.options, {}, stated);
+  for (const double ms : {1.0, 300.0}) {
+    const Receipt receipt = chooseFor(scene, {.ms = ms}, {}, stated).receipt;
+    RenderOptions same = stated;
+    for (const auto& [name, value] : receipt.chosen) setOption(same, name, value);
+    same.size = receipt.options.size;
+    same.threads = receipt.options.threads;
+    EXPECT_EQ(same, receipt.options);
+  }
+}
+
 TEST(Budgets, KeepWhatIsGiven) {
   const Scene scene = load("mirrors");
   RenderOptions options;
