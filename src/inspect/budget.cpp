@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <numeric>
-#include <string_view>
+#include <regex>
 
-#include "core/display.h"
 #include "core/error.h"
 #include "core/option_table.h"
 #include "core/stopwatch.h"
@@ -44,13 +42,15 @@ constexpr double kAim = 1.06;
 // Samples of the probes; the probe that stands for the truth has so many times as many.
 constexpr int kFewSpp = 2, kSomeSpp = 4, kTruthFactor = 4;
 // Times that are expected of a probe: over that of the middle, and of a pixel's FLIP.
-constexpr double kCostOfProbe = 1.5, kFlipMicroseconds = 0.6;
+constexpr double kCostOfProbe = 1.5, kFlipMicroseconds = 1;
 // The share by which sums of the model have been off (src/accuracy/README.md), and the powers of
 // the number of samples that squared noise may fall with.
 constexpr double kModelError = 0.25, kLeastPower = 0.5, kMostPower = 1.5;
 // Noise below this share of the middle's is not believed.
 constexpr double kLeastNoise = 0.02;
 constexpr double kUnseenFlip = 2e-4, kUnseenCodes = 0.02;
+
+constexpr double kMostMs = 1e9;
 
 constexpr double squared(double x) { return x * x; }
 
@@ -72,16 +72,6 @@ std::vector<std::pair<int, int>> spreadCells(int columns, int rows, double count
   }
   return cells;
 }
-
-// A picture of blocks, side by side, and its features for FLIP.
-struct Mosaic {
-  DisplayImage codes;
-  FlipSide side;
-};
-
-struct Measured {
-  double mean = 0, standardError = 0;  // over the blocks
-};
 
 // Renders some of the picture's pixels, in blocks.
 class Prober {
@@ -127,8 +117,7 @@ class Prober {
   }
 
   // The blocks as last rendered.
-  Mosaic mosaic() const {
-    const RenderOptions& o = renderer_.options();
+  Image mosaic() const {
     const int count = static_cast<int>(blocks_.size());
     const int columns = std::max(static_cast<int>(std::sqrt(count)), 1);
     Image image(columns * side_, (count + columns - 1) / columns * side_);
@@ -140,26 +129,13 @@ class Prober {
             film_.image.at(pixelX(pixel), pixelY(pixel));
       }
     }
-    Mosaic made{toDisplay(image, o.exposure.ev, o.toneCurve), {}};
-    if (!inCodes_) made.side = flipSide(made.codes);
-    return made;
+    return image;
   }
 
-  Measured difference(const Mosaic& a, const Mosaic& b) const {
-    const std::vector<float> each =
-        inCodes_ ? codesApart(a.codes, b.codes) : flipOfSides(a.side, b.side);
-    const int columns = a.codes.width / side_;
-    std::vector<double> means(blocks_.size());
-    for (std::size_t i = 0; i < each.size(); ++i) {
-      const int x = static_cast<int>(i) % a.codes.width, y = static_cast<int>(i) / a.codes.width;
-      const auto block = static_cast<std::size_t>(y / side_ * columns + x / side_);
-      if (block < means.size()) means[block] += static_cast<double>(each[i]) / (side_ * side_);
-    }
-    const double n = static_cast<double>(means.size());
-    Measured m{std::accumulate(means.begin(), means.end(), 0.0) / n, 0};
-    for (const double mean : means) m.standardError += squared(mean - m.mean);
-    m.standardError = std::sqrt(m.standardError / std::max(n - 1, 1.0) / n);
-    return m;
+  double difference(const Image& a, const Image& b) const {
+    const RenderOptions& o = renderer_.options();
+    const ImageDifference d = compareImages(a, b, o.exposure.ev, o.toneCurve);
+    return inCodes_ ? 255 * std::pow(10, -d.psnrDb / 20) : d.flipMean;
   }
 
   // Milliseconds of the whole picture, by the rays of packets from all over it, which stand for it
@@ -179,15 +155,6 @@ class Prober {
   }
 
  private:
-  static std::vector<float> codesApart(const DisplayImage& a, const DisplayImage& b) {
-    std::vector<float> each(a.rgba.size() / 4);
-    for (std::size_t i = 0; i < a.rgba.size(); ++i) {
-      const auto apart = static_cast<float>(std::abs(int{a.rgba[i]} - int{b.rgba[i]}));
-      each[i / 4] = std::max(each[i / 4], apart);
-    }
-    return each;
-  }
-
   Renderer& renderer_;
   const Camera& camera_;
   Film& film_;
@@ -311,14 +278,12 @@ class Chooser {
 
   void measure() {
     prober_.time(middle_, kTruthFactor * probeSpp_);
-    const Mosaic truth = prober_.mosaic();
+    const Image truth = prober_.mosaic();
     prober_.render(middle_, 1);
-    const Measured one = prober_.difference(prober_.mosaic(), truth);
+    noise2_ = squared(prober_.difference(prober_.mosaic(), truth));
     sampleUs_ = prober_.time(middle_, probeSpp_);
-    const Mosaic own = prober_.mosaic();
-    const double some = prober_.difference(own, truth).mean;
-    spread_ = one.mean > 0 ? one.standardError / one.mean : 0;
-    noise2_ = squared(one.mean);
+    const Image own = prober_.mosaic();
+    const double some = prober_.difference(own, truth);
     for (int i = 0; i < 3 && noise2_ > 0 && probeSpp_ > 1; ++i) {  // the truth is noisy as well
       const double rest = noise2_ * std::pow(kTruthFactor * probeSpp_, -power_);
       const double some2 = std::max(squared(some) - rest, squared(some) / 4);
@@ -327,8 +292,8 @@ class Chooser {
     for (Ladder& ladder : ladders_) measureLadder(own, some, truth, ladder);
   }
 
-  void measureLadder(const Mosaic& own, double some, const Mosaic& truth, Ladder& ladder) {
-    std::vector<Mosaic> shown{own};
+  void measureLadder(const Image& own, double some, const Image& truth, Ladder& ladder) {
+    std::vector<Image> shown{own};
     for (std::size_t i = 1; i < ladder.levels.size(); ++i) {
       const bool isLate = timed() && clock_.ms() > kMostProbeShare * budget_.ms;
       if (isLate && (i > 1 || probeSpp_ > 1)) {
@@ -340,13 +305,13 @@ class Chooser {
       ladder.levels[i].cost = prober_.time(options, probeSpp_) / sampleUs_;
       shown.push_back(prober_.mosaic());
     }
-    const Mosaic& exact = ladder.levels.back().value == ladder.exact ? shown.back() : own;
+    const Image& exact = ladder.levels.back().value == ladder.exact ? shown.back() : own;
     for (std::size_t i = 0; i < ladder.levels.size(); ++i) {
       Level& level = ladder.levels[i];
       if (ladder.off.empty()) {
-        level.bias2 = squared(prober_.difference(shown[i], exact).mean);
+        level.bias2 = squared(prober_.difference(shown[i], exact));
       } else if (i > 0) {
-        const double more = squared(prober_.difference(shown[i], truth).mean) - squared(some);
+        const double more = squared(prober_.difference(shown[i], truth)) - squared(some);
         const bool isOff = level.value == ladder.off;
         (isOff ? level.bias2 : level.noise2) =
             isOff ? std::max(more, 0.0) : std::min(more, 0.0) * std::pow(probeSpp_, power_);
@@ -427,9 +392,8 @@ class Chooser {
         r.approximate.push_back({ladder.name, level.value, ladder.exact, std::sqrt(level.bias2)});
       }
     }
-    const double spread = std::hypot(2 * spread_, kModelError);
     r.error = best.total.error;
-    r.low = r.error / (1 + spread), r.high = r.error * (1 + spread);
+    r.low = r.error / (1 + kModelError), r.high = r.error * (1 + kModelError);
     r.expectedMs = best.total.cost;
     const double left = leftMs();
     if (timed() && r.expectedMs > kAim * left) {
@@ -453,43 +417,33 @@ class Chooser {
   Prober prober_;
   std::vector<Ladder> ladders_;
   int probeSpp_ = kSomeSpp;
-  double sampleUs_ = 0, scale_ = 1;             // of a sample of the middle
-  double noise2_ = 0, power_ = 1, spread_ = 0;  // squared error of one sample; see measure()
+  double sampleUs_ = 0, scale_ = 1;  // of a sample of the middle
+  double noise2_ = 0, power_ = 1;    // squared error of one sample; see measure()
 };
-
-[[noreturn]] void refuse(const std::string& option, const std::string& expected,
-                         const std::string& text) {
-  throwUsage("--" + option + ": expected " + expected + ", found '" + text + "'");
-}
 
 }  // namespace
 
 Budget parseBudget(const std::string& time, const std::string& target) {
-  constexpr std::array<std::pair<std::string_view, double>, 3> kUnits{
-      {{"ms", 1}, {"min", 60e3}, {"s", 1e3}}};
-  Budget budget;
+  static const std::regex times("([0-9.]+)(ms|s|min)"), errors("flip=([0-9.e-]+)|([0-9.]+)codes");
   if (!time.empty() && !target.empty()) {
     throwUsage("--budget gives the time and --target the error: give one of them");
   }
-  for (const auto& [unit, ms] : kUnits) {
-    if (time.ends_with(unit) && readNumber(time.substr(0, time.size() - unit.size()), budget.ms)) {
-      budget.ms *= ms;
-      break;
-    }
+  Budget budget;
+  std::smatch parts;
+  if (std::regex_match(time, parts, times) && readNumber(parts[1].str(), budget.ms)) {
+    budget.ms *= parts[2] == "s" ? 1e3 : parts[2] == "min" ? 60e3 : 1;
   }
-  constexpr double kLeastMs = 1, kMostMs = 1e9;
-  if (!time.empty() && !(budget.ms >= kLeastMs && budget.ms <= kMostMs)) {
-    refuse("budget", "a time of at least 1 ms, as 50ms, 10s or 2min", time);
+  if (!time.empty() && !(budget.ms >= 1 && budget.ms <= kMostMs)) {
+    throwUsage("--budget: expected a time of at least 1 ms, as 50ms, 10s or 2min, found '" + time +
+               "'");
   }
-  constexpr std::string_view kFlip = "flip=", kCodes = "codes";
-  budget.inCodes = target.ends_with(kCodes);
-  const bool read =
-      budget.inCodes
-          ? readNumber(target.substr(0, target.size() - kCodes.size()), budget.error)
-          : target.starts_with(kFlip) && readNumber(target.substr(kFlip.size()), budget.error);
-  const double most = budget.inCodes ? 255 : 1;
-  if (!target.empty() && !(read && budget.error > 0 && budget.error <= most)) {
-    refuse("target", "an error above 0, as 0.5codes or flip=0.01", target);
+  if (std::regex_match(target, parts, errors)) {
+    budget.inCodes = parts[2].matched;
+    readNumber(parts[budget.inCodes ? 2 : 1].str(), budget.error);
+  }
+  if (!target.empty() && !(budget.error > 0 && budget.error <= (budget.inCodes ? 255 : 1))) {
+    throwUsage("--target: expected an error above 0, as 0.5codes or flip=0.01, found '" + target +
+               "'");
   }
   return budget;
 }

@@ -19,8 +19,7 @@ namespace whit {
 struct Budget {
   double ms = 0;         // time of the picture and of all that is measured for it; 0: any
   double error = 0;      // 0: any
-  bool inCodes = false;  // the error is in 8-bit codes, the mean over pixels of the largest of
-                         // three channels; else it is the mean FLIP
+  bool inCodes = false;  // the error is the root mean square in 8-bit codes, else the mean FLIP
   bool isSet() const { return ms > 0 || error > 0; }
 };
 

@@ -220,6 +220,12 @@ std::vector<Vec3f> filteredLab(const Planes& opponent) {
   return lab;
 }
 
+// The filtered channels that FLIP computes from one image.
+struct FlipSide {
+  std::vector<Vec3f> lab;          // filtered, Hunt-adjusted
+  std::vector<float> edge, point;  // magnitudes of the features
+};
+
 // 3.2: edges by the first derivative of a Gaussian, points by the second.
 void findFeatures(const Plane& achromatic, FlipSide& side) {
   const double deviation = 0.5 * kFeatureWidth * kPixelsPerDegree;
@@ -248,8 +254,6 @@ void findFeatures(const Plane& achromatic, FlipSide& side) {
   side.point = magnitudesOf(balanced(point));
 }
 
-}  // namespace
-
 FlipSide flipSide(const DisplayImage& image) {
   const Planes opponent = opponentPlanes(image);
   FlipSide side;
@@ -258,7 +262,10 @@ FlipSide flipSide(const DisplayImage& image) {
   return side;
 }
 
-std::vector<float> flipOfSides(const FlipSide& a, const FlipSide& b) {
+}  // namespace
+
+std::vector<float> flipOfCodes(const DisplayImage& first, const DisplayImage& second) {
+  const FlipSide a = flipSide(first), b = flipSide(second);
   std::vector<float> flip(a.lab.size());
   for (std::size_t i = 0; i < flip.size(); ++i) {
     const float color = redistribute(hyAb(a.lab[i], b.lab[i]));

@@ -46,16 +46,7 @@ struct ValueDifference {
 ValueDifference differenceOf(std::span<const float> a, std::span<const float> b);
 ValueDifference differenceOf(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b);
 
-// The filtered channels that FLIP (LDR-FLIP) computes from one encoded image, as it is displayed.
-struct FlipSide {
-  std::vector<Vec3f> lab;          // filtered, Hunt-adjusted
-  std::vector<float> edge, point;  // magnitudes of the features
-};
-FlipSide flipSide(const DisplayImage& image);
-// FLIP of each pixel of two images of the same size.
-std::vector<float> flipOfSides(const FlipSide& a, const FlipSide& b);
-inline std::vector<float> flipOfCodes(const DisplayImage& first, const DisplayImage& second) {
-  return flipOfSides(flipSide(first), flipSide(second));
-}
+// Computes FLIP (LDR-FLIP) for two encoded images, as they are displayed, of the same size.
+std::vector<float> flipOfCodes(const DisplayImage& first, const DisplayImage& second);
 
 }  // namespace whit

@@ -353,20 +353,11 @@ py::dict channelsOf(const py::object& picture) {
 }
 
 py::dict describe(const api::Receipt& r) {
-  py::dict chosen, all;
-  for (const auto& [name, value] : r.chosen) chosen[py::str(name)] = value;
-  all["chosen"] = chosen;
-  for (const auto& [key, value] : {std::pair{"choose_ms", r.chooseMs},
-                                   {"expected_ms", r.expectedMs},
-                                   {"picture_ms", r.pictureMs},
-                                   {"error", r.error},
-                                   {"error_low", r.errorLow},
-                                   {"error_high", r.errorHigh}}) {
-    all[key] = value;
-  }
-  all["note"] = r.note;
-  all["text"] = r.text;
-  return all;
+  using namespace py::literals;
+  return py::dict("chosen"_a = py::dict(py::cast(r.chosen)), "choose_ms"_a = r.chooseMs,
+                  "expected_ms"_a = r.expectedMs, "picture_ms"_a = r.pictureMs, "error"_a = r.error,
+                  "error_low"_a = r.errorLow, "error_high"_a = r.errorHigh, "note"_a = r.note,
+                  "text"_a = r.text);
 }
 
 py::dict describe(const api::FrameStatistics& frame) {
