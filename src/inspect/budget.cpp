@@ -34,7 +34,7 @@ constexpr std::size_t kListPixels = 1024;
 constexpr double kProbeShare = 0.06, kMostProbeShare = 0.2, kLeastProbeMs = 12,
                  kPictureShare = 0.05;
 constexpr double kProbeMsOfTarget = 300, kShortMs = 40;
-constexpr double kLeastBlocks = 16, kMostBlocks = 1000, kLeastPackets = 128, kLeastTimed = 16;
+constexpr double kLeastBlocks = 8, kMostBlocks = 1000, kLeastPackets = 128, kLeastTimed = 16;
 constexpr int kRounds = 3;
 // The time that is aimed at, over the rest of the budget: whole samples leave some of it, and
 // measured times are a little too long, by caches that are cold.
@@ -43,9 +43,11 @@ constexpr double kAim = 1.06;
 constexpr int kFewSpp = 2, kSomeSpp = 4, kTruthFactor = 4;
 // Times that are expected of a probe: over that of the middle, and of a pixel's FLIP.
 constexpr double kCostOfProbe = 1.5, kFlipMicroseconds = 1;
-// The share by which sums of the model have been off (src/accuracy/README.md), and the powers of
-// the number of samples that squared noise may fall with.
-constexpr double kModelError = 0.25, kLeastPower = 0.5, kMostPower = 1.5;
+// Most pictures have between half and twice the modelled error; a target is taken with a margin.
+// Squared noise falls with a power of the number of samples. FLIP is about the 0.7th power of a
+// difference, so that it falls more slowly; probes of one and four samples tell the power badly.
+constexpr double kModelError = 1, kTargetMargin = 1.25, kLeastPower = 0.6, kMostFlipPower = 0.9,
+                 kMostCodesPower = 1.3;
 // Noise below this share of the middle's is not believed.
 constexpr double kLeastNoise = 0.02;
 constexpr double kUnseenFlip = 2e-4, kUnseenCodes = 0.02;
@@ -144,7 +146,7 @@ class Prober {
   double wholePictureMs(const RenderOptions& options, double share) {
     const int spp = options.spp, few = std::min(spp, kTimedSpp);
     const double packets = pixels() / squared(kPacketSide), blocks = pixels() / squared(kTimedSide);
-    chooseBlocks(kPacketSide, std::max(share * spp / 2 * packets, kLeastPackets));
+    chooseBlocks(kPacketSide, std::max(share * spp * packets, kLeastPackets));
     const double rays = static_cast<double>(render(options, 1).allRays()) / probed();
     chooseBlocks(kTimedSide, std::max(share * spp / few * blocks, kLeastTimed));
     render(options, 1);  // fills new queues
@@ -267,6 +269,11 @@ class Chooser {
       ms = sampleOfMiddle();
     }
     probeSpp_ = timed() && ms > budget_.ms ? 1 : probeMs() < kShortMs ? kFewSpp : kSomeSpp;
+    for (Ladder& ladder : ladders_) {  // a moderate value first, where a cheaper one need not be
+      const bool toExact = ladder.levels.back().value == ladder.exact;
+      const auto first = ladder.levels.begin() + 1, last = ladder.levels.end() - (toExact ? 1 : 0);
+      if (probeSpp_ > 1 && first < last) std::rotate(first, first + (last - first) / 2, last);
+    }
     double probes = kTruthFactor;
     for (const Ladder& ladder : ladders_) probes += static_cast<double>(ladder.levels.size());
     const double microseconds = 1e3 * ms / prober_.pixels() * kCostOfProbe * (probeSpp_ + 1);
@@ -284,10 +291,11 @@ class Chooser {
     sampleUs_ = prober_.time(middle_, probeSpp_);
     const Image own = prober_.mosaic();
     const double some = prober_.difference(own, truth);
+    const double most = budget_.inCodes ? kMostCodesPower : kMostFlipPower;
     for (int i = 0; i < 3 && noise2_ > 0 && probeSpp_ > 1; ++i) {  // the truth is noisy as well
       const double rest = noise2_ * std::pow(kTruthFactor * probeSpp_, -power_);
       const double some2 = std::max(squared(some) - rest, squared(some) / 4);
-      power_ = std::clamp(std::log(noise2_ / some2) / std::log(probeSpp_), kLeastPower, kMostPower);
+      power_ = std::clamp(std::log(noise2_ / some2) / std::log(probeSpp_), kLeastPower, most);
     }
     for (Ladder& ladder : ladders_) measureLadder(own, some, truth, ladder);
   }
@@ -319,7 +327,7 @@ class Chooser {
     }
   }
 
-  double wantedError() const { return budget_.error / (1 + kModelError); }
+  double wantedError() const { return budget_.error / kTargetMargin; }
 
   // By the levels of the combination, the cost and error of the picture with as many samples as
   // fit.
@@ -417,8 +425,8 @@ class Chooser {
   Prober prober_;
   std::vector<Ladder> ladders_;
   int probeSpp_ = kSomeSpp;
-  double sampleUs_ = 0, scale_ = 1;  // of a sample of the middle
-  double noise2_ = 0, power_ = 1;    // squared error of one sample; see measure()
+  double sampleUs_ = 0, scale_ = 1;             // of a sample of the middle
+  double noise2_ = 0, power_ = kMostFlipPower;  // squared error of one sample; see measure()
 };
 
 }  // namespace

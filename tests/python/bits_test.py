@@ -72,6 +72,21 @@ class Bits(unittest.TestCase):
         expected = whit.Scene("whitted", settings=settings).render(size=SIZE)
         np.testing.assert_array_equal(scene.render(size=SIZE).rgb, expected.rgb)
 
+    def test_a_budget_chooses_options_that_make_the_same_picture(self):
+        scene = whit.Scene("whitted")
+        for within in ({"budget": "100ms"}, {"target": "flip=0.1"}):
+            picture = scene.render(size=SIZE, depth=3, **within)
+            receipt = picture.receipt
+            self.assertNotIn("depth", receipt["chosen"])
+            self.assertIn("chosen --spp", receipt["text"])
+            self.assertLessEqual(receipt["error_low"], receipt["error_high"])
+            options = {name.replace("-", "_"): value for name, value in receipt["chosen"].items()}
+            same = scene.render(size=SIZE, depth=3, **options)
+            np.testing.assert_array_equal(picture.rgb, same.rgb)
+            self.assertIsNone(same.receipt)
+        with self.assertRaisesRegex(whit.Error, "expected a time"):
+            scene.render(size=SIZE, budget="soon")
+
     def test_options_hold_for_one_picture(self):
         scene = whit.Scene("whitted")
         before = scene.render(size=SIZE).rgb

@@ -1,0 +1,55 @@
+// --budget and --target as users run them.
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "run_program.h"
+
+namespace whit::cli {
+namespace {
+
+void expectRefused(const std::string& why, std::vector<std::string> words) {
+  const TemporaryFolder folder;
+  words.insert(words.begin(),
+               {"render", writeTinyScene(folder), "-o", folder / "a.exr", "--quiet"});
+  const Outcome outcome = runWhit(words);
+  EXPECT_EQ(outcome.status, 2) << outcome.err;
+  EXPECT_NE(outcome.err.find(why), std::string::npos) << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.exr"));
+}
+
+TEST(BudgetCommands, AreRefusedWithTheReason) {
+  expectRefused("as 50ms, 10s or 2min, found '50'", {"--budget", "50"});
+  expectRefused("as 0.5codes or flip=0.01, found '1'", {"--target", "1"});
+  expectRefused("give one of them", {"--budget", "1s", "--target", "flip=0.1"});
+  expectRefused("leave out --resume", {"--budget", "1s", "--resume"});
+  expectRefused("what --quality sets", {"--budget", "1s", "--quality", "good"});
+  expectRefused("leave out --mode reference", {"--budget", "1s", "--mode", "reference"});
+}
+
+// The last line of the receipt is a command, which makes the same pixels.
+TEST(BudgetCommands, PrintTheCommandOfTheSamePicture) {
+  for (const std::string option : {"--budget=80ms", "--target=1.5codes"}) {
+    const TemporaryFolder folder;
+    const Outcome outcome = runWhit(
+        {"render", writeTinyScene(folder), option, "-o", folder / "a b.exr", "--depth", "3"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const std::string begin = "the same picture: whit ";
+    const std::size_t at = outcome.err.find(begin);
+    ASSERT_NE(at, std::string::npos) << outcome.err;
+    const std::size_t first = at + begin.size();
+    const std::string command = outcome.err.substr(first, outcome.err.find('\n', at) - first);
+    EXPECT_EQ(command.find(option), std::string::npos);
+    EXPECT_NE(command.find("--depth 3"), std::string::npos);
+    EXPECT_NE(command.find("a b.exr'"), std::string::npos) << command;
+    std::filesystem::copy_file(folder / "a b.exr", folder / "first.exr");
+    ASSERT_EQ(std::system((WHIT_PROGRAM " " + command + " --quiet").c_str()), 0) << command;
+    const Outcome compared = runWhit(
+        {"compare", folder / "first.exr", folder / "a b.exr", "--tolerance", "0", "--quiet"});
+    EXPECT_EQ(compared.status, 0) << compared.out << compared.err;
+    EXPECT_EQ(readFile(folder / "first.exr"), readFile(folder / "a b.exr"));
+  }
+}
+
+}  // namespace
+}  // namespace whit::cli
