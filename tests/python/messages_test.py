@@ -30,7 +30,8 @@ class Messages(unittest.TestCase):
     def test_every_message_names_what_python_has(self):
         known = set(_options.OPTIONS) | set(inspect.signature(whit.Scene.__init__).parameters)
         known |= {"set", "max_memory", "up"}  # have rules of their own
-        known |= {"time", "ab_shadow_cache"}  # of the programs alone
+        known |= set(inspect.signature(whit.Scene.render).parameters)
+        known |= {"time", "knobs", "ab_shadow_cache"}  # of the programs alone
         seen = 0
         for text, path in literals():
             if "ktx extract" in text or text in ("--", " --"):  # another program; an option follows
