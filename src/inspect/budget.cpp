@@ -51,6 +51,8 @@ constexpr double kModelError = 1, kTargetMargin = 1.25, kLeastPower = 0.6, kMost
 // Noise below this share of the middle's is not believed.
 constexpr double kLeastNoise = 0.02;
 constexpr double kUnseenFlip = 2e-4, kUnseenCodes = 0.02;
+// A pattern of 4096 samples takes 0.15 to 0.3 s: about a 25th of the budget.
+constexpr double kSppOfRootMs = 50;
 
 constexpr double kMostMs = 1e9;
 
@@ -345,7 +347,9 @@ class Chooser {
       };
       // More samples than take the noise below what anybody could see buy nothing.
       const double unseen = budget_.inCodes ? kUnseenCodes : kUnseenFlip;
-      const double spp = timed() ? std::min(kAim * leftMs / ms, samplesFor(squared(unseen)))
+      // Making a pattern of samples takes a time that grows with their square.
+      const double most = kSppOfRootMs * std::sqrt(budget_.ms);
+      const double spp = timed() ? std::min({kAim * leftMs / ms, samplesFor(squared(unseen)), most})
                                  : samplesFor(squared(wantedError()) - bias2);
       c.spp = static_cast<int>(std::clamp(spp, 1.0, double{kSppLimit}));
     }
