@@ -11,14 +11,13 @@
 #include "bake/edit_scene.h"
 #include "core/text.h"
 #include "viewer/app.h"
-#include "viewer/view_files.h"
+#include "viewer/session/view_files.h"
 
 namespace whit::view {
 
 namespace {
 
-constexpr float kExposureStep = 0.25f, kExposureLimit = 64;
-constexpr double kPixelsPerNotch = 20;  // dragged with the right button to move closer to a model
+constexpr float kExposureStep = 0.25f;
 constexpr double kDoubleClickSeconds = 0.35, kDoubleClickPixels = 6;
 
 // GLFW's codes of letters are their ASCII codes.
@@ -55,51 +54,28 @@ constexpr KeyHelp kHelp[] = {{"left drag", "orbit a model; look around in a room
 
 std::span<const KeyHelp> keyHelp() { return kHelp; }
 
-CameraMotion App::motionOf(const Input& input) const {
+CameraMotion App::keysAndDrags() const {
+  const Input& input = window_.input;
   const auto axis = [&](int positive, int negative) {
     return static_cast<double>(input.isHeld(positive)) -
            static_cast<double>(input.isHeld(negative));
   };
-  CameraMotion motion;
+  CameraMotion motion = motionOf(input, window_.size().height, window_.scale());
   motion.forward = axis(GLFW_KEY_W, GLFW_KEY_S);
   motion.right = axis(GLFW_KEY_D, GLFW_KEY_A);
   motion.up = axis(GLFW_KEY_E, GLFW_KEY_Q);
   motion.fast = input.isHeld(GLFW_KEY_LEFT_SHIFT) || input.isHeld(GLFW_KEY_RIGHT_SHIFT);
   motion.turnRight = axis(GLFW_KEY_RIGHT, GLFW_KEY_LEFT);
   motion.turnUp = axis(GLFW_KEY_UP, GLFW_KEY_DOWN);
-  motion.wheel = input.wheel;
-  const double scale = 1 / window_.scale();
-  const bool orbits = control_.orbits();
-  const Input::Drag& orbit = orbits ? input.left : input.right;
-  motion.orbitX = orbit.x * scale;
-  motion.orbitY = orbit.y * scale;
-  if (orbits) {
-    motion.wheel -= input.right.y * scale / kPixelsPerNotch;
-  } else {
-    motion.lookX = input.left.x * scale;
-    motion.lookY = input.left.y * scale;
-  }
-  const double height = std::max(window_.size().height, 1);
-  motion.panX = input.middle.x / height;
-  motion.panY = input.middle.y / height;
   return motion;
-}
-
-void App::show(const Camera& camera) { control_.set(camera, boundsToOrbit(scene(), camera)); }
-
-void App::fitView() {
-  if (!control_.orbits()) return jumpToNumber(0);
-  const ImageSize window = window_.size();
-  control_.fit(static_cast<double>(window.width) / std::max(window.height, 1));
-  jump(control_.camera());
 }
 
 void App::handleInput() {
   Input& input = window_.input;
   if (input.left.any() || input.right.any() || input.middle.any()) pathTime_.reset();
-  const auto click = window_.takeClick();
+  const auto clicked = window_.takeClick();
   const bool hinted = std::isinf(messageSeconds_);
-  if (hinted && (click || !input.pressed.empty() || !input.commands.empty())) messageSeconds_ = 0;
+  if (hinted && (clicked || !input.pressed.empty() || !input.commands.empty())) messageSeconds_ = 0;
   for (const int key : input.pressed) {
     if (flies(key)) pathTime_.reset();
     try {
@@ -112,7 +88,7 @@ void App::handleInput() {
     settings_.saveScene |= key == GLFW_KEY_S;
     if (key == GLFW_KEY_C) printView();
   }
-  if (click) pick(*click);
+  if (clicked) click(*clicked);
   if (!input.dropped.empty()) openFile(input.dropped.front());
 }
 
@@ -126,30 +102,12 @@ void App::servePanel() {
   }
 }
 
-// Returns the command that makes the view shown with these options.
-std::string App::command(const RenderOptions& options) const {
-  const std::lock_guard lock(shown_.scene->moving);
-  return renderCommand(sceneName_, options_.common, shown_, options);
-}
-
-// Returns the options of the picture shown; for a view that is not sharp yet, those that it will
-// have when it is.
-RenderOptions App::viewOptions() const {
-  RenderOptions options = shown_.options;
-  if (shown_.request.coarse || !shown_.request.interruptible) {
-    const Sharpness full{1, settings_.options.spp};
-    options.size = requestFor(full, true).options.size;
-    options.spp = full.spp;
-  }
-  return options;
-}
-
 void App::handleKey(int key) {
   const std::map<int, std::function<void()>> actions{
       {GLFW_KEY_ESCAPE, [&] { window_.close(); }},
       {GLFW_KEY_F, [&] { window_.toggleFullScreen(); }},
       {GLFW_KEY_H, [&] { settings_.shown = !settings_.shown; }},
-      {GLFW_KEY_HOME, [&] { fitView(); }},
+      {GLFW_KEY_HOME, [&] { fitView(window_.size()); }},
       {GLFW_KEY_R, [&] { reload(); }},
       {GLFW_KEY_F12, [&] { savePicture(); }},
       {GLFW_KEY_C, [&] { printView(); }},
@@ -211,31 +169,7 @@ void App::saveScene() {
   say("saved the scene as " + saved.file + "; the command that renders it is printed");
 }
 
-void App::expose(float step) {
-  float& exposure = settings_.options.exposure.ev;
-  exposure = std::clamp(exposure + step, -kExposureLimit, kExposureLimit);
-  restSeconds_ = 0;
-  say(formatted("exposure %+.2f EV", static_cast<double>(exposure)));
-}
-
-void App::showNextView() {
-  const std::size_t next = (static_cast<std::size_t>(settings_.view) + 1) % kDebugViewNames.size();
-  settings_.view = static_cast<DebugView>(next);
-  restSeconds_ = 0;
-  say(std::string("view: ") + kDebugViewNames[next]);
-}
-
-void App::startOrStopPath() {
-  if (scene().cameraPath.empty()) {
-    say("the scene has no camera path");
-  } else if (pathTime_) {
-    pathTime_.reset();
-  } else {
-    pathTime_ = scene().cameraPath.front().time;
-  }
-}
-
-void App::pick(const Input::Click& place) {
+void App::click(const Input::Click& place) {
   if (!shown_.scene) return;
   const double slack = kDoubleClickPixels * window_.scale();
   const bool again = clicked_ && clickSeconds_ < kDoubleClickSeconds &&
@@ -244,47 +178,16 @@ void App::pick(const Input::Click& place) {
     clicked_.reset();
     forgetRays();
     settings_.shown = shownBeforeClick_;
-    return fitView();
+    return fitView(window_.size());
   }
   clicked_ = place;
   clickSeconds_ = 0;
   shownBeforeClick_ = settings_.shown;
-  RayQuery query;
-  query.picture.camera = shown_.request.camera;
-  query.picture.options.size = window_.pixels();
   const auto [x, y] = window_.pixelAt(place);
-  query.x = x, query.y = y;
-  picked_ = query;
-  settings_.rays.lines = true;
-  selects_ = true;
+  pick(x, y);
   if (!settings_.shown || settings_.tabShown != "scene") settings_.tab = "rays";
   settings_.shown = true;
   settings_.keepClear = static_cast<float>(place.x);
-}
-
-void App::forgetRays() {
-  picked_.reset();
-  queried_.reset();
-  rays_ = RayPick();
-  settings_.rays = RayView();
-}
-
-void App::jumpToNumber(std::size_t number) {
-  const std::vector<Camera>& cameras = scene().cameras;
-  if (number >= cameras.size()) {
-    say("the scene has " + std::to_string(cameras.size()) + " cameras");
-    return;
-  }
-  jump(whit::cameraAt(scene(), number, settings_.timeline.seconds));
-  followed_ = number;
-  say("camera " + cameras[number].name);
-}
-
-void App::jump(const Camera& camera) {
-  show(camera);
-  followed_.reset();
-  pathTime_.reset();
-  restSeconds_ = 0;
 }
 
 }  // namespace whit::view

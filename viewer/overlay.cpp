@@ -45,13 +45,6 @@ constexpr ImGuiWindowFlags kBare = ImGuiWindowFlags_NoDecoration |
                                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove |
                                    ImGuiWindowFlags_NoFocusOnAppearing;
 
-// All scales are multiples of 1/16.
-std::string fraction(double scale) {
-  int above = static_cast<int>(std::lround(scale * 16)), below = 16;
-  while (above > 0 && above % 2 == 0 && below > 1) above /= 2, below /= 2;
-  return below == 1 ? "full" : formatted("%d/%d", above, below);
-}
-
 // Returns the place in the picture, each coordinate from 0 to 1; null: beside the picture.
 std::optional<std::array<double, 2>> placeIn(const ImageSize& madeFor, const ImageSize& window,
                                              const std::array<int, 2>& pixel) {
@@ -65,23 +58,6 @@ std::optional<std::array<double, 2>> placeIn(const ImageSize& madeFor, const Ima
 int indexAt(double share, int pixels) { return static_cast<int>(share * pixels); }
 
 }  // namespace
-
-std::string errorText(double sampleError) {
-  return sampleError > 0 ? formatted(", within about %.2g %%", 100 * sampleError) : std::string();
-}
-
-std::string samplesText(const UnfinishedFrame& frame) {
-  return formatted("%d of %d samples", frame.samples, frame.request.spp) +
-         errorText(frame.sampleError);
-}
-
-std::string sharpnessText(const FrameRequest& request) {
-  const int window = std::max(request.window.width, 1);
-  const int width = request.options.size ? request.options.size->width : window;
-  std::string text = fraction(static_cast<double>(width) / window);
-  if (request.spp != 1) text += formatted(", %d samples", request.spp);
-  return text;
-}
 
 std::string inspect(const TracedFrame& frame, const ImageSize& window,
                     const std::array<int, 2>& pixel) {
@@ -168,36 +144,6 @@ bool drawError(const std::string& error) {
   }
   ImGui::End();
   return open;
-}
-
-bool Timeline::step(double later) {
-  if (!there || !playing) return false;
-  seconds += later;
-  if (seconds > length) seconds = length > 0 ? std::fmod(seconds, length) : 0;
-  return true;
-}
-
-Timeline timelineOf(const Scene& scene, const Instant& instant) {
-  Timeline timeline;
-  timeline.there = !scene.motion.empty();
-  timeline.seconds = instant.seconds.value_or(0);
-  timeline.playing = timeline.there && !instant.seconds;
-  timeline.animation = instant.animation;
-  for (const Animation& animation : scene.animations) {
-    // A model's first animation plays unless another is named; motions of a scene file always do.
-    const bool own = animation.name == kSceneMotion;
-    if (!own && timeline.animation.empty()) timeline.animation = animation.name;
-    if (!own) timeline.animations.push_back(animation.name);
-    if (own || animation.name == timeline.animation) {
-      timeline.length = std::max(timeline.length, animation.seconds);
-    }
-  }
-  for (const MovingCamera& camera : scene.motion.given.cameras) {
-    if (camera.node != kNoNode) continue;  // without a node it flies along the path
-    timeline.length = std::max(timeline.length, static_cast<double>(scene.cameraPath.back().time));
-  }
-  if (timeline.animations.size() == 1) timeline.animations.clear();
-  return timeline;
 }
 
 bool drawTimeline(Timeline& timeline) {

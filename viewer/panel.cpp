@@ -8,7 +8,7 @@
 
 #include "cli/app/frame_summary.h"
 #include "core/text.h"
-#include "viewer/resolution_control.h"
+#include "viewer/session/resolution_control.h"
 
 namespace whit::view {
 
@@ -126,22 +126,9 @@ void drawTimes(const TracedFrame& frame) {
 
 }  // namespace
 
-bool isMeasuredView(FrameRequest measured, const FrameRequest& request) {
-  measured.options = request.options;
-  return sameSubject(measured, request);
-}
-
-void Panel::remember(const TracedFrame& frame) {
-  if (!frame.costs.empty()) {
-    costs_ = frame.costs;
-    measuredFor_ = frame.request;
-  } else if (!isMeasuredView(measuredFor_, frame.request)) {
-    costs_.clear();
-  }
-}
-
-bool Panel::drawTabs(const TracedFrame& frame, const RayPick& pick, PanelSettings& settings,
-                     const SkyChoice& ownSky, ShadingEdit& scene) const {
+bool Panel::drawTabs(const TracedFrame& frame, const RayPick& pick,
+                     const std::vector<KnobCost>& costs, PanelSettings& settings,
+                     const SkyChoice& ownSky, ShadingEdit& scene) {
   bool edited = false;
   const std::string chosen = std::exchange(settings.tab, std::string());
   const auto tab = [&](const char* name, auto&& draw) {
@@ -172,10 +159,10 @@ bool Panel::drawTabs(const TracedFrame& frame, const RayPick& pick, PanelSetting
     } else if (ImGui::Button("measure what each costs (M)")) {
       settings.measureKnobs = true;
     }
-    drawMeasured(costs_);
-    drawOptions(Tab::knobs, settings.options, costs_);
+    drawMeasured(costs);
+    drawOptions(Tab::knobs, settings.options, costs);
   });
-  tab("effects", [&] { drawEffects(frame, costs_, settings.options.disable); });
+  tab("effects", [&] { drawEffects(frame, costs, settings.options.disable); });
   tab("rays", [&] { drawRayTree(pick, frame, settings.rays); });
   tab("scene", [&] {
     settings.saveScene |= ImGui::Button("save as a scene file (Ctrl+S)");
@@ -189,8 +176,9 @@ bool Panel::drawTabs(const TracedFrame& frame, const RayPick& pick, PanelSetting
   return edited;
 }
 
-bool Panel::draw(const TracedFrame& frame, const RayPick& pick, double speed,
-                 PanelSettings& settings, const SkyChoice& ownSky, ShadingEdit& scene) {
+bool Panel::draw(const TracedFrame& frame, const RayPick& pick, const std::vector<KnobCost>& costs,
+                 double speed, PanelSettings& settings, const SkyChoice& ownSky,
+                 ShadingEdit& scene) {
   constexpr float kMargin = 10, kWidth = 32, kLeastWidth = 12;  // pixels; heights of the font
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   const float em = ImGui::GetFontSize(), height = std::max(window.y - 2 * kMargin, kMargin);
@@ -211,7 +199,7 @@ bool Panel::draw(const TracedFrame& frame, const RayPick& pick, double speed,
   if (ImGui::Begin("whit", &settings.shown, ImGuiWindowFlags_AlwaysAutoResize)) {
     drawTimes(frame);
     ImGui::Text("speed %.3g units a second", speed);
-    edited = drawTabs(frame, pick, settings, ownSky, scene);
+    edited = drawTabs(frame, pick, costs, settings, ownSky, scene);
   }
   left_ = ImGui::GetWindowPos().x;
   ImGui::End();

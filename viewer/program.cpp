@@ -22,25 +22,11 @@ constexpr const char* kSummary = "Shows a scene in a window, to fly through. H s
 cli::OptionList listOptions(ViewOptions& options, std::vector<std::string>& scenes) {
   cli::OptionList list;
   list.group("Viewing");
-  list.value({"rate", "N", kLeastRate, kLargestRate},
-             "frames a second to hold while something moves (default: 60, on up to four cores 30)",
-             options.rate);
-  list.value({"view", "none|depth|normals|albedo|rays|cost|occupancy"},
-             "what to show instead of the picture", options.view);
-  cli::listCommonOptions(list, options.common);
+  listViewOptions(list, options);
   list.operands("SCENE",
                 "a scene file, a model, or the name of a shipped scene (default: the last one)", 0,
                 1, scenes);
   return list;
-}
-
-void check(const ViewOptions& options) {
-  if (options.common.given.contains("crop")) {
-    throwUsage("--crop: the viewer shows whole images; use whit render");
-  }
-  if (options.common.render.mode == Mode::reference) {
-    throwUsage("--mode reference is too slow to look around with; use whit render");
-  }
 }
 
 // Returns the largest size with the picture's aspect that fits into `room`.
@@ -104,8 +90,7 @@ int runViewer(const std::vector<std::string>& words, ScriptedUser* scripted) {
     return 0;
   }
   if (!cli::parseOptions(kUsage, kSummary, list, words)) return 0;
-  check(options);
-  options.common.load.instant.plays = true;
+  settleViewOptions(options);
   const KeptSettings kept = readKeptSettings();
   if (scenes.empty()) scenes = kept.recent;
   if (scenes.empty()) throwUsage("expected SCENE: " + list.operand.help);

@@ -171,20 +171,6 @@ void drawDashed(ImDrawList& list, const ScreenLine& l, ImU32 color, float width)
 
 }  // namespace
 
-void select(const RayPick& pick, RayView& view) {
-  view.material = view.light = kNoCounterpart;
-  const RayNode& met = pick.rays.packets.nodes.front();
-  if (met.triangle == kMiss) return;
-  view.material = met.material;
-  double most = 0;
-  for (const LightContribution& light : met.lights) {
-    const double radiance = maxComponent(light.radiance);
-    if (radiance <= most || light.light == kAmbientLight) continue;
-    most = radiance;
-    view.light = light.light;
-  }
-}
-
 void drawRayTree(const RayPick& pick, const TracedFrame& frame, RayView& view) {
   if (!pick.scene) {
     ImGui::TextWrapped(

@@ -299,7 +299,7 @@ void Window::onCursor(GLFWwindow* window, double x, double y) {
   Window& self = windowOf(window);
   self.input.happened = true;
   if (self.dragged_) {
-    Input::Drag& drag = self.input.*self.dragged_;
+    Drag& drag = self.input.*self.dragged_;
     drag.x += x - self.cursorX_, drag.y += y - self.cursorY_;
   }
   self.cursorX_ = x;

@@ -9,22 +9,17 @@
 #include <vector>
 
 #include "core/image.h"
+#include "viewer/session/session.h"
 
 struct GLFWwindow;
 
 namespace whit::view {
 
 // The input by keys and mouse since the last frame. The window or a script fills it.
-struct Input {
-  std::set<int> held;         // keys that are down, by their GLFW codes
-  std::vector<int> pressed;   // keys that went down since the last frame
-  std::vector<int> commands;  // keys that went down with Ctrl; `pressed` lacks them
-  struct Drag {
-    double x = 0, y = 0;  // pixels; y grows downwards
-    bool any() const { return x != 0 || y != 0; }
-  };
-  Drag left, right, middle;          // by button; with Shift the left one counts as the middle one
-  double wheel = 0;                  // notches
+struct Input : Drags {
+  std::set<int> held;                // keys that are down, by their GLFW codes
+  std::vector<int> pressed;          // keys that went down since the last frame
+  std::vector<int> commands;         // keys that went down with Ctrl; `pressed` lacks them
   bool happened = false;             // there was an event, on the panel or beside it
   std::vector<std::string> dropped;  // files
   // A script's pointer in pixels of the window; ImGui sees a person's pointer by itself.
@@ -45,8 +40,7 @@ struct Input {
     pressed.clear();
     commands.clear();
     dropped.clear();
-    left = right = middle = Drag();
-    wheel = 0;
+    static_cast<Drags&>(*this) = Drags();
     happened = false;
   }
 };
@@ -126,8 +120,8 @@ class Window {
   ImageSize size_, madeFor_;  // of the picture; a size of zero: there is none
   double cursorX_ = 0, cursorY_ = 0;
   double scale_ = 1;
-  Input::Drag Input::*dragged_ = nullptr;  // null: no button is down on the picture
-  double pressedX_ = 0, pressedY_ = 0;     // where it went down
+  Drag Drags::*dragged_ = nullptr;      // null: no button is down on the picture
+  double pressedX_ = 0, pressedY_ = 0;  // where it went down
   std::optional<Input::Click> click_;
   std::optional<Input::Click> pointed_;  // where a script's pointer went down on the picture
   int windowedX_ = 0, windowedY_ = 0;    // place and size before full screen

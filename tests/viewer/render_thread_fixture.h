@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "cli/run_program.h"
-#include "viewer/render_thread.h"
+#include "viewer/session/render_thread.h"
 
 namespace whit::view {
 

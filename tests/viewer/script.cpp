@@ -78,7 +78,7 @@ ScriptCommand keyCommand(const Words& words) {
 }
 
 ScriptCommand mouseCommand(const Words& words) {
-  constexpr std::pair<const char*, Input::Drag Input::*> kButtons[] = {
+  constexpr std::pair<const char*, Drag Drags::*> kButtons[] = {
       {"left", &Input::left}, {"right", &Input::right}, {"middle", &Input::middle}};
   for (const auto& [name, button] : kButtons) {
     if (words.size() != 4 || words[1] != name) continue;

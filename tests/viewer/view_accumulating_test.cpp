@@ -4,8 +4,8 @@
 #include <atomic>
 
 #include "cli/run_program.h"
-#include "viewer/frame_tracer.h"
 #include "viewer/panel.h"
+#include "viewer/session/frame_tracer.h"
 #include "viewer_fixture.h"
 
 namespace whit::view {

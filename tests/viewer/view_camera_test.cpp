@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "pi.h"
-#include "viewer/camera_control.h"
+#include "viewer/session/camera_control.h"
 
 namespace whit::view {
 namespace {

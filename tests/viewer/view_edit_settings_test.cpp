@@ -6,7 +6,7 @@
 #include "cli/run_program.h"
 #include "io/image/image_file.h"
 #include "io/load_scene.h"
-#include "viewer/frame_tracer.h"
+#include "viewer/session/frame_tracer.h"
 
 namespace whit::view {
 namespace {

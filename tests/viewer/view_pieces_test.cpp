@@ -5,7 +5,7 @@
 
 #include "cli/run_program.h"
 #include "render/debug_frame.h"
-#include "viewer/frame_tracer.h"
+#include "viewer/session/frame_tracer.h"
 
 namespace whit::view {
 namespace {

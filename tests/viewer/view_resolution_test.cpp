@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/options.h"
-#include "viewer/resolution_control.h"
+#include "viewer/session/resolution_control.h"
 
 namespace whit::view {
 namespace {

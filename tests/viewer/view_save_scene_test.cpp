@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "io/load_scene.h"
-#include "viewer/view_files.h"
+#include "viewer/session/view_files.h"
 #include "viewer_fixture.h"
 
 namespace whit::view {

@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-#include "viewer/view_files.h"
+#include "viewer/session/view_files.h"
 #include "viewer/window.h"
 #include "viewer_fixture.h"
 

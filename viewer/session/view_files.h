@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "viewer/frame_tracer.h"
+#include "viewer/session/frame_tracer.h"
 
 namespace whit::view {
 

@@ -1,4 +1,4 @@
-#include "viewer/render_thread.h"
+#include "viewer/session/render_thread.h"
 
 #include <chrono>
 #include <exception>

@@ -13,7 +13,7 @@
 #include <thread>
 #include <utility>
 
-#include "viewer/frame_tracer.h"
+#include "viewer/session/frame_tracer.h"
 
 namespace whit::view {
 

@@ -1,4 +1,4 @@
-#include "viewer/resolution_control.h"
+#include "viewer/session/resolution_control.h"
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 #include "io/load_scene.h"
 #include "io/scene/scene_sections.h"
 #include "make/studio_sky.h"
-#include "viewer/frame_tracer.h"
+#include "viewer/session/frame_tracer.h"
 
 namespace whit::view {
 

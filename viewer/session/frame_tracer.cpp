@@ -1,4 +1,4 @@
-#include "viewer/frame_tracer.h"
+#include "viewer/session/frame_tracer.h"
 
 #include <algorithm>
 #include <mutex>

@@ -4,7 +4,7 @@
 
 #include "core/option_table.h"
 #include "core/text.h"
-#include "viewer/frame_tracer.h"
+#include "viewer/session/frame_tracer.h"
 
 namespace whit::view {
 

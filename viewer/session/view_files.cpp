@@ -1,4 +1,4 @@
-#include "viewer/view_files.h"
+#include "viewer/session/view_files.h"
 
 #include <algorithm>
 #include <cstdio>

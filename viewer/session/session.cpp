@@ -1,0 +1,512 @@
+#include "viewer/session/session.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bake/edit_scene.h"
+#include "core/error.h"
+#include "core/option_table.h"
+#include "core/text.h"
+#include "io/paths.h"
+
+namespace whit::view {
+
+namespace {
+
+constexpr float kExposureLimit = 64;
+constexpr double kMessageSeconds = 4;
+constexpr double kPixelsPerNotch = 20;  // dragged with the right button to move closer to a model
+
+std::filesystem::file_time_type timeOf(const std::filesystem::path& file) {
+  std::error_code error;  // a file that is just being replaced is not an error
+  return std::filesystem::last_write_time(file, error);
+}
+
+// All scales are multiples of 1/16.
+std::string fraction(double scale) {
+  int above = static_cast<int>(std::lround(scale * 16)), below = 16;
+  while (above > 0 && above % 2 == 0 && below > 1) above /= 2, below /= 2;
+  return below == 1 ? "full" : formatted("%d/%d", above, below);
+}
+
+}  // namespace
+
+void listViewOptions(cli::OptionList& list, ViewOptions& options) {
+  list.value({"rate", "N", kLeastRate, kLargestRate},
+             "frames a second to hold while something moves (default: 60, on up to four cores 30)",
+             options.rate);
+  list.value({"view", "none|depth|normals|albedo|rays|cost|occupancy"},
+             "what to show instead of the picture", options.view);
+  cli::listCommonOptions(list, options.common);
+}
+
+void settleViewOptions(ViewOptions& options) {
+  if (options.common.given.contains("crop")) {
+    throwUsage("--crop: the viewer shows whole images; use whit render");
+  }
+  if (options.common.render.mode == Mode::reference) {
+    throwUsage("--mode reference is too slow to look around with; use whit render");
+  }
+  options.common.load.instant.plays = true;
+}
+
+std::string errorText(double sampleError) {
+  return sampleError > 0 ? formatted(", within about %.2g %%", 100 * sampleError) : std::string();
+}
+
+std::string samplesText(const UnfinishedFrame& frame) {
+  return formatted("%d of %d samples", frame.samples, frame.request.spp) +
+         errorText(frame.sampleError);
+}
+
+std::string sharpnessText(const FrameRequest& request) {
+  const int window = std::max(request.window.width, 1);
+  const int width = request.options.size ? request.options.size->width : window;
+  std::string text = fraction(static_cast<double>(width) / window);
+  if (request.spp != 1) text += formatted(", %d samples", request.spp);
+  return text;
+}
+
+bool Timeline::step(double later) {
+  if (!there || !playing) return false;
+  seconds += later;
+  if (seconds > length) seconds = length > 0 ? std::fmod(seconds, length) : 0;
+  return true;
+}
+
+Timeline timelineOf(const Scene& scene, const Instant& instant) {
+  Timeline timeline;
+  timeline.there = !scene.motion.empty();
+  timeline.seconds = instant.seconds.value_or(0);
+  timeline.playing = timeline.there && !instant.seconds;
+  timeline.animation = instant.animation;
+  for (const Animation& animation : scene.animations) {
+    // A model's first animation plays unless another is named; motions of a scene file always do.
+    const bool own = animation.name == kSceneMotion;
+    if (!own && timeline.animation.empty()) timeline.animation = animation.name;
+    if (!own) timeline.animations.push_back(animation.name);
+    if (own || animation.name == timeline.animation) {
+      timeline.length = std::max(timeline.length, animation.seconds);
+    }
+  }
+  for (const MovingCamera& camera : scene.motion.given.cameras) {
+    if (camera.node != kNoNode) continue;  // without a node it flies along the path
+    timeline.length = std::max(timeline.length, static_cast<double>(scene.cameraPath.back().time));
+  }
+  if (timeline.animations.size() == 1) timeline.animations.clear();
+  return timeline;
+}
+
+bool isMeasuredView(FrameRequest measured, const FrameRequest& request) {
+  measured.options = request.options;
+  return sameSubject(measured, request);
+}
+
+void Session::rememberCosts() {
+  if (!shown_.costs.empty()) {
+    costs_ = shown_.costs;
+    measuredFor_ = shown_.request;
+  } else if (!isMeasuredView(measuredFor_, shown_.request)) {
+    costs_.clear();
+  }
+}
+
+void select(const RayPick& pick, RayView& view) {
+  view.material = view.light = kNoCounterpart;
+  const RayNode& met = pick.rays.packets.nodes.front();
+  if (met.triangle == kMiss) return;
+  view.material = met.material;
+  double most = 0;
+  for (const LightContribution& light : met.lights) {
+    const double radiance = maxComponent(light.radiance);
+    if (radiance <= most || light.light == kAmbientLight) continue;
+    most = radiance;
+    view.light = light.light;
+  }
+}
+
+Session::Session(const ViewOptions& options, const std::shared_ptr<cli::OpenScene>& scene,
+                 std::function<void()> onChange)
+    : options_(options),
+      scene_(scene),
+      thread_(scene, options.common, std::move(onChange)),
+      control_(chooseCamera(scene->scene, options.common.render), cruisingSpeed(scene->scene)),
+      resolution_(options.rate, options.common.render.spp),
+      read_(withoutEdits(scene)),
+      edit_(read_),
+      traced_(read_),
+      own_(cli::optionsFor(scene->scene, options.common)) {
+  watch(options.scene);
+  settings_.rate = resolution_.rate();
+  settings_.options = own_;
+  settings_.view = options.view;
+  settings_.timeline = timelineOf(scene->scene, options.common.load.instant);
+  const Camera start = control_.camera();
+  show(start);
+  for (std::size_t i = 0; i < scene->scene.cameras.size() && !followed_; ++i) {
+    if (sameView(scene->scene.cameras[i], start)) followed_ = i;
+  }
+}
+
+void Session::say(const std::string& message) {
+  message_ = message;
+  messageSeconds_ = kMessageSeconds;
+}
+
+void Session::advance(const CameraMotion& motion, double seconds) {
+  const bool moved = moveCamera(motion, seconds), played = play(seconds);
+  restSeconds_ = moved || played ? 0 : restSeconds_ + seconds;
+  watchSceneFile();
+  followRays();
+  askForFrame();
+  messageSeconds_ -= seconds;
+}
+
+bool Session::isActive() const {
+  return pathTime_ || settings_.timeline.playing || restSeconds_ < kSettleSeconds;
+}
+
+CameraMotion Session::motionOf(const Drags& drags, double height, double scale) const {
+  CameraMotion motion;
+  motion.wheel = drags.wheel;
+  const bool orbits = control_.orbits();
+  const Drag& orbit = orbits ? drags.left : drags.right;
+  motion.orbitX = orbit.x / scale;
+  motion.orbitY = orbit.y / scale;
+  if (orbits) {
+    motion.wheel -= drags.right.y / scale / kPixelsPerNotch;
+  } else {
+    motion.lookX = drags.left.x / scale;
+    motion.lookY = drags.left.y / scale;
+  }
+  motion.panX = drags.middle.x / std::max(height, 1.0);
+  motion.panY = drags.middle.y / std::max(height, 1.0);
+  return motion;
+}
+
+bool Session::moveCamera(const CameraMotion& motion, double seconds) {
+  if (pathTime_) {
+    flyPath(seconds);
+    return true;
+  }
+  const bool moved = control_.step(motion, seconds);
+  if (moved) followed_.reset();
+  return moved;
+}
+
+bool Session::play(double seconds) {
+  if (!settings_.timeline.step(seconds)) return false;
+  followCamera();
+  return true;
+}
+
+// Follows a camera that moves until the user moves the view.
+void Session::followCamera() {
+  if (!followed_ || !settings_.timeline.there) return;
+  show(whit::cameraAt(scene(), *followed_, settings_.timeline.seconds));
+}
+
+void Session::flyPath(double seconds) {
+  const std::vector<Keyframe>& path = scene().cameraPath;
+  *pathTime_ += seconds;
+  if (*pathTime_ > path.back().time) *pathTime_ = path.front().time;
+  show(cameraAt(path, *pathTime_));
+}
+
+bool Session::fetchFrame() {
+  bool answered = false;
+  const std::string error = thread_.takeError();
+  if (!error.empty()) {
+    opening_.clear();
+    // The options and edits of the picture that is shown are known to work.
+    if (shown_.scene) settings_.options = shown_.request.options;
+    edit_ = traced_;
+    fail(error);
+  }
+  if (auto pick = thread_.takePick(); pick && picked_) {
+    rays_ = std::move(*pick);
+    if (std::exchange(selects_, false)) select(rays_, settings_.rays);
+    answered = true;
+  }
+  if (auto frame = thread_.takeUnfinished()) {
+    unfinished_ = std::move(frame);
+    answered = true;
+  }
+  if (!thread_.take(shown_)) return answered;
+  unfinished_.reset();
+  if (shown_.scene != scene_) {
+    const bool elsewhere = !opening_.empty();
+    takeScene();
+    if (elsewhere) return false;  // the picture is from the camera of the other scene
+  }
+  const FrameRequest& request = shown_.request;
+  if (settings_.options.exposure.automatic) settings_.options.exposure = request.options.exposure;
+  if (request.edits != tracedEdits_ && request.edits == edits_) {
+    tracedEdits_ = edits_;
+    traced_ = edit_;
+  }
+  if (request.view == settings_.view) resolution_.learn(shown_.stats.frameMs, samplesOf(request));
+  resolution_.setSampled(shown_.sampled);
+  rememberCosts();
+  constexpr double kNewest = 0.2;  // weight of the newest picture
+  const double ms = std::exchange(sincePicture_, Stopwatch()).ms();
+  pictureMs_ = request.interruptible ? 0
+               : pictureMs_ > 0      ? std::lerp(pictureMs_, ms, kNewest)
+                                     : 1000 / resolution_.rate();
+  if (shown_.measured == 1) settings_.measureKnobs = false;
+  return true;
+}
+
+FrameRequest Session::requestFor(const Sharpness& sharpness, bool still) const {
+  const auto side = [&](int pixels) {
+    return std::max(1, static_cast<int>(std::lround(pixels * sharpness.scale)));
+  };
+  const bool finest = sharpness.scale >= 1;
+  FrameRequest request;
+  request.window = windowPixels();
+  request.camera = control_.camera();
+  request.options = settings_.options;
+  request.options.size = ImageSize{side(request.window.width), side(request.window.height)};
+  request.spp = sharpness.spp;
+  request.coarse = !finest;
+  request.view = settings_.view;
+  request.measureKnobs = still && finest && settings_.measureKnobs;
+  request.reloads = reloads_;
+  request.edits = edits_;
+  request.seconds = settings_.timeline.time();
+  request.interruptible = still;
+  return request;
+}
+
+// More samples would blur what is looked into.
+bool Session::supersamples() const {
+  return settings_.supersample && settings_.view == DebugView::none && !settings_.measureKnobs;
+}
+
+FrameRequest Session::movingRequest(const ImageSize& window) {
+  stillFor_.reset();
+  const double pixels = static_cast<double>(window.width) * window.height;
+  return requestFor(resolution_.moving(pixels), false);
+}
+
+// Returns the next step at rest, or the first one when the picture shows something new.
+FrameRequest Session::stillRequest(const ImageSize& window) {
+  FrameRequest request = requestFor(resolution_.still(supersamples()), true);
+  if (!stillFor_ || !sameSubject(request, *stillFor_)) {
+    const bool shown = shown_.scene && sameSubject(request, shown_.request);
+    const double scale =
+        shown ? static_cast<double>(shown_.request.options.size->width) / window.width : 0;
+    resolution_.startSharpening(static_cast<double>(window.width) * window.height, scale);
+    stillFor_ = request;
+    request = requestFor(resolution_.still(supersamples()), true);
+  }
+  while (shown_.scene && samePicture(request, shown_.request)) {
+    if (!resolution_.sharpen(supersamples())) {
+      sharp_ = !thread_.busy();
+      break;
+    }
+    request = requestFor(resolution_.still(supersamples()), true);
+  }
+  return request;
+}
+
+// Asks for the rays of the picked pixel again when anything but the viewpoint has changed.
+void Session::followRays() {
+  if (settings_.rays.forget) forgetRays();
+  if (std::exchange(settings_.rays.fromAside, false) && rays_.scene) jump(rays_.aside);
+  if (!picked_) return;
+  RayQuery query = *picked_;
+  query.picture.options = settings_.options;
+  query.picture.options.size = picked_->picture.options.size;
+  query.picture.reloads = reloads_;
+  query.picture.edits = edits_;
+  query.picture.seconds = shown_.request.seconds;
+  if (queried_ && sameRays(query, *queried_)) return;
+  thread_.query(query);
+  queried_ = query;
+}
+
+void Session::askForFrame() {
+  sharp_ = false;
+  const ImageSize window = windowPixels();
+  if (window.width < 1 || window.height < 1) return;
+  resolution_.setRate(settings_.rate);
+  resolution_.setSpp(settings_.options.spp);
+  // A new window size counts as motion, so that the first picture for it comes at once.
+  if (std::exchange(windowSize_, window) != window) restSeconds_ = 0;
+  const FrameRequest request =
+      restSeconds_ >= kSettleSeconds ? stillRequest(window) : movingRequest(window);
+  if (asked_ && samePicture(request, *asked_)) return;
+  if (thread_.ask(request)) asked_ = request;
+}
+
+void Session::passOnEdit() {
+  ++edits_;
+  edit_.settings = editSettings(read_, edit_);
+  thread_.edit(edit_);
+}
+
+void Session::watch(const std::string& scene) {
+  sceneName_ = scene;
+  rememberRecent(scene, settings_.recent);
+  sceneFile_ = findScene(parseSceneName(scene).file);
+  sceneFileTime_ = timeOf(sceneFile_);
+}
+
+void Session::watchSceneFile() {
+  const auto time = timeOf(sceneFile_);
+  if (time == sceneFileTime_ || time == std::filesystem::file_time_type::min()) return;
+  sceneFileTime_ = time;
+  reload();
+}
+
+void Session::load(const SceneChoice& choice, const std::string& message) {
+  ++reloads_;
+  restSeconds_ = 0;
+  error_.clear();
+  thread_.load(choice);
+  say(message);
+}
+
+void Session::reload() {
+  if (!opening_.empty()) return open(opening_);  // sceneName_ is still that of the old scene
+  load({sceneName_, scene_->settings, settings_.timeline.animation}, "reading the scene again");
+}
+
+void Session::changeAnimation() {
+  settings_.timeline.seconds = 0;
+  reload();
+}
+
+// Takes the options of the scene that was just read where the user has not changed them. The
+// exposure for one scene says nothing about another.
+void Session::takeOptions() {
+  const RenderOptions before = std::exchange(own_, cli::optionsFor(scene(), options_.common));
+  for (const std::string& name : sceneOptionNames()) {
+    const bool isKept = opening_.empty() || name != "exposure";
+    if (isKept && optionText(settings_.options, name) != optionText(before, name)) continue;
+    setOption(settings_.options, name, optionText(own_, name));
+  }
+}
+
+// Called when the frame that was just fetched shows another scene, or the scene read again.
+void Session::takeScene() {
+  scene_ = shown_.scene;
+  const std::lock_guard lock(scene_->moving);
+  read_ = edit_ = traced_ = withoutEdits(scene_);
+  edits_ = tracedEdits_ = 0;
+  takeOptions();
+  if (opening_.empty()) {
+    if (scene().cameraPath.empty()) pathTime_.reset();
+    const Timeline before = settings_.timeline;
+    settings_.timeline = timelineOf(scene(), {std::nullopt, before.animation});
+    settings_.timeline.seconds = std::min(before.seconds, settings_.timeline.length);
+    settings_.timeline.playing = settings_.timeline.there && before.playing;
+    say("the scene was read again");
+    return;
+  }
+  watch(opening_);
+  opening_.clear();
+  forgetRays();
+  control_ = CameraControl(scene().cameras.front(), cruisingSpeed(scene()));
+  show(control_.camera());
+  pathTime_.reset();
+  followed_ = 0;
+  settings_.timeline = timelineOf(scene(), {});
+  restSeconds_ = 0;
+  say("opened " + sceneName_);
+  opened();
+}
+
+void Session::show(const Camera& camera) { control_.set(camera, boundsToOrbit(scene(), camera)); }
+
+void Session::fitView(const ImageSize& window) {
+  if (!control_.orbits()) return jumpToNumber(0);
+  control_.fit(static_cast<double>(window.width) / std::max(window.height, 1));
+  jump(control_.camera());
+}
+
+// Returns the command that makes the view shown with these options.
+std::string Session::command(const RenderOptions& options) const {
+  const std::lock_guard lock(shown_.scene->moving);
+  return renderCommand(sceneName_, options_.common, shown_, options);
+}
+
+// Returns the options of the picture shown; for a view that is not sharp yet, those that it will
+// have when it is.
+RenderOptions Session::viewOptions() const {
+  RenderOptions options = shown_.options;
+  if (shown_.request.coarse || !shown_.request.interruptible) {
+    const Sharpness full{1, settings_.options.spp};
+    options.size = requestFor(full, true).options.size;
+    options.spp = full.spp;
+  }
+  return options;
+}
+
+void Session::expose(float step) {
+  float& exposure = settings_.options.exposure.ev;
+  exposure = std::clamp(exposure + step, -kExposureLimit, kExposureLimit);
+  restSeconds_ = 0;
+  say(formatted("exposure %+.2f EV", static_cast<double>(exposure)));
+}
+
+void Session::showNextView() {
+  const std::size_t next = (static_cast<std::size_t>(settings_.view) + 1) % kDebugViewNames.size();
+  settings_.view = static_cast<DebugView>(next);
+  restSeconds_ = 0;
+  say(std::string("view: ") + kDebugViewNames[next]);
+}
+
+void Session::startOrStopPath() {
+  if (scene().cameraPath.empty()) {
+    say("the scene has no camera path");
+  } else if (pathTime_) {
+    pathTime_.reset();
+  } else {
+    pathTime_ = scene().cameraPath.front().time;
+  }
+}
+
+void Session::forgetRays() {
+  picked_.reset();
+  queried_.reset();
+  rays_ = RayPick();
+  settings_.rays = RayView();
+}
+
+void Session::jumpToNumber(std::size_t number) {
+  const std::vector<Camera>& cameras = scene().cameras;
+  if (number >= cameras.size()) {
+    say("the scene has " + std::to_string(cameras.size()) + " cameras");
+    return;
+  }
+  jump(whit::cameraAt(scene(), number, settings_.timeline.seconds));
+  followed_ = number;
+  say("camera " + cameras[number].name);
+}
+
+void Session::jump(const Camera& camera) {
+  show(camera);
+  followed_.reset();
+  pathTime_.reset();
+  restSeconds_ = 0;
+}
+
+void Session::pick(int x, int y) {
+  if (!shown_.scene) return;
+  RayQuery query;
+  query.picture.camera = shown_.request.camera;
+  query.picture.options.size = windowPixels();
+  query.x = x, query.y = y;
+  picked_ = query;
+  settings_.rays.lines = true;
+  selects_ = true;
+}
+
+void Session::open(const std::string& name) {
+  opening_ = name;
+  load({name, {}, {}}, "reading " + name);  // settings belong to the scene that has them
+}
+
+}  // namespace whit::view
