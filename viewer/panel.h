@@ -1,10 +1,8 @@
 // All that is drawn over the picture: the panel with its tabs, rays, messages.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdlib>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,11 +15,6 @@ inline constexpr std::array kPanelTabs{"frame", "picture", "knobs", "effects",
                                        "rays",  "scene",   "keys"};
 
 inline constexpr float kPanelAlpha = 0.82f;  // how much of the picture panels cover
-
-// Returns the largest difference of a channel of two colors, in 8-bit codes.
-inline int codesApart(const std::array<std::uint8_t, 3>& a, const std::array<std::uint8_t, 3>& b) {
-  return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
-}
 
 class Panel {
  public:

@@ -86,11 +86,6 @@ class RayTreeTab {
     if (ImGui::Button("forget")) view_.forget = true;
   }
 
-  // Returns the largest difference of a channel without the node and all below it, in 8-bit codes.
-  int codesAdded(const RgbD& added) const {
-    return codesApart(codesOf(tree_.pixel), codesOf(max(tree_.pixel - Rgb(added), Rgb(0.0f))));
-  }
-
   void point(std::size_t node) {
     if (ImGui::IsItemHovered()) view_.pointedAt = node;
   }
@@ -102,8 +97,9 @@ class RayTreeTab {
     ImGui::PushID(static_cast<int>(number));
     ImGui::SetNextItemOpen(share >= kLeastUnfolded, ImGuiCond_Once);
     ImGui::PushStyleColor(ImGuiCol_Text, textColorOf(n.kind));
-    const std::string text = formatted("%s: %s, %d codes", rowOf(n.kind).name.data(),
-                                       pick_.words[number].met.c_str(), codesAdded(added));
+    const std::string text =
+        formatted("%s: %s, %d codes", rowOf(n.kind).name.data(), pick_.words[number].met.c_str(),
+                  cli::codesAddedBy(tree_, number, options_));
     const bool open =
         ImGui::TreeNodeEx("node", ImGuiTreeNodeFlags_SpanFullWidth, "%s", text.c_str());
     ImGui::PopStyleColor();
@@ -132,28 +128,6 @@ class RayTreeTab {
   const RenderOptions& options_;
   RayView& view_;
 };
-
-// Cuts the line to the window, because huge coordinates are drawn wrongly. Returns whether any of
-// it is left.
-bool clip(ScreenLine& line, double width, double height) {
-  double from = 0, to = 1;
-  const double dx = line.x2 - line.x1, dy = line.y2 - line.y1;
-  const auto keep = [&](double step, double room) {  // step * t <= room
-    if (step == 0) return room >= 0;
-    const double t = room / step;
-    if (step > 0) {
-      to = std::min(to, t);
-    } else {
-      from = std::max(from, t);
-    }
-    return from <= to;
-  };
-  const bool seen = keep(-dx, line.x1) && keep(dx, width - line.x1) && keep(-dy, line.y1) &&
-                    keep(dy, height - line.y1);
-  if (!seen) return false;
-  line = {line.x1 + from * dx, line.y1 + from * dy, line.x1 + to * dx, line.y1 + to * dy};
-  return true;
-}
 
 void drawDashed(ImDrawList& list, const ScreenLine& l, ImU32 color, float width) {
   constexpr double kDash = 5, kPeriod = 9;  // pixels

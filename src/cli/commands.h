@@ -22,6 +22,7 @@ int effectsCommand(const Words& words);
 int explainCommand(const Words& words);
 int accuracyCommand(const Words& words);
 int scenesCommand(const Words& words);
+int serveCommand(const Words& words);
 int turntableCommand(const Words& words);
 
 struct Command {
@@ -36,6 +37,7 @@ inline constexpr Command kCommands[] = {
     {"compare", "packets against the scalar reference, or two images", compareCommand},
     {"info", "contents of a scene, its effects and the kernels that run", infoCommand},
     {"scenes", "list of the shipped scenes", scenesCommand},
+    {"serve", "the viewer in a browser", serveCommand},
     {"explain", "tree of the rays of one pixel", explainCommand},
     {"effects", "cost of each effect of a scene", effectsCommand},
     {"accuracy", "report on accuracy against time", accuracyCommand},

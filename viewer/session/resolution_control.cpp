@@ -31,6 +31,8 @@ Sharpness ResolutionControl::moving(double windowPixels) {
   const std::size_t coarsest = kScales.size() - 1;
   if (msPerSample_ == 0) return {kScales[coarsest], 1};  // cheap in any scene
   chooseLevel(frameMs);
+  const auto pixels = [&] { return windowPixels_ * kScales[level_] * kScales[level_]; };
+  while (level_ < coarsest && pixels() > mostPixels_) ++level_;
   Sharpness chosen{kScales[level_], spp_};
   if (level_ < coarsest) return chosen;
   const double share = frameMs / predictMs(chosen.scale);

@@ -44,6 +44,8 @@ class ResolutionControl {
   void setRate(double framesPerSecond);  // brought into [kLeastRate, kLargestRate]
   double rate() const { return rate_; }
   void setSpp(int spp) { spp_ = spp; }
+  // Limits pictures in motion where a link cannot carry more.
+  void setMostPixels(double pixels) { mostPixels_ = pixels; }
   // Pictures whose rays are sampled get more samples at rest.
   void setSampled(bool sampled) { sampled_ = sampled; }
 
@@ -72,7 +74,7 @@ class ResolutionControl {
   bool sampled_ = false;
   std::size_t level_ = 0;  // index of kScales
   std::size_t step_ = 0;   // index of the steps at rest
-  double windowPixels_ = 0;
+  double windowPixels_ = 0, mostPixels_ = 1e9;
   double msPerSample_ = 0;  // 0: nothing learned yet
 };
 

@@ -35,8 +35,7 @@ void listViewOptions(cli::OptionList& list, ViewOptions& options) {
   list.value({"rate", "N", kLeastRate, kLargestRate},
              "frames a second to hold while something moves (default: 60, on up to four cores 30)",
              options.rate);
-  list.value({"view", "none|depth|normals|albedo|rays|cost|occupancy"},
-             "what to show instead of the picture", options.view);
+  list.value(kViewOption, "what to show instead of the picture", options.view);
   cli::listCommonOptions(list, options.common);
 }
 
@@ -109,6 +108,26 @@ void Session::rememberCosts() {
   } else if (!isMeasuredView(measuredFor_, shown_.request)) {
     costs_.clear();
   }
+}
+
+bool clip(ScreenLine& line, double width, double height) {
+  double from = 0, to = 1;
+  const double dx = line.x2 - line.x1, dy = line.y2 - line.y1;
+  const auto keep = [&](double step, double room) {  // step * t <= room
+    if (step == 0) return room >= 0;
+    const double t = room / step;
+    if (step > 0) {
+      to = std::min(to, t);
+    } else {
+      from = std::max(from, t);
+    }
+    return from <= to;
+  };
+  const bool seen = keep(-dx, line.x1) && keep(dx, width - line.x1) && keep(-dy, line.y1) &&
+                    keep(dy, height - line.y1);
+  if (!seen) return false;
+  line = {line.x1 + from * dx, line.y1 + from * dy, line.x1 + to * dx, line.y1 + to * dy};
+  return true;
 }
 
 void select(const RayPick& pick, RayView& view) {

@@ -29,6 +29,8 @@ struct ViewOptions {
   double rate = defaultRate(usableThreads());  // frames a second to hold in motion
 };
 void listViewOptions(cli::OptionList& list, ViewOptions& options);
+inline constexpr OptionSpec kViewOption{.name = "view",
+                                        .words = "none|depth|normals|albedo|rays|cost|occupancy"};
 // Throws Error(usage) for options that a viewer cannot follow; the scene plays if it moves.
 void settleViewOptions(ViewOptions& options);
 
@@ -98,6 +100,9 @@ std::string samplesText(const UnfinishedFrame& frame);
 // "1/4, 16 samples": the share of the window's pixels a side, and the samples.
 std::string sharpnessText(const FrameRequest& request);
 
+// Cuts the line to the window, because huge coordinates are drawn wrongly. Returns whether any of
+// it is left.
+bool clip(ScreenLine& line, double width, double height);
 // Lets the scene's tab unfold the material that was hit and the light that adds most.
 void select(const RayPick& pick, RayView& view);
 

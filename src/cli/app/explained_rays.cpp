@@ -1,5 +1,8 @@
 #include "cli/app/explained_rays.h"
 
+#include <algorithm>
+#include <cstdlib>
+
 #include "reference/media.h"
 
 namespace whit::cli {
@@ -97,6 +100,40 @@ RayText describeRay(const Scene& scene, const ExplainedRays& rays, std::size_t n
     text.lines.push_back(formatted("no %s: %s", rowOf(kind).light.data(), nameOf(end)));
   }
   return text;
+}
+
+int codesAddedBy(const RayTree& tree, std::size_t node, const RenderOptions& options) {
+  const RgbD added = addedBy(tree, node, tree.nodes[node].radiance);
+  const auto with = codesOf(tree.pixel, options);
+  const auto without = codesOf(max(tree.pixel - Rgb(added), Rgb(0.0f)), options);
+  int most = 0;
+  for (std::size_t i = 0; i < with.size(); ++i)
+    most = std::max(most, std::abs(with[i] - without[i]));
+  return most;
+}
+
+Json pageTree(const std::vector<RayText>& words, const ExplainedRays& rays,
+              const RenderOptions& options) {
+  const auto jsonOf = [](const RgbD& c) { return Json{c.x, c.y, c.z}; };
+  const RayTree& tree = rays.packets;
+  Json json{{"radiance", jsonOf(RgbD(tree.pixel))},
+            {"codes", codesOf(tree.pixel, options)},
+            {"reference", codesOf(rays.reference.pixel, options)},
+            {"shadowRays", tree.shadowRays()}};
+  for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+    const RayNode& n = tree.nodes[i];
+    const auto& color = styleOf(RayLook{n.kind}).color;
+    json["nodes"].push_back({{"parent", n.parent},
+                             {"kind", rowOf(n.kind).name},
+                             {"color", formatted("#%02x%02x%02x", color[0], color[1], color[2])},
+                             {"hit", words[i].met},
+                             {"medium", words[i].medium},
+                             {"weight", textOf(n.weight)},
+                             {"codes", codesAddedBy(tree, i, options)},
+                             {"adds", jsonOf(addedBy(tree, i, n.local))},
+                             {"lines", words[i].lines}});
+  }
+  return json;
 }
 
 }  // namespace whit::cli

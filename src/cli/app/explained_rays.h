@@ -10,6 +10,7 @@
 #include "core/display.h"
 #include "core/text.h"
 #include "inspect/ray_tree.h"
+#include "io/json_reader.h"
 
 namespace whit::cli {
 
@@ -40,6 +41,13 @@ struct RayText {
   std::vector<std::string> lines;  // where the reference parts, what the ray adds, and how it ends
 };
 RayText describeRay(const Scene& scene, const ExplainedRays& rays, std::size_t node);
+// Returns by how many 8-bit codes a channel of the pixel changes at most without the node and all
+// below it.
+int codesAddedBy(const RayTree& tree, std::size_t node, const RenderOptions& options);
+// The tree of the packets for pages, as JSON: nodes with their words, and with what each alone adds
+// to the pixel.
+Json pageTree(const std::vector<RayText>& words, const ExplainedRays& rays,
+              const RenderOptions& options);
 
 inline std::array<std::uint8_t, 3> codesOf(const Rgb& pixel, const RenderOptions& o) {
   return displayCodes(pixel, std::exp2(double{o.exposure.ev}), o.toneCurve);

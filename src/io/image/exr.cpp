@@ -339,6 +339,18 @@ void writePixels(Imf::OutputFile& exr, Imf::PixelType type, const Image& image, 
   exr.writePixels(image.windowHeight());
 }
 
+// Writes a whole file.
+void writeTo(Imf::OStream& out, const Image& image, const Imf::Header& header, ExrStorage storage,
+             int threads, const std::vector<ImageLayer>& layers) {
+  Imf::OutputFile exr(out, header, threads);
+  if (inHalf(storage)) {
+    const std::vector<half> values = inHalf(image);
+    writePixels(exr, Imf::HALF, image, values.data(), layers);
+  } else {
+    writePixels(exr, Imf::FLOAT, image, &image.pixels[0][0], layers);
+  }
+}
+
 }  // namespace
 
 ExrImage decodeExr(const std::string& path, bool wholeDisplay, const ImageLimits& limits) {
@@ -393,6 +405,14 @@ ImageMetadata readExrMetadata(const std::string& path) {
   });
 }
 
+std::string encodeExr(const Image& image, const ImageMetadata& metadata,
+                      const std::vector<ImageLayer>& layers) {
+  Imf::StdOSStream out;
+  const Imf::Header header = makeHeader(image, metadata, ExrStorage::zip, layers);
+  writeTo(out, image, header, ExrStorage::zip, 1, layers);
+  return out.str();
+}
+
 void writeExr(const std::string& path, const Image& image, const ImageMetadata& metadata,
               ExrStorage storage, int threads, const std::vector<ImageLayer>& layers) {
   if (image.pixels.empty()) throwUsage("cannot write '" + path + "': the image has no pixels");
@@ -407,13 +427,8 @@ void writeExr(const std::string& path, const Image& image, const ImageMetadata& 
     std::ofstream stream(file.temporaryPath(), std::ios::binary | std::ios::trunc);
     {
       Imf::StdOFStream out(stream, path.c_str());
-      Imf::OutputFile exr(out, makeHeader(image, metadata, storage, layers), threads);
-      if (inHalf(storage)) {
-        const std::vector<half> values = inHalf(image);
-        writePixels(exr, Imf::HALF, image, values.data(), layers);
-      } else {
-        writePixels(exr, Imf::FLOAT, image, &image.pixels[0][0], layers);
-      }
+      const Imf::Header header = makeHeader(image, metadata, storage, layers);
+      writeTo(out, image, header, storage, threads, layers);
     }
     stream.close();
     if (!stream) throwIo(path, "cannot write '" + path + "': no space left, or the device failed");

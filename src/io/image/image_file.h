@@ -80,8 +80,11 @@ void writeExr(const std::string& path, const Image& image, const ImageMetadata& 
               const std::vector<ImageLayer>& layers = {});
 // Returns the string attributes of an EXR's first part except OpenEXR's own. Throws as readImage().
 ImageMetadata readExrMetadata(const std::string& path);
-// Returns the bytes of an sRGB JPEG; alpha is dropped.
-std::string encodeJpeg(const DisplayImage& image);
+// Returns the bytes of such a file.
+std::string encodeExr(const Image& image, const ImageMetadata& metadata,
+                      const std::vector<ImageLayer>& layers);
+// Returns the bytes of an sRGB JPEG of a quality from 1 to 100; alpha is dropped.
+std::string encodeJpeg(const DisplayImage& image, int quality = 93);
 // Writes an sRGB PNG with the metadata as text chunks, with alpha if the image has some. Keywords
 // are cut at PNG's 79 bytes.
 void writePng(const std::string& path, const DisplayImage& image, const ImageMetadata& metadata);

@@ -137,8 +137,8 @@ struct JpegWriter {
 };
 
 // Returns false on an error, which `writer.errors` describes.
-bool write(JpegWriter& writer, const DisplayImage& image, std::vector<std::uint8_t>& row) {
-  constexpr int kQuality = 93;
+bool write(JpegWriter& writer, const DisplayImage& image, int quality,
+           std::vector<std::uint8_t>& row) {
   jpeg_compress_struct& encoder = writer.encoder;
   writer.errors.watch(encoder);
   if (setjmp(writer.errors.escape) != 0) return false;
@@ -149,7 +149,7 @@ bool write(JpegWriter& writer, const DisplayImage& image, std::vector<std::uint8
   encoder.input_components = 3;
   encoder.in_color_space = JCS_RGB;
   jpeg_set_defaults(&encoder);
-  jpeg_set_quality(&encoder, kQuality, TRUE);
+  jpeg_set_quality(&encoder, quality, TRUE);
   jpeg_start_compress(&encoder, TRUE);
   while (encoder.next_scanline < encoder.image_height) {
     const std::uint8_t* pixel =
@@ -190,10 +190,10 @@ RawImage decodeJpeg(const std::string& path, std::span<const std::uint8_t> file,
   return image;
 }
 
-std::string encodeJpeg(const DisplayImage& image) {
+std::string encodeJpeg(const DisplayImage& image, int quality) {
   std::vector<std::uint8_t> row(std::size_t{3} * static_cast<std::size_t>(image.width));
   JpegWriter writer;
-  const bool written = write(writer, image, row);
+  const bool written = write(writer, image, quality, row);
   std::string bytes(reinterpret_cast<const char*>(writer.bytes), written ? writer.size : 0);
   jpeg_destroy_compress(&writer.encoder);
   std::free(writer.bytes);

@@ -1,0 +1,46 @@
+// The tree of rays of a pixel as nested lists, for the page of whit serve and for lessons: `tree` is that
+// of pageTree() in explained_rays.h. point(node) is called when the pointer comes to a ray, point(-1) when
+// it leaves.
+function make(name, text, ...children) {
+  const element = document.createElement(name);
+  if (text !== undefined && text !== '') element.textContent = text;
+  element.append(...children);
+  return element;
+}
+
+function rayTree(tree, point) {
+  const number = value => value.toFixed(5);
+  const sum = [0, 1, 2].map(i => tree.nodes.reduce((all, node) => all + node.adds[i], 0));
+  const root = make('ul');
+  root.className = 'tree';
+  const lists = [];
+  const most = Math.max(1, ...tree.nodes.map(node => node.codes));
+  tree.nodes.forEach((node, i) => {
+    const item = make('details');
+    const words = make('summary', `${node.kind}: ${node.hit}, ${node.codes} codes`);
+    words.style.color = `color-mix(in srgb, ${node.color} 75%, white)`;
+    item.open = node.codes >= 0.05 * most;
+    item.dataset.node = i;
+    const list = make('ul', '', make('li', `adds ${node.adds.map(number).join(' ')} by itself; weight ` +
+      `${node.weight}, in ${node.medium}`), ...node.lines.map(line => make('li', line)));
+    item.append(words, list);
+    words.addEventListener('pointerenter', () => point(i));
+    words.addEventListener('pointerleave', () => point(-1));
+    lists.push(list);
+    (node.parent === i ? root : lists[node.parent]).append(make('li', '', item));
+  });
+  const facts = make('p', `codes ${tree.codes.join(' ')}, reference ${tree.reference.join(' ')}; ` +
+    `${tree.nodes.length} rays, ${tree.shadowRays} shadow rays`);
+  const total = make('p', `sum of all rays ${sum.map(number).join(' ')}, pixel ` +
+    `${tree.radiance.map(number).join(' ')}`);
+  total.className = 'sum';
+  total.dataset.error = Math.max(...sum.map((value, i) =>
+    Math.abs(value - tree.radiance[i]) / Math.max(1e-6, tree.radiance[i])));
+  const legend = make('p', '', ...(tree.legend || []).map(([name, color]) => {
+    const sample = make('i');
+    sample.style.background = color;
+    return make('span', '', sample, name);
+  }));
+  legend.className = 'legend';
+  return [facts, total, legend, root];
+}

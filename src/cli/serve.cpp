@@ -1,0 +1,81 @@
+// whit serve: the viewer in a browser.
+#include <unistd.h>
+#include <cstdio>
+
+#include "cli/app/open_scene.h"
+#include "cli/commands.h"
+#include "core/error.h"
+#include "viewer/session/session.h"
+#ifdef WHIT_SERVE
+#include "viewer/serve/server.h"
+#endif
+
+namespace whit::cli {
+
+namespace {
+
+constexpr const char* kServeUsage = "whit serve SCENE [options]";
+constexpr const char* kServeSummary =
+    "Shows the viewer in a browser: prints an address to open. Where there is no browser, forward "
+    "the port over ssh, as the second line says. Control-C ends it.";
+
+struct ServeJob {
+  view::ViewOptions view;
+  std::vector<std::string> scenes;
+  std::string bind = "127.0.0.1";
+  int port = 0;
+};
+
+OptionList listOptions(ServeJob& job) {
+  OptionList list;
+  list.group("Serving");
+  list.value({"port", "N", 0, 65535}, "the port; 0 is 8765, or any free one if that is taken",
+             job.port);
+  list.value({"bind", "ADDRESS"},
+             "the address to listen on; others than 127.0.0.1 can be reached from elsewhere",
+             job.bind);
+  view::listViewOptions(list, job.view);
+  list.operands("SCENE", "a scene file, a model, or the name of a shipped scene", 1, 1, job.scenes);
+  return list;
+}
+
+#ifdef WHIT_SERVE
+int serve(const ServeJob& job) {
+  auto progress = makeProgressBar(job.view.common);
+  const std::shared_ptr<OpenScene> scene =
+      openScene(job.view.scene, job.view.common, progress.get());
+  serve::ServedSession session(job.view, scene);
+  progress.reset();
+  serve::Server server(session, {job.bind, job.port});
+  std::printf("%s\n", server.url().c_str());
+  std::fflush(stdout);
+  char machine[256] = "MACHINE";
+  ::gethostname(machine, sizeof machine - 1);
+  if (!job.view.common.quiet) {
+    std::fprintf(stderr,
+                 "Open this address in a browser. From another machine, first: "
+                 "ssh -L %d:%s:%d %s\n",
+                 server.port(), job.bind.c_str(), server.port(), machine);
+  }
+  server.run();
+  return 0;
+}
+#else
+[[noreturn]] int serve(const ServeJob& /*job*/) {
+  throwUsage(
+      "this build of whit cannot serve: it was made without cpp-httplib (libcpp-httplib-dev, "
+      "-DWHIT_SERVE=ON)");
+}
+#endif
+
+}  // namespace
+
+int serveCommand(const Words& words) {
+  ServeJob job;
+  if (!parseOptions(kServeUsage, kServeSummary, listOptions(job), words)) return 0;
+  view::settleViewOptions(job.view);
+  job.view.scene = job.scenes[0];
+  return serve(job);
+}
+
+}  // namespace whit::cli

@@ -1,0 +1,67 @@
+// The pictures for one page: which tiles are sent, as what, and when. Without knowledge of sockets
+// and clock.
+//
+// In motion the tiles that changed are sent as JPEG, at rest all that are not exact yet as PNG, a
+// few at a time. The page acknowledges each message that it has drawn. How long that takes beyond
+// the least time says how full the link is; by it the number of messages under way, the quality and
+// the pixels of pictures in motion are chosen.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "core/image.h"
+
+namespace whit::serve {
+
+inline constexpr int kTileSide = 128;              // pixels
+inline constexpr std::size_t kExactBytes = 48000;  // of PNG tiles in one message, about
+
+// A message for the page: the bytes of its tiles, and a list of their places and sizes.
+struct Tiles {
+  std::uint32_t number = 0;
+  std::string list;  // JSON: [[x, y, bytes], ...]
+  std::string bytes;
+  bool empty() const { return bytes.empty(); }
+};
+
+class PictureStream {
+ public:
+  // True while the page has acknowledged enough for another message.
+  bool ready() const { return underWay_.size() < static_cast<std::size_t>(window_); }
+
+  // Returns the next tiles that bring the page closer to this picture; none if there is nothing to
+  // send. With `exact` they are lossless.
+  Tiles next(const DisplayImage& picture, bool exact, double nowMs);
+
+  // The page has drawn the message of this number. Returns false if it was not under way.
+  bool acknowledge(std::uint32_t number, double nowMs);
+  // Time for which the oldest message has been under way; 0: there is none.
+  double waitedMs(double nowMs) const {
+    return underWay_.empty() ? 0 : nowMs - underWay_.front().ms;
+  }
+
+  // Most pixels of a picture in motion that the link is good for.
+  double mostPixels() const { return mostPixels_; }
+  int quality() const { return quality_; }
+
+ private:
+  struct Sent {
+    std::uint32_t number = 0;
+    double ms = 0;
+  };
+  void begin(const DisplayImage& picture);
+  void adapt(double delayMs);
+
+  DisplayImage last_;        // as the page has it when all is drawn, but for losses of JPEG
+  std::vector<bool> exact_;  // the tiles that the page has without loss
+  std::deque<Sent> underWay_;
+  std::uint32_t number_ = 0;
+  int window_ = 2;  // messages that may be under way
+  int quality_ = 80;
+  double mostPixels_ = 1e9, leastMs_ = 1e9;
+};
+
+}  // namespace whit::serve

@@ -1,0 +1,438 @@
+#include "viewer/serve/served_session.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <future>
+#include <type_traits>
+
+#include "cli/app/frame_summary.h"
+#include "core/error.h"
+#include "core/option_table.h"
+#include "core/text.h"
+#include "io/image/image_layers.h"
+
+namespace whit::serve {
+
+namespace {
+
+constexpr std::size_t kMostMessages = 4096;
+constexpr int kLeastSide = 16, kLargestSide = 4096;
+constexpr double kMostWindowPixels = 4e6;
+constexpr double kHeldSeconds =
+    1;  // keys are let go if the page does not repeat that they are held
+constexpr double kIdleSeconds = 0.25, kLongestSeconds = 0.1;
+constexpr std::chrono::milliseconds kWait{200};
+constexpr int kDownloadTries = 150;  // as many waits as kWait
+
+std::string colorOf(const RayStyle& style) {
+  return formatted("#%02x%02x%02x", style.color[0], style.color[1], style.color[2]);
+}
+
+// Errors of files may hold bytes that are no UTF-8.
+std::string textOf(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+template <typename Field>
+Json describeOption(const OptionSpec& spec, const Field& /*field*/) {
+  Json json{{"name", spec.name},
+            {"help", spec.help},
+            {"tab", spec.tab == Tab::knobs ? "knobs" : "picture"}};
+  const std::vector<std::string> choices = choicesOf(spec);
+  if constexpr (std::is_same_v<Field, Exposure>) {
+    json["low"] = -10, json["high"] = 10, json["step"] = 0.25;
+  } else if constexpr (std::is_same_v<Field, bool>) {
+    json["choices"] = {"off", "on"};
+  } else if (!choices.empty()) {
+    json["choices"] = choices;
+  } else if constexpr (std::is_same_v<Field, int> || std::is_same_v<Field, float>) {
+    json["low"] = std::max(spec.low, 0.0);
+    json["high"] = std::min(spec.high, std::is_same_v<Field, int> ? double{1 << 20} : 1.0);
+    json["step"] = std::is_same_v<Field, int> ? Json(1) : Json("any");
+  } else {
+    return nullptr;
+  }
+  return json;
+}
+
+}  // namespace
+
+void ServedSession::Alarm::ring() {
+  {
+    const std::lock_guard lock(mutex);
+    rung = true;
+  }
+  wake.notify_one();
+}
+
+void ServedSession::Alarm::wait(double seconds) {
+  std::unique_lock lock(mutex);
+  wake.wait_for(lock, std::chrono::duration<double>(seconds), [&] { return rung; });
+  rung = false;
+}
+
+ServedSession::ServedSession(const view::ViewOptions& options,
+                             const std::shared_ptr<cli::OpenScene>& scene)
+    : ServedSession(options, scene, std::make_shared<Alarm>()) {}
+
+ServedSession::ServedSession(const view::ViewOptions& options,
+                             const std::shared_ptr<cli::OpenScene>& scene,
+                             const std::shared_ptr<Alarm>& alarm)
+    : Session(options, scene, [alarm] { alarm->ring(); }),
+      alarm_(alarm),
+      name_(scene->scene.name),
+      tables_(textOf(tablesJson())),
+      size_(
+          options.common.render.size.value_or(ImageSize{scene->scene.width, scene->scene.height})),
+      loop_([this] { loop(); }) {}
+
+ServedSession::~ServedSession() {
+  {
+    const std::lock_guard lock(mutex_);
+    quit_ = true;
+  }
+  alarm_->ring();
+  loop_.join();
+}
+
+bool ServedSession::post(std::vector<Message> messages) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (messages_.size() + messages.size() > kMostMessages) return false;
+    std::move(messages.begin(), messages.end(), std::back_inserter(messages_));
+  }
+  alarm_->ring();
+  return true;
+}
+
+std::shared_ptr<const Shot> ServedSession::wait(std::uint64_t number) {
+  std::unique_lock lock(mutex_);
+  fresh_.wait_for(lock, kWait, [&] { return quit_ || (shot_ && shot_->number > number); });
+  return shot_;
+}
+
+void ServedSession::watch(int more) {
+  {
+    const std::lock_guard lock(mutex_);
+    pages_ += more;
+  }
+  alarm_->ring();
+}
+
+std::string ServedSession::download(bool exr) {
+  std::optional<view::TracedFrame> frame;
+  for (int i = 0; i < kDownloadTries && !frame; ++i) {
+    const auto task =
+        std::make_shared<std::packaged_task<std::optional<view::TracedFrame>()>>([this] {
+          const view::FrameRequest& request = shown_.request;
+          const bool whole = shown_.scene && request.interruptible && !request.coarse;
+          return whole ? std::optional(shown_) : std::nullopt;
+        });
+    std::future<std::optional<view::TracedFrame>> answer = task->get_future();
+    {
+      const std::lock_guard lock(mutex_);
+      work_.emplace_back([task] { (*task)(); });
+    }
+    alarm_->ring();
+    if (answer.wait_for(10 * kWait) != std::future_status::ready) return "";
+    frame = answer.get();
+    if (!frame) std::this_thread::sleep_for(kWait);
+  }
+  if (!frame) return "";
+  return exr ? encodeExr(frame->film.image, frame->metadata, layersOf(frame->film.channels))
+             : encodePng(frame->film.display, frame->metadata);
+}
+
+void ServedSession::fail(const std::string& error) {
+  error_ = error;
+  changed_ = true;
+}
+
+void ServedSession::loop() {
+  Stopwatch sinceStep;
+  for (;;) {
+    alarm_->wait(waitSeconds());
+    {
+      const std::lock_guard lock(mutex_);
+      if (quit_) return;
+    }
+    const double seconds = std::exchange(sinceStep, Stopwatch()).ms() / 1000;
+    try {
+      step(std::min(seconds, kLongestSeconds));
+    } catch (const std::exception& error) {
+      fail(error.what());
+    }
+  }
+}
+
+double ServedSession::waitSeconds() const {
+  const bool active =
+      !thread_.committed() && (isActive() || !sharp_ || heldSeconds_ < kHeldSeconds);
+  return active ? 1 / resolution_.rate() : kIdleSeconds;
+}
+
+void ServedSession::step(double seconds) {
+  std::vector<Message> messages;
+  std::vector<std::function<void()>> work;
+  bool watched = false;
+  {
+    const std::lock_guard lock(mutex_);
+    messages.swap(messages_);
+    work.swap(work_);
+    watched = pages_ > 0;
+  }
+  const bool fresh = fetchFrame();
+  for (const Message& message : messages) {
+    try {
+      error_.clear();
+      serve(message);
+    } catch (const std::exception& error) {
+      fail(error.what());
+    }
+  }
+  for (const auto& task : work) task();
+  if (!watched) return;
+  view::CameraMotion motion = held_;
+  heldSeconds_ += seconds;
+  if (heldSeconds_ > kHeldSeconds) motion = held_ = view::CameraMotion();
+  const view::CameraMotion dragged = motionOf(drags_, size_.height / pixelsForCss_, 1);
+  drags_ = view::Drags();
+  motion.wheel = dragged.wheel;
+  motion.orbitX = dragged.orbitX, motion.orbitY = dragged.orbitY;
+  motion.lookX = dragged.lookX, motion.lookY = dragged.lookY;
+  motion.panX = dragged.panX, motion.panY = dragged.panY;
+  resolution_.setMostPixels(mostPixels_);
+  advance(motion, seconds);
+  if (fresh || changed_ || sharp_ != wasSharp_) publish();
+}
+
+void ServedSession::serve(const Message& message) {
+  const auto& n = message.numbers;
+  const auto add = [&](view::Drag& drag) {
+    drag.x += n[0], drag.y += n[1];
+    if (drag.any()) pathTime_.reset();
+  };
+  changed_ = true;
+  switch (message.act) {
+    case Act::size: {
+      const double shrink = std::sqrt(std::min(kMostWindowPixels / (n[0] * n[1]), 1.0));
+      const auto side = [&](double pixels) {
+        return std::clamp(static_cast<int>(pixels * shrink), kLeastSide, kLargestSide);
+      };
+      size_ = {side(n[0]), side(n[1])};
+      pixelsForCss_ = n[2];
+      return;
+    }
+    case Act::left:
+      return add(drags_.left);
+    case Act::middle:
+      return add(drags_.middle);
+    case Act::right:
+      return add(drags_.right);
+    case Act::wheel:
+      drags_.wheel += n[0];
+      return;
+    case Act::hold:
+      held_ = view::CameraMotion();
+      held_.forward = n[0], held_.right = n[1], held_.up = n[2];
+      held_.turnRight = n[3], held_.turnUp = n[4], held_.fast = n[5] > 0;
+      heldSeconds_ = 0;
+      if (n[0] != 0 || n[1] != 0 || n[2] != 0) pathTime_.reset();
+      return;
+    case Act::click:
+      return pick(std::min(static_cast<int>(n[0]), size_.width - 1),
+                  std::min(static_cast<int>(n[1]), size_.height - 1));
+    case Act::camera:
+      return jumpToNumber(static_cast<std::size_t>(n[0]));
+    case Act::fit:
+      return fitView(size_);
+    case Act::path:
+      return startOrStopPath();
+    case Act::aside:
+      settings_.rays.fromAside = true;
+      return;
+    case Act::forget:
+      settings_.rays.forget = true;
+      return;
+    case Act::reload:
+      return reload();
+    case Act::play:
+    case Act::time:
+    case Act::animation:
+      return serveTime(message);
+    default:
+      return serveOption(message);
+  }
+}
+
+void ServedSession::serveTime(const Message& message) {
+  view::Timeline& timeline = settings_.timeline;
+  if (!timeline.there) throwUsage("nothing moves in this scene");
+  restSeconds_ = 0;
+  if (message.act == Act::animation) {
+    if (std::ranges::find(timeline.animations, message.text) == timeline.animations.end()) {
+      throwUsage("no animation is called '" + message.text + "'");
+    }
+    timeline.animation = message.text;
+    return changeAnimation();
+  }
+  timeline.playing = message.act == Act::play && !timeline.playing;
+  if (message.act == Act::time) timeline.seconds = std::min(message.numbers[0], timeline.length);
+  followCamera();
+}
+
+void ServedSession::serveOption(const Message& message) {
+  RenderOptions next = settings_.options;
+  switch (message.act) {
+    case Act::expose:
+      return expose(static_cast<float>(message.numbers[0]));
+    case Act::rate:
+      settings_.rate = message.numbers[0];
+      return;
+    case Act::more:
+      settings_.supersample = !settings_.supersample;
+      return;
+    case Act::measure:
+      settings_.measureKnobs = !settings_.measureKnobs;
+      return;
+    case Act::view:
+      parseValue(view::kViewOption, message.text, settings_.view);
+      break;
+    case Act::preset:
+      setOption(next, "quality", message.text);
+      applyQuality(next, {"mode"});  // the reference is too slow here
+      break;
+    case Act::effect: {
+      const bool on = message.numbers[0] > 0;
+      parseEffects(message.name).forEach([&](Effect effect) {
+        next.disable = on ? next.disable.without(effect) : next.disable.with(effect);
+      });
+      break;
+    }
+    default: {
+      bool known = false;
+      forEachOption(next, [&](const OptionSpec& spec, const auto&) {
+        known |= spec.tab != Tab::none && spec.name == message.name;
+      });
+      if (!known) throwUsage("the page has no option '" + message.name + "'");
+      setOption(next, message.name, message.text);
+    }
+  }
+  settings_.options = next;
+  restSeconds_ = 0;
+}
+
+void ServedSession::publish() {
+  if (!shown_.scene) return;
+  if (shown_.request.interruptible) command_ = command(viewOptions());
+  auto shot = std::make_shared<Shot>();
+  shot->picture = unfinished_ ? unfinished_->display : shown_.film.display;
+  shot->exact = wasSharp_ = sharp_;
+  shot->live = textOf(liveJson());
+  const bool said = std::exchange(changed_, false) || shown_.request.interruptible;
+  const std::shared_ptr<const Shot> before = shot_;  // only this thread writes it
+  shot->settled = said || !before ? textOf(settledJson()) : before->settled;
+  shot->number = before ? before->number + 1 : 1;
+  const bool same = before && before->settled == shot->settled;
+  shot->settledNumber = same ? before->settledNumber : shot->number;
+  {
+    const std::lock_guard lock(mutex_);
+    shot_ = std::move(shot);
+  }
+  fresh_.notify_all();
+}
+
+Json ServedSession::tablesJson() const {
+  Json json{{"scene", scene().name},
+            {"orbits", control_.orbits()},
+            {"options", Json::array()},
+            {"presets", {"good", "standard", "fine", "reference"}},
+            {"views", Json::array()}};
+  for (const Camera& camera : scene().cameras) json["cameras"].push_back(camera.name);
+  json["path"] = !scene().cameraPath.empty();
+  for (const char* name : kDebugViewNames) json["views"].push_back(name);
+  forEachOption(settings_.options, [&](const OptionSpec& spec, const auto& field) {
+    if (spec.tab == Tab::none) return;
+    if (Json option = describeOption(spec, field); !option.is_null())
+      json["options"].push_back(option);
+  });
+  return json;
+}
+
+Json ServedSession::liveJson() const {
+  const FrameStats& stats = shown_.stats;
+  std::string status = unfinished_
+                           ? samplesText(*unfinished_)
+                           : sharpnessText(shown_.request) + view::errorText(shown_.sampleError);
+  if (pictureMs_ > 0) status += formatted(", %.0f frames/s", 1000 / pictureMs_);
+  const view::Timeline& timeline = settings_.timeline;
+  Json json{{"status", status},
+            {"message", messageSeconds_ > 0 ? message_ : ""},
+            {"error", error_},
+            {"sharp", sharp_},
+            {"window", {size_.width, size_.height}},
+            {"ms", stats.frameMs},
+            {"embree", stats.embreeMs()}};
+  if (timeline.there) json["time"] = {timeline.seconds, timeline.length, timeline.playing};
+  for (std::size_t i = 0; i < kStageCount; ++i) {
+    json["stages"].push_back({kStageNames[i], stats.stageMs(static_cast<Stage>(i))});
+  }
+  for (std::size_t i = 0; i < kRayKindCount; ++i) {
+    const RayTally& tally = stats.meter.tally[i];
+    if (!kRayKinds[i].calledForBy(shown_.effects)) continue;
+    json["rays"].push_back({kRayKinds[i].name, static_cast<double>(tally.rays) / 1e3,
+                            cli::mraysPerSecond(tally.rays, stats.frameMs),
+                            100 * cli::lanesFilled(tally)});
+  }
+  if (shown_.debug) json["legend"] = shown_.debug->legend();
+  if (settings_.measureKnobs) json["measured"] = shown_.measured;
+  if (!rays_.scene) return json;
+  const LineView view(shown_.request.camera, size_.width, size_.height);
+  for (const RayLine& line : rays_.lines) {
+    auto seen = view.see(line.from, line.to);
+    if (!seen || !view::clip(*seen, size_.width, size_.height)) continue;
+    const auto rounded = [](double x) { return std::round(10 * x) / 10; };
+    json["lines"].push_back({rounded(seen->x1), rounded(seen->y1), rounded(seen->x2),
+                             rounded(seen->y2), colorOf(styleOf(line.look)), isDashed(line.look),
+                             rounded(line.width), line.node});
+  }
+  return json;
+}
+
+Json ServedSession::settledJson() const {
+  Json json{{"command", command_},
+            {"view", kDebugViewNames[static_cast<std::size_t>(settings_.view)]},
+            {"rate", settings_.rate},
+            {"more", settings_.supersample},
+            {"options", Json::object()}};
+  forEachOption(settings_.options, [&](const OptionSpec& spec, const auto& field) {
+    if (spec.tab != Tab::none) json["options"][std::string(spec.name)] = formatValue(spec, field);
+  });
+  for (std::size_t i = 0; i < kEffectNames.size(); ++i) {
+    const EffectReason& reason = shown_.reasons[i];
+    json["effects"].push_back({kEffectNames[i].name, reason.on,
+                               !settings_.options.disable.has(static_cast<Effect>(i)),
+                               reason.because});
+  }
+  for (const view::KnobCost& cost : view::toldFromNoise(costs_)) {
+    json["costs"].push_back({cost.name, view::costText(cost)});
+  }
+  json["about"] = formatted("%s, %s; %s, packets of %d, %d threads", scene().name.c_str(),
+                            shown_.surfaces.c_str(), shown_.machine.simd.c_str(),
+                            shown_.machine.packet, shown_.machine.threads);
+  if (!settings_.timeline.animations.empty()) {
+    json["animations"] = settings_.timeline.animations;
+    json["animation"] = settings_.timeline.animation;
+  }
+  if (rays_.scene) {
+    json["tree"] = cli::pageTree(rays_.words, rays_.rays, settings_.options);
+    json["tree"]["pixel"] = {rays_.query.x, rays_.query.y};
+    for (const RayLook look : looksOf(rays_.lines)) {
+      json["tree"]["legend"].push_back({styleOf(look).name, colorOf(styleOf(look))});
+    }
+  }
+  return json;
+}
+
+}  // namespace whit::serve

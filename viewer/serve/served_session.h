@@ -1,0 +1,97 @@
+// The viewer whose face is a page in a browser. All pages show the same view, and each may change
+// it.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "viewer/serve/messages.h"
+#include "viewer/session/session.h"
+
+namespace whit::serve {
+
+// A picture as pages show it, and what they write beside it, as JSON.
+struct Shot {
+  std::uint64_t number = 0;
+  DisplayImage picture;
+  bool exact = false;   // nothing moves and it gets no finer
+  std::string live;     // changes from picture to picture: times, status, lines of rays
+  std::string settled;  // changes when the user does something: options, effects, the ray tree
+  std::uint64_t settledNumber = 0;
+};
+
+class ServedSession : public view::Session {
+ public:
+  ServedSession(const view::ViewOptions& options, const std::shared_ptr<cli::OpenScene>& scene);
+  ~ServedSession() override;
+
+  // The functions below may be called from any thread.
+
+  // Takes what a user has done. Returns false if too much waits already.
+  bool post(std::vector<Message> messages);
+  // Returns the newest shot, or null; waits some time for one that is newer than `number`.
+  std::shared_ptr<const Shot> wait(std::uint64_t number);
+  // Changes the number of pages. Without any, nothing is traced.
+  void watch(int more);
+  // Sets the most pixels of pictures in motion that the best link is good for.
+  void limitPixels(double pixels) { mostPixels_ = pixels; }
+  // Returns the file of the view at full resolution, an EXR or a PNG; empty if that takes too long.
+  std::string download(bool exr);
+  // What does not change, as JSON: the table of options, cameras, views.
+  const std::string& tables() const { return tables_; }
+  const std::string& name() const { return name_; }
+
+ private:
+  // Wakes the loop; the tracing thread may outlive the rest of this object.
+  struct Alarm {
+    std::mutex mutex;
+    std::condition_variable wake;
+    bool rung = false;
+    void ring();
+    void wait(double seconds);
+  };
+  ServedSession(const view::ViewOptions& options, const std::shared_ptr<cli::OpenScene>& scene,
+                const std::shared_ptr<Alarm>& alarm);
+  void fail(const std::string& error) override;
+  ImageSize windowPixels() const override { return size_; }
+
+  void loop();
+  double waitSeconds() const;
+  void step(double seconds);
+  void serve(const Message& message);
+  void serveOption(const Message& message);
+  void serveTime(const Message& message);
+  void publish();
+  Json tablesJson() const;
+  Json liveJson() const;
+  Json settledJson() const;
+
+  const std::shared_ptr<Alarm> alarm_;
+  const std::string name_, tables_;
+  ImageSize size_;
+  double pixelsForCss_ = 1;
+  view::Drags drags_;
+  view::CameraMotion held_;
+  double heldSeconds_ = 0;  // time since the page said what is held
+  std::atomic<double> mostPixels_ = 1e9;
+  bool changed_ = true;  // something but the picture is to be shown
+  bool wasSharp_ = false;
+  std::string command_;  // makes the picture at rest
+
+  std::mutex mutex_;  // guards all that follows
+  std::condition_variable fresh_;
+  std::vector<Message> messages_;
+  std::vector<std::function<void()>> work_;  // for the loop
+  std::shared_ptr<const Shot> shot_;
+  int pages_ = 0;
+  bool quit_ = false;
+  std::thread loop_;
+};
+
+}  // namespace whit::serve

@@ -1,0 +1,462 @@
+#include "viewer/serve/server.h"
+
+#include <arpa/inet.h>
+#include <httplib.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+#include <sys/random.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cctype>
+#include <chrono>
+#include <list>
+#include <map>
+#include <type_traits>
+
+#include "core/error.h"
+#include "core/option_table.h"
+#include "core/text.h"
+#include "viewer/serve/picture_stream.h"
+
+namespace whit::serve {
+
+namespace {
+
+constexpr const char* kPage =
+#include "page_html.inc"
+    ;
+
+constexpr double kWriteSeconds = 5, kStrangerIdleSeconds = 5, kTrustedIdleSeconds = 60;
+constexpr int kMostRequests = 100000;  // of a connection
+constexpr double kAliveMs = 2000;      // between messages to a page that has nothing to draw
+
+}  // namespace
+
+// A connection's bytes. It allows each request so many of them, and so much time.
+class Connection : public httplib::Stream {
+ public:
+  explicit Connection(socket_t socket) : socket_(socket) {}
+
+  // Waits for a request and allows it its share; returns false if none comes.
+  bool begin() {
+    left_ = kRequestBytes + kMessageBytes;
+    since_ = Stopwatch();
+    if (at_ < size_) return true;
+    return ready(POLLIN, trusted ? kTrustedIdleSeconds : kStrangerIdleSeconds);
+  }
+
+  bool is_readable() const override { return at_ < size_ || ready(POLLIN, 0); }
+  bool is_writable() const override { return ready(POLLOUT, kWriteSeconds); }
+
+  ssize_t read(char* to, std::size_t size) override {
+    if (at_ == size_) {
+      if (left_ == 0 || !ready(POLLIN, kRequestSeconds - since_.ms() / 1000)) return -1;
+      const ssize_t got = ::recv(socket_, buffer_, std::min(left_, sizeof buffer_), 0);
+      if (got <= 0) return got;
+      at_ = 0, size_ = static_cast<std::size_t>(got);
+      left_ -= size_;
+    }
+    const std::size_t count = std::min(size, size_ - at_);
+    std::copy_n(buffer_ + at_, count, to);
+    at_ += count;
+    return static_cast<ssize_t>(count);
+  }
+
+  ssize_t write(const char* from, std::size_t size) override {
+    if (!is_writable()) return -1;
+    return ::send(socket_, from, size, MSG_NOSIGNAL | MSG_DONTWAIT);
+  }
+
+  // Nothing asks who is at the other end.
+  void get_remote_ip_and_port(std::string& /*ip*/, int& /*port*/) const override {}
+  void get_local_ip_and_port(std::string& /*ip*/, int& /*port*/) const override {}
+  socket_t socket() const override { return socket_; }
+
+  std::atomic<bool> trusted = false;  // it has shown the token
+  bool leaves = false;                // it makes room for another one
+
+ private:
+  bool ready(short events, double seconds) const {
+    pollfd asked{socket_, static_cast<short>(events | POLLRDHUP), 0};
+    const int ms = static_cast<int>(std::max(1000 * seconds, 0.0));
+    const bool any = ::poll(&asked, 1, ms) > 0;
+    return any && (asked.revents & events) != 0 && (asked.revents & (POLLERR | POLLHUP)) == 0 &&
+           (events == POLLIN || (asked.revents & POLLRDHUP) == 0);
+  }
+
+  socket_t socket_;
+  char buffer_[4096];
+  std::size_t at_ = 0, size_ = 0, left_ = 0;
+  Stopwatch since_;
+};
+
+// A thread for each connection; the server has few of them.
+class Threads : public httplib::TaskQueue {
+ public:
+  using Enqueued = decltype(std::declval<httplib::TaskQueue&>().enqueue({}));  // void or bool
+
+  Enqueued enqueue(std::function<void()> work) override {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return count_ < kMostConnections; });
+    ++count_;
+    std::thread([this, work = std::move(work)] {
+      work();
+      const std::lock_guard done(mutex_);
+      --count_;
+      changed_.notify_all();
+    }).detach();
+    return static_cast<Enqueued>(true);
+  }
+
+  void shutdown() override {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return count_ == 0; });
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  int count_ = 0;
+};
+
+namespace {
+
+thread_local Connection* current = nullptr;  // whose request this thread answers
+
+std::string header(const httplib::Request& request, const char* name) {
+  return request.get_header_value(name);
+}
+
+// The bytes of a number as the page reads it.
+std::string wordOf(std::size_t value) {
+  std::string bytes(4, '\0');
+  for (int i = 0; i < 4; ++i) bytes[i] = static_cast<char>(value >> (8 * i));
+  return bytes;
+}
+
+}  // namespace
+
+// The side of a page: what it has been sent, and what comes next.
+class Page {
+ public:
+  Page(ServedSession& session, int number) : session_(session), number_(number) {
+    session_.watch(1);
+  }
+  ~Page() { session_.watch(-1); }
+  Page(const Page&) = delete;
+  Page& operator=(const Page&) = delete;
+
+  // Returns the next message, empty if there is none yet; false when the page is deaf.
+  bool next(std::string& message) {
+    std::unique_lock lock(mutex_);
+    if (pictures_.waitedMs(clock_.ms()) > 1000 * kDeafSeconds) return false;
+    const bool more =
+        changed_.wait_for(lock, std::chrono::milliseconds(100), [&] { return pictures_.ready(); });
+    if (!more) return true;
+    const bool unfinished = moreTiles_;
+    lock.unlock();
+    const std::shared_ptr<const Shot> shot = session_.wait(unfinished ? 0 : seen_);
+    lock.lock();
+    const bool news = shot && (shot->number != seen_ || unfinished);
+    if (!news && clock_.ms() - sentMs_ < kAliveMs) return true;
+    std::string json = "{\"page\":" + std::to_string(number_), tiles;
+    if (!std::exchange(greeted_, true)) json += ",\"tables\":" + session_.tables();
+    if (news) {
+      const Tiles next = pictures_.next(shot->picture, shot->exact, clock_.ms());
+      moreTiles_ = shot->exact && !next.empty();
+      json += ",\"size\":[" + std::to_string(shot->picture.width) + "," +
+              std::to_string(shot->picture.height) + "],\"live\":" + shot->live +
+              ",\"exact\":" + (shot->exact && next.empty() ? "true" : "false");
+      if (!next.empty())
+        json += ",\"frame\":" + std::to_string(next.number) + ",\"tiles\":" + next.list;
+      tiles = next.bytes;
+      if (shot->settledNumber != settled_) json += ",\"settled\":" + shot->settled;
+      settled_ = shot->settledNumber;
+      seen_ = shot->number;
+    }
+    json += "}";
+    message = wordOf(4 + json.size() + tiles.size()) + wordOf(json.size()) + json + tiles;
+    sentMs_ = clock_.ms();
+    return true;
+  }
+
+  bool acknowledge(std::uint32_t frame) {
+    const std::lock_guard lock(mutex_);
+    changed_.notify_one();
+    const bool known = pictures_.acknowledge(frame, clock_.ms());
+    mostPixels_ = pictures_.mostPixels();
+    return known;
+  }
+
+  double mostPixels() const { return mostPixels_; }
+
+ private:
+  ServedSession& session_;
+  const int number_;
+  const Stopwatch clock_;
+  double sentMs_ = 0;
+  std::uint64_t seen_ = 0, settled_ = 0;
+  bool greeted_ = false, moreTiles_ = false;
+  std::atomic<double> mostPixels_ = 1e9;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  PictureStream pictures_;
+};
+
+std::string randomToken() {
+  unsigned char bits[16];
+  if (::getrandom(bits, sizeof bits, 0) != sizeof bits) throwIo("the system gives no random bits");
+  std::string token;
+  for (const unsigned char byte : bits) token += formatted("%02x", byte);
+  return token;
+}
+
+bool sameToken(std::string_view a, std::string_view b) {
+  unsigned difference = a.size() == b.size() ? 0 : 1;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+    difference |= static_cast<unsigned>(a[i] ^ b[i]);
+  }
+  return difference == 0;
+}
+
+bool isOwnHost(const std::string& host, const std::string& bind) {
+  std::string name = host;
+  const std::size_t colon = name.rfind(':');
+  if (colon != std::string::npos && name.find(']', colon) == std::string::npos) {
+    int port = 0;
+    if (!readNumber(name.substr(colon + 1), port) || port < 1 || port > 65535) return false;
+    name.resize(colon);
+  }
+  if (name == "localhost" || name == bind) return true;
+  if (name.size() > 2 && name.front() == '[' && name.back() == ']') {
+    name = name.substr(1, name.size() - 2);
+  }
+  unsigned char address[sizeof(in6_addr)];
+  return ::inet_pton(AF_INET, name.c_str(), address) == 1 ||
+         ::inet_pton(AF_INET6, name.c_str(), address) == 1;
+}
+
+class Server::Http : public httplib::Server {
+ public:
+  Http(serve::Server& server, ServedSession& session) : server_(server), session_(session) {
+    using httplib::Request, httplib::Response;
+    new_task_queue = [] { return new Threads; };
+    set_payload_max_length(kMessageBytes);
+    set_tcp_nodelay(true);
+    set_keep_alive_max_count(kMostRequests);
+    set_keep_alive_timeout(static_cast<time_t>(kTrustedIdleSeconds));
+    set_socket_options([](socket_t socket) {  // without SO_REUSEPORT: nobody else gets our port
+      const int yes = 1;
+      ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    });
+    set_pre_routing_handler([this](const Request& request, Response& response) {
+      response.status = refusalOf(request);
+      if (response.status == 0) {
+        response.status = -1;
+        current->trusted = true;
+        return HandlerResponse::Unhandled;
+      }
+      response.set_header("Connection", "close");
+      response.set_content("refused\n", "text/plain");
+      return HandlerResponse::Handled;
+    });
+    set_exception_handler([](const Request&, Response& response, std::exception_ptr thrown) {
+      response.status = 400;
+      try {
+        std::rethrow_exception(thrown);
+      } catch (const std::exception& error) {
+        response.set_content(printable(error.what()) + "\n", "text/plain");
+      }
+    });
+    std::string policy =
+        "default-src 'none'; connect-src 'self'; img-src blob: data:; base-uri 'none'; form-action "
+        "'none'; script-src 'nonce-NONCE'; style-src 'nonce-NONCE'; frame-ancestors ";
+    policy += server.options_.framed ? "http://localhost:* http://127.0.0.1:*" : "'none'";
+    set_default_headers({{"X-Content-Type-Options", "nosniff"},
+                         {"Referrer-Policy", "no-referrer"},
+                         {"Cache-Control", "no-store"}});
+    const std::string root = "/" + server.token_ + "/";
+    Get(root, [policy](const Request&, Response& response) {
+      const std::string nonce = randomToken();
+      const auto withNonce = [&](std::string text) {
+        for (std::size_t at; (at = text.find("NONCE")) != std::string::npos;) {
+          text.replace(at, 5, nonce);
+        }
+        return text;
+      };
+      response.set_header("Content-Security-Policy", withNonce(policy));
+      response.set_content(withNonce(kPage), "text/html; charset=utf-8");
+    });
+    Get(root + "stream", [this](const Request&, Response& response) { stream(response); });
+    Get(root + "picture.png", [this](const Request&, Response& r) { download(r, false); });
+    Get(root + "picture.exr", [this](const Request&, Response& r) { download(r, true); });
+    Post(root + "input", [this](const Request& request, Response& response) {
+      response.status = session_.post(readMessages(request.body)) ? 204 : 429;
+    });
+    Post(root + "ack", [this](const Request& request, Response& response) {
+      response.status = acknowledge(request.body) ? 204 : 400;
+    });
+  }
+
+  // Ends all connections, so that their threads end.
+  void hangUp() {
+    const std::lock_guard lock(mutex_);
+    for (const Connection* connection : connections_) ::shutdown(connection->socket(), SHUT_RDWR);
+  }
+
+ private:
+  // Returns the status by which a request is refused; 0: it is not.
+  int refusalOf(const httplib::Request& request) const {
+    const std::string host = header(request, "Host"), origin = header(request, "Origin");
+    if (!isOwnHost(host, server_.options_.bind)) return 421;
+    if (!origin.empty() && origin != "http://" + host) return 403;
+    const std::string_view path = request.path;
+    constexpr std::size_t kTokenEnd = 33;  // "/" and 32 digits
+    const bool shown = path.size() > kTokenEnd && path[0] == '/' && path[kTokenEnd] == '/' &&
+                       sameToken(path.substr(1, kTokenEnd - 1), server_.token_);
+    if (!shown) return 403;
+    const std::string_view thing = path.substr(kTokenEnd + 1);
+    const bool isInput = thing == "input" || thing == "ack";
+    const bool isOther =
+        thing.empty() || thing == "stream" || thing == "picture.png" || thing == "picture.exr";
+    if (!isInput && !isOther) return 404;
+    if (request.method != (isInput ? "POST" : "GET")) return 405;
+    // What is encoded may be larger than it looks.
+    const bool encoded = request.has_header("Content-Encoding") || request.is_multipart_form_data();
+    return encoded ? 415 : 0;
+  }
+
+  void stream(httplib::Response& response) {
+    const std::lock_guard lock(pagesMutex_);
+    std::erase_if(pages_, [](const auto& page) { return page.second.expired(); });
+    if (pages_.size() >= kMostPages) {
+      response.status = 503;
+      response.set_content("too many pages are open\n", "text/plain");
+      return;
+    }
+    const int number = ++lastPage_;
+    const auto page = std::make_shared<Page>(session_, number);
+    pages_[number] = page;
+    response.set_chunked_content_provider(
+        "application/octet-stream", [page](std::size_t, httplib::DataSink& sink) {
+          std::string message;
+          return page->next(message) &&
+                 (message.empty() || sink.write(message.data(), message.size()));
+        });
+  }
+
+  bool acknowledge(const std::string& body) {
+    int number = 0;
+    std::uint32_t frame = 0;
+    const std::size_t blank = std::min(body.find(' '), body.size());
+    const bool read = readNumber(body.substr(0, blank), number) && blank < body.size() &&
+                      readNumber(body.substr(blank + 1), frame);
+    if (!read) return false;
+    std::vector<std::shared_ptr<Page>> open;
+    std::shared_ptr<Page> page;
+    {
+      const std::lock_guard lock(pagesMutex_);
+      for (const auto& [known, weak] : pages_) {
+        open.push_back(weak.lock());
+        if (known == number) page = open.back();
+      }
+    }
+    if (!page || !page->acknowledge(frame)) return false;
+    double most = 0;  // the best link decides, so that a slow one does not blur the others
+    for (const auto& other : open) most = std::max(most, other ? other->mostPixels() : 0);
+    session_.limitPixels(most);
+    return true;
+  }
+
+  void download(httplib::Response& response, bool exr) {
+    const std::unique_lock lock(downloading_, std::try_to_lock);
+    const std::string bytes = lock ? session_.download(exr) : std::string();
+    response.status = bytes.empty() ? 503 : 200;
+    if (bytes.empty()) return response.set_content("busy; try again\n", "text/plain");
+    std::string name;
+    for (const char c : session_.name())
+      name += std::isalnum(static_cast<unsigned char>(c)) ? c : '-';
+    const char* const extension = exr ? ".exr" : ".png";
+    response.set_header("Content-Disposition", "attachment; filename=\"" + name + extension + "\"");
+    response.set_content(bytes, exr ? "image/x-exr" : "image/png");
+  }
+
+  bool process_and_close_socket(socket_t socket) override {
+    Connection connection(socket);
+    {
+      const std::lock_guard lock(mutex_);
+      const auto isStranger = [](const Connection* known) {
+        return !known->trusted && !known->leaves;
+      };
+      if (std::ranges::count_if(connections_, isStranger) >= kMostStrangers) {
+        Connection* const oldest = *std::ranges::find_if(connections_, isStranger);
+        oldest->leaves = true;
+        ::shutdown(oldest->socket(), SHUT_RDWR);
+      }
+      connections_.push_back(&connection);
+    }
+    current = &connection;
+    bool closed = false;
+    for (int left = kMostRequests; left > 0 && !closed && connection.begin(); --left) {
+      if (!answer(connection, left == 1, closed)) break;
+    }
+    const std::lock_guard lock(mutex_);
+    connections_.remove(&connection);
+    ::shutdown(socket, SHUT_RDWR);
+    ::close(socket);
+    return true;
+  }
+
+  // Newer versions of the library want to know the addresses as well.
+  template <typename Stream>
+  bool answer(Stream& stream, bool last, bool& closed) {
+    if constexpr (requires { this->process_request(stream, last, closed, nullptr); }) {
+      return this->process_request(stream, last, closed, nullptr);
+    } else {
+      return this->process_request(stream, "", 0, "", 0, last, closed, nullptr);
+    }
+  }
+
+  serve::Server& server_;
+  ServedSession& session_;
+  std::mutex mutex_;
+  std::list<Connection*> connections_;  // the oldest first
+  std::mutex pagesMutex_;
+  std::map<int, std::weak_ptr<Page>> pages_;
+  int lastPage_ = 0;
+  std::mutex downloading_;
+};
+
+Server::Server(ServedSession& session, const ServerOptions& options)
+    : options_(options), token_(randomToken()), http_(std::make_unique<Http>(*this, session)) {
+  const int wanted = options.port > 0 ? options.port : kUsualPort;
+  if (http_->bind_to_port(options.bind, wanted)) {
+    port_ = wanted;
+  } else if (options.port == 0) {
+    port_ = http_->bind_to_any_port(options.bind);
+  }
+  if (port_ <= 0) {
+    throwIo(
+        formatted("cannot listen on %s, port %d: the port is taken, or the address is not this "
+                  "machine's",
+                  printable(options.bind).c_str(), wanted));
+  }
+}
+
+Server::~Server() { stop(); }
+
+std::string Server::url() const {
+  const bool v6 = options_.bind.find(':') != std::string::npos;
+  return "http://" + (v6 ? "[" + options_.bind + "]" : options_.bind) + ":" +
+         std::to_string(port_) + "/" + token_ + "/";
+}
+
+void Server::run() { http_->listen_after_bind(); }
+
+void Server::stop() {
+  http_->stop();
+  http_->hangUp();
+}
+
+}  // namespace whit::serve

@@ -1,0 +1,58 @@
+// The HTTP server of `whit serve`.
+//
+// A page's address holds a random token, without which no request is answered. Requests name one of
+// five things, and none of them is a file. Connections that have not shown the token are few: a new
+// one displaces the oldest.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "viewer/serve/served_session.h"
+
+namespace whit::serve {
+
+struct ServerOptions {
+  std::string bind = "127.0.0.1";
+  int port = 0;         // 0: kUsualPort, or any free one if that is taken
+  bool framed = false;  // pages of this machine may show the page in a frame, as notebooks do
+};
+inline constexpr int kUsualPort = 8765;
+
+inline constexpr int kMostPages = 16;
+inline constexpr int kMostStrangers = 32;  // connections that have not shown the token
+inline constexpr int kMostConnections = 128;
+inline constexpr std::size_t kRequestBytes = 8192;  // without the body
+inline constexpr double kRequestSeconds = 5;        // in which a request is to arrive
+inline constexpr double kDeafSeconds =
+    10;  // a page that acknowledges nothing for so long is dropped
+
+// Returns 128 random bits from the system, in hexadecimal.
+std::string randomToken();
+// Returns whether both are the same, in a time that does not depend on where they differ.
+bool sameToken(std::string_view a, std::string_view b);
+// Returns whether a Host header names the machine in a way that nobody else's DNS can: by an
+// address or as localhost, or by the name that the server was bound to.
+bool isOwnHost(const std::string& host, const std::string& bind);
+
+class Server {
+ public:
+  // Listens. Throws Error(io) if the address or the port cannot be had.
+  Server(ServedSession& session, const ServerOptions& options);
+  ~Server();  // ends all connections
+
+  int port() const { return port_; }
+  const std::string& token() const { return token_; }
+  std::string url() const;
+  void run();   // returns after stop()
+  void stop();  // any thread may call it
+
+ private:
+  class Http;
+  const ServerOptions options_;
+  const std::string token_;
+  std::unique_ptr<Http> http_;
+  int port_ = 0;
+};
+
+}  // namespace whit::serve
