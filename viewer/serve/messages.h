@@ -11,6 +11,7 @@ namespace whit::serve {
 
 // The acts. The words of the lines are kVerbs, in the same order.
 enum class Act {
+  ack,
   size,
   left,
   middle,
@@ -46,6 +47,7 @@ struct Verb {
 };
 inline constexpr double kLongestDrag = 1e5;  // pixels
 inline constexpr std::array kVerbs{
+    Verb{"ack", 2, 0, 4e9},      // number of the page, and of the message that it has drawn
     Verb{"size", 3, 0.1, 8192},  // width and height of the picture, and its pixels for each of CSS
     Verb{"left", 2, -kLongestDrag, kLongestDrag},
     Verb{"middle", 2, -kLongestDrag, kLongestDrag},

@@ -10,7 +10,7 @@ namespace whit::serve {
 namespace {
 
 constexpr int kLeastQuality = 40, kLargestQuality = 90, kMostUnderWay = 6;
-constexpr double kFullMs = 70, kFreeMs = 25;  // of delay beyond the least
+constexpr double kFullMs = 90, kFreeMs = 40;  // of delay beyond the least
 constexpr double kLeastPixels = 160 * 100;
 constexpr double kLeastMsGrows = 0.2;  // an acknowledgement: links change
 

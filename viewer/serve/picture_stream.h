@@ -59,7 +59,7 @@ class PictureStream {
   std::vector<bool> exact_;  // the tiles that the page has without loss
   std::deque<Sent> underWay_;
   std::uint32_t number_ = 0;
-  int window_ = 2;  // messages that may be under way
+  int window_ = 3;  // messages that may be under way
   int quality_ = 80;
   double mostPixels_ = 1e9, leastMs_ = 1e9;
 };

@@ -146,7 +146,7 @@ std::string ServedSession::download(bool exr) {
 
 void ServedSession::fail(const std::string& error) {
   error_ = error;
-  changed_ = true;
+  changed_ = said_ = true;
 }
 
 void ServedSession::loop() {
@@ -182,7 +182,7 @@ void ServedSession::step(double seconds) {
     work.swap(work_);
     watched = pages_ > 0;
   }
-  const bool fresh = fetchFrame();
+  changed_ |= fetchFrame();
   for (const Message& message : messages) {
     try {
       error_.clear();
@@ -204,7 +204,7 @@ void ServedSession::step(double seconds) {
   motion.panX = dragged.panX, motion.panY = dragged.panY;
   resolution_.setMostPixels(mostPixels_);
   advance(motion, seconds);
-  if (fresh || changed_ || sharp_ != wasSharp_) publish();
+  if (changed_ || sharp_ != wasSharp_) publish();
 }
 
 void ServedSession::serve(const Message& message) {
@@ -213,7 +213,7 @@ void ServedSession::serve(const Message& message) {
     drag.x += n[0], drag.y += n[1];
     if (drag.any()) pathTime_.reset();
   };
-  changed_ = true;
+  changed_ = said_ = true;
   switch (message.act) {
     case Act::size: {
       const double shrink = std::sqrt(std::min(kMostWindowPixels / (n[0] * n[1]), 1.0));
@@ -330,7 +330,8 @@ void ServedSession::publish() {
   shot->picture = unfinished_ ? unfinished_->display : shown_.film.display;
   shot->exact = wasSharp_ = sharp_;
   shot->live = textOf(liveJson());
-  const bool said = std::exchange(changed_, false) || shown_.request.interruptible;
+  const bool said = std::exchange(said_, false) || shown_.request.interruptible;
+  changed_ = false;
   const std::shared_ptr<const Shot> before = shot_;  // only this thread writes it
   shot->settled = said || !before ? textOf(settledJson()) : before->settled;
   shot->number = before ? before->number + 1 : 1;

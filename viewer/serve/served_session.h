@@ -80,7 +80,8 @@ class ServedSession : public view::Session {
   view::CameraMotion held_;
   double heldSeconds_ = 0;  // time since the page said what is held
   std::atomic<double> mostPixels_ = 1e9;
-  bool changed_ = true;  // something but the picture is to be shown
+  bool changed_ = true;  // there is something to show
+  bool said_ = false;    // the user has done something since the last shot
   bool wasSharp_ = false;
   std::string command_;  // makes the picture at rest
 

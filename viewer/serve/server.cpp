@@ -181,12 +181,11 @@ class Page {
     return true;
   }
 
-  bool acknowledge(std::uint32_t frame) {
+  void acknowledge(std::uint32_t frame) {
     const std::lock_guard lock(mutex_);
     changed_.notify_one();
-    const bool known = pictures_.acknowledge(frame, clock_.ms());
+    pictures_.acknowledge(frame, clock_.ms());
     mostPixels_ = pictures_.mostPixels();
-    return known;
   }
 
   double mostPixels() const { return mostPixels_; }
@@ -292,10 +291,14 @@ class Server::Http : public httplib::Server {
     Get(root + "picture.png", [this](const Request&, Response& r) { download(r, false); });
     Get(root + "picture.exr", [this](const Request&, Response& r) { download(r, true); });
     Post(root + "input", [this](const Request& request, Response& response) {
-      response.status = session_.post(readMessages(request.body)) ? 204 : 429;
-    });
-    Post(root + "ack", [this](const Request& request, Response& response) {
-      response.status = acknowledge(request.body) ? 204 : 400;
+      std::vector<Message> messages = readMessages(request.body);
+      std::erase_if(messages, [this](const Message& message) {
+        if (message.act != Act::ack) return false;
+        acknowledge(static_cast<int>(message.numbers[0]),
+                    static_cast<std::uint32_t>(message.numbers[1]));
+        return true;
+      });
+      response.status = messages.empty() || session_.post(std::move(messages)) ? 204 : 429;
     });
   }
 
@@ -317,7 +320,7 @@ class Server::Http : public httplib::Server {
                        sameToken(path.substr(1, kTokenEnd - 1), server_.token_);
     if (!shown) return 403;
     const std::string_view thing = path.substr(kTokenEnd + 1);
-    const bool isInput = thing == "input" || thing == "ack";
+    const bool isInput = thing == "input";
     const bool isOther =
         thing.empty() || thing == "stream" || thing == "picture.png" || thing == "picture.exr";
     if (!isInput && !isOther) return 404;
@@ -346,13 +349,7 @@ class Server::Http : public httplib::Server {
         });
   }
 
-  bool acknowledge(const std::string& body) {
-    int number = 0;
-    std::uint32_t frame = 0;
-    const std::size_t blank = std::min(body.find(' '), body.size());
-    const bool read = readNumber(body.substr(0, blank), number) && blank < body.size() &&
-                      readNumber(body.substr(blank + 1), frame);
-    if (!read) return false;
+  void acknowledge(int number, std::uint32_t frame) {
     std::vector<std::shared_ptr<Page>> open;
     std::shared_ptr<Page> page;
     {
@@ -362,11 +359,11 @@ class Server::Http : public httplib::Server {
         if (known == number) page = open.back();
       }
     }
-    if (!page || !page->acknowledge(frame)) return false;
+    if (!page) return;
+    page->acknowledge(frame);
     double most = 0;  // the best link decides, so that a slow one does not blur the others
     for (const auto& other : open) most = std::max(most, other ? other->mostPixels() : 0);
     session_.limitPixels(most);
-    return true;
   }
 
   void download(httplib::Response& response, bool exr) {
