@@ -126,7 +126,7 @@ std::string ServedSession::download(bool exr) {
     const auto task =
         std::make_shared<std::packaged_task<std::optional<view::TracedFrame>()>>([this] {
           const view::FrameRequest& request = shown_.request;
-          const bool whole = shown_.scene && request.interruptible && !request.coarse;
+          const bool whole = shown_.scene && (sharp_ || (request.interruptible && !request.coarse));
           return whole ? std::optional(shown_) : std::nullopt;
         });
     std::future<std::optional<view::TracedFrame>> answer = task->get_future();
@@ -325,12 +325,12 @@ void ServedSession::serveOption(const Message& message) {
 
 void ServedSession::publish() {
   if (!shown_.scene) return;
-  if (shown_.request.interruptible) command_ = command(viewOptions());
+  if (shown_.request.interruptible || sharp_) command_ = command(viewOptions());
   auto shot = std::make_shared<Shot>();
   shot->picture = unfinished_ ? unfinished_->display : shown_.film.display;
   shot->exact = wasSharp_ = sharp_;
   shot->live = textOf(liveJson());
-  const bool said = std::exchange(said_, false) || shown_.request.interruptible;
+  const bool said = std::exchange(said_, false) || shown_.request.interruptible || sharp_;
   changed_ = false;
   const std::shared_ptr<const Shot> before = shot_;  // only this thread writes it
   shot->settled = said || !before ? textOf(settledJson()) : before->settled;

@@ -42,6 +42,7 @@ class Connection : public httplib::Stream {
   bool begin() {
     left_ = kRequestBytes + kMessageBytes;
     since_ = Stopwatch();
+    if (over) return false;
     if (at_ < size_) return true;
     return ready(POLLIN, trusted ? kTrustedIdleSeconds : kStrangerIdleSeconds);
   }
@@ -64,8 +65,10 @@ class Connection : public httplib::Stream {
   }
 
   ssize_t write(const char* from, std::size_t size) override {
-    if (!is_writable()) return -1;
-    return ::send(socket_, from, size, MSG_NOSIGNAL | MSG_DONTWAIT);
+    const ssize_t sent =
+        is_writable() ? ::send(socket_, from, size, MSG_NOSIGNAL | MSG_DONTWAIT) : -1;
+    over |= sent < 0;
+    return sent;
   }
 
   // Nothing asks who is at the other end.
@@ -73,6 +76,7 @@ class Connection : public httplib::Stream {
   void get_local_ip_and_port(std::string& /*ip*/, int& /*port*/) const override {}
   socket_t socket() const override { return socket_; }
 
+  bool over = false;                  // no further request is read
   std::atomic<bool> trusted = false;  // it has shown the token
   bool leaves = false;                // it makes room for another one
 
@@ -256,9 +260,11 @@ class Server::Http : public httplib::Server {
         current->trusted = true;
         return HandlerResponse::Unhandled;
       }
-      response.set_header("Connection", "close");
       response.set_content("refused\n", "text/plain");
       return HandlerResponse::Handled;
+    });
+    set_logger([](const Request&, const Response& response) {
+      current->over |= response.status >= 400;  // what follows may be the rest of what was refused
     });
     set_exception_handler([](const Request&, Response& response, std::exception_ptr thrown) {
       response.status = 400;
@@ -301,6 +307,9 @@ class Server::Http : public httplib::Server {
       response.status = messages.empty() || session_.post(std::move(messages)) ? 204 : 429;
     });
   }
+
+  // Lets more connections wait than the library does, so that a crowd does not keep a page out.
+  void widen() { ::listen(svr_sock_, kMostConnections); }
 
   // Ends all connections, so that their threads end.
   void hangUp() {
@@ -439,6 +448,7 @@ Server::Server(ServedSession& session, const ServerOptions& options)
                   "machine's",
                   printable(options.bind).c_str(), wanted));
   }
+  http_->widen();
 }
 
 Server::~Server() { stop(); }
