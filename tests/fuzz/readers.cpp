@@ -19,6 +19,9 @@
 #include "io/image/texture_from_image.h"
 #include "io/load_scene.h"
 #include "io/obj/mtl_reader.h"
+#ifdef WHIT_SERVE
+#include "viewer/serve/messages.h"
+#endif
 
 namespace whit::fuzz {
 namespace {
@@ -181,6 +184,30 @@ bool mayCause(ExitStatus status) {
   return status == ExitStatus::badScene || status == ExitStatus::limit || status == ExitStatus::io;
 }
 
+#ifdef WHIT_SERVE
+// What a page of `whit serve` sends. A value out of its verb's range is a finding.
+void readInput(const fs::path& file) {
+  const std::vector<std::uint8_t> bytes = bytesOfFile(file);
+  try {
+    for (const serve::Message& m :
+         serve::readMessages({reinterpret_cast<const char*>(bytes.data()), bytes.size()})) {
+      const serve::Verb& verb = serve::kVerbs[static_cast<std::size_t>(m.act)];
+      for (std::size_t i = 0; i < verb.numbers; ++i) {
+        if (!(m.numbers[i] >= verb.low && m.numbers[i] <= verb.high)) {
+          throw std::logic_error("a number out of range");
+        }
+      }
+      for (const char c : m.name + m.text) {
+        if (c >= 0 && (c < ' ' || c > '~')) throw std::logic_error("a control character");
+      }
+    }
+  } catch (const Error& error) {
+    if (error.status() != ExitStatus::usage) throw;
+    throw Error(ExitStatus::badScene, error.what());
+  }
+}
+#endif
+
 }  // namespace
 
 const std::vector<Reader>& readers() {
@@ -193,7 +220,11 @@ const std::vector<Reader>& readers() {
 #endif
       {"jpeg", ".jpg", readImageFile},  {"tga", ".tga", readImageFile},
       {"bmp", ".bmp", readImageFile},   {"hdr", ".hdr", readImageFile},
-      {"exr", ".exr", readExr}};
+      {"exr", ".exr", readExr},
+#ifdef WHIT_SERVE
+      {"input", ".txt", readInput}
+#endif
+  };
   return all;
 }
 

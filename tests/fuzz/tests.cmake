@@ -10,6 +10,9 @@ target_compile_definitions(whit_readers PRIVATE
 if(WHIT_WEBP)
   target_compile_definitions(whit_readers PRIVATE WHIT_WEBP)
 endif()
+if(TARGET whit_serve)
+  target_link_libraries(whit_readers PRIVATE whit_serve)
+endif()
 whit_tests(fuzz whit_readers)
 whit_runs_programs(fuzz whit)
 # `cmake --build BUILD --target make_corpus`, then BUILD/tests/make_corpus tests/fuzz/corpus
@@ -23,11 +26,16 @@ set_target_properties(make_corpus PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BI
 # With WHIT_FUZZ: a libFuzzer program for each reader, all built by the target `fuzzers`. What they run
 # is instrumented; other programs of the build, which link the same objects, do without libFuzzer.
 if(WHIT_FUZZ)
-  foreach(folder core scene bake make io readers)
+  set(fuzzed core scene bake make io readers)
+  set(readers scene obj mtl gltf ply png jpeg tga bmp hdr exr)
+  if(TARGET whit_serve)
+    list(APPEND fuzzed serve)
+    list(APPEND readers input)
+  endif()
+  foreach(folder ${fuzzed})
     target_compile_options(whit_${folder} PRIVATE -fsanitize=fuzzer-no-link)
   endforeach()
   add_custom_target(fuzzers)
-  set(readers scene obj mtl gltf ply png jpeg tga bmp hdr exr)
   if(WHIT_WEBP)
     list(APPEND readers webp)
   endif()
