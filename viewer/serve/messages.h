@@ -10,33 +10,11 @@
 namespace whit::serve {
 
 // The acts. The words of the lines are kVerbs, in the same order.
-enum class Act {
-  ack,
-  size,
-  left,
-  middle,
-  right,
-  wheel,
-  hold,
-  click,
-  camera,
-  fit,
-  path,
-  play,
-  time,
-  animation,
-  expose,
-  view,
-  rate,
-  more,
-  measure,
-  set,
-  effect,
-  preset,
-  aside,
-  forget,
-  reload
-};
+// clang-format off
+enum class Act { ack, size, left, middle, right, wheel, hold, click, camera, fit, path, play, time,
+                 animation, expose, view, rate, more, measure, set, effect, preset, aside, forget,
+                 reload };
+// clang-format on
 
 struct Verb {
   std::string_view name;

@@ -73,14 +73,10 @@ void ServedSession::Alarm::wait(double seconds) {
 }
 
 ServedSession::ServedSession(const view::ViewOptions& options,
-                             const std::shared_ptr<cli::OpenScene>& scene)
-    : ServedSession(options, scene, std::make_shared<Alarm>()) {}
-
-ServedSession::ServedSession(const view::ViewOptions& options,
                              const std::shared_ptr<cli::OpenScene>& scene,
-                             const std::shared_ptr<Alarm>& alarm)
+                             std::shared_ptr<Alarm> alarm)
     : Session(options, scene, [alarm] { alarm->ring(); }),
-      alarm_(alarm),
+      alarm_(std::move(alarm)),
       name_(scene->scene.name),
       tables_(textOf(tablesJson())),
       size_(

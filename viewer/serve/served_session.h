@@ -28,7 +28,16 @@ struct Shot {
 
 class ServedSession : public view::Session {
  public:
-  ServedSession(const view::ViewOptions& options, const std::shared_ptr<cli::OpenScene>& scene);
+  // Wakes the loop; the tracing thread may outlive the rest of this object.
+  struct Alarm {
+    std::mutex mutex;
+    std::condition_variable wake;
+    bool rung = false;
+    void ring();
+    void wait(double seconds);
+  };
+  ServedSession(const view::ViewOptions& options, const std::shared_ptr<cli::OpenScene>& scene,
+                std::shared_ptr<Alarm> alarm = std::make_shared<Alarm>());
   ~ServedSession() override;
 
   // The functions below may be called from any thread.
@@ -48,16 +57,6 @@ class ServedSession : public view::Session {
   const std::string& name() const { return name_; }
 
  private:
-  // Wakes the loop; the tracing thread may outlive the rest of this object.
-  struct Alarm {
-    std::mutex mutex;
-    std::condition_variable wake;
-    bool rung = false;
-    void ring();
-    void wait(double seconds);
-  };
-  ServedSession(const view::ViewOptions& options, const std::shared_ptr<cli::OpenScene>& scene,
-                const std::shared_ptr<Alarm>& alarm);
   void fail(const std::string& error) override;
   ImageSize windowPixels() const override { return size_; }
 

@@ -12,7 +12,6 @@
 #include <chrono>
 #include <list>
 #include <map>
-#include <type_traits>
 
 #include "core/error.h"
 #include "core/option_table.h"
@@ -95,42 +94,9 @@ class Connection : public httplib::Stream {
   Stopwatch since_;
 };
 
-// A thread for each connection; the server has few of them.
-class Threads : public httplib::TaskQueue {
- public:
-  using Enqueued = decltype(std::declval<httplib::TaskQueue&>().enqueue({}));  // void or bool
-
-  Enqueued enqueue(std::function<void()> work) override {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return count_ < kMostConnections; });
-    ++count_;
-    std::thread([this, work = std::move(work)] {
-      work();
-      const std::lock_guard done(mutex_);
-      --count_;
-      changed_.notify_all();
-    }).detach();
-    return static_cast<Enqueued>(true);
-  }
-
-  void shutdown() override {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return count_ == 0; });
-  }
-
- private:
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  int count_ = 0;
-};
-
 namespace {
 
 thread_local Connection* current = nullptr;  // whose request this thread answers
-
-std::string header(const httplib::Request& request, const char* name) {
-  return request.get_header_value(name);
-}
 
 // The bytes of a number as the page reads it.
 std::string wordOf(std::size_t value) {
@@ -244,7 +210,7 @@ class Server::Http : public httplib::Server {
  public:
   Http(serve::Server& server, ServedSession& session) : server_(server), session_(session) {
     using httplib::Request, httplib::Response;
-    new_task_queue = [] { return new Threads; };
+    new_task_queue = [] { return new httplib::ThreadPool(kMostConnections); };
     set_payload_max_length(kMessageBytes);
     set_tcp_nodelay(true);
     set_keep_alive_max_count(kMostRequests);
@@ -274,24 +240,24 @@ class Server::Http : public httplib::Server {
         response.set_content(printable(error.what()) + "\n", "text/plain");
       }
     });
-    std::string policy =
-        "default-src 'none'; connect-src 'self'; img-src blob: data:; base-uri 'none'; form-action "
-        "'none'; script-src 'nonce-NONCE'; style-src 'nonce-NONCE'; frame-ancestors ";
-    policy += server.options_.framed ? "http://localhost:* http://127.0.0.1:*" : "'none'";
-    set_default_headers({{"X-Content-Type-Options", "nosniff"},
-                         {"Referrer-Policy", "no-referrer"},
-                         {"Cache-Control", "no-store"}});
+    const std::string nonce = randomToken();
+    const auto withNonce = [&](std::string text) {
+      for (std::size_t at; (at = text.find("NONCE")) != std::string::npos;) {
+        text.replace(at, 5, nonce);
+      }
+      return text;
+    };
+    set_default_headers(
+        {{"Content-Security-Policy",
+          withNonce("default-src 'none'; connect-src 'self'; img-src blob: data:; base-uri 'none'; "
+                    "form-action 'none'; script-src 'nonce-NONCE'; style-src 'nonce-NONCE'; "
+                    "frame-ancestors 'none'")},
+         {"X-Content-Type-Options", "nosniff"},
+         {"Referrer-Policy", "no-referrer"},
+         {"Cache-Control", "no-store"}});
     const std::string root = "/" + server.token_ + "/";
-    Get(root, [policy](const Request&, Response& response) {
-      const std::string nonce = randomToken();
-      const auto withNonce = [&](std::string text) {
-        for (std::size_t at; (at = text.find("NONCE")) != std::string::npos;) {
-          text.replace(at, 5, nonce);
-        }
-        return text;
-      };
-      response.set_header("Content-Security-Policy", withNonce(policy));
-      response.set_content(withNonce(kPage), "text/html; charset=utf-8");
+    Get(root, [page = withNonce(kPage)](const Request&, Response& response) {
+      response.set_content(page, "text/html; charset=utf-8");
     });
     Get(root + "stream", [this](const Request&, Response& response) { stream(response); });
     Get(root + "picture.png", [this](const Request&, Response& r) { download(r, false); });
@@ -320,7 +286,8 @@ class Server::Http : public httplib::Server {
  private:
   // Returns the status by which a request is refused; 0: it is not.
   int refusalOf(const httplib::Request& request) const {
-    const std::string host = header(request, "Host"), origin = header(request, "Origin");
+    const std::string host = request.get_header_value("Host");
+    const std::string origin = request.get_header_value("Origin");
     if (!isOwnHost(host, server_.options_.bind)) return 421;
     if (!origin.empty() && origin != "http://" + host) return 403;
     const std::string_view path = request.path;

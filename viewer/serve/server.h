@@ -14,14 +14,13 @@ namespace whit::serve {
 
 struct ServerOptions {
   std::string bind = "127.0.0.1";
-  int port = 0;         // 0: kUsualPort, or any free one if that is taken
-  bool framed = false;  // pages of this machine may show the page in a frame, as notebooks do
+  int port = 0;  // 0: kUsualPort, or any free one if that is taken
 };
 inline constexpr int kUsualPort = 8765;
 
 inline constexpr int kMostPages = 16;
-inline constexpr int kMostStrangers = 32;  // connections that have not shown the token
-inline constexpr int kMostConnections = 128;
+inline constexpr int kMostStrangers = 32;           // connections that have not shown the token
+inline constexpr int kMostConnections = 128;        // each has a thread; others wait
 inline constexpr std::size_t kRequestBytes = 8192;  // without the body
 inline constexpr double kRequestSeconds = 5;        // in which a request is to arrive
 inline constexpr double kDeafSeconds =
