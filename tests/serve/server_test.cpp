@@ -44,13 +44,14 @@ TEST(Host, IsOurs) {
 
 class Serving : public testing::Test {
  protected:
-  Serving() {
+  // Strangers are not given up in the time of a test, unless it asks for that.
+  explicit Serving(double requestSeconds = 600) {
     options_.common.quiet = true;
     options_.common.render.threads = 2;
     options_.scene = cli::writeTinyScene(folder_);
     session_ = std::make_unique<ServedSession>(
         options_, cli::openScene(options_.scene, options_.common, nullptr));
-    server_ = std::make_unique<Server>(*session_, ServerOptions{});
+    server_ = std::make_unique<Server>(*session_, ServerOptions{.requestSeconds = requestSeconds});
     root_ = "/" + server_->token() + "/";
     thread_ = std::thread([this] { server_->run(); });
     for (int i = 0; i < 1000 && status(root_) != 200; ++i) {
@@ -251,6 +252,24 @@ TEST_F(Serving, HugeRequestsEnd) {
   EXPECT_LT(sent, 64u << 20);
   rest(chunked);
   EXPECT_EQ(status(root_), 200);
+}
+
+class ServingSoon : public Serving {
+ protected:
+  ServingSoon() : Serving(0.2) {}
+};
+
+TEST_F(ServingSoon, HalfARequestEnds) {
+  for (const char* half : {"", "G", "GET / HTTP/1.1\r\nHost: local"}) {
+    const int slow = connection();
+    send(slow, half);
+    char byte = 0;
+    ssize_t got = 0;
+    while ((got = ::recv(slow, &byte, 1, 0)) > 0) {
+    }
+    EXPECT_EQ(got, 0) << "the connection was not closed after '" << half << "'";
+    ::close(slow);
+  }
 }
 
 // Connections that send half a request, or nothing, do not keep a page from its pictures.

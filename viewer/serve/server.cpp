@@ -26,7 +26,7 @@ constexpr const char* kPage =
 #include "page_html.inc"
     ;
 
-constexpr double kWriteSeconds = 5, kStrangerIdleSeconds = 5, kTrustedIdleSeconds = 60;
+constexpr double kWriteSeconds = 5, kTrustedIdleSeconds = 60;
 constexpr int kMostRequests = 100000;  // of a connection
 constexpr double kAliveMs = 2000;      // between messages to a page that has nothing to draw
 
@@ -35,7 +35,7 @@ constexpr double kAliveMs = 2000;      // between messages to a page that has no
 // A connection's bytes. It allows each request so many of them, and so much time.
 class Connection : public httplib::Stream {
  public:
-  explicit Connection(socket_t socket) : socket_(socket) {}
+  Connection(socket_t socket, double seconds) : socket_(socket), seconds_(seconds) {}
 
   // Waits for a request and allows it its share; returns false if none comes.
   bool begin() {
@@ -43,7 +43,7 @@ class Connection : public httplib::Stream {
     since_ = Stopwatch();
     if (over) return false;
     if (at_ < size_) return true;
-    return ready(POLLIN, trusted ? kTrustedIdleSeconds : kStrangerIdleSeconds);
+    return ready(POLLIN, trusted ? kTrustedIdleSeconds : seconds_);
   }
 
   bool is_readable() const override { return at_ < size_ || ready(POLLIN, 0); }
@@ -51,7 +51,7 @@ class Connection : public httplib::Stream {
 
   ssize_t read(char* to, std::size_t size) override {
     if (at_ == size_) {
-      if (left_ == 0 || !ready(POLLIN, kRequestSeconds - since_.ms() / 1000)) return -1;
+      if (left_ == 0 || !ready(POLLIN, seconds_ - since_.ms() / 1000)) return -1;
       const ssize_t got = ::recv(socket_, buffer_, std::min(left_, sizeof buffer_), 0);
       if (got <= 0) return got;
       at_ = 0, size_ = static_cast<std::size_t>(got);
@@ -88,7 +88,8 @@ class Connection : public httplib::Stream {
            (events == POLLIN || (asked.revents & POLLRDHUP) == 0);
   }
 
-  socket_t socket_;
+  const socket_t socket_;
+  const double seconds_;
   char buffer_[4096];
   std::size_t at_ = 0, size_ = 0, left_ = 0;
   Stopwatch since_;
@@ -356,7 +357,7 @@ class Server::Http : public httplib::Server {
   }
 
   bool process_and_close_socket(socket_t socket) override {
-    Connection connection(socket);
+    Connection connection(socket, server_.options_.requestSeconds);
     {
       const std::lock_guard lock(mutex_);
       const auto isStranger = [](const Connection* known) {

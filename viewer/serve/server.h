@@ -14,7 +14,8 @@ namespace whit::serve {
 
 struct ServerOptions {
   std::string bind = "127.0.0.1";
-  int port = 0;  // 0: kUsualPort, or any free one if that is taken
+  int port = 0;               // 0: kUsualPort, or any free one if that is taken
+  double requestSeconds = 5;  // in which a request is to arrive
 };
 inline constexpr int kUsualPort = 8765;
 
@@ -22,7 +23,6 @@ inline constexpr int kMostPages = 16;
 inline constexpr int kMostStrangers = 32;           // connections that have not shown the token
 inline constexpr int kMostConnections = 128;        // each has a thread; others wait
 inline constexpr std::size_t kRequestBytes = 8192;  // without the body
-inline constexpr double kRequestSeconds = 5;        // in which a request is to arrive
 inline constexpr double kDeafSeconds =
     10;  // a page that acknowledges nothing for so long is dropped
 
