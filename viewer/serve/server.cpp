@@ -12,6 +12,7 @@
 #include <chrono>
 #include <list>
 #include <map>
+#include <utility>
 
 #include "core/error.h"
 #include "core/option_table.h"
@@ -236,7 +237,7 @@ class Server::Http : public httplib::Server {
     set_exception_handler([](const Request&, Response& response, std::exception_ptr thrown) {
       response.status = 400;
       try {
-        std::rethrow_exception(thrown);
+        std::rethrow_exception(std::move(thrown));
       } catch (const std::exception& error) {
         response.set_content(printable(error.what()) + "\n", "text/plain");
       }
@@ -375,6 +376,7 @@ class Server::Http : public httplib::Server {
     for (int left = kMostRequests; left > 0 && !closed && connection.begin(); --left) {
       if (!answer(connection, left == 1, closed)) break;
     }
+    current = nullptr;
     const std::lock_guard lock(mutex_);
     connections_.remove(&connection);
     ::shutdown(socket, SHUT_RDWR);
