@@ -30,7 +30,7 @@ function rayTree(tree, point) {
     (node.parent === i ? root : lists[node.parent]).append(make('li', '', item));
   });
   const facts = make('p', `codes ${tree.codes.join(' ')}, reference ${tree.reference.join(' ')}; ` +
-    `${tree.nodes.length} rays, ${tree.shadowRays} shadow rays`);
+    `rays: ${tree.nodes.length}, shadow rays: ${tree.shadowRays}`);
   const total = make('p', `sum of all rays ${sum.map(number).join(' ')}, pixel ` +
     `${tree.radiance.map(number).join(' ')}`);
   total.className = 'sum';
