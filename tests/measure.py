@@ -280,11 +280,6 @@ def report_data(folder):
     return json.loads(re.search(r'id="data">(.*?)</script>', page, re.DOTALL)[1])
 
 
-def choices():
-    """The sentences of the report, a line each."""
-    return "\n".join("- " + scene["choice"] for scene in report_data("transport")["scenes"])
-
-
 def sweep(folder="accuracy"):
     path = OUT / folder / "sweep.csv"
     return list(csv.DictReader(path.open())) if path.exists() else []
@@ -490,7 +485,7 @@ def write_transport():
     require_one_machine([("transport.json", machine["machine"]), ("transport/sweep.csv", swept)])
     put_charts("transport", {f"pareto-{scene}": f"transport-{scene}.svg" for scene in sweep_scenes(rows)})
     put(ACCURACY_PAGE, {"transport": "\n\n".join(
-        [machine_line(machine, "transport.json"), choices(), transport_charts(sweep_scenes(rows)),
+        [machine_line(machine, "transport.json"), transport_charts(sweep_scenes(rows)),
          transport_table(rows)])})
 
 

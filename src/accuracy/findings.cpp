@@ -5,28 +5,8 @@
 #include <limits>
 
 #include "core/quantile.h"
-#include "core/text.h"
 
 namespace whit::accuracy {
-
-namespace {
-
-// The upper end of the interval that holds the time of a frame.
-double longestMs(const Timing& t) {
-  return t.ratio > 0 ? t.settledMs * std::max(t.ratioHigh / t.ratio, 1.0) : t.settledMs;
-}
-
-std::string durationText(double ms) {
-  return ms < 1000 ? formatted("%g ms", ms) : formatted("%g s", ms / 1000);
-}
-
-std::string pointText(const Point& point) {
-  std::string text = formatted("%s (FLIP %.4f", point.label().c_str(), point.total.flipMean);
-  if (!point.timing.hasSpread()) text += "; a time without a spread";
-  return text + ")";
-}
-
-}  // namespace
 
 std::vector<std::size_t> paretoFront(const std::vector<CostAndError>& points) {
   std::vector<std::size_t> order;
@@ -58,32 +38,6 @@ void markFronts(std::vector<Point>& points) {
   }
   for (const std::size_t i : paretoFront(total)) points[i].onFront = true;
   for (const std::size_t i : paretoFront(same)) points[i].onFrontSameSamples = true;
-}
-
-const Point* bestWithin(const SceneSweep& sweep, double ms) {
-  std::vector<CostAndError> points;
-  for (const Point& p : sweep.points) points.push_back({longestMs(p.timing), p.total.flipMean});
-  const auto best = whit::bestWithin(points, ms);
-  return best ? &sweep.points[*best] : nullptr;
-}
-
-std::string choiceText(const SceneSweep& sweep) {
-  std::string text =
-      formatted("%s at %dx%d pixels: ", sweep.scene.c_str(), sweep.width, sweep.height);
-  const Point* before = nullptr;
-  for (std::size_t i = 0; i < kChoiceMs.size(); ++i) {
-    const Point* const best = bestWithin(sweep, kChoiceMs[i]);
-    text += formatted(i == 0 ? "in %s " : ", in %s ", durationText(kChoiceMs[i]).c_str());
-    if (!best) {
-      text += "nothing that was measured";
-    } else if (best == before) {
-      text += "no more than that";
-    } else {
-      text += (before ? "" : "choose ") + pointText(*best);
-    }
-    before = best;
-  }
-  return text + ".";
 }
 
 Noise noiseOf(const SceneSweep& sweep) {

@@ -138,10 +138,7 @@ Json sceneJson(const SceneSweep& sweep, const Json& facts) {
              {"truth_png", base64(sweep.truthPng)},
              {"not_swept", Json::array()},
              {"order", sweep.order}};
-  if (sweep.transport) {
-    scene["transport"] = transportText(sweep);
-    scene["choice"] = choiceText(sweep);
-  }
+  if (sweep.transport) scene["transport"] = transportText(sweep);
   for (const IdleKnob& group : groupedByReason(sweep.idle))
     scene["not_swept"].push_back({{"names", group.name}, {"because", group.because}});
   return scene;
@@ -311,7 +308,6 @@ std::string sweepTable(const SceneSweep& sweep, std::uint32_t seed) {
                             "order, seed %u; the errors by cause are in report.html",
                             kNoisyPct, kLeastRounds, seed)) +
           "\n";
-  if (sweep.transport) text += wrapped(choiceText(sweep)) + "\n";
   for (const IdleKnob& group : groupedByReason(sweep.idle))
     text += wrapped("not swept: " + group.name + ": " + group.because);
   return text;

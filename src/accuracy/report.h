@@ -1,8 +1,7 @@
-// Conclusions from the results of a sweep (Pareto fronts, the point to choose, the noise), and the
+// Conclusions from the results of a sweep (Pareto fronts, the noise), and the
 // results as text for a terminal, rows for CSV files, and an HTML page that draws itself from JSON.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -20,16 +19,6 @@ std::vector<std::size_t> paretoFront(const std::vector<CostAndError>& points);
 
 // Sets onFront and onFrontSameSamples. Points whose time has no spread are left out.
 void markFronts(std::vector<Point>& points);
-
-// Frame times that the report gives a choice for: a game, a preview, a still, a long wait.
-inline constexpr std::array kChoiceMs{16.0, 100.0, 1000.0, 10000.0};
-
-// The point with the least error against the truth whose time, including its spread, is within
-// `ms`; the fastest of equal errors; null if there is none.
-const Point* bestWithin(const SceneSweep& sweep, double ms);
-
-// One sentence: "whitted at 256x256 pixels: in 16 ms choose standard (FLIP 0.0812), in 100 ms ...".
-std::string choiceText(const SceneSweep& sweep);
 
 // Smaller changes against the baseline cannot be told from none.
 struct Noise {
