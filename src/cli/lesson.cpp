@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <ranges>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -59,8 +58,9 @@ class StageRecorder : public StageObserver {
  private:
   // Small queues hold a tile in several chunks.
   bool holdsPixel(const Chunk& c) const {
-    const auto all = std::views::iota(std::size_t{0}, c.n);
-    return std::ranges::any_of(all, [&](std::size_t i) { return tracker_.pixel(c, i) == pixel_; });
+    std::size_t slot = 0;
+    while (slot < c.n && tracker_.pixel(c, slot) != pixel_) ++slot;
+    return slot < c.n;
   }
 
   void recordStep(Stage stage, const Chunk& c) {

@@ -1,4 +1,4 @@
-// Fronts, choices and findings of made-up sweeps whose best points are plain to see, and the front
+// Fronts and findings of made-up sweeps whose best points are plain to see, and the front
 // against its definition by brute force.
 #include "accuracy/report.h"
 
@@ -90,13 +90,6 @@ TEST(Fronts, HoldOnlyPointsWhoseTimesHaveASpread) {
     EXPECT_EQ(front, timed);
   }
   EXPECT_GT(without, 100) << "of which the law speaks";
-}
-
-TEST(Choice, IsTheLeastErrorWithinTheCost) {
-  const std::vector<CostAndError> points{{10, 0.2}, {90, 0.1}, {5, 0.2}, {95, 0.15}, {50, NAN}};
-  EXPECT_EQ(bestWithin(points, 100), 1u);
-  EXPECT_EQ(bestWithin(points, 16), 2u) << "the cheapest of equal errors";
-  EXPECT_EQ(bestWithin(points, 4), std::nullopt);
 }
 
 Point knobPoint(const std::string& knob, const std::string& value, double ratio, double flip) {
