@@ -67,8 +67,8 @@ buildAndTest() {
   return $status
 }
 
-# The worker pool, pictures by many threads, the viewer's tracing thread with all that it runs, and its
-# window's loop. Embree and TBB are not instrumented and would be blamed for their own locks: what
+# The worker pool, pictures by many threads, the viewer's tracing thread with all that it runs, its
+# window's loop, and the server of `whit serve`. Embree and TBB are not instrumented and would be blamed for their own locks: what
 # happens inside them is ignored, what our code does is not.
 checkThreads() {
   local areas=(unit render) area
@@ -76,8 +76,9 @@ checkThreads() {
   filter+=':ShadowCache.TablesMay*:ShadowCache.FollowALightThatMoves'
   filter+=':RenderThreadTest.*:ComparisonTest.*:SplitPicture.*'
   filter+=':Viewer.SurvivesTwoHundredRandomEvents:Viewer.FullScreenMinimizedAndResized'
-  filter+=':MovingPictures.*:Viewer.PlaysUntilItIsPaused'
+  filter+=':MovingPictures.*:Viewer.PlaysUntilItIsPaused:Serving*'
   cmake --preset tsan -DWHIT_WERROR=ON >/dev/null || return 1
+  if [ -d build-tsan/viewer/serve/CMakeFiles/whit_serve.dir ]; then areas+=(serve); fi
   if [ -d build-tsan/viewer/CMakeFiles/whit_view.dir ]; then
     areas+=(viewer)
   else
