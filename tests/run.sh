@@ -68,8 +68,8 @@ buildAndTest() {
 }
 
 # The worker pool, pictures by many threads, the viewer's tracing thread with all that it runs, its
-# window's loop, and the server of `whit serve`. Embree and TBB are not instrumented and would be blamed for their own locks: what
-# happens inside them is ignored, what our code does is not.
+# window's loop, and the server of `whit serve`. Embree and TBB are not instrumented and would be blamed
+# for their own locks: what happens inside them is ignored, what our code does is not.
 checkThreads() {
   local areas=(unit render) area
   local filter='WorkerPool*:ParallelFor*:Analytic.*:*Invariance.H60_any*:*Adaptive.H60*'
