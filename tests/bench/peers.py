@@ -146,9 +146,11 @@ def main():
     print(table)
     if job.page:
         page = ROOT / "tests/bench/README.md"
-        text = re.sub(r"(<!-- peers -->\n).*?(\n<!-- /peers -->)",
-                      lambda found: found.group(1) + table + found.group(2), page.read_text(),
-                      flags=re.DOTALL)
+        text, count = re.subn(r"(<!-- peers -->\n).*?(<!-- /peers -->)",
+                              lambda found: found.group(1) + table + "\n" + found.group(2),
+                              page.read_text(), flags=re.DOTALL)
+        if count != 1:
+            sys.exit(f"{page}: expected one place for <!-- peers -->, found {count}")
         page.write_text(text)
     return 0
 
