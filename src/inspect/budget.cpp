@@ -18,7 +18,8 @@ namespace whit {
 
 namespace {
 
-// Those that are measured first matter most where a small budget ends the measurements.
+// The knobs are measured in this order, and a small budget ends the measurements early: those that
+// matter most come first.
 constexpr std::array kChosenKnobs{"glossy",       "ambient-samples", "light-samples",
                                   "indirect",     "depth",           "cutoff",
                                   "light-cutoff", "texture-filter",  "fresnel"};

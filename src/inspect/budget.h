@@ -27,7 +27,7 @@ struct Budget {
 // Error(usage) for others, and if both are given.
 Budget parseBudget(const std::string& time, const std::string& target);
 
-// What was chosen, and why.
+// Tells what was chosen, what was left out, and what it took.
 struct Receipt {
   struct Knob {
     std::string name, value, exact;

@@ -338,7 +338,7 @@ struct OptionInfo {
 };
 std::vector<OptionInfo> options();
 
-// What Renderer::renderWithin() has chosen.
+// Tells what Renderer::renderWithin() has chosen.
 struct Receipt {
   std::vector<std::pair<std::string, std::string>> chosen;  // options and their values
   double chooseMs = 0, expectedMs = 0, pictureMs = 0;       // expected is the time of the picture

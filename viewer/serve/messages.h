@@ -1,4 +1,4 @@
-// What the user of the page does, as the page says it: a line for each act, a verb and its values.
+// The page reports what its user does: a line for each act, with a verb and its values.
 #pragma once
 
 #include <array>

@@ -52,7 +52,7 @@ class ServedSession : public view::Session {
   void limitPixels(double pixels) { mostPixels_ = pixels; }
   // Returns the file of the view at full resolution, an EXR or a PNG; empty if that takes too long.
   std::string download(bool exr);
-  // What does not change, as JSON: the table of options, cameras, views.
+  // Returns, as JSON, the table of options, the cameras and the views, which do not change.
   const std::string& tables() const { return tables_; }
   const std::string& name() const { return name_; }
 
