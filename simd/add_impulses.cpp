@@ -26,26 +26,32 @@ struct ImpulseJob {
   RayColumns rays;
   SurfelColumns surfels;
   RayColumns children;
+  float* ended;
   size_t n;
   LobeSampling glossySampling;
   bool cones, coverage, glossy, streams, transmission;
+  bool notesEnds;  // of paths; roulette ends none but by chance
 };
 
 HWY_INLINE ImpulseJob ImpulseJobOf(const Chunk& c) {
+  const bool last = c.depth >= c.options().depth;  // all paths end here
+  const float roulette = last ? 0 : c.options().roulette;
   return {c.tables(),
           c.options().shading,
-          c.options().cutoff,
-          c.options().roulette,
+          last ? std::numeric_limits<float>::infinity() : c.options().cutoff,
+          roulette,
           c.rays,
           c.surfels,
           c.children,
+          c.radiance.ended,
           c.n,
           lobeSampling(c.depth, c.options().glossy, c.sampleNumber),
           c.has(Feature::cones),
           c.has(Feature::coverage),
           c.has(Feature::glossy),
           c.has(Feature::streams),
-          c.has(Feature::transmission)};
+          c.has(Feature::transmission),
+          c.has(Feature::ended) && roulette == 0};
 }
 
 // The values that both kinds of impulse need for a vector of surfels.
@@ -163,6 +169,10 @@ HWY_INLINE size_t Append(const ImpulseJob& job, Child child, MF live, size_t i, 
   const MF worth = HWY_UNLIKELY(job.roulette > 0) ? Survivors(job, child, throughput)
                                                   : hn::Ge(throughput, hn::Set(d, job.cutoff));
   const MF traced = hn::And(live, hn::And(worth, hn::Gt(child.largest, hn::Zero(d))));
+  if (HWY_UNLIKELY(job.notesEnds)) {
+    const VF end = hn::IfThenElseZero(hn::AndNot(worth, live), MaxComponent(child.weight));
+    hn::Store(hn::Add(hn::Load(d, job.ended + i), end), d, job.ended + i);
+  }
   if (hn::AllFalse(d, traced)) return 0;
   const Compactor compactor(traced);
   compactor.Store(child.origin, children.orgX, children.orgY, children.orgZ, at);

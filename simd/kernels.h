@@ -111,16 +111,17 @@ WHIT_KERNEL(AddShading, "addShading", addShading, {Part::unshadowed, Part::radia
 // not written, or under --roulette by chance only, and then for more. There must be room for one a
 // slot, of sampled lobes for so many a slot as lobeSampling says.
 WHIT_KERNEL(AddReflections, "addReflections", addImpulses, {Part::rays, Part::surfels},
-            {Part::children});
+            {Part::children, Part::radiance});
 // Samples of the surfels' glossy lobes, each written with its share of the weight; whether it is
 // worth tracing is decided as if it were the whole lobe.
 WHIT_KERNEL(AddGlossyReflections, "addGlossyReflections", addImpulses, {Part::rays, Part::surfels},
-            {Part::children});
+            {Part::children, Part::radiance});
 WHIT_KERNEL(AddRefractions, "addRefractions", addImpulses, {Part::rays, Part::surfels},
-            {Part::children});
+            {Part::children, Part::radiance});
 // Rays drawn by the cosine to the normals of diffuse surfels, written and decided on like samples
 // of glossy lobes.
-WHIT_KERNEL(AddIndirect, "addIndirect", addImpulses, {Part::rays, Part::surfels}, {Part::children});
+WHIT_KERNEL(AddIndirect, "addIndirect", addImpulses, {Part::rays, Part::surfels},
+            {Part::children, Part::radiance});
 // The way back: parent radiance += weight * radiance, child by child in slot order.
 WHIT_KERNEL(ReturnImpulses, "returnImpulses", addImpulses,
             {Part::rays, Part::radiance, Part::parentRadiance}, {Part::parentRadiance});

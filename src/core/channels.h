@@ -1,5 +1,6 @@
 // The extra output channels of a picture (AOVs, --channels): properties of the first hit of each
-// pixel's ray; alpha, a mean over its samples; and the error of the picture's mean over them.
+// pixel's ray; alpha, a mean over its samples; and the error of the picture: the standard error of
+// its mean over them, and a bound of what --depth and --cutoff left out.
 #pragma once
 
 #include <array>
@@ -48,7 +49,7 @@ inline constexpr std::array<ChannelInfo, kChannelCount> kChannels{
      {"triangle", true, 1, {"id"}},
      {"rays", true, 1, {"count"}},
      {"alpha", false, 1, {"A"}},
-     {"error", false, 1, {"standard"}}}};
+     {"error", false, 2, {"standard", "ended"}}}};
 inline constexpr const ChannelInfo& infoOf(Channel channel) {
   return kChannels[static_cast<std::size_t>(channel)];
 }

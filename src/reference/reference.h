@@ -31,6 +31,8 @@ struct Settings {
 // Rays traced, by their kind.
 class RayCounts {
  public:
+  double ended = 0;  // RadianceColumns::ended of the samples, added up
+
   std::uint64_t& operator[](RayKind kind) { return counts_[static_cast<std::size_t>(kind)]; }
   std::uint64_t operator[](RayKind kind) const { return counts_[static_cast<std::size_t>(kind)]; }
   std::uint64_t all() const {
@@ -39,6 +41,7 @@ class RayCounts {
 
   RayCounts& operator+=(const RayCounts& b) {
     for (std::size_t k = 0; k < kRayKindCount; ++k) counts_[k] += b.counts_[k];
+    ended += b.ended;
     return *this;
   }
 
@@ -68,7 +71,7 @@ class Tracer {
   // Mean over the sample pattern of the pixel.
   RgbD pixel(const CameraFrame& camera, int x, int y, RayCounts& counts) const;
   // The standard error of that mean: of the mean of the three colors, as if samples were
-  // independent.
+  // independent; infinity for one sample.
   double standardError(const CameraFrame& camera, int x, int y, RayCounts& counts) const;
   // Through the pixel's center alone, and what that ray meets.
   RgbD center(const CameraFrame& camera, int x, int y, RayCounts& counts) const;

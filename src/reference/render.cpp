@@ -102,7 +102,6 @@ RgbD Tracer::pixel(const CameraFrame& camera, int x, int y, RayCounts& counts) c
 
 // By the running sum of squared deviations (Welford 1962), which does not cancel.
 double Tracer::standardError(const CameraFrame& camera, int x, int y, RayCounts& counts) const {
-  if (samples_.size() < 2) return std::numeric_limits<double>::infinity();
   double mean = 0, deviations = 0, taken = 0;
   for (std::size_t s = 0; s < samples_.size(); ++s) {
     const RgbD sample = sampled(camera, x, y, samples_[s], s, counts);
@@ -110,7 +109,8 @@ double Tracer::standardError(const CameraFrame& camera, int x, int y, RayCounts&
     mean += before / ++taken;
     deviations += before * (value - mean);
   }
-  return std::sqrt(deviations / (taken - 1) / taken);
+  return taken > 1 ? std::sqrt(deviations / (taken - 1) / taken)
+                   : std::numeric_limits<double>::infinity();
 }
 
 RgbD Tracer::center(const CameraFrame& camera, int x, int y, RayCounts& counts) const {
@@ -196,8 +196,9 @@ void keepChannels(const Scene& scene, const Intersector& intersector, const Came
     }
     RayCounts counts;
     if (layers.channels().has(Channel::error)) {
-      layers.floats(Channel::error)[pixel] =
-          static_cast<float>(tracer.standardError(frame, x, y, counts));
+      const std::span<float> errors = layers.floats(Channel::error);
+      errors[2 * pixel] = static_cast<float>(tracer.standardError(frame, x, y, counts));
+      errors[2 * pixel + 1] = static_cast<float>(counts.ended / settings.options.spp);
     }
     if (!layers.channels().has(Channel::rays)) return;
     counts = {};

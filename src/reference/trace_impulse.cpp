@@ -53,7 +53,7 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
   const LobePoints points{path.number, lobeSampling(depth, options_.glossy, path.sample)};
   limitDiffuse(scene_, effects_, crossing, options_.shading, points, surfel);
 
-  const double left = throughput * maxComponent(arrives);
+  const double left = throughput * maxComponent(arrives), ended = counts.ended;
   RgbD radiance;
   if (!crossing.hidden) {
     radiance = emittedAndAmbient(scene_, effects_, surfel);
@@ -64,7 +64,7 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
       radiance += radianceFromLights(surfel, depth, left, counts, path);
     }
   }
-  if (depth < options_.depth) {
+  if (depth < options_.depth || keptChannels(options_).has(Channel::error)) {
     const Impulses children =
         findImpulses(scene_, effects_, surfel, crossing, media, options_.shading);
     for (const RayKind kind : kImpulseKinds) {
@@ -77,6 +77,7 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
       radiance += sum;
     }
   }
+  counts.ended = ended + maxComponent(arrives) * (counts.ended - ended);
   return radiance * arrives;
 }
 
@@ -112,12 +113,14 @@ RgbD Tracer::radianceByLobe(const SampledLobe& sampled, const Surfel& surfel, in
   const LobeSampling sampling = lobeSampling(depth, options_.*lobe.samples, path.sample);
   const int rays = raysOf(surfel, sampling);
   RgbD sum;
+  const double ended = counts.ended;
   for (int i = 0; i < rays; ++i) {
     const auto k = static_cast<std::uint32_t>(i);
     const UnitPoint at = pointOf(lobe, path.number, sampling, k);
     sum += follow(impulseOf(surfel, media, at, options_.shading), lobe.kind, depth + 1, throughput,
                   counts, childOf(path, lobe.firstBranch + k));
   }
+  counts.ended = ended + (counts.ended - ended) / rays;
   return sum / rays;
 }
 
@@ -126,13 +129,19 @@ RgbD Tracer::follow(const Impulse& impulse, RayKind kind, int depth, double thro
                     RayCounts& counts, Path path) const {
   const double largest = maxComponent(impulse.weight), contribution = throughput * largest;
   // Written so that a NaN ends the path.
-  if (!(largest > 0 && survives(options_, contribution, path.number))) return {};
+  const bool isLast = depth > options_.depth;
+  if (isLast || !(largest > 0 && survives(options_, contribution, path.number))) {
+    if (isLast || options_.roulette == 0) counts.ended += largest;
+    return {};
+  }
   ++counts[kind];
   const double grows = growthOfSurvivors(options_, contribution);
   const Impulse followed{impulse.weight * grows, impulse.ray, impulse.media};
   intersector_.began(followed, kind);
+  const double ended = counts.ended;
   const RgbD radiance =
       traceImpulse(impulse.ray, depth, contribution * grows, impulse.media, counts, path);
+  counts.ended = ended + largest * grows * (counts.ended - ended);
   intersector_.ended(radiance);
   return followed.weight * radiance;
 }

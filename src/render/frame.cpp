@@ -84,11 +84,11 @@ void poolErrors(Film& film) {
       double squares = 0, count = 0;
       for (int j = std::max(y - kPoolReach, w.y0); j <= std::min(y + kPoolReach, w.y1 - 1); ++j) {
         for (int i = std::max(x - kPoolReach, w.x0); i <= std::min(x + kPoolReach, w.x1 - 1); ++i) {
-          const double error = double{own[film.image.index(i, j)]};
+          const double error = double{own[2 * film.image.index(i, j)]};
           squares += error * error, ++count;
         }
       }
-      errors[film.image.index(x, y)] = static_cast<float>(std::sqrt(squares / count));
+      errors[2 * film.image.index(x, y)] = static_cast<float>(std::sqrt(squares / count));
     }
   }
 }

@@ -63,6 +63,7 @@ FeatureSet featuresOf(const Scene& scene, const RenderOptions& options, EffectSe
       .with(Feature::lift,
             options.shading.terminator && e.has(Effect::shadows) && e.has(Effect::smoothNormals))
       .with(Feature::cones, maps && options.shading.textureFilter == TextureFilter::trilinear)
+      .with(Feature::ended, keptChannels(options).has(Channel::error))
       .with(Feature::textures, e.has(Effect::textures))
       .with(Feature::normalMaps, e.has(Effect::normalMaps))
       .with(Feature::secondUvs, maps && !scene.secondUvs.empty());
@@ -135,6 +136,10 @@ class Planner {
       plan_.atEye.push_back(amendingStep("keepRayCounts", simd::kReturnToEye, keepRayCounts,
                                          {Part::rayCounts}, {Part::channels}));
     }
+    if (notesEnds()) {
+      plan_.atEye.push_back(amendingStep("keepEnds", simd::kReturnToEye, keepEnds,
+                                         {Part::rays, Part::radiance}, {Part::channels}));
+    }
     plan_.perTile = {amendingStep("updateImage", simd::kEncodeDisplay, updateImage,
                                   {Part::radiance, Part::pixels},
                                   {Part::radiance, Part::codes, Part::film})};
@@ -147,6 +152,7 @@ class Planner {
   bool has(Effect effect) const { return plan_.effects.has(effect); }
   bool inPackets() const { return options_.packet != 1; }
   bool countsRays() const { return plan_.channels.has(Channel::rays); }
+  bool notesEnds() const { return plan_.features.has(Feature::ended); }
 
   void findIntersections() {
     if (countsRays()) {
@@ -164,6 +170,10 @@ class Planner {
     if (has(Effect::spheres) && coincide) {
       plan_.perQueue.push_back(amendingStep("settleSpheres", simd::kUnpackHits, settleSpheres,
                                             {Part::hits}, {Part::hits}));
+    }
+    if (notesEnds()) {
+      plan_.perQueue.push_back(
+          amendingStep("startEnds", simd::kUnpackHits, startEnds, {Part::rays}, {Part::radiance}));
     }
     plan_.perQueue.push_back(stepOf(simd::kInterpolateSurfels));
     if (plan_.features.has(Feature::roughnessMaps)) {
@@ -248,13 +258,17 @@ class Planner {
       addImpulse(simd::kAddRefractions, kMaterialTransmits, RayKind::refraction, 1);
     }
     addLobe(simd::kAddIndirect, kDiffuseLobe);
-    if (options_.depth == 0) plan_.impulses.clear();
+    if (options_.depth == 0 && !notesEnds()) plan_.impulses.clear();
     if (plan_.impulses.empty()) return;
     plan_.depth = options_.depth;
     plan_.onReturn = {stepOf(simd::kReturnImpulses)};
     if (countsRays()) {
       plan_.onReturn.push_back(amendingStep("returnRayCounts", simd::kReturnImpulses,
                                             returnRayCounts, {Part::rays, Part::rayCounts}, {}));
+    }
+    if (notesEnds()) {
+      plan_.onReturn.push_back(amendingStep("returnEnds", simd::kReturnImpulses, returnEnds,
+                                            {Part::rays, Part::radiance}, {Part::parentRadiance}));
     }
     // Primary rays and the impulses of flat mirrors are coherent; Embree then traverses packets as
     // frustums. Paths that have met more than two surfaces no longer are, and samples of lobes

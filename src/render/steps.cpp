@@ -43,6 +43,10 @@ void forEachKept(const Chunk& c, Keep&& keep) {
   }
 }
 
+float largestWeight(const Chunk& c, std::size_t i) {
+  return std::max({c.rays.weightR[i], c.rays.weightG[i], c.rays.weightB[i]});
+}
+
 ChannelValues valuesOf(const Chunk& c, std::size_t i) {
   ChannelValues values;
   const SurfelColumns& s = c.surfels;
@@ -141,19 +145,24 @@ std::uint64_t countNonFinite(const Chunk& c) {
   return count;
 }
 
-// The mean over the samples so far of whether a surface is hit.
-void addToAlpha(const Chunk& c) {
-  const std::span<float> alpha = c.frame->channels.layers->floats(Channel::alpha);
+// Makes the last component of the channel the mean over the samples so far of valueAt(slot).
+template <typename ValueAt>
+void addToMean(const Chunk& c, Channel channel, const ValueAt& valueAt) {
+  const std::span<float> means = c.frame->channels.layers->floats(channel);
+  const std::size_t components = infoOf(channel).components;
   forEachKept(c, [&](std::size_t slot, std::size_t pixel) {
-    const float hit = c.surfels.material[slot] == kMiss ? 0.0f : 1.0f;
-    const float before = c.sampleNumber == 0 ? hit : alpha[pixel];
-    alpha[pixel] = before + (hit - before) / static_cast<float>(c.sampleNumber + 1);
+    float& mean = means[(pixel + 1) * components - 1];
+    const float value = valueAt(slot), before = c.sampleNumber == 0 ? value : mean;
+    mean = before + (value - before) / static_cast<float>(c.sampleNumber + 1);
   });
 }
 
 void keepChannels(Chunk& c) {
   if (c.depth > 0 || !c.frame->channels.layers) return;
-  if (c.frame->channels.layers->channels().has(Channel::alpha)) addToAlpha(c);
+  if (c.frame->channels.layers->channels().has(Channel::alpha)) {
+    addToMean(c, Channel::alpha,
+              [&](std::size_t slot) { return c.surfels.material[slot] == kMiss ? 0.0f : 1.0f; });
+  }
   if (!isKept(c)) return;
   forEachKept(c, [&](std::size_t slot, std::size_t pixel) {
     c.frame->channels.layers->keep(pixel, valuesOf(c, slot));
@@ -174,6 +183,20 @@ void keepRayCounts(Chunk& c) {
   if (!isKept(c)) return;
   const std::span<std::uint32_t> rays = c.frame->channels.layers->numbers(Channel::rays);
   forEachKept(c, [&](std::size_t slot, std::size_t pixel) { rays[pixel] = c.rayCounts[slot]; });
+}
+
+void startEnds(Chunk& c) { std::fill_n(c.radiance.ended, c.n, 0.0f); }
+
+void returnEnds(Chunk& c) {
+  for (std::size_t i = 0; i < c.n; ++i) {
+    c.parentRadiance.ended[c.rays.parent[i]] += largestWeight(c, i) * c.radiance.ended[i];
+  }
+}
+
+void keepEnds(Chunk& c) {
+  if (!c.frame->channels.layers) return;
+  addToMean(c, Channel::error,
+            [&](std::size_t slot) { return largestWeight(c, slot) * c.radiance.ended[slot]; });
 }
 
 void auditShadows(Chunk& c) {

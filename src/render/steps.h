@@ -34,6 +34,11 @@ void countShadowRays(Chunk& c);  // of the light in hand
 void returnRayCounts(Chunk& c);  // to the parents
 void keepRayCounts(Chunk& c);
 
+// The share of the light that ended paths could bring (RadianceColumns::ended) goes the same way.
+void startEnds(Chunk& c);
+void returnEnds(Chunk& c);
+void keepEnds(Chunk& c);
+
 // Steps after findHits, in scenes with coplanar triangles that overlap or with coincident spheres.
 // They choose among the surfaces that a ray hits in one place, by the rule of
 // reference/settle_coplanar.h, and note the dielectrics that the ray crosses there

@@ -80,7 +80,7 @@ void runChecked(const Step& step, Chunk& chunk) {
 Workspace::Workspace(const Plan& plan, std::size_t capacity)
     : plan_(plan),
       capacity_(roundUpToBlock(capacity)),
-      levels_(static_cast<std::size_t>(plan.depth) + 1),
+      levels_(static_cast<std::size_t>(plan.depth) + 2),  // the last for paths that end
       hits_(capacity_, plan.features),
       surfels_(capacity_, plan.features) {
   if (plan.writes(Part::unshadowed)) unshadowed_.allocate(capacity_, plan.features);
@@ -268,7 +268,7 @@ void TileTracer::keepErrors(const Frame& frame) {
   const std::span<float> errors = frame.film->channels.floats(Channel::error);
   for (std::size_t i = 0; i < chunk_.pixels.size(); ++i) {
     const std::uint32_t pixel = chunk_.pixels[i];
-    errors[frame.film->image.index(pixelX(pixel), pixelY(pixel))] =
+    errors[2 * frame.film->image.index(pixelX(pixel), pixelY(pixel))] =
         static_cast<float>(sums_[i].standardError(static_cast<int>(frame.endSample)));
   }
 }
@@ -328,7 +328,7 @@ void TileTracer::shadeChunk(int depth, const Watch& watch) {
     chunk_.turnTo(light.light, light.sample, light.samples);
     runSteps(light.steps, watch);
   }
-  if (depth < plan_.depth) addImpulses(watch);
+  if (depth < plan_.depth || plan_.features.has(Feature::ended)) addImpulses(watch);
 }
 
 void TileTracer::addImpulses(const Watch& watch) {

@@ -40,6 +40,7 @@ namespace whit {
   X(lift, "shadow rays that start above their facets (--terminator)")     \
   X(cones, "the width of pixels along rays (--texture-filter trilinear)") \
   X(smoothNormals, "vertex normals")                                      \
+  X(ended, "paths that --depth and --cutoff end (--channels error)")      \
   X(textures, "maps of colors")                                           \
   X(normalMaps, "maps of normals")                                        \
   X(secondUvs, "maps looked up with second texture coordinates")
@@ -149,10 +150,13 @@ inline constexpr std::uint32_t kSharesPlace = 1u << 30;
   X(float, b, always)              \
   X(float, visible, always)
 
+// `ended` is the share of radiance 1 at the ends of all paths that --depth and --cutoff end which
+// would come back; a bound, by the largest of the three weights.
 #define WHIT_RADIANCE_COLUMNS(X) \
   X(float, r, always)            \
   X(float, g, always)            \
-  X(float, b, always)
+  X(float, b, always)            \
+  X(float, ended, ended)
 
 WHIT_DECLARE_COLUMNS(RayColumns, WHIT_RAY_COLUMNS);
 WHIT_DECLARE_COLUMNS(HitColumns, WHIT_HIT_COLUMNS);

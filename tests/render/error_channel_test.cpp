@@ -1,5 +1,7 @@
-// The channel `error`: a closed form where every sample is black or of one color, and whether the
-// interval that it states holds the true error where light is sampled.
+// The channel `error`. Its first component, the standard error: a closed form where every sample is
+// black or of one color, and whether the interval that it states holds the true error where light
+// is sampled. Its second, the share of the paths that --depth and --cutoff end: a closed form
+// between mirrors, and whether it bounds what is left out.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -66,7 +68,7 @@ TEST_P(ErrorChannel, IsThatOfABinomialAtAnEdge) {
       }
       const double expected = std::sqrt(squares / count);
       // Sums in double of numbers in float; equal samples leave the root of their rounding.
-      EXPECT_NEAR(double{errors[film.image.index(x, y)]}, expected, 1e-6) << x << "," << y;
+      EXPECT_NEAR(double{errors[2 * film.image.index(x, y)]}, expected, 1e-6) << x << "," << y;
       largest = std::max(largest, expected);
     }
   }
@@ -78,9 +80,82 @@ TEST_P(ErrorChannel, IsInfiniteForOneSample) {
   o.mode = GetParam();
   o.channels = parseChannels("error");
   const Film film = filmWithErrors(discScene(), o);
-  for (const float error : film.channels.floats(Channel::error)) {
-    EXPECT_EQ(error, std::numeric_limits<float>::infinity());
+  const auto errors = film.channels.floats(Channel::error);
+  for (std::size_t i = 0; i < errors.size(); i += 2) {
+    EXPECT_EQ(errors[i], std::numeric_limits<float>::infinity());
   }
+}
+
+// Two mirrors that face each other, with the camera between them.
+Scene hallScene() {
+  SceneDescription d;
+  d.name = "hall";
+  d.materials.resize(1);
+  d.materials[0].diffuse = {0, 0, 0};
+  d.materials[0].mirror = d.materials[0].mirrorGrazing = {0.2f, 0.5f, 0.3f};
+  constexpr float kFar = 1000;  // no ray of the tests gets past the edges
+  Mesh mesh;
+  for (const float z : {-1.0f, 4.0f}) {
+    mesh.positions.insert(mesh.positions.end(),
+                          {{-kFar, -kFar, z}, {kFar, -kFar, z}, {0, kFar, z}});
+  }
+  mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+  mesh.materials = {0, 0};
+  d.objects.push_back({"mirrors", {mesh}});
+  d.instances.push_back({0, Affine{}});
+  d.cameras.resize(1);
+  d.cameras[0].eye = {0, 0, 2};
+  d.cameras[0].fov = 40;
+  Warnings warnings;
+  return Scene::finalize(std::move(d), warnings);
+}
+
+// After k mirrors of the largest reflectance 0.5 the share is 0.5^k.
+TEST_P(ErrorChannel, HasTheShareOfThePathsThatEndBetweenMirrors) {
+  struct Case {
+    int depth;
+    float cutoff;
+    double share;
+  };
+  for (const Case& c : {Case{0, 1e-3f, 0.5}, Case{3, 1e-3f, 1.0 / 16}, Case{64, 0.1f, 1.0 / 16}}) {
+    RenderOptions o = smallOptions();
+    o.mode = GetParam();
+    o.depth = c.depth;
+    o.cutoff = c.cutoff;
+    o.spp = 2;
+    o.channels = parseChannels("error");
+    const Film film = filmWithErrors(hallScene(), o);
+    const auto errors = film.channels.floats(Channel::error);
+    for (std::size_t i = 1; i < errors.size(); i += 2) EXPECT_EQ(double{errors[i]}, c.share);
+  }
+}
+
+// All light of this frame is the sky's: no path brings more than its brightest color.
+TEST_P(ErrorChannel, BoundsWhatDepthAndCutoffLeaveOut) {
+  constexpr double kBrightest = 0.86, kRounding = 1e-5;  // of the sky's horizon
+  const Scene scene = load("glass");
+  RenderOptions o = smallOptions();
+  o.size = ImageSize{53, 33};
+  o.mode = GetParam();
+  o.disable = EffectSet().with(Effect::lights).with(Effect::ambient).with(Effect::emission);
+  o.channels = parseChannels("error");
+  o.depth = 3;
+  o.cutoff = 0.02f;
+  const Film film = filmWithErrors(scene, o);
+  o.depth = 32;
+  o.cutoff = 1e-4f;
+  const Film exact = filmWithErrors(scene, o);
+  double largest = 0;
+  for (std::size_t i = 0; i < film.image.pixels.size(); ++i) {
+    const Rgb missing = exact.image.pixels[i] - film.image.pixels[i];
+    const auto boundOf = [&](const Film& f) {
+      return kBrightest * double{f.channels.floats(Channel::error)[2 * i + 1]} + kRounding;
+    };
+    EXPECT_LE(double{maxComponent(missing)}, boundOf(film));
+    EXPECT_GE(double{std::min({missing.x, missing.y, missing.z})}, -boundOf(exact));
+    largest = std::max(largest, double{maxComponent(missing)} / boundOf(film));
+  }
+  EXPECT_GT(largest, 0.3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Modes, ErrorChannel, testing::Values(Mode::packets, Mode::reference));
@@ -112,7 +187,7 @@ TEST(ErrorChannelCoverage, HoldsTheTrueErrorOfNineTenthsOfThePixels) {
     double covered = 0, noisy = 0;
     for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
       const double apart = std::abs(meanOf(film.image.pixels[i]) - meanOf(truth.pixels[i]));
-      const double error = double{film.channels.floats(Channel::error)[i]};
+      const double error = double{film.channels.floats(Channel::error)[2 * i]};
       const double rounding = 1e-6 * meanOf(truth.pixels[i]);
       covered += apart <= kDeviations * error + rounding;
       noisy += error > 1e-3 * meanOf(truth.pixels[i]);
