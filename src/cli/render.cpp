@@ -332,7 +332,7 @@ class ImageWriter {
     }
     if (!receipt_) fillShadowCache(film);
     run_.frames.push_back(renderFrame(*renderer_, options_.mode, camera_, film, progress));
-    if (receipt_) receipt_->measuredMs = stopwatch.ms();
+    if (receipt_) assess(*receipt_, *renderer_, camera_, stopwatch.ms(), film);
     refuseNonFinite(open_->scene, options_, run_.frames.back());
     run_.imageHash = accuracy::digestOf(film.image);
     startWriting(film, files, std::move(metadata));

@@ -41,6 +41,16 @@ void ChannelLayers::resize(ChannelSet channels, std::size_t pixels) {
   });
 }
 
+void ChannelLayers::keepOnly(ChannelSet channels) {
+  const ChannelSet before = channels_;
+  before.forEach([&](Channel c) {
+    if (channels.has(c)) return;
+    channels_ = channels_.without(c);
+    floats_[index(c)].clear();
+    numbers_[index(c)].clear();
+  });
+}
+
 void ChannelLayers::keep(std::size_t pixel, const ChannelValues& v) {
   const auto keepFloats = [&](Channel c, std::initializer_list<float> values) {
     if (channels_.has(c)) std::ranges::copy(values, &floats(c)[pixel * values.size()]);

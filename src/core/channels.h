@@ -94,6 +94,9 @@ class ChannelLayers {
   std::span<std::uint32_t> numbers(Channel channel) { return numbers_[index(channel)]; }
   std::span<const std::uint32_t> numbers(Channel channel) const { return numbers_[index(channel)]; }
 
+  // Forgets the channels that are not in the set.
+  void keepOnly(ChannelSet channels);
+
   // Stores the values of all existing channels for the pixel with this index.
   void keep(std::size_t pixel, const ChannelValues& values);
 

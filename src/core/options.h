@@ -439,7 +439,8 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .help = "extra output channels (AOVs) of the first hit, at the sample nearest to "
                       "the pixel's center: depth, position, normal, albedo, uv, object, material, "
                       "triangle, rays; alpha, the share of samples that hit a surface; and error, the "
-                      "standard error of the mean of the samples",
+                      "standard error of the mean of the samples and the share of light that depth "
+                      "and cutoff ended",
               .rebuilds = Rebuild::frame, .changesPicture = false, .tab = Tab::none,
               .everyday = true},
              o.channels},

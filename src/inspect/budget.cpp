@@ -4,7 +4,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <regex>
+#include <span>
+#include <utility>
 
 #include "core/error.h"
 #include "core/option_table.h"
@@ -19,14 +22,14 @@ namespace {
 
 // Errors are measured in blocks of this side: large enough for most of FLIP's filters, and small
 // enough that a thousand pixels come from all of the picture.
-constexpr int kBlockSide = 8;
+constexpr int kBlockSide = 8, kPooledSide = 4;
 
 // Shares of the budget: of all measurements, with a least and a largest; and the share of the
 // picture's time that measuring it takes.
-constexpr double kProbeShare = 0.06, kMostProbeShare = 0.2, kLeastProbeMs = 12,
-                 kPictureShare = 0.05;
+constexpr double kProbeShare = 0.1, kMostProbeShare = 0.2, kLeastProbeMs = 12, kPictureShare = 0.05;
 constexpr double kProbeMsOfTarget = 300, kShortMs = 40;
-constexpr double kLeastBlocks = 8, kMostBlocks = 1000;
+constexpr double kLeastBlocks = 8, kMostBlocks = 1000, kAssessShare = 0.01;
+constexpr double kChannelMargin = 1.25;  // of the noise that the channel `error` tells
 constexpr int kRounds = 3;
 // The time that is aimed at, over the rest of the budget: whole samples leave some of it, and
 // measured times are a little too long, by caches that are cold.
@@ -40,17 +43,53 @@ constexpr double kCostOfProbe = 1.5, kFlipMicroseconds = 1;
 // difference, so that it falls more slowly; probes of one and four samples tell the power badly.
 constexpr double kModelError = 1, kTargetMargin = 1.25, kLeastPower = 0.6, kMostFlipPower = 0.9,
                  kMostCodesPower = 1.3;
-// Noise below this share of the middle's is not believed.
-constexpr double kLeastNoise = 0.02;
+// Noise below this share of the middle's is not believed. Among so many combinations those whose
+// measurements flatter them would win, so that each value beside the middle's has to gain this
+// share over the root of the number of blocks.
+constexpr double kLeastNoise = 0.02, kDoubt = 0.5;
 constexpr double kUnseenFlip = 2e-4, kUnseenCodes = 0.02;
 // A pattern of 4096 samples takes 0.15 to 0.3 s: about a 25th of the budget.
 constexpr double kSppOfRootMs = 50;
 
 constexpr double kMostMs = 1e9;
 
+// The means of squares of kPooledSide pixels.
+Image pooled(const Image& image) {
+  Image means(image.width / kPooledSide, image.height / kPooledSide);
+  for (int y = 0; y < means.height * kPooledSide; ++y) {
+    for (int x = 0; x < means.width * kPooledSide; ++x) {
+      means.at(x / kPooledSide, y / kPooledSide) +=
+          image.at(x, y) / static_cast<float>(squared(kPooledSide));
+    }
+  }
+  return means;
+}
+
+void setError(Receipt& r, double error) {
+  r.error = error;
+  r.low = error / (1 + kModelError), r.high = error * (1 + kModelError);
+}
+
+double brightestRadiance(const Scene& scene, const Image& image) {
+  float brightest = 0;
+  for (const Rgb& pixel : image.pixels) brightest = std::max(brightest, maxComponent(pixel));
+  for (const Material& m : scene.materials)
+    brightest = std::max(brightest, maxComponent(m.emission));
+  const Sky& sky = scene.sky;
+  if (sky.kind == Sky::Kind::none) return double{brightest};
+  for (const Rgb& color : {sky.zenith, sky.horizon, sky.ground}) {
+    brightest = std::max(brightest, sky.scale * maxComponent(color));
+  }
+  for (const std::vector<float>* texels : {&sky.image.r, &sky.image.g, &sky.image.b}) {
+    for (const float texel : *texels) brightest = std::max(brightest, sky.scale * texel);
+  }
+  return double{brightest};
+}
+
 struct Combination {
   std::array<std::size_t, kChosenKnobs.size()> levels{};
   int spp = 1;
+  double bias = 0;
   CostAndError total;  // milliseconds of the picture
 };
 
@@ -62,11 +101,13 @@ class Chooser {
         fixed_(fixed),
         budget_(budget),
         channels_(renderer.options().channels),
+        measured_(channels_.with(Channel::error)),
         wasAdaptive_(renderer.options().adaptive),
         middle_(renderer.options()),
         prober_(renderer, camera, film, budget.inCodes) {
     middle_.channels = {};
     middle_.adaptive = middle_.adaptive && fixed.contains("adaptive");
+    if (middle_.adaptive) measured_ = channels_;  // it takes all samples with the channel
   }
 
   Receipt choose() {
@@ -145,20 +186,27 @@ class Chooser {
       const auto first = ladder.levels.begin() + 1, last = ladder.levels.end() - (toExact ? 1 : 0);
       if (probeSpp_ > 1 && first < last) std::rotate(first, first + (last - first) / 2, last);
     }
-    double probes = kTruthFactor;
-    for (const Ladder& ladder : ladders_) probes += static_cast<double>(ladder.levels.size());
-    const double microseconds = 1e3 * ms / prober_.pixels() * kCostOfProbe * (probeSpp_ + 1);
-    const double pixels =
-        1e3 * (probeMs() - clock_.ms()) / probes / (microseconds + kFlipMicroseconds);
+    double samples = kTruthFactor * probeSpp_, pictures = 0;  // of a pixel
+    for (const Ladder& ladder : ladders_) {
+      const auto levels = static_cast<double>(ladder.levels.size());
+      samples += levels * (1 + (ladder.off.empty() ? 1 : probeSpp_)), pictures += levels;
+    }
+    const double us = 1e3 * ms / prober_.pixels() * kCostOfProbe * samples;
+    const double pixels = 1e3 * (probeMs() - clock_.ms()) / (us + kFlipMicroseconds * pictures);
     prober_.chooseBlocks(kBlockSide,
                          std::clamp(pixels / squared(kBlockSide), kLeastBlocks, kMostBlocks));
   }
 
   void measure() {
+    probed_ = prober_.probed();
+    // Of other random numbers: noise that truth and probes shared would hide what samples cost.
+    renderer_.setSeed(1);
     prober_.time(middle_, kTruthFactor * probeSpp_);
+    renderer_.setSeed(0);
     const Image truth = prober_.mosaic();
-    prober_.render(middle_, 1);
-    noise2_ = squared(prober_.difference(prober_.mosaic(), truth));
+    const double firstUs = prober_.time(middle_, 1);
+    const Image first = prober_.mosaic();
+    noise2_ = squared(prober_.difference(first, truth));
     sampleUs_ = prober_.time(middle_, probeSpp_);
     const Image own = prober_.mosaic();
     const double some = prober_.difference(own, truth);
@@ -168,11 +216,40 @@ class Chooser {
       const double some2 = std::max(squared(some) - rest, squared(some) / 4);
       power_ = std::clamp(std::log(noise2_ / some2) / std::log(probeSpp_), kLeastPower, most);
     }
-    for (Ladder& ladder : ladders_) measureLadder(own, some, truth, ladder);
+    for (Ladder& ladder : ladders_) {
+      if (ladder.off.empty()) {  // one sample will do: all values share its noise
+        const std::vector<Image> shown = renderLevels(1, firstUs, first, ladder);
+        const bool toExact = ladder.levels.back().value == ladder.exact;
+        for (std::size_t i = 0; i < shown.size(); ++i) {
+          ladder.levels[i].bias2 =
+              squared(prober_.difference(shown[i], shown[toExact ? shown.size() - 1 : 0]));
+        }
+        continue;
+      }
+      const std::vector<Image> shown = renderLevels(probeSpp_, sampleUs_, own, ladder);
+      for (std::size_t i = 1; i < shown.size(); ++i) {
+        Level& level = ladder.levels[i];
+        // Means of many pixels tell what is missing in all of them from noise.
+        if (level.value == ladder.off) level.bias2 = pooledBias2(shown[i], own, truth);
+        const double more =
+            squared(prober_.difference(shown[i], truth)) - level.bias2 - squared(some);
+        level.noise2 = std::min(more, 0.0) * std::pow(probeSpp_, power_);
+      }
+    }
   }
 
-  void measureLadder(const Image& own, double some, const Image& truth, Ladder& ladder) {
-    std::vector<Image> shown{own};
+  // Squared: of the picture without samples of a knob. The truth's own noise is subtracted by its
+  // share in the difference of two pictures that differ in nothing but noise.
+  double pooledBias2(const Image& off, const Image& own, const Image& truth) const {
+    const Image mean = pooled(truth);
+    const double noise2 = squared(prober_.difference(pooled(own), mean)) / (1 + kTruthFactor);
+    return std::max(squared(prober_.difference(pooled(off), mean)) - noise2, 0.0);
+  }
+
+  // The pictures of all values, and their costs, by the first one and its time. Values that there
+  // is no time for are left out.
+  std::vector<Image> renderLevels(int spp, double us, const Image& first, Ladder& ladder) {
+    std::vector<Image> shown{first};
     for (std::size_t i = 1; i < ladder.levels.size(); ++i) {
       const bool isLate = timed() && clock_.ms() > kMostProbeShare * budget_.ms;
       if (isLate && (i > 1 || probeSpp_ > 1)) {
@@ -181,21 +258,10 @@ class Chooser {
       }
       RenderOptions options = middle_;
       setOption(options, ladder.name, ladder.levels[i].value);
-      ladder.levels[i].cost = prober_.time(options, probeSpp_) / sampleUs_;
+      ladder.levels[i].cost = prober_.time(options, spp) / us;
       shown.push_back(prober_.mosaic());
     }
-    const Image& exact = ladder.levels.back().value == ladder.exact ? shown.back() : own;
-    for (std::size_t i = 0; i < ladder.levels.size(); ++i) {
-      Level& level = ladder.levels[i];
-      if (ladder.off.empty()) {
-        level.bias2 = squared(prober_.difference(shown[i], exact));
-      } else if (i > 0) {
-        const double more = squared(prober_.difference(shown[i], truth)) - squared(some);
-        const bool isOff = level.value == ladder.off;
-        (isOff ? level.bias2 : level.noise2) =
-            isOff ? std::max(more, 0.0) : std::min(more, 0.0) * std::pow(probeSpp_, power_);
-      }
-    }
+    return shown;
   }
 
   double wantedError() const { return budget_.error / kTargetMargin; }
@@ -222,6 +288,7 @@ class Chooser {
                                  : samplesFor(squared(wantedError()) - bias2);
       c.spp = static_cast<int>(std::clamp(spp, 1.0, double{kSppLimit}));
     }
+    c.bias = std::sqrt(bias2);
     c.total = {ms * c.spp, std::sqrt(bias2 + noise2 * std::pow(c.spp, -power_))};
   }
 
@@ -234,8 +301,11 @@ class Chooser {
     for (bool more = true; more;) {
       complete(c, left);
       all.push_back(c);
-      costs.push_back(c.total);
-      errors.push_back({c.total.error, c.total.cost});
+      const auto same = static_cast<double>(std::ranges::count(c.levels, std::size_t{0}));
+      const double doubt = std::pow(1 + kDoubt * kBlockSide / std::sqrt(probed_),
+                                    static_cast<double>(c.levels.size()) - same);
+      costs.push_back({c.total.cost, c.total.error * doubt});
+      errors.push_back({c.total.error, c.total.cost * doubt});
       more = false;
       for (std::size_t i = 0; i < ladders_.size() && !more; ++i) {
         more = ++c.levels[i] < ladders_[i].levels.size();
@@ -254,6 +324,7 @@ class Chooser {
       setOption(options, ladders_[i].name, ladders_[i].levels[c.levels[i]].value);
     }
     options.spp = c.spp;
+    options.channels = measured_;
     return options;
   }
 
@@ -261,8 +332,8 @@ class Chooser {
     Receipt r;
     r.budget = budget_;
     r.options = optionsOf(best);
-    r.options.channels = channels_;
     renderer_.setOptions(r.options);
+    r.options.channels = channels_;
     if (!fixed_.contains("spp")) r.chosen.emplace_back("spp", std::to_string(best.spp));
     if (wasAdaptive_ && !middle_.adaptive) r.chosen.emplace_back("adaptive", "off");
     for (std::size_t i = 0; i < ladders_.size(); ++i) {
@@ -273,8 +344,8 @@ class Chooser {
         r.approximate.push_back({ladder.name, level.value, ladder.exact, std::sqrt(level.bias2)});
       }
     }
-    r.error = best.total.error;
-    r.low = r.error / (1 + kModelError), r.high = r.error * (1 + kModelError);
+    r.bias = best.bias;
+    setError(r, best.total.error);
     r.expectedMs = best.total.cost;
     const double left = leftMs();
     if (timed() && r.expectedMs > kAim * left) {
@@ -292,12 +363,13 @@ class Chooser {
   Renderer& renderer_;
   const std::set<std::string>& fixed_;
   Budget budget_;
-  ChannelSet channels_;
+  ChannelSet channels_, measured_;  // asked for, and of the picture
   bool wasAdaptive_;
   RenderOptions middle_;  // of which one knob at a time is changed
   Prober prober_;
   std::vector<Ladder> ladders_;
   int probeSpp_ = kSomeSpp;
+  double probed_ = 1;                           // pixels
   double sampleUs_ = 0, scale_ = 1;             // of a sample of the middle
   double noise2_ = 0, power_ = kMostFlipPower;  // squared error of one sample; see measure()
 };
@@ -338,6 +410,36 @@ Receipt chooseOptions(Renderer& renderer, const Camera& camera, const std::set<s
   return Chooser(renderer, camera, fixed, budget, film).choose();
 }
 
+void assess(Receipt& r, Renderer& renderer, const Camera& camera, double ms, Film& film) {
+  const Stopwatch clock;
+  if (renderer.options().channels.has(Channel::error)) {
+    Image noisy = film.image, whole = film.image;
+    const double brightest = brightestRadiance(renderer.scene(), film.image);
+    const std::span<const float> errors = std::as_const(film.channels).floats(Channel::error);
+    std::mt19937 random;
+    std::uniform_real_distribution<float> noise(-std::sqrt(3.0f), std::sqrt(3.0f));  // variance 1
+    for (std::size_t i = 0; i < film.image.pixels.size(); ++i) {
+      noisy.pixels[i] += Rgb(noise(random) * errors[2 * i]);
+      whole.pixels[i] += Rgb(static_cast<float>(brightest * double{errors[2 * i + 1]}));
+    }
+    Prober prober(renderer, camera, film, r.budget.inCodes);
+    const double pixels = 1e3 * kAssessShare * ms / kFlipMicroseconds;
+    prober.chooseBlocks(kBlockSide, std::max(pixels / squared(kBlockSide), kLeastBlocks));
+    const Image shown = prober.mosaic();
+    r.ended = prober.difference(prober.mosaic(whole), shown);
+    const double sampled = prober.difference(prober.mosaic(noisy), shown);
+    if (r.options.spp >
+        1) {  // samples that are spread evenly have less noise than the channel says
+      const double most = std::sqrt(squared(r.bias) + squared(sampled));
+      setError(r, std::min(r.error, most));
+      r.high = kChannelMargin * most;
+    }
+  }
+  film.channels.keepOnly(r.options.channels);
+  renderer.setOptions(r.options);
+  r.measuredMs = ms + clock.ms();
+}
+
 std::string receiptText(const Receipt& r, const std::string& command) {
   const char* const unit = r.budget.inCodes ? "codes" : "FLIP";
   std::string text = "  chosen ";
@@ -353,7 +455,8 @@ std::string receiptText(const Receipt& r, const std::string& command) {
   text += formatted("\n  time %.0f ms: %.0f to choose, %.0f for the picture (expected %.0f)",
                     r.usedMs(), r.probeMs, r.measuredMs, r.expectedMs);
   if (r.budget.ms > 0) text += formatted(", %.0f %% of the budget", 100 * r.usedMs() / r.budget.ms);
-  text += formatted("\n  error %.4f %s, between %.4f and %.4f\n", r.error, unit, r.low, r.high);
+  text += formatted("\n  error %.4f %s, between %.4f and %.4f", r.error, unit, r.low, r.high);
+  text += formatted("; --depth and --cutoff left out at most %.4f\n", r.ended);
   if (!r.note.empty()) text += "  note: " + r.note + "\n";
   if (!command.empty()) text += "  the same picture: " + command + options + "\n";
   return text;

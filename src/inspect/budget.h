@@ -39,17 +39,24 @@ struct Receipt {
   std::vector<Knob> approximate;                            // knobs that are not exact
   double probeMs = 0;                                       // spent on measuring and choosing
   double expectedMs = 0;                                    // of the picture
-  double measuredMs = 0;                                    // of the picture, set by who renders it
+  double measuredMs = 0;                                    // of the picture, set by assess()
+  double bias = 0;  // of the error: what more samples would not take away
   double error = 0, low = 0, high = 0;
+  double ended = 0;  // at most so much error is of paths that depth and cutoff ended
   std::string note;  // empty, or why budget or target are not met
 
   double usedMs() const { return probeMs + measuredMs; }
 };
 
 // Chooses the options that are not in `fixed`. `film` is that of the picture, whose pixels are
-// overwritten. The renderer is left with the chosen options.
+// overwritten. The renderer is left with the chosen options, and with the channel `error`.
 Receipt chooseOptions(Renderer& renderer, const Camera& camera, const std::set<std::string>& fixed,
                       const Budget& budget, Film& film);
+
+// Adds to the receipt what the picture itself tells, which took so long: the most noise by the
+// channel `error`, and the bound of what depth and cutoff left out by the brightest radiance of
+// sky, emission and picture. Leaves the channels that were asked for.
+void assess(Receipt& receipt, Renderer& renderer, const Camera& camera, double ms, Film& film);
 
 // Lines for people; the last is the command without the budget, if `command` begins it.
 std::string receiptText(const Receipt& receipt, const std::string& command);

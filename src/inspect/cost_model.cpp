@@ -69,7 +69,7 @@ double Prober::time(const RenderOptions& options, int spp) {
   return 1e3 * render(options, spp).frameMs / (probed() * spp);
 }
 
-Image Prober::mosaic() const {
+Image Prober::mosaic(const Image& picture) const {
   const int count = static_cast<int>(blocks_.size());
   const int columns = std::max(static_cast<int>(std::sqrt(count)), 1);
   Image image(columns * side_, (count + columns - 1) / columns * side_);
@@ -78,7 +78,7 @@ Image Prober::mosaic() const {
     for (const std::uint32_t pixel : block) {
       image.at(b % columns * side_ + pixelX(pixel) - pixelX(block[0]),
                b / columns * side_ + pixelY(pixel) - pixelY(block[0])) =
-          film_.image.at(pixelX(pixel), pixelY(pixel));
+          picture.at(pixelX(pixel), pixelY(pixel));
     }
   }
   return image;

@@ -44,8 +44,9 @@ class Prober {
   // not count.
   double time(const RenderOptions& options, int spp);
 
-  // The blocks as last rendered.
-  Image mosaic() const;
+  // The blocks as last rendered, or as another picture of the film's size has them.
+  Image mosaic() const { return mosaic(film_.image); }
+  Image mosaic(const Image& picture) const;
 
   // Mean FLIP, or the root mean square in codes.
   double difference(const Image& a, const Image& b) const;

@@ -284,7 +284,7 @@ Receipt Renderer::renderWithin(const std::string& budget, const std::string& tar
     data_->changed = true;  // the next frame has the options of set() again
     const Stopwatch stopwatch;
     data_->render(camera, image, told);
-    made.measuredMs = stopwatch.ms();
+    assess(made, *data_->renderer, camera, stopwatch.ms(), image.data_->film);
     return Receipt{made.chosen, made.probeMs, made.expectedMs, made.measuredMs,      made.error,
                    made.low,    made.high,    made.note,       receiptText(made, "")};
   });

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/option_table.h"
 #include "inspect/knobs.h"
+#include "inspect/metrics.h"
 #include "io/load_scene.h"
 
 namespace whit {
@@ -33,6 +34,8 @@ Chosen chooseFor(const Scene& scene, const Budget& budget, const std::set<std::s
   const Camera camera = chooseCamera(scene, options);
   Chosen chosen{chooseOptions(renderer, camera, fixed, budget, film), {}};
   renderer.render(camera, film);
+  assess(chosen.receipt, renderer, camera, 1000, film);
+  EXPECT_EQ(film.channels.channels(), options.channels);
   chosen.image = film.image;
   return chosen;
 }
@@ -128,6 +131,28 @@ TEST(Budgets, ThatAreTooSmallSaySo) {
   EXPECT_EQ(receipt.options.spp, 1);
 }
 
+// The error that the picture's own samples tell is that against many samples; twice and half of it
+// are the receipt's interval. No path ends that could bring light, unless the depth is given.
+TEST(Budgets, TellTheErrorOfThePicture) {
+  const Scene scene = load("cornell");
+  RenderOptions options;
+  options.spp = 16;
+  const std::set<std::string> fixed{"spp", "depth"};
+  const Chosen chosen = chooseFor(scene, {.ms = 300}, fixed, options);
+  RenderOptions many = chosen.receipt.options;
+  many.spp = 1024;
+  Renderer renderer(scene, many);
+  Film film = makeFilm(scene, many);
+  renderer.render(chooseCamera(scene, many), film);
+  const double flip = compareImages(chosen.image, film.image, 0, many.toneCurve).flipMean;
+  EXPECT_GE(flip, chosen.receipt.low);
+  EXPECT_LE(flip, chosen.receipt.high);
+  options.depth = 0;
+  EXPECT_GT(chooseFor(load("mirrors"), {.ms = 300}, fixed, options).receipt.ended, 0.05);
+  options.depth = 64;
+  EXPECT_LT(chooseFor(load("mirrors"), {.ms = 300}, fixed, options).receipt.ended, 0.01);
+}
+
 // A single color in every pixel: one sample is as good as many.
 TEST(Budgets, ThatBuyNothingEndEarly) {
   SceneDescription d;
@@ -170,12 +195,13 @@ TEST(Receipts, HaveTheCommandWithoutTheBudget) {
   receipt.chosen = {{"spp", "4"}, {"depth", "8"}};
   receipt.approximate = {{"depth", "8", "64", 0.002}};
   receipt.probeMs = 10, receipt.measuredMs = 85, receipt.expectedMs = 80;
-  receipt.error = 0.02, receipt.low = 0.015, receipt.high = 0.025;
+  receipt.error = 0.02, receipt.low = 0.015, receipt.high = 0.025, receipt.ended = 0.001;
   EXPECT_EQ(receiptText(receipt, "whit render atrium"),
             "  chosen --spp 4 --depth 8\n"
             "  left out depth 64 (FLIP 0.0020)\n"
             "  time 95 ms: 10 to choose, 85 for the picture (expected 80), 95 % of the budget\n"
-            "  error 0.0200 FLIP, between 0.0150 and 0.0250\n"
+            "  error 0.0200 FLIP, between 0.0150 and 0.0250; --depth and --cutoff left out at most "
+            "0.0010\n"
             "  the same picture: whit render atrium --spp 4 --depth 8\n");
 }
 
