@@ -55,8 +55,8 @@ using PatternGenerator = Texture(ShapeParameters& parameters);
 
 // By the name used in scene files ("sphere", "colonnade", "terrain", ...).
 const std::map<std::string, ShapeGenerator*>& shapeGenerators();
-// Textures by formula ("checker", "bricks", "tiles", ...); "normals" of a pattern are a pattern
-// too.
+// Textures by formula, without names (patterns/patterns.cpp: "checker", "bricks", ...); "normals"
+// of a pattern are a pattern too.
 const std::map<std::string, PatternGenerator*>& patternGenerators();
 
 namespace procedural {
@@ -72,13 +72,6 @@ ShapeGenerator makeColumn, makeWall, makeArch, makeColonnade, makeBalustrade, ma
 ShapeGenerator makeVase, makeTumbler, makeCurtain, makeCanopy;
 // shapes/landscape.cpp
 ShapeGenerator makeTerrain, makeTree, makeForest, makePlant, makeRock;
-
-// patterns/patterns.cpp
-PatternGenerator makeChecker, makeStripes, makeFabric, makeLeafMask, makeFrondMask, makeLeaf,
-    makeNoise, makePlaster, makePlasterNormals, makeMarble, makeWood;
-// patterns/masonry.cpp
-PatternGenerator makeBricks, makeBrickNormals, makeTiles, makeTileNormals, makeRoof,
-    makeRoofNormals;
 
 // Replaces exact spheres by triangles: `segments` around, half as many from pole to pole.
 void tessellateSpheres(Mesh& mesh, int segments);

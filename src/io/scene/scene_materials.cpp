@@ -2,7 +2,6 @@
 #include <cstdint>
 #include <utility>
 
-#include "core/error.h"
 #include "core/text.h"
 #include "io/scene/scene_sections.h"
 #include "scene/generation_limit.h"
@@ -36,6 +35,7 @@ Texture makePattern(const JsonValue& definition, std::uint64_t mostBytes) {
   JsonObject object(definition);
   const JsonValue pattern = object.need("pattern");
   Texture made = generate(pattern, patternGenerators(), object);
+  made.name = pattern.text();
   readWrap(object, made.wrapU, made.wrapV);
   object.finish();
   return made;

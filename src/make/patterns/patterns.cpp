@@ -1,11 +1,96 @@
+// Textures painted by formulas over the unit square. Patterns repeat seamlessly: f(u + 1, v) = f(u,
+// v) and the same in v; v points up.
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "make/patterns/noise.h"
-#include "make/patterns/paint.h"
+#include "make/shape.h"
+#include "scene/generation_limit.h"
 
-namespace whit::procedural {
-
+namespace whit {
 namespace {
+
+using namespace procedural;
+
+using ColorFormula = std::function<Rgb(double u, double v)>;
+using ScalarFormula = std::function<double(double u, double v)>;
+
+// Every pattern has the parameter `size`, texels a side.
+Texture blank(ShapeParameters& parameters, int fallback, TexelFormat format) {
+  const int side = parameters.integer("size", fallback, 1, 8192);
+  const std::uint64_t texels = static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side);
+  GenerationLimit::charge(texels, sizeof(std::uint32_t));
+  return emptyTexture("", format, side, side);
+}
+
+// Calls visit(u, v) at the texel centers, row by row from the top.
+template <typename Visitor>
+void forEachTexel(const Texture& texture, Visitor&& visit) {
+  for (int row = 0; row < texture.height; ++row) {
+    for (int column = 0; column < texture.width; ++column) {
+      visit((column + 0.5) / texture.width, 1 - (row + 0.5) / texture.height);
+    }
+  }
+}
+
+// Linear colors in [0, 1].
+Texture paintColor(ShapeParameters& parameters, const ColorFormula& color, int fallback = 512) {
+  Texture texture = blank(parameters, fallback, TexelFormat::color);
+  std::uint32_t* to = texture.texels.data();
+  forEachTexel(texture, [&](double u, double v) { *to++ = encodeColorTexel(color(u, v)); });
+  return texture;
+}
+
+// Tangent-space normals (data, n / 2 + 1 / 2, +y up) of the surface whose height over the square,
+// in units of the square's side, is `height`: (-dh/du, -dh/dv, 1), normalized.
+Texture paintNormals(ShapeParameters& parameters, const ScalarFormula& height) {
+  Texture texture = blank(parameters, 512, TexelFormat::data);
+  const int side = texture.width;
+  std::vector<double> heights;
+  GenerationLimit::charge(texture.texels.size(), sizeof(double));
+  heights.reserve(texture.texels.size());
+  forEachTexel(texture, [&](double u, double v) { heights.push_back(height(u, v)); });
+  const auto at = [&](int row, int column) {
+    const int r = row < 0 ? side - 1 : row < side ? row : 0;
+    const int c = column < 0 ? side - 1 : column < side ? column : 0;
+    return heights[static_cast<std::size_t>(r) * static_cast<std::size_t>(side) +
+                   static_cast<std::size_t>(c)];
+  };
+  const double reach = 2.0 / side;  // between the neighbors on both sides
+  std::uint32_t* to = texture.texels.data();
+  for (int row = 0; row < side; ++row) {
+    for (int column = 0; column < side; ++column) {
+      const double du = at(row, column + 1) - at(row, column - 1);
+      const double dv = at(row - 1, column) - at(row + 1, column);
+      const Vec3d n = normalized(Vec3d{-du, -dv, reach});
+      const auto code = [](double x) { return static_cast<float>(0.5 + 0.5 * x); };
+      *to++ = encodeDataTexel(code(n.x), code(n.y), code(n.z), 1);
+    }
+  }
+  return texture;
+}
+
+// Paints the same value into r, g and b; a is 1.
+Texture paintScalar(ShapeParameters& parameters, const ScalarFormula& value, int fallback) {
+  Texture texture = blank(parameters, fallback, TexelFormat::data);
+  std::uint32_t* to = texture.texels.data();
+  forEachTexel(texture, [&](double u, double v) {
+    const auto x = static_cast<float>(value(u, v));
+    *to++ = encodeDataTexel(x, x, x, 1);
+  });
+  return texture;
+}
+
+// Linear light, clamped to [0, 1] when it is encoded.
+Rgb colorOf(ShapeParameters& parameters, const std::string& key, const Vec3d& fallback) {
+  return Rgb(parameters.vector(key, fallback));
+}
+
+Rgb mix(const Rgb& a, const Rgb& b, double t) {
+  const auto s = static_cast<float>(t);
+  return a * (1 - s) + b * s;
+}
 
 // Signed distance-like value of a pointed leaf standing on v = 0: positive inside.
 double leafShape(double u, double v, double fullness) {
@@ -33,15 +118,13 @@ ScalarFormula plasterHeight(int cells, std::uint32_t seed) {
   };
 }
 
-}  // namespace
-
 // `columns` x `rows` squares of two colors; even numbers repeat without a seam.
 Texture makeChecker(ShapeParameters& parameters) {
   const Rgb a = colorOf(parameters, "color", {0.8, 0.8, 0.8});
   const Rgb b = colorOf(parameters, "color2", {0.1, 0.1, 0.1});
   const int columns = parameters.integer("columns", 2, 1, 4096);
   const int rows = parameters.integer("rows", columns, 1, 4096);
-  return paintColor("checker", sideOf(parameters), [=](double u, double v) {
+  return paintColor(parameters, [=](double u, double v) {
     const int i = static_cast<int>(u * columns), j = static_cast<int>(v * rows);
     return (i + j) % 2 == 0 ? a : b;
   });
@@ -53,7 +136,7 @@ Texture makeStripes(ShapeParameters& parameters) {
   const Rgb b = colorOf(parameters, "color2", {0.5, 0.05, 0.05});
   const int count = parameters.integer("count", 4, 1, 4096);
   const double share = parameters.number("share", 0.5, 0, 1);
-  return paintColor("stripes", sideOf(parameters), [=](double u, double) {
+  return paintColor(parameters, [=](double u, double) {
     const double t = u * count - std::floor(u * count);
     return t < share ? a : b;
   });
@@ -68,7 +151,7 @@ Texture makeFabric(ShapeParameters& parameters) {
   const double border = parameters.number("border", 0.06, 0, 0.5);
   const double contrast = parameters.number("contrast", 0.35, 0, 1);
   const std::uint32_t seed = parameters.seed();
-  return paintColor("fabric", sideOf(parameters), [=](double u, double v) {
+  return paintColor(parameters, [=](double u, double v) {
     const double fu = u * columns - std::floor(u * columns) - 0.5;
     const double fv = v * rows - std::floor(v * rows) - 0.5;
     const double diamond = std::fabs(fu) + std::fabs(fv);
@@ -87,16 +170,19 @@ Texture makeFabric(ShapeParameters& parameters) {
 // Alpha: 1 inside one pointed leaf with its foot at v = 0.
 Texture makeLeafMask(ShapeParameters& parameters) {
   const double fullness = parameters.number("fullness", 0.45, 0.01, 0.5);
-  return paintScalar("leafMask", sideOf(parameters, 128), [=](double u, double v) {
-    // A ramp of a few texels puts the cut at the contour when it is sampled bilinearly.
-    return 0.5 + 24 * leafShape(u, v, fullness);
-  });
+  return paintScalar(
+      parameters,
+      [=](double u, double v) {
+        // A ramp of a few texels puts the cut at the contour when it is sampled bilinearly.
+        return 0.5 + 24 * leafShape(u, v, fullness);
+      },
+      128);
 }
 
 Texture makeFrondMask(ShapeParameters& parameters) {
   const int leaflets = parameters.integer("leaflets", 14, 1, 200);
-  return paintScalar("frondMask", sideOf(parameters, 256),
-                     [=](double u, double v) { return 0.5 + 4 * frondShape(u, v, leaflets); });
+  return paintScalar(
+      parameters, [=](double u, double v) { return 0.5 + 4 * frondShape(u, v, leaflets); }, 256);
 }
 
 // The colors of a leaf: a paler rib and side veins.
@@ -105,15 +191,18 @@ Texture makeLeaf(ShapeParameters& parameters) {
   const Rgb vein = colorOf(parameters, "color2", {0.25, 0.42, 0.12});
   const int veins = parameters.integer("veins", 7, 0, 100);
   const std::uint32_t seed = parameters.seed();
-  return paintColor("leaf", sideOf(parameters, 128), [=](double u, double v) {
-    const double s = std::fabs(u - 0.5) * 2;
-    const double along = (v - 0.3 * s) * veins;
-    const double across = std::fabs(along - std::round(along));
-    const double rib = std::max(1 - s / 0.08, 0.6 * (1 - across / 0.1));
-    const double patch = 0.5 + 0.5 * fractalNoise(seed, 4 * u, 4 * v, 4, 4);
-    const Rgb color = mix(blade, vein, std::clamp(rib, 0.0, 1.0));
-    return color * static_cast<float>(0.75 + 0.5 * patch);
-  });
+  return paintColor(
+      parameters,
+      [=](double u, double v) {
+        const double s = std::fabs(u - 0.5) * 2;
+        const double along = (v - 0.3 * s) * veins;
+        const double across = std::fabs(along - std::round(along));
+        const double rib = std::max(1 - s / 0.08, 0.6 * (1 - across / 0.1));
+        const double patch = 0.5 + 0.5 * fractalNoise(seed, 4 * u, 4 * v, 4, 4);
+        const Rgb color = mix(blade, vein, std::clamp(rib, 0.0, 1.0));
+        return color * static_cast<float>(0.75 + 0.5 * patch);
+      },
+      128);
 }
 
 // Fractal noise between two colors; `contrast` sharpens it. For lawns, soil, clouds of any kind.
@@ -124,7 +213,7 @@ Texture makeNoise(ShapeParameters& parameters) {
   const int octaves = parameters.integer("octaves", 6, 1, 12);
   const double contrast = parameters.number("contrast", 1, 0, 100);
   const std::uint32_t seed = parameters.seed();
-  return paintColor("noise", sideOf(parameters), [=](double u, double v) {
+  return paintColor(parameters, [=](double u, double v) {
     const double n = fractalNoise(seed, cells * u, cells * v, octaves, cells);
     return mix(a, b, std::clamp(0.5 + contrast * n, 0.0, 1.0));
   });
@@ -137,7 +226,7 @@ Texture makePlaster(ShapeParameters& parameters) {
   const double stain = parameters.number("stain", 0.5, 0, 1);
   const std::uint32_t seed = parameters.seed();
   const ScalarFormula height = plasterHeight(cells, seed);
-  return paintColor("plaster", sideOf(parameters), [=](double u, double v) {
+  return paintColor(parameters, [=](double u, double v) {
     const double cloud = 0.5 + 0.6 * fractalNoise(seed + 40, 3 * u, 3 * v, 5, 3);
     const Rgb base = mix(color, color2, std::clamp(stain * cloud, 0.0, 1.0));
     return base * static_cast<float>(1 + 0.12 * height(u, v));
@@ -148,8 +237,7 @@ Texture makePlasterNormals(ShapeParameters& parameters) {
   const int cells = parameters.integer("cells", 6, 1, 1024);
   const double depth = parameters.number("depth", 0.004, 0, 0.5);
   const ScalarFormula height = plasterHeight(cells, parameters.seed());
-  return paintNormals("plasterNormals", sideOf(parameters),
-                      [=](double u, double v) { return depth * height(u, v); });
+  return paintNormals(parameters, [=](double u, double v) { return depth * height(u, v); });
 }
 
 // Veins along the zero lines of warped noise.
@@ -159,7 +247,7 @@ Texture makeMarble(ShapeParameters& parameters) {
   const int cells = parameters.integer("cells", 3, 1, 256);
   const double sharpness = parameters.number("sharpness", 10, 0.1, 1000);
   const std::uint32_t seed = parameters.seed();
-  return paintColor("marble", sideOf(parameters), [=](double u, double v) {
+  return paintColor(parameters, [=](double u, double v) {
     const double x = cells * u, y = cells * v;
     const double warp = 0.7 * fractalNoise(seed + 20, x, y, 5, cells);
     const double coarse = 1 - std::fabs(fractalNoise(seed, x + warp, y + 0.5 * warp, 4, cells));
@@ -179,7 +267,7 @@ Texture makeWood(ShapeParameters& parameters) {
   const int boards = parameters.integer("boards", 4, 1, 256);
   const double rings = parameters.number("rings", 5, 0, 200);
   const std::uint32_t seed = parameters.seed();
-  return paintColor("wood", sideOf(parameters), [=](double u, double v) {
+  return paintColor(parameters, [=](double u, double v) {
     const int board = std::min(static_cast<int>(v * boards), boards - 1);
     const double y = v * boards - board, own = unitHash(seed, board);
     const auto boardSeed = seed + 100u * static_cast<std::uint32_t>(board);
@@ -193,4 +281,174 @@ Texture makeWood(ShapeParameters& parameters) {
   });
 }
 
-}  // namespace whit::procedural
+// Stones in rows; where in the layout a point lies.
+struct Stone {
+  int column, row;    // of the stone, wrapped
+  double across, up;  // within the stone, 0 to 1
+  double edge;        // distance to the stone's edge, in parts of the texture's side
+};
+
+struct Layout {
+  int columns, rows;
+  double bond;   // shift of every other row, in stones
+  double joint;  // width of the joints, in parts of a row
+  double bevel;  // width of the stones' rounded rim, the same
+
+  Stone at(double u, double v) const {
+    const int row = std::min(static_cast<int>(v * rows), rows - 1);
+    const double x = u * columns + (row % 2 == 1 ? bond : 0.0);
+    const int column = static_cast<int>(std::floor(x));
+    const double fu = x - std::floor(x), fv = v * rows - row;
+    const double edge = std::min(std::min(fu, 1 - fu) / columns, std::min(fv, 1 - fv) / rows);
+    return {column % columns, row, fu, fv, edge};
+  }
+  // 0 in the joint, 1 on the face.
+  double face(const Stone& s) const {
+    const double half = 0.5 * joint / rows;
+    return smoothStep(half, half + std::max(bevel, 1e-6) / rows, s.edge);
+  }
+};
+
+Layout readLayout(ShapeParameters& parameters, int columns, int rows, double bond, double joint,
+                  double bevel) {
+  Layout layout{};
+  layout.columns = parameters.integer("columns", columns, 1, 1024);
+  layout.rows = parameters.integer("rows", rows, 1, 1024);
+  layout.bond = parameters.number("bond", bond, 0, 1);
+  layout.joint = parameters.number("joint", joint, 0, 0.9);
+  layout.bevel = parameters.number("bevel", bevel, 0, 0.9);
+  return layout;
+}
+
+// Heights in parts of the texture's side: joints lie `depth` deep, stones are a little uneven.
+Texture masonryNormals(ShapeParameters& parameters, const Layout& layout, double depthFallback,
+                       double roughFallback) {
+  const double depth = parameters.number("depth", depthFallback, 0, 0.5);
+  const double rough = parameters.number("rough", roughFallback, 0, 10);
+  const std::uint32_t seed = parameters.seed();
+  return paintNormals(parameters, [=](double u, double v) {
+    const Stone s = layout.at(u, v);
+    const double grain = fractalNoise(seed + 11, 16 * u, 16 * v, 4, 16);
+    const double lean = (unitHash(seed + 5, s.column, s.row) - 0.5) * (s.across - 0.5) +
+                        (unitHash(seed + 6, s.column, s.row) - 0.5) * (s.up - 0.5);
+    return depth * layout.face(s) * (1 + 0.5 * rough * lean) + 0.35 * depth * rough * grain;
+  });
+}
+
+Layout brickLayout(ShapeParameters& parameters) {
+  return readLayout(parameters, 6, 12, 0.5, 0.10, 0.10);
+}
+
+Layout tileLayout(ShapeParameters& parameters) {
+  return readLayout(parameters, 4, 4, 0, 0.02, 0.015);
+}
+
+Texture makeBricks(ShapeParameters& parameters) {
+  const Layout layout = brickLayout(parameters);
+  const Rgb color = colorOf(parameters, "color", {0.42, 0.17, 0.10});
+  const Rgb color2 = colorOf(parameters, "color2", {0.28, 0.10, 0.07});
+  const Rgb mortar = colorOf(parameters, "mortar", {0.45, 0.42, 0.38});
+  const double stain = parameters.number("stain", 0.25, 0, 1);
+  const std::uint32_t seed = parameters.seed();
+  return paintColor(parameters, [=](double u, double v) {
+    const Stone s = layout.at(u, v);
+    const double grain = 0.5 + 0.5 * fractalNoise(seed + 11, 16 * u, 16 * v, 5, 16);
+    const double cloud = 0.5 + 0.5 * fractalNoise(seed + 3, 3 * u, 3 * v, 4, 3);
+    const Rgb stone = mix(color, color2, unitHash(seed, s.column, s.row));
+    const Rgb base = mix(mortar, stone, layout.face(s));
+    return base * static_cast<float>((1 - 0.5 * stain + stain * (grain - 0.5)) *
+                                     (1 - stain * (cloud - 0.5)));
+  });
+}
+
+Texture makeBrickNormals(ShapeParameters& parameters) {
+  return masonryNormals(parameters, brickLayout(parameters), 0.006, 0.8);
+}
+
+// Polished slabs in two colors, chequered, with veins that differ from slab to slab.
+Texture makeTiles(ShapeParameters& parameters) {
+  const Layout layout = tileLayout(parameters);
+  const Rgb color = colorOf(parameters, "color", {0.62, 0.56, 0.48});
+  const Rgb color2 = colorOf(parameters, "color2", {0.34, 0.16, 0.10});
+  const Rgb joint = colorOf(parameters, "mortar", {0.10, 0.09, 0.08});
+  const double variation = parameters.number("variation", 0.15, 0, 1);
+  const double veins = parameters.number("veins", 0.35, 0, 1);
+  const std::uint32_t seed = parameters.seed();
+  return paintColor(
+      parameters,
+      [=](double u, double v) {
+        const Stone s = layout.at(u, v);
+        const bool odd = (s.column + s.row) % 2 == 1;
+        const double own = unitHash(seed, s.column, s.row);
+        // Each slab is cut from another part of the block.
+        const double x = s.across + 17 * own, y = s.up + 29 * unitHash(seed + 1, s.column, s.row);
+        const double warp = fractalNoise(seed + 20, 1.5 * x, 1.5 * y, 4);
+        const double line = 1 - std::fabs(fractalNoise(seed + 30, 1.2 * x + warp, 1.6 * y, 4));
+        const double vein = std::pow(std::clamp(line, 0.0, 1.0), 14);
+        const double cloud = 0.5 + 0.5 * warp;
+        Rgb slab = odd ? color2 : color;
+        slab = slab * static_cast<float>(1 + variation * (own - 0.5) + 0.5 * veins * (cloud - 0.5));
+        slab = mix(slab, odd ? Rgb(0.6f) : slab * 0.45f, veins * vein);
+        return mix(joint, slab, layout.face(s));
+      },
+      1024);
+}
+
+Texture makeTileNormals(ShapeParameters& parameters) {
+  return masonryNormals(parameters, tileLayout(parameters), 0.002, 0.05);
+}
+
+Texture makeRoof(ShapeParameters& parameters) {
+  const int columns = parameters.integer("columns", 8, 1, 1024);
+  const int rows = parameters.integer("rows", 6, 1, 1024);
+  const Rgb color = colorOf(parameters, "color", {0.45, 0.18, 0.09});
+  const Rgb color2 = colorOf(parameters, "color2", {0.30, 0.13, 0.08});
+  const std::uint32_t seed = parameters.seed();
+  return paintColor(parameters, [=](double u, double v) {
+    const double fu = u * columns - std::floor(u * columns);
+    const double fv = v * rows - std::floor(v * rows);
+    const double own = unitHash(seed, static_cast<int>(u * columns), static_cast<int>(v * rows));
+    const double grain = fractalNoise(seed + 2, 16 * u, 16 * v, 4, 16);
+    const double gutter = smoothStep(0, 0.14, std::min(fu, 1 - fu));
+    const double shade = (0.45 + 0.55 * gutter) * (fv > 0.93 ? 0.6 : 1.0) * (1 + 0.2 * grain);
+    return mix(color, color2, own) * static_cast<float>(shade);
+  });
+}
+
+Texture makeRoofNormals(ShapeParameters& parameters) {
+  const int columns = parameters.integer("columns", 8, 1, 1024);
+  const int rows = parameters.integer("rows", 6, 1, 1024);
+  const double depth = parameters.number("depth", 0.03, 0, 0.5);
+  // Rounded pans lie in overlapping rows.
+  return paintNormals(parameters, [=](double u, double v) {
+    const double fu = u * columns - std::floor(u * columns), fv = v * rows - std::floor(v * rows);
+    return depth * (std::sqrt(std::max(0.0, 1 - 4 * (fu - 0.5) * (fu - 0.5))) - 0.6 * fv);
+  });
+}
+
+}  // namespace
+
+const std::map<std::string, PatternGenerator*>& patternGenerators() {
+  static const std::map<std::string, PatternGenerator*> generators{
+      {"bricks", makeBricks},
+      {"bricksNormals", makeBrickNormals},
+      {"checker", makeChecker},
+      {"fabric", makeFabric},
+      {"frondMask", makeFrondMask},
+      {"leaf", makeLeaf},
+      {"leafMask", makeLeafMask},
+      {"marble", makeMarble},
+      {"noise", makeNoise},
+      {"plaster", makePlaster},
+      {"plasterNormals", makePlasterNormals},
+      {"roof", makeRoof},
+      {"roofNormals", makeRoofNormals},
+      {"stripes", makeStripes},
+      {"tiles", makeTiles},
+      {"tilesNormals", makeTileNormals},
+      {"wood", makeWood},
+  };
+  return generators;
+}
+
+}  // namespace whit
