@@ -1,8 +1,8 @@
 // Morph targets and skins in double, operation for operation as deformVertices() in
-// scene/deformation.h computes them: the same bits.
+// scene/motion.h computes them: the same bits.
 #pragma once
 
-#include "scene/deformation.h"
+#include "scene/motion.h"
 
 namespace whit::simd {
 

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "io/paths.h"
+#include "io/files.h"
 
 namespace whit::view {
 

@@ -1,9 +1,7 @@
 #include "bake/coplanar_triangles.h"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
-#include <utility>
 
 #include "bake/facet.h"
 #include "core/worker_pool.h"

@@ -118,12 +118,6 @@ class CoplanarTriangles {
   // orderOf(). Empty if there are none.
   std::span<const PlacedTriangleId> partnersOf(PlacedTriangleId id) const;
 
-  // False only if forEachPartnerAt() visits none. The scene must have coplanar triangles.
-  bool anyAt(PlacedTriangleId id, double u, double v) const {
-    const Slot& slot = slots_[slotOf(id)];
-    return slot.count != 0 && cells_[slot.firstCell + cellAt(u, v, slot.side)].count != 0;
-  }
-
   // Numbers the coplanar triangles in the order of the scene file; all ranks are 0 before this.
   void rankBy(const Scene& scene, const SceneOrder& order);
 

@@ -1,6 +1,5 @@
 // The rules that turn effects on. Each says why, on or off, in words for `whit info`.
 #include <algorithm>
-#include <iterator>
 
 #include "bake/bake_triangles.h"
 #include "bake/finalize_steps.h"

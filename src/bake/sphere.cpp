@@ -1,7 +1,6 @@
 #include "bake/sphere.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <memory>

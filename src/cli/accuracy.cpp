@@ -11,7 +11,7 @@
 #include "cli/app/program.h"
 #include "cli/commands.h"
 #include "core/error.h"
-#include "io/atomic_file.h"
+#include "io/files.h"
 #include "render/renderer.h"
 
 namespace whit::cli {

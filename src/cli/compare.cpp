@@ -83,14 +83,12 @@ Compared compareFiles(const CompareJob& job) {
         std::pair{common.render.exposure.automatic, "--exposure auto"}}) {
     refuseIf(isGiven, std::string(option) + " needs a scene, not two images");
   }
-  Warnings warnings(job.common.render.strict);
   Compared result;
   result.exposure = job.common.render.exposure.ev;
-  result.a = readImage(job.subjects[0], ImageLimits(), warnings);
-  result.b = readImage(job.subjects[1], ImageLimits(), warnings);
+  result.a = readImage(job.subjects[0], ImageLimits());
+  result.b = readImage(job.subjects[1], ImageLimits());
   result.layersA = readLayers(job.subjects[0], ImageLimits());
   result.layersB = readLayers(job.subjects[1], ImageLimits());
-  if (!job.common.quiet) tellWarnings(warnings);
   return result;
 }
 

@@ -12,7 +12,7 @@
 #include "cli/effects_report.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "io/atomic_file.h"
+#include "io/files.h"
 #include "io/load_scene.h"
 #include "make/leave_out.h"
 

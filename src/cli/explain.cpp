@@ -15,7 +15,7 @@
 #include "core/option_table.h"
 #include "core/text.h"
 #include "inspect/ray_tree.h"
-#include "io/atomic_file.h"
+#include "io/files.h"
 #include "io/image/image_file.h"
 #include "render/renderer.h"
 

@@ -9,7 +9,7 @@
 #include "cli/app/program.h"
 #include "core/option_table.h"
 #include "core/worker_pool.h"
-#include "io/atomic_file.h"
+#include "io/files.h"
 
 namespace whit::cli {
 

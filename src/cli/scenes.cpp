@@ -7,8 +7,7 @@
 #include "cli/app/parse_options.h"
 #include "cli/commands.h"
 #include "core/text.h"
-#include "io/paths.h"
-#include "io/read_file.h"
+#include "io/files.h"
 
 namespace whit::cli {
 

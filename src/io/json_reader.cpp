@@ -1,13 +1,12 @@
 #include "io/json_reader.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <unordered_set>
 
 #include "core/error.h"
 #include "core/text.h"
-#include "io/read_file.h"
+#include "io/files.h"
 
 namespace whit {
 namespace {

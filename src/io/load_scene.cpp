@@ -3,20 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <optional>
-#include <string>
 
 #include "core/error.h"
 #include "core/text.h"
+#include "io/files.h"
 #include "io/image/image_file.h"
 #include "io/image/texture_from_image.h"
-#include "io/json_reader.h"
-#include "io/read_file.h"
 #include "io/scene/scene_sections.h"
 #include "io/scene/scene_settings.h"
 #include "make/model_view.h"
 #include "make/shape.h"
-#include "make/studio_sky.h"
 #include "scene/generation_limit.h"
 
 namespace whit {

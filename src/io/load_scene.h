@@ -27,7 +27,7 @@ struct LoadOptions {
   // OBJ or PLY file "up", the axis that is up in it: "x", "y" or "z"; of a glTF file "variant"
   // (KHR_materials_variants).
   std::vector<std::string> settings;
-  // In place of the scene's own sky: "none", "studio" (scene/studio_sky.h) or an equirectangular
+  // In place of the scene's own sky: "none", "studio" (make/model_view.h) or an equirectangular
   // image. Empty: the scene's own; of a model, which has none, the studio.
   std::string sky;
   // Supplied cameras fit a picture of this size; none: of the scene's own.
@@ -73,7 +73,7 @@ inline constexpr double kAmbientOfSky = 0.4;
 
 inline constexpr const char* kNoSky = "none";
 
-// Makes the sky for kNoSky, "studio" (make/studio_sky.h) or the file of an equirectangular image.
+// Makes the sky for kNoSky, "studio" (make/model_view.h) or the file of an equirectangular image.
 // The file and its decoded texels may take `mostBytes`. Throws as readRawImage() does.
 Sky namedSky(const std::string& name, std::uint64_t mostBytes, Warnings& warnings);
 

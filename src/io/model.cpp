@@ -1,7 +1,6 @@
 #include "io/model.h"
 
 #include <map>
-#include <string>
 
 namespace whit {
 namespace {

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "core/warnings.h"
+#include "io/files.h"
 #include "io/memory_budget.h"
-#include "io/paths.h"
 #include "io/scene/scene_layout.h"
 #include "io/texture_loader.h"
 #include "scene/description.h"

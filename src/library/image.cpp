@@ -6,9 +6,9 @@
 
 #include "core/channels.h"
 #include "core/error.h"
+#include "io/files.h"
 #include "io/image/image_layers.h"
 #include "io/json_reader.h"
-#include "io/paths.h"
 #include "library/internal.h"
 
 namespace whit::api {

@@ -1,8 +1,10 @@
-// How a model without a camera is shown, how bright the lights of a model are, and cameras that
-// circle around a model as if it stood on a turntable.
+// How a model without a camera is shown, how bright the lights of a model are, the sky of a
+// photographer's studio for models without an environment of their own, and cameras that circle
+// around a model as if it stood on a turntable.
 #pragma once
 
 #include "scene/description.h"
+#include "scene/light.h"
 
 namespace whit {
 
@@ -40,5 +42,10 @@ Camera turned(const Turntable& turntable, double turns);
 Turntable aroundModel(const SceneDescription& scene, const ModelView& view, int width, int height);
 // Circles around the line through the camera's target along its up vector.
 Turntable aroundTarget(const Camera& camera);
+
+inline constexpr const char* kStudio = "studio";
+
+// A gray gradient with three soft boxes, which lie above the part that is visible beside a model.
+Sky studioSky();
 
 }  // namespace whit

@@ -1,7 +1,6 @@
 #include "scene/camera.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <type_traits>

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "scene/camera.h"
-#include "scene/deformation.h"
 #include "scene/light.h"
 #include "scene/material.h"
 #include "scene/mesh.h"

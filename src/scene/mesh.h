@@ -9,7 +9,7 @@
 
 #include "core/affine.h"
 #include "core/vec3.h"
-#include "scene/deformation.h"
+#include "scene/motion.h"
 
 namespace whit {
 

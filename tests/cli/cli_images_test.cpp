@@ -28,10 +28,7 @@ std::map<std::string, std::string> metadataOf(const std::string& path) {
   return all;
 }
 
-Image read(const std::string& path) {
-  Warnings warnings;
-  return readImage(path, ImageLimits(), warnings);
-}
+Image read(const std::string& path) { return readImage(path, ImageLimits()); }
 
 bool sameBits(const Image& a, const Image& b) {
   return a.pixels.size() == b.pixels.size() &&

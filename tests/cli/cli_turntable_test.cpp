@@ -5,8 +5,8 @@
 
 #include "cli/app/film_pipe.h"
 #include "core/option_table.h"
+#include "io/files.h"
 #include "io/image/image_file.h"
-#include "io/paths.h"
 #include "run_program.h"
 
 namespace whit::cli {

@@ -10,7 +10,7 @@
 
 #include "cli/run_program.h"
 #include "fuzz/damage.h"
-#include "io/paths.h"
+#include "io/files.h"
 #include "sanitized.h"
 
 namespace whit::fuzz {

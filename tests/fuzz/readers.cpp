@@ -167,7 +167,7 @@ void readImageFile(const fs::path& file) {
   checkTexture(normalsFromHeights("t", raw, 1, Wrap::repeat, Wrap::clamp));
   if (hasTranslucentAlpha(raw)) checkTexture(makeAlphaTexture("t", raw));
   require(!makeEnvironment(raw).r.empty(), "a sky without pixels");
-  readImage(file.string(), limits, warnings);
+  readImage(file.string(), limits);
 }
 
 void readPng(const fs::path& file) {

@@ -1,5 +1,5 @@
 // Files appear whole or not at all.
-#include "io/atomic_file.h"
+#include "io/files.h"
 
 #include <signal.h>
 #include <sys/resource.h>

@@ -2,7 +2,7 @@
 #include <thread>
 
 #include "image_samples.h"
-#include "io/image/decode_queue.h"
+#include "io/texture_loader.h"
 
 namespace whit {
 namespace {

@@ -67,7 +67,7 @@ TEST_F(PngTest, All256CodesSurviveTheWholeWay) {
     append(image.rgba, {c, static_cast<std::uint8_t>(255 - code), c, 255});
   }
   writePng(path("a.png"), image, {});
-  const Image linear = readImage(path("a.png"), limits_, warnings_);
+  const Image linear = readImage(path("a.png"), limits_);
   EXPECT_EQ(toDisplay(linear, 0, ToneCurve::none).rgba, image.rgba);
 }
 

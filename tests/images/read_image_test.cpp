@@ -1,6 +1,6 @@
 // Reading 8-bit and Radiance files: every sample's pixels are known from how its bytes were made.
 #include "image_samples.h"
-#include "io/paths.h"
+#include "io/files.h"
 
 namespace whit {
 namespace {
@@ -107,7 +107,7 @@ TEST_F(ReadImage, RadianceWithRunLengths) {
 }
 
 TEST_F(ReadImage, ReadImageDecodesSrgb) {
-  const Image image = readImage(save("a.bmp", bmp(3, 2, kSixPixels)), limits_, warnings_);
+  const Image image = readImage(save("a.bmp", bmp(3, 2, kSixPixels)), limits_);
   EXPECT_EQ(image.window, (Crop{0, 0, 3, 2}));
   EXPECT_EQ(image.at(0, 0), Rgb(1, 0, 0));
   // IEC 61966-2-1 by hand: code 10 is on the straight part, 90 on the power part.
@@ -117,7 +117,7 @@ TEST_F(ReadImage, ReadImageDecodesSrgb) {
 }
 
 TEST_F(ReadImage, GrayIsSpreadAndAlphaDropped) {
-  const Image image = readImage(save("a.png", png(1, 1, 8, 4, {0, 255, 9})), limits_, warnings_);
+  const Image image = readImage(save("a.png", png(1, 1, 8, 4, {0, 255, 9})), limits_);
   EXPECT_EQ(image.at(0, 0), Rgb(1, 1, 1));
 }
 

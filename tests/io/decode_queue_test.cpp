@@ -1,4 +1,4 @@
-#include "io/image/decode_queue.h"
+#include "io/texture_loader.h"
 
 #include <gtest/gtest.h>
 

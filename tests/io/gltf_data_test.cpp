@@ -4,8 +4,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "io/files.h"
 #include "io/load_scene.h"
-#include "io/paths.h"
 #include "render/renderer.h"
 
 namespace whit {

@@ -1,5 +1,5 @@
 // Cameras, lights, sky, materials and textures of scene files.
-#include "make/studio_sky.h"
+#include "make/model_view.h"
 #include "scene/texture.h"
 #include "scene_files.h"
 

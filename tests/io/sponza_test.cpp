@@ -2,7 +2,7 @@
 #include <filesystem>
 
 #include "bake/scene.h"
-#include "io/paths.h"
+#include "io/files.h"
 #include "scene_files.h"
 
 namespace whit {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/vec3.h"
-#include "make/studio_sky.h"
+#include "make/model_view.h"
 #include "scene_files.h"
 
 namespace whit {

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "io/paths.h"
+#include "io/files.h"
 #include "render/shipped_scene.h"
 #include "sanitized.h"
 

@@ -6,7 +6,7 @@
 
 #include "inspect/metrics.h"
 #include "inspect/path_divergence.h"
-#include "io/paths.h"
+#include "io/files.h"
 #include "render/shipped_scene.h"
 
 namespace whit::test {

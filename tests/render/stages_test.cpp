@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "inspect/metrics.h"
-#include "io/paths.h"
+#include "io/files.h"
 #include "render/pipeline_laws.h"
 #include "simd/kernels.h"
 

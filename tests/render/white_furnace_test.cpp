@@ -5,9 +5,9 @@
 
 #include <cmath>
 
+#include "io/files.h"
 #include "io/memory_budget.h"
 #include "io/model.h"
-#include "io/paths.h"
 #include "io/scene_files.h"
 #include "pi.h"
 #include "reference/add_impulses.h"

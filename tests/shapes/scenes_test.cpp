@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "bake/scene.h"
+#include "io/files.h"
 #include "io/load_scene.h"
-#include "io/paths.h"
 
 namespace whit::test {
 namespace {

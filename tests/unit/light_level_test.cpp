@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "make/studio_sky.h"
 #include "pi.h"
 #include "scene_builder.h"
 

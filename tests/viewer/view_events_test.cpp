@@ -64,9 +64,8 @@ constexpr char kSceneDigest[] = "sceneDigest";
 
 // The pixels' bits, and all that the files say about themselves.
 void expectSameFile(const std::string& viewed, const std::string& rendered) {
-  Warnings warnings;
-  const Image a = readImage(viewed, ImageLimits(), warnings);
-  const Image b = readImage(rendered, ImageLimits(), warnings);
+  const Image a = readImage(viewed, ImageLimits());
+  const Image b = readImage(rendered, ImageLimits());
   EXPECT_EQ(a.pixels, b.pixels);
   ImageMetadata said = readExrMetadata(rendered);
   EXPECT_EQ(std::erase_if(said, [](const auto& entry) { return entry.first == kSceneDigest; }), 1u);

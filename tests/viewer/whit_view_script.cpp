@@ -8,8 +8,8 @@
 
 #include "cli/app/program.h"
 #include "core/error.h"
+#include "io/files.h"
 #include "io/image/image_file.h"
-#include "io/read_file.h"
 #include "script.h"
 
 namespace whit::view {

@@ -3,7 +3,7 @@
 
 #include "io/load_scene.h"
 #include "io/scene/scene_sections.h"
-#include "make/studio_sky.h"
+#include "make/model_view.h"
 #include "viewer/session/frame_tracer.h"
 
 namespace whit::view {

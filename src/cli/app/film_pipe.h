@@ -14,7 +14,7 @@
 
 #include "cli/app/program.h"
 #include "core/stopwatch.h"
-#include "io/atomic_file.h"
+#include "io/files.h"
 
 namespace whit::cli {
 

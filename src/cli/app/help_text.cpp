@@ -15,7 +15,7 @@
 #include "cli/app/program.h"
 #include "core/option_table.h"
 #include "core/text.h"
-#include "io/paths.h"
+#include "io/files.h"
 
 namespace whit::cli {
 

@@ -12,7 +12,7 @@
 #include "core/error.h"
 #include "core/option_table.h"
 #include "core/text.h"
-#include "io/atomic_file.h"
+#include "io/files.h"
 
 namespace whit::cli {
 
@@ -42,11 +42,10 @@ constexpr std::uint64_t kLargestPixel = 4 * sizeof(float);  // in a file that mi
 // The pixels are read as well: a file that was cut off still has its head.
 ImageMetadata readThrough(const std::string& path, const Image& image) {
   if (extensionOf(path) == ".png") return readPngMetadata(path);
-  Warnings warnings;
   const std::uint64_t pixels =
       static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
   const ImageLimits limits{kImageSideLimit, kLargestPixel * pixels};
-  readImage(path, limits, warnings);
+  readImage(path, limits);
   return readExrMetadata(path);
 }
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/options.h"
+#include "io/files.h"
 #include "io/image/image_file.h"
 #include "io/image/image_layers.h"
-#include "io/paths.h"
 #include "render/renderer.h"
 
 namespace whit::cli {

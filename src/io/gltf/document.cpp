@@ -5,12 +5,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cstring>
-#include <optional>
 #include <string_view>
 #include <utility>
 
 #include "core/error.h"
-#include "io/read_file.h"
 
 namespace whit {
 

@@ -14,9 +14,9 @@
 
 #include "core/vec3.h"
 #include "core/warnings.h"
+#include "io/files.h"
 #include "io/json_reader.h"
 #include "io/memory_budget.h"
-#include "io/paths.h"
 
 namespace whit {
 

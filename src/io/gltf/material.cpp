@@ -4,9 +4,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include "io/gltf/document.h"
-#include "scene/material.h"
-
 namespace whit {
 namespace {
 

@@ -6,7 +6,6 @@
 #include <map>
 #include <memory>
 #include <numbers>
-#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -16,7 +15,6 @@
 #include "core/options.h"
 #include "core/text.h"
 #include "scene/description.h"
-#include "scene/motion.h"
 
 namespace whit {
 namespace {

@@ -12,7 +12,6 @@
 #include "io/gltf/document.h"
 #include "io/gltf/material.h"
 #include "scene/camera.h"
-#include "scene/deformation.h"
 #include "scene/light.h"
 #include "scene/mesh.h"
 #include "scene/motion.h"

@@ -26,10 +26,9 @@
 
 #include "core/error.h"
 #include "core/option_table.h"
-#include "io/atomic_file.h"
+#include "io/files.h"
 #include "io/image/image_decoders.h"
 #include "io/image/image_layers.h"
-#include "io/read_file.h"
 #include "scene/members.h"
 
 namespace whit {

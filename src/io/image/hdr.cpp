@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <string_view>
 
+#include "io/files.h"
 #include "io/image/image_decoders.h"
-#include "io/read_file.h"
 
 namespace whit {
 

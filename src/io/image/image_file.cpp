@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <iterator>
 #include <string_view>
 
 #include "core/display.h"
 #include "core/error.h"
+#include "io/files.h"
 #include "io/image/image_decoders.h"
-#include "io/paths.h"
-#include "io/read_file.h"
 
 namespace whit {
 
@@ -164,7 +162,7 @@ Rgb linearPixel(const RawImage& raw, std::size_t i) {
   return raw.channels < 3 ? Rgb(value(0)) : Rgb(value(0), value(1), value(2));
 }
 
-Image readImage(const std::string& path, const ImageLimits& limits, Warnings&) {
+Image readImage(const std::string& path, const ImageLimits& limits) {
   ExrImage source;
   if (isExrFile(path)) {
     source = decodeExr(path, false, limits);

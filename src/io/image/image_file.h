@@ -56,7 +56,7 @@ Rgb linearPixel(const RawImage& raw, std::size_t i);
 
 // Reads an image as linear RGB, see linearPixel(). An EXR keeps its data window (the part inside
 // the display window), and floats keep their bits, NaN and infinities included.
-Image readImage(const std::string& path, const ImageLimits& limits, Warnings& warnings);
+Image readImage(const std::string& path, const ImageLimits& limits);
 
 // Storage of an EXR's pixels: floats with lossless compression or without any, half floats (values
 // are clamped to 65504), or half floats with OpenEXR's lossy DWAA.

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <csetjmp>
 #include <cstdlib>
-#include <iterator>
 
 #include "core/error.h"
 #include "io/image/image_decoders.h"

@@ -10,9 +10,8 @@
 #include <vector>
 
 #include "core/error.h"
-#include "io/atomic_file.h"
+#include "io/files.h"
 #include "io/image/image_decoders.h"
-#include "io/read_file.h"
 
 namespace whit {
 

@@ -1,7 +1,6 @@
 #include "io/image/texture_from_image.h"
 
 #include <algorithm>
-#include <array>
 
 namespace whit {
 

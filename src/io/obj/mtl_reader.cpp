@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/error.h"
+#include "io/files.h"
 #include "io/line_reader.h"
-#include "io/read_file.h"
 
 namespace whit {
 namespace {

@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "core/error.h"
+#include "io/files.h"
 #include "io/line_reader.h"
 #include "io/obj/mtl_reader.h"
 #include "io/polygon.h"
-#include "io/read_file.h"
 
 namespace whit {
 

@@ -16,10 +16,10 @@
 
 #include "core/display.h"
 #include "core/error.h"
+#include "io/files.h"
 #include "io/line_reader.h"
 #include "io/model.h"
 #include "io/polygon.h"
-#include "io/read_file.h"
 
 namespace whit {
 

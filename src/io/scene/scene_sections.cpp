@@ -3,16 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <memory>
 #include <span>
-#include <string>
-#include <utility>
 
 #include "core/error.h"
 #include "core/option_table.h"
-#include "io/paths.h"
-#include "make/studio_sky.h"
-#include "scene/motion.h"
+#include "make/model_view.h"
 
 namespace whit {
 

@@ -12,12 +12,11 @@
 
 #include "core/progress.h"
 #include "core/warnings.h"
+#include "io/files.h"
 #include "io/json_reader.h"
 #include "io/load_scene.h"
 #include "io/memory_budget.h"
 #include "io/model.h"
-#include "io/paths.h"
-#include "io/read_file.h"
 #include "io/texture_loader.h"
 #include "make/shape.h"
 #include "scene/description.h"

@@ -2,7 +2,6 @@
 
 #include <limits>
 #include <numbers>
-#include <utility>
 
 #include "scene/generation_limit.h"
 

@@ -1,18 +1,23 @@
-#include "io/paths.h"
+#include "io/files.h"
 
+#include <fcntl.h>
 #include <sys/auxv.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cctype>
+#include <cerrno>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
+#include <fstream>
 #include <string_view>
 #include <system_error>
-#include <vector>
 
-#include "core/error.h"
 #include "core/text.h"
-#include "io/read_file.h"
 
 namespace whit {
 namespace fs = std::filesystem;
@@ -67,6 +72,65 @@ std::vector<std::string> shippedNames(const std::vector<fs::path>& folders) {
   std::ranges::sort(names);
   names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;
+}
+
+// Reads at most `maxBytes`; a longer file is Error(limit) or, with `cut`, read in part.
+std::string read(const fs::path& path, std::uint64_t maxBytes, bool cut) {
+  constexpr std::size_t kShown = 250;
+  std::string name = path.string();
+  if (name.size() > kShown) name = excerpt(name) + name.substr(name.size() - kShown / 2);
+  std::error_code error;
+  const auto status = fs::status(path, error);
+  if (!fs::exists(status)) throwIo(name, "cannot open " + name + ": no such file");
+  if (!fs::is_regular_file(status)) throwIo(name, "cannot read " + name + ": not a file");
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throwIo(name, "cannot open " + name + ": " + std::strerror(errno));
+  const std::uint64_t size = fs::file_size(path, error);
+  if (error) throwIo(name, "cannot read " + name + ": " + error.message());
+  if (size > maxBytes && !cut) {
+    throwLimit(name + " has " + std::to_string(size) + " bytes, more than the limit of " +
+               std::to_string(maxBytes));
+  }
+  std::string bytes(std::min(size, maxBytes), '\0');
+  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (!in) throwIo(name, "cannot read " + name + ": reading stopped early");
+  return bytes;
+}
+
+// Recognizes UTF-16 by its byte order mark, or by zeros beside the first letters.
+bool isUtf16(const std::string& text) {
+  return text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") ||
+         text.substr(0, 4).find('\0') != std::string::npos;
+}
+
+[[noreturn]] void throwCannotWrite(const std::string& path, int error) {
+  throwIo(path, "cannot write '" + path + "': " + std::strerror(error));
+}
+
+// A symbolic link keeps pointing where it points; its target is what is replaced.
+std::string followLink(const std::string& path) {
+  std::error_code error;
+  if (!fs::is_symlink(path, error)) return path;
+  const fs::path target = fs::canonical(path, error);
+  return error ? path : target.string();
+}
+
+// Creates an empty file beside `path`. Its name does not grow with `path`'s, which may already be
+// as long as the file system allows.
+std::string createBeside(const std::string& path) {
+  static std::atomic<unsigned> counter{0};
+  const fs::path folder = fs::path(path).parent_path();
+  for (;;) {
+    const std::string name =
+        ".whit-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp";
+    std::string temporary = (folder / name).string();
+    const int file = ::open(temporary.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+    if (file >= 0) {
+      ::close(file);
+      return temporary;
+    }
+    if (errno != EEXIST) throwCannotWrite(path, errno);
+  }
 }
 
 }  // namespace
@@ -163,6 +227,64 @@ std::vector<fs::path> shippedScenes() {
   std::vector<fs::path> scenes;
   for (const std::string& name : shippedNames(sceneFolders())) scenes.push_back(findScene(name));
   return scenes;
+}
+
+std::string readFile(const fs::path& path, std::uint64_t maxBytes) {
+  std::string bytes = read(path, maxBytes, false);
+  if (bytes.starts_with("version https://git-lfs.github.com/spec/")) {
+    throwBadScene(path.string(),
+                  "expected the file itself, found a Git LFS pointer to it (git lfs pull fetches "
+                  "it)");
+  }
+  return bytes;
+}
+
+std::string readTextFile(const fs::path& path, std::uint64_t maxBytes) {
+  constexpr std::string_view kMark = "\xef\xbb\xbf";
+  std::string text = readFile(path, maxBytes);
+  if (isUtf16(text)) {
+    throwBadScene(path.string(), "expected text in UTF-8, found UTF-16: save it as UTF-8");
+  }
+  if (text.starts_with(kMark)) text.erase(0, kMark.size());
+  return text;
+}
+
+std::string readBeginning(const fs::path& path, std::uint64_t bytes) {
+  return read(path, bytes, true);
+}
+
+AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
+  if (path_.empty()) throwIo("cannot write a file without a name");
+  path_ = followLink(path_);
+  struct stat info {};
+  if (::stat(path_.c_str(), &info) == 0) {
+    if (S_ISDIR(info.st_mode)) throwCannotWrite(path_, EISDIR);
+    // Devices and pipes are written straight: replacing /dev/null by a file would be no kindness.
+    if (!S_ISREG(info.st_mode)) {
+      temporary_ = path_;
+      return;
+    }
+  }
+  temporary_ = createBeside(path_);
+}
+
+AtomicFile::~AtomicFile() {
+  if (!committed_ && temporary_ != path_) std::remove(temporary_.c_str());
+}
+
+void AtomicFile::commit() {
+  if (temporary_ != path_ && std::rename(temporary_.c_str(), path_.c_str()) != 0)
+    throwCannotWrite(path_, errno);
+  committed_ = true;
+}
+
+void writeTextFile(const std::string& path, const std::string& text) {
+  AtomicFile file(path);
+  std::ofstream out(file.temporaryPath(), std::ios::binary | std::ios::trunc);
+  out.write(text.data(), static_cast<std::streamsize>(text.size()));
+  out.close();
+  if (!out) throwCannotWrite(path, errno != 0 ? errno : EIO);
+  file.commit();
 }
 
 }  // namespace whit

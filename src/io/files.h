@@ -1,0 +1,105 @@
+// Files: which of them scenes may name, where shipped scenes are found, how files are read into
+// memory, and files that appear under their name only when complete.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+
+namespace whit {
+
+std::string extensionOf(const std::filesystem::path& path);  // in lower case, ".exr"
+
+// $WHIT_DATA; empty where that is not set.
+std::filesystem::path dataFolder();
+
+// Which files a scene may name: those below its own folder or below the data folder, unless
+// allowOutside. Links are followed before that is judged.
+class PathRules {
+ public:
+  PathRules(const std::filesystem::path& sceneFolder, bool allowOutside);
+
+  // The path that a file lying in `folder` calls `text`. "$WHIT_DATA/..." is expanded; backslashes
+  // are separators when `backslashes` (OBJ and MTL files written on other systems). The file need
+  // not exist. Throws badScene at `where`.
+  std::filesystem::path resolve(std::string text, const std::filesystem::path& folder,
+                                const std::string& where, bool backslashes = false) const;
+
+ private:
+  bool inside(const std::filesystem::path& path) const;
+
+  std::filesystem::path sceneFolder_, dataFolder_;
+  bool allowOutside_;
+};
+
+// "landscape?triangles=2000&seed=3" taken apart.
+struct SceneName {
+  std::string file;
+  std::map<std::string, double> parameters;
+};
+// Throws Error(usage) when a parameter is not of the form name=number.
+SceneName parseSceneName(const std::string& name);
+
+// A path for names that look like one (a separator or an extension), a shipped scene for bare
+// names, which are also looked for in `shippedScenes` unless that is empty. Throws Error(usage) for
+// a bare name that is not shipped, naming the nearest.
+std::filesystem::path findScene(const std::string& file, const std::string& shippedScenes = "");
+// All of them that are found, in order of their names.
+std::vector<std::filesystem::path> shippedScenes();
+
+// Throws Error(io) if the file cannot be read, limit if it has more than `maxBytes`, badScene if it
+// is a Git LFS pointer.
+std::string readFile(const std::filesystem::path& path, std::uint64_t maxBytes);
+// Reads text without a byte order mark of UTF-8. Refuses UTF-16.
+std::string readTextFile(const std::filesystem::path& path, std::uint64_t maxBytes);
+// Reads at most `bytes` bytes of the file.
+std::string readBeginning(const std::filesystem::path& path, std::uint64_t bytes);
+
+// The beginning of a text that an error quotes.
+inline std::string excerpt(const std::string& text) {
+  constexpr std::size_t kShown = 60;
+  return text.size() > kShown ? text.substr(0, kShown) + "..." : text;
+}
+
+// Calls `read`, which opens a file that the place `where` names ("": the user): an Error(io) names
+// that place as well.
+template <typename Read>
+auto readNamedAt(const std::string& where, const Read& read) {
+  try {
+    return read();
+  } catch (const Error& error) {
+    if (error.status() != ExitStatus::io || where.empty()) throw;
+    throw Error(ExitStatus::io, where + ": " + error.what(), error.place());
+  }
+}
+
+inline std::span<const std::uint8_t> asBytes(const std::string& text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+// A temporary name beside `path`. commit() renames it to `path`; without commit the destructor
+// removes it, so that an error or an interruption leaves nothing half-written.
+class AtomicFile {
+ public:
+  explicit AtomicFile(std::string path);  // throws Error(io) when the folder is not writable
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  const std::string& temporaryPath() const { return temporary_; }
+  void commit();  // throws Error(io)
+
+ private:
+  std::string path_, temporary_;
+  bool committed_ = false;
+};
+
+// The whole text at once.
+void writeTextFile(const std::string& path, const std::string& text);
+
+}  // namespace whit
