@@ -25,57 +25,11 @@ void checkImageSize(const std::string& path, std::int64_t width, std::int64_t he
 [[nodiscard]] RawImage startImage(const std::string& path, std::int64_t width, std::int64_t height,
                                   int channels, bool linear, const ImageLimits& limits);
 
-// The bytes of a file, which decoders read one after the other.
-class ImageBytes {
- public:
-  ImageBytes(const std::string& path, std::span<const std::uint8_t> file)
-      : path_(path), file_(file) {}
-
-  std::size_t at() const { return at_; }
-  std::size_t left() const { return file_.size() - at_; }
-  // These throw badScene if the file has fewer bytes left.
-  void need(std::uint64_t bytes) const {
-    if (bytes > left()) fail("the file is cut short");
-  }
-  void skip(std::uint64_t bytes) {
-    need(bytes);
-    at_ += bytes;
-  }
-  std::uint8_t next() {
-    need(1);
-    return file_[at_++];
-  }
-  // Reads a number of this many bytes, the lowest first.
-  std::uint32_t number(int bytes) {
-    std::uint32_t value = 0;
-    for (int i = 0; i < bytes; ++i) value |= std::uint32_t{next()} << (8 * i);
-    return value;
-  }
-
-  [[noreturn]] void fail(const std::string& what) const {
-    throwBadScene(path_ + ": byte " + std::to_string(at_), what);
-  }
-
- private:
-  const std::string& path_;
-  std::span<const std::uint8_t> file_;
-  std::size_t at_ = 0;
-};
-
 // The decoders throw as readRawImage() does; a file that is cut short or has wrong checksums is
 // badScene.
-RawImage decodePng(const std::string& path, std::span<const std::uint8_t> file,
-                   const ImageLimits& limits);
-RawImage decodeJpeg(const std::string& path, std::span<const std::uint8_t> file,
-                    const ImageLimits& limits);
-RawImage decodeWebp(const std::string& path, std::span<const std::uint8_t> file,
-                    const ImageLimits& limits);
-RawImage decodeBmp(const std::string& path, std::span<const std::uint8_t> file,
-                   const ImageLimits& limits);
-RawImage decodeHdr(const std::string& path, std::span<const std::uint8_t> file,
-                   const ImageLimits& limits);
-RawImage decodeTga(const std::string& path, std::span<const std::uint8_t> file,
-                   const ImageLimits& limits);
+using ImageDecoder = RawImage(const std::string& path, std::span<const std::uint8_t> file,
+                              const ImageLimits& limits);
+ImageDecoder decodePng, decodeJpeg, decodeWebp, decodeBmp, decodeHdr, decodeTga;
 
 // The first part of an OpenEXR file; values keep their bits.
 struct ExrImage {

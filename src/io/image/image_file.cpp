@@ -45,8 +45,7 @@ std::string kindOf(std::span<const std::uint8_t> file) {
 // TGA has no beginning of its own.
 struct Format {
   std::string_view beginning;
-  RawImage (*decode)(const std::string& path, std::span<const std::uint8_t> file,
-                     const ImageLimits& limits);
+  ImageDecoder* decode;
 };
 constexpr Format kFormats[] = {{"\x89PNG\r\n\x1a\n", decodePng},
                                {"\xff\xd8\xff", decodeJpeg},
