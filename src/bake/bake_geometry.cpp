@@ -62,6 +62,11 @@ struct PlacedTriangle {
   bool turned = false;  // its corners run in the opposite direction, and one side alone is seen
 };
 
+bool bends(const Object& object) {
+  return std::ranges::any_of(object.meshes,
+                             [](const Mesh& mesh) { return mesh.deformation != nullptr; });
+}
+
 class Baker {
  public:
   Baker(SceneDescription& description, Scene& scene, Warnings& warnings, Progress* progress)
@@ -93,21 +98,339 @@ class Baker {
   }
 
  private:
-  void plan();
-  void nameItems();
-  std::uint32_t firstItemOf(std::size_t instance) const;
-  void numberTriangles(std::size_t g);
-  void place(std::size_t g);
-  std::vector<std::uint32_t> fromTheLast(std::size_t g) const;
-  void placeSpheres(const Source& source, std::size_t g);
-  void dropCoincident(std::size_t g);
-  void countClasses(std::size_t g);
-  void dropEmptyGeometries();
-  void reserveTables();
-  void emit(std::size_t g);
-  void emitSpheres(std::size_t g);
-  void emitClass(const Source& source, std::size_t wanted, Geometry& geometry, Box& box);
-  void findWhatMoves();
+  // Which mesh goes where: those of objects used once that stand still into geometry 0, others into
+  // one of their own.
+  void plan() {
+    std::vector<Object>& objects = description_.objects;
+    nameItems();
+    std::vector<std::uint64_t> uses(objects.size());
+    std::vector<bool> moves(objects.size());
+    for (std::size_t i = 0; i < objects.size(); ++i) moves[i] = bends(objects[i]);
+    for (const Instance& instance : description_.instances) {
+      ++uses[instance.object];
+      if (instance.mover != kNoNode) moves[instance.object] = true;
+    }
+    std::vector<std::uint32_t> geometryOf(objects.size());
+    std::uint32_t geometries = 1;
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+      if (uses[i] > 1 || (uses[i] == 1 && moves[i])) geometryOf[i] = geometries++;
+      if (uses[i] == 0) objects[i] = {};
+    }
+    sources_.resize(geometries);
+    order_.meshes.resize(geometries);
+    spheres_.resize(geometries);
+    scene_.geometries.resize(geometries);
+    for (std::uint32_t i = 0; i < description_.instances.size(); ++i) {
+      const Instance& instance = description_.instances[i];
+      const std::uint32_t g = geometryOf[instance.object];
+      const bool inWorld = g == 0;
+      order_.instances.push_back(instance.rank);
+      if (!inWorld) {
+        scene_.instances.push_back(
+            {g, i, instance.toWorld, instance.mover, instance.toWorld, firstItemOf(i)});
+      }
+      if (!inWorld && !sources_[g].empty()) continue;
+      for (Mesh& mesh : objects[instance.object].meshes) {
+        Source source;
+        source.mesh = &mesh;
+        source.place.rank = mesh.rank;
+        source.item = mesh.item;
+        if (inWorld) {
+          source.toGeometry = instance.toWorld;
+          source.place.instance = i;
+          source.place.rank += instance.rank;
+          source.item += firstItemOf(i);
+        }
+        sources_[g].push_back(std::move(source));
+        withNormals_ = withNormals_ || !mesh.normals.empty();
+        withColors_ = withColors_ || !mesh.colors.empty();
+        withSecondUvs_ = withSecondUvs_ || !mesh.secondUvs.empty();
+      }
+    }
+  }
+
+  void nameItems() {
+    ItemNumbers& items = scene_.items;
+    items.count = description_.items;
+    items.names = std::move(description_.itemNames);
+    if (items.count > 0) return;
+    items.count = description_.instances.size();
+    for (const Instance& instance : description_.instances) {
+      if (items.names.size() == kNamedItems) break;
+      items.names.push_back(description_.objects[instance.object].name);
+    }
+  }
+
+  std::uint32_t firstItemOf(std::size_t instance) const {
+    const std::uint64_t item =
+        description_.items > 0 ? description_.instances[instance].firstItem : instance;
+    return static_cast<std::uint32_t>(std::min(item, kIndexLimit - 1));
+  }
+
+  void numberTriangles(std::size_t g) {
+    std::vector<Source>& sources = sources_[g];
+    std::uint32_t end = 0;
+    for (std::size_t s = 0; s < sources.size(); ++s) {
+      sources[s].place.firstTriangle = end;
+      const bool goesOn = s > 0 && sources[s].item == sources[s - 1].item;
+      sources[s].firstOfItem = goesOn ? sources[s - 1].firstOfItem : sources[s].place.firstTriangle;
+      end += static_cast<std::uint32_t>(sources[s].mesh->triangles.size());
+      order_.meshes[g].push_back(sources[s].place);
+    }
+  }
+
+  // Transforms the vertices of a geometry and says which of its triangles stay.
+  void place(std::size_t g) {
+    Geometry& geometry = scene_.geometries[g];
+    std::uint64_t vertices = 0, triangles = 0;
+    for (const Source& source : sources_[g]) {
+      vertices += source.mesh->positions.size();
+      triangles += source.mesh->triangles.size();
+    }
+    if (vertices > kIndexLimit) throwLimit("more than 2^32 - 1 vertices");
+    if (triangles > kIndexLimit) throwLimit("more than 2^32 - 1 triangles");
+    numberTriangles(g);
+    geometry.position.reserve(vertices + 1);
+    for (Source& source : sources_[g]) {
+      transform(*source.mesh, source.toGeometry);
+      placeSpheres(source, g);
+      source.firstVertex = static_cast<std::uint32_t>(geometry.position.size());
+      const std::vector<Vec3f> positions = std::exchange(source.mesh->positions, {});
+      geometry.position.insert(geometry.position.end(), positions.begin(), positions.end());
+      source.classified =
+          classifyTriangles(*source.mesh, geometry.position.data() + source.firstVertex,
+                            positions.size(), uses_, warnings_);
+    }
+  }
+
+  // A geometry's sources by the order of the scene, the last first.
+  std::vector<std::uint32_t> fromTheLast(std::size_t g) const {
+    std::vector<std::uint32_t> numbers(sources_[g].size());
+    std::iota(numbers.rbegin(), numbers.rend(), 0u);
+    std::ranges::stable_sort(numbers, [&](std::uint32_t a, std::uint32_t b) {
+      return sources_[g][a].place.rank > sources_[g][b].place.rank;
+    });
+    return numbers;
+  }
+
+  // Drops spheres that Embree would not take, or that have no inside.
+  void placeSpheres(const Source& source, std::size_t g) {
+    const Mesh& mesh = *source.mesh;
+    std::uint64_t dropped = 0;
+    std::uint32_t number = 0;
+    for (const Affine& map : mesh.spheres) {
+      const Box box = sphereBounds(map);
+      const bool fits = isFinite(box.lower) && isFinite(box.upper) &&
+                        maxComponent(max(abs(box.lower), abs(box.upper))) <= kLargestCoordinate;
+      const double volume = sphereMap(makeSphereRecord(map, 0)).determinant();
+      if (fits && std::isnormal(volume)) {
+        spheres_[g].push_back({map, mesh.materials[0], source.place.rank, source.place.instance,
+                               source.item, number});
+      } else {
+        ++dropped;
+      }
+      ++number;
+    }
+    warnings_.add("sphere too small, too flat or too far away dropped", "mesh '" + mesh.name + "'",
+                  dropped);
+  }
+
+  // Among coincident triangles we keep the last one, because Embree would report that one. Glass
+  // keeps all: two faces are two boundaries. So do meshes that bend: the triangles may part.
+  void dropCoincident(std::size_t g) {
+    const std::vector<Vec3f>& position = scene_.geometries[g].position;
+    struct Place {
+      std::uint32_t source, triangle;
+    };
+    std::vector<Place> places;  // from the last on
+    for (const std::uint32_t s : fromTheLast(g)) {
+      const Source& source = sources_[g][s];
+      if (source.mesh->deformation) continue;
+      for (auto i = static_cast<std::uint32_t>(source.mesh->triangles.size()); i-- > 0;) {
+        if (source.classified.classes[i] == kDroppedClass) continue;
+        if (scene_.materials[source.mesh->material(i)].hasTransmission()) continue;
+        places.push_back({s, i});
+      }
+    }
+    const auto triangle = [&](std::uint64_t k) {
+      const auto& [s, i] = places[k];
+      const Source& source = sources_[g][s];
+      const auto& [a, b, c] = source.mesh->triangles[i];
+      const Vec3f* own = position.data() + source.firstVertex;
+      const std::uint32_t material = source.mesh->material(i);
+      return PlacedTriangle(own[a], own[b], own[c], material,
+                            scene_.materials[material].doubleSided);
+    };
+    std::vector<std::pair<std::uint64_t, std::size_t>> order(places.size());  // by their hashes
+    for (std::size_t k = 0; k < order.size(); ++k) order[k] = {triangle(k).hash(), k};
+    std::ranges::sort(order);
+    std::vector<std::size_t> again;
+    std::vector<PlacedTriangle> kept;  // of one hash
+    for (std::size_t n = 1; n < order.size(); ++n) {
+      const auto [hash, k] = order[n];
+      if (hash != order[n - 1].first) {
+        kept.clear();
+        continue;
+      }
+      if (kept.empty()) kept.push_back(triangle(order[n - 1].second));
+      const PlacedTriangle own = triangle(k);
+      const bool isKnown = std::ranges::find(kept, own) != kept.end();
+      isKnown ? again.push_back(k) : kept.push_back(own);
+    }
+    std::ranges::sort(again);
+    for (const std::size_t k : again) {
+      const auto& [s, i] = places[k];
+      Source& source = sources_[g][s];
+      source.classified.drop(i);
+      warnings_.add("triangle in the place of another of its material dropped",
+                    "mesh '" + source.mesh->name + "', triangle " + std::to_string(i));
+    }
+  }
+
+  void countClasses(std::size_t g) {
+    Geometry& geometry = scene_.geometries[g];
+    for (const Source& source : sources_[g]) {
+      for (std::size_t c = 0; c < kTriangleClasses; ++c) {
+        geometry.classBegin[c + 1] += source.classified.count[c];
+      }
+    }
+    for (std::size_t c = 0; c < kTriangleClasses; ++c) {
+      geometry.classBegin[c + 1] += geometry.classBegin[c];
+    }
+  }
+
+  // A geometry of which nothing is left takes its instances with it.
+  void dropEmptyGeometries() {
+    std::vector<std::uint32_t> newNumber(sources_.size());
+    std::uint32_t kept = 1;
+    for (std::size_t g = 1; g < sources_.size(); ++g) {
+      if (scene_.geometries[g].classBegin.back() == 0 && spheres_[g].empty()) continue;
+      if (kept != g) {
+        scene_.geometries[kept] = std::move(scene_.geometries[g]);
+        sources_[kept] = std::move(sources_[g]);
+        order_.meshes[kept] = std::move(order_.meshes[g]);
+        spheres_[kept] = std::move(spheres_[g]);
+      }
+      newNumber[g] = kept++;
+    }
+    scene_.geometries.resize(kept);
+    sources_.resize(kept);
+    spheres_.resize(kept);
+    std::erase_if(scene_.instances,
+                  [&](const InstanceRecord& i) { return newNumber[i.geometry] == 0; });
+    for (InstanceRecord& i : scene_.instances) i.geometry = newNumber[i.geometry];
+  }
+
+  void reserveTables() {
+    std::uint64_t triangles = 0;
+    for (const Geometry& geometry : scene_.geometries) triangles += geometry.classBegin.back();
+    std::uint64_t total = triangles;
+    for (const auto& spheres : spheres_) total += spheres.size();
+    if (total > kIndexLimit) throwLimit("more than 2^32 - 1 triangles and spheres");
+    scene_.triangles.reserve(total);
+    if (withNormals_) scene_.normals.reserve(total);
+    if (withColors_) scene_.colors.reserve(total);
+    if (withSecondUvs_) scene_.secondUvs.reserve(total);
+    isSearched_ = triangles <= kMostSearched;
+    if (isSearched_) order_.triangles.reserve(triangles);
+    boxes_.resize(scene_.geometries.size());
+  }
+
+  // Class by class and in order, so that the tables grow at their ends while the meshes go: at no
+  // time are both wholly in memory.
+  void emit(std::size_t g) {
+    Geometry& geometry = scene_.geometries[g];
+    geometry.firstTriangle = static_cast<std::uint32_t>(scene_.triangles.size());
+    geometry.index.reserve(geometry.classBegin.back());
+    for (const Source& source : sources_[g]) {
+      if (!source.mesh->deformation) continue;
+      scene_.motion.bent.push_back(
+          {static_cast<std::uint32_t>(g), source.firstVertex, source.mesh->deformation});
+    }
+    for (std::size_t c = 0; c < kTriangleClasses; ++c) {
+      for (Source& source : sources_[g]) {
+        auto& count = source.classified.count;
+        if (count[c] == 0) continue;
+        emitClass(source, c, geometry, boxes_[g]);
+        count[c] = 0;
+        const bool done = std::all_of(count.begin(), count.begin() + kTriangleClasses,
+                                      [](std::uint32_t n) { return n == 0; });
+        if (done) *source.mesh = {};
+        reportProgress(progress_, "baking geometry",
+                       static_cast<double>(scene_.triangles.size()) /
+                           static_cast<double>(scene_.triangles.capacity()));
+      }
+    }
+  }
+
+  // Entries of other tables at a sphere's number are never used, but may be read.
+  void emitSpheres(std::size_t g) {
+    Geometry& geometry = scene_.geometries[g];
+    geometry.firstSphere = static_cast<std::uint32_t>(scene_.triangles.size());
+    geometry.spheres = static_cast<std::uint32_t>(spheres_[g].size());
+    std::ranges::stable_sort(
+        spheres_[g], [](const PlacedSphere& a, const PlacedSphere& b) { return a.rank < b.rank; });
+    for (const PlacedSphere& sphere : spheres_[g]) {
+      const auto number = static_cast<std::uint32_t>(scene_.triangles.size());
+      order_.spheres.push_back({sphere.rank, sphere.instance, number});
+      scene_.items.add(number, sphere.item, sphere.number);
+      scene_.triangles.push_back(makeSphereRecord(sphere.map, sphere.material));
+      if (withSecondUvs_) scene_.secondUvs.push_back({});
+      if (withNormals_) scene_.normals.push_back({});
+      if (withColors_) scene_.colors.push_back({{1, 1, 1, 1, 1, 1, 1, 1, 1}});
+      const Box own = sphereBounds(sphere.map);
+      boxes_[g].add(own.lower);
+      boxes_[g].add(own.upper);
+    }
+    spheres_[g] = {};
+  }
+
+  void emitClass(const Source& source, std::size_t wanted, Geometry& geometry, Box& box) {
+    const Mesh& mesh = *source.mesh;
+    Tally badUv, badNormal, badColor;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      if (source.classified.classes[i] != wanted) continue;
+      auto corners = mesh.triangles[i];
+      for (std::uint32_t& corner : corners) {
+        corner += source.firstVertex;
+        box.add(geometry.position[corner]);
+      }
+      geometry.index.push_back(corners);
+      const auto number = static_cast<std::uint32_t>(source.place.firstTriangle + i);
+      if (isSearched_) order_.triangles.push_back(number);
+      scene_.items.add(static_cast<std::uint32_t>(scene_.triangles.size()), source.item,
+                       number - source.firstOfItem);
+      std::uint64_t uvs = 0, normals = 0, colors = 0;
+      const MaterialUse& use = uses_[mesh.material(i)];
+      scene_.triangles.push_back(makeTriangleRecord(mesh, i, geometry.position, corners, use, uvs));
+      if (withSecondUvs_) scene_.secondUvs.push_back(makeSecondUvRecord(mesh, i, use, uvs));
+      if (withNormals_) {
+        scene_.normals.push_back(makeNormalRecord(mesh, i, scene_.triangles.back(), normals));
+      }
+      if (withColors_) scene_.colors.push_back(makeColorRecord(mesh, i, colors));
+      badUv.add(i, uvs);
+      badNormal.add(i, normals);
+      badColor.add(i, colors);
+    }
+    badUv.report(warnings_, "non-finite texture coordinate set to 0", mesh);
+    badColor.report(warnings_, "vertex color out of range clamped", mesh);
+    badNormal.report(warnings_, "zero or non-finite normal replaced by the face's", mesh);
+  }
+
+  void findWhatMoves() {
+    BakedMotion& motion = scene_.motion;
+    const auto isBent = [&](const InstanceRecord& i) {
+      return std::ranges::any_of(motion.bent,
+                                 [&](const BentVertices& b) { return b.geometry == i.geometry; });
+    };
+    for (const InstanceRecord& i : scene_.instances) {
+      motion.ofGeometry |= i.mover != kNoNode || isBent(i);
+    }
+    const auto& cameras = motion.given.cameras;
+    const bool carried =
+        std::ranges::any_of(cameras, [](const MovingCamera& m) { return m.node != kNoNode; });
+    motion.ofGeometry |= carried && !scene_.instances.empty();
+  }
 
   SceneDescription& description_;
   Scene& scene_;
@@ -121,344 +444,6 @@ class Baker {
   bool withNormals_ = false, withColors_ = false, withSecondUvs_ = false;
   bool isSearched_ = false;  // for coplanar triangles
 };
-
-void Baker::findWhatMoves() {
-  BakedMotion& motion = scene_.motion;
-  const auto isBent = [&](const InstanceRecord& i) {
-    return std::ranges::any_of(motion.bent,
-                               [&](const BentVertices& b) { return b.geometry == i.geometry; });
-  };
-  for (const InstanceRecord& i : scene_.instances) {
-    motion.ofGeometry |= i.mover != kNoNode || isBent(i);
-  }
-  const auto& cameras = motion.given.cameras;
-  const bool carried =
-      std::ranges::any_of(cameras, [](const MovingCamera& m) { return m.node != kNoNode; });
-  motion.ofGeometry |= carried && !scene_.instances.empty();
-}
-
-bool bends(const Object& object) {
-  return std::ranges::any_of(object.meshes,
-                             [](const Mesh& mesh) { return mesh.deformation != nullptr; });
-}
-
-void Baker::nameItems() {
-  ItemNumbers& items = scene_.items;
-  items.count = description_.items;
-  items.names = std::move(description_.itemNames);
-  if (items.count > 0) return;
-  items.count = description_.instances.size();
-  for (const Instance& instance : description_.instances) {
-    if (items.names.size() == kNamedItems) break;
-    items.names.push_back(description_.objects[instance.object].name);
-  }
-}
-
-std::uint32_t Baker::firstItemOf(std::size_t instance) const {
-  const std::uint64_t item =
-      description_.items > 0 ? description_.instances[instance].firstItem : instance;
-  return static_cast<std::uint32_t>(std::min(item, kIndexLimit - 1));
-}
-
-// Which mesh goes where: those of objects used once that stand still into geometry 0, others into
-// one of their own.
-void Baker::plan() {
-  std::vector<Object>& objects = description_.objects;
-  nameItems();
-  std::vector<std::uint64_t> uses(objects.size());
-  std::vector<bool> moves(objects.size());
-  for (std::size_t i = 0; i < objects.size(); ++i) moves[i] = bends(objects[i]);
-  for (const Instance& instance : description_.instances) {
-    ++uses[instance.object];
-    if (instance.mover != kNoNode) moves[instance.object] = true;
-  }
-  std::vector<std::uint32_t> geometryOf(objects.size());
-  std::uint32_t geometries = 1;
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    if (uses[i] > 1 || (uses[i] == 1 && moves[i])) geometryOf[i] = geometries++;
-    if (uses[i] == 0) objects[i] = {};
-  }
-  sources_.resize(geometries);
-  order_.meshes.resize(geometries);
-  spheres_.resize(geometries);
-  scene_.geometries.resize(geometries);
-  for (std::uint32_t i = 0; i < description_.instances.size(); ++i) {
-    const Instance& instance = description_.instances[i];
-    const std::uint32_t g = geometryOf[instance.object];
-    const bool inWorld = g == 0;
-    order_.instances.push_back(instance.rank);
-    if (!inWorld) {
-      scene_.instances.push_back(
-          {g, i, instance.toWorld, instance.mover, instance.toWorld, firstItemOf(i)});
-    }
-    if (!inWorld && !sources_[g].empty()) continue;
-    for (Mesh& mesh : objects[instance.object].meshes) {
-      Source source;
-      source.mesh = &mesh;
-      source.place.rank = mesh.rank;
-      source.item = mesh.item;
-      if (inWorld) {
-        source.toGeometry = instance.toWorld;
-        source.place.instance = i;
-        source.place.rank += instance.rank;
-        source.item += firstItemOf(i);
-      }
-      sources_[g].push_back(std::move(source));
-      withNormals_ = withNormals_ || !mesh.normals.empty();
-      withColors_ = withColors_ || !mesh.colors.empty();
-      withSecondUvs_ = withSecondUvs_ || !mesh.secondUvs.empty();
-    }
-  }
-}
-
-void Baker::numberTriangles(std::size_t g) {
-  std::vector<Source>& sources = sources_[g];
-  std::uint32_t end = 0;
-  for (std::size_t s = 0; s < sources.size(); ++s) {
-    sources[s].place.firstTriangle = end;
-    const bool goesOn = s > 0 && sources[s].item == sources[s - 1].item;
-    sources[s].firstOfItem = goesOn ? sources[s - 1].firstOfItem : sources[s].place.firstTriangle;
-    end += static_cast<std::uint32_t>(sources[s].mesh->triangles.size());
-    order_.meshes[g].push_back(sources[s].place);
-  }
-}
-
-// Transforms the vertices of a geometry and says which of its triangles stay.
-void Baker::place(std::size_t g) {
-  Geometry& geometry = scene_.geometries[g];
-  std::uint64_t vertices = 0, triangles = 0;
-  for (const Source& source : sources_[g]) {
-    vertices += source.mesh->positions.size();
-    triangles += source.mesh->triangles.size();
-  }
-  if (vertices > kIndexLimit) throwLimit("more than 2^32 - 1 vertices");
-  if (triangles > kIndexLimit) throwLimit("more than 2^32 - 1 triangles");
-  numberTriangles(g);
-  geometry.position.reserve(vertices + 1);
-  for (Source& source : sources_[g]) {
-    transform(*source.mesh, source.toGeometry);
-    placeSpheres(source, g);
-    source.firstVertex = static_cast<std::uint32_t>(geometry.position.size());
-    const std::vector<Vec3f> positions = std::exchange(source.mesh->positions, {});
-    geometry.position.insert(geometry.position.end(), positions.begin(), positions.end());
-    source.classified =
-        classifyTriangles(*source.mesh, geometry.position.data() + source.firstVertex,
-                          positions.size(), uses_, warnings_);
-  }
-}
-
-// A geometry's sources by the order of the scene, the last first.
-std::vector<std::uint32_t> Baker::fromTheLast(std::size_t g) const {
-  std::vector<std::uint32_t> numbers(sources_[g].size());
-  std::iota(numbers.rbegin(), numbers.rend(), 0u);
-  std::ranges::stable_sort(numbers, [&](std::uint32_t a, std::uint32_t b) {
-    return sources_[g][a].place.rank > sources_[g][b].place.rank;
-  });
-  return numbers;
-}
-
-// Drops spheres that Embree would not take, or that have no inside.
-void Baker::placeSpheres(const Source& source, std::size_t g) {
-  const Mesh& mesh = *source.mesh;
-  std::uint64_t dropped = 0;
-  std::uint32_t number = 0;
-  for (const Affine& map : mesh.spheres) {
-    const Box box = sphereBounds(map);
-    const bool fits = isFinite(box.lower) && isFinite(box.upper) &&
-                      maxComponent(max(abs(box.lower), abs(box.upper))) <= kLargestCoordinate;
-    const double volume = sphereMap(makeSphereRecord(map, 0)).determinant();
-    if (fits && std::isnormal(volume)) {
-      spheres_[g].push_back(
-          {map, mesh.materials[0], source.place.rank, source.place.instance, source.item, number});
-    } else {
-      ++dropped;
-    }
-    ++number;
-  }
-  warnings_.add("sphere too small, too flat or too far away dropped", "mesh '" + mesh.name + "'",
-                dropped);
-}
-
-// Among coincident triangles we keep the last one, because Embree would report that one. Glass
-// keeps all: two faces are two boundaries. So do meshes that bend: the triangles may part.
-void Baker::dropCoincident(std::size_t g) {
-  const std::vector<Vec3f>& position = scene_.geometries[g].position;
-  struct Place {
-    std::uint32_t source, triangle;
-  };
-  std::vector<Place> places;  // from the last on
-  for (const std::uint32_t s : fromTheLast(g)) {
-    const Source& source = sources_[g][s];
-    if (source.mesh->deformation) continue;
-    for (auto i = static_cast<std::uint32_t>(source.mesh->triangles.size()); i-- > 0;) {
-      if (source.classified.classes[i] == kDroppedClass) continue;
-      if (scene_.materials[source.mesh->material(i)].hasTransmission()) continue;
-      places.push_back({s, i});
-    }
-  }
-  const auto triangle = [&](std::uint64_t k) {
-    const auto& [s, i] = places[k];
-    const Source& source = sources_[g][s];
-    const auto& [a, b, c] = source.mesh->triangles[i];
-    const Vec3f* own = position.data() + source.firstVertex;
-    const std::uint32_t material = source.mesh->material(i);
-    return PlacedTriangle(own[a], own[b], own[c], material, scene_.materials[material].doubleSided);
-  };
-  std::vector<std::pair<std::uint64_t, std::size_t>> order(places.size());  // by their hashes
-  for (std::size_t k = 0; k < order.size(); ++k) order[k] = {triangle(k).hash(), k};
-  std::ranges::sort(order);
-  std::vector<std::size_t> again;
-  std::vector<PlacedTriangle> kept;  // of one hash
-  for (std::size_t n = 1; n < order.size(); ++n) {
-    const auto [hash, k] = order[n];
-    if (hash != order[n - 1].first) {
-      kept.clear();
-      continue;
-    }
-    if (kept.empty()) kept.push_back(triangle(order[n - 1].second));
-    const PlacedTriangle own = triangle(k);
-    const bool isKnown = std::ranges::find(kept, own) != kept.end();
-    isKnown ? again.push_back(k) : kept.push_back(own);
-  }
-  std::ranges::sort(again);
-  for (const std::size_t k : again) {
-    const auto& [s, i] = places[k];
-    Source& source = sources_[g][s];
-    source.classified.drop(i);
-    warnings_.add("triangle in the place of another of its material dropped",
-                  "mesh '" + source.mesh->name + "', triangle " + std::to_string(i));
-  }
-}
-
-void Baker::countClasses(std::size_t g) {
-  Geometry& geometry = scene_.geometries[g];
-  for (const Source& source : sources_[g]) {
-    for (std::size_t c = 0; c < kTriangleClasses; ++c) {
-      geometry.classBegin[c + 1] += source.classified.count[c];
-    }
-  }
-  for (std::size_t c = 0; c < kTriangleClasses; ++c) {
-    geometry.classBegin[c + 1] += geometry.classBegin[c];
-  }
-}
-
-// A geometry of which nothing is left takes its instances with it.
-void Baker::dropEmptyGeometries() {
-  std::vector<std::uint32_t> newNumber(sources_.size());
-  std::uint32_t kept = 1;
-  for (std::size_t g = 1; g < sources_.size(); ++g) {
-    if (scene_.geometries[g].classBegin.back() == 0 && spheres_[g].empty()) continue;
-    if (kept != g) {
-      scene_.geometries[kept] = std::move(scene_.geometries[g]);
-      sources_[kept] = std::move(sources_[g]);
-      order_.meshes[kept] = std::move(order_.meshes[g]);
-      spheres_[kept] = std::move(spheres_[g]);
-    }
-    newNumber[g] = kept++;
-  }
-  scene_.geometries.resize(kept);
-  sources_.resize(kept);
-  spheres_.resize(kept);
-  std::erase_if(scene_.instances,
-                [&](const InstanceRecord& i) { return newNumber[i.geometry] == 0; });
-  for (InstanceRecord& i : scene_.instances) i.geometry = newNumber[i.geometry];
-}
-
-void Baker::reserveTables() {
-  std::uint64_t triangles = 0;
-  for (const Geometry& geometry : scene_.geometries) triangles += geometry.classBegin.back();
-  std::uint64_t total = triangles;
-  for (const auto& spheres : spheres_) total += spheres.size();
-  if (total > kIndexLimit) throwLimit("more than 2^32 - 1 triangles and spheres");
-  scene_.triangles.reserve(total);
-  if (withNormals_) scene_.normals.reserve(total);
-  if (withColors_) scene_.colors.reserve(total);
-  if (withSecondUvs_) scene_.secondUvs.reserve(total);
-  isSearched_ = triangles <= kMostSearched;
-  if (isSearched_) order_.triangles.reserve(triangles);
-  boxes_.resize(scene_.geometries.size());
-}
-
-// Class by class and in order, so that the tables grow at their ends while the meshes go: at no
-// time are both wholly in memory.
-void Baker::emit(std::size_t g) {
-  Geometry& geometry = scene_.geometries[g];
-  geometry.firstTriangle = static_cast<std::uint32_t>(scene_.triangles.size());
-  geometry.index.reserve(geometry.classBegin.back());
-  for (const Source& source : sources_[g]) {
-    if (!source.mesh->deformation) continue;
-    scene_.motion.bent.push_back(
-        {static_cast<std::uint32_t>(g), source.firstVertex, source.mesh->deformation});
-  }
-  for (std::size_t c = 0; c < kTriangleClasses; ++c) {
-    for (Source& source : sources_[g]) {
-      auto& count = source.classified.count;
-      if (count[c] == 0) continue;
-      emitClass(source, c, geometry, boxes_[g]);
-      count[c] = 0;
-      const bool done = std::all_of(count.begin(), count.begin() + kTriangleClasses,
-                                    [](std::uint32_t n) { return n == 0; });
-      if (done) *source.mesh = {};
-      reportProgress(progress_, "baking geometry",
-                     static_cast<double>(scene_.triangles.size()) /
-                         static_cast<double>(scene_.triangles.capacity()));
-    }
-  }
-}
-
-// Entries of other tables at a sphere's number are never used, but may be read.
-void Baker::emitSpheres(std::size_t g) {
-  Geometry& geometry = scene_.geometries[g];
-  geometry.firstSphere = static_cast<std::uint32_t>(scene_.triangles.size());
-  geometry.spheres = static_cast<std::uint32_t>(spheres_[g].size());
-  std::ranges::stable_sort(
-      spheres_[g], [](const PlacedSphere& a, const PlacedSphere& b) { return a.rank < b.rank; });
-  for (const PlacedSphere& sphere : spheres_[g]) {
-    const auto number = static_cast<std::uint32_t>(scene_.triangles.size());
-    order_.spheres.push_back({sphere.rank, sphere.instance, number});
-    scene_.items.add(number, sphere.item, sphere.number);
-    scene_.triangles.push_back(makeSphereRecord(sphere.map, sphere.material));
-    if (withSecondUvs_) scene_.secondUvs.push_back({});
-    if (withNormals_) scene_.normals.push_back({});
-    if (withColors_) scene_.colors.push_back({{1, 1, 1, 1, 1, 1, 1, 1, 1}});
-    const Box own = sphereBounds(sphere.map);
-    boxes_[g].add(own.lower);
-    boxes_[g].add(own.upper);
-  }
-  spheres_[g] = {};
-}
-
-void Baker::emitClass(const Source& source, std::size_t wanted, Geometry& geometry, Box& box) {
-  const Mesh& mesh = *source.mesh;
-  Tally badUv, badNormal, badColor;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (source.classified.classes[i] != wanted) continue;
-    auto corners = mesh.triangles[i];
-    for (std::uint32_t& corner : corners) {
-      corner += source.firstVertex;
-      box.add(geometry.position[corner]);
-    }
-    geometry.index.push_back(corners);
-    const auto number = static_cast<std::uint32_t>(source.place.firstTriangle + i);
-    if (isSearched_) order_.triangles.push_back(number);
-    scene_.items.add(static_cast<std::uint32_t>(scene_.triangles.size()), source.item,
-                     number - source.firstOfItem);
-    std::uint64_t uvs = 0, normals = 0, colors = 0;
-    const MaterialUse& use = uses_[mesh.material(i)];
-    scene_.triangles.push_back(makeTriangleRecord(mesh, i, geometry.position, corners, use, uvs));
-    if (withSecondUvs_) scene_.secondUvs.push_back(makeSecondUvRecord(mesh, i, use, uvs));
-    if (withNormals_) {
-      scene_.normals.push_back(makeNormalRecord(mesh, i, scene_.triangles.back(), normals));
-    }
-    if (withColors_) scene_.colors.push_back(makeColorRecord(mesh, i, colors));
-    badUv.add(i, uvs);
-    badNormal.add(i, normals);
-    badColor.add(i, colors);
-  }
-  badUv.report(warnings_, "non-finite texture coordinate set to 0", mesh);
-  badColor.report(warnings_, "vertex color out of range clamped", mesh);
-  badNormal.report(warnings_, "zero or non-finite normal replaced by the face's", mesh);
-}
 
 }  // namespace
 

@@ -98,85 +98,80 @@ class Gatherer {
   // The noun for counts.
   std::string surface() const { return scene_.instancedSpheres > 0 ? "surface" : "triangle"; }
 
-  void geometry();
-  void surroundings();
-  void lights();
-  void cameras();
+  void geometry() {
+    set(Effect::smoothNormals, hasSmoothNormals(scene_),
+        "some vertex normals differ from their triangle's",
+        "no vertex normal differs from its triangle's");
+    set(Effect::vertexColors, !scene_.colors.empty(), "some vertices are not white",
+        "no vertex has a color");
+    set(Effect::spheres, scene_.triangles.size() > scene_.firstSphere,
+        counted(scene_.instancedSpheres, "sphere"), "no analytic spheres");
+    const std::size_t instances =
+        scene_.motion.ofGeometry ? scene_.motion.instances.size() : scene_.instances.size();
+    set(Effect::instances, instances > 0,
+        counted(instances, "instance") + " of " + counted(scene_.geometries.size() - 1, "object"),
+        "no object is used more than once");
+  }
+
+  void surroundings() {
+    const bool sky = !isSkyBlack(scene_.sky), image = sky && scene_.sky.kind == Sky::Kind::image;
+    set(Effect::sky, sky, "the sky is not black", "the sky is black");
+    set(Effect::skyImage, image, "the sky is an image",
+        sky ? "the sky is not an image" : "the sky is black");
+    const bool rough = scene_.effects.has(Effect::glossyReflection);
+    set(Effect::blurredSky, sky && rough && scene_.ambient.reflection > 0,
+        "a glossy lobe reflects the sky",
+        !sky    ? "the sky is black"
+        : rough ? "the ambient light has a reflection of 0"
+                : "no mesh uses a material whose glossy lobe reflects the scene");
+    const bool blurred = scene_.effects.has(Effect::blurredSky);
+    scene_.blurredSky = blurred ? blurredSky(scene_.sky) : EnvironmentImage();
+    const bool ambient = !isBlack(scene_.ambient.up) || !isBlack(scene_.ambient.down);
+    set(Effect::ambient, ambient, "the ambient light is not black", "the ambient light is black");
+    set(Effect::ambientOcclusion, ambient && scene_.ambient.occlusion > 0,
+        "the ambient light has a radius of occlusion",
+        ambient ? "the ambient light has no radius of occlusion" : "the ambient light is black");
+  }
+
+  void lights() {
+    std::uint64_t shining = 0, spots = 0, directional = 0, wide = 0, casting = 0;
+    for (const Light& light : scene_.lights) {
+      if (isBlack(light.intensity)) continue;
+      ++shining;
+      spots += light.kind == Light::Kind::spot;
+      directional += light.kind == Light::Kind::directional;
+      wide += hasExtent(light);
+    }
+    for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
+      if (scene_.materials[i].castsShadow) casting += uses_[i];
+    }
+    const std::string dark =
+        scene_.lights.empty() ? "the scene has no light" : "every light is black";
+    set(Effect::lights, shining > 0, counted(shining, "light"), dark);
+    set(Effect::spotLights, spots > 0, counted(spots, "spot light"), "no light has a cone");
+    set(Effect::directionalLights, directional > 0, counted(directional, "directional light"),
+        "no light is directional");
+    set(Effect::shadows, shining > 0 && casting > 0,
+        counted(shining, "light") + ", " + counted(casting, surface()) +
+            (casting == 1 ? " casts shadows" : " cast shadows"),
+        shining > 0 ? "no triangle casts a shadow" : dark);
+    set(Effect::softShadows, wide > 0 && casting > 0, counted(wide, "light") + " with a radius",
+        wide > 0 ? "no triangle casts a shadow" : "no light has a radius");
+  }
+
+  void cameras() {
+    const auto wide = std::ranges::count_if(scene_.cameras, &Camera::hasLens);
+    const bool path = std::ranges::any_of(scene_.cameraPath,
+                                          [](const Keyframe& key) { return key.camera.hasLens(); });
+    set(Effect::depthOfField, wide > 0 || path,
+        wide > 0 ? counted(static_cast<std::uint64_t>(wide), "camera") + " with an aperture"
+                 : "the camera path has an aperture",
+        "no camera has an aperture");
+  }
 
   Scene& scene_;
   std::vector<std::uint64_t> uses_;
 };
-
-void Gatherer::geometry() {
-  set(Effect::smoothNormals, hasSmoothNormals(scene_),
-      "some vertex normals differ from their triangle's",
-      "no vertex normal differs from its triangle's");
-  set(Effect::vertexColors, !scene_.colors.empty(), "some vertices are not white",
-      "no vertex has a color");
-  set(Effect::spheres, scene_.triangles.size() > scene_.firstSphere,
-      counted(scene_.instancedSpheres, "sphere"), "no analytic spheres");
-  const std::size_t instances =
-      scene_.motion.ofGeometry ? scene_.motion.instances.size() : scene_.instances.size();
-  set(Effect::instances, instances > 0,
-      counted(instances, "instance") + " of " + counted(scene_.geometries.size() - 1, "object"),
-      "no object is used more than once");
-}
-
-void Gatherer::surroundings() {
-  const bool sky = !isSkyBlack(scene_.sky), image = sky && scene_.sky.kind == Sky::Kind::image;
-  set(Effect::sky, sky, "the sky is not black", "the sky is black");
-  set(Effect::skyImage, image, "the sky is an image",
-      sky ? "the sky is not an image" : "the sky is black");
-  const bool rough = scene_.effects.has(Effect::glossyReflection);
-  set(Effect::blurredSky, sky && rough && scene_.ambient.reflection > 0,
-      "a glossy lobe reflects the sky",
-      !sky    ? "the sky is black"
-      : rough ? "the ambient light has a reflection of 0"
-              : "no mesh uses a material whose glossy lobe reflects the scene");
-  const bool blurred = scene_.effects.has(Effect::blurredSky);
-  scene_.blurredSky = blurred ? blurredSky(scene_.sky) : EnvironmentImage();
-  const bool ambient = !isBlack(scene_.ambient.up) || !isBlack(scene_.ambient.down);
-  set(Effect::ambient, ambient, "the ambient light is not black", "the ambient light is black");
-  set(Effect::ambientOcclusion, ambient && scene_.ambient.occlusion > 0,
-      "the ambient light has a radius of occlusion",
-      ambient ? "the ambient light has no radius of occlusion" : "the ambient light is black");
-}
-
-void Gatherer::lights() {
-  std::uint64_t shining = 0, spots = 0, directional = 0, wide = 0, casting = 0;
-  for (const Light& light : scene_.lights) {
-    if (isBlack(light.intensity)) continue;
-    ++shining;
-    spots += light.kind == Light::Kind::spot;
-    directional += light.kind == Light::Kind::directional;
-    wide += hasExtent(light);
-  }
-  for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
-    if (scene_.materials[i].castsShadow) casting += uses_[i];
-  }
-  const std::string dark =
-      scene_.lights.empty() ? "the scene has no light" : "every light is black";
-  set(Effect::lights, shining > 0, counted(shining, "light"), dark);
-  set(Effect::spotLights, spots > 0, counted(spots, "spot light"), "no light has a cone");
-  set(Effect::directionalLights, directional > 0, counted(directional, "directional light"),
-      "no light is directional");
-  set(Effect::shadows, shining > 0 && casting > 0,
-      counted(shining, "light") + ", " + counted(casting, surface()) +
-          (casting == 1 ? " casts shadows" : " cast shadows"),
-      shining > 0 ? "no triangle casts a shadow" : dark);
-  set(Effect::softShadows, wide > 0 && casting > 0, counted(wide, "light") + " with a radius",
-      wide > 0 ? "no triangle casts a shadow" : "no light has a radius");
-}
-
-void Gatherer::cameras() {
-  const auto wide = std::ranges::count_if(scene_.cameras, &Camera::hasLens);
-  const bool path = std::ranges::any_of(scene_.cameraPath,
-                                        [](const Keyframe& key) { return key.camera.hasLens(); });
-  set(Effect::depthOfField, wide > 0 || path,
-      wide > 0 ? counted(static_cast<std::uint64_t>(wide), "camera") + " with an aperture"
-               : "the camera path has an aperture",
-      "no camera has an aperture");
-}
 
 }  // namespace
 

@@ -135,8 +135,33 @@ class BoxTree {
 class Space {
  public:
   explicit Space(const Scene& scene) : scene_(scene) {}
+
   // Two triangles of the geometry that overlap in one plane in some instance do so in this space.
-  Space(const Scene& scene, std::uint32_t geometry);
+  Space(const Scene& scene, std::uint32_t geometry) : scene_(scene) {
+    // Coordinates are smaller than this, and floats reach much farther.
+    constexpr double kLargestError = 8.0 * kLargestCoordinate;
+    const Geometry& g = scene.geometries[geometry];
+    Vec3d far;
+    for (std::uint32_t i = 0; i < g.index.size(); ++i) {
+      for (const Vec3d& corner : worldCorners(scene, g.firstTriangle + i, kNoInstance)) {
+        far = max(far, abs(corner));
+      }
+    }
+    for (const InstanceRecord& instance : scene.instances) {
+      if (instance.geometry != geometry) continue;
+      // Bounds of the lengths to which the map takes unit vectors. Of the three singular values the
+      // product of two is at most half the sum of all squares.
+      const Affine& map = instance.toWorld;
+      const double squares = dot(map.x, map.x) + dot(map.y, map.y) + dot(map.z, map.z);
+      const double least = 2 * std::abs(map.determinant()) / squares, most = std::sqrt(squares);
+      const double error = kErrorOfMagnitude * magnitudeOf(far, &map);
+      error_ = std::min(std::max(error_, error / least), kLargestError);
+      // A corner's magnitude in the world is no less than the length of what its map's linear part
+      // makes of it; its magnitude here is at most sqrt(3) times its length. Widths grow by `most`
+      // at most.
+      leastShare_ = std::min(leastShare_, least / most / std::sqrt(3.0));
+    }
+  }
 
   Facet facet(PlacedTriangleId id) const {
     Facet facet = facetOf(scene_, id);
@@ -149,51 +174,24 @@ class Space {
     const auto& [a, b, c] = facet.corners;
     return grown(min(min(a, b), c), max(max(a, b), c), facet.error);
   }
+
   // Returns the box in the world of a box of a tree: the world's own tree has grown boxes already,
   // an instance's has not.
-  Box boxOf(const Box& box, std::uint32_t instance) const;
+  Box boxOf(const Box& box, std::uint32_t instance) const {
+    const Vec3d lower(box.lower), upper(box.upper);
+    if (instance == kNoInstance) return error_ > 0 ? grown(lower, upper, error_) : box;
+    const Affine& map = scene_.instances[instance].toWorld;
+    const Vec3d center = map.point((lower + upper) * 0.5), half = (upper - lower) * 0.5;
+    const Vec3d reach = abs(map.x) * half.x + abs(map.y) * half.y + abs(map.z) * half.z;
+    return grown(center - reach, center + reach,
+                 kErrorOfMagnitude * magnitudeOf(max(abs(lower), abs(upper)), &map));
+  }
 
  private:
   const Scene& scene_;
   double error_ = 0;       // of all facets, if it is not 0
   double leastShare_ = 1;  // of a facet's own error in Facet::least
 };
-
-Space::Space(const Scene& scene, std::uint32_t geometry) : scene_(scene) {
-  // Coordinates are smaller than this, and floats reach much farther.
-  constexpr double kLargestError = 8.0 * kLargestCoordinate;
-  const Geometry& g = scene.geometries[geometry];
-  Vec3d far;
-  for (std::uint32_t i = 0; i < g.index.size(); ++i) {
-    for (const Vec3d& corner : worldCorners(scene, g.firstTriangle + i, kNoInstance)) {
-      far = max(far, abs(corner));
-    }
-  }
-  for (const InstanceRecord& instance : scene.instances) {
-    if (instance.geometry != geometry) continue;
-    // Bounds of the lengths to which the map takes unit vectors. Of the three singular values the
-    // product of two is at most half the sum of all squares.
-    const Affine& map = instance.toWorld;
-    const double squares = dot(map.x, map.x) + dot(map.y, map.y) + dot(map.z, map.z);
-    const double least = 2 * std::abs(map.determinant()) / squares, most = std::sqrt(squares);
-    const double error = kErrorOfMagnitude * magnitudeOf(far, &map);
-    error_ = std::min(std::max(error_, error / least), kLargestError);
-    // A corner's magnitude in the world is no less than the length of what its map's linear part
-    // makes of it; its magnitude here is at most sqrt(3) times its length. Widths grow by `most`
-    // at most.
-    leastShare_ = std::min(leastShare_, least / most / std::sqrt(3.0));
-  }
-}
-
-Box Space::boxOf(const Box& box, std::uint32_t instance) const {
-  const Vec3d lower(box.lower), upper(box.upper);
-  if (instance == kNoInstance) return error_ > 0 ? grown(lower, upper, error_) : box;
-  const Affine& map = scene_.instances[instance].toWorld;
-  const Vec3d center = map.point((lower + upper) * 0.5), half = (upper - lower) * 0.5;
-  const Vec3d reach = abs(map.x) * half.x + abs(map.y) * half.y + abs(map.z) * half.z;
-  return grown(center - reach, center + reach,
-               kErrorOfMagnitude * magnitudeOf(max(abs(lower), abs(upper)), &map));
-}
 
 // Triangles that are searched: the items of the tree are their orderOf(), or, in an instance, their
 // numbers.
@@ -251,10 +249,77 @@ class PairFinder {
     const Box& box = (group ? *group->tree : groupTree_).box(level, number);
     return {group ? space_.boxOf(box, group->instance) : box, group, level, number};
   }
-  void split(const Node& node, const Node& other);
-  void search(const Node& a, const Node& b);
-  void compare(const Node& a, const Node& b);
-  const Facet& facetOf(const Node& node, PlacedTriangleId id);
+
+  // Pushes the node's children that meet the other node, or the node itself if the other is higher.
+  void split(const Node& node, const Node& other) {
+    if (node.height() < other.height()) {
+      stack_.push_back(node);
+      return;
+    }
+    const BoxTree& tree = node.group ? *node.group->tree : groupTree_;
+    const std::uint32_t first = node.number * BoxTree::kChildren,
+                        end = std::min(first + BoxTree::kChildren, tree.count(node.level - 1));
+    for (std::uint32_t number = first; number < end; ++number) {
+      const Node child = nodeOf(node.group, node.level - 1, number);
+      if (meet(child.box, other.box)) stack_.push_back(child);
+    }
+  }
+
+  void search(const Node& a, const Node& b) {
+    const bool isSame = a == b;
+    if (left_ <= 0 || (isSame && a.isTriangle())) return;
+    if (a.group && b.group) {
+      // Triangles of one instance are compared in the space of their geometry.
+      if (a.group->instance != kNoInstance && a.group->instance == b.group->instance) return;
+      if (a.isTriangle() && b.isTriangle()) return compare(a, b);
+      if (tasks_ && a.mostTriangles() + b.mostTriangles() <= kTaskTriangles) {
+        left_ -= kWorkOfTask;
+        tasks_->emplace_back(a, b);
+        return;
+      }
+    }
+    const bool isWanted = a.group && b.group;  // and so are the triangles of both
+    const std::size_t beginA = stack_.size();
+    split(a, b);
+    const std::size_t endA = stack_.size(), beginB = isSame ? beginA : endA;
+    if (!isSame) split(b, a);
+    const std::size_t endB = stack_.size();
+    left_ -= kWorkOfNodes + static_cast<std::int64_t>((endA - beginA) * (endB - beginB));
+    for (std::size_t i = beginA; i < endA; ++i) {
+      for (std::size_t k = isSame ? i : beginB; k < endB; ++k) {
+        if (!meet(stack_[i].box, stack_[k].box)) continue;
+        if (stack_[i].isTriangle() && stack_[k].isTriangle() && isWanted) {
+          compare(stack_[i], stack_[k]);
+        } else {
+          const Node first = stack_[i], second = stack_[k];  // The search moves the stack.
+          search(first, second);
+        }
+      }
+    }
+    stack_.resize(beginA);
+  }
+
+  void compare(const Node& nodeA, const Node& nodeB) {
+    const auto idOf = [](const Node& node) {
+      PlacedTriangleId id = placedTriangle(node.group->tree->item(node.number));
+      if (node.group->instance != kNoInstance) id.instance = node.group->instance;
+      return id;
+    };
+    const PlacedTriangleId a = idOf(nodeA), b = idOf(nodeB);
+    if (a == b) return;
+    left_ -= kWorkOfFacets;
+    const Facet facet = facetOf(nodeA, a);  // the second may take its place in the cache
+    if (!test_(facet, facetOf(nodeB, b))) return;
+    left_ -= kWorkOfPair;
+    found_.emplace_back(orderOf(a), orderOf(b));
+  }
+
+  const Facet& facetOf(const Node& node, PlacedTriangleId id) {
+    auto& [known, facet] = known_[node.number % known_.size()];
+    // The cache starts with facets without normals for the first triangle.
+    if (known != id || facet.normal == Vec3d{}) facet = space_.facet(known = id);
+    return facet;
+  }
 
   const Space& space_;
   const std::vector<Group>& groups_;
@@ -268,89 +333,133 @@ class PairFinder {
   Pairs found_;
 };
 
-// Pushes the node's children that meet the other node, or the node itself if the other is higher.
-void PairFinder::split(const Node& node, const Node& other) {
-  if (node.height() < other.height()) {
-    stack_.push_back(node);
-    return;
-  }
-  const BoxTree& tree = node.group ? *node.group->tree : groupTree_;
-  const std::uint32_t first = node.number * BoxTree::kChildren,
-                      end = std::min(first + BoxTree::kChildren, tree.count(node.level - 1));
-  for (std::uint32_t number = first; number < end; ++number) {
-    const Node child = nodeOf(node.group, node.level - 1, number);
-    if (meet(child.box, other.box)) stack_.push_back(child);
-  }
-}
-
-const Facet& PairFinder::facetOf(const Node& node, PlacedTriangleId id) {
-  auto& [known, facet] = known_[node.number % known_.size()];
-  // The cache starts with facets without normals for the first triangle.
-  if (known != id || facet.normal == Vec3d{}) facet = space_.facet(known = id);
-  return facet;
-}
-
-void PairFinder::compare(const Node& nodeA, const Node& nodeB) {
-  const auto idOf = [](const Node& node) {
-    PlacedTriangleId id = placedTriangle(node.group->tree->item(node.number));
-    if (node.group->instance != kNoInstance) id.instance = node.group->instance;
-    return id;
-  };
-  const PlacedTriangleId a = idOf(nodeA), b = idOf(nodeB);
-  if (a == b) return;
-  left_ -= kWorkOfFacets;
-  const Facet facet = facetOf(nodeA, a);  // the second may take its place in the cache
-  if (!test_(facet, facetOf(nodeB, b))) return;
-  left_ -= kWorkOfPair;
-  found_.emplace_back(orderOf(a), orderOf(b));
-}
-
-void PairFinder::search(const Node& a, const Node& b) {
-  const bool isSame = a == b;
-  if (left_ <= 0 || (isSame && a.isTriangle())) return;
-  if (a.group && b.group) {
-    // Triangles of one instance are compared in the space of their geometry.
-    if (a.group->instance != kNoInstance && a.group->instance == b.group->instance) return;
-    if (a.isTriangle() && b.isTriangle()) return compare(a, b);
-    if (tasks_ && a.mostTriangles() + b.mostTriangles() <= kTaskTriangles) {
-      left_ -= kWorkOfTask;
-      tasks_->emplace_back(a, b);
-      return;
-    }
-  }
-  const bool isWanted = a.group && b.group;  // and so are the triangles of both
-  const std::size_t beginA = stack_.size();
-  split(a, b);
-  const std::size_t endA = stack_.size(), beginB = isSame ? beginA : endA;
-  if (!isSame) split(b, a);
-  const std::size_t endB = stack_.size();
-  left_ -= kWorkOfNodes + static_cast<std::int64_t>((endA - beginA) * (endB - beginB));
-  for (std::size_t i = beginA; i < endA; ++i) {
-    for (std::size_t k = isSame ? i : beginB; k < endB; ++k) {
-      if (!meet(stack_[i].box, stack_[k].box)) continue;
-      if (stack_[i].isTriangle() && stack_[k].isTriangle() && isWanted) {
-        compare(stack_[i], stack_[k]);
-      } else {
-        const Node first = stack_[i], second = stack_[k];  // The search moves the stack.
-        search(first, second);
-      }
-    }
-  }
-  stack_.resize(beginA);
-}
-
 class CoplanarFinder {
  public:
-  CoplanarFinder(const Scene& scene, int threads);
+  CoplanarFinder(const Scene& scene, int threads)
+      : scene_(scene), threads_(threads), world_(scene), trees_(scene.geometries.size()) {
+    const int outer = trees_.size() > 1 ? threads : 1, inner = trees_.size() > 1 ? 1 : threads;
+    parallelFor(outer, trees_.size(), [&](std::size_t i, int) {
+      trees_[i] = treeOf(static_cast<std::uint32_t>(i), inner);
+    });
+    // Instances in one place are counted by their geometries and maps.
+    std::map<std::pair<std::uint32_t, std::array<double, 12>>, int> count;
+    for (const InstanceRecord& i : scene.instances) {
+      const auto map = std::bit_cast<std::array<double, 12>>(i.toWorld);
+      leftOut_.push_back(++count[{i.geometry, map}] > kInstancesInOnePlace);
+    }
+  }
 
-  CoplanarTriangles find();
+  CoplanarTriangles find() {
+    std::vector<Group> everything;
+    if (!trees_[0].empty()) everything.push_back({&trees_[0]});
+    for (std::uint32_t i = 0; i < scene_.instances.size(); ++i) {
+      const BoxTree& tree = trees_[scene_.instances[i].geometry];
+      if (!tree.empty() && !leftOut_[i]) everything.push_back({&tree, i});
+    }
+    Orders all;
+    Pairs pairs = findPairs(world_, everything, nullptr, facetsOverlap);
+    if (!complete_ && everything.size() > 1) {  // The instances overlap too much.
+      everything.resize(trees_[0].empty() ? 0 : 1);
+      pairs = findPairs(world_, everything, nullptr, facetsOverlap);
+    }
+    addBoth(pairs, all);
+    for (std::uint32_t g = 1; g < trees_.size(); ++g) addWithinInstances(g, all);
+    const auto treeOfAll = [&] {
+      std::vector<BoxedItem> items;
+      for (const std::uint64_t order : all) {
+        items.push_back({order, world_.boxOf(world_.facet(placedTriangle(order)))});
+      }
+      return BoxTree(std::move(items), 1);
+    };
+    if (all.empty()) return {};
+    // Triangles that touch one that overlaps another are added to those that overlap.
+    const BoxTree overlapping = treeOfAll();
+    const Group others{&overlapping};
+    addBoth(findPairs(world_, everything, &others, facetsTouch), all);
+    const BoxTree tree = treeOfAll();
+    return {scene_, findPairs(world_, {{&tree}}, nullptr, facetsTouch), threads_};
+  }
+
   bool complete() const { return complete_; }
 
  private:
-  BoxTree treeOf(std::uint32_t geometry, int threads) const;
+  // The triangles of a geometry that can overlap others.
+  BoxTree treeOf(std::uint32_t geometry, int threads) const {
+    const Geometry& g = scene_.geometries[geometry];
+    const Space space = geometry == 0 ? world_ : Space(scene_, geometry);
+    std::vector<BoxedItem> items(g.index.size());
+    constexpr std::size_t kChunk = 4096;
+    const std::size_t chunks = (items.size() + kChunk - 1) / kChunk;
+    parallelFor(threads, chunks, [&](std::size_t chunk, int) {
+      for (std::size_t i = chunk * kChunk; i < std::min((chunk + 1) * kChunk, items.size()); ++i) {
+        const PlacedTriangleId id{g.firstTriangle + static_cast<std::uint32_t>(i), kNoInstance};
+        const Facet facet = space.facet(id);
+        if (isTooNarrowToOverlap(facet)) continue;
+        items[i].item = orderOf(id);
+        for (const Vec3d& corner : facet.corners) items[i].box.add(Vec3f(corner));
+        if (geometry == 0) items[i].box = space.boxOf(facet);
+      }
+    });
+    std::erase_if(items, [](const BoxedItem& item) { return item.box.empty(); });
+    return {std::move(items), threads};
+  }
+
+  // The pairs of the groups, or of the groups with the others.
   Pairs findPairs(const Space& space, const std::vector<Group>& groups, const Group* others,
-                  FacetTest test);
-  void addWithinInstances(std::uint32_t geometry, Orders& all);
+                  FacetTest test) {
+    if (groups.empty()) return {};
+    std::vector<BoxedItem> boxes;
+    for (const Group& group : groups) {
+      const Box& box = group.tree->box(group.tree->top(), 0);
+      boxes.push_back({boxes.size(), space.boxOf(box, group.instance)});
+    }
+    const BoxTree groupTree(std::move(boxes), 1);
+    std::atomic<std::int64_t> work =
+        (groups.size() < kManyGroups ? kWork : kWorkOfInstances) +
+        kWorkPerTriangle * static_cast<std::int64_t>(scene_.triangles.size());
+    std::vector<PairFinder> finders;
+    finders.reserve(static_cast<std::size_t>(threads_));
+    for (int i = 0; i < threads_; ++i) finders.emplace_back(space, groups, groupTree, test);
+    const Node root = finders[0].rootOf(nullptr);
+    std::vector<Task> tasks;
+    finders[0].search(root, others ? finders[0].rootOf(others) : root, work, &tasks);
+    parallelFor(threads_, tasks.size(), [&](std::size_t i, int worker) {
+      finders[static_cast<std::size_t>(worker)].search(tasks[i].first, tasks[i].second, work);
+    });
+    if (work <= 0) {
+      complete_ = false;
+      return {};
+    }
+    Pairs pairs;
+    for (const PairFinder& finder : finders) {
+      pairs.insert(pairs.end(), finder.found().begin(), finder.found().end());
+    }
+    return pairs;
+  }
+
+  // Adds triangles that overlap others of the same instance. One search in the space of the
+  // geometry finds the candidates for all of its instances.
+  void addWithinInstances(std::uint32_t geometry, Orders& all) {
+    if (trees_[geometry].empty()) return;
+    const Pairs candidates =
+        findPairs(Space(scene_, geometry), {{&trees_[geometry]}}, nullptr, facetsOverlap);
+    if (candidates.size() * scene_.instances.size() > std::uint64_t{kWorkOfInstances}) {
+      complete_ = false;
+      return;
+    }
+    Pairs found;
+    for (std::uint32_t i = 0; i < scene_.instances.size(); ++i) {
+      if (scene_.instances[i].geometry != geometry || leftOut_[i]) continue;
+      for (const auto& [first, second] : candidates) {
+        const PlacedTriangleId a{placedTriangle(first).triangle, i},
+            b{placedTriangle(second).triangle, i};
+        if (facetsOverlap(world_.facet(a), world_.facet(b))) {
+          found.emplace_back(orderOf(a), orderOf(b));
+        }
+      }
+    }
+    addBoth(found, all);
+  }
 
   const Scene& scene_;
   int threads_;
@@ -359,129 +468,6 @@ class CoplanarFinder {
   std::vector<bool> leftOut_;   // one an instance
   bool complete_ = true;
 };
-
-CoplanarFinder::CoplanarFinder(const Scene& scene, int threads)
-    : scene_(scene), threads_(threads), world_(scene), trees_(scene.geometries.size()) {
-  const int outer = trees_.size() > 1 ? threads : 1, inner = trees_.size() > 1 ? 1 : threads;
-  parallelFor(outer, trees_.size(), [&](std::size_t i, int) {
-    trees_[i] = treeOf(static_cast<std::uint32_t>(i), inner);
-  });
-  // Instances in one place are counted by their geometries and maps.
-  std::map<std::pair<std::uint32_t, std::array<double, 12>>, int> count;
-  for (const InstanceRecord& i : scene.instances) {
-    const auto map = std::bit_cast<std::array<double, 12>>(i.toWorld);
-    leftOut_.push_back(++count[{i.geometry, map}] > kInstancesInOnePlace);
-  }
-}
-
-// The triangles of a geometry that can overlap others.
-BoxTree CoplanarFinder::treeOf(std::uint32_t geometry, int threads) const {
-  const Geometry& g = scene_.geometries[geometry];
-  const Space space = geometry == 0 ? world_ : Space(scene_, geometry);
-  std::vector<BoxedItem> items(g.index.size());
-  constexpr std::size_t kChunk = 4096;
-  const std::size_t chunks = (items.size() + kChunk - 1) / kChunk;
-  parallelFor(threads, chunks, [&](std::size_t chunk, int) {
-    for (std::size_t i = chunk * kChunk; i < std::min((chunk + 1) * kChunk, items.size()); ++i) {
-      const PlacedTriangleId id{g.firstTriangle + static_cast<std::uint32_t>(i), kNoInstance};
-      const Facet facet = space.facet(id);
-      if (isTooNarrowToOverlap(facet)) continue;
-      items[i].item = orderOf(id);
-      for (const Vec3d& corner : facet.corners) items[i].box.add(Vec3f(corner));
-      if (geometry == 0) items[i].box = space.boxOf(facet);
-    }
-  });
-  std::erase_if(items, [](const BoxedItem& item) { return item.box.empty(); });
-  return {std::move(items), threads};
-}
-
-// The pairs of the groups, or of the groups with the others.
-Pairs CoplanarFinder::findPairs(const Space& space, const std::vector<Group>& groups,
-                                const Group* others, FacetTest test) {
-  if (groups.empty()) return {};
-  std::vector<BoxedItem> boxes;
-  for (const Group& group : groups) {
-    const Box& box = group.tree->box(group.tree->top(), 0);
-    boxes.push_back({boxes.size(), space.boxOf(box, group.instance)});
-  }
-  const BoxTree groupTree(std::move(boxes), 1);
-  std::atomic<std::int64_t> work =
-      (groups.size() < kManyGroups ? kWork : kWorkOfInstances) +
-      kWorkPerTriangle * static_cast<std::int64_t>(scene_.triangles.size());
-  std::vector<PairFinder> finders;
-  finders.reserve(static_cast<std::size_t>(threads_));
-  for (int i = 0; i < threads_; ++i) finders.emplace_back(space, groups, groupTree, test);
-  const Node root = finders[0].rootOf(nullptr);
-  std::vector<Task> tasks;
-  finders[0].search(root, others ? finders[0].rootOf(others) : root, work, &tasks);
-  parallelFor(threads_, tasks.size(), [&](std::size_t i, int worker) {
-    finders[static_cast<std::size_t>(worker)].search(tasks[i].first, tasks[i].second, work);
-  });
-  if (work <= 0) {
-    complete_ = false;
-    return {};
-  }
-  Pairs pairs;
-  for (const PairFinder& finder : finders) {
-    pairs.insert(pairs.end(), finder.found().begin(), finder.found().end());
-  }
-  return pairs;
-}
-
-// Adds triangles that overlap others of the same instance. One search in the space of the geometry
-// finds the candidates for all of its instances.
-void CoplanarFinder::addWithinInstances(std::uint32_t geometry, Orders& all) {
-  if (trees_[geometry].empty()) return;
-  const Pairs candidates =
-      findPairs(Space(scene_, geometry), {{&trees_[geometry]}}, nullptr, facetsOverlap);
-  if (candidates.size() * scene_.instances.size() > std::uint64_t{kWorkOfInstances}) {
-    complete_ = false;
-    return;
-  }
-  Pairs found;
-  for (std::uint32_t i = 0; i < scene_.instances.size(); ++i) {
-    if (scene_.instances[i].geometry != geometry || leftOut_[i]) continue;
-    for (const auto& [first, second] : candidates) {
-      const PlacedTriangleId a{placedTriangle(first).triangle, i},
-          b{placedTriangle(second).triangle, i};
-      if (facetsOverlap(world_.facet(a), world_.facet(b))) {
-        found.emplace_back(orderOf(a), orderOf(b));
-      }
-    }
-  }
-  addBoth(found, all);
-}
-
-CoplanarTriangles CoplanarFinder::find() {
-  std::vector<Group> everything;
-  if (!trees_[0].empty()) everything.push_back({&trees_[0]});
-  for (std::uint32_t i = 0; i < scene_.instances.size(); ++i) {
-    const BoxTree& tree = trees_[scene_.instances[i].geometry];
-    if (!tree.empty() && !leftOut_[i]) everything.push_back({&tree, i});
-  }
-  Orders all;
-  Pairs pairs = findPairs(world_, everything, nullptr, facetsOverlap);
-  if (!complete_ && everything.size() > 1) {  // The instances overlap too much.
-    everything.resize(trees_[0].empty() ? 0 : 1);
-    pairs = findPairs(world_, everything, nullptr, facetsOverlap);
-  }
-  addBoth(pairs, all);
-  for (std::uint32_t g = 1; g < trees_.size(); ++g) addWithinInstances(g, all);
-  const auto treeOfAll = [&] {
-    std::vector<BoxedItem> items;
-    for (const std::uint64_t order : all) {
-      items.push_back({order, world_.boxOf(world_.facet(placedTriangle(order)))});
-    }
-    return BoxTree(std::move(items), 1);
-  };
-  if (all.empty()) return {};
-  // Triangles that touch one that overlaps another are added to those that overlap.
-  const BoxTree overlapping = treeOfAll();
-  const Group others{&overlapping};
-  addBoth(findPairs(world_, everything, &others, facetsTouch), all);
-  const BoxTree tree = treeOfAll();
-  return {scene_, findPairs(world_, {{&tree}}, nullptr, facetsTouch), threads_};
-}
 
 }  // namespace
 

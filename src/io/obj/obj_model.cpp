@@ -304,39 +304,37 @@ class ObjModel : public MeshModel {
  private:
   using Library = std::map<std::string, MtlMaterial>;
 
-  void readLibraries(const ObjName& line, Library& library) const;
+  // The line is one name with blanks if such a file exists, otherwise several names.
+  void readLibraries(const ObjName& line, Library& library) const {
+    // Empty for a library that may not be read.
+    const auto resolve = [&](const std::string& name) {
+      try {
+        return source_.rules.resolve(name, source_.path.parent_path(), line.where,
+                                     /*backslashes=*/true);
+      } catch (const Error&) {
+        return std::filesystem::path();
+      }
+    };
+    std::error_code error;
+    std::vector<std::string> names{line.name};
+    if (!std::filesystem::exists(resolve(line.name), error)) {
+      std::istringstream words(line.name);
+      names.assign(std::istream_iterator<std::string>(words), {});
+    }
+    for (const std::string& name : names) {
+      const auto file = resolve(name);
+      if (std::filesystem::is_regular_file(file, error)) {
+        readNamedAt(line.where, [&] { readMtl(file, library, source_.warnings); });
+      } else {
+        source_.warnings.add("material library missing", line.where + ": " + excerpt(name));
+      }
+    }
+  }
 
   std::string file_, text_;
   std::optional<ObjReader> reader_;   // until the geometry is asked for
   std::vector<MtlMaterial> sources_;  // of materials_
 };
-
-// The line is one name with blanks if such a file exists, otherwise several names.
-void ObjModel::readLibraries(const ObjName& line, Library& library) const {
-  // Empty for a library that may not be read.
-  const auto resolve = [&](const std::string& name) {
-    try {
-      return source_.rules.resolve(name, source_.path.parent_path(), line.where,
-                                   /*backslashes=*/true);
-    } catch (const Error&) {
-      return std::filesystem::path();
-    }
-  };
-  std::error_code error;
-  std::vector<std::string> names{line.name};
-  if (!std::filesystem::exists(resolve(line.name), error)) {
-    std::istringstream words(line.name);
-    names.assign(std::istream_iterator<std::string>(words), {});
-  }
-  for (const std::string& name : names) {
-    const auto file = resolve(name);
-    if (std::filesystem::is_regular_file(file, error)) {
-      readNamedAt(line.where, [&] { readMtl(file, library, source_.warnings); });
-    } else {
-      source_.warnings.add("material library missing", line.where + ": " + excerpt(name));
-    }
-  }
-}
 
 }  // namespace
 
