@@ -45,7 +45,7 @@ void addParts(std::vector<Mesh> meshes, const std::vector<std::uint32_t>& materi
   for (Mesh& mesh : meshes) {
     budget.charge(1, bytesOf(mesh), file);
     for (std::uint32_t& material : mesh.materials) material = materials[material];
-    to.parts.push_back({std::make_shared<Mesh>(std::move(mesh)), Affine()});
+    to.addMesh(std::move(mesh));
   }
 }
 

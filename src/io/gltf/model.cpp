@@ -1,20 +1,237 @@
-// glTF files as models.
+// glTF files as models: their meshes, and the bodies that show these.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
+#include <numeric>
+#include <string>
 #include <utility>
 #include <vector>
 
-#include "io/gltf/document.h"
+#include "core/error.h"
 #include "io/gltf/material.h"
 #include "io/gltf/nodes.h"
 #include "io/model.h"
+#include "io/polygon.h"
 #include "scene/members.h"
 
 namespace whit {
-
 namespace {
+
+void checkLength(std::size_t found, std::size_t expected, const JsonValue& attribute) {
+  if (found == expected) return;
+  attribute.fail("as many as positions, " + std::to_string(expected), std::to_string(found));
+}
+
+// Empty where there is no such attribute, or nothing that it belongs to.
+std::vector<Vec3f> vectorsOf(const GltfDocument& document, const JsonValue& attribute,
+                             std::size_t expected) {
+  if (!attribute.exists() || expected == 0) return {};
+  std::vector<Vec3f> vectors = readVectors(document, attribute);
+  checkLength(vectors.size(), expected, attribute);
+  return vectors;
+}
+
+// Reads the targets that have a weight at some time.
+void readTargets(const GltfDocument& document, const JsonValue& targets, Deformation& to) {
+  to.targets.resize(targets.size());
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const bool weighs = i < to.weights.size() && to.weights[i] != 0;
+    if (!weighs && !to.movingWeights) continue;
+    to.targets[i] = {vectorsOf(document, targets[i]["POSITION"], to.positions.size()),
+                     vectorsOf(document, targets[i]["NORMAL"], to.normals.size())};
+  }
+}
+
+// The last joint is the node that shows the mesh; it holds the vertices that have no weights.
+void readSkin(const GltfDocument& document, const JsonValue& primitive, Deformation& to) {
+  const JsonValue attributes = primitive["attributes"];
+  const std::string where = primitive.where();
+  const std::size_t count = to.positions.size(), own = to.joints.size() - 1;
+  std::vector<std::vector<float>> joints, weights;
+  for (int set = 0;; ++set) {
+    const JsonValue j = attributes["JOINTS_" + std::to_string(set)];
+    const JsonValue w = attributes["WEIGHTS_" + std::to_string(set)];
+    if (!j.exists() || !w.exists()) break;
+    joints.push_back(readTuples(document, j, 4));
+    weights.push_back(readTuples(document, w, 4));
+    checkLength(joints.back().size() / 4, count, j);
+    checkLength(weights.back().size() / 4, count, w);
+  }
+  document.budget().charge(
+      count, sizeof(std::uint32_t) + (4 * joints.size() + 1) * sizeof(Influence), where);
+  to.firstInfluence.push_back(0);
+  for (std::size_t i = 0; i < 4 * count; i += 4) {
+    double sum = 0;
+    for (std::size_t k = i; k < i + 4 * joints.size(); ++k) {
+      const std::size_t set = (k - i) / 4, at = i + (k - i) % 4;
+      const float joint = joints[set][at], weight = weights[set][at];
+      if (!(weight > 0)) continue;
+      if (joint >= 0 && joint < static_cast<float>(own)) {
+        to.influences.push_back({static_cast<std::uint32_t>(joint), weight});
+        sum += to.influences.back().weight;
+      } else {
+        document.warnings().add("joint that the skin does not have left out", where);
+      }
+    }
+    if (!(sum > 0) || !std::isfinite(sum)) {
+      document.warnings().add("vertex that no joint holds placed by its node", where);
+      to.influences.resize(to.firstInfluence.back());
+      to.influences.push_back({static_cast<std::uint32_t>(own), 1});
+    }
+    to.firstInfluence.push_back(static_cast<std::uint32_t>(to.influences.size()));
+  }
+}
+
+// Deforms the mesh as it is at the start, and gives it the deformation where that depends on time.
+void deform(const GltfDocument& document, const JsonValue& primitive, Deformation own, Mesh& mesh) {
+  document.budget().charge(2 * (mesh.positions.size() + mesh.normals.size()), sizeof(Vec3d),
+                           primitive.where());
+  own.positions = mesh.positions;
+  own.normals = mesh.normals;
+  readTargets(document, primitive["targets"], own);
+  if (own.skeleton) readSkin(document, primitive, own);
+  DeformedVertices start = deformVertices(own, poseAt(own, 0));
+  mesh.positions = std::move(start.positions);
+  mesh.normals = std::move(start.normals);
+  for (auto& triangle : mesh.triangles) {
+    if (turnsOver(start.sides, triangle)) std::swap(triangle[1], triangle[2]);
+  }
+  if (own.moves()) mesh.deformation = std::make_shared<const Deformation>(std::move(own));
+}
+
+// The material of a primitive, in the variant of the file that was chosen (KHR_materials_variants).
+JsonValue materialOf(const JsonValue& primitive, std::optional<std::size_t> variant) {
+  const JsonValue mappings = primitive["extensions"]["KHR_materials_variants"]["mappings"];
+  for (const JsonValue& mapping : mappings.elements()) {
+    for (const JsonValue& number : mapping.need("variants").elements()) {
+      if (variant && number.wholeOr(*variant + 1) == *variant) return mapping.need("material");
+    }
+  }
+  return primitive["material"];
+}
+
+// Values of a primitive's mode; smaller ones are points and lines.
+constexpr std::uint64_t kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6;
+
+// Reads a primitive that consists of triangles, strips or fans as a Mesh with one material: an
+// index into `materials`, whose last entry is that of primitives without one. Texture coordinates
+// are those of the material, with its transforms applied, v pointing up. `variant` is the number of
+// the chosen variant of the materials. Points, lines, the alpha of vertex colors and vertices
+// without joints are counted in the document's warnings. The mesh is deformed as at the start;
+// tangents are left out, because the directions of normal maps follow from texture coordinates.
+// Throws as the accessors do, and badScene where attributes differ in length.
+class PrimitiveReader {
+ public:
+  PrimitiveReader(const GltfDocument& document, const JsonValue& primitive,
+                  const std::vector<GltfMaterial>& materials, const GltfPlacedMesh& placed,
+                  std::optional<std::size_t> variant)
+      : document_(document),
+        primitive_(primitive),
+        attributes_(primitive.need("attributes")),
+        placed_(placed),
+        mode_(primitive["mode"].wholeOr(kTriangles, kTriangleFan)),
+        material_(materialOf(primitive, variant)
+                      .indexInto(document.list("materials"))
+                      .value_or(materials.size() - 1)),
+        coordinates_(materials[material_].coordinates()),
+        opaque_(materials[material_].alphaMode == GltfMaterial::Alpha::opaque) {}
+
+  // Returns false where nothing is to be seen.
+  bool read(Mesh& mesh) {
+    const JsonValue position = attributes_["POSITION"];
+    if (mode_ < kTriangles || !position.exists()) {
+      warn(mode_ < kTriangles ? "points or lines left out"
+                              : "primitive without positions left out");
+      return false;
+    }
+    mesh.positions = readVectors(document_, position);
+    mesh.normals = vectorsOf(document_, attributes_["NORMAL"], mesh.positions.size());
+    mesh.uvs = textureCoordinates(mesh, coordinates_.first);
+    if (coordinates_.areTwo()) {
+      // Never empty: a scene without second coordinates looks all maps up with the first.
+      mesh.secondUvs = textureCoordinates(mesh, coordinates_.second);
+      if (mesh.secondUvs.empty()) {
+        document_.budget().charge(mesh.positions.size(), sizeof(Vec2f), primitive_.where());
+      }
+      mesh.secondUvs.resize(mesh.positions.size());
+    }
+    readVertexColors(mesh);
+    connect(mesh, corners(mesh.positions.size()));
+    mesh.materials = {static_cast<std::uint32_t>(material_)};
+    if (placed_.isDeformed()) deform(document_, primitive_, placed_.deformation, mesh);
+    return !mesh.triangles.empty();
+  }
+
+ private:
+  void warn(const char* what) { document_.warnings().add(what, primitive_.where()); }
+
+  void readVertexColors(Mesh& mesh) {
+    const JsonValue color = attributes_["COLOR_0"];
+    if (!color.exists()) return;
+    GltfColors read = readColors(document_, color);
+    mesh.colors = std::move(read.colors);
+    checkLength(mesh.colors.size(), mesh.positions.size(), color);
+    if (read.translucent && !opaque_) warn("alpha of vertex colors left out");
+  }
+
+  // Empty where the primitive does not have this set.
+  std::vector<Vec2f> textureCoordinates(const Mesh& mesh, const GltfUvMap& uv) const {
+    const JsonValue coordinates = attributes_["TEXCOORD_" + std::to_string(uv.set)];
+    if (!coordinates.exists()) return {};
+    std::vector<Vec2f> uvs = readUvs(document_, coordinates);
+    checkLength(uvs.size(), mesh.positions.size(), coordinates);
+    for (Vec2f& at : uvs) {
+      const double u = at.x, v = at.y;
+      at.x = static_cast<float>(uv.uu * u + uv.uv * v + uv.u0);
+      at.y = static_cast<float>(1 - (uv.vu * u + uv.vv * v + uv.v0));
+    }
+    return uvs;
+  }
+
+  std::vector<std::uint32_t> corners(std::size_t vertices) {
+    const JsonValue indices = primitive_["indices"];
+    if (indices.exists()) {
+      // Decoded strips are separate triangles.
+      if (document_.decoded(accessorOf(document_, indices))) mode_ = kTriangles;
+      return readIndices(document_, indices);
+    }
+    if (vertices > std::numeric_limits<std::uint32_t>::max()) {
+      throwLimit(primitive_.where() + ": more than 2^32 - 1 vertices");
+    }
+    document_.budget().charge(vertices, sizeof(std::uint32_t), primitive_.where());
+    std::vector<std::uint32_t> all(vertices);
+    std::iota(all.begin(), all.end(), 0u);
+    return all;
+  }
+
+  // The winding of the specification; indices that are out of range are dropped later.
+  void connect(Mesh& mesh, const std::vector<std::uint32_t>& c) {
+    const bool separate = mode_ == kTriangles;
+    const std::size_t count =
+        separate ? c.size() / 3 : c.size() - std::min<std::size_t>(c.size(), 2);
+    if (separate && c.size() % 3 != 0) warn("triangle with fewer than three corners left out");
+    document_.budget().charge(count, sizeof(mesh.triangles[0]), primitive_.where());
+    mesh.triangles.reserve(count);
+    if (mode_ == kTriangleStrip) return addStrip(c, mesh.triangles);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (separate) {
+        mesh.triangles.push_back({c[3 * i], c[3 * i + 1], c[3 * i + 2]});
+      } else {
+        addJoined({c[i + 1], c[i + 2], c[0]}, mesh.triangles);
+      }
+    }
+  }
+
+  const GltfDocument& document_;
+  JsonValue primitive_, attributes_;
+  const GltfPlacedMesh& placed_;
+  std::uint64_t mode_;
+  std::size_t material_;
+  GltfMaterial::Coordinates coordinates_;
+  bool opaque_;
+};
 
 // Replaces what a scene file has not `given` by what `fresh` has. Maps stay.
 void renew(Material& to, const Material& fresh, const GivenMembers& given) {
@@ -38,7 +255,10 @@ class MoverBodies {
       const RigNode& node = movers_[mover];
       Body& parent = of(node.parent);
       bodies_[mover] = layout_.add("");
-      parent.children.push_back({bodies_[mover], node.toParent, 0, node.motion, node.name});
+      parent.placements.push_back({.body = bodies_[mover],
+                                   .toParent = node.toParent,
+                                   .motion = node.motion,
+                                   .mover = node.name});
     }
     return layout_.body(bodies_[mover]);
   }
@@ -97,10 +317,11 @@ class GltfModel : public Model {
       const bool shared = !placed.isDeformed() && known != bodies.end();
       const std::uint32_t body = shared ? known->second : addBody(placed, layout, materials);
       if (!placed.isDeformed()) bodies.emplace(placed.mesh, body);
-      empty = empty && layout.body(body).parts.empty();
-      Placement shown{body, placed.toMover};
-      shown.item = std::make_shared<const std::string>(nameOf(placed));
-      movers.of(placed.mover).children.push_back(std::move(shown));
+      empty = empty && layout.body(body).placements.empty();
+      movers.of(placed.mover)
+          .placements.push_back({.body = body,
+                                 .toParent = placed.toMover,
+                                 .item = std::make_shared<const std::string>(nameOf(placed))});
     }
     if (empty) {
       warnNothingToDraw(document_.list("meshes").size() == 0 ? "no meshes"
@@ -138,9 +359,17 @@ class GltfModel : public Model {
  private:
   std::uint32_t addBody(const GltfPlacedMesh& placed, SceneLayout& layout,
                         const std::vector<std::uint32_t>& materials) const {
-    const std::uint32_t body = layout.add(document_.list("meshes")[placed.mesh]["name"].textOr(""));
-    addParts(readGltfMesh(document_, placed, sources_, variant), materials, document_.name(),
-             document_.budget(), layout.body(body));
+    const JsonValue source = document_.list("meshes")[placed.mesh];
+    const std::string name = source["name"].textOr("");
+    std::vector<Mesh> meshes;
+    for (const JsonValue& primitive : source.need("primitives").elements()) {
+      Mesh mesh;
+      mesh.name = name;
+      PrimitiveReader reader(document_, primitive, sources_, placed, variant);
+      if (reader.read(mesh)) meshes.push_back(std::move(mesh));
+    }
+    const std::uint32_t body = layout.add(name);
+    addParts(std::move(meshes), materials, document_.name(), document_.budget(), layout.body(body));
     return body;
   }
 
@@ -160,6 +389,12 @@ class GltfModel : public Model {
 };
 
 }  // namespace
+
+bool GltfPlacedMesh::isDeformed() const {
+  const std::vector<double>& weights = deformation.weights;
+  return deformation.skeleton || deformation.movingWeights ||
+         std::ranges::any_of(weights, [](double weight) { return weight != 0; });
+}
 
 std::unique_ptr<Model> openGltf(const ModelSource& source) {
   return std::make_unique<GltfModel>(source);

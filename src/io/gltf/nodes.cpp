@@ -14,7 +14,6 @@
 #include "core/error.h"
 #include "core/options.h"
 #include "core/text.h"
-#include "scene/description.h"
 
 namespace whit {
 namespace {

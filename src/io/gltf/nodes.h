@@ -1,20 +1,15 @@
-// The node tree of a glTF document, its animations, and its meshes with their morph targets and
-// skins. glTF 2.0 specification, sections 3.5, 3.7.2, 3.7.3, 3.11 and 5.24; KHR_lights_punctual,
+// The node tree of a glTF document, its animations, and the places of its meshes with their skins.
+// glTF 2.0 specification, sections 3.5, 3.7.2, 3.7.3, 3.11 and 5.24; KHR_lights_punctual,
 // EXT_mesh_gpu_instancing.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "core/affine.h"
 #include "io/gltf/document.h"
-#include "io/gltf/material.h"
-#include "scene/camera.h"
-#include "scene/light.h"
-#include "scene/mesh.h"
-#include "scene/motion.h"
+#include "scene/description.h"
 
 namespace whit {
 
@@ -36,17 +31,6 @@ struct GltfPlacedMesh {
 
   bool isDeformed() const;
 };
-
-// One Mesh for each primitive that consists of triangles, strips or fans, with one material: an
-// index into `materials`, whose last entry is that of primitives without one. Texture coordinates
-// are those of the material, with its transforms applied, v pointing up. `variant` is the number of
-// the chosen variant of the materials. Points, lines, the alpha of vertex colors and vertices
-// without joints are counted in the document's warnings. The mesh is deformed as at the start;
-// tangents are left out, because the directions of normal maps follow from texture coordinates.
-// Throws as the accessors do, and badScene where attributes differ in length.
-std::vector<Mesh> readGltfMesh(const GltfDocument& document, const GltfPlacedMesh& placed,
-                               const std::vector<GltfMaterial>& materials,
-                               std::optional<std::size_t> variant);
 
 struct GltfStage {
   Rig movers;

@@ -104,13 +104,11 @@ std::vector<Affine> readPlacements(JsonObject& item) {
   return result;
 }
 
-// A shape or model without item names of its own is one item, or one item a placement.
+// What is in the content without a name is one item, or one item a body.
 void nameItem(Body& content, const std::string& pointer) {
-  if (content.parts.empty() && content.children.empty()) return;
   const ItemName name = std::make_shared<const std::string>(pointer);
-  if (!content.parts.empty() && content.items.empty()) content.items = {name};
-  for (Placement& child : content.children) {
-    if (!child.item) child.item = name;
+  for (Placement& placed : content.placements) {
+    if (!placed.item) placed.item = name;
   }
 }
 
@@ -133,8 +131,9 @@ Affine uprightFrom(char up) {
 bool seemsZUp(const Body& content) {
   constexpr float kOnPlane = 0.02f, kAstride = 0.25f, kLeastHeight = 0.5f;
   Box box;
-  for (const BodyPart& part : content.parts) {
-    for (const Vec3f& p : part.mesh->positions) box.add(p);
+  for (const Placement& placed : content.placements) {
+    if (!placed.isMesh()) continue;
+    for (const Vec3f& p : placed.mesh->positions) box.add(p);
   }
   const Vec3f size = box.upper - box.lower;
   return !box.empty() && std::abs(box.lower.z) <= kOnPlane * size.z &&
@@ -147,11 +146,43 @@ class ItemReader {
   ItemReader(SceneContext& context, MaterialReader& materials)
       : context_(context), materials_(materials), layout_(context.budget) {}
 
-  void read(JsonObject& file);
-  void readModelAlone(JsonObject& file, const std::filesystem::path& path);
+  void read(JsonObject& file) {
+    const auto objects = file.find("objects").members();
+    for (const auto& [name, value] : objects) objects_.emplace(name, NamedObject{value});
+    for (const auto& [name, value] : objects) readObject(objects_.at(name), name);
+    const std::vector<JsonValue> items = file.find("scene").elements();
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      reportProgress(context_.progress, "reading scene",
+                     static_cast<double>(i) / static_cast<double>(items.size()));
+      readItem(items[i], layout_.body(0));
+    }
+    layout_.moveTo(context_.scene);
+  }
+
+  void readModelAlone(JsonObject& file, const std::filesystem::path& path) {
+    Model& model = context_.model(path, "");
+    Body content = contentOf(model, path, file);
+    nameItem(content, path.stem().string());
+    layout_.append(content, {upright(file, path, content)}, layout_.body(0));
+    layout_.moveTo(context_.scene);
+    model.addView(context_.scene);
+  }
 
  private:
-  Affine upright(JsonObject& file, const std::filesystem::path& path, const Body& content);
+  // Files of OBJ and PLY do not say which axis is up.
+  Affine upright(JsonObject& file, const std::filesystem::path& path, const Body& content) {
+    const bool says = extensionOf(path).starts_with(".gl");
+    if (const JsonValue up = file.find("up")) {
+      const std::string axis = up.text();
+      if (says) up.fail("no axis, because y is up in glTF files");
+      if (axis != "x" && axis != "y" && axis != "z") up.fail("\"x\", \"y\" or \"z\"");
+      return uprightFrom(axis[0]);
+    }
+    if (says || !seemsZUp(content)) return {};
+    context_.warnings.add("model in which z seems to be up was turned (--up y leaves it as it is)",
+                          path.filename().string());
+    return uprightFrom('z');
+  }
 
   struct NamedObject {
     JsonValue definition;
@@ -159,14 +190,167 @@ class ItemReader {
     std::uint32_t body = 0;
   };
 
-  void readItems(const JsonValue& list, Body& to);
-  void readItem(const JsonValue& value, Body& to);
-  Body readShape(JsonObject& item, const JsonValue& name);
-  Body readModel(JsonObject& item, const JsonValue& path);
-  Body readMesh(JsonObject& item, const JsonValue& name);
-  Body contentOf(Model& model, const std::filesystem::path& path, JsonObject& item);
-  std::vector<std::uint32_t> modelMaterials(Model& model, JsonObject& item);
-  std::uint32_t readObject(NamedObject& object, const std::string& name);
+  void readItems(const JsonValue& list, Body& to) {
+    for (const JsonValue& item : list.elements()) readItem(item, to);
+  }
+
+  void readItem(const JsonValue& value, Body& to) {
+    if (++depth_ > kNestingLimit) {
+      throwBadScene(value.where(),
+                    "nested deeper than " + std::to_string(kNestingLimit) + " items");
+    }
+    JsonObject item(value);
+    Body content;
+    if (const JsonValue shape = item.find("shape")) {
+      content = readShape(item, shape);
+    } else if (const JsonValue model = item.find("model")) {
+      content = readModel(item, model);
+    } else if (context_.parts && item.has("mesh")) {
+      content = readMesh(item, item.find("mesh"));
+    } else if (const JsonValue use = item.find("use")) {
+      const std::string name = findNamed(objects_, use, "an object")->first;
+      content.placements.push_back({.body = readObject(objects_.at(name), name)});
+    } else if (const JsonValue group = item.find("group")) {
+      readItems(group, content);
+    } else {
+      item.finish();
+      value.fail("an item with \"shape\", \"model\", \"use\" or \"group\"");
+    }
+    nameItem(content, value.pointer());
+    std::vector<Affine> placements = readPlacements(item);
+    const SharedMotion motion = readMotion(item, context_.instant, context_.scene);
+    item.finish();
+    if (motion && context_.instant.moves()) {
+      const std::uint32_t carried = layout_.add("");
+      layout_.append(content, placements, layout_.body(carried));
+      to.placements.push_back(
+          {.body = carried, .motion = motion, .mover = movableName(item, context_.instant)});
+    } else {
+      if (motion) {
+        for (Affine& placement : placements) placement = (*motion)(0) * placement;
+      }
+      layout_.append(content, placements, to);
+    }
+    --depth_;
+  }
+
+  Body readShape(JsonObject& item, const JsonValue& name) {
+    const GenerationLimit limit(context_.budget.left());
+    Shape shape = generate(name, shapeGenerators(), item);
+    const JsonValue everywhere = item.find("material");
+    std::map<std::string, std::uint32_t> slots;
+    std::vector<std::string> names;
+    for (const ShapePart& part : shape.parts) names.push_back(part.slot);
+    for (const auto& [slot, material] : item.find("materials").members()) {
+      slotOf(material, slot, names, "slot of this shape");
+      slots[slot] = materials_.find(material);
+    }
+    Body content;
+    for (ShapePart& part : shape.parts) {
+      const auto slot = slots.find(part.slot);
+      const std::uint32_t material = slot != slots.end() ? slot->second
+                                     : everywhere        ? materials_.find(everywhere)
+                                                         : materials_.defaultMaterial();
+      context_.budget.charge(1, bytesOf(part.mesh), name.where());
+      part.mesh.materials = {material};
+      if (part.mesh.name.empty()) part.mesh.name = name.text() + "/" + part.slot;
+      content.addMesh(std::move(part.mesh));
+    }
+    if (shape.placements.empty()) return content;
+    const std::uint32_t body = layout_.add(name.text());
+    layout_.body(body) = std::move(content);
+    Body placed;
+    for (const Affine& placement : shape.placements)
+      placed.placements.push_back({.body = body, .toParent = placement});
+    return placed;
+  }
+
+  Body readModel(JsonObject& item, const JsonValue& path) {
+    const auto file = context_.rules.resolve(path.text(), context_.folder, path.where());
+    if (!isModelFile(file)) path.fail("a model (" + modelExtensions() + ")");
+    Model& model = context_.model(file, path.where());
+    return contentOf(model, file, item);
+  }
+
+  // A body of its own, so that one that is placed several times is kept once.
+  Body readMesh(JsonObject& item, const JsonValue& name) {
+    const auto found = findNamed(context_.parts->meshes, name, "a mesh");
+    const JsonValue named = item.find("material");
+    const std::uint32_t material = named ? materials_.find(named) : materials_.defaultMaterial();
+    const auto [entry, isNew] = meshes_.try_emplace({found->first, material}, 0);
+    if (isNew) {
+      Mesh mesh = meshOf(found->second, name.where());
+      context_.budget.charge(1, bytesOf(mesh), name.where());
+      mesh.name = found->first;
+      mesh.materials = {material};
+      entry->second = layout_.add(found->first);
+      layout_.body(entry->second).addMesh(std::move(mesh));
+    }
+    Body content;
+    content.placements.push_back({.body = entry->second});
+    return content;
+  }
+
+  Body contentOf(Model& model, const std::filesystem::path& path, JsonObject& item) {
+    const std::vector<std::uint32_t> materials = modelMaterials(model, item);
+    reportProgress(context_.progress, "reading " + path.filename().string(), 0);
+    model.variant.reset();
+    if (const JsonValue name = item.find("variant")) {
+      const std::vector<std::string> names = model.variants();
+      if (names.empty()) name.fail("no variant, because the model has none");
+      model.variant = std::ranges::find(names, name.word(names)) - names.begin();
+    }
+    return model.content(layout_, materials);
+  }
+
+  // Overrides first, then images are asked for: they are decoded while the geometry is read.
+  std::vector<std::uint32_t> modelMaterials(Model& model, JsonObject& item) {
+    std::vector<Material> materials = model.materials();
+    std::vector<GivenMembers> given(materials.size());
+    const std::vector<std::string> names = distinctNames(namesIn(materials));
+    const std::string section = item.value().pointer() + "/materials/";
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+      materials[i].pointer = section + escapePointer(names[i]);
+    }
+    const auto apply = [&](const JsonValue& value, std::size_t i) {
+      JsonObject object(value);
+      materials_.override(object, materials[i], given[i]);
+      object.finish();
+    };
+    const auto overrides = item.find("materials").members();
+    for (const auto& [name, value] : overrides) {
+      if (name != "*") continue;
+      for (std::size_t i = 0; i < materials.size(); ++i) apply(value, i);
+    }
+    for (const auto& [name, value] : overrides) {
+      if (name != "*") apply(value, slotOf(value, name, names, "material of this model"));
+    }
+    std::vector<std::uint32_t> indices;
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+      TexturedMaterial textured =
+          model.withMaps(i, std::move(materials[i]), given[i], context_.textures);
+      const std::uint32_t index =
+          indices.emplace_back(materials_.add(std::move(textured.material)));
+      if (!textured.whenDecoded) continue;
+      context_.textures.whenDone([index, change = std::move(textured.whenDecoded)](
+                                     SceneDescription& scene) { change(scene.materials[index]); });
+    }
+    return indices;
+  }
+
+  std::uint32_t readObject(NamedObject& object, const std::string& name) {
+    using State = NamedObject::State;
+    if (object.state == State::reading) {
+      throwBadScene(object.definition.where(), "this object contains itself");
+    }
+    if (object.state == State::unread) {
+      object.state = State::reading;
+      object.body = layout_.add(name);
+      readItems(object.definition, layout_.body(object.body));
+      object.state = State::read;
+    }
+    return object.body;
+  }
 
   SceneContext& context_;
   MaterialReader& materials_;
@@ -176,204 +360,6 @@ class ItemReader {
   std::map<std::pair<std::string, std::uint32_t>, std::uint32_t> meshes_;
   int depth_ = 0;  // of the item that is being read
 };
-
-void ItemReader::read(JsonObject& file) {
-  const auto objects = file.find("objects").members();
-  for (const auto& [name, value] : objects) objects_.emplace(name, NamedObject{value});
-  for (const auto& [name, value] : objects) readObject(objects_.at(name), name);
-  const std::vector<JsonValue> items = file.find("scene").elements();
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    reportProgress(context_.progress, "reading scene",
-                   static_cast<double>(i) / static_cast<double>(items.size()));
-    readItem(items[i], layout_.body(0));
-  }
-  layout_.moveTo(context_.scene);
-}
-
-void ItemReader::readModelAlone(JsonObject& file, const std::filesystem::path& path) {
-  Model& model = context_.model(path, "");
-  Body content = contentOf(model, path, file);
-  nameItem(content, path.stem().string());
-  layout_.append(content, {upright(file, path, content)}, layout_.body(0));
-  layout_.moveTo(context_.scene);
-  model.addView(context_.scene);
-}
-
-// Files of OBJ and PLY do not say which axis is up.
-Affine ItemReader::upright(JsonObject& file, const std::filesystem::path& path,
-                           const Body& content) {
-  const bool says = extensionOf(path).starts_with(".gl");
-  if (const JsonValue up = file.find("up")) {
-    const std::string axis = up.text();
-    if (says) up.fail("no axis, because y is up in glTF files");
-    if (axis != "x" && axis != "y" && axis != "z") up.fail("\"x\", \"y\" or \"z\"");
-    return uprightFrom(axis[0]);
-  }
-  if (says || !seemsZUp(content)) return {};
-  context_.warnings.add("model in which z seems to be up was turned (--up y leaves it as it is)",
-                        path.filename().string());
-  return uprightFrom('z');
-}
-
-std::uint32_t ItemReader::readObject(NamedObject& object, const std::string& name) {
-  using State = NamedObject::State;
-  if (object.state == State::reading) {
-    throwBadScene(object.definition.where(), "this object contains itself");
-  }
-  if (object.state == State::unread) {
-    object.state = State::reading;
-    object.body = layout_.add(name);
-    readItems(object.definition, layout_.body(object.body));
-    object.state = State::read;
-  }
-  return object.body;
-}
-
-void ItemReader::readItems(const JsonValue& list, Body& to) {
-  for (const JsonValue& item : list.elements()) readItem(item, to);
-}
-
-void ItemReader::readItem(const JsonValue& value, Body& to) {
-  if (++depth_ > kNestingLimit) {
-    throwBadScene(value.where(), "nested deeper than " + std::to_string(kNestingLimit) + " items");
-  }
-  JsonObject item(value);
-  Body content;
-  if (const JsonValue shape = item.find("shape")) {
-    content = readShape(item, shape);
-  } else if (const JsonValue model = item.find("model")) {
-    content = readModel(item, model);
-  } else if (context_.parts && item.has("mesh")) {
-    content = readMesh(item, item.find("mesh"));
-  } else if (const JsonValue use = item.find("use")) {
-    const std::string name = findNamed(objects_, use, "an object")->first;
-    content.children.push_back({readObject(objects_.at(name), name), Affine(), 0});
-  } else if (const JsonValue group = item.find("group")) {
-    readItems(group, content);
-  } else {
-    item.finish();
-    value.fail("an item with \"shape\", \"model\", \"use\" or \"group\"");
-  }
-  nameItem(content, value.pointer());
-  std::vector<Affine> placements = readPlacements(item);
-  const SharedMotion motion = readMotion(item, context_.instant, context_.scene);
-  item.finish();
-  if (motion && context_.instant.moves()) {
-    const std::uint32_t carried = layout_.add("");
-    layout_.append(content, placements, layout_.body(carried));
-    to.children.push_back(
-        {carried, Affine(), to.parts.size(), motion, movableName(item, context_.instant)});
-  } else {
-    if (motion) {
-      for (Affine& placement : placements) placement = (*motion)(0) * placement;
-    }
-    layout_.append(content, placements, to);
-  }
-  --depth_;
-}
-
-Body ItemReader::readShape(JsonObject& item, const JsonValue& name) {
-  const GenerationLimit limit(context_.budget.left());
-  Shape shape = generate(name, shapeGenerators(), item);
-  const JsonValue everywhere = item.find("material");
-  std::map<std::string, std::uint32_t> slots;
-  std::vector<std::string> names;
-  for (const ShapePart& part : shape.parts) names.push_back(part.slot);
-  for (const auto& [slot, material] : item.find("materials").members()) {
-    slotOf(material, slot, names, "slot of this shape");
-    slots[slot] = materials_.find(material);
-  }
-  Body content;
-  for (ShapePart& part : shape.parts) {
-    const auto slot = slots.find(part.slot);
-    const std::uint32_t material = slot != slots.end() ? slot->second
-                                   : everywhere        ? materials_.find(everywhere)
-                                                       : materials_.defaultMaterial();
-    context_.budget.charge(1, bytesOf(part.mesh), name.where());
-    part.mesh.materials = {material};
-    if (part.mesh.name.empty()) part.mesh.name = name.text() + "/" + part.slot;
-    content.parts.push_back({std::make_shared<Mesh>(std::move(part.mesh)), Affine()});
-  }
-  if (shape.placements.empty()) return content;
-  const std::uint32_t body = layout_.add(name.text());
-  layout_.body(body) = std::move(content);
-  Body placed;
-  for (const Affine& placement : shape.placements) placed.children.push_back({body, placement, 0});
-  return placed;
-}
-
-Body ItemReader::readModel(JsonObject& item, const JsonValue& path) {
-  const auto file = context_.rules.resolve(path.text(), context_.folder, path.where());
-  if (!isModelFile(file)) path.fail("a model (" + modelExtensions() + ")");
-  Model& model = context_.model(file, path.where());
-  return contentOf(model, file, item);
-}
-
-Body ItemReader::contentOf(Model& model, const std::filesystem::path& path, JsonObject& item) {
-  const std::vector<std::uint32_t> materials = modelMaterials(model, item);
-  reportProgress(context_.progress, "reading " + path.filename().string(), 0);
-  model.variant.reset();
-  if (const JsonValue name = item.find("variant")) {
-    const std::vector<std::string> names = model.variants();
-    if (names.empty()) name.fail("no variant, because the model has none");
-    model.variant = std::ranges::find(names, name.word(names)) - names.begin();
-  }
-  return model.content(layout_, materials);
-}
-
-// A body of its own, so that one that is placed several times is kept once.
-Body ItemReader::readMesh(JsonObject& item, const JsonValue& name) {
-  const auto found = findNamed(context_.parts->meshes, name, "a mesh");
-  const JsonValue named = item.find("material");
-  const std::uint32_t material = named ? materials_.find(named) : materials_.defaultMaterial();
-  const auto [entry, isNew] = meshes_.try_emplace({found->first, material}, 0);
-  if (isNew) {
-    Mesh mesh = meshOf(found->second, name.where());
-    context_.budget.charge(1, bytesOf(mesh), name.where());
-    mesh.name = found->first;
-    mesh.materials = {material};
-    entry->second = layout_.add(found->first);
-    layout_.body(entry->second)
-        .parts.push_back({std::make_shared<Mesh>(std::move(mesh)), Affine()});
-  }
-  Body content;
-  content.children.push_back({entry->second, Affine(), 0});
-  return content;
-}
-
-// Overrides first, then images are asked for: they are decoded while the geometry is read.
-std::vector<std::uint32_t> ItemReader::modelMaterials(Model& model, JsonObject& item) {
-  std::vector<Material> materials = model.materials();
-  std::vector<GivenMembers> given(materials.size());
-  const std::vector<std::string> names = distinctNames(namesIn(materials));
-  const std::string section = item.value().pointer() + "/materials/";
-  for (std::size_t i = 0; i < materials.size(); ++i) {
-    materials[i].pointer = section + escapePointer(names[i]);
-  }
-  const auto apply = [&](const JsonValue& value, std::size_t i) {
-    JsonObject object(value);
-    materials_.override(object, materials[i], given[i]);
-    object.finish();
-  };
-  const auto overrides = item.find("materials").members();
-  for (const auto& [name, value] : overrides) {
-    if (name != "*") continue;
-    for (std::size_t i = 0; i < materials.size(); ++i) apply(value, i);
-  }
-  for (const auto& [name, value] : overrides) {
-    if (name != "*") apply(value, slotOf(value, name, names, "material of this model"));
-  }
-  std::vector<std::uint32_t> indices;
-  for (std::size_t i = 0; i < materials.size(); ++i) {
-    TexturedMaterial textured =
-        model.withMaps(i, std::move(materials[i]), given[i], context_.textures);
-    const std::uint32_t index = indices.emplace_back(materials_.add(std::move(textured.material)));
-    if (!textured.whenDecoded) continue;
-    context_.textures.whenDone([index, change = std::move(textured.whenDecoded)](
-                                   SceneDescription& scene) { change(scene.materials[index]); });
-  }
-  return indices;
-}
 
 }  // namespace
 

@@ -1,11 +1,9 @@
 #include "io/scene/scene_layout.h"
 
-#include <algorithm>
-#include <utility>
-
 #include "core/error.h"
 
 namespace whit {
+
 std::uint64_t bytesOf(const Mesh& mesh) {
   return mesh.positions.size() * sizeof(Vec3f) + mesh.normals.size() * sizeof(Vec3f) +
          (mesh.uvs.size() + mesh.secondUvs.size()) * sizeof(Vec2f) +
@@ -19,19 +17,11 @@ std::uint32_t SceneLayout::add(const std::string& name) {
 }
 
 void SceneLayout::append(const Body& from, const std::vector<Affine>& placements, Body& to) {
-  budget_.charge(from.parts.size() * sizeof(BodyPart) + from.children.size() * sizeof(Placement) +
-                     from.items.size() * sizeof(ItemName),
-                 placements.size(), "repeated items");
+  budget_.charge(from.placements.size() * sizeof(Placement), placements.size(), "repeated items");
   for (const Affine& placement : placements) {
-    const std::size_t before = to.parts.size();
-    const auto items = static_cast<std::uint32_t>(to.items.size());
-    for (const BodyPart& part : from.parts) {
-      to.parts.push_back({part.mesh, placement * part.toBody, items + part.item});
-    }
-    to.items.insert(to.items.end(), from.items.begin(), from.items.end());
-    for (const Placement& child : from.children) {
-      to.children.push_back({child.body, placement * child.toParent, before + child.partsBefore,
-                             child.motion, child.mover, child.item});
+    for (const Placement& placed : from.placements) {
+      to.placements.push_back(placed);
+      to.placements.back().toParent = placement * placed.toParent;
     }
   }
 }
@@ -44,10 +34,16 @@ int SceneLayout::measure(std::uint32_t index, int depth, std::vector<std::uint32
   }
   if (body.height > 0) return body.height;
   int height = 1;
-  body.within = {body.parts.size(), body.itemCount()};
-  for (const Placement& child : body.children) {
-    height = std::max(height, 1 + measure(child.body, depth + 1, order));
-    body.within += bodies_[child.body].within;
+  Standing& within = body.within;
+  for (Placement& placed : body.placements) {
+    if (placed.isMesh()) {
+      if (!placed.goesOn) ++within.item;
+      placed.at = {within.rank++, within.item - 1};
+    } else {
+      placed.at = within;
+      height = std::max(height, 1 + measure(placed.body, depth + 1, order));
+      within += bodies_[placed.body].within;
+    }
   }
   order.push_back(index);
   return body.height = height;
@@ -61,46 +57,21 @@ void SceneLayout::moveTo(SceneDescription& scene) {
   for (auto index = order.rbegin(); index != order.rend(); ++index) {
     const Body& body = bodies_[*index];
     instances += body.places;
-    for (const Placement& child : body.children) bodies_[child.body].places += body.places;
+    for (const Placement& placed : body.placements) {
+      if (!placed.isMesh()) bodies_[placed.body].places += body.places;
+    }
   }
   constexpr double kMany = 1e18;
   budget_.charge(static_cast<std::uint64_t>(std::min(instances, kMany)), sizeof(Instance),
                  "instances");
   scene.items = bodies_[0].within.item;
   scene.itemNames.resize(std::min<std::uint64_t>(scene.items, kNamedItems));
-  place({0, Affine()}, Affine(), kNoNode, {}, scene);
-}
-
-std::vector<Standing> SceneLayout::standingsOfParts(const Body& body) const {
-  std::vector<Standing> standings(body.parts.size());
-  Standing children;
-  auto child = body.children.begin();
-  for (std::size_t i = 0; i < standings.size(); ++i) {
-    for (; child != body.children.end() && child->partsBefore <= i; ++child) {
-      children += bodies_[child->body].within;
-    }
-    standings[i] = children;
-    standings[i] += {i, body.parts[i].item};
-  }
-  return standings;
-}
-
-// Names the body's own items; `first` is the number of the first item within the body.
-void SceneLayout::nameItems(const Body& body, const ItemName& placed, std::uint64_t first,
-                            SceneDescription& scene) const {
-  if (first >= scene.itemNames.size()) return;
-  const std::vector<Standing> standings = standingsOfParts(body);
-  for (std::size_t i = 0; i < standings.size(); ++i) {
-    const std::uint64_t number = first + standings[i].item;
-    if (number >= scene.itemNames.size()) continue;
-    const ItemName& own = body.items.empty() ? placed : body.items[body.parts[i].item];
-    scene.itemNames[number] = own ? *own : body.name;
-  }
+  place({.body = 0}, Affine(), kNoNode, {}, scene);
 }
 
 // The last user of a mesh gets it, others a copy.
-Mesh SceneLayout::take(BodyPart& part, const std::string& body) {
-  const std::shared_ptr<Mesh> mesh = std::move(part.mesh);
+Mesh SceneLayout::take(Placement& placed, const std::string& body) {
+  const std::shared_ptr<Mesh> mesh = std::move(placed.mesh);
   if (mesh.use_count() == 1) return std::move(*mesh);
   budget_.charge(1, bytesOf(*mesh), "object " + body);
   return *mesh;
@@ -108,13 +79,12 @@ Mesh SceneLayout::take(BodyPart& part, const std::string& body) {
 
 void SceneLayout::placeOnce(Body& body, const Affine& toWorld, Standing at,
                             SceneDescription& scene) {
-  const std::vector<Standing> standings = standingsOfParts(body);
-  for (std::size_t i = 0; i < body.parts.size(); ++i) {
-    BodyPart& part = body.parts[i];
-    Mesh mesh = take(part, body.name);
+  for (Placement& placed : body.placements) {
+    if (!placed.isMesh()) continue;
+    Mesh mesh = take(placed, body.name);
     scene.instances.push_back({static_cast<std::uint32_t>(scene.objects.size()),
-                               toWorld * part.toBody, at.rank + standings[i].rank, kNoNode,
-                               at.item + standings[i].item});
+                               toWorld * placed.toParent, at.rank + placed.at.rank, kNoNode,
+                               at.item + placed.at.item});
     scene.objects.push_back({mesh.name, {}});
     scene.objects.back().meshes.push_back(std::move(mesh));
   }
@@ -122,13 +92,13 @@ void SceneLayout::placeOnce(Body& body, const Affine& toWorld, Standing at,
 
 void SceneLayout::addObject(Body& body, SceneDescription& scene) {
   body.object = static_cast<std::uint32_t>(scene.objects.size());
-  const std::vector<Standing> standings = standingsOfParts(body);
   Object object{body.name, {}};
-  for (std::size_t i = 0; i < body.parts.size(); ++i) {
-    Mesh mesh = take(body.parts[i], body.name);
-    if (!(body.parts[i].toBody == Affine())) transform(mesh, body.parts[i].toBody);
-    mesh.rank = standings[i].rank;
-    mesh.item = static_cast<std::uint32_t>(standings[i].item);
+  for (Placement& placed : body.placements) {
+    if (!placed.isMesh()) continue;
+    Mesh mesh = take(placed, body.name);
+    if (!(placed.toParent == Affine())) transform(mesh, placed.toParent);
+    mesh.rank = placed.at.rank;
+    mesh.item = static_cast<std::uint32_t>(placed.at.item);
     object.meshes.push_back(std::move(mesh));
   }
   scene.objects.push_back(std::move(object));
@@ -137,17 +107,24 @@ void SceneLayout::addObject(Body& body, SceneDescription& scene) {
 void SceneLayout::place(const Placement& placed, const Affine& toMover, std::uint32_t mover,
                         Standing at, SceneDescription& scene) {
   Body& body = bodies_[placed.body];
-  nameItems(body, placed.item, at.item, scene);
+  for (const Placement& own : body.placements) {
+    const std::uint64_t number = at.item + own.at.item;
+    if (number >= scene.itemNames.size()) break;
+    if (!own.isMesh()) continue;
+    const ItemName& name = own.item ? own.item : placed.item;
+    scene.itemNames[number] = name ? *name : body.name;
+  }
   if (body.places == 1 && mover == kNoNode) {
     placeOnce(body, toMover, at, scene);
-  } else if (!body.parts.empty()) {
+  } else if (body.hasMeshes()) {
     if (body.object == kNoObject) addObject(body, scene);
     scene.instances.push_back({body.object, toMover, at.rank, mover, at.item});
   }
-  for (const Placement& child : body.children) {
+  for (const Placement& child : body.placements) {
+    if (child.isMesh()) continue;
     const Affine toChild = toMover * child.toParent;
     Standing ofChild = at;
-    ofChild += {child.partsBefore, body.itemsBefore(child.partsBefore)};
+    ofChild += child.at;
     if (child.motion) {
       const auto node = static_cast<std::uint32_t>(scene.motion.rig.size());
       budget_.charge(1, sizeof(RigNode), "what moves");
@@ -156,7 +133,6 @@ void SceneLayout::place(const Placement& placed, const Affine& toMover, std::uin
     } else {
       place(child, toChild, mover, ofChild, scene);
     }
-    at += bodies_[child.body].within;
   }
 }
 

@@ -1,10 +1,12 @@
 // The layout of a scene while its file is read: bodies that hold meshes and other bodies.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/affine.h"
@@ -16,29 +18,14 @@ namespace whit {
 // Items within items, by "group" or "use".
 inline constexpr int kNestingLimit = 256;
 
-inline constexpr std::uint32_t kNoObject = 0xffffffffu;
+inline constexpr std::uint32_t kNoObject = 0xffffffffu, kNoBody = 0xffffffffu;
 
 // Memory that a mesh takes.
 std::uint64_t bytesOf(const Mesh& mesh);
 
 using ItemName = std::shared_ptr<const std::string>;
 
-struct BodyPart {
-  std::shared_ptr<Mesh> mesh;  // shared by copies of the part
-  Affine toBody;
-  std::uint32_t item = 0;  // index into Body::items
-};
-
-struct Placement {
-  std::uint32_t body = 0;
-  Affine toParent;
-  std::size_t partsBefore = 0;    // number of the parent's parts that precede it
-  SharedMotion motion = nullptr;  // applied before toParent
-  std::string mover = {};         // RigNode::name
-  ItemName item = nullptr;        // the name of a body that is one item
-};
-
-// Numbers of parts and of items, which are also a place in the order of the scene.
+// Numbers of meshes and of items, which are also a place in the order of the scene.
 struct Standing {
   std::uint64_t rank = 0, item = 0;
 
@@ -48,29 +35,41 @@ struct Standing {
   }
 };
 
+// A mesh or a body, where it stands in another body.
+struct Placement {
+  std::uint32_t body = kNoBody;          // kNoBody: `mesh`
+  std::shared_ptr<Mesh> mesh = nullptr;  // shared by its copies
+  Affine toParent = {};
+  SharedMotion motion = nullptr;  // of a body, applied before toParent
+  std::string mover = {};         // RigNode::name
+  // The name of the item that the mesh is part of, or of all meshes without names in the body.
+  // Meshes without either are called as the body that they are in.
+  ItemName item = nullptr;
+  bool goesOn = false;  // a mesh of the same item as the one before it
+  Standing at = {};     // counted from the beginning of the body it is in; moveTo() fills it in
+
+  bool isMesh() const { return body == kNoBody; }
+};
+
 struct Body {
   std::string name;
-  std::vector<BodyPart> parts;
-  std::vector<Placement> children;
-  // The names of its own items, whose parts follow each other. Without names it is one item, if it
-  // has parts, which is called as its placement says, otherwise as the body.
-  std::vector<ItemName> items;
+  std::vector<Placement> placements;  // in the file's order
 
   // SceneLayout::moveTo() fills these in.
-  Standing within{};                 // the parts and items that it holds, its children's included
+  Standing within{};                 // the meshes and items that it holds, its bodies' included
   double places = 0;                 // how often it is placed
   int height = 0;                    // how many bodies are within one another from this one down
   std::uint32_t object = kNoObject;  // of the scene, where the body is placed more than once
 
-  std::size_t itemCount() const { return items.empty() && !parts.empty() ? 1 : items.size(); }
-  // The number of own items that come before a part.
-  std::size_t itemsBefore(std::size_t part) const {
-    return part < parts.size() ? parts[part].item : itemCount();
+  bool hasMeshes() const { return std::ranges::any_of(placements, &Placement::isMesh); }
+  // Adds a mesh to the only item of the body.
+  void addMesh(Mesh mesh) {
+    const bool goesOn = !placements.empty();
+    placements.push_back({.mesh = std::make_shared<Mesh>(std::move(mesh)), .goesOn = goesOn});
   }
 };
 
-// Parts and children keep the file's order, see Placement::partsBefore. Body 0 is the scene; no
-// body may hold itself, directly or through others.
+// Body 0 is the scene; no body may hold itself, directly or through others.
 class SceneLayout {
  public:
   explicit SceneLayout(MemoryBudget& budget) : budget_(budget) { add("scene"); }
@@ -88,19 +87,15 @@ class SceneLayout {
   void moveTo(SceneDescription& scene);
 
  private:
-  // Computes `within` and `height` of a body and of all that it holds, and adds these to `order`,
-  // each behind its children. Returns the height.
+  // Computes `within`, `height` and Placement::at of a body and of all that it holds, and adds
+  // these to `order`, each behind the bodies in it. Returns the height.
   int measure(std::uint32_t index, int depth, std::vector<std::uint32_t>& order);
-  // Places counted from the body's beginning, with what its children hold.
-  std::vector<Standing> standingsOfParts(const Body& body) const;
-  void nameItems(const Body& body, const ItemName& placed, std::uint64_t first,
-                 SceneDescription& scene) const;
   // `toMover`: to the space of the rig's node that carries it, or to the world.
   void place(const Placement& placed, const Affine& toMover, std::uint32_t mover, Standing at,
              SceneDescription& scene);
   void placeOnce(Body& body, const Affine& toWorld, Standing at, SceneDescription& scene);
   void addObject(Body& body, SceneDescription& scene);
-  Mesh take(BodyPart& part, const std::string& body);
+  Mesh take(Placement& placed, const std::string& body);
 
   MemoryBudget& budget_;
   std::deque<Body> bodies_;  // a deque: references stay valid
