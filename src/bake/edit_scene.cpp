@@ -84,7 +84,7 @@ void turnOver(std::uint32_t triangle, std::array<std::uint32_t, 3>& corners, Sce
   if (!scene.colors.empty()) swapLastCorners(scene.colors[triangle].color);
 }
 
-void bend(Scene& scene, BentVertices& bent, double seconds, DeformVertices deformVertices) {
+void bend(Scene& scene, BentVertices& bent, double seconds) {
   Geometry& geometry = scene.geometries[bent.geometry];
   DeformedVertices vertices = deformVertices(*bent.deformation, poseAt(*bent.deformation, seconds));
   if (bent.sides.empty()) bent.sides = vertices.sides;
@@ -193,14 +193,14 @@ void setPlace(Scene& scene, const std::string& pointer, const Affine& place) {
   }
 }
 
-void moveScene(Scene& scene, double seconds, DeformVertices deformVertices) {
+void moveScene(Scene& scene, double seconds) {
   BakedMotion& motion = scene.motion;
   if (motion.empty()) return;
   const std::vector<Affine> poses = poseRig(motion.given.rig, seconds);
   moveView(scene, poses, seconds);
   if (!motion.ofGeometry) return;
   for (BentVertices& bent : motion.bent) {
-    bend(scene, bent, seconds, deformVertices);
+    bend(scene, bent, seconds);
     motion.boxes[bent.geometry] = boxOf(scene, scene.geometries[bent.geometry]);
   }
   scene.instances = motion.instances;

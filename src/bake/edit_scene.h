@@ -24,9 +24,8 @@ void editSky(Scene& scene, Sky& sky, const Ambient& ambient);
 // flattened are left out at that time. Geometries keep their places in memory, so that pointers
 // into them stay valid. Renderers of the scene have to be told (Renderer::sceneMoved) before their
 // next frame. Throws Error(badScene) where something is carried out of the range of coordinates.
-// Nothing is done to a scene without motion. `deformVertices` is the scalar reference or the kernel
-// (simd/deform_vertices.h): both give the same bits.
-void moveScene(Scene& scene, double seconds, DeformVertices deformVertices);
+// Nothing is done to a scene without motion.
+void moveScene(Scene& scene, double seconds);
 
 // In place of its motion, whatever the time: where what has this pointer (Instant::movable) takes
 // what it moves. For the next moveScene(). Throws Error(usage) where nothing has that pointer.

@@ -167,12 +167,12 @@ Scene Scene::finalize(SceneDescription&& description, Warnings& warnings, Progre
     scene.coplanar.rankBy(scene, order);
     scene.coincidentSpheres = findCoincidentSpheres(scene, order);
   }
-  moveScene(scene, 0, deformVertices);
+  moveScene(scene, 0);
   if (scene.cameras.empty()) {
     scene.cameras.push_back(scene.cameraPath.empty() ? framingCamera(scene)
                                                      : scene.cameraPath.front().camera);
   }
-  if (scene.motion.given.seconds != 0) moveScene(scene, scene.motion.given.seconds, deformVertices);
+  if (scene.motion.given.seconds != 0) moveScene(scene, scene.motion.given.seconds);
   return scene;
 }
 

@@ -28,7 +28,6 @@
 #include "io/image/image_file.h"
 #include "make/model_view.h"
 #include "render/renderer.h"
-#include "simd/deform_vertices.h"
 
 namespace whit::cli {
 
@@ -307,7 +306,7 @@ class ImageWriter {
     }
     const Stopwatch stopwatch;
     Scene& scene = open_->scene;
-    moveScene(scene, frame / job_.fps, simd::deformVertices);
+    moveScene(scene, frame / job_.fps);
     camera_ = chooseCamera(scene, options_);
     if (!scene.motion.ofGeometry && !scene.motion.ofLights()) return;
     renderer_->sceneMoved();

@@ -13,7 +13,6 @@
 #include "io/scene/scene_settings.h"
 #include "library/internal.h"
 #include "render/renderer.h"
-#include "simd/deform_vertices.h"
 
 namespace whit::api {
 
@@ -51,7 +50,7 @@ struct Renderer::Data {
   // Brings the scene to its time and the transforms.
   void move() {
     if (!stale) return;
-    moveScene(own().scene, seconds, simd::deformVertices);
+    moveScene(own().scene, seconds);
     queries.reset();
     if (renderer) renderer->sceneMoved();
     stale = false;

@@ -135,8 +135,7 @@ struct DeformationPose {
 };
 DeformationPose poseAt(const Deformation& deformation, double seconds);
 
-// Morph targets first, then joints. The scalar reference of simd/deform_vertices.h.
+// Morph targets first, then joints.
 DeformedVertices deformVertices(const Deformation& deformation, const DeformationPose& pose);
-using DeformVertices = DeformedVertices (*)(const Deformation&, const DeformationPose&);
 
 }  // namespace whit

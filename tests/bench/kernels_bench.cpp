@@ -13,7 +13,6 @@
 #include "bench/bench_tile.h"
 #include "inspect/stage_comparison.h"
 #include "io/load_scene.h"
-#include "simd/deform_vertices.h"
 
 namespace whit::bench {
 namespace {
@@ -150,50 +149,6 @@ void registerAll(Subject& subject, std::vector<std::string>& known) {
   });
 }
 
-// Vertices that two joints hold each.
-Deformation makeSkin() {
-  constexpr std::uint32_t kVertices = 50'000, kJoints = 20;
-  Deformation skin;
-  skin.skeleton = std::make_shared<const Rig>(Rig(1));
-  skin.joints.resize(kJoints);
-  skin.firstInfluence = {0};
-  for (std::uint32_t i = 0; i < kVertices; ++i) {
-    const auto x = static_cast<float>(i) / kVertices;
-    skin.positions.emplace_back(x, 1 - x, 2 * x);
-    skin.normals.emplace_back(0.0f, 1.0f, x);
-    skin.influences.push_back({i % kJoints, 0.25});
-    skin.influences.push_back({(i + 1) % kJoints, 0.75});
-    skin.firstInfluence.push_back(2 * (i + 1));
-  }
-  return skin;
-}
-
-// The scalar reference, and each target's kernels.
-void registerSkin() {
-  const auto skin = std::make_shared<const Deformation>(makeSkin());
-  const auto pose = std::make_shared<DeformationPose>();
-  for (std::size_t i = 0; i < skin->joints.size(); ++i) {
-    pose->joints.push_back(Affine::rotation({1, 2, 3}, static_cast<double>(i)));
-  }
-  const auto add = [=](const std::string& name, DeformVertices deform, const std::string& target) {
-    benchmark::RegisterBenchmark(("deformVertices/" + name).c_str(), [=](benchmark::State& state) {
-      simd::chooseTarget(target);
-      for (auto _ : state) benchmark::DoNotOptimize(deform(*skin, *pose));
-      const DeformedVertices scalar = deformVertices(*skin, *pose), bent = deform(*skin, *pose);
-      if (bent.positions != scalar.positions || bent.normals != scalar.normals) {
-        state.SkipWithError("differs from its scalar");
-      }
-      state.counters["per_vertex"] = benchmark::Counter(
-          static_cast<double>(skin->positions.size()),
-          benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
-    });
-  };
-  add("scalar", deformVertices, "auto");
-  for (const std::string& target : simd::availableTargets()) {
-    add(target, simd::deformVertices, target);
-  }
-}
-
 Scene load(const std::string& name) {
   Warnings warnings;
   return Scene::finalize(loadScene(name, LoadOptions{}, warnings), warnings);
@@ -219,7 +174,6 @@ int runAll() {
                               std::size_t rays) { registerOne(name, subject, run, rays); });
     }
   }
-  registerSkin();
   benchmark::RunSpecifiedBenchmarks();
   for (const auto& subject : subjects) {
     if (!subject->verdict.empty()) return 1;

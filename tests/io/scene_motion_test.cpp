@@ -149,7 +149,7 @@ TEST_F(SceneMotionFile, APathMovesTheCameraAlone) {
   EXPECT_FALSE(film.motion.empty());
   EXPECT_FALSE(film.motion.ofGeometry);
   EXPECT_EQ(film.cameras.at(0).eye, (Vec3f{0, 0, 9}));
-  moveScene(film, 1, deformVertices);
+  moveScene(film, 1);
   EXPECT_EQ(film.cameras.at(0).eye, (Vec3f{0, 1, 9}));
   EXPECT_EQ(film.cameras.at(0).name, "path");
   EXPECT_EQ(cameraAt(film, 0, 2).eye, (Vec3f{0, 2, 9}));

@@ -13,7 +13,6 @@
 #include "core/option_table.h"
 #include "sampling/sample_pattern.h"
 #include "shipped_scene.h"
-#include "simd/deform_vertices.h"
 
 namespace whit::test {
 namespace {
@@ -512,7 +511,7 @@ TEST(ChannelLaws, NumbersAreThoseOfTheSceneThatStandsStill) {
   moving.instant.plays = true;
   const Scene still = Scene::finalize(loadScene("orrery", {}, warnings), warnings);
   Scene moved = Scene::finalize(loadScene("orrery", moving, warnings), warnings);
-  moveScene(moved, 0, simd::deformVertices);
+  moveScene(moved, 0);
   EXPECT_EQ(still.items.names, moved.items.names);
   const RenderOptions o = channelOptions("object,material,triangle");
   const Film a = filmOf(still, o), b = filmOf(moved, o);
@@ -532,13 +531,13 @@ TEST(ChannelLaws, MovedThingsKeepTheirNumbers) {
   moving.instant.plays = true;
   Scene scene = Scene::finalize(loadScene("orrery", moving, warnings), warnings);
   const RenderOptions o = channelOptions("object,position");
-  moveScene(scene, 3, simd::deformVertices);
+  moveScene(scene, 3);
   const Film fresh = filmOf(scene, o);
-  moveScene(scene, 0, simd::deformVertices);
+  moveScene(scene, 0);
   Renderer renderer(scene, o);
   Film film = makeFilm(scene, o);
   renderer.render(chooseCamera(scene, o), film);
-  moveScene(scene, 3, simd::deformVertices);
+  moveScene(scene, 3);
   renderer.sceneMoved();
   renderer.render(chooseCamera(scene, o), film);
   expectSame(fresh.channels, film.channels, "at 3 s");

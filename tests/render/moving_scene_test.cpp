@@ -12,7 +12,6 @@
 
 #include "render/frame.h"
 #include "shipped_scene.h"
-#include "simd/deform_vertices.h"
 #include "verify/scene_builder.h"
 
 namespace whit {
@@ -45,7 +44,7 @@ TEST(MovingScene, PicturesFollowFromTheTimeAlone) {
   Renderer renderer(scene, options);
   const Image first = pictureOf(renderer, scene, options);
   for (const double seconds : {7.25, 2.4, 0.0, 2.4}) {
-    moveScene(scene, seconds, simd::deformVertices);
+    moveScene(scene, seconds);
     renderer.sceneMoved();
     const Image moved = pictureOf(renderer, scene, options);
     EXPECT_EQ(firstDifference(moved, pictureOf(orreryAt(seconds), options)), "") << seconds;
@@ -70,7 +69,7 @@ TEST(MovingScene, PicturesDoNotDependOnThreadsOrPackets) {
 TEST(MovingScene, LightsAndCamerasOfFilesKeepWhatWasEdited) {
   Scene scene = orreryAt(0);
   scene.lights.at(1).intensity = Rgb(7.0f);
-  moveScene(scene, 2.5, simd::deformVertices);
+  moveScene(scene, 2.5);
   EXPECT_EQ(scene.lights[1].intensity, Rgb(7.0f));
   const double turn = -std::numbers::pi / 2;  // the lamp goes once around in ten seconds
   const Vec3d expected{4.5 * std::cos(turn) + 3 * std::sin(turn), 8,
@@ -134,7 +133,7 @@ TEST_F(MovingFile, ABallIsSeenWhereItIs) {
   const RenderOptions options;
   Renderer renderer(scene, options);
   for (const double seconds : {3.0, 1.0, 4.0}) {
-    moveScene(scene, seconds, simd::deformVertices);
+    moveScene(scene, seconds);
     renderer.sceneMoved();
     const Seen seen = seenIn(pictureOf(renderer, scene, options));
     const double t = seconds / 4, radius = (1 + t) * kPixels;
@@ -165,7 +164,7 @@ TEST_F(MovingFile, CoplanarSquaresMoveTogether) {
   const RenderOptions options;
   Renderer renderer(scene, options);
   for (const double seconds : {0.0, 0.37, 1.0, 0.0}) {
-    moveScene(scene, seconds, simd::deformVertices);
+    moveScene(scene, seconds);
     renderer.sceneMoved();
     EXPECT_FALSE(scene.coplanar.empty());
     int white = 0;
@@ -245,7 +244,7 @@ void expectAlikeMirrored(Scene scene) {
     return std::array<Image, 2>{packets.image, reference.image};
   };
   const auto before = pictures();
-  moveScene(scene, 2, simd::deformVertices);
+  moveScene(scene, 2);
   renderer.sceneMoved();
   const auto after = pictures();
   for (std::size_t mode = 0; mode < 2; ++mode) {
@@ -258,7 +257,7 @@ void expectAlikeMirrored(Scene scene) {
     EXPECT_GT(lit, 200) << mode;
     EXPECT_LE(other, lit / 100) << mode;  // on edges, which lie otherwise in the last bits
   }
-  moveScene(scene, 0, simd::deformVertices);
+  moveScene(scene, 0);
   renderer.sceneMoved();
   EXPECT_EQ(firstDifference(pictures()[0], before[0]), "");
 }

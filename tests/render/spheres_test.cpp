@@ -373,7 +373,7 @@ TEST_F(CoincidentSpheres, MoveIntoOnePlaceAndOut) {
   }
   Scene scene = builder.build();
   for (const double seconds : {1.0, 0.0, 1.0}) {
-    moveScene(scene, seconds, deformVertices);
+    moveScene(scene, seconds);
     expectPictures("moved", scene, Vec3d(1),
                    [&](const Vec3d&) { return std::optional(seconds == 1 ? 0.75f : 0.25f); });
   }

@@ -9,7 +9,6 @@
 #include "core/option_table.h"
 #include "io/load_scene.h"
 #include "render/renderer.h"
-#include "simd/deform_vertices.h"
 
 namespace whit::view {
 
@@ -76,7 +75,7 @@ void FrameTracer::load(const SceneChoice& choice) {
 
 void FrameTracer::moveTo(double seconds) {
   const std::lock_guard lock(scene_->moving);
-  moveScene(scene_->scene, seconds, simd::deformVertices);
+  moveScene(scene_->scene, seconds);
   renderer_->sceneMoved();
   seconds_ = seconds;
 }
