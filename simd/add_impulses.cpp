@@ -8,11 +8,10 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/add_impulses.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
-#include "simd/compact-inl.h"
 #include "simd/lobes-inl.h"
 #include "simd/material-inl.h"
+#include "simd/new_rays-inl.h"
 #include "simd/random_streams-inl.h"
-#include "simd/ray_origin-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
@@ -20,39 +19,23 @@ namespace whit::simd::HWY_NAMESPACE {
 // A chunk as addImpulses sees it: what lies in the chunk itself would be read again after each
 // store to its columns.
 struct ImpulseJob {
-  const ShadingTables& tables;
-  ShadingChoices shading;
-  float cutoff, roulette;
-  RayColumns rays;
-  SurfelColumns surfels;
-  RayColumns children;
-  float* ended;
-  size_t n;
-  LobeSampling glossySampling;
-  bool cones, coverage, glossy, streams, transmission;
-  bool notesEnds;  // of paths; roulette ends none but by chance
+  const Chunk& chunk;
+  const ShadingTables& tables = chunk.tables();
+  ShadingChoices shading = chunk.options().shading;
+  bool last = chunk.depth >= chunk.options().depth;  // all paths end here
+  float cutoff = last ? std::numeric_limits<float>::infinity() : chunk.options().cutoff;
+  float roulette = last ? 0 : chunk.options().roulette;
+  RayColumns rays = chunk.rays, children = chunk.children;
+  SurfelColumns surfels = chunk.surfels;
+  size_t n = chunk.n;
+  LobeSampling glossySampling =
+      lobeSampling(chunk.depth, chunk.options().glossy, chunk.sampleNumber);
+  bool cones = chunk.has(Feature::cones), coverage = chunk.has(Feature::coverage);
+  bool glossy = chunk.has(Feature::glossy), streams = chunk.has(Feature::streams);
+  bool transmission = chunk.has(Feature::transmission);
+  float* ended = chunk.radiance.ended;
+  bool notesEnds = chunk.has(Feature::ended) && roulette == 0;  // which ends none but by chance
 };
-
-HWY_INLINE ImpulseJob ImpulseJobOf(const Chunk& c) {
-  const bool last = c.depth >= c.options().depth;  // all paths end here
-  const float roulette = last ? 0 : c.options().roulette;
-  return {c.tables(),
-          c.options().shading,
-          last ? std::numeric_limits<float>::infinity() : c.options().cutoff,
-          roulette,
-          c.rays,
-          c.surfels,
-          c.children,
-          c.radiance.ended,
-          c.n,
-          lobeSampling(c.depth, c.options().glossy, c.sampleNumber),
-          c.has(Feature::cones),
-          c.has(Feature::coverage),
-          c.has(Feature::glossy),
-          c.has(Feature::streams),
-          c.has(Feature::transmission),
-          c.has(Feature::ended) && roulette == 0};
-}
 
 // The values that both kinds of impulse need for a vector of surfels.
 struct ImpulseLanes {
@@ -222,9 +205,9 @@ HWY_INLINE V3 ChildOrigin(const ImpulseJob& job, const ImpulseLanes& lanes, size
                    LoadClearance(surfels, i), side);
 }
 
-void AddReflections(Chunk& c) noexcept {
+void AddReflections(Chunk& c) {
   const FloatTag d;
-  const ImpulseJob job = ImpulseJobOf(c);
+  const ImpulseJob job{c};
   size_t count = c.childCount;
   for (size_t i = 0; i < job.n; i += hn::Lanes(d)) {
     ImpulseLanes lanes = LoadImpulseLanes<kMaterialReflects>(job, i);
@@ -330,9 +313,9 @@ HWY_INLINE V3 LeftBelowLobe(const ImpulseJob& job, const ImpulseLanes& lanes, si
 }
 
 // The scalar reference is limitDiffuse in src/reference/add_impulses.cpp.
-void LimitDiffuse(Chunk& c) noexcept {
+void LimitDiffuse(Chunk& c) {
   const FloatTag d;
-  const ImpulseJob job = ImpulseJobOf(c);
+  const ImpulseJob job{c};
   const SurfelColumns& surfels = job.surfels;
   const VF one = hn::Set(d, 1.0f);
   for (size_t i = 0; i < job.n; i += hn::Lanes(d)) {
@@ -358,11 +341,11 @@ void LimitDiffuse(Chunk& c) noexcept {
 }
 
 template <typename Samples>
-void AddSamples(Chunk& c) noexcept {
+HWY_INLINE void AddSamples(Chunk& c) {
   constexpr const Lobe& kLobe = Samples::kLobe;
   const FloatTag d;
   const UintTag du;
-  const ImpulseJob job = ImpulseJobOf(c);
+  const ImpulseJob job{c};
   const LobeSampling sampling = lobeSampling(c.depth, c.options().*kLobe.samples, c.sampleNumber);
   const VF one = hn::Set(d, 1.0f), share = hn::Set(d, 1.0f / static_cast<float>(sampling.count));
   size_t count = c.childCount;
@@ -399,10 +382,13 @@ void AddSamples(Chunk& c) noexcept {
   c.childCount = count;
 }
 
-void AddRefractions(Chunk& c) noexcept {
+void AddGlossyReflections(Chunk& c) { AddSamples<GlossySamples>(c); }
+void AddIndirect(Chunk& c) { AddSamples<DiffuseSamples>(c); }
+
+void AddRefractions(Chunk& c) {
   const FloatTag d;
   const UintTag du;
-  const ImpulseJob job = ImpulseJobOf(c);
+  const ImpulseJob job{c};
   const VF one = hn::Set(d, 1.0f);
   size_t count = c.childCount;
   for (size_t i = 0; i < job.n; i += hn::Lanes(d)) {
@@ -443,7 +429,7 @@ void AddRefractions(Chunk& c) noexcept {
   c.childCount = count;
 }
 
-void ReturnImpulses(Chunk& c) noexcept {
+void ReturnImpulses(Chunk& c) {
   const FloatTag d;
   const RayColumns rays = c.rays;
   const RadianceColumns radiance = c.radiance, parentRadiance = c.parentRadiance;
@@ -464,7 +450,7 @@ void ReturnImpulses(Chunk& c) noexcept {
   }
 }
 
-void ReturnToEye(Chunk& c) noexcept {
+void ReturnToEye(Chunk& c) {
   const FloatTag d;
   const RayColumns rays = c.rays;
   const RadianceColumns radiance = c.radiance;
@@ -475,14 +461,6 @@ void ReturnToEye(Chunk& c) noexcept {
     Store3(Mul3(weight, light), radiance.r, radiance.g, radiance.b, i);
   }
 }
-
-StepFunction FindLimitDiffuse() { return LimitDiffuse; }
-StepFunction FindAddReflections() { return AddReflections; }
-StepFunction FindAddGlossyReflections() { return AddSamples<GlossySamples>; }
-StepFunction FindAddRefractions() { return AddRefractions; }
-StepFunction FindAddIndirect() { return AddSamples<DiffuseSamples>; }
-StepFunction FindReturnImpulses() { return ReturnImpulses; }
-StepFunction FindReturnToEye() { return ReturnToEye; }
 
 }  // namespace whit::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

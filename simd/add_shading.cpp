@@ -9,7 +9,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
 
-void AddShading(Chunk& c) noexcept {
+void AddShading(Chunk& c) {
   const FloatTag d;
   const UnshadowedColumns unshadowed = c.unshadowed;
   const RadianceColumns radiance = c.radiance;
@@ -23,8 +23,6 @@ void AddShading(Chunk& c) noexcept {
     Store3(Select3(visible, Add3(sum, light), sum), radiance.r, radiance.g, radiance.b, i);
   }
 }
-
-StepFunction FindAddShading() { return AddShading; }
 
 }  // namespace whit::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

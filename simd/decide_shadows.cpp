@@ -8,7 +8,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/decide_shadows.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
-#include "simd/compact-inl.h"
+#include "simd/new_rays-inl.h"
 #include "simd/surface-inl.h"
 #include "stages/shadow_cache_view.h"
 
@@ -189,21 +189,13 @@ HWY_INLINE void ShowLit(float* visible, MF lit, VI slot, uint32_t first) {
 
 // Rays are written no further on than they were read.
 HWY_INLINE void KeepRest(const ShadowColumns& rays, MF kept, size_t i, size_t& count) {
-  const FloatTag d;
-  const UintTag du;
-  const Compactor rest(kept);
   const V3 origin = Load3(rays.orgX, rays.orgY, rays.orgZ, i);
   const V3 way = Load3(rays.dirX, rays.dirY, rays.dirZ, i);
-  const VF tFar = hn::Load(d, rays.tFar + i);
-  const VU slot = hn::Load(du, rays.slot + i);
-  rest.Store(origin, rays.orgX, rays.orgY, rays.orgZ, count);
-  rest.Store(way, rays.dirX, rays.dirY, rays.dirZ, count);
-  rest.Store(tFar, rays.tFar + count);
-  rest.Store(slot, rays.slot + count);
-  count += rest.Count();
+  AppendShadowRays(rays, kept, origin, way, hn::Load(FloatTag(), rays.tFar + i),
+                   hn::Load(UintTag(), rays.slot + i), count);
 }
 
-void DecideShadows(Chunk& c) noexcept {
+void DecideShadows(Chunk& c) {
   if (!c.frame->shadowCache) return;
   const ShadowCacheView& view = c.frame->shadowCache[c.lightNumber];
   if (!view.serves()) return;
@@ -233,8 +225,6 @@ void DecideShadows(Chunk& c) noexcept {
   }
   c.shadowCount = count;
 }
-
-StepFunction FindDecideShadows() { return DecideShadows; }
 
 }  // namespace whit::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

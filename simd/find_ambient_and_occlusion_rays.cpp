@@ -5,14 +5,13 @@
 #define HWY_TARGET_INCLUDE "simd/find_ambient_and_occlusion_rays.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 #include "simd/ambient-inl.h"
-#include "simd/compact-inl.h"
 #include "simd/lobes-inl.h"
-#include "simd/ray_origin-inl.h"
+#include "simd/new_rays-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
 
-void FindAmbientAndOcclusionRays(Chunk& c) noexcept {
+void FindAmbientAndOcclusionRays(Chunk& c) {
   const FloatTag d;
   const UintTag du;
   const RayColumns rays = c.rays;
@@ -52,17 +51,11 @@ void FindAmbientAndOcclusionRays(Chunk& c) noexcept {
     Store3(radiance, unshadowed.r, unshadowed.g, unshadowed.b, i);
     const V3 origin = RayOrigin(offset, start, ng, Load3(rays.dirX, rays.dirY, rays.dirZ, i),
                                 LoadClearance(surfels, i), 1.0f);
-    const Compactor open(live);
-    open.Store(origin, shadows.orgX, shadows.orgY, shadows.orgZ, count);
-    open.Store(way, shadows.dirX, shadows.dirY, shadows.dirZ, count);
-    open.Store(radius, shadows.tFar + count);
-    open.Store(hn::Iota(du, static_cast<uint32_t>(i)), shadows.slot + count);
-    count += open.Count();
+    const VU slot = hn::Iota(du, static_cast<uint32_t>(i));
+    AppendShadowRays(shadows, live, origin, way, radius, slot, count);
   }
   c.shadowCount = count;
 }
-
-StepFunction FindFindAmbientAndOcclusionRays() { return FindAmbientAndOcclusionRays; }
 
 }  // namespace whit::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -1,52 +1,15 @@
-// The kernels around Embree in findIntersections: rays into packets, hits out of packets, and
-// surfels from hits.
+// Surfels from hits.
 #include "simd/kernels.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/find_intersections.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 #include "simd/material-inl.h"
-#include "simd/packets-inl.h"
 #include "simd/surface-inl.h"
 #include "simd/surface_maps-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
-
-void PackRays(const RayColumns& rays, size_t n, float reach, const PacketWords& to) {
-  const RaySource from{rays.orgX, rays.orgY, rays.orgZ, rays.dirX, rays.dirY, rays.dirZ, nullptr};
-  ForWidth(to.width, [&](auto width) HWY_ATTR { Pack<width()>(from, n, reach, to); });
-}
-
-template <size_t kWidth>
-HWY_INLINE void UnpackHitsOf(const PacketWords& from, size_t n, const uint32_t* triangleBase,
-                             const HitColumns& hits) {
-  const PacketTag<kWidth> d;
-  const hn::RebindToUnsigned<decltype(d)> du;
-  const auto miss = hn::Set(du, kMiss);
-  for (size_t i = 0; i < n; i += hn::Lanes(d)) {
-    const float* const words = WordsOf<kWidth>(from, i);
-    const auto load = [&](size_t column) HWY_ATTR { return hn::LoadU(d, words + column * kWidth); };
-    hn::StoreU(load(packet_column::tFar), d, hits.t + i);
-    hn::StoreU(load(packet_column::u), d, hits.u + i);
-    hn::StoreU(load(packet_column::v), d, hits.v + i);
-    const auto geometry = hn::BitCast(du, load(packet_column::geometry));
-    const auto primitive = hn::BitCast(du, load(packet_column::primitive));
-    auto base = hn::Set(du, triangleBase[0]);
-    for (uint32_t c = 1; c < kTriangleClasses; ++c) {
-      const auto ofClass = hn::Eq(geometry, hn::Set(du, c));
-      base = hn::IfThenElse(ofClass, hn::Set(du, triangleBase[c]), base);
-    }
-    const auto missed = hn::Eq(geometry, miss);
-    hn::StoreU(hn::IfThenElse(missed, miss, hn::Add(base, primitive)), du, hits.triangle + i);
-  }
-}
-
-void UnpackHits(const PacketWords& from, size_t n, const uint32_t* triangleBase,
-                const HitColumns& hits) {
-  ForWidth(from.width,
-           [&](auto width) HWY_ATTR { UnpackHitsOf<width()>(from, n, triangleBase, hits); });
-}
 
 // Fetches records of so many floats for all hits of a run, before the first of them is needed.
 template <class Record>
@@ -55,95 +18,6 @@ HWY_INLINE void PrefetchRecords(const Record* table, size_t stride, const uint32
   for (size_t i = begin; i < end; ++i) {
     hwy::Prefetch(reinterpret_cast<const float*>(table) + (hit[i] == kMiss ? 0 : hit[i]) * stride);
   }
-}
-
-// The corner 0 of a triangle as seen from the ray's start, and the edges from there.
-struct SeenTriangle {
-  V3 corner, edge1, edge2;
-};
-
-HWY_INLINE void CarryToWorld(const HitTables& tables, const HitColumns& hits, MF valid, size_t i,
-                             const V3& corner, const V3& origin, SeenTriangle& t) {
-  const auto [placed, instance] = LoadInstances(hits, valid, i);
-  if (hn::AllFalse(FloatTag(), placed)) return;
-  const PlacementLanes p = LoadPlacements(tables.instances, instance, placed);
-  const MatrixLanes& m = p.toWorld;
-  // The difference of the origins first: what is far from the world's origin keeps its bits.
-  const V3 from = Sub3(p.origin, origin);
-  t.corner = Select3(placed, Add3(TransformVector(m, corner), from), t.corner);
-  t.edge1 = Select3(placed, TransformVector(m, t.edge1), t.edge1);
-  t.edge2 = Select3(placed, TransformVector(m, t.edge2), t.edge2);
-}
-
-struct HitPoint {
-  VF t, u, v;
-};
-
-// For hits that rounding has put beside the triangle, ahead of the ray's start or nowhere: the
-// nearest weights that belong to a point of the triangle, and how far away this is.
-HWY_INLINE HitPoint MoveOntoTriangle(const SeenTriangle& t, const V3& direction,
-                                     const HitPoint& p) {
-  const FloatTag d;
-  const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f), third = hn::Set(d, 1.0f / 3);
-  const VF most = hn::Set(d, 0x1p60f);
-  const MF known = hn::And(hn::Le(hn::Abs(p.u), most), hn::Le(hn::Abs(p.v), most));
-  const VF u = hn::Max(hn::IfThenElse(known, p.u, third), zero);
-  const VF v = hn::Max(hn::IfThenElse(known, p.v, third), zero);
-  const VF sum = hn::Add(hn::Add(hn::Max(hn::Sub(hn::Sub(one, u), v), zero), u), v);
-  const VF onU = hn::Div(u, sum), onV = hn::Div(v, sum);
-  const V3 point = MulAdd3(t.edge1, onU, MulAdd3(t.edge2, onV, t.corner));
-  return {hn::Div(Dot(point, direction), Dot(direction, direction)), onU, onV};
-}
-
-// The distance and the weights by Cramer's rule (Moeller and Trumbore 1997, "Fast, minimum storage
-// ray/triangle intersection"). The scalar reference is refineHit in
-// src/reference/find_intersections.cpp.
-HWY_INLINE HitPoint PierceTriangle(const SeenTriangle& t, const V3& direction, MF on) {
-  const FloatTag d;
-  const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
-  const V3 normal = Cross(t.edge1, t.edge2), moment = Cross(direction, t.corner);
-  const VF slope = Dot(normal, direction);
-  HitPoint p{hn::Div(Dot(normal, t.corner), slope), hn::Div(Dot(t.edge2, moment), hn::Neg(slope)),
-             hn::Div(Dot(t.edge1, moment), slope)};
-  const VF least = hn::Min(hn::Min(p.u, p.v), hn::Sub(hn::Sub(one, p.u), p.v));
-  const MF ahead = hn::And(hn::Ge(p.t, zero), hn::Lt(p.t, hn::Inf(d)));
-  const MF beside = hn::AndNot(hn::And(ahead, hn::Ge(least, hn::Set(d, -0x1p-12f))), on);
-  if (HWY_UNLIKELY(!hn::AllFalse(d, beside))) {
-    const HitPoint moved = MoveOntoTriangle(t, direction, p);
-    p = {hn::IfThenElse(beside, moved.t, p.t), hn::IfThenElse(beside, moved.u, p.u),
-         hn::IfThenElse(beside, moved.v, p.v)};
-  }
-  const VF u = hn::Max(p.u, zero), v = hn::Max(p.v, zero);
-  const VF excess = hn::Max(hn::Sub(hn::Add(u, v), one), zero);
-  const MF more = hn::Ge(u, v);
-  return {hn::Max(p.t, zero), hn::Sub(u, hn::IfThenElseZero(more, excess)),
-          hn::Sub(v, hn::IfThenZeroElse(more, excess))};
-}
-
-void RefineHits(const HitTables& tables, const RayColumns& rays, size_t n, const HitColumns& hits) {
-  const FloatTag d;
-  constexpr size_t kStride = kFloatsOf<TriangleRecord>;
-  for (size_t i = 0; i < n; i += hn::Lanes(d)) {
-    const auto [valid, triangle] = LoadHits(hits, i);
-    const MF on = hn::And(AreTriangles(triangle, tables.firstSphere), valid);
-    if (hn::AllFalse(d, on)) continue;
-    const auto [c0, c1, c2] = LoadCorners(tables.triangles, kStride, triangle);
-    const auto load = [&](const float* column) HWY_ATTR { return hn::LoadU(d, column + i); };
-    const V3 origin{load(rays.orgX), load(rays.orgY), load(rays.orgZ)};
-    const V3 direction{load(rays.dirX), load(rays.dirY), load(rays.dirZ)};
-    SeenTriangle t{Sub3(c0, origin), Sub3(c1, c0), Sub3(c2, c0)};
-    if (hits.instance) CarryToWorld(tables, hits, valid, i, c0, origin, t);
-    const HitPoint p = PierceTriangle(t, direction, on);
-    const auto put = [&](VF value, float* column)
-                         HWY_ATTR { hn::BlendedStore(value, on, d, column + i); };
-    put(p.t, hits.t);
-    put(p.u, hits.u);
-    put(p.v, hits.v);
-  }
-}
-
-PacketKernels FindPacketKernels() {
-  return {PackRays, PackShadowRays, UnpackHits, RefineHits, UnpackVisibility};
 }
 
 // The factors by which vertex colors multiply each color of a material, according to its flags.
@@ -180,10 +54,10 @@ HWY_INLINE void QueueNormal(const SurfelJob& job, VI map, const UvLanes& uv, MF 
 
 // The highest number of a map of the lane's material; negative if it has none.
 HWY_INLINE VI HighestMap(const SurfelJob& job, const MaterialLanes& material) {
-  VI map = material.Diffuse().diffuseMap;
-  if (job.normalMaps) map = hn::Max(map, material.Emission().normalMap);
+  VI map = material.Diffuse().map;
+  if (job.normalMaps) map = hn::Max(map, material.NormalMap());
   if (job.emissionFactors) map = hn::Max(map, material.Lobe().emissionMap);
-  if (job.glossy) map = hn::Max(map, material.Specular().specularMap);
+  if (job.glossy) map = hn::Max(map, material.Specular().map);
   return map;
 }
 
@@ -233,7 +107,7 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
     QueueMap(job, diffuseMap, valid, at, slot, block.diffuse);
   }
   if (job.normalMaps) {
-    QueueNormal(job, material.Emission().normalMap, t.uv, valid, s, flip, at, slot, block);
+    QueueNormal(job, material.NormalMap(), t.uv, valid, s, flip, at, slot, block);
   }
   const VF distance = hn::Load(d, hits.t + i);
   FollowRay(t, rays, distance, i, s);
@@ -290,10 +164,10 @@ HWY_INLINE void ApplyTextures(const SurfelJob& job, const BlockTextures& block, 
   if (job.normalMaps) ApplyNormalMap(job, block, slot, i);
 }
 
-void InterpolateSurfels(Chunk& c) noexcept {
+void InterpolateSurfels(Chunk& c) {
   const UintTag du;
   const size_t lanes = hn::Lanes(du), n = c.n;
-  const SurfelJob job = SurfelJobOf(c);
+  const SurfelJob job{c};
   VU flags = hn::Zero(du);
   BlockTextures block;
   for (size_t begin = 0; begin < n; begin += TexelQueue::kRays) {
@@ -315,8 +189,6 @@ void InterpolateSurfels(Chunk& c) noexcept {
   c.materialFlags = 0;
   for (size_t lane = 0; lane < lanes; ++lane) c.materialFlags |= perLane[lane];
 }
-
-StepFunction FindInterpolateSurfels() { return InterpolateSurfels; }
 
 // Queues the map that mapOf(materials) names for the vector at i, looked up by the first texture
 // coordinates.
@@ -346,7 +218,7 @@ HWY_INLINE void ApplyRoughness(const SurfelJob& job, const MapQueue& queue, size
   const FloatTag d;
   const MF queued = QueuedLanes(queue.level, slot);
   const VI number = hn::Load(IntTag(), reinterpret_cast<const int32_t*>(job.surfels.material) + i);
-  const VF factor = MaterialLanes(job.tables, number, queued).Roughness().roughness;
+  const VF factor = MaterialLanes(job.tables, number, queued).Roughness().number;
   const V3 map =
       FilterMap(job, queue, slot, [](const Footprint& f) HWY_ATTR { return FilterData3(f); });
   const VF roughness = hn::Max(hn::Mul(factor, map.y), hn::Set(d, kMinRoughness));
@@ -358,7 +230,7 @@ HWY_INLINE void ApplyRoughness(const SurfelJob& job, const MapQueue& queue, size
 template <typename MapOf, typename Apply>
 HWY_INLINE void LookUpDataMap(const Chunk& c, MapOf&& mapOf, Apply&& apply) {
   const size_t lanes = hn::Lanes(FloatTag()), n = c.n;
-  const SurfelJob job = SurfelJobOf(c);
+  const SurfelJob job{c};
   MapQueue queue;
   for (size_t begin = 0; begin < n; begin += TexelQueue::kRays) {
     const size_t end = begin + TexelQueue::kRays < n ? begin + TexelQueue::kRays : n;
@@ -368,13 +240,10 @@ HWY_INLINE void LookUpDataMap(const Chunk& c, MapOf&& mapOf, Apply&& apply) {
 }
 
 // The scalar reference is findColors in src/reference/find_intersections.cpp.
-void LookUpRoughness(Chunk& c) noexcept {
+void LookUpRoughness(Chunk& c) {
   LookUpDataMap(
-      c, [](const MaterialLanes& m) HWY_ATTR { return m.Roughness().roughnessMap; },
-      ApplyRoughness);
+      c, [](const MaterialLanes& m) HWY_ATTR { return m.Roughness().map; }, ApplyRoughness);
 }
-
-StepFunction FindLookUpRoughness() { return LookUpRoughness; }
 
 // 1 where a ray has left the scene.
 HWY_INLINE void StoreCoverage(const SurfelJob& job, const MapQueue& queue, size_t slot, size_t i) {
@@ -383,7 +252,7 @@ HWY_INLINE void StoreCoverage(const SurfelJob& job, const MapQueue& queue, size_
   const MF live = hn::RebindMask(d, NonNegative(number));
   VF coverage = hn::Set(d, 1.0f);
   if (!hn::AllFalse(d, live)) {
-    const VF own = MaterialLanes(job.tables, number, live).Coverage().coverage;
+    const VF own = MaterialLanes(job.tables, number, live).Coverage().number;
     coverage = hn::IfThenElse(live, own, coverage);
   }
   if (queue.level.any[slot]) {
@@ -396,7 +265,7 @@ HWY_INLINE void StoreCoverage(const SurfelJob& job, const MapQueue& queue, size_
 }
 
 // The scalar reference is findColors in src/reference/find_intersections.cpp.
-void LookUpCoverage(Chunk& c) noexcept {
+void LookUpCoverage(Chunk& c) {
   const FloatTag d;
   if ((c.materialFlags & kMaterialIsPartlyThere) == 0) {
     const VF whole = hn::Set(d, 1.0f);
@@ -404,10 +273,8 @@ void LookUpCoverage(Chunk& c) noexcept {
     return;
   }
   LookUpDataMap(
-      c, [](const MaterialLanes& m) HWY_ATTR { return m.Coverage().coverageMap; }, StoreCoverage);
+      c, [](const MaterialLanes& m) HWY_ATTR { return m.Coverage().map; }, StoreCoverage);
 }
-
-StepFunction FindLookUpCoverage() { return LookUpCoverage; }
 
 // Corners and their normals, in the world.
 struct WorldCorners {
@@ -436,7 +303,7 @@ HWY_INLINE Corners UnitNormals(Corners normals) {
 }
 
 // The scalar reference is terminatorLift in src/reference/find_intersections.cpp.
-void LiftShadowOrigins(Chunk& c) noexcept {
+void LiftShadowOrigins(Chunk& c) {
   const FloatTag d;
   const ShadingTables& tables = c.tables();
   const HitColumns hits = c.hits;
@@ -474,15 +341,11 @@ void LiftShadowOrigins(Chunk& c) noexcept {
   }
 }
 
-StepFunction FindLiftShadowOrigins() { return LiftShadowOrigins; }
-
 }  // namespace whit::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace whit::simd {
-HWY_EXPORT(FindPacketKernels);
-PacketKernels findPacketKernels() { return HWY_DYNAMIC_DISPATCH(FindPacketKernels)(); }
 WHIT_EXPORT_KERNEL(InterpolateSurfels)
 WHIT_EXPORT_KERNEL(LookUpRoughness)
 WHIT_EXPORT_KERNEL(LookUpCoverage)

@@ -7,9 +7,9 @@
 #define HWY_TARGET_INCLUDE "simd/find_radiance_and_shadow_rays.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 #include "scene/light.h"
-#include "simd/compact-inl.h"
+#include "simd/material-inl.h"
+#include "simd/new_rays-inl.h"
 #include "simd/random_streams-inl.h"
-#include "simd/ray_origin-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
@@ -136,7 +136,7 @@ HWY_INLINE V3 GlossyLobe(const V3& f0, VF alpha, VF nl, VF nv, const V3& n, cons
   return Scale3(MulAdd3(grazing, schlick, f0), scale);
 }
 
-void FindRadianceAndShadowRays(Chunk& c) noexcept {
+void FindRadianceAndShadowRays(Chunk& c) {
   const FloatTag d;
   const UintTag du;
   const ShadingChoices choices = c.options().shading;
@@ -160,11 +160,7 @@ void FindRadianceAndShadowRays(Chunk& c) noexcept {
   for (size_t i = 0; i < n; i += hn::Lanes(d)) {
     const VU material = hn::Load(du, surfels.material + i);
     MF live = hn::RebindMask(d, hn::Ne(material, hn::Set(du, kMiss)));
-    if (hidden) {
-      const VU flags = hn::Load(du, surfels.flags + i);
-      live = hn::And(live,
-                     hn::RebindMask(d, hn::Eq(hn::And(flags, hn::Set(du, kHidden)), hn::Zero(du))));
-    }
+    if (hidden) live = hn::AndNot(HasFlags(hn::Load(du, surfels.flags + i), kHidden), live);
     const V3 position = Load3(surfels.posX, surfels.posY, surfels.posZ, i);
     const V3 ng = Load3(surfels.ngX, surfels.ngY, surfels.ngZ, i);
     const V3 ns = Load3(surfels.nsX, surfels.nsY, surfels.nsZ, i);
@@ -228,18 +224,12 @@ void FindRadianceAndShadowRays(Chunk& c) noexcept {
     const V3 origin =
         RayOrigin(choices.offset, start, ng, Load3(rays.dirX, rays.dirY, rays.dirZ, i),
                   LoadClearance(surfels, i), 1.0f);
-    const Compactor lit(live);
-    lit.Store(origin, shadows.orgX, shadows.orgY, shadows.orgZ, count);
     const V3 way = sampled ? Sub3(Add3(position, toLight), origin) : lanes.Towards(origin);
-    lit.Store(way, shadows.dirX, shadows.dirY, shadows.dirZ, count);
-    lit.Store(lanes.Reach(), shadows.tFar + count);
-    lit.Store(hn::Iota(du, static_cast<uint32_t>(i)), shadows.slot + count);
-    count += lit.Count();
+    const VU slot = hn::Iota(du, static_cast<uint32_t>(i));
+    AppendShadowRays(shadows, live, origin, way, lanes.Reach(), slot, count);
   }
   c.shadowCount = count;
 }
-
-StepFunction FindFindRadianceAndShadowRays() { return FindRadianceAndShadowRays; }
 
 }  // namespace whit::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -200,7 +200,7 @@ HWY_INLINE VI ViewAt(VI& place, int size, int count) {
   return whole;
 }
 
-void GenerateRays(Chunk& c) noexcept {
+void GenerateRays(Chunk& c) {
   const FloatTag d;
   const IntTag di;
   const UintTag du;
@@ -276,8 +276,6 @@ void GenerateRays(Chunk& c) noexcept {
     if (streams) hn::Store(StreamOfPixel(packed, sampleNumber, seed), du, rays.path + i);
   }
 }
-
-StepFunction FindGenerateRays() { return GenerateRays; }
 
 }  // namespace whit::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -3,10 +3,10 @@
 //
 // A kernel that is a step of its own is a function of a chunk (stages/chunk.h); the others work for
 // steps that call Embree or write the film. Kernels run over the slots [0, n) of their columns with
-// the SIMD target that was chosen last, are noexcept and allocate nothing. Slots from n to the next
-// multiple of 16 may be overwritten with anything; their hits must be misses. The scalar reference
-// of each is in src/reference, in the file of the same stage, written to the same formulas in
-// double.
+// the SIMD target that was chosen last, throw nothing and allocate nothing. Slots from n to the
+// next multiple of 16 may be overwritten with anything; their hits must be misses. The scalar
+// reference of each is in src/reference, in the file of the same stage, written to the same
+// formulas in double.
 //
 // Each kernel is compiled once for every SIMD target, and looked up once a plan. What a frame lacks
 // leaves out whole kernels (render/plan.h) or is a branch that goes the same way for a whole call
@@ -35,10 +35,11 @@ struct Kernel {
   Parts reads, writes;
 };
 
-// Defines find##Name() below by Find##Name() of the chosen target; after HWY_ONCE, once for each.
+// Defines find##Name() below; after HWY_ONCE, once for each kernel. The type of a table of targets
+// does not allow for noexcept.
 #define WHIT_EXPORT_KERNEL(Name) \
-  HWY_EXPORT(Find##Name);        \
-  StepFunction find##Name() { return HWY_DYNAMIC_DISPATCH(Find##Name)(); }
+  HWY_EXPORT(Name);              \
+  StepFunction find##Name() { return HWY_DYNAMIC_DISPATCH(Name); }
 
 // Declares find##Name(), which returns the kernel's function for the chosen target, and its row of
 // the table: WHIT_KERNEL(AddShading, "addShading", stage, {what it reads}, {what it writes}).

@@ -16,87 +16,68 @@
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
 
-// Each group is one load of four floats.
-struct DiffuseLanes {
-  V3 diffuse;
-  VI diffuseMap;
+// A color or a number of the materials, and the map that it is multiplied by.
+struct ColorLanes {
+  V3 color;
+  VI map;
 };
-struct SpecularLanes {
-  V3 specular;
-  VI specularMap;
-};
-struct EmissionLanes {
-  V3 emission;
-  VI normalMap;
+struct NumberLanes {
+  VF number;
+  VI map;
 };
 struct LobeLanes {
   VF alpha;
   VU medium, flags;
   VI emissionMap;
 };
-struct RoughnessLanes {
-  VF roughness;
-  VI roughnessMap;
-};
-struct CoverageLanes {
-  VF coverage;
-  VI coverageMap;
-};
 
+// Each function is one load of four floats.
 class MaterialLanes {
  public:
   HWY_INLINE MaterialLanes(const ShadingTables& tables, VI material, MF live)
       : records_(tables.materials.data(), material, live) {}
 
-  HWY_INLINE DiffuseLanes Diffuse() const {
-    const V4 r = records_.template Load4<offsetof(MaterialRecord, diffuse),
-                                         offsetof(MaterialRecord, diffuseMap)>();
-    return {{r.x, r.y, r.z}, hn::BitCast(IntTag(), r.w)};
+  HWY_INLINE ColorLanes Diffuse() const {
+    return At<offsetof(R, diffuse), offsetof(R, diffuseMap)>();
   }
-  HWY_INLINE SpecularLanes Specular() const {
-    const V4 r = records_.template Load4<offsetof(MaterialRecord, specular),
-                                         offsetof(MaterialRecord, specularMap)>();
-    return {{r.x, r.y, r.z}, hn::BitCast(IntTag(), r.w)};
+  HWY_INLINE ColorLanes Specular() const {
+    return At<offsetof(R, specular), offsetof(R, specularMap)>();
   }
-  HWY_INLINE EmissionLanes Emission() const {
-    const V4 r = records_.template Load4<offsetof(MaterialRecord, emission),
-                                         offsetof(MaterialRecord, normalMap)>();
-    return {{r.x, r.y, r.z}, hn::BitCast(IntTag(), r.w)};
+  HWY_INLINE V3 Emission() const { return At<offsetof(R, emission)>().color; }
+  HWY_INLINE VI NormalMap() const {
+    return At<offsetof(R, emission), offsetof(R, normalMap)>().map;
   }
+  HWY_INLINE V3 Mirror() const { return At<offsetof(R, mirror)>().color; }
+  HWY_INLINE V3 GrazingMinusMirror() const { return At<offsetof(R, grazingMinusMirror)>().color; }
+  HWY_INLINE V3 Transmission() const { return At<offsetof(R, transmission)>().color; }
   HWY_INLINE LobeLanes Lobe() const {
-    constexpr size_t kAlpha = offsetof(MaterialRecord, alpha);
-    static_assert(offsetof(MaterialRecord, medium) == kAlpha + 4 &&
-                  offsetof(MaterialRecord, flags) == kAlpha + 8);
-    const V4 r = records_.template Load4<kAlpha, offsetof(MaterialRecord, emissionMap)>();
+    constexpr size_t kAlpha = offsetof(R, alpha);
+    static_assert(offsetof(R, medium) == kAlpha + 4 && offsetof(R, flags) == kAlpha + 8);
+    const V4 r = records_.template Load4<kAlpha, offsetof(R, emissionMap)>();
     const UintTag du;
     return {r.x, hn::BitCast(du, r.y), hn::BitCast(du, r.z), hn::BitCast(IntTag(), r.w)};
   }
-  HWY_INLINE RoughnessLanes Roughness() const {
-    static_assert(offsetof(MaterialRecord, roughnessMap) ==
-                  offsetof(MaterialRecord, roughness) + 4);
-    const V4 r = records_.template Load4<offsetof(MaterialRecord, roughness)>();
+  HWY_INLINE NumberLanes Roughness() const {
+    static_assert(offsetof(R, roughnessMap) == offsetof(R, roughness) + 4);
+    const V4 r = records_.template Load4<offsetof(R, roughness)>();
     return {r.x, hn::BitCast(IntTag(), r.y)};
   }
-  HWY_INLINE CoverageLanes Coverage() const {
-    static_assert(offsetof(MaterialRecord, coverage) == offsetof(MaterialRecord, roughness) + 8);
-    const V4 r = records_.template Load4<offsetof(MaterialRecord, roughness),
-                                         offsetof(MaterialRecord, coverageMap)>();
+  HWY_INLINE NumberLanes Coverage() const {
+    static_assert(offsetof(R, coverage) == offsetof(R, roughness) + 8);
+    const V4 r = records_.template Load4<offsetof(R, roughness), offsetof(R, coverageMap)>();
     return {r.z, hn::BitCast(IntTag(), r.w)};
-  }
-  HWY_INLINE V3 Mirror() const {
-    const V4 r = records_.template Load4<offsetof(MaterialRecord, mirror)>();
-    return {r.x, r.y, r.z};
-  }
-  HWY_INLINE V3 GrazingMinusMirror() const {
-    const V4 r = records_.template Load4<offsetof(MaterialRecord, grazingMinusMirror)>();
-    return {r.x, r.y, r.z};
-  }
-  HWY_INLINE V3 Transmission() const {
-    const V4 r = records_.template Load4<offsetof(MaterialRecord, transmission)>();
-    return {r.x, r.y, r.z};
   }
 
  private:
+  using R = MaterialRecord;
+
+  // The color at `kFirst`, and the number behind it.
+  template <size_t kFirst, size_t kLast = kFirst + 3 * sizeof(float)>
+  HWY_INLINE ColorLanes At() const {
+    const V4 r = records_.template Load4<kFirst, kLast>();
+    return {{r.x, r.y, r.z}, hn::BitCast(IntTag(), r.w)};
+  }
+
   SharedRecords<MaterialRecord> records_;
 };
 

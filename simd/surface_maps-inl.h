@@ -17,38 +17,22 @@ namespace whit::simd::HWY_NAMESPACE {
 // A chunk as interpolateSurfels sees it: what lies in the chunk itself would be read again after
 // each store to its columns.
 struct SurfelJob {
-  const ShadingTables& tables;
-  ShadingChoices shading;
-  float coneSpread;
-  RayColumns rays;
-  HitColumns hits;
-  SurfelColumns surfels;
-  bool absorption, cones, emissionFactors, coplanar, glossy, instances, normalMaps, radianceMaps,
-      secondUvs, smooth, spheres, textures, transmission, vertexColors;
+  const Chunk& chunk;
+  const ShadingTables& tables = chunk.tables();
+  ShadingChoices shading = chunk.options().shading;
+  float coneSpread = static_cast<float>(pixelCone(chunk.frame->camera).spread);
+  RayColumns rays = chunk.rays;
+  HitColumns hits = chunk.hits;
+  SurfelColumns surfels = chunk.surfels;
+  bool absorption = chunk.has(Feature::absorption), cones = chunk.has(Feature::cones);
+  bool emissionFactors = chunk.has(Feature::emissionFactors);
+  bool coplanar = chunk.has(Feature::coplanar), glossy = chunk.has(Feature::glossy);
+  bool instances = chunk.has(Feature::instances), normalMaps = chunk.has(Feature::normalMaps);
+  bool radianceMaps = tables.radianceMaps, secondUvs = chunk.has(Feature::secondUvs);
+  bool smooth = chunk.has(Feature::smoothNormals), spheres = chunk.has(Feature::spheres);
+  bool textures = chunk.has(Feature::textures), transmission = chunk.has(Feature::transmission);
+  bool vertexColors = chunk.has(Feature::vertexColors);
 };
-
-HWY_INLINE SurfelJob SurfelJobOf(const Chunk& c) {
-  return {c.tables(),
-          c.options().shading,
-          static_cast<float>(pixelCone(c.frame->camera).spread),
-          c.rays,
-          c.hits,
-          c.surfels,
-          c.has(Feature::absorption),
-          c.has(Feature::cones),
-          c.has(Feature::emissionFactors),
-          c.has(Feature::coplanar),
-          c.has(Feature::glossy),
-          c.has(Feature::instances),
-          c.has(Feature::normalMaps),
-          c.tables().radianceMaps,
-          c.has(Feature::secondUvs),
-          c.has(Feature::smoothNormals),
-          c.has(Feature::spheres),
-          c.has(Feature::textures),
-          c.has(Feature::transmission),
-          c.has(Feature::vertexColors)};
-}
 
 // Along one axis of texture space, from corner 0 to corners 1 and 2. Brought to the order of 1 by a
 // power of two, as the edges are for GeometricNormal: products of tiny spans would vanish.
@@ -313,7 +297,7 @@ inline HWY_NOINLINE void QueueByOwnUvs(const SurfelJob& job, size_t i, size_t sl
   const MapHits map{t.uv, triangle, t.material, valid, w, s.edge1, s.edge2, width, cosine};
   const MaterialLanes material(tables, t.material, valid);
   if (job.normalMaps) {
-    const VI normalMap = material.Emission().normalMap;
+    const VI normalMap = material.NormalMap();
     if (!hn::AllFalse(d, MappedLanes(normalMap, valid))) {
       const VF flip = TurnToViewer(hn::Lt(cosine, hn::Zero(d)));
       QueueNormalByOwnUvs(job, map, normalMap, NormalSpace{s.ns, s.handedness, flip}, slot, block);

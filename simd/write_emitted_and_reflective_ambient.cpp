@@ -10,7 +10,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
 
-void WriteEmittedAndReflectiveAmbient(Chunk& c) noexcept {
+void WriteEmittedAndReflectiveAmbient(Chunk& c) {
   const FloatTag d;
   const IntTag di;
   const UintTag du;
@@ -33,18 +33,14 @@ void WriteEmittedAndReflectiveAmbient(Chunk& c) noexcept {
     V3 result = black;
     if (ambient) result = reflected.At(i, hit);
     if (emission && !hn::AllFalse(d, hit)) {
-      V3 own = MaterialLanes(tables, hn::BitCast(di, material), hit).Emission().emission;
+      V3 own = MaterialLanes(tables, hn::BitCast(di, material), hit).Emission();
       if (factors) {
         own = Mul3(own, Load3(surfels.emissionR, surfels.emissionG, surfels.emissionB, i));
       }
       result = Add3(result, own);
     }
     if (coverage) result = Scale3(result, hn::Load(d, surfels.coverage + i));
-    if (hidden) {
-      const VU flags = hn::Load(du, surfels.flags + i);
-      const auto there = hn::Eq(hn::And(flags, hn::Set(du, kHidden)), hn::Zero(du));
-      result = Select3(hn::RebindMask(d, there), result, black);
-    }
+    if (hidden) result = Select3(HasFlags(hn::Load(du, surfels.flags + i), kHidden), black, result);
     if (hn::AllTrue(d, hit)) {
       Store3(result, radiance.r, radiance.g, radiance.b, i);
       continue;
@@ -60,8 +56,6 @@ void WriteEmittedAndReflectiveAmbient(Chunk& c) noexcept {
     Store3(Select3(hit, result, beyond), radiance.r, radiance.g, radiance.b, i);
   }
 }
-
-StepFunction FindWriteEmittedAndReflectiveAmbient() { return WriteEmittedAndReflectiveAmbient; }
 
 }  // namespace whit::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -73,14 +73,14 @@ try() {
 }
 
 mutations() {
-  plant fixed-epsilon simd/ray_origin-inl.h \
+  plant fixed-epsilon simd/new_rays-inl.h \
     'MulAdd3(ng, clearance.offset,' 'MulAdd3(ng, hn::Set(d, 1e-3f),'
-  plant no-offset simd/ray_origin-inl.h \
+  plant no-offset simd/new_rays-inl.h \
     'MulAdd3(ng, clearance.offset,' 'MulAdd3(ng, hn::Zero(d),'
-  plant normal-offset-only simd/ray_origin-inl.h 'hn::Neg(clearance.retreat)' 'hn::Zero(d)'
+  plant normal-offset-only simd/new_rays-inl.h 'hn::Neg(clearance.retreat)' 'hn::Zero(d)'
   plant wrong-offset-side simd/add_impulses.cpp \
     'ChildOrigin(job, lanes, i, -1.0f)' 'ChildOrigin(job, lanes, i, 1.0f)'
-  plant approximate-distance simd/find_intersections.cpp \
+  plant approximate-distance simd/packets.cpp \
     'HitPoint p{hn::Div(Dot(normal, t.corner), slope),' \
     'HitPoint p{hn::Mul(hn::Div(Dot(normal, t.corner), slope), hn::Set(d, 1.0f + 0x1p-20f)),'
   plant unfactored-fresnel simd/lobes-inl.h \
@@ -120,7 +120,7 @@ mutations() {
     'return hn::IfThenElse(byteIs(stack), above, result);' 'return result;'
   plant far-texture-coordinate simd/texture-inl.h \
     'hn::Le(hn::Abs(s), hn::Set(d, 1048576.0f))' 'hn::Le(hn::Abs(s), hn::Set(d, 1e38f))'
-  plant stale-tfar simd/packets-inl.h \
+  plant stale-tfar simd/packets.cpp \
     'from.tFar ? load(from.tFar) : hn::Inf(d);' \
     'from.tFar ? load(from.tFar)
         : hn::LoadU(d, WordsOf<kWidth>(to, i) + packet_column::tFar * kWidth);
@@ -130,9 +130,9 @@ mutations() {
     for (std::size_t p = 0;' \
     'says that there is none.
     for (std::size_t p = 0; begin == 0 &&'
-  plant off-by-one-tail simd/packets-inl.h \
+  plant off-by-one-tail simd/packets.cpp \
     'hn::FirstN(d, i < n ? n - i : 0)' 'hn::FirstN(d, i < n ? n - i - (n > 1 ? 1 : 0) : 0)'
-  plant bad-rays-traced simd/packets-inl.h \
+  plant bad-rays-traced simd/packets.cpp \
     'hn::And(there, Traceable(d, ox, oy, oz, dx, dy, dz, reach))' 'there'
   plant no-retry src/render/renderer.cpp \
     'options_.retry && isEnclosed(scene_, *accel_)' 'false && isEnclosed(scene_, *accel_)'

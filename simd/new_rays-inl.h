@@ -1,0 +1,132 @@
+// Rays that leave surfaces: where they start (the scalar reference: src/reference/world.h), and
+// compaction, which stores those of the live lanes one after the other.
+#if defined(WHIT_SIMD_NEW_RAYS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef WHIT_SIMD_NEW_RAYS_INL_H_
+#undef WHIT_SIMD_NEW_RAYS_INL_H_
+#else
+#define WHIT_SIMD_NEW_RAYS_INL_H_
+#endif
+
+#include <array>
+
+#include "core/shading_choices.h"
+#include "simd/vec3-inl.h"
+#include "stages/columns.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace whit::simd::HWY_NAMESPACE {
+
+// AVX-512 has an instruction for compaction, used in registers: storing straight to memory takes
+// Zen 4 some 100 cycles. Elsewhere Highway 1.0.3 looks its permutation up in a table that GCC
+// copies to the stack for every vector, which took three quarters of the light kernel's time; here
+// the permutation is fetched once and serves all columns.
+#define WHIT_COMPACT_BY_TABLE (HWY_TARGET != HWY_SCALAR && HWY_TARGET > HWY_AVX3)
+
+// For each mask of up to eight lanes, the numbers of its live lanes, in order.
+using CompactOrders = std::array<std::array<uint8_t, 8>, 256>;
+
+constexpr CompactOrders makeCompactOrders() {
+  CompactOrders orders{};
+  for (unsigned mask = 0; mask < 256; ++mask) {
+    unsigned next = 0;
+    for (unsigned lane = 0; lane < 8; ++lane) {
+      if ((mask >> lane & 1u) != 0) orders[mask][next++] = static_cast<uint8_t>(lane);
+    }
+  }
+  return orders;
+}
+
+alignas(64) inline constexpr CompactOrders kCompactOrder = makeCompactOrders();
+
+// Writes whole vectors; what lies behind the live lanes is overwritten by the next one.
+class Compactor {
+ public:
+  HWY_INLINE explicit Compactor(MF live)
+      : order_(OrderOf(live)), count_(hn::CountTrue(FloatTag(), live)) {}
+  HWY_INLINE void Store(VF v, float* to) const { hn::StoreU(Compacted(v), FloatTag(), to); }
+  HWY_INLINE void Store(VU v, uint32_t* to) const {
+    const UintTag du;
+    hn::StoreU(hn::BitCast(du, Compacted(hn::BitCast(FloatTag(), v))), du, to);
+  }
+  HWY_INLINE void Store(const V3& v, float* x, float* y, float* z, size_t at) const {
+    Store(v.x, x + at);
+    Store(v.y, y + at);
+    Store(v.z, z + at);
+  }
+  HWY_INLINE size_t Count() const { return count_; }
+
+ private:
+#if WHIT_COMPACT_BY_TABLE
+  using Order = decltype(hn::IndicesFromVec(FloatTag(), VI()));
+  static HWY_INLINE Order OrderOf(MF live) {
+    const FloatTag d;
+    const IntTag di;
+    uint8_t bits[8] = {};
+    hn::StoreMaskBits(d, live, bits);
+    const hn::Rebind<uint8_t, IntTag> d8;
+    return hn::IndicesFromVec(d, hn::PromoteTo(di, hn::LoadU(d8, kCompactOrder[bits[0]].data())));
+  }
+  HWY_INLINE VF Compacted(VF v) const { return hn::TableLookupLanes(v, order_); }
+#else
+  using Order = MF;
+  static HWY_INLINE Order OrderOf(MF live) { return live; }
+  HWY_INLINE VF Compacted(VF v) const { return hn::Compress(v, order_); }
+#endif
+  Order order_;
+  size_t count_;
+};
+
+// Appends the shadow rays of the live lanes to the `count` ones that are there.
+HWY_INLINE void AppendShadowRays(const ShadowColumns& rays, MF live, const V3& origin,
+                                 const V3& way, VF tFar, VU slot, size_t& count) {
+  const Compactor compactor(live);
+  compactor.Store(origin, rays.orgX, rays.orgY, rays.orgZ, count);
+  compactor.Store(way, rays.dirX, rays.dirY, rays.dirZ, count);
+  compactor.Store(tFar, rays.tFar + count);
+  compactor.Store(slot, rays.slot + count);
+  count += compactor.Count();
+}
+
+// One coordinate moved by 256 ulps times the normal's component, near the origin by 1/65536 of it
+// (Waechter and Binder 2019).
+HWY_INLINE VF MovedByUlps(VF p, VF n) {
+  const FloatTag d;
+  const IntTag di;
+  const VI ulps = hn::ConvertTo(di, hn::Mul(n, hn::Set(d, 256.0f)));
+  const VI away =
+      hn::IfThenElse(hn::RebindMask(di, hn::Lt(p, hn::Zero(d))), hn::Sub(hn::Zero(di), ulps), ulps);
+  const VF far = hn::BitCast(d, hn::Add(hn::BitCast(di, p), away));
+  const VF near = MulThenAdd(n, hn::Set(d, 1.0f / 65536), p);
+  return hn::IfThenElse(hn::Lt(hn::Abs(p), hn::Set(d, 1.0f / 32)), near, far);
+}
+
+// How far rays start from surfels (SurfelColumns).
+struct Clearance {
+  VF offset, retreat;
+};
+
+HWY_INLINE Clearance LoadClearance(const SurfelColumns& surfels, size_t i) {
+  const FloatTag d;
+  return {hn::Load(d, surfels.offset + i), hn::Load(d, surfels.retreat + i)};
+}
+
+// `side` is 1 for the viewer's side of the surface, -1 for the other; `direction` the viewer's ray.
+HWY_INLINE V3 RayOrigin(OffsetMethod method, const V3& position, const V3& ng, const V3& direction,
+                        const Clearance& clearance, float side) {
+  const FloatTag d;
+  const VF sign = hn::Set(d, side);
+  if (method == OffsetMethod::wachterBinder) {
+    const V3 n = Scale3(ng, sign);
+    return {MovedByUlps(position.x, n.x), MovedByUlps(position.y, n.y),
+            MovedByUlps(position.z, n.z)};
+  }
+  if (method == OffsetMethod::bound && side > 0) {
+    return MulAdd3(ng, clearance.offset, MulAdd3(direction, hn::Neg(clearance.retreat), position));
+  }
+  const VF offset = method == OffsetMethod::fixed ? hn::Set(d, kFixedOffset) : clearance.offset;
+  return MulAdd3(ng, hn::Mul(offset, sign), position);
+}
+
+}  // namespace whit::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

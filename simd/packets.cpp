@@ -1,0 +1,242 @@
+// The kernels around Embree in findIntersections and checkShadows: rays into packets, and what
+// comes back out of packets.
+#include <type_traits>
+
+#include "simd/kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "simd/packets.cpp"
+#include "hwy/foreach_target.h"  // IWYU pragma: keep
+#include "simd/surface-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace whit::simd::HWY_NAMESPACE {
+
+// Vectors that lie in one packet.
+template <size_t kWidth>
+using PacketTag = hn::CappedTag<float, kWidth>;
+
+template <size_t kWidth>
+HWY_INLINE float* WordsOf(const PacketWords& packets, size_t ray) {
+  return packets.first + ray / kWidth * packets.stride + ray % kWidth;
+}
+
+// The columns that packets read for either kind of rays; tFar is null where rays have no end.
+struct RaySource {
+  const float *orgX, *orgY, *orgZ, *dirX, *dirY, *dirZ, *tFar;
+};
+
+// One sum, because nearly all rays are fine. A direction of 0 belongs to a pixel that sees nothing.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE hn::Mask<D> Traceable(D d, V ox, V oy, V oz, V dx, V dy, V dz, float reach) {
+  const V org = hn::Add(hn::Add(hn::Abs(ox), hn::Abs(oy)), hn::Abs(oz));
+  const V way = hn::Add(hn::Add(hn::Abs(dx), hn::Abs(dy)), hn::Abs(dz));
+  return hn::And(hn::Le(hn::Add(org, way), hn::Set(d, reach)), hn::Gt(way, hn::Zero(d)));
+}
+
+template <size_t kWidth>
+HWY_INLINE void Pack(const RaySource& from, size_t n, float reach, const PacketWords& to) {
+  const PacketTag<kWidth> d;
+  const size_t end = (n + kWidth - 1) / kWidth * kWidth;
+  for (size_t i = 0; i < end; i += hn::Lanes(d)) {
+    const auto load = [&](const float* column) HWY_ATTR { return hn::LoadU(d, column + i); };
+    const auto store = [&](auto v, size_t column)
+                           HWY_ATTR { hn::StoreU(v, d, WordsOf<kWidth>(to, i) + column * kWidth); };
+    auto ox = load(from.orgX), oy = load(from.orgY), oz = load(from.orgZ);
+    auto dx = load(from.dirX), dy = load(from.dirY), dz = load(from.dirZ);
+    auto tFar = from.tFar ? load(from.tFar) : hn::Inf(d);
+    const auto there = hn::FirstN(d, i < n ? n - i : 0);
+    const auto good = hn::And(there, Traceable(d, ox, oy, oz, dx, dy, dz, reach));
+    if (HWY_UNLIKELY(!hn::AllTrue(d, good))) {
+      // Empty rays, which find nothing. Those of bad ones start where none can: where Embree splits
+      // a packet that is wider than the CPU, it looks at their coordinates all the same.
+      const auto place = hn::IfThenElseZero(there, hn::Set(d, 0.25f * reach));
+      ox = hn::IfThenElse(good, ox, place);
+      oy = hn::IfThenElse(good, oy, place);
+      oz = hn::IfThenElse(good, oz, place);
+      dx = hn::IfThenElseZero(good, dx);
+      dy = hn::IfThenElseZero(good, dy);
+      dz = hn::IfThenElse(good, dz, hn::Set(d, 1.0f));
+      tFar = hn::IfThenElse(good, tFar, hn::Set(d, -1.0f));
+    }
+    store(ox, packet_column::orgX);
+    store(oy, packet_column::orgY);
+    store(oz, packet_column::orgZ);
+    store(dx, packet_column::dirX);
+    store(dy, packet_column::dirY);
+    store(dz, packet_column::dirZ);
+    store(tFar, packet_column::tFar);
+  }
+}
+
+// `call` with the width as a constant.
+template <class Call>
+HWY_INLINE void ForWidth(size_t width, const Call& call) {
+  switch (width) {
+    case 16:
+      return call(std::integral_constant<size_t, 16>());
+    case 8:
+      return call(std::integral_constant<size_t, 8>());
+    default:
+      return call(std::integral_constant<size_t, 4>());
+  }
+}
+
+void PackRays(const RayColumns& rays, size_t n, float reach, const PacketWords& to) {
+  const RaySource from{rays.orgX, rays.orgY, rays.orgZ, rays.dirX, rays.dirY, rays.dirZ, nullptr};
+  ForWidth(to.width, [&](auto width) HWY_ATTR { Pack<width()>(from, n, reach, to); });
+}
+
+void PackShadowRays(const ShadowColumns& rays, size_t n, float reach, const PacketWords& to) {
+  const RaySource from{rays.orgX, rays.orgY, rays.orgZ, rays.dirX, rays.dirY, rays.dirZ, rays.tFar};
+  ForWidth(to.width, [&](auto width) HWY_ATTR { Pack<width()>(from, n, reach, to); });
+}
+
+template <size_t kWidth>
+HWY_INLINE void UnpackHitsOf(const PacketWords& from, size_t n, const uint32_t* triangleBase,
+                             const HitColumns& hits) {
+  const PacketTag<kWidth> d;
+  const hn::RebindToUnsigned<decltype(d)> du;
+  const auto miss = hn::Set(du, kMiss);
+  for (size_t i = 0; i < n; i += hn::Lanes(d)) {
+    const float* const words = WordsOf<kWidth>(from, i);
+    const auto load = [&](size_t column) HWY_ATTR { return hn::LoadU(d, words + column * kWidth); };
+    hn::StoreU(load(packet_column::tFar), d, hits.t + i);
+    hn::StoreU(load(packet_column::u), d, hits.u + i);
+    hn::StoreU(load(packet_column::v), d, hits.v + i);
+    const auto geometry = hn::BitCast(du, load(packet_column::geometry));
+    const auto primitive = hn::BitCast(du, load(packet_column::primitive));
+    auto base = hn::Set(du, triangleBase[0]);
+    for (uint32_t c = 1; c < kTriangleClasses; ++c) {
+      const auto ofClass = hn::Eq(geometry, hn::Set(du, c));
+      base = hn::IfThenElse(ofClass, hn::Set(du, triangleBase[c]), base);
+    }
+    const auto missed = hn::Eq(geometry, miss);
+    hn::StoreU(hn::IfThenElse(missed, miss, hn::Add(base, primitive)), du, hits.triangle + i);
+  }
+}
+
+void UnpackHits(const PacketWords& from, size_t n, const uint32_t* triangleBase,
+                const HitColumns& hits) {
+  ForWidth(from.width,
+           [&](auto width) HWY_ATTR { UnpackHitsOf<width()>(from, n, triangleBase, hits); });
+}
+
+template <size_t kWidth>
+HWY_INLINE void UnpackVisibilityOf(const PacketWords& from, size_t n, const uint32_t* slot,
+                                   float* visible) {
+  const PacketTag<kWidth> d;
+  const size_t lanes = hn::Lanes(d);
+  HWY_ALIGN float clear[16];
+  for (size_t i = 0; i < n; i += lanes) {
+    // Embree marks an occluded ray with a tFar of minus infinity.
+    const auto tFar = hn::LoadU(d, WordsOf<kWidth>(from, i) + packet_column::tFar * kWidth);
+    hn::Store(hn::IfThenElseZero(hn::Ge(tFar, hn::Zero(d)), hn::Set(d, 1.0f)), d, clear);
+    const size_t count = n - i < lanes ? n - i : lanes;
+    for (size_t lane = 0; lane < count; ++lane) visible[slot[i + lane]] = clear[lane];
+  }
+}
+
+void UnpackVisibility(const PacketWords& from, size_t n, const uint32_t* slot, float* visible) {
+  ForWidth(from.width,
+           [&](auto width) HWY_ATTR { UnpackVisibilityOf<width()>(from, n, slot, visible); });
+}
+
+// The corner 0 of a triangle as seen from the ray's start, and the edges from there.
+struct SeenTriangle {
+  V3 corner, edge1, edge2;
+};
+
+HWY_INLINE void CarryToWorld(const HitTables& tables, const HitColumns& hits, MF valid, size_t i,
+                             const V3& corner, const V3& origin, SeenTriangle& t) {
+  const auto [placed, instance] = LoadInstances(hits, valid, i);
+  if (hn::AllFalse(FloatTag(), placed)) return;
+  const PlacementLanes p = LoadPlacements(tables.instances, instance, placed);
+  const MatrixLanes& m = p.toWorld;
+  // The difference of the origins first: what is far from the world's origin keeps its bits.
+  const V3 from = Sub3(p.origin, origin);
+  t.corner = Select3(placed, Add3(TransformVector(m, corner), from), t.corner);
+  t.edge1 = Select3(placed, TransformVector(m, t.edge1), t.edge1);
+  t.edge2 = Select3(placed, TransformVector(m, t.edge2), t.edge2);
+}
+
+struct HitPoint {
+  VF t, u, v;
+};
+
+// For hits that rounding has put beside the triangle, ahead of the ray's start or nowhere: the
+// nearest weights that belong to a point of the triangle, and how far away this is.
+HWY_INLINE HitPoint MoveOntoTriangle(const SeenTriangle& t, const V3& direction,
+                                     const HitPoint& p) {
+  const FloatTag d;
+  const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f), third = hn::Set(d, 1.0f / 3);
+  const VF most = hn::Set(d, 0x1p60f);
+  const MF known = hn::And(hn::Le(hn::Abs(p.u), most), hn::Le(hn::Abs(p.v), most));
+  const VF u = hn::Max(hn::IfThenElse(known, p.u, third), zero);
+  const VF v = hn::Max(hn::IfThenElse(known, p.v, third), zero);
+  const VF sum = hn::Add(hn::Add(hn::Max(hn::Sub(hn::Sub(one, u), v), zero), u), v);
+  const VF onU = hn::Div(u, sum), onV = hn::Div(v, sum);
+  const V3 point = MulAdd3(t.edge1, onU, MulAdd3(t.edge2, onV, t.corner));
+  return {hn::Div(Dot(point, direction), Dot(direction, direction)), onU, onV};
+}
+
+// The distance and the weights by Cramer's rule (Moeller and Trumbore 1997, "Fast, minimum storage
+// ray/triangle intersection"). The scalar reference is refineHit in
+// src/reference/find_intersections.cpp.
+HWY_INLINE HitPoint PierceTriangle(const SeenTriangle& t, const V3& direction, MF on) {
+  const FloatTag d;
+  const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  const V3 normal = Cross(t.edge1, t.edge2), moment = Cross(direction, t.corner);
+  const VF slope = Dot(normal, direction);
+  HitPoint p{hn::Div(Dot(normal, t.corner), slope), hn::Div(Dot(t.edge2, moment), hn::Neg(slope)),
+             hn::Div(Dot(t.edge1, moment), slope)};
+  const VF least = hn::Min(hn::Min(p.u, p.v), hn::Sub(hn::Sub(one, p.u), p.v));
+  const MF ahead = hn::And(hn::Ge(p.t, zero), hn::Lt(p.t, hn::Inf(d)));
+  const MF beside = hn::AndNot(hn::And(ahead, hn::Ge(least, hn::Set(d, -0x1p-12f))), on);
+  if (HWY_UNLIKELY(!hn::AllFalse(d, beside))) {
+    const HitPoint moved = MoveOntoTriangle(t, direction, p);
+    p = {hn::IfThenElse(beside, moved.t, p.t), hn::IfThenElse(beside, moved.u, p.u),
+         hn::IfThenElse(beside, moved.v, p.v)};
+  }
+  const VF u = hn::Max(p.u, zero), v = hn::Max(p.v, zero);
+  const VF excess = hn::Max(hn::Sub(hn::Add(u, v), one), zero);
+  const MF more = hn::Ge(u, v);
+  return {hn::Max(p.t, zero), hn::Sub(u, hn::IfThenElseZero(more, excess)),
+          hn::Sub(v, hn::IfThenZeroElse(more, excess))};
+}
+
+void RefineHits(const HitTables& tables, const RayColumns& rays, size_t n, const HitColumns& hits) {
+  const FloatTag d;
+  constexpr size_t kStride = kFloatsOf<TriangleRecord>;
+  for (size_t i = 0; i < n; i += hn::Lanes(d)) {
+    const auto [valid, triangle] = LoadHits(hits, i);
+    const MF on = hn::And(AreTriangles(triangle, tables.firstSphere), valid);
+    if (hn::AllFalse(d, on)) continue;
+    const auto [c0, c1, c2] = LoadCorners(tables.triangles, kStride, triangle);
+    const auto load = [&](const float* column) HWY_ATTR { return hn::LoadU(d, column + i); };
+    const V3 origin{load(rays.orgX), load(rays.orgY), load(rays.orgZ)};
+    const V3 direction{load(rays.dirX), load(rays.dirY), load(rays.dirZ)};
+    SeenTriangle t{Sub3(c0, origin), Sub3(c1, c0), Sub3(c2, c0)};
+    if (hits.instance) CarryToWorld(tables, hits, valid, i, c0, origin, t);
+    const HitPoint p = PierceTriangle(t, direction, on);
+    const auto put = [&](VF value, float* column)
+                         HWY_ATTR { hn::BlendedStore(value, on, d, column + i); };
+    put(p.t, hits.t);
+    put(p.u, hits.u);
+    put(p.v, hits.v);
+  }
+}
+
+PacketKernels FindPacketKernels() {
+  return {PackRays, PackShadowRays, UnpackHits, RefineHits, UnpackVisibility};
+}
+
+}  // namespace whit::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace whit::simd {
+HWY_EXPORT(FindPacketKernels);
+PacketKernels findPacketKernels() { return HWY_DYNAMIC_DISPATCH(FindPacketKernels)(); }
+}  // namespace whit::simd
+#endif
