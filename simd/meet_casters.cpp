@@ -81,12 +81,12 @@ unsigned MeetBoxes(const RoundedShaft& shaft, const BoxBlock& boxes) {
 // ---- casters
 
 // The largest errors by rounding, for rays whose starts have been moved as well.
-HWY_INLINE void SetBounds(CasterBlock& block, size_t i, const CasterLight& light,
-                          const CasterReceiver& receiver, const D3& normal, VD longest,
+HWY_INLINE void SetBounds(CasterBlock& block, size_t i, const LightPoint& light,
+                          const Receiver& receiver, const D3& normal, VD longest,
                           const VD (&edgeLength)[3], const VD (&gradient)[3], VD toLight) {
   const Doubles d;
   const double spread = receiver.radius + receiver.reach;
-  const Vec3d towards = light.directional ? light.position : light.position - receiver.center;
+  const Vec3d towards = light.towards(receiver.center);
   const double straight = length(towards);
   const double way = light.directional ? 1 : straight + spread;
   const double unit = kRoundings * kHalfUlp, flushed = kFlushed * (1 + way);
@@ -113,7 +113,7 @@ HWY_INLINE void SetBounds(CasterBlock& block, size_t i, const CasterLight& light
 }
 
 // What is linear in the ray's origin, from the corners.
-void SetCasters(CasterBlock& block, const CasterLight& light, const CasterReceiver& receiver) {
+void SetCasters(CasterBlock& block, const LightPoint& light, const Receiver& receiver) {
   const Doubles d;
   const D3 l = All3(light.position);
   for (size_t i = 0; i < CasterBlock::kCasters; i += hn::Lanes(d)) {
@@ -156,15 +156,15 @@ struct Extremes {
 };
 
 template <bool kDirectional>
-HWY_INLINE Extremes Over(const CasterBlock& block, size_t i, const CasterLight& light,
-                         const Vec3d* corners, size_t count) {
+HWY_INLINE Extremes Over(const CasterBlock& block, size_t i, const LightPoint& light,
+                         const Receiver& receiver) {
   const D3 corner = Load3(block.corner[0], i), normal = Load3(block.normal, i);
   const D3 gradient[3] = {Load3(block.gradient[0], i), Load3(block.gradient[1], i),
                           Load3(block.gradient[2], i)};
   RangeLanes heights = Nothing(), slopes = Nothing(), e0 = Nothing(), e1 = Nothing(),
              e2 = Nothing();
-  for (size_t k = 0; k < count; ++k) {
-    const D3 o = All3(corners[k]);
+  for (size_t k = 0; k < receiver.count; ++k) {
+    const D3 o = All3(receiver.corners[k]);
     const D3 away = Sub3(corner, o);
     heights.add(Dot3(away, normal));
     if (kDirectional) {
@@ -172,7 +172,7 @@ HWY_INLINE Extremes Over(const CasterBlock& block, size_t i, const CasterLight& 
       e1.add(Dot3(Sub3(Load3(block.corner[1], i), o), gradient[1]));
       e2.add(Dot3(Sub3(Load3(block.corner[2], i), o), gradient[2]));
     } else {
-      const D3 way = All3(light.position - corners[k]);
+      const D3 way = All3(light.position - receiver.corners[k]);
       slopes.add(Dot3(way, normal));
       e0.add(Dot3(way, gradient[0]));
       e1.add(Dot3(way, gradient[1]));
@@ -190,10 +190,10 @@ struct MeetingLanes {
 
 // Compares the linear numbers over the receiver with their bounds.
 template <bool kDirectional>
-HWY_INLINE MeetingLanes Meet(const CasterBlock& block, size_t i, const CasterLight& light,
-                             const Vec3d* corners, size_t count) {
+HWY_INLINE MeetingLanes Meet(const CasterBlock& block, size_t i, const LightPoint& light,
+                             const Receiver& receiver) {
   const Doubles d;
-  const Extremes of = Over<kDirectional>(block, i, light, corners, count);
+  const Extremes of = Over<kDirectional>(block, i, light, receiver);
   const VD slopeBound = hn::Load(d, block.slopeBound + i);
   const VD heightBound = hn::Load(d, block.heightBound + i);
   const VD lightHeight = hn::Load(d, block.lightHeight + i);
@@ -236,8 +236,8 @@ HWY_INLINE MeetingLanes Meet(const CasterBlock& block, size_t i, const CasterLig
 }
 
 template <bool kDirectional>
-HWY_INLINE size_t MeetAll(const CasterQuestion& question, const CasterLight& light,
-                          const Vec3d* corners, size_t count) {
+HWY_INLINE size_t MeetAll(const CasterQuestion& question, const LightPoint& light,
+                          const Receiver& receiver) {
   constexpr size_t kCasters = CasterBlock::kCasters;
   const size_t lanes = hn::Lanes(Doubles());
   const unsigned all = (1u << lanes) - 1;
@@ -246,7 +246,7 @@ HWY_INLINE size_t MeetAll(const CasterQuestion& question, const CasterLight& lig
     unsigned met = asked;
     for (size_t i = 0; i < kCasters; i += lanes) {
       if ((asked >> i & all) == 0) continue;
-      const MeetingLanes meeting = Meet<kDirectional>(question.blocks[b], i, light, corners, count);
+      const MeetingLanes meeting = Meet<kDirectional>(question.blocks[b], i, light, receiver);
       const unsigned hiding = (BitsOf(meeting.always) << i) & asked & question.opaque[b];
       if (hiding != 0) {
         return b * kCasters + hwy::Num0BitsBelowLS1Bit_Nonzero32(hiding);
@@ -258,10 +258,10 @@ HWY_INLINE size_t MeetAll(const CasterQuestion& question, const CasterLight& lig
   return kNoCaster;
 }
 
-size_t MeetCasters(const CasterQuestion& question, const CasterLight& light, const Vec3d* corners,
-                   size_t count) {
-  return light.directional ? MeetAll<true>(question, light, corners, count)
-                           : MeetAll<false>(question, light, corners, count);
+size_t MeetCasters(const CasterQuestion& question, const LightPoint& light,
+                   const Receiver& receiver) {
+  return light.directional ? MeetAll<true>(question, light, receiver)
+                           : MeetAll<false>(question, light, receiver);
 }
 
 // ---- shafts

@@ -15,7 +15,36 @@
 
 #include "core/vec3.h"
 
-namespace whit::simd {
+namespace whit {
+
+struct Light;
+
+// A light without extent. Rays end just before a point light (kShadowReach).
+struct LightPoint {
+  Vec3d position;  // of a directional light the unit vector towards it
+  bool directional = false;
+
+  static LightPoint of(const Light& light);
+  bool operator==(const LightPoint&) const = default;
+  // Not normalized, as shadow rays have it.
+  Vec3d towards(const Vec3d& from) const { return directional ? position : position - from; }
+};
+
+// A convex piece of a receiving triangle. All shadow rays with weights in it, within the kernel's
+// reach (kCachedShadowReach), start no further than `reach` from it.
+struct Receiver {
+  // A square of weights, cut by the three edges.
+  static constexpr std::size_t kMostCorners = 7;
+  std::array<Vec3d, kMostCorners> corners;
+  std::size_t count = 0;  // none: the piece lies in the rim
+  double reach = 0;
+  Vec3d center;
+  double radius = 0;  // around it, of the corners
+
+  void add(const Vec3d& corner) { corners[count++] = corner; }
+};
+
+namespace simd {
 
 // Eight boxes, tested together in single precision: centers and half widths.
 struct alignas(64) BoxBlock {
@@ -25,7 +54,7 @@ struct alignas(64) BoxBlock {
 
 // The sides of a shaft, in single precision, further out by what rounding may add.
 struct RoundedShaft {
-  static constexpr std::size_t kMostPlanes = 8;
+  static constexpr std::size_t kMostPlanes = Receiver::kMostCorners + 1;
   float middle[3], width[3];  // of its box
   float outward[kMostPlanes][3], size[kMostPlanes][3], offset[kMostPlanes];
   std::size_t count = 0;
@@ -40,20 +69,6 @@ struct ShaftSides {
   std::array<Plane, RoundedShaft::kMostPlanes> planes;
   std::size_t count = 0;
   Vec3d lower, upper;
-};
-
-// The light as a point, or the unit vector towards it.
-struct CasterLight {
-  Vec3d position;
-  bool directional = false;
-};
-
-// Where rays start, and the bounds that proofs need of it.
-struct CasterReceiver {
-  const Vec3d* corners = nullptr;
-  std::size_t count = 0;
-  Vec3d center;
-  double radius = 0, reach = 0;
 };
 
 // Eight triangles. All but the corners and the growth are of one light, the bounds of a receiver:
@@ -84,11 +99,11 @@ struct CasterKernels {
   // Which of the boxes the shaft does not surely pass by, a bit each.
   unsigned (*meetBoxes)(const RoundedShaft& shaft, const BoxBlock& boxes);
   // From the corners, all else but the growth.
-  void (*setCasters)(CasterBlock& block, const CasterLight& light, const CasterReceiver& receiver);
+  void (*setCasters)(CasterBlock& block, const LightPoint& light, const Receiver& receiver);
   // Returns the place of a caster that hides the receiver, if one is found to: `met` is unfinished
   // then.
-  std::size_t (*meetCasters)(const CasterQuestion& question, const CasterLight& light,
-                             const Vec3d* corners, std::size_t count);
+  std::size_t (*meetCasters)(const CasterQuestion& question, const LightPoint& light,
+                             const Receiver& receiver);
   // Takes those out of `met` that the shaft passes by by more than their growth. Whether any are
   // left.
   bool (*passCasters)(const CasterQuestion& question, const ShaftSides& shaft);
@@ -96,4 +111,5 @@ struct CasterKernels {
 // Returns the kernels for the chosen target.
 CasterKernels findCasterKernels();
 
-}  // namespace whit::simd
+}  // namespace simd
+}  // namespace whit

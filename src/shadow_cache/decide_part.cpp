@@ -20,11 +20,7 @@ class PartDecider {
  public:
   PartDecider(const ShadowWorld& world, std::uint32_t self, const ReceivingTriangle& triangle,
               PartScratch& scratch)
-      : world_(world),
-        self_(self),
-        triangle_(triangle),
-        scratch_(scratch),
-        light_{world.light.position, world.light.directional} {
+      : world_(world), self_(self), triangle_(triangle), scratch_(scratch) {
     scratch_.gathered.clear();
     scratch_.opaque.clear();
     scratch_.boxes.clear();
@@ -38,11 +34,6 @@ class PartDecider {
   }
 
  private:
-  simd::CasterReceiver seenBy(const Receiver& receiver) const {
-    return {receiver.corners.data(), receiver.count, receiver.center, receiver.radius,
-            receiver.reach};
-  }
-
   // Decides all cells; `receiver` is the part.
   void decideAll(const WeightSquare& square, const Receiver& receiver) {
     const Shaft shaft(receiver, world_.light, world_.list.size);
@@ -56,10 +47,9 @@ class PartDecider {
     if (scratch_.gathered.size() > kMostCasters) return;
     keepCasters([&](CasterBlock& block, const Lanes& lanes) {
       CasterBits met = 0;
-      world_.kernels.setCasters(block, light_, seenBy(receiver));
-      const std::size_t hider =
-          world_.kernels.meetCasters({&block, 1, &lanes.used, &lanes.opaque, &met}, light_,
-                                     receiver.corners.data(), receiver.count);
+      world_.kernels.setCasters(block, world_.light, receiver);
+      const std::size_t hider = world_.kernels.meetCasters(
+          {&block, 1, &lanes.used, &lanes.opaque, &met}, world_.light, receiver);
       if (hider != kNoCaster) result_.whole = ShadowState::dark;
       return met;
     });
@@ -121,7 +111,7 @@ class PartDecider {
     if (scratch_.blocks.size() < count) scratch_.blocks.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
       const Lanes lanes = load(i * kInBlock, scratch_.blocks[i]);
-      world_.kernels.setCasters(scratch_.blocks[i], light_, seenBy(receiver));
+      world_.kernels.setCasters(scratch_.blocks[i], world_.light, receiver);
       scratch_.opaque.push_back(lanes.opaque);
       scratch_.asked.push_back(lanes.used);
     }
@@ -160,8 +150,7 @@ class PartDecider {
     const simd::CasterQuestion question{scratch_.blocks.data(), count,
                                         scratch_.asked.data() + way.blocks, scratch_.opaque.data(),
                                         scratch_.asked.data() + mine};
-    const std::size_t hider =
-        world_.kernels.meetCasters(question, light_, receiver.corners.data(), receiver.count);
+    const std::size_t hider = world_.kernels.meetCasters(question, world_.light, receiver);
     if (hider != kNoCaster) return set(side, column, row, ShadowState::dark);
     const Shaft shaft(receiver, world_.light, world_.list.size);
     bool any = world_.kernels.passCasters(question, shaft.sides());
@@ -207,7 +196,6 @@ class PartDecider {
   std::uint32_t self_;
   const ReceivingTriangle& triangle_;
   PartScratch& scratch_;
-  simd::CasterLight light_;
   PartShadow result_;
 };
 

@@ -12,20 +12,6 @@
 
 namespace whit {
 
-// A convex piece of a receiving triangle. All shadow rays with weights in it, within the kernel's
-// reach (kCachedShadowReach), start no further than `reach` from it.
-struct Receiver {
-  // A square of weights, cut by the three edges.
-  static constexpr std::size_t kMostCorners = 7;
-  std::array<Vec3d, kMostCorners> corners;
-  std::size_t count = 0;  // none: the piece lies in the rim
-  double reach = 0;
-  Vec3d center;
-  double radius = 0;  // around it, of the corners
-
-  void add(const Vec3d& corner) { corners[count++] = corner; }
-};
-
 // A square of weights: from (u, v), `side` wide.
 struct WeightSquare {
   double u = 0, v = 0, side = 1;
@@ -50,17 +36,6 @@ class ReceivingTriangle {
   bool sliver_;
 };
 
-// A light without extent. Rays end just before a point light (kShadowReach).
-struct LightPoint {
-  Vec3d position;  // of a directional light the unit vector towards it
-  bool directional = false;
-
-  static LightPoint of(const Light& light);
-  bool operator==(const LightPoint&) const = default;
-  // Not normalized, as shadow rays have it.
-  Vec3d towards(const Vec3d& from) const { return directional ? position : position - from; }
-};
-
 // Rounded outwards.
 void setBox(simd::BoxBlock& block, std::size_t i, const Box& box);
 
@@ -78,7 +53,6 @@ class Shaft {
  private:
   void addPlane(const Vec3d& normal, const Vec3d& through, const Vec3d& inside);
 
-  static_assert(simd::RoundedShaft::kMostPlanes == Receiver::kMostCorners + 1);
   simd::ShaftSides sides_;
   double reach_;
 };

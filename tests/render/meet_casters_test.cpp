@@ -30,7 +30,6 @@ struct Setting {
   std::vector<TriangleRecord> triangles;
   std::vector<double> growth;
 
-  simd::CasterLight lightLanes() const { return {light.position, light.directional}; }
   simd::CasterBlock block() const {
     simd::CasterBlock block{};
     for (std::size_t i = 0; i < kInBlock; ++i) {
@@ -103,8 +102,7 @@ Bits meet(const simd::CasterKernels& kernels, const simd::CasterBlock& block, co
           const Receiver& receiver) {
   Bits bits;
   const auto ask = [&](simd::CasterBits asked, simd::CasterBits opaque, simd::CasterBits& met) {
-    return kernels.meetCasters({&block, 1, &asked, &opaque, &met}, s.lightLanes(),
-                               receiver.corners.data(), receiver.count);
+    return kernels.meetCasters({&block, 1, &asked, &opaque, &met}, s.light, receiver);
   };
   simd::CasterBits together = 0;
   EXPECT_EQ(ask(0xff, 0, together), simd::kNoCaster);
@@ -120,11 +118,6 @@ Bits meet(const simd::CasterKernels& kernels, const simd::CasterBlock& block, co
   }
   bits.met = together;
   return bits;
-}
-
-simd::CasterReceiver lanesOf(const Receiver& receiver) {
-  return {receiver.corners.data(), receiver.count, receiver.center, receiver.radius,
-          receiver.reach};
 }
 
 Bits expected(const Setting& s, const Receiver& receiver) {
@@ -155,7 +148,7 @@ TEST_P(CasterKernels, MeetWhatTheirReferenceMeets) {
     const Receiver receiver = receiving.piece({0.25, 0.25, n % 2 == 0 ? 0.25 : 0.5});
     if (receiving.isSliver() || receiver.count == 0) continue;
     simd::CasterBlock block = s.block();
-    kernels.setCasters(block, s.lightLanes(), lanesOf(receiver));
+    kernels.setCasters(block, s.light, receiver);
     const Bits bits = meet(kernels, block, s, receiver), scalar = expected(s, receiver);
     ASSERT_EQ(bits.met, scalar.met) << n;
     ASSERT_EQ(bits.hiding, scalar.hiding) << n;
@@ -182,7 +175,7 @@ TEST_P(CasterKernels, ProveNoMoreOfAPieceThanItsOwnBounds) {
     if (receiving.isSliver() || piece.count == 0) continue;
     EXPECT_GE(whole.reach, piece.reach);
     simd::CasterBlock block = s.block();
-    kernels.setCasters(block, s.lightLanes(), lanesOf(whole));
+    kernels.setCasters(block, s.light, whole);
     const Bits bits = meet(kernels, block, s, piece), own = expected(s, piece);
     ASSERT_EQ(own.met & ~bits.met, 0u) << n;
     ASSERT_EQ(bits.hiding & ~own.hiding, 0u) << n;
@@ -245,11 +238,11 @@ TEST_P(CasterKernels, AskOnlyAboutThoseThatAreAskedFor) {
   s.growth.assign(kInBlock, 0);
   const Receiver receiver = ReceivingTriangle(s.receiving, 1).piece({0.25, 0.25, 0.25});
   std::vector<simd::CasterBlock> blocks(3, s.block());
-  for (auto& block : blocks) kernels.setCasters(block, s.lightLanes(), lanesOf(receiver));
+  for (auto& block : blocks) kernels.setCasters(block, s.light, receiver);
   const auto ask = [&](std::vector<simd::CasterBits> asked, std::vector<simd::CasterBits> opaque) {
     std::vector<simd::CasterBits> met(3);
-    return kernels.meetCasters({blocks.data(), 3, asked.data(), opaque.data(), met.data()},
-                               s.lightLanes(), receiver.corners.data(), receiver.count);
+    return kernels.meetCasters({blocks.data(), 3, asked.data(), opaque.data(), met.data()}, s.light,
+                               receiver);
   };
   EXPECT_EQ(ask({0xff, 0xff, 0xff}, {0, 0, 0}), simd::kNoCaster);
   EXPECT_EQ(ask({0, 0, 0}, {0xff, 0xff, 0xff}), simd::kNoCaster);
