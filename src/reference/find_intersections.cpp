@@ -158,31 +158,18 @@ class Lookups {
 
   const float* uvs(bool second) const { return at_.uvs(second); }
 
-  RgbD color(std::int32_t map, bool second) const {
-    const TexturePoint at = texturePoint(uvs(second), at_.hit);
-    if (how_.filter != TextureFilter::trilinear) {
-      return sampleColor(textureOf(map), at.u, at.v, how_.filter);
-    }
-    return sampleColor(*how_.maps, static_cast<std::size_t>(map), at.u, at.v, levelOf(map, second));
-  }
-  DataSample data(std::int32_t map, bool second) const {
-    const TexturePoint at = texturePoint(uvs(second), at_.hit);
-    if (how_.filter != TextureFilter::trilinear) {
-      return sampleData(textureOf(map), at.u, at.v, how_.filter);
-    }
-    return sampleData(*how_.maps, static_cast<std::size_t>(map), at.u, at.v, levelOf(map, second));
+  RgbD sample(std::int32_t map, bool second = false) const {
+    const auto number = static_cast<std::size_t>(map);
+    const Texture& texture = scene_.textures[number];
+    const auto [u, v] = texturePoint(uvs(second), at_.hit);
+    if (how_.filter != TextureFilter::trilinear) return sampleTexture(texture, u, v, how_.filter);
+    const double footprint =
+        textureFootprint(at_.triangle, uvs(second), toWorld_, how_.cone.width, cosine_);
+    return sampleTexture(*how_.maps, number, u, v,
+                         mipLevel(footprint * texture.width * texture.height));
   }
 
  private:
-  const Texture& textureOf(std::int32_t map) const {
-    return scene_.textures[static_cast<std::size_t>(map)];
-  }
-  double levelOf(std::int32_t map, bool second) const {
-    const double footprint =
-        textureFootprint(at_.triangle, uvs(second), toWorld_, how_.cone.width, cosine_);
-    return mipLevel(footprint * textureOf(map).width * textureOf(map).height);
-  }
-
   const Scene& scene_;
   const TextureLookup& how_;
   const Textured& at_;
@@ -192,7 +179,7 @@ class Lookups {
 
 // `normal` bent by a tangent-space normal map: x along growing u, y along growing v. Unchanged
 // where texture space has collapsed.
-Vec3d bentNormal(const DataSample& m, const TriangleRecord& triangle, const float* uvs,
+Vec3d bentNormal(const RgbD& m, const TriangleRecord& triangle, const float* uvs,
                  const Affine* toWorld, const Vec3d& normal) {
   const Edges e = edgesOf(triangle);
   const TextureEdges t = textureEdgesOf(uvs);
@@ -209,7 +196,7 @@ Vec3d bentNormal(const DataSample& m, const TriangleRecord& triangle, const floa
   tangent = normalized(tangent - normal * dot(normal, tangent));
   if (tangent == Vec3d{}) return normal;
   const Vec3d bitangent = cross(normal, tangent) * handedness;
-  return normalized(tangent * (2 * m.r - 1) + bitangent * (2 * m.g - 1) + normal * (2 * m.b - 1),
+  return normalized(tangent * (2 * m.x - 1) + bitangent * (2 * m.y - 1) + normal * (2 * m.z - 1),
                     normal);
 }
 
@@ -265,7 +252,7 @@ void findColors(const Scene& scene, EffectSet effects, std::uint32_t number, con
   s.material = triangle.material;
   const auto textured = [&](const Rgb& factor, std::int32_t map, bool second = false) {
     if (!effects.has(Effect::textures) || map == kNoTexture) return RgbD(factor);
-    return RgbD(factor) * lookups.color(map, second);
+    return RgbD(factor) * lookups.sample(map, second);
   };
   s.diffuse = textured(material.diffuse, material.diffuseMap);
   s.specular = textured(material.specular, material.specularMap);
@@ -277,13 +264,13 @@ void findColors(const Scene& scene, EffectSet effects, std::uint32_t number, con
   }
   double roughness = material.roughness;
   if (effects.has(Effect::textures) && material.roughnessMap != kNoTexture) {
-    roughness *= lookups.data(material.roughnessMap, false).g;
+    roughness *= lookups.sample(material.roughnessMap).y;
   }
   roughness = std::max(roughness, double{kMinRoughness});
   s.alpha = roughness * roughness;
   if (!effects.has(Effect::coverage)) return;
   s.coverage = material.coverage;
-  if (material.coverageMap != kNoTexture) s.coverage *= lookups.data(material.coverageMap, false).r;
+  if (material.coverageMap != kNoTexture) s.coverage *= lookups.sample(material.coverageMap).x;
 }
 
 }  // namespace
@@ -326,7 +313,7 @@ bool cutAway(const Scene& scene, std::uint32_t triangle, const TriangleHit& hit,
   const TexturePoint at = texturePoint(textured.triangle.uv, textured.hit);
   const auto isBelow = [&](std::int32_t map, float cutoff) {
     const Texture& mask = scene.textures[static_cast<std::size_t>(map)];
-    return sampleData(mask, at.u, at.v).r < double{cutoff};
+    return sampleTexture(mask, at.u, at.v).x < double{cutoff};
   };
   if (!forShadows) return isBelow(material.alphaMap, material.alphaCutoff);
   return isBelow(material.alphaMap, material.shadowCutoff()) ||
@@ -390,7 +377,7 @@ Surfel makeSurfel(const Scene& scene, EffectSet effects, const Candidate& candid
   const Material& material = scene.materials[triangle.material];
   if (effects.has(Effect::normalMaps) && material.normalMap != kNoTexture) {
     const bool second = material.normalBySecondUvs;
-    s.shadingNormal = bentNormal(lookups.data(material.normalMap, second), textured.triangle,
+    s.shadingNormal = bentNormal(lookups.sample(material.normalMap, second), textured.triangle,
                                  lookups.uvs(second), toWorld, s.shadingNormal);
   }
   s.entering = cosine < 0;

@@ -39,62 +39,42 @@ Between texelsAround(double s, int size, Wrap wrap) {
   return held(std::min(phase, 2 - phase), size);
 }
 
-// One channel: `decode` turns a texel into its value.
-template <typename Decode>
-double filtered(const Texture& texture, double u, double v, TextureFilter filter, Decode&& decode) {
-  const Between x = texelsAround(tame(u), texture.width, texture.wrapU);
-  const Between y = texelsAround(1 - tame(v), texture.height, texture.wrapV);
-  const auto value = [&](int column, int row) { return decode(texture.texel(column, row)); };
-  if (filter == TextureFilter::nearest) return value(x.nearest(), y.nearest());
-  const double upperRow =
-      value(x.lower, y.lower) * (1 - x.fraction) + value(x.upper, y.lower) * x.fraction;
-  const double lowerRow =
-      value(x.lower, y.upper) * (1 - x.fraction) + value(x.upper, y.upper) * x.fraction;
-  return upperRow * (1 - y.fraction) + lowerRow * y.fraction;
+double valueOf(TexelFormat format, std::uint32_t texel, int channel) {
+  if (format == TexelFormat::radiance) return double{decodeRadianceTexel(texel)[channel]};
+  if (format == TexelFormat::data) return (texel >> (8 * channel) & 255u) / 255.0;
+  const double root = (texel >> (10 * channel) & 1023u) / 1023.0;
+  return root * root;
 }
 
 }  // namespace
 
-RgbD sampleColor(const Texture& texture, double u, double v, TextureFilter filter) {
-  const bool radiance = texture.format == TexelFormat::radiance;
+RgbD sampleTexture(const Texture& texture, double u, double v, TextureFilter filter) {
+  const Between x = texelsAround(tame(u), texture.width, texture.wrapU);
+  const Between y = texelsAround(1 - tame(v), texture.height, texture.wrapV);
   const auto channel = [&](int number) {
-    return filtered(texture, u, v, filter, [=](std::uint32_t texel) {
-      if (radiance) return static_cast<double>(decodeRadianceTexel(texel)[number]);
-      const double root = (texel >> (10 * number) & 1023u) / 1023.0;
-      return root * root;
-    });
+    const auto value = [&](int column, int row) {
+      return valueOf(texture.format, texture.texel(column, row), number);
+    };
+    if (filter == TextureFilter::nearest) return value(x.nearest(), y.nearest());
+    const double upperRow =
+        value(x.lower, y.lower) * (1 - x.fraction) + value(x.upper, y.lower) * x.fraction;
+    const double lowerRow =
+        value(x.lower, y.upper) * (1 - x.fraction) + value(x.upper, y.upper) * x.fraction;
+    return upperRow * (1 - y.fraction) + lowerRow * y.fraction;
   };
   return {channel(0), channel(1), channel(2)};
-}
-
-DataSample sampleData(const Texture& texture, double u, double v, TextureFilter filter) {
-  const auto channel = [&](int shift) {
-    return filtered(texture, u, v, filter,
-                    [shift](std::uint32_t texel) { return (texel >> shift & 255u) / 255.0; });
-  };
-  return {channel(0), channel(8), channel(16), channel(24)};
 }
 
 double mipLevel(double area) {
   return area > 1 ? 0.5 * std::log2(std::min(area, double{kLargestArea})) : 0;
 }
 
-RgbD sampleColor(const MipMaps& maps, std::size_t texture, double u, double v, double level) {
+RgbD sampleTexture(const MipMaps& maps, std::size_t texture, double u, double v, double level) {
   const int lower = static_cast<int>(level);
   const double between = level - lower;
-  const RgbD a = sampleColor(maps.level(texture, lower), u, v),
-             b = sampleColor(maps.level(texture, lower + 1), u, v);
+  const RgbD a = sampleTexture(maps.level(texture, lower), u, v),
+             b = sampleTexture(maps.level(texture, lower + 1), u, v);
   return a + (b - a) * between;
-}
-
-DataSample sampleData(const MipMaps& maps, std::size_t texture, double u, double v, double level) {
-  const int lower = static_cast<int>(level);
-  const double between = level - lower;
-  const DataSample a = sampleData(maps.level(texture, lower), u, v),
-                   b = sampleData(maps.level(texture, lower + 1), u, v);
-  const auto mixed = [&](double DataSample::*c) { return a.*c + (b.*c - a.*c) * between; };
-  return {mixed(&DataSample::r), mixed(&DataSample::g), mixed(&DataSample::b),
-          mixed(&DataSample::a)};
 }
 
 }  // namespace whit::reference

@@ -1,4 +1,4 @@
-// Texture lookups in double precision. None of these mixes mip levels but those that take MipMaps.
+// Texture lookups in double precision.
 #pragma once
 
 #include "bake/mip_maps.h"
@@ -7,24 +7,16 @@
 namespace whit::reference {
 
 // u to the right, v upwards; texel centers lie at half-integers. Coordinates that are not finite or
-// beyond 2^20 either way, where a float holds no fraction of a texel any more, count as 0.
-// Linear light, of a texture in TexelFormat::color or TexelFormat::radiance.
-RgbD sampleColor(const Texture& texture, double u, double v,
-                 TextureFilter filter = TextureFilter::bilinear);
-
-struct DataSample {
-  double r = 0, g = 0, b = 0, a = 0;
-};
-// Channels in [0, 1], of a texture in TexelFormat::data.
-DataSample sampleData(const Texture& texture, double u, double v,
-                      TextureFilter filter = TextureFilter::bilinear);
+// beyond 2^20 either way, where a float holds no fraction of a texel any more, count as 0. Linear
+// light, or of a texture in TexelFormat::data the first three channels, in [0, 1].
+RgbD sampleTexture(const Texture& texture, double u, double v,
+                   TextureFilter filter = TextureFilter::bilinear);
 
 // The mip level at which a texel is as large as the `area` of the full texture, in texels: 0 up to
 // one texel, and one more each time that the area's sides double. 0 where the area is no number.
 double mipLevel(double area);
 
 // Bilinear lookups in the levels below and above `level`, mixed by its fraction.
-RgbD sampleColor(const MipMaps& maps, std::size_t texture, double u, double v, double level);
-DataSample sampleData(const MipMaps& maps, std::size_t texture, double u, double v, double level);
+RgbD sampleTexture(const MipMaps& maps, std::size_t texture, double u, double v, double level);
 
 }  // namespace whit::reference
