@@ -239,7 +239,9 @@ void refreshShading(const Scene& scene, EffectSet effects, const ShadingChoices&
   const bool sameTextures = std::ranges::equal(
       before, tables.materials,
       [](const MaterialRecord& a, const MaterialRecord& b) { return mapsOf(a) == mapsOf(b); });
-  if (sameTextures) {
+  const bool lacksMips = shading.textureFilter == TextureFilter::trilinear &&
+                         tables.mipLevels.empty() && !scene.textures.empty();
+  if (sameTextures && !lacksMips) {
     addLighting(scene, effects, tables);
   } else {
     tables = buildTables(scene, effects, shading, threads);

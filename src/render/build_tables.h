@@ -15,9 +15,8 @@ ShadingTables buildTables(const Scene& scene, EffectSet effects, const ShadingCh
 // After moveScene().
 void refreshInstances(const Scene& scene, ShadingTables& tables);
 
-// After materials or lights of the scene, or the effects, have changed, choices being the same:
-// texels and geometry, which take long to copy, stay where they are, unless other textures are
-// needed now.
+// After materials or lights of the scene, the effects or choices have changed: texels and geometry,
+// which take long to copy, stay where they are, unless other textures or mip maps are needed now.
 void refreshShading(const Scene& scene, EffectSet effects, const ShadingChoices& shading,
                     int threads, ShadingTables& tables);
 

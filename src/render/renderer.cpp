@@ -263,11 +263,7 @@ void Renderer::forgetShadowRequests() {
 
 void Renderer::shadingChanged() {
   Plan plan = makePlan(scene_, options_, usesShadowCache(options_));
-  if (plan.effects == plan_.effects) {
-    refreshShading(scene_, plan.effects, options_.shading, machine_.threads, tables_);
-  } else {
-    tables_ = buildTables(scene_, plan.effects, options_.shading, machine_.threads);
-  }
+  refreshShading(scene_, plan.effects, options_.shading, machine_.threads, tables_);
   replan(std::move(plan));
   renewShadowCache();
 }
@@ -279,14 +275,8 @@ void Renderer::setOptions(const RenderOptions& options) {
         "alpha masks, spheres and instances are part of the acceleration structure: it has to be "
         "built anew");
   }
-  const bool lacksMips = plan.features.has(Feature::cones) && tables_.mipLevels.empty();
-  if (rebuildNeeded(options_, options) >= Rebuild::tables) {
-    if (lacksMips) {
-      tables_ = buildTables(scene_, plan.effects, options.shading, machine_.threads);
-    } else if (plan.effects != plan_.effects) {
-      refreshShading(scene_, plan.effects, options.shading, machine_.threads, tables_);
-    }
-  }
+  if (rebuildNeeded(options_, options) >= Rebuild::tables)
+    refreshShading(scene_, plan.effects, options.shading, machine_.threads, tables_);
   replan(std::move(plan));
   takeOver(options, Rebuild::tables, options_);
   renewShadowCache();
