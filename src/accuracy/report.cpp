@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/option_table.h"
+#include "core/quantile.h"
 #include "core/text.h"
 
 namespace whit::accuracy {
@@ -102,6 +104,31 @@ std::string fieldOf(const Json& value) {
   return quoted + "\"";
 }
 
+// An array of one object for each point, all with the same keys.
+Json sweepRows(const SceneSweep& sweep, const Json& facts) {
+  Json rows = Json::array();
+  for (const Point& point : sweep.points) {
+    Json row{{"scene", sweep.scene}, {"width", sweep.width}, {"height", sweep.height}};
+    row["kind"] = kPointKindNames[static_cast<std::size_t>(point.kind)];
+    row["knob"] = point.knob;
+    row["value"] = point.value;
+    row["cause"] = point.cause ? kCauseNames[static_cast<std::size_t>(*point.cause)] : "";
+    addTiming(row, point);
+    addErrors(row, point);
+    addRun(row, sweep, point, facts);
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+std::string referenceText(const SceneSweep& sweep) {
+  return formatted(
+      "reference: scalar, double precision, depth %d, cutoff %g, %d samples a pixel, "
+      "%.1f s",
+      kDepthLimit, static_cast<double>(sweep.referenceCutoff), sweep.referenceSamples,
+      sweep.referenceMs / 1e3);
+}
+
 // The build turns report.html into a string literal.
 constexpr std::string_view kTemplate =
 #include "report_html.inc"
@@ -121,6 +148,9 @@ Json pointsJson(const SceneSweep& sweep, const Json& facts) {
   }
   return points;
 }
+
+// A larger increase of FLIP is called visible.
+constexpr double kVisibleFlip = 0.01;
 
 Json sceneJson(const SceneSweep& sweep, const Json& facts) {
   const Noise noise = noiseOf(sweep);
@@ -195,20 +225,60 @@ std::string rowOf(const Point& point, std::size_t labelWidth) {
 
 }  // namespace
 
-Json sweepRows(const SceneSweep& sweep, const Json& facts) {
-  Json rows = Json::array();
-  for (const Point& point : sweep.points) {
-    Json row{{"scene", sweep.scene}, {"width", sweep.width}, {"height", sweep.height}};
-    row["kind"] = kPointKindNames[static_cast<std::size_t>(point.kind)];
-    row["knob"] = point.knob;
-    row["value"] = point.value;
-    row["cause"] = point.cause ? kCauseNames[static_cast<std::size_t>(*point.cause)] : "";
-    addTiming(row, point);
-    addErrors(row, point);
-    addRun(row, sweep, point, facts);
-    rows.push_back(std::move(row));
+std::vector<std::size_t> paretoFront(const std::vector<CostAndError>& points) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (std::isfinite(points[i].cost) && std::isfinite(points[i].error)) order.push_back(i);
   }
-  return rows;
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
+    if (points[a].cost != points[b].cost) return points[a].cost < points[b].cost;
+    return points[a].error < points[b].error;
+  });
+  std::vector<std::size_t> front;
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::size_t i : order) {
+    if (points[i].error >= least) continue;
+    least = points[i].error;
+    front.push_back(i);
+  }
+  return front;
+}
+
+void markFronts(std::vector<Point>& points) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  std::vector<CostAndError> total, same;
+  for (Point& point : points) {
+    point.onFront = point.onFrontSameSamples = false;
+    const double ms = point.timing.hasSpread() ? point.timing.settledMs : kNone;
+    total.push_back({ms, point.total.flipMean});
+    same.push_back({ms, point.sameSamples ? point.sameSamples->flipMean : kNone});
+  }
+  for (const std::size_t i : paretoFront(total)) points[i].onFront = true;
+  for (const std::size_t i : paretoFront(same)) points[i].onFrontSameSamples = true;
+}
+
+Noise noiseOf(const SceneSweep& sweep) {
+  std::vector<double> spreads;
+  for (const Point& point : sweep.points) {
+    if (point.kind != PointKind::baseline && point.timing.hasSpread())
+      spreads.push_back(point.timing.spreadPct() / 100);
+  }
+  const auto& rounding = sweep.points.front().sameSamples;
+  return {quantile(spreads, 0.5), rounding ? rounding->flipMean : 0};
+}
+
+std::vector<IdleKnob> groupedByReason(const std::vector<IdleKnob>& idle) {
+  std::vector<IdleKnob> groups;
+  for (const IdleKnob& knob : idle) {
+    const auto same = [&](const IdleKnob& group) { return group.because == knob.because; };
+    const auto group = std::ranges::find_if(groups, same);
+    if (group == groups.end()) {
+      groups.push_back(knob);
+    } else {
+      group->name += ", " + knob.name;
+    }
+  }
+  return groups;
 }
 
 std::string csvOf(const Json& rows) {
@@ -263,14 +333,6 @@ std::string base64(std::string_view bytes) {
       text += i + k <= bytes.size() ? kDigits[bits >> (18 - 6 * k) & 63] : '=';
   }
   return text;
-}
-
-std::string referenceText(const SceneSweep& sweep) {
-  return formatted(
-      "reference: scalar, double precision, depth %d, cutoff %g, %d samples a pixel, "
-      "%.1f s",
-      kDepthLimit, static_cast<double>(sweep.referenceCutoff), sweep.referenceSamples,
-      sweep.referenceMs / 1e3);
 }
 
 std::string transportText(const SceneSweep& sweep) {

@@ -27,9 +27,6 @@ struct Noise {
 };
 Noise noiseOf(const SceneSweep& sweep);
 
-// A larger increase of FLIP is called visible.
-inline constexpr double kVisibleFlip = 0.01;
-
 // One entry for each reason, with the names of all that were left out for it: "depth=8, bvh".
 std::vector<IdleKnob> groupedByReason(const std::vector<IdleKnob>& idle);
 
@@ -39,20 +36,16 @@ using Json = nlohmann::ordered_json;
 // kTableColumns letters.
 inline constexpr std::size_t kTableColumns = 100;
 std::string sweepTable(const SceneSweep& sweep, std::uint32_t seed);
-// One line about the scalar reference, and one about the picture with all transport, which is empty
-// if that picture is not the truth.
-std::string referenceText(const SceneSweep& sweep);
+// One line about the picture with all transport; empty if that picture is not the truth.
 std::string transportText(const SceneSweep& sweep);
 
-// An array of one object for each point, all with the same keys. Errors come in groups: total_
-// (against the truth), same_samples_, sampling_, algorithm_, arithmetic_ and transport_; null was
-// not measured. Times are in milliseconds, shares in per cent. All rows end with `facts`, which say
-// with which machine and settings the run was made.
-Json sweepRows(const SceneSweep& sweep, const Json& facts);
-
-// The rows as CSV, with the keys of the first as header. Null is an empty field, true is "yes", and
-// a number has seven digits.
+// An array of objects with equal keys as CSV, with the keys of the first as header. Null is an
+// empty field, true is "yes", and a number has seven digits.
 std::string csvOf(const Json& rows);
+// A row for each point. Errors come in groups: total_ (against the truth), same_samples_,
+// sampling_, algorithm_, arithmetic_ and transport_; null was not measured. Times are in
+// milliseconds, shares in per cent. All rows end with `facts`, which say with which machine and
+// settings the run was made.
 std::string sweepCsv(const std::vector<SceneSweep>& sweeps, const Json& facts);
 
 // The data of the report: {"report": "accuracy", "scenes": [...]}. The points of a scene are its
