@@ -109,6 +109,15 @@ struct Image::Data {
   ImageMetadata metadata, aboutChannels;
 };
 
+// A copy of a renderer's scene at its present time, for the views of the Python module.
+struct [[gnu::visibility("default")]] Snapshot {
+  explicit Snapshot(Renderer & renderer);
+  whit::Scene scene;
+  std::string name;        // by which the scene was read
+  whit::LoadOptions load;  // with the settings so far, and the time if it was set
+  bool isMade = false;     // no command line opens the scene: it was made or moved by a program
+};
+
 // The queries of whit.h (rays.cpp): rays come as the program's numbers, are answered on all
 // threads, and go back in columns.
 struct Queried {

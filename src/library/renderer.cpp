@@ -296,6 +296,16 @@ void Renderer::renderOnPath(double seconds, Image& image) {
   });
 }
 
+Snapshot::Snapshot(Renderer& renderer) {
+  Renderer::Data& data = *renderer.data_;
+  data.move();
+  scene = data.internal();
+  name = data.own().name;
+  load = data.own().load;
+  if (data.seconds != 0) load.instant.seconds = data.seconds;
+  isMade = data.own().text || !data.places.empty();
+}
+
 const FrameStatistics& Renderer::statistics() const { return data_->statistics; }
 
 RayHits Renderer::closest(const Rays& rays) { return data_->ask(api::closest, rays); }

@@ -424,6 +424,7 @@ class Renderer {
                                       int samples);
 
  private:
+  friend struct Snapshot;
   struct Data;
   DataPointer<std::unique_ptr<Data>> data_;
 };

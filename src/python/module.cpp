@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "library/whit.h"
+#include "python/view.h"
 
 namespace whit::python {
 
@@ -121,9 +122,6 @@ auto call(const py::object& function, Body&& body) {
   return body(std::ref(onlooker));
 }
 
-// Options and their values, as on the command line.
-using OptionTexts = std::vector<std::pair<std::string, std::string>>;
-
 struct Picture {
   api::Image image;
   api::FrameStatistics statistics;
@@ -189,6 +187,15 @@ class Session {
     const Turn turn(*this);
     renderer_.setTime(seconds);
   }
+
+#ifdef WHIT_SERVE
+  std::unique_ptr<View> view(const OptionTexts& options, int port) {
+    const Turn turn(*this);
+    return call(py::none(), [&](const api::Progress&) {
+      return std::make_unique<View>(renderer_, options, port);
+    });
+  }
+#endif
 
   void setTransform(const std::string& pointer, const std::array<double, 12>& rows) {
     const Turn turn(*this);
@@ -451,6 +458,20 @@ void defineQueries(py::class_<Session>& session) {
                            });
 }
 
+#ifdef WHIT_SERVE
+void defineView(py::module_& module, py::class_<Session>& session) {
+  using NoGil = py::call_guard<py::gil_scoped_release>;
+  py::class_<View>(module, "View")
+      .def_property_readonly("url", &View::url)
+      .def("png",
+           [](const View& view) {
+             return py::bytes(call(py::none(), [&](const api::Progress&) { return view.png(); }));
+           })
+      .def("close", &View::close, NoGil());
+  session.def("view", &Session::view);
+}
+#endif
+
 void defineSession(py::module_& module) {
   // Queries a scene while no other thread uses it.
   const auto asked = [](auto member) {
@@ -479,6 +500,9 @@ void defineSession(py::module_& module) {
       .def("set_member", &Session::setMember)
       .def("set_time", &Session::setTime)
       .def("set_transform", &Session::setTransform);
+#ifdef WHIT_SERVE
+  defineView(module, session);
+#endif
 }
 
 void definePicture(py::module_& module) {

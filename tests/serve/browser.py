@@ -6,7 +6,6 @@ import subprocess
 import sys
 import tempfile
 import time
-import urllib.request
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 
@@ -57,15 +56,20 @@ class Browser:
             time.sleep(0.1)
         port = open(where).read().split("\n")[0]
         # In a network namespace of its own the browser is reached by a program in it.
-        command = [*prefix, "curl", "-s", f"http://127.0.0.1:{port}/json/list"]
-        pages = json.loads(subprocess.check_output(command)) if prefix else json.load(
-            urllib.request.urlopen(f"http://127.0.0.1:{port}/json/list"))
-        page = next(page for page in pages if page["type"] == "page")
-        self.socket = websocket.create_connection(page["webSocketDebuggerUrl"], timeout=60)
+        self.lister = [*prefix, "curl", "-s", f"http://127.0.0.1:{port}/json/list"]
         self.number = 0
         self.events = []
-        for domain in ("Page", "Runtime", "Network", "Log"):
-            self.call(f"{domain}.enable")
+        self.attach("page")
+
+    def attach(self, kind):
+        """Talks to the page, or to the "iframe" of another site in it, from now on. Returns whether it is there."""
+        pages = json.loads(subprocess.check_output(self.lister))
+        page = next((page for page in pages if page["type"] == kind), None)
+        if page:
+            self.socket = websocket.create_connection(page["webSocketDebuggerUrl"], timeout=60)
+            for domain in ("Page", "Runtime", "Network", "Log"):
+                self.call(f"{domain}.enable")
+        return page is not None
 
     def call(self, method, **parameters):
         self.number += 1

@@ -253,7 +253,8 @@ class Server::Http : public httplib::Server {
         {{"Content-Security-Policy",
           withNonce("default-src 'none'; connect-src 'self'; img-src blob: data:; base-uri 'none'; "
                     "form-action 'none'; script-src 'nonce-NONCE'; style-src 'nonce-NONCE'; "
-                    "frame-ancestors 'none'")},
+                    "frame-ancestors ") +
+              (server.options_.framed ? "http://localhost:* http://127.0.0.1:*" : "'none'")},
          {"X-Content-Type-Options", "nosniff"},
          {"Referrer-Policy", "no-referrer"},
          {"Cache-Control", "no-store"}});
@@ -430,6 +431,8 @@ std::string Server::url() const {
 }
 
 void Server::run() { http_->listen_after_bind(); }
+
+bool Server::isRunning() const { return http_->is_running(); }
 
 void Server::stop() {
   http_->stop();

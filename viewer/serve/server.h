@@ -16,6 +16,7 @@ struct ServerOptions {
   std::string bind = "127.0.0.1";
   int port = 0;               // 0: kUsualPort, or any free one if that is taken
   double requestSeconds = 5;  // in which a request is to arrive
+  bool framed = false;        // notebooks of this machine show the page in a frame
 };
 inline constexpr int kUsualPort = 8765;
 
@@ -43,8 +44,9 @@ class Server {
   int port() const { return port_; }
   const std::string& token() const { return token_; }
   std::string url() const;
-  void run();   // returns after stop()
-  void stop();  // any thread may call it
+  void run();              // returns after stop()
+  bool isRunning() const;  // until then stop() does nothing
+  void stop();             // any thread may call it
 
  private:
   class Http;

@@ -75,9 +75,7 @@ bool Timeline::step(double later) {
 
 Timeline timelineOf(const Scene& scene, const Instant& instant) {
   Timeline timeline;
-  timeline.there = !scene.motion.empty();
   timeline.seconds = instant.seconds.value_or(0);
-  timeline.playing = timeline.there && !instant.seconds;
   timeline.animation = instant.animation;
   for (const Animation& animation : scene.animations) {
     // A model's first animation plays unless another is named; motions of a scene file always do.
@@ -92,6 +90,9 @@ Timeline timelineOf(const Scene& scene, const Instant& instant) {
     if (camera.node != kNoNode) continue;  // without a node it flies along the path
     timeline.length = std::max(timeline.length, static_cast<double>(scene.cameraPath.back().time));
   }
+  // What only a program moves has no time of its own.
+  timeline.there = timeline.length > 0;
+  timeline.playing = timeline.there && !instant.seconds;
   if (timeline.animations.size() == 1) timeline.animations.clear();
   return timeline;
 }
@@ -160,6 +161,7 @@ Session::Session(const ViewOptions& options, const std::shared_ptr<cli::OpenScen
   settings_.options = own_;
   settings_.view = options.view;
   settings_.timeline = timelineOf(scene->scene, options.common.load.instant);
+  if (scene->isMade) settings_.timeline.animations.clear();  // others would have to be read
   const Camera start = control_.camera();
   show(start);
   for (std::size_t i = 0; i < scene->scene.cameras.size() && !followed_; ++i) {
@@ -368,7 +370,8 @@ void Session::passOnEdit() {
 void Session::watch(const std::string& scene) {
   sceneName_ = scene;
   rememberRecent(scene, settings_.recent);
-  sceneFile_ = findScene(parseSceneName(scene).file);
+  if (scene_->isMade) return;
+  sceneFile_ = findScene(parseSceneName(scene).file, options_.common.load.shippedScenes);
   sceneFileTime_ = timeOf(sceneFile_);
 }
 
@@ -389,6 +392,7 @@ void Session::load(const SceneChoice& choice, const std::string& message) {
 
 void Session::reload() {
   if (!opening_.empty()) return open(opening_);  // sceneName_ is still that of the old scene
+  if (scene_->isMade) throwUsage("the scene was made by a program: it cannot be read again here");
   load({sceneName_, scene_->settings, settings_.timeline.animation}, "reading the scene again");
 }
 
@@ -447,6 +451,7 @@ void Session::fitView(const ImageSize& window) {
 
 // Returns the command that makes the view shown with these options.
 std::string Session::command(const RenderOptions& options) const {
+  if (shown_.scene->isMade) return "# The scene was made by a program: no command renders it.";
   const std::lock_guard lock(shown_.scene->moving);
   return renderCommand(sceneName_, options_.common, shown_, options);
 }

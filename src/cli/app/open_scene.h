@@ -23,7 +23,8 @@ struct OpenScene {
   // The options --set and --sky that it was read with.
   std::vector<std::string> settings;
   std::string sky;
-  double loadMs = 0;  // reading and baking
+  double loadMs = 0;    // reading and baking
+  bool isMade = false;  // made or moved by a program: no command line opens it
   // Held while the scene is brought to another time, where other threads look at it.
   mutable std::mutex moving;
 };

@@ -14,6 +14,7 @@ from __future__ import annotations
 import json
 import operator
 import os
+import weakref
 from typing import Any, Callable, Mapping, Optional, Sequence, Union
 
 import numpy as np
@@ -25,7 +26,7 @@ from ._describe import Description
 from ._error import Error, in_python
 from ._rays import Hits
 
-__all__ = ["Camera", "Error", "Hits", "Mesh", "Picture", "Scene"]
+__all__ = ["Camera", "Error", "Hits", "Mesh", "Picture", "Scene", "View"]
 __version__ = _whit.version()
 
 Progress = Callable[[str, float], Optional[bool]]
@@ -135,6 +136,39 @@ class Picture:
 def _picture(data: bytes, statistics: dict[str, Any]) -> Picture:
     """A picture from its pickle."""
     return Picture(_whit.picture(data), statistics)
+
+
+class View:
+    """The viewer of a scene in a browser (Scene.view()), served by this process until close(), the
+    end of the object or that of the process.
+
+    Notebooks show the page in a frame, and its picture where they cannot show a page.
+    """
+
+    url: str = _native("url", "Address of the page, for a browser on the same machine.")
+
+    def __init__(self, view: Any, width: Union[int, str], height: int) -> None:
+        self._object = view
+        self._end = weakref.finalize(self, view.close)
+        self._frame = (f'<iframe src="{self.url}" width="{width}" height="{height}" frameborder="0"'
+                       ' allow="clipboard-write; fullscreen"></iframe>')
+
+    def close(self) -> None:
+        """Ends the server; the page stays with its last picture."""
+        self._end()
+
+    def png(self) -> bytes:
+        """The bytes of a PNG of what the page shows, at full resolution."""
+        return self._object.png()
+
+    def _repr_html_(self) -> Optional[str]:
+        return self._frame if self._end.alive else None
+
+    def _repr_png_(self) -> Optional[bytes]:
+        return self.png() if self._end.alive else None
+
+    def __repr__(self) -> str:
+        return f"<whit.View: {self.url if self._end.alive else 'closed'}>"
 
 
 class Scene:
@@ -280,6 +314,26 @@ class Scene:
         texts = _options.texts({"size": camera.size, **options, "camera": None})
         text = Description("camera").text(camera.members)
         return Picture(self._object.render(texts, path_time, progress, text, (budget, target)))
+
+    def view(self, *, width: Union[int, str] = "100%", height: int = 600, port: int = 0,
+             **options: Any) -> Union[View, Picture]:
+        """Shows the scene, as it is now, in the viewer of `whit serve`: in a notebook in a frame,
+        elsewhere at the `url` of the result. Without cpp-httplib the module has no server: then
+        this is render().
+
+        width, height: of the frame, in pixels of CSS or as a text with a unit.
+        port: 0: 8765, or any free one if that is taken. Where the browser runs on another machine
+            than the notebook, it must be forwarded as well: ssh -L 8765:127.0.0.1:8765.
+
+        The options are those of render(), without Camera, crop and mode="reference". Later changes
+        of the scene do not show. The scene is copied, and has an acceleration structure of its own.
+        """
+        if isinstance(options.get("camera"), Camera):
+            raise TypeError("camera: view() takes the name of one of the scene's cameras")
+        texts = _options.texts(options, "view")
+        if not hasattr(self._object, "view"):
+            return self.render(**options)
+        return View(self._object.view(texts, port), width, height)
 
     def closest(self, origins: Any, directions: Any, *, t_near: Any = 0.0, t_far: Any = np.inf,
                 progress: Optional[Progress] = None) -> Hits:

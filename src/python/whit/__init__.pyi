@@ -1,11 +1,12 @@
 # By make_stubs.py, of __init__.py and the library's table of options.
 import json
 import os
+import weakref
 from typing import Any, Callable, Literal, Mapping, Optional, Sequence, Union
 import numpy as np
 from ._arrays import Mesh as Mesh
 from ._error import Error as Error, in_python
-__all__ = ['Camera', 'Error', 'Hits', 'Mesh', 'Picture', 'Scene']
+__all__ = ['Camera', 'Error', 'Hits', 'Mesh', 'Picture', 'Scene', 'View']
 __version__: str
 Progress = Callable[[str, float], Optional[bool]]
 class Picture:
@@ -65,6 +66,29 @@ class Picture:
         ...
 
     def __array__(self, dtype: Any=None, copy: Any=None) -> np.ndarray:
+        ...
+
+    def __repr__(self) -> str:
+        ...
+class View:
+
+    @property
+    def url(self) -> str:
+        ...
+
+    def __init__(self, view: Any, width: Union[int, str], height: int) -> None:
+        ...
+
+    def close(self) -> None:
+        ...
+
+    def png(self) -> bytes:
+        ...
+
+    def _repr_html_(self) -> Optional[str]:
+        ...
+
+    def _repr_png_(self) -> Optional[bytes]:
         ...
 
     def __repr__(self) -> str:
@@ -132,6 +156,9 @@ class Scene:
         ...
 
     def render(self, *, path_time: Optional[float]=None, budget: str='', target: str='', progress: Optional[Progress]=None, quality: Optional[Literal['good', 'standard', 'fine', 'reference']]=None, size: Optional[Union[str, tuple[int, int]]]=None, camera: Optional[str]=None, eye: Optional[Sequence[float]]=None, at: Optional[Sequence[float]]=None, up: Optional[Sequence[float]]=None, fov: Optional[float]=None, ortho: Optional[float]=None, crop: Optional[Union[str, tuple[int, int, int, int]]]=None, spp: Optional[int]=None, adaptive: Optional[bool]=None, contrast: Optional[int]=None, depth: Optional[int]=None, glossy: Optional[int]=None, indirect: Optional[int]=None, cutoff: Optional[float]=None, roulette: Optional[float]=None, light_samples: Optional[int]=None, ambient_samples: Optional[int]=None, light_cutoff: Optional[float]=None, fresnel: Optional[Literal['exact', 'schlick']]=None, texture_filter: Optional[Literal['nearest', 'bilinear', 'trilinear']]=None, offset: Optional[Literal['bound', 'fixed', 'wachter-binder']]=None, terminator: Optional[bool]=None, bend: Optional[bool]=None, threads: Optional[int]=None, packet: Optional[Literal['auto', 1, 4, 8, 16]]=None, simd: Optional[Literal['auto', 'avx3', 'avx2', 'sse4', 'sse2', 'neon', 'scalar']]=None, mode: Optional[Literal['packets', 'reference']]=None, batch: Optional[Literal['tile', 'frame']]=None, robust: Optional[bool]=None, retry: Optional[bool]=None, bvh: Optional[Literal['low', 'medium', 'high']]=None, shadow_cache: Optional[Literal['auto', 'off', 'audit']]=None, sphere_segments: Optional[int]=None, effects: Optional[Literal['auto', 'all']]=None, disable: Optional[Union[str, Sequence[str]]]=None, exposure: Optional[Union[float, Literal['auto']]]=None, tonemap: Optional[Literal['none', 'filmic', 'reinhard']]=None, background: Optional[str]=None, tile: Optional[int]=None, queue: Optional[int]=None, channels: Optional[Union[str, Sequence[str]]]=None, strict: Optional[bool]=None) -> Picture:
+        ...
+
+    def view(self, *, width: Union[int, str]='100%', height: int=600, port: int=0, **options: Any) -> Union[View, Picture]:
         ...
 
     def closest(self, origins: Any, directions: Any, *, t_near: Any=0.0, t_far: Any=np.inf, progress: Optional[Progress]=None) -> Hits:

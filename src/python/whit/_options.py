@@ -37,13 +37,13 @@ class Option(NamedTuple):
 OPTIONS = {option.keyword: option for option in (Option(*row) for row in _whit.option_table())}
 
 
-def texts(given: dict[str, Any]) -> list[tuple[str, str]]:
+def texts(given: dict[str, Any], of: str = "render") -> list[tuple[str, str]]:
     """Names and values of the options that are not None, in the order of the table."""
     for keyword in given:
         if keyword not in OPTIONS:
             near = difflib.get_close_matches(keyword, OPTIONS, 1)
             hint = f"; is {near[0]!r} meant?" if near else ""
-            raise TypeError(f"render() got an unexpected keyword argument {keyword!r}{hint}")
+            raise TypeError(f"{of}() got an unexpected keyword argument {keyword!r}{hint}")
     return [(option.name, option.text(given[keyword])) for keyword, option in OPTIONS.items()
             if given.get(keyword) is not None]
 

@@ -1,0 +1,87 @@
+#ifdef WHIT_SERVE
+#include "python/view.h"
+
+#include <chrono>
+#include <thread>
+
+#include "core/option_table.h"
+#include "library/internal.h"
+#include "viewer/serve/server.h"
+
+namespace whit::python {
+
+namespace {
+
+view::ViewOptions viewOptions(const api::Snapshot& snapshot, const OptionTexts& options) {
+  view::ViewOptions all;
+  all.scene = snapshot.name;
+  cli::CommonOptions& common = all.common;
+  common.quiet = true;
+  for (const auto& [name, value] : options) {
+    setOption(common.render, name, value);
+    common.given.insert(name);
+  }
+  applyQuality(common.render, common.given);
+  view::settleViewOptions(all);
+  common.load = snapshot.load;
+  return all;
+}
+
+std::shared_ptr<cli::OpenScene> openScene(api::Snapshot& snapshot) {
+  auto open = std::make_shared<cli::OpenScene>(false);
+  open->scene = std::move(snapshot.scene);
+  open->settings = snapshot.load.settings;
+  open->sky = snapshot.load.sky;
+  open->isMade = snapshot.isMade;
+  return open;
+}
+
+}  // namespace
+
+struct View::Served {
+  Served(api::Snapshot snapshot, const OptionTexts& texts, int port)
+      : options(viewOptions(snapshot, texts)),
+        session(options, openScene(snapshot)),
+        server(session, {.port = port, .framed = true}),
+        thread([this] { server.run(); }) {
+    // Until the server runs, stop() would have no effect.
+    while (!server.isRunning()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  ~Served() {
+    server.stop();
+    thread.join();
+  }
+  Served(const Served&) = delete;
+  Served& operator=(const Served&) = delete;
+
+  const view::ViewOptions options;
+  serve::ServedSession session;
+  serve::Server server;
+  std::thread thread;
+};
+
+View::View(api::Renderer& renderer, const OptionTexts& options, int port)
+    : served_(api::guarded(
+          [&] { return std::make_shared<Served>(api::Snapshot(renderer), options, port); })),
+      url_(served_.load()->server.url()) {}
+
+std::string View::png() const {
+  return api::guarded([&] {
+    const std::shared_ptr<Served> served = served_.load();  // close() waits for us
+    if (!served || process_ != getpid()) throwUsage("the view is closed");
+    served->session.watch(1);
+    std::string png = served->session.download(false);
+    served->session.watch(-1);
+    if (png.empty())
+      throwIo("the picture of the view takes too long: close() it, and use render()");
+    return png;
+  });
+}
+
+void View::close() {
+  std::shared_ptr<Served> served = served_.exchange(nullptr);
+  if (process_ != getpid()) new std::shared_ptr<Served>(std::move(served));  // leaks
+}
+
+}  // namespace whit::python
+#endif

@@ -1,0 +1,209 @@
+"""Scene.view(): the server in this process, its life and its picture, and its page in a frame."""
+
+import gc
+import http.server
+import json
+import os
+import pathlib
+import re
+import struct
+import subprocess
+import sys
+import threading
+import time
+import unittest
+import urllib.error
+import urllib.request
+
+import numpy as np
+
+import whit
+from samples import square_scene
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "serve"))
+
+SIZE = (64, 40)
+
+
+def status(url, **headers):
+    """The status of an answer; 0 where nobody listens."""
+    try:
+        return urllib.request.urlopen(urllib.request.Request(url, headers=headers), timeout=60).status
+    except urllib.error.HTTPError as error:
+        return error.code
+    except urllib.error.URLError:
+        return 0
+
+
+def say(view, line):
+    request = urllib.request.Request(view.url + "input", line.encode(), method="POST")
+    return urllib.request.urlopen(request, timeout=60).status
+
+
+def chunks(png):
+    """The texts of a PNG, and its compressed pixels."""
+    texts, pixels, at = {}, b"", 8
+    while at < len(png):
+        size, kind = struct.unpack(">I4s", png[at:at + 8])
+        data = png[at + 8:at + 8 + size]
+        if kind == b"tEXt":
+            texts.update([data.decode().split("\0", 1)])
+        elif kind == b"IDAT":
+            pixels += data
+        at += 12 + size
+    return texts, pixels
+
+
+class Page(http.server.BaseHTTPRequestHandler):
+    """A notebook: a page that shows a view in a frame."""
+
+    def do_GET(self):
+        body = b"<!doctype html><title>notebook</title>" + self.server.frame.encode()
+        self.send_response(200)
+        self.send_header("Content-Type", "text/html")
+        self.end_headers()
+        self.wfile.write(body)
+
+    def log_message(self, *_):
+        pass
+
+
+class Views(unittest.TestCase):
+    def same_picture(self, view, scene):
+        """The view's picture at rest is that of render(), bit for bit; samples are added at rest."""
+        texts, pixels = chunks(view.png())
+        expected = scene.render(size=SIZE, spp=int(texts["spp"])).png()
+        self.assertEqual(pixels, chunks(expected)[1])
+
+    def test_answers_with_its_token(self):
+        view = whit.Scene(square_scene()).view(size=SIZE)
+        self.assertRegex(view.url, r"^http://127\.0\.0\.1:\d+/[0-9a-f]{32}/$")
+        self.assertEqual(status(view.url), 200)
+        root = view.url[:-33]
+        self.assertEqual(status(root), 403)
+        self.assertEqual(status(root + "0" * 32 + "/"), 403)
+        self.assertEqual(status(view.url, Host="evil.example"), 421)
+        self.assertEqual(status(view.url, Origin="http://localhost:8888"), 403)
+        self.assertIn(f'src="{view.url}"', view._repr_html_())
+
+    def test_close_ends_it(self):
+        view = whit.Scene(square_scene()).view(size=SIZE)
+        view.close()
+        view.close()
+        self.assertEqual(status(view.url), 0)
+        self.assertIsNone(view._repr_html_())
+        self.assertIsNone(view._repr_png_())
+        with self.assertRaisesRegex(whit.Error, "closed"):
+            view.png()
+
+    def test_ends_with_the_object(self):
+        other = whit.Scene("whitted").view(size=SIZE)
+        self.assertEqual(status(other.url), 200)
+        threads = len(os.listdir("/proc/self/task"))
+        view = whit.Scene("whitted").view(size=SIZE)
+        url = view.url
+        self.assertEqual(status(url), 200)
+        self.assertGreater(len(os.listdir("/proc/self/task")), threads)
+        del view
+        gc.collect()
+        self.assertEqual([status(url), status(other.url)], [0, 200])
+        self.assertLessEqual(len(os.listdir("/proc/self/task")), threads)
+
+    def test_ends_with_the_process(self):
+        script = "import whit; view = whit.Scene('whitted').view(); print(view.url)"
+        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60,
+                              check=True)
+        self.assertEqual((status(done.stdout.strip()), done.stderr), (0, ""))
+
+    def test_a_fork_leaves_it_alone(self):
+        view = whit.Scene("whitted").view(size=SIZE)
+        child = os.fork()
+        if child == 0:
+            del view
+            gc.collect()
+            os._exit(0)
+        self.assertEqual(os.waitpid(child, 0)[1], 0)
+        self.assertEqual(status(view.url), 200)
+
+    def test_shows_scenes_as_they_are(self):
+        scene = whit.Scene(square_scene(), movable=["/scene/0"])
+        before = scene.view(size=SIZE)
+        scene.set("/lights/0/intensity", 5)
+        matrix = np.eye(4)
+        matrix[1, 3] = 0.5
+        scene.set_transform("/scene/0", matrix)
+        self.same_picture(scene.view(size=SIZE), scene)
+        self.same_picture(before, whit.Scene(square_scene()))
+        orrery = whit.Scene("orrery", moves=True)
+        orrery.set_time(3.25)
+        self.same_picture(orrery.view(size=SIZE), orrery)
+
+    def test_made_scenes_are_not_read_again(self):
+        view = whit.Scene(square_scene()).view(size=SIZE)
+        say(view, "reload")
+        with urllib.request.urlopen(view.url + "stream", timeout=60) as stream:
+            wanted = {b"cannot be read again", b"no command renders it"}
+            end = time.monotonic() + 60
+            while wanted and time.monotonic() < end:
+                size, = struct.unpack("<I", stream.read(4))
+                message = stream.read(size)
+                wanted -= {words for words in wanted if words in message}
+                drawn = re.search(rb'"page":(\d+).*"frame":(\d+)', message)
+                if drawn:
+                    say(view, f"ack {int(drawn[1])} {int(drawn[2])}")
+        self.assertEqual(wanted, set())
+
+    def test_refuses_what_it_cannot_show(self):
+        scene = whit.Scene(square_scene())
+        for options, error, words in (
+                ({"crop": (0, 0, 8, 8)}, whit.Error, "crop"),
+                ({"mode": "reference"}, whit.Error, "reference"),
+                ({"camera": "behind"}, whit.Error, "behind"),
+                ({"camera": scene.camera()}, TypeError, "camera"),
+                ({"dept": 3}, TypeError, r"view\(\).*depth")):
+            with self.assertRaisesRegex(error, words):
+                scene.view(**options)
+        view = scene.view()
+        with self.assertRaisesRegex(whit.Error, "taken") as caught:
+            scene.view(port=int(view.url.split(":")[2].split("/")[0]))
+        self.assertEqual(caught.exception.exit_status, 4)
+
+    def test_a_notebook_shows_it_in_a_frame(self):
+        from browser import Browser
+        view = whit.Scene(square_scene()).view(width=640, height=400)
+        # A notebook's page is of localhost; a page of another host may not frame the view.
+        ports = {}
+        for host in ("127.0.0.1", "127.0.0.2"):
+            server = http.server.ThreadingHTTPServer((host, 0), Page)
+            self.addCleanup(server.shutdown)
+            server.frame = view._repr_html_()
+            ports[host] = server.server_address[1]
+            threading.Thread(target=server.serve_forever, daemon=True).start()
+        browser = Browser()
+        self.addCleanup(browser.stop)
+        browser.size(800, 600)
+        browser.open(f"http://127.0.0.2:{ports['127.0.0.2']}/")
+        browser.wait("document.title === 'notebook' && document.readyState === 'complete'")
+        self.assertTrue(any("frame-ancestors" in json.dumps(event) for event in browser.events), browser.events)
+        browser.open(f"http://localhost:{ports['127.0.0.1']}/")
+        end = time.monotonic() + 60
+        while not browser.attach("iframe"):
+            self.assertLess(time.monotonic(), end, "no frame")
+            time.sleep(0.1)
+        browser.wait("whit.exact && whit.frames > 1")
+        self.assertEqual(browser.run("return $('error').textContent"), "")
+        frames = browser.run("return whit.frames")
+        browser.drag((200, 200), (260, 220))
+        browser.wait(f"whit.frames > {frames}")
+        browser.wait("whit.exact")
+        if "WHIT_SCREENSHOT" in os.environ:
+            browser.attach("page")
+            browser.screenshot(os.environ["WHIT_SCREENSHOT"])
+
+
+if not hasattr(whit._whit, "View"):
+    print("!! NOT checked: the module was built without cpp-httplib, and has no views")
+    sys.exit(77)
+
+if __name__ == "__main__":
+    unittest.main()
