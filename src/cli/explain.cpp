@@ -202,11 +202,6 @@ Json treeJson(const Explained& e, const RayTree& tree, bool ofPackets) {
   return json;
 }
 
-std::string colorOf(RayLook look) {
-  const auto& color = styleOf(look).color;
-  return formatted("#%02x%02x%02x", color[0], color[1], color[2]);
-}
-
 std::string lineSvg(const ScreenLine& line, RayLook look, double width,
                     const std::string& more = "") {
   return formatted(
@@ -285,20 +280,6 @@ std::string drawDiagram(const ExplainJob& job, const Explained& e, Renderer& ren
                     pictureBy(seen, e.options, kDiagramSize, renderer, job));
 }
 
-Json lessonNode(const Explained& e, std::size_t number) {
-  const RayNode& n = e.rays.packets.nodes[number];
-  const RayText text = describeRay(e.scene, e.rays, number);
-  const bool primary = n.parent == number;
-  return {{"parent", primary ? Json() : Json(n.parent)},
-          {"kind", rowOf(n.kind).name},
-          {"color", colorOf({n.kind})},
-          {"met", text.met},
-          {"medium", text.medium},
-          {"lines", text.lines},
-          {"weight", jsonOf(n.weight)},
-          {"adds", jsonOf(addedBy(e.rays.packets, number, n.local))}};
-}
-
 // The build turns lesson.html into a string literal.
 constexpr std::string_view kLesson =
 #include "lesson_html.inc"
@@ -313,20 +294,19 @@ std::string lessonPage(const ExplainJob& job, const Explained& e, const std::str
             y0 = e.place.y - (e.place.y - window.y0) % side;
   const Crop tile{x0, y0, std::min(x0 + side, window.x1), std::min(y0 + side, window.y1)};
   const ImageSize size{film.image.width, film.image.height};
-  Json nodes = Json::array();
-  for (std::size_t i = 0; i < e.rays.packets.nodes.size(); ++i) nodes.push_back(lessonNode(e, i));
+  std::vector<RayText> words;
+  for (std::size_t i = 0; i < e.rays.packets.nodes.size(); ++i) {
+    words.push_back(describeRay(e.scene, e.rays, i));
+  }
   const std::string picture = pictureBy(camera, e.options, size, renderer, job);
   return accuracy::pageWith(
       kLesson, {{"scene", e.scene.name},
                 {"size", {size.width, size.height}},
                 {"pixel", {e.place.x, e.place.y}},
-                {"radiance", jsonOf(RgbD(e.rays.packets.pixel))},
                 {"reference", jsonOf(RgbD(e.rays.reference.pixel))},
-                {"codes", codesOf(e.rays.packets.pixel, e.options)},
-                {"shadow_rays", e.rays.packets.shadowRays()},
+                {"tree", pageTree(words, e.rays, e.options)},
                 {"picture", accuracy::base64(picture)},
                 {"diagram", diagram},
-                {"nodes", std::move(nodes)},
                 {"tile", {tile.x0, tile.y0, tile.x1, tile.y1}},
                 {"recorded", recordStages(renderer, camera, film, tile, e.place.x, e.place.y)}});
 }

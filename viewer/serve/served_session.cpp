@@ -25,10 +25,6 @@ constexpr double kIdleSeconds = 0.25, kLongestSeconds = 0.1;
 constexpr std::chrono::milliseconds kWait{200};
 constexpr int kDownloadTries = 150;  // as many waits as kWait
 
-std::string colorOf(const RayStyle& style) {
-  return formatted("#%02x%02x%02x", style.color[0], style.color[1], style.color[2]);
-}
-
 // Errors of files may hold bytes that are no UTF-8.
 std::string textOf(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -391,7 +387,7 @@ Json ServedSession::liveJson() const {
     if (!seen || !view::clip(*seen, size_.width, size_.height)) continue;
     const auto rounded = [](double x) { return std::round(10 * x) / 10; };
     json["lines"].push_back({rounded(seen->x1), rounded(seen->y1), rounded(seen->x2),
-                             rounded(seen->y2), colorOf(styleOf(line.look)), isDashed(line.look),
+                             rounded(seen->y2), cli::colorOf(line.look), isDashed(line.look),
                              rounded(line.width), line.node});
   }
   return json;
@@ -426,7 +422,7 @@ Json ServedSession::settledJson() const {
     json["tree"] = cli::pageTree(rays_.words, rays_.rays, settings_.options);
     json["tree"]["pixel"] = {rays_.query.x, rays_.query.y};
     for (const RayLook look : looksOf(rays_.lines)) {
-      json["tree"]["legend"].push_back({styleOf(look).name, colorOf(styleOf(look))});
+      json["tree"]["legend"].push_back({styleOf(look).name, cli::colorOf(look)});
     }
   }
   return json;

@@ -74,6 +74,11 @@ const char* nameOf(PathEnd end) {
   return kNames[static_cast<std::size_t>(end)];
 }
 
+std::string colorOf(RayLook look) {
+  const auto& color = styleOf(look).color;
+  return formatted("#%02x%02x%02x", color[0], color[1], color[2]);
+}
+
 RayText describeRay(const Scene& scene, const ExplainedRays& rays, std::size_t node) {
   const RayNode& n = rays.packets.nodes[node];
   RayText text{metText(scene, n), mediumName(scene, n.media), {}};
@@ -122,10 +127,9 @@ Json pageTree(const std::vector<RayText>& words, const ExplainedRays& rays,
             {"shadowRays", tree.shadowRays()}};
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
     const RayNode& n = tree.nodes[i];
-    const auto& color = styleOf(RayLook{n.kind}).color;
     json["nodes"].push_back({{"parent", n.parent},
                              {"kind", rowOf(n.kind).name},
-                             {"color", formatted("#%02x%02x%02x", color[0], color[1], color[2])},
+                             {"color", colorOf({n.kind})},
                              {"hit", words[i].met},
                              {"medium", words[i].medium},
                              {"weight", textOf(n.weight)},

@@ -10,15 +10,25 @@ function make(name, text, ...children) {
 
 function rayTree(tree, point) {
   const number = value => value.toFixed(5);
-  const sum = [0, 1, 2].map(i => tree.nodes.reduce((all, node) => all + node.adds[i], 0));
+  const sample = color => {
+    const mark = make('i');
+    mark.style.background = color;
+    return mark;
+  };
   const root = make('ul');
   root.className = 'tree';
-  const lists = [];
+  // What each ray brings with all that follow from it; children come after their parents.
+  const whole = tree.nodes.map(node => [...node.adds]), sum = [0, 0, 0], lists = [];
+  for (let i = tree.nodes.length - 1; i >= 0; --i) {
+    const parent = tree.nodes[i].parent, to = parent === i ? sum : whole[parent];
+    whole[i].forEach((value, c) => { to[c] += value; });
+  }
   const most = Math.max(1, ...tree.nodes.map(node => node.codes));
   tree.nodes.forEach((node, i) => {
-    const item = make('details');
-    const words = make('summary', `${node.kind}: ${node.hit}, ${node.codes} codes`);
-    words.style.color = `color-mix(in srgb, ${node.color} 75%, white)`;
+    const item = make('details'), bar = make('b'), share = Math.max(...whole[i]) / Math.max(...sum, 1e-30);
+    bar.style.width = `${(6 * share).toFixed(2)}rem`;
+    const words = make('summary', '', sample(node.color), `${node.kind}: ${node.hit}, ${node.codes} codes `, bar,
+      ` ${(100 * share).toFixed(1)} %`);
     item.open = node.codes >= 0.05 * most;
     item.dataset.node = i;
     const list = make('ul', '', make('li', `adds ${node.adds.map(number).join(' ')} by itself; weight ` +
@@ -36,11 +46,7 @@ function rayTree(tree, point) {
   total.className = 'sum';
   total.dataset.error = Math.max(...sum.map((value, i) =>
     Math.abs(value - tree.radiance[i]) / Math.max(1e-6, tree.radiance[i])));
-  const legend = make('p', '', ...(tree.legend || []).map(([name, color]) => {
-    const sample = make('i');
-    sample.style.background = color;
-    return make('span', '', sample, name);
-  }));
+  const legend = make('p', '', ...(tree.legend || []).map(([name, color]) => make('span', '', sample(color), name)));
   legend.className = 'legend';
   return [facts, total, legend, root];
 }
