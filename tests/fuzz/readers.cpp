@@ -191,7 +191,7 @@ void readInput(const fs::path& file) {
   try {
     for (const serve::Message& m :
          serve::readMessages({reinterpret_cast<const char*>(bytes.data()), bytes.size()})) {
-      const serve::Verb& verb = serve::kVerbs[static_cast<std::size_t>(m.act)];
+      const serve::Verb& verb = *std::ranges::find(serve::kVerbs, m.verb, &serve::Verb::name);
       for (std::size_t i = 0; i < verb.numbers; ++i) {
         if (!(m.numbers[i] >= verb.low && m.numbers[i] <= verb.high)) {
           throw std::logic_error("a number out of range");

@@ -95,6 +95,21 @@ TEST(PictureStream, SendsOnlyTilesThatChanged) {
   EXPECT_TRUE(stream.next(image, true, 2).empty());
 }
 
+// Messages at rest are short. The tiles that were left out of one come when the picture moves
+// again.
+TEST(PictureStream, TilesLeftOutAreNotForgotten) {
+  DisplayImage noise = picture(400, 300);
+  std::uint32_t random = 1;
+  for (std::uint8_t& code : noise.rgba) {
+    code = static_cast<std::uint8_t>((random = 1664525 * random + 1013904223) >> 24);
+  }
+  PictureStream stream;
+  const std::size_t first = parseJson(stream.next(noise, true, 0).list, "tiles").size();
+  const Tiles rest = stream.next(noise, false, 1);
+  EXPECT_GE(parseJson(rest.list, "tiles").size(), 1u) << first << " runs of tiles came first";
+  EXPECT_TRUE(stream.next(noise, false, 2).empty());
+}
+
 TEST(PictureStream, WaitsForAcknowledgements) {
   PictureStream stream;
   int sent = 0;

@@ -208,6 +208,24 @@ TEST_F(Serving, InputIsTakenOrRefusedWithItsReason) {
   EXPECT_EQ(post(many), 204);
 }
 
+TEST_F(Serving, EveryVerbIsServed) {
+  session_->watch(1);
+  for (const Verb& verb : kVerbs) {
+    if (verb.name == "ack") continue;  // tells the server about its pictures
+    std::string line(verb.name);
+    if (verb.named) line += " depth";
+    for (std::size_t i = 0; i < verb.numbers; ++i) line += " 1";
+    if (verb.text) line += " 1";
+    const auto before = session_->wait(0);
+    ASSERT_TRUE(session_->post(readMessages(line))) << line;
+    auto shot = session_->wait(before ? before->number : 0);
+    if (shot) shot = session_->wait(shot->number);  // the first may be older than the line
+    ASSERT_TRUE(shot) << line;
+    EXPECT_EQ(shot->live.find("map::at"), std::string::npos) << line;
+  }
+  session_->watch(-1);
+}
+
 TEST_F(Serving, APageGetsPictures) { EXPECT_EQ(watch(12), 12); }
 
 TEST_F(Serving, ADownloadIsAnExr) {

@@ -30,7 +30,7 @@ Message readMessage(std::string_view line, std::size_t number) {
   const std::string word = takeWord(line);
   const auto* const verb = std::ranges::find(kVerbs, std::string_view(word), &Verb::name);
   if (verb == kVerbs.end()) fail(number, "a verb, as 'left 3 -4'");
-  Message message{.act = static_cast<Act>(verb - kVerbs.begin()), .name = {}, .text = {}};
+  Message message{.verb = verb->name, .name = {}, .text = {}};
   if (verb->named) message.name = takeWord(line);
   for (std::size_t i = 0; i < verb->numbers; ++i) {
     double& value = message.numbers[i];

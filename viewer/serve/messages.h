@@ -9,13 +9,6 @@
 
 namespace whit::serve {
 
-// The acts. The words of the lines are kVerbs, in the same order.
-// clang-format off
-enum class Act { ack, size, left, middle, right, wheel, hold, click, camera, fit, path, play, time,
-                 animation, expose, view, rate, more, measure, set, effect, preset, aside, forget,
-                 reload };
-// clang-format on
-
 struct Verb {
   std::string_view name;
   std::size_t numbers = 0;   // values that are numbers
@@ -50,10 +43,9 @@ inline constexpr std::array kVerbs{
     Verb{"aside"},
     Verb{"forget"},
     Verb{"reload"}};
-static_assert(kVerbs.size() == static_cast<std::size_t>(Act::reload) + 1);
 
 struct Message {
-  Act act = Act::fit;
+  std::string_view verb;  // of kVerbs
   std::array<double, 6> numbers{};
   std::string name, text;
 };

@@ -45,25 +45,20 @@ bool differ(const DisplayImage& a, const DisplayImage& b, const Part& part) {
 
 }  // namespace
 
-void PictureStream::begin(const DisplayImage& picture) {
-  last_.width = picture.width, last_.height = picture.height;
-  last_.rgba.clear();
-  exact_.assign(static_cast<std::size_t>(tilesIn(picture.width)) * tilesIn(picture.height), false);
-}
-
 Tiles PictureStream::next(const DisplayImage& picture, bool exact, double nowMs) {
-  if (picture.width != last_.width || picture.height != last_.height) begin(picture);
-  const bool first = last_.rgba.empty();
   const int across = tilesIn(picture.width), down = tilesIn(picture.height);
+  if (picture.width != last_.width || picture.height != last_.height) {
+    states_.assign(static_cast<std::size_t>(across) * down, TileState::stale);
+  }
   std::vector<Part> parts;
   std::size_t tiles = 0;
-  std::vector<bool> changed(exact_.size());
   for (int i = 0; i < across * down; ++i) {
     const int x = i % across * kTileSide, y = i / across * kTileSide;
     const Part part{x, y, std::min(kTileSide, picture.width - x),
                     std::min(kTileSide, picture.height - y)};
-    changed[i] = first || differ(picture, last_, part);
-    if (!changed[i] && (!exact || exact_[i])) continue;
+    TileState& state = states_[i];
+    if (state != TileState::stale && differ(picture, last_, part)) state = TileState::stale;
+    if (state == TileState::exact || (state == TileState::lossy && !exact)) continue;
     ++tiles;
     const bool goesOn =
         !parts.empty() && parts.back().y == y && parts.back().x + parts.back().width == x;
@@ -73,9 +68,9 @@ Tiles PictureStream::next(const DisplayImage& picture, bool exact, double nowMs)
       parts.push_back(part);
     }
   }
-  if (tiles == changed.size() && !exact) parts = {{0, 0, picture.width, picture.height}};
+  if (tiles == states_.size() && !exact) parts = {{0, 0, picture.width, picture.height}};
+  last_ = picture;
   Tiles message;
-  if (first) last_.rgba.resize(picture.rgba.size());
   for (const Part& part : parts) {
     if (exact && message.bytes.size() > kExactBytes) break;
     const DisplayImage piece = cut(picture, part);
@@ -83,13 +78,10 @@ Tiles PictureStream::next(const DisplayImage& picture, bool exact, double nowMs)
     message.list += (message.list.empty() ? "[" : ",[") + std::to_string(part.x) + "," +
                     std::to_string(part.y) + "," + std::to_string(bytes.size()) + "]";
     message.bytes += bytes;
-    for (int y = 0; y < part.height; ++y) {
-      std::memcpy(last_.rgba.data() + (pixelAt(picture, part.x, part.y + y) - picture.rgba.data()),
-                  pixelAt(picture, part.x, part.y + y), std::size_t{4} * part.width);
-    }
     for (int y = part.y / kTileSide; y * kTileSide < part.y + part.height; ++y) {
       for (int x = part.x / kTileSide; x * kTileSide < part.x + part.width; ++x) {
-        exact_[static_cast<std::size_t>(y) * across + x] = exact;
+        states_[static_cast<std::size_t>(y) * across + x] =
+            exact ? TileState::exact : TileState::lossy;
       }
     }
   }

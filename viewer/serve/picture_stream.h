@@ -52,11 +52,11 @@ class PictureStream {
     std::uint32_t number = 0;
     double ms = 0;
   };
-  void begin(const DisplayImage& picture);
   void adapt(double delayMs);
 
-  DisplayImage last_;        // as the page has it when all is drawn, but for losses of JPEG
-  std::vector<bool> exact_;  // the tiles that the page has without loss
+  enum class TileState : std::uint8_t { stale, lossy, exact };  // as the page has it
+  DisplayImage last_;                                           // the newest picture
+  std::vector<TileState> states_;  // of its tiles, when all messages are drawn
   std::deque<Sent> underWay_;
   std::uint32_t number_ = 0;
   int window_ = 3;  // messages that may be under way

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <future>
+#include <map>
 #include <type_traits>
 
 #include "cli/app/frame_summary.h"
@@ -23,7 +23,7 @@ constexpr double kHeldSeconds =
     1;  // keys are let go if the page does not repeat that they are held
 constexpr double kIdleSeconds = 0.25, kLongestSeconds = 0.1;
 constexpr std::chrono::milliseconds kWait{200};
-constexpr int kDownloadTries = 150;  // as many waits as kWait
+constexpr std::chrono::seconds kDownloadTime{30};
 
 // Errors of files may hold bytes that are no UTF-8.
 std::string textOf(const Json& json) {
@@ -113,24 +113,14 @@ void ServedSession::watch(int more) {
 }
 
 std::string ServedSession::download(bool exr) {
-  std::optional<view::TracedFrame> frame;
-  for (int i = 0; i < kDownloadTries && !frame; ++i) {
-    const auto task =
-        std::make_shared<std::packaged_task<std::optional<view::TracedFrame>()>>([this] {
-          const view::FrameRequest& request = shown_.request;
-          const bool whole = shown_.scene && (sharp_ || (request.interruptible && !request.coarse));
-          return whole ? std::optional(shown_) : std::nullopt;
-        });
-    std::future<std::optional<view::TracedFrame>> answer = task->get_future();
-    {
-      const std::lock_guard lock(mutex_);
-      work_.emplace_back([task] { (*task)(); });
-    }
-    alarm_->ring();
-    if (answer.wait_for(10 * kWait) != std::future_status::ready) return "";
-    frame = answer.get();
-    if (!frame) std::this_thread::sleep_for(kWait);
-  }
+  std::unique_lock lock(mutex_);
+  ++downloads_;
+  alarm_->ring();
+  const std::shared_ptr<const view::TracedFrame> before = frame_;
+  fresh_.wait_for(lock, kDownloadTime, [&] { return quit_ || frame_ != before; });
+  const std::shared_ptr<const view::TracedFrame> frame = frame_;
+  if (--downloads_ == 0) frame_.reset();
+  lock.unlock();
   if (!frame) return "";
   return exr ? encodeExr(frame->film.image, frame->metadata, layersOf(frame->film.channels))
              : encodePng(frame->film.display, frame->metadata);
@@ -166,13 +156,12 @@ double ServedSession::waitSeconds() const {
 
 void ServedSession::step(double seconds) {
   std::vector<Message> messages;
-  std::vector<std::function<void()>> work;
-  bool watched = false;
+  bool watched = false, downloads = false;
   {
     const std::lock_guard lock(mutex_);
     messages.swap(messages_);
-    work.swap(work_);
     watched = pages_ > 0;
+    downloads = downloads_ > 0;
   }
   changed_ |= fetchFrame();
   for (const Message& message : messages) {
@@ -183,17 +172,18 @@ void ServedSession::step(double seconds) {
       fail(error.what());
     }
   }
-  for (const auto& task : work) task();
+  const view::FrameRequest& request = shown_.request;
+  if (downloads && shown_.scene && (sharp_ || (request.interruptible && !request.coarse))) {
+    auto frame = std::make_shared<const view::TracedFrame>(shown_);
+    const std::lock_guard lock(mutex_);
+    frame_ = std::move(frame);
+    fresh_.notify_all();
+  }
   if (!watched) return;
-  view::CameraMotion motion = held_;
   heldSeconds_ += seconds;
-  if (heldSeconds_ > kHeldSeconds) motion = held_ = view::CameraMotion();
-  const view::CameraMotion dragged = motionOf(drags_, size_.height / pixelsForCss_, 1);
+  if (heldSeconds_ > kHeldSeconds) held_ = view::CameraMotion();
+  const view::CameraMotion motion = motionOf(drags_, size_.height / pixelsForCss_, 1, held_);
   drags_ = view::Drags();
-  motion.wheel = dragged.wheel;
-  motion.orbitX = dragged.orbitX, motion.orbitY = dragged.orbitY;
-  motion.lookX = dragged.lookX, motion.lookY = dragged.lookY;
-  motion.panX = dragged.panX, motion.panY = dragged.panY;
   resolution_.setMostPixels(mostPixels_);
   advance(motion, seconds);
   if (changed_ || sharp_ != wasSharp_) publish();
@@ -201,118 +191,107 @@ void ServedSession::step(double seconds) {
 
 void ServedSession::serve(const Message& message) {
   const auto& n = message.numbers;
-  const auto add = [&](view::Drag& drag) {
-    drag.x += n[0], drag.y += n[1];
-    if (drag.any()) pathTime_.reset();
+  const std::string& text = message.text;
+  const auto drag = [&](view::Drag& sum) {
+    sum.x += n[0], sum.y += n[1];
+    if (sum.any()) pathTime_.reset();
   };
+  const auto change = [&](auto&& make) {
+    RenderOptions next = settings_.options;  // stays if the change is an error
+    make(next);
+    settings_.options = next;
+    restSeconds_ = 0;
+  };
+  const std::map<std::string_view, std::function<void()>> acts{
+      {"size", [&] { resize(n[0], n[1], n[2]); }},
+      {"left", [&] { drag(drags_.left); }},
+      {"middle", [&] { drag(drags_.middle); }},
+      {"right", [&] { drag(drags_.right); }},
+      {"wheel", [&] { drags_.wheel += n[0]; }},
+      {"hold",
+       [&] {
+         held_ = {.forward = n[0],
+                  .right = n[1],
+                  .up = n[2],
+                  .fast = n[5] > 0,
+                  .turnRight = n[3],
+                  .turnUp = n[4]};
+         heldSeconds_ = 0;
+         if (n[0] != 0 || n[1] != 0 || n[2] != 0) pathTime_.reset();
+       }},
+      {"click",
+       [&] {
+         pick(std::min(static_cast<int>(n[0]), size_.width - 1),
+              std::min(static_cast<int>(n[1]), size_.height - 1));
+       }},
+      {"camera", [&] { jumpToNumber(static_cast<std::size_t>(n[0])); }},
+      {"fit", [&] { fitView(size_); }},
+      {"path", [&] { startOrStopPath(); }},
+      {"aside", [&] { settings_.rays.fromAside = true; }},
+      {"forget", [&] { settings_.rays.forget = true; }},
+      {"reload", [&] { reload(); }},
+      {"play", [&] { setTime(settings_.timeline.seconds, !settings_.timeline.playing); }},
+      {"time", [&] { setTime(n[0], false); }},
+      {"animation", [&] { chooseAnimation(text); }},
+      {"expose", [&] { expose(static_cast<float>(n[0])); }},
+      {"rate", [&] { settings_.rate = n[0]; }},
+      {"more", [&] { settings_.supersample = !settings_.supersample; }},
+      {"measure", [&] { settings_.measureKnobs = !settings_.measureKnobs; }},
+      {"view",
+       [&] { change([&](auto&) { parseValue(view::kViewOption, text, settings_.view); }); }},
+      {"preset",
+       [&] {
+         change([&](RenderOptions& next) {
+           setOption(next, "quality", text);
+           applyQuality(next, {"mode"});  // the reference is too slow here
+         });
+       }},
+      {"effect",
+       [&] {
+         change([&](RenderOptions& next) {
+           parseEffects(message.name).forEach([&](Effect effect) {
+             next.disable = n[0] > 0 ? next.disable.without(effect) : next.disable.with(effect);
+           });
+         });
+       }},
+      {"set", [&] {
+         change([&](RenderOptions& next) {
+           bool known = false;
+           forEachOption(next, [&](const OptionSpec& spec, const auto&) {
+             known |= spec.tab != Tab::none && spec.name == message.name;
+           });
+           if (!known) throwUsage("the page has no option '" + message.name + "'");
+           setOption(next, message.name, text);
+         });
+       }}};
   changed_ = said_ = true;
-  switch (message.act) {
-    case Act::size: {
-      const double shrink = std::sqrt(std::min(kMostWindowPixels / (n[0] * n[1]), 1.0));
-      const auto side = [&](double pixels) {
-        return std::clamp(static_cast<int>(pixels * shrink), kLeastSide, kLargestSide);
-      };
-      size_ = {side(n[0]), side(n[1])};
-      pixelsForCss_ = n[2];
-      return;
-    }
-    case Act::left:
-      return add(drags_.left);
-    case Act::middle:
-      return add(drags_.middle);
-    case Act::right:
-      return add(drags_.right);
-    case Act::wheel:
-      drags_.wheel += n[0];
-      return;
-    case Act::hold:
-      held_ = view::CameraMotion();
-      held_.forward = n[0], held_.right = n[1], held_.up = n[2];
-      held_.turnRight = n[3], held_.turnUp = n[4], held_.fast = n[5] > 0;
-      heldSeconds_ = 0;
-      if (n[0] != 0 || n[1] != 0 || n[2] != 0) pathTime_.reset();
-      return;
-    case Act::click:
-      return pick(std::min(static_cast<int>(n[0]), size_.width - 1),
-                  std::min(static_cast<int>(n[1]), size_.height - 1));
-    case Act::camera:
-      return jumpToNumber(static_cast<std::size_t>(n[0]));
-    case Act::fit:
-      return fitView(size_);
-    case Act::path:
-      return startOrStopPath();
-    case Act::aside:
-      settings_.rays.fromAside = true;
-      return;
-    case Act::forget:
-      settings_.rays.forget = true;
-      return;
-    case Act::reload:
-      return reload();
-    case Act::play:
-    case Act::time:
-    case Act::animation:
-      return serveTime(message);
-    default:
-      return serveOption(message);
-  }
+  acts.at(message.verb)();
 }
 
-void ServedSession::serveTime(const Message& message) {
-  view::Timeline& timeline = settings_.timeline;
-  if (!timeline.there) throwUsage("nothing moves in this scene");
+void ServedSession::resize(double width, double height, double pixelsForCss) {
+  const double shrink = std::sqrt(std::min(kMostWindowPixels / (width * height), 1.0));
+  const auto side = [&](double pixels) {
+    return std::clamp(static_cast<int>(pixels * shrink), kLeastSide, kLargestSide);
+  };
+  size_ = {side(width), side(height)};
+  pixelsForCss_ = pixelsForCss;
+}
+
+void ServedSession::setTime(double seconds, bool playing) {
+  if (!settings_.timeline.there) throwUsage("nothing moves in this scene");
+  settings_.timeline.seconds = std::min(seconds, settings_.timeline.length);
+  settings_.timeline.playing = playing;
   restSeconds_ = 0;
-  if (message.act == Act::animation) {
-    if (std::ranges::find(timeline.animations, message.text) == timeline.animations.end()) {
-      throwUsage("no animation is called '" + message.text + "'");
-    }
-    timeline.animation = message.text;
-    return changeAnimation();
-  }
-  timeline.playing = message.act == Act::play && !timeline.playing;
-  if (message.act == Act::time) timeline.seconds = std::min(message.numbers[0], timeline.length);
   followCamera();
 }
 
-void ServedSession::serveOption(const Message& message) {
-  RenderOptions next = settings_.options;
-  switch (message.act) {
-    case Act::expose:
-      return expose(static_cast<float>(message.numbers[0]));
-    case Act::rate:
-      settings_.rate = message.numbers[0];
-      return;
-    case Act::more:
-      settings_.supersample = !settings_.supersample;
-      return;
-    case Act::measure:
-      settings_.measureKnobs = !settings_.measureKnobs;
-      return;
-    case Act::view:
-      parseValue(view::kViewOption, message.text, settings_.view);
-      break;
-    case Act::preset:
-      setOption(next, "quality", message.text);
-      applyQuality(next, {"mode"});  // the reference is too slow here
-      break;
-    case Act::effect: {
-      const bool on = message.numbers[0] > 0;
-      parseEffects(message.name).forEach([&](Effect effect) {
-        next.disable = on ? next.disable.without(effect) : next.disable.with(effect);
-      });
-      break;
-    }
-    default: {
-      bool known = false;
-      forEachOption(next, [&](const OptionSpec& spec, const auto&) {
-        known |= spec.tab != Tab::none && spec.name == message.name;
-      });
-      if (!known) throwUsage("the page has no option '" + message.name + "'");
-      setOption(next, message.name, message.text);
-    }
+void ServedSession::chooseAnimation(const std::string& name) {
+  view::Timeline& timeline = settings_.timeline;
+  if (std::ranges::find(timeline.animations, name) == timeline.animations.end()) {
+    throwUsage("no animation is called '" + name + "'");
   }
-  settings_.options = next;
-  restSeconds_ = 0;
+  timeline.animation = name;
+  changeAnimation();
 }
 
 void ServedSession::publish() {

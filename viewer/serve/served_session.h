@@ -64,8 +64,9 @@ class ServedSession : public view::Session {
   double waitSeconds() const;
   void step(double seconds);
   void serve(const Message& message);
-  void serveOption(const Message& message);
-  void serveTime(const Message& message);
+  void resize(double width, double height, double pixelsForCss);
+  void setTime(double seconds, bool playing);
+  void chooseAnimation(const std::string& name);
   void publish();
   Json tablesJson() const;
   Json liveJson() const;
@@ -87,7 +88,8 @@ class ServedSession : public view::Session {
   std::mutex mutex_;  // guards all that follows
   std::condition_variable fresh_;
   std::vector<Message> messages_;
-  std::vector<std::function<void()>> work_;  // for the loop
+  int downloads_ = 0;                               // that wait for frame_
+  std::shared_ptr<const view::TracedFrame> frame_;  // the view at full resolution
   std::shared_ptr<const Shot> shot_;
   int pages_ = 0;
   bool quit_ = false;

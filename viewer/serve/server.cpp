@@ -268,7 +268,7 @@ class Server::Http : public httplib::Server {
     Post(root + "input", [this](const Request& request, Response& response) {
       std::vector<Message> messages = readMessages(request.body);
       std::erase_if(messages, [this](const Message& message) {
-        if (message.act != Act::ack) return false;
+        if (message.verb != "ack") return false;
         acknowledge(static_cast<int>(message.numbers[0]),
                     static_cast<std::uint32_t>(message.numbers[1]));
         return true;

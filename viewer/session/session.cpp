@@ -187,8 +187,8 @@ bool Session::isActive() const {
   return pathTime_ || settings_.timeline.playing || restSeconds_ < kSettleSeconds;
 }
 
-CameraMotion Session::motionOf(const Drags& drags, double height, double scale) const {
-  CameraMotion motion;
+CameraMotion Session::motionOf(const Drags& drags, double height, double scale,
+                               CameraMotion motion) const {
   motion.wheel = drags.wheel;
   const bool orbits = control_.orbits();
   const Drag& orbit = orbits ? drags.left : drags.right;

@@ -127,8 +127,9 @@ class Session {
   void advance(const CameraMotion& motion, double seconds);
   bool isActive() const;  // something moves, or the picture is about to sharpen
 
-  // Returns what these drags ask for in a window of this height; `scale` pixels make one point.
-  CameraMotion motionOf(const Drags& drags, double height, double scale) const;
+  // Adds what these drags ask for in a window of this height; `scale` pixels make one point.
+  CameraMotion motionOf(const Drags& drags, double height, double scale,
+                        CameraMotion motion = {}) const;
   void show(const Camera& camera);
   void jump(const Camera& camera);
   void jumpToNumber(std::size_t number);
