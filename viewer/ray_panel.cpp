@@ -62,19 +62,16 @@ class RayTreeTab {
   }
 
  private:
-  std::array<std::uint8_t, 3> codesOf(const Rgb& pixel) const {
-    return cli::codesOf(pixel, options_);
-  }
-
   void drawPixel() const {
-    const Rgb p = tree_.pixel, r = pick_.rays.reference.pixel;
-    const auto codes = codesOf(p), other = codesOf(r);
-    ImGui::Text("pixel %d,%d of %dx%d", pick_.query.x, pick_.query.y,
-                pick_.query.picture.options.size->width, pick_.query.picture.options.size->height);
-    ImGui::Text("packets   %s  codes %d %d %d", cli::textOf(RgbD(p)).c_str(), codes[0], codes[1],
-                codes[2]);
-    ImGui::Text("reference %s  codes %d %d %d", cli::textOf(RgbD(r)).c_str(), other[0], other[1],
-                other[2]);
+    const ImageSize size = pick_.query.picture.options.size.value();
+    ImGui::Text("pixel %d,%d of %dx%d", pick_.query.x, pick_.query.y, size.width, size.height);
+    const auto draw = [&](const char* name, const Rgb& pixel) {
+      const auto codes = cli::codesOf(pixel, options_);
+      ImGui::Text("%-10s%s  codes %d %d %d", name, cli::textOf(RgbD(pixel)).c_str(), codes[0],
+                  codes[1], codes[2]);
+    };
+    draw("packets", tree_.pixel);
+    draw("reference", pick_.rays.reference.pixel);
     ImGui::Text("rays: %zu, shadow rays: %zu", tree_.nodes.size(), tree_.shadowRays());
   }
 

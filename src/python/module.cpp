@@ -136,44 +136,14 @@ class Session {
     if (isLost()) new api::Renderer(std::move(renderer_));  // leaks what the other thread left
   }
 
+  // Calls the question with the renderer, with the GIL.
   template <typename Question>
   auto ask(const Question& question) {
     const Turn turn(*this);
-    return question(renderer_.scene());
+    return question(renderer_);
   }
 
-  // The options and the camera hold for this frame only. With `pathSeconds` the camera is on the
-  // camera path.
-  Picture render(const OptionTexts& options, std::optional<double> pathSeconds,
-                 const py::object& progress, const std::string& camera,
-                 const std::pair<std::string, std::string>& within) {
-    const Turn turn(*this);
-    return call(progress, [&](const api::Progress& told) {
-      takeOptions(options);
-      renderer_.lookThrough(camera);
-      renderer_.setProgress(told);
-      Picture picture;
-      if (within != std::pair<std::string, std::string>()) {
-        picture.receipt = renderer_.renderWithin(within.first, within.second, picture.image);
-      } else if (pathSeconds) {
-        renderer_.renderOnPath(*pathSeconds, picture.image);
-      } else {
-        renderer_.render(picture.image);
-      }
-      picture.statistics = renderer_.statistics();
-      return picture;
-    });
-  }
-
-  void setMember(const std::string& pointer, const std::string& json, const py::object& progress) {
-    const Turn turn(*this);
-    call(progress, [&](const api::Progress& told) {
-      renderer_.setProgress(told);
-      renderer_.setMember(pointer, json);
-    });
-  }
-
-  // Asks the renderer about rays, without the GIL.
+  // Calls the question with the renderer, without the GIL.
   template <typename Question>
   auto trace(const py::object& progress, const Question& question) {
     const Turn turn(*this);
@@ -183,24 +153,46 @@ class Session {
     });
   }
 
+  // The options and the camera hold for this frame only. With `pathSeconds` the camera is on the
+  // camera path.
+  Picture render(const OptionTexts& options, std::optional<double> pathSeconds,
+                 const py::object& progress, const std::string& camera,
+                 const std::pair<std::string, std::string>& within) {
+    return trace(progress, [&](api::Renderer& renderer) {
+      takeOptions(options);
+      renderer.lookThrough(camera);
+      Picture picture;
+      if (within != std::pair<std::string, std::string>()) {
+        picture.receipt = renderer.renderWithin(within.first, within.second, picture.image);
+      } else if (pathSeconds) {
+        renderer.renderOnPath(*pathSeconds, picture.image);
+      } else {
+        renderer.render(picture.image);
+      }
+      picture.statistics = renderer.statistics();
+      return picture;
+    });
+  }
+
+  void setMember(const std::string& pointer, const std::string& json, const py::object& progress) {
+    trace(progress, [&](api::Renderer& renderer) { renderer.setMember(pointer, json); });
+  }
+
   void setTime(double seconds) {
-    const Turn turn(*this);
-    renderer_.setTime(seconds);
+    ask([&](api::Renderer& renderer) { renderer.setTime(seconds); });
+  }
+
+  void setTransform(const std::string& pointer, const std::array<double, 12>& rows) {
+    ask([&](api::Renderer& renderer) { renderer.setTransform(pointer, rows); });
   }
 
 #ifdef WHIT_SERVE
   std::unique_ptr<View> view(const OptionTexts& options, int port) {
-    const Turn turn(*this);
-    return call(py::none(), [&](const api::Progress&) {
-      return std::make_unique<View>(renderer_, options, port);
+    return trace(py::none(), [&](api::Renderer& renderer) {
+      return std::make_unique<View>(renderer, options, port);
     });
   }
 #endif
-
-  void setTransform(const std::string& pointer, const std::array<double, 12>& rows) {
-    const Turn turn(*this);
-    renderer_.setTransform(pointer, rows);
-  }
 
  private:
   // Waits until other threads are done. Python's lock handles signals meanwhile.
@@ -390,9 +382,9 @@ py::list optionTable() {
 }
 
 std::map<std::string, double> animationsOf(Session& session) {
-  return session.ask([](const api::Scene& scene) {
+  return session.ask([](const api::Renderer& renderer) {
     std::map<std::string, double> all;
-    for (const api::Animation& a : scene.animations()) all[a.name] = a.seconds;
+    for (const api::Animation& a : renderer.scene().animations()) all[a.name] = a.seconds;
     return all;
   });
 }
@@ -476,7 +468,7 @@ void defineSession(py::module_& module) {
   // Queries a scene while no other thread uses it.
   const auto asked = [](auto member) {
     return [member](Session& session) {
-      return session.ask([&](const api::Scene& scene) { return (scene.*member)(); });
+      return session.ask([&](const api::Renderer& r) { return (r.scene().*member)(); });
     };
   };
   py::class_<Session> session(module, "Session");
@@ -494,7 +486,7 @@ void defineSession(py::module_& module) {
       .def_property_readonly("animations", &animationsOf)
       .def("camera",
            [](Session& session, const std::string& name) {
-             return session.ask([&](const api::Scene& scene) { return scene.camera(name); });
+             return session.ask([&](const api::Renderer& r) { return r.scene().camera(name); });
            })
       .def("render", &Session::render)
       .def("set_member", &Session::setMember)

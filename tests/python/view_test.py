@@ -186,6 +186,7 @@ class Views(unittest.TestCase):
         browser.wait("document.title === 'notebook' && document.readyState === 'complete'")
         self.assertTrue(any("frame-ancestors" in json.dumps(event) for event in browser.events), browser.events)
         browser.open(f"http://localhost:{ports['127.0.0.1']}/")
+        browser.wait("location.hostname === 'localhost' && document.readyState === 'complete'")
         end = time.monotonic() + 60
         while not browser.attach("iframe"):
             self.assertLess(time.monotonic(), end, "no frame")

@@ -12,7 +12,6 @@
 #include "core/option_table.h"
 #include "core/text.h"
 #include "io/files.h"
-#include "io/model.h"
 #include "io/scene/scene_sections.h"
 #include "io/scene/scene_settings.h"
 #include "scene/members.h"
@@ -93,12 +92,8 @@ void apply(const std::vector<std::string>& settings, const std::set<std::string>
   }
 }
 
-Json editedFile(const fs::path& path, const SceneName& name, const std::vector<std::string>& read,
-                const ShadingEdit& edit) {
-  JsonDocument document;
-  document.file = path.string();
-  document.root = parseJson(readTextFile(path, kJsonBytesLimit), document.file);
-  apply(read, {}, document);
+// `document` is the scene's file with the settings that it was read with.
+Json editedFile(JsonDocument document, const SceneName& name, const ShadingEdit& edit) {
   for (const auto& [parameter, value] : name.parameters) {
     document.root["parameters"][parameter] = value;
   }
@@ -203,12 +198,14 @@ SavedScene saveScene(const LoadOptions& load, const std::string& name, const cli
                      const RenderOptions& chosen) {
   const SceneName parsed = parseSceneName(name);
   const fs::path path = findScene(parsed.file, load.shippedScenes);
-  const bool isModel = isModelFile(path);
-  Json root = isModel ? sceneOfModel(path, scene.settings, scene.scene, edit)
-                      : editedFile(path, parsed, scene.settings, edit);
+  LoadOptions read = load;
+  read.settings = scene.settings;
+  std::optional<JsonDocument> document = readDocument(name, read);  // none for a model
+  Json root = document ? editedFile(std::move(*document), parsed, edit)
+                       : sceneOfModel(path, scene.settings, scene.scene, edit);
   lookThrough(camera, scene.scene, root);
   RenderOptions stated;
-  if (!isModel) applySceneOptions(scene.scene.options, {}, stated);
+  if (document) applySceneOptions(scene.scene.options, {}, stated);
   stateOptions(chosen, stated, root);
   const auto nameOf = [&](int i) {
     return scene.scene.name + "-edited" + (i == 1 ? "" : "-" + std::to_string(i));
