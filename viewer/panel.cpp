@@ -124,11 +124,8 @@ void drawTimes(const TracedFrame& frame) {
   ImGui::Text("%.2f ms traced, %.2f in Embree", stats.frameMs, stats.embreeMs());
 }
 
-}  // namespace
-
-bool Panel::drawTabs(const TracedFrame& frame, const RayPick& pick,
-                     const std::vector<KnobCost>& costs, PanelSettings& settings,
-                     const SkyChoice& ownSky, ShadingEdit& scene) {
+bool drawTabs(const TracedFrame& frame, const RayPick& pick, const std::vector<KnobCost>& costs,
+              PanelSettings& settings, const SkyChoice& ownSky, ShadingEdit& scene) {
   bool edited = false;
   const std::string chosen = std::exchange(settings.tab, std::string());
   const auto tab = [&](const char* name, auto&& draw) {
@@ -175,6 +172,8 @@ bool Panel::drawTabs(const TracedFrame& frame, const RayPick& pick,
   ImGui::EndTabBar();
   return edited;
 }
+
+}  // namespace
 
 bool Panel::draw(const TracedFrame& frame, const RayPick& pick, const std::vector<KnobCost>& costs,
                  double speed, PanelSettings& settings, const SkyChoice& ownSky,

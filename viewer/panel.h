@@ -18,26 +18,22 @@ inline constexpr float kPanelAlpha = 0.82f;  // how much of the picture panels c
 
 class Panel {
  public:
-  // Call between ImGui's NewFrame and Render; `frame` must hold a picture. Returns whether the
-  // scene was edited.
+  // `frame` must hold a picture. Returns whether the scene was edited.
   bool draw(const TracedFrame& frame, const RayPick& pick, const std::vector<KnobCost>& costs,
             double speed, PanelSettings& settings, const SkyChoice& ownSky, ShadingEdit& scene);
 
  private:
-  static bool drawTabs(const TracedFrame& frame, const RayPick& pick,
-                       const std::vector<KnobCost>& costs, PanelSettings& settings,
-                       const SkyChoice& ownSky, ShadingEdit& scene);
-
   float left_ = 0, width_ = 0;  // of the panel in the last frame
 };
 
-// knobs.cpp, the options of a render as sliders, boxes and lists. All of it belongs between ImGui's
-// Begin and End.
+// The functions below draw between ImGui's NewFrame and Render; those of knobs.cpp, drawSceneTab()
+// and drawRayTree() also between its Begin and End.
+
+// knobs.cpp: the options of a render as sliders, boxes and lists.
 // Draws the options that the table of options has in that tab, and presets before those of the
 // knobs.
 void drawOptions(Tab tab, RenderOptions& options, const std::vector<KnobCost>& costs);
-// Draws the cost of that knob or effect beside its control, where it was measured and can be told
-// from noise.
+// Draws the cost of that knob or effect beside its control, where it can be told from noise.
 void drawCost(const std::vector<KnobCost>& costs, const std::string& name);
 // Lists the costs that can be told from noise, the largest first.
 void drawMeasured(const std::vector<KnobCost>& costs);
@@ -46,26 +42,21 @@ void drawMeasured(const std::vector<KnobCost>& costs);
 // picked; `ownSky` is the scene's. Returns whether something was changed.
 bool drawSceneTab(const SkyChoice& ownSky, RayView& picked, ShadingEdit& scene);
 
-// ray_panel.cpp: the rays of a picked pixel, as a tree in the panel and as lines over the picture.
-// Draws the tree, or how to pick a pixel. Call between ImGui's Begin and End.
+// ray_panel.cpp: the rays of a picked pixel, or how to pick one; and as lines behind the panels, as
+// this camera sees them.
 void drawRayTree(const RayPick& pick, const TracedFrame& frame, RayView& view);
-
-// Draws the lines as this camera sees them, behind panels. Call between ImGui's NewFrame and
-// Render.
 void drawRayLines(const RayPick& pick, const Camera& camera, const RayView& view);
 
-// overlay.cpp: draws a bar at the bottom of the window if the scene moves. Returns whether
-// something was changed. Call between ImGui's NewFrame and Render.
+// overlay.cpp: all else that is drawn over the picture.
+// Draws a bar at the bottom of the window if the scene moves. Returns whether something was
+// changed.
 bool drawTimeline(Timeline& timeline);
-
-// overlay.cpp: everything else that is drawn over the picture, between ImGui's NewFrame and Render.
 // Describes that pixel of a window of this size in lines, with units: by the view that was traced,
 // or by its radiance. Empty beside the picture.
 std::string inspect(const TracedFrame& frame, const ImageSize& window,
                     const std::array<int, 2>& pixel);
 // Draws such lines beside the pointer, inside the window.
 void drawInspection(const std::string& lines, double pointerX, double pointerY);
-
 // Draws the sharpness of the picture, the frame rate and the meaning of a view's colors into a
 // corner of the window; `raised`: a line higher, above a message.
 void drawStatus(const TracedFrame& frame, const UnfinishedFrame* next, double rate, bool raised);

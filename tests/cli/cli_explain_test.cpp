@@ -63,7 +63,8 @@ TEST(Explain, WritesALesson) {
   EXPECT_EQ(data["tile"], nlohmann::json({16, 16, 32, 32}));
   for (std::size_t channel = 0; channel < 3; ++channel) {
     double sum = 0;
-    for (const nlohmann::json& node : data["tree"]["nodes"]) sum += node["adds"][channel].get<double>();
+    for (const nlohmann::json& node : data["tree"]["nodes"])
+      sum += node["adds"][channel].get<double>();
     const double radiance = data["tree"]["radiance"][channel].get<double>();
     EXPECT_NEAR(sum, radiance, 1e-6 * radiance);
   }
