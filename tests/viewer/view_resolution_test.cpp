@@ -37,9 +37,9 @@ TEST(ResolutionControl, FewCoresAreAskedForLess) {
 
 TEST(ResolutionControl, TakesTheFinestScaleThatHoldsTheRate) {
   ResolutionControl slow = learned(100);
-  EXPECT_EQ(scaleOf(slow), 0.375);  // 14.1 ms; 0.5 would take 25
+  EXPECT_EQ(scaleOf(slow), 0.375);  // 14.1 ms; 0.4375 would take 19
   ResolutionControl patient = learned(100, kLeastRate);
-  EXPECT_EQ(scaleOf(patient), 0.625);  // 39 ms of 50; 0.75 would take 56
+  EXPECT_EQ(scaleOf(patient), 0.6875);  // 47 ms of 50; 0.75 would take 56
   ResolutionControl fast = learned(10);
   EXPECT_EQ(scaleOf(fast), 1);
   ResolutionControl hopeless = learned(1e6);
@@ -65,12 +65,12 @@ TEST(ResolutionControl, FewerSamplesWhereTheCoarsestScaleIsNotEnough) {
 }
 
 TEST(ResolutionControl, DoesNotFlutter) {
-  // 15 ms: holds the rate where it is, but is too close to it to be worth going back to.
-  ResolutionControl control = learned(15);
+  ResolutionControl control = learned(15.5);
   EXPECT_EQ(scaleOf(control), 1);
   for (int i = 0; i < 100; ++i) control.learn(20, kPixels);
   EXPECT_EQ(scaleOf(control), 0.875);
-  for (int i = 0; i < 100; ++i) control.learn(15, kPixels);
+  // 0.9375 would take 15.8 ms: it would hold the rate, but so barely that it is not gone back to.
+  for (int i = 0; i < 100; ++i) control.learn(18, kPixels);
   EXPECT_EQ(scaleOf(control), 0.875);
   for (int i = 0; i < 100; ++i) control.learn(10, kPixels);
   EXPECT_EQ(scaleOf(control), 1);

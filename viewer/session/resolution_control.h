@@ -27,7 +27,8 @@ inline constexpr int kFewCores = 4;
 inline constexpr double defaultRate(int cores) {
   return cores > kFewCores ? kDefaultRate : kFewCoresRate;
 }
-inline constexpr std::array kScales{1.0, 0.875, 0.75, 0.625, 0.5, 0.375, 0.25, 0.1875, 0.125};
+inline constexpr std::array kScales{1.0, 0.9375, 0.875, 0.8125, 0.75, 0.6875, 0.625, 0.5625,
+                                    0.5, 0.4375, 0.375, 0.3125, 0.25, 0.1875, 0.125};
 inline constexpr std::array kCoarseScales{0.125, 0.25, 0.5};  // at rest
 inline constexpr std::array kStillSppFactors{1, 4, 16, 64, 256};
 inline constexpr std::size_t kUnsampledSppFactors = 3;  // factors used where no rays are sampled
@@ -35,7 +36,7 @@ inline constexpr double kFirstStillMs = 50;             // limit for the first p
 inline constexpr double kSettleSeconds = 0.06;          // rest before the picture sharpens
 // A finer scale is taken if its expected time is below this share of the frame time; otherwise it
 // would soon be taken back.
-inline constexpr double kHeadroom = 0.85;
+inline constexpr double kHeadroom = 0.92;
 
 class ResolutionControl {
  public:

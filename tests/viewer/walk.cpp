@@ -1,0 +1,148 @@
+// whit-walk: flies along the camera path of a scene in real time, as the viewer does, and tells how
+// far what it shows at --rate is from references at many samples, by mean FLIP.
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+#include <thread>
+
+#include "cli/app/program.h"
+#include "core/error.h"
+#include "inspect/metrics.h"
+#include "viewer/session/session.h"
+
+namespace whit::view {
+namespace {
+
+constexpr double kSecondsAtRest = 2;  // before it flies
+constexpr int kReferenceSpp = 16;
+
+struct Shown {
+  Camera camera;
+  DisplayImage picture;
+};
+
+class Walker : public Session {
+ public:
+  using Session::Session;
+
+  // Moves for that many seconds; keeps as many pictures as are asked for, at equal times.
+  std::vector<Shown> fly(double length, int kept) {
+    moveFor(kSecondsAtRest, [](double) {});
+    startOrStopPath();
+    if (!pathTime_) throwUsage(sceneName_ + " has no camera path");
+    std::vector<Shown> all;
+    pictures_ = changes_ = 0;
+    moveFor(length, [&](double seconds) {
+      if (seconds < length * (static_cast<double>(all.size()) + 0.5) / kept) return;
+      all.push_back({shown_.request.camera, shown_.film.display});
+    });
+    return all;
+  }
+  int pictures() const { return pictures_; }
+  int changes() const { return changes_; }  // of the resolution
+
+ private:
+  void fail(const std::string& error) override { throwUsage(error); }
+  ImageSize windowPixels() const override { return *options_.common.render.size; }
+
+  template <typename Step>
+  void moveFor(double length, const Step& step) {
+    Stopwatch clock;
+    for (double now = 0, before = 0; now < length; before = now) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      const std::optional<ImageSize> last = shown_.request.options.size;
+      if (fetchFrame()) {
+        ++pictures_;
+        changes_ += shown_.request.options.size != last;
+      }
+      now = clock.ms() / 1000;
+      if (shown_.scene) step(now);
+      advance(CameraMotion(), now - before);
+    }
+  }
+
+  int pictures_ = 0, changes_ = 0;
+};
+
+// As the faces enlarge it, which blend coarse pixels.
+DisplayImage enlarged(const DisplayImage& image, const ImageSize& size) {
+  struct Blend {
+    int first, second;
+    double weight;  // of the second
+  };
+  const auto blendOf = [](int i, int from, int to) {
+    const double at = std::clamp((i + 0.5) * from / to - 0.5, 0.0, from - 1.0);
+    const int first = static_cast<int>(at);
+    return Blend{first, std::min(first + 1, from - 1), at - first};
+  };
+  DisplayImage large{size.width, size.height, {}};
+  for (int row = 0; row < size.height; ++row) {
+    const Blend y = blendOf(row, image.height, size.height);
+    for (int column = 0; column < size.width; ++column) {
+      const Blend x = blendOf(column, image.width, size.width);
+      for (int c = 0; c < 4; ++c) {
+        const auto code = [&](int i, int j) {
+          return static_cast<double>(
+              image.rgba[static_cast<std::size_t>(4 * (j * image.width + i) + c)]);
+        };
+        const double above = std::lerp(code(x.first, y.first), code(x.second, y.first), x.weight);
+        const double below = std::lerp(code(x.first, y.second), code(x.second, y.second), x.weight);
+        large.rgba.push_back(
+            static_cast<std::uint8_t>(std::lround(std::lerp(above, below, y.weight))));
+      }
+    }
+  }
+  return large;
+}
+
+double meanFlip(const std::vector<Shown>& all, Renderer& renderer, const ImageSize& size) {
+  Film film;
+  film.image = Image(size.width, size.height);
+  double sum = 0;
+  for (const Shown& shown : all) {
+    renderer.render(shown.camera, film);
+    const std::vector<float> flip = flipOfCodes(enlarged(shown.picture, size), film.display);
+    sum += std::accumulate(flip.begin(), flip.end(), 0.0) / static_cast<double>(flip.size());
+  }
+  return sum / static_cast<double>(all.size());
+}
+
+int run(const std::vector<std::string>& words) {
+  ViewOptions options;
+  std::vector<std::string> scenes;
+  double seconds = 10;
+  int kept = 40;
+  cli::OptionList list;
+  list.group("Walking");
+  list.value({"seconds", "N", 1, 1000}, "time along the path", seconds);
+  list.value({"pictures", "N", 1, 10000}, "pictures that are compared", kept);
+  listViewOptions(list, options);
+  list.operands("SCENE", "a scene with a camera path", 1, 1, scenes);
+  if (!cli::parseOptions("whit-walk SCENE --size WxH", "Measures the viewer in motion.", list,
+                         words)) {
+    return 0;
+  }
+  settleViewOptions(options);
+  options.scene = scenes[0];
+  if (!options.common.render.size) options.common.render.size = {480, 300};
+  const std::shared_ptr<cli::OpenScene> scene =
+      cli::openScene(options.scene, options.common, nullptr);
+  Walker walker(options, scene, [] {});
+  const std::vector<Shown> all = walker.fly(seconds, kept);
+  RenderOptions many = cli::optionsFor(scene->scene, options.common);
+  many.spp = kReferenceSpp;
+  Renderer renderer(scene->scene, many);
+  std::printf("FLIP %.4f, %.1f frames/s, %.2f changes of the resolution a second\n",
+              meanFlip(all, renderer, *options.common.render.size), walker.pictures() / seconds,
+              walker.changes() / seconds);
+  return 0;
+}
+
+}  // namespace
+}  // namespace whit::view
+
+int main(int argc, char** argv) {
+  return whit::cli::runProgram("whit-walk",
+                               [&] { return whit::view::run(whit::cli::wordsOf(argc, argv)); });
+}
