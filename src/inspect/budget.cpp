@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <random>
 #include <regex>
 #include <span>
@@ -13,22 +14,31 @@
 #include "core/option_table.h"
 #include "core/stopwatch.h"
 #include "core/text.h"
-#include "inspect/cost_model.h"
 #include "inspect/knobs.h"
+#include "inspect/metrics.h"
 
 namespace whit {
 
 namespace {
 
+// The knobs are measured in this order, and a small budget ends the measurements early: those that
+// matter most come first.
+constexpr std::array kChosenKnobs{"glossy",       "ambient-samples", "light-samples",
+                                  "indirect",     "depth",           "cutoff",
+                                  "light-cutoff", "texture-filter",  "fresnel"};
+
 // Errors are measured in blocks of this side: large enough for most of FLIP's filters, and small
-// enough that a thousand pixels come from all of the picture.
-constexpr int kBlockSide = 8, kPooledSide = 4;
+// enough that a thousand pixels come from all of the picture. Blocks of a packet are enough for
+// times. A list has as many pixels as a tile.
+constexpr int kBlockSide = 8, kPooledSide = 4, kPacketSide = 4, kTimedSide = 16, kTimedSpp = 3;
+constexpr std::size_t kListPixels = 1024;
 
 // Shares of the budget: of all measurements, with a least and a largest; and the share of the
 // picture's time that measuring it takes.
 constexpr double kProbeShare = 0.1, kMostProbeShare = 0.2, kLeastProbeMs = 12, kPictureShare = 0.05;
 constexpr double kProbeMsOfTarget = 300, kShortMs = 40;
-constexpr double kLeastBlocks = 8, kMostBlocks = 1000, kAssessShare = 0.01;
+constexpr double kLeastBlocks = 8, kMostBlocks = 1000, kLeastPackets = 128, kLeastTimed = 16;
+constexpr double kAssessShare = 0.01;
 constexpr double kChannelMargin = 1.25;  // of the noise that the channel `error` tells
 constexpr int kRounds = 3;
 // The time that is aimed at, over the rest of the budget: whole samples leave some of it, and
@@ -52,6 +62,8 @@ constexpr double kUnseenFlip = 2e-4, kUnseenCodes = 0.02;
 constexpr double kSppOfRootMs = 50;
 
 constexpr double kMostMs = 1e9;
+
+constexpr double squared(double x) { return x * x; }
 
 // The means of squares of kPooledSide pixels.
 Image pooled(const Image& image) {
@@ -85,6 +97,128 @@ double brightestRadiance(const Scene& scene, const Image& image) {
   }
   return double{brightest};
 }
+
+// Cells of a grid by the lattice of the plastic number (Roberts 2018): the first few lie all over
+// it.
+std::vector<std::pair<int, int>> spreadCells(int columns, int rows, double count) {
+  const auto all = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+  std::vector<std::pair<int, int>> cells;
+  std::vector<bool> taken(all);
+  for (std::size_t k = 0; k < 8 * all && static_cast<double>(cells.size()) < count; ++k) {
+    double u = 0.5 + 0.7548776662466927 * static_cast<double>(k), whole = 0;
+    double v = 0.5 + 0.5698402909980532 * static_cast<double>(k);
+    u = std::modf(u, &whole), v = std::modf(v, &whole);
+    const int x = static_cast<int>(u * columns), y = static_cast<int>(v * rows);
+    const std::size_t cell = static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) +
+                             static_cast<std::size_t>(x);
+    if (!taken[cell]) cells.emplace_back(x, y);
+    taken[cell] = true;
+  }
+  return cells;
+}
+
+// Renders some of the picture's pixels, in blocks.
+class Prober {
+ public:
+  Prober(Renderer& renderer, const Camera& camera, Film& film, bool inCodes)
+      : renderer_(renderer), camera_(camera), film_(film), inCodes_(inCodes) {}
+
+  double pixels() const { return static_cast<double>(film_.image.pixels.size()); }
+
+  // From now on so many blocks are rendered, or all.
+  void chooseBlocks(int side, double count) {
+    const Image& image = film_.image;
+    side_ = std::min({side, image.windowWidth(), image.windowHeight()});
+    blocks_.clear();
+    for (const auto& [column, row] :
+         spreadCells(image.windowWidth() / side_, image.windowHeight() / side_, count)) {
+      const int x = image.window.x0 + column * side_, y = image.window.y0 + row * side_;
+      blocks_.push_back(makeTiles({x, y, x + side_, y + side_}, side_)[0]);
+    }
+    const auto lists = 2 * static_cast<std::size_t>(renderer_.machine().threads);
+    const std::size_t most = std::max<std::size_t>(kListPixels / blocks_[0].size(), 1);
+    const std::size_t together = std::clamp<std::size_t>(blocks_.size() / lists, 1, most);
+    lists_.clear();
+    for (std::size_t i = 0; i < blocks_.size(); ++i) {
+      const std::size_t room = together * blocks_[i].size() + kListPadding;
+      if (i % together == 0) lists_.emplace_back().reserve(room);
+      lists_.back().insert(lists_.back().end(), blocks_[i].begin(), blocks_[i].end());
+    }
+  }
+  double probed() const { return static_cast<double>(blocks_.size()) * side_ * side_; }
+
+  FrameStats render(RenderOptions options, int spp) {
+    options.spp = spp;
+    renderer_.setOptions(options);
+    return renderer_.renderLists(camera_, film_, lists_);
+  }
+
+  // Microseconds of a sample of a pixel. The first frame after a change fills new queues and does
+  // not count.
+  double time(const RenderOptions& options, int spp) {
+    render(options, 1);
+    return 1e3 * render(options, spp).frameMs / (probed() * spp);
+  }
+
+  // The blocks as last rendered, or as another picture of the film's size has them.
+  Image mosaic() const { return mosaic(film_.image); }
+  Image mosaic(const Image& picture) const {
+    const int count = static_cast<int>(blocks_.size());
+    const int columns = std::max(static_cast<int>(std::sqrt(count)), 1);
+    Image image(columns * side_, (count + columns - 1) / columns * side_);
+    for (int b = 0; b < count; ++b) {
+      const std::vector<std::uint32_t>& block = blocks_[static_cast<std::size_t>(b)];
+      for (const std::uint32_t pixel : block) {
+        image.at(b % columns * side_ + pixelX(pixel) - pixelX(block[0]),
+                 b / columns * side_ + pixelY(pixel) - pixelY(block[0])) =
+            picture.at(pixelX(pixel), pixelY(pixel));
+      }
+    }
+    return image;
+  }
+
+  double difference(const Image& a, const Image& b) const {
+    const RenderOptions& o = renderer_.options();
+    const ImageDifference d = compareImages(a, b, o.exposure.ev, o.toneCurve);
+    return inCodes_ ? 255 * std::pow(10, -d.psnrDb / 20) : d.flipMean;
+  }
+
+  // Milliseconds of the whole picture, by the rays of packets from all over it, which stand for it
+  // better than a few tiles, and by the time of a ray in larger blocks, whose rays are as coherent
+  // as those of the picture. Takes about the share of the picture's time.
+  double wholePictureMs(const RenderOptions& options, double share) {
+    const int spp = options.spp, few = std::min(spp, kTimedSpp);
+    const double packets = pixels() / squared(kPacketSide), blocks = pixels() / squared(kTimedSide);
+    chooseBlocks(kPacketSide, std::max(share * spp * packets, kLeastPackets));
+    const double rays = static_cast<double>(render(options, 1).allRays()) / probed();
+    chooseBlocks(kTimedSide, std::max(share * spp / few * blocks, kLeastTimed));
+    render(options, 1);  // fills new queues
+    const FrameStats timed = render(options, few);
+    const double ms = std::accumulate(timed.stageWorkerMs.begin(), timed.stageWorkerMs.end(), 0.0) /
+                      timed.workers;
+    return ms / static_cast<double>(timed.allRays()) * rays * pixels() * spp;
+  }
+
+ private:
+  Renderer& renderer_;
+  const Camera& camera_;
+  Film& film_;
+  bool inCodes_;
+  int side_ = kBlockSide;
+  PixelLists blocks_, lists_;
+};
+
+// A value of a knob, with its cost and its error against the middle of the model.
+struct Level {
+  std::string value;
+  double cost = 1;    // factor of the time of a sample
+  double bias2 = 0;   // squared error that more samples of pixels do not take away
+  double noise2 = 0;  // added to the squared error of one sample
+};
+struct Ladder {
+  std::string name, exact, off;  // off: without samples; empty for other knobs
+  std::vector<Level> levels;     // the first is the one of the middle
+};
 
 struct Combination {
   std::array<std::size_t, kChosenKnobs.size()> levels{};
