@@ -65,8 +65,9 @@ constexpr double kMostMs = 1e9;
 
 constexpr double squared(double x) { return x * x; }
 
-// The means of squares of kPooledSide pixels.
+// The means of squares of kPooledSide pixels; the image itself if it is smaller.
 Image pooled(const Image& image) {
+  if (std::min(image.width, image.height) < kPooledSide) return image;
   Image means(image.width / kPooledSide, image.height / kPooledSide);
   for (int y = 0; y < means.height * kPooledSide; ++y) {
     for (int x = 0; x < means.width * kPooledSide; ++x) {
@@ -541,7 +542,12 @@ Receipt chooseOptions(Renderer& renderer, const Camera& camera, const std::set<s
   if (renderer.options().mode == Mode::reference) {
     throwUsage("--budget and --target choose options of packets: leave out --mode reference");
   }
-  return Chooser(renderer, camera, fixed, budget, film).choose();
+  try {
+    return Chooser(renderer, camera, fixed, budget, film).choose();
+  } catch (...) {
+    renderer.setSeed(0);
+    throw;
+  }
 }
 
 void assess(Receipt& r, Renderer& renderer, const Camera& camera, double ms, Film& film) {
@@ -590,7 +596,8 @@ std::string receiptText(const Receipt& r, const std::string& command) {
                     r.usedMs(), r.probeMs, r.measuredMs, r.expectedMs);
   if (r.budget.ms > 0) text += formatted(", %.0f %% of the budget", 100 * r.usedMs() / r.budget.ms);
   text += formatted("\n  error %.4f %s, between %.4f and %.4f", r.error, unit, r.low, r.high);
-  text += formatted("; --depth and --cutoff left out at most %.4f\n", r.ended);
+  if (r.ended) text += formatted("; --depth and --cutoff left out at most %.4f", *r.ended);
+  text += "\n";
   if (!r.note.empty()) text += "  note: " + r.note + "\n";
   if (!command.empty()) text += "  the same picture: " + command + options + "\n";
   return text;

@@ -6,6 +6,7 @@
 // time that the chosen options take for some tiles of the very picture.
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -42,7 +43,8 @@ struct Receipt {
   double measuredMs = 0;                                    // of the picture, set by assess()
   double bias = 0;  // of the error: what more samples would not take away
   double error = 0, low = 0, high = 0;
-  double ended = 0;  // at most so much error is of paths that depth and cutoff ended
+  // At most so much error is of paths that depth and cutoff ended; not measured with --adaptive.
+  std::optional<double> ended;
   std::string note;  // empty, or why budget or target are not met
 
   double usedMs() const { return probeMs + measuredMs; }
@@ -55,7 +57,8 @@ Receipt chooseOptions(Renderer& renderer, const Camera& camera, const std::set<s
 
 // Adds to the receipt what the picture itself tells, which took so long: the most noise by the
 // channel `error`, and the bound of what depth and cutoff left out by the brightest radiance of
-// sky, emission and picture. Leaves the channels that were asked for.
+// sky, emission and picture: nothing out of view is taken to be brighter. Leaves the channels that
+// were asked for.
 void assess(Receipt& receipt, Renderer& renderer, const Camera& camera, double ms, Film& film);
 
 // Lines for people; the last is the command without the budget, if `command` begins it.

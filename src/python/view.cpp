@@ -24,6 +24,10 @@ view::ViewOptions viewOptions(const api::Snapshot& snapshot, const OptionTexts& 
   applyQuality(common.render, common.given);
   view::settleViewOptions(all);
   common.load = snapshot.load;
+  // The scene as it is: it plays only when it is told to.
+  if (!snapshot.scene.motion.empty() && !common.load.instant.seconds) {
+    common.load.instant.seconds = 0;
+  }
   return all;
 }
 
@@ -48,6 +52,7 @@ struct View::Served {
     while (!server.isRunning()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   ~Served() {
+    session.quit();  // a download would be waited for
     server.stop();
     thread.join();
   }
@@ -67,20 +72,29 @@ View::View(api::Renderer& renderer, const OptionTexts& options, int port)
 
 std::string View::png() const {
   return api::guarded([&] {
-    const std::shared_ptr<Served> served = served_.load();  // close() waits for us
+    const std::shared_ptr<Served> served = served_.load();
     if (!served || process_ != getpid()) throwUsage("the view is closed");
-    served->session.watch(1);
+    struct Watch {
+      explicit Watch(serve::ServedSession& s) : session(s) { session.watch(1); }
+      ~Watch() { session.watch(-1); }
+      serve::ServedSession& session;
+    } watch(served->session);
     std::string png = served->session.download(false);
-    served->session.watch(-1);
-    if (png.empty())
-      throwIo("the picture of the view takes too long: close() it, and use render()");
+    if (png.empty()) {
+      throwIo("the picture of the view takes too long or is closed: close() it, and use render()");
+    }
     return png;
   });
 }
 
 void View::close() {
   std::shared_ptr<Served> served = served_.exchange(nullptr);
-  if (process_ != getpid()) new std::shared_ptr<Served>(std::move(served));  // leaks
+  if (process_ != getpid()) {
+    new std::shared_ptr<Served>(std::move(served));  // leaks
+  } else if (served) {
+    served->session.quit();  // png() on another thread may hold it for a little longer
+    served->server.stop();
+  }
 }
 
 }  // namespace whit::python

@@ -148,9 +148,23 @@ TEST(Budgets, TellTheErrorOfThePicture) {
   EXPECT_GE(flip, chosen.receipt.low);
   EXPECT_LE(flip, chosen.receipt.high);
   options.depth = 0;
-  EXPECT_GT(chooseFor(load("mirrors"), {.ms = 300}, fixed, options).receipt.ended, 0.05);
+  EXPECT_GT(chooseFor(load("mirrors"), {.ms = 300}, fixed, options).receipt.ended.value(), 0.05);
   options.depth = 64;
-  EXPECT_LT(chooseFor(load("mirrors"), {.ms = 300}, fixed, options).receipt.ended, 0.01);
+  EXPECT_LT(chooseFor(load("mirrors"), {.ms = 300}, fixed, options).receipt.ended.value(), 0.01);
+}
+
+TEST(Budgets, AreKeptByTheSmallestPictures) {
+  RenderOptions options;
+  options.crop = Crop{3, 3, 5, 4};
+  EXPECT_EQ(chooseFor(load("cornell"), {.ms = 50}, {}, options).image.pixels.size(), 2u);
+}
+
+TEST(Budgets, SayNothingOfTheEndsOfPathsWithAdaptiveSampling) {
+  RenderOptions options;
+  options.adaptive = true;
+  const Receipt receipt = chooseFor(load("whitted"), {.ms = 100}, {"adaptive"}, options).receipt;
+  EXPECT_FALSE(receipt.ended);
+  EXPECT_EQ(receiptText(receipt, "").find("left out at most"), std::string::npos);
 }
 
 // A single color in every pixel: one sample is as good as many.

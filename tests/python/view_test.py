@@ -137,6 +137,9 @@ class Views(unittest.TestCase):
         orrery = whit.Scene("orrery", moves=True)
         orrery.set_time(3.25)
         self.same_picture(orrery.view(size=SIZE), orrery)
+        for moves in (False, True):  # a view stands still until it is told to play
+            start = whit.Scene("orrery", moves=moves)
+            self.same_picture(start.view(size=SIZE), start)
 
     def test_made_scenes_are_not_read_again(self):
         view = whit.Scene(square_scene()).view(size=SIZE)

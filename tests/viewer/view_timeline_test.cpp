@@ -29,8 +29,9 @@ TEST(Timeline, LastsAsLongAsWhatPlays) {
   Scene scene;
   EXPECT_FALSE(timelineOf(scene, {}).there);
   EXPECT_EQ(timelineOf(scene, {}).time(), std::nullopt);
-  scene.motion.given.lights.emplace_back();
   scene.animations = {{"walk", 3, 1}, {"run", 9, 1}, {kSceneMotion, 2, 1}};
+  EXPECT_FALSE(timelineOf(scene, {}).there) << "it was read to stand still";
+  scene.motion.given.lights.emplace_back();
   const Timeline first = timelineOf(scene, {});
   EXPECT_EQ(first.length, 3);
   EXPECT_EQ(first.animation, "walk");

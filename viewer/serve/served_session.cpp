@@ -80,12 +80,17 @@ ServedSession::ServedSession(const view::ViewOptions& options,
       loop_([this] { loop(); }) {}
 
 ServedSession::~ServedSession() {
+  quit();
+  loop_.join();
+}
+
+void ServedSession::quit() {
   {
     const std::lock_guard lock(mutex_);
     quit_ = true;
   }
+  fresh_.notify_all();
   alarm_->ring();
-  loop_.join();
 }
 
 bool ServedSession::post(std::vector<Message> messages) {
@@ -121,7 +126,7 @@ std::string ServedSession::download(bool exr) {
   const std::shared_ptr<const view::TracedFrame> frame = frame_;
   if (--downloads_ == 0) frame_.reset();
   lock.unlock();
-  if (!frame) return "";
+  if (frame == before) return "";
   return exr ? encodeExr(frame->film.image, frame->metadata, layersOf(frame->film.channels))
              : encodePng(frame->film.display, frame->metadata);
 }

@@ -52,6 +52,8 @@ class ServedSession : public view::Session {
   void limitPixels(double pixels) { mostPixels_ = pixels; }
   // Returns the file of the view at full resolution, an EXR or a PNG; empty if that takes too long.
   std::string download(bool exr);
+  // Nobody waits any longer, and nothing more is traced.
+  void quit();
   // Returns, as JSON, the table of options, the cameras and the views, which do not change.
   const std::string& tables() const { return tables_; }
   const std::string& name() const { return name_; }
