@@ -483,7 +483,8 @@ class Chooser {
     setError(r, best.total.error);
     r.expectedMs = best.total.cost;
     const double left = leftMs();
-    if (timed() && r.expectedMs > kAim * left) {
+    const bool isCheapest = best.spp == 1 || fixed_.contains("spp");
+    if (timed() && isCheapest && r.expectedMs > kAim * left) {
       r.note = "the budget is too small: this is the cheapest choice";
     } else if (timed() && r.expectedMs * (1 + 1.0 / best.spp) < left) {
       r.note = "more time would buy nothing that was measured: the picture is done early";
