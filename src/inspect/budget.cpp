@@ -65,7 +65,7 @@ constexpr double kMostMs = 1e9;
 
 constexpr double squared(double x) { return x * x; }
 
-// The means of squares of kPooledSide pixels; the image itself if it is smaller.
+// Returns the means of squares of kPooledSide pixels, or the image itself if it is smaller.
 Image pooled(const Image& image) {
   if (std::min(image.width, image.height) < kPooledSide) return image;
   Image means(image.width / kPooledSide, image.height / kPooledSide);
@@ -161,7 +161,7 @@ class Prober {
     return 1e3 * render(options, spp).frameMs / (probed() * spp);
   }
 
-  // The blocks as last rendered, or as another picture of the film's size has them.
+  // Returns the blocks as last rendered, or as another picture of the film's size has them.
   Image mosaic() const { return mosaic(film_.image); }
   Image mosaic(const Image& picture) const {
     const int count = static_cast<int>(blocks_.size());
@@ -334,7 +334,7 @@ class Chooser {
 
   void measure() {
     probed_ = prober_.probed();
-    // Of other random numbers: noise that truth and probes shared would hide what samples cost.
+    // The truth has other random numbers: noise that the probes share would hide what samples gain.
     renderer_.setSeed(1);
     prober_.time(middle_, kTruthFactor * probeSpp_);
     renderer_.setSeed(0);
@@ -373,16 +373,16 @@ class Chooser {
     }
   }
 
-  // Squared: of the picture without samples of a knob. The truth's own noise is subtracted by its
-  // share in the difference of two pictures that differ in nothing but noise.
+  // Returns the squared bias of the picture without samples of a knob. The truth's own noise is
+  // subtracted by its share in the difference of two pictures that differ in nothing but noise.
   double pooledBias2(const Image& off, const Image& own, const Image& truth) const {
     const Image mean = pooled(truth);
     const double noise2 = squared(prober_.difference(pooled(own), mean)) / (1 + kTruthFactor);
     return std::max(squared(prober_.difference(pooled(off), mean)) - noise2, 0.0);
   }
 
-  // The pictures of all values, and their costs, by the first one and its time. Values that there
-  // is no time for are left out.
+  // Renders a picture with each value and sets the values' costs; the first picture and its time
+  // are known. Values that there is no time for are left out.
   std::vector<Image> renderLevels(int spp, double us, const Image& first, Ladder& ladder) {
     std::vector<Image> shown{first};
     for (std::size_t i = 1; i < ladder.levels.size(); ++i) {

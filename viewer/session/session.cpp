@@ -90,8 +90,8 @@ Timeline timelineOf(const Scene& scene, const Instant& instant) {
     if (camera.node != kNoNode) continue;  // without a node it flies along the path
     timeline.length = std::max(timeline.length, static_cast<double>(scene.cameraPath.back().time));
   }
-  // What only a program moves has no time of its own; a scene that was read to stand still may have
-  // animations nevertheless.
+  // Motion set by a program has no length. A scene that was loaded to stand still may still list
+  // animations.
   timeline.there = !scene.motion.empty() && timeline.length > 0;
   timeline.playing = timeline.there && !instant.seconds;
   if (timeline.animations.size() == 1) timeline.animations.clear();

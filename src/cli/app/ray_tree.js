@@ -17,7 +17,7 @@ function rayTree(tree, point) {
   };
   const root = make('ul');
   root.className = 'tree';
-  // What each ray brings with all that follow from it; children come after their parents.
+  // Adds up what each ray and all rays below it bring; children come after their parents.
   const whole = tree.nodes.map(node => [...node.adds]), sum = [0, 0, 0], lists = [];
   for (let i = tree.nodes.length - 1; i >= 0; --i) {
     const parent = tree.nodes[i].parent, to = parent === i ? sum : whole[parent];

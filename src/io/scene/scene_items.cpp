@@ -104,7 +104,7 @@ std::vector<Affine> readPlacements(JsonObject& item) {
   return result;
 }
 
-// What is in the content without a name is one item, or one item a body.
+// Gives this name to all that has none in the content: it is one item, or one item a body.
 void nameItem(Body& content, const std::string& pointer) {
   const ItemName name = std::make_shared<const std::string>(pointer);
   for (Placement& placed : content.placements) {
