@@ -45,9 +45,10 @@ HWY_INLINE V3 ImageSky(const SkyTable& sky, const V3& direction, MF live, VI ima
   // Not a number has no integer: other lanes may hold it.
   const VI x0 = hn::ConvertTo(di, hn::IfThenElseZero(live, floorX));
   const VI y0 = hn::ConvertTo(di, hn::IfThenElseZero(live, floorY));
-  const VI x1 = hn::Add(x0, one), y1 = hn::Add(y0, one);
+  const VI y1 = hn::Add(y0, one);
+  // All of these are texels of the image whatever x0 and y0 are, and x0 + 1 may overflow.
   const VI left = hn::IfThenElse(hn::Lt(x0, zero), lastX, hn::Min(x0, lastX));
-  const VI right = hn::IfThenZeroElse(hn::Gt(x1, lastX), x1);
+  const VI right = hn::IfThenZeroElse(hn::Eq(left, lastX), hn::Add(left, one));
   const VI top = hn::Min(hn::Max(y0, zero), lastY), bottom = hn::Min(hn::Max(y1, zero), lastY);
   const VI stride = hn::Set(di, sky.width);
   const VI first = hn::Mul(image, hn::Set(di, sky.height));
@@ -85,7 +86,8 @@ HWY_INLINE V3 SkyRadiance(const SkyTable& sky, const V3& direction, MF live) {
 HWY_INLINE V3 BlurredRadiance(const SkyTable& blurred, const V3& direction, VF roughness, MF live) {
   const FloatTag d;
   const VF blur = hn::Mul(roughness, hn::Set(d, kSkyBlurs - 1.0f));
-  const VF level = hn::Min(hn::Floor(blur), hn::Set(d, kSkyBlurs - 2.0f));
+  const VF lower = hn::Min(hn::Floor(blur), hn::Set(d, kSkyBlurs - 2.0f));
+  const VF level = hn::Max(lower, hn::Zero(d));
   const VI image = hn::ConvertTo(IntTag(), hn::IfThenElseZero(live, level));
   const V3 sharper = ImageSky(blurred, direction, live, image);
   const VI next = hn::Add(image, hn::Set(IntTag(), 1));

@@ -72,7 +72,7 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
   const SurfelColumns& surfels = job.surfels;
   const VF one = hn::Set(d, 1.0f);
   ClearSlot(slot, block);
-  const auto [valid, triangle] = LoadHits(hits, i);
+  const auto [valid, triangle] = LoadHits(hits, tables.triangleCount, i);
   if (job.absorption) Absorb(tables, rays, hits, valid, i);
   if (hn::AllFalse(d, valid)) {
     hn::Store(hn::Set(du, kMiss), du, surfels.material + i);
@@ -197,7 +197,7 @@ HWY_INLINE void QueueDataMap(const SurfelJob& job, size_t i, size_t slot, MapOf&
                              MapQueue& queue) {
   const FloatTag d;
   queue.level.any[slot] = false;
-  const auto [valid, triangle] = LoadHits(job.hits, i);
+  const auto [valid, triangle] = LoadHits(job.hits, job.tables.triangleCount, i);
   if (hn::AllFalse(d, valid)) return;
   TriangleLanes t = LoadTriangles(job.tables, triangle);
   const VI map = mapOf(MaterialLanes(job.tables, t.material, valid));
@@ -312,11 +312,11 @@ void LiftShadowOrigins(Chunk& c) {
   const bool instanced = c.has(Feature::instances), spheres = c.has(Feature::spheres);
   const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
   for (size_t i = 0; i < n; i += hn::Lanes(d)) {
-    const auto [valid, triangle] = LoadHits(hits, i);
+    const auto [valid, triangle] = LoadHits(hits, tables.triangleCount, i);
     const TriangleLanes t = LoadTriangles(tables, triangle);
     WorldCorners w{{t.p0, t.p1, t.p2}, UnitNormals(LoadNormals(tables, triangle))};
     if (instanced) {
-      const InstanceHits on = LoadInstances(hits, valid, i);
+      const InstanceHits on = LoadInstances(hits, tables.instances.size(), valid, i);
       if (!hn::AllFalse(d, on.placed)) CarryToWorld(tables, on, w);
     }
     const VF u = hn::Load(d, hits.u + i), v = hn::Load(d, hits.v + i);

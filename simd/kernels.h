@@ -4,7 +4,8 @@
 // A kernel that is a step of its own is a function of a chunk (stages/chunk.h); the others work for
 // steps that call Embree or write the film. Kernels run over the slots [0, n) of their columns with
 // the SIMD target that was chosen last, throw nothing and allocate nothing. Slots from n to the
-// next multiple of 16 may be overwritten with anything; their hits must be misses. The scalar
+// next multiple of 16 may hold anything and be overwritten with anything; but their hits and
+// surfels must be misses. No bits in any lane lead a kernel out of its tables. The scalar
 // reference of each is in src/reference, in the file of the same stage, written to the same
 // formulas in double.
 //
@@ -170,8 +171,10 @@ constexpr std::size_t indexOf(const Kernel& kernel) {
 // The tables that the numbers of hits refer to.
 struct HitTables {
   const TriangleRecord* triangles = nullptr;
+  std::size_t triangleCount = 1;  // spheres included
   std::uint32_t firstSphere = 0;  // from here on they are spheres
   const InstanceTransform* instances = nullptr;
+  std::size_t instanceCount = 1;
 };
 
 // Between columns and Embree's packets. Lanes left over get empty rays, and so do rays that Embree

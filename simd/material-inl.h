@@ -35,7 +35,7 @@ struct LobeLanes {
 class MaterialLanes {
  public:
   HWY_INLINE MaterialLanes(const ShadingTables& tables, VI material, MF live)
-      : records_(tables.materials.data(), material, live) {}
+      : records_(tables.materials.data(), Clamped(material, tables.materials.size()), live) {}
 
   HWY_INLINE ColorLanes Diffuse() const {
     return At<offsetof(R, diffuse), offsetof(R, diffuseMap)>();
@@ -107,7 +107,7 @@ HWY_INLINE VU RemoveMedium(VU stack, VU medium) {
 }
 
 HWY_INLINE VF PriorityOf(const ShadingTables& tables, VU medium) {
-  return GatherMember<offsetof(MediumRecord, priority)>(tables.media.data(),
+  return GatherMember<offsetof(MediumRecord, priority)>(std::span(tables.media),
                                                         hn::BitCast(IntTag(), medium));
 }
 
@@ -135,7 +135,7 @@ HWY_INLINE VU CurrentMedium(const ShadingTables& tables, VU stack) {
 // The index of refraction of the medium on top of the stack by priority.
 HWY_INLINE VF IorOf(const ShadingTables& tables, VU stack) {
   return GatherMember<offsetof(MediumRecord, ior)>(
-      tables.media.data(), hn::BitCast(IntTag(), CurrentMedium(tables, stack)));
+      std::span(tables.media), hn::BitCast(IntTag(), CurrentMedium(tables, stack)));
 }
 
 // The stack behind the dielectrics whose faces share the place of the one that was crossed
@@ -180,7 +180,7 @@ HWY_INLINE void Absorb(const ShadingTables& tables, const RayColumns& rays, cons
   const VU stack = hn::Load(du, rays.media + i);
   if (hn::AllTrue(du, hn::Eq(stack, hn::Zero(du)))) return;
   const VI medium = hn::BitCast(di, CurrentMedium(tables, stack));
-  const Records<MediumRecord> records(tables.media.data(), medium);
+  const Records<MediumRecord> records(tables.media.data(), Clamped(medium, tables.media.size()));
   const V4 record =
       records.Load4<offsetof(MediumRecord, ior), offsetof(MediumRecord, absorption[2])>();
   const VF t = hn::Load(d, hits.t + i);

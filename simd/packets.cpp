@@ -149,7 +149,7 @@ struct SeenTriangle {
 
 HWY_INLINE void CarryToWorld(const HitTables& tables, const HitColumns& hits, MF valid, size_t i,
                              const V3& corner, const V3& origin, SeenTriangle& t) {
-  const auto [placed, instance] = LoadInstances(hits, valid, i);
+  const auto [placed, instance] = LoadInstances(hits, tables.instanceCount, valid, i);
   if (hn::AllFalse(FloatTag(), placed)) return;
   const PlacementLanes p = LoadPlacements(tables.instances, instance, placed);
   const MatrixLanes& m = p.toWorld;
@@ -209,7 +209,7 @@ void RefineHits(const HitTables& tables, const RayColumns& rays, size_t n, const
   const FloatTag d;
   constexpr size_t kStride = kFloatsOf<TriangleRecord>;
   for (size_t i = 0; i < n; i += hn::Lanes(d)) {
-    const auto [valid, triangle] = LoadHits(hits, i);
+    const auto [valid, triangle] = LoadHits(hits, tables.triangleCount, i);
     const MF on = hn::And(AreTriangles(triangle, tables.firstSphere), valid);
     if (hn::AllFalse(d, on)) continue;
     const auto [c0, c1, c2] = LoadCorners(tables.triangles, kStride, triangle);

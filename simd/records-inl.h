@@ -8,6 +8,8 @@
 #define WHIT_SIMD_RECORDS_INL_H_
 #endif
 
+#include <span>
+
 #include "simd/vec3-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -27,6 +29,15 @@ constexpr size_t FourFloatsAt() {
   static_assert(kFirst % sizeof(float) == 0 && kFirst + 4 * sizeof(float) <= sizeof(Record));
   static_assert(kLast == kFirst + 3 * sizeof(float));
   return kFirst / sizeof(float);
+}
+
+// An index of one of `count` records, whatever bits the lane holds. Indices that come from columns
+// go through it, because columns may hold anything behind their last slot; those that come from
+// records of the scene name records of the scene.
+HWY_INLINE VI Clamped(VI index, size_t count) {
+  const UintTag du;
+  const VU last = hn::Set(du, static_cast<uint32_t>(count - 1));
+  return hn::BitCast(IntTag(), hn::Min(hn::BitCast(du, index), last));
 }
 
 HWY_INLINE const float* RecordAt(const void* base, size_t floats, int32_t index) {
@@ -165,16 +176,17 @@ class SharedRecords {
   bool uniform_;
 };
 
-// One float of a record a lane, by a gather.
+// One float of a record a lane, by a gather; of some record where the index names none.
 template <size_t kMember, class Record>
-HWY_INLINE VF GatherMember(const Record* table, VI index) {
+HWY_INLINE VF GatherMember(std::span<const Record> table, VI index) {
   static_assert(kMember % sizeof(float) == 0 && kMember + sizeof(float) <= sizeof(Record));
   const IntTag di;
-  VI at = hn::Mul(index, hn::Set(di, static_cast<int32_t>(kFloatsOf<Record>)));
+  VI at =
+      hn::Mul(Clamped(index, table.size()), hn::Set(di, static_cast<int32_t>(kFloatsOf<Record>)));
   if constexpr (kMember != 0) {
     at = hn::Add(at, hn::Set(di, static_cast<int32_t>(kMember / sizeof(float))));
   }
-  return hn::GatherIndex(FloatTag(), reinterpret_cast<const float*>(table), at);
+  return hn::GatherIndex(FloatTag(), reinterpret_cast<const float*>(table.data()), at);
 }
 
 }  // namespace whit::simd::HWY_NAMESPACE

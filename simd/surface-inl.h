@@ -56,12 +56,13 @@ struct HitLanes {
   VI triangle;  // some triangle where nothing was hit
 };
 
-HWY_INLINE HitLanes LoadHits(const HitColumns& hits, size_t i) {
+HWY_INLINE HitLanes LoadHits(const HitColumns& hits, size_t triangleCount, size_t i) {
   const UintTag du;
   const IntTag di;
   const VU hit = hn::Load(du, hits.triangle + i);
   const MF valid = hn::RebindMask(FloatTag(), hn::Ne(hit, hn::Set(du, kMiss)));
-  return {valid, hn::IfThenElseZero(hn::RebindMask(di, valid), hn::BitCast(di, hit))};
+  const VI triangle = Clamped(hn::BitCast(di, hit), triangleCount);
+  return {valid, hn::IfThenElseZero(hn::RebindMask(di, valid), triangle)};
 }
 
 // The lanes whose number is a triangle's and not a sphere's. Highway compares no unsigned numbers,
@@ -192,10 +193,12 @@ struct InstanceHits {
   VI instance;
 };
 
-HWY_INLINE InstanceHits LoadInstances(const HitColumns& hits, MF valid, size_t i) {
+HWY_INLINE InstanceHits LoadInstances(const HitColumns& hits, size_t instanceCount, MF valid,
+                                      size_t i) {
   const IntTag di;
   const VI instance = hn::Load(di, reinterpret_cast<const int32_t*>(hits.instance) + i);
-  return {hn::And(valid, hn::RebindMask(FloatTag(), NonNegative(instance))), instance};
+  return {hn::And(valid, hn::RebindMask(FloatTag(), NonNegative(instance))),
+          Clamped(instance, instanceCount)};
 }
 
 struct Surface {
@@ -245,7 +248,7 @@ HWY_INLINE void StoreClearance(const Surface& s, VF t, size_t i, const SurfelCol
 HWY_INLINE void CarryToWorld(const ShadingTables& tables, const HitColumns& hits, MF valid,
                              size_t i, Surface& s) {
   const FloatTag d;
-  const auto [placed, instance] = LoadInstances(hits, valid, i);
+  const auto [placed, instance] = LoadInstances(hits, tables.instances.size(), valid, i);
   if (hn::AllFalse(d, placed)) return;
   const VF one = hn::Set(d, 1.0f);
   const PlacementLanes p = LoadPlacements(tables.instances.data(), instance, placed);
@@ -394,7 +397,7 @@ HWY_INLINE bool AnyMapped(const ShadingTables& tables, const SphereLanes& s,
                           const TriangleLanes& t) {
   constexpr size_t kFlags = offsetof(MaterialRecord, flags);
   const VU flags =
-      hn::BitCast(UintTag(), GatherMember<kFlags>(tables.materials.data(), t.material));
+      hn::BitCast(UintTag(), GatherMember<kFlags>(std::span(tables.materials), t.material));
   return !hn::AllFalse(FloatTag(), hn::And(s.on, HasFlags(flags, kMaterialMapped)));
 }
 

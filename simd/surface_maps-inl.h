@@ -285,7 +285,7 @@ inline HWY_NOINLINE void QueueByOwnUvs(const SurfelJob& job, size_t i, size_t sl
                                        BlockTextures& block) {
   const FloatTag d;
   const ShadingTables& tables = job.tables;
-  const auto [valid, triangle] = LoadHits(job.hits, i);
+  const auto [valid, triangle] = LoadHits(job.hits, tables.triangleCount, i);
   if (hn::AllFalse(d, valid)) return;
   TriangleLanes t = LoadTriangles(tables, triangle);
   Weights w = LoadWeights(job.hits, i);

@@ -48,7 +48,7 @@ void WriteEmittedAndReflectiveAmbient(Chunk& c) {
     V3 beyond = black;
     if (sky) {
       const V3 direction = Load3(rays.dirX, rays.dirY, rays.dirZ, i);
-      beyond = SkyRadiance(tables.sky, direction, hn::Not(hit));
+      beyond = SkyRadiance(tables.sky, direction, hn::AndNot(hit, hn::FirstN(d, n - i)));
       // A direction of 0 belongs to a pixel that sees nothing.
       const MF seen = hn::Gt(MaxComponent(Abs3(direction)), hn::Zero(d));
       beyond = Select3(seen, beyond, black);

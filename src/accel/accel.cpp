@@ -30,7 +30,8 @@ struct Accel::Parts {
     for (std::size_t i = 0; i < instances.size(); ++i) {
       instances[i].setToWorld(scene.instances[i].toWorld);
     }
-    tables = {scene.triangles.data(), scene.firstSphere, instances.data()};
+    tables = {scene.triangles.data(), scene.triangles.size(), scene.firstSphere, instances.data(),
+              instances.size()};
   }
 
   EmbreeScene embree;

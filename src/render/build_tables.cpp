@@ -197,6 +197,7 @@ ShadingTables buildTables(const Scene& scene, EffectSet effects, const ShadingCh
   static const ColorRecord white{{1, 1, 1, 1, 1, 1, 1, 1, 1}};
   ShadingTables tables;
   tables.triangles = scene.triangles.empty() ? &nowhere : scene.triangles.data();
+  tables.triangleCount = std::max<std::size_t>(1, scene.triangles.size());
   tables.firstSphere = scene.firstSphere;
   tables.normals = scene.normals.empty() ? &flat : scene.normals.data();
   tables.normalStride = scene.normals.empty() ? 0 : sizeof(NormalRecord) / sizeof(float);

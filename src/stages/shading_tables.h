@@ -92,6 +92,7 @@ struct SkyTable {
 
 struct ShadingTables {
   const TriangleRecord* triangles = nullptr;  // at least one
+  std::size_t triangleCount = 1;              // spheres included
   std::uint32_t firstSphere = 0;              // from here on they are spheres (bake/sphere.h)
   // One record a triangle, or with a stride of 0 a single one of zeros, which stands for flat
   // faces.

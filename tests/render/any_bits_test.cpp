@@ -1,0 +1,267 @@
+// Kernels whose lanes hold anything: numbers that are not finite, denormal ones and garbage, in
+// slots behind the last one and in slots that are in use. None of it may lead a kernel out of its
+// tables, and none may change the result of another slot.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "make/model_view.h"
+#include "render/shipped_scene.h"
+#include "simd/kernels.h"
+
+namespace whit::test {
+namespace {
+
+// The columns of a chunk, in memory of their own.
+class OwnChunk {
+ public:
+  OwnChunk(const Chunk& from, std::size_t children)
+      : chunk(from),
+        rays_(from.n, from.frame->features),
+        children_(children, from.frame->features),
+        hits_(from.n, from.frame->features),
+        surfels_(from.n, from.frame->features),
+        unshadowed_(from.n, from.frame->features),
+        shadows_(from.n, from.frame->features),
+        radiance_(from.n, from.frame->features),
+        parentRadiance_(kParents, from.frame->features) {
+    take(from.rays, from.n, *rays_, chunk.rays);
+    take(from.hits, from.n, *hits_, chunk.hits);
+    take(from.surfels, from.n, *surfels_, chunk.surfels);
+    take(from.radiance, from.n, *radiance_, chunk.radiance);
+    take(from.unshadowed, from.n, *unshadowed_, chunk.unshadowed);
+    take(from.shadows, from.shadowCount, *shadows_, chunk.shadows);
+    chunk.children = *children_;
+    chunk.childCount = 0;
+    chunk.parentRadiance = *parentRadiance_;
+    for (std::size_t i = 0; i < from.n; ++i) chunk.rays.parent[i] %= kParents;
+  }
+
+  static constexpr std::size_t kParents = 64;
+  Chunk chunk;
+
+ private:
+  template <typename Columns>
+  static void take(Columns from, std::size_t count, const Columns& own, Columns& to) {
+    to = own;
+    std::vector<const void*> sources;
+    Columns::forEachColumn(from,
+                           [&](const char*, auto* column, Feature) { sources.push_back(column); });
+    std::size_t next = 0;
+    Columns::forEachColumn(to, [&](const char*, auto* column, Feature) {
+      const void* const source = sources[next++];
+      if (column && source && count > 0) std::memcpy(column, source, count * sizeof(float));
+    });
+  }
+
+  ColumnStore<RayColumns> rays_, children_;
+  ColumnStore<HitColumns> hits_;
+  ColumnStore<SurfelColumns> surfels_;
+  ColumnStore<UnshadowedColumns> unshadowed_;
+  ColumnStore<ShadowColumns> shadows_;
+  ColumnStore<RadianceColumns> radiance_, parentRadiance_;
+};
+
+// Any bits, often those of numbers that code may not expect.
+class AnyBits {
+ public:
+  std::uint32_t next() {
+    constexpr float kFloats[] = {std::numeric_limits<float>::quiet_NaN(),
+                                 std::numeric_limits<float>::infinity(),
+                                 -std::numeric_limits<float>::infinity(),
+                                 std::numeric_limits<float>::denorm_min(),
+                                 -1e-40f,
+                                 0.0f,
+                                 3e38f,
+                                 -3e9f,
+                                 -1e-3f,
+                                 1e6f};
+    constexpr std::uint32_t kWords[] = {0x80000000u, 0x7FFFFFFFu, 0xFFFFFFFEu, 0xFFF00001u,
+                                        1u << 20};
+    const auto drawn = static_cast<std::uint32_t>(random_());
+    const std::uint32_t kind = drawn % 20;
+    if (kind >= 15) return static_cast<std::uint32_t>(random_());
+    if (kind >= 10) return kWords[kind - 10];
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &kFloats[kind], sizeof bits);
+    return bits;
+  }
+
+ private:
+  std::mt19937 random_{1};
+};
+
+bool isSpoilt(std::size_t slot) { return slot % 5 == 1 || slot % 7 == 3; }
+
+// What no kernel looks at as a number: where its results belong.
+bool saysWhere(const std::string& column) { return column == "parent" || column == "slot"; }
+bool saysWhetherThereIsAny(const std::string& column) {
+  return column == "triangle" || column == "material";
+}
+
+// Fills the slots from `count` on, which kernels may read, and some of those before it. Slots from
+// `count` on remain misses, as their contract says.
+template <typename Columns>
+void spoil(Columns columns, std::size_t count, bool spoilsSlots, AnyBits& any) {
+  Columns::forEachColumn(columns, [&](const char* name, auto* column, Feature) {
+    for (std::size_t i = 0; column && i < roundUpToBlock(count); ++i) {
+      const bool isFree = i >= count;
+      if (isFree ? saysWhetherThereIsAny(name) : !spoilsSlots || !isSpoilt(i) || saysWhere(name)) {
+        if (isFree) std::memset(column + i, 0xFF, sizeof *column);  // kMiss
+        continue;
+      }
+      const std::uint32_t bits = any.next();
+      std::memcpy(column + i, &bits, sizeof bits);
+    }
+  });
+}
+
+void spoilAll(const Chunk& c, AnyBits& any) {
+  spoil(c.rays, c.n, true, any);
+  spoil(c.hits, c.n, true, any);
+  spoil(c.surfels, c.n, true, any);
+  spoil(c.radiance, c.n, true, any);
+  spoil(c.unshadowed, c.n, true, any);
+  spoil(c.shadows, c.shadowCount, false, any);
+}
+
+// The bits of the rows from 0 to `count` that isWanted(row) holds for.
+template <typename Columns, typename IsWanted>
+void appendRows(Columns columns, std::size_t count, const IsWanted& isWanted,
+                std::vector<std::uint32_t>& bits) {
+  Columns::forEachColumn(columns, [&](const char*, auto* column, Feature) {
+    for (std::size_t i = 0; column && i < count; ++i) {
+      std::uint32_t word = 0;
+      std::memcpy(&word, column + i, sizeof word);
+      if (isWanted(i)) bits.push_back(word);
+    }
+  });
+}
+
+// All that counts of what a kernel may have written for the slots that are not spoilt: surfels
+// where there is one, and light where it may arrive.
+std::vector<std::uint32_t> resultsOf(const Chunk& c) {
+  std::vector<std::uint32_t> bits;
+  const auto isSound = [](std::size_t slot) { return !isSpoilt(slot); };
+  const auto isSurfel = [&](std::size_t i) { return isSound(i) && c.surfels.material[i] != kMiss; };
+  std::vector<bool> lit(c.n);
+  for (std::size_t i = 0; i < c.n; ++i) lit[i] = isSound(i) && c.unshadowed.visible[i] != 0;
+  for (std::size_t i = 0; i < c.shadowCount; ++i) {
+    lit[c.shadows.slot[i]] = isSound(c.shadows.slot[i]);
+  }
+  appendRows(c.rays, c.n, isSound, bits);
+  appendRows(c.hits, c.n, isSound, bits);
+  appendRows(c.surfels, c.n, isSurfel, bits);
+  appendRows(c.radiance, c.n, isSound, bits);
+  appendRows(
+      c.unshadowed, c.n, [&](std::size_t i) { return lit[i]; }, bits);
+  appendRows(
+      c.shadows, c.shadowCount, [&](std::size_t i) { return isSound(c.shadows.slot[i]); }, bits);
+  appendRows(
+      c.children, c.childCount, [&](std::size_t i) { return isSound(c.children.parent[i]); }, bits);
+  std::vector<bool> spoilt(OwnChunk::kParents);
+  for (std::size_t i = 0; i < c.n; ++i) {
+    if (isSpoilt(i)) spoilt[c.rays.parent[i]] = true;
+  }
+  appendRows(
+      c.parentRadiance, OwnChunk::kParents, [&](std::size_t i) { return !spoilt[i]; }, bits);
+  return bits;
+}
+
+// Runs each kernel of the plan, when a chunk has gone through all stages, on copies of the chunk.
+class KernelRunner : public StageObserver {
+ public:
+  explicit KernelRunner(const Plan& plan) : plan_(plan) {}
+
+  void after(Stage stage, const Chunk& chunk) override {
+    if (stage != Stage::addImpulses || chunk.n < 40 || chunks_ == kChunks) return;
+    ++chunks_;
+    for (const simd::Kernel& kernel : simd::kKernels) {
+      // Rays of the eye are made of pixels alone.
+      const bool isOfEye = kernel.name == simd::kGenerateRays.name;
+      if (!kernel.find || !plan_.find(kernel.name) || (isOfEye && chunk.depth > 0)) continue;
+      const StepFunction run = kernel.find();
+      compare(kernel.name, chunk, [&](Chunk& c) { run(c); });
+    }
+    const ShadingTables& t = chunk.tables();
+    const simd::HitTables tables{t.triangles, t.triangleCount, t.firstSphere, t.instances.data(),
+                                 t.instances.size()};
+    compare("refineHits", chunk,
+            [&](Chunk& c) { simd::findPacketKernels().refineHits(tables, c.rays, c.n, c.hits); });
+  }
+
+  int kernels = 0;
+
+ private:
+  static constexpr int kChunks = 4;
+  // No multiple of any vector's lanes; few enough for every parent to be one of them.
+  static constexpr std::size_t kSlots = 39;
+
+  template <typename Run>
+  void compare(std::string_view kernel, Chunk chunk, const Run& run) {
+    chunk.n = kSlots;
+    std::size_t rays = 0;
+    while (rays < chunk.shadowCount && chunk.shadows.slot[rays] < kSlots) ++rays;
+    chunk.shadowCount = rays;
+    const std::size_t children = 64 * roundUpToBlock(kSlots);
+    const bool ofAmbientLight = kernel == simd::kFindAmbientAndOcclusionRays.name;
+    OwnChunk sound(chunk, children), spoilt(chunk, children);
+    for (Chunk* c : {&sound.chunk, &spoilt.chunk}) {
+      c->turnTo(ofAmbientLight ? kAmbientLight : 0, 0, 2);
+    }
+    // Slots that are not in use are misses in both.
+    AnyBits any, other;
+    spoil(sound.chunk.hits, kSlots, false, other);
+    spoil(sound.chunk.surfels, kSlots, false, other);
+    spoilAll(spoilt.chunk, any);
+    run(sound.chunk);
+    run(spoilt.chunk);
+    EXPECT_TRUE(resultsOf(sound.chunk) == resultsOf(spoilt.chunk)) << kernel;
+    ++kernels;
+  }
+
+  const Plan& plan_;
+  int chunks_ = 0;
+};
+
+// A shipped scene with a sky of an image and all that needs rays of chance.
+Scene withImageSky(const std::string& name) {
+  Warnings warnings;
+  SceneDescription description = loadScene(name, LoadOptions{}, warnings);
+  description.sky = studioSky();
+  description.ambient.occlusion = 1;
+  description.ambient.up = description.ambient.down = Rgb(0.5f);
+  return Scene::finalize(std::move(description), warnings);
+}
+
+TEST(AnyBits, LeadNoKernelAstray) {
+  for (const std::string name : {"glass", "whitted", "landscape?triangles=2000"}) {
+    const Scene scene = withImageSky(name);
+    for (const std::string& target : simd::availableTargets()) {
+      for (const bool samples : {false, true}) {
+        SCOPED_TRACE(name + " on " + target + (samples ? ", with samples" : ""));
+        RenderOptions o = smallOptions();
+        o.size = ImageSize{40, 30};
+        o.threads = 1;
+        o.simd = target;
+        o.effects = EffectChoice::all;
+        o.shading.terminator = true;
+        o.glossy = o.indirect = samples ? 2 : 0;
+        o.lightSamples = o.ambientSamples = samples ? 2 : 1;
+        Renderer renderer(scene, o);
+        Film film = makeFilm(scene, o);
+        KernelRunner runner(renderer.plan());
+        StageObserver* const observers[] = {&runner};
+        renderer.observe(chooseCamera(scene, o), film, observers);
+        EXPECT_GT(runner.kernels, 30);
+      }
+    }
+  }
+  simd::chooseTarget("auto");
+}
+
+}  // namespace
+}  // namespace whit::test
