@@ -17,6 +17,7 @@ if [ "$preset" = clang ] && ! command -v clang++ >/dev/null; then
 fi
 build=build-$preset
 cmake --preset "$preset" -B "$build" -DWHIT_WERROR=ON >/dev/null
+export HOME=$root/$build/tests/home  # the user's stays as it is
 cmake --build "$build" --parallel "$(nproc)" --target "${@/%/_test}"
 
 # part AREA INDEX: half of the area's tests, the log shown when one fails.

@@ -54,9 +54,13 @@ def complain(text):
     print("!! " + text, file=sys.stderr)
 
 
+def has_sponza():
+    return (pathlib.Path(os.environ.get("WHIT_DATA", "")) / "crytek_sponza").is_dir()
+
+
 def here(scenes):
     """Those scenes whose files are here."""
-    if os.environ.get("WHIT_DATA"):
+    if has_sponza():
         return scenes
     return [scene for scene in scenes if scene != "sponza-mirror"]
 
@@ -524,8 +528,8 @@ def main():
     if not job.tables_only:
         if not (BUILD / "whit").exists():
             sys.exit("tests/measure.py: there is no build/whit; scenes/demo.sh makes it")
-        if not os.environ.get("WHIT_DATA"):
-            complain("WHIT_DATA is not set: sponza-mirror is left out")
+        if not has_sponza():
+            complain("$WHIT_DATA has no crytek_sponza: sponza-mirror is left out")
         OUT.mkdir(parents=True, exist_ok=True)
         if job.speed or every:
             measure_speed()

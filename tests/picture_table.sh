@@ -1,6 +1,9 @@
 # For scripts that compare pictures of the shipped scenes; to be sourced.
 
-tableScenes() { echo matte whitted glass mirrors atrium landscape ${WHIT_DATA:+sponza-mirror}; }
+tableScenes() {
+  echo matte whitted glass mirrors atrium landscape
+  if [ -d "${WHIT_DATA:-}/crytek_sponza" ]; then echo sponza-mirror; fi
+}
 
 tableHead() {
   echo "| $1 | same codes | within one code | largest difference | RMSE |"

@@ -95,6 +95,8 @@ int run(const Words& words) {
   }
   if (words[0] == "--version") {
     std::printf("whit %s\n", WHIT_VERSION);
+    const std::string leftOut = WHIT_LEFT_OUT;
+    if (!leftOut.empty()) std::printf("Left out of this build: %s\n", leftOut.c_str());
     return 0;
   }
   if (words[0] == "--man") {

@@ -63,8 +63,8 @@ int serve(const ServeJob& job) {
 #else
 [[noreturn]] int serve(const ServeJob& /*job*/) {
   throwUsage(
-      "this build of whit cannot serve: it was made without cpp-httplib (libcpp-httplib-dev, "
-      "-DWHIT_SERVE=ON)");
+      "this build of whit cannot serve, because cpp-httplib was missing when it was made: install "
+      "libcpp-httplib-dev and build again");
 }
 #endif
 

@@ -170,8 +170,8 @@ fs::path PathRules::resolve(std::string text, const fs::path& folder, const std:
       throwBadScene(where, "expected \"$WHIT_DATA/...\", found \"" + excerpt(text) + "\"");
     }
     if (dataFolder_.empty()) {
-      throwBadScene(where,
-                    "expected $WHIT_DATA to be set to the folder of \"" + excerpt(text) + "\"");
+      throwIo(where + ": cannot open \"" + excerpt(text) +
+              "\": WHIT_DATA is not set, set it to the folder that has this file");
     }
     path = dataFolder() / fs::path(text.substr(kDataVariable.size())).relative_path();
   } else {

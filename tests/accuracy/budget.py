@@ -17,6 +17,7 @@ import os
 import random
 import statistics
 import subprocess
+import sys
 import tempfile
 
 import whit
@@ -115,7 +116,13 @@ def main():
     parser.add_argument("--truth", type=float, default=60, help="seconds for the reference of a view")
     arguments = parser.parse_args()
     data = os.environ.get("WHIT_DATA", "")
-    sources = SCENES + [os.path.join(data, "gltf", model) for model in MODELS]
+    models = [os.path.join(data, "gltf", model) for model in MODELS]
+    missing = [model for model in models if not os.path.exists(model)]
+    if not os.path.isdir(os.path.join(data, "crytek_sponza")):
+        missing.append("sponza-mirror")
+    for source in missing:
+        print(f"!! NOT measured, its files are not in $WHIT_DATA: {source}", file=sys.stderr)
+    sources = [source for source in SCENES + models if source not in missing]
     rng = random.Random(arguments.seed)
     views = sources + [rng.choice(sources) for _ in range(max(arguments.views - len(sources), 0))]
     rng.shuffle(views)

@@ -51,6 +51,19 @@ TEST(Verify, TellsWorstAndBoundOfEveryRun) {
   EXPECT_NE(outcome.err.find(" reported  "), std::string::npos) << outcome.err;
 }
 
+// A scene whose files are not here is named, and the others are compared.
+TEST(Verify, HashesWithoutRealScenes) {
+  const TemporaryFolder folder;
+  const int status = waitFor(startWhit(
+      {"--hashes", "48x30", "sponza-mirror", "matte"}, folder, [] { unsetenv("WHIT_DATA"); },
+      WHIT_VERIFY_PROGRAM));
+  const std::string err = readFile(folder / "stderr");
+  EXPECT_EQ(status, 0) << err;
+  EXPECT_NE(readFile(folder / "stdout").find("as published"), std::string::npos);
+  EXPECT_NE(err.find("left out: sponza-mirror ("), std::string::npos) << err;
+  EXPECT_NE(err.find("WHIT_DATA is not set"), std::string::npos) << err;
+}
+
 TEST(Verify, UnknownCasesNameTheNearest) {
   const Outcome outcome = runVerify({"--only", "H51x"});
   EXPECT_EQ(outcome.status, 2);

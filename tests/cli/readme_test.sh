@@ -68,7 +68,7 @@ openDisplay() {
 # What a command needs that is not here; nothing if it can be run.
 lacking() {
   case $1 in
-    *sponza-mirror*) [ -n "${WHIT_DATA:-}" ] || echo "WHIT_DATA is not set" ;;
+    *sponza-mirror*) [ -d "${WHIT_DATA:-}/crytek_sponza" ] || echo "WHIT_DATA has no crytek_sponza" ;;
   esac
   case $1 in
     *scenes/farm/*) command -v parallel >/dev/null || echo "GNU parallel is not installed" ;;

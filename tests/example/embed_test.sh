@@ -36,7 +36,7 @@ if command -v pkg-config >/dev/null; then
   pc=$(find "$work/usr" -name whit.pc)
   PKG_CONFIG_PATH=$(dirname "$pc")
   export PKG_CONFIG_PATH
-  test "whit $(pkg-config --modversion whit)" = "$(usr/bin/whit --version)"
+  test "whit $(pkg-config --modversion whit)" = "$(usr/bin/whit --version | head -1)"
   "$3" -std=c++20 "$here/embed.cpp" \
     $(pkg-config --cflags --libs whit) -o packaged
   WHIT_SCENES=$(pkg-config --variable=scenes whit) LD_LIBRARY_PATH=$(pkg-config --variable=libdir whit) \

@@ -71,6 +71,12 @@ TEST_F(ScenePaths, TheDataFolderIsAllowed) {
   EXPECT_EQ(errorOfModel("$WHIT_DATA/in.obj"), "no error");
   EXPECT_EQ(errorOfModel("$WHIT_DATA/../out.obj").substr(0, 2), "3 ");
   EXPECT_EQ(errorOfModel("$WHIT_DATABASE/in.obj").substr(0, 2), "3 ");
+
+  // Without the variable the scene is as good as before; a file cannot be found.
+  unsetenv("WHIT_DATA");
+  EXPECT_EQ(errorOfModel("$WHIT_DATA/in.obj"),
+            "4 s.json#/scene/0/model: cannot open \"$WHIT_DATA/in.obj\": WHIT_DATA is not set, set "
+            "it to the folder that has this file");
 }
 
 TEST_F(ScenePaths, NoAddressesAndNoEmptyPaths) {

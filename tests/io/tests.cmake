@@ -1,5 +1,5 @@
 whit_tests(io whit_io whit_render)
-if(WHIT_MESHOPT)
+if(WHIT_HAS_MESHOPT)
   target_compile_definitions(io_test PRIVATE WHIT_MESHOPT)
   target_link_libraries(io_test PRIVATE ${WHIT_MESHOPT_LIBRARY})
 endif()

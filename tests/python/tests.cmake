@@ -1,5 +1,5 @@
 # The Python module, where it is built: a test program a file.
-if(WHIT_PYTHON)
+if(WHIT_HAS_PYTHON)
   file(GLOB tests CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/python/*_test.py)
   foreach(test ${tests})
     get_filename_component(name ${test} NAME_WE)

@@ -1,7 +1,7 @@
 # The server of `whit serve`, and its page in a browser.
 if(TARGET whit_serve)
   whit_tests(serve whit_serve)
-  target_link_libraries(serve_test PRIVATE PkgConfig::HTTPLIB)
+  target_link_libraries(serve_test PRIVATE whit_httplib)
   whit_runs_programs(serve whit)
   if(NOT WHIT_SANITIZE)
     find_program(WHIT_SYSTEM_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH)

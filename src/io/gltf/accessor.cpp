@@ -37,7 +37,7 @@ constexpr ComponentType kComponentTypes[] = {
     {5122, 2, valueAs<std::int16_t>, false}, {5123, 2, valueAs<std::uint16_t>, true},
     {5125, 4, valueAs<std::uint32_t>, true}, {5126, 4, valueAs<float>, false}};
 
-const ComponentType& componentTypeOf(const JsonValue& code, bool forIndices = false) {
+ComponentType componentTypeOf(const JsonValue& code, bool forIndices = false) {
   const std::uint64_t found = code.wholeOr(0);
   for (const ComponentType& type : kComponentTypes) {
     if (type.code == found && (type.isIndex || !forIndices)) return type;
@@ -114,7 +114,7 @@ class AccessorReader {
     const JsonValue indices = sparse.need("indices");
     const std::uint64_t count =
         sparse.need("count").wholeOr(0, std::numeric_limits<std::int32_t>::max());
-    const ComponentType& type = componentTypeOf(indices.need("componentType"), true);
+    const ComponentType type = componentTypeOf(indices.need("componentType"), true);
     const Run which = elementsWithin(document_, indices, false, type.bytes, count);
     const Run values = elementsWithin(document_, sparse.need("values"), false, bytes_, count);
     for (std::uint64_t i = 0; i < count; ++i) {
@@ -135,7 +135,7 @@ class AccessorReader {
  private:
   const GltfDocument& document_;
   JsonValue accessor_;
-  const ComponentType& component_;
+  ComponentType component_;
   std::uint64_t bytes_, count_;  // bytes of an element
   bool normalized_;
   Run dense_;
@@ -192,7 +192,7 @@ GltfColors readColors(const GltfDocument& document, const JsonValue& reference) 
 std::vector<std::uint32_t> readIndices(const GltfDocument& document, const JsonValue& reference) {
   const JsonValue accessor = accessorOf(document, reference);
   const AccessorReader reader(document, accessor, 1, "SCALAR");
-  const ComponentType& type = componentTypeOf(accessor["componentType"], true);
+  const ComponentType type = componentTypeOf(accessor["componentType"], true);
   return reader.read<std::uint32_t>(
       1, [&](std::uint32_t* to, const std::uint8_t* from) { *to = type.index(from); });
 }

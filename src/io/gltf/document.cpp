@@ -144,9 +144,9 @@ std::string adviceOn(const std::string& extension) {
   const std::map<std::string, std::string> advice{
       {"KHR_texture_basisu", ": `gltf-transform ktxdecompress IN OUT` converts the file"},
       {"KHR_meshopt_compression", ": `gltfpack -c -i IN -o OUT` converts the file"},
-      {"KHR_draco_mesh_compression", ": this whit was built without libdraco"},
-      {"EXT_meshopt_compression", ": this whit was built without libmeshoptimizer"},
-      {"EXT_texture_webp", ": this whit was built without libwebp"}};
+      {"KHR_draco_mesh_compression", ": this whit was built without libdraco-dev"},
+      {"EXT_meshopt_compression", ": this whit was built without libmeshoptimizer-dev"},
+      {"EXT_texture_webp", ": this whit was built without libwebp-dev"}};
   const auto found = advice.find(extension);
   return found == advice.end() ? "" : found->second;
 }

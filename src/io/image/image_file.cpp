@@ -28,7 +28,7 @@ std::string_view asText(std::span<const std::uint8_t> file) {
 std::string kindOf(std::span<const std::uint8_t> file) {
   constexpr std::pair<std::string_view, const char*> kBeginnings[] = {
       {"GIF8", "a GIF image"},
-      {"RIFF", "a WebP image (this whit was built without libwebp)"},
+      {"RIFF", "a WebP image (this whit was built without libwebp-dev)"},
       {"DDS ", "a DDS texture"},
       {"\xabKTX", "a KTX texture (`ktx extract --transcode rgba8 IN OUT.png` converts it)"},
       {"II*", "a TIFF image"},
