@@ -95,11 +95,6 @@ WHIT_KERNEL(FindRadianceAndShadowRays, "findRadianceAndShadowRays", findRadiance
 WHIT_KERNEL(FindAmbientAndOcclusionRays, "findAmbientAndOcclusionRays", findRadianceAndShadowRays,
             {Part::rays, Part::surfels}, {Part::unshadowed, Part::shadows});
 
-// Removes the rays that the shadow cache decides from the shadow rays; `visible` is 1 where the
-// cache says lit.
-WHIT_KERNEL(DecideShadows, "decideShadows", checkShadows, {Part::hits, Part::shadows},
-            {Part::shadows, Part::unshadowed});
-
 inline constexpr Kernel kPackShadowRays{
     "packShadowRays", Stage::checkShadows, nullptr, {Part::shadows}, {}};
 inline constexpr Kernel kUnpackVisibility{
@@ -149,7 +144,6 @@ inline constexpr std::array kKernels{kGenerateRays,
                                      kWriteEmittedAndReflectiveAmbient,
                                      kFindRadianceAndShadowRays,
                                      kFindAmbientAndOcclusionRays,
-                                     kDecideShadows,
                                      kPackShadowRays,
                                      kUnpackVisibility,
                                      kAddShading,

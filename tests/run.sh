@@ -98,7 +98,6 @@ buildAndTest() {
 checkThreads() {
   local areas=(unit render) area
   local filter='WorkerPool*:ParallelFor*:Analytic.*:*Invariance.H60_any*:*Adaptive.H60*'
-  filter+=':ShadowCache.TablesMay*:ShadowCache.FollowALightThatMoves'
   filter+=':RenderThreadTest.*:ComparisonTest.*:SplitPicture.*'
   filter+=':Viewer.SurvivesTwoHundredRandomEvents:Viewer.FullScreenMinimizedAndResized'
   filter+=':MovingPictures.*:Viewer.PlaysUntilItIsPaused:Serving*'

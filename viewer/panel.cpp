@@ -43,13 +43,6 @@ void drawRays(const FrameStats& stats, EffectSet effects) {
     drawCell("%.2f", cli::mraysPerSecond(tally.rays, stats.frameMs));
     drawCell("%.1f", 100 * cli::lanesFilled(tally));
   }
-  const auto& [lit, dark] = stats.meter.shadows;
-  if (lit + dark > 0) {
-    drawCell("%s", "shadow, proved");
-    drawCell("%.1f", static_cast<double>(lit + dark) / 1e3);
-    drawCell("%s", "-");
-    drawCell("%s", "-");
-  }
   ImGui::EndTable();
 }
 

@@ -28,21 +28,19 @@ constexpr const char* kBenchSummary =
 // An option whose values are measured as separate runs, which take turns.
 struct Series {
   const char *flag, *help, *option;
-  // Separated by bars. An empty one stands for the value on the command line, and "..." for the
-  // powers of two below the number of usable threads and that number.
+  // Separated by bars. "..." stands for the powers of two below the number of usable threads and
+  // that number; an empty value for the value on the command line.
   const char* values;
-  RunPairs pairs;
+  bool isPair = false;  // the second run is compared with the first
 };
 constexpr Series kSeries[] = {
-    {"widths", "packets of 1, 4, 8 and 16 as separate runs", "packet", "1|4|8|16", RunPairs::none},
+    {"widths", "packets of 1, 4, 8 and 16 as separate runs", "packet", "1|4|8|16"},
     {"threads-scaling", "1, 2, 4, ... threads as separate runs, with speed-up and efficiency",
-     "threads", "...", RunPairs::none},
+     "threads", "..."},
     {"ab-effects", "kernels with the scene's effects and with every effect as two runs", "effects",
-     "auto|all", RunPairs::effects},
-    {"ab-shadow-cache", "without and with the shadow cache as two runs", "shadow-cache", "off|",
-     RunPairs::shadowCache},
+     "auto|all", true},
 };
-constexpr Series kOneRun{"", "", "", "", RunPairs::none};
+constexpr Series kOneRun{"", "", "", ""};
 
 struct BenchJob {
   CommonOptions common;
@@ -94,14 +92,11 @@ std::vector<std::string> valuesOf(const Series& series) {
 void addRuns(BenchRuns& runs, const std::string& name, const BenchJob& job, Progress* progress) {
   const std::shared_ptr<const OpenScene> open = openScene(name, job.common, progress);
   const Series& series = job.series();
-  bool caches = series.pairs == RunPairs::shadowCache;
   for (const std::string& value : valuesOf(series)) {
     RenderOptions options = optionsToMeasure(open->scene, job.common);
     if (!value.empty()) setOption(options, series.option, value);
-    caches |= &series == &kOneRun && options.shadowCache == ShadowCacheMode::audit;
     runs.push_back(std::make_unique<BenchRun>(open, job.common, options, progress));
   }
-  if (caches) runs.back()->useShadowCache(job.common.load.maxMemoryBytes);
 }
 
 void checkJob(const BenchJob& job) {
@@ -109,16 +104,13 @@ void checkJob(const BenchJob& job) {
   const Series& series = job.series();
   const bool compares = &series != &kOneRun;
   refuseIf(job.reference() && (job.floor || compares),
-           "--floor, --widths, --threads-scaling, --ab-effects and --ab-shadow-cache are for "
-           "packets, not --mode reference");
+           "--floor, --widths, --threads-scaling and --ab-effects are for packets, not --mode "
+           "reference");
   refuseIf(std::ranges::count(job.wanted, true) > 1,
-           "--ab-shadow-cache, --ab-effects, --threads-scaling and --widths are runs of their own: "
-           "give one of them");
-  const bool isGiven = series.pairs == RunPairs::shadowCache
-                           ? job.common.render.shadowCache == ShadowCacheMode::off
-                           : job.common.given.contains(series.option);
-  refuseIf(isGiven, std::string("--") + series.flag + " chooses --" + series.option +
-                        " itself: leave that out");
+           "--ab-effects, --threads-scaling and --widths are runs of their own: give one of them");
+  refuseIf(
+      job.common.given.contains(series.option),
+      std::string("--") + series.flag + " chooses --" + series.option + " itself: leave that out");
 }
 
 // How much faster frames are than those of one thread, and the share of the threads that this is.
@@ -136,16 +128,15 @@ std::string scalingText(const std::vector<RunSummary>& runs) {
 }
 
 // For runs that come in pairs the ratio of the second over the first is added.
-Json benchJson(const std::vector<RunSummary>& runs, RunPairs pairs) {
+Json benchJson(const std::vector<RunSummary>& runs, bool arePairs) {
   Json json{{"schema", 1}, {"machine", machineJson(runs.at(0).machine)}};
   json["runs"] = Json::array();
   for (const RunSummary& run : runs) json["runs"].push_back(runJson(run));
-  const char* const name = pairs == RunPairs::shadowCache ? "warm_over_off" : "all_over_auto";
-  for (std::size_t i = 0; pairs != RunPairs::none && i + 1 < runs.size(); i += 2) {
+  for (std::size_t i = 0; arePairs && i + 1 < runs.size(); i += 2) {
     const RunRatio ratio = ratioOf(runs[i + 1], runs[i]);
-    json[name].push_back({{"scene", runs[i].scene},
-                          {"frame", ratio.frame},
-                          {"outside_embree", ratio.outsideEmbree}});
+    json["all_over_auto"].push_back({{"scene", runs[i].scene},
+                                     {"frame", ratio.frame},
+                                     {"outside_embree", ratio.outsideEmbree}});
   }
   return json;
 }
@@ -174,13 +165,11 @@ int benchCommand(const Words& words) {
     if (std::string_view(job.series().option) == "threads") {
       std::fprintf(people, "%s", scalingText(summaries).c_str());
     }
-    for (std::size_t i = 0; job.series().pairs != RunPairs::none && i + 1 < summaries.size();
-         i += 2) {
-      std::fprintf(people, "%s",
-                   ratioText(job.series().pairs, summaries[i], summaries[i + 1]).c_str());
+    for (std::size_t i = 0; job.series().isPair && i + 1 < summaries.size(); i += 2) {
+      std::fprintf(people, "%s", ratioText(summaries[i], summaries[i + 1]).c_str());
     }
   }
-  if (!job.json.empty()) writeJson(job.json, benchJson(summaries, job.series().pairs));
+  if (!job.json.empty()) writeJson(job.json, benchJson(summaries, job.series().isPair));
   return 0;
 }
 

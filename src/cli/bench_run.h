@@ -28,21 +28,10 @@ class BenchRun {
     summary_ = summarize(open_->scene, options_, renderer_, film_, open_->loadMs);
   }
 
-  // Switches the shadow cache on: warm-up frames request what it is to hold, and it is filled
-  // before the measured ones. Not in reference mode.
-  void useShadowCache(std::uint64_t maxMemoryBytes) {
-    if (options_.mode == Mode::reference) return;
-    renderer_.expectFrames(memoryLeft(open_->scene, renderer_, maxMemoryBytes));
-  }
-
   void warmUp() { renderFrame(renderer_, options_.mode, camera_, film_); }
 
   // Measures one frame; with `floor` also Embree alone for its rays.
   void measure(bool floor) {
-    if (renderer_.decidesShadows() && !summary_.shadowCache) {
-      const double fillMs = renderer_.fillShadowCache().ms;
-      summary_.shadowCache = {fillMs, renderer_.shadowCacheBytes()};
-    }
     summary_.frames.push_back(renderFrame(renderer_, options_.mode, camera_, film_));
     summary_.imageHash = accuracy::digestOf(film_.image);
     if (floor) summary_.floorMs.push_back(measureFloor(renderer_, camera_, film_));

@@ -15,20 +15,6 @@ namespace {
 
 Json vectorJson(const Vec3f& v) { return Json::array({v.x, v.y, v.z}); }
 
-// The shadow cache that the scene could have: its lights, its pieces of triangles, the number of
-// pixel samples from which it saves time, and otherwise why there is none.
-Json shadowCacheJson(const Scene& scene, const RenderOptions& options) {
-  const auto none = [](const char* because) {
-    return Json{{"lights", 0}, {"parts", 0}, {"samples", 0}, {"because", because}};
-  };
-  if (options.shadowCache == ShadowCacheMode::off) return none("it is off by --shadow-cache");
-  const std::size_t lights = lightsWithShadowCache(makePlan(scene, options, true)).size();
-  if (lights == 0) return none("there is no light whose shadows it could hold");
-  const std::size_t parts = ShadowParts::of(scene).count();
-  if (parts == 0) return none("the world has no triangles, too many, or too distant ones");
-  return {{"lights", lights}, {"parts", parts}, {"samples", samplesThatPay(scene)}};
-}
-
 // Every effect, whether it is on, and why.
 Json effectsJson(const Scene& scene, const RenderOptions& options) {
   Json effects;
@@ -84,7 +70,6 @@ Json infoJson(const OpenScene& open, const Renderer& renderer, const CommonOptio
             {"textures", scene.textures.size()},
             {"sky", skyName(scene.sky)},
             {"memory_mb", memoryMb(scene, renderer)},
-            {"shadow_cache", shadowCacheJson(scene, options)},
             {"animations", Json::array()},
             {"variants", scene.variants},
             {"cameras", namesIn(scene.cameras)},
@@ -124,16 +109,6 @@ void printInfo(const Json& info, const OpenScene& open, const Renderer& renderer
   }
   std::printf("  %-12s%s to %s\n", "bounds", info["bounds"]["lower"].dump().c_str(),
               info["bounds"]["upper"].dump().c_str());
-  const Json& cache = info["shadow_cache"];
-  if (cache.contains("because")) {
-    std::printf("  %-12sno shadow cache: %s\n", "shadows", textOf(cache["because"]).c_str());
-  } else {
-    std::printf(
-        "  %-12sshadow cache for %s light%s, %s pieces of triangles; used in pictures of more "
-        "than %.3g pixel samples\n",
-        "shadows", textOf(cache["lights"]).c_str(), cache["lights"] == 1 ? "" : "s",
-        textOf(cache["parts"]).c_str(), cache["samples"].get<double>());
-  }
   std::printf("  %-12s", "cameras");
   for (const Json& camera : info["cameras"]) std::printf("%s ", textOf(camera).c_str());
   for (const Json& animation : info["animations"]) {

@@ -51,17 +51,6 @@ void addFrames(const RunSummary& run, Json& json) {
   for (std::size_t i = 0; i < kRayKindCount; ++i) {
     json["rays"][std::string(kRayKinds[i].name)] = frame.meter.tally[i].rays;
   }
-  const auto [lit, dark] = frame.meter.shadows;
-  const std::uint64_t traced = frame.of(RayKind::shadow).rays;
-  // The sum is the same with and without the shadow cache.
-  json["rays"]["shadow"] = traced + lit + dark;
-  if (run.shadowCache) {
-    json["shadow_cache"] = {{"lit", lit},
-                            {"dark", dark},
-                            {"traced", traced},
-                            {"fill_ms", run.shadowCache->fillMs},
-                            {"bytes", run.shadowCache->bytes}};
-  }
   json["mrays_per_s"] = mraysPerSecond(frame.allRays(), frame.frameMs);
   for (std::size_t i = 0; i < kRayKindCount; ++i) {
     json["lanes_filled"][std::string(kRayKinds[i].name)] = lanesFilled(frame.meter.tally[i]);

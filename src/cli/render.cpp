@@ -280,7 +280,6 @@ class ImageWriter {
       : job_(job), open_(&open), options_(job.common.render), films_(openFilms(job, open.scene)) {
     renderer_.emplace(open.scene, options_, progress);
     camera_ = job.turntable ? job.turntable->camera : chooseCamera(open.scene, options_);
-    shadowCacheBytes_ = memoryLeft(open.scene, *renderer_, job.common.load.maxMemoryBytes);
     // One for all frames, whichever of them are asked for.
     settleExposure(*renderer_, camera_, options_);
     if (job.budget.isSet()) {
@@ -329,7 +328,6 @@ class ImageWriter {
       ++run_.kept;
       return;
     }
-    if (!receipt_) fillShadowCache(film);
     run_.frames.push_back(renderFrame(*renderer_, options_.mode, camera_, film, progress));
     if (receipt_) assess(*receipt_, *renderer_, camera_, stopwatch.ms(), film);
     refuseNonFinite(open_->scene, options_, run_.frames.back());
@@ -357,13 +355,6 @@ class ImageWriter {
   const std::optional<Receipt>& receipt() const { return receipt_; }
 
  private:
-  void fillShadowCache(Film& film) {
-    const auto fillMs = prepareShadowCache(*renderer_, shadowCacheBytes_, camera_, film);
-    if (!fillMs) return;
-    const double before = run_.shadowCache ? run_.shadowCache->fillMs : 0;
-    run_.shadowCache = {before + *fillMs, renderer_->shadowCacheBytes()};
-  }
-
   bool areWhole(const std::vector<std::string>& files, const Image& image,
                 const ImageMetadata& metadata) const {
     return std::ranges::all_of(files, [&](const std::string& file) {
@@ -403,7 +394,6 @@ class ImageWriter {
   RenderOptions options_;  // with an automatic exposure settled, and those that --budget chose
   std::optional<Receipt> receipt_;
   std::optional<Renderer> renderer_;
-  std::uint64_t shadowCacheBytes_ = 0;  // that its tables may take
   std::vector<Film> films_;
   std::size_t film_ = 0;  // that is traced next
   RunSummary run_;

@@ -76,9 +76,6 @@ enum class EffectChoice { automatic, all };
 enum class ToneCurve { none, filmic, reinhard };
 enum class Quality { good, standard, fine, reference };
 enum class BvhQuality { low, medium, high };
-// The shadow cache (shadow_cache/shadow_tables.h): used where it saves time; never; or checked
-// against traced rays, where the frame fails if one differs.
-enum class ShadowCacheMode { automatic, off, audit };
 
 // Needs that several options share.
 inline constexpr EffectSet kNeedsImpulses =
@@ -141,7 +138,6 @@ struct RenderOptions {
   Batch batch = Batch::tile;
   bool robust = true, retry = true;
   BvhQuality bvh = BvhQuality::medium;
-  ShadowCacheMode shadowCache = ShadowCacheMode::automatic;
   int sphereSegments = 0;  // triangles around each sphere that replace it; 0: it is exact
   EffectChoice effects = EffectChoice::automatic;
   EffectSet disable;
@@ -390,13 +386,6 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "medium",
                                .values = "low medium high", .spare = "low high"}},
              o.bvh},
-      Option{{.name = "shadow-cache", .words = "auto|off|audit",
-              .help = "cache of visibility that is proved for pieces of triangles, whose shadow rays "
-                      "are then not traced; auto: in pictures of many samples, in the viewer "
-                      "and in bench --ab-shadow-cache; audit: bench and render also trace "
-                      "the rays that the cache answers, and end where one differs",
-              .rebuilds = Rebuild::tables, .changesPicture = false, .tab = Tab::none},
-             o.shadowCache},
       Option{{.name = "sphere-segments", .words = "N", .low = 0, .high = kSphereSegmentsLimit,
               .help = "triangles in place of exact spheres: N around and half as many from pole "
                       "to pole, at least 4; 0: exact",

@@ -49,17 +49,9 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
 
 // Options of other programs and of former versions, and what they are called here.
 constexpr std::pair<std::string_view, std::string_view> kSynonyms[] = {
-    {"ao", "ambient-samples"},
-    {"bounces", "depth"},
-    {"gi", "indirect"},
-    {"height", "size"},
-    {"j", "threads"},
-    {"out", "output"},
-    {"resolution", "size"},
-    {"samples", "spp"},
-    {"verdicts", "shadow-cache"},
-    {"width", "size"},
-    {"ab-verdicts", "ab-shadow-cache"}};
+    {"ao", "ambient-samples"}, {"bounces", "depth"}, {"gi", "indirect"},
+    {"height", "size"},        {"j", "threads"},     {"out", "output"},
+    {"resolution", "size"},    {"samples", "spp"},   {"width", "size"}};
 
 }  // namespace
 

@@ -41,7 +41,7 @@ Luminances luminancesOf(const Renderer& renderer, const Camera& camera) {
   reference::Settings settings;
   settings.options.depth = kDepth;
   settings.options.disable = renderer.options().disable;
-  settings.effects = makePlan(scene, settings.options, false).effects;
+  settings.effects = makePlan(scene, settings.options).effects;
   const EmbreeIntersector intersector(renderer.accel());
   const reference::Tracer tracer(scene, intersector, settings);
   const CameraFrame frame =

@@ -110,9 +110,6 @@ void FrameStats::add(const FrameStats& worker) {
     meter.tally[i].rays += worker.meter.tally[i].rays;
     meter.tally[i].lanes += worker.meter.tally[i].lanes;
   }
-  meter.shadows.lit += worker.meter.shadows.lit;
-  meter.shadows.dark += worker.meter.shadows.dark;
-  if (!meter.wrongShadow) meter.wrongShadow = worker.meter.wrongShadow;
   meter.embreeMs += worker.meter.embreeMs;
   nonFinitePixels += worker.nonFinitePixels;
 }

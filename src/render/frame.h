@@ -77,10 +77,6 @@ inline constexpr int kPoolReach = 2;  // pixels to each side, within the film's 
 // Throws Error(badScene) for a frame with pixels that are not finite when the options are strict.
 void refuseNonFinite(const Scene& scene, const RenderOptions& options, const FrameStats& frame);
 
-// Throws Error(checkFailed), naming light, triangle and ray, for a frame whose rays have
-// contradicted the shadow cache.
-void requireRightShadows(const FrameStats& stats, const Scene& scene);
-
 // Samples of the pattern, [first, end).
 struct SampleRange {
   int first = 0, end = 0;

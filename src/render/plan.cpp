@@ -100,16 +100,9 @@ Step embreeStep(const char* name, const char* call, StepFunction run, const simd
   return step;
 }
 
-// True if shadow rays start and travel as the proofs of the shadow cache assume.
-bool canDecide(const Plan& plan, const RenderOptions& options) {
-  return plan.effects.has(Effect::shadows) && options.robust && !plan.features.has(Feature::lift) &&
-         options.shading.offset == OffsetMethod::bound;
-}
-
 class Planner {
  public:
-  Planner(const Scene& scene, const RenderOptions& options, bool shadowCache)
-      : scene_(scene), options_(options), shadowTables_(shadowCache) {
+  Planner(const Scene& scene, const RenderOptions& options) : scene_(scene), options_(options) {
     const bool all = options.effects == EffectChoice::all;
     const EffectSet called = all ? EffectSet::all() : scene.effects;
     plan_.effects =
@@ -239,10 +232,6 @@ class Planner {
     std::vector<Step>& steps =
         startLight(index, sample, samples, simd::kFindRadianceAndShadowRays).steps;
     if (has(Effect::shadows)) {
-      if (shadowTables_ && samples == 1 && canDecide(plan_, options_)) {
-        steps.push_back(stepOf(simd::kDecideShadows));
-        if (options_.shadowCache == ShadowCacheMode::audit) steps.back().run = auditShadows;
-      }
       steps.push_back(checkShadowsStep());
     }
     steps.push_back(stepOf(simd::kAddShading));
@@ -306,7 +295,6 @@ class Planner {
 
   const Scene& scene_;
   const RenderOptions& options_;
-  bool shadowTables_;
   Plan plan_;
 };
 
@@ -332,20 +320,10 @@ std::vector<Stage> Plan::stages() const {
   return list;
 }
 
-Plan makePlan(const Scene& scene, const RenderOptions& options, bool shadowCache) {
-  Plan plan = Planner(scene, options, shadowCache).make();
+Plan makePlan(const Scene& scene, const RenderOptions& options) {
+  Plan plan = Planner(scene, options).make();
   requireOrder(plan);
   return plan;
-}
-
-std::vector<std::size_t> lightsWithShadowCache(const Plan& plan) {
-  std::vector<std::size_t> lights;
-  for (const LightSteps& light : plan.perLight) {
-    const bool decides = std::ranges::any_of(
-        light.steps, [](const Step& step) { return step.name == simd::kDecideShadows.name; });
-    if (decides) lights.push_back(light.light);
-  }
-  return lights;
 }
 
 std::vector<KernelUse> kernelsOf(const Plan& plan) {

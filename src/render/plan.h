@@ -90,13 +90,8 @@ struct Plan {
   std::vector<Stage> stages() const;
 };
 
-// Makes a plan for kernels of the chosen target (simd::chooseTarget). `shadowCache`: the frames
-// have a shadow cache, or will have one.
-Plan makePlan(const Scene& scene, const RenderOptions& options, bool shadowCache = false);
-
-// The lights whose shadows it decides: those taken as points, if shadow rays start at their surfels
-// and go through robust traversal.
-std::vector<std::size_t> lightsWithShadowCache(const Plan& plan);
+// Makes a plan for kernels of the chosen target (simd::chooseTarget).
+Plan makePlan(const Scene& scene, const RenderOptions& options);
 
 std::vector<KernelUse> kernelsOf(const Plan& plan);
 

@@ -107,7 +107,7 @@ void Renderer::sceneMoved() {
 
 std::uint64_t Renderer::memoryBytes() const {
   return accel_->memoryBytes() + tables_.copiedTexels * sizeof(std::uint32_t) + scheduler_.bytes() +
-         adaptive_.bytes() + (shadowTables_ ? shadowTables_->bytes() : 0);
+         adaptive_.bytes();
 }
 
 CameraFrame Renderer::lookFrom(const Camera& camera, const Film& film) {
@@ -124,10 +124,7 @@ CameraFrame Renderer::lookFrom(const Camera& camera, const Film& film) {
 }
 
 FrameConstants Renderer::constantsOf(const CameraFrame& camera) const {
-  const ShadowCacheView* const shadowCache =
-      shadowTables_ ? shadowTables_->views().data() : nullptr;
-  return {&scene_,        &tables_, &*accel_, shadowCache, plan_.effects,
-          plan_.features, options_, camera,   {},          seed_};
+  return {&scene_, &tables_, &*accel_, plan_.effects, plan_.features, options_, camera, {}, seed_};
 }
 
 const std::vector<Vec2f>& Renderer::pattern() {
@@ -153,7 +150,6 @@ Frame Renderer::frameOf(const Camera& camera, Film& film, const FrameHooks* hook
   frame.film = &film;
   frame.hooks = hooks;
   frame.observers = observers;
-  if (!observers.empty()) frame.constants.shadowCache = nullptr;  // observers see all rays
   return frame;
 }
 
@@ -169,9 +165,7 @@ FrameStats Renderer::trace(const Frame& frame, bool adaptively) {
   poolErrors(*frame.film);
   showBackground(*frame.film);
   stats.frameMs = stopwatch.ms();
-  if (!frame.observers.empty()) return stats;
-  stats.workers = machine_.threads;
-  requireRightShadows(stats, scene_);
+  if (frame.observers.empty()) stats.workers = machine_.threads;
   return stats;
 }
 
@@ -230,46 +224,14 @@ void Renderer::replan(Plan next) {
   plan_ = std::move(next);
 }
 
-bool Renderer::usesShadowCache(const RenderOptions& options) const {
-  const bool standsStill = !scene_.motion.ofGeometry && !scene_.motion.ofLights();
-  return standsStill && shadowCacheBytes_ > 0 && options.shadowCache != ShadowCacheMode::off;
-}
-
-void Renderer::expectFrames(std::uint64_t mostBytes) {
-  shadowCacheBytes_ = mostBytes;
-  replan(makePlan(scene_, options_, usesShadowCache(options_)));
-  renewShadowCache();
-}
-
-// Tables for the lights whose shadows the plan decides; what is known of the others goes.
-void Renderer::renewShadowCache() {
-  const std::vector<std::size_t> lights = lightsWithShadowCache(plan_);
-  if (lights.empty()) return;
-  if (shadowTables_ && shadowTables_->lights() == lights &&
-      shadowTables_->views().size() == scene_.lights.size()) {
-    shadowTables_->forgetMovedLights();
-  } else {
-    shadowTables_.emplace(scene_, lights, shadowCacheBytes_);
-  }
-}
-
-FillReport Renderer::fillShadowCache(const FillLimits& limits) {
-  return decidesShadows() ? shadowTables_->fill(scheduler_.pool(), limits) : FillReport();
-}
-
-void Renderer::forgetShadowRequests() {
-  if (shadowTables_) shadowTables_->forgetAsked();
-}
-
 void Renderer::shadingChanged() {
-  Plan plan = makePlan(scene_, options_, usesShadowCache(options_));
+  Plan plan = makePlan(scene_, options_);
   refreshShading(scene_, plan.effects, options_.shading, machine_.threads, tables_);
   replan(std::move(plan));
-  renewShadowCache();
 }
 
 void Renderer::setOptions(const RenderOptions& options) {
-  Plan plan = makePlan(scene_, options, usesShadowCache(options));
+  Plan plan = makePlan(scene_, options);
   if (builtIn(plan) != builtIn(plan_)) {
     throwUsage(
         "alpha masks, spheres and instances are part of the acceleration structure: it has to be "
@@ -279,7 +241,6 @@ void Renderer::setOptions(const RenderOptions& options) {
     refreshShading(scene_, plan.effects, options.shading, machine_.threads, tables_);
   replan(std::move(plan));
   takeOver(options, Rebuild::tables, options_);
-  renewShadowCache();
 }
 
 bool Renderer::canSetOptions(const RenderOptions& options) const {

@@ -19,7 +19,6 @@
 #include "render/frame.h"
 #include "render/plan.h"
 #include "render/scheduler.h"
-#include "shadow_cache/shadow_tables.h"
 #include "stages/lobes.h"
 
 namespace whit {
@@ -102,16 +101,6 @@ class Renderer {
   // Call after moveScene(). Meshes that stand still keep their acceleration structure.
   void sceneMoved();
 
-  // Announces more frames of this scene: a shadow cache of at most this many bytes may be used from
-  // now on (--shadow-cache).
-  void expectFrames(std::uint64_t mostBytes);
-  // Computes the parts of triangles that shadow rays have requested.
-  FillReport fillShadowCache(const FillLimits& limits = {});
-  // Drops the requests of rays for cells of the shadow cache that were not computed yet.
-  void forgetShadowRequests();
-  bool decidesShadows() const { return shadowTables_ && !lightsWithShadowCache(plan_).empty(); }
-  std::uint64_t shadowCacheBytes() const { return shadowTables_ ? shadowTables_->bytes() : 0; }
-
   const Scene& scene() const { return scene_; }
   const RenderOptions& options() const { return options_; }
   const Plan& plan() const { return plan_; }
@@ -137,8 +126,6 @@ class Renderer {
   FrameStats trace(const Frame& frame, bool adaptively = false);
   const std::vector<Vec2f>& pattern();
   void replan(Plan next);
-  bool usesShadowCache(const RenderOptions& options) const;
-  void renewShadowCache();
   void lookAround();
 
   const Scene& scene_;
@@ -146,8 +133,6 @@ class Renderer {
   Plan plan_;
   ShadingTables tables_;
   std::optional<Accel> accel_;
-  std::uint64_t shadowCacheBytes_ = 0;  // that tables may take; 0: no more frames are expected
-  std::optional<ShadowTables> shadowTables_;
   Machine machine_;
   Scheduler scheduler_;
   AdaptiveSampler adaptive_;
@@ -181,14 +166,5 @@ float exposureFor(const Renderer& renderer, const Camera& camera);
 
 // Gives an automatic exposure of the options its value, and tells the renderer.
 void settleExposure(Renderer& renderer, const Camera& camera, RenderOptions& options);
-
-// The least number of samples of pixels in a frame for which the shadow cache saves time.
-double samplesThatPay(const Scene& scene);
-
-// Before a frame: one of a single sample, which overwrites `film`, requests what all of its samples
-// will, in tables of at most this many bytes. Returns the milliseconds that filling them took, or
-// nothing where the cache would not save time. An audit uses it for every frame, with all samples.
-std::optional<double> prepareShadowCache(Renderer& renderer, std::uint64_t mostBytes,
-                                         const Camera& camera, Film& film);
 
 }  // namespace whit

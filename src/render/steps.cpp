@@ -199,38 +199,6 @@ void keepEnds(Chunk& c) {
             [&](std::size_t slot) { return largestWeight(c, slot) * c.radiance.ended[slot]; });
 }
 
-void auditShadows(Chunk& c) {
-  // The rays as they are before the kernel packs what is left more closely.
-  std::vector<ShadowRow> rays;
-  for (std::size_t i = 0; i < c.shadowCount; ++i) rays.push_back(ShadowRow::at(c.shadows, i));
-  simd::kDecideShadows.find()(c);
-  const std::uint32_t *const slots = c.shadows.slot, *const end = slots + c.shadowCount;
-  for (const ShadowRow& ray : rays) {
-    if (std::binary_search(slots, end, ray.slot)) continue;
-    const bool lit = c.unshadowed.visible[ray.slot] > 0;
-    const Vec3f origin(Vec3d{ray.orgX, ray.orgY, ray.orgZ});
-    const Vec3f direction(Vec3d{ray.dirX, ray.dirY, ray.dirZ});
-    if (c.frame->accel->occluded(origin, direction, static_cast<float>(ray.tFar)) != lit) continue;
-    if (c.meter->wrongShadow) return;
-    c.meter->wrongShadow = {true, lit, c.lightNumber, c.hits.triangle[ray.slot], origin, direction};
-    return;
-  }
-}
-
-void requireRightShadows(const FrameStats& stats, const Scene& scene) {
-  const WrongShadow& wrong = stats.meter.wrongShadow;
-  if (!wrong) return;
-  const Vec3f &o = wrong.origin, &d = wrong.direction;
-  const std::string& name = scene.lights[wrong.light].name;
-  throw Error(
-      ExitStatus::checkFailed,
-      formatted("the shadow cache is wrong: light %u%s%s, triangle %u, the ray from (%.9g, %.9g, "
-                "%.9g) along (%.9g, %.9g, %.9g) is %s, and the cache says %s",
-                wrong.light, name.empty() ? "" : " ", name.c_str(), wrong.triangle, o.x, o.y, o.z,
-                d.x, d.y, d.z, wrong.saidLit ? "blocked" : "not blocked",
-                wrong.saidLit ? "lit" : "dark"));
-}
-
 void settleCoplanar(Chunk& c) {
   const Scene& scene = *c.frame->scene;
   std::fill_n(c.hits.alsoCrossed, c.n, 0u);

@@ -10,10 +10,6 @@
 
 namespace whit {
 
-// Replaces decideShadows (--shadow-cache audit): it does the same, traces every ray that was
-// decided, and stores the first ray that contradicts the cache in the chunk's meter.
-void auditShadows(Chunk& c);
-
 // Rounds radiance to what the film keeps (--film), encodes it where display codes are wanted, and
 // writes both to the pixels.
 void updateImage(Chunk& c);

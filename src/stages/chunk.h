@@ -14,7 +14,6 @@
 #include "stages/columns.h"
 #include "stages/ray_kinds.h"
 #include "stages/shading_tables.h"
-#include "stages/shadow_cache_view.h"
 #include "stages/stage.h"
 
 namespace whit {
@@ -36,8 +35,7 @@ struct FrameConstants {
   const Scene* scene = nullptr;
   const ShadingTables* tables = nullptr;
   const Accel* accel = nullptr;
-  const ShadowCacheView* shadowCache = nullptr;  // one a light; null: all rays are traced
-  EffectSet effects;                             // of the plan, for what the reference finds
+  EffectSet effects;  // of the plan, for what the reference finds
   FeatureSet features;
   RenderOptions options;
   CameraFrame camera;
@@ -58,27 +56,12 @@ struct RayTally {
   std::uint64_t lanes = 0;  // lanes sent to Embree for them: packets times width
 };
 
-// Numbers of shadow rays that the shadow cache decided, so that they were not traced.
-struct DecidedShadows {
-  std::uint64_t lit = 0, dark = 0;
-};
-
-// The first ray that contradicts the shadow cache (--shadow-cache audit).
-struct WrongShadow {
-  bool found = false, saidLit = false;
-  std::uint32_t light = 0, triangle = 0;
-  Vec3f origin, direction;
-  explicit operator bool() const { return found; }
-};
-
 // In place of a light's number: the ambient light.
 inline constexpr std::uint32_t kAmbientLight = 0xffffffffu;
 
 // Counters and times of tracing.
 struct TraceMeter {
   std::array<RayTally, kRayKindCount> tally{};
-  DecidedShadows shadows;
-  WrongShadow wrongShadow;
   double embreeMs = 0;  // inside Embree's calls alone
 };
 

@@ -64,50 +64,6 @@ TEST(AbEffects, RefusesWhatDoesNotGoWithIt) {
   }
 }
 
-TEST(AbShadowCache, TakeTurnsAndKeepTheBits) {
-  const Outcome table =
-      runWhit({"bench", "matte", "--size", "48x30", "--ab-shadow-cache", "--frames", "3"});
-  ASSERT_EQ(table.status, 0) << table.err;
-  for (const char* part :
-       {"with over without shadow cache, medians of 3 turns", "shadow cache: 9"}) {
-    EXPECT_NE(table.out.find(part), std::string::npos) << part << table.out;
-  }
-  const Json json = Json::parse(runWhit({"bench", "matte", "--size", "48x30", "--ab-shadow-cache",
-                                         "--frames", "2", "--json", "-"})
-                                    .out);
-  ASSERT_EQ(json["runs"].size(), 2u);
-  const Json &off = json["runs"][0], &warm = json["runs"][1];
-  EXPECT_FALSE(off.contains("shadow_cache"));
-  EXPECT_EQ(off["rays"], warm["rays"]);
-  EXPECT_EQ(off["image_hash"], warm["image_hash"]);
-  const Json& use = warm["shadow_cache"];
-  EXPECT_EQ(use["lit"].get<int>() + use["dark"].get<int>() + use["traced"].get<int>(),
-            warm["rays"]["shadow"].get<int>());
-  EXPECT_GT(use["lit"].get<int>(), 0);
-  EXPECT_GT(use["fill_ms"].get<double>(), 0);
-  EXPECT_GT(json["warm_over_off"][0]["frame"].get<double>(), 0);
-}
-
-TEST(AbShadowCache, RefuseWhatDoesNotGoWithThem) {
-  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
-           {"--widths"}, {"--mode", "reference"}, {"--ab-effects"}, {"--shadow-cache", "off"}}) {
-    std::vector<std::string> all{"bench", "matte", "--ab-shadow-cache"};
-    all.insert(all.end(), words.begin(), words.end());
-    EXPECT_EQ(runWhit(all).status, 2) << words[0];
-  }
-}
-
-// Alone a run traces all shadow rays, unless it shall be held against them.
-TEST(AbShadowCache, AreNotThereUnlessAskedFor) {
-  const auto run = [](const char* choice) {
-    return Json::parse(runWhit({"bench", "matte", "--size", "48x30", "--shadow-cache", choice,
-                                "--frames", "1", "--json", "-"})
-                           .out)["runs"][0];
-  };
-  EXPECT_FALSE(run("auto").contains("shadow_cache"));
-  EXPECT_GT(run("audit")["shadow_cache"]["lit"].get<int>(), 0);
-}
-
 TEST(EffectsCommand, WritesATableAndAPicture) {
   const TemporaryFolder folder;
   const Outcome outcome =

@@ -101,11 +101,11 @@ TEST(SceneOptions, AreThoseThatDescribeThePicture) {
                            "terminator", "disable", "exposure", "tonemap", "background"}) {
     EXPECT_TRUE(all.contains(name)) << name;
   }
-  for (const char* name : {"threads", "packet", "simd",  "mode",         "batch",
-                           "robust",  "retry",  "bvh",   "shadow-cache", "sphere-segments",
-                           "effects", "tile",   "queue", "channels",     "strict",
-                           "size",    "camera", "eye",   "at",           "up",
-                           "fov",     "ortho",  "crop"}) {
+  for (const char* name :
+       {"threads", "packet",          "simd",    "mode", "batch", "robust",   "retry",
+        "bvh",     "sphere-segments", "effects", "tile", "queue", "channels", "strict",
+        "size",    "camera",          "eye",     "at",   "up",    "fov",      "ortho",
+        "crop"}) {
     EXPECT_FALSE(all.contains(name)) << name;
   }
 }

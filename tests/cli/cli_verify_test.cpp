@@ -84,9 +84,6 @@ TEST(Verify, FormerNamesLeadToThePresentOnes) {
   EXPECT_EQ(outcome.status, 2);
   EXPECT_NE(outcome.err.find("whit stress is a program of its own: whit-verify"), std::string::npos)
       << outcome.err;
-  const Outcome option = runWhit({"render", "whitted", "--verdicts", "off"});
-  EXPECT_EQ(option.status, 2);
-  EXPECT_NE(option.err.find("did you mean '--shadow-cache'?"), std::string::npos) << option.err;
 }
 
 TEST(Verify, HelpListsTheOptions) {

@@ -58,7 +58,7 @@ TEST(RunRatios, AreMediansOfRatiosWithinATurn) {
   const RunRatio ratio = ratioOf(steps[1].run, steps[0].run);
   EXPECT_DOUBLE_EQ(ratio.frame, 1.5);
   EXPECT_DOUBLE_EQ(ratio.outsideEmbree, 1.5);
-  const std::string text = ratioText(RunPairs::effects, steps[0].run, steps[1].run);
+  const std::string text = ratioText(steps[0].run, steps[1].run);
   EXPECT_NE(text.find("1.500  (15.00 over 10.00 ms)"), std::string::npos) << text;
   EXPECT_NE(text.find("1.500  (9.00 over 6.00 ms)"), std::string::npos) << text;
 }

@@ -59,16 +59,6 @@ inline constexpr std::array kAccounted{
     Accounted{77, "transforms that flatten are refused", "tests/unit/validate_test.cpp",
               "Validate.RefusesNamingTheThingAtFault"},
     Accounted{78, "a real model", "tests/io/sponza_test.cpp", "Sponza.LoadsCompletely"},
-    Accounted{84, "cached shadows, the light in a plane or at an edge",
-              "tests/render/shadow_cache_test.cpp", "ShadowCache.H84_lightInAPlaneOrAtAnEdge"},
-    Accounted{85, "cached shadows among touching and interpenetrating triangles",
-              "tests/render/shadow_cache_test.cpp",
-              "ShadowCache.H85_touchingAndInterpenetratingTriangles"},
-    Accounted{86, "cached shadows among slivers", "tests/render/shadow_cache_test.cpp",
-              "ShadowCache.H86_slivers"},
-    Accounted{87, "cached shadows far from the origin, far casters, a light inside a mesh",
-              "tests/render/shadow_cache_test.cpp",
-              "ShadowCache.H87_farReceiversFarCastersAndLightsInside"},
 };
 
 }  // namespace whit::test

@@ -31,7 +31,7 @@ class Messages(unittest.TestCase):
         known = set(_options.OPTIONS) | set(inspect.signature(whit.Scene.__init__).parameters)
         known |= {"set", "max_memory", "up"}  # have rules of their own
         known |= set(inspect.signature(whit.Scene.render).parameters)
-        known |= {"time", "knobs", "ab_shadow_cache"}  # of the programs alone
+        known |= {"time", "knobs"}  # of the programs alone
         seen = 0
         for text, path in literals():
             if "ktx extract" in text or text in ("--", " --"):  # another program; an option follows

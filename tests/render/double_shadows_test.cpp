@@ -153,8 +153,8 @@ class BruteForceInDouble {
     return false;
   }
 
-  // True if no rounding lets Embree find the triangle (shadow_cache/caster_tree.cpp has the
-  // formulas).
+  // True if no rounding lets Embree find the triangle: two of its edge functions have opposite
+  // signs by more than the rounding errors of their sums.
   static bool surelyMissed(const Triangle& t, const Segment& ray) {
     const Vec3d d = ray.way();
     double away = 0;

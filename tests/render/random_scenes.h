@@ -17,7 +17,6 @@ using verify::makeTexture;
 struct Soup {
   SceneDescription description;
   Mesh mesh;
-  std::vector<Mesh> others;  // of the world as well
   std::mt19937 random;
 
   explicit Soup(unsigned seed) : random(seed) {
@@ -52,18 +51,14 @@ struct Soup {
     if (directional) light.kind = Light::Kind::directional;
     description.lights.push_back(light);
   }
-  Scene finish(const Vec3f& eye, const Vec3f& at, const Vec3f& moved = {}, float scale = 1) {
-    for (Vec3f& p : mesh.positions) p = p * scale + moved;
-    for (Light& l : description.lights) l.position = l.position * scale + moved;
+  Scene finish(const Vec3f& eye, const Vec3f& at, const Vec3f& moved = {}) {
+    for (Vec3f& p : mesh.positions) p = p + moved;
+    for (Light& l : description.lights) l.position = l.position + moved;
     Camera camera;
-    camera.eye = eye * scale + moved;
-    camera.at = at * scale + moved;
+    camera.eye = eye + moved;
+    camera.at = at + moved;
     description.cameras = {camera};
-    for (Mesh& other : others) {
-      for (Vec3f& p : other.positions) p = p * scale + moved;
-    }
-    others.push_back(std::move(mesh));
-    description.objects.push_back({"soup", std::move(others)});
+    description.objects.push_back({"soup", {std::move(mesh)}});
     description.instances.push_back(
         {static_cast<std::uint32_t>(description.objects.size() - 1), Affine{}});
     Warnings warnings;
@@ -120,112 +115,6 @@ inline Scene randomScene(unsigned kind, unsigned seed) {
   soup.light(light);
   if (seed % 3 == 0) soup.light(normalized(soup.inside(1) + Vec3f{0, 1.2f, 0}), true);
   return soup.finish({2, 4, 3}, {0, 0.5f, 0}, kind == 5 ? Vec3f{1e5f, -1e5f, 3e4f} : Vec3f{});
-}
-
-inline constexpr unsigned kEffectKinds = 7, kInstances = 2, kNeedlesBesideOthers = 4;
-
-// A scene of one of seven kinds with what else casts or receives shadows: masks of every cutoff and
-// partial coverage, soft and spot lights, instances, exact spheres, triangles that cast no shadow
-// beside needles, eyes in odd places, mirrors and glass.
-inline Scene randomSceneWithEffects(unsigned kind, unsigned seed) {
-  Soup soup(7000 + 1000 * kind + seed);
-  SceneDescription& description = soup.description;
-  const auto above = [&] { return soup.inside(1.5f) + Vec3f{0, 1.6f, 0}; };
-  const auto triangle = [&](const Vec3f& a, float size) {
-    soup.add(a, a + soup.inside(size), a + soup.inside(size));
-  };
-  // What was added so far gets this material, what follows the first one.
-  const auto close = [&](const Material& material) {
-    soup.mesh.materials = {static_cast<std::uint32_t>(description.materials.size())};
-    description.materials.push_back(material);
-    for (std::size_t i = 0; i < soup.mesh.positions.size(); ++i) {
-      soup.mesh.uvs.push_back({soup.uniform(-1, 2), soup.uniform(-1, 2)});
-    }
-    soup.others.push_back(std::exchange(soup.mesh, {}));
-    soup.mesh.materials = {0};
-  };
-  const Vec3f light = soup.inside(1.5f) + Vec3f{0, 3, 0};
-  Vec3f eye{2, 4, 3};
-  if (kind == 0) {
-    std::vector<std::uint32_t> texels;
-    for (int i = 0; i < 64; ++i) texels.push_back(encodeDataTexel(soup.uniform(0, 1), 0, 0, 0));
-    description.textures = {makeTexture(TexelFormat::data, 8, 8, texels)};
-    for (int i = 0; i < 4; ++i) {
-      Material mask;
-      (i % 2 == 0 ? mask.alphaMap : mask.coverageMap) = 0;
-      mask.alphaCutoff = soup.uniform(0.1f, 0.9f);
-      if (i > 1) mask.coverage = soup.uniform(0.3f, 1);
-      for (int k = 0; k < 8; ++k) triangle(above(), 1);
-      close(mask);
-    }
-  }
-  if (kind == kInstances) {
-    // Some far from the origin of their own space, some flat, mirrored or both.
-    const Vec3d away = Vec3d(soup.inside(1)) *
-                       std::pow(10.0, double{soup.uniform(seed % 2 == 1 ? 4.f : 0.f, 5.5f)});
-    Soup thing(seed);
-    const bool plain = seed % 2 == 1;  // a square whose box is as tight as it can be
-    if (plain) thing.addSquare({-0.12f, 0, -0.12f}, {0, 0, 0.25f}, {0.25f, 0, 0});
-    for (int i = 0; i < 4 && !plain; ++i)
-      thing.add(thing.inside(0.4f), thing.inside(0.4f), thing.inside(0.4f));
-    if (seed % 3 == 0) thing.mesh.spheres = {Affine::scaling(Vec3d(0.3))};
-    transform(thing.mesh, Affine::translation(away));
-    description.objects.push_back({"thing", {std::move(thing.mesh)}});
-    for (int i = 0; i < 8; ++i) {
-      const auto scale = [&] { return std::exp2(double{soup.uniform(-9, 1)}); };
-      const Vec3d sizes =
-          plain ? Vec3d(1) : Vec3d{i % 2 == 0 ? scale() : -1, i % 3 == 0 ? scale() : 1, 1};
-      description.instances.push_back(
-          {0, Affine::translation(Vec3d(above())) *
-                  Affine::rotation(Vec3d(soup.inside(1)), double{soup.uniform(0, 360)}) *
-                  Affine::scaling(sizes) * Affine::translation(-away)});
-    }
-  }
-  for (int i = 0; kind == 3 && i < 12; ++i) {
-    const Vec3d sizes(soup.inside(0.5f));
-    soup.mesh.spheres.push_back(Affine::translation(Vec3d(above())) *
-                                Affine::rotation(Vec3d(soup.inside(1)), 50) *
-                                Affine::scaling(max(abs(sizes), Vec3d(0x1p-9))));
-  }
-  if (kind == kNeedlesBesideOthers) {
-    Material without;
-    without.castsShadow = false;
-    for (int i = 0; i < 8; ++i) triangle(soup.inside(2), soup.uniform(1, 6));
-    close(without);
-    for (int i = 0; i < 12; ++i) {
-      const Vec3f a = above(), thin = soup.inside(std::exp2(soup.uniform(-20, -4)));
-      soup.add(a, a + (light - a) * soup.uniform(0.1f, 0.9f), a + thin);
-    }
-  }
-  if (kind == 5) {
-    const Vec3f eyes[] = {{2, 1e-5f, 1},
-                          light + soup.inside(1e-3f),
-                          {0.4f, -2, 0.3f},
-                          {200, 300, 100},
-                          soup.inside(0.5f)};
-    eye = eyes[seed % 5];
-  }
-  if (kind == 6) {
-    Material mirror = verify::diffuseMaterial(0.3f);
-    mirror.mirror = mirror.mirrorGrazing = Rgb(0.6f);
-    for (int i = 0; i < 4; ++i) triangle(above(), 2);
-    close(mirror);
-    Material glass = verify::glassMaterial(1.5f);
-    glass.thin = seed % 2 == 0;
-    for (int i = 0; i < 4; ++i) triangle(above(), 2);
-    close(glass);
-  }
-  soup.addFloor(0, 3);
-  for (int i = 0; i < 12; ++i) triangle(above(), 1);
-  soup.light(light);
-  if (seed % 3 == 0) soup.light(normalized(soup.inside(1) + Vec3f{0, 1.2f, 0}), true);
-  if (kind == 1) {
-    soup.light(soup.inside(2) + Vec3f{0, 2.5f, 0});
-    description.lights[0].radius = soup.uniform(0.1f, 2);
-    description.lights.back().kind = Light::Kind::spot;
-    description.lights.back().direction = normalized(soup.inside(0.5f) + Vec3f{0, -1, 0});
-  }
-  return soup.finish(eye, {0, 0.5f, 0});
 }
 
 }  // namespace whit::test

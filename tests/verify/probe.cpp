@@ -38,7 +38,6 @@ Probe::Probe(const Scene& scene, const Setup& setup)
       constants_{&scene,
                  &renderer_.tables(),
                  &renderer_.accel(),
-                 nullptr,
                  renderer_.plan().effects,
                  renderer_.plan().features,
                  renderer_.options(),

@@ -35,25 +35,6 @@ TEST_F(RenderThreadTest, InterruptibleFramesMakeTheSamePicture) {
   expectRightPicture(thread);
 }
 
-// While nothing is asked for, shadows are proved that the next pictures need not trace; these have
-// the same bits.
-TEST_F(RenderThreadTest, ShadowsAreProvedAtRest) {
-  RenderThread thread(opened_, common_, [] {});
-  const auto decided = [&] {
-    request_.options.exposure.ev += 0.125f;  // another picture of the same shadows
-    const DecidedShadows& shadows = traced(thread).stats.meter.shadows;
-    return shadows.lit + shadows.dark;
-  };
-  std::uint64_t proved = 0;
-  for (int i = 0; i < 100 && proved == 0; ++i) {
-    // Some of its tiles request parts in each frame, all of them after a few.
-    for (int turn = 0; turn < 8; ++turn) proved = decided();
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
-  }
-  EXPECT_GT(proved, 0u);
-  expectRightPicture(thread);
-}
-
 TEST_F(RenderThreadTest, TheNewestRequestWins) {
   RenderThread thread(opened_, common_, [] {});
   request_.interruptible = true;

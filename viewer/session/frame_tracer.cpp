@@ -45,25 +45,13 @@ FrameTracer::FrameTracer(std::shared_ptr<cli::OpenScene> scene, const cli::Commo
 }
 
 void FrameTracer::open(std::shared_ptr<cli::OpenScene> scene, const std::string& animation) {
-  use(std::make_unique<Renderer>(scene->scene, options_));
+  renderer_ = std::make_unique<Renderer>(scene->scene, options_);
   scene_ = std::move(scene);  // after the old renderer has gone, which needs the old scene
   editSettings_.clear();
   sky_ = skyOf(*scene_);
   ownSky_ = Sky();
   seconds_ = scene_->scene.motion.given.seconds;
   animation_ = animation;
-}
-
-// The shadow cache is filled from the first picture on, because more will follow.
-void FrameTracer::use(std::unique_ptr<Renderer> renderer) {
-  renderer_ = std::move(renderer);
-  const std::uint64_t most = common_.load.maxMemoryBytes;
-  renderer_->expectFrames(cli::memoryLeft(renderer_->scene(), *renderer_, most));
-}
-
-bool FrameTracer::proveSome() {
-  constexpr std::size_t kParts = 256;  // for each light; a part takes a thread some 10 us
-  return renderer_->fillShadowCache({.mostParts = kParts}).parts > 0;
 }
 
 void FrameTracer::load(const SceneChoice& choice) {
@@ -116,7 +104,7 @@ void FrameTracer::applyOptions(const FrameRequest& request) {
   if (renderer_->canSetOptions(next)) {
     renderer_->setOptions(next);
   } else {
-    use(std::make_unique<Renderer>(scene_->scene, next));
+    renderer_ = std::make_unique<Renderer>(scene_->scene, next);
   }
   settleExposure(*renderer_, chooseCamera(scene_->scene, next), next);
   options_ = next;
@@ -171,10 +159,6 @@ bool FrameTracer::trace(const FrameRequest& request, TracedFrame& frame, const T
 bool FrameTracer::measure(const FrameRequest& request, TracedFrame& frame,
                           const TraceCalls& calls) {
   const ImageSize whole = request.options.size.value();
-  // The cache would make all but the first frames of a setting faster.
-  RenderOptions traced = options_;
-  traced.shadowCache = ShadowCacheMode::off;
-  const OptionsInUse used(*renderer_, traced);
   const ImageSize size = measuredSize(whole, msPerSample_ * options_.spp);
   sizeFilm(band_, size, Crop{0, 0, size.width, size.height});
   const double scale = static_cast<double>(whole.width) * whole.height /
@@ -188,7 +172,7 @@ bool FrameTracer::measure(const FrameRequest& request, TracedFrame& frame,
     calls.answer();
     return !calls.superseded();
   };
-  const bool complete = measureKnobs(*renderer_, traced, request.camera, band_, scale, goesOn);
+  const bool complete = measureKnobs(*renderer_, options_, request.camera, band_, scale, goesOn);
   frame.measured = 1;
   return complete;
 }

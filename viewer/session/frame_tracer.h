@@ -216,17 +216,12 @@ class FrameTracer {
   // Follows the rays of a pixel; leaves the renderer's options as they were.
   RayPick explain(const RayQuery& query);
 
-  // Computes some of the parts of the shadow cache that the last pictures requested, which takes
-  // about 10 ms. Returns false if nothing is left.
-  bool proveSome();
-
   // Returns false when the picture was given up; `frame` is not to be shown then. Throws when the
   // options ask for what the machine does not have; the old ones then stay.
   bool trace(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
 
  private:
   void open(std::shared_ptr<cli::OpenScene> scene, const std::string& animation);
-  void use(std::unique_ptr<Renderer> renderer);
   void editSurroundings(const ShadingEdit& edit, Sky opened);
   void moveTo(double seconds);
   void applyOptions(const FrameRequest& request);

@@ -1,13 +1,9 @@
 #include "viewer/session/render_thread.h"
 
-#include <chrono>
 #include <exception>
 #include <utility>
 
 namespace whit::view {
-
-// The view is at rest when nothing has been asked for this long.
-constexpr std::chrono::milliseconds kRest{200};
 
 RenderThread::RenderThread(std::shared_ptr<cli::OpenScene> scene, const cli::CommonOptions& common,
                            std::function<void()> onChange)
@@ -88,7 +84,7 @@ void RenderThread::loop() {
   std::unique_lock lock(mutex_);
   for (;;) {
     busy_ = hasWork();
-    waitForWork(lock);
+    wake_.wait(lock, [this] { return hasWork() || quit_; });
     if (quit_) return;
     try {
       serve(lock);
@@ -101,20 +97,6 @@ void RenderThread::loop() {
     lock.unlock();
     onChange_();
     lock.lock();
-  }
-}
-
-// At rest the thread fills the shadow cache, which makes the next pictures faster.
-void RenderThread::waitForWork(std::unique_lock<std::mutex>& lock) {
-  const auto wanted = [this] { return hasWork() || quit_; };
-  while (!wake_.wait_for(lock, kRest, wanted)) {
-    bool more = true;
-    while (more && !wanted()) {
-      lock.unlock();
-      more = tracer_.proveSome();
-      lock.lock();
-    }
-    if (!more) return wake_.wait(lock, wanted);
   }
 }
 

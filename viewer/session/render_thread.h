@@ -63,7 +63,6 @@ class RenderThread {
   void trace(const FrameRequest& request);
   TraceCalls calls();
   void answerQuery();
-  void waitForWork(std::unique_lock<std::mutex>& lock);
   // The mutex must be held for these three.
   bool isCommitted() const { return tracing_ && !tracing_->interruptible; }
   bool isWaiting() const { return scene_ || edit_ || asked_; }

@@ -70,11 +70,6 @@ std::string surfacesText(std::uint64_t triangles, std::uint64_t spheres) {
   return counted(triangles, "triangle") + ", " + counted(spheres, "sphere");
 }
 
-std::uint64_t memoryLeft(const Scene& scene, const Renderer& renderer, std::uint64_t most) {
-  const std::uint64_t taken = scene.memoryBytes() + renderer.memoryBytes();
-  return most > taken ? most - taken : 0;
-}
-
 double memoryMb(const Scene& scene, const Renderer& renderer) {
   return static_cast<double>(scene.memoryBytes() + renderer.memoryBytes()) / 1e6;
 }
@@ -117,16 +112,6 @@ void appendFrames(std::string& text, const RunSummary& run) {
   text += formatted("; load %.0f ms, build %.0f ms\n", run.loadMs, run.buildMs);
 }
 
-void appendShadowCache(std::string& text, const RunSummary& run) {
-  if (!run.shadowCache) return;
-  const FrameStats& frame = medianFrame(run);
-  const auto [lit, dark] = frame.meter.shadows;
-  const double rays = static_cast<double>(lit + dark + frame.of(RayKind::shadow).rays);
-  text += formatted("  shadow cache: %.1f %% of the shadow rays; filled in %.0f ms, %.1f MB\n",
-                    rays > 0 ? 100 * static_cast<double>(lit + dark) / rays : 0,
-                    run.shadowCache->fillMs, static_cast<double>(run.shadowCache->bytes) / 1e6);
-}
-
 void appendStages(std::string& text, const FrameStats& frame) {
   const double whole = frame.frameMs > 0 ? frame.frameMs : 1;
   text += formatted("  %-34s%10s%8s\n", "stage", "ms", "%");
@@ -153,13 +138,6 @@ void appendRays(std::string& text, const FrameStats& frame, EffectSet effects) {
     const std::string filled = formatted("%.1f", 100 * lanesFilled(tally));
     text += formatted("%16s\n", tally.lanes > 0 ? filled.c_str() : "-");
   }
-  const DecidedShadows& decided = frame.meter.shadows;
-  for (const auto& [name, rays] :
-       {std::pair{"shadow, lit", decided.lit}, std::pair{"shadow, dark", decided.dark}}) {
-    if (decided.lit + decided.dark == 0) continue;
-    text += formatted("  %-14s%12llu%10s%16s\n", name, static_cast<unsigned long long>(rays), "-",
-                      "cached");
-  }
   text +=
       formatted("  %-14s%12llu%10.2f\n", "all", static_cast<unsigned long long>(frame.allRays()),
                 mraysPerSecond(frame.allRays(), frame.frameMs));
@@ -171,7 +149,6 @@ std::string stageTable(const RunSummary& run) {
   std::string text;
   appendSettings(text, run);
   appendFrames(text, run);
-  appendShadowCache(text, run);
   const FrameStats& frame = medianFrame(run);
   // The reference has no stages to take apart.
   if (run.options.mode == Mode::packets) appendStages(text, frame);
@@ -196,15 +173,13 @@ std::string stageTable(const RunSummary& run) {
   return text;
 }
 
-std::string ratioText(RunPairs pairs, const RunSummary& first, const RunSummary& second) {
+std::string ratioText(const RunSummary& first, const RunSummary& second) {
   const RunRatio ratio = ratioOf(second, first);
   const auto row = [](const char* what, double of, double a, double b) {
     return formatted("  %-34s%10.3f  (%.2f over %.2f ms)\n", what, of, a, b);
   };
-  std::string text = formatted("%s, %s, medians of %zu turns\n", first.scene.c_str(),
-                               pairs == RunPairs::effects ? "every effect over the scene's"
-                                                          : "with over without shadow cache",
-                               first.frames.size());
+  std::string text = formatted("%s, every effect over the scene's, medians of %zu turns\n",
+                               first.scene.c_str(), first.frames.size());
   text += row("whole frame", ratio.frame, medianFrame(second).frameMs, medianFrame(first).frameMs);
   return text + row("outside Embree", ratio.outsideEmbree, outsideEmbreeMs(medianFrame(second)),
                     outsideEmbreeMs(medianFrame(first)));

@@ -13,12 +13,6 @@
 
 namespace whit::cli {
 
-// How the shadow cache was used.
-struct ShadowCacheUse {
-  double fillMs = 0;  // filling it, between frames
-  std::uint64_t bytes = 0;
-};
-
 struct RunSummary {
   std::string scene;
   int width = 0, height = 0;
@@ -27,10 +21,9 @@ struct RunSummary {
   EffectSet effects;
   std::uint64_t triangles = 0, spheres = 0;  // as seen, instances multiplied out
   double loadMs = 0, buildMs = 0;
-  std::vector<FrameStats> frames;             // counted ones; none: all images were there
-  std::vector<double> floorMs;                // empty without --floor
-  std::string imageHash;                      // of the last frame: accuracy::digestOf(image)
-  std::optional<ShadowCacheUse> shadowCache;  // none: all shadow rays were traced
+  std::vector<FrameStats> frames;  // counted ones; none: all images were there
+  std::vector<double> floorMs;     // empty without --floor
+  std::string imageHash;           // of the last frame: accuracy::digestOf(image)
   // Images are written while the next frame is traced: the time of writing each image, and how
   // long the tracing waited for it.
   std::vector<double> writingMs, waitedMs;
@@ -52,10 +45,6 @@ double writtenPerSecond(const RunSummary& run);
 // The frame's time that is not spent inside Embree's calls.
 double outsideEmbreeMs(const FrameStats& frame);
 
-// Runs that come in pairs: with the scene's effects and with all of them; without and with the
-// shadow cache.
-enum class RunPairs { none, effects, shadowCache };
-
 // `a` over `b`, of two runs whose frames took turns: the median over the turns, in which whatever
 // else the machine did to both of a turn's frames cancels. 0 for none.
 struct RunRatio {
@@ -70,9 +59,6 @@ double mraysPerSecond(std::uint64_t rays, double ms);
 // "2 triangles", "3 spheres" or both.
 std::string surfacesText(std::uint64_t triangles, std::uint64_t spheres);
 
-// Memory that --max-memory leaves for the shadow cache.
-std::uint64_t memoryLeft(const Scene& scene, const Renderer& renderer, std::uint64_t most);
-
 // Scene, tables, queues and acceleration structure, in 10^6 bytes.
 double memoryMb(const Scene& scene, const Renderer& renderer);
 
@@ -82,6 +68,6 @@ double memoryMb(const Scene& scene, const Renderer& renderer);
 std::string stageTable(const RunSummary& run);
 
 // The second of two runs of one scene, whose frames took turns, over the first.
-std::string ratioText(RunPairs pairs, const RunSummary& first, const RunSummary& second);
+std::string ratioText(const RunSummary& first, const RunSummary& second);
 
 }  // namespace whit::cli
