@@ -22,7 +22,7 @@ constexpr int kFramesToAnswer = 3;
 
 }  // namespace
 
-App::App(const ViewOptions& options, const std::shared_ptr<cli::OpenScene>& scene, Window& window,
+App::App(const ViewOptions& options, const std::shared_ptr<OpenScene>& scene, Window& window,
          const KeptSettings& kept, ScriptedUser* scripted)
     : Session(options, scene, &Window::wake), scripted_(scripted), window_(window) {
   static_cast<KeptSettings&>(settings_) = kept;

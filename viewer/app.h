@@ -28,7 +28,7 @@ class App : public Session {
  public:
   // The constructor may run on another thread than the window's, which may only draw the window
   // meanwhile.
-  App(const ViewOptions& options, const std::shared_ptr<cli::OpenScene>& scene, Window& window,
+  App(const ViewOptions& options, const std::shared_ptr<OpenScene>& scene, Window& window,
       const KeptSettings& kept, ScriptedUser* scripted = nullptr);
 
   // Returns when the user quits. Errors are shown and survived; throws Error(checkFailed) where a

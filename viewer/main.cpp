@@ -1,5 +1,5 @@
 // whit-view: the viewer.
-#include "cli/app/program.h"
+#include "command_line/program.h"
 #include "viewer/app.h"
 
 int main(int argc, char** argv) {

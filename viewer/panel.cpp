@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "cli/app/frame_summary.h"
 #include "core/text.h"
+#include "output/frame_summary.h"
 #include "viewer/session/resolution_control.h"
 
 namespace whit::view {
@@ -40,8 +40,8 @@ void drawRays(const FrameStats& stats, EffectSet effects) {
     const RayTally& tally = stats.meter.tally[i];
     drawCell("%s", kRayKinds[i].name.data());
     drawCell("%.1f", static_cast<double>(tally.rays) / 1e3);
-    drawCell("%.2f", cli::mraysPerSecond(tally.rays, stats.frameMs));
-    drawCell("%.1f", 100 * cli::lanesFilled(tally));
+    drawCell("%.2f", mraysPerSecond(tally.rays, stats.frameMs));
+    drawCell("%.1f", 100 * lanesFilled(tally));
   }
   ImGui::EndTable();
 }

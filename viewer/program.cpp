@@ -6,10 +6,10 @@
 #include <future>
 #include <mutex>
 
-#include "cli/app/help_text.h"
-#include "cli/app/open_scene.h"
+#include "command_line/help_text.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "output/open_and_tell.h"
 #include "viewer/app.h"
 
 namespace whit::view {
@@ -105,8 +105,7 @@ int runViewer(const std::vector<std::string>& words, ScriptedUser* scripted) {
   LoadingProgress progress;
   // This thread draws the window until the other one has read the scene.
   auto loading = std::async(std::launch::async, [&] {
-    const std::shared_ptr<cli::OpenScene> scene =
-        cli::openScene(options.scene, options.common, &progress);
+    const std::shared_ptr<OpenScene> scene = openAndTell(options.scene, options.common, &progress);
     opened = sizeFor({scene->scene.width, scene->scene.height});
     progress.report("building the acceleration structure", 0);
     auto app = std::make_unique<App>(options, scene, window, kept, scripted);

@@ -13,14 +13,14 @@ namespace {
 
 constexpr double kLeastUnfolded = 0.05;  // share of the pixel's radiance
 
-ImU32 colorOf(RayLook look) {
+ImU32 packedColor(RayLook look) {
   const auto& c = styleOf(look).color;
   return IM_COL32(c[0], c[1], c[2], 255);
 }
 
 // The text has the color of the ray's line, but lighter.
 ImVec4 textColorOf(RayKind kind) {
-  const ImVec4 color = ImGui::ColorConvertU32ToFloat4(colorOf(RayLook{kind}));
+  const ImVec4 color = ImGui::ColorConvertU32ToFloat4(packedColor(RayLook{kind}));
   const auto lighter = [](float code) { return 0.25f + 0.75f * code; };
   return {lighter(color.x), lighter(color.y), lighter(color.z), 1};
 }
@@ -38,7 +38,7 @@ void drawLegend(const std::vector<RayLine>& lines) {
       if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
     }
     first = false;
-    ImGui::ColorButton(name.c_str(), ImGui::ColorConvertU32ToFloat4(colorOf(look)),
+    ImGui::ColorButton(name.c_str(), ImGui::ColorConvertU32ToFloat4(packedColor(look)),
                        ImGuiColorEditFlags_NoTooltip, ImVec2(side, side));
     ImGui::SameLine();
     ImGui::TextUnformatted(name.c_str());
@@ -66,9 +66,9 @@ class RayTreeTab {
     const ImageSize size = pick_.query.picture.options.size.value();
     ImGui::Text("pixel %d,%d of %dx%d", pick_.query.x, pick_.query.y, size.width, size.height);
     const auto draw = [&](const char* name, const Rgb& pixel) {
-      const auto codes = cli::codesOf(pixel, options_);
-      ImGui::Text("%-10s%s  codes %d %d %d", name, cli::textOf(RgbD(pixel)).c_str(), codes[0],
-                  codes[1], codes[2]);
+      const auto codes = codesOf(pixel, options_);
+      ImGui::Text("%-10s%s  codes %d %d %d", name, textOf(RgbD(pixel)).c_str(), codes[0], codes[1],
+                  codes[2]);
     };
     draw("packets", tree_.pixel);
     draw("reference", pick_.rays.reference.pixel);
@@ -89,14 +89,14 @@ class RayTreeTab {
 
   void drawNode(std::size_t number) {
     const RayNode& n = tree_.nodes[number];
-    const RgbD added = cli::addedBy(tree_, number, n.radiance);
+    const RgbD added = addedBy(tree_, number, n.radiance);
     const double share = maxComponent(added) / std::max(1e-12, double{maxComponent(tree_.pixel)});
     ImGui::PushID(static_cast<int>(number));
     ImGui::SetNextItemOpen(share >= kLeastUnfolded, ImGuiCond_Once);
     ImGui::PushStyleColor(ImGuiCol_Text, textColorOf(n.kind));
     const std::string text =
         formatted("%s: %s, %d codes", rowOf(n.kind).name.data(), pick_.words[number].met.c_str(),
-                  cli::codesAddedBy(tree_, number, options_));
+                  codesAddedBy(tree_, number, options_));
     const bool open =
         ImGui::TreeNodeEx("node", ImGuiTreeNodeFlags_SpanFullWidth, "%s", text.c_str());
     ImGui::PopStyleColor();
@@ -110,8 +110,8 @@ class RayTreeTab {
   }
 
   void drawOwn(std::size_t number) {
-    const cli::RayText& words = pick_.words[number];
-    ImGui::BulletText("weight %s, in %s", cli::textOf(tree_.nodes[number].weight).c_str(),
+    const RayText& words = pick_.words[number];
+    ImGui::BulletText("weight %s, in %s", textOf(tree_.nodes[number].weight).c_str(),
                       words.medium.c_str());
     point(number);
     for (const std::string& line : words.lines) {
@@ -161,7 +161,7 @@ void drawRayLines(const RayPick& pick, const Camera& camera, const RayView& view
     auto at = seen.see(line.from, line.to);
     if (!at || !clip(*at, double{window.x}, double{window.y})) return;
     const auto width = static_cast<float>(line.width + extra);
-    const ImU32 color = colorOf(line.look);
+    const ImU32 color = packedColor(line.look);
     if (isDashed(line.look)) {
       drawDashed(list, *at, color, width + 0.5f);
       return;

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "accuracy/digest.h"
 #include "accuracy/sweep.h"
 #include "core/option_table.h"
+#include "output/digest.h"
 
 namespace whit::accuracy {
 

@@ -9,6 +9,7 @@
 #include "core/option_table.h"
 #include "core/quantile.h"
 #include "core/text.h"
+#include "output/report_page.h"
 
 namespace whit::accuracy {
 
@@ -92,18 +93,6 @@ void addRun(Json& row, const SceneSweep& sweep, const Point& point, const Json& 
   row.update(facts);
 }
 
-std::string fieldOf(const Json& value) {
-  if (value.is_null()) return {};
-  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
-  if (value.is_number_float()) return formatted("%.7g", value.get<double>());
-  if (!value.is_string()) return value.dump();
-  const auto& text = value.get_ref<const std::string&>();
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
-
 // An array of one object for each point, all with the same keys.
 Json sweepRows(const SceneSweep& sweep, const Json& facts) {
   Json rows = Json::array();
@@ -128,11 +117,6 @@ std::string referenceText(const SceneSweep& sweep) {
       kDepthLimit, static_cast<double>(sweep.referenceCutoff), sweep.referenceSamples,
       sweep.referenceMs / 1e3);
 }
-
-// The build turns report.html into a string literal.
-constexpr std::string_view kTemplate =
-#include "report_html.inc"
-    ;
 
 Json pointsJson(const SceneSweep& sweep, const Json& facts) {
   Json points = sweepRows(sweep, facts);
@@ -281,19 +265,6 @@ std::vector<IdleKnob> groupedByReason(const std::vector<IdleKnob>& idle) {
   return groups;
 }
 
-std::string csvOf(const Json& rows) {
-  std::string text;
-  const auto addLine = [&](const Json& row, const auto& field) {
-    std::string line;
-    for (const auto& item : row.items()) line += "," + field(item);
-    text += line.substr(std::min<std::size_t>(line.size(), 1)) + "\n";
-  };
-  if (rows.empty()) return text;
-  addLine(rows.front(), [](const auto& item) { return item.key(); });
-  for (const Json& row : rows) addLine(row, [](const auto& item) { return fieldOf(item.value()); });
-  return text;
-}
-
 std::string sweepCsv(const std::vector<SceneSweep>& sweeps, const Json& facts) {
   Json all = Json::array();
   for (const SceneSweep& sweep : sweeps) {
@@ -306,33 +277,6 @@ Json reportJson(const std::vector<SceneSweep>& sweeps, const Json& facts) {
   Json report{{"report", "accuracy"}, {"scenes", Json::array()}};
   for (const SceneSweep& sweep : sweeps) report["scenes"].push_back(sceneJson(sweep, facts));
   return report;
-}
-
-std::string reportPage(const Json& data) { return pageWith(kTemplate, data); }
-
-std::string pageWith(std::string_view html, const Json& data) {
-  constexpr std::string_view kPlace = "{{data}}";
-  const std::size_t place = html.find(kPlace);
-  std::string page(html.substr(0, place));
-  // Only strings hold a '<' in JSON. Escaped, it cannot end the element <script>.
-  for (const char c : data.dump(-1, ' ', false, Json::error_handler_t::replace))
-    c == '<' ? page += "\\u003c" : page += c;
-  return page.append(html.substr(place + kPlace.size()));
-}
-
-std::string base64(std::string_view bytes) {
-  static constexpr char kDigits[] =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve(bytes.size() * 4 / 3 + 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t bits = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      bits = bits << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += i + k <= bytes.size() ? kDigits[bits >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
 }
 
 std::string transportText(const SceneSweep& sweep) {

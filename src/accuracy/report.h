@@ -1,5 +1,5 @@
 // Conclusions from the results of a sweep (Pareto fronts, the noise), and the
-// results as text for a terminal, rows for CSV files, and an HTML page that draws itself from JSON.
+// results as text for a terminal, rows for CSV files, and data for the page of reports.
 #pragma once
 
 #include <cstddef>
@@ -39,9 +39,6 @@ std::string sweepTable(const SceneSweep& sweep, std::uint32_t seed);
 // One line about the picture with all transport; empty if that picture is not the truth.
 std::string transportText(const SceneSweep& sweep);
 
-// An array of objects with equal keys as CSV, with the keys of the first as header. Null is an
-// empty field, true is "yes", and a number has seven digits.
-std::string csvOf(const Json& rows);
 // A row for each point. Errors come in groups: total_ (against the truth), same_samples_,
 // sampling_, algorithm_, arithmetic_ and transport_; null was not measured. Times are in
 // milliseconds, shares in per cent. All rows end with `facts`, which say with which machine and
@@ -51,12 +48,5 @@ std::string sweepCsv(const std::vector<SceneSweep>& sweeps, const Json& facts);
 // The data of the report: {"report": "accuracy", "scenes": [...]}. The points of a scene are its
 // rows of sweep.csv, with the label and the pictures as PNG files in base64.
 Json reportJson(const std::vector<SceneSweep>& sweeps, const Json& facts);
-
-// The page report.html with `data` in it; "report" of the data is "accuracy", "effects" or
-// "verify". The page loads nothing from elsewhere.
-std::string reportPage(const Json& data);
-// Any page, with `data` in the place of its "{{data}}", which is the text of a script element.
-std::string pageWith(std::string_view html, const Json& data);
-std::string base64(std::string_view bytes);
 
 }  // namespace whit::accuracy

@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "accuracy/digest.h"
 #include "accuracy/report.h"
 #include "accuracy/timing.h"
 #include "core/display.h"
@@ -22,6 +21,7 @@
 #include "inspect/metrics.h"
 #include "inspect/path_divergence.h"
 #include "io/image/image_file.h"
+#include "output/digest.h"
 #include "render/renderer.h"
 
 namespace whit::accuracy {

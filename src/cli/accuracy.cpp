@@ -6,13 +6,16 @@
 
 #include "accuracy/report.h"
 #include "accuracy/sweep.h"
-#include "cli/app/image_output.h"
-#include "cli/app/open_scene.h"
-#include "cli/app/program.h"
 #include "cli/commands.h"
+#include "command_line/program.h"
+#include "command_line/progress_bar.h"
 #include "core/error.h"
+#include "engine/engine.h"
 #include "io/files.h"
-#include "render/renderer.h"
+#include "output/image_output.h"
+#include "output/json_report.h"
+#include "output/open_and_tell.h"
+#include "output/report_page.h"
 
 namespace whit::cli {
 
@@ -78,20 +81,22 @@ void checkJob(AccuracyJob& job) {
 }
 
 // Automatic exposure is computed once, so that all pictures of a sweep have the same.
-RenderOptions sweptOptions(const OpenScene& open, const CommonOptions& common) {
-  RenderOptions options = optionsToMeasure(open.scene, common);
+RenderOptions sweptOptions(const std::shared_ptr<OpenScene>& open, const CommonOptions& common) {
+  const RenderOptions options = optionsToMeasure(open->scene, common);
   if (!options.exposure.automatic) return options;
-  Renderer renderer(open.scene, options);
-  settleExposure(renderer, chooseCamera(open.scene, options), options);
-  return options;
+
+  Engine engine(open);
+  engine.setOptions(options);
+  engine.prepare();
+  return engine.options();
 }
 
 std::vector<accuracy::SceneSweep> sweepScenes(const AccuracyJob& job) {
   auto progress = makeProgressBar(job.common);
   std::vector<accuracy::SceneSweep> sweeps;
   for (const std::string& name : job.scenes) {
-    const auto open = openScene(name, job.common, progress.get());
-    const RenderOptions options = sweptOptions(*open, job.common);
+    const std::shared_ptr<OpenScene> open = openAndTell(name, job.common, progress.get());
+    const RenderOptions options = sweptOptions(open, job.common);
     makeFilm(open->scene, options, job.common.load.maxMemoryBytes);  // throws if it does not fit
     sweeps.push_back(sweepScene(open->scene, options, job.settings, progress.get()));
   }
@@ -115,8 +120,7 @@ int accuracyCommand(const Words& words) {
   const WriteScope scope;
   const std::filesystem::path folder(job.out);
   writeTextFile((folder / "sweep.csv").string(), accuracy::sweepCsv(sweeps, facts));
-  writeTextFile((folder / "report.html").string(),
-                accuracy::reportPage(accuracy::reportJson(sweeps, facts)));
+  writeTextFile((folder / "report.html").string(), reportPage(accuracy::reportJson(sweeps, facts)));
   return 0;
 }
 

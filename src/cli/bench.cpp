@@ -6,14 +6,16 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "cli/app/image_output.h"
-#include "cli/app/open_scene.h"
 #include "cli/bench_run.h"
 #include "cli/commands.h"
+#include "command_line/progress_bar.h"
 #include "core/error.h"
 #include "core/option_table.h"
 #include "core/text.h"
 #include "core/worker_pool.h"
+#include "output/image_output.h"
+#include "output/json_report.h"
+#include "output/open_and_tell.h"
 
 namespace whit::cli {
 
@@ -90,12 +92,12 @@ std::vector<std::string> valuesOf(const Series& series) {
 }
 
 void addRuns(BenchRuns& runs, const std::string& name, const BenchJob& job, Progress* progress) {
-  const std::shared_ptr<const OpenScene> open = openScene(name, job.common, progress);
+  const std::shared_ptr<OpenScene> open = openAndTell(name, job.common, progress);
   const Series& series = job.series();
   for (const std::string& value : valuesOf(series)) {
     RenderOptions options = optionsToMeasure(open->scene, job.common);
     if (!value.empty()) setOption(options, series.option, value);
-    runs.push_back(std::make_unique<BenchRun>(open, job.common, options, progress));
+    runs.push_back(std::make_unique<BenchRun>(open, options, progress));
   }
 }
 

@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "accuracy/digest.h"
-#include "cli/app/frame_summary.h"
-#include "cli/app/open_scene.h"
+#include "engine/engine.h"
 #include "inspect/floor.h"
+#include "output/digest.h"
+#include "output/frame_summary.h"
 #include "render/renderer.h"
 
 namespace whit::cli {
@@ -17,36 +17,32 @@ namespace whit::cli {
 // A scene with one choice of options.
 class BenchRun {
  public:
-  BenchRun(std::shared_ptr<const OpenScene> open, const CommonOptions& common,
-           const RenderOptions& options, Progress* progress)
-      : open_(std::move(open)),
-        options_(options),
-        renderer_(open_->scene, options, progress),
-        camera_(chooseCamera(open_->scene, options)),
-        film_(makeFilm(open_->scene, options, common.load.maxMemoryBytes)) {
-    settleExposure(renderer_, camera_, options_);
-    summary_ = summarize(open_->scene, options_, renderer_, film_, open_->loadMs);
+  BenchRun(std::shared_ptr<OpenScene> open, const RenderOptions& options, Progress* progress)
+      : engine_(std::move(open)),
+        film_(makeFilm(engine_.scene(), options, engine_.opened()->load.maxMemoryBytes)) {
+    engine_.setOptions(options);
+    const Renderer& renderer = engine_.prepare(progress);
+    summary_ =
+        summarize(engine_.scene(), engine_.options(), renderer, film_, engine_.opened()->loadMs);
   }
 
-  void warmUp() { renderFrame(renderer_, options_.mode, camera_, film_); }
+  void warmUp() { engine_.render({}, film_); }
 
   // Measures one frame; with `floor` also Embree alone for its rays.
   void measure(bool floor) {
-    summary_.frames.push_back(renderFrame(renderer_, options_.mode, camera_, film_));
-    summary_.imageHash = accuracy::digestOf(film_.image);
-    if (floor) summary_.floorMs.push_back(measureFloor(renderer_, camera_, film_));
+    summary_.frames.push_back(engine_.render({}, film_).stats);
+    summary_.imageHash = digestOf(film_.image);
+    if (floor)
+      summary_.floorMs.push_back(measureFloor(engine_.renderer(), engine_.camera(), film_));
   }
 
   const RunSummary& summary() const { return summary_; }
   // Memory of the scene and the renderer in 10^6 bytes; complete after a frame.
-  double memoryMb() const { return cli::memoryMb(open_->scene, renderer_); }
+  double memoryMb() const { return static_cast<double>(engine_.memoryBytes()) / 1e6; }
   const Film& film() const { return film_; }  // the last frame
 
  private:
-  std::shared_ptr<const OpenScene> open_;
-  RenderOptions options_;
-  Renderer renderer_;
-  Camera camera_;
+  Engine engine_;
   Film film_;
   RunSummary summary_;
 };

@@ -5,16 +5,19 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "cli/app/image_output.h"
-#include "cli/app/open_scene.h"
-#include "cli/app/program.h"
 #include "cli/commands.h"
+#include "command_line/program.h"
+#include "command_line/progress_bar.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "engine/engine.h"
 #include "inspect/metrics.h"
 #include "inspect/path_divergence.h"
 #include "inspect/stage_comparison.h"
 #include "io/image/image_layers.h"
+#include "output/image_output.h"
+#include "output/json_report.h"
+#include "output/open_and_tell.h"
 #include "render/renderer.h"
 
 namespace whit::cli {
@@ -94,11 +97,12 @@ Compared compareFiles(const CompareJob& job) {
 
 Compared compareModes(const CompareJob& job) {
   const auto progress = makeProgressBar(job.common);
-  const auto open = openScene(job.subjects[0], job.common, progress.get());
-  RenderOptions options = optionsToMeasure(open->scene, job.common);
-  Renderer renderer(open->scene, options, progress.get());
-  const Camera camera = chooseCamera(open->scene, options);
-  settleExposure(renderer, camera, options);
+  const std::shared_ptr<OpenScene> open = openAndTell(job.subjects[0], job.common, progress.get());
+  Engine engine(open);
+  engine.setOptions(optionsToMeasure(open->scene, job.common));
+  Renderer& renderer = engine.prepare(progress.get());
+  const RenderOptions& options = engine.options();
+  const Camera camera = engine.camera();
   Film packets = makeFilm(open->scene, options, job.common.load.maxMemoryBytes);
   Film reference = packets;
   Compared result;

@@ -3,18 +3,20 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "accuracy/report.h"
-#include "cli/app/image_output.h"
-#include "cli/app/open_scene.h"
-#include "cli/app/program.h"
 #include "cli/bench_run.h"
 #include "cli/commands.h"
 #include "cli/effects_report.h"
+#include "command_line/program.h"
+#include "command_line/progress_bar.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "engine/open_scene.h"
 #include "io/files.h"
 #include "io/load_scene.h"
 #include "make/leave_out.h"
+#include "output/image_output.h"
+#include "output/json_report.h"
+#include "output/report_page.h"
 
 namespace whit::cli {
 
@@ -36,6 +38,7 @@ struct EffectsJob {
 std::shared_ptr<OpenScene> openStep(const SceneDescription& whole, EffectSet kept,
                                     const EffectsJob& job) {
   auto open = std::make_shared<OpenScene>(job.common.render.strict);
+  open->load = job.common.load;
   SceneDescription description = whole;
   leaveOut(description, EffectSet::all().without(kept));
   open->scene = Scene::finalize(std::move(description), open->warnings);
@@ -59,8 +62,8 @@ std::vector<EffectStep> measureSteps(const EffectsJob& job, Progress* progress) 
   const auto add = [&](std::string_view added, EffectSet kept) {
     steps.push_back({std::string(added), {}, 0});
     const std::shared_ptr<OpenScene> step = openStep(whole, kept, job);
-    runs.push_back(std::make_unique<BenchRun>(step, job.common,
-                                              optionsToMeasure(step->scene, job.common), progress));
+    runs.push_back(
+        std::make_unique<BenchRun>(step, optionsToMeasure(step->scene, job.common), progress));
   };
   EffectSet kept = kMatteEffects;
   add("matte", kept);
@@ -110,8 +113,8 @@ int effectsCommand(const Words& words) {
   if (!job.common.quiet) std::printf("%s", effectsTable(report).c_str());
   const WriteScope scope;
   const std::filesystem::path folder(job.out);
-  writeTextFile((folder / "effects.csv").string(), accuracy::csvOf(report["effects"]));
-  writeTextFile((folder / "report.html").string(), accuracy::reportPage(report));
+  writeTextFile((folder / "effects.csv").string(), csvOf(report["effects"]));
+  writeTextFile((folder / "report.html").string(), reportPage(report));
   return 0;
 }
 

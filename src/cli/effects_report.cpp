@@ -6,6 +6,7 @@
 
 #include "cli/commands.h"
 #include "core/text.h"
+#include "output/json_report.h"
 
 namespace whit::cli {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/app/frame_summary.h"
+#include "output/frame_summary.h"
 
 namespace whit::cli {
 
@@ -22,7 +22,7 @@ struct EffectStep {
 // before; the first step's are its own. Added times are medians of the differences between frames
 // of the same turn, so that disturbances of both frames cancel.
 nlohmann::ordered_json effectsRows(const std::vector<EffectStep>& steps);
-// The rows as "effects", with data for accuracy::reportPage(). `pictures` has the file of each
+// The rows as "effects", with data for reportPage(). `pictures` has the file of each
 // step's picture, seen from the page.
 nlohmann::ordered_json effectsJson(const std::vector<EffectStep>& steps,
                                    const std::vector<std::string>& pictures);

@@ -4,20 +4,22 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "accuracy/report.h"
-#include "cli/app/explained_rays.h"
-#include "cli/app/image_output.h"
-#include "cli/app/open_scene.h"
 #include "cli/commands.h"
 #include "cli/lesson.h"
+#include "command_line/progress_bar.h"
 #include "core/display.h"
 #include "core/error.h"
 #include "core/option_table.h"
 #include "core/text.h"
+#include "engine/engine.h"
 #include "inspect/ray_tree.h"
 #include "io/files.h"
 #include "io/image/image_file.h"
-#include "render/renderer.h"
+#include "output/explained_rays.h"
+#include "output/image_output.h"
+#include "output/json_report.h"
+#include "output/open_and_tell.h"
+#include "output/report_page.h"
 
 namespace whit::cli {
 
@@ -238,7 +240,7 @@ std::string rayDiagram(const RayTree& tree, const Camera& eye, const Camera& cam
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" "
       "viewBox=\"0 0 %d %d\">\n<image width=\"%d\" height=\"%d\" href=\"",
       width, height, width, height, width, height);
-  svg += "data:image/png;base64," + accuracy::base64(picture) + "\"/>\n";
+  svg += "data:image/png;base64," + base64(picture) + "\"/>\n";
   const LineView view(camera, width, height);
   const std::vector<RayLine> lines = linesOf(tree, eye);
   std::map<std::string, ScreenLine> places;  // of the words; lines that weigh more come later
@@ -299,16 +301,16 @@ std::string lessonPage(const ExplainJob& job, const Explained& e, const std::str
     words.push_back(describeRay(e.scene, e.rays, i));
   }
   const std::string picture = pictureBy(camera, e.options, size, renderer, job);
-  return accuracy::pageWith(
-      kLesson, {{"scene", e.scene.name},
-                {"size", {size.width, size.height}},
-                {"pixel", {e.place.x, e.place.y}},
-                {"reference", jsonOf(RgbD(e.rays.reference.pixel))},
-                {"tree", pageTree(words, e.rays, e.options)},
-                {"picture", accuracy::base64(picture)},
-                {"diagram", diagram},
-                {"tile", {tile.x0, tile.y0, tile.x1, tile.y1}},
-                {"recorded", recordStages(renderer, camera, film, tile, e.place.x, e.place.y)}});
+  return pageWith(kLesson,
+                  {{"scene", e.scene.name},
+                   {"size", {size.width, size.height}},
+                   {"pixel", {e.place.x, e.place.y}},
+                   {"reference", jsonOf(RgbD(e.rays.reference.pixel))},
+                   {"tree", pageTree(words, e.rays, e.options)},
+                   {"picture", base64(picture)},
+                   {"diagram", diagram},
+                   {"tile", {tile.x0, tile.y0, tile.x1, tile.y1}},
+                   {"recorded", recordStages(renderer, camera, film, tile, e.place.x, e.place.y)}});
 }
 
 }  // namespace
@@ -321,16 +323,17 @@ int explainCommand(const Words& words) {
   if (!job.html.empty()) requireWritable(job.html, {".html"});
   requireJsonWritable(job.json);
   auto progress = makeProgressBar(job.common);
-  const auto open = openScene(job.scenes[0], job.common, progress.get());
-  RenderOptions options = optionsFor(open->scene, job.common);
-  const Film film = makeFilm(open->scene, options, job.common.load.maxMemoryBytes);
+  Engine engine(openAndTell(job.scenes[0], job.common, progress.get()));
+  engine.setOptions(job.common.render, job.common.given);
+  const Film film =
+      makeFilm(engine.scene(), engine.wantedOptions(), job.common.load.maxMemoryBytes);
   const PixelPlace place = readPixel(job.pixel, film.image);
-  Renderer renderer(open->scene, options, progress.get());
-  const Camera camera = chooseCamera(open->scene, options);
-  settleExposure(renderer, camera, options);
+  Renderer& renderer = engine.prepare(progress.get());
+  const Camera camera = engine.camera();
   progress.reset();
 
-  Explained e{open->scene, options, place, explainRays(renderer, camera, film, place.x, place.y)};
+  const Explained e{engine.scene(), engine.options(), place,
+                    explainRays(renderer, camera, film, place.x, place.y)};
   if (!job.svg.empty() || !job.html.empty()) {
     const std::string diagram = drawDiagram(job, e, renderer, camera);
     if (!job.svg.empty()) writeTextFile(job.svg, diagram);
@@ -339,7 +342,7 @@ int explainCommand(const Words& words) {
     }
   }
   if (!job.json.empty()) {
-    writeJson(job.json, Json{{"scene", open->scene.name},
+    writeJson(job.json, Json{{"scene", e.scene.name},
                              {"size", {film.image.width, film.image.height}},
                              {"pixel", {place.x, place.y}},
                              {"packets", treeJson(e, e.rays.packets, true)},

@@ -2,11 +2,13 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "cli/app/image_output.h"
-#include "cli/app/open_scene.h"
 #include "cli/commands.h"
+#include "command_line/progress_bar.h"
 #include "core/option_table.h"
 #include "core/text.h"
+#include "output/image_output.h"
+#include "output/json_report.h"
+#include "output/open_and_tell.h"
 #include "render/renderer.h"
 
 namespace whit::cli {
@@ -167,7 +169,7 @@ int infoCommand(const Words& words) {
   auto progress = makeProgressBar(common);
   CommonOptions loading = common;
   loading.quiet = true;  // the warnings are part of the report
-  const auto open = openScene(scenes[0], loading, progress.get());
+  const auto open = openAndTell(scenes[0], loading, progress.get());
   const RenderOptions options = optionsFor(open->scene, common);
   const Renderer renderer(open->scene, options, progress.get());
   progress.reset();

@@ -6,8 +6,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "accuracy/report.h"
-#include "cli/app/explained_rays.h"
+#include "output/explained_rays.h"
+#include "output/report_page.h"
 
 namespace whit::cli {
 
@@ -17,9 +17,8 @@ constexpr std::size_t kMostLights = 4;  // of whose stages the columns are kept
 
 Json columnJson(const std::string& name, bool whole, const std::vector<float>& values) {
   const auto* bytes = reinterpret_cast<const char*>(values.data());
-  return {{"name", name},
-          {"whole", whole},
-          {"values", accuracy::base64({bytes, values.size() * sizeof(float)})}};
+  return {
+      {"name", name}, {"whole", whole}, {"values", base64({bytes, values.size() * sizeof(float)})}};
 }
 
 class StageRecorder : public StageObserver {

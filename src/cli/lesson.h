@@ -4,6 +4,7 @@
 
 #include "cli/commands.h"
 #include "core/image.h"
+#include "output/json_report.h"
 #include "render/renderer.h"
 
 namespace whit::cli {

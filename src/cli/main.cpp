@@ -4,15 +4,42 @@
 #include <iterator>
 #include <utility>
 
-#include "cli/app/help_text.h"
-#include "cli/app/program.h"
 #include "cli/commands.h"
+#include "command_line/help_text.h"
+#include "command_line/program.h"
 #include "core/error.h"
 #include "core/text.h"
+
+namespace whit::serve {
+
+// Defined in viewer/serve/serve_command.cpp: src includes nothing of the viewer, and this program
+// links it.
+int serveCommand(const std::vector<std::string>& words);
+
+}  // namespace whit::serve
 
 namespace whit::cli {
 
 namespace {
+
+struct Command {
+  const char *name, *summary;
+  int (*run)(const Words& words);
+};
+
+constexpr Command kCommands[] = {
+    {"render", "one image, or the frames of a film", renderCommand},
+    {"turntable", "a film of a model on a turntable", turntableCommand},
+    {"bench", "time of a frame by stage and by kind of ray", benchCommand},
+    {"compare", "packets against the scalar reference, or two images", compareCommand},
+    {"info", "contents of a scene, its effects and the kernels that run", infoCommand},
+    {"scenes", "list of the shipped scenes", scenesCommand},
+    {"serve", "the viewer in a browser", serve::serveCommand},
+    {"explain", "tree of the rays of one pixel", explainCommand},
+    {"effects", "cost of each effect of a scene", effectsCommand},
+    {"accuracy", "report on accuracy against time", accuracyCommand},
+    {"merge", "one image from its crops", mergeCommand},
+};
 
 const ManPage kPage{
     "whit", "real-time Whitted ray tracing on CPUs", "whit COMMAND ...",

@@ -3,10 +3,10 @@
 
 #include <limits>
 
-#include "cli/app/image_output.h"
-#include "cli/app/open_scene.h"
-#include "cli/app/program.h"
 #include "cli/commands.h"
+#include "command_line/program.h"
+#include "command_line/progress_bar.h"
+#include "output/image_output.h"
 
 namespace whit::cli {
 

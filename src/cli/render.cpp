@@ -12,22 +12,24 @@
 #include <string>
 #include <utility>
 
-#include "accuracy/digest.h"
-#include "bake/edit_scene.h"
-#include "cli/app/film_pipe.h"
-#include "cli/app/image_output.h"
-#include "cli/app/open_scene.h"
 #include "cli/commands.h"
 #include "cli/terminal_picture.h"
+#include "command_line/program.h"
+#include "command_line/progress_bar.h"
 #include "core/error.h"
 #include "core/options.h"
 #include "core/stopwatch.h"
 #include "core/text.h"
+#include "engine/engine.h"
 #include "inspect/budget.h"
 #include "io/files.h"
 #include "io/image/image_file.h"
 #include "make/model_view.h"
-#include "render/renderer.h"
+#include "output/digest.h"
+#include "output/film_pipe.h"
+#include "output/image_output.h"
+#include "output/json_report.h"
+#include "output/open_and_tell.h"
 
 namespace whit::cli {
 
@@ -228,8 +230,8 @@ void checkFilmed(const RenderJob& job, const Scene& scene) {
            "--camera names a still viewpoint, --frames follows the scene's path: give one");
 }
 
-// Opens the scene and, of a turntable, places the camera.
-std::unique_ptr<OpenScene> openFor(RenderJob& job, Progress* progress) {
+// Opens the scene and, for a turntable, places the camera.
+Engine openFor(RenderJob& job, Progress* progress) {
   RenderOptions& options = job.common.render;
   const auto look = [&](const SceneDescription& scene) {
     ImageSize size = options.size.value_or(ImageSize{scene.width, scene.height});
@@ -246,14 +248,17 @@ std::unique_ptr<OpenScene> openFor(RenderJob& job, Progress* progress) {
     camera.up = options.up.value_or(camera.up);
     camera.orthographicHeight = options.ortho.value_or(camera.orthographicHeight);
   };
-  auto open = openScene(job.scenes[0], job.common, progress, look);
-  options = optionsFor(open->scene, job.common);
+  Engine engine(openAndTell(job.scenes[0], job.common, progress, look));
+  engine.setOptions(options, job.common.given);
+  options = engine.wantedOptions();
   checkBackground(job);
-  checkFilmed(job, open->scene);
+  checkFilmed(job, engine.scene());
+
   if (job.onTurntable && !job.turntable) {
-    job.turntable = aroundTarget(chooseCamera(open->scene, options));
+    job.turntable = aroundTarget(chooseCamera(engine.scene(), options));
   }
-  return open;
+  if (job.turntable) engine.lookThrough(job.turntable->camera);
+  return engine;
 }
 
 // Two films where frames follow each other and both find room: one is written while the other is
@@ -276,20 +281,12 @@ std::vector<Film> openFilms(const RenderJob& job, const Scene& scene) {
 // Traces frames and writes them, each beside the tracing of the next.
 class ImageWriter {
  public:
-  ImageWriter(const RenderJob& job, OpenScene& open, Progress* progress)
-      : job_(job), open_(&open), options_(job.common.render), films_(openFilms(job, open.scene)) {
-    renderer_.emplace(open.scene, options_, progress);
-    camera_ = job.turntable ? job.turntable->camera : chooseCamera(open.scene, options_);
-    // One for all frames, whichever of them are asked for.
-    settleExposure(*renderer_, camera_, options_);
-    if (job.budget.isSet()) {
-      reportProgress(progress, "choosing options", 0);
-      receipt_ = chooseOptions(*renderer_, camera_, job.common.given, job.budget, films_[0]);
-      options_ = receipt_->options;
-    }
-    run_ = summarize(open.scene, options_, *renderer_, films_[0], open.loadMs);
-    sceneDigest_ = accuracy::digestOf(open.scene);
-    aboutChannels_ = describeChannels(open.scene, options_.channels);
+  ImageWriter(const RenderJob& job, Engine& engine, Progress* progress)
+      : job_(job), engine_(engine), films_(openFilms(job, engine.scene())) {
+    engine_.prepare(progress);  // one exposure for all frames, whichever of them are asked for
+    run_ = summary();
+    sceneDigest_ = digestOf(engine_.scene());
+    aboutChannels_ = describeChannels(engine_.scene(), engine_.options().channels);
     const auto film = std::ranges::find_if(job.outputs, isFilm);
     if (film == job.outputs.end()) return;
     const Image& image = films_[0].image;
@@ -304,13 +301,12 @@ class ImageWriter {
       return;
     }
     const Stopwatch stopwatch;
-    Scene& scene = open_->scene;
-    moveScene(scene, frame / job_.fps);
-    camera_ = chooseCamera(scene, options_);
-    if (!scene.motion.ofGeometry && !scene.motion.ofLights()) return;
-    renderer_->sceneMoved();
+    engine_.setTime(frame / job_.fps);
+    engine_.update();
+    const BakedMotion& motion = engine_.scene().motion;
+    if (!motion.ofGeometry && !motion.ofLights()) return;
     run_.updateMs.push_back(stopwatch.ms());
-    sceneDigest_ = accuracy::digestOf(open_->scene);
+    sceneDigest_ = digestOf(engine_.scene());
     run_.tracedAndWrittenMs += stopwatch.ms();
   }
 
@@ -320,19 +316,27 @@ class ImageWriter {
              const ImageMetadata& more = {}) {
     const Stopwatch stopwatch;
     Film& film = films_[film_];
-    ImageMetadata metadata = describeImage(open_->scene, camera_, *renderer_, film, options_);
-    addSettings(open_->settings, open_->sky, metadata);
-    metadata.emplace_back("sceneDigest", sceneDigest_);
-    metadata.insert(metadata.end(), more.begin(), more.end());
-    if (job_.resume && areWhole(files, film.image, metadata)) {
-      ++run_.kept;
-      return;
+    const auto complete = [&](ImageMetadata about) {
+      about.emplace_back("sceneDigest", sceneDigest_);
+      about.insert(about.end(), more.begin(), more.end());
+      return about;
+    };
+    if (job_.resume) {
+      const Camera camera = camera_ ? *camera_ : engine_.camera();
+      if (areWhole(files, film.image, complete(engine_.describe(camera, film)))) {
+        ++run_.kept;
+        return;
+      }
     }
-    run_.frames.push_back(renderFrame(*renderer_, options_.mode, camera_, film, progress));
-    if (receipt_) assess(*receipt_, *renderer_, camera_, stopwatch.ms(), film);
-    refuseNonFinite(open_->scene, options_, run_.frames.back());
-    run_.imageHash = accuracy::digestOf(film.image);
-    startWriting(film, files, std::move(metadata));
+
+    Picture picture = engine_.render({camera_, job_.budget, progress}, film);
+    if (picture.receipt) {
+      receipt_ = std::move(picture.receipt);
+      run_ = summary();  // with the options that were chosen
+    }
+    run_.frames.push_back(picture.stats);
+    run_.imageHash = digestOf(film.image);
+    startWriting(film, files, complete(std::move(picture.about)));
     run_.tracedAndWrittenMs += stopwatch.ms();
   }
 
@@ -350,11 +354,16 @@ class ImageWriter {
   const RunSummary& run() const { return run_; }
   std::size_t kept() const { return run_.kept; }
   const DisplayImage& firstPicture() const { return films_[0].display; }
-  const Exposure& exposure() const { return options_.exposure; }
+  const Exposure& exposure() const { return engine_.options().exposure; }
   const std::vector<std::string>& written() const { return written_; }
   const std::optional<Receipt>& receipt() const { return receipt_; }
 
  private:
+  RunSummary summary() {
+    const double loadMs = engine_.opened()->loadMs;
+    return summarize(engine_.scene(), engine_.options(), engine_.renderer(), films_[0], loadMs);
+  }
+
   bool areWhole(const std::vector<std::string>& files, const Image& image,
                 const ImageMetadata& metadata) const {
     return std::ranges::all_of(files, [&](const std::string& file) {
@@ -362,14 +371,14 @@ class ImageWriter {
       const auto number = static_cast<std::size_t>(&file - files.data());
       const ImageMetadata own = ownMetadata(file, formatOf(number));
       expected.insert(expected.end(), own.begin(), own.end());
-      return isWhole(file, image, expected, options_);
+      return isWhole(file, image, expected, engine_.options());
     });
   }
 
   // `output` is an index of job_.outputs.
   ImageFormat formatOf(std::size_t output) const {
-    return {job_.exr, renderer_->machine().threads,
-            channelNamedBy(job_.outputs[output], options_.channels), aboutChannels_};
+    return {job_.exr, run_.machine.threads,
+            channelNamedBy(job_.outputs[output], engine_.options().channels), aboutChannels_};
   }
 
   void startWriting(const Film& film, const std::vector<std::string>& files,
@@ -389,11 +398,9 @@ class ImageWriter {
   }
 
   const RenderJob& job_;
-  OpenScene* open_;
-  Camera camera_;
-  RenderOptions options_;  // with an automatic exposure settled, and those that --budget chose
+  Engine& engine_;
+  std::optional<Camera> camera_;  // of a turntable
   std::optional<Receipt> receipt_;
-  std::optional<Renderer> renderer_;
   std::vector<Film> films_;
   std::size_t film_ = 0;  // that is traced next
   RunSummary run_;
@@ -459,8 +466,8 @@ int render(RenderJob& job) {
   auto progress = makeProgressBar(job.common);
   job.common.load.instant.plays = job.common.load.instant.alongPath =
       !job.frames.empty() && !job.onTurntable;
-  const auto open = openFor(job, progress.get());
-  ImageWriter writer(job, *open, progress.get());
+  Engine engine = openFor(job, progress.get());
+  ImageWriter writer(job, engine, progress.get());
   if (job.frames.empty()) {
     writer.write(job.outputs, progress.get());
   } else {

@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <sstream>
 
-#include "cli/app/option_list.h"
-#include "cli/app/parse_options.h"
 #include "cli/commands.h"
+#include "command_line/option_list.h"
+#include "command_line/parse_options.h"
 #include "core/text.h"
 #include "io/files.h"
 

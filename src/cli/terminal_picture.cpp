@@ -8,10 +8,10 @@
 #include <cstdlib>
 #include <vector>
 
-#include "accuracy/report.h"
 #include "core/text.h"
 #include "core/vec3.h"
 #include "io/image/image_file.h"
+#include "output/report_page.h"
 
 namespace whit::cli {
 
@@ -108,7 +108,7 @@ std::string terminalPicture(const DisplayImage& picture, TerminalGraphics graphi
   const double width = isKnown ? static_cast<double>(size.ws_xpixel) / size.ws_col : 8;
   const double height = isKnown ? static_cast<double>(size.ws_ypixel) / size.ws_row : 16;
   const int columns = columnsOf(picture, size, width, height);
-  const std::string png = encodePng(picture), data = accuracy::base64(png);
+  const std::string png = encodePng(picture), data = base64(png);
   if (graphics == TerminalGraphics::kitty) return kittyText(data, columns);
   return formatted("\x1b]1337;File=inline=1;size=%zu;width=%d:", png.size(), columns) + data +
          "\a\n";

@@ -12,8 +12,8 @@
 #include "bake/scene.h"
 #include "core/error.h"
 #include "core/progress.h"
+#include "engine/engine.h"
 #include "io/image/image_file.h"
-#include "io/load_scene.h"
 #include "library/whit.h"
 #include "render/frame.h"
 
@@ -92,16 +92,10 @@ decltype(auto) guarded(const Progress& callback, Body&& body) {
 }
 
 struct Scene::Data {
-  whit::Scene scene;
-  std::string name;                       // of the file or shipped scene that was read
-  std::shared_ptr<const SceneText> text;  // of a scene made in memory, null for others
-  whit::LoadOptions load;
-  bool strict = false;
-  std::vector<std::string> warnings;
+  std::shared_ptr<OpenScene> open;
 
-  static std::shared_ptr<Data> read(const std::string& name, std::shared_ptr<const SceneText> text,
-                                    const whit::LoadOptions& load, bool strict,
-                                    whit::Progress* progress);
+  static std::shared_ptr<Data> read(const SceneSource& source, const LoadOptions& options,
+                                    const char* shippedScenes, whit::Progress* progress);
 };
 
 struct Image::Data {
@@ -109,13 +103,9 @@ struct Image::Data {
   ImageMetadata metadata, aboutChannels;
 };
 
-// A copy of a renderer's scene at its present time, for the views of the Python module.
-struct [[gnu::visibility("default")]] Snapshot {
-  explicit Snapshot(Renderer & renderer);
-  whit::Scene scene;
-  std::string name;        // by which the scene was read
-  whit::LoadOptions load;  // with the settings so far, and the time if it was set
-  bool isMade = false;     // no command line opens the scene: it was made or moved by a program
+// Copies the scene of a renderer at its present time, for the views of the Python module.
+struct [[gnu::visibility("default")]] SceneCopy {
+  static std::shared_ptr<OpenScene> of(Renderer & renderer);
 };
 
 // The queries of whit.h (rays.cpp): rays come as the program's numbers, are answered on all
@@ -134,7 +124,5 @@ RayAnswers visible(const Queried& at, const Numbers& from, const Numbers& to,
                    const Numbers& fromNormals, const Numbers& toNormals);
 std::vector<float> ambientOcclusion(const Queried& at, const Numbers& points,
                                     const Numbers& normals, double radius, int samples);
-
-whit::LoadOptions loadOptions(const LoadOptions& options, const char* shippedScenes);
 
 }  // namespace whit::api

@@ -77,8 +77,6 @@ Json describe(const Material& m) {
   return json;
 }
 
-}  // namespace
-
 whit::LoadOptions loadOptions(const LoadOptions& options, const char* shippedScenes) {
   whit::LoadOptions load;
   load.allowOutside = options.allowOutside;
@@ -97,62 +95,54 @@ whit::LoadOptions loadOptions(const LoadOptions& options, const char* shippedSce
   return load;
 }
 
-std::shared_ptr<Scene::Data> Scene::Data::read(const std::string& name,
-                                               std::shared_ptr<const SceneText> text,
-                                               const whit::LoadOptions& load, bool strict,
+}  // namespace
+
+std::shared_ptr<Scene::Data> Scene::Data::read(const SceneSource& source,
+                                               const LoadOptions& options,
+                                               const char* shippedScenes,
                                                whit::Progress* progress) {
-  auto data = std::make_shared<Data>();
-  Warnings warnings(strict);
-  SceneDescription description = text ? whit::loadScene(*text, load, warnings, progress)
-                                      : whit::loadScene(name, load, warnings, progress);
-  data->scene = finalizeScene(name, std::move(description), warnings, progress);
-  data->name = name;
-  data->text = std::move(text);
-  data->load = load;
-  data->strict = strict;
-  data->warnings = textsOf(warnings);
-  return data;
+  const whit::LoadOptions load = loadOptions(options, shippedScenes);
+  return std::make_shared<Data>(Data{openScene(source, load, options.strict, progress)});
 }
 
 Scene::Scene(std::shared_ptr<Data> data) : data_(std::move(data)) {}
 
 Scene loadScene(const std::string& name, const LoadOptions& options, const char* shippedScenes) {
   return guarded(options.progress, [&](whit::Progress* progress) {
-    const whit::LoadOptions load = loadOptions(options, shippedScenes);
-    return Scene(Scene::Data::read(name, nullptr, load, options.strict, progress));
+    return Scene(Scene::Data::read({name, nullptr}, options, shippedScenes, progress));
   });
 }
 
-const std::string& Scene::name() const { return data_->scene.name; }
-int Scene::width() const { return data_->scene.width; }
-int Scene::height() const { return data_->scene.height; }
-std::uint64_t Scene::triangles() const { return data_->scene.instancedTriangles; }
-std::vector<std::string> Scene::warnings() const { return data_->warnings; }
+const std::string& Scene::name() const { return data_->open->scene.name; }
+int Scene::width() const { return data_->open->scene.width; }
+int Scene::height() const { return data_->open->scene.height; }
+std::uint64_t Scene::triangles() const { return data_->open->scene.instancedTriangles; }
+std::vector<std::string> Scene::warnings() const { return textsOf(data_->open->warnings); }
 
-std::vector<std::string> Scene::cameras() const { return namesIn(data_->scene.cameras); }
+std::vector<std::string> Scene::cameras() const { return namesIn(data_->open->scene.cameras); }
 
 std::string Scene::camera(const std::string& name) const {
   return guarded([&] {
     RenderOptions options;
     options.camera = name;
-    return whit::describe(chooseCamera(data_->scene, options)).dump();
+    return whit::describe(chooseCamera(data_->open->scene, options)).dump();
   });
 }
 
-std::vector<std::string> Scene::objects() const { return data_->scene.items.names; }
+std::vector<std::string> Scene::objects() const { return data_->open->scene.items.names; }
 
-const std::vector<std::string>& Scene::settings() const { return data_->load.settings; }
+const std::vector<std::string>& Scene::settings() const { return data_->open->load.settings; }
 
-std::vector<std::string> Scene::materials() const { return namesIn(data_->scene.materials); }
+std::vector<std::string> Scene::materials() const { return namesIn(data_->open->scene.materials); }
 
 double Scene::pathSeconds() const {
-  const std::vector<Keyframe>& path = data_->scene.cameraPath;
+  const std::vector<Keyframe>& path = data_->open->scene.cameraPath;
   return path.empty() ? 0 : static_cast<double>(path.back().time);
 }
 
 std::vector<Animation> Scene::animations() const {
   std::vector<Animation> all;
-  for (const whit::Animation& a : data_->scene.animations) all.push_back({a.name, a.seconds});
+  for (const whit::Animation& a : data_->open->scene.animations) all.push_back({a.name, a.seconds});
   return all;
 }
 
@@ -242,9 +232,8 @@ SceneBuilder& SceneBuilder::set(const std::string& pointer, const std::string& j
 
 Scene SceneBuilder::build(const LoadOptions& options) const {
   return guarded(options.progress, [&](whit::Progress* progress) {
-    const whit::LoadOptions load = loadOptions(options, WHIT_SHIPPED_SCENES);
-    auto text = std::make_shared<const SceneText>(data_->text);
-    return Scene(Scene::Data::read(text->name, text, load, options.strict, progress));
+    const SceneSource source{data_->text.name, std::make_shared<const SceneText>(data_->text)};
+    return Scene(Scene::Data::read(source, options, WHIT_SHIPPED_SCENES, progress));
   });
 }
 

@@ -424,7 +424,7 @@ class Renderer {
                                       int samples);
 
  private:
-  friend struct Snapshot;
+  friend struct SceneCopy;
   struct Data;
   DataPointer<std::unique_ptr<Data>> data_;
 };

@@ -12,9 +12,9 @@ namespace whit::python {
 
 namespace {
 
-view::ViewOptions viewOptions(const api::Snapshot& snapshot, const OptionTexts& options) {
+view::ViewOptions viewOptions(const OpenScene& open, const OptionTexts& options) {
   view::ViewOptions all;
-  all.scene = snapshot.name;
+  all.scene = open.source.name;
   cli::CommonOptions& common = all.common;
   common.quiet = true;
   for (const auto& [name, value] : options) {
@@ -23,29 +23,20 @@ view::ViewOptions viewOptions(const api::Snapshot& snapshot, const OptionTexts& 
   }
   applyQuality(common.render, common.given);
   view::settleViewOptions(all);
-  common.load = snapshot.load;
+  common.load = open.load;
   // The scene as it is: it plays only when it is told to.
-  if (!snapshot.scene.motion.empty() && !common.load.instant.seconds) {
+  if (!open.scene.motion.empty() && !common.load.instant.seconds) {
     common.load.instant.seconds = 0;
   }
   return all;
 }
 
-std::shared_ptr<cli::OpenScene> openScene(api::Snapshot& snapshot) {
-  auto open = std::make_shared<cli::OpenScene>(false);
-  open->scene = std::move(snapshot.scene);
-  open->settings = snapshot.load.settings;
-  open->sky = snapshot.load.sky;
-  open->isMade = snapshot.isMade;
-  return open;
-}
-
 }  // namespace
 
 struct View::Served {
-  Served(api::Snapshot snapshot, const OptionTexts& texts, int port)
-      : options(viewOptions(snapshot, texts)),
-        session(options, openScene(snapshot)),
+  Served(const std::shared_ptr<OpenScene>& open, const OptionTexts& texts, int port)
+      : options(viewOptions(*open, texts)),
+        session(options, open),
         server(session, {.port = port, .framed = true}),
         thread([this] { server.run(); }) {
     // Until the server runs, stop() would have no effect.
@@ -67,7 +58,7 @@ struct View::Served {
 
 View::View(api::Renderer& renderer, const OptionTexts& options, int port)
     : served_(api::guarded(
-          [&] { return std::make_shared<Served>(api::Snapshot(renderer), options, port); })),
+          [&] { return std::make_shared<Served>(api::SceneCopy::of(renderer), options, port); })),
       url_(served_.load()->server.url()) {}
 
 std::string View::png() const {

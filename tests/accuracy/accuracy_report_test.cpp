@@ -1,5 +1,6 @@
 // The data and the page of the report. report_in_browser_test.sh looks at what the page draws.
 #include "accuracy/report.h"
+#include "output/report_page.h"
 
 #include <gtest/gtest.h>
 

@@ -5,10 +5,10 @@
 
 #include <set>
 
-#include "accuracy/digest.h"
-#include "cli/app/parse_options.h"
+#include "command_line/parse_options.h"
 #include "core/error.h"
 #include "core/option_table.h"
+#include "output/digest.h"
 
 namespace whit::accuracy {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "accuracy/digest.h"
+#include "output/digest.h"
 
 namespace whit::accuracy {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <functional>
 
-#include "accuracy/digest.h"
 #include "accuracy/measurement.h"
+#include "output/digest.h"
 #include "render/renderer.h"
 #include "unit/scene_builder.h"
 

@@ -1,5 +1,5 @@
 // Files written beside other work: in order, one at a time, errors told, interruptions waited for.
-#include "cli/app/film_pipe.h"
+#include "output/film_pipe.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "cli/app/program.h"
+#include "command_line/program.h"
 
 namespace whit::cli {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "cli/app/program.h"
+#include "command_line/program.h"
 
 namespace whit::cli {
 namespace {

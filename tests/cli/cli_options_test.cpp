@@ -3,11 +3,11 @@
 
 #include <sstream>
 
-#include "cli/app/help_text.h"
-#include "cli/app/image_output.h"
-#include "cli/app/parse_options.h"
+#include "command_line/help_text.h"
+#include "command_line/parse_options.h"
 #include "core/error.h"
 #include "core/option_table.h"
+#include "output/image_output.h"
 
 namespace whit::cli {
 namespace {

@@ -1,8 +1,8 @@
 // Tables and summaries of made-up frames, whose numbers are known.
 #include <gtest/gtest.h>
 
-#include "cli/app/frame_summary.h"
-#include "cli/app/open_scene.h"
+#include "command_line/progress_bar.h"
+#include "output/frame_summary.h"
 
 namespace whit::cli {
 namespace {

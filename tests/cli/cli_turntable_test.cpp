@@ -3,10 +3,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cli/app/film_pipe.h"
 #include "core/option_table.h"
 #include "io/files.h"
 #include "io/image/image_file.h"
+#include "output/film_pipe.h"
 #include "run_program.h"
 
 namespace whit::cli {

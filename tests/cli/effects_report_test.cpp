@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "accuracy/report.h"
 #include "embedded_data.h"
+#include "output/report_page.h"
 
 namespace whit::cli {
 namespace {
@@ -75,7 +75,7 @@ TEST(EffectsTable, HasARowForEachStep) {
 }
 
 TEST(EffectsRows, AreTheLinesOfTheCsvFile) {
-  EXPECT_EQ(accuracy::csvOf(effectsRows(madeUpSteps())),
+  EXPECT_EQ(csvOf(effectsRows(madeUpSteps())),
             "effect,frame_ms,added_ms,added_outside_embree_ms,primary_rays,shadow_rays,"
             "reflection_rays,refraction_rays,indirect_rays,occlusion_rays,added_rays,memory_mb,"
             "added_memory_mb\n"
@@ -90,7 +90,7 @@ TEST(EffectsReport, HasTheRows) {
   EXPECT_EQ(data["effects"][1]["added_rays"], 3000);
   EXPECT_EQ(data["pictures"].size(), 2u);
   EXPECT_EQ(data["turns"], 5);
-  EXPECT_EQ(embeddedData(accuracy::reportPage(data)), data);
+  EXPECT_EQ(embeddedData(reportPage(data)), data);
 }
 
 }  // namespace

@@ -3,8 +3,9 @@
 #include <sstream>
 #include <vector>
 
-#include "accuracy/digest.h"
-#include "cli/app/parse_options.h"
+#include "command_line/parse_options.h"
+#include "output/digest.h"
+#include "output/open_and_tell.h"
 #include "render/renderer.h"
 
 namespace whit::verify {
@@ -57,7 +58,7 @@ HashedScene::HashedScene(const PublishedHash& picture) {
   cli::listCommonOptions(list, common);
   list.operands("SCENE", "", 1, 1, names);
   cli::parseOptions("", "", list, words);
-  open_ = cli::openScene(names[0], common, nullptr);
+  open_ = openAndTell(names[0], common, nullptr);
   options_ = cli::optionsFor(open_->scene, common);
 }
 
@@ -66,7 +67,7 @@ std::string HashedScene::hash(const RenderOptions& options) const {
   Renderer renderer(scene, options);
   Film film = makeFilm(scene, options);
   renderer.render(chooseCamera(scene, options), film);
-  return accuracy::digestOf(film.image);
+  return digestOf(film.image);
 }
 
 }  // namespace whit::verify

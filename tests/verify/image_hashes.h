@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "cli/app/open_scene.h"
+#include "engine/open_scene.h"
 
 namespace whit::verify {
 
@@ -34,7 +34,7 @@ class HashedScene {
   std::string hash(const RenderOptions& options) const;
 
  private:
-  std::unique_ptr<cli::OpenScene> open_;
+  std::unique_ptr<OpenScene> open_;
   RenderOptions options_;
 };
 

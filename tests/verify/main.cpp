@@ -10,18 +10,18 @@
 #include <system_error>
 #include <vector>
 
-#include "accuracy/report.h"
-#include "cli/app/image_output.h"
-#include "cli/app/open_scene.h"
-#include "cli/app/parse_options.h"
-#include "cli/app/program.h"
-#include "cli/commands.h"
+#include "command_line/parse_options.h"
+#include "command_line/program.h"
+#include "command_line/progress_bar.h"
 #include "core/display.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "io/files.h"
 #include "io/image/image_file.h"
 #include "io/load_scene.h"
+#include "output/image_output.h"
+#include "output/json_report.h"
+#include "output/report_page.h"
 #include "simd/kernels.h"
 #include "verify/image_hashes.h"
 #include "verify/probe.h"
@@ -29,8 +29,6 @@
 namespace whit::verify {
 
 namespace {
-
-using cli::Json;
 
 // One run of a case.
 struct Row {
@@ -131,7 +129,7 @@ Json jsonOf(const Machine& machine, const std::vector<Row>& rows) {
                      {"holds", row.finding.holds()},
                      {"result", row.result()}});
   }
-  return {{"machine", cli::machineJson(machine)}, {"cases", cases}};
+  return {{"machine", machineJson(machine)}, {"cases", cases}};
 }
 
 // A scene of scenes/hard and its picture in linear radiance.
@@ -150,7 +148,7 @@ Json reportOf(const Machine& machine, const std::vector<Row>& rows,
   report["pictures"] = Json::array();
   for (const HardScene& scene : scenes) {
     const auto png = encodePng(toDisplay(scene.picture, 0, ToneCurve::none));
-    report["pictures"].push_back({{"name", scene.name}, {"png", accuracy::base64(png)}});
+    report["pictures"].push_back({{"name", scene.name}, {"png", base64(png)}});
   }
   return report;
 }
@@ -321,9 +319,9 @@ int run(const std::vector<std::string>& words) {
     const bool same = comparesHashes(picturesToHash(hashes, hashed), simd);
     return static_cast<int>(same ? ExitStatus::done : ExitStatus::checkFailed);
   }
-  cli::requireJsonWritable(json);
-  if (!html.empty()) cli::requireWritable(html, {".html"});
-  if (!sheet.empty()) cli::requireWritable(sheet, {".png"});
+  requireJsonWritable(json);
+  if (!html.empty()) requireWritable(html, {".html"});
+  if (!sheet.empty()) requireWritable(sheet, {".png"});
   const std::vector<std::string> names = caseNames(only);
   auto progress = cli::makeProgressBar(common);
   if (!sheet.empty()) {
@@ -340,10 +338,10 @@ int run(const std::vector<std::string>& words) {
   FILE* const people = json == "-" ? stderr : stdout;
   if (people == stdout || !common.quiet) std::fprintf(people, "%s", tableOf(rows).c_str());
   const Machine machine = thisMachine();
-  if (!json.empty()) cli::writeJson(json, jsonOf(machine, rows));
+  if (!json.empty()) writeJson(json, jsonOf(machine, rows));
   if (!html.empty()) {
     const cli::WriteScope scope;
-    writeTextFile(html, accuracy::reportPage(reportOf(machine, rows, scenes)));
+    writeTextFile(html, reportPage(reportOf(machine, rows, scenes)));
   }
   const bool allHold =
       std::all_of(rows.begin(), rows.end(), [](const Row& row) { return row.finding.holds(); });

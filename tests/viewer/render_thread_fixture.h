@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "cli/run_program.h"
+#include "output/open_and_tell.h"
 #include "viewer/session/render_thread.h"
 
 namespace whit::view {
@@ -18,7 +19,7 @@ class RenderThreadTest : public testing::Test {
     common_.quiet = true;
     common_.render.threads = 2;
     name_ = cli::writeTinyScene(folder_);
-    opened_ = cli::openScene(name_, common_, nullptr);
+    opened_ = openAndTell(name_, common_, nullptr);
     scene_ = opened_;
     request_.camera = scene_->scene.cameras[0];
     request_.options = common_.render;
@@ -64,8 +65,8 @@ class RenderThreadTest : public testing::Test {
   cli::TemporaryFolder folder_;
   cli::CommonOptions common_;
   std::string name_;
-  std::shared_ptr<cli::OpenScene> opened_;
-  std::shared_ptr<const cli::OpenScene> scene_;  // that pictures are expected to show
+  std::shared_ptr<OpenScene> opened_;
+  std::shared_ptr<const OpenScene> scene_;  // that pictures are expected to show
   FrameRequest request_;
 };
 

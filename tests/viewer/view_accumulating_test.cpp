@@ -4,6 +4,7 @@
 #include <atomic>
 
 #include "cli/run_program.h"
+#include "output/open_and_tell.h"
 #include "viewer/panel.h"
 #include "viewer/session/frame_tracer.h"
 #include "viewer_fixture.h"
@@ -16,7 +17,7 @@ class Accumulating : public testing::Test {
   Accumulating() {
     common_.quiet = true;
     common_.render.threads = 2;
-    scene_ = cli::openScene("glossy", common_, nullptr);
+    scene_ = openAndTell("glossy", common_, nullptr);
     request_.camera = scene_->scene.cameras[0];
     request_.options = common_.render;
     request_.options.glossy = 1;
@@ -39,7 +40,7 @@ class Accumulating : public testing::Test {
   }
 
   cli::CommonOptions common_;
-  std::shared_ptr<cli::OpenScene> scene_;
+  std::shared_ptr<OpenScene> scene_;
   FrameRequest request_;
   TraceCalls calls_;
   std::vector<UnfinishedFrame> sights_;

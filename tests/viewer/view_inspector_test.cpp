@@ -11,7 +11,7 @@ namespace {
 class Inspector : public testing::Test {
  protected:
   Inspector() {
-    frame_.scene = std::make_shared<cli::OpenScene>(false);
+    frame_.scene = std::make_shared<OpenScene>(false);
     frame_.request.window = {200, 100};
     frame_.film.image = Image(2, 1);
     frame_.film.image.pixels = {{0.5f, 0.25f, 2}, {0, 0, 0.125f}};

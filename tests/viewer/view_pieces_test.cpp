@@ -4,6 +4,7 @@
 #include <atomic>
 
 #include "cli/run_program.h"
+#include "output/open_and_tell.h"
 #include "render/debug_frame.h"
 #include "viewer/session/frame_tracer.h"
 
@@ -15,7 +16,7 @@ class ViewPieces : public testing::TestWithParam<std::size_t> {
   ViewPieces() {
     common_.quiet = true;
     common_.render.threads = 2;
-    scene_ = cli::openScene(cli::writeTinyScene(folder_), common_, nullptr);
+    scene_ = openAndTell(cli::writeTinyScene(folder_), common_, nullptr);
     request_.camera = scene_->scene.cameras[0];
     request_.options = common_.render;
     request_.options.size = ImageSize{100, 70};
@@ -51,7 +52,7 @@ class ViewPieces : public testing::TestWithParam<std::size_t> {
 
   cli::TemporaryFolder folder_;
   cli::CommonOptions common_;
-  std::shared_ptr<cli::OpenScene> scene_;
+  std::shared_ptr<OpenScene> scene_;
   FrameRequest request_;
   TraceCalls calls_;
   std::atomic<int> pieces_{0};  // workers count

@@ -1,4 +1,5 @@
 // Scenes that move, in the viewer.
+#include "output/open_and_tell.h"
 #include "viewer/panel.h"
 
 #include "render_thread_fixture.h"
@@ -69,13 +70,13 @@ class MovingPictures : public RenderThreadTest {
   MovingPictures() {
     name_ = writeMovingScene(folder_);
     common_.load.instant.plays = true;
-    opened_ = cli::openScene(name_, common_, nullptr);
+    opened_ = openAndTell(name_, common_, nullptr);
   }
   // The scene as it is read at that time.
   void expectPictureAt(double seconds, RenderThread& thread) {
     cli::CommonOptions then = common_;
     then.load.instant.seconds = seconds;
-    scene_ = cli::openScene(name_, then, nullptr);
+    scene_ = openAndTell(name_, then, nullptr);
     request_.seconds = seconds;
     expectRightPicture(thread);
   }

@@ -6,9 +6,10 @@
 #include <numeric>
 #include <thread>
 
-#include "cli/app/program.h"
+#include "command_line/program.h"
 #include "core/error.h"
 #include "inspect/metrics.h"
+#include "output/open_and_tell.h"
 #include "viewer/session/session.h"
 
 namespace whit::view {
@@ -126,8 +127,7 @@ int run(const std::vector<std::string>& words) {
   settleViewOptions(options);
   options.scene = scenes[0];
   if (!options.common.render.size) options.common.render.size = {480, 300};
-  const std::shared_ptr<cli::OpenScene> scene =
-      cli::openScene(options.scene, options.common, nullptr);
+  const std::shared_ptr<OpenScene> scene = openAndTell(options.scene, options.common, nullptr);
   Walker walker(options, scene, [] {});
   const std::vector<Shown> all = walker.fly(seconds, kept);
   RenderOptions many = cli::optionsFor(scene->scene, options.common);

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "cli/app/program.h"
+#include "command_line/program.h"
 #include "core/error.h"
 #include "io/files.h"
 #include "io/image/image_file.h"

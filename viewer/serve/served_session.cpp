@@ -6,11 +6,11 @@
 #include <map>
 #include <type_traits>
 
-#include "cli/app/frame_summary.h"
 #include "core/error.h"
 #include "core/option_table.h"
 #include "core/text.h"
 #include "io/image/image_layers.h"
+#include "output/frame_summary.h"
 
 namespace whit::serve {
 
@@ -69,8 +69,7 @@ void ServedSession::Alarm::wait(double seconds) {
 }
 
 ServedSession::ServedSession(const view::ViewOptions& options,
-                             const std::shared_ptr<cli::OpenScene>& scene,
-                             std::shared_ptr<Alarm> alarm)
+                             const std::shared_ptr<OpenScene>& scene, std::shared_ptr<Alarm> alarm)
     : Session(options, scene, [alarm] { alarm->ring(); }),
       alarm_(std::move(alarm)),
       name_(scene->scene.name),
@@ -359,8 +358,7 @@ Json ServedSession::liveJson() const {
     const RayTally& tally = stats.meter.tally[i];
     if (!kRayKinds[i].calledForBy(shown_.effects)) continue;
     json["rays"].push_back({kRayKinds[i].name, static_cast<double>(tally.rays) / 1e3,
-                            cli::mraysPerSecond(tally.rays, stats.frameMs),
-                            100 * cli::lanesFilled(tally)});
+                            mraysPerSecond(tally.rays, stats.frameMs), 100 * lanesFilled(tally)});
   }
   if (shown_.debug) json["legend"] = shown_.debug->legend();
   if (settings_.measureKnobs) json["measured"] = shown_.measured;
@@ -371,7 +369,7 @@ Json ServedSession::liveJson() const {
     if (!seen || !view::clip(*seen, size_.width, size_.height)) continue;
     const auto rounded = [](double x) { return std::round(10 * x) / 10; };
     json["lines"].push_back({rounded(seen->x1), rounded(seen->y1), rounded(seen->x2),
-                             rounded(seen->y2), cli::colorOf(line.look), isDashed(line.look),
+                             rounded(seen->y2), colorOf(line.look), isDashed(line.look),
                              rounded(line.width), line.node});
   }
   return json;
@@ -403,10 +401,10 @@ Json ServedSession::settledJson() const {
     json["animation"] = settings_.timeline.animation;
   }
   if (rays_.scene) {
-    json["tree"] = cli::pageTree(rays_.words, rays_.rays, settings_.options);
+    json["tree"] = pageTree(rays_.words, rays_.rays, settings_.options);
     json["tree"]["pixel"] = {rays_.query.x, rays_.query.y};
     for (const RayLook look : looksOf(rays_.lines)) {
-      json["tree"]["legend"].push_back({styleOf(look).name, cli::colorOf(look)});
+      json["tree"]["legend"].push_back({styleOf(look).name, colorOf(look)});
     }
   }
   return json;

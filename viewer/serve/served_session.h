@@ -36,7 +36,7 @@ class ServedSession : public view::Session {
     void ring();
     void wait(double seconds);
   };
-  ServedSession(const view::ViewOptions& options, const std::shared_ptr<cli::OpenScene>& scene,
+  ServedSession(const view::ViewOptions& options, const std::shared_ptr<OpenScene>& scene,
                 std::shared_ptr<Alarm> alarm = std::make_shared<Alarm>());
   ~ServedSession() override;
 

@@ -9,12 +9,13 @@
 #include <vector>
 
 #include "accuracy/timing.h"
-#include "cli/app/explained_rays.h"
-#include "cli/app/open_scene.h"
+#include "command_line/parse_options.h"
+#include "engine/engine.h"
 #include "inspect/debug_view.h"
 #include "inspect/ray_tree.h"
 #include "io/image/image_file.h"
 #include "io/json_reader.h"
+#include "output/explained_rays.h"
 
 namespace whit::view {
 
@@ -30,7 +31,7 @@ struct SkyChoice {
   friend bool operator==(const SkyChoice&, const SkyChoice&) = default;
 };
 // Returns the sky of a scene as it was read.
-SkyChoice skyOf(const cli::OpenScene& scene);
+SkyChoice skyOf(const OpenScene& scene);
 // Returns the choice of another sky with its default settings.
 SkyChoice chooseSky(const std::string& source);
 // Describes a sky whose source is not empty as scene files do.
@@ -44,7 +45,7 @@ inline bool sameAmbient(const Ambient& a, Ambient b) {
 
 // The edited materials, lights, sky and ambient light of a scene; see bake/edit_scene.h.
 struct ShadingEdit {
-  std::shared_ptr<const cli::OpenScene> scene;
+  std::shared_ptr<const OpenScene> scene;
   std::vector<Material> materials;
   std::vector<Light> lights;
   SkyChoice sky;
@@ -52,7 +53,7 @@ struct ShadingEdit {
   std::vector<std::string> settings;  // editSettings() of this edit
 };
 // Returns the state of a scene as it was read.
-ShadingEdit withoutEdits(const std::shared_ptr<const cli::OpenScene>& scene);
+ShadingEdit withoutEdits(const std::shared_ptr<const OpenScene>& scene);
 
 // Returns the edits as values of --set. A scene that is read with these as well has the edited
 // materials, lights, sky and ambient light, bit for bit. Settings of the sky hold for a scene that
@@ -135,7 +136,7 @@ inline double samplesOf(const FrameRequest& request) {
 }
 
 struct TracedFrame {
-  std::shared_ptr<const cli::OpenScene> scene;  // null: nothing traced yet
+  std::shared_ptr<const OpenScene> scene;  // null: nothing traced yet
   FrameRequest request;
   RenderOptions options;  // the options of the picture
   std::string surfaces;   // the number of triangles and spheres, in words
@@ -176,11 +177,11 @@ inline bool sameRays(const RayQuery& a, const RayQuery& b) {
 }
 
 struct RayPick {
-  std::shared_ptr<const cli::OpenScene> scene;  // null: nothing was picked
+  std::shared_ptr<const OpenScene> scene;  // null: nothing was picked
   RayQuery query;
-  cli::ExplainedRays rays;
+  ExplainedRays rays;
   // One for each node of the packets: the scene may be edited before they are shown.
-  std::vector<cli::RayText> words;
+  std::vector<RayText> words;
   std::vector<RayLine> lines;  // the rays of the packets
   Camera aside;                // sees them
 };
@@ -206,7 +207,7 @@ struct TraceCalls {
 class FrameTracer {
  public:
   // Builds the renderer; throws as Renderer does.
-  FrameTracer(std::shared_ptr<cli::OpenScene> scene, const cli::CommonOptions& common);
+  FrameTracer(std::shared_ptr<OpenScene> scene, const cli::CommonOptions& common);
 
   // Reads a scene; the old one stays when that fails.
   void load(const SceneChoice& choice);
@@ -221,10 +222,9 @@ class FrameTracer {
   bool trace(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
 
  private:
-  void open(std::shared_ptr<cli::OpenScene> scene, const std::string& animation);
   void editSurroundings(const ShadingEdit& edit, Sky opened);
-  void moveTo(double seconds);
-  void applyOptions(const FrameRequest& request);
+  // Tells what the picture shows and how it was made.
+  void describe(const FrameRequest& request, TracedFrame& frame);
   bool tracePicture(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
   // Traces the picture as one frame.
   bool traceAtOnce(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
@@ -234,13 +234,10 @@ class FrameTracer {
   bool measure(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
 
   const cli::CommonOptions common_;
-  std::shared_ptr<cli::OpenScene> scene_;
-  RenderOptions options_;
-  std::unique_ptr<Renderer> renderer_;
+  std::unique_ptr<Engine> engine_;
   std::vector<std::string> editSettings_;  // of the scene as it is now
   SkyChoice sky_;                          // the sky that the scene has now
   Sky ownSky_;                             // the scene's own sky, while it has another one
-  double seconds_ = 0;                     // the instant that a moving scene is at
   std::string animation_;                  // the animation that the scene was read with
   Film band_;                              // frames that are measured
   std::optional<FrameRequest> finished_;   // the last picture

@@ -5,7 +5,7 @@
 
 namespace whit::view {
 
-RenderThread::RenderThread(std::shared_ptr<cli::OpenScene> scene, const cli::CommonOptions& common,
+RenderThread::RenderThread(std::shared_ptr<OpenScene> scene, const cli::CommonOptions& common,
                            std::function<void()> onChange)
     : onChange_(std::move(onChange)),
       tracer_(std::move(scene), common),

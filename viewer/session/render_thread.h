@@ -21,7 +21,7 @@ class RenderThread {
  public:
   // Builds the renderer on the calling thread; throws as Renderer does. `onChange` is called on
   // another thread whenever a frame, a scene or an error is there to be fetched.
-  RenderThread(std::shared_ptr<cli::OpenScene> scene, const cli::CommonOptions& common,
+  RenderThread(std::shared_ptr<OpenScene> scene, const cli::CommonOptions& common,
                std::function<void()> onChange);
   ~RenderThread();
   RenderThread(const RenderThread&) = delete;

@@ -146,7 +146,7 @@ void select(const RayPick& pick, RayView& view) {
   }
 }
 
-Session::Session(const ViewOptions& options, const std::shared_ptr<cli::OpenScene>& scene,
+Session::Session(const ViewOptions& options, const std::shared_ptr<OpenScene>& scene,
                  std::function<void()> onChange)
     : options_(options),
       scene_(scene),
@@ -394,7 +394,8 @@ void Session::load(const SceneChoice& choice, const std::string& message) {
 void Session::reload() {
   if (!opening_.empty()) return open(opening_);  // sceneName_ is still that of the old scene
   if (scene_->isMade) throwUsage("the scene was made by a program: it cannot be read again here");
-  load({sceneName_, scene_->settings, settings_.timeline.animation}, "reading the scene again");
+  load({sceneName_, scene_->load.settings, settings_.timeline.animation},
+       "reading the scene again");
 }
 
 void Session::changeAnimation() {

@@ -109,7 +109,7 @@ void select(const RayPick& pick, RayView& view);
 class Session {
  public:
   // `onChange` is called on another thread whenever a frame, a scene or an error is to be fetched.
-  Session(const ViewOptions& options, const std::shared_ptr<cli::OpenScene>& scene,
+  Session(const ViewOptions& options, const std::shared_ptr<OpenScene>& scene,
           std::function<void()> onChange);
   virtual ~Session() = default;
   Session(const Session&) = delete;
@@ -151,9 +151,9 @@ class Session {
   const Scene& scene() const { return scene_->scene; }
 
   const ViewOptions& options_;
-  std::shared_ptr<const cli::OpenScene> scene_;  // the scene of the frame shown
-  std::string sceneName_;                        // as on the command line
-  std::string opening_;                          // name of another scene while it is read
+  std::shared_ptr<const OpenScene> scene_;  // the scene of the frame shown
+  std::string sceneName_;                   // as on the command line
+  std::string opening_;                     // name of another scene while it is read
   RenderThread thread_;
   CameraControl control_;
   ResolutionControl resolution_;

@@ -45,11 +45,11 @@ void addSky(const SkyChoice& read, const SkyChoice& edited, bool whole,
 
 }  // namespace
 
-SkyChoice skyOf(const cli::OpenScene& scene) {
+SkyChoice skyOf(const OpenScene& scene) {
   const Sky& sky = scene.scene.sky;
   SkyChoice choice{"", sky.kind, sky.scale, sky.rotation};
-  if (!scene.sky.empty()) {
-    choice.source = chooseSky(scene.sky).source;
+  if (!scene.load.sky.empty()) {
+    choice.source = chooseSky(scene.load.sky).source;
   } else if (sky.name == kStudio) {
     choice.source = kStudio;
   }
@@ -69,7 +69,7 @@ Json describeSky(const SkyChoice& sky) {
   return json;
 }
 
-ShadingEdit withoutEdits(const std::shared_ptr<const cli::OpenScene>& scene) {
+ShadingEdit withoutEdits(const std::shared_ptr<const OpenScene>& scene) {
   return {scene,         scene->scene.materials, scene->scene.lights,
           skyOf(*scene), scene->scene.ambient,   {}};
 }

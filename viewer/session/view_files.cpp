@@ -6,14 +6,14 @@
 #include <filesystem>
 #include <set>
 
-#include "cli/app/image_output.h"
-#include "cli/app/program.h"
+#include "command_line/program.h"
 #include "core/error.h"
 #include "core/option_table.h"
 #include "core/text.h"
 #include "io/files.h"
 #include "io/scene/scene_sections.h"
 #include "io/scene/scene_settings.h"
+#include "output/image_output.h"
 #include "scene/members.h"
 
 namespace whit::view {
@@ -193,16 +193,16 @@ std::string renderCommand(const std::string& scene, const cli::CommonOptions& co
   return text;
 }
 
-SavedScene saveScene(const LoadOptions& load, const std::string& name, const cli::OpenScene& scene,
+SavedScene saveScene(const LoadOptions& load, const std::string& name, const OpenScene& scene,
                      const ShadingEdit& edit, const Camera& camera, RenderOptions options,
                      const RenderOptions& chosen) {
   const SceneName parsed = parseSceneName(name);
   const fs::path path = findScene(parsed.file, load.shippedScenes);
   LoadOptions read = load;
-  read.settings = scene.settings;
+  read.settings = scene.load.settings;
   std::optional<JsonDocument> document = readDocument(name, read);  // none for a model
   Json root = document ? editedFile(std::move(*document), parsed, edit)
-                       : sceneOfModel(path, scene.settings, scene.scene, edit);
+                       : sceneOfModel(path, scene.load.settings, scene.scene, edit);
   lookThrough(camera, scene.scene, root);
   RenderOptions stated;
   if (document) applySceneOptions(scene.scene.options, {}, stated);
@@ -224,8 +224,8 @@ std::string savePicture(const TracedFrame& frame) {
   const cli::WriteScope scope;
   const auto nameOf = [&](int i) { return frame.scene->scene.name + formatted("-%04d", i); };
   std::string name = freeName(nameOf, {".png", ".exr"});
-  cli::writeImage(name + ".png", frame.film, frame.metadata);
-  cli::writeImage(name + ".exr", frame.film, frame.metadata);
+  writeImage(name + ".png", frame.film, frame.metadata);
+  writeImage(name + ".exr", frame.film, frame.metadata);
   return name;
 }
 

@@ -23,7 +23,7 @@ struct SavedScene {
 // called `name`; its first camera is `camera`, and it states the options `chosen`. `load` holds the
 // options that the scene was read with, and `options` are those of the command. Throws Error(io),
 // and writes nothing then.
-SavedScene saveScene(const LoadOptions& load, const std::string& name, const cli::OpenScene& scene,
+SavedScene saveScene(const LoadOptions& load, const std::string& name, const OpenScene& scene,
                      const ShadingEdit& edit, const Camera& camera, RenderOptions options,
                      const RenderOptions& chosen);
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "cli/app/option_list.h"
+#include "command_line/option_list.h"
 
 namespace whit::cli {
 

@@ -1,4 +1,4 @@
-#include "accuracy/digest.h"
+#include "output/digest.h"
 
 #include <xxhash.h>
 
@@ -11,7 +11,7 @@
 #include "core/text.h"
 #include "scene/members.h"
 
-namespace whit::accuracy {
+namespace whit {
 
 namespace {
 
@@ -139,4 +139,4 @@ std::string digestOf(const Image& image) {
   return d.hex();
 }
 
-}  // namespace whit::accuracy
+}  // namespace whit

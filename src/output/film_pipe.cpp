@@ -1,4 +1,4 @@
-#include "cli/app/film_pipe.h"
+#include "output/film_pipe.h"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -17,12 +17,12 @@
 
 extern char** environ;
 
-namespace whit::cli {
+namespace whit {
 
 bool hasFfmpeg() { return std::system("command -v ffmpeg >/dev/null 2>&1") == 0; }
 
 FilmPipe::FilmPipe(const std::string& path, int width, int height, double fps) : path_(path) {
-  const WriteScope starting;  // until the interrupt handler knows what it has to undo
+  const cli::WriteScope starting;  // until the interrupt handler knows what it has to undo
   file_.emplace(path);
   if (file_->temporaryPath() != path) scope_.emplace(file_->temporaryPath());
   // H.264 that all players show.
@@ -51,7 +51,7 @@ FilmPipe::FilmPipe(const std::string& path, int width, int height, double fps) :
     process_ = 0;
     throwIo(std::string("cannot start ffmpeg: ") + std::strerror(error));
   }
-  ChildScope::begun(process_);
+  cli::ChildScope::begun(process_);
 }
 
 FilmPipe::~FilmPipe() {
@@ -66,7 +66,7 @@ int FilmPipe::wait() {
   int status = 0;
   while (waitpid(process_, &status, 0) < 0 && errno == EINTR) continue;
   process_ = 0;
-  ChildScope::ended();
+  cli::ChildScope::ended();
   return status;
 }
 
@@ -85,8 +85,8 @@ void FilmPipe::add(std::span<const std::uint8_t> rgba) {
 void FilmPipe::finish() {
   const int status = wait();
   if (status != 0) throwIo("cannot write '" + path_ + "': ffmpeg has failed");
-  const WriteScope scope;
+  const cli::WriteScope scope;
   file_->commit();
 }
 
-}  // namespace whit::cli
+}  // namespace whit

@@ -1,11 +1,11 @@
-#include "cli/app/frame_summary.h"
+#include "output/frame_summary.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "core/text.h"
 
-namespace whit::cli {
+namespace whit {
 
 RunSummary summarize(const Scene& scene, const RenderOptions& options, const Renderer& renderer,
                      const Film& film, double loadMs) {
@@ -185,4 +185,4 @@ std::string ratioText(const RunSummary& first, const RunSummary& second) {
                     outsideEmbreeMs(medianFrame(first)));
 }
 
-}  // namespace whit::cli
+}  // namespace whit

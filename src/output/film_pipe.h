@@ -12,11 +12,11 @@
 #include <utility>
 #include <vector>
 
-#include "cli/app/program.h"
+#include "command_line/program.h"
 #include "core/stopwatch.h"
 #include "io/files.h"
 
-namespace whit::cli {
+namespace whit {
 
 // True if ffmpeg is in $PATH.
 bool hasFfmpeg();
@@ -40,7 +40,7 @@ class FilmPipe {
   int wait();
 
   std::string path_;
-  std::optional<ChildScope> scope_;  // before the file: it lives longer
+  std::optional<cli::ChildScope> scope_;  // before the file: it lives longer
   std::optional<AtomicFile> file_;
   int pipe_ = -1, process_ = 0;
 };
@@ -63,13 +63,13 @@ class BackgroundWriter {
     finish();
     // The scope is opened here and not by the job: an interruption between the two would not know
     // of the files.
-    job_ = std::async(std::launch::async,
-                      [write = std::move(write), scope = std::make_shared<WriteScope>()]() mutable {
-                        const std::shared_ptr<WriteScope> held = std::move(scope);
-                        const Stopwatch stopwatch;
-                        write();
-                        return stopwatch.ms();
-                      });
+    job_ = std::async(std::launch::async, [write = std::move(write),
+                                           scope = std::make_shared<cli::WriteScope>()]() mutable {
+      const std::shared_ptr<cli::WriteScope> held = std::move(scope);
+      const Stopwatch stopwatch;
+      write();
+      return stopwatch.ms();
+    });
   }
 
   // Waits for the job that was started last, and throws what it threw.
@@ -92,4 +92,4 @@ class BackgroundWriter {
   std::vector<Times> times_;
 };
 
-}  // namespace whit::cli
+}  // namespace whit

@@ -1,11 +1,11 @@
-#include "cli/app/explained_rays.h"
+#include "output/explained_rays.h"
 
 #include <algorithm>
 #include <cstdlib>
 
 #include "reference/media.h"
 
-namespace whit::cli {
+namespace whit {
 
 namespace {
 
@@ -140,4 +140,4 @@ Json pageTree(const std::vector<RayText>& words, const ExplainedRays& rays,
   return json;
 }
 
-}  // namespace whit::cli
+}  // namespace whit

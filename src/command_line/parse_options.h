@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "cli/app/option_list.h"
+#include "bake/scene.h"
+#include "command_line/option_list.h"
 #include "core/options.h"
 #include "io/load_scene.h"
 
@@ -24,6 +25,13 @@ struct CommonOptions {
 // Lists forEachOption's options, and those about loading and reporting.
 void listCommonOptions(OptionList& list, CommonOptions& common);
 void listReportOptions(OptionList& list, CommonOptions& common);
+
+// The options of a picture of the scene: those that were given, else those that the scene states.
+// An automatic exposure is still to be settled (render/renderer.h).
+RenderOptions optionsFor(const Scene& scene, const CommonOptions& common);
+// The options of frames whose cost or accuracy is measured: without those of a scene file, so that
+// figures of different scenes, and of one option alone, can be compared.
+RenderOptions optionsToMeasure(const Scene& scene, const CommonOptions& common);
 
 // Parses `words` (without the names of program and command). --help and --help-all print the help
 // text, which begins with `usage` and `summary`; a first word --man prints the command's part of

@@ -11,7 +11,7 @@
 #include "io/image/image_layers.h"
 #include "render/renderer.h"
 
-namespace whit::cli {
+namespace whit {
 
 // Before the work starts: Error(usage) unless `path` ends in one of `extensions`, Error(io) unless
 // its folder is there and can be written to. No extensions: any name will do.
@@ -21,10 +21,6 @@ bool isJpeg(const std::string& path);  // by its extension
 void makeFolder(const std::string& path);
 // As requireWritable() for the value of --json: empty and "-" are fine.
 void requireJsonWritable(const std::string& path);
-
-// Says with which settings of LoadOptions the scene was read; nothing without any.
-void addSettings(const std::vector<std::string>& settings, const std::string& sky,
-                 ImageMetadata& metadata);
 
 // Where pictures may go besides files.
 inline constexpr const char* kStandardOutput = "-";
@@ -70,4 +66,4 @@ std::string frameName(const std::string& pattern, int frame);
 // Throws Error(usage) when the name is meant for frames: two '#' or more.
 void requireNoFrameName(const std::string& name);
 
-}  // namespace whit::cli
+}  // namespace whit

@@ -12,7 +12,7 @@
 #include "inspect/ray_tree.h"
 #include "io/json_reader.h"
 
-namespace whit::cli {
+namespace whit {
 
 struct ExplainedRays {
   RayTree packets, reference;
@@ -55,4 +55,4 @@ inline std::array<std::uint8_t, 3> codesOf(const Rgb& pixel, const RenderOptions
 }
 inline std::string textOf(const RgbD& c) { return formatted("%.5f %.5f %.5f", c.x, c.y, c.z); }
 
-}  // namespace whit::cli
+}  // namespace whit

@@ -1,10 +1,10 @@
-#include "cli/app/parse_options.h"
+#include "command_line/parse_options.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <optional>
 
-#include "cli/app/help_text.h"
+#include "command_line/help_text.h"
 #include "core/error.h"
 #include "core/option_table.h"
 #include "core/text.h"
@@ -135,6 +135,16 @@ void listCommonOptions(OptionList& list, CommonOptions& common) {
     common.load.sphereSegments = common.render.sphereSegments;
     common.load.maxMemoryBytes = static_cast<std::uint64_t>(common.maxMemoryGb * 1e9);
   };
+}
+
+RenderOptions optionsFor(const Scene& scene, const CommonOptions& common) {
+  RenderOptions options = common.render;
+  applySceneOptions(scene.options, common.given, options);
+  return options;
+}
+
+RenderOptions optionsToMeasure(const Scene& scene, const CommonOptions& common) {
+  return scene.isModel ? optionsFor(scene, common) : common.render;
 }
 
 bool parseOptions(const std::string& usage, const std::string& summary, const OptionList& list,

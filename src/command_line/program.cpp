@@ -1,4 +1,4 @@
-#include "cli/app/program.h"
+#include "command_line/program.h"
 
 #include <signal.h>
 #include <unistd.h>

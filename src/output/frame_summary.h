@@ -11,7 +11,7 @@
 #include "core/quantile.h"
 #include "render/renderer.h"
 
-namespace whit::cli {
+namespace whit {
 
 struct RunSummary {
   std::string scene;
@@ -23,7 +23,7 @@ struct RunSummary {
   double loadMs = 0, buildMs = 0;
   std::vector<FrameStats> frames;  // counted ones; none: all images were there
   std::vector<double> floorMs;     // empty without --floor
-  std::string imageHash;           // of the last frame: accuracy::digestOf(image)
+  std::string imageHash;           // of the last frame: digestOf(image)
   // Images are written while the next frame is traced: the time of writing each image, and how
   // long the tracing waited for it.
   std::vector<double> writingMs, waitedMs;
@@ -70,4 +70,4 @@ std::string stageTable(const RunSummary& run);
 // The second of two runs of one scene, whose frames took turns, over the first.
 std::string ratioText(const RunSummary& first, const RunSummary& second);
 
-}  // namespace whit::cli
+}  // namespace whit

@@ -1,4 +1,4 @@
-#include "cli/app/image_output.h"
+#include "output/image_output.h"
 
 #include <unistd.h>
 
@@ -8,13 +8,13 @@
 #include <cstring>
 #include <filesystem>
 
-#include "cli/app/program.h"
+#include "command_line/program.h"
 #include "core/error.h"
 #include "core/option_table.h"
 #include "core/text.h"
 #include "io/files.h"
 
-namespace whit::cli {
+namespace whit {
 
 namespace {
 
@@ -97,14 +97,6 @@ void makeFolder(const std::string& path) {
   if (error) throwIo("cannot make the folder '" + path + "': " + error.message());
 }
 
-void addSettings(const std::vector<std::string>& settings, const std::string& sky,
-                 ImageMetadata& metadata) {
-  std::string text;
-  for (const std::string& setting : settings) text += (text.empty() ? "" : "\n") + setting;
-  if (!text.empty()) metadata.emplace_back("set", text);
-  if (!sky.empty()) metadata.emplace_back("sky", sky);
-}
-
 std::optional<Channel> channelNamedBy(const std::string& path, ChannelSet kept) {
   if (kept.empty() || extensionOf(path) != ".png") return std::nullopt;
   std::string name = std::filesystem::path(path).stem().string();
@@ -132,7 +124,7 @@ ImageMetadata ownMetadata(const std::string& path, const ImageFormat& format) {
 
 void writeImage(const std::string& path, const Film& film, const ImageMetadata& metadata,
                 const ImageFormat& format) {
-  const WriteScope scope;
+  const cli::WriteScope scope;
   ImageMetadata said = metadata;
   const ImageMetadata own = ownMetadata(path, format);
   said.insert(said.end(), own.begin(), own.end());
@@ -193,4 +185,4 @@ void requireNoFrameName(const std::string& name) {
   throwUsage("'" + name + "': #### is the number of a frame, and there is no --frames A..B");
 }
 
-}  // namespace whit::cli
+}  // namespace whit

@@ -1,4 +1,4 @@
-#include "cli/commands.h"
+#include "output/json_report.h"
 
 #include <sys/resource.h>
 
@@ -6,12 +6,12 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "cli/app/program.h"
+#include "command_line/program.h"
 #include "core/option_table.h"
 #include "core/worker_pool.h"
 #include "io/files.h"
 
-namespace whit::cli {
+namespace whit {
 
 namespace {
 
@@ -106,8 +106,8 @@ void writeJson(const std::string& path, const Json& json) {
     std::fputs(text.c_str(), stdout);
     return;
   }
-  const WriteScope scope;
+  const cli::WriteScope scope;
   writeTextFile(path, text);
 }
 
-}  // namespace whit::cli
+}  // namespace whit

@@ -2,15 +2,15 @@
 #include <unistd.h>
 #include <cstdio>
 
-#include "cli/app/open_scene.h"
-#include "cli/commands.h"
+#include "command_line/progress_bar.h"
 #include "core/error.h"
+#include "output/open_and_tell.h"
 #include "viewer/session/session.h"
 #ifdef WHIT_SERVE
 #include "viewer/serve/server.h"
 #endif
 
-namespace whit::cli {
+namespace whit::serve {
 
 namespace {
 
@@ -26,8 +26,8 @@ struct ServeJob {
   int port = 0;
 };
 
-OptionList listOptions(ServeJob& job) {
-  OptionList list;
+cli::OptionList listOptions(ServeJob& job) {
+  cli::OptionList list;
   list.group("Serving");
   list.value({"port", "N", 0, 65535}, "the port; 0 is 8765, or any free one if that is taken",
              job.port);
@@ -41,12 +41,12 @@ OptionList listOptions(ServeJob& job) {
 
 #ifdef WHIT_SERVE
 int serve(const ServeJob& job) {
-  auto progress = makeProgressBar(job.view.common);
+  auto progress = cli::makeProgressBar(job.view.common);
   const std::shared_ptr<OpenScene> scene =
-      openScene(job.view.scene, job.view.common, progress.get());
-  serve::ServedSession session(job.view, scene);
+      openAndTell(job.view.scene, job.view.common, progress.get());
+  ServedSession session(job.view, scene);
   progress.reset();
-  serve::Server server(session, {job.bind, job.port});
+  Server server(session, {job.bind, job.port});
   std::printf("%s\n", server.url().c_str());
   std::fflush(stdout);
   char machine[256] = "MACHINE";
@@ -70,12 +70,14 @@ int serve(const ServeJob& job) {
 
 }  // namespace
 
-int serveCommand(const Words& words) {
+int serveCommand(const std::vector<std::string>& words);
+
+int serveCommand(const std::vector<std::string>& words) {
   ServeJob job;
-  if (!parseOptions(kServeUsage, kServeSummary, listOptions(job), words)) return 0;
+  if (!cli::parseOptions(kServeUsage, kServeSummary, listOptions(job), words)) return 0;
   view::settleViewOptions(job.view);
   job.view.scene = job.scenes[0];
   return serve(job);
 }
 
-}  // namespace whit::cli
+}  // namespace whit::serve

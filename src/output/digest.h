@@ -7,7 +7,7 @@
 #include "core/image.h"
 #include "core/options.h"
 
-namespace whit::accuracy {
+namespace whit {
 
 // Covers every table of the finalized scene that a picture can depend on, but not its name, its own
 // size, its cameras and the reasons for its effects: a picture takes these from its options and
@@ -19,4 +19,4 @@ std::string digestOf(const RenderOptions& options);
 // Covers size, window and the bits of all pixels.
 std::string digestOf(const Image& image);
 
-}  // namespace whit::accuracy
+}  // namespace whit

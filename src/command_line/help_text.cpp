@@ -1,4 +1,4 @@
-#include "cli/app/help_text.h"
+#include "command_line/help_text.h"
 
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -11,8 +11,8 @@
 #include <map>
 #include <regex>
 
-#include "cli/app/parse_options.h"
-#include "cli/app/program.h"
+#include "command_line/parse_options.h"
+#include "command_line/program.h"
 #include "core/option_table.h"
 #include "core/text.h"
 #include "io/files.h"

@@ -1,0 +1,193 @@
+#include "engine/engine.h"
+
+#include <utility>
+
+#include "bake/edit_scene.h"
+#include "core/option_table.h"
+#include "core/stopwatch.h"
+#include "core/worker_pool.h"
+#include "io/scene/scene_settings.h"
+
+namespace whit {
+
+int threadsOf(const RenderOptions& options) {
+  return options.threads > 0 ? options.threads : usableThreads();
+}
+
+Engine::Engine(std::shared_ptr<OpenScene> scene)
+    : opened_(std::move(scene)), seconds_(opened_->scene.motion.given.seconds) {}
+
+void Engine::forgetRenderer() {
+  renderer_.reset();
+  queries_.reset();
+  optionsChanged_ = true;
+}
+
+void Engine::ownScene() {
+  forgetRenderer();  // it refers to the shared scene
+  opened_ = std::make_shared<OpenScene>(*opened_);
+}
+
+std::shared_ptr<OpenScene> Engine::copyScene() {
+  update();
+  auto copy = std::make_shared<OpenScene>(*opened_);
+  if (seconds_ != 0) copy->load.instant.seconds = seconds_;
+  copy->isMade |= !places_.empty();
+  return copy;
+}
+
+void Engine::setOptions(const RenderOptions& options, const std::set<std::string>& given) {
+  asked_ = options;
+  given_ = given;
+  optionsChanged_ = true;
+}
+
+void Engine::setOptions(const RenderOptions& options) {
+  asked_ = options;
+  given_.reset();
+  optionsChanged_ = true;
+}
+
+RenderOptions Engine::wantedOptions() const {
+  RenderOptions wanted = asked_;
+  if (given_) {
+    applyQuality(wanted, *given_);
+    applySceneOptions(scene().options, *given_, wanted);
+  }
+  return wanted;
+}
+
+void Engine::edit(const std::string& text, Progress* progress) {
+  const SceneSetting setting = parseSceneSetting(text);
+  const SceneSource& source = opened_->source;
+  LoadOptions& load = opened_->load;
+  queries_.reset();  // they know the materials' masks
+  if (!document_) {
+    document_ = source.text ? readDocument(*source.text, load) : readDocument(source.name, load);
+  }
+  JsonDocument* const document = document_ ? &*document_ : nullptr;
+  if (!editScene(setting, load, document, opened_->scene)) {
+    readAgain(text, progress);
+    return;
+  }
+
+  optionsChanged_ = true;  // for the automatic exposure
+  addSceneSetting(text, load.settings);
+  try {
+    if (renderer_) renderer_->camerasChanged();
+    if (renderer_) renderer_->shadingChanged();
+  } catch (...) {
+    renderer_.reset();  // prepare() makes another one for the present scene
+    throw;
+  }
+}
+
+void Engine::readAgain(const std::string& setting, Progress* progress) {
+  LoadOptions load = opened_->load;
+  addSceneSetting(setting, load.settings);
+  std::shared_ptr<OpenScene> next = openScene(opened_->source, load, opened_->strict, progress);
+  for (const auto& [pointer, place] : places_) setPlace(next->scene, pointer, place);
+
+  forgetRenderer();
+  opened_ = std::move(next);
+  document_.reset();
+  moved_ = !scene().motion.empty();
+}
+
+void Engine::shadingChanged() {
+  queries_.reset();
+  if (renderer_) renderer_->shadingChanged();
+  moved_ |= !scene().motion.empty();  // edits of moving lights are edits of their start
+}
+
+void Engine::setTime(double seconds) {
+  seconds_ = seconds;
+  moved_ = true;
+}
+
+void Engine::setTransform(const std::string& pointer, const Affine& place) {
+  setPlace(opened_->scene, pointer, place);
+  places_[pointer] = place;
+  moved_ = true;
+}
+
+void Engine::lookThrough(const std::optional<Camera>& camera) {
+  optionsChanged_ |= camera || lookedThrough_;  // for the automatic exposure
+  lookedThrough_ = camera;
+}
+
+Camera Engine::camera() const {
+  return lookedThrough_ ? aimed(*lookedThrough_, options_) : chooseCamera(scene(), options_);
+}
+
+void Engine::update() {
+  if (!moved_) return;
+  const std::lock_guard lock(opened_->moving);
+  moveScene(opened_->scene, seconds_);
+  queries_.reset();
+  if (renderer_) renderer_->sceneMoved();
+  moved_ = false;
+}
+
+Renderer& Engine::prepare(Progress* progress) {
+  update();
+  if (!optionsChanged_) return *renderer_;
+
+  options_ = wantedOptions();
+  if (renderer_ && renderer_->canSetOptions(options_)) {
+    renderer_->setOptions(options_);
+  } else {
+    renderer_.reset();  // two acceleration structures may need too much memory
+    renderer_ = std::make_unique<Renderer>(scene(), options_, progress);
+  }
+  settleExposure(*renderer_, camera(), options_);
+  optionsChanged_ = false;
+  return *renderer_;
+}
+
+const RayQueries& Engine::rayQueries(Progress* progress) {
+  update();
+  if (!queries_) {
+    queries_ = std::make_unique<RayQueries>(scene(), threadsOf(wantedOptions()), progress);
+  }
+  return *queries_;
+}
+
+ImageMetadata Engine::describe(const Camera& camera, const Film& film) const {
+  ImageMetadata about = describeImage(scene(), camera, *renderer_, film, options_);
+  addSettings(opened_->load.settings, opened_->load.sky, about);
+  return about;
+}
+
+Picture Engine::render(const PictureRequest& request, Film& film) {
+  Renderer& renderer = prepare(request.progress);
+  const Camera camera = request.camera ? *request.camera : this->camera();
+  Picture picture;
+
+  // The options of a budget hold for this picture alone.
+  if (request.budget.isSet()) {
+    reportProgress(request.progress, "choosing options", 0);
+    picture.receipt = chooseOptions(renderer, camera, given_.value_or(std::set<std::string>()),
+                                    request.budget, film);
+    options_ = picture.receipt->options;
+    optionsChanged_ = true;
+  }
+
+  const Stopwatch stopwatch;
+  picture.about = describe(camera, film);
+  try {
+    picture.stats = renderFrame(renderer, options_.mode, camera, film, request.progress);
+  } catch (...) {
+    renderer.scheduler().forgetTracers();  // their queues are not empty
+    throw;
+  }
+  if (picture.receipt) assess(*picture.receipt, renderer, camera, stopwatch.ms(), film);
+  refuseNonFinite(scene(), options_, picture.stats);
+  return picture;
+}
+
+std::uint64_t Engine::memoryBytes() const {
+  return scene().memoryBytes() + (renderer_ ? renderer_->memoryBytes() : 0);
+}
+
+}  // namespace whit

@@ -1,0 +1,45 @@
+#include "engine/open_scene.h"
+
+#include "core/stopwatch.h"
+
+namespace whit {
+
+OpenScene::OpenScene(const OpenScene& other)
+    : scene(other.scene),
+      source(other.source),
+      load(other.load),
+      strict(other.strict),
+      warnings(other.strict),
+      loadMs(other.loadMs),
+      isMade(other.isMade) {
+  for (const auto& [kind, entry] : other.warnings.entries()) {
+    warnings.note(kind, entry.first, entry.count);
+  }
+}
+
+std::unique_ptr<OpenScene> openScene(const SceneSource& source, const LoadOptions& load,
+                                     bool strict, Progress* progress, const LookAtScene& look) {
+  const Stopwatch stopwatch;
+  auto open = std::make_unique<OpenScene>(strict);
+  SceneDescription description = source.text
+                                     ? loadScene(*source.text, load, open->warnings, progress)
+                                     : loadScene(source.name, load, open->warnings, progress);
+  if (look) look(description);
+
+  open->scene = finalizeScene(source.name, std::move(description), open->warnings, progress);
+  open->source = source;
+  open->load = load;
+  open->isMade = source.text != nullptr;
+  open->loadMs = stopwatch.ms();
+  return open;
+}
+
+void addSettings(const std::vector<std::string>& settings, const std::string& sky,
+                 ImageMetadata& metadata) {
+  std::string text;
+  for (const std::string& setting : settings) text += (text.empty() ? "" : "\n") + setting;
+  if (!text.empty()) metadata.emplace_back("set", text);
+  if (!sky.empty()) metadata.emplace_back("sky", sky);
+}
+
+}  // namespace whit

@@ -1,0 +1,24 @@
+// Results of runs as JSON, for other programs: the keys are a contract, to which adding is fine and
+// renaming is not. Units are in the names; megabytes are 10^6 bytes.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "output/frame_summary.h"
+
+namespace whit {
+
+using Json = nlohmann::ordered_json;
+
+// The machine and the build.
+Json machineJson(const Machine& machine);
+// `writing_ms`, where images were written, has the medians of what writing one took and of what the
+// tracing waited for it; `written_per_s` is the rate of both together. `stages_ms`, `embree_ms`,
+// `rays` and what follows are those of the median frame; a run of no frames, whose images were all
+// there, has none of what is measured on frames.
+Json runJson(const RunSummary& run);
+// "-" is standard output. Throws Error(io).
+void writeJson(const std::string& path, const Json& json);
+
+}  // namespace whit

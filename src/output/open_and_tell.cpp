@@ -1,0 +1,28 @@
+#include "output/open_and_tell.h"
+
+#include <cstdio>
+
+#include "command_line/progress_bar.h"
+#include "core/text.h"
+
+namespace whit {
+
+std::unique_ptr<OpenScene> openAndTell(const std::string& name, const cli::CommonOptions& common,
+                                       Progress* progress, const LookAtScene& look) {
+  auto open = openScene({name, nullptr}, common.load, common.render.strict, progress, look);
+  if (common.quiet) return open;
+
+  cli::tellWarnings(open->warnings);
+  const EffectSet effects = open->scene.effects;
+  const bool shines = effects.has(Effect::lights) || effects.has(Effect::sky) ||
+                      effects.has(Effect::ambient) || effects.has(Effect::emission);
+  if (!shines) {
+    std::fprintf(stderr,
+                 "whit: warning: %s is black: it has no lights, no sky, no ambient light and no "
+                 "emissive surface\n",
+                 printable(open->scene.name).c_str());
+  }
+  return open;
+}
+
+}  // namespace whit
