@@ -159,7 +159,7 @@ Json recordStages(Renderer& renderer, const Camera& camera, const Film& film, co
   Film small = makeFilm(renderer.scene(), options);
   StageRecorder recorder(renderer.scene(), small.image, packedPixel(x, y));
   StageObserver* const observers[] = {&recorder};
-  renderer.observe(camera, small, observers);
+  renderer.render({.camera = camera, .film = small, .observers = observers, .uniform = true});
   return recorder.recorded();
 }
 

@@ -151,7 +151,7 @@ class Prober {
   FrameStats render(RenderOptions options, int spp) {
     options.spp = spp;
     renderer_.setOptions(options);
-    return renderer_.renderLists(camera_, film_, lists_);
+    return renderer_.render({.camera = camera_, .film = film_, .pixels = &lists_});
   }
 
   // Microseconds of a sample of a pixel. The first frame after a change fills new queues and does

@@ -182,7 +182,8 @@ FrameStats watchFrame(Renderer& renderer, const Camera& camera, Film& film, Debu
   picture.samples = renderer.options().spp;
   Watcher watcher(renderer, film.image, view, picture.pixels);
   StageObserver* const observers[] = {&watcher};
-  const FrameStats stats = renderer.observe(camera, film, observers, hooks);
+  const FrameStats stats = renderer.render(
+      {.camera = camera, .film = film, .observers = observers, .uniform = true, .hooks = hooks});
   findScale(picture);
   paint(picture, film.display);
   return stats;

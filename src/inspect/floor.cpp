@@ -100,7 +100,7 @@ double measureFloor(Renderer& renderer, const Camera& camera, Film& film) {
   std::vector<StageObserver*> observers;
   observers.reserve(loggers.size());
   for (RayLogger& logger : loggers) observers.push_back(&logger);
-  renderer.render(camera, film, nullptr, observers);
+  renderer.render({.camera = camera, .film = film, .observers = observers});
   // A frame without observers comes before the replay, so that caches hold what a frame leaves.
   renderer.render(camera, film);
   return replay(renderer, loggers);

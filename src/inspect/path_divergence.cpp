@@ -100,7 +100,7 @@ PathComparison comparePaths(Renderer& renderer, const Camera& camera, const Film
   std::vector<StageObserver*> observers;
   observers.reserve(signers.size());
   for (SignatureObserver& signer : signers) observers.push_back(&signer);
-  renderer.observe(camera, scratch, observers);
+  renderer.render({.camera = camera, .film = scratch, .observers = observers, .uniform = true});
   PathComparison result{scratch.image, reference.image, {}, 0};
   result.diverged.resize(signatures.size());
   for (std::size_t i = 0; i < signatures.size(); ++i) {

@@ -279,7 +279,10 @@ RayTree traceRayTree(Renderer& renderer, const Camera& camera, const Film& film,
   RayTree tree;
   TreeObserver observer(tree);
   Film one = filmOfPixel(film, x, y);
-  tree.samples = renderer.observePixel(camera, one, observer);
+  tree.samples = renderer.samplesOf(camera, one);
+  StageObserver* const observers[] = {&observer};
+  renderer.render(
+      {.camera = camera, .film = one, .pattern = &tree.samples, .observers = observers});
   tree.pixel = one.image.pixels[0];
   for (const std::size_t primary : tree.primaries) sumRadiance(tree, primary);
   explainEnds(renderer, tree);

@@ -487,7 +487,7 @@ std::vector<StageDifference> compareStages(Renderer& renderer, const Camera& cam
   scratch.wantDisplay = true;
   StageComparer comparer(renderer, camera, scratch);
   StageObserver* const observers[] = {&comparer};
-  renderer.observe(camera, scratch, observers);
+  renderer.render({.camera = camera, .film = scratch, .observers = observers, .uniform = true});
   comparer.compareImage(scratch);
   return comparer.rows;
 }

@@ -156,6 +156,29 @@ class PixelTracker {
   std::vector<std::vector<std::uint32_t>> levels_;  // a queue a depth
 };
 
+// Packed pixels (core/image.h), which a worker takes a list at a time.
+using PixelLists = std::vector<std::vector<std::uint32_t>>;
+
+// What is traced of a picture: by default all samples of the film's pixels, or with --adaptive
+// those that are needed.
+struct TraceRequest {
+  const Camera& camera;
+  Film& film;  // its image has its size and window
+  // Pixels in place of the film's, in lists as render/scheduler.h makes them for tiles.
+  const PixelLists* pixels = nullptr;
+  // Samples in place of the options' pattern.
+  const std::vector<Vec2f>* pattern = nullptr;
+  // With `sums` some of the samples are traced and added to the sums, which have those before them
+  // and whose window holds the film's. The film shows the mean of all so far: with the last sample
+  // it is the picture, bit for bit.
+  SampleRange part = {};
+  SampleSums* sums = nullptr;
+  // See Frame::observers. `uniform`: they see all samples of all pixels, whatever --adaptive says.
+  std::span<StageObserver* const> observers = {};
+  bool uniform = false;
+  const FrameHooks* hooks = nullptr;
+};
+
 // Read-only while it is traced, but for the film, the probe samples and the sums, of which each
 // pixel is written by one worker.
 struct Frame {

@@ -133,23 +133,32 @@ const std::vector<Vec2f>& Renderer::pattern() {
   return pattern_;
 }
 
-Frame Renderer::frameOf(const Camera& camera, Film& film, const FrameHooks* hooks,
-                        std::span<StageObserver* const> observers, bool adaptively) {
+Frame Renderer::frameOf(const TraceRequest& request, bool adaptively) {
+  Film& film = request.film;
   scheduler_.layOut(plan_, options_,
                     adaptively ? AdaptiveSampler::tracedWindow(film.image) : film.image.window);
   sizeDisplay(film);
+
   Frame frame;
-  frame.constants = constantsOf(lookFrom(camera, film));
-  frame.samples = pattern();
+  frame.constants = constantsOf(lookFrom(request.camera, film));
+  frame.samples = request.pattern ? *request.pattern : pattern();
   frame.endSample = frame.samples.size();
+  if (request.sums) {
+    frame.firstSample = static_cast<std::size_t>(request.part.first);
+    frame.endSample = static_cast<std::size_t>(request.part.end);
+    frame.sums = request.sums;
+  }
+  // Adaptive sampling has given the pixel its center alone.
+  if (request.pattern && frame.samples.size() == 1) frame.constants.camera.footprint = 1;
+
   film.channels.resize(plan_.channels, film.image.pixels.size());
   if (!plan_.channels.empty()) {
     frame.constants.channels = {&film.channels, film.image.window,
                                 static_cast<std::uint32_t>(nearestToCenter(frame.samples))};
   }
   frame.film = &film;
-  frame.hooks = hooks;
-  frame.observers = observers;
+  frame.hooks = request.hooks;
+  frame.observers = request.observers;
   return frame;
 }
 
@@ -158,61 +167,28 @@ void Renderer::showBackground(Film& film) const {
   film.display = overBackground(film.image, film.channels.floats(Channel::alpha), options_);
 }
 
-FrameStats Renderer::trace(const Frame& frame, bool adaptively) {
+FrameStats Renderer::render(const TraceRequest& request) {
+  const bool isWhole = !request.pixels && !request.pattern && !request.sums;
+  const bool adaptively = adaptive() && isWhole && !request.uniform;
+  const Frame frame = frameOf(request, adaptively);
+
   const Stopwatch stopwatch;
-  FrameStats stats =
-      adaptively ? adaptive_.render(frame) : scheduler_.trace(frame, scheduler_.tiles());
-  poolErrors(*frame.film);
-  showBackground(*frame.film);
-  stats.frameMs = stopwatch.ms();
-  if (frame.observers.empty()) stats.workers = machine_.threads;
-  return stats;
-}
-
-FrameStats Renderer::render(const Camera& camera, Film& film, const FrameHooks* hooks,
-                            std::span<StageObserver* const> observers) {
-  return trace(frameOf(camera, film, hooks, observers, adaptive()), adaptive());
-}
-
-FrameStats Renderer::renderLists(const Camera& camera, Film& film, const PixelLists& lists) {
-  const Frame frame = frameOf(camera, film, nullptr);
-  const Stopwatch stopwatch;
-  FrameStats stats = scheduler_.trace(frame, lists);
-  stats.frameMs = stopwatch.ms();
-  stats.workers = machine_.threads;
-  return stats;
-}
-
-FrameStats Renderer::accumulate(const Camera& camera, Film& film, const SampleRange& samples,
-                                SampleSums& sums, const FrameHooks* hooks) {
-  Frame frame = frameOf(camera, film, hooks);
-  frame.firstSample = static_cast<std::size_t>(samples.first);
-  frame.endSample = static_cast<std::size_t>(samples.end);
-  frame.sums = &sums;
-  return trace(frame);
-}
-
-FrameStats Renderer::observe(const Camera& camera, Film& film,
-                             std::span<StageObserver* const> observers, const FrameHooks* hooks) {
-  return trace(frameOf(camera, film, hooks, observers));
-}
-
-std::vector<Vec2f> Renderer::observePixel(const Camera& camera, Film& film,
-                                          StageObserver& observer) {
-  const Crop& pixel = film.image.window;
-  std::vector<Vec2f> samples = pattern();
-  if (adaptive()) {
-    render(camera, film);
-    samples = adaptive_.samplesAt(pixel.x0, pixel.y0, std::move(samples));
+  const PixelLists& pixels = request.pixels ? *request.pixels : scheduler_.tiles();
+  FrameStats stats = adaptively ? adaptive_.render(frame) : scheduler_.trace(frame, pixels);
+  if (!request.pixels) {
+    poolErrors(request.film);
+    showBackground(request.film);
   }
-  StageObserver* const observers[] = {&observer};
-  Frame frame = frameOf(camera, film, nullptr, observers);
-  frame.samples = samples;
-  frame.endSample = samples.size();
-  // A pixel that adaptive sampling gave its center alone.
-  if (samples.size() == 1) frame.constants.camera.footprint = 1;
-  trace(frame);
-  return samples;
+  stats.frameMs = stopwatch.ms();
+  if (request.observers.empty()) stats.workers = machine_.threads;
+  return stats;
+}
+
+std::vector<Vec2f> Renderer::samplesOf(const Camera& camera, Film& film) {
+  if (!adaptive()) return pattern();
+  render({camera, film});
+  const Crop& pixel = film.image.window;
+  return adaptive_.samplesAt(pixel.x0, pixel.y0, pattern());
 }
 
 void Renderer::replan(Plan next) {
@@ -306,7 +282,7 @@ FrameStats renderFrame(Renderer& renderer, Mode mode, const Camera& camera, Film
     progress->report(done <= 1 ? "tracing" : "tracing edges",
                      done <= 1 ? done : std::min(done - 1, 1.0));
   };
-  return renderer.render(camera, film, &hooks);
+  return renderer.render({.camera = camera, .film = film, .hooks = &hooks});
 }
 
 std::vector<std::pair<std::string, std::string>> describeImage(const Scene& scene,

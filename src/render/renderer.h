@@ -53,28 +53,12 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  // film.image must have its size and window set. Allocates on the first call and when sizes
-  // change.
-  FrameStats render(const Camera& camera, Film& film, const FrameHooks* hooks = nullptr,
-                    std::span<StageObserver* const> observers = {});
+  // Allocates on the first call and when sizes change.
+  FrameStats render(const TraceRequest& request);
+  FrameStats render(const Camera& camera, Film& film) { return render({camera, film}); }
 
-  // Traces all samples of some of the film's pixels, without adaptive sampling. Lists are those of
-  // tiles (render/scheduler.h), of pixels from any places.
-  FrameStats renderLists(const Camera& camera, Film& film, const PixelLists& lists);
-
-  // Traces some of the samples of the film's pixels, without adaptive sampling, and adds them to
-  // `sums`, which has those before them. The film shows the mean of all so far: with the last of
-  // options().spp samples it is render()'s, bit for bit. The window of `sums` holds the film's.
-  FrameStats accumulate(const Camera& camera, Film& film, const SampleRange& samples,
-                        SampleSums& sums, const FrameHooks* hooks = nullptr);
-
-  // Traces all samples of the film's pixels, without adaptive sampling, for observers
-  // (Frame::observers).
-  FrameStats observe(const Camera& camera, Film& film, std::span<StageObserver* const> observers,
-                     const FrameHooks* hooks = nullptr);
-
-  // Traces the samples that render() takes the mean of at the film's only pixel, and returns them.
-  std::vector<Vec2f> observePixel(const Camera& camera, Film& film, StageObserver& observer);
+  // The samples that render() takes the mean of at the film's only pixel.
+  std::vector<Vec2f> samplesOf(const Camera& camera, Film& film);
 
   // Renders the same image with the scalar reference, which takes its candidates from this
   // renderer's Embree scene.
@@ -120,10 +104,8 @@ class Renderer {
 
  private:
   bool adaptive() const { return samplesAdaptively(options_, scene_.effects); }
-  Frame frameOf(const Camera& camera, Film& film, const FrameHooks* hooks,
-                std::span<StageObserver* const> observers = {}, bool adaptively = false);
+  Frame frameOf(const TraceRequest& request, bool adaptively);
   void showBackground(Film& film) const;
-  FrameStats trace(const Frame& frame, bool adaptively = false);
   const std::vector<Vec2f>& pattern();
   void replan(Plan next);
   void lookAround();

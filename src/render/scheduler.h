@@ -14,8 +14,6 @@
 
 namespace whit {
 
-using PixelLists = std::vector<std::vector<std::uint32_t>>;
-
 // Kernels read whole vectors of pixels: lists have room for so many behind their end.
 inline constexpr std::size_t kListPadding = 2 * kBlock;
 

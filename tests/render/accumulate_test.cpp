@@ -38,7 +38,7 @@ TEST_P(Accumulating, AllSamplesMakeThePictureBitForBit) {
       Film band;
       band.image =
           Image(whole.image.width, whole.image.height, Crop{left, 0, right, whole.image.height});
-      renderer.accumulate(camera, band, part, sums);
+      renderer.render({.camera = camera, .film = band, .part = part, .sums = &sums});
       for (int y = 0; y < whole.image.height; ++y) {
         for (int x = left; x < right; ++x) whole.image.at(x, y) = band.image.at(x, y);
       }
@@ -46,7 +46,7 @@ TEST_P(Accumulating, AllSamplesMakeThePictureBitForBit) {
   }
   EXPECT_EQ(firstDifference(whole.image, expected.image), "");
   SampleSums atOnce(whole.image.window);
-  renderer.accumulate(camera, whole, {0, 16}, atOnce);
+  renderer.render({.camera = camera, .film = whole, .part = {0, 16}, .sums = &atOnce});
   EXPECT_EQ(sums.relativeError(16), atOnce.relativeError(16));
 }
 
@@ -61,7 +61,7 @@ TEST_P(Accumulating, FewerSamplesShowTheSameWithMoreNoise) {
   SampleSums sums(film.image.window);
   double last = HUGE_VAL, lastSaid = HUGE_VAL;
   for (const SampleRange& part : {SampleRange{0, 4}, SampleRange{4, 16}, SampleRange{16, 48}}) {
-    renderer.accumulate(camera, film, part, sums);
+    renderer.render({.camera = camera, .film = film, .part = part, .sums = &sums});
     double squares = 0;
     for (std::size_t i = 0; i < film.image.pixels.size(); ++i) {
       const Rgb d = film.image.pixels[i] - best.image.pixels[i];

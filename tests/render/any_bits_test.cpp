@@ -255,7 +255,8 @@ TEST(AnyBits, LeadNoKernelAstray) {
         Film film = makeFilm(scene, o);
         KernelRunner runner(renderer.plan());
         StageObserver* const observers[] = {&runner};
-        renderer.observe(chooseCamera(scene, o), film, observers);
+        const Camera camera = chooseCamera(scene, o);
+        renderer.render({.camera = camera, .film = film, .observers = observers, .uniform = true});
         EXPECT_GT(runner.kernels, 30);
       }
     }

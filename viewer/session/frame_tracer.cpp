@@ -194,7 +194,8 @@ bool FrameTracer::traceAtOnce(const FrameRequest& request, TracedFrame& frame,
                               const TraceCalls& calls) {
   const FrameHooks hooks{calls.stopped, nullptr};
   if (request.view == DebugView::none) {
-    frame.stats = engine_->renderer().render(request.camera, frame.film, &hooks);
+    frame.stats =
+        engine_->renderer().render({.camera = request.camera, .film = frame.film, .hooks = &hooks});
   } else {
     const auto debug = std::make_shared<DebugPicture>();
     frame.stats =
@@ -227,8 +228,11 @@ bool FrameTracer::traceInPasses(const FrameRequest& request, TracedFrame& frame,
   const FrameHooks hooks{calls.superseded, nullptr};
   for (SampleRange part; part.end < spp; part.first = part.end) {
     part.end = std::min(part.first + most, spp);
-    const FrameStats stats =
-        engine_->renderer().accumulate(request.camera, frame.film, part, sums, &hooks);
+    const FrameStats stats = engine_->renderer().render({.camera = request.camera,
+                                                         .film = frame.film,
+                                                         .part = part,
+                                                         .sums = &sums,
+                                                         .hooks = &hooks});
     if (calls.superseded()) return false;
     frame.stats.add(stats);
     frame.stats.frameMs += stats.frameMs;
