@@ -7,6 +7,7 @@
 
 #include "core/option_table.h"
 #include "viewer/panel.h"
+#include "viewer/session/control.h"
 
 namespace whit::view {
 
@@ -15,19 +16,17 @@ namespace {
 constexpr float kControlWidth = 11;  // in heights of the font
 
 template <typename Field>
-void drawChoice(const OptionSpec& spec, Field& field) {
+void drawChoice(const OptionSpec& spec, const Control& control, Field& field) {
   const std::string now = formatValue(spec, field);
   if (!ImGui::BeginCombo(spec.name.data(), now.c_str())) return;
-  for (const std::string& word : choicesOf(spec)) {
+  for (const std::string& word : control.choices) {
     if (ImGui::Selectable(word.c_str(), word == now)) parseValue(spec, word, field);
   }
   ImGui::EndCombo();
 }
 
-void drawNumber(const OptionSpec& spec, int& field) {
-  constexpr double kOpenEnd = 1 << 20;
-  const int low = static_cast<int>(std::max(spec.low, 0.0));
-  const int high = static_cast<int>(std::min(spec.high, kOpenEnd));
+void drawNumber(const OptionSpec& spec, const Control& control, int& field) {
+  const int low = static_cast<int>(control.low), high = static_cast<int>(control.high);
   int value = field;
   constexpr int kShort = 100;  // longer ranges need finer steps at their beginning
   const auto flags = ImGuiSliderFlags_AlwaysClamp |
@@ -35,24 +34,24 @@ void drawNumber(const OptionSpec& spec, int& field) {
   if (ImGui::SliderInt(spec.name.data(), &value, low, high, "%d", flags)) field = value;
 }
 
-void drawNumber(const OptionSpec& spec, float& field) {
-  const auto low = static_cast<float>(std::max(spec.low, 0.0));
-  const auto high = static_cast<float>(std::min(spec.high, 1.0));
+void drawNumber(const OptionSpec& spec, const Control& control, float& field) {
   constexpr auto kFlags = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic;
-  ImGui::SliderFloat(spec.name.data(), &field, low, high, "%.1e", kFlags);
+  ImGui::SliderFloat(spec.name.data(), &field, static_cast<float>(control.low),
+                     static_cast<float>(control.high), "%.1e", kFlags);
 }
 
 template <typename Field>
 void drawKnob(const OptionSpec& spec, Field& field) {
-  constexpr float kStops = 10;
+  const Control control = describeControl<Field>(spec);
   if constexpr (std::is_same_v<Field, Exposure>) {
-    ImGui::SliderFloat(spec.name.data(), &field.ev, -kStops, kStops, "%+.2f EV");
+    ImGui::SliderFloat(spec.name.data(), &field.ev, static_cast<float>(control.low),
+                       static_cast<float>(control.high), "%+.2f EV");
   } else if constexpr (std::is_same_v<Field, bool>) {
     ImGui::Checkbox(spec.name.data(), &field);
-  } else if (!choicesOf(spec).empty()) {
-    drawChoice(spec, field);
+  } else if (control.kind == Control::Kind::choice) {
+    drawChoice(spec, control, field);
   } else if constexpr (std::is_same_v<Field, int> || std::is_same_v<Field, float>) {
-    drawNumber(spec, field);
+    drawNumber(spec, control, field);
   }
 }
 

@@ -11,6 +11,7 @@
 #include "core/text.h"
 #include "io/image/image_layers.h"
 #include "output/frame_summary.h"
+#include "viewer/session/control.h"
 
 namespace whit::serve {
 
@@ -30,24 +31,25 @@ std::string textOf(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+// How the page shows an option; null where it does not.
 template <typename Field>
 Json describeOption(const OptionSpec& spec, const Field& /*field*/) {
+  using Kind = view::Control::Kind;
+  const view::Control control = view::describeControl<Field>(spec);
+  if (control.kind == Kind::none) return nullptr;
   Json json{{"name", spec.name},
             {"help", spec.help},
             {"tab", spec.tab == Tab::knobs ? "knobs" : "picture"}};
-  const std::vector<std::string> choices = choicesOf(spec);
-  if constexpr (std::is_same_v<Field, Exposure>) {
-    json["low"] = -10, json["high"] = 10, json["step"] = 0.25;
-  } else if constexpr (std::is_same_v<Field, bool>) {
-    json["choices"] = {"off", "on"};
-  } else if (!choices.empty()) {
-    json["choices"] = choices;
-  } else if constexpr (std::is_same_v<Field, int> || std::is_same_v<Field, float>) {
-    json["low"] = std::max(spec.low, 0.0);
-    json["high"] = std::min(spec.high, std::is_same_v<Field, int> ? double{1 << 20} : 1.0);
-    json["step"] = std::is_same_v<Field, int> ? Json(1) : Json("any");
+  if (!control.choices.empty()) {
+    json["choices"] = control.choices;
+    return json;
+  }
+  json["low"] = control.low;
+  json["high"] = control.high;
+  if (control.kind == Kind::exposure) {
+    json["step"] = 0.25;
   } else {
-    return nullptr;
+    json["step"] = control.kind == Kind::integer ? Json(1) : Json("any");
   }
   return json;
 }
