@@ -74,6 +74,10 @@ std::string takeWords(const std::vector<std::string>& words, const OptionList& l
   return "";
 }
 
+std::string quotedJson(const std::string& text) {
+  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 }  // namespace
 
 void listReportOptions(OptionList& list, CommonOptions& common) {
@@ -120,8 +124,13 @@ void listCommonOptions(OptionList& list, CommonOptions& common) {
   list.many({"variant", "NAME"}, "materials of a glTF model that has several sets (see whit info)",
             common.load.settings)
       .set = [&common](const std::string& name) {
-    common.load.settings.push_back("/variant=" +
-                                   Json(name).dump(-1, ' ', false, Json::error_handler_t::replace));
+    common.load.settings.push_back("/variant=" + quotedJson(name));
+  };
+  list.many({"viewpoint", "outside|inside"},
+            "side from which a model is seen, in place of the cameras in its file",
+            common.load.settings)
+      .set = [&common](const std::string& side) {
+    common.load.settings.push_back("/viewpoint=" + quotedJson(side));
   };
   list.value({"max-memory", "GB", 0.001, 1e6}, "limit of memory for geometry and images",
              common.maxMemoryGb)

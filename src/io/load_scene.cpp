@@ -56,15 +56,56 @@ void supplyLights(const ModelView& view, SceneDescription& scene) {
   scene.ambient.down = Rgb(0.1f);
 }
 
+// The setting "viewpoint" chooses the side of a supplied camera.
+void readViewpoint(JsonObject& settings, SceneDescription& scene) {
+  const JsonValue view = settings.find("viewpoint");
+  if (!view) return;
+  const std::string side = view.word({"outside", "inside"});
+  scene.viewpoint = side == "inside" ? Viewpoint::inside : Viewpoint::outside;
+}
+
 // A supplied camera has to see the whole animation that is played.
 ModelView viewOfAnimation(const SceneContext& context) {
   const SceneDescription& scene = context.scene;
   const std::string& played = context.instant.animation;
   for (const Animation& animation : scene.animations) {
-    if (!scene.cameras.empty() || !context.instant.moves()) break;
+    const bool supplies = scene.cameras.empty() || scene.viewpoint != Viewpoint::automatic;
+    if (!supplies || !context.instant.moves()) break;
     if (played.empty() || animation.name == played) return viewOf(scene, animation.seconds);
   }
   return viewOf(scene);
+}
+
+// Puts the camera before the others, which keep their nodes.
+void addFirstCamera(Camera camera, SceneDescription& scene) {
+  const auto taken = [&](const Camera& other) { return other.name == camera.name; };
+  if (std::ranges::any_of(scene.cameras, taken)) camera.name += " of the scene";
+  scene.cameras.insert(scene.cameras.begin(), std::move(camera));
+  for (MovingCamera& moving : scene.motion.cameras) ++moving.camera;
+}
+
+// The view of the model is the first camera where the file has none, where another side was asked
+// for, and where the file's first camera sees nothing.
+void supplyCamera(const ModelView& view, SceneContext& context) {
+  SceneDescription& scene = context.scene;
+  if (!(view.radius > 0)) return;
+
+  const bool automatic = scene.viewpoint == Viewpoint::automatic;
+  if (automatic && !scene.cameras.empty()) {
+    const Camera& first = scene.cameras.front();
+    if (context.instant.moves() || seesSomething(scene, first)) return;
+    context.warnings.note(
+        "camera that sees nothing: by default the model is shown instead "
+        "(--camera NAME chooses a camera of the file)",
+        scene.name + ": " + first.name);
+  }
+  if (automatic && view.inside) {
+    context.warnings.note(
+        "model taken for a room is seen from inside (--viewpoint outside shows it "
+        "from outside)",
+        scene.name);
+  }
+  addFirstCamera(view.camera, scene);
 }
 
 // Completes a model whose own lights and cameras are there. The sky is the studio, unless none or
@@ -82,7 +123,7 @@ void supplyView(SceneContext& context) {
   } else if (const double level = lightLevel(scene); level > 0) {
     scene.sky.scale = static_cast<float>(std::clamp(level / kUsualLevel, kDimmest, kBrightest));
   }
-  if (scene.cameras.empty() && view.radius > 0) scene.cameras.push_back(view.camera);
+  supplyCamera(view, context);
 }
 
 // Replaces the scene's sky if LoadOptions::sky names another.
@@ -130,11 +171,8 @@ void readParameters(JsonObject& file, const std::map<std::string, double>& given
 void addPathCamera(SceneDescription& scene) {
   Camera camera = scene.cameraPath.front().camera;
   camera.name = "path";
-  const auto taken = [](const Camera& other) { return other.name == "path"; };
-  if (std::ranges::any_of(scene.cameras, taken)) camera.name += " of the scene";
-  scene.cameras.insert(scene.cameras.begin(), camera);
-  for (MovingCamera& moving : scene.motion.cameras) ++moving.camera;
-  scene.motion.cameras.push_back({0, kNoNode, camera});
+  addFirstCamera(camera, scene);
+  scene.motion.cameras.push_back({0, kNoNode, scene.cameras.front()});
 }
 
 bool has(const Rig& rig, const std::string& name) {
@@ -213,7 +251,7 @@ JsonDocument documentOf(const fs::path& path, const SceneName& name, const LoadO
 
 // Supplied cameras fit the picture that is asked for.
 void takeSize(const LoadOptions& options, SceneDescription& scene) {
-  if (!options.size || !scene.cameras.empty()) return;
+  if (!options.size) return;
   scene.width = options.size->width;
   scene.height = options.size->height;
 }
@@ -224,7 +262,7 @@ SceneDescription readScene(const JsonDocument& document, const LoadOptions& opti
   file.need("whit");
   file.find("parameters");
   readCameras(file, options.instant, context.scene);
-  takeSize(options, context.scene);
+  if (context.scene.cameras.empty()) takeSize(options, context.scene);
   readOptions(file, context.scene);
   readLights(file, options.instant, context.scene);
   readSky(file, context);
@@ -248,15 +286,17 @@ SceneDescription loadModelFile(const fs::path& path, const SceneName& name,
   if (!name.parameters.empty()) throwUsage(path.string() + " is a model: it has no parameters");
   SceneContext context(path, options, warnings, progress);
   SceneDescription& scene = context.scene;
-  takeSize(options, scene);
   const JsonDocument nothing{path.string(), Json::object(), {}};
   JsonDocument overrides = nothing;
   applySettings(options, "materials", overrides);
   applySettings(options, "up", overrides);
   applySettings(options, "variant", overrides);
+  applySettings(options, "viewpoint", overrides);
   JsonObject noMaterials{JsonValue(nothing)}, items{JsonValue(overrides)};
   MaterialReader materials(noMaterials, context);
   readModelAlone(items, path, context, materials);
+  readViewpoint(items, scene);
+  takeSize(options, scene);
   supplyView(context);  // before the scene has another time than 0
   settleInstant(options.instant, scene);
   // The settings are read as if a scene file contained them and the model's lights.
@@ -267,6 +307,7 @@ SceneDescription loadModelFile(const fs::path& path, const SceneName& name,
   file.find("materials");
   file.find("up");
   file.find("variant");
+  file.find("viewpoint");
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     scene.lights[i].pointer = "/lights/" + std::to_string(i);
   }

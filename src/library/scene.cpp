@@ -44,6 +44,7 @@ Json describe(const Camera& camera) {
   };
   add("projection", &Camera::projection), add("fov", &Camera::fov);
   add("orthographicHeight", &Camera::orthographicHeight);
+  add("aspect", &Camera::aspect);
   add("aperture", &Camera::aperture), add("focus", &Camera::focus);
   add("k", &Camera::k), add("kSize", &Camera::kSize), add("distortion", &Camera::distortion);
   add("angle", &Camera::angle);
@@ -125,7 +126,8 @@ std::string Scene::camera(const std::string& name) const {
   return guarded([&] {
     RenderOptions options;
     options.camera = name;
-    return whit::describe(chooseCamera(data_->open->scene, options)).dump();
+    const double aspect = static_cast<double>(width()) / height();
+    return whit::describe(fitted(chooseCamera(data_->open->scene, options), aspect)).dump();
   });
 }
 

@@ -164,6 +164,7 @@ struct Camera {
   Vector eye{0, 0, 5}, at{0, 0, 0}, up{0, 1, 0};
   double fov = 45;                // vertical, degrees
   double orthographicHeight = 0;  // above 0: parallel rays, and the height of the view
+  double aspect = 0;              // narrower pictures keep the width of the view
   double aperture = 0;            // radius of the lens; 0: a pinhole
   double focus = 0;               // distance of the plane of focus; 0: it contains `at`
   // As in scene files (share/doc/whit/scenes/README.md).

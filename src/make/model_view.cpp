@@ -3,9 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <map>
 #include <numbers>
+#include <numeric>
 #include <optional>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "bake/facet.h"
@@ -18,6 +23,7 @@ namespace {
 
 // Of more triangles only a part is used; and a model of more triangles is never taken for a room.
 constexpr std::uint64_t kMostLookedAt = 4'000'000, kMostOfRoom = 1'000'000;
+constexpr auto kEveryTriangle = std::numeric_limits<std::uint64_t>::max();
 
 // Directions towards the eye, the most usual first. The front is +z.
 constexpr std::array<Vec3d, 7> kSides{{{0.5, 0.4, 1.0},
@@ -66,6 +72,7 @@ void forEachPlacedTriangle(const SceneDescription& scene, std::uint64_t most, co
   for (const Instance& instance : scene.instances) {
     const bool moves = instance.mover != kNoNode;
     const Affine toWorld = moves ? poses[instance.mover] * instance.toWorld : instance.toWorld;
+    const bool mirrored = toWorld.determinant() < 0;
     for (const Mesh& mesh : scene.objects[instance.object].meshes) {
       std::vector<Vec3f> bent;
       if (const Deformation* deformation = mesh.deformation.get()) {
@@ -74,8 +81,11 @@ void forEachPlacedTriangle(const SceneDescription& scene, std::uint64_t most, co
       const std::vector<Vec3f>& positions = mesh.deformation ? bent : mesh.positions;
       for (const auto& triangle : mesh.triangles) {
         if (number++ % stride != 0) continue;
-        const auto corners = placed(positions, triangle, toWorld);
-        if (corners) use(*corners);
+        auto corners = placed(positions, triangle, toWorld);
+        if (!corners) continue;
+
+        if (mirrored) std::swap((*corners)[1], (*corners)[2]);
+        use(*corners);
       }
     }
   }
@@ -126,6 +136,79 @@ bool isInRoom(const SceneDescription& scene, const Vec3d& point) {
   return angle / (4 * std::numbers::pi) <= kClosed;
 }
 
+// True for a single mesh to which its file gives no material.
+bool isBareMesh(const SceneDescription& scene) {
+  if (scene.instances.size() != 1) return false;
+  const std::vector<Mesh>& meshes = scene.objects[scene.instances[0].object].meshes;
+  return meshes.size() == 1 && std::ranges::all_of(meshes[0].materials, [&](std::uint32_t m) {
+           return m < scene.materials.size() && scene.materials[m].name == kNoMaterialName;
+         });
+}
+
+bool hasSeveralMaterials(const SceneDescription& scene) {
+  std::set<std::uint32_t> used;
+  for (const Object& object : scene.objects) {
+    for (const Mesh& mesh : object.meshes) {
+      used.insert(mesh.materials.begin(), mesh.materials.end());
+    }
+  }
+  return used.size() > 1;
+}
+
+// The area, in the space of each mesh, of triangles whose vertex normals are on the side of their
+// fronts, less the area of those whose normals are on the other side. It is 0 without normals.
+double areaWithNormals(const SceneDescription& scene) {
+  double sum = 0;
+  for (const Object& object : scene.objects) {
+    for (const Mesh& mesh : object.meshes) {
+      for (const auto& t : mesh.triangles) {
+        if (std::ranges::max(t) >= std::min(mesh.normals.size(), mesh.positions.size())) continue;
+        const auto p = [&](std::size_t i) { return Vec3d(mesh.positions[t[i]]); };
+        const auto n = [&](std::size_t i) { return Vec3d(mesh.normals[t[i]]); };
+        const Vec3d twice = cross(p(1) - p(0), p(2) - p(0));
+        const double side = dot(twice, n(0) + n(1) + n(2));
+        if (side != 0 && std::isfinite(side)) sum += std::copysign(length(twice), side);
+      }
+    }
+  }
+  return sum;
+}
+
+// True if the six planes that hold most of the triangles' area hold half as much as the bounding
+// box has: they are floor, ceiling and walls.
+bool hasFlatWalls(const SceneDescription& scene, const Bounds& bounds) {
+  constexpr double kSteps = 64, kShare = 0.5;
+  constexpr std::size_t kWalls = 6;
+  const Vec3d center = bounds.center(), size = bounds.half() * 2.0;
+  const double scale = kSteps / length(size);
+
+  // Planes are told apart by their normals and distances, rounded.
+  std::map<std::array<long, 4>, double> planes;
+  forEachPlacedTriangle(scene, kMostOfRoom, [&](const Corners& t) {
+    const Vec3d twice = cross(t[1] - t[0], t[2] - t[0]), normal = normalized(twice);
+    const Vec3d n = normal * kSteps;
+    const double distance = dot(normal, t[0] - center) * scale;
+    planes[{std::lround(n.x), std::lround(n.y), std::lround(n.z), std::lround(distance)}] +=
+        length(twice) / 2;
+  });
+
+  std::vector<double> areas;
+  for (const auto& [plane, area] : planes) areas.push_back(area);
+  std::ranges::sort(areas, std::greater());
+  areas.resize(std::min(areas.size(), kWalls));
+  const double box = 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
+  return std::accumulate(areas.begin(), areas.end(), 0.0) >= kShare * box;
+}
+
+// Many files have bodies whose faces are wound inwards. A closed surface with its fronts inside is
+// a room only if the file says more: by vertex normals, by several materials or by flat walls.
+bool isMeantAsRoom(const SceneDescription& scene, const Bounds& bounds) {
+  if (isBareMesh(scene)) return false;
+  const double withNormals = areaWithNormals(scene);
+  if (withNormals != 0) return withNormals > 0;
+  return hasSeveralMaterials(scene) || hasFlatWalls(scene, bounds);
+}
+
 // True if most of the places in the middle are in a room; some may lie inside objects.
 bool isRoom(const SceneDescription& scene, const Bounds& bounds) {
   constexpr double kAside = 0.3, kFlattest = 0.05;
@@ -140,19 +223,21 @@ bool isRoom(const SceneDescription& scene, const Bounds& bounds) {
                                          {0, 0, half.z},
                                          {0, 0, -half.z}}};
   std::size_t outside = 0;
-  return std::ranges::all_of(ways, [&](const Vec3d& way) {
+  const bool closed = std::ranges::all_of(ways, [&](const Vec3d& way) {
     return isInRoom(scene, center + way) || ++outside <= kMostOutside;
   });
+  return closed && isMeantAsRoom(scene, bounds);
 }
 
-// Returns the first place on the way from `from` to `to` that is in the room and in no object.
+// Returns the first place on the way from `from` to `to` that is in the room and in no object, or
+// `from` where the walls have large openings.
 Vec3d placeInRoom(const SceneDescription& scene, const Vec3d& from, const Vec3d& to) {
   constexpr int kPlaces = 4;
   for (int i = 0; i < kPlaces; ++i) {
     const Vec3d place = from + (to - from) * (static_cast<double>(i) / kPlaces);
     if (isInRoom(scene, place)) return place;
   }
-  return to;
+  return isInRoom(scene, to) ? to : from;
 }
 
 // Looks from near a corner across the room.
@@ -257,14 +342,13 @@ struct Outline {
 };
 
 Outline outlineOf(const SceneDescription& scene, const Vec3d& center) {
-  constexpr auto kAll = std::numeric_limits<std::uint64_t>::max();
   Outline outline;
-  forEachPlacedCorner(scene, kAll, [&](const Vec3d& corner) {
+  forEachPlacedCorner(scene, kEveryTriangle, [&](const Vec3d& corner) {
     const Vec3d p = corner - center;
     outline.low = std::min(outline.low, p.y);
     outline.high = std::max(outline.high, p.y);
   });
-  forEachPlacedCorner(scene, kAll, [&](const Vec3d& corner) {
+  forEachPlacedCorner(scene, kEveryTriangle, [&](const Vec3d& corner) {
     const Vec3d p = corner - center;
     double& radius = outline.radius[outline.sliceOf(p.y)];
     radius = std::max(radius, std::hypot(p.x, p.z));
@@ -323,13 +407,14 @@ double radianceAt(double azimuth, double elevation) {
 ModelView viewOf(const SceneDescription& scene) {
   ModelView view;
   Bounds bounds;
-  forEachPlacedCorner(scene, std::numeric_limits<std::uint64_t>::max(),
-                      [&](const Vec3d& corner) { bounds.add(corner); });
+  forEachPlacedCorner(scene, kEveryTriangle, [&](const Vec3d& corner) { bounds.add(corner); });
   if (bounds.empty()) return view;
   view.center = bounds.center();
   view.radius = length(bounds.half());
   if (!(view.radius > 0)) return view;
-  view.inside = placedTriangleCount(scene) <= kMostOfRoom && isRoom(scene, bounds);
+  view.inside = scene.viewpoint == Viewpoint::automatic
+                    ? placedTriangleCount(scene) <= kMostOfRoom && isRoom(scene, bounds)
+                    : scene.viewpoint == Viewpoint::inside;
   if (view.inside) {
     lookAround(scene, bounds, view);
   } else {
@@ -353,6 +438,29 @@ ModelView viewOf(const SceneDescription& scene, double seconds) {
   const auto everyPoint = [&](const auto& use) { std::ranges::for_each(points, use); };
   lookFrom(framing, everyPoint, view);
   return view;
+}
+
+bool seesSomething(const SceneDescription& scene, const Camera& camera) {
+  const CameraFrame frame = makeCameraFrame(camera, scene.width, scene.height);
+  if (!frame.isLinear()) return true;
+  const double halfWidth = frame.width / 2.0, halfHeight = frame.height / 2.0;
+
+  // A bit for each side of the picture beyond which the point is, and one for the eye's back.
+  const auto sidesBeyond = [&](const Vec3d& point) {
+    const Vec3d way = point - frame.eye;
+    const double ahead = dot(way, frame.forward), grows = frame.orthographic ? 1 : ahead;
+    const double x = dot(way, frame.right) / dot(frame.right, frame.right);
+    const double y = dot(way, frame.up) / dot(frame.up, frame.up);
+    const double right = halfWidth * grows, top = halfHeight * grows;
+    return unsigned{ahead <= 0} | unsigned{x < -right} << 1 | unsigned{x > right} << 2 |
+           unsigned{y < -top} << 3 | unsigned{y > top} << 4;
+  };
+
+  bool sees = false;
+  forEachPlacedTriangle(scene, kEveryTriangle, [&](const Corners& t) {
+    sees = sees || (sidesBeyond(t[0]) & sidesBeyond(t[1]) & sidesBeyond(t[2])) == 0;
+  });
+  return sees;
 }
 
 double lightLevel(const SceneDescription& scene) {

@@ -25,6 +25,7 @@ Camera aimed(Camera camera, const RenderOptions& options) {
   forEachCameraOption([&](auto option, auto member) {
     if (options.*option) camera.*member = *(options.*option);
   });
+  if (options.fov || options.ortho) camera.aspect = 0;
   return camera;
 }
 

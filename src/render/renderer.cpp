@@ -294,8 +294,9 @@ std::vector<std::pair<std::string, std::string>> describeImage(const Scene& scen
   resolved.size = ImageSize{film.image.width, film.image.height};
   // A camera on a path has no name, so its members are written: all but numbers that are 0, which
   // nobody asked for.
+  const Camera seen = fitted(camera, static_cast<double>(film.image.width) / film.image.height);
   forEachCameraOption([&](auto option, auto member) {
-    const auto& value = camera.*member;
+    const auto& value = seen.*member;
     if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, float>) {
       if (value == 0 && !(options.*option)) return;
       if (!isFramedByOptions(camera)) return;

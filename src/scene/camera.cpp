@@ -104,6 +104,18 @@ std::vector<CameraView> viewsOf(const Camera& camera, const CameraFrame& frame) 
 
 }  // namespace
 
+Camera fitted(Camera camera, double pictureAspect) {
+  const double growth = camera.aspect / pictureAspect;
+  camera.aspect = 0;
+  if (!(growth > 1)) return camera;
+
+  constexpr double kHalfInRadians = std::numbers::pi / 360;
+  const double half = std::tan(camera.fov * kHalfInRadians) * growth;
+  camera.fov = static_cast<float>(std::atan(half) / kHalfInRadians);
+  camera.orthographicHeight = static_cast<float>(camera.orthographicHeight * growth);
+  return camera;
+}
+
 bool sameView(const Camera& a, const Camera& b) { return sameMembers(a, b); }
 
 double Camera::focusDistance() const {
@@ -153,7 +165,8 @@ CameraFrame makeCameraFrame(const Camera& camera, int width, int height) {
   const int rows = cube ? (inRow ? 1 : 2) : camera.stereo == Stereo::topBottom ? 2 : 1;
   const int w = frame.viewWidth = std::max(width / columns, 1);
   const int h = frame.viewHeight = std::max(height / rows, 1);
-  const auto [stepX, stepY] = pixelSteps(camera, frame, w, h);
+  const Camera seen = fitted(camera, static_cast<double>(w) / h);
+  const auto [stepX, stepY] = pixelSteps(seen, frame, w, h);
   frame.right = frame.right * stepX;
   frame.up = frame.up * stepY;
   frame.centerX = w / 2.0, frame.centerY = h / 2.0;

@@ -34,6 +34,9 @@ struct Camera {
   // Above 0: rays are parallel and start in the plane through the eye, of which the picture shows
   // this height; there is no fov.
   float orthographicHeight = 0;
+  // Width over height of the view. A narrower picture keeps the width and shows more above and
+  // below; 0: every picture has the height of fov or orthographicHeight.
+  float aspect = 0;
   float aperture = 0;  // radius of the lens, in scene units; 0: everything is sharp
   // Distance of the plane that is in focus, along the view axis; 0: it contains `at`.
   float focus = 0;
@@ -50,6 +53,10 @@ struct Camera {
   bool hasLens() const { return aperture > 0; }
   double focusDistance() const;
 };
+
+// The camera with the fov and orthographicHeight that a picture of this width over height shows,
+// and without aspect.
+Camera fitted(Camera camera, double pictureAspect);
 
 // Compares all members but the name.
 bool sameView(const Camera& a, const Camera& b);

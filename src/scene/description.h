@@ -63,10 +63,14 @@ struct SceneContents {
   std::vector<Texture> textures;
 };
 
+// From where a camera looks that is supplied for a model.
+enum class Viewpoint : std::uint8_t { automatic, outside, inside };
+
 struct SceneDescription : SceneContents {
   std::vector<Object> objects;
   std::vector<Instance> instances;
   SceneMotion motion;  // given where the scene is to move
+  Viewpoint viewpoint = Viewpoint::automatic;
   // How many items its author has placed, and the names of the first kNamedItems. 0: each instance
   // is one, with the name of its object.
   std::uint64_t items = 0;

@@ -48,6 +48,9 @@ inline constexpr float kLargestIor = 10;
 
 inline constexpr float kClearCoverage = 1.0f / 1024;  // less counts as clear
 
+// The name of the material of meshes that have none in their file.
+inline constexpr const char* kNoMaterialName = "default";
+
 // Vertex colors multiply the base color, which a metal has in `specular` too.
 enum class VertexTint : std::uint8_t { diffuse, diffuseAndSpecular, emission };
 

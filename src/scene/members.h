@@ -20,6 +20,8 @@ namespace whit {
 // Scene files give no number beyond this; Embree's limit for coordinates is 1.844e18.
 inline constexpr double kLargestNumber = 1e18;
 
+inline constexpr double kLargestAspect = 100;  // of a camera
+
 // Meaning of a member, where its type leaves it open.
 enum class MemberKind : std::uint8_t { plain, color, map };
 inline constexpr MemberKind kColorMember = MemberKind::color;
@@ -88,6 +90,7 @@ inline constexpr auto kMembers<Camera> = std::tuple{
     // Other projections pass over it, so that the projection of a camera can be changed alone.
     Member{"fov", &Camera::fov, {.low = kLeastFov, .high = kLargestFov}},
     Member{"orthographicHeight", &Camera::orthographicHeight, {.low = 0, .exists = isPerspective}},
+    Member{"aspect", &Camera::aspect, {.low = 0, .high = kLargestAspect, .exists = isPerspective}},
     Member{"aperture", &Camera::aperture, {.low = 0, .exists = isPerspective}},
     Member{"focus", &Camera::focus, {.low = 0, .exists = isPerspective}},
     Member{"k", &Camera::k, {.exists = hasMatrix}},

@@ -204,7 +204,7 @@ TEST_F(GltfGeometry, CamerasAndPointLights) {
       "\"orthographic\":{\"xmag\":1,\"ymag\":0,\"zfar\":9,\"znear\":1}}],"
       "\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"point\",\"name\":\"lamp\","
       "\"intensity\":1366,\"color\":[1,0.5,0],\"range\":9},{\"type\":\"laser\"}]}},"
-      "\"nodes\":[{\"mesh\":0},{\"camera\":0,\"name\":\"eye\",\"translation\":[0,0,3],\"rotation\":"
+      "\"nodes\":[{\"mesh\":0},{\"camera\":0,\"name\":\"eye\",\"translation\":[3,0,0],\"rotation\":"
       "[0,0.70710678118654757,0,0.70710678118654757]},{\"camera\":1},{\"camera\":2},"
       "{\"translation\":[1,2,3],\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}},"
       "{\"extensions\":{\"KHR_lights_punctual\":{\"light\":1}}}]"));
@@ -216,7 +216,9 @@ TEST_F(GltfGeometry, CamerasAndPointLights) {
   EXPECT_NEAR(camera.fov, 30, 1e-4);
   // Looking along -z, turned a quarter about +y: along -x.
   expectNear(normalized(Vec3d(camera.at) - Vec3d(camera.eye)), {-1, 0, 0});
-  expectNear(Vec3d(camera.eye), {0, 0, 3});
+  expectNear(Vec3d(camera.eye), {3, 0, 0});
+  EXPECT_EQ(camera.aspect, 2);
+  EXPECT_NEAR(scene.cameras[1].aspect, 1 / 1.5, 1e-7);
   EXPECT_EQ(scene.width, 2 * scene.height);
   ASSERT_EQ(scene.lights.size(), 1u);
   EXPECT_EQ(scene.lights[0].name, "lamp");

@@ -19,12 +19,19 @@ const std::string kFour = kHdrHead + std::string("\x80\x80\x80\x83\x80\x80\x80\x
 
 class SuppliedView : public SceneFileTest {
  protected:
-  // A triangle with a light of its own above it.
-  SceneDescription loadLit(double intensity) {
+  // A triangle with a light of its own above it, and a camera there if the rotation of one is
+  // given.
+  SceneDescription loadLit(double intensity, const std::string& camera = "") {
+    const std::string eye =
+        camera.empty()
+            ? ""
+            : R"(,{"name":"own","camera":0,"translation":[0.3,0.3,2],"rotation":)" + camera + "}";
     const std::string json =
-        R"({"asset":{"version":"2.0"},"extensionsUsed":["KHR_lights_punctual"],"scene":0,
-        "scenes":[{"nodes":[0,1]}],"nodes":[{"mesh":0},{"translation":[0.3,0.3,2],
-        "extensions":{"KHR_lights_punctual":{"light":0}}}],
+        R"({"asset":{"version":"2.0"},"extensionsUsed":["KHR_lights_punctual"],
+        "cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":1}}],
+        "nodes":[{"mesh":0},{"translation":[0.3,0.3,2],
+        "extensions":{"KHR_lights_punctual":{"light":0}}})" +
+        eye + R"(],
         "extensions":{"KHR_lights_punctual":{"lights":[{"type":"point","intensity":)" +
         std::to_string(intensity) +
         R"(}]}},"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
@@ -117,6 +124,42 @@ Box boundsOf(const SceneDescription& scene) {
     }
   }
   return box;
+}
+
+TEST_F(SuppliedView, ACameraThatSeesNothingGivesWayToAViewOfTheModel) {
+  const SceneDescription sees = loadLit(1, "[0,0,0,1]");
+  ASSERT_EQ(sees.cameras.size(), 1u);
+  EXPECT_EQ(sees.cameras[0].name, "own");
+  EXPECT_EQ(kinds(), "");
+  const SceneDescription turned = loadLit(1, "[0,1,0,0]");
+  ASSERT_EQ(turned.cameras.size(), 2u);
+  EXPECT_TRUE(seesSomething(turned, turned.cameras[0]));
+  EXPECT_EQ(turned.cameras[1].name, "own");
+  EXPECT_NE(kinds().find("camera that sees nothing"), std::string::npos);
+}
+
+TEST_F(SuppliedView, TheViewpointIsChosen) {
+  options_.settings = {"/viewpoint=\"outside\""};
+  EXPECT_EQ(loadLit(1, "[0,0,0,1]").cameras.size(), 2u);
+  options_.settings = {"/viewpoint=\"inside\""};
+  const Vec3f eye = loadObj(kZUpObj).cameras[0].eye;
+  EXPECT_LT(maxComponent(abs(eye - Vec3f{0, 2, 0})), 2) << "in the bar";
+  options_.settings = {"/viewpoint=\"above\""};
+  EXPECT_NE(errorOf([&] { loadObj(kZUpObj); }).find("m.obj#/viewpoint: expected"),
+            std::string::npos);
+}
+
+// A box with its fronts inside, of two materials.
+TEST_F(SuppliedView, AViewFromInsideIsSaid) {
+  std::string room = kZUpObj;
+  for (std::size_t at = 0; (at = room.find("f ", at)) != std::string::npos; ++at) {
+    std::swap(room[at + 2], room[at + 8]), std::swap(room[at + 4], room[at + 6]);
+  }
+  options_.settings = {"/up=\"y\""};
+  loadObj(room);
+  EXPECT_EQ(kinds(), "") << "a single mesh without materials is a body";
+  loadObj(room + "usemtl a\nf 1 2 3\n");
+  EXPECT_NE(kinds().find("seen from inside (--viewpoint outside"), std::string::npos);
 }
 
 TEST_F(SuppliedView, AnAxisIsTurnedUp) {

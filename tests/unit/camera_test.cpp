@@ -69,6 +69,24 @@ TEST(CameraFrame, OrthographicPixelsAreShareOfTheHeight) {
   EXPECT_FALSE(makeCameraFrame(Camera(), 64, 48).orthographic);
 }
 
+// In a picture that is narrower than the camera's aspect the half width at distance 1 stays
+// aspect * tan(fov / 2), and pixels are square. A wider one has the height.
+TEST(CameraFrame, NarrowPicturesKeepTheWidth) {
+  Camera camera;
+  camera.fov = 60;
+  camera.aspect = 2;
+  for (const auto& [width, height] : {std::pair{200, 200}, {100, 200}, {400, 200}, {500, 200}}) {
+    const CameraFrame f = makeCameraFrame(camera, width, height);
+    const double half = std::tan(30 * kPi / 180);
+    const double pixel = width < 2 * height ? 2 * half * 2 / width : 2 * half / height;
+    EXPECT_NEAR(length(f.right), pixel, 1e-7 * pixel) << width;
+    EXPECT_EQ(length(f.up), length(f.right)) << width;
+  }
+  camera.orthographicHeight = 3;
+  EXPECT_EQ(length(makeCameraFrame(camera, 100, 200).up), 3 * 2 / 100.0);
+  EXPECT_EQ(length(makeCameraFrame(camera, 500, 200).up), 3 / 200.0);
+}
+
 TEST(CameraFrame, FovBeyondTheLimitsIsClamped) {
   const auto pixel = [](float fov) {
     Camera camera;

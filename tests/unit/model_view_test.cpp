@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
+#include "make/shapes/mesh_builder.h"
 #include "pi.h"
 #include "scene_builder.h"
 
@@ -124,6 +126,91 @@ TEST(ModelViews, NothingElseIsARoom) {
     EXPECT_FALSE(viewOf(sceneOf(box({2, 2, 2}, true, 1u << face))).inside) << "open: " << face;
   }
   EXPECT_FALSE(viewOf(sceneOf(box({9, 0.1f, 9}, true))).inside) << "flat";
+}
+
+// An icosphere of radius 1 that is wound inwards, with one material of the file. `normals` is 1 for
+// vertex normals that look out, -1 for such that look in, 0 for none.
+SceneDescription invertedBall(int normals) {
+  const auto [points, triangles] = procedural::icosphereMesh(2);
+  Mesh mesh;
+  mesh.materials = {0};
+  for (const auto& t : triangles) mesh.triangles.push_back({t[0], t[2], t[1]});
+  for (const Vec3d& point : points) {
+    mesh.positions.emplace_back(point);
+    if (normals != 0) mesh.normals.emplace_back(point * static_cast<double>(normals));
+  }
+  return sceneOf(std::move(mesh));
+}
+
+TEST(ModelViews, ABodyThatIsWoundInwardsIsNoRoom) {
+  EXPECT_FALSE(viewOf(invertedBall(0)).inside) << "no sign of a room";
+  EXPECT_FALSE(viewOf(invertedBall(1)).inside) << "its normals look out";
+  SceneDescription two = invertedBall(1);
+  two.materials.push_back(two.materials[0]);
+  two.objects[0].meshes.push_back(two.objects[0].meshes[0]);
+  two.objects[0].meshes[1].materials = {1};
+  EXPECT_FALSE(viewOf(two).inside) << "its normals look out";
+  SceneDescription bare = sceneOf(box({4, 1.5f, 3}, true));
+  bare.materials[0].name = kNoMaterialName;
+  EXPECT_FALSE(viewOf(bare).inside) << "a single mesh without a material";
+}
+
+TEST(ModelViews, NormalsMaterialsOrFlatWallsMakeARoom) {
+  EXPECT_TRUE(viewOf(invertedBall(-1)).inside);
+  SceneDescription painted = invertedBall(0);
+  painted.materials.push_back(painted.materials[0]);
+  Mesh& mesh = painted.objects[0].meshes[0];
+  mesh.materials.assign(mesh.triangles.size(), 0);
+  mesh.materials[0] = 1;
+  EXPECT_TRUE(viewOf(painted).inside);
+  SceneDescription turned = sceneOf(box({4, 1.5f, 3}, true));
+  turned.instances[0].toWorld = Affine::rotation({0, 1, 0}, 45);
+  EXPECT_TRUE(viewOf(turned).inside) << "flat walls";
+}
+
+// A mirror image has its fronts where the original has them.
+TEST(ModelViews, MirroringMakesNoRoom) {
+  SceneDescription scene = sceneOf(box({4, 1.5f, 3}, false));
+  scene.instances[0].toWorld = Affine::scaling({-1, 1, 1});
+  EXPECT_FALSE(viewOf(scene).inside);
+  scene.objects[0].meshes[0] = box({4, 1.5f, 3}, true);
+  EXPECT_TRUE(viewOf(scene).inside);
+}
+
+TEST(ModelViews, TheSideCanBeChosen) {
+  SceneDescription scene = sceneOf(box({4, 1.5f, 3}, true));
+  scene.viewpoint = Viewpoint::outside;
+  EXPECT_GT(viewOf(scene).camera.eye.z, 3);
+  scene.objects[0].meshes[0] = box({4, 1.5f, 3}, false);
+  scene.viewpoint = Viewpoint::inside;
+  const ModelView view = viewOf(scene);
+  EXPECT_TRUE(view.inside);
+  EXPECT_LT(view.camera.eye.z, 3);
+}
+
+// A plate of 4 by 2 at a distance of 5 from an eye that turns away from it, step by step.
+TEST(ModelViews, ACameraSeesWhatOverlapsItsPicture) {
+  SceneDescription scene = sceneOf(square());
+  scene.instances[0].toWorld = Affine::scaling({4, 2, 1}) * Affine::translation({-0.5, -0.5, 0});
+  scene.width = scene.height = 100;
+  Camera camera;
+  camera.fov = 60;
+  // Half of the picture is 5 tan 30 = 2.887 wide, and half of the plate 2.
+  for (const auto& [x, sees] : {std::pair{0.0f, true}, {4.8f, true}, {4.95f, false}}) {
+    camera.eye = {x, 0, 5};
+    camera.at = {x, 0, 0};
+    EXPECT_EQ(seesSomething(scene, camera), sees) << x;
+  }
+  camera.eye = {0, 0, 5};
+  camera.at = {0, 0, 10};
+  EXPECT_FALSE(seesSomething(scene, camera)) << "it lies behind";
+  camera.at = {0, 0, 0};
+  camera.orthographicHeight = 2;
+  for (const auto& [x, sees] : {std::pair{2.9f, true}, {3.1f, false}}) {
+    camera.eye = {x, 0, 5};
+    camera.at = {x, 0, 0};
+    EXPECT_EQ(seesSomething(scene, camera), sees) << x;
+  }
 }
 
 TEST(ModelViews, NothingToSeeIsNoView) {

@@ -118,7 +118,7 @@ bool CameraControl::step(const CameraMotion& m, double seconds) {
 void CameraControl::fit(double aspect) {
   const Vec3d ahead = forward(), above = cross(right_, ahead);
   const Vec3d middle = model_.center();
-  const double half = halfHeightAtOne(camera_);
+  const double half = halfHeightAtOne(fitted(camera_, aspect));
   double distance = 0, height = 0;
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3d p = Vec3d(model_.corner(corner)) - middle;

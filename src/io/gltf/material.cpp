@@ -191,7 +191,7 @@ std::vector<GltfMaterial> readGltfMaterials(const GltfDocument& document) {
     materials.push_back(readMaterial(document, source));
   }
   GltfMaterial fallback;
-  fallback.name = "default";
+  fallback.name = kNoMaterialName;
   fallback.where = document.name();
   materials.push_back(fallback);
   return materials;

@@ -423,6 +423,7 @@ class TreeReader {
     // Far enough for the direction to survive the rounding of eye and at.
     camera.at = Vec3f(map.p - normalized(map.z) * std::max(1.0, length(map.p)));
     camera.up = Vec3f(normalized(map.y));
+    camera.aspect = static_cast<float>(std::clamp(aspect, 0.0, kLargestAspect));
     if (stage_.cameras.empty()) stage_.aspect = aspect;
     const auto number = static_cast<std::uint32_t>(stage_.cameras.size());
     if (mover != kNoNode) stage_.movingCameras.push_back({number, mover, camera});

@@ -277,7 +277,7 @@ class ObjModel : public MeshModel {
       }
       sources_.push_back(known == library.end() ? grayMaterial(name) : known->second);
     }
-    sources_.push_back(grayMaterial("default"));
+    sources_.push_back(grayMaterial(kNoMaterialName));
     for (const MtlMaterial& one : sources_) materials_.push_back(one.material);
   }
 

@@ -381,7 +381,7 @@ class PlyModel : public MeshModel {
     source.budget.charge(text.size(), 1, file);
     mesh_ = PlyReader(text, file, source.budget, source.warnings).read();
     Material& material = materials_.emplace_back();
-    material.name = "default";
+    material.name = kNoMaterialName;
     material.diffuse = Rgb(mesh_.colors.empty() ? kModelGray : 1.0f);
     mesh_.name = source.path.stem().string();
     mesh_.materials = {0};
