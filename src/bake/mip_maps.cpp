@@ -3,36 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
+#include "bake/texel_weights.h"
 #include "core/worker_pool.h"
 
 namespace whit {
 
 namespace {
 
-// The texels along one axis that a texel of the next level covers, and their shares of it.
-struct Cover {
-  std::array<int, 3> texel{};
-  std::array<double, 3> share{};
-  std::size_t count = 0;
-};
-
-std::vector<Cover> coversOf(int size, int half) {
-  std::vector<Cover> covers(static_cast<std::size_t>(half));
-  // In units of 1 / half of a texel all borders are whole numbers.
-  for (int i = 0; i < half; ++i) {
-    Cover& cover = covers[static_cast<std::size_t>(i)];
-    const std::int64_t begin = std::int64_t{i} * size, end = begin + size;
-    for (std::int64_t texel = begin / half; texel * half < end; ++texel) {
-      const std::int64_t covered =
-          std::min(end, (texel + 1) * half) - std::max(begin, texel * half);
-      cover.texel[cover.count] = static_cast<int>(texel);
-      cover.share[cover.count++] = static_cast<double>(covered) / size;
-    }
-  }
-  return covers;
-}
+// Alpha maps have none; see ShownMap.
+constexpr std::int32_t Material::*kMippedMaps[] = {&Material::diffuseMap,   &Material::specularMap,
+                                                   &Material::roughnessMap, &Material::emissionMap,
+                                                   &Material::normalMap,    &Material::coverageMap};
 
 // Light of a 10-bit color channel, or the value of an 8-bit one, in units of the largest code
 // (squared); of radiance itself.
@@ -51,18 +35,30 @@ std::uint32_t codeOf(TexelFormat format, double value, int channel) {
   return static_cast<std::uint32_t>(code) << (format == TexelFormat::data ? 8 : 10) * channel;
 }
 
-std::uint32_t meanTexel(const Texture& texture, const Cover& columns, const Cover& rows) {
+// Sums with shares times weights, or with shares alone where there are no weights. Sums to black
+// where all weights are 0.
+std::uint32_t meanTexel(const Texture& texture, const TexelWeights* weights,
+                        const TexelCover& columns, const TexelCover& rows) {
   std::array<double, 4> sum{};
+  double total = 0;
   const int channels = texture.format == TexelFormat::data ? 4 : 3;
-  for (std::size_t row = 0; row < rows.count; ++row) {
-    for (std::size_t column = 0; column < columns.count; ++column) {
-      const std::uint32_t texel = texture.texel(columns.texel[column], rows.texel[row]);
-      const double share = rows.share[row] * columns.share[column];
+  for (std::size_t y = 0; y < rows.shares.size(); ++y) {
+    for (std::size_t x = 0; x < columns.shares.size(); ++x) {
+      const int column = columns.first + static_cast<int>(x),
+                row = rows.first + static_cast<int>(y);
+      const std::uint32_t texel = texture.texel(column, row);
+      double share = rows.shares[y] * columns.shares[x];
+      if (weights) share *= double{weights->at(column, row)};
+      total += share;
       for (int c = 0; c < channels; ++c) {
         sum[static_cast<std::size_t>(c)] += share * valueOf(texture.format, texel, c);
       }
     }
   }
+  if (weights && total > 0) {
+    for (double& channel : sum) channel /= total;
+  }
+
   if (texture.format == TexelFormat::radiance) {
     return encodeRadianceTexel(Rgb(RgbD(sum[0], sum[1], sum[2])));
   }
@@ -73,66 +69,128 @@ std::uint32_t meanTexel(const Texture& texture, const Cover& columns, const Cove
   return mean;
 }
 
-std::vector<bool> seenTextures(const Scene& scene) {
-  std::vector<bool> seen(scene.textures.size(), false);
-  for (const Material& m : scene.materials) {
-    for (const std::int32_t map :
-         {m.diffuseMap, m.specularMap, m.roughnessMap, m.emissionMap, m.normalMap, m.coverageMap}) {
-      if (map != kNoTexture) seen[static_cast<std::size_t>(map)] = true;
-    }
-  }
-  return seen;
-}
-
-}  // namespace
-
-Texture halved(const Texture& texture) {
+Texture halvedBy(const Texture& texture, const TexelWeights* weights) {
   Texture half = emptyTexture(texture.name, texture.format, std::max(1, texture.width / 2),
                               std::max(1, texture.height / 2));
   half.wrapU = texture.wrapU;
   half.wrapV = texture.wrapV;
   std::uint32_t* to = half.texels.data();
-  const std::vector<Cover> columns = coversOf(texture.width, half.width);
-  const std::vector<Cover> rows = coversOf(texture.height, half.height);
-  for (const Cover& row : rows) {
-    for (const Cover& column : columns) *to++ = meanTexel(texture, column, row);
+  const std::vector<TexelCover> columns = texelCovers(texture.width, half.width);
+  for (const TexelCover& row : texelCovers(texture.height, half.height)) {
+    for (const TexelCover& column : columns) *to++ = meanTexel(texture, weights, column, row);
   }
   return half;
 }
 
-MipMaps::MipMaps(const std::vector<Texture>& textures, const std::vector<bool>& wanted, int threads)
-    : textures_(&textures), smaller_(textures.size()) {
-  std::vector<std::size_t> made;
-  for (std::size_t i = 0; i < textures.size(); ++i) {
-    if (wanted[i]) made.push_back(i);
+// The weights of the map's texels at full size; none where no mask weights them.
+std::optional<TexelWeights> weightsOf(const std::vector<Texture>& textures, const ShownMap& map) {
+  const auto texture = [&](std::int32_t number) -> const Texture& {
+    return textures[static_cast<std::size_t>(number)];
+  };
+  const Texture& own = texture(map.texture);
+  std::optional<TexelWeights> weights;
+  if (map.alphaMap != kNoTexture) {
+    weights = resized(uncutShares(texture(map.alphaMap), map.alphaCutoff), own.width, own.height);
   }
-  parallelFor(threads, made.size(), [&](std::size_t k, int) {
-    const Texture* last = &textures[made[k]];
-    std::vector<Texture>& levels = smaller_[made[k]];
-    levels.reserve(kMipLevels);
-    while (last->width > 1 || last->height > 1) {
-      levels.push_back(halved(*last));
-      last = &levels.back();
+  if (map.coverageMap == kNoTexture) return weights;
+
+  TexelWeights coverage = resized(firstChannel(texture(map.coverageMap)), own.width, own.height);
+  for (std::size_t i = 0; weights && i < coverage.values.size(); ++i) {
+    coverage.values[i] *= weights->values[i];
+  }
+  return coverage;
+}
+
+// Gives texels that nobody sees the color of the level above, because bilinear lookups mix them
+// with their neighbors.
+void fillUnseen(const TexelWeights& weights, const Texture& above, Texture& level) {
+  std::size_t i = 0;
+  for (int row = 0; row < level.height; ++row) {
+    const int rowAbove = std::min(row / 2, above.height - 1);
+    for (int column = 0; column < level.width; ++column, ++i) {
+      if (weights.values[i] > 0) continue;
+      level.texels[i] = above.texel(std::min(column / 2, above.width - 1), rowAbove);
     }
+  }
+}
+
+std::vector<Texture> smallerLevels(const std::vector<Texture>& textures, const ShownMap& map) {
+  const Texture* last = &textures[static_cast<std::size_t>(map.texture)];
+  std::vector<Texture> levels;
+  levels.reserve(kMipLevels);
+  std::optional<TexelWeights> weights = weightsOf(textures, map);
+  std::vector<TexelWeights> weightsOfLevels;
+  while (last->width > 1 || last->height > 1) {
+    levels.push_back(halvedBy(*last, weights ? &*weights : nullptr));
+    last = &levels.back();
+    if (!weights) continue;
+    weights = resized(*weights, last->width, last->height);
+    weightsOfLevels.push_back(*weights);
+  }
+  for (std::size_t i = weightsOfLevels.size(); i-- > 1;) {
+    fillUnseen(weightsOfLevels[i - 1], levels[i], levels[i - 1]);
+  }
+  return levels;
+}
+
+std::vector<ShownMap> shownMaps(const Scene& scene) {
+  std::vector<ShownMap> shown;
+  for (const Material& m : scene.materials) {
+    for (const auto map : kMippedMaps) shown.push_back(shownMap(m, map));
+  }
+  return shown;
+}
+
+}  // namespace
+
+ShownMap shownMap(const Material& material, std::int32_t Material::*map) {
+  ShownMap shown{material.*map};
+  const bool bySecondUvs = (map == &Material::emissionMap && material.emissionBySecondUvs) ||
+                           (map == &Material::normalMap && material.normalBySecondUvs);
+  // The masks lie elsewhere in the second coordinates.
+  if (shown.texture == kNoTexture || bySecondUvs) return shown;
+
+  if (material.alphaMap != kNoTexture) {
+    shown.alphaMap = material.alphaMap;
+    shown.alphaCutoff = material.alphaCutoff;
+  }
+  if (map != &Material::coverageMap) shown.coverageMap = material.coverageMap;
+  return shown;
+}
+
+Texture halved(const Texture& texture) { return halvedBy(texture, nullptr); }
+
+MipMaps::MipMaps(const std::vector<Texture>& textures, const std::vector<ShownMap>& wanted,
+                 int threads)
+    : textures_(&textures) {
+  for (const ShownMap& map : wanted) {
+    if (map.texture != kNoTexture) smaller_.try_emplace(map);
+  }
+  std::vector<std::pair<const ShownMap, std::vector<Texture>>*> made;
+  for (auto& entry : smaller_) made.push_back(&entry);
+  parallelFor(threads, made.size(), [&](std::size_t i, int) {
+    made[i]->second = smallerLevels(textures, made[i]->first);
   });
 }
 
 MipMaps::MipMaps(const Scene& scene, int threads)
-    : MipMaps(scene.textures, seenTextures(scene), threads) {}
+    : MipMaps(scene.textures, shownMaps(scene), threads) {}
 
-const Texture& MipMaps::level(std::size_t texture, int level) const {
-  const std::vector<Texture>& smaller = smaller_[texture];
-  if (level == 0 || smaller.empty()) return (*textures_)[texture];
-  return smaller[std::min(static_cast<std::size_t>(level), smaller.size()) - 1];
+const Texture& MipMaps::level(const ShownMap& map, int level) const {
+  const Texture& full = (*textures_)[static_cast<std::size_t>(map.texture)];
+  if (level == 0) return full;
+  const auto smaller = smaller_.find(map);
+  if (smaller == smaller_.end() || smaller->second.empty()) return full;
+  return smaller->second[std::min(static_cast<std::size_t>(level), smaller->second.size()) - 1];
 }
 
-Texture MipMaps::take(std::size_t texture, int level) {
-  if (level == 0) return (*textures_)[texture];
-  return std::move(smaller_[texture][static_cast<std::size_t>(level) - 1]);
+Texture MipMaps::take(const ShownMap& map, int level) {
+  return std::move(smaller_.at(map)[static_cast<std::size_t>(level) - 1]);
 }
 
-int MipMaps::levels(std::size_t texture) const {
-  return static_cast<int>(smaller_[texture].size()) + 1;
+int MipMaps::levels(const ShownMap& map) const {
+  const auto smaller = smaller_.find(map);
+  return smaller == smaller_.end() ? 1 : static_cast<int>(smaller->second.size()) + 1;
 }
 
 }  // namespace whit

@@ -2,7 +2,9 @@
 // lookups that stand for an area. Made when a frame asks for them (TextureFilter::trilinear).
 #pragma once
 
+#include <compare>
 #include <cstddef>
+#include <map>
 #include <vector>
 
 #include "bake/scene.h"
@@ -13,6 +15,22 @@ namespace whit {
 inline constexpr int kMipLevels = 17;
 inline constexpr float kLargestArea = 0x1p32f;  // in texels
 
+// A texture as a material shows it. Rays that a mask cuts away see nothing of the texture, and
+// where coverage is low little is seen of it, so its mip levels are means weighted by what is left
+// of the surface: the share of a texel's area that the alpha map leaves, times the coverage map.
+// Alpha maps themselves are always looked up at full size, which keeps the area that they leave.
+struct ShownMap {
+  std::int32_t texture = kNoTexture;
+  std::int32_t alphaMap = kNoTexture;
+  float alphaCutoff = 0;
+  std::int32_t coverageMap = kNoTexture;
+
+  auto operator<=>(const ShownMap&) const = default;
+};
+
+// `map` as `material` shows it. The texture is kNoTexture where the material has no such map.
+ShownMap shownMap(const Material& material, std::int32_t Material::*map);
+
 // Half as many texels along each axis, rounded down but at least one. Each is the mean of the area
 // that it covers, also where that cuts through texels; of colors the mean of their light. Rounded
 // to the format's codes.
@@ -21,22 +39,23 @@ Texture halved(const Texture& texture);
 class MipMaps {
  public:
   MipMaps() = default;
-  // Maps of the textures `wanted`; one flag a texture. The textures must outlive this. Shared among
-  // `threads`. Throws Error(limit) where the system has no room for so many.
-  MipMaps(const std::vector<Texture>& textures, const std::vector<bool>& wanted, int threads = 1);
+  // Levels of the maps that are `wanted`. The textures must outlive this. Shared among `threads`.
+  // Throws Error(limit) where the system has no room for so many.
+  MipMaps(const std::vector<Texture>& textures, const std::vector<ShownMap>& wanted,
+          int threads = 1);
   // Maps of the textures that materials use as colors, reflectances and normal maps.
   explicit MipMaps(const Scene& scene, int threads = 1);
 
   // 0 is the texture itself, and so is its only level if it is not wanted; what follows the single
   // texel is that texel.
-  const Texture& level(std::size_t texture, int level) const;
-  // Moves a smaller level out, or copies the texture itself.
-  Texture take(std::size_t texture, int level);
-  int levels(std::size_t texture) const;  // distinct ones, at least 1
+  const Texture& level(const ShownMap& map, int level) const;
+  // Moves a level from 1 on out.
+  Texture take(const ShownMap& map, int level);
+  int levels(const ShownMap& map) const;  // distinct ones, at least 1
 
  private:
   const std::vector<Texture>* textures_ = nullptr;
-  std::vector<std::vector<Texture>> smaller_;  // levels 1 and up of each texture
+  std::map<ShownMap, std::vector<Texture>> smaller_;  // levels 1 and up
 };
 
 }  // namespace whit

@@ -158,14 +158,14 @@ class Lookups {
 
   const float* uvs(bool second) const { return at_.uvs(second); }
 
-  RgbD sample(std::int32_t map, bool second = false) const {
-    const auto number = static_cast<std::size_t>(map);
-    const Texture& texture = scene_.textures[number];
+  RgbD sample(std::int32_t Material::*map, bool second = false) const {
+    const Material& material = scene_.materials[at_.triangle.material];
+    const Texture& texture = scene_.textures[static_cast<std::size_t>(material.*map)];
     const auto [u, v] = texturePoint(uvs(second), at_.hit);
     if (how_.filter != TextureFilter::trilinear) return sampleTexture(texture, u, v, how_.filter);
     const double footprint =
         textureFootprint(at_.triangle, uvs(second), toWorld_, how_.cone.width, cosine_);
-    return sampleTexture(*how_.maps, number, u, v,
+    return sampleTexture(*how_.maps, shownMap(material, map), u, v,
                          mipLevel(footprint * texture.width * texture.height));
   }
 
@@ -250,27 +250,27 @@ void findColors(const Scene& scene, EffectSet effects, std::uint32_t number, con
   const TriangleRecord& triangle = scene.triangles[number];
   const Material& material = scene.materials[triangle.material];
   s.material = triangle.material;
-  const auto textured = [&](const Rgb& factor, std::int32_t map, bool second = false) {
-    if (!effects.has(Effect::textures) || map == kNoTexture) return RgbD(factor);
+  const auto textured = [&](const Rgb& factor, std::int32_t Material::*map, bool second = false) {
+    if (!effects.has(Effect::textures) || material.*map == kNoTexture) return RgbD(factor);
     return RgbD(factor) * lookups.sample(map, second);
   };
-  s.diffuse = textured(material.diffuse, material.diffuseMap);
-  s.specular = textured(material.specular, material.specularMap);
+  s.diffuse = textured(material.diffuse, &Material::diffuseMap);
+  s.specular = textured(material.specular, &Material::specularMap);
   if (effects.has(Effect::emissionMaps)) {
-    s.emission = textured(Rgb(1.0f), material.emissionMap, material.emissionBySecondUvs);
+    s.emission = textured(Rgb(1.0f), &Material::emissionMap, material.emissionBySecondUvs);
   }
   if (effects.has(Effect::vertexColors) && !scene.colors.empty()) {
     tint(vertexColor(scene.colors[number], hit), material.vertexTint, s);
   }
   double roughness = material.roughness;
   if (effects.has(Effect::textures) && material.roughnessMap != kNoTexture) {
-    roughness *= lookups.sample(material.roughnessMap).y;
+    roughness *= lookups.sample(&Material::roughnessMap).y;
   }
   roughness = std::max(roughness, double{kMinRoughness});
   s.alpha = roughness * roughness;
   if (!effects.has(Effect::coverage)) return;
   s.coverage = material.coverage;
-  if (material.coverageMap != kNoTexture) s.coverage *= lookups.sample(material.coverageMap).x;
+  if (material.coverageMap != kNoTexture) s.coverage *= lookups.sample(&Material::coverageMap).x;
 }
 
 }  // namespace
@@ -377,7 +377,7 @@ Surfel makeSurfel(const Scene& scene, EffectSet effects, const Candidate& candid
   const Material& material = scene.materials[triangle.material];
   if (effects.has(Effect::normalMaps) && material.normalMap != kNoTexture) {
     const bool second = material.normalBySecondUvs;
-    s.shadingNormal = bentNormal(lookups.sample(material.normalMap, second), textured.triangle,
+    s.shadingNormal = bentNormal(lookups.sample(&Material::normalMap, second), textured.triangle,
                                  lookups.uvs(second), toWorld, s.shadingNormal);
   }
   s.entering = cosine < 0;

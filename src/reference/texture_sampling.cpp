@@ -69,11 +69,11 @@ double mipLevel(double area) {
   return area > 1 ? 0.5 * std::log2(std::min(area, double{kLargestArea})) : 0;
 }
 
-RgbD sampleTexture(const MipMaps& maps, std::size_t texture, double u, double v, double level) {
+RgbD sampleTexture(const MipMaps& maps, const ShownMap& map, double u, double v, double level) {
   const int lower = static_cast<int>(level);
   const double between = level - lower;
-  const RgbD a = sampleTexture(maps.level(texture, lower), u, v),
-             b = sampleTexture(maps.level(texture, lower + 1), u, v);
+  const RgbD a = sampleTexture(maps.level(map, lower), u, v),
+             b = sampleTexture(maps.level(map, lower + 1), u, v);
   return a + (b - a) * between;
 }
 

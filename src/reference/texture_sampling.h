@@ -17,6 +17,6 @@ RgbD sampleTexture(const Texture& texture, double u, double v,
 double mipLevel(double area);
 
 // Bilinear lookups in the levels below and above `level`, mixed by its fraction.
-RgbD sampleTexture(const MipMaps& maps, std::size_t texture, double u, double v, double level);
+RgbD sampleTexture(const MipMaps& maps, const ShownMap& map, double u, double v, double level);
 
 }  // namespace whit::reference

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "core/error.h"
@@ -46,20 +47,41 @@ std::uint32_t flagsOf(const Material& m, bool onOthers, EffectSet effects) {
   return flags;
 }
 
-MaterialRecord recordOf(const Material& m, std::uint32_t medium, bool onOthers, EffectSet effects) {
+// Numbers the maps of materials in the order in which they come.
+class MapNumbers {
+ public:
+  explicit MapNumbers(std::vector<ShownMap>& maps) : maps_(maps) { maps_.clear(); }
+
+  // kNoTexture where the material has no such map, or frames show none.
+  std::int32_t of(const Material& m, std::int32_t Material::*map, bool isShown) {
+    if (!isShown || m.*map == kNoTexture) return kNoTexture;
+    const ShownMap shown = shownMap(m, map);
+    const auto [known, isNew] =
+        numbers_.try_emplace(shown, static_cast<std::int32_t>(maps_.size()));
+    if (isNew) maps_.push_back(shown);
+    return known->second;
+  }
+
+ private:
+  std::vector<ShownMap>& maps_;
+  std::map<ShownMap, std::int32_t> numbers_;
+};
+
+MaterialRecord recordOf(const Material& m, std::uint32_t medium, bool onOthers, EffectSet effects,
+                        MapNumbers& maps) {
   MaterialRecord r{};
   const bool textured = effects.has(Effect::textures);
   copy3(m.diffuse, r.diffuse);
-  r.diffuseMap = textured ? m.diffuseMap : kNoTexture;
+  r.diffuseMap = maps.of(m, &Material::diffuseMap, textured);
   copy3(m.specular, r.specular);
-  r.specularMap = textured && m.hasGlossy() ? m.specularMap : kNoTexture;
-  r.roughnessMap = textured && m.hasGlossy() ? m.roughnessMap : kNoTexture;
+  r.specularMap = maps.of(m, &Material::specularMap, textured && m.hasGlossy());
+  r.roughnessMap = maps.of(m, &Material::roughnessMap, textured && m.hasGlossy());
   r.roughness = m.roughness;
   r.coverage = m.coverage;
-  r.coverageMap = effects.has(Effect::coverage) ? m.coverageMap : kNoTexture;
+  r.coverageMap = maps.of(m, &Material::coverageMap, effects.has(Effect::coverage));
   copy3(m.emission, r.emission);
-  r.emissionMap = effects.has(Effect::emissionMaps) ? m.emissionMap : kNoTexture;
-  r.normalMap = effects.has(Effect::normalMaps) ? m.normalMap : kNoTexture;
+  r.emissionMap = maps.of(m, &Material::emissionMap, effects.has(Effect::emissionMaps));
+  r.normalMap = maps.of(m, &Material::normalMap, effects.has(Effect::normalMaps));
   const float roughness = std::max(m.roughness, kMinRoughness);
   r.alpha = roughness * roughness;
   r.flags = flagsOf(m, onOthers, effects);
@@ -75,24 +97,27 @@ MaterialRecord recordOf(const Material& m, std::uint32_t medium, bool onOthers, 
   return r;
 }
 
-bool isRadiance(const Scene& scene, std::int32_t map) {
-  return map != kNoTexture &&
-         scene.textures[static_cast<std::size_t>(map)].format == TexelFormat::radiance;
+bool isRadiance(const Scene& scene, std::int32_t texture) {
+  return scene.textures[static_cast<std::size_t>(texture)].format == TexelFormat::radiance;
 }
 
 void addMaterials(const Scene& scene, EffectSet effects, ShadingTables& tables) {
   tables.materials.clear();
   tables.radianceMaps = false;
   const bool onOthers = scene.media.size() > 1 && !scene.coplanar.empty();
+  MapNumbers maps(tables.maps);
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-    MaterialRecord r = recordOf(scene.materials[i], scene.mediumOfMaterial[i], onOthers, effects);
-    if (isRadiance(scene, r.emissionMap)) {
+    const Material& m = scene.materials[i];
+    MaterialRecord r = recordOf(m, scene.mediumOfMaterial[i], onOthers, effects, maps);
+    if (r.emissionMap != kNoTexture && isRadiance(scene, m.emissionMap)) {
       r.flags |= kMaterialEmissionIsRadiance;
       tables.radianceMaps = true;
     }
     tables.materials.push_back(r);
   }
-  if (tables.materials.empty()) tables.materials.push_back(recordOf(Material{}, 0, false, effects));
+  if (tables.materials.empty()) {
+    tables.materials.push_back(recordOf(Material{}, 0, false, effects, maps));
+  }
 }
 
 void addMedia(const Scene& scene, ShadingTables& tables) {
@@ -110,46 +135,42 @@ void addMedia(const Scene& scene, ShadingTables& tables) {
 
 constexpr TextureRecord kUnused{0, 1, 1, 0};
 
-// One flag a texture of the scene.
-std::vector<bool> usedTextures(const Scene& scene, const ShadingTables& tables) {
-  std::vector<bool> used(scene.textures.size(), false);
-  for (const MaterialRecord& m : tables.materials) {
-    for (const std::int32_t map : mapsOf(m)) {
-      if (map != kNoTexture) used[static_cast<std::size_t>(map)] = true;
-    }
-  }
-  return used;
+TextureRecord recordOf(const Texture& t) {
+  return {static_cast<std::uint32_t>(t.firstTexel), t.width, t.height,
+          static_cast<std::uint32_t>(t.wrapU) | static_cast<std::uint32_t>(t.wrapV) << 8};
 }
 
 // Adds the textures that the materials of `tables` use: those of the scene, or where lookups are
 // trilinear copies of them with their mip levels.
 void addTextures(const Scene& scene, TextureFilter filter, int threads, ShadingTables& tables) {
   static const TexelStrips none(new std::uint32_t[1]{});
-  const std::vector<bool> used = usedTextures(scene, tables);
   const bool trilinear = filter == TextureFilter::trilinear;
-  MipMaps maps(scene.textures, trilinear ? used : std::vector<bool>(used.size()), threads);
+  MipMaps mips(scene.textures, trilinear ? tables.maps : std::vector<ShownMap>(), threads);
+
+  // Maps of one texture share its full size.
   std::vector<Texture> levels;
-  for (std::size_t i = 0; i < used.size(); ++i) {
-    for (int level = 0; used[i] && level < maps.levels(i); ++level) {
-      levels.push_back(maps.take(i, level));
+  std::map<std::int32_t, std::size_t> fullSizes;
+  std::vector<std::vector<std::size_t>> levelsOfMaps;
+  for (const ShownMap& map : tables.maps) {
+    std::vector<std::size_t>& own = levelsOfMaps.emplace_back();
+    const auto [full, isNew] = fullSizes.try_emplace(map.texture, levels.size());
+    if (isNew) levels.push_back(scene.textures[static_cast<std::size_t>(map.texture)]);
+    own.push_back(full->second);
+    for (int level = 1; level < mips.levels(map); ++level) {
+      own.push_back(levels.size());
+      levels.push_back(mips.take(map, level));
     }
   }
+
   if (trilinear) {
     packTextures(levels, threads);
     for (const Texture& t : levels) tables.copiedTexels += t.packedSize();
   }
   tables.texels = levels.empty() ? none : levels.front().strips;
-  auto next = levels.begin();
-  for (std::size_t i = 0; i < used.size(); ++i) {
-    TextureRecord record = kUnused;
-    for (int level = 0; level < (trilinear ? kMipStride : 1); ++level) {
-      if (used[i] && level < maps.levels(i)) {
-        const Texture& t = *next++;
-        record = {static_cast<std::uint32_t>(t.firstTexel), t.width, t.height,
-                  static_cast<std::uint32_t>(t.wrapU) | static_cast<std::uint32_t>(t.wrapV) << 8};
-      }
-      if (level == 0) tables.textures.push_back(record);
-      if (trilinear) tables.mipLevels.push_back(record);
+  for (const std::vector<std::size_t>& own : levelsOfMaps) {
+    tables.textures.push_back(recordOf(levels[own.front()]));
+    for (std::size_t level = 0; trilinear && level < kMipStride; ++level) {
+      tables.mipLevels.push_back(recordOf(levels[own[std::min(level, own.size() - 1)]]));
     }
   }
   if (tables.textures.empty()) tables.textures.push_back(kUnused);
@@ -235,14 +256,11 @@ void refreshInstances(const Scene& scene, ShadingTables& tables) {
 
 void refreshShading(const Scene& scene, EffectSet effects, const ShadingChoices& shading,
                     int threads, ShadingTables& tables) {
-  const std::vector<MaterialRecord> before = tables.materials;
+  const std::vector<ShownMap> before = tables.maps;
   addMaterials(scene, effects, tables);
-  const bool sameTextures = std::ranges::equal(
-      before, tables.materials,
-      [](const MaterialRecord& a, const MaterialRecord& b) { return mapsOf(a) == mapsOf(b); });
   const bool lacksMips = shading.textureFilter == TextureFilter::trilinear &&
                          tables.mipLevels.empty() && !scene.textures.empty();
-  if (sameTextures && !lacksMips) {
+  if (before == tables.maps && !lacksMips) {
     addLighting(scene, effects, tables);
   } else {
     tables = buildTables(scene, effects, shading, threads);

@@ -103,8 +103,9 @@ struct ShadingTables {
   int colorStride = 0;                    // floats
   const UvRecord* secondUvs = nullptr;    // none: no material's flags name them
   std::vector<MaterialRecord> materials;  // at least one
-  std::vector<TextureRecord> textures;    // at least one
-  // kMipStride a texture, from the full one on; none unless lookups are trilinear.
+  std::vector<ShownMap> maps;             // those of all materials
+  std::vector<TextureRecord> textures;    // one for each of `maps`, at least one
+  // kMipStride for each of `maps`, from the full texture on; none unless lookups are trilinear.
   std::vector<TextureRecord> mipLevels;
   TexelStrips texels;                        // at least one
   std::size_t copiedTexels = 0;              // of them; the others are the scene's

@@ -33,18 +33,82 @@ Color asCodes(const Color& mean, bool isData) {
 
 }  // namespace
 
-MipChain::MipChain(const Texture& texture) {
+Shares uncutShares(const Texture& alpha, double cutoff) {
+  Shares shares{alpha.width, alpha.height, {}};
+  const auto texel = [&](int x, int y) {
+    const int place = wrapped(y, alpha.height) * alpha.width + wrapped(x, alpha.width);
+    return gray(alpha.texels[static_cast<std::size_t>(place)][0] / 255.0);
+  };
+  for (int y = 0; y < alpha.height; ++y) {
+    for (int x = 0; x < alpha.width; ++x) {
+      double left = 0;
+      for (const double right : {0.25, 0.75}) {
+        for (const double down : {0.25, 0.75}) {
+          if (bilinear(x + right, y + down, texel).x >= cutoff) left += 0.25;
+        }
+      }
+      shares.of.push_back(left);
+    }
+  }
+  return shares;
+}
+
+Shares coveredShares(const Texture& coverage) {
+  Shares shares{coverage.width, coverage.height, {}};
+  for (const auto& texel : coverage.texels) shares.of.push_back(texel[0] / 255.0);
+  return shares;
+}
+
+Shares stretched(const Shares& shares, int width, int height) {
+  Shares result{width, height, {}};
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const Stretch columns = stretchOf(x, shares.width, width),
+                    rows = stretchOf(y, shares.height, height);
+      double sum = 0, area = 0;
+      for (int row = 0; row < shares.height; ++row) {
+        for (int column = 0; column < shares.width; ++column) {
+          const double covered = columns.coveredOf(column) * rows.coveredOf(row);
+          sum += shares.of[static_cast<std::size_t>(row * shares.width + column)] * covered;
+          area += covered;
+        }
+      }
+      result.of.push_back(sum / area);
+    }
+  }
+  return result;
+}
+
+MipChain::MipChain(const Texture& texture, Shares left) {
   Level whole{texture.width, texture.height, {}};
   for (const auto& [r, g, b] : texture.texels) {
     whole.texels.push_back(Color{double(r), double(g), double(b)} / 255);
   }
   levels_.push_back(whole);
-  while (levels_.back().texels.size() > 1)
-    levels_.push_back(halved(levels_.back(), texture.isData));
+  std::vector<Shares> leftOf{left};
+  while (levels_.back().texels.size() > 1) {
+    levels_.push_back(halved(levels_.back(), leftOf.back(), texture.isData));
+    const Level& half = levels_.back();
+    leftOf.push_back(left.of.empty() ? left : stretched(leftOf.back(), half.width, half.height));
+  }
+
+  // What is cut away takes the color of the level above.
+  for (std::size_t n = levels_.size() - 1; n-- > 1 && !left.of.empty();) {
+    Level& level = levels_[n];
+    const Level& above = levels_[n + 1];
+    for (int y = 0; y < level.height; ++y) {
+      for (int x = 0; x < level.width; ++x) {
+        const auto place = static_cast<std::size_t>(y * level.width + x);
+        if (leftOf[n].of[place] > 0) continue;
+        level.texels[place] =
+            above.texel(std::min(x / 2, above.width - 1), std::min(y / 2, above.height - 1));
+      }
+    }
+  }
 }
 
 // The mean of what a texel covers, also where that cuts through others.
-MipChain::Level MipChain::halved(const Level& level, bool isData) {
+MipChain::Level MipChain::halved(const Level& level, const Shares& left, bool isData) {
   Level half{std::max(1, level.width / 2), std::max(1, level.height / 2), {}};
   for (int y = 0; y < half.height; ++y) {
     for (int x = 0; x < half.width; ++x) {
@@ -54,12 +118,15 @@ MipChain::Level MipChain::halved(const Level& level, bool isData) {
       double area = 0;
       for (int row = 0; row < level.height; ++row) {
         for (int column = 0; column < level.width; ++column) {
-          const double covered = columns.coveredOf(column) * rows.coveredOf(row);
+          double covered = columns.coveredOf(column) * rows.coveredOf(row);
+          if (!left.of.empty()) {
+            covered *= left.of[static_cast<std::size_t>(row * level.width + column)];
+          }
           sum += level.texel(column, row) * covered;
           area += covered;
         }
       }
-      half.texels.push_back(asCodes(sum / area, isData));
+      half.texels.push_back(asCodes(area > 0 ? sum / area : Color{}, isData));
     }
   }
   return half;

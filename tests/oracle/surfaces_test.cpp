@@ -390,6 +390,25 @@ TEST_F(Surfaces, MixedMipMaps) {
                    options});
 }
 
+// Cut and covered in part, with colors that differ where nothing is left.
+void maskedAtAnyDistance(SceneMaker& maker) {
+  texturedAtAnyDistance(maker);
+  for (Material& material : maker.scene.materials) {
+    if (material.diffuseMap == kNone && material.emissionMap == kNone) continue;
+    if (maker.random.chance(0.3)) continue;
+    const bool isCovered = maker.random.chance(0.5);
+    (isCovered ? material.coverageMap : material.alphaMap) = addMask(maker);
+    if (isCovered && maker.random.chance(0.3)) material.alphaMap = addMask(maker);
+    material.alphaCutoff = maker.random.between(0.2, 0.6);
+  }
+}
+
+TEST_F(Surfaces, MixedMipMapsOfMaskedSurfaces) {
+  expectAgreement({"trilinear textures with masks",
+                   maskedAtAnyDistance,
+                   {.depth = 6, .filter = Filter::trilinear}});
+}
+
 // Turned, scaled, stretched where flat, and mirrored.
 void addInstances(SceneMaker& maker) {
   maker.room();

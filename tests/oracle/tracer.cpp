@@ -1,5 +1,7 @@
 #include "oracle/tracer.h"
 
+#include <algorithm>
+#include <iterator>
 #include <numbers>
 
 #include "oracle/integral.h"
@@ -24,6 +26,30 @@ constexpr double kSmooth = 1e-3;
 // takes one, and where a sample meets the next integral, of which the mean over many is right
 // however few there are.
 constexpr int kPointsASide = 12, kFewerPointsASide = 6, kFewestPointsASide = 2;
+
+constexpr int Material::*kMaps[] = {&Material::diffuseMap, &Material::specularMap,
+                                    &Material::emissionMap, &Material::normalMap,
+                                    &Material::coverageMap};
+
+// Where so little is there rays pass, as through a hole.
+constexpr double kClear = 1.0 / 1024;
+
+// What is left of the surface on each texel of a map. A coverage map is a mean over what alpha
+// leaves; every other map is weighed by the coverage besides.
+Shares sharesLeft(const Scene& scene, const Material& material, int Material::*map) {
+  const auto texture = [&](int number) { return scene.textures[static_cast<std::size_t>(number)]; };
+  const Texture own = texture(material.*map);
+  const bool isCut = material.alphaMap != kNone, isCovered = material.coverageMap != kNone;
+  if (!isCut && !isCovered) return {};
+  const Shares uncut = isCut ? uncutShares(texture(material.alphaMap), material.alphaCutoff)
+                             : uncutShares(texture(material.coverageMap), kClear);
+  Shares left = stretched(uncut, own.width, own.height);
+  if (!isCovered || map == &Material::coverageMap) return left;
+  const Shares covered =
+      stretched(coveredShares(texture(material.coverageMap)), own.width, own.height);
+  for (std::size_t i = 0; i < left.of.size(); ++i) left.of[i] *= covered.of[i];
+  return left;
+}
 
 }  // namespace
 
@@ -54,7 +80,17 @@ Tracer::Tracer(const Scene& scene, const Options& options)
     : scene_(atItsTime(scene)),
       options_(options),
       textures_(scene.textures.begin(), scene.textures.end()),
-      geometry_(scene, textures_) {}
+      geometry_(scene, textures_) {
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    const Material& material = scene.materials[i];
+    for (std::size_t map = 0; map < std::size(kMaps); ++map) {
+      const int number = material.*kMaps[map];
+      if (number == kNone) continue;
+      shown_.emplace(std::pair(i, map), MipChain(scene.textures[static_cast<std::size_t>(number)],
+                                                 sharesLeft(scene, material, kMaps[map])));
+    }
+  }
+}
 
 Sight Tracer::look(double x, double y) const {
   const Ray ray = eyeRay(x, y);
@@ -192,21 +228,22 @@ Tracer::Surface Tracer::surfaceAt(const Ray& ray, const Hit& hit, double width) 
   s.normal = s.plane;
   addVertices(s, hit);
   const double footprint = footprintOf(hit, width, -dot(ray.direction, s.plane));
-  const auto texel = [&](int map) {
-    const Texture& texture = scene_.textures[static_cast<std::size_t>(map)];
+  const auto texel = [&](int Material::*map) {
+    const Texture& texture = scene_.textures[static_cast<std::size_t>(s.material.*map)];
     const double texels = footprint * texture.width * texture.height;
-    return textures_[static_cast<std::size_t>(map)].at(hit.uv[0], hit.uv[1], options_.filter,
-                                                       texels);
+    const auto number = static_cast<std::size_t>(std::ranges::find(kMaps, map) - kMaps);
+    const auto material = static_cast<std::size_t>(hit.face->material);
+    return shown_.at({material, number}).at(hit.uv[0], hit.uv[1], options_.filter, texels);
   };
-  const auto textured = [&](int map, Color& what) {
-    if (map != kNone) what = what * texel(map);
+  const auto textured = [&](int Material::*map, Color& what) {
+    if (s.material.*map != kNone) what = what * texel(map);
   };
-  textured(s.material.diffuseMap, s.material.diffuse);
-  textured(s.material.specularMap, s.material.specular);
-  textured(s.material.emissionMap, s.material.emission);
-  if (s.material.coverageMap != kNone) s.material.coverage *= texel(s.material.coverageMap).x;
+  textured(&Material::diffuseMap, s.material.diffuse);
+  textured(&Material::specularMap, s.material.specular);
+  textured(&Material::emissionMap, s.material.emission);
+  if (s.material.coverageMap != kNone) s.material.coverage *= texel(&Material::coverageMap).x;
   if (s.material.normalMap != kNone) {
-    s.normal = mappedNormal(hit, texel(s.material.normalMap), s.normal * side) * side;
+    s.normal = mappedNormal(hit, texel(&Material::normalMap), s.normal * side) * side;
     s.smooth = true;
   }
   return s;

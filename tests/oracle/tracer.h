@@ -2,6 +2,9 @@
 // scenes/README.md. It shares no code with what it judges.
 #pragma once
 
+#include <map>
+#include <utility>
+
 #include "oracle/geometry.h"
 #include "oracle/media.h"
 #include "oracle/mip_chain.h"
@@ -68,7 +71,9 @@ class Tracer {
 
   const Scene scene_;  // at its time
   const Options& options_;
-  std::vector<MipChain> textures_;
+  std::vector<MipChain> textures_;  // as masks cut: at full size
+  // As materials show them: by the number of the material and of the map in kMaps.
+  std::map<std::pair<std::size_t, std::size_t>, MipChain> shown_;
   Geometry geometry_;
 };
 

@@ -55,7 +55,7 @@ RgbD seen(const Scene& scene, const Ray& ray, int depth = 8) {
 // Of the floor at (x, z).
 RgbD floorColor(const Scene& scene, double x, double z, double level) {
   const double half = kTexels / 2.0;
-  return sampleTexture(MipMaps(scene), 0, (x + half) / kTexels, (half - z) / kTexels, level);
+  return sampleTexture(MipMaps(scene), {0}, (x + half) / kTexels, (half - z) / kTexels, level);
 }
 
 void expectNear(const RgbD& got, const RgbD& wanted, double tolerance = kRounding) {
@@ -93,16 +93,16 @@ TEST(Trilinear, H70_aWholeLevelIsThatLevelBitForBit) {
   for (int i = 0; i < 200; ++i) {
     const double u = numbers.in(-2, 2), v = numbers.in(-2, 2);
     const int level = i % kMipLevels;
-    EXPECT_EQ(sampleTexture(maps, 0, u, v, level), sampleTexture(maps.level(0, level), u, v));
+    EXPECT_EQ(sampleTexture(maps, {0}, u, v, level), sampleTexture(maps.level({0}, level), u, v));
   }
 }
 
 TEST(Trilinear, MixesDataBetweenLevels) {
   const std::vector<Texture> textures{
       makeTexture(TexelFormat::data, 2, 1, {0x00c86450u, 0x00000000u})};
-  const MipMaps maps(textures, {true});
+  const MipMaps maps(textures, {{0}});
   // At the first texel's center: (80, 100, 200), and half of each in the level above.
-  const RgbD s = sampleTexture(maps, 0, 0.25, 0.5, 0.5);
+  const RgbD s = sampleTexture(maps, {0}, 0.25, 0.5, 0.5);
   EXPECT_NEAR(s.x * 255, 60, 1e-10);
   EXPECT_NEAR(s.y * 255, 75, 1e-10);
   EXPECT_NEAR(s.z * 255, 150, 1e-10);

@@ -103,27 +103,30 @@ TEST(Halved, LightIsKeptFromLevelToLevel) {
 TEST(MipMaps, ReachDownToOneTexel) {
   const std::vector<Texture> textures{noise(TexelFormat::color, 8, 3),
                                       noise(TexelFormat::data, 4, 4)};
-  const MipMaps maps(textures, {true, false});
-  ASSERT_EQ(maps.levels(0), 4);
+  const MipMaps maps(textures, {{0}});
+  ASSERT_EQ(maps.levels({0}), 4);
   const int sizes[][2] = {{8, 3}, {4, 1}, {2, 1}, {1, 1}, {1, 1}, {1, 1}};
   for (int level = 0; level < 6; ++level) {
-    EXPECT_EQ(maps.level(0, level).width, sizes[level][0]) << level;
-    EXPECT_EQ(maps.level(0, level).height, sizes[level][1]) << level;
+    EXPECT_EQ(maps.level({0}, level).width, sizes[level][0]) << level;
+    EXPECT_EQ(maps.level({0}, level).height, sizes[level][1]) << level;
   }
-  EXPECT_EQ(&maps.level(0, 0), textures.data());
-  EXPECT_EQ(maps.levels(1), 1);
-  EXPECT_EQ(&maps.level(1, 3), &textures[1]);
+  EXPECT_EQ(&maps.level({0}, 0), textures.data());
+  EXPECT_EQ(maps.levels({1}), 1);
+  EXPECT_EQ(&maps.level({1}, 3), &textures[1]);
 }
 
 TEST(MipMaps, AreTheSameForAnyNumberOfThreads) {
   std::vector<Texture> textures;
-  for (int i = 1; i < 9; ++i) textures.push_back(noise(TexelFormat::color, 16 * i, 9 * i));
-  const std::vector<bool> all(textures.size(), true);
+  std::vector<ShownMap> all;
+  for (std::int32_t i = 0; i < 8; ++i) {
+    textures.push_back(noise(TexelFormat::color, 16 * (i + 1), 9 * (i + 1)));
+    all.push_back({i});
+  }
   const MipMaps one(textures, all, 1), many(textures, all, 5);
-  for (std::size_t i = 0; i < textures.size(); ++i) {
-    ASSERT_EQ(one.levels(i), many.levels(i));
-    for (int level = 0; level < one.levels(i); ++level) {
-      EXPECT_EQ(one.level(i, level).texels, many.level(i, level).texels);
+  for (const ShownMap& map : all) {
+    ASSERT_EQ(one.levels(map), many.levels(map));
+    for (int level = 0; level < one.levels(map); ++level) {
+      EXPECT_EQ(one.level(map, level).texels, many.level(map, level).texels);
     }
   }
 }
@@ -140,8 +143,50 @@ TEST(MipMaps, OfASceneAreThoseThatMaterialsShow) {
   builder.add(verify::floorAt(0, 1, builder.add(m)));
   const Scene scene = builder.build();
   const MipMaps maps(scene);
-  const int wanted[] = {2, 1, 2, 2, 2};  // alpha masks are looked up in full
-  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(maps.levels(i), wanted[i]) << i;
+  for (const auto map : {&Material::diffuseMap, &Material::normalMap, &Material::emissionMap,
+                         &Material::specularMap}) {
+    EXPECT_EQ(maps.levels(shownMap(m, map)), 2);
+  }
+  EXPECT_EQ(maps.levels({m.alphaMap}), 1) << "alpha masks are looked up in full";
+}
+
+// Two columns of leaf and two of nothing, on a color that is 1 on the leaf and 0 beside it.
+struct Leaf {
+  static constexpr int kSide = 4;
+  std::vector<Texture> textures;
+
+  explicit Leaf(std::uint32_t alpha) {
+    std::vector<std::uint32_t> colors, masks;
+    for (int i = 0; i < kSide * kSide; ++i) {
+      const bool isLeaf = i % kSide < 2;
+      colors.push_back(isLeaf ? gray(1023) : 0);
+      masks.push_back(isLeaf ? alpha : 0);
+    }
+    textures = {makeTexture(TexelFormat::color, kSide, kSide, colors),
+                makeTexture(TexelFormat::data, kSide, kSide, masks)};
+  }
+};
+
+TEST(MipMaps, AverageColorsOfWhatAMaskLeaves) {
+  const Leaf leaf(255);
+  const ShownMap cut{0, 1, 0.5f}, covered{0, kNoTexture, 0, 1}, plain{0};
+  const MipMaps maps(leaf.textures, {cut, covered, plain});
+  for (int level = 1; level < 3; ++level) {
+    for (const std::uint32_t texel : maps.level(cut, level).texels) EXPECT_EQ(texel, gray(1023));
+    for (const std::uint32_t texel : maps.level(covered, level).texels) {
+      EXPECT_EQ(texel, gray(1023)) << "what is cut takes the color of the level above";
+    }
+  }
+  EXPECT_EQ(maps.level(plain, 1).texels[1], 0u);
+}
+
+// Bilinear lookups reach half a texel beyond the leaf on either side, in which the mean coverage is
+// a quarter of the leaf's: the leaf covers 2 x 200 of the 3 texels in which anything is left.
+TEST(MipMaps, CoverageIsTheMeanOfWhatIsLeft) {
+  const Leaf leaf(200);
+  const ShownMap coverage{1, 1, 1.0f / 1024};
+  const MipMaps maps(leaf.textures, {coverage});
+  EXPECT_EQ(maps.level(coverage, 2).texels[0] & 255u, 133u);
 }
 
 }  // namespace

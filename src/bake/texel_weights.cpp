@@ -1,0 +1,97 @@
+#include "bake/texel_weights.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace whit {
+
+namespace {
+
+float firstChannelAt(const Texture& mask, int column, int row) {
+  return static_cast<float>(mask.texel(column, row) & 255u) / 255.0f;
+}
+
+TexelWeights weightsLike(const Texture& mask) {
+  TexelWeights weights{mask.width, mask.height, {}};
+  weights.values.reserve(static_cast<std::size_t>(mask.width) *
+                         static_cast<std::size_t>(mask.height));
+  return weights;
+}
+
+}  // namespace
+
+std::vector<TexelCover> texelCovers(int size, int count) {
+  std::vector<TexelCover> covers(static_cast<std::size_t>(count));
+  // In units of 1 / count of a texel all borders are whole numbers.
+  std::int64_t begin = 0;
+  for (TexelCover& cover : covers) {
+    const std::int64_t end = begin + size;
+    cover.first = static_cast<int>(begin / count);
+    for (std::int64_t texel = cover.first; texel * count < end; ++texel) {
+      const std::int64_t covered =
+          std::min(end, (texel + 1) * count) - std::max(begin, texel * count);
+      cover.shares.push_back(static_cast<double>(covered) / size);
+    }
+    begin = end;
+  }
+  return covers;
+}
+
+TexelWeights uncutShares(const Texture& mask, float cutoff) {
+  TexelWeights shares = weightsLike(mask);
+
+  // Towards its neighbors, the midpoint of a quarter counts them for a quarter.
+  const auto between = [](float own, float other) { return 0.75f * own + 0.25f * other; };
+  for (int row = 0; row < mask.height; ++row) {
+    const int rows[] = {wrapTexel(row - 1, mask.height, mask.wrapV),
+                        wrapTexel(row + 1, mask.height, mask.wrapV)};
+    for (int column = 0; column < mask.width; ++column) {
+      const int columns[] = {wrapTexel(column - 1, mask.width, mask.wrapU),
+                             wrapTexel(column + 1, mask.width, mask.wrapU)};
+      const float own = firstChannelAt(mask, column, row);
+      int uncut = 0;
+      for (const int otherRow : rows) {
+        const float ownColumn = between(own, firstChannelAt(mask, column, otherRow));
+        for (const int otherColumn : columns) {
+          const float beside = between(firstChannelAt(mask, otherColumn, row),
+                                       firstChannelAt(mask, otherColumn, otherRow));
+          if (between(ownColumn, beside) >= cutoff) ++uncut;
+        }
+      }
+      shares.values.push_back(static_cast<float>(uncut) / 4);
+    }
+  }
+  return shares;
+}
+
+TexelWeights firstChannel(const Texture& mask) {
+  TexelWeights weights = weightsLike(mask);
+  for (int row = 0; row < mask.height; ++row) {
+    for (int column = 0; column < mask.width; ++column) {
+      weights.values.push_back(firstChannelAt(mask, column, row));
+    }
+  }
+  return weights;
+}
+
+TexelWeights resized(const TexelWeights& weights, int width, int height) {
+  if (weights.width == width && weights.height == height) return weights;
+  const std::vector<TexelCover> columns = texelCovers(weights.width, width);
+  TexelWeights result{width, height, {}};
+  for (const TexelCover& rows : texelCovers(weights.height, height)) {
+    for (const TexelCover& across : columns) {
+      double sum = 0;
+      for (std::size_t y = 0; y < rows.shares.size(); ++y) {
+        for (std::size_t x = 0; x < across.shares.size(); ++x) {
+          sum += rows.shares[y] * across.shares[x] *
+                 double{weights.at(across.first + static_cast<int>(x),
+                                   rows.first + static_cast<int>(y))};
+        }
+      }
+      result.values.push_back(static_cast<float>(sum));
+    }
+  }
+  return result;
+}
+
+}  // namespace whit

@@ -1,0 +1,41 @@
+// How much of a surface masks leave, texel by texel. Mip levels are means with these weights.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "scene/texture.h"
+
+namespace whit {
+
+// The texels along one axis that a texel of a grid of another size covers, and their shares of it.
+struct TexelCover {
+  int first = 0;
+  std::vector<double> shares;
+};
+
+// One cover for each of `count` texels that take the place of `size` texels.
+std::vector<TexelCover> texelCovers(int size, int count);
+
+// One number for each texel, in rows from the top.
+struct TexelWeights {
+  int width = 1, height = 1;
+  std::vector<float> values;
+
+  float at(int column, int row) const {
+    return values[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+                  static_cast<std::size_t>(column)];
+  }
+};
+
+// The share of each texel's area in which the first channel of `mask`, looked up bilinearly, is at
+// least `cutoff`: of the midpoints of the texel's quarters.
+TexelWeights uncutShares(const Texture& mask, float cutoff);
+
+// The first channel of each texel.
+TexelWeights firstChannel(const Texture& mask);
+
+// Means over the areas of another grid's texels.
+TexelWeights resized(const TexelWeights& weights, int width, int height);
+
+}  // namespace whit

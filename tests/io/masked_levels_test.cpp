@@ -1,0 +1,94 @@
+// Textures with holes keep their color and their area in mip levels, whichever format names them.
+#include <gtest/gtest.h>
+
+#include "bake/mip_maps.h"
+#include "gltf_pictures.h"
+
+namespace whit {
+namespace {
+
+constexpr int kSide = 32;
+constexpr std::uint32_t kGreen = 1023;  // codes of the leaf's green, everywhere else black
+constexpr int kLeafWidth = 8, kLeafHeight = 16;
+
+bool isLeaf(int x, int y) { return x < kLeafWidth && y < kLeafHeight; }
+
+// Bilinear lookups see something of the leaf up to half a texel beyond its edges.
+constexpr double kShare =
+    static_cast<double>(kLeafWidth * kLeafHeight) / ((kLeafWidth + 1) * (kLeafHeight + 1));
+
+class MaskedLevels : public GltfMaterials {
+ protected:
+  MaskedLevels() {
+    std::vector<std::vector<int>> leaf, color, mask;
+    for (int y = 0; y < kSide; ++y) {
+      for (int x = 0; x < kSide; ++x) {
+        const int c = isLeaf(x, y) ? 255 : 0;
+        leaf.push_back({0, c, 0, c});
+        color.push_back({0, c, 0});
+        mask.push_back({c});
+      }
+    }
+    save("leaf.tga", tga(kSide, kSide, leaf));
+    save("color.tga", tga(kSide, kSide, color));
+    save("mask.tga", tga(kSide, kSide, mask));
+  }
+
+  void expectGreenLevels(SceneDescription description, bool isCovered) {
+    const Scene scene = Scene::finalize(std::move(description), warnings_);
+    const MipMaps maps(scene);
+    int leaves = 0;
+    for (const Material& m : scene.materials) {
+      if (m.diffuseMap == kNoTexture) continue;
+      ++leaves;
+      const ShownMap color = shownMap(m, &Material::diffuseMap);
+      ASSERT_EQ(maps.levels(color), 6);
+      for (int level = 1; level < 6; ++level) {
+        for (const std::uint32_t texel : maps.level(color, level).texels) {
+          EXPECT_EQ(texel >> 10 & 1023u, kGreen) << "level " << level;
+        }
+      }
+      EXPECT_EQ(m.coverageMap != kNoTexture, isCovered);
+      if (!isCovered) continue;
+      const std::uint32_t mean =
+          maps.level(shownMap(m, &Material::coverageMap), 5).texels[0] & 255u;
+      EXPECT_NEAR(mean / 255.0, kShare, 2.0 / 255);
+    }
+    EXPECT_EQ(leaves, 1);
+  }
+
+  SceneDescription gltf(const std::string& mode) {
+    useImages({"leaf.tga"});
+    return loadText(sceneText(
+        {{0, matte("\"baseColorTexture\":{\"index\":0}", "\"alphaMode\":\"" + mode + "\""), 1}}));
+  }
+  SceneDescription obj(const std::string& maps) {
+    save("m.mtl", "newmtl m\n" + maps);
+    return loadObj(
+        "mtllib m.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
+        "f 1/1 2/2 3/3\n");
+  }
+  SceneDescription sceneFile(const std::string& mask) {
+    return loadMembers(R"("textures": {"c": {"image": "color.tga"}, "m": {"image": "mask.tga"}},)"
+                       R"("materials": {"m": {"diffuseMap": "c", ")" +
+                       mask + R"(": "m"}}, "scene": [{"shape": "quad", "material": "m"}])");
+  }
+};
+
+TEST_F(MaskedLevels, OfGltf) {
+  expectGreenLevels(gltf("MASK"), false);
+  expectGreenLevels(gltf("BLEND"), true);
+}
+
+TEST_F(MaskedLevels, OfObj) {
+  expectGreenLevels(obj("map_Kd color.tga\nmap_d mask.tga\n"), false);
+  expectGreenLevels(obj("map_Kd leaf.tga\n"), false);
+}
+
+TEST_F(MaskedLevels, OfSceneFiles) {
+  expectGreenLevels(sceneFile("alphaMap"), false);
+  expectGreenLevels(sceneFile("coverageMap"), true);
+}
+
+}  // namespace
+}  // namespace whit

@@ -1,0 +1,269 @@
+// Distance changes nothing on average: a plane of each kind of texture, seen at 1 to 32 texels a
+// pixel with one sample a pixel, has the mean of an integral over the texture that shares no code
+// with the renderer.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <numbers>
+
+#include "oracle/bilinear.h"
+#include "reference/small_scenes.h"
+#include "render/shipped_scene.h"
+
+namespace whit::test {
+namespace {
+
+constexpr int kSide = 96;   // texels
+constexpr int kPoints = 8;  // of the integral, a side of a texel
+constexpr int kPixels = 120;
+
+// A texture in the test's own numbers: linear light, or data, from 0 to 1.
+using Pattern = std::function<oracle::Color(int x, int y)>;
+
+std::int32_t add(SceneBuilder& builder, const Pattern& pattern, TexelFormat format) {
+  std::vector<std::uint32_t> texels;
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      const oracle::Color c = pattern(x, y);
+      const Rgb value{static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)};
+      texels.push_back(format == TexelFormat::data ? encodeDataTexel(value.x, value.y, value.z, 1)
+                                                   : encodeColorTexel(value));
+    }
+  }
+  return builder.add(makeTexture(format, kSide, kSide, std::move(texels)));
+}
+
+// Leaves of 12x32 texels that cover 21 % of the texture.
+int leafAt(int x, int y) {
+  constexpr int kCorners[][2] = {{3, 5}, {40, 12}, {70, 50}, {22, 60}, {55, 62}};
+  for (int leaf = 0; leaf < 5; ++leaf) {
+    const int right = x - kCorners[leaf][0], down = y - kCorners[leaf][1];
+    if (right >= 0 && right < 12 && down >= 0 && down < 32) return leaf;
+  }
+  return -1;
+}
+
+oracle::Color opacity(int x, int y) { return oracle::gray(leafAt(x, y) >= 0 ? 1 : 0); }
+
+// Opaque in the middle and thinner towards either side.
+oracle::Color softOpacity(int x, int y) {
+  if (leafAt(x, y) < 0) return oracle::gray(0);
+  const int toLeft = leafAt(x - 3, y) >= 0 ? 1 : 0, toRight = leafAt(x + 3, y) >= 0 ? 1 : 0;
+  return oracle::gray(toLeft + toRight == 2 ? 1 : 0.3);
+}
+
+Pattern leavesOn(oracle::Color clear) {
+  return [=](int x, int y) {
+    const int leaf = leafAt(x, y);
+    return leaf < 0 ? clear : oracle::Color{0.1 * leaf, 0.3 + 0.1 * leaf, 0.1};
+  };
+}
+
+// Some number from 0 to 1 that texels do not share with their neighbors.
+double noise(int x, int y, int channel) {
+  const double s = std::sin(x * 12.9898 + y * 78.233 + channel * 37.719) * 43758.5453;
+  return s - std::floor(s);
+}
+
+oracle::Color at(const Pattern& pattern, double x, double y) {
+  return oracle::bilinear(x, y, [&](int i, int j) {
+    return pattern(oracle::wrapped(i, kSide), oracle::wrapped(j, kSide));
+  });
+}
+
+// The mean over the texture.
+double integral(const std::function<double(double x, double y)>& value) {
+  double sum = 0;
+  const double step = 1.0 / kPoints;
+  for (int j = 0; j < kSide * kPoints; ++j) {
+    for (int i = 0; i < kSide * kPoints; ++i) sum += value((i + 0.5) * step, (j + 0.5) * step);
+  }
+  return sum / std::pow(kSide * kPoints, 2);
+}
+
+// The mean green of a picture from above. The step from pixel to pixel and its part of the texture
+// are incommensurable, so that all places are seen alike.
+double meanSeen(SceneDescription description, double texelsPerPixel, bool byReference) {
+  constexpr double kUneven = 1.0137;
+  Camera camera;
+  camera.eye = {0.37f, 10, 0.21f};
+  camera.at = {0.37f, 0, 0.21f};
+  camera.up = {0.23f, 0, -1};
+  camera.orthographicHeight = static_cast<float>(texelsPerPixel * kUneven * kPixels);
+  description.cameras = {camera};
+  Warnings strict(true);
+  const Scene scene = Scene::finalize(std::move(description), strict);
+  RenderOptions o = smallOptions();
+  o.size = ImageSize{kPixels, kPixels};
+  Renderer renderer(scene, o);
+  Film film = makeFilm(scene, o);
+  if (byReference) {
+    renderer.renderReference(chooseCamera(scene, o), film);
+  } else {
+    renderer.render(chooseCamera(scene, o), film);
+  }
+  double sum = 0;
+  for (const Rgb& pixel : film.image.pixels) sum += double{pixel.y};
+  return sum / static_cast<double>(film.image.pixels.size());
+}
+
+// A floor of one texel a unit.
+SceneDescription floorOf(SceneBuilder& builder, const Material& material) {
+  constexpr float kHalf = 40 * kSide;
+  Mesh floor = floorAt(0, kHalf, builder.add(material));
+  for (Vec2f& uv : floor.uvs) uv = {uv.x * 80, uv.y * 80};
+  builder.add(std::move(floor));
+  return builder.describe();
+}
+
+void expectTheSameFromAfar(const char* what, const SceneDescription& description, double wanted,
+                           double bound) {
+  std::printf("%s, %.4f wanted:", what, wanted);
+  for (const double texels : {1, 2, 4, 8, 16, 32}) {
+    const double seen = meanSeen(description, texels, false);
+    std::printf(" %.4f", seen);
+    EXPECT_NEAR(seen, wanted, bound * wanted) << what << " at " << texels << " texels a pixel";
+    if (texels == 4 || texels == 32) {
+      const double reference = meanSeen(description, texels, true);
+      EXPECT_NEAR(reference, wanted, bound * wanted) << what << ", reference, " << texels;
+    }
+  }
+  std::printf("\n");
+}
+
+struct Leaves {
+  SceneBuilder builder;
+  Material material = emittingMaterial(1);
+
+  Leaves(const Pattern& color, const Pattern& alpha) {
+    material.emissionMap = add(builder, color, TexelFormat::color);
+    material.alphaMap = add(builder, alpha, TexelFormat::data);
+  }
+};
+
+// Samples of the leaves' area, and rounding of texels to codes.
+constexpr double kSampled = 0.02;
+// Full-size lookups mix leaves with what lies beside them, within half a texel of their edges: of
+// leaves 12 texels wide that is 4 % of the light, and smaller levels have none of it.
+constexpr double kEdges = 0.05;
+
+TEST(Distance, ColorsKeepTheirMean) {
+  SceneBuilder builder;
+  Material m = emittingMaterial(1);
+  const Pattern color = leavesOn({0, 0.02, 0});
+  m.emissionMap = add(builder, color, TexelFormat::color);
+  expectTheSameFromAfar("color", floorOf(builder, m),
+                        integral([&](double x, double y) { return at(color, x, y).y; }), kSampled);
+}
+
+TEST(Distance, MasksKeepTheirArea) {
+  const Pattern green = leavesOn({0, 0.5, 0}), black = leavesOn({});
+  for (const auto& [what, color] :
+       {std::pair("mask on green", green), std::pair("mask on black", black)}) {
+    Leaves leaves(color, opacity);
+    expectTheSameFromAfar(what, floorOf(leaves.builder, leaves.material),
+                          integral([&](double x, double y) {
+                            return at(opacity, x, y).x >= 0.5 ? at(color, x, y).y : 0;
+                          }),
+                          kEdges);
+  }
+}
+
+// As glTF's BLEND and the scene file's coverageMap have it.
+TEST(Distance, CoverageCountsOnce) {
+  const Pattern green = leavesOn({0, 0.5, 0}), black = leavesOn({});
+  for (const auto& alpha : {opacity, softOpacity}) {
+    for (const auto& [what, color] :
+         {std::pair("blend on green", green), std::pair("blend on black", black)}) {
+      Leaves leaves(color, alpha);
+      leaves.material.coverageMap = leaves.material.alphaMap;
+      leaves.material.cutWhereClear();
+      expectTheSameFromAfar(
+          what, floorOf(leaves.builder, leaves.material),
+          integral([&](double x, double y) { return at(alpha, x, y).x * at(color, x, y).y; }),
+          kEdges);
+    }
+  }
+}
+
+// A map that cuts and another one that covers.
+TEST(Distance, MasksAndCoverageTogether) {
+  const Pattern color = leavesOn({}), covers = [](int x, int y) {
+    return oracle::gray(x / 24 % 2 == 0 ? 0.8 : 0.2 + 0.1 * (y / 48));
+  };
+  Leaves leaves(color, opacity);
+  leaves.material.coverageMap = add(leaves.builder, covers, TexelFormat::data);
+  expectTheSameFromAfar("mask and coverage", floorOf(leaves.builder, leaves.material),
+                        integral([&](double x, double y) {
+                          if (at(opacity, x, y).x < 0.5) return 0.0;
+                          return at(covers, x, y).x * at(color, x, y).y;
+                        }),
+                        kEdges);
+}
+
+// One texture on an opaque floor and, masked, in the same scene.
+TEST(Distance, ATextureMayBeShownInSeveralWays) {
+  const Pattern color = leavesOn({0, 0.9, 0});
+  Leaves leaves(color, opacity);
+  Material opaque = leaves.material;
+  opaque.alphaMap = kNoTexture;
+  leaves.builder.add(leaves.material);  // of no surface
+  expectTheSameFromAfar("opaque beside a mask", floorOf(leaves.builder, opaque),
+                        integral([&](double x, double y) { return at(color, x, y).y; }), kSampled);
+}
+
+oracle::Color bumps(int x, int y) {
+  return {0.4 + 0.2 * noise(x, y, 0), 0.4 + 0.2 * noise(x, y, 1), 1};
+}
+
+Light slantedSun() { return sun({-1, -1, -0.3f}, 1); }
+
+oracle::Vec towardsSun() { return normalized(oracle::Vec{1, 1, 0.3}); }
+
+// The mean of normals is shorter than one and is made a unit vector again, so distant bumps are a
+// little brighter: by 1 / length of the mean, 1.3 % for these, which lean by up to 15 degrees.
+TEST(Distance, NormalMapsKeepDiffuseLight) {
+  SceneBuilder builder;
+  builder.description.lights = {slantedSun()};
+  Material m = diffuseMaterial(1);
+  m.normalMap = add(builder, bumps, TexelFormat::data);
+  const auto diffuse = [&](double x, double y) {
+    const oracle::Color c = at(bumps, x, y);
+    // u runs along x, v, which is the map's y, against z.
+    const oracle::Vec n = normalized(oracle::Vec{2 * c.x - 1, 2 * c.z - 1, 1 - 2 * c.y});
+    return std::max(0.0, dot(n, towardsSun())) / std::numbers::pi;
+  };
+  expectTheSameFromAfar("normals", floorOf(builder, m), integral(diffuse), 0.02);
+}
+
+oracle::Color roughness(int x, int y) { return oracle::gray(0.5 + 0.5 * noise(x / 3, y / 3, 2)); }
+
+// The GGX lobe of reflectance 1 seen along its normal (Walter et al. 2007): with F = 1, D G1 G1
+// / 4.
+double ggx(double alpha, double cosine) {
+  const double half = std::cos(std::acos(cosine) / 2), square = alpha * alpha;
+  const double d = square / (std::numbers::pi * std::pow(half * half * (square - 1) + 1, 2));
+  const double g = 2 * cosine / (cosine + std::sqrt(square + (1 - square) * cosine * cosine));
+  return d * g / 4;
+}
+
+// A lobe is not linear in its roughness: the mean of lobes is not the lobe of the mean. Here the
+// highlight of distant texels is 12 % brighter.
+TEST(Distance, RoughnessKeepsTheHighlight) {
+  SceneBuilder builder;
+  builder.description.lights = {slantedSun()};
+  Material m = blackMaterial();
+  m.specular = Rgb(1.0f);
+  m.roughness = 0.8f;
+  m.roughnessMap = add(builder, roughness, TexelFormat::data);
+  const auto highlight = [&](double x, double y) {
+    const double r = 0.8 * at(roughness, x, y).y;
+    return ggx(r * r, towardsSun().y);
+  };
+  expectTheSameFromAfar("roughness", floorOf(builder, m), integral(highlight), 0.13);
+}
+
+}  // namespace
+}  // namespace whit::test
