@@ -110,11 +110,17 @@ HWY_INLINE V3 Limited(const V3& color, const V3& taken) {
   const VF one = hn::Set(d, 1.0f), zero = hn::Zero(d), largest = MaxComponent(color);
   const MF enough = hn::Ge(hn::Sub(one, MaxComponent(taken)), largest);
   if (HWY_LIKELY(hn::AllTrue(d, enough))) return color;
-  const auto share = [&](VF gone) HWY_ATTR {
-    const VF left = hn::Max(hn::Sub(one, gone), zero);
-    return hn::IfThenElse(hn::Ge(left, largest), one, hn::Div(left, largest));
+  const V3 left{hn::Max(hn::Sub(one, taken.x), zero), hn::Max(hn::Sub(one, taken.y), zero),
+                hn::Max(hn::Sub(one, taken.z), zero)};
+  const auto own = [&](VF part, VF of) HWY_ATTR {
+    return hn::IfThenElse(hn::Gt(part, of), hn::Div(of, part), one);
   };
-  return Mul3(color, {share(taken.x), share(taken.y), share(taken.z)});
+  const VF common =
+      hn::Min(own(color.x, left.x), hn::Min(own(color.y, left.y), own(color.z, left.z)));
+  const auto share = [&](VF of) HWY_ATTR {
+    return hn::IfThenElse(hn::Ge(of, largest), one, hn::Max(common, hn::Div(of, largest)));
+  };
+  return Mul3(color, {share(left.x), share(left.y), share(left.z)});
 }
 
 // The coverage of the surfels at i.

@@ -67,14 +67,21 @@ class Projector {
   HWY_INLINE V3 Bend(VF x, VF y, MF& seen) const {
     const FloatTag d;
     if (camera_.projection == Projection::directions) {
-      const VF azimuth = Entry(camera_.azimuths, x, camera_.viewWidth);
-      return Towards(azimuth, Entry(camera_.elevations, hn::Neg(y), camera_.viewHeight));
+      return Towards(Azimuth(x), Entry(camera_.elevations, hn::Neg(y), camera_.viewHeight));
     }
     x = hn::Mul(x, hn::Set(d, static_cast<float>(length(camera_.right))));
     y = hn::Mul(y, hn::Set(d, static_cast<float>(length(camera_.up))));
     if (camera_.projection == Projection::panorama) return Towards(x, y);
     if (camera_.projection != Projection::perspective) return Fisheye(x, y, seen);
     return Undistorted(x, hn::Neg(y), seen);
+  }
+
+  // Radians to the right of the view, of projections by azimuth and elevation.
+  HWY_INLINE VF Azimuth(VF x) const {
+    if (camera_.projection == Projection::directions) {
+      return Entry(camera_.azimuths, x, camera_.viewWidth);
+    }
+    return hn::Mul(x, hn::Set(FloatTag(), static_cast<float>(length(camera_.right))));
   }
 
  private:
@@ -230,6 +237,10 @@ void GenerateRays(Chunk& c) {
   const Lens lens(camera);
   const bool hasLens = camera.aperture > 0;
   const LobeSampling lensSampling = lightSampling(0, 1, sampleNumber);
+  const bool eyesTurn = camera.turning > 0;
+  const V3 turnRight = Broadcast3(Vec3f(normalized(camera.right) * camera.turning));
+  const V3 turnForward = Broadcast3(Vec3f(camera.forward * camera.turning));
+  VF side = one;
   for (size_t i = 0; i < n; i += hn::Lanes(d)) {
     const VU packed = hn::LoadU(du, pixels + i);
     VI px = hn::BitCast(di, hn::And(packed, hn::Set(du, 0xFFFFu)));
@@ -238,6 +249,9 @@ void GenerateRays(Chunk& c) {
       const VI row = ViewAt(py, camera.viewHeight, rows);
       const VI column = ViewAt(px, camera.viewWidth, columns);
       const VI view = hn::Add(hn::Mul(row, hn::Set(di, columns)), column);
+      // The left eye has the first view.
+      const MF isLeft = hn::RebindMask(d, hn::Eq(view, hn::Zero(di)));
+      side = hn::IfThenElse(isLeft, hn::Neg(one), one);
       VI at = hn::Mul(view, hn::Set(di, 12));
       for (V3* v : {&eye, &forward, &right, &up}) {
         for (VF* to : {&v->x, &v->y, &v->z}) {
@@ -259,6 +273,12 @@ void GenerateRays(Chunk& c) {
       const V3 along = projector.Bend(x, y, seen);
       direction = MulAdd3(right, hn::Mul(along.x, widthOfPixel), Scale3(forward, along.z));
       direction = MulAdd3(up, hn::Mul(along.y, heightOfPixel), direction);
+    }
+    if (eyesTurn) {
+      const VF azimuth = projector.Azimuth(x);
+      const VF back = hn::Neg(hn::Mul(hn::Sin(d, azimuth), side));
+      origin = MulAdd3(turnRight, hn::Mul(hn::Cos(d, azimuth), side), origin);
+      origin = MulAdd3(turnForward, back, origin);
     }
     if (hasLens) {
       const VU path = StreamOfPixel(packed, sampleNumber, seed);

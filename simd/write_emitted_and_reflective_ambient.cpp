@@ -23,7 +23,7 @@ void WriteEmittedAndReflectiveAmbient(Chunk& c) {
   const bool emission = c.has(Feature::emission) && (c.materialFlags & kMaterialEmits) != 0;
   const bool factors = c.has(Feature::emissionFactors), ambient = c.has(Feature::ambient);
   const bool coverage = c.has(Feature::coverage);
-  const bool sky = c.has(Feature::sky) && !c.options().background.hidesSky(c.depth);
+  const bool sky = c.has(Feature::sky);
   const bool hidden = c.has(Feature::transmission);
   const V3 black = Broadcast3(Vec3f());
   const ReflectedAmbient reflected(c);

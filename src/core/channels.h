@@ -1,6 +1,6 @@
 // The extra output channels of a picture (AOVs, --channels): properties of the first hit of each
-// pixel's ray; alpha, a mean over its samples; and the error of the picture: the standard error of
-// its mean over them, and a bound of what --depth and --cutoff left out.
+// pixel's ray; alpha, what surfaces cover in the mean of its samples; and the error of the picture:
+// the standard error of its mean over them, and a bound of what --depth and --cutoff left out.
 #pragma once
 
 #include <array>

@@ -104,7 +104,8 @@ DisplayImage overBackground(const Image& image, std::span<const float> alpha,
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
     const Rgb surfaces = alpha[i] > 0 ? image.pixels[i] / alpha[i] : Rgb(0.0f);
     const auto codes = displayCodes(surfaces, scale, options.toneCurve);
-    const double covered{alpha[i]};
+    // Russian roulette may leave the mean a little beyond its limits.
+    const double covered = std::clamp(double{alpha[i]}, 0.0, 1.0);
     for (std::size_t c = 0; c < 3; ++c) {
       const double behind{linearOfCode(background.color[c])};
       const double mixed = behind + (double{linearOfCode(codes[c])} - behind) * covered;

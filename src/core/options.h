@@ -89,12 +89,12 @@ struct Exposure {
   bool automatic = false;
   bool operator==(const Exposure&) const = default;
 };
-// Primary rays that hit nothing show the sky, nothing, or a color in sRGB codes.
+// Primary rays that hit nothing, and what they see straight through surfaces, show the sky,
+// nothing, or a color in sRGB codes.
 struct Background {
   enum class Kind { sky, transparent, color } kind = Kind::sky;
   std::array<std::uint8_t, 3> color{};
-  // True if rays of this depth do not see the sky.
-  bool hidesSky(int depth) const { return kind != Kind::sky && depth == 0; }
+  bool hidesSky() const { return kind != Kind::sky; }
   bool operator==(const Background&) const = default;
 };
 struct ImageSize {
@@ -427,7 +427,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
       Option{{.name = "channels", .words = "a,b",
               .help = "extra output channels (AOVs) of the first hit, at the sample nearest to "
                       "the pixel's center: depth, position, normal, albedo, uv, object, material, "
-                      "triangle, rays; alpha, the share of samples that hit a surface; and error, the "
+                      "triangle, rays; alpha, the share that surfaces cover; and error, the "
                       "standard error of the mean of the samples and the share of light that depth "
                       "and cutoff ended",
               .rebuilds = Rebuild::frame, .changesPicture = false, .tab = Tab::none,
@@ -448,7 +448,7 @@ void forEachOption(Options& o, Visitor&& visit) {
 
 // The channels that frames keep.
 inline ChannelSet keptChannels(const RenderOptions& o) {
-  return o.background.hidesSky(0) ? o.channels.with(Channel::alpha) : o.channels;
+  return o.background.hidesSky() ? o.channels.with(Channel::alpha) : o.channels;
 }
 
 // Effects that a scene does not switch on by itself: an option must ask for them as well.

@@ -23,6 +23,10 @@ class ShapeParameters {
   virtual int integer(const std::string& key, int fallback, int low, int high) = 0;
   virtual bool flag(const std::string& key, bool fallback) = 0;
   virtual Vec3d vector(const std::string& key, const Vec3d& fallback) = 0;
+  // Linear RGB; a reader may take one number for a gray.
+  virtual Vec3d color(const std::string& key, const Vec3d& fallback) {
+    return vector(key, fallback);
+  }
   virtual std::string word(const std::string& key, const std::string& fallback,
                            const std::vector<std::string>& choices) = 0;
   std::uint32_t seed(const std::string& key = "seed") {

@@ -34,14 +34,19 @@ Ray refractedRay(const Surfel& s, const Interface& interface, double c,
 }
 
 // The color, reduced to what is left of the light where the share `taken` of it is not: in
-// proportion, so that glass keeps its hue under a coat.
+// proportion, so that glass keeps its hue under a coat; but a channel whose own sum allows more
+// than the others' keeps more, where a coat is colored.
 RgbD limited(const RgbD& color, const RgbD& taken) {
+  const RgbD left = max(RgbD(1.0) - taken, RgbD(0.0));
   const double largest = maxComponent(color);
-  const auto share = [&](double gone) {
-    const double left = std::max(0.0, 1 - gone);
-    return left >= largest ? 1 : left / largest;
+  double common = 1;
+  for (int i = 0; i < 3; ++i) {
+    if (color[i] > left[i]) common = std::min(common, left[i] / color[i]);
+  }
+  const auto share = [&](double own) {
+    return own >= largest ? 1 : std::max(common, own / largest);
   };
-  return color * RgbD(share(taken.x), share(taken.y), share(taken.z));
+  return color * RgbD(share(left.x), share(left.y), share(left.z));
 }
 
 double cosineOf(const Surfel& surfel) {
@@ -284,6 +289,8 @@ RayRow addImpulses(const World& world, const Chunk& chunk, std::size_t child) {
   row.throughput = contribution * grows;
   row.parent = slot;
   row.media = impulse.media;
+  const bool goesOn = impulse.ray.direction == rayOf(chunk, slot).direction;
+  row.straight = goesOn && chunk.has(Feature::alpha) && chunk.isStraight(slot) ? 1 : 0;
   row.cone = impulse.ray.cone.width;
   return row;
 }

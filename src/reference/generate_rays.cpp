@@ -98,6 +98,13 @@ Vec3d towards(double azimuth, double elevation) {
           std::cos(azimuth) * std::cos(elevation)};
 }
 
+// Radians to the right of the view, of projections by azimuth and elevation.
+double azimuthAt(const CameraFrame& camera, double X) {
+  if (camera.projection == Projection::panorama) return X * length(camera.right);
+  const double degrees = entryAt(camera.azimuths, X + camera.viewWidth / 2.0, camera.viewWidth);
+  return degrees * (std::numbers::pi / 180);
+}
+
 // The direction, along right, up and forward, through the point X, Y pixels right of and above the
 // center; 0: nothing is seen there.
 Vec3d bent(const CameraFrame& camera, double X, double Y) {
@@ -109,10 +116,10 @@ Vec3d bent(const CameraFrame& camera, double X, double Y) {
       return point ? normalized(Vec3d{(*point)[0], -(*point)[1], 1}) : Vec3d();
     }
     case Projection::panorama:
-      return towards(x, y);
+      return towards(azimuthAt(camera, X), y);
     case Projection::directions:
       return towards(
-          kRadians * entryAt(camera.azimuths, X + camera.viewWidth / 2.0, camera.viewWidth),
+          azimuthAt(camera, X),
           kRadians * entryAt(camera.elevations, camera.viewHeight / 2.0 - Y, camera.viewHeight));
     default: {
       const double radius = std::hypot(x, y), angle = fisheyeAngle(camera, radius);
@@ -127,11 +134,12 @@ Vec3d bent(const CameraFrame& camera, double X, double Y) {
 
 Ray generateRay(const CameraFrame& camera, double x, double y) {
   CameraView view{{}, camera.forward, camera.right, camera.up};
+  int number = 0;
   if (!camera.views.empty()) {
     const int columns = camera.width / camera.viewWidth, rows = camera.height / camera.viewHeight;
     const int column = std::min(static_cast<int>(x / camera.viewWidth), columns - 1);
     const int row = std::min(static_cast<int>(y / camera.viewHeight), rows - 1);
-    const int number = row * columns + column;
+    number = row * columns + column;
     view = camera.views[static_cast<std::size_t>(number)];
     x -= column * camera.viewWidth;
     y -= row * camera.viewHeight;
@@ -146,10 +154,15 @@ Ray generateRay(const CameraFrame& camera, double x, double y) {
     const Vec3d through = view.forward + view.right * x + view.up * y;
     return {start, normalized(through, view.forward), pixelCone(camera)};
   }
-  const Vec3d d = bent(camera, x, y);
-  const Vec3d direction =
-      normalized(view.right) * d.x + normalized(view.up) * d.y + view.forward * d.z;
-  return {start, direction, pixelCone(camera)};
+  const Vec3d d = bent(camera, x, y), right = normalized(view.right);
+  const Vec3d direction = right * d.x + normalized(view.up) * d.y + view.forward * d.z;
+  if (camera.turning == 0) return {start, direction, pixelCone(camera)};
+  // Omni-directional stereo (Google 2015, "Rendering omni-directional stereo content"): the eyes
+  // stand on the tangent to the circle where the azimuth meets it; the left eye has the first view.
+  const double azimuth = azimuthAt(camera, x),
+               side = number == 0 ? -camera.turning : camera.turning;
+  const Vec3d tangent = right * std::cos(azimuth) - view.forward * std::sin(azimuth);
+  return {start + tangent * side, direction, pixelCone(camera)};
 }
 
 PrimaryRay primaryRay(const CameraFrame& camera, int x, int y, const Vec2f& at,

@@ -31,7 +31,9 @@ struct Settings {
 // Rays traced, by their kind.
 class RayCounts {
  public:
-  double ended = 0;  // RadianceColumns::ended of the samples, added up
+  // RadianceColumns::ended and clearR of the samples, added up.
+  double ended = 0;
+  RgbD clear;
 
   std::uint64_t& operator[](RayKind kind) { return counts_[static_cast<std::size_t>(kind)]; }
   std::uint64_t operator[](RayKind kind) const { return counts_[static_cast<std::size_t>(kind)]; }
@@ -42,6 +44,7 @@ class RayCounts {
   RayCounts& operator+=(const RayCounts& b) {
     for (std::size_t k = 0; k < kRayKindCount; ++k) counts_[k] += b.counts_[k];
     ended += b.ended;
+    clear += b.clear;
     return *this;
   }
 
@@ -59,6 +62,7 @@ struct Settled;
 // Which path a ray ends: its number, and the place of the pixel's sample in the pattern.
 struct Path {
   std::uint32_t number = 0, sample = 0;
+  bool straight = true;  // it has gone on along its camera ray
 };
 
 // Radiance along the ray, recursing for impulses (Whitted 1980). `throughput` is what the result is

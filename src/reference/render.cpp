@@ -142,12 +142,7 @@ ChannelValues Tracer::channels(const CameraFrame& camera, int x, int y, const Ve
   if (!met) return values;
   const Candidate& candidate = met->candidate;
   const TriangleHit hit = refineHit(scene_, ray, candidate);
-  Surfel surfel = surfelAt(ray, *met, hit);
-  const MediaStack media = mediaAtStart(scene_, effects_, intersector_, camera, ray);
-  limitDiffuse(
-      scene_, effects_,
-      crossMedia(scene_, effects_, surfel.material, surfel.entering, media, met->alsoCrossed),
-      options_.shading, {path.number, lobeSampling(0, options_.glossy, path.sample)}, surfel);
+  const Surfel surfel = surfelAt(ray, *met, hit);
   values.distance = static_cast<float>(hit.t);
   values.z = static_cast<float>(hit.t * dot(ray.direction, camera.forward));
   values.position = Vec3f(surfel.position);
@@ -187,12 +182,13 @@ void keepChannels(const Scene& scene, const Intersector& intersector, const Came
     const std::size_t pixel = image.index(x, y);
     layers.keep(pixel, tracer.channels(frame, x, y, samples[number], number));
     if (layers.channels().has(Channel::alpha)) {
-      double hits = 0;
+      RayCounts seen;
       for (std::size_t i = 0; i < samples.size(); ++i) {
-        hits += tracer.channels(frame, x, y, samples[i], i).material != kNoNumber;
+        tracer.sampled(frame, x, y, samples[i], i, seen);
       }
+      const double clear = (seen.clear.x + seen.clear.y + seen.clear.z) / 3;
       layers.floats(Channel::alpha)[pixel] =
-          static_cast<float>(hits / static_cast<double>(samples.size()));
+          static_cast<float>(1 - clear / static_cast<double>(samples.size()));
     }
     RayCounts counts;
     if (layers.channels().has(Channel::error)) {

@@ -17,7 +17,7 @@ namespace whit::reference {
 namespace {
 
 Path childOf(const Path& path, std::uint32_t branch) {
-  return {childStream(path.number, branch), path.sample};
+  return {childStream(path.number, branch), path.sample, false};
 }
 
 }  // namespace
@@ -38,10 +38,11 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
   const bool absorbs = effects_.has(Effect::absorption) && media != 0;
   const std::optional<Settled> met = nearest(ray, depth);
   if (!met) {
-    if (options_.background.hidesSky(depth)) return {};
-    const RgbD sky = skyAlong(scene_, effects_, ray.direction);
     constexpr double kForEver = std::numeric_limits<double>::infinity();
-    return absorbs ? sky * transmittance(scene_, media, kForEver) : sky;
+    const RgbD left = absorbs ? transmittance(scene_, media, kForEver) : RgbD(1.0);
+    if (path.straight) counts.clear += left;
+    if (path.straight && options_.background.hidesSky()) return {};
+    return skyAlong(scene_, effects_, ray.direction) * left;
   }
 
   const Candidate& candidate = met->candidate;
@@ -54,6 +55,7 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
   limitDiffuse(scene_, effects_, crossing, options_.shading, points, surfel);
 
   const double left = throughput * maxComponent(arrives), ended = counts.ended;
+  const RgbD clear = counts.clear;
   RgbD radiance;
   if (!crossing.hidden) {
     radiance = emittedAndAmbient(scene_, effects_, surfel);
@@ -68,8 +70,10 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
     const Impulses children =
         findImpulses(scene_, effects_, surfel, crossing, media, options_.shading);
     for (const RayKind kind : kImpulseKinds) {
-      RgbD sum =
-          follow(children.of(kind), kind, depth + 1, left, counts, childOf(path, branchOf(kind)));
+      const Impulse child = children.of(kind);
+      Path childPath = childOf(path, branchOf(kind));
+      childPath.straight = path.straight && child.ray.direction == ray.direction;
+      RgbD sum = follow(child, kind, depth + 1, left, counts, childPath);
       for (const SampledLobe& sampled : kSampledLobes) {
         if (sampled.lobe.kind != kind || crossing.hidden) continue;
         sum += radianceByLobe(sampled, surfel, depth, left, media, counts, path);
@@ -78,6 +82,7 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
     }
   }
   counts.ended = ended + maxComponent(arrives) * (counts.ended - ended);
+  counts.clear = clear + (counts.clear - clear) * arrives;
   return radiance * arrives;
 }
 
@@ -139,9 +144,11 @@ RgbD Tracer::follow(const Impulse& impulse, RayKind kind, int depth, double thro
   const Impulse followed{impulse.weight * grows, impulse.ray, impulse.media};
   intersector_.began(followed, kind);
   const double ended = counts.ended;
+  const RgbD clear = counts.clear;
   const RgbD radiance =
       traceImpulse(impulse.ray, depth, contribution * grows, impulse.media, counts, path);
   counts.ended = ended + largest * grows * (counts.ended - ended);
+  counts.clear = clear + (counts.clear - clear) * followed.weight;
   intersector_.ended(radiance);
   return followed.weight * radiance;
 }

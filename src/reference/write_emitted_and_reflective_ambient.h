@@ -46,14 +46,18 @@ inline RgbD emittedAndAmbient(const Scene& scene, EffectSet effects, const Surfe
 // The row that the step writes.
 inline RadianceRow writeEmittedAndReflectiveAmbient(const World& world, const Chunk& chunk,
                                                     std::size_t slot) {
-  RgbD radiance;
+  RgbD radiance, clear;
   if (chunk.surfels.material[slot] == kMiss) {
-    if (chunk.options().background.hidesSky(chunk.depth)) return {};
-    radiance = skyAlong(world.scene, world.effects, rayOf(chunk, slot).direction);
+    const bool isClear = chunk.has(Feature::alpha) && chunk.isStraight(slot);
+    if (isClear) clear = RgbD(1.0);
+    const bool hidesSky = isClear && chunk.options().background.hidesSky();
+    if (!hidesSky) radiance = skyAlong(world.scene, world.effects, rayOf(chunk, slot).direction);
   } else if (!isHidden(chunk, slot)) {
     radiance = emittedAndAmbient(world.scene, world.effects, surfelOf(chunk, slot));
   }
-  return {radiance.x, radiance.y, radiance.z};
+  RadianceRow row{radiance.x, radiance.y, radiance.z};
+  put(clear, row.clearR, row.clearG, row.clearB);
+  return row;
 }
 
 }  // namespace whit::reference

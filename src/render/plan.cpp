@@ -64,6 +64,7 @@ FeatureSet featuresOf(const Scene& scene, const RenderOptions& options, EffectSe
             options.shading.terminator && e.has(Effect::shadows) && e.has(Effect::smoothNormals))
       .with(Feature::cones, maps && options.shading.textureFilter == TextureFilter::trilinear)
       .with(Feature::ended, keptChannels(options).has(Channel::error))
+      .with(Feature::alpha, keptChannels(options).has(Channel::alpha))
       .with(Feature::textures, e.has(Effect::textures))
       .with(Feature::normalMaps, e.has(Effect::normalMaps))
       .with(Feature::secondUvs, maps && !scene.secondUvs.empty());
@@ -119,6 +120,11 @@ class Planner {
     }
     findIntersections();
     plan_.perQueue.push_back(stepOf(simd::kWriteEmittedAndReflectiveAmbient));
+    if (seesThrough()) {
+      plan_.perQueue.push_back(amendingStep("startAlpha", simd::kWriteEmittedAndReflectiveAmbient,
+                                            startAlpha, {Part::rays, Part::surfels},
+                                            {Part::radiance}));
+    }
     if (isOccluded(scene_.ambient, plan_.effects)) addAmbientLight();
     if (has(Effect::lights)) {
       for (std::size_t i = 0; i < scene_.lights.size(); ++i) addSamplesOf(i);
@@ -133,6 +139,10 @@ class Planner {
       plan_.atEye.push_back(amendingStep("keepEnds", simd::kReturnToEye, keepEnds,
                                          {Part::rays, Part::radiance}, {Part::channels}));
     }
+    if (seesThrough()) {
+      plan_.atEye.push_back(amendingStep("keepAlpha", simd::kReturnToEye, keepAlpha,
+                                         {Part::rays, Part::radiance}, {Part::channels}));
+    }
     plan_.perTile = {amendingStep("updateImage", simd::kEncodeDisplay, updateImage,
                                   {Part::radiance, Part::pixels},
                                   {Part::radiance, Part::codes, Part::film})};
@@ -145,6 +155,7 @@ class Planner {
   bool has(Effect effect) const { return plan_.effects.has(effect); }
   bool inPackets() const { return options_.packet != 1; }
   bool countsRays() const { return plan_.channels.has(Channel::rays); }
+  bool seesThrough() const { return plan_.features.has(Feature::alpha); }
   bool notesEnds() const { return plan_.features.has(Feature::ended); }
 
   void findIntersections() {
@@ -176,6 +187,12 @@ class Planner {
     if (plan_.features.has(Feature::coverage)) {
       plan_.perQueue.push_back(stepOf(simd::kLookUpCoverage));
     }
+    // Before limitDiffuse: the channel of albedo is that of the material, whatever the view.
+    if (!plan_.channels.empty()) {
+      plan_.perQueue.push_back(amendingStep("keepChannels", simd::kInterpolateSurfels, keepChannels,
+                                            {Part::rays, Part::hits, Part::surfels},
+                                            {Part::channels}));
+    }
     if (std::ranges::any_of(scene_.materials,
                             [&](const Material& m) { return m.limitsDiffuse(plan_.effects); })) {
       plan_.perQueue.push_back(stepOf(simd::kLimitDiffuse));
@@ -183,11 +200,6 @@ class Planner {
     }
     if (plan_.features.has(Feature::lift)) {
       plan_.perQueue.push_back(stepOf(simd::kLiftShadowOrigins));
-    }
-    if (!plan_.channels.empty()) {
-      plan_.perQueue.push_back(amendingStep("keepChannels", simd::kInterpolateSurfels, keepChannels,
-                                            {Part::rays, Part::hits, Part::surfels},
-                                            {Part::channels}));
     }
   }
 
@@ -250,6 +262,10 @@ class Planner {
     if (options_.depth == 0 && !notesEnds()) plan_.impulses.clear();
     if (plan_.impulses.empty()) return;
     plan_.depth = options_.depth;
+    if (seesThrough()) {
+      plan_.impulses.push_back(amendingStep("markStraight", simd::kAddRefractions, markStraight,
+                                            {Part::rays, Part::children}, {Part::children}));
+    }
     plan_.onReturn = {stepOf(simd::kReturnImpulses)};
     if (countsRays()) {
       plan_.onReturn.push_back(amendingStep("returnRayCounts", simd::kReturnImpulses,
@@ -257,6 +273,10 @@ class Planner {
     }
     if (notesEnds()) {
       plan_.onReturn.push_back(amendingStep("returnEnds", simd::kReturnImpulses, returnEnds,
+                                            {Part::rays, Part::radiance}, {Part::parentRadiance}));
+    }
+    if (seesThrough()) {
+      plan_.onReturn.push_back(amendingStep("returnAlpha", simd::kReturnImpulses, returnAlpha,
                                             {Part::rays, Part::radiance}, {Part::parentRadiance}));
     }
     // Primary rays and the impulses of flat mirrors are coherent; Embree then traverses packets as

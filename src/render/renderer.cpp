@@ -163,7 +163,7 @@ Frame Renderer::frameOf(const TraceRequest& request, bool adaptively) {
 }
 
 void Renderer::showBackground(Film& film) const {
-  if (!film.wantDisplay || !options_.background.hidesSky(0)) return;
+  if (!film.wantDisplay || !options_.background.hidesSky()) return;
   film.display = overBackground(film.image, film.channels.floats(Channel::alpha), options_);
 }
 

@@ -159,10 +159,6 @@ void addToMean(const Chunk& c, Channel channel, const ValueAt& valueAt) {
 
 void keepChannels(Chunk& c) {
   if (c.depth > 0 || !c.frame->channels.layers) return;
-  if (c.frame->channels.layers->channels().has(Channel::alpha)) {
-    addToMean(c, Channel::alpha,
-              [&](std::size_t slot) { return c.surfels.material[slot] == kMiss ? 0.0f : 1.0f; });
-  }
   if (!isKept(c)) return;
   forEachKept(c, [&](std::size_t slot, std::size_t pixel) {
     c.frame->channels.layers->keep(pixel, valuesOf(c, slot));
@@ -197,6 +193,48 @@ void keepEnds(Chunk& c) {
   if (!c.frame->channels.layers) return;
   addToMean(c, Channel::error,
             [&](std::size_t slot) { return largestWeight(c, slot) * c.radiance.ended[slot]; });
+}
+
+void startAlpha(Chunk& c) {
+  const RadianceColumns& radiance = c.radiance;
+  const bool hidesSky = c.options().background.hidesSky();
+  for (std::size_t i = 0; i < c.n; ++i) {
+    const bool isClear = c.surfels.material[i] == kMiss && c.isStraight(i);
+    radiance.clearR[i] = radiance.clearG[i] = radiance.clearB[i] = isClear ? 1.0f : 0.0f;
+    if (isClear && hidesSky) radiance.r[i] = radiance.g[i] = radiance.b[i] = 0;
+  }
+}
+
+void markStraight(Chunk& c) {
+  const RayColumns &rays = c.rays, &children = c.children;
+  for (std::size_t i = 0; i < c.childCount; ++i) {
+    const std::uint32_t parent = children.parent[i];
+    const bool goesOn = children.dirX[i] == rays.dirX[parent] &&
+                        children.dirY[i] == rays.dirY[parent] &&
+                        children.dirZ[i] == rays.dirZ[parent];
+    children.straight[i] = goesOn && c.isStraight(parent) ? 1 : 0;
+  }
+}
+
+void returnAlpha(Chunk& c) {
+  const RadianceColumns &from = c.radiance, &to = c.parentRadiance;
+  for (std::size_t i = 0; i < c.n; ++i) {
+    const std::uint32_t parent = c.rays.parent[i];
+    to.clearR[parent] += c.rays.weightR[i] * from.clearR[i];
+    to.clearG[parent] += c.rays.weightG[i] * from.clearG[i];
+    to.clearB[parent] += c.rays.weightB[i] * from.clearB[i];
+  }
+}
+
+void keepAlpha(Chunk& c) {
+  if (!c.frame->channels.layers) return;
+  addToMean(c, Channel::alpha, [&](std::size_t slot) {
+    const float r = c.rays.weightR[slot] * c.radiance.clearR[slot],
+                g = c.rays.weightG[slot] * c.radiance.clearG[slot],
+                b = c.rays.weightB[slot] * c.radiance.clearB[slot];
+    // Grays keep their bits.
+    return 1 - (r + ((g - r) + (b - r)) / 3);
+  });
 }
 
 void settleCoplanar(Chunk& c) {
@@ -244,7 +282,7 @@ bool startsMeet(const CameraFrame& camera, const Box& dielectrics) {
     nearest = std::min(nearest, ahead);
     farthest = std::max(farthest, ahead);
   }
-  if (nearest > 0 || farthest < 0) return false;
+  if (nearest > camera.turning || farthest < -camera.turning) return false;
   for (int axis = 0; axis < 3; ++axis) {
     if (camera.eye[axis] + camera.reach[axis] < lower[axis]) return false;
     if (camera.eye[axis] - camera.reach[axis] > upper[axis]) return false;

@@ -35,6 +35,13 @@ void startEnds(Chunk& c);
 void returnEnds(Chunk& c);
 void keepEnds(Chunk& c);
 
+// The share of the background that is seen straight through surfaces (RadianceColumns::clearR) goes
+// the same way. The background takes the place of the sky there.
+void startAlpha(Chunk& c);
+void markStraight(Chunk& c);  // children that go on as their parents
+void returnAlpha(Chunk& c);
+void keepAlpha(Chunk& c);
+
 // Steps after findHits, in scenes with coplanar triangles that overlap or with coincident spheres.
 // They choose among the surfaces that a ray hits in one place, by the rule of
 // reference/settle_coplanar.h, and note the dielectrics that the ray crosses there

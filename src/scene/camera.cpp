@@ -83,6 +83,12 @@ std::array<double, 2> pixelSteps(const Camera& camera, const CameraFrame& frame,
   return {pixel, pixel};
 }
 
+// True if the picture shows all azimuths, so that no two places of the eyes serve them all.
+bool turnsEyes(const Camera& camera) {
+  const bool byAzimuth = camera.projection == Projection::panorama || isTable(camera);
+  return isStereo(camera) && byAzimuth;
+}
+
 // The views of a stereo pair or of a cube map: right, left, up, down, forward, backward, each as it
 // is seen when one turns there from the forward view.
 std::vector<CameraView> viewsOf(const Camera& camera, const CameraFrame& frame) {
@@ -98,7 +104,7 @@ std::vector<CameraView> viewsOf(const Camera& camera, const CameraFrame& frame) 
             {{}, -f, -r, u}};
   }
   if (!isStereo(camera)) return {};
-  const Vec3d aside = normalized(r) * (camera.eyeDistance / 2.0);
+  const Vec3d aside = turnsEyes(camera) ? Vec3d() : normalized(r) * (camera.eyeDistance / 2.0);
   return {{-aside, f, r, u}, {aside, f, r, u}};
 }
 
@@ -184,6 +190,10 @@ CameraFrame makeCameraFrame(const Camera& camera, int width, int height) {
   frame.views = viewsOf(camera, frame);
   if (frame.orthographic) frame.reach = abs(frame.right * (w / 2.0)) + abs(frame.up * (h / 2.0));
   if (!frame.views.empty()) frame.reach += abs(frame.views.front().aside);
+  if (turnsEyes(camera)) {
+    frame.turning = camera.eyeDistance / 2.0;
+    frame.reach += (abs(right) + abs(forward)) * frame.turning;
+  }
   if (!camera.hasLens() || !isPerspective(camera)) return frame;
   frame.aperture = camera.aperture;
   const double focus = camera.focusDistance();

@@ -109,6 +109,9 @@ struct CameraFrame {
   // Row by row; empty: the whole picture is one. Each is viewWidth pixels wide.
   std::vector<CameraView> views = {};
   int viewWidth = 0, viewHeight = 0;
+  // Radius of the circle that the eyes of stereo panoramas turn on, about `eye`: for each azimuth
+  // they stand side by side. 0: they stand where the views say.
+  double turning = 0;
 
   // True if the sum above is the direction.
   bool isStraight() const {

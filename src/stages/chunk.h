@@ -117,6 +117,9 @@ struct Chunk {
   // Rays to one light travel close together, those about normals do not.
   bool shadowsAreCoherent() const { return coherent && !lightIsAmbient(); }
 
+  // True if the ray goes on along its camera ray: nothing has turned it.
+  bool isStraight(std::size_t slot) const { return depth == 0 || rays.straight[slot] != 0; }
+
   // Takes a light, or one of so many samples of it, in hand.
   void turnTo(std::size_t number, std::uint32_t sample, std::uint32_t samples) {
     light = number == kAmbientLight ? nullptr : &tables().lights[number];

@@ -19,30 +19,31 @@ namespace whit {
 // Feature flags of a plan, found once for all frames. Whole calls test these and nothing else,
 // neither null columns nor empty tables: a set of columns belongs to a feature and exists only with
 // it, and steps ask their chunk (`chunk.has(Feature::cones)`). X(name, what it is there for)
-#define WHIT_FEATURES(X)                                                  \
-  X(always, "every frame")                                                \
-  X(ambient, "ambient light, blurred sky")                                \
-  X(spotLights, "cones of spot lights")                                   \
-  X(emission, "materials that emit")                                      \
-  X(emissionFactors, "emission by maps or vertex colors")                 \
-  X(vertexColors, "vertex colors")                                        \
-  X(sky, "a sky that is not black")                                       \
-  X(glossy, "glossy lobes")                                               \
-  X(roughnessMaps, "roughness by a map")                                  \
-  X(coverage, "surfaces that are there in part")                          \
-  X(streams, "random numbers along paths")                                \
-  X(transmission, "media along rays")                                     \
-  X(absorption, "media that absorb")                                      \
-  X(instances, "hits on instances")                                       \
-  X(spheres, "hits on exact spheres")                                     \
-  X(coplanar, "triangles that overlap others in their plane")             \
-  X(shadows, "shadow rays")                                               \
-  X(lift, "shadow rays that start above their facets (--terminator)")     \
-  X(cones, "the width of pixels along rays (--texture-filter trilinear)") \
-  X(smoothNormals, "vertex normals")                                      \
-  X(ended, "paths that --depth and --cutoff end (--channels error)")      \
-  X(textures, "maps of colors")                                           \
-  X(normalMaps, "maps of normals")                                        \
+#define WHIT_FEATURES(X)                                                    \
+  X(always, "every frame")                                                  \
+  X(ambient, "ambient light, blurred sky")                                  \
+  X(spotLights, "cones of spot lights")                                     \
+  X(emission, "materials that emit")                                        \
+  X(emissionFactors, "emission by maps or vertex colors")                   \
+  X(vertexColors, "vertex colors")                                          \
+  X(sky, "a sky that is not black")                                         \
+  X(glossy, "glossy lobes")                                                 \
+  X(roughnessMaps, "roughness by a map")                                    \
+  X(coverage, "surfaces that are there in part")                            \
+  X(streams, "random numbers along paths")                                  \
+  X(transmission, "media along rays")                                       \
+  X(absorption, "media that absorb")                                        \
+  X(instances, "hits on instances")                                         \
+  X(spheres, "hits on exact spheres")                                       \
+  X(coplanar, "triangles that overlap others in their plane")               \
+  X(shadows, "shadow rays")                                                 \
+  X(lift, "shadow rays that start above their facets (--terminator)")       \
+  X(cones, "the width of pixels along rays (--texture-filter trilinear)")   \
+  X(smoothNormals, "vertex normals")                                        \
+  X(ended, "paths that --depth and --cutoff end (--channels error)")        \
+  X(alpha, "light that comes straight through surfaces (--channels alpha)") \
+  X(textures, "maps of colors")                                             \
+  X(normalMaps, "maps of normals")                                          \
   X(secondUvs, "maps looked up with second texture coordinates")
 
 enum class Feature : std::uint8_t {
@@ -85,7 +86,8 @@ inline constexpr std::size_t roundUpToBlock(std::size_t n) {
 // pixel's at depth 0) that gets weight * radiance; `throughput` bounds what the ray's radiance is
 // multiplied with on its way to the eye; `media` is the stack of dielectrics it travels in, a byte
 // each, the one entered last in the low byte; `path` is its number (sampling/random_streams.h),
-// where lobes are sampled; `cone` is the width of its cone (RayCone) where it starts, for mip
+// where lobes are sampled; `straight` is 1 where a child goes on along its camera ray (see
+// Chunk::isStraight()); `cone` is the width of its cone (RayCone) where it starts, for mip
 // levels: the spread is that of the camera's pixels at every depth.
 #define WHIT_RAY_COLUMNS(X)             \
   WHIT_XYZ(X, org, always)              \
@@ -95,6 +97,7 @@ inline constexpr std::size_t roundUpToBlock(std::size_t n) {
   X(std::uint32_t, parent, always)      \
   X(std::uint32_t, media, transmission) \
   X(std::uint32_t, path, streams)       \
+  X(std::uint32_t, straight, alpha)     \
   X(float, cone, cones)
 
 // `triangle` indexes Scene::triangles, kMiss where nothing was hit; u, v weigh corners 1 and 2;
@@ -151,12 +154,14 @@ inline constexpr std::uint32_t kSharesPlace = 1u << 30;
   X(float, visible, always)
 
 // `ended` is the share of radiance 1 at the ends of all paths that --depth and --cutoff end which
-// would come back; a bound, by the largest of the three weights.
+// would come back; a bound, by the largest of the three weights. `clear` is the share of the
+// background that would come back, seen straight through all surfaces.
 #define WHIT_RADIANCE_COLUMNS(X) \
   X(float, r, always)            \
   X(float, g, always)            \
   X(float, b, always)            \
-  X(float, ended, ended)
+  X(float, ended, ended)         \
+  WHIT_RGB(X, clear, alpha)
 
 WHIT_DECLARE_COLUMNS(RayColumns, WHIT_RAY_COLUMNS);
 WHIT_DECLARE_COLUMNS(HitColumns, WHIT_HIT_COLUMNS);

@@ -221,6 +221,15 @@ TEST_F(SceneSections, SkyOfOneColorAndAmbientFromIt) {
   EXPECT_EQ(scene.ambient.occlusion, 2);
 }
 
+TEST_F(SceneSections, AmbientMembersMayStandAlone) {
+  const SceneDescription dull =
+      loadMembers("\"sky\": {\"color\": 1}, \"ambient\": {\"reflection\": 0}");
+  EXPECT_EQ(dull.ambient.reflection, 0);
+  EXPECT_EQ(dull.ambient.up, Rgb(0.0f));
+  EXPECT_EQ(loadMembers("\"ambient\": {\"occlusion\": 1}").ambient.occlusion, 1);
+  EXPECT_NE(errorOfMembers("\"ambient\": {}").find("#/ambient: expected"), std::string::npos);
+}
+
 TEST_F(SceneSections, TheStudioIsAPreset) {
   const SceneDescription scene =
       loadMembers("\"sky\": {\"preset\": \"studio\", \"scale\": 2, \"rotation\": 30}");
@@ -321,6 +330,18 @@ TEST_F(SceneSections, TexturesAreReadAsTheMapNeedsAndShared) {
   EXPECT_EQ(data.format, TexelFormat::data);
   EXPECT_EQ(data.texels[0] & 0xffffffu, 0xff8080u);
   EXPECT_EQ(scene.materials[1].diffuseMap, m.diffuseMap);
+}
+
+TEST_F(SceneSections, ColorsOfPatternsMayBeNumbers) {
+  const auto texelOf = [&](const std::string& color) {
+    return loadMembers("\"textures\": {\"c\": {\"pattern\": \"checker\", \"color\": " + color +
+                       "}}, \"materials\": {\"m\": {\"diffuseMap\": \"c\"}}, \"scene\": ["
+                       "{\"shape\": \"quad\", \"material\": \"m\"}]")
+        .textures.at(0)
+        .texels.at(0);
+  };
+  EXPECT_EQ(texelOf("0.5"), texelOf("[0.5, 0.5, 0.5]"));
+  EXPECT_NE(texelOf("0.5"), texelOf("1"));
 }
 
 TEST_F(SceneSections, PatternsAndTheirErrors) {

@@ -256,5 +256,45 @@ TEST(Projections, AStereoPairLooksThroughTwoEyes) {
   }
 }
 
+// The eyes stand side by side for every azimuth, as seen by trigonometry alone: a point at distance
+// D is seen by them at azimuths that differ by 2 asin(e / 2D), in front, aside and behind.
+TEST(Projections, AStereoPanoramaHasItsParallaxAllAround) {
+  constexpr double kDistance = 2, kEyes = 0.5;
+  Camera camera;
+  camera.eye = {3, 1, -2};
+  camera.at = {3, 1, -7};
+  camera.eyeDistance = static_cast<float>(kEyes);
+  camera.stereo = Stereo::topBottom;
+  Camera table = camera;
+  camera.projection = Projection::panorama;
+  table.projection = Projection::directions;
+  table.azimuths = {-179.5f, 179.5f};
+  table.elevations = {89.5f, -89.5f};
+  const CameraFrame panorama = makeCameraFrame(camera, 360, 360);
+  const CameraFrame lidar = makeCameraFrame(table, 360, 360);
+  const Vec3d eye(camera.eye);
+  const double parallax = std::asin(kEyes / 2 / kDistance);
+  for (const double degrees : {-170.0, -90.0, 0.0, 45.0, 90.0, 170.0}) {
+    const double azimuth = degrees * std::numbers::pi / 180;
+    const Vec3d point = eye + Vec3d{std::sin(azimuth), 0, -std::cos(azimuth)} * kDistance;
+    for (const double side : {-1.0, 1.0}) {
+      // The left eye sees it further to the right.
+      const double x = 180 + (azimuth - side * parallax) * 180 / std::numbers::pi;
+      const double y = side < 0 ? 90 : 270;
+      const Ray ray = generateRay(panorama, x, y);
+      EXPECT_NEAR(length(ray.origin - eye), kEyes / 2, 1e-12);
+      EXPECT_LT(length(cross(point - ray.origin, ray.direction)), 1e-12) << degrees << " " << side;
+      EXPECT_GT(dot(point - ray.origin, ray.direction), 0) << degrees;
+    }
+  }
+  // A table of the same angles, of which a row is 180 degrees high and a column 2 wide.
+  for (const double x : {40.5, 180.5, 300.5}) {
+    const Ray ray = generateRay(lidar, x, 90.5);
+    const Vec3d across = ray.origin - eye;
+    EXPECT_NEAR(length(across), kEyes / 2, 1e-12);
+    EXPECT_NEAR(dot(across, ray.direction), 0, 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace whit::reference

@@ -173,6 +173,138 @@ TEST_P(Channels, ABackgroundTakesThePlaceOfTheSky) {
   }
 }
 
+// A pixel in the middle of the square, over whatever else the scene has.
+struct Seen {
+  Rgb image;
+  float alpha = 0;
+  std::array<int, 4> codes{};
+};
+
+Seen middleOf(const Scene& scene, const RenderOptions& o) {
+  const Film film = filmOf(scene, o);
+  const int x = film.image.width / 2, y = film.image.height / 2;
+  const std::size_t pixel = film.image.index(x, y);
+  Seen seen{film.image.pixels[pixel], floatsAt(film, Channel::alpha, x, y)[0], {}};
+  for (std::size_t i = 0; i < 4; ++i) seen.codes[i] = film.display.rgba[4 * pixel + i];
+  return seen;
+}
+
+// The square as a sheet before a sky of 1; behind it there may be a second square.
+Scene sheetBeforeSky(Material sheet, const Material* behind = nullptr) {
+  SceneDescription d = squareScene();
+  d.sky.kind = Sky::Kind::color;
+  d.sky.zenith = Rgb(1.0f);
+  sheet.diffuse = Rgb(0.0f);
+  d.materials[1] = sheet;
+  if (behind) {
+    d.materials.push_back(*behind);
+    Mesh mesh = d.objects[0].meshes[0];
+    for (Vec3f& p : mesh.positions) p.z = -1;
+    mesh.materials = {2};
+    d.objects.push_back({"behind", {mesh}});
+    d.instances.push_back({1, Affine{}});
+  }
+  return finalized(std::move(d));
+}
+
+// Porter and Duff 1984: what a sheet sends, and 1 - alpha of the background.
+TEST_P(Channels, ASheetShowsTheBackgroundInPlaceOfTheSky) {
+  Material sheet;
+  sheet.emission = {1, 0.5f, 0.25f};
+  sheet.coverage = 0.5f;
+  const Scene scene = sheetBeforeSky(sheet);
+  RenderOptions o = options("");
+  setOption(o, "background", "transparent");
+  const Seen clear = middleOf(scene, o);
+  EXPECT_EQ(clear.image, (Rgb{0.5f, 0.25f, 0.125f}));
+  EXPECT_EQ(clear.alpha, 0.5f);
+  EXPECT_EQ(clear.codes, (std::array<int, 4>{255, 188, 137, 128}));
+
+  // Over red, half of each.
+  setOption(o, "background", "ff0000");
+  const Seen red = middleOf(scene, o);
+  EXPECT_EQ(red.image, clear.image);
+  EXPECT_EQ(red.codes, (std::array<int, 4>{255, 137, 99, 255}));  // 1, 0.25, 0.125
+
+  setOption(o, "background", "sky");
+  EXPECT_EQ(middleOf(scene, options("alpha")).alpha, 0.5f);
+  EXPECT_EQ(middleOf(scene, options("alpha")).image, (Rgb{1, 0.75f, 0.625f}));
+}
+
+TEST_P(Channels, AlphaFollowsAllThatLightPassesStraight) {
+  RenderOptions o = options("");
+  setOption(o, "background", "transparent");
+  const auto alphaOf = [&](const Material& sheet, const Material* behind = nullptr) {
+    return middleOf(sheetBeforeSky(sheet, behind), o).alpha;
+  };
+  Material half;
+  half.coverage = 0.5f;
+  EXPECT_EQ(alphaOf(half), 0.5f);
+  EXPECT_EQ(alphaOf(half, &half), 0.75f);
+  const Material opaque;
+  EXPECT_EQ(alphaOf(half, &opaque), 1.0f);
+
+  // A mask that cuts everything, as glTF's MASK below its cutoff.
+  Material gone;
+  gone.coverage = 0;
+  const Seen nothing = middleOf(sheetBeforeSky(gone), o);
+  EXPECT_EQ(nothing.image, Rgb(0.0f));
+  EXPECT_EQ(nothing.alpha, 0.0f);
+
+  // A tinted pane, whose ior is that of what surrounds it: the mean of its colors.
+  Material pane;
+  pane.transmission = {0.75f, 0.5f, 0.25f};
+  pane.thin = true;
+  pane.ior = 1;
+  EXPECT_NEAR(alphaOf(pane), 0.5f, 1e-6);
+
+  // Light that turns back or is bent brings the sky along, and is as good as a surface.
+  Material mirror;
+  mirror.mirror = mirror.mirrorGrazing = Rgb(1.0f);
+  const Seen reflected = middleOf(sheetBeforeSky(half, &mirror), o);
+  EXPECT_EQ(reflected.alpha, 1.0f);
+  EXPECT_EQ(reflected.image, Rgb(0.25f)) << "through the sheet, and back through it";
+}
+
+// Neither the sky that the lobe reflects, nor a mirror, nor the view have a part in it.
+TEST_P(Channels, AlbedoIsTheMaterialsOwn) {
+  SceneDescription d = squareScene();
+  d.materials[1].specular = Rgb(0.5f);
+  d.materials[1].mirror = {0.2f, 0.9f, 0.1f};
+  d.materials[1].mirrorGrazing = Rgb(1.0f);
+  d.cameras[0].eye = {3, 1, 2};
+  for (const float sky : {0.0f, 1.0f}) {
+    d.sky.kind = Sky::Kind::color;
+    d.sky.zenith = Rgb(sky);
+    d.materials[1].mirror = d.materials[1].mirror * 0.5f;
+    for (const char* const rays : {"0", "4"}) {
+      RenderOptions o = options("albedo");
+      setOption(o, "glossy", rays);
+      const Film film = filmOf(finalized(d), o);
+      expectNear(floatsAt(film, Channel::albedo, film.image.width / 2, film.image.height / 2),
+                 {0.5, 0.25, 0.1f}, 0);
+    }
+  }
+}
+
+// In each channel mirror and diffuse color send out 1 in sum, so neither is dimmed.
+TEST_P(Channels, OfAColoredCoatAreLimitedOneByOne) {
+  SceneDescription d = squareScene();
+  d.materials[1].diffuse = {1, 0.5f, 0};
+  d.materials[1].mirror = d.materials[1].mirrorGrazing = {0, 0.5f, 1};
+  d.sky.kind = Sky::Kind::color;
+  d.sky.zenith = Rgb(1.0f);
+  d.ambient.up = d.ambient.down = Rgb(1.0f);
+  EXPECT_EQ(middleOf(finalized(d), options("alpha")).image, Rgb(1.0f));
+  // A gray coat leaves the hue as it is.
+  d.materials[1].mirror = d.materials[1].mirrorGrazing = Rgb(0.75f);
+  EXPECT_EQ(middleOf(finalized(d), options("alpha")).image, (Rgb{1, 0.875f, 0.75f}));
+  // A red one takes nothing of green and blue.
+  d.materials[1].diffuse = Rgb(1.0f);
+  d.materials[1].mirror = d.materials[1].mirrorGrazing = {1, 0, 0};
+  EXPECT_EQ(middleOf(finalized(d), options("alpha")).image, Rgb(1.0f));
+}
+
 TEST_P(Channels, OfASquareAreItsOwn) {
   const Scene scene = finalized(squareScene());
   const Film film = filmOf(scene, options());

@@ -47,6 +47,12 @@ std::map<std::string, Camera> projectedCameras(const Camera& pose) {
   both.eyeDistance = 0.3f;
   Camera& round = add("stereo panorama", Projection::panorama);
   round.stereo = Stereo::topBottom;
+  round.eyeDistance = 0.3f;
+  Camera& lidars = add("stereo directions", Projection::directions);
+  lidars.azimuths = {-170, -60, 20, 175};
+  lidars.elevations = {40, -30};
+  lidars.stereo = Stereo::leftRight;
+  lidars.eyeDistance = 0.3f;
   return all;
 }
 

@@ -311,9 +311,9 @@ std::optional<double> readAmbient(JsonObject& file, SceneDescription& scene) {
   } else if (const JsonValue up = object.find("up")) {
     scene.ambient.up = up.color();
     scene.ambient.down = object.need("down").color();
-  } else {
+  } else if (!object.has("occlusion") && !object.has("reflection")) {
     object.finish();
-    value.fail("\"fromSky\", \"color\", or \"up\" and \"down\"");
+    value.fail("\"fromSky\", \"color\", \"up\" and \"down\", \"occlusion\" or \"reflection\"");
   }
   scene.ambient.reflection = object.number("reflection", usualReflection(fromSky), 0, 1);
   object.finish();

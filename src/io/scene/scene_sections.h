@@ -157,6 +157,10 @@ class JsonShapeParameters : public ShapeParameters {
     const JsonValue value = object_.find(key);
     return value ? value.vector() : fallback;
   }
+  Vec3d color(const std::string& key, const Vec3d& fallback) override {
+    const JsonValue value = object_.find(key);
+    return value ? Vec3d(value.color()) : fallback;
+  }
   std::string word(const std::string& key, const std::string& fallback,
                    const std::vector<std::string>& choices) override {
     const JsonValue value = object_.find(key);

@@ -84,7 +84,7 @@ Texture paintScalar(ShapeParameters& parameters, const ScalarFormula& value, int
 
 // Linear light, clamped to [0, 1] when it is encoded.
 Rgb colorOf(ShapeParameters& parameters, const std::string& key, const Vec3d& fallback) {
-  return Rgb(parameters.vector(key, fallback));
+  return Rgb(parameters.color(key, fallback));
 }
 
 Rgb mix(const Rgb& a, const Rgb& b, double t) {
