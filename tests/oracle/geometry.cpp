@@ -16,9 +16,6 @@ constexpr double kSelf = 1e-9;
 // place: in scenes that have such, their corners are whole numbers of some power of two.
 constexpr double kSamePlace = 1e-9;
 
-// Where so little is there rays pass, as through a hole.
-constexpr double kClear = 1.0 / 1024;
-
 // The face as the material has it.
 template <typename Shape>
 void addFace(std::vector<Shape>& faces, Shape face, const Material& material, int number,

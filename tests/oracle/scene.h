@@ -11,6 +11,9 @@ namespace oracle {
 
 inline constexpr int kNone = -1;
 
+// Where so little is there rays pass, as through a hole.
+inline constexpr double kClear = 1.0 / 1024;
+
 // Of a member that a file may leave out.
 enum class Choice { unsaid, no, yes };
 

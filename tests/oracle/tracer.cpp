@@ -31,9 +31,6 @@ constexpr int Material::*kMaps[] = {&Material::diffuseMap, &Material::specularMa
                                     &Material::emissionMap, &Material::normalMap,
                                     &Material::coverageMap};
 
-// Where so little is there rays pass, as through a hole.
-constexpr double kClear = 1.0 / 1024;
-
 // What is left of the surface on each texel of a map. A coverage map is a mean over what alpha
 // leaves; every other map is weighed by the coverage besides.
 Shares sharesLeft(const Scene& scene, const Material& material, int Material::*map) {
