@@ -91,7 +91,10 @@ std::string modelExtensions();  // ".gltf, .obj"
 std::unique_ptr<Model> openModel(const ModelSource& source);
 
 // The readers that openModel() chooses from, each in the file of its format.
+std::unique_ptr<Model> openByAssimp(const ModelSource& source);
 std::unique_ptr<Model> openGltf(const ModelSource& source);
+// A model of which `bytes` are the content in place of that of the file.
+std::unique_ptr<Model> openGltf(const ModelSource& source, const std::string& bytes);
 std::unique_ptr<Model> openObj(const ModelSource& source);
 std::unique_ptr<Model> openPly(const ModelSource& source);
 

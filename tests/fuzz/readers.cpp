@@ -215,6 +215,11 @@ const std::vector<Reader>& readers() {
       {"scene", ".json", readScene},    {"obj", ".obj", readScene},
       {"mtl", ".mtl", readMaterials},   {"gltf", ".gltf", readScene},  // .glb by its signature
       {"ply", ".ply", readScene},       {"png", ".png", readPng},
+#ifdef WHIT_ASSIMP
+      {"stl", ".stl", readScene},       {"dae", ".dae", readScene},
+      {"fbx", ".fbx", readScene},       {"3ds", ".3ds", readScene},
+      {"off", ".off", readScene},
+#endif
 #ifdef WHIT_WEBP
       {"webp", ".webp", readImageFile},
 #endif

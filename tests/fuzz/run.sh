@@ -14,7 +14,7 @@ case $seconds in
 esac
 shift || true
 readers=("$@")
-[ ${#readers[@]} -gt 0 ] || readers=(exr png gltf jpeg webp scene obj hdr mtl tga ply bmp input)
+[ ${#readers[@]} -gt 0 ] || readers=(exr png gltf stl dae fbx 3ds off jpeg webp scene obj hdr mtl tga ply bmp input)
 
 if ! command -v clang++ >/dev/null; then
   echo "!! clang++ is not installed: the readers are NOT fuzzed" >&2

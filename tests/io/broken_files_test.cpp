@@ -37,7 +37,7 @@ std::vector<Broken> scenes() {
       {"s.json", texture(kLong), kIo, "#/textures/t/image"},
       {"s.json", texture("$WHIT_DATA" + kLong), kBad, "#/textures/t/image"},
       {"s.json", scene("\"scene\": [{\"model\": \"none.ply\"}]"), kIo, "#/scene/0/model"},
-      {"s.json", scene("\"scene\": [{\"model\": \"none.stl\"}]"), kBad, "#/scene/0/model"},
+      {"s.json", scene("\"scene\": [{\"model\": \"none.txt\"}]"), kBad, "#/scene/0/model"},
       {"s.json", scene("\"scene\": [{\"shape\": \"" + kLong + "\"}]"), kBad, "#/scene/0/shape"},
   };
 }

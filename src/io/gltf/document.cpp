@@ -105,9 +105,8 @@ std::string_view splitBinary(std::string_view bytes, const std::string& file,
 }
 
 // The content tells whether the file is binary. Stores the binary chunk of a .glb.
-Json readGltfFile(const std::filesystem::path& path, MemoryBudget& budget,
-                  std::optional<std::string>& binary) {
-  const std::string bytes = readTextFile(path, budget.left() / 2), name = path.string();
+Json parseGltf(const std::string& bytes, const std::string& name, MemoryBudget& budget,
+               std::optional<std::string>& binary) {
   budget.charge(bytes.size(), 2, name);
   const bool isBinary = bytes.starts_with("glTF");
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
@@ -132,11 +131,10 @@ constexpr std::string_view kSupported[] = {
 #ifdef WHIT_WEBP
     "EXT_texture_webp",
 #endif
-    "EXT_mesh_gpu_instancing",    "KHR_lights_punctual",
-    "KHR_materials_clearcoat",    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",          "KHR_materials_specular",
-    "KHR_materials_transmission", "KHR_materials_unlit",
-    "KHR_materials_variants",     "KHR_materials_volume",
+    "EXT_mesh_gpu_instancing",    "FB_ngon_encoding",  // polygons as triangles, which read the same
+    "KHR_lights_punctual",        "KHR_materials_clearcoat", "KHR_materials_emissive_strength",
+    "KHR_materials_ior",          "KHR_materials_specular",  "KHR_materials_transmission",
+    "KHR_materials_unlit",        "KHR_materials_variants",  "KHR_materials_volume",
     "KHR_mesh_quantization",      "KHR_texture_transform"};
 
 // Says what the user can do about an extension that is not supported; may be empty.
@@ -156,12 +154,12 @@ constexpr std::uint64_t kBytesPerElement = 2048;
 
 }  // namespace
 
-GltfDocument::GltfDocument(const std::filesystem::path& path, const PathRules& rules,
-                           MemoryBudget& budget, Warnings& warnings)
+GltfDocument::GltfDocument(const std::filesystem::path& path, const std::string& bytes,
+                           const PathRules& rules, MemoryBudget& budget, Warnings& warnings)
     : name_(path.string()), budget_(budget), warnings_(warnings) {
   std::optional<std::string> binary;
   json_ = std::make_unique<const JsonDocument>(
-      JsonDocument{name_, readGltfFile(path, budget, binary), {}});
+      JsonDocument{name_, parseGltf(bytes, name_, budget, binary), {}});
   if (!root().isObject()) root().fail("an object");
   checkExtensions();
   for (const auto& [name, list] : json_->root.items()) {

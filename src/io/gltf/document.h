@@ -39,13 +39,13 @@ struct GltfBufferView {
 
 class GltfDocument {
  public:
-  // Throws Error: io where the file cannot be read, limit where it does not fit into `budget`,
+  // `bytes` are the content of the file. Throws Error: limit where it does not fit into `budget`,
   // badScene with "file", "file:line" or "file#/pointer" where it is not well-formed, for a
   // required extension that is not supported, for URIs that leave the folder of the file
   // (PathRules), and for buffers and images without their data. Other extensions that are not
   // supported are warnings, once each. Everything else is checked by whoever reads it.
-  GltfDocument(const std::filesystem::path& path, const PathRules& rules, MemoryBudget& budget,
-               Warnings& warnings);
+  GltfDocument(const std::filesystem::path& path, const std::string& bytes, const PathRules& rules,
+               MemoryBudget& budget, Warnings& warnings);
   GltfDocument(const GltfDocument&) = delete;
   GltfDocument& operator=(const GltfDocument&) = delete;
 

@@ -272,8 +272,8 @@ class MoverBodies {
 
 class GltfModel : public Model {
  public:
-  explicit GltfModel(const ModelSource& source)
-      : document_(source.path, source.rules, source.budget, source.warnings),
+  GltfModel(const ModelSource& source, const std::string& bytes)
+      : document_(source.path, bytes, source.rules, source.budget, source.warnings),
         sources_(readGltfMaterials(document_)),
         maps_(document_),
         stage_(readGltfNodes(document_, source.instant)) {
@@ -397,7 +397,11 @@ bool GltfPlacedMesh::isDeformed() const {
 }
 
 std::unique_ptr<Model> openGltf(const ModelSource& source) {
-  return std::make_unique<GltfModel>(source);
+  return openGltf(source, readTextFile(source.path, source.budget.left() / 2));
+}
+
+std::unique_ptr<Model> openGltf(const ModelSource& source, const std::string& bytes) {
+  return std::make_unique<GltfModel>(source, bytes);
 }
 
 }  // namespace whit

@@ -169,15 +169,18 @@ class ItemReader {
   }
 
  private:
-  // Files of OBJ and PLY do not say which axis is up.
+  // Files of OBJ, PLY and OFF do not say which axis is up. In STL files it is z by custom.
   Affine upright(JsonObject& file, const std::filesystem::path& path, const Body& content) {
-    const bool says = extensionOf(path).starts_with(".gl");
+    const std::string format = extensionOf(path);
+    const bool says =
+        format.starts_with(".gl") || format == ".fbx" || format == ".dae" || format == ".3ds";
     if (const JsonValue up = file.find("up")) {
       const std::string axis = up.text();
-      if (says) up.fail("no axis, because y is up in glTF files");
+      if (says) up.fail("no axis, because files of this format say which one is up");
       if (axis != "x" && axis != "y" && axis != "z") up.fail("\"x\", \"y\" or \"z\"");
       return uprightFrom(axis[0]);
     }
+    if (format == ".stl") return uprightFrom('z');
     if (says || !seemsZUp(content)) return {};
     context_.warnings.add("model in which z seems to be up was turned (--up y leaves it as it is)",
                           path.filename().string());

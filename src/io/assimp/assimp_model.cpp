@@ -1,0 +1,321 @@
+#include "io/assimp/assimp_model.h"
+
+#ifdef WHIT_ASSIMP
+#include <assimp/GltfMaterial.h>
+#include <assimp/cexport.h>
+#include <assimp/cimport.h>
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#endif
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "core/display.h"
+#include "core/error.h"
+#include "core/text.h"
+#include "io/confined.h"
+#include "io/model.h"
+
+namespace whit {
+
+#ifdef WHIT_ASSIMP
+
+namespace {
+
+constexpr int kConversionSeconds = 60;
+// Edges between faces that meet at a larger angle stay hard where a file has no normals.
+constexpr float kSmoothestDegrees = 35;
+
+// The following functions run in the child, up to convert().
+
+// STL has normals of facets, which say nothing that the facets do not, and the library smooths 3DS
+// files without groups all over: the normals of both are computed anew.
+const aiScene* importScene(const std::string& bytes, const std::string& extension) {
+  aiPropertyStore* const settings = aiCreatePropertyStore();
+  aiSetImportPropertyFloat(settings, AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, kSmoothestDegrees);
+  aiSetImportPropertyInteger(settings, AI_CONFIG_PP_SBP_REMOVE,
+                             aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+  aiSetImportPropertyInteger(settings, AI_CONFIG_PP_RVC_FLAGS, aiComponent_NORMALS);
+  aiSetImportPropertyInteger(settings, AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, 0);
+  aiSetImportPropertyInteger(settings, AI_CONFIG_IMPORT_NO_SKELETON_MESHES, 1);
+  const bool bare = extension == ".stl" || extension == ".3ds";
+  return aiImportFileFromMemoryWithProperties(bytes.data(), static_cast<unsigned>(bytes.size()),
+                                              bare ? aiProcess_RemoveComponent : 0u,
+                                              extension.c_str() + 1, settings);
+}
+
+template <typename T>
+void copyCorners(const std::vector<unsigned>& vertices, T*& values) {
+  if (!values) return;
+  T* const own = new T[vertices.size()];
+  for (std::size_t i = 0; i < vertices.size(); ++i) own[i] = values[vertices[i]];
+  values = own;
+}
+
+// Gives each corner of the mesh's faces a vertex of its own, without which it has no normal of its
+// own. Replaced arrays go with the process.
+void separateCorners(aiMesh& mesh) {
+  std::vector<unsigned> vertices;
+  for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
+    for (unsigned k = 0; k < mesh.mFaces[i].mNumIndices; ++k) {
+      unsigned& index = mesh.mFaces[i].mIndices[k];
+      if (index >= mesh.mNumVertices) index = 0;
+      vertices.push_back(std::exchange(index, static_cast<unsigned>(vertices.size())));
+    }
+  }
+  mesh.mNumVertices = static_cast<unsigned>(vertices.size());
+  copyCorners(vertices, mesh.mVertices);
+  copyCorners(vertices, mesh.mColors[0]);
+  for (aiVector3D*& uvs : mesh.mTextureCoords) copyCorners(vertices, uvs);
+}
+
+bool isFinite(const aiVector3D& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+// JSON has neither numbers that are not finite nor text that is not UTF-8.
+void makeFinite(aiMesh& mesh, std::uint32_t& notes) {
+  for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+    if (!isFinite(mesh.mVertices[i])) {
+      mesh.mVertices[i] = {};
+      notes |= kPositionMended;
+    }
+    if (mesh.mNormals && !isFinite(mesh.mNormals[i])) mesh.mNormals[i] = {};
+    for (aiVector3D* const uvs : mesh.mTextureCoords) {
+      if (uvs && !isFinite(uvs[i])) uvs[i] = {};
+    }
+  }
+}
+
+void makePrintable(aiString& name) { name.Set(printable(name.C_Str())); }
+
+void makePrintable(aiNode& node) {
+  makePrintable(node.mName);
+  for (unsigned i = 0; i < node.mNumChildren; ++i) makePrintable(*node.mChildren[i]);
+}
+
+// These formats mean colors of vertices as the screen shows them, and glTF has linear ones.
+void makeLinear(aiMesh& mesh) {
+  const auto linear = [](float x) {
+    return x > 0 ? static_cast<float>(srgbToLinear(std::min(double{x}, 1.0))) : 0.0f;
+  };
+  for (unsigned i = 0; mesh.mColors[0] && i < mesh.mNumVertices; ++i) {
+    aiColor4D& color = mesh.mColors[0][i];
+    color = {linear(color.r), linear(color.g), linear(color.b), color.a};
+  }
+}
+
+// Replaces a member of the material.
+template <typename Value>
+void setMember(aiMaterial& material, const Value& value, const char* key, unsigned type,
+               unsigned index) {
+  material.RemoveProperty(key, type, index);
+  if constexpr (std::is_same_v<Value, aiString>) {
+    material.AddProperty(&value, key, type, index);
+  } else {
+    material.AddProperty(&value, 1, key, type, index);
+  }
+}
+
+bool hasMap(const aiMaterial& material, aiTextureType type) {
+  return material.GetTextureCount(type) > 0;
+}
+
+// Roughness comes from the exponent, as in MTL files. The strength of highlights is no reflectance,
+// an index of refraction is often 1 in opaque materials, and faces have two sides in these formats.
+void settleSurface(aiMaterial& material, std::uint32_t& notes) {
+  setMember(material, 1, AI_MATKEY_TWOSIDED);
+  float shininess = 0, roughness = 0, opacity = 1;
+  material.Get(AI_MATKEY_SHININESS, shininess);
+  if (material.Get(AI_MATKEY_ROUGHNESS_FACTOR, roughness) != aiReturn_SUCCESS) {
+    const float exponent = std::isfinite(shininess) ? std::max(shininess, 0.0f) : 0.0f;
+    setMember(material, std::pow(2 / (exponent + 2), 0.25f), AI_MATKEY_ROUGHNESS_FACTOR);
+  }
+  material.RemoveProperty(AI_MATKEY_COLOR_SPECULAR);
+  material.RemoveProperty(AI_MATKEY_SPECULAR_FACTOR);
+  material.RemoveProperty(AI_MATKEY_GLOSSINESS_FACTOR);
+  material.RemoveProperty(AI_MATKEY_SHININESS);
+  material.RemoveProperty(AI_MATKEY_REFRACTI);
+
+  // Exporters disagree on whether 0 or 1 is opaque.
+  material.Get(AI_MATKEY_OPACITY, opacity);
+  if (!(opacity > 0)) {
+    setMember(material, 1.0f, AI_MATKEY_OPACITY);
+    notes |= kMadeOpaque;
+  }
+}
+
+// A diffuse map replaces the color, and its alpha counts if it is named as the map of opacity, too.
+// Backslashes separate folders in files that were written on Windows.
+void settleMaps(aiMaterial& material, std::uint32_t& notes) {
+  constexpr aiTextureType kKept[] = {aiTextureType_DIFFUSE,           aiTextureType_BASE_COLOR,
+                                     aiTextureType_NORMALS,           aiTextureType_EMISSIVE,
+                                     aiTextureType_LIGHTMAP,          aiTextureType_METALNESS,
+                                     aiTextureType_DIFFUSE_ROUGHNESS, aiTextureType_UNKNOWN};
+  aiString opacity, diffuse;
+  material.GetTexture(aiTextureType_OPACITY, 0, &opacity);
+  material.GetTexture(aiTextureType_DIFFUSE, 0, &diffuse);
+  const bool byAlpha = opacity.length > 0 && opacity == diffuse;
+  if (byAlpha) setMember(material, aiString("BLEND"), AI_MATKEY_GLTF_ALPHAMODE);
+  if (diffuse.length > 0) setMember(material, aiColor4D(1, 1, 1, 1), AI_MATKEY_COLOR_DIFFUSE);
+
+  for (unsigned type = aiTextureType_DIFFUSE; type <= AI_TEXTURE_TYPE_MAX; ++type) {
+    const auto kind = static_cast<aiTextureType>(type);
+    const bool isKept = std::ranges::find(kKept, kind) != std::end(kKept) ||
+                        (kind == aiTextureType_OPACITY && byAlpha);
+    if (hasMap(material, kind) && !isKept) notes |= kMapLeftOut;
+    for (unsigned i = 0; i < material.GetTextureCount(kind); ++i) {
+      aiString path;
+      material.GetTexture(kind, i, &path);
+      std::replace(path.data, path.data + path.length, '\\', '/');
+      makePrintable(path);
+      setMember(material, path, AI_MATKEY_TEXTURE(type, i));
+    }
+  }
+}
+
+// Meshes without a material get that of models without materials.
+void settleDefault(const aiScene& scene, unsigned index) {
+  const auto isColored = [&](const aiMesh* mesh) {
+    return mesh->mMaterialIndex == index && mesh->mColors[0];
+  };
+  const bool colored = std::any_of(scene.mMeshes, scene.mMeshes + scene.mNumMeshes, isColored);
+  const float gray = colored ? 1 : kModelGray;
+  aiMaterial& material = *scene.mMaterials[index];
+  setMember(material, aiString(kNoMaterialName), AI_MATKEY_NAME);
+  setMember(material, aiColor4D(gray, gray, gray, 1), AI_MATKEY_COLOR_DIFFUSE);
+}
+
+void settleMaterials(const aiScene& scene, std::uint32_t& notes) {
+  for (unsigned i = 0; i < scene.mNumMaterials; ++i) {
+    aiMaterial& material = *scene.mMaterials[i];
+    settleSurface(material, notes);
+    settleMaps(material, notes);
+    aiString name;
+    material.Get(AI_MATKEY_NAME, name);
+    makePrintable(name);
+    setMember(material, name, AI_MATKEY_NAME);
+    const bool isDefault = name.length == 0 || name == aiString(AI_DEFAULT_MATERIAL_NAME);
+    if (isDefault && !hasMap(material, aiTextureType_DIFFUSE)) settleDefault(scene, i);
+  }
+}
+
+// A skin is given by the pose in which it was bound, which writers of these formats and the library
+// understand in several ways: the mesh stays as it rests.
+void leaveOutSkins(aiScene& scene, std::uint32_t& notes) {
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+    if (scene.mMeshes[i]->mNumBones > 0) notes |= kSkinLeftOut;
+    scene.mMeshes[i]->mNumBones = 0;
+  }
+  if ((notes & kSkinLeftOut) != 0) scene.mNumAnimations = 0;
+}
+
+// FBX files name the axis that is up in them.
+void turnUp(aiScene& scene) {
+  int up = 1;
+  if (!scene.mMetaData || !scene.mMetaData->Get("UpAxis", up) || up == 1) return;
+  const aiMatrix4x4 fromZ(1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1);
+  const aiMatrix4x4 fromX(0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1);
+  scene.mRootNode->mTransformation = (up == 2 ? fromZ : fromX) * scene.mRootNode->mTransformation;
+}
+
+// Answers with the notes and the GLB, or with a 0 and what the library says.
+void convert(const std::string& bytes, const std::string& extension, const ConfinedWriter& write) {
+  const auto fail = [&](const std::string& why) {
+    write("\0", 1);
+    write(why.data(), why.size());
+  };
+  const aiScene* imported = importScene(bytes, extension);
+  for (unsigned i = 0; imported && i < imported->mNumMeshes; ++i) {
+    aiMesh& mesh = *imported->mMeshes[i];
+    if (!mesh.mNormals && mesh.mNumAnimMeshes + mesh.mNumBones == 0) separateCorners(mesh);
+  }
+  // Polygons are smoothed as they are: each counts once, and not once for each of its triangles.
+  constexpr unsigned kFinish =
+      aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_JoinIdenticalVertices;
+  if (imported) imported = aiApplyPostProcessing(imported, aiProcess_GenSmoothNormals);
+  if (imported) imported = aiApplyPostProcessing(imported, kFinish);
+  if (!imported) return fail(aiGetErrorString());
+  if (imported->mNumMeshes == 0 || !imported->mRootNode) return fail("it has no faces");
+
+  auto& scene = *const_cast<aiScene*>(imported);
+  std::uint32_t notes = scene.mNumLights + scene.mNumCameras > 0 ? kViewLeftOut : 0u;
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+    makeFinite(*scene.mMeshes[i], notes);
+    makeLinear(*scene.mMeshes[i]);
+    makePrintable(scene.mMeshes[i]->mName);
+  }
+  makePrintable(*scene.mRootNode);
+  settleMaterials(scene, notes);
+  leaveOutSkins(scene, notes);
+  turnUp(scene);
+
+  const aiExportDataBlob* const blob = aiExportSceneToBlob(&scene, "glb2", 0);
+  if (!blob) return fail(aiGetErrorString());
+  write("\1", 1);
+  write(&notes, sizeof notes);
+  write(blob->data, blob->size);
+}
+
+}  // namespace
+
+ConvertedModel convertByAssimp(const std::string& bytes, const std::string& extension,
+                               std::uint64_t mostBytes) {
+  if (bytes.empty()) return {"", "it is empty"};
+  if (bytes.size() > std::numeric_limits<unsigned>::max()) {
+    return {"", "it has more than 2^32 - 1 bytes"};
+  }
+  const ConfinedAnswer answer =
+      runConfined([&](const ConfinedWriter& write) { convert(bytes, extension, write); }, mostBytes,
+                  kConversionSeconds);
+  ConvertedModel model;
+  const std::string& said = answer.bytes;
+  constexpr std::size_t kHead = 1 + sizeof model.notes;
+  if (!answer.failure.empty()) {
+    model.failure = answer.failure;
+  } else if (said.size() < kHead || said[0] != 1) {
+    model.failure = said.empty() ? "it said nothing" : excerpt(said.substr(1));
+  } else {
+    std::memcpy(&model.notes, said.data() + 1, sizeof model.notes);
+    model.glb = said.substr(kHead);
+  }
+  return model;
+}
+
+#else
+
+ConvertedModel convertByAssimp(const std::string&, const std::string&, std::uint64_t) {
+  return {"", "this whit was built without libassimp-dev"};
+}
+
+#endif
+
+std::unique_ptr<Model> openByAssimp(const ModelSource& source) {
+  const std::string file = source.path.string();
+  const std::string bytes = readFile(source.path, source.budget.left() / 2);
+  const MemoryHold hold(&source.budget, bytes.size(), 1, file);
+  const ConvertedModel model =
+      convertByAssimp(bytes, extensionOf(source.path), source.budget.left() / 2);
+  if (!model.failure.empty()) {
+    throwBadScene(file, "expected a model that the library assimp can read, but " + model.failure);
+  }
+  constexpr std::pair<AssimpNote, const char*> kNotes[] = {
+      {kSkinLeftOut, "skins and animations of a rigged model left out: it is shown at rest"},
+      {kViewLeftOut, "cameras and lights of a model left out"},
+      {kMapLeftOut, "map of a kind that is not read from such files left out"},
+      {kMadeOpaque, "material that the file calls invisible made opaque"},
+      {kPositionMended, "position that is not finite moved to the origin"}};
+  for (const auto& [bit, text] : kNotes) {
+    if ((model.notes & bit) != 0) source.warnings.add(text, file);
+  }
+  return openGltf(source, model.glb);
+}
+
+}  // namespace whit

@@ -1,0 +1,262 @@
+// Models that the library assimp reads, in a process of its own. Each of
+// tests/fuzz/corpus/*/tetra.* holds the tetrahedron that expectTetrahedron() describes.
+#include "io/assimp/assimp_model.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+
+#include "core/display.h"
+#include "fuzz/damage.h"
+#include "gltf_files.h"
+#include "pi.h"
+
+namespace whit {
+namespace {
+
+constexpr char kWithout[] = "built without libassimp";
+
+class Assimp : public GltfTest {
+ protected:
+  void SetUp() override {
+    if (convertByAssimp("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", ".off", 1 << 30)
+            .glb.empty()) {
+      GTEST_SKIP() << kWithout;
+    }
+  }
+
+  static std::string bytesOfFile(const std::string& name) {
+    const char* source = std::getenv("WHIT_SOURCE_DIR");
+    const std::string folder = std::string(source ? source : ".") + "/tests/fuzz/corpus/";
+    std::ifstream in(folder + name, std::ios::binary);
+    EXPECT_TRUE(in) << folder << name;
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  SceneDescription loadBytes(const std::string& extension, const std::string& bytes) {
+    return load(save("m." + extension, bytes));
+  }
+};
+
+struct PlacedTriangle {
+  std::array<Vec3d, 3> corners, normals;
+  std::array<Rgb, 3> colors;
+};
+
+std::vector<PlacedTriangle> trianglesOf(const SceneDescription& scene) {
+  std::vector<PlacedTriangle> all;
+  for (const Instance& instance : scene.instances) {
+    for (const Mesh& mesh : scene.objects[instance.object].meshes) {
+      for (const auto& t : mesh.triangles) {
+        PlacedTriangle& placed = all.emplace_back();
+        for (std::size_t k = 0; k < 3; ++k) {
+          placed.corners[k] = instance.toWorld.point(Vec3d(mesh.positions.at(t[k])));
+          placed.normals[k] = normalized(instance.toWorld.vector(Vec3d(mesh.normals.at(t[k]))));
+          if (!mesh.colors.empty()) placed.colors[k] = mesh.colors.at(t[k]);
+        }
+      }
+    }
+  }
+  return all;
+}
+
+Vec3d faceNormal(const PlacedTriangle& t) {
+  return normalized(cross(t.corners[1] - t.corners[0], t.corners[2] - t.corners[0]));
+}
+
+// With the corners (0, 0, 0), (1, 0, 0), (0, 2, 0) and (0, 0, 3), moved by `lift` along z, where z
+// is up in the file: 4 faces that look out, with hard edges.
+void expectTetrahedron(const SceneDescription& scene, double lift, bool turned) {
+  const std::vector<PlacedTriangle> triangles = trianglesOf(scene);
+  ASSERT_EQ(triangles.size(), 4u);
+  const auto placed = [&](const Vec3d& p) {
+    return turned ? Vec3d{p.x, p.z + lift, -p.y} : p + Vec3d{0, 0, lift};
+  };
+  const std::array corners{placed({0, 0, 0}), placed({1, 0, 0}), placed({0, 2, 0}),
+                           placed({0, 0, 3})};
+  const Vec3d middle = (corners[0] + corners[1] + corners[2] + corners[3]) / 4.0;
+  for (const PlacedTriangle& t : triangles) {
+    EXPECT_GT(dot(faceNormal(t), t.corners[0] - middle), 0);
+    for (std::size_t k = 0; k < 3; ++k) {
+      expectNear(t.normals[k], faceNormal(t), 1e-5);
+      const auto near = [&](const Vec3d& p) { return length(p - t.corners[k]) < 1e-5; };
+      EXPECT_TRUE(std::ranges::any_of(corners, near));
+    }
+  }
+}
+
+TEST_F(Assimp, StlStandsWithZUp) {
+  expectTetrahedron(loadBytes("stl", bytesOfFile("stl/tetra.stl")), 0, true);
+  EXPECT_EQ(kinds(), "");
+  options_.settings = {"/up=\"y\""};
+  expectTetrahedron(loadBytes("stl", bytesOfFile("stl/tetra.stl")), 0, false);
+}
+
+TEST_F(Assimp, TextOfStlIsReadAsWell) {
+  const SceneDescription scene = loadBytes("stl", bytesOfFile("stl/box.stl"));
+  const std::vector<PlacedTriangle> triangles = trianglesOf(scene);
+  EXPECT_EQ(triangles.size(), 12u);
+  for (const PlacedTriangle& t : triangles) expectNear(t.normals[0], faceNormal(t), 1e-6);
+  EXPECT_EQ(scene.materials.at(0).diffuse, Rgb(0.6f)) << "as other models without materials";
+  EXPECT_EQ(kinds(), "");
+}
+
+// Bits 0 to 4 are blue, then green and red: codes of 5 bits on a screen.
+TEST_F(Assimp, ColorBitsOfStl) {
+  const SceneDescription scene = loadBytes("stl", bytesOfFile("stl/tetra.stl"));
+  const std::vector<PlacedTriangle> triangles = trianglesOf(scene);
+  ASSERT_EQ(triangles.size(), 4u);
+  const auto gray = static_cast<float>(srgbToLinear(16 / 31.0));
+  const std::array colors{Rgb{1, 0, 0}, Rgb{0, 1, 0}, Rgb{0, 0, 1}, Rgb{gray, gray, gray}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (const Rgb& color : triangles[i].colors) {
+      expectNear(Vec3d(color), Vec3d(colors[i]), 1e-6);
+    }
+  }
+  EXPECT_EQ(scene.materials.at(0).diffuse, Rgb(1.0f));
+}
+
+// A cylinder about z of 24 sides, which meet at 15 degrees, between z = 0 and 1.
+std::string cylinderOff() {
+  constexpr int kSides = 24;
+  std::string points, faces, top = std::to_string(kSides), bottom = top;
+  for (int i = 0; i < kSides; ++i) {
+    const double angle = 2 * kPi * i / kSides;
+    const std::string xy =
+        std::to_string(std::cos(angle)) + " " + std::to_string(std::sin(angle)) + " ";
+    points += xy + "0\n" + xy + "1\n";
+    const int next = (i + 1) % kSides;
+    faces += "4 " + std::to_string(2 * i) + " " + std::to_string(2 * next) + " " +
+             std::to_string(2 * next + 1) + " " + std::to_string(2 * i + 1) + "\n";
+    top += " " + std::to_string(2 * i + 1);
+    bottom += " " + std::to_string(2 * (kSides - 1 - i));
+  }
+  return "OFF\n" + std::to_string(2 * kSides) + " " + std::to_string(kSides + 2) + " 0\n" + points +
+         faces + top + "\n" + bottom + "\n";
+}
+
+TEST_F(Assimp, NormalsAreSmoothedBelowAnAngle) {
+  options_.settings = {"/up=\"y\""};
+  const SceneDescription scene = loadBytes("off", cylinderOff());
+  int sides = 0;
+  for (const PlacedTriangle& t : trianglesOf(scene)) {
+    const bool isSide = std::abs(faceNormal(t).z) < 0.5;
+    sides += isSide;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3d radial{t.corners[k].x, t.corners[k].y, 0};
+      expectNear(t.normals[k], isSide ? radial : faceNormal(t), 1e-5);
+    }
+  }
+  EXPECT_EQ(sides, 48);
+}
+
+TEST_F(Assimp, OffColladaFbxAnd3ds) {
+  options_.settings = {"/up=\"z\""};
+  expectTetrahedron(loadBytes("off", bytesOfFile("off/tetra.off")), 0, true);
+  options_.settings = {};
+  // These files say that z is up.
+  save("t.png", bytesOfFile("png/rgb.png"));
+  expectTetrahedron(loadBytes("dae", bytesOfFile("dae/tetra.dae")), 5, true);
+  expectTetrahedron(loadBytes("fbx", bytesOfFile("fbx/tetra.fbx")), 5, true);
+  EXPECT_EQ(kinds(), "");
+  std::string text = bytesOfFile("3ds/tetra.3ds");
+  std::memcpy(text.data() + text.find("T.PNG"), "t.png", 5);
+  expectTetrahedron(loadBytes("3ds", text), 0, true);
+  EXPECT_EQ(kinds(), "");
+  options_.settings = {"/up=\"x\""};
+  EXPECT_NE(errorOf([&] { loadBytes("dae", bytesOfFile("dae/tetra.dae")); }).find("/up"),
+            std::string::npos);
+}
+
+// The picture beside the model is its base color, which replaces the color of the file.
+TEST_F(Assimp, TexturesLieBesideTheModel) {
+  save("t.png", bytesOfFile("png/rgb.png"));
+  for (const std::string extension : {"dae", "fbx"}) {
+    const SceneDescription scene =
+        loadBytes(extension, bytesOfFile(extension + "/tetra." + extension));
+    const Material& material = scene.materials.at(0);
+    EXPECT_EQ(material.name, "red");
+    EXPECT_NE(material.diffuseMap, kNoTexture) << extension;
+    EXPECT_EQ(material.diffuse, Rgb(1.0f));
+    EXPECT_TRUE(material.doubleSided);
+    EXPECT_NEAR(material.mirror.x, 0, 1e-6);
+    const Mesh& mesh = scene.objects[scene.instances[0].object].meshes[0];
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+      const Vec3f& p = mesh.positions[i];
+      const Vec2f expected = p.z > 0 ? Vec2f{1, 1} : Vec2f{p.x, p.y / 2};
+      EXPECT_EQ(mesh.uvs.at(i), expected) << extension << " v points up";
+    }
+  }
+}
+
+TEST_F(Assimp, NoFileOutsideOfTheFolderIsRead) {
+  save("../secret.png", bytesOfFile("png/rgb.png"));
+  const std::string text =
+      replaced(bytesOfFile("dae/tetra.dae"), "<init_from>t.png", "<init_from>../secret.png");
+  const SceneDescription scene = loadBytes("dae", text);
+  for (const Texture& texture : scene.textures) EXPECT_EQ(texture.texels.size(), 1u);
+  EXPECT_NE(kinds(), "") << "its place is said";
+}
+
+// A controller with a joint that is turned: without it the mesh would be elsewhere.
+TEST_F(Assimp, ARiggedModelIsShownAtRest) {
+  std::string text = bytesOfFile("dae/tetra.dae");
+  text = replaced(text, "<library_visual_scenes>",
+                  "<library_controllers><controller id='c'><skin source='#g'>"
+                  "<source id='j'><Name_array id='ja' count='1'>bone</Name_array><technique_common>"
+                  "<accessor source='#ja' count='1'><param name='JOINT' type='Name'/></accessor>"
+                  "</technique_common></source>"
+                  "<source id='b'><float_array id='ba' count='16'>1 0 0 9 0 1 0 0 0 0 1 0 0 0 0 1"
+                  "</float_array><technique_common><accessor source='#ba' count='1' stride='16'>"
+                  "<param type='float4x4'/></accessor></technique_common></source>"
+                  "<source id='w'><float_array id='wa' count='1'>1</float_array><technique_common>"
+                  "<accessor source='#wa' count='1'><param name='WEIGHT' type='float'/></accessor>"
+                  "</technique_common></source>"
+                  "<joints><input semantic='JOINT' source='#j'/>"
+                  "<input semantic='INV_BIND_MATRIX' source='#b'/></joints>"
+                  "<vertex_weights count='4'><input semantic='JOINT' source='#j' offset='0'/>"
+                  "<input semantic='WEIGHT' source='#w' offset='1'/><vcount>1 1 1 1</vcount>"
+                  "<v>0 0 0 0 0 0 0 0</v></vertex_weights></skin></controller>"
+                  "</library_controllers><library_visual_scenes>");
+  text = replaced(text, "<instance_geometry url=\"#g\">",
+                  "<instance_controller url=\"#c\"><skeleton>#bone</skeleton>");
+  text = replaced(text, "</instance_geometry>", "</instance_controller>");
+  text = replaced(text, "<node id=\"n\"",
+                  "<node id='bone' sid='bone' name='bone' type='JOINT'><rotate>0 0 1 90</rotate>"
+                  "</node><node id=\"n\"");
+  save("t.png", bytesOfFile("png/rgb.png"));
+  expectTetrahedron(loadBytes("dae", text), 5, true);
+  EXPECT_NE(kinds().find("shown at rest"), std::string::npos);
+}
+
+TEST_F(Assimp, BadFilesEndWithAnError) {
+  EXPECT_EQ(errorOf([&] { loadBytes("stl", ""); }),
+            "3 m.stl: expected a model that the library assimp can read, but it is empty");
+  EXPECT_EQ(errorOf([&] { load(root_ + "none.fbx"); }).substr(0, 2), "4 ");
+  EXPECT_NE(errorOf([&] { loadBytes("off", "OFF\n0 0 0\n"); }).find("3 m.off: expected a model"),
+            std::string::npos);
+  // A count beyond memory.
+  options_.maxMemoryBytes = 256u << 20;
+  EXPECT_NE(errorOf([&] { loadBytes("off", "OFF\n2000000000 1 0\n0 0 0\n3 0 0 0\n"); }),
+            "no error");
+}
+
+TEST_F(Assimp, DamagedFilesAreReadOrRefused) {
+  options_.maxMemoryBytes = 512u << 20;
+  int refused = 0;
+  for (const std::string extension : {"stl", "dae", "fbx", "3ds", "off"}) {
+    const std::string whole = bytesOfFile(extension + "/tetra." + extension);
+    for (std::uint32_t seed = 0; seed < 20; ++seed) {
+      const std::vector<std::uint8_t> bad = fuzz::damaged({whole.begin(), whole.end()}, seed);
+      const std::string error =
+          errorOf([&] { loadBytes(extension, std::string(bad.begin(), bad.end())); });
+      refused += error != "no error";
+      EXPECT_TRUE(error == "no error" || error[0] == '3') << extension << seed << error;
+    }
+  }
+  EXPECT_GT(refused, 10);
+}
+
+}  // namespace
+}  // namespace whit
