@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "core/vec3.h"
@@ -190,6 +191,70 @@ TEST_F(SuppliedView, AGuessOfTheAxisIsSaid) {
     EXPECT_EQ(box.upper, boundsOf(loadObj(text)).upper) << text;
     options_.settings = {};
   }
+}
+
+// A frustum of eight sides along `axis`, 4 long about the origin: of radius 1 at its lower end and
+// `top` at the upper one.
+std::string frustum(int axis, double top) {
+  std::string points, faces, lower = "f", upper = "f";
+  for (int i = 0; i < 8; ++i) {
+    for (const double end : {-2.0, 2.0}) {
+      const double angle = (i + 0.5) * 0.78539816339744831, radius = end < 0 ? 1 : top;
+      double p[3];
+      p[axis] = end;
+      p[(axis + 1) % 3] = radius * std::cos(angle);
+      p[(axis + 2) % 3] = radius * std::sin(angle);
+      points += "v " + std::to_string(p[0]) + " " + std::to_string(p[1]) + " " +
+                std::to_string(p[2]) + "\n";
+    }
+    const int a = 2 * i + 1, b = 2 * ((i + 1) % 8) + 1;
+    faces += "f " + std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(b + 1) +
+             " " + std::to_string(a + 1) + "\n";
+    lower += " " + std::to_string(15 - 2 * i);
+    upper += " " + std::to_string(a + 1);
+  }
+  return points + faces + lower + "\n" + upper + "\n";
+}
+
+// A box between two corners, whose vertices are numbered from `first`.
+std::string boxObj(const Vec3d& low, const Vec3d& high, int first) {
+  std::string text;
+  for (int i = 0; i < 8; ++i) {
+    text += "v " + std::to_string(i & 1 ? high.x : low.x) + " " +
+            std::to_string(i & 2 ? high.y : low.y) + " " + std::to_string(i & 4 ? high.z : low.z) +
+            "\n";
+  }
+  for (const auto& face : {std::array{0, 2, 3, 1},
+                           {4, 5, 7, 6},
+                           {0, 1, 5, 4},
+                           {2, 6, 7, 3},
+                           {0, 4, 6, 2},
+                           {1, 3, 7, 5}}) {
+    text += "f";
+    for (const int corner : face) text += " " + std::to_string(first + corner);
+    text += "\n";
+  }
+  return text;
+}
+
+TEST_F(SuppliedView, AStatueOnABaseIsTurnedAndShelvesOnAWallAreNot) {
+  const auto isTurned = [&](const std::string& text) {
+    const Vec3f own = boundsOf(loadObj(text)).upper;
+    options_.settings = {"/up=\"y\""};
+    const bool turned = own != boundsOf(loadObj(text)).upper;
+    options_.settings = {};
+    return turned;
+  };
+  EXPECT_TRUE(isTurned(frustum(2, 0.2))) << "it stands on its base, about the origin";
+  EXPECT_FALSE(isTurned(frustum(1, 0.2)));
+  EXPECT_FALSE(isTurned(frustum(2, 0.9))) << "both ends are flat";
+  EXPECT_FALSE(isTurned(boxObj({-1, -1, -2}, {1, 1, 2}, 1))) << "a wagon";
+  std::string shelves;
+  for (int i = 0; i < 3; ++i) {
+    const double y = 0.5 * i - 0.5;
+    shelves += boxObj({-0.5, y, 0}, {0.5, y + 0.02, 0.6}, 8 * i + 1);
+  }
+  EXPECT_FALSE(isTurned(shelves)) << "the wall is z = 0";
 }
 
 // The corners touch the margin of the picture, whatever its shape, and none is outside.

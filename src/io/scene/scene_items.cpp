@@ -13,6 +13,7 @@
 #include "io/json_reader.h"
 #include "io/scene/scene_layout.h"
 #include "io/scene/scene_sections.h"
+#include "io/scene/up_axis.h"
 #include "scene/generation_limit.h"
 
 namespace whit {
@@ -125,20 +126,6 @@ Affine uprightFrom(char up) {
   if (up == 'z') return {{1, 0, 0}, {0, 0, -1}, {0, 1, 0}, {}};
   if (up == 'x') return {{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}, {}};
   return {};
-}
-
-// True for a model that stands on the plane z = 0, is not flat, and extends to both sides of y = 0.
-bool seemsZUp(const Body& content) {
-  constexpr float kOnPlane = 0.02f, kAstride = 0.25f, kLeastHeight = 0.5f;
-  Box box;
-  for (const Placement& placed : content.placements) {
-    if (!placed.isMesh()) continue;
-    for (const Vec3f& p : placed.mesh->positions) box.add(p);
-  }
-  const Vec3f size = box.upper - box.lower;
-  return !box.empty() && std::abs(box.lower.z) <= kOnPlane * size.z &&
-         size.z >= kLeastHeight * std::max(size.x, size.y) &&
-         std::min(-box.lower.y, box.upper.y) >= kAstride * size.y;
 }
 
 class ItemReader {
