@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <optional>
 #include <string_view>
 #include <system_error>
 
@@ -37,6 +38,32 @@ bool isBelow(const fs::path& path, const fs::path& folder) {
       std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
   // A folder written with a final separator has an empty last part.
   return inFolder == folder.end() || inFolder->empty();
+}
+
+std::string inLowerCase(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+// Returns the relative path `name` as an existing file in `folder` spells it, whatever the
+// capitals.
+std::optional<fs::path> spelledOnDisk(const fs::path& folder, const fs::path& name) {
+  fs::path found;
+  for (const fs::path& part : name) {
+    std::error_code error;
+    if (fs::exists(folder / found / part, error)) {
+      found /= part;
+      continue;
+    }
+    const std::string wanted = inLowerCase(part.string());
+    fs::directory_iterator entry(folder / found, error), end;
+    while (!error && entry != end && inLowerCase(entry->path().filename().string()) != wanted) {
+      entry.increment(error);
+    }
+    if (error || entry == end) return std::nullopt;
+    found /= entry->path().filename();
+  }
+  return found;
 }
 
 // The program that is running, as it was called where there is no /proc, as in many a chroot.
@@ -135,11 +162,7 @@ std::string createBeside(const std::string& path) {
 
 }  // namespace
 
-std::string extensionOf(const fs::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension;
-}
+std::string extensionOf(const fs::path& path) { return inLowerCase(path.extension().string()); }
 
 fs::path dataFolder() {
   const char* const variable = std::getenv("WHIT_DATA");
@@ -155,15 +178,14 @@ bool PathRules::inside(const fs::path& path) const {
   return isBelow(path, sceneFolder_) || (!dataFolder_.empty() && isBelow(path, dataFolder_));
 }
 
-fs::path PathRules::resolve(std::string text, const fs::path& folder, const std::string& where,
-                            bool backslashes) const {
+fs::path PathRules::resolve(const std::string& text, const fs::path& folder,
+                            const std::string& where) const {
   if (text.empty()) throwBadScene(where, "expected the path of a file, found an empty string");
   const bool nul = text.find('\0') != std::string::npos;
   if (nul || text.find("://") != std::string::npos) {
     throwBadScene(where, "expected the path of a file on this machine, found " +
                              (nul ? "a NUL byte" : excerpt(text)));
   }
-  if (backslashes) std::ranges::replace(text, '\\', '/');
   fs::path path;
   if (text.starts_with(kDataVariable)) {
     if (text.size() > kDataVariable.size() && text[kDataVariable.size()] != '/') {
@@ -184,6 +206,26 @@ fs::path PathRules::resolve(std::string text, const fs::path& folder, const std:
                              "permits that)");
   }
   return result;
+}
+
+fs::path PathRules::find(std::string text, const fs::path& folder, const std::string& where,
+                         Warnings& warnings) const {
+  std::ranges::replace(text, '\\', '/');
+  const fs::path name(text);
+  const fs::path fallback =
+      spelledOnDisk(folder, name)
+          .value_or(spelledOnDisk(folder, name.filename()).value_or(fs::path()));
+  try {
+    const fs::path path = resolve(text, folder, where);
+    std::error_code error;
+    if (fs::exists(path, error) || fallback.empty()) return path;
+  } catch (const Error&) {
+    if (fallback.empty()) throw;
+  }
+  const fs::path path = resolve(fallback.string(), folder, where);
+  warnings.add("file taken whose name or folder differs from the one in the model",
+               where + ": " + fallback.string() + " for " + excerpt(text));
+  return path;
 }
 
 SceneName parseSceneName(const std::string& name) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/warnings.h"
 
 namespace whit {
 
@@ -24,11 +25,15 @@ class PathRules {
  public:
   PathRules(const std::filesystem::path& sceneFolder, bool allowOutside);
 
-  // The path that a file lying in `folder` calls `text`. "$WHIT_DATA/..." is expanded; backslashes
-  // are separators when `backslashes` (OBJ and MTL files written on other systems). The file need
-  // not exist. Throws badScene at `where`.
-  std::filesystem::path resolve(std::string text, const std::filesystem::path& folder,
-                                const std::string& where, bool backslashes = false) const;
+  // The path that a file lying in `folder` calls `text`. "$WHIT_DATA/..." is expanded. The file
+  // need not exist. Throws badScene at `where`.
+  std::filesystem::path resolve(const std::string& text, const std::filesystem::path& folder,
+                                const std::string& where) const;
+  // The same for a name in a model, which may have been written on another system: backslashes are
+  // separators. If there is no such file, one whose name differs in capitals is taken, or one of
+  // that name that lies beside the model; that is counted in `warnings`.
+  std::filesystem::path find(std::string text, const std::filesystem::path& folder,
+                             const std::string& where, Warnings& warnings) const;
 
  private:
   bool inside(const std::filesystem::path& path) const;

@@ -131,11 +131,23 @@ void readMaterials(const fs::path& file) {
   MemoryBudget budget(kMemoryLimit);
   TextureLoader textures(1, budget, warnings, nullptr);
   const PathRules rules(file.parent_path(), false);
-  SceneDescription scene;
+  std::vector<GltfImageSource> images;
+  std::vector<ObjMaterial> sources;
   for (const auto& [name, source] : materials) {
-    scene.materials.push_back(
-        loadTextures(source, source.material, {}, file.parent_path(), rules, textures, warnings));
+    sources.push_back(interpretMtl(source, file.parent_path(), rules, images, warnings));
   }
+  GltfMapMaker maps(images, warnings);
+  SceneDescription scene;
+  std::vector<std::function<void(Material&)>> changes;
+  for (const ObjMaterial& source : sources) {
+    const auto shading = [&source](const GltfMeans& means) { return shadedAs(source, means); };
+    TexturedMaterial made = maps.withMaps(source.surface, shading({}), {}, textures, shading);
+    scene.materials.push_back(made.material);
+    changes.push_back(made.whenDecoded);
+  }
+  textures.whenDone([&](SceneDescription& decoded) {
+    for (std::size_t i = 0; i < changes.size(); ++i) changes[i](decoded.materials[i]);
+  });
   textures.finish(scene);
   for (const Texture& texture : scene.textures) checkTexture(texture);
   Mesh mesh;

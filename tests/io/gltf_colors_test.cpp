@@ -39,6 +39,33 @@ TEST_F(GltfMaterials, VertexColors) {
   expectColor(pixel(glowing("[1,1,1]")), Rgb(1.0f));  // emission has no base color
 }
 
+// What is seen of a glow of 1 is alpha, between the corners as any attribute, times the factor's.
+TEST_F(GltfMaterials, AlphaOfVertexColorsBlends) {
+  candela_ = 0;
+  alphas_ = {0, 1, 1, 0};
+  const std::string blend =
+      "\"doubleSided\":true,\"alphaMode\":\"BLEND\",\"emissiveFactor\":[1,1,1]";
+  const auto p = picture({{0, matte("\"baseColorFactor\":[0,0,0,0.5]", blend), 1}}, 4);
+  const float columns[] = {0.125f, 0.375f, 0.625f, 0.875f};
+  for (std::size_t i = 0; i < 4; ++i) expectColor(p[4 + i], Rgb(0.5f * columns[i]));
+}
+
+TEST_F(GltfMaterials, AlphaOfVertexColorsCuts) {
+  candela_ = 0;
+  alphas_ = {0, 1, 1, 0};
+  const std::string mask =
+      "\"doubleSided\":true,\"alphaMode\":\"MASK\",\"alphaCutoff\":0.75,\"emissiveFactor\":[1,1,1]";
+  const auto p = picture({{0, matte("\"baseColorFactor\":[0,0,0,1]", mask), 1}}, 4);
+  for (std::size_t i = 0; i < 3; ++i) expectColor(p[4 + i], Rgb(0.0f));
+  expectColor(p[7], Rgb(1.0f));
+}
+
+TEST_F(GltfMaterials, OpaqueMaterialsIgnoreAlphaOfVertexColors) {
+  candela_ = 0;
+  alphas_ = {0, 0, 0, 0};
+  expectColor(pixel(glowing("[1,1,1]")), Rgb(1.0f));
+}
+
 TEST_F(GltfMaterials, WhatCannotBeShownIsCounted) {
   save("t.tga", tga(1, 1, {{255, 255, 255}}));
   useImages({"t.tga", "missing.png"}, "\"magFilter\":9728");

@@ -38,6 +38,12 @@ class GltfMaterials : public GltfTest {
       attributes +=
           ",\"COLOR_0\":" + std::to_string(b.accessor(b.view(bytesOf(colors_)), 5126, "VEC3", 4));
     }
+    if (!alphas_.empty()) {
+      std::vector<float> rgba;
+      for (const float alpha : alphas_) rgba.insert(rgba.end(), {1, 1, 1, alpha});
+      attributes +=
+          ",\"COLOR_0\":" + std::to_string(b.accessor(b.view(bytesOf(rgba)), 5126, "VEC4", 4));
+    }
     if (!secondUvs_.empty()) attributes += ",\"TEXCOORD_1\":" + std::to_string(b.uvs(secondUvs_));
     std::string meshes, nodes, roots, materials;
     for (std::size_t i = 0; i < squares.size(); ++i) {
@@ -115,7 +121,7 @@ class GltfMaterials : public GltfTest {
   }
 
   // Of the squares' corners, from the lower left; empty: none.
-  std::vector<float> colors_, secondUvs_;
+  std::vector<float> colors_, alphas_, secondUvs_;
   double candela_ = 9 * kPi;  // at 683 lm/W
   std::string light_ = "0,0,3", images_;
 };

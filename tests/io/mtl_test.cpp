@@ -27,7 +27,7 @@ TEST_F(Mtl, ColorsAndDefaults) {
   const Material m = materialOf("Kd 0.1 0.2 0.3\nKs 0.4\nKe 1 2 3\n");
   EXPECT_EQ(m.name, "m");
   EXPECT_EQ(m.diffuse, Rgb(0.1f, 0.2f, 0.3f));
-  EXPECT_EQ(m.specular, Rgb(0.4f));  // one number stands for all three
+  EXPECT_EQ(m.specular, Rgb(0.4f) * 0.08f);  // one number stands for all three
   EXPECT_EQ(m.emission, Rgb(1, 2, 3));
   EXPECT_FALSE(m.hasMirror());
   EXPECT_FALSE(m.hasTransmission());
@@ -42,6 +42,40 @@ TEST_F(Mtl, ExponentToRoughness) {
   EXPECT_NEAR(materialOf("Ns 0\n").roughness, 1, kRounding);
   EXPECT_EQ(materialOf("Ns 6\nPr 0.25\n").roughness, 0.25f);
   EXPECT_EQ(materialOf("Pr 0\n").roughness, 0);
+}
+
+// Blender writes 1000 (1 - roughness)^2, and Ks 0.5 where its specular level is 0.5: F0 is 0.04 as
+// in the glTF file of the same material.
+TEST_F(Mtl, MaterialsOfBlenderAreThoseOfItsGltf) {
+  const auto blender = [&](const std::string& statements) {
+    save("m.mtl", "# Blender 3.4.1 MTL File: 'None'\n# www.blender.org\n\nnewmtl m\n" + statements);
+    return loadObj("mtllib m.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").materials[0];
+  };
+  const Material plain = blender(
+      "Ns 250\nKa 1 1 1\nKd 0.8 0.4 0.2\nKs 0.5 0.5 0.5\nKe 0 0 0\nNi 1.45\nd 1\nillum 2\n");
+  EXPECT_NEAR(plain.specular.x, 0.04f, kRounding);
+  EXPECT_NEAR(plain.roughness, 0.5f, kRounding);
+  EXPECT_EQ(plain.diffuse, Rgb(0.8f, 0.4f, 0.2f));
+  EXPECT_FALSE(plain.hasMirror());
+  const Material metal = blender("Ns 250\nKa 1 1 1\nKd 0.8 0.4 0.2\nKs 0.5 0.5 0.5\nillum 3\n");
+  EXPECT_EQ(metal.specular, Rgb(0.8f, 0.4f, 0.2f));
+  EXPECT_EQ(metal.diffuse, Rgb(0.0f));
+  EXPECT_FALSE(metal.hasMirror());
+  const Material sheet = blender("Ns 250\nKd 1 1 1\nKs 0.5 0.5 0.5\nNi 1.45\nd 0.25\nillum 9\n");
+  EXPECT_EQ(sheet.coverage, 0.25f);
+  EXPECT_FALSE(sheet.hasTransmission());
+}
+
+// A highlight is no mirror, however strong, below illum 3.
+TEST_F(Mtl, HighlightsAreNoMirrors) {
+  const Material m = materialOf("Kd 0.5 0.5 0.5\nKs 1 1 1\nNs 10\nillum 2\n");
+  EXPECT_NEAR(m.specular.x, 0.08f, kRounding);
+  EXPECT_FALSE(m.hasMirror());
+  EXPECT_FALSE(materialOf("Kd 1 1 1\nNs 900\n").hasMirror());
+  const Material rough = materialOf("Ks 0.9 0.9 0.9\nPr 0.6\nillum 3\n");
+  EXPECT_FALSE(rough.hasMirror());
+  EXPECT_NEAR(rough.specular.x, 0.9f, kRounding);
+  EXPECT_EQ(materialOf("Ks 0.9 0.9 0.9\nPr 0\nillum 3\n").mirror, Rgb(0.9f));
 }
 
 TEST_F(Mtl, Metalness) {
@@ -96,17 +130,87 @@ TEST_F(Mtl, ValuesOutOfRangeAreClampedAndCounted) {
   EXPECT_EQ(warned("index of refraction clamped to [1, 10]"), 1u);
 }
 
-TEST_F(Mtl, ErrorsHaveTheirLine) {
-  const auto error = [&](const std::string& statements) {
-    return errorOf([&] { materialOf(statements); });
-  };
-  EXPECT_EQ(error("Kd red\n"), "3 m.mtl:2: expected numbers after \"Kd\"");
-  EXPECT_EQ(error("Kd spectral file.rfl 1\n"), "3 m.mtl:2: expected numbers after \"Kd\"");
-  EXPECT_EQ(error("Kd 1 1 x\n"), "3 m.mtl:2: expected numbers after \"Kd\"");
-  EXPECT_EQ(error("\n\nNs\n"), "3 m.mtl:4: expected a number after \"Ns\"");
-  EXPECT_EQ(error("Ns nan\n"), "3 m.mtl:2: expected a number after \"Ns\"");
-  EXPECT_EQ(error("map_Kd\n"), "3 m.mtl:2: expected the name of a file after \"map_Kd\"");
-  EXPECT_EQ(error("newmtl \n"), "3 m.mtl:2: expected a name after \"newmtl\"");
+// A line that cannot be read is named and left out; the rest of the material counts.
+TEST_F(Mtl, DamagedLinesAreLeftOut) {
+  const std::pair<const char*, const char*> lines[] = {
+      {"Kd red\n", "2: expected numbers after \"Kd\""},
+      {"Kd spectral file.rfl 1\n", "2: expected numbers after \"Kd\""},
+      {"Kd 1 1 x\n", "2: expected numbers after \"Kd\""},
+      {"\n\nNs\n", "4: expected a number after \"Ns\""},
+      {"Ns nan\n", "2: expected a number after \"Ns\""},
+      {"map_Kd\n", "2: expected the name of a file after \"map_Kd\""},
+      {"newmtl \n", "2: expected a name after \"newmtl\""}};
+  const std::string kind = "line of a material library that cannot be read left out";
+  for (const auto& [line, place] : lines) {
+    Warnings warnings;
+    save("m.mtl", "newmtl m\n" + std::string(line) + "newmtl n\nKe 2 2 2\n");
+    const SceneDescription scene = loadScene(
+        save("m.obj", std::string("mtllib m.mtl\nusemtl n\n") + kTriangleObj), options_, warnings);
+    EXPECT_EQ(scene.materials[0].emission, Rgb(2.0f)) << line;
+    ASSERT_EQ(warnings.entries().count(kind), 1u) << line;
+    const std::string where = warnings.entries().at(kind).first;
+    EXPECT_EQ(where.substr(where.find("m.mtl:")), "m.mtl:" + std::string(place));
+  }
+  Warnings strict(true);
+  save("m.mtl", "newmtl m\nKd 0.5\nmap_Kd\n");
+  const std::string file = save("m.obj", std::string("mtllib m.mtl\n") + kTriangleObj);
+  EXPECT_EQ(errorOf([&] { loadScene(file, options_, strict); }),
+            "3 m.mtl:3: expected the name of a file after \"map_Kd\": " + kind +
+                " (refused by --strict)");
+}
+
+// A texture of one texel a row: u' = 0.25 + 2 u, v' = -0.5 + 3 v.
+TEST_F(Mtl, OffsetAndScaleOfMaps) {
+  save("c.tga", tga(1, 1, {{255, 0, 0}}));
+  save("m.mtl",
+       "newmtl moved\nmap_Kd -o 0.25 -0.5 0 -s 2 3 1 c.tga\nnewmtl plain\nmap_Kd c.tga\n"
+       "newmtl two\nmap_Kd c.tga\nKe 1 1 1\nmap_Ke -s 4 4 c.tga\n");
+  const SceneDescription scene = loadObj(
+      "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.5 0.25\nvt 1 0\nvt 0 1\n"
+      "usemtl moved\nf 1/1 2/2 3/3\nusemtl plain\nf 1/1 2/2 3/3\nusemtl two\nf 1/1 2/2 3/3\n");
+  const Mesh& mesh = scene.objects[0].meshes[0];
+  EXPECT_EQ(mesh.uvs[mesh.triangles[0][0]], (Vec2f{1.25f, 0.25f}));
+  EXPECT_EQ(mesh.uvs[mesh.triangles[0][2]], (Vec2f{0.25f, 2.5f}));
+  EXPECT_EQ(mesh.uvs[mesh.triangles[1][0]], (Vec2f{0.5f, 0.25f}));
+  EXPECT_EQ(mesh.uvs[mesh.triangles[2][0]], (Vec2f{0.5f, 0.25f}));
+  EXPECT_EQ(mesh.secondUvs[mesh.triangles[2][0]], (Vec2f{2, 1}));
+  EXPECT_TRUE(scene.materials[2].emissionBySecondUvs);
+  EXPECT_EQ(kinds(), "");
+}
+
+// Metal on the left, plastic on the right, rough above, smooth below; the map of the glow is a
+// factor of Ke, and counts by itself where Ke is 0.
+TEST_F(Mtl, MapsOfMetalnessRoughnessAndEmission) {
+  save("metal.tga", tga(2, 1, {{255}, {0}}));
+  save("rough.tga", tga(1, 2, {{255}, {128}}));
+  save("glow.tga", tga(1, 1, {{255, 0, 0}}));
+  const SceneDescription scene = loadWith(
+      "Kd 0.5 0.5 0.5\nKs 0.5 0.5 0.5\nmap_Pm metal.tga\nmap_Pr rough.tga\nKe 0 0 0\n"
+      "map_Ke glow.tga\n");
+  const Material& m = scene.materials[0];
+  constexpr float kTexel = 2e-3f;  // 10 bits of a square root
+  const Texture& diffuse = textureOf(scene, m.diffuseMap);
+  const Texture& specular = textureOf(scene, m.specularMap);
+  EXPECT_NEAR(decodeColorTexel(diffuse.texels[0]).x * m.diffuse.x, 0, kTexel);
+  EXPECT_NEAR(decodeColorTexel(diffuse.texels[1]).x * m.diffuse.x, 0.5f, kTexel);
+  EXPECT_NEAR(decodeColorTexel(specular.texels[0]).x * m.specular.x, 0.5f, kTexel);
+  EXPECT_NEAR(decodeColorTexel(specular.texels[1]).x * m.specular.x, 0.04f, kTexel);
+  EXPECT_EQ(m.roughness, 1);
+  EXPECT_EQ(textureOf(scene, m.roughnessMap).texels[1] >> 8 & 0xffu, 128u);
+  EXPECT_EQ(m.emission, Rgb(1.0f));
+  EXPECT_EQ(decodeColorTexel(textureOf(scene, m.emissionMap).texels[0]), Rgb(1, 0, 0));
+  EXPECT_EQ(materialOf("Ke 3 2 1\nmap_Ke glow.tga\n").emission, Rgb(3, 2, 1));
+}
+
+// Names are written on systems that do not tell capitals apart, and with their folders.
+TEST_F(Mtl, NamesOfOtherSystems) {
+  save("Textures/Wood.tga", tga(1, 1, {{255, 0, 0}}));
+  save("Beside.TGA", tga(1, 1, {{255, 0, 0}}));
+  for (const char* name : {"textures\\wood.TGA", "C:\\Users\\me\\beside.tga", "../../beside.tga",
+                           "file:///C:/maps/Beside.TGA", "/home/me/BESIDE.tga"}) {
+    EXPECT_NE(materialOf(std::string("map_Kd ") + name + "\n").diffuseMap, kNoTexture) << name;
+  }
+  EXPECT_EQ(warned("file taken whose name or folder differs from the one in the model"), 5u);
 }
 
 TEST_F(Mtl, MapsByTheirKeys) {
@@ -119,29 +223,35 @@ TEST_F(Mtl, MapsByTheirKeys) {
   EXPECT_EQ(m.diffuse, Rgb(1.0f));  // without Kd the map is the color
   EXPECT_EQ(textureOf(scene, m.diffuseMap).format, TexelFormat::color);
   EXPECT_EQ(decodeColorTexel(textureOf(scene, m.diffuseMap).texels[0]), Rgb(1, 0, 0));
-  EXPECT_EQ(m.specularMap, m.diffuseMap);
+  // The map of reflectances has F0: 0.08 times Ks times the texel.
+  const Rgb f0 = decodeColorTexel(textureOf(scene, m.specularMap).texels[0]) * m.specular;
+  EXPECT_NEAR(f0.x, 0.08f, 1e-3f);
+  EXPECT_EQ(f0.y, 0);
   EXPECT_EQ(textureOf(scene, m.normalMap).format, TexelFormat::data);
   EXPECT_EQ(textureOf(scene, m.normalMap).texels[0] & 0xffffffu, 0xff8080u);
   EXPECT_EQ(textureOf(scene, m.alphaMap).texels[0] & 0xffu, 64u);
   EXPECT_EQ(textureOf(scene, m.alphaMap).wrapU, Wrap::clamp);
-  EXPECT_EQ(scene.textures.size(), 3u);
+  EXPECT_EQ(scene.textures.size(), 4u);
 }
 
 TEST_F(Mtl, SpecularMapsMultiply) {
   save("c.tga", tga(1, 1, {{255, 0, 0}}));
   EXPECT_EQ(materialOf("Ks 0 0 0\nmap_Ks c.tga\n").specularMap, kNoTexture);
-  EXPECT_EQ(materialOf("map_Ks c.tga\n").specular, Rgb(1.0f));
+  EXPECT_NE(materialOf("map_Ks c.tga\n").specularMap, kNoTexture);
 }
 
 TEST_F(Mtl, NamesWithBlanksBackslashesAndOptions) {
   save("a folder/c 1.tga", tga(1, 1, {{255, 0, 0}}));
   for (const char* line : {"map_Kd a folder\\c 1.tga\r", "map_Kd -clamp off a folder/c 1.tga \t",
-                           "map_Kd -s 2 2 a folder/c 1.tga", "map_Kd -o 1 -bm 2 a folder/c 1.tga",
+                           "map_Kd -imfchan r a folder/c 1.tga", "map_Kd -bm 2 a folder/c 1.tga",
+                           "map_Kd -t 1 a folder/c 1.tga", "map_Kd -blendu on a folder/c 1.tga",
                            "map_kd -mm 0 1 a folder/c 1.tga"}) {
     const SceneDescription scene = loadWith(std::string(line) + "\n");
     EXPECT_EQ(scene.textures.size(), 1u) << line;
   }
-  EXPECT_EQ(warned("texture option that is not supported"), 3u);
+  for (const char* option : {"-imfchan", "-t", "-mm"}) {
+    EXPECT_EQ(warned(std::string("texture option that is not supported: ") + option), 1u) << option;
+  }
 }
 
 TEST_F(Mtl, MissingTexturesAreLeftOut) {

@@ -154,5 +154,54 @@ TEST_F(ObjFaces, AModelAloneGetsLightsAndACamera) {
   EXPECT_EQ(Scene::finalize(std::move(copy), warnings).cameras.size(), 1u);
 }
 
+// Colors follow the position, after a weight or not, in sRGB: code 188 of 255 is 0.502886 in light.
+TEST_F(ObjFaces, ColorsOfVertices) {
+  const SceneDescription scene =
+      loadObj("v 0 0 0 1 0 0.737255\nv 1 0 0 1 0 1 0\nv 0 1 0\nf 1 2 3\n");
+  const Mesh& mesh = scene.objects[0].meshes[0];
+  ASSERT_EQ(mesh.colors.size(), 3u);
+  EXPECT_EQ(mesh.colors[0].x, 1);
+  EXPECT_NEAR(mesh.colors[0].z, 0.502886f, 1e-5f);
+  EXPECT_EQ(mesh.colors[1], Rgb(0, 1, 0));
+  EXPECT_EQ(mesh.colors[2], Rgb(1.0f));
+  EXPECT_EQ(scene.materials[mesh.materials[0]].diffuse, Rgb(1.0f));
+  const SceneDescription codes =
+      loadObj("v 0 0 0 255 0 188\nv 1 0 0 0 0 0\nv 0 1 0 0 0 0\nf 1 2 3\n");
+  EXPECT_NEAR(codes.objects[0].meshes[0].colors[0].z, 0.502886f, 1e-5f);
+}
+
+TEST_F(ObjFaces, PositionsWithoutZ) {
+  const SceneDescription scene = loadObj("v 0 0\nv 1 0\nv 0 1\nf 1 2 3\n");
+  EXPECT_EQ(scene.objects[0].meshes[0].positions[1], Vec3f(1, 0, 0));
+}
+
+// Two faces meet at a right angle along the z axis: in a group the normals at the edge are the
+// mean, by area, elsewhere each face has its own.
+TEST_F(ObjFaces, SmoothingGroups) {
+  const std::string corners = "v 0 0 0\nv 0 0 -1\nv 1 0 -1\nv 1 0 0\nv 0 1 0\nv 0 1 -1\n";
+  const auto normalsAtEdge = [&](const std::string& first, const std::string& second) {
+    const SceneDescription scene =
+        loadObj(corners + first + "f 1 4 3 2\n" + second + "f 1 2 6 5\n");
+    const Mesh& mesh = scene.objects[0].meshes[0];
+    std::vector<Vec3f> found;
+    for (const auto& triangle : mesh.triangles) {
+      for (const std::uint32_t corner : triangle) {
+        const bool isAtEdge = mesh.positions[corner] == Vec3f(0, 0, 0);
+        if (isAtEdge && !mesh.normals.empty()) found.push_back(mesh.normals[corner]);
+      }
+    }
+    return found;
+  };
+  const float half = std::sqrt(0.5f);
+  const std::vector<Vec3f> smooth = normalsAtEdge("s 1\n", "");
+  ASSERT_GE(smooth.size(), 2u);
+  for (const Vec3f& normal : smooth) EXPECT_LT(length(normal - Vec3f(half, half, 0)), 1e-6f);
+  EXPECT_EQ(normalsAtEdge("s off\n", ""), std::vector<Vec3f>());
+  EXPECT_EQ(normalsAtEdge("s 1\n", "s 0\n").front(), Vec3f(0, 1, 0));
+  const std::vector<Vec3f> apart = normalsAtEdge("s 1\n", "s 2\n");
+  EXPECT_EQ(apart.front(), Vec3f(0, 1, 0));
+  EXPECT_EQ(apart.back(), Vec3f(1, 0, 0));
+}
+
 }  // namespace
 }  // namespace whit

@@ -170,13 +170,83 @@ TEST_F(Ply, IndicesAndLengthsAreWhole) {
             "3 m.ply:14: expected a list that fits into the file");
 }
 
-TEST_F(Ply, WhatOnlyFacesHaveIsCounted) {
-  const std::string vertices =
-      "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
-  loadPly(header("ascii", vertices + "element face 1\nproperty list uchar int vertex_indices\n"
-                                     "property list uchar float texcoord\nproperty uchar red\n") +
-          "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 6 0 0 1 0 0 1 255\n");
-  EXPECT_EQ(warned("properties of faces left out"), 2u);
+constexpr char kFourVertices[] =
+    "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
+constexpr char kTwoFaces[] = "element face 2\nproperty list uchar int vertex_indices\n";
+constexpr char kCorners[] = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+
+// Two faces share two vertices and have other colors there. Code 188 is 0.502886 in light.
+TEST_F(Ply, ColorsOfFaces) {
+  const std::string colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  const SceneDescription scene = loadPly(header("ascii", kFourVertices + (kTwoFaces + colors)) +
+                                         kCorners + "3 0 1 2 255 0 188\n3 0 2 3 0 255 0\n");
+  const Mesh& mesh = scene.objects[0].meshes[0];
+  ASSERT_EQ(mesh.triangles.size(), 2u);
+  for (const std::uint32_t corner : mesh.triangles[0]) {
+    EXPECT_EQ(mesh.colors[corner].x, 1);
+    EXPECT_NEAR(mesh.colors[corner].z, 0.502886f, 1e-5f);
+  }
+  for (const std::uint32_t corner : mesh.triangles[1]) {
+    EXPECT_EQ(mesh.colors[corner], Rgb(0, 1, 0));
+  }
+  EXPECT_EQ(mesh.positions[mesh.triangles[1][2]], Vec3f(0, 1, 0));
+  EXPECT_EQ(scene.materials[mesh.materials[0]].diffuse, Rgb(1.0f));
+  EXPECT_EQ(kinds(), "");
+}
+
+TEST_F(Ply, ShortNamesOfColors) {
+  const SceneDescription scene =
+      loadPly(header("ascii",
+                     "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                     "property float r\nproperty float g\nproperty float b\nelement face 1\n"
+                     "property list uchar int vertex_indices\n") +
+              "0 0 0 1 0.5 0\n1 0 0 0 0 1\n0 1 0 0 0 0\n3 0 1 2\n");
+  EXPECT_EQ(scene.objects[0].meshes[0].colors[0], Rgb(1, 0.5f, 0));
+}
+
+TEST_F(Ply, PicturesByCoordinatesOfVertices) {
+  save("t.tga", tga(1, 1, {{255, 0, 0}}));
+  const SceneDescription scene = loadPly(
+      "ply\nformat ascii 1.0\ncomment TextureFile t.tga\nelement vertex 3\nproperty float x\n"
+      "property float y\nproperty float z\nproperty float u\nproperty float v\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_header\n"
+      "0 0 0 0.25 0.75\n1 0 0 0 0\n0 1 0 0 0\n3 0 1 2\n");
+  const Material& material = scene.materials[0];
+  ASSERT_NE(material.diffuseMap, kNoTexture);
+  EXPECT_EQ(material.diffuse, Rgb(1.0f));
+  EXPECT_EQ(scene.objects[0].meshes[0].uvs[0], (Vec2f{0.25f, 0.75f}));
+}
+
+// The pictures are numbered in the order of the comments; coordinates belong to corners.
+TEST_F(Ply, PicturesByCoordinatesOfFaces) {
+  save("red.tga", tga(1, 1, {{255, 0, 0}}));
+  save("blue.tga", tga(1, 1, {{0, 0, 255}}));
+  const SceneDescription scene = loadPly(
+      header("ascii", std::string("comment TextureFile red.tga\ncomment TextureFile blue.tga\n") +
+                          kFourVertices + kTwoFaces +
+                          "property list uchar float texcoord\nproperty int texnumber\n") +
+      kCorners + "3 0 1 2 6 0 0 1 0 1 1 1\n3 0 2 3 6 0.5 0.5 1 1 0 1 0\n");
+  const Mesh& mesh = scene.objects[0].meshes[0];
+  ASSERT_EQ(mesh.materials.size(), 2u);
+  EXPECT_EQ(scene.materials[mesh.materials[0]].name, "blue.tga");
+  EXPECT_EQ(scene.materials[mesh.materials[1]].name, "red.tga");
+  EXPECT_EQ(mesh.uvs[mesh.triangles[0][1]], (Vec2f{1, 0}));
+  EXPECT_EQ(mesh.uvs[mesh.triangles[1][0]], (Vec2f{0.5f, 0.5f}));
+  EXPECT_EQ(kinds(), "");
+}
+
+TEST_F(Ply, PicturesThatAreMissingAreNamed) {
+  loadPly(header("ascii", std::string("comment TextureFile none.png\n") + kTriangleHeader) +
+          "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  EXPECT_EQ(warned("texture left out"), 1u);
+}
+
+TEST_F(Ply, CommentsBetweenElements) {
+  const SceneDescription scene =
+      loadPly(header("ascii", kTriangleHeader) +
+              "comment the vertices\ncomment begin\n0 0 0\n1 0 0\ncomment one more\n0 1 0\n"
+              "comment and faces\n3 0 1 2\n");
+  EXPECT_EQ(triangleCount(scene), 1u);
 }
 
 TEST_F(Ply, NothingToDrawIsSaidWithItsReason) {

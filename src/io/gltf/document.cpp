@@ -242,7 +242,7 @@ void GltfDocument::readBuffers(const std::filesystem::path& folder, const PathRu
     if (isDataUri(uri.textOr(""))) {
       bytes = decodeUri(uri);
     } else if (uri.exists()) {
-      const auto file = rules.resolve(percentDecoded(uri.textOr("")), folder, uri.where());
+      const auto file = rules.find(percentDecoded(uri.textOr("")), folder, uri.where(), warnings_);
       bytes = readNamedAt(uri.where(), [&] { return readFile(file, budget_.left() / 2); });
       budget_.charge(bytes->size(), 1, uri.where());
     }
@@ -268,7 +268,8 @@ void GltfDocument::readImages(const std::filesystem::path& folder, const PathRul
       image.bytes = asBytes(image.own);
     } else {
       try {
-        image.path = rules.resolve(percentDecoded(uri.textOr("")), folder, uri.where()).string();
+        image.path =
+            rules.find(percentDecoded(uri.textOr("")), folder, uri.where(), warnings_).string();
       } catch (const Error&) {
         image.error = std::current_exception();
       }

@@ -9,6 +9,7 @@
 #include "io/gltf/material.h"
 #include "io/image/image_decoders.h"
 #include "io/image/texture_from_image.h"
+#include "scene/members.h"
 
 namespace whit {
 
@@ -111,7 +112,8 @@ void setWrap(const GltfTexture& map, Texture& texture) {
 // The texture of the alpha channel, or none where it has the same value everywhere.
 std::optional<Texture> bakeAlpha(const GltfMaterial& m, const RawImage& raw,
                                  const ImageLimits& limits, GltfMeans& means) {
-  if (m.alphaMode == GltfMaterial::Alpha::opaque || !hasTranslucentAlpha(raw)) return {};
+  const bool isUsed = m.alphaMode != GltfMaterial::Alpha::opaque && !m.maskMap.exists();
+  if (!isUsed || !hasTranslucentAlpha(raw)) return {};
   if (m.alphaMode == GltfMaterial::Alpha::blend) {
     const ChannelMean alpha = meanOf(raw, 3);
     means.alphaByMap = alpha.varies;
@@ -150,7 +152,7 @@ Images bake(const GltfMaterial& m, const GltfBakeImages& images, const ImageLimi
   start(kGltfDiffuse, emits ? emissionFormat(*images[kBase]) : TexelFormat::color);
   start(kGltfSpecular, TexelFormat::color);
   RgbD colors, tintSum;
-  double metallic = 0, roughness = 0, strengths = 0;
+  double metallic = 0, strengths = 0;
   std::size_t i = 0;
   for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y) {
     for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x, ++i) {
@@ -159,7 +161,6 @@ Images bake(const GltfMaterial& m, const GltfBakeImages& images, const ImageLimi
       const float metal = m.metallic * other.code[2], strength = speculars.at(x, y).code[3];
       colors += RgbD(base);
       metallic += other.code[2];
-      roughness += other.code[1];
       strengths += strength;
       tintSum += RgbD(tint);
       if (maps[kGltfDiffuse]) {
@@ -175,7 +176,6 @@ Images bake(const GltfMaterial& m, const GltfBakeImages& images, const ImageLimi
   const double texels = static_cast<double>(width) * height;
   means.base = Rgb(colors / texels);
   means.metallic = static_cast<float>(metallic / texels);
-  means.roughness = static_cast<float>(roughness / texels);
   means.specular = static_cast<float>(strengths / texels);
   means.specularColor = Rgb(tintSum / texels);
   if (images[kBase]) maps[kGltfAlpha] = bakeAlpha(m, *images[kBase], limits, means);
@@ -183,6 +183,10 @@ Images bake(const GltfMaterial& m, const GltfBakeImages& images, const ImageLimi
 }
 
 Texture normalTexture(const GltfMaterial& material, const RawImage& raw) {
+  if (material.normalsMayBeHeights && looksLikeHeights(raw)) {
+    return normalsFromHeights(material.name, raw, material.normalScale, material.normalMap.wrapU,
+                              material.normalMap.wrapV);
+  }
   Texture texture = makeTexture(material.name, raw, TexelFormat::data);
   if (material.normalScale == 1) return texture;
   for (std::uint32_t& texel : texture.texels) {
@@ -197,6 +201,13 @@ Texture normalTexture(const GltfMaterial& material, const RawImage& raw) {
   return texture;
 }
 
+Texture alphaRamp(const std::string& name) {
+  Texture texture = emptyTexture(name, TexelFormat::data, 2, 1);
+  texture.texels = {encodeDataTexel(0, 0, 0, 1), encodeDataTexel(1, 1, 1, 1)};
+  texture.wrapU = texture.wrapV = Wrap::clamp;
+  return texture;
+}
+
 std::shared_ptr<const RawImage> decoded(const std::shared_ptr<GltfImage>& image,
                                         const ImageLimits& limits) {
   return image ? image->decode(limits) : nullptr;
@@ -207,13 +218,14 @@ std::string keyOf(const GltfMaterial& m) {
   std::ostringstream key;
   for (const GltfTexture* map :
        {&m.baseMap, &m.metallicRoughnessMap, &m.normalMap, &m.emissiveMap, &m.specularMap,
-        &m.specularColorMap, &m.transmissionMap, &m.clearcoatMap, &m.clearcoatRoughnessMap}) {
+        &m.specularColorMap, &m.transmissionMap, &m.clearcoatMap, &m.clearcoatRoughnessMap,
+        &m.roughnessMap, &m.maskMap}) {
     key << (map->image ? static_cast<std::int64_t>(*map->image) : -1) << ' '
         << static_cast<int>(map->wrapU) << static_cast<int>(map->wrapV) << ' ';
   }
   key << std::hexfloat << m.normalScale << ' ' << static_cast<int>(m.alphaMode) << ' '
-      << (m.transmission > 0) << (m.clearcoat > 0) << m.emitsByMap() << m.unlit << ' ' << m.metallic
-      << ' ' << m.variesRoughness() << ' ';
+      << m.alphaByVertex << (m.transmission > 0) << (m.clearcoat > 0) << m.emitsByMap() << m.unlit
+      << ' ' << m.metallic << ' ' << m.variesRoughness() << ' ';
   if (m.bakesSpecular()) {
     key << m.f90 << ' ';
     for (int i = 0; i < 3; ++i) key << m.specularColor[i] << ' ' << m.base[i] << ' ';
@@ -221,12 +233,46 @@ std::string keyOf(const GltfMaterial& m) {
   return key.str();
 }
 
+// Replaces what a scene file has not `given` by what `fresh` has. Maps stay.
+void renew(Material& to, const Material& fresh, const GivenMembers& given) {
+  const float cutoff = to.alphaCutoff;
+  forEachMember<Material>([&](const auto& member) {
+    if (member.rules.kind == MemberKind::map || given.contains(member.name)) return;
+    to.*member.field = fresh.*member.field;
+  });
+  if (given.contains("alphaMap")) to.alphaCutoff = cutoff;
+}
+
 }  // namespace
 
-GltfMapMaker::GltfMapMaker(const GltfDocument& document) : warnings_(document.warnings()) {
-  for (const GltfImageSource& source : document.images()) {
-    images_.push_back(std::make_shared<GltfImage>(source, document.warnings()));
+GltfMapMaker::GltfMapMaker(const std::vector<GltfImageSource>& images, Warnings& warnings)
+    : warnings_(warnings) {
+  for (const GltfImageSource& source : images) {
+    images_.push_back(std::make_shared<GltfImage>(source, warnings));
   }
+}
+
+TexturedMaterial GltfMapMaker::withMaps(const GltfMaterial& source, Material material,
+                                        const GivenMembers& given, TextureLoader& textures,
+                                        GltfShading shading) {
+  if (lacksCoordinates(source)) {
+    warnings_.add(
+        "texture looked up with the coordinates of its material's first in place of its own",
+        source.where);
+  }
+  const GltfMaps maps = ask(source, textures);
+  forEachMap([&](const auto& member) {
+    // A roughness or coverage that is given is meant as it stands.
+    const bool isReplaced =
+        (member.field == &Material::roughnessMap && given.contains("roughness")) ||
+        (member.field == &Material::coverageMap && given.contains("coverage"));
+    if (isReplaced || given.contains(member.name)) return;
+    material.*member.field = maps.slots.*member.field;
+  });
+  const auto renewed = [shading = std::move(shading), given, means = maps.means](Material& m) {
+    renew(m, shading(*means), given);
+  };
+  return {std::move(material), renewed};
 }
 
 GltfMaps GltfMapMaker::ask(const GltfMaterial& m, TextureLoader& textures) {
@@ -258,6 +304,11 @@ GltfMaps GltfMapMaker::ask(const GltfMaterial& m, TextureLoader& textures) {
     if (m.alphaMode != GltfMaterial::Alpha::opaque) slots.alphaMap = baked[kGltfAlpha];
     if (m.alphaMode == GltfMaterial::Alpha::blend) slots.coverageMap = baked[kGltfAlpha];
   }
+  if (m.alphaByVertex) {
+    slots.alphaMap = textures.add(1, [name = m.name] { return Images{alphaRamp(name)}; })[0];
+    if (m.alphaMode == GltfMaterial::Alpha::blend) slots.coverageMap = slots.alphaMap;
+    means->alphaByMap = true;
+  }
   // A texture that `make` makes from one image; it may make none.
   const auto single = [&](const GltfTexture& map, const auto& make) {
     return textures.add(1, [=, image = image(map), where = m.where, &textures] {
@@ -277,10 +328,18 @@ GltfMaps GltfMapMaker::ask(const GltfMaterial& m, TextureLoader& textures) {
         single(m.normalMap, [m](const RawImage& raw) { return normalTexture(m, raw); });
   }
   if (m.variesRoughness()) {
-    slots.roughnessMap = single(m.metallicRoughnessMap, [=](const RawImage& raw) {
-      means->roughnessByMap = meanOf(raw, 1).varies;
+    slots.roughnessMap = single(m.roughnessMap, [=](const RawImage& raw) {
+      const ChannelMean roughness = meanOf(raw, 1);
+      means->roughness = roughness.mean;
+      means->roughnessByMap = roughness.varies;
       return means->roughnessByMap ? std::optional(makeTexture(m.name, raw, TexelFormat::data))
                                    : std::nullopt;
+    });
+  }
+  if (m.maskMap.exists()) {
+    slots.alphaMap = single(m.maskMap, [name = m.name](const RawImage& raw) {
+      return hasTranslucentAlpha(raw) ? makeAlphaTexture(name, raw)
+                                      : makeTexture(name, raw, TexelFormat::data);
     });
   }
   if (m.emitsByMap()) {

@@ -79,19 +79,6 @@ Rgb colorOf(const std::vector<double>& c, double high = 1) {
   return c.empty() ? Rgb(1.0f) : Rgb(clamped(c[0]), clamped(c[1]), clamped(c[2]));
 }
 
-// Returns true if a map that the material needs cannot be looked up with its own coordinates,
-// because others already take both sets.
-bool lacksCoordinates(const GltfMaterial& m) {
-  const GltfMaterial::Coordinates known = m.coordinates();
-  const auto isApart = [&](bool matters, const GltfTexture& map) {
-    return matters && map.exists() && m.surfaceMap().exists() && !(map.uv == m.surfaceMap().uv);
-  };
-  const GltfUvMap& emission = m.emissiveMap.uv;
-  return (m.emitsByMap() && !(emission == known.first) && !(emission == known.second)) ||
-         isApart(m.variesRoughness() || m.mixesMetal(), m.metallicRoughnessMap) ||
-         isApart(m.variesF0(), m.specularMap) || isApart(m.variesF0(), m.specularColorMap);
-}
-
 GltfMaterial readMaterial(const GltfDocument& document, const JsonValue& source) {
   const JsonValue pbr = source["pbrMetallicRoughness"], extensions = source["extensions"];
   GltfMaterial m;
@@ -112,6 +99,7 @@ GltfMaterial readMaterial(const GltfDocument& document, const JsonValue& source)
   m.metallic = m.unlit ? 0 : readNumber(pbr["metallicFactor"], 1);
   m.roughness = readNumber(pbr["roughnessFactor"], 1);
   m.metallicRoughnessMap = texture(pbr["metallicRoughnessTexture"]);
+  m.roughnessMap = m.metallicRoughnessMap;
   m.normalMap = texture(source["normalTexture"]);
   m.normalScale = readNumber(source["normalTexture"]["scale"], 1, -1e3, 1e3);
   const JsonValue emission =
@@ -154,8 +142,6 @@ GltfMaterial readMaterial(const GltfDocument& document, const JsonValue& source)
   m.clearcoatMap = texture(coat["clearcoatTexture"]);
   m.clearcoatRoughnessMap = texture(coat["clearcoatRoughnessTexture"]);
   warnIf(coat["clearcoatNormalTexture"].exists(), "normal map of a clearcoat left out");
-  warnIf(lacksCoordinates(m),
-         "texture looked up with the coordinates of its material's first in place of its own");
   return m;
 }
 
@@ -179,10 +165,23 @@ GltfMaterial::Coordinates GltfMaterial::coordinates() const {
     any = true;
   };
   add(surfaceMap(), surfaceMap().exists());
-  add(metallicRoughnessMap, !surfaceMap().exists() && variesRoughness());
+  add(roughnessMap, !surfaceMap().exists() && variesRoughness());
+  add(maskMap, !surfaceMap().exists() && maskMap.exists());
   add(normalMap, normalMap.exists());
   add(emissiveMap, emitsByMap());
   return found;
+}
+
+bool lacksCoordinates(const GltfMaterial& m) {
+  const GltfMaterial::Coordinates known = m.coordinates();
+  const auto isApart = [&](bool matters, const GltfTexture& map) {
+    return matters && map.exists() && m.surfaceMap().exists() && !(map.uv == m.surfaceMap().uv);
+  };
+  const GltfUvMap& emission = m.emissiveMap.uv;
+  return (m.emitsByMap() && !(emission == known.first) && !(emission == known.second)) ||
+         isApart(m.variesRoughness(), m.roughnessMap) ||
+         isApart(m.mixesMetal(), m.metallicRoughnessMap) || isApart(true, m.maskMap) ||
+         isApart(m.variesF0(), m.specularMap) || isApart(m.variesF0(), m.specularColorMap);
 }
 
 std::vector<GltfMaterial> readGltfMaterials(const GltfDocument& document) {

@@ -1,8 +1,11 @@
 // glTF's materials, as the file has them and as a Material of this renderer. glTF 2.0
-// specification, sections 3.8 and 3.9 and appendix B; KHR_materials_*, KHR_texture_transform.
+// specification, sections 3.8 and 3.9 and appendix B; KHR_materials_*, KHR_texture_transform. MTL
+// files are read into the same record.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -11,6 +14,7 @@
 
 #include "core/vec3.h"
 #include "io/gltf/document.h"
+#include "io/model.h"
 #include "io/texture_loader.h"
 #include "scene/material.h"
 #include "scene/texture.h"
@@ -23,6 +27,12 @@ struct GltfUvMap {
   std::size_t set = 0;
   double uu = 1, uv = 0, u0 = 0;  // u' = uu u + uv v + u0
   double vu = 0, vv = 1, v0 = 0;
+
+  // Coordinates as a Mesh has them, v pointing up, from the file's own.
+  Vec2f map(double u, double v) const {
+    return {static_cast<float>(uu * u + uv * v + u0),
+            static_cast<float>(1 - (vu * u + vv * v + v0))};
+  }
   bool operator==(const GltfUvMap&) const = default;
 };
 
@@ -49,9 +59,14 @@ struct GltfMaterial {
   float clearcoat = 0, clearcoatRoughness = 0;
   bool unlit = false, doubleSided = false;
   GltfTexture baseMap, metallicRoughnessMap, normalMap, emissiveMap;
+  GltfTexture roughnessMap;                   // glTF has it in metallicRoughnessMap, MTL apart
+  GltfTexture maskMap;                        // of MTL: cuts in place of the base color's alpha
   GltfTexture specularMap, specularColorMap;  // strength in alpha, color
   GltfTexture transmissionMap, clearcoatMap, clearcoatRoughnessMap;
   float normalScale = 1;
+  // The alpha of vertex colors counts: u is alphaRampU() of it. There are no maps then.
+  bool alphaByVertex = false;
+  bool normalsMayBeHeights = false;  // of MTL: a gray normalMap holds heights
 
   // The coordinates of the maps that it needs texel by texel: those of the first there is, and the
   // first that differ from them (equal where none do).
@@ -59,6 +74,7 @@ struct GltfMaterial {
     GltfUvMap first, second;
     bool areTwo() const { return !(first == second); }
     bool bySecond(const GltfTexture& map) const { return areTwo() && map.uv == second; }
+    bool operator==(const Coordinates&) const = default;
   };
   Coordinates coordinates() const;
   // True if the maps of diffuse and specular reflectance depend on the metalness of each texel.
@@ -77,9 +93,15 @@ struct GltfMaterial {
   bool bakesSpecular() const { return mixesMetal() || variesF0(); }
   // Whose coordinates diffuse and specular reflectance are looked up with; none: there is no map.
   const GltfTexture& surfaceMap() const;
-  bool variesRoughness() const { return metallicRoughnessMap.exists() && roughness > 0; }
+  bool variesRoughness() const { return roughnessMap.exists() && roughness > 0; }
+  bool isMapped() const {
+    return surfaceMap().exists() || variesRoughness() || normalMap.exists() || emitsByMap();
+  }
   bool emitsByMap() const { return emissiveMap.exists() && maxComponent(emission) > 0; }
 };
+
+// Alpha is looked up in a texture of two texels, between whose centers it rises evenly from 0 to 1.
+inline float alphaRampU(float alpha) { return 0.25f + 0.5f * std::clamp(alpha, 0.0f, 1.0f); }
 
 // One for each material, and the format's default last. What cannot be represented is counted in
 // the document's warnings.
@@ -96,6 +118,10 @@ struct GltfMeans {
   float alpha = 1;          // of a texture that blends and is the same everywhere
   bool alphaByMap = false;  // its texels differ and are multiplied with the factor
 };
+
+// Returns true if a map that the material needs cannot be looked up with its own coordinates,
+// because others already take both sets.
+bool lacksCoordinates(const GltfMaterial& material);
 
 // Below this a surface reflects the scene by a single impulse.
 inline constexpr float kGltfSmoothRoughness = 0.25f;
@@ -129,15 +155,25 @@ struct GltfMaps {
   std::shared_ptr<const GltfMeans> means;  // filled in when the textures are decoded
 };
 
+// Makes a Material with factors that depend on what images hold.
+using GltfShading = std::function<Material(const GltfMeans& means)>;
+
 class GltfMapMaker {
  public:
-  explicit GltfMapMaker(const GltfDocument& document);
+  // Materials refer to `images` by their numbers.
+  GltfMapMaker(const std::vector<GltfImageSource>& images, Warnings& warnings);
 
-  // Materials with the same maps share slots. An image that cannot be read is a warning, and white.
-  // Both this and the document outlive the textures' decoding.
-  GltfMaps ask(const GltfMaterial& material, TextureLoader& textures);
+  // Returns `material` with slots for the maps of `source` that are not `given`. When the textures
+  // are decoded, its other members that are not given become those of `shading`. An image that
+  // cannot be read is a warning, and white. This and the images outlive the textures' decoding.
+  TexturedMaterial withMaps(const GltfMaterial& source, Material material,
+                            const GivenMembers& given, TextureLoader& textures,
+                            GltfShading shading);
 
  private:
+  // Materials with the same maps share slots.
+  GltfMaps ask(const GltfMaterial& material, TextureLoader& textures);
+
   Warnings& warnings_;
   std::vector<std::shared_ptr<GltfImage>> images_;
   std::map<std::string, GltfMaps> known_;

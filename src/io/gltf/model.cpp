@@ -118,10 +118,10 @@ constexpr std::uint64_t kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6;
 // Reads a primitive that consists of triangles, strips or fans as a Mesh with one material: an
 // index into `materials`, whose last entry is that of primitives without one. Texture coordinates
 // are those of the material, with its transforms applied, v pointing up. `variant` is the number of
-// the chosen variant of the materials. Points, lines, the alpha of vertex colors and vertices
-// without joints are counted in the document's warnings. The mesh is deformed as at the start;
-// tangents are left out, because the directions of normal maps follow from texture coordinates.
-// Throws as the accessors do, and badScene where attributes differ in length.
+// the chosen variant of the materials. Points, lines and vertices without joints are counted in the
+// document's warnings. The mesh is deformed as at the start; tangents are left out, because the
+// directions of normal maps follow from texture coordinates. Throws as the accessors do, and
+// badScene where attributes differ in length.
 class PrimitiveReader {
  public:
   PrimitiveReader(const GltfDocument& document, const JsonValue& primitive,
@@ -135,8 +135,8 @@ class PrimitiveReader {
         material_(materialOf(primitive, variant)
                       .indexInto(document.list("materials"))
                       .value_or(materials.size() - 1)),
-        coordinates_(materials[material_].coordinates()),
-        opaque_(materials[material_].alphaMode == GltfMaterial::Alpha::opaque) {}
+        source_(materials[material_]),
+        coordinates_(source_.coordinates()) {}
 
   // Returns false where nothing is to be seen.
   bool read(Mesh& mesh) {
@@ -169,11 +169,18 @@ class PrimitiveReader {
 
   void readVertexColors(Mesh& mesh) {
     const JsonValue color = attributes_["COLOR_0"];
+    if (source_.alphaByVertex) mesh.uvs.assign(mesh.positions.size(), {alphaRampU(1), 0.5f});
     if (!color.exists()) return;
     GltfColors read = readColors(document_, color);
     mesh.colors = std::move(read.colors);
     checkLength(mesh.colors.size(), mesh.positions.size(), color);
-    if (read.translucent && !opaque_) warn("alpha of vertex colors left out");
+    if (!read.translucent) return;
+    if (source_.alphaByVertex) {
+      const std::vector<float> rgba = readTuples(document_, color, 4);
+      for (std::size_t i = 0; i < mesh.uvs.size(); ++i) mesh.uvs[i].x = alphaRampU(rgba[4 * i + 3]);
+    } else if (source_.alphaMode != GltfMaterial::Alpha::opaque) {
+      warn("alpha of vertex colors left out, because the material has textures");
+    }
   }
 
   // Empty where the primitive does not have this set.
@@ -182,11 +189,7 @@ class PrimitiveReader {
     if (!coordinates.exists()) return {};
     std::vector<Vec2f> uvs = readUvs(document_, coordinates);
     checkLength(uvs.size(), mesh.positions.size(), coordinates);
-    for (Vec2f& at : uvs) {
-      const double u = at.x, v = at.y;
-      at.x = static_cast<float>(uv.uu * u + uv.uv * v + uv.u0);
-      at.y = static_cast<float>(1 - (uv.vu * u + uv.vv * v + uv.v0));
-    }
+    for (Vec2f& at : uvs) at = uv.map(at.x, at.y);
     return uvs;
   }
 
@@ -229,19 +232,9 @@ class PrimitiveReader {
   const GltfPlacedMesh& placed_;
   std::uint64_t mode_;
   std::size_t material_;
+  const GltfMaterial& source_;
   GltfMaterial::Coordinates coordinates_;
-  bool opaque_;
 };
-
-// Replaces what a scene file has not `given` by what `fresh` has. Maps stay.
-void renew(Material& to, const Material& fresh, const GivenMembers& given) {
-  const float cutoff = to.alphaCutoff;
-  forEachMember<Material>([&](const auto& member) {
-    if (member.rules.kind == MemberKind::map || given.contains(member.name)) return;
-    to.*member.field = fresh.*member.field;
-  });
-  if (given.contains("alphaMap")) to.alphaCutoff = cutoff;
-}
 
 // Bodies of nodes that move, each in that of its parent, where the first of what it holds comes.
 class MoverBodies {
@@ -275,8 +268,9 @@ class GltfModel : public Model {
   GltfModel(const ModelSource& source, const std::string& bytes)
       : document_(source.path, bytes, source.rules, source.budget, source.warnings),
         sources_(readGltfMaterials(document_)),
-        maps_(document_),
+        maps_(document_.images(), document_.warnings()),
         stage_(readGltfNodes(document_, source.instant)) {
+    findVertexAlpha();
     for (const GltfMaterial& material : sources_) materials_.push_back(shadedAs(material, {}));
   }
 
@@ -291,19 +285,9 @@ class GltfModel : public Model {
 
   TexturedMaterial withMaps(std::size_t i, Material material, const GivenMembers& given,
                             TextureLoader& textures) override {
-    const GltfMaps maps = maps_.ask(sources_[i], textures);
-    forEachMap([&](const auto& member) {
-      // A roughness or coverage that is given is meant as it stands.
-      const bool isReplaced =
-          (member.field == &Material::roughnessMap && given.contains("roughness")) ||
-          (member.field == &Material::coverageMap && given.contains("coverage"));
-      if (isReplaced || given.contains(member.name)) return;
-      material.*member.field = maps.slots.*member.field;
-    });
-    const auto renewed = [source = sources_[i], given, means = maps.means](Material& m) {
-      renew(m, shadedAs(source, *means), given);
-    };
-    return {std::move(material), renewed};
+    return maps_.withMaps(
+        sources_[i], std::move(material), given, textures,
+        [source = sources_[i]](const GltfMeans& means) { return shadedAs(source, means); });
   }
 
   // A body for each mesh of the file, which nodes share unless they bend it.
@@ -357,6 +341,28 @@ class GltfModel : public Model {
   }
 
  private:
+  // Finds the materials for which the alpha of vertex colors counts.
+  void findVertexAlpha() {
+    for (const JsonValue& mesh : document_.list("meshes").elements()) {
+      for (const JsonValue& primitive : mesh["primitives"].elements()) {
+        const JsonValue color = primitive["attributes"]["COLOR_0"];
+        std::vector<JsonValue> users{primitive["material"]};
+        const JsonValue variants = primitive["extensions"]["KHR_materials_variants"]["mappings"];
+        for (const JsonValue& mapping : variants.elements()) users.push_back(mapping["material"]);
+        for (const JsonValue& user : users) {
+          const auto number = user.indexInto(document_.list("materials"));
+          if (!number || !color.exists()) continue;
+          GltfMaterial& material = sources_[*number];
+          const bool mayBlend =
+              material.alphaMode != GltfMaterial::Alpha::opaque && !material.isMapped();
+          if (mayBlend && !material.alphaByVertex) {
+            material.alphaByVertex = readColors(document_, color).translucent;
+          }
+        }
+      }
+    }
+  }
+
   std::uint32_t addBody(const GltfPlacedMesh& placed, SceneLayout& layout,
                         const std::vector<std::uint32_t>& materials) const {
     const JsonValue source = document_.list("meshes")[placed.mesh];

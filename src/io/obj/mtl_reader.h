@@ -5,42 +5,60 @@
 #include <map>
 #include <string>
 
-#include "io/model.h"
+#include "io/gltf/material.h"
 
 namespace whit {
 
 // Limit on the materials of a file: a line of a few letters makes one, which takes kilobytes.
 inline constexpr std::size_t kMaterialLimit = 65536;
 
-// A material whose textures are not loaded yet: libraries hold many materials that no model uses.
+// The statements of a material. Libraries hold many materials that no model uses.
 struct MtlMaterial {
   struct Map {
     std::string name;  // as written in the file
+    std::string where;
     bool clamp = false;
-    float bumpScale = 1;  // -bm
+    float bumpScale = 1;           // -bm
+    Vec3f offset, scale{1, 1, 1};  // -o, -s
   };
-  Material material;
+  std::string name;
   std::string where;                   // file:line of its newmtl
   std::map<std::string, Rgb> numbers;  // by keyword in lower case; single numbers as gray
   std::map<std::string, Map> maps;
+  bool isFromMeshLab = false, isFromBlender = false;
+
+  bool has(const std::string& keyword) const { return numbers.contains(keyword); }
+  bool hasMap(const std::string& keyword) const { return maps.contains(keyword); }
 };
 
-// Adds the materials of the file to `materials`; the first definition of a name wins. Throws
-// badScene "file:line" where a number is missing.
-//
-// The statements mean: Kd is the diffuse albedo, Ks the reflectance at normal
-// incidence, Ns the exponent of Blinn's lobe (alpha = sqrt(2 / (Ns + 2)), roughness = sqrt(alpha))
-// unless Pr gives the roughness, Pm the metalness. illum 0 and 1 have no highlight; 3, 5 and 8
-// mirror with Ks (5: all at grazing incidence); 4, 6, 7 and 9 are glass with index Ni, filtered by
-// Tf, else by 1 - d. Tr is 1 - d, but d in files of MeshLab. d below 1 elsewhere lets 1 - d of the
-// light straight through. Without map_d, the alpha channel of map_Kd is used.
+// Adds the materials of the file to `materials`; the first definition of a name wins. Statements
+// that cannot be read or that have no meaning here are left out and counted in the warnings.
 void readMtl(const std::filesystem::path& path, std::map<std::string, MtlMaterial>& materials,
              Warnings& warnings);
 
-// Returns `material` with the maps of `source` that are not `given`, which it adds to `textures`;
-// their names are relative to `folder`. A map that cannot be read is a warning.
-Material loadTextures(const MtlMaterial& source, Material material, const GivenMembers& given,
-                      const std::filesystem::path& folder, const PathRules& rules,
-                      TextureLoader& textures, Warnings& warnings);
+// A material in terms of glTF, and what glTF does not have.
+//
+// The statements mean: Kd is the diffuse albedo. Ks is the strength of the highlight: F0 is
+// 0.08 Ks, as Blender reads it. Ns is the exponent of Blinn's lobe (alpha = sqrt(2 / (Ns + 2)),
+// roughness = sqrt(alpha); in files of Blender roughness = 1 - sqrt(Ns / 1000)) unless Pr gives the
+// roughness. Pm is the metalness, in files of Blender Ka where illum is 3 or 6. Ke is emitted, Pc
+// and Pcr are the clearcoat. illum 0 and 1 have no highlight; 3, 5 and 8 mirror with Ks (5: all at
+// grazing incidence) unless a metalness is given; 4, 6, 7 and 9 (in files of Blender 4 and 7) are
+// glass with index Ni, filtered by Tf, else by 1 - d. Tr is 1 - d, but d in files of MeshLab. d
+// below 1 elsewhere lets 1 - d of the light straight through. Without map_d, the alpha channel of
+// map_Kd is used. Ka and map_Ka are not read, because ambient light is reflected by Kd.
+struct ObjMaterial {
+  GltfMaterial surface;
+  Rgb mirror{0, 0, 0}, mirrorGrazing{0, 0, 0};  // of illum 3, 5 and 8
+  Rgb transmission{0, 0, 0};                    // of glass
+  float dissolve = 1;
+};
+
+// Numbers the images of its maps in `images`, to which it adds those that are new. Their names are
+// relative to `folder`. A map that cannot be found is a warning.
+ObjMaterial interpretMtl(const MtlMaterial& source, const std::filesystem::path& folder,
+                         const PathRules& rules, std::vector<GltfImageSource>& images,
+                         Warnings& warnings);
+Material shadedAs(const ObjMaterial& source, const GltfMeans& means);
 
 }  // namespace whit

@@ -1,7 +1,9 @@
 // OBJ files with their materials as models.
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -10,9 +12,11 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "core/display.h"
 #include "core/error.h"
 #include "io/files.h"
 #include "io/line_reader.h"
@@ -47,6 +51,11 @@ struct ObjVertex {
 
 constexpr std::uint32_t kNoVertex = 0xffffffffu, kNoMaterial = 0xffffffffu;
 
+// Normals from here on belong to a smoothing group, others are those of the file, which has fewer.
+constexpr std::int32_t kFirstGroupNormal = 1 << 30;
+
+std::size_t placeOf(std::int32_t index) { return static_cast<std::size_t>(index); }
+
 class ObjReader {
  public:
   ObjReader(const std::string& text, const std::string& file, MemoryBudget& budget,
@@ -67,6 +76,11 @@ class ObjReader {
       LineReader line(text_, file_, start, number);
       noteName(line.word(), line);
     }
+    const std::size_t vertex = text_.starts_with("v ") ? 0 : text_.find("\nv ") + 1;
+    LineReader first(text_, file_, vertex);
+    first.word();
+    std::array<double, 6> numbers{};
+    isColored = std::ranges::all_of(numbers, [&](double& x) { return first.number(x); });
     if (materials.size() > kMaterialLimit) {
       throwLimit(file_ + " uses more than " + std::to_string(kMaterialLimit) + " materials");
     }
@@ -84,6 +98,8 @@ class ObjReader {
       warnNothingToDraw(hasFaces_ ? "no face that can be built" : "no faces", file_, warnings_);
       return {};
     }
+    finishNormals();
+    finishColors();
     if (!hasUvs_) mesh_.uvs.clear();
     if (!hasNormals_) mesh_.normals.clear();
     for (std::uint32_t& material : mesh_.materials) material = std::min(material, count);
@@ -95,17 +111,14 @@ class ObjReader {
 
   // Different names of "usemtl" and of "mtllib", in the file's order.
   std::vector<ObjName> materials, libraries;
+  bool isColored = false;  // the first vertex has a color
 
  private:
   void statement(std::string_view keyword) {
     if (keyword == "v") {
-      positions_.push_back(vector(keyword));
-      double color = 0;
-      if (lines_.number(color) && lines_.number(color) && lines_.number(color)) {
-        warnings_.add("vertex colors left out", lines_.place());
-      }
+      position();
     } else if (keyword == "vn") {
-      normals_.push_back(vector(keyword));
+      normals_.push_back(normal());
     } else if (keyword == "vt") {
       double u = 0, v = 0;
       if (!lines_.number(u)) throwBadScene(lines_.place(), "expected numbers after \"vt\"");
@@ -115,6 +128,10 @@ class ObjReader {
       face();
     } else if (keyword == "usemtl" || keyword == "mtllib") {
       noteName(keyword, lines_);
+    } else if (keyword == "s") {
+      const std::string_view group = lines_.word();
+      const bool isNone = group.empty() || group == "off" || group == "0";
+      smoothing_ = isNone ? 0 : std::hash<std::string_view>()(group);
     } else if (keyword == "l" || keyword == "p" || keyword == "curv" || keyword == "curv2" ||
                keyword == "surf") {
       warnings_.add("points, lines or free forms left out", lines_.place());
@@ -134,13 +151,34 @@ class ObjReader {
     }
   }
 
-  Vec3f vector(std::string_view keyword) {
-    double x = 0, y = 0, z = 0;
-    if (!lines_.number(x) || !lines_.number(y) || !lines_.number(z)) {
-      throwBadScene(lines_.place(),
-                    "expected three numbers after \"" + std::string(keyword) + "\"");
+  // Returns how many of `most` numbers the line has.
+  std::size_t readNumbers(double* to, std::size_t most) {
+    std::size_t count = 0;
+    while (count < most && lines_.number(to[count])) ++count;
+    return count;
+  }
+
+  // x, y, which z, a weight and a color may follow.
+  void position() {
+    std::array<double, 7> v{};
+    const std::size_t count = readNumbers(v.data(), v.size());
+    if (count < 2 || (count < 3 && lines_.hasMore())) {
+      throwBadScene(lines_.place(), "expected three numbers after \"v\"");
     }
-    return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+    positions_.push_back(
+        {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])});
+    if (count < 6) return;
+    colors_.resize(positions_.size(), Rgb(1.0f));
+    const double* const color = &v[count - 3];
+    colors_.back() = Rgb(Vec3d(color[0], color[1], color[2]));
+  }
+
+  Vec3f normal() {
+    std::array<double, 3> v{};
+    if (readNumbers(v.data(), 3) < 3) {
+      throwBadScene(lines_.place(), "expected three numbers after \"vn\"");
+    }
+    return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
   }
 
   void face() {
@@ -162,7 +200,7 @@ class ObjReader {
     hasFaces_ = true;
     if (corners_.size() < 3) return warn("face with fewer than three corners dropped");
     for (ObjCorner& c : corners_) {
-      if (c.position < 0 || static_cast<std::size_t>(c.position) >= positions_.size()) {
+      if (c.position < 0 || placeOf(c.position) >= positions_.size()) {
         return warn("face with a vertex index out of range dropped");
       }
       require(c.uv, uvs_.size(), "texture coordinate index out of range ignored");
@@ -189,9 +227,11 @@ class ObjReader {
   }
 
   void addFace() {
-    // A face that lacks a normal has none.
-    const bool isFlat =
+    // A face that lacks a normal has none of the file's.
+    const bool lacksNormals =
         std::ranges::any_of(corners_, [](const ObjCorner& c) { return c.normal == kNoIndex; });
+    if (lacksNormals && smoothing_ != 0) addToGroup();
+    const bool isFlat = lacksNormals && smoothing_ == 0;
     mesh_.hasFlatFaces |= isFlat;
     hasNormals_ |= !isFlat;
     points_.clear();
@@ -199,7 +239,7 @@ class ObjReader {
     triangles_.clear();
     for (ObjCorner corner : corners_) {
       if (isFlat) corner.normal = kNoIndex;
-      points_.emplace_back(positions_[static_cast<std::size_t>(corner.position)]);
+      points_.emplace_back(positions_[placeOf(corner.position)]);
       vertices_.push_back(vertex(corner));
     }
     if (!triangulate(points_, triangles_)) warn("polygon without a simple outline");
@@ -209,9 +249,53 @@ class ObjReader {
     }
   }
 
+  // Gives the corners the normals of the smoothing group at their positions, and adds the face's to
+  // them, which is as long as twice its area.
+  void addToGroup() {
+    const auto at = [&](std::size_t corner) {
+      return Vec3d(positions_[placeOf(corners_[corner % corners_.size()].position)]);
+    };
+    Vec3d normal;
+    for (std::size_t i = 1; i + 1 < corners_.size(); ++i) {
+      normal += cross(at(i) - at(0), at(i + 1) - at(0));
+    }
+
+    for (ObjCorner& corner : corners_) {
+      auto& groups = groupNormals_[placeOf(corner.position)];
+      budget_.charge(1, sizeof(Vec3d) + 8 * sizeof(void*), file_);
+      const auto next = static_cast<std::int32_t>(groupSums_.size());
+      const auto [known, isNew] = groups.emplace(smoothing_, next);
+      if (isNew) groupSums_.emplace_back();
+      groupSums_[placeOf(known->second)] += normal;
+      corner.normal = kFirstGroupNormal + known->second;
+    }
+  }
+
+  void finishNormals() {
+    for (std::size_t i = 0; i < known_.size(); ++i) {
+      const std::int32_t normal = known_[i].normal;
+      if (normal < kFirstGroupNormal) continue;
+      mesh_.normals[i] = Vec3f(normalized(groupSums_[placeOf(normal - kFirstGroupNormal)], {}));
+    }
+  }
+
+  // Colors are sRGB, from 0 to 1; some programs write codes up to 255.
+  void finishColors() {
+    float largest = 0;
+    for (const Rgb& color : mesh_.colors) largest = std::max(largest, maxComponent(color));
+    const float white = largest > 1 ? 255.0f : 1.0f;
+    if (white > 1) warnings_.note("vertex colors above 1 read as codes up to 255", file_);
+    for (Rgb& color : mesh_.colors) {
+      for (int i = 0; i < 3; ++i) {
+        color[i] = static_cast<float>(srgbToLinear(double{color[i] / white}));
+      }
+    }
+    if (!mesh_.colors.empty()) mesh_.colors.resize(mesh_.positions.size(), Rgb(1.0f));
+  }
+
   // Corners that agree in position, texture coordinates and normal share a vertex.
   std::uint32_t vertex(const ObjCorner& corner) {
-    const auto position = static_cast<std::size_t>(corner.position);
+    const std::size_t position = placeOf(corner.position);
     if (newest_.size() <= position) newest_.resize(positions_.size(), kNoVertex);
     std::uint32_t& newest = newest_[position];
     // The search is short, so that files with many vertices at one position stay fast.
@@ -222,10 +306,14 @@ class ObjReader {
     const auto number = static_cast<std::uint32_t>(known_.size());
     known_.push_back({corner.uv, corner.normal, std::exchange(newest, number)});
     mesh_.positions.push_back(positions_[position]);
-    const bool hasUv = corner.uv != kNoIndex, hasNormal = corner.normal != kNoIndex;
-    mesh_.uvs.push_back(hasUv ? uvs_[static_cast<std::size_t>(corner.uv)] : Vec2f());
-    mesh_.normals.push_back(hasNormal ? normals_[static_cast<std::size_t>(corner.normal)]
-                                      : Vec3f());
+    const bool hasUv = corner.uv != kNoIndex;
+    const bool hasNormal = corner.normal != kNoIndex && corner.normal < kFirstGroupNormal;
+    mesh_.uvs.push_back(hasUv ? uvs_[placeOf(corner.uv)] : Vec2f());
+    mesh_.normals.push_back(hasNormal ? normals_[placeOf(corner.normal)] : Vec3f());
+    if (position < colors_.size()) {
+      mesh_.colors.resize(mesh_.positions.size(), Rgb(1.0f));
+      mesh_.colors.back() = colors_[position];
+    }
     hasUvs_ |= hasUv;
     return number;
   }
@@ -240,6 +328,11 @@ class ObjReader {
   Warnings& warnings_;
   std::vector<Vec3f> positions_, normals_;
   std::vector<Vec2f> uvs_;
+  std::vector<Rgb> colors_;    // of the first positions, as the file has them
+  std::size_t smoothing_ = 0;  // the group of the faces that follow; 0: none
+  // Numbers in groupSums_ by position and group.
+  std::unordered_map<std::size_t, std::map<std::size_t, std::int32_t>> groupNormals_;
+  std::vector<Vec3d> groupSums_;
   Mesh mesh_;
   std::vector<ObjVertex> known_;       // one for each vertex of the mesh
   std::vector<std::uint32_t> newest_;  // of the vertices at each position
@@ -252,11 +345,17 @@ class ObjReader {
   std::vector<CornerTriple> triangles_;
 };
 
-MtlMaterial grayMaterial(const std::string& name) {
-  MtlMaterial gray;
-  gray.material.name = name;
-  gray.material.diffuse = Rgb(kModelGray);
-  return gray;
+// A material without highlight, white where vertices have colors.
+ObjMaterial plainMaterial(const std::string& name, bool isColored) {
+  ObjMaterial plain;
+  GltfMaterial& m = plain.surface;
+  m.name = name;
+  m.base = Rgb(isColored ? 1.0f : kModelGray);
+  m.metallic = m.f90 = 0;
+  m.specularColor = Rgb(0.0f);
+  m.roughness = 0.5f;
+  m.doubleSided = true;
+  return plain;
 }
 
 class ObjModel : public MeshModel {
@@ -275,10 +374,14 @@ class ObjModel : public MeshModel {
       if (known == library.end()) {
         source.warnings.add("material missing, gray instead", where + ": " + excerpt(name));
       }
-      sources_.push_back(known == library.end() ? grayMaterial(name) : known->second);
+      sources_.push_back(known == library.end()
+                             ? plainMaterial(name, reader_->isColored)
+                             : interpretMtl(known->second, source.path.parent_path(), source.rules,
+                                            images_, source.warnings));
     }
-    sources_.push_back(grayMaterial(kNoMaterialName));
-    for (const MtlMaterial& one : sources_) materials_.push_back(one.material);
+    sources_.push_back(plainMaterial(kNoMaterialName, reader_->isColored));
+    for (const ObjMaterial& one : sources_) materials_.push_back(shadedAs(one, {}));
+    maps_.emplace(images_, source.warnings);
   }
 
   ObjModel(const ObjModel&) = delete;
@@ -286,9 +389,9 @@ class ObjModel : public MeshModel {
 
   TexturedMaterial withMaps(std::size_t i, Material material, const GivenMembers& given,
                             TextureLoader& textures) override {
-    return {loadTextures(sources_[i], std::move(material), given, source_.path.parent_path(),
-                         source_.rules, textures, source_.warnings),
-            {}};
+    return maps_->withMaps(
+        sources_[i].surface, std::move(material), given, textures,
+        [source = sources_[i]](const GltfMeans& means) { return shadedAs(source, means); });
   }
 
   Body content(SceneLayout& layout, const std::vector<std::uint32_t>& materials) override {
@@ -297,11 +400,46 @@ class ObjModel : public MeshModel {
       mesh_.name = source_.path.stem().string();
       reader_.reset();
       std::string().swap(text_);
+      mapCoordinates();
     }
     return MeshModel::content(layout, materials);
   }
 
  private:
+  // Applies the offsets and scales of maps. Materials whose maps have any get vertices of their
+  // own, because the file's vertices are shared by materials.
+  void mapCoordinates() {
+    if (mesh_.uvs.empty()) return;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> copies;
+    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+      const std::uint32_t material = mesh_.material(i);
+      const GltfMaterial::Coordinates coordinates = sources_[material].surface.coordinates();
+      if (coordinates == GltfMaterial::Coordinates()) continue;
+      for (std::uint32_t& corner : mesh_.triangles[i]) {
+        const auto next = static_cast<std::uint32_t>(mesh_.positions.size());
+        const auto [copy, isNew] = copies.emplace(std::pair(material, corner), next);
+        if (isNew) copyVertex(corner, coordinates);
+        corner = copy->second;
+      }
+    }
+    // All vertices have second coordinates, or none.
+    if (!mesh_.secondUvs.empty()) mesh_.secondUvs.resize(mesh_.positions.size());
+  }
+
+  void copyVertex(std::uint32_t vertex, const GltfMaterial::Coordinates& coordinates) {
+    constexpr std::uint64_t kBytes = 2 * sizeof(Vec3f) + 2 * sizeof(Vec2f) + 64;
+    source_.budget.charge(1, kBytes, file_);
+    const Vec2f uv = mesh_.uvs[vertex];
+    mesh_.positions.push_back(mesh_.positions[vertex]);
+    if (!mesh_.normals.empty()) mesh_.normals.push_back(mesh_.normals[vertex]);
+    if (!mesh_.colors.empty()) mesh_.colors.push_back(mesh_.colors[vertex]);
+    // The files' v points up, that of GltfUvMap down.
+    mesh_.uvs.push_back(coordinates.first.map(uv.x, 1.0 - uv.y));
+    if (!coordinates.areTwo()) return;
+    mesh_.secondUvs.resize(mesh_.uvs.size());
+    mesh_.secondUvs.back() = coordinates.second.map(uv.x, 1.0 - uv.y);
+  }
+
   using Library = std::map<std::string, MtlMaterial>;
 
   // The line is one name with blanks if such a file exists, otherwise several names.
@@ -309,8 +447,7 @@ class ObjModel : public MeshModel {
     // Empty for a library that may not be read.
     const auto resolve = [&](const std::string& name) {
       try {
-        return source_.rules.resolve(name, source_.path.parent_path(), line.where,
-                                     /*backslashes=*/true);
+        return source_.rules.find(name, source_.path.parent_path(), line.where, source_.warnings);
       } catch (const Error&) {
         return std::filesystem::path();
       }
@@ -333,7 +470,9 @@ class ObjModel : public MeshModel {
 
   std::string file_, text_;
   std::optional<ObjReader> reader_;   // until the geometry is asked for
-  std::vector<MtlMaterial> sources_;  // of materials_
+  std::vector<ObjMaterial> sources_;  // of materials_
+  std::vector<GltfImageSource> images_;
+  std::optional<GltfMapMaker> maps_;  // over images_
 };
 
 }  // namespace

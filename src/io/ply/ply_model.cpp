@@ -1,5 +1,6 @@
 // PLY files (G. Turk, "The PLY Polygon File Format", 1994) as models: vertices with normals,
-// texture coordinates and colors, faces of any number of corners, triangle strips.
+// texture coordinates and colors, faces of any number of corners with texture coordinates and
+// colors of their own, triangle strips, pictures.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -8,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -67,7 +69,7 @@ struct PlyElement {
   }
 };
 
-enum Component { kX, kY, kZ, kNx, kNy, kNz, kU, kV, kR, kG, kB, kComponents };
+enum Component { kX, kY, kZ, kNx, kNy, kNz, kU, kV, kR, kG, kB, kAlpha, kComponents };
 constexpr std::array<std::string_view, 3> kComponentNames[kComponents] = {
     {"x"},
     {"y"},
@@ -77,9 +79,10 @@ constexpr std::array<std::string_view, 3> kComponentNames[kComponents] = {
     {"nz"},
     {"u", "s", "texture_u"},
     {"v", "t", "texture_v"},
-    {"red", "diffuse_red"},
-    {"green", "diffuse_green"},
-    {"blue", "diffuse_blue"}};
+    {"red", "diffuse_red", "r"},
+    {"green", "diffuse_green", "g"},
+    {"blue", "diffuse_blue", "b"},
+    {"alpha", "diffuse_alpha", "a"}};
 
 // kComponents where the property is none of them.
 Component componentOf(const PlyProperty& property) {
@@ -90,6 +93,26 @@ Component componentOf(const PlyProperty& property) {
   }
   return static_cast<Component>(component);
 }
+
+// A picture that the header names.
+struct PlyPicture {
+  std::string name, where;
+};
+
+// Returns a component as it counts: whole numbers of colors are sRGB codes, others are linear.
+float valueOf(const PlyProperty& property, Component component, double value) {
+  const double white = component >= kR && component <= kAlpha ? property.type->white : 0;
+  if (white > 0) value /= white;
+  const bool isCode = white > 0 && component != kAlpha;
+  return static_cast<float>(isCode ? srgbToLinear(value) : value);
+}
+
+// What a face has besides its corners.
+struct PlyFace {
+  std::vector<double> corners, coordinates;  // of coordinates u and v for each corner
+  std::array<float, kComponents + 1> values{};
+  double picture = 0;
+};
 
 // Nothing is allocated that the file cannot fill. Elements other than vertex, face and tristrips
 // are skipped; faces with vertices out of range are counted in the warnings.
@@ -124,8 +147,11 @@ class PlyReader {
                                                 : "no face that can be built",
                         file_, warnings_);
     }
+    if (mesh_.materials.empty()) mesh_.materials = {0};
     return std::move(mesh_);
   }
+
+  std::vector<PlyPicture> pictures;
 
  private:
   // "file:line", or "file: byte N" in binary data.
@@ -141,6 +167,9 @@ class PlyReader {
     bool hasFormat = false;
     for (;;) {
       lines_.nextLine();
+      if (LineReader line = lines_; line.word() == "comment" && line.word() == "TextureFile") {
+        pictures.push_back({std::string(line.rest()), lines_.place()});
+      }
       const std::vector<std::string> words = nextWords();
       const std::string keyword = words.empty() ? "" : words[0];
       if (keyword == "end_header") break;
@@ -238,9 +267,14 @@ class PlyReader {
   }
 
   double textNumber() {
-    while (!lines_.hasMore() && !lines_.done()) lines_.nextLine();
     double value = 0;
-    if (!lines_.number(value)) throwBadScene(place(), "expected a number");
+    while (!lines_.number(value)) {
+      // Some programs write comments between the elements.
+      LineReader line = lines_;
+      const bool isSkipped = !line.hasMore() || line.word() == "comment";
+      if (lines_.done() || !isSkipped) throwBadScene(place(), "expected a number");
+      lines_.nextLine();
+    }
     return value;
   }
 
@@ -257,7 +291,9 @@ class PlyReader {
     std::array<bool, kComponents + 1> has{};
     std::vector<Component> components;
     for (const PlyProperty& property : element.properties) {
-      has[components.emplace_back(componentOf(property))] = true;
+      const Component component = components.emplace_back(componentOf(property));
+      has[component] = true;
+      if (component == kComponents) nameUnread(element, property);
     }
     if (!has[kX] || !has[kY] || !has[kZ] || !mesh_.positions.empty()) {
       throwBadScene(element.where, "expected one element \"vertex\" with x, y and z");
@@ -268,8 +304,10 @@ class PlyReader {
     const bool normals = has[kNx] && has[kNy] && has[kNz], uvs = has[kU] && has[kV];
     const bool colors = has[kR] && has[kG] && has[kB];
     if (has[kR] && !colors) warnings_.add("vertex colors that lack a channel left out", file_);
+    bool isTranslucent = false;
     budget_.charge(element.count, 2 * sizeof(Vec3f) + sizeof(Vec2f) + (colors ? sizeof(Rgb) : 0),
                    file_);
+    vertices_ = element.count;
     mesh_.positions.resize(element.count);
     if (normals) mesh_.normals.resize(element.count);
     if (uvs) mesh_.uvs.resize(element.count);
@@ -279,14 +317,21 @@ class PlyReader {
       readElement(element, [&](const PlyProperty& property, double value) {
         const Component to =
             components[static_cast<std::size_t>(&property - element.properties.data())];
-        const double white = to >= kR && to <= kB ? property.type->white : 0;
-        v[to] = static_cast<float>(white > 0 ? srgbToLinear(value / white) : value);
+        v[to] = valueOf(property, to, value);
       });
+      isTranslucent = isTranslucent || (has[kAlpha] && v[kAlpha] < 1);
       mesh_.positions[i] = {v[kX], v[kY], v[kZ]};
       if (normals) mesh_.normals[i] = {v[kNx], v[kNy], v[kNz]};
       if (uvs) mesh_.uvs[i] = {v[kU], v[kV]};
       if (colors) mesh_.colors[i] = {v[kR], v[kG], v[kB]};
     }
+    if (isTranslucent) warnings_.add("alpha of vertex colors left out", file_);
+  }
+
+  // Names what is not read of each element, which is often nothing that is seen.
+  void nameUnread(const PlyElement& element, const PlyProperty& property) {
+    warnings_.note("property of PLY that is not read: " + excerpt(property.name),
+                   file_ + ": element " + excerpt(element.name));
   }
 
   void readFaces(const PlyElement& element) {
@@ -300,22 +345,88 @@ class PlyReader {
       throwBadScene(element.where,
                     "expected the vertices before the element \"" + element.name + "\"");
     }
-    for (const char* property : {"texcoord", "red"}) {
-      if (element.find(property)) warnings_.add("properties of faces left out", file_);
-    }
-    std::vector<double> face;
+    const bool areFaces = element.name == "face";
+    const PlyProperty* const coordinates = areFaces ? element.find("texcoord") : nullptr;
+    const PlyProperty* const picture = areFaces ? element.find("texnumber") : nullptr;
+    hasFaceCoordinates_ = coordinates && coordinates->countType;
+    const bool isColored = startFaceColors(element, areFaces);
+    if (hasFaceCoordinates_) mesh_.uvs.resize(mesh_.positions.size());
+
+    PlyFace face;
     for (std::uint64_t i = 0; i < element.count; ++i) {
-      face.clear();
+      face.corners.clear();
+      face.coordinates.clear();
       readElement(element, [&](const PlyProperty& property, double value) {
-        if (&property == corners) face.push_back(value);
+        if (&property == corners) face.corners.push_back(value);
+        if (&property == coordinates) face.coordinates.push_back(value);
+        if (&property == picture) face.picture = value;
+        if (!isColored || property.countType) return;
+        const Component component = componentOf(property);
+        face.values[component] = valueOf(property, component, value);
       });
-      element.name == "face" ? addFace(face) : addStrips(face);
+      areFaces ? addFace(face) : addStrips(face.corners);
     }
+  }
+
+  // Returns true if faces have colors that are shown: those of vertices come first.
+  bool startFaceColors(const PlyElement& element, bool areFaces) {
+    std::array<bool, kComponents + 1> has{};
+    for (const PlyProperty& property : element.properties) {
+      const Component component = componentOf(property);
+      const std::string& name = property.name;
+      const bool isKnown = name == "vertex_indices" || name == "vertex_index" ||
+                           name == "texcoord" || name == "texnumber";
+      has[component] = true;
+      if (!isKnown && (component < kR || component > kB)) nameUnread(element, property);
+    }
+    const bool isColored = has[kR] && has[kG] && has[kB];
+    hasFaceColors_ = isColored && areFaces && mesh_.colors.empty();
+    if (hasFaceColors_) mesh_.colors.resize(mesh_.positions.size(), Rgb(1.0f));
+    if (has[kR] && !hasFaceColors_) {
+      warnings_.add(isColored ? "colors of faces left out, because vertices have colors"
+                              : "colors of faces that lack a channel left out",
+                    file_);
+    }
+    return hasFaceColors_;
+  }
+
+  // Gives the face vertices of its own where it has coordinates or a color.
+  void takeOwnVertices(const PlyFace& face) {
+    const bool mapped = hasFaceCoordinates_ && face.coordinates.size() == 2 * numbers_.size();
+    if (hasFaceCoordinates_ && !mapped) {
+      warnings_.add("face without a texture coordinate for each corner", place());
+    }
+    if (!mapped && !hasFaceColors_) return;
+    for (std::size_t i = 0; i < numbers_.size(); ++i) {
+      budget_.charge(1, 2 * sizeof(Vec3f) + sizeof(Vec2f) + sizeof(Rgb), file_);
+      const std::size_t old = numbers_[i];
+      numbers_[i] = static_cast<std::uint32_t>(mesh_.positions.size());
+      mesh_.positions.push_back(mesh_.positions[old]);
+      if (!mesh_.normals.empty()) mesh_.normals.push_back(mesh_.normals[old]);
+      if (!mesh_.uvs.empty()) mesh_.uvs.push_back(mesh_.uvs[old]);
+      if (!mesh_.colors.empty()) mesh_.colors.push_back(mesh_.colors[old]);
+      if (hasFaceColors_) {
+        mesh_.colors.back() = {face.values[kR], face.values[kG], face.values[kB]};
+      }
+      if (mapped) {
+        mesh_.uvs.back() = {static_cast<float>(face.coordinates[2 * i]),
+                            static_cast<float>(face.coordinates[2 * i + 1])};
+      }
+    }
+  }
+
+  // The number of the face's picture, the first where there is no such picture.
+  std::uint32_t pictureOf(const PlyFace& face) {
+    const bool exists = face.picture >= 0 && face.picture < static_cast<double>(pictures.size());
+    if (!exists && face.picture != 0) {
+      warnings_.add("face with the number of a picture that is not there", place());
+    }
+    return exists ? static_cast<std::uint32_t>(face.picture) : 0;
   }
 
   // Returns false if there is no such vertex.
   bool addCorner(double corner) {
-    const bool exists = corner >= 0 && corner < static_cast<double>(mesh_.positions.size());
+    const bool exists = corner >= 0 && corner < static_cast<double>(vertices_);
     if (!exists || corner != std::floor(corner)) return false;
     numbers_.push_back(static_cast<std::uint32_t>(corner));
     return true;
@@ -334,26 +445,29 @@ class PlyReader {
       numbers_.clear();
     }
     addStrip(numbers_, mesh_.triangles);
+    if (pictures.size() > 1) mesh_.materials.resize(mesh_.triangles.size());
   }
 
-  void addFace(const std::vector<double>& corners) {
-    if (corners.size() < 3) {
+  void addFace(const PlyFace& face) {
+    if (face.corners.size() < 3) {
       return warnings_.add("face with fewer than three corners dropped", place());
     }
     points_.clear();
     numbers_.clear();
-    for (const double corner : corners) {
+    for (const double corner : face.corners) {
       if (!addCorner(corner)) {
         return warnings_.add("face with a vertex index out of range dropped", place());
       }
       points_.emplace_back(mesh_.positions[numbers_.back()]);
     }
+    takeOwnVertices(face);
     triangles_.clear();
     if (!triangulate(points_, triangles_)) {
       warnings_.add("polygon without a simple outline", place());
     }
     for (const auto& t : triangles_) {
       mesh_.triangles.push_back({numbers_[t[0]], numbers_[t[1]], numbers_[t[2]]});
+      if (pictures.size() > 1) mesh_.materials.push_back(pictureOf(face));
     }
   }
 
@@ -366,6 +480,8 @@ class PlyReader {
   std::vector<PlyElement> elements_;
   std::size_t at_ = 0;  // in binary data
   Mesh mesh_;
+  std::uint64_t vertices_ = 0;  // of the file; those that faces get follow them
+  bool hasFaceColors_ = false, hasFaceCoordinates_ = false;
   // The face that is being added.
   std::vector<Vec3d> points_;
   std::vector<std::uint32_t> numbers_;
@@ -374,18 +490,68 @@ class PlyReader {
 
 class PlyModel : public MeshModel {
  public:
-  // Has one material, which is gray, or white where vertices have colors.
+  // Has one material for each picture, which is white, or a single one that is gray, or white where
+  // there are colors.
   explicit PlyModel(const ModelSource& source) : MeshModel(source) {
     const std::string text = readTextFile(source.path, source.budget.left());
     const std::string file = source.path.string();
     source.budget.charge(text.size(), 1, file);
-    mesh_ = PlyReader(text, file, source.budget, source.warnings).read();
-    Material& material = materials_.emplace_back();
-    material.name = kNoMaterialName;
-    material.diffuse = Rgb(mesh_.colors.empty() ? kModelGray : 1.0f);
+    PlyReader reader(text, file, source.budget, source.warnings);
+    mesh_ = reader.read();
     mesh_.name = source.path.stem().string();
-    mesh_.materials = {0};
+    for (const PlyPicture& picture : reader.pictures) pictures_.push_back(sourceOf(picture));
+    const bool isPictured = std::ranges::any_of(
+        pictures_, [](const TextureSource& picture) { return !picture.path.empty(); });
+    if (isPictured && mesh_.uvs.empty()) {
+      source.warnings.add("pictures without texture coordinates left out", file);
+      pictures_.clear();
+    } else if (isPictured && !mesh_.colors.empty()) {
+      // Programs that make pictures leave the colors of the scan beside them.
+      source.warnings.add("colors left out, because the file has pictures", file);
+      mesh_.colors.clear();
+    }
+    if (pictures_.empty()) pictures_.emplace_back();
+    for (const TextureSource& picture : pictures_) {
+      Material& material = materials_.emplace_back();
+      material.name = picture.path.empty()
+                          ? kNoMaterialName
+                          : std::filesystem::path(picture.path).filename().string();
+      const bool isWhite = !picture.path.empty() || !mesh_.colors.empty();
+      material.diffuse = Rgb(isWhite ? 1.0f : kModelGray);
+    }
+    if (pictures_.size() == 1) mesh_.materials = {0};
   }
+
+  TexturedMaterial withMaps(std::size_t i, Material material, const GivenMembers& given,
+                            TextureLoader& textures) override {
+    if (!pictures_[i].path.empty() && !given.contains("diffuseMap")) {
+      material.diffuseMap = textures.add(pictures_[i], {TextureUse::color})[0];
+    }
+    return {std::move(material), {}};
+  }
+
+ private:
+  // Without a path where there is no such file.
+  TextureSource sourceOf(const PlyPicture& picture) const {
+    TextureSource found;
+    found.where = picture.where;
+    found.lenient = true;
+    try {
+      const auto path = source_.rules.find(picture.name, source_.path.parent_path(), picture.where,
+                                           source_.warnings);
+      std::error_code error;
+      if (std::filesystem::exists(path, error)) {
+        found.path = path.string();
+      } else {
+        source_.warnings.add("texture left out", picture.where + ": no file " + path.string());
+      }
+    } catch (const Error& error) {
+      source_.warnings.add("texture left out", error.what());
+    }
+    return found;
+  }
+
+  std::vector<TextureSource> pictures_;  // of materials_
 };
 
 }  // namespace
