@@ -46,6 +46,15 @@ std::uint64_t addressSpace() {
   return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
+// Bytes of address space that this process may still take (ulimit -v).
+std::uint64_t addressesLeft() {
+  rlimit limits{};
+  const bool isLimited = getrlimit(RLIMIT_AS, &limits) == 0 && limits.rlim_cur != RLIM_INFINITY;
+  const std::uint64_t own = addressSpace();
+  if (!isLimited) return ~std::uint64_t{0};
+  return limits.rlim_cur > own ? limits.rlim_cur - own : 0;
+}
+
 void limit(__rlimit_resource resource, std::uint64_t most) {
   const rlimit both{most, most};
   setrlimit(resource, &both);
@@ -117,6 +126,7 @@ std::string failureOfChild(int status) {
 
 ConfinedAnswer runConfined(const std::function<void(const ConfinedWriter&)>& work,
                            std::uint64_t mostBytes, int seconds) {
+  mostBytes = std::min(mostBytes, addressesLeft() / 4);
   // The answer lies in memory that both processes share: its length, and behind it the bytes.
   const std::size_t size = sizeof(std::uint64_t) + mostBytes;
   void* const shared = mmap(nullptr, size, PROT_READ | PROT_WRITE,

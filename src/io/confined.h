@@ -19,9 +19,9 @@ struct ConfinedAnswer {
 // `work` runs in a copy of this process, so that it sees what it refers to and changes nothing of
 // it. It may compute, allocate and answer, and must take no lock, because a thread that is not in
 // the copy may have held it. The child may take `mostBytes` of memory beyond what this process has,
-// and answer with as many; it lives for `seconds` at most. Where the kernel offers seccomp, every
-// system call but those that take memory ends the child. Throws Error(limit) where no child can be
-// started.
+// and answer with as many, but no more than a quarter of the address space that is left here
+// (ulimit -v); it lives for `seconds` at most. Where the kernel offers seccomp, every system call
+// but those that take memory ends the child. Throws Error(limit) where no child can be started.
 ConfinedAnswer runConfined(const std::function<void(const ConfinedWriter&)>& work,
                            std::uint64_t mostBytes, int seconds);
 

@@ -10,9 +10,9 @@ using Opener = std::unique_ptr<Model> (*)(const ModelSource&);
 std::unique_ptr<Model> openGltfFile(const ModelSource& source) { return openGltf(source); }
 
 const std::map<std::string, Opener> kOpeners = {
-    {".3ds", openByAssimp}, {".dae", openByAssimp},  {".fbx", openByAssimp},
-    {".glb", openGltfFile}, {".gltf", openGltfFile}, {".obj", openObj},
-    {".off", openByAssimp}, {".ply", openPly},       {".stl", openByAssimp}};
+    {".3ds", openByAssimp},  {".dae", openByAssimp}, {".fbx", openByAssimp}, {".glb", openGltfFile},
+    {".gltf", openGltfFile}, {".obj", openObj},      {".off", openByAssimp}, {".ply", openPly},
+    {".stl", openByAssimp},  {".vrm", openGltfFile}};
 
 Opener openerOf(const std::filesystem::path& path) {
   const auto found = kOpeners.find(extensionOf(path));

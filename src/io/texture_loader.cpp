@@ -187,7 +187,8 @@ void TextureLoader::addEnvironment(const std::string& path, const std::string& w
   queue_.add([this, path, where, &image] {
     const RawImage raw =
         readNamedAt(where, [&] { return readRawImage(path, limits(), warnings_); });
-    MemoryHold planes(&budget_, raw.pixels(), 3 * sizeof(float), path);
+    const std::size_t pixels = raw.isCube ? 2 * raw.pixels() : raw.pixels();
+    MemoryHold planes(&budget_, pixels, 3 * sizeof(float), path);
     image = makeEnvironment(raw);
     planes.keep();
   });

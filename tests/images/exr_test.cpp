@@ -1,19 +1,24 @@
 // OpenEXR: what is written comes back bit for bit, and other programs' files are understood.
 #include <ImfChannelList.h>
+#include <ImfEnvmap.h>
 #include <ImfFrameBuffer.h>
 #include <ImfInputFile.h>
 #include <ImfMultiPartOutputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfOutputPart.h>
 #include <ImfPartType.h>
+#include <ImfRgbaFile.h>
 #include <ImfStandardAttributes.h>
 #include <ImfTiledOutputFile.h>
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 #include <map>
 
 #include "image_samples.h"
+#include "io/image/texture_from_image.h"
 
 namespace whit {
 namespace {
@@ -218,13 +223,13 @@ TEST_F(ExrTest, MissingChannelsAreBlack) {
 
 TEST_F(ExrTest, NoColorAtAllIsAnError) {
   ForeignFile file;
-  file.channels = {{"Z", 1}, {"layer.R", 1}};
+  file.channels = {{"Z", 1}, {"layer.X", 1}};
   try {
     raw(file);
     FAIL() << "read";
   } catch (const Error& e) {
     EXPECT_EQ(e.status(), ExitStatus::badScene);
-    EXPECT_NE(std::string(e.what()).find("layer.R"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("layer.X"), std::string::npos) << e.what();
   }
 }
 
@@ -282,10 +287,82 @@ TEST_F(ExrTest, OfSeveralPartsTheFirstIsRead) {
   EXPECT_EQ(readImage(path("parts.exr"), limits_).at(0, 0), Rgb(1));
 }
 
-TEST_F(ExrTest, LuminanceAndChromaAreRefused) {
+// Chroma is stored for every fourth pixel, in half floats.
+TEST_F(ExrTest, LuminanceAndChroma) {
+  constexpr int kSide = 16;
+  const std::vector<Imf::Rgba> pixels(kSide * kSide, Imf::Rgba(0.25f, 0.5f, 0.75f, 1));
+  {
+    Imf::RgbaOutputFile file(path("a.exr").c_str(), Imf::Header(kSide, kSide), Imf::WRITE_YC);
+    file.setFrameBuffer(pixels.data(), 1, kSide);
+    file.writePixels(kSide);
+  }
+  const Image image = readImage(path("a.exr"), limits_);
+  const float wanted[] = {0.25f, 0.5f, 0.75f};
+  constexpr float kHalf = 2e-3f;
+  for (const Rgb& pixel : image.pixels) {
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(pixel[i], wanted[i], kHalf);
+  }
+}
+
+// As Blender writes them. A layer that is no picture does not count.
+TEST_F(ExrTest, ColorsInALayer) {
   ForeignFile file;
-  file.channels = {{"Y", 0.5f}, {"RY", 0}, {"BY", 0}};
+  file.channels = {{"Another.R", 9},
+                   {"ViewLayer.Combined.R", 0.25f},
+                   {"ViewLayer.Combined.G", 0.5f},
+                   {"ViewLayer.Combined.B", 0.75f},
+                   {"ViewLayer.Combined.A", 0.5f},
+                   {"ViewLayer.Depth.Z", 7}};
+  const RawImage image = raw(file);
+  ASSERT_EQ(image.channels, 4);
+  EXPECT_EQ(linearPixel(image, 0), Rgb(0.25f, 0.5f, 0.75f));
+  file.channels = {{"position.X", 1}, {"position.Y", 1}};
   EXPECT_EQ(statusOf([&] { raw(file); }), ExitStatus::badScene);
+}
+
+// Each pixel holds its direction by OpenEXR's own functions, divided by its largest component: a
+// linear function on each face, which interpolation keeps.
+TEST_F(ExrTest, CubesBecomeSkies) {
+  constexpr int kSide = 8;
+  const Imath::Box2i data({0, 0}, {kSide - 1, 6 * kSide - 1});
+  std::vector<Imf::Rgba> pixels(6 * kSide * kSide);
+  for (int face = 0; face < 6; ++face) {
+    for (int y = 0; y < kSide; ++y) {
+      for (int x = 0; x < kSide; ++x) {
+        const Imf::CubeMapFace side = static_cast<Imf::CubeMapFace>(face);
+        const Imath::V2f within(static_cast<float>(x), static_cast<float>(y));
+        const Imath::V3f d = Imf::CubeMap::direction(side, data, within);
+        const float most = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
+        const Imath::V2f at = Imf::CubeMap::pixelPosition(side, data, within);
+        pixels[static_cast<std::size_t>(std::lround(at.y)) * kSide +
+               static_cast<std::size_t>(std::lround(at.x))] =
+            Imf::Rgba(1 + d.x / most, 1 + d.y / most, 1 + d.z / most);
+      }
+    }
+  }
+  {
+    Imf::Header header(data, data);
+    Imf::addEnvmap(header, Imf::ENVMAP_CUBE);
+    Imf::RgbaOutputFile file(path("cube.exr").c_str(), header, Imf::WRITE_RGB);
+    file.setFrameBuffer(pixels.data(), 1, kSide);
+    file.writePixels(6 * kSide);
+  }
+  const EnvironmentImage sky = makeEnvironment(readRawImage(path("cube.exr"), limits_, warnings_));
+  ASSERT_EQ(sky.width, 4 * kSide);
+  ASSERT_EQ(sky.height, 2 * kSide);
+  constexpr double kHalf = 2e-3;
+  const Imath::Box2i window({0, 0}, {sky.width, sky.height});
+  for (int y = 0; y < sky.height; ++y) {
+    for (int x = 0; x < sky.width; ++x) {
+      const Imath::V3f d = Imf::LatLongMap::direction(
+          window, Imath::V2f(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
+      const float most = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
+      const auto i = static_cast<std::size_t>(y * sky.width + x);
+      EXPECT_NEAR(sky.r[i], 1 + d.x / most, kHalf) << x << " " << y;
+      EXPECT_NEAR(sky.g[i], 1 + d.y / most, kHalf) << x << " " << y;
+      EXPECT_NEAR(sky.b[i], 1 + d.z / most, kHalf) << x << " " << y;
+    }
+  }
 }
 
 TEST_F(ExrTest, OddValuesAreMendedInTexturesOnly) {

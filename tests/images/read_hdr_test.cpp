@@ -24,6 +24,17 @@ TEST_F(ReadHdr, FilesWithoutAFormatAreRgbe) {
   EXPECT_EQ(reds(hdrOf("#?RGBE\r\n\r\n-Y 1 +X 1\n", {16, 16, 16, 136})), (std::vector<float>{16}));
 }
 
+// Two more of the first pixel; then 4 and 256 times 1 more of the second.
+TEST_F(ReadHdr, RunsOfOlderFiles) {
+  std::vector<float> expected(3, 16.0f);
+  expected.insert(expected.end(), 1 + 4 + 256, 32.0f);
+  EXPECT_EQ(reds(hdrOf("#?RGBE\n\n-Y 1 +X 264\n",
+                       {16, 16, 16, 136, 1, 1, 1, 2, 32, 32, 32, 136, 1, 1, 1, 4, 1, 1, 1, 1})),
+            expected);
+  EXPECT_EQ(errorOf("a.hdr", hdrOf("#?RGBE\n\n-Y 1 +X 3\n", {16, 16, 16, 136, 1, 1, 1, 3})),
+            ": byte 26: expected a run up to the row's end, found a longer one");
+}
+
 TEST_F(ReadHdr, DamageIsToldWithItsPlace) {
   EXPECT_EQ(errorOf("a.hdr", hdrOf("#?RGBE\nFORMAT=32-bit_rle_xyze\n\n", {})),
             ": byte 30: expected FORMAT=32-bit_rle_rgbe, found FORMAT=32-bit_rle_xyze");

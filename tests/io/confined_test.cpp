@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <linux/seccomp.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,6 +13,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
+#include <fstream>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -41,6 +43,26 @@ TEST(Confined, AnswersWithWhatItComputes) {
   EXPECT_EQ(answer.failure, "");
   EXPECT_EQ(answer.bytes, text + std::string(1 << 20, 'x'));
   EXPECT_EQ(seen, 7) << "the child changed the parent";
+}
+
+// With an address space of 1 GB more than is taken, a child that may take 64 GB can be started.
+TEST(Confined, LimitsOfAddressSpaceAreKept) {
+  if (kSanitized) GTEST_SKIP() << "sanitizers take address space of their own";
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    std::uint64_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    const rlim_t most = pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + (rlim_t{1} << 30);
+    const rlimit limits{most, most};
+    setrlimit(RLIMIT_AS, &limits);
+    const ConfinedAnswer answer = runConfined([](const ConfinedWriter& write) { write("yes", 3); },
+                                              std::uint64_t{64} << 30, 20);
+    _exit(answer.bytes == "yes" && answer.failure.empty() ? 0 : 1);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
 }
 
 TEST(Confined, CrashesAreReported) {

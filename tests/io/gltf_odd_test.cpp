@@ -111,5 +111,12 @@ TEST_F(GltfOdd, StripsAreJoinedByTrianglesThatAreNoLoss) {
   EXPECT_EQ(warned("degenerate triangle dropped"), 0u);
 }
 
+// A VRM file is a GLB by another name.
+TEST_F(GltfOdd, ModelsOfVrm) {
+  GltfBuilder b;
+  const std::string mesh = triangle(b);
+  EXPECT_EQ(triangleCount(load(save("m.vrm", b.glb(oneMesh(mesh))))), 1u);
+}
+
 }  // namespace
 }  // namespace whit

@@ -1,11 +1,13 @@
 // Reading and writing OpenEXR.
 #include <ImfChannelList.h>
+#include <ImfEnvmap.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfInputPart.h>
 #include <ImfMultiPartInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfPartType.h>
+#include <ImfRgbaFile.h>
 #include <ImfStandardAttributes.h>
 #include <ImfStdIO.h>
 #include <ImfStringAttribute.h>
@@ -196,24 +198,70 @@ auto reading(const std::string& path, Use&& use) {
   }
 }
 
+// Returns the beginning of the names of the color channels: empty, or a layer with its dot.
+std::string colorLayer(const Imf::ChannelList& list) {
+  std::string layer;
+  for (auto it = list.begin(); it != list.end(); ++it) {
+    const std::string name = it.name();
+    const std::size_t end = name.rfind('.') + 1;  // 0 without a dot
+    const std::string channel = name.substr(end);
+    const bool isColor = channel == "R" || channel == "G" || channel == "B";
+    if (end == 0 && (isColor || channel == "Y")) return "";
+    if (end == 0 || !isColor) continue;
+    const std::string found = name.substr(0, end);
+    const bool isCombined = found.ends_with("Combined.") && !layer.ends_with("Combined.");
+    if (layer.empty() || isCombined) layer = found;
+  }
+  return layer;
+}
+
+bool hasChroma(const Imf::ChannelList& list) {
+  return list.findChannel("Y") && (list.findChannel("RY") || list.findChannel("BY")) &&
+         !list.findChannel("R");
+}
+
 // Returns the 1 to 4 color channels to read. OpenEXR stores 0 where the file lacks one of R, G and
 // B.
 ExrChannels colorChannels(const std::string& path, const Imf::ChannelList& list) {
-  const auto has = [&](const char* name) { return list.findChannel(name) != nullptr; };
+  const std::string layer = colorLayer(list);
+  const auto has = [&](const char* name) { return list.findChannel(layer + name) != nullptr; };
   ExrChannels channels;
   if (has("R") || has("G") || has("B")) {
-    channels = {{"R", Imf::FLOAT}, {"G", Imf::FLOAT}, {"B", Imf::FLOAT}};
-  } else if (has("Y") && !has("RY") && !has("BY")) {
-    channels = {{"Y", Imf::FLOAT}};
+    for (const char* name : {"R", "G", "B"}) channels.emplace_back(layer + name, Imf::FLOAT);
+  } else if (has("Y")) {
+    channels = {{layer + "Y", Imf::FLOAT}};
   } else {
     std::string found;
     for (auto it = list.begin(); it != list.end(); ++it) found += std::string(" ") + it.name();
-    throwBadScene(path + ": header",
-                  "expected the channels R, G and B, or Y without chroma, found" +
-                      (found.empty() ? " none" : excerpt(found)));
+    throwBadScene(path + ": header", "expected the channels R, G and B, or Y, found" +
+                                         (found.empty() ? " none" : excerpt(found)));
   }
-  if (has("A")) channels.emplace_back("A", Imf::FLOAT);
+  if (has("A")) channels.emplace_back(layer + "A", Imf::FLOAT);
   return channels;
+}
+
+// Reads R, G, B and A of an image of luminance and chroma, whose chroma OpenEXR interpolates.
+std::vector<float> readChroma(const std::string& path, const Box2i& box,
+                              const ImageLimits& limits) {
+  Imf::RgbaInputFile file(path.c_str());
+  const Box2i data = file.dataWindow();
+  const auto width = static_cast<std::size_t>(widthOf(data));
+  const auto height = static_cast<std::size_t>(heightOf(data));
+  // The library keeps the same again while it works.
+  const MemoryHold held = holdImage(path, widthOf(data), heightOf(data),
+                                    4 * (sizeof(float) + 2 * sizeof(half)), limits);
+  std::vector<Imf::Rgba> pixels(width * height);
+  const std::int64_t origin = data.min.x + data.min.y * static_cast<std::int64_t>(width);
+  file.setFrameBuffer(pixels.data() - origin, 1, width);
+  file.readPixels(data.min.y, data.max.y);
+
+  std::vector<float> values;
+  values.reserve(4 * pixels.size());
+  for (const Imf::Rgba& p : pixels) {
+    values.insert(values.end(), {float{p.r}, float{p.g}, float{p.b}, float{p.a}});
+  }
+  moveInto(box, data, 4, values);
+  return values;
 }
 
 Imf::PixelType typeOf(const ImageLayer& layer) {
@@ -355,7 +403,9 @@ void writeTo(Imf::OStream& out, const Image& image, const Imf::Header& header, E
 ExrImage decodeExr(const std::string& path, bool wholeDisplay, const ImageLimits& limits) {
   return reading(path, [&](ExrFile& file) {
     const ExrChannels channels = colorChannels(path, file.header().channels());
-    file.checkSizes(channels.size(), limits);
+    const bool isChroma = hasChroma(file.header().channels());
+    const std::size_t count = isChroma ? 4 : channels.size();
+    file.checkSizes(count, limits);
     const Box2i& display = file.header().displayWindow();
     const Box2i visible = file.visible(), kept = wholeDisplay ? display : visible;
     ExrImage image;
@@ -364,9 +414,12 @@ ExrImage decodeExr(const std::string& path, bool wholeDisplay, const ImageLimits
     // The sizes have been checked, so these differences fit.
     image.window = {kept.min.x - display.min.x, kept.min.y - display.min.y,
                     kept.max.x - display.min.x + 1, kept.max.y - display.min.y + 1};
-    image.raw = startImage(path, widthOf(kept), heightOf(kept), static_cast<int>(channels.size()),
-                           true, limits);
-    image.raw.values = file.read<float>(kept, channels, limits);
+    image.raw =
+        startImage(path, widthOf(kept), heightOf(kept), static_cast<int>(count), true, limits);
+    image.raw.values =
+        isChroma ? readChroma(path, kept, limits) : file.read<float>(kept, channels, limits);
+    const Imf::Header& header = file.header();
+    image.raw.isCube = Imf::hasEnvmap(header) && Imf::envmap(header) == Imf::ENVMAP_CUBE;
     return image;
   });
 }

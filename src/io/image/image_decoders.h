@@ -39,9 +39,10 @@ struct ExrImage {
 };
 bool isExrFile(const std::string& path);  // by its first bytes
 // Reads scanlines or tiles (level 0), any compression, any channel type. A missing one of R, G and
-// B is 0. With `wholeDisplay` the rest of the display window is 0, otherwise the image is the part
-// of the data window inside it. Throws Error(badScene) for deep images, images of luminance and
-// chroma, images without any of R, G, B, Y, and whatever OpenEXR rejects.
+// B is 0. Without any of R, G, B and Y the first layer that has them counts, but one called
+// "Combined" before others. Luminance and chroma become R, G and B. With `wholeDisplay` the rest of
+// the display window is 0, otherwise the image is the part of the data window inside it. Throws
+// Error(badScene) for deep images, images without any of R, G, B, Y, and whatever OpenEXR rejects.
 ExrImage decodeExr(const std::string& path, bool wholeDisplay, const ImageLimits& limits);
 
 }  // namespace whit

@@ -29,6 +29,7 @@ struct ImageLimits {
 struct RawImage {
   int width = 0, height = 0, channels = 0;
   bool linear = false;
+  bool isCube = false;  // six square faces from the top, as OpenEXR's envmap "cube" has them
   std::vector<std::uint8_t> codes;  // when !linear
   std::vector<float> values;  // when linear; sanitised: NaN and negatives 0, inf 65504, counted
   MemoryHold held;            // the memory of codes and values

@@ -247,6 +247,31 @@ void readRuns(ImageBytes& bytes, std::size_t component, std::vector<Rgbe>& row) 
   }
 }
 
+// Reads the rest of a row whose first pixel is there. In older files a pixel whose mantissas are
+// all 1 repeats the one before as often as its exponent says; the next such pixel in a row counts
+// 256 times as much.
+void readOldRuns(ImageBytes& bytes, std::vector<Rgbe>& row) {
+  constexpr unsigned kLargestShift = 24;
+  unsigned shift = 0;
+  for (std::size_t done = 1; done < row.size();) {
+    const Rgbe pixel = readPixel(bytes);
+    const bool isRun = pixel[0] == 1 && pixel[1] == 1 && pixel[2] == 1;
+    if (!isRun) {
+      row[done++] = pixel;
+      shift = 0;
+      continue;
+    }
+
+    const std::size_t count = std::size_t{pixel[3]} << shift;
+    if (count > row.size() - done || shift > kLargestShift) {
+      bytes.fail("expected a run up to the row's end, found a longer one");
+    }
+    std::fill_n(row.begin() + static_cast<std::ptrdiff_t>(done), count, row[done - 1]);
+    done += count;
+    shift += 8;
+  }
+}
+
 void readRow(ImageBytes& bytes, std::vector<Rgbe>& row) {
   constexpr std::size_t kShortest = 8, kLongest = 0x7fff;  // in runs of components
   row[0] = readPixel(bytes);
@@ -261,7 +286,7 @@ void readRow(ImageBytes& bytes, std::vector<Rgbe>& row) {
     for (std::size_t component = 0; component < 4; ++component) readRuns(bytes, component, row);
     return;
   }
-  for (std::size_t i = 1; i < row.size(); ++i) row[i] = readPixel(bytes);
+  readOldRuns(bytes, row);
 }
 
 }  // namespace

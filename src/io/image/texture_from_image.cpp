@@ -1,6 +1,8 @@
 #include "io/image/texture_from_image.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace whit {
 
@@ -14,6 +16,46 @@ std::uint64_t countAbove(const RawImage& raw, float limit) {
     count += std::max({r, g, b}) > limit;
   }
   return count;
+}
+
+int cubeSide(const RawImage& raw) { return std::min(raw.width, raw.height / 6); }
+
+// What a cube (OpenEXR, "Environment Maps") shows in a direction, between its pixels.
+Rgb cubePixel(const RawImage& raw, const Vec3d& direction) {
+  const int last = cubeSide(raw) - 1;
+  const Vec3d size = abs(direction);
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  // Centers of pixels lie on the edges of the cube.
+  const auto place = [&](int along) { return (direction[along] / size[axis] + 1) / 2 * last; };
+  const double s = place(axis == 0 ? 1 : 0), t = place(axis == 2 ? 1 : 2);
+
+  // Column and row within the faces in the file's order, x, -x, y, -y, z and -z.
+  const bool isNegative = direction[axis] < 0;
+  const double columns[] = {t, last - t, s, s, last - s, s};
+  const double rows[] = {last - s, last - s, last - t, t, last - t, last - t};
+  const int face = 2 * axis + (isNegative ? 1 : 0);
+  const double column = std::clamp(columns[face], 0.0, double(last));
+  const double row = std::clamp(rows[face], 0.0, double(last));
+
+  const int left = std::min(static_cast<int>(column), std::max(last - 1, 0));
+  const int top = std::min(static_cast<int>(row), std::max(last - 1, 0));
+  RgbD sum;
+  for (int y = top; y <= std::min(top + 1, last); ++y) {
+    for (int x = left; x <= std::min(left + 1, last); ++x) {
+      const double weight = (1 - std::abs(column - x)) * (1 - std::abs(row - y));
+      const std::size_t line = static_cast<std::size_t>(face) * (last + 1) + y;
+      sum += RgbD(linearPixel(raw, line * static_cast<std::size_t>(raw.width) + x)) * weight;
+    }
+  }
+  return Rgb(sum);
+}
+
+// The direction of a pixel of an image of latitude and longitude: z in the middle, y up.
+Vec3d directionOf(int column, int row, const EnvironmentImage& image) {
+  const double longitude = (0.5 - (column + 0.5) / image.width) * 2 * std::numbers::pi;
+  const double latitude = (0.5 - (row + 0.5) / image.height) * std::numbers::pi;
+  const double across = std::cos(latitude);
+  return {std::sin(longitude) * across, std::sin(latitude), std::cos(longitude) * across};
 }
 
 }  // namespace
@@ -69,16 +111,22 @@ Texture makeEmissionTexture(const std::string& name, const RawImage& raw, Warnin
 }
 
 EnvironmentImage makeEnvironment(const RawImage& raw) {
+  const bool isCube = raw.isCube && cubeSide(raw) > 0;
   EnvironmentImage environment;
-  environment.width = raw.width;
-  environment.height = raw.height;
-  const std::size_t count = raw.pixels();
+  environment.width = isCube ? 4 * cubeSide(raw) : raw.width;
+  environment.height = isCube ? 2 * cubeSide(raw) : raw.height;
+  const std::size_t count =
+      static_cast<std::size_t>(environment.width) * static_cast<std::size_t>(environment.height);
   for (auto* plane : {&environment.r, &environment.g, &environment.b}) plane->resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Rgb value = linearPixel(raw, i);
-    environment.r[i] = value.x;
-    environment.g[i] = value.y;
-    environment.b[i] = value.z;
+  std::size_t i = 0;
+  for (int row = 0; row < environment.height; ++row) {
+    for (int column = 0; column < environment.width; ++column, ++i) {
+      const Rgb value =
+          isCube ? cubePixel(raw, directionOf(column, row, environment)) : linearPixel(raw, i);
+      environment.r[i] = value.x;
+      environment.g[i] = value.y;
+      environment.b[i] = value.z;
+    }
   }
   return environment;
 }

@@ -21,7 +21,7 @@ void warnOfClampedColors(const std::string& name, const RawImage& raw, Warnings&
 Texture makeEmissionTexture(const std::string& name, const RawImage& raw, Warnings& warnings);
 TexelFormat emissionFormat(const RawImage& raw);
 std::uint32_t encodeTexel(const Rgb& linear, TexelFormat format);  // of color or radiance
-// Makes an environment of linear light, see linearPixel().
+// Makes an environment of linear light, see linearPixel(). A cube is read at twice the pixels.
 EnvironmentImage makeEnvironment(const RawImage& raw);
 
 // True if there is an alpha channel (2 or 4 channels) with a texel below opaque.
