@@ -158,6 +158,7 @@ class PrimitiveReader {
       mesh.secondUvs.resize(mesh.positions.size());
     }
     readVertexColors(mesh);
+    if (attributes_["COLOR_1"].exists()) warn("second set of vertex colors left out");
     connect(mesh, corners(mesh.positions.size()));
     mesh.materials = {static_cast<std::uint32_t>(material_)};
     if (placed_.isDeformed()) deform(document_, primitive_, placed_.deformation, mesh);
