@@ -231,7 +231,7 @@ void GenerateRays(Chunk& c) {
   const VF heightOfPixel = hn::Set(d, static_cast<float>(1 / length(camera.up)));
   const Projector projector(camera);
   const std::array<float, 72> views = ViewNumbers(camera);
-  const int columns = camera.width / camera.viewWidth, rows = camera.height / camera.viewHeight;
+  const int columns = camera.viewColumns, rows = camera.viewRows;
   const bool isStraight = camera.isStraight();
   const VF one = hn::Set(d, 1.0f);
   const Lens lens(camera);

@@ -128,6 +128,7 @@ struct RenderOptions {
   int indirect = 0;  // rays that sample indirect light on a diffuse surface; 0: none
   float cutoff = 1.0e-3f;
   float roulette = 0;      // Russian roulette below this throughput; 0: off
+  int maxRays = 10000;     // impulses of a sample (sampling/ray_limit.h); 0: no bound
   int lightSamples = 1;    // points of a light with a radius; 1: its center
   int ambientSamples = 0;  // ambient occlusion rays; 0: off
   ShadingChoices shading;
@@ -272,6 +273,12 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                                .spare = "0.01 0.1 0.5",
                                .needs = {kNeedsImpulses}}},
              o.roulette},
+      Option{{.name = "max-rays", .words = "N", .low = 0, .high = 1e9,
+              .help = "reflected, refracted and sampled rays of a sample; a sample that would have "
+                      "more is traced with fewer: of the rays of a surface one is followed by "
+                      "chance and weighted to keep the mean; 0: no bound",
+              .tab = Tab::none},
+             o.maxRays},
       Option{{.name = "light-samples", .words = "N", .low = 1, .high = 64,
               .help = "soft shadows of area lights: shadow rays per hit and light with a radius; "
                       "1: to its center only",

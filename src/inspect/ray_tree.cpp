@@ -26,6 +26,7 @@ class TreeObserver : public StageObserver {
   void after(Stage stage, const Chunk& chunk) override {
     switch (stage) {
       case Stage::generateRays:
+        if (chunk.narrowings) forgetSample();
         levels_.assign(1, {append(0, RayKind::primary, 0)});
         tree_.primaries.push_back(levels_[0][0]);
         return;
@@ -52,6 +53,12 @@ class TreeObserver : public StageObserver {
   }
 
  private:
+  // The sample is traced again, as a narrower tree.
+  void forgetSample() {
+    tree_.nodes.resize(tree_.primaries.back());
+    tree_.primaries.pop_back();
+    tree_.narrowed = true;
+  }
   std::size_t append(std::size_t parent, RayKind kind, int depth) {
     RayNode& fresh = tree_.nodes.emplace_back();
     const std::size_t number = tree_.nodes.size() - 1;
@@ -170,6 +177,12 @@ class TreeIntersector : public EmbreeIntersector {
     tree_.nodes.push_back(std::move(fresh));
     current_ = number;
   }
+  void beganAgain() const override {
+    current_ = tree_.primaries.back();
+    tree_.nodes.resize(current_);
+    tree_.nodes.emplace_back().parent = current_;
+    tree_.narrowed = true;
+  }
   void ended(const RgbD& radiance) const override {
     tree_.nodes[current_].radiance = radiance;
     current_ = tree_.nodes[current_].parent;
@@ -226,8 +239,9 @@ Wanted wantedOf(const Scene& scene, const Plan& plan, const RenderOptions& optio
 }
 
 // The reason for which the surface does not send an impulse that it could send.
-PathEnd endOf(const RenderOptions& options, const RayNode& n) {
+PathEnd endOf(const RenderOptions& options, const RayNode& n, bool narrowed) {
   if (n.depth >= options.depth) return PathEnd::depth;
+  if (narrowed && !n.children.empty()) return PathEnd::limit;
   return options.roulette > 0 ? PathEnd::roulette : PathEnd::cutoff;
 }
 
@@ -239,7 +253,7 @@ void explainEnds(const Renderer& renderer, RayTree& tree) {
     for (const RayKind kind : kImpulseKinds) {
       if (sends(tree, n, kind)) continue;
       if (wanted.isWanted(kind)) {
-        n.endOf(kind) = endOf(options, n);
+        n.endOf(kind) = endOf(options, n, tree.narrowed);
       } else if (wanted.isReflectedTotally(kind)) {
         n.endOf(kind) = PathEnd::totalReflection;
       }

@@ -26,7 +26,7 @@ struct LightContribution {
 };
 
 // Why a surface sends on less than its material would.
-enum class PathEnd { none, depth, cutoff, roulette, totalReflection };
+enum class PathEnd { none, depth, cutoff, roulette, limit, totalReflection };
 
 struct RayNode {
   RayKind kind = RayKind::primary;
@@ -60,6 +60,7 @@ struct RayTree {
   std::vector<std::size_t> primaries;  // one a sample of the pixel
   std::vector<Vec2f> samples;          // their places in the pixel
   Rgb pixel;                           // as the film has it
+  bool narrowed = false;               // a sample was traced again (sampling/ray_limit.h)
 
   std::size_t shadowRays() const;  // that were traced
 };

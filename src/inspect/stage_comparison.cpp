@@ -362,7 +362,8 @@ class StageComparer : public StageObserver {
 
   void after(Stage stage, const Chunk& chunk) override {
     tracker_.follow(stage, chunk);
-    if (!enough(stage)) compareStage(stage, chunk);
+    // Children of narrowed trees count for others, too.
+    if (!enough(stage) && !chunk.narrowings) compareStage(stage, chunk);
     if (stage != Stage::writeEmittedAndReflectiveAmbient && stage != Stage::addShading) return;
     before_.clear();
     for (std::size_t i = 0; i < chunk.n; ++i) before_.push_back(RadianceRow::at(chunk.radiance, i));

@@ -70,7 +70,8 @@ std::string mediumName(const Scene& scene, std::uint32_t media) {
 }
 
 const char* nameOf(PathEnd end) {
-  constexpr const char* kNames[] = {"", "depth", "cutoff", "roulette", "total reflection"};
+  constexpr const char* kNames[] = {
+      "", "depth", "cutoff", "roulette", "cutoff or --max-rays", "total reflection"};
   return kNames[static_cast<std::size_t>(end)];
 }
 

@@ -166,6 +166,12 @@ std::string stageTable(const RunSummary& run) {
     text += formatted("  floor %.2f ms (Embree alone, the same rays); frame over floor %.2f\n",
                       floor, floor > 0 ? frame.frameMs / floor : 0);
   }
+  if (frame.limitedPixels > 0) {
+    text += formatted(
+        "  %llu pixels have samples of more than %d rays, which were traced with fewer "
+        "(--max-rays)\n",
+        static_cast<unsigned long long>(frame.limitedPixels), run.options.maxRays);
+  }
   if (frame.nonFinitePixels > 0) {
     text += formatted("  %llu pixels are not finite\n",
                       static_cast<unsigned long long>(frame.nonFinitePixels));

@@ -56,6 +56,7 @@ void addFrames(const RunSummary& run, Json& json) {
     json["lanes_filled"][std::string(kRayKinds[i].name)] = lanesFilled(frame.meter.tally[i]);
   }
   json["nonfinite"] = frame.nonFinitePixels;
+  json["ray_limited"] = frame.limitedPixels;
   json["image_hash"] = run.imageHash;
   if (!run.floorMs.empty()) {
     const double floor = quantile(run.floorMs, 0.5);

@@ -136,7 +136,7 @@ Ray generateRay(const CameraFrame& camera, double x, double y) {
   CameraView view{{}, camera.forward, camera.right, camera.up};
   int number = 0;
   if (!camera.views.empty()) {
-    const int columns = camera.width / camera.viewWidth, rows = camera.height / camera.viewHeight;
+    const int columns = camera.viewColumns, rows = camera.viewRows;
     const int column = std::min(static_cast<int>(x / camera.viewWidth), columns - 1);
     const int row = std::min(static_cast<int>(y / camera.viewHeight), rows - 1);
     number = row * columns + column;

@@ -37,6 +37,8 @@ class Intersector {
   // Told of each impulse that is followed, and of what it brought back before its weight counts.
   virtual void began(const Impulse&, RayKind) const {}
   virtual void ended(const RgbD& /*radiance*/) const {}
+  // Told that the sample which was begun last is traced again (sampling/ray_limit.h).
+  virtual void beganAgain() const {}
   // True if a surface that casts shadows lies at 0 < t < tFar (direction not normalized).
   virtual bool occluded(const Ray& ray, double tFar) const = 0;
 };

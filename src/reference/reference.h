@@ -37,6 +37,9 @@ class RayCounts {
 
   std::uint64_t& operator[](RayKind kind) { return counts_[static_cast<std::size_t>(kind)]; }
   std::uint64_t operator[](RayKind kind) const { return counts_[static_cast<std::size_t>(kind)]; }
+  // Samples that were traced again as narrower trees, and pixels that have some.
+  std::uint64_t limitedSamples = 0, limitedPixels = 0;
+
   std::uint64_t all() const {
     return std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0});
   }
@@ -45,6 +48,8 @@ class RayCounts {
     for (std::size_t k = 0; k < kRayKindCount; ++k) counts_[k] += b.counts_[k];
     ended += b.ended;
     clear += b.clear;
+    limitedSamples += b.limitedSamples;
+    limitedPixels += b.limitedPixels;
     return *this;
   }
 
@@ -53,16 +58,36 @@ class RayCounts {
 };
 
 struct Impulse;
+struct Impulses;
 struct SampledLobe;
 struct Surfel;
 struct TriangleHit;
 struct Crossing;
 struct Settled;
 
-// Which path a ray ends: its number, and the place of the pixel's sample in the pattern.
+// The impulses that a sample has followed, and whether it is traced again as a narrower tree
+// (sampling/ray_limit.h).
+struct SampleTree {
+  std::uint64_t followed = 0;
+  bool narrows = false;
+};
+
+// Which path a ray ends: its number, and the place of the pixel's sample in the pattern; and the
+// tree that it belongs to, if the number of its rays is bounded, with the ray's width.
 struct Path {
   std::uint32_t number = 0, sample = 0;
   bool straight = true;  // it has gone on along its camera ray
+  SampleTree* tree = nullptr;
+  std::uint64_t width = 1;
+};
+
+// Which of the impulses of a surface are followed: all, or the one with this number, which then
+// counts for all. `next` is the number of the next one.
+struct Choice {
+  std::uint64_t width = 1;  // of the rays that are followed
+  bool all = true;
+  std::size_t chosen = 0, next = 0;
+  double weights = 0;  // sum of the largest channels of all weights
 };
 
 // Radiance along the ray, recursing for impulses (Whitted 1980). `throughput` is what the result is
@@ -95,9 +120,12 @@ class Tracer {
                           Path path) const;
   RgbD radianceFromAmbient(const Surfel& surfel, int depth, RayCounts& counts, Path path) const;
   RgbD radianceByLobe(const SampledLobe& sampled, const Surfel& surfel, int depth,
-                      double throughput, std::uint32_t media, RayCounts& counts, Path path) const;
+                      double throughput, std::uint32_t media, RayCounts& counts, Path path,
+                      Choice& choice) const;
   RgbD follow(const Impulse& impulse, RayKind kind, int depth, double throughput, RayCounts& counts,
-              Path path) const;
+              Path path, int shares, Choice& choice) const;
+  Choice chooseImpulses(const Impulses& impulses, const Surfel& surfel, const Crossing& crossing,
+                        int depth, double throughput, std::uint32_t media, Path path) const;
 
   const Scene& scene_;
   const Intersector& intersector_;

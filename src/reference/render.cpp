@@ -29,8 +29,11 @@ RayCounts forEachPixel(const Crop& window, int threads, Progress* progress, cons
   std::atomic<int> rowsDone{0};
   parallelFor(threads, static_cast<std::size_t>(rows), [&](std::size_t row, int worker) {
     const int y = window.y0 + static_cast<int>(row);
+    RayCounts& own = counts[static_cast<std::size_t>(worker)];
     for (int x = window.x0; x < window.x1; ++x) {
-      task(x, y, counts[static_cast<std::size_t>(worker)]);
+      const std::uint64_t before = own.limitedSamples;
+      task(x, y, own);
+      own.limitedPixels += own.limitedSamples > before;
     }
     reportProgress(progress, "tracing the reference", static_cast<double>(++rowsDone) / rows);
   });
@@ -122,7 +125,21 @@ RgbD Tracer::sampled(const CameraFrame& camera, int x, int y, const Vec2f& at, s
   ++counts[RayKind::primary];
   const auto [ray, path] = primaryRay(camera, x, y, at, sample);
   const MediaStack media = mediaAtStart(scene_, effects_, intersector_, camera, ray);
-  return traceImpulse(ray, 0, 1.0, media, counts, path);
+  if (options_.maxRays == 0) return traceImpulse(ray, 0, 1.0, media, counts, path);
+
+  SampleTree tree;
+  Path bounded = path;
+  bounded.tree = &tree;
+  const RayCounts before = counts;
+  const RgbD radiance = traceImpulse(ray, 0, 1.0, media, counts, bounded);
+  if (tree.followed <= static_cast<std::uint64_t>(options_.maxRays)) return radiance;
+
+  // The tree is too large: it is forgotten, and a narrower one traced.
+  counts = before;
+  ++counts.limitedSamples;
+  tree.narrows = true;
+  intersector_.beganAgain();
+  return traceImpulse(ray, 0, 1.0, media, counts, bounded);
 }
 
 PixelSurface Tracer::surfaceAtCenter(const CameraFrame& camera, int x, int y) const {

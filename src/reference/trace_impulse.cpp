@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <limits>
+#include <vector>
 
 #include "bake/facet.h"
 #include "reference/add_impulses.h"
@@ -10,6 +12,7 @@
 #include "reference/settle_coplanar.h"
 #include "reference/write_emitted_and_reflective_ambient.h"
 #include "sampling/random_streams.h"
+#include "sampling/ray_limit.h"
 #include "sampling/sample_pattern.h"
 
 namespace whit::reference {
@@ -17,7 +20,10 @@ namespace whit::reference {
 namespace {
 
 Path childOf(const Path& path, std::uint32_t branch) {
-  return {childStream(path.number, branch), path.sample, false};
+  Path child = path;
+  child.straight = false;
+  child.number = childStream(path.number, branch);
+  return child;
 }
 
 }  // namespace
@@ -69,14 +75,15 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
   if (depth < options_.depth || keptChannels(options_).has(Channel::error)) {
     const Impulses children =
         findImpulses(scene_, effects_, surfel, crossing, media, options_.shading);
+    Choice choice = chooseImpulses(children, surfel, crossing, depth, left, media, path);
     for (const RayKind kind : kImpulseKinds) {
       const Impulse child = children.of(kind);
       Path childPath = childOf(path, branchOf(kind));
       childPath.straight = path.straight && child.ray.direction == ray.direction;
-      RgbD sum = follow(child, kind, depth + 1, left, counts, childPath);
+      RgbD sum = follow(child, kind, depth + 1, left, counts, childPath, 1, choice);
       for (const SampledLobe& sampled : kSampledLobes) {
         if (sampled.lobe.kind != kind || crossing.hidden) continue;
-        sum += radianceByLobe(sampled, surfel, depth, left, media, counts, path);
+        sum += radianceByLobe(sampled, surfel, depth, left, media, counts, path, choice);
       }
       radiance += sum;
     }
@@ -111,8 +118,8 @@ std::optional<Settled> Tracer::nearest(Ray ray, int depth) const {
 // The mean of the lobe's samples. Each is followed as if it were the whole lobe, so that their
 // number does not decide which light is worth its rays.
 RgbD Tracer::radianceByLobe(const SampledLobe& sampled, const Surfel& surfel, int depth,
-                            double throughput, std::uint32_t media, RayCounts& counts,
-                            Path path) const {
+                            double throughput, std::uint32_t media, RayCounts& counts, Path path,
+                            Choice& choice) const {
   const auto& [lobe, raysOf, impulseOf] = sampled;
   if (!lobe.isSampled(scene_.materials[surfel.material], effects_)) return {};
   const LobeSampling sampling = lobeSampling(depth, options_.*lobe.samples, path.sample);
@@ -123,15 +130,55 @@ RgbD Tracer::radianceByLobe(const SampledLobe& sampled, const Surfel& surfel, in
     const auto k = static_cast<std::uint32_t>(i);
     const UnitPoint at = pointOf(lobe, path.number, sampling, k);
     sum += follow(impulseOf(surfel, media, at, options_.shading), lobe.kind, depth + 1, throughput,
-                  counts, childOf(path, lobe.firstBranch + k));
+                  counts, childOf(path, lobe.firstBranch + k), rays, choice);
   }
   counts.ended = ended + (counts.ended - ended) / rays;
   return sum / rays;
 }
 
-// The radiance that an impulse brings back, if it is worth following.
+// The impulses of the surface that are followed. Only trees that are traced again leave some out.
+Choice Tracer::chooseImpulses(const Impulses& impulses, const Surfel& surfel,
+                              const Crossing& crossing, int depth, double throughput,
+                              std::uint32_t media, Path path) const {
+  Choice choice;
+  if (!path.tree || !path.tree->narrows || depth >= options_.depth) return choice;
+
+  // The largest channels of the weights of those that are worth following, in order.
+  std::vector<double> weights;
+  const auto add = [&](const Impulse& impulse, std::uint32_t branch, int shares) {
+    const double largest = maxComponent(impulse.weight), contribution = throughput * largest;
+    if (!(largest > 0 && survives(options_, contribution, childOf(path, branch).number))) return;
+    weights.push_back(largest * growthOfSurvivors(options_, contribution) / shares);
+  };
+  for (const RayKind kind : kImpulseKinds) {
+    add(impulses.of(kind), branchOf(kind), 1);
+    for (const auto& [lobe, raysOf, impulseOf] : kSampledLobes) {
+      if (lobe.kind != kind || crossing.hidden) continue;
+      if (!lobe.isSampled(scene_.materials[surfel.material], effects_)) continue;
+      const LobeSampling sampling = lobeSampling(depth, options_.*lobe.samples, path.sample);
+      const int rays = raysOf(surfel, sampling);
+      for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(rays); ++k) {
+        const UnitPoint at = pointOf(lobe, path.number, sampling, k);
+        add(impulseOf(surfel, media, at, options_.shading), lobe.firstBranch + k, rays);
+      }
+    }
+  }
+
+  choice.width = path.width * std::max<std::uint64_t>(1, weights.size());
+  if (choice.width <= widestTree(options_.maxRays, options_.depth)) return choice;
+  choice.width = path.width;
+  choice.all = false;
+  for (const double weight : weights) choice.weights += weight;
+  const double drawn = choiceDraw(path.number) * choice.weights;
+  double passed = weights[0];
+  while (passed <= drawn && choice.chosen + 1 < weights.size()) passed += weights[++choice.chosen];
+  return choice;
+}
+
+// The radiance that an impulse brings back, if it is worth following. It has one of so many shares
+// of its lobe.
 RgbD Tracer::follow(const Impulse& impulse, RayKind kind, int depth, double throughput,
-                    RayCounts& counts, Path path) const {
+                    RayCounts& counts, Path path, int shares, Choice& choice) const {
   const double largest = maxComponent(impulse.weight), contribution = throughput * largest;
   // Written so that a NaN ends the path.
   const bool isLast = depth > options_.depth;
@@ -139,14 +186,24 @@ RgbD Tracer::follow(const Impulse& impulse, RayKind kind, int depth, double thro
     if (isLast || options_.roulette == 0) counts.ended += largest;
     return {};
   }
+  const bool isChosen = choice.all || choice.next == choice.chosen;
+  ++choice.next;
+  if (!isChosen) return {};
+  const auto most = static_cast<std::uint64_t>(options_.maxRays);
+  if (path.tree && ++path.tree->followed > most && !path.tree->narrows) return {};
+
   ++counts[kind];
-  const double grows = growthOfSurvivors(options_, contribution);
+  path.width = choice.width;
+  double grows = growthOfSurvivors(options_, contribution), reaches = contribution * grows;
+  if (!choice.all) {
+    grows = choice.weights * shares / largest;
+    reaches = throughput * choice.weights;
+  }
   const Impulse followed{impulse.weight * grows, impulse.ray, impulse.media};
   intersector_.began(followed, kind);
   const double ended = counts.ended;
   const RgbD clear = counts.clear;
-  const RgbD radiance =
-      traceImpulse(impulse.ray, depth, contribution * grows, impulse.media, counts, path);
+  const RgbD radiance = traceImpulse(impulse.ray, depth, reaches, impulse.media, counts, path);
   counts.ended = ended + largest * grows * (counts.ended - ended);
   counts.clear = clear + (counts.clear - clear) * followed.weight;
   intersector_.ended(radiance);

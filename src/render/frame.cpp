@@ -113,6 +113,7 @@ void FrameStats::add(const FrameStats& worker) {
   }
   meter.embreeMs += worker.meter.embreeMs;
   nonFinitePixels += worker.nonFinitePixels;
+  limitedPixels += worker.limitedPixels;
 }
 
 double SampleSum::standardError(int samples) const {

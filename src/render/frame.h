@@ -43,6 +43,8 @@ struct FrameStats {
   std::array<std::uint64_t, kStageCount> stageCalls{};           // times that a stage has ended
   std::array<std::uint64_t, simd::kKernels.size()> stepCalls{};  // by Step::number
   std::uint64_t nonFinitePixels = 0;
+  // Pixels of which a sample had more rays than --max-rays; with --adaptive once for each pass.
+  std::uint64_t limitedPixels = 0;
 
   double stageMs(Stage s) const { return stageWorkerMs[static_cast<std::size_t>(s)] / workers; }
   double embreeMs() const { return meter.embreeMs / workers; }

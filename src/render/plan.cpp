@@ -266,6 +266,12 @@ class Planner {
       plan_.impulses.push_back(amendingStep("markStraight", simd::kAddRefractions, markStraight,
                                             {Part::rays, Part::children}, {Part::children}));
     }
+    if (options_.maxRays > 0 && mostImpulses() > options_.maxRays) {
+      plan_.limitsRays = true;
+      plan_.features = plan_.features.with(Feature::streams);
+      plan_.impulses.push_back(amendingStep("limitRays", simd::kReturnImpulses, limitRays,
+                                            {Part::rays, Part::children}, {Part::children}));
+    }
     plan_.onReturn = {stepOf(simd::kReturnImpulses)};
     if (countsRays()) {
       plan_.onReturn.push_back(amendingStep("returnRayCounts", simd::kReturnImpulses,
@@ -285,6 +291,20 @@ class Planner {
     // them by origin and direction before they are packed gains nothing on AVX2 and AVX-512 (glass,
     // whitted, tiles of 32 to 256): Embree then leads the rays of a packet one by one.
     plan_.coherentDepth = samplesLobes(plan_.effects) ? 0 : 2;
+  }
+
+  // Upper bound on the impulses of a sample.
+  double mostImpulses() const {
+    double ofDepth = 0, all = 0, kinds = 0;
+    for (const Step& step : plan_.impulses) {
+      ofDepth += static_cast<double>(step.childrenAt(0));
+      kinds += static_cast<double>(step.childrenAt(1));
+    }
+    for (int depth = 0; depth < options_.depth; ++depth) {
+      all += ofDepth;
+      ofDepth *= kinds;
+    }
+    return all;
   }
 
   void addLobe(const simd::Kernel& kernel, const Lobe& lobe) {

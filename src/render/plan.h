@@ -3,6 +3,7 @@
 // times it, looks on, lists it (whit info --kernels), benchmarks or probes it, walks these lists.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,7 +40,9 @@ struct Step {
   bool runsFor(std::uint32_t materialFlags) const {
     return wants == 0 || (materialFlags & wants) != 0;
   }
-  std::size_t childrenAt(int depth) const { return depth == 0 ? childrenAtEye : 1; }
+  std::size_t childrenAt(int depth) const {
+    return depth == 0 ? childrenAtEye : std::min<std::size_t>(childrenAtEye, 1);
+  }
 };
 
 // All that one light, or one sample of it, goes through.
@@ -50,11 +53,12 @@ struct LightSteps {
 };
 
 struct Plan {
-  EffectSet effects;      // of the scene and the options
-  FeatureSet features;    // what whole calls ask for
-  int depth = 0;          // deepest impulse that can occur
-  int coherentDepth = 0;  // deepest queue whose rays travel close together
-  ChannelSet channels;    // that are kept
+  EffectSet effects;        // of the scene and the options
+  FeatureSet features;      // what whole calls ask for
+  int depth = 0;            // deepest impulse that can occur
+  bool limitsRays = false;  // a sample may have more impulses than --max-rays
+  int coherentDepth = 0;    // deepest queue whose rays travel close together
+  ChannelSet channels;      // that are kept
 
   std::vector<Step> perSample, perQueue, impulses, onReturn, atEye, perTile;
   std::vector<LightSteps> perLight;

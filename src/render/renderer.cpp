@@ -266,6 +266,7 @@ FrameStats Renderer::renderReference(const Camera& camera, Film& film, Progress*
     stats.meter.tally[k] = {rays, rays};
   }
   for (const Rgb& pixel : film.image.pixels) stats.nonFinitePixels += !isFinite(pixel);
+  stats.limitedPixels = counts.limitedPixels;
   return stats;
 }
 

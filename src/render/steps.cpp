@@ -17,6 +17,7 @@
 #include "reference/settle_coplanar.h"
 #include "reference/world.h"
 #include "render/renderer.h"
+#include "sampling/ray_limit.h"
 #include "simd/kernels.h"
 
 namespace whit {
@@ -30,12 +31,13 @@ bool isKept(const Chunk& c) {
 }
 
 // keep(slot, pixel of the layers) for the slots of a chunk of depth 0 whose pixels are in the
-// window.
+// window. Samples that are given up keep nothing.
 template <typename Keep>
 void forEachKept(const Chunk& c, Keep&& keep) {
   const Crop& w = c.frame->channels.window;
   const auto width = static_cast<std::size_t>(w.x1 - w.x0);
   for (std::size_t i = 0; i < c.n; ++i) {
+    if (c.isGivenUp(c.first + i)) continue;
     const std::uint32_t pixel = c.pixels[c.first + i];
     const int x = pixelX(pixel), y = pixelY(pixel);
     if (!w.contains(x, y)) continue;
@@ -43,8 +45,69 @@ void forEachKept(const Chunk& c, Keep&& keep) {
   }
 }
 
-float largestWeight(const Chunk& c, std::size_t i) {
-  return std::max({c.rays.weightR[i], c.rays.weightG[i], c.rays.weightB[i]});
+float largestWeight(const RayColumns& rays, std::size_t i) {
+  return std::max({rays.weightR[i], rays.weightG[i], rays.weightB[i]});
+}
+
+void moveRow(RayColumns rays, std::size_t from, std::size_t to) {
+  RayColumns::forEachColumn(rays, [&](const char*, auto* column, Feature) {
+    if (column) column[to] = column[from];
+  });
+}
+
+// Keeps the children for which keeps(child) is true, in their order.
+template <typename Keeps>
+void keepChildren(Chunk& c, const Keeps& keeps) {
+  std::size_t kept = 0, segments = 0;
+  for (std::size_t s = 0; s < c.childSegmentCount; ++s) {
+    const Segment all = c.childSegments[s];
+    const std::size_t first = kept;
+    for (std::size_t i = all.begin; i < all.end; ++i) {
+      if (!keeps(i)) continue;
+      moveRow(c.children, i, kept);
+      c.childPixelSlots[kept] = c.childPixelSlots[i];
+      if (c.narrowings) c.childNarrowings[kept] = c.childNarrowings[i];
+      ++kept;
+    }
+    if (kept > first) c.childSegments[segments++] = {all.kind, first, kept};
+  }
+  c.childCount = kept;
+  c.childSegmentCount = segments;
+}
+
+// The child counts for all of its surface's, as the one that was chosen.
+void standForAll(const Chunk& c, std::size_t child, const Narrowing& of) {
+  const double grows = of.weights / static_cast<double>(largestWeight(c.children, child));
+  for (float* weight : {c.children.weightR, c.children.weightG, c.children.weightB}) {
+    weight[child] = static_cast<float>(static_cast<double>(weight[child]) * grows);
+  }
+  const auto before = static_cast<double>(c.rays.throughput[c.children.parent[child]]);
+  c.children.throughput[child] = static_cast<float>(before * of.weights);
+}
+
+void narrowTrees(Chunk& c) {
+  const std::uint64_t widest = widestTree(c.options().maxRays, c.options().depth);
+  const std::uint32_t* const parents = c.children.parent;
+  for (std::size_t i = 0; i < c.childCount; ++i) {
+    Narrowing& parent = c.narrowings[parents[i]];
+    ++parent.children;
+    parent.weights += static_cast<double>(largestWeight(c.children, i));
+  }
+
+  keepChildren(c, [&](std::size_t i) {
+    Narrowing& parent = c.narrowings[parents[i]];
+    const bool all = parent.width * parent.children <= widest;
+    c.childNarrowings[i] = {parent.width * (all ? parent.children : 1)};
+    if (all) return true;
+
+    // Each child has its share of the line from 0 to the sum of the weights.
+    const double drawn = choiceDraw(c.rays.path[parents[i]]) * parent.weights;
+    const double begin = parent.passed;
+    parent.passed += static_cast<double>(largestWeight(c.children, i));
+    if (drawn < begin || drawn >= parent.passed) return false;
+    standForAll(c, i, parent);
+    return true;
+  });
 }
 
 ChannelValues valuesOf(const Chunk& c, std::size_t i) {
@@ -158,11 +221,29 @@ void addToMean(const Chunk& c, Channel channel, const ValueAt& valueAt) {
 }
 
 void keepChannels(Chunk& c) {
-  if (c.depth > 0 || !c.frame->channels.layers) return;
+  // Samples that are traced again have the same first hits.
+  if (c.depth > 0 || !c.frame->channels.layers || c.narrowings) return;
   if (!isKept(c)) return;
   forEachKept(c, [&](std::size_t slot, std::size_t pixel) {
     c.frame->channels.layers->keep(pixel, valuesOf(c, slot));
   });
+}
+
+void limitRays(Chunk& c) {
+  for (std::size_t i = 0; i < c.childCount; ++i) {
+    c.childPixelSlots[i] = c.pixelSlots[c.children.parent[i]];
+  }
+  if (c.narrowings) {
+    narrowTrees(c);
+    return;
+  }
+
+  const auto most = static_cast<unsigned>(c.options().maxRays);
+  bool tooMany = false;
+  for (std::size_t i = 0; i < c.childCount; ++i) {
+    tooMany |= ++c.followed[c.childPixelSlots[i]] > most;
+  }
+  if (tooMany) keepChildren(c, [&](std::size_t i) { return !c.isGivenUp(c.childPixelSlots[i]); });
 }
 
 void countRays(Chunk& c) { std::fill_n(c.rayCounts, c.n, 1u); }
@@ -185,14 +266,14 @@ void startEnds(Chunk& c) { std::fill_n(c.radiance.ended, c.n, 0.0f); }
 
 void returnEnds(Chunk& c) {
   for (std::size_t i = 0; i < c.n; ++i) {
-    c.parentRadiance.ended[c.rays.parent[i]] += largestWeight(c, i) * c.radiance.ended[i];
+    c.parentRadiance.ended[c.rays.parent[i]] += largestWeight(c.rays, i) * c.radiance.ended[i];
   }
 }
 
 void keepEnds(Chunk& c) {
   if (!c.frame->channels.layers) return;
   addToMean(c, Channel::error,
-            [&](std::size_t slot) { return largestWeight(c, slot) * c.radiance.ended[slot]; });
+            [&](std::size_t slot) { return largestWeight(c.rays, slot) * c.radiance.ended[slot]; });
 }
 
 void startAlpha(Chunk& c) {

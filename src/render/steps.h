@@ -20,6 +20,11 @@ void encodeForDisplay(Chunk& c);
 // Pixels of the chunk that are not finite.
 std::uint64_t countNonFinite(const Chunk& c);
 
+// Bounds the rays of samples (sampling/ray_limit.h), after all steps that write children. The first
+// time it counts them and drops those of samples that are given up; when samples are traced again
+// it drops what makes their trees too wide.
+void limitRays(Chunk& c);
+
 // Stores all channels of the surfels of depth 0 except the ray counts.
 void keepChannels(Chunk& c);
 

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <numeric>
 
 #include "core/image.h"
 #include "render/steps.h"
@@ -66,7 +67,7 @@ void runChecked(const Step& step, Chunk& chunk) {
   step.run(chunk);
   const Sums after = checks ? sumsOf(start) : Sums();
   for (std::size_t i = 0; i < kChecked.size(); ++i) {
-    const bool appends = kChecked[i] == Part::children;
+    const bool appends = kChecked[i] == Part::children && step.childrenAtEye > 0;
     if (after[i] == before[i] || (step.writes.has(kChecked[i]) && !appends)) continue;
     std::fprintf(stderr, "step %s has written into part %d, which its contract does not name\n",
                  step.name.c_str(), static_cast<int>(kChecked[i]));
@@ -96,6 +97,7 @@ void Workspace::reserveRays(int depth, std::size_t rays) {
   at.rays.allocate(rays, plan_.features);
   if (at.radiance.capacity() == 0) at.radiance.allocate(capacity_, plan_.features);
   if (plan_.writes(Part::rayCounts)) at.rayCounts.resize(capacity_);
+  if (plan_.limitsRays) at.pixelSlots.resize(at.rays.capacity());
 }
 
 void Workspace::startQueue(std::size_t rays) {
@@ -104,6 +106,10 @@ void Workspace::startQueue(std::size_t rays) {
   first.segments[0] = {RayKind::primary, 0, rays};
   first.segmentCount = 1;
   first.cursor = 0;
+  if (!plan_.limitsRays) return;
+  std::iota(first.pixelSlots.begin(), first.pixelSlots.end(), 0u);
+  followed_.assign(narrows_ ? 0 : rays, 0);
+  if (narrows_) first.narrowings.assign(rays, {});
 }
 
 void Workspace::takeChunk(int depth, Chunk& chunk) {
@@ -138,6 +144,12 @@ void Workspace::returnTo(int depth, Chunk& chunk) const {
     return const_cast<std::uint32_t*>(l.rayCounts.data());
   };
   chunk.rayCounts = countsOf(at);
+  if (plan_.limitsRays) {
+    chunk.pixelSlots = const_cast<std::uint32_t*>(at.pixelSlots.data()) + at.cursor;
+    chunk.followed = const_cast<std::uint32_t*>(followed_.data());
+    chunk.narrowings =
+        narrows_ ? const_cast<Narrowing*>(at.narrowings.data()) + at.cursor : nullptr;
+  }
   chunk.parentRayCounts = depth > 0 ? countsOf(level(depth - 1)) : nullptr;
   chunk.hits = *hits_;
   chunk.surfels = *surfels_;
@@ -153,11 +165,15 @@ void Workspace::returnToPixels(Chunk& chunk) {
 
 void Workspace::reserveChildren(std::size_t count, Chunk& chunk) {
   reserveRays(chunk.depth + 1, count);
-  chunk.children = *level(chunk.depth + 1).rays;
+  Level& next = level(chunk.depth + 1);
+  chunk.children = *next.rays;
+  chunk.childPixelSlots = next.pixelSlots.data();
+  if (narrows_ && next.narrowings.size() < count) next.narrowings.resize(count);
+  chunk.childNarrowings = next.narrowings.data();
 }
 
 void Workspace::noteChildren(RayKind kind, std::size_t before, Chunk& chunk) {
-  if (chunk.childCount == before) return;
+  if (chunk.childCount <= before) return;
   Segment* last =
       chunk.childSegmentCount > 0 ? &chunk.childSegments[chunk.childSegmentCount - 1] : nullptr;
   if (!last || last->kind != kind) {
@@ -183,6 +199,8 @@ BufferBytes Workspace::bufferBytes() const {
     bytes.rays += level.rays.bytes();
     bytes.radiance += level.radiance.bytes();
     bytes.rayCounts += level.rayCounts.capacity() * sizeof(std::uint32_t);
+    bytes.rays += level.pixelSlots.capacity() * sizeof(std::uint32_t) +
+                  level.narrowings.capacity() * sizeof(Narrowing);
   }
   bytes.hits = hits_.bytes();
   bytes.surfels = surfels_.bytes();
@@ -212,6 +230,7 @@ void TileTracer::trace(const Frame& frame, std::span<const std::uint32_t> pixels
   for (std::size_t begin = 0; begin < pixels.size(); begin += work_.capacity()) {
     chunk_.pixels = pixels.subspan(begin, std::min(work_.capacity(), pixels.size() - begin));
     work_.reserveCodes(chunk_.pixels.size());
+    limited_.assign(plan_.limitsRays ? chunk_.pixels.size() : 0, 0);
     if (frame.samples.size() == 1 && !frame.probes && !frame.sums) {
       chunk_.sample = frame.samples[0];
       chunk_.sampleNumber = 0;
@@ -224,6 +243,7 @@ void TileTracer::trace(const Frame& frame, std::span<const std::uint32_t> pixels
     if (keepsErrors(frame)) keepErrors(frame);
     for (const Step& step : plan_.perTile) run(step, stats);
     stats.nonFinitePixels += countNonFinite(chunk_);
+    stats.limitedPixels += static_cast<std::uint64_t>(std::ranges::count(limited_, 1));
     clock.lap(Stage::updateImage, 0);
   }
 }
@@ -298,8 +318,51 @@ void TileTracer::keepProbeCodes(const Frame& frame) {
   }
 }
 
-// One sample of the batch's pixels, through all depths.
+// One sample of the batch's pixels.
 void TileTracer::traceSample(const Watch& watch) {
+  traceTrees(watch);
+  std::vector<std::uint32_t> tooLarge;
+  for (std::uint32_t i = 0; plan_.limitsRays && i < chunk_.pixels.size(); ++i) {
+    if (!chunk_.isGivenUp(i)) continue;
+    tooLarge.push_back(i);
+    limited_[i] = 1;
+  }
+  if (!tooLarge.empty()) traceNarrowed(tooLarge, watch);
+}
+
+// Traces the samples of these slots of the batch again, as narrower trees.
+void TileTracer::traceNarrowed(const std::vector<std::uint32_t>& slots, const Watch& watch) {
+  const std::span<const std::uint32_t> pixels = chunk_.pixels;
+  std::vector<std::uint32_t> again;
+  again.reserve(slots.size() + 2 * kBlock);
+  for (const std::uint32_t slot : slots) again.push_back(pixels[slot]);
+
+  // The samples of the other pixels are put aside meanwhile.
+  work_.returnToPixels(chunk_);
+  std::vector<std::vector<float>> all;
+  RadianceColumns::forEachColumn(chunk_.radiance, [&](const char*, const float* column, Feature) {
+    all.emplace_back(column, column ? column + pixels.size() : column);
+  });
+
+  chunk_.pixels = again;
+  work_.setNarrows(true);
+  traceTrees(watch);
+  work_.returnToPixels(chunk_);
+  std::size_t number = 0;
+  RadianceColumns::forEachColumn(chunk_.radiance, [&](const char*, float* column, Feature) {
+    std::vector<float>& values = all[number++];
+    for (std::size_t i = 0; column && i < slots.size(); ++i) values[slots[i]] = column[i];
+    if (column) std::ranges::copy(values, column);
+  });
+
+  work_.setNarrows(false);
+  chunk_.pixels = pixels;
+  work_.startQueue(pixels.size());
+  work_.takeChunk(0, chunk_);
+}
+
+// The trees of rays of one sample of the batch's pixels, through all depths.
+void TileTracer::traceTrees(const Watch& watch) {
   work_.startQueue(chunk_.pixels.size());
   work_.takeChunk(0, chunk_);
   runSteps(plan_.perSample, watch);

@@ -78,6 +78,8 @@ class Workspace {
   static void noteChildren(RayKind kind, std::size_t before, Chunk& chunk);
   // Makes the chunk's children the next depth's queue; false: there are none.
   bool startQueueOfChildren(const Chunk& chunk);
+  // While samples are traced again as narrower trees (sampling/ray_limit.h).
+  void setNarrows(bool narrows) { narrows_ = narrows; }
   // The depth's chunk is done with.
   void finishChunk(int depth) { level(depth).cursor += level(depth).chunk; }
 
@@ -88,7 +90,8 @@ class Workspace {
   struct Level {
     ColumnStore<RayColumns> rays;
     ColumnStore<RadianceColumns> radiance;
-    std::vector<std::uint32_t> rayCounts;
+    std::vector<std::uint32_t> rayCounts, pixelSlots;
+    std::vector<Narrowing> narrowings;
     std::size_t count = 0;                          // rays in the queue
     std::array<Segment, kSegmentLimit> segments{};  // of the queue
     std::size_t segmentCount = 0;
@@ -106,6 +109,8 @@ class Workspace {
   ColumnStore<UnshadowedColumns> unshadowed_;
   ColumnStore<ShadowColumns> shadows_;
   std::vector<std::uint32_t> codes_;
+  std::vector<std::uint32_t> followed_;  // impulses, by the slots of depth 0
+  bool narrows_ = false;
 };
 
 class TileTracer {
@@ -141,6 +146,8 @@ class TileTracer {
   void leaveSums(const Frame& frame);
   void keepProbeCodes(const Frame& frame);
   void traceSample(const Watch& watch);
+  void traceNarrowed(const std::vector<std::uint32_t>& slots, const Watch& watch);
+  void traceTrees(const Watch& watch);
   void shadeChunk(int depth, const Watch& watch);
   void addImpulses(const Watch& watch);
   void finishChunk(int depth, const Watch& watch);
@@ -150,8 +157,9 @@ class TileTracer {
 
   const Plan& plan_;
   Workspace work_;
-  Chunk chunk_;                  // the one in hand
-  std::vector<SampleSum> sums_;  // a pixel each, when there are several samples
+  Chunk chunk_;                        // the one in hand
+  std::vector<SampleSum> sums_;        // a pixel each, when there are several samples
+  std::vector<std::uint8_t> limited_;  // 1 for the pixels of which a sample was traced again
 };
 
 }  // namespace whit

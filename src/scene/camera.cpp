@@ -169,6 +169,7 @@ CameraFrame makeCameraFrame(const Camera& camera, int width, int height) {
   const bool cube = camera.projection == Projection::cubeMap, inRow = width >= 4 * height;
   const int columns = cube ? (inRow ? 6 : 3) : camera.stereo == Stereo::leftRight ? 2 : 1;
   const int rows = cube ? (inRow ? 1 : 2) : camera.stereo == Stereo::topBottom ? 2 : 1;
+  frame.viewColumns = columns, frame.viewRows = rows;
   const int w = frame.viewWidth = std::max(width / columns, 1);
   const int h = frame.viewHeight = std::max(height / rows, 1);
   const Camera seen = fitted(camera, static_cast<double>(w) / h);

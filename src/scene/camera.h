@@ -108,7 +108,7 @@ struct CameraFrame {
   std::vector<float> azimuths = {}, elevations = {};  // degrees
   // Row by row; empty: the whole picture is one. Each is viewWidth pixels wide.
   std::vector<CameraView> views = {};
-  int viewWidth = 0, viewHeight = 0;
+  int viewWidth = 0, viewHeight = 0, viewColumns = 1, viewRows = 1;
   // Radius of the circle that the eyes of stereo panoramas turn on, about `eye`: for each azimuth
   // they stand side by side. 0: they stand where the views say.
   double turning = 0;

@@ -65,6 +65,14 @@ struct TraceMeter {
   double embreeMs = 0;  // inside Embree's calls alone
 };
 
+// What is known of a ray of a narrowed tree (sampling/ray_limit.h), and of the rays that its
+// surface sends on.
+struct Narrowing {
+  std::uint64_t width = 1, children = 0;
+  double weights = 0;  // sum of the largest channels of the children's weights
+  double passed = 0;   // the part of it that belongs to children which have been looked at
+};
+
 struct Chunk {
   const FrameConstants* frame = nullptr;
   std::span<const std::uint32_t> pixels;  // of the queue of depth 0, packed (core/image.h)
@@ -102,6 +110,12 @@ struct Chunk {
   // A number a ray where rays are counted, and those of the chunk whose children these rays are.
   std::uint32_t *rayCounts = nullptr, *parentRayCounts = nullptr;
 
+  // Of plans that bound the rays of a sample: the slot at depth 0 that each ray and each child is
+  // traced for, and how many impulses the samples there have followed. While samples are traced
+  // again as narrower trees, `narrowings` and `childNarrowings` are not null.
+  std::uint32_t *pixelSlots = nullptr, *childPixelSlots = nullptr, *followed = nullptr;
+  Narrowing *narrowings = nullptr, *childNarrowings = nullptr;
+
   std::uint32_t* codes = nullptr;  // display codes, a pixel each
   Film* film = nullptr;            // where the pixels go
   TraceMeter* meter = nullptr;     // never null where rays are traced
@@ -109,6 +123,11 @@ struct Chunk {
   bool has(Feature feature) const { return frame->features.has(feature); }
   const ShadingTables& tables() const { return *frame->tables; }
   const RenderOptions& options() const { return frame->options; }
+
+  // True if the sample at this slot of depth 0 has too many rays, so that it is traced again.
+  bool isGivenUp(std::size_t slot) const {
+    return followed && !narrowings && followed[slot] > static_cast<unsigned>(options().maxRays);
+  }
 
   bool lightIsAmbient() const { return lightNumber == kAmbientLight; }
   // True if rays are traced to find the visible part of the current light.

@@ -128,7 +128,8 @@ TEST(Plans, EndEachStageWithItsLastStep) {
   });
   EXPECT_FALSE(plan.find("findHits")->endsStage);
   EXPECT_FALSE(plan.find("addReflections")->endsStage);
-  EXPECT_TRUE(plan.find("addRefractions")->endsStage);
+  EXPECT_FALSE(plan.find("addRefractions")->endsStage);
+  EXPECT_TRUE(plan.find("limitRays")->endsStage);
   EXPECT_TRUE(plan.find("updateImage")->endsStage);
 }
 
