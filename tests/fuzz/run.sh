@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Fuzzes the readers, each for SECONDS (20), as many at a time as there are processors.
+# Fuzzes the readers, and rendering with random pictures (`picture`), each for SECONDS (20), as many at a
+# time as there are processors.
 #   tests/fuzz/run.sh [SECONDS] [READER...]
 # New inputs are gathered in build-sanitize/corpus, so that a run goes on where the last one stopped.
 # What breaks a reader is left in build-sanitize/findings: repair the reader, then keep the input in
@@ -14,7 +15,7 @@ case $seconds in
 esac
 shift || true
 readers=("$@")
-[ ${#readers[@]} -gt 0 ] || readers=(exr png gltf stl dae fbx 3ds off jpeg webp scene obj hdr mtl tga ply bmp input)
+[ ${#readers[@]} -gt 0 ] || readers=(picture exr png gltf stl dae fbx 3ds off jpeg webp scene obj hdr mtl tga ply bmp input)
 
 if ! command -v clang++ >/dev/null; then
   echo "!! clang++ is not installed: the readers are NOT fuzzed" >&2
@@ -38,8 +39,10 @@ fuzz() {
   local options=(-max_total_time="$seconds" -timeout=10 -rss_limit_mb=1024 -malloc_limit_mb=256
                  -max_len=4096 -print_final_stats=1 -artifact_prefix="$build/findings/$reader-")
   [ -f "$dictionary" ] && options+=(-dict="$dictionary")
-  if "$build/tests/fuzz_$reader" "${options[@]}" "$build/corpus/$reader" \
-      "$root/tests/fuzz/corpus/$reader" >"$log" 2>&1; then
+  # What a picture is made of needs no examples.
+  local corpora=("$build/corpus/$reader")
+  [ -d "$root/tests/fuzz/corpus/$reader" ] && corpora+=("$root/tests/fuzz/corpus/$reader")
+  if "$build/tests/fuzz_$reader" "${options[@]}" "${corpora[@]}" >"$log" 2>&1; then
     awk -v reader="$reader" '/number_of_executed_units/ { n = $2 } /cov:/ { c = $0 }
       END { sub(/.*cov: /, "", c); sub(/ .*/, "", c)
             printf "%-6s %9d inputs, %5d places reached, nothing found\n", reader, n, c }' "$log"
