@@ -17,7 +17,7 @@
 namespace whit::fuzz {
 namespace {
 
-std::uint32_t setting(const char* name, std::uint32_t fallback) {
+std::uint32_t environmentNumber(const char* name, std::uint32_t fallback) {
   const char* text = std::getenv(name);
   return text ? static_cast<std::uint32_t>(std::strtoul(text, nullptr, 10)) : fallback;
 }
@@ -44,11 +44,11 @@ void renderPictures(std::uint32_t first, std::uint32_t count, const std::string&
 }
 
 TEST(RandomPictures, EndOnEveryTarget) {
-  const std::uint32_t count = setting("WHIT_RANDOM_PICTURES", 60);
+  const std::uint32_t count = environmentNumber("WHIT_RANDOM_PICTURES", 60);
   const char* const chosen = std::getenv("WHIT_RANDOM_TARGET");
   for (const std::string& target : simd::availableTargets()) {
     if (!chosen || chosen == target) {
-      renderPictures(setting("WHIT_RANDOM_FIRST", 0), count, target);
+      renderPictures(environmentNumber("WHIT_RANDOM_FIRST", 0), count, target);
     }
   }
   simd::chooseTarget("auto");
