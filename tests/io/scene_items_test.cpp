@@ -191,7 +191,7 @@ TEST_F(SceneItems, OverridesChangeOnlyWhatTheyGive) {
   save("a.tga", tga(1, 1, {{10, 20, 30}}));
   save("b.tga", tga(1, 1, {{40, 50, 60}}));
   save("m.mtl",
-       "newmtl x\nKd 0.5 0.5 0.5\nNs 6\nmap_Kd a.tga\nmap_Ks a.tga\nKs 0 0 0\n"
+       "newmtl x\nKd 0.5 0.5 0.5\nNs 6\nmap_Kd a.tga\nmap_Ks a.tga\nKs 0.1 0.1 0.1\n"
        "newmtl y\nKd 0.25 0.25 0.25\n");
   save("m.obj", std::string("mtllib m.mtl\nusemtl x\n") + kTriangleObj + "usemtl y\nf 1 2 3\n");
   const std::string head =
@@ -206,14 +206,13 @@ TEST_F(SceneItems, OverridesChangeOnlyWhatTheyGive) {
   const Material x = materialOf(0, 0), y = materialOf(0, 1), other = materialOf(1, 0);
   EXPECT_EQ(x.diffuse, Rgb(0.5f));
   EXPECT_EQ(x.specular, Rgb(0.5f));
-  EXPECT_NE(x.specularMap, kNoTexture);  // the file's, now that it has an effect
+  EXPECT_NE(x.specularMap, kNoTexture);  // the file's own
   EXPECT_EQ(x.emission, Rgb(2.0f));
   EXPECT_EQ(y.emission, Rgb(2.0f));
   EXPECT_EQ(y.specular, Rgb(0.0f));
   EXPECT_EQ(other.emission, Rgb(0.0f));
   EXPECT_EQ(other.diffuse, Rgb(1.0f));
   EXPECT_NE(other.diffuseMap, x.diffuseMap);
-  EXPECT_EQ(other.specularMap, kNoTexture);  // Ks 0 stays 0
   EXPECT_EQ(errorOfMembers(head + ", \"materials\": {\"xx\": {}}}]"),
             "3 s.json#/scene/0/materials/xx: unknown material of this model (is \"x\" meant?)");
   EXPECT_EQ(errorOfMembers(head + ", \"materials\": {\"x\": {\"difuse\": 1}}}]"),

@@ -95,7 +95,8 @@ TEST_F(ScenePaths, FilesThatCannotBeRead) {
   EXPECT_EQ(errorOf([&] { load(root_ + "none.obj"); }), "4 cannot open none.obj: no such file");
   EXPECT_EQ(errorOfModel("sub.obj"), "4 s.json#/scene/0/model: cannot open sub.obj: no such file");
   EXPECT_EQ(errorOfModel("sub"),
-            "3 s.json#/scene/0/model: expected a model (.glb, .gltf, .obj, .ply), found \"sub\"");
+            "3 s.json#/scene/0/model: expected a model (.3ds, .dae, .fbx, .glb, .gltf, .obj, .off, "
+            ".ply, .stl, .vrm), found \"sub\"");
   std::filesystem::create_directory(root_ + "folder.json");
   EXPECT_EQ(errorOf([&] { load(root_ + "folder.json"); }), "4 cannot read folder.json: not a file");
   EXPECT_EQ(errorOf([&] { load(save("a.txt", "")); }).substr(0, 2), "2 ");

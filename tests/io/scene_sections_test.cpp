@@ -333,15 +333,15 @@ TEST_F(SceneSections, TexturesAreReadAsTheMapNeedsAndShared) {
 }
 
 TEST_F(SceneSections, ColorsOfPatternsMayBeNumbers) {
-  const auto texelOf = [&](const std::string& color) {
+  const auto texelsOf = [&](const std::string& color) {
     return loadMembers("\"textures\": {\"c\": {\"pattern\": \"checker\", \"color\": " + color +
                        "}}, \"materials\": {\"m\": {\"diffuseMap\": \"c\"}}, \"scene\": ["
                        "{\"shape\": \"quad\", \"material\": \"m\"}]")
         .textures.at(0)
-        .texels.at(0);
+        .texels;
   };
-  EXPECT_EQ(texelOf("0.5"), texelOf("[0.5, 0.5, 0.5]"));
-  EXPECT_NE(texelOf("0.5"), texelOf("1"));
+  EXPECT_EQ(texelsOf("0.5"), texelsOf("[0.5, 0.5, 0.5]"));
+  EXPECT_NE(texelsOf("0.5"), texelsOf("1"));
 }
 
 TEST_F(SceneSections, PatternsAndTheirErrors) {
