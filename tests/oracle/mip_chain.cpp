@@ -23,8 +23,8 @@ Stretch stretchOf(int i, int size, int half) {
 // whit keeps colors as the square root of light in 10 bits, data in 8.
 Color asCodes(const Color& mean, bool isData) {
   const auto channel = [&](double value) {
-    // The mean of four codes is a number of quarters: exactly, since halves go to the even code.
-    if (isData) return std::nearbyint(std::round(value * 255 * 4) / 4) / 255;
+    // Without the rounding errors of the mean, because exact halves go to the even code.
+    if (isData) return std::nearbyint(std::round(value * 255 * 1e6) / 1e6) / 255;
     const double code = std::nearbyint(std::sqrt(value) * 1023) / 1023;
     return code * code;
   };

@@ -253,15 +253,23 @@ void Tracer::pass(Media& media, const Ray& ray, const Hit& hit) const {
 
 namespace {
 
-// The coat comes first; what it leaves is the most that passes.
-double leftBy(double coat, double largest) {
-  return std::min(1.0, std::max(0.0, 1 - coat) / largest);
-}
-
-Color underCoat(const Color& transmission, const Color& coat) {
-  const double most = largest(transmission);
+// The coat comes first; what it leaves is the most that passes. The color keeps its hue, but a
+// channel for which the coat leaves more than the others need keeps more.
+Color underCoat(const Color& color, const Color& coat) {
+  const double most = largest(color);
   if (!(most > 0)) return {};
-  return transmission * Color{leftBy(coat.x, most), leftBy(coat.y, most), leftBy(coat.z, most)};
+
+  const auto leftOf = [](double taken) { return std::max(0.0, 1 - taken); };
+  const auto fits = [&](double own, double taken) {
+    return own > leftOf(taken) ? leftOf(taken) / own : 1.0;
+  };
+  const double hueKept =
+      std::min({fits(color.x, coat.x), fits(color.y, coat.y), fits(color.z, coat.z)});
+
+  const auto share = [&](double taken) {
+    return std::min(1.0, std::max(hueKept, leftOf(taken) / most));
+  };
+  return color * Color{share(coat.x), share(coat.y), share(coat.z)};
 }
 
 }  // namespace
