@@ -31,13 +31,13 @@ constexpr PublishedHash kPublished[] = {
     {"orrery --time 3", "480x300", "a573b835dc8691aef629793cf88cfc5b",
      "6f6fa8060af8c163ca85f1357b8e6303"},
     {"orrery --time 3", "48x30", "d4466ff20894f6b1d2191361e756c0bf"},
-    {"atrium", "480x300", "cac15d7c17bc13f69a8d089d7dda9bd6", "df0d16f1934750f9318a3846ceed96ac"},
-    {"atrium", "48x30", "5ffc90ec5bc75ca32370883b0514a4e0"},
+    {"atrium", "480x300", "c2d470e4f1c0d3518561c2d2dab8c8d3", "c2fd66977ccaba8b395a144780b45cd2"},
+    {"atrium", "48x30", "1bf036426ee852d423ef86b815b02c29"},
     {"landscape", "480x300", "efd52e2ba891aaab3a30a86770f1176f",
      "5668fbca001cad070d9d0d0882d78d3a"},
     {"landscape", "48x30", "c5a07f99d928e5a4433927806a5d243d"},
-    {"sponza-mirror", "480x300", "e5e77e5656d3b39e88166ff1ca28257c"},
-    {"sponza-mirror", "48x30", "3a7bb74944da7752c27c2664c3bc970a"},
+    {"sponza-mirror", "480x300", "28e3692e66a3ba345d4055a05393ee60"},
+    {"sponza-mirror", "48x30", "563b84128dd0c5faf0948a6fc6a4170e"},
 };
 
 }  // namespace
