@@ -70,6 +70,7 @@ _NAMES = (  # what the library says, and what Python says; the first that fits c
     (r"--set (/\S+)=true", r'settings={"\1": True}'),
     (r"--set ", ""),
     (r"--up y", 'settings={"/up": "y"}'),
+    (r"--viewpoint (outside|inside)", r'settings={"/viewpoint": "\1"}'),
     (r"--(strict|allow-outside)\b", lambda found: found[1].replace("-", "_") + "=True"),
     (r"--max-memory\b", "max_memory_gb"),
     (r"(?<![\w-])--([a-z][a-z-]*)", lambda found: found[1].replace("-", "_")),
