@@ -14,7 +14,7 @@
 namespace whit {
 namespace {
 
-using Json = nlohmann::json;
+using SchemaJson = nlohmann::json;
 
 template <typename T>
 void append(const T& value, std::string& to) {
@@ -245,7 +245,7 @@ TEST_F(EveryProperty, OfGltf) {
       b.accessor(b.view(bytesOf<float>({0, 0.6f, 0.8f, 0, 0, 1, 0, 0, 1})), 5126, "VEC3", 3);
   const int indices = b.indices({2, 1, 0});
   const std::string slot = "{\"index\":0}";
-  const Json base = Json::parse(b.json(
+  const SchemaJson base = SchemaJson::parse(b.json(
       "\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.5,0.5,0.5,0.5],"
       "\"metallicFactor\":0.25,\"roughnessFactor\":0.1,\"baseColorTexture\":" +
       slot +
@@ -274,7 +274,7 @@ TEST_F(EveryProperty, OfGltf) {
                     light = "/extensions/KHR_lights_punctual/lights/0/";
   const std::string transform = pbr + "baseColorTexture/extensions/KHR_texture_transform/";
   const std::string primitive = "/meshes/0/primitives/0/";
-  const std::pair<std::string, Json> properties[] = {
+  const std::pair<std::string, SchemaJson> properties[] = {
       {pbr + "baseColorFactor", {1, 0.5, 0.5, 1}},
       {pbr + "metallicFactor", 1},
       {pbr + "roughnessFactor", 0.7},
@@ -299,7 +299,7 @@ TEST_F(EveryProperty, OfGltf) {
       {extensions + "materials_specular/specularColorTexture", {{"index", 0}}},
       {extensions + "materials_transmission/transmissionFactor", 1},
       {extensions + "materials_transmission/transmissionTexture", {{"index", 0}}},
-      {extensions + "materials_unlit", Json::object()},
+      {extensions + "materials_unlit", SchemaJson::object()},
       {extensions + "materials_volume/thicknessTexture", {{"index", 0}}},
       {extensions + "materials_volume/attenuationDistance", 1},
       {extensions + "materials_volume/attenuationColor", {1, 0.5, 0.25}},
@@ -343,8 +343,8 @@ TEST_F(EveryProperty, OfGltf) {
   };
   const Read plain = read(save("m.gltf", base.dump()));
   for (const auto& [pointer, value] : properties) {
-    Json changed = base;
-    changed[Json::json_pointer(pointer)] = value;
+    SchemaJson changed = base;
+    changed[SchemaJson::json_pointer(pointer)] = value;
     if (pointer == "/accessors/0/byteOffset") changed["/accessors/0/count"_json_pointer] = 2;
     try {
       expectNoticed(read(save("m.gltf", changed.dump())), plain, pointer);

@@ -174,17 +174,17 @@ TEST_P(Channels, ABackgroundTakesThePlaceOfTheSky) {
 }
 
 // A pixel in the middle of the square, over whatever else the scene has.
-struct Seen {
+struct SeenPixel {
   Rgb image;
   float alpha = 0;
   std::array<int, 4> codes{};
 };
 
-Seen middleOf(const Scene& scene, const RenderOptions& o) {
+SeenPixel middleOf(const Scene& scene, const RenderOptions& o) {
   const Film film = filmOf(scene, o);
   const int x = film.image.width / 2, y = film.image.height / 2;
   const std::size_t pixel = film.image.index(x, y);
-  Seen seen{film.image.pixels[pixel], floatsAt(film, Channel::alpha, x, y)[0], {}};
+  SeenPixel seen{film.image.pixels[pixel], floatsAt(film, Channel::alpha, x, y)[0], {}};
   for (std::size_t i = 0; i < 4; ++i) seen.codes[i] = film.display.rgba[4 * pixel + i];
   return seen;
 }
@@ -215,14 +215,14 @@ TEST_P(Channels, ASheetShowsTheBackgroundInPlaceOfTheSky) {
   const Scene scene = sheetBeforeSky(sheet);
   RenderOptions o = options("");
   setOption(o, "background", "transparent");
-  const Seen clear = middleOf(scene, o);
+  const SeenPixel clear = middleOf(scene, o);
   EXPECT_EQ(clear.image, (Rgb{0.5f, 0.25f, 0.125f}));
   EXPECT_EQ(clear.alpha, 0.5f);
   EXPECT_EQ(clear.codes, (std::array<int, 4>{255, 188, 137, 128}));
 
   // Over red, half of each.
   setOption(o, "background", "ff0000");
-  const Seen red = middleOf(scene, o);
+  const SeenPixel red = middleOf(scene, o);
   EXPECT_EQ(red.image, clear.image);
   EXPECT_EQ(red.codes, (std::array<int, 4>{255, 137, 99, 255}));  // 1, 0.25, 0.125
 
@@ -247,7 +247,7 @@ TEST_P(Channels, AlphaFollowsAllThatLightPassesStraight) {
   // A mask that cuts everything, as glTF's MASK below its cutoff.
   Material gone;
   gone.coverage = 0;
-  const Seen nothing = middleOf(sheetBeforeSky(gone), o);
+  const SeenPixel nothing = middleOf(sheetBeforeSky(gone), o);
   EXPECT_EQ(nothing.image, Rgb(0.0f));
   EXPECT_EQ(nothing.alpha, 0.0f);
 
@@ -261,7 +261,7 @@ TEST_P(Channels, AlphaFollowsAllThatLightPassesStraight) {
   // Light that turns back or is bent brings the sky along, and is as good as a surface.
   Material mirror;
   mirror.mirror = mirror.mirrorGrazing = Rgb(1.0f);
-  const Seen reflected = middleOf(sheetBeforeSky(half, &mirror), o);
+  const SeenPixel reflected = middleOf(sheetBeforeSky(half, &mirror), o);
   EXPECT_EQ(reflected.alpha, 1.0f);
   EXPECT_EQ(reflected.image, Rgb(0.25f)) << "through the sheet, and back through it";
 }

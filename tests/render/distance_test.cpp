@@ -161,8 +161,9 @@ TEST(Distance, ColorsKeepTheirMean) {
 
 TEST(Distance, MasksKeepTheirArea) {
   const Pattern green = leavesOn({0, 0.5, 0}), black = leavesOn({});
-  for (const auto& [what, color] :
-       {std::pair("mask on green", green), std::pair("mask on black", black)}) {
+  for (const auto& kind : {std::pair("mask on green", green), std::pair("mask on black", black)}) {
+    const auto& what = kind.first;
+    const Pattern& color = kind.second;
     Leaves leaves(color, opacity);
     expectTheSameFromAfar(what, floorOf(leaves.builder, leaves.material),
                           integral([&](double x, double y) {
@@ -176,8 +177,10 @@ TEST(Distance, MasksKeepTheirArea) {
 TEST(Distance, CoverageCountsOnce) {
   const Pattern green = leavesOn({0, 0.5, 0}), black = leavesOn({});
   for (const auto& alpha : {opacity, softOpacity}) {
-    for (const auto& [what, color] :
+    for (const auto& kind :
          {std::pair("blend on green", green), std::pair("blend on black", black)}) {
+      const auto& what = kind.first;
+      const Pattern& color = kind.second;
       Leaves leaves(color, alpha);
       leaves.material.coverageMap = leaves.material.alphaMap;
       leaves.material.cutWhereClear();
