@@ -25,7 +25,7 @@ struct ShownMap {
   float alphaCutoff = 0;
   std::int32_t coverageMap = kNoTexture;
 
-  auto operator<=>(const ShownMap&) const = default;
+  auto operator<=>(const ShownMap&) const = default;  // NOLINT(modernize-use-nullptr): LLVM 14
 };
 
 // `map` as `material` shows it. The texture is kNoTexture where the material has no such map.

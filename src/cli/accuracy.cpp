@@ -82,7 +82,7 @@ void checkJob(AccuracyJob& job) {
 
 // Automatic exposure is computed once, so that all pictures of a sweep have the same.
 RenderOptions sweptOptions(const std::shared_ptr<OpenScene>& open, const CommonOptions& common) {
-  const RenderOptions options = optionsToMeasure(open->scene, common);
+  RenderOptions options = optionsToMeasure(open->scene, common);
   if (!options.exposure.automatic) return options;
 
   Engine engine(open);

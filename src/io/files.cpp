@@ -216,13 +216,13 @@ fs::path PathRules::find(std::string text, const fs::path& folder, const std::st
       spelledOnDisk(folder, name)
           .value_or(spelledOnDisk(folder, name.filename()).value_or(fs::path()));
   try {
-    const fs::path path = resolve(text, folder, where);
+    fs::path path = resolve(text, folder, where);
     std::error_code error;
     if (fs::exists(path, error) || fallback.empty()) return path;
   } catch (const Error&) {
     if (fallback.empty()) throw;
   }
-  const fs::path path = resolve(fallback.string(), folder, where);
+  fs::path path = resolve(fallback.string(), folder, where);
   warnings.add("file taken whose name or folder differs from the one in the model",
                where + ": " + fallback.string() + " for " + excerpt(text));
   return path;

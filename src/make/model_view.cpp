@@ -193,6 +193,7 @@ bool hasFlatWalls(const SceneDescription& scene, const Bounds& bounds) {
   });
 
   std::vector<double> areas;
+  areas.reserve(planes.size());
   for (const auto& [plane, area] : planes) areas.push_back(area);
   std::ranges::sort(areas, std::greater());
   areas.resize(std::min(areas.size(), kWalls));

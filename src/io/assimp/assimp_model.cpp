@@ -229,7 +229,8 @@ void turnUp(aiScene& scene) {
 // Answers with the notes and the GLB, or with a 0 and what the library says.
 void convert(const std::string& bytes, const std::string& extension, const ConfinedWriter& write) {
   const auto fail = [&](const std::string& why) {
-    write("\0", 1);
+    const char failed = 0;
+    write(&failed, 1);
     write(why.data(), why.size());
   };
   const aiScene* imported = importScene(bytes, extension);

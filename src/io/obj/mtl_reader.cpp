@@ -74,14 +74,12 @@ class MtlParser {
       material.numbers[key] = readColor();
     } else if (scalars.contains(key)) {
       material.numbers[key] = Rgb(readScalar());
-    } else if (maps.contains(key)) {
+    } else if (maps.contains(key) || key == "map_ka") {
       material.maps[key] = readMap();
     } else if (key == "ka") {
       // It is the metalness in files of Blender; in other files it may be in any form.
       const auto ambient = readNumber();
       if (ambient) material.numbers[key] = Rgb(*ambient);
-    } else if (key == "map_ka") {
-      material.maps[key] = readMap();
     } else {
       warnings_.add("statement of a material that is not read: " + excerpt(keyword_),
                     lines_.place());
