@@ -119,12 +119,19 @@ class ReflectedAmbient {
     const MF blurs = hn::And(hit, HasFlags(flags, kMaterialBlursSky));
     if (hn::AllFalse(d, blurs)) return left;
     const V3 direction = Load3(rays_.dirX, rays_.dirY, rays_.dirZ, i);
+    const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
     const VF towards = hn::Neg(Dot(ns, direction));
     const VF roughness = hn::Sqrt(hn::Load(d, surfels_.alpha + i));
-    const V3 f0 = Load3(surfels_.specularR, surfels_.specularG, surfels_.specularB, i);
-    const V3 lobe = LobeAlbedo(f0, hn::Max(towards, hn::Zero(d)), roughness);
     const V3 mirrored = Normalize3(MulAdd3(ns, hn::Add(towards, towards), direction));
     const V3 sky = BlurredRadiance(tables_.blurredSky, mirrored, roughness, blurs);
+    V3 lobe = Load3(surfels_.lobeR, surfels_.lobeG, surfels_.lobeB, i);
+    const MF smooth = HasFlags(flags, kMaterialMirrorsByLobe);
+    lobe = Scale3(lobe, hn::Sub(one, hn::IfThenElseZero(smooth, MirroredShare(roughness))));
+    if (HWY_UNLIKELY(!hn::AllFalse(d, hn::And(hit, HasFlags(flags, kMaterialReflects))))) {
+      const VF cosine = hn::Min(hn::Max(towards, zero), one);
+      const V3 mirror = MirrorReflectance(MaterialLanes(tables_, material, hit), cosine);
+      lobe = Mul3(lobe, Sub3({one, one, one}, mirror));
+    }
     return Select3(blurs, Add3(left, Mul3(sky, lobe)), left);
   }
 

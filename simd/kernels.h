@@ -70,9 +70,9 @@ WHIT_KERNEL(LookUpRoughness, "lookUpRoughness", findIntersections,
 WHIT_KERNEL(LookUpCoverage, "lookUpCoverage", findIntersections,
             {Part::rays, Part::hits, Part::surfels}, {Part::surfels});
 
-// Scales diffuse colors to the light that mirror, Fresnel's law, sampled lobes and transmission
-// leave.
-WHIT_KERNEL(LimitDiffuse, "limitDiffuse", findIntersections, {Part::rays, Part::surfels},
+// Finds what glossy lobes take of the light, and scales diffuse colors to what mirror, Fresnel's
+// law, lobe and transmission leave.
+WHIT_KERNEL(FindLayers, "findLayers", findIntersections, {Part::rays, Part::surfels},
             {Part::surfels});
 
 // Computes how far shadow rays start above the facet, for surfels between vertex normals that
@@ -139,7 +139,7 @@ inline constexpr std::array kKernels{kGenerateRays,
                                      kInterpolateSurfels,
                                      kLookUpRoughness,
                                      kLookUpCoverage,
-                                     kLimitDiffuse,
+                                     kFindLayers,
                                      kLiftShadowOrigins,
                                      kWriteEmittedAndReflectiveAmbient,
                                      kFindRadianceAndShadowRays,

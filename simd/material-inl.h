@@ -81,6 +81,18 @@ class MaterialLanes {
   SharedRecords<MaterialRecord> records_;
 };
 
+// (1 - c)^5 (Schlick 1994).
+HWY_INLINE VF SchlickTerm(VF c) {
+  const VF m = hn::Sub(hn::Set(FloatTag(), 1.0f), c);
+  const VF m2 = hn::Mul(m, m);
+  return hn::Mul(hn::Mul(m2, m2), m);
+}
+
+// The mirror's reflectance; `cosine` is that between viewer and normal.
+HWY_INLINE V3 MirrorReflectance(const MaterialLanes& material, VF cosine) {
+  return MulAdd3(material.GrazingMinusMirror(), SchlickTerm(cosine), material.Mirror());
+}
+
 // The lanes in which a word of flags has some of `bits`.
 HWY_INLINE MF HasFlags(VU flags, uint32_t bits) {
   const UintTag du;

@@ -405,8 +405,8 @@ std::optional<SurfelRow> findIntersections(const World& world, const Chunk& chun
   const std::uint32_t media = mediaOf(chunk, slot);
   const Crossing crossing =
       crossMedia(world.scene, world.effects, s.material, s.entering, media, others);
-  limitDiffuse(world.scene, world.effects, crossing, chunk.options().shading,
-               lobePointsOf(chunk, slot), s);
+  findLayers(world.scene, world.effects, crossing, chunk.options().shading,
+             lobePointsOf(chunk, slot), s);
   const RayCone cone{ray.cone.width, pixelCone(chunk.frame->camera).spread};
   SurfelRow row;
   put(s.position, row.posX, row.posY, row.posZ);
@@ -418,6 +418,7 @@ std::optional<SurfelRow> findIntersections(const World& world, const Chunk& chun
   row.material = s.material;
   put(s.specular, row.specularR, row.specularG, row.specularB);
   row.alpha = s.alpha;
+  put(s.lobe, row.lobeR, row.lobeG, row.lobeB);
   put(s.emission, row.emissionR, row.emissionG, row.emissionB);
   row.coverage = s.coverage;
   put(s.lift, row.liftX, row.liftY, row.liftZ);

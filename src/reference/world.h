@@ -35,7 +35,7 @@ struct Surfel {
   double alpha = 1;         // width of the glossy lobe (GGX), roughness squared
   double coverage = 1;      // the share of the surface that is there
   RgbD aboveLobe{1, 1, 1};  // what mirror and interface leave for the samples of the lobe
-  RgbD belowLobe{1, 1, 1};  // what these leave for transmission and diffuse color
+  RgbD lobe;                // what the lobe takes of the light that the mirror leaves
   RayCone cone;             // of rays that go on from here
 };
 
@@ -101,6 +101,7 @@ inline Surfel surfelOf(const Chunk& chunk, std::size_t slot) {
   s.specular = {r.specularR, r.specularG, r.specularB};
   if (chunk.has(Feature::emissionFactors)) s.emission = {r.emissionR, r.emissionG, r.emissionB};
   if (chunk.has(Feature::glossy)) s.alpha = r.alpha;
+  s.lobe = {r.lobeR, r.lobeG, r.lobeB};
   if (chunk.has(Feature::coverage)) s.coverage = r.coverage;
   s.cone.width = r.cone;
   return s;

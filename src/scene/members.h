@@ -135,6 +135,7 @@ inline constexpr auto kMembers<Material> = std::tuple{
            {.kind = kColorMember, .high = 1, .decides = {"mirrorGrazing", "glossyReflection"}}},
     Member{"mirrorGrazing", &Material::mirrorGrazing,
            {.kind = kColorMember, .high = 1, .decides = {"glossyReflection"}}},
+    Member{"coat", &Material::coat, {.inFiles = false}},
     Member{"transmission", &Material::transmission,
            {.kind = kColorMember, .high = 1, .decides = {"castsShadow", "glossyReflection"}}},
     Member{"thin", &Material::thin, {.matters = isTransparent}},

@@ -7,6 +7,7 @@
 
 #include "bake/mip_maps.h"
 #include "bake/scene.h"
+#include "sampling/ggx_lobe.h"
 
 namespace whit {
 
@@ -49,8 +50,11 @@ inline constexpr std::uint32_t kMaterialMapped = 4096;
 inline constexpr std::uint32_t kMaterialDiffuses = 8192;
 // Material::reflectsBlurredSky() in such frames.
 inline constexpr std::uint32_t kMaterialBlursSky = 32768;
-// Material::limitsDiffuse() in such frames.
-inline constexpr std::uint32_t kMaterialLimitsDiffuse = 16384;
+// Material::isLayered(), covers() and mirrorsByLobe() in such frames.
+inline constexpr std::uint32_t kMaterialLayered = 16384, kMaterialCovers = 65536,
+                               kMaterialMirrorsByLobe = 131072;
+// Material::coat.
+inline constexpr std::uint32_t kMaterialCoated = 262144;
 
 struct TextureRecord {
   std::uint32_t firstTexel;  // index into texels
@@ -113,6 +117,7 @@ struct ShadingTables {
   std::vector<MediumRecord> media;           // [0] is vacuum
   std::vector<Light> lights;
   SkyTable sky, blurredSky;  // the latter kSkyBlurs images of this size, one below the other
+  const LobeTable* lobes = nullptr;  // where lobes exist
   Ambient ambient;
   bool samePriority = true;   // no medium outranks another
   bool radianceMaps = false;  // some material has kMaterialEmissionIsRadiance

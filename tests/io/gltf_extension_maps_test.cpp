@@ -59,21 +59,6 @@ TEST_F(GltfMaterials, SpecularTexturesOfWhatIsPartlyMetal) {
   expectColor(p[1], Rgb{0.8f, 0.4f, 0.2f} * white + Rgb(0.04f * 0.4f * lobe));
 }
 
-// An impulse has no map: strength 0.7 and color 0.5 on average.
-TEST_F(GltfMaterials, MirrorsTakeTheMeanOfSpecularTextures) {
-  save("strength.tga", tga(2, 1, {{0, 0, 0, 255}, {0, 0, 0, 102}}));
-  save("color.tga", tga(2, 1, {{255, 255, 255}, {0, 0, 255}}));
-  useImages({"strength.tga", "color.tga"});
-  const SceneDescription scene =
-      loadText(sceneText({{0,
-                           lobeOnly("\"specularTexture\":{\"index\":0},\"specularColorTexture\":"
-                                    "{\"index\":1}",
-                                    ",\"roughnessFactor\":0"),
-                           1}}));
-  expectColor(scene.materials[0].mirror, Rgb{0.02f, 0.02f, 0.04f} * 0.7f, 1e-6);
-  expectColor(scene.materials[0].mirrorGrazing, Rgb(0.7f), 1e-6);
-}
-
 TEST_F(GltfMaterials, ClearcoatAndTransmissionTakeTheMeanOfTheirTextures) {
   save("even.tga", tga(2, 1, {{102, 51, 0}, {102, 51, 0}}));
   save("uneven.tga", tga(2, 1, {{102, 0, 0}, {204, 102, 0}}));

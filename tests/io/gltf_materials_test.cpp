@@ -282,11 +282,13 @@ TEST_F(GltfMaterials, SmoothSurfacesMirror) {
   const auto mirrored = [&](const std::string& material) {
     return picture({{0, material, 1}, {6, behindTheEye, 9}}, 1)[0];
   };
-  expectColor(mirrored("{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.1,\"baseColorFactor\":"
+  expectColor(mirrored("{\"pbrMetallicRoughness\":{\"roughnessFactor\":0,\"baseColorFactor\":"
                        "[0.9,0.6,0.3,1]}}"),
               {0.9f, 0.6f, 0.3f});
-  expectColor(mirrored("{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.1,\"metallicFactor\":0}}"),
+  expectColor(mirrored("{\"pbrMetallicRoughness\":{\"roughnessFactor\":0,\"metallicFactor\":0}}"),
               Rgb(0.04f));
+  // Half of a lobe between smooth and rough.
+  EXPECT_NEAR(mirrored("{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.175}}").x, 0.5, 0.01);
   expectColor(mirrored("{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.5}}"), Rgb(0.0f));
   expectColor(mirrored(matte("\"roughnessFactor\":1").insert(1, "\"name\":\"x\",")), Rgb(0.0f));
   expectColor(mirrored("{\"pbrMetallicRoughness\":{\"metallicFactor\":0},\"extensions\":"
@@ -317,7 +319,7 @@ TEST_F(GltfMaterials, RoughSurfacesReflectInSamples) {
   EXPECT_NEAR(seen.y, seen.x / 2, 1e-5);
   EXPECT_NEAR(seen.z, seen.x / 4, 1e-5);
   // Smooth: one impulse, whatever the number of samples.
-  expectColor(reflected("{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.2}}", 64),
+  expectColor(reflected("{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.03}}", 64),
               {1, 0.5f, 0.25f});
   // What transmits keeps to its impulses.
   const std::string glass =

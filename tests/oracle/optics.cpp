@@ -110,6 +110,29 @@ Color glossyLobe(const Material& material, const Vec& normal, const Vec& toViewe
          (facetsFacing(material, nh) * masking / (4 * nl * nv));
 }
 
+// Half of the facets, on one side of the plane of incidence, evenly by D cos: the masked share of
+// what they reflect, over what the surface shows of itself.
+Color lobeAlbedo(const Material& material, double nv) {
+  constexpr int kSteps = 32;
+  const double a2 = squaredAlpha(material), sine = std::sqrt(1 - nv * nv);
+  Color sum;
+  for (int i = 0; i < kSteps; ++i) {
+    const double u = (i + 0.5) / kSteps, nh = std::sqrt((1 - u) / (1 + (a2 - 1) * u));
+    for (int k = 0; k < kSteps; ++k) {
+      const double across = std::sqrt(1 - nh * nh) * std::cos(kPi * (k + 0.5) / kSteps);
+      const double vh = sine * across + nv * nh, nl = 2 * vh * nh - nv;
+      if (!(vh > 0 && nl > 0)) continue;
+      const double masking = 1 / (1 + smithLambda(material, nl) + smithLambda(material, nv));
+      sum += lobeReflectance(material, vh) * (vh / (nv * nh) * masking);
+    }
+  }
+  return sum / (kSteps * kSteps);
+}
+
+double mirroredShare(const Material& material) {
+  return clamped((0.3 - material.roughness) / (0.3 - 0.05));
+}
+
 Arrival arrivalOf(const Light& light, const Vec& point) {
   if (light.kind == Light::Kind::directional) {
     return {light.intensity, -normalized(light.direction), INFINITY};

@@ -15,8 +15,8 @@
 namespace whit::test {
 namespace {
 
-constexpr int kSide = 96;   // texels
-constexpr int kPoints = 8;  // of the integral, a side of a texel
+constexpr int kTexelsASide = 96;  // texels
+constexpr int kPoints = 8;        // of the integral, a side of a texel
 constexpr int kPixels = 120;
 
 // A texture in the test's own numbers: linear light, or data, from 0 to 1.
@@ -24,15 +24,15 @@ using Pattern = std::function<oracle::Color(int x, int y)>;
 
 std::int32_t add(SceneBuilder& builder, const Pattern& pattern, TexelFormat format) {
   std::vector<std::uint32_t> texels;
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) {
+  for (int y = 0; y < kTexelsASide; ++y) {
+    for (int x = 0; x < kTexelsASide; ++x) {
       const oracle::Color c = pattern(x, y);
       const Rgb value{static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)};
       texels.push_back(format == TexelFormat::data ? encodeDataTexel(value.x, value.y, value.z, 1)
                                                    : encodeColorTexel(value));
     }
   }
-  return builder.add(makeTexture(format, kSide, kSide, std::move(texels)));
+  return builder.add(makeTexture(format, kTexelsASide, kTexelsASide, std::move(texels)));
 }
 
 // Leaves of 12x32 texels that cover 21 % of the texture.
@@ -69,7 +69,7 @@ double noise(int x, int y, int channel) {
 
 oracle::Color at(const Pattern& pattern, double x, double y) {
   return oracle::bilinear(x, y, [&](int i, int j) {
-    return pattern(oracle::wrapped(i, kSide), oracle::wrapped(j, kSide));
+    return pattern(oracle::wrapped(i, kTexelsASide), oracle::wrapped(j, kTexelsASide));
   });
 }
 
@@ -77,10 +77,11 @@ oracle::Color at(const Pattern& pattern, double x, double y) {
 double integral(const std::function<double(double x, double y)>& value) {
   double sum = 0;
   const double step = 1.0 / kPoints;
-  for (int j = 0; j < kSide * kPoints; ++j) {
-    for (int i = 0; i < kSide * kPoints; ++i) sum += value((i + 0.5) * step, (j + 0.5) * step);
+  for (int j = 0; j < kTexelsASide * kPoints; ++j) {
+    for (int i = 0; i < kTexelsASide * kPoints; ++i)
+      sum += value((i + 0.5) * step, (j + 0.5) * step);
   }
-  return sum / std::pow(kSide * kPoints, 2);
+  return sum / std::pow(kTexelsASide * kPoints, 2);
 }
 
 // The mean green of a picture from above. The step from pixel to pixel and its part of the texture
@@ -111,7 +112,7 @@ double meanSeen(SceneDescription description, double texelsPerPixel, bool byRefe
 
 // A floor of one texel a unit.
 SceneDescription floorOf(SceneBuilder& builder, const Material& material) {
-  constexpr float kHalf = 40 * kSide;
+  constexpr float kHalf = 40 * kTexelsASide;
   Mesh floor = floorAt(0, kHalf, builder.add(material));
   for (Vec2f& uv : floor.uvs) uv = {uv.x * 80, uv.y * 80};
   builder.add(std::move(floor));

@@ -236,18 +236,18 @@ Material shadedAs(const GltfMaterial& g, const GltfMeans& means) {
     m.ior = g.ior;
     m.absorption = g.absorption;
   }
-  m.glossyReflection = roughness > kGltfSmoothRoughness && !m.boundsMedium();
-  if (roughness <= kGltfSmoothRoughness) {
-    // The dielectric adds its own reflectance.
-    const float share = m.boundsMedium() ? metal : 1.0f;
+  m.glossyReflection = !m.boundsMedium();
+  m.coat = true;
+  if (m.boundsMedium()) {
+    const auto share = static_cast<float>(metal * mirroredShareOf(roughness));
     m.mirror = mix(f0, base, metal) * share;
     m.mirrorGrazing = Rgb((f90 * (1 - metal) + metal) * share);
   }
-  if (g.clearcoatRoughness * means.clearcoatRoughness <= kGltfSmoothRoughness) {
-    const float coat = g.clearcoat * means.clearcoat;
-    m.mirror = min(m.mirror + Rgb(0.04f * coat), Rgb(1.0f));
-    m.mirrorGrazing = max(m.mirrorGrazing, Rgb(coat));
-  }
+  const double coatRoughness = g.clearcoatRoughness * means.clearcoatRoughness;
+  const auto coat =
+      static_cast<float>(g.clearcoat * means.clearcoat * mirroredShareOf(coatRoughness));
+  m.mirror = min(m.mirror + Rgb(0.04f * coat), Rgb(1.0f));
+  m.mirrorGrazing = max(m.mirrorGrazing, Rgb(coat));
   m.castsShadow = m.blocksLight();
   return m;
 }
