@@ -1,4 +1,4 @@
-// What a program tells people on standard error: warnings, and how far long work has come.
+// Writes warnings and the progress of long work to standard error.
 #pragma once
 
 #include <memory>

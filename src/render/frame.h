@@ -161,8 +161,8 @@ class PixelTracker {
 // Packed pixels (core/image.h), which a worker takes a list at a time.
 using PixelLists = std::vector<std::vector<std::uint32_t>>;
 
-// What is traced of a picture: by default all samples of the film's pixels, or with --adaptive
-// those that are needed.
+// Says which part of a picture is traced. The default is all samples of the film's pixels; with
+// --adaptive only the samples that are needed are traced.
 struct TraceRequest {
   const Camera& camera;
   Film& film;  // its image has its size and window

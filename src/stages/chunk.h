@@ -65,8 +65,8 @@ struct TraceMeter {
   double embreeMs = 0;  // inside Embree's calls alone
 };
 
-// What is known of a ray of a narrowed tree (sampling/ray_limit.h), and of the rays that its
-// surface sends on.
+// State of a ray in a narrowed tree (sampling/ray_limit.h): its width, the product of the
+// branchings before it, and how many children its surface has.
 struct Narrowing {
   std::uint64_t width = 1, children = 0;
   double weights = 0;  // sum of the largest channels of the children's weights

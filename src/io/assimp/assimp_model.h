@@ -6,7 +6,7 @@
 
 namespace whit {
 
-// What is left out of a model, or changed in it, as bits.
+// Each bit names a part of a model that the conversion leaves out or changes.
 enum AssimpNote : std::uint32_t {
   kSkinLeftOut = 1,
   kViewLeftOut = 2,

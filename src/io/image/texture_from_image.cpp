@@ -20,7 +20,7 @@ std::uint64_t countAbove(const RawImage& raw, float limit) {
 
 int cubeSide(const RawImage& raw) { return std::min(raw.width, raw.height / 6); }
 
-// What a cube (OpenEXR, "Environment Maps") shows in a direction, between its pixels.
+// Looks a cube map (OpenEXR, "Environment Maps") up bilinearly in a direction.
 Rgb cubePixel(const RawImage& raw, const Vec3d& direction) {
   const int last = cubeSide(raw) - 1;
   const Vec3d size = abs(direction);

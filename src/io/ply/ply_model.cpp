@@ -107,7 +107,7 @@ float valueOf(const PlyProperty& property, Component component, double value) {
   return static_cast<float>(isCode ? srgbToLinear(value) : value);
 }
 
-// What a face has besides its corners.
+// A face with its corners, texture coordinates and color.
 struct PlyFace {
   std::vector<double> corners, coordinates;  // of coordinates u and v for each corner
   std::array<float, kComponents + 1> values{};
