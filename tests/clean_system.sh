@@ -22,4 +22,5 @@ apart() {
 makeCleanSystem() {
   apart debootstrap --variant=minbase "$1" "$2" "$(mirror)" >"$3" 2>&1 ||
     { tail -5 "$3"; cannot "debootstrap did not finish"; }
+  echo force-unsafe-io >"$2/etc/dpkg/dpkg.cfg.d/unsafe"  # it need not survive a loss of power
 }

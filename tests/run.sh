@@ -2,13 +2,14 @@
 # Builds and tests. Exits non-zero when anything fails.
 #   tests/run.sh           Release and every test of it, with CI=true warnings as errors; formatting
 #                          where clang-format is: under six minutes on two cores once it is built
+#   tests/run.sh AREA...   the tests of these folders only, and of the build what they need
 #   tests/run.sh --full    clang-tidy, thread sanitizer, address and undefined-behavior sanitizers with
-#                          Clang, fuzzing, the Debian package in a clean system, Embree 4 with Clang
-#                          in Release as well, and both commands of README.md in fresh systems: forty
-#                          minutes
-#   tests/run.sh --deep    every test in the fresh systems a second time, as a user with sudo, and in
-#                          Clang's and g++'s other builds, a deeper clang-tidy, 64-bit ARM and an
-#                          older PC under emulation as well: more than an hour more
+#                          Clang, fuzzing, the Debian package in a clean system, and both commands of
+#                          README.md in fresh systems of Debian 12 and, with the tests of some areas,
+#                          Debian 13, whose compiler, Embree and Highway are others: forty minutes
+#   tests/run.sh --deep    every test in the fresh systems a third time, as a user with sudo, and in
+#                          Clang's and g++'s other builds, Embree 4 with Clang, a deeper clang-tidy,
+#                          64-bit ARM and an older PC under emulation as well: more than an hour more
 # What this system has no way to is named at the end, and so are tests that failed and what the build
 # left out, which is an error with CI=true.
 set -uo pipefail
@@ -22,11 +23,18 @@ fi
 . tests/compiler_cache.sh
 full=false
 deep=false
+areas=()
 for word in "$@"; do
   case $word in
     --full) full=true ;;
     --deep) full=true deep=true ;;
-    *) echo "tests/run.sh: unknown option '$word' (--full, --deep)" >&2; exit 2 ;;
+    *)
+      if ! grep -qs "whit_tests($word " "tests/$word/tests.cmake"; then
+        echo "tests/run.sh: unknown word '$word' (--full, --deep, or a folder of tests)" >&2
+        exit 2
+      fi
+      areas+=("$word")
+      ;;
   esac
 done
 failed=()
@@ -78,12 +86,16 @@ sayWhatIsLeftOut() {
 # buildAndTest PRESET CMAKE-ARGUMENTS... More tests at a time than processors: many wait for a window,
 # a process or the disk. Why tests were skipped is said, once each.
 buildAndTest() {
-  local preset=$1 folder=build-$1 status
+  local preset=$1 folder=build-$1 targets=() labels=() status
   if [ "$1" = release ]; then folder=build; fi
   shift
+  if [ ${#areas[@]} -gt 0 ]; then
+    targets=(--target "${areas[@]/%/_test}")
+    labels=(-L "^($(IFS='|' && echo "${areas[*]}"))\$")
+  fi
   cmake --preset "$preset" "$@" >/dev/null &&
-    cmake --build --preset "$preset" --parallel "$(nproc)" || return 1
-  ctest --preset "$preset" --no-label-summary --parallel $((2 * $(nproc)))
+    cmake --build --preset "$preset" --parallel "$(nproc)" "${targets[@]}" || return 1
+  ctest --preset "$preset" --no-label-summary --parallel $((2 * $(nproc))) "${labels[@]}"
   status=$?
   grep -A 1 ': Skipped$' "$folder/Testing/Temporary/LastTest.log" |
     sed -n -e '/: Skipped$/d' -e '/^--$/d' -e 's/^/!! NOT TESTED: /p' | sort -u
@@ -148,19 +160,16 @@ if $full; then
   step "package" tests/package.sh
 fi
 if $deep; then
-  step "Embree 4" tests/embree4.sh
+  step "Embree 4 with Clang" env CXX=clang++ tests/embree4.sh
   step "Clang" buildAndTest clang -DWHIT_WERROR=ON
   step "g++ sanitizers" buildAndTest gcc-sanitize -DWHIT_WERROR=ON
   step "64-bit ARM" tests/aarch64.sh
-elif $full; then
-  # Neither is that of the Release build below: both at once save a build.
-  step "Embree 4 with Clang" env CXX=clang++ tests/embree4.sh
 fi
 # After the builds whose objects it shares, and before the one that shares its own.
 if $deep; then
   step "fresh systems" tests/fresh.sh
 elif $full; then
-  step "fresh systems" tests/fresh.sh --brief
+  step "fresh systems" tests/fresh.sh --brief debian12 debian13
 fi
 # Last, so that the last line is that of the tests as they are shipped. Those of fresh systems are the
 # same: once is enough where time counts.
