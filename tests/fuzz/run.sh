@@ -2,8 +2,8 @@
 # Fuzzes the readers, and rendering with random pictures (`picture`), each for SECONDS (20), as many at a
 # time as there are processors.
 #   tests/fuzz/run.sh [SECONDS] [READER...]
-# New inputs are gathered in build-sanitize/corpus, so that a run goes on where the last one stopped.
-# What breaks a reader is left in build-sanitize/findings: repair the reader, then keep the input in
+# New inputs are gathered in build-debug-sanitize/corpus, so that a run goes on where the last one stopped.
+# What breaks a reader is left in build-debug-sanitize/findings: repair the reader, then keep the input in
 # tests/fuzz/corpus. Exits 1 when something was found, 77 when there is no Clang.
 set -uo pipefail
 
@@ -24,7 +24,7 @@ fi
 cmake --preset debug-sanitize -DWHIT_WERROR=ON >/dev/null &&
   cmake --build --preset debug-sanitize --parallel "$(nproc)" --target fuzzers || exit 1
 
-build=$root/build-sanitize
+build=$root/build-debug-sanitize
 mkdir -p "$build/findings"
 TMPDIR=$(mktemp -d -p "$([ -d /dev/shm ] && echo /dev/shm || echo /tmp)" whit-fuzz-XXXXXX)
 export TMPDIR

@@ -1,15 +1,11 @@
-"""Scene.view(): the server in this process, its life and its picture, and its page in a frame."""
+"""Scene.view(): the server in this process, its life and its picture."""
 
 import gc
-import http.server
-import json
 import os
-import pathlib
 import re
 import struct
 import subprocess
 import sys
-import threading
 import time
 import unittest
 import urllib.error
@@ -19,8 +15,6 @@ import numpy as np
 
 import whit
 from samples import square_scene
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "serve"))
 
 SIZE = (64, 40)
 
@@ -52,20 +46,6 @@ def chunks(png):
             pixels += data
         at += 12 + size
     return texts, pixels
-
-
-class Page(http.server.BaseHTTPRequestHandler):
-    """A notebook: a page that shows a view in a frame."""
-
-    def do_GET(self):
-        body = b"<!doctype html><title>notebook</title>" + self.server.frame.encode()
-        self.send_response(200)
-        self.send_header("Content-Type", "text/html")
-        self.end_headers()
-        self.wfile.write(body)
-
-    def log_message(self, *_):
-        pass
 
 
 class Views(unittest.TestCase):
@@ -170,39 +150,6 @@ class Views(unittest.TestCase):
         with self.assertRaisesRegex(whit.Error, "taken") as caught:
             scene.view(port=int(view.url.split(":")[2].split("/")[0]))
         self.assertEqual(caught.exception.exit_status, 4)
-
-    def test_a_notebook_shows_it_in_a_frame(self):
-        from browser import Browser
-        view = whit.Scene(square_scene()).view(width=640, height=400)
-        # A notebook's page is of localhost; a page of another host may not frame the view.
-        ports = {}
-        for host in ("127.0.0.1", "127.0.0.2"):
-            server = http.server.ThreadingHTTPServer((host, 0), Page)
-            self.addCleanup(server.shutdown)
-            server.frame = view._repr_html_()
-            ports[host] = server.server_address[1]
-            threading.Thread(target=server.serve_forever, daemon=True).start()
-        browser = Browser()
-        self.addCleanup(browser.stop)
-        browser.size(800, 600)
-        browser.open(f"http://127.0.0.2:{ports['127.0.0.2']}/")
-        browser.wait("document.title === 'notebook' && document.readyState === 'complete'")
-        self.assertTrue(any("frame-ancestors" in json.dumps(event) for event in browser.events), browser.events)
-        browser.open(f"http://localhost:{ports['127.0.0.1']}/")
-        browser.wait("location.hostname === 'localhost' && document.readyState === 'complete'")
-        end = time.monotonic() + 60
-        while not browser.attach("iframe"):
-            self.assertLess(time.monotonic(), end, "no frame")
-            time.sleep(0.1)
-        browser.wait("whit.exact && whit.frames > 1")
-        self.assertEqual(browser.run("return $('error').textContent"), "")
-        frames = browser.run("return whit.frames")
-        browser.drag((200, 200), (260, 220))
-        browser.wait(f"whit.frames > {frames}")
-        browser.wait("whit.exact")
-        if "WHIT_SCREENSHOT" in os.environ:
-            browser.attach("page")
-            browser.screenshot(os.environ["WHIT_SCREENSHOT"])
 
 
 if not hasattr(whit._whit, "View"):
