@@ -17,6 +17,7 @@ FrameStatistics statisticsOf(const FrameStats& frame, Mode mode) {
   said.frameMs = frame.frameMs;
   said.embreeMs = frame.embreeMs();
   said.nonFinitePixels = frame.nonFinitePixels;
+  said.limitedPixels = frame.limitedPixels;
   for (std::size_t i = 0; i < kStageCount && mode == Mode::packets; ++i) {
     said.stages.push_back({kStageNames[i], frame.stageMs(static_cast<Stage>(i))});
   }

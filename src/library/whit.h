@@ -328,6 +328,7 @@ struct FrameStatistics {
   std::vector<Stage> stages;
   std::vector<Rays> rays;
   std::uint64_t nonFinitePixels = 0;
+  std::uint64_t limitedPixels = 0;  // whose rays "max-rays" has bounded
 };
 
 // An option of `whit render`.

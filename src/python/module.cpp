@@ -369,6 +369,7 @@ py::dict describe(const api::FrameStatistics& frame) {
   all["stages_ms"] = stages;
   all["rays"] = rays;
   all["non_finite_pixels"] = frame.nonFinitePixels;
+  all["limited_pixels"] = frame.limitedPixels;
   return all;
 }
 

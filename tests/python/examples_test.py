@@ -207,6 +207,14 @@ class Pictures(unittest.TestCase):
         self.assertIn("generateRays", cost["stages_ms"])
         self.assertEqual(cost["non_finite_pixels"], 0)
 
+    def test_statistics_count_pixels_of_bounded_rays(self):
+        # Glass branches at each surface, so a few rays a sample are too few for some pixels of it.
+        scene = whit.Scene("glass")
+        self.assertEqual(scene.render(size=SIZE).statistics["limited_pixels"], 0)
+        limited = scene.render(size=SIZE, max_rays=10).statistics["limited_pixels"]
+        self.assertGreater(limited, 0)
+        self.assertLess(limited, SIZE[0] * SIZE[1])
+
 
 if __name__ == "__main__":
     unittest.main()

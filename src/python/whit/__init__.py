@@ -106,7 +106,8 @@ class Picture:
     top: int = _native("top", "Row of the top edge in the whole picture.")
     statistics: dict[str, Any] = property(operator.attrgetter("_statistics"), doc=(
         "Times and counts of the frame: 'frame_ms', 'embree_ms' and 'stages_ms' (by stage) in "
-        "milliseconds of wall-clock time, 'rays' (by kind) and 'non_finite_pixels' as numbers."))
+        "milliseconds of wall-clock time, 'rays' (by kind), 'non_finite_pixels' and "
+        "'limited_pixels' (whose rays max_rays has bounded) as numbers."))
 
     @property
     def receipt(self) -> Optional[dict[str, Any]]:
