@@ -29,10 +29,13 @@ double valueOf(TexelFormat format, std::uint32_t texel, int channel) {
   return root * root;
 }
 
+// The code nearest to a mean. Halves go to the even code, so that one level after the other does
+// not get lighter. Means are often halves but for rounding errors, which must not decide.
 std::uint32_t codeOf(TexelFormat format, double value, int channel) {
-  // Halves go to the even code, so that one level after the other does not get lighter.
-  const double code = std::nearbyint(format == TexelFormat::data ? value : std::sqrt(value));
-  return static_cast<std::uint32_t>(code) << (format == TexelFormat::data ? 8 : 10) * channel;
+  constexpr double kBeyondErrors = 1 << 20;
+  const double code = format == TexelFormat::data ? value : std::sqrt(value);
+  const double nearest = std::nearbyint(std::nearbyint(code * kBeyondErrors) / kBeyondErrors);
+  return static_cast<std::uint32_t>(nearest) << (format == TexelFormat::data ? 8 : 10) * channel;
 }
 
 // Sums with shares times weights, or with shares alone where there are no weights. Sums to black
@@ -48,7 +51,7 @@ std::uint32_t meanTexel(const Texture& texture, const TexelWeights* weights,
                 row = rows.first + static_cast<int>(y);
       const std::uint32_t texel = texture.texel(column, row);
       double share = rows.shares[y] * columns.shares[x];
-      if (weights) share *= double{weights->at(column, row)};
+      if (weights) share *= weights->at(column, row);
       total += share;
       for (int c = 0; c < channels; ++c) {
         sum[static_cast<std::size_t>(c)] += share * valueOf(texture.format, texel, c);

@@ -58,7 +58,7 @@ TexelWeights uncutShares(const Texture& mask, float cutoff) {
           if (between(ownColumn, beside) >= cutoff) ++uncut;
         }
       }
-      shares.values.push_back(static_cast<float>(uncut) / 4);
+      shares.values.push_back(uncut / 4.0);
     }
   }
   return shares;
@@ -68,7 +68,7 @@ TexelWeights firstChannel(const Texture& mask) {
   TexelWeights weights = weightsLike(mask);
   for (int row = 0; row < mask.height; ++row) {
     for (int column = 0; column < mask.width; ++column) {
-      weights.values.push_back(firstChannelAt(mask, column, row));
+      weights.values.push_back((mask.texel(column, row) & 255u) / 255.0);
     }
   }
   return weights;
@@ -84,11 +84,10 @@ TexelWeights resized(const TexelWeights& weights, int width, int height) {
       for (std::size_t y = 0; y < rows.shares.size(); ++y) {
         for (std::size_t x = 0; x < across.shares.size(); ++x) {
           sum += rows.shares[y] * across.shares[x] *
-                 double{weights.at(across.first + static_cast<int>(x),
-                                   rows.first + static_cast<int>(y))};
+                 weights.at(across.first + static_cast<int>(x), rows.first + static_cast<int>(y));
         }
       }
-      result.values.push_back(static_cast<float>(sum));
+      result.values.push_back(sum);
     }
   }
   return result;

@@ -17,12 +17,13 @@ struct TexelCover {
 // One cover for each of `count` texels that take the place of `size` texels.
 std::vector<TexelCover> texelCovers(int size, int count);
 
-// One number for each texel, in rows from the top.
+// One number for each texel, in rows from the top. As doubles, because the mean that they weight is
+// rounded to a code, and rounded weights would decide it more often.
 struct TexelWeights {
   int width = 1, height = 1;
-  std::vector<float> values;
+  std::vector<double> values;
 
-  float at(int column, int row) const {
+  double at(int column, int row) const {
     return values[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
                   static_cast<std::size_t>(column)];
   }

@@ -22,10 +22,11 @@ Stretch stretchOf(int i, int size, int half) {
 
 // whit keeps colors as the square root of light in 10 bits, data in 8.
 Color asCodes(const Color& mean, bool isData) {
+  // Without the rounding errors of the mean, because exact halves go to the even code.
+  const auto rounded = [](double code) { return std::nearbyint(std::round(code * 1e6) / 1e6); };
   const auto channel = [&](double value) {
-    // Without the rounding errors of the mean, because exact halves go to the even code.
-    if (isData) return std::nearbyint(std::round(value * 255 * 1e6) / 1e6) / 255;
-    const double code = std::nearbyint(std::sqrt(value) * 1023) / 1023;
+    if (isData) return rounded(value * 255) / 255;
+    const double code = rounded(std::sqrt(value) * 1023) / 1023;
     return code * code;
   };
   return {channel(mean.x), channel(mean.y), channel(mean.z)};

@@ -180,7 +180,7 @@ TEST(ErrorChannelCoverage, HoldsTheTrueErrorOfNineTenthsOfThePixels) {
     o.channels = parseChannels("error");
     const Scene scene = load(sampled.scene);
     RenderOptions many = o;
-    many.spp = 1024;
+    many.spp = 256;  // a quarter of the error of 16 samples: 3 % more between both
     o.spp = 16;
     const Image truth = filmWithErrors(scene, many).image;
     const Film film = filmWithErrors(scene, o);

@@ -56,8 +56,10 @@ TEST_P(ShippedRayTree, SumsUpToThePixel) {
   }
 }
 
+class AdaptiveRayTree : public testing::TestWithParam<const char*> {};
+
 // Pixels of one sample, of the probes, and of all samples.
-TEST_P(ShippedRayTree, TracesTheSamplesOfAdaptivePixels) {
+TEST_P(AdaptiveRayTree, TracesTheSamplesOfThePixel) {
   const Scene scene = load(GetParam());
   RenderOptions options;
   options.size = kSanitized ? ImageSize{30, 20} : ImageSize{60, 40};
@@ -84,6 +86,7 @@ TEST_P(ShippedRayTree, TracesTheSamplesOfAdaptivePixels) {
   for (const auto& [samples, count] : pixels) {
     EXPECT_TRUE(samples == 1 || samples == 4 || samples == 9) << samples;
   }
+  EXPECT_EQ(pixels.size(), 3u);
   EXPECT_LE(otherReference, 2);  // where its probes decide otherwise
 }
 
@@ -96,6 +99,8 @@ INSTANTIATE_TEST_SUITE_P(All, ShippedRayTree,
                          testing::Values("matte", "whitted", "mirrors", "glass", "effects",
                                          "glossy"),
                          nameOfScene);
+// One whose samples differ at edges only, and one with samples of lobes.
+INSTANTIATE_TEST_SUITE_P(All, AdaptiveRayTree, testing::Values("whitted", "glossy"), nameOfScene);
 
 // A surface before a wall, which glows if nothing else is said.
 Scene surfaceAndWall(const Material& surface, const Material& behind = emittingMaterial(0.8f)) {
