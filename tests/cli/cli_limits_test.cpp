@@ -37,8 +37,9 @@ TEST_F(Limits, AFullDeviceIsAnErrorOfWriting) {
     fs::create_symlink("/dev/full", results_ / name);
   }
   for (const char* name : {"full.exr", "full.png"}) {
-    expectFailure(runWhit({"render", tiny_, "-o", results_ / name, "--quiet"}), 4,
-                  "No space left on device");
+    // "No space left on device", or "no space left, or the device failed" where the library that
+    // writes keeps the reason to itself.
+    expectFailure(runWhit({"render", tiny_, "-o", results_ / name, "--quiet"}), 4, "o space left");
   }
   expectFailure(runWhit({"info", tiny_, "--json", results_ / "full.json", "--quiet"}), 4,
                 "full.json");

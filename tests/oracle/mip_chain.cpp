@@ -86,7 +86,8 @@ MipChain::MipChain(const Texture& texture, Shares left) {
     whole.texels.push_back(Color{double(r), double(g), double(b)} / 255);
   }
   levels_.push_back(whole);
-  std::vector<Shares> leftOf{left};
+  std::vector<Shares> leftOf;
+  leftOf.push_back(left);
   while (levels_.back().texels.size() > 1) {
     levels_.push_back(halved(levels_.back(), leftOf.back(), texture.isData));
     const Level& half = levels_.back();

@@ -181,8 +181,9 @@ class Fork(unittest.TestCase):
                    "    scene.render(size=(64, 40))\n"
                    "    sys.exit(0)\n"
                    "sys.exit(os.waitstatus_to_exitcode(os.wait()[1]))\n")
-        done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True,
-                              check=False, timeout=SECONDS)
+        # From version 3.12 on, Python warns of every fork of a process with threads.
+        done = subprocess.run([sys.executable, "-W", "ignore::DeprecationWarning", "-c", program],
+                              capture_output=True, text=True, check=False, timeout=SECONDS)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_a_fork_by_a_progress_function(self):

@@ -411,6 +411,8 @@ Server::Server(ServedSession& session, const ServerOptions& options)
   if (http_->bind_to_port(options.bind, wanted)) {
     port_ = wanted;
   } else if (options.port == 0) {
+    // From cpp-httplib 0.16 on, a server that has failed to bind refuses to bind again.
+    http_ = std::make_unique<Http>(*this, session);
     port_ = http_->bind_to_any_port(options.bind);
   }
   if (port_ <= 0) {
