@@ -159,6 +159,14 @@ TEST_F(Assimp, OffColladaFbxAnd3ds) {
   save("t.png", bytesOfFile("png/rgb.png"));
   expectTetrahedron(loadBytes("dae", bytesOfFile("dae/tetra.dae")), 5, true);
   expectTetrahedron(loadBytes("fbx", bytesOfFile("fbx/tetra.fbx")), 5, true);
+  // As 3D programs write it.
+  std::string allAxes = bytesOfFile("fbx/tetra.fbx");
+  allAxes.insert(allAxes.find("\t\tP: \"UpAxisSign\""),
+                 "\t\tP: \"FrontAxis\", \"int\", \"Integer\", \"\", 1\n"
+                 "\t\tP: \"FrontAxisSign\", \"int\", \"Integer\", \"\", -1\n"
+                 "\t\tP: \"CoordAxis\", \"int\", \"Integer\", \"\", 0\n"
+                 "\t\tP: \"CoordAxisSign\", \"int\", \"Integer\", \"\", 1\n");
+  expectTetrahedron(loadBytes("fbx", allAxes), 5, true);
   EXPECT_EQ(kinds(), "");
   std::string text = bytesOfFile("3ds/tetra.3ds");
   std::memcpy(text.data() + text.find("T.PNG"), "t.png", 5);

@@ -217,13 +217,17 @@ void leaveOutSkins(aiScene& scene, std::uint32_t& notes) {
   if ((notes & kSkinLeftOut) != 0) scene.mNumAnimations = 0;
 }
 
-// FBX files name the axis that is up in them.
+// FBX files name the axis that is up in them. From version 5.4 on the library turns them itself,
+// but flattens those that do not name all axes.
 void turnUp(aiScene& scene) {
   int up = 1;
-  if (!scene.mMetaData || !scene.mMetaData->Get("UpAxis", up) || up == 1) return;
+  aiMatrix4x4& root = scene.mRootNode->mTransformation;
+  const bool isTurned = !root.IsIdentity() && root.Determinant() != 0;
+  if (isTurned || !scene.mMetaData || !scene.mMetaData->Get("UpAxis", up) || up == 1) return;
+
   const aiMatrix4x4 fromZ(1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1);
   const aiMatrix4x4 fromX(0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1);
-  scene.mRootNode->mTransformation = (up == 2 ? fromZ : fromX) * scene.mRootNode->mTransformation;
+  root = up == 2 ? fromZ : fromX;
 }
 
 // Answers with the notes and the GLB, or with a 0 and what the library says.
