@@ -33,6 +33,8 @@ struct ImpulseJob {
   bool cones = chunk.has(Feature::cones), coverage = chunk.has(Feature::coverage);
   bool glossy = chunk.has(Feature::glossy), streams = chunk.has(Feature::streams);
   bool transmission = chunk.has(Feature::transmission);
+  bool mirrorMaps = chunk.has(Feature::mirrorMaps);
+  bool transmissionMaps = chunk.has(Feature::transmissionMaps);
   float* ended = chunk.radiance.ended;
   bool notesEnds = chunk.has(Feature::ended) && roulette == 0;  // which ends none but by chance
 };
@@ -99,9 +101,20 @@ HWY_INLINE Interface InterfaceOf(const ImpulseJob& job, const ImpulseLanes& lane
   return DielectricInterface(job.shading.fresnel, before, behind, lanes.cosine);
 }
 
-// The mirror coat's reflectance.
-HWY_INLINE V3 CoatReflectance(const MaterialLanes& material, VF cosine) {
-  return MulAdd3(material.GrazingMinusMirror(), SchlickTerm(cosine), material.Mirror());
+// The mirror coat's reflectance at the surfels at i.
+HWY_INLINE V3 CoatReflectance(const ImpulseJob& job, const MaterialLanes& material, VF cosine,
+                              size_t i) {
+  const SurfelColumns& s = job.surfels;
+  V3 normal = material.Mirror().color;
+  if (job.mirrorMaps) normal = Mul3(normal, Load3(s.mirrorR, s.mirrorG, s.mirrorB, i));
+  return MulAdd3(Sub3(material.MirrorGrazing(), normal), SchlickTerm(cosine), normal);
+}
+
+HWY_INLINE V3 TransmissionAt(const ImpulseJob& job, const MaterialLanes& material, size_t i) {
+  const SurfelColumns& s = job.surfels;
+  const V3 color = material.Transmission().color;
+  if (!job.transmissionMaps) return color;
+  return Mul3(color, Load3(s.transmissionR, s.transmissionG, s.transmissionB, i));
 }
 
 // The color, reduced to what is left of the light where the share `taken` of it is not.
@@ -220,7 +233,7 @@ void AddReflections(Chunk& c) {
     lanes.live = hn::AndNot(lanes.hidden, lanes.live);
     if (hn::AllFalse(d, lanes.live)) continue;
     const MaterialLanes material(job.tables, lanes.material, lanes.live);
-    V3 weight = CoatReflectance(material, lanes.cosine);
+    V3 weight = CoatReflectance(job, material, lanes.cosine, i);
     if (job.coverage) weight = Scale3(weight, CoverageAt(job, i));
     if (job.transmission && !hn::AllFalse(d, lanes.dielectric)) {
       const VF f = hn::IfThenElseZero(lanes.dielectric, InterfaceOf(job, lanes, i).reflectance);
@@ -288,7 +301,7 @@ HWY_INLINE V3 LeftAboveLobe(const ImpulseJob& job, const ImpulseLanes& lanes, si
   const FloatTag d;
   const MaterialLanes material(job.tables, lanes.material, lanes.live);
   const VF one = hn::Set(d, 1.0f);
-  const V3 left = Sub3({one, one, one}, CoatReflectance(material, lanes.cosine));
+  const V3 left = Sub3({one, one, one}, CoatReflectance(job, material, lanes.cosine, i));
   if (!job.transmission || hn::AllFalse(d, lanes.dielectric)) return left;
   const VF f = hn::IfThenElseZero(lanes.dielectric, InterfaceOf(job, lanes, i).reflectance);
   return Scale3(left, hn::Sub(one, f));
@@ -329,12 +342,13 @@ void LimitDiffuse(Chunk& c) {
     lanes.live = hn::AndNot(lanes.hidden, lanes.live);
     if (hn::AllFalse(d, lanes.live)) continue;
     const MaterialLanes material(job.tables, lanes.material, lanes.live);
-    V3 taken = CoatReflectance(material, lanes.cosine);
+    V3 taken = CoatReflectance(job, material, lanes.cosine, i);
     VF passed = one;
     if (job.transmission) {
-      const V3 transmission = material.Transmission(), through = Limited(transmission, taken);
-      const MF transmits =
-          hn::And(lanes.dielectric, hn::Gt(MaxComponent(transmission), hn::Zero(d)));
+      const V3 transmission = TransmissionAt(job, material, i),
+               through = Limited(transmission, taken);
+      const MF transmits = hn::And(
+          lanes.dielectric, hn::Gt(MaxComponent(material.Transmission().color), hn::Zero(d)));
       taken = Select3(transmits, Add3(taken, through), taken);
       const VF reflectance = InterfaceOf(job, lanes, i).reflectance;
       passed = hn::IfThenElse(transmits, hn::Sub(one, reflectance), one);
@@ -354,6 +368,8 @@ HWY_INLINE void AddSamples(Chunk& c) {
   const ImpulseJob job{c};
   const LobeSampling sampling = lobeSampling(c.depth, c.options().*kLobe.samples, c.sampleNumber);
   const VF one = hn::Set(d, 1.0f), share = hn::Set(d, 1.0f / static_cast<float>(sampling.count));
+  // occlusionOfLobes().
+  const bool occluded = c.depth == 0 && c.has(Feature::occlusionMaps);
   size_t count = c.childCount;
   for (size_t i = 0; i < job.n; i += hn::Lanes(d)) {
     ImpulseLanes lanes = LoadImpulseLanes<kLobe.flag>(job, i);
@@ -362,6 +378,7 @@ HWY_INLINE void AddSamples(Chunk& c) {
     V3 covered{one, one, one};
     if constexpr (kLobe.flag == kMaterialScatters) covered = LeftAboveLobe(job, lanes, i);
     if (job.coverage) covered = Scale3(covered, CoverageAt(job, i));
+    if (occluded) covered = Scale3(covered, hn::Load(d, job.surfels.occlusion + i));
     const Samples samples(job, lanes, i);
     const VF counts = hn::IfThenElse(samples.several, share, one);
     const V3 origin = ChildOrigin(job, lanes, i, 1.0f);
@@ -403,8 +420,9 @@ void AddRefractions(Chunk& c) {
     const Interface interface = InterfaceOf(job, lanes, i);
     const MaterialLanes material(job.tables, lanes.material, lanes.live);
     const VF through = hn::Sub(one, interface.reflectance);
-    const V3 coat = CoatReflectance(material, lanes.cosine);
-    V3 transmittance = Mul3(Limited(material.Transmission(), coat), LeftBelowLobe(job, lanes, i));
+    const V3 coat = CoatReflectance(job, material, lanes.cosine, i);
+    V3 transmittance =
+        Mul3(Limited(TransmissionAt(job, material, i), coat), LeftBelowLobe(job, lanes, i));
     if (job.coverage) {
       const VF covered = CoverageAt(job, i), rest = hn::Sub(one, covered);
       transmittance = MulAdd3(transmittance, covered, {rest, rest, rest});

@@ -103,10 +103,17 @@ class ReflectedAmbient {
         // down + (up - down) * (1 + n.y) / 2 as middle + half * n.y
         middle_(Broadcast3((tables_.ambient.up + tables_.ambient.down) * 0.5f)),
         half_(Broadcast3((tables_.ambient.up - tables_.ambient.down) * 0.5f)),
-        special_((c.materialFlags & (kMaterialDiffuses | kMaterialBlursSky)) != 0) {}
+        special_((c.materialFlags & (kMaterialDiffuses | kMaterialBlursSky)) != 0),
+        occluded_(c.has(Feature::occlusionMaps)) {}
 
   // The ambient light at the surfels from i on; `hit` masks the lanes whose ray hit a surface.
   HWY_INLINE V3 At(size_t i, MF hit) const {
+    const V3 light = Unoccluded(i, hit);
+    return occluded_ ? Scale3(light, hn::Load(FloatTag(), surfels_.occlusion + i)) : light;
+  }
+
+ private:
+  HWY_INLINE V3 Unoccluded(size_t i, MF hit) const {
     const FloatTag d;
     const V3 ns = Load3(surfels_.nsX, surfels_.nsY, surfels_.nsZ, i);
     const V3 albedo = Load3(surfels_.diffuseR, surfels_.diffuseG, surfels_.diffuseB, i);
@@ -128,12 +135,11 @@ class ReflectedAmbient {
     return Select3(blurs, Add3(left, Mul3(sky, lobe)), left);
   }
 
- private:
   const ShadingTables& tables_;
   RayColumns rays_;
   SurfelColumns surfels_;
   V3 middle_, half_;
-  bool special_;
+  bool special_, occluded_;
 };
 
 }  // namespace whit::simd::HWY_NAMESPACE

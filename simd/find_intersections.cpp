@@ -191,8 +191,8 @@ void InterpolateSurfels(Chunk& c) {
 }
 
 // Queues the map that mapOf(materials) names for the vector at i, looked up by the first texture
-// coordinates.
-template <typename MapOf>
+// coordinates, or by the second where the material has the flag `kBySecond`.
+template <uint32_t kBySecond, typename MapOf>
 HWY_INLINE void QueueDataMap(const SurfelJob& job, size_t i, size_t slot, MapOf&& mapOf,
                              MapQueue& queue) {
   const FloatTag d;
@@ -210,7 +210,9 @@ HWY_INLINE void QueueDataMap(const SurfelJob& job, size_t i, size_t slot, MapOf&
   const VF cosine = Dot(Load3(job.rays.dirX, job.rays.dirY, job.rays.dirZ, i), s.ng);
   const VF width = job.cones ? hn::Load(d, job.surfels.cone + i) : hn::Zero(d);
   const MapHits at{t.uv, triangle, t.material, valid, w, s.edge1, s.edge2, width, cosine};
-  QueueMap(job, map, mapped, PointsAt(job, at, t.uv), slot, queue);
+  const bool second = kBySecond != 0 && job.secondUvs;
+  const UvLanes uv = second ? UvsOfMap(job.tables, at, kBySecond) : t.uv;
+  QueueMap(job, map, mapped, PointsAt(job, at, uv), slot, queue);
 }
 
 HWY_INLINE void ApplyRoughness(const SurfelJob& job, const MapQueue& queue, size_t slot, size_t i) {
@@ -227,14 +229,15 @@ HWY_INLINE void ApplyRoughness(const SurfelJob& job, const MapQueue& queue, size
 }
 
 // apply(job, queue, slot, i) for each vector, when what mapOf(materials) names has been looked up.
-template <typename MapOf, typename Apply>
+template <uint32_t kBySecond = 0, typename MapOf, typename Apply>
 HWY_INLINE void LookUpDataMap(const Chunk& c, MapOf&& mapOf, Apply&& apply) {
   const size_t lanes = hn::Lanes(FloatTag()), n = c.n;
   const SurfelJob job{c};
   MapQueue queue;
   for (size_t begin = 0; begin < n; begin += TexelQueue::kRays) {
     const size_t end = begin + TexelQueue::kRays < n ? begin + TexelQueue::kRays : n;
-    for (size_t i = begin; i < end; i += lanes) QueueDataMap(job, i, i - begin, mapOf, queue);
+    for (size_t i = begin; i < end; i += lanes)
+      QueueDataMap<kBySecond>(job, i, i - begin, mapOf, queue);
     for (size_t i = begin; i < end; i += lanes) apply(job, queue, i - begin, i);
   }
 }
@@ -264,17 +267,103 @@ HWY_INLINE void StoreCoverage(const SurfelJob& job, const MapQueue& queue, size_
   hn::Store(coverage, d, job.surfels.coverage + i);
 }
 
+struct Columns3 {
+  float *x, *y, *z;
+};
+
+HWY_INLINE void StoreOnes(float* column, size_t n) {
+  const FloatTag d;
+  for (size_t i = 0; i < n; i += hn::Lanes(d)) hn::Store(hn::Set(d, 1.0f), d, column + i);
+}
+
 // The scalar reference is findColors in src/reference/find_intersections.cpp.
 void LookUpCoverage(Chunk& c) {
-  const FloatTag d;
   if ((c.materialFlags & kMaterialIsPartlyThere) == 0) {
-    const VF whole = hn::Set(d, 1.0f);
-    for (size_t i = 0; i < c.n; i += hn::Lanes(d)) hn::Store(whole, d, c.surfels.coverage + i);
+    StoreOnes(c.surfels.coverage, c.n);
     return;
   }
   LookUpDataMap(
       c, [](const MaterialLanes& m) HWY_ATTR { return m.Coverage().map; }, StoreCoverage);
 }
+
+HWY_INLINE void StoreOcclusion(const SurfelJob& job, const MapQueue& queue, size_t slot, size_t i) {
+  const FloatTag d;
+  VF occlusion = hn::Set(d, 1.0f);
+  if (queue.level.any[slot]) {
+    const V3 map =
+        FilterMap(job, queue, slot, [](const Footprint& f) HWY_ATTR { return FilterData3(f); });
+    occlusion = hn::IfThenElse(QueuedLanes(queue.level, slot), map.x, occlusion);
+  }
+  hn::Store(occlusion, d, job.surfels.occlusion + i);
+}
+
+// The scalar reference is findColors in src/reference/find_intersections.cpp.
+void LookUpOcclusion(Chunk& c) {
+  if ((c.materialFlags & kMaterialIsOccluded) == 0) {
+    StoreOnes(c.surfels.occlusion, c.n);
+    return;
+  }
+  LookUpDataMap<kMaterialOcclusionBySecondUvs>(
+      c, [](const MaterialLanes& m) HWY_ATTR { return m.OcclusionMap(); }, StoreOcclusion);
+}
+
+// The two colors that get factors from a map, and from vertex colors in the lanes that are tinted.
+struct MirrorFactors {
+  static constexpr uint32_t kVaries = kMaterialVariesMirror;
+  static HWY_INLINE VI Map(const MaterialLanes& m) { return m.Mirror().map; }
+  static HWY_INLINE MF Tinted(VU flags) { return HasFlags(flags, kMaterialTintsSpecular); }
+  static HWY_INLINE Columns3 Columns(const SurfelColumns& s) {
+    return {s.mirrorR, s.mirrorG, s.mirrorB};
+  }
+};
+struct TransmissionFactors {
+  static constexpr uint32_t kVaries = kMaterialVariesTransmission;
+  static HWY_INLINE VI Map(const MaterialLanes& m) { return m.Transmission().map; }
+  static HWY_INLINE MF Tinted(VU flags) { return hn::Not(HasFlags(flags, kMaterialTintsEmission)); }
+  static HWY_INLINE Columns3 Columns(const SurfelColumns& s) {
+    return {s.transmissionR, s.transmissionG, s.transmissionB};
+  }
+};
+
+template <typename Factors>
+HWY_INLINE void StoreFactors(const SurfelJob& job, const MapQueue& queue, size_t slot, size_t i) {
+  const FloatTag d;
+  const VF one = hn::Set(d, 1.0f);
+  V3 factor{one, one, one};
+  if (queue.level.any[slot]) {
+    const V3 map =
+        FilterMap(job, queue, slot, [](const Footprint& f) HWY_ATTR { return FilterColor(f); });
+    factor = Select3(QueuedLanes(queue.level, slot), map, factor);
+  }
+
+  const auto [valid, triangle] = LoadHits(job.hits, job.tables.triangleCount, i);
+  if (job.vertexColors && !hn::AllFalse(d, valid)) {
+    const VI material =
+        hn::Load(IntTag(), reinterpret_cast<const int32_t*>(job.surfels.material) + i);
+    const VU flags = MaterialLanes(job.tables, material, valid).Lobe().flags;
+    const Weights w = LoadWeights(job.hits, i);
+    const V3 tinted = Mul3(factor, VertexColor(job.tables, triangle, w.w1, w.w2));
+    const MF varies = hn::And(valid, HasFlags(flags, Factors::kVaries));
+    factor = Select3(hn::And(varies, Factors::Tinted(flags)), tinted, factor);
+  }
+  const Columns3 to = Factors::Columns(job.surfels);
+  Store3(factor, to.x, to.y, to.z, i);
+}
+
+// The scalar reference is findColors in src/reference/find_intersections.cpp.
+template <typename Factors>
+HWY_INLINE void LookUpFactors(Chunk& c) {
+  if ((c.materialFlags & Factors::kVaries) == 0) {
+    const Columns3 to = Factors::Columns(c.surfels);
+    for (float* column : {to.x, to.y, to.z}) StoreOnes(column, c.n);
+    return;
+  }
+  LookUpDataMap(
+      c, [](const MaterialLanes& m) HWY_ATTR { return Factors::Map(m); }, StoreFactors<Factors>);
+}
+
+void LookUpMirror(Chunk& c) { LookUpFactors<MirrorFactors>(c); }
+void LookUpTransmission(Chunk& c) { LookUpFactors<TransmissionFactors>(c); }
 
 // Corners and their normals, in the world.
 struct WorldCorners {
@@ -349,6 +438,9 @@ namespace whit::simd {
 WHIT_EXPORT_KERNEL(InterpolateSurfels)
 WHIT_EXPORT_KERNEL(LookUpRoughness)
 WHIT_EXPORT_KERNEL(LookUpCoverage)
+WHIT_EXPORT_KERNEL(LookUpOcclusion)
+WHIT_EXPORT_KERNEL(LookUpMirror)
+WHIT_EXPORT_KERNEL(LookUpTransmission)
 WHIT_EXPORT_KERNEL(LiftShadowOrigins)
 }  // namespace whit::simd
 #endif

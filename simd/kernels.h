@@ -70,6 +70,16 @@ WHIT_KERNEL(LookUpRoughness, "lookUpRoughness", findIntersections,
 WHIT_KERNEL(LookUpCoverage, "lookUpCoverage", findIntersections,
             {Part::rays, Part::hits, Part::surfels}, {Part::surfels});
 
+// The share of indirect light that maps of occlusion leave.
+WHIT_KERNEL(LookUpOcclusion, "lookUpOcclusion", findIntersections,
+            {Part::rays, Part::hits, Part::surfels}, {Part::surfels});
+
+// Factors of mirror and transmission by maps and vertex colors.
+WHIT_KERNEL(LookUpMirror, "lookUpMirror", findIntersections,
+            {Part::rays, Part::hits, Part::surfels}, {Part::surfels});
+WHIT_KERNEL(LookUpTransmission, "lookUpTransmission", findIntersections,
+            {Part::rays, Part::hits, Part::surfels}, {Part::surfels});
+
 // Scales diffuse colors to the light that mirror, Fresnel's law, sampled lobes and transmission
 // leave.
 WHIT_KERNEL(LimitDiffuse, "limitDiffuse", findIntersections, {Part::rays, Part::surfels},
@@ -139,6 +149,9 @@ inline constexpr std::array kKernels{kGenerateRays,
                                      kInterpolateSurfels,
                                      kLookUpRoughness,
                                      kLookUpCoverage,
+                                     kLookUpOcclusion,
+                                     kLookUpMirror,
+                                     kLookUpTransmission,
                                      kLimitDiffuse,
                                      kLiftShadowOrigins,
                                      kWriteEmittedAndReflectiveAmbient,

@@ -47,9 +47,14 @@ class MaterialLanes {
   HWY_INLINE VI NormalMap() const {
     return At<offsetof(R, emission), offsetof(R, normalMap)>().map;
   }
-  HWY_INLINE V3 Mirror() const { return At<offsetof(R, mirror)>().color; }
-  HWY_INLINE V3 GrazingMinusMirror() const { return At<offsetof(R, grazingMinusMirror)>().color; }
-  HWY_INLINE V3 Transmission() const { return At<offsetof(R, transmission)>().color; }
+  HWY_INLINE ColorLanes Mirror() const { return At<offsetof(R, mirror), offsetof(R, mirrorMap)>(); }
+  HWY_INLINE V3 MirrorGrazing() const { return At<offsetof(R, mirrorGrazing)>().color; }
+  HWY_INLINE VI OcclusionMap() const {
+    return At<offsetof(R, mirrorGrazing), offsetof(R, occlusionMap)>().map;
+  }
+  HWY_INLINE ColorLanes Transmission() const {
+    return At<offsetof(R, transmission), offsetof(R, transmissionMap)>();
+  }
   HWY_INLINE LobeLanes Lobe() const {
     constexpr size_t kAlpha = offsetof(R, alpha);
     static_assert(offsetof(R, medium) == kAlpha + 4 && offsetof(R, flags) == kAlpha + 8);

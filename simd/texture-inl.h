@@ -107,6 +107,14 @@ HWY_INLINE TextureLanes LoadTextures(const TextureRecord* table, VI texture, MF 
           hn::BitCast(di, r.w)};
 }
 
+// The fraction where texels are interpolated, and in the lanes of `snaps` that of the nearer texel.
+HWY_INLINE VF Snapped(VF fraction, MF snaps) {
+  const FloatTag d;
+  const VF one = hn::Set(d, 1.0f);
+  const VF nearer = hn::IfThenElseZero(hn::Ge(fraction, hn::Set(d, 0.5f)), one);
+  return hn::IfThenElse(snaps, nearer, fraction);
+}
+
 // Queues the four texels around (u, v) for the lanes of `live`; in these, `texture` is an index
 // into `table`.
 HWY_INLINE void QueueTexels(TextureFilter filter, const TextureRecord* table,
@@ -118,11 +126,16 @@ HWY_INLINE void QueueTexels(TextureFilter filter, const TextureRecord* table,
   if (!queue.any[slot]) return;
   const auto [first, height, width, wrap] = LoadTextures(table, texture, live);
   const VI wrapU = hn::And(wrap, hn::Set(di, 0xFF));
-  const VI wrapV = hn::ShiftRight<8>(wrap);
+  const VI wrapV = hn::And(hn::ShiftRight<8>(wrap), hn::Set(di, 0xFF));
   // Image rows run downwards, v upwards.
-  const AxisTexels x = WrapAxis(TameCoordinate(u), width, wrapU);
-  const AxisTexels y =
+  AxisTexels x = WrapAxis(TameCoordinate(u), width, wrapU);
+  AxisTexels y =
       WrapAxis(hn::Sub(hn::Set(d, 1.0f), TameCoordinate(v)), hn::ConvertTo(d, height), wrapV);
+  const auto snaps = hn::Gt(wrap, hn::Set(di, int32_t{kNearestTexel} - 1));
+  if (HWY_UNLIKELY(!hn::AllFalse(di, snaps))) {
+    x.fraction = Snapped(x.fraction, hn::RebindMask(d, snaps));
+    y.fraction = Snapped(y.fraction, hn::RebindMask(d, snaps));
+  }
   VI texel = hn::Add(first, TexelOf(x.footprint, y.footprint, height));
   if (filter == TextureFilter::nearest) {
     const auto nearer = [&](VF fraction, int32_t step) HWY_ATTR {

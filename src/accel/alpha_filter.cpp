@@ -49,6 +49,7 @@ inline AxisTexels wrapAxis(Wrap wrap, float s, int size) noexcept {
 AlphaMap::AlphaMap(const Texture& texture)
     : wrapU_(texture.wrapU),
       wrapV_(texture.wrapV),
+      nearest_(texture.nearest),
       width_(texture.width),
       height_(texture.height),
       cellsAcross_(((texture.width - 1) >> kCellShift) + 1),
@@ -93,6 +94,15 @@ float AlphaMap::marginAt(float u, float v, float cutoff) const noexcept {
   const auto texel = [&](int row, int column) {
     return static_cast<float>(alpha_[index(row, column)]) * (1.0f / 255.0f);
   };
+  if (nearest_) {
+    const float margin =
+        texel(y.fraction < 0.5f ? y.lower : y.upper, x.fraction < 0.5f ? x.lower : x.upper) -
+        cutoff;
+    const float toBorder = std::min(std::abs(x.fraction - 0.5f), std::abs(y.fraction - 0.5f));
+    // Above 0, so that the margin keeps its sign.
+    const float room = std::max(toBorder, 0x1p-20f);
+    return std::clamp(margin, -room, room);
+  }
   const float top =
       texel(y.lower, x.lower) * (1 - x.fraction) + texel(y.lower, x.upper) * x.fraction;
   const float bottom =

@@ -16,8 +16,9 @@ class AlphaMap {
  public:
   explicit AlphaMap(const Texture& texture);
 
-  // By how much the bilinear alpha at texture coordinates (u, v) is above `cutoff`; 1 or -1 where
-  // the cell's bounds alone say that it is well above or below.
+  // By how much the alpha at texture coordinates (u, v) is above `cutoff`; 1 or -1 where the cell's
+  // bounds alone say that it is well above or below. Where texels are not interpolated it is no
+  // further from 0 than the point is from the texel's border, so that close calls are known.
   float marginAt(float u, float v, float cutoff) const noexcept;
 
  private:
@@ -32,6 +33,7 @@ class AlphaMap {
   Bounds boundsOf(int cellX, int cellY) const;
 
   Wrap wrapU_, wrapV_;
+  bool nearest_;
   int width_, height_;
   int cellsAcross_;
   std::vector<std::uint8_t> alpha_;

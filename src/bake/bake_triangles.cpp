@@ -95,9 +95,7 @@ MaterialUse useOf(const Material& material, const std::vector<Texture>& textures
   use.triangleClass = static_cast<std::uint8_t>((material.castsShadow ? 0 : kNoShadowBit) |
                                                 (masked ? kMaskedBit : 0));
   bool textured = false, u = true, v = true;
-  for (const std::int32_t map :
-       {material.diffuseMap, material.specularMap, material.roughnessMap, material.emissionMap,
-        material.normalMap, material.alphaMap, material.coverageMap}) {
+  for (const std::int32_t map : material.maps()) {
     if (map == kNoTexture) continue;
     const Texture& texture = textures[static_cast<std::size_t>(map)];
     textured = true;

@@ -38,6 +38,8 @@ constexpr MaterialRule kMaterialRules[] = {
      [](const Material& m) {
        return (m.diffuseMap != kNoTexture && !isBlack(m.diffuse)) ||
               (m.specularMap != kNoTexture && m.hasGlossy()) || m.variesRoughness() ||
+              m.occlusionMap != kNoTexture || (m.mirrorMap != kNoTexture && m.hasMirror()) ||
+              (m.transmissionMap != kNoTexture && m.hasTransmission()) ||
               (m.emissionMap != kNoTexture && !isBlack(m.emission));
      }},
     {Effect::emissionMaps, "with a texture of emission",

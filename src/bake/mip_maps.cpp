@@ -14,9 +14,10 @@ namespace whit {
 namespace {
 
 // Alpha maps have none; see ShownMap.
-constexpr std::int32_t Material::*kMippedMaps[] = {&Material::diffuseMap,   &Material::specularMap,
-                                                   &Material::roughnessMap, &Material::emissionMap,
-                                                   &Material::normalMap,    &Material::coverageMap};
+constexpr std::int32_t Material::*kMippedMaps[] = {
+    &Material::diffuseMap,   &Material::specularMap, &Material::roughnessMap,
+    &Material::emissionMap,  &Material::normalMap,   &Material::coverageMap,
+    &Material::occlusionMap, &Material::mirrorMap,   &Material::transmissionMap};
 
 // Light of a 10-bit color channel, or the value of an 8-bit one, in units of the largest code
 // (squared); of radiance itself.
@@ -149,7 +150,8 @@ std::vector<ShownMap> shownMaps(const Scene& scene) {
 ShownMap shownMap(const Material& material, std::int32_t Material::*map) {
   ShownMap shown{material.*map};
   const bool bySecondUvs = (map == &Material::emissionMap && material.emissionBySecondUvs) ||
-                           (map == &Material::normalMap && material.normalBySecondUvs);
+                           (map == &Material::normalMap && material.normalBySecondUvs) ||
+                           (map == &Material::occlusionMap && material.occlusionBySecondUvs);
   // The masks lie elsewhere in the second coordinates.
   if (shown.texture == kNoTexture || bySecondUvs) return shown;
 

@@ -129,7 +129,11 @@ std::vector<std::int32_t> TextureLoader::add(const TextureSource& source,
     if (use == TextureUse::emission && !source.given && !holdsRadiance(source.path)) {
       use = TextureUse::color;
     }
-    const Key key{source.given ? source.where : source.path, use, source.wrapU, source.wrapV,
+    const Key key{source.given ? source.where : source.path,
+                  use,
+                  source.wrapU,
+                  source.wrapV,
+                  source.nearest,
                   use == TextureUse::bump ? source.bumpScale : 1.0f};
     const auto [entry, isNew] = known_.emplace(key, static_cast<std::int32_t>(slots_.size()));
     slots.push_back(entry->second);
@@ -208,6 +212,7 @@ std::optional<Texture> TextureLoader::make(const std::string& name, const RawIma
   texels.keep();
   texture->wrapU = source.wrapU;
   texture->wrapV = source.wrapV;
+  texture->nearest = source.nearest;
   return texture;
 }
 

@@ -70,6 +70,7 @@ struct TextureSource {
   std::string where;  // the place that names it
   const GivenImage* given = nullptr;
   Wrap wrapU = Wrap::repeat, wrapV = Wrap::repeat;
+  bool nearest = false;
   float bumpScale = 1;
   bool lenient = false;  // an image that cannot be read is a warning instead of an error
 };
@@ -98,7 +99,7 @@ class TextureLoader {
   void finish(SceneDescription& scene);
 
  private:
-  using Key = std::tuple<std::string, TextureUse, Wrap, Wrap, float>;
+  using Key = std::tuple<std::string, TextureUse, Wrap, Wrap, bool, float>;
 
   std::optional<Texture> make(const std::string& name, const RawImage& raw,
                               const TextureSource& source, TextureUse use);

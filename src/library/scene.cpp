@@ -70,6 +70,8 @@ Json describe(const Material& m) {
   add("roughness", m.roughness), add("roughnessMap", m.roughnessMap);
   add("emission", m.emission), add("emissionMap", m.emissionMap);
   add("normalMap", m.normalMap), add("alphaMap", m.alphaMap);
+  add("occlusionMap", m.occlusionMap), add("mirrorMap", m.mirrorMap);
+  add("transmissionMap", m.transmissionMap);
   add("coverage", m.coverage), add("coverageMap", m.coverageMap);
   add("mirror", m.mirror), add("mirrorGrazing", m.mirrorGrazing);
   add("transmission", m.transmission), add("thin", m.thin);

@@ -189,7 +189,8 @@ struct Material {
   double roughness = 0.5, coverage = 1, ior = 1.5;
   std::optional<Vector> mirror, mirrorGrazing, transmission, absorption;
   std::optional<bool> thin, glossyReflection, castsShadow;
-  std::string diffuseMap, specularMap, roughnessMap, emissionMap, normalMap, alphaMap, coverageMap;
+  std::string diffuseMap, specularMap, roughnessMap, emissionMap, normalMap, alphaMap, coverageMap,
+      occlusionMap, mirrorMap, transmissionMap;
 };
 
 // Makes a scene in memory. build() validates it like a scene file and reports the same errors. The

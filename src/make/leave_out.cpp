@@ -10,7 +10,8 @@ constexpr Rgb kBlack{0, 0, 0};
 
 void leaveOutOfMaterial(Material& m, EffectSet effects) {
   if (effects.has(Effect::textures)) {
-    m.diffuseMap = m.specularMap = m.roughnessMap = m.emissionMap = kNoTexture;
+    m.diffuseMap = m.specularMap = m.roughnessMap = m.emissionMap = m.occlusionMap = kNoTexture;
+    m.mirrorMap = m.transmissionMap = kNoTexture;
   }
   if (effects.has(Effect::emissionMaps)) m.emissionMap = kNoTexture;
   if (effects.has(Effect::normalMaps)) m.normalMap = kNoTexture;

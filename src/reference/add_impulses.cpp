@@ -56,7 +56,7 @@ double cosineOf(const Surfel& surfel) {
 // The mirror coat's reflectance towards the viewer.
 RgbD coatOf(const Material& material, EffectSet effects, const Surfel& surfel) {
   if (!effects.has(Effect::mirror)) return {};
-  const RgbD normal(material.mirror), grazing(material.mirrorGrazing);
+  const RgbD normal = RgbD(material.mirror) * surfel.mirror, grazing(material.mirrorGrazing);
   return normal + (grazing - normal) * schlickTerm(cosineOf(surfel));
 }
 
@@ -104,7 +104,9 @@ std::optional<LobeChild> sampleOfLobe(const Chunk& chunk, std::size_t child, Ray
     for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(rays); ++k) {
       if (chunk.children.path[child] != childStream(path, lobe.firstBranch + k)) continue;
       const UnitPoint at = pointOf(lobe, path, sampling, k);
-      return LobeChild{impulseOf(surfel, mediaOf(chunk, slot), at, chunk.options().shading), rays};
+      Impulse impulse = impulseOf(surfel, mediaOf(chunk, slot), at, chunk.options().shading);
+      impulse.weight *= occlusionOfLobes(surfel, chunk.depth);
+      return LobeChild{impulse, rays};
     }
   }
   return std::nullopt;
@@ -147,8 +149,8 @@ Impulses findImpulses(const Scene& scene, EffectSet effects, const Surfel& surfe
     const double passed = 1 - interface.reflectance;
     if (mirrors) reflectance = RgbD(interface.reflectance) + reflectance * passed;
     if (passed > 0) {
-      const RgbD through =
-          limited(RgbD(material.transmission), coat) * surfel.belowLobe * surfel.coverage;
+      const RgbD through = limited(RgbD(material.transmission) * surfel.transmission, coat) *
+                           surfel.belowLobe * surfel.coverage;
       result.refracted = {(through + RgbD(1 - surfel.coverage)) * passed,
                           refractedRay(surfel, interface, c, choices), crossing.stackBehind};
     }
@@ -194,7 +196,7 @@ void limitDiffuse(const Scene& scene, EffectSet effects, const Crossing& crossin
   RgbD taken = coatOf(material, effects, surfel);
   double passed = 1;
   if (crossing.dielectric && material.hasTransmission()) {
-    taken += limited(RgbD(material.transmission), taken);
+    taken += limited(RgbD(material.transmission) * surfel.transmission, taken);
     passed = passedBy(crossing, choices, surfel);
   }
   surfel.diffuse = limited(surfel.diffuse, taken) * passed * surfel.belowLobe;

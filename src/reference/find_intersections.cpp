@@ -236,13 +236,16 @@ RgbD vertexColor(const ColorRecord& record, const TriangleHit& hit) {
   return max(there, RgbD(0.0));
 }
 
-void tint(const RgbD& color, VertexTint what, Surfel& s) {
-  if (what == VertexTint::emission) {
+void tint(const RgbD& color, const Material& material, Surfel& s) {
+  if (material.vertexTint == VertexTint::emission) {
     s.emission = s.emission * color;
     return;
   }
   s.diffuse = s.diffuse * color;
-  if (what == VertexTint::diffuseAndSpecular) s.specular = s.specular * color;
+  if (material.hasTransmission()) s.transmission = s.transmission * color;
+  if (material.vertexTint != VertexTint::diffuseAndSpecular) return;
+  s.specular = s.specular * color;
+  if (material.hasMirror()) s.mirror = s.mirror * color;
 }
 
 void findColors(const Scene& scene, EffectSet effects, std::uint32_t number, const TriangleHit& hit,
@@ -256,11 +259,15 @@ void findColors(const Scene& scene, EffectSet effects, std::uint32_t number, con
   };
   s.diffuse = textured(material.diffuse, &Material::diffuseMap);
   s.specular = textured(material.specular, &Material::specularMap);
+  if (material.hasMirror()) s.mirror = textured(Rgb(1.0f), &Material::mirrorMap);
+  if (material.hasTransmission()) {
+    s.transmission = textured(Rgb(1.0f), &Material::transmissionMap);
+  }
   if (effects.has(Effect::emissionMaps)) {
     s.emission = textured(Rgb(1.0f), &Material::emissionMap, material.emissionBySecondUvs);
   }
   if (effects.has(Effect::vertexColors) && !scene.colors.empty()) {
-    tint(vertexColor(scene.colors[number], hit), material.vertexTint, s);
+    tint(vertexColor(scene.colors[number], hit), material, s);
   }
   double roughness = material.roughness;
   if (effects.has(Effect::textures) && material.roughnessMap != kNoTexture) {
@@ -268,6 +275,9 @@ void findColors(const Scene& scene, EffectSet effects, std::uint32_t number, con
   }
   roughness = std::max(roughness, double{kMinRoughness});
   s.alpha = roughness * roughness;
+  if (effects.has(Effect::textures) && material.occlusionMap != kNoTexture) {
+    s.occlusion = lookups.sample(&Material::occlusionMap, material.occlusionBySecondUvs).x;
+  }
   if (!effects.has(Effect::coverage)) return;
   s.coverage = material.coverage;
   if (material.coverageMap != kNoTexture) s.coverage *= lookups.sample(&Material::coverageMap).x;
@@ -420,6 +430,9 @@ std::optional<SurfelRow> findIntersections(const World& world, const Chunk& chun
   row.alpha = s.alpha;
   put(s.emission, row.emissionR, row.emissionG, row.emissionB);
   row.coverage = s.coverage;
+  row.occlusion = s.occlusion;
+  put(s.mirror, row.mirrorR, row.mirrorG, row.mirrorB);
+  put(s.transmission, row.transmissionR, row.transmissionG, row.transmissionB);
   put(s.lift, row.liftX, row.liftY, row.liftZ);
   row.cone = cone.widthAt(hit.t);
   row.flags = (s.entering ? kEntering : 0) | (crossing.hidden ? kHidden : 0);

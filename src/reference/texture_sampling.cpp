@@ -55,7 +55,9 @@ RgbD sampleTexture(const Texture& texture, double u, double v, TextureFilter fil
     const auto value = [&](int column, int row) {
       return valueOf(texture.format, texture.texel(column, row), number);
     };
-    if (filter == TextureFilter::nearest) return value(x.nearest(), y.nearest());
+    if (filter == TextureFilter::nearest || texture.nearest) {
+      return value(x.nearest(), y.nearest());
+    }
     const double upperRow =
         value(x.lower, y.lower) * (1 - x.fraction) + value(x.upper, y.lower) * x.fraction;
     const double lowerRow =

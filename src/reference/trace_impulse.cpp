@@ -129,8 +129,10 @@ RgbD Tracer::radianceByLobe(const SampledLobe& sampled, const Surfel& surfel, in
   for (int i = 0; i < rays; ++i) {
     const auto k = static_cast<std::uint32_t>(i);
     const UnitPoint at = pointOf(lobe, path.number, sampling, k);
-    sum += follow(impulseOf(surfel, media, at, options_.shading), lobe.kind, depth + 1, throughput,
-                  counts, childOf(path, lobe.firstBranch + k), rays, choice);
+    Impulse impulse = impulseOf(surfel, media, at, options_.shading);
+    impulse.weight *= occlusionOfLobes(surfel, depth);
+    sum += follow(impulse, lobe.kind, depth + 1, throughput, counts,
+                  childOf(path, lobe.firstBranch + k), rays, choice);
   }
   counts.ended = ended + (counts.ended - ended) / rays;
   return sum / rays;

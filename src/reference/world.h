@@ -30,10 +30,12 @@ struct Surfel {
   double retreat = 0;     // on the viewer's side, how far along `view` as well
   bool entering = false;  // the ray met the outside, where corners run counter-clockwise
   std::uint32_t material = 0;
-  RgbD diffuse, specular;   // textures and vertex colors applied
-  RgbD emission{1, 1, 1};   // what they multiply the material's by
+  RgbD diffuse, specular;  // textures and vertex colors applied
+  // What they multiply those of the material by.
+  RgbD emission{1, 1, 1}, mirror{1, 1, 1}, transmission{1, 1, 1};
   double alpha = 1;         // width of the glossy lobe (GGX), roughness squared
   double coverage = 1;      // the share of the surface that is there
+  double occlusion = 1;     // what indirect light is multiplied by
   RgbD aboveLobe{1, 1, 1};  // what mirror and interface leave for the samples of the lobe
   RgbD belowLobe{1, 1, 1};  // what these leave for transmission and diffuse color
   RayCone cone;             // of rays that go on from here
@@ -100,8 +102,13 @@ inline Surfel surfelOf(const Chunk& chunk, std::size_t slot) {
   s.diffuse = {r.diffuseR, r.diffuseG, r.diffuseB};
   s.specular = {r.specularR, r.specularG, r.specularB};
   if (chunk.has(Feature::emissionFactors)) s.emission = {r.emissionR, r.emissionG, r.emissionB};
+  if (chunk.has(Feature::mirrorMaps)) s.mirror = {r.mirrorR, r.mirrorG, r.mirrorB};
+  if (chunk.has(Feature::transmissionMaps)) {
+    s.transmission = {r.transmissionR, r.transmissionG, r.transmissionB};
+  }
   if (chunk.has(Feature::glossy)) s.alpha = r.alpha;
   if (chunk.has(Feature::coverage)) s.coverage = r.coverage;
+  if (chunk.has(Feature::occlusionMaps)) s.occlusion = r.occlusion;
   s.cone.width = r.cone;
   return s;
 }

@@ -24,12 +24,13 @@ inline RgbD reflectedAmbient(const Scene& scene, EffectSet effects, const Surfel
   if (effects.has(Effect::ambient) && !material.diffuses(effects)) {
     const RgbD up(scene.ambient.up), down(scene.ambient.down);
     light = surfel.diffuse * (down + (up - down) * (0.5 + 0.5 * surfel.shadingNormal.y));
+    light = light * surfel.occlusion;
   }
   if (!material.reflectsBlurredSky(effects) || scene.blurredSky.r.empty()) return light;
   const double cosine = dot(surfel.shadingNormal, surfel.view), roughness = std::sqrt(surfel.alpha);
   const Vec3d mirrored = normalized(surfel.shadingNormal * (2 * cosine) - surfel.view);
   const RgbD sky = blurredRadiance(scene.sky, scene.blurredSky, mirrored, roughness) *
-                   double{scene.ambient.reflection};
+                   (double{scene.ambient.reflection} * surfel.occlusion);
   return light + sky * lobeAlbedo(surfel.specular, std::max(cosine, 0.0), roughness);
 }
 

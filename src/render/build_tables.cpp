@@ -20,8 +20,9 @@ void copy3(const Rgb& from, float* to) {
   to[2] = from.z;
 }
 
-std::array<std::int32_t, 6> mapsOf(const MaterialRecord& r) {
-  return {r.diffuseMap, r.specularMap, r.roughnessMap, r.emissionMap, r.normalMap, r.coverageMap};
+std::array<std::int32_t, 9> mapsOf(const MaterialRecord& r) {
+  return {r.diffuseMap,  r.specularMap,  r.roughnessMap, r.emissionMap,    r.normalMap,
+          r.coverageMap, r.occlusionMap, r.mirrorMap,    r.transmissionMap};
 }
 
 // `onOthers`: a sheet may lie on a dielectric's face, which reflects through it.
@@ -44,6 +45,7 @@ std::uint32_t flagsOf(const Material& m, bool onOthers, EffectSet effects) {
   if (m.vertexTint == VertexTint::emission) flags |= kMaterialTintsEmission;
   if (m.emissionBySecondUvs) flags |= kMaterialEmissionBySecondUvs;
   if (m.normalBySecondUvs) flags |= kMaterialNormalBySecondUvs;
+  if (m.occlusionBySecondUvs) flags |= kMaterialOcclusionBySecondUvs;
   return flags;
 }
 
@@ -82,16 +84,22 @@ MaterialRecord recordOf(const Material& m, std::uint32_t medium, bool onOthers, 
   copy3(m.emission, r.emission);
   r.emissionMap = maps.of(m, &Material::emissionMap, effects.has(Effect::emissionMaps));
   r.normalMap = maps.of(m, &Material::normalMap, effects.has(Effect::normalMaps));
+  r.occlusionMap = maps.of(m, &Material::occlusionMap, textured);
   const float roughness = std::max(m.roughness, kMinRoughness);
   r.alpha = roughness * roughness;
   r.flags = flagsOf(m, onOthers, effects);
+  if (r.occlusionMap != kNoTexture) r.flags |= kMaterialIsOccluded;
+  if (m.variesMirror(effects)) r.flags |= kMaterialVariesMirror;
+  if (m.variesTransmission(effects)) r.flags |= kMaterialVariesTransmission;
+  r.mirrorMap = maps.of(m, &Material::mirrorMap, textured && m.hasMirror());
+  r.transmissionMap = maps.of(m, &Material::transmissionMap, textured && m.hasTransmission());
   for (const std::int32_t map : mapsOf(r)) {
     if (map != kNoTexture) r.flags |= kMaterialMapped;
   }
   r.medium = (r.flags & kMaterialTransmits) != 0 ? medium : 0;
   if (effects.has(Effect::mirror)) {
     copy3(m.mirror, r.mirror);
-    copy3(m.mirrorGrazing - m.mirror, r.grazingMinusMirror);
+    copy3(m.mirrorGrazing, r.mirrorGrazing);
   }
   copy3(m.transmission, r.transmission);
   return r;
@@ -137,7 +145,8 @@ constexpr TextureRecord kUnused{0, 1, 1, 0};
 
 TextureRecord recordOf(const Texture& t) {
   return {static_cast<std::uint32_t>(t.firstTexel), t.width, t.height,
-          static_cast<std::uint32_t>(t.wrapU) | static_cast<std::uint32_t>(t.wrapV) << 8};
+          static_cast<std::uint32_t>(t.wrapU) | static_cast<std::uint32_t>(t.wrapV) << 8 |
+              (t.nearest ? kNearestTexel : 0)};
 }
 
 // Adds the textures that the materials of `tables` use: those of the scene, or where lookups are

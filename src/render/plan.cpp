@@ -36,6 +36,7 @@ EffectSet consistent(const Scene& scene, EffectSet e) {
 FeatureSet featuresOf(const Scene& scene, const RenderOptions& options, EffectSet e) {
   const bool maps = e.has(Effect::textures) || e.has(Effect::normalMaps) || e.has(Effect::coverage);
   const bool emission = e.has(Effect::emission);
+  const auto any = [&](const auto& is) { return std::ranges::any_of(scene.materials, is); };
   return FeatureSet()
       .with(Feature::ambient,
             (e.has(Effect::ambient) || e.has(Effect::blurredSky)) && !isOccluded(scene.ambient, e))
@@ -45,9 +46,16 @@ FeatureSet featuresOf(const Scene& scene, const RenderOptions& options, EffectSe
       .with(Feature::vertexColors, e.has(Effect::vertexColors))
       .with(Feature::sky, e.has(Effect::sky))
       .with(Feature::glossy, e.has(Effect::glossy))
-      .with(Feature::roughnessMaps,
-            e.has(Effect::glossy) && e.has(Effect::textures) &&
-                std::ranges::any_of(scene.materials, &Material::variesRoughness))
+      .with(Feature::roughnessMaps, e.has(Effect::glossy) && e.has(Effect::textures) &&
+                                        any([](const Material& m) { return m.variesRoughness(); }))
+      .with(Feature::occlusionMaps, e.has(Effect::textures) && any([](const Material& m) {
+                                      return m.occlusionMap != kNoTexture;
+                                    }))
+      .with(Feature::mirrorMaps,
+            e.has(Effect::mirror) && any([&](const Material& m) { return m.variesMirror(e); }))
+      .with(Feature::transmissionMaps, e.has(Effect::transmission) && any([&](const Material& m) {
+                                         return m.variesTransmission(e);
+                                       }))
       .with(Feature::coverage, e.has(Effect::coverage))
       .with(Feature::streams, samplesLobes(e) || e.has(Effect::softShadows) ||
                                   isOccluded(scene.ambient, e) || options.roulette > 0)
@@ -192,6 +200,15 @@ class Planner {
       plan_.perQueue.push_back(amendingStep("keepChannels", simd::kInterpolateSurfels, keepChannels,
                                             {Part::rays, Part::hits, Part::surfels},
                                             {Part::channels}));
+    }
+    if (plan_.features.has(Feature::occlusionMaps)) {
+      plan_.perQueue.push_back(stepOf(simd::kLookUpOcclusion));
+    }
+    if (plan_.features.has(Feature::mirrorMaps)) {
+      plan_.perQueue.push_back(stepOf(simd::kLookUpMirror));
+    }
+    if (plan_.features.has(Feature::transmissionMaps)) {
+      plan_.perQueue.push_back(stepOf(simd::kLookUpTransmission));
     }
     if (std::ranges::any_of(scene_.materials,
                             [&](const Material& m) { return m.limitsDiffuse(plan_.effects); })) {

@@ -2,9 +2,9 @@
 // that a material does not have is a zero, and a surface may have several at once (a diffuse floor
 // with a mirror coat, glass that both reflects and refracts).
 //
-// Diffuse, specular and emission are multiplied by their maps and, as `vertexTint` says, by the
-// colors of the mesh's vertices. Radiance leaving towards the viewer, with n the shading normal
-// (Whitted 1980, with physical units):
+// Colors are multiplied by their maps and, as `vertexTint` says, by the colors of the mesh's
+// vertices; a mirror's at normal incidence only. Radiance leaving towards the viewer, with n the
+// shading normal (Whitted 1980, with physical units):
 //   emission
 //   + diffuse * ambient(n)
 //   or, under --indirect, + diffuse * mean of radiance along rays drawn by the cosine to n (where
@@ -13,6 +13,7 @@
 //   + reflectance * radiance along the mirrored ray
 //   + mean of radiance along rays that sample the glossy lobe (where glossyReflection)
 //   + transmittance * radiance along the refracted ray
+// Ambient light, the blurred sky, and the rays of lobes at the first hit count by `occlusionMap`.
 // All of that counts by the share of the surface that is there (`coverage`); through the rest light
 // goes straight on, as glTF's and most other formats' alpha has it (Porter and Duff 1984).
 // With the mirror's weight m and Fresnel's reflectance F of the interface (0 of what is no
@@ -33,6 +34,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -51,7 +53,8 @@ inline constexpr float kClearCoverage = 1.0f / 1024;  // less counts as clear
 // The name of the material of meshes that have none in their file.
 inline constexpr const char* kNoMaterialName = "default";
 
-// Vertex colors multiply the base color, which a metal has in `specular` too.
+// Vertex colors multiply the base color, which a metal has in `specular` and `mirror` too, and
+// glass in `transmission`.
 enum class VertexTint : std::uint8_t { diffuse, diffuseAndSpecular, emission };
 
 // Members are listed in scene/members.h.
@@ -72,8 +75,10 @@ struct Material {
   Rgb emission{0, 0, 0};                  // radiance, both sides, times emissionMap
   std::int32_t emissionMap = kNoTexture;  // color, or radiance where it goes beyond 1
   std::int32_t normalMap = kNoTexture;    // data, tangent space, +y up
-  // These two maps are looked up with Mesh::secondUvs.
-  bool emissionBySecondUvs = false, normalBySecondUvs = false;
+  // Indirect light counts times this map, as if something nearby held the rest off. Lights do not.
+  std::int32_t occlusionMap = kNoTexture;  // data, channel r
+  // These maps are looked up with Mesh::secondUvs.
+  bool emissionBySecondUvs = false, normalBySecondUvs = false, occlusionBySecondUvs = false;
   std::int32_t alphaMap = kNoTexture;  // data, channel r; cut where below alphaCutoff
   float alphaCutoff = 0.5f;
   // The share of the surface that is there, times coverageMap (data, channel r). Shadows are cast
@@ -85,11 +90,13 @@ struct Material {
   // grazing incidence with Schlick's (1 - cos)^5. A dielectric (transmission above zero) reflects
   // by its exact Fresnel reflectance besides.
   Rgb mirror{0, 0, 0};
+  std::int32_t mirrorMap = kNoTexture;  // color, multiplies `mirror`
   Rgb mirrorGrazing{0, 0, 0};
 
   // Refracted impulse, when `transmission` is above zero: the surface bounds a dielectric, or is a
   // sheet so thin that light goes straight on.
   Rgb transmission{0, 0, 0};
+  std::int32_t transmissionMap = kNoTexture;  // color
   bool thin = false;
   float ior = 1.5f;
   Rgb absorption{0, 0, 0};  // per unit length, inside
@@ -103,6 +110,10 @@ struct Material {
   // Place of these members in the scene's description (JSON pointer, RFC 6901), or empty.
   std::string pointer;
 
+  std::array<std::int32_t, 10> maps() const {
+    return {diffuseMap, specularMap, roughnessMap, emissionMap, normalMap,
+            alphaMap,   coverageMap, occlusionMap, mirrorMap,   transmissionMap};
+  }
   bool hasGlossy() const { return maxComponent(specular) > 0; }
   bool variesRoughness() const { return hasGlossy() && roughnessMap != kNoTexture; }
   bool hasGlossyReflection() const { return hasGlossy() && glossyReflection; }
@@ -128,6 +139,18 @@ struct Material {
   }
   bool hasMirror() const { return maxComponent(mirror) > 0 || maxComponent(mirrorGrazing) > 0; }
   bool hasTransmission() const { return maxComponent(transmission) > 0; }
+  // In frames with these effects the weight of the mirrored ray differs from hit to hit.
+  bool variesMirror(EffectSet effects) const {
+    const bool tinted = vertexTint == VertexTint::diffuseAndSpecular;
+    return hasMirror() && ((effects.has(Effect::textures) && mirrorMap != kNoTexture) ||
+                           (effects.has(Effect::vertexColors) && tinted));
+  }
+  // Likewise that of the refracted ray.
+  bool variesTransmission(EffectSet effects) const {
+    const bool tinted = vertexTint != VertexTint::emission;
+    return hasTransmission() && ((effects.has(Effect::textures) && transmissionMap != kNoTexture) ||
+                                 (effects.has(Effect::vertexColors) && tinted));
+  }
   bool isPartlyThere() const { return coverage < 1 || coverageMap != kNoTexture; }
   bool passesLight() const { return hasTransmission() || isPartlyThere(); }
   // Another medium begins behind the surface. A surface that is partly there is a sheet.

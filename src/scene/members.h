@@ -122,6 +122,7 @@ inline constexpr auto kMembers<Material> = std::tuple{
     Member{"emission", &Material::emission, {.kind = kColorMember, .usual = 1e4}},
     Member{"emissionMap", &Material::emissionMap, mapOf(TextureUse::emission)},
     Member{"normalMap", &Material::normalMap, mapOf(TextureUse::data)},
+    Member{"occlusionMap", &Material::occlusionMap, mapOf(TextureUse::data)},
     Member{"alphaMap", &Material::alphaMap, mapOf(TextureUse::mask)},
     Member{"alphaCutoff", &Material::alphaCutoff, {.baked = true, .low = 0, .high = 1}},
     Member{"coverage", &Material::coverage,
@@ -133,10 +134,12 @@ inline constexpr auto kMembers<Material> = std::tuple{
             .decides = {"alphaMap", "alphaCutoff"}}},
     Member{"mirror", &Material::mirror,
            {.kind = kColorMember, .high = 1, .decides = {"mirrorGrazing", "glossyReflection"}}},
+    Member{"mirrorMap", &Material::mirrorMap, mapOf(TextureUse::color)},
     Member{"mirrorGrazing", &Material::mirrorGrazing,
            {.kind = kColorMember, .high = 1, .decides = {"glossyReflection"}}},
     Member{"transmission", &Material::transmission,
            {.kind = kColorMember, .high = 1, .decides = {"castsShadow", "glossyReflection"}}},
+    Member{"transmissionMap", &Material::transmissionMap, mapOf(TextureUse::color)},
     Member{"thin", &Material::thin, {.matters = isTransparent}},
     Member{"ior", &Material::ior,
            {.low = kLeastIor, .high = kLargestIor, .usual = 3, .matters = isTransparent}},
@@ -149,6 +152,7 @@ inline constexpr auto kMembers<Material> = std::tuple{
     Member{"vertexTint", &Material::vertexTint, {.inFiles = false}},
     Member{"emissionBySecondUvs", &Material::emissionBySecondUvs, {.inFiles = false, .baked = true}},
     Member{"normalBySecondUvs", &Material::normalBySecondUvs, {.inFiles = false, .baked = true}},
+    Member{"occlusionBySecondUvs", &Material::occlusionBySecondUvs, {.inFiles = false, .baked = true}},
     Member{"doubleSided", &Material::doubleSided, {.baked = true}},
 };
 // clang-format on

@@ -56,11 +56,12 @@ inline constexpr int kTexelBorder = 2;
 inline constexpr int kTextureSideLimit = 1 << 20;
 
 // `texels` holds width * height rows from the top: texel (0, 0) is at uv (0, 1), as in OBJ, where v
-// points up. Sampling is bilinear with texel centers at half-integers.
+// points up. Texel centers lie at half-integers.
 struct Texture {
   std::string name;
   TexelFormat format = TexelFormat::color;
   Wrap wrapU = Wrap::repeat, wrapV = Wrap::repeat;
+  bool nearest = false;  // its texels are not interpolated; smaller mip levels are
   int width = 1, height = 1;
   std::vector<std::uint32_t> texels;
   // These take the place of `texels` in packTextures().

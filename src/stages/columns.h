@@ -29,6 +29,9 @@ namespace whit {
   X(sky, "a sky that is not black")                                         \
   X(glossy, "glossy lobes")                                                 \
   X(roughnessMaps, "roughness by a map")                                    \
+  X(occlusionMaps, "maps that dim indirect light")                          \
+  X(mirrorMaps, "mirrors by a map or vertex colors")                        \
+  X(transmissionMaps, "transmission by a map or vertex colors")             \
   X(coverage, "surfaces that are there in part")                            \
   X(streams, "random numbers along paths")                                  \
   X(transmission, "media along rays")                                       \
@@ -117,25 +120,29 @@ inline constexpr std::uint32_t kSharesPlace = 1u << 30;
 // is kMiss where the ray left the scene. `offset` is how far along the geometric normal a new ray
 // must start (hard cases H1-H4), and `retreat`, on the viewer's side, how far back along the
 // viewer's ray (H7). `flags`: kEntering, kHidden. `mediaBehind` is the stack of a refracted child;
-// the material's emission is multiplied by `emission`; `coverage` is the share of the surface that
-// is there: of all that it sends so much arrives, and through the rest light goes straight on;
-// `lift` is added to the position where shadow rays start; `cone` is the width that the ray's cone
-// has reached, and its children's start with.
-#define WHIT_SURFEL_COLUMNS(X)           \
-  WHIT_XYZ(X, pos, always)               \
-  WHIT_XYZ(X, ng, always)                \
-  WHIT_XYZ(X, ns, always)                \
-  X(float, offset, always)               \
-  X(float, retreat, always)              \
-  WHIT_RGB(X, diffuse, always)           \
-  X(std::uint32_t, material, always)     \
-  WHIT_RGB(X, specular, glossy)          \
-  X(float, alpha, glossy)                \
-  WHIT_RGB(X, emission, emissionFactors) \
-  X(float, coverage, coverage)           \
-  WHIT_XYZ(X, lift, lift)                \
-  X(float, cone, cones)                  \
-  X(std::uint32_t, flags, transmission)  \
+// the material's emission, mirror and transmission are multiplied by the columns of these names;
+// `coverage` is the share of the surface that is there: of all that it sends so much arrives, and
+// through the rest light goes straight on; `occlusion` multiplies indirect light; `lift` is added
+// to the position where shadow rays start; `cone` is the width that the ray's cone has reached, and
+// its children's start with.
+#define WHIT_SURFEL_COLUMNS(X)                \
+  WHIT_XYZ(X, pos, always)                    \
+  WHIT_XYZ(X, ng, always)                     \
+  WHIT_XYZ(X, ns, always)                     \
+  X(float, offset, always)                    \
+  X(float, retreat, always)                   \
+  WHIT_RGB(X, diffuse, always)                \
+  X(std::uint32_t, material, always)          \
+  WHIT_RGB(X, specular, glossy)               \
+  X(float, alpha, glossy)                     \
+  WHIT_RGB(X, emission, emissionFactors)      \
+  X(float, coverage, coverage)                \
+  X(float, occlusion, occlusionMaps)          \
+  WHIT_RGB(X, mirror, mirrorMaps)             \
+  WHIT_RGB(X, transmission, transmissionMaps) \
+  WHIT_XYZ(X, lift, lift)                     \
+  X(float, cone, cones)                       \
+  X(std::uint32_t, flags, transmission)       \
   X(std::uint32_t, mediaBehind, transmission)
 
 // Shadow rays of one light, compacted. Directions reach from the surfel to the light, not

@@ -24,11 +24,11 @@ struct alignas(64) MaterialRecord {
   std::int32_t emissionMap;
   // impulses
   float mirror[3];
-  float spare0;
-  float grazingMinusMirror[3];
-  float spare1;
+  std::int32_t mirrorMap;
+  float mirrorGrazing[3];
+  std::int32_t occlusionMap;
   float transmission[3];
-  float spare2;
+  std::int32_t transmissionMap;
   float roughness;  // before it is bounded below; times the map's
   std::int32_t roughnessMap;
   float coverage;
@@ -51,11 +51,18 @@ inline constexpr std::uint32_t kMaterialDiffuses = 8192;
 inline constexpr std::uint32_t kMaterialBlursSky = 32768;
 // Material::limitsDiffuse() in such frames.
 inline constexpr std::uint32_t kMaterialLimitsDiffuse = 16384;
+inline constexpr std::uint32_t kMaterialIsOccluded = 1u << 16,
+                               kMaterialOcclusionBySecondUvs = 1u << 17;
+// Maps or vertex colors multiply it.
+inline constexpr std::uint32_t kMaterialVariesMirror = 1u << 18,
+                               kMaterialVariesTransmission = 1u << 19;
 
+// Of a texture whose texels are not interpolated.
+inline constexpr std::uint32_t kNearestTexel = 1 << 16;
 struct TextureRecord {
   std::uint32_t firstTexel;  // index into texels
   std::int32_t width, height;
-  std::uint32_t wrap;  // wrapU | wrapV << 8 (Wrap's values)
+  std::uint32_t wrap;  // wrapU | wrapV << 8 (Wrap's values) | kNearestTexel
 };
 // Records of a texture's mip levels. The last level fills what it leaves empty, so that every level
 // has one above it.

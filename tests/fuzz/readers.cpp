@@ -96,8 +96,7 @@ void checkScene(const Scene& scene) {
   }
   const std::int32_t textures = static_cast<std::int32_t>(scene.textures.size());
   for (const Material& m : scene.materials) {
-    for (const std::int32_t map :
-         {m.diffuseMap, m.specularMap, m.roughnessMap, m.normalMap, m.alphaMap, m.coverageMap}) {
+    for (const std::int32_t map : m.maps()) {
       require(map == kNoTexture || (map >= 0 && map < textures), "a texture that is not there");
     }
   }

@@ -47,6 +47,7 @@ std::string contentOf(const SceneDescription& scene) {
     appendAll(texture.texels, all);
     append(texture.wrapU, all);
     append(texture.wrapV, all);
+    append(texture.nearest, all);
   }
   for (const Object& object : scene.objects) {
     for (const Mesh& mesh : object.meshes) {
@@ -281,6 +282,7 @@ TEST_F(EveryProperty, OfGltf) {
       {pbr + "baseColorTexture/texCoord", 1},
       {pbr + "metallicRoughnessTexture", {{"index", 0}}},
       {material + "normalTexture", {{"index", 0}}},
+      {material + "occlusionTexture", {{"index", 0}}},
       {material + "emissiveFactor", {1, 0, 0}},
       {material + "emissiveTexture", {{"index", 0}}},
       {material + "alphaMode", "BLEND"},
@@ -300,6 +302,7 @@ TEST_F(EveryProperty, OfGltf) {
       {extensions + "materials_transmission/transmissionFactor", 1},
       {extensions + "materials_transmission/transmissionTexture", {{"index", 0}}},
       {extensions + "materials_unlit", SchemaJson::object()},
+      {extensions + "materials_volume/thicknessFactor", 0},
       {extensions + "materials_volume/thicknessTexture", {{"index", 0}}},
       {extensions + "materials_volume/attenuationDistance", 1},
       {extensions + "materials_volume/attenuationColor", {1, 0.5, 0.25}},

@@ -79,7 +79,20 @@ TEST_F(GltfMaterials, WhatCannotBeShownIsCounted) {
   EXPECT_EQ(warned("thickness of a volume by a texture left out: what the mesh encloses counts"),
             1u);
   EXPECT_EQ(warned("texture left out"), 1u);
-  EXPECT_EQ(warned("texture to be looked up at its nearest texel, interpolated instead"), 1u);
+}
+
+TEST_F(GltfMaterials, FrostedGlassIsCounted) {
+  const auto count = [&](const std::string& roughness) {
+    loadText(sceneText(
+        {{0,
+          "{\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"roughnessFactor\":" + roughness +
+              "},\"extensions\":{\"KHR_materials_transmission\":"
+              "{\"transmissionFactor\":1}}}",
+          1}}));
+    return warned("frosted glass shown clear: the roughness of transmission left out");
+  };
+  EXPECT_EQ(count("0.05"), 0u);
+  EXPECT_EQ(count("0.5"), 1u);
 }
 
 }  // namespace

@@ -85,6 +85,42 @@ TEST_F(GltfMaterials, TextureTransformsAndSamplers) {
   expectPicture(show("\"offset\":[1,0]"), {green, red, white, blue});
 }
 
+// Four pixels to each of two texels.
+TEST_F(GltfMaterials, NearestSamplersDoNotInterpolate) {
+  save("t.tga", tga(2, 1, {{255, 255, 255}, {0, 0, 0}}));
+  const auto row = [&](const std::string& sampler) {
+    useImages({"t.tga"}, sampler);
+    return picture({{0, matte("\"baseColorTexture\":{\"index\":0}"), 1}}, 8);
+  };
+  const auto nearest = row("\"magFilter\":9728");
+  for (std::size_t x = 0; x < 8; ++x) {
+    const double at = (static_cast<double>(x) - 3.5) / 4;
+    expectColor(nearest[x], Rgb(x < 4 ? static_cast<float>(lit(at, 0.875)) : 0.0f));
+  }
+  const auto linear = row("\"magFilter\":9729");
+  expectColor(linear[3], Rgb(static_cast<float>(0.625 * lit(0.125, 0.875))));
+}
+
+// Ambient light is multiplied by 1 + strength (R - 1), the lamp is not.
+TEST_F(GltfMaterials, OcclusionDimsIndirectLight) {
+  save("o.tga", tga(2, 1, {{51, 255, 255}, {255, 0, 0}}));  // 0.2 and 1
+  save("even.tga", tga(1, 1, {{255, 0, 0}}));
+  useImages({"o.tga", "even.tga"});
+  const auto show = [&](const std::string& rest, const char* image = "0") {
+    SceneDescription d = loadText(sceneText(
+        {{0, matte("", "\"occlusionTexture\":{\"index\":" + std::string(image) + rest + "}"), 1}}));
+    d.ambient.up = d.ambient.down = Rgb(0.5f);
+    return pictureOf(std::move(d), 2);
+  };
+  const auto lamp = static_cast<float>(lit(0.5, 0.5));
+  expectColor(show("")[0], Rgb(lamp + 0.1f));
+  expectColor(show("")[1], Rgb(lamp + 0.5f));
+  expectColor(show(",\"strength\":0.5")[0], Rgb(lamp + 0.3f));
+  expectColor(show(",\"strength\":0")[0], Rgb(lamp + 0.5f));
+  expectColor(show("", "1")[0], Rgb(lamp + 0.5f));
+  EXPECT_EQ(kinds(), "");
+}
+
 // The texture's blue is the metalness; its green, the roughness, is 1.
 TEST_F(GltfMaterials, MetalnessTexelByTexel) {
   save("mr.tga", tga(2, 1, {{0, 255, 255}, {0, 255, 0}}));
@@ -129,7 +165,8 @@ TEST_F(GltfMaterials, AreSingleSidedUnlessTheFileSaysOtherwise) {
   // The ray has to leave what it has entered.
   EXPECT_TRUE(
       isDoubleSided(",\"pbrMetallicRoughness\":{\"metallicFactor\":0},\"extensions\":{\"KHR_"
-                    "materials_transmission\":{\"transmissionFactor\":1}}"));
+                    "materials_transmission\":{\"transmissionFactor\":1},"
+                    "\"KHR_materials_volume\":{\"thicknessFactor\":0.1}}"));
 }
 
 TEST_F(GltfMaterials, MeshesThatAreOnlySeenFromBehindAreNoted) {
@@ -267,13 +304,50 @@ TEST_F(GltfMaterials, TransmissionIsADielectric) {
   const auto through = [&](const std::string& rest) {
     return picture({{0, glass + rest + "}}", 1}, {-2, glowing("[1,1,1]"), 9}}, 1)[0];
   };
-  expectColor(through(""), Rgb{0.96f, 0.48f, 0.24f});
+  const std::string volume = ",\"KHR_materials_volume\":{\"thicknessFactor\":1}";
+  expectColor(through(volume), Rgb{0.96f, 0.48f, 0.24f});
   // ior 2: a ninth is reflected.
-  expectColor(through(",\"KHR_materials_ior\":{\"ior\":2}"), Rgb{8.0f, 4.0f, 2.0f} / 9.0f);
+  expectColor(through(volume + ",\"KHR_materials_ior\":{\"ior\":2}"), Rgb{8.0f, 4.0f, 2.0f} / 9.0f);
   // Over a distance of 2, the square of what a distance of 1 leaves.
   expectColor(through(",\"KHR_materials_volume\":{\"thicknessFactor\":1,\"attenuationDistance\":1,"
                       "\"attenuationColor\":[0.5,1,1]}"),
               Rgb{0.24f, 0.48f, 0.24f});
+}
+
+// A wall that fades from white to black, behind a pane that is turned by 45 degrees. A surface of
+// ior 1.5 bends the ray towards its normal, which leads to the left.
+TEST_F(GltfMaterials, WithoutAThicknessTransmissionDoesNotBendLight) {
+  candela_ = 0;
+  save("halves.tga", tga(2, 1, {{255, 255, 255}, {0, 0, 0}}));
+  useImages({"halves.tga"}, "\"wrapS\":33071");
+  // Between the middles of its two texels the wall is 0.5 - x / 4.
+  const std::string wall =
+      "{\"emissiveFactor\":[1,1,1],\"emissiveTexture\":{\"index\":0},\"pbrMetallicRoughness\":"
+      "{\"baseColorFactor\":[0,0,0,1]}}";
+  const auto seen = [&](const std::string& rest) {
+    const std::string pane =
+        "{\"doubleSided\":true,\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"roughnessFactor\":"
+        "0},"
+        "\"extensions\":{\"KHR_materials_transmission\":{\"transmissionFactor\":1}" +
+        rest + "}}";
+    SceneDescription d = loadText(sceneText({{0, pane, 1}, {-1, wall, 4}}));
+    d.instances.at(0).toWorld = Affine::rotation({0, 1, 0}, 45);
+    return pictureOf(std::move(d), 1)[0].x;
+  };
+  // Through a thin wall the middle of the wall is seen, 1/2, but for what the pane reflects by
+  // Schlick's law at 45 degrees.
+  const double reflected = 0.04 + 0.96 * std::pow(1 - std::sqrt(0.5), 5);
+  const auto thin = static_cast<float>(0.5 * (1 - reflected));
+  EXPECT_NEAR(seen(""), thin, kClose);
+  EXPECT_NEAR(seen(",\"KHR_materials_ior\":{\"ior\":2},\"KHR_materials_volume\":{}"),
+              0.5 * (1 - 1.0 / 9 - 8.0 / 9 * std::pow(1 - std::sqrt(0.5), 5)), kClose);
+  EXPECT_NEAR(seen(",\"KHR_materials_volume\":{\"thicknessFactor\":0,\"attenuationDistance\":1,"
+                   "\"attenuationColor\":[0.1,0.1,0.1]}"),
+              thin, kClose);
+  // The exact Fresnel reflectance of ior 1.5 at 45 degrees is 0.0502.
+  const double inside = std::asin(std::sin(kPi / 4) / 1.5), moved = std::tan(kPi / 4 - inside);
+  EXPECT_NEAR(seen(",\"KHR_materials_volume\":{\"thicknessFactor\":1}"),
+              (1 - 0.0502) * (0.5 + moved / 4), kClose);
 }
 
 TEST_F(GltfMaterials, SmoothSurfacesMirror) {
@@ -319,10 +393,11 @@ TEST_F(GltfMaterials, RoughSurfacesReflectInSamples) {
   // Smooth: one impulse, whatever the number of samples.
   expectColor(reflected("{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.2}}", 64),
               {1, 0.5f, 0.25f});
-  // What transmits keeps to its impulses.
+  // What bounds a volume keeps to its impulses.
   const std::string glass =
       "{\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"roughnessFactor\":0.5},\"extensions\":"
-      "{\"KHR_materials_transmission\":{\"transmissionFactor\":1}}}";
+      "{\"KHR_materials_transmission\":{\"transmissionFactor\":1},"
+      "\"KHR_materials_volume\":{\"thicknessFactor\":1}}}";
   expectColor(reflected(glass, 64), Rgb{0.04f, 0.02f, 0.01f});
 }
 

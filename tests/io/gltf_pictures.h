@@ -74,7 +74,10 @@ class GltfMaterials : public GltfTest {
 
   // n x n pixels, row by row from the top.
   std::vector<Rgb> picture(const std::vector<Square>& squares, int n) {
-    const Scene scene = Scene::finalize(loadText(sceneText(squares)), warnings_);
+    return pictureOf(loadText(sceneText(squares)), n);
+  }
+  std::vector<Rgb> pictureOf(SceneDescription description, int n) {
+    const Scene scene = Scene::finalize(std::move(description), warnings_);
     RenderOptions options;
     options.size = ImageSize{n, n};
     options.threads = 1;

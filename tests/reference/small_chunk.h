@@ -29,7 +29,15 @@ class SmallChunk {
     chunk.children = *children_;
     chunk.hits = *hits_;
     chunk.surfels = *surfels_;
-    if (features.has(Feature::coverage)) std::fill_n(chunk.surfels.coverage, kBlock, 1.0f);
+    const SurfelColumns& s = chunk.surfels;
+    if (features.has(Feature::coverage)) std::fill_n(s.coverage, kBlock, 1.0f);
+    if (features.has(Feature::occlusionMaps)) std::fill_n(s.occlusion, kBlock, 1.0f);
+    for (float* factor : {s.mirrorR, s.mirrorG, s.mirrorB}) {
+      if (features.has(Feature::mirrorMaps)) std::fill_n(factor, kBlock, 1.0f);
+    }
+    for (float* factor : {s.transmissionR, s.transmissionG, s.transmissionB}) {
+      if (features.has(Feature::transmissionMaps)) std::fill_n(factor, kBlock, 1.0f);
+    }
     chunk.unshadowed = *unshadowed_;
     chunk.shadows = *shadows_;
   }

@@ -91,6 +91,7 @@ struct Cost {
   BufferBytes buffers;
   std::size_t capacity = 0, texels = 0, instances = 0, lights = 0;
   bool skyImage = false, coplanar = false, coverage = false;
+  bool mirrorMaps = false, transmissionMaps = false, occlusionMaps = false;
 };
 
 Cost costWithout(EffectSet effects) {
@@ -112,6 +113,9 @@ Cost costWithout(EffectSet effects) {
   cost.skyImage = renderer.tables().sky.r != nullptr;
   cost.coplanar = !scene.coplanar.empty();
   cost.coverage = scene.effects.has(Effect::coverage);
+  cost.mirrorMaps = renderer.plan().features.has(Feature::mirrorMaps);
+  cost.transmissionMaps = renderer.plan().features.has(Feature::transmissionMaps);
+  cost.occlusionMaps = renderer.plan().features.has(Feature::occlusionMaps);
   return cost;
 }
 
@@ -127,6 +131,9 @@ std::size_t columnBytes(const Cost& cost, bool glossy, bool transmission, bool i
                                   .with(Feature::glossy, glossy)
                                   .with(Feature::transmission, transmission)
                                   .with(Feature::coverage, cost.coverage)
+                                  .with(Feature::mirrorMaps, cost.mirrorMaps)
+                                  .with(Feature::transmissionMaps, cost.transmissionMaps)
+                                  .with(Feature::occlusionMaps, cost.occlusionMaps)
                                   .with(Feature::instances, instances);
   return ColumnStore<Columns>(cost.capacity, features).bytes();
 }

@@ -100,6 +100,9 @@ void Probe::interpolate() {
   std::fill(hits_->triangle + count_, hits_->triangle + roundUpToBlock(count_), kMiss);
   run(simd::kInterpolateSurfels);
   if (chunk_.has(Feature::coverage)) run(simd::kLookUpCoverage);
+  if (chunk_.has(Feature::occlusionMaps)) run(simd::kLookUpOcclusion);
+  if (chunk_.has(Feature::mirrorMaps)) run(simd::kLookUpMirror);
+  if (chunk_.has(Feature::transmissionMaps)) run(simd::kLookUpTransmission);
 }
 
 void Probe::hitEach(std::uint32_t count) {
@@ -139,6 +142,11 @@ void Probe::surfel(std::size_t i, std::uint32_t material, const Vec3f& ng, const
   s.specularR[i] = s.specularG[i] = s.specularB[i] = 0;
   s.alpha[i] = 1;
   s.coverage[i] = 1;
+  if (chunk_.has(Feature::occlusionMaps)) s.occlusion[i] = 1;
+  if (chunk_.has(Feature::mirrorMaps)) s.mirrorR[i] = s.mirrorG[i] = s.mirrorB[i] = 1;
+  if (chunk_.has(Feature::transmissionMaps)) {
+    s.transmissionR[i] = s.transmissionG[i] = s.transmissionB[i] = 1;
+  }
   s.material[i] = material;
   s.flags[i] = kEntering;
   s.mediaBehind[i] = rays_->media[i] << 8 | tables().materials[material].medium;

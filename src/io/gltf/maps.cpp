@@ -50,11 +50,18 @@ namespace {
 
 using Images = std::vector<std::optional<Texture>>;
 
-enum GltfBakedMap { kGltfDiffuse, kGltfSpecular, kGltfAlpha, kGltfBakedMaps };
+enum GltfBakedMap { kGltfDiffuse, kGltfSpecular, kGltfTransmission, kGltfAlpha, kGltfBakedMaps };
 
 // Names the images that are baked together. An image is null where there is none or it cannot be
 // read; it counts as white then.
-enum GltfBakeImage { kBase, kMetallicRoughness, kSpecular, kSpecularColor, kBakeImages };
+enum GltfBakeImage {
+  kBase,
+  kMetallicRoughness,
+  kSpecular,
+  kSpecularColor,
+  kTransmission,
+  kBakeImages
+};
 using GltfBakeImages = std::array<std::shared_ptr<const RawImage>, kBakeImages>;
 
 struct Texel {
@@ -97,16 +104,18 @@ ChannelMean meanOf(const RawImage& raw, std::size_t channel) {
   return result;
 }
 
-// Tests the maps of diffuse and specular. The need for an alpha map follows from the image.
+// Tests all but the alpha map, whose need follows from the image.
 bool wantsBaked(const GltfMaterial& m, GltfBakedMap map) {
   const bool colored = m.baseMap.exists();
-  return map == kGltfDiffuse ? m.mixesMetal() || (colored && m.metallic < 1)
-                             : m.bakesSpecular() || (colored && m.metallic > 0);
+  if (map == kGltfTransmission) return m.bakesTransmission();
+  if (map == kGltfSpecular) return m.bakesSpecular() || (colored && m.metallic > 0);
+  return m.mixesMetal() || ((colored || m.variesTransmission()) && m.metallic < 1);
 }
 
-void setWrap(const GltfTexture& map, Texture& texture) {
+void setSampler(const GltfTexture& map, Texture& texture) {
   texture.wrapU = map.wrapU;
   texture.wrapV = map.wrapV;
+  texture.nearest = map.nearest;
 }
 
 // The texture of the alpha channel, or none where it has the same value everywhere.
@@ -124,7 +133,7 @@ std::optional<Texture> bakeAlpha(const GltfMaterial& m, const RawImage& raw,
   }
   const MemoryHold held = holdImage(m.where, raw.width, raw.height, sizeof(std::uint32_t), limits);
   Texture texture = makeAlphaTexture(m.name, raw);
-  setWrap(m.baseMap, texture);
+  setSampler(m.baseMap, texture);
   return texture;
 }
 
@@ -137,20 +146,22 @@ Images bake(const GltfMaterial& m, const GltfBakeImages& images, const ImageLimi
     width = std::max(width, raw ? raw->width : 1);
     height = std::max(height, raw ? raw->height : 1);
   }
-  const MemoryHold held = holdImage(m.where, width, height, 2 * sizeof(std::uint32_t), limits);
+  const MemoryHold held = holdImage(m.where, width, height, 3 * sizeof(std::uint32_t), limits);
   const Stretched bases{images[kBase].get(), width, height};
   const Stretched metals{images[kMetallicRoughness].get(), width, height};
   const Stretched speculars{images[kSpecular].get(), width, height};
   const Stretched tints{images[kSpecularColor].get(), width, height};
+  const Stretched clears{images[kTransmission].get(), width, height};
   Images maps(kGltfBakedMaps);
   const auto start = [&](GltfBakedMap map, TexelFormat format) {
     if (!wantsBaked(m, map)) return;
     maps[map] = emptyTexture(m.name, format, width, height);
-    setWrap(m.surfaceMap(), *maps[map]);
+    setSampler(m.surfaceMap(), *maps[map]);
   };
   const bool emits = m.unlit && images[kBase];
   start(kGltfDiffuse, emits ? emissionFormat(*images[kBase]) : TexelFormat::color);
   start(kGltfSpecular, TexelFormat::color);
+  start(kGltfTransmission, TexelFormat::color);
   RgbD colors, tintSum;
   double metallic = 0, strengths = 0;
   std::size_t i = 0;
@@ -163,9 +174,14 @@ Images bake(const GltfMaterial& m, const GltfBakeImages& images, const ImageLimi
       metallic += other.code[2];
       strengths += strength;
       tintSum += RgbD(tint);
+      const float clear = clears.at(x, y).code[0], rest = 1 - metal;
       if (maps[kGltfDiffuse]) {
-        const Rgb diffuse = m.mixesMetal() ? base * (1 - metal) : base;
+        const float blocked = m.variesTransmission() ? 1 - m.transmission * clear : 1;
+        const Rgb diffuse = base * ((m.mixesMetal() ? rest : 1) * blocked);
         maps[kGltfDiffuse]->texels[i] = encodeTexel(diffuse, maps[kGltfDiffuse]->format);
+      }
+      if (maps[kGltfTransmission]) {
+        maps[kGltfTransmission]->texels[i] = encodeColorTexel(base * (clear * rest));
       }
       if (!maps[kGltfSpecular]) continue;
       const Rgb f0 =
@@ -208,6 +224,19 @@ Texture alphaRamp(const std::string& name) {
   return texture;
 }
 
+// The share of indirect light, 1 + strength (R - 1); none where it is the same as without a map.
+std::optional<Texture> occlusionTexture(const GltfMaterial& material, const RawImage& raw) {
+  Texture texture = makeTexture(material.name, raw, TexelFormat::data);
+  bool dims = false;
+  for (std::uint32_t& texel : texture.texels) {
+    const float share =
+        1 + material.occlusionStrength * (static_cast<float>(texel & 255u) / 255 - 1);
+    texel = encodeDataTexel(share, 0, 0, 1);
+    dims = dims || share < 1;
+  }
+  return dims ? std::optional(std::move(texture)) : std::nullopt;
+}
+
 std::shared_ptr<const RawImage> decoded(const std::shared_ptr<GltfImage>& image,
                                         const ImageLimits& limits) {
   return image ? image->decode(limits) : nullptr;
@@ -219,13 +248,14 @@ std::string keyOf(const GltfMaterial& m) {
   for (const GltfTexture* map :
        {&m.baseMap, &m.metallicRoughnessMap, &m.normalMap, &m.emissiveMap, &m.specularMap,
         &m.specularColorMap, &m.transmissionMap, &m.clearcoatMap, &m.clearcoatRoughnessMap,
-        &m.roughnessMap, &m.maskMap}) {
+        &m.roughnessMap, &m.maskMap, &m.occlusionMap}) {
     key << (map->image ? static_cast<std::int64_t>(*map->image) : -1) << ' '
-        << static_cast<int>(map->wrapU) << static_cast<int>(map->wrapV) << ' ';
+        << static_cast<int>(map->wrapU) << static_cast<int>(map->wrapV) << map->nearest << ' ';
   }
-  key << std::hexfloat << m.normalScale << ' ' << static_cast<int>(m.alphaMode) << ' '
-      << m.alphaByVertex << (m.transmission > 0) << (m.clearcoat > 0) << m.emitsByMap() << m.unlit
-      << ' ' << m.metallic << ' ' << m.variesRoughness() << ' ';
+  key << std::hexfloat << m.normalScale << ' ' << m.occlusionStrength << ' '
+      << static_cast<int>(m.alphaMode) << ' ' << m.alphaByVertex << m.mirrorsByMap() << ' '
+      << m.transmission << ' ' << (m.clearcoat > 0) << m.emitsByMap() << m.unlit << ' '
+      << m.metallic << ' ' << m.variesRoughness() << ' ';
   if (m.bakesSpecular()) {
     key << m.f90 << ' ';
     for (int i = 0; i < 3; ++i) key << m.specularColor[i] << ' ' << m.base[i] << ' ';
@@ -262,9 +292,11 @@ TexturedMaterial GltfMapMaker::withMaps(const GltfMaterial& source, Material mat
   }
   const GltfMaps maps = ask(source, textures);
   forEachMap([&](const auto& member) {
-    // A roughness or coverage that is given is meant as it stands.
+    // A roughness, mirror, transmission or coverage that is given is meant as it stands.
     const bool isReplaced =
         (member.field == &Material::roughnessMap && given.contains("roughness")) ||
+        (member.field == &Material::mirrorMap && given.contains("mirror")) ||
+        (member.field == &Material::transmissionMap && given.contains("transmission")) ||
         (member.field == &Material::coverageMap && given.contains("coverage"));
     if (isReplaced || given.contains(member.name)) return;
     material.*member.field = maps.slots.*member.field;
@@ -286,9 +318,10 @@ GltfMaps GltfMapMaker::ask(const GltfMaterial& m, TextureLoader& textures) {
   const auto image = [&](const GltfTexture& map) {
     return map.image ? images_[*map.image] : nullptr;
   };
-  if (m.baseMap.exists() || m.metallicRoughnessMap.exists() || m.variesF0()) {
+  if (m.baseMap.exists() || m.metallicRoughnessMap.exists() || m.variesF0() ||
+      m.variesTransmission()) {
     const std::array sources{image(m.baseMap), image(m.metallicRoughnessMap), image(m.specularMap),
-                             image(m.specularColorMap)};
+                             image(m.specularColorMap), image(m.transmissionMap)};
     const auto baked = textures.add(kGltfBakedMaps, [=, &textures, &warnings] {
       const ImageLimits limits = textures.limits();
       GltfBakeImages images;
@@ -300,7 +333,11 @@ GltfMaps GltfMapMaker::ask(const GltfMaterial& m, TextureLoader& textures) {
     if (wantsBaked(m, kGltfDiffuse)) {
       (m.unlit ? slots.emissionMap : slots.diffuseMap) = baked[kGltfDiffuse];
     }
-    if (wantsBaked(m, kGltfSpecular)) slots.specularMap = baked[kGltfSpecular];
+    if (wantsBaked(m, kGltfSpecular)) {
+      slots.specularMap = baked[kGltfSpecular];
+      if (m.mirrorsByMap()) slots.mirrorMap = slots.specularMap;
+    }
+    if (wantsBaked(m, kGltfTransmission)) slots.transmissionMap = baked[kGltfTransmission];
     if (m.alphaMode != GltfMaterial::Alpha::opaque) slots.alphaMap = baked[kGltfAlpha];
     if (m.alphaMode == GltfMaterial::Alpha::blend) slots.coverageMap = baked[kGltfAlpha];
   }
@@ -319,13 +356,17 @@ GltfMaps GltfMapMaker::ask(const GltfMaterial& m, TextureLoader& textures) {
       const MemoryHold held =
           holdImage(where, raw->width, raw->height, sizeof(std::uint32_t), limits);
       made[0] = make(*raw);
-      if (made[0]) setWrap(map, *made[0]);
+      if (made[0]) setSampler(map, *made[0]);
       return made;
     })[0];
   };
   if (m.normalMap.exists()) {
     slots.normalMap =
         single(m.normalMap, [m](const RawImage& raw) { return normalTexture(m, raw); });
+  }
+  if (m.occlusionMap.exists()) {
+    slots.occlusionMap =
+        single(m.occlusionMap, [m](const RawImage& raw) { return occlusionTexture(m, raw); });
   }
   if (m.variesRoughness()) {
     slots.roughnessMap = single(m.roughnessMap, [=](const RawImage& raw) {
@@ -360,10 +401,6 @@ GltfMaps GltfMapMaker::ask(const GltfMaterial& m, TextureLoader& textures) {
       return Images();
     });
   };
-  if (m.transmission > 0) {
-    mean(m.transmissionMap, 0, &GltfMeans::transmission,
-         "transmission by a texture taken by its mean");
-  }
   if (m.clearcoat > 0) {
     mean(m.clearcoatMap, 0, &GltfMeans::clearcoat, "clearcoat by a texture taken by its mean");
     mean(m.clearcoatRoughnessMap, 1, &GltfMeans::clearcoatRoughness,

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "scene/members.h"
+
 namespace whit {
 namespace {
 
@@ -55,10 +57,7 @@ GltfTexture readTexture(const GltfDocument& document, const std::string& where,
     result.wrapU = readWrap(sampler["wrapS"]);
     result.wrapV = readWrap(sampler["wrapT"]);
     constexpr std::uint64_t kNearest = 9728;
-    if (sampler["magFilter"].wholeOr(0) == kNearest) {
-      document.warnings().add("texture to be looked up at its nearest texel, interpolated instead",
-                              where);
-    }
+    result.nearest = sampler["magFilter"].wholeOr(0) == kNearest;
   }
   result.uv.set = readSet(info["texCoord"], 0);
   const JsonValue transform = info["extensions"]["KHR_texture_transform"];
@@ -102,6 +101,8 @@ GltfMaterial readMaterial(const GltfDocument& document, const JsonValue& source)
   m.roughnessMap = m.metallicRoughnessMap;
   m.normalMap = texture(source["normalTexture"]);
   m.normalScale = readNumber(source["normalTexture"]["scale"], 1, -1e3, 1e3);
+  m.occlusionMap = texture(source["occlusionTexture"]);
+  m.occlusionStrength = readNumber(source["occlusionTexture"]["strength"], 1);
   const JsonValue emission =
       source["emissiveFactor"];  // some writers store a strength above 1 here
   if (emission.exists() && !m.unlit) {
@@ -127,9 +128,14 @@ GltfMaterial readMaterial(const GltfDocument& document, const JsonValue& source)
   const JsonValue transmission = extensions["KHR_materials_transmission"];
   m.transmission = readNumber(transmission["transmissionFactor"], 0);
   m.transmissionMap = texture(transmission["transmissionTexture"]);
+  // Below this nobody sees that the glass is not frosted.
+  constexpr float kClearRoughness = 0.1f;
+  warnIf(m.transmission > 0 && m.roughness > kClearRoughness,
+         "frosted glass shown clear: the roughness of transmission left out");
   const JsonValue volume = extensions["KHR_materials_volume"];
   warnIf(volume["thicknessTexture"].exists(),
          "thickness of a volume by a texture left out: what the mesh encloses counts");
+  m.thickness = readNumber(volume["thicknessFactor"], 0, 0, kLargestNumber);
   const double distance = volume["attenuationDistance"].numberOr(0);  // 0: nothing is absorbed
   const Rgb kept = colorOf(volume["attenuationColor"].numbers(3));
   for (int i = 0; distance > 0 && i < 3; ++i) {
@@ -152,7 +158,8 @@ Rgb mix(const Rgb& a, const Rgb& b, float t) { return a * (1 - t) + b * t; }
 const GltfTexture& GltfMaterial::surfaceMap() const {
   if (baseMap.exists()) return baseMap;
   if (mixesMetal()) return metallicRoughnessMap;
-  return variesF0() && specularMap.exists() ? specularMap : variesF0() ? specularColorMap : baseMap;
+  if (variesF0()) return specularMap.exists() ? specularMap : specularColorMap;
+  return variesTransmission() ? transmissionMap : baseMap;
 }
 
 GltfMaterial::Coordinates GltfMaterial::coordinates() const {
@@ -169,6 +176,7 @@ GltfMaterial::Coordinates GltfMaterial::coordinates() const {
   add(maskMap, !surfaceMap().exists() && maskMap.exists());
   add(normalMap, normalMap.exists());
   add(emissiveMap, emitsByMap());
+  add(occlusionMap, occlusionMap.exists());
   return found;
 }
 
@@ -177,8 +185,12 @@ bool lacksCoordinates(const GltfMaterial& m) {
   const auto isApart = [&](bool matters, const GltfTexture& map) {
     return matters && map.exists() && m.surfaceMap().exists() && !(map.uv == m.surfaceMap().uv);
   };
-  const GltfUvMap& emission = m.emissiveMap.uv;
-  return (m.emitsByMap() && !(emission == known.first) && !(emission == known.second)) ||
+  const auto isThird = [&](const GltfTexture& map) {
+    return !(map.uv == known.first) && !(map.uv == known.second);
+  };
+  return (m.emitsByMap() && isThird(m.emissiveMap)) ||
+         (m.occlusionMap.exists() && isThird(m.occlusionMap)) ||
+         isApart(m.variesTransmission(), m.transmissionMap) ||
          isApart(m.variesRoughness(), m.roughnessMap) ||
          isApart(m.mixesMetal(), m.metallicRoughnessMap) || isApart(true, m.maskMap) ||
          isApart(m.variesF0(), m.specularMap) || isApart(m.variesF0(), m.specularColorMap);
@@ -206,12 +218,14 @@ Material shadedAs(const GltfMaterial& g, const GltfMeans& means) {
   const GltfMaterial::Coordinates coordinates = g.coordinates();
   m.normalBySecondUvs = coordinates.bySecond(g.normalMap);
   m.emissionBySecondUvs = coordinates.bySecond(g.emissiveMap);
+  m.occlusionBySecondUvs = coordinates.bySecond(g.occlusionMap);
   m.alphaCutoff = g.alphaMode == GltfMaterial::Alpha::mask && g.alpha > 0
                       ? std::min(g.alphaCutoff / g.alpha, 1.0f)
                       : 0.5f;
+  m.thin = g.transmission > 0 && g.thickness == 0;
   if (g.alphaMode == GltfMaterial::Alpha::blend) {
     m.coverage = std::min(g.alpha * means.alpha, 1.0f);
-    m.thin = means.alphaByMap;
+    m.thin = m.thin || means.alphaByMap;
     if (means.alphaByMap) m.alphaCutoff = kClearCoverage;
   }
   // A mask that cuts everything, with or without a map.
@@ -227,11 +241,11 @@ Material shadedAs(const GltfMaterial& g, const GltfMeans& means) {
   const Rgb f0 = g.f0(means.specularColor, means.specular);
   const float f90 = g.f90 * means.specular;
   const float metal = g.metallic * means.metallic;
-  const float clear = g.transmission * means.transmission;
+  const float clear = g.variesTransmission() ? 0 : g.transmission;
   if (metal >= 0.5f) m.vertexTint = VertexTint::diffuseAndSpecular;
   m.diffuse = g.base * ((g.mixesMetal() ? 1 : 1 - metal) * (1 - clear));
   m.specular = g.bakesSpecular() ? Rgb(1.0f) : mix(f0, g.base, metal);
-  m.transmission = base * (clear * (1 - metal));
+  m.transmission = g.base * (g.transmission * (g.bakesTransmission() ? 1 : 1 - metal));
   if (m.boundsMedium()) {
     m.ior = g.ior;
     m.absorption = g.absorption;
@@ -240,7 +254,7 @@ Material shadedAs(const GltfMaterial& g, const GltfMeans& means) {
   if (roughness <= kGltfSmoothRoughness) {
     // The dielectric adds its own reflectance.
     const float share = m.boundsMedium() ? metal : 1.0f;
-    m.mirror = mix(f0, base, metal) * share;
+    m.mirror = (g.mirrorsByMap() ? m.specular : mix(f0, base, metal)) * share;
     m.mirrorGrazing = Rgb((f90 * (1 - metal) + metal) * share);
   }
   if (g.clearcoatRoughness * means.clearcoatRoughness <= kGltfSmoothRoughness) {

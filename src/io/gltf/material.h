@@ -39,6 +39,7 @@ struct GltfUvMap {
 struct GltfTexture {
   std::optional<std::size_t> image;
   Wrap wrapU = Wrap::repeat, wrapV = Wrap::repeat;
+  bool nearest = false;  // magnified without interpolation
   GltfUvMap uv;
   bool exists() const { return image.has_value(); }
 };
@@ -55,17 +56,19 @@ struct GltfMaterial {
   Alpha alphaMode = Alpha::opaque;
   float alphaCutoff = 0.5f;
   float transmission = 0, ior = 1.5f;
+  float thickness = 0;  // of the volume; 0: the surface is a thin wall
   Rgb absorption{0, 0, 0};
   float clearcoat = 0, clearcoatRoughness = 0;
   bool unlit = false, doubleSided = false;
-  GltfTexture baseMap, metallicRoughnessMap, normalMap, emissiveMap;
+  GltfTexture baseMap, metallicRoughnessMap, normalMap, emissiveMap, occlusionMap;
   GltfTexture roughnessMap;                   // glTF has it in metallicRoughnessMap, MTL apart
   GltfTexture maskMap;                        // of MTL: cuts in place of the base color's alpha
   GltfTexture specularMap, specularColorMap;  // strength in alpha, color
   GltfTexture transmissionMap, clearcoatMap, clearcoatRoughnessMap;
-  float normalScale = 1;
+  float normalScale = 1, occlusionStrength = 1;
   // The alpha of vertex colors counts: u is alphaRampU() of it. There are no maps then.
   bool alphaByVertex = false;
+  bool mirrorIsApart = false;        // of MTL: no reflectance at normal incidence
   bool normalsMayBeHeights = false;  // of MTL: a gray normalMap holds heights
 
   // The coordinates of the maps that it needs texel by texel: those of the first there is, and the
@@ -93,9 +96,17 @@ struct GltfMaterial {
   bool bakesSpecular() const { return mixesMetal() || variesF0(); }
   // Whose coordinates diffuse and specular reflectance are looked up with; none: there is no map.
   const GltfTexture& surfaceMap() const;
+  // True if the map of diffuse reflectance lacks what passes, and if a map holds what passes.
+  bool variesTransmission() const { return transmission > 0 && transmissionMap.exists(); }
+  bool bakesTransmission() const {
+    return variesTransmission() || (transmission > 0 && (baseMap.exists() || mixesMetal()));
+  }
+  // A clearcoat's reflection is added to that of the base, so that no map can be for both.
+  bool mirrorsByMap() const { return clearcoat == 0 && !mirrorIsApart; }
   bool variesRoughness() const { return roughnessMap.exists() && roughness > 0; }
   bool isMapped() const {
-    return surfaceMap().exists() || variesRoughness() || normalMap.exists() || emitsByMap();
+    return surfaceMap().exists() || variesRoughness() || normalMap.exists() || emitsByMap() ||
+           occlusionMap.exists();
   }
   bool emitsByMap() const { return emissiveMap.exists() && maxComponent(emission) > 0; }
 };
@@ -110,7 +121,7 @@ std::vector<GltfMaterial> readGltfMaterials(const GltfDocument& document);
 // The means of maps that the factors of a Material depend on.
 struct GltfMeans {
   Rgb base{1, 1, 1};
-  float metallic = 1, roughness = 1, transmission = 1;
+  float metallic = 1, roughness = 1;
   bool roughnessByMap = false;  // its texels differ and are multiplied with the factor
   float specular = 1;           // its strength
   Rgb specularColor{1, 1, 1};
@@ -132,19 +143,20 @@ inline constexpr float kGltfSmoothRoughness = 0.25f;
 // - specular, the lobe that lights are seen in, is f0 = ((ior - 1) / (ior + 1))^2 or the base
 //   color of metal, texel by texel, as are strength and color of KHR_materials_specular, and the
 //   roughness.
-// - Surfaces that are smooth on average also mirror the scene, from the mean of that to f90 at
-//   grazing incidence. Rough ones reflect it in samples of the lobe, unless they bound a volume.
-// - transmission bounds a dielectric of this ior (exact Fresnel reflectance), tinted by the base
-//   color at each crossing, with the absorption of its volume; surfaces must be closed. It is
-//   clear whatever the roughness, and a map of it counts by its mean.
+// - Surfaces that are smooth on average also mirror the scene, from that to f90 at grazing
+//   incidence, below a clearcoat from its mean. Rough ones reflect it in samples of the lobe,
+//   unless they bound a volume.
+// - transmission is tinted by the base color at each crossing. With a volume of some thickness the
+//   surface bounds a dielectric of this ior (exact Fresnel reflectance) and absorption, and must be
+//   closed; without one it is a thin wall. It is clear whatever the roughness.
 // - blending lets 1 - alpha straight through, texel by texel; what blends is a sheet, whatever it
 //   transmits besides.
 // - a smooth clearcoat adds a mirror of 0.04 at normal incidence; maps of it count by their means.
 // - unlit colors are emitted, and nothing else is.
 // - single-sided surfaces are passed from behind by all rays but those of shadows, unless they
 //   bound a volume.
-// - vertex colors multiply the base color: diffuse, of what is mostly metal specular as well, but
-//   no mirror; of unlit materials the emission.
+// - vertex colors multiply the base color: diffuse and transmission, of what is mostly metal
+//   specular and mirror as well; of unlit materials the emission.
 Material shadedAs(const GltfMaterial& source, const GltfMeans& means);
 
 // An image of the document, decoded when it is asked for and for as long as somebody holds it.

@@ -311,6 +311,7 @@ class Interpreter {
     if (!isMirror || isRough) return;
     result.mirror = highlight;
     result.mirrorGrazing = illum_ == 5 ? Rgb(1.0f) : highlight;
+    result.surface.mirrorIsApart = true;
   }
 
   void readGlass(ObjMaterial& result) {

@@ -18,15 +18,21 @@ Wrap readWrapWord(const JsonValue& value) {
   return word == "repeat" ? Wrap::repeat : word == "mirror" ? Wrap::mirror : Wrap::clamp;
 }
 
-void readWrap(JsonObject& object, Wrap& u, Wrap& v) {
-  const JsonValue value = object.find("wrap");
-  if (!value) return;
-  if (value.isArray()) {
-    const auto both = value.elements(2, "one way to wrap, or two [u, v]");
-    u = readWrapWord(both[0]);
-    v = readWrapWord(both[1]);
+// Reads how a texture (a Texture or its TextureSource) is looked up.
+template <typename Sampled>
+void readSampler(JsonObject& object, Sampled& sampled) {
+  if (const JsonValue filter = object.find("filter")) {
+    sampled.nearest = filter.word({"linear", "nearest"}) == "nearest";
+  }
+
+  const JsonValue wrap = object.find("wrap");
+  if (!wrap) return;
+  if (wrap.isArray()) {
+    const auto both = wrap.elements(2, "one way to wrap, or two [u, v]");
+    sampled.wrapU = readWrapWord(both[0]);
+    sampled.wrapV = readWrapWord(both[1]);
   } else {
-    u = v = readWrapWord(value);
+    sampled.wrapU = sampled.wrapV = readWrapWord(wrap);
   }
 }
 
@@ -36,7 +42,7 @@ Texture makePattern(const JsonValue& definition, std::uint64_t mostBytes) {
   const JsonValue pattern = object.need("pattern");
   Texture made = generate(pattern, patternGenerators(), object);
   made.name = pattern.text();
-  readWrap(object, made.wrapU, made.wrapV);
+  readSampler(object, made);
   object.finish();
   return made;
 }
@@ -133,7 +139,7 @@ std::int32_t MaterialReader::load(const JsonValue& definition, const JsonValue& 
   } else {
     source.path = context_.rules.resolve(image.text(), context_.folder, source.where).string();
   }
-  readWrap(object, source.wrapU, source.wrapV);
+  readSampler(object, source);
   TextureUse readAs = use.value_or(TextureUse::color);
   if (const JsonValue as = object.find("as")) {
     const bool isData = as.word({"color", "data"}) == "data";
