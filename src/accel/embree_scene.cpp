@@ -78,11 +78,15 @@ bool isOpaque(const RTCFilterFunctionNArguments& args, unsigned lane) {
   const auto& triangles = *static_cast<const FilteredTriangles*>(args.geometryUserPtr);
   const TriangleRecord& record = triangles.recordOf(RTCHitN_primID(args.hit, args.N, lane));
   const Mask& mask = triangles.masks[record.material];
-  float margin = marginAt<kCutoff>(mask, record.uv, RTCHitN_u(args.hit, args.N, lane),
-                                   RTCHitN_v(args.hit, args.N, lane));
-  if (std::abs(margin) < kCloseCall) {
+  float u = RTCHitN_u(args.hit, args.N, lane), v = RTCHitN_v(args.hit, args.N, lane);
+  float margin = marginAt<kCutoff>(mask, record.uv, u, v);
+  // Embree gives the first corner for all hits on triangles whose area, by its product with the
+  // ray's direction, is below 1e-18.
+  const bool mayBeUnknown = u == 0 && v == 0;
+  if (mayBeUnknown || std::abs(margin) < kCloseCall) {
     const ExactHit hit = exactHit(args, lane);
-    const auto u = static_cast<float>(hit.u), v = static_cast<float>(hit.v);
+    u = static_cast<float>(hit.u);
+    v = static_cast<float>(hit.v);
     margin = marginAt<kCutoff>(mask, record.uv, u, v);
   }
   return margin >= 0;

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
+#include <limits>
 #include <random>
 
 #include "accel/accel.h"
@@ -40,18 +40,21 @@ double alphaOfStripes(double x) {
   return static_cast<int>(left) % 2 == 0 ? 1 - fraction : fraction;
 }
 
-// The square seen from 200 times its size away: Embree's weights are off by some 1e-5 there, and
-// alpha changes 64 times as fast.
-TEST(CloseCalls, OfMasksAreDecidedByTheRay) {
+// The square of this size seen from 200 times its size away: Embree's weights are off by some 1e-5
+// there, and alpha changes 64 times as fast.
+void expectStripesAreExact(float size) {
   // Alpha's rounding in float: a coordinate's last bit times the number of columns, some times
   // over.
   constexpr double kOpen = 8 * kStripes * 0x1p-24;
-  const Scene scene = finalized(stripedSquare());
+  constexpr float kFar = std::numeric_limits<float>::infinity();
+  SceneDescription d = stripedSquare();
+  for (Vec3f& p : d.objects[0].meshes[0].positions) p = p * size;
+  const Scene scene = finalized(std::move(d));
   const Accel accel(scene, RenderOptions());
   std::mt19937 random(3);
   std::uniform_int_distribution<int> edge(1, kStripes - 2);
   std::uniform_real_distribution<float> beside(-1e-4f, 1e-4f), height(0.1f, 0.9f), off(-30, 30);
-  int decided = 0, wrong = 0;
+  int decided = 0, wrong = 0, wrongShadows = 0;
   for (int i = 0; i < kCloseRays; ++i) {
     const float x = (static_cast<float>(edge(random))) / kStripes + beside(random);
     const Vec3f origin{off(random), off(random), 200};
@@ -60,10 +63,22 @@ TEST(CloseCalls, OfMasksAreDecidedByTheRay) {
     const double margin = alphaOfStripes(double{origin.x} + t * double{direction.x}) - 0.5;
     if (std::abs(margin) < kOpen) continue;
     ++decided;
-    wrong += accel.closest(origin, direction).found() != (margin > 0);
+    wrong += accel.closest(origin * size, direction).found() != (margin > 0);
+    wrongShadows += accel.occluded(origin * size, direction, kFar) != (margin > 0);
   }
   EXPECT_EQ(wrong, 0) << "of " << decided;
+  EXPECT_EQ(wrongShadows, 0) << "of " << decided;
   EXPECT_GT(decided, kCloseRays / 2);
+}
+
+TEST(CloseCalls, OfMasksAreDecidedByTheRay) { expectStripesAreExact(1); }
+
+// Embree does not say where rays hit triangles as small as these.
+TEST(CloseCalls, OfMasksOfTinyTrianglesAreDecidedByTheRay) {
+  for (const float size : {0x1p-17f, 0x1p-36f, 0x1p-50f}) {
+    SCOPED_TRACE(size);
+    expectStripesAreExact(size);
+  }
 }
 
 // A single-sided square seen nearly edge-on, tilted so that no product of its slope is exact.

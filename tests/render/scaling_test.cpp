@@ -4,9 +4,12 @@
 #include <cmath>
 
 #include "render/shipped_scene.h"
+#include "verify/scene_builder.h"
 
 namespace whit::test {
 namespace {
+
+using namespace verify;
 
 SceneDescription description(const std::string& name) {
   Warnings warnings;
@@ -51,6 +54,37 @@ TEST_P(Scaling, H61a_aPowerOfTwoLeavesEveryBit) {
     const Scene scene = Scene::finalize(std::move(d), warnings);
     EXPECT_EQ(firstDifference(render(scene, smallOptions()).image, expected), "")
         << GetParam() << " times 2^" << k;
+  }
+}
+
+// Leaves cut out of triangles before a floor, which take their shadows from a lamp.
+SceneDescription masked() {
+  SceneBuilder builder;
+  Material leaf = diffuseMaterial(0.5f);
+  leaf.alphaCutoff = 0.5f;
+  std::vector<std::uint32_t> texels;
+  for (int i = 0; i < 64; ++i) texels.push_back(encodeDataTexel(i % 5 == 0 ? 0.0f : 1.0f, 0, 0, 1));
+  leaf.alphaMap = builder.add(makeTexture(TexelFormat::data, 8, 8, std::move(texels)));
+  const std::uint32_t leaves = builder.add(leaf);
+  for (int i = 0; i < 400; ++i) {
+    const float x = 0.01f * static_cast<float>(i % 20), y = 0.01f * static_cast<float>(i / 20);
+    builder.add(
+        quad({x, y, 0}, {x + 0.01f, y, 0}, {x + 0.01f, y + 0.01f, 0}, {x, y + 0.01f, 0}, leaves));
+  }
+  builder.add(floorAt(-0.01f, 1, builder.add(diffuseMaterial(0.5f))));
+  builder.description.lights = {lightAt({0.3f, 0.5f, 0.4f}, 1)};
+  builder.description.cameras = {{.eye = {0.1f, 0.2f, 0.3f}, .at = {0.1f, 0.08f, 0}}};
+  return builder.describe();
+}
+
+TEST(ScalingOfMasks, H61a_aPowerOfTwoLeavesEveryBit) {
+  Warnings warnings;
+  const Image expected = render(Scene::finalize(masked(), warnings), smallOptions()).image;
+  for (const int k : {-25, -20, -17, 20}) {
+    SceneDescription d = masked();
+    scale(d, k);
+    const Scene scene = Scene::finalize(std::move(d), warnings);
+    EXPECT_EQ(firstDifference(render(scene, smallOptions()).image, expected), "") << "2^" << k;
   }
 }
 
