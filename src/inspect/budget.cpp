@@ -16,6 +16,7 @@
 #include "core/text.h"
 #include "inspect/knobs.h"
 #include "inspect/metrics.h"
+#include "stages/lobes.h"
 
 namespace whit {
 
@@ -40,6 +41,11 @@ constexpr double kProbeMsOfTarget = 300, kShortMs = 40;
 constexpr double kLeastBlocks = 8, kMostBlocks = 1000, kLeastPackets = 128, kLeastTimed = 16;
 constexpr double kAssessShare = 0.01;
 constexpr double kChannelMargin = 1.25;  // of the noise that the channel `error` tells
+// The mean of k equal samples among black ones has the relative standard error 1 / sqrt(k) (Kish
+// 1965 calls k the effective number of samples). Where fewer than so many decide a pixel and those
+// around it, they tell little about the samples that were not drawn; and where the other pixels
+// have less than this share of the squared error, the error is not known.
+constexpr double kFewSamples = 8, kLeastKnown = 0.5;
 constexpr int kRounds = 3;
 // The time that is aimed at, over the rest of the budget: whole samples leave some of it, and
 // measured times are a little too long, by caches that are cold.
@@ -81,6 +87,30 @@ Image pooled(const Image& image) {
 void setError(Receipt& r, double error) {
   r.error = error;
   r.low = error / (1 + kModelError), r.high = error * (1 + kModelError);
+}
+
+// The error is an estimate that nothing bounds.
+void leaveUnknown(Receipt& r, double estimate) {
+  r.error = estimate;
+  r.high = std::numeric_limits<double>::infinity();
+  if (!r.note.empty()) r.note += "; ";
+  r.note += "the error is not known: few samples decide most of what was measured";
+}
+
+// The root mean squares of radiance over the pixels that the channel `error` is pooled over.
+std::vector<double> pooledRadiance(const Film& film) {
+  Film means;
+  means.image = film.image;
+  means.channels.resize(ChannelSet().with(Channel::error), film.image.pixels.size());
+  const std::span<float> values = means.channels.floats(Channel::error);
+  for (std::size_t i = 0; i < film.image.pixels.size(); ++i) {
+    const Rgb& pixel = film.image.pixels[i];
+    values[2 * i] = (pixel.x + pixel.y + pixel.z) / 3;
+  }
+  poolErrors(means);
+  std::vector<double> pooled;
+  for (std::size_t i = 0; i < values.size(); i += 2) pooled.push_back(double{values[i]});
+  return pooled;
 }
 
 double brightestRadiance(const Scene& scene, const Image& image) {
@@ -554,27 +584,40 @@ Receipt chooseOptions(Renderer& renderer, const Camera& camera, const std::set<s
 void assess(Receipt& r, Renderer& renderer, const Camera& camera, double ms, Film& film) {
   const Stopwatch clock;
   if (renderer.options().channels.has(Channel::error)) {
-    Image noisy = film.image, whole = film.image;
+    Image noisy = film.image, steady = film.image, whole = film.image;
     const double brightest = brightestRadiance(renderer.scene(), film.image);
     const std::span<const float> errors = std::as_const(film.channels).floats(Channel::error);
+    const std::vector<double> radiance = pooledRadiance(film);
     std::mt19937 random;
     std::uniform_real_distribution<float> noise(-std::sqrt(3.0f), std::sqrt(3.0f));  // variance 1
     for (std::size_t i = 0; i < film.image.pixels.size(); ++i) {
-      noisy.pixels[i] += Rgb(noise(random) * errors[2 * i]);
+      const double error = double{errors[2 * i]};
+      const Rgb change(noise(random) * errors[2 * i]);
+      noisy.pixels[i] += change;
+      if (kFewSamples * squared(error) <= squared(radiance[i])) steady.pixels[i] += change;
       whole.pixels[i] += Rgb(static_cast<float>(brightest * double{errors[2 * i + 1]}));
     }
     Prober prober(renderer, camera, film, r.budget.inCodes);
-    const double pixels = 1e3 * kAssessShare * ms / kFlipMicroseconds;
+    // Squares of codes may come from a few pixels, so that a target in codes takes all.
+    const double pixels =
+        r.budget.inCodes ? prober.pixels() : 1e3 * kAssessShare * ms / kFlipMicroseconds;
     prober.chooseBlocks(kBlockSide, std::max(pixels / squared(kBlockSide), kLeastBlocks));
     const Image shown = prober.mosaic();
     r.ended = prober.difference(prober.mosaic(whole), shown);
     const double sampled = prober.difference(prober.mosaic(noisy), shown);
-    if (r.options.spp >
-        1) {  // samples that are spread evenly have less noise than the channel says
-      const double most = std::sqrt(squared(r.bias) + squared(sampled));
+    double most = r.error, known = sampled;
+    if (r.options.spp > 1) {
+      // Samples that are spread evenly have less noise than the channel says.
+      most = std::sqrt(squared(r.bias) + squared(sampled));
       setError(r, std::min(r.error, most));
       r.high = kChannelMargin * most;
+      known = prober.difference(prober.mosaic(steady), shown);
     }
+
+    // Against one random path a pixel, what depth and other knobs leave out is measured too low.
+    const bool isMeasured = r.options.spp > 1 && squared(r.bias) < 0.5 * squared(r.error);
+    const bool isRandom = samplesLobes(renderer.plan().effects) && !isMeasured;
+    if (isRandom || squared(known) < kLeastKnown * squared(sampled)) leaveUnknown(r, most);
   }
   film.channels.keepOnly(r.options.channels);
   renderer.setOptions(r.options);
@@ -596,7 +639,9 @@ std::string receiptText(const Receipt& r, const std::string& command) {
   text += formatted("\n  time %.0f ms: %.0f to choose, %.0f for the picture (expected %.0f)",
                     r.usedMs(), r.probeMs, r.measuredMs, r.expectedMs);
   if (r.budget.ms > 0) text += formatted(", %.0f %% of the budget", 100 * r.usedMs() / r.budget.ms);
-  text += formatted("\n  error %.4f %s, between %.4f and %.4f", r.error, unit, r.low, r.high);
+  text += formatted("\n  error %.4f %s, ", r.error, unit);
+  text += std::isinf(r.high) ? "by what the samples tell; not known"
+                             : formatted("between %.4f and %.4f", r.low, r.high);
   if (r.ended) text += formatted("; --depth and --cutoff left out at most %.4f", *r.ended);
   text += "\n";
   if (!r.note.empty()) text += "  note: " + r.note + "\n";

@@ -42,10 +42,11 @@ struct Receipt {
   double expectedMs = 0;                                    // of the picture
   double measuredMs = 0;                                    // of the picture, set by assess()
   double bias = 0;  // of the error: what more samples would not take away
+  // The upper bound is infinite where the error is not known: then it is what the samples tell.
   double error = 0, low = 0, high = 0;
   // At most so much error is of paths that depth and cutoff ended; not measured with --adaptive.
   std::optional<double> ended;
-  std::string note;  // empty, or why budget or target are not met
+  std::string note;  // empty, or why budget or target are not met or the error is not known
 
   double usedMs() const { return probeMs + measuredMs; }
 };
@@ -56,9 +57,9 @@ Receipt chooseOptions(Renderer& renderer, const Camera& camera, const std::set<s
                       const Budget& budget, Film& film);
 
 // Adds to the receipt what the picture itself tells, which took so long: the most noise by the
-// channel `error`, and the bound of what depth and cutoff left out by the brightest radiance of
-// sky, emission and picture: nothing out of view is taken to be brighter. Leaves the channels that
-// were asked for.
+// channel `error`, unless few samples decide most of it, and the bound of what depth and cutoff
+// left out by the brightest radiance of sky, emission and picture: nothing out of view is taken to
+// be brighter. Leaves the channels that were asked for.
 void assess(Receipt& receipt, Renderer& renderer, const Camera& camera, double ms, Film& film);
 
 // Lines for people; the last is the command without the budget, if `command` begins it.

@@ -345,9 +345,11 @@ std::vector<OptionInfo> options();
 struct Receipt {
   std::vector<std::pair<std::string, std::string>> chosen;  // options and their values
   double chooseMs = 0, expectedMs = 0, pictureMs = 0;       // expected is the time of the picture
-  double error = 0, errorLow = 0, errorHigh = 0;  // mean FLIP, or codes if the target is in codes
-  std::string note;                               // why budget or target are not met; else empty
-  std::string text;                               // all of it for people
+  // Mean FLIP, or codes if the target is in codes. Nothing bounds an error that is not known:
+  // errorHigh is infinite then.
+  double error = 0, errorLow = 0, errorHigh = 0;
+  std::string note;  // why budget or target are not met or the error is not known; else empty
+  std::string text;  // all of it for people
 };
 
 // Renders frames of a scene with its own worker threads. Only one thread may use a renderer at a

@@ -140,7 +140,9 @@ def main():
                 flip = view.flip(picture)
                 best = view.best_of_sweep(ms, grid) if grid else math.inf
                 within = receipt["error_low"] <= flip <= receipt["error_high"]
-                held.append(within)
+                known = math.isfinite(receipt["error_high"])
+                if known:
+                    held.append(within)
                 if "too small" not in receipt["note"] and "early" not in receipt["note"]:
                     used.append(share)
                 if math.isfinite(best):
@@ -148,7 +150,7 @@ def main():
                 name = os.path.splitext(os.path.basename(source))[0]
                 ratio = f"{ratios[-1]:.2f}" if math.isfinite(best) else "-"
                 print(f"| {name} | {budget} | {share:.2f} | {flip:.4f} | {ratio} | "
-                      f"{receipt['error']:.4f} {'yes' if within else 'no'} | "
+                      f"{receipt['error']:.4f} {('yes' if within else 'no') if known else 'not known'} | "
                       f"{receipt['note'].split(':')[0]} |", flush=True)
     good = sum(0.85 <= share <= 1.15 for share in used)
     print(f"\nWithin 15 % of the budget: {good} of {len(used)} that it is neither too small nor too large for. "

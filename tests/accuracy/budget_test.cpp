@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <random>
 
 #include "core/error.h"
 #include "core/option_table.h"
@@ -153,6 +155,97 @@ TEST(Budgets, TellTheErrorOfThePicture) {
   EXPECT_LT(chooseFor(load("mirrors"), {.ms = 300}, fixed, options).receipt.ended.value(), 0.01);
 }
 
+// Each pixel of the view of chooseFor() has a shining square that covers this share of it,
+// somewhere in the pixel, before black. So all pixels have the radiance share * `radiance`.
+Scene lattice(double share, float radiance) {
+  SceneDescription d;
+  d.name = "lattice";
+  d.materials.resize(1);
+  d.materials[0].diffuse = Rgb(0.0f);
+  d.materials[0].emission = Rgb(radiance);
+  Mesh squares;
+  squares.materials = {0};
+  std::mt19937 random;
+  const double side = std::sqrt(share);
+  std::uniform_real_distribution<double> place(0, 1 - side);
+  for (int y = 0; y < 48; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      const double left = x - 32 + place(random), low = y - 24 + place(random);
+      const auto first = static_cast<std::uint32_t>(squares.positions.size());
+      for (int corner = 0; corner < 4; ++corner) {
+        const bool isRight = corner == 1 || corner == 2, isHigh = corner >= 2;
+        squares.positions.emplace_back(
+            Vec3d{left + (isRight ? side : 0), low + (isHigh ? side : 0), 0});
+      }
+      squares.triangles.push_back({first, first + 1, first + 2});
+      squares.triangles.push_back({first, first + 2, first + 3});
+    }
+  }
+  d.objects.push_back({"squares", {squares}});
+  d.instances.push_back({0, Affine{}});
+  d.cameras.resize(1);
+  d.cameras[0].eye = {0, 0, 10};
+  d.cameras[0].at = {0, 0, 0};
+  d.cameras[0].orthographicHeight = 48;
+  Warnings warnings;
+  return Scene::finalize(std::move(d), warnings);
+}
+
+// The error against the closed form lies below the receipt's bound, or the receipt has none: one
+// sample in 256 that meets a light tells nothing of the pixels where none of 16 did.
+TEST(Targets, OfPixelsThatFewSamplesDecideAreNotKnown) {
+  constexpr double kGray = 0.2;
+  RenderOptions options;
+  options.spp = 16;
+  for (const double share : {0.5, 1.0 / 256}) {
+    const Scene scene = lattice(share, static_cast<float>(kGray / share));
+    const Chosen chosen = chooseFor(scene, {.error = 1, .inCodes = true}, {"spp"}, options);
+    Image truth = chosen.image;
+    truth.pixels.assign(truth.pixels.size(), Rgb(static_cast<float>(kGray)));
+    const double error = 255 * std::pow(10, -compareImages(chosen.image, truth).psnrDb / 20);
+    const Receipt& receipt = chosen.receipt;
+    EXPECT_EQ(std::isinf(receipt.high), share < 0.1) << receiptText(receipt, "");
+    EXPECT_LE(error, receipt.high);
+    const bool says = receipt.note.find("the error is not known") != std::string::npos;
+    EXPECT_EQ(says, share < 0.1) << receipt.note;
+  }
+}
+
+// One sample of paths tells nothing of its error.
+TEST(Budgets, OfOneSampleOfPathsAreNotKnown) {
+  RenderOptions options;
+  options.spp = 1;
+  options.indirect = 1;
+  const Receipt paths = chooseFor(load("cornell"), {.ms = 100}, {"spp"}, options).receipt;
+  EXPECT_TRUE(std::isinf(paths.high));
+  EXPECT_NE(receiptText(paths, "").find("not known"), std::string::npos);
+  options.indirect = 0;
+  const Receipt direct = chooseFor(load("matte"), {.ms = 100}, {"spp"}, options).receipt;
+  EXPECT_FALSE(std::isinf(direct.high));
+}
+
+// What knobs leave out of random paths is measured by one sample a pixel, most of which are black.
+TEST(Budgets, OfPathsThatKnobsCutAreNotKnown) {
+  const Scene scene = load("cornell");
+  RenderOptions options;
+  options.size = ImageSize{32, 32};
+  options.indirect = 1;
+  options.spp = 400;
+  options.channels = ChannelSet().with(Channel::error);
+  Renderer renderer(scene, options);
+  Film film = makeFilm(scene, options);
+  const Camera camera = chooseCamera(scene, options);
+  renderer.render(camera, film);
+  for (const double bias : {0.0, 0.4}) {
+    Receipt receipt;
+    receipt.options = options;
+    receipt.bias = bias;
+    receipt.error = receipt.high = 0.45;
+    assess(receipt, renderer, camera, 1000, film);
+    EXPECT_EQ(std::isinf(receipt.high), bias > 0) << receiptText(receipt, "");
+  }
+}
+
 TEST(Budgets, AreKeptByTheSmallestPictures) {
   RenderOptions options;
   options.crop = Crop{3, 3, 5, 4};
@@ -217,6 +310,9 @@ TEST(Receipts, HaveTheCommandWithoutTheBudget) {
             "  error 0.0200 FLIP, between 0.0150 and 0.0250; --depth and --cutoff left out at most "
             "0.0010\n"
             "  the same picture: whit render atrium --spp 4 --depth 8\n");
+  receipt.high = std::numeric_limits<double>::infinity();
+  EXPECT_NE(receiptText(receipt, "").find("error 0.0200 FLIP, by what the samples tell; not known"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -112,7 +112,8 @@ class Picture:
     @property
     def receipt(self) -> Optional[dict[str, Any]]:
         """What render(budget=...) has chosen: 'chosen' (options), 'choose_ms', 'expected_ms' and
-        'picture_ms', 'error' with 'error_low' and 'error_high', 'note' and 'text'."""
+        'picture_ms', 'error' with 'error_low' and 'error_high' (infinite where the error is not
+        known), 'note' and 'text'."""
         return self._statistics.get("receipt")
 
     def write(self, path: Union[str, os.PathLike]) -> None:
