@@ -128,9 +128,9 @@ checkThreads() {
   done
 }
 
-# 20 s a reader; tests/fuzz/run.sh by itself runs for longer.
+# 10 s a reader; tests/fuzz/run.sh by itself runs for longer.
 fuzzReaders() {
-  tests/fuzz/run.sh 20
+  tests/fuzz/run.sh 10
   local status=$?
   # No Clang.
   if [ "$status" -eq 77 ]; then
