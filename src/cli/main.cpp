@@ -45,8 +45,9 @@ const ManPage kPage{
     "whit", "real-time Whitted ray tracing on CPUs", "whit COMMAND ...",
     "Renders scenes with Embree packets and SIMD kernels, measures the time of each stage, and "
     "checks itself against a scalar reference in double precision. "
-    "SCENE is a scene file (.json), a model (.obj, .gltf, .glb, .ply), or the name of "
-    "a shipped scene (atrium). Standard output carries results, standard error everything for "
+    "SCENE is a scene file (.json), a model (.gltf, .glb, .vrm, .obj, .ply; .stl, .fbx, .dae, .3ds "
+    "and .off by the library assimp), or the name of a shipped scene (atrium). Standard output "
+    "carries results, standard error everything for "
     "people. Files appear under their name only when complete.",
     "whit-view"};
 
@@ -55,8 +56,8 @@ void showHelp() {
               kPage.synopsis.c_str());
   for (const Command& c : kCommands) std::printf("  %-10s%s\n", c.name, c.summary);
   std::printf(
-      "\nSCENE is a scene file (.json), a model (.obj, .gltf, .glb, .ply), or the name of\n"
-      "a shipped scene (atrium).\n"
+      "\nSCENE is a scene file (.json), a model (.gltf, .glb, .vrm, .obj, .ply; .stl, .fbx,\n"
+      ".dae, .3ds and .off by the library assimp), or the name of a shipped scene (atrium).\n"
       "Options of a command: whit COMMAND --help, all of them: whit COMMAND --help-all. Version:\n"
       "whit --version. The manual page: whit --man. Completion: whit --completion bash|zsh|fish.\n"
       "\nExit status:\n");

@@ -23,9 +23,9 @@ struct LoadOptions {
   int threads = 0;                             // decoders; 0: all
   std::string shippedScenes;                   // where else shipped scenes are; empty: nowhere
   // "POINTER=VALUE", see scene_settings.h, taken for parts of the scene file. Of a model: members
-  // of "materials" by their names there, its "lights" or those supplied, "sky" and "ambient"; of an
-  // OBJ or PLY file "up", the axis that is up in it: "x", "y" or "z"; of a glTF file "variant"
-  // (KHR_materials_variants); "viewpoint", the side from which a supplied camera sees it: "outside"
+  // of "materials" by their names there, its "lights" or those supplied, "sky" and "ambient"; of a
+  // glTF file "variant" (KHR_materials_variants), and of other models "up", the axis that is up in
+  // them: "x", "y" or "z"; "viewpoint", the side from which a supplied camera sees it: "outside"
   // or "inside".
   std::vector<std::string> settings;
   // In place of the scene's own sky: "none", "studio" (make/model_view.h) or an equirectangular

@@ -177,12 +177,12 @@ class Scene:
     """A scene that is ready to be rendered: a scene file or model, a shipped scene, or a
     description in Python's own values.
 
-    source: the path of a scene file (.json) or model (.gltf, .glb, .obj, .ply), the name of a
-        shipped scene ("atrium", "landscape?triangles=20000000"), or a dict with the content of a
-        scene file (share/doc/whit/scenes/README.md). An item of the dict may be
-        {"mesh": whit.Mesh(...)}, and a texture an array (height, width, 1 to 4 channels) of uint8
-        codes or linear floats, or {"array": array, "wrap": "clamp"}. A Mesh that several items use
-        is stored once.
+    source: the path of a scene file (.json) or model (.gltf, .glb, .vrm, .obj, .ply; .stl, .fbx,
+        .dae, .3ds and .off where the module was built with assimp), the name of a shipped scene
+        ("atrium", "landscape?triangles=20000000"), or a dict with the content of a scene file
+        (share/doc/whit/scenes/README.md). An item of the dict may be {"mesh": whit.Mesh(...)},
+        and a texture an array (height, width, 1 to 4 channels) of uint8 codes or linear floats, or
+        {"array": array, "wrap": "clamp"}. A Mesh that several items use is stored once.
         Lengths, positions and transforms are in the scene's own units, y up.
     settings: values by their JSON pointers, as in set(), and {"/variant": "red"} of a glTF file.
     sky: replaces the scene's sky: "none", "studio" or an image file.
