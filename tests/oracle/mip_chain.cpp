@@ -1,5 +1,7 @@
 #include "oracle/mip_chain.h"
 
+#include <utility>
+
 #include "oracle/bilinear.h"
 
 namespace oracle {
@@ -86,16 +88,19 @@ MipChain::MipChain(const Texture& texture, Shares left) {
     whole.texels.push_back(Color{double(r), double(g), double(b)} / 255);
   }
   levels_.push_back(whole);
+  // The shares of each level; none where nothing is cut away.
+  const bool isCut = !left.of.empty();
   std::vector<Shares> leftOf;
-  leftOf.push_back(left);
+  leftOf.push_back(std::move(left));
   while (levels_.back().texels.size() > 1) {
-    levels_.push_back(halved(levels_.back(), leftOf.back(), texture.isData));
+    const std::size_t last = isCut ? levels_.size() - 1 : 0;
+    levels_.push_back(halved(levels_.back(), leftOf[last], texture.isData));
     const Level& half = levels_.back();
-    leftOf.push_back(left.of.empty() ? left : stretched(leftOf.back(), half.width, half.height));
+    if (isCut) leftOf.push_back(stretched(leftOf[last], half.width, half.height));
   }
 
   // What is cut away takes the color of the level above.
-  for (std::size_t n = levels_.size() - 1; n-- > 1 && !left.of.empty();) {
+  for (std::size_t n = levels_.size() - 1; isCut && n-- > 1;) {
     Level& level = levels_[n];
     const Level& above = levels_[n + 1];
     for (int y = 0; y < level.height; ++y) {
