@@ -28,7 +28,7 @@ Scene halves(const std::function<void(Material&, std::int32_t)>& set, bool tinte
   return builder.build();
 }
 
-RgbD seenAt(const Scene& scene, double x, double degrees = 0) {
+RgbD reflectedAt(const Scene& scene, double x, double degrees = 0) {
   const Vec3d way = steep(degrees);
   return radianceAlong(scene, Vec3d{x, 0, -0.5} - way, way);
 }
@@ -44,11 +44,11 @@ TEST(MirrorMaps, MultiplyTheReflectedRayAtNormalIncidence) {
     m.mirrorGrazing = Rgb(1.0f);
     m.mirrorMap = map;
   });
-  expectColor(seenAt(scene, 0.25), RgbD(1.0));
-  expectColor(seenAt(scene, 0.75), {0.25, 0, 1});
+  expectColor(reflectedAt(scene, 0.25), RgbD(1.0));
+  expectColor(reflectedAt(scene, 0.75), {0.25, 0, 1});
   const double schlick = reference::schlickTerm(std::cos(70 * kPi / 180));
   const auto at70 = [&](double normal) { return 2 * (normal + (1 - normal) * schlick); };
-  expectColor(seenAt(scene, 0.75, 70), {at70(0.125), at70(0), at70(0.5)});
+  expectColor(reflectedAt(scene, 0.75, 70), {at70(0.125), at70(0), at70(0.5)});
 }
 
 TEST(MirrorMaps, AreNotLookedUpWithoutTextures) {
@@ -72,7 +72,7 @@ TEST(VertexColors, TintTheMirrorsOfMetals) {
         },
         true);
     const bool metal = tint == VertexTint::diffuseAndSpecular;
-    expectColor(seenAt(scene, 0.5), metal ? RgbD{0.75, 1, 0.5} : RgbD(1.0));
+    expectColor(reflectedAt(scene, 0.5), metal ? RgbD{0.75, 1, 0.5} : RgbD(1.0));
   }
 }
 
@@ -89,8 +89,8 @@ TEST(TransmissionMaps, MultiplyTheRefractedRay) {
         },
         tinted);
     const RgbD color = tinted ? RgbD{0.625, 1, 0.25} : RgbD(1.0);
-    expectColor(seenAt(scene, 0.75), RgbD{0.25, 0, 1} * color);
-    expectColor(seenAt(scene, 0.25), tinted ? RgbD{0.875, 1, 0.75} : RgbD(1.0));
+    expectColor(reflectedAt(scene, 0.75), RgbD{0.25, 0, 1} * color);
+    expectColor(reflectedAt(scene, 0.25), tinted ? RgbD{0.875, 1, 0.75} : RgbD(1.0));
   }
 }
 
