@@ -39,14 +39,14 @@ constexpr std::uint32_t kArchitecture = AUDIT_ARCH_AARCH64;
 constexpr std::uint32_t kArchitecture = 0;
 #endif
 
-// Bytes of address space that this process has.
+// Returns the bytes of address space that this process has.
 std::uint64_t addressSpace() {
   std::uint64_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
   return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
-// Bytes of address space that this process may still take (ulimit -v).
+// Returns the bytes of address space that this process may still take (ulimit -v).
 std::uint64_t addressesLeft() {
   rlimit limits{};
   const bool isLimited = getrlimit(RLIMIT_AS, &limits) == 0 && limits.rlim_cur != RLIM_INFINITY;
@@ -70,6 +70,9 @@ void filterSystemCalls() {
   constexpr std::uint8_t kCount = std::size(kAllowed);
   constexpr std::uint16_t kLoad = BPF_LD | BPF_W | BPF_ABS, kReturn = BPF_RET | BPF_K,
                           kSkipIfEqual = BPF_JMP | BPF_JEQ | BPF_K;
+
+  // The BPF program ends the process unless the architecture and the number of the system call are
+  // among the expected ones.
   std::array<sock_filter, kCount + 5> filter{{
       {kLoad, 0, 0, offsetof(seccomp_data, arch)},
       {kSkipIfEqual, 0, kCount + 1, kArchitecture},  // otherwise on to the end of the process
@@ -80,6 +83,8 @@ void filterSystemCalls() {
   }
   filter[kCount + 3] = {kReturn, 0, 0, SECCOMP_RET_KILL_PROCESS};
   filter[kCount + 4] = {kReturn, 0, 0, SECCOMP_RET_ALLOW};
+
+  // The kernel accepts filters of an ordinary process only if it can no longer gain privileges.
   const sock_fprog program{filter.size(), filter.data()};
   if (kArchitecture == 0 || prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) return;
   prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program);
@@ -91,18 +96,23 @@ void filterSystemCalls() {
 // exception, whose way up may need a lock of the loader.
 [[noreturn]] void beChild(const std::function<void(const ConfinedWriter&)>& work,
                           const ConfinedWriter& writer, std::uint64_t mostAddresses, int seconds) {
+  // The child dies with its parent, has no open files, and handles signals as a new process does.
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   syscall(__NR_close_range, 0u, ~0u, 0);
   for (int number = 1; number < NSIG; ++number) signal(number, SIG_DFL);
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
+
+  // Memory and time are limited, and the child can neither write files nor start processes.
   limit(RLIMIT_AS, mostAddresses);
   limit(RLIMIT_CPU, static_cast<std::uint64_t>(seconds) + 1);
   for (const auto resource : {RLIMIT_CORE, RLIMIT_FSIZE, RLIMIT_NPROC}) limit(resource, 0);
   alarm(static_cast<unsigned>(seconds));
+
   std::set_new_handler([] { _exit(kOutOfMemory); });
   filterSystemCalls();
+
   try {
     work(writer);
   } catch (...) {
@@ -116,6 +126,7 @@ std::string failureOfChild(int status) {
     const auto code = static_cast<std::size_t>(WEXITSTATUS(status));
     return kFailures[std::min(code, std::size(kFailures) - 1)];
   }
+
   const int number = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   if (number == SIGSYS) return "it called the system";
   if (number == SIGALRM) return "it took too long";
@@ -127,6 +138,7 @@ std::string failureOfChild(int status) {
 ConfinedAnswer runConfined(const std::function<void(const ConfinedWriter&)>& work,
                            std::uint64_t mostBytes, int seconds) {
   mostBytes = std::min(mostBytes, addressesLeft() / 4);
+
   // The answer lies in memory that both processes share: its length, and behind it the bytes.
   const std::size_t size = sizeof(std::uint64_t) + mostBytes;
   void* const shared = mmap(nullptr, size, PROT_READ | PROT_WRITE,
@@ -134,8 +146,10 @@ ConfinedAnswer runConfined(const std::function<void(const ConfinedWriter&)>& wor
   if (shared == MAP_FAILED) {
     throwLimit(std::string("cannot share memory with a process: ") + std::strerror(errno));
   }
+
   const auto unmap = [size](void* memory) { munmap(memory, size); };
   const std::unique_ptr<void, decltype(unmap)> owner(shared, unmap);
+
   auto* const length = static_cast<std::uint64_t*>(shared);
   char* const answer = reinterpret_cast<char*>(length + 1);
   const ConfinedWriter writer = [=](const void* bytes, std::size_t count) {
@@ -143,15 +157,18 @@ ConfinedAnswer runConfined(const std::function<void(const ConfinedWriter&)>& wor
     std::copy_n(static_cast<const char*>(bytes), count, answer + *length);
     *length += count;
   };
+
   // The first exception of a process makes tables by a system call that the child may not make.
   try {
     throw 0;
   } catch (int) {
   }
+
   const std::uint64_t mostAddresses = addressSpace() + mostBytes;
   const pid_t child = fork();
   if (child == 0) beChild(work, writer, mostAddresses, seconds);
   if (child < 0) throwLimit(std::string("cannot start a process: ") + std::strerror(errno));
+
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
   return {std::string(answer, std::min(*length, mostBytes)), failureOfChild(status)};

@@ -55,11 +55,14 @@ std::optional<fs::path> spelledOnDisk(const fs::path& folder, const fs::path& na
       found /= part;
       continue;
     }
+
+    // Capitals may differ in a model from another system, so names are compared in lower case.
     const std::string wanted = inLowerCase(part.string());
     fs::directory_iterator entry(folder / found, error), end;
     while (!error && entry != end && inLowerCase(entry->path().filename().string()) != wanted) {
       entry.increment(error);
     }
+
     if (error || entry == end) return std::nullopt;
     found /= entry->path().filename();
   }
@@ -79,11 +82,15 @@ std::vector<fs::path> sceneFolders(const std::string& shippedScenes = "") {
   if (const char* variable = std::getenv("WHIT_SCENES"); variable && *variable) {
     folders.emplace_back(variable);
   }
+
+  // Scenes lie beside the program, in the share folder of an installation, or beside the folder of
+  // the build.
   if (const fs::path program = programFile(); !program.empty()) {
     folders.push_back(program.parent_path() / "scenes");
     folders.push_back(program.parent_path().parent_path() / "share/whit/scenes");
     folders.push_back(program.parent_path().parent_path() / "scenes");
   }
+
   if (!shippedScenes.empty()) folders.emplace_back(shippedScenes);
   return folders;
 }
@@ -96,6 +103,8 @@ std::vector<std::string> shippedNames(const std::vector<fs::path>& folders) {
       if (i->path().extension() == ".json") names.push_back(i->path().stem().string());
     }
   }
+
+  // Several folders may have a scene of the same name.
   std::ranges::sort(names);
   names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;
@@ -103,13 +112,16 @@ std::vector<std::string> shippedNames(const std::vector<fs::path>& folders) {
 
 // Reads at most `maxBytes`; a longer file is Error(limit) or, with `cut`, read in part.
 std::string read(const fs::path& path, std::uint64_t maxBytes, bool cut) {
+  // Errors show only the beginning and the end of a long path.
   constexpr std::size_t kShown = 250;
   std::string name = path.string();
   if (name.size() > kShown) name = excerpt(name) + name.substr(name.size() - kShown / 2);
+
   std::error_code error;
   const auto status = fs::status(path, error);
   if (!fs::exists(status)) throwIo(name, "cannot open " + name + ": no such file");
   if (!fs::is_regular_file(status)) throwIo(name, "cannot read " + name + ": not a file");
+
   std::ifstream in(path, std::ios::binary);
   if (!in) throwIo(name, "cannot open " + name + ": " + std::strerror(errno));
   const std::uint64_t size = fs::file_size(path, error);
@@ -118,6 +130,7 @@ std::string read(const fs::path& path, std::uint64_t maxBytes, bool cut) {
     throwLimit(name + " has " + std::to_string(size) + " bytes, more than the limit of " +
                std::to_string(maxBytes));
   }
+
   std::string bytes(std::min(size, maxBytes), '\0');
   in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   if (!in) throwIo(name, "cannot read " + name + ": reading stopped early");
@@ -147,6 +160,7 @@ std::string followLink(const std::string& path) {
 std::string createBeside(const std::string& path) {
   static std::atomic<unsigned> counter{0};
   const fs::path folder = fs::path(path).parent_path();
+
   for (;;) {
     const std::string name =
         ".whit-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp";
@@ -181,11 +195,13 @@ bool PathRules::inside(const fs::path& path) const {
 fs::path PathRules::resolve(const std::string& text, const fs::path& folder,
                             const std::string& where) const {
   if (text.empty()) throwBadScene(where, "expected the path of a file, found an empty string");
+
   const bool nul = text.find('\0') != std::string::npos;
   if (nul || text.find("://") != std::string::npos) {
     throwBadScene(where, "expected the path of a file on this machine, found " +
                              (nul ? "a NUL byte" : excerpt(text)));
   }
+
   fs::path path;
   if (text.starts_with(kDataVariable)) {
     if (text.size() > kDataVariable.size() && text[kDataVariable.size()] != '/') {
@@ -199,6 +215,8 @@ fs::path PathRules::resolve(const std::string& text, const fs::path& folder,
   } else {
     path = folder / text;
   }
+
+  // Links are followed before the check, so that none of them leads out of the permitted folders.
   fs::path result = realPath(path);
   if (!allowOutside_ && !inside(result)) {
     throwBadScene(where, "\"" + excerpt(text) +
@@ -212,9 +230,13 @@ fs::path PathRules::find(std::string text, const fs::path& folder, const std::st
                          Warnings& warnings) const {
   std::ranges::replace(text, '\\', '/');
   const fs::path name(text);
+
+  // A file whose path differs only in capitals is preferred to one of that name beside the model.
   const fs::path fallback =
       spelledOnDisk(folder, name)
           .value_or(spelledOnDisk(folder, name.filename()).value_or(fs::path()));
+
+  // A path that is not permitted is an error only if there is no other file.
   try {
     fs::path path = resolve(text, folder, where);
     std::error_code error;
@@ -222,6 +244,7 @@ fs::path PathRules::find(std::string text, const fs::path& folder, const std::st
   } catch (const Error&) {
     if (fallback.empty()) throw;
   }
+
   fs::path path = resolve(fallback.string(), folder, where);
   warnings.add("file taken whose name or folder differs from the one in the model",
                where + ": " + fallback.string() + " for " + excerpt(text));
@@ -232,33 +255,39 @@ SceneName parseSceneName(const std::string& name) {
   std::error_code error;
   const std::size_t mark = name.find('?');
   if (mark == std::string::npos || fs::exists(name, error)) return {name, {}};
+
   SceneName result{name.substr(0, mark), {}};
   for (std::size_t begin = mark + 1; begin <= name.size();) {
     const std::size_t end = std::min(name.find('&', begin), name.size());
     const std::string part = name.substr(begin, end - begin);
     const std::size_t equals = part.find('=');
     const std::string number = equals == std::string::npos ? "" : part.substr(equals + 1);
+
     char* rest = nullptr;
     const double value = std::strtod(number.c_str(), &rest);
     if (equals == 0 || number.empty() || *rest != '\0' || !std::isfinite(value)) {
       throwUsage("\"" + name + "\": expected name=number after the question mark, found \"" + part +
                  "\"");
     }
+
     result.parameters[part.substr(0, equals)] = value;
     begin = end + 1;
   }
+
   return result;
 }
 
 fs::path findScene(const std::string& file, const std::string& shippedScenes) {
   fs::path path(file);
   if (path.has_extension() || path.has_parent_path()) return path;
+
   const std::vector<fs::path> folders = sceneFolders(shippedScenes);
   for (const fs::path& folder : folders) {
     fs::path candidate = folder / (file + ".json");
     std::error_code error;
     if (fs::is_regular_file(candidate, error)) return candidate;
   }
+
   const std::vector<std::string> names = shippedNames(folders);
   throwUsage(
       "no scene is called '" + file + "'" +
@@ -298,15 +327,17 @@ std::string readBeginning(const fs::path& path, std::uint64_t bytes) {
 AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
   if (path_.empty()) throwIo("cannot write a file without a name");
   path_ = followLink(path_);
+
   struct stat info {};
   if (::stat(path_.c_str(), &info) == 0) {
     if (S_ISDIR(info.st_mode)) throwCannotWrite(path_, EISDIR);
-    // Devices and pipes are written straight: replacing /dev/null by a file would be no kindness.
+    // Devices and pipes are opened directly, because a rename would replace them by a file.
     if (!S_ISREG(info.st_mode)) {
       temporary_ = path_;
       return;
     }
   }
+
   temporary_ = createBeside(path_);
 }
 

@@ -16,22 +16,23 @@ namespace whit {
 
 std::string extensionOf(const std::filesystem::path& path);  // in lower case, ".exr"
 
-// $WHIT_DATA; empty where that is not set.
+// Returns the folder $WHIT_DATA; the path is empty where the variable is not set.
 std::filesystem::path dataFolder();
 
-// Which files a scene may name: those below its own folder or below the data folder, unless
-// allowOutside. Links are followed before that is judged.
+// Decides which files a scene may name: those below its own folder or below the data folder, unless
+// allowOutside is set. Links are followed before the decision.
 class PathRules {
  public:
   PathRules(const std::filesystem::path& sceneFolder, bool allowOutside);
 
-  // The path that a file lying in `folder` calls `text`. "$WHIT_DATA/..." is expanded. The file
+  // Returns the path that a file in `folder` calls `text`. "$WHIT_DATA/..." is expanded. The file
   // need not exist. Throws badScene at `where`.
   std::filesystem::path resolve(const std::string& text, const std::filesystem::path& folder,
                                 const std::string& where) const;
-  // The same for a name in a model, which may have been written on another system: backslashes are
+
+  // Resolves a name in a model, which may have been written on another system: backslashes are
   // separators. If there is no such file, one whose name differs in capitals is taken, or one of
-  // that name that lies beside the model; that is counted in `warnings`.
+  // that name that lies beside the model; such replacements are counted in `warnings`.
   std::filesystem::path find(std::string text, const std::filesystem::path& folder,
                              const std::string& where, Warnings& warnings) const;
 
@@ -42,11 +43,12 @@ class PathRules {
   bool allowOutside_;
 };
 
-// "landscape?triangles=2000&seed=3" taken apart.
+// A name such as "landscape?triangles=2000&seed=3", split into the file and its parameters.
 struct SceneName {
   std::string file;
   std::map<std::string, double> parameters;
 };
+
 // Throws Error(usage) when a parameter is not of the form name=number.
 SceneName parseSceneName(const std::string& name);
 
@@ -54,14 +56,17 @@ SceneName parseSceneName(const std::string& name);
 // names, which are also looked for in `shippedScenes` unless that is empty. Throws Error(usage) for
 // a bare name that is not shipped, naming the nearest.
 std::filesystem::path findScene(const std::string& file, const std::string& shippedScenes = "");
-// All of them that are found, in order of their names.
+
+// Returns all shipped scenes that are found, in order of their names.
 std::vector<std::filesystem::path> shippedScenes();
 
 // Throws Error(io) if the file cannot be read, limit if it has more than `maxBytes`, badScene if it
 // is a Git LFS pointer.
 std::string readFile(const std::filesystem::path& path, std::uint64_t maxBytes);
+
 // Reads text without a byte order mark of UTF-8. Refuses UTF-16.
 std::string readTextFile(const std::filesystem::path& path, std::uint64_t maxBytes);
+
 // Reads at most `bytes` bytes of the file.
 std::string readBeginning(const std::filesystem::path& path, std::uint64_t bytes);
 
@@ -104,7 +109,7 @@ class AtomicFile {
   bool committed_ = false;
 };
 
-// The whole text at once.
+// Writes the whole text at once.
 void writeTextFile(const std::string& path, const std::string& text);
 
 }  // namespace whit

@@ -13,13 +13,13 @@ namespace {
 
 std::string inQuotes(const std::string& text) { return "\"" + text + "\""; }
 
-// A pointer may be as long as a file's longest key.
+// The pointer is cut, because a file may have keys of any length.
 std::string placeInJson(const std::string& file, const std::string& pointer) {
   constexpr std::size_t kShown = 120;
   return file + "#" + (pointer.size() > kShown ? pointer.substr(0, kShown) + "..." : pointer);
 }
 
-// A bound that no scene comes near is not said of what is no number at all.
+// Errors about values that are no numbers at all do not mention a bound of kLargestNumber.
 std::string rangeText(double low, double high, bool isNumber) {
   if (!isNumber && high >= kLargestNumber) {
     return low <= -kLargestNumber ? "a number" : formatted("a number not below %.9g", low);
@@ -48,9 +48,11 @@ class Watcher {
         fail("more than " + std::to_string(kJsonMembersLimit) + " members");
       }
     } else {
+      // The end of an object or a list completes a value of the level above.
       if (event != Event::value) levels_.pop_back();
       if (!levels_.empty()) ++levels_.back().index;
     }
+
     return true;
   }
 
@@ -61,6 +63,7 @@ class Watcher {
       const bool isArray = level.keys.empty();
       pointer += '/' + (isArray ? std::to_string(level.index) : escapePointer(level.key));
     }
+
     throwBadScene(placeInJson(file_, pointer), what);
   }
 
@@ -89,6 +92,7 @@ std::string reason(std::string message) {
   constexpr std::size_t kShown = 120;
   const std::size_t colon = message.find(": ", message.find(", column "));
   if (colon != std::string::npos) message.erase(0, colon + 2);
+
   if (message.size() <= 2 * kShown) return message;
   return message.replace(kShown, message.size() - 2 * kShown, "...");
 }
@@ -98,6 +102,7 @@ std::string reason(std::string message) {
 Json parseJson(const std::string& text, const std::string& file) {
   Watcher watcher(file);
   const auto watch = [&](int, Event event, const Json& parsed) { return watcher(event, parsed); };
+
   try {
     return Json::parse(text, watch, /*allow_exceptions=*/true, /*ignore_comments=*/true);
   } catch (const Json::parse_error& error) {
@@ -145,10 +150,11 @@ bool JsonValue::isNumber() const {
   return exists() && (value_->is_number() || (isText() && text().starts_with("$")));
 }
 
-// "$name", "$name*0.5", "$name/2".
+// Evaluates "$name", "$name*0.5" or "$name/2".
 double JsonValue::expression(const std::string& text) const {
   const std::size_t sign = std::min(text.find_first_of("*/"), text.size());
   const std::string name = text.substr(1, sign - 1);
+
   const auto parameter = document_->parameters.find(name);
   if (parameter == document_->parameters.end()) {
     std::vector<std::string> names;
@@ -157,6 +163,7 @@ double JsonValue::expression(const std::string& text) const {
          (names.empty() ? "; the scene has no parameters" : isMeant(text.substr(0, sign), names)));
   }
   if (sign == text.size()) return parameter->second;
+
   char* rest = nullptr;
   const std::string factorText = text.substr(sign + 1);
   const double factor = std::strtod(factorText.c_str(), &rest);
@@ -178,6 +185,7 @@ int JsonValue::integer(int low, int high) const {
   const std::string expected =
       low == high ? std::to_string(low)
                   : "a whole number from " + std::to_string(low) + " to " + std::to_string(high);
+
   if (!isNumber()) fail(expected);
   double value = number();
   if (isText()) value = std::round(value);  // "$triangles/3" means the nearest
@@ -200,6 +208,7 @@ std::string JsonValue::word(const std::vector<std::string>& choices) const {
     std::string chosen = text();
     if (std::ranges::find(choices, chosen) != choices.end()) return chosen;
   }
+
   std::string list;
   for (const std::string& choice : choices) list += (list.empty() ? "" : ", ") + inQuotes(choice);
   fail("one of " + list + (isText() ? isMeant(text(), choices) : ""));
@@ -237,11 +246,13 @@ std::vector<std::pair<std::string, JsonValue>> JsonValue::members() const {
 
 JsonValue JsonValue::operator[](const std::string& name) const {
   if (exists() && !isObject()) fail("an object");
+
   const Json* value = nullptr;
   if (exists()) {
     const auto member = value_->find(name);
     if (member != value_->end()) value = &*member;
   }
+
   return child(value, name);
 }
 
@@ -268,6 +279,8 @@ double JsonValue::numberOr(double fallback) const {
 
 std::optional<std::uint64_t> JsonValue::whole() const {
   if (value_->is_number_unsigned()) return value_->get<std::uint64_t>();
+
+  // Some writers store whole numbers as 1.0 or 1e0.
   const double number = value_->is_number() ? value_->get<double>() : -1;
   const bool fits = number >= 0 && number <= static_cast<double>(kLargestJsonWhole) &&
                     number == std::floor(number);
@@ -295,10 +308,12 @@ std::vector<double> JsonValue::numbers(std::size_t count) const {
 
 std::optional<std::size_t> JsonValue::indexInto(const JsonValue& list) const {
   if (!exists()) return std::nullopt;
+
   const std::size_t size = list.size();
   const std::string expected =
       "an index into " + list.pointer_.substr(list.pointer_.rfind('/') + 1);
   if (size == 0) fail(expected + ", which has no elements");
+
   const std::optional<std::uint64_t> number = whole();
   if (!number || *number >= size) fail(expected + ", from 0 to " + std::to_string(size - 1));
   return static_cast<std::size_t>(*number);
@@ -315,10 +330,13 @@ JsonValue JsonObject::find(const std::string& key) {
 
 JsonValue JsonObject::need(const std::string& key) {
   if (JsonValue value = find(key)) return value;
+
+  // The error suggests a similar key among those that have not been read.
   std::vector<std::string> others;
   for (const auto& [name, member] : value_.members()) {
     if (std::ranges::find(known_, name) == known_.end()) others.push_back(name);
   }
+
   const std::string meant = nearestName(key, others);
   throwBadScene(value_.where(),
                 "expected a member " + inQuotes(key) +

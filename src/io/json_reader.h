@@ -24,15 +24,16 @@ inline constexpr std::uint64_t kJsonBytesLimit = 16u << 20;
 // Whole numbers up to this are exact in JSON.
 inline constexpr std::uint64_t kLargestJsonWhole = std::uint64_t{1} << 53;
 
-// Comments are allowed. Throws badScene with "file:line:column" for a syntax error, with
-// "file#/pointer" for a key that is given twice, nesting deeper than kJsonDepthLimit or a number
-// beyond double.
+// Parses JSON, in which comments are allowed. Throws badScene with "file:line:column" for a syntax
+// error, with "file#/pointer" for a key that is given twice, nesting deeper than kJsonDepthLimit or
+// a number beyond double.
 Json parseJson(const std::string& text, const std::string& file);
 
-// " (is "NAME" meant?)" for the end of an expectation; empty if no name is near.
+// Returns " (is "NAME" meant?)" for the end of an error message, or an empty text if no name is
+// near.
 std::string isMeant(const std::string& word, const std::vector<std::string>& names);
 
-// `token` as a part of a JSON pointer (RFC 6901, section 3).
+// Returns `token` as a part of a JSON pointer (RFC 6901, section 3).
 std::string escapePointer(const std::string& token);
 
 // The data that all values of one file share. Numbers may be written "$name", "$name*0.5" or
@@ -54,6 +55,7 @@ class JsonValue {
 
   const std::string& pointer() const { return pointer_; }  // into the file, RFC 6901
   std::string where() const;                               // for errors: "file#/json/pointer"
+
   // Without `found`, the error says what the value is.
   [[noreturn]] void fail(const std::string& expected, std::string found = "") const;
 
@@ -70,13 +72,15 @@ class JsonValue {
   int integer(int low, int high) const;
   bool flag() const;
   std::string text() const;
-  // One of `choices`; an error names the nearest.
+
+  // Returns one of `choices`; the error suggests the nearest.
   std::string word(const std::vector<std::string>& choices) const;
   Vec3d vector() const;
   Rgb color(double high = kLargestNumber) const;  // [r, g, b] or one number, at least 0
   std::vector<JsonValue> elements() const;
   std::vector<JsonValue> elements(std::size_t count, const std::string& expected) const;
-  // Members in the file's order.
+
+  // Returns the members in the file's order.
   std::vector<std::pair<std::string, JsonValue>> members() const;
 
   JsonValue operator[](const std::string& name) const;
@@ -84,14 +88,17 @@ class JsonValue {
   JsonValue need(const std::string& name) const;  // fails where the member is missing
   std::size_t size() const;                       // of a list
   double numberOr(double fallback) const;
+
   // Accepts 1e0 and 1.0 as well as 1.
   std::uint64_t wholeOr(std::uint64_t fallback, std::uint64_t limit = kLargestJsonWhole) const;
   bool flagOr(bool fallback) const { return exists() ? flag() : fallback; }
   std::string textOr(const std::string& fallback) const { return exists() ? text() : fallback; }
-  // Empty where the list does not exist.
+
+  // Both lists are empty where the value does not exist.
   std::vector<double> numbers() const;
   std::vector<double> numbers(std::size_t count) const;
-  // The value as an index into `list`; none where it does not exist.
+
+  // Returns the value as an index into `list`, or nothing where it does not exist.
   std::optional<std::size_t> indexInto(const JsonValue& list) const;
 
  private:
@@ -118,7 +125,7 @@ class JsonObject {
   float number(const std::string& key, double fallback, double low = -kLargestNumber,
                double high = kLargestNumber);
 
-  // Fails at a key that was never asked for, naming the nearest that was.
+  // Fails at a key that was never read; the error suggests the nearest one that was.
   void finish() const;
 
  private:
@@ -133,6 +140,7 @@ typename Entries::const_iterator findNamed(const Entries& entries, const JsonVal
                                            const std::string& kind) {
   const auto found = entries.find(name.text());
   if (found != entries.end()) return found;
+
   std::vector<std::string> names;
   names.reserve(entries.size());
   for (const auto& [known, entry] : entries) names.push_back(known);
@@ -142,6 +150,7 @@ typename Entries::const_iterator findNamed(const Entries& entries, const JsonVal
 template <typename Noun, typename Value>
 void readMember(const JsonValue& json, const Member<Noun, Value>& member, Value& value) {
   const MemberRules<Noun>& rules = member.rules;
+
   if constexpr (std::is_same_v<Value, bool>) {
     value = json.flag();
   } else if constexpr (std::is_integral_v<Value>) {

@@ -10,6 +10,7 @@ const char* parseNumber(const char* from, const char* end, double& value) {
   if (from != end && *from == '+') ++from;
   const auto [rest, error] = std::from_chars(from, end, value);
   if (error == std::errc::invalid_argument) return nullptr;
+  // from_chars() leaves the value unset beyond the range of double; strtod() gives infinity or 0.
   if (error != std::errc()) value = std::strtod(std::string(from, rest).c_str(), nullptr);
   return rest;
 }
@@ -27,6 +28,8 @@ bool LineReader::isWordEnd(const char* p) const {
 void LineReader::skipBlanks() {
   for (;;) {
     while (*at_ == ' ' || *at_ == '\t') ++at_;
+
+    // A backslash at the end of a line joins it with the next one.
     const int hidden = continuation(at_);
     if (hidden == 0) return;
     at_ += hidden;
@@ -57,6 +60,7 @@ std::string_view LineReader::rest() {
   skipBlanks();
   const char* const from = at_;
   while (!isLineEnd(at_)) ++at_;
+
   const char* to = at_;
   while (to != from && (to[-1] == ' ' || to[-1] == '\t')) --to;
   return {from, static_cast<std::size_t>(to - from)};

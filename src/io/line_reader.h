@@ -35,23 +35,27 @@ class LineReader {
   // All of the following read within the current line. True if there is another word before the end
   // of the line or a comment.
   bool hasMore();
-  // The next word, empty at the end of the line.
+
+  // Returns the next word, which is empty at the end of the line.
   std::string_view word();
-  // The rest of the line without blanks at either end; a name may contain blanks and "#".
+
+  // Returns the rest of the line without blanks at either end; a name may contain blanks and "#".
   std::string_view rest();
-  // The next word, if it is a number. Otherwise returns false and stays before the word.
+
+  // Reads the next word if it is a number. Otherwise returns false and stays before the word.
   bool number(double& value);
 
   // Parts of a word, without skipping blanks. A missing integer is 0; integers beyond the range are
   // INT32_MAX.
   std::int32_t integer();
   bool take(char c);
+
   // Skips the rest of the word. Returns true if nothing was left of it.
   bool finishWord();
 
  private:
   bool isLineEnd(const char* p) const { return p == end_ || *p == '\n' || *p == '\r'; }
-  // The number of characters of a backslash and the line end that it hides, else 0.
+  // Returns the number of characters of a backslash and the line end that it hides, else 0.
   int continuation(const char* p) const;
   bool isWordEnd(const char* p) const;
   void skipBlanks();

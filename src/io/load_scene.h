@@ -22,22 +22,27 @@ struct LoadOptions {
   std::uint64_t maxMemoryBytes = 16ull << 30;  // texels and geometry while loading
   int threads = 0;                             // decoders; 0: all
   std::string shippedScenes;                   // where else shipped scenes are; empty: nowhere
-  // "POINTER=VALUE", see scene_settings.h, taken for parts of the scene file. Of a model: members
-  // of "materials" by their names there, its "lights" or those supplied, "sky" and "ambient"; of a
-  // glTF file "variant" (KHR_materials_variants), and of other models "up", the axis that is up in
-  // them: "x", "y" or "z"; "viewpoint", the side from which a supplied camera sees it: "outside"
-  // or "inside".
+
+  // "POINTER=VALUE" for members of the scene file, see scene_settings.h. For a model they are
+  // members of "materials" by their names there, its "lights" or the supplied ones, "sky" and
+  // "ambient"; for a glTF file "variant" (KHR_materials_variants), and for other models "up", the
+  // axis that is up in them: "x", "y" or "z"; "viewpoint", the side from which a supplied camera
+  // sees it: "outside" or "inside".
   std::vector<std::string> settings;
-  // In place of the scene's own sky: "none", "studio" (make/model_view.h) or an equirectangular
-  // image. Empty: the scene's own; of a model, which has none, the studio.
+
+  // Replaces the scene's own sky: "none", "studio" (make/model_view.h) or an equirectangular image.
+  // If it is empty, a scene keeps its sky, and a model, which has none, gets the studio.
   std::string sky;
-  // Supplied cameras fit a picture of this size; none: of the scene's own.
+
+  // Supplied cameras fit a picture of this size; without it, one of the scene's own size.
   std::optional<ImageSize> size;
-  // When the scene is looked at. With seconds that nothing in the scene follows, or an animation
-  // that no model has: Error(usage).
+
+  // The instant at which the scene is looked at. Seconds that nothing in the scene follows, or an
+  // animation that no model has, are Error(usage).
   Instant instant;
-  // Segments of the triangles in place of each exact sphere, at least 4 (Error(usage) else); 0: the
-  // spheres stay.
+
+  // Number of segments of the triangles that replace each exact sphere, at least 4 (otherwise
+  // Error(usage)). With 0 the spheres stay.
   int sphereSegments = 0;
 };
 
@@ -58,13 +63,13 @@ struct SceneText {  // NOLINT(bugprone-exception-escape): moving Json does not t
 SceneDescription loadScene(const SceneText& text, const LoadOptions& options, Warnings& warnings,
                            Progress* progress = nullptr);
 
-// Scene::finalize() of what was read from `file`. Its errors name the scene; these name the file
-// too.
+// Calls Scene::finalize() for what was read from `file`. Its errors name the scene; the errors of
+// this function name the file as well.
 Scene finalizeScene(const std::string& file, SceneDescription description, Warnings& warnings,
                     Progress* progress = nullptr);
 
-// The document that is read as a scene's description, with settings and parameters in their places;
-// none for a model without a scene file.
+// Returns the document that is read as a scene's description, with settings and parameters in their
+// places, or nothing for a model without a scene file.
 std::optional<JsonDocument> readDocument(const std::string& name, const LoadOptions& options);
 JsonDocument readDocument(const SceneText& text, const LoadOptions& options);
 

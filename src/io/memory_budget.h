@@ -16,13 +16,15 @@ class MemoryBudget {
  public:
   explicit MemoryBudget(std::uint64_t bytes) : limit_(bytes) {}
 
-  // Before the memory is taken: throws Error(limit) when count * size more bytes do not fit. What
-  // others hold for a while is waited for; whoever holds something himself uses MemoryHold.
+  // To be called before the memory is taken. Throws Error(limit) when count * size more bytes do
+  // not fit. It waits for memory that others hold for a while, so a caller that holds some itself
+  // uses MemoryHold.
   void charge(std::uint64_t count, std::uint64_t size, const std::string& what) {
     std::unique_lock lock(mutex_);
     givenBack_.wait(lock, [&] { return held_ == 0 || fits(count, size); });
     take(count, size, what);
   }
+
   std::uint64_t left() const {
     const std::lock_guard lock(mutex_);
     return limit_ - used_ - held_;
@@ -35,6 +37,7 @@ class MemoryBudget {
     used_ -= count * size;
     held_ += count * size;
   }
+
   void endHold(std::uint64_t bytes, std::uint64_t kept) {
     {
       const std::lock_guard lock(mutex_);
@@ -48,12 +51,14 @@ class MemoryBudget {
   bool fits(std::uint64_t count, std::uint64_t size) const {
     return size == 0 || count <= (limit_ - used_ - held_) / size;
   }
+
   void take(std::uint64_t count, std::uint64_t size, const std::string& what) {
     if (!fits(count, size)) {
       throwLimit(what + " needs " + std::to_string(count) + " x " + std::to_string(size) +
                  " bytes, and " + std::to_string(limit_ - used_ - held_) + " of " +
                  std::to_string(limit_) + " are left");
     }
+
     used_ += count * size;
   }
 
@@ -63,11 +68,12 @@ class MemoryBudget {
   std::uint64_t used_ = 0, held_ = 0;  // together at most limit_
 };
 
-// A part of a budget for as long as the object lives, unless it is kept. Without a budget nothing
-// is counted.
+// Holds a part of a budget for as long as the object lives, unless it is kept. Without a budget
+// nothing is counted.
 class MemoryHold {
  public:
   MemoryHold() = default;
+
   // Does not wait, so that those who hold something cannot wait for each other: throws
   // Error(limit) at once where it does not fit.
   MemoryHold(MemoryBudget* budget, std::uint64_t count, std::uint64_t size,

@@ -11,14 +11,14 @@ struct Point {
   double x = 0, y = 0;
 };
 
-// Twice the signed area.
+// Returns twice the signed area of the triangle.
 double turn(const Point& a, const Point& b, const Point& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
 bool samePoint(const Point& a, const Point& b) { return a.x == b.x && a.y == b.y; }
 
-// Along the plane's normal, with the polygon's area for length.
+// Returns the normal of the polygon's plane; its length is twice the polygon's area.
 Vec3d newellNormal(const std::vector<Vec3d>& corners) {
   Vec3d normal;
   const Vec3d origin = corners[0];  // far from the world's origin, differences keep their digits
@@ -28,12 +28,14 @@ Vec3d newellNormal(const std::vector<Vec3d>& corners) {
   return normal;
 }
 
-// The polygon seen against its normal, counter-clockwise: without its largest axis.
+// Projects along the largest axis of the normal, in the order of axes that makes the polygon
+// counter-clockwise.
 std::vector<Point> project(const std::vector<Vec3d>& corners, const Vec3d& normal) {
   const Vec3d size = abs(normal);
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   int first = (axis + 1) % 3, second = (axis + 2) % 3;
   if (normal[axis] < 0) std::swap(first, second);
+
   std::vector<Point> points;
   points.reserve(corners.size());
   for (const Vec3d& c : corners) points.push_back({c[first], c[second]});
@@ -50,6 +52,9 @@ void quad(const std::vector<Vec3d>& p, Triangles& triangles) {
   };
   const bool even = bothFaceAlike(0, 1, 2, 3), odd = bothFaceAlike(1, 2, 3, 0);
   const Vec3d d02 = p[2] - p[0], d13 = p[3] - p[1];
+
+  // A diagonal outside of a concave quad makes triangles that face opposite sides. If both
+  // diagonals are alike, the shorter one is taken.
   if (even == odd ? dot(d02, d02) <= dot(d13, d13) : even) {
     triangles.insert(triangles.end(), {{0, 1, 2}, {0, 2, 3}});
   } else {
@@ -76,10 +81,12 @@ class EarClipper {
       std::size_t ear = findEar();
       if (ear == left_.size()) ear = findFlat();
       if (ear == left_.size()) return false;
+
       triangles.push_back({at(ear + left_.size() - 1), at(ear), at(ear + 1)});
       left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(ear));
       start_ = ear;  // goes round, so that a long polygon does not become a fan of slivers
     }
+
     triangles.push_back({left_[0], left_[1], left_[2]});
     return true;
   }
@@ -95,10 +102,13 @@ class EarClipper {
     }
     return n;
   }
+
   bool isEar(std::size_t i) const {
     const std::size_t n = left_.size();
     const Point &a = points_[at(i + n - 1)], &b = points_[at(i)], &c = points_[at(i + 1)];
     if (!(turn(a, b, c) > 0)) return false;
+
+    // An ear contains no other corner of the polygon.
     for (std::size_t k = 2; k + 1 < n; ++k) {
       const Point& p = points_[at(i + k)];
       // Corners that coincide with the ear's own are the seam of a polygon with a hole.
@@ -107,7 +117,8 @@ class EarClipper {
     }
     return true;
   }
-  // A corner on the line between its neighbors: its triangle is degenerate, the rest is not.
+
+  // Finds a corner on the line between its neighbors: its triangle is degenerate, the rest is not.
   std::size_t findFlat() const {
     const std::size_t n = left_.size();
     for (std::size_t i = 0; i < n; ++i) {
@@ -133,6 +144,7 @@ bool triangulate(const std::vector<Vec3d>& corners, Triangles& triangles) {
     quad(corners, triangles);
     return true;
   }
+
   const Vec3d normal = newellNormal(corners);
   const std::size_t before = triangles.size();
   if (isFinite(normal) && maxComponent(abs(normal)) > 0) {
@@ -144,6 +156,8 @@ bool triangulate(const std::vector<Vec3d>& corners, Triangles& triangles) {
       return true;
     }
   }
+
+  // A fan replaces the triangles that were added before clipping failed.
   triangles.resize(before);
   fan(count, triangles);
   return false;

@@ -20,6 +20,7 @@ std::optional<Texture> makeUse(const std::string& name, const RawImage& raw,
     warnOfClampedColors(name, raw, warnings);
     return makeTexture(name, raw, TexelFormat::color);
   }
+
   if (use == TextureUse::bump && looksLikeHeights(raw)) {
     return normalsFromHeights(name, raw, source.bumpScale, source.wrapU, source.wrapV);
   }
@@ -27,6 +28,7 @@ std::optional<Texture> makeUse(const std::string& name, const RawImage& raw,
     if (hasTranslucentAlpha(raw)) return makeAlphaTexture(name, raw);
     if (use == TextureUse::colorAlpha) return std::nullopt;
   }
+
   return makeTexture(name, raw, TexelFormat::data);
 }
 
@@ -42,6 +44,7 @@ DecodeQueue::~DecodeQueue() {
     const std::lock_guard lock(mutex_);
     begun_ = tasks_.size();
   }
+
   try {
     close();
   } catch (...) {  // thrown by the progress observer; the tasks are dropped anyway
@@ -54,6 +57,7 @@ void DecodeQueue::add(std::function<void()> task) {
     pool_.emplace(threads_, Denormals::kept).begin(job_);
     running_ = true;
   }
+
   {
     const std::lock_guard lock(mutex_);
     tasks_.push_back({std::move(task), nullptr});
@@ -64,6 +68,7 @@ void DecodeQueue::add(std::function<void()> task) {
 void DecodeQueue::run(Task& task, std::unique_lock<std::mutex>& lock) {
   const bool isFirstRun = !std::exchange(task.failure, nullptr);
   bool again = false;
+
   lock.unlock();
   try {
     task.work();
@@ -73,8 +78,11 @@ void DecodeQueue::run(Task& task, std::unique_lock<std::mutex>& lock) {
   } catch (...) {
     task.failure = std::current_exception();
   }
+
   lock.lock();
+  // A task that exceeded the memory keeps its work, so that finish() can run it again.
   if (again) return;
+
   task.work = nullptr;
   const double fraction = static_cast<double>(++ended_) / static_cast<double>(tasks_.size());
   lock.unlock();
@@ -84,6 +92,7 @@ void DecodeQueue::run(Task& task, std::unique_lock<std::mutex>& lock) {
 
 void DecodeQueue::work() {
   std::unique_lock lock(mutex_);
+
   try {
     for (;;) {
       wake_.wait(lock, [&] { return closing_ || begun_ < tasks_.size(); });
@@ -108,10 +117,13 @@ void DecodeQueue::close() {
 
 void DecodeQueue::finish() {
   close();
+
+  // Tasks that exceeded the memory run again when all others have given theirs back.
   std::unique_lock lock(mutex_);
   for (Task& task : tasks_) {
     if (task.work) run(task, lock);
   }
+
   for (const Task& task : tasks_) {
     if (task.failure) std::rethrow_exception(task.failure);
   }
@@ -125,24 +137,30 @@ std::vector<std::int32_t> TextureLoader::add(const TextureSource& source,
                                              const std::vector<TextureUse>& uses) {
   std::vector<std::int32_t> slots;
   std::vector<std::pair<TextureUse, std::optional<Texture>*>> targets;
+
   for (TextureUse use : uses) {
+    // Images that cannot exceed 1 emit as color textures do, and share their slots.
     if (use == TextureUse::emission && !source.given && !holdsRadiance(source.path)) {
       use = TextureUse::color;
     }
+
     const Key key{source.given ? source.where : source.path,
                   use,
                   source.wrapU,
                   source.wrapV,
                   source.nearest,
                   use == TextureUse::bump ? source.bumpScale : 1.0f};
+
     const auto [entry, isNew] = known_.emplace(key, static_cast<std::int32_t>(slots_.size()));
     slots.push_back(entry->second);
     if (isNew) targets.emplace_back(use, &slots_.emplace_back());
   }
+
   if (targets.empty()) return slots;
   queue_.add([this, source, targets] {
     RawImage raw;
     MemoryHold copy;
+
     try {
       if (source.given) {
         copy = MemoryHold(&budget_, 1, source.given->bytes(), source.where);
@@ -156,10 +174,12 @@ std::vector<std::int32_t> TextureLoader::add(const TextureSource& source,
       warnings_.add("texture left out", source.where + ": " + error.what());
       return;
     }
+
     const std::string name =
         source.given ? source.where : std::filesystem::path(source.path).filename().string();
     for (const auto& [use, target] : targets) *target = make(name, raw, source, use);
   });
+
   return slots;
 }
 
@@ -171,6 +191,7 @@ std::vector<std::int32_t> TextureLoader::add(
     slots.push_back(static_cast<std::int32_t>(slots_.size()));
     targets.push_back(&slots_.emplace_back());
   }
+
   queue_.add([this, make = std::move(make), targets] {
     std::vector<std::optional<Texture>> made = make();
     for (std::size_t i = 0; i < targets.size(); ++i) {
@@ -179,6 +200,7 @@ std::vector<std::int32_t> TextureLoader::add(
       *targets[i] = std::move(made[i]);
     }
   });
+
   return slots;
 }
 
@@ -191,6 +213,8 @@ void TextureLoader::addEnvironment(const std::string& path, const std::string& w
   queue_.add([this, path, where, &image] {
     const RawImage raw =
         readNamedAt(where, [&] { return readRawImage(path, limits(), warnings_); });
+
+    // An image made from a cube has 8/6 of its pixels; twice as many are an upper bound.
     const std::size_t pixels = raw.isCube ? 2 * raw.pixels() : raw.pixels();
     MemoryHold planes(&budget_, pixels, 3 * sizeof(float), path);
     image = makeEnvironment(raw);
@@ -209,6 +233,7 @@ std::optional<Texture> TextureLoader::make(const std::string& name, const RawIma
   MemoryHold texels(&budget_, raw.pixels(), sizeof(std::uint32_t), name);
   std::optional<Texture> texture = makeUse(name, raw, source, use, warnings_);
   if (!texture) return texture;
+
   texels.keep();
   texture->wrapU = source.wrapU;
   texture->wrapV = source.wrapV;
@@ -219,6 +244,7 @@ std::optional<Texture> TextureLoader::make(const std::string& name, const RawIma
 void TextureLoader::finish(SceneDescription& scene) {
   queue_.finish();
   for (const auto& change : changes_) change(scene);
+
   // Unused slots are dropped: a color without alpha leaves an empty one, and an override may have
   // replaced a map.
   std::vector<std::int32_t> number(slots_.size(), kNoTexture);
@@ -227,6 +253,7 @@ void TextureLoader::finish(SceneDescription& scene) {
       std::int32_t& map = material.*member.field;
       if (map == kNoTexture) return;
       const std::size_t slot = static_cast<std::size_t>(map);
+
       if (number[slot] == kNoTexture && slots_[slot]) {
         number[slot] = static_cast<std::int32_t>(scene.textures.size());
         scene.textures.push_back(std::move(*slots_[slot]));

@@ -38,6 +38,7 @@ class DecodeQueue {
 
   // Call before finish(). Throws as WorkerPool does.
   void add(std::function<void()> task);
+
   // Returns when every task has ended. Of several failed tasks, the one added first has its
   // exception rethrown, in whatever order they failed.
   void finish();
@@ -83,15 +84,19 @@ class TextureLoader {
   // Returns a slot for each of `uses`; the image is decoded once for all of them. The same source
   // and use have the same slot again; emission is color if the file's format cannot exceed 1.
   std::vector<std::int32_t> add(const TextureSource& source, const std::vector<TextureUse>& uses);
+
   // Adds `count` textures that `make` computes on a worker; some of them may be empty.
   std::vector<std::int32_t> add(std::size_t count,
                                 std::function<std::vector<std::optional<Texture>>()> make);
+
   // Decodes the equirectangular map at `path`, which `where` names, to `image`; it is ready after
   // finish().
   void addEnvironment(const std::string& path, const std::string& where, EnvironmentImage& image);
+
   // finish() calls `change` when all textures are decoded, before it numbers them.
   void whenDone(std::function<void(SceneDescription&)> change);
-  // The limits of images, with the budget that textures are charged to.
+
+  // Returns the limits of images, with the budget that textures are charged to.
   ImageLimits limits() const;
 
   // Waits for all images, moves them to scene.textures and replaces the slots in the materials by

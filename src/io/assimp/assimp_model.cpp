@@ -35,8 +35,8 @@ constexpr float kSmoothestDegrees = 35;
 
 // The following functions run in the child, up to convert().
 
-// STL has normals of facets, which say nothing that the facets do not, and the library smooths 3DS
-// files without groups all over: the normals of both are computed anew.
+// STL stores only the normals of facets, which repeat the geometry, and the library smooths 3DS
+// files without groups across all edges. The normals of both formats are computed anew.
 const aiScene* importScene(const std::string& bytes, const std::string& extension) {
   aiPropertyStore* const settings = aiCreatePropertyStore();
   aiSetImportPropertyFloat(settings, AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, kSmoothestDegrees);
@@ -45,6 +45,7 @@ const aiScene* importScene(const std::string& bytes, const std::string& extensio
   aiSetImportPropertyInteger(settings, AI_CONFIG_PP_RVC_FLAGS, aiComponent_NORMALS);
   aiSetImportPropertyInteger(settings, AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, 0);
   aiSetImportPropertyInteger(settings, AI_CONFIG_IMPORT_NO_SKELETON_MESHES, 1);
+
   const bool bare = extension == ".stl" || extension == ".3ds";
   return aiImportFileFromMemoryWithProperties(bytes.data(), static_cast<unsigned>(bytes.size()),
                                               bare ? aiProcess_RemoveComponent : 0u,
@@ -60,8 +61,9 @@ void copyCorners(const std::vector<unsigned>& vertices, T*& values) {
 }
 
 // Gives each corner of the mesh's faces a vertex of its own, without which it has no normal of its
-// own. Replaced arrays go with the process.
+// own. The replaced arrays are not freed: they live until the child process ends.
 void separateCorners(aiMesh& mesh) {
+  // A corner's new index is its place in `vertices`, which holds the vertex that the corner copies.
   std::vector<unsigned> vertices;
   for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
     for (unsigned k = 0; k < mesh.mFaces[i].mNumIndices; ++k) {
@@ -70,6 +72,7 @@ void separateCorners(aiMesh& mesh) {
       vertices.push_back(std::exchange(index, static_cast<unsigned>(vertices.size())));
     }
   }
+
   mesh.mNumVertices = static_cast<unsigned>(vertices.size());
   copyCorners(vertices, mesh.mVertices);
   copyCorners(vertices, mesh.mColors[0]);
@@ -87,6 +90,7 @@ void makeFinite(aiMesh& mesh, std::uint32_t& notes) {
       mesh.mVertices[i] = {};
       notes |= kPositionMended;
     }
+
     if (mesh.mNormals && !isFinite(mesh.mNormals[i])) mesh.mNormals[i] = {};
     for (aiVector3D* const uvs : mesh.mTextureCoords) {
       if (uvs && !isFinite(uvs[i])) uvs[i] = {};
@@ -128,16 +132,20 @@ bool hasMap(const aiMaterial& material, aiTextureType type) {
   return material.GetTextureCount(type) > 0;
 }
 
-// Roughness comes from the exponent, as in MTL files. The strength of highlights is no reflectance,
-// an index of refraction is often 1 in opaque materials, and faces have two sides in these formats.
+// Sets the factors of the surface as glTF means them. Faces have two sides in these formats.
 void settleSurface(aiMaterial& material, std::uint32_t& notes) {
   setMember(material, 1, AI_MATKEY_TWOSIDED);
+
+  // The exponent n of Blinn's lobe corresponds to roughness^2 = sqrt(2 / (n + 2)), as in MTL files.
   float shininess = 0, roughness = 0, opacity = 1;
   material.Get(AI_MATKEY_SHININESS, shininess);
   if (material.Get(AI_MATKEY_ROUGHNESS_FACTOR, roughness) != aiReturn_SUCCESS) {
     const float exponent = std::isfinite(shininess) ? std::max(shininess, 0.0f) : 0.0f;
     setMember(material, std::pow(2 / (exponent + 2), 0.25f), AI_MATKEY_ROUGHNESS_FACTOR);
   }
+
+  // The strength of highlights is no reflectance, and an index of refraction is often 1 in opaque
+  // materials.
   material.RemoveProperty(AI_MATKEY_COLOR_SPECULAR);
   material.RemoveProperty(AI_MATKEY_SPECULAR_FACTOR);
   material.RemoveProperty(AI_MATKEY_GLOSSINESS_FACTOR);
@@ -159,6 +167,7 @@ void settleMaps(aiMaterial& material, std::uint32_t& notes) {
                                      aiTextureType_NORMALS,           aiTextureType_EMISSIVE,
                                      aiTextureType_LIGHTMAP,          aiTextureType_METALNESS,
                                      aiTextureType_DIFFUSE_ROUGHNESS, aiTextureType_UNKNOWN};
+
   aiString opacity, diffuse;
   material.GetTexture(aiTextureType_OPACITY, 0, &opacity);
   material.GetTexture(aiTextureType_DIFFUSE, 0, &diffuse);
@@ -171,6 +180,7 @@ void settleMaps(aiMaterial& material, std::uint32_t& notes) {
     const bool isKept = std::ranges::find(kKept, kind) != std::end(kKept) ||
                         (kind == aiTextureType_OPACITY && byAlpha);
     if (hasMap(material, kind) && !isKept) notes |= kMapLeftOut;
+
     for (unsigned i = 0; i < material.GetTextureCount(kind); ++i) {
       aiString path;
       material.GetTexture(kind, i, &path);
@@ -187,6 +197,8 @@ void settleDefault(const aiScene& scene, unsigned index) {
     return mesh->mMaterialIndex == index && mesh->mColors[0];
   };
   const bool colored = std::any_of(scene.mMeshes, scene.mMeshes + scene.mNumMeshes, isColored);
+
+  // Colors of vertices multiply the material's color, so that meshes which have them get white.
   const float gray = colored ? 1 : kModelGray;
   aiMaterial& material = *scene.mMaterials[index];
   setMember(material, aiString(kNoMaterialName), AI_MATKEY_NAME);
@@ -198,22 +210,25 @@ void settleMaterials(const aiScene& scene, std::uint32_t& notes) {
     aiMaterial& material = *scene.mMaterials[i];
     settleSurface(material, notes);
     settleMaps(material, notes);
+
     aiString name;
     material.Get(AI_MATKEY_NAME, name);
     makePrintable(name);
     setMember(material, name, AI_MATKEY_NAME);
+
     const bool isDefault = name.length == 0 || name == aiString(AI_DEFAULT_MATERIAL_NAME);
     if (isDefault && !hasMap(material, aiTextureType_DIFFUSE)) settleDefault(scene, i);
   }
 }
 
-// A skin is given by the pose in which it was bound, which writers of these formats and the library
-// understand in several ways: the mesh stays as it rests.
+// A skin depends on the pose in which it was bound, which writers of these formats and the library
+// understand in several ways. The mesh therefore stays in its rest pose.
 void leaveOutSkins(aiScene& scene, std::uint32_t& notes) {
   for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
     if (scene.mMeshes[i]->mNumBones > 0) notes |= kSkinLeftOut;
     scene.mMeshes[i]->mNumBones = 0;
   }
+
   if ((notes & kSkinLeftOut) != 0) scene.mNumAnimations = 0;
 }
 
@@ -225,31 +240,37 @@ void turnUp(aiScene& scene) {
   const bool isTurned = !root.IsIdentity() && root.Determinant() != 0;
   if (isTurned || !scene.mMetaData || !scene.mMetaData->Get("UpAxis", up) || up == 1) return;
 
+  // Each matrix rotates the axis that is up to y.
   const aiMatrix4x4 fromZ(1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1);
   const aiMatrix4x4 fromX(0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1);
   root = up == 2 ? fromZ : fromX;
 }
 
-// Answers with the notes and the GLB, or with a 0 and what the library says.
+// Writes a 1, the notes and the GLB, or a 0 and the library's error message.
 void convert(const std::string& bytes, const std::string& extension, const ConfinedWriter& write) {
   const auto fail = [&](const std::string& why) {
     const char failed = 0;
     write(&failed, 1);
     write(why.data(), why.size());
   };
+
   const aiScene* imported = importScene(bytes, extension);
   for (unsigned i = 0; imported && i < imported->mNumMeshes; ++i) {
     aiMesh& mesh = *imported->mMeshes[i];
     if (!mesh.mNormals && mesh.mNumAnimMeshes + mesh.mNumBones == 0) separateCorners(mesh);
   }
-  // Polygons are smoothed as they are: each counts once, and not once for each of its triangles.
+
+  // Normals are smoothed before the polygons are split, so that each polygon counts once and not
+  // once for each of its triangles.
   constexpr unsigned kFinish =
       aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_JoinIdenticalVertices;
   if (imported) imported = aiApplyPostProcessing(imported, aiProcess_GenSmoothNormals);
   if (imported) imported = aiApplyPostProcessing(imported, kFinish);
+
   if (!imported) return fail(aiGetErrorString());
   if (imported->mNumMeshes == 0 || !imported->mRootNode) return fail("it has no faces");
 
+  // The scene is adapted to what glTF can express; `notes` records what is lost.
   auto& scene = *const_cast<aiScene*>(imported);
   std::uint32_t notes = scene.mNumLights + scene.mNumCameras > 0 ? kViewLeftOut : 0u;
   for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
@@ -257,6 +278,7 @@ void convert(const std::string& bytes, const std::string& extension, const Confi
     makeLinear(*scene.mMeshes[i]);
     makePrintable(scene.mMeshes[i]->mName);
   }
+
   makePrintable(*scene.mRootNode);
   settleMaterials(scene, notes);
   leaveOutSkins(scene, notes);
@@ -277,9 +299,12 @@ ConvertedModel convertByAssimp(const std::string& bytes, const std::string& exte
   if (bytes.size() > std::numeric_limits<unsigned>::max()) {
     return {"", "it has more than 2^32 - 1 bytes"};
   }
+
   const ConfinedAnswer answer =
       runConfined([&](const ConfinedWriter& write) { convert(bytes, extension, write); }, mostBytes,
                   kConversionSeconds);
+
+  // The answer has the form in which convert() writes it.
   ConvertedModel model;
   const std::string& said = answer.bytes;
   constexpr std::size_t kHead = 1 + sizeof model.notes;
@@ -291,6 +316,7 @@ ConvertedModel convertByAssimp(const std::string& bytes, const std::string& exte
     std::memcpy(&model.notes, said.data() + 1, sizeof model.notes);
     model.glb = said.substr(kHead);
   }
+
   return model;
 }
 
@@ -308,9 +334,11 @@ std::unique_ptr<Model> openByAssimp(const ModelSource& source) {
   const MemoryHold hold(&source.budget, bytes.size(), 1, file);
   const ConvertedModel model =
       convertByAssimp(bytes, extensionOf(source.path), source.budget.left() / 2);
+
   if (!model.failure.empty()) {
     throwBadScene(file, "expected a model that the library assimp can read, but " + model.failure);
   }
+
   constexpr std::pair<AssimpNote, const char*> kNotes[] = {
       {kSkinLeftOut, "skins and animations of a rigged model left out: it is shown at rest"},
       {kViewLeftOut, "cameras and lights of a model left out"},
@@ -320,6 +348,7 @@ std::unique_ptr<Model> openByAssimp(const ModelSource& source) {
   for (const auto& [bit, text] : kNotes) {
     if ((model.notes & bit) != 0) source.warnings.add(text, file);
   }
+
   return openGltf(source, model.glb);
 }
 

@@ -14,7 +14,7 @@ namespace {
 // the number of its elements.
 constexpr std::uint64_t kZeroElementLimit = 1u << 24;
 
-// Section 3.11 of the specification for normalized integers.
+// Section 3.11 of the specification defines how normalized integers are decoded.
 template <typename T>
 double valueAs(const std::uint8_t* from, bool normalized) {
   T value;
@@ -45,7 +45,7 @@ ComponentType componentTypeOf(const JsonValue& code, bool forIndices = false) {
   code.fail(forIndices ? "5121, 5123 or 5125" : "5120 to 5123, 5125 or 5126");
 }
 
-// The name of the type with so many components.
+// Returns the name of the accessor type with this number of components.
 const char* typeOf(std::size_t components) {
   constexpr const char* kTypes[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
   return components > std::size(kTypes) ? "MAT4" : kTypes[components - 1];
@@ -69,6 +69,9 @@ Run elementsWithin(const GltfDocument& document, const JsonValue& source, bool s
         "at least the " + std::to_string(elementBytes) + " bytes of an element of " +
         source.where());
   }
+
+  // `fit` is the number of elements up to the end of the view, where the last one needs no full
+  // stride.
   const bool first = offset <= size && elementBytes <= size - offset;
   const std::uint64_t fit = first ? (size - offset - elementBytes) / stride + 1 : 0;
   if (count > fit) {
@@ -90,6 +93,8 @@ class AccessorReader {
         count_(accessor.need("count").wholeOr(0)),
         normalized_(accessor["normalized"].flagOr(false)) {
     if (accessor.need("type").textOr("") != typeOf(components)) accessor["type"].fail(expected);
+
+    // Elements come from compressed data or a buffer view; without either they are all zero.
     if (const std::optional<Bytes> bytes = document.decoded(accessor)) {
       count_ = bytes->size() / bytes_;  // the accessor's own count is often wrong
       dense_ = {bytes->data(), bytes_};
@@ -109,14 +114,18 @@ class AccessorReader {
     for (std::uint64_t i = 0; dense_.first && i < count_; ++i) {
       set(&all[i * perElement], dense_.at(i));
     }
+
+    // A sparse accessor lists the indices and values of the elements that differ (section 3.6.2.3).
     const JsonValue sparse = accessor_["sparse"];
     if (!sparse.exists()) return all;
     const JsonValue indices = sparse.need("indices");
     const std::uint64_t count =
         sparse.need("count").wholeOr(0, std::numeric_limits<std::int32_t>::max());
+
     const ComponentType type = componentTypeOf(indices.need("componentType"), true);
     const Run which = elementsWithin(document_, indices, false, type.bytes, count);
     const Run values = elementsWithin(document_, sparse.need("values"), false, bytes_, count);
+
     for (std::uint64_t i = 0; i < count; ++i) {
       const std::uint32_t index = type.index(which.at(i));
       if (index >= count_) {
@@ -125,6 +134,7 @@ class AccessorReader {
       }
       set(&all[index * perElement], values.at(i));
     }
+
     return all;
   }
 
@@ -181,6 +191,7 @@ GltfColors readColors(const GltfDocument& document, const JsonValue& reference) 
   const JsonValue accessor = accessorOf(document, reference);
   const bool alpha = accessor["type"].textOr("") == "VEC4";
   const AccessorReader reader(document, accessor, alpha ? 4 : 3, "VEC3 or VEC4");
+
   GltfColors result;
   result.colors = reader.read<Rgb>(1, [&](Rgb* to, const std::uint8_t* from) {
     *to = {reader.at(from, 0), reader.at(from, 1), reader.at(from, 2)};

@@ -46,7 +46,8 @@ void withComponentType(std::uint64_t code, const Use& use) {
   if (code == 5126) return use(float());
 }
 
-// The arrays of one mesh follow each other.
+// Lists the accessors whose data Draco has compressed. The arrays of one mesh follow each other, so
+// that each mesh is decoded once.
 std::vector<DracoArray> dracoArrays(const GltfDocument& document) {
   std::vector<DracoArray> all;
   for (const JsonValue& mesh : document.list("meshes").elements()) {
@@ -54,6 +55,7 @@ std::vector<DracoArray> dracoArrays(const GltfDocument& document) {
       const JsonValue source = primitive["extensions"]["KHR_draco_mesh_compression"];
       if (!source) continue;
       const Bytes bytes = document.view(source.need("bufferView")).bytes;
+
       const auto add = [&](const JsonValue& reference, int id) {
         const JsonValue accessor = accessorOf(document, reference);
         if (accessor["bufferView"].exists()) return;  // for readers without Draco
@@ -62,6 +64,7 @@ std::vector<DracoArray> dracoArrays(const GltfDocument& document) {
                        accessor.need("componentType").wholeOr(0),
                        type.starts_with("VEC") ? static_cast<std::size_t>(type.back() - '0') : 1});
       };
+
       for (const auto& [name, id] : source.need("attributes").members()) {
         add(primitive.need("attributes").need(name),
             id.integer(0, std::numeric_limits<int>::max()));
@@ -78,6 +81,7 @@ bool copyAttribute(const draco::Mesh& mesh, const DracoArray& array, std::vector
   const draco::PointAttribute* const attribute =
       mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(array.id));
   all.resize(std::size_t{mesh.num_points()} * array.components);
+
   for (std::uint32_t i = 0; attribute && i < mesh.num_points(); ++i) {
     const bool known = attribute->ConvertValue(attribute->mapped_index(draco::PointIndex(i)),
                                                static_cast<std::int8_t>(array.components),
@@ -89,8 +93,10 @@ bool copyAttribute(const draco::Mesh& mesh, const DracoArray& array, std::vector
 
 template <typename T>
 bool copyIndices(const draco::Mesh& mesh, std::vector<T>& all) {
+  // The type of the accessor's components must be able to hold the largest index.
   const std::uint32_t last = std::max(mesh.num_points(), 1u) - 1;
   if (static_cast<std::uint32_t>(static_cast<T>(last)) != last) return false;
+
   for (std::uint32_t i = 0; i < mesh.num_faces(); ++i) {
     for (const draco::PointIndex& corner : mesh.face(draco::FaceIndex(i))) {
       all.push_back(static_cast<T>(corner.value()));
@@ -104,12 +110,14 @@ void decodeArrays(const std::vector<DracoArray>& arrays, const ConfinedWriter& w
   const std::uint8_t* decoded = nullptr;
   std::unique_ptr<draco::Mesh> mesh;
   for (const DracoArray& array : arrays) {
+    // All arrays of a mesh come from one decoding.
     if (std::exchange(decoded, array.mesh.data()) != array.mesh.data() || !mesh) {
       draco::DecoderBuffer buffer;
       buffer.Init(reinterpret_cast<const char*>(array.mesh.data()), array.mesh.size());
       mesh = draco::Decoder().DecodeMeshFromBuffer(&buffer).value();
       if (!mesh) return;
     }
+
     bool copied = false;
     withComponentType(array.type, [&](auto kind) {
       std::vector<decltype(kind)> all;
@@ -125,9 +133,12 @@ void decodeArrays(const std::vector<DracoArray>& arrays, const ConfinedWriter& w
 void decodeDraco(const GltfDocument& document, std::map<std::string, std::string>& decoded) {
   const std::vector<DracoArray> arrays = dracoArrays(document);
   if (arrays.empty()) return;
+
   const ConfinedAnswer answer =
       runConfined([&](const ConfinedWriter& write) { decodeArrays(arrays, write); },
                   document.budget().left() / 2, kSeconds);
+
+  // The answer holds the arrays in the same order, each behind its size.
   std::string_view left = answer.bytes;
   for (const DracoArray& array : arrays) {
     std::uint64_t size = 0;
@@ -137,6 +148,7 @@ void decodeDraco(const GltfDocument& document, std::map<std::string, std::string
                     "expected a mesh that Draco's decoder can read, but " +
                         (answer.failure.empty() ? "it found damaged data" : answer.failure));
     }
+
     document.budget().charge(size, 1, array.where);
     decoded[array.accessor] = left.substr(sizeof size, size);
     left.remove_prefix(sizeof size + size);
@@ -159,6 +171,7 @@ std::string decodeView(const GltfDocument& document, const JsonValue& view,
       named ? named.word({"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL"}) : "NONE";
   const std::uint64_t count = source.need("count").wholeOr(0);
   const auto stride = static_cast<std::size_t>(source.need("byteStride").integer(2, 256));
+
   const bool suits = mode != "ATTRIBUTES"     ? filter == "NONE" && (stride == 2 || stride == 4)
                      : filter == "QUATERNION" ? stride == 8
                      : filter == "OCTAHEDRAL" ? stride == 4 || stride == 8
@@ -168,6 +181,7 @@ std::string decodeView(const GltfDocument& document, const JsonValue& view,
     view["byteLength"].fail("the " + std::to_string(count * stride) + " bytes that are compressed");
   }
   if (mode == "TRIANGLES" && count % 3 != 0) source["count"].fail("a multiple of 3");
+
   document.budget().charge(count, stride, source.where());
   std::string all(count * stride, '\0');
   const Bytes from = document.range(source);
@@ -178,6 +192,8 @@ std::string decodeView(const GltfDocument& document, const JsonValue& view,
           ? meshopt_decodeIndexBuffer(all.data(), count, stride, from.data(), from.size())
           : meshopt_decodeIndexSequence(all.data(), count, stride, from.data(), from.size());
   if (failure != 0) source.fail("data that meshoptimizer can decode", "damaged data");
+
+  // The filters turn quantized directions, rotations and numbers into their final form in place.
   if (filter == "OCTAHEDRAL") meshopt_decodeFilterOct(all.data(), count, stride);
   if (filter == "QUATERNION") meshopt_decodeFilterQuat(all.data(), count, stride);
   if (filter == "EXPONENTIAL") meshopt_decodeFilterExp(all.data(), count, stride);

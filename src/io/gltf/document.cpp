@@ -24,8 +24,11 @@ int base64Value(char c) {
 
 std::string base64Decoded(std::string_view digits, const std::string& where) {
   while (digits.ends_with('=')) digits.remove_suffix(1);
+
   std::string bytes;
   bytes.reserve(digits.size() / 4 * 3 + 2);
+
+  // `held` collects the six bits of each digit until a byte is complete.
   std::uint32_t held = 0;
   int bits = 0;
   for (const char c : digits) {
@@ -39,11 +42,12 @@ std::string base64Decoded(std::string_view digits, const std::string& where) {
     bits -= 8;
     bytes += static_cast<char>(held >> bits & 255u);
   }
+
   if (bits == 6) throwBadScene(where, "expected base64, which ends within a byte");
   return bytes;
 }
 
-// RFC 3986, section 2.1.
+// Decodes "%20" and its like: RFC 3986, section 2.1.
 std::string percentDecoded(std::string_view uri) {
   std::string text;
   for (std::size_t i = 0; i < uri.size(); ++i) {
@@ -79,12 +83,16 @@ std::string_view splitBinary(std::string_view bytes, const std::string& file,
     throwBadScene(file + ": byte " + std::to_string(at),
                   "expected " + expected + ", found " + std::to_string(found));
   };
+
+  // The header consists of a magic word, the version and the length of the file.
   if (bytes.size() < kHeaderBytes) fail(0, "a header of 12 bytes", bytes.size());
   const std::uint32_t version = wordAt(bytes, 4), length = wordAt(bytes, 8);
   if (version != 2) fail(4, "glTF 2", version);
   if (length < kHeaderBytes || length > bytes.size()) {
     fail(8, "a length up to the file's " + std::to_string(bytes.size()) + " bytes", length);
   }
+
+  // Chunks follow, the first of which holds the JSON text.
   std::string_view text;
   std::size_t at = kHeaderBytes;
   do {
@@ -92,6 +100,7 @@ std::string_view splitBinary(std::string_view bytes, const std::string& file,
     const std::uint32_t size = wordAt(bytes, at), type = wordAt(bytes, at + 4);
     const std::size_t left = length - at - kChunkHeaderBytes;
     if (size > left) fail(at, "a chunk of " + std::to_string(size) + " bytes", left);
+
     const std::string_view chunk = bytes.substr(at + kChunkHeaderBytes, size);
     if (at == kHeaderBytes) {
       if (type != kJsonChunk) fail(at + 4, "a chunk of JSON first", type);
@@ -99,8 +108,10 @@ std::string_view splitBinary(std::string_view bytes, const std::string& file,
     } else if (type == kBinaryChunk && !binary) {  // other chunks are those of extensions
       binary = chunk;
     }
+
     at += kChunkHeaderBytes + size;
   } while (at < length);
+
   return text;
 }
 
@@ -108,13 +119,17 @@ std::string_view splitBinary(std::string_view bytes, const std::string& file,
 Json parseGltf(const std::string& bytes, const std::string& name, MemoryBudget& budget,
                std::optional<std::string>& binary) {
   budget.charge(bytes.size(), 2, name);
+
   const bool isBinary = bytes.starts_with("glTF");
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
   if (!isBinary && (first == std::string::npos || bytes[first] != '{')) {
     throwBadScene(name, "expected a GLB, which begins with \"glTF\", or JSON, which begins with {");
   }
+
   const std::string_view text =
       isBinary ? splitBinary(bytes, name, binary) : std::string_view(bytes);
+
+  // Each value follows a separator, so that their number limits the memory of the parsed text.
   const auto values =
       std::ranges::count_if(text, [](char c) { return c == ',' || c == '[' || c == '{'; });
   budget.charge(static_cast<std::uint64_t>(values), kBytesPerJsonValue, name);
@@ -162,9 +177,12 @@ GltfDocument::GltfDocument(const std::filesystem::path& path, const std::string&
       JsonDocument{name_, parseGltf(bytes, name_, budget, binary), {}});
   if (!root().isObject()) root().fail("an object");
   checkExtensions();
+
   for (const auto& [name, list] : json_->root.items()) {
     if (list.is_array()) budget_.charge(this->list(name).size(), kBytesPerElement, name_);
   }
+
+  // The first buffer of a GLB has no URI and is the binary chunk.
   buffers_.resize(list("buffers").size());
   if (!buffers_.empty() && !list("buffers")[0]["uri"].exists()) buffers_[0] = std::move(binary);
   readBuffers(path.parent_path(), rules);
@@ -181,6 +199,7 @@ Bytes GltfDocument::range(const JsonValue& source) const {
   const std::size_t number = source.need("buffer").indexInto(buffers).value_or(0);
   const std::optional<std::string>& buffer = buffers_[number];
   if (!buffer) buffers[number].fail("a buffer with data", "none");
+
   const std::uint64_t size = buffer->size(), offset = source["byteOffset"].wholeOr(0);
   const std::uint64_t length = source.need("byteLength").wholeOr(0);
   if (offset > size || length > size - offset) {
@@ -196,6 +215,7 @@ GltfBufferView GltfDocument::view(const JsonValue& reference) const {
   const JsonValue view = list("bufferViews")[*index];
   const std::uint64_t stride = view["byteStride"].wholeOr(0, 252);
   if (stride % 4 != 0) view["byteStride"].fail("a multiple of 4");
+
   const std::optional<Bytes> bytes = decoded(view);
   return {bytes ? *bytes : range(view), *index, stride};
 }
@@ -208,12 +228,14 @@ std::optional<Bytes> GltfDocument::decoded(const JsonValue& value) const {
 void GltfDocument::checkExtensions() const {
   const JsonValue version = root().need("asset").need("version");
   if (!version.textOr("").starts_with("2.")) version.fail("2.0");
+
   for (const JsonValue& required : list("extensionsRequired").elements()) {
     const std::string extension = required.textOr("");
     if (reads(extension)) continue;
     throwBadScene(required.where(), "the file cannot be shown without " + excerpt(extension) +
                                         ", which is not supported" + adviceOn(extension));
   }
+
   for (const JsonValue& used : list("extensionsUsed").elements()) {
     const std::string extension = used.textOr("");
     if (!reads(extension)) warnings_.add("extension ignored: " + excerpt(extension), name_);
@@ -226,6 +248,7 @@ std::string GltfDocument::decodeUri(const JsonValue& uri) const {
   budget_.charge(text.size(), 2, where);
   const std::size_t comma = text.find(',');
   if (comma == std::string::npos) throwBadScene(where, "expected a comma before a URI's data");
+
   const std::string data = percentDecoded(std::string_view(text).substr(comma + 1));
   const bool isBase64 = std::string_view(text).substr(0, comma).ends_with(";base64");
   return isBase64 ? base64Decoded(data, where) : data;
@@ -236,9 +259,11 @@ void GltfDocument::readBuffers(const std::filesystem::path& folder, const PathRu
     const JsonValue buffer = list("buffers")[i], uri = buffer["uri"];
     const std::uint64_t length = buffer.need("byteLength").wholeOr(0);
     std::optional<std::string>& bytes = buffers_[i];
+
     // A fallback buffer is for programs that cannot decode its views.
     const JsonValue fallback = buffer["extensions"]["EXT_meshopt_compression"]["fallback"];
     if (fallback.flagOr(false) && reads("EXT_meshopt_compression")) continue;
+
     if (isDataUri(uri.textOr(""))) {
       bytes = decodeUri(uri);
     } else if (uri.exists()) {
@@ -246,6 +271,7 @@ void GltfDocument::readBuffers(const std::filesystem::path& folder, const PathRu
       bytes = readNamedAt(uri.where(), [&] { return readFile(file, budget_.left() / 2); });
       budget_.charge(bytes->size(), 1, uri.where());
     }
+
     if (bytes && bytes->size() < length) {
       buffer["byteLength"].fail(std::to_string(length) + " bytes of data",
                                 std::to_string(bytes->size()));
@@ -256,10 +282,12 @@ void GltfDocument::readBuffers(const std::filesystem::path& folder, const PathRu
 void GltfDocument::readImages(const std::filesystem::path& folder, const PathRules& rules) {
   const JsonValue images = list("images");
   images_.resize(images.size());
+
   for (std::size_t i = 0; i < images_.size(); ++i) {
     GltfImageSource& image = images_[i];
     image.where = images[i].where();
     const JsonValue uri = images[i]["uri"], view = images[i]["bufferView"];
+
     if (!uri.exists()) {
       if (!view.exists()) images[i].fail("a member \"uri\" or \"bufferView\"");
       image.bytes = this->view(view).bytes;
@@ -267,6 +295,7 @@ void GltfDocument::readImages(const std::filesystem::path& folder, const PathRul
       image.own = decodeUri(uri);
       image.bytes = asBytes(image.own);
     } else {
+      // An unusable path leaves out one texture, so its error waits until the image is decoded.
       try {
         image.path =
             rules.find(percentDecoded(uri.textOr("")), folder, uri.where(), warnings_).string();

@@ -51,17 +51,25 @@ class GltfDocument {
 
   const std::string& name() const { return name_; }
   JsonValue root() const { return JsonValue(*json_); }
-  // A list of the root object, "nodes" for example.
+
+  // Returns a list of the root object, such as "nodes".
   JsonValue list(const std::string& name) const { return root()[name]; }
-  // True if this build reads the extension.
+
+  // Returns true if this build reads the extension.
   static bool reads(const std::string& extension);
-  // The buffer view whose index is `reference`. Throws badScene where it does not exist or reaches
-  // beyond its buffer.
+
+  // Returns the buffer view whose index is `reference`. Throws badScene where it does not exist or
+  // reaches beyond its buffer.
   GltfBufferView view(const JsonValue& reference) const;
-  // The bytes of the buffer that `source`, a buffer view or its compressed form, refers to.
+
+  // Returns the bytes of the buffer to which `source`, a buffer view or its compressed form,
+  // refers.
   Bytes range(const JsonValue& source) const;
-  // The bytes of an accessor or a buffer view that is compressed; none: it is not.
+
+  // Returns the decoded bytes of a compressed accessor or buffer view, or nothing if it is not
+  // compressed.
   std::optional<Bytes> decoded(const JsonValue& value) const;
+
   const std::vector<GltfImageSource>& images() const { return images_; }
   Warnings& warnings() const { return warnings_; }
   MemoryBudget& budget() const { return budget_; }
@@ -88,16 +96,19 @@ class GltfDocument {
 std::vector<Vec3f> readVectors(const GltfDocument& document, const JsonValue& reference);
 std::vector<Vec2f> readUvs(const GltfDocument& document, const JsonValue& reference);
 std::vector<std::uint32_t> readIndices(const GltfDocument& document, const JsonValue& reference);
-// The components of all elements, one after the other: 1 (SCALAR), 3, 4 or 16 (MAT4, column by
-// column) for each.
+
+// Returns the components of all elements, one after the other: 1 (SCALAR), 3, 4 or 16 (MAT4, column
+// by column) for each.
 std::vector<float> readTuples(const GltfDocument& document, const JsonValue& reference,
                               std::size_t components);
+
 struct GltfColors {
   std::vector<Rgb> colors;
   bool translucent = false;  // some alpha is below 1
 };
 GltfColors readColors(const GltfDocument& document, const JsonValue& reference);  // VEC3 or VEC4
-// The accessor itself.
+
+// Returns the accessor itself.
 JsonValue accessorOf(const GltfDocument& document, const JsonValue& reference);
 
 // Decodes all buffer views that meshoptimizer has compressed (EXT_meshopt_compression), and all

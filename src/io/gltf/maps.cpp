@@ -18,11 +18,14 @@ class GltfImage {
   GltfImage(const GltfImageSource& source, Warnings& warnings)
       : source_(source), warnings_(warnings) {}
 
-  // Nothing: it cannot be read.
+  // Returns null where the image cannot be read.
   std::shared_ptr<const RawImage> decode(const ImageLimits& limits) {
     const std::lock_guard lock(mutex_);
     if (broken_) return nullptr;
+
+    // Textures that are made at the same time share one decoded image.
     if (auto raw = decoded_.lock()) return raw;
+
     try {
       if (source_.error) std::rethrow_exception(source_.error);
       auto raw = std::make_shared<const RawImage>(
@@ -31,6 +34,7 @@ class GltfImage {
       decoded_ = raw;
       return raw;
     } catch (const Error& error) {
+      // A damaged image leaves out its textures; too little memory is an error.
       if (error.status() == ExitStatus::limit) throw;
       broken_ = true;
       warnings_.add("texture left out", source_.where + ": " + error.what());
@@ -80,6 +84,7 @@ struct Stretched {
       return from == to ? place
                         : place * static_cast<std::size_t>(to) / static_cast<std::size_t>(from);
     };
+
     const std::size_t i = own(y, height, raw->height) * static_cast<std::size_t>(raw->width) +
                           own(x, width, raw->width);
     return {linearPixel(*raw, i), valuesAt(*raw, i)};
@@ -95,11 +100,13 @@ ChannelMean meanOf(const RawImage& raw, std::size_t channel) {
   const float first = valuesAt(raw, 0)[channel];
   ChannelMean result{first};
   double sum = 0;
+
   for (std::size_t i = 0; i < raw.pixels(); ++i) {
     const float value = valuesAt(raw, i)[channel];
     sum += value;
     result.varies = result.varies || value != first;
   }
+
   if (result.varies) result.mean = static_cast<float>(sum / static_cast<double>(raw.pixels()));
   return result;
 }
@@ -118,11 +125,13 @@ void setSampler(const GltfTexture& map, Texture& texture) {
   texture.nearest = map.nearest;
 }
 
-// The texture of the alpha channel, or none where it has the same value everywhere.
+// Makes the texture of the alpha channel, or none where it has the same value everywhere.
 std::optional<Texture> bakeAlpha(const GltfMaterial& m, const RawImage& raw,
                                  const ImageLimits& limits, GltfMeans& means) {
   const bool isUsed = m.alphaMode != GltfMaterial::Alpha::opaque && !m.maskMap.exists();
   if (!isUsed || !hasTranslucentAlpha(raw)) return {};
+
+  // An alpha that is the same everywhere is a factor and needs no texture.
   if (m.alphaMode == GltfMaterial::Alpha::blend) {
     const ChannelMean alpha = meanOf(raw, 3);
     means.alphaByMap = alpha.varies;
@@ -131,14 +140,16 @@ std::optional<Texture> bakeAlpha(const GltfMaterial& m, const RawImage& raw,
       return {};
     }
   }
+
   const MemoryHold held = holdImage(m.where, raw.width, raw.height, sizeof(std::uint32_t), limits);
   Texture texture = makeAlphaTexture(m.name, raw);
   setSampler(m.baseMap, texture);
   return texture;
 }
 
-// One texture for each GltfBakedMap that there is; the largest image's size, the others stretched
-// to it. Throws Error(limit) where the textures are larger than the limits allow.
+// Makes one texture for each GltfBakedMap that is needed, in the size of the largest image; the
+// others are stretched to it. Throws Error(limit) where the textures are larger than the limits
+// allow.
 Images bake(const GltfMaterial& m, const GltfBakeImages& images, const ImageLimits& limits,
             GltfMeans& means) {
   int width = 1, height = 1;
@@ -146,54 +157,69 @@ Images bake(const GltfMaterial& m, const GltfBakeImages& images, const ImageLimi
     width = std::max(width, raw ? raw->width : 1);
     height = std::max(height, raw ? raw->height : 1);
   }
+
   const MemoryHold held = holdImage(m.where, width, height, 3 * sizeof(std::uint32_t), limits);
   const Stretched bases{images[kBase].get(), width, height};
   const Stretched metals{images[kMetallicRoughness].get(), width, height};
   const Stretched speculars{images[kSpecular].get(), width, height};
   const Stretched tints{images[kSpecularColor].get(), width, height};
   const Stretched clears{images[kTransmission].get(), width, height};
+
   Images maps(kGltfBakedMaps);
   const auto start = [&](GltfBakedMap map, TexelFormat format) {
     if (!wantsBaked(m, map)) return;
     maps[map] = emptyTexture(m.name, format, width, height);
     setSampler(m.surfaceMap(), *maps[map]);
   };
+
+  // An unlit material emits its base color, which may exceed 1.
   const bool emits = m.unlit && images[kBase];
   start(kGltfDiffuse, emits ? emissionFormat(*images[kBase]) : TexelFormat::color);
   start(kGltfSpecular, TexelFormat::color);
   start(kGltfTransmission, TexelFormat::color);
+
+  // Factors of the material follow from the means of the images.
   RgbD colors, tintSum;
   double metallic = 0, strengths = 0;
   std::size_t i = 0;
+
   for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y) {
     for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x, ++i) {
       const Rgb base = bases.at(x, y).color, tint = tints.at(x, y).color;
       const Texel other = metals.at(x, y);
       const float metal = m.metallic * other.code[2], strength = speculars.at(x, y).code[3];
+
       colors += RgbD(base);
       metallic += other.code[2];
       strengths += strength;
       tintSum += RgbD(tint);
+
+      // Only light that is neither reflected by metal nor transmitted is reflected diffusely.
       const float clear = clears.at(x, y).code[0], rest = 1 - metal;
       if (maps[kGltfDiffuse]) {
         const float blocked = m.variesTransmission() ? 1 - m.transmission * clear : 1;
         const Rgb diffuse = base * ((m.mixesMetal() ? rest : 1) * blocked);
         maps[kGltfDiffuse]->texels[i] = encodeTexel(diffuse, maps[kGltfDiffuse]->format);
       }
+
       if (maps[kGltfTransmission]) {
         maps[kGltfTransmission]->texels[i] = encodeColorTexel(base * (clear * rest));
       }
+
+      // F0 is blended between the dielectric's and the base color of the metal.
       if (!maps[kGltfSpecular]) continue;
       const Rgb f0 =
           m.bakesSpecular() ? m.f0(tint, strength) * (1 - metal) + m.base * base * metal : base;
       maps[kGltfSpecular]->texels[i] = encodeColorTexel(f0);
     }
   }
+
   const double texels = static_cast<double>(width) * height;
   means.base = Rgb(colors / texels);
   means.metallic = static_cast<float>(metallic / texels);
   means.specular = static_cast<float>(strengths / texels);
   means.specularColor = Rgb(tintSum / texels);
+
   if (images[kBase]) maps[kGltfAlpha] = bakeAlpha(m, *images[kBase], limits, means);
   return maps;
 }
@@ -203,12 +229,16 @@ Texture normalTexture(const GltfMaterial& material, const RawImage& raw) {
     return normalsFromHeights(material.name, raw, material.normalScale, material.normalMap.wrapU,
                               material.normalMap.wrapV);
   }
+
   Texture texture = makeTexture(material.name, raw, TexelFormat::data);
   if (material.normalScale == 1) return texture;
+
+  // The scale multiplies x and y before the normal is normalized (glTF's normalTextureInfo.scale).
   for (std::uint32_t& texel : texture.texels) {
     const auto channel = [&](int shift) {
       return static_cast<float>(texel >> shift & 255u) / 127.5f - 1;
     };
+
     const Vec3f n = normalized(
         Vec3f{channel(0) * material.normalScale, channel(8) * material.normalScale, channel(16)},
         Vec3f{0, 0, 1});
@@ -224,16 +254,19 @@ Texture alphaRamp(const std::string& name) {
   return texture;
 }
 
-// The share of indirect light, 1 + strength (R - 1); none where it is the same as without a map.
+// Stores the share of indirect light, 1 + strength (R - 1). Returns none where the map dims
+// nothing.
 std::optional<Texture> occlusionTexture(const GltfMaterial& material, const RawImage& raw) {
   Texture texture = makeTexture(material.name, raw, TexelFormat::data);
   bool dims = false;
+
   for (std::uint32_t& texel : texture.texels) {
     const float share =
         1 + material.occlusionStrength * (static_cast<float>(texel & 255u) / 255 - 1);
     texel = encodeDataTexel(share, 0, 0, 1);
     dims = dims || share < 1;
   }
+
   return dims ? std::optional(std::move(texture)) : std::nullopt;
 }
 
@@ -242,7 +275,7 @@ std::shared_ptr<const RawImage> decoded(const std::shared_ptr<GltfImage>& image,
   return image ? image->decode(limits) : nullptr;
 }
 
-// All that the maps and their means depend on.
+// Lists everything on which the maps and their means depend. Materials with equal keys share them.
 std::string keyOf(const GltfMaterial& m) {
   std::ostringstream key;
   for (const GltfTexture* map :
@@ -252,24 +285,31 @@ std::string keyOf(const GltfMaterial& m) {
     key << (map->image ? static_cast<std::int64_t>(*map->image) : -1) << ' '
         << static_cast<int>(map->wrapU) << static_cast<int>(map->wrapV) << map->nearest << ' ';
   }
+
   key << std::hexfloat << m.normalScale << ' ' << m.occlusionStrength << ' '
       << static_cast<int>(m.alphaMode) << ' ' << m.alphaByVertex << m.mirrorsByMap() << ' '
       << m.transmission << ' ' << (m.clearcoat > 0) << m.emitsByMap() << m.unlit << ' '
       << m.metallic << ' ' << m.variesRoughness() << ' ';
+
+  // These factors are baked into the specular texture.
   if (m.bakesSpecular()) {
     key << m.f90 << ' ';
     for (int i = 0; i < 3; ++i) key << m.specularColor[i] << ' ' << m.base[i] << ' ';
   }
+
   return key.str();
 }
 
 // Replaces what a scene file has not `given` by what `fresh` has. Maps stay.
 void renew(Material& to, const Material& fresh, const GivenMembers& given) {
   const float cutoff = to.alphaCutoff;
+
   forEachMember<Material>([&](const auto& member) {
     if (member.rules.kind == MemberKind::map || given.contains(member.name)) return;
     to.*member.field = fresh.*member.field;
   });
+
+  // The cutoff belongs to the alpha map, which the scene file gives.
   if (given.contains("alphaMap")) to.alphaCutoff = cutoff;
 }
 
@@ -290,6 +330,7 @@ TexturedMaterial GltfMapMaker::withMaps(const GltfMaterial& source, Material mat
         "texture looked up with the coordinates of its material's first in place of its own",
         source.where);
   }
+
   const GltfMaps maps = ask(source, textures);
   forEachMap([&](const auto& member) {
     // A roughness, mirror, transmission or coverage that is given is meant as it stands.
@@ -301,9 +342,12 @@ TexturedMaterial GltfMapMaker::withMaps(const GltfMaterial& source, Material mat
     if (isReplaced || given.contains(member.name)) return;
     material.*member.field = maps.slots.*member.field;
   });
+
+  // Factors follow from the means, which are known when the images have been decoded.
   const auto renewed = [shading = std::move(shading), given, means = maps.means](Material& m) {
     renew(m, shading(*means), given);
   };
+
   return {std::move(material), renewed};
 }
 
@@ -311,6 +355,7 @@ GltfMaps GltfMapMaker::ask(const GltfMaterial& m, TextureLoader& textures) {
   const auto [entry, isNew] = known_.try_emplace(keyOf(m));
   GltfMaps& maps = entry->second;
   if (!isNew) return maps;
+
   Material& slots = maps.slots;
   const auto means = std::make_shared<GltfMeans>();
   maps.means = means;
@@ -318,18 +363,24 @@ GltfMaps GltfMapMaker::ask(const GltfMaterial& m, TextureLoader& textures) {
   const auto image = [&](const GltfTexture& map) {
     return map.image ? images_[*map.image] : nullptr;
   };
+
+  // The images of base color, metalness, specular reflection and transmission are baked into the
+  // maps that a Material has.
   if (m.baseMap.exists() || m.metallicRoughnessMap.exists() || m.variesF0() ||
       m.variesTransmission()) {
     const std::array sources{image(m.baseMap), image(m.metallicRoughnessMap), image(m.specularMap),
                              image(m.specularColorMap), image(m.transmissionMap)};
+
     const auto baked = textures.add(kGltfBakedMaps, [=, &textures, &warnings] {
       const ImageLimits limits = textures.limits();
       GltfBakeImages images;
       for (std::size_t i = 0; i < kBakeImages; ++i) images[i] = decoded(sources[i], limits);
+
       if (images[kBase] && !m.unlit) warnOfClampedColors(m.where, *images[kBase], warnings);
       if (const auto& tint = images[kSpecularColor]) warnOfClampedColors(m.where, *tint, warnings);
       return bake(m, images, limits, *means);
     });
+
     if (wantsBaked(m, kGltfDiffuse)) {
       (m.unlit ? slots.emissionMap : slots.diffuseMap) = baked[kGltfDiffuse];
     }
@@ -338,21 +389,27 @@ GltfMaps GltfMapMaker::ask(const GltfMaterial& m, TextureLoader& textures) {
       if (m.mirrorsByMap()) slots.mirrorMap = slots.specularMap;
     }
     if (wantsBaked(m, kGltfTransmission)) slots.transmissionMap = baked[kGltfTransmission];
+
     if (m.alphaMode != GltfMaterial::Alpha::opaque) slots.alphaMap = baked[kGltfAlpha];
     if (m.alphaMode == GltfMaterial::Alpha::blend) slots.coverageMap = baked[kGltfAlpha];
   }
+
+  // Meshes keep the alpha of their vertices as the coordinate u, which this ramp turns into
+  // opacity.
   if (m.alphaByVertex) {
     slots.alphaMap = textures.add(1, [name = m.name] { return Images{alphaRamp(name)}; })[0];
     if (m.alphaMode == GltfMaterial::Alpha::blend) slots.coverageMap = slots.alphaMap;
     means->alphaByMap = true;
   }
-  // A texture that `make` makes from one image; it may make none.
+
+  // Adds a slot for the texture that `make` computes from one image, which may be none.
   const auto single = [&](const GltfTexture& map, const auto& make) {
     return textures.add(1, [=, image = image(map), where = m.where, &textures] {
       const ImageLimits limits = textures.limits();
       Images made(1);
       const auto raw = decoded(image, limits);
       if (!raw) return made;
+
       const MemoryHold held =
           holdImage(where, raw->width, raw->height, sizeof(std::uint32_t), limits);
       made[0] = make(*raw);
@@ -360,6 +417,7 @@ GltfMaps GltfMapMaker::ask(const GltfMaterial& m, TextureLoader& textures) {
       return made;
     })[0];
   };
+
   if (m.normalMap.exists()) {
     slots.normalMap =
         single(m.normalMap, [m](const RawImage& raw) { return normalTexture(m, raw); });
@@ -368,8 +426,10 @@ GltfMaps GltfMapMaker::ask(const GltfMaterial& m, TextureLoader& textures) {
     slots.occlusionMap =
         single(m.occlusionMap, [m](const RawImage& raw) { return occlusionTexture(m, raw); });
   }
+
   if (m.variesRoughness()) {
     slots.roughnessMap = single(m.roughnessMap, [=](const RawImage& raw) {
+      // Where the map has the same value everywhere, its mean replaces it.
       const ChannelMean roughness = meanOf(raw, 1);
       means->roughness = roughness.mean;
       means->roughnessByMap = roughness.varies;
@@ -377,17 +437,20 @@ GltfMaps GltfMapMaker::ask(const GltfMaterial& m, TextureLoader& textures) {
                                    : std::nullopt;
     });
   }
+
   if (m.maskMap.exists()) {
     slots.alphaMap = single(m.maskMap, [name = m.name](const RawImage& raw) {
       return hasTranslucentAlpha(raw) ? makeAlphaTexture(name, raw)
                                       : makeTexture(name, raw, TexelFormat::data);
     });
   }
+
   if (m.emitsByMap()) {
     slots.emissionMap = single(m.emissiveMap, [name = m.name, &warnings](const RawImage& raw) {
       return makeEmissionTexture(name, raw, warnings);
     });
   }
+
   // The mean of a channel is multiplied into a factor that has no map in a Material.
   const auto mean = [&](const GltfTexture& map, std::size_t channel, float GltfMeans::*to,
                         const char* warning) {
@@ -401,11 +464,13 @@ GltfMaps GltfMapMaker::ask(const GltfMaterial& m, TextureLoader& textures) {
       return Images();
     });
   };
+
   if (m.clearcoat > 0) {
     mean(m.clearcoatMap, 0, &GltfMeans::clearcoat, "clearcoat by a texture taken by its mean");
     mean(m.clearcoatRoughnessMap, 1, &GltfMeans::clearcoatRoughness,
          "roughness of a clearcoat by a texture taken by its mean");
   }
+
   return maps;
 }
 

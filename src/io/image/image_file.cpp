@@ -36,13 +36,14 @@ std::string kindOf(std::span<const std::uint8_t> file) {
       {"8BPS", "a Photoshop image"},
       {"<", "a page of the web"},
       {"", "something else"}};
+
   if (file.empty()) return "an empty file";
   return std::ranges::find_if(
              kBeginnings, [&](const auto& known) { return asText(file).starts_with(known.first); })
       ->second;
 }
 
-// TGA has no beginning of its own.
+// TGA files have no signature, so the list does not contain them.
 struct Format {
   std::string_view beginning;
   ImageDecoder* decode;
@@ -70,6 +71,7 @@ RawImage decodeBytes(const std::string& name, std::span<const std::uint8_t> file
 RawImage decodeOther(const std::string& path, const ImageLimits& limits) {
   std::error_code error;
   const std::uint64_t size = std::filesystem::file_size(path, error);
+  // The budget counts the file only while it is decoded.
   const MemoryHold held(limits.budget, error ? 0 : size, 1, path);
   const std::string file = readFile(path, limits.bytes);
   return decodeBytes(path, asBytes(file), limits);
@@ -89,6 +91,7 @@ void sanitise(const std::string& path, std::vector<float>& values, Warnings& war
       value = kLargestHalf;
     }
   }
+
   warnings.add("image value that is not a number, taken as 0", path, nan);
   warnings.add("negative image value, taken as 0", path, negative);
   warnings.add("infinite image value, taken as 65504", path, infinite);
@@ -105,7 +108,9 @@ void checkImageSize(const std::string& path, std::int64_t width, std::int64_t he
   if (width > limits.side || height > limits.side)
     throwLimit(path + ": " + sizeText(width, height) + " is larger than the " +
                std::to_string(limits.side) + " pixels a side allowed");
-  // Sides below 2^32 and a few bytes a pixel: divide, so that nothing can overflow.
+
+  // The product of the sides fits into 64 bits. The limit is divided by the bytes of a pixel,
+  // because multiplying them could overflow.
   const std::uint64_t pixels =
       static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
   if (pixels > limits.bytes / bytesPerPixel)
@@ -125,6 +130,7 @@ RawImage startImage(const std::string& path, std::int64_t width, std::int64_t he
   RawImage raw;
   raw.held = holdImage(path, width, height,
                        static_cast<std::uint64_t>(channels) * (linear ? sizeof(float) : 1), limits);
+
   raw.width = static_cast<int>(width);
   raw.height = static_cast<int>(height);
   raw.channels = channels;
@@ -171,6 +177,7 @@ Image readImage(const std::string& path, const ImageLimits& limits) {
     source.height = source.raw.height;
     source.window = {0, 0, source.width, source.height};
   }
+
   Image image(source.width, source.height, source.window);
   for (std::size_t i = 0; i < image.pixels.size(); ++i)
     image.pixels[i] = linearPixel(source.raw, i);

@@ -79,13 +79,17 @@ struct ImageLayer {
 void writeExr(const std::string& path, const Image& image, const ImageMetadata& metadata,
               ExrStorage storage = ExrStorage::zip, int threads = 1,
               const std::vector<ImageLayer>& layers = {});
+
 // Returns the string attributes of an EXR's first part except OpenEXR's own. Throws as readImage().
 ImageMetadata readExrMetadata(const std::string& path);
-// Returns the bytes of such a file.
+
+// Returns the bytes of an EXR file with these pixels, metadata and layers.
 std::string encodeExr(const Image& image, const ImageMetadata& metadata,
                       const std::vector<ImageLayer>& layers);
+
 // Returns the bytes of an sRGB JPEG of a quality from 1 to 100; alpha is dropped.
 std::string encodeJpeg(const DisplayImage& image, int quality = 93);
+
 // Writes an sRGB PNG with the metadata as text chunks, with alpha if the image has some. Keywords
 // are cut at PNG's 79 bytes.
 void writePng(const std::string& path, const DisplayImage& image, const ImageMetadata& metadata);
@@ -95,12 +99,15 @@ struct DeepImage {
   int width = 0, height = 0, channels = 1;
   std::vector<std::uint16_t> values;
 };
+
 // `isSrgb`: three values are sRGB colors.
 void writePng(const std::string& path, const DeepImage& image, bool isSrgb,
               const ImageMetadata& metadata);
+
 // Decodes a PNG and returns its text chunks. Throws Error(io) if it cannot be read, badScene if it
 // is damaged or cut off.
 ImageMetadata readPngMetadata(const std::string& path);
+
 // Returns the bytes of an sRGB PNG.
 std::string encodePng(const DisplayImage& image, const ImageMetadata& metadata = {});
 

@@ -50,12 +50,13 @@ double codeOf(Channel channel, double value) {
   }
 }
 
-// The codes of a pixel are one, or three with 0 for components that the channel lacks.
+// Each pixel has one code, or three codes that are 0 for components which the channel lacks.
 std::vector<std::uint16_t> codesOf(const std::string& path, const ChannelLayers& channels,
                                    Channel channel) {
   if (channel == Channel::position) {
     throwUsage("'" + path + "': positions do not fit into a PNG: write an EXR");
   }
+
   const ChannelInfo& info = infoOf(channel);
   std::vector<std::uint16_t> codes;
   for (std::size_t i = 0; i < channels.pixels(); ++i) {
@@ -65,6 +66,9 @@ std::vector<std::uint16_t> codesOf(const std::string& path, const ChannelLayers&
       values[c] = info.countsThings ? static_cast<double>(channels.numbers(channel)[at])
                                     : static_cast<double>(channels.floats(channel)[at]);
     }
+
+    // A normal of zero means that nothing was hit. Its code is 0, although a component of 0 has
+    // another.
     const bool isEmpty = channel == Channel::normal && values == std::array<double, 3>{};
     for (std::size_t c = 0; c < (isColor(channel) ? 3 : 1); ++c) {
       const bool isCoded = c < info.components && !isEmpty;
@@ -76,6 +80,7 @@ std::vector<std::uint16_t> codesOf(const std::string& path, const ChannelLayers&
       codes.push_back(static_cast<std::uint16_t>(code));
     }
   }
+
   return codes;
 }
 
@@ -100,6 +105,7 @@ void requireSameLayers(const std::string& path, const std::vector<ImageLayer>& l
     if (std::ranges::any_of(all, isWanted)) return;
     throwUsage(lacks + ": lacks the channel " + wanted.name + ", which '" + has + "' has");
   };
+
   for (const ImageLayer& layer : firstLayers) require(layers, layer, path, firstPath);
   for (const ImageLayer& layer : layers) require(firstLayers, layer, firstPath, path);
 }
@@ -109,6 +115,7 @@ void addPart(const std::string& path, const Image& part, const std::vector<Image
              MergedImage& to, std::vector<bool>& covered, Warnings& warnings) {
   std::uint64_t differing = 0;
   std::string first;
+
   for (int y = part.window.y0; y < part.window.y1; ++y) {
     for (int x = part.window.x0; x < part.window.x1; ++x) {
       const std::size_t i = to.image.index(x, y), from = part.index(x, y);
@@ -119,10 +126,12 @@ void addPart(const std::string& path, const Image& part, const std::vector<Image
         same = same && word == layers[k].words[from];
         word = layers[k].words[from];
       }
+
       if (covered[i] && !same && differing++ == 0) first = path + " at " + place(x, y);
       covered[i] = true;
     }
   }
+
   warnings.add("overlapping parts differ, the later one taken", first, differing);
 }
 
@@ -145,6 +154,8 @@ std::vector<ImageLayer> layersOf(const ChannelLayers& channels) {
       layer.name = prefix + std::string(info.suffixes[c]);
       layer.countsThings = info.countsThings;
       layer.words.reserve(channels.pixels());
+
+      // The components of a pixel are interleaved in `channels`, and each layer takes one of them.
       for (std::size_t at = c; at < channels.pixels() * info.components; at += info.components) {
         layer.words.push_back(info.countsThings
                                   ? channels.numbers(channel)[at]
@@ -152,6 +163,7 @@ std::vector<ImageLayer> layersOf(const ChannelLayers& channels) {
       }
     }
   });
+
   return layers;
 }
 
@@ -159,11 +171,13 @@ ImageMetadata describeChannels(const Scene& scene, ChannelSet channels) {
   if (channels.empty()) return {};
   ImageMetadata said{{"channels", namesOf(channels)}};
   if (channels.has(Channel::object)) said.emplace_back("objects", manifest(scene.items.names));
+
   if (channels.has(Channel::material)) {
     std::vector<std::string> names;
     for (const Material& material : scene.materials) names.push_back(material.name);
     said.emplace_back("materials", manifest(names));
   }
+
   return said;
 }
 
@@ -178,13 +192,17 @@ void writeChannelPng(const std::string& path, const Image& image, const ChannelL
 MergedImage mergeImages(const std::vector<std::string>& paths, const ImageLimits& limits,
                         Warnings& warnings) {
   if (paths.empty()) throwUsage("expected at least one part to merge");
+
   MergedImage merged;
   Image& image = merged.image;
   std::vector<bool> covered;
   bool isFirstExr = true;
+
   for (const std::string& path : paths) {
     const Image part = readImage(path, limits);
     const std::vector<ImageLayer> layers = readLayers(path, limits);
+
+    // The first part determines the size of the image and its layers.
     if (covered.empty()) {
       image = Image(part.width, part.height);
       covered.assign(image.pixels.size(), false);
@@ -194,8 +212,11 @@ MergedImage mergeImages(const std::vector<std::string>& paths, const ImageLimits
       throwUsage(path + ": a part of a " + sizeText(part) + " image, but '" + paths[0] +
                  "' is of a " + sizeText(image) + " one");
     }
+
     requireSameLayers(path, layers, paths[0], merged.layers);
     addPart(path, part, layers, merged, covered, warnings);
+
+    // Only metadata on which all EXR parts agree are kept.
     if (extensionOf(path) != ".exr") continue;
     const ImageMetadata said = readExrMetadata(path);
     if (std::exchange(isFirstExr, false)) merged.metadata = said;
@@ -203,6 +224,8 @@ MergedImage mergeImages(const std::vector<std::string>& paths, const ImageLimits
       return entry.first == "crop" || std::ranges::find(said, entry) == said.end();
     });
   }
+
+  // Every pixel of the image must lie in some part.
   const auto gap = std::ranges::find(covered, false);
   if (gap == covered.end()) return merged;
   const auto at = static_cast<int>(gap - covered.begin());

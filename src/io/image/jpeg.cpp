@@ -26,6 +26,7 @@ struct JpegErrors {
     coder.client_data = this;
     manager.error_exit = [](j_common_ptr common) { leave(common); };
   }
+
   [[noreturn]] static void leave(j_common_ptr common) {
     JpegErrors& self = *static_cast<JpegErrors*>(common->client_data);
     common->err->format_message(common, self.message);
@@ -56,17 +57,21 @@ class JpegReader {
       jpeg_read_header(&decoder_, TRUE);
     });
   }
+
   // Stores rows of width() * channels() codes.
   void readPixels(std::uint8_t* codes) {
     guarded([this, codes] {
+      // libjpeg does not convert CMYK to RGB; printInks() does it afterwards.
       if (channels() == 3) decoder_.out_color_space = JCS_RGB;
       if (channels() == 4) decoder_.out_color_space = JCS_CMYK;
       jpeg_start_decompress(&decoder_);
+
       const std::size_t stride = std::size_t{decoder_.output_width} * decoder_.output_components;
       while (decoder_.output_scanline < decoder_.output_height) {
         JSAMPROW row = codes + decoder_.output_scanline * stride;
         jpeg_read_scanlines(&decoder_, &row, 1);
       }
+
       jpeg_finish_decompress(&decoder_);
     });
   }
@@ -79,14 +84,17 @@ class JpegReader {
     if (decoder_.num_components == 4) return 4;
     refuse("gray, RGB or CMYK, found " + std::to_string(decoder_.num_components) + " inks");
   }
+
   // Adobe's programs store how much light an ink lets through, others how much of it there is.
   bool isInverted() const { return decoder_.saw_Adobe_marker != 0; }
+
   // Upper bound on libjpeg's memory for decoding: some rows of each component, and all of its
   // coefficients where they come in more than one scan.
   std::uint64_t workingBytes() {
     constexpr std::uint64_t kRows = 64;
     const bool many = jpeg_has_multiple_scans(&decoder_) != 0;
     std::uint64_t bytes = 0;
+
     for (int i = 0; i < decoder_.num_components; ++i) {
       const jpeg_component_info& component = decoder_.comp_info[i];
       const std::uint64_t across = component.width_in_blocks + std::uint64_t{8};
@@ -94,6 +102,7 @@ class JpegReader {
       bytes += across * DCTSIZE * kRows * sizeof(int);
       if (many) bytes += across * down * DCTSIZE2 * sizeof(JCOEF);
     }
+
     return bytes;
   }
 
@@ -140,9 +149,13 @@ bool write(JpegWriter& writer, const DisplayImage& image, int quality,
            std::vector<std::uint8_t>& row) {
   jpeg_compress_struct& encoder = writer.encoder;
   writer.errors.watch(encoder);
+
+  // An error in libjpeg jumps back to this line.
   if (setjmp(writer.errors.escape) != 0) return false;
+
   jpeg_create_compress(&encoder);
   jpeg_mem_dest(&encoder, &writer.bytes, &writer.size);
+
   encoder.image_width = static_cast<JDIMENSION>(image.width);
   encoder.image_height = static_cast<JDIMENSION>(image.height);
   encoder.input_components = 3;
@@ -150,6 +163,8 @@ bool write(JpegWriter& writer, const DisplayImage& image, int quality,
   jpeg_set_defaults(&encoder);
   jpeg_set_quality(&encoder, quality, TRUE);
   jpeg_start_compress(&encoder, TRUE);
+
+  // libjpeg takes rows of RGB, so alpha is dropped.
   while (encoder.next_scanline < encoder.image_height) {
     const std::uint8_t* pixel =
         image.rgba.data() + std::size_t{encoder.next_scanline} * row.size() / 3 * 4;
@@ -157,11 +172,12 @@ bool write(JpegWriter& writer, const DisplayImage& image, int quality,
     JSAMPROW first = row.data();
     jpeg_write_scanlines(&encoder, &first, 1);
   }
+
   jpeg_finish_compress(&encoder);
   return true;
 }
 
-// Cyan, magenta, yellow and black as red, green and blue: each ink lets through what black does.
+// Converts CMYK to RGB in place: light passes through an ink and then through black.
 void printInks(RawImage& image, bool isInverted) {
   for (std::size_t i = 0; i < image.pixels(); ++i) {
     const std::uint8_t* const inks = &image.codes[4 * i];
@@ -170,6 +186,7 @@ void printInks(RawImage& image, bool isInverted) {
       image.codes[3 * i + k] = static_cast<std::uint8_t>((light(k) * light(3) + 127) / 255);
     }
   }
+
   image.channels = 3;
   image.codes.resize(3 * image.pixels());
 }
@@ -182,6 +199,7 @@ RawImage decodeJpeg(const std::string& path, std::span<const std::uint8_t> file,
   reader.readHeader();
   RawImage image =
       startImage(path, reader.width(), reader.height(), reader.channels(), false, limits);
+
   const MemoryHold working(limits.budget, reader.workingBytes(), 1, path);
   image.codes.resize(image.pixels() * static_cast<std::size_t>(image.channels));
   reader.readPixels(image.codes.data());
@@ -192,10 +210,12 @@ RawImage decodeJpeg(const std::string& path, std::span<const std::uint8_t> file,
 std::string encodeJpeg(const DisplayImage& image, int quality) {
   std::vector<std::uint8_t> row(std::size_t{3} * static_cast<std::size_t>(image.width));
   JpegWriter writer;
+
   const bool written = write(writer, image, quality, row);
   std::string bytes(reinterpret_cast<const char*>(writer.bytes), written ? writer.size : 0);
   jpeg_destroy_compress(&writer.encoder);
   std::free(writer.bytes);
+
   if (!written) throwIo(std::string("cannot encode a JPEG: ") + writer.errors.message);
   return bytes;
 }

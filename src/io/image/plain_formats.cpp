@@ -21,6 +21,7 @@ class ImageBytes {
 
   std::size_t at() const { return at_; }
   std::size_t left() const { return file_.size() - at_; }
+
   // These throw badScene if the file has fewer bytes left.
   void need(std::uint64_t bytes) const {
     if (bytes > left()) fail("the file is cut short");
@@ -33,6 +34,7 @@ class ImageBytes {
     need(1);
     return file_[at_++];
   }
+
   // Reads a number of this many bytes, the lowest first.
   std::uint32_t number(int bytes) {
     std::uint32_t value = 0;
@@ -60,12 +62,16 @@ class PlainReader {
 
   RawImage readBmp() {
     constexpr std::uint32_t kFileHeaderBytes = 14, kInfoHeaderBytes = 40, kLongestHeader = 124;
+
+    // The file header ends with the offset of the pixels, and the info header begins with its
+    // length.
     bytes_.skip(10);
     const std::uint32_t dataBegin = bytes_.number(4), headerBytes = bytes_.number(4);
     if (headerBytes < kInfoHeaderBytes || headerBytes > kLongestHeader) {
       bytes_.fail("expected a header of 40 to 124 bytes, found one of " +
                   std::to_string(headerBytes));
     }
+
     const auto width = static_cast<std::int32_t>(bytes_.number(4));
     const auto height = static_cast<std::int32_t>(bytes_.number(4));
     bytes_.skip(2);  // planes: 1
@@ -74,18 +80,22 @@ class PlainReader {
     bytes_.skip(12);  // length of the data, pixels a meter
     const std::uint32_t colors = bytes_.number(4);
     bytes_.skip(4);  // how many colors are important
+
     constexpr std::uint32_t kMasks = 3;
-    // Masks are those of the usual order, as programs write them that store alpha.
+    // The usual order of masks is accepted, because programs that store alpha write it.
     const bool masked = compression == kMasks && bits_ == 32 && bytes_.number(4) == 0xff0000 &&
                         bytes_.number(4) == 0xff00 && bytes_.number(4) == 0xff;
     if ((compression != 0 && !masked) || (bits_ != 8 && bits_ != 24 && bits_ != 32)) {
       bytes_.fail("expected uncompressed pixels of 8, 24 or 32 bits, found " +
                   std::to_string(bits_) + " bits and compression " + std::to_string(compression));
     }
+
     skipTo(kFileHeaderBytes + headerBytes);
     if (bits_ == 8) readPalette(colors, dataBegin);
     if (dataBegin < bytes_.at()) bytes_.fail("expected the pixels behind the headers");
     skipTo(dataBegin);
+
+    // A negative height means rows from the top. Rows are padded to multiples of 4 bytes.
     fromTop_ = height < 0;
     const std::size_t rowBytes =
         static_cast<std::size_t>(std::max(width, 0)) * static_cast<std::size_t>(bits_ / 8);
@@ -96,6 +106,7 @@ class PlainReader {
 
   RawImage readTga() {
     constexpr int kRuns = 8, kColor = 2, kGray = 3;
+
     const std::size_t nameBytes = bytes_.next();
     const bool hasPalette = bytes_.next() != 0;
     const int type = bytes_.next();
@@ -105,6 +116,8 @@ class PlainReader {
     const std::int64_t width = bytes_.number(2), height = bytes_.number(2);
     bits_ = bytes_.next();
     const int descriptor = bytes_.next();
+
+    // Bit 3 of the type means runs of equal pixels; the other bits tell colors from gray.
     const bool known = (type & ~kRuns) == kGray ? bits_ == 8
                                                 : (type & ~kRuns) == kColor && bits_ % 8 == 0 &&
                                                       bits_ >= 24 && bits_ <= 32;
@@ -113,8 +126,12 @@ class PlainReader {
           "expected TGA's image type 2 or 10 of 24 or 32 bits, or 3 or 11 of 8, found type " +
           std::to_string(type) + " of " + std::to_string(bits_) + " bits");
     }
+
+    // In the descriptor, bits 0 to 3 count the bits of alpha, bit 4 stands for columns from the
+    // right, and bit 5 for rows from the top.
     if ((descriptor & 0xd0) != 0) bytes_.fail("expected rows in order and from the left");
     fromTop_ = (descriptor & 0x20) != 0;
+
     bytes_.skip(nameBytes + (hasPalette ? entries * ((entryBits + 7) / 8) : 0));
     readPixels(width, height, (type & kRuns) != 0, 0);
     if (bits_ == 32 && (descriptor & 0x0f) == 0) repairAlpha();
@@ -126,14 +143,17 @@ class PlainReader {
     if (place > bytes_.at()) bytes_.skip(place - bytes_.at());
   }
 
-  // As many colors as fit before the pixels, whatever the header says.
+  // Reads as many colors as fit before the pixels, whatever the header says.
   void readPalette(std::uint32_t colors, std::size_t dataBegin) {
+    // Each color takes four bytes: blue, green, red and one that is unused.
     const std::size_t room = dataBegin > bytes_.at() ? (dataBegin - bytes_.at()) / 4 : 0;
     const std::size_t named = colors == 0 ? 256 : std::min(colors, 256u);
+
     for (std::size_t i = std::min(named, room); i > 0; --i) {
       palette_.push_back(readColor());
       bytes_.skip(1);
     }
+
     if (palette_.empty()) bytes_.fail("expected a palette");
   }
 
@@ -151,6 +171,7 @@ class PlainReader {
       bytes_.fail("expected one of the palette's " + std::to_string(palette_.size()) +
                   " colors, found number " + std::to_string(value));
     }
+
     Codes codes = readColor();
     if (bits_ == 32) codes[3] = bytes_.next();
     return codes;
@@ -165,20 +186,27 @@ class PlainReader {
                         : palette_.empty() ? 1
                                            : 3,
                         false, limits_);
+
     const auto channels = static_cast<std::size_t>(image_.channels);
     const auto columns = static_cast<std::uint64_t>(width);
     const auto rows = static_cast<std::uint64_t>(height);
     const auto pixelBytes = static_cast<std::uint64_t>(bits_ / 8);
+
+    // The length of the file is checked before memory is taken. One packet codes at most 128
+    // pixels.
     bytes_.need(inRuns ? (columns * rows + kLongestRun - 1) / kLongestRun * (1 + pixelBytes)
                        : columns * rows * pixelBytes + (rows - 1) * padding);
     image_.codes.resize(columns * rows * channels);
+
     std::uint32_t left = 0;  // of the packet
     bool isRun = false;
     Codes codes{};
+
     for (std::uint64_t row = 0; row < rows; ++row) {
       if (row > 0) bytes_.skip(padding);
       std::uint8_t* to =
           image_.codes.data() + (fromTop_ ? row : rows - 1 - row) * columns * channels;
+
       for (std::uint64_t x = 0; x < columns; ++x, to += channels) {
         const bool begins = inRuns && left == 0;
         if (begins) {
@@ -191,10 +219,11 @@ class PlainReader {
         std::copy_n(codes.begin(), channels, to);
       }
     }
+
     if (left > 0) bytes_.fail("expected pixels up to the image's end, found more");
   }
 
-  // An alpha of 0 in every pixel was not meant.
+  // Makes images opaque whose alpha is 0 everywhere: their writers left it unset.
   void repairAlpha() {
     std::uint8_t any = 0;
     for (std::size_t i = 3; i < image_.codes.size(); i += 4) any |= image_.codes[i];
@@ -216,9 +245,11 @@ using Rgbe = std::array<std::uint8_t, 4>;
 std::string nextText(ImageBytes& bytes) {
   constexpr std::size_t kLongestText = 1024;
   std::string text;
+
   for (char c; (c = static_cast<char>(bytes.next())) != '\n'; text += c) {
     if (text.size() > kLongestText) bytes.fail("expected a line of a Radiance header");
   }
+
   if (text.ends_with('\r')) text.pop_back();
   return text;
 }
@@ -239,6 +270,7 @@ void readRuns(ImageBytes& bytes, std::size_t component, std::vector<Rgbe>& row) 
     if (count == 0 || count > row.size() - done) {
       bytes.fail("expected pixels up to the row's end, found more or none");
     }
+
     std::uint8_t value = 0;
     for (std::size_t i = 0; i < count; ++i) {
       if (i == 0 || !isRun) value = bytes.next();
@@ -274,9 +306,12 @@ void readOldRuns(ImageBytes& bytes, std::vector<Rgbe>& row) {
 
 void readRow(ImageBytes& bytes, std::vector<Rgbe>& row) {
   constexpr std::size_t kShortest = 8, kLongest = 0x7fff;  // in runs of components
+
+  // A row whose components come in runs begins with two bytes of 2 and the number of its pixels.
   row[0] = readPixel(bytes);
   const bool inRuns = row.size() >= kShortest && row.size() <= kLongest && row[0][0] == 2 &&
                       row[0][1] == 2 && row[0][2] < 128;
+
   if (inRuns) {
     const auto length = static_cast<std::size_t>(row[0][2] << 8 | row[0][3]);
     if (length != row.size()) {
@@ -286,6 +321,7 @@ void readRow(ImageBytes& bytes, std::vector<Rgbe>& row) {
     for (std::size_t component = 0; component < 4; ++component) readRuns(bytes, component, row);
     return;
   }
+
   readOldRuns(bytes, row);
 }
 
@@ -305,20 +341,26 @@ RawImage decodeHdr(const std::string& path, std::span<const std::uint8_t> file,
                    const ImageLimits& limits) {
   constexpr std::string_view kFormat = "FORMAT=", kKnown = "32-bit_rle_rgbe";
   ImageBytes bytes(path, file);
+
+  // An empty line ends the header.
   for (std::string text; !(text = nextText(bytes)).empty();) {
     if (text.starts_with(kFormat) && text.substr(kFormat.size()) != kKnown) {
       bytes.fail("expected FORMAT=32-bit_rle_rgbe, found " + excerpt(text));
     }
   }
+
+  // Only rows from the top and columns from the left are read.
   int columns = 0, rows = 0;
   if (std::sscanf(nextText(bytes).c_str(), "-Y %9d +X %9d", &rows, &columns) != 2) {
     bytes.fail("expected a size such as \"-Y 300 +X 480\"");
   }
+
   RawImage image = startImage(path, columns, rows, 3, true, limits);
   const auto width = static_cast<std::size_t>(image.width);
   const auto height = static_cast<std::size_t>(image.height);
   bytes.need(height * sizeof(Rgbe));  // at least, before memory is taken
   image.values.reserve(width * height * 3);
+
   std::vector<Rgbe> row(width);
   for (std::size_t y = 0; y < height; ++y) {
     readRow(bytes, row);
@@ -330,6 +372,7 @@ RawImage decodeHdr(const std::string& path, std::span<const std::uint8_t> file,
       }
     }
   }
+
   return image;
 }
 

@@ -23,6 +23,8 @@ int cubeSide(const RawImage& raw) { return std::min(raw.width, raw.height / 6); 
 // Looks a cube map (OpenEXR, "Environment Maps") up bilinearly in a direction.
 Rgb cubePixel(const RawImage& raw, const Vec3d& direction) {
   const int last = cubeSide(raw) - 1;
+
+  // The largest component of the direction selects the face, and the others give the place on it.
   const Vec3d size = abs(direction);
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   // Centers of pixels lie on the edges of the cube.
@@ -37,6 +39,7 @@ Rgb cubePixel(const RawImage& raw, const Vec3d& direction) {
   const double column = std::clamp(columns[face], 0.0, double(last));
   const double row = std::clamp(rows[face], 0.0, double(last));
 
+  // The four nearest pixels are weighted bilinearly.
   const int left = std::min(static_cast<int>(column), std::max(last - 1, 0));
   const int top = std::min(static_cast<int>(row), std::max(last - 1, 0));
   RgbD sum;
@@ -50,7 +53,7 @@ Rgb cubePixel(const RawImage& raw, const Vec3d& direction) {
   return Rgb(sum);
 }
 
-// The direction of a pixel of an image of latitude and longitude: z in the middle, y up.
+// Returns the direction of a pixel of a latitude-longitude image: z is in the middle, y is up.
 Vec3d directionOf(int column, int row, const EnvironmentImage& image) {
   const double longitude = (0.5 - (column + 0.5) / image.width) * 2 * std::numbers::pi;
   const double latitude = (0.5 - (row + 0.5) / image.height) * std::numbers::pi;
@@ -112,12 +115,15 @@ Texture makeEmissionTexture(const std::string& name, const RawImage& raw, Warnin
 
 EnvironmentImage makeEnvironment(const RawImage& raw) {
   const bool isCube = raw.isCube && cubeSide(raw) > 0;
+
+  // A cube becomes a latitude-longitude image, which is as wide as four of its faces.
   EnvironmentImage environment;
   environment.width = isCube ? 4 * cubeSide(raw) : raw.width;
   environment.height = isCube ? 2 * cubeSide(raw) : raw.height;
   const std::size_t count =
       static_cast<std::size_t>(environment.width) * static_cast<std::size_t>(environment.height);
   for (auto* plane : {&environment.r, &environment.g, &environment.b}) plane->resize(count);
+
   std::size_t i = 0;
   for (int row = 0; row < environment.height; ++row) {
     for (int column = 0; column < environment.width; ++column, ++i) {
@@ -128,6 +134,7 @@ EnvironmentImage makeEnvironment(const RawImage& raw) {
       environment.b[i] = value.z;
     }
   }
+
   return environment;
 }
 
@@ -141,6 +148,7 @@ bool hasTranslucentAlpha(const RawImage& raw) {
 
 bool looksLikeHeights(const RawImage& raw) {
   if (raw.channels < 3) return true;
+
   constexpr float kChromaNoise = 16.0f / 255.0f;  // in gray pictures stored as JPEG
   for (std::size_t i = 0; i < raw.pixels(); ++i) {
     const auto [r, g, b, a] = valuesAt(raw, i);
@@ -157,9 +165,11 @@ Texture normalsFromHeights(const std::string& name, const RawImage& raw, float b
     const std::size_t column = static_cast<std::size_t>(wrapTexel(x, raw.width, wrapU));
     return valuesAt(raw, row * static_cast<std::size_t>(raw.width) + column)[0];
   };
+
   // Slopes per tile width, so that the relief does not depend on the resolution.
   const float scaleX = bumpScale / kTileHeights * static_cast<float>(raw.width) / 2;
   const float scaleY = bumpScale / kTileHeights * static_cast<float>(raw.height) / 2;
+
   std::size_t i = 0;
   for (int y = 0; y < raw.height; ++y) {
     for (int x = 0; x < raw.width; ++x, ++i) {
@@ -171,6 +181,7 @@ Texture normalsFromHeights(const std::string& name, const RawImage& raw, float b
           encodeDataTexel(n.x * 0.5f + 0.5f, n.y * 0.5f + 0.5f, n.z * 0.5f + 0.5f, 1.0f);
     }
   }
+
   return texture;
 }
 

@@ -13,21 +13,27 @@ namespace whit {
 // take codes as they are. A single channel is r, g and b, the second or fourth is alpha; a missing
 // alpha is 1.
 Texture makeTexture(const std::string& name, const RawImage& raw, TexelFormat format);
+
 // Counts the texels of an image of reflectances that makeTexture() clamps to 1.
 void warnOfClampedColors(const std::string& name, const RawImage& raw, Warnings& warnings);
+
 // Makes a texture of emitted colors: linear images with texels above 1 keep their range
 // (TexelFormat::radiance), all others are color textures. Values beyond that format's largest one
 // are clamped and counted in `warnings`.
 Texture makeEmissionTexture(const std::string& name, const RawImage& raw, Warnings& warnings);
 TexelFormat emissionFormat(const RawImage& raw);
 std::uint32_t encodeTexel(const Rgb& linear, TexelFormat format);  // of color or radiance
-// Makes an environment of linear light, see linearPixel(). A cube is read at twice the pixels.
+
+// Makes an environment of linear light, see linearPixel(). A cube becomes an image that is four
+// faces wide and two faces high.
 EnvironmentImage makeEnvironment(const RawImage& raw);
 
 // True if there is an alpha channel (2 or 4 channels) with a texel below opaque.
 bool hasTranslucentAlpha(const RawImage& raw);
+
 // Makes a data texture of the alpha channel alone.
 Texture makeAlphaTexture(const std::string& name, const RawImage& raw);
+
 // Returns the stored channels of pixel `i` as r, g, b, a; codes become fractions of 255. A gray
 // image has one value for r, g and b; a missing alpha is 1.
 std::array<float, 4> valuesAt(const RawImage& raw, std::size_t i);

@@ -21,6 +21,7 @@ struct MtlMaterial {
     float bumpScale = 1;           // -bm
     Vec3f offset, scale{1, 1, 1};  // -o, -s
   };
+
   std::string name;
   std::string where;                   // file:line of its newmtl
   std::map<std::string, Rgb> numbers;  // by keyword in lower case; single numbers as gray

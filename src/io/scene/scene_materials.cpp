@@ -63,10 +63,13 @@ void warnOfSum(const Material& m, const std::string& where, Warnings& warnings) 
       {"specular", lobe ? m.specular : Rgb()},
       {"transmission", m.transmission},
       {"diffuse", m.diffuseMap == kNoTexture ? m.diffuse : Rgb()}};
+
+  // Only the color channel with the largest sum is reported.
   Rgb sum;
   for (const auto& [name, part] : parts) sum += part;
   const int largest = sum.x == maxComponent(sum) ? 0 : sum.y == maxComponent(sum) ? 1 : 2;
   if (sum[largest] <= kMost) return;
+
   std::string text;
   for (const auto& [name, part] : parts) {
     if (part[largest] == 0) continue;
@@ -85,6 +88,7 @@ MaterialReader::MaterialReader(JsonObject& file, SceneContext& context) : contex
     if (!value.isObject()) value.fail("an object");
     textures_.emplace(name, NamedTexture{value, {}});
   }
+
   for (const auto& [name, value] : file.find("materials").members()) {
     JsonObject object(value);
     Material material;
@@ -109,6 +113,7 @@ std::uint32_t MaterialReader::add(Material material) {
 std::uint32_t MaterialReader::defaultMaterial() {
   const auto named = materials_.find("default");
   if (named != materials_.end()) return named->second;
+
   if (!default_) {
     Material material;
     material.name = "default";
@@ -130,8 +135,10 @@ std::int32_t MaterialReader::load(const JsonValue& definition, const JsonValue& 
       return made;
     })[0];
   }
+
   const bool isArray = context_.parts && object.has("array");
   const JsonValue image = object.need(isArray ? "array" : "image");
+
   TextureSource source;
   source.where = image.where();
   if (isArray) {
@@ -140,6 +147,8 @@ std::int32_t MaterialReader::load(const JsonValue& definition, const JsonValue& 
     source.path = context_.rules.resolve(image.text(), context_.folder, source.where).string();
   }
   readSampler(object, source);
+
+  // A format that the scene file states must be the one that the material reads.
   TextureUse readAs = use.value_or(TextureUse::color);
   if (const JsonValue as = object.find("as")) {
     const bool isData = as.word({"color", "data"}) == "data";
@@ -147,6 +156,7 @@ std::int32_t MaterialReader::load(const JsonValue& definition, const JsonValue& 
     if (use && is != formatOf(*use)) failFormat(name, is, formatOf(*use));
     if (isData) readAs = TextureUse::data;
   }
+
   object.finish();
   return context_.textures.add(source, {readAs})[0];
 }
@@ -154,9 +164,11 @@ std::int32_t MaterialReader::load(const JsonValue& definition, const JsonValue& 
 std::int32_t MaterialReader::texture(const JsonValue& name, TextureUse use) {
   findNamed(textures_, name, "a texture");
   NamedTexture& named = textures_.at(name.text());
-  // Patterns do not go beyond 1.
+
+  // Patterns do not exceed 1, so their emission needs no other format than color.
   const bool isPattern = JsonObject(named.definition).has("pattern");
   if (use == TextureUse::emission && isPattern) use = TextureUse::color;
+
   const auto known = named.slots.find(use);
   if (known != named.slots.end()) return known->second;
   return named.slots[use] = load(named.definition, name, use);
@@ -170,12 +182,14 @@ void MaterialReader::checkUnused() {
 
 void MaterialReader::read(JsonObject& object, Material& m) {
   readMembers(object, m);
+
   forEachMap([&](const auto& member) {
     const JsonValue name = object.find(member.name);
     if (!name) return;
     m.*member.field = name.isNull() ? kNoTexture : texture(name, member.rules.use);
   });
-  // Defaults that follow from other members; see `decides` in scene/members.h.
+
+  // Other members decide these defaults; see `decides` in scene/members.h.
   if (m.coverageMap != kNoTexture && m.alphaMap == kNoTexture) m.cutWhereClear();
   const bool mirrors = object.has("mirror"), transmits = object.has("transmission");
   if (mirrors && !object.has("mirrorGrazing")) m.mirrorGrazing = m.mirror;
@@ -191,6 +205,8 @@ void MaterialReader::read(JsonObject& object, Material& m) {
 void MaterialReader::override(JsonObject& object, Material& material, GivenMembers& given) {
   read(object, material);
   for (const auto& [name, value] : object.value().members()) given.insert(name);
+
+  // Members that are given decide the defaults of others.
   forEachMember<Material>([&](const auto& member) {
     if (!given.contains(member.name)) return;
     for (const std::string_view name : member.rules.decides) given.emplace(name);

@@ -28,10 +28,12 @@ void requireNumbers(const Column& column, const std::string& where) {
   const auto fits = [&](float x) { return x >= column.low && x <= column.high; };
   const auto bad = std::ranges::find_if_not(column.numbers, fits);
   if (bad == column.numbers.end()) return;
+
   const bool anyFinite = column.high == std::numeric_limits<float>::max();
   const std::string range = anyFinite ? "finite numbers"
                                       : "numbers from " + formatted("%g", double{column.low}) +
                                             " to " + formatted("%g", double{column.high});
+
   const auto at = static_cast<std::size_t>(bad - column.numbers.begin());
   throwBadScene(where, "expected " + range + " in " + column.name + ", found " +
                            formatted("%g", double{*bad}) + " at [" +
@@ -52,6 +54,8 @@ std::vector<To> copied(const Column& column) {
 std::vector<std::array<std::uint32_t, 3>> trianglesOf(const GivenMesh& given, std::size_t vertices,
                                                       const std::string& where) {
   std::vector<std::array<std::uint32_t, 3>> triangles;
+
+  // Without indices, every three vertices form a triangle.
   if (given.triangles.empty()) {
     if (vertices % 3 != 0) {
       throwBadScene(where,
@@ -61,10 +65,12 @@ std::vector<std::array<std::uint32_t, 3>> trianglesOf(const GivenMesh& given, st
     for (std::uint32_t i = 0; i < vertices; i += 3) triangles.push_back({i, i + 1, i + 2});
     return triangles;
   }
+
   if (given.triangles.size() % 3 != 0) {
     throwBadScene(where, "expected three vertices a triangle, found " +
                              std::to_string(given.triangles.size()) + " numbers");
   }
+
   const auto outside = [&](std::uint32_t vertex) { return vertex >= vertices; };
   const auto bad = std::ranges::find_if(given.triangles, outside);
   if (bad != given.triangles.end()) {
@@ -72,6 +78,7 @@ std::vector<std::array<std::uint32_t, 3>> trianglesOf(const GivenMesh& given, st
                              std::to_string(*bad) + " in triangle " +
                              std::to_string((bad - given.triangles.begin()) / 3));
   }
+
   triangles.resize(given.triangles.size() / 3);
   std::memcpy(triangles.data(), given.triangles.data(), given.triangles.size_bytes());
   return triangles;
@@ -88,6 +95,8 @@ Mesh meshOf(const GivenMesh& given, const std::string& where) {
   if (vertices >= std::numeric_limits<std::uint32_t>::max()) {
     throwLimit(where + ": more than 2^32 - 2 vertices");
   }
+
+  // Normals, UVs and colors may be missing, but are complete if they are given.
   const Column positions{given.positions, 3, "positions"}, normals{given.normals, 3, "normals"},
       uvs{given.uvs, 2, "uvs"}, colors{given.colors, 3, "colors", 0, 1};
   for (const Column& column : {positions, normals, uvs, colors}) {
@@ -100,6 +109,7 @@ Mesh meshOf(const GivenMesh& given, const std::string& where) {
     }
     requireNumbers(column, where);
   }
+
   Mesh mesh;
   mesh.triangles = trianglesOf(given, vertices, where);
   mesh.positions = copied<Vec3f>(positions);
@@ -115,6 +125,7 @@ RawImage imageOf(const GivenImage& given, const std::string& where) {
     throwBadScene(where, "expected 1 to " + std::to_string(kImageSideLimit) + " pixels a side");
   }
   if (given.channels < 1 || given.channels > 4) throwBadScene(where, "expected 1 to 4 channels");
+
   const std::size_t count = static_cast<std::size_t>(given.width) *
                             static_cast<std::size_t>(given.height) *
                             static_cast<std::size_t>(given.channels);
@@ -125,6 +136,7 @@ RawImage imageOf(const GivenImage& given, const std::string& where) {
   requireNumbers({given.values, static_cast<std::size_t>(given.channels), "the image", 0,
                   kLargestRadianceTexel},
                  where);
+
   RawImage raw;
   raw.width = given.width;
   raw.height = given.height;

@@ -25,6 +25,7 @@ std::array<FlatParts, 3> flatPartsOf(const Body& content, const Box& box) {
   const Vec3f size = box.upper - box.lower;
   const double near = kNear * maxComponent(size);
   std::array<FlatParts, 3> all;
+
   forEachMesh(content, [&](const Mesh& mesh) {
     for (const auto& t : mesh.triangles) {
       if (std::ranges::max(t) >= mesh.positions.size()) continue;
@@ -32,12 +33,16 @@ std::array<FlatParts, 3> flatPartsOf(const Body& content, const Box& box) {
                          Vec3d(mesh.positions[t[2]])};
       const Vec3d twice = cross(p[1] - p[0], p[2] - p[0]);
       const double area = length(twice) / 2;
+
+      // A triangle faces an axis if nearly all of its area is left when it is projected along the
+      // axis.
       for (int axis = 0; axis < 3; ++axis) {
         if (!(std::abs(twice[axis]) / 2 > kFlat * area)) continue;
         const auto liesAt = [&](float end) {
           return std::ranges::all_of(
               p, [&](const Vec3d& q) { return std::abs(q[axis] - end) <= near; });
         };
+
         const double side = double{size[(axis + 1) % 3]} * size[(axis + 2) % 3];
         FlatParts& flat = all[static_cast<std::size_t>(axis)];
         if (liesAt(box.lower[axis])) {
@@ -50,12 +55,14 @@ std::array<FlatParts, 3> flatPartsOf(const Body& content, const Box& box) {
       }
     }
   });
+
   return all;
 }
 
 bool standsOnPlane(const Box& box) {
   constexpr float kOnPlane = 0.02f, kAstride = 0.25f, kLeastHeight = 0.5f;
   const Vec3f size = box.upper - box.lower;
+
   return std::abs(box.lower.z) <= kOnPlane * size.z &&
          size.z >= kLeastHeight * std::max(size.x, size.y) &&
          std::min(-box.lower.y, box.upper.y) >= kAstride * size.y;
@@ -66,6 +73,7 @@ bool hasBase(const Box& box, const std::array<FlatParts, 3>& flat) {
   constexpr double kLeastBase = 0.1, kElsewhere = 0.25;
   const Vec3f size = box.upper - box.lower;
   const double base = flat[2].lower;
+
   return size.z > kLongest * std::max(size.x, size.y) && base >= kLeastBase &&
          std::max({flat[2].upper, flat[1].lower, flat[1].upper}) <= kElsewhere * base;
 }
