@@ -22,10 +22,12 @@ RenderOptions presetOf(const RenderOptions& base, const std::string& quality) {
 void addPoint(std::vector<Point>& points, PointKind kind, const std::string& knob,
               const std::string& value, std::optional<Cause> cause, const RenderOptions& options,
               bool spare = false) {
+  // Two points with equal options would have the same picture and the same time.
   const std::string digest = digestOf(options);
   for (const Point& earlier : points) {
     if (digestOf(earlier.options) == digest) return;
   }
+
   Point& point = points.emplace_back();
   point.kind = kind;
   point.knob = knob;
@@ -68,22 +70,28 @@ PointList makePoints(const RenderOptions& base, EffectSet effects, const std::ve
   PointList list;
   const bool standard = digestOf(base) == digestOf(presetOf(base, "standard"));
   addPoint(list.points, PointKind::baseline, "", standard ? "standard" : "baseline", {}, base);
+
+  // The presets of --quality compare with the single options below.
   for (const QualityPreset& preset : qualityPresets()) {
     addPoint(list.points, PointKind::preset, "quality", preset.name, {},
              presetOf(base, preset.name));
   }
+
+  // A knob that has no effect in this scene is listed as idle, with the reason.
   for (const Knob& knob : knobs) {
     const std::string because = knob.idle(effects);
     if (!because.empty()) {
       list.idle.push_back({knob.name, because});
       continue;
     }
+
     for (const KnobValue& value : knob.values) {
       const std::string unable = value.idle(effects);
       if (!unable.empty()) {
         list.idle.push_back({knob.name + "=" + value.label, unable});
         continue;
       }
+
       RenderOptions options = base;
       value.apply(options);
       addPoint(list.points, PointKind::knob, knob.name, value.label, knob.cause, options,
@@ -106,6 +114,7 @@ std::vector<Knob> knobsTowardsTransport() {
 void addTransportPoints(const RenderOptions& base, EffectSet effects,
                         const std::vector<Knob>& knobs, PointList& list) {
   const auto activeOf = [&](Cause cause) {
+    // The presets below vary the samples of a pixel, so --spp is not among the knobs.
     std::vector<Knob> chosen;
     for (const Knob& knob : knobs) {
       const bool active = knob.cause == cause && countsSamples(knob) && knob.idle(effects).empty();
@@ -113,18 +122,24 @@ void addTransportPoints(const RenderOptions& base, EffectSet effects,
     }
     return chosen;
   };
+
   const std::vector<Knob> samplings = activeOf(Cause::sampling);
   for (const Knob& transport : activeOf(Cause::transport)) {
     for (const KnobValue& light : transport.values) {
       for (const QualityPreset& preset : qualityPresets()) {
+        // Only the samples of a pixel come from the preset; other options stay those of the
+        // baseline.
         RenderOptions options = base;
         options.spp = presetOf(base, preset.name).spp;
         light.apply(options);
         if (!hasTransport(options)) continue;
+
         const std::string samples =
             options.spp == base.spp ? "" : "spp=" + std::to_string(options.spp) + " ";
         std::string label = samples + transport.name + "=" + light.label;
         addPoint(list.points, PointKind::joint, "", label, {}, options);
+
+        // A second point has up to as many samples of each lobe and light as of indirect light.
         for (const Knob& knob : samplings) {
           const KnobValue& samplesOfKnob = atMost(knob, light);
           samplesOfKnob.apply(options);

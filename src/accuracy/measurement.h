@@ -45,6 +45,7 @@ struct Timing {
   double ratio = 1;                    // to the baseline, the median of the rounds
   double ratioLow = 1, ratioHigh = 1;  // see medianInterval()
   double settledMs = 0;  // ratio times the baseline's median: drift of the machine cancels
+
   bool hasSpread() const { return rounds >= kLeastRounds; }
   double spreadPct() const { return ratio > 0 ? 50 * (ratioHigh - ratioLow) / ratio : 0; }
   bool noisy() const { return rounds < kConfidentRounds || spreadPct() > kNoisyPct; }

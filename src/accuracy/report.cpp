@@ -31,6 +31,7 @@ void addDifference(Json& row, const std::string& group, const ImageDifference* d
     row[group + name] = d ? numberOf(value) : Json();
   };
   const ImageDifference none, &e = d ? *d : none;
+
   add("_rmse", e.rmse);
   add("_relmse", e.relmse);
   add("_psnr_db", e.psnrDb);
@@ -46,12 +47,15 @@ void addTiming(Json& row, const Point& point) {
   row["frames"] = t.frames;
   row["median_ms"] = t.medianMs;
   row["least_ms"] = t.leastMs;
+
+  // Ratios to the baseline cancel the drift of the machine; an interval needs several rounds.
   row["rounds"] = t.rounds;
   row["x_baseline"] = numberOf(t.ratio);
   row["x_baseline_low"] = orNull(t.hasSpread(), t.ratioLow);
   row["x_baseline_high"] = orNull(t.hasSpread(), t.ratioHigh);
   row["noisy"] = t.noisy();
   row["settled_ms"] = numberOf(t.settledMs);
+
   for (std::size_t k = 0; k < kRayKindCount; ++k)
     row[std::string(kRayKinds[k].name) + "_rays"] = point.stats.meter.tally[k].rays;
 }
@@ -61,14 +65,18 @@ void addErrors(Json& row, const Point& point) {
   addDifference(row, "same_samples", point.sameSamples ? &*point.sameSamples : nullptr);
   addDifference(row, "sampling", &point.sampling);
   addDifference(row, "algorithm", &point.algorithm);
+
   const ArithmeticError* const a = point.arithmetic ? &*point.arithmetic : nullptr;
   addDifference(row, "arithmetic", a ? &a->samePath : nullptr);
   addDifference(row, "transport", point.transport ? &*point.transport : nullptr);
+
+  // Pixels whose path diverged are counted; the errors in ulps are those of the other pixels.
   row["path_flips"] = a ? Json(a->divergences) : Json();
   row["path_flips_per_mpx"] = a ? numberOf(a->divergencesPerMpx) : Json();
   row["median_ulp"] = a ? numberOf(a->medianUlp) : Json();
   row["p999_ulp"] = a ? numberOf(a->ulp999) : Json();
   row["worst_ulp"] = a ? numberOf(a->worstUlp) : Json();
+
   row["nonfinite"] = point.total.nonFinite;
   row["front"] = point.onFront;
   row["front_same_samples"] = point.onFrontSameSamples;
@@ -79,10 +87,13 @@ void addRun(Json& row, const SceneSweep& sweep, const Point& point, const Json& 
   for (const auto& [name, value] : pictureOptions(point.options)) {
     options += (options.empty() ? "" : " ") + name + "=" + value;
   }
+
   row["options"] = options;
   row["reference_samples"] = sweep.referenceSamples;
   row["reference_cutoff"] = static_cast<double>(sweep.referenceCutoff);
   row["truth"] = kTruthNames[static_cast<std::size_t>(sweep.truth())];
+
+  // The columns of the picture with all transport are null if Whitted's model is the truth.
   const bool known = sweep.transport.has_value();
   const TransportFacts t = sweep.transport.value_or(TransportFacts());
   row["truth_passes"] = orNull(known, t.passes);
@@ -102,6 +113,7 @@ Json sweepRows(const SceneSweep& sweep, const Json& facts) {
     row["knob"] = point.knob;
     row["value"] = point.value;
     row["cause"] = point.cause ? kCauseNames[static_cast<std::size_t>(*point.cause)] : "";
+
     addTiming(row, point);
     addErrors(row, point);
     addRun(row, sweep, point, facts);
@@ -152,6 +164,7 @@ Json sceneJson(const SceneSweep& sweep, const Json& facts) {
              {"truth_png", base64(sweep.truthPng)},
              {"not_swept", Json::array()},
              {"order", sweep.order}};
+
   if (sweep.transport) scene["transport"] = transportText(sweep);
   for (const IdleKnob& group : groupedByReason(sweep.idle))
     scene["not_swept"].push_back({{"names", group.name}, {"because", group.because}});
@@ -190,11 +203,13 @@ std::string headOf(std::size_t labelWidth) {
 
 std::string rowOf(const Point& point, std::size_t labelWidth) {
   std::string label = point.label(), row;
+  // A label that is too long gets a line of its own, and the columns follow on the next line.
   if (label.size() > labelWidth) {
     row = wrapped(label);
     label.clear();
   }
   label.resize(labelWidth, ' ');
+
   const Timing& t = point.timing;
   const double rays = static_cast<double>(point.stats.allRays());
   row += label + (point.onFront ? "*" : " ");
@@ -202,6 +217,8 @@ std::string rowOf(const Point& point, std::size_t labelWidth) {
   row += t.ratio <= kLargest ? formatted("%7.2f", t.ratio) : formatted("%7.1e", t.ratio);
   row += formatted("%9.*f%9.5f%8.1e%8.2f", rays < 1e6 ? 1 : 0, rays / 1e3, point.total.flipMean,
                    point.total.rmse, point.total.pixelsGe1CodePct);
+
+  // The last columns compare with the exact picture at equal samples, which may not exist.
   if (!point.sameSamples) return row + formatted("%9s%8s\n", "-", "-");
   return row + formatted("%9.5f%8.3f\n", point.sameSamples->flipMean,
                          point.sameSamples->pixelsGe1CodePct);
@@ -214,10 +231,15 @@ std::vector<std::size_t> paretoFront(const std::vector<CostAndError>& points) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (std::isfinite(points[i].cost) && std::isfinite(points[i].error)) order.push_back(i);
   }
+
+  // In order of cost, and of error among equal costs, every point comes after all that could
+  // dominate it.
   std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
     if (points[a].cost != points[b].cost) return points[a].cost < points[b].cost;
     return points[a].error < points[b].error;
   });
+
+  // A point is on the front if its error is below the errors of all points before it.
   std::vector<std::size_t> front;
   double least = std::numeric_limits<double>::infinity();
   for (const std::size_t i : order) {
@@ -231,12 +253,14 @@ std::vector<std::size_t> paretoFront(const std::vector<CostAndError>& points) {
 void markFronts(std::vector<Point>& points) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   std::vector<CostAndError> total, same;
+
   for (Point& point : points) {
     point.onFront = point.onFrontSameSamples = false;
     const double ms = point.timing.hasSpread() ? point.timing.settledMs : kNone;
     total.push_back({ms, point.total.flipMean});
     same.push_back({ms, point.sameSamples ? point.sameSamples->flipMean : kNone});
   }
+
   for (const std::size_t i : paretoFront(total)) points[i].onFront = true;
   for (const std::size_t i : paretoFront(same)) points[i].onFrontSameSamples = true;
 }
@@ -247,6 +271,7 @@ Noise noiseOf(const SceneSweep& sweep) {
     if (point.kind != PointKind::baseline && point.timing.hasSpread())
       spreads.push_back(point.timing.spreadPct() / 100);
   }
+
   const auto& rounding = sweep.points.front().sameSamples;
   return {quantile(spreads, 0.5), rounding ? rounding->flipMean : 0};
 }
@@ -282,6 +307,7 @@ Json reportJson(const std::vector<SceneSweep>& sweeps, const Json& facts) {
 std::string transportText(const SceneSweep& sweep) {
   if (!sweep.transport) return {};
   const TransportFacts& t = *sweep.transport;
+
   std::string text = formatted(
       "truth: all transport, by packets, depth %d, cutoff %g, %d samples a pixel in %d independent "
       "passes, %.1f s; standard error of a pixel, root mean square: %.2e",
@@ -290,6 +316,7 @@ std::string transportText(const SceneSweep& sweep) {
   if (t.meanRadiance > 0)
     text += formatted(", %.2g %% of the mean radiance", 100 * t.standardError / t.meanRadiance);
   text += formatted("; half of its passes differ from the others by a FLIP of %.4f", t.noiseFlip);
+
   const auto& arithmetic = sweep.points.front().arithmetic;
   if (arithmetic) text += formatted("; single precision is off by %.1e", arithmetic->samePath.rmse);
   return text;
@@ -300,6 +327,7 @@ std::string sweepTable(const SceneSweep& sweep, std::uint32_t seed) {
   for (const Point& point : sweep.points) {
     if (point.label().size() <= kLongestLabel) width = std::max(width, point.label().size());
   }
+
   std::string text =
       wrapped(formatted("%s, %dx%d, %d thread%s, %s, Embree %s", sweep.scene.c_str(), sweep.width,
                         sweep.height, sweep.machine.threads, sweep.machine.threads == 1 ? "" : "s",
@@ -309,11 +337,13 @@ std::string sweepTable(const SceneSweep& sweep, std::uint32_t seed) {
   text += wrapped(kWords);
   text += headOf(width);
   for (const Point& point : sweep.points) text += rowOf(point, width);
+
   text += wrapped(formatted("* on the front of FLIP over time; ~ noisy: not known within %g %%; ? "
                             "fewer than %d rounds, and therefore on no front; measured in random "
                             "order, seed %u; the errors by cause are in report.html",
                             kNoisyPct, kLeastRounds, seed)) +
           "\n";
+
   for (const IdleKnob& group : groupedByReason(sweep.idle))
     text += wrapped("not swept: " + group.name + ": " + group.because);
   return text;

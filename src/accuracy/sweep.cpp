@@ -32,6 +32,7 @@ namespace {
 double ulpsApart(const Rgb& a, const Rgb& b) {
   const float largest = maxComponent(abs(b));
   if (!std::isfinite(largest)) return 0;
+
   const float next = std::nextafter(largest, std::numeric_limits<float>::max());
   return static_cast<double>(maxComponent(abs(a - b))) / static_cast<double>(next - largest);
 }
@@ -54,6 +55,8 @@ ArithmeticError arithmeticError(Renderer& renderer, const Camera& camera, const 
   error.divergences = paths.divergences;
   const double pixels = static_cast<double>(paths.diverged.size());
   error.divergencesPerMpx = 1e6 * static_cast<double>(paths.divergences) / pixels;
+
+  // Pixels whose path diverged show no rounding error, so they count as equal.
   std::vector<double> ulps;
   for (std::size_t i = 0; i < paths.diverged.size(); ++i) {
     if (paths.diverged[i]) {
@@ -62,6 +65,7 @@ ArithmeticError arithmeticError(Renderer& renderer, const Camera& camera, const 
       ulps.push_back(ulpsApart(paths.packets.pixels[i], paths.reference.pixels[i]));
     }
   }
+
   error.samePath = compareImages(paths.packets, paths.reference);
   error.medianUlp = quantile(ulps, 0.5);
   error.ulp999 = quantile(ulps, 0.999);
@@ -86,14 +90,17 @@ class SceneSweeper {
   SceneSweep run() {
     baseline_ = std::make_unique<FrameSource>(scene_, camera_, base_);
     baseline_->render();
+
     sweep_.scene = scene_.name;
     sweep_.width = baseline_->film.image.windowWidth();
     sweep_.height = baseline_->film.image.windowHeight();
     sweep_.machine = baseline_->renderer.machine();
     sweep_.referenceCutoff = cutoff_;
+
     chooseSamples();
     timer_.emplace(*baseline_,
                    1000 * settings_.timingSeconds.value_or(scope_.limits.timingSeconds));
+
     renderTransport();
     choosePoints();
     renderReferences();
@@ -104,7 +111,7 @@ class SceneSweeper {
   }
 
  private:
-  // The rays of the exact picture decide.
+  // Chooses the samples of the reference by the rays that one sample of the exact picture needs.
   void chooseSamples() {
     scope_.raysPerSample = cache_.get(exactAtSameSamples(base_, cutoff_), nullptr).rays / base_.spp;
     scope_.frameRays = static_cast<double>(baseline_->stats.allRays());
@@ -114,8 +121,11 @@ class SceneSweeper {
   std::vector<Knob> sweptKnobs() {
     const bool transport = settings_.truth == Truth::transport;
     if (transport && settings_.knobs.empty() && !settings_.full) return knobsTowardsTransport();
+
     std::vector<Knob> knobs = chooseKnobs(settings_.knobs);
     if (transport) return knobs;
+
+    // Against Whitted's model, indirect light would count as an error.
     std::erase_if(knobs, [&](const Knob& knob) {
       if (knob.cause != Cause::transport) return false;
       sweep_.idle.push_back({knob.name, "the model leaves it out: --truth transport measures it"});
@@ -129,6 +139,8 @@ class SceneSweeper {
     PointList list = makePoints(base_, effects_, knobs);
     if (settings_.truth == Truth::transport) addTransportPoints(base_, effects_, knobs, list);
     sweep_.idle.insert(sweep_.idle.end(), list.idle.begin(), list.idle.end());
+
+    // The limits leave out points that would take too long or come too close to the reference.
     for (Point& point : list.points) {
       const std::string because = scope_.leavesOut(point);
       if (because.empty()) {
@@ -137,6 +149,7 @@ class SceneSweeper {
         sweep_.idle.push_back({point.label(), because});
       }
     }
+
     if (scope_.longFrames() && !scope_.chosenKnobs) {
       sweep_.idle.push_back({"path divergences", "measured for '" + sweep_.points.front().label() +
                                                      "' only, because frames take long"});
@@ -145,12 +158,17 @@ class SceneSweeper {
 
   void renderTransport() {
     if (settings_.truth == Truth::model) return;
+
+    // A picture with one sample tells how many rays each sample of a pass costs.
     FrameSource one(scene_, camera_, transportOptions(base_, 1));
     const double rays = static_cast<double>(one.render().allRays());
     const RenderOptions options = transportOptions(base_, scope_.transportSamples(rays));
+
     transport_ = accuracy::renderTransport(scene_, camera_, options, progress_);
     scope_.transportPaths = transport_->passes * transportPaths(options);
     sweep_.transport = static_cast<const TransportFacts&>(*transport_);
+
+    // The time limit of a quick sweep does not include this picture.
     points_ = Stopwatch();
   }
 
@@ -158,8 +176,10 @@ class SceneSweeper {
   void renderReferences() {
     RenderOptions model = base_;
     if (transport_) model.indirect = 0;
+
     reference_ = &cache_.get(referenceOptions(model, sweep_.referenceSamples, cutoff_), progress_);
     exact_ = &cache_.get(exactAtSameSamples(base_, cutoff_), progress_).image;
+    // This difference is the light that Whitted's model leaves out.
     if (transport_) leftOut_ = against(reference_->image, truth());
     sweep_.referenceMs = reference_->renderMs;
   }
@@ -171,6 +191,8 @@ class SceneSweeper {
   void measureErrors(Point& point, FrameSource& frames) {
     point.stats = frames.stats;
     const Image& image = frames.film.image;
+
+    // Comparisons do not depend on each other and run in parallel.
     std::vector<std::function<void()>> comparisons;
     comparisons.emplace_back([&] { point.total = against(image, truth()); });
     // The point has the baseline's sampling if the exact options are the same.
@@ -179,6 +201,7 @@ class SceneSweeper {
       comparisons.emplace_back([&] { point.sameSamples = against(image, *exact_); });
     }
     runTogether(comparisons);
+
     const bool transports = transport_ && hasTransport(point.options);
     if (point.cause != Cause::arithmetic) {
       const Image& unapproximated = withoutApproximations(point, image);
@@ -188,6 +211,7 @@ class SceneSweeper {
                    [&] { point.algorithm = against(image, unapproximated); }});
     }
     if (transport_) point.transport = transports ? noDifference() : *leftOut_;
+
     if (!scope_.comparesPaths(point)) return;
     point.arithmetic =
         arithmeticError(frames.renderer, camera_, frames.film, referencePaths(point, frames));
@@ -216,6 +240,7 @@ class SceneSweeper {
     if (digest == digestOf(point.options)) return own;
     const auto found = exactPackets_.find(digest);
     if (found != exactPackets_.end()) return found->second;
+
     FrameSource frames(scene_, camera_, exact);
     frames.render();
     return exactPackets_.emplace(digest, std::move(frames.film.image)).first->second;
@@ -228,6 +253,7 @@ class SceneSweeper {
     RenderOptions seen = point.options;
     seen.packet = defaults.packet;
     const std::string digest = digestOf(seen);
+
     const auto found = referencePaths_.find(digest);
     if (found != referencePaths_.end()) return found->second;
     return referencePaths_
@@ -256,14 +282,18 @@ class SceneSweeper {
   void measurePoints() {
     std::map<std::string, std::string> unmeasured;  // label and reason
     const std::vector<std::size_t> order = chooseOrder();
+
     for (std::size_t k = 0; k < order.size(); ++k) {
       Point& point = sweep_.points[order[k]];
       reportProgress(progress_, sweep_.scene + ": " + point.label(),
                      static_cast<double>(k) / static_cast<double>(order.size()));
+
+      // Timing has a budget of its own, so the limit applies to the other work only.
       if (scope_.isOver((points_.ms() - timer_->spentMs()) / 1000)) {
         unmeasured[point.label()] = Scope::kOverBecause;
         continue;
       }
+
       if (measurePoint(point, order.size() - k)) {
         sweep_.order.push_back(point.label());
       } else {
@@ -271,6 +301,8 @@ class SceneSweeper {
             "the same rays and the same picture as '" + sweep_.points.front().label() + "'";
       }
     }
+
+    // Points without a measurement leave the results and are listed as idle, with the reason.
     for (const Point& point : sweep_.points) {
       const auto found = unmeasured.find(point.label());
       if (found != unmeasured.end()) sweep_.idle.push_back({found->first, found->second});
@@ -283,15 +315,20 @@ class SceneSweeper {
   bool measurePoint(Point& point, std::size_t points) {
     FrameSource frames(scene_, camera_, point.options);
     frames.render();  // this frame allocates; its time counts only if there is no time for another
+    // An approximation that changes neither rays nor pixels does not apply to this scene.
     if (point.kind == PointKind::knob && point.cause == Cause::algorithm && isBaseline(frames)) {
       return false;
     }
+
     timer_->time(point, frames, points);
+
+    // A point with the picture of the baseline shares its errors and needs no pictures of its own.
     if (frames.film.image.pixels == baseline_->film.image.pixels) {
       static_cast<PointErrors&>(point) = static_cast<const PointErrors&>(sweep_.points.front());
       point.stats = frames.stats;
       return true;
     }
+
     measureErrors(point, frames);
     if (point.cause == Cause::arithmetic) copyErrorsOfRays(point, sweep_.points.front());
     addPictures(point, frames.film.image);
@@ -316,9 +353,13 @@ class SceneSweeper {
   void finish() {
     Point& baseline = sweep_.points.front();
     baseline.timing = timer_->baselineTiming();
+
+    // Times follow from the ratios to the baseline, in which the drift of the machine cancels.
     for (Point& point : sweep_.points)
       point.timing.settledMs = point.timing.ratio * baseline.timing.medianMs;
     markFronts(sweep_.points);
+
+    // The report shows a combination's pictures only if it is on the front.
     for (Point& point : sweep_.points) {
       if (point.kind != PointKind::joint || point.onFront) continue;
       point.imagePng.clear(), point.totalMapPng.clear(), point.sameSamplesMapPng.clear();
@@ -357,6 +398,7 @@ std::vector<RgbD> PassMean::means(std::size_t first, std::size_t step) const {
   for (std::size_t i = first; i < passes_.size(); i += step, ++count) {
     for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += RgbD(passes_[i].pixels[k]);
   }
+
   for (RgbD& sum : sums) sum = sum / count;
   return sums;
 }
@@ -371,12 +413,16 @@ Image PassMean::picture(std::size_t first, std::size_t step) const {
 double PassMean::standardError() const {
   const std::vector<RgbD> mean = means(0, 1);
   double sum = 0;
+
   for (const Image& pass : passes_) {
     for (std::size_t k = 0; k < mean.size(); ++k) {
       const RgbD off = RgbD(pass.pixels[k]) - mean[k];
       sum += dot(off, off) / 3;
     }
   }
+
+  // The variance of the passes about their mean, divided by their number, is the variance of the
+  // mean.
   const auto passes = static_cast<double>(passes_.size());
   return std::sqrt(sum / (static_cast<double>(mean.size()) * (passes - 1)) / passes);
 }
@@ -392,10 +438,12 @@ const ReferencePicture& ReferenceCache::get(const RenderOptions& options, Progre
   const std::string digest = digestOf(options);
   const auto found = pictures_.find(digest);
   if (found != pictures_.end()) return found->second;
+
   Film film = makeFilm(scene_, options);
   film.wantDisplay = false;
   Renderer renderer(scene_, options);
   const FrameStats stats = renderer.renderReference(camera_, film, progress);
+
   ReferencePicture picture{std::move(film.image), stats.frameMs,
                            static_cast<double>(stats.allRays())};
   return pictures_.emplace(digest, std::move(picture)).first->second;
@@ -408,12 +456,15 @@ TransportPicture renderTransport(const Scene& scene, const Camera& camera,
   Renderer renderer(scene, options);
   PassMean passes;
   double ms = 0;
+
   for (int pass = 0; pass < kTransportPasses; ++pass) {
     renderer.setSeed(static_cast<std::uint32_t>(pass));
     ms += renderer.render(camera, film).frameMs;
     passes.add(film.image);
     reportProgress(progress, "all transport", static_cast<double>(pass + 1) / kTransportPasses);
   }
+
+  // The even and the odd passes are independent, so they differ by their noise alone.
   const ImageDifference halves =
       compareImages(passes.half(false), passes.half(true), options.exposure.ev, options.toneCurve);
   return {{kTransportPasses, kTransportPasses * options.spp, passes.standardError(),

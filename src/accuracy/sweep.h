@@ -124,6 +124,7 @@ struct Scope {
     }
     return samples;
   }
+
   // Samples a pixel in each pass of the picture with all transport. `rays` is the number of rays of
   // one sample of the whole picture.
   int transportSamples(double rays) const {
@@ -132,9 +133,11 @@ struct Scope {
     return count;
   }
   bool longFrames() const { return frameRays > limits.longFrameRays; }
+
   // The reason why the point is left out; empty if it is measured.
   std::string leavesOut(const Point& point) const {
     if (point.kind == PointKind::baseline) return {};
+
     if (point.options.mode == Mode::reference &&
         point.options.spp * raysPerSample > limits.scalarRays) {
       return "the scalar reference would take too long here";
@@ -145,12 +148,15 @@ struct Scope {
     if (transportPaths > 0 && whit::accuracy::transportPaths(point.options) > transportPaths / 2) {
       return "more than half of the paths that the picture with all transport has";
     }
+
     return {};
   }
+
   // True if no point is begun any more after `seconds`; the sweep gives the reason below.
   bool isOver(double seconds) const { return !chosenKnobs && seconds > limits.seconds; }
   static constexpr const char* kOverBecause =
       "the minute of a quick sweep was over: --full, or --knobs with one of them, measures it";
+
   // True if packets are compared with the scalar reference of the same options, path by path.
   bool comparesPaths(const Point& point) const {
     if (point.options.mode == Mode::reference) return false;

@@ -17,8 +17,10 @@ std::size_t spareValues(std::size_t n) {
   // Logarithms, because 2^-n underflows for the thousands of frames of a baseline.
   double logTerm = -static_cast<double>(n) * std::log(2.0), below = 0;  // P(X = k), P(X < k)
   std::size_t k = 0;
+
   while (below + std::exp(logTerm) <= (1 - kMedianConfidence) / 2) {
     below += std::exp(logTerm);
+    // The recurrence of the binomial coefficients leads from P(X = k) to P(X = k + 1).
     logTerm += std::log(static_cast<double>(n - k) / static_cast<double>(k + 1));
     ++k;
   }
@@ -41,12 +43,13 @@ Timing TimeSamples::timing() const {
   timing.leastMs = quantile(ms, 1e-9);
   timing.rounds = provisional ? 0 : static_cast<int>(ratios.size());
   timing.ratio = quantile(ratios, 0.5);
+
   const Interval interval = medianInterval(ratios);
   timing.ratioLow = interval.low, timing.ratioHigh = interval.high;
   return timing;
 }
 
-// The frame before, by which the caches are those of this renderer, does not count.
+// Times the second of two frames. The first one fills the caches with the data of this renderer.
 double PointTimer::secondFrameMs(FrameSource& source) {
   source.render();
   const double ms = source.render().frameMs;
@@ -60,21 +63,26 @@ void PointTimer::time(Point& point, FrameSource& frames, std::size_t points) {
   const double first = frames.stats.frameMs, baselineMs = baselineMs_.back();
   const double roundMs = 2 * (first + baselineMs);
   TimeSamples samples;
+
   // The first round has frames of the baseline before it.
   if (roundMs + 2 * baselineMs <= shareMs) {
     double after = secondFrameMs(baseline_);
+
     do {
       const double before = after;
       samples.ms.push_back(secondFrameMs(frames));
       after = secondFrameMs(baseline_);
+      // The mean of the baseline's times before and after cancels a steady drift of the machine.
       samples.ratios.push_back(2 * samples.ms.back() / (before + after));
       point.timing = samples.timing();
     } while (point.timing.noisy() && point.timing.rounds < kMostRounds &&
              stopwatch.ms() + roundMs <= shareMs);
   } else {
+    // No round fits into the share, so the first frame alone gives the time.
     samples = {{first}, {first / baselineMs}, true};
     point.timing = samples.timing();
   }
+
   spentMs_ += stopwatch.ms();
 }
 

@@ -68,6 +68,7 @@ class PointTimer {
   void time(Point& point, FrameSource& frames, std::size_t points);
 
   double spentMs() const { return spentMs_; }
+
   // The timing of the baseline itself, from all of its frames.
   Timing baselineTiming() const;
 

@@ -29,11 +29,13 @@ std::string row(const std::string& names, const std::string& meaning, std::size_
   const std::size_t column = width < kUsualWidth ? kNarrowNamesWidth : kNamesWidth;
   std::string text = "  " + names;
   if (meaning.empty()) return text + "\n";
+  // Names that are too long for their column have the meaning on the next line.
   if (text.size() + 2 > column) {
     text += "\n" + std::string(column, ' ');
   } else {
     text.resize(column, ' ');
   }
+
   return text + wrapped(meaning, column, column, width);
 }
 
@@ -90,11 +92,13 @@ complete -c NAME -f -n 'count (__FUNCTION_complete) >/dev/null' -a '(__FUNCTION_
 // The values of an option that begin with `word`.
 std::string valueLines(const std::string& word, const OptionList::Entry& entry) {
   std::string lines;
-  const std::string done = word.substr(0, word.rfind(',') + 1);  // of a list
+  const std::string done = word.substr(0, word.rfind(',') + 1);  // earlier items of a list
+
   for (const std::string& name : entry.names) lines += completionLine(word, done + name);
   for (const std::string& choice : choicesOf({.words = entry.placeholder})) {
-    const bool stands = std::ranges::any_of(choice,  // for a value, as FILE does
-                                            [](unsigned char c) { return std::isupper(c) != 0; });
+    // A placeholder in capitals, such as FILE, stands for a value and is no choice.
+    const bool stands =
+        std::ranges::any_of(choice, [](unsigned char c) { return std::isupper(c) != 0; });
     if (!stands) lines += completionLine(word, choice);
   }
   return lines;
@@ -105,6 +109,8 @@ std::string roff(const std::string& text) {
   static const std::map<char, std::string> kWritten{{'\\', "\\e"},  {'-', "\\-"},   {'\'', "\\(aq"},
                                                     {'"', "\\(dq"}, {'`', "\\(ga"}, {'^', "\\(ha"},
                                                     {'~', "\\(ti"}, {'\n', " "}};
+
+  // A dot at the start of a line begins a request in troff; \& is a character without width.
   std::string out = text.starts_with('.') ? "\\&" : "";
   for (const char c : text) {
     const auto found = kWritten.find(c);
@@ -133,16 +139,19 @@ std::string helpText(const std::string& usage, const std::string& summary, const
                      HelpTier tier, int width) {
   const auto columns = static_cast<std::size_t>(width);
   std::string text = wrapped(summary, 0, 0, columns) + "\nUsage: " + usage + "\n";
+
   if (list.operand.most > 0) {
     text +=
         "\n" + wrapped(list.operand.placeholder + ": " + list.operand.help + ".", 0, 2, columns);
   }
+
   const auto isListed = [&](const OptionList::Entry& e) {
     return tier == HelpTier::all || e.everyday;
   };
   auto groups = groupsOf(list, isListed);
   const auto left =
       list.entries.size() - static_cast<std::size_t>(std::ranges::count_if(list.entries, isListed));
+
   groups.push_back({"Help",
                     {{"-h,--help", "the options of every day"},
                      {"--help-all", left > 0 ? formatted("all options, %zu more", left)
@@ -150,6 +159,7 @@ std::string helpText(const std::string& usage, const std::string& summary, const
   if (std::ranges::find(list.entries, "quality", &OptionList::Entry::name) != list.entries.end()) {
     groups.push_back({"What --quality stands for, where an option is not given", presetTerms()});
   }
+
   for (const auto& [title, terms] : groups) {
     text += "\n" + wrapped(title + ":", 0, 0, columns);
     for (const auto& [names, meaning] : terms) text += row(names, meaning, columns);
@@ -161,6 +171,7 @@ int helpWidth() {
   winsize size{};
   int width = kUsualWidth;
   const char* const columns = std::getenv("COLUMNS");
+
   if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) {
     width = size.ws_col;
   } else if (columns != nullptr && std::atoi(columns) > 0) {
@@ -187,11 +198,15 @@ std::string completionScript(const std::string& shell, const std::string& progra
 std::string completions(const std::vector<std::string>& words, const OptionList& list) {
   const std::string word = words.empty() ? "" : words.back();
   const std::string before = words.size() < 2 ? "" : words[words.size() - 2];
+
+  // After an option with a value, the word is completed to one of its values.
   for (const OptionList::Entry& entry : list.entries) {
     const bool byLetter = !entry.shortName.empty() && before == "-" + entry.shortName;
     const bool named = byLetter || before == "--" + entry.name;
     if (named && !entry.placeholder.empty()) return valueLines(word, entry);
   }
+
+  // A word that begins with a dash is completed to an option, any other one to a scene.
   std::string lines;
   if (word.starts_with('-')) {
     for (const OptionList::Entry& entry : list.entries) {
@@ -200,6 +215,7 @@ std::string completions(const std::vector<std::string>& words, const OptionList&
     return lines + completionLine(word, "--help", "the options of every day") +
            completionLine(word, "--help-all", "all options");
   }
+
   if (list.operand.placeholder.find("SCENE") == std::string::npos) return lines;
   for (const auto& scene : shippedScenes()) lines += completionLine(word, scene.stem().string());
   return lines;
@@ -216,8 +232,11 @@ std::string manOptions(const std::string& usage, const std::string& summary,
     text +=
         ".PP\n\\fI" + roff(list.operand.placeholder) + "\\fR: " + roff(list.operand.help) + ".\n";
   }
+
   const auto isShared = [](const OptionList::Entry& entry) { return entry.common; };
   for (const auto& [title, terms] : groupsOf(list, std::not_fn(isShared))) text += termsText(terms);
+
+  // Shared options are described once, after all commands, so a command only refers to them.
   std::string shared;
   for (const auto& [title, terms] : groupsOf(list, isShared)) {
     shared += (shared.empty() ? "" : ", ") + title;
@@ -237,8 +256,10 @@ void printManual(const ManPage& page, const std::function<void()>& body) {
                       {"--version", "the version"},
                       {"--man", "this page, for man -l"},
                       {"--completion SHELL", "a script for completion in bash, zsh or fish"}});
+
   std::fputs(text.c_str(), stdout);
   body();
+
   CommonOptions common;
   OptionList shared;
   listCommonOptions(shared, common);
@@ -246,10 +267,12 @@ void printManual(const ManPage& page, const std::function<void()>& body) {
   for (const auto& [title, terms] : groupsOf(shared, [](const auto&) { return true; })) {
     text += manSection(title, terms);
   }
+
   Terms statuses;
   for (const ExitMeaning& e : kExitMeanings) {
     statuses.emplace_back(std::to_string(e.status), e.meaning);
   }
+
   text += manSection("values of --quality", presetTerms()) + manSection("exit status", statuses) +
           manSection("environment",
                      {{"WHIT_SCENES", "folder that is searched first for shipped scenes"},

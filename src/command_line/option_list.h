@@ -31,21 +31,28 @@ class OptionList {
 
   template <typename T>
   Entry& value(const OptionSpec& spec, const std::string& help, T& field) {
+    // The default value is part of the help, unless the text explains the value in parentheses
+    // itself.
     const std::string known = formatValue(spec, field);
     const bool tell = !spec.words.empty() && !known.empty() && help.find('(') == std::string::npos;
     Entry& entry = push(spec, tell ? help + " (default: " + known + ")" : help,
                         [spec, &field](const std::string& text) { parseValue(spec, text, field); });
+
+    // Shells complete the items of a list.
     if constexpr (std::is_same_v<T, EffectSet>) entry.names = namesIn(kEffectNames);
     if constexpr (std::is_same_v<T, ChannelSet>) entry.names = namesIn(kChannels);
     return entry;
   }
+
   Entry& flag(std::string_view name, const std::string& help, bool& field) {
     return value({.name = name}, help, field);
   }
+
   // May be given more than once; all values are kept.
   Entry& many(const OptionSpec& spec, const std::string& help, std::vector<std::string>& field) {
     return push(spec, help, [&field](const std::string& text) { field.push_back(text); });
   }
+
   // Words that are not options.
   void operands(const std::string& placeholder, const std::string& help, std::size_t least,
                 std::size_t most, std::vector<std::string>& values) {

@@ -27,11 +27,13 @@ struct TypedOption {
 };
 
 TypedOption splitOption(const std::string& word) {
+  // The value of a letter may follow at once, as in -n4 or -n=4.
   if (word[1] != '-') {
     const std::size_t value = word.size() > 2 && word[2] == '=' ? 3 : 2;
     if (word.size() == 2) return {word, std::nullopt, true};
     return {word.substr(0, 2), word.substr(value), true};
   }
+
   const std::size_t equals = word.find('=');
   if (equals == std::string::npos) return {word, std::nullopt};
   return {word.substr(0, equals), word.substr(equals + 1)};
@@ -41,20 +43,26 @@ TypedOption splitOption(const std::string& word) {
 std::string takeWords(const std::vector<std::string>& words, const OptionList& list) {
   std::vector<std::string> operands;
   bool onlyOperands = false;
+
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string& word = words[i];
     if (onlyOperands || word.size() < 2 || word[0] != '-') {
       operands.push_back(word);
       continue;
     }
+
     if (word == "-h" || word == "--help" || word == "--help-all") return word;
+    // All words after "--" are operands.
     onlyOperands = word == "--";
     if (onlyOperands) continue;
+
     const TypedOption typed = splitOption(word);
     const auto entry = std::ranges::find_if(list.entries, [&](const OptionList::Entry& e) {
       return typed.isLetter ? typed.name == "-" + e.shortName : typed.name == "--" + e.name;
     });
     if (entry == list.entries.end()) throwUnknownOption(typed.name, list);
+
+    // A flag without a value means true; any other option takes the next word.
     if (typed.value || entry->placeholder.empty()) {
       entry->set(typed.value.value_or("true"));
     } else if (i + 1 < words.size()) {
@@ -63,6 +71,7 @@ std::string takeWords(const std::vector<std::string>& words, const OptionList& l
       throwUsage(typed.name + ": expected " + entry->placeholder + " after it");
     }
   }
+
   const OptionList::Operand& wanted = list.operand;
   if (operands.size() < wanted.least) {
     throwUsage("expected " + wanted.placeholder + ": " + wanted.help);
@@ -70,6 +79,7 @@ std::string takeWords(const std::vector<std::string>& words, const OptionList& l
   if (operands.size() > wanted.most) {
     throwUsage("one word too many: '" + operands[wanted.most] + "'");
   }
+
   if (wanted.values) *wanted.values = operands;
   return "";
 }
@@ -93,6 +103,8 @@ void listCommonOptions(OptionList& list, CommonOptions& common) {
   forEachOption(common.render, [&](const OptionSpec& spec, auto& field) {
     OptionList::Entry& entry = list.value(spec, std::string(spec.help), field);
     entry.everyday = spec.everyday;
+
+    // The names of the given options are kept, because presets and scenes must not override them.
     entry.set = [set = std::move(entry.set), &common, name = entry.name](const std::string& text) {
       if (name == "up" && (text == "x" || text == "y" || text == "z")) {
         common.load.settings.push_back("/up=\"" + text + "\"");
@@ -102,6 +114,7 @@ void listCommonOptions(OptionList& list, CommonOptions& common) {
       common.given.insert(name);
     };
   });
+
   list.group("Loading");
   list.flag("allow-outside", "let the scene name files outside its own folder",
             common.load.allowOutside)
@@ -135,8 +148,11 @@ void listCommonOptions(OptionList& list, CommonOptions& common) {
   list.value({"max-memory", "GB", 0.001, 1e6}, "limit of memory for geometry and images",
              common.maxMemoryGb)
       .everyday = false;
+
+  // Every option that was added above is common to all commands that render.
   for (std::size_t i = own; i < list.entries.size(); ++i) list.entries[i].common = true;
   listReportOptions(list, common);
+
   list.settle = [&common] {
     applyQuality(common.render, common.given);
     common.load.threads = common.render.threads;
@@ -166,11 +182,13 @@ bool parseOptions(const std::string& usage, const std::string& summary, const Op
     std::fputs(completions({words.begin() + 1, words.end()}, list).c_str(), stdout);
     return false;
   }
+
   const std::string help = takeWords(words, list);
   if (help.empty()) {
     if (list.settle) list.settle();
     return true;
   }
+
   const HelpTier tier = help == "--help-all" ? HelpTier::all : HelpTier::everyday;
   std::fputs(helpText(usage, summary, list, tier, helpWidth()).c_str(), stdout);
   return false;

@@ -56,6 +56,7 @@ void installInterruptHandlers() {
 int runProgram(const std::string& name, const std::function<int()>& body) {
   installInterruptHandlers();
   signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit is then an error of the write
+
   try {
     const int status = body();
     // The flag tells of earlier writes, which did not fit into the buffer.
@@ -81,6 +82,7 @@ WriteScope::~WriteScope() {
 ChildScope::ChildScope(const std::string& file) {
   if (file.size() >= sizeof childsFile)
     throwIo("cannot write '" + file + "': its name is too long");
+
   std::memcpy(childsFile, file.c_str(), file.size() + 1);
   hasFile = true;
 }

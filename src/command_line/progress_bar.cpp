@@ -39,9 +39,11 @@ class ProgressBar : public Progress {
       fraction_ = 0;
     }
     fraction_ = std::max(fraction_, fraction);
+
     if (drawn_ && sinceDrawn_.ms() < kBetweenDrawingsMs) return;
     sinceDrawn_ = Stopwatch();
     drawn_ = true;
+
     const std::string text = progressText(phase, fraction) + timeLeft(sinceBegun_.ms(), fraction);
     std::fprintf(stderr, "\r%s\x1b[K", printable(text).c_str());
     std::fflush(stderr);
@@ -65,6 +67,7 @@ std::string progressText(const std::string& phase, double fraction) {
 
 std::string timeLeft(double ms, double fraction) {
   if (!(ms >= kUntilTimeLeftMs) || !(fraction > 0) || !(fraction < 1)) return "";
+
   const double seconds = std::ceil(ms * (1 - fraction) / fraction / 1000);
   if (seconds >= kLongestLeft) return "";
   const int s = static_cast<int>(seconds);

@@ -33,9 +33,12 @@ struct Affine {
   static Affine rotation(const Vec3d& axis, double degrees) {
     const Vec3d a = normalized(axis, Vec3d{0, 1, 0});
     const double r = degrees * 3.14159265358979323846 / 180.0, c = std::cos(r), s = std::sin(r);
+
+    // Rodrigues' formula gives the image of a unit vector e under the rotation.
     const auto column = [&](const Vec3d& e) {
       return e * c + cross(a, e) * s + a * (dot(a, e) * (1 - c));
     };
+
     return {column({1, 0, 0}), column({0, 1, 0}), column({0, 0, 1}), {}};
   }
 };

@@ -29,9 +29,12 @@ std::size_t ChannelLayers::bytesPerPixel(ChannelSet channels) {
 
 void ChannelLayers::resize(ChannelSet channels, std::size_t pixels) {
   if (channels == channels_ && pixels == pixels_) return;
+
   *this = {};
   channels_ = channels;
   pixels_ = pixels;
+
+  // Channels that count or number things hold integers, all others hold floats.
   channels.forEach([&](Channel c) {
     if (infoOf(c).countsThings) {
       numbers_[index(c)].resize(pixels * infoOf(c).components);
@@ -42,9 +45,11 @@ void ChannelLayers::resize(ChannelSet channels, std::size_t pixels) {
 }
 
 void ChannelLayers::keepOnly(ChannelSet channels) {
+  // The loop removes channels from channels_, so it runs over a copy.
   const ChannelSet before = channels_;
   before.forEach([&](Channel c) {
     if (channels.has(c)) return;
+
     channels_ = channels_.without(c);
     floats_[index(c)].clear();
     numbers_[index(c)].clear();
@@ -58,6 +63,7 @@ void ChannelLayers::keep(std::size_t pixel, const ChannelValues& v) {
   const auto keepNumber = [&](Channel c, std::uint32_t number) {
     if (channels_.has(c)) numbers(c)[pixel] = number;
   };
+
   keepFloats(Channel::depth, {v.z, v.distance});
   keepFloats(Channel::position, {v.position.x, v.position.y, v.position.z});
   keepFloats(Channel::normal, {v.normal.x, v.normal.y, v.normal.z});

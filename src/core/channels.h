@@ -85,6 +85,7 @@ class ChannelLayers {
   void resize(ChannelSet channels, std::size_t pixels);
   ChannelSet channels() const { return channels_; }
   std::size_t pixels() const { return pixels_; }
+
   // Memory of the channels for one pixel.
   static std::size_t bytesPerPixel(ChannelSet channels);
 

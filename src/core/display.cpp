@@ -12,10 +12,13 @@ namespace {
 float leastWithCode(int code) {
   float low = 0.0f, high = 1.0f;
   if (code == 0) return low;
+
+  // Invariant: the code of `low` is below `code`, the code of `high` is not.
   while (std::nextafter(low, 2.0f) < high) {
     const float middle = low + (high - low) / 2;
     (srgbCode(static_cast<double>(middle)) >= code ? high : low) = middle;
   }
+
   return high;
 }
 
@@ -51,6 +54,7 @@ std::array<float, 256> makeLinearOfCode() {
 int srgbCode(double linear) {
   if (!(linear > 0)) return 0;  // NaN too
   if (linear >= 1) return 255;
+
   return static_cast<int>(std::floor(255 * linearToSrgb(linear) + 0.5));
 }
 
@@ -58,6 +62,7 @@ const std::array<float, 257>& leastWithCodes() {
   static const std::array<float, 257> least = [] {
     std::array<float, 257> of{};
     for (int code = 0; code < 256; ++code) of[static_cast<std::size_t>(code)] = leastWithCode(code);
+    // No value has a code above 255, so the table ends with infinity.
     of[256] = std::numeric_limits<float>::infinity();
     return of;
   }();
@@ -76,6 +81,7 @@ std::array<std::uint8_t, 3> displayCodes(const Rgb& pixel, double exposureScale,
     // NaN and negatives are black before the curve, which is only defined from 0 on.
     return static_cast<std::uint8_t>(srgbCode(exposed > 0 ? applyToneCurve(curve, exposed) : 0.0));
   };
+
   return {encode(pixel.x), encode(pixel.y), encode(pixel.z)};
 }
 
@@ -84,11 +90,13 @@ DisplayImage toDisplay(const Image& image, float exposure, ToneCurve curve) {
   display.width = image.windowWidth();
   display.height = image.windowHeight();
   display.rgba.reserve(image.pixels.size() * 4);
+
   const double scale = std::exp2(static_cast<double>(exposure));
   for (const Rgb& pixel : image.pixels) {
     for (const std::uint8_t code : displayCodes(pixel, scale, curve)) display.rgba.push_back(code);
     display.rgba.push_back(255);
   }
+
   return display;
 }
 
@@ -99,22 +107,31 @@ DisplayImage overBackground(const Image& image, std::span<const float> alpha,
                        image.windowHeight(),
                        {},
                        background.kind == Background::Kind::transparent};
+
   display.rgba.reserve(image.pixels.size() * 4);
   const double scale = std::exp2(static_cast<double>(options.exposure.ev));
+
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    // Pixels are premultiplied by their coverage; the division gives the surfaces' own color.
     const Rgb surfaces = alpha[i] > 0 ? image.pixels[i] / alpha[i] : Rgb(0.0f);
     const auto codes = displayCodes(surfaces, scale, options.toneCurve);
+
     // Russian roulette may leave the mean a little beyond its limits.
     const double covered = std::clamp(double{alpha[i]}, 0.0, 1.0);
+
+    // Mixing is done in linear light. A transparent picture keeps the codes of its surfaces,
+    // because PNG stores colors that are not premultiplied.
     for (std::size_t c = 0; c < 3; ++c) {
       const double behind{linearOfCode(background.color[c])};
       const double mixed = behind + (double{linearOfCode(codes[c])} - behind) * covered;
       display.rgba.push_back(display.hasAlpha ? codes[c]
                                               : static_cast<std::uint8_t>(srgbCode(mixed)));
     }
+
     const double opacity = display.hasAlpha ? covered : 1;
     display.rgba.push_back(static_cast<std::uint8_t>(std::lround(255 * opacity)));
   }
+
   return display;
 }
 

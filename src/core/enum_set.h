@@ -20,12 +20,14 @@ class EnumSet {
   constexpr bool has(Enum e) const { return (bits_ & bit(e)) != 0; }
   constexpr bool empty() const { return bits_ == 0; }
   constexpr bool holds(EnumSet s) const { return (s.bits_ & ~bits_) == 0; }
+
   constexpr EnumSet with(EnumSet s) const { return EnumSet(bits_ | s.bits_); }
   constexpr EnumSet with(Enum e, bool on = true) const {
     return EnumSet(on ? bits_ | bit(e) : bits_);
   }
   constexpr EnumSet without(EnumSet s) const { return EnumSet(bits_ & ~s.bits_); }
   constexpr EnumSet without(Enum e) const { return EnumSet(bits_ & ~bit(e)); }
+
   constexpr std::uint32_t bits() const { return bits_; }
   constexpr bool operator==(const EnumSet&) const = default;
 

@@ -23,6 +23,7 @@ class Error : public std::runtime_error {
   Error(ExitStatus status, const std::string& what) : std::runtime_error(what), status_(status) {}
   Error(ExitStatus status, const std::string& what, ErrorPlace place)
       : std::runtime_error(what), status_(status), place_(std::move(place)) {}
+
   ExitStatus status() const { return status_; }
   const ErrorPlace& place() const { return place_; }
 

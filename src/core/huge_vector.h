@@ -17,6 +17,7 @@ template <typename T>
 class HugePageAllocator {
  public:
   using value_type = T;
+
   HugePageAllocator() = default;
   template <typename U>
   HugePageAllocator(const HugePageAllocator<U>&) {}  // NOLINT(google-explicit-constructor)
@@ -24,16 +25,22 @@ class HugePageAllocator {
   T* allocate(std::size_t n) {
     if (n > kMostBytes / sizeof(T)) throw std::bad_array_new_length();
     const std::size_t bytes = n * sizeof(T);
+
     // Small tables would waste most of a page.
     const std::size_t alignment = bytes >= kHugePage ? kHugePage : kCacheLine;
     const std::size_t rounded = (bytes + alignment - 1) / alignment * alignment;
+
     void* const memory = std::aligned_alloc(alignment, rounded);
     if (!memory) throw std::bad_alloc();
+
 #if defined(__linux__)
+    // The advice is a hint. Without huge pages the table is only slower.
     if (alignment == kHugePage) madvise(memory, rounded, MADV_HUGEPAGE);
 #endif
+
     return static_cast<T*>(memory);
   }
+
   void deallocate(T* memory, std::size_t) { std::free(memory); }
 
   template <typename U>

@@ -31,12 +31,14 @@ template <typename Options, typename Visitor>
 void visitOption(Options& options, const std::string& name, Visitor&& visit) {
   std::vector<std::string> names;
   bool found = false;
+
   forEachOption(options, [&](const OptionSpec& spec, auto& field) {
     names.emplace_back(spec.name);
     if (spec.name != name) return;
     found = true;
     visit(spec, field);
   });
+
   if (found) return;
   throwNoOption(name, names);
 }
@@ -91,11 +93,13 @@ std::vector<std::pair<std::string, std::string>> pictureOptions(const RenderOpti
     const std::string value = formatValue(spec, field);
     if (!value.empty()) said.emplace_back(spec.name, value);
   });
+
   return said;
 }
 
 Rebuild rebuildNeeded(const RenderOptions& a, const RenderOptions& b) {
   Rebuild needed = Rebuild::nothing;
+
   forEachPair(a, b, [&](const OptionSpec& spec, const auto& before, const auto& after) {
     if (!(before == after)) needed = std::max(needed, spec.rebuilds);
   });
@@ -118,41 +122,53 @@ void applyQuality(RenderOptions& options, const std::set<std::string>& given) {
 std::vector<QualityPreset> qualityPresets() {
   const RenderOptions defaults;
   std::vector<QualityPreset> all;
+
   for (std::size_t i = 0; i < std::size(kPresets); ++i) {
     RenderOptions options;
     options.quality = static_cast<Quality>(i);
     applyQuality(options, {});
+
+    // The text of a preset lists only the values that differ from the defaults.
     QualityPreset preset{optionText(options, "quality"), ""};
     for (const char* name : kPresetOptions) {
       const std::string value = optionText(options, name);
       if (value == optionText(defaults, name)) continue;
       preset.options += (preset.options.empty() ? "--" : " --") + std::string(name) + " " + value;
     }
+
     all.push_back(std::move(preset));
   }
+
   return all;
 }
 
 std::vector<std::string> sceneOptionNames() {
   std::vector<std::string> names{"quality"};
   const RenderOptions defaults;
+
   forEachOption(defaults, [&](const OptionSpec& spec, const auto&) {
+    // A scene may set options that change its picture, but not those of loading and of arithmetic.
     const bool ofFrames = spec.rebuilds == Rebuild::frame || spec.rebuilds == Rebuild::tables;
     const bool ofKernels = spec.knob && spec.knob->cause == Cause::arithmetic;
     if (spec.changesPicture && ofFrames && !ofKernels) names.emplace_back(spec.name);
   });
+
   return names;
 }
 
 void applySceneOptions(const std::map<std::string, std::string>& stated,
                        std::set<std::string> given, RenderOptions& options) {
+  // A preset on the command line replaces all of the scene's values of preset options.
   if (given.contains("quality")) {
     given.insert(kPresetOptions.begin(), kPresetOptions.end());
   } else if (const auto quality = stated.find("quality"); quality != stated.end()) {
+    // A preset of the scene does not choose between packets and the scalar reference.
     given.insert("mode");
     setOption(options, quality->first, quality->second);
     applyQuality(options, given);
   }
+
+  // Options on the command line take precedence over those of the scene.
   for (const auto& [name, value] : stated) {
     if (!given.contains(name)) setOption(options, name, value);
   }
@@ -169,13 +185,17 @@ bool readBackground(const std::string& text, Background& value) {
   using Kind = Background::Kind;
   value.kind = text == "sky" ? Kind::sky : text == "transparent" ? Kind::transparent : Kind::color;
   if (value.kind != Kind::color) return true;
+
+  // A color is two hexadecimal digits for each channel, or one of two names.
   std::string digits = text.substr(text.starts_with('#') ? 1 : 0);
   if (text == "white" || text == "black") digits = text == "white" ? "ffffff" : "000000";
+
   for (std::size_t i = 0; i < 3 && digits.size() == 6; ++i) {
     const char* const first = digits.data() + 2 * i;
     const auto [stop, error] = std::from_chars(first, first + 2, value.color[i], 16);
     if (error != std::errc() || stop != first + 2) return false;
   }
+
   return digits.size() == 6;
 }
 
@@ -189,6 +209,7 @@ std::string backgroundText(const Background& b) {
 std::string rangeText(const std::string& noun, const OptionSpec& spec) {
   const bool hasLow = spec.low > std::numeric_limits<double>::lowest();
   const bool hasHigh = spec.high < std::numeric_limits<double>::max();
+
   if (hasLow && hasHigh) return noun + " from " + shortest(spec.low) + " to " + shortest(spec.high);
   if (hasLow) return noun + " of at least " + shortest(spec.low);
   return noun;
@@ -206,6 +227,7 @@ int parseChoice(const OptionSpec& spec, const std::string& text) {
     throwUsage("--" + std::string(spec.name) + ": expected one of " + std::string(spec.words) +
                ", found '" + text + "'" + didYouMean(text, choices));
   }
+
   return static_cast<int>(found - choices.begin());
 }
 

@@ -18,32 +18,44 @@ namespace {
 std::size_t printableBytes(const std::string& text, std::size_t at) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned first = byte(at);
+
+  // ASCII characters, except for control characters, are printable.
   if (first < 0x80) return first >= 0x20 && first != 0x7f ? 1 : 0;
+
+  // The first byte of a UTF-8 sequence gives its length (RFC 3629); 0xc0, 0xc1 and bytes above 0xf4
+  // never occur.
   const std::size_t length = first < 0xc2 || first > 0xf4 ? 0
                              : first < 0xe0               ? 2
                              : first < 0xf0               ? 3
                                                           : 4;
+
   if (length == 0 || at + length > text.size()) return 0;
+  // The bytes that continue a sequence have the form 10xxxxxx.
   for (std::size_t i = at + 1; i < at + length; ++i) {
     if ((byte(i) & 0xc0) != 0x80) return 0;
   }
+
   const bool control = first == 0xc2 && byte(at + 1) < 0xa0;  // U+0080 to U+009F
   return control ? 0 : length;
 }
 
-// Neighbors that changed places count as one edit (Damerau 1964).
+// Damerau's edit distance (1964), by dynamic programming: two neighbors that changed places count
+// as one edit.
 std::size_t editDistance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> older, old, row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
+
   for (std::size_t i = 0; i < a.size(); ++i) {
     older = std::exchange(old, row);
     row[0] = i + 1;
     for (std::size_t j = 0; j < b.size(); ++j) {
       row[j + 1] = std::min({old[j] + (a[i] == b[j] ? 0 : 1), row[j] + 1, old[j + 1] + 1});
+      // A transposition refers to the row before the last one.
       const bool swapped = i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j];
       if (swapped) row[j + 1] = std::min(row[j + 1], older[j - 1] + 1);
     }
   }
+
   return row[b.size()];
 }
 
@@ -59,6 +71,8 @@ std::string quoted(const std::string& word) {
   constexpr const char* kPlain =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,:/%@";
   if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+
+  // Between single quotes a shell takes every character as it is, except for the single quote.
   std::string text = "'";
   for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return text + "'";
@@ -67,35 +81,45 @@ std::string quoted(const std::string& word) {
 std::string printable(const std::string& text) {
   constexpr char kDigits[] = "0123456789abcdef";
   std::string result;
+
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t length = printableBytes(text, at);
     if (length == 0) {
+      // The byte is written as a hexadecimal escape, so that it cannot control the terminal.
       const auto byte = static_cast<unsigned char>(text[at]);
       result += {'\\', 'x', kDigits[byte >> 4], kDigits[byte & 15]};
     } else {
       result += text.substr(at, length);
     }
+
     at += std::max<std::size_t>(length, 1);
   }
+
   return result;
 }
 
 std::string nearestName(const std::string& word, const std::vector<std::string>& names) {
   const std::size_t dashes = std::min(word.find_first_not_of('-'), word.size());
+
+  // A known synonym of another program is a better guess than any similar name.
   for (const auto& [theirs, ours] : kSynonyms) {
     std::string name = (dashes > 0 ? "--" : "") + std::string(ours);
     const bool isKnown = std::ranges::find(names, name) != names.end();
     if (isKnown && word.compare(dashes, std::string::npos, theirs) == 0) return name;
   }
+
+  // Otherwise the name with the fewest edits is taken, at most about a third of the letters.
   std::string nearest;
   const std::size_t letters = word.size() - dashes;
   std::size_t least = std::min(std::max<std::size_t>(1, (letters + 1) / 3) + 1, letters);
+
   for (const std::string& name : names) {
     const std::size_t edits = editDistance(word, name);
     if (edits >= least) continue;
     least = edits;
     nearest = name;
   }
+
   return nearest;
 }
 
@@ -108,14 +132,18 @@ std::vector<std::size_t> indicesOf(const std::string& commaSeparated,
                                    const std::vector<std::string>& names, const std::string& kind) {
   std::vector<std::size_t> indices;
   std::istringstream in(commaSeparated);
+
   for (std::string word; std::getline(in, word, ',');) {
     if (word.empty()) continue;
+
     const auto found = std::ranges::find(names, word);
     if (found == names.end()) {
       throwUsage("no " + kind + " is called '" + word + "'" + didYouMean(word, names));
     }
+
     indices.push_back(static_cast<std::size_t>(found - names.begin()));
   }
+
   return indices;
 }
 
@@ -123,13 +151,17 @@ std::vector<std::string> distinctNames(const std::vector<std::string>& names) {
   std::set<std::string> taken(names.begin(), names.end());
   std::map<std::string, int> uses;
   std::vector<std::string> distinct;
+
   for (const std::string& given : names) {
     std::string name = given;
     int& use = uses[given];
+    // The first use keeps the name; later ones count up to a number that makes a free name.
     while (++use > 1 && !taken.insert(name = given + "#" + std::to_string(use)).second) {
     }
+
     distinct.push_back(name);
   }
+
   return distinct;
 }
 

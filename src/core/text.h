@@ -16,8 +16,12 @@ __attribute__((format(printf, 1, 2))) inline std::string formatted(const char* f
   std::va_list values, again;
   va_start(values, format);
   va_copy(again, values);
+
+  // A first call without memory returns the length.
   const int size = std::vsnprintf(nullptr, 0, format, values);
   va_end(values);
+
+  // vsnprintf() also writes a terminating zero, which the string does not keep.
   std::string text(static_cast<std::size_t>(size > 0 ? size : 0) + 1, '\0');
   std::vsnprintf(text.data(), text.size(), format, again);
   va_end(again);
@@ -31,6 +35,7 @@ inline std::string wrapped(const std::string& text, std::size_t at, std::size_t 
                            std::size_t width) {
   std::string lines;
   std::istringstream words(text);
+
   for (std::string word; words >> word;) {
     if (!lines.empty() && at + 1 + word.size() > width) {
       lines += "\n" + std::string(indent, ' ');
@@ -39,9 +44,11 @@ inline std::string wrapped(const std::string& text, std::size_t at, std::size_t 
       lines += ' ';
       ++at;
     }
+
     lines += word;
     at += word.size();
   }
+
   return lines + "\n";
 }
 

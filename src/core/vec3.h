@@ -76,12 +76,15 @@ template <typename T>
 Vec3<T> normalized(const Vec3<T>& v, const Vec3<T>& fallback = {}) {
   const T largest = maxComponent(abs(v));
   if (!(largest > 0) || !isFinite(v)) return fallback;
+
   // Sizes whose squares are ordinary numbers too need no scaling, which would change no bit.
   if (largest > T(1e-9) && largest < T(1e9)) return v / length(v);
+
   int exponent = 0;
   std::frexp(largest, &exponent);
   const Vec3<T> scaled{std::ldexp(v.x, -exponent), std::ldexp(v.y, -exponent),
                        std::ldexp(v.z, -exponent)};
+
   return scaled / length(scaled);
 }
 

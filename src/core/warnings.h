@@ -27,6 +27,7 @@ class Warnings {
     if (strict_) throwBadScene(where, kind + " (refused by --strict)");
     note(kind, where, count);
   }
+
   // Adds something that is as the file has it, but perhaps not as it is expected: never refused.
   void note(const std::string& kind, const std::string& where, std::uint64_t count = 1) {
     const std::lock_guard lock(mutex_);

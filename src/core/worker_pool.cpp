@@ -37,14 +37,17 @@ void WorkerPool::startCrew() {
   forgetDeadCrew();
   crew_ = std::make_unique<Crew>(workers_);
   std::vector<std::thread>& threads = crew_->threads;
+
   const auto turnBack = [&] {
     // The workers that have started leave the barrier; nobody waits for the missing ones.
     for (int i = static_cast<int>(threads.size()) + 1; i < workers_; ++i) {
       crew_->start.arrive_and_drop();
     }
+
     sendHome();
     crew_.reset();
   };
+
   try {
     threads.reserve(static_cast<std::size_t>(workers_));
     for (int i = 1; i < workers_; ++i) threads.emplace_back([this, i] { work(i); });
@@ -70,13 +73,16 @@ void WorkerPool::run(const std::function<void(int)>& job) {
 
 void WorkerPool::begin(const std::function<void(int)>& job) {
   if (!hasCrew()) startCrew();
+
   job_ = &job;
   error_ = nullptr;
+  // The workers wait at this barrier for a job.
   crew_->start.arrive_and_wait();
 }
 
 void WorkerPool::finish() {
   call(0);
+  // A child process has only the thread that forked it, so the barrier would wait for ever.
   if (!hasCrew()) throwUsage("this process was forked while its worker threads had work to do");
   crew_->finish.arrive_and_wait();
   if (error_) std::rethrow_exception(error_);
@@ -85,6 +91,7 @@ void WorkerPool::finish() {
 void WorkerPool::work(int worker) {
   for (;;) {
     crew_->start.arrive_and_wait();
+    // A null job ends the worker.
     if (!job_) return;
     call(worker);
     crew_->finish.arrive_and_wait();
@@ -107,10 +114,12 @@ void parallelFor(int threads, std::size_t count,
   std::atomic<std::size_t> next{0};
   const auto most = static_cast<std::size_t>(std::max(threads, 1));
   WorkerPool pool(static_cast<int>(std::clamp<std::size_t>(count, 1, most)), Denormals::kept);
+
   pool.run([&](int worker) {
     try {
       for (std::size_t i = next++; i < count; i = next++) task(i, worker);
     } catch (...) {
+      // No other worker gets an index from now on.
       next = count;
       throw;
     }
@@ -161,9 +170,13 @@ double cgroupQuota(const std::string& membership, const fs::path& root) {
   constexpr std::string_view kVersionTwo = "0::";
   std::istringstream lines(membership);
   fs::path group;
+
+  // The line of a process in the single hierarchy of version 2 is "0::/path".
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with(kVersionTwo)) group = line.substr(kVersionTwo.size());
   }
+
+  // Each group on the path bounds the time of all groups in it, so the smallest quota applies.
   double least = quotaOfGroup(root);
   fs::path at = root;
   for (const fs::path& part : group.relative_path()) {
@@ -171,6 +184,7 @@ double cgroupQuota(const std::string& membership, const fs::path& root) {
     const double quota = quotaOfGroup(at);
     if (quota > 0 && (least == 0 || quota < least)) least = quota;
   }
+
   return least;
 }
 
@@ -178,16 +192,20 @@ int affinityThreads() {
   cpu_set_t set;
   CPU_ZERO(&set);
   const bool known = sched_getaffinity(0, sizeof(set), &set) == 0;
+
   return std::max(1,
                   known ? CPU_COUNT(&set) : static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 int usableThreads() {
   const int threads = affinityThreads();
+
   std::ifstream in("/proc/self/cgroup");
   const std::string membership{std::istreambuf_iterator<char>(in), {}};
   const double quota = cgroupQuota(membership, "/sys/fs/cgroup");
+
   if (quota <= 0) return threads;
+  // A quota that rounding has left just below a whole number counts as that number.
   return std::clamp(static_cast<int>(std::floor(quota + 0.001)), 1, threads);
 }
 

@@ -58,6 +58,7 @@ class WorkerPool {
   void call(int worker) noexcept;
   void startCrew();
   void sendHome();
+
   // Leaks the crew of a parent process, because destructors would wait for its threads.
   void forgetDeadCrew() {
     if (!hasCrew()) static_cast<void>(crew_.release());

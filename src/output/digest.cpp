@@ -108,12 +108,14 @@ std::string digestOf(const Scene& scene) {
                normals, colors, secondUvs, lower, upper, instancedTriangles, instancedSpheres,
                items, coplanar, coincidentSpheres, motion, effects, reasons] =
       static_cast<const SceneTables&>(scene);
+
   Digester d;
   // Media, bounds and effects follow from these; the order in which things were written does not.
   addTable(d, lights), add(d, sky), add(d, sky.kind), add(d, sky.image), add(d, ambient);
   addTable(d, materials), addTable(d, textures), addTable(d, geometries), addTable(d, instances);
   addTable(d, triangles), addTable(d, normals), addTable(d, colors), addTable(d, secondUvs);
   addTable(d, coplanar.ranks());
+
   for (const auto& sphere : coincidentSpheres) {
     for (const PlacedTriangleId& id : *sphere.second) add(d, orderOf(id));
   }
@@ -134,6 +136,7 @@ std::string digestOf(const Image& image) {
                       image.window.y1}) {
     d.bytes(&n, sizeof n);
   }
+
   static_assert(sizeof(Rgb) == 3 * sizeof(float));
   d.bytes(image.pixels.data(), image.pixels.size() * sizeof(Rgb));
   return d.hex();

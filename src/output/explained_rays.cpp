@@ -22,6 +22,7 @@ std::string metText(const Scene& scene, const RayNode& node) {
 std::string partingText(const Scene& scene, const ExplainedRays& rays, std::size_t node) {
   const std::size_t other = rays.counterpart[node];
   if (other == kNoCounterpart) return "it does not follow this ray";
+
   const RayNode &n = rays.packets.nodes[node], &reference = rays.reference.nodes[other];
   if (!meetsTheSame(n, reference)) return metText(scene, reference);
   return seesTheSame(n, reference) ? "it sends on other rays" : "it sees other lights";
@@ -63,6 +64,8 @@ std::string lightName(const Scene& scene, std::uint32_t light) {
 std::string mediumName(const Scene& scene, std::uint32_t media) {
   const std::uint32_t medium = reference::currentMedium(scene, media);
   if (medium == 0) return "vacuum";
+
+  // A medium has no name of its own; it is called after the first material that has it.
   for (std::uint32_t m = 0; m < scene.materials.size(); ++m) {
     if (scene.mediumOfMaterial[m] == medium) return materialName(scene, m);
   }
@@ -83,15 +86,18 @@ std::string colorOf(RayLook look) {
 RayText describeRay(const Scene& scene, const ExplainedRays& rays, std::size_t node) {
   const RayNode& n = rays.packets.nodes[node];
   RayText text{metText(scene, n), mediumName(scene, n.media), {}};
+
   const auto adds = [&](const std::string& what, const RgbD& own) {
     text.lines.push_back(what + " adds " + textOf(addedBy(rays.packets, node, own)));
   };
+
   if (rays.partsFirstAt(node)) {
     text.lines.push_back("here the reference parts: " + partingText(scene, rays, node));
   }
   if (maxComponent(n.emitted) > 0) {
     adds(n.triangle == kMiss ? "sky" : "emission and ambient", n.emitted);
   }
+
   for (const LightContribution& light : n.lights) {
     const std::string name = lightName(scene, light.light);
     if (light.visible) {
@@ -100,6 +106,8 @@ RayText describeRay(const Scene& scene, const ExplainedRays& rays, std::size_t n
       text.lines.push_back(name + " is in shadow");
     }
   }
+
+  // A reflected or refracted ray that was not traced has a reason, such as the limit of depth.
   for (const RayKind kind : kImpulseKinds) {
     const PathEnd end = n.endOf(kind);
     if (end == PathEnd::none) continue;
@@ -112,6 +120,7 @@ int codesAddedBy(const RayTree& tree, std::size_t node, const RenderOptions& opt
   const RgbD added = addedBy(tree, node, tree.nodes[node].radiance);
   const auto with = codesOf(tree.pixel, options);
   const auto without = codesOf(max(tree.pixel - Rgb(added), Rgb(0.0f)), options);
+
   int most = 0;
   for (std::size_t i = 0; i < with.size(); ++i)
     most = std::max(most, std::abs(with[i] - without[i]));
@@ -126,6 +135,7 @@ Json pageTree(const std::vector<RayText>& words, const ExplainedRays& rays,
             {"codes", codesOf(tree.pixel, options)},
             {"reference", codesOf(rays.reference.pixel, options)},
             {"shadowRays", tree.shadowRays()}};
+
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
     const RayNode& n = tree.nodes[i];
     json["nodes"].push_back({{"parent", n.parent},

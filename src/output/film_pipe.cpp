@@ -25,7 +25,8 @@ FilmPipe::FilmPipe(const std::string& path, int width, int height, double fps) :
   const cli::WriteScope starting;  // until the interrupt handler knows what it has to undo
   file_.emplace(path);
   if (file_->temporaryPath() != path) scope_.emplace(file_->temporaryPath());
-  // H.264 that all players show.
+
+  // All players show H.264 in yuv420p.
   std::vector<std::string> words = split(
       formatted("ffmpeg -v error -f rawvideo -pix_fmt rgb0 -s %dx%d -r %.17g -i - -c:v libx264 "
                 "-crf 18 -pix_fmt yuv420p -movflags +faststart -f mp4 -y",
@@ -35,10 +36,15 @@ FilmPipe::FilmPipe(const std::string& path, int width, int height, double fps) :
   words.push_back((path.starts_with('-') ? "./" : "") + file_->temporaryPath());
   std::vector<char*> arguments(words.size() + 1);  // null is the last
   std::ranges::transform(words, arguments.begin(), [](std::string& word) { return word.data(); });
+
   signal(SIGPIPE, SIG_IGN);  // a program that has ended is then an error of the write
+  // The ends close on exec, so that no other process keeps the pipe open after this one closes it.
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throwIo(std::string("cannot make a pipe: ") + strerror(errno));
   pipe_ = ends[1];
+
+  // The program reads pictures from its standard input. Its messages go to standard error, because
+  // standard output is for results.
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
@@ -46,6 +52,7 @@ FilmPipe::FilmPipe(const std::string& path, int width, int height, double fps) :
   const int error = posix_spawnp(&process_, "ffmpeg", &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   close(ends[0]);
+
   if (error != 0) {
     close(pipe_);
     process_ = 0;
@@ -61,10 +68,12 @@ FilmPipe::~FilmPipe() {
 }
 
 int FilmPipe::wait() {
+  // The end of the input tells ffmpeg that the film is complete.
   if (pipe_ >= 0) close(pipe_);
   pipe_ = -1;
   int status = 0;
   while (waitpid(process_, &status, 0) < 0 && errno == EINTR) continue;
+
   process_ = 0;
   cli::ChildScope::ended();
   return status;
@@ -78,6 +87,7 @@ void FilmPipe::add(std::span<const std::uint8_t> rgba) {
       wait();
       throwIo("cannot write '" + path_ + "': ffmpeg has ended before its time");
     }
+
     rgba = rgba.subspan(static_cast<std::size_t>(count));
   }
 }
@@ -85,6 +95,7 @@ void FilmPipe::add(std::span<const std::uint8_t> rgba) {
 void FilmPipe::finish() {
   const int status = wait();
   if (status != 0) throwIo("cannot write '" + path_ + "': ffmpeg has failed");
+
   const cli::WriteScope scope;
   file_->commit();
 }

@@ -47,7 +47,7 @@ class FilmPipe {
 
 // One job at a time, on a thread of its own, in the order in which they come: at most one picture
 // is held beside the one that is traced, and a file is there only if all before it are.
-// Interruptions wait for a job that was started, and for no more (app/program.h).
+// Interruptions wait for a job that was started, and for no more (command_line/program.h).
 class BackgroundWriter {
  public:
   BackgroundWriter() = default;
@@ -61,6 +61,7 @@ class BackgroundWriter {
   // As finish(), then starts `write`. From the main thread.
   void start(std::function<void()> write) {
     finish();
+
     // The scope is opened here and not by the job: an interruption between the two would not know
     // of the files.
     job_ = std::async(std::launch::async, [write = std::move(write),

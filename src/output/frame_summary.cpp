@@ -13,11 +13,13 @@ RunSummary summarize(const Scene& scene, const RenderOptions& options, const Ren
   run.scene = scene.name;
   run.width = film.image.width;
   run.height = film.image.height;
+
   run.options = options;
   run.machine = renderer.machine();
   run.effects = renderer.plan().effects;
   run.triangles = scene.instancedTriangles;
   run.spheres = scene.instancedSpheres;
+
   run.loadMs = loadMs;
   run.buildMs = renderer.buildMs();
   return run;
@@ -65,6 +67,7 @@ std::string surfacesText(std::uint64_t triangles, std::uint64_t spheres) {
   const auto counted = [](std::uint64_t count, const char* what) {
     return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
   };
+
   if (spheres == 0) return counted(triangles, "triangle");
   if (triangles == 0) return counted(spheres, "sphere");
   return counted(triangles, "triangle") + ", " + counted(spheres, "sphere");
@@ -90,7 +93,7 @@ void appendSettings(std::string& text, const RunSummary& run) {
   }
 }
 
-// In the unit in which it is not 0.0.
+// Chooses the unit in which the number is not 0.0.
 std::string rateText(double perSecond) {
   if (perSecond >= 1) return formatted("%.1f a second", perSecond);
   if (perSecond * 60 >= 1) return formatted("%.1f a minute", perSecond * 60);
@@ -104,6 +107,7 @@ void appendFrames(std::string& text, const RunSummary& run) {
   if (run.writingMs.size() > 1) {
     rates += " traced, " + rateText(writtenPerSecond(run)) + " traced and written";
   }
+
   text += formatted("  frame %.2f ms (%s)", median, rates.c_str());
   if (times.size() > 1) {
     text += formatted(", least %.2f, 95 %% within %.2f, of %zu frames", quantile(times, 1e-9),
@@ -115,12 +119,15 @@ void appendFrames(std::string& text, const RunSummary& run) {
 void appendStages(std::string& text, const FrameStats& frame) {
   const double whole = frame.frameMs > 0 ? frame.frameMs : 1;
   text += formatted("  %-34s%10s%8s\n", "stage", "ms", "%");
+
   double sum = 0;
   for (std::size_t i = 0; i < kStageCount; ++i) {
     const double ms = frame.stageMs(static_cast<Stage>(i));
     sum += ms;
     text += formatted("  %-34s%10.3f%8.1f\n", kStageNames[i].data(), ms, 100 * ms / whole);
   }
+
+  // The rest of the frame is spent between the stages, where threads wait for each other.
   text += formatted("  %-34s%10.3f%8.1f\n", "between the stages, waiting", frame.frameMs - sum,
                     100 * (frame.frameMs - sum) / whole);
   text += formatted("  %-34s%10.3f%8.1f\n", "of all this inside Embree", frame.embreeMs(),
@@ -138,6 +145,7 @@ void appendRays(std::string& text, const FrameStats& frame, EffectSet effects) {
     const std::string filled = formatted("%.1f", 100 * lanesFilled(tally));
     text += formatted("%16s\n", tally.lanes > 0 ? filled.c_str() : "-");
   }
+
   text +=
       formatted("  %-14s%12llu%10.2f\n", "all", static_cast<unsigned long long>(frame.allRays()),
                 mraysPerSecond(frame.allRays(), frame.frameMs));
@@ -149,9 +157,11 @@ std::string stageTable(const RunSummary& run) {
   std::string text;
   appendSettings(text, run);
   appendFrames(text, run);
+
   const FrameStats& frame = medianFrame(run);
   // The reference has no stages to take apart.
   if (run.options.mode == Mode::packets) appendStages(text, frame);
+
   if (!run.updateMs.empty()) {
     text +=
         formatted("  %-34s%10.3f\n", "updateScene, before the frame", quantile(run.updateMs, 0.5));
@@ -160,12 +170,14 @@ std::string stageTable(const RunSummary& run) {
     text += formatted("  %-34s%10.3f%8s  %.3f waited for\n", "writing the image",
                       quantile(run.writingMs, 0.5), "", quantile(run.waitedMs, 0.5));
   }
+
   appendRays(text, frame, run.effects);
   if (!run.floorMs.empty()) {
     const double floor = quantile(run.floorMs, 0.5);
     text += formatted("  floor %.2f ms (Embree alone, the same rays); frame over floor %.2f\n",
                       floor, floor > 0 ? frame.frameMs / floor : 0);
   }
+
   if (frame.limitedPixels > 0) {
     text += formatted(
         "  %llu pixels have samples of more than %d rays, which were traced with fewer "
@@ -184,6 +196,7 @@ std::string ratioText(const RunSummary& first, const RunSummary& second) {
   const auto row = [](const char* what, double of, double a, double b) {
     return formatted("  %-34s%10.3f  (%.2f over %.2f ms)\n", what, of, a, b);
   };
+
   std::string text = formatted("%s, every effect over the scene's, medians of %zu turns\n",
                                first.scene.c_str(), first.frames.size());
   text += row("whole frame", ratio.frame, medianFrame(second).frameMs, medianFrame(first).frameMs);

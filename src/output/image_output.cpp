@@ -30,6 +30,7 @@ void writeDisplay(const std::string& path, const DisplayImage& image,
     writePng(path, image, metadata);
     return;
   }
+
   const std::string bytes = encodePng(image, metadata);
   if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() ||
       std::fflush(stdout) != 0) {
@@ -42,9 +43,12 @@ constexpr std::uint64_t kLargestPixel = 4 * sizeof(float);  // in a file that mi
 // The pixels are read as well: a file that was cut off still has its head.
 ImageMetadata readThrough(const std::string& path, const Image& image) {
   if (extensionOf(path) == ".png") return readPngMetadata(path);
+
   const std::uint64_t pixels =
       static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
+  // The limits keep a foreign file from taking more memory than this picture can need.
   const ImageLimits limits{kImageSideLimit, kLargestPixel * pixels};
+
   readImage(path, limits);
   return readExrMetadata(path);
 }
@@ -72,11 +76,13 @@ void requireWritable(const std::string& path, const std::vector<std::string>& ex
     for (const std::string& e : extensions) known += (known.empty() ? "" : " or ") + e;
     throwUsage("'" + path + "': expected a name that ends in " + known);
   }
+
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
     throwIo("cannot write '" + path + "': it is a folder");
   }
   if (std::filesystem::is_other(path, error)) return;  // a device or a pipe
+
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   const std::string place = folder.empty() ? "." : folder.string();
   if (!std::filesystem::is_directory(place, error)) {
@@ -99,7 +105,9 @@ void makeFolder(const std::string& path) {
 
 std::optional<Channel> channelNamedBy(const std::string& path, ChannelSet kept) {
   if (kept.empty() || extensionOf(path) != ".png") return std::nullopt;
+
   std::string name = std::filesystem::path(path).stem().string();
+  // The frame's number and the separators before it are no part of the channel's name.
   if (const std::size_t frame = name.find('#'); frame != std::string::npos) name.resize(frame);
   while (!name.empty() && std::string_view("-_.").find(name.back()) != std::string_view::npos) {
     name.pop_back();
@@ -115,6 +123,7 @@ std::optional<Channel> channelNamedBy(const std::string& path, ChannelSet kept) 
 ImageMetadata ownMetadata(const std::string& path, const ImageFormat& format) {
   if (format.channel) return {{"channel", std::string(infoOf(*format.channel).name)}};
   if (extensionOf(path) != ".exr") return {};
+
   ImageMetadata own = format.aboutChannels;
   if (format.exr != ExrStorage::zip) {
     own.emplace_back(kExrOption.name, formatValue(kExrOption, format.exr));
@@ -128,6 +137,7 @@ void writeImage(const std::string& path, const Film& film, const ImageMetadata& 
   ImageMetadata said = metadata;
   const ImageMetadata own = ownMetadata(path, format);
   said.insert(said.end(), own.begin(), own.end());
+
   if (extensionOf(path) == ".exr") {
     writeExr(path, film.image, said, format.exr, format.threads, layersOf(film.channels));
   } else if (format.channel) {
@@ -143,9 +153,11 @@ bool isWhole(const std::string& path, const Image& image, const ImageMetadata& e
              const RenderOptions& options) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return false;
+
   try {
     return comparable(readThrough(path, image), options) == comparable(expected, options);
   } catch (const Error& broken) {
+    // An unreadable file is an error; a damaged one is merely not whole.
     if (broken.status() == ExitStatus::io) throw;
     return false;
   }
@@ -154,11 +166,13 @@ bool isWhole(const std::string& path, const Image& image, const ImageMetadata& e
 FrameRange parseFrameRange(const std::string& text) {
   FrameRange range;
   const std::size_t dots = text.find("..");
+
   const bool good = dots == std::string::npos
                         ? readFrameNumber(text, range.first)
                         : readFrameNumber(text.substr(0, dots), range.first) &&
                               readFrameNumber(text.substr(dots + 2), range.last);
   if (dots == std::string::npos) range.last = range.first;
+
   if (!good || range.last < range.first) {
     throwUsage("--frames: expected a frame number, or first..last as 0..47, found '" + text + "'");
   }
@@ -167,6 +181,7 @@ FrameRange parseFrameRange(const std::string& text) {
 
 std::string frameName(const std::string& pattern, int frame) {
   if (pattern == kStandardOutput) return pattern;
+
   const std::filesystem::path path(pattern);
   std::string name = path.filename().string();
   const std::size_t begin = name.find('#');
@@ -174,6 +189,7 @@ std::string frameName(const std::string& pattern, int frame) {
     throwUsage("'" + pattern +
                "': --frames needs a place for the frame's number, as in out-####.exr");
   }
+
   const std::size_t end = std::min(name.find_first_not_of('#', begin), name.size());
   const int digits = static_cast<int>(end - begin);
   name.replace(begin, end - begin, formatted("%0*d", digits, frame));

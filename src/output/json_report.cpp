@@ -40,14 +40,17 @@ double peakRssMb() {
 void addFrames(const RunSummary& run, Json& json) {
   const std::vector<double> times = frameTimes(run);
   const FrameStats& frame = medianFrame(run);
+
   json["frame_ms"] = {
       {"median", frame.frameMs}, {"min", quantile(times, 1e-9)}, {"p95", quantile(times, 0.95)}};
   json["fps"] = frame.frameMs > 0 ? 1e3 / frame.frameMs : 0;
+
   for (std::size_t i = 0; i < kStageCount; ++i) {
     json["stages_ms"][std::string(kStageNames[i])] = frame.stageMs(static_cast<Stage>(i));
   }
   json["embree_ms"] = frame.embreeMs();
   json["outside_embree_ms"] = outsideEmbreeMs(frame);
+
   for (std::size_t i = 0; i < kRayKindCount; ++i) {
     json["rays"][std::string(kRayKinds[i].name)] = frame.meter.tally[i].rays;
   }
@@ -55,14 +58,18 @@ void addFrames(const RunSummary& run, Json& json) {
   for (std::size_t i = 0; i < kRayKindCount; ++i) {
     json["lanes_filled"][std::string(kRayKinds[i].name)] = lanesFilled(frame.meter.tally[i]);
   }
+
   json["nonfinite"] = frame.nonFinitePixels;
   json["ray_limited"] = frame.limitedPixels;
   json["image_hash"] = run.imageHash;
+
+  // The floor is the time that Embree alone takes for the same rays.
   if (!run.floorMs.empty()) {
     const double floor = quantile(run.floorMs, 0.5);
     json["floor_ms"] = floor;
     json["frame_over_floor"] = floor > 0 ? Json(frame.frameMs / floor) : Json(nullptr);
   }
+
   if (!run.updateMs.empty()) json["updateScene_ms"] = quantile(run.updateMs, 0.5);
   if (!run.writingMs.empty()) {
     json["writing_ms"] = {{"spent", quantile(run.writingMs, 0.5)},
@@ -87,6 +94,7 @@ Json runJson(const RunSummary& run) {
             {"mode", optionText(run.options, "mode")},
             {"batch", optionText(run.options, "batch")},
             {"robust", run.options.robust}};
+
   json["effects_choice"] = run.options.effects == EffectChoice::all ? "all" : "auto";
   json["effects"] = effectNames(run.effects);
   json["exposure_ev"] = run.options.exposure.ev;
@@ -107,6 +115,7 @@ void writeJson(const std::string& path, const Json& json) {
     std::fputs(text.c_str(), stdout);
     return;
   }
+
   const cli::WriteScope scope;
   writeTextFile(path, text);
 }

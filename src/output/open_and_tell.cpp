@@ -22,6 +22,7 @@ std::unique_ptr<OpenScene> openAndTell(const std::string& name, const cli::Commo
                  "emissive surface\n",
                  printable(open->scene.name).c_str());
   }
+
   return open;
 }
 

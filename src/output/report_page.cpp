@@ -15,8 +15,11 @@ std::string fieldOf(const Json& value) {
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
   if (value.is_number_float()) return formatted("%.7g", value.get<double>());
   if (!value.is_string()) return value.dump();
+
   const auto& text = value.get_ref<const std::string&>();
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
+
+  // A field with a separator is quoted, and quotation marks in it are doubled (RFC 4180).
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + "\"";
@@ -36,6 +39,7 @@ std::string csvOf(const Json& rows) {
     for (const auto& item : row.items()) line += "," + field(item);
     text += line.substr(std::min<std::size_t>(line.size(), 1)) + "\n";
   };
+
   if (rows.empty()) return text;
   addLine(rows.front(), [](const auto& item) { return item.key(); });
   for (const Json& row : rows) addLine(row, [](const auto& item) { return fieldOf(item.value()); });
@@ -48,9 +52,11 @@ std::string pageWith(std::string_view html, const Json& data) {
   constexpr std::string_view kPlace = "{{data}}";
   const std::size_t place = html.find(kPlace);
   std::string page(html.substr(0, place));
+
   // Only strings hold a '<' in JSON. Escaped, it cannot end the element <script>.
   for (const char c : data.dump(-1, ' ', false, Json::error_handler_t::replace))
     c == '<' ? page += "\\u003c" : page += c;
+
   return page.append(html.substr(place + kPlace.size()));
 }
 
@@ -59,10 +65,13 @@ std::string base64(std::string_view bytes) {
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
   text.reserve(bytes.size() * 4 / 3 + 4);
+
+  // Three bytes give four digits of six bits each; '=' fills up the last group (RFC 4648).
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     std::uint32_t bits = 0;
     for (std::size_t k = 0; k < 3; ++k)
       bits = bits << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+
     for (std::size_t k = 0; k < 4; ++k)
       text += i + k <= bytes.size() ? kDigits[bits >> (18 - 6 * k) & 63] : '=';
   }

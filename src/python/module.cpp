@@ -33,10 +33,12 @@ void translate(std::exception_ptr thrown) {  // NOLINT(performance-unnecessary-v
   try {
     std::rethrow_exception(thrown);
   } catch (const api::Error& error) {
+    // A text is empty if the library does not know it, which Python expresses by None.
     const auto orNone = [](const std::string& text) -> py::object {
       if (text.empty()) return py::none();
       return py::str(text);
     };
+
     const py::object make = py::module_::import("whit._error").attr("of_library");
     const py::object raised = make(error.what(), error.status(), orNone(error.file()),
                                    orNone(error.place()), orNone(error.expected()));
@@ -62,15 +64,19 @@ class Call {
 
   // True if the work of this thread must end.
   static bool mustEnd() { return ending && std::this_thread::get_id() != ender; }
+
   // Ends all calls that report progress. `atexit` calls it.
   static void endAll() {
     constexpr std::chrono::milliseconds kStep{1};
     constexpr int kSteps = 10000;
     ender = std::this_thread::get_id();
     ending = true;
+
+    // Calls on other threads need the GIL to return.
     const py::gil_scoped_release noGil;
     for (int i = 0; i < kSteps && underWay > 0; ++i) std::this_thread::sleep_for(kStep);
   }
+
   // Forgets the calls of other threads, which a forked child does not have.
   static void forgetOthers() { underWay = 0; }
 
@@ -94,10 +100,13 @@ class Onlooker {
 
   bool operator()(const std::string& phase, double fraction) {
     constexpr std::chrono::milliseconds kBetween{20};  // each call acquires the GIL
+    // The result false ends the work.
     if (Call::mustEnd()) return false;
+
     const Clock::time_point now = Clock::now();
     if (std::this_thread::get_id() != thread_ || now - last_ < kBetween) return true;
     last_ = now;
+
     const py::gil_scoped_acquire gil;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
     if (function_.is_none()) return true;
@@ -161,6 +170,7 @@ class Session {
     return trace(progress, [&](api::Renderer& renderer) {
       takeOptions(options);
       renderer.lookThrough(camera);
+
       Picture picture;
       if (within != std::pair<std::string, std::string>()) {
         picture.receipt = renderer.renderWithin(within.first, within.second, picture.image);
@@ -200,6 +210,7 @@ class Session {
    public:
     explicit Turn(Session& session) : session_(session) {
       constexpr int kUsage = 2;
+      // A progress function runs while its thread has the lock, so waiting here would never end.
       if (session.owner_ == std::this_thread::get_id()) {
         throw api::Error(kUsage, "the scene is in use: a progress function cannot ask it anything");
       }
@@ -208,6 +219,7 @@ class Session {
                          "another thread used the scene when this process was forked: make a new "
                          "scene here, or fork while no thread uses it");
       }
+
       session.process_ = getpid();
       session.lock_.attr("acquire")();
       session.owner_ = std::this_thread::get_id();
@@ -228,6 +240,9 @@ class Session {
 
   void takeOptions(const OptionTexts& options) {
     if (options == options_) return;
+
+    // If an option is refused, the options of the renderer are unknown, and the next frame sets
+    // them again.
     options_.reset();
     renderer_.reset();
     for (const auto& [name, value] : options) renderer_.set(name, value);
@@ -268,10 +283,12 @@ api::LoadOptions loadOptions(const py::dict& given) {
     try {
       member = value.cast<std::decay_t<decltype(member)>>();
     } catch (const py::cast_error&) {
+      // The message of pybind11 would not name the option.
       throw py::type_error(std::string(name) + ": cannot take " +
                            py::repr(value).cast<std::string>());
     }
   };
+
   api::LoadOptions options;
   take("allow_outside", options.allowOutside), take("strict", options.strict);
   take("max_memory_gb", options.maxMemoryGb), take("threads", options.threads);
@@ -298,14 +315,18 @@ api::SceneBuilder builderOf(const std::string& name, const std::string& descript
     const auto triangles = arrays[1].cast<Indices>();
     const Floats positions = arrays[0].cast<Floats>(), normals = arrays[2].cast<Floats>(),
                  uvs = arrays[3].cast<Floats>(), colors = arrays[4].cast<Floats>();
+
     builder.addMesh(key.cast<std::string>(), {spanOf(positions), spanOf(triangles), spanOf(normals),
                                               spanOf(uvs), spanOf(colors), kept(arrays)});
   }
+
   for (const auto& [key, value] : images) {
     const auto array = value.cast<py::array>();
     api::ImageArrays image{static_cast<int>(array.shape(1)), static_cast<int>(array.shape(0)),
                            static_cast<int>(array.shape(2))};
+
     const auto count = static_cast<std::size_t>(array.size());
+    // 8-bit codes are sRGB, floats are linear values.
     if (py::isinstance<py::array_t<std::uint8_t>>(array)) {
       image.codes = {static_cast<const std::uint8_t*>(array.data()), count};
     } else {
@@ -343,6 +364,7 @@ py::dict channelsOf(const py::object& picture) {
   for (const auto& channel : picture.cast<const Picture&>().image.channels()) {
     py::list components;
     for (const std::string_view name : channel.components) components.append(std::string(name));
+
     const std::size_t count = channel.components.size();
     const py::array values = channel.numbers.empty() ? viewOf(picture, channel.values, count)
                                                      : viewOf(picture, channel.numbers, count);
@@ -363,6 +385,7 @@ py::dict describe(const api::FrameStatistics& frame) {
   py::dict stages, rays;
   for (const auto& stage : frame.stages) stages[py::str(std::string(stage.name))] = stage.ms;
   for (const auto& kind : frame.rays) rays[py::str(std::string(kind.name))] = kind.count;
+
   py::dict all;
   all["frame_ms"] = frame.frameMs;
   all["embree_ms"] = frame.embreeMs;
@@ -402,17 +425,20 @@ api::Numbers numbersOf(const py::array& array) {
 py::dict describe(const api::RayHits& hits) {
   const py::capsule owner(new std::shared_ptr<void>(hits.memory),
                           [](void* held) { delete static_cast<std::shared_ptr<void>*>(held); });
+
   py::dict columns;
   const auto put = [&](const char* name, auto span) {
     using Element = typename decltype(span)::element_type;
     columns[name] = py::array_t<Element>(static_cast<py::ssize_t>(span.size()), span.data(), owner);
   };
+
   put("t", hits.t), put("t_error", hits.tError), put("point", hits.points);
   put("geometric_normal", hits.geometricNormals), put("shading_normal", hits.shadingNormals);
   put("weights", hits.weights), put("uv", hits.uvs);
   put("triangle", hits.triangles), put("object", hits.objects);
   put("material", hits.materials), put("instance", hits.instances);
   put("side", hits.sides), put("certain", hits.certain);
+
   if (!hits.offsets.empty()) columns["offsets"] = arrayOf(hits.offsets);
   return columns;
 }
@@ -430,6 +456,7 @@ void defineQuery(py::class_<Session>& session, const char* name, Question questi
                                const py::object& progress) {
     std::vector<api::Numbers> numbers;
     for (const py::array& array : arrays) numbers.push_back(numbersOf(array));
+
     return describe(
         s.trace(progress, [&](api::Renderer& r) { return question(r, numbers, more...); }));
   });
@@ -438,11 +465,13 @@ void defineQuery(py::class_<Session>& session, const char* name, Question questi
 void defineQueries(py::class_<Session>& session) {
   using Given = std::vector<api::Numbers>;
   const auto raysOf = [](const Given& n) { return api::Rays{n[0], n[1], n[2], n[3]}; };
+
   defineQuery(session, "closest", [=](auto& r, const Given& n) { return r.closest(raysOf(n)); });
   defineQuery(session, "occluded", [=](auto& r, const Given& n) { return r.occluded(raysOf(n)); });
   defineQuery<std::size_t>(session, "all_hits", [=](auto& r, const Given& n, std::size_t limit) {
     return r.allHits(raysOf(n), limit);
   });
+
   defineQuery(session, "visible",
               [](auto& r, const Given& n) { return r.visible(n[0], n[1], n[2], n[3]); });
   defineQuery<double, int>(session, "ambient_occlusion",
@@ -461,6 +490,7 @@ void defineView(py::module_& module, py::class_<Session>& session) {
              return py::bytes(call(py::none(), [&](const api::Progress&) { return view.png(); }));
            })
       .def("close", &View::close, NoGil());
+
   session.def("view", &Session::view);
 }
 #endif
@@ -472,8 +502,10 @@ void defineSession(py::module_& module) {
       return session.ask([&](const api::Renderer& r) { return (r.scene().*member)(); });
     };
   };
+
   py::class_<Session> session(module, "Session");
   defineQueries(session);
+
   session.def_property_readonly("name", asked(&api::Scene::name))
       .def_property_readonly("width", asked(&api::Scene::width))
       .def_property_readonly("height", asked(&api::Scene::height))
@@ -531,6 +563,7 @@ void definePicture(py::module_& module) {
             return py::bytes(call(py::none(), [&](const api::Progress&) { return p.image.png(); }));
           })
       .def("bytes", [](const Picture& p) { return py::bytes(p.image.bytes()); });
+
   module.def("picture", [](const py::bytes& bytes) {
     return Picture{api::Image::fromBytes(std::string_view(bytes)), {}, {}};
   });
@@ -543,12 +576,17 @@ void definePicture(py::module_& module) {
 PYBIND11_MODULE(_whit, module) {
   using namespace whit::python;
   pybind11::register_exception_translator(&translate);
+
   defineSession(module);
   definePicture(module);
+
   module.def("load", &load);
   module.def("build", &build);
   module.def("option_table", &optionTable);
   module.def("version", &whit::api::version);
+
+  // At the exit of the interpreter running calls end, and a forked child forgets those of its
+  // parent.
   pybind11::module_::import("atexit").attr("register")(pybind11::cpp_function(&Call::endAll));
   pybind11::module_::import("os").attr("register_at_fork")(
       pybind11::arg("after_in_child") = pybind11::cpp_function(&Call::forgetOthers));

@@ -17,14 +17,17 @@ view::ViewOptions viewOptions(const OpenScene& open, const OptionTexts& options)
   all.scene = open.source.name;
   cli::CommonOptions& common = all.common;
   common.quiet = true;
+
   for (const auto& [name, value] : options) {
     setOption(common.render, name, value);
     common.given.insert(name);
   }
+
   applyQuality(common.render, common.given);
   view::settleViewOptions(all);
   common.load = open.load;
-  // The scene as it is: it plays only when it is told to.
+
+  // The page shows the scene as it stands; it plays only on request.
   if (!open.scene.motion.empty() && !common.load.instant.seconds) {
     common.load.instant.seconds = 0;
   }
@@ -65,11 +68,14 @@ std::string View::png() const {
   return api::guarded([&] {
     const std::shared_ptr<Served> served = served_.load();
     if (!served || process_ != getpid()) throwUsage("the view is closed");
+
+    // The session traces only while a page watches; this call counts as one.
     struct Watch {
       explicit Watch(serve::ServedSession& s) : session(s) { session.watch(1); }
       ~Watch() { session.watch(-1); }
       serve::ServedSession& session;
     } watch(served->session);
+
     std::string png = served->session.download(false);
     if (png.empty()) {
       throwIo("the picture of the view takes too long or is closed: close() it, and use render()");
@@ -81,7 +87,8 @@ std::string View::png() const {
 void View::close() {
   std::shared_ptr<Served> served = served_.exchange(nullptr);
   if (process_ != getpid()) {
-    new std::shared_ptr<Served>(std::move(served));  // leaks
+    // The copy leaks, because a forked child does not have the threads of the server.
+    new std::shared_ptr<Served>(std::move(served));
   } else if (served) {
     served->session.quit();  // png() on another thread may hold it for a little longer
     served->server.stop();
