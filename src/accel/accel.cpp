@@ -77,12 +77,14 @@ void store(const Hit& hit, const HitRange& range, std::size_t i) {
   if (range.instances) hits.instance[i] = hit.instance;
 }
 
-// Embree ends the program at a NaN or beyond its range of coordinates (hard case H28). In the place
-// of such a ray stands an empty one, from where no triangle is. Kernels do the same (packRays).
+// Embree ends the program at a NaN or beyond its range of coordinates (hard case H28). Such a ray
+// is replaced by an empty one that starts where no triangle is. Kernels do the same (packRays).
 RTCRayHit singleRay(const EmbreeScene& scene, const Vec3f& origin, const Vec3f& direction,
                     float tNear, float tFar, unsigned mask) {
   const Vec3f size = abs(origin), way = abs(direction);
   const float reach = scene.reach(), place = 0.25f * reach;
+
+  // The comparison fails for a NaN as well.
   const bool traceable =
       size.x + size.y + size.z + way.x + way.y + way.z <= reach && direction != Vec3f();
   const Vec3f o = traceable ? origin : Vec3f(place), d = traceable ? direction : Vec3f{0, 0, 1};
@@ -92,7 +94,7 @@ RTCRayHit singleRay(const EmbreeScene& scene, const Vec3f& origin, const Vec3f& 
   return r;
 }
 
-// Hit with t, u and v as Embree has them, which another processor rounds otherwise.
+// Returns the hit with Embree's own t, u and v, which other processors round differently.
 Hit findUnrefined(const EmbreeScene& scene, const Vec3f& origin, const Vec3f& direction,
                   bool coherent, float tNear) noexcept {
   constexpr float kUnbounded = std::numeric_limits<float>::infinity();
@@ -100,6 +102,7 @@ Hit findUnrefined(const EmbreeScene& scene, const Vec3f& origin, const Vec3f& di
   QueryContext context(coherent);
   context.setRay(origin, direction);
   context.trace(scene.top(), r);
+
   const unsigned instance = r.hit.instID[0];
   if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {kMiss, kMiss, r.ray.tfar, r.hit.u, r.hit.v};
   return {scene.triangleOf(instance, r.hit.geomID, r.hit.primID), scene.instanceOf(instance),
@@ -112,6 +115,8 @@ bool isOccluded(const EmbreeScene& scene, const Vec3f& origin, const Vec3f& dire
   QueryContext context(coherent);
   context.setRay(origin, direction);
   context.trace(scene.top(), r.ray);
+
+  // Embree sets tfar to minus infinity where it finds an occluder.
   return !(r.ray.tfar >= 0);
 }
 
@@ -119,7 +124,8 @@ Hit findHit(const Accel::Parts& parts, const Vec3f& origin, const Vec3f& directi
             float tNear = 0) noexcept {
   Hit hit = findUnrefined(parts.embree, origin, direction, false, tNear);
   if (!hit.found()) return hit;
-  // One block of columns, of which the first slot is in use.
+
+  // The kernel refines whole blocks of hits; this one holds a single hit in its first slot.
   alignas(64) float words[9][kBlock] = {};
   alignas(64) std::uint32_t triangle[kBlock], instance[kBlock];
   std::fill_n(triangle, kBlock, kMiss);
@@ -139,7 +145,7 @@ constexpr std::size_t kGroup = 128;
 
 template <int kWidth, typename Packet>
 struct Group {
-  // For at most this many rays.
+  // `rays` is the largest number of rays that the group will hold.
   Group(unsigned mask, std::size_t rays) {
     setLanes(rays);
     const auto start = [&](auto& ray, std::size_t first) {
@@ -147,6 +153,8 @@ struct Group {
       std::fill_n(ray.mask, kWidth, mask);
       std::iota(ray.id, ray.id + kWidth, static_cast<unsigned>(first));
     };
+
+    // Kernels write origins, directions and ends only; masks and ids are the same in each group.
     for (std::size_t p = 0; p < count; ++p) {
       if constexpr (kWantsHits<Packet>) {
         start(packets[p].ray, p * kWidth);
@@ -187,12 +195,15 @@ std::size_t traceGroups(const EmbreeScene& scene, unsigned mask, const Range& ra
   QueryContext context(range.coherent);
   const bool together = range.coherent && scene.streamWidth() == kWidth;
   Group<kWidth, Packet> group(mask, std::min(n, kGroup));
+
   std::size_t lanes = 0;
   for (std::size_t begin = 0; begin < n; begin += kGroup) {
     const std::size_t rest = std::min(n - begin, kGroup);
     if (rest < kGroup) group.setLanes(rest);
     pack(group, begin, rest);
     context.setRays(advanced(range.rays, begin));
+
+    // Only Embree's calls are timed.
     const Stopwatch stopwatch;
     if (together) {
       context.traceStream(scene.top(), group.packets, kWidth, group.count);
@@ -202,14 +213,15 @@ std::size_t traceGroups(const EmbreeScene& scene, unsigned mask, const Range& ra
       }
     }
     embreeMs += stopwatch.ms();
+
     unpack(group, begin, rest);
     lanes += group.count * kWidth;
   }
   return lanes;
 }
 
-// The additional output of scenes with instances: the instance that was hit, and the numbers of its
-// triangles.
+// Writes the instances that were hit and the numbers of their triangles. The kernel that unpacks
+// hits knows only the triangles of the world.
 template <int kWidth, typename Packet>
 void storeInstances(const EmbreeScene& scene, const Packet* packets, std::size_t n,
                     const HitColumns& hits) {
@@ -229,21 +241,24 @@ std::size_t traceRange(const Accel::Parts& parts, const HitRange& range, double&
   const EmbreeScene& scene = parts.embree;
   const auto pack = [&](auto& group, std::size_t begin, std::size_t n) {
     parts.kernels.packRays(advanced(range.rays, begin), n, scene.reach(), group.words());
-    // Embree writes hits only; what a ray starts with says that there is none.
+    // Embree writes the ids of hits only, so the ids start as those of a miss.
     for (std::size_t p = 0; p < group.count; ++p) {
       std::fill_n(group.packets[p].hit.geomID, kWidth, RTC_INVALID_GEOMETRY_ID);
       std::fill_n(group.packets[p].hit.instID[0], kWidth, RTC_INVALID_GEOMETRY_ID);
     }
   };
+
   const auto unpack = [&](auto& group, std::size_t begin, std::size_t n) {
     const HitColumns to = advanced(range.hits, begin);
     parts.kernels.unpackHits(group.words(), n, scene.triangleBase(0), to);
     if (range.instances) storeInstances<kWidth>(scene, group.packets, n, to);
-    // Their corners are read when all rays of the chunk are traced.
+
+    // refineHits() reads the corners once all rays of the chunk are traced.
     for (std::size_t i = 0; i < n; ++i) {
       if (to.triangle[i] != kMiss) __builtin_prefetch(parts.tables.triangles + to.triangle[i]);
     }
   };
+
   return traceGroups<kWidth, RayHits<kWidth>>(scene, kSeenMask, range, embreeMs, pack, unpack);
 }
 
@@ -256,6 +271,7 @@ std::size_t traceRange(const Accel::Parts& parts, const ShadowRange& range, doub
   const auto unpack = [&](auto& group, std::size_t begin, std::size_t n) {
     parts.kernels.unpackVisibility(group.words(), n, range.rays.slot + begin, range.visible);
   };
+
   return traceGroups<kWidth, Rays<kWidth>>(scene, kShadowMask, range, embreeMs, pack, unpack);
 }
 
@@ -277,15 +293,16 @@ std::size_t traceAll(const Accel::Parts& parts, int packet, const Range& range, 
   if (packet == 16) return traceRange<16>(parts, range, embreeMs);
   if (packet == 8) return traceRange<8>(parts, range, embreeMs);
   if (packet == 4) return traceRange<4>(parts, range, embreeMs);
+
   const Stopwatch stopwatch;
   for (std::size_t i = 0; i < range.n; ++i) traceSingly(parts.embree, range, i);
   embreeMs += stopwatch.ms();
   return range.n;
 }
 
-// Weight of a corner below which the hit is taken to lie on the edge opposite. Triangles that share
-// the edge may both be met there, at distances whose difference is lost in rounding; seen from a
-// thousand times their size away, rounding moves the edge by 1e-4 of it.
+// A hit is taken to lie on the edge opposite to a corner whose weight is below this. Triangles that
+// share the edge may both be hit there, at distances whose difference is lost in rounding; seen
+// from a thousand times their size away, rounding moves the edge by 1e-4 of that size.
 constexpr float kNearEdge = 0x1p-12f;
 
 // Three comparisons without branches, so that compilers make vectors of them.
@@ -294,17 +311,21 @@ int isNearEdge(float u, float v) {
          static_cast<int>(1 - u - v < kNearEdge);
 }
 
-// Which of several triangles at one distance stays depends on the order in which Embree tests them,
-// which a packet's other rays change. A ray alone has but one order.
+// Among triangles at one distance, Embree keeps one that depends on the order of its tests, and the
+// other rays of a packet change that order. Hits near an edge are therefore traced again, each by
+// itself, in the one order that a single ray has.
 void settleEdges(const Accel::Parts& parts, const HitRange& range) noexcept {
-  constexpr std::size_t kRun = 4 * kBlock;  // hits looked at together before any is by itself
+  constexpr std::size_t kRun = 4 * kBlock;  // hits that are tested together for any near an edge
   const HitColumns& hits = range.hits;
   for (std::size_t begin = 0; begin < range.n; begin += kRun) {
     const std::size_t end = std::min(range.n, begin + kRun);
     const float *const u = hits.u, *const v = hits.v;
+
+    // Few hits lie near an edge, so most runs end with this vector test.
     int any = 0;
     for (std::size_t i = begin; i < end; ++i) any |= isNearEdge(u[i], v[i]);
     if (any == 0) continue;
+
     for (std::size_t i = begin; i < end; ++i) {
       if (hits.triangle[i] == kMiss || isNearEdge(u[i], v[i]) == 0) continue;
       const Hit hit = findHit(parts, originAt(range.rays, i), directionAt(range.rays, i));
@@ -313,24 +334,28 @@ void settleEdges(const Accel::Parts& parts, const HitRange& range) noexcept {
   }
 }
 
-// True if a hit is so near that the ray may start in its plane (bake/facet.h), if the cosine
-// between ray and normal is at least 2^-10.
+// Returns 1 for a hit so near that the ray may start in its plane (bake/facet.h), provided that the
+// cosine between ray and normal is at least 2^-10.
 int isNearEye(const RayColumns& rays, const float* t, std::size_t i) {
   constexpr float kNear = 0x1p-12f;
   const float size = std::fabs(rays.orgX[i]) + std::fabs(rays.orgY[i]) + std::fabs(rays.orgZ[i]);
   return static_cast<int>(t[i] <= kNear * size);
 }
 
-// Finds the nearest triangle that a primary ray does not start in. Robust traversal accepts hits at
-// a distance of 0, whatever the direction.
+// Replaces the hits of primary rays on surfaces that the eye lies in by the next hits behind them.
+// Robust traversal accepts hits at a distance of 0, whatever the direction.
 void lookPastEye(const Accel& accel, const Scene& scene, const HitRange& range) noexcept {
   const HitColumns& hits = range.hits;
+  // Hits this near are rare, so all are tested before any of them is examined.
   int any = 0;
   for (std::size_t i = 0; i < range.n; ++i) any |= isNearEye(range.rays, hits.t, i);
   if (any == 0) return;
+
   for (std::size_t i = 0; i < range.n; ++i) {
     if (isNearEye(range.rays, hits.t, i) == 0) continue;
     const Vec3f origin = originAt(range.rays, i), direction = directionAt(range.rays, i);
+
+    // Each attempt passes over twice the distance of the one before.
     for (int attempt = 0; attempt < kAttemptsPastEye && hits.triangle[i] != kMiss; ++attempt) {
       const std::uint32_t instance = range.instances ? hits.instance[i] : kNoInstance;
       if (!liesInSurface(scene, Vec3d(origin), hits.triangle[i], instance)) break;
@@ -340,8 +365,8 @@ void lookPastEye(const Accel& accel, const Scene& scene, const HitRange& range) 
   }
 }
 
-// Three directions next to `d`, each off by about a unit in the last place of its largest
-// component, towards another side each.
+// Returns one of three directions next to `d`. Each differs from it by about a unit in the last
+// place of its largest component, and towards another side.
 Vec3f nudged(const Vec3f& d, int attempt) {
   const float step = maxComponent(abs(d)) * 0x1p-22f;
   Vec3f result = d;
@@ -358,6 +383,8 @@ Accel::Accel(const Scene& scene, const RenderOptions& options, EffectSet effects
   parts_->placeInstances(scene);
   const int widest = parts_->embree.widestPacket();
   parts_->packet = options.packet == 0 ? widest : options.packet;
+
+  // Embree's version is a decimal number: 31305 stands for 3.13.5.
   const auto version = rtcGetDeviceProperty(parts_->embree.device(), RTC_DEVICE_PROPERTY_VERSION);
   parts_->description = std::to_string(version / 10000) + "." +
                         std::to_string(version / 100 % 100) + "." + std::to_string(version % 100) +
@@ -388,16 +415,23 @@ void Accel::findHits(Chunk& c) const noexcept {
     tally.rays += range.n;
     tally.lanes += traceAll(*parts_, parts_->packet, range, c.meter->embreeMs);
   }
-  // Kernels run over whole vectors.
+
+  // Kernels run over whole vectors, so the slots behind the last ray must be misses.
   std::fill(c.hits.triangle + c.n, c.hits.triangle + roundUpToBlock(c.n), kMiss);
   parts_->kernels.refineHits(parts_->tables, c.rays, c.n, c.hits);
+
+  // The rays of a packet must not influence which of two neighbors is hit on their edge.
   const HitRange all{c.rays, c.hits, c.n, c.coherent, instances};
   if (parts_->packet != 1) settleEdges(*parts_, all);
+
+  // A ray that leaves an enclosed scene has slipped through a corner (hard case H14).
   for (std::size_t i = 0; enclosed_ && i < all.n; ++i) {
     if (c.hits.triangle[i] != kMiss) continue;
     const Hit hit = closest(originAt(c.rays, i), directionAt(c.rays, i));
     if (hit.found()) store(hit, all, i);
   }
+
+  // The eye sees nothing of a surface that it lies in.
   if (c.depth == 0) lookPastEye(*this, scene_, all);
 }
 
@@ -411,6 +445,8 @@ void Accel::checkShadows(Chunk& c) const noexcept {
 
 Hit Accel::closest(const Vec3f& origin, const Vec3f& direction, float tNear) const noexcept {
   Hit hit = findHit(*parts_, origin, direction, tNear);
+
+  // Directions next to this one do not meet the corner that let the ray through.
   for (int attempt = 0; enclosed_ && !hit.found() && attempt < 3; ++attempt) {
     hit = findHit(*parts_, origin, nudged(direction, attempt), tNear);
   }

@@ -32,23 +32,24 @@ class Accel {
   Accel(const Accel&) = delete;
   Accel& operator=(const Accel&) = delete;
 
-  // After moveScene(), of the scene that this was built from. What stands still keeps its BVH.
-  // Throws as the constructor. Not while tracing.
+  // Follows moveScene() of the scene that this was built from. Geometry that stands still keeps its
+  // BVH. Throws as the constructor. Not while tracing.
   void sceneMoved();
 
-  // The nearest hits of the chunk's rays, segment by segment; those behind the last are misses, up
-  // to a whole block. A ray's hit does not depend on the rays beside it, but where two surfaces lie
-  // in each other's place (settled afterwards: render/steps.h) or cross at its very
-  // distance (to the last bit): which of them it meets is then left to Embree. Rays of depth 0 do
-  // not meet what their eye lies in.
+  // Finds the nearest hits of the chunk's rays, segment by segment; slots behind the last ray
+  // become misses, up to a whole block. A ray's hit does not depend on the rays beside it, except
+  // where two surfaces coincide (a later step decides: render/steps.h) or cross at the very
+  // distance of the hit, to the last bit: Embree then chooses one of them. Rays of depth 0 pass the
+  // surfaces that their eye lies in.
   void findHits(Chunk& c) const noexcept;
-  // visible[slot] = 1 for each of the chunk's shadow rays that meets nothing before tFar, else 0.
+  // Writes visible[slot] = 1 for each of the chunk's shadow rays that hits nothing before tFar,
+  // else 0.
   void checkShadows(Chunk& c) const noexcept;
 
   // Robust traversal lets no ray through an edge, but about one in a thousand through a corner that
-  // it meets exactly (hard case H14). In a scene that is closed around its cameras rays that find
-  // nothing are therefore traced again, one by one, in directions a unit in the last place away:
-  // there they are so rare that it costs nothing. They count once. Not while tracing.
+  // it hits exactly (hard case H14). In a scene that is closed around its cameras, rays without a
+  // hit are therefore traced again, one by one, in directions a unit in the last place away. Such
+  // rays are so rare there that this costs nothing. They count once. Not while tracing.
   void setEnclosed(bool enclosed) { enclosed_ = enclosed; }
   bool enclosed() const { return enclosed_; }
 
@@ -68,7 +69,7 @@ class Accel {
   bool enclosed_ = false;
 };
 
-// Steps of a plan, by the frame's Accel.
+// Steps of a plan; the frame's Accel performs them.
 void findHits(Chunk& c);
 void checkShadows(Chunk& c);
 

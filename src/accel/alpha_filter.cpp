@@ -24,20 +24,25 @@ int floorOf(float x) noexcept {
 }
 
 inline AxisTexels wrapAxis(Wrap wrap, float s, int size) noexcept {
-  // Not finite, or too large for any fraction of a texel to be left.
+  // Coordinates that are not finite, or so large that no fraction of a texel is left, become 0.
   if (!(std::fabs(s) <= 1048576.0f)) s = 0;
+
+  // Texel centers lie at half integers. The neighbor beyond the border is the opposite texel.
   if (wrap == Wrap::repeat) {
     const float x = (s - static_cast<float>(floorOf(s))) * static_cast<float>(size) - 0.5f;
     const int lower = floorOf(x);
     return {lower < 0 ? size - 1 : lower, lower + 1 >= size ? 0 : lower + 1,
             x - static_cast<float>(lower)};
   }
+
+  // Mirrored and clamped coordinates lie in 0..1, where the outermost texels have no neighbor.
   if (wrap == Wrap::mirror) {
     const float half = s * 0.5f, phase = (half - static_cast<float>(floorOf(half))) * 2.0f;
     s = std::fmin(phase, 2.0f - phase);
   } else {
     s = std::fmin(std::fmax(s, 0.0f), 1.0f);
   }
+
   const float x = s * static_cast<float>(size) - 0.5f;
   const int lower = floorOf(x);
   return {lower < 0 ? 0 : lower, lower + 1 >= size ? size - 1 : lower + 1,
@@ -59,6 +64,8 @@ AlphaMap::AlphaMap(const Texture& texture)
       alpha_[index(y, x)] = static_cast<std::uint8_t>(texture.texel(x, y) & 255u);
     }
   }
+
+  // Most lookups read this table of bounds and no texel.
   const int cellsDown = ((height_ - 1) >> kCellShift) + 1;
   cells_.reserve(static_cast<std::size_t>(cellsAcross_) * static_cast<std::size_t>(cellsDown));
   for (int y = 0; y < cellsDown; ++y) {
@@ -66,7 +73,8 @@ AlphaMap::AlphaMap(const Texture& texture)
   }
 }
 
-// Footprints reach one texel beyond the cell, and at the border to the opposite one.
+// The footprint of a bilinear lookup reaches one texel beyond its cell, and at the border of the
+// texture to the opposite texel.
 AlphaMap::Bounds AlphaMap::boundsOf(int cellX, int cellY) const {
   Bounds bounds;
   const int x0 = cellX << kCellShift, y0 = cellY << kCellShift;
@@ -83,26 +91,35 @@ AlphaMap::Bounds AlphaMap::boundsOf(int cellX, int cellY) const {
 float AlphaMap::marginAt(float u, float v, float cutoff) const noexcept {
   const AxisTexels x = wrapAxis(wrapU_, u, width_);
   const AxisTexels y = wrapAxis(wrapV_, 1.0f - v, height_);
+
+  // The bounds of the cell decide alone if all of its texels are clearly on one side of the cutoff.
   const int cell = (y.lower >> kCellShift) * cellsAcross_ + (x.lower >> kCellShift);
   const Bounds bounds = cells_[static_cast<std::size_t>(cell)];
   const float wanted = cutoff * 255.0f;
   const float slack = bounds.least == bounds.most ? kRounding : 255 * kCloseCall;
-  // Which of the two a cell is cannot be predicted; that it is one of them nearly always can.
+
+  // Opaque and transparent cells share one branch: a processor cannot predict which of the two a
+  // cell is, but nearly always it is one of them.
   const bool everywhere = static_cast<float>(bounds.least) >= wanted + slack,
              somewhere = static_cast<float>(bounds.most) >= wanted - slack;
   if (everywhere == somewhere) return everywhere ? 1.0f : -1.0f;
   const auto texel = [&](int row, int column) {
     return static_cast<float>(alpha_[index(row, column)]) * (1.0f / 255.0f);
   };
+
+  // Without interpolation the alpha jumps at a texel's border, so the distance to it limits the
+  // margin.
   if (nearest_) {
     const float margin =
         texel(y.fraction < 0.5f ? y.lower : y.upper, x.fraction < 0.5f ? x.lower : x.upper) -
         cutoff;
     const float toBorder = std::min(std::abs(x.fraction - 0.5f), std::abs(y.fraction - 0.5f));
-    // Above 0, so that the margin keeps its sign.
+
+    // The limit is above 0, so that the margin keeps its sign.
     const float room = std::max(toBorder, 0x1p-20f);
     return std::clamp(margin, -room, room);
   }
+
   const float top =
       texel(y.lower, x.lower) * (1 - x.fraction) + texel(y.lower, x.upper) * x.fraction;
   const float bottom =
@@ -111,12 +128,14 @@ float AlphaMap::marginAt(float u, float v, float cutoff) const noexcept {
 }
 
 std::vector<Mask> makeMasks(const Scene& scene, bool cut) {
+  // Materials with the same texture share one map.
   std::vector<std::shared_ptr<const AlphaMap>> maps(scene.textures.size());
   const auto mapOf = [&](std::int32_t number) {
     std::shared_ptr<const AlphaMap>& map = maps[static_cast<std::size_t>(number)];
     if (!map) map = std::make_shared<AlphaMap>(scene.textures[static_cast<std::size_t>(number)]);
     return map;
   };
+
   std::vector<Mask> masks;
   for (const Material& material : scene.materials) {
     Mask& mask = masks.emplace_back();
@@ -125,6 +144,8 @@ std::vector<Mask> makeMasks(const Scene& scene, bool cut) {
     mask.map = mapOf(material.alphaMap);
     mask.cutoff = material.alphaCutoff;
     mask.shadowCutoff = material.shadowCutoff();
+
+    // Shadows are also cut by the coverage where the alpha map does not contain it.
     if (!material.isCutBesidesCoverage()) continue;
     mask.coverage = mapOf(material.coverageMap);
     mask.coverageCutoff = material.coverageCutoff();

@@ -10,15 +10,15 @@
 
 namespace whit {
 
-// An alpha mask: a byte a texel, and the bounds of each cell of 8x8 texels, which settle most
-// lookups from a table that stays in the cache.
+// An alpha mask with a byte for each texel. The bounds of each cell of 8x8 texels decide most
+// lookups and stay in the cache.
 class AlphaMap {
  public:
   explicit AlphaMap(const Texture& texture);
 
-  // By how much the alpha at texture coordinates (u, v) is above `cutoff`; 1 or -1 where the cell's
-  // bounds alone say that it is well above or below. Where texels are not interpolated it is no
-  // further from 0 than the point is from the texel's border, so that close calls are known.
+  // Returns by how much the alpha at texture coordinates (u, v) is above `cutoff`; 1 or -1 where
+  // the bounds of the cell alone show that it is well above or below. Without interpolation the
+  // margin is at most the distance from the texel's border, so that close calls are known.
   float marginAt(float u, float v, float cutoff) const noexcept;
 
  private:
@@ -37,14 +37,14 @@ class AlphaMap {
   int width_, height_;
   int cellsAcross_;
   std::vector<std::uint8_t> alpha_;
-  std::vector<Bounds> cells_;  // of every footprint whose lower texel lies in the cell
+  std::vector<Bounds> cells_;  // bounds of all footprints whose lower texel lies in the cell
 };
 
 // A material's mask; all is opaque where there is no map.
 struct Mask {
   std::shared_ptr<const AlphaMap> map;
   float cutoff = 0, shadowCutoff = 0;
-  // Shadows are cut by this map as well, where the map above says nothing of coverage.
+  // Shadows are cut by this map as well, where the map above does not contain the coverage.
   std::shared_ptr<const AlphaMap> coverage;
   float coverageCutoff = 0;
   bool doubleSided = true;
@@ -53,12 +53,12 @@ struct Mask {
 // One mask a material; none of them has a map unless the scene is `cut`.
 std::vector<Mask> makeMasks(const Scene& scene, bool cut);
 
-// Margins of alpha below this may have another sign where u and v are rounded differently, which
-// Embree does on other processors.
+// A margin of alpha below this may change its sign with the rounding of u and v, which differs
+// between processors in Embree.
 inline constexpr float kCloseCall = 1.0f / 64;
 
-// Below 0 where the mask, cut at that member of it, cuts the point with these texture coordinates;
-// for shadows also where less than half of it is there.
+// Returns a number below 0 where the mask, with that cutoff of it, cuts the point with these
+// texture coordinates; for shadows also where less than half of the point is covered.
 template <float Mask::*kCutoff>
 float marginAt(const Mask& mask, float s, float t) noexcept {
   if (!mask.map) return 1;

@@ -63,9 +63,9 @@ inline constexpr bool kWantsHits = requires(Packet packet) {
   packet.hit;
 };
 
-// A query's columns of rays as they are in the world, three of origins and three of directions: on
-// an instance Embree's callbacks get rays that other processors round otherwise. A ray's id is its
-// place in the columns.
+// The columns of a query's rays in world space, three of origins and three of directions. On an
+// instance, Embree's callbacks get transformed rays, which other processors round differently. A
+// ray's id is its index in the columns.
 #if WHIT_EMBREE_MAJOR == 4
 using EmbreeContext = RTCRayQueryContext;
 #else
@@ -73,7 +73,7 @@ using EmbreeContext = RTCIntersectContext;
 #endif
 struct ContextWithRays : EmbreeContext {
   std::array<const float*, 6> rays;
-  void* batch;  // of rays of a program, instead (ray_queries.cpp)
+  void* batch;  // a RayBatch in place of the columns (ray_queries.cpp)
 };
 inline const std::array<const float*, 6>& raysOf(const EmbreeContext* context) {
   return static_cast<const ContextWithRays*>(context)->rays;
@@ -82,8 +82,8 @@ inline void* batchOf(const EmbreeContext* context) {
   return static_cast<const ContextWithRays*>(context)->batch;
 }
 
-// Traces rays that are coherent or not. A packet comes with the mask of its live lanes, and its
-// rays with their places in the columns that were set last.
+// Traces coherent or incoherent rays. A packet comes with the mask of its active lanes; the ids of
+// its rays are indices into the columns that were set last.
 class QueryContext {
  public:
   template <typename Columns>
@@ -94,6 +94,7 @@ class QueryContext {
     context_.rays = {&o.x, &o.y, &o.z, &d.x, &d.y, &d.z};
   }
   void setBatch(void* batch) { context_.batch = batch; }
+
 #if WHIT_EMBREE_MAJOR == 4
   explicit QueryContext(bool coherent) {
     rtcInitIntersectArguments(&intersect_);
@@ -103,8 +104,10 @@ class QueryContext {
     intersect_.flags = occluded_.flags =
         coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
   }
+
   QueryContext(const QueryContext&) = delete;
   QueryContext& operator=(const QueryContext&) = delete;
+
   template <typename Packet, typename... Live>
   void trace(RTCScene scene, Packet& rays, Live... live) {
     if constexpr (kWantsHits<Packet>) {
@@ -113,6 +116,7 @@ class QueryContext {
       kCall<Packet>(live..., scene, &rays, &occluded_);
     }
   }
+
   static constexpr bool kStreams = false;
   template <typename Packet>
   void traceStream(RTCScene, Packet*, int, std::size_t) {}
@@ -126,11 +130,13 @@ class QueryContext {
     context_.flags =
         coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   }
+
   template <typename Packet, typename... Live>
   void trace(RTCScene scene, Packet& rays, Live... live) {
     kCall<Packet>(live..., scene, &context_, &rays);
   }
-  // Leads n packets of coherent rays through the BVH at once and finds the same hits.
+
+  // Leads n packets of coherent rays through the BVH together and finds the same hits.
   static constexpr bool kStreams = true;
   template <typename Packet>
   void traceStream(RTCScene scene, Packet* packets, int width, std::size_t n) {

@@ -24,7 +24,7 @@ bool countMemory(void* user, ssize_t bytes, bool) {
 
 constexpr const char* kBuilding = "building the BVH";
 
-// False where whoever is told ends the work: nothing is thrown through Embree.
+// Returns false where the progress callback ends the work: nothing may be thrown through Embree.
 bool reportBuild(void* user, double fraction) {
   try {
     reportProgress(static_cast<Progress*>(user), kBuilding, fraction);
@@ -34,7 +34,7 @@ bool reportBuild(void* user, double fraction) {
   }
 }
 
-// The hit of this lane in double, from the ray and the triangle as they are in the world. `slope`
+// A lane's hit in double precision, computed from the ray and the triangle in world space. `slope`
 // is above 0 where the ray hits the triangle from behind.
 struct ExactHit {
   double u, v, slope;
@@ -46,12 +46,17 @@ ExactHit exactHit(const RTCFilterFunctionNArguments& args, unsigned lane) {
   const std::uint32_t instance = isInWorld(placed) ? kNoInstance : placed - kFirstInstanceId;
   const std::uint32_t triangle = triangles.first + RTCHitN_primID(args.hit, args.N, lane);
   const Corners corners = worldCorners(triangles.scene, triangle, instance);
+
   const unsigned id = RTCRayN_id(args.ray, args.N, lane);
   const auto& r = raysOf(args.context);
   const Vec3d origin{r[0][id], r[1][id], r[2][id]}, direction{r[3][id], r[4][id], r[5][id]};
+
+  // Cramer's rule gives the weights, as in Moeller and Trumbore 1997.
   const Vec3d e1 = corners[1] - corners[0], e2 = corners[2] - corners[0];
   const double slope = dot(cross(e1, e2), direction);
   const Vec3d moment = cross(direction, corners[0] - origin);
+
+  // A mirroring transform swaps the sides of a triangle.
   const bool mirrored =
       instance != kNoInstance && triangles.scene.instances[instance].toWorld.determinant() < 0;
   return {-dot(e2, moment) / slope, dot(e1, moment) / slope, mirrored ? -slope : slope};
@@ -66,6 +71,8 @@ bool isBehind(const RTCFilterFunctionNArguments& args, unsigned lane) {
   const Vec3f terms{RTCHitN_Ng_x(hit, n, lane) * RTCRayN_dir_x(ray, n, lane),
                     RTCHitN_Ng_y(hit, n, lane) * RTCRayN_dir_y(ray, n, lane),
                     RTCHitN_Ng_z(hit, n, lane) * RTCRayN_dir_z(ray, n, lane)};
+
+  // Where the terms nearly cancel, only double precision knows the sign.
   const Vec3f sizes = abs(terms);
   const float slope = terms.x + terms.y + terms.z;
   const bool close = std::abs(slope) <= 0x1p-12f * (sizes.x + sizes.y + sizes.z);
@@ -80,8 +87,9 @@ bool isOpaque(const RTCFilterFunctionNArguments& args, unsigned lane) {
   const Mask& mask = triangles.masks[record.material];
   float u = RTCHitN_u(args.hit, args.N, lane), v = RTCHitN_v(args.hit, args.N, lane);
   float margin = marginAt<kCutoff>(mask, record.uv, u, v);
-  // Embree gives the first corner for all hits on triangles whose area, by its product with the
-  // ray's direction, is below 1e-18.
+
+  // Embree reports the first corner for every hit where the product of the triangle's area vector
+  // and the ray's direction is below 1e-18.
   const bool mayBeUnknown = u == 0 && v == 0;
   if (mayBeUnknown || std::abs(margin) < kCloseCall) {
     const ExactHit hit = exactHit(args, lane);
@@ -108,7 +116,8 @@ template <float Mask::*kCutoff>
 void filterByAlpha(const RTCFilterFunctionNArguments* args) {
   for (unsigned lane = 0; lane < args->N; ++lane) {
     if (args->valid[lane] == 0) continue;
-    // Without a branch: nothing could predict it.
+
+    // A product replaces a branch that no processor could predict.
     args->valid[lane] *= static_cast<int>(isOpaque<kCutoff>(*args, lane));
   }
 }
@@ -146,7 +155,8 @@ std::string deviceConfiguration(int threads) {
 void requireRoomForThreads(int threads) {
   constexpr std::size_t kMegabytes = 128, kMegabytesPerThread = 16;
   const std::size_t needed = kMegabytes + kMegabytesPerThread * static_cast<std::size_t>(threads);
-  // Volatile, so that the allocation is not optimized away.
+
+  // The pointer is volatile, so that the compiler keeps the allocation.
   void* const volatile room = ::operator new(needed << 20, std::nothrow);
   ::operator delete(room);
   if (!room) {
@@ -191,13 +201,16 @@ void commitScene(RTCDevice device, RTCScene scene, Progress* progress) {
   rtcSetSceneProgressMonitorFunction(scene, progress ? reportBuild : nullptr, progress);
   rtcCommitScene(scene);
   const RTCError error = rtcGetDeviceError(device);
-  // Progress that ended the build throws again, which is allowed here.
+
+  // Where the progress callback has ended the build, it throws here, outside Embree.
   if (error == RTC_ERROR_CANCELLED) reportProgress(progress, kBuilding, 1);
   if (error == RTC_ERROR_NONE) return;
+
   const std::string what = std::string("Embree failed while ") + kBuilding;
   if (error == RTC_ERROR_OUT_OF_MEMORY) throwLimit(what + ": out of memory");
-  // An exception within its tasking system. What is built has been validated: it ran out of
-  // something.
+
+  // An unknown error is an exception in Embree's tasking system. The geometry has been validated,
+  // so some resource has run out.
   if (error == RTC_ERROR_UNKNOWN) throwLimit(what + ": memory or threads ran out");
 
   throw std::runtime_error(what + " (error " + std::to_string(static_cast<int>(error)) + ")");
@@ -213,25 +226,33 @@ EmbreeScene::EmbreeScene(const Scene& scene, const RenderOptions& options, Effec
   };
   if (has(RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED)) widestPacket_ = 8;
   if (has(RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED)) widestPacket_ = 16;
+
   const bool moves = scene.motion.ofGeometry;
   mayHang_ = WHIT_EMBREE_MAJOR == 3 && widestPacket_ == 16 && (moves || !scene.instances.empty());
   rtcSetDeviceMemoryMonitorFunction(device(), countMemory, &bytes_);
+
   const auto newScene = [&] {
     SceneHandle made(rtcNewScene(device()));
     rtcSetSceneFlags(made.get(), options.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
     rtcSetSceneBuildQuality(made.get(), buildQuality(options.bvh));
     return made;
   };
+
+  // A scene that stands still has its instances in the world's Embree scene, which is committed
+  // last.
   for (std::size_t i = 0; i < scene.geometries.size(); ++i) {
     scenes_.push_back(newScene());
     addGeometry(i, scene);
     if (effects.has(Effect::spheres)) addSpheres(i, scene);
     if (i != 0 || moves) commit(scenes_[i].get(), progress);
   }
+
+  // In a scene that moves, the world is an instance as well, so that its BVH is kept.
   if (moves) {
     top_ = newScene();
     addInstance(0, Affine(), kWorldId);
   }
+
   addInstances(scene);
   commit(top(), progress);
 }
@@ -250,6 +271,8 @@ void EmbreeScene::numberTriangles(const Scene& scene) {
       triangleBase_.push_back(source.firstTriangle + source.classBegin[c]);
     }
   };
+
+  // The world comes first; the instances follow in their order.
   add(scene.geometries[0]);
   for (const InstanceRecord& instance : scene.instances) add(scene.geometries[instance.geometry]);
 }
@@ -259,17 +282,22 @@ void EmbreeScene::addGeometry(std::size_t index, const Scene& scene) {
   for (unsigned c = 0; c < kTriangleClasses; ++c) {
     const std::uint32_t first = source.classBegin[c], end = source.classBegin[c + 1];
     if (first == end) continue;
+
     const GeometryHandle held(rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_TRIANGLE));
     RTCGeometry geometry = held.get();
+
+    // Embree reads the vertices and indices where they are.
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                source.position.data(), 0, sizeof(Vec3f), source.position.size());
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                source.index.data(), first * sizeof(source.index[0]),
                                sizeof(source.index[0]), end - first);
+
     rtcSetGeometryMask(geometry, (c & kNoShadowBit) != 0 ? kSeenMask : kSeenMask | kShadowMask);
     if ((c & kMaskedBit) != 0) {
       setFilters(scene, source.firstTriangle + first, end - first, geometry);
     }
+
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(scenes_[index].get(), geometry, c);
   }
@@ -277,6 +305,7 @@ void EmbreeScene::addGeometry(std::size_t index, const Scene& scene) {
 
 void EmbreeScene::addSpheres(std::size_t index, const Scene& scene) {
   if (scene.geometries[index].spheres == 0) return;
+
   SphereGeometry& spheres = spheres_.emplace_back(scene, masks_, scene.geometries[index]);
   const GeometryHandle held(rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_USER));
   RTCGeometry geometry = held.get();
@@ -286,7 +315,7 @@ void EmbreeScene::addSpheres(std::size_t index, const Scene& scene) {
   rtcAttachGeometryByID(scenes_[index].get(), geometry, kSpheresId);
 }
 
-// Shadows are cast by both sides.
+// Sets the callbacks that masks and single-sided surfaces need. Shadows are cast by both sides.
 void EmbreeScene::setFilters(const Scene& scene, std::uint32_t first, std::uint32_t count,
                              RTCGeometry geometry) {
   filtered_.push_back({scene, first, masks_.data()});
@@ -296,6 +325,7 @@ void EmbreeScene::setFilters(const Scene& scene, std::uint32_t first, std::uint3
     anyMask = anyMask || triangles.maskOf(i).map;
     anySingleSided = anySingleSided || !triangles.maskOf(i).doubleSided;
   }
+
   rtcSetGeometryUserData(geometry, &triangles);
   if (anySingleSided) {
     rtcSetGeometryIntersectFilterFunction(geometry, filterBySide);
@@ -317,6 +347,7 @@ void EmbreeScene::addInstances(const Scene& scene) {
   reach_ = kLargestCoordinate;
   instanced_.clear();
   if (!instances_) return;
+
   for (const InstanceRecord& instance : scene.instances) {
     reach_ = std::min(reach_, instanceReach(instance.toWorld));
     addInstance(instance.geometry, instance.toWorld,
@@ -331,12 +362,14 @@ void EmbreeScene::update(const Scene& scene) {
   commit(top(), nullptr);
 }
 
-// Built anew rather than refitted: the picture then cannot depend on where they were before.
+// Builds the BVHs of bent meshes anew rather than refitting them: the picture then cannot depend on
+// where the vertices were before.
 void EmbreeScene::bendMeshes(const Scene& scene) {
   std::uint32_t built = 0;
   for (const BentVertices& bent : scene.motion.bent) {
-    if (bent.geometry == built) continue;  // with the mesh before
+    if (bent.geometry == built) continue;  // built with the mesh before
     built = bent.geometry;
+
     RTCScene own = scenes_[built].get();
     const Geometry& source = scene.geometries[built];
     for (unsigned c = 0; c < kTriangleClasses; ++c) {
@@ -346,11 +379,12 @@ void EmbreeScene::bendMeshes(const Scene& scene) {
       rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
       rtcCommitGeometry(geometry);
     }
+
     commit(own, nullptr);
   }
 }
 
-// New ones only where others are there than before.
+// Makes new instances only where their list of geometries has changed.
 void EmbreeScene::moveInstances(const Scene& scene) {
   const bool same =
       std::ranges::equal(scene.instances, instanced_,
@@ -359,6 +393,7 @@ void EmbreeScene::moveInstances(const Scene& scene) {
     for (unsigned k = 0; k < instanced_.size(); ++k) rtcDetachGeometry(top(), kFirstInstanceId + k);
     return addInstances(scene);
   }
+
   reach_ = kLargestCoordinate;
   for (unsigned k = 0; k < instanced_.size(); ++k) {
     reach_ = std::min(reach_, instanceReach(scene.instances[k].toWorld));

@@ -31,19 +31,19 @@ using SceneHandle = std::unique_ptr<std::remove_pointer_t<RTCScene>, Release<rtc
 using GeometryHandle =
     std::unique_ptr<std::remove_pointer_t<RTCGeometry>, Release<rtcReleaseGeometry>>;
 
-// Throw as Accel's constructor.
+// Both throw as Accel's constructor.
 DeviceHandle newDevice(int threads);
 void commitScene(RTCDevice device, RTCScene scene, Progress* progress);
 
 class EmbreeScene {
  public:
-  // As Accel's constructor.
+  // Takes the same arguments and throws the same errors as Accel's constructor.
   EmbreeScene(const Scene& scene, const RenderOptions& options, EffectSet effects, int threads,
               Progress* progress);
   EmbreeScene(const EmbreeScene&) = delete;
   EmbreeScene& operator=(const EmbreeScene&) = delete;
 
-  // After moveScene(), of the scene that this was built from.
+  // Follows moveScene() of the scene that this was built from.
   void update(const Scene& scene);
 
   RTCScene top() const { return (top_ ? top_ : scenes_[0]).get(); }
@@ -55,12 +55,12 @@ class EmbreeScene {
     return bytes;
   }
 
-  // The number of the first triangle that an Embree geometry holds, by class, for the world and for
-  // each instance (at 4 * (1 + instance)).
+  // Returns the number of the first triangle in each class's Embree geometry, for the world (0) or
+  // an instance (1 + instance).
   const std::uint32_t* triangleBase(std::size_t placed) const {
     return &triangleBase_[placed * kTriangleClasses];
   }
-  // The instance of a hit from Embree's instance id, which is RTC_INVALID_GEOMETRY_ID in the world.
+  // Returns the instance of a hit from Embree's instance id; kMiss in the world.
   std::uint32_t instanceOf(unsigned id) const {
     return isInWorld(id) ? kMiss : id - kFirstInstanceId;
   }
@@ -68,7 +68,7 @@ class EmbreeScene {
     const std::size_t placed = isInWorld(id) ? 0 : 1 + (id - kFirstInstanceId);
     return triangleBase(placed)[geometry] + primitive;
   }
-  // Rays with an origin or a direction beyond this are left out (see instanceReach).
+  // Rays with an origin or a direction beyond this are not traced (see instanceReach).
   float reach() const { return reach_; }
   // The widest packets that the processor runs natively.
   int widestPacket() const { return widestPacket_; }
@@ -76,11 +76,11 @@ class EmbreeScene {
   // coherent (rtcIntersectNM), 0: none. That takes packets as wide as the CPU, and was measured on
   // AVX2 only: a twentieth less time inside Embree.
   int streamWidth() const { return QueryContext::kStreams && widestPacket_ == 8 ? 8 : 0; }
-  // True if rtcOccluded16 may never return when its rays are said to be coherent. For AVX-512 and
+  // True if rtcOccluded16 may never return for rays that are declared coherent. For AVX-512 and
   // scenes of instances, Debian's Embree 3.13.5 is compiled such that the mask of rays left to
-  // trace is stored in 16 bits and read in 64 (BVHNIntersectorKHybrid::occludedCoherent): where the
-  // stack held something else than zero before, its loop has no end. Packets of 8 are safe, and so
-  // are rays that are not said to be coherent.
+  // trace is stored in 16 bits and read in 64 (BVHNIntersectorKHybrid::occludedCoherent): if the
+  // stack was not zero there, its loop has no end. Packets of 8 are safe, and so are rays that are
+  // not declared coherent.
   bool coherentAnyHitMayHang(int packet) const { return packet == 16 && mayHang_; }
 
  private:
@@ -99,14 +99,14 @@ class EmbreeScene {
   std::atomic<std::uint64_t> bytes_{0};  // outlives the device, which counts here to its end
   std::vector<Mask> masks_;
   std::deque<FilteredTriangles> filtered_;  // Embree keeps pointers to them
-  std::deque<SphereGeometry> spheres_;      // likewise
+  std::deque<SphereGeometry> spheres_;      // Embree keeps pointers to them
   std::vector<std::uint32_t> triangleBase_;
   DeviceHandle device_;
   std::vector<SceneHandle> scenes_;  // one a Scene::geometries
   // The top-level scene of a scene that moves. The world is an instance in it, so that it is not
   // built again with the other instances.
   SceneHandle top_;
-  std::vector<std::uint32_t> instanced_;  // the geometries of the instances that are there
+  std::vector<std::uint32_t> instanced_;  // geometry of each instance in the top-level scene
   bool instances_ = true;
   float reach_ = kLargestCoordinate;
   int widestPacket_ = 4;

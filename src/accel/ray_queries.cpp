@@ -18,7 +18,7 @@
 
 namespace whit {
 
-// From the space of a geometry to Embree's: (point - center) / scale.
+// Maps the space of a geometry to Embree's: (point - center) / scale.
 struct QueryFrame {
   Vec3d center;
   double scale = 1;
@@ -27,42 +27,50 @@ struct QueryFrame {
 
 namespace {
 
-// Embree gets the scene moved and scaled such that all of it lies in the unit ball, and rays from
-// where they enter a ball about it. Then its errors have one size, however far away a ray starts.
+// Embree gets the scene moved and scaled into the unit ball, and each ray from the point where it
+// enters a slightly larger ball. Embree's errors then have one size, however far away a ray starts.
 constexpr double kBall = 1.25;
-// In these units: more than rounding moves a ray against a triangle's edges as seen along the ray,
-// unless an edge is foreshortened to less than a sixteenth of its length; and along the ray, unless
-// a triangle is seen at less than a thousandth of its area.
+// Bounds on Embree's rounding errors, in units of the ball. kRim bounds the error across a
+// triangle's edges as seen along the ray, unless an edge is foreshortened to less than a sixteenth
+// of its length. kAlong bounds the error along the ray, unless a triangle is seen at less than a
+// thousandth of its area.
 constexpr double kRim = 0x1p-17, kAlong = 0x1p-13;
-// Beyond this distance of its origin a ray's way into the ball is not known to the width of a rim.
+// The point where a ray enters the ball is not known to kRim if its origin is farther away than
+// this.
 constexpr double kFarthestOrigin = 0x1p30;
-// Sharper corners than this sine grow in length as those with this sine do.
+// Corners with a smaller sine than this are lengthened as if they had this sine.
 constexpr double kSharpest = 0x1p-10;
-// A rim is limited to this for objects that vanish beside the scene, so that floats can hold them.
+// Upper bound on the enlargement of triangles in objects that are tiny beside the scene, so that
+// floats can hold them.
 constexpr double kWidestRim = 1e6;
-// Products with shorter or longer directions could leave the range of numbers.
+// Products with shorter or longer directions could leave the range of doubles.
 constexpr double kShortest = 1e-100, kLongest = 1e100;
 
 constexpr unsigned kTriangles = 0, kSpheres = 1,
                    kFirstInstance = 2;  // numbers of Embree geometries
 constexpr std::size_t kPacket = 16;
 constexpr float kNowhere = -std::numeric_limits<float>::infinity();
-// The sum of the squares by which origins and directions of rays of a packet differ.
+// Upper bound on the squared differences of origins and directions, added, in a coherent packet.
 constexpr float kCoherent = 0.02f;
 
 QueryFrame frameAround(const Box& box) {
   if (box.empty()) return {};
+
+  // A power of two as the scale makes the division exact.
   int exponent = 0;
   std::frexp(std::max(box.diagonal() / 2, 0x1p-120), &exponent);
   return {box.center(), std::ldexp(1.0, exponent)};
 }
 
-// Moves the edges of a triangle outwards.
+// Moves the edges of a triangle outwards, in its plane.
 Corners enlarged(const Corners& corners, double by) {
   Corners result;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3d one = normalized(corners[(i + 1) % 3] - corners[i]),
                 other = normalized(corners[(i + 2) % 3] - corners[i]);
+
+    // Both edges move outwards by `by` if their corner moves along each of them by `by` over its
+    // sine.
     result[i] = corners[i] - (one + other) * (by / std::max(length(cross(one, other)), kSharpest));
   }
   return result;
@@ -70,14 +78,14 @@ Corners enlarged(const Corners& corners, double by) {
 
 double sumOf(const Vec3d& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
-// How an inexact number lies to a limit.
+// The sign of a number that is known up to an error.
 enum class Lies { below, unknown, above };
 Lies lies(double value, double error) {
   return value > error ? Lies::above : value < -error ? Lies::below : Lies::unknown;
 }
 
-// False where the hit is surely before or behind the ray's part that counts; leaves in doubt what
-// is not surely in it.
+// Returns false where the hit surely lies outside the interval from tNear to tFar. A hit that may
+// lie on either side of an end becomes uncertain.
 bool isOnRay(const QueryRay& ray, QueryHit& hit) {
   if (hit.t + hit.tError < ray.tNear || hit.t - hit.tError > ray.tFar) return false;
   hit.certain = hit.certain && hit.t - hit.tError >= ray.tNear && hit.t + hit.tError <= ray.tFar;
@@ -89,8 +97,8 @@ bool isOnRay(const QueryRay& ray, QueryHit& hit) {
 // The triangles of an Embree geometry, as its filter reads them.
 struct EnlargedTriangles {
   std::uint32_t first = 0;  // in Scene::triangles
-  // Where all weights of a hit on the enlarged triangle are above this, the hit lies surely within
-  // the triangle. Infinite where a mask or the side counts as well.
+  // A hit on the enlarged triangle surely lies within the triangle if all of its weights are above
+  // this margin. The margin is infinite where a mask or the side counts as well.
   std::vector<float> margins;
 };
 
@@ -129,42 +137,43 @@ namespace {
 
 enum class Ask { closest, any, all };
 
-// Rays that are traced together, and what is found for each.
+// Rays that are traced together, and the hits of each.
 class RayBatch {
  public:
   static constexpr std::size_t kRays = 256;
 
   RayBatch(const RayQueries::Parts& parts, Ask ask) : parts_(parts), ask_(ask) {}
 
-  // At most kRays.
+  // Traces at most kRays rays.
   void trace(std::span<const QueryRay> rays);
-  // These functions return what was found for a ray of the last trace().
+  // Returns what is known about a ray of the last trace().
   const Blocked& answer(std::size_t ray) const { return answers_[ray]; }
-  // The first that was found for it; all there is where no other may be the nearest, or where no
-  // other is.
+  // Returns the first hit that was kept for the ray. Unless hasOthers(), no ray of the batch has
+  // another.
   const QueryHit& first(std::size_t ray) const { return first_[ray]; }
   bool hasOthers() const { return !others_.empty(); }
   std::vector<QueryHit>& hits(std::size_t ray);
 
-  // Decides about a candidate of a ray. True if the ray ends there, at `tFar` of Embree's.
+  // Decides about a candidate of a ray. Returns true if the ray ends there, at Embree's distance
+  // `tFar`.
   bool meet(unsigned ray, PlacedTriangleId id, float& tFar);
-  // The same of a triangle that is surely hit, at `tFar`; if it can, it leaves the rest for later,
-  // when nothing nearer is found. False if it cannot.
+  // Accepts a triangle that is surely hit at `tFar`, and leaves its exact hit for later, when
+  // nothing nearer is found. Returns false if that is not possible.
   bool postpone(unsigned ray, PlacedTriangleId id, float& tFar);
 
  private:
-  // In Embree's space.
+  // A ray in Embree's space.
   struct Start {
     Vec3f origin, direction;
     double perT = 1, shift = 0;  // Embree's distance is t * perT - shift
-    float tFar = kNowhere;       // below 0: the ray meets nothing
-    float end = 0;               // tFar before anything is met
-    // The nearest that is postponed, and where it is hit.
+    float tFar = kNowhere;       // below 0: the ray hits nothing
+    float end = 0;               // tFar before any hit
+    // The nearest postponed triangle, and Embree's distance of its hit.
     PlacedTriangleId postponed{kMiss, kNoInstance};
     float at = 0;
   };
 
-  using Other = std::pair<std::uint32_t, QueryHit>;  // with the ray
+  using Other = std::pair<std::uint32_t, QueryHit>;  // a ray's number and a hit of it
 
   bool start(const QueryRay& ray, Start& to) const;
   bool keep(unsigned ray, const QueryHit& hit, float& tFar);
@@ -176,7 +185,7 @@ class RayBatch {
   std::span<const QueryRay> rays_;
   std::array<Start, kRays> starts_;
   std::array<Blocked, kRays> answers_;
-  std::array<QueryHit, kRays> first_;  // of all that is found for a ray
+  std::array<QueryHit, kRays> first_;  // the first hit that was kept for each ray
   std::vector<Other> others_;
   std::vector<QueryHit> hits_;
 };
@@ -187,13 +196,15 @@ PlacedTriangleId placed(const EmbreeContext* context, std::uint32_t number) {
   return {number, inWorld ? kNoInstance : instance - kFirstInstance};
 }
 
-// True where single precision is enough to say that the ray hits the triangle, and where.
+// True where single precision is enough to know that the ray hits the triangle, and where.
 bool isSurelyHit(const RTCFilterFunctionNArguments& args, unsigned lane, float margin) {
   RTCHitN* const hit = args.hit;
   RTCRayN* const ray = args.ray;
   const unsigned n = args.N;
   const float u = RTCHitN_u(hit, n, lane), v = RTCHitN_v(hit, n, lane);
   if (!(std::min({u, v, 1 - u - v}) > margin)) return false;
+
+  // At a grazing angle the distance of the hit is not reliable.
   constexpr float kLeastSlope = 0x1p-6f;
   const Vec3f normal{RTCHitN_Ng_x(hit, n, lane), RTCHitN_Ng_y(hit, n, lane),
                      RTCHitN_Ng_z(hit, n, lane)};
@@ -212,6 +223,8 @@ void filterCandidates(const RTCFilterFunctionNArguments* args) {
     const PlacedTriangleId id = placed(args->context, triangles.first + primitive);
     const unsigned ray = RTCRayN_id(args->ray, args->N, lane);
     float& tFar = RTCRayN_tfar(args->ray, args->N, lane);
+
+    // Most candidates are hit far from their edges and need no exact test yet.
     const bool ends =
         (isSurelyHit(*args, lane, triangles.margins[primitive]) && batch.postpone(ray, id, tFar)) ||
         batch.meet(ray, id, tFar);
@@ -244,13 +257,19 @@ void intersectSpheres(const RTCIntersectFunctionNArguments* args) {
 }
 void occludeSpheres(const RTCOccludedFunctionNArguments* args) { meetSpheres(*args, args->ray); }
 
-// False where it is not known what of the scene the ray may meet.
+// Computes where the ray enters and leaves the ball. Returns false where it is unknown which part
+// of the scene the ray crosses.
 bool RayBatch::start(const QueryRay& ray, Start& to) const {
   to.tFar = kNowhere;
   to.postponed.triangle = kMiss;
+
+  // A ray with an empty interval hits nothing. A NaN or a direction out of range leaves the answer
+  // unknown.
   const double size = length(ray.direction);
   if (!isFinite(ray.origin) || !(size > kShortest && size < kLongest)) return false;
   if (!(ray.tNear <= ray.tFar)) return ray.tNear > ray.tFar;
+
+  // A ray crosses the ball if its point closest to the center lies inside.
   const QueryFrame& frame = parts_.frames[0];
   const Vec3d unit = ray.direction / size;
   const Vec3d origin = frame.of(ray.origin);
@@ -259,6 +278,9 @@ bool RayBatch::start(const QueryRay& ray, Start& to) const {
   const double room = kBall * kBall - dot(nearest, nearest);
   const bool known = maxComponent(abs(origin)) < kFarthestOrigin;
   if (!(room > 0)) return known;
+
+  // Embree's ray starts at tNear or where the ray enters the ball, moved back by the error along
+  // it.
   const double half = std::sqrt(room);
   to.perT = size / frame.scale;
   to.shift = std::max(along - half, ray.tNear * to.perT) - kAlong;
@@ -270,20 +292,27 @@ bool RayBatch::start(const QueryRay& ray, Start& to) const {
 }
 
 bool RayBatch::postpone(unsigned ray, PlacedTriangleId id, float& tFar) {
+  // The tolerance is the error of distances along the ray, in Embree's units.
   constexpr auto kApart = static_cast<float>(kAlong);
   if (ask_ == Ask::all) return false;
   Start& start = starts_[ray];
   const float t = tFar;
+  // The exact test decides near the ends of the ray.
   if (!(t > 2 * kApart && t < start.end - 2 * kApart)) return false;
+
   if (ask_ == Ask::any) {
     answers_[ray] = {true, true};
     tFar = kNowhere;
     return true;
   }
+
+  // An earlier postponed triangle is replaced only by one that is surely not behind it.
   if (start.postponed.triangle != kMiss && t >= start.at - kApart) return false;
   start.postponed = id;
   start.at = t;
   __builtin_prefetch(&parts_.scene.triangles[id.triangle]);
+
+  // Embree goes on with candidates that the error may put behind this one.
   tFar = start.tFar = std::min(start.tFar, t + kApart);
   return true;
 }
@@ -294,18 +323,22 @@ bool RayBatch::keep(unsigned ray, const QueryHit& hit, float& tFar) {
     tFar = kNowhere;
     return hit.certain;
   }
+
   const auto isSurelyBefore = [](const QueryHit& a, const QueryHit& b) {
     return a.certain && a.t + a.tError < b.t - b.tError;
   };
   QueryHit& first = first_[ray];
   const bool nearest = ask_ == Ask::closest;
+
+  // Where only the nearest hit counts, hits that are surely behind the first one are dropped.
   if (!first.found() || (nearest && isSurelyBefore(hit, first))) {
     first = hit;
   } else if (!nearest || !isSurelyBefore(first, hit)) {
     others_.emplace_back(ray, hit);
   }
+
   if (!nearest || !hit.certain) return false;
-  // Embree must go on to find what lies at this distance as well, whatever it tests first.
+  // Embree goes on to find all candidates at this distance, whichever of them it tests first.
   Start& start = starts_[ray];
   const double end = (hit.t + hit.tError) * start.perT - start.shift + kAlong;
   start.tFar = std::min(start.tFar, static_cast<float>(end));
@@ -321,6 +354,7 @@ bool RayBatch::meet(unsigned ray, PlacedTriangleId id, float& tFar) {
     for (int i = 0; i < count; ++i) ends = keep(ray, hits[i], tFar) || ends;
     return ends;
   }
+
   const std::optional<QueryHit> hit = parts_.meetTriangle(rays_[ray], id);
   return hit && keep(ray, *hit, tFar);
 }
@@ -334,14 +368,16 @@ auto& rayOf(Packet& packet) {
   }
 }
 
-// Rays that start and go together are traced as a packet, others one by one.
+// Traces rays with similar origins and directions as a packet, others one by one.
 template <typename Single, typename Packet>
 void RayBatch::traceAs() {
   RTCScene const scene = parts_.scenes[0].get();
-  // Any hits of coherent packets may hang (EmbreeScene::coherentAnyHitMayHang).
+
+  // Any-hit queries of coherent packets may never return (EmbreeScene::coherentAnyHitMayHang).
   QueryContext alone(false), together(kWantsHits<Packet>);
   alone.setBatch(this);
   together.setBatch(this);
+
   for (std::size_t begin = 0; begin < rays_.size(); begin += kPacket) {
     const std::size_t n = std::min(kPacket, rays_.size() - begin);
     const auto run = std::span<const Start>(starts_).subspan(begin, n);
@@ -350,6 +386,7 @@ void RayBatch::traceAs() {
                                         apart = s.origin - run[0].origin;
                             return s.tFar >= 0 && dot(turn, turn) + dot(apart, apart) < kCoherent;
                           });
+
     if (coherent) {
       alignas(64) Packet packet{};
       alignas(64) int live[kPacket];
@@ -363,6 +400,8 @@ void RayBatch::traceAs() {
         rays.id[i] = static_cast<unsigned>(begin + i);
         live[i] = -1;
       }
+
+      // The ids start as those of a miss, because Embree writes the ids of hits only.
       if constexpr (kWantsHits<Packet>) {
         std::fill_n(packet.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
         std::fill_n(packet.hit.instID[0], kPacket, RTC_INVALID_GEOMETRY_ID);
@@ -370,9 +409,11 @@ void RayBatch::traceAs() {
       together.trace(scene, packet, live);
       continue;
     }
+
     for (std::size_t i = 0; i < n; ++i) {
       const Start& s = run[i];
       if (!(s.tFar >= 0)) continue;
+
       const Vec3f &o = s.origin, &d = s.direction;
       const auto number = static_cast<unsigned>(begin + i);
       Single single{};
@@ -392,15 +433,20 @@ void RayBatch::trace(std::span<const QueryRay> rays) {
     answers_[i] = {false, start(rays[i], starts_[i])};
     first_[i] = {};
   }
+
   if (ask_ == Ask::any) {
     traceAs<RTCRay, RTCRay16>();
   } else {
     traceAs<RTCRayHit, RTCRayHit16>();
+
+    // Postponed triangles get their exact hits when nothing nearer can come any more.
     for (unsigned i = 0; i < rays.size(); ++i) {
       float tFar = 0;
       if (starts_[i].postponed.triangle != kMiss) meet(i, starts_[i].postponed, tFar);
     }
   }
+
+  // hits() looks for a ray's other hits by its number.
   std::ranges::stable_sort(others_, {}, [](const auto& other) { return other.first; });
 }
 
@@ -421,6 +467,8 @@ RayQueries::Parts::Parts(const Scene& scene_, int threads, Progress* progress)
   Box world;
   world.lower = scene.lower, world.upper = scene.upper;
   std::vector<double> rims(scene.geometries.size(), kRim);
+
+  // Each geometry has a frame of its own, so that floats are as fine as its extent allows.
   for (std::size_t g = 0; g < scene.geometries.size(); ++g) {
     const Geometry& geometry = scene.geometries[g];
     Box box = g == 0 ? world : Box();
@@ -431,19 +479,27 @@ RayQueries::Parts::Parts(const Scene& scene_, int threads, Progress* progress)
         box.add(sphere.lower), box.add(sphere.upper);
       }
     }
+
     frames.push_back(frameAround(box));
     scenes.emplace_back(rtcNewScene(device.get()));
     rtcSetSceneFlags(scenes[g].get(), RTC_SCENE_FLAG_ROBUST);
   }
-  // Embree carries rays to an instance with the error that they have in the world.
+
+  // Embree transforms rays into an instance with the error that they have in the world, so the
+  // triangles of small instances are enlarged more.
   for (const InstanceRecord& instance : scene.instances) {
     const Affine& map = instance.toWorld;
     const double squares = dot(map.x, map.x) + dot(map.y, map.y) + dot(map.z, map.z);
+
+    // This is a lower bound on the map's smallest singular value: determinant over the product of
+    // the others, which is at most half the sum of their squares.
     const double least = 2 * std::abs(map.determinant()) / squares;
     double& rim = rims[instance.geometry];
     const double carried = 1 + frames[0].scale / (frames[instance.geometry].scale * least);
     rim = std::min(std::max(rim, kRim * carried), kWidestRim);
   }
+
+  // The world comes last, because its instances need the Embree scenes of the other geometries.
   for (std::size_t g = scene.geometries.size(); g-- > 0;) {
     addTriangles(g, rims[g], threads);
     addSpheres(g, rims[g]);
@@ -462,10 +518,13 @@ void RayQueries::Parts::addTriangles(std::size_t index, double rim, int threads)
   auto* const indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
       held.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), count));
   if (!vertices || !indices) throwLimit("rays: Embree is out of memory");
+
+  // Enlarging moves the corners apart that triangles share, so each triangle has three vertices.
   std::iota(indices, indices + 3 * count, 0u);
   EnlargedTriangles& own = triangles.emplace_back();
   own.first = source.firstTriangle;
   own.margins.resize(count);
+
   constexpr std::size_t kChunk = 4096;
   parallelFor(threads, (count + kChunk - 1) / kChunk, [&](std::size_t chunk, int) {
     for (std::size_t i = chunk * kChunk; i < std::min((chunk + 1) * kChunk, count); ++i) {
@@ -477,6 +536,7 @@ void RayQueries::Parts::addTriangles(std::size_t index, double rim, int threads)
       std::ranges::transform(corners, vertices + 3 * i, [](const Vec3d& p) { return Vec3f(p); });
     }
   });
+
   rtcSetGeometryUserData(held.get(), &own);
   rtcSetGeometryIntersectFilterFunction(held.get(), filterCandidates);
   rtcSetGeometryOccludedFilterFunction(held.get(), filterCandidates);
@@ -496,6 +556,7 @@ void RayQueries::Parts::addSpheres(std::size_t index, double rim) {
     to.lower = Vec3f(frames[index].of(Vec3d(box.lower)) - room);
     to.upper = Vec3f(frames[index].of(Vec3d(box.upper)) + room);
   }
+
   const GeometryHandle held(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
   rtcSetGeometryUserPrimitiveCount(held.get(), source.spheres);
   rtcSetGeometryUserData(held.get(), &own);
@@ -506,10 +567,12 @@ void RayQueries::Parts::addSpheres(std::size_t index, double rim) {
   rtcAttachGeometryByID(scenes[index].get(), held.get(), kSpheres);
 }
 
-// Twice the rim in weights: along the least height a weight grows from 0 to 1.
+// Returns twice the enlargement in units of a weight, which grows from 0 to 1 along the least
+// height.
 float RayQueries::Parts::marginOf(std::uint32_t number, const Corners& corners, double rim) const {
   const Mask& mask = masks[scene.triangles[number].material];
   if (mask.map || !mask.doubleSided) return std::numeric_limits<float>::infinity();
+
   const Vec3d ab = corners[1] - corners[0], bc = corners[2] - corners[1],
               ca = corners[0] - corners[2];
   const double longest = std::max({length(ab), length(bc), length(ca)});
@@ -521,9 +584,12 @@ void RayQueries::Parts::addInstance(std::uint32_t number) {
   const InstanceRecord& instance = scene.instances[number];
   const QueryFrame& own = frames[instance.geometry];
   const Affine& map = instance.toWorld;
+
+  // The transform leads from the frame of the geometry to the frame of the world.
   const double factor = own.scale / frames[0].scale;
   const Vec3f columns[4] = {Vec3f(map.x * factor), Vec3f(map.y * factor), Vec3f(map.z * factor),
                             Vec3f(frames[0].of(map.point(own.center)))};
+
   const GeometryHandle held(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE));
   rtcSetGeometryInstancedScene(held.get(), scenes[instance.geometry].get());
   rtcSetGeometryTransform(held.get(), 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
@@ -537,13 +603,15 @@ std::optional<QueryHit> RayQueries::Parts::meetTriangle(const QueryRay& ray,
                                                         PlacedTriangleId id) const {
   // A product of three vectors has seven roundings in a row, each of at most twice the bound.
   constexpr double kRounding = 16 * 0x1p-53;
+
   const Corners corners = worldCorners(scene, id.triangle, id.instance);
   const Vec3d a = corners[0] - ray.origin, b = corners[1] - ray.origin, c = corners[2] - ray.origin;
   const Vec3d ab = corners[1] - corners[0], bc = corners[2] - corners[1],
               ca = corners[0] - corners[2];
   const double sizeA = sumOf(a), sizeB = sumOf(b), sizeC = sumOf(c), sizeD = sumOf(ray.direction);
   const double sizeAB = sumOf(ab), sizeBC = sumOf(bc), sizeCA = sumOf(ca);
-  double moved = 0;  // error of a carried corner
+
+  double moved = 0;  // bound on the error of a corner that an instance transforms
   if (id.instance != kNoInstance) {
     const Affine& map = scene.instances[id.instance].toWorld;
     const float* p = scene.triangles[id.triangle].position;
@@ -551,42 +619,55 @@ std::optional<QueryHit> RayQueries::Parts::meetTriangle(const QueryRay& ray,
       moved = std::max(moved, 8 * 0x1p-53 * magnitudeOf({p[i], p[i + 1], p[i + 2]}, &map));
     }
   }
+
   const auto errorOf = [&](double size, double edge) {
     return sizeD * (kRounding * size * edge + 4 * moved * (size + edge + moved));
   };
+
+  // A weight is the volume that the ray's direction spans with an edge, as seen from its origin.
   const double wa = dot(ray.direction, cross(b, bc)), wb = dot(ray.direction, cross(c, ca)),
                wc = dot(ray.direction, cross(a, ab));
   const double ea = errorOf(sizeB, sizeBC), eb = errorOf(sizeC, sizeCA),
                ec = errorOf(sizeA, sizeAB);
   const Lies la = lies(wa, ea), lb = lies(wb, eb), lc = lies(wc, ec);
+
+  // Two weights of opposite sign mean that the ray passes outside an edge.
   const bool below = la == Lies::below || lb == Lies::below || lc == Lies::below;
   const bool above = la == Lies::above || lb == Lies::above || lc == Lies::above;
   if (below && above) return std::nullopt;
   QueryHit hit;
   hit.id = id;
   hit.certain = la == lb && lb == lc && la != Lies::unknown;
+
+  // The distance is the ratio of height and slope, each of which has its error.
   const Vec3d normal = cross(ab, -ca);
   const double height = dot(normal, a), slope = dot(normal, ray.direction);
   const double area = kRounding * sizeAB * sizeCA + 4 * moved * (sizeAB + sizeCA + moved);
   const double slopeError = area * sizeD;
   if (std::abs(slope) <= slopeError) {
-    // The ray lies in the plane, where nothing is hit, or next to it.
+    // A ray parallel to the plane hits nothing; close to the plane, double precision cannot tell.
     if (std::abs(height) > area * sizeA + moved * sizeAB * sizeCA) return std::nullopt;
     hit.t = dot(a, ray.direction) / dot(ray.direction, ray.direction);
     hit.tError = (sizeAB + sizeCA) / length(ray.direction);
     hit.certain = false;
     return isOnRay(ray, hit) ? std::optional(hit) : std::nullopt;
   }
+
   hit.t = height / slope;
   hit.tError = (area * sizeA + moved * sizeAB * sizeCA + std::abs(hit.t) * slopeError) /
                    (std::abs(slope) - slopeError) +
                0x1p-51 * std::abs(hit.t);
   if (!isOnRay(ray, hit)) return std::nullopt;
+
   const double sum = wa + wb + wc;
   hit.u = std::clamp(wb / sum, 0.0, 1.0), hit.v = std::clamp(wc / sum, 0.0, 1.0 - hit.u);
+
+  // A mirroring transform swaps the sides of a triangle.
   const bool mirrored =
       id.instance != kNoInstance && scene.instances[id.instance].toWorld.determinant() < 0;
   hit.back = (slope > 0) != mirrored;
+
+  // Rays pass single-sided surfaces from behind, and surfaces where a mask cuts them.
   const TriangleRecord& record = scene.triangles[id.triangle];
   const Mask& mask = masks[record.material];
   if (hit.back && !mask.doubleSided) return std::nullopt;
@@ -596,11 +677,12 @@ std::optional<QueryHit> RayQueries::Parts::meetTriangle(const QueryRay& ray,
     if (margin < 0) return std::nullopt;
     hit.certain = hit.certain && margin > 0x1p-16f;
   }
+
   return hit;
 }
 
-// On the unit sphere the point of the ray next to the center says whether it is met, without
-// cancellation (see meetSphere() in bake/sphere.h).
+// In the space of the unit sphere, the ray's point closest to the center shows without cancellation
+// whether the sphere is hit (see meetSphere() in bake/sphere.h).
 int RayQueries::Parts::meetSphere(const QueryRay& ray, PlacedTriangleId id,
                                   QueryHit (&hits)[2]) const {
   const Affine map = sphereInWorld(scene, id);
@@ -608,11 +690,16 @@ int RayQueries::Parts::meetSphere(const QueryRay& ray, PlacedTriangleId id,
   const Vec3d origin = multiply(rows, ray.origin - map.p), way = multiply(rows, ray.direction);
   const double square = dot(way, way), along = -dot(origin, way) / square;
   const Vec3d nearest = origin + way * along;
+
+  // The condition number of the map bounds by how much it magnifies rounding errors.
   const double stretch = (sumOf(rows[0]) + sumOf(rows[1]) + sumOf(rows[2])) *
                          (sumOf(map.x) + sumOf(map.y) + sumOf(map.z));
   const double error = 64 * 0x1p-53 * stretch * (1 + sumOf(origin));
+
   const double room = 1 - dot(nearest, nearest);
   if (!(room > -error)) return 0;
+
+  // The two hits lie half a chord before and behind that point.
   const double half = std::sqrt(std::max(room, 0.0));
   int count = 0;
   for (const double sign : {-1.0, 1.0}) {
@@ -622,9 +709,11 @@ int RayQueries::Parts::meetSphere(const QueryRay& ray, PlacedTriangleId id,
     hit.tError = (error + error / std::max(half, std::sqrt(error))) / std::sqrt(square);
     hit.certain = room > error;
     hit.back = sign > 0;
+
     if (!isOnRay(ray, hit)) continue;
     const std::array<double, 2> weights = sphereWeights(origin + way * hit.t);
     hit.u = weights[0], hit.v = weights[1];
+
     const Mask& mask = masks[scene.triangles[id.triangle].material];
     if (mask.map) {
       const auto [s, t] = sphereUv(spherePoint(hit.u, hit.v));
@@ -633,24 +722,26 @@ int RayQueries::Parts::meetSphere(const QueryRay& ray, PlacedTriangleId id,
       if (margin < 0) continue;
       hit.certain = hit.certain && margin > 0x1p-16f;
     }
+
     hits[count++] = hit;
   }
   return count;
 }
 
-// True for surfaces in one place, for which the scene has a rule.
+// True for coincident surfaces, between which the scene decides by a rule.
 bool RayQueries::Parts::arePartners(PlacedTriangleId a, PlacedTriangleId b) const {
   if (scene.isSphere(a.triangle)) {
     const auto place = scene.coincidentSpheres.find(orderOf(a));
     return place != scene.coincidentSpheres.end() &&
            std::ranges::find(*place->second, b) != place->second->end();
   }
+
   if (!scene.coplanar.any(a.triangle)) return false;
   const auto partners = scene.coplanar.partnersOf(a);
   return std::ranges::find(partners, b) != partners.end();
 }
 
-// The rule of reference/settle_coplanar.h.
+// Applies the rule of reference/settle_coplanar.h, which prefers `a` to `b` if this returns true.
 bool RayQueries::Parts::comesBefore(PlacedTriangleId a, PlacedTriangleId b) const {
   const auto preference = [&](PlacedTriangleId id) {
     const std::uint32_t material = scene.triangles[id.triangle].material;
@@ -660,10 +751,11 @@ bool RayQueries::Parts::comesBefore(PlacedTriangleId a, PlacedTriangleId b) cons
     return std::tuple(!scene.materials[material].passesLight(), medium == 0,
                       scene.media[medium].priority, rank);
   };
+
   return preference(a) > preference(b);
 }
 
-// True where both are met on an edge or a corner that they share, from one side.
+// True where both hits may lie on an edge or a corner that the triangles share, seen from one side.
 bool RayQueries::Parts::areNeighbors(const QueryHit& a, const QueryHit& b) const {
   if (a.certain || b.certain || a.back != b.back || a.id.instance != b.id.instance ||
       scene.isSphere(a.id.triangle) || scene.isSphere(b.id.triangle)) {
@@ -690,37 +782,47 @@ QueryHit RayQueries::Parts::nearestOf(std::vector<QueryHit>& hits) const {
   if (hits.size() == 1) return hits[0];
   std::ranges::sort(hits, isNearer);
   QueryHit nearest = hits[0];
+
+  // Among coincident surfaces, the scene's rule chooses.
   for (const QueryHit& hit : hits) {
     if (mayBeAtOnce(hit, hits[0]) && arePartners(nearest.id, hit.id) &&
         comesBefore(hit.id, nearest.id)) {
       nearest = hit;
     }
   }
+
+  // Any other surface that may be as near makes the answer uncertain.
   for (const QueryHit& hit : hits) {
     if (hit.id == nearest.id || hit.t - hit.tError > nearest.t + nearest.tError) continue;
-    // In the place of what the rule prefers another surface changes nothing.
+    // Coincident surfaces do not count, because the rule has chosen among them.
     if (!arePartners(nearest.id, hit.id)) nearest.certain = false;
   }
+
   return nearest;
 }
 
 void RayQueries::Parts::keepDistinct(std::vector<QueryHit>& hits) const {
   std::ranges::sort(hits, isNearer);
   std::vector<QueryHit> kept;
+
   for (const QueryHit& hit : hits) {
     bool isNew = true;
+
+    // A hit repeats an earlier one if both surfaces coincide or share the edge that was hit.
     for (std::size_t i = kept.size(); i-- > 0 && isNew && mayBeAtOnce(kept[i], hit);) {
       if (arePartners(kept[i].id, hit.id)) {
         if (comesBefore(hit.id, kept[i].id)) kept[i] = hit;
         isNew = false;
       } else {
         isNew = kept[i].id != hit.id && !areNeighbors(kept[i], hit);
-        // Which of the two is first is not known.
+        // It is unknown which of the two comes first.
         if (isNew) kept[i].certain = false;
       }
     }
+
     if (isNew) kept.push_back(hit);
   }
+
   hits = std::move(kept);
 }
 

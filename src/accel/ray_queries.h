@@ -1,9 +1,9 @@
-// Answers for programs that ask what rays hit and want no picture. Embree finds what each ray may
-// hit, in triangles that are larger by its rounding errors; double precision then decides with
-// error bounds, and an answer is either certain or says that it is not. It depends on its ray
-// alone: not on the rays beside it, the threads or the processor. One thing is beyond this: a
-// border of a surface that is seen at less than a sixteenth of its area may be passed where a ray
-// meets it within the rounding of single precision.
+// Ray queries for programs that need hits and no picture. Embree finds what each ray may hit, in
+// triangles that are enlarged by its rounding errors; double precision then decides with error
+// bounds, and each answer is either certain or marked as uncertain. An answer depends on its ray
+// alone: not on the rays beside it, the threads or the processor. There is one exception: at the
+// border of a surface that is seen at less than a sixteenth of its area, a hit within the rounding
+// of single precision may be missed.
 #pragma once
 
 #include <cstddef>
@@ -47,13 +47,14 @@ class RayQueries {
   RayQueries(const RayQueries&) = delete;
   RayQueries& operator=(const RayQueries&) = delete;
 
-  // Surfaces count as the eye sees them: alpha masks cut them, single-sided ones are passed from
-  // behind, and of surfaces in one place one is hit, as in pictures. Threads may ask at once.
+  // Surfaces count as the eye sees them: alpha masks cut them, rays pass single-sided ones from
+  // behind, and only one of several coincident surfaces is hit, as in pictures. Several threads may
+  // call these functions at once.
   void closest(std::span<const QueryRay> rays, QueryHit* hits) const;
-  // A ray is blocked if closest() finds anything.
+  // A ray is blocked if closest() finds a hit.
   void blocked(std::span<const QueryRay> rays, Blocked* answers) const;
-  // Appends the first `limit` hits of each ray to `hits`, by their distance, and writes how many
-  // they are.
+  // Appends the first `limit` hits of each ray to `hits`, sorted by distance, and writes their
+  // number to `counts`.
   void all(std::span<const QueryRay> rays, std::size_t limit, std::vector<QueryHit>& hits,
            std::size_t* counts) const;
 

@@ -22,14 +22,15 @@ simd::SphereInverse inverseOf(const Affine& map) {
     for (int column = 0; column < 3; ++column) inverse.rows[row][column] = rows[row][column];
     inverse.center[row] = map.p[row];
   }
+
   const auto& r = inverse.rows;
   inverse.diagonal =
       r[0][1] == 0 && r[0][2] == 0 && r[1][0] == 0 && r[1][2] == 0 && r[2][0] == 0 && r[2][1] == 0;
   return inverse;
 }
 
-// On an instance Embree hands over rays in its space, rounded as its processor does. These are as
-// they are in the world.
+// Copies the rays as they are in the world. On an instance, Embree hands over rays in the space of
+// the instance, with the rounding of its processor.
 void carryRays(const EmbreeContext* context, const float* words, unsigned width, const int* valid,
                float* to) {
   const auto* const ids = reinterpret_cast<const unsigned*>(words) + packet_column::id * width;
@@ -75,12 +76,12 @@ void SphereGeometry::bound(const RTCBoundsFunctionArguments* args) {
   to.upper_x = box.upper.x, to.upper_y = box.upper.y, to.upper_z = box.upper.z;
 }
 
-// One number for the world, behind all instances.
+// Returns one number for the world, which is above those of all instances.
 unsigned SphereGeometry::placeOf(unsigned instance) {
   return isInWorld(instance) ? RTC_INVALID_GEOMETRY_ID : instance;
 }
 
-// In Scene::triangles.
+// Returns the index of the sphere in Scene::triangles.
 std::uint32_t SphereGeometry::numberOf(const Met& met) const {
   const std::uint32_t geometry =
       isInWorld(met.instance) ? 0 : scene_.instances[met.instance - kFirstInstanceId].geometry;
@@ -95,8 +96,8 @@ bool SphereGeometry::comesBefore(const Met& sphere, const Met& other) const {
   return scene_.isSphere(its) && std::tie(sphere.instance, own) > std::tie(other.instance, its);
 }
 
-// Calls accept(ray, t, u, v) for each valid ray that meets the sphere not beyond its end. A masked
-// sphere may be cut where it is met first, and there where the ray leaves it.
+// Calls accept(ray, t, u, v) for each valid ray that hits the sphere within its tFar. A masked
+// sphere may be cut where the ray enters it, and also where the ray leaves it.
 template <float Mask::*kCutoff, typename Accept>
 void SphereGeometry::meet(unsigned primitive, const EmbreeContext* context, float* words,
                           unsigned width, const int* valid, const Accept& accept) const {
@@ -105,6 +106,8 @@ void SphereGeometry::meet(unsigned primitive, const EmbreeContext* context, floa
   const simd::SphereInverse* inverse = &sphere.inverse;
   simd::SphereInverse inverseInWorld;
   std::array<float, (packet_column::dirZ + 1) * kWidestPacket> inWorld;
+
+  // On an instance, the test takes place in the world, so that Embree's rounding has no effect.
   const unsigned instance = context->instID[0];
   if (!isInWorld(instance)) {
     carryRays(context, words, width, valid, inWorld.data());
@@ -113,16 +116,21 @@ void SphereGeometry::meet(unsigned primitive, const EmbreeContext* context, floa
     inverseInWorld = inverseOf(sphereInWorld(scene_, {number, instance - kFirstInstanceId}));
     inverse = &inverseInWorld;
   }
+
+  // A shadow ray needs the point that it hits only if a mask may cut it there.
   std::array<float, kWidestPacket> t, u, v;
   const bool asksWhere = kCutoff == &Mask::cutoff || sphere.mask;
   const simd::SphereHits hits{t.data(), asksWhere ? u.data() : nullptr, v.data()};
   const float* const tNear = words + packet_column::tNear * width;
   const float* const tFar = words + packet_column::tFar * width;
   std::uint32_t met = meeter_(*inverse, rays, width, valid, tNear, tFar, hits);
+
   const auto isCut = [&](unsigned i) {
     const auto [s, r] = sphereUv(spherePoint(double{u[i]}, double{v[i]}));
     return marginAt<kCutoff>(*sphere.mask, static_cast<float>(s), static_cast<float>(r)) < 0;
   };
+
+  // Where the mask cuts the first hit, the ray goes on to the second.
   if (sphere.mask) {
     std::array<float, kWidestPacket> after{};
     for (unsigned i = 0; i < width; ++i) {
@@ -131,6 +139,7 @@ void SphereGeometry::meet(unsigned primitive, const EmbreeContext* context, floa
     }
     met = meeter_(*inverse, rays, width, valid, after.data(), tFar, hits);
   }
+
   for (; met != 0; met &= met - 1) {
     const auto i = static_cast<unsigned>(std::countr_zero(met));
     if (sphere.mask && isCut(i)) continue;
@@ -144,16 +153,19 @@ void SphereGeometry::intersect(const RTCIntersectFunctionNArguments* args) {
   auto* const words = reinterpret_cast<float*>(args->rayhit);
   auto* const numbers = reinterpret_cast<unsigned*>(args->rayhit);
   const Met here{placeOf(args->context->instID[0]), 0, own.firstPrimitive_ + args->primID};
+
   const auto put = [&](unsigned i, float t, float u, float v) {
     const auto number = [&](std::size_t column) -> unsigned& {
       return numbers[column * width + i];
     };
     float& tFar = words[packet_column::tFar * width + i];
+    // Between spheres at one distance a fixed order decides, whichever of them Embree tests first.
     if (t == tFar) {
       const Met before{placeOf(number(packet_column::instance)), number(packet_column::geometry),
                        number(packet_column::primitive)};
       if (!own.comesBefore(here, before)) return;
     }
+
     tFar = t;
     words[packet_column::u * width + i] = u;
     words[packet_column::v * width + i] = v;
@@ -161,6 +173,7 @@ void SphereGeometry::intersect(const RTCIntersectFunctionNArguments* args) {
     number(packet_column::geometry) = here.geometry;
     number(packet_column::primitive) = here.primitive;
   };
+
   own.meet<&Mask::cutoff>(args->primID, args->context, words, width, args->valid, put);
 }
 
@@ -169,6 +182,8 @@ void SphereGeometry::occlude(const RTCOccludedFunctionNArguments* args) {
   if (!own.spheres_[args->primID].castsShadow) return;
   auto* const words = reinterpret_cast<float*>(args->ray);
   const unsigned width = args->N;
+
+  // Embree takes a tFar of minus infinity as occlusion.
   own.meet<&Mask::shadowCutoff>(
       args->primID, args->context, words, width, args->valid, [&](unsigned i, float, float, float) {
         words[packet_column::tFar * width + i] = -std::numeric_limits<float>::infinity();

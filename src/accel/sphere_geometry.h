@@ -11,9 +11,9 @@
 
 namespace whit {
 
-// Spheres follow the four classes of world triangles in a scene, instances follow those in the
-// top-level one. Where a scene moves the top-level one holds instances alone, and the first is the
-// world.
+// Spheres follow the four classes of world triangles in a scene; instances follow the spheres in
+// the top-level scene. If a scene moves, its top-level scene holds only instances, and the first of
+// them is the world.
 inline constexpr unsigned kSpheresId = kTriangleClasses, kFirstInstanceId = kSpheresId + 1;
 inline constexpr unsigned kWorldId = 0;
 inline bool isInWorld(unsigned instance) {
@@ -27,10 +27,10 @@ class SphereGeometry {
   // The scene and `masks`, one a material, must outlive it.
   SphereGeometry(const Scene& scene, const std::vector<Mask>& masks, const Geometry& of);
 
-  // Makes `geometry`, which this must outlive, answer for the spheres.
+  // Makes `geometry`, which this object must outlive, answer for the spheres.
   void attachTo(RTCGeometry geometry);
 
-  // Without what Embree needs for their boxes.
+  // Memory without that of Embree's boxes.
   std::uint64_t memoryBytes() const { return spheres_.capacity() * sizeof(Sphere); }
 
  private:
@@ -39,7 +39,7 @@ class SphereGeometry {
     const Mask* mask = nullptr;  // none: opaque everywhere
     bool castsShadow = true;
   };
-  // As Embree's packets have it.
+  // The ids of a hit as Embree's packets hold them.
   struct Met {
     unsigned instance, geometry, primitive;
   };
@@ -56,8 +56,8 @@ class SphereGeometry {
 
   simd::SphereMeeter meeter_ = simd::findMeetSphere();
   const Scene& scene_;
-  const TriangleRecord* records_ = nullptr;  // of the first sphere
-  std::uint32_t firstPrimitive_ = 0;         // as hits have it
+  const TriangleRecord* records_ = nullptr;  // record of the first sphere
+  std::uint32_t firstPrimitive_ = 0;         // number of the first sphere, counted as in hits
   std::vector<Sphere> spheres_;
 };
 

@@ -62,6 +62,7 @@ OptionList listOptions(AccuracyJob& job) {
       "time for measuring times of a scene until their spread is known (default: 20, --full 600)",
       job.settings.timingSeconds);
   list.value({"seed", "N", 0, 1e9}, "seed of the random order of the measurements", job.seed);
+
   listCommonOptions(list, job.common);
   list.operands("SCENE...", "scene files, models, or names of shipped scenes", 1,
                 std::numeric_limits<std::size_t>::max(), job.scenes);
@@ -73,6 +74,7 @@ void checkJob(AccuracyJob& job) {
   accuracy::SweepSettings& settings = job.settings;
   refuseIf(job.common.render.mode == Mode::reference,
            "whit accuracy measures packets against the reference: leave out --mode");
+
   if (!job.knobs.empty()) settings.knobs = split(job.knobs, ',');
   chooseKnobs(settings.knobs);
   if (!settings.full && !job.common.render.size) job.common.render.size = kQuickSize;
@@ -108,15 +110,20 @@ std::vector<accuracy::SceneSweep> sweepScenes(const AccuracyJob& job) {
 int accuracyCommand(const Words& words) {
   AccuracyJob job;
   if (!parseOptions(kAccuracyUsage, kAccuracySummary, listOptions(job), words)) return 0;
+
   checkJob(job);
   const std::vector<accuracy::SceneSweep> sweeps = sweepScenes(job);
+
+  // Both files say how and where the measurements were made.
   const Machine& machine = sweeps[0].machine;
   Json facts{{"sweep", job.settings.full ? "full" : "quick"},
              {"seed", job.settings.seed},
              {"threads", machine.threads}};
   facts.update(machineJson(machine));
+
   for (const accuracy::SceneSweep& sweep : sweeps)
     std::printf("%s\n", accuracy::sweepTable(sweep, job.settings.seed).c_str());
+
   const WriteScope scope;
   const std::filesystem::path folder(job.out);
   writeTextFile((folder / "sweep.csv").string(), accuracy::sweepCsv(sweeps, facts));

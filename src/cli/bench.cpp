@@ -30,8 +30,8 @@ constexpr const char* kBenchSummary =
 // An option whose values are measured as separate runs, which take turns.
 struct Series {
   const char *flag, *help, *option;
-  // Separated by bars. "..." stands for the powers of two below the number of usable threads and
-  // that number; an empty value for the value on the command line.
+  // Values, separated by bars. "..." stands for the powers of two below the number of usable
+  // threads and that number; an empty value stands for the value on the command line.
   const char* values;
   bool isPair = false;  // the second run is compared with the first
 };
@@ -53,7 +53,7 @@ struct BenchJob {
   std::string json;
 
   bool reference() const { return common.render.mode == Mode::reference; }
-  // The reference takes seconds a frame, against which warming up is nothing.
+  // The reference takes seconds a frame, so frames to warm up would change nothing.
   Turns turns() const {
     Turns turns;
     if (reference()) turns = {0, 1};
@@ -76,6 +76,7 @@ OptionList listOptions(BenchJob& job) {
   for (std::size_t i = 0; i < job.wanted.size(); ++i)
     list.flag(kSeries[i].flag, kSeries[i].help, job.wanted[i]);
   list.value({"json", "FILE"}, "all runs as JSON; - is standard output", job.json);
+
   listCommonOptions(list, job.common);
   list.operands("SCENE...", "scene files, models, or names of shipped scenes", 1,
                 std::numeric_limits<std::size_t>::max(), job.scenes);
@@ -85,6 +86,7 @@ OptionList listOptions(BenchJob& job) {
 std::vector<std::string> valuesOf(const Series& series) {
   std::vector<std::string> values = split(series.values, '|');
   if (values[0] != "...") return values;
+
   values.clear();
   for (int n = 1; n < usableThreads(); n *= 2) values.push_back(std::to_string(n));
   values.push_back(std::to_string(usableThreads()));
@@ -94,6 +96,7 @@ std::vector<std::string> valuesOf(const Series& series) {
 void addRuns(BenchRuns& runs, const std::string& name, const BenchJob& job, Progress* progress) {
   const std::shared_ptr<OpenScene> open = openAndTell(name, job.common, progress);
   const Series& series = job.series();
+
   for (const std::string& value : valuesOf(series)) {
     RenderOptions options = optionsToMeasure(open->scene, job.common);
     if (!value.empty()) setOption(options, series.option, value);
@@ -115,12 +118,13 @@ void checkJob(const BenchJob& job) {
       std::string("--") + series.flag + " chooses --" + series.option + " itself: leave that out");
 }
 
-// How much faster frames are than those of one thread, and the share of the threads that this is.
+// A table of the speed-up over one thread, and of the speed-up for each thread (efficiency).
 std::string scalingText(const std::vector<RunSummary>& runs) {
   std::string text = "threads        ms  speed-up  efficiency %\n";
   double alone = 0;
   for (const RunSummary& run : runs) {
     const int threads = run.machine.threads;
+    // Speed-up refers to the run of the same scene with one thread, which comes first.
     const double ms = medianFrame(run).frameMs;
     if (threads == 1) alone = ms;
     text += formatted("%7d%10.2f%10.2f%14.1f  %s\n", threads, ms, alone / ms,
@@ -129,11 +133,12 @@ std::string scalingText(const std::vector<RunSummary>& runs) {
   return text;
 }
 
-// For runs that come in pairs the ratio of the second over the first is added.
+// Runs that come in pairs add the ratio of the second run over the first.
 Json benchJson(const std::vector<RunSummary>& runs, bool arePairs) {
   Json json{{"schema", 1}, {"machine", machineJson(runs.at(0).machine)}};
   json["runs"] = Json::array();
   for (const RunSummary& run : runs) json["runs"].push_back(runJson(run));
+
   for (std::size_t i = 0; arePairs && i + 1 < runs.size(); i += 2) {
     const RunRatio ratio = ratioOf(runs[i + 1], runs[i]);
     json["all_over_auto"].push_back({{"scene", runs[i].scene},
@@ -152,6 +157,7 @@ int benchCommand(const Words& words) {
   auto progress = makeProgressBar(job.common);
   std::vector<RunSummary> summaries;
   BenchRuns runs;
+
   for (std::size_t i = 0; i < job.scenes.size(); ++i) {
     addRuns(runs, job.scenes[i], job, progress.get());
     // Runs to be compared are held in memory together; others one after the other.
@@ -161,6 +167,8 @@ int benchCommand(const Words& words) {
     runs.clear();
   }
   progress.reset();
+
+  // Where JSON takes standard output, the tables for people go to standard error.
   FILE* const people = job.json == "-" ? stderr : stdout;
   if (people == stdout || !job.common.quiet) {
     for (const RunSummary& run : summaries) std::fprintf(people, "%s\n", stageTable(run).c_str());
@@ -171,6 +179,7 @@ int benchCommand(const Words& words) {
       std::fprintf(people, "%s", ratioText(summaries[i], summaries[i + 1]).c_str());
     }
   }
+
   if (!job.json.empty()) writeJson(job.json, benchJson(summaries, job.series().isPair));
   return 0;
 }

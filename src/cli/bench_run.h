@@ -53,11 +53,12 @@ struct Turns {
   int warmUp = 3, counted = 20;
   bool floor = false;
 };
-// Measures one frame of each run in turn; a floor right after its frame.
+// Measures one frame of each run in turn, and the floor of a frame right after it.
 inline void takeTurns(const BenchRuns& runs, const Turns& turns, Progress* progress) {
   for (int i = 0; i < turns.warmUp; ++i) {
     for (const auto& run : runs) run->warmUp();
   }
+
   for (int i = 0; i < turns.counted; ++i) {
     reportProgress(progress, "measuring", static_cast<double>(i) / turns.counted);
     for (const auto& run : runs) run->measure(turns.floor);

@@ -72,6 +72,7 @@ OptionList listOptions(CompareJob& job) {
              "PNG of the differences: black is 0, light yellow 16 8-bit steps or more",
              job.heatmap);
   list.value({"json", "FILE"}, "the numbers as JSON; - is standard output", job.json);
+
   listCommonOptions(list, job.common);
   list.operands("SCENE, or A B", "a scene, or two image files", 1, 2, job.subjects);
   return list;
@@ -79,6 +80,8 @@ OptionList listOptions(CompareJob& job) {
 
 Compared compareFiles(const CompareJob& job) {
   const CommonOptions& common = job.common;
+
+  // Only a picture that is rendered can follow these options.
   for (const auto& [isGiven, option] :
        {std::pair{job.stages, "--stages"}, std::pair{!common.render.channels.empty(), "--channels"},
         std::pair{!common.load.settings.empty(), "--set"},
@@ -86,6 +89,7 @@ Compared compareFiles(const CompareJob& job) {
         std::pair{common.render.exposure.automatic, "--exposure auto"}}) {
     refuseIf(isGiven, std::string(option) + " needs a scene, not two images");
   }
+
   Compared result;
   result.exposure = job.common.render.exposure.ev;
   result.a = readImage(job.subjects[0], ImageLimits());
@@ -98,24 +102,31 @@ Compared compareFiles(const CompareJob& job) {
 Compared compareModes(const CompareJob& job) {
   const auto progress = makeProgressBar(job.common);
   const std::shared_ptr<OpenScene> open = openAndTell(job.subjects[0], job.common, progress.get());
+
   Engine engine(open);
   engine.setOptions(optionsToMeasure(open->scene, job.common));
   Renderer& renderer = engine.prepare(progress.get());
   const RenderOptions& options = engine.options();
   const Camera camera = engine.camera();
+
+  // Both films have one size and the same channels, so they can be compared pixel by pixel.
   Film packets = makeFilm(open->scene, options, job.common.load.maxMemoryBytes);
   Film reference = packets;
   Compared result;
   result.exposure = options.exposure.ev;
   result.numbers.timeMsA = renderer.render(camera, packets).frameMs;
   result.numbers.timeMsB = renderer.renderReference(camera, reference, progress.get()).frameMs;
+
+  // A path diverges where rounding decides between two branches.
   const double megapixels = static_cast<double>(packets.image.pixels.size()) / 1e6;
   result.numbers.pathDivergencesPerMpx =
       static_cast<double>(comparePaths(renderer, camera, packets).divergences) / megapixels;
+
   if (job.stages) {
     Film scratch = makeFilm(open->scene, options, job.common.load.maxMemoryBytes);
     result.numbers.stages = compareStages(renderer, camera, scratch);
   }
+
   result.layersA = layersOf(packets.channels);
   result.layersB = layersOf(reference.channels);
   result.a = std::move(packets.image);
@@ -123,7 +134,7 @@ Compared compareModes(const CompareJob& job) {
   return result;
 }
 
-// Compares the channels that both images have with values of one kind. Sizes are the same.
+// Compares the channels that both images have with values of one kind. The images have one size.
 std::vector<ChannelDifference> compareChannels(const Compared& compared) {
   std::vector<ChannelDifference> differences;
   for (const ImageLayer& a : compared.layersA) {
@@ -131,6 +142,7 @@ std::vector<ChannelDifference> compareChannels(const Compared& compared) {
       return layer.name == a.name && layer.countsThings == a.countsThings;
     });
     if (b == compared.layersB.end()) continue;
+
     differences.push_back(
         {a.name, a.countsThings,
          a.countsThings ? differenceOf(a.words, b->words) : differenceOf(a.floats(), b->floats())});
@@ -184,6 +196,7 @@ void printNumbers(FILE* out, const Comparison& c) {
     const std::string text = formatted(n.format, n.value.get<double>());
     std::fprintf(out, "%-26s%s\n", n.title, text.c_str());
   }
+
   if (c.timeMsA && c.timeMsB) {
     std::fprintf(out, "%-26s%.1f ms, %.1f ms\n", "time of A, B", *c.timeMsA, *c.timeMsB);
   }
@@ -200,19 +213,21 @@ void printStages(FILE* out, const std::vector<StageDifference>& rows) {
   }
 }
 
-// How far apart the two pictures of a scene may be where no tolerance is given. Rounding decides
-// between two paths here and there: most often between mirrors, where at 64 bounces it moves two
-// pixels of a hundred by two codes. What one of the two computes wrongly moves more.
+// Upper bounds on the difference between two pictures of a scene where no tolerance is given.
+// Rounding decides between two paths here and there: most often between mirrors, where at 64
+// bounces it moves two pixels of a hundred by two codes. An error in the code moves more.
 constexpr double kMostPixelsOffPct = 5, kMostEnergyOff = 0.02;
 
-// The conditions of what is asked are written so that a NaN fails.
+// A NaN fails each of the conditions.
 bool picturesPass(const CompareJob& job, const ImageDifference& d) {
   if (job.tolerance) {
     if (d.rmse <= *job.tolerance) return true;
     std::fprintf(stderr, "whit: the RMSE is %.6g, and --tolerance %g\n", d.rmse, *job.tolerance);
     return false;
   }
+
   if (job.subjects.size() == 2) return true;
+
   const bool codes = d.pixelsGe2CodesPct <= kMostPixelsOffPct;
   const bool energy = std::fabs(d.energyRatio - 1) <= kMostEnergyOff;
   if (!codes) {
@@ -243,6 +258,8 @@ std::string verdict(const CompareJob& job, const Comparison& c, bool passed) {
     text =
         formatted("%.4g %% of the pixels differ by two 8-bit codes or more", d.pixelsGe2CodesPct);
   }
+
+  // Without --tolerance, two files are described but not judged.
   const bool judged = job.subjects.size() == 1 || job.tolerance || c.stages;
   const char* const judgment = passed ? "; passed" : "; FAILED";
   return "verdict: " + text + (judged ? judgment : "");
@@ -260,6 +277,7 @@ Json compareJson(const Comparison& comparison) {
   Json json;
   for (const Number& n : numbersOf(comparison)) json[n.key] = n.value;
   json["time_ms"] = {{"a", orNull(comparison.timeMsA)}, {"b", orNull(comparison.timeMsB)}};
+
   for (const ChannelDifference& c : comparison.channels) {
     Json row{{"channel", c.name}, {"pixels_differing", c.difference.differing}};
     if (!c.countsThings) {
@@ -269,6 +287,7 @@ Json compareJson(const Comparison& comparison) {
     }
     json["channels"].push_back(std::move(row));
   }
+
   if (!comparison.stages) return json;
   json["stages"] = Json::array();
   for (const StageDifference& row : *comparison.stages) {
@@ -288,29 +307,38 @@ Json compareJson(const Comparison& comparison) {
 int compareCommand(const Words& words) {
   CompareJob job;
   if (!parseOptions(kCompareUsage, kCompareSummary, listOptions(job), words)) return 0;
+
   requireJsonWritable(job.json);
   if (!job.heatmap.empty()) requireWritable(job.heatmap, {".png"});
+
   Compared compared = job.subjects.size() == 2 ? compareFiles(job) : compareModes(job);
   compared.numbers.difference =
       compareImages(compared.a, compared.b, compared.exposure, job.common.render.toneCurve);
   compared.numbers.channels = compareChannels(compared);
+
+  // Where JSON takes standard output, the tables for people go to standard error.
   FILE* const people = job.json == "-" ? stderr : stdout;
   if (people == stdout || !job.common.quiet) {
     printNumbers(people, compared.numbers);
     printChannels(people, compared.numbers.channels);
     if (compared.numbers.stages) printStages(people, *compared.numbers.stages);
   }
+
   if (!job.json.empty()) writeJson(job.json, compareJson(compared.numbers));
   if (!job.heatmap.empty()) writeHeatMap(job, compared);
+
+  // With --stages, each column that a vector stage writes must be within its limit as well.
   const bool pictures = picturesPass(job, compared.numbers.difference);
   const bool stages = !compared.numbers.stages ||
                       std::ranges::all_of(*compared.numbers.stages, [](const StageDifference& row) {
                         return row.worstUlp <= row.limitUlp;
                       });
   const bool passed = stages && pictures;
+
   if (people == stdout || !job.common.quiet) {
     std::fprintf(people, "%s\n", verdict(job, compared.numbers, passed).c_str());
   }
+
   if (passed) return 0;
   std::fprintf(stderr, "whit: the comparison failed\n");
   return static_cast<int>(ExitStatus::checkFailed);

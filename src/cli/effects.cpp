@@ -39,6 +39,8 @@ std::shared_ptr<OpenScene> openStep(const SceneDescription& whole, EffectSet kep
                                     const EffectsJob& job) {
   auto open = std::make_shared<OpenScene>(job.common.render.strict);
   open->load = job.common.load;
+
+  // The scene is baked as if its description had none of the other effects.
   SceneDescription description = whole;
   leaveOut(description, EffectSet::all().without(kept));
   open->scene = Scene::finalize(std::move(description), open->warnings);
@@ -56,6 +58,7 @@ std::vector<EffectStep> measureSteps(const EffectsJob& job, Progress* progress) 
   const std::string name = job.scenes.empty() ? "effects" : job.scenes[0];
   const SceneDescription whole = loadScene(name, job.common.load, warnings, progress);
   if (!job.common.quiet) tellWarnings(warnings);
+
   const EffectSet has = openStep(whole, EffectSet::all(), job)->scene.effects;
   std::vector<EffectStep> steps;
   BenchRuns runs;
@@ -65,6 +68,8 @@ std::vector<EffectStep> measureSteps(const EffectsJob& job, Progress* progress) 
     runs.push_back(
         std::make_unique<BenchRun>(step, optionsToMeasure(step->scene, job.common), progress));
   };
+
+  // Each step keeps the effects of the step before and adds one.
   EffectSet kept = kMatteEffects;
   add("matte", kept);
   for (const Effect effect : kAddedEffects) {
@@ -72,6 +77,8 @@ std::vector<EffectStep> measureSteps(const EffectsJob& job, Progress* progress) 
     const bool left = notAskedFor(job.common.render).has(effect);
     if (has.has(effect) && !left) add(nameOf(effect), kept);
   }
+
+  // The frames of all steps take turns, so that other load of the machine affects all alike.
   takeTurns(runs, Turns{3, job.frames, false}, progress);
   for (std::size_t i = 0; i < steps.size(); ++i) {
     steps[i].run = runs[i]->summary();
@@ -102,15 +109,19 @@ int effectsCommand(const Words& words) {
   listCommonOptions(list, job.common);
   list.operands("SCENE", "a scene file, or the name of a shipped scene (effects)", 0, 1,
                 job.scenes);
+
   if (!parseOptions(kEffectsUsage, kEffectsSummary, list, words)) return 0;
   checkJob(job);
+
   auto progress = makeProgressBar(job.common);
   const std::vector<EffectStep> steps = measureSteps(job, progress.get());
   progress.reset();
+
   std::vector<std::string> pictures;
   for (std::size_t i = 0; i < steps.size(); ++i) pictures.push_back(pictureName(steps, i));
   const Json report = effectsJson(steps, pictures);
   if (!job.common.quiet) std::printf("%s", effectsTable(report).c_str());
+
   const WriteScope scope;
   const std::filesystem::path folder(job.out);
   writeTextFile((folder / "effects.csv").string(), csvOf(report["effects"]));

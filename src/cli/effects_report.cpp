@@ -12,7 +12,7 @@ namespace whit::cli {
 
 namespace {
 
-// The median over the turns of the difference that `of` has between the frames of two runs.
+// Returns the median over the turns of how much `of` differs between the frames of two runs.
 template <typename Of>
 double medianAdded(const RunSummary& run, const RunSummary& before, const Of& of) {
   std::vector<double> added;
@@ -42,6 +42,7 @@ std::string noteOn(const Json& rows, std::size_t turns) {
 Json effectsRows(const std::vector<EffectStep>& steps) {
   Json rows = Json::array();
   for (const EffectStep& step : steps) {
+    // The first step has none before it and counts in full.
     const EffectStep* const before = &step == steps.data() ? nullptr : &step - 1;
     const FrameStats frame = medianFrame(step.run);
     Json row{
@@ -51,8 +52,10 @@ Json effectsRows(const std::vector<EffectStep>& steps) {
          before ? medianAdded(step.run, before->run, &FrameStats::frameMs) : frame.frameMs},
         {"added_outside_embree_ms",
          before ? medianAdded(step.run, before->run, outsideEmbreeMs) : outsideEmbreeMs(frame)}};
+
     for (std::size_t k = 0; k < kRayKindCount; ++k)
       row[std::string(kRayKinds[k].name) + "_rays"] = frame.meter.tally[k].rays;
+
     row["added_rays"] = raysOf(step) - (before ? raysOf(*before) : 0);
     row["memory_mb"] = step.memoryMb;
     row["added_memory_mb"] = step.memoryMb - (before ? before->memoryMb : 0);
@@ -64,6 +67,7 @@ Json effectsRows(const std::vector<EffectStep>& steps) {
 std::string effectsTable(const Json& effects) {
   std::string text = formatted("%-18s%10s%10s%16s%12s%10s\n", "effect", "frame ms", "added ms",
                                "outside Embree", "added rays", "added MB");
+
   for (const Json& row : effects["effects"]) {
     const auto number = [&](const char* key) { return row[key].get<double>(); };
     const bool first = row == effects["effects"].front();
@@ -72,6 +76,7 @@ std::string effectsTable(const Json& effects) {
                       number("frame_ms"), number("added_ms"), number("added_outside_embree_ms"),
                       number("added_rays"), number("added_memory_mb"));
   }
+
   return text + "\n" + effects["note"].get<std::string>();
 }
 

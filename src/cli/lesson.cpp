@@ -13,7 +13,7 @@ namespace whit::cli {
 
 namespace {
 
-constexpr std::size_t kMostLights = 4;  // of whose stages the columns are kept
+constexpr std::size_t kMostLights = 4;  // number of lights whose stages have their columns recorded
 
 Json columnJson(const std::string& name, bool whole, const std::vector<float>& values) {
   const auto* bytes = reinterpret_cast<const char*>(values.data());
@@ -33,11 +33,14 @@ class StageRecorder : public StageObserver {
   void after(Stage stage, const Chunk& c) override {
     if (c.sampleNumber != 0) return;
     tracker_.follow(stage, c);
+
+    // Each chunk of a depth passes this stage once, so its rays are counted here.
     if (stage == Stage::findIntersections) {
       const auto depth = static_cast<std::size_t>(c.depth);
       while (depths_.size() <= depth) depths_.push_back(0);
       depths_[depth] = depths_[depth].get<std::size_t>() + c.n;
     }
+
     if (c.depth == 0 && holdsPixel(c)) recordStep(stage, c);
   }
 
@@ -50,12 +53,13 @@ class StageRecorder : public StageObserver {
                              [&](const Rgb& pixel) { return pixel[channel]; });
       columns_.push_back(columnJson(std::string("film ") + "rgb"[channel], false, values));
     }
+
     endStep(Stage::updateImage);
     return {{"depths", std::move(depths_)}, {"steps", std::move(steps_)}};
   }
 
  private:
-  // Small queues hold a tile in several chunks.
+  // The tile is spread over several chunks where queues are small.
   bool holdsPixel(const Chunk& c) const {
     std::size_t slot = 0;
     while (slot < c.n && tracker_.pixel(c, slot) != pixel_) ++slot;
@@ -63,11 +67,14 @@ class StageRecorder : public StageObserver {
   }
 
   void recordStep(Stage stage, const Chunk& c) {
+    // Stages of lights are recorded for the first sample of the first lights only.
     const bool ofLight = stage == Stage::findRadianceAndShadowRays ||
                          stage == Stage::checkShadows || stage == Stage::addShading;
     if (ofLight && c.lightSample > 0) return;
     if (ofLight && stage == Stage::findRadianceAndShadowRays) ++lights_;
     if (ofLight && lights_ > kMostLights) return;
+
+    // Only the columns that the stage writes are recorded.
     columns_ = Json::array();
     switch (stage) {
       case Stage::generateRays:
@@ -98,6 +105,7 @@ class StageRecorder : public StageObserver {
       case Stage::updateImage:
         break;
     }
+
     endStep(stage);
     if (ofLight) steps_.back()["light"] = lightName(scene_, c.lightNumber);
   }
@@ -115,20 +123,25 @@ class StageRecorder : public StageObserver {
   struct Rows {
     std::size_t begin, end;
   };
-  // `slots` has the chunk's slot of each row; null where rows and slots are the same. Left out are
-  // surfels of rays that have left the scene and radiance of lights behind the surface, which hold
-  // nothing.
+  // `slots` has the chunk's slot of each row, or is null if rows and slots are the same. Surfels of
+  // rays that left the scene and radiance of lights behind the surface hold no values and are left
+  // out.
   template <typename Columns>
   void keepRows(const std::string& set, const Chunk& c, const Columns& columns, Rows rows,
                 const std::uint32_t* slots) {
     constexpr bool kOfHits =
         std::is_same_v<Columns, SurfelColumns> || std::is_same_v<Columns, HitColumns>;
     constexpr bool kOfLight = std::is_same_v<Columns, UnshadowedColumns>;
+
+    // Unshadowed radiance has a value where the light is visible or a shadow ray was made.
     std::vector<bool> lit(c.n, !kOfLight);
     for (std::size_t i = 0; kOfLight && i < c.n; ++i) lit[i] = c.unshadowed.visible[i] > 0;
     for (std::size_t i = 0; kOfLight && i < c.shadowCount; ++i) lit[c.shadows.slot[i]] = true;
+
     Columns::forEachColumn(columns, [&](const char* name, const auto* column, Feature) {
       if (!column) return;
+
+      // Pixels without a value stay NaN.
       std::vector<float> values(image_.pixels.size(), std::numeric_limits<float>::quiet_NaN());
       for (std::size_t row = rows.begin; row < rows.end; ++row) {
         const std::size_t slot = slots ? slots[row] : row;
@@ -136,6 +149,7 @@ class StageRecorder : public StageObserver {
         const std::uint32_t at = tracker_.pixel(c, slot);
         values[image_.index(pixelX(at), pixelY(at))] = static_cast<float>(column[row]);
       }
+
       using Value = std::remove_cvref_t<decltype(*column)>;
       columns_.push_back(columnJson(set + name, std::is_integral_v<Value>, values));
     });
@@ -156,10 +170,13 @@ Json recordStages(Renderer& renderer, const Camera& camera, const Film& film, co
   RenderOptions options = renderer.options();
   options.size = ImageSize{film.image.width, film.image.height};
   options.crop = tile;
+
+  // The tile is rendered again while the recorder observes its stages.
   Film small = makeFilm(renderer.scene(), options);
   StageRecorder recorder(renderer.scene(), small.image, packedPixel(x, y));
   StageObserver* const observers[] = {&recorder};
   renderer.render({.camera = camera, .film = small, .observers = observers, .uniform = true});
+
   return recorder.recorded();
 }
 

@@ -81,18 +81,22 @@ const Command* commandNamed(const std::string& name) {
 }
 
 int complete(const Words& words) {
+  // After the name of a command, the command itself completes.
   if (words.size() > 2) {
     const Command* const command = commandNamed(words[1]);
     Words rest{"--complete"};
     rest.insert(rest.end(), words.begin() + 2, words.end());
     return command ? command->run(rest) : 0;
   }
+
   const std::string word = words.size() == 2 ? words[1] : "";
   std::string lines;
   for (const Command& c : kCommands) lines += completionLine(word, c.name, c.summary);
+  // Options are offered only once a word has begun.
   for (const std::string option : {"--help", "--version", "--man", "--completion"}) {
     if (!word.empty()) lines += completionLine(word, option);
   }
+
   std::fputs(lines.c_str(), stdout);
   return 0;
 }
@@ -102,11 +106,15 @@ int complete(const Words& words) {
        {std::pair{"stress", "whit-verify"}, std::pair{"view", "whit-view"}}) {
     if (word == command) throwUsage("whit " + word + " is a program of its own: " + program);
   }
+
   std::vector<std::string> names = namesIn(kCommands);
   if (word.starts_with('-')) names = {"--help", "--version", "--man", "--completion"};
+
+  // A word that looks like a file is most likely meant as a scene to render.
   const bool isFile = word.find_first_of("./") != std::string::npos && word[0] != '-';
   const std::string meant =
       isFile ? "; did you mean 'whit render " + word + "'?" : didYouMean(word, names);
+
   throwUsage("'" + word + "' is not a command" +
              (meant.empty() ? "; whit --help lists the commands" : meant));
 }
@@ -116,11 +124,13 @@ int run(const Words& words) {
     showHelp();
     return static_cast<int>(ExitStatus::usage);
   }
+
   if (words[0] == "help" && words.size() == 2) return run({words[1], "--help"});
   if (words[0] == "--help" || words[0] == "--help-all" || words[0] == "-h" || words[0] == "help") {
     showHelp();
     return 0;
   }
+
   if (words[0] == "--version") {
     std::printf("whit %s\n", WHIT_VERSION);
     const std::string leftOut = WHIT_LEFT_OUT;
@@ -136,10 +146,12 @@ int run(const Words& words) {
     std::fputs(completionScript(words[1], kPage.name).c_str(), stdout);
     return 0;
   }
+
   if (words[0] == "--complete") return complete(words);
   if (const Command* const command = commandNamed(words[0])) {
     return command->run(Words(words.begin() + 1, words.end()));
   }
+
   throwNoCommand(words[0]);
 }
 

@@ -19,6 +19,7 @@ int mergeCommand(const Words& words) {
   listReportOptions(list, common);
   list.operands("OUT.exr PART.exr...", "the image to write, and the crops it is made of", 2,
                 std::numeric_limits<std::size_t>::max(), files);
+
   if (!parseOptions(
           "whit merge OUT.exr PART.exr... [options]",
           "Merges crops of one image, with their channels, which all crops must have. The "
@@ -26,10 +27,13 @@ int mergeCommand(const Words& words) {
           list, words)) {
     return 0;
   }
+
+  // The first file is written, and the others are read.
   requireWritable(files[0], {".exr"});
   Warnings warnings(common.render.strict);
   const MergedImage merged = mergeImages({files.begin() + 1, files.end()}, ImageLimits(), warnings);
   if (!common.quiet) tellWarnings(warnings);
+
   const WriteScope scope;
   writeExr(files[0], merged.image, merged.metadata, ExrStorage::zip, 1, merged.layers);
   return 0;

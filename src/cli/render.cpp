@@ -79,6 +79,7 @@ OptionList listOptions(RenderJob& job) {
             "a PNG to standard output; may be repeated (default: SCENE.png)",
             job.outputs)
       .shortName = "o";
+
   if (job.onTurntable) {
     list.value({"turns", "X", -1000, 1000}, "turns of the camera; below 0: the other way around",
                job.turns);
@@ -97,6 +98,7 @@ OptionList listOptions(RenderJob& job) {
                "frames of the animation and the camera path; FILE has #### for the number",
                job.frames);
   }
+
   list.value({"fps", "N", 0.001, 1e6}, "frames per second", job.fps);
   list.flag("resume",
             "keep images that are complete and were made with the same options of the same scene",
@@ -126,6 +128,7 @@ void checkStandardOutput(const RenderJob& job) {
 void checkBackground(const RenderJob& job) {
   refuseIf(job.exr == ExrStorage::dwaa && !keptChannels(job.common.render).empty(),
            "--exr dwaa is lossy for channels and alpha as well: give --exr zip, none or half");
+
   if (job.common.render.background.kind != Background::Kind::transparent) return;
   for (const std::string& output : job.outputs) {
     refuseIf(isJpeg(output) || isFilm(output),
@@ -137,6 +140,7 @@ void checkBackground(const RenderJob& job) {
 void checkChannels(const RenderJob& job) {
   const ChannelSet kept = job.common.render.channels;
   if (kept.empty()) return;
+
   bool written = false;
   for (const std::string& output : job.outputs) {
     const std::optional<Channel> channel = channelNamedBy(output, kept);
@@ -144,6 +148,7 @@ void checkChannels(const RenderJob& job) {
     refuseIf(channel == Channel::position,
              "'" + output + "': positions do not fit into a PNG: write an EXR");
   }
+
   refuseIf(!written,
            "--channels: expected an EXR to keep them in, or a PNG named by one, as out.depth.png");
 }
@@ -154,6 +159,8 @@ void checkFilm(const RenderJob& job) {
   refuseIf(job.frames.empty(), "a film needs --frames A..B");
   refuseIf(job.resume, "--resume keeps images, and a film is made as a whole");
   refuseIf(job.common.render.crop.has_value(), "--crop: a film shows the whole picture");
+
+  // Codecs store color at half the resolution.
   const ImageSize size = job.common.render.size.value_or(ImageSize());
   refuseIf(size.width % 2 != 0 || size.height % 2 != 0,
            "--size: the sides of a film are even numbers of pixels");
@@ -171,13 +178,16 @@ bool isOurPicture(const std::string& file) try {
 // A picture without -o goes to SCENE.png, and to a terminal that shows pictures. A model may have a
 // texture of that name, which is kept.
 void chooseOutputs(RenderJob& job) {
+  // Without -o the picture is shown as well, unless --quiet is given; otherwise only -o - shows it.
   const bool isPlain = job.outputs.empty();
   const bool isForTerminal = isPlain ? !job.common.quiet : job.toStandardOutput();
   if (isForTerminal && job.frames.empty() && !job.resume && job.json != kStandardOutput) {
     job.graphics = terminalGraphics();
   }
+
   if (job.graphics != TerminalGraphics::none) std::erase(job.outputs, kStandardOutput);
   if (!isPlain) return;
+
   refuseIf(!job.frames.empty(), "expected a file to write: -o FILM.mp4 or -o FRAMES####.png");
   const std::filesystem::path scene(parseSceneName(job.scenes[0]).file);
   const std::string file = scene.stem().string() + ".png";
@@ -200,21 +210,26 @@ void checkJob(RenderJob& job) {
   checkChannels(job);
   checkFilm(job);
   checkStandardOutput(job);
+
   for (const std::string& output : job.outputs) {
     refuseIf(job.resume && isJpeg(output),
              "--resume: a JPEG does not hold the options it was made with");
     if (output != kStandardOutput)
       requireWritable(output, {".exr", ".png", ".jpg", ".jpeg", kFilm});
+
+    // Frames need a place for their number in the file's name, and a single image has none.
     if (job.frames.empty()) {
       requireNoFrameName(output);
     } else if (!isFilm(output)) {
       frameName(output, 0);
     }
   }
+
   requireJsonWritable(job.json);
   if (job.makesFilm() && !hasFfmpeg()) {
     throwIo("ffmpeg, which makes films, is not in $PATH: write frames, as -o frame-####.png");
   }
+
   if (job.frames.empty()) return;
   parseFrameRange(job.frames);
   refuseIf(job.common.load.instant.seconds && !job.onTurntable,
@@ -235,12 +250,16 @@ Engine openFor(RenderJob& job, Progress* progress) {
   RenderOptions& options = job.common.render;
   const auto look = [&](const SceneDescription& scene) {
     ImageSize size = options.size.value_or(ImageSize{scene.width, scene.height});
+    // A film needs even sides.
     if (job.makesFilm()) {
       size = {std::max(size.width & ~1, 2), std::max(size.height & ~1, 2)};
       options.size = size;
     }
+
+    // A model gets a view that suits a turntable, unless the options choose one.
     const bool viewed = !options.camera.empty() || options.eye || options.at;
     if (!job.onTurntable || !scene.isModel || viewed) return;
+
     ModelView view = viewOf(scene);
     view.camera.fov = options.fov.value_or(view.camera.fov);
     job.turntable = aroundModel(scene, view, size.width, size.height);
@@ -248,12 +267,15 @@ Engine openFor(RenderJob& job, Progress* progress) {
     camera.up = options.up.value_or(camera.up);
     camera.orthographicHeight = options.ortho.value_or(camera.orthographicHeight);
   };
+
+  // Presets and the options that the scene states fill in what the user has not given.
   Engine engine(openAndTell(job.scenes[0], job.common, progress, look));
   engine.setOptions(options, job.common.given);
   options = engine.wantedOptions();
   checkBackground(job);
   checkFilmed(job, engine.scene());
 
+  // In a scene with a viewpoint, the camera turns around the point that it looks at.
   if (job.onTurntable && !job.turntable) {
     job.turntable = aroundTarget(chooseCamera(engine.scene(), options));
   }
@@ -261,19 +283,22 @@ Engine openFor(RenderJob& job, Progress* progress) {
   return engine;
 }
 
-// Two films where frames follow each other and both find room: one is written while the other is
-// traced.
+// Returns two films where frames follow each other and memory suffices: one is written while the
+// other is traced.
 std::vector<Film> openFilms(const RenderJob& job, const Scene& scene) {
   const RenderOptions& options = job.common.render;
   const std::uint64_t most = job.common.load.maxMemoryBytes;
   bool wantDisplay = job.graphics != TerminalGraphics::none;
   for (const std::string& output : job.outputs) wantDisplay |= extensionOf(output) != ".exr";
   std::vector<Film> films{makeFilm(scene, options, most)};
+
+  // A second film of this size fits if each takes at most half of the memory.
   try {
     if (!job.frames.empty()) films.push_back(makeFilm(scene, options, most / 2));
   } catch (const Error& limit) {
     if (limit.status() != ExitStatus::limit) throw;
   }
+
   for (Film& film : films) film.wantDisplay = wantDisplay;
   return films;
 }
@@ -287,6 +312,8 @@ class ImageWriter {
     run_ = summary();
     sceneDigest_ = digestOf(engine_.scene());
     aboutChannels_ = describeChannels(engine_.scene(), engine_.options().channels);
+
+    // A film is made of all frames, which go to ffmpeg one after the other.
     const auto film = std::ranges::find_if(job.outputs, isFilm);
     if (film == job.outputs.end()) return;
     const Image& image = films_[0].image;
@@ -300,9 +327,12 @@ class ImageWriter {
       camera_ = turned(*job_.turntable, job_.turns * frame / job_.turntableFrames);
       return;
     }
+
     const Stopwatch stopwatch;
     engine_.setTime(frame / job_.fps);
     engine_.update();
+
+    // A scene that has moved has another digest, by which --resume recognizes its images.
     const BakedMotion& motion = engine_.scene().motion;
     if (!motion.ofGeometry && !motion.ofLights()) return;
     run_.updateMs.push_back(stopwatch.ms());
@@ -334,6 +364,7 @@ class ImageWriter {
       receipt_ = std::move(picture.receipt);
       run_ = summary();  // with the options that were chosen
     }
+
     run_.frames.push_back(picture.stats);
     run_.imageHash = digestOf(film.image);
     startWriting(film, files, complete(std::move(picture.about)));
@@ -392,9 +423,12 @@ class ImageWriter {
         }
       }
     });
+
     std::ranges::copy_if(files, std::back_inserter(written_), std::not_fn(isFilm));
+
+    // A single film must be written before the next frame is traced into it.
     if (films_.size() == 1) writer_.finish();
-    film_ = (film_ + 1) % films_.size();  // the one before has been written
+    film_ = (film_ + 1) % films_.size();  // its previous frame has been written
   }
 
   const RenderJob& job_;
@@ -402,13 +436,13 @@ class ImageWriter {
   std::optional<Camera> camera_;  // of a turntable
   std::optional<Receipt> receipt_;
   std::vector<Film> films_;
-  std::size_t film_ = 0;  // that is traced next
+  std::size_t film_ = 0;  // the film that is traced next
   RunSummary run_;
   std::string sceneDigest_;
   ImageMetadata aboutChannels_;
   std::vector<std::string> written_;
   std::optional<FilmPipe> pipe_;
-  BackgroundWriter writer_;  // last: what it writes must outlive it
+  BackgroundWriter writer_;  // last, because what it writes must outlive it
 };
 
 void writeFilm(const RenderJob& job, ImageWriter& writer, Progress* progress) {
@@ -418,9 +452,12 @@ void writeFilm(const RenderJob& job, ImageWriter& writer, Progress* progress) {
     for (const std::string& output : job.outputs) {
       files.push_back(isFilm(output) ? output : frameName(output, frame));
     }
-    const auto kept = static_cast<double>(writer.kept());  // frames that take no time
+
+    // Frames that were kept take no time, so they do not count as progress.
+    const auto kept = static_cast<double>(writer.kept());
     reportProgress(progress, formatted("frame %d of %d..%d", frame, range.first, range.last),
                    (frame - range.first - kept) / (range.last - range.first + 1 - kept));
+
     writer.moveTo(frame);
     writer.write(files, nullptr, {{"frame", std::to_string(frame)}});
   }
@@ -432,6 +469,7 @@ void tellWritten(const ImageWriter& writer, double seconds) {
   if (files.size() == 1) what = files[0] == kStandardOutput ? "an image" : printable(files[0]);
   std::string kept;
   if (writer.kept() > 0) kept = ", kept " + std::to_string(writer.kept());
+
   std::fprintf(stderr, "wrote %s%s, %.1f s\n", what.c_str(), kept.c_str(), seconds);
 }
 
@@ -445,7 +483,7 @@ void writeReport(const RenderJob& job, const ImageWriter& writer) {
   writeJson(job.json, json);
 }
 
-// The command without these options and their values.
+// Returns the command without these options and their values.
 std::string commandWithout(const std::vector<std::string>& options, const Words& words) {
   std::string command = "whit render";
   bool isValue = false;
@@ -453,6 +491,8 @@ std::string commandWithout(const std::vector<std::string>& options, const Words&
     const bool isLeftOut =
         std::ranges::find(options, word.substr(0, word.find('='))) != options.end();
     if (!isLeftOut && !isValue) command += " " + printable(quoted(word));
+
+    // The word behind an option without '=' is its value.
     isValue = isLeftOut && word.find('=') == std::string::npos;
   }
   return command;
@@ -464,10 +504,14 @@ int render(RenderJob& job) {
   checkJob(job);
 
   auto progress = makeProgressBar(job.common);
+
+  // Only --frames of a scene follow its animation and camera path; a turntable moves the camera
+  // itself.
   job.common.load.instant.plays = job.common.load.instant.alongPath =
       !job.frames.empty() && !job.onTurntable;
   Engine engine = openFor(job, progress.get());
   ImageWriter writer(job, engine, progress.get());
+
   if (job.frames.empty()) {
     writer.write(job.outputs, progress.get());
   } else {
@@ -475,6 +519,7 @@ int render(RenderJob& job) {
   }
   writer.finish();
   progress.reset();
+
   const bool traced = !writer.run().frames.empty();  // else all images were there
   if (traced && !job.common.quiet) {
     std::fputs(stageTable(writer.run()).c_str(), stderr);
@@ -485,11 +530,13 @@ int render(RenderJob& job) {
       std::fprintf(stderr, "exposure %g EV\n", static_cast<double>(writer.exposure().ev));
     }
   }
+
   if (job.graphics != TerminalGraphics::none) {
     const WriteScope scope;
     std::fputs(terminalPicture(writer.firstPicture(), job.graphics).c_str(), stdout);
     std::fflush(stdout);
   }
+
   if (!job.common.quiet && !job.outputs.empty()) tellWritten(writer, stopwatch.ms() / 1000);
   if (!job.json.empty()) writeReport(job, writer);
   return 0;
@@ -508,6 +555,7 @@ int turntableCommand(const Words& words) {
   job.onTurntable = true;
   job.common.render.quality = Quality::good;
   if (!parseOptions(kTurntableUsage, kTurntableSummary, listOptions(job), words)) return 0;
+
   if (job.frames.empty()) job.frames = "0.." + std::to_string(job.turntableFrames - 1);
   return render(job);
 }

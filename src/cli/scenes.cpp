@@ -22,8 +22,10 @@ std::string aboutOf(const std::string& text) {
   for (std::string line; std::getline(lines, line) && line.starts_with("//");) {
     comment += line.substr(2);
   }
+
   const std::size_t end =
       std::min({comment.find(": "), comment.find(". "), comment.find_last_of('.')});
+  // The first character is the blank behind the slashes.
   return comment.substr(std::min<std::size_t>(comment.size(), 1), end - 1);
 }
 
@@ -32,6 +34,7 @@ std::string aboutOf(const std::string& text) {
 int scenesCommand(const Words& words) {
   const OptionList list;
   if (!parseOptions("whit scenes", "Lists the shipped scenes.", list, words)) return 0;
+
   for (const std::filesystem::path& scene : shippedScenes()) {
     const std::string about = aboutOf(readTextFile(scene.string(), kSceneBytesLimit));
     std::printf("%-16s%s\n", printable(scene.stem().string()).c_str(), printable(about).c_str());

@@ -22,8 +22,8 @@ std::string variable(const char* name) {
   return value ? value : "";
 }
 
-// The number of columns that the picture takes, whose cells have this size in pixels. The line
-// below it stays free for the prompt.
+// Returns the number of columns that the picture takes if a cell has this size in pixels. The line
+// below the picture stays free for the prompt.
 int columnsOf(const DisplayImage& picture, const winsize& terminal, double width, double height) {
   const double fits = std::min({1.0, terminal.ws_col * width / picture.width,
                                 (terminal.ws_row - 1) * height / picture.height});
@@ -49,6 +49,8 @@ std::string halfBlocks(const DisplayImage& picture, int columns) {
   const auto cell = [&](int column, int row) {
     return static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column);
   };
+
+  // A cell has the mean color of the pixels that fall into it, on black.
   std::vector<Vec3d> sums(cell(0, rows));
   std::vector<double> pixels(sums.size());
   const std::uint8_t* rgba = picture.rgba.data();
@@ -60,10 +62,13 @@ std::string halfBlocks(const DisplayImage& picture, int columns) {
       ++pixels[i];
     }
   }
+
   const auto color = [&](int ground, std::size_t i) {
     const Vec3d mean = sums[i] * (1 / pixels[i]);
     return formatted("\x1b[%d;2;%.0f;%.0f;%.0fm", ground, mean.x, mean.y, mean.z);
   };
+
+  // The foreground (38) colors the upper half of a character, the background (48) its lower half.
   std::string text;
   for (int row = 0; row < rows; row += 2) {
     for (int column = 0; column < columns; ++column) {
@@ -81,7 +86,8 @@ std::string halfBlocks(const DisplayImage& picture, int columns) {
 TerminalGraphics terminalGraphics() {
   const std::string term = variable("TERM"), program = variable("TERM_PROGRAM");
   if (!isatty(STDOUT_FILENO) || term.empty() || term == "dumb") return TerminalGraphics::none;
-  // The variables of the terminal around tmux and screen say nothing about these.
+
+  // Inside tmux and screen, these variables describe the outer terminal and not tmux or screen.
   if (variable("TMUX").empty() && variable("STY").empty()) {
     constexpr int kKonsoleWithKitty = 220400;
     const bool isIterm = program == "iTerm.app" || program == "WezTerm" || program == "mintty" ||
@@ -91,6 +97,7 @@ TerminalGraphics terminalGraphics() {
                          std::atoi(variable("KONSOLE_VERSION").c_str()) >= kKonsoleWithKitty;
     if (isIterm || isKitty) return isIterm ? TerminalGraphics::iterm : TerminalGraphics::kitty;
   }
+
   const std::string color = variable("COLORTERM");
   const bool hasColors = color == "truecolor" || color == "24bit";
   return hasColors ? TerminalGraphics::halfBlocks : TerminalGraphics::none;
@@ -101,13 +108,17 @@ std::string terminalPicture(const DisplayImage& picture, TerminalGraphics graphi
   if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0 || size.ws_row == 0) {
     size = {24, 80, 0, 0};
   }
+
   if (graphics == TerminalGraphics::halfBlocks) {
     return halfBlocks(picture, columnsOf(picture, size, 1, 2));
   }
+
+  // A terminal that does not report its size in pixels is taken to have cells of 8x16 pixels.
   const bool isKnown = size.ws_xpixel > 0 && size.ws_ypixel > 0;
   const double width = isKnown ? static_cast<double>(size.ws_xpixel) / size.ws_col : 8;
   const double height = isKnown ? static_cast<double>(size.ws_ypixel) / size.ws_row : 16;
   const int columns = columnsOf(picture, size, width, height);
+
   const std::string png = encodePng(picture), data = base64(png);
   if (graphics == TerminalGraphics::kitty) return kittyText(data, columns);
   return formatted("\x1b]1337;File=inline=1;size=%zu;width=%d:", png.size(), columns) + data +

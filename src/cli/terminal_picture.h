@@ -1,4 +1,4 @@
-// Pictures on the terminal that standard output is.
+// Pictures on the terminal that shows standard output.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ namespace whit::cli {
 
 enum class TerminalGraphics { none, kitty, iterm, halfBlocks };
 
-// The best way of the terminal on standard output, as the environment tells.
+// Returns the best method of the terminal on standard output, judging by the environment.
 TerminalGraphics terminalGraphics();
 
 // The picture as text for that terminal, reduced where it is larger.
