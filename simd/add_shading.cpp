@@ -14,12 +14,16 @@ void AddShading(Chunk& c) {
   const UnshadowedColumns unshadowed = c.unshadowed;
   const RadianceColumns radiance = c.radiance;
   const size_t n = c.n;
+
   for (size_t i = 0; i < n; i += hn::Lanes(d)) {
     const MF visible = hn::Gt(hn::Load(d, unshadowed.visible + i), hn::Zero(d));
     if (hn::AllFalse(d, visible)) continue;
+
     const V3 light = Load3(unshadowed.r, unshadowed.g, unshadowed.b, i);
     const V3 sum = Load3(radiance.r, radiance.g, radiance.b, i);
-    // Selected, not multiplied by zero: a dark slot's light may be stale.
+
+    // The sum is selected, not multiplied by zero, because the light of an invisible slot may be
+    // stale.
     Store3(Select3(visible, Add3(sum, light), sum), radiance.r, radiance.g, radiance.b, i);
   }
 }

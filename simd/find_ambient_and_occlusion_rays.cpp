@@ -18,25 +18,37 @@ void FindAmbientAndOcclusionRays(Chunk& c) {
   const SurfelColumns surfels = c.surfels;
   const UnshadowedColumns unshadowed = c.unshadowed;
   const ShadowColumns shadows = c.shadows;
+
   const OffsetMethod offset = c.options().shading.offset;
   const bool hidden = c.has(Feature::transmission), lifted = c.has(Feature::lift);
   const bool coverage = c.has(Feature::coverage);
+
+  // Each of the samples carries an equal share of the ambient light.
   const VF zero = hn::Zero(d), share = hn::Set(d, 1.0f / static_cast<float>(c.lightSamples));
   const VF radius = hn::Set(d, c.tables().ambient.occlusion);
   const LobeSampling points = lightSampling(c.depth, c.lightSamples, c.sampleNumber);
   const ReflectedAmbient ambient(c);
+
   size_t count = 0;
   for (size_t i = 0; i < c.n; i += hn::Lanes(d)) {
+    // Slots without an occlusion ray stay invisible; checkShadows writes the others.
     hn::Store(zero, d, unshadowed.visible + i);
+
+    // Misses and surfaces inside a dielectric of higher priority reflect nothing.
     const VU material = hn::Load(du, surfels.material + i);
     MF live = hn::RebindMask(d, hn::Ne(material, hn::Set(du, kMiss)));
     if (hidden) live = hn::AndNot(HasFlags(hn::Load(du, surfels.flags + i), kHidden), live);
     if (hn::AllFalse(d, live)) continue;
+
+    // Occlusion rays are distributed by the cosine to the shading normal.
     const V3 ng = Load3(surfels.ngX, surfels.ngY, surfels.ngZ, i);
     const V3 ns = Load3(surfels.nsX, surfels.nsY, surfels.nsZ, i);
     const VU path = hn::Load(du, rays.path + i);
     const V3 way =
         CosineLobes(ns).Direction(LightPoints(path, points, c.lightNumber, c.lightSample));
+
+    // A direction below the facet is occluded by the surface itself, unless the shading terminator
+    // is smoothed: then the ray starts above the facet (Hanika 2021).
     V3 start = Load3(surfels.posX, surfels.posY, surfels.posZ, i);
     MF front = hn::Gt(Dot(ng, way), zero);
     if (lifted) {
@@ -44,16 +56,20 @@ void FindAmbientAndOcclusionRays(Chunk& c) {
       front = hn::Or(front, hn::Gt(MaxComponent(Abs3(lift)), zero));
       start = Add3(start, lift);
     }
+
+    // The surface reflects this light if nothing is in the way.
     V3 radiance = Scale3(ambient.At(i, live), share);
     if (coverage) radiance = Scale3(radiance, hn::Load(d, surfels.coverage + i));
     live = hn::And(live, hn::And(front, hn::Gt(MaxComponent(radiance), zero)));
     if (hn::AllFalse(d, live)) continue;
+
     Store3(radiance, unshadowed.r, unshadowed.g, unshadowed.b, i);
     const V3 origin = RayOrigin(offset, start, ng, Load3(rays.dirX, rays.dirY, rays.dirZ, i),
                                 LoadClearance(surfels, i), 1.0f);
     const VU slot = hn::Iota(du, static_cast<uint32_t>(i));
     AppendShadowRays(shadows, live, origin, way, radius, slot, count);
   }
+
   c.shadowCount = count;
 }
 

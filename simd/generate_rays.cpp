@@ -22,8 +22,12 @@ HWY_INLINE DiskPoints DiskPointsOf(const UnitPoints& square) {
   const FloatTag d;
   const VF one = hn::Set(d, 1.0f), two = hn::Set(d, 2.0f);
   const VF a = MulThenSub(two, square.u, one), b = MulThenSub(two, square.v, one);
+
+  // The larger coordinate becomes the radius, so squares about the center become circles.
   const MF byA = hn::Gt(hn::Abs(a), hn::Abs(b));
   const VF radius = hn::IfThenElse(byA, a, b), other = hn::IfThenElse(byA, b, a);
+
+  // The smaller one becomes the angle, at most an eighth of a turn from the axis.
   const VF divisor = hn::IfThenElse(hn::Eq(radius, hn::Zero(d)), one, radius);
   const VF turn = hn::Mul(hn::Set(d, 0.785398163f), hn::Div(other, divisor));
   const VF along = hn::Mul(radius, hn::Cos(d, turn)), across = hn::Mul(radius, hn::Sin(d, turn));
@@ -62,13 +66,15 @@ class Projector {
     for (size_t i = 0; i < 8; ++i) lens_[i] = static_cast<float>(camera.distortion[i]);
   }
 
-  // Directions along right, up and forward through points x, y pixels right of and above the
-  // center, and where there is something to see.
+  // Returns the directions along right, up and forward through the points x, y pixels right of and
+  // above the center. Clears the lanes of `seen` that see nothing.
   HWY_INLINE V3 Bend(VF x, VF y, MF& seen) const {
     const FloatTag d;
     if (camera_.projection == Projection::directions) {
       return Towards(Azimuth(x), Entry(camera_.elevations, hn::Neg(y), camera_.viewHeight));
     }
+
+    // The other projections take tangents, radians or focal lengths instead of pixels.
     x = hn::Mul(x, hn::Set(d, static_cast<float>(length(camera_.right))));
     y = hn::Mul(y, hn::Set(d, static_cast<float>(length(camera_.up))));
     if (camera_.projection == Projection::panorama) return Towards(x, y);
@@ -76,7 +82,7 @@ class Projector {
     return Undistorted(x, hn::Neg(y), seen);
   }
 
-  // Radians to the right of the view, of projections by azimuth and elevation.
+  // Returns radians to the right of the view, for projections by azimuth and elevation.
   HWY_INLINE VF Azimuth(VF x) const {
     if (camera_.projection == Projection::directions) {
       return Entry(camera_.azimuths, x, camera_.viewWidth);
@@ -92,30 +98,43 @@ class Projector {
   HWY_INLINE V3 Undistorted(VF u, VF v, MF& seen) const {
     const FloatTag d;
     const VF one = hn::Set(d, 1.0f), two = hn::Set(d, 2.0f), zero = hn::Zero(d);
+
+    // Newton's method starts at the distorted point.
     VF x = u, y = v;
     for (int step = 0;; ++step) {
       const VF x2 = hn::Mul(x, x), y2 = hn::Mul(y, y), r2 = hn::Add(x2, y2);
       const VF twoXY = hn::Mul(two, hn::Mul(x, y));
+
+      // The radial part of OpenCV's model scales by a quotient of polynomials in r^2.
       const auto polynomial = [&](VF c0, VF c1, VF c2)
                                   HWY_ATTR { return MulThenAdd(MulThenAdd(c2, r2, c1), r2, c0); };
       const VF above = MulThenAdd(polynomial(Lens(0), Lens(1), Lens(4)), r2, one);
       const VF below = MulThenAdd(polynomial(Lens(5), Lens(6), Lens(7)), r2, one);
       const VF scale = hn::Div(above, below);
+
+      // The scale changes by `slope` * r with r, and the distorted radius by `radial`.
       const VF change = NegMulThenAdd(scale, polynomial(Lens(5), Lens(6, 2), Lens(7, 3)),
                                       polynomial(Lens(0), Lens(1, 2), Lens(4, 3)));
       const VF slope = hn::Mul(two, hn::Div(change, below));
       const VF radial = MulThenAdd(slope, r2, scale);
+
+      // The residual is the model's image of (x, y), with the tangential part, minus (u, v).
       const auto off = [&](VF at, VF at2, VF p, VF q, VF wanted) HWY_ATTR {
         const VF tangential = MulThenAdd(p, twoXY, hn::Mul(q, MulThenAdd(two, at2, r2)));
         return hn::Add(MulThenSub(at, scale, wanted), tangential);
       };
       const VF offX = off(x, x2, Lens(2), Lens(3), u), offY = off(y, y2, Lens(3), Lens(2), v);
+
+      // The result counts if it is precise and does not lie beyond a fold of the picture.
       if (step == kLensSteps) {
         const VF error = hn::Max(hn::Abs(offX), hn::Abs(offY));
         const VF least = hn::Min(hn::Min(scale, below), radial);
         seen = hn::And(hn::Lt(error, Lens(8)), hn::Gt(least, zero));
         return {x, hn::Neg(y), one};
       }
+
+      // The step inverts the radial part's Jacobian, scale * I + slope * p * p^T, by Sherman and
+      // Morrison's formula.
       const VF share = hn::Div(hn::Mul(slope, MulThenAdd(x, offX, hn::Mul(y, offY))), radial);
       x = hn::Sub(x, hn::Div(NegMulThenAdd(x, share, offX), scale));
       y = hn::Sub(y, hn::Div(NegMulThenAdd(y, share, offY), scale));
@@ -124,10 +143,14 @@ class Projector {
 
   HWY_INLINE VF FisheyeAngle(VF radius, MF& seen) const {
     const FloatTag d;
+    // In an equisolid projection r = 2 sin(angle / 2).
     if (camera_.projection == Projection::equisolid) {
       const VF half = hn::Asin(d, hn::Mul(radius, hn::Set(d, 0.5f)));
       return hn::Add(half, half);
     }
+
+    // The others have OpenCV's r = angle * (1 + k1 angle^2 + k2 angle^4 + ...), which Newton's
+    // method inverts.
     VF angle = radius;
     for (int step = 0;; ++step) {
       const VF a2 = hn::Mul(angle, angle);
@@ -135,12 +158,15 @@ class Projector {
         const VF inner = MulThenAdd(MulThenAdd(c4, a2, c3), a2, c2);
         return MulThenAdd(MulThenAdd(inner, a2, c1), a2, hn::Set(d, 1.0f));
       };
+
       const VF off = MulThenSub(angle, polynomial(Lens(0), Lens(1), Lens(2), Lens(3)), radius);
       const VF slope = polynomial(Lens(0, 3), Lens(1, 5), Lens(2, 7), Lens(3, 9));
+
       if (step == kLensSteps) {
         seen = hn::And(hn::Lt(hn::Abs(off), Lens(8)), hn::Gt(slope, hn::Zero(d)));
         return angle;
       }
+
       angle = hn::Sub(angle, hn::Div(off, slope));
     }
   }
@@ -149,6 +175,8 @@ class Projector {
     const FloatTag d;
     const VF radius = hn::Sqrt(MulThenAdd(x, x, hn::Mul(y, y)));
     VF angle = FisheyeAngle(radius, seen);
+
+    // Nothing is seen outside the image circle.
     seen = hn::And(seen, hn::Le(angle, hn::Set(d, static_cast<float>(camera_.limit))));
     angle = hn::IfThenElseZero(seen, angle);
     const VF divisor = hn::Max(radius, hn::Set(d, 1e-30f));
@@ -163,20 +191,25 @@ class Projector {
             hn::Mul(hn::Cos(d, azimuth), level)};
   }
 
-  // In radians. The table is stretched over `pixels` pixels; `at` counts them from the center.
+  // Returns radians. The table is stretched over `pixels` pixels; `at` counts them from the center.
   HWY_INLINE static VF Entry(const std::vector<float>& degrees, VF at, int pixels) {
     const FloatTag d;
     const IntTag di;
     const int last = static_cast<int>(degrees.size()) - 1;
     const auto scale = static_cast<float>(static_cast<double>(degrees.size()) / pixels);
+
+    // Entries stand for the centers of equal spans of pixels; the first and the last one hold
+    // beyond them.
     const VF pixel = hn::Add(at, hn::Set(d, static_cast<float>(pixels) / 2));
     VF place = MulThenSub(pixel, hn::Set(d, scale), hn::Set(d, 0.5f));
     place = hn::Min(hn::Max(place, hn::Zero(d)), hn::Set(d, static_cast<float>(last)));
+
     const VI before = hn::ConvertTo(di, place);
     const VI after = hn::Min(hn::Add(before, hn::Set(di, 1)), hn::Set(di, last));
     const VF a = hn::GatherIndex(d, degrees.data(), before);
     const VF b = hn::GatherIndex(d, degrees.data(), after);
     const VF share = hn::Sub(place, hn::ConvertTo(d, before));
+
     constexpr float kRadians = 0.0174532925f;
     return hn::Mul(MulThenAdd(hn::Sub(b, a), share, a), hn::Set(d, kRadians));
   }
@@ -185,7 +218,7 @@ class Projector {
   std::array<float, 9> lens_{0, 0, 0, 0, 0, 0, 0, 0, static_cast<float>(kLensError)};
 };
 
-// Numbers of a frame's views, twelve each.
+// Returns the start and the axes of each view of the frame, twelve numbers each.
 std::array<float, 72> ViewNumbers(const CameraFrame& camera) {
   std::array<float, 72> numbers{};
   float* to = numbers.data();
@@ -211,47 +244,62 @@ void GenerateRays(Chunk& c) {
   const FloatTag d;
   const IntTag di;
   const UintTag du;
+
   const CameraFrame& camera = c.frame->camera;
   const RayColumns rays = c.rays;
   const uint32_t* const pixels = c.pixels.data() + c.first;
   const size_t n = c.n;
   const auto firstSlot = static_cast<uint32_t>(c.first);
   const uint32_t sampleNumber = c.sampleNumber, seed = c.frame->seed;
+
   const bool media = c.has(Feature::transmission), cones = c.has(Feature::cones);
   const bool streams = c.has(Feature::streams);
+
+  // All lanes share these unless the picture consists of several views.
   V3 eye = Broadcast3(Vec3f(camera.eye)), forward = Broadcast3(Vec3f(camera.forward));
   V3 right = Broadcast3(Vec3f(camera.right)), up = Broadcast3(Vec3f(camera.up));
   const auto coneWidth = static_cast<float>(pixelCone(camera).width);
+
   // Whole pixels minus half the size are exact in float; the sample's place is added last.
   const VF shiftX = hn::Set(d, c.sample.x), shiftY = hn::Set(d, c.sample.y);
   const VF centerX = hn::Set(d, static_cast<float>(camera.centerX));
   const VF centerY = hn::Set(d, static_cast<float>(camera.centerY));
   const VF skew = hn::Set(d, static_cast<float>(camera.skew));
+
+  // Projections bend rays along the unit vectors of right and up.
   const VF widthOfPixel = hn::Set(d, static_cast<float>(1 / length(camera.right)));
   const VF heightOfPixel = hn::Set(d, static_cast<float>(1 / length(camera.up)));
   const Projector projector(camera);
+
   const std::array<float, 72> views = ViewNumbers(camera);
   const int columns = camera.viewColumns, rows = camera.viewRows;
   const bool isStraight = camera.isStraight();
   const VF one = hn::Set(d, 1.0f);
+
   const Lens lens(camera);
   const bool hasLens = camera.aperture > 0;
   const LobeSampling lensSampling = lightSampling(0, 1, sampleNumber);
+
   const bool eyesTurn = camera.turning > 0;
   const V3 turnRight = Broadcast3(Vec3f(normalized(camera.right) * camera.turning));
   const V3 turnForward = Broadcast3(Vec3f(camera.forward * camera.turning));
   VF side = one;
+
   for (size_t i = 0; i < n; i += hn::Lanes(d)) {
     const VU packed = hn::LoadU(du, pixels + i);
     VI px = hn::BitCast(di, hn::And(packed, hn::Set(du, 0xFFFFu)));
     VI py = hn::BitCast(di, hn::ShiftRight<16>(packed));
+
+    // In a stereo pair or a cube map the pixel belongs to one of the views.
     if (!camera.views.empty()) {
       const VI row = ViewAt(py, camera.viewHeight, rows);
       const VI column = ViewAt(px, camera.viewWidth, columns);
       const VI view = hn::Add(hn::Mul(row, hn::Set(di, columns)), column);
+
       // The left eye has the first view.
       const MF isLeft = hn::RebindMask(d, hn::Eq(view, hn::Zero(di)));
       side = hn::IfThenElse(isLeft, hn::Neg(one), one);
+
       VI at = hn::Mul(view, hn::Set(di, 12));
       for (V3* v : {&eye, &forward, &right, &up}) {
         for (VF* to : {&v->x, &v->y, &v->z}) {
@@ -260,9 +308,13 @@ void GenerateRays(Chunk& c) {
         }
       }
     }
+
+    // The place counts pixels right of and above the principal point.
     VF x = hn::Add(hn::Sub(hn::ConvertTo(d, px), centerX), shiftX);
     const VF y = hn::Sub(hn::Sub(centerY, hn::ConvertTo(d, py)), shiftY);
     x = MulThenAdd(skew, y, x);
+
+    // Orthographic rays differ in their starts, all others in their directions.
     MF seen = hn::Eq(x, x);
     V3 origin = eye, direction = forward;
     if (camera.orthographic) {
@@ -274,23 +326,33 @@ void GenerateRays(Chunk& c) {
       direction = MulAdd3(right, hn::Mul(along.x, widthOfPixel), Scale3(forward, along.z));
       direction = MulAdd3(up, hn::Mul(along.y, heightOfPixel), direction);
     }
+
+    // Omni-directional stereo (Google 2015, "Rendering omni-directional stereo content"): the eyes
+    // stand on the tangent to the circle where the azimuth meets it.
     if (eyesTurn) {
       const VF azimuth = projector.Azimuth(x);
       const VF back = hn::Neg(hn::Mul(hn::Sin(d, azimuth), side));
       origin = MulAdd3(turnRight, hn::Mul(hn::Cos(d, azimuth), side), origin);
       origin = MulAdd3(turnForward, back, origin);
     }
+
     if (hasLens) {
       const VU path = StreamOfPixel(packed, sampleNumber, seed);
       lens.Bend(DiskPointsOf(SaltedPoints(path, lensSampling, kLensSalt, 0)), origin, direction);
     }
+
+    // A ray that sees nothing has the direction 0.
     if (hasLens || !camera.orthographic) direction = Normalize3(direction);
     if (!isStraight) direction = Select3(seen, direction, Broadcast3(Vec3f()));
+
     Store3(origin, rays.orgX, rays.orgY, rays.orgZ, i);
     Store3(direction, rays.dirX, rays.dirY, rays.dirZ, i);
+
+    // A primary ray has the weight 1, and its parent is the slot of its pixel.
     Store3({one, one, one}, rays.weightR, rays.weightG, rays.weightB, i);
     hn::Store(one, d, rays.throughput + i);
     hn::Store(hn::Iota(du, firstSlot + static_cast<uint32_t>(i)), du, rays.parent + i);
+
     if (media) hn::Store(hn::Set(du, camera.media), du, rays.media + i);
     if (cones) hn::Store(hn::Set(d, coneWidth), d, rays.cone + i);
     if (streams) hn::Store(StreamOfPixel(packed, sampleNumber, seed), du, rays.path + i);

@@ -32,32 +32,42 @@ HWY_INLINE Vec3Of<D> ToUnit(D d, const SphereInverse& sphere, const Vec3Of<D>& v
             hn::Mul(v.y, hn::Set(d, sphere.rows[1][1])),
             hn::Mul(v.z, hn::Set(d, sphere.rows[2][2]))};
   }
+
   const auto row = [&](const double* r) HWY_ATTR {
     return DotOf<D>({hn::Set(d, r[0]), hn::Set(d, r[1]), hn::Set(d, r[2])}, v);
   };
   return {row(sphere.rows[0]), row(sphere.rows[1]), row(sphere.rows[2])};
 }
 
-// The octahedral map of sphereWeights in src/bake/sphere.cpp.
+// Stores the octahedral map of a point of the sphere. The scalar reference is sphereWeights in
+// src/bake/sphere.cpp.
 template <class D>
 HWY_INLINE void StoreWeights(D d, const Vec3Of<D>& p, size_t i, const SphereHits& to) {
   const hn::Rebind<float, D> df;
   const auto one = hn::Set(d, 1.0), zero = hn::Zero(d);
+
+  // The point is projected onto the octahedron |x| + |y| + |z| = 1.
   const auto sum = hn::Add(hn::Add(hn::Abs(p.x), hn::Abs(p.y)), hn::Abs(p.z));
   const auto inverse = hn::Div(one, sum), x = hn::Mul(p.x, inverse), y = hn::Mul(p.y, inverse);
+
+  // The lower half is folded outwards over the edges of the upper one.
   const auto below = hn::Lt(p.z, zero);
   const auto flatX = hn::IfThenElse(below, hn::CopySign(hn::Sub(one, hn::Abs(y)), x), x);
   const auto flatY = hn::IfThenElse(below, hn::CopySign(hn::Sub(one, hn::Abs(x)), y), y);
+
+  // The square is shrunk into the interior of a triangle's weights.
   const auto begin = hn::Set(d, kSphereWeightBegin), scale = hn::Set(d, kSphereWeightScale);
   const auto store = [&](hn::Vec<D> flat, float* column) HWY_ATTR {
     const auto weight = MulThenAdd(hn::Add(flat, one), scale, begin);
     hn::StoreU(hn::DemoteTo(df, weight), df, column + i);
   };
+
   store(flatX, to.u);
   store(flatY, to.v);
 }
 
-// The scalar reference is meetSphere in src/bake/sphere.cpp.
+// Intersects the rays of one vector, from lane i of the packet on, and returns the bits of those
+// that hit. The scalar reference is meetSphere in src/bake/sphere.cpp.
 template <class D>
 HWY_INLINE uint32_t MeetLanes(D d, const SphereInverse& sphere, const float* words, size_t width,
                               size_t i, const int* valid, const float* after, const float* end,
@@ -66,11 +76,15 @@ HWY_INLINE uint32_t MeetLanes(D d, const SphereInverse& sphere, const float* wor
   const auto load = [&](size_t column) HWY_ATTR {
     return hn::PromoteTo(d, hn::LoadU(df, words + column * width + i));
   };
+
   const Vec3Of<D> from{hn::Sub(load(packet_column::orgX), hn::Set(d, sphere.center[0])),
                        hn::Sub(load(packet_column::orgY), hn::Set(d, sphere.center[1])),
                        hn::Sub(load(packet_column::orgZ), hn::Set(d, sphere.center[2]))};
   const Vec3Of<D> along{load(packet_column::dirX), load(packet_column::dirY),
                         load(packet_column::dirZ)};
+
+  // Where the sphere is the unit sphere, the point of the line that is nearest to the center
+  // decides about a hit without cancellation (Haines et al. 2019).
   const Vec3Of<D> f = ToUnit(d, sphere, from), v = ToUnit(d, sphere, along);
   const auto one = hn::Set(d, 1.0), zero = hn::Zero(d);
   const auto a = DotOf<D>(v, v), b = hn::Neg(DotOf<D>(f, v)), inverse = hn::Div(one, a);
@@ -78,29 +92,40 @@ HWY_INLINE uint32_t MeetLanes(D d, const SphereInverse& sphere, const float* wor
   const Vec3Of<D> nearest{MulThenAdd(v.x, middle, f.x), MulThenAdd(v.y, middle, f.y),
                           MulThenAdd(v.z, middle, f.z)};
   const auto inside = hn::Sub(one, DotOf<D>(nearest, nearest));
+
   const auto met = hn::Ge(inside, zero);
   if (hn::AllFalse(d, met)) return 0;
+
+  // The root of larger magnitude is q / a; the other one follows from the product of both, so that
+  // neither suffers from cancellation.
   const auto root = hn::Sqrt(hn::Mul(a, hn::IfThenElseZero(met, inside)));
   const auto q = hn::Add(b, hn::CopySign(root, b));
   const auto first = hn::Div(hn::Sub(DotOf<D>(f, f), one), q), second = hn::Mul(q, inverse);
   const auto low = hn::Min(first, second), high = hn::Max(first, second);
+
+  // The hit is the nearer root beyond `after`, rounded to a float as Embree keeps it.
   const auto start = hn::PromoteTo(d, hn::LoadU(df, after + i));
   const auto t = hn::IfThenElse(hn::Gt(low, start), low, high);
   const auto there = hn::And(hn::And(met, hn::Ne(q, zero)), hn::Gt(t, start));
   const auto rounded = hn::DemoteTo(df, hn::IfThenElse(there, t, hn::NaN(d)));
   hn::StoreU(rounded, df, to.t + i);
+
+  // The hit counts for valid rays that do not end before it.
   const hn::Rebind<int32_t, D> di;
   const auto asks = hn::RebindMask(df, hn::Ne(hn::LoadU(di, valid + i), hn::Zero(di)));
   uint8_t bits[8] = {};  // as many as masks of any vector may store
   hn::StoreMaskBits(df, hn::And(asks, hn::Le(rounded, hn::LoadU(df, end + i))), bits);
+
   if (bits[0] != 0 && to.u) {
     StoreWeights(d, {MulThenAdd(v.x, t, f.x), MulThenAdd(v.y, t, f.y), MulThenAdd(v.z, t, f.z)}, i,
                  to);
   }
+
   return uint32_t{bits[0]} << i;
 }
 
-// Vectors without a ray that asks are passed over: Embree asks for single rays of packets, too.
+// Vectors without a valid ray are skipped, because Embree also calls this for single rays of
+// packets.
 template <size_t kWidth>
 HWY_INLINE uint32_t MeetPacket(const SphereInverse& sphere, const float* words, size_t width,
                                const int* valid, const float* after, const float* end,
@@ -108,12 +133,14 @@ HWY_INLINE uint32_t MeetPacket(const SphereInverse& sphere, const float* words, 
   const hn::CappedTag<double, kWidth> d;
   const size_t lanes = hn::Lanes(d);
   static_assert(hn::MaxLanes(d) <= 8);
+
   uint32_t met = 0;
   for (size_t i = 0; i < width; i += lanes) {
     int any = 0;
     for (size_t lane = 0; lane < lanes; ++lane) any |= valid[i + lane];
     if (any != 0) met |= MeetLanes(d, sphere, words, width, i, valid, after, end, to);
   }
+
   return met;
 }
 

@@ -6,15 +6,15 @@
 
 namespace whit::simd {
 
-// From the world, or the space of a geometry, to the unit sphere: rows * (point - center).
+// The map from the world, or the space of a geometry, to the unit sphere: rows * (point - center).
 struct SphereInverse {
   double rows[3][3];
   double center[3];
-  bool diagonal;  // nothing else in the rows
+  bool diagonal;  // the rows are 0 off their diagonal
 };
 
-// A ray's hit: its distance and the weights of the point (bake/sphere.h), unless nobody asks for
-// them (null).
+// Columns of the rays' hits: their distances and the weights of their points (bake/sphere.h). The
+// weights are null where nobody needs them.
 struct SphereHits {
   float *t, *u, *v;
 };
@@ -26,6 +26,7 @@ struct SphereHits {
 using SphereMeeter = std::uint32_t (*)(const SphereInverse& sphere, const float* words,
                                        std::size_t width, const int* valid, const float* after,
                                        const float* end, const SphereHits& to);
+
 // Returns the kernel for the chosen target.
 SphereMeeter findMeetSphere();
 

@@ -38,26 +38,31 @@ constexpr CompactOrders makeCompactOrders() {
 
 alignas(64) inline constexpr CompactOrders kCompactOrder = makeCompactOrders();
 
-// Writes whole vectors; what lies behind the live lanes is overwritten by the next one.
+// Writes whole vectors. The next vector overwrites what lies behind the live lanes.
 class Compactor {
  public:
   HWY_INLINE explicit Compactor(MF live)
       : order_(OrderOf(live)), count_(hn::CountTrue(FloatTag(), live)) {}
+
   HWY_INLINE void Store(VF v, float* to) const { hn::StoreU(Compacted(v), FloatTag(), to); }
+
   HWY_INLINE void Store(VU v, uint32_t* to) const {
     const UintTag du;
     hn::StoreU(hn::BitCast(du, Compacted(hn::BitCast(FloatTag(), v))), du, to);
   }
+
   HWY_INLINE void Store(const V3& v, float* x, float* y, float* z, size_t at) const {
     Store(v.x, x + at);
     Store(v.y, y + at);
     Store(v.z, z + at);
   }
+
   HWY_INLINE size_t Count() const { return count_; }
 
  private:
 #if WHIT_COMPACT_BY_TABLE
   using Order = decltype(hn::IndicesFromVec(FloatTag(), VI()));
+
   static HWY_INLINE Order OrderOf(MF live) {
     const FloatTag d;
     const IntTag di;
@@ -66,9 +71,11 @@ class Compactor {
     const hn::Rebind<uint8_t, IntTag> d8;
     return hn::IndicesFromVec(d, hn::PromoteTo(di, hn::LoadU(d8, kCompactOrder[bits[0]].data())));
   }
+
   HWY_INLINE VF Compacted(VF v) const { return hn::TableLookupLanes(v, order_); }
 #else
   using Order = MF;
+
   static HWY_INLINE Order OrderOf(MF live) { return live; }
   HWY_INLINE VF Compacted(VF v) const { return hn::Compress(v, order_); }
 #endif
@@ -76,22 +83,26 @@ class Compactor {
   size_t count_;
 };
 
-// Appends the shadow rays of the live lanes to the `count` ones that are there.
+// Appends the shadow rays of the live lanes to the first `count` ones.
 HWY_INLINE void AppendShadowRays(const ShadowColumns& rays, MF live, const V3& origin,
                                  const V3& way, VF tFar, VU slot, size_t& count) {
   const Compactor compactor(live);
+
   compactor.Store(origin, rays.orgX, rays.orgY, rays.orgZ, count);
   compactor.Store(way, rays.dirX, rays.dirY, rays.dirZ, count);
   compactor.Store(tFar, rays.tFar + count);
   compactor.Store(slot, rays.slot + count);
+
   count += compactor.Count();
 }
 
-// One coordinate moved by 256 ulps times the normal's component, near the origin by 1/65536 of it
+// Moves one coordinate by 256 ulps times the normal's component, near the origin by 1/65536 of it
 // (Waechter and Binder 2019).
 HWY_INLINE VF MovedByUlps(VF p, VF n) {
   const FloatTag d;
   const IntTag di;
+
+  // Integers step through floats away from zero, so negative coordinates step the other way.
   const VI ulps = hn::ConvertTo(di, hn::Mul(n, hn::Set(d, 256.0f)));
   const VI away =
       hn::IfThenElse(hn::RebindMask(di, hn::Lt(p, hn::Zero(d))), hn::Sub(hn::Zero(di), ulps), ulps);
@@ -100,7 +111,7 @@ HWY_INLINE VF MovedByUlps(VF p, VF n) {
   return hn::IfThenElse(hn::Lt(hn::Abs(p), hn::Set(d, 1.0f / 32)), near, far);
 }
 
-// How far rays start from surfels (SurfelColumns).
+// Distances from a surfel to the starts of its rays (SurfelColumns).
 struct Clearance {
   VF offset, retreat;
 };
@@ -110,7 +121,8 @@ HWY_INLINE Clearance LoadClearance(const SurfelColumns& surfels, size_t i) {
   return {hn::Load(d, surfels.offset + i), hn::Load(d, surfels.retreat + i)};
 }
 
-// `side` is 1 for the viewer's side of the surface, -1 for the other; `direction` the viewer's ray.
+// `side` is 1 for the viewer's side of the surface and -1 for the other one; `direction` is that of
+// the viewer's ray.
 HWY_INLINE V3 RayOrigin(OffsetMethod method, const V3& position, const V3& ng, const V3& direction,
                         const Clearance& clearance, float side) {
   const FloatTag d;
@@ -120,9 +132,13 @@ HWY_INLINE V3 RayOrigin(OffsetMethod method, const V3& position, const V3& ng, c
     return {MovedByUlps(position.x, n.x), MovedByUlps(position.y, n.y),
             MovedByUlps(position.z, n.z)};
   }
+
+  // The way that the viewer's ray has come is clear, so on that side the ray also starts a little
+  // back along it.
   if (method == OffsetMethod::bound && side > 0) {
     return MulAdd3(ng, clearance.offset, MulAdd3(direction, hn::Neg(clearance.retreat), position));
   }
+
   const VF offset = method == OffsetMethod::fixed ? hn::Set(d, kFixedOffset) : clearance.offset;
   return MulAdd3(ng, hn::Mul(offset, sign), position);
 }

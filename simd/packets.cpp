@@ -12,7 +12,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
 
-// Vectors that lie in one packet.
+// The tag of vectors that lie in one packet.
 template <size_t kWidth>
 using PacketTag = hn::CappedTag<float, kWidth>;
 
@@ -26,7 +26,8 @@ struct RaySource {
   const float *orgX, *orgY, *orgZ, *dirX, *dirY, *dirZ, *tFar;
 };
 
-// One sum, because nearly all rays are fine. A direction of 0 belongs to a pixel that sees nothing.
+// One sum tests all coordinates, because nearly all rays are fine. A direction of 0 belongs to a
+// pixel that sees nothing.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE hn::Mask<D> Traceable(D d, V ox, V oy, V oz, V dx, V dy, V dz, float reach) {
   const V org = hn::Add(hn::Add(hn::Abs(ox), hn::Abs(oy)), hn::Abs(oz));
@@ -38,18 +39,22 @@ template <size_t kWidth>
 HWY_INLINE void Pack(const RaySource& from, size_t n, float reach, const PacketWords& to) {
   const PacketTag<kWidth> d;
   const size_t end = (n + kWidth - 1) / kWidth * kWidth;
+
   for (size_t i = 0; i < end; i += hn::Lanes(d)) {
     const auto load = [&](const float* column) HWY_ATTR { return hn::LoadU(d, column + i); };
     const auto store = [&](auto v, size_t column)
                            HWY_ATTR { hn::StoreU(v, d, WordsOf<kWidth>(to, i) + column * kWidth); };
+
     auto ox = load(from.orgX), oy = load(from.orgY), oz = load(from.orgZ);
     auto dx = load(from.dirX), dy = load(from.dirY), dz = load(from.dirZ);
     auto tFar = from.tFar ? load(from.tFar) : hn::Inf(d);
+
     const auto there = hn::FirstN(d, i < n ? n - i : 0);
     const auto good = hn::And(there, Traceable(d, ox, oy, oz, dx, dy, dz, reach));
+
     if (HWY_UNLIKELY(!hn::AllTrue(d, good))) {
-      // Empty rays, which find nothing. Those of bad ones start where none can: where Embree splits
-      // a packet that is wider than the CPU, it looks at their coordinates all the same.
+      // Other lanes become empty rays, which hit nothing. Those of bad rays start where no scene
+      // can be, because Embree reads their coordinates where it splits a packet wider than the CPU.
       const auto place = hn::IfThenElseZero(there, hn::Set(d, 0.25f * reach));
       ox = hn::IfThenElse(good, ox, place);
       oy = hn::IfThenElse(good, oy, place);
@@ -59,6 +64,7 @@ HWY_INLINE void Pack(const RaySource& from, size_t n, float reach, const PacketW
       dz = hn::IfThenElse(good, dz, hn::Set(d, 1.0f));
       tFar = hn::IfThenElse(good, tFar, hn::Set(d, -1.0f));
     }
+
     store(ox, packet_column::orgX);
     store(oy, packet_column::orgY);
     store(oz, packet_column::orgZ);
@@ -69,7 +75,7 @@ HWY_INLINE void Pack(const RaySource& from, size_t n, float reach, const PacketW
   }
 }
 
-// `call` with the width as a constant.
+// Passes the width to `call` as a constant.
 template <class Call>
 HWY_INLINE void ForWidth(size_t width, const Call& call) {
   switch (width) {
@@ -98,12 +104,17 @@ HWY_INLINE void UnpackHitsOf(const PacketWords& from, size_t n, const uint32_t* 
   const PacketTag<kWidth> d;
   const hn::RebindToUnsigned<decltype(d)> du;
   const auto miss = hn::Set(du, kMiss);
+
   for (size_t i = 0; i < n; i += hn::Lanes(d)) {
     const float* const words = WordsOf<kWidth>(from, i);
     const auto load = [&](size_t column) HWY_ATTR { return hn::LoadU(d, words + column * kWidth); };
+
     hn::StoreU(load(packet_column::tFar), d, hits.t + i);
     hn::StoreU(load(packet_column::u), d, hits.u + i);
     hn::StoreU(load(packet_column::v), d, hits.v + i);
+
+    // A geometry holds the triangles of one class, numbered one after the other from the class's
+    // base.
     const auto geometry = hn::BitCast(du, load(packet_column::geometry));
     const auto primitive = hn::BitCast(du, load(packet_column::primitive));
     auto base = hn::Set(du, triangleBase[0]);
@@ -111,6 +122,7 @@ HWY_INLINE void UnpackHitsOf(const PacketWords& from, size_t n, const uint32_t* 
       const auto ofClass = hn::Eq(geometry, hn::Set(du, c));
       base = hn::IfThenElse(ofClass, hn::Set(du, triangleBase[c]), base);
     }
+
     const auto missed = hn::Eq(geometry, miss);
     hn::StoreU(hn::IfThenElse(missed, miss, hn::Add(base, primitive)), du, hits.triangle + i);
   }
@@ -128,10 +140,13 @@ HWY_INLINE void UnpackVisibilityOf(const PacketWords& from, size_t n, const uint
   const PacketTag<kWidth> d;
   const size_t lanes = hn::Lanes(d);
   HWY_ALIGN float clear[16];
+
   for (size_t i = 0; i < n; i += lanes) {
     // Embree marks an occluded ray with a tFar of minus infinity.
     const auto tFar = hn::LoadU(d, WordsOf<kWidth>(from, i) + packet_column::tFar * kWidth);
     hn::Store(hn::IfThenElseZero(hn::Ge(tFar, hn::Zero(d)), hn::Set(d, 1.0f)), d, clear);
+
+    // Results go back to the slots that the shadow rays came from.
     const size_t count = n - i < lanes ? n - i : lanes;
     for (size_t lane = 0; lane < count; ++lane) visible[slot[i + lane]] = clear[lane];
   }
@@ -142,7 +157,7 @@ void UnpackVisibility(const PacketWords& from, size_t n, const uint32_t* slot, f
            [&](auto width) HWY_ATTR { UnpackVisibilityOf<width()>(from, n, slot, visible); });
 }
 
-// The corner 0 of a triangle as seen from the ray's start, and the edges from there.
+// Corner 0 of a triangle relative to the ray's start, and the edges from there.
 struct SeenTriangle {
   V3 corner, edge1, edge2;
 };
@@ -151,10 +166,13 @@ HWY_INLINE void CarryToWorld(const HitTables& tables, const HitColumns& hits, MF
                              const V3& corner, const V3& origin, SeenTriangle& t) {
   const auto [placed, instance] = LoadInstances(hits, tables.instanceCount, valid, i);
   if (hn::AllFalse(FloatTag(), placed)) return;
+
   const PlacementLanes p = LoadPlacements(tables.instances, instance, placed);
   const MatrixLanes& m = p.toWorld;
-  // The difference of the origins first: what is far from the world's origin keeps its bits.
+
+  // The origins are subtracted first, so that instances far from the world's origin lose no bits.
   const V3 from = Sub3(p.origin, origin);
+
   t.corner = Select3(placed, Add3(TransformVector(m, corner), from), t.corner);
   t.edge1 = Select3(placed, TransformVector(m, t.edge1), t.edge1);
   t.edge2 = Select3(placed, TransformVector(m, t.edge2), t.edge2);
@@ -164,18 +182,24 @@ struct HitPoint {
   VF t, u, v;
 };
 
-// For hits that rounding has put beside the triangle, ahead of the ray's start or nowhere: the
-// nearest weights that belong to a point of the triangle, and how far away this is.
+// Moves hits that rounding has put beside the triangle, behind the ray's start or nowhere: returns
+// nearby weights that belong to a point of the triangle, and the distance of this point.
 HWY_INLINE HitPoint MoveOntoTriangle(const SeenTriangle& t, const V3& direction,
                                      const HitPoint& p) {
   const FloatTag d;
   const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f), third = hn::Set(d, 1.0f / 3);
   const VF most = hn::Set(d, 0x1p60f);
+
+  // Where the weights say nothing, the centroid stands in.
   const MF known = hn::And(hn::Le(hn::Abs(p.u), most), hn::Le(hn::Abs(p.v), most));
   const VF u = hn::Max(hn::IfThenElse(known, p.u, third), zero);
   const VF v = hn::Max(hn::IfThenElse(known, p.v, third), zero);
+
+  // Negative weights become 0, and the sum of all three is 1 again.
   const VF sum = hn::Add(hn::Add(hn::Max(hn::Sub(hn::Sub(one, u), v), zero), u), v);
   const VF onU = hn::Div(u, sum), onV = hn::Div(v, sum);
+
+  // The distance is that of the ray's point nearest to the moved one.
   const V3 point = MulAdd3(t.edge1, onU, MulAdd3(t.edge2, onV, t.corner));
   return {hn::Div(Dot(point, direction), Dot(direction, direction)), onU, onV};
 }
@@ -186,10 +210,13 @@ HWY_INLINE HitPoint MoveOntoTriangle(const SeenTriangle& t, const V3& direction,
 HWY_INLINE HitPoint PierceTriangle(const SeenTriangle& t, const V3& direction, MF on) {
   const FloatTag d;
   const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+
   const V3 normal = Cross(t.edge1, t.edge2), moment = Cross(direction, t.corner);
   const VF slope = Dot(normal, direction);
   HitPoint p{hn::Div(Dot(normal, t.corner), slope), hn::Div(Dot(t.edge2, moment), hn::Neg(slope)),
              hn::Div(Dot(t.edge1, moment), slope)};
+
+  // Hits behind the start, or beside the triangle by more than 2^-12, are moved onto it.
   const VF least = hn::Min(hn::Min(p.u, p.v), hn::Sub(hn::Sub(one, p.u), p.v));
   const MF ahead = hn::And(hn::Ge(p.t, zero), hn::Lt(p.t, hn::Inf(d)));
   const MF beside = hn::AndNot(hn::And(ahead, hn::Ge(least, hn::Set(d, -0x1p-12f))), on);
@@ -198,6 +225,8 @@ HWY_INLINE HitPoint PierceTriangle(const SeenTriangle& t, const V3& direction, M
     p = {hn::IfThenElse(beside, moved.t, p.t), hn::IfThenElse(beside, moved.u, p.u),
          hn::IfThenElse(beside, moved.v, p.v)};
   }
+
+  // What is left beside the triangle is rounding: the larger weight gives way.
   const VF u = hn::Max(p.u, zero), v = hn::Max(p.v, zero);
   const VF excess = hn::Max(hn::Sub(hn::Add(u, v), one), zero);
   const MF more = hn::Ge(u, v);
@@ -208,16 +237,21 @@ HWY_INLINE HitPoint PierceTriangle(const SeenTriangle& t, const V3& direction, M
 void RefineHits(const HitTables& tables, const RayColumns& rays, size_t n, const HitColumns& hits) {
   const FloatTag d;
   constexpr size_t kStride = kFloatsOf<TriangleRecord>;
+
   for (size_t i = 0; i < n; i += hn::Lanes(d)) {
+    // Spheres keep the hits of their own kernel, which computes in double.
     const auto [valid, triangle] = LoadHits(hits, tables.triangleCount, i);
     const MF on = hn::And(AreTriangles(triangle, tables.firstSphere), valid);
     if (hn::AllFalse(d, on)) continue;
+
     const auto [c0, c1, c2] = LoadCorners(tables.triangles, kStride, triangle);
     const auto load = [&](const float* column) HWY_ATTR { return hn::LoadU(d, column + i); };
     const V3 origin{load(rays.orgX), load(rays.orgY), load(rays.orgZ)};
     const V3 direction{load(rays.dirX), load(rays.dirY), load(rays.dirZ)};
+
     SeenTriangle t{Sub3(c0, origin), Sub3(c1, c0), Sub3(c2, c0)};
     if (hits.instance) CarryToWorld(tables, hits, valid, i, c0, origin, t);
+
     const HitPoint p = PierceTriangle(t, direction, on);
     const auto put = [&](VF value, float* column)
                          HWY_ATTR { hn::BlendedStore(value, on, d, column + i); };

@@ -20,11 +20,13 @@ template <class V>
 HWY_INLINE V MulThenAdd(V a, V b, V c) {
   return hn::Add(hn::Mul(a, b), c);
 }
+
 // a * b - c
 template <class V>
 HWY_INLINE V MulThenSub(V a, V b, V c) {
   return hn::Sub(hn::Mul(a, b), c);
 }
+
 // c - a * b
 template <class V>
 HWY_INLINE V NegMulThenAdd(V a, V b, V c) {

@@ -30,7 +30,7 @@ HWY_INLINE VU ChildStream(VU path, uint32_t branch) {
   return Mixed(hn::Xor(path, hn::Set(UintTag(), branch * kBranchStep)));
 }
 
-// In [0, 1)^2.
+// Points of the unit square, [0, 1)^2.
 struct UnitPoints {
   VF u, v;
 };

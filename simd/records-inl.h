@@ -22,8 +22,8 @@ struct V4 {
 template <class Record>
 constexpr size_t kFloatsOf = sizeof(Record) / sizeof(float);
 
-// The place of a member in a record of floats, counted in these. The four floats from there on are
-// the record's, and the last of them is the member at `kLast`.
+// Returns the index of a member in a record of floats. Asserts that the four floats from there on
+// lie in the record, and that the last of them is the member at `kLast`.
 template <class Record, size_t kFirst, size_t kLast>
 constexpr size_t FourFloatsAt() {
   static_assert(kFirst % sizeof(float) == 0 && kFirst + 4 * sizeof(float) <= sizeof(Record));
@@ -31,9 +31,9 @@ constexpr size_t FourFloatsAt() {
   return kFirst / sizeof(float);
 }
 
-// An index of one of `count` records, whatever bits the lane holds. Indices that come from columns
-// go through it, because columns may hold anything behind their last slot; those that come from
-// records of the scene name records of the scene.
+// Returns an index of one of `count` records, whatever bits the lane holds. Indices from columns
+// are clamped, because columns may hold anything behind their last slot; indices from records of
+// the scene are valid.
 HWY_INLINE VI Clamped(VI index, size_t count) {
   const UintTag du;
   const VU last = hn::Set(du, static_cast<uint32_t>(count - 1));
@@ -45,7 +45,7 @@ HWY_INLINE const float* RecordAt(const void* base, size_t floats, int32_t index)
          static_cast<size_t>(static_cast<uint32_t>(index)) * floats;
 }
 
-// Which record each lane reads, as addresses.
+// Addresses of the records that the lanes read.
 struct LaneAddresses {
   const float* lane[16];
 };
@@ -66,7 +66,7 @@ HWY_INLINE V4 LoadSquares(const uint32_t* words, size_t row, const int32_t* inde
 
 #else
 
-// Block b of the result is made of what block b + i of the lanes loads.
+// Loads blocks of four floats of the lanes `lane`, `lane` + 4 and so on, one after the other.
 template <class D, class LoadBlock>
 HWY_INLINE hn::Vec<D> LoadRows(D d, size_t lane, const LoadBlock& loadBlock) {
   if constexpr (hn::MaxLanes(d) == 4) {
@@ -83,8 +83,11 @@ template <class LoadBlock>
 HWY_INLINE V4 LoadTransposed(const LoadBlock& loadBlock) {
   const FloatTag d;
   const hn::Repartition<uint64_t, FloatTag> d64;
+
+  // Row b holds the floats of lanes b, b + 4, b + 8 and b + 12, four of each.
   const VF r0 = LoadRows(d, 0, loadBlock), r1 = LoadRows(d, 1, loadBlock);
   const VF r2 = LoadRows(d, 2, loadBlock), r3 = LoadRows(d, 3, loadBlock);
+
   const auto low01 = hn::BitCast(d64, hn::InterleaveLower(d, r0, r1));
   const auto low23 = hn::BitCast(d64, hn::InterleaveLower(d, r2, r3));
   const auto high01 = hn::BitCast(d64, hn::InterleaveUpper(d, r0, r1));
@@ -101,8 +104,8 @@ HWY_INLINE V4 LoadFourFloats(const LaneAddresses& records, size_t column) {
                             HWY_ATTR { return hn::LoadU(d, records.lane[lane] + column); });
 }
 
-// Squares of two by two words, the lower row first: of every lane, the one at `index` in rows of
-// `row` words.
+// Loads for every lane the square of two by two words at its `index`, in rows of `row` words, the
+// lower row first.
 HWY_INLINE V4 LoadSquares(const uint32_t* words, size_t row, const int32_t* index) {
   return LoadTransposed([&](auto d, size_t lane) HWY_ATTR {
     const hn::Half<decltype(d)> pair;
@@ -113,12 +116,13 @@ HWY_INLINE V4 LoadSquares(const uint32_t* words, size_t row, const int32_t* inde
 
 #endif
 
-// A record a lane of a table; dead lanes must name one as well.
+// One record of a table for each lane; inactive lanes need a valid index as well.
 template <class Record>
 class Records {
  public:
   HWY_INLINE Records(const Record* table, VI index) : Records(table, kFloatsOf<Record>, index) {}
-  // Records so many floats apart. 0: all lanes read the first one.
+
+  // `stride` is the distance of records in floats; if it is 0, all lanes read the first record.
   HWY_INLINE Records(const Record* table, size_t stride, VI index) {
     const IntTag di;
     HWY_ALIGN int32_t indices[16];
@@ -148,10 +152,12 @@ class SharedRecords {
     const IntTag di;
     HWY_ALIGN int32_t indices[16];
     hn::Store(index, di, indices);
+
     const intptr_t firstLive = hn::FindFirstTrue(d, live);
     const int32_t first = firstLive < 0 ? 0 : indices[firstLive];
     const MF same = hn::RebindMask(d, hn::Eq(index, hn::Set(di, first)));
     uniform_ = hn::AllFalse(d, hn::AndNot(same, live));
+
     if (uniform_) {
       addresses_.lane[0] = RecordAt(table, kFloatsOf<Record>, first);
     } else {
@@ -166,6 +172,7 @@ class SharedRecords {
   HWY_INLINE V4 Load4() const {
     constexpr size_t kColumn = FourFloatsAt<Record, kFirst, kLast>();
     if (!uniform_) return LoadFourFloats(addresses_, kColumn);
+
     const FloatTag d;
     const float* p = addresses_.lane[0] + kColumn;
     return {hn::Set(d, p[0]), hn::Set(d, p[1]), hn::Set(d, p[2]), hn::Set(d, p[3])};
@@ -176,7 +183,7 @@ class SharedRecords {
   bool uniform_;
 };
 
-// One float of a record a lane, by a gather; of some record where the index names none.
+// Gathers one float of a record for each lane; where the index names no record, of any record.
 template <size_t kMember, class Record>
 HWY_INLINE VF GatherMember(std::span<const Record> table, VI index) {
   static_assert(kMember % sizeof(float) == 0 && kMember + sizeof(float) <= sizeof(Record));

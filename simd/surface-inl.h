@@ -53,7 +53,7 @@ HWY_INLINE UvLanes LoadSecondUvs(const ShadingTables& tables, VI triangle) {
 // The triangles of a vector of hits, and the lanes that hit one.
 struct HitLanes {
   MF valid;
-  VI triangle;  // some triangle where nothing was hit
+  VI triangle;  // any triangle in the other lanes
 };
 
 HWY_INLINE HitLanes LoadHits(const HitColumns& hits, size_t triangleCount, size_t i) {
@@ -89,13 +89,15 @@ HWY_INLINE Weights LoadWeights(const HitColumns& hits, size_t i) {
 HWY_INLINE VF Interpolate(const Weights& w, VF a, VF b, VF c) {
   return MulThenAdd(a, w.w0, MulThenAdd(b, w.w1, hn::Mul(c, w.w2)));
 }
+
 HWY_INLINE V3 Interpolate3(const Weights& w, const V3& a, const V3& b, const V3& c) {
   return {Interpolate(w, a.x, b.x, c.x), Interpolate(w, a.y, b.y, c.y),
           Interpolate(w, a.z, b.z, c.z)};
 }
 
-// The corner of the largest weight, and what the others add to it: exact in a coordinate that all
-// corners share, and as exact as the point is near to one of them.
+// Interpolates positions as the corner of the largest weight plus the differences of the others:
+// exact in a coordinate that all corners share, and more precise the nearer the point is to a
+// corner.
 HWY_INLINE V3 InterpolatePosition(const Weights& w, const V3& a, const V3& b, const V3& c) {
   const MF nearA = hn::And(hn::Ge(w.w0, w.w1), hn::Ge(w.w0, w.w2)), nearB = hn::Ge(w.w1, w.w2);
   const V3 near = Select3(nearA, a, Select3(nearB, b, c));
@@ -106,7 +108,7 @@ HWY_INLINE VF SumOf(const V3& v) { return hn::Add(hn::Add(v.x, v.y), v.z); }
 
 struct NormalLanes {
   V3 normal;   // unit, of the triangle's plane
-  MF inDoubt;  // so narrow a triangle that rounding may have turned it
+  MF inDoubt;  // the triangle is so narrow that rounding may have turned the normal
 };
 
 // Edges are brought to the order of 1 by a power of two first, so that the products of tiny or huge
@@ -117,11 +119,13 @@ HWY_INLINE NormalLanes GeometricNormal(const V3& edge1, const V3& edge2) {
   const VF scale = InverseExponent(largest);
   const V3 unit{hn::Zero(d), hn::Zero(d), hn::Set(d, 1.0f)};
   const V3 a = Scale3(edge1, scale), b = Scale3(edge2, scale), area = ExactCross(a, b);
+
+  // Where the area is tiny against the sides, rounding may turn the normal.
   const VF sides = hn::Mul(SumOf(Abs3(a)), SumOf(Abs3(b)));
   return {NormalizeOr(area, unit), hn::Le(SumOf(Abs3(area)), hn::Mul(sides, hn::Set(d, 0x1p-14f)))};
 }
 
-// A vector for each corner.
+// One vector for each corner of a triangle.
 struct Corners {
   V3 c0, c1, c2;
 };
@@ -130,6 +134,7 @@ struct Corners {
 template <class Record>
 HWY_INLINE Corners LoadCorners(const Record* table, int stride, VI triangle) {
   const Records<Record> records(table, static_cast<size_t>(stride), triangle);
+
   // The last load starts at 5, not 8: a record ends after nine floats.
   const V4 a = records.template Load4<0>(), b = records.template Load4<4 * sizeof(float)>();
   const V4 c = records.template Load4<5 * sizeof(float)>();
@@ -157,7 +162,7 @@ HWY_INLINE V3 SmoothNormal(const ShadingTables& tables, VI triangle, const Weigh
   return NormalizeOr(Interpolate3(w, n.c0, n.c1, n.c2), ng);
 }
 
-// A matrix a lane, its rows.
+// The rows of one matrix for each lane.
 struct MatrixLanes {
   V4 row0, row1, row2;
 };
@@ -167,7 +172,7 @@ HWY_INLINE V3 TransformVector(const MatrixLanes& m, const V3& v) {
           Dot({m.row2.x, m.row2.y, m.row2.z}, v)};
 }
 
-// From the space of an instance to the world.
+// Transforms from the space of an instance to the world.
 struct PlacementLanes {
   MatrixLanes toWorld, normal;
   V3 origin;  // of the instance's space
@@ -204,9 +209,9 @@ HWY_INLINE InstanceHits LoadInstances(const HitColumns& hits, size_t instanceCou
 struct Surface {
   V3 position, edge1, edge2;
   V3 spans;      // sum of the edges' sizes, per axis
-  V3 magnitude;  // of all that went into the position
-  VF across;     // by so many roundings it may be off, also along the surface
-  MF inDoubt;    // more than that may have gone into what rays that start there meet again
+  V3 magnitude;  // sum of the magnitudes that the position is added up from, per axis
+  VF across;     // bound on the error along the surface, in units of 2^-24
+  MF inDoubt;    // errors of several axes mix: all of them count for the clearance
   V3 ng, ns;     // as modelled
   VF handedness;
 };
@@ -217,53 +222,67 @@ HWY_INLINE Surface InterpolateSurface(const ShadingTables& tables, const Triangl
   s.edge1 = Sub3(t.p1, t.p0), s.edge2 = Sub3(t.p2, t.p0);
   s.spans = Add3(Abs3(s.edge1), Abs3(s.edge2));
   s.position = InterpolatePosition(w, t.p0, t.p1, t.p2);
+
   const NormalLanes found = GeometricNormal(s.edge1, s.edge2);
   s.ng = found.normal;
   s.inDoubt = found.inDoubt;
   s.ns = s.ng;
   if (smooth) s.ns = SmoothNormal(tables, triangle, w, s.ng);
+
+  // The bound on rounding errors needs the magnitudes that the position is added up from.
   const Weights absolute{hn::Abs(w.w0), hn::Abs(w.w1), hn::Abs(w.w2)};
   s.magnitude = Interpolate3(absolute, Abs3(t.p0), Abs3(t.p1), Abs3(t.p2));
+
   s.handedness = hn::Set(FloatTag(), 1.0f);
   return s;
 }
 
-// The scalar reference, with what its terms are for: placeSurfel in
+// The scalar reference, which explains the terms, is placeSurfel in
 // src/reference/find_intersections.cpp.
 HWY_INLINE void StoreClearance(const Surface& s, VF t, size_t i, const SurfelColumns& surfels) {
   const FloatTag d;
   const V3 edges = s.spans, n = Abs3(s.ng);
   const VF point = SumOf(s.magnitude), sides = SumOf(edges);
+
+  // Where errors of several axes mix, all of them count; otherwise those along the normal.
   const VF most = MulThenAdd(point, hn::Set(d, 0x1p-19f), hn::Mul(sides, hn::Set(d, 0x1p-20f)));
   const VF least = hn::Mul(hn::Add(point, sides), hn::Set(d, 0x1p-30f));
   const VF along = MulThenAdd(Dot(n, s.magnitude), hn::Set(d, 0x1p-22f),
                               MulThenAdd(Dot(n, edges), hn::Set(d, 0x1p-20f), least));
+
+  // Rays start back along the viewer's ray by at most half of its way, which is known to be clear.
   const VF across = hn::Mul(s.across, hn::Set(d, 0x1p-24f));
   const VF half = hn::Set(d, 0.5f), back = hn::Min(hn::Mul(most, half), hn::Mul(t, half));
   hn::Store(hn::IfThenElse(s.inDoubt, most, along), d, surfels.offset + i);
   hn::Store(hn::IfThenElse(s.inDoubt, back, hn::Min(across, back)), d, surfels.retreat + i);
 }
 
-// In the world, where the hits are on instances.
+// Transforms the surfaces of hits on instances to the world.
 HWY_INLINE void CarryToWorld(const ShadingTables& tables, const HitColumns& hits, MF valid,
                              size_t i, Surface& s) {
   const FloatTag d;
   const auto [placed, instance] = LoadInstances(hits, tables.instances.size(), valid, i);
   if (hn::AllFalse(d, placed)) return;
+
   const VF one = hn::Set(d, 1.0f);
   const PlacementLanes p = LoadPlacements(tables.instances.data(), instance, placed);
   const MatrixLanes &m = p.toWorld, &normal = p.normal;
+
+  // Magnitudes and spans grow by the absolute values of the matrix.
   const MatrixLanes abs{{hn::Abs(m.row0.x), hn::Abs(m.row0.y), hn::Abs(m.row0.z), one},
                         {hn::Abs(m.row1.x), hn::Abs(m.row1.y), hn::Abs(m.row1.z), one},
                         {hn::Abs(m.row2.x), hn::Abs(m.row2.y), hn::Abs(m.row2.z), one}};
   s.magnitude =
       Select3(placed, Add3(TransformVector(abs, s.magnitude), Abs3(p.origin)), s.magnitude);
+
   s.position = Select3(placed, Add3(TransformVector(m, s.position), p.origin), s.position);
   s.spans = Select3(placed, TransformVector(abs, s.spans), s.spans);
   s.edge1 = Select3(placed, TransformVector(m, s.edge1), s.edge1);
   s.edge2 = Select3(placed, TransformVector(m, s.edge2), s.edge2);
+
   s.ng = Select3(placed, NormalizeOr(TransformVector(normal, s.ng), s.ng), s.ng);
   s.ns = Select3(placed, NormalizeOr(TransformVector(normal, s.ns), s.ns), s.ns);
+
   s.handedness = hn::IfThenElse(placed, p.handedness, one);
   s.inDoubt = hn::Or(s.inDoubt, placed);
 }
@@ -275,14 +294,19 @@ HWY_INLINE void FollowRay(const TriangleLanes& t, const RayColumns& rays, VF dis
   const FloatTag d;
   const V3 edges = s.spans;
   const VF sides = SumOf(edges);
+
   const VF two = hn::Set(d, 2.0f), eight = hn::Set(d, 8.0f);
   s.across = MulThenAdd(SumOf(s.magnitude), two, sides);
+
   const MF large = hn::AndNot(s.inDoubt, hn::Lt(hn::Mul(distance, eight), sides));
   if (HWY_LIKELY(hn::AllFalse(d, large))) return;
+
+  // The ray's point is moved along the normal into the triangle's plane.
   const V3 origin = Load3(rays.orgX, rays.orgY, rays.orgZ, i);
   const V3 point = MulAdd3(Load3(rays.dirX, rays.dirY, rays.dirZ, i), distance, origin);
   const VF height = Dot(Sub3(point, t.p0), s.ng);
   s.position = Select3(large, MulAdd3(s.ng, hn::Neg(height), point), s.position);
+
   const VF ofRay = MulThenAdd(distance, eight, hn::Mul(Dot(Abs3(s.ng), edges), two));
   const VF near = MulThenAdd(SumOf(Abs3(s.position)), two, ofRay);
   s.across = hn::IfThenElse(large, near, s.across);
@@ -294,7 +318,7 @@ HWY_INLINE VF TurnToViewer(MF entering) {
   return hn::IfThenElse(entering, hn::Set(d, 1.0f), hn::Set(d, -1.0f));
 }
 
-// Stores all that textures do not change; `flip` turns the normals towards the viewer.
+// Stores the columns that textures do not change; `flip` turns the normals towards the viewer.
 HWY_INLINE void StoreSurface(const Surface& s, VF t, VF flip, size_t i,
                              const SurfelColumns& surfels) {
   Store3(s.position, surfels.posX, surfels.posY, surfels.posZ, i);
@@ -320,6 +344,7 @@ HWY_INLINE SphereLanes LoadSpheres(const ShadingTables& tables, const HitColumns
   SphereLanes s;
   s.on = hn::AndNot(AreTriangles(number, tables.firstSphere), valid);
   if (hn::AllFalse(d, s.on)) return s;
+
   const SharedRecords<R> records(reinterpret_cast<const R*>(tables.triangles), number, s.on);
   const V4 a = records.Load4<offsetof(R, axes[0]), offsetof(R, axes[3])>();
   const V4 b = records.Load4<offsetof(R, axes[4]), offsetof(R, axes[7])>();
@@ -327,16 +352,20 @@ HWY_INLINE SphereLanes LoadSpheres(const ShadingTables& tables, const HitColumns
   s.x = {a.x, a.y, a.z}, s.y = {a.w, b.x, b.y}, s.z = {b.z, b.w, c.x};
   s.center = {c.y, c.z, c.w};
   s.outward = records.Load4<offsetof(R, outward), offsetof(R, material)>().x;
+
+  // The octahedral map is inverted: the corners of the square fold back onto the lower half.
   const VF one = hn::Set(d, 1.0f), begin = hn::Set(d, static_cast<float>(kSphereWeightBegin));
   const VF scale = hn::Set(d, static_cast<float>(1 / kSphereWeightScale));
   const auto coordinate = [&](const float* weight) HWY_ATTR {
     return MulThenSub(hn::Sub(hn::Load(d, weight + i), begin), scale, one);
   };
   const VF u = coordinate(hits.u), v = coordinate(hits.v);
+
   const VF height = hn::Sub(hn::Sub(one, hn::Abs(u)), hn::Abs(v));
   const MF below = hn::Lt(height, hn::Zero(d));
   const VF foldedU = hn::CopySign(hn::Sub(one, hn::Abs(v)), u);
   const VF foldedV = hn::CopySign(hn::Sub(one, hn::Abs(u)), v);
+
   s.direction = {hn::IfThenElse(below, foldedU, u), hn::IfThenElse(below, foldedV, v), height};
   s.unit = Normalize3(s.direction);
   return s;
@@ -351,42 +380,57 @@ HWY_INLINE V3 SphereNormal(const SphereLanes& s) {
       hn::Max(MaxComponent(Abs3(s.x)), hn::Max(MaxComponent(Abs3(s.y)), MaxComponent(Abs3(s.z))));
   const VF scale = InverseExponent(largest);
   const V3 x = Scale3(s.x, scale), y = Scale3(s.y, scale), z = Scale3(s.z, scale);
+
+  // The cofactors of a map transform normals.
   const V3 carried =
       MulAdd3(Cross(y, z), s.direction.x,
               MulAdd3(Cross(z, x), s.direction.y, Scale3(Cross(x, y), s.direction.z)));
   return NormalizeOr(Scale3(carried, s.outward), s.unit);
 }
 
-// The triangle that touches the sphere there, as touchingTriangle in src/bake/sphere.cpp has it,
-// and the weights of its first corner.
+// Puts a triangle that touches the sphere in the place of the hit triangle, with the weights of its
+// first corner. The scalar reference is touchingTriangle in src/bake/sphere.cpp.
 HWY_INLINE void TouchSpheres(const SphereLanes& s, Surface& surface, TriangleLanes& t, Weights& w) {
   const FloatTag d;
   const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+
   const V3& q = s.unit;
+
+  // At a pole the azimuth about y is undefined, and any one will do.
   const VF rho2 = MulThenAdd(q.x, q.x, hn::Mul(q.z, q.z));
   const MF turned = hn::Gt(rho2, hn::Set(d, 1e-30f));
   const VF rho = hn::Sqrt(rho2), inverse = hn::Div(one, hn::IfThenElse(turned, rho, one));
   const VF cosine = hn::IfThenElse(turned, hn::Mul(q.x, inverse), one);
   const VF sine = hn::IfThenElseZero(turned, hn::Mul(q.z, inverse));
+
+  // The edges are a sphere's tangents along growing u and growing v. Near a pole the first one
+  // keeps a least length.
   constexpr float kStep = kTouchingEdge * 3.14159265f;
   const VF step = hn::Set(d, kStep);
   const VF round = hn::Mul(hn::Set(d, 2 * kStep), hn::Max(rho, hn::Set(d, kPoleRadius)));
   const V3 along = FromUnit(s, {hn::Mul(sine, round), zero, hn::Neg(hn::Mul(cosine, round))});
   const VF fall = hn::Neg(hn::Mul(q.y, step));
   const V3 across = FromUnit(s, {hn::Mul(fall, cosine), hn::Mul(rho, step), hn::Mul(fall, sine)});
+
+  // Texture coordinates grow by kTouchingEdge along either edge.
   const VF u = AzimuthFraction(hn::Neg(q.z), hn::Neg(q.x));
   const VF v = hn::Mul(AzimuthFraction(rho, q.y), hn::Set(d, 2.0f));
   const VF edge = hn::Set(d, kTouchingEdge);
+
+  // A map that mirrors swaps the edges, so that their cross product still points outwards.
   const MF mirrored = hn::Lt(s.outward, zero);
   const auto put = [&](VF value, VF& to) HWY_ATTR { to = hn::IfThenElse(s.on, value, to); };
+
   surface.edge1 = Select3(s.on, Select3(mirrored, across, along), surface.edge1);
   surface.edge2 = Select3(s.on, Select3(mirrored, along, across), surface.edge2);
+
   put(u, t.uv.u0);
   put(v, t.uv.v0);
   put(hn::Add(u, hn::IfThenElse(mirrored, zero, edge)), t.uv.u1);
   put(hn::Add(v, hn::IfThenElse(mirrored, edge, zero)), t.uv.v1);
   put(hn::Add(u, hn::IfThenElse(mirrored, edge, zero)), t.uv.u2);
   put(hn::Add(v, hn::IfThenElse(mirrored, zero, edge)), t.uv.v2);
+
   put(one, w.w0);
   put(zero, w.w1);
   put(zero, w.w2);
@@ -401,20 +445,26 @@ HWY_INLINE bool AnyMapped(const ShadingTables& tables, const SphereLanes& s,
   return !hn::AllFalse(FloatTag(), hn::And(s.on, HasFlags(flags, kMaterialMapped)));
 }
 
-// Before CarryToWorld. The scalar reference is placeOnSphere in
-// src/reference/find_intersections.cpp.
+// Computes the surfaces of hits on spheres, in the space of their geometry. The scalar reference is
+// placeOnSphere in src/reference/find_intersections.cpp.
 HWY_INLINE void PutOnSpheres(const ShadingTables& tables, const HitColumns& hits, MF valid,
                              VI number, size_t i, Surface& surface, TriangleLanes& t, Weights& w) {
   const FloatTag d;
   const SphereLanes s = LoadSpheres(tables, hits, valid, number, i);
   if (hn::AllFalse(d, s.on)) return;
+
+  // The bound on rounding errors needs the magnitudes that the position is added up from.
   const V3 q = Abs3(s.unit);
   const V3 magnitude = Add3(
       MulAdd3(Abs3(s.x), q.x, MulAdd3(Abs3(s.y), q.y, Scale3(Abs3(s.z), q.z))), Abs3(s.center));
+
   const V3 position = Add3(FromUnit(s, s.unit), s.center);
   const V3 normal = SphereNormal(s);
   const V3 axes = Add3(Add3(Abs3(s.x), Abs3(s.y)), Abs3(s.z));
+
+  // Only maps need texture coordinates and edges.
   if (AnyMapped(tables, s, t)) TouchSpheres(s, surface, t, w);
+
   t.p0 = Select3(s.on, position, t.p0);
   surface.spans = Select3(s.on, Scale3(axes, hn::Set(d, kSphereSpan)), surface.spans);
   surface.position = Select3(s.on, position, surface.position);

@@ -14,8 +14,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
 
-// A chunk as interpolateSurfels sees it: what lies in the chunk itself would be read again after
-// each store to its columns.
+// Copies of a chunk's members for interpolateSurfels: the compiler would read members of the chunk
+// again after each store to its columns.
 struct SurfelJob {
   const Chunk& chunk;
   const ShadingTables& tables = chunk.tables();
@@ -34,8 +34,8 @@ struct SurfelJob {
   bool vertexColors = chunk.has(Feature::vertexColors);
 };
 
-// Along one axis of texture space, from corner 0 to corners 1 and 2. Brought to the order of 1 by a
-// power of two, as the edges are for GeometricNormal: products of tiny spans would vanish.
+// Distances from corner 0 to corners 1 and 2 along one axis of texture space. A power of two brings
+// them to the order of 1, as in GeometricNormal, because products of tiny spans would vanish.
 struct TextureSpans {
   VF to1, to2;
 };
@@ -47,8 +47,8 @@ HWY_INLINE TextureSpans UnitSpans(VF c0, VF c1, VF c2) {
   return {hn::Mul(to1, scale), hn::Mul(to2, scale)};
 }
 
-// The frame that the texture coordinates span about `ns`: T along u, B along v. False where they
-// span none.
+// The frame that the texture coordinates span about `ns`: T along u, B along v. `good` masks the
+// lanes whose coordinates span one.
 struct TangentFrame {
   V3 tangent, bitangent;
   MF good;
@@ -57,17 +57,25 @@ struct TangentFrame {
 HWY_INLINE TangentFrame FindTangentFrame(const UvLanes& t, const V3& edge1, const V3& edge2,
                                          const V3& ns, VF handedness) {
   const FloatTag d;
+
+  // The determinant of the texture-space edges tells whether the coordinates are mirrored.
   const auto [du1, du2] = UnitSpans(t.u0, t.u1, t.u2);
   const auto [dv1, dv2] = UnitSpans(t.v0, t.v1, t.v2);
   const VF det = DifferenceOfProducts(du1, dv2, du2, dv1);
   const VF sign = hn::CopySign(hn::Set(d, 1.0f), det);
+
+  // The tangent is the direction of growing u, made perpendicular to the normal.
   const VF largest = hn::Max(MaxComponent(Abs3(edge1)), MaxComponent(Abs3(edge2)));
   const VF scale = hn::Mul(InverseExponent(largest), sign);
   const V3 along = Scale3(Sub3(Scale3(edge1, dv2), Scale3(edge2, dv1)), scale);
+
   const V3 none{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
   const V3 unitAlong = NormalizeOr(along, none);
   const V3 tangent = NormalizeOr(MulAdd3(ns, hn::Neg(Dot(ns, unitAlong)), unitAlong), none);
+
+  // The bitangent keeps the handedness of the texture coordinates and of the instance.
   const V3 bitangent = Scale3(Cross(ns, tangent), hn::Mul(sign, handedness));
+
   const MF good =
       hn::And(hn::Ne(det, hn::Zero(d)), hn::Gt(Dot(tangent, tangent), hn::Set(d, 0.5f)));
   return {tangent, bitangent, good};
@@ -80,15 +88,19 @@ HWY_INLINE VF TextureFootprint(const UvLanes& t, const V3& edge1, const V3& edge
                                VF cosine) {
   const VF inTexture = hn::Abs(DifferenceOfProducts(hn::Sub(t.u1, t.u0), hn::Sub(t.v2, t.v0),
                                                     hn::Sub(t.u2, t.u0), hn::Sub(t.v1, t.v0)));
+
   const VF largest = hn::Max(MaxComponent(Abs3(edge1)), MaxComponent(Abs3(edge2)));
   const VF scale = InverseExponent(largest);
   const V3 area = Cross(Scale3(edge1, scale), Scale3(edge2, scale));
   const VF inWorld = hn::Sqrt(Dot(area, area));
+
+  // The cone's section by the plane is longer by 1 / cosine, and counts as if it were as wide.
   const VF across = hn::Div(hn::Mul(coneWidth, scale), hn::Abs(cosine));
   return hn::Mul(hn::Div(inTexture, inWorld), hn::Mul(across, across));
 }
 
-// Where a block looks a map up; in mip maps also at the level above, which counts for `between`.
+// The lookups of one map by a block of rays. Mip maps are looked up at the level above, too, whose
+// weight is `between`.
 struct MapQueue {
   TexelQueue level, above;
   HWY_ALIGN float between[TexelQueue::kRays];
@@ -106,12 +118,12 @@ HWY_INLINE void StoreFrame(const TangentFrame& frame, VF flip, size_t slot, Bloc
   Store3(b, block.tangent[3], block.tangent[4], block.tangent[5], slot);
 }
 
-// Where a vector of rays meets its textures: coordinates, and the footprint where levels are mixed.
+// The texture coordinates of a vector of rays, and the footprints where mip levels are mixed.
 struct TexturePoints {
   VF u, v, footprint;
 };
 
-// The level at which a texel is as large as so many of the full texture; 0 where that is no number.
+// The level at which one texel is as large as `texels` of the full texture; 0 where that is NaN.
 HWY_INLINE VF MipLevel(VF texels) {
   const FloatTag d;
   const VF one = hn::Set(d, 1.0f);
@@ -125,24 +137,31 @@ inline HWY_NOINLINE void QueueLevels(const ShadingTables& tables, VI map, MF liv
                                      const TexturePoints& at, size_t slot, MapQueue& queue) {
   const FloatTag d;
   const IntTag di;
+
   queue.level.any[slot] = !hn::AllFalse(d, live);
   if (!queue.level.any[slot]) return;
+
   const TextureRecord* levels = tables.mipLevels.data();
   const VI full =
       hn::IfThenElseZero(hn::RebindMask(di, live), hn::Mul(map, hn::Set(di, kMipStride)));
   const auto [first, height, width, wrap] = LoadTextures(levels, full, live);
+
+  // Trilinear filtering mixes the levels below and above by the fraction between them.
   const VF level = MipLevel(hn::Mul(hn::Mul(at.footprint, width), hn::ConvertTo(d, height)));
   const VF whole = hn::Floor(level);
   const VF between = hn::IfThenElseZero(live, hn::Sub(level, whole));
   const VI lower = hn::Add(full, hn::ConvertTo(di, whole));
+
   const auto queueAt = [&](VI index, TexelQueue& to) HWY_ATTR {
     QueueTexels(TextureFilter::bilinear, levels, tables.texels.get(), index, live, at.u, at.v, slot,
                 to);
   };
   queueAt(lower, queue.level);
-  // Where textures are magnified the level above counts for nothing.
+
+  // Where textures are magnified the level above has no weight.
   queue.above.any[slot] = false;
   if (hn::AllTrue(d, hn::Eq(between, hn::Zero(d)))) return;
+
   queueAt(hn::Add(lower, hn::Set(di, 1)), queue.above);
   hn::Store(between, d, queue.between + slot);
 }
@@ -155,10 +174,12 @@ HWY_INLINE void QueueMap(const SurfelJob& job, VI map, MF live, const TexturePoi
                          size_t slot, MapQueue& queue) {
   const ShadingTables& tables = job.tables;
   const MF mapped = MappedLanes(map, live);
+
   if (HWY_LIKELY(job.shading.textureFilter == TextureFilter::trilinear)) {
     QueueLevels(tables, map, mapped, at, slot, queue);
     return;
   }
+
   QueueTexels(job.shading.textureFilter, tables.textures.data(), tables.texels.get(), map, mapped,
               at.u, at.v, slot, queue.level);
 }
@@ -170,6 +191,7 @@ HWY_INLINE V3 FilterMap(const SurfelJob& job, const MapQueue& queue, size_t slot
   const TextureFilter choice = job.shading.textureFilter;
   const uint32_t* texels = job.tables.texels.get();
   const V3 value = filter(FetchTexels(choice, texels, queue.level, slot));
+
   if (choice != TextureFilter::trilinear || !queue.above.any[slot]) return value;
   const V3 above = filter(FetchTexels(choice, texels, queue.above, slot));
   return MulAdd3(Sub3(above, value), hn::Load(FloatTag(), queue.between + slot), value);
@@ -179,26 +201,32 @@ HWY_INLINE V3 FilterMap(const SurfelJob& job, const MapQueue& queue, size_t slot
 HWY_INLINE void ApplyColor(const SurfelJob& job, const MapQueue& queue, size_t slot, float* r,
                            float* g, float* b, size_t i) {
   if (!queue.level.any[slot]) return;
+
   const V3 color = Load3(r, g, b, i);
   const V3 texture =
       FilterMap(job, queue, slot, [](const Footprint& f) HWY_ATTR { return FilterColor(f); });
+
   Store3(Select3(QueuedLanes(queue.level, slot), Mul3(color, texture), color), r, g, b, i);
 }
 
-// Multiplies the emission's factors at slot i with the map that waits at `slot`, of scenes in which
-// some are of radiance. Not inlined: other frames shall not carry this along.
+// Multiplies the emission's factors at slot i with the map that waits at `slot`, in scenes where
+// some maps hold radiance. The function is not inlined, so that other frames do not pay for it.
 inline HWY_NOINLINE void ApplyRadianceMaps(const SurfelJob& job, const MapQueue& queue, size_t slot,
                                            size_t i) {
   if (!queue.level.any[slot]) return;
+
   const SurfelColumns& to = job.surfels;
   const MF queued = QueuedLanes(queue.level, slot);
   const VI number = hn::Load(IntTag(), reinterpret_cast<const int32_t*>(to.material) + i);
   const VU flags = MaterialLanes(job.tables, number, queued).Lobe().flags;
+
+  // The map is decoded both as a color and as radiance; the material's flag selects one.
   const V3 color =
       FilterMap(job, queue, slot, [](const Footprint& f) HWY_ATTR { return FilterColor(f); });
   const V3 radiance =
       FilterMap(job, queue, slot, [](const Footprint& f) HWY_ATTR { return FilterRadiance(f); });
   const V3 texture = Select3(HasFlags(flags, kMaterialEmissionIsRadiance), radiance, color);
+
   const V3 factor = Load3(to.emissionR, to.emissionG, to.emissionB, i);
   Store3(Select3(queued, Mul3(factor, texture), factor), to.emissionR, to.emissionG, to.emissionB,
          i);
@@ -208,13 +236,17 @@ inline HWY_NOINLINE void ApplyRadianceMaps(const SurfelJob& job, const MapQueue&
 HWY_INLINE void ApplyNormalMap(const SurfelJob& job, const BlockTextures& block, size_t slot,
                                size_t i) {
   if (!block.normal.level.any[slot]) return;
+
   const FloatTag d;
   const VF two = hn::Set(d, 2.0f), one = hn::Set(d, 1.0f);
   const SurfelColumns& surfels = job.surfels;
+
+  // Texels store the components of tangent-space normals, moved from [-1, 1] to [0, 1].
   const V3 code = FilterMap(job, block.normal, slot,
                             [](const Footprint& f) HWY_ATTR { return FilterData3(f); });
   const V3 m{MulThenSub(code.x, two, one), MulThenSub(code.y, two, one),
              MulThenSub(code.z, two, one)};
+
   const V3 tangent = Load3(block.tangent[0], block.tangent[1], block.tangent[2], slot);
   const V3 bitangent = Load3(block.tangent[3], block.tangent[4], block.tangent[5], slot);
   const V3 ns = Load3(surfels.nsX, surfels.nsY, surfels.nsZ, i);
@@ -233,13 +265,16 @@ struct MapHits {
   VF coneWidth, cosine;
 };
 
-// The second coordinates where the flags of the lane's material have `bySecond`.
+// Returns the second coordinates where the flags of the lane's material have `bySecond`, and the
+// first ones elsewhere.
 inline HWY_NOINLINE UvLanes UvsOfMap(const ShadingTables& tables, const MapHits& hits,
                                      uint32_t bySecond) {
   const MaterialLanes material(tables, hits.material, hits.live);
   const MF second = hn::And(hits.live, HasFlags(material.Lobe().flags, bySecond));
+
   const UvLanes& a = hits.first;
   if (hn::AllFalse(FloatTag(), second)) return a;
+
   const UvLanes b = LoadSecondUvs(tables, hits.triangle);
   const auto select = [&](VF yes, VF no) HWY_ATTR { return hn::IfThenElse(second, yes, no); };
   return {select(b.u0, a.u0), select(b.v0, a.v0), select(b.u1, a.u1),
@@ -262,7 +297,7 @@ inline HWY_NOINLINE void QueueEmissionByOwnUvs(const SurfelJob& job, const MapHi
   QueueMap(job, map, hits.live, PointsAt(job, hits, uv), slot, block.emission);
 }
 
-// As modelled, and the sign that turns it towards the viewer.
+// The shading normal as modelled, and the sign that turns it towards the viewer.
 struct NormalSpace {
   V3 ns;
   VF handedness, flip;
@@ -274,6 +309,7 @@ inline HWY_NOINLINE void QueueNormalByOwnUvs(const SurfelJob& job, const MapHits
   const UvLanes uv = UvsOfMap(job.tables, hits, kMaterialNormalBySecondUvs);
   const TangentFrame frame =
       FindTangentFrame(uv, hits.edge1, hits.edge2, space.ns, space.handedness);
+
   QueueMap(job, map, hn::And(hits.live, frame.good), PointsAt(job, hits, uv), slot, block.normal);
   StoreFrame(frame, space.flip, slot, block);
 }
@@ -287,15 +323,19 @@ inline HWY_NOINLINE void QueueByOwnUvs(const SurfelJob& job, size_t i, size_t sl
   const ShadingTables& tables = job.tables;
   const auto [valid, triangle] = LoadHits(job.hits, tables.triangleCount, i);
   if (hn::AllFalse(d, valid)) return;
+
+  // The surface is computed again from the hit.
   TriangleLanes t = LoadTriangles(tables, triangle);
   Weights w = LoadWeights(job.hits, i);
   Surface s = InterpolateSurface(tables, t, triangle, w, job.smooth);
   if (job.spheres) PutOnSpheres(tables, job.hits, valid, triangle, i, s, t, w);
   if (job.instances) CarryToWorld(tables, job.hits, valid, i, s);
+
   const VF cosine = Dot(Load3(job.rays.dirX, job.rays.dirY, job.rays.dirZ, i), s.ng);
   const VF width = job.cones ? hn::Load(d, job.surfels.cone + i) : hn::Zero(d);
   const MapHits map{t.uv, triangle, t.material, valid, w, s.edge1, s.edge2, width, cosine};
   const MaterialLanes material(tables, t.material, valid);
+
   if (job.normalMaps) {
     const VI normalMap = material.NormalMap();
     if (!hn::AllFalse(d, MappedLanes(normalMap, valid))) {
@@ -303,6 +343,7 @@ inline HWY_NOINLINE void QueueByOwnUvs(const SurfelJob& job, size_t i, size_t sl
       QueueNormalByOwnUvs(job, map, normalMap, NormalSpace{s.ns, s.handedness, flip}, slot, block);
     }
   }
+
   if (job.textures && job.emissionFactors) {
     QueueEmissionByOwnUvs(job, map, material.Lobe().emissionMap, slot, block);
   }

@@ -16,7 +16,8 @@ struct TargetName {
   std::int64_t bit;
   const char* name;
 };
-// Best first.
+
+// The best target comes first.
 constexpr TargetName kTargetNames[] = {
     {HWY_AVX3_DL, "avx3_dl"},
     {HWY_AVX3, "avx3"},
@@ -39,6 +40,7 @@ constexpr std::int64_t namedTargets() {
   for (const TargetName& target : kTargetNames) bits |= target.bit;
   return bits;
 }
+
 static_assert((HWY_TARGETS & ~namedTargets()) == 0, "a compiled target has no name for --simd");
 
 // The targets of this CPU, whichever target has been chosen since.
@@ -70,10 +72,12 @@ bool chooseTarget(const std::string& name) {
   static std::string chosen;
   const std::lock_guard lock(mutex);
   if (name == chosen) return true;  // others may be calling kernels
+
   const auto* const known = std::ranges::find_if(kTargetNames, [&](const TargetName& target) {
     return target.name == name && (detectedTargets() & target.bit) != 0;
   });
   if (name != "auto" && known == std::end(kTargetNames)) return false;
+
   use(name == "auto" ? 0 : known->bit);
   chosen = name;
   return true;
@@ -84,6 +88,7 @@ std::string chosenTarget() {
   for (const TargetName& target : kTargetNames) {
     if ((usable & target.bit) != 0) return target.name;
   }
+
   return "scalar";
 }
 

@@ -14,8 +14,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
 
-// A bilinear footprint along one axis: which it is, 0 for the one that begins half a texel before
-// the border, and how far its upper texel counts. A whole number, kept as a float.
+// A bilinear footprint along one axis: its number, a whole one kept as a float, which is 0 for the
+// footprint that begins half a texel before the border; and the weight of its upper texel.
 struct AxisTexels {
   VF footprint, fraction;
 };
@@ -33,9 +33,13 @@ HWY_INLINE AxisTexels FootprintAt(VF held, VF size) {
 HWY_INLINE AxisTexels WrapAxis(VF s, VF size, VI mode) {
   const FloatTag d;
   const IntTag di;
+
+  // Nearly all textures repeat.
   const VF repeated = hn::Sub(s, hn::Floor(s));
   const auto repeats = hn::Eq(mode, hn::Zero(di));
   if (HWY_LIKELY(hn::AllTrue(di, repeats))) return FootprintAt(repeated, size);
+
+  // A mirrored texture has period 2 and runs backwards in the second half of it.
   const VF half = hn::Mul(s, hn::Set(d, 0.5f));
   const VF phase = hn::Mul(hn::Sub(half, hn::Floor(half)), hn::Set(d, 2.0f));
   const VF mirrored = hn::Min(phase, hn::Sub(hn::Set(d, 2.0f), phase));
@@ -52,13 +56,13 @@ HWY_INLINE VF TameCoordinate(VF s) {
   return hn::IfThenElseZero(hn::Le(hn::Abs(s), hn::Set(d, 1048576.0f)), s);
 }
 
-// Where a block of rays looks textures up. Texels are asked for when they are queued and read when
-// the whole block has been: so the cache misses of many rays overlap.
+// The lookups of a block of rays. Texels are prefetched when they are queued and read when the
+// whole block is queued, so that the cache misses of many rays overlap.
 struct TexelQueue {
   static constexpr size_t kRays = 64;
   HWY_ALIGN int32_t texel[kRays];                      // the first of a footprint, or the nearest
   HWY_ALIGN float fractionX[kRays], fractionY[kRays];  // X below 0: no texture
-  bool any[kRays];                                     // by the first lane of a vector
+  bool any[kRays];                                     // at the first lane of each vector
 };
 
 HWY_INLINE MF QueuedLanes(const TexelQueue& queue, size_t slot) {
@@ -107,7 +111,7 @@ HWY_INLINE TextureLanes LoadTextures(const TextureRecord* table, VI texture, MF 
           hn::BitCast(di, r.w)};
 }
 
-// The fraction where texels are interpolated, and in the lanes of `snaps` that of the nearer texel.
+// Returns the fraction, but in the lanes of `snaps` that of the nearer texel: 0 or 1.
 HWY_INLINE VF Snapped(VF fraction, MF snaps) {
   const FloatTag d;
   const VF one = hn::Set(d, 1.0f);
@@ -122,20 +126,27 @@ HWY_INLINE void QueueTexels(TextureFilter filter, const TextureRecord* table,
                             TexelQueue& queue) {
   const FloatTag d;
   const IntTag di;
+
   queue.any[slot] = !hn::AllFalse(d, live);
   if (!queue.any[slot]) return;
+
   const auto [first, height, width, wrap] = LoadTextures(table, texture, live);
   const VI wrapU = hn::And(wrap, hn::Set(di, 0xFF));
   const VI wrapV = hn::And(hn::ShiftRight<8>(wrap), hn::Set(di, 0xFF));
+
   // Image rows run downwards, v upwards.
   AxisTexels x = WrapAxis(TameCoordinate(u), width, wrapU);
   AxisTexels y =
       WrapAxis(hn::Sub(hn::Set(d, 1.0f), TameCoordinate(v)), hn::ConvertTo(d, height), wrapV);
+
+  // Textures that are not interpolated take the nearer texel along each axis.
   const auto snaps = hn::Gt(wrap, hn::Set(di, int32_t{kNearestTexel} - 1));
   if (HWY_UNLIKELY(!hn::AllFalse(di, snaps))) {
     x.fraction = Snapped(x.fraction, hn::RebindMask(d, snaps));
     y.fraction = Snapped(y.fraction, hn::RebindMask(d, snaps));
   }
+
+  // The nearest filter reads one texel of the footprint.
   VI texel = hn::Add(first, TexelOf(x.footprint, y.footprint, height));
   if (filter == TextureFilter::nearest) {
     const auto nearer = [&](VF fraction, int32_t step) HWY_ATTR {
@@ -144,9 +155,11 @@ HWY_INLINE void QueueTexels(TextureFilter filter, const TextureRecord* table,
     };
     texel = hn::Add(texel, hn::Add(nearer(x.fraction, 1), nearer(y.fraction, kTexelStrip)));
   }
+
   hn::Store(hn::IfThenElseZero(hn::RebindMask(di, live), texel), di, queue.texel + slot);
   hn::Store(hn::IfThenElse(live, x.fraction, hn::Set(d, -1.0f)), d, queue.fractionX + slot);
   hn::Store(y.fraction, d, queue.fractionY + slot);
+
   for (size_t lane = slot; lane < slot + hn::Lanes(d); ++lane) {
     // A footprint may lie in two cache lines.
     hwy::Prefetch(texels + queue.texel[lane]);
@@ -154,7 +167,7 @@ HWY_INLINE void QueueTexels(TextureFilter filter, const TextureRecord* table,
   }
 }
 
-// Four texels and their weights.
+// The four texels of a bilinear lookup, and their weights.
 struct Footprint {
   VU t00, t10, t01, t11;
   VF w00, w10, w01, w11;
@@ -166,12 +179,14 @@ HWY_INLINE Footprint FetchTexels(TextureFilter filter, const uint32_t* texels,
   const IntTag di;
   const UintTag du;
   const VF one = hn::Set(d, 1.0f), zero = hn::Zero(d);
+
   if (filter == TextureFilter::nearest) {
     const VI texel = hn::GatherIndex(di, reinterpret_cast<const int32_t*>(texels),
                                      hn::Load(di, queue.texel + slot));
     const VU nearest = hn::BitCast(du, texel);
     return {nearest, nearest, nearest, nearest, one, zero, zero, zero};
   }
+
   const VF fx = hn::Load(d, queue.fractionX + slot), fy = hn::Load(d, queue.fractionY + slot);
   const VF gx = hn::Sub(one, fx), gy = hn::Sub(one, fy);
   const V4 t = LoadSquares(texels, kTexelStrip, queue.texel + slot);

@@ -23,6 +23,8 @@ HWY_INLINE VF NearCode(VF x) {
   curve = MulThenAdd(t, curve, hn::Set(d, 345.416025f));
   curve = MulThenAdd(t, curve, hn::Set(d, 36.1993571f));
   curve = MulThenAdd(t, curve, hn::Set(d, -15.2334479f));
+
+  // The transfer function of sRGB is a line up to 0.0031308.
   const VF line = hn::Mul(x, hn::Set(d, 255 * 12.92f));
   return hn::IfThenElse(hn::Gt(x, hn::Set(d, 0.0031308f)), curve, line);
 }
@@ -32,15 +34,19 @@ HWY_INLINE VU SrgbCode(const float* leastOfCodes, VF x) {
   const FloatTag d;
   const IntTag di;
   const VF one = hn::Set(d, 1.0f);
-  // A comparison that NaN fails, so that NaN becomes 0 on every target.
+
+  // A comparison that NaN fails makes NaN 0 on every target.
   const VF clamped = hn::Min(hn::IfThenElseZero(hn::Gt(x, hn::Zero(d)), x), one);
-  // Rounded down, the least that the code may be. It is one more at most, and that only where the
-  // next whole number is near: in one lane of 500. There the least float of the next code decides.
+
+  // Rounding down the lower bound gives the least possible code. The code is larger, by one, only
+  // where the next whole number is near: in one lane of 500. There the least float of the next code
+  // decides.
   const VF least = hn::Add(NearCode(clamped), hn::Set(d, 0.5f - kNear));
   const VF whole = hn::Floor(least);
   const VI code = hn::ConvertTo(di, whole);
   const MF open = hn::Ge(hn::Sub(least, whole), hn::Set(d, 1 - 2 * kNear));
   if (HWY_LIKELY(hn::AllFalse(d, open))) return hn::BitCast(UintTag(), code);
+
   const VF next = hn::GatherIndex(d, leastOfCodes, hn::Add(code, hn::Set(di, 1)));
   const VI step = hn::IfThenElseZero(hn::RebindMask(di, hn::Ge(clamped, next)), hn::Set(di, 1));
   return hn::BitCast(UintTag(), hn::Add(code, step));
@@ -59,6 +65,7 @@ HWY_INLINE VF HableCurve(VF x) {
 HWY_INLINE VF ToneCurved(ToneCurve curve, VF x) {
   const FloatTag d;
   const VF positive = hn::IfThenElseZero(hn::Gt(x, hn::Zero(d)), x);
+
   switch (curve) {
     case ToneCurve::reinhard: {
       // Infinity stays 1, not infinity over infinity.
@@ -78,14 +85,17 @@ HWY_INLINE VF ToneCurved(ToneCurve curve, VF x) {
 void EncodeDisplay(const EncodeArgs& args) {
   const FloatTag d;
   const UintTag du;
+
   const float* leastOfCodes = leastWithCodes().data();
   const ToneCurve curve = args.curve;
   const RadianceColumns radiance = args.radiance;
   const VF scale = hn::Set(d, args.exposureScale);
+
   for (size_t i = 0; i < args.n; i += hn::Lanes(d)) {
     const auto encode = [&](const float* column) HWY_ATTR {
       return SrgbCode(leastOfCodes, ToneCurved(curve, hn::Mul(hn::Load(d, column + i), scale)));
     };
+
     const VU r = encode(radiance.r), g = hn::ShiftLeft<8>(encode(radiance.g));
     const VU b = hn::ShiftLeft<16>(encode(radiance.b));
     hn::StoreU(hn::Or(hn::Or(r, g), hn::Or(b, hn::Set(du, 0xFF000000u))), du, args.codes + i);

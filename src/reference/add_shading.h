@@ -5,7 +5,7 @@
 
 namespace whit::reference {
 
-// The row that the step writes. `before` is the radiance that the step has added to.
+// Returns the row that the step writes. `before` is the radiance that the step has added to.
 inline RadianceRow addShading(const RadianceRow& before, const Chunk& chunk, std::size_t slot) {
   const UnshadowedRow light = UnshadowedRow::at(chunk.unshadowed, slot);
   if (!(light.visible > 0)) return before;

@@ -5,12 +5,12 @@
 
 namespace whit::reference {
 
-// `toLight` is not normalized; what lies at 0 < t < tFar is in the way.
+// `toLight` is not normalized; hits at 0 < t < tFar occlude the light.
 inline bool isVisible(const Intersector& intersector, const Ray& toLight, double tFar) {
   return !intersector.occluded(toLight, tFar);
 }
 
-// The row that the step writes for the slot that the shadow ray started from.
+// Returns the row that the step writes for the slot that the shadow ray started from.
 inline UnshadowedRow checkShadows(const World& world, const Chunk& chunk, std::size_t shadowRay) {
   const ShadowRow s = ShadowRow::at(chunk.shadows, shadowRay);
   const Ray toLight{{s.orgX, s.orgY, s.orgZ}, {s.dirX, s.dirY, s.dirZ}};

@@ -13,23 +13,23 @@
 
 namespace whit::reference {
 
-// The hit that a candidate stands for, computed again: u, v >= 0, u + v <= 1, t > 0. Rounding may
-// have put the hit just beside the triangle; it is moved onto it. The candidate's own u and v serve
-// where ray and triangle leave nothing to compute with.
+// Computes the hit that a candidate stands for again: u, v >= 0, u + v <= 1, t > 0. A hit that
+// rounding has put just beside the triangle is moved onto the triangle. Where the intersection is
+// undefined, the candidate's own u and v are used.
 TriangleHit refineHit(const Scene& scene, const Ray& ray, const Candidate& candidate);
 
-// How makeSurfel looks textures up.
+// The parameters of makeSurfel's texture lookups.
 struct TextureLookup {
   TextureFilter filter = TextureFilter::bilinear;
-  const MipMaps* maps = nullptr;  // of the scene, if trilinear
-  RayCone cone{};                 // at the hit: what a ray starts with that goes on from there
+  const MipMaps* maps = nullptr;  // those of the scene; needed for trilinear lookups
+  RayCone cone{};                 // the cone at the hit, with which rays from there start
 };
 
 // `hit` must lie on the candidate's triangle (refineHit); the ray's direction has unit length.
 //
 // The geometric normal alone decides which side was met, and both normals are turned over for a ray
 // that meets the inside, so that surfaces are two-sided. The shading normal may still point away
-// from the viewer, or disagree with the geometric one about a light; whoever uses it must check.
+// from the viewer, or disagree with the geometric one about a light; callers must check.
 //
 // `offset` bounds the rounding error, along the normal, of a float hit point interpolated from
 // float corners: at most 32 * 2^-24 times the sum of the magnitudes that go into it, as where
@@ -46,9 +46,10 @@ Surfel makeSurfel(const Scene& scene, EffectSet effects, const Candidate& candid
 double textureFootprint(const TriangleRecord& triangle, const float* uvs, const Affine* toWorld,
                         double coneWidth, double cosine);
 
-// How far the hit lies below the tangent planes of the triangle's corners, weighed as the corners
-// are; beyond `s.offset`, so that it is exactly 0 on flat faces (Hanika 2021, "Hacking the shadow
-// terminator", Ray Tracing Gems II, chapter 4). Part of makeSurfel.
+// Returns the vector from the hit to the tangent planes of the triangle's corners, weighted by the
+// corners' weights; only what exceeds `s.offset` counts, so that it is exactly 0 on flat faces
+// (Hanika 2021, "Hacking the shadow terminator", Ray Tracing Gems II, chapter 4). Part of
+// makeSurfel.
 Vec3d terminatorLift(const Scene& scene, EffectSet effects, const Candidate& candidate,
                      const TriangleHit& hit, const Surfel& s);
 
@@ -56,6 +57,7 @@ Vec3d terminatorLift(const Scene& scene, EffectSet effects, const Candidate& can
 struct TexturePoint {
   double u = 0, v = 0;
 };
+
 TexturePoint texturePoint(const float* uvs, const TriangleHit& hit);
 
 // True if an alpha mask has cut a hole where the ray hits the triangle; `forShadows`: a hole that
@@ -67,7 +69,8 @@ bool cutAway(const Scene& scene, std::uint32_t triangle, const TriangleHit& hit,
 bool isPassed(const Scene& scene, std::uint32_t triangle, std::uint32_t instance,
               const Vec3d& direction);
 
-// The row that the step writes for the hit that Embree has found; none where there is none.
+// Returns the row that the step writes for the hit that Embree has found; none where there is no
+// hit.
 std::optional<SurfelRow> findIntersections(const World& world, const Chunk& chunk,
                                            std::size_t slot);
 

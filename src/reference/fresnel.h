@@ -37,33 +37,39 @@ inline Interface makeInterface(double n1, double n2, double c,
     interface.g = c;
     return interface;
   }
+
+  // Beyond the critical angle reflection is total.
   const double g2 = interface.k + c * c;
   if (g2 <= 0 || c == 0) {
     interface.reflectance = 1;
     return interface;
   }
+
   const double g = interface.g = std::sqrt(g2);
   if (model == FresnelModel::schlick) {
     const double normal = (n2 - n1) / (n2 + n1), f0 = normal * normal;
-    // The refracted ray's cosine where that is the smaller one, or total reflection would not be
-    // reached at the critical angle.
+    // Schlick's term takes the smaller of the two cosines, which is the refracted ray's where the
+    // ray leaves the denser medium; otherwise total reflection would start with a jump.
     interface.reflectance = f0 + (1 - f0) * schlickTerm(n2 < n1 ? g / interface.eta : c);
     return interface;
   }
+
+  // The amplitudes are Fresnel's for both polarisations, with differences written in k.
   const double perpendicular = -interface.k / ((c + g) * (c + g));
   const double parallel = interface.k * (c - 1 / (c + g)) / (interface.eta * interface.eta * c + g);
   interface.reflectance = (perpendicular * perpendicular + parallel * parallel) / 2;
   return interface;
 }
 
-// Unit direction behind the interface of a ray along the unit direction `d`, which meets the unit
-// normal `n` (on the ray's side) at cosine c. Not for total reflection. Exactly `d` where k = 0.
+// Returns the unit direction behind the interface of a ray along the unit direction `d`, whose
+// cosine to the unit normal `n` on its side is c; exactly `d` where k = 0. Reflection must not be
+// total.
 inline Vec3d refract(const Interface& interface, const Vec3d& d, const Vec3d& n, double c) {
   if (interface.k == 0) return d;
   return normalized((d - n * (interface.k / (c + interface.g))) / interface.eta);
 }
 
-// Unit direction mirrored at the unit normal `n`.
+// Returns the unit direction `d` mirrored at the unit normal `n`.
 inline Vec3d reflect(const Vec3d& d, const Vec3d& n) { return normalized(d - n * (2 * dot(d, n))); }
 
 }  // namespace whit::reference

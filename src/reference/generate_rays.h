@@ -6,10 +6,11 @@
 
 namespace whit::reference {
 
-// Through image position (x, y), in pixels from the top left; unit direction.
+// Returns the ray through image position (x, y), in pixels from the top left, from the center of
+// the lens. Its direction has unit length.
 Ray generateRay(const CameraFrame& camera, double x, double y);
 
-// The ray of a sample of the pixel through this place in it, and the path that it begins.
+// The ray of a sample through the place `at` in its pixel, and the path that the ray begins.
 struct PrimaryRay {
   Ray ray;
   Path path;

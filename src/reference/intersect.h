@@ -19,8 +19,8 @@ struct TriangleHit {
   double t = 0, u = 0, v = 0;
 };
 
-// Where the ray's line pierces the triangle's plane: any t, any u and v. None if the ray runs along
-// the plane or the triangle has no area.
+// Returns where the ray's line pierces the triangle's plane, with any t, u and v. None if the ray
+// runs along the plane or the triangle has no area.
 std::optional<TriangleHit> piercePlane(const Ray& ray, const Corners& corners);
 
 // Returns only hits on the triangle, border included, with t > 0. Nothing slips between triangles
@@ -33,6 +33,7 @@ inline std::vector<TriangleHit> intersectSphere(const Ray& ray, const Affine& fr
   std::vector<TriangleHit> hits;
   const auto roots = meetSphere(fromUnit, ray.origin, ray.direction);
   if (!roots) return hits;
+
   for (const double t : {roots->near, roots->far}) {
     if (!(t > 0)) continue;
     const auto [u, v] = sphereWeights(onUnitSphere(fromUnit, ray.origin + ray.direction * t));
@@ -41,14 +42,19 @@ inline std::vector<TriangleHit> intersectSphere(const Ray& ray, const Affine& fr
   return hits;
 }
 
-// The one that the candidate stands for, computed again.
+// Computes the hit that the candidate stands for again. If there is none in double precision, the
+// hit keeps the candidate's weights.
 inline TriangleHit refineSphereHit(const Scene& scene, const Ray& ray, const Candidate& candidate) {
   const Affine map = sphereInWorld(scene, {candidate.triangle, candidate.instance});
+
   const Vec3d there = map.point(spherePoint(candidate.u, candidate.v));
   const double squared = dot(ray.direction, ray.direction);
   const double hint = dot(there - ray.origin, ray.direction) / squared;
+
   TriangleHit best{hint > 0 ? hint : std::numeric_limits<double>::min(), candidate.u, candidate.v};
   double least = std::numeric_limits<double>::infinity();
+
+  // Of the two hits we keep the one nearest to the point that the weights name.
   for (const TriangleHit& hit : intersectSphere(ray, map)) {
     const double off = std::fabs(hit.t - hint);
     if (!(off < least)) continue;

@@ -13,7 +13,7 @@ namespace whit::reference {
 struct Ray {
   Vec3d origin, direction;
   RayCone cone{};    // for texture lookups
-  double tNear = 0;  // what is not farther than this is passed over
+  double tNear = 0;  // hits at this distance or nearer are ignored
 };
 
 inline constexpr std::uint32_t kNoHit = 0xffffffffu;
@@ -30,15 +30,22 @@ struct Impulse;
 class Intersector {
  public:
   virtual ~Intersector() = default;
-  // The nearest triangle along the ray, beyond its tNear; alpha masks are respected. False: none.
+
+  // Finds the closest hit beyond the ray's tNear, outside the holes of alpha masks. False if there
+  // is none.
   virtual bool closest(const Ray& ray, Candidate& candidate) const = 0;
-  // Told of each triangle that a path goes on from: of those in one place, the one that counts.
+
+  // Called for each triangle that a path goes on from: among coplanar ones, the one that was
+  // chosen.
   virtual void met(const Candidate&) const {}
-  // Told of each impulse that is followed, and of what it brought back before its weight counts.
+
+  // Called before each impulse is followed, and with the radiance that it returns, unweighted.
   virtual void began(const Impulse&, RayKind) const {}
   virtual void ended(const RgbD& /*radiance*/) const {}
-  // Told that the sample which was begun last is traced again (sampling/ray_limit.h).
+
+  // Called when the sample that was begun last is traced again (sampling/ray_limit.h).
   virtual void beganAgain() const {}
+
   // True if a surface that casts shadows lies at 0 < t < tFar (direction not normalized).
   virtual bool occluded(const Ray& ray, double tFar) const = 0;
 };

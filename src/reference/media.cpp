@@ -22,26 +22,28 @@ MediaStack crossed(MediaStack stack, std::uint32_t medium, bool entering) {
 
 constexpr int kOtherBits = 10, kMostOthers = 3;
 
-// In no plane, and through no edge, that a model is likely to have.
+// The direction lies in no plane and passes through no edge that a model is likely to have.
 const Vec3d kProbe = normalized(Vec3d{0.3217, 0.8431, 0.4309});
 
-// A straight line meets a triangle once, a sphere twice. Twice as many end what rounding might keep
-// going.
+// Upper bound on the hits along a straight line: one with each triangle, two with each sphere, and
+// twice that, so that rounding cannot keep the search going.
 std::uint64_t mostSurfaces(const Scene& scene) {
   return 2 * scene.instancedTriangles + 4 * scene.instancedSpheres + 16;
 }
 
-// The media whose surfaces a ray from the point leaves without having entered them first, the one
-// left first in the low byte; at most four (hard case H47). However many opaque surfaces lie in
-// between: they bound no medium. 0 without Effect::transmission.
+// Returns the media whose surfaces a ray from the point leaves without having entered them first,
+// the one left first in the low byte; at most four (hard case H47). Opaque surfaces in between
+// bound no medium and are passed. 0 without Effect::transmission.
 MediaStack initialMediumStack(const Scene& scene, EffectSet effects, const Intersector& intersector,
                               const Vec3d& point) {
   if (!effects.has(Effect::transmission)) return 0;
+
   Ray ray{point, kProbe};
   const std::uint64_t most = mostSurfaces(scene);
   std::array<std::uint64_t, 256> entered{};
   MediaStack around = 0;
   int found = 0;
+
   for (std::uint64_t i = 0; i < most && found < 4; ++i) {
     Candidate candidate;
     if (!intersector.closest(ray, candidate)) break;
@@ -49,10 +51,14 @@ MediaStack initialMediumStack(const Scene& scene, EffectSet effects, const Inter
     const TriangleHit hit = refineHit(scene, ray, candidate);
     const Surfel surfel = makeSurfel(scene, EffectSet(), candidate, hit, ray);
     std::vector<Place> places = placesAt(scene, effects, ray, candidate);
+
+    // The ray goes on from the other side of the surface.
     ray.origin = surfel.position - surfel.geometricNormal * surfel.offset;
     if (places.empty()) {
       places = {{candidate, hit, scene.mediumOfMaterial[surfel.material], surfel.entering}};
     }
+
+    // A medium that the ray leaves without having entered it surrounds the point.
     for (const Place& place : places) {
       if (place.medium == 0) continue;
       if (place.entering) {
@@ -64,20 +70,23 @@ MediaStack initialMediumStack(const Scene& scene, EffectSet effects, const Inter
       }
     }
   }
+
   return around;
 }
 
-// True if the point lies in the surface of a dielectric: rays that start there are in one medium or
-// the other, each by its direction.
+// True if the point lies in the surface of a dielectric: the directions of rays that start there
+// decide which medium they are in.
 bool liesOnDielectric(const Scene& scene, EffectSet effects, const Intersector& intersector,
                       const Vec3d& point) {
   if (!effects.has(Effect::transmission)) return false;
+
   const auto startsOnOne = [&](const Vec3d& direction) {
     Candidate met;
     return intersector.closest({point, direction}, met) &&
            scene.mediumOfMaterial[scene.triangles[met.triangle].material] != 0 &&
            liesInSurface(scene, point, met.triangle, met.instance);
   };
+
   return startsOnOne(kProbe) || startsOnOne(-kProbe);
 }
 
@@ -90,6 +99,7 @@ MediaStack pushMedium(MediaStack stack, std::uint32_t medium) {
 MediaStack removeMedium(MediaStack stack, std::uint32_t medium) {
   for (int shift = 0; shift < kStackBits; shift += kEntryBits) {
     if (entryAt(stack, shift) != medium) continue;
+
     const std::uint32_t newerEntries = stack & ((1u << shift) - 1);
     // In 64 bits, because a shift by all 32 bits of a word is not defined.
     const std::uint64_t olderEntries = std::uint64_t{stack} >> (shift + kEntryBits) << shift;
@@ -120,6 +130,8 @@ Crossing crossMedia(const Scene& scene, EffectSet effects, std::uint32_t materia
   if (!effects.has(Effect::transmission) || !scene.materials[material].passesLight()) {
     return crossing;
   }
+
+  // The ray crosses the hit surface and all dielectrics whose faces share its place.
   const std::uint32_t medium = scene.mediumOfMaterial[material];
   crossing.dielectric = true;
   if (medium != 0) crossing.stackBehind = crossed(stack, medium, entering);
@@ -128,11 +140,15 @@ Crossing crossMedia(const Scene& scene, EffectSet effects, std::uint32_t materia
     if (other >> 1 == 0) continue;  // kSharesPlace
     crossing.stackBehind = crossed(crossing.stackBehind, other >> 1, (other & 1) != 0);
   }
+
+  // The media of highest priority on both sides refract; where they are the same there is no
+  // interface.
   const std::uint32_t before = currentMedium(scene, stack);
   const std::uint32_t behind = currentMedium(scene, crossing.stackBehind);
   crossing.hidden = medium != 0 && before == behind;
   crossing.n1 = scene.media[before].ior;
   crossing.n2 = scene.media[behind].ior;
+
   return crossing;
 }
 
@@ -140,7 +156,7 @@ RgbD transmittance(const Scene& scene, MediaStack stack, double distance) {
   const Rgb& absorption = scene.media[currentMedium(scene, stack)].absorption;
   const auto channel = [&](double sigma) {
     const double opticalDepth = sigma * distance;
-    // Zero times infinity: a channel that is not absorbed, however far the ray goes.
+    // Zero times infinity: the channel is not absorbed, however far the ray goes.
     return std::isnan(opticalDepth) ? 1.0 : std::exp(-opticalDepth);
   };
   return {channel(absorption.x), channel(absorption.y), channel(absorption.z)};
@@ -151,20 +167,25 @@ CameraFrame frameWithMedia(const Scene& scene, EffectSet effects, const Intersec
   Camera seen = camera;
   if (!effects.has(Effect::depthOfField)) seen.aperture = 0;
   CameraFrame frame = makeCameraFrame(seen, width, height);
+
   // Averaging the samples of a pixel filters textures as well: with 1 / sqrt(samples) pictures are
   // more blurred than those of many samples.
   frame.footprint = 1.0 / samples;
+
   frame.media = initialMediumStack(scene, effects, intersector, frame.eye);
   frame.mediaVary =
       frame.reach != Vec3d() || liesOnDielectric(scene, effects, intersector, frame.eye);
+
   return frame;
 }
 
 MediaStack mediaAtStart(const Scene& scene, EffectSet effects, const Intersector& intersector,
                         const CameraFrame& camera, const Ray& ray) {
-  // Far enough for the rounding of the sum where a ray leaves at a hundredth of a right angle.
+  // This is far enough for the rounding of the sum where a ray leaves the surface at a hundredth of
+  // a right angle.
   constexpr int kAttempt = 6;
   if (!camera.mediaVary) return camera.media;
+
   const Vec3d start = ray.origin + ray.direction * wayPastEye(ray.origin, kAttempt);
   return initialMediumStack(scene, effects, intersector, start);
 }

@@ -14,19 +14,21 @@ namespace whit::reference {
 using MediaStack = std::uint32_t;
 
 MediaStack pushMedium(MediaStack stack, std::uint32_t medium);
-// Without the occurrence of `medium` that was entered last; unchanged if there is none (the ray
-// started inside).
+
+// Returns the stack without the occurrence of `medium` that was entered last; unchanged if there is
+// none, because the ray started inside.
 MediaStack removeMedium(MediaStack stack, std::uint32_t medium);
-// The medium that fills the space: the one of highest priority, among equals the one entered last;
-// the vacuum, 0, outside everything (Schmidt and Budge 2002, "Simple nested dielectrics in ray
-// traced images").
+
+// Returns the medium that fills the space: the one of highest priority, among equals the one
+// entered last; the vacuum, 0, outside everything (Schmidt and Budge 2002, "Simple nested
+// dielectrics in ray traced images").
 std::uint32_t currentMedium(const Scene& scene, MediaStack stack);
 
-// Dielectrics whose faces share the place of the one that is crossed, as hits carry them
-// (stages/columns.h): `others` and one more; three fit.
+// Adds a dielectric to `others`, those whose faces share the place of the crossed one, packed as in
+// hits (stages/columns.h). Three fit.
 std::uint32_t withCrossing(std::uint32_t others, std::uint32_t medium, bool entering);
 
-// A ray crossing the surface of a dielectric, and those of `others` with it.
+// A ray crosses the surface of a dielectric, and those of `others` with it.
 struct Crossing {
   bool dielectric = false;
   bool hidden = false;         // the same medium on both sides: the surface is not there
@@ -40,11 +42,12 @@ Crossing crossMedia(const Scene& scene, EffectSet effects, std::uint32_t materia
 // distance leaves nothing of the channels that are absorbed at all.
 RgbD transmittance(const Scene& scene, MediaStack stack, double distance);
 
-// The camera for a picture of that size and number of samples per pixel, and the media around it.
+// Returns the camera for a picture of this size and number of samples per pixel, with the media
+// around the eye.
 CameraFrame frameWithMedia(const Scene& scene, EffectSet effects, const Intersector& intersector,
                            const Camera& camera, int width, int height, int samples);
 
-// Around the start of a ray of the camera, just past what the eye lies in.
+// Returns the media around the start of a camera ray, just past the surface that the eye lies in.
 MediaStack mediaAtStart(const Scene& scene, EffectSet effects, const Intersector& intersector,
                         const CameraFrame& camera, const Ray& ray);
 

@@ -24,20 +24,21 @@ namespace whit::reference {
 
 struct Settings {
   RenderOptions options;
-  EffectSet effects = EffectSet::all();  // effects the scene has and that are not disabled
-  int threads = 1;                       // whatever the options say
+  EffectSet effects = EffectSet::all();  // effects that the scene has and that are not disabled
+  int threads = 1;                       // used in place of the options' number
 };
 
-// Rays traced, by their kind.
+// Counters of the rays traced, by their kind.
 class RayCounts {
  public:
-  // RadianceColumns::ended and clearR of the samples, added up.
+  // Sums over the samples of RadianceColumns::ended and of clearR, clearG and clearB.
   double ended = 0;
   RgbD clear;
 
   std::uint64_t& operator[](RayKind kind) { return counts_[static_cast<std::size_t>(kind)]; }
   std::uint64_t operator[](RayKind kind) const { return counts_[static_cast<std::size_t>(kind)]; }
-  // Samples that were traced again as narrower trees, and pixels that have some.
+
+  // Samples that were traced again as narrower trees, and pixels that have such samples.
   std::uint64_t limitedSamples = 0, limitedPixels = 0;
 
   std::uint64_t all() const {
@@ -72,17 +73,17 @@ struct SampleTree {
   bool narrows = false;
 };
 
-// Which path a ray ends: its number, and the place of the pixel's sample in the pattern; and the
-// tree that it belongs to, if the number of its rays is bounded, with the ray's width.
+// The path that a ray ends: the path's number, and the place of the pixel's sample in the pattern.
+// The tree is set if the number of its rays is bounded; `width` is that of the ray.
 struct Path {
   std::uint32_t number = 0, sample = 0;
-  bool straight = true;  // it has gone on along its camera ray
+  bool straight = true;  // the path has gone on along its camera ray
   SampleTree* tree = nullptr;
   std::uint64_t width = 1;
 };
 
-// Which of the impulses of a surface are followed: all, or the one with this number, which then
-// counts for all. `next` is the number of the next one.
+// Selects the impulses of a surface that are followed: all, or the chosen one, which then counts
+// for all. `next` is the number of the next impulse.
 struct Choice {
   std::uint64_t width = 1;  // of the rays that are followed
   bool all = true;
@@ -90,26 +91,36 @@ struct Choice {
   double weights = 0;  // sum of the largest channels of all weights
 };
 
-// Radiance along the ray, recursing for impulses (Whitted 1980). `throughput` is what the result is
-// multiplied with on its way to the eye, for the cutoff; `path` draws the samples of lobes.
+// Computes the radiance along a ray, recursing for impulses (Whitted 1980). `throughput`, which the
+// cutoff needs, is the factor of the result on its way to the eye; `path` draws the samples of
+// lobes.
 class Tracer {
  public:
   Tracer(const Scene& scene, const Intersector& intersector, const Settings& settings);
+
   RgbD traceImpulse(const Ray& ray, int depth, double throughput, std::uint32_t media,
                     RayCounts& counts, Path path = {}) const;
-  // Mean over the sample pattern of the pixel.
+
+  // Returns the mean over the sample pattern of the pixel.
   RgbD pixel(const CameraFrame& camera, int x, int y, RayCounts& counts) const;
-  // The standard error of that mean: of the mean of the three colors, as if samples were
+
+  // Returns the standard error of pixel(), for the mean of the three colors and as if samples were
   // independent; infinity for one sample.
   double standardError(const CameraFrame& camera, int x, int y, RayCounts& counts) const;
-  // Through the pixel's center alone, and what that ray meets.
+
+  // Return the radiance along the ray through the pixel's center alone, and the surface that it
+  // hits.
   RgbD center(const CameraFrame& camera, int x, int y, RayCounts& counts) const;
   PixelSurface surfaceAtCenter(const CameraFrame& camera, int x, int y) const;
-  // Through any place in the pixel, from the top left, whose rays are those of this sample.
+
+  // Returns the radiance through any place in the pixel, from its top left; lobes are sampled as
+  // for this sample.
   RgbD sampled(const CameraFrame& camera, int x, int y, const Vec2f& at, std::size_t sample,
                RayCounts& counts) const;
+
   bool samplesAdaptively() const { return whit::samplesAdaptively(options_, scene_.effects); }
-  // The first hit of the same ray, without the ray counts.
+
+  // Returns the channels of the first hit of the ray of sampled().
   ChannelValues channels(const CameraFrame& camera, int x, int y, const Vec2f& at,
                          std::size_t sample) const;
 
@@ -135,7 +146,7 @@ class Tracer {
   std::optional<MipMaps> maps_;  // where lookups are trilinear
 };
 
-// All pixels of image.window; rows shared among settings.threads threads.
+// Renders all pixels of image.window; settings.threads threads share the rows.
 RayCounts render(const Scene& scene, const Intersector& intersector, const Camera& camera,
                  const Settings& settings, Image& image, Progress* progress = nullptr);
 

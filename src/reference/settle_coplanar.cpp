@@ -21,7 +21,8 @@ bool isEntered(const Scene& scene, const Candidate& c, const Vec3d& direction) {
   return dot(direction, normal) < 0;
 }
 
-// How many corners of `a` are corners of `b` as well; 0 where the hit does not lie between these.
+// Returns how many corners of `a` are corners of `b` as well; 0 where the hit does not lie between
+// these.
 int cornersBetween(const Corners& a, const Corners& b, const TriangleHit& hit) {
   constexpr double kRounding = 1e-9;
   const double weights[] = {1 - hit.u - hit.v, hit.u, hit.v};
@@ -39,6 +40,7 @@ int cornersBetween(const Corners& a, const Corners& b, const TriangleHit& hit) {
 bool areNeighbors(const Scene& scene, const Place& a, const Place& b) {
   if (a.medium != b.medium || a.entering != b.entering) return false;
   if (a.candidate.instance != b.candidate.instance) return false;
+
   const Corners corners = worldCorners(scene, a.candidate.triangle, kNoInstance),
                 others = worldCorners(scene, b.candidate.triangle, kNoInstance);
   const int shared = cornersBetween(corners, others, a.hit);
@@ -54,11 +56,12 @@ void mergeNeighbors(const Scene& scene, std::vector<Place>& places) {
         surfaces, [&](const Place& other) { return areNeighbors(scene, other, place); });
     if (!known) surfaces.push_back(place);
   }
+
   places = std::move(surfaces);
 }
 
-// By how much the distance of a hit may be off in floats: of the corners as seen from the ray's
-// start what goes along the normal counts.
+// Returns a bound on the rounding error of a hit's distance in floats. Only the components along
+// the normal of the corners, relative to the ray's start, count.
 double distanceError(const Scene& scene, const Ray& ray, const Place& place) {
   const Corners corners = worldCorners(scene, place.candidate.triangle, place.candidate.instance);
   Vec3d far;
@@ -71,6 +74,7 @@ double distanceError(const Scene& scene, const Ray& ray, const Place& place) {
 // Keeps the places that are no farther than the nearest one, as far as floats can tell.
 void keepNearest(const Scene& scene, const Ray& ray, std::vector<Place>& places) {
   if (places.empty()) return;
+
   const auto nearest = std::ranges::min_element(places, {}, [](const Place& p) { return p.hit.t; });
   const double least = nearest->hit.t + distanceError(scene, ray, *nearest);
   std::erase_if(places, [&](const Place& place) {
@@ -82,6 +86,7 @@ void keepNearest(const Scene& scene, const Ray& ray, std::vector<Place>& places)
 bool comesFirst(const Scene& scene, const Place& a, const Place& b) {
   if (a.opaque != b.opaque) return a.opaque;
   if ((a.medium == 0) != (b.medium == 0)) return a.medium == 0;
+
   const int priorityA = scene.media[a.medium].priority, priorityB = scene.media[b.medium].priority;
   if (priorityA != priorityB) return priorityA > priorityB;
   return a.rank > b.rank;
@@ -93,14 +98,19 @@ std::vector<Place> placesAt(const Scene& scene, EffectSet effects, const Ray& ra
                             const Candidate& met) {
   std::vector<Place> places;
   if (!scene.coplanar.any(met.triangle)) return places;
+
+  // A surface counts unless the ray misses it, passes through a hole of its mask or hits its back
+  // where it is single-sided.
   const auto add = [&](const PlacedTriangleId& id, std::uint32_t rank) {
     if (id.instance != kNoInstance && !effects.has(Effect::instances)) return;
     const auto hit = intersectTriangle(ray, worldCorners(scene, id.triangle, id.instance));
     if (!hit) return;
     if (effects.has(Effect::alphaMasks) && cutAway(scene, id.triangle, *hit)) return;
+
     // The triangle that was hit is there, although rounding may deny it for edge-on triangles.
     const bool isMet = id == idOf(met);
     if (!isMet && isPassed(scene, id.triangle, id.instance, ray.direction)) return;
+
     Place place{{id.triangle, id.instance, hit->u, hit->v}, *hit, 0, false, true, rank};
     if (effects.has(Effect::transmission)) {
       const std::uint32_t material = scene.triangles[id.triangle].material;
@@ -110,9 +120,13 @@ std::vector<Place> placesAt(const Scene& scene, EffectSet effects, const Ray& ra
     place.entering = isEntered(scene, place.candidate, ray.direction);
     places.push_back(place);
   };
+
+  // The partners that overlap the triangle at this point are added first, then the triangle itself.
   scene.coplanar.forEachPartnerAt(idOf(met), met.u, met.v, add);
   if (places.empty()) return places;
   add(idOf(met), scene.coplanar.rankOf(idOf(met)));
+
+  // Surfaces farther away than float rounding explains are dropped, and neighbors count as one.
   keepNearest(scene, ray, places);
   mergeNeighbors(scene, places);
   return places;
@@ -122,17 +136,22 @@ Settled settleCoplanar(const Scene& scene, EffectSet effects, const Ray& ray,
                        const Candidate& met) {
   if (scene.isSphere(met.triangle)) return {settleSpheres(scene, effects, met), {}};
   if (scene.coplanar.empty()) return {met, {}};
+
   const std::vector<Place> places = placesAt(scene, effects, ray, met);
   if (places.empty()) return {met, {}};
+
   const Place* first = &places[0];
   for (const Place& place : places) {
     if (comesFirst(scene, place, *first)) first = &place;
   }
+
+  // Light that crosses a dielectric crosses all others in the same place as well.
   Settled settled{first->candidate, first->hit};
   for (const Place& place : places) {
     if (&place == first || first->opaque || place.medium == 0) continue;
     settled.alsoCrossed = withCrossing(settled.alsoCrossed, place.medium, place.entering);
   }
+
   if (places.size() > 1) settled.alsoCrossed |= kSharesPlace;
   return settled;
 }
@@ -140,23 +159,30 @@ Settled settleCoplanar(const Scene& scene, EffectSet effects, const Ray& ray,
 Candidate settleSpheres(const Scene& scene, EffectSet effects, const Candidate& met) {
   const auto place = scene.coincidentSpheres.find(orderOf(idOf(met)));
   if (place == scene.coincidentSpheres.end()) return met;
+
   const PlacedTriangleId sphere = idOf(met);
   const Vec3d point = sphereInWorld(scene, sphere).point(spherePoint(met.u, met.v));
+
   std::optional<Place> best;
   std::uint32_t rank = 0;
   for (const PlacedTriangleId& id : *place->second) {
     if (id.instance != kNoInstance && !effects.has(Effect::instances)) continue;
+
+    // Coincident spheres may be rotated, so the point has other weights on each of them.
     const auto [u, v] = sphereWeights(onUnitSphere(sphereInWorld(scene, id), point));
     const TriangleHit hit{0, u, v};
     if (id != sphere && effects.has(Effect::alphaMasks) && cutAway(scene, id.triangle, hit)) {
       continue;
     }
+
     const std::uint32_t material = scene.triangles[id.triangle].material;
     const Place own{{id.triangle, id.instance, u, v},         hit,
                     scene.mediumOfMaterial[material],         false,
                     !scene.materials[material].passesLight(), rank++};
+
     if (!best || comesFirst(scene, own, *best)) best = own;
   }
+
   return best ? best->candidate : met;
 }
 

@@ -12,31 +12,31 @@
 
 namespace whit::reference {
 
-// One of the triangles at the place.
+// One of the coplanar triangles that the ray hits.
 struct Place {
   Candidate candidate;
   TriangleHit hit;
-  std::uint32_t medium = 0;  // of dielectrics
-  bool entering = false;     // its outside is hit
+  std::uint32_t medium = 0;  // 0 if the surface is no dielectric
+  bool entering = false;     // the ray hits the outside
   bool opaque = true;
-  std::uint32_t rank = 0;  // in the order of the scene
+  std::uint32_t rank = 0;  // position in the order of the scene
 };
 
-// All surfaces that the ray pierces there, that of `met` included, holes of alpha masks left out;
-// of neighbors whose common edge it passes one. None where `met` shares its place with nothing, or
-// where rounding has it that the ray passes beside all of them.
+// Returns all surfaces that the ray pierces in the place of `met`, the one of `met` included, but
+// not where alpha masks have holes. Neighbors whose common edge the ray passes count as one. None
+// where `met` shares its place with nothing, or where the ray misses all of them by rounding.
 std::vector<Place> placesAt(const Scene& scene, EffectSet effects, const Ray& ray,
                             const Candidate& met);
 
 struct Settled {
   Candidate candidate;
-  std::optional<TriangleHit> hit;  // where other triangles lie in the same place
+  std::optional<TriangleHit> hit;  // set where other triangles lie in the same place
   std::uint32_t alsoCrossed = 0;   // dielectrics whose faces lie there too (reference/media.h)
 };
 
-// Light meets the opaque surface; of dielectrics alone the one of highest priority, and with it all
-// the others are crossed; of equals the last in the scene as it was written, as paint lies on what
-// was painted before.
+// An opaque surface comes first, then a sheet, then the dielectric of highest priority. Without an
+// opaque one, light crosses all other dielectrics in the same place as well. Among equals the last
+// one in the scene as it was written comes first, as new paint lies on older paint.
 Settled settleCoplanar(const Scene& scene, EffectSet effects, const Ray& ray, const Candidate& met);
 
 // Chooses among coincident spheres by the rule for coplanar triangles: an opaque sphere comes

@@ -11,7 +11,7 @@ constexpr double kLargestCoordinate = 1 << 20;
 
 double tame(double s) { return std::abs(s) <= kLargestCoordinate ? s : 0.0; }
 
-// The two texels that a coordinate lies between, and how far it is from the lower to the upper.
+// The two texels that a coordinate lies between; `fraction` is the weight of the upper one.
 struct Between {
   int lower = 0, upper = 0;
   double fraction = 0;
@@ -35,6 +35,8 @@ Between held(double s, int size) {
 Between texelsAround(double s, int size, Wrap wrap) {
   if (wrap == Wrap::repeat) return repeated(s, size);
   if (wrap == Wrap::clamp) return held(std::clamp(s, 0.0, 1.0), size);
+
+  // A mirrored texture has period 2 and runs backwards in the second half of it.
   const double phase = 2 * (s / 2 - std::floor(s / 2));
   return held(std::min(phase, 2 - phase), size);
 }
@@ -42,6 +44,8 @@ Between texelsAround(double s, int size, Wrap wrap) {
 double valueOf(TexelFormat format, std::uint32_t texel, int channel) {
   if (format == TexelFormat::radiance) return double{decodeRadianceTexel(texel)[channel]};
   if (format == TexelFormat::data) return (texel >> (8 * channel) & 255u) / 255.0;
+
+  // Colors are stored as square roots of linear light.
   const double root = (texel >> (10 * channel) & 1023u) / 1023.0;
   return root * root;
 }
@@ -51,19 +55,23 @@ double valueOf(TexelFormat format, std::uint32_t texel, int channel) {
 RgbD sampleTexture(const Texture& texture, double u, double v, TextureFilter filter) {
   const Between x = texelsAround(tame(u), texture.width, texture.wrapU);
   const Between y = texelsAround(1 - tame(v), texture.height, texture.wrapV);
+
   const auto channel = [&](int number) {
     const auto value = [&](int column, int row) {
       return valueOf(texture.format, texture.texel(column, row), number);
     };
+
     if (filter == TextureFilter::nearest || texture.nearest) {
       return value(x.nearest(), y.nearest());
     }
+
     const double upperRow =
         value(x.lower, y.lower) * (1 - x.fraction) + value(x.upper, y.lower) * x.fraction;
     const double lowerRow =
         value(x.lower, y.upper) * (1 - x.fraction) + value(x.upper, y.upper) * x.fraction;
     return upperRow * (1 - y.fraction) + lowerRow * y.fraction;
   };
+
   return {channel(0), channel(1), channel(2)};
 }
 

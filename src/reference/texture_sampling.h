@@ -6,9 +6,9 @@
 
 namespace whit::reference {
 
-// u to the right, v upwards; texel centers lie at half-integers. Coordinates that are not finite or
-// beyond 2^20 either way, where a float holds no fraction of a texel any more, count as 0. Linear
-// light, or of a texture in TexelFormat::data the first three channels, in [0, 1].
+// u runs to the right and v upwards; texel centers lie at half-integers. Coordinates that are not
+// finite or beyond 2^20 either way, where a float holds no fraction of a texel any more, count as
+// 0. Returns linear light, or the first three channels of TexelFormat::data, in [0, 1].
 RgbD sampleTexture(const Texture& texture, double u, double v,
                    TextureFilter filter = TextureFilter::bilinear);
 
@@ -16,7 +16,7 @@ RgbD sampleTexture(const Texture& texture, double u, double v,
 // one texel, and one more each time that the area's sides double. 0 where the area is no number.
 double mipLevel(double area);
 
-// Bilinear lookups in the levels below and above `level`, mixed by its fraction.
+// Mixes bilinear lookups in the levels below and above `level` by its fraction.
 RgbD sampleTexture(const MipMaps& maps, const ShownMap& map, double u, double v, double level);
 
 }  // namespace whit::reference
