@@ -21,7 +21,7 @@
 
 namespace whit {
 
-// The number of threads that the option `threads` stands for.
+// Returns the number of threads that the option `threads` stands for.
 int threadsOf(const RenderOptions& options);
 
 struct PictureRequest {
@@ -43,19 +43,20 @@ class Engine {
 
   const std::shared_ptr<OpenScene>& opened() const { return opened_; }
   const Scene& scene() const { return opened_->scene; }
-  // Goes on with a copy of the scene, because others share the present one.
+
+  // Replaces the scene by a copy, because others share the present one.
   void ownScene();
-  // A copy of the scene at its present time, for others to go on with.
+  // Returns a copy of the scene at its present time, for others to use.
   std::shared_ptr<OpenScene> copyScene();
 
-  // Options of the next pictures, those of `given` by name. Presets (--quality) and the options
-  // that the scene states fill in the others.
+  // Sets the options of the next pictures. `given` names those that the caller chose; presets
+  // (--quality) and the options that the scene states fill in the others.
   void setOptions(const RenderOptions& options, const std::set<std::string>& given);
-  // These options, without presets and the scene's own.
+  // Sets all options, without presets and without those that the scene states.
   void setOptions(const RenderOptions& options);
-  // The options that the next picture is asked for with; its exposure may be automatic.
+  // Returns the options that are requested for the next picture; the exposure may be automatic.
   RenderOptions wantedOptions() const;
-  // The options of the renderer, with the exposure that they have settled to.
+  // Returns the options of the renderer, in which an automatic exposure is replaced by its value.
   const RenderOptions& options() const { return options_; }
 
   // Sets a member of the scene, as --set POINTER=VALUE. The scene is read again where that is
@@ -66,10 +67,11 @@ class Engine {
   // Moves everything that follows the time. Takes effect with the next picture, or update().
   void setTime(double seconds);
   double seconds() const { return seconds_; }
-  // Sets the transform of a named item (Instant::movable). Takes effect likewise.
+  // Sets the transform of a named item (Instant::movable). Takes effect with the next picture, or
+  // update().
   void setTransform(const std::string& pointer, const Affine& place);
 
-  // Looks through this camera in place of the scene's; none: the scene's.
+  // Replaces the scene's camera; none restores it.
   void lookThrough(const std::optional<Camera>& camera);
   // The camera of the next picture, changed by the options. To be called after prepare().
   Camera camera() const;
@@ -80,16 +82,16 @@ class Engine {
   Renderer& prepare(Progress* progress = nullptr);
   // The renderer of the last prepare().
   Renderer& renderer() { return *renderer_; }
-  // The queries of rays about the scene at its present time.
+  // Returns the object that answers ray queries about the scene at its present time.
   const RayQueries& rayQueries(Progress* progress = nullptr);
 
-  // The metadata of a picture by the prepared renderer.
+  // Returns the metadata of a picture by the prepared renderer.
   ImageMetadata describe(const Camera& camera, const Film& film) const;
   // Renders all samples of a picture. `film` has the size of the picture. Throws
   // Error(badScene) for pixels that are not finite where the options are strict.
   Picture render(const PictureRequest& request, Film& film);
 
-  // Scene, tables, queues and acceleration structure.
+  // Returns the memory of scene, tables, queues and acceleration structure.
   std::uint64_t memoryBytes() const;
 
  private:
@@ -100,7 +102,7 @@ class Engine {
   std::optional<JsonDocument> document_;  // that the scene was read from, after the first edit
 
   RenderOptions asked_;
-  // The options in asked_ that were given; none: asked_ is complete.
+  // Names of the options in asked_ that the caller chose; none: asked_ is complete.
   std::optional<std::set<std::string>> given_ = std::set<std::string>();
   RenderOptions options_;
   bool optionsChanged_ = true;

@@ -12,6 +12,7 @@ OpenScene::OpenScene(const OpenScene& other)
       warnings(other.strict),
       loadMs(other.loadMs),
       isMade(other.isMade) {
+  // Warnings hold a mutex, so that they are copied entry by entry.
   for (const auto& [kind, entry] : other.warnings.entries()) {
     warnings.note(kind, entry.first, entry.count);
   }
@@ -21,9 +22,11 @@ std::unique_ptr<OpenScene> openScene(const SceneSource& source, const LoadOption
                                      bool strict, Progress* progress, const LookAtScene& look) {
   const Stopwatch stopwatch;
   auto open = std::make_unique<OpenScene>(strict);
+
   SceneDescription description = source.text
                                      ? loadScene(*source.text, load, open->warnings, progress)
                                      : loadScene(source.name, load, open->warnings, progress);
+  // The callback sees the description as it was read, before it is baked.
   if (look) look(description);
 
   open->scene = finalizeScene(source.name, std::move(description), open->warnings, progress);
@@ -36,8 +39,10 @@ std::unique_ptr<OpenScene> openScene(const SceneSource& source, const LoadOption
 
 void addSettings(const std::vector<std::string>& settings, const std::string& sky,
                  ImageMetadata& metadata) {
+  // The metadata have one entry for all settings, a line for each.
   std::string text;
   for (const std::string& setting : settings) text += (text.empty() ? "" : "\n") + setting;
+
   if (!text.empty()) metadata.emplace_back("set", text);
   if (!sky.empty()) metadata.emplace_back("sky", sky);
 }

@@ -32,11 +32,11 @@ struct OpenScene {
   Warnings warnings;
   double loadMs = 0;    // reading and baking
   bool isMade = false;  // made or moved by a program: no command line opens it
-  // Held while the scene is brought to another time, where other threads look at it.
+  // Locked while the scene is moved to another time, if other threads read it.
   mutable std::mutex moving;
 };
 
-// Sees a scene before it is baked.
+// Is called with the description of a scene before it is baked.
 using LookAtScene = std::function<void(const SceneDescription&)>;
 
 // Reads and bakes a scene. `strict`: the first thing that would be repaired is an error.
@@ -44,7 +44,7 @@ std::unique_ptr<OpenScene> openScene(const SceneSource& source, const LoadOption
                                      bool strict, Progress* progress = nullptr,
                                      const LookAtScene& look = {});
 
-// Says with which settings of LoadOptions the scene was read; nothing without any.
+// Adds the settings of LoadOptions with which the scene was read to the metadata of a picture.
 void addSettings(const std::vector<std::string>& settings, const std::string& sky,
                  ImageMetadata& metadata);
 

@@ -12,14 +12,14 @@ namespace whit {
 // Removes what turns each effect on (see effects_of_scene.cpp), so that the scene calls for all
 // other effects and for none of these. Masked surfaces become solid, a sky image becomes a
 // gradient, glass becomes opaque, spheres become triangles, and of each object the first instance
-// remains. Without mirror dielectrics get the refractive index of the vacuum, because others
-// reflect.
+// remains. Without the mirror effect, dielectrics get the refractive index of the vacuum,
+// because others reflect.
 void leaveOut(SceneDescription& description, EffectSet effects);
 
 // Effects of the matte scene: primary and shadow rays, lights that shine all around.
 inline constexpr EffectSet kMatteEffects = EffectSet().with(Effect::lights).with(Effect::shadows);
 
-// Effects that are added to it, in this order: each needs only those before it.
+// Effects that are added to the matte scene, in this order: each needs only those before it.
 inline constexpr std::array kAddedEffects{
     Effect::spotLights,   Effect::directionalLights, Effect::ambient,          Effect::emission,
     Effect::sky,          Effect::skyImage,          Effect::smoothNormals,    Effect::vertexColors,

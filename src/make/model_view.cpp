@@ -21,7 +21,8 @@
 namespace whit {
 namespace {
 
-// Of more triangles only a part is used; and a model of more triangles is never taken for a room.
+// Models of more triangles than kMostLookedAt are sampled. Models of more than kMostOfRoom are
+// never taken for a room.
 constexpr std::uint64_t kMostLookedAt = 4'000'000, kMostOfRoom = 1'000'000;
 constexpr auto kEveryTriangle = std::numeric_limits<std::uint64_t>::max();
 
@@ -60,30 +61,36 @@ std::optional<Corners> placed(const std::vector<Vec3f>& positions,
   return corners;
 }
 
-// Calls use(corners) for every triangle, or for about `most` of them, evenly spread. In a scene
-// that moves, they are where they are after `seconds`, or else at the time of the scene.
+// Calls use(corners) for every triangle, or for about `most` of them, evenly spread. A scene that
+// moves is posed at the time `seconds`, by default at the time of the scene.
 template <typename Use>
 void forEachPlacedTriangle(const SceneDescription& scene, std::uint64_t most, const Use& use,
                            std::optional<double> seconds = {}) {
   const std::uint64_t stride = std::max<std::uint64_t>(1, placedTriangleCount(scene) / most);
   const double time = seconds.value_or(scene.motion.seconds);
   const std::vector<Affine> poses = poseRig(scene.motion.rig, time);
+
+  // One count runs over the triangles of all instances, and every stride-th of them is used.
   std::uint64_t number = 0;
   for (const Instance& instance : scene.instances) {
     const bool moves = instance.mover != kNoNode;
     const Affine toWorld = moves ? poses[instance.mover] * instance.toWorld : instance.toWorld;
     const bool mirrored = toWorld.determinant() < 0;
+
     for (const Mesh& mesh : scene.objects[instance.object].meshes) {
+      // Morphed and skinned meshes take their shape at that time.
       std::vector<Vec3f> bent;
       if (const Deformation* deformation = mesh.deformation.get()) {
         bent = deformVertices(*deformation, poseAt(*deformation, time)).positions;
       }
       const std::vector<Vec3f>& positions = mesh.deformation ? bent : mesh.positions;
+
       for (const auto& triangle : mesh.triangles) {
         if (number++ % stride != 0) continue;
         auto corners = placed(positions, triangle, toWorld);
         if (!corners) continue;
 
+        // A transform that mirrors would turn fronts into backs.
         if (mirrored) std::swap((*corners)[1], (*corners)[2]);
         use(*corners);
       }
@@ -103,6 +110,8 @@ void forEachPlacedCorner(const SceneDescription& scene, std::uint64_t most, cons
 Vec3d bestSide(const SceneDescription& scene, double radius) {
   std::array<Vec3d, kSides.size()> sides;
   std::ranges::transform(kSides, sides.begin(), [](const Vec3d& side) { return normalized(side); });
+
+  // shown[i] sums twice the area of fronts as it appears from side i, in squared radii.
   std::array<double, kSides.size()> shown{};
   forEachPlacedTriangle(scene, kMostLookedAt, [&](const Corners& t) {
     const Vec3d area = cross((t[1] - t[0]) / radius, (t[2] - t[0]) / radius);
@@ -110,11 +119,14 @@ Vec3d bestSide(const SceneDescription& scene, double radius) {
       shown[i] += std::max(0.0, dot(area, sides[i]));
     }
   });
+
   const double most = *std::ranges::max_element(shown);
   const auto isSingleSided = [](const Material& m) { return !m.doubleSided; };
   if (most == 0 && std::ranges::any_of(scene.materials, isSingleSided)) {
     return normalized(Vec3d{0.3, -1.5, 0.5});  // all fronts look down, and there is nothing above
   }
+
+  // Sides are in order of preference, so the first one that shows enough is chosen.
   const double enough = kEnough * most;
   const auto found = std::ranges::find_if(shown, [&](double area) { return area >= enough; });
   return sides[static_cast<std::size_t>(found - shown.begin())];
@@ -125,10 +137,13 @@ Vec3d bestSide(const SceneDescription& scene, double radius) {
 // (solid angles after van Oosterom and Strackee 1983).
 bool isInRoom(const SceneDescription& scene, const Vec3d& point) {
   constexpr double kFlat = 1.0e-12, kClosed = -0.9;
+
   double angle = 0;
   forEachPlacedTriangle(scene, kMostLookedAt, [&](const Corners& t) {
     const Vec3d a = t[0] - point, b = t[1] - point, c = t[2] - point;
     const double la = length(a), lb = length(b), lc = length(c);
+
+    // The solid angle of a triangle is positive if the point lies behind its front.
     const double volume = dot(a, cross(b, c)), space = la * lb * lc;
     if (!(std::abs(volume) > kFlat * space)) return;  // it lies in the plane: on neither side
     angle += 2 * std::atan2(volume, space + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
@@ -139,6 +154,7 @@ bool isInRoom(const SceneDescription& scene, const Vec3d& point) {
 // True for a single mesh to which its file gives no material.
 bool isBareMesh(const SceneDescription& scene) {
   if (scene.instances.size() != 1) return false;
+
   const std::vector<Mesh>& meshes = scene.objects[scene.instances[0].object].meshes;
   return meshes.size() == 1 && std::ranges::all_of(meshes[0].materials, [&](std::uint32_t m) {
            return m < scene.materials.size() && scene.materials[m].name == kNoMaterialName;
@@ -162,9 +178,12 @@ double areaWithNormals(const SceneDescription& scene) {
   for (const Object& object : scene.objects) {
     for (const Mesh& mesh : object.meshes) {
       for (const auto& t : mesh.triangles) {
+        // Meshes may lack normals, and indices are not validated yet.
         if (std::ranges::max(t) >= std::min(mesh.normals.size(), mesh.positions.size())) continue;
+
         const auto p = [&](std::size_t i) { return Vec3d(mesh.positions[t[i]]); };
         const auto n = [&](std::size_t i) { return Vec3d(mesh.normals[t[i]]); };
+
         const Vec3d twice = cross(p(1) - p(0), p(2) - p(0));
         const double side = dot(twice, n(0) + n(1) + n(2));
         if (side != 0 && std::isfinite(side)) sum += std::copysign(length(twice), side);
@@ -192,11 +211,13 @@ bool hasFlatWalls(const SceneDescription& scene, const Bounds& bounds) {
         length(twice) / 2;
   });
 
+  // The largest planes are compared with the six faces of the bounding box.
   std::vector<double> areas;
   areas.reserve(planes.size());
   for (const auto& [plane, area] : planes) areas.push_back(area);
   std::ranges::sort(areas, std::greater());
   areas.resize(std::min(areas.size(), kWalls));
+
   const double box = 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
   return std::accumulate(areas.begin(), areas.end(), 0.0) >= kShare * box;
 }
@@ -205,6 +226,7 @@ bool hasFlatWalls(const SceneDescription& scene, const Bounds& bounds) {
 // a room only if the file says more: by vertex normals, by several materials or by flat walls.
 bool isMeantAsRoom(const SceneDescription& scene, const Bounds& bounds) {
   if (isBareMesh(scene)) return false;
+
   const double withNormals = areaWithNormals(scene);
   if (withNormals != 0) return withNormals > 0;
   return hasSeveralMaterials(scene) || hasFlatWalls(scene, bounds);
@@ -214,8 +236,12 @@ bool isMeantAsRoom(const SceneDescription& scene, const Bounds& bounds) {
 bool isRoom(const SceneDescription& scene, const Bounds& bounds) {
   constexpr double kAside = 0.3, kFlattest = 0.05;
   constexpr std::size_t kPlaces = 7, kMostOutside = 2;
+
   const Vec3d center = bounds.center(), half = bounds.half() * kAside;
+  // A nearly flat model has no inside.
   if (std::min({half.x, half.y, half.z}) < kFlattest * maxComponent(half)) return false;
+
+  // The center and six places around it are tested.
   const std::array<Vec3d, kPlaces> ways{{{},
                                          {half.x, 0, 0},
                                          {-half.x, 0, 0},
@@ -223,6 +249,7 @@ bool isRoom(const SceneDescription& scene, const Bounds& bounds) {
                                          {0, -half.y, 0},
                                          {0, 0, half.z},
                                          {0, 0, -half.z}}};
+
   std::size_t outside = 0;
   const bool closed = std::ranges::all_of(ways, [&](const Vec3d& way) {
     return isInRoom(scene, center + way) || ++outside <= kMostOutside;
@@ -246,6 +273,7 @@ void lookAround(const SceneDescription& scene, const Bounds& bounds, ModelView& 
   constexpr float kWide = 65;
   constexpr double kNearWall = 0.85, kBelowCeiling = 0.6;
   const Vec3d center = bounds.center(), half = bounds.half();
+
   view.camera.eye =
       Vec3f(placeInRoom(scene, center + half * Vec3d{kNearWall, 0.1, kNearWall}, center));
   view.camera.at = Vec3f(center - half * Vec3d{0.4, 0.2, 0.4});
@@ -269,20 +297,26 @@ Framing framingOf(const Vec3d& side, const SceneDescription& scene, const Camera
 // Fits the points that everyPoint(use) visits into the picture.
 template <typename EveryPoint>
 void lookFrom(const Framing& f, const EveryPoint& everyPoint, ModelView& view) {
+  // The points are seen along the axes of the picture: right, up, and towards the eye.
   const auto everySeen = [&](const auto& use) {
     everyPoint([&](const Vec3d& point) {
       const Vec3d p = point - view.center;
       use(Vec3d{dot(p, f.right), dot(p, f.up), dot(p, f.side)});
     });
   };
+
+  // The picture is centered on the middle of their bounds.
   Bounds seen;
   everySeen([&](const Vec3d& p) { seen.add(p); });
   const Vec3d middle = seen.center();
+
+  // The eye stands as far away as the most demanding point needs.
   double distance = 0;
   everySeen([&](const Vec3d& p) {
     const double away = std::max(std::abs(p.x - middle.x) / f.aspect, std::abs(p.y - middle.y));
     distance = std::max(distance, p.z - middle.z + away / f.half);
   });
+
   const Vec3d at = view.center + f.right * middle.x + f.up * middle.y + f.side * middle.z;
   view.camera.at = Vec3f(at);
   view.camera.eye = Vec3f(at + f.side * distance);
@@ -293,21 +327,29 @@ void lookFrom(const Framing& f, const EveryPoint& everyPoint, ModelView& view) {
 std::vector<Vec3d> outermostPoints(const SceneDescription& scene, double seconds,
                                    const Framing& f) {
   constexpr std::uint64_t kFewestTimes = 32, kMostTimes = 256, kMostPosed = 1'000'000;
+
+  // The directions are the axes both ways, and the normals of the four sides of the view's frustum.
   std::vector<Vec3d> ways{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, f.right, f.up, f.side};
   for (std::size_t i = 0; i < 6; ++i) ways.push_back(-ways[i]);
   for (const Vec3d& way : {f.right / (f.aspect * f.half), f.up / f.half}) {
     ways.insert(ways.end(), {f.side + way, f.side - way});
   }
+
   std::vector<double> reach(ways.size(), std::numeric_limits<double>::lowest());
   std::vector<Vec3d> points(ways.size());
+
+  // A model of many triangles is posed at fewer times.
   const std::uint64_t posed = kMostPosed / (placedTriangleCount(scene) + 1);
   const std::uint64_t times = std::clamp(posed, kFewestTimes, kMostTimes);
+
+  // Each direction keeps the corner that lies farthest along it.
   const auto add = [&](const Vec3d& corner) {
     for (std::size_t k = 0; k < ways.size(); ++k) {
       const double own = dot(corner, ways[k]);
       if (own > reach[k]) reach[k] = own, points[k] = corner;
     }
   };
+
   for (std::uint64_t i = 0; i < times; ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(times - 1);
     forEachPlacedCorner(scene, kMostLookedAt, add, seconds * share);
@@ -315,11 +357,13 @@ std::vector<Vec3d> outermostPoints(const SceneDescription& scene, double seconds
   return points;
 }
 
-// Irradiance from the light at a point with the unit normal.
+// Returns the irradiance from the light at a point with this unit normal.
 double irradiance(const Light& light, const Vec3d& point, const Vec3d& normal) {
   const Vec3d way = towards(light, point), direction = normalized(way);
   const double cosine = std::max(0.0, dot(normal, direction));
   if (light.kind == Light::Kind::directional) return luminance(light.intensity) * cosine;
+
+  // Irradiance falls with the squared distance, but grows no more within the light's radius.
   const double radius{light.radius};
   const double square = std::max(dot(way, way), radius * radius);
   const double cone = light.kind == Light::Kind::spot ? coneOf(light).falloff(direction) : 1;
@@ -344,11 +388,13 @@ struct Outline {
 
 Outline outlineOf(const SceneDescription& scene, const Vec3d& center) {
   Outline outline;
+  // The range of heights defines the slices, so it is found in a pass of its own.
   forEachPlacedCorner(scene, kEveryTriangle, [&](const Vec3d& corner) {
     const Vec3d p = corner - center;
     outline.low = std::min(outline.low, p.y);
     outline.high = std::max(outline.high, p.y);
   });
+
   forEachPlacedCorner(scene, kEveryTriangle, [&](const Vec3d& corner) {
     const Vec3d p = corner - center;
     double& radius = outline.radius[outline.sliceOf(p.y)];
@@ -362,10 +408,14 @@ Outline outlineOf(const SceneDescription& scene, const Vec3d& center) {
 double distanceFor(double radius, double y, double sine, double half, double aspect) {
   constexpr int kAngles = 64;
   const double cosine = std::sqrt(1 - sine * sine);
+
+  // The circle is sampled at kAngles points, each of which needs a distance of its own.
   double distance = 0;
   for (int i = 0; i < kAngles; ++i) {
     const double angle = 2 * std::numbers::pi * i / kAngles;
     const double across = radius * std::sin(angle), along = radius * std::cos(angle);
+
+    // `up` lies in the plane of the picture, `near` points towards the eye.
     const double up = y * cosine - along * sine, near = along * cosine + y * sine;
     distance = std::max(distance, near + std::max(std::abs(across) / aspect, std::abs(up)) / half);
   }
@@ -385,14 +435,16 @@ constexpr SoftBox kBoxes[] = {
     {143, 48, 26, 17, 4.0}, {250, 40, 14, 20, 1.6}, {320, 44, 9, 20, 3.0}};
 constexpr double kSoftEdge = 7;  // degrees over which a box fades
 
-// 1 within `half` of the middle, 0 beyond the edge.
+// Returns 1 within `half` of the middle, and 0 beyond the soft edge.
 double fade(double distance, double half) {
   return procedural::smoothStep(0, 1, (half - distance) / kSoftEdge + 1);
 }
 
 double radianceAt(double azimuth, double elevation) {
   const double sine = std::sin(elevation * std::numbers::pi / 180);
+  // The gradient runs from the horizon up to the zenith and down to the ground.
   double radiance = kHorizon + ((sine < 0 ? kGround : kZenith) - kHorizon) * std::abs(sine);
+
   for (const SoftBox& box : kBoxes) {
     const double across = std::abs(std::remainder(azimuth - box.azimuth, 360.0));
     // Azimuths are narrower near the zenith.
@@ -410,12 +462,16 @@ ModelView viewOf(const SceneDescription& scene) {
   Bounds bounds;
   forEachPlacedCorner(scene, kEveryTriangle, [&](const Vec3d& corner) { bounds.add(corner); });
   if (bounds.empty()) return view;
+
   view.center = bounds.center();
   view.radius = length(bounds.half());
   if (!(view.radius > 0)) return view;
+
+  // The file may state the viewpoint; otherwise a closed room is seen from inside.
   view.inside = scene.viewpoint == Viewpoint::automatic
                     ? placedTriangleCount(scene) <= kMostOfRoom && isRoom(scene, bounds)
                     : scene.viewpoint == Viewpoint::inside;
+
   if (view.inside) {
     lookAround(scene, bounds, view);
   } else {
@@ -429,13 +485,17 @@ ModelView viewOf(const SceneDescription& scene) {
 ModelView viewOf(const SceneDescription& scene, double seconds) {
   ModelView view = viewOf(scene);
   if (view.inside) return view;
+
   const double size = view.radius > 0 ? view.radius : 1;  // it may grow from nothing
   const Framing framing = framingOf(bestSide(scene, size), scene, view.camera);
   const std::vector<Vec3d> points = outermostPoints(scene, seconds, framing);
+
+  // The bounds enclose the model at all times, and the eye is far enough away for all of them.
   Bounds bounds;
   for (const Vec3d& point : points) bounds.add(point);
   view.center = bounds.center();
   view.radius = length(bounds.half());
+
   const auto everyPoint = [&](const auto& use) { std::ranges::for_each(points, use); };
   lookFrom(framing, everyPoint, view);
   return view;
@@ -446,7 +506,7 @@ bool seesSomething(const SceneDescription& scene, const Camera& camera) {
   if (!frame.isLinear()) return true;
   const double halfWidth = frame.width / 2.0, halfHeight = frame.height / 2.0;
 
-  // A bit for each side of the picture beyond which the point is, and one for the eye's back.
+  // Each side of the picture has a bit, set for points beyond it; one more is for points behind.
   const auto sidesBeyond = [&](const Vec3d& point) {
     const Vec3d way = point - frame.eye;
     const double ahead = dot(way, frame.forward), grows = frame.orthographic ? 1 : ahead;
@@ -457,6 +517,7 @@ bool seesSomething(const SceneDescription& scene, const Camera& camera) {
            unsigned{y < -top} << 3 | unsigned{y > top} << 4;
   };
 
+  // A triangle is outside of the picture if all of its corners lie beyond one side.
   bool sees = false;
   forEachPlacedTriangle(scene, kEveryTriangle, [&](const Corners& t) {
     sees = sees || (sidesBeyond(t[0]) & sidesBeyond(t[1]) & sidesBeyond(t[2])) == 0;
@@ -466,14 +527,19 @@ bool seesSomething(const SceneDescription& scene, const Camera& camera) {
 
 double lightLevel(const SceneDescription& scene) {
   constexpr std::uint64_t kMostTriangles = 20'000;
+
+  // Each logarithm is weighted by twice the triangle's area; the factor cancels out.
   double sum = 0, area = 0;
   forEachPlacedTriangle(scene, kMostTriangles, [&](const Corners& t) {
     const Vec3d normal = cross(t[1] - t[0], t[2] - t[0]);
     const double weight = length(normal);
     const Vec3d point = (t[0] + t[1] + t[2]) / 3.0;
+
     double light = 0;
     for (const Light& l : scene.lights) light += irradiance(l, point, normalized(normal));
     if (!(light > 0) || !std::isfinite(light) || !std::isfinite(weight)) return;
+
+    // A white surface of this irradiance has the radiance irradiance / pi.
     sum += weight * std::log(light / std::numbers::pi);
     area += weight;
   });
@@ -483,11 +549,13 @@ double lightLevel(const SceneDescription& scene) {
 Camera turned(const Turntable& turntable, double turns) {
   const double whole = turns - std::floor(turns);
   if (whole == 0) return turntable.camera;
+
   const Affine rotation = Affine::rotation(turntable.axis, 360 * whole);
   Camera camera = turntable.camera;
   const auto around = [&](const Vec3f& p) {
     return Vec3f(turntable.pivot + rotation.vector(Vec3d(p) - turntable.pivot));
   };
+
   camera.eye = around(camera.eye);
   camera.at = around(camera.at);
   camera.up = Vec3f(rotation.vector(Vec3d(camera.up)));
@@ -498,9 +566,13 @@ Turntable aroundModel(const SceneDescription& scene, const ModelView& view, int 
   constexpr double kMargin = 1.06;
   Turntable turntable{view.camera, Vec3d(view.camera.eye)};
   if (view.inside || !(view.radius > 0)) return turntable;
+
   const Vec3d side = normalized(Vec3d(view.camera.eye) - Vec3d(view.camera.at));
   const double half = std::tan(view.camera.fov * (std::numbers::pi / 360)) / kMargin;
   const double aspect = static_cast<double>(width) / height;
+
+  // While the model turns, each slice of its outline sweeps a ring. The picture holds the edges of
+  // all rings.
   const Outline outline = outlineOf(scene, view.center);
   double distance = 0;
   for (std::size_t i = 0; i < kSlices; ++i) {
@@ -508,6 +580,7 @@ Turntable aroundModel(const SceneDescription& scene, const ModelView& view, int 
       distance = std::max(distance, distanceFor(outline.radius[i], y, side.y, half, aspect));
     }
   }
+
   turntable.pivot = view.center;
   turntable.camera.at = Vec3f(view.center);
   turntable.camera.eye = Vec3f(view.center + side * distance);
@@ -522,16 +595,20 @@ Sky studioSky() {
   Sky sky;
   sky.name = kStudio;
   sky.kind = Sky::Kind::image;
+
   EnvironmentImage& image = sky.image;
   image.width = kWidth;
   image.height = kHeight;
   image.r.reserve(std::size_t{kWidth} * kHeight);
+
+  // Rows run from the zenith down to the nadir.
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       const double azimuth = 360 * (x + 0.5) / kWidth, elevation = 90 - 180 * (y + 0.5) / kHeight;
       image.r.push_back(static_cast<float>(radianceAt(azimuth, elevation)));
     }
   }
+
   image.g = image.b = image.r;
   return sky;
 }

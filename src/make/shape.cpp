@@ -4,6 +4,7 @@ namespace whit {
 
 const std::map<std::string, ShapeGenerator*>& shapeGenerators() {
   using namespace procedural;
+
   static const std::map<std::string, ShapeGenerator*> generators{
       {"arch", makeArch},
       {"balustrade", makeBalustrade},
@@ -32,6 +33,7 @@ const std::map<std::string, ShapeGenerator*>& shapeGenerators() {
       {"vault", makeVault},
       {"wall", makeWall},
   };
+
   return generators;
 }
 

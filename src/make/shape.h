@@ -57,10 +57,10 @@ struct Shape {
 using ShapeGenerator = Shape(ShapeParameters& parameters);
 using PatternGenerator = Texture(ShapeParameters& parameters);
 
-// By the name used in scene files ("sphere", "colonnade", "terrain", ...).
+// Returns all generators of shapes by the name used in scene files ("sphere", "terrain", ...).
 const std::map<std::string, ShapeGenerator*>& shapeGenerators();
-// Textures by formula, without names (patterns/patterns.cpp: "checker", "bricks", ...); "normals"
-// of a pattern are a pattern too.
+// Returns all generators of textures by name (patterns/patterns.cpp: "checker", "bricks", ...). The
+// normals of a pattern are a pattern, too. The textures themselves have no names.
 const std::map<std::string, PatternGenerator*>& patternGenerators();
 
 namespace procedural {

@@ -20,9 +20,9 @@ constexpr std::uint32_t mixed(std::uint32_t x) {
   return x ^ (x >> 16);
 }
 
-// The first ray's: its pixel is packed (core/image.h), `sample` its place in the sample pattern.
-// The samples of a pixel are equal steps apart. Frames of different seeds have noise of their own;
-// pictures have seed 0.
+// Returns the number of a camera ray's path. `pixel` is packed (core/image.h), and `sample` is the
+// place of the ray's sample in the sample pattern. The numbers of a pixel's samples are equal steps
+// apart. Frames of different seeds have different noise; pictures have seed 0.
 inline constexpr std::uint32_t kPixelSalt = 0x9e3779b9u, kSampleStep = 0x6d2b79f5u;
 constexpr std::uint32_t pixelSalt(std::uint32_t seed) { return kPixelSalt ^ mixed(seed); }
 constexpr std::uint32_t streamOfPixel(std::uint32_t pixel, std::uint32_t sample,
@@ -30,15 +30,16 @@ constexpr std::uint32_t streamOfPixel(std::uint32_t pixel, std::uint32_t sample,
   return mixed(pixel + pixelSalt(seed)) + sample * kSampleStep;
 }
 
-// A child's. Branches: the mirrored ray, the refracted one, then the samples of lobes
-// (stages/lobes.h).
+// Returns the number of a child's path. The branches are the mirrored ray, the refracted ray, and
+// then the samples of lobes (stages/lobes.h).
 inline constexpr std::uint32_t kMirroredBranch = 1, kRefractedBranch = 2;
 inline constexpr std::uint32_t kBranchStep = 0x3c6ef35fu;
 constexpr std::uint32_t childStream(std::uint32_t path, std::uint32_t branch) {
   return mixed(path ^ (branch * kBranchStep));
 }
 
-// In [0, 1)^2, each a multiple of 2^-24: the same in float and in double.
+// A point in [0, 1)^2. Its coordinates are multiples of 2^-24, so that they are the same in float
+// and in double.
 struct UnitPoint {
   float u = 0, v = 0;
 };
@@ -52,20 +53,22 @@ struct LobeSampling {
   std::uint32_t unshift = 0;  // what the paths of a pixel's samples differ by
 };
 
-// `wanted` samples at surfels that the eye sees. One at those further on, or the number of rays
-// would be a power of it.
+// Surfels that the eye sees directly have `wanted` samples. Deeper surfels have one, because the
+// number of rays would otherwise grow exponentially with depth.
 constexpr LobeSampling lobeSampling(int depth, int wanted, std::uint32_t sample) {
   if (depth > 0) return {};
   const auto count = static_cast<std::uint32_t>(wanted);
   return {count, sample * count, sample * kSampleStep};
 }
 
-// Point k of the surfel that `path` has led to. The lattice is the one of the plastic number
+// Returns point k of the surfel that `path` has led to. The lattice is that of the plastic number
 // (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences"), in units of 2^-32.
 inline constexpr std::uint32_t kLatticeU = 3242174889u, kLatticeV = 2447445414u;
 inline constexpr std::uint32_t kSecondShift = 0x68bc21ebu;
 constexpr UnitPoint lobePoint(std::uint32_t path, const LobeSampling& sampling, std::uint32_t k) {
   const std::uint32_t shift = path - sampling.unshift, index = sampling.first + k;
+
+  // Integers in units of 2^-32 wrap around at 1, the period of the lattice.
   const std::uint32_t u = shift + index * kLatticeU;
   const std::uint32_t v = mixed(shift ^ kSecondShift) + index * kLatticeV;
   return {static_cast<float>(u >> 8) * 0x1p-24f, static_cast<float>(v >> 8) * 0x1p-24f};
@@ -77,12 +80,14 @@ constexpr LobeSampling lightSampling(int depth, std::uint32_t count, std::uint32
   return depth > 0 ? LobeSampling{count, 0, 0}
                    : LobeSampling{count, sample * count, sample * kSampleStep};
 }
-// Point k of a lattice of the salt's own, which has nothing to do with others of the same path.
+
+// Returns point k of a lattice that the salt makes independent of the path's other lattices.
 constexpr UnitPoint saltedPoint(std::uint32_t path, const LobeSampling& sampling,
                                 std::uint32_t salt, std::uint32_t k) {
   return lobePoint(mixed((path - sampling.unshift) ^ salt), {sampling.count, sampling.first, 0}, k);
 }
-// Point k of a light.
+
+// Returns point k of a light.
 inline constexpr std::uint32_t kLightStep = 0x7feb352du;
 constexpr std::uint32_t lightSalt(std::uint32_t light) { return (light + 1) * kLightStep; }
 constexpr UnitPoint lightPoint(std::uint32_t path, const LobeSampling& sampling,
@@ -103,12 +108,15 @@ constexpr float rouletteDraw(std::uint32_t path) {
 // more: few surfaces are turned by just this.
 inline constexpr float kFrameAlongY = 0.55f;
 
-// The unit direction at `at`, of density cosine / pi by solid angle (Malley's method: Pharr, Jakob
-// and Humphreys 2023, "Physically Based Rendering", section A.5.3). Never in the plane of the unit
-// normal: its cosine is 2^-12 at least.
+// Returns the unit direction at `at`, of density cosine / pi by solid angle (Malley's method:
+// Pharr, Jakob and Humphreys 2023, "Physically Based Rendering", section A.5.3). It never lies in
+// the plane of the unit normal: its cosine is at least 2^-12.
 inline Vec3d cosineDirection(const Vec3d& normal, const UnitPoint& at) {
   const Vec3d axis = std::fabs(normal.x) < double{kFrameAlongY} ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0);
   const Vec3d x = normalized(cross(normal, axis)), y = cross(normal, x);
+
+  // A point that is uniform on the unit disc, with a squared radius of v, is projected up to the
+  // hemisphere.
   const double turn = 2 * std::numbers::pi * double{at.u}, sine2 = double{at.v};
   const double sine = std::sqrt(sine2), cosine = std::sqrt(1 - sine2);
   return normalized(x * (sine * std::cos(turn)) + y * (sine * std::sin(turn)) + normal * cosine);

@@ -25,7 +25,7 @@ constexpr std::uint64_t widestTree(int maxRays, int depth) {
   return static_cast<std::uint64_t>(std::max(1, maxRays / std::max(1, depth)));
 }
 
-// In [0, 1): chooses among the rays of the surface that this path has led to.
+// Returns a number in [0, 1) that chooses among the rays of the surface that `path` has led to.
 inline constexpr std::uint32_t kChoiceSalt = 0x2545f491u;
 constexpr double choiceDraw(std::uint32_t path) {
   return static_cast<double>(mixed(path ^ kChoiceSalt)) * 0x1p-32;

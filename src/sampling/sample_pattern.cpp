@@ -12,14 +12,18 @@ namespace whit {
 
 namespace {
 
-// Rooks: one sample a row and a column, in the order of columns.
+// Returns one sample in each row and in each column, in the order of columns.
 std::vector<Vec2f> rooks(int spp) {
   constexpr double kGoldenRatio = 1.61803398874989484820;
+
+  // Column i has the height frac(0.5 + i / golden ratio) of a Fibonacci lattice.
   std::vector<std::pair<double, int>> byHeight;
   for (int i = 0; i < spp; ++i) {
     const double y = 0.5 + i / kGoldenRatio;
     byHeight.emplace_back(y - std::floor(y), i);
   }
+
+  // The rank of its height is a column's row, so that each row has exactly one sample.
   std::ranges::sort(byHeight);
   const auto middleOf = [&](int cell) { return static_cast<float>((cell + 0.5) / spp); };
   std::vector<Vec2f> samples(byHeight.size());
@@ -35,12 +39,15 @@ double squaredDistance(const Vec2f& a, const Vec2f& b) {
   return x * x + y * y;
 }
 
-// Samples that stand for the whole pixel: near the places of the pattern of as many, and above all
-// with their mean in the center, since a pixel that is left with them would else show what lies
-// beside it. Their indices; `samples` are at least as many.
+// Returns the indices of the samples that stand for the whole pixel. They are near the points of
+// the pattern of kProbeSamples samples. Above all their mean is in the center, because a pixel that
+// gets no further samples would otherwise be displaced. There must be at least kProbeSamples
+// samples.
 std::array<std::size_t, kProbeSamples> chooseProbes(const std::vector<Vec2f>& samples) {
   constexpr std::size_t kNearest = 6;
   constexpr double kWeightOfMean = 64;
+
+  // The candidates for probe k are the samples nearest to point k of the small pattern.
   const std::vector<Vec2f> wanted = rooks(kProbeSamples);
   const std::size_t candidates = std::min(kNearest, samples.size());
   std::array<std::vector<std::pair<double, std::size_t>>, kProbeSamples> near;
@@ -51,8 +58,12 @@ std::array<std::size_t, kProbeSamples> chooseProbes(const std::vector<Vec2f>& sa
     std::partial_sort(near[k].begin(), near[k].begin() + static_cast<std::ptrdiff_t>(candidates),
                       near[k].end());
   }
+
+  // All combinations of candidates are tried, at most 6^4. Their cost is the sum of squared
+  // distances to the wanted places, and 64 times that of their mean from the center.
   std::array<std::size_t, kProbeSamples> chosen{}, best{};
   double least = std::numeric_limits<double>::infinity();
+
   const auto choose = [&](auto&& self, std::size_t k, double away, Vec2f sum) -> void {
     if (k == chosen.size()) {
       const Vec2f center{kProbeSamples / 2.0f, kProbeSamples / 2.0f};
@@ -61,68 +72,85 @@ std::array<std::size_t, kProbeSamples> chooseProbes(const std::vector<Vec2f>& sa
       if (cost < least) least = cost, best = chosen;
       return;
     }
+
     for (std::size_t i = 0; i < candidates; ++i) {
       const auto& [distance, at] = near[k][i];
       chosen[k] = at;
       const auto before = chosen.begin() + static_cast<std::ptrdiff_t>(k);
       if (std::find(chosen.begin(), before, at) != before) continue;
+
       const Vec2f& s = samples[at];
       self(self, k + 1, away + distance, {sum.x + s.x, sum.y + s.y});
     }
   };
+
   choose(choose, 0, 0, {0, 0});
   return best;
 }
 
-// All indices, those of `first` before the others: of these always one that is far from all before
-// it, where pixels lie side by side (Eldar et al. 1997, "The farthest point strategy for
-// progressive image sampling"); of those at least 0.7 times as far as the farthest, the one that
-// brings the mean of all nearest to the center. In whole cells: the order is the same on every
-// machine.
+// Returns all indices, those of `first` before the others. Each further sample is far from all
+// before it, measured as if copies of the pixel lay side by side (Eldar et al. 1997, "The farthest
+// point strategy for progressive image sampling"): among those at least 0.7 times as far as the
+// farthest, the one that brings the mean of all samples nearest to the center. Distances are in
+// whole cells, so that the order is the same on every machine.
 std::vector<std::size_t> spreadOrder(const std::vector<Vec2f>& samples,
                                      const std::vector<std::size_t>& first) {
   struct Cell {
     std::int64_t x = 0, y = 0;
   };
+
+  // Samples lie in the middles of the cells of an n x n board.
   const auto n = static_cast<std::int64_t>(samples.size());
   const auto cellOf = [&](float place) {
     return static_cast<std::int64_t>(place * static_cast<float>(n));
   };
+
   std::vector<Cell> cells;
   cells.reserve(samples.size());
   for (const Vec2f& sample : samples) cells.push_back({cellOf(sample.x), cellOf(sample.y)});
+
+  // The pattern repeats from pixel to pixel, so distances wrap around at the pixel's borders.
   const auto squared = [](std::int64_t x, std::int64_t y) { return x * x + y * y; };
   const auto apart = [&](std::int64_t a, std::int64_t b) {
     return std::min(std::abs(a - b), n - std::abs(a - b));
   };
+
+  // Untaken samples have the squared distance to the nearest sample taken so far.
   constexpr std::int64_t kTaken = -1;
   std::vector<std::int64_t> distance(samples.size(), std::numeric_limits<std::int64_t>::max() / 2);
   std::vector<std::size_t> order;
-  Cell sum;  // of twice the way from the center
+  Cell sum;  // twice the sum of the taken samples' offsets from the center, in cells
+
   const auto summed = [&](const Cell& c) {
     return Cell{sum.x + 2 * c.x + 1 - n, sum.y + 2 * c.y + 1 - n};
   };
+
   const auto take = [&](std::size_t taken) {
     order.push_back(taken);
     sum = summed(cells[taken]);
     distance[taken] = kTaken;
+
     for (std::size_t i = 0; i < cells.size(); ++i) {
       const std::int64_t away =
           squared(apart(cells[i].x, cells[taken].x), apart(cells[i].y, cells[taken].y));
       distance[i] = std::min(distance[i], away);
     }
   };
+
   const auto next = [&] {
     const std::int64_t farthest = *std::ranges::max_element(distance);
     std::size_t best = samples.size();
     std::int64_t least = std::numeric_limits<std::int64_t>::max();
     for (std::size_t i = 0; i < cells.size(); ++i) {
+      // Half of the squared distance is 0.7 of the distance.
       if (distance[i] == kTaken || 2 * distance[i] < farthest) continue;
+
       const Cell with = summed(cells[i]);
       if (squared(with.x, with.y) < least) least = squared(with.x, with.y), best = i;
     }
     return best;
   };
+
   for (const std::size_t i : first) take(i);
   while (order.size() < samples.size()) take(next());
   return order;
@@ -138,10 +166,11 @@ bool contrasts(const std::uint8_t* a, const std::uint8_t* b, int contrast) {
   return false;
 }
 
-// In units of the contrast that makes neighboring centers an edge. Samples of one pixel that
-// differ by less than twice that have a mean that is off by less than it; and only part of what
-// begins beyond the border lies within. With half of both, whitted at 16 samples and contrast 16
-// took 1.1 times the rays for 0.98 times the FLIP.
+// Thresholds in units of the contrast that makes neighboring centers an edge. Samples of one pixel
+// that differ by less than twice the contrast have a mean that is off by less than the contrast.
+// The other threshold is larger, because only part of what begins beyond the border lies within the
+// pixel. With half of both, whitted at 16 samples and contrast 16 took 1.1 times the rays for 0.98
+// times the FLIP.
 constexpr int kWithinPixel = 2, kAcrossBorder = 4;
 
 int largestDifference(std::uint32_t a, std::uint32_t b) {
@@ -154,8 +183,7 @@ int largestDifference(std::uint32_t a, std::uint32_t b) {
   return largest;
 }
 
-// Among the probes of the pixel at (dx, dy) relative to another pixel, the one nearest to that
-// other pixel's center.
+// Returns the probe of the pixel at (dx, dy) that is nearest to the center of the pixel at (0, 0).
 std::size_t nearestProbe(const std::vector<Vec2f>& pattern, int dx, int dy) {
   std::size_t nearest = 0;
   float least = std::numeric_limits<float>::infinity();
@@ -180,6 +208,8 @@ std::size_t nearestToCenter(const std::vector<Vec2f>& samples) {
 std::vector<Vec2f> samplePattern(int spp) {
   std::vector<Vec2f> samples = rooks(spp);
   if (spp <= kProbeSamples) return samples;
+
+  // The probes come first, and further samples spread over the rest of the pixel.
   const auto probes = chooseProbes(samples);
   std::vector<Vec2f> ordered;
   ordered.reserve(samples.size());
@@ -192,8 +222,12 @@ std::vector<Vec2f> samplePattern(int spp) {
 bool onSameSurface(const PixelSurface& a, const PixelSurface& b) {
   if (a.material != b.material || a.instance != b.instance) return false;
   if (a.material == PixelSurface::kNothing) return true;
+
+  // The normals of one smooth surface agree within 5 degrees.
   const Vec3d na(a.normal), nb(b.normal), between = Vec3d(b.position) - Vec3d(a.position);
   if (!(dot(na, nb) >= kCosOfTurn)) return false;
+
+  // The line between the points lies in both tangent planes within 5 degrees.
   const double rise = std::max(std::fabs(dot(na, between)), std::fabs(dot(nb, between)));
   return rise * rise <= kSinOfTurn * kSinOfTurn * dot(between, between);
 }
@@ -210,24 +244,32 @@ void findEdges(const DisplayImage& display, const std::vector<PixelSurface>& sur
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
            static_cast<std::size_t>(x);
   };
+
   std::fill(edges.begin() + static_cast<std::ptrdiff_t>(at(0, row0)),
             edges.begin() + static_cast<std::ptrdiff_t>(at(0, row1)), std::uint8_t{0});
-  // Pairs are looked at once, from the upper or left pixel; those that reach across the ends of the
-  // rows also from the other side.
+
+  // Each pair of neighbors is compared once, from its upper or left pixel. Pairs across the first
+  // or last of the rows are compared by the threads on both sides.
   const auto compare = [&](int x, int y, int dx, int dy) {
     const int nx = x + dx, ny = y + dy;
     if (nx < 0 || nx >= width || ny >= height) return;
+
+    // Each thread marks pixels of its own rows only.
     const std::size_t a = at(x, y), b = at(nx, ny);
     const bool markA = y >= row0 && edges[a] == 0, markB = ny < row1 && edges[b] == 0;
     if (!markA && !markB) return;
+
     const std::uint8_t* codes = display.rgba.data();
     if (!contrasts(codes + 4 * a, codes + 4 * b, contrast) &&
         onSameSurface(surfaces[a], surfaces[b])) {
       return;
     }
+
     if (markA) edges[a] = 1;
     if (markB) edges[b] = 1;
   };
+
+  // The row above row0 takes part as the upper side of pairs.
   for (int y = std::max(row0 - 1, 0); y < row1; ++y) {
     for (int x = 0; x < width; ++x) {
       if (y >= row0) compare(x, y, 1, 0);
@@ -240,6 +282,7 @@ ProbeSamples::ProbeSamples(const Crop& window, const std::vector<std::uint8_t>& 
                            const std::vector<Vec2f>& pattern)
     : edges_(edges), samples_(edges.size()) {
   shape_.window = window;
+
   for (std::size_t i = 0; i < nearest_.size(); ++i) {
     const int place = static_cast<int>(i);
     nearest_[i] = nearestProbe(pattern, place % 3 - 1, place / 3 - 1);
@@ -248,14 +291,18 @@ ProbeSamples::ProbeSamples(const Crop& window, const std::vector<std::uint8_t>& 
 
 bool ProbeSamples::differ(int x, int y, int contrast) const {
   const PixelProbes& own = at(x, y);
+  // Probes within the pixel are compared in pairs.
   for (std::size_t a = 1; a < kProbeSamples; ++a) {
     for (std::size_t b = 0; b < a; ++b) {
       if (largestDifference(own.codes[a], own.codes[b]) > kWithinPixel * contrast) return true;
     }
   }
+
+  // Across each border, the neighbor's nearest probe is compared with all probes of the pixel.
   for (std::size_t i = 0; i < nearest_.size(); ++i) {
     const int nextX = x + static_cast<int>(i) % 3 - 1, nextY = y + static_cast<int>(i) / 3 - 1;
     if (!shape_.window.contains(nextX, nextY) || edges_[shape_.index(nextX, nextY)] == 0) continue;
+
     const std::uint32_t beyond = at(nextX, nextY).codes[nearest_[i]];
     for (const std::uint32_t code : own.codes) {
       if (largestDifference(code, beyond) > kAcrossBorder * contrast) return true;

@@ -26,7 +26,7 @@ namespace whit {
 std::vector<Vec2f> samplePattern(int spp);
 inline constexpr int kProbeSamples = 4;
 
-// The index of the sample that is nearest to the pixel's center; the first of several.
+// Returns the index of the sample nearest to the pixel's center, the first of several.
 std::size_t nearestToCenter(const std::vector<Vec2f>& samples);
 
 // Adaptive sampling (Whitted 1980, "An improved illumination model for shaded display", section on
@@ -47,10 +47,11 @@ struct PixelSurface {
 // material is the same.
 bool onSameSurface(const PixelSurface& a, const PixelSurface& b);
 
-// The pixels of `window` and `more` on each side, as far as the image reaches.
+// Returns the window enlarged by `more` pixels on each side, as far as the image reaches.
 Crop grown(const Crop& window, int more, int width, int height);
-// How far a pixel of several passes looks: to its neighbors' probes, and these to theirs for
-// edges.
+
+// Number of pixels by which a pixel's result depends on others: it compares its probes with those
+// of its neighbors, and their edges depend on their neighbors in turn.
 inline constexpr int kPassReach = 2;
 
 // Sets edges[i] to 1 for each pixel i of the window's rows [row0, row1), counted from its top, that
@@ -68,8 +69,9 @@ struct PixelProbes {
 
 class ProbeSamples {
  public:
-  // Room for the window's pixels. `edges`, one a pixel: not 0 where probes are traced. They must
-  // outlive the probes. The pattern is that of all samples, kProbeSamples or more.
+  // Makes room for the window's pixels. `edges` has an entry for each pixel, which is not 0 where
+  // probes are traced; it must outlive the probes. The pattern is that of all samples, at least
+  // kProbeSamples of them.
   ProbeSamples(const Crop& window, const std::vector<std::uint8_t>& edges,
                const std::vector<Vec2f>& pattern);
 

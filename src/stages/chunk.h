@@ -22,8 +22,8 @@ class Accel;
 class Scene;
 struct Film;
 
-// Where the channels of a picture's pixels go, and of which sample. Each pixel is written by one
-// worker. Null: none are kept.
+// Destination of the channels of a picture's pixels, and the sample that they belong to. Each pixel
+// is written by one worker. Without layers no channels are kept.
 struct ChannelTarget {
   ChannelLayers* layers = nullptr;
   Crop window;  // pixels beside it are left out
@@ -43,7 +43,7 @@ struct FrameConstants {
   std::uint32_t seed = 0;  // of the random numbers
 };
 
-// Rays of one kind that lie together in a queue: they go to Embree in packets of their own.
+// A range of a queue that holds rays of one kind; packets for Embree never mix kinds.
 struct Segment {
   RayKind kind = RayKind::primary;
   std::size_t begin = 0, end = 0;
@@ -56,7 +56,7 @@ struct RayTally {
   std::uint64_t lanes = 0;  // lanes sent to Embree for them: packets times width
 };
 
-// In place of a light's number: the ambient light.
+// Stands for the ambient light in place of a light's number.
 inline constexpr std::uint32_t kAmbientLight = 0xffffffffu;
 
 // Counters and times of tracing.
@@ -76,7 +76,7 @@ struct Narrowing {
 struct Chunk {
   const FrameConstants* frame = nullptr;
   std::span<const std::uint32_t> pixels;  // of the queue of depth 0, packed (core/image.h)
-  // Where in the pixel the sample lies, and its place in the pattern.
+  // The sample's position in the pixel, and its number in the pattern.
   Vec2f sample{0.5f, 0.5f};
   std::uint32_t sampleNumber = 0;
 
@@ -99,7 +99,7 @@ struct Chunk {
   ShadowColumns shadows;
   std::size_t shadowCount = 0;
 
-  // Impulses are appended behind the `childCount` that are there.
+  // Impulses are appended behind the `childCount` children that exist already.
   RayColumns children;
   std::size_t childCount = 0;
   std::array<Segment, kSegmentLimit> childSegments{};  // of them, in order
@@ -107,12 +107,13 @@ struct Chunk {
   // Radiance of the chunk whose children these rays are.
   RadianceColumns parentRadiance;
 
-  // A number a ray where rays are counted, and those of the chunk whose children these rays are.
+  // Where rays are counted, the number of rays in the tree that begins with each ray; and the same
+  // for the chunk whose children these rays are.
   std::uint32_t *rayCounts = nullptr, *parentRayCounts = nullptr;
 
-  // Of plans that bound the rays of a sample: the slot at depth 0 that each ray and each child is
-  // traced for, and how many impulses the samples there have followed. While samples are traced
-  // again as narrower trees, `narrowings` and `childNarrowings` are not null.
+  // Plans that bound the rays of a sample have the slot at depth 0 that each ray and each child is
+  // traced for, and the number of impulses that the samples there have followed. While samples are
+  // traced again as narrower trees, `narrowings` and `childNarrowings` are not null.
   std::uint32_t *pixelSlots = nullptr, *childPixelSlots = nullptr, *followed = nullptr;
   Narrowing *narrowings = nullptr, *childNarrowings = nullptr;
 
@@ -133,13 +134,13 @@ struct Chunk {
   // True if rays are traced to find the visible part of the current light.
   bool tracesShadows() const { return lightIsAmbient() || has(Feature::shadows); }
 
-  // Rays to one light travel close together, those about normals do not.
+  // Rays to one light are coherent; those of ambient light scatter about the normals.
   bool shadowsAreCoherent() const { return coherent && !lightIsAmbient(); }
 
-  // True if the ray goes on along its camera ray: nothing has turned it.
+  // True if nothing has changed the ray's direction since it left the camera.
   bool isStraight(std::size_t slot) const { return depth == 0 || rays.straight[slot] != 0; }
 
-  // Takes a light, or one of so many samples of it, in hand.
+  // Makes a light the current one, with the sample that is due of the light's `samples`.
   void turnTo(std::size_t number, std::uint32_t sample, std::uint32_t samples) {
     light = number == kAmbientLight ? nullptr : &tables().lights[number];
     lightNumber = static_cast<std::uint32_t>(number);

@@ -1,5 +1,5 @@
-// Embree's packets of rays as kernels see them: columns of words, one after the other, each as long
-// as the packet is wide.
+// Embree's packets of rays as kernels see them: consecutive columns of words, each as long as the
+// packet is wide.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@ struct PacketWords {
   std::size_t width;   // 4, 8 or 16: words of a column
 };
 
-// The columns that kernels use of RTCRay4, 8 and 16, and of RTCRayHit4, 8 and 16, which begin with
-// the same and go on with the hit.
+// Columns of RTCRay4, 8 and 16 that kernels use. RTCRayHit4, 8 and 16 begin with the same columns,
+// and those of the hit follow.
 namespace packet_column {
 inline constexpr std::size_t orgX = 0, orgY = 1, orgZ = 2, tNear = 3, dirX = 4, dirY = 5, dirZ = 6,
                              tFar = 8, id = 10;

@@ -1,5 +1,5 @@
-// The kinds of rays. What a kind is to reports, explanations and drawings stands here alone; which
-// rays a frame sends, in stages/lobes.h and render/plan.cpp.
+// The kinds of rays, with all that reports, explanations and drawings need of a kind.
+// stages/lobes.h and render/plan.cpp decide which rays a frame traces.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ namespace whit {
 
 enum class RayKind : std::uint8_t { primary, shadow, reflection, refraction, indirect, occlusion };
 
-// How lines that stand for rays are drawn, and named in a legend.
+// Name in a legend and color of lines that stand for rays.
 struct RayStyle {
   std::string_view name;
   std::array<std::uint8_t, 3> color{};  // sRGB
@@ -27,8 +27,9 @@ struct RayKindRow {
   RayStyle style;
   RayStyle blocked;  // of rays that only ask whether something is in between, and find that it is
 
-  // Else they go on to the nearest surface.
+  // True for rays that only test for occlusion; others find their closest hit.
   constexpr bool onlyAsk() const { return !blocked.name.empty(); }
+
   constexpr bool calledForBy(EffectSet frame) const {
     return effects == EffectSet() || (frame.bits() & effects.bits()) != 0;
   }
@@ -63,11 +64,11 @@ constexpr const RayKindRow& rowOf(RayKind kind) {
   return kRayKinds[static_cast<std::size_t>(kind)];
 }
 
-// Impulses, in the order in which a queue holds them.
+// The kinds of impulses, in the order in which a queue holds them.
 inline constexpr std::array kImpulseKinds{RayKind::reflection, RayKind::refraction,
                                           RayKind::indirect};
 
-// The kind of the rays that test if a surface sees a light, or the ambient light.
+// Returns the kind of rays that test whether a light, or the ambient light, reaches a surface.
 constexpr RayKind shadowKind(bool ofAmbientLight) {
   return ofAmbientLight ? RayKind::occlusion : RayKind::shadow;
 }

@@ -13,7 +13,7 @@ std::uint32_t mix(std::uint32_t h) {
   return h ^ (h >> 16);
 }
 
-// The finalizer of MurmurHash3 after each word.
+// Applies the finalizer of MurmurHash3 after each word.
 std::uint32_t hash(std::uint32_t seed, std::int32_t x, std::int32_t y, std::int32_t z) {
   std::uint32_t h = mix(seed + 0x9e3779b9u);
   h = mix(h ^ (static_cast<std::uint32_t>(x) + 0x7f4a7c15u));
@@ -21,7 +21,7 @@ std::uint32_t hash(std::uint32_t seed, std::int32_t x, std::int32_t y, std::int3
   return mix(h ^ (static_cast<std::uint32_t>(z) + 0x2545f491u));
 }
 
-// One round instead of four: patterns take millions of these.
+// Has one round instead of four, because patterns take millions of these hashes.
 std::uint32_t latticeHash(std::uint32_t seed, std::int32_t x, std::int32_t y) {
   return mix(static_cast<std::uint32_t>(x) * 0x8da6b343u ^
              static_cast<std::uint32_t>(y) * 0xd8163841u ^ seed * 0xcb1ab31fu);
@@ -29,7 +29,7 @@ std::uint32_t latticeHash(std::uint32_t seed, std::int32_t x, std::int32_t y) {
 
 double fade(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }
 
-// std::floor() without a call, for what fits into 32 bits.
+// Is std::floor() without a call, for numbers that fit into 32 bits.
 std::int32_t floorOf(double x) {
   const auto i = static_cast<std::int32_t>(x);
   return i - (i > x);
@@ -37,13 +37,14 @@ std::int32_t floorOf(double x) {
 
 std::int32_t wrapped(std::int32_t i, int period) {
   if (period <= 0 || (i >= 0 && i < period)) return i;  // mostly, and a division takes long
+
   const std::int32_t r = i % period;
   return r < 0 ? r + period : r;
 }
 
-// Eight directions in the plane: enough variety, and no trigonometry. A table, because a switch on
-// random bits is mispredicted most of the time; not one of each call, which sanitizers would fill
-// and watch millions of times.
+// Eight directions in the plane give enough variety without trigonometry. They are a table, because
+// a switch on random bits is mispredicted most of the time. The table is global, because sanitizers
+// would fill and watch a local one millions of times.
 constexpr double kDiagonal = 0.70710678118654752440;
 constexpr double kSlopeX[8] = {1, -1, 0, 0, kDiagonal, kDiagonal, -kDiagonal, -kDiagonal};
 constexpr double kSlopeY[8] = {0, 0, 1, -1, kDiagonal, -kDiagonal, kDiagonal, -kDiagonal};
@@ -53,7 +54,7 @@ double slope2(std::uint32_t h, double x, double y) {
   return kSlopeX[k] * x + kSlopeY[k] * y;
 }
 
-// The twelve edges of a cube (Perlin 2002).
+// The slopes point to the middles of a cube's twelve edges (Perlin 2002).
 double slope3(std::uint32_t h, double x, double y, double z) {
   const std::uint32_t k = h % 12u;
   const double a = k < 8 ? x : y, b = k < 4 ? y : z;
@@ -77,7 +78,12 @@ double gradientNoise(std::uint32_t seed, double x, double y, int period) {
   const std::int32_t ix = floorOf(x), iy = floorOf(y);
   const std::int32_t x0 = wrapped(ix, period), x1 = wrapped(ix + 1, period);
   const std::int32_t y0 = wrapped(iy, period), y1 = wrapped(iy + 1, period);
+
+  // Weights are quintic in the position within the cell, so that slopes and curvatures are
+  // continuous.
   const double tx = x - ix, ty = y - iy, u = fade(tx), v = fade(ty);
+
+  // Each corner has a linear ramp with a random slope; the four are interpolated.
   const double low = lerp(slope2(latticeHash(seed, x0, y0), tx, ty),
                           slope2(latticeHash(seed, x1, y0), tx - 1, ty), u);
   const double high = lerp(slope2(latticeHash(seed, x0, y1), tx, ty - 1),
@@ -88,6 +94,7 @@ double gradientNoise(std::uint32_t seed, double x, double y, int period) {
 double gradientNoise3(std::uint32_t seed, double x, double y, double z) {
   const std::int32_t ix = floorOf(x), iy = floorOf(y), iz = floorOf(z);
   const double tx = x - ix, ty = y - iy, tz = z - iz, u = fade(tx), v = fade(ty);
+
   const auto plane = [&](int k) {
     const auto corner = [&](int i, int j) {
       return slope3(hash(seed, ix + i, iy + j, iz + k), tx - i, ty - j, tz - k);
@@ -103,6 +110,7 @@ double fractalNoise(std::uint32_t seed, double x, double y, int octaves, int per
     sum += amplitude * gradientNoise(seed + static_cast<std::uint32_t>(i), x, y, period);
     total += amplitude;
     amplitude *= 0.5;
+    // The period counts cells, so it doubles with the frequency.
     x *= 2, y *= 2, period *= 2;
   }
   return total > 0 ? sum / total : 0;
@@ -111,8 +119,10 @@ double fractalNoise(std::uint32_t seed, double x, double y, int octaves, int per
 double ridgedNoise(std::uint32_t seed, double x, double y, int octaves) {
   double sum = 0, amplitude = 0.5, weight = 1, total = 0;
   for (int i = 0; i < octaves; ++i) {
+    // The absolute value folds the noise at its zero crossings, which become the crests.
     double crest = 1 - std::fabs(gradientNoise(seed + static_cast<std::uint32_t>(i), x, y));
     crest = crest < 0 ? 0 : crest * crest;
+
     sum += amplitude * weight * crest;
     total += amplitude;
     weight = crest;  // valleys stay smooth, crests gather detail

@@ -6,16 +6,16 @@
 
 namespace whit::procedural {
 
-// A well-mixed hash of lattice coordinates as a number in [0, 1).
+// Returns a well-mixed hash of lattice coordinates as a number in [0, 1).
 double unitHash(std::uint32_t seed, std::int32_t x, std::int32_t y = 0, std::int32_t z = 0);
 
-// Smooth noise in about [-1, 1], zero at lattice points. `period` above zero repeats the lattice
-// after that many cells along x and y.
+// Returns smooth noise in about [-1, 1], zero at lattice points. A `period` above zero repeats the
+// lattice after that many cells along x and y.
 double gradientNoise(std::uint32_t seed, double x, double y, int period = 0);
 double gradientNoise3(std::uint32_t seed, double x, double y, double z);
 
-// Sum of `octaves` noises, each of double frequency and half amplitude, scaled to about [-1, 1].
-// A period is that of the first octave.
+// Returns the sum of `octaves` noises, each of twice the frequency and half the amplitude of the
+// one before, scaled to about [-1, 1]. A period is that of the first octave.
 double fractalNoise(std::uint32_t seed, double x, double y, int octaves, int period = 0);
 
 // Like fractalNoise, but folded at zero into sharp crests: about [0, 1], 1 on the crests (Musgrave,
@@ -23,7 +23,7 @@ double fractalNoise(std::uint32_t seed, double x, double y, int octaves, int per
 double ridgedNoise(std::uint32_t seed, double x, double y, int octaves);
 
 double lerp(double a, double b, double t);
-// 0 below `low`, 1 above `high`, smooth between.
+// Returns 0 below `low`, 1 above `high`, and a smooth transition between.
 double smoothStep(double low, double high, double x);
 
 // A stream of numbers in [0, 1) for things that are generated one after the other.

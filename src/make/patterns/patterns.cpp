@@ -20,6 +20,7 @@ using ScalarFormula = std::function<double(double u, double v)>;
 Texture blank(ShapeParameters& parameters, int fallback, TexelFormat format) {
   const int side = parameters.integer("size", fallback, 1, 8192);
   const std::uint64_t texels = static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side);
+
   GenerationLimit::charge(texels, sizeof(std::uint32_t));
   return emptyTexture("", format, side, side);
 }
@@ -34,36 +35,44 @@ void forEachTexel(const Texture& texture, Visitor&& visit) {
   }
 }
 
-// Linear colors in [0, 1].
+// Paints linear colors in [0, 1].
 Texture paintColor(ShapeParameters& parameters, const ColorFormula& color, int fallback = 512) {
   Texture texture = blank(parameters, fallback, TexelFormat::color);
   std::uint32_t* to = texture.texels.data();
+
   forEachTexel(texture, [&](double u, double v) { *to++ = encodeColorTexel(color(u, v)); });
   return texture;
 }
 
-// Tangent-space normals (data, n / 2 + 1 / 2, +y up) of the surface whose height over the square,
-// in units of the square's side, is `height`: (-dh/du, -dh/dv, 1), normalized.
+// Paints tangent-space normals (data, n / 2 + 1 / 2, +y up) of the surface whose height over the
+// square, in units of the square's side, is `height`: (-dh/du, -dh/dv, 1), normalized.
 Texture paintNormals(ShapeParameters& parameters, const ScalarFormula& height) {
   Texture texture = blank(parameters, 512, TexelFormat::data);
   const int side = texture.width;
+
+  // Heights are computed once, because each is a neighbor of four texels.
   std::vector<double> heights;
   GenerationLimit::charge(texture.texels.size(), sizeof(double));
   heights.reserve(texture.texels.size());
   forEachTexel(texture, [&](double u, double v) { heights.push_back(height(u, v)); });
+
+  // The texture repeats, so texels on opposite edges are neighbors.
   const auto at = [&](int row, int column) {
     const int r = row < 0 ? side - 1 : row < side ? row : 0;
     const int c = column < 0 ? side - 1 : column < side ? column : 0;
     return heights[static_cast<std::size_t>(r) * static_cast<std::size_t>(side) +
                    static_cast<std::size_t>(c)];
   };
+
   const double reach = 2.0 / side;  // between the neighbors on both sides
   std::uint32_t* to = texture.texels.data();
   for (int row = 0; row < side; ++row) {
     for (int column = 0; column < side; ++column) {
+      // Rows run downwards and v points up.
       const double du = at(row, column + 1) - at(row, column - 1);
       const double dv = at(row - 1, column) - at(row + 1, column);
       const Vec3d n = normalized(Vec3d{-du, -dv, reach});
+
       const auto code = [](double x) { return static_cast<float>(0.5 + 0.5 * x); };
       *to++ = encodeDataTexel(code(n.x), code(n.y), code(n.z), 1);
     }
@@ -75,6 +84,7 @@ Texture paintNormals(ShapeParameters& parameters, const ScalarFormula& height) {
 Texture paintScalar(ShapeParameters& parameters, const ScalarFormula& value, int fallback) {
   Texture texture = blank(parameters, fallback, TexelFormat::data);
   std::uint32_t* to = texture.texels.data();
+
   forEachTexel(texture, [&](double u, double v) {
     const auto x = static_cast<float>(value(u, v));
     *to++ = encodeDataTexel(x, x, x, 1);
@@ -82,7 +92,7 @@ Texture paintScalar(ShapeParameters& parameters, const ScalarFormula& value, int
   return texture;
 }
 
-// Linear light, clamped to [0, 1] when it is encoded.
+// Reads a linear color, which is clamped to [0, 1] when it is encoded.
 Rgb colorOf(ShapeParameters& parameters, const std::string& key, const Vec3d& fallback) {
   return Rgb(parameters.color(key, fallback));
 }
@@ -92,17 +102,20 @@ Rgb mix(const Rgb& a, const Rgb& b, double t) {
   return a * (1 - s) + b * s;
 }
 
-// Signed distance-like value of a pointed leaf standing on v = 0: positive inside.
+// Returns a value like a signed distance to a pointed leaf that stands on v = 0: positive inside.
 double leafShape(double u, double v, double fullness) {
   const double half = fullness * std::pow(std::sin(3.14159265358979 * std::pow(v, 0.75)), 0.8);
   return half - std::fabs(u - 0.5);
 }
 
-// A feathered leaf: leaflets on both sides of a rib.
+// Does the same for a feathered leaf, which has leaflets on both sides of a rib.
 double frondShape(double u, double v, int leaflets) {
   const double s = std::fabs(u - 0.5) * 2;
   const double reach = 0.95 * std::pow(std::sin(3.14159265358979 * (0.06 + 0.93 * v)), 0.6);
+
+  // The rib is solid and tapers towards the tip.
   if (s < 0.07 * (1 - 0.7 * v)) return 1;
+
   // Leaflets slant towards the tip, and narrow outwards.
   const double along = (v - 0.28 * s) * leaflets;
   const double across = std::fabs(along - std::floor(along) - 0.5) * 2;
@@ -112,7 +125,7 @@ double frondShape(double u, double v, int leaflets) {
 ScalarFormula plasterHeight(int cells, std::uint32_t seed) {
   return [=](double u, double v) {
     const double rough = fractalNoise(seed, cells * u, cells * v, 5, cells);
-    // Strokes of the trowel: stretched, so the periods differ.
+    // One more layer of the lowest frequency stands for the strokes of the trowel.
     const double strokes = gradientNoise(seed + 8, cells * u, 0.25 * cells * v * 4, cells);
     return rough + 0.3 * strokes;
   };
@@ -124,6 +137,7 @@ Texture makeChecker(ShapeParameters& parameters) {
   const Rgb b = colorOf(parameters, "color2", {0.1, 0.1, 0.1});
   const int columns = parameters.integer("columns", 2, 1, 4096);
   const int rows = parameters.integer("rows", columns, 1, 4096);
+
   return paintColor(parameters, [=](double u, double v) {
     const int i = static_cast<int>(u * columns), j = static_cast<int>(v * rows);
     return (i + j) % 2 == 0 ? a : b;
@@ -136,6 +150,7 @@ Texture makeStripes(ShapeParameters& parameters) {
   const Rgb b = colorOf(parameters, "color2", {0.5, 0.05, 0.05});
   const int count = parameters.integer("count", 4, 1, 4096);
   const double share = parameters.number("share", 0.5, 0, 1);
+
   return paintColor(parameters, [=](double u, double) {
     const double t = u * count - std::floor(u * count);
     return t < share ? a : b;
@@ -151,13 +166,17 @@ Texture makeFabric(ShapeParameters& parameters) {
   const double border = parameters.number("border", 0.06, 0, 0.5);
   const double contrast = parameters.number("contrast", 0.35, 0, 1);
   const std::uint32_t seed = parameters.seed();
+
   return paintColor(parameters, [=](double u, double v) {
+    // Each cell of the weave has a diamond's outline and a small diamond in its middle.
     const double fu = u * columns - std::floor(u * columns) - 0.5;
     const double fv = v * rows - std::floor(v * rows) - 0.5;
     const double diamond = std::fabs(fu) + std::fabs(fv);
     const double weave = 0.92 + 0.08 * fractalNoise(seed, 32 * u, 32 * v, 3, 32);
     const bool line = std::fabs(diamond - 0.36) < 0.035 || diamond < 0.10;
     Rgb color = mix(ground, figure, line ? contrast : 0.0);
+
+    // The border is a stripe of the figure's color between two darker ones.
     const double edge = std::min(v, 1 - v);
     if (edge < border) {
       const double t = edge / border;
@@ -167,7 +186,7 @@ Texture makeFabric(ShapeParameters& parameters) {
   });
 }
 
-// Alpha: 1 inside one pointed leaf with its foot at v = 0.
+// The mask's alpha is 1 inside one pointed leaf with its foot at v = 0.
 Texture makeLeafMask(ShapeParameters& parameters) {
   const double fullness = parameters.number("fullness", 0.45, 0.01, 0.5);
   return paintScalar(
@@ -191,13 +210,16 @@ Texture makeLeaf(ShapeParameters& parameters) {
   const Rgb vein = colorOf(parameters, "color2", {0.25, 0.42, 0.12});
   const int veins = parameters.integer("veins", 7, 0, 100);
   const std::uint32_t seed = parameters.seed();
+
   return paintColor(
       parameters,
       [=](double u, double v) {
+        // Side veins leave the rib and slant towards the tip.
         const double s = std::fabs(u - 0.5) * 2;
         const double along = (v - 0.3 * s) * veins;
         const double across = std::fabs(along - std::round(along));
         const double rib = std::max(1 - s / 0.08, 0.6 * (1 - across / 0.1));
+
         const double patch = 0.5 + 0.5 * fractalNoise(seed, 4 * u, 4 * v, 4, 4);
         const Rgb color = mix(blade, vein, std::clamp(rib, 0.0, 1.0));
         return color * static_cast<float>(0.75 + 0.5 * patch);
@@ -213,6 +235,7 @@ Texture makeNoise(ShapeParameters& parameters) {
   const int octaves = parameters.integer("octaves", 6, 1, 12);
   const double contrast = parameters.number("contrast", 1, 0, 100);
   const std::uint32_t seed = parameters.seed();
+
   return paintColor(parameters, [=](double u, double v) {
     const double n = fractalNoise(seed, cells * u, cells * v, octaves, cells);
     return mix(a, b, std::clamp(0.5 + contrast * n, 0.0, 1.0));
@@ -226,6 +249,7 @@ Texture makePlaster(ShapeParameters& parameters) {
   const double stain = parameters.number("stain", 0.5, 0, 1);
   const std::uint32_t seed = parameters.seed();
   const ScalarFormula height = plasterHeight(cells, seed);
+
   return paintColor(parameters, [=](double u, double v) {
     const double cloud = 0.5 + 0.6 * fractalNoise(seed + 40, 3 * u, 3 * v, 5, 3);
     const Rgb base = mix(color, color2, std::clamp(stain * cloud, 0.0, 1.0));
@@ -240,19 +264,23 @@ Texture makePlasterNormals(ShapeParameters& parameters) {
   return paintNormals(parameters, [=](double u, double v) { return depth * height(u, v); });
 }
 
-// Veins along the zero lines of warped noise.
+// Veins run along the zero lines of warped noise.
 Texture makeMarble(ShapeParameters& parameters) {
   const Rgb color = colorOf(parameters, "color", {0.80, 0.78, 0.74});
   const Rgb vein = colorOf(parameters, "color2", {0.32, 0.31, 0.32});
   const int cells = parameters.integer("cells", 3, 1, 256);
   const double sharpness = parameters.number("sharpness", 10, 0.1, 1000);
   const std::uint32_t seed = parameters.seed();
+
   return paintColor(parameters, [=](double u, double v) {
     const double x = cells * u, y = cells * v;
     const double warp = 0.7 * fractalNoise(seed + 20, x, y, 5, cells);
+
+    // Coarse and fine veins lie where warped noise crosses zero, and a power narrows them.
     const double coarse = 1 - std::fabs(fractalNoise(seed, x + warp, y + 0.5 * warp, 4, cells));
     const double fine =
         1 - std::fabs(fractalNoise(seed + 60, 2 * x - warp, 2 * y + warp, 4, 2 * cells));
+
     const double depth = std::pow(std::clamp(coarse, 0.0, 1.0), sharpness) +
                          0.4 * std::pow(std::clamp(fine, 0.0, 1.0), 1.6 * sharpness);
     const Rgb cloudy = color * static_cast<float>(1 + 0.12 * warp);
@@ -260,28 +288,35 @@ Texture makeMarble(ShapeParameters& parameters) {
   });
 }
 
-// Boards along u, each with its own grain.
+// Boards run along u, each with its own grain.
 Texture makeWood(ShapeParameters& parameters) {
   const Rgb color = colorOf(parameters, "color", {0.36, 0.20, 0.09});
   const Rgb color2 = colorOf(parameters, "color2", {0.19, 0.09, 0.035});
   const int boards = parameters.integer("boards", 4, 1, 256);
   const double rings = parameters.number("rings", 5, 0, 200);
   const std::uint32_t seed = parameters.seed();
+
   return paintColor(parameters, [=](double u, double v) {
+    // Each board has noise and a density of rings of its own.
     const int board = std::min(static_cast<int>(v * boards), boards - 1);
     const double y = v * boards - board, own = unitHash(seed, board);
     const auto boardSeed = seed + 100u * static_cast<std::uint32_t>(board);
+
+    // Rings sway along the board, fibres are noise that is stretched along it.
     const double sway = fractalNoise(boardSeed + 7, 2 * u, y, 3, 2);
     const double ring =
         0.5 + 0.5 * std::sin(6.283185307 * (rings * (y - 0.5) * (1 + own) + 2 * sway));
     const double fibre = 0.5 + 0.5 * fractalNoise(boardSeed + 9, 4 * u, 64 * y, 3, 64);
+
+    // Dark gaps separate the boards.
     const double gap = smoothStep(0, 0.015, std::min(y, 1 - y));
+
     const Rgb grain = mix(color, color2, std::clamp(0.65 * ring + 0.35 * fibre, 0.0, 1.0));
     return grain * static_cast<float>((0.85 + 0.3 * own) * (0.25 + 0.75 * gap));
   });
 }
 
-// Stones in rows; where in the layout a point lies.
+// The stone of a layout in which a point lies, and the point's position in it.
 struct Stone {
   int column, row;    // of the stone, wrapped
   double across, up;  // within the stone, 0 to 1
@@ -292,17 +327,19 @@ struct Layout {
   int columns, rows;
   double bond;   // shift of every other row, in stones
   double joint;  // width of the joints, in parts of a row
-  double bevel;  // width of the stones' rounded rim, the same
+  double bevel;  // width of the stones' rounded edge, in parts of a row
 
   Stone at(double u, double v) const {
     const int row = std::min(static_cast<int>(v * rows), rows - 1);
     const double x = u * columns + (row % 2 == 1 ? bond : 0.0);
     const int column = static_cast<int>(std::floor(x));
     const double fu = x - std::floor(x), fv = v * rows - row;
+
     const double edge = std::min(std::min(fu, 1 - fu) / columns, std::min(fv, 1 - fv) / rows);
     return {column % columns, row, fu, fv, edge};
   }
-  // 0 in the joint, 1 on the face.
+
+  // Returns 0 in the joint and 1 on the stone's face.
   double face(const Stone& s) const {
     const double half = 0.5 * joint / rows;
     return smoothStep(half, half + std::max(bevel, 1e-6) / rows, s.edge);
@@ -320,15 +357,18 @@ Layout readLayout(ShapeParameters& parameters, int columns, int rows, double bon
   return layout;
 }
 
-// Heights in parts of the texture's side: joints lie `depth` deep, stones are a little uneven.
+// Heights are in parts of the texture's side. Joints lie `depth` deep, stones are a little uneven.
 Texture masonryNormals(ShapeParameters& parameters, const Layout& layout, double depthFallback,
                        double roughFallback) {
   const double depth = parameters.number("depth", depthFallback, 0, 0.5);
   const double rough = parameters.number("rough", roughFallback, 0, 10);
   const std::uint32_t seed = parameters.seed();
+
   return paintNormals(parameters, [=](double u, double v) {
     const Stone s = layout.at(u, v);
     const double grain = fractalNoise(seed + 11, 16 * u, 16 * v, 4, 16);
+
+    // The face of each stone slopes at random, across and up.
     const double lean = (unitHash(seed + 5, s.column, s.row) - 0.5) * (s.across - 0.5) +
                         (unitHash(seed + 6, s.column, s.row) - 0.5) * (s.up - 0.5);
     return depth * layout.face(s) * (1 + 0.5 * rough * lean) + 0.35 * depth * rough * grain;
@@ -350,12 +390,16 @@ Texture makeBricks(ShapeParameters& parameters) {
   const Rgb mortar = colorOf(parameters, "mortar", {0.45, 0.42, 0.38});
   const double stain = parameters.number("stain", 0.25, 0, 1);
   const std::uint32_t seed = parameters.seed();
+
   return paintColor(parameters, [=](double u, double v) {
     const Stone s = layout.at(u, v);
     const double grain = 0.5 + 0.5 * fractalNoise(seed + 11, 16 * u, 16 * v, 5, 16);
     const double cloud = 0.5 + 0.5 * fractalNoise(seed + 3, 3 * u, 3 * v, 4, 3);
+
     const Rgb stone = mix(color, color2, unitHash(seed, s.column, s.row));
     const Rgb base = mix(mortar, stone, layout.face(s));
+
+    // Stains darken the wall unevenly, by fine grain and by large clouds.
     return base * static_cast<float>((1 - 0.5 * stain + stain * (grain - 0.5)) *
                                      (1 - stain * (cloud - 0.5)));
   });
@@ -374,18 +418,24 @@ Texture makeTiles(ShapeParameters& parameters) {
   const double variation = parameters.number("variation", 0.15, 0, 1);
   const double veins = parameters.number("veins", 0.35, 0, 1);
   const std::uint32_t seed = parameters.seed();
+
   return paintColor(
       parameters,
       [=](double u, double v) {
         const Stone s = layout.at(u, v);
         const bool odd = (s.column + s.row) % 2 == 1;
         const double own = unitHash(seed, s.column, s.row);
+
         // Each slab is cut from another part of the block.
         const double x = s.across + 17 * own, y = s.up + 29 * unitHash(seed + 1, s.column, s.row);
         const double warp = fractalNoise(seed + 20, 1.5 * x, 1.5 * y, 4);
+
+        // Narrow veins lie where warped noise crosses zero.
         const double line = 1 - std::fabs(fractalNoise(seed + 30, 1.2 * x + warp, 1.6 * y, 4));
         const double vein = std::pow(std::clamp(line, 0.0, 1.0), 14);
         const double cloud = 0.5 + 0.5 * warp;
+
+        // Slabs of the second color have light veins, and those of the first dark ones.
         Rgb slab = odd ? color2 : color;
         slab = slab * static_cast<float>(1 + variation * (own - 0.5) + 0.5 * veins * (cloud - 0.5));
         slab = mix(slab, odd ? Rgb(0.6f) : slab * 0.45f, veins * vein);
@@ -404,11 +454,14 @@ Texture makeRoof(ShapeParameters& parameters) {
   const Rgb color = colorOf(parameters, "color", {0.45, 0.18, 0.09});
   const Rgb color2 = colorOf(parameters, "color2", {0.30, 0.13, 0.08});
   const std::uint32_t seed = parameters.seed();
+
   return paintColor(parameters, [=](double u, double v) {
     const double fu = u * columns - std::floor(u * columns);
     const double fv = v * rows - std::floor(v * rows);
     const double own = unitHash(seed, static_cast<int>(u * columns), static_cast<int>(v * rows));
     const double grain = fractalNoise(seed + 2, 16 * u, 16 * v, 4, 16);
+
+    // The gutters between columns and the strip below the next row lie in the shade.
     const double gutter = smoothStep(0, 0.14, std::min(fu, 1 - fu));
     const double shade = (0.45 + 0.55 * gutter) * (fv > 0.93 ? 0.6 : 1.0) * (1 + 0.2 * grain);
     return mix(color, color2, own) * static_cast<float>(shade);
@@ -419,6 +472,7 @@ Texture makeRoofNormals(ShapeParameters& parameters) {
   const int columns = parameters.integer("columns", 8, 1, 1024);
   const int rows = parameters.integer("rows", 6, 1, 1024);
   const double depth = parameters.number("depth", 0.03, 0, 0.5);
+
   // Rounded pans lie in overlapping rows.
   return paintNormals(parameters, [=](double u, double v) {
     const double fu = u * columns - std::floor(u * columns), fv = v * rows - std::floor(v * rows);
@@ -448,6 +502,7 @@ const std::map<std::string, PatternGenerator*>& patternGenerators() {
       {"tilesNormals", makeTileNormals},
       {"wood", makeWood},
   };
+
   return generators;
 }
 

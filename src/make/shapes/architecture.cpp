@@ -22,7 +22,7 @@ using PlanCell = std::array<PlanPoint, 4>;
 using Edge = std::pair<PlanPoint, PlanPoint>;
 constexpr double kCreaseCosine = 0.81915204428899178968;  // 35 degrees
 
-// Edges of cells without a partner of opposite direction.
+// Returns the edges of cells that no other cell has in the opposite direction.
 std::set<Edge> outlineOf(const std::vector<PlanCell>& plan) {
   std::set<Edge> edges;
   for (const PlanCell& cell : plan) {
@@ -42,37 +42,46 @@ Vec3d outward(const Edge& e) {
 void addSides(MeshBuilder& builder, const std::vector<PlanCell>& plan, double z0, double z1,
               double repeat) {
   const std::set<Edge> outline = outlineOf(plan);
+
+  // At each corner of the outline one edge arrives and one leaves.
   std::map<PlanPoint, Vec3d> arriving, leaving;
   for (const Edge& edge : outline) {
     leaving[edge.first] = outward(edge);
     arriving[edge.second] = outward(edge);
   }
+
+  // Normals are averaged at those corners of the outline that are not creases.
   const auto smoothed = [](const Vec3d& own, const Vec3d& neighbor) {
     return dot(own, neighbor) > kCreaseCosine ? own + neighbor : own;
   };
+
   for (const Edge& edge : outline) {
     const auto& [a, b] = edge;
     const Vec3d own = outward(edge);
     const Vec3d atA = smoothed(own, arriving[a]), atB = smoothed(own, leaving[b]);
+
     // Steep sides run their texture up, level ones along x.
     const bool steep = std::fabs(own.x) > std::fabs(own.y);
     const double facing = own.x > 0 ? -1 : 1;
     const auto uv = [&](const PlanPoint& p, double z) {
       return steep ? Uv{facing * z / repeat, p[1] / repeat} : Uv{p[0] / repeat, -z / repeat};
     };
+
     const auto corner = [&](const PlanPoint& p, double z, const Vec3d& normal) {
       return builder.vertex({{p[0], p[1], z}, normal, uv(p, z)});
     };
+
     const std::uint32_t q0 = corner(a, z1, atA), q1 = corner(a, z0, atA);
     const std::uint32_t q2 = corner(b, z0, atB), q3 = corner(b, z1, atB);
     builder.quad(q0, q1, q2, q3);
   }
 }
 
-// Closed solid from z0 to z1. Side faces whose directions differ by less than 35 degrees are
-// smooth. `repeat` units of length a texture.
+// Returns the closed solid from z0 to z1. Side faces whose directions differ by less than 35
+// degrees are smooth. A texture covers `repeat` units of length.
 Mesh extrude(const std::vector<PlanCell>& plan, double z0, double z1, double repeat) {
   MeshBuilder builder;
+  // The front lid is the plan itself; the back lid turns its cells around to face the other way.
   for (const bool front : {true, false}) {
     for (const PlanCell& cell : plan) {
       std::array<Vec3d, 4> corners;
@@ -81,6 +90,7 @@ Mesh extrude(const std::vector<PlanCell>& plan, double z0, double z1, double rep
       builder.plate(corners, repeat);
     }
   }
+
   addSides(builder, plan, z0, z1, repeat);
   return builder.take("extrusion");
 }
@@ -89,12 +99,13 @@ PlanCell rectangle(double x0, double y0, double x1, double y1) {
   return {{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}};
 }
 
-// Cells of the half ring between two half ellipses over `center`.
+// Returns the cells of the half ring between two half ellipses over `center`.
 std::vector<PlanCell> halfRing(PlanPoint center, PlanPoint inner, PlanPoint outer, int segments) {
   const auto at = [&](const PlanPoint& radii, int k) {
     const TurnPoint t = turn(k, 2 * segments);
     return PlanPoint{center[0] + radii[0] * t.cosine, center[1] + radii[1] * t.sine};
   };
+
   std::vector<PlanCell> cells;
   cells.reserve(static_cast<std::size_t>(segments));
   for (int k = 0; k < segments; ++k) {
@@ -110,7 +121,7 @@ struct WallPlan {
   int bays, segments;
 };
 
-// A pier from floor to top, cut at the levels that its neighbors have corners at.
+// Adds a pier from floor to top, cut at the levels at which its neighbors have corners.
 void addPier(std::vector<PlanCell>& cells, const std::vector<double>& levels, double x0,
              double x1) {
   if (!(x1 > x0)) return;
@@ -121,14 +132,21 @@ void addPier(std::vector<PlanCell>& cells, const std::vector<double>& levels, do
 
 void addOpening(std::vector<PlanCell>& cells, const WallPlan& plan, double a, double b) {
   if (plan.sill > 0) cells.push_back(rectangle(a, 0, b, plan.sill));
+
+  // The opening ends in half an ellipse, or in a straight lintel of one piece.
   const int n = plan.rise > 0 ? plan.segments : 1;
   const double half = (b - a) / 2;
+
+  // Both ends are exact, so that they coincide with corners of the piers.
   const auto arc = [&](int k) {
     if (k == 0) return PlanPoint{a, plan.spring};
     if (k == n) return PlanPoint{b, plan.spring};
+
     const TurnPoint t = turn(k, 2 * n);
     return PlanPoint{a + half * (1 - t.cosine), plan.spring + plan.rise * t.sine};
   };
+
+  // The wall above the opening stands on the arch and reaches up to the top.
   for (int k = 0; k < n; ++k) {
     const PlanPoint p = arc(k), q = arc(k + 1);
     cells.push_back({{p, q, {q[0], plan.height}, {p[0], plan.height}}});
@@ -137,13 +155,17 @@ void addOpening(std::vector<PlanCell>& cells, const WallPlan& plan, double a, do
 
 Mesh buildWall(const WallPlan& plan) {
   std::vector<PlanCell> cells;
+
+  // Piers have corners at all heights at which openings have some.
   const std::vector<double> levels{0, plan.sill, plan.spring, plan.height};
+
   const double left = -0.5 * plan.bays * plan.spacing;
   const auto boundary = [&](int bay) { return left + bay * plan.spacing; };
   addPier(cells, levels, boundary(0) - plan.margin, boundary(0));
   for (int bay = 0; bay < plan.bays; ++bay) {
     const double middle = 0.5 * (boundary(bay) + boundary(bay + 1));
     const double a = middle - plan.openingWidth / 2, b = middle + plan.openingWidth / 2;
+
     addPier(cells, levels, boundary(bay), a);
     addOpening(cells, plan, a, b);
     addPier(cells, levels, b, boundary(bay + 1));
@@ -159,7 +181,7 @@ struct ColumnPlan {
   int flutes, segments, rings, leaves;
 };
 
-// Half the side of the abacus in parts of the radius: a wall above may rest on it.
+// Half the side of the abacus in parts of the radius. A wall above may rest on the abacus.
 constexpr double kAbacusHalf = 1.5;
 constexpr double kTaper = 0.14;
 
@@ -178,6 +200,7 @@ void addHalfRound(std::vector<std::array<double, 2>>& outline, double r, double 
 void addBase(MeshBuilder& builder, const ColumnPlan& plan) {
   const double r = plan.radius;
   builder.box({-1.42 * r, 0, -1.42 * r}, {1.42 * r, kPlinth * r, 1.42 * r}, plan.uvRepeat);
+
   // The attic base: torus, hollow, torus. It starts inside the plinth.
   std::vector<std::array<double, 2>> outline{{0, 0.3 * r}, {1.22 * r, 0.3 * r}};
   addHalfRound(outline, 1.22 * r, kPlinth * r, 0.66 * r);
@@ -189,7 +212,7 @@ void addBase(MeshBuilder& builder, const ColumnPlan& plan) {
   builder.revolve(creasedProfile(outline, 45, plan.uvRepeat), plan.segments, 4);
 }
 
-// Radius of the bell of the capital at t in [0, 1] from neck to abacus.
+// Returns the radius of the capital's bell at t in [0, 1] from neck to abacus.
 double bellRadius(const ColumnPlan& plan, double t) {
   return plan.radius * (0.86 + 0.10 * t + 0.34 * t * t * t);
 }
@@ -202,9 +225,12 @@ void addLeaf(MeshBuilder& builder, const ColumnPlan& plan, double angle, double 
       kAcross, kUp, false,
       [&](int i, int j) {
         const double s = 2.0 * i / kAcross - 1, t = static_cast<double>(j) / kUp;
+
+        // The upper part of the leaf curls outwards and bends down.
         const double curl = std::max(0.0, t - 0.55) / 0.45;
         const double narrow =
             (1 - 0.55 * t * t * t) * (0.9 + 0.1 * std::cos(4 * std::numbers::pi * t));
+
         const double out =
             bellRadius(plan, bell * t) + r * (0.05 + 0.24 * curl * curl + 0.05 * std::fabs(s));
         const double a = angle + s * halfWidth * narrow;
@@ -219,17 +245,25 @@ void addLeaf(MeshBuilder& builder, const ColumnPlan& plan, double angle, double 
 void addCapital(MeshBuilder& builder, const ColumnPlan& plan) {
   const double r = plan.radius, bottom = plan.height - kCapital * r;
   const double bellTop = plan.height - kAbacus * r, neckTop = bottom + kNeck * r;
+
+  // The bell is turned about the axis, with a half round at its neck.
   std::vector<std::array<double, 2>> outline{{0, bottom}};
   addHalfRound(outline, 0.90 * r, bottom, neckTop);
+
   constexpr int kSteps = 10;
   for (int k = 0; k <= kSteps; ++k) {
     const double t = static_cast<double>(k) / kSteps;
     outline.push_back({bellRadius(plan, t), lerp(neckTop, bellTop, t)});
   }
+
   outline.push_back({0, bellTop});
   builder.revolve(creasedProfile(outline, 45, plan.uvRepeat), plan.segments, 4);
+
+  // The abacus is a square slab that overlaps the top of the bell.
   const double a = kAbacusHalf * r;
   builder.box({-a, bellTop - 0.01 * r, -a}, {a, plan.height, a}, plan.uvRepeat);
+
+  // Tall leaves rise in the gaps of a lower row of short leaves.
   const double bell = bellTop - neckTop;
   for (int k = 0; k < plan.leaves; ++k) {
     const double step = 2 * std::numbers::pi / plan.leaves;
@@ -242,10 +276,13 @@ void addShaft(MeshBuilder& builder, const ColumnPlan& plan, int segments) {
   const double r = plan.radius, y0 = (kBase - 0.02) * r, y1 = plan.height - (kCapital - 0.02) * r;
   const auto radiusAt = [&](int i, int j) {
     const double t = static_cast<double>(j) / plan.rings;
+    // Entasis: the shaft tapers slowly at its foot and faster above.
     double radius = r * (1 - plan.taper * std::pow(t, 1.7));
+
     if (plan.flutes > 0) {
       const double phase = static_cast<double>(i) * plan.flutes / segments;
       const double hollow = std::fabs(std::sin(std::numbers::pi * phase));
+
       // Flutes end round, short of base and capital.
       const double fade = std::min(1.0, 14 * std::min(t, 1 - t));
       radius -= 0.085 * r * hollow * fade;
@@ -253,7 +290,10 @@ void addShaft(MeshBuilder& builder, const ColumnPlan& plan, int segments) {
     return radius;
   };
   const auto height = [&](int j) { return lerp(y0, y1, static_cast<double>(j) / plan.rings); };
+
+  // A whole number of repeats around the shaft leaves no seam in the texture.
   const double around = std::max(1.0, std::round(2 * std::numbers::pi * r / plan.uvRepeat));
+
   builder.smoothSheet(
       segments, plan.rings, true,
       [&](int i, int j) {
@@ -264,10 +304,12 @@ void addShaft(MeshBuilder& builder, const ColumnPlan& plan, int segments) {
       [&](int i, int j) {
         return Uv{around * i / segments, height(j) / plan.uvRepeat};
       });
+
   // Lids inside base and capital close the shaft.
   for (const bool top : {false, true}) {
     const int j = top ? plan.rings : 0;
     const Vec3d normal{0, top ? 1.0 : -1.0, 0};
+
     const std::uint32_t center = builder.vertex({{0, height(j), 0}, normal, {}});
     std::vector<std::uint32_t> rim;
     for (int i = 0; i < segments; ++i) {
@@ -275,6 +317,7 @@ void addShaft(MeshBuilder& builder, const ColumnPlan& plan, int segments) {
       const double radius = radiusAt(i, j);
       rim.push_back(builder.vertex({{radius * t.cosine, height(j), -radius * t.sine}, normal, {}}));
     }
+
     for (std::size_t i = 0; i < rim.size(); ++i) {
       const std::uint32_t a = rim[i], b = rim[(i + 1) % rim.size()];
       builder.triangle(center, top ? a : b, top ? b : a);
@@ -284,10 +327,12 @@ void addShaft(MeshBuilder& builder, const ColumnPlan& plan, int segments) {
 
 Shape buildColumn(const ColumnPlan& plan) {
   int segments = plan.segments;
+  // Each flute gets the same number of segments, a multiple of 4.
   if (plan.flutes > 0) {
     const int unit = 4 * plan.flutes;
     segments = std::max(unit, (plan.segments + unit - 1) / unit * unit);
   }
+
   MeshBuilder shaft, trim;
   addShaft(shaft, plan, segments);
   addBase(trim, plan);
@@ -298,10 +343,10 @@ Shape buildColumn(const ColumnPlan& plan) {
 // Reads the parameters that columns and colonnades share.
 void readDetails(ShapeParameters& parameters, ColumnPlan& plan) {
   plan.flutes = parameters.integer("flutes", 0, 0, 256);  // 0: a smooth shaft
-  // Around the column; rounded up to a multiple of 4 for each flute.
+  // `segments` around the column are rounded up to a multiple of 4 for each flute.
   plan.segments = parameters.integer("segments", 48, 8, 4096);
   plan.rings = parameters.integer("rings", 16, 1, 4096);  // along the shaft
-  // Leaves in each of the capital's two rows; 0: a plain bell.
+  // `leaves` is the number in each of the capital's two rows; 0: a plain bell.
   plan.leaves = parameters.integer("leaves", 8, 0, 64);
   plan.uvRepeat = parameters.number("uvRepeat", 1, 1e-6, 1e9);
 }
@@ -314,21 +359,28 @@ void addGroinBay(MeshBuilder& builder, const Vec3d& center, double a, double b, 
     const TurnPoint s = turn(i, 2 * n), t = turn(j, 2 * n);
     const Vec3d p{center.x - a * s.cosine, center.y + rise * std::max(s.sine, t.sine),
                   center.z - b * t.cosine};
+
+    // On a groin both barrels meet, and a facet takes the normal of its own barrel.
     const Vec3d normal =
         arcOverX ? Vec3d{rise * s.cosine, -a * s.sine, 0} : Vec3d{0, -b * t.sine, rise * t.cosine};
     return builder.vertex({p, normal, {p.x / repeat, p.z / repeat}});
   };
+
+  // The facet belongs to the barrel whose crown is nearer to its centroid.
   using Node = std::array<int, 2>;
   const auto facet = [&](const Node& p, const Node& q, const Node& r) {
     const int x = std::abs(2 * (p[0] + q[0] + r[0]) - 3 * n);
     const int z = std::abs(2 * (p[1] + q[1] + r[1]) - 3 * n);
+
     const std::uint32_t i0 = corner(p[0], p[1], x < z), i1 = corner(q[0], q[1], x < z),
                         i2 = corner(r[0], r[1], x < z);
     builder.triangle(i0, i1, i2);
   };
+
   for (int j = 0; j < n; ++j) {
     for (int i = 0; i < n; ++i) {
       const Node p{i, j}, q{i + 1, j}, r{i + 1, j + 1}, s{i, j + 1};
+      // Groins are edges of facets: cells on the second diagonal are split along it.
       if (i + j == n - 1) {
         facet(p, q, s);
         facet(q, r, s);
@@ -351,12 +403,15 @@ Shape makeWall(ShapeParameters& parameters) {
   plan.margin = parameters.number("margin", 0, 0, 1e6);  // more wall at both ends
   plan.openingWidth =
       parameters.number("openingWidth", 0.4 * plan.spacing, 1e-3, 0.999 * plan.spacing);
-  // Where the arch begins, the lower edge of the opening (0: a door), and the height of the arch
-  // above its spring (0: a straight lintel).
+
+  // `spring` is the height at which the arch begins, `sill` the lower edge of the opening (0: a
+  // door), and `rise` the height of the arch above its spring (0: a straight lintel).
   plan.spring = parameters.number("spring", 0.5 * plan.height, 1e-3, 0.999 * plan.height);
   plan.sill = parameters.number("sill", 0, 0, 0.999 * plan.spring);
+  // Some wall remains above the opening.
   const double room = 0.999 * (plan.height - plan.spring);
   plan.rise = parameters.number("rise", std::min(plan.openingWidth / 2, room), 0, room);
+
   plan.segments = parameters.integer("segments", 24, 2, 4096);  // of an arch
   plan.uvRepeat = parameters.number("uvRepeat", 1, 1e-6, 1e9);
   return singlePart(buildWall(plan));
@@ -370,6 +425,7 @@ Shape makeArch(ShapeParameters& parameters) {
   const double depth = parameters.number("depth", 0.4, 1e-4, 1e6);
   const int segments = parameters.integer("segments", 32, 2, 4096);
   const double repeat = parameters.number("uvRepeat", 1, 1e-6, 1e9);
+
   const double half = width / 2;
   return singlePart(
       extrude(halfRing({0, 0}, {half, rise}, {half + thickness, rise + thickness}, segments),
@@ -380,8 +436,9 @@ Shape makeColumn(ShapeParameters& parameters) {
   ColumnPlan plan{};
   plan.radius = parameters.number("radius", 0.3, 1e-4, 1e6);  // of the shaft at its foot
   plan.height = parameters.number("height", 4, 4.5 * plan.radius, 1e6);
-  // How much thinner the shaft is at the top, in parts of the radius.
+  // `taper` is the loss of radius from the foot of the shaft to its top, in parts of the radius.
   plan.taper = parameters.number("taper", kTaper, 0, kTaper);
+
   readDetails(parameters, plan);
   return buildColumn(plan);
 }
@@ -390,17 +447,21 @@ Shape makeColumn(ShapeParameters& parameters) {
 Shape makeColonnade(ShapeParameters& parameters) {
   const int columns = parameters.integer("columns", 5, 1, 10000);
   const double spacing = parameters.number("spacing", 3, 1e-3, 1e6);
+
   ColumnPlan column{};
   column.taper = kTaper;
   column.radius = parameters.number("radius", 0.1 * spacing, 1e-5, 0.3 * spacing);
   column.height = parameters.number("height", 1.3 * spacing, 4.5 * column.radius, 1e6);
   readDetails(parameters, column);
+
   // An engaged colonnade has one more arch at each end, from the last column to a pier or wall.
   const bool engaged = parameters.flag("engaged", false);
   const bool hasArches = parameters.flag("arches", true);
+
   WallPlan wall{};
   const double above = parameters.number("wallAbove", 0.5, 1e-3, 1e6);  // the arches' crown
   wall.depth = parameters.number("wallDepth", 2 * column.radius, 1e-3, 1e6);
+
   const Shape one = buildColumn(column);
   MeshBuilder shafts, trims, walls, arches;
   for (int k = 0; k < columns; ++k) {
@@ -408,13 +469,17 @@ Shape makeColonnade(ShapeParameters& parameters) {
     shafts.append(one.parts[0].mesh, place);
     trims.append(one.parts[1].mesh, place);
   }
+
   Shape shape(shafts.part("shaft"), trims.part("trim"));
   wall.bays = columns + (engaged ? 1 : -1);
   if (!hasArches || wall.bays == 0) return shape;
+
+  // The wall rests on the abaci, and its openings span the gaps between them.
   const double width = spacing - 2 * kAbacusHalf * column.radius;
   wall.spacing = spacing;
   wall.openingWidth = width;
   wall.rise = width / 2;
+
   // The arches begin a little above the abacus: a stilt that also keeps the wall in one piece.
   wall.spring = 0.1 * spacing;
   wall.height = wall.spring + wall.rise + above;
@@ -422,15 +487,19 @@ Shape makeColonnade(ShapeParameters& parameters) {
   wall.segments = 24;
   wall.uvRepeat = column.uvRepeat;
   walls.append(buildWall(wall), Affine::translation({0, column.height, 0}));
+
+  // Rings of stones line the openings, and stand out a little from the wall.
   const double inner = width / 2 - 0.012 * width, outer = width / 2 + 0.09 * width;
   const double front = wall.depth / 2 + 2 * 0.012 * width;
   const Mesh ring =
       extrude(halfRing({0, wall.spring}, {inner, inner}, {outer, outer}, wall.segments), -front,
               front, wall.uvRepeat);
+
   for (int bay = 0; bay < wall.bays; ++bay) {
     const double x = (bay - 0.5 * (wall.bays - 1)) * spacing;
     arches.append(ring, Affine::translation({x, column.height, 0}));
   }
+
   shape.parts.push_back(walls.part("wall"));
   shape.parts.push_back(arches.part("arch"));
   return shape;
@@ -443,20 +512,26 @@ Shape makeBalustrade(ShapeParameters& parameters) {
   const double height = parameters.number("height", 1, 1e-3, 1e6);
   const int segments = parameters.integer("segments", 12, 3, 4096);
   const double repeat = parameters.number("uvRepeat", 1, 1e-6, 1e9);
+
   const double low = 0.12 * height, high = 0.88 * height, depth = 0.11 * height;
   const double r = std::min(0.075 * height, 0.45 * length / posts);
+
+  // The contour of a post is given in parts of its radius and of its height.
   const std::vector<std::array<double, 2>> contour{
       {0.90, 0.00}, {0.90, 0.10}, {0.45, 0.14}, {0.55, 0.22}, {1.00, 0.34}, {0.92, 0.45},
       {0.55, 0.62}, {0.38, 0.78}, {0.55, 0.84}, {0.90, 0.88}, {0.90, 1.00}};
+
   std::vector<std::array<double, 2>> outline{{0, low}};
   for (const auto& p : contour) outline.push_back({p[0] * r, low + p[1] * (high - low)});
   outline.push_back({0, high});
+
   MeshBuilder one, all, rails;
   one.revolve(creasedProfile(outline, 50, repeat), segments);
   const Mesh post = one.take("post");
   for (int k = 0; k < posts; ++k) {
     all.append(post, Affine::translation({(k + 0.5) * length / posts - length / 2, 0, 0}));
   }
+
   rails.box({-length / 2, 0, -depth}, {length / 2, low, depth}, repeat);
   rails.box({-length / 2, high, -1.15 * depth}, {length / 2, height, 1.15 * depth}, repeat);
   return Shape(all.part("post"), rails.part("rail"));
@@ -472,8 +547,11 @@ Shape makeVault(ShapeParameters& parameters) {
   const int baysZ = parameters.integer("baysZ", 1, 1, 1000);
   const double a = width / baysX / 2, b = depth / baysZ / 2;
   const double rise = parameters.number("rise", std::min(a, b), 1e-3, 1e6);
+
+  // addGroinBay() needs an even number of segments.
   const int n = 2 * ((parameters.integer("segments", 24, 2, 2048) + 1) / 2);
   const double repeat = parameters.number("uvRepeat", 1, 1e-6, 1e9);
+
   MeshBuilder builder;
   if (kind == "barrel") {
     builder.sheet(n, 1, [&](int i, int j) {
@@ -485,6 +563,7 @@ Shape makeVault(ShapeParameters& parameters) {
     });
     return singlePart(builder.take("vault"));
   }
+
   for (int k = 0; k < baysZ; ++k) {
     for (int i = 0; i < baysX; ++i) {
       const Vec3d center{(2 * i + 1) * a - width / 2, 0, (2 * k + 1) * b - depth / 2};
@@ -504,9 +583,11 @@ Shape makeCornice(ShapeParameters& parameters) {
   const double back = parameters.number("back", 0.2, 1e-4, 1e6);
   const bool inward = parameters.flag("inward", true);
   const double repeat = parameters.number("uvRepeat", 1, 1e-6, 1e9);
-  // The section, distance from the rectangle's line and height, counter-clockwise.
+
+  // The section runs counter-clockwise; its points are distances from the rectangle, and heights.
   std::vector<std::array<double, 2>> section{
       {-back, 0}, {0.15 * reach, 0}, {0.15 * reach, 0.22 * height}, {0.25 * reach, 0.22 * height}};
+
   constexpr int kSteps = 6;
   for (int k = 0; k <= kSteps; ++k) {
     const double a = std::numbers::pi / 2 * k / kSteps;  // a quarter hollow
@@ -516,15 +597,20 @@ Shape makeCornice(ShapeParameters& parameters) {
     section.push_back({d * reach, y * height});
   }
   section.push_back({-back, height});
+
+  // A point of the section is equally far from both sides of a corner, which mitres the moulding.
   const double sign = inward ? 1 : -1;
   const auto corner = [&](int k, const std::array<double, 2>& s) {
     const double x = width / 2 - sign * s[0], z = depth / 2 - sign * s[0];
     return Vec3d{k == 0 || k == 3 ? -x : x, s[1], k < 2 ? z : -z};
   };
+
   MeshBuilder builder(MeshBuilder::Shading::flat);
   for (int side = 0; side < 4; ++side) {
     for (std::size_t m = 0; m < section.size(); ++m) {
       const auto &s = section[m], &t = section[(m + 1) % section.size()];
+      // Outside of the rectangle the section is mirrored, so the ends of a side change places to
+      // keep the fronts outwards.
       const int k0 = inward ? side : (side + 1) % 4, k1 = inward ? (side + 1) % 4 : side;
       builder.plate({corner(k0, s), corner(k0, t), corner(k1, t), corner(k1, s)}, repeat);
     }

@@ -20,10 +20,13 @@ std::uint64_t nodesOf(int nu, int nv) {
 std::uint32_t MeshBuilder::vertex(const SurfacePoint& point) {
   // Adding zero turns -0 into +0, so that equal positions have equal bits.
   const Vec3d p = point.position + Vec3d(0.0);
+
   GenerationLimit::charge(1, kVertexBytes);
+  // Triangles refer to vertices by numbers of 32 bits.
   if (mesh_.positions.size() == std::numeric_limits<std::uint32_t>::max()) {
     throwLimit("a shape has more than 2^32 - 1 vertices");
   }
+
   mesh_.positions.emplace_back(p);
   if (shading_ == Shading::smooth) {
     mesh_.normals.emplace_back(normalized(point.normal, Vec3d{0, 1, 0}));
@@ -35,6 +38,7 @@ std::uint32_t MeshBuilder::vertex(const SurfacePoint& point) {
 void MeshBuilder::triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   const auto& p = mesh_.positions;
   if (p[a] == p[b] || p[b] == p[c] || p[c] == p[a]) return;
+
   GenerationLimit::charge(1, kTriangleBytes);
   mesh_.triangles.push_back({a, b, c});
 }
@@ -47,6 +51,8 @@ void MeshBuilder::quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::u
 void MeshBuilder::plate(const std::array<Vec3d, 4>& corners, double repeat) {
   const Vec3d normal = cross(corners[2] - corners[0], corners[3] - corners[1]);
   const Vec3d size = abs(normal);
+
+  // The texture is projected along the largest axis; seen from outside, u runs to the right.
   std::array<std::uint32_t, 4> index{};
   for (std::size_t k = 0; k < 4; ++k) {
     const Vec3d& p = corners[k];
@@ -65,9 +71,11 @@ void MeshBuilder::sheet(int nu, int nv, const std::function<SurfacePoint(int, in
   GenerationLimit::require(nodesOf(nu, nv), kVertexBytes);
   const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
   const auto row = static_cast<std::uint32_t>(nu) + 1;
+
   for (int j = 0; j <= nv; ++j) {
     for (int i = 0; i <= nu; ++i) vertex(at(i, j));
   }
+
   for (std::uint32_t j = 0; j < static_cast<std::uint32_t>(nv); ++j) {
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(nu); ++i) {
       const std::uint32_t a = first + j * row + i;
@@ -80,16 +88,22 @@ void MeshBuilder::smoothSheet(int nu, int nv, bool wrapU,
                               const std::function<Vec3d(int, int)>& position,
                               const std::function<Uv(int, int)>& uv) {
   GenerationLimit::charge(nodesOf(nu, nv), sizeof(Vec3d));
+
   const auto row = static_cast<std::size_t>(nu) + 1;
   std::vector<Vec3d> points(row * (static_cast<std::size_t>(nv) + 1));
+
+  // Beyond the sheet's edges lie the edges themselves, or its other end where u wraps around.
   const auto point = [&](int i, int j) -> Vec3d& {
     const int column = wrapU ? (i + nu) % nu : std::clamp(i, 0, nu);
     return points[static_cast<std::size_t>(std::clamp(j, 0, nv)) * row +
                   static_cast<std::size_t>(column)];
   };
+
   for (int j = 0; j <= nv; ++j) {
     for (int i = 0; i < nu + (wrapU ? 0 : 1); ++i) point(i, j) = position(i, j);
   }
+
+  // Normals follow from central differences, which become one-sided at the edges.
   sheet(nu, nv, [&](int i, int j) {
     const Vec3d along = point(i + 1, j) - point(i - 1, j);
     const Vec3d across = point(i, j + 1) - point(i, j - 1);
@@ -111,6 +125,7 @@ void MeshBuilder::box(const Vec3d& l, const Vec3d& h, double repeat) {
   using Corners = std::array<Vec3d, 4>;
   const Vec3d v000{l.x, l.y, l.z}, v100{h.x, l.y, l.z}, v010{l.x, h.y, l.z}, v110{h.x, h.y, l.z};
   const Vec3d v001{l.x, l.y, h.z}, v101{h.x, l.y, h.z}, v011{l.x, h.y, h.z}, v111{h.x, h.y, h.z};
+
   plate(Corners{v001, v101, v111, v011}, repeat);
   plate(Corners{v100, v000, v010, v110}, repeat);
   plate(Corners{v101, v100, v110, v111}, repeat);
@@ -122,11 +137,14 @@ void MeshBuilder::box(const Vec3d& l, const Vec3d& h, double repeat) {
 void MeshBuilder::append(const Mesh& mesh, const Affine& map) {
   const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
   const bool mirrored = map.determinant() < 0;
+
   for (std::size_t k = 0; k < mesh.positions.size(); ++k) {
     const Uv uv = mesh.uvs.empty() ? Uv{} : Uv{mesh.uvs[k].x, mesh.uvs[k].y};
     const Vec3d normal = mesh.normals.empty() ? Vec3d{} : map.normal(Vec3d(mesh.normals[k]));
     vertex({map.point(Vec3d(mesh.positions[k])), normal, uv});
   }
+
+  // A map that mirrors would turn the triangles inside out.
   for (const auto& t : mesh.triangles) {
     triangle(first + t[0], first + t[mirrored ? 2 : 1], first + t[mirrored ? 1 : 2]);
   }
@@ -140,10 +158,13 @@ Mesh MeshBuilder::take(const std::string& name) {
 TurnPoint turn(int i, int n) {
   const int k = ((i % n) + n) % n;
   const long long quarters = 4LL * k;
+
+  // cos() and sin() are not exact at the quarters, but shapes need them to be.
   if (quarters % n == 0) {
     constexpr std::array<TurnPoint, 4> kQuarter{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
     return kQuarter[static_cast<std::size_t>(quarters / n)];
   }
+
   const double angle = 2 * std::numbers::pi * k / n;
   return {std::cos(angle), std::sin(angle)};
 }
@@ -153,20 +174,24 @@ std::vector<ProfilePoint> creasedProfile(const std::vector<std::array<double, 2>
   struct Normal {
     double r, y;
   };
+
   std::vector<Normal> across;  // unit normals of the segments, to the right of their course
   for (std::size_t k = 0; k + 1 < points.size(); ++k) {
     const double dr = points[k + 1][0] - points[k][0], dy = points[k + 1][1] - points[k][1];
     const double size = std::max(std::hypot(dr, dy), 1e-300);
     across.push_back({dy / size, -dr / size});
   }
+
   const double smoothest = std::cos(creaseDegrees * std::numbers::pi / 180);
   std::vector<ProfilePoint> profile;
   double v = 0;
   for (std::size_t k = 0; k < points.size(); ++k) {
     const double r = points[k][0], y = points[k][1];
     if (k > 0) v += std::hypot(r - points[k - 1][0], y - points[k - 1][1]) / repeat;
+
     const Normal before = across[k > 0 ? k - 1 : 0];
     const Normal after = across[std::min(k, across.size() - 1)];
+    // A crease has two points in one place, each with the normal of its own segment.
     if (before.r * after.r + before.y * after.y >= smoothest) {
       profile.push_back({r, y, before.r + after.r, before.y + after.y, v});
     } else {

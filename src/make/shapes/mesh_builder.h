@@ -39,12 +39,12 @@ class MeshBuilder {
   // Leaves out triangles with two equal corners (the poles of a sphere, say).
   void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
   void quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d);
-  // Four corners, counter-clockwise, with the plane's normal, and uvs from projecting along its
-  // largest axis, `repeat` units a texture.
+  // Adds a quad from four corners, counter-clockwise, with the plane's normal. Its uvs are
+  // projected along the largest axis of the normal, with `repeat` units of length for a texture.
   void plate(const std::array<Vec3d, 4>& corners, double repeat);
 
-  // A sheet of nu x nv cells; at(i, j) for 0 <= i <= nu, 0 <= j <= nv. Outside is where i x j
-  // points.
+  // Adds a sheet of nu x nv cells with the points at(i, j) for 0 <= i <= nu, 0 <= j <= nv. Outside
+  // is where the cross product of the directions of i and j points.
   void sheet(int nu, int nv, const std::function<SurfacePoint(int, int)>& at);
   // Adds a sheet with normals from the differences of neighboring positions. wrapU: column nu is
   // column 0 again (`position` is asked for i < nu only).
@@ -54,7 +54,7 @@ class MeshBuilder {
   // from the axis out along a bottom face, back to the axis along a top face). Two points at the
   // same place with different normals make an edge. u runs from 0 to `uRepeat`.
   void revolve(const std::vector<ProfilePoint>& profile, int segments, double uRepeat = 1);
-  // Closed box between two corners.
+  // Adds a closed box between two corners.
   void box(const Vec3d& low, const Vec3d& high, double repeat = 1);
   void append(const Mesh& mesh, const Affine& map);
 
@@ -67,20 +67,21 @@ class MeshBuilder {
   Mesh mesh_;
 };
 
-// A shape of one part.
+// Returns a shape of one part.
 inline Shape singlePart(Mesh mesh) { return Shape(ShapePart{"surface", std::move(mesh)}); }
 
-// The subdivided icosahedron: unit points and triangles, 20 * 4^level of them.
+// Returns the subdivided icosahedron: unit points, and 20 * 4^level triangles.
 std::pair<std::vector<Vec3d>, std::vector<std::array<std::uint32_t, 3>>> icosphereMesh(int level);
 
-// Cosine and sine of i / n of a turn, bit-equal for i and i + n, exact at the quarters.
+// Cosine and sine of i / n of a turn. They are bit-equal for i and i + n, and exact at the
+// quarters.
 struct TurnPoint {
   double cosine, sine;
 };
 TurnPoint turn(int i, int n);
 
-// An outline through (r, y) points, with normals averaged at corners that turn by less than
-// `creaseDegrees`; v is the length along it divided by `repeat`.
+// Returns an outline through (r, y) points, with normals averaged at corners that turn by less than
+// `creaseDegrees`; v is the length along the outline divided by `repeat`.
 std::vector<ProfilePoint> creasedProfile(const std::vector<std::array<double, 2>>& points,
                                          double creaseDegrees, double repeat = 1);
 

@@ -16,7 +16,7 @@ double radiusOf(ShapeParameters& parameters, double fallback = 1) {
   return parameters.number("radius", fallback, 1e-6, 1e9);
 }
 
-// Without normals the faces are flat; `smooth` is every round shape's parameter.
+// Completes a round shape. Without normals its faces are flat.
 Shape finished(Mesh mesh, ShapeParameters& parameters) {
   if (!parameters.flag("smooth", true)) mesh.normals.clear();
   return singlePart(std::move(mesh));
@@ -25,11 +25,12 @@ Shape finished(Mesh mesh, ShapeParameters& parameters) {
 Mesh sphereMesh(double radius, int segments, int rings) {
   std::vector<ProfilePoint> profile;
   for (int j = 0; j <= rings; ++j) {
-    // Half turns from the lower pole to the upper one, so that both poles lie on the axis exactly.
+    // turn() is exact at the quarters, so that both poles lie exactly on the axis.
     const TurnPoint t = turn(j, 2 * rings);
     profile.push_back(
         {radius * t.sine, -radius * t.cosine, t.sine, -t.cosine, static_cast<double>(j) / rings});
   }
+
   MeshBuilder builder;
   builder.revolve(profile, segments);
   return builder.take("sphere");
@@ -42,14 +43,14 @@ Shape exactSphere(double radius) {
   return singlePart(std::move(mesh));
 }
 
-// 0 where they are not given: then the sphere is exact.
+// Returns 0 if the number of facets is not given: then the sphere is exact.
 int facetsOf(ShapeParameters& parameters, const std::string& key, int least) {
   constexpr int kMost = 4096;
   const int given = parameters.integer(key, 0, 0, kMost);
   return given == 0 ? 0 : parameters.integer(key, given, least, kMost);
 }
 
-// Units of length that one texture repeat covers; 0 stretches one repeat over the face.
+// Reads how many units of length a texture covers; 0 stretches it over the face.
 double repeatOf(ShapeParameters& parameters, double fallback) {
   return parameters.number("uvRepeat", fallback, 0, 1e9);
 }
@@ -66,6 +67,7 @@ Shape makeSphere(ShapeParameters& parameters) {
             rings = facetsOf(parameters, "rings", 2);
   const bool smooth = parameters.flag("smooth", true);
   if (segments == 0 && rings == 0 && smooth) return exactSphere(radius);
+
   const int around = segments == 0 ? 64 : segments;
   Mesh mesh = sphereMesh(radius, around, rings == 0 ? std::max(2, around / 2) : rings);
   if (!smooth) mesh.normals.clear();
@@ -74,14 +76,17 @@ Shape makeSphere(ShapeParameters& parameters) {
 
 void tessellateSpheres(Mesh& mesh, int segments) {
   if (mesh.spheres.empty()) return;
+
   const Mesh unit = sphereMesh(1, segments, segments / 2);
   GenerationLimit::charge(mesh.spheres.size(),
                           unit.positions.size() * (2 * sizeof(Vec3f) + sizeof(Vec2f)) +
                               unit.triangles.size() * sizeof(unit.triangles[0]));
+
   for (const Affine& map : std::exchange(mesh.spheres, {})) {
     Mesh sphere = unit;
     transform(sphere, map);
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+
     const auto append = [](auto& to, const auto& from) {
       to.insert(to.end(), from.begin(), from.end());
     };
@@ -95,25 +100,32 @@ void tessellateSpheres(Mesh& mesh, int segments) {
 }
 
 std::pair<std::vector<Vec3d>, std::vector<std::array<std::uint32_t, 3>>> icosphereMesh(int level) {
-  // A triangle has half a vertex.
+  // A closed mesh has about half as many vertices as triangles.
   GenerationLimit::charge(20ull << (2 * level), 3 * sizeof(std::uint32_t) + sizeof(Vec3d) / 2);
+
+  // The corners of an icosahedron are those of three golden rectangles.
   const double g = 1.6180339887498948482;
   std::vector<Vec3d> points{{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0},
                             {0, -1, g}, {0, 1, g}, {0, -1, -g}, {0, 1, -g},
                             {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
   for (Vec3d& p : points) p = normalized(p);
+
   std::vector<std::array<std::uint32_t, 3>> triangles{
       {0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
       {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
       {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
+
+  // Each level splits a triangle into four, and moves the new points out to the unit sphere.
   for (int k = 0; k < level; ++k) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+    // Neighboring triangles share the middle of their edge.
     const auto middle = [&](std::uint32_t a, std::uint32_t b) {
       const auto [entry, fresh] =
           middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(points.size()));
       if (fresh) points.push_back(normalized(points[a] + points[b]));
       return entry->second;
     };
+
     std::vector<std::array<std::uint32_t, 3>> finer;
     finer.reserve(triangles.size() * 4);
     for (const auto& [a, b, c] : triangles) {
@@ -128,14 +140,16 @@ std::pair<std::vector<Vec3d>, std::vector<std::array<std::uint32_t, 3>>> icosphe
 Shape makeIcosphere(ShapeParameters& parameters) {
   const double radius = radiusOf(parameters);
   const auto [points, triangles] = icosphereMesh(parameters.integer("level", 4, 0, 9));
+
   MeshBuilder builder;
   for (const Vec3d& p : points) {
-    // One vertex a point keeps the mesh seamless; u jumps once around the back.
+    // One vertex for each point keeps the mesh seamless; u jumps once around the back.
     builder.vertex({p * radius,
                     p,
                     {0.5 + std::atan2(-p.z, p.x) / (2 * std::numbers::pi),
                      0.5 + std::asin(std::clamp(p.y, -1.0, 1.0)) / std::numbers::pi}});
   }
+
   for (const auto& [a, b, c] : triangles) builder.triangle(a, b, c);
   return finished(builder.take("icosphere"), parameters);
 }
@@ -151,8 +165,10 @@ Shape makeCylinder(ShapeParameters& parameters) {
 Shape makeCone(ShapeParameters& parameters) {
   const double r = radiusOf(parameters), h = parameters.number("height", 2, 1e-6, 1e9) / 2;
   const double top = parameters.number("topRadius", 0, 0, 1e9);
+
   std::vector<std::array<double, 2>> outline{{0, -h}, {r, -h}, {top, h}};
   if (top > 0) outline.push_back({0, h});
+
   MeshBuilder builder;
   builder.revolve(creasedProfile(outline, 0, 2 * std::numbers::pi * r), segmentsOf(parameters, 64));
   return finished(builder.take("cone"), parameters);
@@ -162,12 +178,14 @@ Shape makeTorus(ShapeParameters& parameters) {
   const double radius = radiusOf(parameters);
   const double tube = parameters.number("tubeRadius", 0.25 * radius, 1e-9, radius);
   const int rings = parameters.integer("rings", 32, 3, 4096);
+
   std::vector<ProfilePoint> profile;
   for (int j = 0; j <= rings; ++j) {
     const TurnPoint t = turn(j, rings);
     profile.push_back({radius + tube * t.cosine, tube * t.sine, t.cosine, t.sine,
                        static_cast<double>(j) / rings});
   }
+
   MeshBuilder builder;
   builder.revolve(profile, segmentsOf(parameters, 96));
   return finished(builder.take("torus"), parameters);
@@ -178,6 +196,8 @@ Shape makeDisc(ShapeParameters& parameters) {
   const double radius = radiusOf(parameters);
   const int segments = segmentsOf(parameters, 64);
   MeshBuilder builder(MeshBuilder::Shading::flat);
+
+  // Vertex 0 is the center, and the circle follows.
   const std::uint32_t center = builder.vertex({{0, 0, 0}, {0, 1, 0}, {0.5, 0.5}});
   for (int i = 0; i < segments; ++i) {
     const TurnPoint t = turn(i, segments);
@@ -185,6 +205,7 @@ Shape makeDisc(ShapeParameters& parameters) {
                     {0, 1, 0},
                     {0.5 + 0.5 * t.cosine, 0.5 + 0.5 * t.sine}});
   }
+
   const auto n = static_cast<std::uint32_t>(segments);
   for (std::uint32_t i = 0; i < n; ++i) builder.triangle(center, 1 + i, 1 + (i + 1) % n);
   return singlePart(builder.take("disc"));
@@ -194,6 +215,7 @@ Shape makeDisc(ShapeParameters& parameters) {
 Shape makeQuad(ShapeParameters& parameters) {
   const double width = side(parameters, "width", 2), depth = side(parameters, "depth", 2);
   const double repeat = repeatOf(parameters, 0);
+
   MeshBuilder builder(MeshBuilder::Shading::flat);
   builder.sheet(1, 1, [&](int u, int v) {
     const Uv uv = repeat > 0 ? Uv{u * width / repeat, v * depth / repeat} : Uv{1.0 * u, 1.0 * v};
@@ -206,6 +228,7 @@ Shape makeBox(ShapeParameters& parameters) {
   const Vec3d size = parameters.vector("size", {2, 2, 2});
   const double repeat = repeatOf(parameters, 1);
   const Vec3d half = abs(size) / 2.0;
+
   MeshBuilder builder(MeshBuilder::Shading::flat);
   builder.box(-half, half, repeat > 0 ? repeat : std::max(maxComponent(abs(size)), 1e-12));
   return singlePart(builder.take("box"));
@@ -218,28 +241,35 @@ Shape makeRoundedBox(ShapeParameters& parameters) {
   const double least = std::min(half.x, std::min(half.y, half.z));
   const double radius = parameters.number("radius", 0.1 * least, 1e-9, 1e9);
   const int steps = parameters.integer("steps", 4, 1, 256);
+
   const double r = std::min(radius, least);
-  // Half of a rounding on each side of the flat middle, in equal angles.
   const int n = 2 * steps + 1;
+
+  // Each face has half of a rounding on either side of its flat middle, in equal angles.
   const auto coordinate = [&](int i, double h) {
     const int k = i <= steps ? steps - i : i - steps - 1;
     const double c = (h - r) + (k == steps ? r : r * std::tan(std::numbers::pi / 4 * k / steps));
     return i <= steps ? -c : c;
   };
+
   MeshBuilder builder;
   for (int face = 0; face < 6; ++face) {
     const int axis = face / 2;
     const double sign = face % 2 == 0 ? 1 : -1;
     const int a = (axis + 1) % 3, b = (axis + 2) % 3;
+
     builder.sheet(n, n, [&](int i, int j) {
       const int first = sign > 0 ? i : n - i;  // mirrored, so that the face points outwards
       Vec3d p;
       p[axis] = sign * ((half[axis] - r) + r);
       p[a] = coordinate(first, half[a]);
       p[b] = coordinate(j, half[b]);
-      // At the face's rim the coordinate is the very one the neighboring face holds fixed.
+
+      // At the edge of a face the coordinate is bit-equal to the one that the neighboring face
+      // fixes.
       const Vec3d inner = max(min(p, half - Vec3d(r)), Vec3d(r) - half);
       const Vec3d out = normalized(p - inner);
+
       return SurfacePoint{
           inner + out * r, out, {static_cast<double>(first) / n, static_cast<double>(j) / n}};
     });
@@ -252,22 +282,27 @@ Shape makeStairs(ShapeParameters& parameters) {
   const int steps = parameters.integer("steps", 5, 1, 1000);
   const double width = side(parameters, "width", 2) / 2, rise = side(parameters, "rise", 0.17);
   const double run = side(parameters, "run", 0.3), repeat = side(parameters, "uvRepeat", 1);
+
   using Corners = std::array<Vec3d, 4>;
   MeshBuilder builder(MeshBuilder::Shading::flat);
   const double w = width;
   for (int k = 0; k < steps; ++k) {
     const double z0 = -k * run, z1 = -(k + 1) * run, y1 = (k + 1) * rise;
+    // A step consists of its riser, its tread and a piece of the underside.
     builder.plate(Corners{{{-w, k * rise, z0}, {w, k * rise, z0}, {w, y1, z0}, {-w, y1, z0}}},
                   repeat);
     builder.plate(Corners{{{-w, y1, z0}, {w, y1, z0}, {w, y1, z1}, {-w, y1, z1}}}, repeat);
     builder.plate(Corners{{{-w, 0, z1}, {w, 0, z1}, {w, 0, z0}, {-w, 0, z0}}}, repeat);
-    // The sides in bricks of one rise, so that every corner meets a corner.
+
+    // The sides are divided at the height of every step, so that there are no T-junctions.
     for (int m = 0; m <= k; ++m) {
       const double a = m * rise, b = (m + 1) * rise;
       builder.plate(Corners{{{w, a, z0}, {w, a, z1}, {w, b, z1}, {w, b, z0}}}, repeat);
       builder.plate(Corners{{{-w, a, z1}, {-w, a, z0}, {-w, b, z0}, {-w, b, z1}}}, repeat);
     }
   }
+
+  // The back is divided at the heights of the steps.
   const double back = -steps * run;
   for (int m = 0; m < steps; ++m) {
     const double a = m * rise, b = (m + 1) * rise;
