@@ -42,6 +42,7 @@ struct PlacedTriangle {
   PlacedTriangle(const Vec3f& a, const Vec3f& b, const Vec3f& c, std::uint32_t number,
                  bool bothSides)
       : corners{a, b, c}, material(number) {
+    // The winding turns around if sorting swaps an odd number of pairs.
     const bool odd = isBefore(b, a) != isBefore(c, a);
     turned = !bothSides && odd != isBefore(c, b);
     std::ranges::sort(corners, isBefore);
@@ -50,7 +51,7 @@ struct PlacedTriangle {
   std::uint64_t hash() const {
     std::uint64_t all = material;
     for (const Vec3f& p : corners) {
-      // Both zeros are the same place.
+      // Adding 0 turns -0 into +0, because both are the same position.
       for (const float x : {p.x, p.y, p.z})
         all = mixed(all + std::bit_cast<std::uint32_t>(x + 0.0f));
     }
@@ -76,20 +77,27 @@ class Baker {
 
   SceneOrder run() {
     plan();
+
+    // All triangles are classified before the tables are allocated in their final sizes.
     for (std::size_t g = 0; g < sources_.size(); ++g) {
       place(g);
       dropCoincident(g);
       countClasses(g);
     }
+
     dropEmptyGeometries();
     reserveTables();
     for (std::size_t g = 0; g < sources_.size(); ++g) emit(g);
+
+    // Spheres take the numbers behind those of all triangles.
     scene_.firstSphere = static_cast<std::uint32_t>(scene_.triangles.size());
     for (std::size_t g = 0; g < sources_.size(); ++g) emitSpheres(g);
+
     findWhatMoves();
     if (!scene_.motion.ofGeometry) {
       boundInstances(scene_, boxes_, warnings_);
     } else {
+      // moveScene() bounds the instances for each time.
       scene_.motion.instances = scene_.instances;
       countInstanced(scene_);
       scene_.motion.boxes = std::move(boxes_);
@@ -98,11 +106,12 @@ class Baker {
   }
 
  private:
-  // Which mesh goes where: those of objects used once that stand still into geometry 0, others into
-  // one of their own.
+  // Assigns meshes to geometries. Objects that are used once and stand still belong to geometry 0,
+  // which is the world; every other object gets a geometry of its own.
   void plan() {
     std::vector<Object>& objects = description_.objects;
     nameItems();
+
     std::vector<std::uint64_t> uses(objects.size());
     std::vector<bool> moves(objects.size());
     for (std::size_t i = 0; i < objects.size(); ++i) moves[i] = bends(objects[i]);
@@ -110,16 +119,20 @@ class Baker {
       ++uses[instance.object];
       if (instance.mover != kNoNode) moves[instance.object] = true;
     }
+
+    // Geometries are numbered in the order of the objects. Objects without instances are freed.
     std::vector<std::uint32_t> geometryOf(objects.size());
     std::uint32_t geometries = 1;
     for (std::size_t i = 0; i < objects.size(); ++i) {
       if (uses[i] > 1 || (uses[i] == 1 && moves[i])) geometryOf[i] = geometries++;
       if (uses[i] == 0) objects[i] = {};
     }
+
     sources_.resize(geometries);
     order_.meshes.resize(geometries);
     spheres_.resize(geometries);
     scene_.geometries.resize(geometries);
+
     for (std::uint32_t i = 0; i < description_.instances.size(); ++i) {
       const Instance& instance = description_.instances[i];
       const std::uint32_t g = geometryOf[instance.object];
@@ -129,7 +142,10 @@ class Baker {
         scene_.instances.push_back(
             {g, i, instance.toWorld, instance.mover, instance.toWorld, firstItemOf(i)});
       }
+
+      // The first instance of an object fills the geometry that all of its instances share.
       if (!inWorld && !sources_[g].empty()) continue;
+
       for (Mesh& mesh : objects[instance.object].meshes) {
         Source source;
         source.mesh = &mesh;
@@ -154,6 +170,8 @@ class Baker {
     items.count = description_.items;
     items.names = std::move(description_.itemNames);
     if (items.count > 0) return;
+
+    // A description without numbered items has one item for each instance.
     items.count = description_.instances.size();
     for (const Instance& instance : description_.instances) {
       if (items.names.size() == kNamedItems) break;
@@ -172,6 +190,7 @@ class Baker {
     std::uint32_t end = 0;
     for (std::size_t s = 0; s < sources.size(); ++s) {
       sources[s].place.firstTriangle = end;
+      // Meshes of one item follow each other and share its numbering.
       const bool goesOn = s > 0 && sources[s].item == sources[s - 1].item;
       sources[s].firstOfItem = goesOn ? sources[s - 1].firstOfItem : sources[s].place.firstTriangle;
       end += static_cast<std::uint32_t>(sources[s].mesh->triangles.size());
@@ -179,7 +198,7 @@ class Baker {
     }
   }
 
-  // Transforms the vertices of a geometry and says which of its triangles stay.
+  // Transforms the vertices of a geometry and classifies its triangles.
   void place(std::size_t g) {
     Geometry& geometry = scene_.geometries[g];
     std::uint64_t vertices = 0, triangles = 0;
@@ -189,11 +208,16 @@ class Baker {
     }
     if (vertices > kIndexLimit) throwLimit("more than 2^32 - 1 vertices");
     if (triangles > kIndexLimit) throwLimit("more than 2^32 - 1 triangles");
+
     numberTriangles(g);
+    // Embree reads 16 bytes at the last vertex too, which the extra element provides.
     geometry.position.reserve(vertices + 1);
+
     for (Source& source : sources_[g]) {
       transform(*source.mesh, source.toGeometry);
       placeSpheres(source, g);
+
+      // The mesh loses its positions here, so that they are in memory twice for one mesh only.
       source.firstVertex = static_cast<std::uint32_t>(geometry.position.size());
       const std::vector<Vec3f> positions = std::exchange(source.mesh->positions, {});
       geometry.position.insert(geometry.position.end(), positions.begin(), positions.end());
@@ -203,7 +227,7 @@ class Baker {
     }
   }
 
-  // A geometry's sources by the order of the scene, the last first.
+  // Numbers of a geometry's sources, the last in the order of the scene first.
   std::vector<std::uint32_t> fromTheLast(std::size_t g) const {
     std::vector<std::uint32_t> numbers(sources_[g].size());
     std::iota(numbers.rbegin(), numbers.rend(), 0u);
@@ -218,10 +242,13 @@ class Baker {
     const Mesh& mesh = *source.mesh;
     std::uint64_t dropped = 0;
     std::uint32_t number = 0;
+
     for (const Affine& map : mesh.spheres) {
       const Box box = sphereBounds(map);
       const bool fits = isFinite(box.lower) && isFinite(box.upper) &&
                         maxComponent(max(abs(box.lower), abs(box.upper))) <= kLargestCoordinate;
+
+      // A map whose determinant is 0 or subnormal cannot be inverted.
       const double volume = sphereMap(makeSphereRecord(map, 0)).determinant();
       if (fits && std::isnormal(volume)) {
         spheres_[g].push_back({map, mesh.materials[0], source.place.rank, source.place.instance,
@@ -231,6 +258,7 @@ class Baker {
       }
       ++number;
     }
+
     warnings_.add("sphere too small, too flat or too far away dropped", "mesh '" + mesh.name + "'",
                   dropped);
   }
@@ -242,6 +270,8 @@ class Baker {
     struct Place {
       std::uint32_t source, triangle;
     };
+
+    // Candidates are the triangles of rigid meshes without transmission.
     std::vector<Place> places;  // from the last on
     for (const std::uint32_t s : fromTheLast(g)) {
       const Source& source = sources_[g][s];
@@ -252,6 +282,7 @@ class Baker {
         places.push_back({s, i});
       }
     }
+
     const auto triangle = [&](std::uint64_t k) {
       const auto& [s, i] = places[k];
       const Source& source = sources_[g][s];
@@ -261,9 +292,13 @@ class Baker {
       return PlacedTriangle(own[a], own[b], own[c], material,
                             scene_.materials[material].doubleSided);
     };
+
+    // Sorting by hash makes equal triangles neighbors; the one to keep comes first.
     std::vector<std::pair<std::uint64_t, std::size_t>> order(places.size());  // by their hashes
     for (std::size_t k = 0; k < order.size(); ++k) order[k] = {triangle(k).hash(), k};
     std::ranges::sort(order);
+
+    // Triangles of equal hashes are compared in full, because different ones may share a hash.
     std::vector<std::size_t> again;
     std::vector<PlacedTriangle> kept;  // of one hash
     for (std::size_t n = 1; n < order.size(); ++n) {
@@ -277,6 +312,7 @@ class Baker {
       const bool isKnown = std::ranges::find(kept, own) != kept.end();
       isKnown ? again.push_back(k) : kept.push_back(own);
     }
+
     std::ranges::sort(again);
     for (const std::size_t k : again) {
       const auto& [s, i] = places[k];
@@ -294,15 +330,19 @@ class Baker {
         geometry.classBegin[c + 1] += source.classified.count[c];
       }
     }
+
+    // Prefix sums turn the counts of the classes into their bounds.
     for (std::size_t c = 0; c < kTriangleClasses; ++c) {
       geometry.classBegin[c + 1] += geometry.classBegin[c];
     }
   }
 
-  // A geometry of which nothing is left takes its instances with it.
+  // Removes geometries without triangles and spheres, together with their instances.
   void dropEmptyGeometries() {
     std::vector<std::uint32_t> newNumber(sources_.size());
     std::uint32_t kept = 1;
+
+    // Geometries that stay close the gaps. The new number of a removed one remains 0.
     for (std::size_t g = 1; g < sources_.size(); ++g) {
       if (scene_.geometries[g].classBegin.back() == 0 && spheres_[g].empty()) continue;
       if (kept != g) {
@@ -313,6 +353,7 @@ class Baker {
       }
       newNumber[g] = kept++;
     }
+
     scene_.geometries.resize(kept);
     sources_.resize(kept);
     spheres_.resize(kept);
@@ -324,38 +365,48 @@ class Baker {
   void reserveTables() {
     std::uint64_t triangles = 0;
     for (const Geometry& geometry : scene_.geometries) triangles += geometry.classBegin.back();
+
     std::uint64_t total = triangles;
     for (const auto& spheres : spheres_) total += spheres.size();
     if (total > kIndexLimit) throwLimit("more than 2^32 - 1 triangles and spheres");
+
     scene_.triangles.reserve(total);
     if (withNormals_) scene_.normals.reserve(total);
     if (withColors_) scene_.colors.reserve(total);
     if (withSecondUvs_) scene_.secondUvs.reserve(total);
+
     isSearched_ = triangles <= kMostSearched;
     if (isSearched_) order_.triangles.reserve(triangles);
     boxes_.resize(scene_.geometries.size());
   }
 
-  // Class by class and in order, so that the tables grow at their ends while the meshes go: at no
-  // time are both wholly in memory.
+  // Writes the triangles class by class and in order. The tables grow at their ends while the
+  // meshes are freed, so that both are never completely in memory at the same time.
   void emit(std::size_t g) {
     Geometry& geometry = scene_.geometries[g];
     geometry.firstTriangle = static_cast<std::uint32_t>(scene_.triangles.size());
     geometry.index.reserve(geometry.classBegin.back());
+
+    // Deformed meshes are remembered, because moveScene() writes their vertices again.
     for (const Source& source : sources_[g]) {
       if (!source.mesh->deformation) continue;
       scene_.motion.bent.push_back(
           {static_cast<std::uint32_t>(g), source.firstVertex, source.mesh->deformation});
     }
+
     for (std::size_t c = 0; c < kTriangleClasses; ++c) {
       for (Source& source : sources_[g]) {
         auto& count = source.classified.count;
         if (count[c] == 0) continue;
+
         emitClass(source, c, geometry, boxes_[g]);
         count[c] = 0;
+
+        // A mesh is freed as soon as the last of its classes is written.
         const bool done = std::all_of(count.begin(), count.begin() + kTriangleClasses,
                                       [](std::uint32_t n) { return n == 0; });
         if (done) *source.mesh = {};
+
         reportProgress(progress_, "baking geometry",
                        static_cast<double>(scene_.triangles.size()) /
                            static_cast<double>(scene_.triangles.capacity()));
@@ -363,21 +414,26 @@ class Baker {
     }
   }
 
-  // Entries of other tables at a sphere's number are never used, but may be read.
+  // Entries at the number of a sphere in the tables of normals, colors and second texture
+  // coordinates are never used, but may be read.
   void emitSpheres(std::size_t g) {
     Geometry& geometry = scene_.geometries[g];
     geometry.firstSphere = static_cast<std::uint32_t>(scene_.triangles.size());
     geometry.spheres = static_cast<std::uint32_t>(spheres_[g].size());
+
     std::ranges::stable_sort(
         spheres_[g], [](const PlacedSphere& a, const PlacedSphere& b) { return a.rank < b.rank; });
+
     for (const PlacedSphere& sphere : spheres_[g]) {
       const auto number = static_cast<std::uint32_t>(scene_.triangles.size());
       order_.spheres.push_back({sphere.rank, sphere.instance, number});
       scene_.items.add(number, sphere.item, sphere.number);
+
       scene_.triangles.push_back(makeSphereRecord(sphere.map, sphere.material));
       if (withSecondUvs_) scene_.secondUvs.push_back({});
       if (withNormals_) scene_.normals.push_back({});
       if (withColors_) scene_.colors.push_back({{1, 1, 1, 1, 1, 1, 1, 1, 1}});
+
       const Box own = sphereBounds(sphere.map);
       boxes_[g].add(own.lower);
       boxes_[g].add(own.upper);
@@ -388,18 +444,23 @@ class Baker {
   void emitClass(const Source& source, std::size_t wanted, Geometry& geometry, Box& box) {
     const Mesh& mesh = *source.mesh;
     Tally badUv, badNormal, badColor;
+
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
       if (source.classified.classes[i] != wanted) continue;
+
       auto corners = mesh.triangles[i];
       for (std::uint32_t& corner : corners) {
         corner += source.firstVertex;
         box.add(geometry.position[corner]);
       }
       geometry.index.push_back(corners);
+
       const auto number = static_cast<std::uint32_t>(source.place.firstTriangle + i);
       if (isSearched_) order_.triangles.push_back(number);
       scene_.items.add(static_cast<std::uint32_t>(scene_.triangles.size()), source.item,
                        number - source.firstOfItem);
+
+      // Each table of the scene gets one entry, so that all have the same length.
       std::uint64_t uvs = 0, normals = 0, colors = 0;
       const MaterialUse& use = uses_[mesh.material(i)];
       scene_.triangles.push_back(makeTriangleRecord(mesh, i, geometry.position, corners, use, uvs));
@@ -408,10 +469,12 @@ class Baker {
         scene_.normals.push_back(makeNormalRecord(mesh, i, scene_.triangles.back(), normals));
       }
       if (withColors_) scene_.colors.push_back(makeColorRecord(mesh, i, colors));
+
       badUv.add(i, uvs);
       badNormal.add(i, normals);
       badColor.add(i, colors);
     }
+
     badUv.report(warnings_, "non-finite texture coordinate set to 0", mesh);
     badColor.report(warnings_, "vertex color out of range clamped", mesh);
     badNormal.report(warnings_, "zero or non-finite normal replaced by the face's", mesh);
@@ -423,9 +486,13 @@ class Baker {
       return std::ranges::any_of(motion.bent,
                                  [&](const BentVertices& b) { return b.geometry == i.geometry; });
     };
+
     for (const InstanceRecord& i : scene_.instances) {
       motion.ofGeometry |= i.mover != kNoNode || isBent(i);
     }
+
+    // A camera that moves changes the farthest start of a ray, and so which instances can be
+    // traced.
     const auto& cameras = motion.given.cameras;
     const bool carried =
         std::ranges::any_of(cameras, [](const MovingCamera& m) { return m.node != kNoNode; });

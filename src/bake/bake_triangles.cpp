@@ -38,8 +38,11 @@ void giveLengths(const Affine& map, NormalRecord& record) {
     const Vec3d normal(m[0], m[1], m[2]);
     inverse[i] = length(Vec3d(dot(map.x, normal), dot(map.y, normal), dot(map.z, normal)));
   }
+
   const auto [least, most] = std::minmax({inverse[0], inverse[1], inverse[2]});
   if (!(least > 0) || !(most - least > kSameLength * most)) return;
+
+  // Only ratios matter, so the longest normal keeps the length 1.
   for (std::size_t i = 0; i < 9; ++i) {
     const double component = static_cast<double>(record.normal[i]);
     record.normal[i] = static_cast<float>(component * (least / inverse[i / 3]));
@@ -50,6 +53,7 @@ void giveLengths(const Affine& map, NormalRecord& record) {
 void copyUvs(const std::vector<Vec2f>& uvs, const std::array<std::uint32_t, 3>& corners,
              const MaterialUse& use, float* to, std::uint64_t& repaired) {
   if (uvs.empty()) return;
+
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec2f& uv = uvs[corners[i]];
     to[2 * i] = finiteOrZero(uv.x, repaired);
@@ -74,11 +78,13 @@ bool drop(const std::array<std::uint32_t, 3>& corners, const Vec3f* position, st
     dropped.badIndex.add(triangle);
     return true;
   }
+
   const Vec3f &a = position[i], &b = position[j], &c = position[k];
   if (!isUsable(a) || !isUsable(b) || !isUsable(c)) {
     dropped.badCorner.add(triangle);
     return true;
   }
+
   if (!bends && areaVector(a, b, c) == Vec3d{}) {
     dropped.degenerate.add(triangle);
     return true;
@@ -94,14 +100,18 @@ MaterialUse useOf(const Material& material, const std::vector<Texture>& textures
       !material.doubleSided || (material.alphaMap != kNoTexture && material.alphaCutoff > 0);
   use.triangleClass = static_cast<std::uint8_t>((material.castsShadow ? 0 : kNoShadowBit) |
                                                 (masked ? kMaskedBit : 0));
+
+  // Whole numbers may be subtracted along an axis only if every texture repeats along it.
   bool textured = false, u = true, v = true;
   for (const std::int32_t map : material.maps()) {
     if (map == kNoTexture) continue;
+
     const Texture& texture = textures[static_cast<std::size_t>(map)];
     textured = true;
     u = u && texture.wrapU == Wrap::repeat;
     v = v && texture.wrapV == Wrap::repeat;
   }
+
   use.repeatU = textured && u;
   use.repeatV = textured && v;
   return use;
@@ -121,6 +131,7 @@ TriangleRecord makeTriangleRecord(const Mesh& mesh, std::size_t triangle,
     const Vec3f& p = position[corners[i]];
     std::copy_n(&p.x, 3, record.position + 3 * i);
   }
+
   copyUvs(mesh.uvs, mesh.triangles[triangle], use, record.uv, repaired);
   record.material = mesh.material(triangle);
   return record;
@@ -136,6 +147,7 @@ UvRecord makeSecondUvRecord(const Mesh& mesh, std::size_t triangle, const Materi
 NormalRecord makeNormalRecord(const Mesh& mesh, std::size_t triangle, const TriangleRecord& record,
                               std::uint64_t& repaired) {
   NormalRecord result;
+  // The normal of the face is computed when the first corner needs it.
   Vec3f face;
   for (std::size_t i = 0; i < 3; ++i) {
     Vec3f n;
@@ -143,12 +155,14 @@ NormalRecord makeNormalRecord(const Mesh& mesh, std::size_t triangle, const Tria
       n = mesh.normals[mesh.triangles[triangle][i]];
       repaired += n == Vec3f{} && !mesh.hasFlatFaces;
     }
+
     if (n == Vec3f{}) {
       if (face == Vec3f{}) face = Vec3f(faceNormal(record));
       n = face;
     }
     std::copy_n(&n.x, 3, result.normal + 3 * i);
   }
+
   if (!(mesh.fromModel == Affine())) giveLengths(mesh.fromModel, result);
   return result;
 }
@@ -158,6 +172,7 @@ ColorRecord makeColorRecord(const Mesh& mesh, std::size_t triangle, std::uint64_
   for (std::size_t i = 0; i < 3; ++i) {
     const Rgb given = mesh.colors.empty() ? Rgb(1.0f) : mesh.colors[mesh.triangles[triangle][i]];
     for (int channel = 0; channel < 3; ++channel) {
+      // A NaN becomes 0. It differs from every number, so it counts as repaired.
       const float x = given[channel], inRange = x > 0 ? std::min(x, 1.0f) : 0.0f;
       repaired += !(x == inRange);
       record.color[3 * i + static_cast<std::size_t>(channel)] = inRange;
@@ -172,15 +187,18 @@ TriangleClassification classifyTriangles(const Mesh& mesh, const Vec3f* position
   Dropped dropped;
   TriangleClassification result;
   result.classes.resize(mesh.triangles.size());
+
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const bool out =
         drop(mesh.triangles[i], position, vertices, i, mesh.deformation != nullptr, dropped);
     result.classes[i] = out ? kDroppedClass : uses[mesh.material(i)].triangleClass;
     ++result.count[result.classes[i]];
   }
+
   dropped.badIndex.report(warnings, "triangle with a vertex index out of range dropped", mesh);
   dropped.badCorner.report(warnings, "triangle with a non-finite or enormous corner dropped", mesh);
   dropped.degenerate.report(warnings, "degenerate triangle dropped", mesh);
+
   const bool nothingLeft =
       !mesh.triangles.empty() && result.count[kDroppedClass] == mesh.triangles.size();
   if (nothingLeft) {

@@ -1,5 +1,5 @@
-// Entries of a triangle in the tables of a Scene, its class, and whether it is dropped. Internal to
-// finalize().
+// Records of triangles for the tables of a Scene, the classes of triangles, and the rules by which
+// triangles are dropped. Internal to finalize().
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace whit {
 
-// Properties of a material that the tables depend on.
+// Properties of a material that the records and classes of its triangles depend on.
 struct MaterialUse {
   std::uint8_t triangleClass = 0;
   bool repeatU = false, repeatV = false;  // textured, and every texture repeats along that axis
@@ -26,7 +26,7 @@ inline Vec3d areaVector(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
   return cross(Vec3d(b) - origin, Vec3d(c) - origin);
 }
 
-// Unit length, by the winding of the corners.
+// Returns the unit normal that follows from the winding of the corners.
 Vec3d faceNormal(const TriangleRecord& record);
 
 // `corners` index `position`, the mesh's triangle indexes its uvs. Coordinates that are not finite
@@ -37,18 +37,18 @@ TriangleRecord makeTriangleRecord(const Mesh& mesh, std::size_t triangle,
                                   const std::array<std::uint32_t, 3>& corners,
                                   const MaterialUse& use, std::uint64_t& repaired);
 
-// The second coordinates, treated alike; zeros where the mesh has none.
+// Treats the second texture coordinates in the same way; zeros where the mesh has none.
 UvRecord makeSecondUvRecord(const Mesh& mesh, std::size_t triangle, const MaterialUse& use,
                             std::uint64_t& repaired);
 
-// The mesh's normals have unit length, or are zero where they are of no use: those become the
-// face's and are added to `repaired`. Where Mesh::fromModel has stretched the model, they get the
-// lengths back that it gave them.
+// The mesh's normals have unit length, or are zero where they have no direction: these are replaced
+// by the face's normal and added to `repaired`. Where Mesh::fromModel has stretched the model, the
+// normals get back the lengths that it gave them.
 NormalRecord makeNormalRecord(const Mesh& mesh, std::size_t triangle, const TriangleRecord& record,
                               std::uint64_t& repaired);
 
-// White where the mesh has no colors. What is not in [0, 1] is clamped, or 0 if it is no number,
-// and added to `repaired`.
+// Returns white where the mesh has no colors. Values outside of [0, 1] are clamped, NaN becomes 0,
+// and both are added to `repaired`.
 ColorRecord makeColorRecord(const Mesh& mesh, std::size_t triangle, std::uint64_t& repaired);
 
 inline constexpr std::uint8_t kDroppedClass = kTriangleClasses;
@@ -64,7 +64,7 @@ struct TriangleClassification {
   }
 };
 
-// Something repaired in one mesh: how often, and where first.
+// Counts the repairs of one kind in a mesh, and remembers the first triangle for the warning.
 struct Tally {
   std::uint64_t count = 0;
   std::size_t first = 0;

@@ -8,12 +8,14 @@
 
 namespace whit {
 
-// About as many cells as there are partners, fewer where these are so large that together they
-// would reach into several times as many: those that lie one on the other share one cell.
+// Divides the square of weights into about four cells for each partner. There are fewer cells where
+// partners are so large that together they would reach into many times as many; coincident partners
+// share one cell.
 void CoplanarTriangles::fillCells(Slot& slot) {
   constexpr double kMostSide = 64;
   constexpr std::size_t kReach = 8;  // cells that a partner reaches into, in the mean
   const std::span<const CoveredPart> own = std::span(covered_).subspan(slot.first, slot.count);
+
   const auto reached = [&](std::size_t side) {
     std::size_t sum = 0;
     for (const CoveredPart& e : own) {
@@ -22,11 +24,16 @@ void CoplanarTriangles::fillCells(Slot& slot) {
     }
     return sum;
   };
+
   slot.side = static_cast<std::size_t>(
       std::clamp(2 * std::sqrt(static_cast<double>(slot.count)), 4.0, kMostSide));
+  // The grid is coarsened until a partner reaches into few cells on average.
   while (slot.side > 1 && reached(slot.side) > kReach * slot.count) slot.side /= 2;
+
   slot.firstCell = cells_.size();
   const float size = 1 / static_cast<float>(slot.side);
+
+  // Each cell lists the partners that may cover a point of it.
   std::vector<std::vector<std::size_t>> lists(slot.side * slot.side);
   for (std::size_t i = slot.first; i < slot.first + slot.count; ++i) {
     const CoveredPart& part = covered_[i];
@@ -38,6 +45,8 @@ void CoplanarTriangles::fillCells(Slot& slot) {
       }
     }
   }
+
+  // Partners that merely touch matter only where another one overlaps, so other cells stay empty.
   for (std::vector<std::size_t>& list : lists) {
     const bool overlapped =
         std::ranges::any_of(list, [this](std::size_t i) { return covered_[i].overlaps; });
@@ -51,14 +60,19 @@ CoplanarTriangles::CoplanarTriangles(const Scene& scene,
                                      std::vector<std::pair<std::uint64_t, std::uint64_t>> pairs,
                                      int threads) {
   if (pairs.empty()) return;
+
+  // Pairs are stored in both directions, so that sorting groups the partners of each triangle.
   const std::size_t half = pairs.size();
   pairs.reserve(2 * half);
   for (std::size_t i = 0; i < half; ++i) pairs.emplace_back(pairs[i].second, pairs[i].first);
   std::ranges::sort(pairs);
+
   std::size_t owners = 0;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     owners += i == 0 || pairs[i].first != pairs[i - 1].first;
   }
+
+  // The hash table is at most half full, which keeps its probe sequences short.
   any_.resize(scene.triangles.size() / 64 + 1);
   slots_.resize(std::bit_ceil(2 * owners));
   partners_.reserve(pairs.size());
@@ -70,16 +84,20 @@ CoplanarTriangles::CoplanarTriangles(const Scene& scene,
     ++slot.count;
     partners_.push_back(placedTriangle(partner));
   }
+
+  // The covered parts are independent of each other, because every slot has its own range of them.
   ranks_.resize(partners_.size());
   covered_.resize(partners_.size());
   parallelFor(threads, slots_.size(), [&](std::size_t k, int) {
     const Slot& slot = slots_[k];
     if (slot.count == 0) return;
+
     const Facet own = facetOf(scene, slot.id);
     for (std::size_t i = slot.first; i < slot.first + slot.count; ++i) {
       covered_[i] = coveredPart(own, facetOf(scene, partners_[i]));
     }
   });
+
   for (Slot& slot : slots_) {
     if (slot.count > 0) fillCells(slot);
   }
@@ -122,11 +140,15 @@ WrittenPlace SceneOrder::placeOf(const Scene& scene, PlacedTriangleId id) const 
   if (scene.isSphere(id.triangle)) {
     WrittenPlace place = spheres[id.triangle - scene.firstSphere];
     if (id.instance == kNoInstance) return place;
+
+    // A place is stored without the instance, so that all instances can share it.
     place.instance = scene.instances[id.instance].written;
     place.rank += instances[place.instance];
     return place;
   }
+
   const std::uint32_t number = triangles[id.triangle];
+  // The mesh of a triangle is the last one whose first triangle has no greater number.
   const auto meshOf = [&](std::uint32_t geometry) {
     const std::vector<PlacedMesh>& all = meshes[geometry];
     const auto startsBehind = [](std::uint32_t n, const PlacedMesh& m) {
@@ -134,10 +156,12 @@ WrittenPlace SceneOrder::placeOf(const Scene& scene, PlacedTriangleId id) const 
     };
     return *(std::upper_bound(all.begin(), all.end(), number, startsBehind) - 1);
   };
+
   if (id.instance == kNoInstance) {
     const PlacedMesh mesh = meshOf(0);
     return {mesh.rank, mesh.instance, number};
   }
+
   const InstanceRecord& instance = scene.instances[id.instance];
   return {instances[instance.written] + meshOf(instance.geometry).rank, instance.written, number};
 }

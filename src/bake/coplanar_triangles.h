@@ -25,7 +25,8 @@ struct PlacedTriangleId {
   bool operator==(const PlacedTriangleId&) const = default;
 };
 
-// Ascending in this are the world's triangles, then those of one instance after the other.
+// Key that sorts the triangles of the world before those of the instances, one instance after the
+// other.
 inline std::uint64_t orderOf(PlacedTriangleId id) {
   return std::uint64_t{id.instance + 1} << 32 | id.triangle;
 }
@@ -40,8 +41,8 @@ inline std::uint64_t mixed(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-// Spheres that are coincident with others where they stand: for each, by its orderOf(), all that
-// are in its place, itself included, in the order of the scene.
+// Maps the orderOf() of each sphere that is coincident with others to all spheres of that position,
+// itself included, in the order of the scene.
 using CoincidentSpheres =
     std::map<std::uint64_t, std::shared_ptr<const std::vector<PlacedTriangleId>>>;
 
@@ -134,14 +135,18 @@ class CoplanarTriangles {
     if (empty()) return;
     const Slot& slot = slots_[slotOf(id)];
     if (slot.count == 0) return;
+
+    // The cell around the point lists all partners that can hold it.
     const Cell& cell = cells_[slot.firstCell + cellAt(u, v, slot.side)];
     const auto own = std::span(inCells_).subspan(cell.first, cell.count);
+
     const auto holds = [&](std::size_t i) {
       return covered_[i].holds(static_cast<float>(u), static_cast<float>(v));
     };
     const bool overlapped =
         std::ranges::any_of(own, [&](std::size_t i) { return covered_[i].overlaps && holds(i); });
     if (!overlapped) return;
+
     for (const std::size_t i : own) {
       if (holds(i)) visit(partners_[i], ranks_[i]);
     }

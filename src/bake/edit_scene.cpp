@@ -17,7 +17,7 @@ namespace whit {
 
 namespace {
 
-// Exchanging one for the other neither adds nor removes an effect or a medium.
+// True if replacing one material by the other neither adds nor removes an effect or a medium.
 bool sameKind(const Material& a, const Material& b) {
   const bool sameMedium = !a.boundsMedium() || (a.ior == b.ior && a.absorption == b.absorption &&
                                                 a.priority == b.priority);
@@ -76,7 +76,7 @@ void swapLastCorners(float (&values)[kCount]) {
   std::swap_ranges(values + kCount / 3, values + 2 * kCount / 3, values + 2 * kCount / 3);
 }
 
-// All but positions and normals, which bend() sets.
+// Reverses the winding of a triangle. bend() sets its positions and normals.
 void turnOver(std::uint32_t triangle, std::array<std::uint32_t, 3>& corners, Scene& scene) {
   std::swap(corners[1], corners[2]);
   swapLastCorners(scene.triangles[triangle].uv);
@@ -87,19 +87,26 @@ void turnOver(std::uint32_t triangle, std::array<std::uint32_t, 3>& corners, Sce
 void bend(Scene& scene, BentVertices& bent, double seconds) {
   Geometry& geometry = scene.geometries[bent.geometry];
   DeformedVertices vertices = deformVertices(*bent.deformation, poseAt(*bent.deformation, seconds));
+  // The loader has wound the triangles for the pose at 0 s, for which this is called first.
   if (bent.sides.empty()) bent.sides = vertices.sides;
+
   std::ranges::copy(vertices.positions, geometry.position.begin() + bent.firstVertex);
   const std::size_t count = vertices.positions.size();
+
   for (std::size_t i = 0; i < geometry.index.size(); ++i) {
     auto& corners = geometry.index[i];
     if (corners[0] < bent.firstVertex || corners[0] - bent.firstVertex >= count) continue;
+
     const auto number = static_cast<std::uint32_t>(geometry.firstTriangle + i);
     std::array<std::uint32_t, 3> places = corners;
     for (std::uint32_t& place : places) place -= bent.firstVertex;
+
+    // A triangle that the skin begins or ceases to mirror is wound the other way round.
     if (turnsOver(bent.sides, places) != turnsOver(vertices.sides, places)) {
       turnOver(number, corners, scene);
       std::swap(places[1], places[2]);
     }
+
     TriangleRecord& record = scene.triangles[number];
     setCorners(geometry, corners, record);
     if (scene.normals.empty()) continue;
@@ -113,6 +120,7 @@ Box boxOf(const Scene& scene, const Geometry& geometry) {
   for (const auto& corners : geometry.index) {
     for (const std::uint32_t corner : corners) box.add(geometry.position[corner]);
   }
+
   for (std::uint32_t i = 0; i < geometry.spheres; ++i) {
     const Box own = sphereBounds(sphereMap(scene.triangles[geometry.firstSphere + i]));
     box.add(own.lower);
@@ -137,17 +145,21 @@ void editShading(Scene& scene, std::vector<Material> materials, std::vector<Ligh
   if (materials.size() != scene.materials.size() || lights.size() != scene.lights.size()) {
     throwUsage("an edit cannot change the number of materials or lights");
   }
+
+  // The new values are validated before the scene changes.
   SceneDescription d;
   d.name = scene.name;
   d.lights = lights;
   d.materials = materials;
   validate(d);
   for (std::size_t i = 0; i < materials.size(); ++i) keepBaked(scene.materials[i], materials[i]);
+
   const bool kindsStay = std::ranges::equal(materials, scene.materials, sameKind) &&
                          std::ranges::equal(lights, scene.lights, sameKindOfLight);
   scene.materials.swap(materials);
   scene.lights.swap(lights);
   if (kindsStay) return;
+
   try {
     numberMedia(scene);
   } catch (...) {  // too many media
@@ -170,6 +182,7 @@ Camera cameraAt(const Scene& scene, std::size_t camera, double seconds) {
   const SceneMotion& motion = scene.motion.given;
   const auto moving = std::ranges::find(motion.cameras, camera, &MovingCamera::camera);
   if (moving == motion.cameras.end()) return scene.cameras[camera];
+
   Camera carried = moving->own;
   moveCamera(scene, *moving, poseRig(motion.rig, seconds), seconds, carried);
   return carried;
@@ -178,15 +191,19 @@ Camera cameraAt(const Scene& scene, std::size_t camera, double seconds) {
 void setPlace(Scene& scene, const std::string& pointer, const Affine& place) {
   const SharedMotion motion = fixedMotion(place);
   bool found = setMotion(pointer, motion, scene.motion.given.rig);
+
+  // Joints of skeletons can be placed too.
   for (BentVertices& bent : scene.motion.bent) {
     if (!bent.deformation->hasSkin()) continue;
     Rig skeleton = *bent.deformation->skeleton;
     if (!setMotion(pointer, motion, skeleton)) continue;
+
     Deformation deformation = *bent.deformation;  // other scenes may share it
     deformation.skeleton = std::make_shared<const Rig>(std::move(skeleton));
     bent.deformation = std::make_shared<const Deformation>(std::move(deformation));
     found = true;
   }
+
   if (!found) {
     throwUsage("\"" + pointer + "\" is not among what was to be moved when " + scene.name +
                " was loaded");
@@ -196,30 +213,40 @@ void setPlace(Scene& scene, const std::string& pointer, const Affine& place) {
 void moveScene(Scene& scene, double seconds) {
   BakedMotion& motion = scene.motion;
   if (motion.empty()) return;
+
   const std::vector<Affine> poses = poseRig(motion.given.rig, seconds);
   moveView(scene, poses, seconds);
   if (!motion.ofGeometry) return;
+
   for (BentVertices& bent : motion.bent) {
     bend(scene, bent, seconds);
     motion.boxes[bent.geometry] = boxOf(scene, scene.geometries[bent.geometry]);
   }
+
+  // All instances take part again, including those that were too flat at an earlier time.
   scene.instances = motion.instances;
   for (InstanceRecord& instance : scene.instances) {
     if (instance.mover != kNoNode) instance.toWorld = poses[instance.mover] * instance.toMover;
   }
+
   Warnings expected;  // that some are flattened at times
   boundInstances(scene, motion.boxes, expected);
   scene.coincidentSpheres = findCoincidentSpheres(scene, motion.order);
+
+  // The result of the search at 0 s is used again as long as the same instances are left, because
+  // it refers to them by index.
   std::vector<std::uint32_t> instances;
   for (const InstanceRecord& i : scene.instances) instances.push_back(i.written);
   if (motion.isSearched && instances == motion.instancesAtStart) {
     scene.coplanar = motion.coplanarAtStart;
     return;
   }
+
   bool complete = true;
   scene.coplanar = findCoplanarTriangles(scene, usableThreads(), complete);
   scene.coplanar.rankBy(scene, motion.order);
   if (std::exchange(motion.isSearched, true)) return;
+
   motion.coplanarAtStart = scene.coplanar;
   motion.instancesAtStart = std::move(instances);
 }

@@ -32,6 +32,7 @@ Interval extentOf(const Facet& facet, const Vec3d& origin, const Vec3d& axis) {
 // True if every strip along an edge of either that holds the triangles' common part is wider than
 // `width`. With a `width` below zero: no edge leaves a gap as wide as that.
 bool haveInCommon(const Facet& a, const Facet& b, double width) {
+  // Separating axis test in the plane: the axes are the normals of all six edges.
   for (const Facet* facet : {&a, &b}) {
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec3d& origin = facet->corners[i];
@@ -49,19 +50,23 @@ struct Weights {
   double u, v;
 };
 
-// A point whose weights are off by no more than `off` lies inside of the edges of a triangle if it
-// lies in the triangle.
+// Edges that are moved outwards: a point that lies in the triangle lies inside of all of them, even
+// if its weights are off by as much as `off`.
 std::array<CoveredPart::Edge, 3> edgesAround(const std::array<Weights, 3>& corners,
                                              const Weights& off) {
   constexpr double kRounding = 0x1p-20;  // of the sum in floats
   std::array<CoveredPart::Edge, 3> edges;
   for (std::size_t i = 0; i < 3; ++i) {
+    // The line through corners p and q is a * u + b * v + c = 0.
     const Weights &p = corners[i], &q = corners[(i + 1) % 3], &opposite = corners[(i + 2) % 3];
     double a = p.v - q.v, b = q.u - p.u, c = p.u * q.v - p.v * q.u;
+
+    // The sign of `size` makes the third corner's side the positive one.
     const double inside = a * opposite.u + b * opposite.v + c;
     const double size = std::copysign(std::max({std::abs(a), std::abs(b), std::abs(c)}), inside);
     // An edge whose inner side is lost in rounding has nothing outside.
     if (!(std::abs(inside) > kRounding * std::abs(size))) continue;
+
     a /= size, b /= size, c /= size;
     c += std::abs(a) * off.u + std::abs(b) * off.v + 3 * kRounding;
     edges[i] = {static_cast<float>(a), static_cast<float>(b), static_cast<float>(c)};
@@ -94,6 +99,7 @@ Corners worldCorners(const Scene& scene, std::uint32_t triangle, std::uint32_t i
 double magnitudeOf(const Vec3d& point, const Affine* toWorld) {
   const Vec3d size = abs(point);
   if (!toWorld) return size.x + size.y + size.z;
+
   const Vec3d carried = abs(toWorld->x) * size.x + abs(toWorld->y) * size.y +
                         abs(toWorld->z) * size.z + abs(toWorld->p);
   return carried.x + carried.y + carried.z;
@@ -106,11 +112,13 @@ Facet facetOf(const TriangleRecord& triangle, const Affine* toWorld) {
     const float* p = triangle.position + 3 * i;
     magnitude = std::max(magnitude, magnitudeOf({p[0], p[1], p[2]}, toWorld));
   }
+
   facet.corners = cornersOf(triangle, toWorld);
   const auto& [a, b, c] = facet.corners;
   const Vec3d normal = cross(b - a, c - a);
   const double size = length(normal);
   facet.normal = size > 0 ? normal / size : Vec3d{};
+
   facet.error = facet.least = kErrorOfMagnitude * magnitude;
   return facet;
 }
@@ -135,19 +143,26 @@ bool isTooNarrowToOverlap(const Facet& facet) { return !haveInCommon(facet, face
 CoveredPart coveredPart(const Facet& on, const Facet& of) {
   // Rounding of the hits' weights, which are floats.
   constexpr double kRounding = 0x1p-12;
+
   const Vec3d e1 = on.corners[1] - on.corners[0], e2 = on.corners[2] - on.corners[0];
   const double area = dot(cross(e1, e2), on.normal);
-  // A weight grows along the normal of the edge that faces its corner.
+  // The gradient of a weight is perpendicular to the edge that faces its corner.
   const Vec3d growthU = cross(e2, on.normal) / area, growthV = cross(on.normal, e1) / area;
+
+  // A weight may be off by its own rounding and by the error of the positions.
   const double slack = on.error + of.error;
   const Weights off = {kRounding + slack * length(growthU), kRounding + slack * length(growthV)};
+
   std::array<Weights, 3> corners;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3d from = of.corners[i] - on.corners[0];
     corners[i] = {dot(from, growthU), dot(from, growthV)};
   }
+
   const auto [u0, u1] = std::minmax({corners[0].u, corners[1].u, corners[2].u});
   const auto [v0, v1] = std::minmax({corners[0].v, corners[1].v, corners[2].v});
+
+  // Weights of hits are between 0 and 1, so bounds far outside of this need no precision.
   const auto bounded = [](double weight) {
     return static_cast<float>(std::clamp(weight, -1.0, 2.0));
   };
@@ -163,10 +178,11 @@ bool liesInPlane(const Vec3d& eye, const Corners& corners) {
 bool liesInSurface(const Scene& scene, const Vec3d& eye, std::uint32_t number,
                    std::uint32_t instance) {
   if (!scene.isSphere(number)) return liesInPlane(eye, worldCorners(scene, number, instance));
+
   Affine map = sphereMap(scene.triangles[number]);
   if (instance != kNoInstance) map = scene.instances[instance].toWorld * map;
   const Vec3d unit = onUnitSphere(map, eye), direction = normalized(unit);
-  // Along the normal the map stretches by this.
+  // The map stretches distances along the normal of its surface by this factor.
   const double stretch = std::fabs(map.determinant()) / length(map.normal(direction));
   return std::fabs(length(unit) - 1) * stretch <= roundingOf(eye);
 }

@@ -1,5 +1,5 @@
-// A placed triangle, the tests whether two of them overlap or touch in one plane, the part that one
-// covers of the other, and surfaces that the eye lies in.
+// A placed triangle, tests whether two of them overlap or touch in one plane, the part of one that
+// another covers, and surfaces that contain the eye.
 #pragma once
 
 #include "bake/scene.h"
@@ -9,19 +9,19 @@ namespace whit {
 
 using Corners = std::array<Vec3d, 3>;
 
-// The corners, transformed by the map if there is one.
+// Returns the corners, transformed by the map if there is one.
 Corners cornersOf(const TriangleRecord& triangle, const Affine* toWorld);
 
-// The corners of a triangle of the scene (an index into Scene::triangles), transformed by the
-// instance unless that is kNoInstance.
+// Returns the corners of a triangle of the scene (an index into Scene::triangles), transformed by
+// the instance unless that is kNoInstance.
 Corners worldCorners(const Scene& scene, std::uint32_t triangle, std::uint32_t instance);
 
-// Upper bound on the error of a surface point, for each unit of the magnitudes that it is added up
-// from. Rays that start there are offset by no more (Surfel::offset).
+// Upper bound on the error of a surface point, relative to the sum of magnitudes that magnitudeOf()
+// computes. Rays that start there are offset by no more (Surfel::offset).
 inline constexpr double kErrorOfMagnitude = 32 * 0x1p-24;
 
-// Sum over the axes of the magnitudes that the point, transformed by the map if there is one, is
-// added up from.
+// Sum over the axes of the magnitudes of the terms that make up the point, transformed by the map
+// if there is one.
 double magnitudeOf(const Vec3d& point, const Affine* toWorld);
 
 struct Facet {
@@ -53,8 +53,8 @@ bool liesInPlane(const Vec3d& eye, const Corners& corners);
 bool liesInSurface(const Scene& scene, const Vec3d& eye, std::uint32_t number,
                    std::uint32_t instance);
 
-// Along a ray from the eye: how far, in lengths of its direction, what lies in the eye is passed
-// over at the first attempt, numbered 0; twice as far at each further one.
+// Distance along a ray from the eye, in lengths of its direction, within which surfaces that
+// contain the eye are skipped at attempt 0. It doubles with each further attempt.
 double wayPastEye(const Vec3d& eye, int attempt);
 inline constexpr int kAttemptsPastEye = 40;
 

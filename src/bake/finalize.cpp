@@ -23,6 +23,8 @@ Camera framingCamera(const Scene& scene) {
   const Vec3d center = (lower + upper) * 0.5;
   const double radius = length(upper - lower) * 0.5;
   if (!(radius > 0)) return camera;
+
+  // The bounding sphere has to fit into the narrower of the two fields of view.
   const double half = camera.fov * (3.14159265358979323846 / 360);
   const double aspect = static_cast<double>(scene.width) / scene.height;
   const double narrow = std::atan(std::tan(half) * std::min(1.0, aspect));
@@ -116,6 +118,8 @@ float farthestStart(const Scene& scene, const std::vector<Box>& boxes) {
   float farthest = 0;
   const auto add = [&](const Vec3f& p) { farthest = std::max(farthest, maxComponent(abs(p))); };
   if (!all.empty()) add(all.lower), add(all.upper);
+
+  // Rays start at points of the lens, and in stereo pairs beside the eye.
   const auto addStarts = [&](const Camera& camera) {
     add(abs(camera.eye) + Vec3f(camera.aperture + camera.eyeDistance));
   };
@@ -130,13 +134,17 @@ void numberMedia(Scene& scene) {
   scene.media.assign(1, Medium{});
   scene.mediumOfMaterial.assign(scene.materials.size(), 0);
   const std::vector<std::uint64_t> uses = trianglesOfMaterials(scene);
+
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     const Material& m = scene.materials[i];
     if (!m.boundsMedium() || uses[i] == 0) continue;
+
+    // Equal dielectrics share a number.
     const Medium medium{m.ior, m.absorption, m.priority};
     const auto known = std::find(scene.media.begin() + 1, scene.media.end(), medium);
     const auto number = static_cast<std::size_t>(known - scene.media.begin());
     if (number > kMediaLimit) throwLimit(scene.name + ": more than 255 different dielectrics");
+
     scene.mediumOfMaterial[i] = static_cast<std::uint8_t>(number);
     if (known == scene.media.end()) scene.media.push_back(medium);
   }
@@ -145,18 +153,25 @@ void numberMedia(Scene& scene) {
 Scene Scene::finalize(SceneDescription&& description, Warnings& warnings, Progress* progress) {
   SceneDescription d = std::move(description);
   validate(d);
+  // Triangles are classified by the sides that are seen, so these are decided before baking.
   settleSides(d);
   if (d.isModel && d.motion.rig.empty()) noteHiddenSides(d, warnings);
   packTextures(d.textures, usableThreads());
+
   Scene scene;
   SceneContents& contents = d;
   static_cast<SceneContents&>(scene) = std::move(contents);
   scene.motion.given = std::move(d.motion);
+
   SceneOrder order = bakeGeometry(d, scene, warnings, progress);
+  // Tables that hold nothing but default values are dropped.
   if (!hasSmoothNormals(scene)) scene.normals = {};
   if (!hasVertexColors(scene)) scene.colors = {};
+
   numberMedia(scene);
   gatherEffects(scene);
+
+  // moveScene() searches scenes that move for coplanar triangles and coincident spheres.
   if (scene.motion.ofGeometry) {
     scene.motion.order = std::move(order);
   } else {
@@ -167,11 +182,15 @@ Scene Scene::finalize(SceneDescription&& description, Warnings& warnings, Progre
     scene.coplanar.rankBy(scene, order);
     scene.coincidentSpheres = findCoincidentSpheres(scene, order);
   }
+
+  // What the search at 0 s finds serves other times too, so the scene starts there.
   moveScene(scene, 0);
+
   if (scene.cameras.empty()) {
     scene.cameras.push_back(scene.cameraPath.empty() ? framingCamera(scene)
                                                      : scene.cameraPath.front().camera);
   }
+
   if (scene.motion.given.seconds != 0) moveScene(scene, scene.motion.given.seconds);
   return scene;
 }
@@ -218,11 +237,13 @@ void validate(const SceneDescription& description) {
 }
 
 void boundInstances(Scene& scene, const std::vector<Box>& boxes, Warnings& warnings) {
+  // A ray from anywhere has to stay within Embree's range in the space of each instance.
   const float farthest = farthestStart(scene, boxes);
   const auto lost = std::erase_if(scene.instances, [&](const InstanceRecord& instance) {
     return !(instanceReach(instance.toWorld) > farthest);
   });
   warnings.add("instance too small or too flat to be traced left out", scene.name, lost);
+
   Box box = boxes[0];
   for (const InstanceRecord& instance : scene.instances) addInstance(scene, instance, boxes, box);
   countInstanced(scene);
@@ -245,6 +266,8 @@ float instanceReach(const Affine& toWorld) {
   constexpr double kSmallest = 1e-35, kLargest = 1e35;
   const double determinant = std::abs(toWorld.determinant());
   if (!(determinant >= kSmallest && determinant <= kLargest)) return 0;
+
+  // Bounds of the inverse map: how much it lengthens coordinates, and how far it shifts them.
   const std::array<Vec3d, 3> adjoint{cross(toWorld.y, toWorld.z), cross(toWorld.z, toWorld.x),
                                      cross(toWorld.x, toWorld.y)};
   double stretch = 0, shift = 0;
@@ -254,7 +277,7 @@ float instanceReach(const Affine& toWorld) {
     stretch = std::max(stretch, (size.x + size.y + size.z) / determinant);
     shift = std::max(shift, dot(size, abs(toWorld.p)) / determinant);
   }
-  // Half of the range is for the rounding of all this.
+  // Half of the range is reserved for the rounding of these computations.
   const double room = 0.5 * kLargestCoordinate - shift;
   return room > 0 ? static_cast<float>(std::min<double>(room / stretch, kLargestCoordinate)) : 0.0f;
 }

@@ -16,18 +16,20 @@ void validate(const SceneDescription& description);
 void validate(const std::string& scene, const Sky& sky, const Ambient& ambient);
 
 // Moves the meshes of `description` into scene.geometries, instances, triangles and normals, and
-// fills in bounds and instancedTriangles. scene.materials and textures must be in place. Of scenes
-// that are not searched for coplanar triangles the order comes back empty.
+// fills in bounds and instancedTriangles. scene.materials and textures must be in place. The order
+// of a scene that is too large for the search for coplanar triangles lists no triangles.
 SceneOrder bakeGeometry(SceneDescription& description, Scene& scene, Warnings& warnings,
                         Progress* progress);
 
-// Makes materials double-sided whose back faces nobody can pass or see: of what transmits light,
-// and of closed surfaces without holes alone, as seen from outside.
+// Makes materials double-sided whose back faces cannot be seen or must not be passed: those that
+// bound a medium, and those that are used by closed surfaces without holes only, as seen from
+// outside.
 void settleSides(SceneDescription& description);
-// Notes the meshes that are not seen because all cameras are behind their single-sided triangles.
+// Adds a note for each mesh that is invisible because all cameras are behind its single-sided
+// triangles.
 void noteHiddenSides(const SceneDescription& description, Warnings& warnings);
 
-// Finds the spheres that are coincident in the world, up to rounding. None in scenes of more
+// Finds the spheres that coincide in the world, up to rounding. Finds none in scenes of more
 // spheres than kMostSearched.
 CoincidentSpheres findCoincidentSpheres(const Scene& scene, const SceneOrder& order);
 
@@ -35,15 +37,16 @@ CoincidentSpheres findCoincidentSpheres(const Scene& scene, const SceneOrder& or
 // one of them counts as leaving the other. Throws Error(limit) beyond 255.
 void numberMedia(Scene& scene);
 
-// Counts and bounds as seen, from `boxes`: one a geometry, in its own space. Leaves out instances
-// that are so much smaller or flatter than the scene that its rays, in their space, would leave the
-// range of coordinates. Throws Error(badScene) for one that is too far away.
+// Computes counts and bounds with instances multiplied out, from `boxes`: one a geometry, in its
+// own space. Leaves out instances that are so much smaller or flatter than the scene that its rays,
+// in their space, would leave the range of coordinates. Throws Error(badScene) for one that is too
+// far away.
 void boundInstances(Scene& scene, const std::vector<Box>& boxes, Warnings& warnings);
 
-// Counts triangles and spheres as seen.
+// Counts triangles and spheres with instances multiplied out.
 void countInstanced(Scene& scene);
 
-// Effects that the material calls for where a triangle uses it.
+// Returns the effects that the material calls for if a triangle uses it.
 EffectSet effectsOf(const Material& material);
 
 // The number of triangles that use each material, instances not multiplied out.

@@ -44,7 +44,8 @@ void addBoth(const Pairs& pairs, Orders& orders) {
   orders.erase(std::unique(orders.begin(), orders.end()), orders.end());
 }
 
-// It has no branches, because processors could not predict them.
+// True if the boxes have a point in common. The test has no branches, because processors could not
+// predict them.
 bool meet(const Box& a, const Box& b) {
   const unsigned x = unsigned{a.lower.x <= b.upper.x} & unsigned{b.lower.x <= a.upper.x};
   const unsigned y = unsigned{a.lower.y <= b.upper.y} & unsigned{b.lower.y <= a.upper.y};
@@ -72,16 +73,20 @@ void sortInSpace(std::span<BoxedItem> items, std::size_t children, int threads) 
   std::size_t full = 1;  // the items of the largest full node that is smaller than all
   while (full * children < items.size()) full *= children;
   if (full == 1) return;
+
   Box box;
   for (const BoxedItem& item : items) box.add(item.center());
   const Vec3f size = box.upper - box.lower;
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+
+  // The split lies between two full nodes, about in the middle.
   const std::size_t middle = ((items.size() + full - 1) / full + 1) / 2 * full;
   std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(middle), items.end(),
                    [axis](const BoxedItem& a, const BoxedItem& b) {
                      return a.box.lower[axis] + a.box.upper[axis] <
                             b.box.lower[axis] + b.box.upper[axis];
                    });
+
   const auto sortHalf = [&](std::size_t half, int) {
     sortInSpace(half == 0 ? items.first(middle) : items.subspan(middle), children, threads / 2);
   };
@@ -100,12 +105,15 @@ class BoxTree {
   BoxTree(std::vector<BoxedItem> items, int threads) {
     if (items.empty()) return;
     sortInSpace(items, kChildren, items.size() > kTaskTriangles ? threads : 1);
+
     items_.reserve(items.size());
     levels_.emplace_back().reserve(items.size());
     for (const BoxedItem& item : items) {
       items_.push_back(item.item);
       levels_[0].push_back(item.box);
     }
+
+    // Each further level has one box for eight neighbors of the level below.
     while (levels_.back().size() > 1) {
       const std::vector<Box>& below = levels_.back();
       std::vector<Box> boxes((below.size() + kChildren - 1) / kChildren);
@@ -141,24 +149,28 @@ class Space {
     // Coordinates are smaller than this, and floats reach much farther.
     constexpr double kLargestError = 8.0 * kLargestCoordinate;
     const Geometry& g = scene.geometries[geometry];
+
     Vec3d far;
     for (std::uint32_t i = 0; i < g.index.size(); ++i) {
       for (const Vec3d& corner : worldCorners(scene, g.firstTriangle + i, kNoInstance)) {
         far = max(far, abs(corner));
       }
     }
+
     for (const InstanceRecord& instance : scene.instances) {
       if (instance.geometry != geometry) continue;
-      // Bounds of the lengths to which the map takes unit vectors. Of the three singular values the
-      // product of two is at most half the sum of all squares.
+      // Bounds of the lengths to which the map takes unit vectors: of the three singular values,
+      // the product of two is at most half the sum of all squares.
       const Affine& map = instance.toWorld;
       const double squares = dot(map.x, map.x) + dot(map.y, map.y) + dot(map.z, map.z);
       const double least = 2 * std::abs(map.determinant()) / squares, most = std::sqrt(squares);
+
+      // An error in the world is largest in this space where the map shrinks most.
       const double error = kErrorOfMagnitude * magnitudeOf(far, &map);
       error_ = std::min(std::max(error_, error / least), kLargestError);
-      // A corner's magnitude in the world is no less than the length of what its map's linear part
-      // makes of it; its magnitude here is at most sqrt(3) times its length. Widths grow by `most`
-      // at most.
+      // A corner's magnitude in the world is at least the length of its image by the map's linear
+      // part; its magnitude here is at most sqrt(3) times its length. Widths grow by `most` at
+      // most.
       leastShare_ = std::min(leastShare_, least / most / std::sqrt(3.0));
     }
   }
@@ -169,7 +181,7 @@ class Space {
     if (error_ > 0) facet.error = error_;
     return facet;
   }
-  // A box that holds everything that can touch the triangle.
+  // Returns a box that contains everything that can touch the triangle.
   Box boxOf(const Facet& facet) const {
     const auto& [a, b, c] = facet.corners;
     return grown(min(min(a, b), c), max(max(a, b), c), facet.error);
@@ -180,6 +192,8 @@ class Space {
   Box boxOf(const Box& box, std::uint32_t instance) const {
     const Vec3d lower(box.lower), upper(box.upper);
     if (instance == kNoInstance) return error_ > 0 ? grown(lower, upper, error_) : box;
+
+    // The absolute values of the linear part carry the half sides of the box.
     const Affine& map = scene_.instances[instance].toWorld;
     const Vec3d center = map.point((lower + upper) * 0.5), half = (upper - lower) * 0.5;
     const Vec3d reach = abs(map.x) * half.x + abs(map.y) * half.y + abs(map.z) * half.z;
@@ -229,7 +243,8 @@ class PairFinder {
   Node rootOf(const Group* group) const {
     return nodeOf(group, (group ? *group->tree : groupTree_).top(), 0);
   }
-  // Takes its share of the work from `work` and stops where nothing is left.
+  // Searches below two nodes. The comparisons are subtracted from `work`, and the search stops when
+  // nothing is left of it.
   void search(const Node& a, const Node& b, std::atomic<std::int64_t>& work,
               std::vector<Task>* tasks = nullptr) {
     const std::int64_t before = left_ = work;
@@ -241,6 +256,7 @@ class PairFinder {
 
  private:
   Node nodeOf(const Group* group, std::uint32_t level, std::uint32_t number) const {
+    // A leaf of the tree over the groups is the root of a group's own tree.
     if (!group && level == 0) {
       group = &groups_[groupTree_.item(number)];
       level = group->tree->top();
@@ -250,12 +266,14 @@ class PairFinder {
     return {group ? space_.boxOf(box, group->instance) : box, group, level, number};
   }
 
-  // Pushes the node's children that meet the other node, or the node itself if the other is higher.
+  // Pushes the node's children whose boxes meet the other node's, or the node itself if the other
+  // one is higher.
   void split(const Node& node, const Node& other) {
     if (node.height() < other.height()) {
       stack_.push_back(node);
       return;
     }
+
     const BoxTree& tree = node.group ? *node.group->tree : groupTree_;
     const std::uint32_t first = node.number * BoxTree::kChildren,
                         end = std::min(first + BoxTree::kChildren, tree.count(node.level - 1));
@@ -268,23 +286,31 @@ class PairFinder {
   void search(const Node& a, const Node& b) {
     const bool isSame = a == b;
     if (left_ <= 0 || (isSame && a.isTriangle())) return;
+
     if (a.group && b.group) {
       // Triangles of one instance are compared in the space of their geometry.
       if (a.group->instance != kNoInstance && a.group->instance == b.group->instance) return;
       if (a.isTriangle() && b.isTriangle()) return compare(a, b);
+
+      // Small pairs are left to the threads.
       if (tasks_ && a.mostTriangles() + b.mostTriangles() <= kTaskTriangles) {
         left_ -= kWorkOfTask;
         tasks_->emplace_back(a, b);
         return;
       }
     }
-    const bool isWanted = a.group && b.group;  // and so are the triangles of both
+
+    // Below two groups that passed these tests, triangles are compared without another call.
+    const bool isWanted = a.group && b.group;
+
+    // The children of both nodes are on top of the stack, those of `a` first.
     const std::size_t beginA = stack_.size();
     split(a, b);
     const std::size_t endA = stack_.size(), beginB = isSame ? beginA : endA;
     if (!isSame) split(b, a);
     const std::size_t endB = stack_.size();
     left_ -= kWorkOfNodes + static_cast<std::int64_t>((endA - beginA) * (endB - beginB));
+
     for (std::size_t i = beginA; i < endA; ++i) {
       for (std::size_t k = isSame ? i : beginB; k < endB; ++k) {
         if (!meet(stack_[i].box, stack_[k].box)) continue;
@@ -305,11 +331,14 @@ class PairFinder {
       if (node.group->instance != kNoInstance) id.instance = node.group->instance;
       return id;
     };
+
     const PlacedTriangleId a = idOf(nodeA), b = idOf(nodeB);
     if (a == b) return;
+
     left_ -= kWorkOfFacets;
     const Facet facet = facetOf(nodeA, a);  // the second may take its place in the cache
     if (!test_(facet, facetOf(nodeB, b))) return;
+
     left_ -= kWorkOfPair;
     found_.emplace_back(orderOf(a), orderOf(b));
   }
@@ -337,11 +366,13 @@ class CoplanarFinder {
  public:
   CoplanarFinder(const Scene& scene, int threads)
       : scene_(scene), threads_(threads), world_(scene), trees_(scene.geometries.size()) {
+    // Threads share the geometries, or the one tree if there is no other geometry.
     const int outer = trees_.size() > 1 ? threads : 1, inner = trees_.size() > 1 ? 1 : threads;
     parallelFor(outer, trees_.size(), [&](std::size_t i, int) {
       trees_[i] = treeOf(static_cast<std::uint32_t>(i), inner);
     });
-    // Instances in one place are counted by their geometries and maps.
+
+    // Instances are coincident if they have the same geometry and the same map.
     std::map<std::pair<std::uint32_t, std::array<double, 12>>, int> count;
     for (const InstanceRecord& i : scene.instances) {
       const auto map = std::bit_cast<std::array<double, 12>>(i.toWorld);
@@ -350,20 +381,25 @@ class CoplanarFinder {
   }
 
   CoplanarTriangles find() {
+    // The world is one group, and every instance is another.
     std::vector<Group> everything;
     if (!trees_[0].empty()) everything.push_back({&trees_[0]});
     for (std::uint32_t i = 0; i < scene_.instances.size(); ++i) {
       const BoxTree& tree = trees_[scene_.instances[i].geometry];
       if (!tree.empty() && !leftOut_[i]) everything.push_back({&tree, i});
     }
+
     Orders all;
+    // The first search is for overlaps between groups and within the world.
     Pairs pairs = findPairs(world_, everything, nullptr, facetsOverlap);
     if (!complete_ && everything.size() > 1) {  // The instances overlap too much.
       everything.resize(trees_[0].empty() ? 0 : 1);
       pairs = findPairs(world_, everything, nullptr, facetsOverlap);
     }
+
     addBoth(pairs, all);
     for (std::uint32_t g = 1; g < trees_.size(); ++g) addWithinInstances(g, all);
+
     const auto treeOfAll = [&] {
       std::vector<BoxedItem> items;
       for (const std::uint64_t order : all) {
@@ -372,10 +408,13 @@ class CoplanarFinder {
       return BoxTree(std::move(items), 1);
     };
     if (all.empty()) return {};
-    // Triangles that touch one that overlaps another are added to those that overlap.
+
+    // Triangles that merely touch an overlapping one in its plane take part too.
     const BoxTree overlapping = treeOfAll();
     const Group others{&overlapping};
     addBoth(findPairs(world_, everything, &others, facetsTouch), all);
+
+    // Partners are all pairs of these triangles that touch.
     const BoxTree tree = treeOfAll();
     return {scene_, findPairs(world_, {{&tree}}, nullptr, facetsTouch), threads_};
   }
@@ -388,6 +427,7 @@ class CoplanarFinder {
     const Geometry& g = scene_.geometries[geometry];
     const Space space = geometry == 0 ? world_ : Space(scene_, geometry);
     std::vector<BoxedItem> items(g.index.size());
+
     constexpr std::size_t kChunk = 4096;
     const std::size_t chunks = (items.size() + kChunk - 1) / kChunk;
     parallelFor(threads, chunks, [&](std::size_t chunk, int) {
@@ -395,11 +435,14 @@ class CoplanarFinder {
         const PlacedTriangleId id{g.firstTriangle + static_cast<std::uint32_t>(i), kNoInstance};
         const Facet facet = space.facet(id);
         if (isTooNarrowToOverlap(facet)) continue;
+        // Boxes of instanced geometries grow later, by the error bound of each instance.
         items[i].item = orderOf(id);
         for (const Vec3d& corner : facet.corners) items[i].box.add(Vec3f(corner));
         if (geometry == 0) items[i].box = space.boxOf(facet);
       }
     });
+
+    // Triangles that were skipped have empty boxes.
     std::erase_if(items, [](const BoxedItem& item) { return item.box.empty(); });
     return {std::move(items), threads};
   }
@@ -408,28 +451,37 @@ class CoplanarFinder {
   Pairs findPairs(const Space& space, const std::vector<Group>& groups, const Group* others,
                   FacetTest test) {
     if (groups.empty()) return {};
+
     std::vector<BoxedItem> boxes;
     for (const Group& group : groups) {
       const Box& box = group.tree->box(group.tree->top(), 0);
       boxes.push_back({boxes.size(), space.boxOf(box, group.instance)});
     }
     const BoxTree groupTree(std::move(boxes), 1);
+
     std::atomic<std::int64_t> work =
         (groups.size() < kManyGroups ? kWork : kWorkOfInstances) +
         kWorkPerTriangle * static_cast<std::int64_t>(scene_.triangles.size());
+
     std::vector<PairFinder> finders;
     finders.reserve(static_cast<std::size_t>(threads_));
     for (int i = 0; i < threads_; ++i) finders.emplace_back(space, groups, groupTree, test);
+
+    // One search from the root collects tasks, which the threads then work off.
     const Node root = finders[0].rootOf(nullptr);
     std::vector<Task> tasks;
     finders[0].search(root, others ? finders[0].rootOf(others) : root, work, &tasks);
+
     parallelFor(threads_, tasks.size(), [&](std::size_t i, int worker) {
       finders[static_cast<std::size_t>(worker)].search(tasks[i].first, tasks[i].second, work);
     });
+
+    // Which pairs an aborted search has found depends on the threads, so they are discarded.
     if (work <= 0) {
       complete_ = false;
       return {};
     }
+
     Pairs pairs;
     for (const PairFinder& finder : finders) {
       pairs.insert(pairs.end(), finder.found().begin(), finder.found().end());
@@ -441,15 +493,19 @@ class CoplanarFinder {
   // geometry finds the candidates for all of its instances.
   void addWithinInstances(std::uint32_t geometry, Orders& all) {
     if (trees_[geometry].empty()) return;
+
     const Pairs candidates =
         findPairs(Space(scene_, geometry), {{&trees_[geometry]}}, nullptr, facetsOverlap);
     if (candidates.size() * scene_.instances.size() > std::uint64_t{kWorkOfInstances}) {
       complete_ = false;
       return;
     }
+
     Pairs found;
     for (std::uint32_t i = 0; i < scene_.instances.size(); ++i) {
       if (scene_.instances[i].geometry != geometry || leftOut_[i]) continue;
+
+      // The search used bounds for all instances; each instance is tested with its own.
       for (const auto& [first, second] : candidates) {
         const PlacedTriangleId a{placedTriangle(first).triangle, i},
             b{placedTriangle(second).triangle, i};
@@ -474,6 +530,7 @@ class CoplanarFinder {
 CoplanarTriangles findCoplanarTriangles(const Scene& scene, int threads, bool& complete) {
   complete = scene.firstSphere <= kMostSearched;
   if (!complete) return {};
+
   CoplanarFinder finder(scene, threads);
   CoplanarTriangles found = finder.find();
   complete = finder.complete();

@@ -19,8 +19,8 @@ constexpr std::int32_t Material::*kMippedMaps[] = {
     &Material::emissionMap,  &Material::normalMap,   &Material::coverageMap,
     &Material::occlusionMap, &Material::mirrorMap,   &Material::transmissionMap};
 
-// Light of a 10-bit color channel, or the value of an 8-bit one, in units of the largest code
-// (squared); of radiance itself.
+// Value of a channel of a texel, in units of the largest code: of a color (10 bits) the linear
+// light, in the square of these units; of data (8 bits) the code. Radiance is returned itself.
 double valueOf(TexelFormat format, std::uint32_t texel, int channel) {
   if (format == TexelFormat::data) return texel >> (8 * channel) & 255u;
   if (format == TexelFormat::radiance) {
@@ -39,13 +39,14 @@ std::uint32_t codeOf(TexelFormat format, double value, int channel) {
   return static_cast<std::uint32_t>(nearest) << (format == TexelFormat::data ? 8 : 10) * channel;
 }
 
-// Sums with shares times weights, or with shares alone where there are no weights. Sums to black
-// where all weights are 0.
+// Sum over the covered texels, weighted by their shares, or mean by shares times `weights` if there
+// are any. The result is black where all weights are 0.
 std::uint32_t meanTexel(const Texture& texture, const TexelWeights* weights,
                         const TexelCover& columns, const TexelCover& rows) {
   std::array<double, 4> sum{};
   double total = 0;
   const int channels = texture.format == TexelFormat::data ? 4 : 3;
+
   for (std::size_t y = 0; y < rows.shares.size(); ++y) {
     for (std::size_t x = 0; x < columns.shares.size(); ++x) {
       const int column = columns.first + static_cast<int>(x),
@@ -78,6 +79,7 @@ Texture halvedBy(const Texture& texture, const TexelWeights* weights) {
                               std::max(1, texture.height / 2));
   half.wrapU = texture.wrapU;
   half.wrapV = texture.wrapV;
+
   std::uint32_t* to = half.texels.data();
   const std::vector<TexelCover> columns = texelCovers(texture.width, half.width);
   for (const TexelCover& row : texelCovers(texture.height, half.height)) {
@@ -93,6 +95,7 @@ std::optional<TexelWeights> weightsOf(const std::vector<Texture>& textures, cons
   };
   const Texture& own = texture(map.texture);
   std::optional<TexelWeights> weights;
+  // An alpha map cuts rays away: a texel counts by the share of its area that is left.
   if (map.alphaMap != kNoTexture) {
     weights = resized(uncutShares(texture(map.alphaMap), map.alphaCutoff), own.width, own.height);
   }
@@ -122,15 +125,20 @@ std::vector<Texture> smallerLevels(const std::vector<Texture>& textures, const S
   const Texture* last = &textures[static_cast<std::size_t>(map.texture)];
   std::vector<Texture> levels;
   levels.reserve(kMipLevels);
+
   std::optional<TexelWeights> weights = weightsOf(textures, map);
   std::vector<TexelWeights> weightsOfLevels;
   while (last->width > 1 || last->height > 1) {
     levels.push_back(halvedBy(*last, weights ? &*weights : nullptr));
     last = &levels.back();
     if (!weights) continue;
+
     weights = resized(*weights, last->width, last->height);
     weightsOfLevels.push_back(*weights);
   }
+
+  // Filling starts at the smallest level, so that colors reach every unseen texel of the larger
+  // ones.
   for (std::size_t i = weightsOfLevels.size(); i-- > 1;) {
     fillUnseen(weightsOfLevels[i - 1], levels[i], levels[i - 1]);
   }
@@ -152,7 +160,8 @@ ShownMap shownMap(const Material& material, std::int32_t Material::*map) {
   const bool bySecondUvs = (map == &Material::emissionMap && material.emissionBySecondUvs) ||
                            (map == &Material::normalMap && material.normalBySecondUvs) ||
                            (map == &Material::occlusionMap && material.occlusionBySecondUvs);
-  // The masks lie elsewhere in the second coordinates.
+
+  // Masks use the first texture coordinates, so they say nothing about texels of the second.
   if (shown.texture == kNoTexture || bySecondUvs) return shown;
 
   if (material.alphaMap != kNoTexture) {
@@ -171,6 +180,8 @@ MipMaps::MipMaps(const std::vector<Texture>& textures, const std::vector<ShownMa
   for (const ShownMap& map : wanted) {
     if (map.texture != kNoTexture) smaller_.try_emplace(map);
   }
+
+  // The map has all of its entries before threads fill them.
   std::vector<std::pair<const ShownMap, std::vector<Texture>>*> made;
   for (auto& entry : smaller_) made.push_back(&entry);
   parallelFor(threads, made.size(), [&](std::size_t i, int) {
@@ -184,6 +195,7 @@ MipMaps::MipMaps(const Scene& scene, int threads)
 const Texture& MipMaps::level(const ShownMap& map, int level) const {
   const Texture& full = (*textures_)[static_cast<std::size_t>(map.texture)];
   if (level == 0) return full;
+
   const auto smaller = smaller_.find(map);
   if (smaller == smaller_.end() || smaller->second.empty()) return full;
   return smaller->second[std::min(static_cast<std::size_t>(level), smaller->second.size()) - 1];

@@ -28,28 +28,28 @@ struct ShownMap {
   auto operator<=>(const ShownMap&) const = default;  // NOLINT(modernize-use-nullptr): LLVM 14
 };
 
-// `map` as `material` shows it. The texture is kNoTexture where the material has no such map.
+// Returns `map` as `material` shows it. The texture is kNoTexture if the material has no such map.
 ShownMap shownMap(const Material& material, std::int32_t Material::*map);
 
-// Half as many texels along each axis, rounded down but at least one. Each is the mean of the area
-// that it covers, also where that cuts through texels; of colors the mean of their light. Rounded
-// to the format's codes.
+// Returns a texture of half as many texels along each axis, rounded down but at least one. Each
+// texel is the mean of the area that it covers, also where its border cuts through texels; colors
+// are averaged in linear light. Means are rounded to the format's codes.
 Texture halved(const Texture& texture);
 
 class MipMaps {
  public:
   MipMaps() = default;
-  // Levels of the maps that are `wanted`. The textures must outlive this. Shared among `threads`.
-  // Throws Error(limit) where the system has no room for so many.
+  // Computes levels of the maps in `wanted`, on `threads` threads. The textures must outlive this
+  // object. Throws Error(limit) if the system has no room for so many threads.
   MipMaps(const std::vector<Texture>& textures, const std::vector<ShownMap>& wanted,
           int threads = 1);
-  // Maps of the textures that materials use as colors, reflectances and normal maps.
+  // Computes the levels of all textures that materials use as colors, reflectances and normal maps.
   explicit MipMaps(const Scene& scene, int threads = 1);
 
-  // 0 is the texture itself, and so is its only level if it is not wanted; what follows the single
-  // texel is that texel.
+  // Level 0 is the texture itself, and the only level of a map that is not wanted. Levels beyond
+  // the single texel are that texel.
   const Texture& level(const ShownMap& map, int level) const;
-  // Moves a level from 1 on out.
+  // Moves level 1 or a smaller one out of this object.
   Texture take(const ShownMap& map, int level);
   int levels(const ShownMap& map) const;  // distinct ones, at least 1
 

@@ -127,6 +127,7 @@ class ItemNumbers {
 
   // In the order of Scene::triangles.
   void add(std::uint32_t triangle, std::uint32_t item, std::uint32_t number) {
+    // Nothing is added for a triangle that continues the last run.
     if (!runs_.empty()) {
       const Run& last = runs_.back();
       if (last.item == item && number - last.number == triangle - last.first) return;

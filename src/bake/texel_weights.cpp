@@ -22,7 +22,7 @@ TexelWeights weightsLike(const Texture& mask) {
 
 std::vector<TexelCover> texelCovers(int size, int count) {
   std::vector<TexelCover> covers(static_cast<std::size_t>(count));
-  // In units of 1 / count of a texel all borders are whole numbers.
+  // All borders are whole numbers in units of 1 / count of a texel.
   std::int64_t begin = 0;
   for (TexelCover& cover : covers) {
     const std::int64_t end = begin + size;
@@ -40,8 +40,9 @@ std::vector<TexelCover> texelCovers(int size, int count) {
 TexelWeights uncutShares(const Texture& mask, float cutoff) {
   TexelWeights shares = weightsLike(mask);
 
-  // Towards its neighbors, the midpoint of a quarter counts them for a quarter.
+  // At the midpoint of a quarter, the neighbor on that side counts for a quarter in each direction.
   const auto between = [](float own, float other) { return 0.75f * own + 0.25f * other; };
+
   for (int row = 0; row < mask.height; ++row) {
     const int rows[] = {wrapTexel(row - 1, mask.height, mask.wrapV),
                         wrapTexel(row + 1, mask.height, mask.wrapV)};
@@ -50,6 +51,8 @@ TexelWeights uncutShares(const Texture& mask, float cutoff) {
                              wrapTexel(column + 1, mask.width, mask.wrapU)};
       const float own = firstChannelAt(mask, column, row);
       int uncut = 0;
+
+      // The mask is compared at the midpoints of the texel's four quarters.
       for (const int otherRow : rows) {
         const float ownColumn = between(own, firstChannelAt(mask, column, otherRow));
         for (const int otherColumn : columns) {
@@ -76,8 +79,10 @@ TexelWeights firstChannel(const Texture& mask) {
 
 TexelWeights resized(const TexelWeights& weights, int width, int height) {
   if (weights.width == width && weights.height == height) return weights;
+
   const std::vector<TexelCover> columns = texelCovers(weights.width, width);
   TexelWeights result{width, height, {}};
+
   for (const TexelCover& rows : texelCovers(weights.height, height)) {
     for (const TexelCover& across : columns) {
       double sum = 0;

@@ -1,4 +1,4 @@
-// How much of a surface masks leave, texel by texel. Mip levels are means with these weights.
+// The share of a surface that masks leave, texel by texel. Mip levels are means with these weights.
 #pragma once
 
 #include <cstddef>
@@ -29,14 +29,14 @@ struct TexelWeights {
   }
 };
 
-// The share of each texel's area in which the first channel of `mask`, looked up bilinearly, is at
-// least `cutoff`: of the midpoints of the texel's quarters.
+// Returns the share of each texel's area in which the first channel of `mask`, looked up
+// bilinearly, is at least `cutoff`. The area is sampled at the midpoints of the texel's quarters.
 TexelWeights uncutShares(const Texture& mask, float cutoff);
 
-// The first channel of each texel.
+// Returns the first channel of each texel.
 TexelWeights firstChannel(const Texture& mask);
 
-// Means over the areas of another grid's texels.
+// Returns the means of the weights over the texels of another grid.
 TexelWeights resized(const TexelWeights& weights, int width, int height);
 
 }  // namespace whit

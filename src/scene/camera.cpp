@@ -37,14 +37,15 @@ Vec3d velocity(const std::vector<Keyframe>& path, std::size_t i, Vec3f Camera::*
   return (Vec3d(after.camera.*point) - Vec3d(before.camera.*point)) / seconds;
 }
 
-// Replaces an `up` that is parallel to the view: +y is up; a vertical view is that of a level
-// camera that looked along -z before it was tilted.
+// Right vector for an `up` that is parallel to the view. The world's +y is up instead; a vertical
+// view takes the one of a level camera that looked along -z before it was tilted.
 Vec3d fallbackRight(const Vec3d& forward) {
   const bool vertical = std::abs(forward.y) > 0.999;
   return normalized(cross(forward, vertical ? Vec3d{0, 0, forward.y} : Vec3d{0, 1, 0}));
 }
 
-// Radians between neighbors of a table of degrees that is stretched over so many pixels.
+// Mean step in radians between the entries of a table of degrees that is stretched over `pixels`
+// pixels.
 double meanStep(const std::vector<float>& degrees, int pixels) {
   constexpr double kLeast = 1e-6;  // of a table with one entry
   if (degrees.empty()) return kLeast;
@@ -52,13 +53,15 @@ double meanStep(const std::vector<float>& degrees, int pixels) {
   return std::max(std::abs(span) * (std::numbers::pi / 180) / pixels, kLeast);
 }
 
-// Tangents or radians that one pixel spans in a picture of this size, at its center.
+// Extent of a pixel at the center of a picture of this size, in the units of the projection:
+// tangents or radians.
 std::array<double, 2> pixelSteps(const Camera& camera, const CameraFrame& frame, int width,
                                  int height) {
   if (!camera.k.empty() && hasMatrix(camera)) {
     return {camera.kSize[0] / (double{camera.k[0]} * width),
             camera.kSize[1] / (double{camera.k[1]} * height)};
   }
+
   const double radius = std::min(width, height) / 2.0;  // of a fisheye's image circle
   switch (camera.projection) {
     case Projection::perspective:
@@ -75,6 +78,8 @@ std::array<double, 2> pixelSteps(const Camera& camera, const CameraFrame& frame,
     case Projection::cubeMap:
       return {2.0 / width, 2.0 / height};
   }
+
+  // An orthographic picture has its height in scene units, another one a vertical field of view.
   const double asked = camera.fov;
   const double fov = asked > kLeastFov ? std::min(asked, kLargestFov) : kLeastFov;
   const double pixel = (frame.orthographic ? double{camera.orthographicHeight}
@@ -89,7 +94,7 @@ bool turnsEyes(const Camera& camera) {
   return isStereo(camera) && byAzimuth;
 }
 
-// The views of a stereo pair or of a cube map: right, left, up, down, forward, backward, each as it
+// Views of a stereo pair, or of a cube map: right, left, up, down, forward and backward, each as it
 // is seen when one turns there from the forward view.
 std::vector<CameraView> viewsOf(const Camera& camera, const CameraFrame& frame) {
   const Vec3d &f = frame.forward, &r = frame.right, &u = frame.up;
@@ -103,6 +108,7 @@ std::vector<CameraView> viewsOf(const Camera& camera, const CameraFrame& frame) 
             {{}, f, r, u},
             {{}, -f, -r, u}};
   }
+
   if (!isStereo(camera)) return {};
   const Vec3d aside = turnsEyes(camera) ? Vec3d() : normalized(r) * (camera.eyeDistance / 2.0);
   return {{-aside, f, r, u}, {aside, f, r, u}};
@@ -116,6 +122,7 @@ Camera fitted(Camera camera, double pictureAspect) {
   if (!(growth > 1)) return camera;
 
   constexpr double kHalfInRadians = std::numbers::pi / 360;
+  // The tangent of half the angle grows with the height of the picture.
   const double half = std::tan(camera.fov * kHalfInRadians) * growth;
   camera.fov = static_cast<float>(std::atan(half) / kHalfInRadians);
   camera.orthographicHeight = static_cast<float>(camera.orthographicHeight * growth);
@@ -131,22 +138,28 @@ double Camera::focusDistance() const {
 Camera cameraAt(const std::vector<Keyframe>& path, double time) {
   if (!(time > path.front().time)) return path.front().camera;
   if (time >= path.back().time) return path.back().camera;
-  // The first keyframe after `time`; there is one on either side.
+  // `next` is the first keyframe after `time`. The path has keyframes on both sides of it.
   std::size_t next = 1;
   while (!(path[next].time > time)) ++next;
   const Keyframe &a = path[next - 1], &b = path[next];
+
   const double seconds = static_cast<double>(b.time) - a.time, s = (time - a.time) / seconds;
+  // Catmull-Rom splines are Hermite splines whose tangents come from the neighboring keyframes.
   const auto along = [&](Vec3f Camera::*point) {
     return hermite(Vec3d(a.camera.*point), velocity(path, next - 1, point) * seconds,
                    Vec3d(b.camera.*point), velocity(path, next, point) * seconds, s);
   };
+
+  // All members are interpolated linearly; eye and target are then replaced by points of splines.
   Camera camera = a.camera;
   forEachMember<Camera>([&](const auto& member) {
     auto& value = camera.*member.field;
     value = between(value, b.camera.*member.field, s);
   });
+
   camera.eye = along(&Camera::eye);
   camera.at = along(&Camera::at);
+
   // A plane through `at` and one that is given by its distance are mixed by their distances.
   if ((a.camera.focus > 0) != (b.camera.focus > 0)) {
     camera.focus =
@@ -158,36 +171,49 @@ Camera cameraAt(const std::vector<Keyframe>& path, double time) {
 CameraFrame makeCameraFrame(const Camera& camera, int width, int height) {
   // Closer to parallel than this, rounding of the float `up` decides where it points.
   constexpr double kParallel = 1e-6;
+
   const Vec3d eye = isFinite(camera.eye) ? Vec3d(camera.eye) : Vec3d{};
   const Vec3d forward = normalized(Vec3d(camera.at) - eye, Vec3d{0, 0, -1});
   const Vec3d across = cross(forward, normalized(Vec3d(camera.up)));
   const Vec3d right = length(across) > kParallel ? normalized(across) : fallbackRight(forward);
+
   CameraFrame frame{eye, forward, right, cross(right, forward), width, height, {}};
   frame.projection = camera.projection;
   frame.orthographic = isPerspective(camera) && camera.orthographicHeight > 0;
   if (isFisheye(camera)) frame.limit = camera.angle * (std::numbers::pi / 360);
+
+  // The views of a cube map or of a stereo pair share the picture in a grid.
   const bool cube = camera.projection == Projection::cubeMap, inRow = width >= 4 * height;
   const int columns = cube ? (inRow ? 6 : 3) : camera.stereo == Stereo::leftRight ? 2 : 1;
   const int rows = cube ? (inRow ? 1 : 2) : camera.stereo == Stereo::topBottom ? 2 : 1;
   frame.viewColumns = columns, frame.viewRows = rows;
   const int w = frame.viewWidth = std::max(width / columns, 1);
   const int h = frame.viewHeight = std::max(height / rows, 1);
+
+  // From here on, `right` and `up` span one pixel.
   const Camera seen = fitted(camera, static_cast<double>(w) / h);
   const auto [stepX, stepY] = pixelSteps(seen, frame, w, h);
   frame.right = frame.right * stepX;
   frame.up = frame.up * stepY;
+
   frame.centerX = w / 2.0, frame.centerY = h / 2.0;
+  // The matrix gives the image position of the optical axis, in pixels whose centers lie at whole
+  // numbers. Centers lie at half-integers here.
   if (!camera.k.empty() && hasMatrix(camera)) {
     const double scaleX = w / double{camera.kSize[0]}, scaleY = h / double{camera.kSize[1]};
     frame.centerX = (double{camera.k[2]} + 0.5) * scaleX;
     frame.centerY = (double{camera.k[3]} + 0.5) * scaleY;
     if (camera.k.size() > 4) frame.skew = double{camera.k[4]} * scaleX * stepY;
   }
+
   if (isDistorted(camera) && !frame.orthographic) {
     std::ranges::copy(camera.distortion, frame.distortion.begin());
     frame.distorted = std::ranges::any_of(frame.distortion, [](double c) { return c != 0; });
   }
   if (isTable(camera)) frame.azimuths = camera.azimuths, frame.elevations = camera.elevations;
+
+  // `reach` bounds the points where rays start: in a plane, at two eyes, or on the circle on which
+  // these turn.
   frame.views = viewsOf(camera, frame);
   if (frame.orthographic) frame.reach = abs(frame.right * (w / 2.0)) + abs(frame.up * (h / 2.0));
   if (!frame.views.empty()) frame.reach += abs(frame.views.front().aside);
@@ -195,6 +221,7 @@ CameraFrame makeCameraFrame(const Camera& camera, int width, int height) {
     frame.turning = camera.eyeDistance / 2.0;
     frame.reach += (abs(right) + abs(forward)) * frame.turning;
   }
+
   if (!camera.hasLens() || !isPerspective(camera)) return frame;
   frame.aperture = camera.aperture;
   const double focus = camera.focusDistance();

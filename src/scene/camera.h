@@ -54,8 +54,8 @@ struct Camera {
   double focusDistance() const;
 };
 
-// The camera with the fov and orthographicHeight that a picture of this width over height shows,
-// and without aspect.
+// Returns the camera without aspect, with the fov and orthographicHeight that a picture of this
+// aspect ratio (width over height) shows.
 Camera fitted(Camera camera, double pictureAspect);
 
 // Compares all members but the name.
@@ -70,7 +70,7 @@ struct Keyframe {
 // members. Clamped to the ends. Needs at least one keyframe, in order of time.
 Camera cameraAt(const std::vector<Keyframe>& path, double time);
 
-// One of the pictures of equal size that a stereo pair or a cube map consists of.
+// One of the views of equal size that make up a stereo pair or a cube map.
 struct CameraView {
   Vec3d aside, forward, right, up;
 };
@@ -91,13 +91,13 @@ struct CameraFrame {
   int width = 0, height = 0;
   // Half the sides of the box around the points where rays start; 0: all start at the eye.
   Vec3d reach;
-  // The dielectrics that the eye is inside of, as rays carry them (stages/columns.h); whoever
-  // renders looks for them (reference/media.h).
+  // Dielectrics that contain the eye, in the encoding of rays (stages/columns.h). The renderer
+  // determines them (reference/media.h).
   std::uint32_t media = 0;
   bool orthographic = false;
   bool mediaVary = false;  // each ray may start in others
   double aperture = 0, focus = 1;
-  // Side of the square that one ray stands for in texture lookups, in pixels: less than 1 where
+  // Side of the square that a ray represents in texture lookups, in pixels. It is less than 1 where
   // several samples of a pixel are averaged.
   double footprint = 1;
   Projection projection = Projection::perspective;
@@ -106,14 +106,14 @@ struct CameraFrame {
   bool distorted = false;
   double limit = 0;  // angle to the axis beyond which a fisheye sees nothing
   std::vector<float> azimuths = {}, elevations = {};  // degrees
-  // Row by row; empty: the whole picture is one. Each is viewWidth pixels wide.
+  // Views row by row, each viewWidth pixels wide; empty if the whole picture is one view.
   std::vector<CameraView> views = {};
   int viewWidth = 0, viewHeight = 0, viewColumns = 1, viewRows = 1;
-  // Radius of the circle that the eyes of stereo panoramas turn on, about `eye`: for each azimuth
-  // they stand side by side. 0: they stand where the views say.
+  // Radius of the circle about `eye` on which the eyes of stereo panoramas turn: for each azimuth
+  // they stand side by side. 0 if the views give the positions of the eyes.
   double turning = 0;
 
-  // True if the sum above is the direction.
+  // True if the sum above is the direction of the ray.
   bool isStraight() const {
     return projection == Projection::cubeMap ||
            (projection == Projection::perspective && !distorted);
@@ -121,17 +121,17 @@ struct CameraFrame {
   // True if one matrix maps the scene to the picture.
   bool isLinear() const { return isStraight() && views.empty(); }
 };
-// The ray generators invert a lens's distortion by so many of Newton's steps. A solution is taken
-// if the lens images it this near, in focal lengths; otherwise the ray sees nothing.
+// Ray generators invert a lens's distortion by this many steps of Newton's method. A solution is
+// accepted if the lens images it within kLensError, in focal lengths; otherwise the ray sees
+// nothing.
 inline constexpr int kLensSteps = 10;
 inline constexpr double kLensError = 1e-5;
-// Distinguishes the random numbers that choose points of the lens (sampling/random_streams.h).
+// Salt of the random numbers that choose points of the lens (sampling/random_streams.h).
 inline constexpr std::uint32_t kLensSalt = 0x3c1d5e97u;
 
 CameraFrame makeCameraFrame(const Camera& camera, int width, int height);
 
-// The footprint of a ray: how wide it is where the ray starts, and how much wider with each unit of
-// the way.
+// Footprint of a ray: its width at the start, and the growth of the width per unit of distance.
 struct RayCone {
   double width = 0, spread = 0;
   double widthAt(double way) const { return width + spread * way; }

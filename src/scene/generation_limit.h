@@ -10,7 +10,8 @@
 
 namespace whit {
 
-// While it lives, what its thread generates takes at most `bytes`. Without one there is no limit.
+// While an object lives, everything that its thread generates takes at most `bytes`. Without one
+// there is no limit.
 class GenerationLimit {
  public:
   explicit GenerationLimit(std::uint64_t bytes) : before_(left_) { left_ = bytes; }
@@ -18,7 +19,7 @@ class GenerationLimit {
   GenerationLimit(const GenerationLimit&) = delete;
   GenerationLimit& operator=(const GenerationLimit&) = delete;
 
-  // Before the memory is taken: throws Error(limit) when count * size bytes do not fit.
+  // Called before the memory is taken. Throws Error(limit) when count * size bytes do not fit.
   static void require(std::uint64_t count, std::uint64_t size) {
     if (count <= left_ / size) return;
     throwLimit("a shape or a pattern needs more than the " + std::to_string(left_) +

@@ -18,18 +18,21 @@ RgbD texel(const EnvironmentImage& image, int x, int y) {
   return {image.r[i], image.g[i], image.b[i]};
 }
 
-// Bilinear along `d` in an image that starts at -z and the zenith: in the `rows` rows from
-// `first` on.
+// Bilinear lookup in direction `d`. The image occupies `rows` rows from `first` on; its columns
+// start at -z and its rows at the zenith.
 RgbD lookUp(const EnvironmentImage& image, double rotation, const Vec3d& d, int first, int rows) {
   const double u = std::atan2(d.x, -d.z) / (2 * std::numbers::pi) + rotation / 360.0;
   // Unlike acos this keeps its precision near the poles.
   const double v = std::atan2(std::hypot(d.x, d.z), d.y) / std::numbers::pi;
+
+  // Texel centers lie at half-integers. Columns wrap around, rows end at the poles.
   const double x = (u - std::floor(u)) * image.width - 0.5;
   const double y = first + std::clamp(v * rows - 0.5, 0.0, rows - 1.0);
   const double x0 = std::floor(x), y0 = std::floor(y);
   const int left = x0 < 0 ? image.width - 1 : static_cast<int>(x0);
   const int right = left + 1 < image.width ? left + 1 : 0;
   const int top = static_cast<int>(y0), bottom = std::min(top + 1, first + rows - 1);
+
   const double s = x - x0, t = y - y0;
   return (texel(image, left, top) * (1 - s) + texel(image, right, top) * s) * (1 - t) +
          (texel(image, left, bottom) * (1 - s) + texel(image, right, bottom) * s) * t;
@@ -61,16 +64,18 @@ EnvironmentImage columnOf(const Sky& sky) {
   return column;
 }
 
-// A plane of the image in fewer texels: means over their solid angles.
+// Shrinks a plane of the image. Texels are means over the solid angle that they cover.
 std::vector<float> shrunk(const std::vector<float>& plane, const EnvironmentImage& image, int width,
                           int height) {
   std::vector<float> means;
   for (int y = 0; y < height; ++y) {
     const int top = y * image.height / height;
     const int bottom = std::max(top + 1, (y + 1) * image.height / height);
+
     for (int x = 0; x < width; ++x) {
       const int left = x * image.width / width;
       const int right = std::max(left + 1, (x + 1) * image.width / width);
+
       double sum = 0, weights = 0;
       for (int row = top; row < bottom; ++row) {
         const double weight = sineOf(polarAngle(row, image.height));
@@ -92,24 +97,34 @@ std::vector<float> blurs(std::vector<float> plane, int width) {
   for (auto row = plane.begin(); row != plane.end(); row += width) {
     for (int turn = 0; turn < 2; ++turn) around.insert(around.end(), row, row + width);
   }
+
   std::vector<double> cosines(static_cast<std::size_t>(width));
   for (double turn = 0; double& cosine : cosines) {
     cosine = cosineOf(2 * std::numbers::pi * turn++ / width);
   }
+
   for (int level = 1; level < kSkyBlurs; ++level) {
     const double roughness = level / (kSkyBlurs - 1.0), alpha = roughness * roughness;
     const double a2 = alpha * alpha;
+
     for (int y = 0; y < kBlurRows; ++y) {
       const double polar = polarAngle(y, kBlurRows);
       std::vector<float> sums(static_cast<std::size_t>(width));
       double weights = 0;
+
+      // Every texel of a row sees the same weights, shifted by its column, so the weights are
+      // computed once a row.
       for (int from = 0; from < kBlurRows; ++from) {
         const double other = polarAngle(from, kBlurRows);
         const double toPole = cosineOf(polar) * cosineOf(other);
         const double aside = sineOf(polar) * sineOf(other), area = sineOf(other);
+
         for (int turn = 0; turn < width; ++turn) {
           const double cosine = toPole + aside * cosines[static_cast<std::size_t>(turn)];
           if (!(cosine > 0)) continue;
+
+          // The GGX distribution. The view is along the normal, so that the half vector's squared
+          // cosine is (1 + cosine) / 2.
           const double spread = 1 - (1 - a2) * (1 + cosine) / 2;
           const double weight = area * cosine / (spread * spread);
           weights += weight;
@@ -128,7 +143,7 @@ std::vector<float> blurs(std::vector<float> plane, int width) {
 RgbD hemisphereMean(const EnvironmentImage& image, bool upper) {
   RgbD sum;
   for (int y = 0; y < image.height; ++y) {
-    // Polar angles, measured from the pole in question and cut at the horizon.
+    // Polar angles are measured from the pole of the hemisphere and cut at the horizon.
     const int row = upper ? y : image.height - 1 - y;
     const double a = std::numbers::pi * y / image.height,
                  b = std::min(std::numbers::pi * (y + 1) / image.height, std::numbers::pi / 2);
@@ -151,7 +166,9 @@ Vec3d towards(const Light& light, const Vec3d& position) {
 SpotCone coneOf(const Light& light) {
   const double inner = std::cos(light.innerConeAngle * std::numbers::pi / 180);
   const double outer = std::cos(light.outerConeAngle * std::numbers::pi / 180);
-  // The extension's least width, 0.001, but not for cones that it would dim at their axis.
+
+  // KHR_lights_punctual divides by at least 0.001. Narrow cones have a smaller limit, because that
+  // one would dim them at their axis.
   const double least = std::min(0.001, 0.1 * (1 - outer));
   return {normalized(Vec3d(light.direction)), outer, 1 / std::max(least, inner - outer)};
 }
@@ -197,6 +214,7 @@ RgbD blurredRadiance(const Sky& sky, const EnvironmentImage& blurred, const Vec3
 Ambient ambientFromSky(const Sky& sky, double strength, Ambient before) {
   // The cosine-weighted mean of the sine of the elevation: integral of 2 y * y over [0, 1].
   constexpr double kMeanSine = 2.0 / 3.0;
+
   RgbD up, down;
   switch (sky.kind) {
     case Sky::Kind::none:
@@ -212,6 +230,7 @@ Ambient ambientFromSky(const Sky& sky, double strength, Ambient before) {
       up = hemisphereMean(sky.image, true);
       down = hemisphereMean(sky.image, false);
   }
+
   const double factor = strength * sky.scale;
   before.up = Rgb(up * factor);
   before.down = Rgb(down * factor);

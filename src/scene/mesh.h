@@ -29,10 +29,10 @@ struct Mesh {
   // Not none: it bends while the scene moves, and has the vertices of its start here.
   std::shared_ptr<const Deformation> deformation;
 
-  // Where it stands in the order of the scene, counted from Instance::rank.
+  // Position in the order of the scene, counted from Instance::rank.
   std::uint64_t rank = 0;
-  // The item of the scene that it is part of, counted from Instance::firstItem. Meshes of one item
-  // follow each other.
+  // Item of the scene that the mesh is part of, counted from Instance::firstItem. Meshes of one
+  // item follow each other.
   std::uint32_t item = 0;
 
   std::uint32_t material(std::size_t triangle) const {
@@ -58,9 +58,9 @@ struct Instance {
   std::uint64_t firstItem = 0;    // see SceneDescription::items
 };
 
-// Applies `map` to positions, normals (rounded once) and spheres, flips the winding if it mirrors.
-// Normals come out as unit vectors, zero where they have no direction. The identity leaves
-// positions alone. What lengths a map that stretches space gives to the normals follows from
+// Applies `map` to positions, normals (rounded once) and spheres, and reverses the winding if the
+// map mirrors. Normals become unit vectors, or zero where they have no direction. The identity
+// leaves positions alone. The lengths that a stretching map gives to normals follow from
 // Mesh::fromModel (makeNormalRecord).
 void transform(Mesh& mesh, const Affine& map);
 

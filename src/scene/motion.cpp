@@ -24,23 +24,31 @@ std::vector<double> blended(Values a, double weightOfA, Values b, double weightO
   return sum;
 }
 
-// Along the shorter of the two arcs; nearly parallel ones straight, where the arc's sine is lost.
+// Spherical linear interpolation along the shorter arc (Shoemake 1985). Nearly parallel quaternions
+// are interpolated linearly, because the sine of their arc is lost in rounding.
 std::vector<double> slerped(Values a, Values b, double t) {
   constexpr double kNearlyParallel = 1 - 1e-9;
   double cosine = 0;
   for (std::size_t i = 0; i < a.size(); ++i) cosine += a[i] * b[i];
+
+  // A quaternion and its negative are the same rotation; `side` chooses the nearer one.
   const double side = cosine < 0 ? -1 : 1;
   cosine = std::min(std::fabs(cosine), 1.0);
   if (cosine > kNearlyParallel) return blended(a, 1 - t, b, side * t);
+
   const double angle = std::acos(cosine), sine = std::sin(angle);
   return blended(a, std::sin((1 - t) * angle) / sine, b, side * std::sin(t * angle) / sine);
 }
 
+// Cubic Hermite spline between two keys. Tangents are per second and are scaled by the time between
+// the keys.
 std::vector<double> splined(const Track& track, std::size_t key, double t) {
   const double span = track.times[key + 1] - track.times[key];
   const double t2 = t * t, t3 = t2 * t;
+
   const Values a = valueOf(track, key), behind = valuesOf(track, key, 2);
   const Values b = valueOf(track, key + 1), before = valuesOf(track, key + 1, 0);
+
   std::vector<double> sum(track.components);
   for (std::size_t i = 0; i < sum.size(); ++i) {
     sum[i] = (2 * t3 - 3 * t2 + 1) * a[i] + span * (t3 - 2 * t2 + t) * behind[i] +
@@ -88,6 +96,7 @@ Affine scaled(const Affine& map, double by) {
   return {map.x * by, map.y * by, map.z * by, map.p * by};
 }
 
+// Linear blend skinning: the mean of the joints' transforms, weighted by the influences.
 Affine blended(const std::vector<Affine>& joints, const Influence* begin, const Influence* end) {
   Affine map{{}, {}, {}, {}};
   double sum = 0;
@@ -105,13 +114,16 @@ Affine blended(const std::vector<Affine>& joints, const Influence* begin, const 
 std::vector<double> valueAt(const Track& track, double time) {
   const auto next = std::ranges::upper_bound(track.times, time);
   const auto after = static_cast<std::size_t>(next - track.times.begin());
+
   std::vector<double> value;
+  // Before the first key and after the last one the value is constant.
   if (after == 0 || after == track.times.size()) {
     const Values end = valueOf(track, after == 0 ? 0 : after - 1);
     value.assign(end.begin(), end.end());
   } else {
     value = between(track, after - 1, time);
   }
+
   if (track.rotation) normalize(value);
   return value;
 }
@@ -122,6 +134,7 @@ std::vector<Affine> poseRig(const Rig& rig, double seconds) {
   for (const RigNode& node : rig) {
     Affine pose = node.toParent;
     if (node.motion) pose = pose * (*node.motion)(seconds);
+    // Parents come before their children, so their poses are known.
     if (node.parent != kNoNode) pose = poses[node.parent] * pose;
     poses.push_back(pose);
   }
@@ -149,11 +162,14 @@ DeformationPose poseAt(const Deformation& deformation, double seconds) {
 DeformedVertices deformVertices(const Deformation& deformation, const DeformationPose& pose) {
   std::vector<Vec3d> positions = widened(deformation.positions);
   std::vector<Vec3d> normals = widened(deformation.normals);
+
+  // Morph targets come first, as in glTF. All sums are in double and are rounded once, at the end.
   for (std::size_t i = 0; i < std::min(pose.weights.size(), deformation.targets.size()); ++i) {
     if (pose.weights[i] == 0) continue;
     add(deformation.targets[i].positions, pose.weights[i], positions);
     add(deformation.targets[i].normals, pose.weights[i], normals);
   }
+
   DeformedVertices bent;
   if (deformation.hasSkin()) {
     bent.sides.assign(positions.size(), 1);
@@ -166,6 +182,7 @@ DeformedVertices deformVertices(const Deformation& deformation, const Deformatio
       if (map.determinant() < 0) bent.sides[i] = -1;
     }
   }
+
   bent.positions.reserve(positions.size());
   for (const Vec3d& position : positions) bent.positions.emplace_back(position);
   bent.normals.reserve(normals.size());

@@ -18,7 +18,7 @@
 
 namespace whit {
 
-// A value that changes with time, by keys. glTF 2.0 specification, appendix C.
+// Value that changes with time, given by keyframes. glTF 2.0 specification, appendix C.
 struct Track {
   // cubic: Hermite splines through the keys, each with a tangent before and behind it.
   enum class Interpolation { step, linear, cubic };
@@ -34,14 +34,14 @@ struct Track {
   std::vector<double> values;
 };
 
-// Clamped to the first and the last key.
+// Returns the value at a time, which is clamped to the first and the last key.
 std::vector<double> valueAt(const Track& track, double time);
 
-// Where something is after some seconds, in the space that it moves in.
+// Transform at a time, to the space in which the motion takes place.
 using Motion = std::function<Affine(double seconds)>;
 using SharedMotion = std::shared_ptr<const Motion>;
 
-// At all times the same.
+// Returns a motion that is the same at all times.
 inline SharedMotion fixedMotion(const Affine& map) {
   return std::make_shared<const Motion>([map](double) { return map; });
 }
@@ -58,7 +58,7 @@ struct RigNode {
 // A hierarchy of frames of reference that move, each in the frame of its parent.
 using Rig = std::vector<RigNode>;
 
-// From each node's own space to that of the rig.
+// Returns the maps from each node's own space to that of the rig.
 std::vector<Affine> poseRig(const Rig& rig, double seconds);
 
 // Name of the animation that scene files describe themselves ("motion").
@@ -93,7 +93,7 @@ struct MorphTarget {
   std::vector<Vec3f> positions, normals;  // by how much each is moved; empty: not at all
 };
 
-// A joint's share in a vertex. The weights of a vertex are scaled to the sum 1.
+// Influence of a joint on a vertex. The weights of a vertex are scaled to the sum 1.
 struct Influence {
   std::uint32_t joint = 0;
   double weight = 0;
@@ -135,7 +135,7 @@ struct DeformationPose {
 };
 DeformationPose poseAt(const Deformation& deformation, double seconds);
 
-// Morph targets first, then joints.
+// Applies morph targets first, then joints.
 DeformedVertices deformVertices(const Deformation& deformation, const DeformationPose& pose);
 
 }  // namespace whit

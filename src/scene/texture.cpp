@@ -34,6 +34,9 @@ std::uint32_t dataCode(float value) {
 
 void copyTexels(const Texture& t, std::uint32_t* to) {
   if (t.strips) std::copy_n(t.strips.get() + t.firstTexel, t.packedSize(), to);
+
+  // The columns of a strip overlap those of the next by one, so that each footprint lies in one
+  // strip.
   for (int first = -1; !t.strips && first < t.width; first += kTexelCells) {
     std::array<int, kTexelStrip> columns{};
     for (int column = first; int& from : columns) from = wrapTexel(column++, t.width, t.wrapU);
@@ -63,6 +66,7 @@ Texture emptyTexture(const std::string& name, TexelFormat format, int width, int
 void packTextures(std::vector<Texture>& textures, int threads) {
   std::vector<std::size_t> begins;
   std::size_t total = 0;
+
   for (const Texture& t : textures) {
     if (std::max(t.width, t.height) > kTextureSideLimit) {
       throwLimit("texture '" + t.name + "' has more than 2^20 texels a side");
@@ -72,12 +76,15 @@ void packTextures(std::vector<Texture>& textures, int threads) {
     if (total > 0x7fffffffu) throwLimit("textures hold more than 2^31 texels");
   }
   if (total == 0) return;
+
   HugePageAllocator<std::uint32_t> memory;
   const std::shared_ptr<std::uint32_t[]> strips(
       memory.allocate(total), [=](std::uint32_t* all) mutable { memory.deallocate(all, total); });
+
   parallelFor(threads, textures.size(), [&](std::size_t i, int) {
     Texture& t = textures[i];
     copyTexels(t, strips.get() + begins[i]);
+    // The copied texels are freed at once, so that few textures are in memory twice.
     t.texels = std::vector<std::uint32_t>();
     t.strips = strips;
     t.firstTexel = begins[i];
@@ -95,14 +102,17 @@ std::uint32_t encodeDataTexel(float r, float g, float b, float a) {
 std::uint32_t encodeRadianceTexel(const Rgb& radiance) {
   const auto held = [](float x) { return x > 0 ? std::min(x, kLargestRadianceTexel) : 0.0f; };
   const Rgb value{held(radiance.x), held(radiance.y), held(radiance.z)};
+
   int exponent = 0;
   std::frexp(maxComponent(value), &exponent);
-  // So that the largest code has its top bit, or all bits where it is next to black.
+  // The exponent gives the largest code its top bit; near black it is 0.
   exponent = std::max(exponent + kRadianceUnit - 9, 0);
+
   const auto code = [&](float x) {
     return static_cast<std::uint32_t>(std::lround(std::ldexp(x, kRadianceUnit - exponent)));
   };
   if (code(maxComponent(value)) > kRadianceMax) ++exponent;  // rounded up to the next power of two
+
   return code(value.x) | code(value.y) << 9 | code(value.z) << 18 |
          static_cast<std::uint32_t>(exponent) << 27;
 }

@@ -79,19 +79,19 @@ struct Texture {
   }
 };
 
-// The texel that a wrap mode names, up to one row or column beyond the borders.
+// Returns the index that a wrap mode gives a texel up to one row or column beyond the borders.
 int wrapTexel(int texel, int size, Wrap wrap);
 
-// A texture whose texels are 0.
+// Returns a texture whose texels are 0.
 Texture emptyTexture(const std::string& name, TexelFormat format, int width, int height);
 
-// Moves the texels of all textures into strips that they share, one texture after the other, so
-// that they are hardly ever in memory twice. Throws Error(limit) when a 31-bit index does not reach
-// them.
+// Moves the texels of all textures into strips in one block of memory, one texture after the other,
+// so that few texels are in memory twice. Throws Error(limit) when a 31-bit index does not reach
+// all texels.
 void packTextures(std::vector<Texture>& textures, int threads);
 
-// One texel of each format from channels in [0, 1], of radiance to kLargestRadianceTexel;
-// out-of-range and NaN channels are clamped.
+// Each function encodes a texel from channels in [0, 1], or radiance up to kLargestRadianceTexel.
+// Out-of-range and NaN channels are clamped.
 std::uint32_t encodeColorTexel(const Rgb& linear);
 std::uint32_t encodeDataTexel(float r, float g, float b, float a);
 std::uint32_t encodeRadianceTexel(const Rgb& radiance);
