@@ -126,10 +126,10 @@ mutations() {
         : hn::LoadU(d, WordsOf<kWidth>(to, i) + packet_column::tFar * kWidth);
     if (!from.tFar) tFar = hn::IfThenElse(hn::Gt(tFar, hn::Zero(d)), tFar, hn::Inf(d));'
   plant stale-hit src/accel/accel.cpp \
-    'says that there is none.
-    for (std::size_t p = 0;' \
-    'says that there is none.
-    for (std::size_t p = 0; begin == 0 &&'
+    '++p) {
+      std::fill_n(group.packets[p].hit.geomID' \
+    '++p) {
+      if (begin == 0) std::fill_n(group.packets[p].hit.geomID'
   plant off-by-one-tail simd/packets.cpp \
     'hn::FirstN(d, i < n ? n - i : 0)' 'hn::FirstN(d, i < n ? n - i - (n > 1 ? 1 : 0) : 0)'
   plant bad-rays-traced simd/packets.cpp \
