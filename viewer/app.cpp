@@ -28,6 +28,7 @@ App::App(const ViewOptions& options, const std::shared_ptr<OpenScene>& scene, Wi
   static_cast<KeptSettings&>(settings_) = kept;
   rememberRecent(options.scene, settings_.recent);
   settings_.tab = kept.tabShown;
+
   say(control_.orbits() ? "H: help. Drag to orbit, Shift to pan, wheel to move closer"
                         : "H: help. Drag to look around, W A S D to walk");
   messageSeconds_ = std::numeric_limits<double>::infinity();  // until a key or a click
@@ -43,13 +44,18 @@ bool App::step() {
   const bool fresh = fetchFrame();
   window_.poll(0);  // the next picture includes what the user did until this one came
   const double seconds = tick();
+
+  // A script takes the place of the user's events.
   if (scripted_) {
     window_.input = Input();
     if (!scripted_->act(sharp_, window_.input, settings_)) return false;
   }
+
+  // The next picture is requested first, so that it is traced while this one is drawn.
   handleInput();
   servePanel();
-  advance(keysAndDrags(), seconds);  // before drawing, which the next picture need not wait for
+  advance(keysAndDrags(), seconds);
+
   if (fresh) showPicture();
   if (worthDrawing(fresh, seconds)) draw();
   window_.input.endFrame();
@@ -61,6 +67,8 @@ double App::waitSeconds() const {
   if (scripted_) return thread_.busy() ? ScriptedUser::kSecondsPerFrame : 0;
   if (drawAgain_ > 0) return 0;
   if (thread_.committed()) return kUndrawnSeconds;  // no request is taken until it is finished
+
+  // While something moves the loop keeps the frame rate; otherwise events wake it.
   const bool active = !window_.input.held.empty() || isActive();
   return active ? 1 / resolution_.rate() : kIdleSeconds;
 }
@@ -72,6 +80,7 @@ bool App::worthDrawing(bool fresh, double seconds) {
   const bool awaited = thread_.committed() && undrawnSeconds_ < kUndrawnSeconds;
   const bool wanted = fresh || drawAgain_ > 0 || scripted_;
   if (awaited && !wanted) return false;
+
   undrawnSeconds_ = 0;
   return true;
 }
@@ -94,13 +103,17 @@ void App::showPicture() {
 
 void App::drawPanel() {
   if (!settings_.shown || !shown_.scene) return;
+
   const PanelSettings before = settings_;
   const bool edited =
       panel_.draw(shown_, rays_, costs_, control_.speed(), settings_, read_.sky, edit_);
+
   if (drawTimeline(settings_.timeline)) {
     restSeconds_ = 0;
     followCamera();
   }
+
+  // A change resets the rest, so that the picture sharpens again from coarse to fine.
   if (edited) passOnEdit();
   if (edited || settings_.options != before.options || settings_.view != before.view) {
     restSeconds_ = 0;
@@ -110,6 +123,7 @@ void App::drawPanel() {
 void App::inspectPointed() const {
   const bool somebodyPoints = !scripted_ || window_.input.pointer;
   if (!settings_.words || !settings_.inspects || !somebodyPoints || !shown_.scene) return;
+
   const auto at = window_.pointed();
   if (!at) return;
   drawInspection(inspect(shown_, window_.pixels(), window_.pixelAt(*at)), at->x, at->y);
@@ -119,12 +133,14 @@ void App::draw() {
   window_.begin();
   if (shown_.scene) drawRayLines(rays_, shown_.request.camera, settings_.rays);
   drawPanel();
+
   const bool says = settings_.words && messageSeconds_ > 0 && error_.empty();
   if (says) drawMessage(message_);
   if (shown_.scene && settings_.words && (settings_.shown || shown_.debug)) {
     drawStatus(shown_, unfinished_ ? &*unfinished_ : nullptr,
                pictureMs_ > 0 ? 1000 / pictureMs_ : 0, says);
   }
+
   inspectPointed();
   if (!error_.empty() && !drawError(error_)) error_.clear();
   window_.end();

@@ -56,10 +56,13 @@ std::span<const KeyHelp> keyHelp() { return kHelp; }
 
 CameraMotion App::keysAndDrags() const {
   const Input& input = window_.input;
+
+  // A pair of opposite keys gives -1, 0 or 1.
   const auto axis = [&](int positive, int negative) {
     return static_cast<double>(input.isHeld(positive)) -
            static_cast<double>(input.isHeld(negative));
   };
+
   CameraMotion motion = motionOf(input, window_.size().height, window_.scale());
   motion.forward = axis(GLFW_KEY_W, GLFW_KEY_S);
   motion.right = axis(GLFW_KEY_D, GLFW_KEY_A);
@@ -72,10 +75,14 @@ CameraMotion App::keysAndDrags() const {
 
 void App::handleInput() {
   Input& input = window_.input;
+  // Dragging takes the camera off the path that it flies along.
   if (input.left.any() || input.right.any() || input.middle.any()) pathTime_.reset();
+
+  // The hint of the start stays until the first key or click.
   const auto clicked = window_.takeClick();
   const bool hinted = std::isinf(messageSeconds_);
   if (hinted && (clicked || !input.pressed.empty() || !input.commands.empty())) messageSeconds_ = 0;
+
   for (const int key : input.pressed) {
     if (flies(key)) pathTime_.reset();
     try {
@@ -84,10 +91,13 @@ void App::handleInput() {
       fail(error.what());
     }
   }
+
+  // These keys were pressed together with Ctrl.
   for (const int key : input.commands) {
     settings_.saveScene |= key == GLFW_KEY_S;
     if (key == GLFW_KEY_C) printView();
   }
+
   if (clicked) click(*clicked);
   if (!input.dropped.empty()) openFile(input.dropped.front());
 }
@@ -134,8 +144,11 @@ void App::handleKey(int key) {
          settings_.timeline.playing = !settings_.timeline.playing;
        }},
   };
+
   const auto found = actions.find(key);
   if (found != actions.end()) found->second();
+
+  // The digits show the cameras of the scene.
   if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9) {
     jumpToNumber(static_cast<std::size_t>(key - GLFW_KEY_1));
   }
@@ -151,6 +164,7 @@ void App::savePicture() {
 
 void App::printView() {
   if (!shown_.scene) return;
+
   const std::string text = command(viewOptions());
   std::printf("%s\n", text.c_str());
   std::fflush(stdout);
@@ -161,6 +175,8 @@ void App::printView() {
 
 void App::saveScene() {
   if (!shown_.scene) return;
+
+  // The lock keeps the animation from moving the scene while it is written.
   const std::lock_guard lock(scene_->moving);
   const SavedScene saved = view::saveScene(options_.common.load, sceneName_, *scene_, edit_,
                                            control_.camera(), viewOptions(), settings_.options);
@@ -171,6 +187,8 @@ void App::saveScene() {
 
 void App::click(const Input::Click& place) {
   if (!shown_.scene) return;
+
+  // A double click takes back what its first click did, and fits the view instead.
   const double slack = kDoubleClickPixels * window_.scale();
   const bool again = clicked_ && clickSeconds_ < kDoubleClickSeconds &&
                      std::abs(place.x - clicked_->x) + std::abs(place.y - clicked_->y) <= slack;
@@ -180,11 +198,15 @@ void App::click(const Input::Click& place) {
     settings_.shown = shownBeforeClick_;
     return fitView(window_.size());
   }
+
+  // A single click picks the pixel and explains its rays in the panel.
   clicked_ = place;
   clickSeconds_ = 0;
   shownBeforeClick_ = settings_.shown;
   const auto [x, y] = window_.pixelAt(place);
   pick(x, y);
+
+  // The scene's tab stays, because it shows the material and the light of the pixel.
   if (!settings_.shown || settings_.tabShown != "scene") settings_.tab = "rays";
   settings_.shown = true;
   settings_.keepClear = static_cast<float>(place.x);

@@ -61,8 +61,12 @@ void drawPresets(RenderOptions& options) {
     RenderOptions preset = options;
     preset.quality = static_cast<Quality>(i);
     applyQuality(preset, {"mode"});  // the reference is too slow here
+
+    // A button is on if the options are those that its preset would choose, whatever quality they
+    // state.
     RenderOptions now = options;
     now.quality = preset.quality;
+
     if (i > 0) ImGui::SameLine();
     if (ImGui::RadioButton(kNames[i], now == preset)) options = preset;
   }
@@ -74,8 +78,11 @@ void drawCost(const std::vector<KnobCost>& costs, const std::string& name) {
   const auto found =
       std::ranges::find_if(costs, [&](const KnobCost& cost) { return cost.name == name; });
   if (found == costs.end() || !found->significant()) return;
+
   ImGui::SameLine();
   ImGui::TextDisabled("%+.1f ms", found->ms());
+
+  // The tooltip compares the numbers of rays with and without the setting.
   if (!ImGui::IsItemHovered()) return;
   const auto rays = [](const FrameStats& stats) { return static_cast<double>(stats.allRays()); };
   ImGui::SetTooltip("%s: %+.0f %% of the rays, against %s", name.c_str(),
@@ -85,6 +92,7 @@ void drawCost(const std::vector<KnobCost>& costs, const std::string& name) {
 
 void drawMeasured(const std::vector<KnobCost>& costs) {
   if (costs.empty()) return;
+
   const std::vector<KnobCost> told = toldFromNoise(costs);
   for (const KnobCost& cost : told) {
     ImGui::BulletText("%s: %s", cost.name.c_str(), costText(cost).c_str());
@@ -98,6 +106,7 @@ void drawOptions(Tab tab, RenderOptions& options, const std::vector<KnobCost>& c
   if (tab == Tab::knobs) drawPresets(options);
   forEachOption(options, [&](const OptionSpec& spec, auto& field) {
     if (spec.tab != tab) return;
+
     drawKnob(spec, field);
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", spec.help.data());
     drawCost(costs, std::string(spec.name));

@@ -23,6 +23,7 @@ void drawLabel(const ImVec2& at, const char* text, float margin = 3, ImU32 color
                ImU32 shade = kShade) {
   const ImVec2 size = ImGui::CalcTextSize(text);
   ImDrawList& list = *ImGui::GetForegroundDrawList();
+
   list.AddRectFilled(ImVec2(at.x - margin, at.y - margin),
                      ImVec2(at.x + size.x + margin, at.y + size.y + margin), shade, margin);
   list.AddText(at, color, text);
@@ -33,6 +34,7 @@ template <typename ColorOf>
 void drawColorBar(const ImVec2& at, float width, ImDrawList& list, const ColorOf& colorOf) {
   constexpr int kSteps = 64;
   const float step = width / kSteps;
+
   for (int i = 0; i < kSteps; ++i) {
     const auto c = colorOf((i + 0.5) / kSteps);
     const float x = at.x + static_cast<float>(i) * step;
@@ -48,9 +50,11 @@ constexpr ImGuiWindowFlags kBare = ImGuiWindowFlags_NoDecoration |
 // Returns the place in the picture, each coordinate from 0 to 1; null: beside the picture.
 std::optional<std::array<double, 2>> placeIn(const ImageSize& madeFor, const ImageSize& window,
                                              const std::array<int, 2>& pixel) {
+  // The picture is centered in the window and keeps its shape.
   const auto shares = sharesFilled(madeFor, window);
   const double x = ((pixel[0] + 0.5) / window.width - 0.5) / shares[0] + 0.5;
   const double y = ((pixel[1] + 0.5) / window.height - 0.5) / shares[1] + 0.5;
+
   if (!(x >= 0 && x < 1 && y >= 0 && y < 1)) return std::nullopt;
   return std::array{x, y};
 }
@@ -68,13 +72,16 @@ std::string inspect(const TracedFrame& frame, const ImageSize& window,
       image.pixels.empty() || display.rgba.size() < 4 * image.pixels.size()) {
     return "";
   }
+
   const auto place = placeIn(madeFor, window, pixel);
   if (!place) return "";
   const auto [shareX, shareY] = *place;
   const int x = indexAt(shareX, image.width), y = indexAt(shareY, image.height);
+
   const std::size_t at = image.index(x, y);
   std::string text =
       formatted("pixel %d, %d", indexAt(shareX, madeFor.width), indexAt(shareY, madeFor.height));
+
   if (frame.debug) {
     text += "\n" + frame.debug->textOf(at);
   } else {
@@ -88,9 +95,12 @@ std::string inspect(const TracedFrame& frame, const ImageSize& window,
 
 void drawInspection(const std::string& lines, double pointerX, double pointerY) {
   if (lines.empty()) return;
+
   constexpr float kMargin = 4;
   const float away = ImGui::GetFontSize();
   const ImVec2 size = ImGui::CalcTextSize(lines.c_str()), window = ImGui::GetIO().DisplaySize;
+
+  // The text is right of and below the pointer, or on the other side where the window ends.
   const auto beside = [&](double pointer, float length, float room) {
     const auto at = static_cast<float>(pointer);
     const bool fits = at + away + length + kMargin <= room;
@@ -105,17 +115,22 @@ void drawStatus(const TracedFrame& frame, const UnfinishedFrame* next, double ra
   const float line = ImGui::GetFontSize() + 2 * kPadding;
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   float y = window.y - kMargin - (raised ? 2 * line : line);
+
+  // Lines are aligned to the right and stacked upwards; draw() returns the left end of its line.
   const auto draw = [&](const std::string& text) {
     const ImVec2 at(window.x - kMargin - ImGui::CalcTextSize(text.c_str()).x, y + kPadding);
     drawLabel(at, text.c_str(), kPadding);
     y -= line;
     return at.x;
   };
+
   std::string text =
       next ? samplesText(*next) : sharpnessText(frame.request) + errorText(frame.sampleError);
   if (rate > 0) text += formatted(", %.0f frames/s", rate);
   draw(text);
   if (!frame.debug) return;
+
+  // A debug view shows its name and its legend, and above them a bar of its colors.
   text = kDebugViewNames[static_cast<std::size_t>(frame.request.view)];
   const std::string legend = frame.debug->legend();
   const float left = draw(legend.empty() ? text : text + ": " + legend);
@@ -136,23 +151,27 @@ bool drawError(const std::string& error) {
   bool open = true;
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos(ImVec2(window.x / 2, window.y - 10), ImGuiCond_Always, ImVec2(0.5f, 1));
+
   if (ImGui::Begin("error", nullptr, kBare)) {
     ImGui::PushTextWrapPos(window.x * 0.9f);
     ImGui::TextColored(ImVec4(1, 0.5f, 0.4f, 1), "%s", error.c_str());
     ImGui::PopTextWrapPos();
     open = !ImGui::Button("dismiss");
   }
+
   ImGui::End();
   return open;
 }
 
 bool drawTimeline(Timeline& timeline) {
   if (!timeline.there) return false;
+
   const float fromBottom = 3.5f * ImGui::GetFontSize();  // messages are below
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos(ImVec2(window.x / 2, window.y - fromBottom), ImGuiCond_Always,
                           ImVec2(0.5f, 1));
   ImGui::SetNextWindowBgAlpha(kPanelAlpha);
+
   bool changed = false;
   if (ImGui::Begin("timeline", nullptr, kBare)) {
     const float line = ImGui::GetFontSize();
@@ -160,9 +179,12 @@ bool drawTimeline(Timeline& timeline) {
       timeline.playing = !timeline.playing;
       changed = true;
     }
+
+    // A time that is set by hand stops the clock.
     ImGui::SameLine();
     auto seconds = static_cast<float>(timeline.seconds);
     ImGui::SetNextItemWidth(std::max(0.3f * window.x, 6 * line));
+
     if (ImGui::SliderFloat("##time", &seconds, 0, static_cast<float>(timeline.length),
                            formatted("%%.2f of %.2f s", timeline.length).c_str(),
                            ImGuiSliderFlags_AlwaysClamp)) {
@@ -170,6 +192,7 @@ bool drawTimeline(Timeline& timeline) {
       timeline.playing = false;
       changed = true;
     }
+
     if (!timeline.animations.empty()) {
       ImGui::SameLine();
       ImGui::SetNextItemWidth(9 * line);
@@ -183,6 +206,7 @@ bool drawTimeline(Timeline& timeline) {
       }
     }
   }
+
   ImGui::End();
   return changed;
 }

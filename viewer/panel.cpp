@@ -35,8 +35,10 @@ void drawRays(const FrameStats& stats, EffectSet effects) {
     ImGui::TableSetupColumn(heading);
   }
   ImGui::TableHeadersRow();
+
   for (std::size_t i = 0; i < kRayKindCount; ++i) {
     if (!kRayKinds[i].calledForBy(effects)) continue;
+
     const RayTally& tally = stats.meter.tally[i];
     drawCell("%s", kRayKinds[i].name.data());
     drawCell("%.1f", static_cast<double>(tally.rays) / 1e3);
@@ -52,12 +54,14 @@ void drawEffects(const TracedFrame& frame, const std::vector<KnobCost>& costs, E
     const auto effect = static_cast<Effect>(i);
     const EffectReason& reason = frame.reasons[static_cast<std::size_t>(i)];
     const std::string name(kEffectNames[static_cast<std::size_t>(i)].name);
+
     bool on = reason.on && !disable.has(effect);
     ImGui::BeginDisabled(!reason.on);
     if (ImGui::Checkbox(name.c_str(), &on)) {
       disable = on ? disable.without(effect) : disable.with(effect);
     }
     ImGui::EndDisabled();
+
     drawCost(costs, name);
     ImGui::SameLine();
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
@@ -90,6 +94,7 @@ void drawKeys() {
   if (!ImGui::BeginTable("keys", 2)) return;
   ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed);
   ImGui::TableSetupColumn("what they do", ImGuiTableColumnFlags_WidthStretch);
+
   for (const KeyHelp& help : keyHelp()) {
     drawCell("%s", help.keys);
     ImGui::TableNextColumn();
@@ -112,6 +117,7 @@ void drawTimes(const TracedFrame& frame) {
   const Image& image = frame.film.image;
   ImGui::Text("%d x %d, %d sample%s a pixel%s", image.width, image.height, frame.request.spp,
               frame.request.spp == 1 ? "" : "s", errorText(frame.sampleError).c_str());
+
   ImGui::Text("%s, packets of %d, %d thread%s", frame.machine.simd.c_str(), frame.machine.packet,
               frame.machine.threads, frame.machine.threads == 1 ? "" : "s");
   ImGui::Text("%.2f ms traced, %.2f in Embree", stats.frameMs, stats.embreeMs());
@@ -125,6 +131,7 @@ bool drawTabs(const TracedFrame& frame, const RayPick& pick, const std::vector<K
     const bool choose = chosen == name;
     if (!ImGui::BeginTabItem(name, nullptr, choose ? ImGuiTabItemFlags_SetSelected : 0)) return;
     settings.tabShown = name;
+
     // The contents of a tab scroll below the row of tabs.
     const float line = ImGui::GetFontSize(), top = ImGui::GetCursorScreenPos().y;
     const float room = ImGui::GetIO().DisplaySize.y - top - 2 * line;
@@ -133,15 +140,19 @@ bool drawTabs(const TracedFrame& frame, const RayPick& pick, const std::vector<K
     ImGui::EndChild();
     ImGui::EndTabItem();
   };
+
   if (!ImGui::BeginTabBar("tabs", ImGuiTabBarFlags_FittingPolicyResizeDown)) return false;
+
   tab("frame", [&] {
     drawStages(frame.stats);
     drawRays(frame.stats, frame.effects);
   });
+
   tab("picture", [&] {
     drawPicture(settings);
     drawView(settings);
   });
+
   tab("knobs", [&] {
     if (settings.measureKnobs) {
       ImGui::ProgressBar(static_cast<float>(frame.measured), ImVec2(-1, 0),
@@ -149,9 +160,11 @@ bool drawTabs(const TracedFrame& frame, const RayPick& pick, const std::vector<K
     } else if (ImGui::Button("measure what each costs (M)")) {
       settings.measureKnobs = true;
     }
+
     drawMeasured(costs);
     drawOptions(Tab::knobs, settings.options, costs);
   });
+
   tab("effects", [&] { drawEffects(frame, costs, settings.options.disable); });
   tab("rays", [&] { drawRayTree(pick, frame, settings.rays); });
   tab("scene", [&] {
@@ -162,6 +175,7 @@ bool drawTabs(const TracedFrame& frame, const RayPick& pick, const std::vector<K
     drawRecent(settings);
     drawKeys();
   });
+
   ImGui::EndTabBar();
   return edited;
 }
@@ -176,6 +190,8 @@ bool Panel::draw(const TracedFrame& frame, const RayPick& pick, const std::vecto
   const float em = ImGui::GetFontSize(), height = std::max(window.y - 2 * kMargin, kMargin);
   const float widest = std::min(em * kWidth, window.x - 2 * kMargin);
   if (width_ == 0) left_ = kMargin, width_ = widest;
+
+  // The panel moves to the wider side of a pixel that it would cover, and shrinks to fit there.
   const auto x = std::exchange(settings.keepClear, std::nullopt);
   const bool covered = x && *x > left_ - kMargin && *x < left_ + width_ + kMargin;
   if (covered) {
@@ -184,15 +200,19 @@ bool Panel::draw(const TracedFrame& frame, const RayPick& pick, const std::vecto
     width_ = std::clamp(room, std::min(em * kLeastWidth, widest), widest);
     left_ = rightwards ? window.x - kMargin - width_ : kMargin;
   }
+
   ImGui::SetNextWindowPos(ImVec2(left_, kMargin), covered ? ImGuiCond_Always : ImGuiCond_Appearing);
   ImGui::SetNextWindowSizeConstraints(ImVec2(width_, 0), ImVec2(width_, height));
   ImGui::SetNextWindowBgAlpha(kPanelAlpha);
+
   bool edited = false;
   if (ImGui::Begin("whit", &settings.shown, ImGuiWindowFlags_AlwaysAutoResize)) {
     drawTimes(frame);
     ImGui::Text("speed %.3g units a second", speed);
     edited = drawTabs(frame, pick, costs, settings, ownSky, scene);
   }
+
+  // The user may have dragged the panel, so its place is read back.
   left_ = ImGui::GetWindowPos().x;
   ImGui::End();
   return edited;

@@ -33,9 +33,9 @@ class Panel {
 // Draws the options that the table of options has in that tab, and presets before those of the
 // knobs.
 void drawOptions(Tab tab, RenderOptions& options, const std::vector<KnobCost>& costs);
-// Draws the cost of that knob or effect beside its control, where it can be told from noise.
+// Draws the cost of that knob or effect beside its control, if it exceeds the noise.
 void drawCost(const std::vector<KnobCost>& costs, const std::string& name);
-// Lists the costs that can be told from noise, the largest first.
+// Lists the costs that exceed the noise, the largest first.
 void drawMeasured(const std::vector<KnobCost>& costs);
 
 // scene_panel.cpp: draws lights, materials, sky and ambient light as controls, and unfolds what was

@@ -77,24 +77,34 @@ int runViewer(const std::vector<std::string>& words, ScriptedUser* scripted) {
   ViewOptions options;
   std::vector<std::string> scenes;
   const cli::OptionList list = listOptions(options, scenes);
+
+  // Requests for documentation need neither a scene nor a display.
   if (words == std::vector<std::string>{"--man"}) {
     showManual(list);
     return 0;
   }
+
   if (words == std::vector<std::string>{"--version"}) {
     std::printf("whit-view %s\n", WHIT_VERSION);
     return 0;
   }
+
   if (words.size() == 2 && words[0] == "--completion") {
     std::fputs(cli::completionScript(words[1], kPage.name).c_str(), stdout);
     return 0;
   }
+
   if (!cli::parseOptions(kUsage, kSummary, list, words)) return 0;
   settleViewOptions(options);
+
+  // Without a scene on the command line the last one is opened again.
   const KeptSettings kept = readKeptSettings();
   if (scenes.empty()) scenes = kept.recent;
   if (scenes.empty()) throwUsage("expected SCENE: " + list.operand.help);
   options.scene = scenes[0];
+
+  // The picture's size is known only when the scene has been read; until then the window has a
+  // default size.
   const Display display;
   const ImageSize room = Display::room(kept.window);
   const auto sizeFor = [&](const ImageSize& picture) {
@@ -103,6 +113,7 @@ int runViewer(const std::vector<std::string>& words, ScriptedUser* scripted) {
   ImageSize opened = sizeFor({Scene().width, Scene().height});
   Window window("whit: " + options.scene, opened);
   LoadingProgress progress;
+
   // This thread draws the window until the other one has read the scene.
   auto loading = std::async(std::launch::async, [&] {
     const std::shared_ptr<OpenScene> scene = openAndTell(options.scene, options.common, &progress);
@@ -112,18 +123,23 @@ int runViewer(const std::vector<std::string>& words, ScriptedUser* scripted) {
     Window::wake();
     return app;
   });
+
   while (loading.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
     if (window.closing()) std::quick_exit(0);  // nothing has been written
     window.begin();
     drawMessage("reading " + options.scene + progress.text());
     window.end();
     window.present();
+
     constexpr double kSecondsBetweenTexts = 0.1;
     window.poll(kSecondsBetweenTexts);
   }
+
   const std::unique_ptr<App> app = loading.get();
   if (opened != window.size()) window.resize(opened);
   app->run();
+
+  // A size that the user has not chosen is not kept, so that the next scene is fitted anew.
   KeptSettings left = app->kept();
   if (!window.isFullScreen() && window.size() != opened) left.window = window.size();
   writeKeptSettings(left);

@@ -33,11 +33,14 @@ void drawLegend(const std::vector<RayLine>& lines) {
     const std::string name(styleOf(look).name);
     const float width =
         side + ImGui::CalcTextSize(name.c_str()).x + ImGui::GetStyle().ItemSpacing.x;
+
+    // A color that does not fit into the line begins the next one.
     if (!first) {
       ImGui::SameLine();
       if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
     }
     first = false;
+
     ImGui::ColorButton(name.c_str(), ImGui::ColorConvertU32ToFloat4(packedColor(look)),
                        ImGuiColorEditFlags_NoTooltip, ImVec2(side, side));
     ImGui::SameLine();
@@ -56,6 +59,7 @@ class RayTreeTab {
     if (view_.lines) drawLegend(pick_.lines);
     view_.pointedAt = kNoCounterpart;
     const float height = std::max(ImGui::GetContentRegionAvail().y, 6 * ImGui::GetFontSize());
+
     ImGui::BeginChild("tree", ImVec2(0, height), false, ImGuiWindowFlags_HorizontalScrollbar);
     for (const std::size_t primary : tree_.primaries) drawNode(primary);
     ImGui::EndChild();
@@ -65,11 +69,14 @@ class RayTreeTab {
   void drawPixel() const {
     const ImageSize size = pick_.query.picture.options.size.value();
     ImGui::Text("pixel %d,%d of %dx%d", pick_.query.x, pick_.query.y, size.width, size.height);
+
     const auto draw = [&](const char* name, const Rgb& pixel) {
       const auto codes = codesOf(pixel, options_);
       ImGui::Text("%-10s%s  codes %d %d %d", name, textOf(RgbD(pixel)).c_str(), codes[0], codes[1],
                   codes[2]);
     };
+
+    // Both renderers trace the pixel, so that a difference between them shows.
     draw("packets", tree_.pixel);
     draw("reference", pick_.rays.reference.pixel);
     ImGui::Text("rays: %zu, shadow rays: %zu", tree_.nodes.size(), tree_.shadowRays());
@@ -89,11 +96,15 @@ class RayTreeTab {
 
   void drawNode(std::size_t number) {
     const RayNode& n = tree_.nodes[number];
+
+    // Rays that add a noticeable share to the pixel begin unfolded.
     const RgbD added = addedBy(tree_, number, n.radiance);
     const double share = maxComponent(added) / std::max(1e-12, double{maxComponent(tree_.pixel)});
+
     ImGui::PushID(static_cast<int>(number));
     ImGui::SetNextItemOpen(share >= kLeastUnfolded, ImGuiCond_Once);
     ImGui::PushStyleColor(ImGuiCol_Text, textColorOf(n.kind));
+
     const std::string text =
         formatted("%s: %s, %d codes", rowOf(n.kind).name.data(), pick_.words[number].met.c_str(),
                   codesAddedBy(tree_, number, options_));
@@ -101,6 +112,7 @@ class RayTreeTab {
         ImGui::TreeNodeEx("node", ImGuiTreeNodeFlags_SpanFullWidth, "%s", text.c_str());
     ImGui::PopStyleColor();
     point(number);
+
     if (open) {
       drawOwn(number);
       for (const std::size_t child : n.children) drawNode(child);
@@ -114,6 +126,7 @@ class RayTreeTab {
     ImGui::BulletText("weight %s, in %s", textOf(tree_.nodes[number].weight).c_str(),
                       words.medium.c_str());
     point(number);
+
     for (const std::string& line : words.lines) {
       ImGui::BulletText("%s", line.c_str());
       point(number);
@@ -130,10 +143,12 @@ void drawDashed(ImDrawList& list, const ScreenLine& l, ImU32 color, float width)
   constexpr double kDash = 5, kPeriod = 9;  // pixels
   const double length = std::hypot(l.x2 - l.x1, l.y2 - l.y1);
   if (!(length > 0)) return;
+
   const double dx = (l.x2 - l.x1) / length, dy = (l.y2 - l.y1) / length;
   const auto at = [&](double way) {
     return ImVec2(static_cast<float>(l.x1 + way * dx), static_cast<float>(l.y1 + way * dy));
   };
+
   for (int dash = 0; dash * kPeriod < length; ++dash) {
     const double begin = dash * kPeriod;
     list.AddLine(at(begin), at(std::min(begin + kDash, length)), color, width);
@@ -155,17 +170,22 @@ void drawRayTree(const RayPick& pick, const TracedFrame& frame, RayView& view) {
 void drawRayLines(const RayPick& pick, const Camera& camera, const RayView& view) {
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   if (!pick.scene || !view.lines || window.x < 1 || window.y < 1) return;
+
   const LineView seen(camera, static_cast<int>(window.x), static_cast<int>(window.y));
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
+
   const auto draw = [&](const RayLine& line, double extra) {
     auto at = seen.see(line.from, line.to);
     if (!at || !clip(*at, double{window.x}, double{window.y})) return;
+
     const auto width = static_cast<float>(line.width + extra);
     const ImU32 color = packedColor(line.look);
+
     if (isDashed(line.look)) {
       drawDashed(list, *at, color, width + 0.5f);
       return;
     }
+
     const ImVec2 from(static_cast<float>(at->x1), static_cast<float>(at->y1));
     const ImVec2 to(static_cast<float>(at->x2), static_cast<float>(at->y2));
     list.AddLine(from, to, IM_COL32(0, 0, 0, 120), width + 2);  // legible on bright ground, too

@@ -32,6 +32,7 @@ bool drawBright(const char* label, const char* strengthLabel, float largest, Rgb
   const bool turned =
       ImGui::SliderFloat(strengthLabel, &strength, 0, largest, "%.3g", kLogarithmic);
   if (!recolored && !turned) return false;
+
   value = color * strength;
   return true;
 }
@@ -43,6 +44,7 @@ template <typename Noun, typename Value>
 bool drawMember(const Member<Noun, Value>& member, Value& value) {
   const auto low = static_cast<float>(member.rules.low);
   const auto high = static_cast<float>(std::min(member.rules.high, member.rules.usual));
+
   if constexpr (std::is_same_v<Value, Light::Kind>) {
     return false;  // the kind decides which members there are
   } else if constexpr (std::is_same_v<Value, bool>) {
@@ -91,21 +93,25 @@ bool drawItems(std::vector<Item>& items, const char* kind, std::size_t& selected
                const Draw& draw) {
   bool changed = false;
   ImGui::PushItemWidth(ImGui::GetFontSize() * 13);
+
   for (std::size_t i = 0; i < items.size(); ++i) {
     const std::string number = std::string(kind) + " " + std::to_string(i + 1);
     const std::string name = items[i].name.empty() ? number : items[i].name;
+
     ImGui::PushID(static_cast<int>(i));
     if (i == selected) {
       ImGui::SetNextItemOpen(true);
       ImGui::SetScrollHereY(0);
       selected = kNoCounterpart;
     }
+
     if (ImGui::TreeNode(kind, "%s", name.c_str())) {
       changed |= draw(items[i]);
       ImGui::TreePop();
     }
     ImGui::PopID();
   }
+
   ImGui::PopItemWidth();
   if (items.empty()) ImGui::TextDisabled("none");
   return changed;
@@ -119,14 +125,18 @@ std::string nameOf(const SkyChoice& sky) {
 bool drawChoice(const SkyChoice& own, SkyChoice& sky) {
   const SkyChoice before = sky;
   if (!ImGui::BeginCombo("sky", nameOf(sky).c_str())) return false;
+
   const auto offer = [&](const SkyChoice& choice) {
     const bool current = choice.source == sky.source;
     if (ImGui::Selectable(nameOf(choice).c_str(), current) && !current) sky = choice;
   };
+
+  // The scene's own sky comes first. If it is one of the two others, it is listed only once.
   offer(own);
   for (const char* source : {kNoSky, kStudio}) {
     if (own.source != source) offer(chooseSky(source));
   }
+
   ImGui::EndCombo();
   return sky != before;
 }
@@ -134,6 +144,7 @@ bool drawChoice(const SkyChoice& own, SkyChoice& sky) {
 bool drawSky(const SkyChoice& own, SkyChoice& sky) {
   bool changed = drawChoice(own, sky);
   if (sky.kind == Sky::Kind::none) return changed;
+
   changed |= ImGui::SliderFloat("brightness", &sky.scale, 0, kLargestScale, "%.3g", kLogarithmic);
   if (sky.kind == Sky::Kind::image) {
     constexpr float kHalfTurn = 180;
@@ -149,15 +160,20 @@ bool drawAmbient(bool skyThere, Ambient& ambient) {
     ambient.ofSky = fromSky ? kUsualShare : 0;
     changed = true;
   }
+
+  // Ambient light from the sky is a multiple of the sky's mean radiance.
   if (ambient.ofSky > 0) {
     constexpr float kLeast = 0.01f, kMost = 10;
     auto share = static_cast<float>(ambient.ofSky);
     if (!ImGui::SliderFloat("times the sky's mean", &share, kLeast, kMost, "%.2f", kLogarithmic)) {
       return changed;
     }
+
     ambient.ofSky = static_cast<double>(share);
     return true;
   }
+
+  // Otherwise it is a radiance from above and another one from below.
   changed |= drawBright("ambient, from above", "radiance, from above", kLargestAmbient, ambient.up);
   changed |=
       drawBright("ambient, from below", "radiance, from below", kLargestAmbient, ambient.down);
@@ -169,8 +185,10 @@ bool drawAmbient(bool skyThere, Ambient& ambient) {
 bool drawSceneTab(const SkyChoice& ownSky, RayView& picked, ShadingEdit& scene) {
   ImGui::TextDisabled("lights");
   bool edited = drawItems(scene.lights, "light", picked.light, drawLight);
+
   ImGui::TextDisabled("materials");
   edited |= drawItems(scene.materials, "material", picked.material, drawMembers<Material>);
+
   ImGui::TextDisabled("surroundings");
   ImGui::PushItemWidth(ImGui::GetFontSize() * 13);
   edited |= drawSky(ownSky, scene.sky);

@@ -45,6 +45,7 @@ void setFont(float scale) {
   for (const char* file : kFonts) {
     std::error_code none;
     if (!std::filesystem::is_regular_file(file, none)) continue;
+
     if (io.Fonts->AddFontFromFileTTF(file, std::round(kHeight * scale))) return;
   }
   io.FontGlobalScale = scale;
@@ -53,12 +54,14 @@ void setFont(float scale) {
 void setStyle(float scale) {
   setFont(scale);
   ImGuiStyle& style = ImGui::GetStyle();
+
   style.WindowRounding = 6;
   style.FrameRounding = style.GrabRounding = style.PopupRounding = 3;
   style.WindowPadding = ImVec2(10, 8);
   style.FramePadding = ImVec2(6, 3);
   style.ItemSpacing = ImVec2(8, 5);
   style.WindowBorderSize = 0;
+
   style.Colors[ImGuiCol_WindowBg] = ImVec4(0.06f, 0.07f, 0.09f, 1);
   style.Colors[ImGuiCol_FrameBg] = ImVec4(0.24f, 0.28f, 0.35f, 1);
   style.Colors[ImGuiCol_TitleBg] = style.Colors[ImGuiCol_TitleBgActive] =
@@ -89,6 +92,9 @@ ImageSize Display::room(const ImageSize& kept) {
     int x = 0, y = 0;
     glfwGetMonitorWorkarea(monitor, &x, &y, &screen.width, &screen.height);
   }
+
+  // Without a kept size the window takes two thirds of the work area; a kept size may come from a
+  // larger screen.
   if (kept == ImageSize()) return {screen.width * 2 / 3, screen.height * 2 / 3};
   return {std::min(kept.width, screen.width), std::min(kept.height, screen.height)};
 }
@@ -101,21 +107,27 @@ Window::Window(const std::string& title, const ImageSize& size) {
   glfwSetWindowUserPointer(window_, this);
   glfwMakeContextCurrent(window_);
   glfwSwapInterval(1);
+
   glfwSetKeyCallback(window_, onKey);
   glfwSetMouseButtonCallback(window_, onButton);
   glfwSetCursorPosCallback(window_, onCursor);
   glfwSetScrollCallback(window_, onScroll);
   glfwSetWindowFocusCallback(window_, onFocus);
   glfwSetDropCallback(window_, onDrop);
+
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;  // no file is left behind
+
+  // Window sizes are in pixels on some systems and in points of several pixels on others. The
+  // motion of the pointer has to be scaled only on the former.
   float across = 1, down = 1;
   glfwGetWindowContentScale(window_, &across, &down);
   setStyle(std::max(1.0f, down));
   const double pixelsPerPoint =
       static_cast<double>(pixels().height) / std::max(this->size().height, 1);
   scale_ = std::max(1.0, static_cast<double>(down) / pixelsPerPoint);
+
   ImGui_ImplGlfw_InitForOpenGL(window_, true);  // chains the callbacks above
   ImGui_ImplOpenGL2_Init();
   glGenTextures(1, &texture_);
@@ -170,8 +182,11 @@ void Window::toggleFullScreen() {
                          windowed_.height, GLFW_DONT_CARE);
     return;
   }
+
   GLFWmonitor* monitor = glfwGetPrimaryMonitor();
   if (!monitor) return;
+
+  // Place and size of the window are kept for the way back.
   const GLFWvidmode* mode = glfwGetVideoMode(monitor);
   glfwGetWindowPos(window_, &windowedX_, &windowedY_);
   windowed_ = size();
@@ -198,6 +213,8 @@ void Window::wake() { glfwPostEmptyEvent(); }
 void Window::upload(const DisplayImage& image, const ImageSize& madeFor) {
   glBindTexture(GL_TEXTURE_2D, texture_);
   madeFor_ = madeFor;
+
+  // The texture is allocated anew only when its size changes.
   if (size_ != ImageSize{image.width, image.height}) {
     size_ = {image.width, image.height};
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, image.width, image.height, 0, GL_RGBA,
@@ -205,6 +222,7 @@ void Window::upload(const DisplayImage& image, const ImageSize& madeFor) {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   }
+
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE,
                   image.rgba.data());
 }
@@ -215,15 +233,18 @@ void Window::drawImage() const {
   glClearColor(0, 0, 0, 1);
   glClear(GL_COLOR_BUFFER_BIT);
   if (size_ == ImageSize{}) return;
+
   // Texels of the window's resolution are shown unchanged; coarser ones are blended.
   const GLint filter = size_ == window ? GL_NEAREST : GL_LINEAR;
   const auto shares = sharesFilled(madeFor_, window);
   const auto x = static_cast<float>(shares[0]), y = static_cast<float>(shares[1]);
+
   glEnable(GL_TEXTURE_2D);
   glBindTexture(GL_TEXTURE_2D, texture_);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
   glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_REPLACE);
+
   glBegin(GL_TRIANGLE_STRIP);  // the image's first row is at the top
   glTexCoord2f(0, 0), glVertex2f(-x, y);
   glTexCoord2f(0, 1), glVertex2f(-x, -y);
@@ -237,12 +258,15 @@ void Window::begin() {
   drawImage();
   ImGui_ImplOpenGL2_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+
+  // A script's pointer takes the place of the one that GLFW reports.
   if (input.pointer) {
     ImGuiIO& io = ImGui::GetIO();
     io.MousePos =
         ImVec2(static_cast<float>(input.pointer->x), static_cast<float>(input.pointer->y));
     io.MouseDown[0] = input.pointer->down;
   }
+
   ImGui::NewFrame();
   followPointer();
 }
@@ -254,6 +278,8 @@ void Window::followPointer() {
     if (!pointed_ && !ImGui::GetIO().WantCaptureMouse) pointed_ = at;
     return;
   }
+
+  // A script clicks where its pointer goes down and up in the same place.
   if (pointed_ && pointed_->x == at.x && pointed_->y == at.y) click_ = at;
   pointed_.reset();
 }
@@ -272,6 +298,7 @@ void Window::onKey(GLFWwindow* window, int key, int, int action, int mods) {
     input.held.erase(key);
   } else if (action == GLFW_PRESS && !ImGui::GetIO().WantTextInput) {
     if ((mods & GLFW_MOD_CONTROL) != 0) return input.commands.push_back(key);
+
     input.held.insert(key);
     input.pressed.push_back(key);
   }
@@ -280,9 +307,12 @@ void Window::onKey(GLFWwindow* window, int key, int, int action, int mods) {
 void Window::onButton(GLFWwindow* window, int button, int action, int mods) {
   Window& self = windowOf(window);
   self.input.happened = true;
+
+  // A button that comes up close to where it went down is a click, not a drag.
   if (action == GLFW_RELEASE) {
     const double moved =
         std::abs(self.cursorX_ - self.pressedX_) + std::abs(self.cursorY_ - self.pressedY_);
+
     const bool clicks = button == GLFW_MOUSE_BUTTON_LEFT && self.dragged_ == &Input::left;
     if (clicks && moved <= kClickSlack * self.scale_) self.click_ = {self.cursorX_, self.cursorY_};
     self.dragged_ = nullptr;
@@ -298,10 +328,12 @@ void Window::onButton(GLFWwindow* window, int button, int action, int mods) {
 void Window::onCursor(GLFWwindow* window, double x, double y) {
   Window& self = windowOf(window);
   self.input.happened = true;
+
   if (self.dragged_) {
     Drag& drag = self.input.*self.dragged_;
     drag.x += x - self.cursorX_, drag.y += y - self.cursorY_;
   }
+
   self.cursorX_ = x;
   self.cursorY_ = y;
 }

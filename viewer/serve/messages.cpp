@@ -27,20 +27,24 @@ Message readMessage(std::string_view line, std::size_t number) {
   const bool plain =
       std::ranges::none_of(line, [](char c) { return c >= 0 && (c < ' ' || c > '~'); });
   if (!plain || line.size() > kMessageBytes) fail(number, "no control characters");
+
   const std::string word = takeWord(line);
   const auto* const verb = std::ranges::find(kVerbs, std::string_view(word), &Verb::name);
   if (verb == kVerbs.end()) fail(number, "a verb, as 'left 3 -4'");
+
   Message message{.verb = verb->name, .name = {}, .text = {}};
   if (verb->named) message.name = takeWord(line);
   for (std::size_t i = 0; i < verb->numbers; ++i) {
     double& value = message.numbers[i];
     const bool read =
         readNumber(takeWord(line), value) && value >= verb->low && value <= verb->high;
+
     if (!read) {
       fail(number, formatted("%zu numbers from %g to %g after '%s'", verb->numbers, verb->low,
                              verb->high, word.c_str()));
     }
   }
+
   if (verb->text) message.text = std::exchange(line, std::string_view());
   if (!line.empty()) fail(number, "nothing more after '" + word + "'");
   return message;
@@ -50,6 +54,7 @@ Message readMessage(std::string_view line, std::size_t number) {
 
 std::vector<Message> readMessages(std::string_view body) {
   if (body.size() > kMessageBytes) throwUsage("the input is longer than it may be");
+
   std::vector<Message> messages;
   while (!body.empty()) {
     if (messages.size() == kMessageLines) throwUsage("the input has more lines than it may have");

@@ -47,18 +47,25 @@ bool differ(const DisplayImage& a, const DisplayImage& b, const Part& part) {
 
 Tiles PictureStream::next(const DisplayImage& picture, bool exact, double nowMs) {
   const int across = tilesIn(picture.width), down = tilesIn(picture.height);
+
+  // A new size leaves nothing of the page's picture to build on.
   if (picture.width != last_.width || picture.height != last_.height) {
     states_.assign(static_cast<std::size_t>(across) * down, TileState::stale);
   }
+
+  // Neighboring tiles of a row that the page lacks are joined into one image.
   std::vector<Part> parts;
   std::size_t tiles = 0;
   for (int i = 0; i < across * down; ++i) {
     const int x = i % across * kTileSide, y = i / across * kTileSide;
     const Part part{x, y, std::min(kTileSide, picture.width - x),
                     std::min(kTileSide, picture.height - y)};
+
+    // With `exact` a tile is due until it is exact, otherwise only when it has changed.
     TileState& state = states_[i];
     if (state != TileState::stale && differ(picture, last_, part)) state = TileState::stale;
     if (state == TileState::exact || (state == TileState::lossy && !exact)) continue;
+
     ++tiles;
     const bool goesOn =
         !parts.empty() && parts.back().y == y && parts.back().x + parts.back().width == x;
@@ -68,16 +75,22 @@ Tiles PictureStream::next(const DisplayImage& picture, bool exact, double nowMs)
       parts.push_back(part);
     }
   }
+
+  // If all tiles are due in motion, one JPEG of the whole picture spares the overhead of many.
   if (tiles == states_.size() && !exact) parts = {{0, 0, picture.width, picture.height}};
   last_ = picture;
+
   Tiles message;
   for (const Part& part : parts) {
     if (exact && message.bytes.size() > kExactBytes) break;
     const DisplayImage piece = cut(picture, part);
     const std::string bytes = exact ? encodePng(piece) : encodeJpeg(piece, quality_);
+
     message.list += (message.list.empty() ? "[" : ",[") + std::to_string(part.x) + "," +
                     std::to_string(part.y) + "," + std::to_string(bytes.size()) + "]";
     message.bytes += bytes;
+
+    // The page will have these tiles when it has drawn the message.
     for (int y = part.y / kTileSide; y * kTileSide < part.y + part.height; ++y) {
       for (int x = part.x / kTileSide; x * kTileSide < part.x + part.width; ++x) {
         states_[static_cast<std::size_t>(y) * across + x] =
@@ -86,6 +99,8 @@ Tiles PictureStream::next(const DisplayImage& picture, bool exact, double nowMs)
     }
   }
   if (message.empty()) return message;
+
+  // The delay between this time and the acknowledgement measures the link.
   message.number = ++number_;
   message.list = "[" + message.list + "]";
   underWay_.push_back({message.number, nowMs});
@@ -101,9 +116,13 @@ bool PictureStream::acknowledge(std::uint32_t number, double nowMs) {
 }
 
 void PictureStream::adapt(double delayMs) {
+  // The delay beyond the smallest one is time that the message has spent in queues on the way.
   leastMs_ = std::min(delayMs, leastMs_ + kLeastMsGrows);
   const double queued = delayMs - leastMs_;
   const double pixels = static_cast<double>(last_.width) * last_.height;
+
+  // A full link gets fewer messages at a time, then coarser JPEGs, then smaller pictures. A free
+  // link gets larger pictures at once, then more messages at a time, then finer JPEGs.
   if (queued > kFullMs) {
     if (window_ > 2) {
       --window_;

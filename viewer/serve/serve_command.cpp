@@ -29,11 +29,13 @@ struct ServeJob {
 cli::OptionList listOptions(ServeJob& job) {
   cli::OptionList list;
   list.group("Serving");
+
   list.value({"port", "N", 0, 65535}, "the port; 0 is 8765, or any free one if that is taken",
              job.port);
   list.value({"bind", "ADDRESS"},
              "the address to listen on; others than 127.0.0.1 can be reached from elsewhere",
              job.bind);
+
   view::listViewOptions(list, job.view);
   list.operands("SCENE", "a scene file, a model, or the name of a shipped scene", 1, 1, job.scenes);
   return list;
@@ -44,11 +46,15 @@ int serve(const ServeJob& job) {
   auto progress = cli::makeProgressBar(job.view.common);
   const std::shared_ptr<OpenScene> scene =
       openAndTell(job.view.scene, job.view.common, progress.get());
+
   ServedSession session(job.view, scene);
   progress.reset();
   Server server(session, {job.bind, job.port});
+
+  // Standard output gets the address only, so that scripts can read it.
   std::printf("%s\n", server.url().c_str());
   std::fflush(stdout);
+
   char machine[256] = "MACHINE";
   ::gethostname(machine, sizeof machine - 1);
   if (!job.view.common.quiet) {

@@ -37,13 +37,16 @@ Json describeOption(const OptionSpec& spec, const Field& /*field*/) {
   using Kind = view::Control::Kind;
   const view::Control control = view::describeControl<Field>(spec);
   if (control.kind == Kind::none) return nullptr;
+
   Json json{{"name", spec.name},
             {"help", spec.help},
             {"tab", spec.tab == Tab::knobs ? "knobs" : "picture"}};
+
   if (!control.choices.empty()) {
     json["choices"] = control.choices;
     return json;
   }
+
   json["low"] = control.low;
   json["high"] = control.high;
   if (control.kind == Kind::exposure) {
@@ -122,8 +125,12 @@ std::string ServedSession::download(bool exr) {
   std::unique_lock lock(mutex_);
   ++downloads_;
   alarm_->ring();
+
+  // The loop hands over the frame as soon as it has one at full resolution.
   const std::shared_ptr<const view::TracedFrame> before = frame_;
   fresh_.wait_for(lock, kDownloadTime, [&] { return quit_ || frame_ != before; });
+
+  // The last download that waits gives the memory of the frame back.
   const std::shared_ptr<const view::TracedFrame> frame = frame_;
   if (--downloads_ == 0) frame_.reset();
   lock.unlock();
@@ -141,10 +148,13 @@ void ServedSession::loop() {
   Stopwatch sinceStep;
   for (;;) {
     alarm_->wait(waitSeconds());
+
     {
       const std::lock_guard lock(mutex_);
       if (quit_) return;
     }
+
+    // Steps are limited in time, so that the camera does not leap after a stall.
     const double seconds = std::exchange(sinceStep, Stopwatch()).ms() / 1000;
     try {
       step(std::min(seconds, kLongestSeconds));
@@ -161,6 +171,7 @@ double ServedSession::waitSeconds() const {
 }
 
 void ServedSession::step(double seconds) {
+  // Messages from other threads are taken over under the lock and served without it.
   std::vector<Message> messages;
   bool watched = false, downloads = false;
   {
@@ -169,7 +180,10 @@ void ServedSession::step(double seconds) {
     watched = pages_ > 0;
     downloads = downloads_ > 0;
   }
+
   changed_ |= fetchFrame();
+
+  // An error of one message does not keep the others from being served.
   for (const Message& message : messages) {
     try {
       error_.clear();
@@ -178,6 +192,8 @@ void ServedSession::step(double seconds) {
       fail(error.what());
     }
   }
+
+  // Downloads get the first frame at the full resolution of the view.
   const view::FrameRequest& request = shown_.request;
   if (downloads && shown_.scene && (sharp_ || (request.interruptible && !request.coarse))) {
     auto frame = std::make_shared<const view::TracedFrame>(shown_);
@@ -185,11 +201,15 @@ void ServedSession::step(double seconds) {
     frame_ = std::move(frame);
     fresh_.notify_all();
   }
+
+  // Without a page that watches, neither the camera moves nor a picture is traced.
   if (!watched) return;
+
   heldSeconds_ += seconds;
   if (heldSeconds_ > kHeldSeconds) held_ = view::CameraMotion();
   const view::CameraMotion motion = motionOf(drags_, size_.height / pixelsForCss_, 1, held_);
   drags_ = view::Drags();
+
   resolution_.setMostPixels(mostPixels_);
   advance(motion, seconds);
   if (changed_ || sharp_ != wasSharp_) publish();
@@ -198,16 +218,19 @@ void ServedSession::step(double seconds) {
 void ServedSession::serve(const Message& message) {
   const auto& n = message.numbers;
   const std::string& text = message.text;
+
   const auto drag = [&](view::Drag& sum) {
     sum.x += n[0], sum.y += n[1];
     if (sum.any()) pathTime_.reset();
   };
+
   const auto change = [&](auto&& make) {
     RenderOptions next = settings_.options;  // stays if the change is an error
     make(next);
     settings_.options = next;
     restSeconds_ = 0;
   };
+
   const std::map<std::string_view, std::function<void()>> acts{
       {"size", [&] { resize(n[0], n[1], n[2]); }},
       {"left", [&] { drag(drags_.left); }},
@@ -266,10 +289,12 @@ void ServedSession::serve(const Message& message) {
            forEachOption(next, [&](const OptionSpec& spec, const auto&) {
              known |= spec.tab != Tab::none && spec.name == message.name;
            });
+
            if (!known) throwUsage("the page has no option '" + message.name + "'");
            setOption(next, message.name, text);
          });
        }}};
+
   changed_ = said_ = true;
   acts.at(message.verb)();
 }
@@ -303,17 +328,24 @@ void ServedSession::chooseAnimation(const std::string& name) {
 void ServedSession::publish() {
   if (!shown_.scene) return;
   if (shown_.request.interruptible || sharp_) command_ = command(viewOptions());
+
+  // The shot always holds the picture and the values that change with every picture.
   auto shot = std::make_shared<Shot>();
   shot->picture = unfinished_ ? unfinished_->display : shown_.film.display;
   shot->exact = wasSharp_ = sharp_;
   shot->live = textOf(liveJson());
+
+  // Settings and the ray tree are written only after an action of the user or at rest. Pages get
+  // them only if they differ from the last ones.
   const bool said = std::exchange(said_, false) || shown_.request.interruptible || sharp_;
   changed_ = false;
   const std::shared_ptr<const Shot> before = shot_;  // only this thread writes it
   shot->settled = said || !before ? textOf(settledJson()) : before->settled;
+
   shot->number = before ? before->number + 1 : 1;
   const bool same = before && before->settled == shot->settled;
   shot->settledNumber = same ? before->settledNumber : shot->number;
+
   {
     const std::lock_guard lock(mutex_);
     shot_ = std::move(shot);
@@ -327,9 +359,11 @@ Json ServedSession::tablesJson() const {
             {"options", Json::array()},
             {"presets", {"good", "standard", "fine", "reference"}},
             {"views", Json::array()}};
+
   for (const Camera& camera : scene().cameras) json["cameras"].push_back(camera.name);
   json["path"] = !scene().cameraPath.empty();
   for (const char* name : kDebugViewNames) json["views"].push_back(name);
+
   forEachOption(settings_.options, [&](const OptionSpec& spec, const auto& field) {
     if (spec.tab == Tab::none) return;
     if (Json option = describeOption(spec, field); !option.is_null())
@@ -339,11 +373,13 @@ Json ServedSession::tablesJson() const {
 }
 
 Json ServedSession::liveJson() const {
+  // The status line states the sharpness of the picture and, in motion, the frame rate.
   const FrameStats& stats = shown_.stats;
   std::string status = unfinished_
                            ? samplesText(*unfinished_)
                            : sharpnessText(shown_.request) + view::errorText(shown_.sampleError);
   if (pictureMs_ > 0) status += formatted(", %.0f frames/s", 1000 / pictureMs_);
+
   const view::Timeline& timeline = settings_.timeline;
   Json json{{"status", status},
             {"message", messageSeconds_ > 0 ? message_ : ""},
@@ -353,9 +389,12 @@ Json ServedSession::liveJson() const {
             {"ms", stats.frameMs},
             {"embree", stats.embreeMs()}};
   if (timeline.there) json["time"] = {timeline.seconds, timeline.length, timeline.playing};
+
+  // The frame's statistics are listed by stage and by kind of ray.
   for (std::size_t i = 0; i < kStageCount; ++i) {
     json["stages"].push_back({kStageNames[i], stats.stageMs(static_cast<Stage>(i))});
   }
+
   for (std::size_t i = 0; i < kRayKindCount; ++i) {
     const RayTally& tally = stats.meter.tally[i];
     if (!kRayKinds[i].calledForBy(shown_.effects)) continue;
@@ -365,10 +404,14 @@ Json ServedSession::liveJson() const {
   if (shown_.debug) json["legend"] = shown_.debug->legend();
   if (settings_.measureKnobs) json["measured"] = shown_.measured;
   if (!rays_.scene) return json;
+
+  // The rays of the picked pixel become lines in pixels of the page's picture; tenths of a pixel
+  // are precise enough.
   const LineView view(shown_.request.camera, size_.width, size_.height);
   for (const RayLine& line : rays_.lines) {
     auto seen = view.see(line.from, line.to);
     if (!seen || !view::clip(*seen, size_.width, size_.height)) continue;
+
     const auto rounded = [](double x) { return std::round(10 * x) / 10; };
     json["lines"].push_back({rounded(seen->x1), rounded(seen->y1), rounded(seen->x2),
                              rounded(seen->y2), colorOf(line.look), isDashed(line.look),
@@ -378,30 +421,38 @@ Json ServedSession::liveJson() const {
 }
 
 Json ServedSession::settledJson() const {
+  // Every page sets its controls by these values.
   Json json{{"command", command_},
             {"view", kDebugViewNames[static_cast<std::size_t>(settings_.view)]},
             {"rate", settings_.rate},
             {"more", settings_.supersample},
             {"options", Json::object()}};
+
   forEachOption(settings_.options, [&](const OptionSpec& spec, const auto& field) {
     if (spec.tab != Tab::none) json["options"][std::string(spec.name)] = formatValue(spec, field);
   });
+
+  // Each effect has a reason for being on or off. Costs are listed if they exceed the noise.
   for (std::size_t i = 0; i < kEffectNames.size(); ++i) {
     const EffectReason& reason = shown_.reasons[i];
     json["effects"].push_back({kEffectNames[i].name, reason.on,
                                !settings_.options.disable.has(static_cast<Effect>(i)),
                                reason.because});
   }
+
   for (const view::KnobCost& cost : view::toldFromNoise(costs_)) {
     json["costs"].push_back({cost.name, view::costText(cost)});
   }
   json["about"] = formatted("%s, %s; %s, packets of %d, %d threads", scene().name.c_str(),
                             shown_.surfaces.c_str(), shown_.machine.simd.c_str(),
                             shown_.machine.packet, shown_.machine.threads);
+
   if (!settings_.timeline.animations.empty()) {
     json["animations"] = settings_.timeline.animations;
     json["animation"] = settings_.timeline.animation;
   }
+
+  // The ray tree of the picked pixel comes with the colors of its lines.
   if (rays_.scene) {
     json["tree"] = pageTree(rays_.words, rays_.rays, settings_.options);
     json["tree"]["pixel"] = {rays_.query.x, rays_.query.y};

@@ -51,13 +51,17 @@ class Connection : public httplib::Stream {
   bool is_writable() const override { return ready(POLLOUT, kWriteSeconds); }
 
   ssize_t read(char* to, std::size_t size) override {
+    // The socket is read only when the buffer is empty, and only within the request's bytes and
+    // time.
     if (at_ == size_) {
       if (left_ == 0 || !ready(POLLIN, seconds_ - since_.ms() / 1000)) return -1;
+
       const ssize_t got = ::recv(socket_, buffer_, std::min(left_, sizeof buffer_), 0);
       if (got <= 0) return got;
       at_ = 0, size_ = static_cast<std::size_t>(got);
       left_ -= size_;
     }
+
     const std::size_t count = std::min(size, size_ - at_);
     std::copy_n(buffer_ + at_, count, to);
     at_ += count;
@@ -123,20 +127,29 @@ class Page {
   bool next(std::string& message) {
     std::unique_lock lock(mutex_);
     if (pictures_.waitedMs(clock_.ms()) > 1000 * kDeafSeconds) return false;
+
+    // Nothing is sent before the page has acknowledged enough of what is under way.
     const bool more =
         changed_.wait_for(lock, std::chrono::milliseconds(100), [&] { return pictures_.ready(); });
     if (!more) return true;
+
+    // Wait for a newer picture without the lock, so that acknowledgements come in. While tiles of
+    // the present picture are still to be sent, there is nothing to wait for.
     const bool unfinished = moreTiles_;
     lock.unlock();
     const std::shared_ptr<const Shot> shot = session_.wait(unfinished ? 0 : seen_);
     lock.lock();
+
     const bool news = shot && (shot->number != seen_ || unfinished);
     if (!news && clock_.ms() - sentMs_ < kAliveMs) return true;
+
     std::string json = "{\"page\":" + std::to_string(number_), tiles;
     if (!std::exchange(greeted_, true)) json += ",\"tables\":" + session_.tables();
+
     if (news) {
       const Tiles next = pictures_.next(shot->picture, shot->exact, clock_.ms());
       moreTiles_ = shot->exact && !next.empty();
+
       json += ",\"size\":[" + std::to_string(shot->picture.width) + "," +
               std::to_string(shot->picture.height) + "],\"live\":" + shot->live +
               ",\"exact\":" + (shot->exact && next.empty() ? "true" : "false");
@@ -147,6 +160,8 @@ class Page {
       settled_ = shot->settledNumber;
       seen_ = shot->number;
     }
+
+    // A message is its length, the length of its JSON, the JSON, and the bytes of the tiles.
     json += "}";
     message = wordOf(4 + json.size() + tiles.size()) + wordOf(json.size()) + json + tiles;
     sentMs_ = clock_.ms();
@@ -192,6 +207,7 @@ bool sameToken(std::string_view a, std::string_view b) {
 }
 
 bool isOwnHost(const std::string& host, const std::string& bind) {
+  // The port does not count. A colon before a bracket belongs to an IPv6 address.
   std::string name = host;
   const std::size_t colon = name.rfind(':');
   if (colon != std::string::npos && name.find(']', colon) == std::string::npos) {
@@ -200,9 +216,11 @@ bool isOwnHost(const std::string& host, const std::string& bind) {
     name.resize(colon);
   }
   if (name == "localhost" || name == bind) return true;
+
   if (name.size() > 2 && name.front() == '[' && name.back() == ']') {
     name = name.substr(1, name.size() - 2);
   }
+
   unsigned char address[sizeof(in6_addr)];
   return ::inet_pton(AF_INET, name.c_str(), address) == 1 ||
          ::inet_pton(AF_INET6, name.c_str(), address) == 1;
@@ -212,15 +230,20 @@ class Server::Http : public httplib::Server {
  public:
   Http(serve::Server& server, ServedSession& session) : server_(server), session_(session) {
     using httplib::Request, httplib::Response;
+
+    // These limits bound what clients can take up.
     new_task_queue = [] { return new httplib::ThreadPool(kMostConnections); };
     set_payload_max_length(kMessageBytes);
     set_tcp_nodelay(true);
     set_keep_alive_max_count(kMostRequests);
     set_keep_alive_timeout(static_cast<time_t>(kTrustedIdleSeconds));
+
     set_socket_options([](socket_t socket) {  // without SO_REUSEPORT: nobody else gets our port
       const int yes = 1;
       ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
     });
+
+    // A request is refused by its path and headers, before its body is read.
     set_pre_routing_handler([this](const Request& request, Response& response) {
       response.status = refusalOf(request);
       if (response.status == 0) {
@@ -231,9 +254,11 @@ class Server::Http : public httplib::Server {
       response.set_content("refused\n", "text/plain");
       return HandlerResponse::Handled;
     });
+
     set_logger([](const Request&, const Response& response) {
       current->over |= response.status >= 400;  // what follows may be the rest of what was refused
     });
+
     set_exception_handler([](const Request&, Response& response, std::exception_ptr thrown) {
       response.status = 400;
       try {
@@ -242,6 +267,9 @@ class Server::Http : public httplib::Server {
         response.set_content(printable(error.what()) + "\n", "text/plain");
       }
     });
+
+    // The page runs only its own script and style, which carry a nonce, and loads nothing from
+    // elsewhere.
     const std::string nonce = randomToken();
     const auto withNonce = [&](std::string text) {
       for (std::size_t at; (at = text.find("NONCE")) != std::string::npos;) {
@@ -249,6 +277,7 @@ class Server::Http : public httplib::Server {
       }
       return text;
     };
+
     set_default_headers(
         {{"Content-Security-Policy",
           withNonce("default-src 'none'; connect-src 'self'; img-src blob: data:; base-uri 'none'; "
@@ -258,15 +287,21 @@ class Server::Http : public httplib::Server {
          {"X-Content-Type-Options", "nosniff"},
          {"Referrer-Policy", "no-referrer"},
          {"Cache-Control", "no-store"}});
+
+    // Everything that is served lies below the token.
     const std::string root = "/" + server.token_ + "/";
     Get(root, [page = withNonce(kPage)](const Request&, Response& response) {
       response.set_content(page, "text/html; charset=utf-8");
     });
+
     Get(root + "stream", [this](const Request&, Response& response) { stream(response); });
     Get(root + "picture.png", [this](const Request&, Response& r) { download(r, false); });
     Get(root + "picture.exr", [this](const Request&, Response& r) { download(r, true); });
+
     Post(root + "input", [this](const Request& request, Response& response) {
       std::vector<Message> messages = readMessages(request.body);
+
+      // Acknowledgements go to the page's stream, everything else to the session.
       std::erase_if(messages, [this](const Message& message) {
         if (message.verb != "ack") return false;
         acknowledge(static_cast<int>(message.numbers[0]),
@@ -289,37 +324,47 @@ class Server::Http : public httplib::Server {
  private:
   // Returns the status by which a request is refused; 0: it is not.
   int refusalOf(const httplib::Request& request) const {
+    // The Host header stops DNS rebinding, and the Origin header stops requests by other sites'
+    // pages.
     const std::string host = request.get_header_value("Host");
     const std::string origin = request.get_header_value("Origin");
     if (!isOwnHost(host, server_.options_.bind)) return 421;
     if (!origin.empty() && origin != "http://" + host) return 403;
+
     const std::string_view path = request.path;
     constexpr std::size_t kTokenEnd = 33;  // "/" and 32 digits
     const bool shown = path.size() > kTokenEnd && path[0] == '/' && path[kTokenEnd] == '/' &&
                        sameToken(path.substr(1, kTokenEnd - 1), server_.token_);
     if (!shown) return 403;
+
+    // The page, its stream, two pictures and its input are all that there is below the token.
     const std::string_view thing = path.substr(kTokenEnd + 1);
     const bool isInput = thing == "input";
     const bool isOther =
         thing.empty() || thing == "stream" || thing == "picture.png" || thing == "picture.exr";
     if (!isInput && !isOther) return 404;
     if (request.method != (isInput ? "POST" : "GET")) return 405;
-    // What is encoded may be larger than it looks.
+
+    // An encoded body may be larger than it looks.
     const bool encoded = request.has_header("Content-Encoding") || request.is_multipart_form_data();
     return encoded ? 415 : 0;
   }
 
   void stream(httplib::Response& response) {
+    // Pages that are gone make room for this one.
     const std::lock_guard lock(pagesMutex_);
     std::erase_if(pages_, [](const auto& page) { return page.second.expired(); });
+
     if (pages_.size() >= kMostPages) {
       response.status = 503;
       response.set_content("too many pages are open\n", "text/plain");
       return;
     }
+
     const int number = ++lastPage_;
     const auto page = std::make_shared<Page>(session_, number);
     pages_[number] = page;
+
     response.set_chunked_content_provider(
         "application/octet-stream", [page](std::size_t, httplib::DataSink& sink) {
           std::string message;
@@ -329,8 +374,10 @@ class Server::Http : public httplib::Server {
   }
 
   void acknowledge(int number, std::uint32_t frame) {
+    // Pages are kept alive while they are used, because their streams may end at any time.
     std::vector<std::shared_ptr<Page>> open;
     std::shared_ptr<Page> page;
+
     {
       const std::lock_guard lock(pagesMutex_);
       for (const auto& [known, weak] : pages_) {
@@ -338,6 +385,7 @@ class Server::Http : public httplib::Server {
         if (known == number) page = open.back();
       }
     }
+
     if (!page) return;
     page->acknowledge(frame);
     double most = 0;  // the best link decides, so that a slow one does not blur the others
@@ -346,13 +394,18 @@ class Server::Http : public httplib::Server {
   }
 
   void download(httplib::Response& response, bool exr) {
+    // Only one download runs at a time, because each holds a thread and a frame.
     const std::unique_lock lock(downloading_, std::try_to_lock);
     const std::string bytes = lock ? session_.download(exr) : std::string();
     response.status = bytes.empty() ? 503 : 200;
     if (bytes.empty()) return response.set_content("busy; try again\n", "text/plain");
+
+    // The file is named after the scene. Only letters and digits pass, so that nothing breaks the
+    // header or the path.
     std::string name;
     for (const char c : session_.name())
       name += std::isalnum(static_cast<unsigned char>(c)) ? c : '-';
+
     const char* const extension = exr ? ".exr" : ".png";
     response.set_header("Content-Disposition", "attachment; filename=\"" + name + extension + "\"");
     response.set_content(bytes, exr ? "image/x-exr" : "image/png");
@@ -365,6 +418,8 @@ class Server::Http : public httplib::Server {
       const auto isStranger = [](const Connection* known) {
         return !known->trusted && !known->leaves;
       };
+
+      // Connections without the token are few: a new one displaces the oldest.
       if (std::ranges::count_if(connections_, isStranger) >= kMostStrangers) {
         Connection* const oldest = *std::ranges::find_if(connections_, isStranger);
         oldest->leaves = true;
@@ -372,14 +427,18 @@ class Server::Http : public httplib::Server {
       }
       connections_.push_back(&connection);
     }
+
+    // Requests are answered until the connection is closed or has reached kMostRequests.
     current = &connection;
     bool closed = false;
     for (int left = kMostRequests; left > 0 && !closed && connection.begin(); --left) {
       if (!answer(connection, left == 1, closed)) break;
     }
+
     current = nullptr;
     const std::lock_guard lock(mutex_);
     connections_.remove(&connection);
+
     ::shutdown(socket, SHUT_RDWR);
     ::close(socket);
     return true;
@@ -415,12 +474,14 @@ Server::Server(ServedSession& session, const ServerOptions& options)
     http_ = std::make_unique<Http>(*this, session);
     port_ = http_->bind_to_any_port(options.bind);
   }
+
   if (port_ <= 0) {
     throwIo(
         formatted("cannot listen on %s, port %d: the port is taken, or the address is not this "
                   "machine's",
                   printable(options.bind).c_str(), wanted));
   }
+
   http_->widen();
 }
 

@@ -1,7 +1,7 @@
 // The HTTP server of `whit serve`.
 //
 // A page's address holds a random token, without which no request is answered. Requests name one of
-// four things, and none of them is a file. Connections that have not shown the token are few: a new
+// five things, and none of them is a file. Connections that have not shown the token are few: a new
 // one displaces the oldest.
 #pragma once
 

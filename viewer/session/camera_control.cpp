@@ -30,12 +30,18 @@ Box boundsToOrbit(const Scene& scene, const Camera& camera) {
 void CameraControl::set(const Camera& camera, const Box& model) {
   camera_ = camera;
   model_ = model;
+
+  // The view is kept as an elevation above the plane perpendicular to up_, and a direction in that
+  // plane, which right_ gives.
   const CameraFrame frame = makeCameraFrame(camera, 1, 1);
   eye_ = frame.eye;
   up_ = normalized(Vec3d(camera.up), Vec3d{0, 1, 0});
   const Vec3d across = normalized(frame.right);
   right_ = normalized(across - up_ * dot(across, up_), across);
   elevation_ = std::asin(std::clamp(dot(frame.forward, up_), -1.0, 1.0));
+
+  // The point to orbit is the camera's `at`, or the point of the view's axis closest to the model's
+  // center.
   double distance = length(Vec3d(camera.at) - eye_);
   if (orbits() && !camera.hasLens()) {  // a lens may be focused at `at`
     const double ahead = dot(model_.center() - eye_, frame.forward);
@@ -52,6 +58,7 @@ Vec3d CameraControl::forward() const {
 
 void CameraControl::turn(double rightwards, double upwards) {
   right_ = normalized(right_ * std::cos(rightwards) - cross(up_, right_) * std::sin(rightwards));
+
   // A view that began steeper may stay so.
   elevation_ = std::clamp(elevation_ + upwards, std::min(-kSteepestRadians, elevation_),
                           std::max(kSteepestRadians, elevation_));
@@ -70,16 +77,23 @@ void CameraControl::lookFrom(const Vec3d& center, double distance) {
 bool CameraControl::drag(const CameraMotion& m) {
   const double zoom = orbits() ? std::pow(kZoomFactor, m.wheel) : 1;
   if (m.orbitX == 0 && m.orbitY == 0 && m.panX == 0 && m.panY == 0 && zoom == 1) return false;
+
   Vec3d middle = center();
   turn(m.orbitX * kRadiansPerPixel, -m.orbitY * kRadiansPerPixel);
+
+  // Panning shifts the middle so that it follows the pointer: a share of the picture's height there
+  // is a length of the scene.
   const bool parallel = camera_.orthographicHeight > 0;
   const double height =
       parallel ? double{camera_.orthographicHeight} : 2 * halfHeightAtOne(camera_) * distance_;
   middle = middle + (cross(right_, forward()) * m.panY - right_ * m.panX) * height;
+
   if (!orbits()) {
     lookFrom(middle, distance_);
     return true;
   }
+
+  // A model does not get lost: the middle stays in its bounds, and the zoom has limits.
   middle = min(max(middle, Vec3d(reach_.lower)), Vec3d(reach_.upper));
   const double size = model_.diagonal();
   const auto zoomed = [&](double length) {
@@ -92,20 +106,26 @@ bool CameraControl::drag(const CameraMotion& m) {
 }
 
 bool CameraControl::step(const CameraMotion& m, double seconds) {
+  // The wheel sets the speed in a room; at a model it zooms.
   if (!orbits()) {
     speed_ = std::clamp(speed_ * std::pow(kWheelFactor, m.wheel), firstSpeed_ / kSpeedRange,
                         firstSpeed_ * kSpeedRange);
   }
+
+  // The view turns by the distance that the pointer was dragged, and while arrow keys are held.
   const double arrows = kRadiansPerSecond * seconds;
   const double right = m.lookX * kRadiansPerPixel + m.turnRight * arrows;
   const double up = -m.lookY * kRadiansPerPixel + m.turnUp * arrows;
   const bool turns = right != 0 || up != 0;
   if (turns) turn(right, up);
+
+  // The eye moves after that, but stays in the range of coordinates that scenes may have.
   const Vec3d before = eye_;
   bool changed = drag(m) || turns;
   const Vec3d direction =
       normalized(forward() * m.forward + right_ * m.right + up_ * m.up);  // zero when at rest
   if (seconds > 0) eye_ = eye_ + direction * (speed_ * seconds * (m.fast ? kFastFactor : 1));
+
   const auto largest = static_cast<double>(kLargestCoordinate);
   if (!(maxComponent(abs(eye_)) + distance_ < largest)) eye_ = before;
   changed |= eye_ != before;
@@ -119,17 +139,24 @@ void CameraControl::fit(double aspect) {
   const Vec3d ahead = forward(), above = cross(right_, ahead);
   const Vec3d middle = model_.center();
   const double half = halfHeightAtOne(fitted(camera_, aspect));
+
+  // A corner is in the picture if its distance from the axis is at most `half` times its depth,
+  // which gives a lower bound of the distance for each corner.
   double distance = 0, height = 0;
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3d p = Vec3d(model_.corner(corner)) - middle;
+
     const double away = std::max(std::abs(dot(p, right_)) / aspect, std::abs(dot(p, above)));
     distance = std::max(distance, away / half - dot(p, ahead));
     height = std::max(height, 2 * away);
   }
+
+  // An orthographic view is fitted by its height; the eye only has to be outside the model.
   if (camera_.orthographicHeight > 0) {
     camera_.orthographicHeight = static_cast<float>(height);
     distance = std::max(distance, model_.diagonal());
   }
+
   lookFrom(middle, distance);
   reach_ = model_;
   writeCamera();

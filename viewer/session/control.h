@@ -23,6 +23,7 @@ template <typename Field>
 Control describeControl(const OptionSpec& spec) {
   constexpr double kStops = 10, kLargestInteger = 1 << 20, kLargestReal = 1;
   const double low = std::max(spec.low, 0.0);
+
   if constexpr (std::is_same_v<Field, Exposure>) {
     return {Control::Kind::exposure, -kStops, kStops, {}};
   } else if constexpr (std::is_same_v<Field, bool>) {

@@ -64,6 +64,7 @@ void FrameTracer::load(const SceneChoice& choice) {
 
 void FrameTracer::edit(ShadingEdit edit) {
   if (edit.scene != engine_->opened()) return;
+
   Scene& scene = engine_->opened()->scene;
   Sky opened;  // reading may fail, so it comes before any change
   if (edit.sky.source != sky_.source && !edit.sky.source.empty()) {
@@ -82,12 +83,18 @@ void FrameTracer::edit(ShadingEdit edit) {
 void FrameTracer::editSurroundings(const ShadingEdit& edit, Sky opened) {
   Scene& scene = engine_->opened()->scene;
   const bool another = edit.sky.source != sky_.source;
+
+  // The sky stays, becomes the scene's own again, or is the one that was just read.
   Sky next = std::move(!another ? scene.sky : edit.sky.source.empty() ? ownSky_ : opened);
   next.scale = edit.sky.scale;
   next.rotation = edit.sky.rotation;
+
+  // Ambient light may be a multiple of the sky's mean radiance.
   const Ambient ambient = edit.ambient.ofSky > 0
                               ? ambientFromSky(next, edit.ambient.ofSky, edit.ambient)
                               : edit.ambient;
+
+  // editSky() exchanges the two skies, so `next` is the former one afterwards.
   editSky(scene, next, ambient);
   if (another && sky_.source.empty()) ownSky_ = std::move(next);
   sky_ = edit.sky;
@@ -96,9 +103,13 @@ void FrameTracer::editSurroundings(const ShadingEdit& edit, Sky opened) {
 RayPick FrameTracer::explain(const RayQuery& query) {
   Renderer& renderer = engine_->prepare();
   const Scene& scene = engine_->scene();
+
+  // The query's options hold for as long as it is answered, without those that would need another
+  // acceleration structure.
   RenderOptions options = renderer.options();
   takeOver(query.picture.options, Rebuild::tables, options);
   const OptionsInUse used(renderer, options);
+
   Film film;
   sizeFilm(film, options.size.value(), Crop{query.x, query.y, query.x + 1, query.y + 1});
 
@@ -116,6 +127,7 @@ bool FrameTracer::trace(const FrameRequest& request, TracedFrame& frame, const T
   if (request.seconds && *request.seconds != engine_->seconds()) {
     engine_->setTime(*request.seconds);
   }
+
   RenderOptions options = request.options;
   options.spp = request.spp;
   engine_->setOptions(options);
@@ -124,6 +136,7 @@ bool FrameTracer::trace(const FrameRequest& request, TracedFrame& frame, const T
   frame.costs.clear();
   frame.measured = 0;
   if (!tracePicture(request, frame, calls)) return false;
+
   finished_ = request;
   describe(request, frame);
   return !request.measureKnobs || measure(request, frame, calls);
@@ -133,35 +146,42 @@ void FrameTracer::describe(const FrameRequest& request, TracedFrame& frame) {
   const std::shared_ptr<OpenScene>& open = engine_->opened();
   const Scene& scene = open->scene;
   const Renderer& renderer = engine_->renderer();
+
   frame.scene = open;
   frame.request = request;
   frame.request.options.exposure = engine_->options().exposure;
   frame.options = engine_->options();
   frame.animation = animation_;
+
   frame.surfaces = surfacesText(scene.instancedTriangles, scene.instancedSpheres);
   frame.effects = renderer.plan().effects;
   frame.sampled = renderer.plan().features.has(Feature::streams);
   frame.reasons = scene.reasons;
   frame.machine = renderer.machine();
 
-  // What the scene was read with, and the edits since then.
+  // The settings are those that the scene was read with, followed by the edits since then.
   frame.settings = open->load.settings;
   frame.settings.insert(frame.settings.end(), editSettings_.begin(), editSettings_.end());
+
+  // An edit of the sky replaces the choice by --sky.
   frame.sky = open->load.sky;
   for (const std::string& setting : editSettings_) {
     if (setting.starts_with("/sky")) frame.sky.clear();
   }
+
   frame.metadata = describeImage(scene, request.camera, renderer, frame.film, frame.options);
   addSettings(frame.settings, frame.sky, frame.metadata);
 }
 
 bool FrameTracer::measure(const FrameRequest& request, TracedFrame& frame,
                           const TraceCalls& calls) {
+  // A smaller frame of the same view is timed, and its cost is scaled by the number of pixels.
   const ImageSize whole = request.options.size.value();
   const ImageSize size = measuredSize(whole, msPerSample_ * engine_->options().spp);
   sizeFilm(band_, size, Crop{0, 0, size.width, size.height});
   const double scale = static_cast<double>(whole.width) * whole.height /
                        (static_cast<double>(size.width) * size.height);
+
   const auto goesOn = [&](const std::vector<KnobCost>& sofar, double measured) {
     if (sofar.size() > frame.costs.size()) {
       frame.costs = sofar;
@@ -171,6 +191,7 @@ bool FrameTracer::measure(const FrameRequest& request, TracedFrame& frame,
     calls.answer();
     return !calls.superseded();
   };
+
   const bool complete =
       measureKnobs(engine_->renderer(), engine_->options(), request.camera, band_, scale, goesOn);
   frame.measured = 1;
@@ -182,6 +203,7 @@ bool FrameTracer::tracePicture(const FrameRequest& request, TracedFrame& frame,
   const ImageSize size = request.options.size.value();
   sizeFilm(frame.film, size, Crop{0, 0, size.width, size.height});
   sizeDisplay(frame.film);
+
   frame.debug.reset();
   frame.sampleError = 0;
   const bool complete = accumulates(request) ? traceInPasses(request, frame, calls)
@@ -193,6 +215,7 @@ bool FrameTracer::tracePicture(const FrameRequest& request, TracedFrame& frame,
 bool FrameTracer::traceAtOnce(const FrameRequest& request, TracedFrame& frame,
                               const TraceCalls& calls) {
   const FrameHooks hooks{calls.stopped, nullptr};
+
   if (request.view == DebugView::none) {
     frame.stats =
         engine_->renderer().render({.camera = request.camera, .film = frame.film, .hooks = &hooks});
@@ -219,13 +242,17 @@ bool FrameTracer::traceInPasses(const FrameRequest& request, TracedFrame& frame,
   const int spp = engine_->options().spp;
   frame.stats = FrameStats();
   SampleSums sums(Crop{0, 0, size.width, size.height});
+
   const bool again =
       finished_ && sameSubject(*finished_, request) && finished_->options.size == size;
   const int shown = again ? finished_->spp : 0;
+
+  // A pass has as many samples as fit into kPassMs, but few enough for kLeastPasses passes.
   const double passMs = msPerSample_ * static_cast<double>(size.width) * size.height;
   const double wanted = passMs > 0 ? kPassMs / passMs : 1;
   const int most = static_cast<int>(std::clamp(wanted, 1.0, std::max(spp / kLeastPasses, 1.0)));
   const FrameHooks hooks{calls.superseded, nullptr};
+
   for (SampleRange part; part.end < spp; part.first = part.end) {
     part.end = std::min(part.first + most, spp);
     const FrameStats stats = engine_->renderer().render({.camera = request.camera,
@@ -234,14 +261,18 @@ bool FrameTracer::traceInPasses(const FrameRequest& request, TracedFrame& frame,
                                                          .sums = &sums,
                                                          .hooks = &hooks});
     if (calls.superseded()) return false;
+
     frame.stats.add(stats);
     frame.stats.frameMs += stats.frameMs;
     frame.stats.workers = stats.workers;
     if (part.end > 1) frame.sampleError = sums.relativeError(part.end);
+
+    // The finished picture is handed over by the caller.
     if (part.end == spp) break;
     if (part.end > shown) {
       calls.showUnfinished({request, frame.film.display, part.end, frame.sampleError});
     }
+
     calls.answer();
   }
   return true;

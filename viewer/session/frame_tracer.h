@@ -76,7 +76,7 @@ struct KnobCost {
   bool significant() const { return timing.ratioLow > 1 || timing.ratioHigh < 1; }
 };
 
-// The costs that can be told from noise, the largest first.
+// Returns the costs that exceed the noise of the machine, the largest first.
 std::vector<KnobCost> toldFromNoise(std::vector<KnobCost> costs);
 // "off would be 35 ms faster".
 std::string costText(const KnobCost& cost);
@@ -192,7 +192,7 @@ inline constexpr double kPassMs = 100;
 inline constexpr double kLeastPasses = 8;  // where there are as many samples
 
 struct TraceCalls {
-  // These two are asked by the workers, between tiles and samples. Once true they stay true.
+  // The workers call these two between tiles and samples. Once true they stay true.
   std::function<bool()> superseded;  // another picture is wanted
   std::function<bool()> stopped;     // the picture is to be given up for anything else
   // Answers a query for the rays of a pixel; called between passes and measured frames.

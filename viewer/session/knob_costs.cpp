@@ -16,6 +16,7 @@ struct Candidate {
 };
 
 std::vector<Candidate> candidatesOf(const Renderer& renderer, const RenderOptions& options) {
+  // Each option is compared with its cheapest setting.
   std::vector<Candidate> candidates;
   forEachOption(options, [&](const OptionSpec& spec, const auto&) {
     if (spec.cheapest.empty()) return;
@@ -23,11 +24,16 @@ std::vector<Candidate> candidatesOf(const Renderer& renderer, const RenderOption
     setOption(candidate.options, candidate.name, candidate.other);
     candidates.push_back(std::move(candidate));
   });
+
+  // Each effect that is traced is compared with its absence.
   renderer.plan().effects.forEach([&](Effect effect) {
     Candidate candidate{std::string(nameOf(effect)), "off", options};
     candidate.options.disable = candidate.options.disable.with(effect);
     candidates.push_back(std::move(candidate));
   });
+
+  // Settings that change nothing are left out, and those that need another acceleration
+  // structure.
   std::erase_if(candidates, [&](const Candidate& c) {
     return c.options == options || !renderer.canSetOptions(c.options);
   });
@@ -67,21 +73,28 @@ bool measureKnobs(Renderer& renderer, const RenderOptions& options, const Camera
     renderer.render(camera, film);
     return renderer.render(camera, film);
   };
+
   std::vector<KnobCost> costs;
   double measured = 0;
   const std::vector<Candidate> candidates = candidatesOf(renderer, options);
   FrameStats now = frameWith(options);
+
   for (const Candidate& candidate : candidates) {
     accuracy::TimeSamples samples;
     FrameStats then;
     for (int round = 0; round < accuracy::kConfidentRounds; ++round) {
       if (!goesOn(costs, measured)) return false;
+
+      // Frames with both settings alternate, and each is compared with the mean of its two
+      // neighbors: a slow change of the machine's speed cancels.
       const double before = now.frameMs;
       then = frameWith(candidate.options);
       now = frameWith(options);
+
       samples.ms.push_back(now.frameMs);
       samples.ratios.push_back(2 * then.frameMs / (before + now.frameMs));
     }
+
     const accuracy::Timing timing = samples.timing();
     costs.push_back({candidate.name, candidate.other, now, then, timing, scale * timing.medianMs});
     measured = static_cast<double>(costs.size()) / static_cast<double>(candidates.size());

@@ -86,14 +86,17 @@ void RenderThread::loop() {
     busy_ = hasWork();
     wake_.wait(lock, [this] { return hasWork() || quit_; });
     if (quit_) return;
+
     try {
       serve(lock);
     } catch (const std::exception& error) {
+      // The work may have failed while the lock was released.
       if (!lock.owns_lock()) lock.lock();
       tracing_.reset();
       unfinished_.reset();
       error_ = error.what();
     }
+
     lock.unlock();
     onChange_();
     lock.lock();
@@ -106,6 +109,8 @@ void RenderThread::serve(std::unique_lock<std::mutex>& lock) {
     work();
     lock.lock();
   };
+
+  // Changes of the scene come before queries and pictures, which then are of the new state.
   if (const auto scene = std::exchange(scene_, std::nullopt)) {
     unlocked([&] { tracer_.load(*scene); });
   } else if (auto edit = std::exchange(edit_, std::nullopt)) {
@@ -119,16 +124,19 @@ void RenderThread::serve(std::unique_lock<std::mutex>& lock) {
 }
 
 TraceCalls RenderThread::calls() {
+  // The workers call these functions from several threads, so each call takes the lock.
   const auto locked = [this](auto&& of) {
     return [this, of] {
       const std::lock_guard lock(mutex_);
       return of();
     };
   };
+
   TraceCalls calls;
   calls.superseded = locked([this] { return isWaiting() || quit_; });
   calls.stopped = locked([this] { return quit_ || (!isCommitted() && hasWork()); });
   calls.answer = [this] { answerQuery(); };
+
   calls.publish = [this](const TracedFrame& frame) {
     TracedFrame copy = frame;
     report([&] {
@@ -136,6 +144,7 @@ TraceCalls RenderThread::calls() {
       fresh_ = true;
     });
   };
+
   calls.showUnfinished = [this](UnfinishedFrame frame) {
     report([&] { unfinished_ = std::move(frame); });
   };
@@ -144,6 +153,8 @@ TraceCalls RenderThread::calls() {
 
 void RenderThread::trace(const FrameRequest& request) {
   const bool complete = tracer_.trace(request, back_, calls());
+
+  // A picture in motion is always shown. One at rest is dropped if another request waits.
   const std::lock_guard lock(mutex_);
   if (complete && (isCommitted() || !isWaiting())) {
     std::swap(back_, ready_);
@@ -151,6 +162,7 @@ void RenderThread::trace(const FrameRequest& request) {
   } else if (!complete && !isWaiting()) {
     asked_ = request;  // only a query interrupted it
   }
+
   tracing_.reset();
   unfinished_.reset();
 }
@@ -158,6 +170,7 @@ void RenderThread::trace(const FrameRequest& request) {
 void RenderThread::answerQuery() {
   const std::optional<RayQuery> query = taken(query_);
   if (!query) return;
+
   try {
     RayPick pick = tracer_.explain(*query);
     report([&] { pick_ = std::move(pick); });

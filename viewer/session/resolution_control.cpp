@@ -31,8 +31,12 @@ Sharpness ResolutionControl::moving(double windowPixels) {
   const std::size_t coarsest = kScales.size() - 1;
   if (msPerSample_ == 0) return {kScales[coarsest], 1};  // cheap in any scene
   chooseLevel(frameMs);
+
+  // A link may carry fewer pixels than the machine can trace.
   const auto pixels = [&] { return windowPixels_ * kScales[level_] * kScales[level_]; };
   while (level_ < coarsest && pixels() > mostPixels_) ++level_;
+
+  // Where even the coarsest scale is too slow, samples are saved as well.
   Sharpness chosen{kScales[level_], spp_};
   if (level_ < coarsest) return chosen;
   const double share = frameMs / predictMs(chosen.scale);
@@ -43,6 +47,7 @@ Sharpness ResolutionControl::moving(double windowPixels) {
 std::vector<Sharpness> ResolutionControl::stepsAtRest(bool supersample) const {
   std::vector<Sharpness> steps;
   steps.reserve(std::size(kCoarseScales) + kStillSppFactors.size());
+
   for (const double scale : kCoarseScales) steps.push_back({scale, spp_});
   const std::size_t factors = sampled_ ? kStillSppFactors.size() : kUnsampledSppFactors;
   for (std::size_t i = 0; i < (supersample ? factors : 1); ++i) {
@@ -66,10 +71,14 @@ bool ResolutionControl::sharpen(bool supersample) {
 void ResolutionControl::startSharpening(double windowPixels, double shownScale) {
   windowPixels_ = windowPixels;
   step_ = 0;
+
+  // Steps are skipped if the next one takes little time, or if they are coarser than the picture
+  // that is shown.
   const std::vector<Sharpness> steps = stepsAtRest(false);
   const auto soonThere = [&](double scale) {
     return msPerSample_ > 0 && predictMs(scale) <= kFirstStillMs;
   };
+
   while (step_ + 1 < steps.size() &&
          (soonThere(steps[step_ + 1].scale) || steps[step_].scale < shownScale)) {
     ++step_;

@@ -77,19 +77,23 @@ Timeline timelineOf(const Scene& scene, const Instant& instant) {
   Timeline timeline;
   timeline.seconds = instant.seconds.value_or(0);
   timeline.animation = instant.animation;
+
   for (const Animation& animation : scene.animations) {
     // A model's first animation plays unless another is named; motions of a scene file always do.
     const bool own = animation.name == kSceneMotion;
     if (!own && timeline.animation.empty()) timeline.animation = animation.name;
     if (!own) timeline.animations.push_back(animation.name);
+
     if (own || animation.name == timeline.animation) {
       timeline.length = std::max(timeline.length, animation.seconds);
     }
   }
+
   for (const MovingCamera& camera : scene.motion.given.cameras) {
     if (camera.node != kNoNode) continue;  // without a node it flies along the path
     timeline.length = std::max(timeline.length, static_cast<double>(scene.cameraPath.back().time));
   }
+
   // Motion set by a program has no length. A scene that was loaded to stand still may still list
   // animations.
   timeline.there = !scene.motion.empty() && timeline.length > 0;
@@ -113,6 +117,7 @@ void Session::rememberCosts() {
 }
 
 bool clip(ScreenLine& line, double width, double height) {
+  // Each edge of the window bounds the line's parameter t from one side (Liang and Barsky 1984).
   double from = 0, to = 1;
   const double dx = line.x2 - line.x1, dy = line.y2 - line.y1;
   const auto keep = [&](double step, double room) {  // step * t <= room
@@ -125,9 +130,11 @@ bool clip(ScreenLine& line, double width, double height) {
     }
     return from <= to;
   };
+
   const bool seen = keep(-dx, line.x1) && keep(dx, width - line.x1) && keep(-dy, line.y1) &&
                     keep(dy, height - line.y1);
   if (!seen) return false;
+
   line = {line.x1 + from * dx, line.y1 + from * dy, line.x1 + to * dx, line.y1 + to * dy};
   return true;
 }
@@ -137,10 +144,13 @@ void select(const RayPick& pick, RayView& view) {
   const RayNode& met = pick.rays.packets.nodes.front();
   if (met.triangle == kMiss) return;
   view.material = met.material;
+
+  // The selected light is the one that adds most to the surface in its largest channel.
   double most = 0;
   for (const LightContribution& light : met.lights) {
     const double radiance = maxComponent(light.radiance);
     if (radiance <= most || light.light == kAmbientLight) continue;
+
     most = radiance;
     view.light = light.light;
   }
@@ -158,11 +168,14 @@ Session::Session(const ViewOptions& options, const std::shared_ptr<OpenScene>& s
       traced_(read_),
       own_(cli::optionsFor(scene->scene, options.common)) {
   watch(options.scene);
+
   settings_.rate = resolution_.rate();
   settings_.options = own_;
   settings_.view = options.view;
   settings_.timeline = timelineOf(scene->scene, options.common.load.instant);
   if (scene->isMade) settings_.timeline.animations.clear();  // others would have to be read
+
+  // If the view is that of one of the scene's cameras, it moves with that camera.
   const Camera start = control_.camera();
   show(start);
   for (std::size_t i = 0; i < scene->scene.cameras.size() && !followed_; ++i) {
@@ -191,6 +204,9 @@ bool Session::isActive() const {
 CameraMotion Session::motionOf(const Drags& drags, double height, double scale,
                                CameraMotion motion) const {
   motion.wheel = drags.wheel;
+
+  // Around a model the left button orbits and the right one zooms; in a room the left one looks
+  // around and the right one orbits.
   const bool orbits = control_.orbits();
   const Drag& orbit = orbits ? drags.left : drags.right;
   motion.orbitX = orbit.x / scale;
@@ -201,6 +217,7 @@ CameraMotion Session::motionOf(const Drags& drags, double height, double scale,
     motion.lookX = drags.left.x / scale;
     motion.lookY = drags.left.y / scale;
   }
+
   motion.panX = drags.middle.x / std::max(height, 1.0);
   motion.panY = drags.middle.y / std::max(height, 1.0);
   return motion;
@@ -230,6 +247,7 @@ void Session::followCamera() {
 
 void Session::flyPath(double seconds) {
   const std::vector<Keyframe>& path = scene().cameraPath;
+
   *pathTime_ += seconds;
   if (*pathTime_ > path.back().time) *pathTime_ = path.front().time;
   show(cameraAt(path, *pathTime_));
@@ -245,6 +263,8 @@ bool Session::fetchFrame() {
     edit_ = traced_;
     fail(error);
   }
+
+  // The answer to a pick and the samples of an unfinished picture are shown without a new frame.
   if (auto pick = thread_.takePick(); pick && picked_) {
     rays_ = std::move(*pick);
     if (std::exchange(selects_, false)) select(rays_, settings_.rays);
@@ -254,6 +274,7 @@ bool Session::fetchFrame() {
     unfinished_ = std::move(frame);
     answered = true;
   }
+
   if (!thread_.take(shown_)) return answered;
   unfinished_.reset();
   if (shown_.scene != scene_) {
@@ -261,15 +282,23 @@ bool Session::fetchFrame() {
     takeScene();
     if (elsewhere) return false;  // the picture is from the camera of the other scene
   }
+
+  // An automatic exposure is measured once, and then stays while the view changes.
   const FrameRequest& request = shown_.request;
   if (settings_.options.exposure.automatic) settings_.options.exposure = request.options.exposure;
+
+  // The edits of this picture have been traced, so an error may fall back on them.
   if (request.edits != tracedEdits_ && request.edits == edits_) {
     tracedEdits_ = edits_;
     traced_ = edit_;
   }
+
+  // The cost of a sample decides the resolution of the next picture in motion.
   if (request.view == settings_.view) resolution_.learn(shown_.stats.frameMs, samplesOf(request));
   resolution_.setSampled(shown_.sampled);
   rememberCosts();
+
+  // The frame rate is shown as a mean over the last pictures in motion, the newest counting most.
   constexpr double kNewest = 0.2;  // weight of the newest picture
   const double ms = std::exchange(sincePicture_, Stopwatch()).ms();
   pictureMs_ = request.interruptible ? 0
@@ -284,15 +313,18 @@ FrameRequest Session::requestFor(const Sharpness& sharpness, bool still) const {
     return std::max(1, static_cast<int>(std::lround(pixels * sharpness.scale)));
   };
   const bool finest = sharpness.scale >= 1;
+
   FrameRequest request;
   request.window = windowPixels();
   request.camera = control_.camera();
   request.options = settings_.options;
   request.options.size = ImageSize{side(request.window.width), side(request.window.height)};
+
   request.spp = sharpness.spp;
   request.coarse = !finest;
   request.view = settings_.view;
   request.measureKnobs = still && finest && settings_.measureKnobs;
+
   request.reloads = reloads_;
   request.edits = edits_;
   request.seconds = settings_.timeline.time();
@@ -300,7 +332,7 @@ FrameRequest Session::requestFor(const Sharpness& sharpness, bool still) const {
   return request;
 }
 
-// More samples would blur what is looked into.
+// More samples would blur the values of a debug view and delay a measurement.
 bool Session::supersamples() const {
   return settings_.supersample && settings_.view == DebugView::none && !settings_.measureKnobs;
 }
@@ -314,14 +346,19 @@ FrameRequest Session::movingRequest(const ImageSize& window) {
 // Returns the next step at rest, or the first one when the picture shows something new.
 FrameRequest Session::stillRequest(const ImageSize& window) {
   FrameRequest request = requestFor(resolution_.still(supersamples()), true);
+
+  // A new view begins with the first step that is no coarser than what is shown of it already.
   if (!stillFor_ || !sameSubject(request, *stillFor_)) {
     const bool shown = shown_.scene && sameSubject(request, shown_.request);
     const double scale =
         shown ? static_cast<double>(shown_.request.options.size->width) / window.width : 0;
+
     resolution_.startSharpening(static_cast<double>(window.width) * window.height, scale);
     stillFor_ = request;
     request = requestFor(resolution_.still(supersamples()), true);
   }
+
+  // A step that is shown already is followed by the next one; after the last the picture is sharp.
   while (shown_.scene && samePicture(request, shown_.request)) {
     if (!resolution_.sharpen(supersamples())) {
       sharp_ = !thread_.busy();
@@ -337,12 +374,15 @@ void Session::followRays() {
   if (settings_.rays.forget) forgetRays();
   if (std::exchange(settings_.rays.fromAside, false) && rays_.scene) jump(rays_.aside);
   if (!picked_) return;
+
+  // The query keeps the camera and the size of the pick; everything else follows the picture.
   RayQuery query = *picked_;
   query.picture.options = settings_.options;
   query.picture.options.size = picked_->picture.options.size;
   query.picture.reloads = reloads_;
   query.picture.edits = edits_;
   query.picture.seconds = shown_.request.seconds;
+
   if (queried_ && sameRays(query, *queried_)) return;
   thread_.query(query);
   queried_ = query;
@@ -352,10 +392,13 @@ void Session::askForFrame() {
   sharp_ = false;
   const ImageSize window = windowPixels();
   if (window.width < 1 || window.height < 1) return;
+
   resolution_.setRate(settings_.rate);
   resolution_.setSpp(settings_.options.spp);
+
   // A new window size counts as motion, so that the first picture for it comes at once.
   if (std::exchange(windowSize_, window) != window) restSeconds_ = 0;
+
   const FrameRequest request =
       restSeconds_ >= kSettleSeconds ? stillRequest(window) : movingRequest(window);
   if (asked_ && samePicture(request, *asked_)) return;
@@ -418,9 +461,13 @@ void Session::takeOptions() {
 void Session::takeScene() {
   scene_ = shown_.scene;
   const std::lock_guard lock(scene_->moving);
+
+  // Edits do not outlive a scene, but the user's options do.
   read_ = edit_ = traced_ = withoutEdits(scene_);
   edits_ = tracedEdits_ = 0;
   takeOptions();
+
+  // A scene that was read again keeps the camera and the time.
   if (opening_.empty()) {
     if (scene().cameraPath.empty()) pathTime_.reset();
     const Timeline before = settings_.timeline;
@@ -430,13 +477,17 @@ void Session::takeScene() {
     say("the scene was read again");
     return;
   }
+
+  // Another scene begins at its first camera and at its own time.
   watch(opening_);
   opening_.clear();
   forgetRays();
+
   control_ = CameraControl(scene().cameras.front(), cruisingSpeed(scene()));
   show(control_.camera());
   pathTime_.reset();
   followed_ = 0;
+
   settings_.timeline = timelineOf(scene(), {});
   restSeconds_ = 0;
   say("opened " + sceneName_);
@@ -507,6 +558,7 @@ void Session::jumpToNumber(std::size_t number) {
     say("the scene has " + std::to_string(cameras.size()) + " cameras");
     return;
   }
+
   jump(whit::cameraAt(scene(), number, settings_.timeline.seconds));
   followed_ = number;
   say("camera " + cameras[number].name);
@@ -521,10 +573,13 @@ void Session::jump(const Camera& camera) {
 
 void Session::pick(int x, int y) {
   if (!shown_.scene) return;
+
   RayQuery query;
   query.picture.camera = shown_.request.camera;
   query.picture.options.size = windowPixels();
   query.x = x, query.y = y;
+
+  // The answer also selects the surface and its strongest light in the scene's tab.
   picked_ = query;
   settings_.rays.lines = true;
   selects_ = true;

@@ -21,7 +21,7 @@
 
 namespace whit::view {
 
-// What the command lines of both faces say.
+// The options that the command lines of both faces have in common.
 struct ViewOptions {
   cli::CommonOptions common;
   std::string scene;  // as on the command line

@@ -18,6 +18,7 @@ void addMembers(const Noun& read, const Noun& edited, std::vector<std::string>& 
     const auto& value = edited.*member.field;
     const bool changed = !(read.*member.field == value);
     if (changed) decided.insert(member.rules.decides.begin(), member.rules.decides.end());
+
     if (!changed && !decided.contains(member.name)) return;
     settings.push_back(edited.pointer + "/" + member.name + "=" + describe(value).dump());
   });
@@ -37,6 +38,7 @@ void addSky(const SkyChoice& read, const SkyChoice& edited, bool whole,
   const auto say = [&](const char* pointer, const Json& value) {
     settings.push_back(pointer + ("=" + value.dump()));
   };
+
   if (edited == read && !whole) return;
   if (!edited.source.empty()) return say("/sky", describeSky(edited));
   if (edited.scale != read.scale) say("/sky/scale", describe(edited.scale));
@@ -48,6 +50,7 @@ void addSky(const SkyChoice& read, const SkyChoice& edited, bool whole,
 SkyChoice skyOf(const OpenScene& scene) {
   const Sky& sky = scene.scene.sky;
   SkyChoice choice{"", sky.kind, sky.scale, sky.rotation};
+
   if (!scene.load.sky.empty()) {
     choice.source = chooseSky(scene.load.sky).source;
   } else if (sky.name == kStudio) {
@@ -79,12 +82,14 @@ std::vector<std::string> editSettings(const ShadingEdit& read, const ShadingEdit
   for (std::size_t i = 0; i < read.lights.size(); ++i) {
     addMembers(read.lights[i], edited.lights[i], settings);
   }
+
   for (std::size_t i = 0; i < read.materials.size(); ++i) {
     addMaterial(read.materials[i], edited.materials[i], settings);
   }
   const bool ambientChanged = !sameAmbient(read.ambient, edited.ambient);
   // Only a sky in the file makes ambient light, not one that is given by --sky.
   addSky(read.sky, edited.sky, ambientChanged && edited.ambient.ofSky > 0, settings);
+
   // The default ambient light of a model follows its sky.
   const bool ambientFollows = read.scene && read.scene->scene.isModel && edited.sky != read.sky;
   if (ambientFollows || ambientChanged) {
