@@ -40,7 +40,7 @@ constexpr double kProbeShare = 0.1, kMostProbeShare = 0.2, kLeastProbeMs = 12, k
 constexpr double kProbeMsOfTarget = 300, kShortMs = 40;
 constexpr double kLeastBlocks = 8, kMostBlocks = 1000, kLeastPackets = 128, kLeastTimed = 16;
 constexpr double kAssessShare = 0.01;
-constexpr double kChannelMargin = 1.25;  // of the noise that the channel `error` tells
+constexpr double kChannelMargin = 1.25;  // factor of the noise that the channel `error` estimates
 // The mean of k equal samples among black ones has the relative standard error 1 / sqrt(k) (Kish
 // 1965 calls k the effective number of samples). Where fewer than so many decide a pixel and those
 // around it, they tell little about the samples that were not drawn; and where the other pixels
@@ -74,6 +74,7 @@ constexpr double squared(double x) { return x * x; }
 // Returns the means of squares of kPooledSide pixels, or the image itself if it is smaller.
 Image pooled(const Image& image) {
   if (std::min(image.width, image.height) < kPooledSide) return image;
+
   Image means(image.width / kPooledSide, image.height / kPooledSide);
   for (int y = 0; y < means.height * kPooledSide; ++y) {
     for (int x = 0; x < means.width * kPooledSide; ++x) {
@@ -99,15 +100,19 @@ void leaveUnknown(Receipt& r, double estimate) {
 
 // The root mean squares of radiance over the pixels that the channel `error` is pooled over.
 std::vector<double> pooledRadiance(const Film& film) {
+  // poolErrors() works on the channel `error`, so the radiance takes its place there.
   Film means;
   means.image = film.image;
   means.channels.resize(ChannelSet().with(Channel::error), film.image.pixels.size());
   const std::span<float> values = means.channels.floats(Channel::error);
+
   for (std::size_t i = 0; i < film.image.pixels.size(); ++i) {
     const Rgb& pixel = film.image.pixels[i];
     values[2 * i] = (pixel.x + pixel.y + pixel.z) / 3;
   }
   poolErrors(means);
+
+  // The channel has two floats for each pixel; only the first is pooled.
   std::vector<double> pooled;
   for (std::size_t i = 0; i < values.size(); i += 2) pooled.push_back(double{values[i]});
   return pooled;
@@ -118,6 +123,8 @@ double brightestRadiance(const Scene& scene, const Image& image) {
   for (const Rgb& pixel : image.pixels) brightest = std::max(brightest, maxComponent(pixel));
   for (const Material& m : scene.materials)
     brightest = std::max(brightest, maxComponent(m.emission));
+
+  // Parts of the sky that are out of view may be brighter than any pixel.
   const Sky& sky = scene.sky;
   if (sky.kind == Sky::Kind::none) return double{brightest};
   for (const Rgb& color : {sky.zenith, sky.horizon, sky.ground}) {
@@ -126,6 +133,7 @@ double brightestRadiance(const Scene& scene, const Image& image) {
   for (const std::vector<float>* texels : {&sky.image.r, &sky.image.g, &sky.image.b}) {
     for (const float texel : *texels) brightest = std::max(brightest, sky.scale * texel);
   }
+
   return double{brightest};
 }
 
@@ -135,10 +143,12 @@ std::vector<std::pair<int, int>> spreadCells(int columns, int rows, double count
   const auto all = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
   std::vector<std::pair<int, int>> cells;
   std::vector<bool> taken(all);
+
   for (std::size_t k = 0; k < 8 * all && static_cast<double>(cells.size()) < count; ++k) {
     double u = 0.5 + 0.7548776662466927 * static_cast<double>(k), whole = 0;
     double v = 0.5 + 0.5698402909980532 * static_cast<double>(k);
     u = std::modf(u, &whole), v = std::modf(v, &whole);
+
     const int x = static_cast<int>(u * columns), y = static_cast<int>(v * rows);
     const std::size_t cell = static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) +
                              static_cast<std::size_t>(x);
@@ -160,15 +170,20 @@ class Prober {
   void chooseBlocks(int side, double count) {
     const Image& image = film_.image;
     side_ = std::min({side, image.windowWidth(), image.windowHeight()});
+
     blocks_.clear();
     for (const auto& [column, row] :
          spreadCells(image.windowWidth() / side_, image.windowHeight() / side_, count)) {
       const int x = image.window.x0 + column * side_, y = image.window.y0 + row * side_;
       blocks_.push_back(makeTiles({x, y, x + side_, y + side_}, side_)[0]);
     }
+
+    // Every worker gets at least two lists if there are enough blocks, so that the work is
+    // balanced.
     const auto lists = 2 * static_cast<std::size_t>(renderer_.machine().threads);
     const std::size_t most = std::max<std::size_t>(kListPixels / blocks_[0].size(), 1);
     const std::size_t together = std::clamp<std::size_t>(blocks_.size() / lists, 1, most);
+
     lists_.clear();
     for (std::size_t i = 0; i < blocks_.size(); ++i) {
       const std::size_t room = together * blocks_[i].size() + kListPadding;
@@ -176,6 +191,8 @@ class Prober {
       lists_.back().insert(lists_.back().end(), blocks_[i].begin(), blocks_[i].end());
     }
   }
+
+  // Number of pixels in the chosen blocks.
   double probed() const { return static_cast<double>(blocks_.size()) * side_ * side_; }
 
   FrameStats render(RenderOptions options, int spp) {
@@ -194,9 +211,11 @@ class Prober {
   // Returns the blocks as last rendered, or as another picture of the film's size has them.
   Image mosaic() const { return mosaic(film_.image); }
   Image mosaic(const Image& picture) const {
+    // The blocks are arranged in a grid that is nearly square.
     const int count = static_cast<int>(blocks_.size());
     const int columns = std::max(static_cast<int>(std::sqrt(count)), 1);
     Image image(columns * side_, (count + columns - 1) / columns * side_);
+
     for (int b = 0; b < count; ++b) {
       const std::vector<std::uint32_t>& block = blocks_[static_cast<std::size_t>(b)];
       for (const std::uint32_t pixel : block) {
@@ -214,19 +233,23 @@ class Prober {
     return inCodes_ ? 255 * std::pow(10, -d.psnrDb / 20) : d.flipMean;
   }
 
-  // Milliseconds of the whole picture, by the rays of packets from all over it, which stand for it
-  // better than a few tiles, and by the time of a ray in larger blocks, whose rays are as coherent
-  // as those of the picture. Takes about the share of the picture's time.
+  // Estimates the milliseconds of the whole picture as its rays times the time of a ray. The
+  // measurement takes about `share` of the picture's time.
   double wholePictureMs(const RenderOptions& options, double share) {
     const int spp = options.spp, few = std::min(spp, kTimedSpp);
     const double packets = pixels() / squared(kPacketSide), blocks = pixels() / squared(kTimedSide);
+
+    // Small packets from all over the picture give the number of rays per sample.
     chooseBlocks(kPacketSide, std::max(share * spp * packets, kLeastPackets));
     const double rays = static_cast<double>(render(options, 1).allRays()) / probed();
+
+    // Larger blocks give the time per ray, because their rays are as coherent as the picture's.
     chooseBlocks(kTimedSide, std::max(share * spp / few * blocks, kLeastTimed));
     render(options, 1);  // fills new queues
     const FrameStats timed = render(options, few);
     const double ms = std::accumulate(timed.stageWorkerMs.begin(), timed.stageWorkerMs.end(), 0.0) /
                       timed.workers;
+
     return ms / static_cast<double>(timed.allRays()) * rays * pixels() * spp;
   }
 
@@ -246,6 +269,7 @@ struct Level {
   double bias2 = 0;   // squared error that more samples of pixels do not take away
   double noise2 = 0;  // added to the squared error of one sample
 };
+
 struct Ladder {
   std::string name, exact, off;  // off: without samples; empty for other knobs
   std::vector<Level> levels;     // the first is the one of the middle
@@ -270,6 +294,7 @@ class Chooser {
         wasAdaptive_(renderer.options().adaptive),
         middle_(renderer.options()),
         prober_(renderer, camera, film, budget.inCodes) {
+    // Probes keep no channels, and take all samples unless --adaptive was given explicitly.
     middle_.channels = {};
     middle_.adaptive = middle_.adaptive && fixed.contains("adaptive");
     if (middle_.adaptive) measured_ = channels_;  // it takes all samples with the channel
@@ -280,15 +305,19 @@ class Chooser {
     chooseBlocks();
     measure();
     Combination best = search();
-    // Measured as a whole, another combination may be better.
+
+    // Costs that were measured one by one may not multiply exactly. The measured time of the best
+    // combination corrects the scale, after which another one may be better.
     for (int round = 0; round < kRounds; ++round) {
       scale_ *= prober_.wholePictureMs(optionsOf(best), kPictureShare) / best.total.cost;
       const Combination next = search();
       const bool same = next.levels == best.levels;
+      // The last round keeps the combination whose time was measured.
       if (same || round + 1 < kRounds) best = next;
       complete(best, leftMs());
       if (same) break;
     }
+
     return receiptOf(best);
   }
 
@@ -309,10 +338,13 @@ class Chooser {
     const bool transports = knob.cause == Cause::transport;
     if (fixed_.contains(knob.name) || !knob.idle(effects).empty()) return;
     if (transports && middle_.indirect == 0) return;
+
     RenderOptions exact = middle_;
     knob.makeExact(exact, exactCutoff(effects, false));
     Ladder ladder{knob.name, optionText(exact, knob.name), {}, {}};
+
     if (knob.cause == Cause::algorithm) {
+      // The value of the options comes first, then those of the sweep, and the exact one last.
       ladder.levels = {{optionText(middle_, knob.name)}};
       for (const KnobValue& value : knob.values) {
         const bool known = value.label == ladder.levels[0].value || value.label == ladder.exact;
@@ -320,6 +352,8 @@ class Chooser {
       }
       if (ladder.levels[0].value != ladder.exact) ladder.levels.push_back({ladder.exact});
     } else {
+      // The middle takes the fewest samples. The other levels are off and exact, but light
+      // transport that was asked for is not switched off.
       const bool ofLights = knob.name == "light-samples";
       ladder.off = ofLights ? "1" : "0";
       ladder.levels = {{ofLights ? "2" : "1"}};
@@ -327,6 +361,7 @@ class Chooser {
       ladder.levels.push_back({ladder.exact});
       setOption(middle_, knob.name, ladder.levels[0].value);
     }
+
     ladders_.push_back(std::move(ladder));
   }
 
@@ -337,6 +372,7 @@ class Chooser {
   void chooseBlocks() {
     prober_.chooseBlocks(kPacketSide, kLeastPackets);
     double ms = sampleOfMiddle();
+
     if (timed() && ms > budget_.ms) {
       for (Ladder& ladder : ladders_) {
         if (ladder.off.empty() || ladder.name == "indirect") continue;
@@ -345,17 +381,25 @@ class Chooser {
       }
       ms = sampleOfMiddle();
     }
+
     probeSpp_ = timed() && ms > budget_.ms ? 1 : probeMs() < kShortMs ? kFewSpp : kSomeSpp;
-    for (Ladder& ladder : ladders_) {  // a moderate value first, where a cheaper one need not be
+
+    // A moderate value is measured first, in case there is no time for all of them.
+    for (Ladder& ladder : ladders_) {
       const bool toExact = ladder.levels.back().value == ladder.exact;
       const auto first = ladder.levels.begin() + 1, last = ladder.levels.end() - (toExact ? 1 : 0);
       if (probeSpp_ > 1 && first < last) std::rotate(first, first + (last - first) / 2, last);
     }
+
+    // Each level renders one sample to warm up, then the samples of its probe, and is compared
+    // once.
     double samples = kTruthFactor * probeSpp_, pictures = 0;  // of a pixel
     for (const Ladder& ladder : ladders_) {
       const auto levels = static_cast<double>(ladder.levels.size());
       samples += levels * (1 + (ladder.off.empty() ? 1 : probeSpp_)), pictures += levels;
     }
+
+    // The time that is left for probes gives the number of pixels that can be measured.
     const double us = 1e3 * ms / prober_.pixels() * kCostOfProbe * samples;
     const double pixels = 1e3 * (probeMs() - clock_.ms()) / (us + kFlipMicroseconds * pictures);
     prober_.chooseBlocks(kBlockSide,
@@ -364,25 +408,33 @@ class Chooser {
 
   void measure() {
     probed_ = prober_.probed();
+
     // The truth has other random numbers: noise that the probes share would hide what samples gain.
     renderer_.setSeed(1);
     prober_.time(middle_, kTruthFactor * probeSpp_);
     renderer_.setSeed(0);
     const Image truth = prober_.mosaic();
+
+    // The noise of the middle is measured with one sample and with several.
     const double firstUs = prober_.time(middle_, 1);
     const Image first = prober_.mosaic();
     noise2_ = squared(prober_.difference(first, truth));
     sampleUs_ = prober_.time(middle_, probeSpp_);
     const Image own = prober_.mosaic();
     const double some = prober_.difference(own, truth);
+
+    // Squared noise falls as spp^-power. The truth is noisy as well, by an amount that depends on
+    // the power, so that we iterate.
     const double most = budget_.inCodes ? kMostCodesPower : kMostFlipPower;
-    for (int i = 0; i < 3 && noise2_ > 0 && probeSpp_ > 1; ++i) {  // the truth is noisy as well
+    for (int i = 0; i < 3 && noise2_ > 0 && probeSpp_ > 1; ++i) {
       const double rest = noise2_ * std::pow(kTruthFactor * probeSpp_, -power_);
       const double some2 = std::max(squared(some) - rest, squared(some) / 4);
       power_ = std::clamp(std::log(noise2_ / some2) / std::log(probeSpp_), kLeastPower, most);
     }
+
     for (Ladder& ladder : ladders_) {
-      if (ladder.off.empty()) {  // one sample will do: all values share its noise
+      if (ladder.off.empty()) {
+        // One sample is enough to measure a bias, because all values share its noise.
         const std::vector<Image> shown = renderLevels(1, firstUs, first, ladder);
         const bool toExact = ladder.levels.back().value == ladder.exact;
         for (std::size_t i = 0; i < shown.size(); ++i) {
@@ -391,11 +443,13 @@ class Chooser {
         }
         continue;
       }
+
       const std::vector<Image> shown = renderLevels(probeSpp_, sampleUs_, own, ladder);
       for (std::size_t i = 1; i < shown.size(); ++i) {
         Level& level = ladder.levels[i];
-        // Means of many pixels tell what is missing in all of them from noise.
+        // Pooling tells bias from noise: means of many pixels show what all of them lack.
         if (level.value == ladder.off) level.bias2 = pooledBias2(shown[i], own, truth);
+        // No level has more noise than the middle, so a positive difference is a measuring error.
         const double more =
             squared(prober_.difference(shown[i], truth)) - level.bias2 - squared(some);
         level.noise2 = std::min(more, 0.0) * std::pow(probeSpp_, power_);
@@ -421,6 +475,7 @@ class Chooser {
         ladder.levels.resize(i);
         break;
       }
+
       RenderOptions options = middle_;
       setOption(options, ladder.name, ladder.levels[i].value);
       ladder.levels[i].cost = prober_.time(options, spp) / us;
@@ -431,55 +486,70 @@ class Chooser {
 
   double wantedError() const { return budget_.error / kTargetMargin; }
 
-  // By the levels of the combination, the cost and error of the picture with as many samples as
-  // fit.
+  // Sets the samples of the combination, and the cost and error of the picture by its levels.
   void complete(Combination& c, double leftMs) const {
+    // Costs multiply, and squared errors add up.
     double bias2 = 0, noise2 = noise2_, ms = scale_ * sampleUs_ * prober_.pixels() / 1e3;
     for (std::size_t i = 0; i < ladders_.size(); ++i) {
       const Level& level = ladders_[i].levels[c.levels[i]];
       bias2 += level.bias2, noise2 += level.noise2, ms *= level.cost;
     }
+
+    // Noise far below the middle's is taken for a measuring error.
     noise2 = std::max(noise2, kLeastNoise * noise2_);
+
     c.spp = middle_.spp;
     if (!fixed_.contains("spp")) {
       const auto samplesFor = [&](double error2) {
         return error2 > 0 ? std::ceil(std::pow(noise2 / error2, 1 / power_)) : kSppLimit;
       };
+
       // More samples than take the noise below what anybody could see buy nothing.
       const double unseen = budget_.inCodes ? kUnseenCodes : kUnseenFlip;
       // Making a pattern of samples takes a time that grows with their square.
       const double most = kSppOfRootMs * std::sqrt(budget_.ms);
+
+      // A budget takes as many samples as fit; a target, as many as bring the noise down to the
+      // part of the error that the bias leaves.
       const double spp = timed() ? std::min({kAim * leftMs / ms, samplesFor(squared(unseen)), most})
                                  : samplesFor(squared(wantedError()) - bias2);
       c.spp = static_cast<int>(std::clamp(spp, 1.0, double{kSppLimit}));
     }
+
     c.bias = std::sqrt(bias2);
     c.total = {ms * c.spp, std::sqrt(bias2 + noise2 * std::pow(c.spp, -power_))};
   }
 
-  // The best of all combinations of levels, or what is nearest to the budget or target.
+  // Returns the best combination of levels, or the one that is nearest to the budget or target.
   Combination search() const {
     std::vector<Combination> all;
     std::vector<CostAndError> costs, errors;
     Combination c;
     const double left = leftMs();
+
+    // The levels of all ladders are counted up like the digits of a number.
     for (bool more = true; more;) {
       complete(c, left);
       all.push_back(c);
+
+      // Each value beside the middle's has to win by a margin, because it may only seem better.
       const auto same = static_cast<double>(std::ranges::count(c.levels, std::size_t{0}));
       const double doubt = std::pow(1 + kDoubt * kBlockSide / std::sqrt(probed_),
                                     static_cast<double>(c.levels.size()) - same);
       costs.push_back({c.total.cost, c.total.error * doubt});
       errors.push_back({c.total.error, c.total.cost * doubt});
+
       more = false;
       for (std::size_t i = 0; i < ladders_.size() && !more; ++i) {
         more = ++c.levels[i] < ladders_[i].levels.size();
         if (!more) c.levels[i] = 0;
       }
     }
+
     constexpr double kAny = std::numeric_limits<double>::infinity(), kRounding = 1 + 1e-9;
     const auto best =
         timed() ? bestWithin(costs, kAim * left) : bestWithin(errors, wantedError() * kRounding);
+    // If nothing fits, we take the cheapest combination, or for a target the most accurate one.
     return all[best.value_or(bestWithin(timed() ? errors : costs, kAny).value_or(0))];
   }
 
@@ -488,6 +558,7 @@ class Chooser {
     for (std::size_t i = 0; i < ladders_.size(); ++i) {
       setOption(options, ladders_[i].name, ladders_[i].levels[c.levels[i]].value);
     }
+
     options.spp = c.spp;
     options.channels = measured_;
     return options;
@@ -499,6 +570,8 @@ class Chooser {
     r.options = optionsOf(best);
     renderer_.setOptions(r.options);
     r.options.channels = channels_;
+
+    // The receipt lists the chosen values, and among them those that are not exact.
     if (!fixed_.contains("spp")) r.chosen.emplace_back("spp", std::to_string(best.spp));
     if (wasAdaptive_ && !middle_.adaptive) r.chosen.emplace_back("adaptive", "off");
     for (std::size_t i = 0; i < ladders_.size(); ++i) {
@@ -509,9 +582,12 @@ class Chooser {
         r.approximate.push_back({ladder.name, level.value, ladder.exact, std::sqrt(level.bias2)});
       }
     }
+
     r.bias = best.bias;
     setError(r, best.total.error);
     r.expectedMs = best.total.cost;
+
+    // The note explains a budget or target that is missed, and time that is left over.
     const double left = leftMs();
     const bool isCheapest = best.spp == 1 || fixed_.contains("spp");
     if (timed() && isCheapest && r.expectedMs > kAim * left) {
@@ -521,6 +597,7 @@ class Chooser {
     } else if (budget_.error > 0 && r.error > budget_.error) {
       r.note = "the target is out of reach: this is the least error";
     }
+
     r.probeMs = clock_.ms();
     return r;
   }
@@ -547,6 +624,7 @@ Budget parseBudget(const std::string& time, const std::string& target) {
   if (!time.empty() && !target.empty()) {
     throwUsage("--budget gives the time and --target the error: give one of them");
   }
+
   Budget budget;
   std::smatch parts;
   if (std::regex_match(time, parts, times) && readNumber(parts[1].str(), budget.ms)) {
@@ -556,6 +634,7 @@ Budget parseBudget(const std::string& time, const std::string& target) {
     throwUsage("--budget: expected a time of at least 1 ms, as 50ms, 10s or 2min, found '" + time +
                "'");
   }
+
   if (std::regex_match(target, parts, errors)) {
     budget.inCodes = parts[2].matched;
     readNumber(parts[budget.inCodes ? 2 : 1].str(), budget.error);
@@ -564,6 +643,7 @@ Budget parseBudget(const std::string& time, const std::string& target) {
     throwUsage("--target: expected an error above 0, as 0.5codes or flip=0.01, found '" + target +
                "'");
   }
+
   return budget;
 }
 
@@ -573,6 +653,8 @@ Receipt chooseOptions(Renderer& renderer, const Camera& camera, const std::set<s
   if (renderer.options().mode == Mode::reference) {
     throwUsage("--budget and --target choose options of packets: leave out --mode reference");
   }
+
+  // Measuring changes the seed, and a failure must not leave it changed.
   try {
     return Chooser(renderer, camera, fixed, budget, film).choose();
   } catch (...) {
@@ -590,6 +672,10 @@ void assess(Receipt& r, Renderer& renderer, const Camera& camera, double ms, Fil
     const std::vector<double> radiance = pooledRadiance(film);
     std::mt19937 random;
     std::uniform_real_distribution<float> noise(-std::sqrt(3.0f), std::sqrt(3.0f));  // variance 1
+
+    // Three pictures differ from the rendered one: by noise of the estimated size, by the same
+    // noise only where enough samples decide a pixel, and by the most light that ended paths could
+    // bring.
     for (std::size_t i = 0; i < film.image.pixels.size(); ++i) {
       const double error = double{errors[2 * i]};
       const Rgb change(noise(random) * errors[2 * i]);
@@ -597,14 +683,17 @@ void assess(Receipt& r, Renderer& renderer, const Camera& camera, double ms, Fil
       if (kFewSamples * squared(error) <= squared(radiance[i])) steady.pixels[i] += change;
       whole.pixels[i] += Rgb(static_cast<float>(brightest * double{errors[2 * i + 1]}));
     }
+
     Prober prober(renderer, camera, film, r.budget.inCodes);
     // Squares of codes may come from a few pixels, so that a target in codes takes all.
     const double pixels =
         r.budget.inCodes ? prober.pixels() : 1e3 * kAssessShare * ms / kFlipMicroseconds;
     prober.chooseBlocks(kBlockSide, std::max(pixels / squared(kBlockSide), kLeastBlocks));
+
     const Image shown = prober.mosaic();
     r.ended = prober.difference(prober.mosaic(whole), shown);
     const double sampled = prober.difference(prober.mosaic(noisy), shown);
+
     double most = r.error, known = sampled;
     if (r.options.spp > 1) {
       // Samples that are spread evenly have less noise than the channel says.
@@ -619,6 +708,7 @@ void assess(Receipt& r, Renderer& renderer, const Camera& camera, double ms, Fil
     const bool isRandom = samplesLobes(renderer.plan().effects) && !isMeasured;
     if (isRandom || squared(known) < kLeastKnown * squared(sampled)) leaveUnknown(r, most);
   }
+
   film.channels.keepOnly(r.options.channels);
   renderer.setOptions(r.options);
   r.measuredMs = ms + clock.ms();
@@ -630,19 +720,23 @@ std::string receiptText(const Receipt& r, const std::string& command) {
   std::string options;
   for (const auto& [name, value] : r.chosen) options += " --" + name + " " + value;
   text += options.empty() ? "nothing: every option was given" : options.substr(1);
+
   text += "\n  left out";
   for (const Receipt::Knob& knob : r.approximate) {
     text += " " + knob.name + " " + knob.exact;
     if (knob.error > 0) text += formatted(" (%s %.4f)", unit, knob.error);
   }
   if (r.approximate.empty()) text += " nothing but samples";
+
   text += formatted("\n  time %.0f ms: %.0f to choose, %.0f for the picture (expected %.0f)",
                     r.usedMs(), r.probeMs, r.measuredMs, r.expectedMs);
   if (r.budget.ms > 0) text += formatted(", %.0f %% of the budget", 100 * r.usedMs() / r.budget.ms);
+
   text += formatted("\n  error %.4f %s, ", r.error, unit);
   text += std::isinf(r.high) ? "by what the samples tell; not known"
                              : formatted("between %.4f and %.4f", r.low, r.high);
   if (r.ended) text += formatted("; --depth and --cutoff left out at most %.4f", *r.ended);
+
   text += "\n";
   if (!r.note.empty()) text += "  note: " + r.note + "\n";
   if (!command.empty()) text += "  the same picture: " + command + options + "\n";

@@ -26,7 +26,9 @@ class Watcher : public StageObserver {
     const double us = 1000 * sinceLast_.ms();
     tracker_.follow(stage, chunk);
     const bool hits = stage == Stage::findIntersections;
+
     if (view_ == DebugView::cost) {
+      // The rays of the chunk share the time of the stage equally.
       for (std::size_t i = 0; i < chunk.n; ++i) {
         add(chunk, i, {static_cast<float>(us / static_cast<double>(chunk.n)), 0, 0}, 0);
       }
@@ -36,6 +38,7 @@ class Watcher : public StageObserver {
     } else if (hits && chunk.depth == 0) {
       lookAtSurfels(chunk);
     }
+
     sinceLast_ = Stopwatch();
   }
 
@@ -53,6 +56,8 @@ class Watcher : public StageObserver {
       add(chunk, slot, {1, 0, 0}, 0);
       return;
     }
+
+    // All packets are full except for the last one.
     const auto width = static_cast<std::size_t>(renderer_.machine().packet);
     const std::size_t live = std::min(width, n - i / width * width);
     add(chunk, slot, {static_cast<float>(live) / static_cast<float>(width), 0, 0}, 1);
@@ -135,17 +140,23 @@ void findScale(DebugPicture& picture) {
   constexpr double kOutliers = 0.005;  // share of the pixels that may be beyond the scale
   constexpr double kLongestScale = 1000;
   const DebugView view = picture.view;
+
   picture.low = 0, picture.high = 1;
   if (view != DebugView::depth && !isLogarithmic(view)) return;
+
   std::vector<double> amounts;
   for (const WatchedPixel& p : picture.pixels) {
     if (!hitsNothing(view, p)) amounts.push_back(amountOf(p, picture.samples));
   }
   if (amounts.empty()) amounts.push_back(0);
+
+  // The scale leaves out the few largest amounts, which would hide the differences of all others.
   const auto last = static_cast<double>(amounts.size() - 1);
   const auto highest = amounts.begin() + std::lround(last * (1 - kOutliers));
   std::nth_element(amounts.begin(), highest, amounts.end());
   const double low = *std::min_element(amounts.begin(), highest + 1);
+
+  // A logarithmic scale spans at most three decades.
   picture.low = isLogarithmic(view) ? std::max(low, *highest / kLongestScale) : low;
   picture.high = *highest;
 }
@@ -155,12 +166,14 @@ void paint(const DebugPicture& picture, DisplayImage& display) {
   const double low = picture.low, high = picture.high;
   const bool hasScale = !picture.legend().empty(), flat = !(high > low);
   const double perLog = !flat && isLogarithmic(view) ? 1 / std::log(high / low) : 0;
+
   const auto shareOf = [&](double amount) {
     const double share = flat                  ? 0
                          : isLogarithmic(view) ? std::log(amount / low) * perLog
                                                : (amount - low) / (high - low);
     return share > 0 ? std::min(share, 1.0) : 0;
   };
+
   for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
     const WatchedPixel& p = picture.pixels[i];
     std::array<std::uint8_t, 3> color{};
@@ -169,6 +182,7 @@ void paint(const DebugPicture& picture, DisplayImage& display) {
     } else if (!hitsNothing(view, p)) {
       color = colorAt(view, shareOf(amountOf(p, picture.samples)));
     }
+
     std::ranges::copy(color, &display.rgba[4 * i]);
     display.rgba[4 * i + 3] = 255;
   }
@@ -180,10 +194,12 @@ FrameStats watchFrame(Renderer& renderer, const Camera& camera, Film& film, Debu
                       DebugPicture& picture, const FrameHooks* hooks) {
   picture.view = view;
   picture.samples = renderer.options().spp;
+
   Watcher watcher(renderer, film.image, view, picture.pixels);
   StageObserver* const observers[] = {&watcher};
   const FrameStats stats = renderer.render(
       {.camera = camera, .film = film, .observers = observers, .uniform = true, .hooks = hooks});
+
   findScale(picture);
   paint(picture, film.display);
   return stats;
@@ -195,8 +211,9 @@ std::string DebugPicture::legend() const {
 }
 
 std::array<std::uint8_t, 3> colorAt(DebugView view, double share) {
-  constexpr double kFarthest = 0.08;  // the gray of the farthest surface, told from nothing
+  constexpr double kFarthest = 0.08;  // the gray of the farthest surface, brighter than a miss
   if (view != DebugView::depth) return heatColor(share);
+
   const std::uint8_t code = codeOf(static_cast<float>(1 - (1 - kFarthest) * share));
   return {code, code, code};
 }
@@ -205,6 +222,7 @@ std::string DebugPicture::textOf(std::size_t number) const {
   const WatchedPixel& pixel = pixels[number];
   const double count = pixel.count, amount = amountOf(pixel, samples);
   const RgbD mean = RgbD(pixel.sum) / std::max(count, 1.0);
+
   switch (view) {
     case DebugView::depth:
       return count > 0 ? formatted("distance %.5g units", amount) : "nothing is hit";

@@ -45,11 +45,13 @@ Plane filterAlongX(const Plane& plane, const Taps& taps) {
   const int radius = static_cast<int>(taps.size() / 2);
   Plane out(plane.width, plane.height);
   std::vector<float> padded(static_cast<std::size_t>(plane.width) + 2 * taps.size());
+
   for (int y = 0; y < plane.height; ++y) {
     const float* row = plane.row(y);
     std::fill_n(padded.begin(), radius, row[0]);
     std::copy(row, row + plane.width, padded.begin() + radius);
     std::fill_n(padded.begin() + radius + plane.width, radius, row[plane.width - 1]);
+
     for (std::size_t i = 0; i < taps.size(); ++i)
       addScaled(out.row(y), padded.data() + i, taps[i], plane.width);
   }
@@ -59,6 +61,7 @@ Plane filterAlongX(const Plane& plane, const Taps& taps) {
 Plane filterAlongY(const Plane& plane, const Taps& taps) {
   const int radius = static_cast<int>(taps.size() / 2);
   Plane out(plane.width, plane.height);
+
   for (int y = 0; y < plane.height; ++y) {
     for (std::size_t i = 0; i < taps.size(); ++i) {
       const int from = y - radius + static_cast<int>(i);
@@ -96,15 +99,20 @@ struct ColorSpace {
 const ColorSpace& colorSpace() {
   static const ColorSpace space = [] {
     std::array<Vec3d, 3> m = kRgbToXyz;
+    // Each row sums to 1, so that white becomes (1, 1, 1).
     for (Vec3d& row : m) row = row / (row.x + row.y + row.z);
+
+    // The columns of the inverse are cross products of the rows, divided by the determinant.
     const Vec3d a = cross(m[1], m[2]), b = cross(m[2], m[0]), c = cross(m[0], m[1]);
     const double determinant = dot(m[0], a);
+
     ColorSpace s;
     for (std::size_t i = 0; i < 3; ++i) {
       const int k = static_cast<int>(i);
       s.toXyz.rows[i] = Vec3f(m[i]);
       s.toRgb.rows[i] = Vec3f(Vec3d(a[k], b[k], c[k]) / determinant);
     }
+
     return s;
   }();
   return space;
@@ -125,6 +133,7 @@ Planes opponentPlanes(const DisplayImage& image) {
   const Matrix& toXyz = colorSpace().toXyz;
   Planes planes;
   planes.fill(Plane(image.width, image.height));
+
   for (std::size_t i = 0; i < planes[0].values.size(); ++i) {
     const std::uint8_t* code = image.rgba.data() + 4 * i;
     const Vec3f o = opponentOfXyz(
@@ -138,6 +147,7 @@ Planes opponentPlanes(const DisplayImage& image) {
 Taps balanced(const std::vector<double>& weights) {
   double positive = 0, negative = 0;
   for (const double w : weights) (w > 0 ? positive : negative) += std::abs(w);
+
   Taps taps;
   for (const double w : weights)
     taps.push_back(static_cast<float>(w / (w > 0 ? positive : negative)));
@@ -151,12 +161,16 @@ struct Gaussian {
 };
 Plane filterContrast(const Plane& plane, const std::vector<Gaussian>& gaussians) {
   constexpr double kWidestB = 0.04;
+  // The radius is three standard deviations of the widest Gaussian.
   const int radius = static_cast<int>(std::ceil(
       3 * std::sqrt(kWidestB / (2 * std::numbers::pi * std::numbers::pi)) * kPixelsPerDegree));
+
   Plane sum(plane.width, plane.height);
   std::vector<double> masses;
   std::vector<Taps> taps;
   double total = 0;
+
+  // The weight of each Gaussian in the sum is its mass over the plane.
   for (const Gaussian& g : gaussians) {
     std::vector<double> weights;
     double line = 0;
@@ -165,15 +179,18 @@ Plane filterContrast(const Plane& plane, const std::vector<Gaussian>& gaussians)
       weights.push_back(std::exp(-std::numbers::pi * std::numbers::pi * d * d / g.b));
       line += weights.back();
     }
+
     taps.push_back(balanced(weights));
     masses.push_back(g.a * std::sqrt(std::numbers::pi / g.b) * line * line);
     total += masses.back();
   }
+
   for (std::size_t k = 0; k < gaussians.size(); ++k) {
     const Plane part = filterAlongY(filterAlongX(plane, taps[k]), taps[k]);
     const float share = static_cast<float>(masses[k] / total);
     for (std::size_t i = 0; i < sum.values.size(); ++i) sum.values[i] += share * part.values[i];
   }
+
   return sum;
 }
 
@@ -183,6 +200,7 @@ Vec3f huntLab(const Vec3f& rgb) {
   const auto f = [](float t) {
     return t > kDelta * kDelta * kDelta ? std::cbrt(t) : t / (3 * kDelta * kDelta) + 4.0f / 29.0f;
   };
+
   const Vec3f xyz = colorSpace().toXyz * rgb;
   const float x = f(xyz.x), y = f(xyz.y), z = f(xyz.z);
   const float lightness = 116 * y - 16;
@@ -206,9 +224,11 @@ float redistribute(float distance) {
 }
 
 std::vector<Vec3f> filteredLab(const Planes& opponent) {
+  // Each opponent channel has a contrast sensitivity of its own.
   const Planes filtered{filterContrast(opponent[0], {{1, 0.0047}}),
                         filterContrast(opponent[1], {{1, 0.0053}}),
                         filterContrast(opponent[2], {{34.1, 0.04}, {13.5, 0.025}})};
+
   const Matrix& toRgb = colorSpace().toRgb;
   std::vector<Vec3f> lab;
   lab.reserve(filtered[0].values.size());
@@ -231,6 +251,7 @@ void findFeatures(const Plane& achromatic, FlipSide& side) {
   const double deviation = 0.5 * kFeatureWidth * kPixelsPerDegree;
   const int radius = static_cast<int>(std::ceil(3 * deviation));
   std::vector<double> gaussian, edge, point;
+
   for (int x = -radius; x <= radius; ++x) {
     const double square = x * x / (deviation * deviation);
     const double g = std::exp(-square / 2);
@@ -238,10 +259,14 @@ void findFeatures(const Plane& achromatic, FlipSide& side) {
     edge.push_back(-x * g);
     point.push_back((square - 1) * g);
   }
+
+  // Features are detected on luminance from 0 to 1.
   Plane luminance = achromatic;
   for (float& value : luminance.values) value = (value + 16) / 116;
   const Taps smoothing = balanced(gaussian);
   const Plane smooth = filterAlongX(luminance, smoothing);
+
+  // A feature's magnitude combines both axes, each filtered along it and smoothed across it.
   const auto magnitudesOf = [&](const Taps& taps) {
     const Plane x = filterAlongY(filterAlongX(luminance, taps), smoothing);
     const Plane y = filterAlongY(smooth, taps);
@@ -250,6 +275,7 @@ void findFeatures(const Plane& achromatic, FlipSide& side) {
       result[i] = std::sqrt(x.values[i] * x.values[i] + y.values[i] * y.values[i]);
     return result;
   };
+
   side.edge = magnitudesOf(balanced(edge));
   side.point = magnitudesOf(balanced(point));
 }
@@ -267,12 +293,14 @@ FlipSide flipSide(const DisplayImage& image) {
 std::vector<float> flipOfCodes(const DisplayImage& first, const DisplayImage& second) {
   const FlipSide a = flipSide(first), b = flipSide(second);
   std::vector<float> flip(a.lab.size());
+
   for (std::size_t i = 0; i < flip.size(); ++i) {
     const float color = redistribute(hyAb(a.lab[i], b.lab[i]));
     const float feature =
         std::max(std::abs(a.edge[i] - b.edge[i]), std::abs(a.point[i] - b.point[i]));
     const float scaled = std::pow(feature / std::sqrt(2.0f), kFeatureExponent);
-    // 3.3
+
+    // 3.3: a difference in features amplifies the difference in color.
     flip[i] = std::pow(color, 1 - std::min(scaled, 1.0f));
   }
   return flip;

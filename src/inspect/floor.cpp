@@ -38,12 +38,15 @@ class RayLogger : public StageObserver {
       return s.anyHit == kind.anyHit && s.coherent == kind.coherent;
     });
     if (stream == streams_.end()) stream = streams_.insert(stream, kind);
+
+    // Columns are padded to whole blocks, so new rays replace the padding.
     for (std::size_t c = 0; c < rays.size() && rays[c]; ++c) {
       std::vector<float>& column = stream->columns[c];
       column.resize(stream->count);
       column.insert(column.end(), rays[c], rays[c] + n);
       column.resize(roundUpToBlock(stream->count + n));
     }
+
     stream->count += n;
   }
 
@@ -59,9 +62,12 @@ double replay(const Accel& accel, const RayStream& stream) {
   c.meter = &meter;
   c.coherent = stream.coherent;
   c.depth = 1;  // rays of depth 0 would be traced again where their eye lies in a surface
+
   // Rays are only read.
   const auto column = [&](std::size_t i) { return const_cast<float*>(stream.columns[i].data()); };
+
   if (stream.anyHit) {
+    // Each any-hit ray has a result slot of its own.
     std::vector<std::uint32_t> slots(roundUpToBlock(stream.count));
     std::iota(slots.begin(), slots.end(), 0u);
     const ColumnStore<UnshadowedColumns> results(stream.count, {});
@@ -69,9 +75,12 @@ double replay(const Accel& accel, const RayStream& stream) {
     c.shadows = {column(0), column(1), column(2), column(3),
                  column(4), column(5), column(6), slots.data()};
     c.shadowCount = stream.count;
+
     accel.checkShadows(c);
     return meter.embreeMs;
   }
+
+  // Closest-hit rays form a single segment.
   const ColumnStore<HitColumns> results(stream.count, {});
   c.hits = *results;
   c.rays.orgX = column(0), c.rays.orgY = column(1), c.rays.orgZ = column(2);
@@ -79,17 +88,20 @@ double replay(const Accel& accel, const RayStream& stream) {
   c.n = stream.count;
   c.segments[0] = {RayKind::primary, 0, c.n};
   c.segmentCount = 1;
+
   accel.findHits(c);
   return meter.embreeMs;
 }
 
-// Returns the wall-clock time of the replay of all logs, one for each worker.
+// Replays the log of each worker, all at once. Returns the mean over the workers of the
+// milliseconds inside Embree.
 double replay(Renderer& renderer, const std::vector<RayLogger>& loggers) {
   std::vector<double> ms(loggers.size());
   renderer.scheduler().pool().run([&](int worker) {
     const auto w = static_cast<std::size_t>(worker);
     for (const RayStream& stream : loggers[w].streams()) ms[w] += replay(renderer.accel(), stream);
   });
+
   return std::accumulate(ms.begin(), ms.end(), 0.0) / static_cast<double>(ms.size());
 }
 
@@ -100,7 +112,9 @@ double measureFloor(Renderer& renderer, const Camera& camera, Film& film) {
   std::vector<StageObserver*> observers;
   observers.reserve(loggers.size());
   for (RayLogger& logger : loggers) observers.push_back(&logger);
+
   renderer.render({.camera = camera, .film = film, .observers = observers});
+
   // A frame without observers comes before the replay, so that caches hold what a frame leaves.
   renderer.render(camera, film);
   return replay(renderer, loggers);

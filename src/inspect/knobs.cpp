@@ -32,9 +32,11 @@ Knob knobOf(const std::string& name, const KnobSpec& spec) {
     for (std::string& word : all) word = labelOf(name, word);
     return all;
   };
+
   const std::string exact = labelOf(name, std::string(spec.exact));
   const std::vector<std::string> spare = labels(spec.spare);
   Knob knob{name, spec.cause, {}, spec, exact};
+
   for (const std::string& label : labels(spec.values)) {
     KnobValue value{name, label, std::ranges::count(spare, label) > 0, false, {}};
     value.endless = label == exact && spec.endless;
@@ -84,10 +86,12 @@ const std::vector<Knob>& allKnobs() {
 
 std::vector<Knob> chooseKnobs(const std::vector<std::string>& names) {
   if (names.empty()) return allKnobs();
+
   std::vector<Knob> chosen;
   for (const Knob& knob : allKnobs()) {
     if (std::ranges::find(names, knob.name) != names.end()) chosen.push_back(knob);
   }
+
   for (const std::string& name : names) {
     if (std::ranges::find(chosen, name, &Knob::name) != chosen.end()) continue;
     throwUsage("--knobs: there is no knob '" + name + "'" + didYouMean(name, namesIn(allKnobs())));
@@ -126,6 +130,7 @@ std::optional<std::size_t> bestWithin(const std::vector<CostAndError>& points, d
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto& [cost, error] = points[i];
     if (!std::isfinite(error) || !(cost <= most)) continue;
+
     const bool better = !best || error < points[*best].error ||
                         (error == points[*best].error && cost < points[*best].cost);
     if (better) best = i;

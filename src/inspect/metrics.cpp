@@ -22,11 +22,13 @@ constexpr double kRelativeEpsilon = 1e-2;
 void measureLinear(const Image& a, const Image& b, ImageDifference& difference) {
   double squares = 0, relative = 0, sumA = 0, sumB = 0;
   std::uint64_t values = 0;
+
   for (std::size_t i = 0; i < a.pixels.size(); ++i) {
     if (!isFinite(a.pixels[i]) || !isFinite(b.pixels[i])) {
       ++difference.nonFinite;
       continue;
     }
+
     values += 3;
     for (int c = 0; c < 3; ++c) {
       const double x = static_cast<double>(a.pixels[i][c]);
@@ -38,6 +40,7 @@ void measureLinear(const Image& a, const Image& b, ImageDifference& difference) 
       sumB += reference;
     }
   }
+
   if (values == 0) return;
   difference.rmse = std::sqrt(squares / static_cast<double>(values));
   difference.relmse = relative / static_cast<double>(values);
@@ -51,6 +54,7 @@ double psnr(const DisplayImage& a, const DisplayImage& b) {
     const int d = int{a.rgba[i]} - int{b.rgba[i]};
     squares += static_cast<std::uint64_t>(d * d);
   }
+
   if (squares == 0) return std::numeric_limits<double>::infinity();
   const std::size_t values = a.rgba.size() / 4 * 3;
   return 10 *
@@ -60,6 +64,7 @@ double psnr(const DisplayImage& a, const DisplayImage& b) {
 // Returns the largest difference of a channel for each pixel, in codes.
 std::vector<std::uint8_t> codeDifferences(const DisplayImage& a, const DisplayImage& b) {
   std::vector<std::uint8_t> differences(a.rgba.size() / 4);
+
   for (std::size_t i = 0; i < differences.size(); ++i) {
     int largest = 0;
     for (std::size_t c = 0; c < 3; ++c)
@@ -77,6 +82,7 @@ void measureCodes(const DisplayImage& a, const DisplayImage& b, ImageDifference&
     one += code >= 1;
     two += code >= 2;
   }
+
   const double percent = 100.0 / static_cast<double>(codes.size());
   difference.pixelsGe1CodePct = percent * static_cast<double>(one);
   difference.pixelsGe2CodesPct = percent * static_cast<double>(two);
@@ -100,12 +106,16 @@ void checkComparable(const Image& a, const Image& b) {
 
 ImageDifference compareImages(const Image& a, const Image& b, float exposure, ToneCurve curve) {
   checkComparable(a, b);
+
   ImageDifference difference;
   measureLinear(a, b, difference);
+
+  // The other measures compare the images as they are displayed.
   const DisplayImage shownA = toDisplay(a, exposure, curve);
   const DisplayImage shownB = toDisplay(b, exposure, curve);
   difference.psnrDb = psnr(shownA, shownB);
   measureCodes(shownA, shownB, difference);
+
   const std::vector<float> flip = flipOfCodes(shownA, shownB);
   difference.flipMean =
       std::accumulate(flip.begin(), flip.end(), 0.0) / static_cast<double>(flip.size());
@@ -116,17 +126,20 @@ ValueDifference differenceOf(std::span<const float> a, std::span<const float> b)
   ValueDifference result;
   double squares = 0;
   std::uint64_t compared = 0;
+
   for (std::size_t i = 0; i < a.size(); ++i) {
     const bool finite = std::isfinite(a[i]) && std::isfinite(b[i]);
     const bool equal = a[i] == b[i] || (std::isnan(a[i]) && std::isnan(b[i]));
     result.differing += !equal;
     result.incomparable += !equal && !finite;
     if (!finite) continue;
+
     const double difference = std::abs(double{a[i]} - double{b[i]});
     result.largest = std::max(result.largest, difference);
     squares += difference * difference;
     ++compared;
   }
+
   if (compared > 0) result.rms = std::sqrt(squares / static_cast<double>(compared));
   return result;
 }
@@ -140,9 +153,11 @@ ValueDifference differenceOf(std::span<const std::uint32_t> a, std::span<const s
 std::array<std::uint8_t, 3> heatColor(double t) {
   constexpr std::array<std::array<double, 3>, 5> kStops{
       {{0, 0, 0}, {70, 20, 120}, {180, 50, 100}, {245, 130, 40}, {255, 245, 170}}};
+
   const double at = t * (kStops.size() - 1);
   const std::size_t low = std::min(static_cast<std::size_t>(at), kStops.size() - 2);
   const double f = at - static_cast<double>(low);
+
   std::array<std::uint8_t, 3> color{};
   for (std::size_t c = 0; c < 3; ++c)
     color[c] = static_cast<std::uint8_t>(
@@ -153,13 +168,16 @@ std::array<std::uint8_t, 3> heatColor(double t) {
 DisplayImage heatMap(const Image& a, const Image& b) {
   constexpr int kLargest = 16;  // codes
   checkComparable(a, b);
+
   DisplayImage map = toDisplay(a, 0, ToneCurve::none);
   const std::vector<std::uint8_t> codes = codeDifferences(map, toDisplay(b, 0, ToneCurve::none));
+
   std::array<std::array<std::uint8_t, 3>, kLargest + 1> colors{};
   for (int code = 0; code <= kLargest; ++code) {
     colors[static_cast<std::size_t>(code)] =
         heatColor(std::log2(1.0 + code) / std::log2(1.0 + kLargest));
   }
+
   for (std::size_t i = 0; i < codes.size(); ++i) {
     std::ranges::copy(colors[std::min<std::size_t>(codes[i], kLargest)], &map.rgba[4 * i]);
   }

@@ -25,6 +25,7 @@ class SignatureObserver : public StageObserver {
 
   void after(Stage stage, const Chunk& chunk) override {
     tracker_.follow(stage, chunk);
+
     if (stage == Stage::findIntersections) {
       for (std::size_t i = 0; i < chunk.n; ++i) {
         if (chunk.hits.triangle[i] == kMiss) continue;
@@ -72,6 +73,7 @@ ReferencePaths traceReferencePaths(Renderer& renderer, const Camera& camera, con
   ReferencePaths paths{film.image, std::vector<std::uint64_t>(film.image.pixels.size())};
   const Crop& window = film.image.window;
   std::atomic<int> nextRow{window.y0};
+
   renderer.scheduler().pool().run([&](int) {
     const RecordingIntersector intersector(renderer.accel());
     const reference::Tracer tracer(renderer.scene(), intersector, settings);
@@ -95,18 +97,23 @@ PathComparison comparePaths(Renderer& renderer, const Camera& camera, const Film
                             const ReferencePaths& reference) {
   Film scratch = film;
   std::vector<std::uint64_t> signatures(film.image.pixels.size());
+
+  // Each worker has its own observer. They share the signatures, because only one worker traces a
+  // pixel.
   std::vector<SignatureObserver> signers(static_cast<std::size_t>(renderer.machine().threads),
                                          SignatureObserver(film.image, signatures));
   std::vector<StageObserver*> observers;
   observers.reserve(signers.size());
   for (SignatureObserver& signer : signers) observers.push_back(&signer);
   renderer.render({.camera = camera, .film = scratch, .observers = observers, .uniform = true});
+
   PathComparison result{scratch.image, reference.image, {}, 0};
   result.diverged.resize(signatures.size());
   for (std::size_t i = 0; i < signatures.size(); ++i) {
     result.diverged[i] = signatures[i] != reference.signatures[i];
     result.divergences += result.diverged[i];
   }
+
   return result;
 }
 

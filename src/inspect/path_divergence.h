@@ -18,8 +18,8 @@ struct PathComparison {
 };
 PathComparison comparePaths(Renderer& renderer, const Camera& camera, const Film& film);
 
-// The reference's part of it. What changes nothing but the kernels (packet width, how
-// the film is kept) leaves it as it is, so that renderers may share it.
+// The reference's part of the comparison. Options that change only the kernels (packet width, how
+// the film is kept) do not change it, so that renderers may share it.
 struct ReferencePaths {
   Image image;
   std::vector<std::uint64_t> signatures;  // of the events along a pixel's paths, as image.pixels

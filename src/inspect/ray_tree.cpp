@@ -49,6 +49,8 @@ class TreeObserver : public StageObserver {
       default:
         return;
     }
+
+    // The remaining stages add to the radiance of the surfel itself.
     for (std::size_t i = 0; i < chunk.n; ++i) node(chunk, i).local = at(chunk.radiance, i);
   }
 
@@ -59,6 +61,7 @@ class TreeObserver : public StageObserver {
     tree_.primaries.pop_back();
     tree_.narrowed = true;
   }
+
   std::size_t append(std::size_t parent, RayKind kind, int depth) {
     RayNode& fresh = tree_.nodes.emplace_back();
     const std::size_t number = tree_.nodes.size() - 1;
@@ -67,6 +70,7 @@ class TreeObserver : public StageObserver {
     fresh.parent = depth == 0 ? number : parent;
     return number;
   }
+
   std::size_t numberOf(const Chunk& chunk, std::size_t i) const {
     return levels_[static_cast<std::size_t>(chunk.depth)][chunk.first + i];
   }
@@ -80,6 +84,7 @@ class TreeObserver : public StageObserver {
     n.weight = at(chunk.rays.weightR, chunk.rays.weightG, chunk.rays.weightB, i);
     n.media = reference::mediaOf(chunk, i);
     if (chunk.hits.triangle[i] == kMiss) return;
+
     const reference::Candidate met = reference::candidateOf(chunk, i);
     n.triangle = met.triangle;
     n.instance = met.instance;
@@ -94,6 +99,7 @@ class TreeObserver : public StageObserver {
   void lookForLight(const Chunk& chunk, std::size_t k) {
     const ShadowColumns& s = chunk.shadows;
     LightContribution& light = shadows_[s.slot[k]];
+
     light.traced = true;
     light.origin = at(s.orgX, s.orgY, s.orgZ, k);
     light.toLight = at(s.dirX, s.dirY, s.dirZ, k);
@@ -104,8 +110,11 @@ class TreeObserver : public StageObserver {
     RayNode& n = node(chunk, i);
     LightContribution light = shadows_[i];
     shadows_[i] = {};
+
+    // A light contributes what the radiance has gained since the previous stage.
     light.radiance = at(chunk.radiance, i) - n.local;
     if (!light.traced && light.radiance == RgbD()) return;
+
     light.light = chunk.lightNumber;
     light.sample = chunk.lightSample;
     n.lights.push_back(light);
@@ -115,6 +124,7 @@ class TreeObserver : public StageObserver {
     const auto depth = static_cast<std::size_t>(chunk.depth);
     levels_.resize(depth + 2);
     levels_[depth + 1].clear();
+
     for (std::size_t s = 0; s < chunk.childSegmentCount; ++s) {
       const Segment& segment = chunk.childSegments[s];
       for (std::size_t i = segment.begin; i < segment.end; ++i) {
@@ -142,6 +152,7 @@ class TreeIntersector : public EmbreeIntersector {
     RayNode& fresh = tree_.nodes.emplace_back();
     fresh.parent = current_;
   }
+
   void endSample(const RgbD& radiance) { tree_.nodes[tree_.primaries.back()].radiance = radiance; }
 
   bool closest(const reference::Ray& ray, reference::Candidate& c) const override {
@@ -150,21 +161,25 @@ class TreeIntersector : public EmbreeIntersector {
     n.direction = ray.direction;
     return EmbreeIntersector::closest(ray, c);
   }
+
   void met(const reference::Candidate& c) const override {
     RayNode& n = tree_.nodes[current_];
     n.triangle = c.triangle;
     n.instance = c.instance;
     n.u = c.u, n.v = c.v;
   }
+
   bool occluded(const reference::Ray& ray, double tFar) const override {
     LightContribution light;
     light.traced = true;
     light.origin = ray.origin;
     light.toLight = ray.direction;
     light.visible = !EmbreeIntersector::occluded(ray, tFar);
+
     tree_.nodes[current_].lights.push_back(light);
     return !light.visible;
   }
+
   void began(const reference::Impulse& impulse, RayKind kind) const override {
     const std::size_t number = tree_.nodes.size();
     RayNode fresh;
@@ -173,16 +188,19 @@ class TreeIntersector : public EmbreeIntersector {
     fresh.depth = tree_.nodes[current_].depth + 1;
     fresh.weight = impulse.weight;
     fresh.media = impulse.media;
+
     tree_.nodes[current_].children.push_back(number);
     tree_.nodes.push_back(std::move(fresh));
     current_ = number;
   }
+
   void beganAgain() const override {
     current_ = tree_.primaries.back();
     tree_.nodes.resize(current_);
     tree_.nodes.emplace_back().parent = current_;
     tree_.narrowed = true;
   }
+
   void ended(const RgbD& radiance) const override {
     tree_.nodes[current_].radiance = radiance;
     current_ = tree_.nodes[current_].parent;
@@ -200,6 +218,7 @@ Rgb sumRadiance(RayTree& tree, std::size_t number) {
     const Rgb weight(tree.nodes[child].weight);
     sum += weight * sumRadiance(tree, child);
   }
+
   tree.nodes[number].radiance = RgbD(sum);
   return sum;
 }
@@ -226,14 +245,17 @@ struct Wanted {
 };
 Wanted wantedOf(const Scene& scene, const Plan& plan, const RenderOptions& options,
                 const RayNode& n) {
+  // The reference computes the surface again from the hit that the tree holds.
   const reference::Ray ray{n.origin, n.direction};
   const reference::Candidate met{n.triangle, n.instance, n.u, n.v};
   const reference::TriangleHit hit = reference::refineHit(scene, ray, met);
   const reference::Surfel surfel = reference::makeSurfel(scene, plan.effects, met, hit, ray);
+
   const reference::Crossing crossing = reference::crossMedia(
       scene, plan.effects, surfel.material, surfel.entering, n.media, n.alsoCrossed);
   const bool scattered = kDiffuseLobe.isSampled(scene.materials[surfel.material], plan.effects) &&
                          !crossing.hidden && maxComponent(surfel.diffuse * surfel.coverage) > 0;
+
   return {reference::findImpulses(scene, plan.effects, surfel, crossing, n.media, options.shading),
           crossing, scattered};
 }
@@ -249,6 +271,7 @@ void explainEnds(const Renderer& renderer, RayTree& tree) {
   const RenderOptions& options = renderer.options();
   for (RayNode& n : tree.nodes) {
     if (n.triangle == kMiss) continue;
+
     const Wanted wanted = wantedOf(renderer.scene(), renderer.plan(), options, n);
     for (const RayKind kind : kImpulseKinds) {
       if (sends(tree, n, kind)) continue;
@@ -272,6 +295,7 @@ Film filmOfPixel(const Film& film, int x, int y) {
 void fillHits(const Scene& scene, RayTree& tree) {
   for (RayNode& n : tree.nodes) {
     if (n.triangle == kMiss) continue;
+
     const reference::Ray ray{n.origin, n.direction};
     n.distance = reference::refineHit(scene, ray, {n.triangle, n.instance, n.u, n.v}).t;
     n.position = n.origin + n.direction * n.distance;
@@ -292,11 +316,13 @@ std::size_t RayTree::shadowRays() const {
 RayTree traceRayTree(Renderer& renderer, const Camera& camera, const Film& film, int x, int y) {
   RayTree tree;
   TreeObserver observer(tree);
+
   Film one = filmOfPixel(film, x, y);
   tree.samples = renderer.samplesOf(camera, one);
   StageObserver* const observers[] = {&observer};
   renderer.render(
       {.camera = camera, .film = one, .pattern = &tree.samples, .observers = observers});
+
   tree.pixel = one.image.pixels[0];
   for (const std::size_t primary : tree.primaries) sumRadiance(tree, primary);
   explainEnds(renderer, tree);
@@ -307,10 +333,12 @@ RayTree traceReferenceTree(Renderer& renderer, const Camera& camera, const Film&
                            const std::vector<Vec2f>& samples) {
   RayTree tree;
   tree.samples = samples;
+
   TreeIntersector intersector(renderer.accel(), tree);
   const reference::Tracer tracer(renderer.scene(), intersector, renderer.referenceSettings());
   CameraFrame frame = renderer.lookFrom(camera, film);
   if (samples.size() == 1) frame.footprint = 1;  // adaptive sampling took the center alone
+
   reference::RayCounts counts;
   RgbD mean;
   for (std::size_t s = 0; s < samples.size(); ++s) {
@@ -319,6 +347,7 @@ RayTree traceReferenceTree(Renderer& renderer, const Camera& camera, const Film&
     intersector.endSample(radiance);
     reference::addSample(mean, radiance, static_cast<double>(s + 1));
   }
+
   tree.pixel = Rgb(mean);
   fillHits(renderer.scene(), tree);
   return tree;
@@ -335,11 +364,16 @@ RgbD weightAtEye(const RayTree& tree, std::size_t node) {
 
 std::vector<std::size_t> counterparts(const RayTree& a, const RayTree& b) {
   std::vector<std::size_t> found(a.nodes.size(), kNoCounterpart);
+
+  // Primary rays correspond by the number of their sample.
   for (std::size_t s = 0; s < std::min(a.primaries.size(), b.primaries.size()); ++s) {
     found[a.primaries[s]] = b.primaries[s];
   }
+
+  // Children correspond by kind, in their order; parents come before their children.
   for (std::size_t i = 0; i < a.nodes.size(); ++i) {
     if (found[i] == kNoCounterpart) continue;
+
     std::vector<std::size_t> left = b.nodes[found[i]].children;
     for (const std::size_t child : a.nodes[i].children) {
       const auto same = std::ranges::find_if(
@@ -349,6 +383,7 @@ std::vector<std::size_t> counterparts(const RayTree& a, const RayTree& b) {
       left.erase(same);
     }
   }
+
   return found;
 }
 
@@ -364,6 +399,7 @@ bool seesTheSame(const RayNode& a, const RayNode& b) {
     }
     return seen;
   };
+
   return shadows(a) == shadows(b);
 }
 

@@ -28,6 +28,7 @@ void takeBinary(const Json& json, std::span<T> values) {
     throwBadScene("the bytes of an image", "expected " + std::to_string(values.size_bytes()) +
                                                " of them, found " + std::to_string(bytes.size()));
   }
+
   std::ranges::copy(bytes, reinterpret_cast<std::uint8_t*>(values.data()));
 }
 
@@ -59,18 +60,22 @@ std::span<const std::uint8_t> Image::srgb() const { return data_->film.display.r
 std::vector<Image::Channel> Image::channels() const {
   const ChannelLayers& layers = data_->film.channels;
   std::vector<Channel> all;
+
   layers.channels().forEach([&](whit::Channel c) {
     const ChannelInfo& info = infoOf(c);
     Channel channel{info.name, {}, {}, {}};
     channel.components.assign(info.suffixes.begin(),
                               info.suffixes.begin() + static_cast<std::ptrdiff_t>(info.components));
+
     if (info.countsThings) {
       channel.numbers = layers.numbers(c);
     } else {
       channel.values = layers.floats(c);
     }
+
     all.push_back(std::move(channel));
   });
+
   return all;
 }
 
@@ -87,6 +92,7 @@ void Image::write(const std::string& path) const {
   guarded([&] {
     const std::string extension = extensionOf(path);
     if (width() == 0) throwUsage("cannot write '" + path + "': nothing has been rendered");
+
     if (extension == ".exr") {
       ImageMetadata said = data_->metadata;
       said.insert(said.end(), data_->aboutChannels.begin(), data_->aboutChannels.end());
@@ -116,9 +122,11 @@ std::string Image::bytes() const {
              {"hasAlpha", display.hasAlpha},
              {"metadata", data_->metadata},
              {"aboutChannels", data_->aboutChannels}};
+
     for (const Channel& c : channels()) {
       all["channels"][c.name] = c.numbers.empty() ? binary(c.values) : binary(c.numbers);
     }
+
     std::string bytes;
     Json::to_cbor(all, bytes);
     return bytes;
@@ -133,20 +141,26 @@ Image Image::fromBytes(std::string_view bytes) {
     }
     Image made;
     Film& film = made.data_->film;
+
     const auto size = all.at("size").get<std::array<int, 2>>();
     const auto w = all.at("window").get<std::array<int, 4>>();
     film.image = whit::Image(size[0], size[1], {w[0], w[1], w[2], w[3]});
+
     std::vector<Rgb>& pixels = film.image.pixels;
     takeBinary(all.at("pixels"), std::span(pixels));
     std::vector<std::uint8_t> rgba(4 * pixels.size());
     takeBinary(all.at("rgba"), std::span(rgba));
     film.display = {made.width(), made.height(), std::move(rgba), all.at("hasAlpha").get<bool>()};
+
     all.at("metadata").get_to(made.data_->metadata);
     all.at("aboutChannels").get_to(made.data_->aboutChannels);
+
+    // The names decide which layers the film has; then the layers are read.
     std::string names;
     const Json channels = all.value("channels", Json::object());
     for (const auto& [name, values] : channels.items()) names += (names.empty() ? "" : ",") + name;
     film.channels.resize(parseChannels(names), pixels.size());
+
     film.channels.channels().forEach([&](whit::Channel c) {
       const Json& values = channels.at(std::string(infoOf(c).name));
       if (infoOf(c).countsThings) {
@@ -155,6 +169,7 @@ Image Image::fromBytes(std::string_view bytes) {
         takeBinary(values, film.channels.floats(c));
       }
     });
+
     return made;
   });
 }

@@ -35,6 +35,7 @@ class CallbackProgress : public whit::Progress {
     if (!stopped_) stopped_ = !goesOn(phase, fraction);
     if (stopped_) throw Stopped();
   }
+
   // Throws the callback's own exception, or else an Error of status 130.
   [[noreturn]] void rethrow() const {
     if (thrown_) std::rethrow_exception(thrown_);

@@ -302,8 +302,8 @@ struct RayHits {
   // their area are not watched: one that is met within the rounding of single precision may be
   // passed.
   std::span<std::uint8_t> certain;
-  std::vector<std::uint64_t>
-      offsets;  // of allHits(): the hits of ray i are [offsets[i], offsets[i + 1])
+  // For allHits(): the hits of ray i are [offsets[i], offsets[i + 1]).
+  std::vector<std::uint64_t> offsets;
   std::shared_ptr<void> memory;
 };
 

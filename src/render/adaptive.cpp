@@ -23,12 +23,14 @@ class SurfaceRecorder : public StageObserver {
 
   void after(Stage stage, const Chunk& c) override {
     if (stage != Stage::findIntersections || c.depth > 0) return;
+
     const SurfelColumns& s = c.surfels;
     for (std::size_t i = 0; i < c.n; ++i) {
       const std::uint32_t pixel = c.pixels[c.first + i];
       PixelSurface& surface = surfaces_[image_.index(pixelX(pixel), pixelY(pixel))];
       surface = {};
       if (s.material[i] == kMiss) continue;
+
       surface.material = s.material[i];
       if (c.has(Feature::instances)) surface.instance = c.hits.instance[i];
       surface.position = {s.posX[i], s.posY[i], s.posZ[i]};
@@ -55,10 +57,13 @@ std::size_t AdaptiveSampler::bytes() const {
 
 FrameStats AdaptiveSampler::render(const Frame& frame) {
   startOver(frame);
+
   FrameStats stats = traceCenters(frame);
   stats.add(traceProbes(frame));
   stats.nonFinitePixels = 0;  // only pixels of the film count
   stats.add(findContrast(frame));
+
+  // Pixels with contrast get the samples that the probes have not taken.
   Frame rest = frame;
   rest.constants.channels = {};
   if (frame.samples.size() > kProbeSamples) {
@@ -78,6 +83,7 @@ std::vector<Vec2f> AdaptiveSampler::samplesAt(int x, int y, std::vector<Vec2f> p
 
 void AdaptiveSampler::startOver(const Frame& frame) {
   const Image& film = frame.film->image;
+  // Buffers are kept between frames as long as window and size stay the same.
   if (first_.image.window != scheduler_.window() || first_.image.width != film.width ||
       first_.image.height != film.height) {
     first_.image = Image(film.width, film.height, scheduler_.window());
@@ -86,6 +92,8 @@ void AdaptiveSampler::startOver(const Frame& frame) {
     edges_.resize(surfaces_.size());
     probes_.reset();
   }
+
+  // The pattern of the probes depends on the number of samples.
   if (frame.samples.size() != samples_) probes_.reset();
   samples_ = frame.samples.size();
   contrasting_.assign(surfaces_.size(), 0);
@@ -94,12 +102,15 @@ void AdaptiveSampler::startOver(const Frame& frame) {
 FrameStats AdaptiveSampler::traceCenters(const Frame& frame) {
   Frame centers = frame;
   SurfaceRecorder recorder(first_.image, surfaces_);
+
+  // One ray through the center of each pixel also fills the channels of the film.
   centers.samples = samplePattern(1);
   centers.constants.camera.footprint = 1;
   centers.constants.channels.sample = 0;
   centers.endSample = 1;
   centers.film = &first_;
   centers.observer = &recorder;
+
   return scheduler_.trace(centers, scheduler_.tiles());
 }
 
@@ -108,16 +119,20 @@ FrameStats AdaptiveSampler::traceProbes(const Frame& frame) {
   FrameStats stats = scheduler_.forRows([&](int begin, int end) {
     findEdges(first_.display, surfaces_, contrast, begin, end, edges_);
   });
+
   if (!probes_) {
     const int spp = static_cast<int>(samples_);
     probes_.emplace(scheduler_.window(), edges_, samplePattern(std::max(spp, kProbeSamples)));
   }
+
   Frame probes = frame;
   probes.constants.channels = {};
   probes.samples.resize(std::min<std::size_t>(samples_, kProbeSamples));
   probes.endSample = probes.samples.size();
   probes.film = &first_;
   probes.probes = &*probes_;
+
+  // The probes of the film's pixels are compared with those of the pixels next to its window.
   const Image& image = frame.film->image;
   stats.add(traceMarked(probes, grown(image.window, 1, image.width, image.height), edges_));
   return stats;
@@ -131,6 +146,7 @@ FrameStats AdaptiveSampler::findContrast(const Frame& frame) {
   const bool more = samples_ > kProbeSamples;
   const Crop &traced = scheduler_.window(), &window = film.image.window;
   std::atomic<std::uint64_t> nonFinite{0};
+
   FrameStats stats = scheduler_.forRows([&](int begin, int end) {
     const int last = std::min(traced.y0 + end, window.y1);
     for (int y = std::max(traced.y0 + begin, window.y0); y < last; ++y) {
@@ -138,6 +154,7 @@ FrameStats AdaptiveSampler::findContrast(const Frame& frame) {
         const std::size_t source = first_.image.index(x, y), target = film.image.index(x, y);
         contrasting_[source] = more && edges_[source] != 0 && probes_->differ(x, y, contrast);
         if (contrasting_[source] != 0) continue;
+
         const Rgb value = film.image.pixels[target] = first_.image.pixels[source];
         if (!isFinite(value)) ++nonFinite;
         if (!film.wantDisplay) continue;
@@ -145,24 +162,27 @@ FrameStats AdaptiveSampler::findContrast(const Frame& frame) {
       }
     }
   });
+
   stats.nonFinitePixels += nonFinite;
   return stats;
 }
 
 FrameStats AdaptiveSampler::traceMarked(const Frame& frame, const Crop& window,
                                         const std::vector<std::uint8_t>& marks) {
-  // In the order of the tiles, so that neighbors stay together.
+  // Pixels are collected in the order of the tiles, so that neighbors stay together.
   PixelLists lists;
   for (const auto& tile : scheduler_.tiles()) {
     for (const std::uint32_t pixel : tile) {
       const int x = pixelX(pixel), y = pixelY(pixel);
       if (!window.contains(x, y) || marks[first_.image.index(x, y)] == 0) continue;
+
       if (lists.empty() || lists.back().size() == kListLength) {
         lists.emplace_back().reserve(kListLength + kListPadding);
       }
       lists.back().push_back(pixel);
     }
   }
+
   return scheduler_.trace(frame, lists);
 }
 

@@ -38,14 +38,20 @@ Luminances luminancesOf(const Renderer& renderer, const Camera& camera) {
   const int longer = std::max(scene.width, scene.height);
   const auto side = [&](int of) { return std::max(1, (of * kLongSide + longer / 2) / longer); };
   const int width = side(scene.width), height = side(scene.height);
+
+  // Fixed settings and the scalar reference make the exposure independent of how the picture is
+  // computed.
   reference::Settings settings;
   settings.options.depth = kDepth;
   settings.options.disable = renderer.options().disable;
   settings.effects = makePlan(scene, settings.options).effects;
+
   const EmbreeIntersector intersector(renderer.accel());
   const reference::Tracer tracer(scene, intersector, settings);
   const CameraFrame frame =
       reference::frameWithMedia(scene, settings.effects, intersector, camera, width, height, 1);
+
+  // Rows are joined in order, so that the result does not depend on the threads.
   std::vector<Luminances> rows(static_cast<std::size_t>(height));
   parallelFor(renderer.machine().threads, rows.size(), [&](std::size_t row, int) {
     reference::RayCounts counts;
@@ -57,21 +63,25 @@ Luminances luminancesOf(const Renderer& renderer, const Camera& camera) {
       (nothing ? rows[row].sky : rows[row].surfaces).push_back(l);
     }
   });
+
   Luminances all;
   for (const Luminances& row : rows) {
     all.surfaces.insert(all.surfaces.end(), row.surfaces.begin(), row.surfaces.end());
     all.sky.insert(all.sky.end(), row.sky.begin(), row.sky.end());
   }
+
   return all;
 }
 
 // Log2 of the exposed luminance that the tone curve turns into `level`.
 double exposed(ToneCurve curve, double level) {
+  // The tone curve is monotonic, so that bisection inverts it.
   double low = -kMostEv, high = kMostEv;
   for (int i = 0; i < 64; ++i) {
     const double middle = (low + high) / 2;
     (applyToneCurve(curve, std::exp2(middle)) < level ? low : high) = middle;
   }
+
   return low;
 }
 
@@ -82,18 +92,27 @@ float exposureFor(const Renderer& renderer, const Camera& camera) {
   const auto curve = renderer.options().toneCurve;
   const double bright = quantile(surfaces, kBrightShare), middleOfSky = quantile(sky, 0.5);
   if (!(bright > 0)) return 0;
+
+  // The mean is geometric, over luminances that are clamped below the bright ones.
   double mean = 0;
   for (const double l : surfaces) {
     mean +=
         std::log2(std::clamp(l, kDarkest * bright, bright)) / static_cast<double>(surfaces.size());
   }
+
+  // The mean becomes kMiddle unless bright surfaces would then exceed kBright.
   double ev = std::min(exposed(curve, kMiddle) - mean, exposed(curve, kBright) - std::log2(bright));
+
+  // A bright sky may darken the surfaces by at most kMostForSky.
   if (middleOfSky > 0) {
     ev = std::clamp(exposed(curve, kSky) - std::log2(middleOfSky), ev - kMostForSky, ev);
   }
+
+  // Most pixels of surfaces and sky together stay below kClear.
   surfaces.insert(surfaces.end(), sky.begin(), sky.end());
   ev = std::min(ev, exposed(curve, kClear) - std::log2(quantile(surfaces, kClearShare)));
-  // Not -0, which would be said as such.
+
+  // Adding 0.0 turns -0 into 0, so that no minus sign is printed.
   return static_cast<float>(std::clamp(std::round(ev * kSteps) / kSteps, -kMostEv, kMostEv) + 0.0);
 }
 

@@ -126,9 +126,8 @@ class Renderer {
   double buildMs_ = 0;
 };
 
-// Renders one frame by the pipeline or by the reference. `progress`, if any, is told of each tile
-// that is finished; a frame traced as one batch
-// (--batch frame) has none.
+// Renders one frame by the pipeline or by the reference. Each finished tile is reported to
+// `progress`, if any; a frame that is traced as one batch (--batch frame) reports none.
 FrameStats renderFrame(Renderer& renderer, Mode mode, const Camera& camera, Film& film,
                        Progress* progress = nullptr);
 

@@ -22,6 +22,7 @@ int evenBits(std::uint32_t code) {
 std::vector<std::uint32_t> mortonOrder(int side) {
   int power = 1;
   while (power < side) power *= 2;
+
   std::vector<std::uint32_t> order;
   for (std::uint32_t code = 0; code < static_cast<std::uint32_t>(power * power); ++code) {
     const int x = evenBits(code), y = evenBits(code >> 1);
@@ -37,6 +38,7 @@ PixelLists dealOut(const PixelLists& lists, std::size_t workers) {
     std::vector<std::uint32_t>& share = shares[i % workers];
     share.insert(share.end(), lists[i].begin(), lists[i].end());
   }
+
   for (auto& share : shares) share.reserve(share.size() + kListPadding);
   return shares;
 }
@@ -46,6 +48,7 @@ PixelLists dealOut(const PixelLists& lists, std::size_t workers) {
 PixelLists makeTiles(const Crop& window, int side) {
   const std::vector<std::uint32_t> order = mortonOrder(side);
   PixelLists tiles;
+
   for (int y0 = window.y0; y0 < window.y1; y0 += side) {
     for (int x0 = window.x0; x0 < window.x1; x0 += side) {
       std::vector<std::uint32_t>& tile = tiles.emplace_back();
@@ -62,18 +65,22 @@ PixelLists makeTiles(const Crop& window, int side) {
 
 void Scheduler::layOut(const Plan& plan, const RenderOptions& options, const Crop& window) {
   if (!tracers_.empty() && window_ == window) return;
+
   window_ = window;
   inBatches_ = options.batch == Batch::frame;
   tiles_ = makeTiles(window, options.tile);
+
   const auto workers = static_cast<std::size_t>(threads_);
   const auto side = static_cast<std::size_t>(options.tile);
   // Deep queues of two tiles fill their chunks better; longer ones gain no more.
   std::size_t capacity = 2 * side * side;
   if (inBatches_) {
+    // A batch is the whole share of a worker.
     capacity = kBlock;
     for (const auto& batch : dealOut(tiles_, workers)) capacity = std::max(capacity, batch.size());
   }
   if (options.queue > 0) capacity = static_cast<std::size_t>(options.queue);
+
   if (!tracers_.empty() && capacity == capacity_) return;
   tracers_.clear();
   Tracers made(workers);
@@ -81,6 +88,7 @@ void Scheduler::layOut(const Plan& plan, const RenderOptions& options, const Cro
   pool_.run([&](int worker) {
     made[static_cast<std::size_t>(worker)] = std::make_unique<TileTracer>(plan, capacity);
   });
+
   tracers_ = std::move(made);
   capacity_ = capacity;
 }
@@ -93,12 +101,14 @@ FrameStats Scheduler::trace(const Frame& frame, const PixelLists& lists) {
 FrameStats Scheduler::forWorkers(
     const std::function<void(std::size_t worker, FrameStats& stats)>& task) {
   std::vector<FrameStats> stats(static_cast<std::size_t>(threads_));
+
   pool_.run([&](int worker) {
     const auto w = static_cast<std::size_t>(worker);
     FrameStats mine;  // on this worker's stack: no cache line is shared while the frame runs
     task(w, mine);
     stats[w] = mine;
   });
+
   FrameStats sum;
   for (const FrameStats& s : stats) sum.add(s);
   return sum;
@@ -107,9 +117,11 @@ FrameStats Scheduler::forWorkers(
 FrameStats Scheduler::traceTiles(const Frame& frame, const PixelLists& lists) {
   std::atomic<std::size_t> next{0};
   const bool observed = !frame.observers.empty();
+
   return forWorkers([&](std::size_t worker, FrameStats& stats) {
     if (observed && worker >= frame.observers.size()) return;
     StageObserver* const observer = observed ? frame.observers[worker] : nullptr;
+
     for (std::size_t i = next++; i < lists.size() && !frame.stops(); i = next++) {
       tracers_[worker]->trace(frame, lists[i], stats, nullptr, observer);
       if (frame.hooks && frame.hooks->finished) frame.hooks->finished(lists[i]);
@@ -120,9 +132,11 @@ FrameStats Scheduler::traceTiles(const Frame& frame, const PixelLists& lists) {
 FrameStats Scheduler::traceBatches(const Frame& frame, const PixelLists& lists) {
   std::barrier<> stageBarrier(static_cast<std::ptrdiff_t>(threads_));
   return forWorkers([&](std::size_t worker, FrameStats& stats) {
-    // Also when memory runs out: the others may have deeper queues, and would wait for ever.
+    // A worker leaves the barrier even if memory runs out: the others may have deeper queues, and
+    // would wait for ever.
     const std::unique_ptr<std::barrier<>, void (*)(std::barrier<>*)> leave(
         &stageBarrier, [](std::barrier<>* barrier) { barrier->arrive_and_drop(); });
+
     tracers_[worker]->trace(frame, lists[worker], stats, &stageBarrier);
   });
 }

@@ -17,8 +17,8 @@ namespace {
 
 #ifndef NDEBUG
 
-// The first steps of a process are checked, and then one in so many: enough to meet every kind, few
-// enough to cost little.
+// The first steps of a process are checked, and then one in kInterval: enough to cover every kind
+// of step, few enough to cost little.
 constexpr std::uint64_t kFirstChecks = 200, kInterval = 97;
 
 constexpr std::array kChecked{Part::rays,     Part::hits,          Part::surfels,
@@ -28,6 +28,7 @@ constexpr std::array kChecked{Part::rays,     Part::hits,          Part::surfels
 template <typename Columns>
 std::uint64_t sumOf(const Columns& columns, std::size_t n) {
   std::uint64_t sum = 0xcbf29ce484222325u;  // FNV-1a, a word at a time
+
   Columns::forEachColumn(columns, [&](const char*, const auto* column, Feature) {
     for (std::size_t i = 0; column && i < n; ++i) {
       std::uint32_t word = 0;
@@ -62,13 +63,17 @@ void runChecked(const Step& step, Chunk& chunk) {
   static std::atomic<std::uint64_t> steps{0};
   const std::uint64_t number = steps++;
   const bool checks = number < kFirstChecks || number % kInterval == 0;
+
   const Chunk start = chunk;  // the columns are shared
   const Sums before = checks ? sumsOf(start) : Sums();
   step.run(chunk);
   const Sums after = checks ? sumsOf(start) : Sums();
+
+  // A step that appends children must not change those that were there before.
   for (std::size_t i = 0; i < kChecked.size(); ++i) {
     const bool appends = kChecked[i] == Part::children && step.childrenAtEye > 0;
     if (after[i] == before[i] || (step.writes.has(kChecked[i]) && !appends)) continue;
+
     std::fprintf(stderr, "step %s has written into part %d, which its contract does not name\n",
                  step.name.c_str(), static_cast<int>(kChecked[i]));
     std::abort();
@@ -94,6 +99,7 @@ void Workspace::reserveCodes(std::size_t pixels) { codes_.resize(roundUpToBlock(
 void Workspace::reserveRays(int depth, std::size_t rays) {
   Level& at = level(depth);
   if (at.rays.capacity() >= rays) return;
+
   at.rays.allocate(rays, plan_.features);
   if (at.radiance.capacity() == 0) at.radiance.allocate(capacity_, plan_.features);
   if (plan_.writes(Part::rayCounts)) at.rayCounts.resize(capacity_);
@@ -106,7 +112,10 @@ void Workspace::startQueue(std::size_t rays) {
   first.segments[0] = {RayKind::primary, 0, rays};
   first.segmentCount = 1;
   first.cursor = 0;
+
   if (!plan_.limitsRays) return;
+  // The first time the impulses of each sample are counted. When samples are traced again, the
+  // widths of their rays are kept instead.
   std::iota(first.pixelSlots.begin(), first.pixelSlots.end(), 0u);
   followed_.assign(narrows_ ? 0 : rays, 0);
   if (narrows_) first.narrowings.assign(rays, {});
@@ -116,16 +125,19 @@ void Workspace::takeChunk(int depth, Chunk& chunk) {
   Level& at = level(depth);
   at.chunk = std::min(capacity_, at.count - at.cursor);
   returnTo(depth, chunk);
-  // A chunk may hold some of each kind.
+
+  // The segments of the queue are clipped to the chunk, which may hold several kinds of rays.
   chunk.segmentCount = 0;
   for (std::size_t s = 0; s < at.segmentCount; ++s) {
     const auto within = [&](std::size_t i) {
       return std::clamp(i, at.cursor, at.cursor + at.chunk) - at.cursor;
     };
+
     const Segment& of = at.segments[s];
     const Segment part{of.kind, within(of.begin), within(of.end)};
     if (part.begin < part.end) chunk.segments[chunk.segmentCount++] = part;
   }
+
   chunk.coherent = depth <= plan_.coherentDepth;
   chunk.childCount = chunk.childSegmentCount = 0;
   chunk.shadowCount = 0;
@@ -140,6 +152,7 @@ void Workspace::returnTo(int depth, Chunk& chunk) const {
   chunk.rays = advanced(*at.rays, at.cursor);
   chunk.radiance = *at.radiance;
   chunk.parentRadiance = depth > 0 ? *level(depth - 1).radiance : RadianceColumns();
+
   const auto countsOf = [](const Level& l) {
     return const_cast<std::uint32_t*>(l.rayCounts.data());
   };
@@ -150,7 +163,10 @@ void Workspace::returnTo(int depth, Chunk& chunk) const {
     chunk.narrowings =
         narrows_ ? const_cast<Narrowing*>(at.narrowings.data()) + at.cursor : nullptr;
   }
+
   chunk.parentRayCounts = depth > 0 ? countsOf(level(depth - 1)) : nullptr;
+
+  // These columns exist only once, because one chunk is shaded at a time.
   chunk.hits = *hits_;
   chunk.surfels = *surfels_;
   chunk.unshadowed = *unshadowed_;
@@ -174,17 +190,20 @@ void Workspace::reserveChildren(std::size_t count, Chunk& chunk) {
 
 void Workspace::noteChildren(RayKind kind, std::size_t before, Chunk& chunk) {
   if (chunk.childCount <= before) return;
+
   Segment* last =
       chunk.childSegmentCount > 0 ? &chunk.childSegments[chunk.childSegmentCount - 1] : nullptr;
   if (!last || last->kind != kind) {
     last = &chunk.childSegments[chunk.childSegmentCount++];
     *last = {kind, before, before};
   }
+
   last->end = chunk.childCount;
 }
 
 bool Workspace::startQueueOfChildren(const Chunk& chunk) {
   if (chunk.childCount == 0) return false;
+
   Level& next = level(chunk.depth + 1);
   next.count = chunk.childCount;
   next.segments = chunk.childSegments;
@@ -202,6 +221,7 @@ BufferBytes Workspace::bufferBytes() const {
     bytes.rays += level.pixelSlots.capacity() * sizeof(std::uint32_t) +
                   level.narrowings.capacity() * sizeof(Narrowing);
   }
+
   bytes.hits = hits_.bytes();
   bytes.surfels = surfels_.bytes();
   bytes.unshadowed = unshadowed_.bytes();
@@ -227,10 +247,13 @@ void TileTracer::trace(const Frame& frame, std::span<const std::uint32_t> pixels
   chunk_.frame = &frame.constants;
   chunk_.film = frame.film;
   chunk_.meter = &stats.meter;
+
   for (std::size_t begin = 0; begin < pixels.size(); begin += work_.capacity()) {
     chunk_.pixels = pixels.subspan(begin, std::min(work_.capacity(), pixels.size() - begin));
     work_.reserveCodes(chunk_.pixels.size());
     limited_.assign(plan_.limitsRays ? chunk_.pixels.size() : 0, 0);
+
+    // A single sample is the mean itself, so that no sums are needed.
     if (frame.samples.size() == 1 && !frame.probes && !frame.sums) {
       chunk_.sample = frame.samples[0];
       chunk_.sampleNumber = 0;
@@ -239,9 +262,11 @@ void TileTracer::trace(const Frame& frame, std::span<const std::uint32_t> pixels
     } else if (!traceSamples(frame, watch)) {
       return;
     }
+
     work_.returnToPixels(chunk_);
     if (keepsErrors(frame)) keepErrors(frame);
     for (const Step& step : plan_.perTile) run(step, stats);
+
     stats.nonFinitePixels += countNonFinite(chunk_);
     stats.limitedPixels += static_cast<std::uint64_t>(std::ranges::count(limited_, 1));
     clock.lap(Stage::updateImage, 0);
@@ -253,8 +278,10 @@ bool TileTracer::traceSamples(const Frame& frame, const Watch& watch) {
   const std::size_t n = chunk_.pixels.size();
   sums_.assign(n, SampleSum());
   takeUpSums(frame);
+
   for (std::size_t s = frame.firstSample; s < frame.endSample; ++s) {
     if (frame.stops()) return false;
+
     chunk_.sample = frame.samples[s];
     chunk_.sampleNumber = static_cast<std::uint32_t>(s);
     traceSample(watch);
@@ -262,12 +289,14 @@ bool TileTracer::traceSamples(const Frame& frame, const Watch& watch) {
     addSample(frame);
     if (frame.probes && frame.firstSample == 0) keepProbeCodes(frame);
   }
+
   leaveSums(frame);
   const RadianceColumns& radiance = chunk_.radiance;
   for (std::size_t i = 0; i < n; ++i) {
     const Rgb mean(sums_[i].total / static_cast<double>(frame.endSample));
     radiance.r[i] = mean.x, radiance.g[i] = mean.y, radiance.b[i] = mean.z;
   }
+
   return true;
 }
 
@@ -277,6 +306,9 @@ void TileTracer::addSample(const Frame& frame) {
   for (std::size_t i = 0; i < n; ++i) {
     sums_[i].total += RgbD(Rgb{radiance.r[i], radiance.g[i], radiance.b[i]});
   }
+
+  // The squares give the standard error; only the channel `error` and pictures that gain samples
+  // over time use them.
   if (!frame.sums && !keepsErrors(frame)) return;
   for (std::size_t i = 0; i < n; ++i) {
     const double mean = (double{radiance.r[i]} + double{radiance.g[i]} + double{radiance.b[i]}) / 3;
@@ -318,15 +350,18 @@ void TileTracer::keepProbeCodes(const Frame& frame) {
   }
 }
 
-// One sample of the batch's pixels.
+// Traces one sample of each pixel of the batch.
 void TileTracer::traceSample(const Watch& watch) {
   traceTrees(watch);
+
+  // Samples that were given up, because of --max-rays, are traced again as narrower trees.
   std::vector<std::uint32_t> tooLarge;
   for (std::uint32_t i = 0; plan_.limitsRays && i < chunk_.pixels.size(); ++i) {
     if (!chunk_.isGivenUp(i)) continue;
     tooLarge.push_back(i);
     limited_[i] = 1;
   }
+
   if (!tooLarge.empty()) traceNarrowed(tooLarge, watch);
 }
 
@@ -348,6 +383,8 @@ void TileTracer::traceNarrowed(const std::vector<std::uint32_t>& slots, const Wa
   work_.setNarrows(true);
   traceTrees(watch);
   work_.returnToPixels(chunk_);
+
+  // The new samples are written into the values of all pixels, which are then restored.
   std::size_t number = 0;
   RadianceColumns::forEachColumn(chunk_.radiance, [&](const char*, float* column, Feature) {
     std::vector<float>& values = all[number++];
@@ -361,11 +398,13 @@ void TileTracer::traceNarrowed(const std::vector<std::uint32_t>& slots, const Wa
   work_.takeChunk(0, chunk_);
 }
 
-// The trees of rays of one sample of the batch's pixels, through all depths.
+// Traces the ray trees of one sample of the batch's pixels through all depths.
 void TileTracer::traceTrees(const Watch& watch) {
   work_.startQueue(chunk_.pixels.size());
   work_.takeChunk(0, chunk_);
   runSteps(plan_.perSample, watch);
+
+  // Queues are walked depth first: a chunk is finished after all of its descendants.
   for (int depth = 0;;) {
     if (work_.hasMore(depth)) {
       shadeChunk(depth, watch);
@@ -376,6 +415,7 @@ void TileTracer::traceTrees(const Watch& watch) {
       }
       continue;
     }
+
     if (depth == 0) return;
     // The queue is drained: the chunk that it came from is complete.
     --depth;
@@ -387,18 +427,23 @@ void TileTracer::traceTrees(const Watch& watch) {
 void TileTracer::shadeChunk(int depth, const Watch& watch) {
   work_.takeChunk(depth, chunk_);
   runSteps(plan_.perQueue, watch);
+
   for (const LightSteps& light : plan_.perLight) {
     chunk_.turnTo(light.light, light.sample, light.samples);
     runSteps(light.steps, watch);
   }
+
+  // At the last depth impulses serve only to bound the light that ended paths leave out.
   if (depth < plan_.depth || plan_.features.has(Feature::ended)) addImpulses(watch);
 }
 
 void TileTracer::addImpulses(const Watch& watch) {
+  // Upper bound on the children of one surfel.
   std::size_t most = 0;
   for (const Step& step : plan_.impulses) {
     if (step.runsFor(chunk_.materialFlags)) most += step.childrenAt(chunk_.depth);
   }
+
   work_.reserveChildren(most * roundUpToBlock(chunk_.n), chunk_);
   runSteps(plan_.impulses, watch);
 }
@@ -428,10 +473,14 @@ void TileTracer::run(const Step& step, FrameStats& stats) {
 void TileTracer::endStage(Stage stage, const Watch& watch) {
   if (watch.frameObserver) watch.frameObserver->after(stage, chunk_);
   watch.clock.lap(stage, chunk_.depth);
+
+  // The time of waiting for the other workers belongs to no stage.
   if (watch.stageBarrier) {
     watch.stageBarrier->arrive_and_wait();
     watch.clock.skip();
   }
+
+  // The time of an observer is not part of the frame's.
   if (!watch.observer) return;
   watch.observer->after(stage, chunk_);
   watch.clock.skip();
