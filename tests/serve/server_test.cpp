@@ -7,6 +7,7 @@
 #include <httplib.h>
 
 #include <atomic>
+#include <chrono>
 #include <fstream>
 #include <thread>
 
@@ -124,6 +125,7 @@ class Serving : public testing::Test {
         std::string acts = !shakes ? "" : drawn % 16 < 8 ? "left 7 0" : "left -7 0";
         if (json.contains("frame")) {
           ++drawn;
+          pageDraws_ = true;
           acts += "\nack " + json["page"].dump() + " " + json["frame"].dump();
         }
         post(acts);
@@ -139,6 +141,7 @@ class Serving : public testing::Test {
   std::unique_ptr<Server> server_;
   std::string root_;
   std::thread thread_;
+  std::atomic<bool> pageDraws_ = false;  // watch() has got a picture
 };
 
 TEST_F(Serving, OnlyThoseWithTheTokenAreAnswered) {
@@ -299,6 +302,10 @@ TEST_F(Serving, StrangersDoNotDisplaceAPage) {
     drawn = watch(60);
     done = true;
   });
+
+  // Before its token has been read, a page is a stranger as well.
+  while (!pageDraws_ && !done) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+
   std::vector<int> strangers;
   for (int i = 0; i < 200; ++i) {
     strangers.push_back(connection());
