@@ -187,7 +187,7 @@ visit() {
   before=$(ls -A "$system$home")
 
   timed "scenes/demo.sh" whit/scenes/demo.sh && answers || status=1
-  if $brief && [ "$visitor" = debian13 ]; then areas=(render hard io images serve); fi
+  if $brief && [ "$visitor" = debian13 ]; then areas=(hard io images serve); fi
   timed "tests/run.sh" whit/tests/run.sh "${areas[@]}" || status=1
   log=$logs/$visitor-tests-run-sh.log
   grep -E 'tests passed|^NOT CHECKED|^!! LEFT OUT|^-- release' "$log" | sed 's/^/   /' || true
