@@ -456,7 +456,7 @@ void forEachOption(Options& o, Visitor&& visit) {
 // The rays that sample a glossy lobe at the first hit. Paths of indirect light sample lobes, too:
 // the blurred sky would light closed rooms.
 inline int glossySamples(const RenderOptions& o) {
-  return o.glossy == 0 && o.indirect > 0 ? 1 : o.glossy;
+  return o.glossy == 0 && o.indirect > 0 && !o.disable.has(Effect::indirect) ? 1 : o.glossy;
 }
 
 // The channels that frames keep.
