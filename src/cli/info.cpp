@@ -15,7 +15,7 @@ namespace whit::cli {
 
 namespace {
 
-Json vectorJson(const Vec3f& v) { return Json::array({v.x, v.y, v.z}); }
+Json vectorJson(const Vec3d& v) { return Json::array({v.x, v.y, v.z}); }
 
 // Every effect, whether it is on, and why.
 Json effectsJson(const Scene& scene, const RenderOptions& options) {
@@ -63,7 +63,9 @@ Json infoJson(const OpenScene& open, const Renderer& renderer, const CommonOptio
             {"triangles", scene.instancedTriangles},
             {"spheres", scene.instancedSpheres},
             {"instances", scene.instances.size()},
-            {"bounds", {{"lower", vectorJson(scene.lower)}, {"upper", vectorJson(scene.upper)}}},
+            {"bounds",
+             {{"lower", vectorJson(scene.inFile(Vec3d(scene.lower)))},
+              {"upper", vectorJson(scene.inFile(Vec3d(scene.upper)))}}},
             {"materials", scene.materials.size()},
             {"material_names", namesIn(scene.materials)},
             {"objects", scene.items.count},

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -326,9 +327,14 @@ class GltfModel : public Model {
     }
     scene.cameras = stage_.cameras;
     scene.lights = stage_.lights;
+    if (scene.origin != Vec3d()) moveBy(-scene.origin, scene);
     const auto first = static_cast<std::uint32_t>(scene.motion.rig.size());
     for (RigNode node : stage_.movers) {
-      if (node.parent != kNoNode) node.parent += first;
+      if (node.parent == kNoNode) {
+        node.toParent.p = node.toParent.p - scene.origin;
+      } else {
+        node.parent += first;
+      }
       scene.motion.rig.push_back(std::move(node));
     }
     for (MovingCamera camera : stage_.movingCameras) {
@@ -342,6 +348,21 @@ class GltfModel : public Model {
   }
 
  private:
+  // Moves the cameras and lights that no node carries.
+  void moveBy(const Vec3d& way, SceneDescription& scene) const {
+    std::set<std::size_t> carriedCameras, carriedLights;
+    for (const MovingCamera& moving : stage_.movingCameras) carriedCameras.insert(moving.camera);
+    for (const MovingLight& moving : stage_.movingLights) carriedLights.insert(moving.light);
+
+    for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+      if (carriedCameras.contains(i)) continue;
+      placeCamera(Affine::translation(way) * stage_.cameraPlaces[i], scene.cameras[i]);
+    }
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+      if (!carriedLights.contains(i)) scene.lights[i].position = Vec3f(stage_.lightPlaces[i] + way);
+    }
+  }
+
   // Finds the materials for which the alpha of vertex colors counts.
   void findVertexAlpha() {
     for (const JsonValue& mesh : document_.list("meshes").elements()) {

@@ -419,15 +419,13 @@ class TreeReader {
     camera.name = node["name"].textOr("");
     if (camera.name.empty()) camera.name = source["name"].textOr("");
     if (camera.name.empty()) camera.name = "camera";
-    camera.eye = Vec3f(map.p);
-    // Far enough for the direction to survive the rounding of eye and at.
-    camera.at = Vec3f(map.p - normalized(map.z) * std::max(1.0, length(map.p)));
-    camera.up = Vec3f(normalized(map.y));
+    placeCamera(map, camera);
     camera.aspect = static_cast<float>(std::clamp(aspect, 0.0, kLargestAspect));
     if (stage_.cameras.empty()) stage_.aspect = aspect;
     const auto number = static_cast<std::uint32_t>(stage_.cameras.size());
     if (mover != kNoNode) stage_.movingCameras.push_back({number, mover, camera});
     stage_.cameras.push_back(camera);
+    stage_.cameraPlaces.push_back(map);
   }
 
   void addLight(std::size_t index, const Affine& map, std::uint32_t mover) {
@@ -459,6 +457,7 @@ class TreeReader {
       stage_.movingLights.push_back({place, mover, light.position, light.direction});
     }
     stage_.lights.push_back(light);
+    stage_.lightPlaces.push_back(map.p);
   }
 
   // A camera is chosen by its name.
@@ -490,6 +489,13 @@ class TreeReader {
 };
 
 }  // namespace
+
+void placeCamera(const Affine& map, Camera& camera) {
+  camera.eye = Vec3f(map.p);
+  // Far enough for the direction to survive the rounding of eye and at.
+  camera.at = Vec3f(map.p - normalized(map.z) * std::max(1.0, length(map.p)));
+  camera.up = Vec3f(normalized(map.y));
+}
 
 std::vector<Animation> listGltfAnimations(const GltfDocument& document) {
   const JsonValue animations = document.list("animations");

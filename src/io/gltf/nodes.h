@@ -36,11 +36,16 @@ struct GltfStage {
   Rig movers;
   std::vector<GltfPlacedMesh> meshes;  // in the order of the tree
   std::vector<Camera> cameras;
+  std::vector<Affine> cameraPlaces;  // from each camera's space to its node that moves
   std::vector<MovingCamera> movingCameras;
   double aspect = 0;  // of the first camera; 0: none is given
   std::vector<Light> lights;
+  std::vector<Vec3d> lightPlaces;  // likewise
   std::vector<MovingLight> movingLights;
 };
+
+// Makes the camera look along the -z axis of `map`, from its origin.
+void placeCamera(const Affine& map, Camera& camera);
 
 // The names are distinct.
 std::vector<Animation> listGltfAnimations(const GltfDocument& document);

@@ -302,9 +302,10 @@ void addCamera(const ImageMetadata& metadata, const Image& image, Imf::Header& h
     if (name == "projection") isLinear = false;
   }
   if (!options.eye || !options.at) return;
+  // The frame has the eye in its origin, so that single precision does not round a far view.
   Camera camera;
   forEachCameraOption([&](auto option, auto member) {
-    if (options.*option) camera.*member = *(options.*option);
+    if (options.*option) camera.*member = memberOf(*(options.*option), *options.eye);
   });
   const CameraFrame frame = makeCameraFrame(camera, image.width, image.height);
   const double pixel = length(frame.up);
@@ -312,7 +313,7 @@ void addCamera(const ImageMetadata& metadata, const Image& image, Imf::Header& h
   Imath::M44f toCamera, toNdc;
   for (int i = 0; i < 3; ++i) {
     for (int k = 0; k < 3; ++k) toCamera[k][i] = static_cast<float>(axes[i][k]);
-    toCamera[3][i] = static_cast<float>(-dot(frame.eye, axes[i]));
+    toCamera[3][i] = static_cast<float>(-dot(*options.eye, axes[i]));
   }
   Imf::addWorldToCamera(header, toCamera);
   if (!isLinear) return;

@@ -22,6 +22,7 @@
 #include "io/line_reader.h"
 #include "io/obj/mtl_reader.h"
 #include "io/polygon.h"
+#include "scene/origin.h"
 
 namespace whit {
 
@@ -93,6 +94,7 @@ class ObjReader {
   Mesh read() {
     const auto count = static_cast<std::uint32_t>(materials.size());
     material_ = kNoMaterial;
+    findMiddle();
     for (; !lines_.done(); lines_.nextLine()) statement(lines_.word());
     if (mesh_.triangles.empty()) {
       warnNothingToDraw(hasFaces_ ? "no face that can be built" : "no faces", file_, warnings_);
@@ -112,8 +114,24 @@ class ObjReader {
   // Different names of "usemtl" and of "mtllib", in the file's order.
   std::vector<ObjName> materials, libraries;
   bool isColored = false;  // the first vertex has a color
+  Vec3d middle;            // subtracted from all vertices, see originOf()
 
  private:
+  // Faces need vertices that are rounded already, so that the vertices of a far model are
+  // read twice: up to where its box is as large as it is far away, because a box with that property
+  // stays near however it grows.
+  void findMiddle() {
+    BoxOf<Vec3d> box;
+    for (LineReader line(text_, file_); !line.done(); line.nextLine()) {
+      if (line.word() != "v") continue;
+      Vec3d v;
+      if (line.number(v.x) && line.number(v.y) && line.number(v.z)) box.add(v);
+      const bool isNear = !box.empty() && length(box.center()) < box.diagonal();
+      if (isNear) return;
+    }
+    middle = originOf(box);
+  }
+
   void statement(std::string_view keyword) {
     if (keyword == "v") {
       position();
@@ -165,8 +183,7 @@ class ObjReader {
     if (count < 2 || (count < 3 && lines_.hasMore())) {
       throwBadScene(lines_.place(), "expected three numbers after \"v\"");
     }
-    positions_.push_back(
-        {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])});
+    positions_.emplace_back(Vec3d(v[0], v[1], v[2]) - middle);
     if (count < 6) return;
     colors_.resize(positions_.size(), Rgb(1.0f));
     const double* const color = &v[count - 3];
@@ -397,6 +414,7 @@ class ObjModel : public MeshModel {
   Body content(SceneLayout& layout, const std::vector<std::uint32_t>& materials) override {
     if (reader_) {
       mesh_ = reader_->read();
+      middle_ = reader_->middle;
       mesh_.name = source_.path.stem().string();
       reader_.reset();
       std::string().swap(text_);
