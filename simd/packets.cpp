@@ -226,7 +226,7 @@ HWY_INLINE HitPoint PierceTriangle(const SeenTriangle& t, const V3& direction, M
          hn::IfThenElse(beside, moved.v, p.v)};
   }
 
-  // What is left beside the triangle is rounding: the larger weight gives way.
+  // A remainder beside the triangle comes from rounding, so the larger weight is reduced.
   const VF u = hn::Max(p.u, zero), v = hn::Max(p.v, zero);
   const VF excess = hn::Max(hn::Sub(hn::Add(u, v), one), zero);
   const MF more = hn::Ge(u, v);

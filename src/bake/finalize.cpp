@@ -183,7 +183,7 @@ Scene Scene::finalize(SceneDescription&& description, Warnings& warnings, Progre
     scene.coincidentSpheres = findCoincidentSpheres(scene, order);
   }
 
-  // What the search at 0 s finds serves other times too, so the scene starts there.
+  // The scene starts at 0 s, because the pairs that are found there serve other times as well.
   moveScene(scene, 0);
 
   if (scene.cameras.empty()) {

@@ -103,7 +103,7 @@ Impulse glossyImpulse(const Surfel& surfel, MediaStack stack, const UnitPoint& a
 Impulse indirectImpulse(const Surfel& surfel, MediaStack stack, const UnitPoint& at,
                         const ShadingChoices& choices = {});
 
-// What the samples of lobes are multiplied by: the occlusion map of the surface that the eye sees.
+// Returns the factor for samples of lobes: the occlusion map of the surface that the eye sees.
 // Light that went around more corners has met what the map stands for, if it is there.
 inline double occlusionOfLobes(const Surfel& surfel, int depth) {
   return depth == 0 ? surfel.occlusion : 1;

@@ -54,7 +54,7 @@ inline TriangleHit refineSphereHit(const Scene& scene, const Ray& ray, const Can
   TriangleHit best{hint > 0 ? hint : std::numeric_limits<double>::min(), candidate.u, candidate.v};
   double least = std::numeric_limits<double>::infinity();
 
-  // Of the two hits we keep the one nearest to the point that the weights name.
+  // The weights name a point, and the nearer of the two hits is kept.
   for (const TriangleHit& hit : intersectSphere(ray, map)) {
     const double off = std::fabs(hit.t - hint);
     if (!(off < least)) continue;

@@ -31,7 +31,7 @@ struct Surfel {
   bool entering = false;  // the ray met the outside, where corners run counter-clockwise
   std::uint32_t material = 0;
   RgbD diffuse, specular;  // textures and vertex colors applied
-  // What they multiply those of the material by.
+  // Maps and vertex colors multiply the material's own values by these.
   RgbD emission{1, 1, 1}, mirror{1, 1, 1}, transmission{1, 1, 1};
   double alpha = 1;         // width of the glossy lobe (GGX), roughness squared
   double coverage = 1;      // the share of the surface that is there

@@ -57,7 +57,7 @@ inline constexpr std::uint32_t kMaterialIsOccluded = 1u << 16,
 inline constexpr std::uint32_t kMaterialVariesMirror = 1u << 18,
                                kMaterialVariesTransmission = 1u << 19;
 
-// Of a texture whose texels are not interpolated.
+// This flag marks a texture whose texels are not interpolated.
 inline constexpr std::uint32_t kNearestTexel = 1 << 16;
 struct TextureRecord {
   std::uint32_t firstTexel;  // index into texels
