@@ -128,7 +128,7 @@ struct RenderOptions {
   int indirect = 0;  // rays that sample indirect light on a diffuse surface; 0: none
   float cutoff = 1.0e-3f;
   float roulette = 0;      // Russian roulette below this throughput; 0: off
-  int maxRays = 10000;     // impulses of a sample (sampling/ray_limit.h); 0: no bound
+  int maxRays = 5000;      // impulses of a sample (sampling/ray_limit.h); 0: no bound
   int lightSamples = 1;    // points of a light with a radius; 1: its center
   int ambientSamples = 0;  // ambient occlusion rays; 0: off
   ShadingChoices shading;

@@ -104,6 +104,38 @@ TEST(Projected, EveryWayOfRenderingGivesTheSameBits) {
   }
 }
 
+// Where the size is no multiple of the number of views, the pixels that are left over continue the
+// last view.
+TEST(Projected, SizesThatTheViewsDoNotDivideShowTheSameViews) {
+  struct Sizes {
+    const char* camera;
+    ImageSize even, odd;
+  };
+  constexpr Sizes kSizes[] = {{"cubeMap", {3, 2}, {5, 3}},
+                              {"cubeMap", {12, 2}, {17, 2}},
+                              {"stereo", {32, 7}, {33, 7}},
+                              {"stereo", {2, 1}, {3, 1}},
+                              {"stereo panorama", {33, 12}, {33, 13}}};
+  const auto cameras = projectedCameras(load("whitted").cameras.front());
+  for (const auto& [name, even, odd] : kSizes) {
+    SCOPED_TRACE(std::string(name) + " " + std::to_string(odd.width));
+    const Scene scene = whittedFrom(cameras.at(name));
+    RenderOptions o = smallOptions();
+    o.size = even;
+    const Image views = render(scene, o).image;
+
+    o.size = odd;
+    expectStagesAgreeOnEveryTarget(scene, o);
+    const Image more = render(scene, o).image;
+
+    for (int y = 0; y < even.height; ++y) {
+      for (int x = 0; x < even.width; ++x) {
+        EXPECT_EQ(more.at(x, y), views.at(x, y)) << x << "," << y;
+      }
+    }
+  }
+}
+
 // A sphere of radius 1.5 about the origin, seen from (0, 0, 4), and a wall at z = -2.
 Scene ballAndWall(const Camera& camera) {
   SceneBuilder builder;
