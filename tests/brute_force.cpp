@@ -22,7 +22,7 @@ void forEachSurface(const Geometry& geometry, std::uint32_t instance, bool spher
   }
 }
 
-// The world's first, then those of each instance.
+// Visits the surfaces of the world first, then those of each instance.
 template <typename Visitor>
 void forEachSurface(const Scene& scene, EffectSet effects, Visitor&& visit) {
   const bool spheres = effects.has(Effect::spheres);
@@ -33,7 +33,7 @@ void forEachSurface(const Scene& scene, EffectSet effects, Visitor&& visit) {
   }
 }
 
-// Calls visit(hit) for the places where the ray meets the candidate, the nearest first.
+// Calls visit(hit) for the points where the ray hits the candidate, the nearest first.
 template <typename Visitor>
 void forEachHit(const Scene& scene, const Ray& ray, const Candidate& of, Visitor&& visit) {
   if (scene.isSphere(of.triangle)) {
@@ -58,6 +58,7 @@ bool BruteForce::closest(const Ray& ray, Candidate& candidate) const {
       candidate = {of.triangle, of.instance, hit.u, hit.v};
     });
   });
+
   return nearest < std::numeric_limits<double>::infinity();
 }
 

@@ -36,7 +36,7 @@ std::array<UnsignedWide, 2> productOf(UnsignedWide a, UnsignedWide b) {
 
 }  // namespace
 
-// The numerators are not below 0.
+// The numerators are not below 0, so that products of unsigned numbers order the fractions.
 bool isNearer(const ExactHit& a, const ExactHit& b) {
   return productOf(static_cast<UnsignedWide>(a.numerator),
                    static_cast<UnsignedWide>(b.denominator)) <
@@ -51,16 +51,20 @@ double ExactHit::t() const {
 
 std::vector<ExactHit> exactHits(std::span<const WholeTriangle> triangles, const WholeRay& ray) {
   std::vector<ExactHit> hits;
+
   const WideVector way{ray.direction[0], ray.direction[1], ray.direction[2]};
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const auto& [p, q, r] = triangles[i];
     const WideVector a = minus(p, ray.origin), b = minus(q, ray.origin), c = minus(r, ray.origin);
     const Wide wa = dotOf(way, crossOf(c, minus(q, r))), wb = dotOf(way, crossOf(a, minus(r, p))),
                wc = dotOf(way, crossOf(b, minus(p, q)));
+
+    // The ray passes the triangle's edges on different sides.
     if (std::min({wa, wb, wc}) < 0 && std::max({wa, wb, wc}) > 0) continue;
     const WideVector normal = crossOf(minus(q, p), minus(r, p));
     const Wide slope = dotOf(normal, way), height = dotOf(normal, a);
     if (slope == 0) continue;
+
     ExactHit hit;
     hit.triangle = static_cast<std::uint32_t>(i);
     hit.onEdge = wa == 0 || wb == 0 || wc == 0;
@@ -70,6 +74,7 @@ std::vector<ExactHit> exactHits(std::span<const WholeTriangle> triangles, const 
     hit.denominator = slope < 0 ? -slope : slope;
     if (hit.numerator >= 0) hits.push_back(hit);
   }
+
   std::ranges::stable_sort(hits, isNearer);
   return hits;
 }

@@ -1,4 +1,4 @@
-// What rays hit, decided in whole numbers without any rounding: an oracle for ray queries, which
+// Hits of rays in whole numbers without any rounding: an oracle for ray queries, which
 // shares no code with them. Coordinates are whole numbers below 2^25, of rays below 2^41 (origins)
 // and 2^31 (directions); all products of three then fit into 128 bits.
 #pragma once
@@ -24,7 +24,7 @@ struct ExactHit {
   __extension__ __int128 numerator = 0, denominator = 1;  // of t; the denominator is above 0
   double t() const;
 };
-// True if a is nearer; equal distances are neither way.
+// Returns true if `a` is nearer than `b`; equal distances give false both ways.
 bool isNearer(const ExactHit& a, const ExactHit& b);
 
 // All hits with t >= 0 in order of t. Triangles that are parallel to the ray are not hit.

@@ -1,5 +1,5 @@
 // The penumbra of a straight edge under a light that is a sphere, integrated over the sphere's
-// surface: an oracle that shares nothing with what it is held against.
+// surface: an oracle that shares no code with what it is compared with.
 #pragma once
 
 #include <cmath>
@@ -28,17 +28,19 @@ struct Penumbra {
         const double nx = ring * std::cos(turn), nz = ring * std::sin(turn);
         const double dx = radius * nx - x, dy = height + radius * ny, dz = radius * nz;
         const double t2 = dx * dx + dy * dy + dz * dz, t = std::sqrt(t2);
+
         const double facing = -(dx * nx + dy * ny + dz * nz) / t;
-        const double crossing = x + dx * edge / dy;  // where the way passes the screen's height
+        const double crossing = x + dx * edge / dy;  // x where the line crosses the screen's height
         if (facing <= 0 || (screen && crossing < 0)) continue;
         irradiance += facing * (dy / t) / t2;
       }
     }
+
     const double element = radius * radius * 4 * kPi / (double{kSteps} * kSteps);
     return albedo / kPi * emitted * irradiance * element;
   }
-  // What the point at its center would bring with no screen: all of the sphere brings the same
-  // (Lambert's law: a sphere that is seen whole acts as if it were at its center).
+  // Radiance of the floor at x without the screen. A sphere that is wholly visible acts as if its
+  // intensity were at its center.
   double unshadowedAt(double x) const {
     const double d2 = x * x + height * height;
     return albedo / kPi * intensity * height / (d2 * std::sqrt(d2));

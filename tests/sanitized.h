@@ -1,5 +1,5 @@
-// Whether a sanitizer is built in. Those that shadow memory need terabytes of addresses: tests that
-// limit them cannot run.
+// Whether a sanitizer is built in. Sanitizers that shadow memory need terabytes of addresses, so
+// that tests which limit the addresses cannot run.
 #pragma once
 
 namespace whit {

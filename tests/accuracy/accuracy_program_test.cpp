@@ -21,7 +21,8 @@ std::string sourceFile(const std::string& name) {
   return std::string(source ? source : ".") + "/" + name;
 }
 
-// Shipped scenes of little time, with every knob: the terminal's table, the rows and the report.
+// The shipped scenes that take little time are swept with every knob. The terminal's table, the
+// rows and the report agree.
 TEST(AccuracyProgram, WhatIsSaidOfShippedScenesHolds) {
   const std::vector<std::string> scenes{"whitted", "glossy"};
   const cli::TemporaryFolder folder;
@@ -29,18 +30,22 @@ TEST(AccuracyProgram, WhatIsSaidOfShippedScenesHolds) {
   std::vector<std::string> words{"accuracy"};
   words.insert(words.end(), scenes.begin(), scenes.end());
   words.insert(words.end(), {"--out", out, "--size", "8x6", "--time-budget", "0.5"});
+
   const cli::Outcome outcome = runWhit(words);
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   std::istringstream table(outcome.out);
   for (std::string line; std::getline(table, line);) EXPECT_LE(line.size(), 100u) << line;
 
   const auto rows = parseCsv(cli::readFile(out + "/sweep.csv"), "sweep.csv");
-  // How many are on a front depends on how busy the machine is.
+  // How many points are on a front depends on how busy the machine is, so only their rounds are
+  // tested.
   for (const CsvRow& row : rows) {
     const bool front = row.at("front") == "yes" || row.at("front_same_samples") == "yes";
     EXPECT_FALSE(front && std::stoi(row.at("rounds")) < kLeastRounds)
         << row.at("scene") << ", " << row.at("knob") << " " << row.at("value");
   }
+
+  // The points of the report are the rows of the CSV file, in the same order.
   const Json report = embeddedData(cli::readFile(out + "/report.html"));
   ASSERT_EQ(report["scenes"].size(), scenes.size());
   std::size_t at = 0;
@@ -57,7 +62,7 @@ TEST(AccuracyProgram, WhatIsSaidOfShippedScenesHolds) {
   EXPECT_EQ(at, rows.size());
 }
 
-// With no time to repeat, points have the one frame that their picture took.
+// With no time to repeat, each point has only the one frame that its picture took.
 TEST(AccuracyProgram, WithoutATimeBudgetNoPointOfOneFrameIsOnAFront) {
   const cli::TemporaryFolder folder;
   const std::string scene = cli::writeTinyScene(folder), out = folder / "out";
@@ -65,6 +70,7 @@ TEST(AccuracyProgram, WithoutATimeBudgetNoPointOfOneFrameIsOnAFront) {
                      "--time-budget", "0"})
                 .status,
             0);
+
   const auto rows = parseCsv(cli::readFile(out + "/sweep.csv"), "sweep.csv");
   for (const CsvRow& row : rows) {
     if (row.at("kind") == "baseline") continue;
@@ -80,12 +86,14 @@ TEST(AccuracyProgram, SweepsATinyScene) {
   const std::vector<std::string> words{"accuracy",      scene,   "--out",   out,
                                        "--size",        "32x20", "--knobs", "depth,spp,fresnel",
                                        "--time-budget", "10"};
+
   const cli::Outcome outcome = runWhit(words);
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("tiny, 32x20"), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("depth=0"), std::string::npos);
   EXPECT_NE(outcome.out.find("not swept: fresnel: not among the effects of the scene: transm"),
             std::string::npos);
+
   const auto rows = parseCsv(cli::readFile(out + "/sweep.csv"), "sweep.csv");
   ASSERT_GE(rows.size(), 5u);
   EXPECT_EQ(rows[0].at("value"), "standard");
@@ -94,7 +102,7 @@ TEST(AccuracyProgram, SweepsATinyScene) {
   EXPECT_NE(cli::readFile(out + "/report.html").find("</html>"), std::string::npos);
 }
 
-// Against all transport: four causes, and the truth's own error.
+// A sweep against all transport has a fourth cause of errors, and states the truth's own error.
 TEST(AccuracyProgram, MeasuresAgainstAllTransport) {
   const cli::TemporaryFolder folder;
   const std::string scene = cli::writeTinyScene(folder), out = folder / "out";
@@ -103,20 +111,26 @@ TEST(AccuracyProgram, MeasuresAgainstAllTransport) {
                                        "--truth",       "transport",
                                        "--size",        "24x16",
                                        "--time-budget", kSanitized ? "40" : "10"};
+
   const cli::Outcome outcome = runWhit(words);
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("truth: all transport, by packets"), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("standard error of a pixel"), std::string::npos);
+
   std::istringstream table(outcome.out);
   for (std::string line; std::getline(table, line);) EXPECT_LE(line.size(), 100u) << line;
+
   std::map<std::string, CsvRow> rows;
   for (const CsvRow& row : parseCsv(cli::readFile(out + "/sweep.csv"), "sweep.csv")) {
     EXPECT_EQ(row.at("truth"), "transport");
     rows[row.at("knob") + row.at("value")] = row;
   }
+
   const auto number = [&](const char* point, const char* column) {
     return rows.contains(point) ? std::stod(rows.at(point).at(column)) : -1;
   };
+
+  // With any number of paths no transport is left out, and more samples leave less error.
   EXPECT_GT(number("standard", "truth_standard_error"), 0);
   EXPECT_GT(number("standard", "transport_rmse"), 0) << "the floor lights the sphere";
   EXPECT_EQ(number("indirect4", "transport_rmse"), 0);
@@ -132,6 +146,7 @@ TEST(AccuracyProgram, ErrorsOfMirrorsHaveNotGrown) {
   const cli::Outcome outcome = runWhit({"accuracy", "mirrors", "--out", out, "--size", "32x20",
                                         "--knobs", "depth,cutoff,spp", "--time-budget", "1"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
+
   const auto before = parseCsv(cli::readFile(kept), kept);
   const auto now = parseCsv(cli::readFile(out + "/sweep.csv"), "sweep.csv");
   for (const std::string& line : grownErrors(before, now, {"depth", "cutoff", "spp"}))
@@ -145,6 +160,7 @@ TEST(AccuracyProgram, WrongUsageSaysWhatWasExpected) {
     EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
     return outcome.status;
   };
+
   const cli::TemporaryFolder folder;
   const std::string out = folder / "out";
   EXPECT_EQ(status({"mirrors"}, "--out DIR"), 2);

@@ -20,6 +20,7 @@ Point pointOf(PointKind kind, const std::string& knob, const std::string& value,
   point.kind = kind;
   point.knob = knob;
   point.value = value;
+
   point.timing.settledMs = ms;
   point.timing.frames = point.timing.rounds = 9;
   point.timing.ratio = point.timing.ratioLow = point.timing.ratioHigh = ms / 10;
@@ -34,9 +35,11 @@ SceneSweep sweepOfThree() {
   sweep.width = 32, sweep.height = 20;
   sweep.referenceSamples = 64;
   sweep.truthPng = "png";
+
   sweep.points = {pointOf(PointKind::baseline, "", "standard", 10, 0.02),
                   pointOf(PointKind::knob, "depth", "2", 8, 0.03),
                   pointOf(PointKind::knob, "depth", "16", 12, 0.025)};
+
   sweep.points[0].onFront = sweep.points[1].onFront = true;
   sweep.points[0].sameSamples = ImageDifference();
   sweep.points[0].sameSamplesMapPng = "png";
@@ -52,6 +55,7 @@ TEST(AccuracyReport, EmbedsItsDataUnchanged) {
   const std::string page = reportPage(data);
   EXPECT_EQ(embeddedData(page), data);
   EXPECT_EQ(page.find("{{"), std::string::npos);
+
   const std::regex end("</script>");
   EXPECT_EQ(std::distance(std::sregex_iterator(page.begin(), page.end(), end), {}), 2)
       << "the name of the scene must not end the script";
@@ -62,9 +66,11 @@ TEST(AccuracyReport, HasTheRowsOfTheCsvFile) {
   const Json facts{{"cpu", "A <fast> processor"}, {"seed", 1}};
   SceneSweep sweep = sweepOfThree();
   sweep.points[1].total.rmse = 1.0 / 3, sweep.points[2].total.psnrDb = HUGE_VAL;
+
   const Json points = reportJson({sweep}, facts)["scenes"][0]["points"];
   const std::vector<CsvRow> rows = parseCsv(sweepCsv({sweep}, facts), "sweep.csv");
   ASSERT_EQ(points.size(), rows.size());
+
   for (std::size_t i = 0; i < rows.size(); ++i) {
     EXPECT_GT(rows[i].size(), 65u);
     for (const auto& [name, field] : rows[i]) {
@@ -109,20 +115,23 @@ TEST(AccuracyReport, Base64) {
   EXPECT_EQ(base64(std::string("\xff\x00\xfe", 3)), "/wD+");
 }
 
-// With all transport as the truth: how far off it is itself, and which point to choose.
+// A report against all transport says how far off that truth is itself.
 TEST(AccuracyReport, SaysHowFarOffTheTruthIs) {
   SceneSweep sweep = sweepOfThree();
   EXPECT_EQ(transportText(sweep), "");
   EXPECT_FALSE(reportJson({sweep}, Json::object())["scenes"][0].contains("transport"));
+
   sweep.transport = {8, 512, 0.002, 0.5, 0.0123, 4000};
   for (Point& point : sweep.points) point.transport.emplace().flipMean = 0.0777;
   sweep.points[0].arithmetic->samePath.rmse = 1e-7;
+
   const std::string text = transportText(sweep);
   for (const char* said :
        {"512 samples a pixel in 8 independent passes, 4.0 s;", "2.00e-03, 0.4 % of the mean",
         "a FLIP of 0.0123", "single precision is off by 1.0e-07"}) {
     EXPECT_NE(text.find(said), std::string::npos) << said << " in " << text;
   }
+
   const Json scene = reportJson({sweep}, Json::object())["scenes"][0];
   EXPECT_EQ(scene["transport"], text);
   EXPECT_EQ(scene["points"][0]["truth_noise_flip"], 0.0123);

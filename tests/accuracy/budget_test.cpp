@@ -34,6 +34,7 @@ Chosen chooseFor(const Scene& scene, const Budget& budget, const std::set<std::s
   Renderer renderer(scene, options);
   Film film = makeFilm(scene, options);
   const Camera camera = chooseCamera(scene, options);
+
   Chosen chosen{chooseOptions(renderer, camera, fixed, budget, film), {}};
   renderer.render(camera, film);
   assess(chosen.receipt, renderer, camera, 1000, film);
@@ -87,12 +88,15 @@ TEST(BestWithin, IsTheLeastErrorThatFits) {
 TEST(Budgets, ChooseOptionsThatMakeTheSamePicture) {
   const Scene scene = load("whitted");
   const Chosen chosen = chooseFor(scene, {.ms = 200});
+  // The options that the receipt names are all that is needed for the same picture.
   RenderOptions same;
   same.size = ImageSize{64, 48};
   for (const auto& [name, value] : chosen.receipt.chosen) setOption(same, name, value);
+
   Renderer renderer(scene, same);
   Film film = makeFilm(scene, same);
   renderer.render(chooseCamera(scene, same), film);
+
   EXPECT_EQ(film.image.pixels, chosen.image.pixels);
   EXPECT_LE(chosen.receipt.low, chosen.receipt.error);
   EXPECT_GE(chosen.receipt.high, chosen.receipt.error);
@@ -133,22 +137,26 @@ TEST(Budgets, ThatAreTooSmallSaySo) {
   EXPECT_EQ(receipt.options.spp, 1);
 }
 
-// The error that the picture's own samples tell is that against many samples; twice and half of it
-// are the receipt's interval. No path ends that could bring light, unless the depth is given.
+// The true error lies within the interval that the receipt estimates from the picture's own
+// samples. Paths lose much light at their ends only if the given depth is small.
 TEST(Budgets, TellTheErrorOfThePicture) {
   const Scene scene = load("cornell");
   RenderOptions options;
   options.spp = 16;
   const std::set<std::string> fixed{"spp", "depth"};
   const Chosen chosen = chooseFor(scene, {.ms = 300}, fixed, options);
+
+  // A picture of many samples with the chosen options stands for the truth.
   RenderOptions many = chosen.receipt.options;
   many.spp = 1024;
   Renderer renderer(scene, many);
   Film film = makeFilm(scene, many);
   renderer.render(chooseCamera(scene, many), film);
+
   const double flip = compareImages(chosen.image, film.image, 0, many.toneCurve).flipMean;
   EXPECT_GE(flip, chosen.receipt.low);
   EXPECT_LE(flip, chosen.receipt.high);
+
   options.depth = 0;
   EXPECT_GT(chooseFor(load("mirrors"), {.ms = 300}, fixed, options).receipt.ended.value(), 0.05);
   options.depth = 64;
@@ -163,13 +171,16 @@ Scene lattice(double share, float radiance) {
   d.materials.resize(1);
   d.materials[0].diffuse = Rgb(0.0f);
   d.materials[0].emission = Rgb(radiance);
+
   Mesh squares;
   squares.materials = {0};
+
   std::mt19937 random;
   const double side = std::sqrt(share);
   std::uniform_real_distribution<double> place(0, 1 - side);
   for (int y = 0; y < 48; ++y) {
     for (int x = 0; x < 64; ++x) {
+      // The square lies anywhere within its pixel.
       const double left = x - 32 + place(random), low = y - 24 + place(random);
       const auto first = static_cast<std::uint32_t>(squares.positions.size());
       for (int corner = 0; corner < 4; ++corner) {
@@ -181,8 +192,10 @@ Scene lattice(double share, float radiance) {
       squares.triangles.push_back({first, first + 2, first + 3});
     }
   }
+
   d.objects.push_back({"squares", {squares}});
   d.instances.push_back({0, Affine{}});
+
   d.cameras.resize(1);
   d.cameras[0].eye = {0, 0, 10};
   d.cameras[0].at = {0, 0, 0};
@@ -191,8 +204,8 @@ Scene lattice(double share, float radiance) {
   return Scene::finalize(std::move(d), warnings);
 }
 
-// The error against the closed form lies below the receipt's bound, or the receipt has none: one
-// sample in 256 that meets a light tells nothing of the pixels where none of 16 did.
+// The error against the closed form lies below the receipt's bound, or the receipt has none. Where
+// one sample in 256 hits a square, 16 samples that all miss say nothing about their pixel's error.
 TEST(Targets, OfPixelsThatFewSamplesDecideAreNotKnown) {
   constexpr double kGray = 0.2;
   RenderOptions options;
@@ -200,18 +213,21 @@ TEST(Targets, OfPixelsThatFewSamplesDecideAreNotKnown) {
   for (const double share : {0.5, 1.0 / 256}) {
     const Scene scene = lattice(share, static_cast<float>(kGray / share));
     const Chosen chosen = chooseFor(scene, {.error = 1, .inCodes = true}, {"spp"}, options);
+
     Image truth = chosen.image;
     truth.pixels.assign(truth.pixels.size(), Rgb(static_cast<float>(kGray)));
     const double error = 255 * std::pow(10, -compareImages(chosen.image, truth).psnrDb / 20);
+
     const Receipt& receipt = chosen.receipt;
     EXPECT_EQ(std::isinf(receipt.high), share < 0.1) << receiptText(receipt, "");
     EXPECT_LE(error, receipt.high);
+
     const bool says = receipt.note.find("the error is not known") != std::string::npos;
     EXPECT_EQ(says, share < 0.1) << receipt.note;
   }
 }
 
-// One sample of paths tells nothing of its error.
+// A single sample of random paths says nothing about its error.
 TEST(Budgets, OfOneSampleOfPathsAreNotKnown) {
   RenderOptions options;
   options.spp = 1;
@@ -219,12 +235,14 @@ TEST(Budgets, OfOneSampleOfPathsAreNotKnown) {
   const Receipt paths = chooseFor(load("cornell"), {.ms = 100}, {"spp"}, options).receipt;
   EXPECT_TRUE(std::isinf(paths.high));
   EXPECT_NE(receiptText(paths, "").find("not known"), std::string::npos);
+
   options.indirect = 0;
   const Receipt direct = chooseFor(load("matte"), {.ms = 100}, {"spp"}, options).receipt;
   EXPECT_FALSE(std::isinf(direct.high));
 }
 
-// What knobs leave out of random paths is measured by one sample a pixel, most of which are black.
+// The error of knobs that shorten random paths is measured with one sample a pixel, most of which
+// are black.
 TEST(Budgets, OfPathsThatKnobsCutAreNotKnown) {
   const Scene scene = load("cornell");
   RenderOptions options;
@@ -232,10 +250,12 @@ TEST(Budgets, OfPathsThatKnobsCutAreNotKnown) {
   options.indirect = 1;
   options.spp = 400;
   options.channels = ChannelSet().with(Channel::error);
+
   Renderer renderer(scene, options);
   Film film = makeFilm(scene, options);
   const Camera camera = chooseCamera(scene, options);
   renderer.render(camera, film);
+
   for (const double bias : {0.0, 0.4}) {
     Receipt receipt;
     receipt.options = options;
@@ -260,13 +280,14 @@ TEST(Budgets, SayNothingOfTheEndsOfPathsWithAdaptiveSampling) {
   EXPECT_EQ(receiptText(receipt, "").find("left out at most"), std::string::npos);
 }
 
-// A single color in every pixel: one sample is as good as many.
+// Every pixel has a single color, so that one sample is as good as many.
 TEST(Budgets, ThatBuyNothingEndEarly) {
   SceneDescription d;
   d.name = "plain";
   d.cameras.resize(1);
   Warnings warnings;
   const Scene scene = Scene::finalize(std::move(d), warnings);
+
   const Receipt receipt = chooseFor(scene, {.ms = 2000}).receipt;
   EXPECT_EQ(receipt.options.spp, 1);
   EXPECT_NE(receipt.note.find("done early"), std::string::npos) << receipt.note;
@@ -279,6 +300,7 @@ TEST(Targets, NeedMoreSamplesForLessError) {
   EXPECT_LT(coarse.options.spp, fine.options.spp);
   EXPECT_LE(coarse.error, 0.05);
   EXPECT_LE(fine.error, 0.01);
+
   const Receipt codes = chooseFor(scene, {.error = 0.5, .inCodes = true}).receipt;
   EXPECT_LE(codes.error, 0.5);
 }
@@ -291,6 +313,7 @@ TEST(Targets, OutOfReachSaySo) {
 TEST(Budgets, RefuseWhatTheyWouldChoose) {
   const Scene scene = load("matte");
   EXPECT_THROW(chooseFor(scene, {.ms = 50}, {"quality"}), Error);
+
   RenderOptions reference;
   reference.mode = Mode::reference;
   EXPECT_THROW(chooseFor(scene, {.ms = 50}, {}, reference), Error);
@@ -303,6 +326,7 @@ TEST(Receipts, HaveTheCommandWithoutTheBudget) {
   receipt.approximate = {{"depth", "8", "64", 0.002}};
   receipt.probeMs = 10, receipt.measuredMs = 85, receipt.expectedMs = 80;
   receipt.error = 0.02, receipt.low = 0.015, receipt.high = 0.025, receipt.ended = 0.001;
+
   EXPECT_EQ(receiptText(receipt, "whit render atrium"),
             "  chosen --spp 4 --depth 8\n"
             "  left out depth 64 (FLIP 0.0020)\n"
@@ -310,6 +334,7 @@ TEST(Receipts, HaveTheCommandWithoutTheBudget) {
             "  error 0.0200 FLIP, between 0.0150 and 0.0250; --depth and --cutoff left out at most "
             "0.0010\n"
             "  the same picture: whit render atrium --spp 4 --depth 8\n");
+
   receipt.high = std::numeric_limits<double>::infinity();
   EXPECT_NE(receiptText(receipt, "").find("error 0.0200 FLIP, by what the samples tell; not known"),
             std::string::npos);

@@ -36,8 +36,11 @@ TEST(Pareto, AgainstTheDefinition) {
   for (int round = 0; round < 200; ++round) {
     std::vector<CostAndError> points(1 + random() % 12);
     for (CostAndError& p : points) p = {double(random() % 6), double(random() % 6)};
+
+    // Costs and errors are small whole numbers, so that many points are equal in one of them.
     const Indices front = paretoFront(points);
     const std::set<std::size_t> members(front.begin(), front.end());
+
     std::set<std::pair<double, double>> values;
     for (std::size_t i = 0; i < points.size(); ++i) {
       bool beaten = false;
@@ -52,7 +55,8 @@ TEST(Pareto, AgainstTheDefinition) {
   }
 }
 
-// By brute force over those that have a spread: the others are not on it, and beat nothing.
+// The fronts are compared with brute force over the points that have a spread. Other points are on
+// no front and beat no point.
 TEST(Fronts, HoldOnlyPointsWhoseTimesHaveASpread) {
   std::mt19937 random(11);
   int without = 0;
@@ -63,14 +67,17 @@ TEST(Fronts, HoldOnlyPointsWhoseTimesHaveASpread) {
       p.timing.settledMs = static_cast<double>(1 + random() % 50);
       p.total.flipMean = static_cast<double>(random() % 50);
       if (random() % 2) p.sameSamples.emplace().flipMean = static_cast<double>(random() % 50);
-      p.onFront = p.onFrontSameSamples = random() % 2;  // of an earlier time
+      p.onFront = p.onFrontSameSamples = random() % 2;  // stale marks, which markFronts() replaces
     }
+
     markFronts(points);
+    // A point beats another one if it is no worse in both respects and better in one.
     const auto beats = [](double time, double error, double otherTime, double otherError) {
       return time <= otherTime && error <= otherError && (time < otherTime || error < otherError);
     };
     for (const Point& p : points) {
       without += !p.timing.hasSpread();
+
       bool beaten = false, beatenSame = false;
       for (const Point& q : points) {
         if (!q.timing.hasSpread()) continue;
@@ -83,6 +90,8 @@ TEST(Fronts, HoldOnlyPointsWhoseTimesHaveASpread) {
       EXPECT_FALSE(p.onFrontSameSamples &&
                    (beatenSame || !p.sameSamples || p.timing.rounds < kLeastRounds));
     }
+
+    // There is a front if any point has a spread.
     const bool timed = std::any_of(points.begin(), points.end(),
                                    [](const Point& p) { return p.timing.hasSpread(); });
     const bool front =
@@ -120,6 +129,8 @@ TEST(Noise, IsTheMedianSpread) {
   sweep.points[3].timing.ratioLow = 0.5, sweep.points[3].timing.ratioHigh = 1.5;
   sweep.points[4].timing.rounds = 1;
   sweep.points[0].sameSamples.emplace().flipMean = 0.0015;
+
+  // The spreads are 2 %, 10 % and 50 % of the medians; the fourth point has none.
   EXPECT_NEAR(noiseOf(sweep).time, 0.1, 1e-12);
   EXPECT_EQ(noiseOf(sweep).flip, 0.0015);
 }

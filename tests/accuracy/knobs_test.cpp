@@ -63,7 +63,9 @@ TEST(Knobs, DefaultsAreIdempotent) {
       value.apply(twice);
       EXPECT_EQ(digestOf(once), digestOf(twice)) << knob.name;
     }
-    bool has = knob.name == "packet";  // whose default is no width
+
+    // The default of --packet is no width, so that none of its values is the default.
+    bool has = knob.name == "packet";
     for (const KnobValue& value : knob.values) {
       RenderOptions options;
       value.apply(options);
@@ -77,6 +79,7 @@ TEST(Knobs, OnlyWhatASceneHasIsSwept) {
   const auto idle = [](const std::string& name, EffectSet effects) {
     return !chooseKnobs({name}).front().idle(effects).empty();
   };
+
   const EffectSet matte = EffectSet().with(Effect::lights).with(Effect::shadows);
   EXPECT_TRUE(idle("depth", matte));
   EXPECT_TRUE(idle("cutoff", matte));
@@ -84,6 +87,7 @@ TEST(Knobs, OnlyWhatASceneHasIsSwept) {
   EXPECT_FALSE(idle("cutoff", matte.with(Effect::transmission)));
   EXPECT_TRUE(idle("fresnel", matte.with(Effect::mirror)));
   EXPECT_FALSE(idle("fresnel", matte.with(Effect::transmission)));
+
   EXPECT_TRUE(idle("glossy", matte.with(Effect::glossy)));
   EXPECT_FALSE(idle("glossy", matte.with(Effect::glossy).with(Effect::glossyReflection)));
   EXPECT_TRUE(idle("light-cutoff", EffectSet()));
@@ -108,6 +112,7 @@ TEST(Knobs, TheReferenceIsExactInEverything) {
   for (const Knob& knob : allKnobs()) knob.values.back().apply(options);
   options.size = ImageSize{32, 20};
   const RenderOptions reference = referenceOptions(options, 256, 0);
+
   EXPECT_EQ(reference.mode, Mode::reference);
   EXPECT_EQ(reference.spp, 256);
   EXPECT_EQ(reference.depth, kDepthLimit);
@@ -127,19 +132,22 @@ TEST(Knobs, ExactnessKeepsACutoffWhereRaysBranch) {
   EXPECT_LT(exactCutoff(glass, false), RenderOptions().cutoff);
 }
 
-// What the picture with all transport is made with, and what the model's reference leaves out.
+// The options of the picture with all transport hold what the model's reference leaves out.
 TEST(Knobs, TransportIsWhatTheModelLeavesOut) {
   RenderOptions options;
   EXPECT_FALSE(hasTransport(options));
+
   options.spp = 4, options.indirect = 16;
   EXPECT_TRUE(hasTransport(options));
   EXPECT_EQ(transportPaths(options), 64);
+
   const RenderOptions all = transportOptions(RenderOptions(), 32);
   EXPECT_TRUE(hasTransport(all));
   EXPECT_EQ(all.spp, 32);
   EXPECT_EQ(all.mode, Mode::packets);
   EXPECT_EQ(all.depth, kDepthLimit);
   EXPECT_EQ(all.cutoff, kTransportCutoff);
+
   const RenderOptions reference = referenceOptions(RenderOptions(), 32, 0);
   EXPECT_FALSE(hasTransport(reference));
 }

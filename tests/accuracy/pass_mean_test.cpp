@@ -15,7 +15,8 @@ Image flat(float value) {
   return image;
 }
 
-// 1, 2, 3, 4: the variance of a pass is 5/3, that of the mean of four a quarter of it.
+// The passes are 1, 2, 3 and 4: the variance of a pass is 5/3, and that of the mean of four passes
+// is a quarter of it.
 TEST(PassMean, OfFourFlatPictures) {
   PassMean passes;
   for (const float value : {1.0f, 2.0f, 3.0f, 4.0f}) passes.add(flat(value));
@@ -33,8 +34,8 @@ TEST(PassMean, EqualPassesHaveNoError) {
   EXPECT_EQ(passes.mean().pixels, flat(0.7f).pixels);
 }
 
-// One channel of one pixel of twelve is 0 and 2 in turn: of its mean, 1, the variance is 2/2; over
-// the picture that is 1/36 of it.
+// One channel of one of twelve pixels is 0 in the first pass and 2 in the second. Its variance is
+// 2, that of its mean is 1, and the mean over the 36 values of the picture is 1/36.
 TEST(PassMean, IsTheRootMeanSquareOverPixelsAndChannels) {
   PassMean passes;
   Image second = flat(0);
@@ -44,26 +45,30 @@ TEST(PassMean, IsTheRootMeanSquareOverPixelsAndChannels) {
   EXPECT_DOUBLE_EQ(passes.standardError(), std::sqrt(1.0 / 36));
 }
 
-// Pictures of normally distributed noise: what the mean is off by is what was said of it. With
-// 30,000 values both are known within a per cent or two; a wrong power of the number of passes
-// would be off by a factor of 4.
+// The passes are normally distributed noise, and the error that is stated is that of their mean.
+// With 30,000 values both are known within one or two per cent; a wrong power of the number of
+// passes would be off by a factor of 4.
 TEST(PassMean, TellsWhatTheMeanIsOffBy) {
   std::mt19937 random(3);
   std::normal_distribution<float> noise(10, 2);
   Image pass(100, 100, Crop{0, 0, 100, 100});
   PassMean passes;
   constexpr int kPasses = 16;
+
   for (int i = 0; i < kPasses; ++i) {
     for (Rgb& pixel : pass.pixels) pixel = {noise(random), noise(random), noise(random)};
     passes.add(pass);
   }
+
   double squares = 0;
   for (const Rgb& pixel : passes.mean().pixels) {
     for (const float value : {pixel.x, pixel.y, pixel.z}) {
       squares += (double{value} - 10) * (double{value} - 10);
     }
   }
+
   const double off = std::sqrt(squares / 30000);
+  // The noise has a standard deviation of 2.
   EXPECT_NEAR(passes.standardError(), 2 / std::sqrt(double{kPasses}), 0.01);
   EXPECT_NEAR(passes.standardError() / off, 1, 0.03);
 }

@@ -32,6 +32,7 @@ TEST(Points, OneKnobAtATime) {
   const PointList list = makePoints(RenderOptions(), kMirrored, allKnobs());
   const Point* depth = find(list, "depth=2");
   ASSERT_TRUE(depth);
+
   RenderOptions expected;
   expected.depth = 2;
   EXPECT_EQ(digestOf(depth->options), digestOf(expected));
@@ -61,8 +62,8 @@ TEST(Points, OptionsOfTheCommandLineAreTheBaseline) {
 const EffectSet kSoftAndRough =
     kMirrored.with(Effect::indirect).with(Effect::glossyReflection).with(Effect::softShadows);
 
-// From one sample to all transport: each number of its samples, alone and with more of a pixel, and
-// with as many of lobes and lights, as far as their knobs go.
+// The points lead from one sample to all transport. Each number of indirect samples comes alone,
+// with more samples of a pixel, and with as many samples of lobes and lights as their knobs allow.
 TEST(TransportPoints, LeadToAllTransport) {
   PointList list = makePoints(RenderOptions(), kSoftAndRough, knobsTowardsTransport());
   addTransportPoints(RenderOptions(), kSoftAndRough, knobsTowardsTransport(), list);
@@ -72,6 +73,7 @@ TEST(TransportPoints, LeadToAllTransport) {
         "spp=4 indirect=64 glossy=16 light-samples=16"}) {
     EXPECT_TRUE(find(list, label)) << label;
   }
+
   const Point* rough = find(list, "spp=4 indirect=64 glossy=16 light-samples=16");
   ASSERT_TRUE(rough);
   EXPECT_EQ(rough->options.spp, 4);
@@ -79,6 +81,8 @@ TEST(TransportPoints, LeadToAllTransport) {
   EXPECT_EQ(rough->options.glossy, 16);
   EXPECT_EQ(rough->options.lightSamples, 16);
   EXPECT_EQ(rough->kind, PointKind::joint);
+
+  // No two points have the same options or the same label.
   std::set<std::string> digests, labels;
   for (const Point& point : list.points) {
     digests.insert(digestOf(point.options));
@@ -92,6 +96,7 @@ TEST(TransportPoints, HaveNoLobesWhereTheSceneHasNone) {
   const EffectSet effects = kMirrored.with(Effect::indirect);
   PointList list;
   addTransportPoints(RenderOptions(), effects, knobsTowardsTransport(), list);
+
   EXPECT_EQ(list.points.size(), 12u) << "1, 4, 16 and 64, with 1, 4 and 16 samples";
   for (const Point& point : list.points) {
     EXPECT_EQ(point.options.glossy, 0);

@@ -1,4 +1,4 @@
-// What a sweep takes on.
+// How many samples the references of a sweep have, and which points and comparisons it leaves out.
 #include <gtest/gtest.h>
 
 #include "accuracy/sweep.h"
@@ -18,13 +18,13 @@ Point arithmeticPoint() {
 }
 
 TEST(Scope, TheReferenceHasAsManySamplesAsItsRaysAllow) {
-  EXPECT_EQ(quick(1e5, 1e5).samples(), 64);  // 6.4 of 30 million rays
+  EXPECT_EQ(quick(1e5, 1e5).samples(), 64);  // takes 6.4 of 30 million rays
   EXPECT_EQ(quick(1e6, 1e6).samples(), 16);  // 32 samples would take 32 million
   EXPECT_EQ(quick(1e6, 30e6).samples(), 2);  // never fewer
   EXPECT_EQ((Scope{kFull, 1e6, 1e6, false, 1, 0}).samples(), 256);
 }
 
-// 8 passes, of 400 million rays all together.
+// The 8 passes may trace 400 million rays in all.
 TEST(Scope, APassHasAsManySamplesAsItsRaysAllow) {
   EXPECT_EQ(quick(1e5, 1e5).transportSamples(7e5), 64);  // 358 million
   EXPECT_EQ(quick(1e5, 1e5).transportSamples(8e5), 32);
@@ -56,6 +56,7 @@ TEST(Scope, ComparesPathsOfTheBaselineAloneWhereFramesAreLong) {
     EXPECT_TRUE(quick(rays, rays).comparesPaths(baseline));
     EXPECT_EQ(quick(rays, rays).comparesPaths(arithmeticPoint()), rays < 2e6);
   }
+
   Scope chosen = quick(6e6, 6e6);
   chosen.chosenKnobs = true;
   EXPECT_TRUE(chosen.comparesPaths(arithmeticPoint()));

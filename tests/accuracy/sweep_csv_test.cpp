@@ -20,6 +20,7 @@ SceneSweep sweepOfTwo() {
   sweep.width = sweep.height = 10;
   sweep.referenceSamples = 64;
   sweep.points.resize(2);
+
   Point& base = sweep.points[0];
   base.kind = PointKind::baseline;
   base.value = "standard";
@@ -27,6 +28,7 @@ SceneSweep sweepOfTwo() {
   base.total.flipMean = 0.02;
   base.total.psnrDb = std::numeric_limits<double>::infinity();
   base.sameSamples = ImageDifference();
+
   Point& depth = sweep.points[1];
   depth.knob = "depth";
   depth.value = "2";
@@ -53,6 +55,7 @@ TEST(SweepCsv, WhatIsWrittenIsRead) {
   EXPECT_EQ(rows[0].at("same_samples_rmse"), "0");
   EXPECT_EQ(rows[0].at("arithmetic_rmse"), "");
   EXPECT_EQ(rows[0].at("cpu"), "A \"fast\", big one");
+
   EXPECT_EQ(rows[1].at("knob"), "depth");
   EXPECT_NE((" " + rows[1].at("options") + " ").find(" depth=2 "), std::string::npos);
   EXPECT_EQ(rows[1].at("path_flips"), "3");
@@ -81,18 +84,19 @@ TEST(CheckErrors, SmallerErrorsAndOtherTimesPass) {
   EXPECT_TRUE(grownErrors(rowsOf(sweepOfTwo()), rowsOf(better), {}).empty());
 }
 
-// Just within and just beyond 10 % and the absolute slack.
+// The limit is 10 % more and the absolute slack: 0.2750 is just within, 0.2752 just beyond.
 TEST(CheckErrors, GrowthBeyondTheToleranceFails) {
   SceneSweep now = sweepOfTwo();
   now.points[0].total.rmse = 0.2750;
   EXPECT_TRUE(grownErrors(rowsOf(sweepOfTwo()), rowsOf(now), {}).empty());
+
   now.points[0].total.rmse = 0.2752;
   const auto grown = grownErrors(rowsOf(sweepOfTwo()), rowsOf(now), {});
   ASSERT_EQ(grown.size(), 1u);
   EXPECT_NE(grown[0].find("total_rmse was 0.25, is 0.2752"), std::string::npos) << grown[0];
 }
 
-// Of 100 pixels two are 2 %.
+// The limit is a tenth more than 30 %, and two of the 100 pixels: 35 %.
 TEST(CheckErrors, SharesHaveTwoPixelsOfSlack) {
   SceneSweep now = sweepOfTwo();
   now.points[1].total.pixelsGe1CodePct = 34.9;
@@ -117,15 +121,17 @@ TEST(CheckErrors, MissingPointsFailUnlessTheirKnobWasLeftOut) {
   EXPECT_TRUE(grownErrors(rowsOf(sweepOfTwo()), rowsOf(now), {"cutoff"}).empty());
 }
 
-// Whether all transport is the truth, and how far that is off; of a sweep against the model
-// nothing.
+// The rows say whether all transport is the truth and how far off that truth is. The rows of a
+// sweep against the model leave those fields empty.
 TEST(SweepCsv, SaysWhatTheTruthIs) {
   SceneSweep sweep = sweepOfTwo();
   EXPECT_EQ(rowsOf(sweep)[0].at("truth"), "model");
   EXPECT_EQ(rowsOf(sweep)[0].at("truth_standard_error"), "");
   EXPECT_EQ(rowsOf(sweep)[0].at("transport_flip"), "");
+
   sweep.transport = {8, 512, 0.002, 0.5, 0.0123, 4000};
   sweep.points[1].transport.emplace().flipMean = 0.0777;
+
   const CsvRow row = rowsOf(sweep)[1];
   EXPECT_EQ(row.at("truth"), "transport");
   EXPECT_EQ(row.at("truth_passes"), "8");

@@ -20,7 +20,7 @@ using CsvRow = std::map<std::string, std::string>;
 struct GrowthTolerance {
   double relative = 0.1;
   double rmse = 1e-4, flip = 5e-4;
-  double pixels = 2;  // for shares of pixels, in pixels
+  double pixels = 2;  // how many pixels shares of pixels may grow by
 };
 
 // Splits one line, whose fields may be quoted, and moves `at` behind its end.
@@ -49,6 +49,7 @@ inline std::vector<std::string> readLine(const std::string& text, std::size_t& a
       fields.back() += c;
     }
   }
+
   return fields;
 }
 
@@ -82,15 +83,19 @@ inline std::optional<double> numberIn(const CsvRow& row, const std::string& name
 inline void compareRows(const CsvRow& before, const CsvRow& now, const GrowthTolerance& tolerance,
                         std::vector<std::string>& grown) {
   const double pixels = numberIn(now, "width").value_or(1) * numberIn(now, "height").value_or(1);
+  // Shares are percentages of the pixels.
   const double share = 100 * tolerance.pixels / pixels;
+
   const auto compare = [&](const std::string& name, double slack) {
     const std::optional<double> old = numberIn(before, name), fresh = numberIn(now, name);
     if (!old) return;
+
     const double limit = *old * (1 + tolerance.relative) + slack;
     if (fresh && *fresh <= limit) return;  // false for NaN, which counts as grown
     grown.push_back(keyOf(now) + ": " + name + " was " + field(before, name) + ", is " +
                     (fresh ? field(now, name) : "missing") + formatted(" (limit %.4g)", limit));
   };
+
   for (const char* group :
        {"total", "same_samples", "sampling", "algorithm", "arithmetic", "transport"}) {
     const std::string prefix = group;
@@ -123,19 +128,21 @@ inline std::vector<CsvRow> parseCsv(const std::string& text, const std::string& 
   return rows;
 }
 
-// A line for each error that has grown, and for each row of `before` that is missing from `now` or
-// was measured with another size or reference. Times are not compared. If `knobs` names any knobs,
-// the rows of all others are left out.
+// Returns a line for each error that has grown, and for each row of `before` that is missing from
+// `now` or was measured with another size or reference. Times are not compared. If `knobs` names
+// any knobs, the rows of all others are left out.
 inline std::vector<std::string> grownErrors(const std::vector<CsvRow>& before,
                                             const std::vector<CsvRow>& now,
                                             const std::vector<std::string>& knobs,
                                             const GrowthTolerance& tolerance = {}) {
+  // Rows of scenes that the new sweep does not have are not compared.
   std::map<std::string, const CsvRow*> fresh;
   std::vector<std::string> scenes;
   for (const CsvRow& row : now) {
     fresh[keyOf(row)] = &row;
     scenes.push_back(field(row, "scene"));
   }
+
   std::vector<std::string> grown;
   std::size_t compared = 0;
   for (const CsvRow& row : before) {
@@ -143,6 +150,7 @@ inline std::vector<std::string> grownErrors(const std::vector<CsvRow>& before,
     const bool knob = field(row, "kind") == "knob";
     const bool chosen = std::find(knobs.begin(), knobs.end(), field(row, "knob")) != knobs.end();
     if (knob && !knobs.empty() && !chosen) continue;
+
     const auto found = fresh.find(keyOf(row));
     if (found == fresh.end()) {
       grown.push_back(keyOf(row) + ": was not measured");

@@ -1,4 +1,4 @@
-// The table for a terminal: its width, whatever is in it.
+// The table for a terminal keeps to its width, whatever it holds.
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -18,10 +18,13 @@ SceneSweep widest() {
   sweep.machine.simd = "avx3_zen4", sweep.machine.embree = "4.3.3 avx512";
   sweep.referenceSamples = 256;
   sweep.referenceMs = 1e7;
+
   PointList list = makePoints(RenderOptions(), EffectSet::all(), allKnobs());
   sweep.points = std::move(list.points);
   sweep.idle = std::move(list.idle);
+
   for (Point& point : sweep.points) {
+    // Every point is also in the list of those that were left out.
     sweep.idle.push_back({point.label(), "the minute was over"});
     Timing& t = point.timing;
     t.rounds = t.frames = 5;
@@ -48,7 +51,7 @@ TEST(SweepTable, FitsAHundredColumns) {
   EXPECT_EQ(kTableColumns, 100u);
 }
 
-// As on a machine that is so busy that frames of microseconds take seconds.
+// The times are those of a machine so busy that frames of microseconds take seconds.
 TEST(SweepTable, TimesThatSayNothingTakeNoMoreRoom) {
   SceneSweep wild = widest();
   for (Point& point : wild.points) {
@@ -56,6 +59,7 @@ TEST(SweepTable, TimesThatSayNothingTakeNoMoreRoom) {
     t.ratio = 1.26e7, t.ratioLow = 1e-5, t.ratioHigh = 1e12;
   }
   expectToFit(wild);
+
   for (Point& point : wild.points) point.timing.ratio = 0.01;
   expectToFit(wild);
   EXPECT_NE(sweepTable(wild, 1).find(" >1e4~"), std::string::npos);
@@ -68,6 +72,7 @@ TEST(SweepTable, HasARowAPointAndItsWords) {
     if (point.kind == PointKind::joint) continue;
     EXPECT_NE(table.find("\n" + point.label()), std::string::npos) << point.label();
   }
+
   const auto at = [&](const char* word) { return table.find(word); };
   for (const char* word : {"RMSE: root of the mean squared", "step of an 8-bit sRGB"})
     EXPECT_LT(at(word), at(sweep.points.front().label().c_str())) << word << " is before the rows";

@@ -1,4 +1,5 @@
-// What is taken for the time of a point, and when it is said to be known.
+// How the time of a point and its interval follow from the samples, and when a time counts as
+// noisy.
 #include "accuracy/timing.h"
 
 #include <gtest/gtest.h>
@@ -19,13 +20,16 @@ TEST(MedianInterval, ByHand) {
   expect({}, 0, 0);
   expect({7}, 7, 7);
   expect({3, 1, 2}, 1, 3);
-  expect({5, 4, 3, 2, 1}, 1, 5);  // 1 - 2/32
-  // One value can be spared at either end once 2 (1 + n) / 2^n is at most a tenth: 8 of 7, 9 of 8.
+  expect({5, 4, 3, 2, 1}, 1, 5);  // the range holds the median with a probability of 1 - 2/32
+
+  // One value at either end is left out once 2 (1 + n) / 2^n is at most a tenth. It is 16/128 for 7
+  // values and 18/256 for 8.
   expect({1, 2, 3, 4, 5, 6, 7}, 1, 7);
   expect({1, 2, 3, 4, 5, 6, 7, 8}, 2, 7);
 }
 
-// Of 10,000 values the bounds are 1.645 standard deviations of a binomial, 50, from the middle.
+// For 10,000 values the bounds lie 1.645 standard deviations from the middle, and the standard
+// deviation of the binomial distribution is 50.
 TEST(MedianInterval, OfVeryManyValuesIsNarrow) {
   std::vector<double> values(10000);
   std::iota(values.begin(), values.end(), 1.0);
@@ -34,13 +38,16 @@ TEST(MedianInterval, OfVeryManyValuesIsNarrow) {
   EXPECT_NEAR(interval.high, 5001 + 1.645 * 50, 1.5);
 }
 
-// The median of the distribution lies within, however skewed that is, as often as is promised.
+// The interval holds the median of the distribution, however skewed that is, as often as is
+// promised.
 TEST(MedianInterval, HoldsTheMedianAsOftenAsItSays) {
   constexpr int kTrials = 4000;
   // Three standard deviations of a share of 0.9 in so many trials.
   const double slack = 3 * std::sqrt(0.9 * 0.1 / kTrials);
+
   std::mt19937 random(5);
   std::lognormal_distribution<double> skewed(0, 1);  // its median is 1
+
   for (const int values : {5, 6, 8, 13, 25}) {
     int held = 0;
     for (int trial = 0; trial < kTrials; ++trial) {
@@ -69,12 +76,14 @@ TEST(TimeSamples, FewRoundsHaveASpreadAndAreNoisyAllTheSame) {
   EXPECT_FALSE(samples.timing().noisy());
 }
 
-// Of five rounds the interval is the range: 3 % above and below the median, and a little more.
+// The interval of five rounds is their range: 3 % above and below the median, and a little more.
 TEST(TimeSamples, NoisyBeyondSoManyPerCent) {
   TimeSamples samples{{}, {1.94, 2, 2, 2, 2.06}, false};
   EXPECT_NEAR(samples.timing().spreadPct(), 3, 1e-9);
+
   samples.ratios.back() = 2.05;
   EXPECT_FALSE(samples.timing().noisy());
+
   samples.ratios.back() = 2.08;
   EXPECT_TRUE(samples.timing().noisy());
 }

@@ -34,22 +34,25 @@ class BenchTile {
     run();
   }
 
-  // All steps of depth 0, from the beginning; light by light, and what its children would bring if
-  // they were as bright as their parents.
+  // Runs all steps of depth 0 from the beginning, light by light.
   void run() {
     chunk_ = Chunk();
     chunk_.frame = &constants_;
     chunk_.film = &film_;
     chunk_.meter = &meter_;
     chunk_.pixels = pixels_;
+
     work_.startQueue(pixels_.size());
     work_.takeChunk(0, chunk_);
     for (const Step& step : plan().perSample) runStep(step);
     for (const Step& step : plan().perQueue) runStep(step);
+
     for (const LightSteps& light : plan().perLight) {
       chunk_.turnTo(light.light, light.sample, light.samples);
       for (const Step& step : light.steps) runStep(step);
     }
+
+    // Children have room for the most that all surfels can have.
     std::size_t most = 0;
     for (const Step& step : plan().impulses) most += step.childrenAtEye;
     if (most > 0) work_.reserveChildren(most * kTileRays, chunk_);
@@ -57,13 +60,14 @@ class BenchTile {
     for (const Step& step : plan().perTile) runStep(step);
   }
 
-  // Once more on the tile as it is after run(); steps that append children do it again from none.
+  // Runs a step once more on the tile as it is after run(). Steps that append children begin again
+  // with none.
   void runStep(const Step& step) {
     if (step.childrenAtEye > 0 && &step == &plan().impulses.front()) chunk_.childCount = 0;
     if (step.runsFor(chunk_.materialFlags)) step.run(chunk_);
   }
 
-  // What a step is timed on.
+  // Returns the chunk that a step is timed on.
   Chunk chunkFor(const Step& step) const {
     Chunk chunk = chunk_;
     if (step.childrenAtEye > 0) chunk.childCount = 0;
@@ -76,13 +80,13 @@ class BenchTile {
     return chunk;
   }
 
-  // Rays, shadow rays or children that the step has to do with.
+  // Returns the number of rays, shadow rays or children that the step processes.
   std::size_t raysOf(const Step& step) const {
     if (step.name == "checkShadows") return chunk_.shadowCount;
     return chunkFor(step).n;
   }
 
-  // The bits of everything that the steps write.
+  // Returns the bits of everything that the steps write.
   std::vector<std::uint32_t> bits() const {
     std::vector<std::uint32_t> all;
     append(all, chunk_.rays, chunk_.n);
@@ -120,7 +124,9 @@ class BenchTile {
     std::vector<std::uint32_t> best;
     std::size_t most = 0;
     PixelLists tiles = makeTiles(Crop{0, 0, kSize.width, kSize.height}, 32);
+
     for (const auto& tile : tiles) {
+      // Tiles at the border are smaller.
       if (tile.size() != kTileRays) continue;
       pixels_ = tile;
       pixels_.reserve(kTileRays + 2 * kBlock);

@@ -1,4 +1,4 @@
-// What each step of the plan takes a ray, for every SIMD target of this machine; steps that call
+// Times each step of the plan by the ray, for every SIMD target of this machine; steps that call
 // Embree are timed with it, and the kernels that fill and empty its packets once more alone:
 //   build/tests/kernels_bench [--benchmark_filter=interpolate] [...]
 // Before it is timed, a target's kernels are compared with their scalar reference; afterwards its
@@ -17,7 +17,7 @@
 namespace whit::bench {
 namespace {
 
-// Scenes between which every step runs, some by choice only.
+// Scenes in which, taken together, every step runs, some only because of an option.
 struct Input {
   std::string scene;
   bool terminator = false;
@@ -45,7 +45,7 @@ class PacketBench {
   explicit PacketBench(const Chunk& chunk)
       : chunk_(chunk), words_(kTileRays / kPacket * kWords), hits_(kTileRays, FeatureSet()) {}
 
-  // name, what runs, and the rays of it.
+  // Calls visit(name of the kernel, function that runs it, number of rays) for each kernel.
   template <typename Visitor>
   void forEachKernel(Visitor&& visit) {
     const simd::PacketKernels kernels = simd::findPacketKernels();
@@ -70,14 +70,14 @@ class PacketBench {
 
  private:
   static constexpr std::size_t kPacket = 16, kWords = 20 * kPacket;
-  static constexpr float kReach = 1e10f;  // of all rays
+  static constexpr float kReach = 1e10f;  // far end of all rays
   static constexpr std::array<std::uint32_t, kTriangleClasses> kBase{0, 1, 2, 3};
   const Chunk& chunk_;
   std::vector<float> words_;
   ColumnStore<HitColumns> hits_;
 };
 
-// Empty, or which stage is how far from the scalar reference.
+// Returns which stage differs how much from the scalar reference, or nothing if none does.
 std::string referenceDiffers(BenchTile& tile) {
   for (const StageDifference& row :
        compareStages(tile.renderer(), tile.camera(), tile.smallFilm())) {
@@ -88,11 +88,12 @@ std::string referenceDiffers(BenchTile& tile) {
   return {};
 }
 
-// A tile and its verdict, made when its first benchmark runs.
+// A tile, which is made when it is first needed, and what is wrong with its kernels; empty if
+// nothing is.
 struct Subject {
   Input input;
   const Scene& scene;
-  std::vector<std::uint32_t>& pixels;  // of the input's tile, chosen by the first target
+  std::vector<std::uint32_t>& pixels;  // pixels of the input's tile, which the first target chooses
   std::string target;
   std::unique_ptr<BenchTile> tile;
   std::string verdict;
@@ -112,14 +113,18 @@ void time(benchmark::State& state, Subject& subject, const std::function<void()>
           std::size_t rays) {
   if (!subject.verdict.empty()) return state.SkipWithError(subject.verdict.c_str());
   BenchTile& tile = subject.made();
+
   tile.run();
+  // The timed kernel must leave the columns as a plain run of the tile does.
   const std::vector<std::uint32_t> expected = tile.bits();
   for (auto _ : state) run();
+
   tile.run();
   if (tile.bits() != expected) {
     subject.verdict = "the same input gave other bits";
     return state.SkipWithError(subject.verdict.c_str());
   }
+
   state.counters["per_ray"] =
       benchmark::Counter(static_cast<double>(rays), benchmark::Counter::kIsIterationInvariantRate |
                                                         benchmark::Counter::kInvert);
@@ -132,7 +137,7 @@ void registerOne(const std::string& kernel, Subject& subject, const std::functio
       name.c_str(), [&subject, run, rays](auto& state) { time(state, subject, run, rays); });
 }
 
-// The steps of the subject's plan that no input before it had.
+// Registers the steps of the subject's plan that no input before it had.
 void registerAll(Subject& subject, std::vector<std::string>& known) {
   BenchTile& tile = subject.made();
   tile.plan().forEachStep([&](const Step& step) {
@@ -160,6 +165,7 @@ int runAll() {
   std::vector<std::unique_ptr<Subject>> subjects;
   std::vector<std::unique_ptr<PacketBench>> packets;
   std::vector<std::string> known;
+
   for (const Input& input : kInputs) {
     if (!scenes.contains(input.scene)) scenes.emplace(input.scene, load(input.scene));
     const Scene& scene = scenes.at(input.scene);
@@ -167,6 +173,8 @@ int runAll() {
       Subject& subject =
           *subjects.emplace_back(new Subject{input, scene, pixels[&input], target, nullptr, {}});
       registerAll(subject, known);
+
+      // The packet kernels are timed on the first input only.
       if (&input != kInputs.data()) continue;
       simd::chooseTarget(target);
       packets.emplace_back(new PacketBench(subject.made().chunk()))
@@ -174,6 +182,7 @@ int runAll() {
                               std::size_t rays) { registerOne(name, subject, run, rays); });
     }
   }
+
   benchmark::RunSpecifiedBenchmarks();
   for (const auto& subject : subjects) {
     if (!subject->verdict.empty()) return 1;

@@ -23,7 +23,7 @@ struct Triangles {
   std::vector<std::uint32_t> corners;
 };
 
-// Polygons become fans; all but positions is passed over.
+// Reads positions and polygons, which become fans, and passes over everything else.
 Triangles readObj(const char* path) {
   Triangles mesh;
   std::ifstream file(path);
@@ -31,10 +31,12 @@ Triangles readObj(const char* path) {
     std::istringstream words(line);
     std::string word;
     words >> word;
+
     if (word == "v") {
       for (float x; words >> x;) mesh.positions.push_back(x);
     } else if (word == "f") {
       std::vector<std::uint32_t> polygon;
+      // Negative numbers of vertices count back from the last one.
       const auto vertices = static_cast<long>(mesh.positions.size() / 3);
       while (words >> word) {
         const long number = std::strtol(word.c_str(), nullptr, 10);
@@ -77,16 +79,19 @@ OSPWorld makeWorld(const Triangles& mesh, char** lightTexts, int lightCount) {
   commitAll(positions, corners);
   ospSetObject(geometry, "vertex.position", positions);
   ospSetObject(geometry, "index", corners);
+
   const OSPMaterial material = ospNewMaterial("obj");
   ospSetVec3f(material, "kd", 0.6f, 0.6f, 0.6f);
   const OSPGeometricModel model = ospNewGeometricModel(geometry);
   ospSetObject(model, "material", material);
   commitAll(geometry, material, model);
+
   const OSPGroup group = ospNewGroup();
   ospSetObject(group, "geometry", dataOf({model}, OSP_GEOMETRIC_MODEL));
   ospCommit(group);
   const OSPInstance instance = ospNewInstance(group);
   ospCommit(instance);
+
   std::vector<OSPObject> lights;
   for (int i = 0; i < lightCount; ++i) {
     const std::vector<float> values = numbersOf(lightTexts[i]);
@@ -98,6 +103,7 @@ OSPWorld makeWorld(const Triangles& mesh, char** lightTexts, int lightCount) {
     ospCommit(light);
     lights.push_back(light);
   }
+
   const OSPWorld world = ospNewWorld();
   ospSetObject(world, "instance", dataOf({instance}, OSP_INSTANCE));
   ospSetObject(world, "light", dataOf(lights, OSP_LIGHT));
@@ -121,6 +127,7 @@ void writePicture(OSPFrameBuffer frame, int width, int height, const char* path)
   const auto* pixels = static_cast<const std::uint8_t*>(ospMapFrameBuffer(frame, OSP_FB_COLOR));
   std::ofstream file(path, std::ios::binary);
   file << "P6\n" << width << " " << height << "\n255\n";
+
   for (int y = height - 1; y >= 0; --y) {
     for (int x = 0; x < width; ++x) {
       file.write(reinterpret_cast<const char*>(pixels + 4 * (y * width + x)), 3);
@@ -138,11 +145,13 @@ int main(int argc, const char** argv) {
     std::fprintf(stderr, "OSPRay does not start: error %d\n", static_cast<int>(error));
     return 1;
   }
+
   const int width = std::atoi(argv[2]), height = std::atoi(argv[3]);
   const Triangles mesh = readObj(argv[1]);
   const OSPWorld world = makeWorld(mesh, const_cast<char**>(argv) + 10, argc - 10);
   const OSPCamera camera =
       makeCamera(argv[7], argv[8], argv[9], static_cast<float>(width) / static_cast<float>(height));
+
   const OSPRenderer renderer = ospNewRenderer(argv[4]);
   ospSetInt(renderer, "pixelSamples", 1);
   ospSetBool(renderer, "shadows", 1);
@@ -150,6 +159,8 @@ int main(int argc, const char** argv) {
   ospCommit(renderer);
   const OSPFrameBuffer frame = ospNewFrameBuffer(width, height, OSP_FB_SRGBA, OSP_FB_COLOR);
   ospCommit(frame);
+
+  // Frame -1 warms up and is not counted.
   for (int i = -1; i < std::atoi(argv[5]); ++i) {
     ospResetAccumulation(frame);
     const auto start = std::chrono::steady_clock::now();
@@ -158,6 +169,7 @@ int main(int argc, const char** argv) {
         std::chrono::steady_clock::now() - start;
     if (i >= 0) std::printf("%.3f\n", taken.count());
   }
+
   writePicture(frame, width, height, argv[6]);
   std::fflush(stdout);
   std::_Exit(0);  // OSPRay 3.2 crashes when its tables of albedos are destroyed at exit

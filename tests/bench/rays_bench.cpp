@@ -1,8 +1,9 @@
-// Times the ray queries of whit.h against Embree's own calls for the same rays, in turn:
+// Times the ray queries of whit.h against Embree's own calls for the same rays, alternately:
 //   build/tests/rays_bench [SCENE [TURNS]]
-// Rays of random directions from random points of the scene's box, which Embree traces one by one,
-// and a lidar's from one point, which it traces in packets of 16. Of the queries that is all time
-// from arrays to columns; Embree's share leaves out how its rays are written.
+// The rays are of random directions from random points of the scene's box, which Embree traces one
+// by one, and those of a lidar at one point, which it traces in packets of 16. The queries' time
+// goes from arrays to all columns of hits; Embree's includes the writing of its rays, and only the
+// distances are kept.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -47,6 +48,7 @@ Arrays randomRays(const Vec3d& low, const Vec3d& size) {
   std::uniform_real_distribution<double> share(0, 1);
   std::normal_distribution<double> way;
   Arrays rays;
+
   for (std::size_t i = 0; i < kRays; ++i) {
     const Vec3d at{share(random), share(random), share(random)};
     rays.add(low + size * at, {way(random), way(random), way(random)});
@@ -75,6 +77,7 @@ std::vector<float> traceOneByOne(const whit::EmbreeScene& scene, const Arrays& r
       RTCRayHit hit{};
       hit.ray = {o.x, o.y, o.z, 0, d.x, d.y, d.z, 0, INFINITY, ~0u, 0, 0};
       hit.hit.geomID = hit.hit.instID[0] = kNone;
+
       context.setRay(o, d);
       context.trace(scene.top(), hit);
       t[i] = hit.ray.tfar;
@@ -95,8 +98,10 @@ std::vector<float> traceInPackets(const whit::EmbreeScene& scene, const Arrays& 
       alignas(64) RTCRayHit16 packet{};
       alignas(64) int live[kWidth];
       auto& ray = packet.ray;
+
       for (std::size_t k = 0; k < kWidth; ++k) {
         live[k] = first + k < (row + 1) * kSide ? -1 : 0;
+        // Lanes beyond the row's end hold a ray, but are not live.
         const std::size_t i = std::min(first + k, kRays - 1);
         const Vec3f o = rays.origin(i), d = rays.direction(i);
         ray.org_x[k] = o.x, ray.org_y[k] = o.y, ray.org_z[k] = o.z;
@@ -104,6 +109,7 @@ std::vector<float> traceInPackets(const whit::EmbreeScene& scene, const Arrays& 
         ray.tfar[k] = INFINITY, ray.mask[k] = ~0u, ray.id[k] = static_cast<unsigned>(k);
         packet.hit.geomID[k] = packet.hit.instID[0][k] = kNone;
       }
+
       context.setRays(
           PacketColumns{ray.org_x, ray.org_y, ray.org_z, ray.dir_x, ray.dir_y, ray.dir_z});
       context.trace(scene.top(), packet, live);
@@ -135,12 +141,15 @@ int main(int argc, char** argv) {
                                  nullptr);
   whit::api::Renderer renderer(whit::api::loadScene(name));
   const Vec3d low(scene.lower), size = Vec3d(scene.upper) - low;
+
   for (const bool lidar : {false, true}) {
     const Arrays rays = lidar ? lidarRays(low, size) : randomRays(low, size);
     const whit::api::Rays asked{{rays.origins, {}}, {rays.directions, {}}};
     whit::api::RayHits hits = renderer.closest(asked);
     std::vector<float> t;
     std::vector<double> ours, ratios, occluded;
+
+    // Both are timed alternately, so that a change of the machine's speed affects both.
     for (int turn = 0; turn < turns; ++turn) {
       const double own = secondsOf([&] { hits = renderer.closest(asked); });
       const double theirs = secondsOf([&] {
@@ -150,6 +159,9 @@ int main(int argc, char** argv) {
       ours.push_back(own);
       ratios.push_back(own / theirs);
     }
+
+    // Rays that pass an edge within rounding are not certain. All others must have Embree's
+    // distance.
     std::size_t apart = 0, open = 0;
     for (std::size_t i = 0; i < kRays; ++i) {
       const bool isApart = std::isfinite(t[i]) != std::isfinite(hits.t[i]) ||
@@ -157,6 +169,7 @@ int main(int argc, char** argv) {
       if (hits.certain[i] == 0) ++open;
       if (hits.certain[i] != 0 && isApart) ++apart;
     }
+
     std::printf(
         "%s, %s: closest %.2f, occluded %.2f Mray/s with %d threads; %.2f of Embree's time; "
         "%zu not certain, %zu certain ones differ from Embree's\n",

@@ -1,4 +1,5 @@
-// Files written beside other work: in order, one at a time, errors told, interruptions waited for.
+// Files that are written beside other work: they are written in order and one at a time, errors
+// reach the caller, and an interruption waits for the current file.
 #include "output/film_pipe.h"
 
 #include <gtest/gtest.h>
@@ -17,6 +18,7 @@ namespace {
 
 TEST(BackgroundWriter, WritesOneAfterTheOther) {
   std::string done;
+  // The jobs count how many of them run at the same time.
   std::atomic<int> atOnce{0}, most{0};
   BackgroundWriter writer;
   for (const char* name : {"a", "b", "c", "d"}) {
@@ -27,6 +29,7 @@ TEST(BackgroundWriter, WritesOneAfterTheOther) {
       --atOnce;
     });
   }
+
   writer.finish();
   EXPECT_EQ(done, "abcd");
   EXPECT_EQ(most, 1);
@@ -41,6 +44,8 @@ TEST(BackgroundWriter, ReturnsWhileItWrites) {
     goOn.wait(false);
     written = true;
   });
+
+  // The job has not ended, so start() did not wait for it.
   EXPECT_FALSE(written);
   goOn = true;
   goOn.notify_one();
@@ -55,6 +60,7 @@ TEST(BackgroundWriter, WhatAJobThrowsReachesTheNextStartWhichStartsNothing) {
   EXPECT_THROW(writer.start([&] { next = true; }), std::runtime_error);
   writer.finish();
   EXPECT_FALSE(next);
+
   writer.start([] { throw std::runtime_error("no space"); });
   EXPECT_THROW(writer.finish(), std::runtime_error);
 }
@@ -67,9 +73,11 @@ void interruptedBesideTheJob() {
     goOn.wait(false);
     std::fputs("finished the file", stderr);
   });
+
   raise(SIGINT);
   goOn = true;
   goOn.notify_one();
+  // The interruption ends the program here, before another file is begun.
   writer.start([] { std::fputs("began another", stderr); });
   std::fputs("went on", stderr);
 }

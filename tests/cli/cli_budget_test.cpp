@@ -34,6 +34,8 @@ TEST(BudgetCommands, PrintTheCommandOfTheSamePicture) {
     const Outcome outcome = runWhit(
         {"render", writeTinyScene(folder), option, "-o", folder / "a b.exr", "--depth", "3"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
+
+    // The command is the last line of the receipt.
     const std::string begin = "the same picture: whit ";
     const std::size_t at = outcome.err.find(begin);
     ASSERT_NE(at, std::string::npos) << outcome.err;
@@ -42,6 +44,8 @@ TEST(BudgetCommands, PrintTheCommandOfTheSamePicture) {
     EXPECT_EQ(command.find(option), std::string::npos);
     EXPECT_NE(command.find("--depth 3"), std::string::npos);
     EXPECT_NE(command.find("a b.exr'"), std::string::npos) << command;
+
+    // The command writes to the same file, so the first picture is kept as a copy.
     std::filesystem::copy_file(folder / "a b.exr", folder / "first.exr");
     ASSERT_EQ(std::system((WHIT_PROGRAM " " + command + " --quiet").c_str()), 0) << command;
     const Outcome compared = runWhit(

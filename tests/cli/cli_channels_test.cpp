@@ -20,7 +20,7 @@ void expectDone(const std::vector<std::string>& words) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
 }
 
-// Nothing is written.
+// A refused command writes nothing.
 void expectRefused(int status, const std::string& why, const std::vector<std::string>& words,
                    const TemporaryFolder& folder) {
   const auto count = [&] {
@@ -46,13 +46,18 @@ TEST(Channels, AreBesideThePicture) {
   expectDone({"render", scene, "-o", exr, "-o", folder / "a.png", "-o", folder / "a.depth.png",
               "-o", folder / "normal.png", "--channels", kAll, "--quiet"});
   expectDone({"render", scene, "-o", folder / "plain.exr", "-o", folder / "plain.png", "--quiet"});
+
   EXPECT_EQ(readLayers(exr, ImageLimits()).size(), 17u);
   EXPECT_TRUE(readLayers(folder / "plain.exr", ImageLimits()).empty());
+  // Channels change nothing in the pictures.
   EXPECT_EQ(readFile(folder / "a.png"), readFile(folder / "plain.png"));
   EXPECT_NE(readFile(folder / "a.depth.png"), readFile(folder / "plain.png"));
+
   EXPECT_EQ(textOf(exr, "channels"), kAll);
   EXPECT_EQ(Json::parse(textOf(exr, "objects")), (Json{{"0", "/scene/0"}, {"1", "/scene/1"}}));
   const Json materials = Json::parse(textOf(exr, "materials"));
+
+  // The numbers in the channels are those that whit info lists.
   const Outcome info = runWhit({"info", scene, "--json", "-"});
   const Json said = Json::parse(info.out);
   EXPECT_EQ(said["objects"], 2);
@@ -78,7 +83,8 @@ TEST(Channels, WhatCannotBeIsSaid) {
   refuse(2, "positions do not fit into a PNG", "a.position.png", "position");
   refuse(2, "dwaa is lossy for channels", "a.exr", "depth", "dwaa");
   refuse(4, "there is no folder", "none/a.exr", "depth");
-  // A depth beyond what 16 bits hold.
+
+  // This depth is beyond what 16 bits hold.
   expectRefused(5, "does not fit into 16 bits",
                 {"render", scene, "-o", folder / "a.depth.png", "--channels", "depth", "--eye",
                  "0,100,0", "--at", "0,0,0.1", "--quiet"},
@@ -94,17 +100,21 @@ TEST(Channels, OfCropsAreMerged) {
     words.insert(words.end(), more.begin(), more.end());
     expectDone(words);
   };
+
   part("whole.exr", {});
   part("left.exr", {"--crop", "0,0,20,32"});
   part("right.exr", {"--crop", "20,0,48,32"});
   expectDone({"merge", folder / "merged.exr", folder / "left.exr", folder / "right.exr"});
   EXPECT_EQ(textOf(folder / "merged.exr", "objects"), textOf(folder / "whole.exr", "objects"));
+
   const Outcome compared = runWhit(
       {"compare", folder / "merged.exr", folder / "whole.exr", "--tolerance", "0", "--json", "-"});
   EXPECT_EQ(compared.status, 0) << compared.err;
   const Json channels = Json::parse(compared.out)["channels"];
   ASSERT_EQ(channels.size(), 17u);
   for (const Json& c : channels) EXPECT_EQ(c["pixels_differing"], 0) << c;
+
+  // Parts must have the same channels.
   expectDone({"render", scene, "-o", folder / "bare.exr", "--crop", "0,0,20,32", "--quiet"});
   expectRefused(2, "bare.exr: lacks the channel",
                 {"merge", folder / "m.exr", folder / "bare.exr", folder / "right.exr"}, folder);
@@ -121,8 +131,10 @@ TEST(Channels, AreComparedExactly) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("object.id"), std::string::npos);
   const Json channels = Json::parse(readFile(folder / "c.json"))["channels"];
-  ASSERT_EQ(channels.size(), 3u);  // those that both have
+  ASSERT_EQ(channels.size(), 3u);  // the channels that both files have
+
   Warnings warnings;
+  // The number of pixels that differ is counted once more by hand.
   const auto a = readLayers(folder / "a.exr", ImageLimits());
   const auto b = readLayers(folder / "b.exr", ImageLimits());
   std::size_t differing = 0;
@@ -130,6 +142,7 @@ TEST(Channels, AreComparedExactly) {
     differing += a[2].words[i] != b[5].words[i];
   }
   EXPECT_GT(differing, 0u);
+
   EXPECT_EQ(channels[2]["channel"], "object.id");
   EXPECT_EQ(channels[2]["pixels_differing"], differing);
   EXPECT_FALSE(channels[2].contains("max"));
@@ -145,6 +158,7 @@ TEST(Channels, OfBothModesAreCompared) {
   const TemporaryFolder folder;
   const Outcome outcome =
       runWhit({"compare", writeTinyScene(folder), "--channels", "depth,object", "--json", "-"});
+
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   const Json channels = Json::parse(outcome.out)["channels"];
   ASSERT_EQ(channels.size(), 3u);
@@ -160,6 +174,7 @@ TEST(Channels, OfFramesAreThoseOfEachAlone) {
                 folder / (name + ".depth-#.png"), "--frames", frames, "--fps", "4", "--channels",
                 kAll, "--quiet"});
   };
+
   film("film", "0..3");
   film("alone", "2");
   EXPECT_EQ(readFile(folder / "film2.exr"), readFile(folder / "alone2.exr"));
@@ -177,6 +192,7 @@ TEST(Channels, ResumingAsksForTheSameOnes) {
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     return Json::parse(outcome.out)["kept"].get<int>();
   };
+
   EXPECT_EQ(kept("depth"), 0);
   EXPECT_EQ(kept("depth"), 1);
   EXPECT_EQ(kept("depth,object"), 0);

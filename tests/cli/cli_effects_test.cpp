@@ -23,6 +23,7 @@ TEST(InfoEffects, DepthOfFieldNeedsAnApertureAndSamples) {
     const std::size_t begin = out.find("\n  depthOfField");
     return begin == std::string::npos ? out : out.substr(begin, out.find('\n', begin + 1) - begin);
   };
+
   EXPECT_NE(line({}).find("1 camera with an aperture, but --spp is 1"), std::string::npos);
   const std::string two = line({"--spp", "2"});
   EXPECT_NE(two.find("1 camera with an aperture"), std::string::npos) << two;
@@ -41,6 +42,7 @@ TEST(AbEffects, MeasuresTheSceneTwice) {
   EXPECT_NE(table.out.find("every effect over the scene's, medians of 3 turns"), std::string::npos)
       << table.out;
   EXPECT_NE(table.out.find("outside Embree"), std::string::npos) << table.out;
+
   const Json json = Json::parse(
       runWhit({"bench", tiny, tiny, "--ab-effects", "--frames", "2", "--json", "-"}).out);
   ASSERT_EQ(json["runs"].size(), 4u);
@@ -48,9 +50,11 @@ TEST(AbEffects, MeasuresTheSceneTwice) {
   for (std::size_t i = 0; i < 4; i += 2) {
     EXPECT_EQ(json["runs"][i]["effects_choice"], "auto");
     EXPECT_EQ(json["runs"][i + 1]["effects_choice"], "all");
+    // More kernels are compiled in, but they trace the same rays.
     EXPECT_LT(json["runs"][i]["effects"].size(), json["runs"][i + 1]["effects"].size());
     EXPECT_EQ(json["runs"][i]["rays"], json["runs"][i + 1]["rays"]);
   }
+
   EXPECT_GT(json["all_over_auto"][0]["frame"].get<double>(), 0);
   EXPECT_GT(json["all_over_auto"][0]["outside_embree"].get<double>(), 0);
 }
@@ -69,24 +73,29 @@ TEST(EffectsCommand, WritesATableAndAPicture) {
   const Outcome outcome =
       runWhit({"effects", "--out", folder / "made", "--frames", "1", "--size", "48x30"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
+
   const std::string csv = readFile(folder / "made/effects.csv");
-  // The head, the matte scene, and all effects but its lights and their shadows, and those that
-  // have to be asked for.
+  // The table has a head, a line for the matte scene and one for each effect, except for its lights
+  // and their shadows, and for the effects that are off unless an option turns them on.
   const auto kLines =
       std::ptrdiff_t{2} + kEffectCount - 2 - std::popcount(notAskedFor(RenderOptions()).bits());
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), kLines) << csv;
   EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), kLines + 4) << outcome.out;
+
   const auto codes = [&](const char* name) {
     Warnings warnings;
     return readRawImage(folder / name, ImageLimits(), warnings).codes;
   };
   EXPECT_EQ(codes("made/00-matte.png").size(), 48u * 30 * 3);
   EXPECT_NE(codes("made/00-matte.png"), codes("made/01-spotLights.png"));
+
+  // There is a picture for each line but the head.
   const std::ptrdiff_t pictures = std::count_if(
       std::filesystem::directory_iterator(folder / "made"), std::filesystem::directory_iterator(),
       [](const auto& entry) { return entry.path().extension() == ".png"; });
   EXPECT_EQ(pictures, kLines - 1);
   EXPECT_NE(csv.find("\nabsorption,"), std::string::npos) << csv;
+
   const auto report = embeddedData(readFile(folder / "made/report.html"));
   EXPECT_EQ(report["effects"].size(), static_cast<std::size_t>(kLines - 1));
   EXPECT_EQ(report["pictures"][0], "00-matte.png");
@@ -98,6 +107,7 @@ TEST(EffectsCommand, AddsOnlyWhatTheSceneHas) {
   const Outcome outcome =
       runWhit({"effects", tiny, "--out", folder.path().string(), "--frames", "1"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
+
   const std::string csv = readFile(folder / "effects.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 2 + 2) << csv;  // smooth normals, a mirror
 }

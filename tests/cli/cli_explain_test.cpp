@@ -8,7 +8,7 @@
 namespace whit::cli {
 namespace {
 
-// What a node and all below it add to the first channel of the pixel.
+// Returns what a node and all nodes below it add to the first channel of the pixel.
 double addedBelow(const nlohmann::json& node) {
   double sum = node["adds"][0].get<double>();
   for (const nlohmann::json& child : node["children"]) sum += addedBelow(child);
@@ -29,6 +29,7 @@ TEST(Explain, TellsTheTreeOfAPixel) {
   EXPECT_NE(outcome.out.find("\n  refraction, weight "), std::string::npos);
   EXPECT_NE(outcome.out.find("sky adds "), std::string::npos);
 
+  // What all rays add is the radiance of the pixel, and the scalar reference agrees with it.
   const nlohmann::json json = nlohmann::json::parse(readFile(folder / "rays.json"));
   const nlohmann::json& packets = json["packets"];
   const double radiance = packets["radiance"][0].get<double>();
@@ -38,6 +39,7 @@ TEST(Explain, TellsTheTreeOfAPixel) {
   EXPECT_TRUE(packets["samples"][0]["surface"].contains("sphere"));
   EXPECT_FALSE(json["reference"]["samples"][0]["children"].empty());
 
+  // The drawing holds the picture and the rays as lines.
   const std::string drawing = readFile(svg);
   EXPECT_EQ(drawing.rfind("<svg ", 0), 0u);
   EXPECT_NE(drawing.find("data:image/png;base64,"), std::string::npos);
@@ -45,8 +47,8 @@ TEST(Explain, TellsTheTreeOfAPixel) {
   EXPECT_NE(drawing.find("</svg>"), std::string::npos);
 }
 
-// The data of the page: what all rays add is the pixel, the stages come in their order with columns
-// of as many floats as the tile has pixels, and the last holds the pixel.
+// The rays in the page's data add up to the pixel. The stages come in their order, each with
+// columns of as many floats as the tile has pixels.
 TEST(Explain, WritesALesson) {
   const TemporaryFolder folder;
   const auto lesson = [&](const std::vector<std::string>& more) {
@@ -58,9 +60,11 @@ TEST(Explain, WritesALesson) {
     const std::size_t from = page.find(start) + start.size();
     return nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from));
   };
+
   const nlohmann::json data =
       lesson({"whitted", "--size", "90x50", "--pixel", "30,20", "--spp", "2", "--tile", "16"});
   EXPECT_EQ(data["tile"], nlohmann::json({16, 16, 32, 32}));
+  // What the nodes add is the radiance of the pixel.
   for (std::size_t channel = 0; channel < 3; ++channel) {
     double sum = 0;
     for (const nlohmann::json& node : data["tree"]["nodes"])
@@ -68,6 +72,7 @@ TEST(Explain, WritesALesson) {
     const double radiance = data["tree"]["radiance"][channel].get<double>();
     EXPECT_NEAR(sum, radiance, 1e-6 * radiance);
   }
+
   std::vector<std::string> stages;
   for (const nlohmann::json& step : data["recorded"]["steps"]) {
     stages.push_back(step["stage"]);
@@ -82,7 +87,8 @@ TEST(Explain, WritesALesson) {
                                               "addShading", "addImpulses", "updateImage"}));
   EXPECT_EQ(data["recorded"]["depths"][0], 256);
   EXPECT_GT(data["recorded"]["depths"][1], 0);
-  // Without lights, by a ray that hits nothing.
+
+  // A scene without lights gives a lesson too, even for a ray that hits nothing.
   const nlohmann::json bare =
       lesson({writeTinyScene(folder), "--set", "/lights=[]", "--size", "8x8", "--pixel", "0,0"});
   EXPECT_EQ(bare["tile"], nlohmann::json({0, 0, 8, 8}));
@@ -97,6 +103,7 @@ TEST(Explain, SaysThatRouletteEndsAPath) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("no indirect light: roulette\n"), std::string::npos) << outcome.out;
   EXPECT_EQ(outcome.out.find("cutoff"), std::string::npos) << outcome.out;
+
   const std::string json = readFile(folder / "rays.json");
   EXPECT_NE(json.find("\"roulette\""), std::string::npos);
   EXPECT_EQ(json.find("\"cutoff\""), std::string::npos);
@@ -112,6 +119,7 @@ TEST(Explain, ListsSamplesAndLeavesOutWhatIsSmall) {
         .out;
   };
   const std::string all = said("0"), most = said("0.2");
+
   EXPECT_EQ(all.find("more rays, adding"), std::string::npos) << all;
   EXPECT_NE(most.find("more rays, adding"), std::string::npos) << most;
   EXPECT_NE(all.find("primary"), all.rfind("primary"));
@@ -127,6 +135,7 @@ TEST(Explain, RefusesWrongUsage) {
     EXPECT_EQ(outcome.status, 2) << outcome.err;
     EXPECT_NE(outcome.err.find(because), std::string::npos) << outcome.err;
   };
+
   refused({}, "expected --pixel x,y");
   for (const char* pixel : {"3", "3,", "a,b", "3,4,5", "3,4 ", ""}) {
     refused({"--pixel", pixel}, "expected");

@@ -51,16 +51,19 @@ TEST(Render, WithoutOutputWritesTheScenesName) {
   std::filesystem::current_path(folder.path());
   const Outcome outcome = runWhit({"render", "tiny.json"});
   const Outcome again = runWhit({"render", "tiny.json"});
+
+  // A picture of the default name must not overwrite a file that whit did not write.
   std::ofstream("other.png") << "a texture";
   std::filesystem::copy_file("tiny.json", "other.json");
   const Outcome refused = runWhit({"render", "other.json"});
   std::filesystem::current_path(before);
+
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(again.status, 0) << again.err;
   EXPECT_EQ(refused.status, 2);
   EXPECT_NE(refused.err.find("'other.png' is there"), std::string::npos) << refused.err;
   EXPECT_EQ(readFile(folder / "other.png"), "a texture");
-  EXPECT_EQ(outcome.out, "");  // it is no terminal
+  EXPECT_EQ(outcome.out, "");  // standard output is no terminal
   EXPECT_NE(outcome.err.find("wrote tiny.png"), std::string::npos) << outcome.err;
   EXPECT_EQ(readFile(folder / "tiny.png").substr(1, 3), "PNG");
   EXPECT_EQ(runWhit({"render", folder / "tiny.json", "--frames", "0..1"}).status, 2);
@@ -71,6 +74,7 @@ TEST(Images, TheSameRenderGivesTheSameBytes) {
   const std::string tiny = writeTinyScene(folder);
   render({tiny, "-o", folder / "a.exr", "-o", folder / "a.png", "--threads", "1"});
   render({tiny, "-o", folder / "b.exr", "-o", folder / "b.png", "--threads", "3", "--tile", "16"});
+
   EXPECT_EQ(readFile(folder / "a.exr"), readFile(folder / "b.exr"));
   EXPECT_EQ(readFile(folder / "a.png"), readFile(folder / "b.png"));
 }
@@ -80,6 +84,7 @@ TEST(Images, SayHowTheyWereMade) {
   const std::string tiny = writeTinyScene(folder);
   render({tiny, "-o", folder / "a.exr", "-o", folder / "a.png", "--camera", "side", "--depth", "3",
           "--crop", "8,4,40,20"});
+
   const auto said = metadataOf(folder / "a.exr");
   const std::pair<const char*, const char*> expected[] = {
       {"scene", "tiny"}, {"size", "48x32"}, {"crop", "8,4,40,20"}, {"camera", "side"},
@@ -89,12 +94,15 @@ TEST(Images, SayHowTheyWereMade) {
     ASSERT_TRUE(said.contains(name)) << name;
     EXPECT_EQ(said.at(name), text) << name;
   }
+
   EXPECT_EQ(said.at("software").rfind("whit ", 0), 0u);
   EXPECT_NE(said.at("effectsUsed").find("mirror"), std::string::npos);
   EXPECT_NE(said.at("packet"), "auto");
+  // Metadata must not depend on the run, or pictures would differ from run to run.
   for (const char* secret : {"threads", "date", "host", "capDate", "owner"}) {
     EXPECT_FALSE(said.contains(secret)) << secret;
   }
+
   const std::string png = readFile(folder / "a.png");
   EXPECT_NE(png.find("tEXt"), std::string::npos);
   EXPECT_NE(png.find("software"), std::string::npos);
@@ -105,13 +113,16 @@ TEST(Images, MetadataMakesTheImageAgain) {
   const std::string tiny = writeTinyScene(folder);
   render({tiny, "-o", folder / "a.exr", "--eye", "1.1,2.3,5.7", "--fov", "33.3", "--cutoff", "0.01",
           "--spp", "2", "--disable", "shadows"});
+
   std::vector<std::string> words{tiny, "-o", folder / "b.exr"};
+  // These members describe the picture, but no option sets them.
   const std::set<std::string> noOptions{"software", "scene", "sceneDigest", "effectsUsed",
                                         "strict"};
   for (const auto& [name, text] : metadataOf(folder / "a.exr")) {
     if (noOptions.contains(name)) continue;
     words.push_back("--" + name + "=" + text);
   }
+
   render(words);
   EXPECT_TRUE(sameBits(read(folder / "a.exr"), read(folder / "b.exr")));
 }
@@ -119,6 +130,7 @@ TEST(Images, MetadataMakesTheImageAgain) {
 TEST(Images, CropsMergeToTheWhole) {
   const TemporaryFolder folder;
   const std::string tiny = writeTinyScene(folder);
+
   render({tiny, "-o", folder / "whole.exr"});
   const char* crops[] = {"0,0,20,32", "20,0,48,10", "20,10,48,32"};
   std::vector<std::string> merge{"merge", folder / "merged.exr"};
@@ -126,9 +138,12 @@ TEST(Images, CropsMergeToTheWhole) {
     merge.push_back(folder / (std::string(crop) + ".exr"));
     render({tiny, "-o", merge.back(), "--crop", crop});
   }
+
   const Outcome outcome = runWhit(merge);
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_TRUE(sameBits(read(folder / "whole.exr"), read(folder / "merged.exr")));
+
+  // A merged picture must have no gap.
   merge.pop_back();
   merge[1] = folder / "gap.exr";
   EXPECT_EQ(runWhit(merge).status, 2);
@@ -158,24 +173,31 @@ TEST(Images, ResumingTracesWhatIsMissingCutOffOrMadeOtherwise) {
     const auto frame = [&](int i) { return folder / ("f-" + std::to_string(i) + type); };
     std::vector<std::string> words{tiny, "-o", folder / ("f-#" + type), "--frames", "0..5"};
     render(words);
+
     std::vector<std::string> whole;
     for (int i = 0; i <= 5; ++i) whole.push_back(readFile(frame(i)));
+
+    // One frame is missing, two are damaged, and one has another depth.
     fs::remove(frame(1));
     std::ofstream(frame(2), std::ios::binary) << whole[2].substr(0, whole[2].size() - 9);
     std::ofstream(frame(3), std::ios::binary) << "no image at all";
     render({tiny, "-o", words[2], "--frames", "4", "--depth", "1"});
-    // The other machine may have had other lanes; the picture's place is not its own.
+    // A frame that another machine made with other SIMD lanes is kept, because its pixels do not
+    // depend on them.
     const std::string narrowest = simd::availableTargets().back();
     render({tiny, "-o", words[2], "--frames", "5", "--simd", narrowest, "--packet", "4"});
     const std::string others = readFile(frame(5));
     const ino_t kept[] = {fileNumber(frame(0)), fileNumber(frame(5))};
     words.insert(words.end(), {"--resume", "--threads", "1"});
     render(words);
+
     for (int i = 0; i <= 4; ++i)
       EXPECT_TRUE(readFile(frame(i)) == whole[static_cast<std::size_t>(i)]) << i << type;
     EXPECT_EQ(fileNumber(frame(0)), kept[0]) << "traced again";
     EXPECT_EQ(fileNumber(frame(5)), kept[1]) << "traced again";
-    words.insert(words.end(), {"--packet", "8"});  // now it is said
+
+    // An option that is given must agree with the frame's.
+    words.insert(words.end(), {"--packet", "8"});
     render(words);
     EXPECT_FALSE(readFile(frame(5)) == others);
   }
@@ -190,15 +212,17 @@ TEST(Images, ResumingKnowsCropsAndWritesWhatOneOfTwoFilesLacks) {
   const ino_t first = fileNumber(folder / "a.exr");
   render(words);
   EXPECT_EQ(fileNumber(folder / "a.exr"), first);
+
   fs::remove(folder / "a.png");
   render(words);
   EXPECT_TRUE(fs::exists(folder / "a.png"));
+
   render({tiny, "-o", folder / "a.exr", "--crop", "8,4,40,21", "--resume"});
   EXPECT_EQ(read(folder / "a.exr").windowHeight(), 17);
 }
 
-// Of what the scene's file and the files that it names say, only what a picture can depend on
-// counts.
+// Only those parts of the scene's file, and of the files that it names, count on which a picture
+// can depend.
 TEST(Images, ResumingTracesAnotherStateOfTheScene) {
   const TemporaryFolder folder;
   const std::string tiny = writeTinyScene(folder), text = readFile(tiny);
@@ -206,26 +230,30 @@ TEST(Images, ResumingTracesAnotherStateOfTheScene) {
     const std::string image = folder / ("a" + type);
     const auto numberAfter = [&](const std::string& scene) {
       std::ofstream(tiny) << scene;
-      // Held open, so that the number of a file that is replaced is not given again.
+      // The file is held open, so that the file that replaces it does not get the same number.
       const std::ifstream held(image);
       render({tiny, "-o", image, "--resume"});
       return fileNumber(image);
     };
+
     const ino_t first = numberAfter(text);
     const std::string whole = readFile(image);
     EXPECT_EQ(numberAfter("// a remark\n" + text), first) << "traced again";
+
+    // A remark changes no picture; another color does.
     std::string changed = text;
     changed.replace(changed.find("\"diffuse\": 0.5"), 14, "\"diffuse\": 0.4");
     const ino_t second = numberAfter(changed);
     EXPECT_NE(second, first) << "not traced again";
     EXPECT_FALSE(readFile(image) == whole);
     EXPECT_EQ(numberAfter(changed), second) << "traced again";
+
     numberAfter(text);
     EXPECT_TRUE(readFile(image) == whole);
   }
 }
 
-// Each is written while the next is traced.
+// Each frame is written while the next one is traced.
 TEST(Images, AFrameThatCannotBeWrittenEndsTheFilmAndLeavesTheOnesBefore) {
   const TemporaryFolder folder, results;
   const std::string tiny = writeTinyScene(folder);
@@ -234,6 +262,7 @@ TEST(Images, AFrameThatCannotBeWrittenEndsTheFilmAndLeavesTheOnesBefore) {
       {"render", tiny, "-o", results / "f-#.exr", "-o", results / "f-#.png", "--frames", "0..9"});
   EXPECT_EQ(outcome.status, 4) << outcome.err;
   EXPECT_NE(outcome.err.find("f-2.exr"), std::string::npos) << outcome.err;
+
   std::set<std::string> names;
   for (const auto& entry : fs::directory_iterator(results.path())) {
     names.insert(entry.path().filename().string());
@@ -242,20 +271,24 @@ TEST(Images, AFrameThatCannotBeWrittenEndsTheFilmAndLeavesTheOnesBefore) {
   EXPECT_EQ(read(results / "f-1.exr").width, 48);
 }
 
-// Frames take turns on two films; with memory for one they are written before the next is traced.
+// Frames alternate between two films. With memory for one film only, each frame is written before
+// the next one is traced.
 TEST(Images, FramesDoNotDependOnWhetherTheyAreWrittenBesideTheNext) {
   const TemporaryFolder folder;
   const std::string tiny = writeTinyScene(folder);
   std::vector<std::string> words{
       tiny, "-o", folder / "two-#.exr", "--frames", "0..4", "--fps", "4", "--size", "480x320"};
   render(words);
+  // The limit is enough for one film, but not for two.
   words[2] = folder / "one-#.exr";
   words.insert(words.end(), {"--max-memory", "0.006"});
   render(words);
+
   for (const std::string frame : {"0", "1", "2", "3", "4"}) {
     words = {tiny,     "-o",     folder / "alone-#.exr", "--frames", frame, "--fps", "4",
              "--size", "480x320"};
     render(words);
+
     const std::string alone = readFile(folder / ("alone-" + frame + ".exr"));
     EXPECT_TRUE(readFile(folder / ("two-" + frame + ".exr")) == alone) << frame;
     EXPECT_TRUE(readFile(folder / ("one-" + frame + ".exr")) == alone) << frame;
@@ -266,10 +299,12 @@ TEST(Images, GoToStandardOutputAsPng) {
   const TemporaryFolder folder;
   const std::string tiny = writeTinyScene(folder);
   render({tiny, "-o", folder / "f#.png", "-o", folder / "f#.exr", "--frames", "0..1"});
+
   const Outcome both = runWhit({"render", tiny, "-o", "-", "--frames", "0..1"});
   EXPECT_EQ(both.status, 0) << both.err;
   EXPECT_TRUE(both.out == readFile(folder / "f0.png") + readFile(folder / "f1.png"));
   EXPECT_NE(both.err.find("wrote 2 images"), std::string::npos) << both.err;
+
   const Outcome refused[] = {runWhit({"render", tiny, "-o", "-", "-o", "-"}),
                              runWhit({"render", tiny, "-o", "-", "--json", "-"}),
                              runWhit({"render", tiny, "-o", "-", "--resume"})};
@@ -278,6 +313,8 @@ TEST(Images, GoToStandardOutputAsPng) {
     EXPECT_EQ(outcome.out, "");
     EXPECT_NE(outcome.err.find("-o -"), std::string::npos) << outcome.err;
   }
+
+  // A full device is an error of writing.
   const Outcome full = runWhit({"render", tiny, "-o", "-"},
                                [] { dup2(open("/dev/full", O_WRONLY), STDOUT_FILENO); });
   EXPECT_EQ(full.status, 4) << full.err;
@@ -289,11 +326,15 @@ TEST(Images, SayHowAnExrIsStoredAndResumeByIt) {
   render({tiny, "-o", image});
   EXPECT_FALSE(metadataOf(image).contains("exr"));
   const Image exact = read(image);
+
   render({tiny, "-o", image, "--exr", "none"});
   EXPECT_TRUE(sameBits(read(image), exact));
+
   render({tiny, "-o", image, "--exr", "half", "--resume"});
   EXPECT_EQ(metadataOf(image).at("exr"), "half");
   EXPECT_FALSE(sameBits(read(image), exact));
+
+  // Resuming keeps a file that is stored in the same way.
   const ino_t first = fileNumber(image);
   render({tiny, "-o", image, "--exr", "half", "--resume"});
   EXPECT_EQ(fileNumber(image), first) << "traced again";
@@ -312,6 +353,7 @@ TEST(Images, ATransparentBackgroundIsAlpha) {
   const RawImage png = codes(folder / "a.png"), exr = codes(folder / "a.exr");
   ASSERT_EQ(png.channels, 4);
   ASSERT_EQ(exr.channels, 4);
+
   int partly = 0;
   for (std::size_t i = 0; i < png.pixels(); ++i) {
     const float alpha = exr.values[4 * i + 3];
@@ -321,6 +363,7 @@ TEST(Images, ATransparentBackgroundIsAlpha) {
       EXPECT_EQ(exr.values[4 * i], 0);
     }
   }
+
   EXPECT_EQ(png.codes[3], 0) << "the sky";
   EXPECT_EQ(png.codes.back(), 255) << "the floor";
   EXPECT_GT(partly, 10);
@@ -330,19 +373,22 @@ TEST(Images, ABackgroundColorIsShownAsItIs) {
   const TemporaryFolder folder;
   render({"glossy", "-o", folder / "a.png", "--size", "64x32", "--background", "ff8000",
           "--exposure", "2", "--tonemap", "filmic", "--quiet"});
+
   const RawImage png = codes(folder / "a.png");
   ASSERT_EQ(png.channels, 3);
   EXPECT_EQ(std::vector<int>(png.codes.begin(), png.codes.begin() + 3),
             (std::vector<int>{255, 128, 0}));
 }
 
-// 8: JPEG's losses at this quality in flat and textured parts alike.
+// A mean difference below 8 codes allows for JPEG's losses at this quality, in flat and textured
+// parts alike.
 TEST(Images, AreWrittenAsJpeg) {
   const TemporaryFolder folder;
   render({"matte", "-o", folder / "a.png", "-o", folder / "a.jpg", "--size", "96x64", "--quiet"});
   const RawImage png = codes(folder / "a.png"), jpeg = codes(folder / "a.jpg");
   ASSERT_EQ(jpeg.channels, 3);
   ASSERT_EQ(jpeg.codes.size(), png.codes.size());
+
   double sum = 0;
   for (std::size_t i = 0; i < png.codes.size(); ++i) sum += std::abs(png.codes[i] - jpeg.codes[i]);
   EXPECT_LT(sum / static_cast<double>(png.codes.size()), 8);
@@ -358,6 +404,7 @@ TEST(Images, WhatHasNoAlphaIsSaid) {
     EXPECT_EQ(outcome.status, 2);
     return outcome.err;
   };
+
   EXPECT_NE(refusal({"-o", folder / "a.jpg", "--background", "transparent"}).find("has no alpha"),
             std::string::npos);
   EXPECT_NE(refusal({"-o", folder / "a.jpg", "--resume"}).find("JPEG"), std::string::npos);
@@ -372,6 +419,7 @@ TEST(Images, AnInterruptionLeavesOnlyWholeFiles) {
       startWhit({"render", tiny, "-o", results / "f-#.exr", "--frames", "0..999999"}, logs);
   ASSERT_TRUE(waitUntil(child, [&] { return fs::exists(results / "f-3.exr"); }))
       << readFile(logs / "stderr");
+
   kill(child, SIGINT);
   EXPECT_EQ(waitFor(child), 130);
   for (const auto& entry : fs::directory_iterator(results.path())) {
@@ -385,7 +433,7 @@ TEST(Images, AnInterruptionDoesNotWaitForTheImage) {
   for (const int signal : {SIGINT, SIGTERM}) {
     const TemporaryFolder folder, results, logs;
     const std::string tiny = writeTinyScene(folder);
-    // Hours of work.
+    // This picture would take hours.
     const pid_t child = startWhit({"render", tiny, "-o", results / "a.exr", "--size", "8192x8192",
                                    "--spp", "4096", "--mode", "reference"},
                                   logs);

@@ -36,17 +36,20 @@ void checkRun(const Json& run) {
               "batch",       "robust",       "effects",     "triangles", "frames",    "frame_ms",
               "fps",         "build_ms",     "load_ms",     "stages_ms", "embree_ms", "rays",
               "mrays_per_s", "lanes_filled", "peak_rss_mb", "image_hash"});
+
   expectKeys(run["frame_ms"], {"median", "min", "p95"});
   expectKeys(run["stages_ms"], {"generateRays", "findIntersections",
                                 "writeEmittedAndReflectiveAmbient", "findRadianceAndShadowRays",
                                 "checkShadows", "addShading", "addImpulses", "updateImage"});
   EXPECT_EQ(run["stages_ms"].size(), 8u);
+
   for (const char* kind :
        {"primary", "shadow", "reflection", "refraction", "indirect", "occlusion"}) {
     EXPECT_GE(run["rays"][kind].get<double>(), 0) << kind;
     EXPECT_GE(run["lanes_filled"][kind].get<double>(), 0) << kind;
     EXPECT_LE(run["lanes_filled"][kind].get<double>(), 1) << kind;
   }
+
   EXPECT_LE(run["frame_ms"]["min"].get<double>(), run["frame_ms"]["median"].get<double>());
   EXPECT_LE(run["frame_ms"]["median"].get<double>(), run["frame_ms"]["p95"].get<double>());
   EXPECT_GT(run["peak_rss_mb"].get<double>(), 1);
@@ -59,10 +62,13 @@ TEST_F(JsonResults, Bench) {
   EXPECT_GE(json["machine"]["cores"].get<int>(), 1);
   ASSERT_EQ(json["runs"].size(), 2u);
   for (const Json& run : json["runs"]) checkRun(run);
+
   EXPECT_EQ(json["runs"][0]["image_hash"], json["runs"][1]["image_hash"]);
+  // Another picture has another hash.
   EXPECT_NE(json["runs"][0]["image_hash"],
             resultOf({"bench", tiny_, "--frames", "1", "--exposure", "0", "--depth", "0", "--size",
                       "9x7"})["runs"][0]["image_hash"]);
+
   const Json& run = json["runs"][0];
   EXPECT_EQ(run["scene"], "tiny");
   EXPECT_EQ(run["size"], Json({48, 32}));
@@ -74,6 +80,7 @@ TEST_F(JsonResults, Bench) {
   EXPECT_GT(run["rays"]["shadow"].get<int>(), 0);
   EXPECT_GT(run["rays"]["reflection"].get<int>(), 0);
   EXPECT_EQ(run["rays"]["refraction"], 0);
+
   EXPECT_FALSE(run.contains("floor_ms"));
 }
 
@@ -93,6 +100,7 @@ TEST_F(JsonResults, BenchFloorAndWidths) {
 
 TEST_F(JsonResults, BenchOfPowersOfTwoThreads) {
   const Json json = resultOf({"bench", tiny_, "--frames", "1", "--threads-scaling"});
+
   const int all = usableThreads();
   int expected = 1;
   for (const Json& run : json["runs"]) {
@@ -125,6 +133,7 @@ TEST_F(JsonResults, CompareScene) {
   EXPECT_GT(json["time_ms"]["b"].get<double>(), 0);
   EXPECT_GE(json["path_flips_per_mpx"].get<double>(), 0);
   EXPECT_EQ(json["nonfinite"], 0);
+
   ASSERT_FALSE(json["stages"].empty());
   for (const Json& row : json["stages"]) {
     expectKeys(row, {"stage", "column", "slots", "worst_ulp", "limit_ulp", "pixel", "depth"});
@@ -136,6 +145,7 @@ TEST_F(JsonResults, CompareFiles) {
   const std::string a = folder_ / "a.exr";
   ASSERT_EQ(runWhit({"render", tiny_, "-o", a}).status, 0);
   const Json json = resultOf({"compare", a, a});
+
   expectKeys(json, kCompareKeys);
   EXPECT_EQ(json["rmse"], 0);
   EXPECT_EQ(json["max_code"], 0);
@@ -151,11 +161,13 @@ TEST_F(JsonResults, Info) {
   EXPECT_EQ(json["triangles"], 2 + 20 * 4 * 4);  // quad, icosahedron split twice
   EXPECT_EQ(json["lights"], 1);
   EXPECT_GT(json["memory_mb"].get<double>(), 0);
+
   EXPECT_EQ(json["effects"]["mirror"]["on"], true);
   EXPECT_NE(json["effects"]["mirror"]["because"], "");
   EXPECT_EQ(json["effects"]["shadows"]["on"], false);
   EXPECT_EQ(json["effects"]["shadows"]["because"], "disabled by --disable");
   EXPECT_EQ(json["effects"]["transmission"]["on"], false);
+
   for (const Json& stage : json["stages"]) EXPECT_NE(stage, "checkShadows");
   ASSERT_FALSE(json["kernels"].empty());
   for (const Json& kernel : json["kernels"]) expectKeys(kernel, {"stage", "target"});
@@ -177,6 +189,7 @@ TEST_F(JsonResults, RenderWritesAFile) {
   const Json json = Json::parse(readFile(file), nullptr, false);
   ASSERT_FALSE(json.is_discarded());
   checkRun(json);
+
   EXPECT_EQ(json["files"], Json({image}));
   EXPECT_EQ(json["kept"], 0);
   expectKeys(json["writing_ms"], {"spent", "waited"});

@@ -36,13 +36,17 @@ TEST_F(Limits, AFullDeviceIsAnErrorOfWriting) {
   for (const char* name : {"full.exr", "full.png", "full.json"}) {
     fs::create_symlink("/dev/full", results_ / name);
   }
+
   for (const char* name : {"full.exr", "full.png"}) {
     // "No space left on device", or "no space left, or the device failed" where the library that
     // writes keeps the reason to itself.
     expectFailure(runWhit({"render", tiny_, "-o", results_ / name, "--quiet"}), 4, "o space left");
   }
+
   expectFailure(runWhit({"info", tiny_, "--json", results_ / "full.json", "--quiet"}), 4,
                 "full.json");
+
+  // Standard output on a full device is an error as well.
   const auto toFull = [] { dup2(open("/dev/full", O_WRONLY), STDOUT_FILENO); };
   expectFailure(runWhit({"info", tiny_, "--quiet"}, toFull), 4, "cannot write");
   expectFailure(runWhit({"render", "--help"}, toFull), 4, "cannot write");
@@ -53,12 +57,15 @@ TEST_F(Limits, AFileThatMayNotGrowIsLeftOutWhole) {
     const std::string old = results_ / ("old" + type);
     ASSERT_EQ(runWhit({"render", tiny_, "-o", old, "--size", "8x8", "--quiet"}).status, 0);
     const std::string before = readFile(old);
+
     ASSERT_LT(before.size(), 4096u);
     for (const std::string& path : {old, results_ / ("new" + type)}) {
       const Outcome outcome = runWhit({"render", tiny_, "-o", path, "--size", "200x200", "--quiet"},
                                       [] { limit(RLIMIT_FSIZE, 4096); });
       expectFailure(outcome, 4, "File too large");
     }
+
+    // The old file is kept, and no part of the new one is left.
     EXPECT_TRUE(readFile(old) == before) << "what was there is gone";
     EXPECT_FALSE(fs::exists(results_ / ("new" + type)));
   }
@@ -66,15 +73,15 @@ TEST_F(Limits, AFileThatMayNotGrowIsLeftOutWhole) {
       << "temporary files left";
 }
 
-// With ever more memory: a message and status 5, until there is enough. Below 64 MB not even the
-// shared libraries find room, and no line of ours runs.
+// With too little memory the program ends with a message and status 5. The limit grows until there
+// is enough; below 64 MB not even the shared libraries find room, and no line of ours runs.
 TEST_F(Limits, TooLittleMemoryIsALimit) {
   if (kSanitized) GTEST_SKIP() << "sanitizers need terabytes of addresses";
   int failures = 0, successes = 0;
   for (rlim_t megabytes = 64; successes < 2 && megabytes < 65536; megabytes += megabytes / 4) {
     const Outcome outcome = runWhit({"render", tiny_, "-o", results_ / "a.png", "--quiet"},
                                     [&] { limit(RLIMIT_AS, megabytes << 20); });
-    if (outcome.status == 127) continue;  // the loader
+    if (outcome.status == 127) continue;  // the loader failed
     if (outcome.status == 0) {
       ++successes;
     } else {
@@ -83,6 +90,7 @@ TEST_F(Limits, TooLittleMemoryIsALimit) {
       EXPECT_EQ(std::distance(fs::directory_iterator(results_.path()), {}), successes > 0);
     }
   }
+
   EXPECT_GT(failures, 0);
   EXPECT_EQ(successes, 2);
 }
@@ -101,6 +109,7 @@ TEST_F(Limits, WorkersAreNoMoreThanTheProcessMayUse) {
         });
     return nlohmann::json::parse(outcome.out)["threads"].get<int>();
   };
+
   EXPECT_EQ(threadsWith(1), 1);
   cpu_set_t here;
   sched_getaffinity(0, sizeof here, &here);

@@ -8,7 +8,7 @@
 namespace whit::cli {
 namespace {
 
-// Of all programs that this one has waited for, in bytes.
+// Returns the peak memory of all programs that this one has waited for, in bytes.
 std::uint64_t peakOfPrograms() {
   rusage usage{};
   getrusage(RUSAGE_CHILDREN, &usage);
@@ -17,7 +17,7 @@ std::uint64_t peakOfPrograms() {
 
 class MemoryLimit : public ImageTest {
  protected:
-  // A floor for each image.
+  // Writes a scene with a floor for each image.
   std::string sceneOf(const std::vector<std::string>& images) {
     std::string textures, materials, floors;
     for (std::size_t i = 0; i < images.size(); ++i) {
@@ -26,6 +26,7 @@ class MemoryLimit : public ImageTest {
       materials += comma + name + ":{\"diffuseMap\":" + name + "}";
       floors += comma + "{\"shape\":\"quad\",\"material\":" + name + "}";
     }
+
     const std::string text = "{\"whit\":1,\"textures\":{" + textures + "},\"materials\":{" +
                              materials + "},\"scene\":[" + floors + "]}";
     save("scene.json", Bytes(text.begin(), text.end()));
@@ -39,12 +40,15 @@ class MemoryLimit : public ImageTest {
   static void setSize(Bytes& file, std::size_t at, std::initializer_list<int> bytes) {
     for (const int byte : bytes) file.at(at++) = static_cast<std::uint8_t>(byte);
   }
-  // 30000 x 30000, of which the file has next to nothing.
+  // Writes images that claim 30000 x 30000 pixels, of which the files hold next to nothing.
   std::vector<std::string> hugeClaims() {
+    // Only the sizes in the headers are changed, to 30000 = 0x7530.
     Bytes pixel = bmp(1, 1, {1, 2, 3});
     setSize(pixel, 18, {0x30, 0x75, 0, 0, 0x30, 0x75, 0, 0});
+
     Bytes frame = jpegGray200();
     setSize(frame, 2 + 69 + 5, {0x75, 0x30, 0x75, 0x30});
+
     writeExr(path("a.exr"), Image(2, 2), {});
     Bytes window = ImageTest::load(path("a.exr"));
     for (const std::string name : {"dataWindow", "displayWindow"}) {
@@ -54,6 +58,7 @@ class MemoryLimit : public ImageTest {
               {0x2f, 0x75, 0, 0, 0x2f, 0x75, 0, 0});
     }
     window.resize(1 << 16);  // as long as a table of its lines would be
+
     save("a.png", png(30000, 30000, 8, 2, {0}));
     save("a.tga", tga(30000, 30000, {}));
     save("a.hdr", hdr(30000, 30000, {}));
@@ -71,7 +76,9 @@ TEST_F(MemoryLimit, HugeClaimsAreRefusedBeforeMemoryIsTaken) {
   if (kSanitized) GTEST_SKIP() << "sanitizers take memory of their own";
   save("small.tga", tga(1, 1, {1, 2, 3}));
   ASSERT_EQ(load(sceneOf({"small.tga"}), "0.1").status, 0);
+  // The peak of all programs so far is compared with the peak after those with huge images.
   const std::uint64_t before = peakOfPrograms();
+
   for (const std::string& name : hugeClaims()) {
     const Outcome outcome = load(sceneOf({name}), "0.1");
     EXPECT_EQ(outcome.status, 5) << name << outcome.err;
@@ -80,12 +87,13 @@ TEST_F(MemoryLimit, HugeClaimsAreRefusedBeforeMemoryIsTaken) {
   }
 }
 
-// 90 MB of pixels and as much again to decode them.
+// The image takes 90 MB of pixels and as much again while it is decoded.
 TEST_F(MemoryLimit, WhatDecodingTakesIsWithinTheLimit) {
   if (kSanitized) GTEST_SKIP() << "sanitizers take memory of their own";
   save("small.tga", tga(1, 1, {1, 2, 3}));
   ASSERT_EQ(load(sceneOf({"small.tga"}), "0.1").status, 0);
   const std::uint64_t before = peakOfPrograms();
+
   save("a.png", png(6000, 5000, 8, 2, Bytes(5000 * 18001, 0)));
   const Outcome outcome = load(sceneOf({"a.png"}), "0.15");
   EXPECT_EQ(outcome.status, 5) << outcome.err;
@@ -93,13 +101,15 @@ TEST_F(MemoryLimit, WhatDecodingTakesIsWithinTheLimit) {
   EXPECT_LT(peakOfPrograms(), before + 150'000'000 + kPages);
 }
 
-// Six times 12 MB of texels, and while one is decoded some 30 MB: all at a time are too many.
+// The six images take 12 MB of texels each, and some 30 MB while one is decoded: too much for all
+// of them at a time.
 TEST_F(MemoryLimit, ImagesWaitForEachOther) {
   std::vector<std::string> names;
   for (int i = 0; i < 6; ++i) {
     names.push_back(std::to_string(i) + ".png");
     save(names.back(), png(2000, 1500, 8, 2, Bytes(1500 * 6001, 0)));
   }
+
   const std::string scene = sceneOf(names);
   for (const std::string threads : {"1", "6"}) {
     const Outcome outcome = load(scene, "0.11", threads);

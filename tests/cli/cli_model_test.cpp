@@ -1,4 +1,4 @@
-// A model without a scene file: its sky, its exposure, and what is said of them.
+// A model without a scene file: its sky, its exposure, and how the program reports them.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -31,6 +31,7 @@ TEST(Models, InfoNamesTheSky) {
     words.insert(words.end(), {"--json", "-"});
     return nlohmann::json::parse(runWhit(words).out)["sky"].get<std::string>();
   };
+
   EXPECT_EQ(sky({model}), "studio");
   EXPECT_EQ(sky({model, "--sky", "none"}), "none");
   EXPECT_EQ(sky({tiny}), "none");
@@ -38,7 +39,7 @@ TEST(Models, InfoNamesTheSky) {
   EXPECT_NE(runWhit({"info", model}).out.find("sky         studio"), std::string::npos);
 }
 
-// A triangle that is black, or in its variant "glowing \"red\"" not.
+// The triangle is black, except in the variant "glowing \"red\"".
 TEST(Models, VariantsAreListedAndChosen) {
   const TemporaryFolder folder;
   const std::string model = folder / "variants.gltf", picture = folder / "p.png";
@@ -53,21 +54,25 @@ TEST(Models, VariantsAreListedAndChosen) {
     "accessors": [{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 3,
       "min": [0, 0, 0], "max": [1, 1, 0]}], "bufferViews": [{"buffer": 0, "byteLength": 36}],
     "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+
   const nlohmann::json listed =
       nlohmann::json::parse(runWhit({"info", model, "--json", "-"}).out)["variants"];
   EXPECT_EQ(listed, nlohmann::json::parse(R"(["plain", "glowing \"red\""])"));
   EXPECT_NE(runWhit({"info", model}).out.find("variant     plain\n"), std::string::npos);
+
   const auto effects = [&](const std::string& variant) {
     const Outcome info = runWhit({"info", model, "--variant", variant, "--json", "-"});
     return nlohmann::json::parse(info.out)["effects"]["emission"]["on"].get<bool>();
   };
   EXPECT_FALSE(effects("plain"));
   EXPECT_TRUE(effects("glowing \"red\""));
+
   const Outcome refused = runWhit({"render", model, "-o", picture, "--variant", "blue"});
   EXPECT_NE(refused.status, 0);
   EXPECT_NE(refused.err.find("/variant: expected one of \"plain\", \"glowing \"red\"\""),
             std::string::npos)
       << refused.err;
+
   writeTinyScene(folder);
   const Outcome ofScene = runWhit({"info", folder / "tiny.json", "--variant", "plain"});
   EXPECT_NE(ofScene.err.find("tiny.json#/variant: variants are those of glTF files: a scene states "
@@ -79,6 +84,7 @@ TEST(Models, VariantsAreListedAndChosen) {
 TEST(Models, ThePictureTellsItsExposureAndIsMadeAgainWithIt) {
   const TemporaryFolder folder;
   const std::string model = writeModel(folder), a = folder / "a.png", b = folder / "b.png";
+
   const Outcome first = runWhit({"render", model, "-o", a, "--size", "48x30", "--json", "-"});
   ASSERT_EQ(first.status, 0) << first.err;
   const std::string ev = saidIn(a).at("exposure");
@@ -88,11 +94,14 @@ TEST(Models, ThePictureTellsItsExposureAndIsMadeAgainWithIt) {
   EXPECT_EQ(nlohmann::json::parse(first.out)["exposure_ev"].get<float>(), std::stof(ev));
   EXPECT_NE(first.err.find("exposure "), std::string::npos);
   EXPECT_EQ(first.err.find("exposure 0"), std::string::npos);
+
+  // The exposure that the first picture states makes the same picture.
   ASSERT_EQ(runWhit({"render", model, "-o", b, "--size", "48x30", "--quiet", "--exposure", ev,
                      "--terminator", "on"})
                 .status,
             0);
   EXPECT_EQ(readFile(a), readFile(b));
+
   EXPECT_EQ(runWhit({"render", model, "-o", a, "--quiet"}).err, "");
   EXPECT_EQ(saidIn(a).at("exposure"), ev) << "of another size";
 }
@@ -108,8 +117,10 @@ TEST(Models, ACropIsExposedAsTheWhole) {
     Warnings warnings;
     return readRawImage(folder / "x.png", ImageLimits(), warnings).codes;
   };
+
   for (const std::string& scene : {model, tiny}) {
     const auto whole = codes(scene, {}), corner = codes(scene, {"--crop", "0,0,40,3"});
+    // The crop holds the first rows, so its codes are the first of the whole picture.
     ASSERT_GE(whole.size(), corner.size());
     EXPECT_TRUE(std::equal(corner.begin(), corner.end(), whole.begin())) << scene;
   }
@@ -122,6 +133,7 @@ TEST(Models, FramesOfAPathAreExposedAlike) {
                      "--exposure", "auto", "--quiet"})
                 .status,
             0);
+
   const std::string ev = saidIn(folder / "f0.png").at("exposure");
   EXPECT_EQ(saidIn(folder / "f1.png").at("exposure"), ev);
   ASSERT_EQ(runWhit({"render", tiny, "-o", folder / "g#.png", "--frames", "1", "--fps", "1",
@@ -137,6 +149,7 @@ TEST(Models, TheSkyAskedForIsKeptInThePicture) {
   ASSERT_EQ(runWhit({"render", tiny, "-o", a, "--sky", "studio", "--quiet"}).status, 0);
   EXPECT_EQ(saidIn(a).at("sky"), "studio");
   EXPECT_EQ(saidIn(a).at("exposure"), "0") << "a scene file";
+
   ASSERT_EQ(runWhit({"render", tiny, "-o", a, "--quiet"}).status, 0);
   EXPECT_EQ(saidIn(a).count("sky"), 0u);
 }
@@ -147,9 +160,11 @@ TEST(Models, WrongUsageIsTold) {
   const Outcome bad = runWhit({"render", model, "-o", a, "--exposure", "bright"});
   EXPECT_EQ(bad.status, 2);
   EXPECT_NE(bad.err.find("auto or a number from -64 to 64"), std::string::npos) << bad.err;
+
   const Outcome gone = runWhit({"render", model, "-o", a, "--sky", folder / "gone.hdr"});
   EXPECT_EQ(gone.status, 4);
   EXPECT_NE(gone.err.find("gone.hdr"), std::string::npos) << gone.err;
+
   ASSERT_EQ(runWhit({"render", model, "-o", a, "--quiet", "--size", "8x8"}).status, 0);
   EXPECT_EQ(runWhit({"compare", a, a, "--sky", "none"}).status, 2);
   EXPECT_EQ(runWhit({"compare", a, a, "--exposure", "auto"}).status, 2);

@@ -24,6 +24,7 @@ std::string writeMoving(const TemporaryFolder& folder) {
   const auto sampler = [&](int output) {
     return "{\"input\":" + std::to_string(times) + ",\"output\":" + std::to_string(output) + "}";
   };
+
   std::ofstream(folder / "moving.gltf") << b.json(
       "\"meshes\":[{\"primitives\":[" + shown +
       "]}],\"nodes\":[{\"mesh\":0},{\"mesh\":0,\"translation\":[2,0,0]}],\"animations\":[{"
@@ -46,17 +47,21 @@ TEST(Motion, AFrameIsTheSameAloneAndInAFilm) {
     expectFilmed({"render", moving, "-o", folder / (name + "#.exr"), "--frames", frames, "--fps",
                   "2", "--size", "64x40", "--threads", threads, "--quiet"});
   };
+
   film("film", "0..4", "2");
   film("alone", "3", "1");
   film("many", "3", "8");
   const std::string third = readFile(folder / "film3.exr");
   EXPECT_NE(third, readFile(folder / "film2.exr"));
   EXPECT_TRUE(third == readFile(folder / "alone3.exr"));
+
   const auto pixels = [&](const std::string& name) {
     Warnings warnings;
     return readRawImage(folder / name, ImageLimits(), warnings).values;
   };
   EXPECT_EQ(pixels("film3.exr"), pixels("many3.exr"));
+
+  // The option --time gives the picture of the frame at that time.
   expectFilmed({"render", moving, "-o", folder / "instant.exr", "--time", "1.5", "--size", "64x40",
                 "--exposure", "0", "--quiet"});
   expectFilmed({"render", moving, "-o", folder / "frame#.exr", "--frames", "3", "--fps", "2",
@@ -75,6 +80,7 @@ TEST(Motion, AShippedFilmHasTheSameFramesInParts) {
     Warnings warnings;
     return readRawImage(folder / name, ImageLimits(), warnings).values;
   };
+
   film("whole", "0..99", "2");
   film("one", "57", "1");
   film("eight", "57", "8");
@@ -86,11 +92,13 @@ TEST(Motion, AShippedFilmHasTheSameFramesInParts) {
 TEST(Motion, IsTimedAndListed) {
   const TemporaryFolder folder;
   const std::string moving = writeMoving(folder);
+
   const Outcome info = runWhit({"info", moving});
   EXPECT_NE(info.out.find("animation   up: 2 s, moves 2 nodes\n"), std::string::npos) << info.out;
   const nlohmann::json listed =
       nlohmann::json::parse(runWhit({"info", moving, "--json", "-"}).out)["animations"];
   EXPECT_EQ(listed, nlohmann::json::parse(R"([{"name": "up", "seconds": 2, "nodes": 2}])"));
+
   const Outcome film = runWhit({"render", moving, "-o", folder / "f#.png", "--frames", "0..1",
                                 "--size", "32x20", "--json", folder / "f.json"});
   EXPECT_NE(film.err.find("updateScene"), std::string::npos) << film.err;
@@ -102,6 +110,7 @@ TEST(Motion, ACameraPathIsLookedAlongAtAnInstant) {
   const std::string tiny = writeTinyScene(folder);
   expectFilmed({"render", tiny, "-o", folder / "t.png", "--time", "0.5", "--quiet"});
   expectFilmed({"render", tiny, "-o", folder / "f#.png", "--frames", "1", "--fps", "2", "--quiet"});
+
   const auto codes = [&](const std::string& name) {
     Warnings warnings;
     return readRawImage(folder / name, ImageLimits(), warnings).codes;
@@ -117,6 +126,7 @@ TEST(Motion, WrongUsageIsTold) {
     EXPECT_EQ(outcome.status, 2);
     EXPECT_NE(outcome.err.find(why), std::string::npos) << outcome.err;
   };
+
   refused({"render", moving, "-o", f, "--frames", "0..1", "--time", "1"}, "give one");
   refused({"render", moving, "-o", f, "--frames", "0..1", "--animation", "upp"},
           "did you mean 'up'?");

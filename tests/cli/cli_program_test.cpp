@@ -67,6 +67,7 @@ TEST(Program, SaysThatASceneIsDark) {
   const std::string black = folder / "black.json";
   text.replace(text.find("[60, 60, 60]"), 12, "[0, 0, 0]");
   std::ofstream(black) << text;
+
   const auto errorsOf = [&](const std::string& scene) {
     return runWhit({"render", scene, "-o", folder / "out.png"}).err;
   };
@@ -152,10 +153,12 @@ TEST(Program, ControlCharactersOfFilesAreSpelled) {
   std::ofstream(model) << R"({"asset": {"version": "2.0"}, "extensionsUsed": ["A\u001bB"],
     "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}],
     "nodes": [{"camera": 0, "name": "C\u0007D"}]})";
+
   const Outcome told = runWhit({"info", model});
   EXPECT_EQ(told.status, 0);
   EXPECT_NE(told.out.find("extension ignored: A\\x1bB"), std::string::npos) << told.out;
   EXPECT_NE(told.out.find("C\\x07D"), std::string::npos) << told.out;
+
   const Outcome warned = runWhit({"render", model, "-o", folder / "a.png", "--size", "1x1"});
   EXPECT_NE(warned.err.find("warning: extension ignored: A\\x1bB"), std::string::npos)
       << warned.err;
@@ -169,6 +172,7 @@ TEST(Program, SaysWhatCannotBeReadOrWritten) {
   expectFailure({"render", tiny, "-o", folder / "none/a.exr"}, 4, "there is no folder");
   expectFailure({"render", tiny, "-o", folder / "a.exr", "--json", folder / "none/a.json"}, 4,
                 "there is no folder");
+
   std::filesystem::create_directory(folder / "a.exr");
   expectFailure({"render", tiny, "-o", folder / "a.exr"}, 4, "folder");
 }
@@ -188,6 +192,7 @@ TEST(Program, QuietSaysNothing) {
   const Outcome quiet = runWhit({"render", tiny, "-o", folder / "a.exr", "--quiet"});
   EXPECT_EQ(quiet.status, 0);
   EXPECT_EQ(quiet.out + quiet.err, "");
+
   const Outcome loud = runWhit({"render", tiny, "-o", folder / "a.exr"});
   EXPECT_EQ(loud.out, "");
   EXPECT_NE(loud.err.find("addImpulses"), std::string::npos) << loud.err;
@@ -199,15 +204,19 @@ TEST(Program, CompareFailsAboveTheTolerance) {
   const std::string tiny = writeTinyScene(folder);
   ASSERT_EQ(runWhit({"render", tiny, "-o", folder / "a.exr", "-o", folder / "a.png"}).status, 0);
   ASSERT_EQ(runWhit({"render", tiny, "-o", folder / "b.exr", "--disable", "shadows"}).status, 0);
+
   const std::string a = folder / "a.exr", b = folder / "b.exr";
   EXPECT_EQ(runWhit({"compare", a, a, "--tolerance", "0"}).status, 0);
   const Outcome same = runWhit({"compare", a, a, "--tolerance", "0"});
   EXPECT_TRUE(same.out.ends_with("verdict: the pictures are the same, bit for bit; passed\n"))
       << same.out;
+
+  // Without a tolerance the pictures are compared but not judged.
   const Outcome unjudged = runWhit({"compare", a, b});
   EXPECT_EQ(unjudged.status, 0);
   EXPECT_TRUE(unjudged.out.ends_with("% of the pixels differ by two 8-bit codes or more\n"))
       << unjudged.out;
+
   const Outcome apart =
       runWhit({"compare", a, b, "--tolerance", "1e-6", "--heatmap", folder / "heat.png"});
   EXPECT_EQ(apart.status, 1) << apart.err;

@@ -16,6 +16,7 @@ RunSummary madeUpRun(int frames) {
   run.triangles = 12;
   run.machine = {"avx2", "3.13.5 avx2", 8, 2};
   run.effects = EffectSet::all();
+
   for (int f = frames; f >= 1; --f) {
     FrameStats frame;
     frame.frameMs = 10.0 * f;
@@ -35,6 +36,7 @@ TEST(Summary, QuantilesByNearestRank) {
   EXPECT_EQ(quantile({4, 1, 3, 2}, 0.5), 2);
   EXPECT_EQ(quantile({1, 2, 3, 4}, 1.0), 4);
   EXPECT_EQ(quantile({2, 1}, 1e-9), 1);
+
   std::vector<double> hundred;
   for (int i = 1; i <= 100; ++i) hundred.push_back(i);
   EXPECT_EQ(quantile(hundred, 0.95), 95);
@@ -64,6 +66,7 @@ TEST(StageTable, NamesStagesTimesAndRays) {
   for (const RayKindRow& kind : kRayKinds) {
     EXPECT_NE(table.find(kind.name), std::string::npos) << kind.name;
   }
+
   EXPECT_NE(table.find("frame 20.00 ms (50.0 a second), least 10.00, 95 % within 30.00"),
             std::string::npos)
       << table;
@@ -73,7 +76,7 @@ TEST(StageTable, NamesStagesTimesAndRays) {
   EXPECT_EQ(table.find("not finite"), std::string::npos) << table;
 }
 
-// As of a scene without glass, so of one without indirect light: there is nothing to tell.
+// The table leaves out the kinds of rays that the scene's effects do not trace.
 TEST(StageTable, TellsOfNoRaysThatTheSceneDoesNotCallFor) {
   RunSummary run = madeUpRun(1);
   const auto told = [&](EffectSet effects) {
@@ -86,6 +89,7 @@ TEST(StageTable, TellsOfNoRaysThatTheSceneDoesNotCallFor) {
     }
     return kinds;
   };
+
   using Kinds = std::vector<std::string>;
   EXPECT_EQ(told(EffectSet()), Kinds({"primary"}));
   const EffectSet mirrors = EffectSet().with(Effect::shadows).with(Effect::mirror);
@@ -107,9 +111,11 @@ TEST(StageTable, ReferenceHasNoStages) {
 TEST(StageTable, TellsTheRateThatIsTrueOfAFilm) {
   RunSummary run = madeUpRun(3);
   EXPECT_EQ(stageTable(run).find("writ"), stageTable(run).find("writeEmitted")) << stageTable(run);
+
   run.writingMs = {30, 50, 40};
   run.waitedMs = {5, 30, 40};
   run.tracedAndWrittenMs = 150;
+
   const std::string table = stageTable(run);
   EXPECT_NE(table.find("(50.0 a second traced, 20.0 a second traced and written), least"),
             std::string::npos)

@@ -1,4 +1,4 @@
-// Options that a scene file states, against those of the command line.
+// Options in a scene file and options of the command line, which win.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -12,7 +12,7 @@
 namespace whit::cli {
 namespace {
 
-// The tiny scene with these options, written as members of a JSON object.
+// Writes the tiny scene with these options, which are written as members of a JSON object.
 std::string writeStating(const TemporaryFolder& folder, const std::string& options) {
   std::string text = readFile(writeTinyScene(folder));
   text.replace(text.find('{'), 1, "{\"options\": {" + options + "}, ");
@@ -41,6 +41,7 @@ RenderOptions settled(const std::map<std::string, std::string>& stated,
     names.insert(name);
   }
   applyQuality(options, names);
+
   applySceneOptions(stated, names, options);
   return options;
 }
@@ -61,6 +62,7 @@ TEST(SceneOptions, AreThoseOfThePlainCommand) {
     EXPECT_EQ(readRawImage(plain, ImageLimits(), warnings).codes,
               readRawImage(asked, ImageLimits(), warnings).codes);
   }
+
   const auto stated = statedIn(folder / "a.exr");
   EXPECT_EQ(stated.at("spp"), "2");
   EXPECT_EQ(stated.at("exposure"), "1.5");
@@ -74,10 +76,13 @@ TEST(SceneOptions, GiveWayToTheUser) {
   EXPECT_EQ(one.glossy, 16);
   EXPECT_EQ(one.indirect, 4);
   EXPECT_TRUE(one.exposure.automatic);
+
+  // A preset that the user chooses wins over the scene in all options that it sets.
   const RenderOptions preset = settled(scene, {{"quality", "good"}});
   EXPECT_EQ(preset.spp, 16);
   EXPECT_EQ(preset.glossy, 1);
   EXPECT_EQ(preset.indirect, 4) << "no preset says anything about it";
+
   const RenderOptions both = settled(scene, {{"quality", "good"}, {"glossy", "2"}});
   EXPECT_EQ(both.glossy, 2);
 }
@@ -88,6 +93,7 @@ TEST(SceneOptions, MayNameAPresetButNotTheReference) {
   EXPECT_EQ(own.depth, 5);
   EXPECT_EQ(own.spp, 3);
   EXPECT_EQ(own.mode, Mode::packets);
+
   const RenderOptions given = settled({{"quality", "reference"}}, {{"quality", "fine"}});
   EXPECT_EQ(given.quality, Quality::fine);
   EXPECT_EQ(given.cutoff, 1e-4f);
@@ -101,6 +107,8 @@ TEST(SceneOptions, AreThoseThatDescribeThePicture) {
                            "terminator", "disable", "exposure", "tonemap", "background"}) {
     EXPECT_TRUE(all.contains(name)) << name;
   }
+
+  // Options of the machine and of the view do not belong to a scene.
   for (const char* name :
        {"threads", "packet",          "simd",    "mode", "batch", "robust",   "retry",
         "bvh",     "sphere-segments", "effects", "tile", "queue", "channels", "strict",
@@ -120,11 +128,13 @@ TEST(SceneOptions, InfoSaysWhereTheyComeFrom) {
   EXPECT_NE(info({}).find("options     spp 8 (scene), glossy 2 (scene), indirect 4 (scene)"),
             std::string::npos)
       << info({});
+
   const auto rows =
       nlohmann::json::parse(info({"--quality", "good", "--glossy", "3", "--json", "-"}))["options"];
   const auto row = [&](const char* name) {
     return rows[name]["value"].get<std::string>() + " " + rows[name]["from"].get<std::string>();
   };
+
   EXPECT_EQ(row("spp"), "16 --quality");
   EXPECT_EQ(row("glossy"), "3 command line");
   EXPECT_EQ(row("indirect"), "4 scene");
@@ -144,16 +154,20 @@ TEST(SceneOptions, AreResumedAndCropped) {
     stat(image.c_str(), &about);
     return about.st_ino;
   };
+
   ASSERT_EQ(picture(scene, image, {"--resume"}).status, 0);
   const auto first = file();
   ASSERT_EQ(picture(scene, image, {"--resume"}).status, 0);
   EXPECT_EQ(file(), first) << "traced again";
+
+  // Crops merge to the whole only if both take the scene's options.
   ASSERT_EQ(picture(scene, folder / "l.exr", {"--crop", "0,0,20,32"}).status, 0);
   ASSERT_EQ(picture(scene, folder / "r.exr", {"--crop", "20,0,48,32"}).status, 0);
   ASSERT_EQ(runWhit({"merge", folder / "m.exr", folder / "l.exr", folder / "r.exr"}).status, 0);
   Warnings warnings;
   EXPECT_EQ(readRawImage(folder / "m.exr", ImageLimits(), warnings).codes,
             readRawImage(image, ImageLimits(), warnings).codes);
+
   writeStating(folder, R"("spp": 3, "exposure": 1)");
   ASSERT_EQ(picture(scene, image, {"--resume"}).status, 0);
   EXPECT_NE(file(), first);
@@ -166,6 +180,7 @@ TEST(SceneOptions, ABackgroundNeedsAFileWithAlpha) {
   EXPECT_EQ(refused.status, 2);
   EXPECT_NE(refused.err.find("has no alpha"), std::string::npos) << refused.err;
   EXPECT_FALSE(std::filesystem::exists(folder / "a.jpg"));
+
   ASSERT_EQ(picture(scene, folder / "a.exr").status, 0);
   EXPECT_FALSE(readLayers(folder / "a.exr", ImageLimits()).empty());
   EXPECT_EQ(picture(scene, folder / "a.jpg", {"--background", "sky"}).status, 0);

@@ -10,7 +10,7 @@ namespace {
 
 class SphereSegments : public testing::Test {
  protected:
-  // A mirrored ball over a floor; `more`: members of the ball.
+  // Writes a scene with a mirrored ball over a floor. `more` holds further members of the ball.
   std::string sceneWith(const std::string& name, const std::string& more) const {
     std::ofstream(folder_ / name) << R"({
       "whit": 1, "size": [64, 48],
@@ -34,13 +34,14 @@ class SphereSegments : public testing::Test {
   TemporaryFolder folder_;
 };
 
-// The description's own "segments", for all spheres at once.
+// The option does for all spheres what the member "segments" does for one of them.
 TEST_F(SphereSegments, AreThoseOfTheScene) {
   const std::string exact = sceneWith("exact.json", ""),
                     made = sceneWith("made.json", ", \"segments\": 24");
   const auto compared = [&](const std::string& segments) {
     return runWhit({"compare", rendered(exact, segments), rendered(made, "0"), "--json", "-"}).out;
   };
+
   EXPECT_NE(compared("24").find("\"rmse\": 0.0,"), std::string::npos) << compared("24");
   EXPECT_EQ(compared("0").find("\"rmse\": 0.0,"), std::string::npos) << compared("0");
 }

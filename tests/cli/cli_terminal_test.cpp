@@ -21,12 +21,15 @@ Outcome runOnTerminal(const std::vector<std::string>& words, const TemporaryFold
   const int reader = posix_openpt(O_RDWR | O_NOCTTY);
   EXPECT_TRUE(grantpt(reader) == 0 && unlockpt(reader) == 0);
   const int terminal = open(ptsname(reader), O_RDWR | O_NOCTTY);
+
+  // A raw terminal passes the bytes on unchanged.
   termios raw{};
   tcgetattr(terminal, &raw);
   cfmakeraw(&raw);
   tcsetattr(terminal, TCSANOW, &raw);
   const winsize size{50, 100, 0, 0};
   ioctl(terminal, TIOCSWINSZ, &size);
+
   const pid_t child = startWhit(words, folder, [&] {
     for (const char* name : {"TERM", "TERM_PROGRAM", "COLORTERM", "KITTY_WINDOW_ID", "LC_TERMINAL",
                              "KONSOLE_VERSION", "TMUX", "STY"}) {
@@ -36,12 +39,14 @@ Outcome runOnTerminal(const std::vector<std::string>& words, const TemporaryFold
     dup2(terminal, STDOUT_FILENO);
     if (chdir(folder.path().c_str()) != 0) _exit(1);
   });
+
   close(terminal);
   Outcome outcome;
   char buffer[4096];
   for (ssize_t n; (n = ::read(reader, buffer, sizeof buffer)) > 0;) {
     outcome.out.append(buffer, static_cast<std::size_t>(n));
   }
+
   close(reader);
   outcome.status = waitFor(child);
   outcome.err = readFile(folder / "stderr");
@@ -53,6 +58,7 @@ std::string decoded(const std::string& base64) {
   std::string bytes;
   std::uint32_t bits = 0;
   int count = 0;
+
   for (const char c : base64.substr(0, base64.find('='))) {
     bits = bits << 6 | static_cast<std::uint32_t>(digits.find(c));
     count += 6;
@@ -88,15 +94,18 @@ TEST_F(TerminalPictures, ByTheProtocolOfKitty) {
                                      {{"TERM", "xterm"}, {"KONSOLE_VERSION", "220401"}}}) {
     const Outcome outcome = render(variables, {"--size", "200x140"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
+
     const std::regex part("\x1b_G([a-zA-Z0-9=,]*);([^\x1b]*)\x1b\\\\");
     std::string data, rest = outcome.out;
     std::vector<std::string> heads;
+    // The chunks follow each other without gaps, and none is too long.
     for (std::smatch m; std::regex_search(rest, m, part); rest = m.suffix()) {
       EXPECT_EQ(m.position(), 0);
       EXPECT_LE(m[2].length(), 4096);
       heads.push_back(m[1]);
       data += m[2];
     }
+
     EXPECT_EQ(rest, "\n");
     ASSERT_GT(heads.size(), 1u) << "one chunk tests nothing";
     EXPECT_EQ(heads.front(), "a=T,f=100,q=2,c=25,m=1");
@@ -109,6 +118,7 @@ TEST_F(TerminalPictures, ByTheProtocolOfKitty) {
 TEST_F(TerminalPictures, ByTheProtocolOfIterm) {
   const Outcome outcome = render({{"TERM", "xterm"}, {"TERM_PROGRAM", "iTerm.app"}});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
+
   std::smatch m;
   ASSERT_TRUE(std::regex_match(
       outcome.out, m, std::regex("\x1b\\]1337;File=inline=1;size=(\\d+);width=6:([^\a]*)\a\n")))
@@ -120,11 +130,14 @@ TEST_F(TerminalPictures, ByTheProtocolOfIterm) {
 TEST_F(TerminalPictures, AsHalfBlocksInColor) {
   const Outcome outcome = render({{"TERM", "xterm"}, {"COLORTERM", "truecolor"}});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
+
   const RawImage image = [&] {
     Warnings warnings;
     return readRawImage(folder_ / "tiny.png", ImageLimits(), warnings);
   }();
   const std::size_t channels = image.codes.size() / (48 * 32);
+
+  // A half block shows two rows of pixels, the upper one in its own color.
   std::string expected;
   for (std::size_t y = 0; y < 32; y += 2) {
     for (std::size_t x = 0; x < 48; ++x) {
@@ -137,6 +150,7 @@ TEST_F(TerminalPictures, AsHalfBlocksInColor) {
     }
     expected += "\x1b[0m\n";
   }
+
   EXPECT_EQ(outcome.out, expected);
 }
 
@@ -147,6 +161,7 @@ TEST_F(TerminalPictures, LargeOnesFitTheTerminal) {
     for (std::size_t at = 0; (at = text.find("\u2580", at)) != std::string::npos; ++at) ++count;
     return count;
   };
+
   const std::string wide = render(colors, {"--size", "300x40"}).out;
   EXPECT_EQ(blocks(wide.substr(0, wide.find('\n'))), 100u);
   const std::string high = render(colors, {"--size", "300x490"}).out;
@@ -170,6 +185,7 @@ TEST_F(TerminalPictures, AskedForByADash) {
   EXPECT_EQ(shown.status, 0) << shown.err;
   EXPECT_EQ(shown.out.substr(0, 3), "\x1b_G");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "tiny.png"));
+
   const Outcome refused = render({{"TERM", "xterm"}}, {"-o", "-"});
   EXPECT_EQ(refused.status, 2);
   EXPECT_NE(refused.err.find("shows no pictures"), std::string::npos) << refused.err;

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-// A program of this name that is found before all others.
+// Writes a program named ffmpeg, which is found before all others.
 void writeProgram(const TemporaryFolder& folder, const std::string& text) {
   std::ofstream(folder / "ffmpeg") << "#!/bin/sh\n" << text << "\n";
   fs::permissions(folder / "ffmpeg", fs::perms::owner_all);
@@ -51,20 +51,24 @@ TEST(TurntableCommand, AFrameIsTheSameAloneAndInARun) {
   const std::string cube = cubeObj(folder);
   const Outcome all = turn(cube, {"-o", folder / "all-##.exr", "--frames", "5", "--size", "48x32"});
   ASSERT_EQ(all.status, 0) << all.err;
+
   const Outcome one = turn(cube, {"-o", folder / "one-##.exr", "--frames", "5", "--size", "48x32",
                                   "--range", "3", "--threads", "1"});
   ASSERT_EQ(one.status, 0) << one.err;
+
   EXPECT_EQ(readFile(folder / "all-03.exr"), readFile(folder / "one-03.exr"));
   EXPECT_NE(readFile(folder / "all-03.exr"), readFile(folder / "all-02.exr"));
   EXPECT_FALSE(fs::exists(folder / "one-02.exr"));
 }
 
-// A cube looks the same after a quarter of a turn, but for the light.
+// The four eyes are a quarter of a turn apart, on a circle around the axis through the cube's
+// middle.
 TEST(TurntableCommand, TheCameraGoesAroundOnACircle) {
   const TemporaryFolder folder;
   ASSERT_EQ(
       turn(cubeObj(folder), {"-o", folder / "f#.exr", "--frames", "4", "--size", "48x48"}).status,
       0);
+
   const auto eye = [&](int k) {
     const std::string file = folder / ("f" + std::to_string(k) + ".exr");
     for (const auto& [name, text] : readExrMetadata(file)) {
@@ -74,6 +78,7 @@ TEST(TurntableCommand, TheCameraGoesAroundOnACircle) {
     }
     return Vec3f();
   };
+
   const Vec3f first = eye(0);
   EXPECT_GT(length(Vec3d(first)), 2);
   EXPECT_NEAR(eye(1).x, first.z, 1e-5);
@@ -104,7 +109,7 @@ TEST(TurntableCommand, AProgramThatFailsIsAnErrorWithItsMessage) {
     EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
     EXPECT_EQ(namesIn(folder), (std::vector<std::string>{"cube.obj"}));
   };
-  expectFailure("echo no such codec >&2; exit 1", "no such codec");  // at once
+  expectFailure("echo no such codec >&2; exit 1", "no such codec");  // ffmpeg ends at once
   expectFailure("cat >/dev/null; echo the disk is full >&2; exit 3", "the disk is full");
   expectFailure("kill -9 $$", "ffmpeg has");
 }
@@ -113,11 +118,14 @@ TEST(TurntableCommand, AnInterruptionLeavesNothing) {
   const TemporaryFolder folder, programs, output;
   writeProgram(programs, "cat >/dev/null");
   const std::string cube = cubeObj(folder);
+
   const pid_t child =
       startWhit({"turntable", cube, "-o", folder / "film.mp4", "--frames", "100000", "--size",
                  "64x40", "--quiet"},
                 output, [&] { setenv("PATH", (programs.path().string() + ":/bin").c_str(), 1); });
-  ASSERT_TRUE(waitUntil(child, [&] { return namesIn(folder).size() == 2; }));  // the temporary file
+
+  // The second file is the temporary one.
+  ASSERT_TRUE(waitUntil(child, [&] { return namesIn(folder).size() == 2; }));
   kill(child, SIGTERM);
   EXPECT_EQ(waitFor(child), 130);
   EXPECT_EQ(namesIn(folder), (std::vector<std::string>{"cube.obj"}));
@@ -133,6 +141,7 @@ TEST(TurntableCommand, WrongUsageIsSaid) {
     EXPECT_NE(outcome.err.find(why), std::string::npos) << outcome.err;
     EXPECT_EQ(namesIn(folder), (std::vector<std::string>{"cube.obj"}));
   };
+
   refuse(2, "expected a file to write", {});
   refuse(2, "ends in .exr or .png or .jpg or .jpeg or .mp4", {"-o", folder / "a.gif"});
   refuse(2, "one film", {"-o", folder / "a.mp4", "-o", folder / "b.mp4"});
@@ -147,16 +156,19 @@ TEST(TurntableCommand, WrongUsageIsSaid) {
 TEST(Film, FramesAreThoseOfTheirOwnFiles) {
   const TemporaryFolder folder, programs;
   const std::string tiny = writeTinyScene(folder), film = folder / "film.mp4";
-  writeProgram(programs, "for last; do :; done; cat >\"$last\"");  // the raw frames
+  writeProgram(programs, "for last; do :; done; cat >\"$last\"");  // writes the raw frames
   const auto render = [&](const std::vector<std::string>& more) {
     std::vector<std::string> words{"render", tiny, "--quiet"};
     words.insert(words.end(), more.begin(), more.end());
     return runWhit(
         words, [&] { setenv("PATH", (programs.path().string() + ":/usr/bin:/bin").c_str(), 1); });
   };
+
   const Outcome outcome =
       render({"--frames", "1..3", "--fps", "4", "-o", film, "-o", folder / "f#.png"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
+
+  // ffmpeg gets four bytes a pixel, the last of which is unused.
   std::string frames;
   for (const std::string name : {"f1.png", "f2.png", "f3.png"}) {
     Warnings warnings;
@@ -168,7 +180,8 @@ TEST(Film, FramesAreThoseOfTheirOwnFiles) {
     }
   }
   EXPECT_EQ(readFile(film), frames);
-  EXPECT_EQ(render({"-o", film}).status, 2);  // of one image
+
+  EXPECT_EQ(render({"-o", film}).status, 2);  // a film of one image is refused
 }
 
 TEST(TurntableCommand, SceneFilesTurnAboutWhatIsLookedAt) {
@@ -176,6 +189,7 @@ TEST(TurntableCommand, SceneFilesTurnAboutWhatIsLookedAt) {
   const Outcome outcome = turn(writeTinyScene(folder), {"-o", folder / "a#.exr", "--frames", "2",
                                                         "--camera", "side", "--json", "-"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
+
   const Json json = Json::parse(outcome.out);
   EXPECT_EQ(json["frames"], 2);
   EXPECT_EQ(json["size"], (Json{48, 32}));
@@ -189,23 +203,26 @@ TEST(TurntableCommand, SceneFilesTurnAboutWhatIsLookedAt) {
   }
 }
 
-// With ffmpeg, and a model of the real world.
+// The model is one of the real world, and the real ffmpeg makes the film.
 TEST(TurntableCommand, TheHelmetIsAFilm) {
   const std::string helmet = (dataFolder() / "gltf/FlightHelmet/FlightHelmet.gltf").string();
   if (!fs::exists(helmet)) GTEST_SKIP() << "no FlightHelmet in $WHIT_DATA: NOT checked";
   if (!hasFfmpeg() || std::system("command -v ffprobe >/dev/null") != 0) {
     GTEST_SKIP() << "ffmpeg is not installed: films are NOT checked";
   }
+
   const TemporaryFolder folder;
   const std::string film = folder / "helmet.mp4";
   const Outcome outcome = turn(helmet, {"-o", film, "--size", "80x60"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
+
   const std::string said = folder / "said";
   const std::string probe =
       "ffprobe -v error -show_entries stream=width,height,nb_frames,duration "
       "-of json '" +
       film + "' > '" + said + "'";
   ASSERT_EQ(std::system(probe.c_str()), 0);
+
   const Json stream = Json::parse(readFile(said))["streams"][0];
   EXPECT_EQ(stream["width"], 80);
   EXPECT_EQ(stream["height"], 60);

@@ -25,6 +25,7 @@ TEST(Verify, TellsWorstAndBoundOfEveryRun) {
   const Outcome outcome =
       runVerify({"--only", "H38,H58", "--only", "H16", "--json", "-", "--html", page});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
+
   const Json json = Json::parse(outcome.out);
   EXPECT_TRUE(json["machine"].contains("simd"));
   ASSERT_FALSE(json["cases"].empty());
@@ -36,8 +37,10 @@ TEST(Verify, TellsWorstAndBoundOfEveryRun) {
     EXPECT_EQ(row["holds"], true);
     EXPECT_EQ(row["bound"].is_null(), row["case"] == "H16") << "reported only";
   }
+
   const std::string summary = "3 cases in " + std::to_string(json["cases"].size()) +
                               " runs: 2 hold, 0 broken, 1 reported without a bound";
+
   // The page has the worst run of each case.
   const Json report = embeddedData(readFile(page));
   EXPECT_EQ(report["machine"], json["machine"]);
@@ -45,18 +48,20 @@ TEST(Verify, TellsWorstAndBoundOfEveryRun) {
   ASSERT_EQ(report["cases"].size(), 3u);
   for (const Json& row : report["cases"])
     EXPECT_EQ(std::count(json["cases"].begin(), json["cases"].end(), row), 1);
+
   EXPECT_EQ(report["pictures"][0]["name"], "closed-room");
   EXPECT_TRUE(outcome.err.ends_with(summary + "\n")) << outcome.err;
   EXPECT_NE(outcome.err.find(" holds "), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find(" reported  "), std::string::npos) << outcome.err;
 }
 
-// A scene whose files are not here is named, and the others are compared.
+// A scene whose files are missing is named, and the other scenes are compared.
 TEST(Verify, HashesWithoutRealScenes) {
   const TemporaryFolder folder;
   const int status = waitFor(startWhit(
       {"--hashes", "48x30", "sponza-mirror", "matte"}, folder, [] { unsetenv("WHIT_DATA"); },
       WHIT_VERIFY_PROGRAM));
+
   const std::string err = readFile(folder / "stderr");
   EXPECT_EQ(status, 0) << err;
   EXPECT_NE(readFile(folder / "stdout").find("as published"), std::string::npos);

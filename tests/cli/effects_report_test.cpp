@@ -19,6 +19,7 @@ RunSummary madeUpRun(const std::vector<double>& ms, std::uint64_t reflections) {
   run.width = 64;
   run.height = 32;
   run.machine = {"avx2", "3.13.5 avx2", 8, 2};
+
   for (const double duration : ms) {
     FrameStats frame;
     frame.frameMs = duration;
@@ -43,6 +44,8 @@ TEST(EffectsRows, HaveMediansOfDifferencesWithinATurn) {
   const auto number = [&](std::size_t row, const char* key) {
     return rows[row][key].get<double>();
   };
+
+  // The turns in which the machine is slow do not change the medians.
   EXPECT_DOUBLE_EQ(number(0, "added_ms"), 10);
   EXPECT_DOUBLE_EQ(number(0, "added_outside_embree_ms"), 6);
   EXPECT_DOUBLE_EQ(number(0, "added_rays"), 2048);
@@ -58,6 +61,7 @@ TEST(RunRatios, AreMediansOfRatiosWithinATurn) {
   const RunRatio ratio = ratioOf(steps[1].run, steps[0].run);
   EXPECT_DOUBLE_EQ(ratio.frame, 1.5);
   EXPECT_DOUBLE_EQ(ratio.outsideEmbree, 1.5);
+
   const std::string text = ratioText(steps[0].run, steps[1].run);
   EXPECT_NE(text.find("1.500  (15.00 over 10.00 ms)"), std::string::npos) << text;
   EXPECT_NE(text.find("1.500  (9.00 over 6.00 ms)"), std::string::npos) << text;
@@ -66,7 +70,7 @@ TEST(RunRatios, AreMediansOfRatiosWithinATurn) {
 TEST(EffectsTable, HasARowForEachStep) {
   const std::string table = effectsTable(effectsJson(madeUpSteps(), {}));
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3 + 4);
-  // Medians of a turn: 10 ms and 5 more; the last step's own is 15.
+  // The medians of a turn are 10 ms and 5 ms more; the last step alone takes 15 ms.
   EXPECT_NE(table.find("come to 15.00 ms; the last frame takes 15.00 ms."), std::string::npos)
       << table;
   EXPECT_NE(table.find("+ mirror               15.00     +5.00           +3.00       +3000"),

@@ -22,7 +22,7 @@ inline std::string readFile(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-// A folder that is gone with its owner.
+// A temporary folder, which the destructor removes.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -51,10 +51,12 @@ inline pid_t startWhit(
     const std::function<void()>& prepare = [] {}, const char* program = WHIT_PROGRAM) {
   std::vector<std::string> all{program};
   all.insert(all.end(), words.begin(), words.end());
+
   std::vector<char*> argv;
   for (std::string& word : all) argv.push_back(word.data());
   argv.push_back(nullptr);
   const std::string out = folder / "stdout", err = folder / "stderr";
+
   const pid_t child = fork();
   if (child == 0) {
     dup2(open(out.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), STDOUT_FILENO);
@@ -66,21 +68,22 @@ inline pid_t startWhit(
   return child;
 }
 
-// The exit status, or minus the signal that ended it.
+// Returns the exit status, or minus the number of the signal that ended the process.
 inline int waitFor(pid_t child) {
   int status = 0;
   waitpid(child, &status, 0);
   return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
 }
 
-// Waits for `happened`, a minute at most: far longer than what is waited for ever takes. Ends the
-// process if it does not come.
+// Waits for `happened` for a minute at most, which is far longer than it ever takes. Ends the
+// process if it does not happen.
 template <typename Condition>
 bool waitUntil(pid_t child, Condition&& happened) {
   for (int i = 0; i < 60'000; ++i) {
     if (happened()) return true;
     usleep(1000);
   }
+
   kill(child, SIGKILL);
   waitFor(child);
   return false;
@@ -98,8 +101,8 @@ inline Outcome runWhit(
   return {status, readFile(folder / "stdout"), readFile(folder / "stderr")};
 }
 
-// A floor, a mirrored ball, a light with shadows, two cameras and a path: one of each ray kind but
-// refraction, in a few hundred triangles.
+// Writes a scene with a floor, a mirrored ball, a light with shadows, two cameras and a path. It
+// traces primary, shadow and reflected rays, onto a few hundred triangles.
 inline std::string writeTinyScene(const TemporaryFolder& folder) {
   std::ofstream(folder / "tiny.json") << R"({
     "whit": 1, "size": [48, 32],

@@ -1,4 +1,4 @@
-// What tests of the library share.
+// Helpers that tests of the library share.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ inline bool samePictures(const Image& a, const Image& b) {
   return std::equal(a.rgb().begin(), a.rgb().end(), b.rgb().begin(), b.rgb().end());
 }
 
-// What `body` throws; status 0 where it does not.
+// Returns what `body` throws, or an error of status 0 if it throws nothing.
 inline Error errorOf(const std::function<void()>& body) {
   try {
     body();
@@ -35,7 +35,7 @@ inline Error errorOf(const std::function<void()>& body) {
   return {0, "nothing was thrown"};
 }
 
-// Goes when the test does.
+// A folder that its destructor removes.
 class TemporaryFolder {
  public:
   TemporaryFolder()

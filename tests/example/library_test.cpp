@@ -79,6 +79,7 @@ TEST(SceneOptions, HoldUntilAnotherValueIsSet) {
   EXPECT_EQ(renderer.get("exposure"), "1");
   EXPECT_EQ(renderer.get("tonemap"), "none");
   EXPECT_EQ(renderer.set("quality", "good").get("spp"), "16");
+
   renderer.setMember("/options/exposure", "2");
   EXPECT_EQ(renderer.get("exposure"), "2");
   EXPECT_EQ(statusOf([&] { renderer.setMember("/options/exposure", "\"bright\""); }), 3);
@@ -102,14 +103,17 @@ TEST(Library, TakesOptionsOverForFramesToCome) {
   Renderer renderer = smallRenderer();
   Image image = renderer.render();
   const std::vector<float> deep(image.rgb().begin(), image.rgb().end());
-  renderer.set("depth", "0").render(image);  // planned anew
+  renderer.set("depth", "0").render(image);  // plans the next frame anew
   inside.options.depth = 0;
   EXPECT_TRUE(sameBits(inside.render(inside.scene.cameras[0]).image, image));
   EXPECT_FALSE(std::equal(deep.begin(), deep.end(), image.rgb().begin()));
-  renderer.set("robust", "off").set("depth", "8").render(image);  // built anew
+
+  // This change builds the BVH anew.
+  renderer.set("robust", "off").set("depth", "8").render(image);
   inside.options.depth = 8;
   inside.options.robust = false;
   EXPECT_TRUE(sameBits(inside.render(inside.scene.cameras[0]).image, image));
+
   renderer.set("mode", "reference").render(image);
   EXPECT_TRUE(sameBits(inside.render(inside.scene.cameras[0], Mode::reference).image, image));
   EXPECT_TRUE(renderer.statistics().stages.empty());
@@ -122,6 +126,7 @@ TEST(Library, FollowsThePathAndCrops) {
   renderer.renderOnPath(0.5, image);
   EXPECT_TRUE(sameBits(inside.render(cameraAt(inside.scene.cameraPath, 0.5)).image, image));
   EXPECT_GT(whittedScene().pathSeconds(), 0.5);
+
   renderer.set("crop", "8,4,20,16").renderOnPath(0.5, image);
   EXPECT_EQ(image.width(), 12);
   EXPECT_EQ(image.left(), 8);
@@ -146,10 +151,12 @@ TEST(Library, TellsWhatAFrameCost) {
   const FrameStatistics& cost = renderer.statistics();
   ASSERT_EQ(cost.stages.size(), kStageCount);
   EXPECT_EQ(cost.stages[0].name, "generateRays");
+
   double sum = 0;
   for (const auto& stage : cost.stages) sum += stage.ms;
   EXPECT_GT(sum, 0);
   EXPECT_LE(sum, cost.frameMs * 1.0001);  // one worker: its stages are within the frame
+
   ASSERT_EQ(cost.rays.size(), kRayKindCount);
   EXPECT_EQ(cost.rays[0].count, 40u * 24u);
 }
@@ -159,15 +166,18 @@ TEST(Library, ChannelsAreThoseThatFilesHave) {
   Image image = renderer.render();
   EXPECT_TRUE(image.channels().empty());
   EXPECT_EQ(statusOf([&] { (void)image.channel("depth"); }), 2);
+
   renderer.set("channels", "depth,object");
   renderer.render(image);
   ASSERT_EQ(image.channels().size(), 2u);
+
   const Image::Channel depth = image.channel("depth"), object = image.channel("object");
   EXPECT_EQ(depth.components, (std::vector<std::string_view>{"Z", "distance"}));
   EXPECT_EQ(depth.values.size(), 2 * 40 * 24u);
   EXPECT_TRUE(depth.numbers.empty());
   EXPECT_TRUE(object.values.empty());
   EXPECT_EQ(object.components, (std::vector<std::string_view>{"id"}));
+
   for (std::size_t i = 0; i < object.numbers.size(); ++i) {
     EXPECT_EQ(object.numbers[i] == kNothing, std::isinf(depth.values[2 * i]));
     if (object.numbers[i] != kNothing) {
@@ -175,6 +185,7 @@ TEST(Library, ChannelsAreThoseThatFilesHave) {
     }
   }
   EXPECT_GT(whittedScene().materials().size(), 0u);
+
   const std::string path = testing::TempDir() + "whit-library-channels.exr";
   image.write(path);
   const std::vector<ImageLayer> layers = readLayers(path, ImageLimits());
@@ -192,6 +203,7 @@ TEST(Library, ImagesAreValues) {
   renderer.set("depth", "0").render(second);
   EXPECT_NE(first.rgb().data(), second.rgb().data());
   EXPECT_FALSE(std::equal(first.rgb().begin(), first.rgb().end(), second.rgb().begin()));
+
   const float* const pixels = second.rgb().data();
   const Image third = std::move(second);
   EXPECT_EQ(third.rgb().data(), pixels);
@@ -206,6 +218,7 @@ TEST(Library, HandlesThatWereMovedFromSaySo) {
   const Renderer renderer2 = std::move(renderer);
   const Scene scene2 = std::move(scene);
   const SceneBuilder builder2 = std::move(builder);
+
   const auto refuses = [](const auto& use) {
     try {
       use();
@@ -215,6 +228,7 @@ TEST(Library, HandlesThatWereMovedFromSaySo) {
     }
     return 0;
   };
+
   Image image;
   EXPECT_EQ(refuses([&] { renderer.render(); }), 2);
   EXPECT_EQ(refuses([&] { renderer.renderOnPath(0, image); }), 2);
@@ -233,7 +247,8 @@ TEST(Library, HandlesThatWereMovedFromSaySo) {
   EXPECT_EQ(refuses([&] { builder.addLight({}); }), 2);
   EXPECT_EQ(refuses([&] { builder.build(); }), 2);
   EXPECT_EQ(refuses([&] { SceneBuilder copy(builder); }), 2);
-  renderer = smallRenderer();  // and can be assigned to
+
+  renderer = smallRenderer();  // a renderer that was moved from can be assigned to
   EXPECT_EQ(renderer.render().width(), 40);
 }
 
@@ -256,13 +271,15 @@ TEST(Library, FailsWithTheProgramsStatus) {
   EXPECT_EQ(statusOf([&] { renderer.render().write("a.jpg"); }), 2);
   EXPECT_EQ(statusOf([&] { renderer.set("camera", "nobody").render(); }), 2);
   EXPECT_EQ(statusOf([&] { renderer.set("camera", "").set("size", "65536x65536").render(); }), 5);
+
   renderer.set("size", "16x16");
-  EXPECT_EQ(renderer.render().width(), 16);  // and goes on
+  EXPECT_EQ(renderer.render().width(), 16);  // an error does not end the renderer
 }
 
 TEST(Library, SegmentsOfSpheresAreAMatterOfLoading) {
   EXPECT_EQ(statusOf([] { smallRenderer().set("sphere-segments", "16").render(); }), 2);
   EXPECT_EQ(statusOf([] { loadScene("whitted", {.sphereSegments = 3}); }), 2);
+
   const Scene coarse = loadScene("whitted", {.sphereSegments = 16});
   EXPECT_GT(coarse.triangles(), whittedScene().triangles());
   Renderer renderer(coarse);
@@ -291,6 +308,7 @@ TEST(Library, ScenesMoveAndComeBack) {
   ASSERT_EQ(scene.animations().size(), 1u);
   EXPECT_EQ(scene.animations()[0].name, "scene");
   EXPECT_EQ(scene.animations()[0].seconds, 10);
+
   const auto small = [](const Scene& of) {
     Renderer renderer(of);
     renderer.set("size", "40x24").set("threads", "1");
@@ -298,6 +316,7 @@ TEST(Library, ScenesMoveAndComeBack) {
   };
   Renderer renderer = small(scene), still = small(scene);
   const Image start = renderer.render();
+
   for (const double seconds : {6.5, 2.5}) {
     Warnings warnings;
     whit::LoadOptions then;
@@ -308,11 +327,13 @@ TEST(Library, ScenesMoveAndComeBack) {
     options.size = ImageSize{40, 24};
     applySceneOptions(expected.options, {}, options);
     options.threads = 1;
+
     whit::Renderer inside(expected, options);
     Film film = makeFilm(expected, options);
     inside.render(chooseCamera(expected, options), film);
     EXPECT_TRUE(sameBits(film.image, renderer.setTime(seconds).render())) << seconds;
   }
+
   const auto same = [&](const Image& image) {
     return std::equal(start.rgb().begin(), start.rgb().end(), image.rgb().begin());
   };
@@ -330,7 +351,7 @@ std::string writeLoose(const std::filesystem::path& file, const std::string& pla
   return file.string();
 }
 
-// What is placed by hand has the picture of a file that says so.
+// Objects that setTransform() places give the picture of a file that states the same places.
 TEST(Library, ThingsAreMovedByHand) {
   const std::filesystem::path folder = std::filesystem::temp_directory_path();
   const std::string prefix = "whit-loose-" + std::to_string(getpid());
@@ -338,6 +359,7 @@ TEST(Library, ThingsAreMovedByHand) {
   const std::string placed = writeLoose(
       folder / (prefix + "-b.json"),
       ", \"motion\": {\"keys\": [{\"time\": 0, \"translate\": [-1, 0.5, 0], \"scale\": 2}]}");
+
   LoadOptions moving;
   moving.movable = {"/cameras/c", "/lights/0", "/scene/1/group/0"};
   const auto small = [](const Scene& of) {
@@ -348,20 +370,24 @@ TEST(Library, ThingsAreMovedByHand) {
   const auto same = [](const Image& a, const Image& b) {
     return std::equal(a.rgb().begin(), a.rgb().end(), b.rgb().begin());
   };
+
   Renderer renderer = small(loadScene(loose, moving));
   const Image rest = renderer.render();
   constexpr std::array<double, 12> kPlace{2, 0, 0, -1, 0, 2, 0, 0.5, 0, 0, 2, 0};
   for (const std::string& pointer : moving.movable) renderer.setTransform(pointer, kPlace);
   const Image there = renderer.render();
   EXPECT_FALSE(same(rest, there));
+
   moving.moves = true;
   moving.movable = {};
   EXPECT_TRUE(same(small(loadScene(placed, moving)).render(), there));
+
   constexpr std::array<double, 12> kRest{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
   for (const char* pointer : {"/lights/0", "/scene/1/group/0", "/cameras/c"}) {
     renderer.setTransform(pointer, kRest);
   }
   EXPECT_TRUE(same(rest, renderer.render()));
+
   EXPECT_EQ(statusOf([&] { renderer.setTransform("/scene/0", kRest); }), 2);
   EXPECT_EQ(statusOf([&] { renderer.setTransform("", kRest); }), 2);
   for (const double bad : {double{NAN}, 1e300}) {
@@ -369,7 +395,7 @@ TEST(Library, ThingsAreMovedByHand) {
     wrong[7] = bad;
     EXPECT_EQ(statusOf([&] { renderer.setTransform("/lights/0", wrong); }), 2) << bad;
   }
-  EXPECT_EQ(statusOf([&] {  // whose lights and spheres have no names
+  EXPECT_EQ(statusOf([&] {  // an empty pointer does not mean things without a name
               Scene keyed = loadScene(placed, moving);
               Renderer(keyed).setTransform("", kRest);
             }),
@@ -378,6 +404,7 @@ TEST(Library, ThingsAreMovedByHand) {
     moving.movable = {wrong};
     EXPECT_EQ(statusOf([&] { loadScene(placed, moving); }), 2) << wrong;
   }
+
   std::filesystem::remove(loose);
   std::filesystem::remove(placed);
 }

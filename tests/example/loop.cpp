@@ -42,6 +42,7 @@ int main(int argc, char** argv) {
                   renderer.statistics().frameMs, pixels[pixels.size() / 2],
                   pixels[pixels.size() / 2 + 1], pixels[pixels.size() / 2 + 2]);
     }
+
     image.write(argv[2]);
     std::printf("last: --eye %s\n", eyeIn(kFrames - 1).c_str());
   } catch (const whit::api::Error& error) {

@@ -44,8 +44,10 @@ int main(int argc, char** argv) {
   try {
     const std::vector<float> positions = wavingCorners();
     const std::vector<std::uint32_t> triangles = twoTrianglesACell();
+
     whit::api::SceneBuilder builder;
     builder.addMesh("sheet", {.positions = positions, .triangles = triangles});
+
     whit::api::Material red;
     red.diffuse = {0.8, 0.2, 0.1};
     red.mirror = {0.1, 0.1, 0.1};

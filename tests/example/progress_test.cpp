@@ -15,11 +15,13 @@ TEST(Progress, TellsWhatIsGoingOn) {
     phases.insert(phase);
     return true;
   };
+
   LoadOptions options;
   options.progress = note;
   Renderer renderer = smallRenderer(loadScene("whitted", options));
   EXPECT_TRUE(phases.contains("making textures")) << testing::PrintToString(phases);
   EXPECT_TRUE(phases.contains("baking geometry"));
+
   renderer.setProgress(note).render();
   EXPECT_TRUE(phases.contains("building the BVH"));
   EXPECT_TRUE(phases.contains("tracing"));
@@ -49,9 +51,11 @@ TEST(Progress, WhatWasEndedCanBeDoneAgain) {
       }
     }
   }
+
   renderer.setProgress([](const std::string& phase, double) { return phase[0] != 'b'; });
   renderer.set("bvh", "low");
   EXPECT_EQ(errorOf([&] { renderer.render(); }).status(), 130);
+
   renderer.setProgress({}).reset().set("size", "40x24");
   EXPECT_TRUE(samePictures(expected, renderer.render()));
 }
@@ -68,6 +72,7 @@ TEST(Progress, WhatACallbackThrowsReachesTheCaller) {
   LoadOptions options;
   options.progress = [](const std::string&, double) -> bool { throw std::out_of_range("mine"); };
   EXPECT_THROW(loadScene("whitted", options), std::out_of_range);
+
   Renderer renderer = smallRenderer(loadScene("whitted"));
   renderer.setProgress(options.progress);
   EXPECT_THROW(renderer.render(), std::out_of_range);

@@ -23,7 +23,7 @@ using test::WholePoint;
 using test::WholeRay;
 using test::WholeTriangle;
 
-// Rays of each kind. $WHIT_RAYS multiplies them: 20 asks some 10 million.
+// Number of rays of each kind. $WHIT_RAYS multiplies it; 20 gives some 10 million rays in all.
 std::size_t raysOfAKind() {
   const char* const more = std::getenv("WHIT_RAYS");
   return 12000 * static_cast<std::size_t>(more ? std::atoi(more) : 1);
@@ -43,6 +43,7 @@ struct WholeScene {
         }
       }
     }
+
     SceneBuilder builder;
     builder.addMesh("mesh", {positions});
     builder.addInstance("mesh");
@@ -69,13 +70,14 @@ WholeScene crossing(std::mt19937& random, std::int64_t reach, const WholePoint& 
   return scene;
 }
 
-// A closed surface: a bumpy octahedron, whose triangles are divided three times.
+// A closed surface: a bumpy octahedron, whose triangles are divided twice.
 WholeScene closed(std::mt19937& random, std::int64_t reach, const WholePoint& center) {
   std::uniform_real_distribution<double> bump(0.6, 1);
   std::vector<std::array<double, 3>> points = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
                                                {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
   std::vector<std::array<std::size_t, 3>> faces = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
                                                    {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+
   for (int level = 0; level < 2; ++level) {
     std::map<std::pair<std::size_t, std::size_t>, std::size_t> middles;
     std::vector<std::array<std::size_t, 3>> finer;
@@ -90,12 +92,14 @@ WholeScene closed(std::mt19937& random, std::int64_t reach, const WholePoint& ce
       }
       return place->second;
     };
+
     for (const auto& [a, b, c] : faces) {
       const std::size_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
       finer.insert(finer.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
     }
     faces = finer;
   }
+
   std::vector<WholePoint> corners;
   for (const auto& p : points) {
     const double size = bump(random) * static_cast<double>(reach);
@@ -103,6 +107,7 @@ WholeScene closed(std::mt19937& random, std::int64_t reach, const WholePoint& ce
     for (std::size_t k = 0; k < 3; ++k) corner[k] += std::llround(p[k] * size);
     corners.push_back(corner);
   }
+
   WholeScene scene;
   for (const auto& [a, b, c] : faces) {
     scene.triangles.push_back({corners[a], corners[b], corners[c]});
@@ -124,7 +129,7 @@ std::vector<WholeRay> randomRays(std::mt19937& random, const WholeScene& scene, 
     WholeRay ray{origin, {}};
     for (std::size_t k = 0; k < 3; ++k) {
       ray.direction[k] = at[k] - origin[k];
-      // Through the middle of an edge exactly: the direction is twice as long.
+      // A direction of twice the length goes exactly through the middle of an edge.
       if (aim == Aim::edges) {
         ray.direction[k] = triangle[i % 3][k] + triangle[(i + 1) % 3][k] - 2 * origin[k];
       }
@@ -154,8 +159,8 @@ struct Tally {
   std::size_t rays = 0, certain = 0, open = 0, wrong = 0;
 };
 
-// True if rounding may leave open what is hit at this place of the exact hits: on an edge, or
-// together with another.
+// Returns true if rounding may leave open which surface this exact hit is on, because it is on an
+// edge or at the same distance as another hit.
 bool isOpen(const std::vector<ExactHit>& exact, std::size_t i) {
   const auto together = [&](std::size_t a, std::size_t b) {
     return b < exact.size() && !test::isNearer(exact[a], exact[b]);
@@ -163,7 +168,8 @@ bool isOpen(const std::vector<ExactHit>& exact, std::size_t i) {
   return exact[i].onEdge || together(i, i + 1) || (i > 0 && together(i - 1, i));
 }
 
-// A border that is met exactly, of a triangle that is nearly seen from its edge: it may be missed.
+// Returns true if a ray hits the border of a triangle exactly and at a grazing angle. Queries may
+// miss such a border.
 bool isBeyondPromise(const ExactHit& hit) {
   constexpr double kLeastCosine = 1.0 / 16;
   return hit.onEdge && hit.cosine < kLeastCosine;
@@ -175,12 +181,15 @@ void compare(const WholeScene& scene, const std::vector<WholeRay>& rays, Tally& 
   const RayHits hits = renderer.closest(columns.rays());
   const RayAnswers blocked = renderer.occluded(columns.rays());
   const RayHits all = renderer.allHits(columns.rays());
+
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const std::vector<ExactHit> exact = test::exactHits(scene.triangles, rays[i]);
     if (std::ranges::any_of(exact, isBeyondPromise)) continue;
+
     ++tally.rays;
     tally.certain += hits.certain[i];
     tally.open += !exact.empty() && isOpen(exact, 0) ? 1 : 0;
+    // The closest hit must be the exact one, unless the query says that it is not certain.
     bool right = hits.certain[i] == 0;
     if (!right && exact.empty()) right = hits.sides[i] == 0;
     if (!right && !exact.empty()) {
@@ -188,19 +197,23 @@ void compare(const WholeScene& scene, const std::vector<WholeRay>& rays, Tally& 
               hits.sides[i] == (exact[0].front ? 1 : -1) &&
               std::abs(hits.t[i] - exact[0].t()) <= hits.tError[i] + 0x1p-52 * hits.t[i];
     }
+
     if (blocked.certain[i] != 0) right = right && (blocked.yes[i] != 0) == !exact.empty();
     right = right && (blocked.yes[i] != 0) == (hits.sides[i] != 0);
+
     const std::size_t first = all.offsets[i], count = all.offsets[i + 1] - first;
     const bool allCertain =
         std::all_of(all.certain.begin() + static_cast<std::ptrdiff_t>(first),
                     all.certain.begin() + static_cast<std::ptrdiff_t>(first + count),
                     [](std::uint8_t c) { return c != 0; });
+    // A complete list of certain hits must be the exact list.
     if (allCertain && hits.certain[i] != 0) {
       right = right && count == exact.size();
       for (std::size_t k = 0; right && k < count; ++k) {
         right = all.triangles[first + k] == exact[k].triangle && !isOpen(exact, k);
       }
     }
+
     if (right) continue;
     ++tally.wrong;
     ADD_FAILURE() << "ray " << i << ": t " << hits.t[i] << " of triangle " << hits.triangles[i]
@@ -220,7 +233,8 @@ Tally compareAll(const MakeScene& make, Aim aim) {
   std::mt19937 random(7);
   for (const std::int64_t reach : kReaches) {
     for (const int exponent : kExponents) {
-      // Near the origin, and as far from it as floats have these whole numbers.
+      // The scene lies near the origin, and as far from it as floats hold these whole numbers
+      // exactly.
       for (const std::int64_t away : {std::int64_t{0}, (std::int64_t{1} << 24) - 2 * reach}) {
         const WholePoint center{away, -away, away / 2};
         WholeScene scene = make(random, reach, center);
@@ -230,13 +244,14 @@ Tally compareAll(const MakeScene& make, Aim aim) {
       }
     }
   }
+
   std::printf("%zu rays, %zu of them on edges, %zu certain, %zu wrong\n", tally.rays, tally.open,
               tally.certain, tally.wrong);
   return tally;
 }
 
 TEST(RayQueries, AreExactForRandomRays) {
-  // In scenes of few coordinates rays meet edges by chance; the others are certain.
+  // In scenes of few coordinates rays hit edges by chance; the others are certain.
   for (const Tally& tally :
        {compareAll(crossing, Aim::anywhere), compareAll(closed, Aim::anywhere)}) {
     EXPECT_EQ(tally.wrong, 0u);
@@ -284,9 +299,11 @@ TEST(RayQueries, FindSpheresInClosedForm) {
   Renderer renderer = rendererOf(R"({"scene": [
       {"shape": "sphere", "radius": 1},
       {"shape": "sphere", "radius": 1, "transform": {"translate": [10, 0, 0], "scale": [2, 1, 0.5]}}]})");
+
   std::vector<std::array<double, 2>> points;
   for (int i = 0; i < 400; ++i) points.push_back({-1.2 + 0.006 * i, 0.3});
   for (int i = 0; i < 400; ++i) points.push_back({7.5 + 0.0125 * i, -0.4});
+
   const Downwards down(points);
   const RayHits hits = renderer.closest(down.rays()), all = renderer.allHits(down.rays());
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -297,10 +314,11 @@ TEST(RayQueries, FindSpheresInClosedForm) {
     ASSERT_EQ(hits.sides[i], room > 0 ? 1 : 0) << i;
     ASSERT_EQ(all.offsets[i + 1] - all.offsets[i], room > 0 ? 2u : 0u) << i;
     if (room < 0) continue;
+
     const double z = std::sqrt(room) * (first ? 1 : 0.5);
     EXPECT_NEAR(hits.t[i], (4 - z) / 2, hits.tError[i]);
     EXPECT_LT(hits.tError[i], 1e-11);              // a root of two roundings where it grazes
-    EXPECT_NEAR(hits.points[3 * i + 2], z, 1e-6);  // the point's weights are in float
+    EXPECT_NEAR(hits.points[3 * i + 2], z, 1e-6);  // the weights of the point are floats
     EXPECT_NEAR(all.t[all.offsets[i] + 1], (4 + z) / 2, all.tError[all.offsets[i] + 1]);
     EXPECT_EQ(all.sides[all.offsets[i] + 1], -1);
     EXPECT_EQ(hits.objects[i], first ? 0u : 1u);
@@ -311,7 +329,7 @@ TEST(RayQueries, FindSpheresInClosedForm) {
 }
 
 TEST(RayQueries, FindInstancesWhereTheyStand) {
-  // Mirrored, turned, stretched, and very small beside the others.
+  // The instances are plain, mirrored, turned and stretched, and very small beside the others.
   SceneBuilder builder = withSquare("{}");
   const std::vector<Matrix> places{{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0},
                                    {-3, 0, 0, 5, 0, 1, 0, 0, 0, 0, 1, 1},
@@ -319,6 +337,7 @@ TEST(RayQueries, FindInstancesWhereTheyStand) {
                                    {1e-4, 0, 0, 5, 0, 1e-4, 0, 5, 0, 0, 1, 2}};
   for (const Matrix& place : places) builder.addInstance("square", "", place);
   Renderer renderer(builder.build());
+
   std::mt19937 random(5);
   std::uniform_real_distribution<double> inside(-0.49, 0.49);
   std::vector<std::array<double, 2>> points;
@@ -327,6 +346,7 @@ TEST(RayQueries, FindInstancesWhereTheyStand) {
     const double x = inside(random), y = inside(random);
     points.push_back({m[0] * x + m[1] * y + m[3], m[4] * x + m[5] * y + m[7]});
   }
+
   const Downwards down(points);
   const RayHits hits = renderer.closest(down.rays());
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -344,6 +364,7 @@ TEST(RayQueries, HitOneOfCoplanarSurfaces) {
   builder.addInstance("square", "a");
   builder.addInstance("square", "b");  // written later, so it is hit
   Renderer renderer(builder.build());
+
   const Downwards down({{0.1, 0.2}, {-0.3, 0.05}, {0.7, 0}});
   const RayHits hits = renderer.closest(down.rays()), all = renderer.allHits(down.rays());
   EXPECT_EQ(hits.certain[0] + hits.certain[1] + hits.certain[2], 3);
@@ -373,6 +394,7 @@ TEST(RayQueries, CutMasksAndPassBacksAsPicturesDo) {
   builder.addInstance("square", "front", {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0});
   builder.addInstance("square", "", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, -1});
   Renderer renderer(builder.build());
+
   const Downwards down({{-0.3, 0.1}, {0.3, 0.1}});
   const RayHits hits = renderer.closest(down.rays());
   EXPECT_DOUBLE_EQ(hits.t[0], 1.5);
@@ -393,6 +415,7 @@ TEST(RayQueries, AnswerAtThePresentTime) {
 TEST(RayQueries, CountHitsBetweenTheLimits) {
   Renderer renderer = rendererOf(R"({"scene": [{"shape": "sphere", "radius": 1}]})");
   const Downwards down({{0.1, 0.1}});
+
   const double near = renderer.closest(down.rays()).t[0];
   const auto tOf = [&](double from, double to) {
     const double limits[] = {from, to};
@@ -400,6 +423,7 @@ TEST(RayQueries, CountHitsBetweenTheLimits) {
     rays.near.doubles = {limits, 1}, rays.far.doubles = {limits + 1, 1};
     return renderer.closest(rays).t[0];
   };
+
   EXPECT_EQ(tOf(near - 0.01, near + 0.01), near);
   EXPECT_GT(tOf(near + 0.01, 9), near + 0.1);
   EXPECT_EQ(tOf(0, near - 0.01), kInfinity);
@@ -411,10 +435,12 @@ TEST(RayQueries, DoNotDependOnTheOtherRays) {
   const WholeScene scene = crossing(random, 1 << 10, {});
   std::vector<WholeRay> rays = randomRays(random, scene, Aim::anywhere, 1 << 10, {}, 3000);
   for (int i = 0; i < 3000; ++i) rays[static_cast<std::size_t>(i)].origin[0] += i % 2;
-  // Rays of a camera, which go as packets.
+
+  // Rays like a camera's are traced in packets.
   for (int i = 0; i < 4096; ++i) {
     rays.push_back({{100, 200, 4000}, {i % 64 * 40 - 1280, i / 64 * 40 - 1280, -4000}});
   }
+
   Renderer renderer = scene.renderer();
   const Columns columns = columnsOf(rays, 1);
   const RayHits together = renderer.set("threads", "3").closest(columns.rays());
@@ -440,9 +466,11 @@ TEST(RayQueries, TakeFloatsAsDoubles) {
 TEST(RayQueries, SayWhatTheyCannotTake) {
   Renderer renderer = rendererOf(R"({"scene": [{"shape": "sphere", "radius": 1}]})");
   const std::vector<double> three{0, 0, 4}, six{0, 0, -1, 0, 0, -1}, four{0, 0, -1, 0};
+
   const auto statusOfRays = [&](const Rays& rays) {
     return errorOf([&] { renderer.closest(rays); }).status();
   };
+
   EXPECT_EQ(statusOfRays({{{}, three}, {{}, six}}), 2);
   EXPECT_EQ(statusOfRays({{{}, four}, {{}, four}}), 2);
   EXPECT_EQ(statusOfRays({{{}, six}, {{}, six}, {{}, three}}), 2);
@@ -450,7 +478,8 @@ TEST(RayQueries, SayWhatTheyCannotTake) {
               renderer.ambientOcclusion({{}, three}, {{}, three}, 0, 4);
             }).status(),
             2);
-  // Rays that go nowhere hit nothing, and it is not certain that they mean it.
+
+  // Rays without a direction, or with numbers that are not finite, hit nothing and are not certain.
   const double nan = std::nan("");
   const std::vector<double> origins{0, 0, 4, nan, 0, 4, 0, 0, kInfinity, 1e60, 0, 0};
   const std::vector<double> directions{0, 0, 0, 0, 0, -1, 0, 0, -1, -1, 0, 0};
@@ -460,6 +489,7 @@ TEST(RayQueries, SayWhatTheyCannotTake) {
     EXPECT_EQ(hits.certain[i], 0);
   }
   EXPECT_EQ(hits.certain[3], 0);
+
   const RayHits none = renderer.closest({});
   EXPECT_EQ(none.t.size(), 0u);
 }
@@ -477,6 +507,7 @@ TEST(RayQueries, FindAmbientOcclusionInClosedForm) {
   builder.addInstance("square", "", {100, 0, 0, 0, 0, 100, 0, 0, 0, 0, 1, 0});
   builder.addInstance("square", "", {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1, 1});
   Renderer renderer(builder.build());
+
   const double point[] = {0, 0, 0}, normal[] = {0, 0, 1};
   constexpr int kSamples = 4096;
   // An even lattice of N points is off by less than the half of 1/sqrt(N) of random ones.
@@ -493,6 +524,7 @@ TEST(RayQueries, SeeFromSurfaceToSurface) {
   }
   builder.addInstance("square", "", {1, 0, 0, 3000, 0, 1, 0, 1000, 0, 0, 1, 1});
   Renderer renderer(builder.build());
+
   std::vector<double> floor, ceiling, normals;
   std::vector<std::uint8_t> expected;
   std::mt19937 random(3);
@@ -505,6 +537,7 @@ TEST(RayQueries, SeeFromSurfaceToSurface) {
     normals.insert(normals.end(), {0, 0, 1});
     expected.push_back(std::max(std::abs(x), std::abs(y)) > 0.5 ? 1 : 0);
   }
+
   const Numbers from{{}, floor}, to{{}, ceiling}, about{{}, normals};
   EXPECT_EQ(renderer.visible(from, to).yes, expected);
   EXPECT_EQ(renderer.visible(from, to, about, about).yes, expected);

@@ -33,11 +33,13 @@ ImageArrays picture() {
 SceneBuilder sheetBuilder() {
   SceneBuilder builder("sheets");
   builder.addMesh("sheet", sheet()).addTexture("dots", picture());
+
   Material red;
   red.diffuse = {0.75, 0.5, 0.25};
   red.diffuseMap = "dots";
   builder.addMaterial("red", red);
   builder.addCamera("front", kCamera);
+
   Light lamp;
   lamp.position = {1, 4, 2};
   lamp.intensity = {30, 30, 30};
@@ -45,17 +47,19 @@ SceneBuilder sheetBuilder() {
   return builder;
 }
 
-// The same by a scene file, a model and an image.
+// Writes the same scene as a scene file, a model and an image.
 std::string writeSheets(const TemporaryFolder& folder) {
   std::ofstream(folder.file("sheet.obj"))
       << "v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0.5 1\nvt 0 0\nvt 2 0\nvt 2 1\nvt 0 1\n"
       << "f 1/1 3/3 2/2\nf 1/1 4/4 3/3\n";
+
   DisplayImage image;
   image.width = image.height = 2;
   for (std::size_t i = 0; i < kCodes.size(); i += 3) {
     image.rgba.insert(image.rgba.end(), {kCodes[i], kCodes[i + 1], kCodes[i + 2], 255});
   }
   writePng(folder.file("dots.png"), image, {});
+
   std::ofstream(folder.file("sheets.json")) << R"({"whit": 1,
     "cameras": {"front": {"eye": [0.5, 2, 4], "at": [0, 0, 0]}},
     "lights": [{"position": [1, 4, 2], "intensity": 30}],
@@ -75,10 +79,12 @@ TEST(SceneBuilder, MakesThePictureOfFiles) {
   EXPECT_EQ(builder.addInstance("sheet", "red", {0.5, 0, 0, 0, 0, 0.5, 0, 1, 0, 0, 0.5, 0}),
             "/scene/1");
   builder.set("/sky", R"({"color": [0.1, 0.2, 0.3]})").set("/ambient", R"({"fromSky": 0.5})");
+
   const Scene scene = builder.build();
   EXPECT_EQ(scene.name(), "sheets");
   EXPECT_EQ(scene.triangles(), 4u);
   EXPECT_EQ(scene.cameras(), std::vector<std::string>{"front"});
+
   const Image image = smallRenderer(scene).render();
   EXPECT_TRUE(samePictures(image, smallRenderer(loadScene(writeSheets(folder))).render()));
   EXPECT_GT(*std::max_element(image.rgb().begin(), image.rgb().end()), 0.25f);
@@ -98,6 +104,7 @@ TEST(SceneBuilder, CamerasHaveALens) {
     builder.addCamera("front", camera);
     return smallRenderer(builder.build()).set("spp", "4").render();
   };
+
   Camera camera = kCamera;
   const Image sharp = picture(camera);
   camera.aperture = 0.5;
@@ -111,19 +118,23 @@ TEST(SceneBuilder, CamerasHaveAProjection) {
   SceneBuilder builder = sheetBuilder();
   builder.addInstance("sheet", "red");
   const Image plain = smallRenderer(builder.build()).render();
+
   Camera camera = kCamera;
   camera.projection = "equisolid";
   camera.angle = 90;
   builder.addCamera("front", camera);
+
   Renderer renderer = smallRenderer(builder.build());
   EXPECT_NE(renderer.scene().camera().find("equisolid"), std::string::npos);
   const Image round = renderer.render();
   EXPECT_FALSE(samePictures(round, plain));
-  // A camera in JSON holds until it is taken back.
+
+  // A camera in JSON holds until an empty one takes it back.
   EXPECT_TRUE(samePictures(
       renderer.lookThrough(R"({"eye": [0.5, 2, 4], "at": [0, 0, 0]})").render(), plain));
   EXPECT_TRUE(samePictures(renderer.lookThrough("").render(), round));
-  camera.aperture = 0.1;  // a panorama has none
+
+  camera.aperture = 0.1;  // a panorama has no aperture
   camera.projection = "panorama";
   camera.angle = 180;
   builder.addCamera("front", camera);
@@ -154,10 +165,11 @@ TEST(SceneBuilder, MemoryIsHeldUntilItIsReadForTheLastTime) {
     builder.addMesh("sheet", arrays);
     arrays.keep.reset();
     builder.addInstance("sheet", "red");
+
     Renderer renderer = smallRenderer(builder.build());
     builder = SceneBuilder();
     EXPECT_FALSE(watched.expired());
-    renderer.setMember("/scene/-", R"({"mesh": "sheet"})");  // is read again
+    renderer.setMember("/scene/-", R"({"mesh": "sheet"})");  // reads the scene again
     renderer.render();
   }
   EXPECT_TRUE(watched.expired());
@@ -165,7 +177,7 @@ TEST(SceneBuilder, MemoryIsHeldUntilItIsReadForTheLastTime) {
 
 struct Wrong {
   const char* place;
-  const char* expected;  // the beginning of it
+  const char* expected;  // the beginning of the expected words
   std::function<void(SceneBuilder&)> make;
 };
 
@@ -178,9 +190,11 @@ TEST(SceneBuilder, WhatIsWrongHasItsPlace) {
       builder.addInstance("sheet", "red");
     };
   };
+
   static constexpr std::array<float, 12> kNan{0, 0, 0, 1, NAN, 0, 0, 0, 1, 1, 0, 1};
   static constexpr std::array<float, 12> kBright{0, 0, 0, 1, 2, 0, 0, 0, 1, 1, 0, 1};
   static constexpr std::array<std::uint32_t, 6> kOutside{0, 1, 2, 0, 1, 4};
+
   const Wrong all[] = {
       {"/scene/0/mesh", "vertices below 4", mesh([](MeshArrays& m) { m.triangles = kOutside; })},
       {"/scene/0/mesh", "three vertices a triangle",
@@ -223,12 +237,14 @@ TEST(SceneBuilder, WhatIsWrongHasItsPlace) {
          b.addTexture("dots", {-1, 1, 3});
        }},
   };
+
   for (const Wrong& wrong : all) {
     SceneBuilder builder = sheetBuilder();
     const Error error = errorOf([&] {
       wrong.make(builder);
       builder.build();
     });
+
     EXPECT_EQ(error.status(), 3) << wrong.place;
     EXPECT_EQ(error.file(), "sheets") << error.what();
     EXPECT_EQ(error.place(), wrong.place) << error.what();
@@ -241,6 +257,7 @@ TEST(SceneBuilder, WhatIsNotJsonIsAnError) {
   EXPECT_EQ(errorOf([&] { builder.set("/sky", "{"); }).status(), 2);
   EXPECT_EQ(errorOf([&] { builder.set("", "{}"); }).status(), 2);
   EXPECT_EQ(errorOf([&] { SceneBuilder("a", "[1]"); }).status(), 3);
+
   const Error error = errorOf([&] { SceneBuilder("a", "{\n\"sky\": }"); });
   EXPECT_EQ(error.file(), "a");
   EXPECT_TRUE(error.place().starts_with("2:")) << error.place();
@@ -262,11 +279,12 @@ TEST(SceneBuilder, ThingsAreMovedByHand) {
   LoadOptions options;
   options.movable = {builder.addInstance("sheet", "red")};
   there.addInstance("sheet", "red", kPlace);
+
   Renderer renderer = smallRenderer(builder.build(options));
   const Image rest = renderer.render();
   const Image moved = renderer.setTransform(options.movable[0], kPlace).render();
   EXPECT_FALSE(samePictures(rest, moved));
-  // What can be moved is traced in its own space, with roundings of its own.
+  // An object that can be moved is traced in its own space, with roundings of its own.
   EXPECT_TRUE(samePictures(moved, smallRenderer(there.build(options)).render()));
 }
 
@@ -277,6 +295,7 @@ TEST(SceneBuilder, TheLimitOfVerticesIsChecked) {
   arrays.positions = {&one, std::size_t{3} * 0xffffffffu};
   builder.addMesh("sheet", arrays);
   builder.addInstance("sheet");
+
   LoadOptions options;
   options.maxMemoryGb = 1e6;
   EXPECT_EQ(errorOf([&] { builder.build(options); }).status(), 5);

@@ -1,4 +1,5 @@
-// Members of a scene that are set between frames: the picture of a scene that was read so.
+// Members of a scene that are set between frames give the picture of a scene that was read with
+// them.
 #include "io/scene/scene_settings.h"
 #include "library_scenes.h"
 
@@ -45,7 +46,7 @@ Scene whittedWith(const std::vector<std::string>& settings) {
   return loadScene("whitted", options);
 }
 
-// Of the renderer: whether its next frame was made without a structure being built for it.
+// Watches whether a renderer builds a structure anew for its next frames.
 class BuildWatch {
  public:
   explicit BuildWatch(Renderer& renderer) {
@@ -66,10 +67,12 @@ TEST(SetMember, HasThePictureOfASceneThatWasReadSo) {
     Renderer renderer = smallRenderer(loadScene("whitted"));
     const Image before = renderer.render();
     BuildWatch watch(renderer);
+
     const Error error = errorOf([&] { renderer.setMember(member.pointer, member.value); });
     const Error expected = errorOf([&] { whittedWith({settingOf(member)}); });
     EXPECT_EQ(error.status(), expected.status());
     EXPECT_EQ(error.place(), expected.place());
+
     const Image after = renderer.render();
     if (expected.status() != 0) {
       EXPECT_TRUE(samePictures(before, after));
@@ -77,6 +80,7 @@ TEST(SetMember, HasThePictureOfASceneThatWasReadSo) {
     }
     EXPECT_EQ(watch.built(), !member.inPlace);
     EXPECT_TRUE(samePictures(after, smallRenderer(whittedWith({settingOf(member)})).render()));
+
     const std::string pointer = member.pointer;
     if (pointer != "/materials/new" && pointer != "/materials/floor/ior") {
       EXPECT_FALSE(samePictures(before, after));
@@ -99,9 +103,11 @@ TEST(SetMember, AllOfThemOneAfterTheOther) {
 TEST(SetMember, AnApertureComesAndGoesBetweenFrames) {
   Renderer renderer = smallRenderer(loadScene("whitted"));
   const Image sharp = renderer.set("spp", "4").render();
+
   BuildWatch watch(renderer);
   const Image blurred = renderer.setMember("/cameras/main/aperture", "0.4").render();
   EXPECT_FALSE(samePictures(blurred, sharp));
+
   Renderer read = smallRenderer(whittedWith({"/cameras/main/aperture=0.4"}));
   EXPECT_TRUE(samePictures(read.set("spp", "4").render(), blurred));
   EXPECT_TRUE(samePictures(renderer.setMember("/cameras/main/aperture", "0").render(), sharp));
@@ -115,7 +121,8 @@ TEST(SetMember, AmbientLightFromTheSkyKeepsItsOcclusion) {
   Renderer read = smallRenderer(whittedWith({settingOf(member)}));
   read.set("ambient-samples", "4");
   EXPECT_TRUE(samePictures(renderer.render(), read.render()));
-  // It is there to be seen.
+
+  // The occlusion makes a difference to the picture.
   read.set("ambient-samples", "0");
   EXPECT_FALSE(samePictures(renderer.render(), read.render()));
 }
@@ -128,9 +135,11 @@ TEST(SetMember, TheSameMemberAgainIsOneSetting) {
     add("/sky/zenith=[0,0,1]");
     add("/lights/0/intensity=2");
   }
+
   const std::vector<std::string> once{"/sky/zenith=[0,0,1]", "/lights/0/intensity=2"};
   EXPECT_EQ(settings, once);
-  // Of what lies within another the order counts, and appending is done each time.
+
+  // The order counts where one setting lies within another, and appending is done each time.
   settings.clear();
   for (const char* text : {"/sky=1", "/sky/zenith=2", "/sky=3", "/sky/zenith=4", "/lights/-=5",
                            "/lights/-=5", "/sky=6"}) {
@@ -159,6 +168,7 @@ TEST(SetMember, WhatWasMovedStaysMoved) {
   constexpr Matrix kPlace{1, 0, 0, -1, 0, 1, 0, 0.5, 0, 0, 1, 0};
   Renderer renderer = smallRenderer(loadScene("whitted", options));
   renderer.setTransform("/scene/3", kPlace).setMember("/scene/1/radius", "0.5");
+
   options.settings = {"/scene/1/radius=0.5"};
   Renderer other = smallRenderer(loadScene("whitted", options));
   const Image rest = other.render();
@@ -171,6 +181,7 @@ TEST(SetMember, ScenesThatMoveKeepTheirTime) {
   options.moves = true;
   const char* const settings[] = {"/lights/1/intensity=50", "/cameras/main/fov=30",
                                   "/materials/brass/diffuse=0.9"};
+
   Renderer renderer = smallRenderer(loadScene("orrery", options));
   renderer.setTime(3.5).render();
   for (const std::string setting : settings) {
@@ -187,6 +198,7 @@ TEST(SetMember, ErrorsSayWhere) {
   const auto errorAt = [&](const char* pointer, const char* value) {
     return errorOf([&] { renderer.setMember(pointer, value); });
   };
+
   EXPECT_EQ(errorAt("lights", "4").status(), 2);
   EXPECT_EQ(errorAt("/lights/0/intensity", "nan").status(), 2);
   EXPECT_EQ(errorAt("/lights/7/intensity", "4").place(), "/lights/7");

@@ -1,5 +1,5 @@
-// Real files cut short and with bits flipped, given to the program: a picture's worth of scene or
-// an error, never a crash, a hang or more memory than is allowed.
+// The program gets real files that are cut short or have flipped bits. It makes a scene or reports
+// an error, and never crashes, hangs or takes more memory than is allowed.
 //   WHIT_DAMAGED_VERSIONS=200 WHIT_DAMAGED_BYTES=30000000 build/tests/damaged_data_test
 // tries more versions of each file, and larger files.
 #include <gtest/gtest.h>
@@ -25,13 +25,14 @@ std::uint64_t setting(const char* name, std::uint64_t fallback) {
   return text ? std::strtoull(text, nullptr, 10) : fallback;
 }
 
-// Of every kind the smallest, or all up to WHIT_DAMAGED_BYTES.
+// Returns the smallest file of every kind, or all files of up to WHIT_DAMAGED_BYTES.
 std::vector<fs::path> filesToDamage() {
   const std::uint64_t most = setting("WHIT_DAMAGED_BYTES", 0);
   std::map<std::string, std::vector<fs::path>> kinds;
   for (const auto& entry : fs::recursive_directory_iterator(dataFolder())) {
     if (entry.is_regular_file()) kinds[entry.path().extension()].push_back(entry.path());
   }
+
   std::vector<fs::path> chosen;
   for (const char* kind : {".obj", ".mtl", ".gltf", ".glb", ".bin", ".ply", ".png", ".jpg", ".jpeg",
                            ".tga", ".hdr", ".exr"}) {
@@ -46,7 +47,8 @@ std::vector<fs::path> filesToDamage() {
   return chosen;
 }
 
-// A scene that uses the file in `folder`, beside which lies all that lies beside the original.
+// Returns a scene that uses the file in `folder`, where links to all files beside the original are
+// made.
 std::string sceneWith(const fs::path& original, const TemporaryFolder& folder) {
   const std::string kind = original.extension(), name = original.filename();
   for (const auto& entry : fs::directory_iterator(original.parent_path())) {
@@ -54,6 +56,7 @@ std::string sceneWith(const fs::path& original, const TemporaryFolder& folder) {
       fs::create_symlink(entry.path(), folder.path() / entry.path().filename());
     }
   }
+
   if (kind == ".obj" || kind == ".gltf" || kind == ".glb" || kind == ".ply") return folder / name;
   if (kind == ".mtl" || kind == ".bin") {
     const std::string user = kind == ".mtl" ? ".obj" : ".gltf";
@@ -61,6 +64,8 @@ std::string sceneWith(const fs::path& original, const TemporaryFolder& folder) {
       if (entry.path().extension() == user) return folder / entry.path().filename().string();
     }
   }
+
+  // An image of high dynamic range becomes a sky, any other one a texture.
   const bool sky = kind == ".hdr" || kind == ".exr";
   std::ofstream(folder / "s.json")
       << "{\"whit\": 1, "
@@ -73,7 +78,7 @@ void limitChild() {
   constexpr rlim_t kMemory = rlim_t{6} << 30;  // of addresses: the limit below and the program
   const rlimit memory{kMemory, kMemory};
   if (!kSanitized) setrlimit(RLIMIT_AS, &memory);
-  const rlimit seconds{60, 60};  // far longer than any of them takes
+  const rlimit seconds{60, 60};  // far longer than any run takes
   setrlimit(RLIMIT_CPU, &seconds);
 }
 
@@ -87,9 +92,10 @@ void tryVersionsOf(const fs::path& original, std::uint32_t versions) {
     std::ofstream(folder / original.filename(), std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes.data()),
                static_cast<std::streamsize>(bytes.size()));
+
     const Outcome outcome =
         cli::runWhit({"info", scene, "--quiet", "--max-memory", "2"}, limitChild);
-    // 3: a bad file. 4: it names a file that is not there. 5: it asks for more than the limit.
+    // The statuses mean 3: a bad file, 4: a file that is not there, 5: more memory than the limit.
     EXPECT_TRUE(outcome.status == 0 || (outcome.status >= 3 && outcome.status <= 5))
         << "status " << outcome.status << ", seed " << seed << " of " << original << "\n"
         << outcome.err.substr(0, 2000);

@@ -20,7 +20,7 @@ TEST_P(Replay, EveryFileIsReadOrRefused) {
   EXPECT_GT(read, 0) << "nothing of the corpus can be read at all";
 }
 
-// Some of each file; tests/fuzz/run.sh tries as many as there is time for.
+// The test tries some versions of each file; tests/fuzz/run.sh tries as many as there is time for.
 TEST_P(Replay, DamagedFilesAreReadOrRefused) {
   constexpr std::uint32_t kVersions = 24;
   for (const std::filesystem::path& file : corpusOf(GetParam())) {

@@ -63,7 +63,8 @@ void putPngs() {
   put("png/grayAlpha.png", png(3, 5, 8, 4, filteredRows(5, 6)));
   put("png/rgba.png", png(3, 5, 8, 6, filteredRows(5, 12)));
   put("png/rgba16.png", png(2, 5, 16, 6, filteredRows(5, 16)));
-  // Adam7: one pixel is all of the first pass, the others are empty.
+
+  // One pixel is all of the first pass of Adam7, and the other passes are empty.
   Bytes interlaced = png(1, 1, 8, 2, filteredRows(1, 3));
   Bytes header(interlaced.begin() + 16, interlaced.begin() + 29);
   header[12] = 1;
@@ -71,6 +72,7 @@ void putPngs() {
   appendPngChunk(file, "IHDR", header);
   append(file, Bytes(interlaced.begin() + 33, interlaced.end()));
   put("png/interlaced.png", file);
+
   Bytes palette = png(4, 5, 4, 3, filteredRows(5, 2));
   Bytes withColors(palette.begin(), palette.begin() + 33);
   appendPngChunk(withColors, "PLTE", codes(48));
@@ -87,6 +89,7 @@ void putJpeg(const std::string& name, int side, int channels, bool progressive, 
   jpeg_create_compress(&encoder);
   unsigned char* bytes = nullptr;
   unsigned long size = 0;
+
   jpeg_mem_dest(&encoder, &bytes, &size);
   encoder.image_width = encoder.image_height = static_cast<JDIMENSION>(side);
   encoder.input_components = channels;
@@ -94,10 +97,12 @@ void putJpeg(const std::string& name, int side, int channels, bool progressive, 
   jpeg_set_defaults(&encoder);
   encoder.restart_interval = static_cast<unsigned>(restart);
   if (progressive) jpeg_simple_progression(&encoder);
+
   jpeg_start_compress(&encoder, TRUE);
   Bytes row = codes(static_cast<std::size_t>(side * channels));
   JSAMPROW rows = row.data();
   for (int y = 0; y < side; ++y) jpeg_write_scanlines(&encoder, &rows, 1);
+
   jpeg_finish_compress(&encoder);
   put("jpeg/" + name, Bytes(bytes, bytes + size));
   jpeg_destroy_compress(&encoder);
@@ -116,6 +121,8 @@ void putJpegs() {
 void putTgas() {
   using Codes = std::vector<std::vector<int>>;
   put("tga/rgb.tga", tga(3, 2, codes(18)));
+
+  // Type 10 has runs of equal pixels (0x84: five) and of different ones (0x04: five).
   Bytes runs = tga(5, 2, Bytes());
   runs[2] = 10;
   append(runs, {0x84, 1, 2, 3, 0x04});
@@ -125,7 +132,7 @@ void putTgas() {
   put("tga/rgba.tga", tga(1, 2, Codes{{1, 2, 3, 4}, {5, 6, 7, 8}}));
 }
 
-// The header of 40 bytes; `behind` is a palette or masks.
+// Makes a file with the header of 40 bytes; `behind` is a palette or masks.
 Bytes bmpOf(int height, int bits, int compression, const Bytes& behind, const Bytes& data) {
   Bytes file = {'B', 'M'};
   for (const int word : {0, 0, 54 + static_cast<int>(behind.size()), 40, 3, height}) {
@@ -141,16 +148,22 @@ Bytes bmpOf(int height, int bits, int compression, const Bytes& behind, const By
 
 void putBmpsAndHdrs() {
   put("bmp/rgb.bmp", bmp(3, 2, codes(18)));
+
+  // With 32 bits a pixel, a row of two pixels is as long as the padded row of 24 bits.
   Bytes deep = bmp(2, 2, codes(12));
   deep[28] = 32;
   append(deep, codes(4));
   put("bmp/rgba.bmp", deep);
+
   put("bmp/palette.bmp", bmpOf(2, 8, 0, codes(32), {0, 1, 2, 0, 3, 4, 5, 0}));
   Bytes masks;
   for (const int mask : {0xff0000, 0xff00, 0xff}) append32(masks, mask);
   put("bmp/masks.bmp", bmpOf(-2, 32, 3, masks, codes(24)));
+
   put("hdr/flat.hdr", hdr(2, 2, codes(16)));
   put("hdr/runs.hdr", hdrRuns(20, 3, {1, 2, 3, 130}));
+
+  // Each plane has three bytes as they are, and a run of five.
   Bytes mixed = hdr(8, 1, {});
   append(mixed, {2, 2, 0, 8});
   for (int plane = 0; plane < 4; ++plane) {
@@ -175,6 +188,7 @@ Imf::FrameBuffer exrFrame(const Imf::Header& header, Imf::PixelType type,
   const std::size_t size = type == Imf::HALF ? 2 : 4;
   const Imath::Box2i& data = header.dataWindow();
   const std::size_t width = static_cast<std::size_t>(data.max.x - data.min.x + 1);
+
   values.assign(width * 64 * size, 0);
   for (std::size_t i = 0; i < width * 64; ++i) {
     const float value = static_cast<float>(i % 50) / 8;
@@ -182,6 +196,7 @@ Imf::FrameBuffer exrFrame(const Imf::Header& header, Imf::PixelType type,
     std::memcpy(values.data() + i * size, size == 2 ? static_cast<const void*>(&small) : &value,
                 size);
   }
+
   Imf::FrameBuffer frame;
   for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
     frame.insert(c.name(), Imf::Slice::Make(type, values.data(), data, size, size * width));
@@ -212,7 +227,7 @@ void putExrTiles(const std::string& name, Imf::LevelMode mode, Imf::Compression 
   }
 }
 
-// A second part that claims to be a billion lines high: its table would take gigabytes.
+// The second part claims to be a billion lines high, so that its table would take gigabytes.
 void putExrParts() {
   const fs::path path = corpus / "exr/second-part-of-a-billion-lines.exr";
   std::vector<Imf::Header> headers(2, exrHeader(Imf::HALF, Imf::NO_COMPRESSION, {"Y"}));
@@ -229,14 +244,17 @@ void putExrParts() {
       part.writePixels(6);
     }
   }
+
   std::string bytes;
   {
     std::ifstream in(path, std::ios::binary);
     bytes.assign(std::istreambuf_iterator<char>(in), {});
   }
   put("exr/parts.exr", bytes);
+
   const std::size_t window = bytes.rfind(std::string("dataWindow\0box2i\0", 17));
-  bytes[window + 17 + 4 + 15] = 0x3f;  // behind its size: the highest byte of the last line
+  bytes[window + 17 + 4 + 15] =
+      0x3f;  // the highest byte of the last line, behind the attribute's size
   put("exr/" + path.filename().string(), bytes);
 }
 
@@ -252,10 +270,12 @@ void putExrs() {
   putExrLines("b44a.exr", Imf::HALF, Imf::B44A_COMPRESSION);
   putExrLines("dwaa.exr", Imf::HALF, Imf::DWAA_COMPRESSION);
   putExrLines("dwab.exr", Imf::HALF, Imf::DWAB_COMPRESSION);
+
   putExrParts();
   putExrTiles("tiles.exr", Imf::ONE_LEVEL, Imf::ZIP_COMPRESSION);
   putExrTiles("mips.exr", Imf::MIPMAP_LEVELS, Imf::RLE_COMPRESSION);
   putExrTiles("rips.exr", Imf::RIPMAP_LEVELS, Imf::NO_COMPRESSION);
+
   Imf::RgbaOutputFile chroma((corpus / "exr/chroma.exr").c_str(), 8, 6, Imf::WRITE_YC);
   const std::vector<Imf::Rgba> pixels(48, Imf::Rgba(0.5f, 0.25f, 1));
   chroma.setFrameBuffer(pixels.data(), 1, 8);
@@ -272,6 +292,7 @@ void putModels() {
                                        ",\"componentType\":5121},\"values\":{\"bufferView\":0}}");
   const int small = gltf.accessor(gltf.view(std::string("\0\1\2\0\3\4\5\0\6\7\1\0", 12), 4), 5121,
                                   "VEC3", 3, ",\"normalized\":true");
+
   const Bytes image = png(1, 1, 8, 6, {0, 200, 100, 50, 128});
   const int view = gltf.view(std::string(image.begin(), image.end()));
   const auto primitive = [&](int p, const std::string& rest) {
@@ -279,6 +300,7 @@ void putModels() {
            ",\"NORMAL\":" + std::to_string(p) + ",\"TEXCOORD_0\":" + std::to_string(uvs) +
            "},\"indices\":" + std::to_string(indices) + ",\"material\":0" + rest + "}";
   };
+
   const std::string members =
       "\"images\":[{\"bufferView\":" + std::to_string(view) +
       ",\"mimeType\":\"image/png\"},{\"uri\":\"t.png\"}],"
@@ -299,6 +321,7 @@ void putModels() {
       "1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
       "property float z\nproperty uchar red\nelement face 1\n"
       "property list uchar int vertex_indices\nend_header\n";
+  // A vertex is three floats and a byte of red; the big-endian file has each float reversed.
   std::string little, big;
   for (int i = 0; i < 3; ++i) {
     const std::string xyz =

@@ -86,16 +86,19 @@ std::int32_t anyMap(Draws& draws, TextureUse use, std::vector<Texture>& textures
   return static_cast<std::int32_t>(textures.size() - 1);
 }
 
-// As many numbers as the member of a camera may have.
+// Draws as many numbers as the member of a camera may have.
 std::vector<float> anyNumbers(Draws& draws, const Camera& camera, std::vector<float> Camera::*field,
                               double low, double high) {
   const bool table = field == &Camera::azimuths || field == &Camera::elevations;
   if (!table && draws.chance(0.7)) return {};
+
   std::size_t count = 1 + draws.below(5);
+  // Some members have a fixed number of values.
   if (field == &Camera::k) count = 4 + draws.below(2);
   if (field == &Camera::kSize) count = 2;
   if (field == &Camera::distortion) count = isFisheye(camera) ? 4 : 5;
   const double size = field == &Camera::distortion ? 0.3 : 40;
+
   std::vector<float> numbers;
   while (numbers.size() < count) {
     numbers.push_back(static_cast<float>(draws.uniform(
@@ -112,7 +115,9 @@ void drawMembers(Draws& draws, double changed, SceneDescription& scene, Noun& no
     const auto& rules = member.rules;
     if ((rules.exists && !rules.exists(noun)) || !draws.chance(changed)) return;
     Value& value = noun.*member.field;
+
     const double low = rules.low, high = rules.high;
+    // How a value is drawn depends on its type, and for vectors and numbers on the rules as well.
     if constexpr (std::is_same_v<Value, bool>) {
       value = draws.chance(0.5);
     } else if constexpr (std::is_same_v<Value, std::vector<float>>) {
@@ -136,10 +141,12 @@ Mesh anyMesh(Draws& draws, std::size_t materials) {
   const double size = std::exp2(draws.uniform(-2, 4));
   const std::size_t corners = 3 + draws.below(12);
   const bool flat = draws.chance(0.2);
+
   for (std::size_t i = 0; i < corners; ++i) {
     mesh.positions.push_back(pointIn(draws, size));
     if (flat) mesh.positions.back().y = 0;
   }
+
   const auto forEachCorner = [&](double probability, auto&& add) {
     for (std::size_t i = 0, all = draws.chance(probability) ? corners : 0; i < all; ++i) add();
   };
@@ -147,6 +154,8 @@ Mesh anyMesh(Draws& draws, std::size_t materials) {
   forEachCorner(0.7, [&] { mesh.uvs.push_back(anyUv(draws)); });
   forEachCorner(0.3, [&] { mesh.secondUvs.push_back(anyUv(draws)); });
   forEachCorner(0.3, [&] { mesh.colors.push_back(anyColor(draws, 0, 1)); });
+
+  // Triangles may repeat corners and have no area.
   const auto corner = [&] { return static_cast<std::uint32_t>(draws.below(corners)); };
   for (std::size_t i = 1 + draws.below(16); i > 0; --i) {
     const std::uint32_t a = corner(), b = corner();
@@ -181,12 +190,14 @@ Sky anySky(Draws& draws, SceneDescription& scene) {
 SceneDescription anyScene(Draws& draws) {
   SceneDescription scene;
   scene.name = "random";
+
   for (std::size_t i = 1 + draws.below(4); i > 0; --i) {
-    // The description's vectors grow while the member is drawn.
+    // The material is a local value, because the description's vectors grow while it is drawn.
     Material material;
     drawMembers(draws, draws.chance(0.5) ? 0.15 : 0.6, scene, material);
     scene.materials.push_back(material);
   }
+
   for (std::size_t i = draws.below(4); i > 0; --i) {
     Light light;
     light.position = pointIn(draws, 4);
@@ -194,8 +205,10 @@ SceneDescription anyScene(Draws& draws) {
     light.innerConeAngle = std::min(light.innerConeAngle, 0.9f * light.outerConeAngle);
     scene.lights.push_back(light);
   }
+
   scene.sky = anySky(draws, scene);
   drawMembers(draws, 0.5, scene, scene.ambient);
+
   const auto objects = static_cast<std::uint32_t>(1 + draws.below(3));
   for (std::uint32_t object = 0; object < objects; ++object) {
     scene.objects.push_back({"object", {anyMesh(draws, scene.materials.size())}});
@@ -203,16 +216,19 @@ SceneDescription anyScene(Draws& draws) {
       scene.instances.push_back({object, draws.chance(0.6) ? Affine() : placement(draws)});
     }
   }
+
   Camera camera;
   camera.eye = pointIn(draws, 4);
   camera.at = pointIn(draws, 1);
   camera.projection = static_cast<Projection>(draws.below(kWords<Projection>.size()));
   if (isTable(camera)) camera.azimuths = {-30, 30}, camera.elevations = {20, -20};
+  // The projection was drawn already, and other members depend on it.
   const Projection kept = camera.projection;
   drawMembers(draws, 0.2, scene, camera);
   camera.projection = kept;
   camera.eyeDistance = std::min(camera.eyeDistance, 1.0f);
-  // Members that depend on each other.
+
+  // Some members depend on each other.
   if (camera.projection == Projection::fisheye && camera.k.empty()) camera.k = {30, 30, 16, 12};
   if (!camera.k.empty()) camera.k[0] = camera.k[1] = 30, camera.kSize = {33, 24};
   if (!camera.k.empty() || !camera.distortion.empty()) camera.orthographicHeight = 0;
@@ -234,6 +250,7 @@ RenderOptions anyOptions(Draws& draws) {
   const int width = 1 + static_cast<int>(draws.below(kLargestSide));
   options.size = ImageSize{width, 1 + static_cast<int>(draws.below(kLargestSide))};
   options.threads = 1;
+
   const double changed = draws.chance(0.3) ? 0 : 0.25;
   forEachOption(options, [&](const OptionSpec& spec, auto& value) {
     if (isLeftAlone(spec.name) || !draws.chance(changed)) return;
@@ -247,11 +264,12 @@ RenderOptions anyOptions(Draws& draws) {
     } else if constexpr (std::is_floating_point_v<Value>) {
       value = static_cast<Value>(draws.number(spec.low, spec.high));
     } else if (!words.empty()) {
-      // Words in capitals stand for others.
+      // Choices in capitals stand for values of another kind.
       const std::string& word = words[draws.below(words.size())];
       if (word.find_first_of("ACEV") == std::string::npos) parseValue(spec, word, value);
     }
   });
+
   // Without a bound some pictures would never end.
   if (options.maxRays == 0) options.maxRays = 1000;
   const std::vector<std::string> packets = {"auto", "1", "4", "8", "16"};

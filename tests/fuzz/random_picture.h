@@ -13,7 +13,7 @@
 
 namespace whit::fuzz {
 
-// Numbers drawn from bytes; where these have run out, from a generator that they seed. So the bytes
+// Draws numbers from bytes and, when these have run out, from a generator that they seed. The bytes
 // of a fuzzer steer all choices, and few bytes make a whole picture.
 class Draws {
  public:
@@ -42,8 +42,8 @@ RandomPicture drawPicture(Draws& draws);
 // The bytes of the picture with this number, the same on every machine.
 std::array<std::uint8_t, 4> bytesOfPicture(std::uint32_t number);
 
-// Renders the picture that the bytes stand for on a SIMD target (--simd). False: it was refused, by
-// an Error that a bad scene or bad options may cause. Other exceptions are findings.
+// Renders the picture that the bytes stand for on a SIMD target (--simd). Returns false if it was
+// refused, by an Error that a bad scene or bad options may cause. Other exceptions are findings.
 bool renderPicture(std::span<const std::uint8_t> bytes, const std::string& simd,
                    FrameStats* stats = nullptr);
 

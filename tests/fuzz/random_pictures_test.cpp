@@ -29,6 +29,7 @@ void renderPictures(std::uint32_t first, std::uint32_t count, const std::string&
     SCOPED_TRACE("picture " + std::to_string(number) + " on " + target);
     // The last number that is printed is that of a picture which ends the program.
     if (std::getenv("WHIT_RANDOM_PICTURES")) std::fprintf(stderr, "%u\n", number);
+
     FrameStats stats;
     const Stopwatch watch;
     EXPECT_NO_THROW(made += renderPicture(bytesOfPicture(number), target, &stats));
@@ -36,10 +37,12 @@ void renderPictures(std::uint32_t first, std::uint32_t count, const std::string&
     notFinite += stats.nonFinitePixels > 0;
     if (watch.ms() > most) most = watch.ms(), slowest = number;
   }
+
   std::printf(
       "%s: %u of %u pictures, %u with a bound on their rays, %u with pixels that are not "
       "finite; the slowest is %u with %.0f ms\n",
       target.c_str(), made, count, limited, notFinite, slowest, most);
+  // If most pictures were refused, the test would test nothing.
   EXPECT_GT(made, count / 2) << "most pictures are refused";
 }
 
@@ -54,13 +57,14 @@ TEST(RandomPictures, EndOnEveryTarget) {
   simd::chooseTarget("auto");
 }
 
-// Pictures that were reported.
+// These scenes were reported because they crashed the program or never ended.
 TEST(ReportedPictures, End) {
   const std::filesystem::path reports = dataFolder() / "reports";
   if (!std::filesystem::exists(reports / "endless.json")) {
     GTEST_SKIP() << "NOT TESTED: no reports in " << dataFolder() << "; set WHIT_DATA";
   }
   const cli::TemporaryFolder folder;
+
   const std::vector<std::vector<std::string>> commands{
       {"crash_mirror.json"},
       {"crash_indirect.obj", "--indirect", "1", "--spp", "2"},

@@ -31,12 +31,14 @@ namespace fs = std::filesystem;
 // Small enough for thousands of files a second, large enough for all of a corpus.
 constexpr std::uint64_t kMemoryLimit = 64u << 20, kImageLimit = 8u << 20;
 
-// A folder with a file to read and, beside it, files that it may name. Gone with the program.
+// A folder with a file to read and files beside it that the file may name. It is removed when the
+// program ends.
 class WorkFolder {
  public:
   WorkFolder() : path_(fs::temp_directory_path() / ("whit-fuzz-" + std::to_string(::getpid()))) {
     fs::create_directories(path_);
-    ::setenv("WHIT_DATA", path_.c_str(), 1);  // whatever a file names is looked for here
+    ::setenv("WHIT_DATA", path_.c_str(), 1);  // files that a file names are searched here
+
     const std::pair<const char*, const char*> beside[] = {{"png/rgb.png", "t.png"},
                                                           {"hdr/flat.hdr", "t.hdr"},
                                                           {"obj/triangle.obj", "t.obj"},
@@ -78,12 +80,14 @@ void checkScene(const Scene& scene) {
     for (const float x : triangle.uv) require(std::isfinite(x), "a coordinate that is no number");
     require(triangle.material < scene.materials.size(), "a material that is not there");
   }
+
   for (const NormalRecord& record : scene.normals) {
     for (const float x : record.normal) require(std::isfinite(x), "a normal that is no number");
   }
   for (const UvRecord& record : scene.secondUvs) {
     for (const float x : record.uv) require(std::isfinite(x), "a coordinate that is no number");
   }
+
   for (const Geometry& geometry : scene.geometries) {
     for (const auto& triangle : geometry.index) {
       for (const std::uint32_t i : triangle) {
@@ -94,12 +98,14 @@ void checkScene(const Scene& scene) {
   for (const InstanceRecord& instance : scene.instances) {
     require(instance.geometry < scene.geometries.size(), "an instance of nothing");
   }
+
   const std::int32_t textures = static_cast<std::int32_t>(scene.textures.size());
   for (const Material& m : scene.materials) {
     for (const std::int32_t map : m.maps()) {
       require(map == kNoTexture || (map >= 0 && map < textures), "a texture that is not there");
     }
   }
+
   require(!scene.cameras.empty(), "a scene without a camera");
 }
 
@@ -117,16 +123,19 @@ void readScene(const fs::path& file) {
   Warnings warnings;
   const Scene scene = Scene::finalize(loadScene(file.string(), options, warnings), warnings);
   checkScene(scene);
+
+  // A scene that moves is also read at another time.
   if (scene.animations.empty()) return;
   options.instant.seconds = 0.5;
   checkScene(Scene::finalize(loadScene(file.string(), options, warnings), warnings));
 }
 
-// Materials are read whole, textures included, whatever their names are.
+// Reads all materials of the file and their textures, whatever their names are.
 void readMaterials(const fs::path& file) {
   Warnings warnings;
   std::map<std::string, MtlMaterial> materials;
   readMtl(file, materials, warnings);
+
   MemoryBudget budget(kMemoryLimit);
   TextureLoader textures(1, budget, warnings, nullptr);
   const PathRules rules(file.parent_path(), false);
@@ -135,6 +144,7 @@ void readMaterials(const fs::path& file) {
   for (const auto& [name, source] : materials) {
     sources.push_back(interpretMtl(source, file.parent_path(), rules, images, warnings));
   }
+
   GltfMapMaker maps(images, warnings);
   SceneDescription scene;
   std::vector<std::function<void(Material&)>> changes;
@@ -144,39 +154,46 @@ void readMaterials(const fs::path& file) {
     scene.materials.push_back(made.material);
     changes.push_back(made.whenDecoded);
   }
+
   textures.whenDone([&](SceneDescription& decoded) {
     for (std::size_t i = 0; i < changes.size(); ++i) changes[i](decoded.materials[i]);
   });
   textures.finish(scene);
   for (const Texture& texture : scene.textures) checkTexture(texture);
+
+  // Every material gets a triangle, so that the scene keeps it.
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   for (std::uint32_t i = 0; i < scene.materials.size(); ++i) {
     mesh.triangles.push_back({0, 1, 2});
     mesh.materials.push_back(i);
   }
+
   if (mesh.triangles.empty()) return;
   scene.objects.push_back({"", {mesh}});
   scene.instances.push_back({0, Affine()});
   checkScene(Scene::finalize(std::move(scene), warnings));
 }
 
-// As a texture of every kind, a sky, and a picture to compare.
+// Reads the image as a texture of every kind, a sky, and a picture to compare.
 void readImageFile(const fs::path& file) {
   ImageLimits limits;
   limits.bytes = kImageLimit;
   MemoryBudget budget(kMemoryLimit);
   limits.budget = &budget;
   Warnings warnings;
+
   const RawImage raw = readRawImage(file.string(), limits, warnings);
   for (const float value : raw.values) {
     require(value >= 0 && std::isfinite(value), "a texel that is no radiance");
   }
+
   checkTexture(makeTexture("t", raw, TexelFormat::color));
   checkTexture(makeTexture("t", raw, TexelFormat::data));
   checkTexture(makeEmissionTexture("t", raw, warnings));
   checkTexture(normalsFromHeights("t", raw, 1, Wrap::repeat, Wrap::clamp));
   if (hasTranslucentAlpha(raw)) checkTexture(makeAlphaTexture("t", raw));
+
   require(!makeEnvironment(raw).r.empty(), "a sky without pixels");
   readImage(file.string(), limits);
 }
@@ -196,7 +213,7 @@ bool mayCause(ExitStatus status) {
 }
 
 #ifdef WHIT_SERVE
-// What a page of `whit serve` sends. A value out of its verb's range is a finding.
+// Reads what a page of `whit serve` sends. A value out of its verb's range is a finding.
 void readInput(const fs::path& file) {
   const std::vector<std::uint8_t> bytes = bytesOfFile(file);
   try {

@@ -1,4 +1,5 @@
-// What hostile bytes are given to: every reader of files from outside, one for each kind of file.
+// The readers of all files from outside, one for each kind of file, to which tests give hostile
+// bytes.
 // The same functions serve libFuzzer (fuzz_target.cpp) and the tests that replay the corpus.
 #pragma once
 
@@ -11,8 +12,8 @@
 namespace whit::fuzz {
 
 struct Reader {
-  std::string name;       // of the folder of its corpus
-  std::string extension;  // of the file that it is given
+  std::string name;       // also the name of the folder of its corpus
+  std::string extension;  // extension of the file that it reads
   void (*read)(const std::filesystem::path& file) = nullptr;
 };
 
@@ -27,7 +28,7 @@ enum class Answer { read, refused };
 // with what renderers must never see: numbers that are not finite, indices out of range.
 Answer give(const Reader& reader, std::span<const std::uint8_t> bytes);
 
-// The folder with the reader's corpus, and its files in order of their names.
+// The folder of all corpora, and a reader's files in order of their names.
 std::filesystem::path corpusFolder();
 std::vector<std::filesystem::path> corpusOf(const Reader& reader);
 std::vector<std::uint8_t> bytesOfFile(const std::filesystem::path& file);

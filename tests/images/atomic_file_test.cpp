@@ -20,7 +20,7 @@ class AtomicFileTest : public ImageTest {
   }
 };
 
-// Beyond `bytes` every write to a file fails, as on a full disk.
+// Every write of a file beyond `bytes` fails, as on a full disk.
 class FullDisk {
  public:
   explicit FullDisk(rlim_t bytes) {
@@ -101,34 +101,41 @@ TEST_F(AtomicFileTest, FoldersThatCannotBeWrittenAreErrors) {
   EXPECT_EQ(statusOf([&] { AtomicFile(path("absent/a.txt")); }), ExitStatus::io);
   EXPECT_EQ(statusOf([&] { AtomicFile{folder_}; }), ExitStatus::io);
   EXPECT_EQ(statusOf([&] { AtomicFile(""); }), ExitStatus::io);
+
   // Nobody may create files there, not even root.
   EXPECT_EQ(statusOf([&] { AtomicFile("/proc/a.txt"); }), ExitStatus::io);
   EXPECT_EQ(statusOf([&] { writePng("/proc/a.png", {1, 1, {1, 2, 3, 255}}, {}); }), ExitStatus::io);
   EXPECT_EQ(statusOf([&] { writeExr("/proc/a.exr", Image(1, 1), {}); }), ExitStatus::io);
 }
 
-// Limits from nothing to nearly everything, so that headers, pixels and the tables written on
-// closing are each the first thing that no longer fits.
+// The limits go from nothing to nearly everything, so that headers, pixels and the tables written
+// on closing are each the first thing that no longer fits.
 TEST_F(AtomicFileTest, AFullDiskLeavesNothingBehind) {
   const Image image(40, 40);
   const DisplayImage display{40, 40, Bytes(6400, 90)};
+
   writeExr(path("a.exr"), image, {});
   writePng(path("a.png"), display, {});
+  // The sizes of whole files bound the limits that are tried.
   const std::uintmax_t exr = fs::file_size(path("a.exr")), png = fs::file_size(path("a.png"));
   fs::remove(path("a.exr"));
   fs::remove(path("a.png"));
+
   const auto statusAt = [&](rlim_t bytes, auto&& write) {
     const FullDisk full(bytes);
     return statusOf(write);
   };
+
   for (rlim_t bytes = 0; bytes < exr; bytes += 16)
     EXPECT_EQ(statusAt(bytes, [&] { writeExr(path("a.exr"), image, {}); }), ExitStatus::io)
         << bytes;
   for (rlim_t bytes = 0; bytes < png; bytes += 16)
     EXPECT_EQ(statusAt(bytes, [&] { writePng(path("a.png"), display, {}); }), ExitStatus::io)
         << bytes;
+
   EXPECT_EQ(statusAt(10, [&] { writeTextFile(path("a.txt"), "more than ten"); }), ExitStatus::io);
   EXPECT_EQ(filesInFolder(), 0u);
+  // With a limit of exactly its size the file is written.
   EXPECT_EQ(statusAt(exr, [&] { writeExr(path("a.exr"), image, {}); }), ExitStatus::done);
 }
 

@@ -45,10 +45,13 @@ class BrokenImage : public ImageTest {
   }
   std::vector<Sample> samples() {
     const Bytes codes = {9, 8, 7, 6, 5, 4, 3, 2, 1, 11, 12, 13};
+
+    // A filter byte, which is 0, begins each of PNG's rows.
     Bytes rows = {0};
     append(rows, Bytes(codes.begin(), codes.begin() + 6));
     rows.push_back(0);
     append(rows, Bytes(codes.begin() + 6, codes.end()));
+
     return {{"a.tga", tga(2, 2, codes)},
             {"a.bmp", bmp(2, 2, codes)},
             {"a.png", png(2, 2, 8, 2, rows)},
@@ -97,6 +100,7 @@ TEST_F(BrokenImage, FlippedBytesNeverCrash) {
       Bytes bytes = sample.bytes;
       for (std::uint_fast32_t flips = 1 + random() % 3; flips > 0; --flips)
         bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());
+
       const std::string file = save(sample.name, bytes);
       // Small limits, so that a claimed size of gigabytes costs no time here.
       refused += statusOf([&] {
@@ -128,6 +132,7 @@ TEST_F(BrokenImage, HugeExrClaimsAreRefusedBeforeDecoding) {
   // "dataWindow" 0 "box2i" 0, a length of 4 bytes, then xMin yMin xMax yMax.
   const std::string key("dataWindow\0box2i\0", 17);
   const auto at = std::search(good.begin(), good.end(), key.begin(), key.end()) - good.begin() + 21;
+
   const auto withWindow = [&](const std::array<std::int32_t, 4>& box) {
     Bytes bytes = good;
     std::memcpy(bytes.data() + at, box.data(), sizeof box);
@@ -136,6 +141,7 @@ TEST_F(BrokenImage, HugeExrClaimsAreRefusedBeforeDecoding) {
   const auto status = [&](const std::string& file) {
     return statusOf([&] { readRawImage(file, limits_, warnings_); });
   };
+
   constexpr std::int32_t kMax = 2147483647, kMin = -kMax - 1;
   EXPECT_EQ(status(withWindow({1, 1, 3, 3})), ExitStatus::done);
   EXPECT_EQ(status(withWindow({0, 0, 100000, 3})), ExitStatus::limit);
@@ -144,7 +150,7 @@ TEST_F(BrokenImage, HugeExrClaimsAreRefusedBeforeDecoding) {
   EXPECT_NE(status(withWindow({10, 10, 12, 12})), ExitStatus::done);  // outside the display window
 }
 
-// A Huffman table that claims 16 * 255 codes, where 256 is the most there can be.
+// The Huffman table claims 16 * 255 codes, where 256 is the most there can be.
 TEST_F(BrokenImage, JpegWithTooManyCodesIsRefused) {
   Bytes file = {0xff, 0xd8, 0xff, 0xc4, 0x10, 0x03, 0x13};  // 2 + 1 + 16 + 16 * 255 bytes long
   append(file, Bytes(16, 255));

@@ -1,4 +1,4 @@
-// What decoding takes, held in the budget of the scene that the images are for.
+// Memory that decoding takes counts in the budget of the scene that the images are for.
 #include <thread>
 
 #include "image_samples.h"
@@ -17,14 +17,17 @@ TEST(MemoryBudget, WhatIsHeldIsGivenBackUnlessKept) {
     EXPECT_EQ(statusOf([&] { MemoryHold(&budget, 41, 1, "b"); }), ExitStatus::limit);
   }
   EXPECT_EQ(budget.left(), 100u);
+
   MemoryHold first(&budget, 50, 1, "a");
   first = MemoryHold(&budget, 20, 1, "b");
   EXPECT_EQ(budget.left(), 80u);
   first.keep();
   EXPECT_EQ(budget.left(), 80u);
+
   budget.charge(80, 1, "c");
   EXPECT_EQ(statusOf([&] { budget.charge(1, 1, "d"); }), ExitStatus::limit);
   EXPECT_EQ(statusOf([&] { MemoryHold(&budget, ~std::uint64_t{0}, 8, "d"); }), ExitStatus::limit);
+  // A hold without a budget takes any amount.
   MemoryHold(nullptr, ~std::uint64_t{0}, 8, "no budget");
 }
 
@@ -32,6 +35,8 @@ TEST(MemoryBudget, ChargingWaitsForWhatOthersHold) {
   MemoryBudget budget(100);
   std::optional<MemoryHold> held(std::in_place, &budget, 60, 1, "a");
   std::thread other([&] { budget.charge(70, 1, "b"); });
+
+  // The other thread can go on only now.
   held.reset();
   other.join();
   EXPECT_EQ(budget.left(), 30u);
@@ -52,6 +57,7 @@ TEST(DecodeQueue, WhatLackedMemoryIsRunAgainAlone) {
     queue.finish();
     EXPECT_EQ(done, 8);
   }
+
   MemoryBudget budget(100);
   DecodeQueue queue(2, nullptr, "failing");
   int runs = 0;
@@ -59,7 +65,9 @@ TEST(DecodeQueue, WhatLackedMemoryIsRunAgainAlone) {
     ++runs;
     MemoryHold(&budget, 101, 1, "too much");
   });
+
   EXPECT_EQ(statusOf([&] { queue.finish(); }), ExitStatus::limit);
+  // A task that lacked memory is tried once more, without others at its side.
   EXPECT_EQ(runs, 2);
 }
 
@@ -97,7 +105,7 @@ TEST_F(DecodeMemory, TheImageIsHeldForAsLongAsItLives) {
   }
 }
 
-// With ever more memory: a limit, until there is enough; and nothing stays held.
+// Decoding fails with a limit until the budget is large enough, and nothing stays held afterwards.
 TEST_F(DecodeMemory, TheDecoderIsHeldAsWell) {
   for (const Sample& sample : samples()) {
     const std::string file = save(sample.name, sample.bytes);
@@ -110,22 +118,27 @@ TEST_F(DecodeMemory, TheDecoderIsHeldAsWell) {
       EXPECT_TRUE(status == ExitStatus::done || status == ExitStatus::limit) << sample.name;
       EXPECT_EQ(budget.left(), bytes) << sample.name;
     }
+
+    // The decoder needs memory besides the image, but not much.
     EXPECT_GT(enough, sample.decoded + sample.bytes.size() / 2) << sample.name;
     EXPECT_LT(enough, 1u << 20) << sample.name;
   }
 }
 
-// 2^24 pixels of which the file holds none, coefficient by coefficient: 2 bytes each.
+// The image claims 4104 x 4104 pixels, of which the file holds none. A progressive JPEG is decoded
+// through its coefficients, which take 2 bytes each.
 TEST_F(DecodeMemory, AProgressiveJpegHoldsItsCoefficients) {
   Bytes file = jpegGray200();
   const std::string marker = "\xff\xc0";
   const auto frame = std::search(file.begin(), file.end(), marker.begin(), marker.end(),
                                  [](std::uint8_t a, char b) { return a == std::uint8_t(b); });
   frame[1] = 0xc2;
-  for (const int at : {5, 7}) frame[at] = 0x10;  // 0x1000: 4096 pixels a side, and 8 more
+  for (const int at : {5, 7}) frame[at] = 0x10;  // the sides become 0x1008, which is 4104 pixels
+
   const std::string path = save("a.jpg", file);
   constexpr std::uint64_t kPixels = 4104 * 4104;
   MemoryBudget little(kPixels * 5 / 2), enough(kPixels * 4);
+
   limits_.budget = &little;
   EXPECT_EQ(statusOf([&] { readRawImage(path, limits_, warnings_); }), ExitStatus::limit);
   limits_.budget = &enough;

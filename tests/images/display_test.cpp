@@ -17,7 +17,8 @@ long double decode(long double v) {
 TEST(Srgb, EveryCodeComesBack) {
   for (int code = 0; code < 256; ++code) {
     EXPECT_EQ(srgbCode(srgbToLinear(code / 255.0)), code);
-    // Also when the decoded value is rounded to float, as textures and images are.
+    // The code comes back also when the decoded value is rounded to float, as in textures and
+    // images.
     EXPECT_EQ(srgbCode(static_cast<double>(static_cast<float>(srgbToLinear(code / 255.0)))), code);
   }
 }
@@ -32,7 +33,7 @@ TEST(Srgb, CodesChangeAtTheTies) {
   }
 }
 
-// Three roundings before the power, which makes 2.4 of each.
+// Three roundings come before the power, which multiplies each of them by 2.4.
 TEST(Srgb, DecodingFollowsTheFormula) {
   for (int code = 0; code < 256; ++code)
     EXPECT_NEAR(srgbToLinear(code / 255.0), static_cast<double>(decode(code / 255.0L)), 1e-15);
@@ -76,6 +77,7 @@ TEST(ToneCurve, Reinhard) {
   EXPECT_EQ(applyToneCurve(ToneCurve::reinhard, std::numeric_limits<double>::infinity()), 1);
 }
 
+// The values of the curve are worked out by hand.
 // At 1: (0.15 + 0.05 + 0.004) / (0.15 + 0.5 + 0.06) - 1/15 = 0.204 / 0.71 - 1/15; at 11.2:
 // (11.2 * (1.68 + 0.05) + 0.004) / (11.2 * (1.68 + 0.5) + 0.06) - 1/15 = 19.38 / 24.476 - 1/15.
 TEST(ToneCurve, Filmic) {
@@ -90,10 +92,12 @@ TEST(ToDisplay, ExposureCurveAndWindow) {
   Image image(10, 10, {4, 5, 6, 6});
   image.at(4, 5) = Rgb(0.25f, 1, 0);
   image.at(5, 5) = Rgb(std::nanf(""), -1, std::numeric_limits<float>::infinity());
+
   const DisplayImage plain = toDisplay(image, 2, ToneCurve::none);
   EXPECT_EQ(plain.width, 2);
   EXPECT_EQ(plain.height, 1);
   EXPECT_EQ(plain.rgba, (std::vector<std::uint8_t>{255, 255, 0, 255, 0, 0, 255, 255}));
+
   // 0.25 and 1 at -1 EV are 1/8 and 1/2; Reinhard makes them 1/9 and 1/3, sRGB 0.3673 and 0.6126:
   // codes 93.7 and 156.2.
   const DisplayImage curved = toDisplay(image, -1, ToneCurve::reinhard);

@@ -49,7 +49,7 @@ struct ForeignFile {
   }
 };
 
-// Smooth, with what halves cannot hold at its end.
+// A smooth picture, whose values half floats can only round.
 Image stored() {
   Image image(64, 48);
   for (int y = 0; y < 48; ++y) {
@@ -72,8 +72,10 @@ class ExrTest : public ImageTest {
   static void fill(const ForeignFile& file, Output& output) {
     const auto width = static_cast<std::size_t>(file.data.max.x - file.data.min.x + 1);
     const auto height = static_cast<std::size_t>(file.data.max.y - file.data.min.y + 1);
+    // The values must outlive the call that writes them.
     std::map<std::string, std::vector<float>> floats;
     std::map<std::string, std::vector<half>> halves;
+
     Imf::FrameBuffer frame;
     for (const auto& [name, value] : file.channels) {
       floats[name].assign(width * height, value);
@@ -84,6 +86,7 @@ class ExrTest : public ImageTest {
       const std::size_t size = isHalf ? sizeof(half) : sizeof(float);
       frame.insert(name, Imf::Slice::Make(file.type, values, file.data, size, width * size));
     }
+
     output.setFrameBuffer(frame);
     if constexpr (requires { output.writeTiles(0, 0, 0, 0); })
       output.writeTiles(0, output.numXTiles() - 1, 0, output.numYTiles() - 1);
@@ -106,6 +109,7 @@ TEST_F(ExrTest, FloatsKeepTheirBits) {
       pattern = pattern * 1664525u + 1013904223u;
       pixel[c] = std::bit_cast<float>(pattern);
     }
+
   image.pixels[0] = Rgb(std::bit_cast<float>(0x7fc12345u), std::numeric_limits<float>::infinity(),
                         -std::numeric_limits<float>::infinity());
   image.pixels[1] =
@@ -130,13 +134,14 @@ TEST_F(ExrTest, CropsKeepTheirPlace) {
 TEST_F(ExrTest, MetadataComesBackAndTheBytesAreReproducible) {
   const Image image(4, 4);
   const ImageMetadata metadata = {{"crop", "0,0,4,4"},
-                                  {"name", "atrium"},  // OpenEXR has this one itself
+                                  {"name", "atrium"},  // OpenEXR has an attribute of this name
                                   {"compression", "none"},
                                   {"scene", "caf\xc3\xa9"},
                                   {"type", "nonsense"}};
   writeExr(path("a.exr"), image, metadata);
   writeExr(path("b.exr"), image, metadata);
   EXPECT_EQ(load(path("a.exr")), load(path("b.exr")));
+
   ImageMetadata back = readExrMetadata(path("a.exr"));
   std::sort(back.begin(), back.end());
   EXPECT_EQ(back.size(), metadata.size());
@@ -145,17 +150,18 @@ TEST_F(ExrTest, MetadataComesBackAndTheBytesAreReproducible) {
   EXPECT_EQ(readImage(path("a.exr"), limits_).pixels.size(), 16u);
 }
 
-// Points of the world and where they are seen, worked out by hand: the eye looks along -z.
+// The places of points in the picture are worked out by hand: the eye looks along -z.
 TEST_F(ExrTest, SaysHowTheWorldIsSeen) {
   const ImageMetadata metadata = {
       {"eye", "1,2,6"}, {"at", "1,2,0"}, {"up", "0,1,0"}, {"fov", "90"}};
   const auto matrices = [&](const ImageMetadata& said) {
     writeExr(path("a.exr"), Image(4, 2), said);
     const Imf::InputFile file(path("a.exr").c_str());
-    EXPECT_EQ(file.header().find("eye"), file.header().end());  // whit:eye
+    EXPECT_EQ(file.header().find("eye"), file.header().end());  // it is stored as whit:eye
     EXPECT_TRUE(Imf::hasChromaticities(file.header()));
     return std::pair{Imf::worldToCamera(file.header()), Imf::worldToNDC(file.header())};
   };
+
   const auto expectAt = [](const Imath::M44f& matrix, const Imath::V3f& point,
                            const Imath::V3f& there) {
     Imath::V3f result;
@@ -164,17 +170,22 @@ TEST_F(ExrTest, SaysHowTheWorldIsSeen) {
     EXPECT_NEAR(result.y, there.y, 1e-6);
     EXPECT_NEAR(result.z, there.z, 1e-6);
   };
+
   const auto [camera, ndc] = matrices(metadata);
   expectAt(camera, {1, 2, 6}, {0, 0, 0});
   expectAt(camera, {1.5f, 3, 2}, {0.5f, 1, 4});
   expectAt(ndc, {1, 2, 2}, {0.5f, 0.5f, 0.25f});
   expectAt(ndc, {1, 6, 2}, {0.5f, 0, 0.25f});  // the upper border, 45 degrees above
   expectAt(ndc, {9, -2, 2}, {1, 1, 0.25f});    // the lower right corner: twice as wide as high
+
+  // Parallel rays show a height of 3 units, and the third coordinate stays the depth.
   ImageMetadata parallel = metadata;
   parallel.emplace_back("ortho", "3");
   const auto [sameCamera, flat] = matrices(parallel);
   EXPECT_EQ(sameCamera, camera);
   expectAt(flat, {4, 0.5f, -7}, {1, 1, 13});
+
+  // A panorama has no matrix of a projection.
   writeExr(path("a.exr"), Image(4, 2),
            {{"eye", "1,2,6"}, {"at", "1,2,0"}, {"projection", "panorama"}});
   const Imf::InputFile panorama(path("a.exr").c_str());
@@ -187,10 +198,11 @@ TEST_F(ExrTest, EveryCompressionIsRead) {
     ForeignFile file;
     file.channels = {{"R", 1}, {"G", 2}, {"B", 4}};
     file.compression = static_cast<Imf::Compression>(c);
+
     const RawImage image = raw(file);
     EXPECT_EQ(image.channels, 3);
     ASSERT_EQ(image.values.size(), 36u);
-    // The lossy ones keep constant powers of two to a part in a hundred.
+    // Lossy compressions keep constant powers of two to a part in a hundred.
     for (std::size_t i = 0; i < 36; ++i)
       EXPECT_NEAR(image.values[i], static_cast<float>(1 << (i % 3)), 0.04) << c;
   }
@@ -239,12 +251,14 @@ TEST_F(ExrTest, DataWindowIsTakenRelativeToTheDisplayWindow) {
   file.channels = {{"R", 1}, {"G", 1}, {"B", 1}};
   file.display = {{-10, 5}, {-1, 14}};
   file.data = {{-12, 7}, {-8, 30}};  // beyond the left and the bottom
+
   const Image image = readImage(write(file), limits_);
   EXPECT_EQ(image.width, 10);
   EXPECT_EQ(image.height, 10);
   EXPECT_EQ(image.window, (Crop{0, 2, 3, 10}));
   for (const Rgb& pixel : image.pixels) EXPECT_EQ(pixel, Rgb(1));
 
+  // As a texture the picture is filled up with black.
   const RawImage filled = raw(file);
   EXPECT_EQ(filled.width, 10);
   EXPECT_EQ(filled.height, 10);
@@ -258,12 +272,14 @@ TEST_F(ExrTest, TilesAreRead) {
   ForeignFile file;
   file.display = file.data = {{0, 0}, {36, 20}};
   file.channels = {{"R", 1}, {"G", 2}, {"B", 3}};
+
   Imf::Header header = file.header();
   header.setTileDescription(Imf::TileDescription(16, 8, Imf::MIPMAP_LEVELS));
   {
     Imf::TiledOutputFile output(path("tiled.exr").c_str(), header);
     fill(file, output);
   }
+
   const Image image = readImage(path("tiled.exr"), limits_);
   EXPECT_EQ(image.window, (Crop{0, 0, 37, 21}));
   for (const Rgb& pixel : image.pixels) EXPECT_EQ(pixel, Rgb(1, 2, 3));
@@ -278,12 +294,15 @@ TEST_F(ExrTest, OfSeveralPartsTheFirstIsRead) {
     headers[i].setName(i == 0 ? "beauty" : "other");
     headers[i].setType(Imf::SCANLINEIMAGE);
   }
+
   {
     Imf::MultiPartOutputFile file(path("parts.exr").c_str(), headers.data(), 2);
     Imf::OutputPart one(file, 0), two(file, 1);
     fill(first, one);
     fill(second, two);
   }
+
+  // Only the first part counts.
   EXPECT_EQ(readImage(path("parts.exr"), limits_).at(0, 0), Rgb(1));
 }
 
@@ -296,6 +315,7 @@ TEST_F(ExrTest, LuminanceAndChroma) {
     file.setFrameBuffer(pixels.data(), 1, kSide);
     file.writePixels(kSide);
   }
+
   const Image image = readImage(path("a.exr"), limits_);
   const float wanted[] = {0.25f, 0.5f, 0.75f};
   constexpr float kHalf = 2e-3f;
@@ -304,7 +324,7 @@ TEST_F(ExrTest, LuminanceAndChroma) {
   }
 }
 
-// As Blender writes them. A layer that is no picture does not count.
+// The channels are named as Blender names them. A layer that is no picture does not count.
 TEST_F(ExrTest, ColorsInALayer) {
   ForeignFile file;
   file.channels = {{"Another.R", 9},
@@ -313,9 +333,11 @@ TEST_F(ExrTest, ColorsInALayer) {
                    {"ViewLayer.Combined.B", 0.75f},
                    {"ViewLayer.Combined.A", 0.5f},
                    {"ViewLayer.Depth.Z", 7}};
+
   const RawImage image = raw(file);
   ASSERT_EQ(image.channels, 4);
   EXPECT_EQ(linearPixel(image, 0), Rgb(0.25f, 0.5f, 0.75f));
+
   file.channels = {{"position.X", 1}, {"position.Y", 1}};
   EXPECT_EQ(statusOf([&] { raw(file); }), ExitStatus::badScene);
 }
@@ -340,6 +362,7 @@ TEST_F(ExrTest, CubesBecomeSkies) {
       }
     }
   }
+
   {
     Imf::Header header(data, data);
     Imf::addEnvmap(header, Imf::ENVMAP_CUBE);
@@ -347,9 +370,11 @@ TEST_F(ExrTest, CubesBecomeSkies) {
     file.setFrameBuffer(pixels.data(), 1, kSide);
     file.writePixels(6 * kSide);
   }
+
   const EnvironmentImage sky = makeEnvironment(readRawImage(path("cube.exr"), limits_, warnings_));
   ASSERT_EQ(sky.width, 4 * kSide);
   ASSERT_EQ(sky.height, 2 * kSide);
+
   constexpr double kHalf = 2e-3;
   const Imath::Box2i window({0, 0}, {sky.width, sky.height});
   for (int y = 0; y < sky.height; ++y) {
@@ -391,16 +416,19 @@ TEST_F(ExrTest, UncompressedFloatsKeepTheirBits) {
   EXPECT_EQ(file.header().compression(), Imf::NO_COMPRESSION);
 }
 
-// To the nearest: half a unit in the last of 11 bits. What is too large stays finite.
+// Values are rounded to the nearest half, by half a unit in the last of 11 bits at most. Values
+// that are too large stay finite.
 TEST_F(ExrTest, HalvesAreTheNearest) {
   Image image = stored();
   image.at(0, 0) = {1e6f, std::numeric_limits<float>::infinity(), -1e6f};
   image.at(1, 0) = {std::numeric_limits<float>::quiet_NaN(), 0, 65504};
+
   writeExr(path("a.exr"), image, {}, ExrStorage::half);
   const Image back = readImage(path("a.exr"), limits_);
   EXPECT_EQ(back.at(0, 0), (Rgb{65504, 65504, -65504}));
   EXPECT_TRUE(std::isnan(back.at(1, 0)[0]));
   EXPECT_EQ(back.at(1, 0)[2], 65504);
+
   for (std::size_t i = 2; i < image.pixels.size(); ++i) {
     for (int c = 0; c < 3; ++c) {
       EXPECT_NEAR(back.pixels[i][c], image.pixels[i][c], image.pixels[i][c] / 2048) << i;
@@ -411,11 +439,13 @@ TEST_F(ExrTest, HalvesAreTheNearest) {
 // OpenEXR's level of 45 is said to be lossless to the eye.
 TEST_F(ExrTest, DwaaIsNear) {
   constexpr float kNear = 0.02f;
+
   writeExr(path("a.exr"), stored(), {}, ExrStorage::dwaa);
   const Image back = readImage(path("a.exr"), limits_);
   for (std::size_t i = 0; i < back.pixels.size(); ++i) {
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(back.pixels[i][c], stored().pixels[i][c], kNear) << i;
   }
+
   const Imf::InputFile file(path("a.exr").c_str());
   EXPECT_EQ(file.header().compression(), Imf::DWAA_COMPRESSION);
 }

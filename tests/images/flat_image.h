@@ -4,7 +4,7 @@
 
 namespace whit {
 
-// Every pixel of one color.
+// Makes an image whose pixels all have one color.
 inline Image flat(int width, int height, const Rgb& color) {
   Image image(width, height);
   for (Rgb& pixel : image.pixels) pixel = color;

@@ -36,6 +36,8 @@ Triple huntLab(const Triple& c) {
     f[static_cast<std::size_t>(i)] =
         t > 216.0 / 24389 ? std::cbrt(t) : (841.0 / 108) * t + 4.0 / 29;
   }
+
+  // Hunt's effect scales the chroma by a hundredth of the lightness.
   const double lightness = 116 * f[1] - 16;
   return {lightness, 5 * lightness * (f[0] - f[1]), 2 * lightness * (f[1] - f[2])};
 }
@@ -57,8 +59,8 @@ Triple asTriple(const Rgb& c) {
   return {static_cast<double>(c.x), static_cast<double>(c.y), static_cast<double>(c.z)};
 }
 
-// 5e-4: the matrices differ in their fifth digit, and rounding leaves feature differences around
-// 1e-7, whose square root is what the exponent loses.
+// The matrices differ in their fifth digit, and rounding leaves feature differences around 1e-7,
+// whose square root the exponent loses.
 constexpr double kTolerance = 5e-4;
 
 void expectFlat(const Rgb& a, const Rgb& b) {
@@ -81,6 +83,7 @@ TEST(Flip, EqualImagesGiveZero) {
 TEST(Flip, BlackAgainstWhiteByHand) {
   const double expected = 0.95 + 0.05 * 8.611 / 24.762;
   EXPECT_NEAR(flipOfColors({0, 0, 0}, {1, 1, 1}), expected, 1e-4);
+
   const Image black = flat(16, 16, Rgb(0)), white = flat(16, 16, Rgb(1));
   for (const float value : flipMap(black, white))
     EXPECT_NEAR(static_cast<double>(value), expected, kTolerance);
@@ -88,14 +91,14 @@ TEST(Flip, BlackAgainstWhiteByHand) {
 }
 
 TEST(Flip, FlatColors) {
-  expectFlat(ofCodes(0, 255, 0), ofCodes(0, 0, 255));  // 1
+  expectFlat(ofCodes(0, 255, 0), ofCodes(0, 0, 255));  // the largest difference, which gives 1
   expectFlat(ofCodes(200, 30, 40), ofCodes(190, 60, 50));
   expectFlat(ofCodes(128, 128, 128), ofCodes(129, 128, 128));
   expectFlat(ofCodes(3, 2, 1), ofCodes(5, 9, 4));  // the straight part of L*a*b*
   expectFlat(ofCodes(250, 240, 10), ofCodes(10, 20, 245));
 }
 
-// The maximum is reached by definition, nothing exceeds it.
+// The largest difference gives 1 by definition, and nothing exceeds it.
 TEST(Flip, GreenAgainstBlueIsOne) {
   const auto map = flipMap(flat(5, 5, {0, 1, 0}), flat(5, 5, {0, 0, 1}));
   for (const float value : map) {
@@ -104,7 +107,7 @@ TEST(Flip, GreenAgainstBlueIsOne) {
   }
 }
 
-// The same by brute force: two-dimensional kernels in double, summed without separating them.
+// FLIP by brute force: two-dimensional kernels in double, summed without separating them.
 class BruteForce {
  public:
   explicit BruteForce(const Image& image) : image_(image) {}
@@ -119,6 +122,7 @@ class BruteForce {
         double g[4];
         for (int k = 0; k < 4; ++k)
           g[k] = a[k] * std::sqrt(M_PI / b[k]) * std::exp(-M_PI * M_PI * d2 / b[k]);
+        // The third channel is filtered with the sum of two Gaussians.
         const double weight[3] = {g[0], g[1], g[2] + g[3]};
         const Triple o = opponent(x + dx, y + dy);
         for (std::size_t c = 0; c < 3; ++c) {
@@ -126,6 +130,7 @@ class BruteForce {
           mass[c] += weight[c];
         }
       }
+
     return rgbOfOpponent({sum[0] / mass[0], sum[1] / mass[1], sum[2] / mass[2]});
   }
 
@@ -133,19 +138,25 @@ class BruteForce {
   std::array<double, 2> features(int x, int y) const {
     const double deviation = 0.5 * 0.082 * 67;
     double positive[2] = {0, 0}, negative[2] = {0, 0};
+
     const auto weights = [&](int along, int across) {
       const double g = std::exp(-(along * along + across * across) / (2 * deviation * deviation));
       return std::array<double, 2>{-along * g, (along * along / (deviation * deviation) - 1) * g};
     };
+
+    // Positive and negative weights are normalized separately.
     for (int u = -9; u <= 9; ++u)
       for (int v = -9; v <= 9; ++v)
         for (std::size_t k = 0; k < 2; ++k) {
           const double w = weights(u, v)[k];
           (w > 0 ? positive : negative)[k] += std::abs(w);
         }
+
     double response[2][2] = {{0, 0}, {0, 0}};
     for (int dy = -9; dy <= 9; ++dy)
       for (int dx = -9; dx <= 9; ++dx) {
+        // Features are found in the luminance, which is the first opponent channel mapped to [0,
+        // 1].
         const double luminance = (opponent(x + dx, y + dy)[0] + 16) / 116;
         for (std::size_t k = 0; k < 2; ++k) {
           const double wx = weights(dx, dy)[k], wy = weights(dy, dx)[k];
@@ -153,6 +164,7 @@ class BruteForce {
           response[k][1] += luminance * wy / (wy > 0 ? positive[k] : negative[k]);
         }
       }
+
     return {std::hypot(response[0][0], response[0][1]), std::hypot(response[1][0], response[1][1])};
   }
 
@@ -179,7 +191,8 @@ class BruteForce {
   const Image& image_;
 };
 
-// 2e-3: besides the matrices, the textbook's inverse matrix is rounded to four digits.
+// The tolerance is 2e-3 because, besides the matrices' differences, the textbook's inverse matrix
+// is rounded to four digits.
 TEST(Flip, FeaturesAndFiltersAgainstBruteForce) {
   Image a = flat(40, 30, ofCodes(90, 100, 110)), b = a;
   for (int y = 0; y < 30; ++y)
@@ -188,7 +201,9 @@ TEST(Flip, FeaturesAndFiltersAgainstBruteForce) {
       if (x > 14) b.at(x, y) = ofCodes(200, 120, 60);
       if (x > 30 && (x + y) % 3 == 0) b.at(x, y) = ofCodes(20, 30, 240);  // a texture
     }
+
   a.at(5, 20) = Rgb(1);  // a point
+
   const std::vector<float> map = flipMap(a, b);
   const BruteForce forA(a), forB(b);
   double largest = 0;

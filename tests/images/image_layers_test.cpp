@@ -10,7 +10,7 @@
 namespace whit {
 namespace {
 
-// Of each pixel of a 4x3 picture: values that half floats and 16 bits would not hold.
+// Channels of each pixel of a 4x3 picture, with values that half floats and 16 bits would not hold.
 ChannelLayers sampleChannels() {
   ChannelLayers layers;
   layers.resize(parseChannels("depth,position,normal,albedo,uv,object,material,triangle,rays"), 12);
@@ -21,6 +21,8 @@ ChannelLayers sampleChannels() {
     v.position = {x, -x, 70001.25f}, v.normal = {0, x / 12, -1}, v.albedo = {0.1f, x / 12, 1};
     v.uv = {x, 0.5f};
     v.object = 0xfffffff0u + static_cast<std::uint32_t>(i), v.material = 3, v.triangle = 1u << 24;
+
+    // Pixel 5 shows no surface.
     layers.keep(i, i == 5 ? ChannelValues() : v);
     layers.numbers(Channel::rays)[i] = static_cast<std::uint32_t>(i);
   }
@@ -49,6 +51,7 @@ TEST_F(ImageLayers, KeepEveryBit) {
       EXPECT_EQ(layer.words, same->words) << layer.name;
     }
   }
+
   EXPECT_EQ(statusOf([&] { write("b.exr", layers, ExrStorage::dwaa); }), ExitStatus::usage);
 }
 
@@ -89,12 +92,16 @@ TEST_F(ImageLayers, PartsAreMerged) {
         }
       });
     }
+
     return write(name, layers, ExrStorage::zip, window);
   };
+
+  // The parts overlap by a column, in which they agree.
   const std::string left = part("l.exr", {0, 0, 3, 3}), right = part("r.exr", {2, 0, 4, 3});
   const MergedImage merged = mergeImages({left, right}, limits_, warnings_);
   EXPECT_TRUE(warnings_.entries().empty());
   writeExr(path("m.exr"), merged.image, {}, ExrStorage::zip, 1, merged.layers);
+
   const std::vector<ImageLayer> found = readLayers(path("m.exr"), limits_);
   const std::vector<ImageLayer> wanted = readLayers(write("w.exr", whole), limits_);
   ASSERT_EQ(found.size(), wanted.size());
@@ -120,7 +127,7 @@ TEST_F(ImageLayers, APartThatLacksOneIsRefused) {
   }
 }
 
-// As libpng reads it.
+// Returns the values of a PNG of 16 bits as libpng reads them.
 std::vector<std::uint16_t> readPng16(const std::string& path, int& channels) {
   std::FILE* const file = std::fopen(path.c_str(), "rb");
   png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
@@ -129,6 +136,7 @@ std::vector<std::uint16_t> readPng16(const std::string& path, int& channels) {
   png_read_info(png, info);
   EXPECT_EQ(png_get_bit_depth(png, info), 16);
   channels = png_get_channels(png, info);
+
   std::vector<std::uint16_t> values;
   std::vector<std::uint8_t> row(png_get_rowbytes(png, info));
   for (png_uint_32 y = 0; y < png_get_image_height(png, info); ++y) {
@@ -137,6 +145,7 @@ std::vector<std::uint16_t> readPng16(const std::string& path, int& channels) {
       values.push_back(static_cast<std::uint16_t>(row[i] << 8 | row[i + 1]));
     }
   }
+
   png_destroy_read_struct(&png, &info, nullptr);
   std::fclose(file);
   return values;
@@ -144,7 +153,8 @@ std::vector<std::uint16_t> readPng16(const std::string& path, int& channels) {
 
 class ChannelPng : public ImageLayers {
  protected:
-  // Of a 2x1 picture: something, and nothing.
+  // Writes a picture of two pixels, of which the first has these values and the second shows no
+  // surface, and returns the codes in the file.
   std::vector<std::uint16_t> codes(Channel channel, const ChannelValues& values,
                                    std::uint32_t rays = 1) {
     ChannelLayers layers;
@@ -152,6 +162,7 @@ class ChannelPng : public ImageLayers {
     layers.keep(0, values);
     layers.keep(1, {});
     if (channel == Channel::rays) layers.numbers(channel)[0] = layers.numbers(channel)[1] = rays;
+
     writeChannelPng(path("a.png"), Image(2, 1), layers, channel, {});
     return readPng16(path("a.png"), components_);
   }
@@ -165,6 +176,7 @@ TEST_F(ChannelPng, DepthIsInThousandthsOfAUnit) {
   v.z = 1.2344f, v.distance = 9;
   EXPECT_EQ(codes(Channel::depth, v), (Codes{1234, 0}));
   EXPECT_EQ(components_, 1);
+
   v.z = 65.535f;
   EXPECT_EQ(codes(Channel::depth, v), (Codes{65535, 0}));
   v.z = 65.536f;
@@ -178,10 +190,12 @@ TEST_F(ChannelPng, VectorsAndColors) {
   v.normal = {1, -1, 0};
   EXPECT_EQ(codes(Channel::normal, v), (Codes{65535, 0, 32768, 0, 0, 0}));
   EXPECT_EQ(components_, 3);
+
   v.albedo = {1, 0, 0.0031308f / 2};  // the linear part of sRGB
   EXPECT_EQ(codes(Channel::albedo, v),
             (Codes{65535, 0, static_cast<std::uint16_t>(std::lround(12.92 * 0.0015654 * 65535)), 0,
                    0, 0}));
+
   v.uv = {1.25f, -0.25f};
   EXPECT_EQ(codes(Channel::uv, v), (Codes{16384, 49151, 0, 0, 0, 0}));
   EXPECT_EQ(statusOf([&] { codes(Channel::position, v); }), ExitStatus::usage);

@@ -50,7 +50,7 @@ class ImageTest : public testing::Test {
               static_cast<std::streamsize>(bytes.size()));
     return path(name);
   }
-  // What is wrong with such a file, behind its name.
+  // Returns the message of the error that such a file causes, without the file's name.
   std::string errorOf(const std::string& name, const Bytes& bytes) {
     const std::string file = save(name, bytes);
     try {
@@ -109,6 +109,7 @@ inline Bytes bmp(int width, int height, const Bytes& rgb) {
   append16(file, 1);
   append16(file, 24);
   for (int i = 0; i < 6; ++i) append32(file, 0);
+
   for (int y = height - 1; y >= 0; --y) {
     for (int x = 0; x < width; ++x) {
       const std::size_t i = static_cast<std::size_t>(3 * (y * width + x));
@@ -116,6 +117,7 @@ inline Bytes bmp(int width, int height, const Bytes& rgb) {
     }
     for (int pad = 3 * width; pad < stride; ++pad) file.push_back(0);
   }
+
   return file;
 }
 
@@ -128,7 +130,8 @@ inline Bytes hdr(int width, int height, const Bytes& rgbe) {
   return file;
 }
 
-// The same with run lengths: each of the four planes of a row is one run. `width` from 8 to 127.
+// Radiance RGBE with run lengths: each of the four planes of a row is one run. `width` from 8 to
+// 127.
 inline Bytes hdrRuns(int width, int height, const std::array<std::uint8_t, 4>& rgbe) {
   Bytes file = hdr(width, height, {});
   for (int y = 0; y < height; ++y) {
@@ -159,6 +162,7 @@ inline void appendPngChunk(Bytes& file, const char* type, const Bytes& data) {
                  static_cast<std::uint8_t>(v >> 8), static_cast<std::uint8_t>(v)};
   };
   append(file, big(static_cast<std::uint32_t>(data.size())));
+
   Bytes body(type, type + 4);
   append(body, data);
   append(file, body);
@@ -176,10 +180,12 @@ inline Bytes png(int width, int height, int bits, int colorType, const Bytes& ro
                  {byte(width, 24), byte(width, 16), byte(width, 8), byte(width, 0),
                   byte(height, 24), byte(height, 16), byte(height, 8), byte(height, 0),
                   static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(colorType), 0, 0, 0});
+
   uLongf size = compressBound(static_cast<uLong>(rows.size()));
   Bytes packed(size);
   compress(packed.data(), &size, rows.data(), static_cast<uLong>(rows.size()));
   packed.resize(size);
+
   appendPngChunk(file, "IDAT", packed);
   appendPngChunk(file, "IEND", {});
   return file;

@@ -26,6 +26,7 @@ TEST_F(MergeImages, PutsCropsInTheirPlaces) {
   const Image image =
       merge({part("c.exr", {3, 2, 8, 6}), part("a.exr", {0, 0, 8, 2}), part("b.exr", {0, 2, 3, 6})})
           .image;
+
   EXPECT_EQ(image.window, (Crop{0, 0, 8, 6}));
   for (int y = 0; y < 6; ++y)
     for (int x = 0; x < 8; ++x)
@@ -46,9 +47,12 @@ TEST_F(MergeImages, WhereOverlapsDifferTheLaterWinsAndIsCounted) {
   const Image image = merge({part("a.exr", {0, 0, 8, 4}, 1), part("b.exr", {0, 3, 8, 6}, 2)}).image;
   EXPECT_EQ(image.at(0, 2).z, 1);
   EXPECT_EQ(image.at(0, 3).z, 2);
+
   const auto entry = warnings_.entries().at("overlapping parts differ, the later one taken");
   EXPECT_EQ(entry.count, 8u);
   EXPECT_EQ(entry.first, path("b.exr") + " at (0, 3)");
+
+  // Strict warnings are errors.
   Warnings strict(true);
   EXPECT_EQ(statusOf([&] {
               mergeImages({path("a.exr"), path("b.exr")}, limits_, strict);

@@ -18,6 +18,7 @@ TEST(Metrics, EqualImagesDoNotDiffer) {
   Image image(9, 5);
   for (std::size_t i = 0; i < image.pixels.size(); ++i)
     image.pixels[i] = Rgb(static_cast<float>(i) / 45, 0.3f, static_cast<float>(i % 7));
+
   const ImageDifference d = compareImages(image, image);
   EXPECT_EQ(d.rmse, 0);
   EXPECT_EQ(d.relmse, 0);
@@ -34,6 +35,7 @@ TEST(Metrics, LinearErrorsByHand) {
   Image a = flat(2, 1, {0.5f, 0.5f, 0.5f});
   const Image b = a;
   a.pixels[1] = Rgb(1.0f, 0.5f, 0.25f);
+
   const ImageDifference d = compareImages(a, b);
   EXPECT_DOUBLE_EQ(d.rmse, std::sqrt((0.25 + 0.0625) / 6));
   EXPECT_DOUBLE_EQ(d.relmse, (0.25 + 0.0625) / (0.25 + 0.01) / 6);
@@ -48,6 +50,7 @@ TEST(Metrics, CodesByHand) {
   a.pixels[2].y = ofCode(98);
   a.pixels[3].x = ofCode(110);
   a.pixels[3].z = ofCode(97);
+
   const ImageDifference d = compareImages(a, b);
   EXPECT_EQ(d.maxCode, 10);
   EXPECT_EQ(d.pixelsGe1CodePct, 75);
@@ -69,10 +72,13 @@ TEST(Metrics, PixelsThatAreNotFiniteAreCountedAndLeftOut) {
   a.pixels[0].x = std::nanf("");
   b.pixels[1].y = std::numeric_limits<float>::infinity();
   a.pixels[2].z = 0.5f;
+
   const ImageDifference d = compareImages(a, b);
   EXPECT_EQ(d.nonFinite, 2u);
   EXPECT_DOUBLE_EQ(d.rmse, std::sqrt(0.25 / 3));
   EXPECT_TRUE(std::isfinite(d.flipMean));
+
+  // Without any finite pixel the errors are 0.
   const ImageDifference none = compareImages(flat(1, 1, Rgb(std::nanf(""))), flat(1, 1, Rgb(1)));
   EXPECT_EQ(none.nonFinite, 1u);
   EXPECT_EQ(none.rmse, 0);

@@ -15,7 +15,7 @@ DisplayImage gradient(int width, int height) {
   return image;
 }
 
-// The data of each chunk of a type.
+// Returns the data of each chunk of a type.
 std::vector<std::string> chunks(const Bytes& file, const std::string& type) {
   std::vector<std::string> found;
   for (std::size_t at = 8; at + 12 <= file.size();) {
@@ -33,14 +33,17 @@ TEST_F(PngTest, TextComesBackFromWholeFilesOnly) {
   const ImageMetadata metadata{{"software", "whit"}, {"place", "K\u00f6ln"}, {"eye", "1,2,3"}};
   writePng(path("a.png"), gradient(16, 16), metadata);
   EXPECT_EQ(readPngMetadata(path("a.png")), metadata);
+
   const Bytes whole = load(path("a.png"));
   for (const std::size_t size :
        {std::size_t{0}, std::size_t{20}, whole.size() / 2, whole.size() - 9}) {
+    // A file that is cut short is refused even where all its text is there.
     save("cut.png", Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)));
     EXPECT_EQ(statusOf([&] { readPngMetadata(path("cut.png")); }), ExitStatus::badScene) << size;
   }
+
   Bytes damaged = whole;
-  damaged[whole.size() - 30] ^= 1;  // among the pixels: the checksum tells
+  damaged[whole.size() - 30] ^= 1;  // one of the pixels, so that the checksum is wrong
   save("damaged.png", damaged);
   EXPECT_EQ(statusOf([&] { readPngMetadata(path("damaged.png")); }), ExitStatus::badScene);
   EXPECT_EQ(statusOf([&] { readPngMetadata(path("none.png")); }), ExitStatus::io);
@@ -74,7 +77,9 @@ TEST_F(PngTest, All256CodesSurviveTheWholeWay) {
 TEST_F(PngTest, MetadataIsText) {
   writePng(path("a.png"), gradient(2, 2),
            {{"scene", "atrium"}, {"title", "caf\xc3\xa9"}, {std::string(100, 'k'), "long"}});
+
   const Bytes file = load(path("a.png"));
+  // Text of ASCII is tEXt with keys of at most 79 characters, other text is iTXt.
   using namespace std::string_literals;
   EXPECT_EQ(chunks(file, "tEXt"),
             (std::vector{"scene\0atrium"s, std::string(79, 'k') + "\0long"s}));

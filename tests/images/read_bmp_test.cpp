@@ -9,7 +9,7 @@ class ReadBmp : public ImageTest {
   struct Form {
     int width = 3, height = 2, bits = 8, compression = 0, colors = 0;
   };
-  // With the header of 40 bytes; `behind` is a palette or masks.
+  // Makes a file with the header of 40 bytes; `behind` is a palette or masks.
   static Bytes bmpOf(const Form& form, const Bytes& behind, const Bytes& data) {
     Bytes file = {'B', 'M'};
     append32(file, 0);
@@ -24,6 +24,7 @@ class ReadBmp : public ImageTest {
     for (int i = 0; i < 3; ++i) append32(file, 0);
     append32(file, form.colors);
     append32(file, 0);
+
     append(file, behind);
     append(file, data);
     return file;

@@ -11,7 +11,7 @@ class ReadHdr : public ImageTest {
     append(file, rgbe);
     return file;
   }
-  // The reds of an image of gray pixels.
+  // Returns the reds of an image of gray pixels.
   std::vector<float> reds(const Bytes& file) {
     const RawImage image = readRawImage(save("a.hdr", file), limits_, warnings_);
     std::vector<float> result;
@@ -24,7 +24,7 @@ TEST_F(ReadHdr, FilesWithoutAFormatAreRgbe) {
   EXPECT_EQ(reds(hdrOf("#?RGBE\r\n\r\n-Y 1 +X 1\n", {16, 16, 16, 136})), (std::vector<float>{16}));
 }
 
-// Two more of the first pixel; then 4 and 256 times 1 more of the second.
+// The runs repeat the first pixel twice, and the second one 4 and then 256 times.
 TEST_F(ReadHdr, RunsOfOlderFiles) {
   std::vector<float> expected(3, 16.0f);
   expected.insert(expected.end(), 1 + 4 + 256, 32.0f);

@@ -60,7 +60,8 @@ TEST_F(ReadImage, JpegOfOneCoefficient) {
   EXPECT_EQ(image.codes, Bytes(64, 200));
 }
 
-// Inks of 200, 150, 100 and 128 of 255, which Adobe's mark makes the light that they let through.
+// The inks are 200, 150, 100 and 128 of 255. With Adobe's mark the codes mean the light that the
+// inks let through.
 TEST_F(ReadImage, JpegOfInks) {
   const auto expectCodes = [&](const Bytes& file, int r, int g, int b) {
     const RawImage image = raw("a.jpg", file);
@@ -70,12 +71,14 @@ TEST_F(ReadImage, JpegOfInks) {
     EXPECT_NEAR(image.codes[190], g, 1);
     EXPECT_NEAR(image.codes[191], b, 1);
   };
+
   const auto file = [](const std::string& name) {
     const char* source = std::getenv("WHIT_SOURCE_DIR");
     std::ifstream in(std::string(source ? source : ".") + "/tests/fuzz/corpus/jpeg/" + name,
                      std::ios::binary);
     return Bytes(std::istreambuf_iterator<char>(in), {});
   };
+
   Bytes flat = file("inksFlat.jpg");
   expectCodes(flat, 100, 75, 50);
   expectCodes(file("ycck.jpg"), 100, 75, 50);
@@ -90,6 +93,7 @@ TEST_F(ReadImage, RadianceIsLinear) {
       raw("a.hdr", hdr(2, 2, {128, 64, 32, 129, 255, 1, 0, 255, 200, 200, 200, 0, 1, 128, 255, 1}));
   EXPECT_TRUE(image.linear);
   EXPECT_EQ(image.channels, 3);
+
   const std::vector<float> expected = {
       1, 0.5f, 0.25f, std::ldexp(255.0f, 119), std::ldexp(1.0f, 119),    0,
       0, 0,    0,     std::ldexp(1.0f, -135),  std::ldexp(128.0f, -135), std::ldexp(255.0f, -135)};
@@ -110,6 +114,7 @@ TEST_F(ReadImage, ReadImageDecodesSrgb) {
   const Image image = readImage(save("a.bmp", bmp(3, 2, kSixPixels)), limits_);
   EXPECT_EQ(image.window, (Crop{0, 0, 3, 2}));
   EXPECT_EQ(image.at(0, 0), Rgb(1, 0, 0));
+
   // IEC 61966-2-1 by hand: code 10 is on the straight part, 90 on the power part.
   EXPECT_FLOAT_EQ(image.at(0, 1).x, static_cast<float>(10 / 255.0 / 12.92));
   EXPECT_FLOAT_EQ(image.at(2, 1).z,
@@ -147,12 +152,14 @@ TEST_F(ReadImage, RealFilesLoad) {
   const std::string folder = dataFolder().string();
   if (!std::filesystem::exists(folder + "/env"))
     GTEST_SKIP() << "SKIPPED: no test data in '" << folder << "'; set WHIT_DATA";
+
   int read = 0;
   for (const char* part : {"/env", "/crytek_sponza/textures"}) {
     for (const auto& entry : std::filesystem::directory_iterator(folder + part)) {
       const std::string extension = entry.path().extension().string();
       if (extension != ".exr" && extension != ".hdr" && extension != ".jpg" && extension != ".png")
         continue;
+
       SCOPED_TRACE(entry.path().string());
       const RawImage image = readRawImage(entry.path().string(), limits_, warnings_);
       const std::size_t values =
@@ -165,11 +172,12 @@ TEST_F(ReadImage, RealFilesLoad) {
   EXPECT_GE(read, 3);
 }
 
-// The same picture twice, scanlines of DWAB and tiles of ZIP.
+// Both files hold the same picture, one in scanlines of DWAB and one in tiles of ZIP.
 TEST_F(ReadImage, RealScanlinesAndTilesAgree) {
   const std::string folder = dataFolder().string() + "/env/";
   if (!std::filesystem::exists(folder + "courtyard_zip.exr"))
     GTEST_SKIP() << "SKIPPED: no '" << folder << "courtyard_zip.exr'; set WHIT_DATA";
+
   const RawImage lines = readRawImage(folder + "courtyard.exr", limits_, warnings_);
   const RawImage tiles = readRawImage(folder + "courtyard_zip.exr", limits_, warnings_);
   EXPECT_EQ(lines.width, 1024);

@@ -22,6 +22,7 @@ class ReadTga : public ImageTest {
     append16(file, form.height);
     append(file,
            {static_cast<std::uint8_t>(form.bits), static_cast<std::uint8_t>(form.descriptor)});
+
     append(file, {'i', 'd', '!'});
     append(file, data);
     return file;
@@ -50,13 +51,14 @@ TEST_F(ReadTga, RunsGoOnInTheNextRow) {
             (Bytes{1, 2, 3, 1, 2, 3, 4, 5, 6, 7, 8, 9}));
 }
 
-// Whose number the header may not tell, and which many writers then leave 0.
+// The header may not state the number of alpha bits, and many writers leave the alpha 0 then.
 TEST_F(ReadTga, AlphaCountsWhereThereIsAny) {
   const auto codes = [&](int descriptor, std::uint8_t alpha) {
     return read({.bits = 32, .descriptor = descriptor, .width = 2, .height = 1},
                 {3, 2, 1, 0, 6, 5, 4, alpha})
         .codes;
   };
+
   EXPECT_EQ(codes(0x20, 0), (Bytes{1, 2, 3, 255, 4, 5, 6, 255}));
   EXPECT_EQ(codes(0x20, 9), (Bytes{1, 2, 3, 0, 4, 5, 6, 9}));
   EXPECT_EQ(codes(0x28, 0), (Bytes{1, 2, 3, 0, 4, 5, 6, 0}));
@@ -68,6 +70,7 @@ TEST_F(ReadTga, DamageIsToldWithItsPlace) {
            "type " +
            std::to_string(type) + " of " + std::to_string(bits) + " bits";
   };
+
   EXPECT_EQ(errorOf("a.tga", tgaOf({.type = 33, .bits = 8}, {})), refused(33, 8));
   EXPECT_EQ(errorOf("a.tga", tgaOf({.bits = 16}, {})), refused(2, 16));
   EXPECT_EQ(errorOf("a.tga", tgaOf({.descriptor = 0x30}, {})),

@@ -52,20 +52,23 @@ TEST(TextureFromImage, LinearValuesAreEncoded) {
   EXPECT_EQ(makeTexture("t", floats(1, {1}), TexelFormat::data).texels[0], 0xffffffffu);
 }
 
-// Only what goes beyond 1 is kept otherwise than any color is.
+// Only emission that goes beyond 1 is stored in another format than other colors.
 TEST(TextureFromImage, EmissionAboveOneKeepsItsRange) {
   Warnings warnings;
   const Texture bright = makeEmissionTexture("t", floats(3, {8, 0.5f, 3, 0, 0.25f, 1}), warnings);
   EXPECT_EQ(bright.format, TexelFormat::radiance);
   EXPECT_EQ(decodeRadianceTexel(bright.texels.at(0)), (Rgb{8, 0.5f, 3}));
   EXPECT_EQ(decodeRadianceTexel(bright.texels.at(1)), (Rgb{0, 0.25f, 1}));
+
+  // Emission of at most 1 is stored as a color.
   const RawImage dim = floats(3, {0.25f, 1, 0.1f}), coded = codes(3, {255, 128, 0});
   for (const RawImage* raw : {&dim, &coded}) {
     const Texture color = makeEmissionTexture("t", *raw, warnings);
     EXPECT_EQ(color.format, TexelFormat::color);
     EXPECT_EQ(color.texels, makeTexture("t", *raw, TexelFormat::color).texels);
   }
-  // Alpha is no color.
+
+  // A large alpha does not make the emission bright.
   EXPECT_EQ(makeEmissionTexture("t", floats(4, {1, 1, 1, 7}), warnings).format, TexelFormat::color);
   EXPECT_TRUE(warnings.entries().empty());
 }
@@ -81,6 +84,7 @@ TEST(TextureFromImage, KeepsNameSizeAndOrder) {
   RawImage raw = codes(1, {1, 2, 3, 4, 5, 6});
   raw.width = 2;
   raw.height = 3;
+
   const Texture texture = makeTexture("wood", raw, TexelFormat::data);
   EXPECT_EQ(texture.name, "wood");
   EXPECT_EQ(texture.format, TexelFormat::data);
@@ -96,8 +100,10 @@ TEST(EnvironmentFromImage, HasLinearPlanes) {
   EXPECT_EQ(linear.r, (std::vector<float>{1, 4}));
   EXPECT_EQ(linear.g, (std::vector<float>{20, 5}));
   EXPECT_EQ(linear.b, (std::vector<float>{300, 6}));
+
   const EnvironmentImage gray = makeEnvironment(floats(1, {0.5f}));
   EXPECT_EQ(gray.b, (std::vector<float>{0.5f}));
+
   const EnvironmentImage encoded = makeEnvironment(codes(4, {255, 10, 0, 77}));
   EXPECT_EQ(encoded.r[0], 1);
   EXPECT_FLOAT_EQ(encoded.g[0], static_cast<float>(10 / 255.0 / 12.92));

@@ -11,11 +11,13 @@ namespace whit::verify {
 inline Mesh sphereMesh(int level, const Vec3d& center, double radius, std::uint32_t material,
                        bool smooth = false) {
   const auto [points, triangles] = procedural::icosphereMesh(level);
+
   Mesh mesh;
   for (const Vec3d& p : points) {
     mesh.positions.emplace_back(center + p * radius);
     if (smooth) mesh.normals.emplace_back(p);
   }
+
   mesh.triangles = triangles;
   mesh.materials = {material};
   return mesh;
@@ -25,6 +27,7 @@ inline Mesh sphereMesh(int level, const Vec3d& center, double radius, std::uint3
 inline Mesh unshared(const Mesh& mesh) {
   Mesh result;
   result.materials = mesh.materials;
+
   for (const auto& triangle : mesh.triangles) {
     const auto first = static_cast<std::uint32_t>(result.positions.size());
     for (const std::uint32_t corner : triangle) result.positions.push_back(mesh.positions[corner]);
@@ -38,11 +41,13 @@ inline Mesh grid() {
   Mesh mesh;
   mesh.materials = {0};
   constexpr int kCells = 64, kHalf = kCells / 2;
+
   for (int y = 0; y <= kCells; ++y) {
     for (int x = 0; x <= kCells; ++x) {
       mesh.positions.emplace_back(Vec3d(x - kHalf, 0, y - kHalf));
     }
   }
+
   for (std::uint32_t y = 0; y < kCells; ++y) {
     for (std::uint32_t x = 0; x < kCells; ++x) {
       const std::uint32_t a = y * (kCells + 1) + x, b = a + 1, c = a + kCells + 1, d = c + 1;
@@ -69,6 +74,7 @@ inline std::vector<ProbeRay> raysOnto(const Vec3d& center, double radius, std::s
                                       std::uint64_t seed) {
   Numbers numbers(seed);
   std::vector<ProbeRay> rays;
+
   while (rays.size() < n) {
     const Vec3f from(center + numbers.direction() * (3 * radius));
     rays.push_back(rayThrough(from, Vec3f(center + numbers.direction() * (0.95 * radius))));
@@ -77,7 +83,7 @@ inline std::vector<ProbeRay> raysOnto(const Vec3d& center, double radius, std::s
 }
 
 inline std::string describeRay(const ProbeRay& ray) { return hexText(ray.origin, ray.direction); }
-// The same for a Finding within one expression.
+// Describes a ray for a Finding within one expression.
 inline auto described(const ProbeRay& ray) {
   return [&ray] { return describeRay(ray); };
 }

@@ -42,6 +42,7 @@ std::vector<Family> families() {
 
 std::vector<Setup> setupsOf(Runs runs) {
   if (runs == Runs::once) return {Setup{}};
+
   std::vector<Setup> setups;
   for (const std::string& target : simd::availableTargets()) {
     if (runs == Runs::targets) {
@@ -50,6 +51,7 @@ std::vector<Setup> setupsOf(Runs runs) {
     }
     for (const int packet : {1, 4, 8, 16}) setups.push_back({target, packet});
   }
+
   return setups;
 }
 

@@ -43,6 +43,7 @@ class Finding {
     ++seen_;
     const double e = std::isnan(error) ? kNoBound : error;
     if (e <= worst_ && !input_.empty()) return;
+
     worst_ = std::max(e, worst_);
     input_ = describe();
   }

@@ -30,6 +30,7 @@ Scene blocksOnGrid(std::uint64_t seed) {
       builder.add(glassMaterial(1.5f, 1)), builder.add(glassMaterial(1.33f)),
       builder.add(diffuseMaterial(0.2f)),  builder.add(emittingMaterial(0.4f))};
   const auto any = [&] { return all[static_cast<std::size_t>(numbers.in(0, 6))]; };
+
   Object object;
   for (int i = 0; i < 8; ++i) {
     const auto [low, high] = cornersOnGrid(numbers);
@@ -39,22 +40,30 @@ Scene blocksOnGrid(std::uint64_t seed) {
   for (int i = 0; i < 3; ++i) {
     object.meshes.push_back(floorAt(-2, static_cast<float>(numbers.in(1, 5)), any()));
   }
+
+  // The sheets cross in the middle.
   object.meshes.push_back(quad({-3, -3, -3}, {3, -3, 3}, {3, 3, 3}, {-3, 3, -3}, any()));
   object.meshes.push_back(quad({-3, -3, 3}, {3, -3, -3}, {3, 3, -3}, {-3, 3, 3}, any()));
+
   Affine place;
   if (seed % 2 != 0) {
     place = Affine::translation({300, 20, -100}) * Affine::rotation(numbers.direction(), 77);
   }
   builder.place(std::move(object), {place});
+
+  // Two instances coincide and a third one overlaps them.
   Object twice;
   twice.meshes = {box({-1, 0, -1}, {1, 1, 1}, any())};
   builder.place(std::move(twice), {place, place, place * Affine::translation({1, 0, 0})});
+
   builder.description.lights = {lightAt(Vec3f(place.point({3.3, 7, 5.1})), 60)};
   builder.sky(0.3f);
+
   Camera camera;
   camera.eye = Vec3f(place.point(numbers.direction() * 9.0));
   camera.at = Vec3f(place.point({0.1, -0.2, 0.05}));
   builder.description.cameras = {camera};
+
   Warnings warnings;  // coincident boxes of one material
   return Scene::finalize(builder.describe(), warnings);
 }
@@ -71,6 +80,7 @@ template <typename Visit>
 void lookStraightDown(const Scene& scene, float height, const Setup& setup, const Visit& visit) {
   Camera camera = lookingDown();
   camera.orthographicHeight = height;
+
   for (const Image& image : picturesOf(scene, camera, fewPixels(setup))) {
     const double pixel = static_cast<double>(height) / image.height;
     for (int y = 0; y < image.height; ++y) {
@@ -94,18 +104,23 @@ Finding sameBits(const Setup& setup) {
       countOtherPixels(finding, picture(options), from,
                        "seed " + std::to_string(seed) + ", " + how);
     };
+
     RenderOptions options = fewPixels(setup);
     const Image own = picture(options);
+
     options.packet = 1;
     differs(options, own, "single rays");
+
     options = fewPixels(setup);
     options.tile = 7;
     options.queue = 40;
     differs(options, own, "other tiles and queues");
+
     options = fewPixels(setup);
     options.batch = Batch::frame;
     options.threads = 1 + static_cast<int>(seed % 3);
     differs(options, own, "whole frames as batches");
+
     options = fewPixels(setup);
     options.crop = Crop{13, 11, 40, 31};
     differs(options, own, "a crop");
@@ -122,9 +137,11 @@ Finding glassOnTheFloor(const Setup& setup) {
     builder.add(floorAt(height, 8, builder.add(emittingMaterial(0.5f))));
     builder.add(box({-1, height, -1}, {1, height + 1, 1}, builder.add(glassMaterial(1.5f))));
     const Scene scene = builder.build();
+
     Camera camera;
     camera.eye = {1.5f, height + 2.5f, 3};
     camera.at = {0, height, 0};
+
     for (const Image& image : picturesOf(scene, camera, fewPixels(setup))) {
       for (const Rgb& pixel : image.pixels) {
         finding.count(!(maxComponent(pixel) <= 0.5f),
@@ -138,24 +155,29 @@ Finding glassOnTheFloor(const Setup& setup) {
 // A glowing floor under two slabs, one on the other: the picture shows the light that none of the
 // three interfaces reflects, first order only.
 Finding slabOnSlab(const Setup& setup) {
-  // Two dozen roundings.
+  // About two dozen roundings lie between the floor's radiance and the pixel.
   Finding finding(24 * 0x1p-24);
   for (const float below : {1.5f, 1.33f, 2.0f}) {
     SceneBuilder builder;
     addSlab(builder, 1, 0, builder.add(glassMaterial(1.5f, 1)), 50);
     addSlab(builder, 0, -1, builder.add(glassMaterial(below)), 50);
     builder.add(floorAt(-2, 50, builder.add(emittingMaterial(1))));
+
     Camera camera;
     camera.eye = {0, 3, 0};
     camera.at = {0, 0, 0};
     camera.up = {0, 0, -1};
     camera.orthographicHeight = 1;
+
     RenderOptions options = fewPixels(setup);
     options.depth = 3;
     options.cutoff = 0;
+
+    // The transmittance of Fresnel's equations at normal incidence.
     const auto passes = [](double a, double b) { return 1 - std::pow((a - b) / (a + b), 2); };
     const double n = static_cast<double>(below);
     const double wanted = passes(1, 1.5) * passes(1.5, n) * passes(n, 1);
+
     for (const Image& image : picturesOf(builder.build(), camera, options)) {
       for (const Rgb& pixel : image.pixels) {
         finding.note(std::fabs(static_cast<double>(pixel.x) / wanted - 1),
@@ -175,10 +197,12 @@ Finding whichIsSeen(const Setup& setup) {
     const auto lower = builder.add(emittingMaterial(0.25f)),
                upper = builder.add(emittingMaterial(0.75f));
     const auto glass = builder.add(glassMaterial(1.5f, 9));
+
     if (glassFirst) builder.add(floorAt(0, 2, glass));
     builder.add(floorAt(0, 3, lower));
     builder.add(floorAt(0, 2.5f, upper));
     if (!glassFirst) builder.add(floorAt(0, 2, glass));
+
     for (const Image& image : picturesOf(builder.build(), lookingDown(), fewPixels(setup))) {
       for (const Rgb& pixel : image.pixels) {
         finding.count(pixel.x != 0.75f && pixel.x != 0.25f && pixel.x != 0,
@@ -202,6 +226,7 @@ void addStored(int way, float half, float radiance, SceneBuilder& builder) {
   if (way == 3) {
     material.alphaMap = builder.add(makeTexture(TexelFormat::data, 1, 1, {0xffffffffu}));
   }
+
   builder.place({"square", {floorAt(0, half, builder.add(material))}}, places);
 }
 
@@ -214,6 +239,7 @@ Finding laterHoweverStored(const Setup& setup) {
       SceneBuilder builder;
       addStored(early, 1.7f, 0.25f, builder);
       addStored(late, 1.3f, 0.75f, builder);
+
       lookStraightDown(builder.build(), 3, setup, [&](float color, double x, double z) {
         if (std::fabs(x) > 1.3 || std::fabs(z) > 1.3) return;
         finding.count(color != 0.75f, [&] {
@@ -234,8 +260,10 @@ Finding decalInACorner(const Setup& setup) {
     SceneBuilder builder;
     const auto floor = builder.add(emittingMaterial(0.25f)),
                decal = builder.add(emittingMaterial(0.75f));
+
     builder.add(quad({-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}, floor));
     builder.add(quad({-2, 0, 2}, {side - 2, 0, 2}, {side - 2, 0, 1}, {-2, 0, 1}, decal));
+
     lookStraightDown(builder.build(), 3.9f, setup, [&](float color, double x, double z) {
       if (std::fabs(x) > 2) return;
       const bool covered = x < static_cast<double>(side) - 2 && z > 1;

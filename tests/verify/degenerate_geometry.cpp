@@ -31,24 +31,29 @@ Finding finitePixels(const Scene& scene, const Setup& setup, const std::string& 
 Finding positionsOfNeedles(const Setup& setup) {
   Finding finding(0x1p-18);
   Numbers numbers(25);
+
+  // The fan consists of needles of 0.09 degrees each.
   Mesh fan;
   constexpr std::uint32_t kNeedles = 4000;
   fan.positions.push_back({0, 0, 0});
   fan.normals.push_back({0, 1, 0});
-  // A fan of needles of 0.09 degrees each.
   for (std::uint32_t i = 0; i <= kNeedles; ++i) {
     const double turn = 2 * 3.14159265358979 * i / kNeedles;
     fan.positions.emplace_back(Vec3d{std::cos(turn), 0, -std::sin(turn)});
     fan.normals.emplace_back(normalized(Vec3d{std::cos(turn), 3, -std::sin(turn)}));
     if (i > 0) fan.triangles.push_back({0, i, i + 1});
   }
+
   const Scene scene = sceneOf(fan, diffuseMaterial(1));
+
+  // The rays hit points from 1e-4 to 1 away from the tip of the fan.
   std::vector<ProbeRay> rays;
   for (std::uint32_t i = 0; i < kNeedles; ++i) {
     const double turn = numbers.in(0, 6.28), r = std::pow(10, -numbers.in(0.001, 4));
     const Vec3f target(Vec3d{r * std::cos(turn), 0, r * std::sin(turn)});
     rays.push_back(rayThrough(target + Vec3f{0.1f, 1, 0.2f}, target));
   }
+
   Probe probe(scene, setup, rays);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (!probe.isHit(i)) continue;
@@ -57,6 +62,7 @@ Finding positionsOfNeedles(const Setup& setup) {
     const bool sound = u >= least && v >= least && u + v <= 1 - 2 * least;
     const double height = std::fabs(static_cast<double>(probe.position(i).y));
     const double unit = std::fabs(length(Vec3d(probe.ns(i))) - 1);
+
     finding.note(sound ? std::max(height, unit) : 1, [&] {
       return describeRay(rays[i]) + ", u " + hexText(double{u}) + ", v " + hexText(double{v});
     });
@@ -72,12 +78,15 @@ Finding degenerateTriangles(const Setup& setup) {
     for (const Vec3f& p : {a, b, c}) mesh.positions.push_back(p), mesh.uvs.push_back({0, 0});
     mesh.triangles.push_back({n, n + 1, n + 2});
   };
+
+  // One triangle repeats a corner, two have collinear corners, and two are slivers.
   mesh.triangles.push_back({0, 0, 1});
   add({0, 0.1f, 0}, {0.5f, 0.1f, 0}, {1, 0.1f, 0});
   add({-1113.45f, -79.049614f, -56.2431908f}, {-1113.45f, -87.0922699f, -56.2431908f},
       {-1113.45f, -79.2090149f, -56.2431908f});
   add({0, 0.2f, 0}, {1, 0.2f, 0}, {0.5f, 0.2f, 1e-20f});
   add({0, 0.3f, 0}, {1, 0.3f, 0}, {0.5f, 0.3f, 1e-7f});
+
   SceneDescription d = descriptionOf({mesh}, diffuseMaterial(1));
   // The slivers fill the middle row.
   d.cameras = {{.eye = {0.5f, 3, 0.02f}, .at = {0.5f, 0, 0}, .up = {0, 0, -1}, .fov = 2}};
@@ -94,9 +103,11 @@ Finding tinyAndHugeTriangles(const Setup& setup) {
     mesh.positions.insert(mesh.positions.end(), {{0, 0, 0}, {s, 0, 0.5f * s}, {0, 0.75f * s, s}});
     mesh.triangles.push_back({3 * count, 3 * count + 1, 3 * count + 2});
   }
+
   const Scene scene = sceneOf(mesh, diffuseMaterial(1));
   Probe probe(scene, setup);
   probe.hitEach(count);
+
   for (std::uint32_t i = 0; i < count; ++i) {
     const Corners c = worldCorners(scene, i, reference::kNoHit);
     Vec3d n = normalized(cross(c[1] - c[0], c[2] - c[0]));
@@ -115,6 +126,7 @@ Finding hugeNextToTiny(const Setup& setup) {
     builder.add(floorAt(0, half, gray));
     builder.add(sphereMesh(2, {0, 2, 0}, 1, gray));
     const Scene scene = builder.build();
+
     Numbers numbers(26);
     std::vector<ProbeRay> down, up;
     for (int i = 0; i < 500; ++i) {
@@ -122,6 +134,7 @@ Finding hugeNextToTiny(const Setup& setup) {
       down.push_back({Vec3f(Vec3d{x, 120500, z}), {0, -1, 0}});
       up.push_back({Vec3f(Vec3d{x, -1e-30, z}), {0, -1, 0}});
     }
+
     Probe probe(scene, setup), phantom(scene, setup);
     probe.cast(down);
     phantom.cast(up);
@@ -140,10 +153,13 @@ Finding badVertices(const Setup& setup) {
     Mesh mesh = grid();
     mesh.positions[2000].y = bad;
     SceneDescription d = descriptionOf({mesh}, diffuseMaterial(1));
+
     Warnings warnings;
     const Scene scene = repaired(std::move(d), &warnings);
     const auto entries = warnings.entries();
     const auto dropped = entries.find("triangle with a non-finite or enormous corner dropped");
+
+    // Six triangles share an inner corner of the grid.
     finding.count(dropped == entries.end() || dropped->second.count != 6,
                   [&] { return "corner " + hexText(double{bad}); });
     finding.count(!(length(scene.upper) < 100),
@@ -164,6 +180,7 @@ Finding badRays(const Setup& setup) {
                                     {{0, 0, 3}, {kNan, 0, -1}},
                                     {{0, 0, 3}, {0, kInf, -1}},
                                     {{kNan, kNan, kNan}, {kNan, kNan, kNan}}};
+
   for (std::size_t lane = 0; lane < 16; lane += 5) {
     for (const ProbeRay& ray : bad) {
       std::vector<ProbeRay> rays = good;
@@ -186,6 +203,7 @@ Finding garbage(const Setup& setup) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     std::mt19937_64 bits(seed);
     const auto number = [&] { return std::bit_cast<float>(static_cast<std::uint32_t>(bits())); };
+
     Mesh mesh;
     mesh.materials = {0};
     for (int i = 0; i < 60; ++i) {
@@ -198,16 +216,19 @@ Finding garbage(const Setup& setup) {
       mesh.normals.push_back({number(), number(), number()});
       mesh.uvs.push_back({number(), number()});
     }
+
     for (int i = 0; i < 200; ++i) {
       const auto index = [&] { return static_cast<std::uint32_t>(bits() % 31) * 2; };
       mesh.triangles.push_back({index(), index(), index()});
     }
+
     Material material = glassMaterial(1.5f);
     material.diffuse = material.specular = Rgb(0.5f);
     SceneDescription d = descriptionOf({mesh}, material);
     d.cameras = {Camera{}};
     d.sky.kind = Sky::Kind::color;
     d.sky.zenith = Rgb(1.0f);
+
     finding.merge(finitePixels(repaired(std::move(d)), setup, "seed " + std::to_string(seed)));
   }
   return finding;

@@ -16,19 +16,23 @@ SceneDescription room() {
   checked.diffuseMap = builder.add(
       makeTexture(TexelFormat::color, 2, 2, {0x3fffffffu, 0x000003ffu, 0x0ff00000u, 0x3fffffffu}));
   checked.mirror = Rgb(0.125f);
+
   Material shiny = diffuseMaterial(0.5f);
   shiny.specular = Rgb(0.25f);
   const auto floor = builder.add(checked), wall = builder.add(diffuseMaterial(0.5f));
   const auto mirror = builder.add(mirrorMaterial(0.75f)), glass = builder.add(glassMaterial(1.5f));
   const auto glossy = builder.add(shiny);
+
   builder.add(floorAt(0, 4, floor));
   builder.add(box({-4, -1, -4}, {4, 5, 4}, wall));
   builder.add(sphereMesh(3, {-1, 1, -0.5}, 0.9, mirror, true));
   builder.add(sphereMesh(3, {1.1, 0.8, 0.4}, 0.75, glass, true));
   builder.add(sphereMesh(2, {0.2, 0.5, 1.4}, 0.4, glossy));
+
   Light second = lightAt({2.5f, 4.25f, 2}, 20);
   second.intensity = {20, 15, 10};
   builder.description.lights = {lightAt({-2.2f, 4, 2.7f}, 30), second};
+
   builder.description.sky.kind = Sky::Kind::gradient;
   builder.description.sky.zenith = {0.2f, 0.3f, 0.6f};
   builder.description.cameras = {{.eye = {0.4f, 2, 3.9f}, .at = {0, 0.8f, 0}, .fov = 60}};
@@ -46,9 +50,11 @@ Image pictureOfRoom(SceneDescription&& description, const RenderOptions& options
 Finding partialPackets(const Setup& setup) {
   Finding finding(0);
   const Scene scene = repaired(room());
+
   for (const ImageSize& size : {ImageSize{1, 1}, {15, 1}, {17, 3}, {1, 257}, {16, 16}}) {
     RenderOptions options = optionsOf(setup, size);
     const Image whole = pictureOf(scene, scene.cameras[0], options);
+
     Numbers numbers(59);
     for (int k = 0; k < 6; ++k) {
       const int x = static_cast<int>(numbers.in(0, size.width));
@@ -67,21 +73,25 @@ Finding poisonedLanes(const Setup& setup) {
   const Scene scene = repaired(room());
   std::vector<ProbeRay> rays = raysOnto({0, 1.5, 0}, 1, 33, 60);
   for (ProbeRay& ray : rays) ray.origin = {0, 2.5f, 0.25f};
+
   Probe whole(scene, setup, rays);
   const std::vector<ProbeChild> expected = whole.reflections();
   constexpr std::uint32_t kPoison = 0x7fc00000u;  // a NaN, and an index far out of range
+
   for (std::size_t n = 1; n <= rays.size(); ++n) {
     Probe probe(scene, setup);
     // Fills the block behind the rays that follow with other rays.
     probe.cast(std::vector<ProbeRay>(48, rays[n - 1]));
     probe.poison(kPoison);
     probe.cast(std::vector<ProbeRay>(rays.begin(), rays.begin() + static_cast<std::ptrdiff_t>(n)));
+
     for (std::size_t i = 0; i < n; ++i) {
       const bool same = probe.hits().triangle[i] == whole.hits().triangle[i] &&
                         probe.hits().t[i] == whole.hits().t[i] && probe.ns(i) == whole.ns(i) &&
                         probe.position(i) == whole.position(i);
       finding.count(!same, [&] { return std::to_string(n) + " rays: " + describeRay(rays[i]); });
     }
+
     const std::vector<ProbeChild> got = probe.reflections();
     for (std::size_t i = 0; i < got.size(); ++i) {
       const bool same = i < expected.size() && got[i].parent == expected[i].parent &&
@@ -106,11 +116,13 @@ Finding schedule(const Setup& setup) {
   Finding finding(0);
   const Scene scene = repaired(room());
   const Image expected = pictureOf(scene, scene.cameras[0], small(setup));
+
   const auto check = [&](const std::string& what, const auto& change) {
     RenderOptions options = small(setup);
     change(options);
     countOtherPixels(finding, pictureOf(scene, scene.cameras[0], options), expected, what);
   };
+
   check("second run", [](const RenderOptions&) {});
   for (const int n : {2, 3, 8}) {
     check(std::to_string(n) + " threads", [n](RenderOptions& options) { options.threads = n; });
@@ -140,11 +152,14 @@ Finding scaling(const Setup& setup) {
     for (Mesh& mesh : d.objects[0].meshes) {
       for (Vec3f& p : mesh.positions) p = scaled(p, k);
     }
+
+    // Light falls off with the square of the distance, so that intensities grow by the square.
     for (Light& light : d.lights) {
       light.position = scaled(light.position, k);
       light.intensity = scaled(light.intensity, 2 * k);
       light.radius = std::ldexp(light.radius, k);
     }
+
     d.cameras[0].eye = scaled(d.cameras[0].eye, k);
     d.cameras[0].at = scaled(d.cameras[0].at, k);
     countOtherPixels(finding, pictureOfRoom(std::move(d), small(setup)), expected,
@@ -153,7 +168,8 @@ Finding scaling(const Setup& setup) {
   return finding;
 }
 
-// There is no glass: the winding decides whether a ray enters a surface or leaves it.
+// The room has no glass here, because the winding decides whether a ray enters a surface or leaves
+// it.
 Finding mirroring(const Setup& setup) {
   Finding finding(0);
   const auto opaque = [] {
@@ -161,6 +177,7 @@ Finding mirroring(const Setup& setup) {
     for (Material& m : d.materials) m.transmission = Rgb(0.0f);
     return d;
   };
+
   SceneDescription d = opaque();
   for (Mesh& mesh : d.objects[0].meshes) {
     for (Vec3f& p : mesh.positions) p.x = -p.x;
@@ -169,12 +186,13 @@ Finding mirroring(const Setup& setup) {
   for (Light& light : d.lights) light.position.x = -light.position.x;
   d.cameras[0].eye.x = -d.cameras[0].eye.x;
   d.cameras[0].at.x = -d.cameras[0].at.x;
+
   countOtherPixels(finding, pictureOfRoom(opaque(), small(setup)),
                    pictureOfRoom(std::move(d), small(setup)), "mirrored", true);
   return finding;
 }
 
-// The relative change of each pixel.
+// Notes the relative change of each pixel.
 Finding relativeChange(const Image& a, const Image& b, double bound) {
   Finding finding(bound);
   for (std::size_t i = 0; i < a.pixels.size(); ++i) {
@@ -196,11 +214,13 @@ Finding lightOrder(const Setup& setup) {
 Finding meshOrder(const Setup& setup) {
   Finding finding(0);
   const Image expected = pictureOfRoom(room(), small(setup));
+
   SceneDescription d = room();
   std::reverse(d.objects[0].meshes.begin(), d.objects[0].meshes.end());
   for (Mesh& mesh : d.objects[0].meshes) {
     std::reverse(mesh.triangles.begin(), mesh.triangles.end());
   }
+
   countOtherPixels(finding, pictureOfRoom(std::move(d), small(setup)), expected, "reversed");
   return finding;
 }

@@ -19,12 +19,14 @@ Finding selfHits(const Scene& scene, const Vec3d& center, double radius, const S
                  std::uint64_t seed) {
   Finding finding(0);
   Probe probe(scene, setup, raysOnto(center, radius, kLeavingRays, seed));
+
   std::vector<ProbeRay> spawned;
   for (const ProbeChild& child : probe.reflections()) {
     if (dot(Vec3d(child.ray.direction), Vec3d(probe.ng(child.parent))) > kLeast) {
       spawned.push_back(child.ray);
     }
   }
+
   const Light light = lightAt(Vec3f(center + Vec3d{3, 2.5, -2} * radius), 1);
   probe.light(light);
   for (std::size_t i = 0; i < probe.size(); ++i) {
@@ -33,6 +35,7 @@ Finding selfHits(const Scene& scene, const Vec3d& center, double radius, const S
     if (dot(l, Vec3d(probe.ng(i))) <= kLeast) continue;
     finding.count(!probe.visible(i), [&] { return "shadow of " + describeRay(probe.ray(i)); });
   }
+
   countHits(finding, Probe(scene, setup, spawned), false);
   return finding;
 }
@@ -67,6 +70,7 @@ Finding pointsFromFarAway(const Setup& setup) {
   Finding finding(1);
   const Mesh patch = quad({0, 0.1f, 0}, {1, 0.2f, 0.1f}, {1.1f, 0.7f, 1}, {0.1f, 0.6f, 0.9f}, 0);
   const Scene scene = sceneOf(patch, diffuseMaterial(1));
+
   Numbers numbers(3);
   std::vector<ProbeRay> rays;
   for (std::size_t i = 0; i < kLeavingRays; ++i) {
@@ -74,6 +78,7 @@ Finding pointsFromFarAway(const Setup& setup) {
     const Vec3d towards = normalized(Vec3d{1, numbers.in(0.02, 1.5), numbers.in(-0.5, 0.5)});
     rays.push_back(rayThrough(Vec3f(target + towards * 1e5), Vec3f(target)));
   }
+
   Probe probe(scene, setup, rays);
   for (std::size_t i = 0; i < probe.size(); ++i) {
     if (!probe.isHit(i)) continue;
@@ -86,31 +91,35 @@ Finding pointsFromFarAway(const Setup& setup) {
   return finding;
 }
 
-// Computed in long double and from the corner nearest to the origin, because the sizes of the
-// corners differ by up to 1e16.
+// Returns the distance of a point from the plane of a triangle. It is computed in long double and
+// from the corner nearest to the origin, because the sizes of the corners differ by up to 1e16.
 double distanceToPlane(const Corners& c, const Vec3d& point) {
   using Vec = Vec3<long double>;
   const Vec n = normalized(cross(Vec(c[1]) - Vec(c[0]), Vec(c[2]) - Vec(c[0])));
+
   const Vec3d* base = &c[0];
   for (const Vec3d& corner : c) {
     if (maxComponent(abs(corner)) < maxComponent(abs(*base))) base = &corner;
   }
+
   return static_cast<double>(std::fabs(dot(Vec(point) - Vec(*base), n)));
 }
 
-// Hits are given, so that triangles of every shape have some. They are so far away that the weights
-// are more precise than the distance.
+// The test sets the hits itself, so that triangles of every shape have some. They are so far away
+// that the weights are more precise than the distance.
 Finding offsetBoundsTheError(const Setup& setup) {
   Finding finding(1);
   Numbers numbers(4);
   Mesh mesh;
   constexpr std::uint32_t kTriangles = 4096;
   constexpr float kFar = 1e12f;
+
   for (std::uint32_t i = 0; i < 3 * kTriangles; ++i) {
     const double size = std::pow(10, numbers.in(-8, 8));
     mesh.positions.emplace_back(numbers.direction() * size);
     if (i % 3 == 2) mesh.triangles.push_back({i - 2, i - 1, i});
   }
+
   const Scene scene = sceneOf(mesh, diffuseMaterial(1));
   Probe probe(scene, setup);
   probe.load(std::vector<ProbeRay>(kTriangles, {{0, 0, 0}, {0, 0, -1}}));
@@ -119,6 +128,7 @@ Finding offsetBoundsTheError(const Setup& setup) {
     probe.hit(i, i, kFar, static_cast<float>(u), static_cast<float>(v));
   }
   probe.interpolate();
+
   for (std::uint32_t i = 0; i < kTriangles; ++i) {
     const Corners c = worldCorners(scene, i, reference::kNoHit);
     const double u = static_cast<double>(probe.hits().u[i]),
@@ -139,6 +149,7 @@ Finding offsetBoundsTheError(const Setup& setup) {
 Finding startOnAPlane(const Setup& setup) {
   Finding finding(0);
   const Scene scene = sceneOf(floorAt(0, 1, 0), shinyMaterial());
+
   Numbers numbers(9);
   std::vector<ProbeRay> rays;
   for (std::size_t i = 0; i < kLeavingRays; ++i) {
@@ -148,6 +159,7 @@ Finding startOnAPlane(const Setup& setup) {
     const Vec3d back{std::cos(turn), i % 7 == 0 ? 1e6 : elevation, std::sin(turn)};
     rays.push_back(rayThrough(Vec3f(target + normalized(back) * 2.0), Vec3f(target)));
   }
+
   Probe probe(scene, setup, rays);
   countHits(finding, Probe(scene, setup, raysOf(probe.reflections())), false);
   return finding;
@@ -157,6 +169,7 @@ Finding startOnAPlane(const Setup& setup) {
 Finding eyeInAPlane(const Setup& setup) {
   Finding finding(0);
   constexpr float kSky = 0.25f;
+
   for (const float height : {0.0f, 0.1f, 1000.1f, -3e6f}) {
     SceneBuilder builder;
     Material glowing = blackMaterial();
@@ -164,11 +177,13 @@ Finding eyeInAPlane(const Setup& setup) {
     builder.add(floorAt(height, 10, builder.add(glowing)));
     builder.sky(kSky);
     const Scene scene = builder.build();
+
     for (const Vec3f& towards : {Vec3f(1, 0, 0.2f), Vec3f(0.1f, 1, 0), Vec3f(0, -1, 0.1f),
                                  Vec3f(0.3f, 0.7f, -1), Vec3f(-1, -0.4f, 0.2f)}) {
       for (const float parallel : {0.0f, 2.0f}) {
         // Parallel rays all start in the plane only if they are perpendicular to it.
         if (parallel > 0 && std::fabs(towards.y) < 1) continue;
+
         Camera camera;
         camera.eye = {0.3f, height, 0.2f};
         const Vec3f along = parallel > 0 ? Vec3f(0, towards.y, 0) : towards;
@@ -176,6 +191,7 @@ Finding eyeInAPlane(const Setup& setup) {
         camera.up = {0, 0.3f, 1};
         camera.fov = 100;
         camera.orthographicHeight = parallel;
+
         RenderOptions options = optionsOf(setup, {32, 24});
         for (const Rgb& pixel : pictureOf(scene, camera, options).pixels) {
           finding.count(pixel.x != kSky, [&] {
@@ -193,6 +209,8 @@ Finding eyeInAPlane(const Setup& setup) {
 // all sides.
 bool meetsUnitBox(const Vec3d& p, const Vec3d& q, double larger) {
   const Vec3d low = Vec3d{-0.5, 0, -0.5} - Vec3d(larger), high = Vec3d{0.5, 1, 0.5} + Vec3d(larger);
+
+  // The line is clipped at the two planes of each axis.
   double enters = 0, leaves = 1;
   for (int axis = 0; axis < 3; ++axis) {
     const double a = (low[axis] - p[axis]) / (q[axis] - p[axis]),
@@ -200,6 +218,7 @@ bool meetsUnitBox(const Vec3d& p, const Vec3d& q, double larger) {
     enters = std::max(enters, std::min(a, b));
     leaves = std::min(leaves, std::max(a, b));
   }
+
   return enters <= leaves;
 }
 
@@ -220,24 +239,30 @@ Finding shadowOnLargeFloors(const Setup& setup) {
     const auto there = [&](const Vec3d& p) { return Vec3f(turn.vector(p)); };
     for (const float half : {10.0f, 1e3f, 1e5f, 1e6f}) {
       if (degrees > 0 && half > kLargestTilted) break;
+
       SceneBuilder builder;
       const auto white = builder.add(diffuseMaterial(0.8f));
       builder.add(turned(floorAt(0, half, white), turn));
       builder.add(turned(box({-0.5f, 0, -0.5f}, {0.5f, 1, 0.5f}, white), turn));
       builder.description.lights = {lightAt(there({2, 3, 1}), 30)};
+
       const Camera upright{.eye = {0.3f, 5, 4}, .at = {-0.3f, 0.3f, 0}, .fov = 30};
       Camera camera = upright;
       camera.eye = there(Vec3d(upright.eye));
       camera.at = there(Vec3d(upright.at));
       camera.up = there(Vec3d(upright.up));
+
       const RenderOptions options = optionsOf(setup, {64, 48});
       const Image image = pictureOf(builder.build(), camera, options);
       const CameraFrame frame = makeCameraFrame(upright, image.width, image.height);
+
       for (int y = 0; y < image.height; ++y) {
         for (int x = 0; x < image.width; ++x) {
+          // The pixel shows this point of the floor unless the box hides it.
           const Vec3d way = frame.forward + asideOf(frame, x, y);
           const Vec3d at = frame.eye - way * (frame.eye.y / way.y);
           if (meetsUnitBox(frame.eye, at, kUnsure)) continue;
+
           const bool hidden = meetsUnitBox(at, {2, 3, 1}, -kUnsure);
           if (!hidden && meetsUnitBox(at, {2, 3, 1}, kUnsure)) continue;
           finding.count((image.at(x, y).x > 0) == hidden, [&] {
@@ -258,13 +283,16 @@ Finding shadeNextToItsLamp(const Setup& setup) {
     SceneBuilder builder;
     const auto white = builder.add(diffuseMaterial(0.8f));
     const float shade = 4 - 16 * far * 0x1p-23f;
+
     builder.add(quad({far - 2, 0, 2}, {far + 2, 0, 2}, {far + 2, 0, -2}, {far - 2, 0, -2}, white));
     builder.add(quad({far - 0.5f, shade, -0.5f}, {far - 0.5f, shade, 0.5f},
                      {far + 0.5f, shade, 0.5f}, {far + 0.5f, shade, -0.5f}, white));
     builder.description.lights = {lightAt({far, 4, 0}, 30)};
+
     Camera camera = lookingDown();
     camera.eye.x = camera.at.x = far;
     RenderOptions options = optionsOf(setup, {32, 24});
+
     for (const Rgb& pixel : pictureOf(builder.build(), camera, options).pixels) {
       finding.count(pixel.x != 0, [&] { return "lamp at " + hexText(double{far}); });
     }
@@ -278,12 +306,15 @@ Finding sideOfTheOffset(const Setup& setup) {
   SceneBuilder builder;
   addSlab(builder, 0, -0.25f, builder.add(glassMaterial(1.5f)), 40);
   const Scene scene = builder.build();
+
   std::vector<ProbeRay> rays;
   Numbers numbers(10);
   for (std::size_t i = 0; i < kLeavingRays; ++i) {
     const double angle = numbers.in(0, 1.5);
     rays.push_back({{0, 1, 0}, Vec3f(Vec3d{std::sin(angle), -std::cos(angle), 0})});
   }
+
+  // The rays hit the upper face (triangles 0 and 1), then the lower one (2 and 3), then nothing.
   Probe probe(scene, setup);
   for (const int expected : {0, 2, -1}) {
     probe.cast(rays);
@@ -292,6 +323,7 @@ Finding sideOfTheOffset(const Setup& setup) {
       finding.count(got != expected, described(probe.ray(i)));
     }
     if (expected < 0) break;
+
     const Vec3f up{0, 1, 0};
     for (const ProbeChild& child : probe.reflections()) {
       const bool above =
@@ -300,6 +332,7 @@ Finding sideOfTheOffset(const Setup& setup) {
           dot(child.ray.direction, up) < 0 && child.ray.origin.y < probe.position(child.parent).y;
       finding.count(!above && !below, described(child.ray));
     }
+
     rays = raysOf(probe.refractions());
   }
   return finding;
@@ -313,6 +346,7 @@ Finding instanced(const Setup& setup) {
        {Affine::scaling({1e3, 1e3, 1e3}), 1e3},
        {turn * Affine::scaling({1, 3, 0.3}), 1},
        {Affine::translation({30, -20, 10}) * turn * Affine::scaling({-2, 1, 1}), 1}}};
+
   for (const auto& [map, size] : maps) {
     SceneBuilder builder;
     const auto material = builder.add(shinyMaterial());
@@ -324,11 +358,12 @@ Finding instanced(const Setup& setup) {
   return finding;
 }
 
-// Two orthogonal edges of half a unit at random corners between -2 and 2.
+// Triangles with two orthogonal edges of half a unit, at random corners between -2 and 2.
 Mesh looseTriangles(std::size_t count, std::uint32_t material) {
   Numbers numbers(3);
   Mesh mesh;
   mesh.materials = {material};
+
   for (std::uint32_t i = 0; i < count; ++i) {
     const Vec3d corner{numbers.in(-2, 2), numbers.in(-2, 2), numbers.in(-2, 2)};
     const Vec3d n = numbers.direction(), e1 = normalized(cross(n, numbers.direction()));
@@ -356,14 +391,17 @@ double hitError(const ProbeRay& ray, const Corners& corners, const double (&hit)
   const auto crossOf = [](const Vector& a, const Vector& b) {
     return Vector{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
   };
+
   const Vector way = minus(Vec3d(ray.direction), {}), from = minus(Vec3d(ray.origin), corners[0]);
   const Vector e1 = minus(corners[1], corners[0]), e2 = minus(corners[2], corners[0]);
   const Vector normal = crossOf(e1, e2);
   const long double slope = dotOf(normal, way), area = std::sqrt(dotOf(normal, normal));
   if (std::fabs(slope) < area / 2) return 0;
+
   const long double t = -dotOf(normal, from) / slope;
   const long double u = dotOf(crossOf(e2, way), from) / slope;
   const long double v = dotOf(crossOf(way, e1), from) / slope;
+
   const long double side = std::sqrt(area);
   const long double off =
       std::max({std::fabs(hit[0] - t), std::fabs(hit[1] - u) * side, std::fabs(hit[2] - v) * side});
@@ -382,6 +420,7 @@ Finding hitsAreExact(const Setup& setup) {
   builder.place(object, {Affine{{0, 0, 2}, {0, 2, 0}, {-2, 0, 0}, {16, 0, 0}},
                          Affine{{0, 1, 0}, {1, 0, 0}, {0, 0, 1}, {-16, 3, 0}}});
   const Scene scene = builder.build();
+
   Numbers numbers(54);
   std::vector<ProbeRay> rays;
   for (std::size_t i = 0; i < 6000; ++i) {
@@ -390,6 +429,7 @@ Finding hitsAreExact(const Setup& setup) {
     const Vec3f from(middle + numbers.direction() * 9.0);
     rays.push_back(rayThrough(from, Vec3f(middle + target)));
   }
+
   Probe probe(scene, setup, rays);
   const HitColumns& hits = probe.hits();
   for (std::size_t i = 0; i < probe.size(); ++i) {

@@ -18,10 +18,12 @@ Finding lightsAtNoDistance(const Setup& setup) {
     m.specular = Rgb(0.5f);
     builder.add(m);
     builder.add(floorAt(0, 1, 0));
+
     Light light = lightAt({0, height, 0}, 1);
     light.radius = 1e-3f;
     builder.description.lights = {light};
     const Scene scene = builder.build();
+
     // The center of the middle pixel shows the point below the light.
     const RenderOptions options = optionsOf(setup, {33, 33});
     // I / radius^2 (kd / pi + the lobe's peak at normal incidence, 0.5 / (4 pi alpha^2) with
@@ -44,6 +46,7 @@ Finding lightInABox(const Setup& setup) {
   builder.description.lights = {lightAt({0.3f, 1.2f, -0.2f}, 100),
                                 lightAt({0.999f, 0.001f, 0}, 100)};
   const Scene scene = builder.build();
+
   const Camera camera{.eye = {3, 4, 5}, .at = {0, 1, 0}};
   for (const Rgb& pixel : pictureOf(scene, camera, optionsOf(setup, {48, 36})).pixels) {
     finding.count(!(pixel == Rgb(0.0f)), [&] { return hexText(pixel); });
@@ -51,22 +54,25 @@ Finding lightInABox(const Setup& setup) {
   return finding;
 }
 
-// Texture lookups through the kernel: four texels in a row, black, white, black, white.
 // Coordinates that are too large for fractions of a texel, or not numbers, count as 0.
 float tame(float s) { return std::fabs(s) <= 0x1p20f ? s : 0.0f; }
 
-// The coordinates in both halves of `uvs` must have the same colors.
+// Looks up coordinates through the kernel in a row of texels that are black and white in turn. The
+// coordinates in both halves of `uvs` must have the same colors.
 Finding textureAt(const std::vector<Vec2f>& uvs, Wrap wrap, int width, const Setup& setup) {
   Finding finding(0);
   SceneBuilder builder;
+
   std::vector<std::uint32_t> texels;
   texels.reserve(static_cast<std::size_t>(width));
   for (int i = 0; i < width; ++i) texels.push_back(i % 2 ? 0x3fffffffu : 0u);
+
   Texture texture = makeTexture(TexelFormat::color, width, 1, texels);
   texture.wrapU = texture.wrapV = wrap;
   Material m = diffuseMaterial(1);
   m.diffuseMap = builder.add(texture);
   builder.add(m);
+
   Mesh mesh;
   mesh.materials = {0};
   for (std::uint32_t i = 0; i < uvs.size(); ++i) {
@@ -76,9 +82,11 @@ Finding textureAt(const std::vector<Vec2f>& uvs, Wrap wrap, int width, const Set
     mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
   builder.add(mesh);
+
   const Scene scene = repaired(builder.describe());
   Probe probe(scene, setup);
   probe.hitEach(static_cast<std::uint32_t>(uvs.size()));
+
   for (std::size_t i = 0; i < uvs.size(); ++i) {
     const float got = probe.surfels().diffuseR[i];
     const std::size_t half = uvs.size() / 2;
@@ -99,8 +107,11 @@ Finding oddTextureCoordinates(const Setup& setup) {
     uvs.push_back({0.3f, x});
     uvs.push_back({x, x});
   }
+
+  // The second half holds the tame coordinates, whose colors the first half must have.
   const std::size_t count = uvs.size();
   for (std::size_t i = 0; i < count; ++i) uvs.push_back({tame(uvs[i].x), tame(uvs[i].y)});
+
   for (const Wrap wrap : {Wrap::repeat, Wrap::mirror, Wrap::clamp}) {
     for (const int width : {1, 2, 3, 5, 64}) {
       finding.merge(textureAt(uvs, wrap, width, setup));
@@ -119,8 +130,10 @@ Finding srgbCodes(const Setup&) {
     const double x = i % 2 ? numbers.in(0, 1) : std::pow(10, numbers.in(-6, 0));
     radiance->r[i] = radiance->g[i] = radiance->b[i] = static_cast<float>(x);
   }
+
   std::vector<std::uint32_t> codes(kValues + 16);
   simd::encodeDisplay({.radiance = *radiance, .n = kValues, .codes = codes.data()});
+
   for (std::size_t i = 0; i < kValues; ++i) {
     const double x = static_cast<double>(radiance->r[i]);
     const double exact = 255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055);
@@ -138,11 +151,13 @@ Finding cameraDirections(const Setup&) {
   for (int y = 0; y < 32; ++y) {
     for (int x = 0; x < 32; ++x) pixels.push_back(packedPixel(x * 31, y * 17));
   }
+
   for (const float fov : {1e-3f, 1.0f, 45.0f, 120.0f, 179.9f}) {
     for (const Vec3f& eye : {Vec3f{0, 0, 5}, {1e6f, -2e6f, 5e5f}}) {
       const Camera camera{.eye = eye, .at = eye + Vec3f{1, 0.25f, -1}, .fov = fov};
       const CameraFrame frame = makeCameraFrame(camera, 1024, 576);
       const ColumnStore<RayColumns> columns = raysThrough(pixels, frame);
+
       for (std::size_t i = 0; i < pixels.size(); ++i) {
         const double x = pixelX(pixels[i]) + 0.5, y = pixelY(pixels[i]) + 0.5;
         const Vec3d exact = reference::generateRay(frame, x, y).direction;
@@ -163,6 +178,7 @@ Finding equalSamples(const Setup& setup) {
   builder.description.sky.zenith = {0.1f, 1.0f / 3, 7e-5f};
   builder.add(floorAt(-100, 1, builder.add(diffuseMaterial(1))));
   const Scene scene = builder.build();
+
   const Camera up{.eye = {0, 0, 0}, .at = {0, 1, 0}};
   for (const int spp : {1, 2, 3, 5, 16, 1000}) {
     RenderOptions options = optionsOf(setup, {3, 2});

@@ -47,12 +47,13 @@ struct Row {
 };
 
 // Runs the cases with these names, or all cases if there are no names, in every setup of this
-// machine that each case asks for.
+// machine that each case runs with.
 std::vector<Row> runCatalogue(const std::vector<std::string>& only, Progress* progress) {
   std::vector<Row> rows;
   const std::vector<Family> catalogue = families();
   std::size_t count = 0, done = 0;
   for (const Family& family : catalogue) count += family.cases.size();
+
   for (const Family& family : catalogue) {
     for (const Case& c : family.cases) {
       reportProgress(progress, std::string(c.name),
@@ -66,11 +67,12 @@ std::vector<Row> runCatalogue(const std::vector<std::string>& only, Progress* pr
   return rows;
 }
 
-// For each case the run that came closest to its bound, in the order of the catalogue.
+// Returns for each case the run that came closest to its bound, in the order of the catalogue.
 std::vector<Row> worstRows(const std::vector<Row>& rows) {
   const auto isWorse = [](const Finding& a, const Finding& b) {
     return a.holds() != b.holds() ? !a.holds() : a.worst() > b.worst();
   };
+
   std::vector<Row> worst;
   for (const Row& row : rows) {
     if (worst.empty() || worst.back().hardCase != row.hardCase) {
@@ -90,6 +92,7 @@ std::string summaryOf(const std::vector<Row>& rows) {
   for (const Row& row : worstRows(rows)) {
     ++(!row.finding.holds() ? broken : row.isReportedOnly() ? reported : held);
   }
+
   std::string text = formatted("%zu cases in %zu runs: %zu hold, %zu broken",
                                held + broken + reported, rows.size(), held, broken);
   if (reported > 0) text += formatted(", %zu reported without a bound", reported);
@@ -145,6 +148,7 @@ Json reportOf(const Machine& machine, const std::vector<Row>& rows,
   Json report = jsonOf(machine, worstRows(rows));
   report["report"] = "verify";
   report["summary"] = summaryOf(rows);
+
   report["pictures"] = Json::array();
   for (const HardScene& scene : scenes) {
     const auto png = encodePng(toDisplay(scene.picture, 0, ToneCurve::none));
@@ -166,6 +170,7 @@ std::vector<std::filesystem::path> hardScenes() {
     }
     if (!scenes.empty()) break;
   }
+
   std::sort(scenes.begin(), scenes.end());
   return scenes;
 }
@@ -175,15 +180,18 @@ std::vector<std::filesystem::path> hardScenes() {
 std::vector<HardScene> renderHardScenes(Progress* progress) {
   const std::vector<std::filesystem::path> files = hardScenes();
   if (files.empty()) throwIo("no scenes of hard cases found; is $WHIT_SCENES set?");
+
   RenderOptions options;
   options.size = ImageSize{kWidth, kHeight};
   options.depth = 16;
   options.spp = 1;
+
   std::vector<HardScene> scenes;
   for (const std::filesystem::path& file : files) {
     const std::string name = file.stem().string();
     reportProgress(progress, name,
                    static_cast<double>(scenes.size()) / static_cast<double>(files.size()));
+
     Warnings warnings;
     const Scene scene =
         Scene::finalize(loadScene(file.string(), LoadOptions{}, warnings), warnings);
@@ -197,6 +205,7 @@ void writeSheet(const std::string& path, const std::vector<HardScene>& scenes) {
   const int count = static_cast<int>(scenes.size());
   const int columns = std::min(count, kColumns), rows = (count + kColumns - 1) / kColumns;
   Image sheet(columns * (kWidth + kSheetGap) + kSheetGap, rows * (kHeight + kSheetGap) + kSheetGap);
+
   for (int i = 0; i < count; ++i) {
     const Image& picture = scenes[static_cast<std::size_t>(i)].picture;
     const int left = kSheetGap + i % kColumns * (kWidth + kSheetGap);
@@ -205,6 +214,7 @@ void writeSheet(const std::string& path, const std::vector<HardScene>& scenes) {
       for (int x = 0; x < kWidth; ++x) sheet.at(left + x, top + y) = picture.at(x, y);
     }
   }
+
   const cli::WriteScope scope;
   writePng(path, toDisplay(sheet, 0, ToneCurve::none), {});
 }
@@ -215,6 +225,7 @@ std::vector<std::string> caseNames(const std::vector<std::string>& lists) {
   for (const Family& family : families()) {
     for (const Case& c : family.cases) known.emplace_back(c.name);
   }
+
   for (const std::string& list : lists) {
     std::istringstream words(list);
     for (std::string name; std::getline(words, name, ',');) {
@@ -227,8 +238,8 @@ std::vector<std::string> caseNames(const std::vector<std::string>& lists) {
   return names;
 }
 
-// The published pictures of this size, of these scenes or of all. Throws Error(usage) if there are
-// none.
+// Returns the published pictures of this size, of these scenes or of all. Throws Error(usage) if
+// there are none.
 std::vector<PublishedHash> picturesToHash(const std::string& size,
                                           const std::vector<std::string>& scenes) {
   std::vector<PublishedHash> pictures;
@@ -240,6 +251,7 @@ std::vector<PublishedHash> picturesToHash(const std::string& size,
     const bool isAsked = std::find(scenes.begin(), scenes.end(), known.back()) != scenes.end();
     if (scenes.empty() || isAsked) pictures.push_back(picture);
   }
+
   refuseIf(known.empty(), "--hashes takes " + sizes[0] + " or " + sizes[1] + ", not " + size);
   for (const std::string& scene : scenes) {
     const bool isKnown = std::find(known.begin(), known.end(), scene) != known.end();
@@ -265,13 +277,16 @@ bool comparesHashes(const std::vector<PublishedHash>& pictures, const std::strin
                                     : "DIFFERS from " + published;
       if (hash != published) different.push_back(name);
     } catch (const Error& error) {
+      // A scene whose files are missing is left out; every other error ends the run.
       if (error.status() != ExitStatus::io) throw;
       leftOut.push_back(name + " (" + error.what() + ")");
     }
+
     std::printf("%-20s %-7s %-32s %s\n", name.c_str(), picture.size.data(), hash.c_str(),
                 verdict.c_str());
     std::fflush(stdout);
   }
+
   for (const std::string& name : leftOut) std::fprintf(stderr, "left out: %s\n", name.c_str());
   for (const std::string& name : different) {
     std::fprintf(stderr, "not as published: %s\n", name.c_str());
@@ -290,9 +305,11 @@ int run(const std::vector<std::string>& words) {
     std::printf("whit-verify %s\n", WHIT_VERSION);
     return 0;
   }
+
   cli::CommonOptions common;
   std::vector<std::string> only, hashed;
   std::string json, html, sheet, hashes, simd = "auto";
+
   cli::OptionList list;
   list.group("Running");
   list.many({"only", "H1,H2a"}, "run only these cases; may be given more than once", only);
@@ -308,22 +325,26 @@ int run(const std::vector<std::string>& words) {
   list.value({"simd", "TARGET"}, "SIMD target of --hashes (default: auto)", simd);
   cli::listReportOptions(list, common);
   list.operands("[SCENE...]", "scenes of --hashes; without any, all of them", 0, 100, hashed);
+
   const bool runs = cli::parseOptions(
       "whit-verify [options] [SCENE...]",
       "Runs the catalogue of hard cases with every SIMD target and packet width of this machine.\n"
       "The exit status is 1 when a case breaks its bound, or when a hash is not the published one.",
       list, words);
   if (!runs) return 0;
+
   refuseIf(hashes.empty() && !hashed.empty(), "scenes are for --hashes SIZE");
   if (!hashes.empty()) {
     const bool same = comparesHashes(picturesToHash(hashes, hashed), simd);
     return static_cast<int>(same ? ExitStatus::done : ExitStatus::checkFailed);
   }
+
   requireJsonWritable(json);
   if (!html.empty()) requireWritable(html, {".html"});
   if (!sheet.empty()) requireWritable(sheet, {".png"});
   const std::vector<std::string> names = caseNames(only);
   auto progress = cli::makeProgressBar(common);
+
   if (!sheet.empty()) {
     const std::vector<HardScene> scenes = renderHardScenes(progress.get());
     progress.reset();
@@ -331,18 +352,23 @@ int run(const std::vector<std::string>& words) {
     for (const HardScene& scene : scenes) std::printf("%s\n", scene.name.c_str());
     return 0;
   }
+
   const std::vector<Row> rows = runCatalogue(names, progress.get());
   std::vector<HardScene> scenes;
   if (!html.empty()) scenes = renderHardScenes(progress.get());
   progress.reset();
+
+  // The table goes to standard error if the JSON takes standard output.
   FILE* const people = json == "-" ? stderr : stdout;
   if (people == stdout || !common.quiet) std::fprintf(people, "%s", tableOf(rows).c_str());
+
   const Machine machine = thisMachine();
   if (!json.empty()) writeJson(json, jsonOf(machine, rows));
   if (!html.empty()) {
     const cli::WriteScope scope;
     writeTextFile(html, reportPage(reportOf(machine, rows, scenes)));
   }
+
   const bool allHold =
       std::all_of(rows.begin(), rows.end(), [](const Row& row) { return row.finding.holds(); });
   return static_cast<int>(allHold ? ExitStatus::done : ExitStatus::checkFailed);

@@ -32,12 +32,14 @@ Finding glassOnWater(const Setup& setup) {
     addSlab(builder, 1, 0, glass, 50);
     addSlab(builder, -gap, -1, water, 50);
     const Scene scene = builder.build();
+
     std::vector<ProbeRay> rays;
     for (int i = 0; i < 200; ++i) {
       const double angle = 1.2 * i / 200;
       rays.push_back({{0, 2, 0}, Vec3f(Vec3d{std::sin(angle), -std::cos(angle), 0.1})});
       rays.back().direction = Vec3f(normalized(Vec3d(rays.back().direction)));
     }
+
     const std::vector<ProbeRay> start = rays;
     std::size_t left = 0;
     follow(scene, setup, rays, [&](const ProbeRay& ray) {
@@ -60,11 +62,13 @@ Finding coincidentFaces(const Setup& setup) {
   SceneBuilder builder;
   addSlab(builder, 1, 0, builder.add(glassMaterial(1.5f)), 50);
   addSlab(builder, 0, -1, builder.add(glassMaterial(1.33f)), 50);
+
   std::vector<ProbeRay> rays;
   for (int i = 0; i < 200; ++i) {
     const double angle = 1.2 * i / 200;
     rays.push_back({{0, 2, 0}, Vec3f(Vec3d{std::sin(angle), -std::cos(angle), 0})});
   }
+
   follow(builder.build(), setup, rays,
          [&](const ProbeRay& ray) { finding.count(ray.media != 0, described(ray)); });
   return finding;
@@ -79,6 +83,7 @@ Finding overlapIsOneInterface(const Setup& setup) {
   const Scene scene = builder.build();
   Probe probe(scene, setup);
   std::vector<ProbeRay> rays{{{0, 2, 0}, {0, -1, 0}}};
+
   for (int face = 0; face < 3; ++face) {
     probe.cast(rays);
     const std::vector<ProbeChild> refracted = probe.refractions(), reflected = probe.reflections();
@@ -103,9 +108,11 @@ Finding stackCountsSpheres(const Setup& setup) {
     const auto m = builder.add(glassMaterial(1, i));
     builder.add(sphereMesh(4, center[static_cast<std::size_t>(i)], 1 - 0.2 * i, m));
   }
+
   const Scene scene = builder.build();
   Probe probe(scene, setup);
   std::vector<ProbeRay> rays = raysOnto({}, 1, 2000, 46);
+
   for (int crossing = 0; crossing < 12 && !rays.empty(); ++crossing) {
     probe.cast(rays);
     for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -113,6 +120,8 @@ Finding stackCountsSpheres(const Setup& setup) {
         finding.count(rays[i].media != 0, described(rays[i]));
         continue;
       }
+
+      // The stack is compared with the spheres around the middle of the way to this hit.
       const Vec3d middle = (Vec3d(rays[i].origin) + Vec3d(probe.position(i))) * 0.5;
       int inside = 0;
       double clear = 1;
@@ -140,6 +149,7 @@ Finding eyeInGlass(const Setup& setup) {
   builder.sky(1);
   const Scene scene = builder.build();
   const Camera camera{.eye = {0, 0, 0}, .at = {0.3f, 0.2f, -1}};
+
   for (const int depth : {1, 4}) {
     RenderOptions options = optionsOf(setup, {33, 21});
     options.depth = depth;
@@ -174,12 +184,14 @@ void comparePicture(const Scene& scene, const Camera& camera, const Setup& setup
   const CameraFrame frame = makeCameraFrame(camera, options.size->width, options.size->height);
   const std::array<Image, 2> images = picturesOf(scene, camera, options);
   const Rgb absorption = tintedMaterial().absorption;
+
   for (int y = 0; y < frame.height; ++y) {
     for (int x = 0; x < frame.width; ++x) {
       const Vec3d aside = asideOf(frame, x, y);
       const bool parallel = frame.orthographic;
       const double t = way(parallel ? frame.eye + aside : frame.eye,
                            parallel ? frame.forward : normalized(frame.forward + aside));
+
       for (int i = 0; i < 6; ++i) {
         const int c = i / 2;
         const float got = images[static_cast<std::size_t>(i % 2)].at(x, y)[c];
@@ -203,10 +215,12 @@ Finding waterBeforeTheEye(const Setup& setup) {
     builder.add(box(Vec3f(-kWall), Vec3f(kWall), builder.add(emittingMaterial(1))));
     builder.add(box(Vec3f(-water), Vec3f(water), builder.add(tintedMaterial())));
     builder.add(box({-2, 2.2f, -2}, {2, 2.8f, 2}, builder.add(glassMaterial(1, 1))));
+
     Camera camera;
     camera.eye = {0, 0, 0};
     camera.at = {0.3f, 0.2f, -1};
     const double half = static_cast<double>(std::min(water, kWall));
+
     comparePicture(
         builder.build(), camera, setup,
         [&](const Vec3d&, const Vec3d& d) { return half / maxComponent(abs(d)); }, finding);
@@ -220,17 +234,19 @@ Finding parallelRaysInWater(const Setup& setup) {
   SceneBuilder builder;
   builder.add(box(Vec3f(-2), Vec3f(2), builder.add(emittingMaterial(1))));
   builder.add(box({-4, -8, -4}, {4, 0, 4}, builder.add(tintedMaterial())));
+
   Camera camera;
   camera.eye = {0, 0, 1};
   camera.at = {0, 0, -1};
   camera.orthographicHeight = 2;
+
   comparePicture(
       builder.build(), camera, setup,
       [](const Vec3d& start, const Vec3d&) { return start.y < 0 ? 3 : 0; }, finding);
   return finding;
 }
 
-// An eye in the surface of the water: rays that go down start in it, those that go up do not.
+// An eye in the surface of the water: rays that go down start in water, rays that go up do not.
 Finding eyeOnTheWater(const Setup& setup) {
   Finding finding(kBeerBound);
   for (const float level : {0.0f, 0.1f, 40.3f}) {
@@ -238,11 +254,16 @@ Finding eyeOnTheWater(const Setup& setup) {
     builder.add(box({-2, level - 2, -2}, {2, level + 2, 2}, builder.add(emittingMaterial(1))));
     builder.add(box({-4, level - 8, -4}, {4, level, 4}, builder.add(tintedMaterial())));
     const Scene scene = builder.build();
+
     Camera camera;
     camera.eye = {0.1f, level, 0.2f};
     camera.at = {0.1f, level, -1};
+
+    // The corners of the room are rounded, so that the floor and the ceiling are not exactly 2
+    // away.
     const double up = static_cast<double>(level + 2) - static_cast<double>(level),
                  down = static_cast<double>(level) - static_cast<double>(level - 2);
+
     comparePicture(
         scene, camera, setup,
         [&](const Vec3d& start, const Vec3d& d) {
@@ -268,17 +289,19 @@ Finding sheetsInWater(const Setup& setup) {
   }
   builder.add(floorAt(-1, 8, builder.add(emittingMaterial(1))));
   builder.add(box(Vec3f(-9), Vec3f(9), builder.add(tintedMaterial())));
+
   Camera camera;
   camera.eye = {0, 0, 0};
   camera.at = {0, -1, 0};
   camera.up = {0, 0, -1};
+
   comparePicture(
       builder.build(), camera, setup, [](const Vec3d&, const Vec3d& d) { return -1 / d.y; },
       finding);
   return finding;
 }
 
-// A ball of glass in a white room, rim and all.
+// A ball of glass in a white room is white up to its silhouette.
 Finding whiteRim(const Setup& setup) {
   // The normals are smooth; between flat facets total reflection really keeps rays inside.
   Finding finding(1e-4);
@@ -287,10 +310,12 @@ Finding whiteRim(const Setup& setup) {
   builder.sky(1);
   const Scene scene = builder.build();
   const Camera camera{.eye = {0, 0, 5}, .fov = 26};
+
   RenderOptions options = optionsOf(setup, {32, 32});
   options.depth = 16;
   options.cutoff = 1e-5f;
   const Image image = pictureOf(scene, camera, options);
+
   double mean = 0;
   for (const Rgb& pixel : image.pixels) {
     mean += static_cast<double>(pixel.x) / static_cast<double>(image.pixels.size());
@@ -309,6 +334,7 @@ Finding openGlass(const Setup& setup) {
   builder.sky(1);
   const Scene scene = builder.build();
   const Camera camera{.eye = {0, 3, 0}, .up = {0, 0, -1}};
+
   RenderOptions options = optionsOf(setup, {17, 11});
   options.depth = 12;
   options.cutoff = 0;
@@ -331,10 +357,12 @@ Finding sheetsInPart(const Setup& setup) {
   for (int i = 0; i < kSheets; ++i) builder.add(floorAt(-static_cast<float>(i), 50, material));
   builder.sky(5);
   const Scene scene = builder.build();
+
   RenderOptions options = optionsOf(setup, {17, 11});
   options.depth = kSheets + 1;
   options.cutoff = 0;
   const double through = std::pow(0.75, kSheets), wanted = 1 - through + 5 * through;
+
   for (const float height : {3.0f, -8.0f}) {
     const Camera camera{.eye = {0, height, 0}, .at = {0, -2.5f, 0}, .up = {0, 0, -1}};
     for (const Rgb& pixel : pictureOf(scene, camera, options).pixels) {
@@ -354,16 +382,19 @@ Finding absorption(const Setup& setup) {
   m.absorption = {0, 1, 1e-8f};
   const Scene scene = sceneOf(floorAt(0, 1, 0), m);
   Probe probe(scene, setup);
+
   std::vector<float> distances{0, 1e-8f, 1, 50, 87, 88, 104, 1e4f, 1e30f};
   distances.push_back(std::numeric_limits<float>::infinity());
   const std::uint32_t medium = probe.tables().materials[0].medium;
   probe.load(std::vector<ProbeRay>(distances.size(), {{0, 1, 0}, {0, -1, 0}, medium}));
+
   for (std::size_t i = 0; i < distances.size(); ++i) {
     // The distance of a ray that leaves the scene is infinity.
     const bool leaves = std::isinf(distances[i]);
     probe.hit(i, leaves ? kMiss : 0, distances[i], 0.25f, 0.25f);
   }
   probe.interpolate();
+
   for (std::size_t i = 0; i < distances.size(); ++i) {
     const double t = static_cast<double>(distances[i]);
     const std::array<double, 3> sigma{0, 1, static_cast<double>(1e-8f)};

@@ -19,6 +19,7 @@ Finding alikeAlong(const std::vector<Vec3f>& directions, const Setup& setup) {
         rays.push_back({Vec3f(Vec3d(x * 0.5, 16, y * 0.5)), direction});
       }
     }
+
     Probe probe(scene, setup, rays);
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const std::uint32_t triangle = probe.hits().triangle[i];
@@ -43,16 +44,19 @@ Finding coplanarRays(const Setup& setup) {
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   mesh.triangles = {{0, 1, 2}};
   const Scene scene = sceneOf(mesh, diffuseMaterial(1));
+
   std::vector<ProbeRay> rays{{{-1, 0.25f, 0}, {1, 0, 0}},
                              {{0.25f, 0.25f, 0}, {1, 0, 0}},
                              {{0.25f, 0.25f, 0}, {0, -1, 0}},
                              {{-1, 0, 0}, {1, 0, 0}}};
+
   Numbers numbers(21);
   for (int i = 0; i < 500; ++i) {
     const double turn = numbers.in(0, 6.28);
     rays.push_back({Vec3f(Vec3d{numbers.in(-1, 1), numbers.in(-1, 1), 0}),
                     Vec3f(Vec3d{std::cos(turn), std::sin(turn), 0})});
   }
+
   countHits(finding, Probe(scene, setup, rays), false);
   return finding;
 }
@@ -65,6 +69,7 @@ Finding nearlyCoplanar(const Setup& setup) {
   std::vector<ProbeRay> rays;
   Mesh mesh;
   constexpr std::uint32_t kNeedles = 300;
+
   for (std::uint32_t i = 0; i < kNeedles; ++i) {
     const Vec3d n = numbers.direction(), along = normalized(cross(n, numbers.direction()));
     const Vec3d across = cross(n, along), at = numbers.direction() * 600.0;
@@ -72,6 +77,7 @@ Finding nearlyCoplanar(const Setup& setup) {
     mesh.positions.emplace_back(at + along * 11.2);
     mesh.positions.emplace_back(at + along * 9.7 + across * 0.9);
     mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+
     for (int k = 0; k < 8; ++k) {
       const double angle = std::pow(10, -numbers.in(2, 7));
       const Vec3d target = at + along * numbers.in(4, 10) + across * numbers.in(0, 0.3);
@@ -79,6 +85,7 @@ Finding nearlyCoplanar(const Setup& setup) {
       rays.push_back(rayThrough(Vec3f(target - direction * 600.0), Vec3f(target)));
     }
   }
+
   const Scene scene = sceneOf(mesh, diffuseMaterial(1));
   Probe probe(scene, setup, rays);
   for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -86,6 +93,7 @@ Finding nearlyCoplanar(const Setup& setup) {
       finding.note(0, described(rays[i]));
       continue;
     }
+
     const Corners c = worldCorners(scene, probe.hits().triangle[i], reference::kNoHit);
     const Vec3d point =
         Vec3d(rays[i].origin) + Vec3d(rays[i].direction) * static_cast<double>(probe.hits().t[i]);
@@ -103,6 +111,7 @@ Finding coplanarOverlap(const Setup& setup) {
   builder.add(floorAt(0, 1, builder.add(diffuseMaterial(1))));
   builder.add(floorAt(0, 1, builder.add(diffuseMaterial(0.5f))));
   const Scene scene = builder.build();
+
   const std::vector<ProbeRay> rays = raysOnto({}, 0.9, 2000, 30);
   Probe expected(scene, {setup.simd, 1}, rays);
   Probe probe(scene, setup, rays);

@@ -56,6 +56,7 @@ Probe::Probe(const Scene& scene, const Setup& setup, const std::vector<ProbeRay>
 void Probe::reserve(std::size_t count) {
   count_ = count;
   if (rays_.capacity() >= count && rays_.capacity() > 0) return;
+
   const FeatureSet features = constants_.features;
   rays_.allocate(count, features);
   children_.allocate(count, features);
@@ -74,6 +75,7 @@ void Probe::load(const std::vector<ProbeRay>& rays) {
   chunk_.unshadowed = *unshadowed_;
   chunk_.shadows = *shadows_;
   chunk_.children = *children_;
+
   const RayColumns& c = *rays_;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const auto& [o, d, media] = rays[i];
@@ -97,6 +99,7 @@ void Probe::hit(std::size_t i, std::uint32_t triangle, float t, float u, float v
 void Probe::run(const simd::Kernel& kernel) { kernel.find()(chunk_); }
 
 void Probe::interpolate() {
+  // Kernels read whole blocks, so that the last block is filled up with misses.
   std::fill(hits_->triangle + count_, hits_->triangle + roundUpToBlock(count_), kMiss);
   run(simd::kInterpolateSurfels);
   if (chunk_.has(Feature::coverage)) run(simd::kLookUpCoverage);
@@ -123,10 +126,13 @@ void Probe::cast(const std::vector<ProbeRay>& rays) {
   chunk_.coherent = false;
   chunk_.segments[0] = {RayKind::primary, 0, count_};
   chunk_.segmentCount = 1;
-  chunk_.depth = 1;  // not from an eye, which sees nothing of the surfaces that it lies in
+
+  // At depth 0 the eye would not see the surfaces in whose plane it lies.
+  chunk_.depth = 1;
   findHits(chunk_);
   if (chunk_.has(Feature::coplanar)) settleCoplanar(chunk_);
   settleSpheres(chunk_);
+
   chunk_.depth = 0;
   interpolate();
 }
@@ -138,15 +144,18 @@ void Probe::surfel(std::size_t i, std::uint32_t material, const Vec3f& ng, const
   s.nsX[i] = ns.x, s.nsY[i] = ns.y, s.nsZ[i] = ns.z;
   s.offset[i] = 0x1p-19f;
   s.retreat[i] = 0x1p-20f;
+
   s.diffuseR[i] = s.diffuseG[i] = s.diffuseB[i] = 1;
   s.specularR[i] = s.specularG[i] = s.specularB[i] = 0;
   s.alpha[i] = 1;
   s.coverage[i] = 1;
+
   if (chunk_.has(Feature::occlusionMaps)) s.occlusion[i] = 1;
   if (chunk_.has(Feature::mirrorMaps)) s.mirrorR[i] = s.mirrorG[i] = s.mirrorB[i] = 1;
   if (chunk_.has(Feature::transmissionMaps)) {
     s.transmissionR[i] = s.transmissionG[i] = s.transmissionB[i] = 1;
   }
+
   s.material[i] = material;
   s.flags[i] = kEntering;
   s.mediaBehind[i] = rays_->media[i] << 8 | tables().materials[material].medium;
@@ -162,6 +171,7 @@ std::vector<ProbeChild> Probe::childrenBy(const simd::Kernel& kernel) {
   constants_.options.cutoff = 0;
   chunk_.childCount = 0;
   run(kernel);
+
   std::vector<ProbeChild> result(chunk_.childCount);
   const RayColumns& c = *children_;
   for (std::size_t i = 0; i < result.size(); ++i) {
@@ -196,6 +206,7 @@ void Probe::poison(std::uint32_t bits) {
       }
     });
   };
+
   fill(rays_);
   fill(children_);
   fill(hits_);
@@ -221,6 +232,7 @@ ColumnStore<RayColumns> raysThrough(const std::vector<std::uint32_t>& pixels,
   std::vector<std::uint32_t> padded = pixels;
   padded.resize(roundUpToBlock(pixels.size()));  // kernels read whole vectors
   ColumnStore<RayColumns> rays(pixels.size(), FeatureSet());
+
   FrameConstants constants;
   constants.camera = camera;
   Chunk chunk;
@@ -228,6 +240,7 @@ ColumnStore<RayColumns> raysThrough(const std::vector<std::uint32_t>& pixels,
   chunk.pixels = {padded.data(), pixels.size()};
   chunk.n = pixels.size();
   chunk.rays = *rays;
+
   simd::kGenerateRays.find()(chunk);
   return rays;
 }

@@ -28,7 +28,7 @@ class Probe {
  public:
   // Compiles every effect in, so that all columns are there. `scene` must outlive the probe.
   Probe(const Scene& scene, const Setup& setup);
-  // The same, and casts these rays.
+  // Also casts these rays.
   Probe(const Scene& scene, const Setup& setup, const std::vector<ProbeRay>& rays);
 
   // Takes the rays as the output of generateRays and runs findIntersections.
@@ -46,8 +46,8 @@ class Probe {
   // Runs addImpulses for all surfels, however little they contribute.
   std::vector<ProbeChild> reflections();
   std::vector<ProbeChild> refractions();
-  // Runs findRadianceAndShadowRays and checkShadows. Returns the number of shadow rays; visible()
-  // tells which of them are not occluded.
+  // Runs findRadianceAndShadowRays and checkShadows. Returns the number of shadow rays;
+  // visible() returns true for those that are not occluded.
   std::size_t light(const Light& light);
 
   // Overwrites every slot of every column with these bits.
@@ -101,8 +101,8 @@ ColumnStore<RayColumns> raysThrough(const std::vector<std::uint32_t>& pixels,
 Image pictureOf(const Scene& scene, const Camera& camera, const RenderOptions& options,
                 FrameStats* stats = nullptr);
 
-// The same by packets and by the scalar reference, which share no code for coplanar faces nor for
-// the media around the eye.
+// Renders a picture by packets and by the scalar reference, which share no code for coplanar faces
+// nor for the media around the eye.
 std::array<Image, 2> picturesOf(const Scene& scene, const Camera& camera,
                                 const RenderOptions& options);
 

@@ -11,8 +11,8 @@ namespace whit::verify {
 namespace {
 
 // A scene file may hold every number that is used here (io/json_reader.h): finite, up to 1e18.
-// Random numbers stand in braces, not in parentheses, because every compiler evaluates those in
-// order.
+// Random numbers stand in braces, not in parentheses, because every compiler evaluates
+// the elements of braces in order.
 class RandomScene {
  public:
   explicit RandomScene(std::uint64_t seed) : numbers_(seed) {}
@@ -82,6 +82,7 @@ class RandomScene {
       m.specularMap = map(TexelFormat::color);
     }
     m.roughness = unit();
+
     if (one(4)) {
       m.emission = color(amount());
       m.emissionMap = map(TexelFormat::color);
@@ -95,6 +96,7 @@ class RandomScene {
       m.coverage = unit();
       m.coverageMap = map(TexelFormat::data);
     }
+
     if (one(3)) {
       m.mirror = color();
       m.mirrorGrazing = color();
@@ -106,6 +108,7 @@ class RandomScene {
       m.priority = below(5) - 2;
       m.thin = one(4);
     }
+
     m.castsShadow = !one(4);
     return m;
   }
@@ -115,6 +118,7 @@ class RandomScene {
         static_cast<std::uint32_t>(below(static_cast<int>(builder_.description.materials.size())));
     const int kind = below(5), level = below(3);
     const Vec3d where = place(), sizes{size(), size(), size()};
+
     switch (kind) {
       case 0:
         return floorAt(static_cast<float>(where.y), static_cast<float>(sizes.x), m);
@@ -140,6 +144,7 @@ class RandomScene {
       mesh.uvs.push_back(one(3) ? Vec2f{number(), number()} : Vec2f{unit(), unit()});
       mesh.colors.push_back(one(3) ? Rgb{number(), number(), number()} : color());
     }
+
     for (int i = 0; i < 40; ++i) {
       const auto index = [&] { return static_cast<std::uint32_t>(below(31)); };
       mesh.triangles.push_back({index(), index(), index()});
@@ -166,6 +171,7 @@ class RandomScene {
     light.position = Vec3f(place());
     light.intensity = color(amount());
     light.radius = static_cast<float>(std::max(1e-6, 0.01 * size()));
+
     light.kind = static_cast<Light::Kind>(below(3));
     light.direction = Vec3f(numbers_.direction());
     light.outerConeAngle = static_cast<float>(numbers_.in(0.5, 90));
@@ -194,7 +200,7 @@ class RandomScene {
   SceneBuilder builder_;
 };
 
-// The scene, or nothing if it is refused, for example because a transform is singular.
+// Returns nothing for a scene that is refused, for example because a transform is singular.
 std::optional<Scene> finalized(std::uint64_t seed) {
   Warnings warnings;
   try {
@@ -212,11 +218,13 @@ Finding randomScenes(const Setup& setup) {
   for (std::uint64_t seed = 1; seed <= kScenes; ++seed) {
     const std::optional<Scene> scene = finalized(seed);
     if (!scene) continue;
+
     RenderOptions options = optionsOf(setup, {8, 6});
     options.depth = 5;
     if (seed % 2 == 0) options.shading.textureFilter = TextureFilter::trilinear;
     Renderer renderer(*scene, options);
     Film film = makeFilm(*scene, options);
+
     const auto look = [&](const char* mode) {
       for (const Rgb& pixel : film.image.pixels) {
         finding.count(!isFinite(pixel) || std::min({pixel.x, pixel.y, pixel.z}) < 0, [&] {
@@ -224,6 +232,7 @@ Finding randomScenes(const Setup& setup) {
         });
       }
     };
+
     renderer.render(scene->cameras[0], film);
     look("packets");
     renderer.renderReference(scene->cameras[0], film);

@@ -26,6 +26,7 @@ Finding unitNormals(const Setup& setup) {
     for (int k = 0; k < 3; ++k) mesh.positions.emplace_back(numbers.direction() * size);
     mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
+
   const Scene scene = sceneOf(mesh, diffuseMaterial(1));
   Probe probe(scene, setup);
   probe.hitEach(kTriangles);
@@ -44,11 +45,13 @@ Finding lengthAfter64Reflections(const Setup& setup) {
   std::vector<ProbeRay> rays;
   rays.reserve(64);
   for (int i = 0; i < 64; ++i) rays.push_back({{0.1f, 0.2f, 0.3f}, Vec3f(numbers.direction())});
+
   Probe probe(scene, setup);
   for (int bounce = 0; bounce < 64; ++bounce) {
     probe.cast(rays);
     rays = raysOf(probe.reflections());
   }
+
   for (const ProbeRay& ray : rays) {
     finding.note(std::fabs(length(Vec3d(ray.direction)) - 1), described(ray));
   }
@@ -110,16 +113,19 @@ Finding badSkyTexels(const Setup& setup) {
   for (const float bad : {kNan, kInf, -kInf, -1.0f}) {
     SceneBuilder builder;
     builder.add(floorAt(0, 1, builder.add(mirrorMaterial(1))));
+
     Image image(4, 4);
     image.pixels.assign(16, Rgb(1.0f));
     image.pixels[5] = Rgb(bad);
     writeExr(file, image, {});
+
     Warnings warnings;
     builder.description.sky = namedSky(file, 1u << 20, warnings);
     std::filesystem::remove(file);
     const Scene scene = repaired(builder.describe());
     finding.count(warnings.entries().empty(),
                   [&] { return "not counted: " + hexText(double{bad}); });
+
     const Camera camera{.eye = {0, 1, 3}, .fov = 120};
     for (const Rgb& pixel : pictureOf(scene, camera, optionsOf(setup, {33, 21})).pixels) {
       finding.count(!isFinite(pixel) || pixel.x < 0 || (bad != kInf && pixel.x > 1.00001f),
@@ -140,6 +146,7 @@ Finding oddRadiance(const Setup&) {
                                                               {-0.0f, 0},
                                                               {1e-40f, 0},
                                                               {3e38f, 255}}};
+
   for (const ToneCurve curve : {ToneCurve::none, ToneCurve::filmic, ToneCurve::reinhard}) {
     ColumnStore<RadianceColumns> radiance(64, FeatureSet());
     for (std::size_t i = 0; i < 64; ++i) {
@@ -147,10 +154,11 @@ Finding oddRadiance(const Setup&) {
     }
     std::array<std::uint32_t, 96> codes{};
     simd::encodeDisplay({.curve = curve, .radiance = *radiance, .n = 64, .codes = codes.data()});
+
     for (std::size_t i = 0; i < 64; ++i) {
       const auto& [value, code] = cases[i % 8];
       const std::uint32_t got = codes[i] & 255u;
-      // The end values of tone curves differ; the test only asks which end is reached.
+      // The end values of tone curves differ; the test only compares which end is reached.
       const bool right = curve == ToneCurve::none || code == 0 ? got == code : got > 250;
       finding.count(!right, [&, v = value] { return "radiance " + hexText(double{v}); });
     }

@@ -16,6 +16,7 @@ Finding hallOfMirrors(const Setup& setup) {
       RenderOptions options = optionsOf(setup, {17, 11});
       options.depth = depth;
       options.cutoff = 0;
+
       double wanted = 0;
       for (int k = 0; k <= depth; ++k) wanted += std::pow(static_cast<double>(reflectance), k);
       for (const Rgb& pixel : pictureOf(scene, lookingDown(), options).pixels) {
@@ -45,27 +46,32 @@ Scene plates() {
 Finding boundedMemory(const Setup& setup) {
   Finding finding(0);
   const Scene scene = plates();
+
   RenderOptions options = optionsOf(setup, {16, 8});
   options.cutoff = 1e-3f;
   options.depth = 64;
   const Image wide = pictureOf(scene, lookingDown(), options);
   options.queue = 16;
+
   const auto bytes = [&](int depth, Image& image) {
     options.depth = depth;
     Renderer renderer(scene, options);
     Film film = makeFilm(scene, options);
     renderer.render(lookingDown(), film);
     const std::uint64_t first = renderer.memoryBytes();
+    // A second frame must not take more memory than the first one.
     renderer.render(lookingDown(), film);
     image = film.image;
     finding.count(renderer.memoryBytes() != first,
                   [] { return "memory grows from frame to frame"; });
     return first;
   };
+
   Image shallow, deep;
-  constexpr std::uint64_t kQueue = 16 * 1024;  // of 16 rays and their children, all columns
+  constexpr std::uint64_t kQueue = 16 * 1024;  // bytes of 16 rays and their children, all columns
   const std::uint64_t eight = bytes(8, shallow), most = bytes(64, deep);
   finding.count(most > eight + 56 * kQueue, [&] { return std::to_string(most) + " bytes"; });
+
   for (std::size_t i = 0; i < deep.pixels.size(); ++i) {
     finding.count(!(deep.pixels[i] == wide.pixels[i]),
                   [&] { return "pixel " + std::to_string(i); });
@@ -82,6 +88,7 @@ Finding cutoffBias(const Setup& setup) {
   options.cutoff = 1e-5f;
   FrameStats exactStats, stats;
   const Image exact = pictureOf(scene, lookingDown(), options, &exactStats);
+
   for (const float cutoff : {3e-4f, 3e-3f}) {
     options.cutoff = cutoff;
     const Image image = pictureOf(scene, lookingDown(), options, &stats);
@@ -94,6 +101,7 @@ Finding cutoffBias(const Setup& setup) {
     finding.note(lost < -1e-6 ? 2 : lost / allowed,
                  [&] { return "cutoff " + hexText(double{cutoff}); });
   }
+
   const Scene mirror = sceneOf(floorAt(0, 1, 0), mirrorMaterial(1));
   Probe probe(mirror, setup);
   probe.load({{{0, 1, 0}, {0, -1, 0}}});

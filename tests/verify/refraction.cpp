@@ -15,7 +15,7 @@ namespace {
 // Rays that hit a surfel whose normals both point up, at given cosines.
 struct Incidence {
   std::vector<ProbeRay> rays;
-  std::vector<double> cosines;  // as the kernel sees them
+  std::vector<double> cosines;  // cosines after rounding, which the kernel sees
 };
 
 // Results of the kernels for a dielectric: F, which is the reflected weight, or 0 where nothing is
@@ -47,15 +47,18 @@ Interfaces throughKernels(float from, float to, const Incidence& incidence, cons
   builder.add(floorAt(0, 1, front));
   builder.add(floorAt(1, 1, behind));
   const Scene scene = builder.build();
+
   Probe probe(scene, setup);
   std::vector<ProbeRay> rays = incidence.rays;
   for (ProbeRay& ray : rays) ray.media = probe.tables().materials[front].medium;
   probe.load(rays);
   for (std::size_t i = 0; i < rays.size(); ++i) probe.surfel(i, behind, {0, 1, 0}, {0, 1, 0});
+
   Interfaces result;
   result.reflected.assign(rays.size(), 0);
   result.refracted.assign(rays.size(), 0);
   result.direction.resize(rays.size());
+
   for (const ProbeChild& child : probe.reflections()) {
     result.reflected[child.parent] = static_cast<double>(child.weight.x);
   }
@@ -70,6 +73,7 @@ Interfaces throughKernels(float from, float to, const Incidence& incidence, cons
 Real fresnel(Real n1, Real n2, Real c) {
   const Real s2 = (1 - c) * (1 + c) * n1 * n1 / (n2 * n2);
   if (s2 >= 1) return 1;
+
   const Real t = std::sqrt(1 - s2);
   const Real rs = (n1 * c - n2 * t) / (n1 * c + n2 * t), rp = (n2 * c - n1 * t) / (n2 * c + n1 * t);
   return (rs * rs + rp * rp) / 2;
@@ -88,6 +92,7 @@ std::vector<double> aroundCritical(float from, float to) {
   const double eta = static_cast<double>(to) / static_cast<double>(from);
   auto c = static_cast<float>(std::sqrt((1 - eta) * (1 + eta)));
   for (int i = 0; i < 2000; ++i) c = std::nextafter(c, 0.0f);
+
   std::vector<double> cosines;
   for (int i = -2000; i <= 2000; ++i, c = std::nextafter(c, 1.0f)) {
     cosines.push_back(static_cast<double>(c));
@@ -100,6 +105,7 @@ Finding criticalFlag(const Setup& setup) {
   const float from = 1.5f, to = 1;
   const Incidence in = raysAt(aroundCritical(from, to));
   const Interfaces got = throughKernels(from, to, in, setup);
+
   for (std::size_t i = 0; i < in.cosines.size(); ++i) {
     const Real c = static_cast<Real>(in.cosines[i]);
     const Real g2 = (to - from) * (Real{to} + from) / (Real{from} * from) + c * c;
@@ -117,6 +123,7 @@ Finding criticalReflectance(const Setup& setup) {
   const float from = 1.5f, to = 1;
   const Incidence in = raysAt(aroundCritical(from, to));
   const Interfaces got = throughKernels(from, to, in, setup);
+
   for (std::size_t i = 0; i < in.cosines.size(); ++i) {
     const Real exact = fresnel(from, to, static_cast<Real>(in.cosines[i]));
     finding.note(std::fabs(got.reflected[i] - static_cast<double>(exact)),
@@ -129,6 +136,7 @@ Finding criticalReflectance(const Setup& setup) {
 std::vector<double> cosines(std::uint64_t seed, std::size_t n, double least) {
   Numbers numbers(seed);
   std::vector<double> result{1, 0.5547001962252291};  // normal incidence, Brewster's angle of 1.5
+
   while (result.size() < n) {
     result.push_back(numbers.in(0, 1) < 0.5 ? numbers.in(least, 1)
                                             : std::pow(10, numbers.in(std::log10(least), 0)));
@@ -140,6 +148,7 @@ Finding equalIndices(const Setup& setup) {
   Finding finding(0);
   std::vector<double> all = cosines(38, 2000, 1e-7);
   all.push_back(0);  // along the surface
+
   for (const float n : {1.0f, 1.5f, 1.3333f}) {
     const Incidence in = raysAt(all);
     const Interfaces got = throughKernels(n, n, in, setup);
@@ -160,6 +169,7 @@ Finding reflectanceError(const std::vector<std::pair<float, float>>& pairs, doub
     const Interfaces got = throughKernels(from, to, in, setup);
     for (std::size_t i = 0; i < in.cosines.size(); ++i) {
       const Real c = static_cast<Real>(in.cosines[i]), exact = fresnel(from, to, c);
+
       // Near the critical angle the error of the root dominates (H37a).
       const Real eta = Real{to} / from;
       if (eta < 1 && std::fabs(c * c - (1 - eta * eta)) < 0.1L) continue;
@@ -186,6 +196,7 @@ Finding grazing(const Setup& setup) {
   Finding finding(4 * kUnit);
   const Incidence in = raysAt({1e-4, 3e-5, 1e-5, 1e-6, 1e-9, 1e-20});
   const Interfaces got = throughKernels(1, 1.5f, in, setup);
+
   for (std::size_t i = 0; i < in.cosines.size(); ++i) {
     const Real exact = fresnel(1, 1.5L, static_cast<Real>(in.cosines[i]));
     finding.note(std::fabs(static_cast<double>(got.reflected[i] - exact)),
@@ -225,17 +236,20 @@ Finding slabShift(const Setup& setup) {
   addSlab(builder, 0, -1, builder.add(glassMaterial(1.5f)), 4);
   const Scene scene = builder.build();
   Probe probe(scene, setup);
+
   const Vec3d d{std::sqrt(0.75), -0.5, 0};
   std::vector<ProbeRay> rays;
   rays.reserve(64);
   for (int i = 0; i < 64; ++i) {
     rays.push_back({Vec3f(Vec3d{-1 + i / 64.0, 1, i / 40.0 - 0.8}), Vec3f(d)});
   }
+
   const std::vector<ProbeRay> start = rays;
   for (int face = 0; face < 2; ++face) {
     probe.cast(rays);
     rays = raysOf(probe.refractions());
   }
+
   for (std::size_t i = 0; i < rays.size() && i < start.size(); ++i) {
     const Vec3d moved = Vec3d(rays[i].origin) - Vec3d(start[i].origin);
     const double sideways = length(moved - d * dot(moved, d));
@@ -255,11 +269,13 @@ Finding furnace(const Setup& setup) {
   builder.sky(1);
   const Scene scene = builder.build();
   const Camera camera{.eye = {0, 3, 0}, .up = {0, 0, -1}};
+
   for (const int inside : {1, 2, 3, 4, 12}) {
     RenderOptions options = optionsOf(setup);
     options.size = inside < 12 ? ImageSize{1, 1} : ImageSize{33, 21};
     options.depth = inside + 1;
     options.cutoff = 0;
+
     const double lost = inside < 12 ? std::pow(0.04, inside) * 0.96 : 0;
     for (const Rgb& pixel : pictureOf(scene, camera, options).pixels) {
       finding.note(std::fabs(static_cast<double>(pixel.x) - (1 - lost)),

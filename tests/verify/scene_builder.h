@@ -148,11 +148,11 @@ inline Mesh box(const Vec3f& low, const Vec3f& high, std::uint32_t material) {
 class Numbers {
  public:
   explicit Numbers(std::uint64_t seed) : engine_(seed) {}
-  // In [low, high).
+  // A number in [low, high).
   double in(double low, double high) {
     return low + (high - low) * (static_cast<double>(engine_() >> 11) / 9007199254740992.0);
   }
-  // Uniform on the sphere.
+  // A unit vector, uniform on the sphere.
   Vec3d direction() {
     const double z = in(-1, 1), angle = in(0, 6.283185307179586);
     const double r = std::sqrt(1 - z * z);

@@ -30,6 +30,7 @@ Tilted tilted(std::uint64_t seed, double tilt, double flattest) {
     const double elevation = std::pow(10, -numbers.in(0, flattest)), turn = numbers.in(0, 6.28);
     const Vec3d view = normalized(Vec3d{std::cos(turn), elevation, std::sin(turn)});
     const double angle = numbers.in(0, tilt), about = numbers.in(0, 6.28);
+
     result.rays.push_back({{0, 1, 0}, Vec3f(-view)});
     result.normals.emplace_back(Vec3d{std::sin(angle) * std::cos(about), std::cos(angle),
                                       std::sin(angle) * std::sin(about)});
@@ -49,15 +50,18 @@ Finding childrenStayOnTheirSide(const Setup& setup) {
   Finding finding(4);
   const Scene scene = oneMaterial(glassMaterial(1.5f));
   const Tilted surfels = tilted(32, 1.0, 3);
+
   Probe probe(scene, setup);
   fill(probe, surfels);
   for (const ProbeChild& child : probe.reflections()) {
     const double facing = -static_cast<double>(surfels.rays[child.parent].direction.y);
     const double least = std::min(0.9 * facing, 0.01);
-    // Bringing a lifted direction back to unit length lowers it by up to the square of the lift.
+    // Normalization lowers a direction that was raised, by up to the square of how far it was
+    // raised.
     const double height = static_cast<double>(child.ray.direction.y);
     finding.note(std::max(0.0, least * 0.7 - height) / 0x1p-24, surfels.described(child.parent));
   }
+
   for (const ProbeChild& child : probe.refractions()) {
     const double height = static_cast<double>(child.ray.direction.y);
     finding.note(std::max(0.0, height) / 0x1p-24, surfels.described(child.parent));
@@ -72,6 +76,7 @@ Finding agreeingNormals(const Setup& setup) {
   const Tilted surfels = tilted(33, 0, 5);
   Probe probe(scene, setup);
   fill(probe, surfels);
+
   for (const ProbeChild& child : probe.reflections()) {
     const Vec3d in(surfels.rays[child.parent].direction), out(child.ray.direction);
     finding.note(maxComponent(abs(out - Vec3d{in.x, -in.y, in.z})),
@@ -94,6 +99,7 @@ Finding viewBehindTheNormal(const Setup& setup) {
   const Tilted surfels = tilted(34, 3.1, 6);
   Probe probe(scene, setup);
   fill(probe, surfels);
+
   const auto check = [&](const std::vector<ProbeChild>& children) {
     for (const ProbeChild& child : children) {
       const double l = length(Vec3d(child.ray.direction));
@@ -101,8 +107,10 @@ Finding viewBehindTheNormal(const Setup& setup) {
       finding.count(!fine, surfels.described(child.parent));
     }
   };
+
   check(probe.reflections());
   check(probe.refractions());
+
   probe.light(lightAt({0.5f, 2, -0.3f}, 1));
   for (std::size_t i = 0; i < probe.size(); ++i) {
     const Rgb light = probe.visible(i) ? probe.unshadowed(i) : Rgb(0.0f);
@@ -117,6 +125,7 @@ Finding cancellingNormals(const Setup& setup) {
   Mesh mesh = floorAt(0, 1, 0);
   mesh.normals = {{0, 0, 1}, {0, 0, -1}, {0, 0, 1}, {0, 0, -1}};
   const Scene scene = sceneOf(mesh, diffuseMaterial(1));
+
   Probe probe(scene, setup);
   constexpr std::uint32_t kSteps = 1001;
   probe.load(std::vector<ProbeRay>(kSteps, {{0, 1, 0}, {0, -1, 0}}));
@@ -124,6 +133,7 @@ Finding cancellingNormals(const Setup& setup) {
     probe.hit(i, 0, 1, 0.5f, static_cast<float>(i) * (0.5f / (kSteps - 1)));
   }
   probe.interpolate();
+
   for (std::uint32_t i = 0; i < kSteps; ++i) {
     const Vec3d n(probe.ns(i));
     const bool none = i == 0 && probe.hits().v[0] == 0;
@@ -143,13 +153,16 @@ Finding terminator(const Setup& setup) {
   const Light light = lightAt({1000, 0, 0}, 1e6f);
   builder.description.lights = {light};
   const Scene scene = builder.build();
+
   Probe probe(scene, setup, raysOnto({}, 1, kSurfels, 35));
   probe.light(light);
   double sum = 0;
   std::size_t n = 0;
+
   for (std::size_t i = 0; i < probe.size(); ++i) {
     const double cosine = normalized(Vec3d(probe.position(i))).x;
     if (!probe.isHit(i) || cosine <= 0 || cosine >= 0.3) continue;
+
     const double got = probe.visible(i) ? static_cast<double>(probe.unshadowed(i).x) : 0;
     sum += (got - cosine) * (got - cosine);
     ++n;
@@ -166,10 +179,12 @@ Finding lightBetweenTheNormals(const Setup& setup) {
   const Tilted surfels = tilted(36, 1.5, 1);
   Probe probe(scene, setup);
   fill(probe, surfels);
+
   Numbers numbers(36);
   for (int k = 0; k < 16; ++k) {
     const Vec3f l(numbers.direction() * 2.0);
     const std::size_t shadowRays = probe.light(lightAt(l, 1));
+
     std::size_t lit = 0;
     for (std::size_t i = 0; i < probe.size(); ++i) {
       const double g = static_cast<double>(l.y), s = dot(Vec3d(l), Vec3d(surfels.normals[i]));
@@ -178,7 +193,7 @@ Finding lightBetweenTheNormals(const Setup& setup) {
       finding.count(probe.visible(i) && s < -1e-6, surfels.described(i));
       finding.count(probe.visible(i) && g < 0, surfels.described(i));
     }
-    // The floor would occlude such a light, but no shadow ray should be traced for it.
+    // The floor would occlude such a light; no shadow ray should be traced for it at all.
     finding.count(shadowRays > lit, [&] { return "light at " + hexText(l); });
   }
   return finding;
@@ -192,19 +207,23 @@ Finding grazingMirror(const Setup& setup) {
   for (int k = 0; k < 8; ++k) {
     // The plane has any tilt; the error is the absolute error of the angle.
     const Vec3d n = numbers.direction(), along = normalized(cross(n, numbers.direction()));
+
     std::vector<ProbeRay> rays;
     for (std::size_t i = 0; i < kSurfels / 8; ++i) {
       const double elevation = std::pow(10, -numbers.in(1, 6));
       rays.push_back({{0, 0, 0}, Vec3f(along * std::cos(elevation) - n * std::sin(elevation))});
     }
+
     Probe probe(scene, setup);
     probe.load(rays);
     const Vec3f nf(n);
     for (std::size_t i = 0; i < rays.size(); ++i) probe.surfel(i, 0, nf, nf);
+
     for (const ProbeChild& child : probe.reflections()) {
       const Vec3d in(rays[child.parent].direction), out(child.ray.direction);
       const double down = -dot(in, Vec3d(nf)), up = dot(out, Vec3d(nf));
       if (down <= 0x1p-22) continue;  // below the rounding of the direction itself
+
       const double error = up > 0 ? std::fabs(up - down) : 1;
       finding.note(error, [&] {
         return "normal " + hexText(nf) + ", direction " + hexText(rays[child.parent].direction);

@@ -25,10 +25,12 @@ Finding leavingBalls(const Setup& setup) {
   for (const Ball& ball : ballsOfAllSizes({0, 1, 1e3})) {
     const Scene scene = ball.scene(shinyMaterial());
     Probe probe(scene, setup, raysOntoBall(ball, kRaysABall, 76));
+
     const Probe next(scene, setup, raysOf(probe.reflections()));
     for (std::size_t i = 0; i < next.size(); ++i) {
       finding.count(next.isHit(i), ball.described(next.ray(i)));
     }
+
     probe.light(lightAt(Vec3f(ball.point({3, 2.5, -2}, 1)), 1));
     for (std::size_t i = 0; i < probe.size(); ++i) {
       if (!probe.isHit(i) || maxComponent(probe.unshadowed(i)) <= 0) continue;
@@ -57,6 +59,7 @@ Finding throughBalls(const Setup& setup) {
         finding.count(!hitsFarSide(inside, ball, i), ball.described(rays[i]));
       }
     };
+
     castInside(raysOf(probe.refractions()));
     const Probe after(scene, setup, raysOf(inside.refractions()));
     for (std::size_t i = 0; i < after.size(); ++i) {
@@ -79,6 +82,7 @@ struct Shell {
 Shell shellOf(float radius, float ior) {
   const Ball outer{{0, 0, 0}, radius};
   const Ball inner{{0, 0, 0}, static_cast<float>(double{radius} * (1 - kShellGap))};
+
   SceneBuilder builder;
   builder.add(outer.mesh(builder.add(glassMaterial(ior, 0))));
   builder.add(inner.mesh(builder.add(glassMaterial(1, 1))));
@@ -102,16 +106,19 @@ void crossShell(const Shell& shell, const Setup& setup, std::vector<ProbeRay> ra
   const std::vector<ProbeRay> start = rays;
   for (const ShellCrossing& c : kThroughShell) {
     probe.cast(rays);
+
     for (std::size_t i = 0; i < probe.size(); ++i) {
       const bool met = probe.isHit(i) && probe.surfels().material[i] == c.material &&
                        enters(probe, i) == c.entering && mediaCount(rays[i].media) == c.media;
       if (!met) finding.note(kNoBound, shell.outer.described(rays[i]));
     }
+
     rays = raysOf(probe.refractions());
     if (rays.size() == start.size()) continue;
     finding.note(kNoBound, [] { return "some rays ended within the shell"; });
     return;
   }
+
   probe.cast(rays);
   for (std::size_t i = 0; i < probe.size(); ++i) {
     const bool gone = !probe.isHit(i) && rays[i].media == 0;
@@ -126,6 +133,7 @@ Finding straightThroughShell(const Setup& setup) {
   Finding finding(0);
   for (const float radius : {1e-3f, 1.0f, 1e3f}) {
     const Shell shell = shellOf(radius, 1);
+
     std::vector<ProbeRay> rays;
     for (const ProbeRay& ray : raysOntoBall(shell.outer, 600, 78)) {
       if (shell.inner.chord(ray).aside < 1 - 0x1p-17L) rays.push_back(ray);
@@ -143,6 +151,7 @@ Finding glassShell(const Setup& setup) {
   Finding finding(1);
   for (const float radius : {1e-3f, 1.0f, 1e3f}) {
     const Shell shell = shellOf(radius, 1.5f);
+
     const auto rays = randomRays(400, 79, [&](Numbers& numbers, int) {
       const Vec3f from(shell.outer.point(numbers.direction(), 3));
       return rayThrough(from, {0, 0, 0});
@@ -183,15 +192,18 @@ Finding whisperingGallery(const Setup& setup) {
     const Scene scene = ball.scene(glassMaterial(1.5f));
     Probe probe(scene, setup);
     std::vector<ProbeRay> rays = galleryRays(ball, probe.tables().materials[0].medium);
+
     std::vector<double> sine, drift(rays.size());
     for (const ProbeRay& ray : rays) sine.push_back(ball.aside(ray));
     for (int bounce = 0; bounce < kDepth; ++bounce) {
       probe.cast(rays);
+
       const std::vector<ProbeChild> reflected = probe.reflections();
       if (reflected.size() != rays.size() || !probe.refractions().empty()) {
         finding.note(kNoBound, [&] { return std::to_string(bounce) + " bounces"; });
         break;
       }
+
       for (const ProbeChild& child : reflected) {
         const std::size_t i = child.parent;
         drift[i] += driftAt(probe, ball, i);
@@ -230,11 +242,13 @@ Finding ballLens(const Setup& setup) {
   constexpr double kIor = 1.5, kFocus = kIor / (2 * (kIor - 1));
   for (const Ball& ball : {Ball{}, Ball{{0, 0, 0}, 1e4f}, Ball{{1, 0.5f, -1}, 1}}) {
     const Scene scene = ball.scene(glassMaterial(static_cast<float>(kIor)));
+
     const auto start = randomRays(300, 81, [&](Numbers& numbers, int) {
       const Vec3d d = numbers.direction(), e = across(d, numbers);
       const Vec3d from = e * std::pow(10, numbers.in(-3, -1)) - d * 2.0;
       return ProbeRay{Vec3f(ball.point(from, 1)), Vec3f(d)};
     });
+
     Probe probe(scene, setup, start);
     probe.cast(raysOf(probe.refractions()));
     const std::vector<ProbeRay> out = raysOf(probe.refractions());
@@ -243,6 +257,7 @@ Finding ballLens(const Setup& setup) {
       const double height = ball.aside(start[i]);
       const double found = crossingOf(ball, out[i], normalized(Vec3d(start[i].direction)));
       // Upper bound on the error, in radii, of both points of the path, and of the two directions.
+
       const double off = 2 * (kWeightAngle + 2 * ball.heightError() / ball.r());
       const double room = 2 * off / (2 * (1 - 1 / kIor) * height);
       const double exact = std::fabs(found / ballFocus(height, kIor) - 1) / room;
@@ -276,10 +291,12 @@ Scene sceneOfRivals(const Rivals& two, const Ball& ball, bool apart, bool turned
   const Ball elsewhere{{ball.center.x + 50, ball.center.y, ball.center.z}, 0.5f};
   const Affine toCenter = Affine::translation(Vec3d(ball.center));
   const Affine turn = Affine::rotation({1, -2, 0.5}, 77);
+
   for (const int i : {0, 1}) {
     Object object;
     if (apart) object.meshes.push_back(elsewhere.mesh(materials[1 - i]));
     object.meshes.push_back(ball.mesh(materials[i]));
+
     Affine& map = object.meshes.back().spheres[0];
     Affine place;
     if (turned && i == 1 && apart) {
@@ -287,6 +304,7 @@ Scene sceneOfRivals(const Rivals& two, const Ball& ball, bool apart, bool turned
     } else if (turned && i == 1) {
       map = map * turn;
     }
+
     if (!apart) builder.add(object.meshes[0]);
     if (apart) builder.place(std::move(object), {place, Affine::translation({0, 8, 0}) * place});
   }
@@ -302,6 +320,7 @@ Finding ballsInOnePlace(const Setup& setup) {
       const bool apart = arrangement % 2 == 1, turned = arrangement >= 2;
       const Scene scene = sceneOfRivals(two, ball, apart, turned);
       Probe probe(scene, setup, rays);
+
       for (std::size_t i = 0; i < probe.size(); ++i) {
         const bool right = probe.isHit(i) && probe.surfels().material[i] == two.winner;
         finding.count(!right && ball.chord(rays[i]).aside < 1, [&] {
@@ -323,6 +342,7 @@ SceneBuilder manyBalls() {
       builder.add(mirrorMaterial(0.8f)), builder.add(glassMaterial(1.2f, 2))};
   Numbers numbers(83);
   Object object;
+
   for (std::uint32_t i = 0; i < 24; ++i) {
     const Ball ball{Vec3f(numbers.direction() * 2.0), static_cast<float>(numbers.in(0.2, 0.9))};
     const Vec3f beside(ball.point({1, 0, 0}, 2));
@@ -333,6 +353,7 @@ SceneBuilder manyBalls() {
       if (i >= 16) object.meshes.push_back(mesh);
     }
   }
+
   builder.place(std::move(object), {Affine{}, Affine::translation({0.5, 0.25, -0.5})});
   builder.description.lights = {lightAt({4, 6, 5}, 60)};
   builder.sky(0.3f);
@@ -356,6 +377,7 @@ Finding ballsInPackets(const Setup& setup) {
   for (std::size_t i = 0; i < probe.size(); ++i) {
     finding.count(!single.sameHit(probe, i), described(rays[i]));
   }
+
   const Camera camera{.eye = {1, 2, 7}, .at = {0, 0, 0}};
   const Image expected = pictureOf(scene, camera, optionsOf({setup.simd, 1}, {40, 30}));
   for (const int tile : {7, 8, 64}) {
@@ -377,11 +399,14 @@ std::vector<Ball> mirroredBalls() {
     const auto radius = static_cast<float>(numbers.in(0.3, 0.9));
     const auto x = radius * static_cast<float>(numbers.in(0.1, 0.9));
     const Vec3f center(x, static_cast<float>(numbers.in(-3, 3)),
+
                        static_cast<float>(numbers.in(-3, 3)));
     balls.push_back({center, radius});
     balls.push_back({{-x, center.y, center.z}, radius});
     balls.push_back({{i % 2 == 0 ? 1.0f : -1.0f, center.z, center.y}, 0.75f});
   }
+
+  // The order of the balls is shuffled, the same way on every machine.
   for (std::size_t i = balls.size() - 1; i > 0; --i) {
     std::swap(balls[i], balls[static_cast<std::size_t>(numbers.in(0, static_cast<double>(i + 1)))]);
   }
@@ -399,6 +424,7 @@ Scene sceneOfMirrored(const std::vector<Ball>& balls, Placement placement) {
   for (const Ball& ball : balls) {
     const auto number = static_cast<float>(builder.description.materials.size() + 1);
     const std::uint32_t material = builder.add(emittingMaterial(number * kGlow));
+
     if (placement == Placement::world) builder.add(ball.mesh(material));
     if (placement == Placement::oneObject) object.meshes.push_back(ball.mesh(material));
     if (placement == Placement::objects) {
@@ -407,6 +433,7 @@ Scene sceneOfMirrored(const std::vector<Ball>& balls, Placement placement) {
                     {twice[0] * toCenter, twice[1] * toCenter});
     }
   }
+
   if (placement == Placement::oneObject) builder.place(std::move(object), twice);
   return builder.build();
 }
@@ -417,12 +444,14 @@ std::optional<std::size_t> firstHit(const std::vector<Ball>& balls, const ProbeR
   constexpr long double kDoubt = 1e-4L;
   long double nearest = kNoBound, next = kNoBound;
   std::optional<std::size_t> first;
+
   for (std::size_t i = 0; i < balls.size(); ++i) {
     const BallChord chord = balls[i].chord(ray);
     if (chord.aside > 1 + kDoubt) continue;
     const long double least = std::min(std::fabs(chord.near), std::fabs(chord.far));
     if (chord.aside > 1 - kDoubt || least < kDoubt) return std::nullopt;
     const long double t = chord.near > 0 ? chord.near : chord.far;
+    // A ball that is further away only matters as the second one.
     if (t < 0 || t > nearest) {
       if (t > 0) next = std::min(next, t);
       continue;
@@ -439,6 +468,7 @@ Finding mirroredInAnyOrder(const Setup& setup) {
   const std::vector<Ball> balls = mirroredBalls();
   const Camera camera{.eye = {0, 1, 9}, .at = {0, 0, 0}, .fov = 50};
   const CameraFrame frame = makeCameraFrame(camera, 3, 256);
+
   const std::vector<ProbeRay> rays = randomRays(800, 86, [](Numbers& numbers, int i) {
     const auto inPlane = [&](double size) {
       return Vec3f(Vec3d{0, numbers.in(-size, size), numbers.in(-size, size)});
@@ -446,6 +476,7 @@ Finding mirroredInAnyOrder(const Setup& setup) {
     const Vec3f from = inPlane(i % 2 == 0 ? 9 : 3);
     return rayThrough(from, inPlane(3));
   });
+
   int seen = 0;
   for (const Placement placement : {Placement::world, Placement::oneObject, Placement::objects}) {
     const Scene scene = sceneOfMirrored(balls, placement);
@@ -455,6 +486,7 @@ Finding mirroredInAnyOrder(const Setup& setup) {
       ++seen;
       finding.count(!shown(*first), described(ray));
     };
+
     const Probe probe(scene, setup, rays);
     for (std::size_t i = 0; i < probe.size(); ++i) {
       expect(rays[i], [&](std::size_t first) {
@@ -472,6 +504,7 @@ Finding mirroredInAnyOrder(const Setup& setup) {
       }
     }
   }
+
   finding.count(seen < 1500, [] { return "too few rays that hit two spheres"; });
   return finding;
 }

@@ -9,7 +9,7 @@ namespace whit::verify {
 namespace {
 
 // Rays towards a sphere, and past it by up to a radius. From more than 1e6 radii away floats hardly
-// aim; the chord tells where such a ray really goes.
+// aim; the chord shows where such a ray really goes.
 std::vector<ProbeRay> raysTowards(const Ball& ball) {
   constexpr double kAway[] = {1.25, 10, 1e3, 1e5, 1e7};
   return randomRays(200, 71, [&](Numbers& numbers, int i) {
@@ -90,6 +90,7 @@ std::vector<ProbeRay> tangentRays(const Ball& ball) {
     const double off = 1 + std::floor(numbers.in(-64, 65)) * kBallRounding;
     return ProbeRay{Vec3f(ball.point(e, off) - d * (4 * ball.r())), Vec3f(d)};
   });
+
   for (int i = 0; i < 24; ++i) {
     const int axis = i % 3, aside = (axis + 1 + i / 3 % 2) % 3;
     Vec3d from(ball.center), d;
@@ -104,14 +105,16 @@ std::vector<ProbeRay> tangentRays(const Ball& ball) {
 // From four radii away a double's own roundings leave the silhouette in doubt by this much.
 constexpr double kLimbDoubt = 0x1p-47;
 
-// For a hit on the limb: the difference of its cosine from the chord's, relative to the bound on
-// the error of the normal.
+// Returns, for a hit on the limb, the difference of its cosine from the chord's, relative to the
+// bound on the error of the normal.
 double limbError(const Probe& probe, const Ball& ball, std::size_t i) {
   const ProbeRay ray = probe.ray(i);
   const Vec3d n(probe.ng(i)), d(ray.direction);
+  // A hit must have finite results, face the ray and lie on the sphere.
   if (!isFinite(probe.position(i)) || !isFinite(probe.ng(i))) return kNoBound;
   if (!std::isfinite(probe.hits().t[i]) || dot(n, d) > 4 * kBallRounding) return kNoBound;
   if (std::fabs(ball.heightOf(probe.position(i))) > ball.heightError()) return kNoBound;
+
   const double aside = ball.aside(ray);
   const double cosine = std::sqrt(std::max(0.0, (1 - aside) * (1 + aside)));
   const double outside = dot(n, Vec3d(probe.position(i)) - Vec3d(ball.center)) > 0 ? 1 : -1;
@@ -131,6 +134,7 @@ Finding tangentToBalls(const Setup& setup) {
       if (wrong) finding.note(kNoBound, ball.described(ray));
       if (probe.isHit(i)) finding.note(limbError(probe, ball, i), ball.described(ray));
     }
+
     for (const auto& children : {probe.reflections(), probe.refractions()}) {
       for (const auto& [ray, weight, parent] : children) {
         const bool finite = isFinite(ray.origin) && isFinite(ray.direction) && isFinite(weight);
@@ -241,9 +245,11 @@ double normalError(const Probe& probe, const Quadric& quadric, std::size_t i, bo
   const long double t = entering ? chord.near : chord.far;
   const Vec3l gradient = quadric.gradient(Vec3l(ray.origin) + Vec3l(ray.direction) * t);
   const long double size = length(gradient);
+
   const auto stretch = static_cast<double>(quadric.norm() / size);
   const auto products = static_cast<double>(quadric.products / size);
   const double bound = stretch * (kWeightAngle + 6 * kBallRounding) + products * 3 * kBallRounding;
+
   const auto cosine = static_cast<double>(dot(gradient, Vec3l(ray.direction)) / size);
   if (std::fabs(cosine) <= bound) return 0;  // the ray may hit either side there
   if (enters(probe, i) != entering) return kNoBound;
@@ -273,6 +279,7 @@ Finding ellipsoids(const Setup& setup) {
     mesh.spheres = {map};
     // Rays pass straight through glass of index 1 and hit both faces.
     const Scene scene = sceneOf(mesh, glassMaterial(1));
+
     Probe probe(scene, setup);
     std::vector<ProbeRay> rays = raysOntoEllipsoid(map);
     for (const bool entering : {true, false}) {
@@ -301,9 +308,11 @@ void lookAway(const Ball& ball, const Camera& camera, const Setup& setup, Findin
   SceneBuilder builder;
   builder.add(ball.mesh(builder.add(emittingMaterial(1))));
   builder.sky(kSky);
+
   const Image image = pictureOf(builder.build(), camera, optionsOf(setup, {24, 18}));
   const CameraFrame frame = makeCameraFrame(camera, image.width, image.height);
   const Vec3d out = normalized(Vec3d(camera.eye) - Vec3d(ball.center));
+
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       const Vec3d d = normalized(frame.forward + asideOf(frame, x, y));
@@ -324,6 +333,7 @@ Finding eyeOnABall(const Setup& setup) {
       camera.eye = Vec3f(ball.point(out, 1));
       camera.up = Vec3f(out);
       camera.fov = 90;
+
       for (const Vec3d& towards : {out + along * 0.1, along + out * 0.1}) {
         const double step = std::max(ball.r(), length(Vec3d(camera.eye)));
         camera.at = Vec3f(Vec3d(camera.eye) + towards * step);

@@ -15,6 +15,7 @@ Finding thinGap(const Setup& setup) {
     builder.add(floorAt(0, 0.5f, glass));
     builder.add(floorAt(-gap, 0.5f, builder.add(diffuseMaterial(1))));
     const Scene scene = builder.build();
+
     Probe probe(scene, setup), below(scene, setup);
     Numbers numbers(5);
     std::vector<ProbeRay> rays, children;
@@ -22,10 +23,13 @@ Finding thinGap(const Setup& setup) {
       const Vec3f target(Vec3d{numbers.in(-0.4, 0.4), 0, numbers.in(-0.4, 0.4)});
       rays.push_back(rayThrough(target + Vec3f{0.3f, 1, 0.2f}, target));
     }
+
     probe.cast(rays);
+    // Gaps of less than four offsets may be skipped.
     for (const ProbeChild& child : probe.refractions()) {
       if (gap > 4 * probe.surfels().offset[child.parent]) children.push_back(child.ray);
     }
+
     below.cast(children);
     for (std::size_t i = 0; i < below.size(); ++i) {
       const bool lower = below.isHit(i) && below.hits().triangle[i] >= 2;
@@ -100,6 +104,7 @@ Finding lightOnASurface(const Setup& setup) {
     builder.add(floorAt(0, 3, gray));
     builder.add(ceilingAt(2, 3, gray));
     const Scene scene = builder.build();
+
     Probe probe(scene, setup);
     std::vector<ProbeRay> rays;
     Numbers numbers(8);
@@ -107,6 +112,7 @@ Finding lightOnASurface(const Setup& setup) {
       const Vec3f target(Vec3d{numbers.in(-2, 2), 0, numbers.in(-2, 2)});
       rays.push_back(rayThrough({0.1f, 1, 0.1f}, target));
     }
+
     probe.cast(rays);
     probe.light(lightAt({0.3f, height, 0.1f}, 1));
     for (std::size_t i = 0; i < probe.size(); ++i) {

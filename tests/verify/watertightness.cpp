@@ -108,6 +108,7 @@ Finding crossingsBalance(const Setup& setup) {
   Finding finding(0);
   const Mesh ball = sphereMesh(2, {}, 1, 0);
   const Scene scene = sceneOf(ball, glassMaterial(1));
+
   Numbers numbers(15);
   std::vector<ProbeRay> rays;
   for (const auto& triangle : ball.triangles) {
@@ -118,6 +119,7 @@ Finding crossingsBalance(const Setup& setup) {
       rays.push_back(rayThrough(from, ball.positions[triangle[i]]));
     }
   }
+
   Probe probe(scene, setup);
   for (int crossing = 0; crossing < 8 && !rays.empty(); ++crossing) {
     probe.cast(rays);
@@ -138,12 +140,14 @@ Finding tJunctions(const Setup& setup) {
     Mesh mesh;
     mesh.positions = {{-1, 0, 0}, {1, 0, 0}, {0, 0, -1}, {0, 0, middle}, {0, 0, 1}};
     mesh.triangles = {{0, 1, 2}, {0, 4, 3}, {3, 4, 1}};
+
     Numbers numbers(16);
     std::vector<ProbeRay> rays;
     for (std::size_t i = 0; i < kEdgeRays; ++i) {
       const Vec3f target(Vec3d{numbers.in(-0.9, 0.9), 0, 0});
       rays.push_back(rayThrough(Vec3f(Vec3d{numbers.in(-1, 1), 2, numbers.in(-1, 1)}), target));
     }
+
     finding.merge(misses(mesh, rays, kNoBound, setup));
   }
   return finding;
@@ -166,6 +170,7 @@ Finding nestedShells(const Setup& setup) {
       builder.add(ball);
     }
     if (farMesh) builder.add(sphereMesh(2, {50, 3, 7}, 1, gray));
+
     const Scene scene = builder.build();
     std::vector<ProbeRay> rays;
     const double start = (std::pow(1.05, 5) + std::pow(1.05, 6)) / 2;
@@ -175,6 +180,7 @@ Finding nestedShells(const Setup& setup) {
     for (const ProbeRay& ray : throughEdges(sixth, {}, 0)) {
       rays.push_back({ray.direction * static_cast<float>(start), ray.direction});
     }
+
     Probe probe(scene, setup, rays);
     for (std::size_t i = 0; i < probe.size(); ++i) {
       const std::uint32_t triangle = probe.hits().triangle[i];
@@ -188,12 +194,14 @@ Finding nestedShells(const Setup& setup) {
 Finding openBorder(const Setup& setup) {
   Finding finding(0);
   const Scene scene = sceneOf(floorAt(0, 1, 0), diffuseMaterial(1));
+
   Numbers numbers(18);
   std::vector<ProbeRay> rays;
   for (std::size_t i = 0; i < kEdgeRays; ++i) {
     const Vec3f target(Vec3d{1, 0, numbers.in(-1, 1)});
     rays.push_back(rayThrough({0.25f, 1, 0.125f}, target));
   }
+
   Probe first(scene, setup), second(scene, setup);
   first.cast(rays);
   second.cast(rays);
@@ -211,19 +219,22 @@ Mesh roomOfPixels(const CameraFrame& frame) {
   for (int y = 0; y < rows; ++y) {
     for (int x = 0; x < columns; ++x) pixels.push_back(packedPixel(x, y));
   }
-  // The grid begins one pixel up and left of the picture; a middle that is moved by one corrects
-  // that.
+  // The grid begins one pixel up and left of the picture. The middle of the larger picture is one
+  // pixel further right and down, which corrects that.
   CameraFrame rays = frame;
   rays.width = columns;
   rays.height = rows;
+
   const std::size_t count = pixels.size();
   const ColumnStore<RayColumns> directions = raysThrough(pixels, rays);
+
   Mesh mesh;
   mesh.materials = {0};
   for (std::size_t i = 0; i < count; ++i) {
     mesh.positions.push_back(Vec3f{directions->dirX[i], directions->dirY[i], directions->dirZ[i]} *
                              4.0f);
   }
+
   const auto at = [&](int x, int y) { return static_cast<std::uint32_t>(y * columns + x); };
   const auto behind = static_cast<std::uint32_t>(mesh.positions.size());
   mesh.positions.push_back({0, 0, 4});
@@ -235,6 +246,7 @@ Mesh roomOfPixels(const CameraFrame& frame) {
     mesh.triangles.push_back({at(0, y), at(0, y + 1), behind});
     mesh.triangles.push_back({at(columns - 1, y), at(columns - 1, y + 1), behind});
   }
+
   for (int x = 0; x + 1 < columns; ++x) {
     mesh.triangles.push_back({at(x, 0), at(x + 1, 0), behind});
     mesh.triangles.push_back({at(x, rows - 1), at(x + 1, rows - 1), behind});
@@ -247,6 +259,7 @@ Finding lostPixels(const Setup& setup) {
   Finding finding(0);
   const Camera camera{.eye = {0, 0, 0}, .at = {0, 0, -1}, .fov = 70};
   RenderOptions options = optionsOf(setup, {97, 61});
+
   SceneBuilder builder;
   Material glowing = blackMaterial();
   glowing.emission = {0, 1, 0};
@@ -255,6 +268,7 @@ Finding lostPixels(const Setup& setup) {
   builder.description.sky.kind = Sky::Kind::color;
   builder.description.sky.zenith = {1, 0, 1};
   builder.description.cameras = {camera};
+
   const Image image = pictureOf(builder.build(), camera, options);
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {

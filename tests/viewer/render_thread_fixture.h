@@ -21,12 +21,13 @@ class RenderThreadTest : public testing::Test {
     name_ = cli::writeTinyScene(folder_);
     opened_ = openAndTell(name_, common_, nullptr);
     scene_ = opened_;
+
     request_.camera = scene_->scene.cameras[0];
     request_.options = common_.render;
-    request_.options.size = {48, 200};  // several bands
+    request_.options.size = {48, 200};  // high enough for several bands
   }
 
-  // A minute at most: far longer than a frame of a few thousand pixels takes.
+  // Waits for a minute at most, which is far longer than a frame of a few thousand pixels takes.
   static bool waitFor(const RenderThread& thread) {
     for (int i = 0; i < 60'000 && thread.busy(); ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -42,7 +43,7 @@ class RenderThreadTest : public testing::Test {
     return frame;
   }
 
-  // The picture of a renderer made for this request.
+  // Returns the picture of a renderer that is made for this request.
   Film expected() const {
     RenderOptions options = request_.options;
     options.spp = request_.spp;
@@ -66,7 +67,7 @@ class RenderThreadTest : public testing::Test {
   cli::CommonOptions common_;
   std::string name_;
   std::shared_ptr<OpenScene> opened_;
-  std::shared_ptr<const OpenScene> scene_;  // that pictures are expected to show
+  std::shared_ptr<const OpenScene> scene_;  // the scene that pictures are expected to show
   FrameRequest request_;
 };
 

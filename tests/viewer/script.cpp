@@ -30,21 +30,24 @@ constexpr std::pair<const char*, int> kNamed[] = {
 
 [[noreturn]] void expected(const std::string& what) { throwUsage("expected " + what); }
 
-// The GLFW code of "W", "7", "F12", "Left", "Shift", "Space", "+", "["...
+// Returns the GLFW code of "W", "7", "F12", "Left", "Shift", "Space", "+", "["...
 int keyNamed(const std::string& name) {
   std::vector<std::string> known;
   for (const auto& [text, code] : kNamed) {
     if (name == text) return code;
     known.emplace_back(text);
   }
+
   // GLFW's codes of letters and digits are their ASCII codes.
   if (name.size() == 1 && std::isalnum(static_cast<unsigned char>(name[0]))) {
     return std::toupper(static_cast<unsigned char>(name[0]));
   }
+
   for (int i = 1; i <= 12; ++i) {
     if (name == "F" + std::to_string(i)) return GLFW_KEY_F1 + i - 1;
     known.push_back("F" + std::to_string(i));
   }
+
   throwUsage("there is no key '" + name + "'" + didYouMean(name, known));
 }
 
@@ -64,12 +67,15 @@ int framesOf(double seconds) {
 
 ScriptCommand keyCommand(const Words& words) {
   if (words.size() != 2 && words.size() != 3) expected("key NAME [SECONDS]");
+
   constexpr std::string_view kControl = "Ctrl+";
+  // A key with Ctrl is a command, and is not held.
   if (words.size() == 2 && words[1].starts_with(kControl)) {
     return {[key = keyNamed(words[1].substr(kControl.size()))](int, Input& input, ScriptStep&) {
       input.commands.push_back(key);
     }};
   }
+
   const auto hold = [key = keyNamed(words[1])](int frame, Input& input, ScriptStep&) {
     if (frame == 0) input.pressed.push_back(key);
     input.held.insert(key);
@@ -101,6 +107,7 @@ ScriptCommand waitCommand(const Words& words) {
   if (words.size() != 3 || (words[2] != "frames" && words[2] != "seconds")) {
     expected("wait N frames, wait N seconds or wait sharp");
   }
+
   const double amount = number(words[1]);
   return {nullptr,
           words[2] == "seconds" ? framesOf(amount) : std::max(1, static_cast<int>(amount))};
@@ -112,11 +119,13 @@ ScriptCommand screenshotCommand(const Words& words) {
 }
 
 ScriptCommand clickCommand(const Words& words) {
-  constexpr int kFrames = 4;  // to the place, down, along, up
+  constexpr int kFrames = 4;  // the pointer goes to the place, presses, moves along and is released
   if (words.size() != 3 && words.size() != 5) expected("click X Y [X2 Y2]");
+
   const double x = number(words[1]), y = number(words[2]);
   const bool drags = words.size() == 5;
   const double toX = drags ? number(words[3]) : x, toY = drags ? number(words[4]) : y;
+
   const auto point = [=](int frame, Input& input, ScriptStep&) {
     const bool begins = frame < 2;
     input.pointer = {begins ? x : toX, begins ? y : toY, frame == 1 || frame == 2};
@@ -150,6 +159,7 @@ ScriptCommand resizeCommand(const Words& words) {
   const double width = side(1), height = side(2);
   const auto fits = [](double side) { return side >= 1 && side <= kLargestSide; };
   if (!fits(width) || !fits(height)) expected("resize W H, from 1 to 16384");
+
   const ImageSize size{static_cast<int>(width), static_cast<int>(height)};
   return {[size](int, Input&, ScriptStep& step) { step.resize = size; }};
 }
@@ -204,6 +214,7 @@ std::vector<ScriptCommand> parseScript(const std::string& text, const std::strin
     std::istringstream in(line.substr(0, line.find('#')));
     Words words;
     for (std::string word; in >> word;) words.push_back(word);
+
     if (words.empty()) continue;
     try {
       commands.push_back(commandOf(words));
@@ -218,7 +229,9 @@ ScriptStep ScriptPlayer::next(bool sharp, Input& input) {
   ScriptStep step;
   step.quit = at_ >= commands_.size();
   if (step.quit) return step;
+
   const ScriptCommand& command = commands_[at_];
+  // A command that waits until the picture is sharp is repeated until then.
   if (!command.waitsUntilSharp || sharp) {
     if (command.act) command.act(frame_, input, step);
     if (++frame_ >= command.frames) {
@@ -226,6 +239,7 @@ ScriptStep ScriptPlayer::next(bool sharp, Input& input) {
       ++at_;
     }
   }
+
   if (step.rest) rest_ = step.rest;
   if (!input.pointer) input.pointer = rest_;
   return step;

@@ -27,15 +27,15 @@
 
 namespace whit::view {
 
-// What a script asks for in one frame, apart from its input.
+// What a script does in one frame, apart from its input.
 struct ScriptStep {
-  std::string screenshot;  // of this frame, after drawing; empty: none
+  std::string screenshot;  // taken of this frame after drawing; empty: none
   bool quit = false;       // the end of the script quits too
   std::optional<ImageSize> resize;
   bool minimize = false, restore = false, bare = false;
-  std::string tab;                     // of the panel; empty: it stays
-  std::optional<Input::Pointer> rest;  // of the pointer, from now on
-  std::optional<bool> showErrors;      // false: they end the script
+  std::string tab;                     // tab of the panel to turn to; empty: it stays
+  std::optional<Input::Pointer> rest;  // where the pointer rests from now on
+  std::optional<bool> showErrors;      // false: errors end the script
 };
 
 struct ScriptCommand {
@@ -58,7 +58,7 @@ class ScriptPlayer {
  private:
   std::vector<ScriptCommand> commands_;
   std::size_t at_ = 0;
-  int frame_ = 0;  // of the current command
+  int frame_ = 0;  // number of the frame within the current command
   std::optional<Input::Pointer> rest_;
 };
 

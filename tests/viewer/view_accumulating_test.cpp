@@ -1,4 +1,5 @@
-// Pictures at rest whose rays are sampled: more and more samples, and what they say of themselves.
+// Pictures at rest whose rays are sampled: they get more and more samples, and report the number of
+// samples and the error.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -18,12 +19,14 @@ class Accumulating : public testing::Test {
     common_.quiet = true;
     common_.render.threads = 2;
     scene_ = openAndTell("glossy", common_, nullptr);
+
     request_.camera = scene_->scene.cameras[0];
     request_.options = common_.render;
     request_.options.glossy = 1;
     request_.options.size = request_.window = ImageSize{90, 60};
     request_.interruptible = true;
     request_.spp = 32;
+
     calls_.superseded = calls_.stopped = [this] { return ++pieces_ > most_; };
     calls_.answer = [] {};
     calls_.publish = [](const TracedFrame&) {};
@@ -44,7 +47,7 @@ class Accumulating : public testing::Test {
   FrameRequest request_;
   TraceCalls calls_;
   std::vector<UnfinishedFrame> sights_;
-  std::atomic<int> pieces_{0};  // workers count
+  std::atomic<int> pieces_{0};  // several workers count
   int most_ = 1'000'000;
 };
 
@@ -53,29 +56,33 @@ TEST_F(Accumulating, EndsWithThePictureOfSoManySamplesBitForBit) {
   TracedFrame frame;
   ASSERT_TRUE(tracer.trace(request_, frame, calls_));
   EXPECT_TRUE(frame.sampled);
+
   const Film film = rendered(32);
   EXPECT_EQ(frame.film.image.pixels, film.image.pixels);
   EXPECT_EQ(frame.film.display.rgba, film.display.rgba);
 }
 
-// Nothing is known of what a sample takes: each pass has one.
+// The time of a sample is not known yet, so that each pass has one.
 TEST_F(Accumulating, SightsHaveMoreSamplesAndLessError) {
   FrameTracer tracer(scene_, common_);
   TracedFrame frame;
   ASSERT_TRUE(tracer.trace(request_, frame, calls_));
+
   ASSERT_EQ(sights_.size(), 31u);
   for (std::size_t i = 0; i < sights_.size(); ++i) {
     const UnfinishedFrame& sight = sights_[i];
     EXPECT_EQ(sight.samples, static_cast<int>(i) + 1);
     EXPECT_EQ(sight.display.rgba.size(), std::size_t{90 * 60 * 4}) << "all pixels, in each";
   }
+
   EXPECT_EQ(sights_[0].sampleError, 0) << "nothing is known of it";
+  // The estimated error falls with the number of samples.
   EXPECT_LT(sights_[15].sampleError, sights_[3].sampleError);
   EXPECT_LT(frame.sampleError, sights_[15].sampleError);
   EXPECT_GT(frame.sampleError, 0);
 }
 
-// The picture that is there stays until the next has more samples.
+// The picture that is shown stays until the next one has more samples.
 TEST_F(Accumulating, NoSightHasFewerSamplesThanWhatIsShown) {
   FrameTracer tracer(scene_, common_);
   TracedFrame frame;
@@ -117,7 +124,7 @@ TEST(AccumulatingWords, SaySamplesAndError) {
   EXPECT_EQ(samplesText(sight), "100 of 256 samples, within about 1.2 %");
 }
 
-// In the window: what is on screen at last is what the printed command renders, of many samples.
+// The picture in the window is what the printed command renders, with many samples.
 TEST_F(Viewer, AccumulatesAtRest) {
   std::ofstream(folder_ / "rough.json") << R"({
     "whit": 1, "size": [48, 32],
@@ -130,11 +137,13 @@ TEST_F(Viewer, AccumulatesAtRest) {
               {"shape": "sphere", "radius": 1, "material": "rough",
                "transform": {"translate": [0, 1, 0]}}]
   })";
+
   std::ofstream(folder_ / "script.txt") << "bare\nwait sharp\nscreenshot shown.png\nkey C\n";
   const cli::Outcome outcome = runOn(display_.name(), folder_.path().string(),
                                      {WHIT_VIEW_SCRIPT_PROGRAM, "rough.json", "--quiet", "--glossy",
                                       "1", "--script", "script.txt"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
+
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 1u) << outcome.out;
   EXPECT_NE(lines[0].find("--spp=256"), std::string::npos) << lines[0];

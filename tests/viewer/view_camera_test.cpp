@@ -28,6 +28,7 @@ TEST(CameraControl, RestingKeepsEveryBit) {
   camera.at = {-7.7f, 1e-3f, 5e5f};
   camera.up = {0.1f, 1, 0.2f};
   CameraControl control(camera, 1);
+
   EXPECT_FALSE(control.step({}, 1));
   EXPECT_EQ(control.camera().eye, camera.eye);
   EXPECT_EQ(control.camera().at, camera.at);
@@ -40,15 +41,19 @@ TEST(CameraControl, FliesAlongItsOwnAxes) {
     EXPECT_TRUE(control.step(motion, 0.5));
     return control.camera();
   };
+
   CameraMotion motion;
   motion.forward = 1;
   expectNear(flown(motion).eye, {0, 0, 4});
   expectNear(flown(motion).at, {0, 0, -1});
+
   motion.fast = true;
   expectNear(flown(motion).eye, {0, 0, 5 - static_cast<float>(kFastFactor)});
+
   motion = {};
   motion.right = 1;
   expectNear(flown(motion).eye, {1, 0, 5});
+
   motion = {};
   motion.up = -1;
   expectNear(flown(motion).eye, {0, -1, 5});
@@ -94,6 +99,8 @@ TEST(CameraControl, NeverTipsOver) {
   CameraMotion motion;
   motion.lookY = 10 * kQuarterTurn;  // far down
   control.step(motion, 0);
+
+  // The view stays within the steepest angle to the horizon.
   const Vec3f view = control.camera().at - control.camera().eye;
   EXPECT_NEAR(view.y, -5 * std::sin(kSteepestRadians), kTolerance);
   EXPECT_LT(view.z, 0);  // still ahead, not behind
@@ -119,12 +126,15 @@ TEST(CameraControl, WheelChangesSpeedOnly) {
 TEST(CameraControl, StaysWhereScenesCanBe) {
   CameraControl control(facingOrigin(), 3);
   CameraMotion motion;
+  // The speed has limits.
   motion.wheel = 1e4;
   control.step(motion, 0);
   EXPECT_DOUBLE_EQ(control.speed(), 3 * kSpeedRange);
+
   motion.wheel = 0;
   motion.right = 1;
   motion.fast = true;
+  // The position of the camera has limits too.
   for (int i = 0; i < 100; ++i) control.step(motion, 1e15);
   EXPECT_TRUE(isFinite(control.camera().eye));
   EXPECT_TRUE(isFinite(control.camera().at));
@@ -134,7 +144,7 @@ TEST(CameraControl, StaysWhereScenesCanBe) {
 TEST(CameraControl, CreepsFarFromTheOrigin) {
   Camera camera = facingOrigin();
   camera.eye.x = camera.at.x = 1e6f;
-  CameraControl control(camera, 0.01);  // 1/6000 a step, where floats are 1/16 apart
+  CameraControl control(camera, 0.01);  // a step is 1/6000, where floats are 1/16 apart
   CameraMotion motion;
   motion.right = 1;
   for (int i = 0; i < 6000; ++i) control.step(motion, 1.0 / 60);
@@ -143,7 +153,7 @@ TEST(CameraControl, CreepsFarFromTheOrigin) {
 
 TEST(CameraControl, ViewAlongUpCanTurn) {
   Camera camera;
-  camera.eye = {0, 5, 0};  // straight down, `up` no help
+  camera.eye = {0, 5, 0};  // straight down, where `up` is no help
   CameraControl control(camera, 1);
   CameraMotion motion;
   motion.turnUp = 1;
@@ -166,21 +176,27 @@ TEST(CameraControl, TheWheelMovesCloserToAModel) {
   EXPECT_TRUE(control.step(motion, 0));
   expectNear(control.camera().eye, {0, 0, static_cast<float>(5 * kZoomFactor * kZoomFactor)});
   expectNear(control.camera().at, {0, 0, 0});
+
+  // The wheel moves between the nearest and the farthest distance, in diagonals of the model.
   motion.wheel = 1e4;
   control.step(motion, 0);
   EXPECT_NEAR(control.camera().eye.z, kNearest * std::sqrt(12.0), kTolerance);
+
   motion.wheel = -1e5;
   control.step(motion, 0);
   EXPECT_NEAR(control.camera().eye.z, kFarthest * std::sqrt(12.0), 10 * kTolerance);
   EXPECT_EQ(control.speed(), 1);
 }
 
-// A drag across the window's height moves the point that is orbited by the height seen there.
+// A drag across the window's height moves the point that is orbited by the height that is seen at
+// its distance.
 TEST(CameraControl, PansWithThePointer) {
   CameraMotion motion;
   motion.panX = 0.1;
   motion.panY = 0.05;
+  // The camera is 5 away and has half a field of view of 22.5 degrees.
   const float height = 2 * 5 * std::tan(22.5f * static_cast<float>(kPi) / 180);
+
   for (const bool model : {false, true}) {
     CameraControl control = model ? aroundModel() : CameraControl(facingOrigin(), 1);
     EXPECT_TRUE(control.step(motion, 0));
@@ -197,6 +213,7 @@ TEST(CameraControl, NoDragLosesAModel) {
   motion.orbitX = 1234;
   motion.orbitY = -777;
   motion.wheel = -3;
+
   for (int i = 0; i < 100; ++i) {
     control.step(motion, 0);
     EXPECT_LE(maxComponent(abs(control.camera().at)), 1 + kTolerance);
@@ -215,7 +232,8 @@ TEST(CameraControl, OrbitsAModelWhoseCameraLooksAtAPointNearby) {
   expectNear(control.camera().eye, {-5, 0, 0});
 }
 
-// The corner (1, 1, 1) is at the border: its height is that of half the view.
+// The corner (1, 1, 1) lies at the border of the picture, so that its height is that of half the
+// view.
 TEST(CameraControl, FitsAModel) {
   for (const double aspect : {1.0, 2.0, 0.5}) {
     CameraControl control = aroundModel();
@@ -224,6 +242,7 @@ TEST(CameraControl, FitsAModel) {
     motion.panX = 0.3;
     control.step(motion, 0);
     control.fit(aspect);
+
     const double away = 1 + std::max(1.0, 1 / aspect) / std::tan(kPi / 8);
     expectNear(control.camera().eye, {0, 0, static_cast<float>(away)});
     expectNear(control.camera().at, {0, 0, 0});
@@ -239,6 +258,7 @@ TEST(CameraControl, ParallelRaysComeCloserToo) {
   control.step(motion, 0);
   EXPECT_NEAR(control.camera().orthographicHeight, 4 * kZoomFactor, kTolerance);
   expectNear(control.camera().eye, {0, 0, 5});
+
   control.fit(2);
   EXPECT_NEAR(control.camera().orthographicHeight, 2, kTolerance);
 }

@@ -44,6 +44,7 @@ void expectSame(const ShadingEdit& a, const ShadingEdit& b) {
     if (x.hasGlossy()) expectSame(x, y, &Material::specularMap, "specularMap");
     expectSame(x, y, &Material::diffuseMap, "diffuseMap");
   }
+
   for (std::size_t i = 0; i < a.lights.size(); ++i) {
     expectSame(a.lights[i], b.lights[i], &Light::position, "position");
     expectSame(a.lights[i], b.lights[i], &Light::intensity, "intensity");
@@ -54,7 +55,7 @@ void expectSame(const ShadingEdit& a, const ShadingEdit& b) {
   }
 }
 
-// Changes each member of materials and lights that the panel changes, or not, as chance has it.
+// Changes some members of materials and lights that the panel can change, at random.
 class RandomEdit {
  public:
   explicit RandomEdit(unsigned seed) : random_(seed) {}
@@ -93,10 +94,12 @@ class RandomEdit {
 void expectThatEditsComeBack(const std::string& name) {
   const ShadingEdit plain = readEdit(name);
   EXPECT_TRUE(editSettings(plain, plain).empty());
+  // The settings of an edit make the edited scene, and nothing is left to set then.
   for (unsigned seed = 1; seed <= 5; ++seed) {
     const ShadingEdit edited = RandomEdit(seed).of(plain);
     const std::vector<std::string> settings = editSettings(plain, edited);
     EXPECT_FALSE(settings.empty());
+
     const ShadingEdit again = readEdit(name, settings);
     expectSame(edited, again);
     EXPECT_TRUE(editSettings(edited, again).empty());
@@ -112,7 +115,8 @@ TEST(EditSettings, OfItemsWithoutAMaterial) {
   expectThatEditsComeBack(folder / "s.json");
 }
 
-// With maps that count only where a material is glossy, and names that pointers and shells mind.
+// The model has maps that count only where a material is glossy, and names with characters that
+// pointers and shells treat specially.
 class EditedModel : public testing::Test {
  protected:
   EditedModel() {

@@ -1,5 +1,4 @@
-// whit-view under a restless user: other views, dropped files, errors, and events
-// at random.
+// whit-view under a restless user: other views, dropped files, errors, and random events.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -13,6 +12,8 @@ TEST_F(Viewer, ShowsOtherViews) {
   play(
       "bare\nwait sharp\nscreenshot picture.png\nkey V\nwait 2 frames\nwait sharp\n"
       "screenshot depth.png\nkey V\nwait 2 frames\nwait sharp\nscreenshot normals.png\n");
+
+  // The option shows what pressing V twice shows.
   play("bare\nwait sharp\nscreenshot again.png\n", {"--view", "normals"});
   EXPECT_NE(codes("picture.png").codes, codes("depth.png").codes);
   EXPECT_NE(codes("depth.png").codes, codes("normals.png").codes);
@@ -23,11 +24,13 @@ TEST_F(Viewer, DroppedFilesOpen) {
   std::string text = cli::readFile(folder_ / "tiny.json");
   text.replace(text.find("0, 2, 6"), 7, "1, 3, 7");
   std::ofstream(folder_ / "other.json") << text;
+
   const cli::Outcome outcome = play(
       "bare\nwait sharp\ndrop other.json\nwait 60 frames\nwait sharp\nscreenshot "
       "shown.png\n"
       "key C\n",
       {"--size", "120x80"});
+
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 1u) << outcome.out;
   EXPECT_NE(lines[0].find("other.json"), std::string::npos) << lines[0];
@@ -36,11 +39,12 @@ TEST_F(Viewer, DroppedFilesOpen) {
   expectSameCodes("shown.png", "again.png");
 }
 
-// Reading again before the dropped scene is there means that one.
+// A reload before the dropped scene is there loads the dropped scene.
 TEST_F(Viewer, ADroppedSceneReadAgainIsTheOneNamed) {
   const cli::Outcome outcome = play(
       "bare\nkey N\nwait sharp\ndrop whitted\nkey R\nwait 60 frames\nwait sharp\n"
       "screenshot shown.png\nkey C\n");
+
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 1u) << outcome.out;
   EXPECT_EQ(lines[0].find("whit render whitted "), 0u) << lines[0];
@@ -59,20 +63,22 @@ TEST_F(Viewer, ErrorsAreShownAndSurvived) {
   EXPECT_NE(codes("before.png").codes, codes("error.png").codes);
 }
 
-// What --resume goes by belongs to whit render alone.
+// Only whit render writes the digest of the scene, which --resume compares.
 constexpr char kSceneDigest[] = "sceneDigest";
 
-// The pixels' bits, and all that the files say about themselves.
+// Compares the bits of the pixels, and all that the files say about themselves.
 void expectSameFile(const std::string& viewed, const std::string& rendered) {
   const Image a = readImage(viewed, ImageLimits());
   const Image b = readImage(rendered, ImageLimits());
   EXPECT_EQ(a.pixels, b.pixels);
+
   ImageMetadata said = readExrMetadata(rendered);
   EXPECT_EQ(std::erase_if(said, [](const auto& entry) { return entry.first == kSceneDigest; }), 1u);
   EXPECT_EQ(readExrMetadata(viewed), said);
 }
 
-// Keys, mouse, then the panel: a light and a material are unfolded and changed.
+// The user presses keys, moves the mouse, and then unfolds and changes a light and a material in
+// the panel.
 TEST_F(Viewer, EditsComeBackFromThePrintedCommand) {
   const cli::Outcome outcome = play(
       "key N\nkey W 0.3\nmouse left 10 5\npanel scene\nwait 10 frames\n"
@@ -80,6 +86,7 @@ TEST_F(Viewer, EditsComeBackFromThePrintedCommand) {
       "click 30 350\nwait 5 frames\nclick 60 395 90 395\nclick 110 371 140 371\n"  // the mirror
       "bare\nwait 20 frames\nwait sharp\nscreenshot shown.png\nkey C\nkey F12\n",
       {"--size", "800x480"});
+
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 2u) << outcome.out;
   EXPECT_EQ(lines[1], lines[0]);
@@ -87,21 +94,25 @@ TEST_F(Viewer, EditsComeBackFromThePrintedCommand) {
                              "/materials/mirror/specular=", "/materials/mirror/diffuse="}) {
     EXPECT_NE(lines[0].find(std::string("--set '") + edited), std::string::npos) << lines[0];
   }
+  // What was not edited is not set.
   EXPECT_EQ(lines[0].find("/materials/floor"), std::string::npos) << lines[0];
+
   render(lines[0], "again.png");
   expectSameCodes("shown.png", "again.png");
+  // The saved file is the one that the printed command makes.
   render(lines[0], "again.exr");
   expectSameFile(folder_ / "tiny-0001.exr", folder_ / "again.exr");
 }
 
-// What is set on the command line belongs to the scene named there: it stays when that is read
-// again, and goes when another one is opened.
+// A setting of the command line belongs to the scene that is named there. It stays when that scene
+// is read again, and goes when another one is opened.
 TEST_F(Viewer, SettingsStayWithTheirScene) {
   std::ofstream(folder_ / "other.json") << cli::readFile(folder_ / "tiny.json");
   const cli::Outcome outcome = play(
       "key N\nwait sharp\nkey C\nkey R\nwait 60 frames\nwait sharp\nkey C\n"
       "drop other.json\nwait 60 frames\nwait sharp\nkey C\n",
       {"--set", "/materials/floor/diffuse=[0.9, 0.1, 0.1]"});
+
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 3u) << outcome.out;
   EXPECT_NE(lines[0].find(" --set '/materials/floor/diffuse=[0.9, 0.1, 0.1]'"), std::string::npos);
@@ -109,7 +120,7 @@ TEST_F(Viewer, SettingsStayWithTheirScene) {
   EXPECT_EQ(lines[2].find("--set"), std::string::npos) << lines[2];
 }
 
-// Everything that keys and mouse can do, but quit and write files.
+// Makes events of all kinds that keys and mouse have, except for quitting and for writing files.
 std::string randomEvents(unsigned seed, int count) {
   constexpr std::array kKeys{"W", "A", "S", "D", "Q", "E", "Left", "Up", "Space", "1",     "2",
                              "9", "+", "-", "[", "]", "F", "H",    "V",  "R",     "Shift", "Home"};
@@ -117,6 +128,7 @@ std::string randomEvents(unsigned seed, int count) {
   const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
   std::ostringstream script;
   script << "errors show\n";
+
   for (int i = 0; i < count; ++i) {
     switch (below(9)) {
       case 0:
@@ -159,9 +171,11 @@ TEST_F(Viewer, FullScreenMinimizedAndResized) {
   const cli::Outcome outcome = play(
       "bare\nkey F\nwait 5 frames\nkey F\nwait 5 frames\nminimize\nwait 5 frames\nrestore\n"
       "wait 5 frames\nresize 200 100\nwait 10 frames\nwait sharp\nscreenshot shown.png\nkey C\n");
+
   const RawImage shown = codes("shown.png");
   EXPECT_EQ(shown.width, 200);
   EXPECT_EQ(shown.height, 100);
+
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 1u) << outcome.out;
   render(lines[0], "again.png");

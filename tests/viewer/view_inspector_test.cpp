@@ -1,4 +1,4 @@
-// What is said about the pixel under the pointer.
+// The inspector's text about the pixel under the pointer.
 #include <gtest/gtest.h>
 
 #include "viewer/panel.h"
@@ -7,7 +7,7 @@
 namespace whit::view {
 namespace {
 
-// Two pixels for a window of 200x100.
+// A picture of two pixels for a window of 200x100.
 class Inspector : public testing::Test {
  protected:
   Inspector() {
@@ -17,7 +17,7 @@ class Inspector : public testing::Test {
     frame_.film.image.pixels = {{0.5f, 0.25f, 2}, {0, 0, 0.125f}};
     frame_.film.display = {2, 1, {188, 137, 255, 255, 0, 0, 99, 255}};
   }
-  // In the right half, which is the second pixel.
+  // Returns the text for the right half of the window, which shows the second pixel.
   std::string right() { return inspect(frame_, {200, 100}, {150, 40}); }
 
   TracedFrame frame_;
@@ -48,11 +48,13 @@ TEST_F(Inspector, SaysWhatEachViewShows) {
     frame_.debug = std::make_shared<const DebugPicture>(DebugPicture{view, 4, {seen, seen}});
     EXPECT_EQ(right(), "pixel 150, 40\n" + text);
   };
+
   expectText(DebugView::depth, "distance 3 units");
   seen.sum = {1, 2, 0};
   expectText(DebugView::normals, "normal 0.000 1.000 -1.000");
   expectText(DebugView::albedo, "albedo 0.500 1.000 0.000, linear");
   expectText(DebugView::occupancy, "50.0 % of the lanes live");
+
   seen = WatchedPixel();
   expectText(DebugView::depth, "nothing is hit");
   expectText(DebugView::normals, "nothing is hit");
@@ -61,7 +63,7 @@ TEST_F(Inspector, SaysWhatEachViewShows) {
   expectText(DebugView::cost, "2.5 microseconds a sample");
 }
 
-// Beside the pointer and nowhere else; without a click; not after I.
+// The text appears beside the pointer and nowhere else, needs no click, and is off after the key I.
 TEST_F(Viewer, SaysWhatIsUnderThePointer) {
   play(
       "key N\nkey I\nwait 250 frames\nwait sharp\nscreenshot before.png\npoint 200 150\nwait 4 "
@@ -69,8 +71,10 @@ TEST_F(Viewer, SaysWhatIsUnderThePointer) {
       "key I\nwait 4 frames\n"
       "screenshot off.png\nkey I\nkey V\nwait 250 frames\nwait sharp\nscreenshot depth.png\n",
       {"--size", "500x300"});
+
   const RawImage before = codes("before.png"), at = codes("at.png");
   const auto channels = static_cast<std::size_t>(before.channels);
+  // Only pixels in the tooltip's box may differ.
   std::size_t changed = 0;
   for (int y = 0; y < before.height; ++y) {
     for (int x = 0; x < before.width; ++x) {
@@ -80,7 +84,9 @@ TEST_F(Viewer, SaysWhatIsUnderThePointer) {
       ASSERT_TRUE(x > 200 && x < 420 && y > 150 && y < 240) << x << ',' << y;
     }
   }
+
   EXPECT_GT(changed, 1000u);
+  // The key I hides the tooltip.
   expectSameCodes("off.png", "before.png");
   EXPECT_NE(codes("depth.png").codes, at.codes);
 }

@@ -1,4 +1,4 @@
-// What is said of the costs of knobs.
+// How the costs of knobs are measured and reported.
 #include <gtest/gtest.h>
 
 #include "viewer/panel.h"
@@ -23,8 +23,10 @@ TEST(KnobCosts, AreOfOneViewOnly) {
   FrameRequest again = measured;
   again.options.depth = 2;  // another setting of the same view
   EXPECT_TRUE(isMeasuredView(measured, again));
+
   again.edits = 1;
   EXPECT_FALSE(isMeasuredView(measured, again));
+
   again = measured;
   again.camera.eye.x = 1;
   EXPECT_FALSE(isMeasuredView(measured, again));

@@ -1,4 +1,4 @@
-// Debug views of the tracing thread are those of a renderer made for them.
+// The tracing thread's debug views are the same as a renderer's that is made for them.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -17,11 +17,13 @@ class ViewPieces : public testing::TestWithParam<std::size_t> {
     common_.quiet = true;
     common_.render.threads = 2;
     scene_ = openAndTell(cli::writeTinyScene(folder_), common_, nullptr);
+
     request_.camera = scene_->scene.cameras[0];
     request_.options = common_.render;
     request_.options.size = ImageSize{100, 70};
     request_.view = static_cast<DebugView>(GetParam());
     request_.interruptible = true;
+
     calls_.superseded = calls_.stopped = [this] { return ++pieces_ > most_; };
     calls_.answer = [] {};
     calls_.publish = [](const TracedFrame&) {};
@@ -33,16 +35,20 @@ class ViewPieces : public testing::TestWithParam<std::size_t> {
     TracedFrame frame;
     ASSERT_TRUE(tracer.trace(request_, frame, calls_));
     EXPECT_GT(pieces_, 5);
+
     RenderOptions options = request_.options;
     options.spp = request_.spp;
     Renderer renderer(scene_->scene, options);
     Film film = makeFilm(scene_->scene, options);
     const test::DebugFrame whole =
         test::renderDebugView(renderer, request_.camera, film, request_.view);
+
     EXPECT_EQ(frame.film.image.pixels, film.image.pixels);
     ASSERT_TRUE(frame.debug);
     ASSERT_EQ(frame.debug->pixels.size(), whole.picture.pixels.size());
-    if (request_.view == DebugView::cost) return;  // other times
+
+    // Times differ from run to run.
+    if (request_.view == DebugView::cost) return;
     EXPECT_EQ(frame.film.display.rgba, film.display.rgba);
     EXPECT_EQ(frame.debug->legend(), whole.legend);
     for (std::size_t i = 0; i < whole.picture.pixels.size(); ++i) {
@@ -55,7 +61,7 @@ class ViewPieces : public testing::TestWithParam<std::size_t> {
   std::shared_ptr<OpenScene> scene_;
   FrameRequest request_;
   TraceCalls calls_;
-  std::atomic<int> pieces_{0};  // workers count
+  std::atomic<int> pieces_{0};  // several workers count
   int most_ = 1'000'000;
 };
 

@@ -1,5 +1,5 @@
-// The rays of a pixel that is clicked on: they are those of the picture, in the place where it
-// shows what they meet, and leave no trace where nobody asks for them.
+// The rays of a pixel that is clicked on are those of the picture, are drawn where it shows what
+// they hit, and leave no trace where they are not wanted.
 #include <gtest/gtest.h>
 
 #include "render_thread_fixture.h"
@@ -30,6 +30,7 @@ TEST_F(RayPicking, TheRaysAreThoseOfThePicture) {
     ASSERT_TRUE(pick) << thread.takeError();
     EXPECT_EQ(pick->rays.packets.pixel, frame.film.image.at(x, y)) << x << "," << y;
     EXPECT_EQ(pick->words.size(), pick->rays.packets.nodes.size());
+    // The pixels in row 14 show the ball, the others the floor.
     EXPECT_EQ(pick->words[0].met.rfind(y == 14 ? "mirror, " : "floor, ", 0), 0u)
         << pick->words[0].met;
     EXPECT_FALSE(thread.takePick());
@@ -47,6 +48,8 @@ TEST_F(RayPicking, WhatWasMetIsSelected) {
     select(thread.takePick().value(), view);
     return view;
   };
+
+  // The ball and the lamp that lights it are selected, and the sky selects nothing.
   const RayView sphere = selected(24, 14), nothing = selected(0, 0);
   ASSERT_LT(sphere.material, scene_->scene.materials.size());
   EXPECT_EQ(scene_->scene.materials[sphere.material].name, "mirror");
@@ -55,22 +58,27 @@ TEST_F(RayPicking, WhatWasMetIsSelected) {
   EXPECT_EQ(nothing.light, kNoCounterpart);
 }
 
-// Coarser, deeper or brighter frames around them change nothing, nor do they change the frames.
+// A query of rays neither ends the picture that is being traced nor changes it, and the picture
+// does not change the rays.
 TEST_F(RayPicking, PicturesUnderWayGoOn) {
   RenderThread thread(opened_, common_, [] {});
   request_.options.size = {48, 32};
   const TracedFrame small = traced(thread);
   const RayQuery query = queryFor(request_, 24, 14);
+
   request_.options.size = {480, 320};
   request_.spp = 64;
   request_.interruptible = true;
+  // The query comes while a large picture is being traced.
   thread.ask(request_);
   thread.query(query);
   ASSERT_TRUE(waitFor(thread));
+
   TracedFrame frame;
   ASSERT_TRUE(thread.take(frame)) << "the question has ended it";
   const Film film = expected();
   EXPECT_EQ(frame.film.display.rgba, film.display.rgba);
+
   const auto pick = thread.takePick();
   ASSERT_TRUE(pick);
   EXPECT_EQ(pick->rays.packets.pixel, small.film.image.at(24, 14));
@@ -83,17 +91,21 @@ TEST_F(RayPicking, LinesEndWhereThePictureShowsWhatTheyMeet) {
   ASSERT_TRUE(waitFor(thread));
   const auto pick = thread.takePick();
   ASSERT_TRUE(pick);
+
   constexpr double kRounding = 1e-3;  // pixels
   const LineView view(request_.camera, 48, 32);
   const RayNode& primary = pick->rays.packets.nodes[0];
+  // The primary ray ends in the middle of its pixel.
   const auto seen = view.see(primary.position, primary.position + Vec3d{0, 0, 1e-9});
   ASSERT_TRUE(seen);
   EXPECT_NEAR(seen->x1, 24.5, kRounding);
   EXPECT_NEAR(seen->y1, 14.5, kRounding);
-  // Behind the camera there is nothing to see.
+
+  // Points behind the camera are not visible.
   const Vec3d eye(request_.camera.eye), back = eye - Vec3d(request_.camera.at);
   EXPECT_FALSE(view.see(eye + back, eye + back * 2));
-  // From aside, all that was met is in the picture.
+
+  // The second view, from aside, shows all points that were hit.
   const LineView aside(pick->aside, 48, 32);
   for (const RayNode& n : pick->rays.packets.nodes) {
     if (n.triangle == kMiss) continue;
@@ -112,7 +124,9 @@ TEST_F(Viewer, AClickDrawsTheRaysIntoTheScene) {
       "mouse right 60 0\nwait 20 frames\nwait sharp\nscreenshot aside.png\nkey T\nwait 2 frames\n"
       "screenshot plain-aside.png\n",
       {"--size", "240x160"});
+
   EXPECT_NE(codes("rays.png").codes, codes("plain.png").codes);
+  // The key T hides the rays.
   expectSameCodes("hidden.png", "plain.png");
   EXPECT_NE(codes("aside.png").codes, codes("plain-aside.png").codes);
 }

@@ -16,11 +16,14 @@ TEST_F(RenderThreadTest, OptionsChangeBetweenFrames) {
   expectRightPicture(thread);
   request_.options.disable = request_.options.disable.with(Effect::mirror);
   expectRightPicture(thread);
+
   request_.options.disable = EffectSet().with(Effect::lights);
   expectRightPicture(thread);
+
   request_.options.disable = EffectSet();
   request_.options.exposure.ev = 1.5f;
   expectRightPicture(thread);
+
   request_.spp = 4;
   request_.options.size = {31, 17};
   request_.camera = scene_->scene.cameras[1];
@@ -39,11 +42,14 @@ TEST_F(RenderThreadTest, TheNewestRequestWins) {
   RenderThread thread(opened_, common_, [] {});
   request_.interruptible = true;
   TracedFrame early;
+
   for (int i = 1; i <= 50; ++i) {
     request_.options.exposure.ev = static_cast<float>(i) / 8;
+    // A picture that is there must be taken before another one can be requested.
     while (!thread.ask(request_)) thread.take(early);
   }
   ASSERT_TRUE(waitFor(thread));
+
   TracedFrame frame;
   ASSERT_TRUE(thread.take(frame));
   EXPECT_TRUE(samePicture(frame.request, request_));
@@ -57,10 +63,13 @@ TEST_F(RenderThreadTest, NothingQueuesBehindAPictureInMotion) {
   request_.edits = 1;
   EXPECT_TRUE(thread.ask(request_));
   while (!thread.committed()) std::this_thread::yield();
+
+  // While a picture in motion is traced, the next one has to wait.
   request_.edits = 2;
   EXPECT_FALSE(thread.ask(request_));
   ASSERT_TRUE(waitFor(thread));
   EXPECT_FALSE(thread.ask(request_)) << "the user has not seen the first one";
+
   TracedFrame frame;
   ASSERT_TRUE(thread.take(frame));
   EXPECT_EQ(frame.request.edits, 1);
@@ -75,10 +84,12 @@ TEST_F(RenderThreadTest, PicturesAtRestGiveWay) {
   large.spp = 64;
   large.interruptible = true;
   EXPECT_TRUE(thread.ask(large));
-  std::this_thread::sleep_for(std::chrono::milliseconds(50));  // it has begun
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));  // the picture has begun
   EXPECT_FALSE(thread.committed());
+
   request_.edits = 2;
   EXPECT_TRUE(thread.ask(request_));
+
   ASSERT_TRUE(waitFor(thread));
   TracedFrame frame;
   ASSERT_TRUE(thread.take(frame));
@@ -90,11 +101,13 @@ TEST_F(RenderThreadTest, PicturesAtRestGiveWay) {
 // first n keys.
 TEST_F(RenderThreadTest, AKeyIsShownByTheSecondPictureAtMost) {
   RenderThread thread(opened_, common_, [] {});
+
   request_.options.size = {24, 16};
   std::mt19937 random(1);
   const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
-  std::vector<int> takenAtKey;  // pictures that were taken when it was struck
+  std::vector<int> takenAtKey;  // number of pictures that were taken before each key
   int taken = 0, asked = 0, answered = 0, worst = 0;
+
   for (int turn = 0; turn < 3000; ++turn) {
     TracedFrame frame;
     if (thread.take(frame)) {
@@ -103,6 +116,7 @@ TEST_F(RenderThreadTest, AKeyIsShownByTheSecondPictureAtMost) {
         worst = std::max(worst, taken - takenAtKey[static_cast<std::size_t>(answered)]);
       }
     }
+
     if (below(3) == 0) takenAtKey.push_back(taken);
     const int struck = static_cast<int>(takenAtKey.size());
     request_.edits = struck;
@@ -112,6 +126,7 @@ TEST_F(RenderThreadTest, AKeyIsShownByTheSecondPictureAtMost) {
     if (below(3) == 0) takenAtKey.push_back(taken);
     if (below(2) == 0) std::this_thread::sleep_for(std::chrono::microseconds(below(300)));
   }
+
   EXPECT_GT(answered, 20) << "hardly any key was answered";
   EXPECT_EQ(worst, 2);
 }
@@ -124,6 +139,7 @@ TEST_F(RenderThreadTest, KnobsThatNeedAnotherRenderer) {
   request_.options.packet = 4;
   request_.options.tile = 8;
   request_.options.batch = Batch::frame;
+
   const TracedFrame frame = traced(thread);
   EXPECT_EQ(frame.machine.packet, 4);
   expectRightPicture(thread);
@@ -132,11 +148,13 @@ TEST_F(RenderThreadTest, KnobsThatNeedAnotherRenderer) {
 TEST_F(RenderThreadTest, KnobsThatThisMachineLacks) {
   RenderThread thread(opened_, common_, [] {});
   expectRightPicture(thread);
+
   const RenderOptions good = request_.options;
   request_.options.simd = "none";
   thread.ask(request_);
   ASSERT_TRUE(waitFor(thread));
   EXPECT_NE(thread.takeError(), "");
+
   request_.options = good;
   expectRightPicture(thread);
 }
@@ -148,6 +166,7 @@ TEST_F(RenderThreadTest, MeasuresWhatKnobsCost) {
   request_.measureKnobs = true;
   request_.options.size = {240, 160};
   const TracedFrame frame = traced(thread);
+
   const auto costOf = [&](const std::string& name) {
     for (const KnobCost& cost : frame.costs) {
       if (cost.name == name) return cost;
@@ -155,6 +174,7 @@ TEST_F(RenderThreadTest, MeasuresWhatKnobsCost) {
     ADD_FAILURE() << name << " was not measured";
     return KnobCost();
   };
+
   const KnobCost depth = costOf("depth"), mirror = costOf("mirror");
   EXPECT_EQ(depth.other, "0");
   EXPECT_EQ(depth.then.of(RayKind::reflection).rays, 0u);
@@ -163,16 +183,18 @@ TEST_F(RenderThreadTest, MeasuresWhatKnobsCost) {
   EXPECT_GT(costOf("shadows").now.of(RayKind::shadow).rays, 0u);
   EXPECT_EQ(costOf("shadows").then.of(RayKind::shadow).rays, 0u);
   for (const KnobCost& cost : frame.costs) EXPECT_NE(cost.name, "glossy");  // the scene has none
+
   request_.measureKnobs = false;
   expectRightPicture(thread);
 }
 
-// A mirror's rays are all that a frame without impulses lacks, but for those that they cause.
+// A frame without impulses lacks the rays of mirrors and the rays that these cause, and no others.
 TEST_F(RenderThreadTest, CostsAreThoseOfFramesWithAndWithout) {
   const RenderOptions& options = request_.options;
   Renderer renderer(scene_->scene, options);
   Film film = makeFilm(scene_->scene, options);
   const FrameStats stats = renderer.render(request_.camera, film);
+
   std::vector<KnobCost> costs;
   EXPECT_TRUE(measureKnobs(renderer, options, request_.camera, film, 1,
                            [&](const std::vector<KnobCost>& sofar, double measured) {
@@ -180,6 +202,7 @@ TEST_F(RenderThreadTest, CostsAreThoseOfFramesWithAndWithout) {
                              costs = sofar;
                              return true;
                            }));
+
   const auto raysOf = [&](const std::string& name) {
     for (const KnobCost& cost : costs) {
       if (cost.name == name) return static_cast<double>(cost.now.allRays() - cost.then.allRays());
@@ -187,6 +210,7 @@ TEST_F(RenderThreadTest, CostsAreThoseOfFramesWithAndWithout) {
     ADD_FAILURE() << name << " was not measured";
     return 0.0;
   };
+
   EXPECT_EQ(raysOf("depth"), raysOf("mirror"));
   EXPECT_GE(raysOf("depth"), static_cast<double>(stats.of(RayKind::reflection).rays));
   for (const KnobCost& cost : costs) EXPECT_EQ(cost.now.allRays(), stats.allRays()) << cost.name;
@@ -195,18 +219,23 @@ TEST_F(RenderThreadTest, CostsAreThoseOfFramesWithAndWithout) {
 TEST_F(RenderThreadTest, EditsBetweenFrames) {
   RenderThread thread(opened_, common_, [] {});
   const TracedFrame before = traced(thread);
+
   ShadingEdit edit = withoutEdits(scene_);
   for (Material& m : edit.materials) m.mirror = m.mirrorGrazing = {0, 0, 0};
   for (Material& m : edit.materials) m.diffuse = {0.2f, 0.9f, 0.1f};
   edit.lights[0].position.x = -2;
+  // The edit must change the picture, and mirrors must be off.
+  // An edit of a scene that was replaced is ignored.
   thread.edit(edit);
   ++request_.edits;
+
   const TracedFrame after = traced(thread);
   EXPECT_NE(after.film.display.rgba, before.film.display.rgba);
   EXPECT_TRUE(before.reasons[static_cast<std::size_t>(Effect::mirror)].on);
   EXPECT_FALSE(after.reasons[static_cast<std::size_t>(Effect::mirror)].on);
-  expectRightPicture(thread);  // of a renderer made for the edited scene
-  edit.scene = nullptr;        // of a scene that is no longer there
+
+  expectRightPicture(thread);  // the picture of a renderer made for the edited scene
+  edit.scene = nullptr;        // an edit of a scene that is no longer there
   edit.lights[0].position.x = 2;
   thread.edit(edit);
   ASSERT_TRUE(waitFor(thread));
@@ -216,9 +245,11 @@ TEST_F(RenderThreadTest, EditsBetweenFrames) {
 TEST_F(RenderThreadTest, ReloadsTheScene) {
   RenderThread thread(opened_, common_, [] {});
   EXPECT_EQ(traced(thread).scene, scene_);
+
   std::string text = cli::readFile(name_);
   text.replace(text.find("\"diffuse\": 0.5"), 14, "\"diffuse\": 0.9");
   std::ofstream(name_) << text;
+
   thread.load({name_, {}, {}});
   const TracedFrame frame = traced(thread);
   EXPECT_NE(frame.scene, scene_);

@@ -1,4 +1,5 @@
-// The scale that holds a frame rate. A frame may take 1000 / 60 = 16.7 ms unless said otherwise.
+// The scale that holds a frame rate. A frame may take 1000 / 60 = 16.7 ms unless a test has another
+// rate.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -11,14 +12,14 @@ namespace {
 
 constexpr double kPixels = 1e6;
 
-// As after many frames of `ms` for the whole window.
+// Returns a control that has seen many frames of `ms` for the whole window.
 ResolutionControl learned(double ms, double rate = kDefaultRate) {
   ResolutionControl control(rate, 1);
   for (int i = 0; i < 100; ++i) control.learn(ms, kPixels);
   return control;
 }
 
-// What it settles on.
+// Returns the scale that the control stays at.
 double scaleOf(ResolutionControl& control) {
   for (std::size_t i = 0; i < kScales.size(); ++i) control.moving(kPixels);
   return control.moving(kPixels).scale;
@@ -55,11 +56,12 @@ TEST(ResolutionControl, MoreSamplesCostMore) {
 TEST(ResolutionControl, FewerSamplesWhereTheCoarsestScaleIsNotEnough) {
   ResolutionControl control(kDefaultRate, 64);
   control.learn(1000, kPixels);
-  // A 64th of the pixels: 15.6 ms a sample, one of which fits.
+  // A 64th of the pixels takes 15.6 ms a sample, of which one fits.
   EXPECT_EQ(scaleOf(control), kScales.back());
   EXPECT_EQ(control.moving(kPixels), (Sharpness{kScales.back(), 1}));
+
   ResolutionControl quicker(kDefaultRate, 64);
-  quicker.learn(100, kPixels);  // ten of them fit
+  quicker.learn(100, kPixels);  // ten samples fit
   EXPECT_EQ(scaleOf(quicker), kScales.back());
   EXPECT_EQ(quicker.moving(kPixels), (Sharpness{kScales.back(), 10}));
 }
@@ -69,9 +71,12 @@ TEST(ResolutionControl, DoesNotFlutter) {
   EXPECT_EQ(scaleOf(control), 1);
   for (int i = 0; i < 100; ++i) control.learn(20, kPixels);
   EXPECT_EQ(scaleOf(control), 0.875);
-  // 0.9375 would take 15.8 ms: it would hold the rate, but so barely that it is not gone back to.
+
+  // The scale 0.9375 would take 15.8 ms. It would hold the rate, but so barely that the control
+  // does not return to it.
   for (int i = 0; i < 100; ++i) control.learn(18, kPixels);
   EXPECT_EQ(scaleOf(control), 0.875);
+
   for (int i = 0; i < 100; ++i) control.learn(10, kPixels);
   EXPECT_EQ(scaleOf(control), 1);
 }
@@ -88,7 +93,8 @@ TEST(ResolutionControl, IgnoresFramesWithoutTime) {
   EXPECT_EQ(scaleOf(control), 1);
 }
 
-// Where nothing of the view is there yet and all of it takes that long.
+// Returns the steps of a picture at rest, which begins with nothing or with a picture of
+// `shownScale`.
 std::vector<Sharpness> stepsAtRest(ResolutionControl& control, bool supersample,
                                    double shownScale = 0) {
   control.startSharpening(kPixels, shownScale);
@@ -99,12 +105,15 @@ std::vector<Sharpness> stepsAtRest(ResolutionControl& control, bool supersample,
 
 TEST(ResolutionControl, SharpensAtRestStepByStep) {
   using Steps = std::vector<Sharpness>;
+  // A slow machine begins coarse, and each step has four times the pixels.
   ResolutionControl slow = learned(1e5);
   EXPECT_EQ(stepsAtRest(slow, true),
             (Steps{{0.125, 1}, {0.25, 1}, {0.5, 1}, {1, 1}, {1, 4}, {1, 16}}));
   EXPECT_EQ(stepsAtRest(slow, false), (Steps{{0.125, 1}, {0.25, 1}, {0.5, 1}, {1, 1}}));
+
   ResolutionControl middling = learned(150);  // 37 ms for a half
   EXPECT_EQ(stepsAtRest(middling, false), (Steps{{0.5, 1}, {1, 1}}));
+
   ResolutionControl fast = learned(10);
   EXPECT_EQ(stepsAtRest(fast, true), (Steps{{1, 1}, {1, 4}, {1, 16}}));
 }

@@ -20,7 +20,7 @@ class SavedScenes : public Viewer {
     }
     writeExr(folder_ / "sky.exr", sky, {});
   }
-  // Of the second picture, which is to show what the first does.
+  // Renders with the printed command, which must give the picture that was shown.
   void expectThatItShows(const std::string& picture, const std::string& command) {
     render(command, "again.png");
     expectSameCodes(picture, "again.png");
@@ -34,11 +34,14 @@ TEST_F(SavedScenes, KeepWhatWasNotEdited) {
       "click 30 200\nwait 5 frames\nclick 100 269\nbare\nwait 20 frames\nwait sharp\n"
       "screenshot shown.png\nkey Ctrl+S\nkey Ctrl+S\n",
       {"--size", "800x480"});
+
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 2u) << outcome.out;
   EXPECT_EQ(lines[0], "whit render tiny-edited.json -o tiny-edited.png --size=800x480");
   EXPECT_NE(lines[1].find("tiny-edited-2.json"), std::string::npos) << "it was overwritten";
   expectThatItShows("shown.png", lines[0]);
+
+  // Only what was edited and the camera differ from the original file.
   const Json before = read("tiny.json"), after = read("tiny-edited.json");
   EXPECT_NE(after["lights"][0]["intensity"], before["lights"][0]["intensity"]);
   for (const char* section : {"size", "materials", "scene"}) {
@@ -49,16 +52,19 @@ TEST_F(SavedScenes, KeepWhatWasNotEdited) {
   EXPECT_EQ(after["path"][1], before["path"][1]);
 }
 
-// A path that begins where the first camera is still does.
+// A path that begins at the first camera keeps its beginning although that camera is saved
+// elsewhere.
 TEST_F(SavedScenes, KeepTheirPath) {
   Json scene = read("tiny.json");
   scene["path"][0] = Json{{"time", 0}};
   std::ofstream(folder_ / "tiny.json") << scene.dump();
   play("key W 0.3\nwait sharp\nkey Ctrl+S\n");
+
   LoadOptions options;
   Warnings warnings;
   const auto before = loadScene(folder_ / "tiny.json", options, warnings);
   const auto after = loadScene(folder_ / "tiny-edited.json", options, warnings);
+
   EXPECT_FALSE(sameView(before.cameras[0], after.cameras[0]));
   for (const float time : {0.0f, 0.5f, 1.0f}) {
     EXPECT_TRUE(sameView(cameraAt(before.cameraPath, time), cameraAt(after.cameraPath, time)));
@@ -76,13 +82,16 @@ TEST_F(SavedScenes, FindTheirFilesFromElsewhere) {
     "textures": {"t": {"image": "maps/t.png"}}, "materials": {"m": {"diffuseMap": "t"}},
     "objects": {"o": [{"group": [{"model": "m.obj"}]}]},
     "scene": [{"shape": "quad", "material": "m"}, {"use": "o"}]})";
+
   const cli::Outcome outcome = play(
       "drop sub/s.json?fov=55\nwait 60 frames\nkey D 0.2\nwait 20 frames\nwait sharp\nbare\n"
       "wait 2 frames\nscreenshot shown.png\nkey Ctrl+S\n");
+
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 1u) << outcome.out;
   EXPECT_EQ(lines[0].find("--allow-outside"), std::string::npos) << lines[0];
   expectThatItShows("shown.png", lines[0]);
+  // Paths are relative to the folder of the new file.
   EXPECT_EQ(read("s-edited.json")["textures"]["t"]["image"], "sub/maps/t.png");
 }
 
@@ -90,16 +99,19 @@ TEST_F(SavedScenes, StateTheOptionsThatWereChosen) {
   Json scene = read("tiny.json");
   scene["options"] = {{"depth", 2}, {"spp", 4}, {"background", "ff8000"}};
   std::ofstream(folder_ / "tiny.json") << scene.dump();
+
   const cli::Outcome outcome = play(
       "bare\nkey N\nwait sharp\nkey C\nkey ]\nwait 20 frames\nwait sharp\n"
       "screenshot shown.png\nkey C\nkey Ctrl+S\n",
       {"--spp", "2", "--fresnel", "schlick"});
+
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 3u) << outcome.out;
   EXPECT_EQ(lines[0], "whit render tiny.json -o tiny.png --size=48x32 --spp=2 --fresnel=schlick");
   EXPECT_EQ(lines[1], lines[0] + " --exposure=0.25");
   EXPECT_EQ(lines[2], "whit render tiny-edited.json -o tiny-edited.png --size=48x32");
   for (const std::string& line : {lines[1], lines[2]}) expectThatItShows("shown.png", line);
+
   EXPECT_EQ(read("tiny-edited.json")["options"], (Json{{"depth", 2},
                                                        {"spp", 2},
                                                        {"background", "ff8000"},
@@ -107,15 +119,17 @@ TEST_F(SavedScenes, StateTheOptionsThatWereChosen) {
                                                        {"exposure", 0.25}}));
 }
 
-// The exposure that was chosen for the scene before says nothing about another one.
+// An exposure that the user chose for one scene does not hold for the next one.
 TEST_F(SavedScenes, OptionsOfAnotherSceneAreTaken) {
   Json scene = read("tiny.json");
   scene["options"] = {{"depth", 1}, {"exposure", 1}, {"spp", 4}};
   std::ofstream(folder_ / "other.json") << scene.dump();
+
   const cli::Outcome outcome = play(
       "bare\nkey N\nkey ]\nwait sharp\nkey C\ndrop other.json\nwait 60 frames\nwait sharp\n"
       "screenshot shown.png\nkey C\ndrop tiny.json\nwait 60 frames\nwait sharp\nkey C\n",
       {"--spp", "2"});
+
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 3u) << outcome.out;
   EXPECT_EQ(lines[0], "whit render tiny.json -o tiny.png --size=48x32 --spp=2 --exposure=0.25");
@@ -129,10 +143,12 @@ TEST_F(SavedScenes, SayWhenTheirFilesLieOutside) {
   fs::copy(folder_ / "sky.exr", elsewhere / "sky.exr");
   std::ofstream(elsewhere / "far.json") << R"({"whit": 1, "sky": {"image": "sky.exr"},
     "scene": [{"shape": "sphere"}]})";
+
   const cli::Outcome outcome =
       play("drop " + (elsewhere / "far.json") +
            "\nwait 60 frames\nwait sharp\nbare\nwait 2 frames\nscreenshot shown.png\n"
            "key Ctrl+S\n");
+
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 1u) << outcome.out;
   EXPECT_NE(lines[0].find(" --allow-outside"), std::string::npos) << lines[0];
@@ -144,15 +160,19 @@ TEST_F(SavedScenes, OfAModelHoldIt) {
   std::ofstream(folder_ / "models/m.mtl") << "newmtl a/b~c\nKd 1 0.5 0\nillum 1\n";
   std::ofstream(folder_ / "models/m.obj")
       << "mtllib m.mtl\nusemtl a/b~c\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nv 0 0 1\nf 1 3 4\n";
+
   const cli::Outcome outcome = play(
       "drop models/m.obj\nwait 60 frames\nkey D 0.2\nbare\nwait 20 frames\nwait sharp\n"
       "screenshot shown.png\nkey C\nkey Ctrl+S\ndrop sky.exr\nwait 30 frames\nwait sharp\n"
       "screenshot sky.png\nkey Ctrl+S\n",
       {"--size", "120x80"});
+
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 3u) << outcome.out;
   for (const std::string& line : {lines[0], lines[1]}) expectThatItShows("shown.png", line);
   expectThatItShows("sky.png", lines[2]);
+
+  // A model is named by the scene and not copied into it.
   const Json scene = read("m-edited.json");
   EXPECT_EQ(scene["scene"][0]["model"], "models/m.obj");
   EXPECT_EQ(scene["sky"]["preset"], "studio");
@@ -168,6 +188,7 @@ TEST_F(SavedScenes, HaveTheSkyThatWasChosen) {
         "bare\nwait sharp\nscreenshot own.png\nkey Ctrl+S\ndrop sky.exr\nwait 30 frames\n"
         "wait sharp\nscreenshot sky.png\nkey C\nkey Ctrl+S\n",
         all);
+
     const std::vector<std::string> lines = linesOf(outcome.out);
     ASSERT_EQ(lines.size(), 3u) << outcome.out;
     EXPECT_NE(codes("own.png").codes, codes("sky.png").codes);
@@ -178,7 +199,8 @@ TEST_F(SavedScenes, HaveTheSkyThatWasChosen) {
   }
 }
 
-// The sky's list, brightness and rotation; then ambient light from it.
+// The clicks change the sky's brightness and rotation in the panel, and turn on ambient light from
+// the sky.
 TEST_F(SavedScenes, HaveTheSurroundingsOfThePanel) {
   const cli::Outcome outcome = play(
       "drop sky.exr\nkey N\npanel scene\nwait 30 frames\nwait sharp\n"
@@ -186,8 +208,10 @@ TEST_F(SavedScenes, HaveTheSurroundingsOfThePanel) {
       "bare\nwait 30 frames\nwait sharp\nscreenshot shown.png\nkey C\n"
       "key Ctrl+S\n",
       {"--size", "800x560"});
+
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 2u) << outcome.out;
+
   const Json sky = read("tiny-edited.json")["sky"];
   EXPECT_NE(sky["scale"], 1);
   EXPECT_NE(sky["rotation"], 0);
@@ -197,10 +221,12 @@ TEST_F(SavedScenes, HaveTheSurroundingsOfThePanel) {
 
 TEST_F(SavedScenes, ASkyThatCannotBeReadLeavesTheOneThatIsThere) {
   std::ofstream(folder_ / "bad.hdr") << "#?RADIANCE\n\n-Y 1 +X 1000000\n";
+
   const cli::Outcome outcome = play(
       "errors show\nbare\nkey N\nwait sharp\ndrop bad.hdr\nwait 30 frames\nwait sharp\nbare\n"
       "key Ctrl+S\nkey C\n");
   EXPECT_NE(outcome.err.find("bad.hdr"), std::string::npos) << outcome.err;
+
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 2u) << outcome.out;
   EXPECT_EQ(lines[1], "whit render tiny.json -o tiny.png --size=48x32");

@@ -17,7 +17,7 @@ std::string errorOf(const std::string& text) {
   return "no error";
 }
 
-// Frames until the script says quit, at most 1000.
+// Returns the number of frames until the script quits, at most 1000.
 int framesOf(const std::string& text, bool sharp = true) {
   ScriptPlayer player(parseScript(text, "walk.txt"));
   for (int frame = 0; frame < 1000; ++frame) {
@@ -62,10 +62,12 @@ TEST(Script, ClicksAndDragsOnThePanel) {
     EXPECT_EQ(input.pointer->y, y);
     EXPECT_EQ(input.pointer->down, down);
   };
+
   expectPointer(10, 20, false);
   expectPointer(10, 20, true);
   expectPointer(30, 40, true);
   expectPointer(30, 40, false);
+
   Input input;
   EXPECT_TRUE(player.next(true, input).quit);
 }
@@ -73,16 +75,20 @@ TEST(Script, ClicksAndDragsOnThePanel) {
 TEST(Script, CommandsToTheWindowComeOnce) {
   ScriptPlayer player(
       parseScript("resize 320 200\nminimize\nerrors show\ndrop a.json\n", "walk.txt"));
+
   Input input;
   ScriptStep step = player.next(true, input);
   EXPECT_EQ(step.resize, (ImageSize{320, 200}));
   EXPECT_FALSE(step.minimize || step.showErrors);
+
   step = player.next(true, input);
   EXPECT_FALSE(step.resize || step.showErrors);
   EXPECT_TRUE(step.minimize);
+
   step = player.next(true, input);
   EXPECT_FALSE(step.resize || step.minimize);
   EXPECT_EQ(step.showErrors, true);
+
   step = player.next(true, input);
   EXPECT_FALSE(step.resize || step.minimize || step.showErrors);
   EXPECT_EQ(input.dropped, std::vector<std::string>{"a.json"});
@@ -96,6 +102,7 @@ TEST(Script, KeysAreHeldForTheirTime) {
     EXPECT_TRUE(input.isHeld('W'));
     EXPECT_EQ(input.pressed.size(), frame == 0 ? 1u : 0u);
   }
+
   Input input;
   player.next(true, input);
   EXPECT_FALSE(input.isHeld('W'));
@@ -130,6 +137,7 @@ TEST(Script, ThePointerRests) {
   Input input;
   player.next(true, input);
   EXPECT_FALSE(input.pointer);
+
   for (int frame = 0; frame < 2; ++frame) {
     input = Input();
     player.next(true, input);

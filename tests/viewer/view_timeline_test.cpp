@@ -30,18 +30,24 @@ TEST(Timeline, LastsAsLongAsWhatPlays) {
   Scene scene;
   EXPECT_FALSE(timelineOf(scene, {}).there);
   EXPECT_EQ(timelineOf(scene, {}).time(), std::nullopt);
+
   scene.animations = {{"walk", 3, 1}, {"run", 9, 1}, {kSceneMotion, 2, 1}};
   EXPECT_FALSE(timelineOf(scene, {}).there) << "it was read to stand still";
   scene.motion.given.lights.emplace_back();
+
   const Timeline first = timelineOf(scene, {});
   EXPECT_EQ(first.length, 3);
   EXPECT_EQ(first.animation, "walk");
   EXPECT_EQ(first.animations, (std::vector<std::string>{"walk", "run"}));
   EXPECT_TRUE(first.playing);
+
+  // A time that is given pauses the animation there.
   const Timeline named = timelineOf(scene, {4.0, "run"});
   EXPECT_EQ(named.length, 9);
   EXPECT_EQ(named.time(), 4);
   EXPECT_FALSE(named.playing);
+
+  // The path of the camera lasts longer than the animation.
   scene.cameraPath = {{0, {}}, {12, {}}};
   scene.motion.given.cameras.emplace_back();
   EXPECT_EQ(timelineOf(scene, {4.0, "run"}).length, 12);
@@ -72,7 +78,7 @@ class MovingPictures : public RenderThreadTest {
     common_.load.instant.plays = true;
     opened_ = openAndTell(name_, common_, nullptr);
   }
-  // The scene as it is read at that time.
+  // Compares with the scene as it is read at that time.
   void expectPictureAt(double seconds, RenderThread& thread) {
     cli::CommonOptions then = common_;
     then.load.instant.seconds = seconds;
@@ -87,17 +93,20 @@ TEST_F(MovingPictures, AreOfTheirTime) {
   for (const double seconds : {1.2, 0.0, 2.0}) expectPictureAt(seconds, thread);
 }
 
-// What is edited is the lamp's color; it goes on moving from where the file has it.
+// The lamp's color is edited; the lamp goes on moving from where the file has it.
 TEST_F(MovingPictures, KeepWhatWasEdited) {
   RenderThread thread(opened_, common_, [] {});
   expectPictureAt(1.2, thread);
+
   ShadingEdit edit = withoutEdits(opened_);
   edit.lights[0].intensity = Rgb(90.0f);
   edit.lights[0].position = {3, 6, 4};  // where it begins
   thread.edit(edit);
+
   request_.edits = 1;
   common_.load.settings = {"/lights/0/intensity=90"};
   expectPictureAt(1.2, thread);
+
   request_.edits = 1;
   expectPictureAt(0.4, thread);
 }
@@ -109,13 +118,17 @@ TEST_F(Viewer, PlaysUntilItIsPaused) {
       "C\n"
       "key A 0.2\nkey P\nwait 30 frames\nkey P\nwait sharp\nkey C\n",
       {"--size", "240x160"});
+
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 2u) << outcome.out;
   // The camera's own place is that of the file at this time.
   EXPECT_EQ(lines[0].rfind("whit render tiny.json -o tiny.png --size=240x160 --time 1.0", 0), 0u)
       << lines[0];
+
+  // The paused picture is the one that the command renders at this time.
   render(lines[0], "again.png");
   expectSameCodes("shown.png", "again.png");
+
   EXPECT_NE(lines[1].find("--eye"), std::string::npos) << "moved by hand: " << lines[1];
   EXPECT_NE(lines[1].find("--time 1."), std::string::npos) << lines[1];
 }

@@ -15,24 +15,28 @@ TEST_F(Viewer, ShowsWhatThePrintedCommandRenders) {
       "bare\nkey W 0.5\nmouse left 40 -25\nmouse right -30 5\nkey ]\nwait 3 frames\nwait sharp\n"
       "screenshot shown.png\nkey C\n",
       {"--size", "240x160"});
+
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 1u) << outcome.out;
   EXPECT_EQ(lines[0].find("--eye=0,2,6"), std::string::npos) << "it has not moved: " << lines[0];
   EXPECT_NE(lines[0].find("--exposure=0.25"), std::string::npos) << lines[0];
+
   render(lines[0], "again.png");
   expectSameCodes("shown.png", "again.png");
 }
 
-// Pasted into a shell as it is.
+// The command is pasted into a shell as it is.
 TEST_F(Viewer, OnlyWhatDiffersIsPrinted) {
   const cli::Outcome outcome = play(
       "bare\nkey N\nresize 48 32\nwait 20 frames\nwait sharp\nscreenshot first.png\nkey C\nkey 2\n"
       "wait 20 frames\nwait sharp\nscreenshot second.png\nkey C\n",
       {"--size", "scene"});
+
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 2u) << outcome.out;
   EXPECT_EQ(lines[0], "whit render tiny.json -o tiny.png");
   EXPECT_EQ(lines[1], "whit render tiny.json -o tiny.png --camera=side");
+
   paste(lines[0]);
   expectSameCodes("first.png", "tiny.png");
   paste(lines[1]);
@@ -43,10 +47,12 @@ TEST_F(Viewer, ParallelRaysComeBackFromThePrintedCommand) {
   const cli::Outcome outcome =
       play("bare\nkey D 0.3\nwait 3 frames\nwait sharp\nscreenshot shown.png\nkey C\nkey F12\n",
            {"--size", "240x160", "--ortho", "3"});
+
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 2u) << outcome.out;
   EXPECT_EQ(lines[1], lines[0]);
   EXPECT_NE(lines[0].find("--ortho=3"), std::string::npos) << lines[0];
+
   render(lines[0], "again.png");
   expectSameCodes("shown.png", "again.png");
 }
@@ -57,10 +63,12 @@ TEST_F(Viewer, ALensComesBackFromThePrintedCommand) {
       play("bare\nkey D 0.3\nwait 3 frames\nwait sharp\nscreenshot shown.png\nkey C\nkey F12\n",
            {"--size", "240x160", "--spp", "4", "--camera", "side", "--set",
             "/cameras/side/aperture=0.3"});
+
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 2u) << outcome.out;
   EXPECT_NE(lines[0].find("--camera=side"), std::string::npos) << lines[0];
   EXPECT_NE(lines[0].find("--eye="), std::string::npos) << lines[0];
+
   render(lines[0], "again.png");
   expectSameCodes("shown.png", "again.png");
 }
@@ -68,14 +76,18 @@ TEST_F(Viewer, ALensComesBackFromThePrintedCommand) {
 TEST_F(Viewer, SavesThePictureAndPrintsItsCommand) {
   const cli::Outcome outcome =
       play("key A 0.2\nwait 3 frames\nwait sharp\nkey F12\nkey F12\nkey C\n");
+
   const std::vector<std::string> lines = linesOf(outcome.out);
   ASSERT_EQ(lines.size(), 3u) << outcome.out;
   EXPECT_EQ(lines[0], lines[2]);
   EXPECT_NE(lines[0].find("--eye=-"), std::string::npos) << lines[0];  // it flew to the left
+
   render(lines[0], "again.png");
   render(lines[0], "again.exr");
   expectSameCodes("tiny-0001.png", "again.png");
   EXPECT_EQ(cli::readFile(folder_ / "tiny-0001.exr"), cli::readFile(folder_ / "tiny-0002.exr"));
+
+  // The EXR of the command has the same bits.
   const Image saved = readImage(folder_ / "tiny-0001.exr", ImageLimits());
   const Image again = readImage(folder_ / "again.exr", ImageLimits());
   ASSERT_EQ(saved.pixels.size(), again.pixels.size());
@@ -91,11 +103,12 @@ TEST_F(Viewer, KeysChooseCameras) {
   ASSERT_EQ(lines.size(), 3u) << outcome.out;
   EXPECT_NE(lines[0].find(" --camera=side"), std::string::npos) << lines[0];
   EXPECT_EQ(lines[0].find("--eye"), std::string::npos) << lines[0];
+  // A camera that has moved is printed in full, and key 2 brings back the own one.
   EXPECT_NE(lines[1], lines[0]);
   EXPECT_EQ(lines[2], lines[0]);
 }
 
-// The bytes of a rectangle of both pictures are equal.
+// Returns true if the bytes of a rectangle of both pictures are equal.
 bool sameIn(const RawImage& a, const RawImage& b, int x0, int y0, int x1, int y1) {
   const auto channels = static_cast<std::size_t>(a.channels);
   for (int y = y0; y < y1; ++y) {
@@ -113,6 +126,7 @@ TEST_F(Viewer, StartsWithThePictureAndOneLine) {
       "screenshot picture.png\nkey H\nwait 4 frames\nscreenshot panel.png\nbare\n"
       "wait 2 frames\nscreenshot bare.png\n",
       {"--size", "500x300"});
+
   const RawImage start = codes("start.png"), bare = codes("bare.png"), panel = codes("panel.png");
   EXPECT_TRUE(sameIn(start, bare, 0, 0, 500, 260));
   EXPECT_FALSE(sameIn(start, bare, 0, 260, 500, 300));
@@ -120,15 +134,18 @@ TEST_F(Viewer, StartsWithThePictureAndOneLine) {
   EXPECT_FALSE(sameIn(panel, bare, 10, 10, 400, 200));
 }
 
-// The window of a picture of 480x300 on a screen of 800x600.
+// The picture is 480x300 and the screen 800x600.
 TEST_F(Viewer, OpensAtTwoThirdsOfTheScreenAndKeepsItsSettings) {
   const cli::Outcome first =
       play("wait sharp\nkey C\nkey I\nkey H\nwait 2 frames\n", {"--size", "scene"});
   EXPECT_NE(first.out.find(" --size=533x355"), std::string::npos) << first.out;
+
   const std::string kept = cli::readFile(folder_ / "whit/viewer.json");
   EXPECT_NE(kept.find("\"inspector\": true"), std::string::npos) << kept;
   EXPECT_NE(kept.find("\"panel\": true"), std::string::npos) << kept;
   EXPECT_NE(kept.find("/tiny.json\""), std::string::npos) << kept;
+
+  // The size of the window and the inspector are kept for the next run.
   play("wait sharp\nresize 300 300\nwait 10 frames\nkey I\n", {"--size", "scene"});
   const cli::Outcome third = play("wait sharp\nkey C\n", {"--size", "scene"});
   EXPECT_NE(third.out.find(" --size=300x200"), std::string::npos) << third.out;
@@ -140,14 +157,17 @@ TEST_F(Viewer, AKeptWindowIsLimitedToTheScreen) {
   play("wait sharp\nresize 2400 2400\nwait 10 frames\n", {"--size", "scene"});
   const std::string kept = cli::readFile(folder_ / "whit/viewer.json");
   EXPECT_NE(kept.find("2400,\n    2400"), std::string::npos) << kept;
+
   const cli::Outcome second = play("wait sharp\nkey C\n", {"--size", "scene"});
   EXPECT_NE(second.out.find(" --size=800x533"), std::string::npos) << second.out;
-  EXPECT_EQ(cli::readFile(folder_ / "whit/viewer.json"), kept);  // for a larger screen
+  EXPECT_EQ(cli::readFile(folder_ / "whit/viewer.json"), kept);  // kept for a larger screen
 }
 
 TEST_F(Viewer, WithoutASceneTheLastOneOpens) {
+  // Without settings there is no last scene yet.
   EXPECT_EQ(runOn(display_.name(), folder_.path().string(), {WHIT_VIEW_PROGRAM}).status, 2);
   play("wait sharp\n");
+
   std::ofstream(folder_ / "script.txt") << "wait sharp\nkey C\n";
   const cli::Outcome outcome =
       runOn(display_.name(), folder_.path().string(),
@@ -162,6 +182,7 @@ TEST_F(Viewer, ThePanelLeavesTheClickedPointFree) {
       "wait 4 frames\nwait sharp\nscreenshot left.png\nbare\nwait 2 frames\nclick 240 160\n"
       "wait 2 frames\nkey T\nwait 4 frames\nwait sharp\nscreenshot middle.png\n",
       {"--size", "500x300"});
+
   const RawImage bare = codes("bare.png");
   EXPECT_TRUE(sameIn(codes("left.png"), bare, 0, 0, 70, 300));
   EXPECT_FALSE(sameIn(codes("left.png"), bare, 100, 0, 500, 300));
@@ -174,6 +195,7 @@ TEST_F(Viewer, AModelStaysInThePicture) {
   std::ofstream(folder_ / "box.obj")
       << "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
          "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+
   const cli::Outcome outcome = play(
       "bare\nkey N\ndrop box.obj\nwait 60 frames\nmouse left 900 -700\nmouse middle 5000 -3000\n"
       "wheel -500\nmouse right 100 4000\nwait 3 frames\nwait sharp\nscreenshot far.png\n"
@@ -181,6 +203,8 @@ TEST_F(Viewer, AModelStaysInThePicture) {
       "wait 3 frames\nwait sharp\nclick 100 60\nclick 100 60\nbare\nwait 3 frames\nwait sharp\n"
       "screenshot again.png\n",
       {"--size", "240x160"});
+
+  // The share of pixels that differ from the corner, which shows the background.
   const auto covered = [&](const char* file) {
     const RawImage image = codes(file);
     const auto channels = static_cast<std::size_t>(image.channels);
@@ -190,6 +214,7 @@ TEST_F(Viewer, AModelStaysInThePicture) {
     }
     return static_cast<double>(other) / (240 * 160);
   };
+
   EXPECT_GT(covered("far.png"), 0.001);
   EXPECT_GT(covered("fit.png"), 0.2);
   expectSameCodes("again.png", "fit.png");
@@ -208,6 +233,7 @@ TEST_F(Viewer, ErrorsEndAScript) {
   const cli::Outcome outcome = view({"--script", "script.txt"});
   EXPECT_EQ(outcome.status, 1);
   EXPECT_NE(outcome.err.find("missing.json"), std::string::npos) << outcome.err;
+
   std::ofstream(folder_ / "script.txt") << "wait\n";
   EXPECT_EQ(view({"--script", "script.txt"}).status, 3);
 }

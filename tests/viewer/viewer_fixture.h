@@ -26,12 +26,13 @@ class Viewer : public testing::Test {
 
   cli::Outcome view(std::vector<std::string> words) {
     words.insert(words.begin(), {WHIT_VIEW_SCRIPT_PROGRAM, "tiny.json", "--quiet"});
-    // "--size scene" stands for none, where the window's size follows from the screen's.
+    // The words "--size scene" are left out, so that the window's size follows from the screen's.
     const auto size = std::find(words.begin(), words.end(), "--size");
     if (size == words.end()) words.insert(size, {"--size", "48x32"});
     if (const auto scene = std::find(words.begin(), words.end(), "scene"); scene != words.end()) {
       words.erase(scene - 1, scene + 1);
     }
+
     cli::Outcome outcome;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
       outcome = runOn(display_.name(), folder_.path().string(), words);

@@ -11,23 +11,25 @@
 
 namespace whit::view {
 
-// Xvfb, for as long as it lives. `name` is empty when there is no Xvfb on this machine.
+// Runs Xvfb for as long as the object lives. `name` is empty when there is no Xvfb on this machine.
 class VirtualDisplay {
  public:
   VirtualDisplay() {
     int ends[2];
     if (pipe(ends) != 0) return;
+
     child_ = fork();
     if (child_ == 0) {
       close(ends[0]);
       const int nowhere = open("/dev/null", O_WRONLY);
       dup2(nowhere, STDERR_FILENO);
       const std::string number = std::to_string(ends[1]);
-      // It lives on between one viewer and the next, without beginning anew in between.
+      // Xvfb must not reset itself between the end of one viewer and the beginning of the next.
       execlp("Xvfb", "Xvfb", "-noreset", "-displayfd", number.c_str(), "-screen", "0", "800x600x24",
              "-nolisten", "tcp", static_cast<char*>(nullptr));
       _exit(127);
     }
+
     close(ends[1]);
     // Xvfb writes its number once it listens; without Xvfb the pipe just closes.
     std::string number;
@@ -49,14 +51,15 @@ class VirtualDisplay {
   std::string name_;
 };
 
-// Runs a program in `folder` with DISPLAY set, or unset when `display` is empty. Three minutes at
-// most, after which it is ended: status -14.
+// Runs a program in `folder` with DISPLAY set, or unset when `display` is empty. The program is
+// ended after three minutes, with status -14.
 inline cli::Outcome runOn(const std::string& display, const std::string& folder,
                           std::vector<std::string> words) {
   const cli::TemporaryFolder output;
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
+
   const std::string out = output / "stdout", err = output / "stderr";
   const pid_t child = fork();
   if (child == 0) {
@@ -66,11 +69,12 @@ inline cli::Outcome runOn(const std::string& display, const std::string& folder,
     unsetenv("WAYLAND_DISPLAY");
     unsetenv("DISPLAY");
     if (!display.empty()) setenv("DISPLAY", display.c_str(), 1);
-    setenv("XDG_CONFIG_HOME", folder.c_str(), 1);  // nobody's settings
+    setenv("XDG_CONFIG_HOME", folder.c_str(), 1);  // not the user's settings
     if (chdir(folder.c_str()) != 0) _exit(126);
     execv(argv[0], argv.data());
     _exit(127);
   }
+
   const int status = cli::waitFor(child);
   return {status, cli::readFile(out), cli::readFile(err)};
 }

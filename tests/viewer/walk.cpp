@@ -1,5 +1,5 @@
-// whit-walk: flies along the camera path of a scene in real time, as the viewer does, and tells how
-// far what it shows at --rate is from references at many samples, by mean FLIP.
+// whit-walk: flies along the camera path of a scene in real time, as the viewer does, and reports
+// by mean FLIP how far what it shows at --rate is from references of many samples.
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -27,12 +27,13 @@ class Walker : public Session {
  public:
   using Session::Session;
 
-  // Moves for that many seconds; keeps as many pictures as are asked for, at equal times.
+  // Moves for `length` seconds, and returns `kept` of the pictures at equal times.
   std::vector<Shown> fly(double length, int kept) {
     moveFor(kSecondsAtRest, [](double) {});
     startOrStopPath();
     if (!pathTime_) throwUsage(sceneName_ + " has no camera path");
     std::vector<Shown> all;
+
     pictures_ = changes_ = 0;
     moveFor(length, [&](double seconds) {
       if (seconds < length * (static_cast<double>(all.size()) + 0.5) / kept) return;
@@ -41,7 +42,7 @@ class Walker : public Session {
     return all;
   }
   int pictures() const { return pictures_; }
-  int changes() const { return changes_; }  // of the resolution
+  int changes() const { return changes_; }  // changes of the resolution
 
  private:
   void fail(const std::string& error) override { throwUsage(error); }
@@ -66,17 +67,18 @@ class Walker : public Session {
   int pictures_ = 0, changes_ = 0;
 };
 
-// As the faces enlarge it, which blend coarse pixels.
+// Enlarges a picture as the viewer's windows do, which blend coarse pixels.
 DisplayImage enlarged(const DisplayImage& image, const ImageSize& size) {
   struct Blend {
     int first, second;
-    double weight;  // of the second
+    double weight;  // weight of the second pixel
   };
   const auto blendOf = [](int i, int from, int to) {
     const double at = std::clamp((i + 0.5) * from / to - 0.5, 0.0, from - 1.0);
     const int first = static_cast<int>(at);
     return Blend{first, std::min(first + 1, from - 1), at - first};
   };
+
   DisplayImage large{size.width, size.height, {}};
   for (int row = 0; row < size.height; ++row) {
     const Blend y = blendOf(row, image.height, size.height);
@@ -114,25 +116,31 @@ int run(const std::vector<std::string>& words) {
   std::vector<std::string> scenes;
   double seconds = 10;
   int kept = 40;
+
   cli::OptionList list;
   list.group("Walking");
   list.value({"seconds", "N", 1, 1000}, "time along the path", seconds);
   list.value({"pictures", "N", 1, 10000}, "pictures that are compared", kept);
   listViewOptions(list, options);
   list.operands("SCENE", "a scene with a camera path", 1, 1, scenes);
+
   if (!cli::parseOptions("whit-walk SCENE --size WxH", "Measures the viewer in motion.", list,
                          words)) {
     return 0;
   }
+
   settleViewOptions(options);
   options.scene = scenes[0];
   if (!options.common.render.size) options.common.render.size = {480, 300};
   const std::shared_ptr<OpenScene> scene = openAndTell(options.scene, options.common, nullptr);
   Walker walker(options, scene, [] {});
   const std::vector<Shown> all = walker.fly(seconds, kept);
+
+  // References have the full size and many samples.
   RenderOptions many = cli::optionsFor(scene->scene, options.common);
   many.spp = kReferenceSpp;
   Renderer renderer(scene->scene, many);
+
   std::printf("FLIP %.4f, %.1f frames/s, %.2f changes of the resolution a second\n",
               meanFlip(all, renderer, *options.common.render.size), walker.pictures() / seconds,
               walker.changes() / seconds);

@@ -22,6 +22,7 @@ DisplayImage readWindow() {
   image.rgba.resize(static_cast<std::size_t>(row * image.height));
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
+
   for (int y = 0; y < image.height / 2; ++y) {  // OpenGL begins at the bottom
     const auto top = image.rgba.begin() + y * row;
     std::swap_ranges(top, top + row, image.rgba.end() - (y + 1) * row);
@@ -37,12 +38,14 @@ class PlayedScript : public ScriptedUser {
   bool act(bool sharp, Input& input, PanelSettings& settings) override {
     const ScriptStep step = player_.next(sharp, input);
     GLFWwindow* const window = glfwGetCurrentContext();
+
     if (step.resize) glfwSetWindowSize(window, step.resize->width, step.resize->height);
     if (step.minimize) glfwIconifyWindow(window);
     if (step.restore) glfwRestoreWindow(window);
     if (!step.tab.empty()) settings.tab = step.tab, settings.shown = true;
     if (step.bare) settings.words = settings.shown = false;
     if (step.showErrors) survivesErrors_ = *step.showErrors;
+
     screenshot_ = step.screenshot;
     return !step.quit;
   }
