@@ -34,6 +34,7 @@ class Assimp : public GltfTest {
     EXPECT_TRUE(in) << folder << name;
     return {std::istreambuf_iterator<char>(in), {}};
   }
+
   SceneDescription loadBytes(const std::string& extension, const std::string& bytes) {
     return load(save("m." + extension, bytes));
   }
@@ -58,6 +59,7 @@ std::vector<PlacedTriangle> trianglesOf(const SceneDescription& scene) {
       }
     }
   }
+
   return all;
 }
 
@@ -65,8 +67,9 @@ Vec3d faceNormal(const PlacedTriangle& t) {
   return normalized(cross(t.corners[1] - t.corners[0], t.corners[2] - t.corners[0]));
 }
 
-// With the corners (0, 0, 0), (1, 0, 0), (0, 2, 0) and (0, 0, 3), moved by `lift` along z, where z
-// is up in the file: 4 faces that look out, with hard edges.
+// Expects the corners (0, 0, 0), (1, 0, 0), (0, 2, 0) and (0, 0, 3), moved by `lift` along the
+// file's z axis, and 4 faces that look out, with hard edges. `turned` means that the file has z up
+// and that the model was turned to have y up.
 void expectTetrahedron(const SceneDescription& scene, double lift, bool turned) {
   const std::vector<PlacedTriangle> triangles = trianglesOf(scene);
   ASSERT_EQ(triangles.size(), 4u);
@@ -76,6 +79,8 @@ void expectTetrahedron(const SceneDescription& scene, double lift, bool turned) 
   const std::array corners{placed({0, 0, 0}), placed({1, 0, 0}), placed({0, 2, 0}),
                            placed({0, 0, 3})};
   const Vec3d middle = (corners[0] + corners[1] + corners[2] + corners[3]) / 4.0;
+
+  // The middle of the body is behind every face that looks out.
   for (const PlacedTriangle& t : triangles) {
     EXPECT_GT(dot(faceNormal(t), t.corners[0] - middle), 0);
     for (std::size_t k = 0; k < 3; ++k) {
@@ -107,6 +112,7 @@ TEST_F(Assimp, ColorBitsOfStl) {
   const SceneDescription scene = loadBytes("stl", bytesOfFile("stl/tetra.stl"));
   const std::vector<PlacedTriangle> triangles = trianglesOf(scene);
   ASSERT_EQ(triangles.size(), 4u);
+
   const auto gray = static_cast<float>(srgbToLinear(16 / 31.0));
   const std::array colors{Rgb{1, 0, 0}, Rgb{0, 1, 0}, Rgb{0, 0, 1}, Rgb{gray, gray, gray}};
   for (std::size_t i = 0; i < 4; ++i) {
@@ -114,24 +120,32 @@ TEST_F(Assimp, ColorBitsOfStl) {
       expectNear(Vec3d(color), Vec3d(colors[i]), 1e-6);
     }
   }
+
+  // The colors of faces replace the material's.
   EXPECT_EQ(scene.materials.at(0).diffuse, Rgb(1.0f));
 }
 
-// A cylinder about z of 24 sides, which meet at 15 degrees, between z = 0 and 1.
+// Describes a cylinder about z with 24 sides, between z = 0 and 1. Neighboring sides differ by 15
+// degrees, and the top and the bottom differ from the sides by 90.
 std::string cylinderOff() {
   constexpr int kSides = 24;
   std::string points, faces, top = std::to_string(kSides), bottom = top;
+
   for (int i = 0; i < kSides; ++i) {
     const double angle = 2 * kPi * i / kSides;
     const std::string xy =
         std::to_string(std::cos(angle)) + " " + std::to_string(std::sin(angle)) + " ";
     points += xy + "0\n" + xy + "1\n";
+
     const int next = (i + 1) % kSides;
     faces += "4 " + std::to_string(2 * i) + " " + std::to_string(2 * next) + " " +
              std::to_string(2 * next + 1) + " " + std::to_string(2 * i + 1) + "\n";
+
+    // The bottom lists its corners backwards, so that it looks down.
     top += " " + std::to_string(2 * i + 1);
     bottom += " " + std::to_string(2 * (kSides - 1 - i));
   }
+
   return "OFF\n" + std::to_string(2 * kSides) + " " + std::to_string(kSides + 2) + " 0\n" + points +
          faces + top + "\n" + bottom + "\n";
 }
@@ -139,27 +153,32 @@ std::string cylinderOff() {
 TEST_F(Assimp, NormalsAreSmoothedBelowAnAngle) {
   options_.settings = {"/up=\"y\""};
   const SceneDescription scene = loadBytes("off", cylinderOff());
+
   int sides = 0;
   for (const PlacedTriangle& t : trianglesOf(scene)) {
     const bool isSide = std::abs(faceNormal(t).z) < 0.5;
     sides += isSide;
     for (std::size_t k = 0; k < 3; ++k) {
+      // Sides are smoothed into each other; the top and the bottom keep their own normal.
       const Vec3d radial{t.corners[k].x, t.corners[k].y, 0};
       expectNear(t.normals[k], isSide ? radial : faceNormal(t), 1e-5);
     }
   }
+
   EXPECT_EQ(sides, 48);
 }
 
 TEST_F(Assimp, OffColladaFbxAnd3ds) {
   options_.settings = {"/up=\"z\""};
   expectTetrahedron(loadBytes("off", bytesOfFile("off/tetra.off")), 0, true);
+
   options_.settings = {};
-  // These files say that z is up.
+  // The Collada and FBX files themselves say that z is up.
   save("t.png", bytesOfFile("png/rgb.png"));
   expectTetrahedron(loadBytes("dae", bytesOfFile("dae/tetra.dae")), 5, true);
   expectTetrahedron(loadBytes("fbx", bytesOfFile("fbx/tetra.fbx")), 5, true);
-  // As 3D programs write it.
+
+  // Programs also write the other axes of the file's coordinate system.
   std::string allAxes = bytesOfFile("fbx/tetra.fbx");
   allAxes.insert(allAxes.find("\t\tP: \"UpAxisSign\""),
                  "\t\tP: \"FrontAxis\", \"int\", \"Integer\", \"\", 1\n"
@@ -168,10 +187,13 @@ TEST_F(Assimp, OffColladaFbxAnd3ds) {
                  "\t\tP: \"CoordAxisSign\", \"int\", \"Integer\", \"\", 1\n");
   expectTetrahedron(loadBytes("fbx", allAxes), 5, true);
   EXPECT_EQ(kinds(), "");
+
   std::string text = bytesOfFile("3ds/tetra.3ds");
   std::memcpy(text.data() + text.find("T.PNG"), "t.png", 5);
   expectTetrahedron(loadBytes("3ds", text), 0, true);
   EXPECT_EQ(kinds(), "");
+
+  // A Collada file says which axis is up, so that /up is refused for it.
   options_.settings = {"/up=\"x\""};
   EXPECT_NE(errorOf([&] { loadBytes("dae", bytesOfFile("dae/tetra.dae")); }).find("/up"),
             std::string::npos);
@@ -183,12 +205,14 @@ TEST_F(Assimp, TexturesLieBesideTheModel) {
   for (const std::string extension : {"dae", "fbx"}) {
     const SceneDescription scene =
         loadBytes(extension, bytesOfFile(extension + "/tetra." + extension));
+
     const Material& material = scene.materials.at(0);
     EXPECT_EQ(material.name, "red");
     EXPECT_NE(material.diffuseMap, kNoTexture) << extension;
     EXPECT_EQ(material.diffuse, Rgb(1.0f));
     EXPECT_TRUE(material.doubleSided);
     EXPECT_NEAR(material.mirror.x, 0, 1e-6);
+
     const Mesh& mesh = scene.objects[scene.instances[0].object].meshes[0];
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
       const Vec3f& p = mesh.positions[i];
@@ -204,10 +228,13 @@ TEST_F(Assimp, NoFileOutsideOfTheFolderIsRead) {
       replaced(bytesOfFile("dae/tetra.dae"), "<init_from>t.png", "<init_from>../secret.png");
   const SceneDescription scene = loadBytes("dae", text);
   for (const Texture& texture : scene.textures) EXPECT_EQ(texture.texels.size(), 1u);
+
+  // The warning names the place of the texture.
   EXPECT_NE(kinds(), "") << "its place is said";
 }
 
-// A controller with a joint that is turned: without it the mesh would be elsewhere.
+// Gives the mesh a controller with a joint that is turned. If the joint were applied, the mesh
+// would be elsewhere.
 TEST_F(Assimp, ARiggedModelIsShownAtRest) {
   std::string text = bytesOfFile("dae/tetra.dae");
   text = replaced(text, "<library_visual_scenes>",
@@ -227,12 +254,15 @@ TEST_F(Assimp, ARiggedModelIsShownAtRest) {
                   "<input semantic='WEIGHT' source='#w' offset='1'/><vcount>1 1 1 1</vcount>"
                   "<v>0 0 0 0 0 0 0 0</v></vertex_weights></skin></controller>"
                   "</library_controllers><library_visual_scenes>");
+
+  // The node shows the mesh by the controller, and another node is its joint.
   text = replaced(text, "<instance_geometry url=\"#g\">",
                   "<instance_controller url=\"#c\"><skeleton>#bone</skeleton>");
   text = replaced(text, "</instance_geometry>", "</instance_controller>");
   text = replaced(text, "<node id=\"n\"",
                   "<node id='bone' sid='bone' name='bone' type='JOINT'><rotate>0 0 1 90</rotate>"
                   "</node><node id=\"n\"");
+
   save("t.png", bytesOfFile("png/rgb.png"));
   expectTetrahedron(loadBytes("dae", text), 5, true);
   EXPECT_NE(kinds().find("shown at rest"), std::string::npos);
@@ -244,7 +274,8 @@ TEST_F(Assimp, BadFilesEndWithAnError) {
   EXPECT_EQ(errorOf([&] { load(root_ + "none.fbx"); }).substr(0, 2), "4 ");
   EXPECT_NE(errorOf([&] { loadBytes("off", "OFF\n0 0 0\n"); }).find("3 m.off: expected a model"),
             std::string::npos);
-  // A count beyond memory.
+
+  // A count of 2,000,000,000 vertices needs more memory than is allowed.
   options_.maxMemoryBytes = 256u << 20;
   EXPECT_NE(errorOf([&] { loadBytes("off", "OFF\n2000000000 1 0\n0 0 0\n3 0 0 0\n"); }),
             "no error");
@@ -263,6 +294,7 @@ TEST_F(Assimp, DamagedFilesAreReadOrRefused) {
       EXPECT_TRUE(error == "no error" || error[0] == '3') << extension << seed << error;
     }
   }
+
   EXPECT_GT(refused, 10);
 }
 

@@ -22,6 +22,7 @@ std::vector<Broken> scenes() {
   const auto texture = [&](const std::string& path) {
     return scene("\"textures\": {\"t\": {\"image\": \"" + path + "\"}}");
   };
+
   return {
       {"s.json", "{\"whit\": 1,", kBad, ":1:12"},
       {"s.json", "{\"whit\": 2}", kBad, "#/whit"},
@@ -46,9 +47,11 @@ std::vector<Broken> gltfFiles() {
   const auto gltf = [](const std::string& members) {
     return "{\"asset\": {\"version\": \"2.0\"}, " + members + "}";
   };
+
   const auto buffer = [&](const std::string& uri) {
     return gltf("\"buffers\": [{\"byteLength\": 12, \"uri\": \"" + uri + "\"}]");
   };
+
   const auto accessor = [&](const std::string& members) {
     return gltf(
         "\"buffers\": [{\"byteLength\": 12, \"uri\": \"data:,012345678901\"}], "
@@ -59,7 +62,9 @@ std::vector<Broken> gltfFiles() {
         "[{\"primitives\": [{\"attributes\": {\"POSITION\": 0}}]}], "
         "\"nodes\": [{\"mesh\": 0}]");
   };
+
   const auto glb = [](const std::string& rest) { return "glTF\2\0\0\0"s + rest; };
+
   return {
       {"m.gltf", "{\"asset\":", kBad, ":1:10"},
       {"m.gltf", "{\"asset\": {\"version\": \"1.0\"}}", kBad, "#/asset/version"},
@@ -92,6 +97,7 @@ std::vector<Broken> otherModels() {
   const std::string vertex =
       "element vertex 1\nproperty float x\nproperty float y\n"
       "property float z\n";
+
   return {
       {"m.obj", "v 0 0 0\nv 1\n", kBad, ":2"},
       {"m.obj", "vt " + kLong, kBad, ":1"},
@@ -114,11 +120,12 @@ std::vector<Broken> otherModels() {
   };
 }
 
-// Of a texture.
+// Lists images, each of which a texture of the scene names.
 std::vector<Broken> images() {
   const std::string png = "\x89PNG\r\n\x1a\n"s;
   std::string bmp = "BM" + std::string(60, '\0');
   bmp[14] = 12;
+
   return {
       {"t.png", png, kBad, ": byte 8"},
       {"t.png", png + "\0\0\0\15IHDR"s, kBad, ": byte 16"},

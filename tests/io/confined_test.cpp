@@ -40,12 +40,14 @@ TEST(Confined, AnswersWithWhatItComputes) {
         write(much.data(), much.size());
       },
       kMemory, 20);
+
   EXPECT_EQ(answer.failure, "");
   EXPECT_EQ(answer.bytes, text + std::string(1 << 20, 'x'));
   EXPECT_EQ(seen, 7) << "the child changed the parent";
 }
 
-// With an address space of 1 GB more than is taken, a child that may take 64 GB can be started.
+// The process limits its own address space to 1 GB more than it uses. A child that is allowed 64 GB
+// must start all the same.
 TEST(Confined, LimitsOfAddressSpaceAreKept) {
   if (kSanitized) GTEST_SKIP() << "sanitizers take address space of their own";
   const pid_t child = fork();
@@ -56,10 +58,12 @@ TEST(Confined, LimitsOfAddressSpaceAreKept) {
     const rlim_t most = pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + (rlim_t{1} << 30);
     const rlimit limits{most, most};
     setrlimit(RLIMIT_AS, &limits);
+
     const ConfinedAnswer answer = runConfined([](const ConfinedWriter& write) { write("yes", 3); },
                                               std::uint64_t{64} << 30, 20);
     _exit(answer.bytes == "yes" && answer.failure.empty() ? 0 : 1);
   }
+
   int status = 0;
   waitpid(child, &status, 0);
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
@@ -79,6 +83,7 @@ TEST(Confined, BytesBeforeACrashArrive) {
         throw std::runtime_error("no");
       },
       kMemory, 20);
+
   EXPECT_EQ(answer.bytes, "half");
   EXPECT_NE(answer.failure, "");
 }
@@ -118,6 +123,7 @@ TEST(Confined, StartsFromAProgramWithThreads) {
       while (goesOn) std::vector<std::string>(200, std::string(100, 'x')).clear();
     });
   }
+
   for (int i = 0; i < 40; ++i) {
     const ConfinedAnswer answer = runConfined(
         [](const ConfinedWriter& write) {
@@ -128,19 +134,23 @@ TEST(Confined, StartsFromAProgramWithThreads) {
     EXPECT_EQ(answer.failure, "");
     EXPECT_EQ(answer.bytes, std::string(1000, 'y'));
   }
+
   goesOn = false;
   for (std::thread& other : others) other.join();
   EXPECT_TRUE(waitpid(-1, nullptr, WNOHANG) < 0 && errno == ECHILD) << "a child is left";
 }
 
 TEST(Confined, TheSystemIsOutOfReach) {
-  // A kernel with seccomp looks for the filter, which is not there.
+  // The address of the filter is null, which a kernel with seccomp filters reports as a bad address
+  // and others as an invalid option.
   const bool filters = prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, nullptr) != 0 && errno == EFAULT;
   if (!filters) GTEST_SKIP() << "no seccomp here";
+
   const auto open = [](const ConfinedWriter&) {
     if (::open("/dev/null", O_RDONLY) >= 0) _exit(0);
     throw std::runtime_error("the file cannot be opened");
   };
+
   EXPECT_EQ(failureOf(open), "it called the system");
   EXPECT_EQ(failureOf([](const ConfinedWriter&) { kill(getppid(), SIGTERM); }),
             "it called the system");

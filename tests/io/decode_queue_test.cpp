@@ -15,6 +15,7 @@ class Recorder : public Progress {
     last_ = std::max(last_, fraction);
     ++reports_;
   }
+
   std::mutex mutex_;
   double last_ = 0;
   int reports_ = 0;
@@ -41,6 +42,7 @@ TEST(DecodeQueue, ReportsTheFirstFailureInTheOrderOfAdding) {
         if (i >= 5) throw std::runtime_error(std::to_string(i));
       });
     }
+
     try {
       queue.finish();
       FAIL();
@@ -50,7 +52,7 @@ TEST(DecodeQueue, ReportsTheFirstFailureInTheOrderOfAdding) {
   }
 }
 
-// Whoever asks for progress may end the work by an exception, from any thread.
+// An observer may end the work by an exception, on any thread.
 class Impatient : public Progress {
  public:
   void report(const std::string&, double) override { throw std::runtime_error("enough"); }
@@ -61,10 +63,13 @@ TEST(DecodeQueue, WhatAnObserverThrowsReachesTheCallerOfFinish) {
     Impatient progress;
     std::atomic<int> runs{0};
     DecodeQueue queue(threads, &progress, "counting");
+
     for (int i = 0; i < 50; ++i) queue.add([&] { ++runs; });
     EXPECT_THROW(queue.finish(), std::runtime_error) << threads;
     EXPECT_GE(runs, 1);
   }
+
+  // A queue without tasks is destroyed without finish().
   DecodeQueue dropped(2, nullptr, "never asked for");
 }
 

@@ -5,7 +5,8 @@
 namespace whit {
 namespace {
 
-// Of a texel's largest channel (TexelFormat::radiance), and some roundings.
+// Largest error of a channel, relative to the largest channel of its texel: TexelFormat::radiance
+// keeps 9 bits a channel and a shared exponent. Conversions add a few roundings.
 constexpr double kOfTheLargest = 1.0 / 512 + 1e-6;
 
 const std::vector<Rgb> kTexels{{8, 6.5f, 0.3f}, {60000, 41234, 999}};
@@ -28,7 +29,8 @@ class EmissionRange : public GltfMaterials {
     image.pixels = texels;
     writeExr(root_ + "glow.exr", image, {});
   }
-  // Each pixel sees the middle of a texel, in packets or by the reference.
+
+  // Returns pixels that each see the middle of one texel, traced in packets or by the reference.
   std::vector<Rgb> pixels(bool reference) {
     const Scene scene = Scene::finalize(
         loadMembers("\"size\": [2, 1], \"cameras\": {\"above\": {\"eye\": [0, 3, 0], "
@@ -38,15 +40,18 @@ class EmissionRange : public GltfMaterials {
                     "\"emissionMap\": \"glow\"}}, \"scene\": [{\"shape\": \"quad\", "
                     "\"width\": 2, \"depth\": 1, \"material\": \"lamp\"}]"),
         warnings_);
+
     RenderOptions options;
     options.threads = 1;
     Renderer renderer(scene, options);
     Film film = makeFilm(scene, options);
+
     if (reference) {
       renderer.renderReference(scene.cameras[0], film);
     } else {
       renderer.render(scene.cameras[0], film);
     }
+
     return film.image.pixels;
   }
 };
@@ -63,7 +68,7 @@ TEST_F(EmissionRange, BeyondTheLargestIsClampedAndCounted) {
   EXPECT_EQ(warned("emission texel above 65408 clamped"), 2u);
 }
 
-// A reflectance is no more than 1.
+// Reflectances are at most 1.
 TEST_F(EmissionRange, OfReflectancesIsCutAndCounted) {
   saveExr(kTexels);
   const Scene scene = Scene::finalize(
@@ -71,11 +76,12 @@ TEST_F(EmissionRange, OfReflectancesIsCutAndCounted) {
                   "{\"diffuseMap\": \"bright\"}}, \"scene\": [{\"shape\": \"quad\", \"width\": 2, "
                   "\"depth\": 1, \"material\": \"m\"}]"),
       warnings_);
+
   EXPECT_EQ(scene.textures[0].format, TexelFormat::color);
   EXPECT_EQ(warned("color texel above 1 clamped"), 2u);
 }
 
-// 128 / 256 * 2^(132 - 128) = 8, and 192 / 256 * 2^(138 - 128) = 768.
+// Returns two pixels in RGBE: 128 / 256 * 2^(132 - 128) = 8, and 192 / 256 * 2^(138 - 128) = 768.
 std::string hdrFile() {
   return std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n") +
          std::string("\x80\x40\x20\x84\xc0\xc0\x60\x8a", 8);
@@ -86,9 +92,11 @@ TEST_F(EmissionRange, OfGltfModelsIsKept) {
   useImages({"glow.hdr"});
   const std::vector<Rgb> wanted{{8, 4, 2}, {768, 768, 384}};
   const std::string map = "\"emissiveTexture\":{\"index\":0}";
+
   const auto glows = picture(
       {{0, matte("\"baseColorFactor\":[0,0,0,1]", "\"emissiveFactor\":[1,1,1]," + map), 1}}, 2);
   expectTexels({glows[0], glows[1]}, wanted);
+
   const auto unlit = picture({{0,
                                "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}},"
                                "\"extensions\":{\"KHR_materials_unlit\":{}}}",
@@ -97,13 +105,14 @@ TEST_F(EmissionRange, OfGltfModelsIsKept) {
   expectTexels({unlit[0], unlit[1]}, wanted);
 }
 
-// One decoding serves both where the image cannot go beyond 1.
+// An image whose codes cannot exceed 1 is decoded once for both maps.
 TEST_F(EmissionRange, ImagesOfCodesAreSharedWithOtherMaps) {
   save("t.tga", tga(1, 1, {{200, 100, 50}}));
   const SceneDescription scene = loadMembers(
       "\"textures\": {\"t\": {\"image\": \"t.tga\"}}, \"materials\": {\"m\": "
       "{\"diffuseMap\": \"t\", \"emission\": 1, \"emissionMap\": \"t\"}}, "
       "\"scene\": [{\"shape\": \"quad\", \"material\": \"m\"}]");
+
   EXPECT_EQ(scene.textures.size(), 1u);
   EXPECT_EQ(scene.textures[0].format, TexelFormat::color);
 }

@@ -37,18 +37,20 @@ void appendMembers(const std::vector<Noun>& nouns, std::string& to) {
   to += '|';
 }
 
-// All of a scene that a picture depends on, here.
+// Returns the bytes of everything that a picture of these scenes depends on.
 std::string contentOf(const SceneDescription& scene) {
   std::string all = std::to_string(scene.width) + "|";
   appendMembers(scene.materials, all);
   appendMembers(scene.cameras, all);
   appendMembers(scene.lights, all);
+
   for (const Texture& texture : scene.textures) {
     appendAll(texture.texels, all);
     append(texture.wrapU, all);
     append(texture.wrapV, all);
     append(texture.nearest, all);
   }
+
   for (const Object& object : scene.objects) {
     for (const Mesh& mesh : object.meshes) {
       appendAll(mesh.positions, all);
@@ -60,6 +62,7 @@ std::string contentOf(const SceneDescription& scene) {
       appendAll(mesh.materials, all);
     }
   }
+
   for (const Instance& instance : scene.instances) append(instance.toWorld, all);
   return all;
 }
@@ -77,19 +80,22 @@ class EveryProperty : public GltfTest {
     std::string content;
     std::set<std::string> messages;
   };
+
   Read read(const std::string& file) {
     Warnings warnings;
     Read result{contentOf(loadScene(file, options_, warnings)), {}};
     for (const auto& [kind, entry] : warnings.entries()) result.messages.insert(kind);
     return result;
   }
-  // With a property the scene is another, or there is a message more than without.
+
+  // With a property the scene differs, or there is another message.
   static void expectNoticed(const Read& with, const Read& without, const std::string& property) {
     EXPECT_TRUE(with.content != without.content || with.messages != without.messages) << property;
   }
 };
 
-// Ka is the ambient light that a material reflects: here its diffuse color does.
+// Ka is the ambient reflectance of a material, for which the diffuse color stands here. The table
+// therefore has map_Ka but no Ka.
 TEST_F(EveryProperty, OfMtl) {
   struct Line {
     const char* line;
@@ -138,22 +144,27 @@ TEST_F(EveryProperty, OfMtl) {
       {"Kd spectral a.rfl 1"},
       {"Kd xyz 0.1 0.2 0.3"},
   };
+
   const auto readLines = [&](const std::string& text) {
     save("m.mtl", "newmtl m\nKd 0.5 0.5 0.5\nKs 0.5 0.5 0.5\n" + text);
     return read(save("m.obj",
                      "mtllib m.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
                      "f 1/1 2/2 3/3\n"));
   };
+
   for (const Line& line : lines) {
     const std::string text = std::string(line.context) + line.line + "\n";
     expectNoticed(readLines(text), readLines(line.context), line.line);
   }
+
   const Read plain = readLines("map_Kd t.tga\n");
   for (const char* option :
        {"-s 2 2 1", "-o 0.5 0 0", "-t 1 1 1", "-mm 0.5 2", "-clamp on", "-texres 64", "-blendu off",
         "-blendv off", "-imfchan r", "-cc on", "-boost 2"}) {
     expectNoticed(readLines("map_Kd " + std::string(option) + " t.tga\n"), plain, option);
   }
+
+  // The scale has a meaning for maps of heights only.
   expectNoticed(readLines("bump -bm 3 h.tga\n"), readLines("bump h.tga\n"), "-bm");
 }
 
@@ -179,6 +190,7 @@ TEST_F(EveryProperty, OfPly) {
       {"flags", "int", "1"},
       {"material_index", "int", "0"},
   };
+
   const Properties ofFaces[] = {
       {"red green blue", "uchar", "255 0 9"},
       {"red", "uchar", "255"},
@@ -187,6 +199,7 @@ TEST_F(EveryProperty, OfPly) {
       {"quality", "float", "1"},
       {"nx ny nz", "float", "0 0 1"},
   };
+
   const auto declared = [](const Properties& p) {
     std::istringstream names(p.names);
     std::string text;
@@ -195,6 +208,8 @@ TEST_F(EveryProperty, OfPly) {
     }
     return text;
   };
+
+  // Loads a triangle whose header and data are extended in the places that are given.
   const auto readPly = [&](const std::string& head, const std::string& vertex,
                            const std::string& vertexValues, const std::string& face,
                            const std::string& faceValues, const std::string& rest = "",
@@ -203,9 +218,11 @@ TEST_F(EveryProperty, OfPly) {
                        "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n" +
                        vertex + "element face 1\nproperty list uchar int vertex_indices\n" + face +
                        rest + "end_header\n";
+
     for (const char* corner : {"0 0 0 ", "1 0 0 ", "0 1 0 "}) text += corner + vertexValues + "\n";
     return read(save("m.ply", text + "3 0 1 2 " + faceValues + "\n" + restValues));
   };
+
   const Read plain = readPly("", "", "", "", "");
   for (const Properties& p : ofVertices) {
     expectNoticed(readPly("", declared(p), p.values, "", ""), plain, p.names);
@@ -213,28 +230,35 @@ TEST_F(EveryProperty, OfPly) {
   for (const Properties& p : ofFaces) {
     expectNoticed(readPly("", "", "", declared(p), p.values), plain, p.names);
   }
+
+  // Coordinates of the faces' corners select texels of the pictures, which comments name.
   const std::string coordinates = "property list uchar float texcoord\n";
   const std::string values = "6 0 0 1 0 0 1";
   expectNoticed(readPly("", "", "", coordinates, values), plain, "texcoord");
+
   const std::string picture = "comment TextureFile t.tga\n";
   const Read pictured = readPly(picture, "", "", coordinates, values);
   expectNoticed(pictured, readPly("", "", "", coordinates, values), "TextureFile");
+
   const std::string two = picture + "comment TextureFile g.tga\n";
   expectNoticed(readPly(two, "", "", coordinates + "property int texnumber\n", values + " 1"),
                 readPly(two, "", "", coordinates, values), "texnumber");
+
+  // Elements of these kinds are not shown, which a message says.
   for (const char* element : {"edge", "material", "camera", "user"}) {
     const std::string declaration =
         std::string("element ") + element + " 1\nproperty int vertex1\nproperty int vertex2\n";
     expectNoticed(readPly("", "", "", "", "", declaration, "0 1\n"), plain, element);
   }
+
   expectNoticed(readPly("", "", "", "", "",
                         "element tristrips 1\nproperty list int int vertex_indices\n", "3 2 1 0\n"),
                 plain, "tristrips");
 }
 
-// The schemas also define what has no meaning here: names, extras, asset, the bounds of accessors,
-// targets of buffer views, skeleton of skins, the tangents that follow from coordinates, and the
-// nearest and farthest distance of cameras, which rays do not have.
+// The schemas also define properties that have no meaning here: names, extras, asset, the bounds of
+// accessors, targets of buffer views, skeleton of skins, tangents (which follow from the
+// coordinates), and the nearest and farthest distance of cameras (rays have none).
 TEST_F(EveryProperty, OfGltf) {
   GltfBuilder b;
   const std::string position = std::to_string(b.positions(kTriangleXyz));
@@ -245,7 +269,9 @@ TEST_F(EveryProperty, OfGltf) {
   const int normal =
       b.accessor(b.view(bytesOf<float>({0, 0.6f, 0.8f, 0, 0, 1, 0, 0, 1})), 5126, "VEC3", 3);
   const int indices = b.indices({2, 1, 0});
+
   const std::string slot = "{\"index\":0}";
+  // The file has one element of each kind, so that each pointer below leads to an existing parent.
   const SchemaJson base = SchemaJson::parse(b.json(
       "\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.5,0.5,0.5,0.5],"
       "\"metallicFactor\":0.25,\"roughnessFactor\":0.1,\"baseColorTexture\":" +
@@ -270,11 +296,13 @@ TEST_F(EveryProperty, OfGltf) {
       "\"nodes\":[{\"mesh\":0},{\"camera\":0},{\"extensions\":{\"KHR_lights_punctual\":{\"light\":"
       "0}}},"
       "{\"camera\":1},{}],\"scenes\":[{\"nodes\":[0,1,2,3,4]},{\"nodes\":[0]}],\"scene\":0"));
+
   const std::string material = "/materials/0/", extensions = material + "extensions/KHR_";
   const std::string pbr = material + "pbrMetallicRoughness/",
                     light = "/extensions/KHR_lights_punctual/lights/0/";
   const std::string transform = pbr + "baseColorTexture/extensions/KHR_texture_transform/";
   const std::string primitive = "/meshes/0/primitives/0/";
+
   const std::pair<std::string, SchemaJson> properties[] = {
       {pbr + "baseColorFactor", {1, 0.5, 0.5, 1}},
       {pbr + "metallicFactor", 1},
@@ -344,15 +372,18 @@ TEST_F(EveryProperty, OfGltf) {
       {"/accessors/0/byteOffset", 12},
       {"/accessors/1/componentType", 5123},
   };
+
   const Read plain = read(save("m.gltf", base.dump()));
   for (const auto& [pointer, value] : properties) {
     SchemaJson changed = base;
     changed[SchemaJson::json_pointer(pointer)] = value;
+    // Fewer elements fit behind the offset.
     if (pointer == "/accessors/0/byteOffset") changed["/accessors/0/count"_json_pointer] = 2;
+
     try {
       expectNoticed(read(save("m.gltf", changed.dump())), plain, pointer);
     } catch (const Error& error) {
-      EXPECT_NE(std::string(error.what()), "") << pointer;  // a refusal names it
+      EXPECT_NE(std::string(error.what()), "") << pointer;  // a refusal names the property
     }
   }
 }

@@ -6,7 +6,7 @@
 namespace whit {
 namespace {
 
-// The factor times the texture, in light: code 188 is 0.5029.
+// The emission is the factor times the texture in linear light, where code 188 is 0.5029.
 TEST_F(GltfMaterials, EmissionByATexture) {
   candela_ = 0;
   save("t.tga", tga(1, 1, {{255, 188, 0}}));
@@ -16,10 +16,11 @@ TEST_F(GltfMaterials, EmissionByATexture) {
               {0.5f, half, 0});
 }
 
-// Not lit, and not reflecting what a metal would.
+// An unlit material is not lit, and reflects nothing although a metal would.
 TEST_F(GltfMaterials, UnlitTexture) {
   save("t.tga", tga(1, 1, {{255, 188, 0}}));
   useImages({"t.tga"});
+
   const auto half = static_cast<float>(srgbToLinear(188 / 255.0));
   expectColor(pixel("{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.5,1,1,1],"
                     "\"roughnessFactor\":0,\"baseColorTexture\":{\"index\":0}},"
@@ -27,11 +28,12 @@ TEST_F(GltfMaterials, UnlitTexture) {
               {0.5f, half, 0});
 }
 
-// Between the corners as between any attributes; in the middle of the first triangle's edge, half
-// of each end.
+// Colors are interpolated between the corners. The pixel sees the middle of the first triangle's
+// edge, where the color is half of each end's.
 TEST_F(GltfMaterials, VertexColors) {
   colors_ = {1, 0, 0, 0, 1, 0, 1, 0.5f, 1, 0, 0, 1};
   expectColor(pixel(matte("\"baseColorFactor\":[0.5,0.5,1,1]")), {0.5f, 0.125f, 0.5f});
+
   candela_ = 0;
   expectColor(pixel("{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.5,0.5,1,1]},"
                     "\"extensions\":{\"KHR_materials_unlit\":{}}}"),
@@ -39,7 +41,8 @@ TEST_F(GltfMaterials, VertexColors) {
   expectColor(pixel(glowing("[1,1,1]")), Rgb(1.0f));  // emission has no base color
 }
 
-// What is seen of a glow of 1 is alpha, between the corners as any attribute, times the factor's.
+// The pixel of a surface that glows with 1 shows its alpha: the alpha of the corners, interpolated,
+// times the factor's.
 TEST_F(GltfMaterials, AlphaOfVertexColorsBlends) {
   candela_ = 0;
   alphas_ = {0, 1, 1, 0};
@@ -70,11 +73,13 @@ TEST_F(GltfMaterials, WhatCannotBeShownIsCounted) {
   save("t.tga", tga(1, 1, {{255, 255, 255}}));
   useImages({"t.tga", "missing.png"}, "\"magFilter\":9728");
   const std::string slot = "\":{\"index\":0}";
+
   loadText(sceneText({{0,
                        "{\"extensions\":{\"KHR_materials_clearcoat\":{\"clearcoatNormalTexture" +
                            slot + "},\"KHR_materials_volume\":{\"thicknessTexture" + slot + "}}}",
                        1},
                       {1, matte("\"baseColorTexture\":{\"index\":1}"), 1}}));
+
   EXPECT_EQ(warned("normal map of a clearcoat left out"), 1u);
   EXPECT_EQ(warned("thickness of a volume by a texture left out: what the mesh encloses counts"),
             1u);
@@ -91,6 +96,7 @@ TEST_F(GltfMaterials, FrostedGlassIsCounted) {
           1}}));
     return warned("frosted glass shown clear: the roughness of transmission left out");
   };
+
   EXPECT_EQ(count("0.05"), 0u);
   EXPECT_EQ(count("0.5"), 1u);
 }

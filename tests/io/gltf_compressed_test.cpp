@@ -24,25 +24,28 @@ class GltfCompressed : public GltfTest {
     EXPECT_TRUE(in) << folder << name;
     return {std::istreambuf_iterator<char>(in), {}};
   }
+
   SceneDescription loadBytes(const std::string& bytes) { return load(save("m.glb", bytes)); }
 };
 
-// Positions of 14 bits a unit and normals of 8 bits are within half a step.
+// Tolerances: positions have 14 bits a unit and normals 8 bits, and colors are codes of 8 bits.
 constexpr double kPositionStep = 1.0 / (1 << 14), kNormalStep = 1.0 / 100, kColorStep = 1.0 / 255;
 
-// 3 x 3 vertices over the unit square, the middle column raised by 1/4, 8 triangles that face +z,
-// colors (x, y, 1).
+// Expects 3 x 3 vertices over the unit square, of which the middle column is raised by 1/4, 8
+// triangles that face +z, and the colors (x, y, 1).
 void expectGrid(const SceneDescription& scene) {
   ASSERT_EQ(scene.objects.size(), 1u);
   const Mesh& mesh = scene.objects[0].meshes.at(0);
   EXPECT_EQ(mesh.positions.size(), 9u);
   ASSERT_EQ(mesh.triangles.size(), 8u);
+
   double area = 0;
   for (const auto& t : mesh.triangles) {
     std::array<Vec3d, 3> p;
     for (std::size_t k = 0; k < 3; ++k) {
       ASSERT_LT(t[k], mesh.positions.size());
       p[k] = scene.instances.at(0).toWorld.point(Vec3d(mesh.positions[t[k]]));
+      // x and y are multiples of 1/2.
       EXPECT_NEAR(p[k].z, std::abs(p[k].x - 0.5) < 0.1 ? 0.25 : 0, kPositionStep);
       EXPECT_NEAR(p[k].x * 2, std::round(p[k].x * 2), 2 * kPositionStep);
       EXPECT_NEAR(p[k].y * 2, std::round(p[k].y * 2), 2 * kPositionStep);
@@ -50,10 +53,12 @@ void expectGrid(const SceneDescription& scene) {
       EXPECT_NEAR(mesh.colors.at(t[k]).x, p[k].x, kColorStep);
       EXPECT_NEAR(mesh.colors.at(t[k]).y, p[k].y, kColorStep);
     }
+
     const Vec3d normal = cross(p[1] - p[0], p[2] - p[0]);
     EXPECT_GT(normal.z, 0);
     area += normal.z / 2;
   }
+
   EXPECT_NEAR(area, 1, 8 * kPositionStep);
 }
 
@@ -62,7 +67,9 @@ TEST_F(GltfCompressed, DracoIsDecoded) {
   const SceneDescription scene = loadBytes(bytesOfFile("draco.glb"));
   EXPECT_EQ(kinds(), "");
   expectGrid(scene);
+
   const Mesh& mesh = scene.objects[0].meshes[0];
+  // Coordinates are quantized to 12 bits, and v points up in a mesh.
   for (std::size_t i = 0; i < 9; ++i) {
     EXPECT_NEAR(mesh.uvs[i].x, mesh.positions[i].x, 1.0 / (1 << 12));
     EXPECT_NEAR(1 - mesh.uvs[i].y, mesh.positions[i].y, 1.0 / (1 << 12));
@@ -73,27 +80,33 @@ TEST_F(GltfCompressed, DamagedDracoEndsWithAnError) {
   if (!GltfDocument::reads("KHR_draco_mesh_compression")) GTEST_SKIP() << "built without libdraco";
   const std::string whole = bytesOfFile("draco.glb");
   const std::size_t draco = whole.rfind("DRACO");
+
   ASSERT_NE(draco, std::string::npos);
   std::string none = whole;
   none[draco] = 'X';
   EXPECT_EQ(errorOf([&] { loadBytes(none); }),
             "3 m.glb#/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression: expected a mesh "
             "that Draco's decoder can read, but it found damaged data");
+
   int refused = 0;
   for (std::uint32_t seed = 0; seed < 100; ++seed) {
+    // Only the compressed data are damaged; their size stays, so that the file's structure remains
+    // valid.
     const std::vector<std::uint8_t> tail(whole.begin() + static_cast<std::ptrdiff_t>(draco),
                                          whole.end());
     std::vector<std::uint8_t> bad = fuzz::damaged(tail, seed);
     bad.resize(tail.size());
+
     const std::string error =
         errorOf([&] { loadBytes(whole.substr(0, draco) + std::string(bad.begin(), bad.end())); });
     refused += error != "no error";
     EXPECT_TRUE(error == "no error" || error[0] == '3') << error;
   }
+
   EXPECT_GT(refused, 10);
 }
 
-// The compressed data decide, as in other readers.
+// The counts in the compressed data win over those of the accessors, as in other readers.
 TEST_F(GltfCompressed, WrongCountsOfDracoAccessorsDoNotMatter) {
   if (!GltfDocument::reads("KHR_draco_mesh_compression")) GTEST_SKIP() << "built without libdraco";
   std::string text = bytesOfFile("draco.glb");
@@ -107,9 +120,12 @@ TEST_F(GltfCompressed, MeshoptIsDecoded) {
   const std::string whole = bytesOfFile("meshopt.glb");
   expectGrid(loadBytes(whole));
   EXPECT_EQ(kinds(), "");
+
   struct Case {
     const char *what, *by, *error;
   };
+  // In the expected errors, "+" stands for the place and text of `size`, and "-" for the name of
+  // the extension.
   const std::string size = "/byteStride: expected a size of elements that mode and filter have";
   const Case cases[] = {
       {"\"byteStride\":8,\"mode\"", "\"byteStride\":6,\"mode\"", "0/+, found 6"},
@@ -130,10 +146,12 @@ TEST_F(GltfCompressed, MeshoptIsDecoded) {
       {"\"byteLength\":25", "\"byteLength\":99",
        "3/-: expected a range within the buffer's 192 bytes, found 99 from byte 164"},
   };
+
   for (const auto& [what, by, error] : cases) {
     std::string expected = error;
     if (expected[2] == '+') expected.replace(2, 1, "-" + size);
     if (expected[2] == '-') expected.replace(2, 1, "extensions/EXT_meshopt_compression");
+
     EXPECT_EQ(errorOf([&, what = what, by = by] { loadBytes(replaced(whole, what, by)); }),
               "3 m.glb#/bufferViews/" + expected);
   }
@@ -145,23 +163,29 @@ TEST_F(GltfCompressed, DamagedMeshoptIsReadOrRefused) {
   const std::size_t head = whole.size() - 192;  // the rest is the buffer
   const std::vector<std::uint8_t> tail(whole.begin() + static_cast<std::ptrdiff_t>(head),
                                        whole.end());
+
   int refused = 0;
   for (std::uint32_t seed = 0; seed < 100; ++seed) {
     std::vector<std::uint8_t> bad = fuzz::damaged(tail, seed);
     bad.resize(tail.size());
+
     const std::string error =
         errorOf([&] { loadBytes(whole.substr(0, head) + std::string(bad.begin(), bad.end())); });
     refused += error != "no error";
     EXPECT_TRUE(error == "no error" || error[0] == '3') << error;
   }
+
   EXPECT_GT(refused, 10);
 }
 
 #ifdef WHIT_MESHOPT
-// A triangle that is shown twice, once turned by half a turn around z: what gltfpack's file lacks.
+// Encodes a triangle that is shown twice, the second time turned by 180 degrees about z. It uses
+// the modes and filters that the file of gltfpack lacks.
 TEST_F(GltfCompressed, EveryModeAndFilterOfMeshoptIsDecoded) {
   meshopt_encodeVertexVersion(0);
   std::string data, views;
+
+  // Adds a buffer view with `encoded` data.
   const auto add = [&](const std::string& encoded, std::size_t count, std::size_t stride,
                        const std::string& mode) {
     views += std::string(views.empty() ? "" : ",") +
@@ -172,6 +196,7 @@ TEST_F(GltfCompressed, EveryModeAndFilterOfMeshoptIsDecoded) {
              ",\"mode\":" + mode + "}}}";
     data += encoded;
   };
+
   const auto addVertices = [&](const std::string& bytes, std::size_t stride,
                                const std::string& filter) {
     const std::size_t count = bytes.size() / stride;
@@ -179,16 +204,22 @@ TEST_F(GltfCompressed, EveryModeAndFilterOfMeshoptIsDecoded) {
     all.resize(meshopt_encodeVertexBuffer(all.data(), all.size(), bytes.data(), count, stride));
     add({all.begin(), all.end()}, count, stride, "\"ATTRIBUTES\",\"filter\":" + filter);
   };
-  // Floats are an exponent above a mantissa of 24 bits: here the whole numbers 0 and 1.
+
+  // Floats are an exponent above a mantissa of 24 bits. These are the whole numbers 0 and 1.
   addVertices(bytesOf<std::uint32_t>({0, 0, 0, 1, 0, 0, 0, 1, 0}), 12, "\"EXPONENTIAL\"");
+
   addVertices(bytesOf<std::int16_t>({0, 0, 32767, 0, 0, 0, 32767, 0, 0, 0, 32767, 0}), 8,
               "\"OCTAHEDRAL\"");
-  // The last component has the number of the largest one, which is left out, in its lowest bits.
+
+  // A quaternion leaves out its largest component, whose number is in the lowest bits of the last
+  // one.
   addVertices(bytesOf<std::int16_t>({0, 0, 0, 2047, 0, 0, 0, 2046}), 8, "\"QUATERNION\"");
+
   const std::vector<unsigned int> indices{0, 1, 2};
   std::vector<unsigned char> all(meshopt_encodeIndexSequenceBound(3, 3));
   all.resize(meshopt_encodeIndexSequence(all.data(), all.size(), indices.data(), 3));
   add({all.begin(), all.end()}, 3, 4, "\"INDICES\"");
+
   const std::string text =
       "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"EXT_meshopt_compression\","
       "\"EXT_mesh_gpu_instancing\"],\"buffers\":[{\"byteLength\":" +
@@ -204,6 +235,7 @@ TEST_F(GltfCompressed, EveryModeAndFilterOfMeshoptIsDecoded) {
       ","
       "\"nodes\":[{\"mesh\":0,\"extensions\":{\"EXT_mesh_gpu_instancing\":{\"attributes\":"
       "{\"ROTATION\":2}}}}],\"scenes\":[{\"nodes\":[0]}],\"scene\":0}";
+
   const SceneDescription scene = loadText(text);
   EXPECT_EQ(kinds(), "");
   ASSERT_EQ(scene.instances.size(), 2u);
@@ -214,10 +246,12 @@ TEST_F(GltfCompressed, EveryModeAndFilterOfMeshoptIsDecoded) {
     expectNear(cornerOf(scene, instance, 0, 1), {x, 0, 0}, 1e-3);
     expectNear(cornerOf(scene, instance, 0, 2), {0, x, 0}, 1e-3);
   }
-  expectNear(Vec3d(scene.objects.at(0).meshes.at(0).normals.at(0)), {0, 0, 1}, 1e-3);
 
+  expectNear(Vec3d(scene.objects.at(0).meshes.at(0).normals.at(0)), {0, 0, 1}, 1e-3);
   EXPECT_EQ(errorOfText(replaced(text, "\"buffer\":0", "\"buffer\":1")),
             "3 m.gltf#/buffers/1: expected a buffer with data, found none");
+
+  // The decoded size is checked before memory is allocated.
   const std::string large =
       replaced(replaced(text, "\"byteLength\":36", "\"byteLength\":1200000000000"),
                "\"byteStride\":12,\"count\":3", "\"byteStride\":12,\"count\":100000000000");
@@ -232,6 +266,7 @@ TEST_F(GltfCompressed, WebpTexturesAreRead) {
   const SceneDescription scene = loadBytes(bytesOfFile("webp.glb"));
   EXPECT_EQ(kinds(), "");
   expectGrid(scene);
+
   const Texture& texture =
       scene.textures.at(static_cast<std::size_t>(scene.materials.at(0).diffuseMap));
   EXPECT_EQ(decodeColorTexel(texture.texels.at(0)), Rgb(1, 0, 0));

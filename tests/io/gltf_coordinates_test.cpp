@@ -13,8 +13,8 @@ std::string transformed(const std::string& transform) {
   return ",\"extensions\":{\"KHR_texture_transform\":{" + transform + "}}";
 }
 
-// Two columns of light: texture 0 is red beside green, texture 1 blue beside black. The second set
-// mirrors the first.
+// Shows two columns: texture 0 is red beside green, texture 1 is blue beside black. The second set
+// of coordinates mirrors the first.
 class GltfCoordinates : public GltfMaterials {
  protected:
   void SetUp() override {
@@ -25,16 +25,19 @@ class GltfCoordinates : public GltfMaterials {
     secondUvs_ = {1, 1, 0, 1, 0, 0, 1, 0};
   }
 
-  // What a texture of base color and one of emission are, beside their indices.
+  // The parameters are the members that the textures of base color and emission have beside their
+  // indices.
   static std::string material(const std::string& base, const std::string& emissive) {
     return matte("\"baseColorTexture\":{\"index\":0" + base + "}",
                  "\"emissiveFactor\":[1,1,1],\"emissiveTexture\":{\"index\":1" + emissive + "}");
   }
-  // Of the base color, in light that makes white 1.
+
+  // Expects base color times the light of the lamp, plus the emission, in both columns.
   void expectColumns(const std::string& material, const Rgb& leftBase, const Rgb& leftLight,
                      const Rgb& rightBase, const Rgb& rightLight) {
     const auto p = picture({{0, material, 1}}, 2);
     const auto at = static_cast<float>(lit(0.5, 0.5));
+
     for (const std::size_t row : {0, 2}) {
       expectColor(p[row], leftBase * at + leftLight);
       expectColor(p[row + 1], rightBase * at + rightLight);
@@ -64,18 +67,21 @@ TEST_F(GltfCoordinates, OfOneSetTransformedForOneMap) {
   EXPECT_EQ(kinds(), "");
 }
 
-// A quarter turn: u runs upwards, v to the left. The map leans the normal by (0.6, 0, 0.8) in
-// steps of 1/127.5; light falls from (0, 3, 3), whose square of distance is twice 9.
+// The second set is a quarter turn of the first: u runs upwards and v to the left. The map tilts
+// the normal to (0.6, 0, 0.8), in steps of 1/127.5. Light comes from (0, 3, 3), whose squared
+// distance is twice 9.
 TEST_F(GltfCoordinates, TheNormalMapLeansAlongItsOwn) {
   save("lean.tga", tga(1, 1, {{204, 128, 230}}));
   save("white.tga", tga(1, 1, {{255, 255, 255}}));
   useImages({"white.tga", "lean.tga"});
   secondUvs_ = {0, 0, 0, 1, 1, 1, 1, 0};
   light_ = "0,3,3";
+
   const auto lean = [&](const std::string& set) {
     return pixel(
         matte("\"baseColorTexture\":{\"index\":0}", "\"normalTexture\":{\"index\":1" + set + "}"));
   };
+
   const double x = 204 / 127.5 - 1, y = 128 / 127.5 - 1, z = 230 / 127.5 - 1;
   const double scale = 0.5 * std::sqrt(0.5) / std::sqrt(x * x + y * y + z * z);
   expectColor(lean(""), Rgb(static_cast<float>((y + z) * scale)));
@@ -84,7 +90,9 @@ TEST_F(GltfCoordinates, TheNormalMapLeansAlongItsOwn) {
 
 TEST_F(GltfCoordinates, ASetThatIsNotThereIsZero) {
   secondUvs_.clear();
-  // Wherever it is seen, between the first column and, repeated, the last.
+
+  // All points look up (0, 0), which lies between the first column and the last, since the texture
+  // repeats.
   const Rgb half = blue_ * 0.5f;
   expectColumns(material("", kSecondSet), red_, half, green_, half);
 }
@@ -94,10 +102,12 @@ TEST_F(GltfCoordinates, OneSetOfASecondMaterialTakesNoMemory) {
       loadText(sceneText({{0, material("", ""), 1}, {1, material(kSecondSet, kSecondSet), 1}})),
       warnings_);
   EXPECT_TRUE(plain.secondUvs.empty());
+
   const std::string dark =
       matte("\"baseColorTexture\":{\"index\":0}",
             "\"emissiveTexture\":{\"index\":1,\"texCoord\":1},\"emissiveFactor\":[0,0,0]");
   EXPECT_TRUE(Scene::finalize(loadText(sceneText({{0, dark, 1}})), warnings_).secondUvs.empty());
+
   const Scene both = Scene::finalize(
       loadText(sceneText({{0, material("", ""), 1}, {1, material("", kSecondSet), 1}})), warnings_);
   EXPECT_EQ(both.secondUvs.size(), both.triangles.size());
@@ -111,6 +121,7 @@ TEST_F(GltfCoordinates, AThirdKindAndThoseOfMetalnessAreCounted) {
                                  transformed("\"scale\":[2,2]") + "}"),
                        1}}));
   EXPECT_EQ(warned(kApart), 1u);
+
   loadText(sceneText({{0,
                        "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0},"
                        "\"metallicRoughnessTexture\":{\"index\":1,\"texCoord\":1}}}",

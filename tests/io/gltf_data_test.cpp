@@ -1,4 +1,5 @@
-// Real glTF files, where the data is there: they load, and the pipeline agrees with the reference.
+// Real glTF files, where the data folder has them: they load, and the pipeline agrees with the
+// reference.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,20 +24,25 @@ TEST_P(GltfData, LoadsAndAgreesWithTheReference) {
   if (!std::filesystem::exists(path)) {
     GTEST_SKIP() << "NOT TESTED: " << path << " is not there; set WHIT_DATA";
   }
+
   Warnings warnings;
   const Scene scene = Scene::finalize(loadScene(path.string(), {}, warnings), warnings);
   EXPECT_EQ(scene.instancedTriangles, GetParam().triangles);
+
   RenderOptions options;
   options.size = ImageSize{80, 50};
   Renderer renderer(scene, options);
+
   Film a = makeFilm(scene, options), b = makeFilm(scene, options);
   renderer.render(scene.cameras[0], a);
   renderer.renderReference(scene.cameras[0], b);
+
   std::size_t different = 0, lit = 0;
   for (std::size_t i = 0; i < a.display.rgba.size(); ++i) {
     different += std::abs(a.display.rgba[i] - b.display.rgba[i]) > 1;
     lit += i % 4 != 3 && a.display.rgba[i] > 20;
   }
+
   EXPECT_LE(different, a.display.rgba.size() / 1000);
   EXPECT_GT(lit, a.display.rgba.size() / 100);
 }

@@ -17,11 +17,13 @@ inline std::string base64(const std::string& bytes) {
   constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    // Three bytes are 24 bits, which four digits of 6 bits encode.
     std::uint32_t group = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       const bool there = i + k < bytes.size();
       group = group << 8 | (there ? static_cast<unsigned char>(bytes[i + k]) : 0u);
     }
+
     for (std::size_t k = 0; k < 4; ++k) {
       text += i + k <= bytes.size() ? kDigits[group >> (18 - 6 * k) & 63u] : '=';
     }
@@ -39,17 +41,21 @@ std::string bytesOf(const std::vector<T>& values) {
 // Gathers buffer views and accessors over one buffer.
 class GltfBuilder {
  public:
-  // The number of the view.
+  // Returns the number of the view.
   int view(const std::string& bytes, int stride = 0) {
+    // Accessors of floats need views that are aligned to 4 bytes.
     while (data_.size() % 4 != 0) data_ += '\0';
+
     views_ += std::string(views_.empty() ? "" : ",") +
               "{\"buffer\":0,\"byteOffset\":" + std::to_string(data_.size()) +
               ",\"byteLength\":" + std::to_string(bytes.size()) +
               (stride > 0 ? ",\"byteStride\":" + std::to_string(stride) : "") + "}";
+
     data_ += bytes;
     return viewCount_++;
   }
-  // `rest` begins with a comma: further members.
+
+  // `rest` has further members and begins with a comma. A negative `view` means that there is none.
   int accessor(int view, int componentType, const std::string& type, std::size_t count,
                const std::string& rest = "") {
     accessors_ += std::string(accessors_.empty() ? "" : ",") +
@@ -58,12 +64,15 @@ class GltfBuilder {
                   "\",\"count\":" + std::to_string(count) + rest + "}";
     return accessorCount_++;
   }
+
   int positions(const std::vector<float>& xyz) {
     return accessor(view(bytesOf(xyz)), 5126, "VEC3", xyz.size() / 3, boundsOf(xyz));
   }
+
   int uvs(const std::vector<float>& uv) {
     return accessor(view(bytesOf(uv)), 5126, "VEC2", uv.size() / 2);
   }
+
   int indices(const std::vector<std::uint16_t>& i) {
     return accessor(view(bytesOf(i)), 5123, "SCALAR", i.size());
   }
@@ -77,28 +86,35 @@ class GltfBuilder {
         text += ",\"uri\":\"data:application/octet-stream;base64," + base64(data_) + "\"";
       text += "}],\"bufferViews\":[" + views_ + "]";
     }
+
     if (!accessors_.empty()) text += ",\"accessors\":[" + accessors_ + "]";
     const std::string names = extensionsIn(members);
     if (!names.empty()) text += ",\"extensionsUsed\":[" + names + "]";
+
     return text + (members.empty() ? "" : "," + members) + "}";
   }
+
   std::string glb(const std::string& members) const {
     std::string text = json(members, true), data = data_;
     while (text.size() % 4 != 0) text += ' ';
     while (data.size() % 4 != 0) data += '\0';
+
     const auto word = [](std::size_t x) {
       return bytesOf<std::uint32_t>({static_cast<std::uint32_t>(x)});
     };
+
     const std::string chunks =
         word(text.size()) + "JSON" + text + word(data.size()) + std::string("BIN\0", 4) + data;
     return "glTF" + word(2) + word(12 + chunks.size()) + chunks;
   }
 
  private:
-  // In quotes, each once; none where the members declare them themselves.
+  // Returns the names in quotes, each once, or nothing where the members declare the extensions
+  // themselves.
   static std::string extensionsIn(const std::string& members) {
     std::set<std::string> names;
     if (members.find("extensionsUsed") != std::string::npos) return "";
+
     for (const std::string beginning : {"\"KHR_", "\"EXT_"}) {
       for (std::size_t at = members.find(beginning); at != std::string::npos;) {
         const std::size_t end = members.find('"', at + 1);
@@ -106,25 +122,29 @@ class GltfBuilder {
         at = members.find(beginning, end);
       }
     }
+
     std::string list;
     for (const std::string& name : names) list += (list.empty() ? "" : ",") + name;
     return list;
   }
 
-  // The format asks for those of positions.
+  // Positions need bounds by the specification.
   static std::string boundsOf(const std::vector<float>& xyz) {
     std::ostringstream low, high;
     low.precision(9);
     high.precision(9);
+
     for (std::size_t k = 0; k < 3 && xyz.size() >= 3; ++k) {
       float least = xyz[k], largest = xyz[k];
       for (std::size_t i = k; i < xyz.size(); i += 3) {
         least = std::min(least, xyz[i]);
         largest = std::max(largest, xyz[i]);
       }
+
       low << (k ? "," : "") << least;
       high << (k ? "," : "") << largest;
     }
+
     return ",\"min\":[" + low.str() + "],\"max\":[" + high.str() + "]";
   }
 
@@ -141,10 +161,12 @@ inline std::string oneMesh(const std::string& primitive) {
 class GltfTest : public SceneFileTest {
  protected:
   SceneDescription loadText(const std::string& text) { return load(save("m.gltf", text)); }
+
   std::string errorOfText(const std::string& text) {
     return errorOf([&] { loadText(text); });
   }
-  // Corner `corner` of triangle `triangle` of instance `i`, in the world.
+
+  // Returns a corner of a triangle of instance `i`, in the world.
   static Vec3d cornerOf(const SceneDescription& scene, std::size_t i, std::size_t triangle,
                         std::size_t corner) {
     const Instance& instance = scene.instances[i];
@@ -160,7 +182,7 @@ inline void expectNear(const Vec3d& a, const Vec3d& b, double tolerance = 1e-6) 
 // The unit triangle in the plane z = 0, seen from +z.
 inline const std::vector<float> kTriangleXyz = {0, 0, 0, 1, 0, 0, 0, 1, 0};
 
-// A primitive of it; `rest` begins with a comma: further members.
+// Returns a primitive that shows this triangle. `rest` has further members and begins with a comma.
 inline std::string triangle(GltfBuilder& b, const std::string& rest = "") {
   return "{\"attributes\":{\"POSITION\":" + std::to_string(b.positions(kTriangleXyz)) + "}" + rest +
          "}";

@@ -19,10 +19,12 @@ TEST_F(GltfGeometry, TextBinaryAndExternalBuffersAreTheSame) {
   GltfBuilder b;
   const std::string members =
       oneMesh("{\"attributes\":{\"POSITION\":" + std::to_string(b.positions(kTriangleXyz)) + "}}");
+
   std::string external = b.json(members);
   const std::size_t from = external.find("data:"), to = external.find('"', from);
   external.replace(from, to - from, "a%20b.bin");
   save("a b.bin", bytesOf(kTriangleXyz));
+
   for (const std::string& file :
        {save("t.gltf", b.json(members)), save("t.glb", b.glb(members)), save("e.gltf", external)}) {
     const SceneDescription scene = load(file);
@@ -40,6 +42,7 @@ TEST_F(GltfGeometry, NodesTransformByScaleRotationTranslationAndParents) {
       triangleText("\"nodes\":[{\"children\":[1],\"matrix\":[2,0,0,0, 0,2,0,0, 0,0,2,0, 0,0,5,1]},"
                    "{\"mesh\":0,\"translation\":[10,0,0],\"rotation\":[0,0,0.70710678118654757,"
                    "0.70710678118654757],\"scale\":[2,1,1]}],\"scenes\":[{\"nodes\":[0]}]"));
+
   ASSERT_EQ(scene.instances.size(), 1u);
   expectNear(cornerOf(scene, 0, 0, 0), {20, 0, 5});
   expectNear(cornerOf(scene, 0, 0, 1), {20, 4, 5});
@@ -49,6 +52,7 @@ TEST_F(GltfGeometry, NodesTransformByScaleRotationTranslationAndParents) {
 TEST_F(GltfGeometry, NegativeScaleKeepsTheOutside) {
   SceneDescription scene = loadText(triangleText("\"nodes\":[{\"mesh\":0,\"scale\":[-1,1,1]}]"));
   const Scene baked = Scene::finalize(std::move(scene), warnings_);
+
   ASSERT_EQ(baked.triangles.size(), 1u);
   const float* p = baked.triangles[0].position;
   const Vec3d normal = cross(Vec3d(p[3] - p[0], p[4] - p[1], p[5] - p[2]),
@@ -71,7 +75,8 @@ TEST_F(GltfGeometry, OnlyTheDefaultSceneIsShown) {
       loadText(triangleText(nodes + ",\"scenes\":[{\"nodes\":[0]},{\"nodes\":[1]}],\"scene\":1"));
   ASSERT_EQ(second.instances.size(), 1u);
   expectNear(cornerOf(second, 0, 0, 0), {5, 0, 0});
-  EXPECT_EQ(loadText(triangleText(nodes)).instances.size(), 2u);  // no scene: all
+  EXPECT_EQ(loadText(triangleText(nodes)).instances.size(),
+            2u);  // without scenes all nodes are shown
 }
 
 TEST_F(GltfGeometry, StripsAndFansWindAsSpecified) {
@@ -83,6 +88,7 @@ TEST_F(GltfGeometry, StripsAndFansWindAsSpecified) {
         "{\"attributes\":{\"POSITION\":" + position + "},\"mode\":" + std::to_string(mode) + "}")));
     return scene.objects[0].meshes[0].triangles;
   };
+
   EXPECT_EQ(trianglesOf(5), (std::vector<Triangle>{{0, 1, 2}, {1, 3, 2}, {2, 3, 4}}));
   EXPECT_EQ(trianglesOf(6), (std::vector<Triangle>{{1, 2, 0}, {2, 3, 0}, {3, 4, 0}}));
 }
@@ -97,13 +103,14 @@ TEST_F(GltfGeometry, PointsAndLinesAreCounted) {
   EXPECT_EQ(warned("points or lines left out"), 2u);
 }
 
-// The same corners by every component type that an index can have.
+// Indices of every type that they can have lead to the same corners.
 TEST_F(GltfGeometry, IndicesOfEveryType) {
   GltfBuilder b;
   const std::string position = std::to_string(b.positions(kTriangleXyz));
   const int byType[] = {b.accessor(b.view(bytesOf<std::uint8_t>({2, 0, 1})), 5121, "SCALAR", 3),
                         b.accessor(b.view(bytesOf<std::uint16_t>({2, 0, 1})), 5123, "SCALAR", 3),
                         b.accessor(b.view(bytesOf<std::uint32_t>({2, 0, 1})), 5125, "SCALAR", 3)};
+
   for (const int indices : byType) {
     const SceneDescription scene =
         loadText(b.json(oneMesh("{\"attributes\":{\"POSITION\":" + position +
@@ -112,23 +119,27 @@ TEST_F(GltfGeometry, IndicesOfEveryType) {
   }
 }
 
-// Whole numbers as they are, and normalized by the largest of their type.
+// Integers stay as they are, or are divided by the largest value of their type if they are
+// normalized.
 TEST_F(GltfGeometry, PositionsOfEveryType) {
   GltfBuilder b;
   struct Case {
     int accessor;
-    double one;  // what the components, given as `one`, come out as
+    double one;  // what the components that are set come out as
   };
+
   const std::string norm = ",\"normalized\":true";
   const auto i8 = b.view(bytesOf<std::int8_t>({0, 0, 0, 0, 127, 0, 0, 0, 0, 127, 0, 0}), 4);
   const auto u8 = b.view(bytesOf<std::uint8_t>({0, 0, 0, 0, 255, 0, 0, 0, 0, 255, 0, 0}), 4);
   const auto i16 = b.view(bytesOf<std::int16_t>({0, 0, 0, 0, 32767, 0, 0, 0, 0, 32767, 0, 0}), 8);
   const auto u16 = b.view(bytesOf<std::uint16_t>({0, 0, 0, 0, 65535, 0, 0, 0, 0, 65535, 0, 0}), 8);
+
   const Case cases[] = {
       {b.accessor(i8, 5120, "VEC3", 3), 127},    {b.accessor(i8, 5120, "VEC3", 3, norm), 1},
       {b.accessor(u8, 5121, "VEC3", 3), 255},    {b.accessor(u8, 5121, "VEC3", 3, norm), 1},
       {b.accessor(i16, 5122, "VEC3", 3), 32767}, {b.accessor(i16, 5122, "VEC3", 3, norm), 1},
       {b.accessor(u16, 5123, "VEC3", 3), 65535}, {b.accessor(u16, 5123, "VEC3", 3, norm), 1}};
+
   for (const Case& c : cases) {
     const SceneDescription scene = loadText(
         b.json("\"extensionsRequired\":[\"KHR_mesh_quantization\"]," +
@@ -153,11 +164,13 @@ TEST_F(GltfGeometry, InterleavedAttributes) {
       b.view(bytesOf<float>({0, 0, 0, 0.25f, 0.75f, 1, 0, 0, 0.5f, 1, 0, 1, 0, 0, 0}), 20);
   const int position = b.accessor(view, 5126, "VEC3", 3);
   const int uv = b.accessor(view, 5126, "VEC2", 3, ",\"byteOffset\":12");
+
   const SceneDescription scene =
       loadText(b.json(oneMesh("{\"attributes\":{\"POSITION\":" + std::to_string(position) +
                               ",\"TEXCOORD_0\":" + std::to_string(uv) + "}}")));
   expectNear(cornerOf(scene, 0, 0, 2), {0, 1, 0});
-  // v points down in the file.
+
+  // v points down in the file and up in a mesh.
   EXPECT_EQ(scene.objects[0].meshes[0].uvs,
             (std::vector<Vec2f>{{0.25f, 0.25f}, {0.5f, 0.0f}, {0.0f, 1.0f}}));
 }
@@ -170,13 +183,16 @@ TEST_F(GltfGeometry, SparseAccessorsReplaceSomeElements) {
   const std::string sparse =
       ",\"sparse\":{\"count\":1,\"indices\":{\"bufferView\":" + std::to_string(which) +
       ",\"componentType\":5123},\"values\":{\"bufferView\":" + std::to_string(values) + "}}";
+
   const int replaced = b.accessor(dense, 5126, "VEC3", 3, sparse);
   const int onZeros = b.accessor(-1, 5126, "VEC3", 3, sparse);
+
   const auto corner = [&](int position, std::size_t i) {
     return cornerOf(loadText(b.json(oneMesh(
                         "{\"attributes\":{\"POSITION\":" + std::to_string(position) + "}}"))),
                     0, 0, i);
   };
+
   expectNear(corner(replaced, 1), {1, 0, 0});
   expectNear(corner(replaced, 2), {0, 7, 0});
   expectNear(corner(onZeros, 1), {0, 0, 0});
@@ -188,9 +204,11 @@ TEST_F(GltfGeometry, NormalsAreTakenOrFlat) {
   const std::string position = std::to_string(b.positions(kTriangleXyz));
   const auto n = b.view(bytesOf<std::int8_t>({0, 127, 0, 0, 0, 127, 0, 0, 0, 127, 0, 0}), 4);
   const std::string normal = std::to_string(b.accessor(n, 5120, "VEC3", 3, ",\"normalized\":true"));
+
   const SceneDescription with = loadText(b.json(
       oneMesh("{\"attributes\":{\"POSITION\":" + position + ",\"NORMAL\":" + normal + "}}")));
   expectNear(Vec3d(with.objects[0].meshes[0].normals[1]), {0, 1, 0});
+
   const SceneDescription without =
       loadText(b.json(oneMesh("{\"attributes\":{\"POSITION\":" + position + "}}")));
   EXPECT_TRUE(without.objects[0].meshes[0].normals.empty());
@@ -208,28 +226,32 @@ TEST_F(GltfGeometry, CamerasAndPointLights) {
       "[0,0.70710678118654757,0,0.70710678118654757]},{\"camera\":1},{\"camera\":2},"
       "{\"translation\":[1,2,3],\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}},"
       "{\"extensions\":{\"KHR_lights_punctual\":{\"light\":1}}}]"));
+
   ASSERT_EQ(scene.cameras.size(), 2u);
   const Camera& camera = scene.cameras[0];
   EXPECT_EQ(camera.name, "eye");
   EXPECT_EQ(camera.orthographicHeight, 0);
   EXPECT_EQ(scene.cameras[1].orthographicHeight, 3);  // twice ymag
   EXPECT_NEAR(camera.fov, 30, 1e-4);
-  // Looking along -z, turned a quarter about +y: along -x.
+
+  // The camera looks along the node's -z, which a quarter turn about +y takes to -x.
   expectNear(normalized(Vec3d(camera.at) - Vec3d(camera.eye)), {-1, 0, 0});
   expectNear(Vec3d(camera.eye), {3, 0, 0});
   EXPECT_EQ(camera.aspect, 2);
   EXPECT_NEAR(scene.cameras[1].aspect, 1 / 1.5, 1e-7);
+
   EXPECT_EQ(scene.width, 2 * scene.height);
   ASSERT_EQ(scene.lights.size(), 1u);
   EXPECT_EQ(scene.lights[0].name, "lamp");
   expectNear(Vec3d(scene.lights[0].position), {1, 2, 3});
   expectNear(Vec3d(scene.lights[0].intensity), {2, 1, 0});  // 1366 cd at 683 lm/W
+
   EXPECT_EQ(warned("light of an unknown type left out"), 1u);
   EXPECT_EQ(warned("light's range left out, it shines on"), 1u);
   EXPECT_EQ(warned("camera of an unknown type or without an extent left out"), 1u);
 }
 
-// Along the node's -z; angles in radians, from the axis.
+// Lights shine along the node's -z. Cone angles are in radians from the axis.
 TEST_F(GltfGeometry, SpotAndDirectionalLights) {
   const SceneDescription scene = loadText(triangleText(
       "\"extensions\":{\"KHR_lights_punctual\":{\"lights\":["
@@ -247,21 +269,25 @@ TEST_F(GltfGeometry, SpotAndDirectionalLights) {
       "{\"extensions\":{\"KHR_lights_punctual\":{\"light\":2}}},"
       "{\"extensions\":{\"KHR_lights_punctual\":{\"light\":3}}},"
       "{\"extensions\":{\"KHR_lights_punctual\":{\"light\":4}}}]"));
+
   ASSERT_EQ(scene.lights.size(), 5u);
   const Light &spot = scene.lights[0], &sun = scene.lights[1];
   EXPECT_EQ(spot.kind, Light::Kind::spot);
   expectNear(Vec3d(spot.position), {1, 2, 3});
-  expectNear(Vec3d(spot.direction), {-1, 0, 0});  // -z, turned a quarter about +y
+  expectNear(Vec3d(spot.direction), {-1, 0, 0});  // -z turned by 90 degrees about +y
   expectNear(Vec3d(spot.intensity), {1, 1, 1});   // 683 cd at 683 lm/W
   EXPECT_FLOAT_EQ(spot.innerConeAngle, 30);
   EXPECT_FLOAT_EQ(spot.outerConeAngle, 60);
+
   EXPECT_EQ(sun.kind, Light::Kind::directional);
   EXPECT_EQ(sun.name, "sun");
   expectNear(Vec3d(sun.direction), {0, 0, -1});
   expectNear(Vec3d(sun.intensity), {2, 2, 2});  // 1366 lx
+
   EXPECT_FLOAT_EQ(scene.lights[2].innerConeAngle, 0);
   EXPECT_FLOAT_EQ(scene.lights[2].outerConeAngle, 45);
-  // A sharp edge and, repaired, one of angles that are no cones'.
+
+  // One cone has a sharp edge, and the other has angles in the wrong order, which are repaired.
   for (const std::size_t i : {3u, 4u}) {
     EXPECT_LT(scene.lights[i].innerConeAngle, scene.lights[i].outerConeAngle);
     EXPECT_NEAR(scene.lights[i].innerConeAngle, scene.lights[i].outerConeAngle, 1e-4);
@@ -280,11 +306,13 @@ TEST_F(GltfGeometry, ScenesPlaceModelsAndOverrideTheirMaterials) {
   save("t.glb", b.glb("\"materials\":[{\"name\":\"wall\"}]," +
                       oneMesh("{\"material\":0,\"attributes\":{\"POSITION\":" +
                               std::to_string(b.positions(kTriangleXyz)) + "}}")));
+
   const SceneDescription scene = loadMembers(
       "\"objects\": {\"t\": [{\"model\": \"t.glb\", \"materials\": {\"wall\": {\"diffuse\": "
       "[1,0,0], "
       "\"roughness\": 0.125}}}]}, \"scene\": [{\"use\": \"t\"}, {\"use\": \"t\", \"transform\": "
       "{\"translate\": [0,0,4]}}]");
+
   ASSERT_EQ(scene.instances.size(), 2u);
   expectNear(cornerOf(scene, 1, 0, 1), {1, 0, 4});
   EXPECT_EQ(scene.materials[0].diffuse, Rgb(1, 0, 0));

@@ -1,5 +1,5 @@
-// glTF files that are wrong, on purpose or by accident: an error that names the place, and nothing
-// else.
+// glTF files that are wrong, on purpose or by accident. Each ends with an error that names the
+// place, and does no other harm.
 #include <cstdlib>
 #include <filesystem>
 
@@ -11,7 +11,7 @@ namespace {
 
 using GltfHostile = GltfTest;
 
-// A complete small file; tests spoil one thing in it.
+// Returns a complete small file, in which each test damages one thing.
 std::string wholeText() {
   GltfBuilder b;
   const std::string position = std::to_string(b.positions(kTriangleXyz));
@@ -31,6 +31,8 @@ TEST_F(GltfHostile, ErrorsNameTheirPlace) {
       {"\"version\":\"2.0\"", "\"version\":\"3.0\"",
        "#/asset/version: expected 2.0, found \"3.0\""},
       {"\"asset\"", "\"assets\"", "#: expected a member \"asset\""},
+
+      // Accessors.
       {"\"count\":3", "\"count\":4",
        "#/accessors/0: expected at most 3 elements, as many as fit into buffer view 0, found 4"},
       {"\"count\":3", "\"count\":9007199254740992",
@@ -51,6 +53,8 @@ TEST_F(GltfHostile, ErrorsNameTheirPlace) {
       {"\"VEC3\"", "\"VEC2\"", "#/accessors/0/type: expected VEC3, found \"VEC2\""},
       {"5123,\"type\":\"SCALAR\"", "5122,\"type\":\"SCALAR\"",
        "#/accessors/1/componentType: expected 5121, 5123 or 5125, found 5122"},
+
+      // Buffers and their views.
       {"\"byteLength\":36}", "\"byteLength\":360}",
        "#/bufferViews/0: expected a range within the buffer's 42 bytes, found 360 from byte 0"},
       {"\"byteOffset\":36", "\"byteOffset\":9007199254740992",
@@ -61,6 +65,8 @@ TEST_F(GltfHostile, ErrorsNameTheirPlace) {
        "m.gltf#/accessors/0, found 8"},
       {"\"byteLength\":42", "\"byteLength\":43",
        "#/buffers/0/byteLength: expected 43 bytes of data, found 42"},
+
+      // Indices and attributes of primitives.
       {"\"material\":0", "\"material\":1",
        "#/meshes/0/primitives/0/material: expected an index into materials, from 0 to 0, found 1"},
       {"\"POSITION\":0", "\"POSITION\":\"0\"",
@@ -68,6 +74,8 @@ TEST_F(GltfHostile, ErrorsNameTheirPlace) {
        "1, found \"0\""},
       {"\"POSITION\":0", "\"POSITION\":0,\"NORMAL\":1",
        "#/accessors/1/type: expected VEC3, found \"SCALAR\""},
+
+      // Nodes, materials and scenes.
       {"{\"mesh\":0}", "{\"mesh\":0,\"scale\":[1,2]}",
        "#/nodes/0/scale: expected 3 numbers, found a list of 2"},
       {"{\"mesh\":0}", "{\"mesh\":0,\"matrix\":[1]}",
@@ -84,10 +92,14 @@ TEST_F(GltfHostile, ErrorsNameTheirPlace) {
        "#/buffers/0/uri: expected the path of a file on this machine, found "
        "http://example.org/"
        "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAg..."},
+
+      // The error of this path depends on the test's folder.
       {"data:application/octet-stream;base64,AAA", "../", nullptr},
   };
+
   const std::string whole = wholeText();
   EXPECT_EQ(triangleCount(loadText(whole)), 1u);
+
   for (const Case& c : cases) {
     const std::string error = errorOfText(replaced(whole, c.what, c.by));
     if (c.error) {
@@ -103,10 +115,12 @@ TEST_F(GltfHostile, ListsMayBeMissing) {
       "{\"asset\":{\"version\":\"2.0\"},\"accessors\":[{\"componentType\":5126,\"count\":1,"
       "\"type\":\"SCALAR\"},{\"componentType\":5126,\"count\":1,\"type\":\"SCALAR\"}]}");
   EXPECT_EQ(warned("model with nothing to draw: no meshes"), 1u);
+
   GltfBuilder b;
   const std::string text = b.json(
       "\"textures\":[{\"source\":0}],\"materials\":["
       "{\"normalTexture\":{\"index\":0}}]");
+
   EXPECT_EQ(
       errorOfText(text),
       "3 m.gltf#/textures/0/source: expected an index into images, which has no elements, found 0");
@@ -120,6 +134,7 @@ TEST_F(GltfHostile, NodesThatAreNoTree) {
     return errorOfText("{\"asset\":{\"version\":\"2.0\"},\"nodes\":" + nodes +
                        ",\"scenes\":[{\"nodes\":" + scene + "}]}");
   };
+
   EXPECT_EQ(error("[{\"children\":[0]}]", "[0]"),
             "3 m.gltf#/nodes/0: expected a tree, found this node twice");
   EXPECT_EQ(error("[{\"children\":[1]},{\"children\":[2]},{\"children\":[1]}]", "[0]"),
@@ -127,6 +142,8 @@ TEST_F(GltfHostile, NodesThatAreNoTree) {
   EXPECT_EQ(error("[{},{\"children\":[2]},{\"children\":[1]}]", "[1]"),
             "3 m.gltf#/nodes/1: expected a tree, found this node twice");
   EXPECT_EQ(error("[{}]", "[0,0]"), "3 m.gltf#/nodes/0: expected a tree, found this node twice");
+
+  // Each node is the child of the one before it.
   std::string chain;
   for (int i = 1; i <= 400; ++i) chain += "{\"children\":[" + std::to_string(i) + "]},";
   EXPECT_EQ(error("[" + chain + "{}]", "[0]"), "3 m.gltf#/nodes/257: nested deeper than 256 nodes");
@@ -136,6 +153,7 @@ TEST_F(GltfHostile, SparseIndicesOutOfRange) {
   GltfBuilder b;
   const int which = b.view(bytesOf<std::uint16_t>({3}));
   const int values = b.view(bytesOf<float>({0, 7, 0}));
+
   const auto file = [&](int count, std::size_t elements) {
     GltfBuilder copy = b;
     const int position = copy.accessor(
@@ -145,6 +163,7 @@ TEST_F(GltfHostile, SparseIndicesOutOfRange) {
             ",\"componentType\":5123},\"values\":{\"bufferView\":" + std::to_string(values) + "}}");
     return copy.json(oneMesh("{\"attributes\":{\"POSITION\":" + std::to_string(position) + "}}"));
   };
+
   EXPECT_EQ(errorOfText(file(1, 3)),
             "3 m.gltf#/accessors/0/sparse/indices: expected indices below the accessor's count of "
             "3, found 3");
@@ -152,6 +171,9 @@ TEST_F(GltfHostile, SparseIndicesOutOfRange) {
       errorOfText(file(2, 3)),
       "3 m.gltf#/accessors/0/sparse/indices: expected at most 1 elements, as many as fit into "
       "buffer view 0, found 2");
+
+  // An accessor without a buffer view is full of zeros, so that its count is bounded by memory
+  // only.
   EXPECT_EQ(errorOfText(file(1, 3000000000)),
             "3 m.gltf#/accessors/0: expected a buffer view for 3000000000 elements, found none");
 }
@@ -161,13 +183,17 @@ TEST_F(GltfHostile, BrokenContainers) {
   const std::string whole = b.glb(
       oneMesh("{\"attributes\":{\"POSITION\":" + std::to_string(b.positions(kTriangleXyz)) + "}}"));
   const auto error = [&](std::string file) { return errorOf([&] { load(save("m.glb", file)); }); };
+
   EXPECT_EQ(error(whole), "no error");
   EXPECT_EQ(error(whole.substr(0, 8)), "3 m.glb: byte 0: expected a header of 12 bytes, found 8");
   EXPECT_EQ(error(replaced(whole, "JSON", "TEXT")),
             "3 m.glb: byte 16: expected a chunk of JSON first, found 1415071060");
+
   std::string old = whole;
   old[4] = 1;
   EXPECT_EQ(error(old), "3 m.glb: byte 4: expected glTF 2, found 1");
+
+  // A file that is cut short at any byte is refused.
   for (std::size_t size = 0; size < whole.size(); ++size) {
     EXPECT_EQ(error(whole.substr(0, size)).substr(0, 2), "3 ") << size;
   }
@@ -176,9 +202,11 @@ TEST_F(GltfHostile, BrokenContainers) {
 TEST_F(GltfHostile, DeepAndWideText) {
   const std::string deep(100000, '[');
   EXPECT_EQ(errorOfText("{\"asset\":{\"version\":\"2.0\"},\"extras\":" + deep).substr(0, 2), "3 ");
+
   options_.maxMemoryBytes = 64 << 20;
   std::string wide;
   for (int i = 0; i < 400000; ++i) wide += "{},";
+
   EXPECT_EQ(
       errorOfText("{\"asset\":{\"version\":\"2.0\"},\"nodes\":[" + wide + "{}]}").substr(0, 2),
       "5 ");
@@ -193,13 +221,15 @@ TEST_F(GltfHostile, UnknownExtensionsAreReportedOnce) {
   EXPECT_EQ(warnings_.entries().size(), 2u);
 }
 
-// Every number of a file that has some of everything, replaced by each of these.
+// Replaces each number of a file that has one element of each kind by numbers and values of other
+// types.
 TEST_F(GltfHostile, ReplacedNumbers) {
   GltfBuilder b;
   const std::string position = std::to_string(b.positions(kTriangleXyz));
   const std::string uv = std::to_string(b.uvs({0, 0, 1, 0, 0, 1}));
   const std::string indices = std::to_string(b.indices({0, 1, 2}));
   save("t.tga", tga(1, 1, {{9, 9, 9, 9}}));
+
   const std::string whole = b.json(
       "\"images\":[{\"uri\":\"t.tga\"}],\"samplers\":[{\"wrapS\":33071}],\"textures\":"
       "[{\"source\":0,\"sampler\":0}],\"materials\":[{\"alphaMode\":\"BLEND\",\"alphaCutoff\":0.5,"
@@ -222,9 +252,11 @@ TEST_F(GltfHostile, ReplacedNumbers) {
       ",\"material\":0,\"mode\":4}]}],\"nodes\":[{\"mesh\":0,\"children\":[1],\"scale\":[1,2,3],"
       "\"rotation\":[0,0,0,1],\"translation\":[1,2,3]},{\"camera\":0,\"extensions\":"
       "{\"KHR_lights_punctual\":{\"light\":0}}}],\"scenes\":[{\"nodes\":[0]}],\"scene\":0");
+
   options_.threads = 1;
   options_.maxMemoryBytes = 64 << 20;
   std::size_t loaded = 0;
+
   const auto tryText = [&](const std::string& text) {
     try {
       Warnings warnings;
@@ -234,12 +266,16 @@ TEST_F(GltfHostile, ReplacedNumbers) {
       EXPECT_NE(error.status(), ExitStatus::usage);
     }
   };
+
   tryText(whole);
   EXPECT_EQ(loaded, 1u);
+
+  // A number begins behind a colon, a bracket or a comma.
   for (std::size_t at = 0, end = 0; end < whole.size(); at = whole.find_first_of(":[,", end)) {
     if (at == std::string::npos) break;
     end = whole.find_first_not_of("0123456789.", at + 1);
     if (end == at + 1) continue;
+
     for (const char* number :
          {"-1", "0", "1e-320", "0.5", "2147483648", "4294967295", "9007199254740992",
           "18446744073709551615", "1e300", "-1e300", "null", "[]", "{}", "\"\""}) {
@@ -249,7 +285,8 @@ TEST_F(GltfHostile, ReplacedNumbers) {
   EXPECT_GT(loaded, 100u);
 }
 
-// Every byte with one bit flipped: a picture or an error of ours, and no more than that.
+// Flips one bit of each byte. The file is then loaded, or refused with an error that does not blame
+// the command line.
 TEST_F(GltfHostile, FlippedBits) {
   GltfBuilder b;
   const std::string position = std::to_string(b.positions(kTriangleXyz));
@@ -257,13 +294,16 @@ TEST_F(GltfHostile, FlippedBits) {
   const std::string whole = b.glb("\"materials\":[{\"alphaMode\":\"BLEND\"}]," +
                                   oneMesh("{\"attributes\":{\"POSITION\":" + position +
                                           "},\"indices\":" + indices + ",\"material\":0}"));
+
   options_.threads = 1;
   options_.maxMemoryBytes = 64 << 20;
+
   std::size_t refused = 0;
   for (std::size_t i = 0; i < whole.size(); ++i) {
     std::string file = whole;
     file[i] = static_cast<char>(file[i] ^ (1 << (i % 8)));
     const std::string path = save("m.glb", file);
+
     try {
       Warnings warnings;
       Scene::finalize(loadScene(path, options_, warnings), warnings);

@@ -9,7 +9,8 @@ namespace {
 
 class GltfInstancing : public GltfTest {
  protected:
-  // A triangle with these attributes of its copies, in a node that is moved by (0, 0, 5).
+  // Returns a file whose node is moved by (0, 0, 5) and shows a triangle as copies with these
+  // attributes.
   static std::string textOf(GltfBuilder& b, const std::string& attributes) {
     return b.json(
         "\"extensionsRequired\":[\"EXT_mesh_gpu_instancing\"],\"meshes\":[{"
@@ -29,11 +30,15 @@ TEST_F(GltfInstancing, CopiesStandWhereTheAttributesSay) {
   const int rotation =
       b.accessor(b.view(bytesOf<float>({0, 0, half, half, 0, 0, 0, 1})), 5126, "VEC4", 2);
   const int scale = b.positions({2, 2, 2, 1, 1, 1});
+
   const SceneDescription scene =
       loadText(textOf(b, "\"TRANSLATION\":" + std::to_string(translation) + ",\"ROTATION\":" +
                              std::to_string(rotation) + ",\"SCALE\":" + std::to_string(scale)));
+
   ASSERT_EQ(scene.instances.size(), 2u);
   EXPECT_EQ(scene.objects.size(), 1u);
+
+  // Scale, rotation, translation of the copy and translation of the node apply in this order.
   expectNear(cornerOf(scene, 0, 0, 0), {1, 2, 8});
   expectNear(cornerOf(scene, 0, 0, 1), {1, 4, 8});
   expectNear(cornerOf(scene, 1, 0, 1), {0, 0, 5});
@@ -47,6 +52,8 @@ TEST_F(GltfInstancing, AttributesMustFitTogether) {
   EXPECT_EQ(errorOfText(textOf(b, "\"TRANSLATION\":" + two + ",\"SCALE\":" + one)),
             "3 m.gltf#/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes: expected attributes "
             "of equal lengths, found 1 beside 2");
+
+  // A scale of 0 makes a copy flat.
   GltfBuilder flat;
   const std::string zero = std::to_string(flat.positions({1, 0, 1, 1, 1, 1}));
   EXPECT_EQ(triangleCount(loadText(textOf(flat, "\"SCALE\":" + zero))), 1u);

@@ -33,15 +33,17 @@ class GltfMotion : public GltfTest {
            "}],\"channels\":[{\"sampler\":0,\"target\":{\"node\":" + std::to_string(node) +
            ",\"path\":\"" + path + "\"}}]}";
   }
-  // A triangle whose node is moved.
+  // Returns a file that shows a triangle whose node the animations move.
   static std::string moved(GltfBuilder& b, const std::string& animations) {
     return b.json(oneMesh(triangle(b)) + ",\"animations\":[" + animations + "]");
   }
+
   SceneDescription at(double seconds, const std::string& text, const std::string& animation = "") {
     options_.instant = {seconds, animation};
     return loadText(text);
   }
-  // Where what moves has come by then.
+
+  // Returns where a corner of the first instance is at the scene's time.
   static Vec3d movedCorner(const SceneDescription& scene, std::size_t corner) {
     const Instance& instance = scene.instances.at(0);
     const Mesh& mesh = scene.objects.at(instance.object).meshes.at(0);
@@ -50,10 +52,12 @@ class GltfMotion : public GltfTest {
         mesh.deformation
             ? deformVertices(*mesh.deformation, poseAt(*mesh.deformation, seconds)).positions
             : mesh.positions;
+
     Affine map = instance.toWorld;
     if (instance.mover != kNoNode) {
       map = poseRig(scene.motion.rig, seconds).at(instance.mover) * map;
     }
+
     return map.point(Vec3d(positions.at(mesh.triangles.at(0).at(corner))));
   }
 };
@@ -62,6 +66,7 @@ TEST_F(GltfMotion, NodesMove) {
   GltfBuilder b;
   const std::string times = scalars(b, {1, 3}), to = threes(b, {0, 0, 0, 4, 2, 0});
   const std::string text = moved(b, animation(times, to, 0, "translation"));
+
   expectNear(cornerOf(loadText(text), 0, 0, 0), {0, 0, 0}, kPoseRounding);
   expectNear(movedCorner(at(0, text), 0), {0, 0, 0}, kPoseRounding);
   expectNear(movedCorner(at(2.5, text), 0), {3, 1.5, 0}, kPoseRounding);
@@ -73,11 +78,14 @@ TEST_F(GltfMotion, NodesTurnAndGrow) {
   GltfBuilder b;
   const std::string times = scalars(b, {0, 1});
   const std::string turn = fours(b, {0, 0, 0, 1, 0, 0, kHalfRoot, kHalfRoot});
+
   const SceneDescription turned = at(0.5, moved(b, animation(times, turn, 0, "rotation")));
   expectNear(movedCorner(turned, 1), {std::sqrt(0.5), std::sqrt(0.5), 0}, kPoseRounding);
+
   GltfBuilder c;
   const std::string until = scalars(c, {0, 1}), size = threes(c, {1, 1, 1, 3, 1, 1});
   const SceneDescription grown =
+
       at(0.5, moved(c, animation(until, size, 0, "scale", ",\"interpolation\":\"STEP\"")));
   expectNear(movedCorner(grown, 1), {1, 0, 0}, kPoseRounding);
 }
@@ -89,11 +97,14 @@ TEST_F(GltfMotion, AnimationsAreChosenByTheirNames) {
   std::string second = animation(times, up, 0, "translation");
   second.insert(1, "\"name\":\"rise\",");
   const std::string text = moved(b, animation(times, aside, 0, "translation") + "," + second);
+
   expectNear(movedCorner(at(2, text), 0), {1, 0, 0}, kPoseRounding);
   expectNear(movedCorner(at(2, text, "rise"), 0), {0, 1, 0}, kPoseRounding);
   expectNear(movedCorner(at(2, text, "animation 0"), 0), {1, 0, 0}, kPoseRounding);
+
   EXPECT_EQ(errorOf([&] { at(2, text, "rose"); }),
             "2 m has no animation 'rose'; did you mean 'rise'?");
+
   options_.instant = {};
   const std::vector<Animation> all = loadText(text).animations;
   ASSERT_EQ(all.size(), 2u);
@@ -118,6 +129,7 @@ TEST_F(GltfMotion, CamerasAndLightsMove) {
       "\"mesh\":0},{\"children\":[2,3]},{\"camera\":0},{\"extensions\":{\"KHR_lights_punctual\":{"
       "\"light\":0}}}],\"animations\":[" +
       animation(times, to, 1, "translation") + "]");
+
   Warnings none;
   const Scene scene = Scene::finalize(at(0.5, text), none);
   EXPECT_EQ(scene.cameras.at(0).eye, (Vec3f{0, 0, 4}));
@@ -125,16 +137,18 @@ TEST_F(GltfMotion, CamerasAndLightsMove) {
 }
 
 // Projects all corners at 60 times from `begin` to `end`. Returns the largest distance from the
-// middle of the picture, in halves of its height and width; infinity if a corner lies behind the
-// eye.
+// middle of the picture, relative to half of its height and width, or infinity if a corner lies
+// behind the eye.
 double farthestInPicture(const SceneDescription& description, const Camera& camera, double begin,
                          double end) {
   Warnings none;
   const double aspect = static_cast<double>(description.width) / description.height;
   const double half = std::tan(double{camera.fov} * std::acos(-1.0) / 360);
+
   Scene scene = Scene::finalize(SceneDescription(description), none);
   const Vec3d eye(camera.eye), forward = normalized(Vec3d(camera.at) - eye);
   const Vec3d right = normalized(cross(forward, Vec3d(camera.up))), up = cross(right, forward);
+
   double farthest = 0;
   for (int k = 0; k < 60; ++k) {
     moveScene(scene, begin + (end - begin) * k / 59);
@@ -142,6 +156,7 @@ double farthestInPicture(const SceneDescription& description, const Camera& came
       const Geometry& geometry = scene.geometries.at(instance.geometry);
       for (const auto& corners : geometry.index) {
         for (const std::uint32_t corner : corners) {
+          // Projects the corner onto the axes of the camera.
           const Vec3d p = instance.toWorld.point(Vec3d(geometry.position.at(corner))) - eye;
           const double depth = dot(p, forward);
           if (!(depth > 0)) return std::numeric_limits<double>::infinity();
@@ -158,16 +173,20 @@ TEST_F(GltfMotion, TheSuppliedViewHoldsTheWholeAnimation) {
   GltfBuilder b;
   const std::string times = scalars(b, {0.5f, 2});
   const std::string box = triangle(b), primitive = "{\"primitives\":[" + box + "]}";
+
   const std::string grown = threes(b, {0, 0, 0, 1, 0, 0, 0, 1, 0});
   const auto animated = [&](const std::string& path, const std::string& to, const char* how = "") {
     return ",\"animations\":[" + animation(times, to, 0, path, how) + "]";
   };
+
   const std::string lid = replaced(oneMesh(box), "{\"mesh\":0}]", "{\"mesh\":0},{\"mesh\":0}]");
   const std::string both = replaced(lid, "\"nodes\":[0]}", "\"nodes\":[0,1]}");
   const std::string opened = fours(b, {0, 0, 0, 1, 0, 0, 0.94f, -0.34f});
-  // Leaves its keys: it starts and ends at 0 and swings to 4.5 between them.
+
+  // The curve leaves the range of its keys: it starts and ends at 0 and swings to 4.5 in between.
   const std::string swings = threes(b, {0, 0, 0, 0, 0, 0, 0, 12, 0,  //
                                         0, -12, 0, 0, 0, 0, 0, 0, 0});
+
   const std::string texts[] = {
       oneMesh(box) + animated("translation", threes(b, {0, 0, 0, 10, 0, 0})),
       oneMesh(box) + animated("translation", threes(b, {0, 0, -20, 0, 0, 20})),
@@ -177,40 +196,51 @@ TEST_F(GltfMotion, TheSuppliedViewHoldsTheWholeAnimation) {
       oneMesh(triangle(b, ",\"targets\":[{\"POSITION\":" + grown + "}]")) +
           animated("weights", scalars(b, {0, 1})),
   };
+
   for (const std::string& members : texts) {
     SCOPED_TRACE(members);
     const std::string text = b.json(members);
     const SceneDescription scene = at(1.1, text), other = at(2, text);
     const Camera& camera = scene.cameras.at(0);
+
     const double farthest = farthestInPicture(scene, camera, 0, 2);
     EXPECT_LT(farthest, 1);
     EXPECT_GT(farthest, 0.9);
+
+    // The view and the lights do not depend on the time at which the file is loaded.
     EXPECT_TRUE(sameView(camera, other.cameras.at(0))) << "the view trembles";
     EXPECT_EQ(scene.lights.at(0).position, other.lights.at(0).position);
+
     const Turntable turntable = aroundModel(scene, viewOf(scene), scene.width, scene.height);
     double turning = 0;
     for (int k = 0; k < 12; ++k) {
       const double now = scene.motion.seconds;
       turning = std::max(turning, farthestInPicture(scene, turned(turntable, k / 12.0), now, now));
     }
+
     EXPECT_LT(turning, 1) << "a turntable shows one time";
     EXPECT_GT(turning, 0.8);
   }
 }
 
-// Only the animation that is played counts, and only for a view that is supplied.
+// Only the animation that is played affects the view, and only a view that is computed from the
+// model.
 TEST_F(GltfMotion, OtherAnimationsDoNotChangeTheSuppliedView) {
   GltfBuilder b;
   const std::string times = scalars(b, {0, 1}), to = threes(b, {0, 0, 0, 10, 0, 0});
   const std::string still = threes(b, {0, 0, 0, 0, 0, 0});
   std::string second = animation(times, still, 0, "translation");
   second.insert(1, "\"name\":\"still\",");
+
   const std::string members = oneMesh(triangle(b)) + ",\"animations\":[" +
                               animation(times, to, 0, "translation") + "," + second + "]";
   const SceneDescription rest = loadText(b.json(members)), moved = at(0, b.json(members)),
                          played = at(0, b.json(members), "still");
+
   EXPECT_FALSE(sameView(rest.cameras.at(0), moved.cameras.at(0)));
   EXPECT_TRUE(sameView(rest.cameras.at(0), played.cameras.at(0)));
+
+  // No view is computed for a file with a camera, so that the animation does not move its lights.
   const std::string own =
       b.json(replaced(members, "{\"mesh\":0}]",
                       "{\"mesh\":0,\"camera\":0}],\"cameras\":[{\"type\":"
@@ -228,11 +258,13 @@ TEST_F(GltfMotion, BrokenAnimationsAreRefusedWhenTheyArePlayed) {
         std::to_string(b.accessor(b.view(bytesOf(times)), 5126, "SCALAR", times.size()));
     const std::string out =
         std::to_string(b.accessor(b.view(bytesOf(to)), 5126, "VEC3", to.size() / 3));
+
     const std::string text = moved(b, animation(in, out, 0, "translation"));
     options_.instant = {};
-    loadText(text);  // nothing is played
+    loadText(text);  // It loads as long as the animation is not played.
     return errorOf([&] { at(0, text); });
   };
+
   EXPECT_EQ(errorAt({0, 0}, {0, 0, 0, 1, 0, 0}),
             place + "input: expected finite times that increase, found 0 at index 1");
   EXPECT_EQ(errorAt({0, kNone}, {0, 0, 0, 1, 0, 0}),
@@ -249,7 +281,9 @@ TEST_F(GltfMotion, BrokenChannelsAreRefused) {
   const auto errorWith = [&](const std::string& what, const std::string& by) {
     return errorOf([&] { at(0, replaced(whole, what, by)); });
   };
+  // Each change breaks one reference of the channel.
   const std::string place = "3 m.gltf#/animations/0/";
+
   EXPECT_EQ(errorWith("\"sampler\":0", "\"sampler\":1"),
             place + "channels/0/sampler: expected an index into samplers, from 0 to 0, found 1");
   EXPECT_EQ(errorWith("\"input\":0", "\"input\":\"x\""),
@@ -258,6 +292,7 @@ TEST_F(GltfMotion, BrokenChannelsAreRefused) {
             place + "samplers/0/output: expected 18 numbers for 2 times, found 6");
   EXPECT_EQ(errorWith("\"SCALAR\"", "\"LIST\""),
             "3 m.gltf#/accessors/0/type: expected SCALAR, found \"LIST\"");
+
   // Channels of KHR_animation_pointer are left out, with or without their pointer.
   EXPECT_EQ(errorWith("\"node\":0,\"path\":\"translation\"",
                       "\"path\":\"pointer\",\"extensions\":{\"KHR_animation_pointer\":{}}"),
@@ -273,8 +308,12 @@ TEST_F(GltfMotion, MorphTargetsAddUp) {
   const std::string members =
       replaced(oneMesh(primitive), "]}],\"nodes\"", "],\"weights\":[0.5,0.25]}],\"nodes\"");
   expectNear(cornerOf(loadText(b.json(members)), 0, 0, 0), {0.5, 0, 0.5}, kPoseRounding);
+
+  // The weights of the node replace those of the mesh.
   const std::string own = replaced(members, "{\"mesh\":0}", "{\"mesh\":0,\"weights\":[0,1]}");
   expectNear(cornerOf(loadText(b.json(own)), 0, 0, 0), {0, 0, 2}, kPoseRounding);
+
+  // An animation replaces both.
   const std::string times = scalars(b, {0, 1}), weights = scalars(b, {0, 0, 1, 1});
   const std::string text =
       b.json(own + ",\"animations\":[" + animation(times, weights, 0, "weights") + "]");
@@ -283,30 +322,33 @@ TEST_F(GltfMotion, MorphTargetsAddUp) {
   EXPECT_EQ(warned("morph targets left out"), 0u);
 }
 
-// Two joints one above the other, at heights 0 and 1; the upper one turned by a right angle about
-// z. Corners of the triangle at heights 0, 1 and 2.
+// Two joints lie one above the other, at heights 0 and 1. The upper one is turned by a right angle
+// about z. The corners of the triangle lie at heights 0, 1 and 2.
 class GltfSkin : public GltfMotion {
  protected:
   std::vector<float> xyz = {0, 0, 0, 1, 1, 0, 0, 2, 0};
   std::vector<std::uint16_t> joints = {0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0};
   std::vector<float> weights = {1, 0, 0, 0, 0.5f, 0.5f, 0, 0, 1, 0, 0, 0};
-  std::string attributes;  // further ones
+  std::string attributes;  // further attributes of the primitive
 
-  // `plays`: an animation turns the upper joint by 150 degrees.
+  // If `plays`, an animation turns the upper joint by 150 degrees.
   std::string text(const std::string& turn = "0,0,0.70710678,0.70710678",
                    bool plays = false) const {
     GltfBuilder b;
     const std::vector<float> inverse = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0,  0, 1,
                                         1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1};
+
     b.positions(xyz);
     b.accessor(b.view(bytesOf(joints), 8), 5123, "VEC4", 3);
     b.accessor(b.view(bytesOf(weights), 16), 5126, "VEC4", 3);
     b.accessor(b.view(bytesOf(inverse)), 5126, "MAT4", 2);
     b.positions({0, 0, 1, 1, 0, 0, 0, 1, 0});
+
     const std::string times = scalars(b, {0, 1});
     const std::string rotations = fours(b, {0, 0, 0, 1, 0, 0, 0.96592583f, 0.25881905f});
     const std::string played =
         plays ? ",\"animations\":[" + animation(times, rotations, 2, "rotation") + "]" : "";
+
     return b.json(
         "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"JOINTS_0\":1,\"WEIGHTS_0\":"
         "2" +
@@ -318,12 +360,13 @@ class GltfSkin : public GltfMotion {
   }
 };
 
-// Where the mesh's own node stands does not count.
+// The position of the mesh's own node has no effect.
 TEST_F(GltfSkin, VerticesFollowTheirJoints) {
   const SceneDescription scene = loadText(text());
   expectNear(cornerOf(scene, 0, 0, 0), {0, 0, 0}, kPoseRounding);
-  expectNear(cornerOf(scene, 0, 0, 1), {0.5, 1.5, 0},
-             kPoseRounding);  // half of (1, 1), half of (0, 2)
+
+  // This corner lies half at (1, 1), where the lower joint takes it, and half at (0, 2).
+  expectNear(cornerOf(scene, 0, 0, 1), {0.5, 1.5, 0}, kPoseRounding);
   expectNear(cornerOf(scene, 0, 0, 2), {-1, 1, 0}, kPoseRounding);
 }
 
@@ -334,13 +377,17 @@ TEST_F(GltfSkin, JointsArePlacedByHand) {
   const auto corner = [](const Scene& of, std::size_t i) {
     return Vec3d(of.geometries.at(of.instances.at(0).geometry).position.at(i));
   };
+
   expectNear(corner(scene, 2), {0, 2, 0}, kPoseRounding);
   const Affine turned{{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}, {0, 1, 0}};
   setPlace(scene, "/nodes/2", turned);
   moveScene(scene, 0);
+
   expectNear(corner(scene, 0), {0, 0, 0}, kPoseRounding);
   expectNear(corner(scene, 1), {0.5, 1.5, 0}, kPoseRounding);
   expectNear(corner(scene, 2), {-1, 1, 0}, kPoseRounding);
+
+  // Copies that were made before keep their geometry.
   expectNear(corner(shared, 2), {0, 2, 0}, kPoseRounding);
   EXPECT_THROW(setPlace(scene, "/nodes/1", turned), Error);
 }
@@ -352,7 +399,7 @@ TEST_F(GltfSkin, TheSuppliedViewHoldsTheWholeAnimation) {
   EXPECT_GT(farthest, 0.9);
 }
 
-// A fan of joints under one that moves, each of which holds a corner of its own.
+// A joint that moves has thousands of children, three of which hold one corner each.
 TEST_F(GltfSkin, ThousandsOfJointsHold) {
   constexpr std::uint16_t kJoints = 9000;
   std::string children, list, nodes;
@@ -362,17 +409,20 @@ TEST_F(GltfSkin, ThousandsOfJointsHold) {
     list += comma + node;
     nodes += ",{\"translation\":[" + std::to_string(i) + ",0,0]}";
   }
+
   GltfBuilder b;
   b.positions(xyz);
   b.accessor(b.view(bytesOf<std::uint16_t>({0, 0, 0, 0, 5000, 0, 0, 0, 8999, 0, 0, 0}), 8), 5123,
              "VEC4", 3);
   b.accessor(b.view(bytesOf<float>({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}), 16), 5126, "VEC4", 3);
+
   const std::string times = scalars(b, {0, 2}), up = threes(b, {0, 0, 0, 0, 2, 0});
   const SceneDescription scene = at(
       1, b.json("\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"JOINTS_0\":1,"
                 "\"WEIGHTS_0\":2}}]}],\"skins\":[{\"joints\":[" +
                 list + "]}],\"nodes\":[{\"mesh\":0,\"skin\":0},{\"children\":[" + children + "]}" +
                 nodes + "],\"animations\":[" + animation(times, up, 1, "translation") + "]"));
+
   expectNear(movedCorner(scene, 0), {0, 1, 0}, kPoseRounding);
   expectNear(movedCorner(scene, 1), {5001, 2, 0}, kPoseRounding);
   expectNear(movedCorner(scene, 2), {8999, 3, 0}, kPoseRounding);
@@ -396,7 +446,7 @@ TEST_F(GltfSkin, NormalsTurnWithTheirJoints) {
 }
 
 TEST_F(GltfSkin, FurtherSetsOfJointsCount) {
-  attributes = ",\"JOINTS_1\":1,\"WEIGHTS_1\":2";  // the same once more
+  attributes = ",\"JOINTS_1\":1,\"WEIGHTS_1\":2";  // the same joints once more
   expectNear(cornerOf(loadText(text()), 0, 0, 1), {0.5, 1.5, 0}, kPoseRounding);
 }
 
@@ -410,7 +460,7 @@ TEST_F(GltfSkin, JointsThatAreMissingAreLeftOut) {
   expectNear(cornerOf(loadText(text()), 0, 0, 1), {0, 2, 0}, kPoseRounding);
   EXPECT_EQ(warned("joint that the skin does not have left out"), 1u);
   weights[5] = 0;
-  // Where its node, at x = 50, would show it without a skin.
+  // The node, at x = 50, would show the corner there without a skin.
   expectNear(cornerOf(loadText(text()), 0, 0, 1), {51, 1, 0}, kPoseRounding);
   EXPECT_EQ(warned("vertex that no joint holds placed by its node"), 1u);
 }
@@ -439,6 +489,7 @@ TEST_F(GltfSkin, BrokenSkinsAreRefused) {
       {"\"joints\":[1,2]", "\"joints\":[1,2,1]",
        "#/skins/0/inverseBindMatrices: expected a matrix for each of 3 joints, found 2"},
   };
+
   for (const Case& c : cases) {
     EXPECT_EQ(errorOfText(replaced(text(), c.what, c.by)), std::string("3 m.gltf") + c.error);
   }

@@ -8,12 +8,13 @@ namespace whit {
 namespace {
 
 constexpr int kSide = 32;
-constexpr std::uint32_t kGreen = 1023;  // codes of the leaf's green, everywhere else black
+constexpr std::uint32_t kGreen = 1023;  // codes of the leaf's green; all other texels are black
 constexpr int kLeafWidth = 8, kLeafHeight = 16;
 
 bool isLeaf(int x, int y) { return x < kLeafWidth && y < kLeafHeight; }
 
-// Bilinear lookups see something of the leaf up to half a texel beyond its edges.
+// The share of the leaf that is covered: bilinear lookups show some of the leaf up to half a texel
+// beyond its edges.
 constexpr double kShare =
     static_cast<double>(kLeafWidth * kLeafHeight) / ((kLeafWidth + 1) * (kLeafHeight + 1));
 
@@ -29,6 +30,7 @@ class MaskedLevels : public GltfMaterials {
         mask.push_back({c});
       }
     }
+
     save("leaf.tga", tga(kSide, kSide, leaf));
     save("color.tga", tga(kSide, kSide, color));
     save("mask.tga", tga(kSide, kSide, mask));
@@ -37,23 +39,29 @@ class MaskedLevels : public GltfMaterials {
   void expectGreenLevels(SceneDescription description, bool isCovered) {
     const Scene scene = Scene::finalize(std::move(description), warnings_);
     const MipMaps maps(scene);
+
     int leaves = 0;
     for (const Material& m : scene.materials) {
       if (m.diffuseMap == kNoTexture) continue;
       ++leaves;
+
       const ShownMap color = shownMap(m, &Material::diffuseMap);
       ASSERT_EQ(maps.levels(color), 6);
+      // The color of the leaf is spread over the transparent texels, so that no level has a dark
+      // border.
       for (int level = 1; level < 6; ++level) {
         for (const std::uint32_t texel : maps.level(color, level).texels) {
           EXPECT_EQ(texel >> 10 & 1023u, kGreen) << "level " << level;
         }
       }
+
       EXPECT_EQ(m.coverageMap != kNoTexture, isCovered);
       if (!isCovered) continue;
       const std::uint32_t mean =
           maps.level(shownMap(m, &Material::coverageMap), 5).texels[0] & 255u;
       EXPECT_NEAR(mean / 255.0, kShare, 2.0 / 255);
     }
+
     EXPECT_EQ(leaves, 1);
   }
 
@@ -62,12 +70,14 @@ class MaskedLevels : public GltfMaterials {
     return loadText(sceneText(
         {{0, matte("\"baseColorTexture\":{\"index\":0}", "\"alphaMode\":\"" + mode + "\""), 1}}));
   }
+
   SceneDescription obj(const std::string& maps) {
     save("m.mtl", "newmtl m\n" + maps);
     return loadObj(
         "mtllib m.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
         "f 1/1 2/2 3/3\n");
   }
+
   SceneDescription sceneFile(const std::string& mask) {
     return loadMembers(R"("textures": {"c": {"image": "color.tga"}, "m": {"image": "mask.tga"}},)"
                        R"("materials": {"m": {"diffuseMap": "c", ")" +

@@ -41,6 +41,7 @@ TEST_F(ObjFaces, EveryFormOfCorner) {
 TEST_F(ObjFaces, CornersThatAgreeShareAVertex) {
   const SceneDescription scene = loadObj(
       std::string(kSquare) + "vt 0 0\nvt 1 1\nf 1/1 2/1 3/1\nf 1/1 3/1 4/1\nf 1/2 3/1 4/1\n");
+
   const Mesh& mesh = onlyMesh(scene);
   EXPECT_EQ(mesh.triangles.size(), 3u);
   EXPECT_EQ(mesh.positions.size(), 5u);  // four, and the first again with another vt
@@ -56,9 +57,11 @@ TEST_F(ObjFaces, ManyVerticesAtOnePositionStayApart) {
     const std::string uv = std::string("/") + std::to_string(i);
     text += "f 1" + uv + " 2" + uv + " 3" + uv + "\n";
   }
+
   const SceneDescription scene = loadObj(text);
   const Mesh& mesh = onlyMesh(scene);
   EXPECT_EQ(mesh.positions.size(), 3u * kCount);
+
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     for (const std::uint32_t v : mesh.triangles[i]) {
       ASSERT_EQ(mesh.uvs[v].x, static_cast<float>(i));
@@ -70,8 +73,10 @@ TEST_F(ObjFaces, TextureCoordinatesAndNormalsArriveAtTheirCorners) {
   const SceneDescription scene =
       loadObj(std::string(kSquare) +
               "vt 0.25 0.5\nvt -3 7 0\nvt 0.75\nvn 0 0 1\nvn 0 1 0\nf 1/2/1 2/1/2 3/3/1\n");
+
   const Mesh& mesh = onlyMesh(scene);
   const auto& t = mesh.triangles[0];
+
   EXPECT_EQ(mesh.uvs[t[0]], (Vec2f{-3, 7}));
   EXPECT_EQ(mesh.uvs[t[1]], (Vec2f{0.25f, 0.5f}));
   EXPECT_EQ(mesh.uvs[t[2]], (Vec2f{0.75f, 0}));
@@ -84,40 +89,48 @@ TEST_F(ObjFaces, FacesThatLackANormalAreFlat) {
       loadObj(std::string(kSquare) + "vn 0 0 1\nf 1//1 2//1 3//1\nf 1 3 4\nf 2//1 4 1//1\n");
   const Mesh& mesh = onlyMesh(scene);
   EXPECT_TRUE(mesh.hasFlatFaces);
+
   ASSERT_EQ(mesh.triangles.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
     for (const std::uint32_t corner : mesh.triangles[i]) {
       EXPECT_EQ(mesh.normals[corner], i == 0 ? Vec3f(0, 0, 1) : Vec3f()) << i;
     }
   }
+
   const Scene baked = Scene::finalize(SceneDescription(scene), warnings_);
   EXPECT_EQ(baked.triangles.size(), 3u);
   EXPECT_TRUE(warnings_.entries().empty());
 }
 
 TEST_F(ObjFaces, ConcavePolygonsAreCovered) {
-  // An L of area 3; a fan from its first corner would leave it.
+  // The polygon is an L of area 3. A fan from its first corner would leave the L.
   const SceneDescription scene =
       loadObj("v 1 1 5\nv 1 2 5\nv 0 2 5\nv 0 0 5\nv 2 0 5\nv 2 1 5\nf 3 4 5 6 1 2\n");
+
   const Corners c = cornersOf(onlyMesh(scene));
   ASSERT_EQ(c.size(), 12u);
+
   float area = 0;
   for (std::size_t i = 0; i < c.size(); i += 3) {
     const Vec3f n = cross(c[i + 1] - c[i], c[i + 2] - c[i]);
     EXPECT_GT(n.z, 0);
     area += n.z / 2;
   }
+
   EXPECT_EQ(area, 3);
 }
 
 TEST_F(ObjFaces, LineEndsAndContinuations) {
   const Corners expected{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
+
+  // The line ends of Unix, of Windows and of old Macs.
   std::string unix = std::string(kSquare) + "f 1 2 3", dos, mac;
   for (const char c : unix) {
     if (c == '\n') dos += '\r';
     dos += c;
     mac += c == '\n' ? '\r' : c;
   }
+
   for (const std::string& text :
        {std::string("v 0 0 0\nv 1 0 0\rv 1 1 0\r\nf 1 2 3"), unix, unix + "\n", dos, dos + "\r\n",
         mac, mac + "\r", std::string(kSquare) + "f 1 \\\n2 \\\r\n 3\n",
@@ -129,16 +142,20 @@ TEST_F(ObjFaces, LineEndsAndContinuations) {
 TEST_F(ObjFaces, MaterialsOfFaces) {
   save("a library.mtl", "newmtl dark red\r\nKd 0.5 0 0\r\n");
   save("sub/second.mtl", "newmtl blue\nKd 0 0 1\nnewmtl dark red\nKd 1 1 1\n");
+
   const SceneDescription scene = loadObj(
       std::string("mtllib a library.mtl\nmtllib sub\\second.mtl missing.mtl\n") + kSquare +
       "f 1 2 3\nusemtl dark red \nf 1 2 4\nusemtl blue\nf 2 3 4\nusemtl unknown\nf 1 3 4\n");
+
   const Mesh& mesh = onlyMesh(scene);
   ASSERT_EQ(mesh.triangles.size(), 4u);
   const auto diffuse = [&](std::size_t i) { return scene.materials[mesh.material(i)].diffuse; };
-  EXPECT_EQ(diffuse(0), Rgb(0.6f));  // none named: gray
+
+  EXPECT_EQ(diffuse(0), Rgb(0.6f));  // faces without a material are gray
   EXPECT_EQ(diffuse(1), Rgb(0.5f, 0, 0));
   EXPECT_EQ(diffuse(2), Rgb(0, 0, 1));
   EXPECT_EQ(diffuse(3), Rgb(0.6f));
+
   EXPECT_EQ(warned("material library missing"), 1u);
   EXPECT_EQ(warned("material missing, gray instead"), 1u);
 }
@@ -149,22 +166,28 @@ TEST_F(ObjFaces, AModelAloneGetsLightsAndACamera) {
   EXPECT_EQ(scene.cameras.size(), 1u);
   ASSERT_EQ(scene.lights.size(), 2u);
   EXPECT_GT(scene.lights[0].position.y, 1);
+
   Warnings warnings;
   SceneDescription copy = scene;
   EXPECT_EQ(Scene::finalize(std::move(copy), warnings).cameras.size(), 1u);
 }
 
-// Colors follow the position, after a weight or not, in sRGB: code 188 of 255 is 0.502886 in light.
+// Colors follow the position, with a weight in between or not. They are in sRGB: code 188 of 255 is
+// 0.502886 in linear light.
 TEST_F(ObjFaces, ColorsOfVertices) {
   const SceneDescription scene =
       loadObj("v 0 0 0 1 0 0.737255\nv 1 0 0 1 0 1 0\nv 0 1 0\nf 1 2 3\n");
+
   const Mesh& mesh = scene.objects[0].meshes[0];
   ASSERT_EQ(mesh.colors.size(), 3u);
+
   EXPECT_EQ(mesh.colors[0].x, 1);
   EXPECT_NEAR(mesh.colors[0].z, 0.502886f, 1e-5f);
   EXPECT_EQ(mesh.colors[1], Rgb(0, 1, 0));
   EXPECT_EQ(mesh.colors[2], Rgb(1.0f));
   EXPECT_EQ(scene.materials[mesh.materials[0]].diffuse, Rgb(1.0f));
+
+  // Values above 1 are codes of 8 bits.
   const SceneDescription codes =
       loadObj("v 0 0 0 255 0 188\nv 1 0 0 0 0 0\nv 0 1 0 0 0 0\nf 1 2 3\n");
   EXPECT_NEAR(codes.objects[0].meshes[0].colors[0].z, 0.502886f, 1e-5f);
@@ -175,14 +198,15 @@ TEST_F(ObjFaces, PositionsWithoutZ) {
   EXPECT_EQ(scene.objects[0].meshes[0].positions[1], Vec3f(1, 0, 0));
 }
 
-// Two faces meet at a right angle along the z axis: in a group the normals at the edge are the
-// mean, by area, elsewhere each face has its own.
+// Two faces meet at a right angle along the z axis. In a smoothing group the normals at this edge
+// are the mean by area; elsewhere each face has its own.
 TEST_F(ObjFaces, SmoothingGroups) {
   const std::string corners = "v 0 0 0\nv 0 0 -1\nv 1 0 -1\nv 1 0 0\nv 0 1 0\nv 0 1 -1\n";
   const auto normalsAtEdge = [&](const std::string& first, const std::string& second) {
     const SceneDescription scene =
         loadObj(corners + first + "f 1 4 3 2\n" + second + "f 1 2 6 5\n");
     const Mesh& mesh = scene.objects[0].meshes[0];
+
     std::vector<Vec3f> found;
     for (const auto& triangle : mesh.triangles) {
       for (const std::uint32_t corner : triangle) {
@@ -190,12 +214,15 @@ TEST_F(ObjFaces, SmoothingGroups) {
         if (isAtEdge && !mesh.normals.empty()) found.push_back(mesh.normals[corner]);
       }
     }
+
     return found;
   };
+
   const float half = std::sqrt(0.5f);
   const std::vector<Vec3f> smooth = normalsAtEdge("s 1\n", "");
   ASSERT_GE(smooth.size(), 2u);
   for (const Vec3f& normal : smooth) EXPECT_LT(length(normal - Vec3f(half, half, 0)), 1e-6f);
+
   EXPECT_EQ(normalsAtEdge("s off\n", ""), std::vector<Vec3f>());
   EXPECT_EQ(normalsAtEdge("s 1\n", "s 0\n").front(), Vec3f(0, 1, 0));
   const std::vector<Vec3f> apart = normalsAtEdge("s 1\n", "s 2\n");

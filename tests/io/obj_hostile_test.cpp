@@ -12,6 +12,7 @@ class ObjHostile : public SceneFileTest {
   std::string errorOfObj(const std::string& text) {
     return errorOf([&] { loadObj(text); });
   }
+
   std::string placeOf(const std::string& kind) {
     const auto entries = warnings_.entries();
     const auto entry = entries.find(kind);
@@ -37,6 +38,7 @@ TEST_F(ObjHostile, OtherIndicesOutOfRangeAreIgnored) {
   const SceneDescription scene = loadObj(
       "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n\nf 1/9/1 2/1/1 3/1/1\nf 1//7 2//1 "
       "3//1\nf 1/-5 2/1 3/1\n");
+
   EXPECT_EQ(triangleCount(scene), 3u);
   EXPECT_EQ(warned("texture coordinate index out of range ignored"), 2u);
   EXPECT_EQ(placeOf("texture coordinate index out of range ignored"), "m.obj:7");
@@ -67,11 +69,14 @@ TEST_F(ObjHostile, WhatIsNotFiniteStaysSo) {
         loadObj(std::string(kTriangleObj) + "v 5 " + odd + " 5\nf 2 3 4\n");
     const Mesh& mesh = scene.objects.at(0).meshes.at(0);
     EXPECT_FALSE(isFinite(mesh.positions[mesh.triangles.at(1)[2]])) << odd;
+
+    // The triangle of this position is dropped with a warning.
     Warnings warnings;
     SceneDescription copy = scene;
     EXPECT_EQ(Scene::finalize(std::move(copy), warnings).triangles.size(), 1u) << odd;
     EXPECT_FALSE(warnings.entries().empty()) << odd;
   }
+
   EXPECT_EQ(triangleCount(loadObj("v 1e-3 +2.5E+2 -.5\nv 1 0 0\nv 0 1 0 # last\nf 1 2 3\n")), 1u);
 }
 
@@ -102,6 +107,7 @@ TEST_F(ObjHostile, NothingToDrawIsSaidWithItsReason) {
   EXPECT_EQ(warned("model with nothing to draw: no faces"), 1u);
   loadObj("v 0 0 0\nf 1 1 9\n");
   EXPECT_EQ(warned("model with nothing to draw: no face that can be built"), 1u);
+
   Warnings strict(true);
   const std::string file = save("m.obj", "v 0 0 0\n");
   EXPECT_EQ(errorOf([&] { loadScene(file, options_, strict); }),
@@ -117,7 +123,8 @@ TEST_F(ObjHostile, MemoryIsCheckedBeforeItIsTaken) {
   EXPECT_EQ(errorOfObj(text).substr(0, 8), "5 m.obj ");
 }
 
-// Counting lines from the top for each of them would take minutes.
+// Each of many bad faces names its line. To count lines from the top for each of them would take
+// minutes.
 TEST_F(ObjHostile, EveryFaceMayBeBad) {
   constexpr std::uint64_t kFaces = 300'000;
   std::string text = kTriangleObj;
@@ -132,6 +139,7 @@ TEST_F(ObjHostile, MaterialsHaveALimit) {
     uses += "usemtl " + std::to_string(i) + "\n";
     library += "newmtl " + std::to_string(i) + "\n";
   }
+
   EXPECT_EQ(errorOfObj(uses), "5 m.obj uses more than 65536 materials");
   save("m.mtl", library);
   EXPECT_EQ(errorOfObj("mtllib m.mtl\n"), "5 m.mtl:65537: more than 65536 materials");

@@ -25,10 +25,11 @@ class Ply : public SceneFileTest {
   std::string errorOfPly(const std::string& text) {
     return errorOf([&] { loadPly(text); });
   }
+
   static std::string header(const std::string& format, const std::string& rest) {
     return "ply\nformat " + format + " 1.0\ncomment made by hand\n" + rest + "end_header\n";
   }
-  // A unit square with an element in between that nobody knows.
+  // Returns the header of a unit square, with an element in between that is unknown to readers.
   static std::string squareHeader(const std::string& format) {
     return header(format,
                   "element vertex 4\nproperty float x\nproperty double y\nproperty short z\n"
@@ -36,14 +37,18 @@ class Ply : public SceneFileTest {
                   "property float rest\nelement face 1\nproperty uchar flags\n"
                   "property list uchar int vertex_indices\n");
   }
+
   static std::string binarySquare(bool little) {
     std::string text = squareHeader(little ? "binary_little_endian" : "binary_big_endian");
     for (int i = 0; i < 4; ++i) {
       text += bytes(i == 1 || i == 2 ? 1.0f : 0.0f, little) + bytes(i >= 2 ? 1.0 : 0.0, little) +
               bytes<std::int16_t>(-300, little) + bytes<std::uint8_t>(255, little);
     }
+
+    // The unknown element, whose bytes are skipped by its declaration.
     text +=
         bytes<std::uint8_t>(2, little) + bytes(7, little) + bytes(8, little) + bytes(1.5f, little);
+
     text += bytes<std::uint8_t>(9, little) + bytes<std::uint8_t>(4, little);
     for (int i = 0; i < 4; ++i) text += bytes(i, little);
     return text;
@@ -58,29 +63,33 @@ TEST_F(Ply, TextAndBytesOfEitherOrderAreTheSame) {
   const std::string text = squareHeader("ascii") +
                            "0 0 -300 255\n1 0 -300 255\n1 1 -300 255\n0 1 -300 255\n"
                            "2 7 8 1.5\n9 4 0 1 2 3\n";
+
   for (const std::string& file : {text, binarySquare(true), binarySquare(false)}) {
     const SceneDescription scene = loadPly(file);
     ASSERT_EQ(triangleCount(scene), 2u);
     EXPECT_EQ(scene.objects[0].meshes[0].positions,
               (std::vector<Vec3f>{{0, 0, -300}, {1, 0, -300}, {1, 1, -300}, {0, 1, -300}}));
   }
+
   EXPECT_EQ(warned("vertex colors that lack a channel left out"), 3u);
   EXPECT_EQ(warned("elements of a kind that is not shown"), 3u);
 }
 
-// Whole numbers are sRGB codes of their type, others are linear.
+// Integers are sRGB codes, scaled by the largest of their type; floats are linear.
 TEST_F(Ply, ColorsOfVertices) {
   for (const auto& [type, half] :
        {std::pair("uchar", "188"), std::pair("ushort", "48316"), std::pair("float", "0.502886")}) {
     const std::string one = std::string(type) == "uchar"    ? "255"
                             : std::string(type) == "ushort" ? "65535"
                                                             : "1";
+
     const std::string property = std::string("property ") + type;
     const SceneDescription scene = loadPly(
         header("ascii", "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n" +
                             property + " red\n" + property + " green\n" + property +
                             " blue\nelement face 1\nproperty list uchar uint vertex_index\n") +
         "0 0 0 " + one + " 0 " + half + "\n1 0 0 0 0 0\n0 1 0 0 0 0\n3 0 1 2\n");
+
     const Mesh& mesh = scene.objects[0].meshes[0];
     ASSERT_EQ(mesh.colors.size(), 3u) << type;
     EXPECT_EQ(mesh.colors[0].x, 1);
@@ -105,6 +114,7 @@ TEST_F(Ply, NormalsAndTextureCoordinates) {
                      "property float x\nproperty float y\nproperty float z\nproperty float s\n"
                      "property float t\nelement face 1\nproperty list uchar int vertex_indices\n") +
               "0 0 1 0 0 0 0.5 0.25\n0 0 1 1 0 0 1 0\n0 0 1 +0 1e0 0 0 1\n3 0 1 2\n");
+
   const Mesh& mesh = scene.objects[0].meshes[0];
   EXPECT_EQ(mesh.normals[2], Vec3f(0, 0, 1));
   EXPECT_EQ(mesh.uvs[0], (Vec2f{0.5f, 0.25f}));
@@ -112,12 +122,13 @@ TEST_F(Ply, NormalsAndTextureCoordinates) {
 }
 
 TEST_F(Ply, PolygonsThatAreNotConvex) {
-  // An arrowhead: the fan from its first corner would cover the notch.
+  // The polygon is an arrowhead. A fan from its first corner would cover the notch.
   const SceneDescription scene =
       loadPly(header("ascii",
                      "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
                      "element face 1\nproperty list uchar int vertex_indices\n") +
               "-2 -2 0\n0 -1 0\n2 -2 0\n0 2 0\n4 0 1 2 3\n");
+
   EXPECT_EQ(scene.objects[0].meshes[0].triangles.size(), 2u);
   for (const Triangle& t : scene.objects[0].meshes[0].triangles) {
     EXPECT_TRUE(std::count(t.begin(), t.end(), 1u) && std::count(t.begin(), t.end(), 3u));
@@ -130,29 +141,34 @@ TEST_F(Ply, BadFacesAreDroppedAndCounted) {
                      "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
                      "element face 4\nproperty list uchar int vertex_indices\n") +
               "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n2 0 1\n3 0 1 -1\n3 0 1 2\n");
+
   EXPECT_EQ(triangleCount(scene), 1u);
   EXPECT_EQ(warned("face with a vertex index out of range dropped"), 2u);
   EXPECT_EQ(warned("face with fewer than three corners dropped"), 1u);
 }
 
-// The strip 0 1 2 3, twice a corner that joins nothing, then after -1 another.
+// The strip is 0 1 2 3, whose last corner is repeated. After -1 another strip begins.
 TEST_F(Ply, StripsAndTheirRestarts) {
   const std::string vertices =
       "element vertex 5\nproperty float x\nproperty float y\nproperty float z\n";
   const std::string strips = "element tristrips 1\nproperty list int int vertex_indices\n";
   const std::string points = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n";
   const std::vector<Triangle> expected = {{0, 1, 2}, {1, 3, 2}, {2, 3, 4}};
+
   const SceneDescription scene =
       loadPly(header("ascii", vertices + strips) + points + "9 0 1 2 3 3 -1 2 3 4\n");
+
   ASSERT_EQ(scene.objects.size(), 1u);
   EXPECT_EQ(scene.objects[0].meshes[0].triangles, expected);
   EXPECT_TRUE(warnings_.entries().empty());
+
+  // An index out of range ends the strip.
   EXPECT_EQ(triangleCount(loadPly(header("ascii", vertices + strips) + points + "5 0 1 2 7 3\n")),
             1u);
   EXPECT_EQ(warned("rest of a strip behind a vertex index out of range dropped"), 1u);
 }
 
-// Not as 0, which is a place like any other.
+// A number too large for a double is infinite. It must not become 0, which is a valid position.
 TEST_F(Ply, NumbersBeyondDoubleAreInfinite) {
   const SceneDescription scene =
       loadPly(header("ascii", kTriangleHeader) + "0 0 1e-999\n1e999 0 0\n0 -1e999 0\n3 0 1 2\n");
@@ -175,13 +191,16 @@ constexpr char kFourVertices[] =
 constexpr char kTwoFaces[] = "element face 2\nproperty list uchar int vertex_indices\n";
 constexpr char kCorners[] = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
 
-// Two faces share two vertices and have other colors there. Code 188 is 0.502886 in light.
+// Two faces share two vertices but have different colors there. Code 188 is 0.502886 in linear
+// light.
 TEST_F(Ply, ColorsOfFaces) {
   const std::string colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
   const SceneDescription scene = loadPly(header("ascii", kFourVertices + (kTwoFaces + colors)) +
                                          kCorners + "3 0 1 2 255 0 188\n3 0 2 3 0 255 0\n");
+
   const Mesh& mesh = scene.objects[0].meshes[0];
   ASSERT_EQ(mesh.triangles.size(), 2u);
+
   for (const std::uint32_t corner : mesh.triangles[0]) {
     EXPECT_EQ(mesh.colors[corner].x, 1);
     EXPECT_NEAR(mesh.colors[corner].z, 0.502886f, 1e-5f);
@@ -189,6 +208,7 @@ TEST_F(Ply, ColorsOfFaces) {
   for (const std::uint32_t corner : mesh.triangles[1]) {
     EXPECT_EQ(mesh.colors[corner], Rgb(0, 1, 0));
   }
+
   EXPECT_EQ(mesh.positions[mesh.triangles[1][2]], Vec3f(0, 1, 0));
   EXPECT_EQ(scene.materials[mesh.materials[0]].diffuse, Rgb(1.0f));
   EXPECT_EQ(kinds(), "");
@@ -211,25 +231,29 @@ TEST_F(Ply, PicturesByCoordinatesOfVertices) {
       "property float y\nproperty float z\nproperty float u\nproperty float v\nelement face 1\n"
       "property list uchar int vertex_indices\nend_header\n"
       "0 0 0 0.25 0.75\n1 0 0 0 0\n0 1 0 0 0\n3 0 1 2\n");
+
   const Material& material = scene.materials[0];
   ASSERT_NE(material.diffuseMap, kNoTexture);
   EXPECT_EQ(material.diffuse, Rgb(1.0f));
   EXPECT_EQ(scene.objects[0].meshes[0].uvs[0], (Vec2f{0.25f, 0.75f}));
 }
 
-// The pictures are numbered in the order of the comments; coordinates belong to corners.
+// Images are numbered in the order of the comments. Coordinates belong to the corners of faces.
 TEST_F(Ply, PicturesByCoordinatesOfFaces) {
   save("red.tga", tga(1, 1, {{255, 0, 0}}));
   save("blue.tga", tga(1, 1, {{0, 0, 255}}));
+
   const SceneDescription scene = loadPly(
       header("ascii", std::string("comment TextureFile red.tga\ncomment TextureFile blue.tga\n") +
                           kFourVertices + kTwoFaces +
                           "property list uchar float texcoord\nproperty int texnumber\n") +
       kCorners + "3 0 1 2 6 0 0 1 0 1 1 1\n3 0 2 3 6 0.5 0.5 1 1 0 1 0\n");
+
   const Mesh& mesh = scene.objects[0].meshes[0];
   ASSERT_EQ(mesh.materials.size(), 2u);
   EXPECT_EQ(scene.materials[mesh.materials[0]].name, "blue.tga");
   EXPECT_EQ(scene.materials[mesh.materials[1]].name, "red.tga");
+
   EXPECT_EQ(mesh.uvs[mesh.triangles[0][1]], (Vec2f{1, 0}));
   EXPECT_EQ(mesh.uvs[mesh.triangles[1][0]], (Vec2f{0.5f, 0.5f}));
   EXPECT_EQ(kinds(), "");
@@ -253,12 +277,15 @@ TEST_F(Ply, NothingToDrawIsSaidWithItsReason) {
   const std::string vertices =
       "element vertex 1\nproperty float x\nproperty float y\nproperty float z\n";
   const std::string faces = "element face 1\nproperty list uchar int vertex_indices\n";
+
   loadPly(header("ascii", vertices) + "0 0 0\n");
   EXPECT_EQ(warned("model with nothing to draw: no faces"), 1u);
+
   loadPly(header("ascii",
                  "element vertex 0\nproperty float x\nproperty float y\n"
                  "property float z\n"));
   EXPECT_EQ(warned("model with nothing to draw: no vertices"), 1u);
+
   loadPly(header("ascii", vertices + faces) + "0 0 0\n3 0 0 1\n");
   EXPECT_EQ(warned("model with nothing to draw: no face that can be built"), 1u);
 }
@@ -273,6 +300,8 @@ TEST_F(Ply, ScenesUseThem) {
 
 TEST_F(Ply, ErrorsNameTheirPlace) {
   const std::string data = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+
+  // Headers.
   EXPECT_EQ(errorOfPly("obj\n"), "3 m.ply:1: expected a line \"ply\"");
   EXPECT_EQ(errorOfPly("ply\nend_header\n"),
             "3 m.ply:2: expected a line \"format\" before the header's end");
@@ -285,17 +314,21 @@ TEST_F(Ply, ErrorsNameTheirPlace) {
   EXPECT_EQ(errorOfPly("ply\nformat ascii 1.0\nelement v 1\nproperty half x\n"),
             "3 m.ply:4: \"half\" is no type of a property");
   EXPECT_EQ(errorOfPly("ply\nformat ascii 1.0"), "3 m.ply:2: expected a line of a PLY header");
+
+  // Elements, and data that do not match them.
   EXPECT_EQ(errorOfPly(header("ascii",
                               "element face 1\nproperty list uchar int vertex_indices\n"
                               "element vertex 1\nproperty float x\nproperty float y\n"
                               "property float z\n") +
                        "3 0 0 0\n0 0 0\n"),
             "3 m.ply:4: expected the vertices before the element \"face\"");
+
   const std::string whole = header("ascii", kTriangleHeader);
   EXPECT_EQ(errorOfPly(whole + "0 0 0\n1 zero 0\n0 1 0\n3 0 1 2\n"),
             "3 m.ply:12: expected a number");
   EXPECT_EQ(errorOfPly(whole + "0 0 0\n1 0 0\n0 1 0\n255 0 1 2\n"),
             "3 m.ply:14: expected a list that fits into the file");
+
   std::string many = whole;
   many.replace(many.find("vertex 3"), 8, "vertex 18446744073709551615");
   EXPECT_EQ(
@@ -306,10 +339,13 @@ TEST_F(Ply, ErrorsNameTheirPlace) {
 
 TEST_F(Ply, CutShortAndFlipped) {
   options_.threads = 1;
+
+  // A file that is cut short is refused; with a flipped bit it may be valid.
   const std::string whole = binarySquare(true);
   for (std::size_t size = 0; size < whole.size(); ++size) {
     EXPECT_EQ(errorOfPly(whole.substr(0, size)).substr(0, 2), "3 ") << size;
   }
+
   for (std::size_t i = 0; i < whole.size(); ++i) {
     std::string file = whole;
     file[i] = static_cast<char>(file[i] ^ (1 << (i % 8)));

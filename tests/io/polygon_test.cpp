@@ -9,12 +9,14 @@ namespace {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-// Vector area of all triangles: equals the polygon's when they cover it once, in its sense.
+// Returns the vector area of all triangles. It equals the polygon's if they cover the polygon once,
+// in its orientation.
 Vec3d areaOf(const std::vector<Vec3d>& p, const Triangles& triangles) {
   Vec3d sum;
   for (const auto& t : triangles) sum += cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]) * 0.5;
   return sum;
 }
+
 double sumOfAreas(const std::vector<Vec3d>& p, const Triangles& triangles) {
   double sum = 0;
   for (const auto& t : triangles) sum += 0.5 * length(cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]));
@@ -25,10 +27,12 @@ void expectCovered(const std::vector<Vec3d>& p, const Vec3d& area) {
   Triangles triangles;
   EXPECT_TRUE(triangulate(p, triangles));
   EXPECT_EQ(triangles.size(), p.size() - 2);
-  // Small integers and halves: exact but for the square roots.
+
+  // Coordinates are small integers and halves, whose sums are exact. Lengths are square roots.
   constexpr double kRounding = 1e-9;
   EXPECT_LT(length(areaOf(p, triangles) - area), kRounding * length(area));
-  // No overlaps: triangles that face the other way would make this sum larger.
+
+  // Triangles that overlap or face the other way would make this sum larger.
   EXPECT_NEAR(sumOfAreas(p, triangles), length(area), kRounding * length(area));
 }
 
@@ -45,7 +49,7 @@ TEST(Polygon, ConvexQuadIsCutAlongItsShorterDiagonal) {
 }
 
 TEST(Polygon, ConcaveQuadIsCutFromItsReflexCorner) {
-  // A dart whose notch is each corner in turn.
+  // Each corner in turn is the notch of the dart.
   const std::vector<Vec3d> dart{{0, 0, 0}, {2, -2, 0}, {0, 4, 0}, {-2, -2, 0}};
   for (std::size_t turned = 0; turned < 4; ++turned) {
     std::vector<Vec3d> p;
@@ -55,7 +59,7 @@ TEST(Polygon, ConcaveQuadIsCutFromItsReflexCorner) {
 }
 
 TEST(Polygon, ConcavePolygonsFarFromTheOriginInAnyPlane) {
-  // An L and a U of unit squares.
+  // The outlines are an L and a U of unit squares.
   const std::vector<std::vector<Vec2f>> outlines{
       {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}},
       {{0, 0}, {3, 0}, {3, 2}, {2, 2}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}};
@@ -71,6 +75,7 @@ TEST(Polygon, ConcavePolygonsFarFromTheOriginInAnyPlane) {
             corner[(axis + 2) % 3] += o.y;
             p.push_back(corner);
           }
+
           if (reversed) p = {p.rbegin(), p.rend()};
           Vec3d area;
           area[axis] = reversed ? -areas[k] : areas[k];
@@ -86,7 +91,8 @@ TEST(Polygon, CornersOnALineAreKept) {
 }
 
 TEST(Polygon, HoleReachedByASeam) {
-  // A square of side 4 with a square hole of side 2, joined along a seam that is walked twice.
+  // The square of side 4 has a square hole of side 2, which a seam joins to the outline. The seam
+  // is traversed twice.
   expectCovered({{0, 0, 0},
                  {4, 0, 0},
                  {4, 4, 0},
@@ -107,6 +113,7 @@ TEST(Polygon, ManyCornersOnACircle) {
       const double angle = 2 * M_PI * static_cast<double>(i) / static_cast<double>(count);
       p.push_back({std::cos(angle), 0, -std::sin(angle)});
     }
+
     const double n = static_cast<double>(count);
     expectCovered(p, {0, 0.5 * n * std::sin(2 * M_PI / n), 0});
   }
@@ -116,7 +123,7 @@ TEST(Polygon, WhatHasNoOutlineBecomesAFan) {
   const Vec3d nan(std::nan(""));
   for (const std::vector<Vec3d>& p :
        {std::vector<Vec3d>(5, {1, 1, 1}), std::vector<Vec3d>(5, nan),
-        // A bow tie without area.
+        // Five corners on a line have no area.
         std::vector<Vec3d>{{0, 0, 0}, {1, 1, 0}, {2, 2, 0}, {3, 3, 0}, {4, 4, 0}}}) {
     Triangles triangles;
     EXPECT_FALSE(triangulate(p, triangles));

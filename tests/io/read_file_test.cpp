@@ -1,4 +1,4 @@
-// What stands in the place of a file, or is written in another way than text is.
+// Files that contain something other than what their names promise, or text in another encoding.
 #include "gltf_files.h"
 #include "scene/description.h"
 
@@ -22,6 +22,7 @@ TEST_F(ReadFile, PointersOfGitLfsAreNoModels) {
   for (const char* name : {"m.obj", "m.ply", "m.gltf", "m.glb", "s.json"}) {
     EXPECT_EQ(errorOfFile(name, kPointer), "3 " + std::string(name) + kSaid);
   }
+
   save("p.bin", kPointer);
   EXPECT_EQ(errorOfText("{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":1,"
                         "\"uri\":\"p.bin\"}]}"),
@@ -44,6 +45,7 @@ std::string inUtf16(const std::string& text, bool little, bool marked) {
     wide += c;
     if (little) wide += '\0';
   }
+
   return wide;
 }
 
@@ -59,7 +61,7 @@ TEST_F(ReadFile, Utf16IsRefused) {
   }
 }
 
-// Some editors put it before the first line.
+// Some editors write a byte order mark before the first line.
 TEST_F(ReadFile, TheMarkOfUtf8IsNoPartOfTheText) {
   EXPECT_EQ(triangleCount(load(save("m.obj", "\xef\xbb\xbf" + std::string(kTriangleObj)))), 1u);
   EXPECT_TRUE(warnings_.entries().empty());

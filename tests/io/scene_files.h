@@ -31,7 +31,7 @@ class SceneFileTest : public testing::Test {
   }
   ~SceneFileTest() override { std::filesystem::remove_all(folder_); }
 
-  // Beside the scene. A name that begins with "../" leaves its folder.
+  // Saves a file beside the scene. A name that begins with "../" leaves the scene's folder.
   std::string save(const std::string& name, const std::string& text) const {
     std::filesystem::create_directories(std::filesystem::path(root_ + name).parent_path());
     std::ofstream(root_ + name, std::ios::binary) << text;
@@ -39,13 +39,15 @@ class SceneFileTest : public testing::Test {
   }
 
   SceneDescription load(const std::string& name) { return loadScene(name, options_, warnings_); }
-  // The members between the braces of a scene file.
+
+  // Loads a scene file with these members between its braces.
   SceneDescription loadMembers(const std::string& members, const std::string& query = "") {
     return load(save("s.json", "{\"whit\": 1, " + members + "}") + query);
   }
+
   SceneDescription loadObj(const std::string& text) { return load(save("m.obj", text)); }
 
-  // "STATUS text" of the error, with the test's folder left out of the text.
+  // Returns "STATUS text" of the error, without the test's folder in the text.
   template <typename Action>
   std::string errorOf(Action action) {
     try {
@@ -55,10 +57,12 @@ class SceneFileTest : public testing::Test {
       for (std::size_t at; (at = what.find(root_)) != std::string::npos;) {
         what.erase(at, root_.size());
       }
+
       return std::to_string(static_cast<int>(error.status())) + " " + what;
     }
     return "no error";
   }
+
   std::string errorOfMembers(const std::string& members) {
     return errorOf([&] { loadMembers(members); });
   }
@@ -69,7 +73,7 @@ class SceneFileTest : public testing::Test {
     return entry == entries.end() ? 0 : entry->second.count;
   }
 
-  // Of all warnings, each on a line.
+  // Returns the kinds of all warnings, each on a line.
   std::string kinds() const {
     std::string all;
     for (const auto& [kind, entry] : warnings_.entries()) all += kind + "\n";
@@ -81,7 +85,8 @@ class SceneFileTest : public testing::Test {
   Warnings warnings_;
 };
 
-// An uncompressed TGA file, rows from the top: 1 byte a texel is gray, 3 are RGB, 4 are RGBA.
+// Returns an uncompressed TGA file with rows from the top. Texels of 1 value are gray, of 3 RGB and
+// of 4 RGBA.
 inline std::string tga(int width, int height, const std::vector<std::vector<int>>& texels) {
   const std::size_t channels = texels[0].size();
   std::string file(18, '\0');
@@ -90,11 +95,13 @@ inline std::string tga(int width, int height, const std::vector<std::vector<int>
   file[14] = static_cast<char>(height);
   file[16] = static_cast<char>(8 * channels);
   file[17] = static_cast<char>(0x20 | (channels == 4 ? 8 : 0));
+
   for (const std::vector<int>& t : texels) {
     std::vector<int> stored = t;
     if (channels >= 3) std::swap(stored[0], stored[2]);  // the format has blue first
     for (const int c : stored) file += static_cast<char>(c);
   }
+
   return file;
 }
 

@@ -9,7 +9,7 @@ namespace {
 
 using SceneItems = SceneFileTest;
 
-// Where instance `i` puts corner `corner` of its object.
+// Returns where instance `i` places a corner of its object.
 Vec3d cornerOf(const SceneDescription& scene, std::size_t i, std::size_t corner) {
   const Instance& instance = scene.instances[i];
   return instance.toWorld.point(Vec3d(scene.objects[instance.object].meshes[0].positions[corner]));
@@ -34,23 +34,27 @@ TEST_F(SceneItems, ListsOfTransformsApplyTheFirstFirst) {
   const SceneDescription scene = loadMembers(
       "\"scene\": [{\"model\": \"t.obj\", \"transform\": [{\"translate\": [1,0,0]},"
       "{\"rotate\": [[0,0,1,90], [1,0,0,90]]}, {\"matrix\": [1,0,0,5, 0,1,0,6, 0,0,2,7]}]}]");
+
   // (1,0,0) -> (2,0,0) -> (0,2,0) -> (0,0,2) -> (5,6,11)
   expectPoint(cornerOf(scene, 0, 1), {5, 6, 11});
 }
 
-// Stretched within an object, it looks the same whether that is used once or twice.
+// A stretched object looks the same whether it is baked once or instanced twice.
 TEST_F(SceneItems, StretchedPartsKeepTheirNormals) {
   const std::string egg =
       "\"objects\": {\"egg\": [{\"shape\": \"sphere\", \"segments\": 64, \"transform\": "
       "{\"scale\": [1, 3, 0.5]}}]}, "
       "\"scene\": [{\"use\": \"egg\"}";
+
   const Scene once = Scene::finalize(loadMembers(egg + "]"), warnings_);
   const Scene twice = Scene::finalize(
       loadMembers(egg + ", {\"use\": \"egg\", \"transform\": {\"translate\": [5, 0, 0]}}]"),
       warnings_);
+
   EXPECT_TRUE(once.instances.empty());
   EXPECT_EQ(twice.instances.size(), 2u);
   ASSERT_EQ(once.normals.size(), twice.normals.size());
+
   constexpr float kUlpsOfOne = 3e-7f;  // an object that is instanced is normalized once more
   float shortest = 1;
   for (std::size_t i = 0; i < once.normals.size(); ++i) {
@@ -58,6 +62,7 @@ TEST_F(SceneItems, StretchedPartsKeepTheirNormals) {
     for (int k = 0; k < 9; ++k) ASSERT_NEAR(n[k], twice.normals[i].normal[k], kUlpsOfOne) << i;
     shortest = std::min(shortest, length(Vec3f{n[0], n[1], n[2]}));
   }
+
   EXPECT_LT(shortest, 0.9f) << "the object was meant to be stretched";
 }
 
@@ -65,6 +70,7 @@ TEST_F(SceneItems, TransformsThatFlattenAreRefused) {
   const auto error = [&](const std::string& transform) {
     return errorOfMembers("\"scene\": [{\"shape\": \"sphere\", \"transform\": " + transform + "}]");
   };
+
   EXPECT_EQ(error("{\"scale\": [1,0,1]}"),
             "3 s.json#/scene/0/transform/scale: expected a scale other than 0, found a list of 3");
   EXPECT_EQ(error("{\"rotate\": [0,0,0,90]}"),
@@ -75,6 +81,8 @@ TEST_F(SceneItems, TransformsThatFlattenAreRefused) {
   EXPECT_EQ(error("{\"matrix\": [1,0,0,0], \"scale\": 2}"),
             "3 s.json#/scene/0/transform/matrix: expected 12 numbers: a matrix of 3 rows of 4, "
             "found a list of 4");
+
+  // A matrix excludes the other members.
   EXPECT_EQ(error("{\"scale\": 2, \"matrix\": [1,0,0,0, 0,1,0,0, 0,0,1,0]}"),
             "3 s.json#/scene/0/transform/scale: unknown key");
 }
@@ -85,11 +93,13 @@ TEST_F(SceneItems, GroupsAndRepeats) {
       "\"scene\": [{\"group\": [{\"model\": \"t.obj\", \"transform\": {\"translate\": [1,0,0]}}],"
       "\"transform\": {\"scale\": 2}, \"repeat\": {\"count\": [2,1,3], \"step\": [10,0,100]}}]");
   ASSERT_EQ(scene.instances.size(), 6u);
-  // The step is in the parent's space: it is not scaled.
+
+  // The step is in the parent's space and is therefore not scaled.
   for (std::size_t i = 0; i < 6; ++i) {
     expectPoint(cornerOf(scene, i, 0),
                 {2.0 + 10.0 * static_cast<double>(i % 2), 0, 100.0 * static_cast<double>(i / 2)});
   }
+
   Warnings warnings;
   SceneDescription copy = scene;
   const Scene baked = Scene::finalize(std::move(copy), warnings);
@@ -101,6 +111,7 @@ TEST_F(SceneItems, RepeatsAreLimited) {
   EXPECT_EQ(errorOfMembers("\"scene\": [{\"shape\": \"sphere\", \"repeat\": {\"count\": "
                            "[10000,10000,10000], \"step\": [1,1,1]}}]"),
             "3 s.json#/scene/0/repeat/count: expected at most 10000000 copies, found a list of 3");
+
   options_.maxMemoryBytes = 1 << 20;
   EXPECT_EQ(errorOfMembers("\"scene\": [{\"shape\": \"quad\", \"repeat\": {\"count\": "
                            "[100,100,100], \"step\": [1,1,1]}}]")
@@ -114,9 +125,11 @@ TEST_F(SceneItems, ObjectsPlacedOnceAreBakedAndMoreOftenInstanced) {
       "\"objects\": {\"pair\": [{\"use\": \"one\"}, {\"use\": \"one\", \"transform\": "
       "{\"translate\": [0,0,1]}}], \"one\": [{\"model\": \"t.obj\"}], \"never\": [{\"model\": "
       "\"t.obj\"}]}, \"scene\": [{\"use\": \"pair\"}";
+
   const SceneDescription once = loadMembers(objects + "]");
   ASSERT_EQ(once.objects.size(), 1u);
   ASSERT_EQ(once.instances.size(), 2u);
+
   const SceneDescription thrice = loadMembers(
       objects + ", {\"use\": \"pair\", \"repeat\": {\"count\": [2,1,1], \"step\": [10,0,0]}}]");
   ASSERT_EQ(thrice.objects.size(), 1u);
@@ -129,6 +142,7 @@ TEST_F(SceneItems, InstancedObjectsKeepTheTransformsOfTheirParts) {
   const SceneDescription scene = loadMembers(
       "\"objects\": {\"o\": [{\"model\": \"t.obj\", \"transform\": {\"scale\": -2}}]},"
       "\"scene\": [{\"use\": \"o\"}, {\"use\": \"o\", \"transform\": {\"translate\": [5,0,0]}}]");
+
   ASSERT_EQ(scene.objects.size(), 1u);
   const Mesh& mesh = scene.objects[0].meshes[0];
   EXPECT_EQ(mesh.positions[1], Vec3f(-2, 0, 0));
@@ -152,24 +166,30 @@ TEST_F(SceneItems, InstancesThatMultiplyAreLimited) {
     for (int k = 0; k < 9; ++k) objects += "," + use;
     objects += "]";
   }
+
   const std::string error = errorOfMembers(objects + "}, \"scene\": [{\"use\": \"o30\"}]");
-  EXPECT_EQ(error.substr(0, 11), "5 instances") << error;  // 10^30 of them
+  // There would be 10^30 instances.
+  EXPECT_EQ(error.substr(0, 11), "5 instances") << error;
 }
 
 TEST_F(SceneItems, MaterialsOfShapesAndTheirSlots) {
   const std::string materials =
       "\"materials\": {\"red\": {}, \"green\": {}},"
       "\"scene\": [{\"shape\": \"tree\", \"leaves\": 5, \"material\": \"red\"";
+
   const SceneDescription scene =
       loadMembers(materials + ", \"materials\": {\"leaves\": \"green\"}}, {\"shape\": \"quad\"}]");
+
   std::map<std::string, std::string> materialOf;
   for (const Object& object : scene.objects) {
     materialOf[object.meshes[0].name] = scene.materials[object.meshes[0].material(0)].name;
   }
+
   ASSERT_EQ(scene.objects.size(), 3u);
   EXPECT_EQ(scene.materials[scene.objects[0].meshes[0].material(0)].name, "red");    // bark
   EXPECT_EQ(scene.materials[scene.objects[1].meshes[0].material(0)].name, "green");  // leaves
   EXPECT_EQ(scene.materials[scene.objects[2].meshes[0].material(0)].name, "default");
+
   EXPECT_EQ(errorOfMembers(materials + ", \"materials\": {\"leafs\": \"green\"}}]"),
             "3 s.json#/scene/0/materials/leafs: unknown slot of this shape (is \"leaves\" meant?)");
   EXPECT_EQ(errorOfMembers("\"materials\": {\"red\": {}}, \"scene\": [{\"shape\": \"quad\", "
@@ -194,16 +214,19 @@ TEST_F(SceneItems, OverridesChangeOnlyWhatTheyGive) {
        "newmtl x\nKd 0.5 0.5 0.5\nNs 6\nmap_Kd a.tga\nmap_Ks a.tga\nKs 0.1 0.1 0.1\n"
        "newmtl y\nKd 0.25 0.25 0.25\n");
   save("m.obj", std::string("mtllib m.mtl\nusemtl x\n") + kTriangleObj + "usemtl y\nf 1 2 3\n");
+
   const std::string head =
       "\"textures\": {\"b\": {\"image\": \"b.tga\"}}, \"scene\": [{\"model\": \"m.obj\"";
   const SceneDescription scene = loadMembers(
       head +
       ", \"materials\": {\"x\": {\"specular\": 0.5}, \"*\": {\"emission\": 2}}},"
       "{\"model\": \"m.obj\", \"materials\": {\"x\": {\"diffuseMap\": \"b\", \"diffuse\": 1}}}]");
+
   const auto materialOf = [&](std::size_t object, std::size_t triangle) {
     return scene.materials[scene.objects[object].meshes[0].material(triangle)];
   };
   const Material x = materialOf(0, 0), y = materialOf(0, 1), other = materialOf(1, 0);
+
   EXPECT_EQ(x.diffuse, Rgb(0.5f));
   EXPECT_EQ(x.specular, Rgb(0.5f));
   EXPECT_NE(x.specularMap, kNoTexture);  // the file's own
@@ -213,13 +236,16 @@ TEST_F(SceneItems, OverridesChangeOnlyWhatTheyGive) {
   EXPECT_EQ(other.emission, Rgb(0.0f));
   EXPECT_EQ(other.diffuse, Rgb(1.0f));
   EXPECT_NE(other.diffuseMap, x.diffuseMap);
+
+  // Names of materials and their members are checked.
   EXPECT_EQ(errorOfMembers(head + ", \"materials\": {\"xx\": {}}}]"),
             "3 s.json#/scene/0/materials/xx: unknown material of this model (is \"x\" meant?)");
   EXPECT_EQ(errorOfMembers(head + ", \"materials\": {\"x\": {\"difuse\": 1}}}]"),
             "3 s.json#/scene/0/materials/x/difuse: unknown key (is \"diffuse\" meant?)");
 }
 
-// Far deeper than any scene, in the order that is read by recursion and in the one that is not.
+// The nesting is far deeper than that of any scene. Objects are read by recursion, unless they come
+// after those that they use.
 TEST_F(SceneItems, NestingHasALimit) {
   const auto chain = [](int length, bool innerFirst) {
     std::string objects;
@@ -231,14 +257,16 @@ TEST_F(SceneItems, NestingHasALimit) {
     }
     return "\"objects\": {" + objects + "}, \"scene\": [{\"use\": \"o0\"}]";
   };
+
   EXPECT_EQ(triangleCount(loadMembers(chain(200, false))), 2u);
   EXPECT_EQ(triangleCount(loadMembers(chain(200, true))), 2u);
+
   EXPECT_EQ(errorOfMembers(chain(4000, false)),
             "3 s.json#/objects/o256/0: nested deeper than 256 items");
   EXPECT_EQ(errorOfMembers(chain(4000, true)), "5 objects are nested deeper than 256");
 }
 
-// What a few words ask for is refused before the memory is taken.
+// Shapes that need much memory are refused before it is allocated.
 TEST_F(SceneItems, ShapesAndPatternsKeepToTheMemoryLimit) {
   options_.maxMemoryBytes = 1 << 20;
   for (const char* item :
@@ -250,6 +278,7 @@ TEST_F(SceneItems, ShapesAndPatternsKeepToTheMemoryLimit) {
     const std::string error = errorOfMembers("\"scene\": [{\"shape\": " + std::string(item) + "}]");
     EXPECT_EQ(error.substr(0, 21), "5 a shape or a patter") << item << ": " << error;
   }
+
   for (const char* pattern : {"checker", "bricksNormals", "noise"}) {
     const std::string error = errorOfMembers("\"textures\": {\"t\": {\"pattern\": \"" +
                                              std::string(pattern) + "\", \"size\": 8192}}");

@@ -11,16 +11,19 @@ constexpr double kPlaceRounding = 1e-12;  // a few operations in double, on numb
 
 class SceneMotionFile : public SceneFileTest {
  protected:
-  // An item with this "motion" and these other members.
+  // Returns an item with this "motion" and these other members.
   static std::string item(const std::string& motion, const std::string& rest = "") {
     return "{\"shape\": \"sphere\", " + rest + "\"motion\": {" + motion + "}}";
   }
+
   static std::string scene(const std::string& items) { return "\"scene\": [" + items + "]"; }
+
   SceneDescription at(double seconds, const std::string& members) {
     options_.instant.seconds = seconds;
     return loadMembers(members);
   }
-  // Where the sphere that the first instance places has `point`.
+
+  // Returns where the sphere of the first instance has `point` at the scene's time.
   static Vec3d placed(const SceneDescription& scene, const Vec3d& point = {}) {
     const Instance& instance = scene.instances.at(0);
     const std::vector<Affine> poses = poseRig(scene.motion.rig, scene.motion.seconds);
@@ -28,6 +31,7 @@ class SceneMotionFile : public SceneFileTest {
         instance.mover == kNoNode ? instance.toWorld : poses.at(instance.mover) * instance.toWorld;
     return (map * scene.objects.at(instance.object).meshes.at(0).spheres.at(0)).point(point);
   }
+
   static void expectPoint(const Vec3d& a, const Vec3d& b) {
     EXPECT_LT(length(a - b), kPlaceRounding) << a.x << " " << a.y << " " << a.z;
   }
@@ -38,17 +42,19 @@ TEST_F(SceneMotionFile, KeysScaleThenTurnThenTranslate) {
       scene(item("\"keys\": [{\"time\": 1}, {\"time\": 3, \"translate\": [4, 0, 2], \"rotate\": "
                  "[0, 0, 2, 180], "
                  "\"scale\": [3, 1, 1]}]"));
+
   expectPoint(placed(at(0, moving), {1, 0, 0}), {1, 0, 0});
   expectPoint(placed(at(2, moving), {1, 0, 0}), {2, 2, 1});
   expectPoint(placed(at(9, moving), {1, 0, 0}), {1, 0, 2});
 }
 
-// Far from the origin, `at` is put so far ahead that rounding does not turn the view.
+// Far from the origin, `at` is moved so far ahead that its rounding does not turn the view.
 TEST_F(SceneMotionFile, CamerasKeepTheirPlaneOfFocus) {
   const std::string moving =
       "\"cameras\": {\"a\": {\"eye\": [1000, 0, 0], \"at\": [1000, 0, -5], "
       "\"aperture\": 0.5, \"motion\": {\"keys\": [{\"time\": 0}, {\"time\": "
       "1, \"translate\": [0, 4, 0]}]}}}";
+
   const Camera camera = at(1, moving).cameras.at(0);
   EXPECT_GT(length(Vec3d(camera.at) - Vec3d(camera.eye)), 50);
   EXPECT_NEAR(camera.focusDistance(), 5, 1e-6);
@@ -65,10 +71,12 @@ TEST_F(SceneMotionFile, GroupsCarryWhatMovesInThem) {
   const std::string moon =
       item("\"keys\": [{\"time\": 0}, {\"time\": 1, \"rotate\": [0, 1, 0, 180]}]",
            "\"transform\": {\"translate\": [1, 0, 0]}, ");
+
   const std::string moving = scene(
       "{\"group\": [{\"group\": [" + moon +
       "], \"transform\": {\"translate\": [5, 0, 0]}}], \"motion\": {\"keys\": [{\"time\": 0}, "
       "{\"time\": 1, \"rotate\": [0, 1, 0, 90]}]}}");
+
   expectPoint(placed(at(1, moving)), {0, 0, -4});
   expectPoint(placed(at(0.5, moving)),
               {5 * std::sqrt(0.5) - std::sqrt(0.5), 0, -5 * std::sqrt(0.5) - std::sqrt(0.5)});
@@ -81,6 +89,7 @@ TEST_F(SceneMotionFile, StepsHoldAndCurvesGoThroughTheirKeys) {
                       "\"translate\": [3, 0, 0]}, {\"time\": 2, \"translate\": [9, 0, 0]}, "
                       "{\"time\": 3, \"translate\": [2, 0, 0]}]"));
   };
+
   expectPoint(placed(at(1.9, keys("step"))), {3, 0, 0});
   expectPoint(placed(at(2, keys("cubic"))), {9, 0, 0});
   expectPoint(placed(at(1.5, keys("cubic"))), {(-1 + 9 * 3 + 9 * 9 - 2) / 16.0, 0, 0});
@@ -94,15 +103,17 @@ TEST_F(SceneMotionFile, LoopsBeginAgain) {
   expectPoint(placed(at(3.5, scene(item(line + "false")))), {4, 0, 0});
 }
 
-// The speed at the end of a closed loop is that at its beginning: along the line between the keys
-// before and after it, which are three seconds apart.
+// In a closed loop the speed at the end is that at the beginning. It points from the key before to
+// the key after, which are three seconds apart.
 TEST_F(SceneMotionFile, ClosedCurvesGoOnWhereTheyBegan) {
   const std::string closed = scene(
       item("\"interpolation\": \"cubic\", \"loop\": true, \"keys\": [{\"time\": 0}, {\"time\": 1, "
            "\"translate\": [3, 0, 0]}, {\"time\": 2, \"translate\": [0, 5, 0]}, {\"time\": 4}]"));
+
   constexpr double kStep = 1e-4, kCurvature = 1e-2;
   const Vec3d before = placed(at(4 - kStep, closed)), after = placed(at(4 + kStep, closed));
   const Vec3d step = Vec3d(3, -5, 0) / 3.0 * kStep;
+
   EXPECT_LT(length(after - step), kCurvature * length(step));
   EXPECT_LT(length(before + step), kCurvature * length(step));
 }
@@ -115,16 +126,18 @@ TEST_F(SceneMotionFile, CamerasAndLightsAreCarried) {
       "{\"keys\": [{\"time\": 0, \"translate\": [0, 1, 0]}, {\"time\": 2, \"translate\": [0, 3, "
       "0], "
       "\"rotate\": [0, 0, 1, 90]}]}}]";
+
   const Scene later = Scene::finalize(at(2, moving), warnings_);
   EXPECT_LT(length(Vec3d(later.cameras.at(0).eye) - Vec3d(0, 0, -4)), 1e-6);
   EXPECT_LT(length(Vec3d(later.cameras.at(0).at)), 1e-6);
   EXPECT_LT(length(Vec3d(later.lights.at(0).position) - Vec3d(0, 4, 0)), 1e-6);
   EXPECT_LT(length(Vec3d(later.lights.at(0).direction) - Vec3d(0, 1, 0)), 1e-6);
+
   options_.instant = {};
   EXPECT_EQ(loadMembers(moving).lights.at(0).position, (Vec3f{1, 1, 0}));
 }
 
-// At an instant the path's camera comes before those of the file.
+// At an instant the camera of the path comes before the cameras of the file.
 TEST_F(SceneMotionFile, CamerasMoveBesideAPath) {
   const Scene later = Scene::finalize(
       at(1,
@@ -132,12 +145,13 @@ TEST_F(SceneMotionFile, CamerasMoveBesideAPath) {
          "[{\"time\": 0}, {\"time\": 1, \"translate\": [1, 0, 0]}]}}}, \"path\": [{\"time\": 0, "
          "\"eye\": [0, 0, 9]}, {\"time\": 2, \"eye\": [0, 2, 9]}]"),
       warnings_);
+
   ASSERT_EQ(later.cameras.size(), 2u);
   EXPECT_EQ(later.cameras[0].eye, (Vec3f{0, 1, 9}));
   EXPECT_EQ(later.cameras[1].eye, (Vec3f{1, 0, 4}));
 }
 
-// A film flies along the path, and nothing but the camera is moved.
+// In a film along the path nothing but the camera moves.
 TEST_F(SceneMotionFile, APathMovesTheCameraAlone) {
   const std::string flown =
       scene(
@@ -149,24 +163,28 @@ TEST_F(SceneMotionFile, APathMovesTheCameraAlone) {
   EXPECT_FALSE(film.motion.empty());
   EXPECT_FALSE(film.motion.ofGeometry);
   EXPECT_EQ(film.cameras.at(0).eye, (Vec3f{0, 0, 9}));
+
   moveScene(film, 1);
   EXPECT_EQ(film.cameras.at(0).eye, (Vec3f{0, 1, 9}));
   EXPECT_EQ(film.cameras.at(0).name, "path");
   EXPECT_EQ(cameraAt(film, 0, 2).eye, (Vec3f{0, 2, 9}));
 }
 
-// Without a time a scene is as at 0, and nothing of it is made to be moved.
+// Without a time the scene is as at 0, and is not prepared for motion.
 TEST_F(SceneMotionFile, NothingIsPaidForWhereNoTimeIsGiven) {
   const std::string moving =
       scene(item("\"keys\": [{\"time\": -1}, {\"time\": 1, \"translate\": [4, 0, 0]}]") +
             ", {\"shape\": \"box\"}");
+
   const SceneDescription still = loadMembers(moving);
   EXPECT_TRUE(still.motion.rig.empty());
   expectPoint(placed(still), {2, 0, 0});
+
   ASSERT_EQ(still.animations.size(), 1u);
   EXPECT_EQ(still.animations[0].name, kSceneMotion);
   EXPECT_EQ(still.animations[0].seconds, 1);
   EXPECT_EQ(still.animations[0].nodes, 1u);
+
   EXPECT_TRUE(Scene::finalize(loadMembers(moving), warnings_).instances.empty());
   const Scene played = Scene::finalize(at(0, moving), warnings_);
   EXPECT_EQ(played.instances.size(), 1u);
@@ -176,6 +194,7 @@ TEST_F(SceneMotionFile, NothingIsPaidForWhereNoTimeIsGiven) {
 TEST_F(SceneMotionFile, MistakesAreNamed) {
   const auto error = [&](const std::string& motion) { return errorOfMembers(scene(item(motion))); };
   const std::string place = "3 s.json#/scene/0/motion/keys";
+
   EXPECT_EQ(error("\"keys\": []"), place + ": expected at least one key, found a list of 0");
   EXPECT_EQ(error("\"keys\": [{}]"), place + "/0: expected a member \"time\"");
   EXPECT_EQ(error("\"keys\": [{\"time\": 1}, {\"time\": 1}]"),
@@ -189,6 +208,7 @@ TEST_F(SceneMotionFile, MistakesAreNamed) {
             place +
                 "/1/rotate: expected the axis of the keys before: groups turn about several, found "
                 "a list of 4");
+
   EXPECT_EQ(error("\"keys\": [{\"time\": 1}], \"interpolation\": \"cubik\""),
             "3 s.json#/scene/0/motion/interpolation: expected one of \"linear\", \"step\", "
             "\"cubic\" (is \"cubic\" meant?), found \"cubik\"");

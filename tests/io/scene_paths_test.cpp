@@ -14,7 +14,8 @@ class ScenePaths : public SceneFileTest {
   std::string errorOfModel(const std::string& path) {
     return errorOfMembers("\"scene\": [{\"model\": \"" + path + "\"}]");
   }
-  // The other tests of the program find these as they were.
+
+  // Restores the variables for the other tests of the program.
   ~ScenePaths() override {
     for (const auto& [name, value] : given_) {
       if (value) {
@@ -39,12 +40,15 @@ TEST_F(ScenePaths, FilesBelowTheSceneOnly) {
   save("../out.obj", kTriangleObj);
   const std::string leaves =
       " leaves the scene's folder and $WHIT_DATA (--allow-outside permits that)";
+
   EXPECT_EQ(errorOfModel("sub/in.obj"), "no error");
   EXPECT_EQ(errorOfModel("sub/../sub/in.obj"), "no error");
   EXPECT_EQ(errorOfModel("../out.obj"), "3 s.json#/scene/0/model: \"../out.obj\"" + leaves);
   EXPECT_EQ(errorOfModel("/etc/passwd"), "3 s.json#/scene/0/model: \"/etc/passwd\"" + leaves);
+
   std::filesystem::create_symlink(folder_ + "/out.obj", root_ + "link.obj");
   EXPECT_EQ(errorOfModel("link.obj"), "3 s.json#/scene/0/model: \"link.obj\"" + leaves);
+
   options_.allowOutside = true;
   EXPECT_EQ(errorOfModel("../out.obj"), "no error");
   EXPECT_EQ(errorOfModel("link.obj"), "no error");
@@ -55,6 +59,7 @@ TEST_F(ScenePaths, ScenesInTheCurrentFolder) {
   save("s.json", "{\"whit\": 1, \"scene\": [{\"model\": \"in.obj\"}]}");
   const std::filesystem::path before = std::filesystem::current_path();
   std::filesystem::current_path(root_);
+
   EXPECT_EQ(errorOf([&] { load("s.json"); }), "no error");
   EXPECT_EQ(errorOf([&] { load("in.obj"); }), "no error");
   std::filesystem::current_path(before);
@@ -68,11 +73,12 @@ TEST_F(ScenePaths, AFolderWhoseNameBeginsAlikeIsOutside) {
 TEST_F(ScenePaths, TheDataFolderIsAllowed) {
   save("../data/in.obj", kTriangleObj);
   setenv("WHIT_DATA", (folder_ + "/data").c_str(), 1);
+
   EXPECT_EQ(errorOfModel("$WHIT_DATA/in.obj"), "no error");
   EXPECT_EQ(errorOfModel("$WHIT_DATA/../out.obj").substr(0, 2), "3 ");
   EXPECT_EQ(errorOfModel("$WHIT_DATABASE/in.obj").substr(0, 2), "3 ");
 
-  // Without the variable the scene is as good as before; a file cannot be found.
+  // Without the variable the scene is as valid as before, but the file cannot be found.
   unsetenv("WHIT_DATA");
   EXPECT_EQ(errorOfModel("$WHIT_DATA/in.obj"),
             "4 s.json#/scene/0/model: cannot open \"$WHIT_DATA/in.obj\": WHIT_DATA is not set, set "
@@ -97,6 +103,7 @@ TEST_F(ScenePaths, FilesThatCannotBeRead) {
   EXPECT_EQ(errorOfModel("sub"),
             "3 s.json#/scene/0/model: expected a model (.3ds, .dae, .fbx, .glb, .gltf, .obj, .off, "
             ".ply, .stl, .vrm), found \"sub\"");
+
   std::filesystem::create_directory(root_ + "folder.json");
   EXPECT_EQ(errorOf([&] { load(root_ + "folder.json"); }), "4 cannot read folder.json: not a file");
   EXPECT_EQ(errorOf([&] { load(save("a.txt", "")); }).substr(0, 2), "2 ");

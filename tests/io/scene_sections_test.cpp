@@ -21,10 +21,12 @@ TEST_F(SceneSections, CamerasKeepTheFilesOrder) {
   const SceneDescription scene = loadMembers(
       "\"cameras\": {\"z\": {\"eye\": [1,2,3], \"at\": [0,0,0], \"fov\": 60},"
       "\"a\": {\"eye\": [0,0,9], \"at\": [0,0,0], \"up\": [1,0,0]}}");
+
   ASSERT_EQ(scene.cameras.size(), 2u);
   EXPECT_EQ(scene.cameras[0].name, "z");
   EXPECT_EQ(scene.cameras[0].eye, Vec3f(1, 2, 3));
   EXPECT_EQ(scene.cameras[0].fov, 60);
+
   EXPECT_EQ(scene.cameras[1].name, "a");
   EXPECT_EQ(scene.cameras[1].up, Vec3f(1, 0, 0));
   EXPECT_EQ(scene.cameras[1].fov, 45);
@@ -34,12 +36,15 @@ TEST_F(SceneSections, CamerasHaveALens) {
   const auto cameras = [](const std::string& members) {
     return "\"cameras\": {\"a\": {\"eye\": [0,0,9], \"at\": [0,0,5]" + members + "}}";
   };
+
   const Camera lens = loadMembers(cameras(", \"aperture\": 0.25, \"focus\": 3")).cameras.at(0);
   EXPECT_EQ(lens.aperture, 0.25f);
   EXPECT_EQ(lens.focusDistance(), 3);
+
   const Camera plain = loadMembers(cameras("")).cameras.at(0);
   EXPECT_EQ(plain.aperture, 0);
   EXPECT_EQ(plain.focusDistance(), 4);
+
   for (const char* member : {"aperture", "focus"}) {
     const std::string bad = cameras(std::string(", \"") + member + "\": -1");
     EXPECT_NE(errorOf([&] { loadMembers(bad); }).find(std::string("/cameras/a/") + member),
@@ -52,20 +57,24 @@ TEST_F(SceneSections, CamerasHaveAProjection) {
     const std::string all = "\"cameras\": {\"a\": {\"eye\": [0,0,9], \"at\": [0,0,5], " + members;
     return loadMembers(all + "}}").cameras.at(0);
   };
+
   const Camera pinhole =
       camera(R"("k": [500, 510, 320, 240, 1.5], "kSize": [640, 480], "distortion": [-0.1, 0.02])");
   EXPECT_EQ(pinhole.projection, Projection::perspective);
   EXPECT_EQ(pinhole.k, (std::vector<float>{500, 510, 320, 240, 1.5f}));
   EXPECT_EQ(pinhole.kSize, (std::vector<float>{640, 480}));
   EXPECT_EQ(pinhole.distortion, (std::vector<float>{-0.1f, 0.02f}));
+
   const Camera round = camera(R"("projection": "equisolid", "angle": 220)");
   EXPECT_EQ(round.projection, Projection::equisolid);
   EXPECT_EQ(round.angle, 220);
   EXPECT_EQ(camera(R"("projection": "equidistant")").angle, 180);
+
   const Camera table =
       camera(R"("projection": "directions", "azimuths": [-5, 0, 5], "elevations": [2, -2])");
   EXPECT_EQ(table.azimuths, (std::vector<float>{-5, 0, 5}));
   EXPECT_EQ(table.elevations, (std::vector<float>{2, -2}));
+
   const Camera pair = camera(R"("projection": "panorama", "stereo": "topBottom")");
   EXPECT_EQ(pair.stereo, Stereo::topBottom);
   EXPECT_EQ(pair.eyeDistance, 0.065f);
@@ -77,10 +86,13 @@ TEST_F(SceneSections, CamerasThatImageNothing) {
                           "}}");
   };
   const std::string at = "3 s.json#/cameras/a";
+
   EXPECT_EQ(error(R"("projection": "panoramic")"),
             at + "/projection: expected one of \"perspective\", \"equidistant\", \"equisolid\", "
                  "\"fisheye\", \"panorama\", \"directions\", \"cubeMap\" (is \"panorama\" "
                  "meant?), found \"panoramic\"");
+
+  // The intrinsic matrix and the distortion of a lens.
   EXPECT_EQ(error(R"("k": [5, 5, 2], "kSize": [4, 4])"),
             at + "/k: expected [fx, fy, cx, cy], fx and fy above 0, and perhaps the skew, found a "
                  "list of 3");
@@ -100,6 +112,8 @@ TEST_F(SceneSections, CamerasThatImageNothing) {
       at + "/distortion: expected at most 4 coefficients, found a list of 5");
   EXPECT_EQ(error(R"("distortion": [0.1], "orthographicHeight": 2)"),
             at + ": expected no orthographicHeight beside k or distortion, found an object of 4");
+
+  // Tables of directions, and fisheyes.
   EXPECT_EQ(
       error(R"("projection": "directions", "azimuths": [1])"),
       at + ": expected azimuths of the columns and elevations of the rows, found an object of 4");
@@ -110,7 +124,8 @@ TEST_F(SceneSections, CamerasThatImageNothing) {
   EXPECT_EQ(error(R"("projection": "directions", "azimuths": [0], "elevations": [91])")
                 .substr(0, at.size() + 13),
             at + "/elevations/0");
-  // Members of other projections are unknown, but for fov.
+
+  // Members of other projections are unknown, except fov.
   EXPECT_EQ(error(R"("projection": "panorama", "fov": 40)"), "no error");
   for (const char* member : {"\"aperture\": 1", "\"orthographicHeight\": 1", "\"k\": [1, 1, 0, 0]",
                              "\"azimuths\": [1]"}) {
@@ -124,6 +139,7 @@ TEST_F(SceneSections, OptionsOfThePicture) {
   const SceneDescription scene = loadMembers(
       R"("parameters": {"n": 4}, "options": {"indirect": "$n", "exposure": "auto", "cutoff": 1e-3,
          "adaptive": true, "fresnel": "schlick", "background": "ff8000"})");
+
   const std::map<std::string, std::string> expected{
       {"indirect", "4"},  {"exposure", "auto"},   {"cutoff", "0.001"},
       {"adaptive", "on"}, {"fresnel", "schlick"}, {"background", "ff8000"}};
@@ -135,11 +151,14 @@ TEST_F(SceneSections, OptionsThatAreNone) {
   const auto error = [&](const std::string& member) {
     return errorOfMembers("\"options\": {" + member + "}");
   };
+
   EXPECT_EQ(error("\"indirct\": 4"),
             "3 s.json#/options/indirct: expected an option of the picture (is \"indirect\" "
             "meant?), found \"indirct\"");
   EXPECT_EQ(error("\"threads\": 4"),
             "3 s.json#/options/threads: expected an option of the picture, found \"threads\"");
+
+  // Values are checked like those of the command line.
   EXPECT_EQ(error("\"indirect\": 65"),
             "3 s.json#/options/indirect: expected a whole number from 0 to 64, found '65'");
   EXPECT_EQ(error("\"fresnel\": \"shlick\""),
@@ -156,6 +175,7 @@ TEST_F(SceneSections, KeyframesRepeatWhatIsMissing) {
   const SceneDescription scene = loadMembers(
       "\"path\": [{\"time\": 0, \"eye\": [0,0,5], \"at\": [0,0,0], \"fov\": 30},"
       "{\"time\": 2, \"eye\": [0,0,7]}, {\"time\": 3, \"fov\": 50}]");
+
   ASSERT_EQ(scene.cameraPath.size(), 3u);
   EXPECT_EQ(scene.cameraPath[1].camera.eye, Vec3f(0, 0, 7));
   EXPECT_EQ(scene.cameraPath[1].camera.fov, 30);
@@ -168,9 +188,11 @@ TEST_F(SceneSections, Lights) {
   const SceneDescription scene = loadMembers(
       "\"lights\": [{\"position\": [1,2,3], \"intensity\": 7},"
       "{\"name\": \"key\", \"position\": [0,0,0], \"intensity\": [1,2,3], \"radius\": 0.5}]");
+
   ASSERT_EQ(scene.lights.size(), 2u);
   EXPECT_EQ(scene.lights[0].intensity, Rgb(7, 7, 7));
   EXPECT_EQ(scene.lights[0].position, Vec3f(1, 2, 3));
+
   EXPECT_EQ(scene.lights[1].name, "key");
   EXPECT_EQ(scene.lights[1].intensity, Rgb(1, 2, 3));
   EXPECT_EQ(scene.lights[1].radius, 0.5f);
@@ -182,11 +204,13 @@ TEST_F(SceneSections, SpotAndDirectionalLights) {
       "\"intensity\": 7, \"innerConeAngle\": 10, \"outerConeAngle\": 20},"
       "{\"type\": \"directional\", \"direction\": [1,0,0], \"irradiance\": [1,2,3]},"
       "{\"type\": \"point\", \"position\": [0,0,0], \"intensity\": 1}]");
+
   ASSERT_EQ(scene.lights.size(), 3u);
   EXPECT_EQ(scene.lights[0].kind, Light::Kind::spot);
   EXPECT_EQ(scene.lights[0].direction, Vec3f(0, -2, 0));
   EXPECT_EQ(scene.lights[0].innerConeAngle, 10);
   EXPECT_EQ(scene.lights[0].outerConeAngle, 20);
+
   EXPECT_EQ(scene.lights[1].kind, Light::Kind::directional);
   EXPECT_EQ(scene.lights[1].intensity, Rgb(1, 2, 3));
   EXPECT_EQ(scene.lights[2].kind, Light::Kind::point);
@@ -214,7 +238,9 @@ TEST_F(SceneSections, SkyOfOneColorAndAmbientFromIt) {
       "\"occlusion\": 2}");
   EXPECT_EQ(scene.sky.kind, Sky::Kind::color);
   EXPECT_EQ(scene.sky.zenith, Rgb(1, 2, 4));
-  // The mean of a constant is the constant: 0.5 * 0.25 of it. Quadrature in float gets this far.
+
+  // The mean of a constant sky is its color, of which 0.5 * 0.25 is left. The quadrature is in
+  // float.
   constexpr float kQuadrature = 1e-3f;
   EXPECT_NEAR(scene.ambient.up.x, 0.125f, kQuadrature);
   EXPECT_NEAR(scene.ambient.down.z, 0.5f, kQuadrature);
@@ -245,9 +271,11 @@ TEST_F(SceneSections, SkyGradientAndImage) {
   const SceneDescription gradient = loadMembers(
       "\"sky\": {\"zenith\": 1, \"horizon\": 2, \"ground\": 3}, \"ambient\": {\"up\": 1, \"down\": "
       "[0,0.5,0]}");
+
   EXPECT_EQ(gradient.sky.kind, Sky::Kind::gradient);
   EXPECT_EQ(gradient.sky.horizon, Rgb(2, 2, 2));
   EXPECT_EQ(gradient.ambient.down, Rgb(0, 0.5f, 0));
+
   save("sky.tga", tga(2, 1, {{255, 0, 0}, {0, 0, 255}}));
   const SceneDescription image = loadMembers("\"sky\": {\"image\": \"sky.tga\", \"rotation\": 90}");
   EXPECT_EQ(image.sky.kind, Sky::Kind::image);
@@ -255,6 +283,7 @@ TEST_F(SceneSections, SkyGradientAndImage) {
   ASSERT_EQ(image.sky.image.width, 2);
   EXPECT_EQ(image.sky.image.r[0], 1);
   EXPECT_EQ(image.sky.image.b[1], 1);
+
   EXPECT_EQ(errorOfMembers("\"sky\": {\"zenith\": 1, \"ground\": 3}"),
             "3 s.json#/sky: expected a member \"horizon\"");
   EXPECT_EQ(errorOfMembers("\"ambient\": {\"color\": 1, \"occlusion\": -1}"),
@@ -273,38 +302,45 @@ TEST_F(SceneSections, MaterialsAndTheirDefaults) {
       "\"both\": {\"mirror\": 0.1, \"specular\": 0.5, \"glossyReflection\": true},"
       "\"dull\": {\"specular\": 0.5, \"glossyReflection\": false}}");
   ASSERT_EQ(scene.materials.size(), 7u);
+
   const Material &plain = scene.materials[0], &glass = scene.materials[1];
   EXPECT_EQ(plain.name, "plain");
   EXPECT_EQ(plain.diffuse, Rgb(0.25f));
   EXPECT_TRUE(plain.castsShadow);
+
   EXPECT_EQ(glass.transmission, Rgb(0.9f));
   EXPECT_EQ(glass.ior, 1.33f);
   EXPECT_EQ(glass.absorption, Rgb(0, 1, 2));
   EXPECT_EQ(glass.priority, 2);
   EXPECT_FALSE(glass.castsShadow);
+
   EXPECT_TRUE(scene.materials[2].castsShadow);
   EXPECT_FALSE(plain.diffuseReflection);
   EXPECT_TRUE(scene.materials[4].diffuseReflection);
   EXPECT_EQ(scene.materials[3].mirrorGrazing, Rgb(0.5f, 0.25f, 0.125f));
   EXPECT_EQ(scene.materials[4].mirrorGrazing, Rgb(1.0f));
   EXPECT_EQ(scene.materials[4].emission, Rgb(3, 2, 1));
-  // What has an impulse for its reflection samples no lobe, unless it says so.
+
+  // A material that reflects by a mirror does not sample its lobe unless it says so.
   std::vector<bool> reflections;
   for (const Material& m : scene.materials) reflections.push_back(m.glossyReflection);
   EXPECT_EQ(reflections, (std::vector<bool>{true, false, false, false, false, true, false}));
 }
 
-// Maps and lobes that only lights show may send out less than they state.
+// Materials with maps, or with lobes that only show lights, may send out less than their members
+// add up to; they are not reported.
 TEST_F(SceneSections, MaterialsOfMoreThanAllLightAreNamed) {
   loadMembers(
       "\"textures\": {\"t\": {\"pattern\": \"checker\"}},"
       "\"materials\": {\"coated\": {\"diffuse\": 0, \"transmission\": 1, \"mirror\": 0.09},"
       "\"mapped\": {\"diffuse\": 1, \"diffuseMap\": \"t\", \"mirror\": 0.5},"
       "\"lit\": {\"diffuse\": 0.1, \"specular\": 0.9, \"mirror\": 0.9}}");
+
   EXPECT_EQ(kinds(), "");
   loadMembers(
       "\"materials\": {\"m\": {\"specular\": 0.5, \"transmission\": [0.6, 0.7, 0.1],"
       "\"glossyReflection\": true}, \"n\": {\"mirror\": 0.5}}");
+
   ASSERT_EQ(warnings_.entries().size(), 1u);
   const Warnings::Entry entry = warnings_.entries().begin()->second;
   EXPECT_EQ(entry.count, 2u);
@@ -321,6 +357,7 @@ TEST_F(SceneSections, TexturesAreReadAsTheMapNeedsAndShared) {
       "\"materials\": {\"m\": {\"diffuseMap\": \"t\", \"normalMap\": \"t\"},"
       "\"n\": {\"diffuseMap\": \"same\"}}");
   ASSERT_EQ(scene.textures.size(), 2u);  // the same image and format only once
+
   const Material& m = scene.materials[0];
   const Texture& color = scene.textures[static_cast<std::size_t>(m.diffuseMap)];
   const Texture& data = scene.textures[static_cast<std::size_t>(m.normalMap)];
@@ -350,6 +387,7 @@ TEST_F(SceneSections, PatternsAndTheirErrors) {
       "\"materials\": {\"m\": {\"diffuseMap\": \"c\"}}");
   ASSERT_EQ(scene.textures.size(), 1u);
   EXPECT_EQ(scene.textures[0].width, 16);
+
   EXPECT_EQ(errorOfMembers("\"textures\": {\"c\": {\"pattern\": \"checker\", \"collumns\": 4}}"),
             "3 s.json#/textures/c/collumns: unknown key (is \"columns\" meant?)");
   EXPECT_EQ(errorOfMembers("\"textures\": {\"c\": {\"pattern\": \"checker\"}},"
@@ -376,6 +414,7 @@ TEST_F(SceneSections, ParametersStandForNumbers) {
   EXPECT_EQ(own.width, 20);
   EXPECT_EQ(own.height, 2);  // the nearest to 1.5, halves away from 0
   EXPECT_EQ(own.materials[0].roughness, 0.1f);
+
   const SceneDescription given = loadMembers(members, "?n=50&w=8");
   EXPECT_EQ(given.width, 100);
   EXPECT_EQ(given.height, 4);

@@ -23,9 +23,11 @@ class SceneSettings : public SceneFileTest {
     options_.settings = settings;
     return loadMembers(members);
   }
+
   std::string errorWith(const std::string& setting) {
     return errorOf([&] { with({setting}); });
   }
+
   SceneDescription modelWith(const std::vector<std::string>& settings) {
     save("m.mtl", kLibrary);
     options_.settings = settings;
@@ -37,6 +39,7 @@ TEST_F(SceneSettings, TakeThePlaceOfMembers) {
   const SceneDescription scene =
       with({"/lights/0/intensity=[1, 2, 3]", "/materials/floor={\"roughness\": 0.25}",
             "/materials/a~1b~0c=d/mirror=0.5", "/size/1=16"});
+
   EXPECT_EQ(scene.lights[0].intensity, Rgb(1, 2, 3));
   EXPECT_EQ(scene.lights[0].radius, 0.1f) << "not given";
   EXPECT_EQ(scene.materials[0].roughness, 0.25f);
@@ -49,9 +52,11 @@ TEST_F(SceneSettings, MakeWhatIsMissing) {
   const SceneDescription scene =
       with({"/sky/color=0.5", "/lights/-={\"position\": [0, 1, 0], \"intensity\": 7}",
             "/cameras/side/eye=[1, 0, 0]", "/cameras/side/at=[0, 0, 0]"});
+
   EXPECT_EQ(scene.sky.zenith, Rgb(0.5f));
   ASSERT_EQ(scene.lights.size(), 2u);
   EXPECT_EQ(scene.lights[1].intensity, Rgb(7));
+
   ASSERT_EQ(scene.cameras.size(), 1u);
   EXPECT_EQ(scene.cameras[0].name, "side");
 }
@@ -68,8 +73,10 @@ TEST_F(SceneSettings, ErrorsAreThoseOfTheFile) {
   EXPECT_EQ(errorWith("/materials/floor/ruffness=1").find("3 s.json#/materials/floor/ruffness"),
             0u);
   EXPECT_EQ(errorWith("/lihgts/0=1").find("3 s.json#/lihgts"), 0u);
+
   EXPECT_EQ(errorWith("/sky={\"colour\": 1}"),
             "3 s.json#/sky/colour: unknown key (is \"color\" meant?)");
+
   EXPECT_EQ(errorWith("/lights/1/intensity=1"),
             "3 s.json#/lights/1: expected an index below 1, or - for a new element, found a list "
             "of 1");
@@ -84,6 +91,7 @@ TEST_F(SceneSettings, RefuseWhatIsNone) {
         << errorWith(text);
   }
   EXPECT_EQ(errorWith("/a={\"b\": 1, \"b\": 2}"), "3 --set /a#/b: this key is given twice");
+
   std::string deep;
   for (int i = 0; i <= kJsonDepthLimit; ++i) deep += "/a";
   EXPECT_EQ(errorWith(deep + "=1").find("2 '--set /a/a"), 0u);
@@ -94,13 +102,16 @@ TEST_F(SceneSettings, OfAModel) {
   ASSERT_EQ(plain.lights.size(), 2u);
   const SceneDescription scene =
       modelWith({"/materials/blue/mirror=0.5", "/lights/0/position=[1, 2, 3]", "/sky/color=0.1"});
+
   EXPECT_EQ(scene.materials[0].mirror, Rgb(0.0f));
   EXPECT_EQ(scene.materials[1].mirror, Rgb(0.5f));
   EXPECT_EQ(scene.materials[1].diffuse, Rgb(0, 0, 1));
+
   EXPECT_EQ(scene.lights[0].position, Vec3f(1, 2, 3));
   EXPECT_EQ(scene.lights[0].intensity, plain.lights[0].intensity) << "every bit is kept";
   EXPECT_EQ(scene.lights[0].radius, plain.lights[0].radius);
   EXPECT_EQ(scene.sky.kind, Sky::Kind::color);
+
   EXPECT_EQ(errorOf([&] { modelWith({"/materials/bleu/mirror=0.5"}); }),
             "3 m.obj#/materials/bleu: unknown material of this model (is \"blue\" meant?)");
   EXPECT_EQ(errorOf([&] { modelWith({"/camera=1"}); }).find("3 m.obj#/camera"), 0u);
@@ -110,6 +121,7 @@ TEST_F(SceneSettings, OptionsOfAModel) {
   save("m.obj", kTriangleObj);
   EXPECT_EQ(load(root_ + "m.obj").options,
             (std::map<std::string, std::string>{{"exposure", "auto"}, {"terminator", "on"}}));
+
   options_.settings = {"/options/exposure=2", "/options/spp=4"};
   EXPECT_EQ(
       load(root_ + "m.obj").options,
@@ -124,7 +136,7 @@ TEST_F(SceneSettings, ItemsWithoutAMaterialHaveTheDefaultOne) {
   EXPECT_EQ(scene.materials[0].mirror, Rgb(0.5f));
 }
 
-// Wherever a material comes from, its pointer leads to it and to no other.
+// Wherever a material comes from, its pointer leads to it and to no other material.
 TEST_F(SceneSettings, PointersLeadToTheirMaterial) {
   save("t.gltf", R"({"asset": {"version": "2.0"},
     "materials": [{"name": "same"}, {"name": "same"}, {}, {}, {"name": "same#2"}]})");
@@ -135,8 +147,10 @@ TEST_F(SceneSettings, PointersLeadToTheirMaterial) {
     "scene": [{"use": "pair"}, {"group": [{"group": [{"model": "m.obj",
       "materials": {"*": {"diffuse": 0.4}, "red": {"mirror": 0.1}}}]}]},
       {"model": "t.gltf"}, {"shape": "box"}])";
+
   const std::vector<Material> before = with({}, members).materials;
   ASSERT_EQ(before.size(), 1u + 3 + 3 + 6 + 1);
+
   for (const Material& one : before) {
     const std::vector<Material> after = with({one.pointer + "/ior=1.125"}, members).materials;
     ASSERT_EQ(after.size(), before.size());

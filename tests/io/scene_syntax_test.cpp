@@ -17,6 +17,7 @@ TEST_F(SceneSyntax, SyntaxErrorsHaveLineAndColumn) {
   const auto textOf = [&](const std::string& text) {
     return errorOf([&] { load(save("s.json", text)); });
   };
+
   EXPECT_EQ(textOf("{\n  \"whit\": 1,\n  \"size\" [1, 1]\n}").substr(0, 13), "3 s.json:3:10");
   EXPECT_EQ(textOf("").substr(0, 12), "3 s.json:1:1");
   EXPECT_EQ(textOf("{\"whit\": 1,}").substr(0, 13), "3 s.json:1:12");
@@ -62,7 +63,7 @@ TEST_F(SceneSyntax, NeededKeysThatAreMisspeltAreNamed) {
             "3 s.json#/cameras/a: expected a member \"at\"");
 }
 
-// British spelling was a scene file's once. It is refused, never taken for a key that is not given.
+// Scene files had British spelling once. An old key is refused, not ignored as if it were missing.
 TEST_F(SceneSyntax, OldSpellingsNameTheNewOnes) {
   EXPECT_EQ(errorOfMembers("\"sky\": {\"colour\": 1}"),
             "3 s.json#/sky/colour: unknown key (is \"color\" meant?)");
@@ -72,6 +73,7 @@ TEST_F(SceneSyntax, OldSpellingsNameTheNewOnes) {
                               "noise", "plaster", "marble", "wood"}) {
     const std::string start =
         std::string("\"textures\": {\"t\": {\"pattern\": \"") + pattern + "\", ";
+
     EXPECT_EQ(errorOfMembers(start + "\"colour\": [1, 0, 0]}}"),
               "3 s.json#/textures/t/colour: unknown key (is \"color\" meant?)")
         << pattern;
@@ -79,6 +81,7 @@ TEST_F(SceneSyntax, OldSpellingsNameTheNewOnes) {
               "3 s.json#/textures/t/colour2: unknown key (is \"color2\" meant?)")
         << pattern;
   }
+
   const std::string image = "\"textures\": {\"t\": {\"image\": \"t.png\", \"as\": \"colour\"}}";
   const std::string error = errorOfMembers(image);
   EXPECT_NE(error.find("(is \"color\" meant?)"), std::string::npos) << error;
@@ -102,6 +105,7 @@ TEST_F(SceneSyntax, WrongKindsAndRangesSayWhatWasExpected) {
             "3 s.json#/size: expected [width, height], found a list of 1");
   EXPECT_EQ(errorOfMembers("\"size\": [1.5, 1]"),
             "3 s.json#/size/0: expected a whole number from 1 to 65536, found 1.5");
+
   EXPECT_EQ(errorOfMembers("\"lights\": [{\"position\": [0, 1, \"x\"], \"intensity\": 1}]"),
             "3 s.json#/lights/0/position/2: expected a number, found \"x\"");
   EXPECT_EQ(errorOfMembers("\"lights\": [{\"position\": [0, 1, 1e30], \"intensity\": 1}]"),
@@ -110,10 +114,12 @@ TEST_F(SceneSyntax, WrongKindsAndRangesSayWhatWasExpected) {
             "3 s.json#/sky/scale: expected a number from 0 to 1e+18, found -1");
   EXPECT_EQ(errorOfMembers("\"sky\": {\"radiance\": 1, \"scale\": []}"),
             "3 s.json#/sky/scale: expected a number not below 0, found a list of 0");
+
   EXPECT_EQ(errorOfMembers("\"materials\": {\"m\": {\"diffuse\": [1, 2, 0]}}"),
             "3 s.json#/materials/m/diffuse/1: expected a number from 0 to 1, found 2");
   EXPECT_EQ(errorOfMembers("\"materials\": {\"m\": {\"castsShadow\": 1}}"),
             "3 s.json#/materials/m/castsShadow: expected true or false, found 1");
+
   EXPECT_EQ(errorOfMembers("\"scene\": [{\"shape\": \"spere\"}]").substr(0, 37),
             "3 s.json#/scene/0/shape: expected one");
   EXPECT_NE(errorOfMembers("\"scene\": [{\"shape\": \"spere\"}]").find("(is \"sphere\" meant?)"),
@@ -142,6 +148,7 @@ TEST_F(SceneSyntax, ParametersAreCheckedWhereTheyAreUsed) {
             "\"$count*x\"");
   EXPECT_EQ(errorOfMembers(scene + "\"$count/0\"]"),
             "3 s.json#/size/1: expected a number from -1e+18 to 1e+18, found \"$count/0\"");
+
   EXPECT_EQ(errorOf([&] { loadMembers("\"parameters\": {\"count\": 3}", "?cont=1"); }),
             "2 s.json has no parameter 'cont'; did you mean 'count'?");
   EXPECT_EQ(

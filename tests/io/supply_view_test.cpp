@@ -1,4 +1,5 @@
-// What a model gets that comes without a scene file, and the sky that is asked for.
+// The view, lights and sky that a model gets without a scene file, and the sky that the user
+// chooses.
 #include "io/load_scene.h"
 
 #include <gtest/gtest.h>
@@ -13,20 +14,21 @@
 namespace whit {
 namespace {
 
-// Radiance files of one row: 1 everywhere, and 4.
+// Radiance files with one row, which have the value 1 everywhere, or 4.
 const std::string kHdrHead = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n";
 const std::string kOne = kHdrHead + std::string("\x80\x80\x80\x81\x80\x80\x80\x81", 8);
 const std::string kFour = kHdrHead + std::string("\x80\x80\x80\x83\x80\x80\x80\x83", 8);
 
 class SuppliedView : public SceneFileTest {
  protected:
-  // A triangle with a light of its own above it, and a camera there if the rotation of one is
-  // given.
+  // Loads a triangle with a light above it. If `camera` is the rotation of a camera, the camera is
+  // at the light's place.
   SceneDescription loadLit(double intensity, const std::string& camera = "") {
     const std::string eye =
         camera.empty()
             ? ""
             : R"(,{"name":"own","camera":0,"translation":[0.3,0.3,2],"rotation":)" + camera + "}";
+
     const std::string json =
         R"({"asset":{"version":"2.0"},"extensionsUsed":["KHR_lights_punctual"],
         "cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":1}}],
@@ -40,6 +42,7 @@ class SuppliedView : public SceneFileTest {
         R"(AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],
         "bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,
         "componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}]})";
+
     return load(save("lit.gltf", json));
   }
 };
@@ -49,6 +52,7 @@ TEST_F(SuppliedView, AModelStandsInAStudio) {
   EXPECT_TRUE(scene.isModel);
   EXPECT_EQ(skyName(scene.sky), "studio");
   EXPECT_EQ(scene.sky.scale, 1);
+
   const Ambient expected = ambientFromSky(studioSky(), kAmbientOfSky);
   EXPECT_EQ(scene.ambient.up, expected.up);
   EXPECT_EQ(scene.ambient.down, expected.down);
@@ -68,6 +72,7 @@ TEST_F(SuppliedView, AnotherSkyOrNone) {
   EXPECT_EQ(skyName(loadObj(kTriangleObj).sky), "none");
   EXPECT_EQ(loadObj(kTriangleObj).ambient.up, Rgb(0.25f));
   EXPECT_EQ(loadLit(5).ambient.up, Rgb(0.0f));
+
   options_.sky = save("one.hdr", kOne);
   const SceneDescription scene = loadObj(kTriangleObj);
   EXPECT_EQ(skyName(scene.sky), options_.sky);
@@ -89,15 +94,20 @@ TEST_F(SuppliedView, ASceneFileKeepsItsSkyUnlessAnotherIsAskedFor) {
   save("four.hdr", kFour);
   const std::string members = R"("sky": {"image": "four.hdr"}, "ambient": {"fromSky": 0.5},
       "scene": [{"shape": "quad"}])";
+
   const SceneDescription own = loadMembers(members);
   EXPECT_FALSE(own.isModel);
   EXPECT_EQ(skyName(own.sky), "four.hdr");
   EXPECT_NEAR(own.ambient.up.x, 2, 1e-5);
   EXPECT_EQ(skyName(loadMembers(R"("scene": [{"shape": "quad"}])").sky), "none");
+
   options_.sky = save("one.hdr", kOne);
   EXPECT_NEAR(loadMembers(members).ambient.up.x, 0.5, 1e-5);
+
+  // The sky of the file is not read if another one replaces it.
   std::filesystem::remove(root_ + "four.hdr");
   EXPECT_EQ(loadMembers(members).sky.image.r.at(0), 1) << "its own is not read";
+
   options_.sky = "studio";
   EXPECT_EQ(loadMembers(members).sky.image.r, studioSky().image.r);
   options_.sky = "none";
@@ -112,7 +122,7 @@ TEST_F(SuppliedView, ASkyThatIsNotThere) {
   EXPECT_EQ(errorOf([&] { loadObj(kTriangleObj); }).substr(0, 2), "3 ");
 }
 
-// A bar that stands on z = 0, astride y = 0.
+// A bar that stands on the plane z = 0, centered on the z axis.
 const std::string kZUpObj =
     "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv -1 -1 4\nv 1 -1 4\nv 1 1 4\nv -1 1 4\n"
     "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 1 5 8 4\n";
@@ -132,6 +142,7 @@ TEST_F(SuppliedView, ACameraThatSeesNothingGivesWayToAViewOfTheModel) {
   ASSERT_EQ(sees.cameras.size(), 1u);
   EXPECT_EQ(sees.cameras[0].name, "own");
   EXPECT_EQ(kinds(), "");
+
   const SceneDescription turned = loadLit(1, "[0,1,0,0]");
   ASSERT_EQ(turned.cameras.size(), 2u);
   EXPECT_TRUE(seesSomething(turned, turned.cameras[0]));
@@ -142,23 +153,27 @@ TEST_F(SuppliedView, ACameraThatSeesNothingGivesWayToAViewOfTheModel) {
 TEST_F(SuppliedView, TheViewpointIsChosen) {
   options_.settings = {"/viewpoint=\"outside\""};
   EXPECT_EQ(loadLit(1, "[0,0,0,1]").cameras.size(), 2u);
+
   options_.settings = {"/viewpoint=\"inside\""};
   const Vec3f eye = loadObj(kZUpObj).cameras[0].eye;
   EXPECT_LT(maxComponent(abs(eye - Vec3f{0, 2, 0})), 2) << "in the bar";
+
   options_.settings = {"/viewpoint=\"above\""};
   EXPECT_NE(errorOf([&] { loadObj(kZUpObj); }).find("m.obj#/viewpoint: expected"),
             std::string::npos);
 }
 
-// A box with its fronts inside, of two materials.
+// A box with two materials, whose fronts look inside.
 TEST_F(SuppliedView, AViewFromInsideIsSaid) {
   std::string room = kZUpObj;
   for (std::size_t at = 0; (at = room.find("f ", at)) != std::string::npos; ++at) {
     std::swap(room[at + 2], room[at + 8]), std::swap(room[at + 4], room[at + 6]);
   }
+
   options_.settings = {"/up=\"y\""};
   loadObj(room);
   EXPECT_EQ(kinds(), "") << "a single mesh without materials is a body";
+
   loadObj(room + "usemtl a\nf 1 2 3\n");
   EXPECT_NE(kinds().find("seen from inside (--viewpoint outside"), std::string::npos);
 }
@@ -166,14 +181,17 @@ TEST_F(SuppliedView, AViewFromInsideIsSaid) {
 TEST_F(SuppliedView, AnAxisIsTurnedUp) {
   options_.settings = {"/up=\"y\""};
   EXPECT_EQ(boundsOf(loadObj(kZUpObj)).upper, (Vec3f{1, 1, 4}));
+
   options_.settings = {"/up=\"z\""};
   const Box z = boundsOf(loadObj(kZUpObj));
   EXPECT_EQ(z.lower, (Vec3f{-1, 0, -1}));
   EXPECT_EQ(z.upper, (Vec3f{1, 4, 1}));
+
   options_.settings = {"/up=\"x\""};
   EXPECT_EQ(boundsOf(loadObj("v 0 0 0\nv 5 1 0\nv 0 1 2\nf 1 2 3\n")).upper, (Vec3f{0, 5, 2}));
   options_.settings = {"/up=\"w\""};
   EXPECT_NE(errorOf([&] { loadObj(kZUpObj); }).find("\"x\", \"y\" or \"z\""), std::string::npos);
+
   options_.settings = {"/up=\"z\""};
   EXPECT_NE(errorOf([&] { loadLit(1); }).find("files of this format say"), std::string::npos);
 }
@@ -182,7 +200,9 @@ TEST_F(SuppliedView, AGuessOfTheAxisIsSaid) {
   EXPECT_EQ(boundsOf(loadObj(kZUpObj)).upper, (Vec3f{1, 4, 1}));
   ASSERT_EQ(warnings_.entries().size(), 1u);
   EXPECT_NE(warnings_.entries().begin()->first.find("z seems to be up"), std::string::npos);
-  // Flat, or with y up and z astride, or astride neither: as they are.
+
+  // A flat model, one with y up that extends on both sides of z = 0, one that extends to one side
+  // only, and one around the origin stay as they are.
   for (const char* text :
        {kTriangleObj, "v -1 0 -1\nv 1 0 1\nv 0 4 0\nf 1 2 3\n",
         "v 0 0 0\nv 1 0 1\nv 0 1 3\nf 1 2 3\n", "v -1 -1 -1\nv 1 1 1\nv -1 1 1\nf 1 2 3\n"}) {
@@ -193,8 +213,8 @@ TEST_F(SuppliedView, AGuessOfTheAxisIsSaid) {
   }
 }
 
-// A frustum of eight sides along `axis`, 4 long about the origin: of radius 1 at its lower end and
-// `top` at the upper one.
+// Describes a frustum of eight sides along `axis`. It extends from -2 to 2; its radius is 1 at the
+// lower end and `top` at the upper end.
 std::string frustum(int axis, double top) {
   std::string points, faces, lower = "f", upper = "f";
   for (int i = 0; i < 8; ++i) {
@@ -204,19 +224,22 @@ std::string frustum(int axis, double top) {
       p[axis] = end;
       p[(axis + 1) % 3] = radius * std::cos(angle);
       p[(axis + 2) % 3] = radius * std::sin(angle);
+
       points += "v " + std::to_string(p[0]) + " " + std::to_string(p[1]) + " " +
                 std::to_string(p[2]) + "\n";
     }
+
     const int a = 2 * i + 1, b = 2 * ((i + 1) % 8) + 1;
     faces += "f " + std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(b + 1) +
              " " + std::to_string(a + 1) + "\n";
+
     lower += " " + std::to_string(15 - 2 * i);
     upper += " " + std::to_string(a + 1);
   }
   return points + faces + lower + "\n" + upper + "\n";
 }
 
-// A box between two corners, whose vertices are numbered from `first`.
+// Describes a box between two corners, whose vertices have numbers from `first`.
 std::string boxObj(const Vec3d& low, const Vec3d& high, int first) {
   std::string text;
   for (int i = 0; i < 8; ++i) {
@@ -224,6 +247,7 @@ std::string boxObj(const Vec3d& low, const Vec3d& high, int first) {
             std::to_string(i & 2 ? high.y : low.y) + " " + std::to_string(i & 4 ? high.z : low.z) +
             "\n";
   }
+
   for (const auto& face : {std::array{0, 2, 3, 1},
                            {4, 5, 7, 6},
                            {0, 1, 5, 4},
@@ -245,10 +269,13 @@ TEST_F(SuppliedView, AStatueOnABaseIsTurnedAndShelvesOnAWallAreNot) {
     options_.settings = {};
     return turned;
   };
+
   EXPECT_TRUE(isTurned(frustum(2, 0.2))) << "it stands on its base, about the origin";
   EXPECT_FALSE(isTurned(frustum(1, 0.2)));
   EXPECT_FALSE(isTurned(frustum(2, 0.9))) << "both ends are flat";
   EXPECT_FALSE(isTurned(boxObj({-1, -1, -2}, {1, 1, 2}, 1))) << "a wagon";
+
+  // Three boards extend from the plane z = 0, like shelves from a wall.
   std::string shelves;
   for (int i = 0; i < 3; ++i) {
     const double y = 0.5 * i - 0.5;
@@ -257,17 +284,20 @@ TEST_F(SuppliedView, AStatueOnABaseIsTurnedAndShelvesOnAWallAreNot) {
   EXPECT_FALSE(isTurned(shelves)) << "the wall is z = 0";
 }
 
-// The corners touch the margin of the picture, whatever its shape, and none is outside.
+// The corners reach the margin of the picture, whatever its shape, and none is outside.
 TEST_F(SuppliedView, TheModelFillsThePictureThatIsAskedFor) {
   for (const ImageSize size : {ImageSize{480, 300}, {300, 300}, {200, 320}, {1200, 300}}) {
     options_.size = size;
     const SceneDescription scene = loadObj(kZUpObj);
     EXPECT_EQ(scene.width, size.width);
+
     const Camera& camera = scene.cameras[0];
     const Vec3d forward = normalized(Vec3d(camera.at) - Vec3d(camera.eye));
     const Vec3d right = normalized(cross(forward, Vec3d(camera.up))), up = cross(right, forward);
     const double half = std::tan(double{camera.fov} * 3.14159265358979323846 / 360);
     const double aspect = static_cast<double>(size.width) / size.height;
+
+    // Largest distance of a corner from the middle, in halves of the picture's width or height.
     double most = 0;
     for (const Vec3f& p : scene.objects[scene.instances[0].object].meshes[0].positions) {
       const Vec3d way = scene.instances[0].toWorld.point(Vec3d(p)) - Vec3d(camera.eye);
@@ -275,6 +305,7 @@ TEST_F(SuppliedView, TheModelFillsThePictureThatIsAskedFor) {
       most = std::max(
           {most, std::abs(dot(way, right)) / (depth * aspect), std::abs(dot(way, up)) / depth});
     }
+
     EXPECT_LE(most, 1) << size.width;
     EXPECT_GT(most, 0.85) << size.width;
   }

@@ -16,12 +16,13 @@ using test::mirrorMaterial;
 using test::radianceAlong;
 using test::SceneBuilder;
 
-// A scene with one material, and a surfel of it at the origin.
+// Returns a scene whose floor has the material. Surfels of it lie at the origin.
 Scene sceneOf(const Material& material) {
   SceneBuilder builder;
   builder.add(test::floorAt(0, 1, builder.add(material)));
   return builder.build();
 }
+
 Surfel surfelSeen(const Vec3d& view, const Vec3d& shadingNormal) {
   Surfel s;
   s.view = normalized(view);
@@ -32,6 +33,7 @@ Surfel surfelSeen(const Vec3d& view, const Vec3d& shadingNormal) {
   s.entering = true;
   return s;
 }
+
 Impulses impulsesOf(const Scene& scene, const Surfel& s, EffectSet effects = EffectSet::all()) {
   return findImpulses(scene, effects, s, crossMedia(scene, effects, 0, s.entering, 0), 0);
 }
@@ -45,6 +47,7 @@ TEST(Mirror, WeightFollowsSchlick) {
     const Impulses found = impulsesOf(scene, s);
     EXPECT_NEAR(found.reflected.weight.x, 0.25 + 0.5 * std::pow(1 - c, 5), 1e-15) << c;
     EXPECT_EQ(found.refracted.weight, RgbD());
+
     const EffectSet dull = EffectSet::all().without(Effect::mirror);
     EXPECT_EQ(impulsesOf(scene, s, dull).reflected.weight, RgbD());
   }
@@ -52,14 +55,14 @@ TEST(Mirror, WeightFollowsSchlick) {
 
 TEST(Mirror, StartsAboveTheSurface) {
   const Impulses found = impulsesOf(sceneOf(mirrorMaterial(1)), surfelSeen({3, 4, 0}, {0, 1, 0}));
-  // The offset along the normal, and the retreat back towards the viewer.
+  // The origin is moved by `offset` along the normal and by `retreat` towards the viewer.
   EXPECT_NEAR(found.reflected.ray.origin.x, 0.3e-3, 1e-15);
   EXPECT_NEAR(found.reflected.ray.origin.y, 1.4e-3, 1e-15);
   EXPECT_NEAR(found.reflected.ray.direction.x, -0.6, 1e-15);
   EXPECT_NEAR(found.reflected.ray.direction.y, 0.8, 1e-15);
 }
 
-// Hard case H79: no view is too flat.
+// Hard case H79: even the flattest views are reflected upwards.
 TEST(Mirror, GrazingViewsReflectUpwards) {
   const Scene scene = sceneOf(mirrorMaterial(1));
   for (const double elevation : {1e-1, 1e-2, 1e-4, 1e-6, 1e-9}) {
@@ -80,12 +83,16 @@ TEST(Lift, KeepsReflectionsAboveTheSurface) {
     const double turn = numbers.in(0, 6.3);
     const Vec3d normal{std::sin(tilt) * std::cos(turn), std::cos(tilt),
                        std::sin(tilt) * std::sin(turn)};
+
     const Surfel s = surfelSeen({std::cos(elevation), std::sin(elevation), 0}, normal);
     const Vec3d r = impulsesOf(scene, s).reflected.ray.direction;
     const double least = std::min(0.9 * std::sin(elevation), 0.01);
     EXPECT_NEAR(length(r), 1, 1e-15);
-    // Normalizing after raising takes back at most half the square of what was added, of that sine.
+
+    // After the direction was raised it is normalized, which lowers its sine by at most half the
+    // square of what was added.
     EXPECT_GE(r.y, least / 1.5);
+
     const Vec3d mirrored = s.shadingNormal * (2 * dot(s.view, s.shadingNormal)) - s.view;
     if (mirrored.y >= least) {
       EXPECT_LT(length(r - mirrored), 1e-14);
@@ -93,6 +100,7 @@ TEST(Lift, KeepsReflectionsAboveTheSurface) {
       ++lifted;
     }
   }
+
   EXPECT_GT(lifted, 1000) << "the sweep was meant to reach the case";
 }
 
@@ -101,19 +109,21 @@ TEST(Lift, IsContinuousAndIdempotent) {
   const Vec3d justBelow = normalized(Vec3d{1, 0.01 - 1e-9, 0}),
               just = normalized(Vec3d{1, 0.01, 0});
   EXPECT_LT(length(lifted(justBelow, up, just.y) - just), 1e-8);
+
   const Vec3d once = lifted(normalized(Vec3d{1, -0.02, 0}), up, 0.01);
   EXPECT_LT(length(lifted(once, up, 0.01) - once), 1e-5);
   const Vec3d flat = normalized(Vec3d{0.3, 0.4, 0.5});
   EXPECT_EQ(lifted(flat, up, 0.01), flat) << "not a bit changes where nothing is to be done";
 }
 
-// Hard case H33
+// Hard case H33: the view is behind the shading normal.
 TEST(Lift, ViewBehindTheShadingNormal) {
   Material m = mirrorMaterial(0.5f);
   m.transmission = Rgb(1.0f);
   const Scene scene = sceneOf(m);
   const Surfel s = surfelSeen({-1, 0.1, 0}, {1, 0.5, 0});
   ASSERT_LT(dot(s.view, s.shadingNormal), 0);
+
   const Impulses found = impulsesOf(scene, s);
   EXPECT_TRUE(isFinite(found.reflected.ray.direction));
   EXPECT_GT(found.reflected.ray.direction.y, 0);
@@ -124,12 +134,14 @@ TEST(Lift, ViewBehindTheShadingNormal) {
 TEST(MirrorFloor, ShowsTheSkyUpsideDown) {
   SceneBuilder builder;
   builder.add(test::floorAt(0, 100, builder.add(mirrorMaterial(0.5f))));
+
   Sky& sky = builder.description.sky;
   sky.kind = Sky::Kind::gradient;
   sky.zenith = {1, 2, 4};
   sky.horizon = {8, 4, 2};
   sky.ground = {99, 99, 99};
   const Scene scene = builder.build();
+
   test::Numbers numbers(12);
   for (int i = 0; i < 1000; ++i) {
     Vec3d d = numbers.direction();
@@ -140,7 +152,8 @@ TEST(MirrorFloor, ShowsTheSkyUpsideDown) {
   }
 }
 
-// A closed box of glowing mirrors: a geometric series in the reflectance (hard case H62).
+// A closed box of glowing mirrors, whose radiance is a geometric series in the reflectance (hard
+// case H62).
 class HallOfMirrors : public ::testing::Test {
  protected:
   static Scene hall(float reflectance) {
@@ -173,8 +186,8 @@ TEST_F(HallOfMirrors, SumsTheSeries) {
   }
 }
 
-// Hard case H64: what contributes less than the cutoff is not traced, and no more than that is
-// lost.
+// Hard case H64: impulses that contribute less than the cutoff are not traced, and the image loses
+// no more than their contribution.
 TEST_F(HallOfMirrors, CutoffStopsWhatNoLongerCounts) {
   const Scene scene = hall(0.5f);
   Settings settings = test::uncut(64);
@@ -185,14 +198,15 @@ TEST_F(HallOfMirrors, CutoffStopsWhatNoLongerCounts) {
     EXPECT_EQ(counts[RayKind::reflection], reflections) << cutoff;
     return seen;
   };
+
   EXPECT_EQ(seenWith(0.1f, 3), 1.875);
   EXPECT_EQ(seenWith(0.125, 3), 1.875) << "what contributes just the cutoff is traced";
   EXPECT_EQ(seenWith(0.126f, 2), 1.75);
   EXPECT_EQ(seenWith(2, 0), 1);
 }
 
-// Towards edges and corners, off by less than a float can tell (hard case H7). Exactly on an edge
-// the reflected ray would start on the other wall, which it then does not meet.
+// Rays go towards edges and corners, but miss them by less than a float resolves (hard case H7). A
+// ray exactly on an edge would be reflected from within the other wall, and would not hit it.
 TEST_F(HallOfMirrors, CornersDoNotLeak) {
   const Scene scene = hall(1);
   for (const double inset : {1e-4, 1e-8, 1e-12}) {
@@ -212,25 +226,29 @@ TEST_F(HallOfMirrors, DisabledMirrorsReflectNothing) {
   EXPECT_EQ(counts[RayKind::reflection], 0u);
 }
 
-// Down onto a mirror of 0.5 that a ray of throughput 0.25 has met.
+// A ray of throughput 0.25 has hit a mirror of reflectance 0.5 from straight above.
 TEST(AddImpulsesReference, IsTheChildOfItsKind) {
   Material mirror = test::blackMaterial();
   mirror.mirror = mirror.mirrorGrazing = Rgb(0.5f);
   const Scene scene = sceneOf(mirror);
   test::SmallChunk small(scene);
   small.world.effects = EffectSet::all();
+
   Chunk& c = small.chunk;
   const std::size_t slot = 2;
+
   test::setRay(c.rays, slot, {0, 1, 0}, {0, -1, 0});
   c.rays.throughput[slot] = 0.25f;
   c.rays.path[slot] = 99;
   c.rays.media[slot] = 0;
   c.surfels.ngY[slot] = c.surfels.nsY[slot] = 1;
   c.surfels.cone[slot] = 0.125f;
+
   c.children.parent[0] = static_cast<std::uint32_t>(slot);
   c.children.path[0] = childStream(99, kMirroredBranch);
   c.childCount = c.childSegmentCount = 1;
   c.childSegments[0] = {RayKind::reflection, 0, 1};
+
   const RayRow mirrored = addImpulses(small.world, c, 0);
   EXPECT_EQ(mirrored.weightG, 0.5);
   EXPECT_EQ(mirrored.throughput, 0.125);
@@ -238,7 +256,8 @@ TEST(AddImpulsesReference, IsTheChildOfItsKind) {
   EXPECT_EQ(mirrored.parent, slot);
   EXPECT_EQ(mirrored.cone, 0.125);
   EXPECT_EQ(mirrored.path, childStream(99, kMirroredBranch));
-  // Not even a dielectric.
+
+  // The material is no dielectric, so that nothing is refracted.
   c.childSegments[0].kind = RayKind::refraction;
   EXPECT_EQ(addImpulses(small.world, c, 0).weightG, 0);
   EXPECT_EQ(addImpulses(small.world, c, 0).path, childStream(99, kRefractedBranch));

@@ -23,6 +23,7 @@ TEST(Lights, AddUpAndKeepTheirColors) {
   builder.add(test::floorAt(0, 10, builder.add(m)));
   builder.description.lights = {lightAt({0, 2, 0}, 4), lightAt({0, 3, 0}, 9)};
   builder.description.lights[1].intensity = {0, 9, 18};
+
   const RgbD seen = radianceAlong(builder.build(), {0, 1, 0}, {0, -1, 0});
   EXPECT_NEAR(seen.x, 1 / kPi, 1e-12);
   EXPECT_NEAR(seen.y, 0.5 / kPi * 2, 1e-12);
@@ -34,9 +35,11 @@ TEST(AddShadingReference, AddsWhatIsVisible) {
   test::SmallChunk small(scene);
   small.chunk.unshadowed.r[0] = 0.5f;
   small.chunk.unshadowed.b[0] = 0x1p-30f;
+
   const RadianceRow before{1, 2, 3};
   EXPECT_EQ(addShading(before, small.chunk, 0).r, 1);
   small.chunk.unshadowed.visible[0] = 1;
+
   const RadianceRow after = addShading(before, small.chunk, 0);
   EXPECT_EQ(after.r, 1.5);
   EXPECT_EQ(after.g, 2);

@@ -1,5 +1,5 @@
-// Ambient light that things nearby hold off, against closed forms: what is sampled holds within
-// three standard errors, which are measured over independent paths.
+// Ambient occlusion against closed forms. The estimates are within three standard errors, which are
+// measured over independent paths.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +23,8 @@ Settings occluded(int samples) {
   return settings;
 }
 
-// Around a floor of albedo 1 at y = 0 the ambient light is 1.
+// The floor y = 0 has albedo 1 and the ambient light is 1, so that its radiance is the share of
+// open directions.
 SceneBuilder floorInAmbientLight(float radius) {
   SceneBuilder builder;
   builder.add(test::floorAt(0, 1000, builder.add(test::diffuseMaterial(1))));
@@ -31,27 +32,30 @@ SceneBuilder floorInAmbientLight(float radius) {
   return builder;
 }
 
-// The share that the floor's point at `x` gets.
+// Estimates the share of ambient light that reaches the floor's point at `x`.
 SampleMean openShareAt(const Scene& scene, double x, const Settings& settings = occluded(16)) {
   const BruteForce bruteForce(scene);
   const Tracer tracer(scene, bruteForce, settings);
   SampleMean mean;
+
   for (std::uint32_t path = 0; path < kPaths; ++path) {
     RayCounts counts;
     mean.add(tracer.traceImpulse({{x, 1e-3, 0}, {0, -1, 0}}, 0, 1, 0, counts, {mixed(path), 0}).x);
     EXPECT_EQ(counts[RayKind::occlusion], static_cast<unsigned>(settings.options.ambientSamples));
     EXPECT_EQ(counts[RayKind::shadow], 0u);
   }
+
   return mean;
 }
 
-// The cosine-weighted share of directions whose horizontal part towards the wall is above
-// distance / radius: a segment of the unit disc.
+// A direction is open if its horizontal part towards the wall is below distance / radius. Weighted
+// by the cosine, these directions are the unit disc without a segment.
 TEST(AmbientOcclusion, BesideAWallIsASegmentOfTheDisc) {
   constexpr double kRadius = 2;
   SceneBuilder builder = floorInAmbientLight(kRadius);
   builder.add(test::quad({0, 0, -1000}, {0, 0, 1000}, {0, 1000, 1000}, {0, 1000, -1000}, 0));
   const Scene scene = builder.build();
+
   for (const double x : {0.01, 0.5, 1.0, 1.7}) {
     const SampleMean mean = openShareAt(scene, x);
     const double c = x / kRadius;
@@ -59,10 +63,11 @@ TEST(AmbientOcclusion, BesideAWallIsASegmentOfTheDisc) {
     EXPECT_NEAR(mean.value(), wanted, 3 * mean.error()) << x;
     EXPECT_LT(mean.error(), 0.005);
   }
+
   EXPECT_EQ(openShareAt(scene, 2.01).value(), 1) << "further away than the radius";
 }
 
-// Rays nearer to the normal than the one that just reaches it: cosine^2 > (height / radius)^2.
+// Rays reach the ceiling if they are near enough to the normal: cosine^2 > (height / radius)^2.
 TEST(AmbientOcclusion, BelowACeilingIsTheSquareOfTheRatio) {
   SceneBuilder builder = floorInAmbientLight(2);
   builder.add(test::ceilingAt(1.2f, 1000, 0));
@@ -70,7 +75,7 @@ TEST(AmbientOcclusion, BelowACeilingIsTheSquareOfTheRatio) {
   EXPECT_NEAR(mean.value(), 0.36, 3 * mean.error());
 }
 
-// All that lies within the radius, and nothing else.
+// Everything within the radius occludes, and nothing else does.
 TEST(AmbientOcclusion, InsideABoxDependsOnItsSizeAlone) {
   for (const auto& [radius, wanted] : {std::pair{0.99f, 1.0}, std::pair{3.0f, 0.0}}) {
     SceneBuilder builder = floorInAmbientLight(radius);
@@ -96,24 +101,28 @@ TEST(AmbientOcclusion, IsTheConstantWithoutRaysOrRadius) {
     RayCounts counts;
     EXPECT_EQ(test::radianceAlong(scene, {0, 0.5, 0}, {0, -1, 0}, settings, &counts), RgbD(1.0));
     EXPECT_EQ(counts[RayKind::occlusion], 0u);
+
     settings = occluded(4);
     settings.effects = settings.effects.without(Effect::ambientOcclusion);
     EXPECT_EQ(test::radianceAlong(scene, {0, 0.5, 0}, {0, -1, 0}, settings), RgbD(1.0));
   }
 }
 
-// Under bent normals, what lies below the surface is hidden by it.
+// With a bent normal, directions below the surface are occluded by the surface itself.
 TEST(AmbientOcclusion, OfASurfaceByItself) {
   Scene scene;
   scene.materials.resize(1);
   scene.ambient = {Rgb(1), Rgb(1), 0, 1};
+
   Surfel s;
   s.diffuse = RgbD(1.0);
   s.geometricNormal = s.view = {0, 1, 0};
   s.shadingNormal = normalized(Vec3d(1, 1, 0));
+
   SampleMean mean;
   const LobeSampling points{1024, 0, 0};
   const EffectSet effects = EffectSet::all().without(Effect::indirect);
+
   for (std::uint32_t k = 0; k < points.count; ++k) {
     const LightArrival a = ambientArrival(scene, effects, s, {}, lobePoint(7, points, k));
     mean.add(a.radiance.x);
@@ -122,7 +131,9 @@ TEST(AmbientOcclusion, OfASurfaceByItself) {
     }
     EXPECT_TRUE(a.radiance.x == 0 || a.tFar == 1);
   }
-  // Of a half disc, and of the other one foreshortened.
+
+  // Half of the lobe's disc is open, and the other half is foreshortened by the angle between the
+  // normals.
   EXPECT_NEAR(mean.value(), 0.5 + 0.5 * std::cos(kPi / 4), 3 * mean.error());
 }
 

@@ -15,17 +15,18 @@ using test::makeTexture;
 using test::Numbers;
 using test::SceneBuilder;
 
-// Hard case H3: the point by weights lies on the triangle, whatever the distance of the eye.
+// Hard case H3: the point by its weights lies on the triangle, however far the eye is.
 TEST(Triangle, RefinedHitStaysOnTheTriangle) {
   SceneBuilder builder;
   builder.add(test::floorAt(0, 0.5f, 0));
   const Scene scene = builder.build();
   Numbers numbers(2);
   for (int i = 0; i < 1000; ++i) {
-    // Aimed a little past the border as well, as a candidate found in float may be.
+    // Some rays aim a little beyond the border, like candidates found in float.
     const Vec3d target{numbers.in(-0.5001, 0.5001), 0, numbers.in(-0.5001, 0.5001)};
     const Vec3d eye{1e5, numbers.in(1, 100), numbers.in(-1e5, 1e5)};
     const Ray ray{eye, normalized(target - eye)};
+
     const TriangleHit hit = refineHit(scene, ray, {static_cast<std::uint32_t>(i % 2)});
     EXPECT_GE(hit.u, 0);
     EXPECT_GE(hit.v, 0);
@@ -38,19 +39,20 @@ TEST(Triangle, UselessCandidateKeepsItsHint) {
   SceneBuilder builder;
   builder.add(test::floorAt(0, 1, 0));
   const Scene scene = builder.build();
-  // Along the plane: nothing to compute with.
+  // A ray along the plane has no intersection to compute.
   const Ray along{{-5, 0, 0}, {1, 0, 0}};
   const TriangleHit hit = refineHit(scene, along, {0, kNoHit, 0.25, 0.5});
   EXPECT_EQ(hit.u, 0.25);
   EXPECT_EQ(hit.v, 0.5);
   EXPECT_GT(hit.t, 0);
+
   const double nan = std::nan("");
   const TriangleHit lost = refineHit(scene, along, {0, kNoHit, nan, nan});
   EXPECT_GE(lost.u, 0);
   EXPECT_LE(lost.u + lost.v, 1);
 }
 
-// The surfel that a ray meets, by brute force.
+// Returns the surfel that a ray hits, by brute force.
 Surfel surfelAlong(const Scene& scene, const Vec3d& origin, const Vec3d& towards,
                    EffectSet effects = EffectSet::all()) {
   const Ray ray{origin, normalized(towards)};
@@ -77,6 +79,7 @@ TEST(Surfel, NormalsFaceTheViewer) {
   expectVectorNear(above.geometricNormal, {0, 1, 0}, 0);
   expectVectorNear(above.shadingNormal, {0, 1, 0}, 0);
   expectVectorNear(above.view, {0, 1, 0}, 0);
+
   const Surfel below = surfelAlong(scene, {0.5, -3, 0.25}, {0, 1, 0});
   EXPECT_FALSE(below.entering);
   expectVectorNear(below.geometricNormal, {0, -1, 0}, 0);
@@ -87,22 +90,26 @@ TEST(Surfel, OffsetBoundsTheRounding) {
   SceneBuilder builder;
   builder.add(test::floorAt(3, 2, 0));
   const Scene scene = builder.build();
-  // In the corner (-2, 3, 2), of edges that add up to (8, 0, 4): what goes along the normal is 3.
+
+  // In the corner (-2, 3, 2) the edges add up to (8, 0, 4); the magnitude along the normal is 3.
   const double u = 1 / 16777216.0, offset = u * (4 * 3 + (7 + 12) / 64.0), retreat = u * (14 + 12);
   const Surfel s = surfelAlong(scene, {-2, 9, 2}, {0, -1, 0});
   EXPECT_DOUBLE_EQ(s.offset, offset);
   EXPECT_DOUBLE_EQ(s.retreat, retreat);
-  // In the middle of the diagonal the two corners' magnitudes are averaged, not their values.
+
+  // In the middle of the diagonal the magnitudes of both corners are averaged, not their
+  // coordinates.
   const Surfel middle = surfelAlong(scene, {0, 9, 0}, {0, -1, 0});
   EXPECT_DOUBLE_EQ(middle.offset, offset);
 }
 
-// Where other surfaces lie in the same place, all magnitudes count: those of the point (7) and of
-// both edges (4 and 4 + 4).
+// Where other surfaces are coplanar, all magnitudes count: those of the point (7) and of both edges
+// (4 and 4 + 4).
 TEST(Surfel, OffsetIsThatOfAllMagnitudesWhereOthersLie) {
   SceneBuilder builder;
   builder.add(test::floorAt(3, 2, 0));
   const Scene scene = builder.build();
+
   const Surfel s =
       makeSurfel(scene, EffectSet::all(), {0}, {6, 0, 0}, {{-2, 9, 2}, {0, -1, 0}}, {}, true);
   EXPECT_DOUBLE_EQ(s.offset, (32 * 7 + 16 * 12) / 16777216.0);
@@ -117,19 +124,21 @@ Mesh withNormals(Mesh mesh, const std::vector<Vec3f>& normals) {
 TEST(Surfel, InterpolatesNormals) {
   SceneBuilder builder;
   const float s = std::sqrt(0.5f);
-  // The first edge leans left, the opposite one right.
+  // The normal of the first edge leans left, that of the opposite one right.
   builder.add(withNormals(test::floorAt(0, 1, 0), {{-s, s, 0}, {s, s, 0}, {s, s, 0}, {-s, s, 0}}));
   const Scene scene = builder.build();
   expectVectorNear(surfelAlong(scene, {0, 1, 0.5}, {0, -1, 0}).shadingNormal, {0, 1, 0}, 1e-7);
-  // Three quarters of the way: tan = 0.5 of the border's.
+
+  // At three quarters of the way, the tangent is half of the border's.
   expectVectorNear(surfelAlong(scene, {0.5, 1, 0.25}, {0, -1, 0}).shadingNormal,
                    normalized(Vec3d{0.5, 1, 0}), 1e-7);
+
   const EffectSet flat = EffectSet::all().without(Effect::smoothNormals);
   expectVectorNear(surfelAlong(scene, {0.5, 1, 0.25}, {0, -1, 0}, flat).shadingNormal, {0, 1, 0},
                    0);
 }
 
-// Hard case H34: where normals cancel, the face's serves.
+// Hard case H34: where interpolated normals cancel, the normal of the face is used.
 TEST(Surfel, CancellingNormals) {
   SceneBuilder builder;
   builder.add(withNormals(test::floorAt(0, 1, 0), {{-1, 0, 0}, {1, 0, 0}, {1, 0, 0}, {-1, 0, 0}}));
@@ -150,7 +159,7 @@ TEST(Surfel, ShadingNormalMayLookAway) {
   expectVectorNear(s.shadingNormal, {0.8, 0.6, 0}, 1e-7);
 }
 
-// Texel centers at u = 1/4 and 3/4, of green 1 and 1/5: halfway between them 3/5.
+// The texel centers at u = 1/4 and 3/4 have a green of 1 and 1/5, with 3/5 halfway between them.
 TEST(Surfel, RoughnessIsTheFactorTimesItsMap) {
   SceneBuilder builder;
   Material m = test::diffuseMaterial(0.5f);
@@ -158,9 +167,11 @@ TEST(Surfel, RoughnessIsTheFactorTimesItsMap) {
   m.roughness = 0.75f;
   m.roughnessMap = builder.add(makeTexture(
       TexelFormat::data, 2, 1, {encodeDataTexel(0, 1, 0, 0), encodeDataTexel(1, 0.2f, 1, 1)}));
+
   Mesh floor = test::quad({0, 0, 0}, {1, 0, 0}, {1, 0, -1}, {0, 0, -1}, builder.add(m));
   builder.add(floor);
   const Scene scene = builder.build();
+
   const auto alphaAt = [&](double u) { return surfelAlong(scene, {u, 1, -0.5}, {0, -1, 0}).alpha; };
   EXPECT_NEAR(alphaAt(0.25), 0.75 * 0.75, 1e-7);
   EXPECT_NEAR(alphaAt(0.5), 0.45 * 0.45, 1e-7);
@@ -169,7 +180,8 @@ TEST(Surfel, RoughnessIsTheFactorTimesItsMap) {
 
 class NormalMapTest : public ::testing::Test {
  protected:
-  // A floor whose normal map leans towards growing u by 3/5 and growing v by 0; or along v.
+  // Returns a builder with the material of `mesh_`, a floor whose normal map is one texel in
+  // tangent space.
   SceneBuilder floorWith(const Rgb& tangentSpace, bool mirroredU = false) {
     SceneBuilder builder;
     Material m = test::diffuseMaterial(1);
@@ -178,14 +190,16 @@ class NormalMapTest : public ::testing::Test {
                     {encodeDataTexel(0.5f + 0.5f * tangentSpace.x, 0.5f + 0.5f * tangentSpace.y,
                                      0.5f + 0.5f * tangentSpace.z, 1)}));
     const auto material = builder.add(m);
+
     mesh_ = test::floorAt(0, 1, material);
     if (mirroredU) {
       for (Vec2f& uv : mesh_.uvs) uv.x = -uv.x;
     }
     return builder;
   }
+
   Mesh mesh_;
-  // 8 bits a channel: half a step of 2/255 each, before normalization.
+  // A channel of 8 bits is off by half a step of 2/255, before the normal is normalized.
   static constexpr double kCoding = 0.006;
 };
 
@@ -195,6 +209,7 @@ TEST_F(NormalMapTest, LeansAlongTextureAxes) {
   alongU.add(mesh_);
   expectVectorNear(surfelAlong(alongU.build(), {0.1, 1, 0.2}, {0, -1, 0}).shadingNormal,
                    {0.6, 0.8, 0}, kCoding);
+
   SceneBuilder alongV = floorWith({0, 0.6f, 0.8f});
   alongV.add(mesh_);
   expectVectorNear(surfelAlong(alongV.build(), {0.1, 1, 0.2}, {0, -1, 0}).shadingNormal,
@@ -206,6 +221,7 @@ TEST_F(NormalMapTest, MirroredTextureLeansTheOtherWay) {
   alongU.add(mesh_);
   expectVectorNear(surfelAlong(alongU.build(), {0.1, 1, 0.2}, {0, -1, 0}).shadingNormal,
                    {-0.6, 0.8, 0}, kCoding);
+
   SceneBuilder alongV = floorWith({0, 0.6f, 0.8f}, true);
   alongV.add(mesh_);
   expectVectorNear(surfelAlong(alongV.build(), {0.1, 1, 0.2}, {0, -1, 0}).shadingNormal,
@@ -227,57 +243,66 @@ TEST_F(NormalMapTest, CollapsedTextureSpaceChangesNothing) {
                    0);
 }
 
-// A mirrored instance looks like the mirrored surface: the lean along v stays what it was.
+// A mirrored instance looks like the mirrored surface: its tilt along v stays.
 TEST_F(NormalMapTest, MirroredInstance) {
   const Affine far = Affine::translation({0, 0, 50});
   SceneBuilder alongU = floorWith({0.6f, 0, 0.8f});
   alongU.place({"floor", {mesh_}}, {Affine::scaling({-1, 1, 1}), far});
   expectVectorNear(surfelAlong(alongU.build(), {0.1, 1, 0.2}, {0, -1, 0}).shadingNormal,
                    {-0.6, 0.8, 0}, kCoding);
+
   SceneBuilder alongV = floorWith({0, 0.6f, 0.8f});
   alongV.place({"floor", {mesh_}}, {Affine::scaling({-1, 1, 1}), far});
   expectVectorNear(surfelAlong(alongV.build(), {0.1, 1, 0.2}, {0, -1, 0}).shadingNormal,
                    {0, 0.8, -0.6}, kCoding);
 }
 
-// Hard case H11: an instance is its mesh, moved beforehand.
+// Hard case H11: an instance looks like its mesh moved beforehand.
 TEST(Surfel, InstancesMatchBakedGeometry) {
   const Affine map = Affine::translation({3, -2, 5}) * Affine::rotation({1, 2, 3}, 40) *
                      Affine::scaling({-1000, 0.5, 2});
   const Mesh mesh = withNormals(test::floorAt(0, 1, 0),
                                 {{0, 0.8f, 0.6f}, {0.6f, 0.8f, 0}, {0, 1, 0}, {-0.28f, 0.96f, 0}});
+
   SceneBuilder instanced, baked;
   instanced.place({"floor", {mesh}}, {map, Affine::translation({0, 1e6, 0})});
   baked.place({"floor", {mesh}}, {map});
   const Scene a = instanced.build(), b = baked.build();
+
   ASSERT_EQ(a.instances.size(), 2u);
   ASSERT_TRUE(b.instances.empty());
+
   const Vec3d target = map.point({0.3, 0, 0.4});
   for (const double side : {1.0, -1.0}) {
     const Vec3d eye = target + map.normal({0, 1, 0}) * (side * 1e-3) + Vec3d{0.1, 0.2, 0.3};
     const Surfel s = surfelAlong(a, eye, target - eye), t = surfelAlong(b, eye, target - eye);
+
     // The baked corners, 1000 from the origin, are rounded to float: to 3e-5, on edges 1 long.
     expectVectorNear(s.position, t.position, 1e-4);
     expectVectorNear(s.geometricNormal, t.geometricNormal, 1e-4);
     expectVectorNear(s.shadingNormal, t.shadingNormal, 1e-6);
     EXPECT_EQ(s.entering, t.entering);
     EXPECT_EQ(s.entering, side > 0);
-    // |M| times the magnitudes is at least what the moved corners show.
+
+    // |M| times the magnitudes is at least the magnitude of the moved corners.
     EXPECT_GE(s.offset, t.offset * (1 - 1e-6));
   }
 }
 
-// The mean of the model's unit normals, carried by the inverse transpose: of a mesh that is baked
-// into the world as of an instance.
+// Normals are interpolated in the model and then transformed by the inverse transpose, for baked
+// meshes as for instances.
 TEST(Surfel, NormalsAreInterpolatedAsModelled) {
   const Vec3d scale{1, 4, 0.25};
   const Affine map = Affine::rotation({1, 2, 3}, 40) * Affine::scaling(scale);
   const double s = std::sqrt(0.5);
+
+  // The normals of the corners differ, so that the order of the two steps matters.
   const Mesh mesh =
       withNormals(test::floorAt(0, 1, 0), {{static_cast<float>(-s), static_cast<float>(s), 0},
                                            {0, static_cast<float>(s), static_cast<float>(s)},
                                            {0, 1, 0},
                                            {0, 1, 0}});
+
   for (const bool baked : {true, false}) {
     SceneBuilder builder;
     std::vector<Affine> placements{map};
@@ -285,7 +310,9 @@ TEST(Surfel, NormalsAreInterpolatedAsModelled) {
     builder.place({"floor", {mesh}}, placements);
     const Scene scene = builder.build();
     ASSERT_EQ(scene.instances.empty(), baked);
-    // In the triangle of corners 0, 1 and 2, which lie at (-1, 0, 1), (1, 0, 1) and (1, 0, -1).
+
+    // The weights belong to the triangle of the corners 0, 1 and 2 at (-1, 0, 1), (1, 0, 1) and (1,
+    // 0, -1).
     constexpr double kWeights[][2] = {{0.25, 0.25}, {0.5, 0.1}, {0.05, 0.05}, {0.9, 0.05}};
     for (const auto& [u, v] : kWeights) {
       const double w = 1 - u - v;
@@ -293,7 +320,8 @@ TEST(Surfel, NormalsAreInterpolatedAsModelled) {
       const Vec3d wanted = normalized(map.normal(mean));
       const Vec3d at = map.point({-w + u + v, 0, w + u - v}), up = map.normal({0, 1, 0});
       const Surfel seen = surfelAlong(scene, at + up, -up);
-      // Baked corners are rounded to float, and the map stretches by 16.
+
+      // Baked corners are rounded to float, and the map stretches lengths by up to 16.
       expectVectorNear(seen.shadingNormal, wanted, 1e-5);
     }
   }
@@ -308,10 +336,12 @@ TEST(Surfel, TexturesMultiplyColors) {
   m.diffuseMap = m.specularMap = builder.add(dark);
   builder.add(test::floorAt(0, 1, builder.add(m)));
   const Scene scene = builder.build();
-  // u = 0.5: half way between black and yellow.
+
+  // u = 0.5 is halfway between black and yellow.
   const Surfel s = surfelAlong(scene, {0, 1, 0.5}, {0, -1, 0});
   expectVectorNear(s.diffuse, {0.25, 0.25, 0}, 1e-12);
   expectVectorNear(s.specular, {0.125, 0.125, 0}, 1e-12);
+
   const EffectSet plain = EffectSet::all().without(Effect::textures);
   expectVectorNear(surfelAlong(scene, {0, 1, 0.5}, {0, -1, 0}, plain).diffuse, RgbD(0.5), 0);
 }
@@ -324,12 +354,13 @@ TEST(Surfel, RoughnessIsSquaredAndBounded) {
   builder.add(test::floorAt(0, 1, builder.add(rough)));
   builder.add(test::floorAt(-1, 9, builder.add(smooth)));
   const Scene scene = builder.build();
+
   EXPECT_EQ(surfelAlong(scene, {0, 1, 0}, {0, -1, 0}).alpha, 0.25);
   EXPECT_DOUBLE_EQ(surfelAlong(scene, {5, 1, 0}, {0, -1, 0}).alpha,
                    double{kMinRoughness} * kMinRoughness);
 }
 
-// The mask runs linearly from 0 at u = 1/4 to 1 at u = 3/4 and is cut at 1/2.
+// The mask rises linearly from 0 at u = 1/4 to 1 at u = 3/4, and is cut at 1/2.
 TEST(AlphaMask, CutsWhereItFallsBelowTheCutoff) {
   SceneBuilder builder;
   Material m = test::diffuseMaterial(1);
@@ -338,32 +369,37 @@ TEST(AlphaMask, CutsWhereItFallsBelowTheCutoff) {
   builder.add(test::floorAt(0, 1, builder.add(m)));
   builder.add(test::floorAt(-1, 1, builder.add(test::diffuseMaterial(1))));
   const Scene scene = builder.build();
+
   const auto heightSeen = [&](double x, EffectSet effects) {
     return surfelAlong(scene, {x, 1, 0.3}, {0, -1, 0}, effects).position.y;
   };
   EXPECT_NEAR(heightSeen(-1e-9, EffectSet::all()), -1, 1e-12);
   EXPECT_NEAR(heightSeen(1e-9, EffectSet::all()), 0, 1e-12);
   EXPECT_NEAR(heightSeen(-1e-9, EffectSet::all().without(Effect::alphaMasks)), 0, 1e-12);
+
   const BruteForce bruteForce(scene);
   EXPECT_FALSE(bruteForce.occluded({{-1e-9, 1, 0.3}, {0, -1, 0}}, 1.5));
   EXPECT_TRUE(bruteForce.occluded({{1e-9, 1, 0.3}, {0, -1, 0}}, 1.5));
 }
 
-// Every column of the row is the surfel's; a ray that has met nothing has none.
+// The row has every column of the surfel. There is no row for a ray without a hit.
 TEST(FindIntersectionsReference, IsTheSurfelOfTheHit) {
   SceneBuilder builder;
   builder.add(test::floorAt(1, 2, builder.add(test::glassMaterial(1.5f))));
   const Scene scene = builder.build();
+
   test::SmallChunk small(scene, FeatureSet::all().without(Feature::instances));
   test::setRay(small.chunk.rays, 0, {0.5f, 3, 0.25f}, {0, -1, 0});
   small.chunk.hits.triangle[0] = kMiss;
   EXPECT_FALSE(findIntersections(small.world, small.chunk, 0));
+
   small.chunk.hits.triangle[0] = 1;
   small.chunk.hits.t[0] = 2;
   small.chunk.hits.u[0] = 0.25f;
   small.chunk.hits.v[0] = 0.5f;
   const auto row = findIntersections(small.world, small.chunk, 0);
   ASSERT_TRUE(row);
+
   const Surfel s = makeSurfel(scene, EffectSet::all(), {1}, {2, 0.25, 0.5}, Ray{});
   EXPECT_EQ(Vec3d(row->posX, row->posY, row->posZ), s.position);
   EXPECT_EQ(Vec3d(row->ngX, row->ngY, row->ngZ), Vec3d(0, 1, 0));

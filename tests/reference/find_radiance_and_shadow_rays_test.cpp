@@ -18,24 +18,26 @@ using test::radianceAlong;
 using test::SceneBuilder;
 using test::sun;
 
-// What the camera should see at pixel (x, y) of a w x h image, from 5 above a floor that spans
-// y = 0, looking down with -z up: the point on the floor.
+// Returns the point on the floor y = 0 at pixel (x, y) of a w x h image. The camera is 5 above the
+// floor and looks down with -z up.
 Vec3d pointOnFloor(double x, double y, int w, int h, double fovDegrees) {
   const double half = 5 * std::tan(fovDegrees * kPi / 360);
   return {(x + 0.5 - w / 2.0) / (h / 2.0) * half, 0, (y + 0.5 - h / 2.0) / (h / 2.0) * half};
 }
 
-// L = kd / pi * I cos / d^2 at every pixel center.
+// The radiance is L = kd / pi * I cos / d^2 at every pixel center.
 TEST(Lights, FallOffOverAFloor) {
   SceneBuilder builder;
   builder.add(test::floorAt(0, 100, builder.add(test::diffuseMaterial(0.5f))));
   builder.description.lights = {lightAt({0.5f, 2, -0.25f}, 30)};
   const Scene scene = builder.build();
+
   Camera camera;
   camera.eye = {0, 5, 0};
   camera.at = {0, 0, 0};
   camera.up = {0, 0, -1};
   camera.fov = 60;
+
   Image image(9, 7);
   const RayCounts counts = render(scene, BruteForce(scene), camera, test::uncut(), image);
   for (int y = 0; y < 7; ++y) {
@@ -43,16 +45,18 @@ TEST(Lights, FallOffOverAFloor) {
       const Vec3d toLight = Vec3d{0.5, 2, -0.25} - pointOnFloor(x, y, 9, 7, 60);
       const double d2 = dot(toLight, toLight), cosine = toLight.y / std::sqrt(d2);
       const double expected = 0.5 / kPi * 30 * cosine / d2;
-      // One rounding to float at the end.
+
+      // The sum is rounded to float once.
       EXPECT_NEAR(image.at(x, y).x, expected, 1e-7 * expected) << x << ", " << y;
     }
   }
+
   EXPECT_EQ(counts[RayKind::primary], 63u);
   EXPECT_EQ(counts[RayKind::shadow], 63u);
   EXPECT_EQ(counts[RayKind::reflection] + counts[RayKind::refraction], 0u);
 }
 
-// Hard case H65: near the light its radius bounds the radiance; at the light there is none.
+// Hard case H65: near a light its radius bounds the radiance; at the light the radiance is 0.
 TEST(Lights, NearTheSurfaceStayFinite) {
   for (const float height : {1e-2f, 1e-6f, 1e-30f, 0.0f}) {
     SceneBuilder builder;
@@ -60,6 +64,7 @@ TEST(Lights, NearTheSurfaceStayFinite) {
     Light light = lightAt({0.25f, height, 0.25f}, 1);
     light.radius = 0.1f;
     builder.description.lights = {light};
+
     Settings settings = test::uncut();
     settings.effects = EffectSet::all().without(Effect::shadows);
     const RgbD seen = radianceAlong(builder.build(), {0.25, 1, 0.25}, {0, -1, 0}, settings);
@@ -79,12 +84,13 @@ TEST(Lights, BehindTheSurfaceGiveNothing) {
   EXPECT_GT(radianceAlong(scene, {0, -1, 0}, {0, 1, 0}).x, 0) << "surfaces have two sides";
 }
 
-// Hard case H36: both normals must see the light.
+// Hard case H36: both normals must face the light.
 TEST(Lights, BehindEitherNormalGiveNothing) {
   Surfel s;
   s.diffuse = RgbD(1.0);
   s.view = s.geometricNormal = {0, 1, 0};
   s.shadingNormal = normalized(Vec3d{1, 1, 0});
+
   EXPECT_EQ(radianceFromLight(EffectSet::all(), s, lightAt({2, -1, 0}, 1)).radiance, RgbD());
   EXPECT_EQ(radianceFromLight(EffectSet::all(), s, lightAt({-2, 1, 0}, 1)).radiance, RgbD());
   EXPECT_GT(radianceFromLight(EffectSet::all(), s, lightAt({2, 1, 0}, 1)).radiance.x, 0);
@@ -100,7 +106,7 @@ Light spotAt(const Vec3f& position, float intensity, float inner, float outer) {
 
 double degrees(double x) { return x * kPi / 180; }
 
-// What a white floor 2 below the light shows at the point seen from the light at `angle`.
+// Looks at a white floor 2 below the light, at the point that the light sees at `angle`.
 class SpotLight : public ::testing::Test {
  protected:
   double seenAt(const Light& light, double angle, EffectSet effects = EffectSet::all(),
@@ -108,12 +114,14 @@ class SpotLight : public ::testing::Test {
     SceneBuilder builder;
     builder.add(test::floorAt(0, 100, builder.add(test::diffuseMaterial(1))));
     builder.description.lights = {light};
+
     Settings settings = test::uncut();
     settings.effects = effects;
     const double x = 2 * std::tan(degrees(angle));
     return radianceAlong(builder.build(), {x, 1, 0}, {0, -1, 0}, settings, counts).x;
   }
-  // I / pi cos / d^2 of a light that shines all around.
+
+  // Radiance I / pi cos / d^2 of a light that shines in all directions.
   static double allAround(double angle) {
     const double cosine = std::cos(degrees(angle)), d = 2 / cosine;
     return 8 / kPi * cosine / (d * d);
@@ -132,7 +140,7 @@ TEST_F(SpotLight, IsAPointLightInsideItsInnerConeAndDarkOutsideTheOuterOne) {
   }
 }
 
-// KHR_lights_punctual: the square of (cos - cosOuter) / (cosInner - cosOuter).
+// KHR_lights_punctual squares (cos - cosOuter) / (cosInner - cosOuter).
 TEST_F(SpotLight, FallsOffBetweenTheConesAsTheExtensionSays) {
   const Light light = spotAt({0, 2, 0}, 8, 20, 40);
   for (const double angle : {21.0, 30.0, 39.0}) {
@@ -149,15 +157,16 @@ TEST_F(SpotLight, WithoutTheEffectShinesAllAround) {
 
 TEST_F(SpotLight, ShinesAlongItsDirectionOfAnyLength) {
   Light light = spotAt({0, 2, 0}, 8, 1, 2);
-  // Towards the point at 30 degrees.
+
+  // The direction leads to the point at 30 degrees.
   light.direction = Vec3f(Vec3d{std::sin(degrees(30)), -std::cos(degrees(30)), 0} * 1e-20);
   EXPECT_NEAR(seenAt(light, 30), allAround(30), 1e-6);  // the direction is rounded to float
   EXPECT_EQ(seenAt(light, 27), 0);
   EXPECT_EQ(seenAt(light, 33), 0);
 }
 
-// Hard case H67: cosines within a few ulps of the edges, and cones so narrow that they have no
-// width.
+// Hard case H67: cosines are within a few ulps of the edges, and some cones are so narrow that they
+// have no width.
 TEST(SpotCone, H67_fallsOffMonotonicallyBetweenItsCones) {
   for (const auto& [inner, outer] : {std::pair(0.0f, 90.0f), std::pair(44.999f, 45.0f),
                                      std::pair(0.0f, 0.5f), std::pair(89.0f, 90.0f)}) {
@@ -172,12 +181,13 @@ TEST(SpotCone, H67_fallsOffMonotonicallyBetweenItsCones) {
         last = falloff;
       }
     }
+
     EXPECT_EQ(cone.falloff({0, -1, 0}), 0) << "behind";
     EXPECT_EQ(cone.falloff({0, 0, 0}), 0) << "nowhere";
   }
 }
 
-// E kd / pi cos, wherever the surface lies.
+// The radiance is E kd / pi cos, wherever the surface lies.
 TEST(DirectionalLight, IsTheSameEverywhere) {
   SceneBuilder builder;
   builder.add(test::floorAt(0, 1e4f, builder.add(test::diffuseMaterial(0.5f))));
@@ -186,12 +196,13 @@ TEST(DirectionalLight, IsTheSameEverywhere) {
   for (const double x : {0.0, -50.0, 9000.0}) {
     EXPECT_NEAR(radianceAlong(scene, {x, 1, 0}, {0, -1, 0}).x, 0.5 / kPi * 2 * 0.8, kRounding);
   }
+
   Settings settings = test::uncut();
   settings.effects = EffectSet::all().without(Effect::directionalLights);
   EXPECT_EQ(radianceAlong(scene, {0, 1, 0}, {0, -1, 0}, settings), RgbD());
 }
 
-// Hard case H67: at a right angle to the surface, and from behind it.
+// Hard case H67: light arrives along the surface, or from behind it.
 TEST(DirectionalLight, H67_givesNothingFromTheHorizonOrBelow) {
   SceneBuilder builder;
   builder.add(test::floorAt(0, 1, builder.add(test::diffuseMaterial(1))));
@@ -207,6 +218,7 @@ TEST(DirectionalLight, HasAHighlight) {
   s.geometricNormal = s.shadingNormal = {0, 1, 0};
   s.specular = RgbD(0.5);
   s.alpha = 0.25;
+
   const LightArrival mirrored = radianceFromLight(EffectSet::all(), s, sun({-1, -1, 0}, 3));
   const Vec3d l = normalized(Vec3d{1, 1, 0});
   EXPECT_NEAR(mirrored.radiance.x, glossyLobe(s, l).x * 3 * std::sqrt(0.5), kRounding);
@@ -214,25 +226,29 @@ TEST(DirectionalLight, HasAHighlight) {
   EXPECT_TRUE(std::isinf(mirrored.tFar));
 }
 
-// White, 2 below a light of 4 pi^2: 4 pi^2 / 4 / pi.
+// A white surface 2 below a light of intensity 4 pi has the radiance 4 pi / 4 / pi = 1.
 TEST(FindRadianceReference, LooksFromTheSurfelToTheLight) {
   const Scene scene = SceneBuilder().build();
   test::SmallChunk small(scene, FeatureSet::all().without(Feature::lift));
   const Light light = lightAt({0, 2, 0}, static_cast<float>(4 * kPi));
   small.chunk.light = &light;
+
   test::setRay(small.chunk.rays, 0, {0, 1, 0}, {0, -1, 0});
   small.chunk.surfels.ngY[0] = small.chunk.surfels.nsY[0] = 1;
   small.chunk.surfels.diffuseR[0] = 1;
   small.chunk.surfels.offset[0] = 0.0625f;
+
   const auto unshadowed = findRadiance(small.world, small.chunk, 0);
   const auto shadow = findShadowRay(small.world, small.chunk, 0);
   ASSERT_TRUE(unshadowed && shadow);
   EXPECT_NEAR(unshadowed->r, 1, 1e-7);
   EXPECT_EQ(unshadowed->g, 0);
   EXPECT_EQ(unshadowed->visible, 0) << "not yet known";
+
   EXPECT_GE(shadow->orgY, 0.0625);
   EXPECT_EQ(shadow->orgY + shadow->dirY, 2);
   EXPECT_TRUE(shadow->tFar > 0.9999 && shadow->tFar < 1);
+
   small.chunk.surfels.ngY[0] = -1;
   EXPECT_FALSE(findRadiance(small.world, small.chunk, 0));
 }

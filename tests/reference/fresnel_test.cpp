@@ -10,7 +10,7 @@
 namespace whit::reference {
 namespace {
 
-// The textbook form, in long double.
+// The formulas of textbooks, in long double.
 long double fresnelOracle(long double n1, long double n2, long double c) {
   const long double sinT = n1 / n2 * std::sqrt(1 - c * c);
   if (sinT >= 1) return 1;
@@ -24,10 +24,12 @@ double reflectance(double n1, double n2, double c) { return makeInterface(n1, n2
 
 TEST(Fresnel, Anchors) {
   EXPECT_NEAR(reflectance(1, 1.5, 1), 0.04, 1e-16);
-  // Brewster's angle, tan = 1.5: no parallel part.
+
+  // At Brewster's angle, tan = 1.5, the parallel part vanishes.
   EXPECT_NEAR(reflectance(1, 1.5, 1 / std::sqrt(1 + 1.5 * 1.5)),
               std::pow((1.5 * 1.5 - 1) / (1.5 * 1.5 + 1), 2) / 2, 1e-15);
-  // Grazing: 1 - F goes to 2 c (1 + n^2) / sqrt(n^2 - 1).
+
+  // Towards grazing incidence, 1 - F approaches 2 c (1 + n^2) / sqrt(n^2 - 1).
   EXPECT_NEAR(1 - reflectance(1, 1.5, 1e-4), 5.8118e-4, 1e-8);
 }
 
@@ -42,7 +44,7 @@ TEST(Fresnel, AgreesWithTheTextbookForm) {
   }
 }
 
-// The same reflectance from either side along the same path.
+// The reflectance is the same from either side along the same path.
 TEST(Fresnel, IsReciprocal) {
   test::Numbers numbers(4);
   for (int i = 0; i < 10000; ++i) {
@@ -53,7 +55,7 @@ TEST(Fresnel, IsReciprocal) {
   }
 }
 
-// Hard case H38
+// Hard case H38: equal indices neither reflect nor refract.
 TEST(Fresnel, EqualIndicesDoNothing) {
   const Vec3d n{0, 1, 0};
   for (const double c : {0.0, 1e-300, 1e-9, 1e-4, 0.5, 1.0}) {
@@ -64,39 +66,43 @@ TEST(Fresnel, EqualIndicesDoNothing) {
   }
 }
 
-// Hard case H39: nearly equal indices keep all digits, 1e-12 relative.
+// Hard case H39: nearly equal indices keep a relative accuracy of 1e-12.
 TEST(Fresnel, NearlyEqualIndices) {
   for (const double delta : {1e-4, 1e-5, 1e-7}) {
     for (const double c : {0.01, 0.3, 1.0}) {
       const double truth = static_cast<double>(fresnelOracle(1, 1.0L + delta, c));
-      // The oracle itself loses about delta's share of long double's 64 bits, squared.
+      // The oracle loses about delta's share of the 64 bits of a long double, squared.
       EXPECT_NEAR(reflectance(1, 1 + delta, c), truth, 1e-8 * truth) << delta << " at " << c;
     }
   }
 }
 
-// Hard case H37
+// Hard case H37: the reflectance is 1 from the critical angle on, exactly where g2 is at most 0.
 TEST(Fresnel, CriticalAngle) {
   const double critical = std::sqrt(1 - 1 / (1.5 * 1.5));
   EXPECT_NEAR(critical, 0.745355992500, 1e-12);
+
   for (int ulps = -2000; ulps <= 2000; ++ulps) {
     const double c = critical + ulps * 1.1102230246251565e-16;
     const Interface i = makeInterface(1.5, 1, c);
     const double g2 = (1 - 1.5) * (1 + 1.5) / (1.5 * 1.5) + c * c;
     EXPECT_EQ(i.reflectance == 1, g2 <= 0) << ulps;
     EXPECT_TRUE(i.reflectance >= 0 && i.reflectance <= 1) << ulps;
+
     if (g2 > 0) {
       const double s = std::sqrt(1 - c * c);
       const Vec3d bent = refract(i, {s, -c, 0}, {0, 1, 0}, c);
       EXPECT_NEAR(length(bent), 1, 1e-15);
-      // Along the surface within sqrt(g2): a few 1e-6 of a radian this close.
+      // This close to the critical angle, the refracted ray is along the surface within sqrt(g2), a
+      // few 1e-6.
       EXPECT_NEAR(bent.y, 0, 3e-6);
     }
   }
 }
 
 TEST(Fresnel, ExactlyCriticalIsTotal) {
-  // 3/5-4/5 triangle: n1 = 5, n2 = 3 gives k = -16/25 and, at c = 4/5, g2 = 0 but for rounding.
+  // The triangle of sides 3, 4 and 5: n1 = 5, n2 = 3 gives k = -16/25 and, at c = 4/5, g2 = 0 but
+  // for rounding.
   const Interface i = makeInterface(5, 3, std::sqrt(16.0 / 25));
   EXPECT_NEAR(i.reflectance, 1, 1e-7);
   EXPECT_EQ(makeInterface(1, 1.5, 0).reflectance, 1);
@@ -110,12 +116,14 @@ TEST(Refraction, ObeysSnell) {
     const Vec3d n = numbers.direction();
     Vec3d d = numbers.direction();
     if (dot(d, n) > 0) d = -d;
+
     const double c = -dot(d, n);
     const Interface interface = makeInterface(n1, n2, c);
     if (interface.reflectance == 1) {
       EXPECT_GE(n1 / n2 * std::sqrt(1 - c * c), 1 - 1e-12);
       continue;
     }
+
     const Vec3d t = refract(interface, d, n, c);
     EXPECT_NEAR(length(t), 1, 1e-14);
     EXPECT_LT(dot(t, n), 0);
@@ -133,7 +141,7 @@ TEST(Reflection, TurnsOverTheNormalPart) {
   }
 }
 
-// Hard case H52
+// Hard case H52: many reflections keep the length.
 TEST(Reflection, KeepsUnitLength) {
   test::Numbers numbers(7);
   Vec3d d = numbers.direction();
@@ -141,17 +149,20 @@ TEST(Reflection, KeepsUnitLength) {
   EXPECT_NEAR(length(d), 1, 4e-16);
 }
 
-// Schlick's polynomial at normal incidence, at an angle worked out by hand, and beyond the critical
-// one.
+// Values of Schlick's polynomial at normal incidence, at an angle worked out by hand, and beyond
+// the critical angle.
 TEST(Schlick, H40_knownValues) {
   const auto schlick = [](double n1, double n2, double c) {
     return makeInterface(n1, n2, c, FresnelModel::schlick).reflectance;
   };
+
   EXPECT_NEAR(schlick(1, 1.5, 1), 0.04, 1e-15);
   EXPECT_NEAR(schlick(1, 1.5, 0.5), 0.04 + 0.96 / 32, 1e-15);
-  // Out of the dense side at a cosine whose refracted ray has the cosine 1/2: the same value.
+  // The ray leaves the dense side at a cosine whose refracted ray has the cosine 1/2, which gives
+  // the same value.
   const double inside = std::sqrt(1 - 0.75 / 2.25);
   EXPECT_NEAR(schlick(1.5, 1, inside), 0.04 + 0.96 / 32, 1e-12);
+
   const double critical = std::sqrt(1 - 1 / 2.25);
   EXPECT_NEAR(schlick(1.5, 1, critical + 1e-9), 1, 1e-3);
   EXPECT_EQ(schlick(1.5, 1, critical - 1e-9), 1);
@@ -159,7 +170,7 @@ TEST(Schlick, H40_knownValues) {
   for (const double c : {0.0, 0.3, 1.0}) EXPECT_EQ(schlick(1.33, 1.33, c), 0);
 }
 
-// How far it is from Fresnel's equations: for glass at most 0.04, on either side.
+// Schlick's polynomial is off by at most 0.04 for glass, from either side.
 TEST(Schlick, StaysNearFresnel) {
   double worst = 0;
   for (int i = 1; i <= 1000; ++i) {
@@ -169,6 +180,7 @@ TEST(Schlick, StaysNearFresnel) {
       worst = std::max(worst, std::fabs(approximate - reflectance(n1, n2, c)));
     }
   }
+
   std::printf("Schlick against Fresnel at ior 1.5: largest difference %.4f (at most 0.04)\n",
               worst);
   EXPECT_LE(worst, 0.04);

@@ -14,13 +14,14 @@ using test::radianceAlong;
 using test::SceneBuilder;
 using test::steep;
 
-// Light that comes in at normal incidence: all of it comes back, save what is still inside at the
+// Light comes in at normal incidence. All of it comes back, except what is still inside at the
 // deepest impulse (hard case H43).
 TEST(Furnace, SlabLosesOnlyTheTail) {
   SceneBuilder builder;
   addSlab(builder, 0, -1, builder.add(glassMaterial(1.5f)));
   builder.sky(1);
   const Scene scene = builder.build();
+
   for (int inside = 1; inside <= 8; ++inside) {
     const double seen = radianceAlong(scene, {0, 2, 0}, {0, -1, 0}, test::uncut(inside + 1)).x;
     const double tail = std::pow(0.04, inside) * 0.96;
@@ -31,16 +32,17 @@ TEST(Furnace, SlabLosesOnlyTheTail) {
 TEST(Furnace, SplitsAsTheSeriesSays) {
   SceneBuilder builder;
   addSlab(builder, 0, -1, builder.add(glassMaterial(1.5f)));
+
   Sky& sky = builder.description.sky;
   sky.kind = Sky::Kind::gradient;  // white above, black below
   sky.zenith = sky.horizon = Rgb(1.0f);
   const Scene scene = builder.build();
   const double reflected = radianceAlong(scene, {0, 2, 0}, {0, -1, 0}, test::uncut(40)).x;
-  // The gradient starts at the horizon: straight down it is `ground`, black.
+  // The gradient starts at the horizon, so that the sky straight below is `ground`, black.
   EXPECT_NEAR(reflected, 2 * 0.04 / 1.04, 1e-12);
 }
 
-// A box of the material in a white room, turned; seen(radiance, i) from all around.
+// Calls seen(radiance, i) for rays from all around to a turned box of the material in a white room.
 template <typename Seen>
 void lookAtTurnedBox(const Material& material, const Seen& seen) {
   SceneBuilder builder;
@@ -49,6 +51,7 @@ void lookAtTurnedBox(const Material& material, const Seen& seen) {
                 {Affine::rotation({1, 2, 3}, 33)});
   builder.sky(1);
   const Scene scene = builder.build();
+
   test::Numbers numbers(13);
   for (int i = 0; i < 300; ++i) {
     const Vec3d eye = numbers.direction() * 5.0;
@@ -57,7 +60,7 @@ void lookAtTurnedBox(const Material& material, const Seen& seen) {
   }
 }
 
-// Any convex piece of glass in a white room is as bright as the room, from everywhere.
+// Any convex piece of glass in a white room is as bright as the room from everywhere.
 TEST(Furnace, BoxVanishes) {
   lookAtTurnedBox(glassMaterial(1.5f), [](const RgbD& seen, int i) {
     EXPECT_LE(seen.x, 1 + 1e-12) << i;
@@ -71,7 +74,8 @@ Material coatedGlass(float mirror, const Rgb& transmission) {
   m.transmission = transmission;
   return m;
 }
-// What is seen of a slab at normal incidence up to the `inside`-th reflection within.
+
+// Returns the radiance of a slab at normal incidence, up to the `inside`-th reflection within.
 RgbD seenOfSlab(const Material& material, int inside) {
   SceneBuilder builder;
   addSlab(builder, 0, -1, builder.add(material));
@@ -79,8 +83,8 @@ RgbD seenOfSlab(const Material& material, int inside) {
   return radianceAlong(builder.build(), {0, 2, 0}, {0, -1, 0}, test::uncut(inside + 1));
 }
 
-// A mirror coat takes its share from what the glass reflects and lets through: both faces reflect
-// R = m + (1 - m) F and let the rest through.
+// A mirror coat takes its share from the light that glass reflects and transmits. Both faces
+// reflect R = m + (1 - m) F and transmit the rest.
 TEST(Furnace, CoatedSlabLosesOnlyTheTail) {
   for (const float mirror : {0.05f, 0.2f, 0.5f, 1.0f}) {
     const double r = double{mirror} + (1 - double{mirror}) * 0.04;
@@ -91,14 +95,15 @@ TEST(Furnace, CoatedSlabLosesOnlyTheTail) {
   }
 }
 
-// R + T^2 (1 + R + R^2 + ...), where T = (1 - F) t. A transmission t of 0.9 leaves room for a
-// mirror of 0.05; one of 0.2 leaves 0.8 for it, in all channels alike.
+// The radiance is R + T^2 (1 + R + R^2 + ...), where T = (1 - F) t. A transmission t of 0.9 leaves
+// room for a mirror of 0.05. A mirror of 0.2 reduces it to 0.8, by the same factor in all channels.
 TEST(Furnace, CoatTakesWhatTintedGlassAbsorbsFirst) {
   const RgbD tint(Rgb{0.9f, 0.6f, 0.3f});
   for (const float mirror : {0.05f, 0.2f}) {
     const double r = double{mirror} + (1 - double{mirror}) * 0.04;
     const RgbD t = tint * (0.96 * (mirror < 0.1f ? 1 : (1 - double{mirror}) / tint.x));
     const RgbD wanted = RgbD(r) + t * t / (1 - r);
+
     const RgbD seen = seenOfSlab(coatedGlass(mirror, Rgb(tint)), 64);
     for (int i = 0; i < 3; ++i) {
       EXPECT_NEAR(seen[i], wanted[i], 1e-14) << mirror << " channel " << i;
@@ -107,7 +112,7 @@ TEST(Furnace, CoatTakesWhatTintedGlassAbsorbsFirst) {
   }
 }
 
-// From all sides and at all angles, a mirror that grows towards grazing incidence included.
+// Rays come from all sides and at all angles. The mirror grows towards grazing incidence.
 TEST(Furnace, CoatedBoxIsNoBrighterThanTheRoom) {
   Material coated = coatedGlass(0.2f, {1, 0.9f, 0.5f});
   coated.mirrorGrazing = Rgb(1.0f);
@@ -118,10 +123,10 @@ TEST(Furnace, CoatedBoxIsNoBrighterThanTheRoom) {
 }
 
 // At either face the path is cut short by offset = 32 u (|x| + |y| + |z|) of the interpolated
-// magnitudes, at most 4 + 1 + 4.
+// magnitudes, which are at most 4 + 1 + 4.
 constexpr double kOffsetsOfTwoFaces = 2 * 32 * 9 / 16777216.0;
 
-// Hard case H50: exp(-sigma * length of the path inside).
+// Hard case H50: the transmittance is exp(-sigma * length of the path inside).
 TEST(Absorption, DependsOnThePathInside) {
   SceneBuilder builder;
   Material tinted = glassMaterial(1);
@@ -129,19 +134,21 @@ TEST(Absorption, DependsOnThePathInside) {
   addSlab(builder, 0, -1, builder.add(tinted), 4);
   builder.sky(1);
   const Scene scene = builder.build();
+
   for (const double degrees : {0.0, 30.0, 60.0}) {
     const double path = 1 / std::cos(degrees * 3.14159265358979323846 / 180);
     const RgbD seen = radianceAlong(scene, {0, 1, 0}, steep(degrees));
     EXPECT_NEAR(seen.x, std::exp(-path), kOffsetsOfTwoFaces) << degrees;
     EXPECT_NEAR(seen.y, std::exp(-path / 2), kOffsetsOfTwoFaces) << degrees;
     EXPECT_EQ(seen.z, 1);
+
     Settings clear = test::uncut();
     clear.effects = EffectSet::all().without(Effect::absorption);
     EXPECT_EQ(radianceAlong(scene, {0, 1, 0}, steep(degrees), clear), RgbD(1.0));
   }
 }
 
-// An interface without a far side: absorbed is what is absorbed at all (hard case H49).
+// Behind an interface without a far side, any absorption absorbs everything (hard case H49).
 TEST(Absorption, OpenSurfaceLeadsToInfinity) {
   SceneBuilder builder;
   Material tinted = glassMaterial(1);
@@ -151,13 +158,14 @@ TEST(Absorption, OpenSurfaceLeadsToInfinity) {
   EXPECT_EQ(radianceAlong(builder.build(), {0, 1, 0}, {0, -1, 0}), RgbD(0, 1, 1));
 }
 
-// What is absorbed counts for the cutoff too.
+// The cutoff includes absorption.
 TEST(Absorption, ShortensPathsThroughTheCutoff) {
   SceneBuilder builder;
   Material dark = glassMaterial(1);
   dark.absorption = Rgb(10.0f);
   addSlab(builder, 0, -1, builder.add(dark));
   builder.sky(1);
+
   Settings settings = test::uncut();
   settings.options.cutoff = 1e-3f;
   RayCounts counts;

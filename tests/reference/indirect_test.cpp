@@ -1,5 +1,5 @@
-// Light from one diffuse surface to the next, against closed forms. What is sampled holds within
-// three standard errors, which are measured over independent paths.
+// Light from one diffuse surface to the next, against closed forms. Estimates are within three
+// standard errors, which are measured over independent paths.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -28,7 +28,7 @@ Settings indirect(int samples, int depth = 8) {
   return settings;
 }
 
-// What a ray sees that meets the surface there, on a path of that number.
+// Traces rays to surfaces, each on a path of its own number.
 class Looking {
  public:
   Looking(const Scene& scene, const Settings& settings)
@@ -38,7 +38,8 @@ class Looking {
     return tracer_.traceImpulse({origin, normalized(direction)}, 0, 1.0, 0, counts,
                                 {mixed(path), 0});
   }
-  // Onto the point of a surface from `height` along its normal.
+
+  // Looks at the point of a surface from `height` along its normal.
   double onto(const Vec3d& point, const Vec3d& normal, double height, std::uint32_t path) {
     return along(point + normal * height, -normal, path).x;
   }
@@ -50,7 +51,8 @@ class Looking {
   Tracer tracer_;
 };
 
-// Pearson's test over cells of equal probability: the square of the sine and the turn are even.
+// Pearson's test over cells of equal probability: the square of the sine and the azimuth are
+// uniformly distributed.
 TEST(CosineDirections, AreDistributedByTheCosine) {
   constexpr int kRows = 12, kColumns = 16, kDraws = 200000;
   test::Numbers numbers(3);
@@ -58,21 +60,25 @@ TEST(CosineDirections, AreDistributedByTheCosine) {
                          normalized(Vec3d(1, 2, -3)), normalized(Vec3d(-0.56, 0.8, 0.1))}) {
     const Vec3d across = normalized(cross(n, normalized(Vec3d(0.3, -0.8, 0.5)))),
                 along = cross(n, across);
+
     std::array<double, kRows * kColumns> seen{};
     for (int i = 0; i < kDraws; ++i) {
       const Vec3d d = cosineDirection(n, drawnPoint(numbers));
       EXPECT_NEAR(length(d), 1, 1e-12);
       ASSERT_GT(dot(d, n), 0);
+
       const double c = dot(d, n), turn = std::atan2(dot(d, along), dot(d, across)) / (2 * kPi);
       const int row = std::min(static_cast<int>((1 - c * c) * kRows), kRows - 1);
       const int column = std::min(static_cast<int>((turn + 0.5) * kColumns), kColumns - 1);
       ++seen[static_cast<std::size_t>(row * kColumns + column)];
     }
+
     const double expected = static_cast<double>(kDraws) / (kRows * kColumns);
     double chiSquared = 0;
     for (const double count : seen)
       chiSquared += (count - expected) * (count - expected) / expected;
-    // Five standard deviations of the statistic above its mean.
+
+    // The bound is five standard deviations of the statistic above its mean.
     const double freedom = kRows * kColumns - 1;
     EXPECT_LT(chiSquared, freedom + 5 * std::sqrt(2 * freedom));
   }
@@ -93,6 +99,7 @@ TEST(IndirectRays, WeighTheAlbedoAndStayAboveTheSurface) {
     s.view = normalized(Vec3d(numbers.in(-1, 1), numbers.in(-1, 1), 1));
     s.diffuse = {0.2, 0.5, 0.8};
     s.coverage = 0.5;
+
     const Impulse ray = indirectImpulse(s, 7, drawnPoint(numbers));
     EXPECT_EQ(ray.weight, s.diffuse * 0.5);
     EXPECT_EQ(ray.media, 7u);
@@ -101,8 +108,8 @@ TEST(IndirectRays, WeighTheAlbedoAndStayAboveTheSurface) {
   }
 }
 
-// In a closed room of one emission and albedo every path is worth the same, to the last term of the
-// geometric series that the depth leaves.
+// In a closed room of one emission and albedo all paths have the same radiance: the geometric
+// series up to the depth.
 TEST(IndirectFurnace, IsTheGeometricSeries) {
   for (const float albedo : {0.5f, 0.9f}) {
     Material wall = test::diffuseMaterial(albedo);
@@ -113,6 +120,7 @@ TEST(IndirectFurnace, IsTheGeometricSeries) {
     ball.materials = {builder.add(wall)};
     builder.add(std::move(ball));
     const Scene scene = builder.build();
+
     const double rho = double{albedo};
     for (const int depth : {0, 1, 5, 64}) {
       Looking looking(scene, indirect(3, depth));
@@ -125,7 +133,7 @@ TEST(IndirectFurnace, IsTheGeometricSeries) {
   }
 }
 
-// The series to its end, though a path has hardly a dozen rays.
+// Russian roulette sums the whole series, although a path has only about a dozen rays.
 TEST(IndirectFurnace, IsTheGeometricSeriesUnderRouletteToo) {
   for (const float albedo : {0.5f, 0.9f}) {
     Material wall = test::diffuseMaterial(albedo);
@@ -133,17 +141,20 @@ TEST(IndirectFurnace, IsTheGeometricSeriesUnderRouletteToo) {
     SceneBuilder builder;
     builder.add(test::box({-1, -1, -1}, {1, 1, 1}, builder.add(wall)));
     const Scene scene = builder.build();
+
     const double rho = double{albedo};
     for (const float roulette : {0.1f, 0.5f, 1.0f}) {
       Settings settings = indirect(1, kDepthLimit);
       settings.options.roulette = roulette;
-      settings.options.cutoff = 0.3f;  // roulette is in its place
+      settings.options.cutoff = 0.3f;  // ignored, since roulette replaces the cutoff
+
       Looking looking(scene, settings);
       SampleMean mean;
       for (std::uint32_t path = 0; path < 4000; ++path) {
         mean.add(looking.along({0.2, -0.1, 0.3}, {1, 2, -1}, path).x);
       }
-      // What lies beyond the deepest impulse.
+
+      // The paths end at the deepest impulse.
       const double tail = std::pow(rho, kDepthLimit + 1);
       EXPECT_NEAR(mean.value(), (1 - tail) / (1 - rho), 3 * mean.error()) << albedo;
       EXPECT_GT(mean.error(), 0);
@@ -162,9 +173,8 @@ Scene ballInWhiteRoom(const Material& material) {
   return builder.build();
 }
 
-// Mirror, transmission and diffuse color of a surface share what light it gets: in a room of
-// radiance 1 no path brings back more than 1, inside the ball included, where what is not shared
-// would grow at every bounce.
+// Mirror, transmission and diffuse color share the light of a surface. In a room of radiance 1 no
+// path returns more than 1, not even inside the ball, where an excess would grow at every bounce.
 TEST(IndirectFurnace, MixturesOfAllKindsMakeNoLight) {
   test::Numbers numbers(17);
   const auto color = [&] {
@@ -172,6 +182,7 @@ TEST(IndirectFurnace, MixturesOfAllKindsMakeNoLight) {
                    ? Vec3d(1.0)
                    : Vec3d{numbers.in(0, 1), numbers.in(0, 1), numbers.in(0, 1)});
   };
+
   double largest = 0;
   for (int i = 0; i < 500; ++i) {
     Material m;
@@ -181,10 +192,12 @@ TEST(IndirectFurnace, MixturesOfAllKindsMakeNoLight) {
     if (numbers.in(0, 1) < 0.7) m.transmission = color();
     m.ior = static_cast<float>(numbers.in(0.6, 2.5));
     m.thin = numbers.in(0, 1) < 0.2;
+
     Settings settings = indirect(1, 12);
     settings.options.cutoff = 1e-3f;
     const Scene scene = ballInWhiteRoom(m);
     Looking looking(scene, settings);
+
     for (std::uint32_t path = 0; path < 8; ++path) {
       const Vec3d eye = numbers.direction() * 4.0;
       const Vec3d to = numbers.direction() * numbers.in(0, 1);
@@ -196,8 +209,8 @@ TEST(IndirectFurnace, MixturesOfAllKindsMakeNoLight) {
   std::printf("500 mixtures: at most %.12f\n", largest);
 }
 
-// Opaque and thin surfaces that absorb nothing send back all of the light. Within a solid the
-// diffuse color also scatters light to where it is reflected totally for ever.
+// Opaque and thin surfaces that absorb nothing return all of the light. (Within a solid, the
+// diffuse color also scatters light into directions that are reflected totally for ever.)
 TEST(IndirectFurnace, MixturesThatAbsorbNothingKeepAllLight) {
   for (const float transmission : {0.0f, 0.1f, 0.5f, 0.9f, 1.0f}) {
     for (const float mirror : {0.0f, 0.3f, 1.0f}) {
@@ -206,11 +219,13 @@ TEST(IndirectFurnace, MixturesThatAbsorbNothingKeepAllLight) {
       m.transmission = Rgb(transmission);
       m.thin = true;
       m.mirror = m.mirrorGrazing = Rgb(mirror);
+
       SceneBuilder builder;
       builder.add(test::floorAt(0, 2, builder.add(m)));
       builder.sky(1);
       const Scene scene = builder.build();
       Looking looking(scene, indirect(1));
+
       for (std::uint32_t path = 0; path < 4; ++path) {
         const double seen = looking.along({3, 0.8, 0.2}, {-3, -0.8, 0.1}, path).x;
         EXPECT_NEAR(seen, 1, 1e-6) << transmission << ' ' << mirror;
@@ -231,37 +246,43 @@ TEST(IndirectScenes, AFloorUnderAUniformSkyShowsItsAlbedo) {
   EXPECT_EQ(looking.counts[RayKind::indirect], 3u * 16);
 }
 
-// Half of the sky is hidden by a wall that does not end: seen from its foot.
+// Seen from its foot, a wall without end hides half of the sky.
 TEST(IndirectScenes, AWallHidesHalfOfTheSky) {
   SceneBuilder builder;
   builder.add(test::floorAt(0, 1000, builder.add(test::diffuseMaterial(1))));
   builder.add(test::quad({0, 0, -1000}, {0, 0, 1000}, {0, 2000, 1000}, {0, 2000, -1000},
                          builder.add(test::blackMaterial())));
+
   builder.sky(1);
   const Scene scene = builder.build();
   Looking looking(scene, indirect(64));
+
   SampleMean mean;
   for (std::uint32_t path = 0; path < 400; ++path) {
     mean.add(looking.onto({1e-3, 0, 0}, {0, 1, 0}, 1e-4, path));
   }
+
   EXPECT_NEAR(mean.value(), 0.5, 3 * mean.error());
   EXPECT_LT(mean.error(), 0.005);
 }
 
-// A disc of triangles, round to 4e-4 of its area; outside up.
+// Makes a disc of triangles, with an error of 4e-4 in its area; its front faces up or down.
 Mesh disc(double y, double radius, bool up, std::uint32_t material) {
   constexpr int kSegments = 128;
   Mesh mesh;
   mesh.positions.push_back(Vec3f(Vec3d(0, y, 0)));
+
   for (int i = 0; i < kSegments; ++i) {
     const double angle = 2 * kPi * i / kSegments;
     mesh.positions.push_back(Vec3f(Vec3d(radius * std::cos(angle), y, radius * std::sin(angle))));
   }
+
   for (std::uint32_t i = 0; i < kSegments; ++i) {
     const std::uint32_t a = 1 + i, b = 1 + (i + 1) % kSegments;
     mesh.triangles.push_back(up ? std::array<std::uint32_t, 3>{0, b, a}
                                 : std::array<std::uint32_t, 3>{0, a, b});
   }
+
   mesh.materials = {material};
   return mesh;
 }
@@ -279,6 +300,7 @@ TEST(FormFactors, OfTwoFacingDiscs) {
     builder.add(disc(0, r1, true, builder.add(test::diffuseMaterial(1))));
     builder.add(disc(distance, r2, false, builder.add(test::emittingMaterial(1))));
     const Scene scene = builder.build();
+
     Looking looking(scene, indirect(64, 1));
     test::Numbers numbers(5);
     SampleMean mean;
@@ -286,19 +308,23 @@ TEST(FormFactors, OfTwoFacingDiscs) {
       const double r = 0.999 * r1 * std::sqrt(numbers.in(0, 1)), turn = numbers.in(0, 2 * kPi);
       mean.add(looking.onto({r * std::cos(turn), 0, r * std::sin(turn)}, {0, 1, 0}, 1e-3, path));
     }
-    // 1e-3: the discs' rims are polygons, and the rim of the first is not looked at.
+
+    // The discs are polygons, and the border of the first is not looked at: both change the factor
+    // by 1e-3.
     const double wanted = factorOfDiscs(r1, r2, distance);
     EXPECT_NEAR(mean.value(), wanted, 3 * mean.error() + 1e-3 * wanted) << r1 << ' ' << r2;
     EXPECT_LT(mean.error(), 0.05 * wanted);
   }
 }
 
-// Howell, C-14: rectangles of height `tall` and depth `deep` that share an edge of length `wide`.
+// Howell, C-14: the factor of rectangles of height `tall` and depth `deep` that share an edge of
+// length `wide`.
 double factorOfPlates(double wide, double deep, double tall) {
   const double h = tall / wide, w = deep / wide, h2 = h * h, w2 = w * w, both = h2 + w2;
   const double logs = (1 + w2) * (1 + h2) / (1 + both) *
                       std::pow(w2 * (1 + both) / ((1 + w2) * both), w2) *
                       std::pow(h2 * (1 + both) / ((1 + h2) * both), h2);
+
   return (w * std::atan(1 / w) + h * std::atan(1 / h) -
           std::sqrt(both) * std::atan(1 / std::sqrt(both)) + 0.25 * std::log(logs)) /
          (kPi * w);
@@ -309,29 +335,32 @@ TEST(FormFactors, OfPerpendicularPlates) {
        {std::array{1.0, 1.0, 1.0}, std::array{2.0, 1.0, 0.5}, std::array{1.0, 0.4, 3.0}}) {
     const auto w = static_cast<float>(wide), d = static_cast<float>(deep),
                t = static_cast<float>(tall);
+
     SceneBuilder builder;
     builder.add(test::quad({0, 0, w}, {d, 0, w}, {d, 0, 0}, {0, 0, 0},
                            builder.add(test::diffuseMaterial(1))));
     builder.add(test::quad({0, 0, 0}, {0, t, 0}, {0, t, w}, {0, 0, w},
                            builder.add(test::emittingMaterial(1))));
     const Scene scene = builder.build();
+
     Looking looking(scene, indirect(16, 1));
     test::Numbers numbers(6);
     SampleMean mean;
     for (std::uint32_t path = 0; path < 2000; ++path) {
       const Vec3d at{numbers.in(0, deep), 0, numbers.in(0, wide)};
-      // Next to the edge, not through the other plate.
+      // The eye is just above the plate, so that the other plate does not hide it.
       mean.add(looking.onto(at, {0, 1, 0}, 1e-4 * tall, path));
     }
+
     EXPECT_NEAR(mean.value(), factorOfPlates(wide, deep, tall), 3 * mean.error())
         << wide << ' ' << deep << ' ' << tall;
     EXPECT_LT(mean.error(), 0.02);
   }
 }
 
-// A ray from the axis, `height` below the center of a ball of glass of radius 1, through it: where
-// it crosses the plane `away` above the center, and what share of the light passes both faces. By
-// the plane geometry of rays through a sphere.
+// Follows a ray from the axis, `height` below the center of a glass ball of radius 1, through the
+// ball. Returns where the ray crosses the plane `away` above the center, and the share of light
+// that passes both faces, by the plane geometry of rays through a sphere.
 struct ThroughBall {
   double radius = 0, share = 0;
 };
@@ -340,8 +369,9 @@ ThroughBall throughBall(double height, double sine, double ior, double away) {
   const double ci = std::cos(incident), ct = std::cos(bent);
   const double s = (ci - ior * ct) / (ci + ior * ct), p = (ior * ci - ct) / (ior * ci + ct);
   const double passes = 1 - (s * s + p * p) / 2;
-  // The ray is turned by (incident - bent) at each face; the exit lies at the angle of the entry
-  // and the chord, seen from the center.
+
+  // Each face turns the ray by (incident - bent). The exit lies at the angle of the entry and the
+  // chord, seen from the center.
   const double theta = std::asin(sine), entry = kPi - incident;  // at the center, from the eye
   const double atCenter = kPi - theta - entry;                   // between axis down and entry
   const double exit = atCenter + (kPi - 2 * bent), leaves = theta - 2 * (incident - bent);
@@ -349,8 +379,9 @@ ThroughBall throughBall(double height, double sine, double ior, double away) {
   return {x + (away - y) * std::tan(leaves), passes * passes};
 }
 
-// A lamp above a ball of glass, and a small plate on the axis below it, in the ball's shadow.
+// A lamp above a glass ball, and a small plate on the axis below, in the shadow of the ball.
 constexpr double kLampRadius = 0.3, kLampHeight = 4;
+
 Scene lampAndBall(double height) {
   SceneBuilder builder;
   Mesh ball;
@@ -363,8 +394,8 @@ Scene lampAndBall(double height) {
   return builder.build();
 }
 
-// What arrives in the middle of the plate, over pi: by the square of the sine, up to the ball's
-// rim.
+// Integrates the radiance in the middle of the plate over the square of the sine, up to the
+// silhouette of the ball.
 double throughBallFrom(double height) {
   constexpr int kSteps = 200000;
   double sum = 0;
@@ -382,12 +413,15 @@ TEST(Caustics, OfABallLensHaveTheEnergyThatPasses) {
     const double wanted = throughBallFrom(height), away = kLampHeight + height;
     const double squared = kLampRadius * kLampRadius;
     EXPECT_GT(wanted, 3 * squared / (squared + away * away)) << "brighter than without the ball";
-    // Down to the plate, up into the ball and out of it: what is reflected inside comes later.
+
+    // The path goes down to the plate, up into the ball and out of it. Light that is reflected
+    // inside needs more depth.
     Looking looking(scene, indirect(64, 3));
     SampleMean mean;
     for (std::uint32_t path = 0; path < 1500; ++path) {
       mean.add(looking.onto({0, -height, 0}, {0, 1, 0}, 1e-3, path));
     }
+
     EXPECT_NEAR(mean.value(), wanted, 3 * mean.error()) << height;
     EXPECT_LT(mean.error(), 0.03 * wanted) << height;
   }
@@ -401,10 +435,12 @@ TEST(IndirectScenes, AmbientLightGoesWhereTheSceneIsReflected) {
   builder.add(test::floorAt(1, 0.5f, builder.add(kept)));
   builder.description.ambient = {Rgb(1), Rgb(1)};
   const Scene scene = builder.build();
+
   const auto seen = [&](int samples, double x) {
     Looking looking(scene, indirect(samples));
     return looking.along({x, 2, 0}, {0, -1, 0}, 1).x;
   };
+
   EXPECT_NEAR(seen(0, 5), 0.5, 1e-12);
   EXPECT_EQ(seen(4, 5), 0);
   EXPECT_NEAR(seen(4, 0.1), 0.5, 1e-12) << "a surface that does not reflect the scene keeps it";
@@ -422,7 +458,8 @@ TEST(IndirectScenes, OnlyTheFirstSurfaceSendsOutSeveralRays) {
   }
 }
 
-// Point lights are met by shadow rays alone, and counted once: a floor's light on a ceiling.
+// Point lights are found by shadow rays alone and count once: the ceiling shows the light that the
+// floor reflects.
 TEST(IndirectScenes, LightOfALampComesFromWhatItShinesOn) {
   SceneBuilder builder;
   builder.add(test::floorAt(0, 1000, builder.add(test::diffuseMaterial(0.5f))));
@@ -430,11 +467,13 @@ TEST(IndirectScenes, LightOfALampComesFromWhatItShinesOn) {
   builder.description.lights = {test::sun({0, -1, 0}, static_cast<float>(kPi))};
   builder.description.materials[1].castsShadow = false;
   const Scene scene = builder.build();
-  // The floor is lit by pi: its radiance is its albedo. The ceiling sees nothing but the floor, and
-  // the floor nothing but the ceiling.
+
+  // The floor is lit by pi, so that its radiance is its albedo. The ceiling sees nothing but the
+  // floor, and the floor nothing but the ceiling.
   for (const int depth : {1, 2, 3, 4}) {
     Looking looking(scene, indirect(4, depth));
     const double seen = looking.along({0, 1, 0}, {0.1, 1, 0}, 1).x;
+
     double wanted = 0, factor = 1;
     for (int bounce = 1; bounce <= depth; ++bounce) {
       if (bounce % 2 == 1) wanted += 0.5 * factor;
@@ -444,19 +483,23 @@ TEST(IndirectScenes, LightOfALampComesFromWhatItShinesOn) {
   }
 }
 
-// An impulse below the roulette's share is traced as often as it is worth, and then counts for it.
+// An impulse below the threshold of roulette is traced with the probability of its contribution,
+// and then weighs as much more.
 TEST(Roulette, KeepsTheMeanAndTracesLess) {
   RenderOptions options;
   options.roulette = 0.4f;
   options.cutoff = 1;
+
   for (const double contribution : {0.001, 0.1, 0.39, 0.4, 0.9}) {
     double kept = 0, traced = 0;
     constexpr std::uint32_t kPaths = 200000;
+
     for (std::uint32_t path = 0; path < kPaths; ++path) {
       if (!survives(options, contribution, childStream(mixed(path), 3))) continue;
       ++traced;
       kept += growthOfSurvivors(options, contribution);
     }
+
     const double p = std::min(1.0, contribution / double{options.roulette});
     EXPECT_NEAR(kept / kPaths, 1, 3 * std::sqrt((1 - p) / (p * kPaths)) + 1e-12) << contribution;
     EXPECT_NEAR(traced / kPaths, p, 3 * std::sqrt(p * (1 - p) / kPaths) + 1e-12);
@@ -470,6 +513,7 @@ TEST(Roulette, OffLeavesItToTheCutoff) {
   EXPECT_FALSE(survives(options, 0.005, 1));
   EXPECT_FALSE(survives(options, std::nan(""), 1));
   EXPECT_EQ(growthOfSurvivors(options, 0.02), 1);
+
   options.roulette = 0.1f;
   EXPECT_FALSE(survives(options, std::nan(""), 1));
 }

@@ -12,7 +12,7 @@
 namespace whit::reference {
 namespace {
 
-// Media 1 to 4 with these priorities, and the vacuum.
+// Returns a scene with the vacuum, and media 1 and so on with these priorities.
 Scene sceneWithPriorities(const std::vector<int>& priorities) {
   Scene scene;
   scene.media.resize(1);
@@ -42,8 +42,8 @@ TEST(MediaStack, HighestPriorityCounts) {
   EXPECT_EQ(currentMedium(scene, 0x03020401), 2u);
 }
 
-// Four balls that overlap anyhow; along any line the stack holds just the balls around each
-// stretch.
+// Four balls overlap at random. Between two surfaces along any line, the stack holds exactly the
+// balls around that stretch.
 TEST(MediaStack, KnowsWhatSurroundsEveryStretch) {
   struct Ball {
     Vec3d center;
@@ -57,11 +57,14 @@ TEST(MediaStack, KnowsWhatSurroundsEveryStretch) {
       balls.push_back({numbers.direction() * numbers.in(0, 1), numbers.in(0.3, 2)});
     }
     const Vec3d d = numbers.direction(), origin = numbers.direction() * 0.5 - d * 10.0;
+
     struct Event {
       double t;
       std::uint32_t ball;
       bool entering;
     };
+
+    // Intersections of the line with the balls, in their order.
     std::vector<Event> events;
     for (std::uint32_t i = 0; i < 4; ++i) {
       const Vec3d o = origin - balls[i].center;
@@ -71,21 +74,25 @@ TEST(MediaStack, KnowsWhatSurroundsEveryStretch) {
       events.push_back({-b + std::sqrt(square), i, false});
     }
     std::sort(events.begin(), events.end(), [](auto& a, auto& b) { return a.t < b.t; });
+
     MediaStack stack = 0;
     for (std::size_t e = 0; e < events.size(); ++e) {
       const std::uint32_t medium = events[e].ball + 1;
       stack = events[e].entering ? pushMedium(stack, medium) : removeMedium(stack, medium);
       const double next = e + 1 < events.size() ? events[e + 1].t : events[e].t + 1;
       const Vec3d middle = origin + d * (0.5 * (events[e].t + next));
+
       int around = 0, highest = 0;
       for (std::uint32_t i = 0; i < 4; ++i) {
         if (length(middle - balls[i].center) >= balls[i].radius) continue;
         ++around;
         highest = std::max(highest, scene.media[i + 1].priority);
       }
+
       ASSERT_EQ((std::bit_width(stack) + 7) / 8, around);
       ASSERT_EQ(scene.media[currentMedium(scene, stack)].priority, highest);
     }
+
     ASSERT_EQ(stack, 0u);
   }
 }
@@ -97,16 +104,20 @@ TEST(Crossing, OfSurfacesThatBoundNoMedium) {
   builder.add(test::floorAt(0, 1, opaque));
   builder.add(test::floorAt(1, 1, glass));
   const Scene scene = builder.build();
+
   const Crossing plain = crossMedia(scene, EffectSet::all(), opaque, true, 0x1);
   EXPECT_FALSE(plain.dielectric || plain.hidden);
+
   const Crossing in = crossMedia(scene, EffectSet::all(), glass, true, 0);
   EXPECT_TRUE(in.dielectric && !in.hidden);
   EXPECT_EQ(in.n1, 1);
   EXPECT_EQ(in.n2, 1.5);
+
   const Crossing out = crossMedia(scene, EffectSet::all(), glass, false, in.stackBehind);
   EXPECT_EQ(out.n1, 1.5);
   EXPECT_EQ(out.n2, 1);
   EXPECT_EQ(out.stackBehind, 0u);
+
   EXPECT_TRUE(crossMedia(scene, EffectSet::all(), glass, false, 0).hidden)
       << "leaving what was never entered";
   EXPECT_FALSE(
@@ -117,6 +128,7 @@ TEST(Absorption, FollowsBeer) {
   Scene scene = sceneWithPriorities({0});
   const float infinite = std::numeric_limits<float>::infinity();
   scene.media[1].absorption = {0.5f, 0, infinite};
+
   const RgbD near = transmittance(scene, 1, 2);
   EXPECT_DOUBLE_EQ(near.x, std::exp(-1.0));
   EXPECT_EQ(near.y, 1);

@@ -1,4 +1,4 @@
-// Maps of occlusion: the share of indirect light that is left, and of no other light.
+// Occlusion maps: they scale indirect light, and no other light.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kShare = 0.2;  // 51 / 255
 
-// The square [0, 1]^2 of the floor y = 0, with a map of 1 beside 0.2 along x.
+// Returns the square [0, 1]^2 of the floor y = 0, whose map has 1 on the left and 0.2 on the right
+// along x.
 Scene mappedFloor(const Material& of, const std::function<void(SceneDescription&)>& lit,
                   bool bySecondUvs = false) {
   test::SceneBuilder builder;
@@ -20,9 +21,11 @@ Scene mappedFloor(const Material& of, const std::function<void(SceneDescription&
       TexelFormat::data, 2, 1,
       {encodeDataTexel(1, 0, 0, 1), encodeDataTexel(static_cast<float>(kShare), 1, 1, 1)}));
   m.occlusionBySecondUvs = bySecondUvs;
+
   Mesh mesh = test::quad({0, 0, 0}, {1, 0, 0}, {1, 0, -1}, {0, 0, -1}, builder.add(m));
   mesh.secondUvs = {{1, 0}, {0, 0}, {0, 1}, {1, 1}};  // u runs along -x
   builder.add(mesh);
+
   lit(builder.description);
   return builder.build();
 }
@@ -59,15 +62,17 @@ TEST(OcclusionMaps, DimTheBlurredSky) {
   EXPECT_NEAR(pictureAt(scene, 0.75), kShare * open, kRounding * open);
 }
 
-// Under an even sky each ray of a lobe brings the same light, but for those that end in the floor.
+// Under an even sky each ray of a lobe that does not end in the floor brings the same light.
 TEST(OcclusionMaps, DimTheSamplesOfLobes) {
   const Scene rough = mappedFloor(glossy(), lightSky);
   const Scene matt = mappedFloor(test::diffuseMaterial(0.5f), lightSky);
   Settings settings = test::uncut();
   settings.options.glossy = settings.options.indirect = 16;
+
   const double open = pictureAt(rough, 0.25, settings);
   EXPECT_GT(open, 0.5);
   EXPECT_NEAR(pictureAt(rough, 0.75, settings), kShare * open, kRounding * open);
+
   EXPECT_NEAR(pictureAt(matt, 0.25, settings), 1, kRounding);
   EXPECT_NEAR(pictureAt(matt, 0.75, settings), kShare, kRounding);
 }
@@ -78,6 +83,7 @@ TEST(OcclusionMaps, LeaveLightsEmissionAndMirrorsAlone) {
   m.glossyReflection = false;
   m.mirror = m.mirrorGrazing = Rgb(0.25f);
   m.emission = Rgb(3.0f);
+
   const Scene scene = mappedFloor(m, [](SceneDescription& d) {
     d.lights = {test::sun({0, -1, 0}, 2)};
     lightSky(d);

@@ -22,27 +22,30 @@ Camera askew() {
   return camera;
 }
 
-// A direction in OpenCV's axes: x to the right, y down, z forward.
+// Converts a direction to OpenCV's axes: x to the right, y down, z forward.
 Vec3d inCamera(const CameraFrame& frame, const Vec3d& direction) {
   const Vec3d right = normalized(cross(frame.forward, Vec3d(askew().up)));
   return {dot(direction, right), -dot(direction, cross(right, frame.forward)),
           dot(direction, frame.forward)};
 }
 
-// Checks that imaging each pixel's direction leads back to it, as far as a hundredth of a pixel
-// counts for `worst`. Returns how many pixels see nothing.
+// Checks that the formula leads each pixel's direction back to the pixel, with an error of at most
+// `worst` pixels. Returns how many of the tested pixels see nothing.
 int expectImaged(const Camera& camera, double worst,
                  const std::function<Vec2f(const Vec3d&)>& imageOf) {
   const CameraFrame frame = makeCameraFrame(camera, kWide, kTall);
   int blind = 0;
+
   for (int y = 0; y < kTall; y += 3) {
     for (int x = 0; x < kWide; x += 3) {
       const Ray ray = generateRay(frame, x + 0.25, y + 0.75);
       EXPECT_EQ(ray.origin, frame.eye);
+
       if (ray.direction == Vec3d()) {
         ++blind;
         continue;
       }
+
       EXPECT_NEAR(length(ray.direction), 1, 1e-15);
       const Vec2f at = imageOf(inCamera(frame, ray.direction));
       EXPECT_NEAR(at.x, x + 0.25, worst) << x << "," << y;
@@ -60,13 +63,16 @@ TEST(Projections, AMatrixImagesAsInOpenCv) {
   Camera camera = askew();
   camera.k = {310, 290, 140.5f, 110.25f, 12};
   camera.kSize = {kWide, kTall};
+
   const auto image = [](const Vec3d& d) {
     const double x = d.x / d.z, y = d.y / d.z;
-    // OpenCV's first pixel has its center at 0.
+    // The center of OpenCV's first pixel is at 0.
     return placeAt(310 * x + 12 * y + 140.5 + 0.5, 290 * y + 110.25 + 0.5);
   };
+
   EXPECT_EQ(expectImaged(camera, kFloatPlace, image), 0);
-  // A picture of twice the size shows the same.
+
+  // A picture of twice the size shows the same view.
   const Ray small = generateRay(makeCameraFrame(camera, kWide, kTall), 40, 30);
   const Ray large = generateRay(makeCameraFrame(camera, 2 * kWide, 2 * kTall), 80, 60);
   EXPECT_LT(length(small.direction - large.direction), 1e-15);
@@ -79,6 +85,7 @@ TEST(Projections, AMatrixOfAFieldOfViewChangesNothing) {
   const CameraFrame plain = makeCameraFrame(camera, kWide, kTall);
   camera.k = {100, 100, 159.5f, 99.5f};
   camera.kSize = {kWide, kTall};
+
   const CameraFrame frame = makeCameraFrame(camera, kWide, kTall);
   for (const double x : {0.5, 17.25, 319.5}) {
     EXPECT_LT(length(generateRay(plain, x, 60).direction - generateRay(frame, x, 60).direction),
@@ -90,6 +97,7 @@ TEST(Projections, ALensDistortsAsInOpenCv) {
   Camera camera = askew();
   camera.k = {310, 290, 140.5f, 110.25f};
   camera.kSize = {kWide, kTall};
+
   // Barrel, pincushion and rational models.
   for (const std::vector<float>& c : {std::vector<float>{-0.25f, 0.06f, 0.002f, -0.003f, 0.01f},
                                       {0.3f, 0.1f},
@@ -97,6 +105,7 @@ TEST(Projections, ALensDistortsAsInOpenCv) {
     camera.distortion = c;
     std::vector<double> k(c.begin(), c.end());
     k.resize(8);
+
     const auto image = [&](const Vec3d& d) {
       const double x = d.x / d.z, y = d.y / d.z, r2 = x * x + y * y, r4 = r2 * r2;
       const double radial = (1 + k[0] * r2 + k[1] * r4 + k[4] * r4 * r2) /
@@ -105,16 +114,19 @@ TEST(Projections, ALensDistortsAsInOpenCv) {
       const double v = y * radial + k[2] * (r2 + 2 * y * y) + 2 * k[3] * x * y;
       return placeAt(310 * u + 141, 290 * v + 110.75);
     };
+
     EXPECT_EQ(expectImaged(camera, 2 * kFloatPlace, image), 0) << c[0];
   }
 }
 
-// x (1 - 0.3 x^2) is at most 2/3 x where 0.9 x^2 = 1: nothing is imaged further out.
+// x (1 - 0.3 x^2) has its largest value, 2/3 x, where 0.9 x^2 = 1. No direction is imaged further
+// out.
 TEST(Projections, BeyondTheFoldOfALensThereIsNothing) {
   Camera camera = askew();
   camera.k = {100, 100, 159.5f, 99.5f};
   camera.kSize = {kWide, kTall};
   camera.distortion = {-0.3f};
+
   const CameraFrame frame = makeCameraFrame(camera, kWide, kTall);
   const double fold = 100 * 2 / (3 * std::sqrt(0.9));
   EXPECT_NE(generateRay(frame, 160 + fold - 1, 100).direction, Vec3d());
@@ -123,7 +135,8 @@ TEST(Projections, BeyondTheFoldOfALensThereIsNothing) {
   }
 }
 
-// Distance from the center in focal lengths, by the angle to the axis.
+// Checks a fisheye whose distance from the center, in focal lengths, is `radiusOf` the angle to the
+// axis.
 void expectFisheye(Camera camera, double angle, double focal,
                    const std::function<double(double)>& radiusOf) {
   camera.angle = static_cast<float>(angle);
@@ -133,7 +146,8 @@ void expectFisheye(Camera camera, double angle, double focal,
     const double scale = off > 0 ? focal * radiusOf(theta) / off : 0;
     return placeAt(d.x * scale + kWide / 2.0, d.y * scale + kTall / 2.0);
   };
-  // The circle touches the upper and lower side.
+
+  // The circle of the picture touches the upper and the lower side.
   const int blind = expectImaged(camera, 2 * kFloatPlace, image);
   const double circle = kPi * kTall * kTall / 4.0 / (kWide * kTall);
   EXPECT_NEAR(blind / (107.0 * 67), 1 - circle, 0.01);
@@ -145,12 +159,15 @@ TEST(Projections, FisheyesImageAnglesAsDistances) {
     Camera camera = askew();
     camera.projection = Projection::equidistant;
     expectFisheye(camera, angle, 100 / limit, [](double theta) { return theta; });
+
     camera.projection = Projection::equisolid;
     expectFisheye(camera, angle, 100 / (2 * std::sin(limit / 2)),
                   [](double theta) { return 2 * std::sin(theta / 2); });
+
     camera.projection = Projection::fisheye;
     camera.distortion = {0.03f, -0.005f, 0.0007f, -0.00002f};
     camera.kSize = {kWide, kTall};
+
     const auto radius = [&](double theta) {
       double sum = theta;
       for (int i = 0; i < 4; ++i) {
@@ -158,6 +175,7 @@ TEST(Projections, FisheyesImageAnglesAsDistances) {
       }
       return sum;
     };
+
     const auto focal = static_cast<float>(100 / radius(limit));
     camera.k = {focal, focal, kWide / 2 - 0.5f, kTall / 2 - 0.5f};
     expectFisheye(camera, angle, double{focal}, radius);
@@ -193,12 +211,14 @@ TEST(Projections, ATableStatesTheDirectionsOfRowsAndColumns) {
   camera.azimuths = {-90, 10, 25.5f, 180};
   camera.elevations = {15, -2, -30};
   const CameraFrame frame = makeCameraFrame(camera, 4, 3);
+
   const auto expectAngles = [&](double x, double y, double azimuth, double elevation) {
     const Vec3d d = inCamera(frame, generateRay(frame, x, y).direction);
     const double a = azimuth * kPi / 180, e = elevation * kPi / 180;
     const Vec3d wanted{std::sin(a) * std::cos(e), -std::sin(e), std::cos(a) * std::cos(e)};
     EXPECT_LT(length(d - wanted), 1e-15) << x << "," << y;
   };
+
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 4; ++column) {
       expectAngles(column + 0.5, row + 0.5,
@@ -215,19 +235,23 @@ TEST(Projections, TheFacesOfACubeMapJoin) {
   camera.projection = Projection::cubeMap;
   const CameraFrame inRow = makeCameraFrame(camera, 600, 100);
   const CameraFrame inRows = makeCameraFrame(camera, 300, 200);
-  // Right, left, up, down, forward, backward in OpenCV's axes.
+
+  // The directions are right, left, up, down, forward and backward, in OpenCV's axes.
   const std::vector<Vec3d> centers{{1, 0, 0}, {-1, 0, 0}, {0, -1, 0},
                                    {0, 1, 0}, {0, 0, 1},  {0, 0, -1}};
+
   const auto at = [&](const CameraFrame& frame, int face, double x, double y) {
     const int column = &frame == &inRow ? face : face % 3, row = &frame == &inRow ? 0 : face / 3;
     return inCamera(frame, generateRay(frame, column * 100 + x, row * 100 + y).direction);
   };
+
   for (int face = 0; face < 6; ++face) {
     for (const CameraFrame* frame : {&inRow, &inRows}) {
       EXPECT_LT(length(at(*frame, face, 50, 50) - centers[static_cast<std::size_t>(face)]), 1e-15);
     }
     EXPECT_LT(length(at(inRow, face, 13, 71) - at(inRows, face, 13, 71)), 1e-15);
   }
+
   constexpr double kEnd = 100 - 1e-9;
   for (const double s : {10.0, 60.0}) {
     EXPECT_LT(length(at(inRow, 4, kEnd, s) - at(inRow, 0, 0, s)), 1e-10);  // forward to right
@@ -243,6 +267,7 @@ TEST(Projections, AStereoPairLooksThroughTwoEyes) {
   camera.eyeDistance = 0.5f;
   const CameraFrame one = makeCameraFrame(camera, 100, 80);
   const Vec3d aside = normalized(one.right) * 0.25;
+
   for (const Stereo stereo : {Stereo::leftRight, Stereo::topBottom}) {
     camera.stereo = stereo;
     const bool beside = stereo == Stereo::leftRight;
@@ -256,8 +281,8 @@ TEST(Projections, AStereoPairLooksThroughTwoEyes) {
   }
 }
 
-// The eyes stand side by side for every azimuth, as seen by trigonometry alone: a point at distance
-// D is seen by them at azimuths that differ by 2 asin(e / 2D), in front, aside and behind.
+// The eyes stand side by side for every azimuth. By trigonometry, they see a point at distance D at
+// azimuths that differ by 2 asin(e / 2D), in front, aside and behind.
 TEST(Projections, AStereoPanoramaHasItsParallaxAllAround) {
   constexpr double kDistance = 2, kEyes = 0.5;
   Camera camera;
@@ -265,29 +290,34 @@ TEST(Projections, AStereoPanoramaHasItsParallaxAllAround) {
   camera.at = {3, 1, -7};
   camera.eyeDistance = static_cast<float>(kEyes);
   camera.stereo = Stereo::topBottom;
+
   Camera table = camera;
   camera.projection = Projection::panorama;
   table.projection = Projection::directions;
   table.azimuths = {-179.5f, 179.5f};
   table.elevations = {89.5f, -89.5f};
+
   const CameraFrame panorama = makeCameraFrame(camera, 360, 360);
   const CameraFrame lidar = makeCameraFrame(table, 360, 360);
   const Vec3d eye(camera.eye);
   const double parallax = std::asin(kEyes / 2 / kDistance);
+
   for (const double degrees : {-170.0, -90.0, 0.0, 45.0, 90.0, 170.0}) {
     const double azimuth = degrees * std::numbers::pi / 180;
     const Vec3d point = eye + Vec3d{std::sin(azimuth), 0, -std::cos(azimuth)} * kDistance;
     for (const double side : {-1.0, 1.0}) {
-      // The left eye sees it further to the right.
+      // The left eye sees the point further to the right.
       const double x = 180 + (azimuth - side * parallax) * 180 / std::numbers::pi;
       const double y = side < 0 ? 90 : 270;
+
       const Ray ray = generateRay(panorama, x, y);
       EXPECT_NEAR(length(ray.origin - eye), kEyes / 2, 1e-12);
       EXPECT_LT(length(cross(point - ray.origin, ray.direction)), 1e-12) << degrees << " " << side;
       EXPECT_GT(dot(point - ray.origin, ray.direction), 0) << degrees;
     }
   }
-  // A table of the same angles, of which a row is 180 degrees high and a column 2 wide.
+
+  // The table has the same angles. Its rows are 180 degrees high and its columns 2 wide.
   for (const double x : {40.5, 180.5, 300.5}) {
     const Ray ray = generateRay(lidar, x, 90.5);
     const Vec3d across = ray.origin - eye;

@@ -1,4 +1,4 @@
-// Ray cones and the mip levels that follow from them.
+// Ray cones, and the mip levels that they determine.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,10 +15,10 @@ namespace {
 
 using namespace test;
 
-// Rays that go on start off the surface, by less than 1e-3 of the ways here, which is as much of a
-// level.
+// Rays that are reflected or refracted start off the surface, by less than 1e-3 of the distances
+// here. This changes the level by as much.
 constexpr double kOffset = 2e-3;
-constexpr int kTexels = 64;  // a side
+constexpr int kTexels = 64;  // along a side
 
 Texture noise() {
   Numbers numbers(11);
@@ -36,7 +36,7 @@ Material glowing(SceneBuilder& builder, Texture texture) {
   return m;
 }
 
-// A glowing floor of one texel a unit.
+// Returns a glowing floor with one texel a unit.
 Scene floorOf(Texture texture) {
   SceneBuilder builder;
   const Material m = glowing(builder, std::move(texture));
@@ -52,7 +52,7 @@ RgbD seen(const Scene& scene, const Ray& ray, int depth = 8) {
   return Tracer(scene, bruteForce, settings).traceImpulse(ray, 0, 1, 0, counts);
 }
 
-// Of the floor at (x, z).
+// Returns the color of the floor at (x, z).
 RgbD floorColor(const Scene& scene, double x, double z, double level) {
   const double half = kTexels / 2.0;
   return sampleTexture(MipMaps(scene), {0}, (x + half) / kTexels, (half - z) / kTexels, level);
@@ -76,6 +76,7 @@ TEST(MipLevel, H70_ofSenselessFootprintsIsALevel) {
   EXPECT_EQ(mipLevel(std::nan("")), 0);
   EXPECT_EQ(mipLevel(-infinity), 0);
   EXPECT_EQ(mipLevel(infinity), kMipLevels - 1);
+
   const Scene scene = floorOf(noise());
   const auto below = [&](double width, double spread) {
     return seen(scene, {{3.3, 5, 2.1}, {0, -1, 0}, {width, spread}});
@@ -101,7 +102,8 @@ TEST(Trilinear, MixesDataBetweenLevels) {
   const std::vector<Texture> textures{
       makeTexture(TexelFormat::data, 2, 1, {0x00c86450u, 0x00000000u})};
   const MipMaps maps(textures, {{0}});
-  // At the first texel's center: (80, 100, 200), and half of each in the level above.
+
+  // At the first texel's center the value is (80, 100, 200), and half of it in the next level.
   const RgbD s = sampleTexture(maps, {0}, 0.25, 0.5, 0.5);
   EXPECT_NEAR(s.x * 255, 60, 1e-10);
   EXPECT_NEAR(s.y * 255, 75, 1e-10);
@@ -113,10 +115,12 @@ TEST(RayCone, OfAPixelIsAsWideAsThePixel) {
   camera.eye = {0, 0, 5};
   camera.at = {0, 0, 0};
   camera.fov = 90;
+
   const Ray ray = generateRay(makeCameraFrame(camera, 300, 200), 17, 33);
   EXPECT_EQ(ray.cone.width, 0);
   EXPECT_NEAR(ray.cone.spread, 2.0 / 200, kRounding);
   EXPECT_NEAR(ray.cone.widthAt(7), 0.07, kRounding);
+
   camera.orthographicHeight = 5;
   const Ray parallel = generateRay(makeCameraFrame(camera, 300, 200), 17, 33);
   EXPECT_NEAR(parallel.cone.width, 5.0 / 200, kRounding);
@@ -129,7 +133,8 @@ TEST(RayCone, LevelsFollowFromTheDistance) {
     const double wanted = std::clamp(std::log2(distance / 64), 0.0, 6.0);
     const RgbD color = floorColor(scene, 3.3, 2.1, wanted);
     expectNear(seen(scene, {{3.3, distance, 2.1}, {0, -1, 0}, {0, 1.0 / 64}}), color, 1e-9);
-    // As sharp as it is looked up otherwise, only from near.
+
+    // Up to distance 64 the floor is as sharp as by lookups of level 0.
     const RgbD full = floorColor(scene, 3.3, 2.1, 0);
     EXPECT_EQ(distance <= 64, maxComponent(abs(full - color)) < 1e-3) << distance;
   }
@@ -143,7 +148,7 @@ TEST(RayCone, OfParallelRaysKeepsItsWidth) {
   }
 }
 
-// At 60 degrees to the normal the section is twice as long.
+// At 60 degrees to the normal the cone's section is twice as long.
 TEST(RayCone, GrowsOnSurfacesSeenAtAnAngle) {
   const Scene scene = floorOf(noise());
   const Vec3d direction = steep(60);
@@ -168,22 +173,26 @@ TEST(RayCone, GoesOnInsideGlassAndBehindIt) {
   builder.add(floorAt(0, kTexels / 2.0f, builder.add(m)));
   addSlab(builder, 90, 30, builder.add(glassMaterial(1.5f)), kTexels / 2.0f);
   const Scene scene = builder.build();
-  // Two surfaces of 4 % each; what they reflect to and fro needs more depth.
+
+  // Each of two surfaces reflects 4 %. Light that is reflected between them would need more depth.
   expectNear(seen(scene, {{3.3, 128, 2.1}, {0, -1, 0}, {0, 1.0 / 64}}, 2),
              floorColor(scene, 3.3, 2.1, 1) * (0.96 * 0.96), kOffset);
 }
 
-// Twice the size: twice as many units a texel, and one level less.
+// An instance of twice the size has texels of two units, and one level less.
 TEST(RayCone, CountsTexelsOfInstancesInTheWorld) {
   SceneBuilder builder;
   const Material m = glowing(builder, noise());
+
   Object floor;
   floor.meshes = {floorAt(0, kTexels / 2.0f, builder.add(m))};
   Affine twice;
   twice.x *= 2, twice.y *= 2, twice.z *= 2;
+
   builder.place(std::move(floor), {twice, Affine::translation({1000, 0, 0})});
   const Scene scene = builder.build();
   ASSERT_EQ(scene.instances.size(), 2u);
+
   expectNear(seen(scene, {{3.3, 256, 2.1}, {0, -1, 0}, {0, 1.0 / 64}}),
              floorColor(scene, 1.65, 1.05, 1), 1e-9);
   expectNear(seen(scene, {{1003.3, 256, 2.1}, {0, -1, 0}, {0, 1.0 / 64}}),
@@ -205,8 +214,9 @@ TEST(Trilinear, ADistantChequerboardIsItsMean) {
   for (int i = 0; i < kTexels * kTexels; ++i) {
     texels.push_back((i / kTexels + i) % 2 == 0 ? 0x3fffffffu : 0u);
   }
+
   const Scene scene = floorOf(makeTexture(TexelFormat::color, kTexels, kTexels, texels));
-  // Half the light, up to half a code of its root.
+  // Half of the light, up to half a code of its square root.
   for (const double x : {3.3, 4.0, 4.5, 5.2}) {
     expectNear(seen(scene, {{x, 200, 2.1}, {0, -1, 0}, {0, 1.0 / 64}}), RgbD(0.5),
                0.5 / 1023 * 1.5);

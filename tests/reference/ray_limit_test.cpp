@@ -1,4 +1,4 @@
-// The bound on the rays of a sample against a closed form: a pile of half-covering mirrors, where
+// The bound on the rays of a sample, against a closed form: a pile of half-covering mirrors, where
 // every ray splits in two at every bounce.
 #include <gtest/gtest.h>
 
@@ -13,26 +13,30 @@ namespace {
 
 using reference::RayCounts;
 
-// So many horizontal sheets that mirror this share of the light and let the rest pass, below a sky
-// of radiance 1 and above a black one.
+// Returns `sheets` horizontal sheets that mirror a share of the light and transmit the rest,
+// between a sky of radiance 1 above and a black one below.
 Scene pile(int sheets, float mirrored) {
   SceneBuilder builder;
   Material sheet = mirrorMaterial(1);
   sheet.coverage = mirrored;
   const std::uint32_t material = builder.add(sheet);
+
   for (int i = 0; i < sheets; ++i) builder.add(floorAt(static_cast<float>(i), 10, material));
   builder.description.sky.kind = Sky::Kind::gradient;
   builder.description.sky.zenith = Rgb(1.0f);
   return builder.build();
 }
 
-// What comes down between the sheets, and what goes up: the chances of a random walk that takes so
-// many steps at the most, by the gaps between the sheets from below.
+// Returns the radiance below the pile: the chance that a random walk of at most `depth` steps ends
+// above it. The gaps between the sheets are numbered from below.
 double seenBelow(int sheets, double mirrored, int depth) {
   const auto gaps = static_cast<std::size_t>(sheets) + 1;
-  // Radiance along rays that look up from each gap, and down; of rays of the last depth first.
+
+  // Radiance along rays that look up from each gap, and down. The loop begins with rays of the last
+  // depth.
   std::vector<double> up(gaps), down(gaps);
   up.back() = 1;
+
   for (int step = 0; step < depth; ++step) {
     std::vector<double> nextUp(gaps), nextDown(gaps);
     nextUp.back() = 1;
@@ -40,9 +44,11 @@ double seenBelow(int sheets, double mirrored, int depth) {
       nextUp[g] = mirrored * down[g] + (1 - mirrored) * up[g + 1];
       nextDown[g + 1] = mirrored * up[g + 1] + (1 - mirrored) * down[g];
     }
+
     up = nextUp;
     down = nextDown;
   }
+
   return up[0];
 }
 
@@ -59,11 +65,12 @@ class BelowPile {
     frame_ = makeCameraFrame(camera, 1, 1);
   }
 
-  // One of many samples, which differ in their random numbers only.
+  // Traces one of many samples, which differ only in their random numbers.
   double look(std::size_t sample) {
     counts = {};
     return tracer_.sampled(frame_, 0, 0, {0.5f, 0.5f}, sample, counts).x;
   }
+
   std::uint64_t impulses() const {
     return counts[RayKind::reflection] + counts[RayKind::refraction];
   }
@@ -100,13 +107,14 @@ TEST(RayLimit, LeavesTreesOfAsManyRaysAsItAllows) {
 }
 
 TEST(RayLimit, BoundsTheRaysAndKeepsTheMean) {
-  // Unlimited, trees of this depth would have far more rays than can be traced.
+  // Without the limit, trees of this depth would have far more rays than can be traced.
   constexpr int kDepth = 40, kSamples = 2000;
   for (const float mirrored : {0.5f, 0.2f, 0.8f}) {
     const Scene scene = pile(8, mirrored);
     for (const int maxRays : {1, 200}) {
       BelowPile pixel(scene, kDepth, maxRays);
       double sum = 0, squares = 0;
+
       for (std::size_t sample = 0; sample < kSamples; ++sample) {
         const double value = pixel.look(sample);
         sum += value;
@@ -114,6 +122,7 @@ TEST(RayLimit, BoundsTheRaysAndKeepsTheMean) {
         ASSERT_LE(pixel.impulses(), static_cast<unsigned>(std::max(maxRays, kDepth)));
         ASSERT_EQ(pixel.counts.limitedSamples, 1u);
       }
+
       const double mean = sum / kSamples;
       const double error = std::sqrt((squares / kSamples - mean * mean) / (kSamples - 1));
       // 4.5 standard errors: one comparison in 150,000 would fail by chance.
@@ -127,6 +136,7 @@ TEST(RayLimit, WidthsAndDrawsAreInTheirRanges) {
   EXPECT_EQ(widestTree(10000, 64), 156u);
   EXPECT_EQ(widestTree(3, 64), 1u);
   EXPECT_EQ(widestTree(3, 0), 3u);
+
   std::set<int> tenths;
   for (std::uint32_t path = 0; path < 1000; ++path) {
     const double draw = choiceDraw(path);

@@ -12,22 +12,26 @@ namespace {
 
 using test::SceneBuilder;
 
-// A bit of everything.
+// Returns a scene with opaque, mirroring and refracting surfaces, a light, a sky and ambient light.
 Scene stillLife() {
   SceneBuilder builder;
   const auto floor = builder.add(test::diffuseMaterial(0.6f));
   Material coated = test::diffuseMaterial(0.2f);
   coated.mirror = Rgb(0.3f);
   coated.mirrorGrazing = Rgb(1.0f);
+
   builder.add(test::floorAt(0, 6, floor));
   builder.add(test::box({-2, 0, -1}, {-1, 1, 0}, builder.add(coated)));
   builder.add(test::box({0.2f, 0.1f, 0}, {1.2f, 1.1f, 1}, builder.add(test::glassMaterial(1.5f))));
+
   builder.sky(0.7f);
   builder.description.ambient = {Rgb(0.2f), Rgb(0.1f)};
+
   Light light;
   light.position = {2, 4, 3};
   light.intensity = Rgb(20.0f);
   builder.description.lights = {light};
+
   Camera camera;
   camera.eye = {0, 2, 5};
   builder.description.cameras = {camera};
@@ -41,6 +45,7 @@ class CountingProgress : public Progress {
     ++reports;
     last = std::max(last, fraction);
   }
+
   int reports = 0;
   double last = 0;
 
@@ -48,7 +53,7 @@ class CountingProgress : public Progress {
   std::mutex mutex_;
 };
 
-// Whoever asks for progress may end the work by an exception, from any thread.
+// An observer of the progress may end the work by an exception, on any thread.
 class FailingProgress : public Progress {
  public:
   void report(const std::string&, double fraction) override {
@@ -61,12 +66,14 @@ TEST(Render, DoesNotDependOnThreads) {
   const BruteForce bruteForce(scene);
   Settings settings;
   settings.options.spp = 2;
+
   Image one(40, 25);
   const RayCounts counts = render(scene, bruteForce, scene.cameras[0], settings, one);
   EXPECT_EQ(counts[RayKind::primary], 2000u);
   EXPECT_GT(counts[RayKind::shadow], 0u);
   EXPECT_GT(counts[RayKind::reflection], 0u);
   EXPECT_GT(counts[RayKind::refraction], 0u);
+
   for (const int threads : {2, 3, 40}) {
     settings.threads = threads;
     Image image(40, 25);
@@ -82,13 +89,16 @@ TEST(Render, CropIsPartOfTheImage) {
   const Scene scene = stillLife();
   const BruteForce bruteForce(scene);
   const Settings settings;
+
   Image whole(40, 25), part(40, 25, {13, 7, 30, 20});
   render(scene, bruteForce, scene.cameras[0], settings, whole);
   CountingProgress progress;
   render(scene, bruteForce, scene.cameras[0], settings, part, &progress);
+
   for (int y = 7; y < 20; ++y) {
     for (int x = 13; x < 30; ++x) EXPECT_EQ(part.at(x, y), whole.at(x, y)) << x << ", " << y;
   }
+
   EXPECT_EQ(progress.reports, 13);
   EXPECT_EQ(progress.last, 1);
 }
@@ -107,37 +117,43 @@ TEST(Render, WhatIsThrownForARowReachesTheCaller) {
   }
 }
 
-// Scaling everything by a power of two changes not one bit (hard case H61a).
+// A scale by a power of two changes no bit (hard case H61a).
 TEST(Render, PowerOfTwoScaleChangesNothing) {
   const Scene scene = stillLife();
   Image original(20, 12);
   render(scene, BruteForce(scene), scene.cameras[0], Settings{}, original);
+
   for (const int power : {-10, 10}) {
     const float scale = std::ldexp(1.0f, power);
     Scene scaled = scene;
     for (TriangleRecord& t : scaled.triangles) {
       for (float& p : t.position) p *= scale;
     }
+
     for (Light& light : scaled.lights) {
       light.position *= scale;
       light.intensity *= scale * scale;
       light.radius *= scale;
     }
+
     Camera camera = scene.cameras[0];
     camera.eye *= scale;
     camera.at *= scale;
+
     Image image(20, 12);
     render(scaled, BruteForce(scaled), camera, Settings{}, image);
     EXPECT_EQ(image.pixels, original.pixels) << power;
   }
 }
 
-// All effects or only those the scene calls for: the same image (one of the laws of the kernels).
+// All effects, or only those that the scene needs, give the same image. (This is one of the laws of
+// the kernels.)
 TEST(Render, EffectsOfTheSceneAreEnough) {
   const Scene scene = stillLife();
   Settings settings;
   Image all(20, 12), few(20, 12);
   render(scene, BruteForce(scene), scene.cameras[0], settings, all);
+
   settings.effects = scene.effects;
   ASSERT_NE(settings.effects, EffectSet::all());
   render(scene, BruteForce(scene, scene.effects), scene.cameras[0], settings, few);

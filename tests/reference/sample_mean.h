@@ -8,12 +8,14 @@ namespace whit::test {
 
 class SampleMean {
  public:
+  // Welford's update, which does not cancel large squares.
   void add(double value) {
     ++count_;
     const double before = value - mean_;
     mean_ += before / static_cast<double>(count_);
     squares_ += before * (value - mean_);
   }
+
   double value() const { return mean_; }
   double error() const {
     const auto n = static_cast<double>(count_);

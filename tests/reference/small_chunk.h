@@ -10,7 +10,8 @@
 
 namespace whit::test {
 
-// Rays, hits and so on of slot 0 are set one by one; all others are zero. Surfels are whole.
+// Tests set rays, hits and so on of slot 0 one by one; everything else is zero. Surfels are fully
+// covered, and the factors of their maps are 1.
 class SmallChunk {
  public:
   explicit SmallChunk(const Scene& scene, FeatureSet features = FeatureSet::all())
@@ -29,6 +30,7 @@ class SmallChunk {
     chunk.children = *children_;
     chunk.hits = *hits_;
     chunk.surfels = *surfels_;
+
     const SurfelColumns& s = chunk.surfels;
     if (features.has(Feature::coverage)) std::fill_n(s.coverage, kBlock, 1.0f);
     if (features.has(Feature::occlusionMaps)) std::fill_n(s.occlusion, kBlock, 1.0f);
@@ -38,9 +40,11 @@ class SmallChunk {
     for (float* factor : {s.transmissionR, s.transmissionG, s.transmissionB}) {
       if (features.has(Feature::transmissionMaps)) std::fill_n(factor, kBlock, 1.0f);
     }
+
     chunk.unshadowed = *unshadowed_;
     chunk.shadows = *shadows_;
   }
+
   SmallChunk(const SmallChunk&) = delete;
   SmallChunk& operator=(const SmallChunk&) = delete;
 

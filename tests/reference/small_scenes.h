@@ -9,7 +9,7 @@ namespace whit::test {
 
 using namespace verify;
 
-// Downwards, at an angle to the vertical.
+// Returns a direction downwards, at an angle to the vertical.
 inline Vec3d steep(double degrees) {
   const double angle = degrees * 3.14159265358979323846 / 180;
   return {std::sin(angle), -std::cos(angle), 0};
@@ -23,7 +23,7 @@ inline Light sun(const Vec3f& direction, float irradiance) {
   return light;
 }
 
-// Depth 8, no cutoff: contributions are all counted.
+// Returns settings of depth 8 without a cutoff, so that all contributions count.
 inline reference::Settings uncut(int depth = 8) {
   reference::Settings settings;
   settings.options.depth = depth;
@@ -31,7 +31,8 @@ inline reference::Settings uncut(int depth = 8) {
   return settings;
 }
 
-// What the reference sees along a ray, brute force; `direction` of any length.
+// Returns the radiance that the reference computes along a ray by brute force. `direction` has any
+// length.
 inline RgbD radianceAlong(const Scene& scene, const Vec3d& origin, const Vec3d& direction,
                           const reference::Settings& settings = uncut(),
                           reference::RayCounts* counts = nullptr) {

@@ -15,16 +15,18 @@ using test::Penumbra;
 using test::radianceAlong;
 using test::SceneBuilder;
 
-// The floor and the screen of the oracle, and its light.
+// Builds the scene of the oracle: its floor, its screen and its light.
 Scene sceneOf(const Penumbra& p) {
   SceneBuilder builder;
   builder.add(
       test::floorAt(0, 100, builder.add(test::diffuseMaterial(static_cast<float>(p.albedo)))));
+
   if (p.screen) {
     const auto y = static_cast<float>(p.edge);
     builder.add(test::quad({-90, y, -90}, {0, y, -90}, {0, y, 90}, {-90, y, 90},
                            builder.add(test::blackMaterial())));
   }
+
   Light light = lightAt({0, static_cast<float>(p.height), 0}, static_cast<float>(p.intensity));
   light.radius = static_cast<float>(p.radius);
   builder.description.lights = {light};
@@ -37,13 +39,13 @@ Settings soft(int samples) {
   return settings;
 }
 
-// The eye is below the screen, and meets the floor at x.
+// The eye is below the screen and looks at the floor at x.
 double seenAt(const Scene& scene, double x, const Settings& settings, RayCounts* counts = nullptr) {
   const Vec3d eye{x + 0.5, 1, 0};
   return radianceAlong(scene, eye, Vec3d{x, 0, 0} - eye, settings, counts).x;
 }
 
-// Of the lattice's points, those next to the edge decide: a few of 4096 are right or wrong.
+// Only points of the lattice next to the edge may be wrong: a few of 4096.
 constexpr double kPoints = 4096, kOff = 0.004;
 
 TEST(SoftShadows, AnEdgeHasThePenumbraOfTheIntegral) {
@@ -84,26 +86,30 @@ TEST(SoftShadows, APointHasNone) {
   EXPECT_EQ(counts[RayKind::shadow], 1u);
 }
 
-// From inside of the sphere there is no cone to look into.
+// From inside the sphere, no cone of directions contains it.
 TEST(SoftShadows, InsideOfTheSphereTheCenterStandsForIt) {
   const Scene scene = sceneOf(Penumbra{.height = 0.5, .radius = 2, .screen = false});
   EXPECT_NEAR(seenAt(scene, 0.1, soft(4)), seenAt(scene, 0.1, soft(1)), 1e-12);
 }
 
-// Points lie on the sphere, towards the surfel, and their ways are equally likely directions.
+// Points lie on the near side of the sphere, so that their directions from the surfel are equally
+// likely.
 TEST(SoftShadows, PointsLieOnTheNearSideOfTheSphere) {
   Surfel surfel;
   surfel.position = {0.3, -0.2, 0.5};
   surfel.geometricNormal = surfel.shadingNormal = {0, 1, 0};
   surfel.view = {0, 1, 0};
   surfel.diffuse = RgbD(1.0);
+
   Light light = lightAt({1, 5, -2}, 3);
   light.radius = 1.5f;
   const Vec3d center(light.position);
+
   for (const float u : {0.0f, 0.3f, 0.9f, 1.0f}) {
     for (const float v : {0.0f, 0.37f, 0.8f}) {
       const LightArrival a =
           radianceFromLight(EffectSet::all(), surfel, light, {}, LightPoint{false, {u, v}});
+
       const Vec3d point = a.shadowRay.origin + a.shadowRay.direction;
       EXPECT_NEAR(length(point - center), 1.5, 1e-5) << u << ", " << v;
       EXPECT_LT(dot(normalized(point - center), normalized(center - surfel.position)), 1e-6);

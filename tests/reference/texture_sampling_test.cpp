@@ -14,7 +14,7 @@ namespace {
 
 using test::makeTexture;
 
-// Channel r of a data texture, coded exactly: values are code / 255.
+// Returns a texture whose channel r has these codes; its values are exactly code / 255.
 Texture ramp(int width, int height, const std::vector<int>& codes) {
   std::vector<std::uint32_t> texels;
   for (const int code : codes) texels.push_back(static_cast<std::uint32_t>(code));
@@ -38,18 +38,22 @@ TEST(TextureSampling, BetweenCentersIsLinear) {
   EXPECT_NEAR(codeAt(t, 0.25, 0.625), 15, kRounding);
 }
 
-// Texels reach to the middle between their centers, and over the borders of a repeat.
+// A texel extends to the middle between its center and the next, also across the border of a
+// repeated texture.
 TEST(TextureSampling, NearestTexel) {
   const Texture t = ramp(4, 1, {0, 40, 80, 120});
   const auto nearest = [&](double u) {
     return 255 * sampleTexture(t, u, 0.5, TextureFilter::nearest).x;
   };
+
   EXPECT_NEAR(nearest(0.01), 0, kRounding);
   EXPECT_NEAR(nearest(0.2499), 0, kRounding);
   EXPECT_NEAR(nearest(0.25), 40, kRounding);
   EXPECT_NEAR(nearest(0.9999), 120, kRounding);
+
   EXPECT_NEAR(nearest(-0.0001), 120, kRounding);
   EXPECT_NEAR(nearest(1.0001), 0, kRounding);
+
   const Texture c = makeTexture(TexelFormat::color, 2, 1, {0u, 1023u});
   EXPECT_EQ(sampleTexture(c, 0.7, 0.5, TextureFilter::nearest), RgbD(1, 0, 0));
   EXPECT_EQ(sampleTexture(c, 0.3, 0.5, TextureFilter::nearest), RgbD(0, 0, 0));
@@ -59,7 +63,7 @@ TEST(TextureSampling, RepeatJoinsTheBorders) {
   const Texture t = ramp(4, 1, {0, 40, 80, 120});
   EXPECT_NEAR(codeAt(t, 0, 0.5), 60, kRounding);
   EXPECT_NEAR(codeAt(t, 1, 0.5), 60, kRounding);
-  for (const double u : {0.0, 0.1328125, 0.5, 0.984375}) {  // exact in binary with the whole part
+  for (const double u : {0.0, 0.1328125, 0.5, 0.984375}) {  // exact sums in binary
     for (const double whole : {-7.0, 1.0, 1000.0}) {
       EXPECT_EQ(codeAt(t, u + whole, 0.5), codeAt(t, u, 0.5)) << u << " + " << whole;
       EXPECT_EQ(codeAt(t, u, 0.5 + whole), codeAt(t, u, 0.5));
@@ -67,7 +71,7 @@ TEST(TextureSampling, RepeatJoinsTheBorders) {
   }
 }
 
-// u - floor(u) rounds to exactly 1 here; the texel after the last is the first.
+// Here u - floor(u) rounds to exactly 1. The texel behind the last one is the first.
 TEST(TextureSampling, TinyNegativeCoordinates) {
   const Texture t = ramp(4, 4, {0, 40, 80, 120, 1, 41, 81, 121, 2, 42, 82, 122, 3, 43, 83, 123});
   for (const double tiny : {-1e-17, -1e-300, -std::numeric_limits<double>::denorm_min()}) {
@@ -83,6 +87,7 @@ TEST(TextureSampling, HopelessCoordinatesCountAsZero) {
     EXPECT_EQ(codeAt(t, bad, 0.3), codeAt(t, 0, 0.3)) << bad;
     EXPECT_EQ(codeAt(t, 0.3, bad), codeAt(t, 0.3, 0)) << bad;
   }
+
   EXPECT_EQ(codeAt(t, 1048575.5, 0.5), codeAt(t, 0.5, 0.5));
 }
 
@@ -104,6 +109,7 @@ TEST(TextureSampling, ClampHoldsTheBorder) {
 TEST(TextureSampling, MirrorRunsBackAndForth) {
   Texture t = ramp(4, 1, {0, 40, 80, 120});
   t.wrapU = Wrap::mirror;
+
   for (const double u : {0.0, 0.1, 0.5, 0.95}) {
     EXPECT_NEAR(codeAt(t, 2 - u, 0.5), codeAt(t, u, 0.5), 1e-10);
     EXPECT_NEAR(codeAt(t, -u, 0.5), codeAt(t, u, 0.5), 1e-10);
@@ -113,13 +119,14 @@ TEST(TextureSampling, MirrorRunsBackAndForth) {
   EXPECT_NEAR(codeAt(t, 0, 0.5), 0, kRounding);
 }
 
-// The mean of black and white is half the light, not half the code.
+// Between black and white lies half of the light, not half of the code.
 TEST(TextureSampling, ColorsMixInLinearLight) {
   const Texture t = makeTexture(TexelFormat::color, 2, 1,
                                 {encodeColorTexel(Rgb(0.0f)), encodeColorTexel({1, 0.25f, 0})});
   const RgbD half = sampleTexture(t, 0.5, 0.5);
   EXPECT_NEAR(half.x, 0.5, 1e-12);
-  // 0.25 is coded as 512 of 1023: half a code from the exact root, 2 * 0.5 * 0.5 / 1023 of value.
+  // 0.25 is coded as 512 of 1023, half a code off the exact root. The value is off by 2 * 0.5 * 0.5
+  // / 1023.
   EXPECT_NEAR(half.y, 0.125, 0.00025);
   EXPECT_EQ(half.z, 0);
 }

@@ -34,7 +34,7 @@ TEST(Triangle, MissesBesideAndBehind) {
   EXPECT_FALSE(intersectTriangle({{0.25, 0.25, 0}, {0, 0, 1}}, kUnit)) << "t = 0 is no hit";
 }
 
-// Hard case H21
+// Hard case H21: a ray in the plane of the triangle.
 TEST(Triangle, RayInThePlaneMisses) {
   EXPECT_FALSE(intersectTriangle({{-1, 0.25, 0}, {1, 0, 0}}, kUnit));
   EXPECT_FALSE(intersectTriangle({{0.25, 0.25, 0}, {1, 0, 0}}, kUnit));
@@ -47,7 +47,7 @@ TEST(Triangle, WithoutAreaOrDirectionMisses) {
   EXPECT_FALSE(piercePlane({{0.25, 0.25, 1}, {0, std::nan(""), -1}}, kUnit));
 }
 
-// A sphere of facets, with room for its numbers to be uneven.
+// Returns a sphere of facets, whose coordinates are arbitrary floats.
 Mesh facetedSphere(const Vec3d& center, double radius, int rings, int sectors) {
   Mesh mesh;
   for (int i = 0; i <= rings; ++i) {
@@ -60,35 +60,41 @@ Mesh facetedSphere(const Vec3d& center, double radius, int rings, int sectors) {
                                          : center + d * radius));
     }
   }
+
   for (int i = 0; i < rings; ++i) {
     for (int j = 0; j < sectors; ++j) {
       const int k = (j + 1) % sectors;
       const auto at = [&](int ring, int sector) {
         return static_cast<std::uint32_t>(ring * sectors + sector);
       };
+
       if (i > 0) mesh.triangles.push_back({at(i, j), at(i, k), at(i + 1, j)});
       if (i + 1 < rings) mesh.triangles.push_back({at(i, k), at(i + 1, k), at(i + 1, j)});
     }
   }
+
   mesh.materials = {0};
   return mesh;
 }
 
-// Hard cases H12-H14: from inside a closed mesh every ray hits, also through edges and corners,
-// also far from the origin.
+// Hard cases H12-H14: from inside a closed mesh every ray hits, also towards edges and corners, and
+// far from the origin.
 TEST(Triangle, ClosedMeshHasNoGaps) {
   for (const Vec3d& center : {Vec3d{0, 0, 0}, Vec3d{148376, 1234, -223423}}) {
     SceneBuilder builder;
     builder.add(facetedSphere(center, 2, 12, 16));
     const Scene scene = builder.build();
     const BruteForce bruteForce(scene);
+
     Numbers numbers(1);
     int rays = 0, misses = 0;
+
     const auto shoot = [&](const Vec3d& from, const Vec3d& target) {
       Candidate candidate;
       ++rays;
       misses += !bruteForce.closest({from, target - from}, candidate);
     };
+
     for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
       const Corners c = worldCorners(scene, i, kNoHit);
       const Vec3d from = center + numbers.direction();
@@ -97,6 +103,7 @@ TEST(Triangle, ClosedMeshHasNoGaps) {
         shoot(from, target);
       }
     }
+
     for (int i = 0; i < 2000; ++i) shoot(center, center + numbers.direction());
     EXPECT_EQ(misses, 0) << "of " << rays << " rays";
   }
@@ -107,6 +114,7 @@ TEST(BruteForce, FindsTheNearest) {
   for (const float y : {0.0f, 3.0f, 1.0f}) builder.add(test::floorAt(y, 1, 0));
   const Scene scene = builder.build();
   const BruteForce bruteForce(scene);
+
   Candidate candidate;
   ASSERT_TRUE(bruteForce.closest({{0.5, 9, 0.25}, {0, -1, 0}}, candidate));
   EXPECT_EQ(scene.triangles[candidate.triangle].position[1], 3.0f);

@@ -21,8 +21,8 @@ TEST(Affine, ProductAppliesTheRightFactorFirst) {
   EXPECT_EQ((move * scale).vector({1, 0, 0}), (Vec3d{2, 0, 0}));
 }
 
-// H77. A product of two rotations takes 3 products and 2 sums an entry, gamma(3), and the entries
-// themselves come with a few roundings from sine, cosine and axis: gamma(8) a step covers both.
+// Hard case H77. An entry of a product of two rotations takes 3 products and 2 sums, gamma(3), and
+// the entries have a few roundings of sine, cosine and axis: gamma(8) a step covers both.
 TEST(Affine, HundredNestedRotationsUndone) {
   Affine there, back;
   for (int i = 0; i < 100; ++i) {
@@ -31,6 +31,7 @@ TEST(Affine, HundredNestedRotationsUndone) {
     there = Affine::rotation(axis, degrees) * there;
     back = back * Affine::rotation(axis, -degrees);
   }
+
   const Vec3d p{0.3, -0.9, 0.2};
   const double error = length(back.point(there.point(p)) - p);
   EXPECT_LE(error, 200 * 8 * kUnitRoundOff);
@@ -44,7 +45,8 @@ TEST(Affine, NormalsStayAcrossTheirSurface) {
     const Vec3d mapped = normalized(map.normal(n));
     EXPECT_NEAR(dot(mapped, normalized(map.vector(t1))), 0, 1e-15);
     EXPECT_NEAR(dot(mapped, normalized(map.vector(t2))), 0, 1e-15);
-    // On the same side: a vector off the surface stays on the normal's side.
+
+    // A vector off the surface stays on the normal's side.
     EXPECT_GT(dot(mapped, map.vector(n)), 0);
   }
 }

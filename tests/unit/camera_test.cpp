@@ -21,7 +21,8 @@ void expectNear(const Vec3d& a, const Vec3d& b, double tolerance = kRounding) {
   EXPECT_LE(length(a - b), tolerance) << a.x << ' ' << a.y << ' ' << a.z;
 }
 
-// Unit forward; right and up across it and each other, of one length: nothing else makes a picture.
+// Expects a unit forward, with right and up of one length across it and each other; the picture
+// needs all of this.
 void expectSound(const CameraFrame& f) {
   ASSERT_TRUE(isFinite(f.eye) && isFinite(f.forward) && isFinite(f.right) && isFinite(f.up));
   EXPECT_NEAR(length(f.forward), 1, kRounding);
@@ -35,11 +36,13 @@ void expectSound(const CameraFrame& f) {
 TEST(CameraFrame, EdgesOfARightAngle) {
   Camera camera;
   camera.fov = 90;
+
   const CameraFrame f = makeCameraFrame(camera, 200, 100);
   expectSound(f);
   expectNear(directionAt(f, 100, 50), {0, 0, -1});
   expectNear(directionAt(f, 100, 0), normalized(Vec3d{0, 1, -1}));
   expectNear(directionAt(f, 100, 100), normalized(Vec3d{0, -1, -1}));
+
   // Twice as wide as high, so twice the slope.
   expectNear(directionAt(f, 200, 50), normalized(Vec3d{2, 0, -1}));
   expectNear(directionAt(f, 0, 50), normalized(Vec3d{-2, 0, -1}));
@@ -49,11 +52,12 @@ TEST(CameraFrame, VerticalFovFromTheNarrowestToTheWidest) {
   for (const float fov : {1e-3f, 0.1f, 45.0f, 179.9f}) {
     Camera camera;
     camera.fov = fov;
+
     const CameraFrame f = makeCameraFrame(camera, 64, 48);
     expectSound(f);
     const double seen = angle(directionAt(f, 32, 0), directionAt(f, 32, 48)) * 180 / kPi;
-    // tan magnifies the rounding of its argument by 1 / cos^2 and the inverse takes it back; the
-    // float fov itself is exact.
+    // tan magnifies the rounding of its argument by 1 / cos^2, and its inverse reduces it again.
+    // The float fov is exact.
     EXPECT_NEAR(seen, std::min(static_cast<double>(fov), 179.9), 1e-12) << fov;
   }
 }
@@ -69,8 +73,8 @@ TEST(CameraFrame, OrthographicPixelsAreShareOfTheHeight) {
   EXPECT_FALSE(makeCameraFrame(Camera(), 64, 48).orthographic);
 }
 
-// In a picture that is narrower than the camera's aspect the half width at distance 1 stays
-// aspect * tan(fov / 2), and pixels are square. A wider one has the height.
+// In a picture that is narrower than the camera's aspect, half of the width at distance 1 stays
+// aspect * tan(fov / 2), and pixels are square. A wider picture keeps the height.
 TEST(CameraFrame, NarrowPicturesKeepTheWidth) {
   Camera camera;
   camera.fov = 60;
@@ -82,6 +86,7 @@ TEST(CameraFrame, NarrowPicturesKeepTheWidth) {
     EXPECT_NEAR(length(f.right), pixel, 1e-7 * pixel) << width;
     EXPECT_EQ(length(f.up), length(f.right)) << width;
   }
+
   camera.orthographicHeight = 3;
   EXPECT_EQ(length(makeCameraFrame(camera, 100, 200).up), 3 * 2 / 100.0);
   EXPECT_EQ(length(makeCameraFrame(camera, 500, 200).up), 3 / 200.0);
@@ -93,6 +98,7 @@ TEST(CameraFrame, FovBeyondTheLimitsIsClamped) {
     camera.fov = fov;
     return length(makeCameraFrame(camera, 10, 10).up);
   };
+
   const double narrowest = 2 * std::tan(0.5e-3 * kPi / 180) / 10;
   EXPECT_NEAR(pixel(0) / narrowest, 1, kRounding);
   EXPECT_NEAR(pixel(-20) / narrowest, 1, kRounding);
@@ -100,13 +106,14 @@ TEST(CameraFrame, FovBeyondTheLimitsIsClamped) {
   EXPECT_NEAR(pixel(500) / (2 * std::tan(89.95 * kPi / 180) / 10), 1, 1e-12);
 }
 
-// H75: directions do not depend on where the camera stands.
+// H75: directions do not depend on the camera's position.
 TEST(CameraFrame, FarFromTheOriginNothingIsLost) {
   Camera near, far;
   near.eye = {0, 0, 0};
   near.at = {1, 2, -4};
   far.eye = Vec3f(8388608.0f);  // 2^23: floats are whole numbers here
   far.at = far.eye + near.at;
+
   const CameraFrame a = makeCameraFrame(near, 640, 480), b = makeCameraFrame(far, 640, 480);
   EXPECT_EQ(a.forward, b.forward);
   EXPECT_EQ(a.right, b.right);
@@ -123,6 +130,7 @@ TEST(CameraFrame, UpAlongTheViewPicksAnother) {
     expectSound(f);
     expectNear(normalized(f.right), {1, 0, 0}, 1e-7);
   }
+
   Camera sideways;
   sideways.eye = {0, 0, 0};
   sideways.at = sideways.up = {0, 0, -1};
@@ -135,13 +143,16 @@ TEST(CameraFrame, SenselessCamerasStillGiveAPicture) {
   camera.at = camera.eye;
   expectSound(makeCameraFrame(camera, 30, 20));
   expectNear(makeCameraFrame(camera, 30, 20).forward, {0, 0, -1});
+
   camera = {};
   camera.up = {0, 0, 0};
   expectSound(makeCameraFrame(camera, 30, 20));
+
   camera.up = {nan, 0, 0};
   camera.at = {0, inf, 0};
   camera.eye = {nan, 1, 2};
   expectSound(makeCameraFrame(camera, 30, 20));
+
   camera = {};
   camera.eye = Vec3f(-3e38f);
   camera.at = Vec3f(3e38f);
@@ -154,11 +165,13 @@ TEST(CameraFrame, HasTheLensOfItsCamera) {
   const CameraFrame pinhole = makeCameraFrame(camera, 30, 20);
   EXPECT_EQ(pinhole.aperture, 0);
   EXPECT_EQ(pinhole.reach, Vec3d());
+
   camera.aperture = 0.5f;
   const CameraFrame lens = makeCameraFrame(camera, 30, 20);
   EXPECT_EQ(lens.aperture, 0.5);
-  EXPECT_EQ(lens.focus, 3);  // at the target
+  EXPECT_EQ(lens.focus, 3);  // the target's distance
   EXPECT_EQ(lens.reach, Vec3d(0.5, 0.5, 0));
+
   camera.focus = 7;
   camera.orthographicHeight = 4;
   const CameraFrame parallel = makeCameraFrame(camera, 30, 20);
@@ -190,8 +203,8 @@ TEST(CameraPath, PassesThroughItsKeyframesAndStopsAtItsEnds) {
   EXPECT_EQ(cameraAt(pathOf({{3, 7}}), 5).eye.x, 7);
 }
 
-// Slopes at the keyframes (0, 0), (1, 1), (2, 4): 1 at the end, (4 - 0) / 2 = 2 in the middle.
-// Half-way a Hermite segment is (p0 + p1) / 2 + (m0 - m1) / 8 = 0.5 - 0.125.
+// Slopes at the keyframes (0, 0), (1, 1) and (2, 4) are 1 at the end and (4 - 0) / 2 = 2 in the
+// middle. Halfway, a Hermite segment is (p0 + p1) / 2 + (m0 - m1) / 8 = 0.5 - 0.125.
 TEST(CameraPath, CatmullRomHalfWay) {
   const Camera c = cameraAt(pathOf({{0, 0}, {1, 1}, {2, 4}}), 0.5);
   EXPECT_FLOAT_EQ(c.eye.x, 0.375f);
@@ -199,16 +212,18 @@ TEST(CameraPath, CatmullRomHalfWay) {
   EXPECT_FLOAT_EQ(c.fov, 5);  // linear
 }
 
-// Of two keyframes, one whose plane of focus contains its target and one that gives a distance.
+// Of two keyframes, one focuses on its target and the other states a distance.
 TEST(CameraPath, FocusGoesFromTheTargetToADistance) {
   auto path = pathOf({{0, 0}, {1, 1}, {2, 2}});
   for (Keyframe& key : path) key.camera.aperture = 0.25f;
   path[1].camera.focus = 3;  // the targets are at distance 1
+
   EXPECT_EQ(cameraAt(path, 0).focusDistance(), 1);
   EXPECT_FLOAT_EQ(cameraAt(path, 0.5).focus, 2);
   EXPECT_EQ(cameraAt(path, 1).focus, 3);
   EXPECT_FLOAT_EQ(cameraAt(path, 1.25).focus, 2.5f);
   EXPECT_FLOAT_EQ(cameraAt(path, 1.25).aperture, 0.25f);
+
   path[1].camera.focus = 0;
   EXPECT_EQ(cameraAt(path, 0.5).focus, 0);
 }
@@ -226,7 +241,8 @@ TEST(CameraPath, VelocityIsContinuous) {
   for (const double t : {1.0, 3.0}) {
     const double before = (cameraAt(path, t).eye.x - cameraAt(path, t - h).eye.x) / h;
     const double after = (cameraAt(path, t + h).eye.x - cameraAt(path, t).eye.x) / h;
-    // First differences: off by h times the acceleration (below 40), and floats by 1e-6 / h.
+    // First differences are off by h times the acceleration, which is below 40, and floats by 1e-6
+    // / h.
     EXPECT_NEAR(before, after, 0.05);
   }
 }

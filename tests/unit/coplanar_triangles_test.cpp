@@ -1,4 +1,4 @@
-// Triangles that share their place with another one in its plane.
+// Triangles that overlap another one in its plane, and the neighbors of such triangles.
 #include "bake/coplanar_triangles.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ CoplanarTriangles foundAmong(const Scene& scene, int threads = kThreads) {
   return found;
 }
 
-// Two triangles, across the diagonal from `corner`.
+// Returns two triangles, divided by the diagonal from `corner`.
 Mesh rectangle(const Vec3d& corner, const Vec3d& u, const Vec3d& v) {
   Mesh mesh;
   mesh.name = "rectangle";
@@ -32,7 +32,7 @@ Mesh rectangle(const Vec3d& corner, const Vec3d& u, const Vec3d& v) {
   return mesh;
 }
 
-// Of the floor z = height.
+// Returns a rectangle of the floor z = height.
 Mesh tile(double x, double y, double width, double depth, double height = 0) {
   return rectangle({x, y, height}, {width, 0, 0}, {0, depth, 0});
 }
@@ -43,8 +43,8 @@ std::vector<Mesh> box(const Vec3d& corner, const Vec3d& size) {
           rectangle(corner + z, x, y), rectangle(corner + x, y, z), rectangle(corner + y, z, x)};
 }
 
-// Meshes that may be used several times. Each has a material of its own: none is left out for lying
-// in the place of another one.
+// Describes meshes that may be used several times. Each has a material of its own, since a
+// duplicate of the same material would be dropped.
 class Builder {
  public:
   void add(const std::vector<Mesh>& meshes, const std::vector<Affine>& places = {Affine{}}) {
@@ -54,9 +54,11 @@ class Builder {
       mesh.materials = {static_cast<std::uint32_t>(description_.materials.size())};
       description_.materials.emplace_back().name = std::to_string(description_.materials.size());
     }
+
     for (const Affine& place : places) description_.instances.push_back({object, place});
   }
-  // Everything goes there.
+
+  // Transforms everything.
   void move(const Affine& map) {
     for (Instance& instance : description_.instances) instance.toWorld = map * instance.toWorld;
   }
@@ -77,6 +79,7 @@ std::vector<PlacedTriangleId> allOf(const Scene& scene) {
       all.push_back({g.firstTriangle + i, instance});
     }
   };
+
   add(scene.geometries[0], kNoInstance);
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
     add(scene.geometries[scene.instances[i].geometry], i);
@@ -84,7 +87,7 @@ std::vector<PlacedTriangleId> allOf(const Scene& scene) {
   return all;
 }
 
-// The definition in coplanar_triangles.h, word by word.
+// The definition of coplanar_triangles.h, word by word, without its acceleration.
 struct Placed {
   PlacedTriangleId id;
   Vec3d corners[3];
@@ -106,6 +109,7 @@ Placed placed(const Scene& scene, PlacedTriangleId id) {
     }
     p.error = std::max(p.error, 32 * std::ldexp(size.x + size.y + size.z, -24));
   }
+
   p.normal = normalized(cross(p.corners[1] - p.corners[0], p.corners[2] - p.corners[0]));
   return p;
 }
@@ -119,7 +123,7 @@ bool inOnePlane(const Placed& a, const Placed& b) {
   return true;
 }
 
-// What the two have in common across the edge that leaves least of it.
+// Returns the width of the common part, across the edge that leaves the least of it.
 double commonWidth(const Placed& a, const Placed& b) {
   double least = INFINITY;
   for (const Placed* owner : {&a, &b}) {
@@ -134,9 +138,11 @@ double commonWidth(const Placed& a, const Placed& b) {
           upper[which] = std::max(upper[which], x);
         }
       }
+
       least = std::min(least, std::min(upper[0], upper[1]) - std::max(lower[0], lower[1]));
     }
   }
+
   return least;
 }
 
@@ -147,6 +153,9 @@ Partners byDefinition(const Scene& scene) {
   for (const PlacedTriangleId id : allOf(scene)) all.push_back(placed(scene, id));
   std::vector<std::vector<std::size_t>> touching(all.size());
   std::vector<bool> overlaps(all.size()), coplanar(all.size());
+
+  // A triangle overlaps if the common part is wider than the rounding, and touches if there is no
+  // gap wider than the rounding.
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (std::size_t k = 0; k < all.size(); ++k) {
       if (i == k || !inOnePlane(all[i], all[k])) continue;
@@ -155,11 +164,14 @@ Partners byDefinition(const Scene& scene) {
       if (width > -tolerance) touching[i].push_back(k);
     }
   }
+
+  // Triangles that touch an overlapping one are coplanar as well.
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!overlaps[i]) continue;
     coplanar[i] = true;
     for (const std::size_t k : touching[i]) coplanar[k] = true;
   }
+
   Partners partners(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (const std::size_t k : touching[i]) {
@@ -197,6 +209,7 @@ std::size_t expectAsDefined(const Scene& scene) {
   const CoplanarTriangles found = foundAmong(scene);
   const Partners wanted = byDefinition(scene);
   EXPECT_EQ(textOf(partnersIn(found, scene)), textOf(wanted));
+
   std::vector<bool> any(scene.triangles.size());
   std::size_t coplanar = 0;
   const std::vector<PlacedTriangleId> all = allOf(scene);
@@ -209,7 +222,7 @@ std::size_t expectAsDefined(const Scene& scene) {
   return coplanar;
 }
 
-// As built, and where planes agree to rounding only.
+// Checks the scene as built, and transformed so that planes agree up to rounding only.
 void expectCoplanar(Builder builder, std::size_t coplanar) {
   EXPECT_EQ(expectAsDefined(builder.scene()), coplanar);
   builder.move(farAndTurned());
@@ -235,10 +248,12 @@ TEST(CoplanarTriangles, WhatTheyTake) {
   const CoplanarTriangles found = foundAmong(builder.scene());
   EXPECT_GT(found.bytes(), 8 * sizeof(PlacedTriangleId));
   EXPECT_LT(found.bytes(), 2000u);
+
   EXPECT_TRUE(found.any(3));
   EXPECT_FALSE(found.any(4));
   EXPECT_FALSE(found.any(0xfffffffe));
   EXPECT_TRUE(found.partnersOf({0, 0}).empty());
+
   EXPECT_EQ(CoplanarTriangles().bytes(), 0u);
   EXPECT_TRUE(CoplanarTriangles().partnersOf({0, kNoInstance}).empty());
 }
@@ -248,6 +263,7 @@ TEST(CoplanarTriangles, TwoBoxesSideBySide) {
   builder.add(box({0, 0, 0}, {1, 1, 1}));
   builder.add(box({1, 0.25, 0.25}, {1, 0.5, 0.5}));
   expectCoplanar(builder, 4);
+
   Builder equal;
   equal.add(box({0, 0, 0}, {1, 1, 1}));
   equal.add(box({1, 0, 0}, {1, 1, 1}));
@@ -275,7 +291,8 @@ TEST(CoplanarTriangles, NeighborsOfWhatOverlapsAreCoplanarAsWell) {
   }
   floor.push_back(tile(2.25, 2.25, 0.5, 0.5));
   builder.add(floor);
-  // The decal, the tile below it, and all that touch its two triangles: the eight tiles around it.
+  // These are the decal, the tile below it, and the eight tiles around it, whose triangles touch
+  // the lower tile's two.
   expectCoplanar(builder, 2 + 2 + 14);
 }
 
@@ -293,8 +310,9 @@ TEST(CoplanarTriangles, OfManyInstancesInOnePlaceFourTakePart) {
   builder.add(box({0, 0, 0}, {1, 2, 3}), std::vector<Affine>(7));
   const Scene scene = builder.scene();
   const CoplanarTriangles found = foundAmong(scene);
+
   for (std::uint32_t i = 0; i < 7; ++i) {
-    // Each face's two triangles, four times.
+    // A face of four instances has eight triangles, each with seven partners.
     EXPECT_EQ(found.partnersOf({0, i}).size(), i < 4 ? 7u : 0u) << i;
   }
 }
@@ -305,7 +323,8 @@ TEST(CoplanarTriangles, InstancesAgainstTheWorldAndEachOther) {
   builder.add(box({0, 0, 0}, {1, 1, 1}),
               {Affine{}, Affine::translation({1, 0.5, 0}), Affine::translation({9, 9, 1}),
                Affine::translation({5, 5, -1}) * Affine::rotation({0, 0, 1}, 20)});
-  // The floor, the bottoms of two boxes, the top of the last, and two faces against each other.
+  // These are the floor, the bottoms of two boxes, the top of the last, and two faces against each
+  // other.
   expectCoplanar(builder, 2 + 2 + 2 + 2 + 4);
 }
 
@@ -336,7 +355,7 @@ TEST(CoplanarTriangles, CrossingPlanesAndFoldedSheetsAreNot) {
 
 TEST(CoplanarTriangles, NeighborsInAPlaneAreNot) {
   Builder builder;
-  // With corners on edges of others, too.
+  // Some corners lie on edges of other tiles.
   builder.add({tile(0, 0, 2, 1), tile(2, 0, 1, 3), tile(0, 1, 1, 2), tile(1, 1, 1, 2)});
   expectCoplanar(builder, 0);
 }
@@ -351,15 +370,18 @@ TEST(CoplanarTriangles, ASphereIsNot) {
                                              std::sin(theta) * std::sin(phi), std::cos(theta)}));
     }
   }
+
   for (std::uint32_t j = 0; j < kDown; ++j) {
     for (std::uint32_t i = 0; i < kAround; ++i) {
       const std::uint32_t a = j * (kAround + 1) + i, b = a + kAround + 1;
       sphere.triangles.insert(sphere.triangles.end(), {{a, b, b + 1}, {a, b + 1, a + 1}});
     }
   }
+
   Builder builder;
   builder.add({sphere});
   EXPECT_TRUE(foundAmong(builder.scene()).empty());
+
   Builder instanced;
   instanced.add({sphere}, {Affine{}, Affine::translation({0.7, 0.1, 0})});
   EXPECT_TRUE(foundAmong(instanced.scene()).empty());
@@ -369,7 +391,7 @@ TEST(CoplanarTriangles, NothingAtAll) {
   EXPECT_TRUE(foundAmong(finalized(SceneDescription{})).empty());
 }
 
-// The corner of a rectangle and its sides, in planes and at places that many share.
+// Returns a rectangle in a plane and at a place that many others share.
 Mesh randomRectangle(std::mt19937& random) {
   const auto below = [&](int n) {
     return static_cast<double>(random() % static_cast<unsigned>(n));
@@ -387,12 +409,14 @@ TEST(CoplanarTriangles, RandomRectanglesAreAsDefined) {
     Builder builder;
     std::vector<Mesh> world;
     for (int i = 0; i < 20 * (1 + round % 4); ++i) world.push_back(randomRectangle(random));
+
     builder.add(world);
     for (int object = 0; object < round % 3; ++object) {
       const Affine turned = Affine::translation({0, 3, 1}) * Affine::rotation({0, 0, 1}, 90);
       builder.add({randomRectangle(random), randomRectangle(random), randomRectangle(random)},
                   {Affine{}, turned, Affine::translation({2, 0, 1})});
     }
+
     if (round % 2 == 1) builder.move(farAndTurned());
     coplanar += expectAsDefined(builder.scene());
   }
@@ -407,22 +431,29 @@ TEST(CoplanarTriangles, ManyTilesInOnePlane) {
       floor.positions.push_back({0.1f * static_cast<float>(x), 0, 0.1f * static_cast<float>(y)});
     }
   }
+
   for (std::uint32_t y = 0; y < kTiles; ++y) {
     for (std::uint32_t x = 0; x < kTiles; ++x) {
       const std::uint32_t a = y * (kTiles + 1) + x, b = a + kTiles + 1;
       floor.triangles.insert(floor.triangles.end(), {{a, b, b + 1}, {a, b + 1, a + 1}});
     }
   }
+
   Builder builder;
   builder.add({floor});
   EXPECT_TRUE(foundAmong(builder.scene()).empty());
+
+  // One decal lies strictly within a tile. Coplanar are its two triangles, the tile's two, and the
+  // 14 around these.
   // One decal strictly within a tile: its two triangles, the tile's, and the 14 around these.
   builder.add({rectangle({10.02, 0, 10.02}, {0.06, 0, 0}, {0, 0, 0.06})});
   const Scene scene = builder.scene();
   const CoplanarTriangles found = foundAmong(scene);
+
   std::size_t coplanar = 0;
   for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) coplanar += found.any(i);
   EXPECT_EQ(coplanar, 18u);
+
   const Partners partners = partnersIn(found, scene);
   EXPECT_EQ(textOf(partners), textOf(partnersIn(foundAmong(scene, 1), scene)));
 }

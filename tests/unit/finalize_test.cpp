@@ -32,9 +32,11 @@ TEST(Finalize, MediaAreNumberedOncePerDielectricInUse) {
   d.materials[3].name = "glass again";
   d.materials[4].priority = 2;
   d.materials[5].ior = 2;  // in no mesh
+
   Mesh& mesh = d.objects[0].meshes[0];
   mesh.triangles.assign(5, {0, 1, 2});
   mesh.materials = {0, 1, 2, 3, 4};
+
   const Scene scene = finalized(std::move(d));
   EXPECT_EQ(scene.mediumOfMaterial, (std::vector<std::uint8_t>{0, 1, 2, 1, 3, 0}));
   ASSERT_EQ(scene.media.size(), 4u);
@@ -68,10 +70,12 @@ TEST(Finalize, SuppliedCameraSeesAllOfTheScene) {
     d.width = width;
     d.height = height;
     d.instances[0].toWorld = Affine::translation({500, -20, 3}) * Affine::scaling({40, 2, 9});
+
     const Scene scene = finalized(std::move(d));
     ASSERT_EQ(scene.cameras.size(), 1u);
     const CameraFrame f = makeCameraFrame(scene.cameras[0], width, height);
     const Vec3d right = f.right / dot(f.right, f.right), up = f.up / dot(f.up, f.up);
+
     for (int i = 0; i < 8; ++i) {
       const Vec3d p{i & 1 ? scene.upper.x : scene.lower.x, i & 2 ? scene.upper.y : scene.lower.y,
                     i & 4 ? scene.upper.z : scene.lower.z};
@@ -89,6 +93,7 @@ TEST(Finalize, CamerasOfTheSceneComeFirst) {
   d.cameraPath.resize(1);
   d.cameraPath[0].camera.eye = {7, 7, 7};
   EXPECT_EQ(finalized(d).cameras[0].eye, (Vec3f{7, 7, 7}));
+
   d.cameras.resize(1);
   d.cameras[0].eye = {1, 2, 3};
   const Scene scene = finalized(d);
@@ -99,7 +104,7 @@ TEST(Finalize, CamerasOfTheSceneComeFirst) {
 TEST(Finalize, MemoryIsCounted) {
   SceneDescription d = sceneOf(square());
   d.textures.push_back(whiteTexture(TexelFormat::data));
-  // The texel is in a strip of 8 columns and 3 rows.
+  // The texel is stored in a strip of 8 columns and 3 rows.
   EXPECT_EQ(finalized(std::move(d)).memoryBytes(), 2 * 64 + 2 * 12 + 4 * 12 + 24 * 4 + 12u);
 }
 

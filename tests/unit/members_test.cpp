@@ -1,4 +1,5 @@
-// The tables of members in scene/members.h are complete, and scenes/README.md names what they hold.
+// The tables of members in scene/members.h are complete, and scenes/README.md describes their
+// members.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -15,7 +16,7 @@ struct Anything {
   operator T() const;  // NOLINT(google-explicit-constructor): stands for a field of any type
 };
 
-// The number of fields of an aggregate.
+// Counts the fields of an aggregate.
 template <typename Noun, typename... Fields>
 consteval std::size_t countFields() {
   if constexpr (requires { Noun{Fields{}..., Anything{}}; }) {

@@ -37,6 +37,7 @@ TEST(TransformMesh, NormalsBecomeUnitVectorsOrZero) {
   EXPECT_FLOAT_EQ(mesh.normals[1].y, 0.6f);
   EXPECT_FLOAT_EQ(mesh.normals[1].z, 0.8f);
   EXPECT_EQ(mesh.normals[2], Vec3f{});
+
   mesh.normals[0] = {0, std::nanf(""), 1};
   transform(mesh, Affine::scaling(Vec3d(1e-100)));  // cofactors of 1e-200
   EXPECT_EQ(mesh.normals[0], Vec3f{});
@@ -57,11 +58,13 @@ TEST(TransformMesh, MirroringFlipsTheWinding) {
   mesh.normals.assign(3, {0, 0, 1});
   mesh.triangles = {{0, 1, 2}};
   transform(mesh, Affine::scaling({-1, 1, 1}));
+
   const auto& t = mesh.triangles[0];
   const Vec3f face = cross(mesh.positions[t[1]] - mesh.positions[t[0]],
                            mesh.positions[t[2]] - mesh.positions[t[0]]);
   EXPECT_EQ(face, (Vec3f{0, 0, 1}));
   EXPECT_EQ(mesh.normals[0], (Vec3f{0, 0, 1}));
+
   transform(mesh, Affine::scaling({1, 1, -1}));
   EXPECT_EQ(mesh.normals[0], (Vec3f{0, 0, -1}));
 }

@@ -1,4 +1,4 @@
-// Mip levels: means of what they cover.
+// Mip levels are means of the texels that they cover.
 #include "bake/mip_maps.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 using verify::makeTexture;
 
-constexpr double kHalfCode = 0.5 / 1023;  // of a color's square root
+constexpr double kHalfCode = 0.5 / 1023;  // half a code of a color's square root
 
 std::uint32_t gray(std::uint32_t code) { return code | code << 10 | code << 20; }
 
@@ -25,7 +25,7 @@ Texture noise(TexelFormat format, int width, int height) {
   return makeTexture(format, width, height, texels);
 }
 
-// Light of one channel over the whole texture.
+// Returns the mean light of one channel over the whole texture.
 double meanLight(const Texture& t, int shift) {
   double sum = 0;
   for (const std::uint32_t texel : t.texels) {
@@ -36,11 +36,12 @@ double meanLight(const Texture& t, int shift) {
 }
 
 TEST(Halved, ColorsAreMeansOfLight) {
-  // Three black texels and a white one in each channel: a quarter of the light, half the code.
+  // Each channel has three black texels and a white one: a quarter of the light, and half of the
+  // code.
   const Texture t = makeTexture(TexelFormat::color, 2, 2, {1023u, 0, 1023u << 20, 1023u << 10});
   const Texture half = halved(t);
   ASSERT_EQ(half.texels.size(), 1u);
-  // 511.5 goes to the even code.
+  // The code 511.5 is rounded to even.
   EXPECT_EQ(half.texels[0], gray(512));
 }
 
@@ -57,11 +58,11 @@ TEST(Halved, RadianceIsTheMeanOfRadiance) {
 TEST(Halved, DataAreMeansOfCodes) {
   const Texture t =
       makeTexture(TexelFormat::data, 2, 2, {0x000000ffu, 0x80000201u, 0x80000201u, 0x000000ffu});
-  // 255, 1, 1, 255 in the first channel, 0, 2, 2, 0 and 0, 128, 128, 0 in the second and fourth.
+  // The first channel has 255, 1, 1, 255, the second 0, 2, 2, 0 and the fourth 0, 128, 128, 0.
   EXPECT_EQ(halved(t).texels[0], 0x40000180u);
 }
 
-// 5 texels on 2: each covers 2.5 of them.
+// Each of 2 texels covers 2.5 of 5.
 TEST(Halved, OddSizesCutThroughTexels) {
   const Texture t = makeTexture(TexelFormat::data, 5, 1, {100, 50, 20, 70, 90});
   const Texture half = halved(t);
@@ -84,8 +85,8 @@ TEST(Halved, EqualTexelsStayWhatTheyAre) {
   }
 }
 
-// Every level keeps the light of the whole, but for its rounding to codes, which has no bias: of
-// many texels it averages out.
+// Every level keeps the light of the whole texture, up to its rounding to codes, which averages out
+// over many texels because it has no bias.
 TEST(Halved, LightIsKeptFromLevelToLevel) {
   for (const auto& [width, height] : {std::pair(256, 128), std::pair(97, 131)}) {
     const Texture full = noise(TexelFormat::color, width, height);
@@ -103,13 +104,16 @@ TEST(Halved, LightIsKeptFromLevelToLevel) {
 TEST(MipMaps, ReachDownToOneTexel) {
   const std::vector<Texture> textures{noise(TexelFormat::color, 8, 3),
                                       noise(TexelFormat::data, 4, 4)};
+
   const MipMaps maps(textures, {{0}});
+  // Levels beyond the last one are the last one; unused textures have one level.
   ASSERT_EQ(maps.levels({0}), 4);
   const int sizes[][2] = {{8, 3}, {4, 1}, {2, 1}, {1, 1}, {1, 1}, {1, 1}};
   for (int level = 0; level < 6; ++level) {
     EXPECT_EQ(maps.level({0}, level).width, sizes[level][0]) << level;
     EXPECT_EQ(maps.level({0}, level).height, sizes[level][1]) << level;
   }
+
   EXPECT_EQ(&maps.level({0}, 0), textures.data());
   EXPECT_EQ(maps.levels({1}), 1);
   EXPECT_EQ(&maps.level({1}, 3), &textures[1]);
@@ -122,6 +126,7 @@ TEST(MipMaps, AreTheSameForAnyNumberOfThreads) {
     textures.push_back(noise(TexelFormat::color, 16 * (i + 1), 9 * (i + 1)));
     all.push_back({i});
   }
+
   const MipMaps one(textures, all, 1), many(textures, all, 5);
   for (const ShownMap& map : all) {
     ASSERT_EQ(one.levels(map), many.levels(map));
@@ -139,10 +144,12 @@ TEST(MipMaps, OfASceneAreThoseThatMaterialsShow) {
     const bool data = map == &m.alphaMap || map == &m.normalMap;
     *map = builder.add(noise(data ? TexelFormat::data : TexelFormat::color, 2, 2));
   }
+
   m.emission = m.specular = Rgb(0.5f);
   builder.add(verify::floorAt(0, 1, builder.add(m)));
   const Scene scene = builder.build();
   const MipMaps maps(scene);
+
   for (const auto map : {&Material::diffuseMap, &Material::normalMap, &Material::emissionMap,
                          &Material::specularMap}) {
     EXPECT_EQ(maps.levels(shownMap(m, map)), 2);
@@ -150,7 +157,7 @@ TEST(MipMaps, OfASceneAreThoseThatMaterialsShow) {
   EXPECT_EQ(maps.levels({m.alphaMap}), 1) << "alpha masks are looked up in full";
 }
 
-// Two columns of leaf and two of nothing, on a color that is 1 on the leaf and 0 beside it.
+// A color that is 1 on two columns of leaf and 0 on two columns beside it, and a mask of the leaf.
 struct Leaf {
   static constexpr int kSide = 4;
   std::vector<Texture> textures;
@@ -171,6 +178,7 @@ TEST(MipMaps, AverageColorsOfWhatAMaskLeaves) {
   const Leaf leaf(255);
   const ShownMap cut{0, 1, 0.5f}, covered{0, kNoTexture, 0, 1}, plain{0};
   const MipMaps maps(leaf.textures, {cut, covered, plain});
+
   for (int level = 1; level < 3; ++level) {
     for (const std::uint32_t texel : maps.level(cut, level).texels) EXPECT_EQ(texel, gray(1023));
     for (const std::uint32_t texel : maps.level(covered, level).texels) {
@@ -180,8 +188,8 @@ TEST(MipMaps, AverageColorsOfWhatAMaskLeaves) {
   EXPECT_EQ(maps.level(plain, 1).texels[1], 0u);
 }
 
-// Bilinear lookups reach half a texel beyond the leaf on either side, in which the mean coverage is
-// a quarter of the leaf's: the leaf covers 2 x 200 of the 3 texels in which anything is left.
+// Bilinear lookups reach half a texel beyond the leaf on either side, where the mean coverage is a
+// quarter of the leaf's. The leaf covers 2 x 200 of the 3 texels that are not empty.
 TEST(MipMaps, CoverageIsTheMeanOfWhatIsLeft) {
   const Leaf leaf(200);
   const ShownMap coverage{1, 1, 1.0f / 1024};

@@ -1,4 +1,4 @@
-// How models are looked at that bring no camera.
+// The view of models that have no camera.
 #include "make/model_view.h"
 
 #include <gtest/gtest.h>
@@ -16,15 +16,15 @@ namespace {
 using test::sceneOf;
 using test::square;
 
-// The unit square about the origin, its front turned from +z by the map.
+// Returns the unit square about the origin, whose front the transform turns away from +z.
 SceneDescription plate(const Affine& turn) {
   SceneDescription scene = sceneOf(square());
   scene.instances[0].toWorld = turn * Affine::translation({-0.5, -0.5, 0});
   return scene;
 }
 
-// A box of that half size; its fronts look inwards if `room`. Without `open` faces: bit 2 * axis,
-// and the next for the upper end.
+// Returns a box of this half size, whose fronts look inwards if it is a room. `open` has a bit for
+// each face that is missing: bit 2 * axis for the lower end, and the next bit for the upper end.
 Mesh box(const Vec3f& half, bool room, unsigned open = 0) {
   Mesh mesh;
   mesh.materials = {0};
@@ -32,6 +32,7 @@ Mesh box(const Vec3f& half, bool room, unsigned open = 0) {
     mesh.positions.push_back(
         {i & 1 ? half.x : -half.x, i & 2 ? half.y : -half.y, i & 4 ? half.z : -half.z});
   }
+
   for (int axis = 0; axis < 3; ++axis) {
     const auto u = 1u << ((axis + 1) % 3), v = 1u << ((axis + 2) % 3), w = 1u << axis;
     for (const unsigned end : {0u, 1u}) {
@@ -43,6 +44,7 @@ Mesh box(const Vec3f& half, bool room, unsigned open = 0) {
       mesh.triangles.push_back({at, at + a + b, at + b});
     }
   }
+
   return mesh;
 }
 
@@ -57,7 +59,7 @@ TEST(ModelViews, ABodyIsSeenFromTheFrontTheRightAndAbove) {
   EXPECT_GT(eye.y, 0);
 }
 
-// From no side does one see less than the half of it.
+// However the plate is turned, the view shows at least half of its area.
 TEST(ModelViews, APlateIsNotSeenEdgeOn) {
   for (const Vec3d& axis : {Vec3d{0, 1, 0}, Vec3d{1, 0, 0}}) {
     for (const double degrees : {0.0, 90.0, 180.0, 270.0}) {
@@ -67,14 +69,16 @@ TEST(ModelViews, APlateIsNotSeenEdgeOn) {
       EXPECT_GT(cosine, 0.5) << axis.x << " " << degrees;
     }
   }
+
   const Affine down = Affine::rotation({1, 0, 0}, 90);
   SceneDescription scene = plate(down);
   EXPECT_GT(towardsEye(viewOf(scene)).y, 0.2) << "from above nevertheless";
+
   scene.materials.at(0).doubleSided = false;
   EXPECT_LT(towardsEye(viewOf(scene)).y, -0.2) << "its back is not seen";
 }
 
-// Every corner is in the picture, and one of them near its edge.
+// Every corner is in the picture, and one of them is near its edge.
 TEST(ModelViews, TheModelFillsThePicture) {
   for (const Vec3f& half : {Vec3f{1, 1, 1}, Vec3f{5, 0.2f, 1}, Vec3f{0.1f, 3, 0.1f}}) {
     for (const int width : {480, 100}) {
@@ -83,6 +87,7 @@ TEST(ModelViews, TheModelFillsThePicture) {
       scene.instances[0].toWorld = Affine::translation({100, -20, 7});
       const ModelView view = viewOf(scene);
       const CameraFrame frame = makeCameraFrame(view.camera, scene.width, scene.height);
+
       double farthest = 0;
       for (const Vec3f& p : scene.objects[0].meshes[0].positions) {
         const Vec3d way = scene.instances[0].toWorld.point(Vec3d(p)) - frame.eye;
@@ -92,6 +97,7 @@ TEST(ModelViews, TheModelFillsThePicture) {
         EXPECT_GT(depth, 0);
         farthest = std::max({farthest, 2 * std::abs(x) / width, 2 * std::abs(y) / scene.height});
       }
+
       EXPECT_LT(farthest, 1);
       EXPECT_GT(farthest, 0.9);
     }
@@ -106,11 +112,12 @@ TEST(ModelViews, AClosedRoomIsSeenFromInside) {
     EXPECT_LT(std::abs(p.y), 1.5);
     EXPECT_LT(std::abs(p.z), 3);
   }
+
   EXPECT_GT(view.ceiling.y, 0.5);
   EXPECT_GT(view.camera.eye.x, 1);
 }
 
-// The eye keeps out of what stands there.
+// The eye avoids furniture.
 TEST(ModelViews, ARoomMayBeFurnished) {
   SceneDescription scene = sceneOf(box({4, 2, 4}, true));
   scene.objects[0].meshes.push_back(box({0.5f, 2, 0.5f}, false));
@@ -128,28 +135,32 @@ TEST(ModelViews, NothingElseIsARoom) {
   EXPECT_FALSE(viewOf(sceneOf(box({9, 0.1f, 9}, true))).inside) << "flat";
 }
 
-// An icosphere of radius 1 that is wound inwards, with one material of the file. `normals` is 1 for
-// vertex normals that look out, -1 for such that look in, 0 for none.
+// Returns an icosphere of radius 1 that is wound inwards and has one material of a file. Its vertex
+// normals look out if `normals` is 1, look in if it is -1, and are missing if it is 0.
 SceneDescription invertedBall(int normals) {
   const auto [points, triangles] = procedural::icosphereMesh(2);
   Mesh mesh;
   mesh.materials = {0};
   for (const auto& t : triangles) mesh.triangles.push_back({t[0], t[2], t[1]});
+
   for (const Vec3d& point : points) {
     mesh.positions.emplace_back(point);
     if (normals != 0) mesh.normals.emplace_back(point * static_cast<double>(normals));
   }
+
   return sceneOf(std::move(mesh));
 }
 
 TEST(ModelViews, ABodyThatIsWoundInwardsIsNoRoom) {
   EXPECT_FALSE(viewOf(invertedBall(0)).inside) << "no sign of a room";
   EXPECT_FALSE(viewOf(invertedBall(1)).inside) << "its normals look out";
+
   SceneDescription two = invertedBall(1);
   two.materials.push_back(two.materials[0]);
   two.objects[0].meshes.push_back(two.objects[0].meshes[0]);
   two.objects[0].meshes[1].materials = {1};
   EXPECT_FALSE(viewOf(two).inside) << "its normals look out";
+
   SceneDescription bare = sceneOf(box({4, 1.5f, 3}, true));
   bare.materials[0].name = kNoMaterialName;
   EXPECT_FALSE(viewOf(bare).inside) << "a single mesh without a material";
@@ -163,12 +174,13 @@ TEST(ModelViews, NormalsMaterialsOrFlatWallsMakeARoom) {
   mesh.materials.assign(mesh.triangles.size(), 0);
   mesh.materials[0] = 1;
   EXPECT_TRUE(viewOf(painted).inside);
+
   SceneDescription turned = sceneOf(box({4, 1.5f, 3}, true));
   turned.instances[0].toWorld = Affine::rotation({0, 1, 0}, 45);
   EXPECT_TRUE(viewOf(turned).inside) << "flat walls";
 }
 
-// A mirror image has its fronts where the original has them.
+// A mirror image has its fronts on the same side as the original.
 TEST(ModelViews, MirroringMakesNoRoom) {
   SceneDescription scene = sceneOf(box({4, 1.5f, 3}, false));
   scene.instances[0].toWorld = Affine::scaling({-1, 1, 1});
@@ -181,6 +193,7 @@ TEST(ModelViews, TheSideCanBeChosen) {
   SceneDescription scene = sceneOf(box({4, 1.5f, 3}, true));
   scene.viewpoint = Viewpoint::outside;
   EXPECT_GT(viewOf(scene).camera.eye.z, 3);
+
   scene.objects[0].meshes[0] = box({4, 1.5f, 3}, false);
   scene.viewpoint = Viewpoint::inside;
   const ModelView view = viewOf(scene);
@@ -188,22 +201,25 @@ TEST(ModelViews, TheSideCanBeChosen) {
   EXPECT_LT(view.camera.eye.z, 3);
 }
 
-// A plate of 4 by 2 at a distance of 5 from an eye that turns away from it, step by step.
+// The plate is 4 by 2 at a distance of 5. The eye moves sideways, step by step.
 TEST(ModelViews, ACameraSeesWhatOverlapsItsPicture) {
   SceneDescription scene = sceneOf(square());
   scene.instances[0].toWorld = Affine::scaling({4, 2, 1}) * Affine::translation({-0.5, -0.5, 0});
   scene.width = scene.height = 100;
   Camera camera;
   camera.fov = 60;
-  // Half of the picture is 5 tan 30 = 2.887 wide, and half of the plate 2.
+
+  // Half of the picture is 5 tan 30 = 2.887 wide, and half of the plate is 2 wide.
   for (const auto& [x, sees] : {std::pair{0.0f, true}, {4.8f, true}, {4.95f, false}}) {
     camera.eye = {x, 0, 5};
     camera.at = {x, 0, 0};
     EXPECT_EQ(seesSomething(scene, camera), sees) << x;
   }
+
   camera.eye = {0, 0, 5};
   camera.at = {0, 0, 10};
   EXPECT_FALSE(seesSomething(scene, camera)) << "it lies behind";
+
   camera.at = {0, 0, 0};
   camera.orthographicHeight = 2;
   for (const auto& [x, sees] : {std::pair{2.9f, true}, {3.1f, false}}) {

@@ -11,7 +11,8 @@ TEST(NearestName, InsertionDeletionAndSubstitutionCostOne) {
   EXPECT_EQ(nearestName("spere", names), "sphere");
   EXPECT_EQ(nearestName("spiiral", names), "spiral");
   EXPECT_EQ(nearestName("sponce", names), "sponge");
-  // Against a name that is two substitutions away.
+
+  // The other name is two substitutions away.
   EXPECT_EQ(nearestName("abc", {"axx", "abcd"}), "abcd");
   EXPECT_EQ(nearestName("abcd", {"axxd", "abc"}), "abc");
 }

@@ -1,4 +1,4 @@
-// The table of options: what its entries say fits the options that they are about.
+// The entries of the table of options fit the options that they describe.
 #include "core/option_table.h"
 
 #include <gtest/gtest.h>
@@ -48,20 +48,25 @@ TEST(OptionTable, WordsOfKnobsAreValues) {
   forEachOption(defaults, [&](const OptionSpec& spec, const auto&) {
     const std::string name(spec.name);
     RenderOptions options;
+
     if (!spec.cheapest.empty()) {
       EXPECT_NO_THROW(setOption(options, name, std::string(spec.cheapest))) << name;
     }
     if (!spec.knob) return;
+
     EXPECT_TRUE(spec.changesPicture) << name;
     EXPECT_NO_THROW(setOption(options, name, std::string(spec.knob->exact))) << name;
+
     const std::vector<std::string> values = wordsOf(spec.knob->values);
     EXPECT_GE(values.size(), 2u) << name;
     for (const std::string& word : values) {
       EXPECT_NO_THROW(setOption(options, name, word)) << name << " " << word;
     }
+
     for (const std::string& word : wordsOf(spec.knob->spare)) {
       EXPECT_NE(std::find(values.begin(), values.end(), word), values.end()) << name << word;
     }
+
     const std::vector<std::string> alongside = wordsOf(spec.knob->alongside);
     for (std::size_t i = 0; i < alongside.size(); i += 2) {
       ASSERT_LT(i + 1, alongside.size()) << name;
@@ -77,6 +82,7 @@ TEST(OptionTable, SaysWhatHasToBeMadeAnew) {
     for (std::size_t i = 0; i < words.size(); i += 2) setOption(options, words[i], words[i + 1]);
     return rebuildNeeded(RenderOptions(), options);
   };
+
   EXPECT_EQ(needed({}), Rebuild::nothing);
   EXPECT_EQ(needed({"size", "3x4", "fov", "30", "mode", "reference"}), Rebuild::nothing);
   EXPECT_EQ(needed({"spp", "1"}), Rebuild::nothing);

@@ -1,4 +1,4 @@
-// Which pixels count as edges.
+// Which pixels are edges.
 #include "sampling/sample_pattern.h"
 
 #include <gtest/gtest.h>
@@ -21,6 +21,7 @@ TEST(OnSameSurface, MaterialInstanceAndNothing) {
   b = pointOnFloor(1, 0);
   b.instance = 8;
   EXPECT_FALSE(onSameSurface(a, b));
+
   EXPECT_FALSE(onSameSurface(a, PixelSurface{}));
   EXPECT_TRUE(onSameSurface(PixelSurface{}, PixelSurface{}));
 }
@@ -35,7 +36,7 @@ TEST(OnSameSurface, NormalsMayTurnByFiveDegrees) {
   EXPECT_FALSE(onSameSurface(pointOnFloor(0, 0), turned(5.1)));
 }
 
-// A step of the same material, at any scale.
+// Parallel planes of the same material are two surfaces, at any scale.
 TEST(OnSameSurface, ParallelPlanesAreTwoSurfaces) {
   for (const float scale : {1e-6f, 1.0f, 1e6f}) {
     PixelSurface a = pointOnFloor(0, 0), b = pointOnFloor(scale, 0);
@@ -60,7 +61,9 @@ struct Frame {
       }
     }
   }
+
   std::size_t at(int x, int y) const { return static_cast<std::size_t>(y * display.width + x); }
+
   std::vector<std::uint8_t> edges(int contrast = 8, int bands = 1) const {
     std::vector<std::uint8_t> found(surfaces.size(), 2);
     for (int i = 0; i < bands; ++i) {
@@ -69,18 +72,20 @@ struct Frame {
     }
     return found;
   }
+
   DisplayImage display;
   std::vector<PixelSurface> surfaces;
 };
 
-// A lone pixel that is different marks itself and its eight neighbors, whether inside or in a
-// corner.
+// A single pixel that is different marks itself and its eight neighbors, both inside the picture
+// and in a corner.
 TEST(FindEdges, MarkBothSides) {
   for (const auto& [cx, cy] : {std::pair(3, 2), std::pair(0, 0), std::pair(6, 4)}) {
     Frame bySurface(7, 5), byContrast(7, 5);
     bySurface.surfaces[bySurface.at(cx, cy)].material = 3;
     byContrast.display.rgba[4 * byContrast.at(cx, cy) + 1] = 109;
     const auto surface = bySurface.edges(), contrast = byContrast.edges();
+
     for (int y = 0; y < 5; ++y) {
       for (int x = 0; x < 7; ++x) {
         const bool near = std::abs(x - cx) <= 1 && std::abs(y - cy) <= 1;
@@ -96,7 +101,8 @@ TEST(FindEdges, ContrastMustExceedTheThreshold) {
   frame.display.rgba[4] = 108;
   EXPECT_EQ(frame.edges(8), (std::vector<std::uint8_t>{0, 0, 0}));
   EXPECT_EQ(frame.edges(7), (std::vector<std::uint8_t>{1, 1, 1}));
-  // Opacity is no contrast.
+
+  // Opacity does not count as contrast.
   frame.display.rgba[4] = 100;
   frame.display.rgba[7] = 0;
   EXPECT_EQ(frame.edges(0), (std::vector<std::uint8_t>{0, 0, 0}));
@@ -109,6 +115,7 @@ TEST(FindEdges, BandsGiveWhatTheWholeGives) {
     state = state * 1664525u + 1013904223u;
     if (state >> 29 == 0) frame.surfaces[i].material = 2;
   }
+
   for (const int bands : {2, 3, 11}) EXPECT_EQ(frame.edges(8, bands), frame.edges());
 }
 

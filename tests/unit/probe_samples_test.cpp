@@ -1,4 +1,4 @@
-// Which pixels get every sample: worked out by hand on three pixels in a row.
+// Which pixels get every sample, worked out by hand on three pixels in a row.
 #include "sampling/sample_pattern.h"
 
 #include <gtest/gtest.h>
@@ -6,13 +6,14 @@
 namespace whit {
 namespace {
 
-constexpr int kContrast = 10;  // codes: 20 within a pixel, 40 across its border
+constexpr int kContrast = 10;  // in codes: 20 within a pixel, 40 across its border
 
 class ProbesInARow : public testing::Test {
  protected:
   void setAll(int x, std::uint32_t code) { probes_.at(x, 5).codes.fill(code); }
 
-  // Of a probe in the left half, since every place lies near that of one of four rooks.
+  // Returns the number of the leftmost probe sample. It lies in the left half, because the probe
+  // samples are near four rooks, which have a column each.
   std::size_t leftmost() const {
     std::size_t best = 0;
     for (std::size_t k = 1; k < kProbeSamples; ++k) {
@@ -41,9 +42,11 @@ TEST_F(ProbesInARow, TheNextPixelCountsByItsNearestSample) {
   probes_.at(9, 5).codes[leftmost()] = 41;
   EXPECT_TRUE(probes_.differ(8, 5, kContrast));
   EXPECT_FALSE(probes_.differ(7, 5, kContrast)) << "two pixels away";
+
   probes_.at(9, 5).codes[leftmost()] = 40;
   EXPECT_FALSE(probes_.differ(8, 5, kContrast));
-  // Those further away do not.
+
+  // Samples further away do not count.
   setAll(9, 255);
   probes_.at(9, 5).codes[leftmost()] = 0;
   EXPECT_FALSE(probes_.differ(8, 5, kContrast));

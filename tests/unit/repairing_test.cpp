@@ -1,4 +1,4 @@
-// What becomes of bad triangles, texture coordinates and normals.
+// How bad triangles, texture coordinates and normals are repaired.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -23,7 +23,7 @@ const std::string kDegenerate = "degenerate triangle dropped";
 const std::string kBadCorner = "triangle with a non-finite or enormous corner dropped";
 const std::string kBadIndex = "triangle with a vertex index out of range dropped";
 
-// H23
+// H23: degenerate triangles are dropped.
 TEST(Repairing, DegenerateTrianglesAreDroppedAndCounted) {
   Mesh mesh = square();
   const auto add = [&](const Vec3f& a, const Vec3f& b, const Vec3f& c) {
@@ -31,6 +31,7 @@ TEST(Repairing, DegenerateTrianglesAreDroppedAndCounted) {
     mesh.positions.insert(mesh.positions.end(), {a, b, c});
     mesh.triangles.push_back({first, first + 1, first + 2});
   };
+
   mesh.triangles.push_back({1, 1, 2});             // repeated index
   add({0, 0, 0}, {1, 0, 0}, {2, 0, 0});            // collinear
   add({3, 3, 3}, {4, 4, 4}, {3, 3, 3});            // repeated position
@@ -39,6 +40,7 @@ TEST(Repairing, DegenerateTrianglesAreDroppedAndCounted) {
   add({0, 0, 9}, {1, 0, 9}, {0, 1e-20f, 9});            // thin but with an area: stays
   add({0, 0, 9}, {1e-12f, 0, 9}, {0, 1e-12f, 9});       // tiny: stays (H24)
   add({1e-30f, 0, 0}, {0, 1e-30f, 0}, {0, 0, 1e-30f});  // squares vanish in float: stays
+
   Warnings warnings;
   const Scene scene = Scene::finalize(sceneOf(mesh), warnings);
   EXPECT_EQ(scene.triangles.size(), 2u + 3);
@@ -51,15 +53,17 @@ TEST(Repairing, MeshesOfWhichNothingIsLeftAreCounted) {
   constexpr char kNothing[] = "mesh with nothing to draw: all its triangles were dropped";
   Mesh mesh = square();
   Warnings some, all;
+
   mesh.triangles = {{0, 0, 1}, {0, 1, 2}};
   Scene::finalize(sceneOf(mesh), some);
   EXPECT_EQ(warned(some, kNothing), 0u);
+
   mesh.triangles = {{0, 0, 1}, {0, 1, 9}};
   Scene::finalize(sceneOf(mesh), all);
   EXPECT_EQ(warned(all, kNothing), 1u);
 }
 
-// H15
+// H15: duplicates are dropped, except those of glass.
 TEST(Repairing, TrianglesInEachOthersPlaceAreDroppedButOfGlass) {
   for (const bool glass : {false, true}) {
     Mesh mesh = square();
@@ -68,22 +72,25 @@ TEST(Repairing, TrianglesInEachOthersPlaceAreDroppedButOfGlass) {
     mesh.triangles.push_back({1, 2, 0});  // the first, turned
     mesh.triangles.push_back({6, 5, 4});  // the first, reversed, with vertices of its own
     mesh.triangles.push_back({0, 1, 3});  // shares two corners with each
+
     SceneDescription description = sceneOf(mesh);
     for (Material& m : description.materials) m.transmission = glass ? Rgb{1, 1, 1} : Rgb{0, 0, 0};
     Warnings warnings;
     const Scene scene = Scene::finalize(std::move(description), warnings);
+
     EXPECT_EQ(scene.triangles.size(), 2u + (glass ? 3 : 1));
     EXPECT_EQ(warned(warnings, "triangle in the place of another of its material dropped"),
               glass ? 0u : 2u);
   }
 }
 
-// H27
+// H27: a bad vertex drops only its triangles.
 TEST(Repairing, BadVerticesTakeOnlyTheirTriangles) {
   const float inf = std::numeric_limits<float>::infinity();
   for (const float bad : {std::nanf(""), inf, -inf, 1e19f, -1e19f}) {
     Mesh mesh = square();
     mesh.positions[3].y = bad;  // of the second triangle only
+
     Warnings warnings;
     const Scene scene = Scene::finalize(sceneOf(mesh), warnings);
     EXPECT_EQ(scene.triangles.size(), 1u);
@@ -91,6 +98,7 @@ TEST(Repairing, BadVerticesTakeOnlyTheirTriangles) {
     EXPECT_EQ(scene.lower, (Vec3f{0, 0, 0}));
     EXPECT_EQ(scene.upper, (Vec3f{1, 1, 0}));
   }
+
   Mesh large = square();
   large.positions[2].y = 1e18f;
   EXPECT_EQ(finalized(sceneOf(large)).triangles.size(), 2u);
@@ -101,9 +109,10 @@ TEST(Repairing, IndicesOutOfRangeTakeTheirTriangle) {
   mesh.triangles.push_back({0, 1, 4});
   mesh.triangles.push_back({0xffffffffu, 1, 2});
   SceneDescription d = sceneOf(mesh);
-  Mesh other = square();  // whose vertices must not be reached
+  Mesh other = square();  // its vertices must not be reached
   for (Vec3f& p : other.positions) p.z = 1;
   d.objects[0].meshes.push_back(other);
+
   Warnings warnings;
   EXPECT_EQ(Scene::finalize(std::move(d), warnings).triangles.size(), 4u);
   EXPECT_EQ(warned(warnings, kBadIndex), 2u);
@@ -120,19 +129,22 @@ TEST(Repairing, StrictRefusesDroppedTriangles) {
 TEST(Repairing, TextureCoordinatesThatAreNotFiniteBecomeZero) {
   Mesh mesh = square();
   mesh.uvs = {{0.25f, std::nanf("")}, {1, 0}, {1, 1}, {-std::numeric_limits<float>::infinity(), 1}};
+
   Warnings warnings;
   const Scene scene = Scene::finalize(sceneOf(mesh), warnings);
   EXPECT_EQ(scene.triangles[0].uv[0], 0.25f);
   EXPECT_EQ(scene.triangles[0].uv[1], 0);
   EXPECT_EQ(scene.triangles[1].uv[4], 0);
-  // By corner: vertex 0 has two, vertex 3 one.
+  // Triangles count each of their corners: vertex 0 has two bad ones, vertex 3 has one.
   EXPECT_EQ(warned(warnings, "non-finite texture coordinate set to 0"), 3u);
 }
 
-// H68: whole numbers off, so the picture is the same, with all bits for the fraction.
+// H68: coordinates are moved by whole repeats, so that the picture is the same and all bits are
+// left for the fraction.
 TEST(Repairing, FarTextureCoordinatesAreRecenteredWhereTheyRepeat) {
   Mesh mesh = square();
   mesh.uvs = {{1000000.25f, -20.5f}, {1000001.5f, -17}, {1000000, -30}, {1000002, -18}};
+
   const auto firstUv = [&](Wrap wrapU, Wrap wrapV) {
     SceneDescription d = sceneOf(mesh);
     d.textures.push_back(whiteTexture(TexelFormat::color));
@@ -142,12 +154,14 @@ TEST(Repairing, FarTextureCoordinatesAreRecenteredWhereTheyRepeat) {
     const Scene scene = finalized(std::move(d));
     return std::vector<float>(scene.triangles[0].uv, scene.triangles[0].uv + 6);
   };
+
   using Uv = std::vector<float>;
   EXPECT_EQ(firstUv(Wrap::repeat, Wrap::repeat), (Uv{0.25f, 9.5f, 1.5f, 13, 0, 0}));
   EXPECT_EQ(firstUv(Wrap::clamp, Wrap::repeat),
             (Uv{1000000.25f, 9.5f, 1000001.5f, 13, 1000000, 0}));
   EXPECT_EQ(firstUv(Wrap::repeat, Wrap::mirror), (Uv{0.25f, -20.5f, 1.5f, -17, 0, -30}));
-  mesh.uvs[1] = {16, -16};  // one corner near: left alone
+
+  mesh.uvs[1] = {16, -16};  // one corner is near 0: nothing is moved
   EXPECT_EQ(firstUv(Wrap::repeat, Wrap::repeat), (Uv{1000000.25f, -20.5f, 16, -16, 1000000, -30}));
 }
 
@@ -159,17 +173,19 @@ TEST(Repairing, TextureCoordinatesStayWhereOneOfTwoTexturesDoesNotRepeat) {
   d.textures[0].wrapU = Wrap::clamp;
   d.materials[0].diffuseMap = 0;
   d.materials[0].alphaMap = 1;
+
   const Scene scene = finalized(std::move(d));
   EXPECT_EQ(scene.triangles[0].uv[0], 100.5f);
   EXPECT_EQ(scene.triangles[0].uv[1], 0.5f);
 }
 
-// H34
+// H34: unusable normals are replaced by the face's.
 TEST(Repairing, NormalsOfNoUseBecomeTheFaces) {
   Mesh mesh = square();
   mesh.normals = {{0, 0, 0}, {0, 3, 4}, {std::nanf(""), 0, 1}, {0, 0, -1}};
   Warnings warnings;
   const Scene scene = Scene::finalize(sceneOf(mesh), warnings);
+
   ASSERT_EQ(scene.normals.size(), 2u);
   EXPECT_EQ(normalOf(scene.normals[0], 0), (Vec3f{0, 0, 1}));
   EXPECT_EQ(normalOf(scene.normals[0], 1), (Vec3f{0, 0.6f, 0.8f}));
@@ -191,19 +207,21 @@ TEST(Repairing, MeshesWithoutNormalsHaveTheFacesBesideOnesThatHave) {
   for (Vec3f& p : smooth.positions) p.z = 1;
   SceneDescription d = sceneOf(square());
   d.objects[0].meshes.push_back(smooth);
+
   const Scene scene = finalized(std::move(d));
   ASSERT_EQ(scene.normals.size(), 4u);
   EXPECT_EQ(normalOf(scene.normals[0], 1), (Vec3f{0, 0, 1}));
   EXPECT_FLOAT_EQ(normalOf(scene.normals[2], 1).x, std::sqrt(0.5f));
 }
 
-// H29: whatever the bits, there is an error or a scene that can be rendered.
+// H29: whatever bits a mesh has, there is an error or a scene that can be rendered.
 TEST(Repairing, GarbageNeverReachesTheTables) {
   std::mt19937 random(29);
   const auto word = [&] { return static_cast<std::uint32_t>(random()); };
   const auto anyFloat = [&] {
     return word() % 4 ? std::bit_cast<float>(word()) : static_cast<float>(word() % 5);
   };
+
   std::size_t kept = 0;
   for (int round = 0; round < 1000; ++round) {
     Mesh mesh;
@@ -216,22 +234,26 @@ TEST(Repairing, GarbageNeverReachesTheTables) {
     for (std::size_t i = word() % 60; i-- > 0;) {
       mesh.triangles.push_back({word() % 41, word() % 41, word() % 41});
     }
+
     mesh.materials = {0};
     SceneDescription d = sceneOf(mesh);
     d.textures.push_back(whiteTexture(TexelFormat::color));
     d.materials[0].diffuseMap = 0;
     const Scene scene = finalized(std::move(d));
+
     ASSERT_TRUE(isFinite(scene.lower) && isFinite(scene.upper));
     for (const TriangleRecord& t : scene.triangles) {
       for (const float x : t.position) ASSERT_LE(std::abs(x), 1.844e18f) << "round " << round;
       for (const float x : t.uv) ASSERT_TRUE(std::isfinite(x)) << "round " << round;
     }
+
     for (const NormalRecord& n : scene.normals) {
       for (int i = 0; i < 3; ++i) {
-        // Three components rounded to float: half an ulp each.
+        // Each of three components is rounded to float by half an ulp.
         ASSERT_NEAR(length(Vec3d(normalOf(n, i))), 1, 2e-7) << "round " << round;
       }
     }
+
     kept += scene.triangles.size();
   }
   EXPECT_GT(kept, 500u);  // so that there was something to check

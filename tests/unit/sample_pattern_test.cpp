@@ -1,4 +1,4 @@
-// The fixed pattern of supersampling.
+// The fixed pattern of samples in a pixel.
 #include "sampling/sample_pattern.h"
 
 #include <gtest/gtest.h>
@@ -9,11 +9,12 @@
 namespace whit::test {
 namespace {
 
-// How far the share of samples in a box [0, x) x [0, y) is from its area, at worst: the star
-// discrepancy, found at the corners that the samples span (Niederreiter 1992).
+// Returns the largest difference between the share of samples in a box [0, x) x [0, y) and its
+// area: the star discrepancy, found at the corners that the samples span (Niederreiter 1992).
 double starDiscrepancy(const std::vector<Vec2f>& samples) {
   std::vector<double> xs{1}, ys{1};
   for (const Vec2f& s : samples) xs.push_back(double{s.x}), ys.push_back(double{s.y});
+
   double worst = 0;
   for (const double x : xs) {
     for (const double y : ys) {
@@ -22,6 +23,7 @@ double starDiscrepancy(const std::vector<Vec2f>& samples) {
         open += double{s.x} < x && double{s.y} < y;
         closed += double{s.x} <= x && double{s.y} <= y;
       }
+
       const auto n = static_cast<double>(samples.size());
       worst = std::max({worst, x * y - open / n, closed / n - x * y});
     }
@@ -48,8 +50,8 @@ TEST(SamplePattern, BeatsTheRegularGrid) {
   }
 }
 
-// The root mean square error of a pixel's coverage by straight edges at all places, whose normals
-// turn from `from` to `to` degrees.
+// Returns the root mean square error of a pixel's coverage by straight edges at all places. The
+// normals of the edges turn from `from` to `to` degrees.
 double edgeError(const std::vector<Vec2f>& samples, int from, int to) {
   constexpr int kFine = 64, kPlaces = 25;
   double sum = 0;
@@ -57,19 +59,24 @@ double edgeError(const std::vector<Vec2f>& samples, int from, int to) {
   for (int direction = from; direction < to; ++direction) {
     const double angle = (direction + 0.5) * 3.14159265358979323846 / 180;
     const double nx = std::cos(angle), ny = std::sin(angle);
+
+    // The exact coverage is taken from a fine grid.
     std::vector<double> fine;
     for (int i = 0; i < kFine * kFine; ++i) {
       fine.push_back(nx * ((i % kFine + 0.5) / kFine - 0.5) +
                      ny * ((i / kFine + 0.5) / kFine - 0.5));
     }
     std::sort(fine.begin(), fine.end());
+
     for (int step = -kPlaces; step <= kPlaces; ++step) {
       const double place = 0.7 * step / kPlaces;
       const auto below = std::lower_bound(fine.begin(), fine.end(), place) - fine.begin();
+
       double taken = 0;
       for (const Vec2f& s : samples) {
         taken += nx * (double{s.x} - 0.5) + ny * (double{s.y} - 0.5) < place;
       }
+
       const double error = taken / static_cast<double>(samples.size()) -
                            static_cast<double>(below) / (kFine * kFine);
       sum += error * error;
@@ -79,21 +86,24 @@ double edgeError(const std::vector<Vec2f>& samples, int from, int to) {
   return std::sqrt(sum / edges);
 }
 
-// What shows most: edges within 10 degrees of the axes, which a grid's samples meet row by row.
-// Over all directions together both are as good: the sum of both errors is a matter of the number.
+// Edges within 10 degrees of the axes are the most visible, since they cross whole rows of a grid's
+// samples at once. Over all directions both patterns are equally good: the sum of both errors
+// depends on the number of samples.
 TEST(SamplePattern, RendersNearlyLevelEdgesBetterThanTheRegularGrid) {
   for (const int side : {2, 4, 5}) {
     const std::vector<Vec2f> ours = samplePattern(side * side), regular = grid(side);
     const double level = edgeError(ours, 80, 100), gridLevel = edgeError(regular, 80, 100);
     const double all = edgeError(ours, 0, 180), gridAll = edgeError(regular, 0, 180);
+
     std::printf("%d samples, edge error: nearly level %.4f, grid %.4f; all %.4f, grid %.4f\n",
                 side * side, level, gridLevel, all, gridAll);
+
     EXPECT_LT(level, gridLevel);
     EXPECT_LT(all, 1.2 * gridAll);
   }
 }
 
-// A place of its own for each sample, across and down.
+// Each sample has a column and a row of its own.
 TEST(SamplePattern, NoTwoSamplesShareARowOrAColumn) {
   for (const int n : {1, 2, 7, 16, 4096}) {
     const std::vector<Vec2f> samples = samplePattern(n);
@@ -102,6 +112,7 @@ TEST(SamplePattern, NoTwoSamplesShareARowOrAColumn) {
       columns.push_back(static_cast<int>(s.x * static_cast<float>(n)));
       rows.push_back(static_cast<int>(s.y * static_cast<float>(n)));
     }
+
     std::sort(rows.begin(), rows.end());
     std::sort(columns.begin(), columns.end());
     for (int i = 0; i < n; ++i) {
@@ -111,7 +122,7 @@ TEST(SamplePattern, NoTwoSamplesShareARowOrAColumn) {
   }
 }
 
-// The probe samples stand for the whole pixel: one in each quarter across, down.
+// The probe samples stand for the whole pixel: there is one in each quarter across and down.
 TEST(SamplePattern, ProbeSamplesAreSpread) {
   for (const int n : {8, 16, 64, 256}) {
     const std::vector<Vec2f> samples = samplePattern(n);
@@ -121,15 +132,17 @@ TEST(SamplePattern, ProbeSamplesAreSpread) {
   }
 }
 
-// On a slope of light the mean of samples is the light at their mean place. That of all is the
-// pixel's center; that of the probes as near to it as the pattern has: the nearest four lay up to
-// 0.14 aside, which showed as a shift of all that pixels with no more samples see.
+// Where radiance is linear over the pixel, the mean of the samples is the radiance at their mean
+// place. The mean place of all samples is the pixel's center, and that of the probe samples is as
+// near to it as the pattern allows. (The four samples nearest to the center were up to 0.14 off,
+// which shifted the picture of pixels without further samples.)
 TEST(SamplePattern, SamplesAreCenterd) {
   const auto aside = [](const Vec2f* samples, int n) {
     double x = 0, y = 0;
     for (int i = 0; i < n; ++i) x += double{samples[i].x} - 0.5, y += double{samples[i].y} - 0.5;
     return std::hypot(x, y) / n;
   };
+
   for (const int n : {2, 4, 5, 7, 8, 9, 12, 16, 24, 25, 32, 64, 256}) {
     const std::vector<Vec2f> samples = samplePattern(n);
     EXPECT_NEAR(aside(samples.data(), n), 0, 1e-6) << n;
@@ -138,21 +151,25 @@ TEST(SamplePattern, SamplesAreCenterd) {
   }
 }
 
-// However many samples have been taken, they are spread over the pixel: what is seen does not move
-// about while more come. In the order of columns half of them would lie 0.25 aside.
+// The first samples of any number are spread over the pixel, so that the picture does not shift
+// while more are added. In the order of columns, half of the samples would be off by 0.25.
 TEST(SamplePattern, TheFirstSamplesStandForThePixel) {
   for (const int n : {16, 64, 256}) {
     const std::vector<Vec2f> samples = samplePattern(n);
     double x = 0, y = 0, most = 0, mostOfHalf = 0;
+
     for (int k = 1; k <= n; ++k) {
       x += double{samples[static_cast<std::size_t>(k) - 1].x} - 0.5;
       y += double{samples[static_cast<std::size_t>(k) - 1].y} - 0.5;
       if (k < kProbeSamples) continue;
+
       most = std::max(most, std::hypot(x, y) / k);
       if (2 * k >= n) mostOfHalf = std::max(mostOfHalf, std::hypot(x, y) / k);
     }
+
     std::printf("of %d: the mean of the first lies up to %.4f aside, of half or more %.4f\n", n,
                 most, mostOfHalf);
+
     EXPECT_LT(most, 0.1) << n;
     EXPECT_LT(mostOfHalf, 0.04) << n;
   }

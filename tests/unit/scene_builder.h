@@ -11,7 +11,8 @@
 
 namespace whit::test {
 
-// The unit square in the plane z = 0, seen from +z: triangles (0, 1, 2) and (0, 2, 3).
+// Returns the unit square in the plane z = 0, seen from +z, with the triangles (0, 1, 2) and (0, 2,
+// 3).
 inline Mesh square() {
   Mesh mesh;
   mesh.name = "square";
@@ -21,7 +22,7 @@ inline Mesh square() {
   return mesh;
 }
 
-// `mesh` as the only object, once, with a plain gray material.
+// Returns a scene whose only object, used once, is `mesh` with a plain gray material.
 inline SceneDescription sceneOf(Mesh mesh) {
   SceneDescription d;
   d.name = "test";
@@ -45,7 +46,8 @@ inline Texture whiteTexture(TexelFormat format) {
   return t;
 }
 
-// Corner i of a triangle, and the normal by its winding.
+// Each function returns corner i of a triangle, the normal by its winding, or the normal at corner
+// i.
 inline Vec3d corner(const TriangleRecord& t, int i) {
   return {t.position[3 * i], t.position[3 * i + 1], t.position[3 * i + 2]};
 }
@@ -56,13 +58,13 @@ inline Vec3f normalOf(const NormalRecord& n, int i) {
   return {n.normal[3 * i], n.normal[3 * i + 1], n.normal[3 * i + 2]};
 }
 
-// How often something of that kind was repaired.
+// Returns how often something of this kind was repaired.
 inline std::uint64_t warned(const Warnings& warnings, const std::string& kind) {
   const auto entries = warnings.entries();
   return entries.contains(kind) ? entries.at(kind).count : 0;
 }
 
-// Expects an Error of that status whose text has all of `parts`.
+// Expects an Error of this status whose text contains all `parts`.
 template <typename Action>
 void expectError(ExitStatus status, const std::vector<std::string>& parts, const Action& action) {
   try {

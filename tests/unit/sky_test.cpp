@@ -11,7 +11,8 @@
 namespace whit {
 namespace {
 
-// At `azimuth` turns from -z towards +x, `polar` half-turns from the zenith.
+// Returns the direction at `azimuth` turns from -z towards +x and `polar` half-turns from the
+// zenith.
 Vec3d direction(double azimuth, double polar) {
   const double a = 2 * kPi * azimuth, p = kPi * polar;
   return {std::sin(p) * std::sin(a), std::cos(p), -std::sin(p) * std::cos(a)};
@@ -76,12 +77,13 @@ TEST(SkyRadiance, TexelCentersAreExactAndInTheStatedOrder) {
 
 TEST(SkyRadiance, ColumnsBeginAtMinusZAndRunTowardsPlusX) {
   const Sky sky = imageSky(4, 1, [](int x, int) { return x; });
-  // Cardinal directions lie on the borders of columns: the mean of two, across the seam at -z.
+  // Cardinal directions lie between two columns and show their mean, also across the seam at -z.
   EXPECT_NEAR(skyRadiance(sky, {0, 0, -1}).x, 1.5, 1e-12);
   EXPECT_NEAR(skyRadiance(sky, {1, 0, 0}).x, 0.5, 1e-12);
   EXPECT_NEAR(skyRadiance(sky, {0, 0, 1}).x, 1.5, 1e-12);
   EXPECT_NEAR(skyRadiance(sky, {-1, 0, 0}).x, 2.5, 1e-12);
-  // A quarter of a column before and behind the seam: between columns 3 and 0.
+
+  // These directions are a quarter of a column before and behind the seam, between columns 3 and 0.
   EXPECT_NEAR(skyRadiance(sky, direction(0.0625, 0.5)).x, 0.75, 1e-12);
   EXPECT_NEAR(skyRadiance(sky, direction(-0.0625, 0.5)).x, 2.25, 1e-12);
 }
@@ -103,10 +105,11 @@ TEST(SkyRadiance, RotationTurnsThePictureAboutUp) {
     const Affine turn = Affine::rotation({0, 1, 0}, degrees);
     for (int i = 0; i < 50; ++i) {
       const Vec3d d = direction(0.37 * i, (i + 0.5) / 50);
-      // Contrast of 225 a texel of 1/16 turn, turns known to 1e-15.
+      // The contrast is 225 a texel of 1/16 turn, and turns are known to 1e-15.
       EXPECT_NEAR(skyRadiance(turned, turn.vector(d)).x, skyRadiance(still, d).x, 1e-9);
     }
   }
+
   Sky turned = still;
   turned.rotation = 90;
   EXPECT_NEAR(skyRadiance(turned, {-1, 0, 0}).x, skyRadiance(still, {0, 0, -1}).x, 1e-9);
@@ -125,10 +128,12 @@ TEST(AmbientFromSky, ConstantSkyGivesItself) {
   color.kind = Sky::Kind::color;
   color.zenith = {1, 2, 4};
   color.scale = 0.5f;
+
   const Ambient a = ambientFromSky(color, 3);
   EXPECT_EQ(a.up, (Rgb{1.5f, 3, 6}));
   EXPECT_EQ(a.down, a.up);
-  // The weights of the rows of a hemisphere sum to 1, also where the horizon cuts a row.
+
+  // The weights of a hemisphere's rows sum to 1, also where the horizon cuts a row.
   for (const int height : {1, 2, 3, 8, 33}) {
     const Ambient b = ambientFromSky(imageSky(5, height, [](int, int) { return 1; }), 1);
     EXPECT_NEAR(b.up.x, 1, 1e-6) << height;
@@ -137,7 +142,7 @@ TEST(AmbientFromSky, ConstantSkyGivesItself) {
 }
 
 TEST(AmbientFromSky, GradientInClosedForm) {
-  // The cosine-weighted mean of y is 2/3: a third horizon, two thirds zenith or ground.
+  // The cosine-weighted mean of y is 2/3: a third is horizon, and two thirds are zenith or ground.
   const Ambient a = ambientFromSky(gradientSky(), 1);
   EXPECT_FLOAT_EQ(a.up.x, 0.5f * 4 / 3);
   EXPECT_FLOAT_EQ(a.up.z, 0.5f * (4 + 2 * 8) / 3);
@@ -149,10 +154,12 @@ TEST(AmbientFromSky, HemispheresAreKeptApart) {
   const Ambient a = ambientFromSky(imageSky(4, 4, [](int, int y) { return y < 2 ? 1 : 0; }), 2);
   EXPECT_NEAR(a.up.x, 2, 1e-6);
   EXPECT_EQ(a.down, Rgb{});
-  // One of eight columns.
+
+  // One of eight columns is bright.
   const Ambient b = ambientFromSky(imageSky(8, 2, [](int x, int) { return x == 3; }), 1);
   EXPECT_NEAR(b.up.x, 0.125, 1e-7);
-  // The row at the zenith, down to 45 degrees: sin^2(45 degrees).
+
+  // The row at the zenith is bright, down to 45 degrees: sin^2(45 degrees).
   const Ambient c = ambientFromSky(imageSky(4, 4, [](int, int y) { return y == 0; }), 1);
   EXPECT_NEAR(c.up.x, 0.5, 1e-6);
 }
@@ -162,7 +169,8 @@ TEST(AmbientFromSky, ImageOfAGradientApproachesTheGradient) {
   const Sky sky =
       imageSky(4, height, [&](int, int y) { return 1 + std::cos(kPi * (y + 0.5) / height); });
   const Ambient a = ambientFromSky(sky, 1);
-  // Texels hold the value at their centers: second order in the row's height.
+
+  // Texels have the value at their centers, so that the error is quadratic in the row's height.
   EXPECT_NEAR(a.up.x, 1 + 2.0 / 3, 1e-4);
   EXPECT_NEAR(a.down.x, 1 - 2.0 / 3, 1e-4);
 }
@@ -183,21 +191,24 @@ TEST(BlurredSky, OfOneColorIsThatColor) {
   }
 }
 
-// GGX of roughness 1 is constant over the half vectors: the mean weighted by the cosine is left,
-// which ambient light has in closed form. 0.01: the sums' texels are 6 degrees wide.
+// GGX of roughness 1 is constant over the half vectors, which leaves the mean weighted by the
+// cosine, and ambient light has it in closed form. The sums' texels are 6 degrees wide, hence 0.01.
 TEST(BlurredSky, OfRoughnessOneIsTheCosineWeightedMean) {
   const Sky sky = gradientSky();
   const Ambient mean = ambientFromSky(sky, 1);
   const EnvironmentImage blurred = blurredSky(sky);
+
   const RgbD up = blurredRadiance(sky, blurred, {0, 1, 0}, 1);
   const RgbD down = blurredRadiance(sky, blurred, {0, -1, 0}, 1);
+
   EXPECT_NEAR(up.z, double{mean.up.z}, 0.01 * mean.up.z);
   EXPECT_NEAR(up.x, double{mean.up.x}, 0.01 * mean.up.x);
   EXPECT_NEAR(down.x, double{mean.down.x}, 0.01 * mean.down.x);
 }
 
-// The mean of a cosine under a lobe around its axis, weighted by D(h) cos(theta) of GGX with half
-// vector h = theta / 2, in closed form: with c = cos(theta), D(h) goes as 1 / (a - b c)^2.
+// Returns the mean of a cosine under a lobe around its axis, weighted by D(h) cos(theta) of GGX
+// with the half vector at theta / 2, in closed form: with c = cos(theta), D(h) is proportional to 1
+// / (a - b c)^2.
 double meanCosine(double roughness) {
   const double squared = std::pow(roughness, 4);
   if (squared == 1) return 2.0 / 3;
@@ -206,15 +217,17 @@ double meanCosine(double roughness) {
   return (a * a / squared - a - 2 * a * ratio + a - squared) / (weights * b);
 }
 
-// Radiance that is linear in the direction keeps this form under every lobe that is round: only its
-// slope shrinks, by the mean cosine. The sums' texels are 6 degrees wide.
+// Radiance that is linear in the direction stays linear under every round lobe: its slope is
+// multiplied by the mean cosine. The sums' texels are 6 degrees wide.
 TEST(BlurredSky, ShrinksALinearSkyByTheLobesMeanCosine) {
   constexpr int kHeight = 128;
-  constexpr double kError = 0.004;  // of the sky's mean
+  constexpr double kError = 0.004;  // relative to the sky's mean
+
   const Vec3d slope{0.3, 0.5, -0.6};
   const Sky sky = imageSky(2 * kHeight, kHeight, [&](int x, int y) {
     return 1 + dot(slope, direction((x + 0.5) / (2 * kHeight), (y + 0.5) / kHeight));
   });
+
   const EnvironmentImage blurred = blurredSky(sky);
   double worst = 0;
   for (const double roughness : {0.2, 0.4, 0.6, 0.8, 1.0}) {
@@ -222,24 +235,28 @@ TEST(BlurredSky, ShrinksALinearSkyByTheLobesMeanCosine) {
       for (double polar = 0.05; polar < 1; polar += 0.06) {
         const Vec3d d = direction(azimuth, polar);
         const double expected = 1 + dot(slope, d) * meanCosine(roughness);
+
         const RgbD seen = blurredRadiance(sky, blurred, d, roughness);
         worst = std::max({worst, std::abs(seen.x - expected), std::abs(seen.z / 3 - expected)});
         EXPECT_NEAR(seen.x, expected, kError) << roughness << " " << azimuth << " " << polar;
       }
     }
   }
+
   std::printf("worst error %.4f of %.4f\n", worst, kError);
 }
 
-// A bright texel is seen less the further the lobe turns away and, along it, the rougher it is;
-// rotation and scale follow the sky's.
+// A bright texel is the darker the further the lobe is turned away and, along the lobe, the rougher
+// the lobe is. Rotation and scale are those of the sky.
 TEST(BlurredSky, SpreadsWhatIsBright) {
   Sky sky = imageSky(64, 32, [](int x, int y) { return x == 16 && y == 16 ? 100.0 : 0.0; });
   sky.scale = 2;
+
   const EnvironmentImage blurred = blurredSky(sky);
   const auto seen = [&](double azimuth, double roughness) {
     return blurredRadiance(sky, blurred, direction(azimuth, 16.5 / 32), roughness).x;
   };
+
   const double at = 16.5 / 64;
   EXPECT_NEAR(seen(at, 0), 200, 1e-3);
   for (const double roughness : {0.2, 0.4, 0.6, 0.8}) {
@@ -247,6 +264,7 @@ TEST(BlurredSky, SpreadsWhatIsBright) {
     EXPECT_GT(seen(at, roughness), seen(at + 0.05, roughness));
     EXPECT_GT(seen(at, roughness), 0);
   }
+
   EXPECT_EQ(seen(at + 0.5, 1), 0) << "behind the horizon";
   sky.rotation = 90;
   EXPECT_NEAR(seen(at - 0.25, 0), 200, 1e-3);

@@ -12,8 +12,9 @@
 namespace whit {
 namespace {
 
-// Ten bits of square root are steps of at most 0.36 sRGB codes (where the curve's straight part
-// ends), so at most 0.18 off; over the 256 codes that occur the worst is 0.157, at code 9.
+// Ten bits of a square root are steps of at most 0.36 sRGB codes (where the curve's straight part
+// ends), so that the error is at most 0.18. Over the 256 codes that occur it is at most 0.157, at
+// code 9.
 constexpr double kCodeTolerance = 1.0 / 6;
 
 TEST(ColorTexel, AllSrgbCodesComeBack) {
@@ -23,10 +24,12 @@ TEST(ColorTexel, AllSrgbCodesComeBack) {
     const Rgb decoded = decodeColorTexel(encodeColorTexel(Rgb(linear)));
     EXPECT_EQ(decoded.x, decoded.y);
     EXPECT_EQ(decoded.x, decoded.z);
+
     const double back = 255 * linearToSrgb(decoded.x);
     EXPECT_EQ(std::lround(back), code);
     worst = std::max(worst, std::abs(back - code));
   }
+
   EXPECT_LE(worst, kCodeTolerance);
 }
 
@@ -39,7 +42,7 @@ TEST(ColorTexel, ChannelsLieInOrderFromTheLowBits) {
   EXPECT_EQ(encodeColorTexel({1, 0, 0}), 0x3ffu);
   EXPECT_EQ(encodeColorTexel({0, 1, 0}), 0x3ffu << 10);
   EXPECT_EQ(encodeColorTexel({0, 0, 1}), 0x3ffu << 20);
-  // sqrt(0.25) * 1023 = 511.5, rounded away from zero.
+  // sqrt(0.25) * 1023 = 511.5 is rounded away from zero.
   EXPECT_EQ(encodeColorTexel({0.25f, 0, 0}), 512u);
 }
 
@@ -58,7 +61,7 @@ TEST(Texel, OutOfRangeAndNanAreClamped) {
   EXPECT_EQ(encodeDataTexel(nan, -1, inf, 2), 0xffff0000u);
 }
 
-// Half a code, of 256 at least in the largest channel.
+// The error is half a code, and the largest channel has a code of at least 256.
 constexpr double kOfTheLargest = 1.0 / 512;
 
 TEST(RadianceTexel, IsWithinItsBoundFromBlackToTheLargest) {
@@ -68,6 +71,7 @@ TEST(RadianceTexel, IsWithinItsBoundFromBlackToTheLargest) {
     const float largest = std::min(std::ldexp(1 + unit(), i % 48 - 32), kLargestRadianceTexel);
     const Rgb wanted{largest * unit(), largest, largest * unit()};
     const Rgb got = decodeRadianceTexel(encodeRadianceTexel(wanted));
+
     const double bound = std::max(static_cast<double>(largest) * kOfTheLargest, 0x1p-25);
     for (int c = 0; c < 3; ++c) {
       ASSERT_NEAR(static_cast<double>(got[c]), static_cast<double>(wanted[c]), bound) << i;
@@ -81,6 +85,7 @@ TEST(RadianceTexel, KeepsWhatNineBitsHold) {
     EXPECT_EQ(decodeRadianceTexel(encodeRadianceTexel(Rgb(x))), Rgb(x));
   }
   EXPECT_EQ(decodeRadianceTexel(encodeRadianceTexel({8, 0.5f, 3})), (Rgb{8, 0.5f, 3}));
+
   // 511.75 is rounded up to the next power of two.
   EXPECT_EQ(decodeRadianceTexel(encodeRadianceTexel(Rgb(511.75f))), Rgb(512.0f));
   EXPECT_EQ(encodeRadianceTexel({8, 0.5f, 3}), 256u | 16u << 9 | 96u << 18 | 19u << 27);
@@ -107,7 +112,7 @@ TEST(Srgb, Anchors) {
   EXPECT_EQ(srgbToLinear(0), 0);
   EXPECT_EQ(srgbToLinear(1), 1);
   EXPECT_NEAR(linearToSrgb(1), 1, 1e-15);
-  // ((0.5 + 0.055) / 1.055)^2.4, and mid gray.
+  // ((0.5 + 0.055) / 1.055)^2.4, and middle gray.
   EXPECT_NEAR(srgbToLinear(0.5), 0.21404114048223255, 1e-15);
   EXPECT_NEAR(linearToSrgb(0.18), 0.46135612950044164, 1e-15);
   EXPECT_NEAR(srgbToLinear(0.04), 0.04 / 12.92, 1e-18);
@@ -116,6 +121,7 @@ TEST(Srgb, Anchors) {
 TEST(Srgb, TheBranchesMeetAndTheCurvesUndoEachOther) {
   // The standard's constants leave a gap of 2e-8 between its branches.
   EXPECT_NEAR(linearToSrgb(std::nextafter(0.0031308, 1)), linearToSrgb(0.0031308), 3e-8);
+
   double previous = -1;
   for (int i = 0; i <= 4096; ++i) {
     const double x = i / 4096.0, y = srgbToLinear(x);

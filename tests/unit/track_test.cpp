@@ -10,7 +10,7 @@
 namespace whit {
 namespace {
 
-// Doubles, some ten roundings of numbers of about 1.
+// Rounding of about ten operations on doubles of about 1.
 constexpr double kTrackRounding = 1e-14;
 
 Track trackOf(Track::Interpolation interpolation, std::vector<double> times,
@@ -62,10 +62,12 @@ TEST(Tracks, LinearIsAStraightLineBetweenUnevenKeys) {
 TEST(Tracks, CubicSplinesFollowACubic) {
   const auto x = [](double t) { return 2 * t * t * t - 5 * t * t + t - 3; };
   const auto slope = [](double t) { return 6 * t * t - 10 * t + 1; };
+
   Track track = trackOf(Track::Interpolation::cubic, {0, 0.5, 2}, {});
   for (const double t : track.times) {
     for (const double value : {slope(t), x(t), slope(t)}) track.values.push_back(value);
   }
+
   for (double t = 0; t <= 2; t += 0.0625) expectValues(valueAt(track, t), {x(t)});
   EXPECT_EQ(valueAt(track, 3), std::vector<double>{x(2)});
 }
@@ -81,7 +83,7 @@ TEST(Tracks, RotationsTurnEvenly) {
   }
 }
 
-// q and -q are the same rotation: the way from 0 to 90 degrees is never that of 270.
+// q and -q are the same rotation: the path from 0 to 90 degrees never takes 270.
 TEST(Tracks, RotationsTakeTheShorterWay) {
   expectValues(valueAt(turning(turn(0), turn(90, -1)), 0.5), turn(45));
 }

@@ -50,11 +50,12 @@ TEST(Turntable, TurnsInTheDirectionUp) {
   expectNear(turned(aroundTarget(camera), 0.25).eye, {-3, 0, 0}, 1e-6);
 }
 
-// Every corner stays in the picture, and some comes as near to its border as the margin lets it.
+// Every corner stays in the picture, and one comes as near to its border as the margin allows.
 TEST(Turntable, AllOfTheModelStaysInThePicture) {
   Mesh mesh = square();
   mesh.positions = {{-3, 0, 0}, {1, 0, 0.5f}, {1, 4, 0}, {-3, 4, -0.5f}};
   const SceneDescription scene = sceneOf(mesh);
+
   for (const auto& [width, height] : {std::pair{480, 300}, std::pair{200, 400}}) {
     const Turntable turntable = aroundModel(scene, viewOf(scene), width, height);
     double widest = 0;
@@ -64,6 +65,7 @@ TEST(Turntable, AllOfTheModelStaysInThePicture) {
         const Vec3d p = Vec3d(corner) - frame.eye;
         const double depth = dot(p, frame.forward) / dot(frame.forward, frame.forward);
         ASSERT_GT(depth, 0);
+
         const Vec3d across = p / depth;
         widest = std::max(
             {widest,
@@ -71,6 +73,7 @@ TEST(Turntable, AllOfTheModelStaysInThePicture) {
              std::abs(dot(across, frame.up)) / dot(frame.up, frame.up) / (height / 2.0)});
       }
     }
+
     EXPECT_LT(widest, 1) << width;
     EXPECT_GT(widest, 0.85) << width;
   }
@@ -82,6 +85,7 @@ TEST(Turntable, GoesAroundTheMiddleOfTheModel) {
   const SceneDescription scene = sceneOf(mesh);
   const Turntable turntable = aroundModel(scene, viewOf(scene), 480, 300);
   EXPECT_EQ(turntable.pivot, (Vec3d{10.5, 0.5, 0}));
+
   const Camera camera = turned(turntable, 0.5);
   expectNear(camera.eye + turntable.camera.eye, {21, 2 * double{camera.eye.y}, 0}, 1e-4);
   expectNear(camera.at, turntable.pivot, 1e-6);

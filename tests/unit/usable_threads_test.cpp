@@ -42,11 +42,12 @@ TEST_F(CgroupQuota, TheLeastOfAllAboveCounts) {
   put("cpu.max", "max 100000");
   EXPECT_EQ(cgroupQuota("0::/a.slice/b.service\n", root_), 2);
   EXPECT_EQ(cgroupQuota("0::/\n", root_), 0);
+
   put("a.slice/b.service/cpu.max", "50000 100000");
   EXPECT_EQ(cgroupQuota("0::/a.slice/b.service\n", root_), 0.5);
 }
 
-// The membership names the host's groups, which a container does not see.
+// The membership names groups of the host, which a container does not see.
 TEST_F(CgroupQuota, InAContainerTheRootCounts) {
   put("cpu.max", "250000 100000");
   EXPECT_EQ(cgroupQuota("0::/docker/0123abcd\n", root_), 2.5);
@@ -57,6 +58,7 @@ TEST_F(CgroupQuota, NonsenseIsNoLimit) {
   for (const char* membership : {"", "::", "0:\n", "no colons", "0::/../../..\n"}) {
     EXPECT_EQ(cgroupQuota(membership, root_ / "deep/er/than/that"), 0) << membership;
   }
+
   EXPECT_EQ(cgroupQuota("0::/\n", root_), 0);
   put("cpu.max", "100000 0");
   EXPECT_EQ(cgroupQuota("0::/\n", root_), 0);

@@ -1,4 +1,4 @@
-// What finalize() refuses.
+// Scenes that finalize() refuses.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -72,6 +72,7 @@ const std::vector<Refusal>& refusals() {
          addLight(d, {"key", {}, {1, 1, 1}, 1, Light::Kind::spot, {0, 1, 0}, 45, 91});
        },
        {"light 'key'", "from 0.5 to 90"}},
+
       {"ior of a dielectric",
        [](auto& d) {
          d.materials[0].transmission = Rgb(1.0f);
@@ -84,8 +85,10 @@ const std::vector<Refusal>& refusals() {
       {"roughness",
        [](auto& d) { d.materials[0].roughness = 3; },
        {"material 'gray'", "roughness to be from 0 to 1"}},
+
       {"sky", [](auto& d) { d.sky.zenith.x = kInf; }, {"test: sky", "finite"}},
       {"ambient", [](auto& d) { d.ambient.up.x = -1; }, {"ambient"}},
+
       {"singular transform",
        [](auto& d) {
          d.instances[0].toWorld = Affine::scaling({1, 0, 1});

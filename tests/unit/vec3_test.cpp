@@ -7,7 +7,7 @@
 namespace whit {
 namespace {
 
-// Three roundings: of the scaled vector's length, of the quotient, of the sum of squares.
+// Three roundings: of the scaled vector's length, of the quotient and of the sum of squares.
 constexpr double kUnitTolerance = 3 * 0x1p-24;
 
 TEST(Vec3, CrossIsRightHanded) {
@@ -23,7 +23,7 @@ TEST(Vec3, ComponentsByIndex) {
   EXPECT_EQ(maxComponent(abs(Vec3d{1, -8, 3})), 8);
 }
 
-// H51: neither overflow nor underflow of the squares may show.
+// H51: the squares may overflow or underflow, but the result must not show it.
 TEST(Normalized, UnitLengthFromTheSmallestToTheLargestFloat) {
   double worst = 0;
   for (int k = -44; k <= 38; ++k) {

@@ -26,9 +26,10 @@ namespace {
 TEST(WorkerPool, EveryWorkerRunsOnceARun) {
   for (const int workers : {1, 2, 3, 8}) {
     WorkerPool pool(workers);
-    // Plain integers, one a worker: a missing barrier is a data race that the thread sanitizer
-    // sees.
+    // The integers are plain, one a worker, so that the thread sanitizer sees a missing barrier as
+    // a data race.
     std::vector<int> calls(static_cast<std::size_t>(workers), 0);
+
     for (int round = 1; round <= 200; ++round) {
       pool.run([&](int worker) { ++calls[static_cast<std::size_t>(worker)]; });
       for (const int c : calls) ASSERT_EQ(c, round) << workers << " workers";
@@ -54,19 +55,21 @@ TEST(WorkerPool, AnExceptionReachesTheCallerAndThePoolLivesOn) {
     }),
                  std::runtime_error);
   }
+
   std::atomic<int> calls{0};
   pool.run([&](int) { ++calls; });
   EXPECT_EQ(calls, 2);
 }
 
-// Calls `body` in a forked child and returns the child's exit status: body's, or -1 if a signal
-// ended it, also that of the alarm after ten seconds.
+// Calls `body` in a forked child and returns the child's exit status: that of body, or -1 if a
+// signal ended the child, also that of the alarm after ten seconds.
 int statusOfChild(const std::function<int()>& body) {
   const pid_t child = fork();
   if (child == 0) {
     alarm(10);
     _exit(body());
   }
+
   int status = 0;
   waitpid(child, &status, 0);
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
@@ -85,6 +88,7 @@ TEST(WorkerPool, AForkedChildStartsWorkersOfItsOwn) {
               return calls == std::vector<int>{5, 5, 4} ? 0 : 1;
             }),
             0);
+
   pool.run(job);
   EXPECT_EQ(calls, (std::vector<int>{2, 2, 2}));
 }
@@ -93,6 +97,7 @@ TEST(WorkerPool, AForkedChildCannotFinishTheWorkOfItsParent) {
   if (kSanitized) GTEST_SKIP() << "sanitizers allow no threads in a forked child";
   auto pool = std::make_unique<WorkerPool>(2);
   const std::function<void(int)> job = [](int) {};
+
   pool->begin(job);
   EXPECT_EQ(statusOfChild([&] {
               try {
@@ -117,6 +122,7 @@ TEST(WorkerPool, TheCallerMayWorkBetweenBeginAndFinish) {
         while (!ready) std::this_thread::yield();
         ++calls[static_cast<std::size_t>(worker)];
       };
+
       pool.begin(job);
       ready = true;  // a begin() that waited for the job would never get here
       EXPECT_EQ(calls[0], 0);
@@ -131,10 +137,12 @@ TEST(ParallelFor, EveryIndexOnceByWorkersOfTheirOwn) {
     for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{1000}}) {
       std::vector<int> done(count, 0);
       std::vector<std::size_t> ofWorker(static_cast<std::size_t>(std::max(threads, 1)), 0);
+
       parallelFor(threads, count, [&](std::size_t i, int worker) {
         ++done.at(i);
         ++ofWorker.at(static_cast<std::size_t>(worker));
       });
+
       for (const int d : done) EXPECT_EQ(d, 1);
       EXPECT_EQ(std::accumulate(ofWorker.begin(), ofWorker.end(), std::size_t{0}), count);
     }
@@ -154,7 +162,7 @@ TEST(ParallelFor, WhatIsThrownEndsTheLoopAndReachesTheCaller) {
   }
 }
 
-// A product that is denormal, computed where the compiler cannot see its factors.
+// Returns a denormal product of factors that the compiler cannot see.
 float denormalProduct() {
   const volatile float tiny = std::numeric_limits<float>::min();
   const volatile float half = 0.5f;
@@ -168,12 +176,13 @@ TEST(WorkerPool, H55_denormalsAreFlushedInEveryWorkerAndNowhereElse) {
   pool.run([&](int worker) { products[static_cast<std::size_t>(worker)] = denormalProduct(); });
   for (const float p : products) EXPECT_EQ(p, 0.0f);
   EXPECT_GT(denormalProduct(), 0.0f);
+
   WorkerPool keeping(3, Denormals::kept);
   keeping.run([&](int worker) { products[static_cast<std::size_t>(worker)] = denormalProduct(); });
   for (const float p : products) EXPECT_GT(p, 0.0f);
 }
 
-// Some threads can be started, others not: those that were are ended in order.
+// Some threads can be started and others cannot. The started ones are ended in order.
 TEST(WorkerPoolDeathTest, NoRoomForThreadsIsALimit) {
   if (kSanitized) GTEST_SKIP() << "addresses cannot be limited under this sanitizer";
   const auto fillUp = [] {
@@ -182,6 +191,7 @@ TEST(WorkerPoolDeathTest, NoRoomForThreadsIsALimit) {
     const rlim_t room = stack.rlim_cur == RLIM_INFINITY ? rlim_t{64} << 20 : 8 * stack.rlim_cur;
     const rlimit addresses{room, room};
     setrlimit(RLIMIT_AS, &addresses);
+
     try {
       const WorkerPool pool(1000);
     } catch (const Error& error) {
