@@ -1,4 +1,4 @@
-// The hard cases that are not in tests/verify, each with the test that covers it.
+// The hard cases that tests/verify does not have, each with the test that covers it.
 #pragma once
 
 #include <array>
@@ -6,7 +6,7 @@
 
 namespace whit::test {
 
-// `test` is the full name in `file`, without the instantiation's prefix.
+// `test` is the full name in `file`, without the prefix of the instantiation.
 struct Accounted {
   int number;
   std::string_view title, file, test;

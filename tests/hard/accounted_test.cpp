@@ -29,6 +29,7 @@ TEST(Accounted, EveryNumberIsTested) {
   for (const verify::Family& family : verify::families()) {
     for (const verify::Case& c : family.cases) known.insert(c.number());
   }
+
   for (int number = 1; number <= kHighest; ++number) {
     EXPECT_TRUE(known.contains(number)) << "H" << number;
   }

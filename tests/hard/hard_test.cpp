@@ -1,4 +1,4 @@
-// The catalogue of hard cases (tests/verify), a test a case: Hard/CaseTest.Holds/H13.
+// The catalogue of hard cases (tests/verify), one test for each case: Hard/CaseTest.Holds/H13.
 #include <gtest/gtest.h>
 
 #include "sanitized.h"
@@ -6,7 +6,7 @@
 
 namespace whit::verify {
 
-// For the names that ctest shows.
+// Prints the names that ctest shows.
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
 namespace {
@@ -24,9 +24,11 @@ class CaseTest : public testing::TestWithParam<Case> {};
 TEST_P(CaseTest, Holds) {
   const Case& c = GetParam();
   const std::vector<verify::Setup> setups = setupsOf(c.runs);
-  // A sanitizer sees the same code with fewer setups: of targets with four widths of packets each
-  // fifth one has every width, and another target each time.
+
+  // A sanitizer sees the same code with fewer setups. Where every target has four widths of
+  // packets, each fifth setup has another target and another width.
   const std::size_t step = !kSanitized ? 1 : c.runs == Runs::targets ? 3 : 5;
+
   for (std::size_t i = 0; i < setups.size(); i += step) {
     const verify::Setup& setup = setups[i];
     const Finding finding = runCase(c, setup);

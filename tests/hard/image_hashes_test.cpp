@@ -15,7 +15,7 @@
 
 namespace whit::verify {
 
-// For the names that ctest shows.
+// Prints the names that ctest shows.
 void PrintTo(const PublishedHash& picture, std::ostream* out) { *out << picture.scene; }
 
 namespace {
@@ -40,6 +40,7 @@ TEST_P(HashTest, IsThePublishedOne) {
     if (error.status() != ExitStatus::io) throw;
     GTEST_SKIP() << error.what();
   }
+
   RenderOptions options = scene->options();
   bool odd = false;
   for (const std::string& target : simd::availableTargets()) {

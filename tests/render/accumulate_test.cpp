@@ -1,5 +1,5 @@
-// Pictures that get more samples over time: what they show at last, on the way, and how far off
-// they say they are.
+// Pictures that get more samples over time: the final picture, the pictures on the way, and the
+// error that the sums of the samples estimate.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,7 +24,7 @@ class Accumulating : public testing::TestWithParam<std::string> {
   Scene scene_;
 };
 
-// Parts of any length, in crops of any size, by any number of threads.
+// The samples are rendered in three ranges, and each range in two bands of columns.
 TEST_P(Accumulating, AllSamplesMakeThePictureBitForBit) {
   const RenderOptions o = noisy(16);
   const Picture expected = render(scene_, o);
@@ -33,6 +33,7 @@ TEST_P(Accumulating, AllSamplesMakeThePictureBitForBit) {
   Film whole = makeFilm(scene_, o);
   SampleSums sums(whole.image.window);
   const int middle = whole.image.width / 3;
+
   for (const SampleRange& part : {SampleRange{0, 1}, SampleRange{1, 4}, SampleRange{4, 16}}) {
     for (const auto& [left, right] : {std::pair{0, middle}, std::pair{middle, whole.image.width}}) {
       Film band;
@@ -44,17 +45,21 @@ TEST_P(Accumulating, AllSamplesMakeThePictureBitForBit) {
       }
     }
   }
+
   EXPECT_EQ(firstDifference(whole.image, expected.image), "");
+
+  // The sums do not depend on the ranges either.
   SampleSums atOnce(whole.image.window);
   renderer.render({.camera = camera, .film = whole, .part = {0, 16}, .sums = &atOnce});
   EXPECT_EQ(sums.relativeError(16), atOnce.relativeError(16));
 }
 
-// The mean of half of them is a picture of the whole pixel: nearer to that of many samples than a
-// single one is, and not black.
+// The mean of some of the samples is a picture of the whole pixel: with more samples both the true
+// and the estimated error fall.
 TEST_P(Accumulating, FewerSamplesShowTheSameWithMoreNoise) {
   const RenderOptions o = noisy(64);
   const Picture best = render(scene_, o);
+
   Renderer renderer(scene_, o);
   const Camera camera = chooseCamera(scene_, o);
   Film film = makeFilm(scene_, o);
@@ -67,21 +72,24 @@ TEST_P(Accumulating, FewerSamplesShowTheSameWithMoreNoise) {
       const Rgb d = film.image.pixels[i] - best.image.pixels[i];
       squares += double{d.x} * double{d.x} + double{d.y} * double{d.y} + double{d.z} * double{d.z};
     }
+
     const double said = sums.relativeError(part.end);
     std::printf("%s: %d samples, RMSE %.5f, said to be within %.5f of the mean radiance\n",
                 GetParam().c_str(), part.end,
                 std::sqrt(squares / (3 * static_cast<double>(film.image.pixels.size()))), said);
+
     EXPECT_LT(squares, last);
     EXPECT_LT(said, lastSaid);
     last = squares, lastSaid = said;
   }
 }
 
-// Frames of several seeds differ by noise alone; without random numbers they do not.
+// Frames of different seeds differ by noise alone; without random numbers they are equal.
 TEST_P(Accumulating, SeedsHaveNoiseOfTheirOwn) {
   const RenderOptions o = noisy(1);
   Renderer renderer(scene_, o);
   const Camera camera = chooseCamera(scene_, o);
+
   Film first = makeFilm(scene_, o), second = first, again = first;
   renderer.render(camera, first);
   renderer.setSeed(1);
@@ -89,14 +97,15 @@ TEST_P(Accumulating, SeedsHaveNoiseOfTheirOwn) {
   renderer.setSeed(0);
   renderer.render(camera, again);
   EXPECT_EQ(firstDifference(first.image, again.image), "");
+
   const bool random = renderer.plan().features.has(Feature::streams);
   EXPECT_EQ(first.image.pixels != second.image.pixels, random);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Accumulating, testing::Values("glossy", "whitted", "matte"));
 
-// Two pixels of two samples: 1 and 3, 2 and 2. The standard errors of the means are 1 and 0, the
-// mean radiance is 2.
+// There are two pixels of two samples, 1 and 3, and 2 and 2. The standard errors of their means are
+// 1 and 0, and the mean radiance is 2.
 TEST(SampleSums, TellsTheStandardError) {
   SampleSums sums(Crop{5, 5, 7, 6});
   for (const double value : {1.0, 3.0}) {
@@ -105,6 +114,7 @@ TEST(SampleSums, TellsTheStandardError) {
     sums.at(6, 5).total += RgbD(2.0);
     sums.at(6, 5).squares += 4;
   }
+
   EXPECT_DOUBLE_EQ(sums.relativeError(2), 0.25);
   EXPECT_EQ(SampleSums(Crop{0, 0, 3, 3}).relativeError(2), 0);
 }

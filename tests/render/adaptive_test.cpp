@@ -1,4 +1,4 @@
-// --adaptive: one sample a pixel, and all of them where neighbors differ.
+// --adaptive: one sample a pixel, and all samples where neighbors differ.
 #include <gtest/gtest.h>
 
 #include "core/display.h"
@@ -24,11 +24,12 @@ class Adaptive : public testing::TestWithParam<std::string> {
   Scene scene_;
 };
 
-// With no more samples than probes, each pixel is that of one sample or that of all, to the bit.
+// With no more samples than probes, each pixel has the bits of a picture of one sample or of all.
 TEST_P(Adaptive, PixelsAreThoseOfOneSampleOrOfAll) {
   const Picture one = render(scene_, withSamples(1, false));
   const Picture all = render(scene_, withSamples(kProbeSamples, false));
   const Picture adaptive = render(scene_, withSamples(kProbeSamples, true));
+
   const std::size_t pixels = one.image.pixels.size();
   std::size_t changed = 0;
   for (std::size_t i = 0; i < pixels; ++i) {
@@ -37,6 +38,8 @@ TEST_P(Adaptive, PixelsAreThoseOfOneSampleOrOfAll) {
     EXPECT_TRUE(keptOne || sameBits(got, all.image.pixels[i])) << i;
     changed += !keptOne;
   }
+
+  // Every pixel has a ray of the first pass; refined pixels have those of the probes besides.
   const std::uint64_t refined = (adaptive.stats.of(RayKind::primary).rays - pixels) / kProbeSamples;
   std::printf("%s: %.1f %% of pixels refined\n", GetParam().c_str(),
               100.0 * static_cast<double>(refined) / static_cast<double>(pixels));
@@ -46,21 +49,25 @@ TEST_P(Adaptive, PixelsAreThoseOfOneSampleOrOfAll) {
   EXPECT_LT(refined, pixels);
 }
 
-// With more, the pixels that get them all are those of uniform sampling, to the bit: at least those
-// whose probe samples differ, and they alone cost more than the probes.
+// With more samples than probes, the pixels that get all have the bits of uniform sampling: at
+// least those whose probe samples differ, and they alone cost more than the probes.
 TEST_P(Adaptive, ContrastingPixelsGetEverySample) {
   constexpr int kSamples = 11;
   const Picture all = render(scene_, withSamples(kSamples, false));
   const Picture probes = render(scene_, withSamples(kProbeSamples, true));
   const Picture adaptive = render(scene_, withSamples(kSamples, true));
+
+  // The samples beyond the probes tell how many pixels get all of them.
   const std::uint64_t extra =
       adaptive.stats.of(RayKind::primary).rays - probes.stats.of(RayKind::primary).rays;
   const std::uint64_t contrasting = extra / (kSamples - kProbeSamples);
   EXPECT_EQ(extra, contrasting * (kSamples - kProbeSamples));
+
   std::uint64_t whole = 0;
   for (std::size_t i = 0; i < all.image.pixels.size(); ++i) {
     whole += sameBits(adaptive.image.pixels[i], all.image.pixels[i]);
   }
+
   std::printf("%s: %llu pixels with every sample\n", GetParam().c_str(),
               static_cast<unsigned long long>(contrasting));
   EXPECT_GT(contrasting, 0u);
@@ -77,12 +84,13 @@ TEST_P(Adaptive, H60_anyTilesThreadsQueuesAndPacketsGiveTheSameBits) {
   variants[2].tile = 64;
   variants[3].batch = Batch::frame;
   variants[4].packet = 4;
+
   for (const RenderOptions& o : variants) {
     EXPECT_EQ(firstDifference(render(scene_, o).image, expected.image), "") << &o - variants.data();
   }
 }
 
-// A crop looks one pixel beyond its border.
+// A crop reads one pixel beyond its border.
 TEST_P(Adaptive, H59_croppedPixelsHaveTheBitsOfTheWholeImage) {
   const Image whole = render(scene_, withSamples(9, true)).image;
   RenderOptions o = withSamples(9, true);
@@ -101,30 +109,33 @@ TEST_P(Adaptive, AgreesWithTheReference) {
   Film packets = makeFilm(scene_, o), reference = makeFilm(scene_, o);
   const FrameStats a = renderer.render(chooseCamera(scene_, o), packets);
   const FrameStats b = renderer.renderReference(chooseCamera(scene_, o), reference);
+
   const ImageDifference d = compareImages(packets.image, reference.image);
-  // Twice the gate of pictures without decisions between neighbors: those that lie within rounding
-  // of the threshold fall either way.
+  // The bound is twice that of pictures without decisions between neighbors, because pixels within
+  // rounding of the threshold may be refined by one of the two alone.
   std::printf("%s: %.4f %% of pixels off by two codes or more (at most 0.2)\n", GetParam().c_str(),
               d.pixelsGe2CodesPct);
   EXPECT_LE(d.pixelsGe2CodesPct, 0.2);
+
   const auto primary = static_cast<double>(b.of(RayKind::primary).rays);
   EXPECT_NEAR(static_cast<double>(a.of(RayKind::primary).rays), primary, 2e-3 * primary);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, Adaptive, testing::Values("whitted", "glass", "matte"));
 
-// The display codes are those of the picture, kept pixels and refined ones.
+// The display codes are those of the picture, for kept pixels and for refined ones.
 TEST(AdaptiveDisplay, EncodesEveryPixel) {
   const Scene scene = load("whitted");
   const RenderOptions o = withSamples(9, true);
   Renderer renderer(scene, o);
   Film film = makeFilm(scene, o);
   renderer.render(chooseCamera(scene, o), film);
+
   EXPECT_EQ(film.display.rgba, toDisplay(film.image, 0, ToneCurve::none).rgba);
 }
 
-// Pixels whose first samples agree because none of them found the light must not end there: where
-// lobes are sampled all pixels get all samples, in both modes.
+// Pixels whose first samples agree because none of them hits the light must not end there. Where
+// lobes are sampled, all pixels get all samples, in packets and in the reference.
 TEST(AdaptiveError, SampledLobesAreNotEndedEarly) {
   for (const bool glossy : {false, true}) {
     const Scene scene = load(glossy ? "glossy" : "cornell");
@@ -135,9 +146,12 @@ TEST(AdaptiveError, SampledLobesAreNotEndedEarly) {
     } else {
       all.indirect = 1;
     }
+
     RenderOptions adaptive = all;
     adaptive.adaptive = true;
     EXPECT_TRUE(render(scene, adaptive).image.pixels == render(scene, all).image.pixels);
+
+    // The reference decides the same.
     Renderer uniform(scene, all), chosen(scene, adaptive);
     Film a = makeFilm(scene, all), b = makeFilm(scene, adaptive);
     uniform.renderReference(chooseCamera(scene, all), a);
@@ -146,8 +160,8 @@ TEST(AdaptiveError, SampledLobesAreNotEndedEarly) {
   }
 }
 
-// Most of what 9 samples everywhere gain, for a third of the rays: the error is far below that of
-// as many rays spread evenly.
+// Adaptive sampling reaches most of what 9 samples everywhere reach, for a third of the rays: the
+// error is far below that of as many rays spread evenly.
 TEST(AdaptiveError, ComesNearThatOfAllSamplesForAThirdOfTheRays) {
   const Scene scene = load("matte");
   const auto picture = [&](int spp, bool adaptive) {
@@ -155,9 +169,11 @@ TEST(AdaptiveError, ComesNearThatOfAllSamplesForAThirdOfTheRays) {
     o.size = ImageSize{320, 200};
     return render(scene, o);
   };
+
   const Image wanted = picture(64, false).image;
   const Picture one = picture(1, false), three = picture(3, false), all = picture(9, false),
                 adaptive = picture(9, true);
+
   const double errorOne = compareImages(one.image, wanted).rmse;
   const double errorThree = compareImages(three.image, wanted).rmse;
   const double errorAll = compareImages(all.image, wanted).rmse;
@@ -167,14 +183,15 @@ TEST(AdaptiveError, ComesNearThatOfAllSamplesForAThirdOfTheRays) {
   std::printf(
       "RMSE: 1 sample %.5f, 3 %.5f, 9 everywhere %.5f, adaptive %.5f with %.3f of the rays\n",
       errorOne, errorThree, errorAll, error, rays);
+
   EXPECT_LE(error, 1.6 * errorAll);
   EXPECT_LE(error, errorThree / 1.4);
   EXPECT_LT(errorAll, errorOne / 3);
   EXPECT_LE(rays, 1.0 / 3);
 }
 
-// Where edges are few, near the error of 16 samples everywhere for a third of their rays: at
-// 256x256 below it (1.3e-4 and 1.7e-4) for 0.29.
+// Where edges are few, the error is near that of 16 samples everywhere, for a third of their rays.
+// At 256x256 it is below (1.3e-4 and 1.7e-4), for 0.29 of the rays.
 TEST(AdaptiveError, IsNearThatOf16SamplesForAThirdOfTheRays) {
   const Scene scene = load("whitted");
   const auto picture = [&](int spp, bool adaptive) {
@@ -184,6 +201,7 @@ TEST(AdaptiveError, IsNearThatOf16SamplesForAThirdOfTheRays) {
     o.shading.textureFilter = TextureFilter::bilinear;  // pixels of one sample are not blurred
     return render(scene, o);
   };
+
   const Image wanted = picture(49, false).image;
   const Picture all = picture(16, false), adaptive = picture(24, true);
   const double errorAll = compareImages(all.image, wanted).relmse;
@@ -192,6 +210,7 @@ TEST(AdaptiveError, IsNearThatOf16SamplesForAThirdOfTheRays) {
       static_cast<double>(adaptive.stats.allRays()) / static_cast<double>(all.stats.allRays());
   std::printf("relMSE: 16 samples %.2e, adaptive %.2e with %.3f of the rays\n", errorAll, error,
               rays);
+
   EXPECT_LE(error, 1.25 * errorAll);
   EXPECT_LE(rays, 0.4);
 }

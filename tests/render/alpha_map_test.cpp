@@ -1,4 +1,4 @@
-// Alpha masks: the table of bounds must never decide otherwise than the texels.
+// Alpha masks: the table of bounds must never decide otherwise than the texels do.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,9 +16,10 @@ Texture noise(int width, int height, Wrap wrap, unsigned seed) {
   texture.width = width;
   texture.height = height;
   texture.wrapU = texture.wrapV = wrap;
+
   std::mt19937 random(seed);
   for (int i = 0; i < width * height; ++i) {
-    // Mostly flat, so that bounds decide, with borders where they must not.
+    // The texture is mostly flat, so that bounds decide, and has borders where they must not.
     const int x = i % width, y = i / width;
     const bool solid = (x / 20 + y / 20) % 2 == 0;
     const float alpha = random() % 50 == 0 ? static_cast<float>(random() % 256) / 255
@@ -34,9 +35,12 @@ double alphaAt(const Texture& texture, double u, double v) {
   const auto fold = [&](double s) {
     if (texture.wrapU != Wrap::mirror)
       return texture.wrapU == Wrap::clamp ? std::fmin(std::fmax(s, 0), 1) : s;
+
     const double phase = s - 2 * std::floor(s / 2);
     return std::fmin(phase, 2 - phase);
   };
+
+  // v runs upwards, but the rows of texels run downwards.
   const double x = fold(u) * texture.width - 0.5, y = fold(1 - v) * texture.height - 0.5;
   const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
   const auto texel = [&](int dx, int dy) {
@@ -44,14 +48,17 @@ double alphaAt(const Texture& texture, double u, double v) {
     const int row = wrappedTexel(y0 + dy, texture.height, texture.wrapV);
     return (texture.texels[static_cast<std::size_t>(row * texture.width + column)] & 255u) / 255.0;
   };
+
   const double fx = x - x0, fy = y - y0;
   return (texel(0, 0) * (1 - fx) + texel(1, 0) * fx) * (1 - fy) +
          (texel(0, 1) * (1 - fx) + texel(1, 1) * fx) * fy;
 }
 
 TEST(AlphaMap, AgreesWithTheTexels) {
-  // The coordinate's rounding, in texels of the largest map, times the steepest slope of alpha.
+  // A coordinate is rounded by so much, in texels of the largest map, times the steepest slope of
+  // alpha.
   constexpr double kCoordinate = 8 * 0x1p-24 * 4 * 100;
+
   int opaque = 0, tooNear = 0;
   for (const Wrap wrap : {Wrap::repeat, Wrap::mirror, Wrap::clamp}) {
     for (const auto& [width, height] : {std::pair{100, 64}, std::pair{1, 1}, std::pair{7, 33}}) {
@@ -68,6 +75,7 @@ TEST(AlphaMap, AgreesWithTheTexels) {
             ++tooNear;
             continue;
           }
+
           const bool seen = map.marginAt(u, v, cutoff) >= 0;
           ASSERT_EQ(seen, margin > 0) << u << ' ' << v << ' ' << width << ' ' << cutoff;
           opaque += seen;
@@ -75,6 +83,7 @@ TEST(AlphaMap, AgreesWithTheTexels) {
       }
     }
   }
+
   EXPECT_GT(opaque, 10000);
   std::printf("alpha map: %d points too near the cutoff to tell\n", tooNear);
 }

@@ -1,5 +1,5 @@
-// Ambient light that things nearby hold off: kernels against the reference, and what the picture's
-// bits must not depend on.
+// Ambient occlusion: kernels against the reference, and what the picture's bits must not depend
+// on.
 #include <gtest/gtest.h>
 
 #include "render/pipeline_laws.h"
@@ -44,24 +44,29 @@ TEST_P(AmbientOcclusion, WithoutRaysThereIsNoCallAndNoColumn) {
   EXPECT_EQ(plain.stats.callsOf(simd::kFindAmbientAndOcclusionRays), 0u);
   EXPECT_EQ(plain.stats.of(RayKind::occlusion).rays, 0u);
   EXPECT_EQ(Renderer(scene_, o).plan().find("findAmbientAndOcclusionRays"), nullptr);
+
   o.ambientSamples = 3;
   const Picture sampled = render(scene_, o);
   EXPECT_GT(sampled.stats.callsOf(simd::kFindAmbientAndOcclusionRays), 0u);
   EXPECT_GT(sampled.stats.of(RayKind::occlusion).rays, 0u);
   EXPECT_EQ(sampled.stats.of(RayKind::shadow).rays, plain.stats.of(RayKind::shadow).rays);
+
   o.disable = EffectSet().with(Effect::ambientOcclusion);
   EXPECT_EQ(firstDifference(render(scene_, o).image, plain.image), "");
 }
 
-// What reflects the scene has no ambient light to hold off.
+// Surfaces that sample indirect light get no ambient light, so there is no occlusion to sample.
 TEST_P(AmbientOcclusion, GoesWithAmbientLight) {
   RenderOptions o = options();
   o.depth = 0;
   const std::uint64_t alone = render(scene_, o).stats.of(RayKind::occlusion).rays;
+
   o.indirect = 1;
   const std::uint64_t left = render(scene_, o).stats.of(RayKind::occlusion).rays;
   EXPECT_LT(left, alone / 4);
-  // Leaves alone keep it.
+
+  // The leaf of the other scene samples no indirect light (diffuseReflection), so it keeps ambient
+  // light.
   EXPECT_EQ(left == 0, GetParam() == "cornell");
 }
 

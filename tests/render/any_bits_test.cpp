@@ -1,6 +1,6 @@
-// Kernels whose lanes hold anything: numbers that are not finite, denormal ones and garbage, in
-// slots behind the last one and in slots that are in use. None of it may lead a kernel out of its
-// tables, and none may change the result of another slot.
+// Kernels whose lanes hold any bits: numbers that are not finite, denormal numbers and garbage, in
+// slots behind the last one and in slots that are in use. They must neither lead a kernel out of
+// its tables nor change the result of another slot.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -16,7 +16,7 @@
 namespace whit::test {
 namespace {
 
-// The columns of a chunk, in memory of their own.
+// Holds the columns of a chunk in memory of its own.
 class OwnChunk {
  public:
   OwnChunk(const Chunk& from, std::size_t children)
@@ -35,6 +35,7 @@ class OwnChunk {
     take(from.radiance, from.n, *radiance_, chunk.radiance);
     take(from.unshadowed, from.n, *unshadowed_, chunk.unshadowed);
     take(from.shadows, from.shadowCount, *shadows_, chunk.shadows);
+
     chunk.children = *children_;
     chunk.childCount = 0;
     chunk.parentRadiance = *parentRadiance_;
@@ -51,6 +52,7 @@ class OwnChunk {
     std::vector<const void*> sources;
     Columns::forEachColumn(from,
                            [&](const char*, auto* column, Feature) { sources.push_back(column); });
+
     std::size_t next = 0;
     Columns::forEachColumn(to, [&](const char*, auto* column, Feature) {
       const void* const source = sources[next++];
@@ -66,7 +68,7 @@ class OwnChunk {
   ColumnStore<RadianceColumns> radiance_, parentRadiance_;
 };
 
-// Any bits, often those of numbers that code may not expect.
+// Draws any bits, often those of numbers that code may not expect.
 class AnyBits {
  public:
   std::uint32_t next() {
@@ -82,6 +84,7 @@ class AnyBits {
                                  1e6f};
     constexpr std::uint32_t kWords[] = {0x80000000u, 0x7FFFFFFFu, 0xFFFFFFFEu, 0xFFF00001u,
                                         1u << 20};
+
     const auto drawn = static_cast<std::uint32_t>(random_());
     const std::uint32_t kind = drawn % 20;
     if (kind >= 15) return static_cast<std::uint32_t>(random_());
@@ -97,23 +100,25 @@ class AnyBits {
 
 bool isSpoilt(std::size_t slot) { return slot % 5 == 1 || slot % 7 == 3; }
 
-// What no kernel looks at as a number: where its results belong.
+// These columns name the slot of a result. No kernel computes with them.
 bool saysWhere(const std::string& column) { return column == "parent" || column == "slot"; }
 bool saysWhetherThereIsAny(const std::string& column) {
   return column == "triangle" || column == "material";
 }
 
-// Fills the slots from `count` on, which kernels may read, and some of those before it. Slots from
-// `count` on remain misses, as their contract says.
+// Overwrites the slots from `count` on, which kernels may read, and some of the slots before it.
+// Slots from `count` on remain misses, as their contract says.
 template <typename Columns>
 void spoil(Columns columns, std::size_t count, bool spoilsSlots, AnyBits& any) {
   Columns::forEachColumn(columns, [&](const char* name, auto* column, Feature) {
     for (std::size_t i = 0; column && i < roundUpToBlock(count); ++i) {
       const bool isFree = i >= count;
       if (isFree ? saysWhetherThereIsAny(name) : !spoilsSlots || !isSpoilt(i) || saysWhere(name)) {
-        if (isFree) std::memset(column + i, 0xFF, sizeof *column);  // kMiss
+        // Bytes of 0xFF make kMiss.
+        if (isFree) std::memset(column + i, 0xFF, sizeof *column);
         continue;
       }
+
       const std::uint32_t bits = any.next();
       std::memcpy(column + i, &bits, sizeof bits);
     }
@@ -129,7 +134,7 @@ void spoilAll(const Chunk& c, AnyBits& any) {
   spoil(c.shadows, c.shadowCount, false, any);
 }
 
-// The bits of the rows from 0 to `count` that isWanted(row) holds for.
+// Appends the bits of those of the first `count` rows for which isWanted(row) holds.
 template <typename Columns, typename IsWanted>
 void appendRows(Columns columns, std::size_t count, const IsWanted& isWanted,
                 std::vector<std::uint32_t>& bits) {
@@ -142,7 +147,7 @@ void appendRows(Columns columns, std::size_t count, const IsWanted& isWanted,
   });
 }
 
-// All that counts of what a kernel may have written for the slots that are not spoilt: surfels
+// Collects the results that a kernel may have written for the slots that are not spoilt: surfels
 // where there is one, and light where it may arrive.
 std::vector<std::uint32_t> resultsOf(const Chunk& c) {
   std::vector<std::uint32_t> bits;
@@ -153,6 +158,7 @@ std::vector<std::uint32_t> resultsOf(const Chunk& c) {
   for (std::size_t i = 0; i < c.shadowCount; ++i) {
     lit[c.shadows.slot[i]] = isSound(c.shadows.slot[i]);
   }
+
   appendRows(c.rays, c.n, isSound, bits);
   appendRows(c.hits, c.n, isSound, bits);
   appendRows(c.surfels, c.n, isSurfel, bits);
@@ -163,6 +169,8 @@ std::vector<std::uint32_t> resultsOf(const Chunk& c) {
       c.shadows, c.shadowCount, [&](std::size_t i) { return isSound(c.shadows.slot[i]); }, bits);
   appendRows(
       c.children, c.childCount, [&](std::size_t i) { return isSound(c.children.parent[i]); }, bits);
+
+  // A parent's radiance counts only if no spoilt slot adds to it.
   std::vector<bool> spoilt(OwnChunk::kParents);
   for (std::size_t i = 0; i < c.n; ++i) {
     if (isSpoilt(i)) spoilt[c.rays.parent[i]] = true;
@@ -172,7 +180,7 @@ std::vector<std::uint32_t> resultsOf(const Chunk& c) {
   return bits;
 }
 
-// Runs each kernel of the plan, when a chunk has gone through all stages, on copies of the chunk.
+// Runs each kernel of the plan on copies of a chunk that has gone through all stages.
 class KernelRunner : public StageObserver {
  public:
   explicit KernelRunner(const Plan& plan) : plan_(plan) {}
@@ -181,12 +189,13 @@ class KernelRunner : public StageObserver {
     if (stage != Stage::addImpulses || chunk.n < 40 || chunks_ == kChunks) return;
     ++chunks_;
     for (const simd::Kernel& kernel : simd::kKernels) {
-      // Rays of the eye are made of pixels alone.
+      // Primary rays are generated from pixels, so only the first depth has them.
       const bool isOfEye = kernel.name == simd::kGenerateRays.name;
       if (!kernel.find || !plan_.find(kernel.name) || (isOfEye && chunk.depth > 0)) continue;
       const StepFunction run = kernel.find();
       compare(kernel.name, chunk, [&](Chunk& c) { run(c); });
     }
+
     const ShadingTables& t = chunk.tables();
     const simd::HitTables tables{t.triangles, t.triangleCount, t.firstSphere, t.instances.data(),
                                  t.instances.size()};
@@ -198,7 +207,8 @@ class KernelRunner : public StageObserver {
 
  private:
   static constexpr int kChunks = 4;
-  // No multiple of any vector's lanes; few enough for every parent to be one of them.
+
+  // No multiple of any vector's lanes, and fewer than OwnChunk::kParents.
   static constexpr std::size_t kSlots = 39;
 
   template <typename Run>
@@ -207,17 +217,20 @@ class KernelRunner : public StageObserver {
     std::size_t rays = 0;
     while (rays < chunk.shadowCount && chunk.shadows.slot[rays] < kSlots) ++rays;
     chunk.shadowCount = rays;
+
     const std::size_t children = 64 * roundUpToBlock(kSlots);
     const bool ofAmbientLight = kernel == simd::kFindAmbientAndOcclusionRays.name;
     OwnChunk sound(chunk, children), spoilt(chunk, children);
     for (Chunk* c : {&sound.chunk, &spoilt.chunk}) {
       c->turnTo(ofAmbientLight ? kAmbientLight : 0, 0, 2);
     }
-    // Slots that are not in use are misses in both.
+
+    // Slots that are not in use are misses in both chunks.
     AnyBits any, other;
     spoil(sound.chunk.hits, kSlots, false, other);
     spoil(sound.chunk.surfels, kSlots, false, other);
     spoilAll(spoilt.chunk, any);
+
     run(sound.chunk);
     run(spoilt.chunk);
     EXPECT_TRUE(resultsOf(sound.chunk) == resultsOf(spoilt.chunk)) << kernel;
@@ -228,7 +241,7 @@ class KernelRunner : public StageObserver {
   int chunks_ = 0;
 };
 
-// A shipped scene with a sky of an image and all that needs rays of chance.
+// A shipped scene gets an image for a sky, and ambient light with occlusion.
 Scene withImageSky(const std::string& name) {
   Warnings warnings;
   SceneDescription description = loadScene(name, LoadOptions{}, warnings);
@@ -242,8 +255,10 @@ TEST(AnyBits, LeadNoKernelAstray) {
   for (const std::string name : {"glass", "whitted", "landscape?triangles=2000"}) {
     const Scene scene = withImageSky(name);
     std::vector<std::string> targets = simd::availableTargets();
-    // Two are enough for a sanitizer: that of the widest vectors, and scalar code.
+
+    // Two targets are enough for a sanitizer: that of the widest vectors, and scalar code.
     if (kSanitized) targets = {targets.front(), targets.back()};
+
     for (const std::string& target : targets) {
       for (const bool samples : {false, true}) {
         SCOPED_TRACE(name + " on " + target + (samples ? ", with samples" : ""));
@@ -255,6 +270,7 @@ TEST(AnyBits, LeadNoKernelAstray) {
         o.shading.terminator = true;
         o.glossy = o.indirect = samples ? 2 : 0;
         o.lightSamples = o.ambientSamples = samples ? 2 : 1;
+
         Renderer renderer(scene, o);
         Film film = makeFilm(scene, o);
         KernelRunner runner(renderer.plan());

@@ -1,4 +1,4 @@
-// The exposure that a view calls for.
+// The exposure that --exposure auto chooses for a view.
 #include "render/renderer.h"
 
 #include <gtest/gtest.h>
@@ -17,18 +17,20 @@ float exposureOf(const Scene& scene, const RenderOptions& options = {}) {
   return exposureFor(renderer, chooseCamera(scene, options));
 }
 
-// A plate that fills the view and glows.
+// An emitting plate fills the view.
 Scene glowing(const Rgb& radiance, const Rgb& sky = {}, float side = 10) {
   SceneDescription d;
   d.materials.resize(1);
   d.materials[0].diffuse = Rgb(0.0f);
   d.materials[0].emission = radiance;
+
   Mesh plate;
   plate.positions = {{-side, -side, 0}, {side, -side, 0}, {side, side, 0}, {-side, side, 0}};
   plate.triangles = {{0, 1, 2}, {0, 2, 3}};
   plate.materials = {0};
   d.objects.push_back({"plate", {plate}});
   d.instances.push_back({0, Affine{}});
+
   d.cameras.emplace_back();
   d.sky.kind = Sky::Kind::color;
   d.sky.zenith = d.sky.horizon = d.sky.ground = sky;
@@ -37,6 +39,7 @@ Scene glowing(const Rgb& radiance, const Rgb& sky = {}, float side = 10) {
 }
 
 TEST(AutoExposure, TakesTheMeanOfTheSurfacesToTheMiddle) {
+  // The exposure makes the mean of the surfaces 0.3, in steps of 1/8 EV.
   EXPECT_EQ(exposureOf(glowing(Rgb(0.3f))), 0);
   EXPECT_EQ(exposureOf(glowing(Rgb(1.2f))), -2);
   EXPECT_EQ(exposureOf(glowing(Rgb(0.3f / 1024))), 10);
@@ -48,8 +51,8 @@ TEST(AutoExposure, NothingToSeeStaysAsItIs) {
   EXPECT_EQ(exposureOf(glowing(Rgb(5.0f), Rgb(1.0f), 1.0e-6f)), 0) << "sky only";
 }
 
-// A sky beside a dark surface holds it down, but not without end unless it fills the picture: then
-// it must not burn out.
+// A sky beside a dark surface lowers the exposure, but not without end unless it fills the
+// picture; then it must not burn out.
 TEST(AutoExposure, TheSkyIsHeardToo) {
   EXPECT_EQ(exposureOf(glowing(Rgb(0.0375f), Rgb(0.0625f), 1)), 3);
   EXPECT_EQ(exposureOf(glowing(Rgb(0.0375f), Rgb(0.125f), 1)), 2);
@@ -62,6 +65,7 @@ TEST(AutoExposure, LevelsAreThoseBehindTheToneCurve) {
   RenderOptions options;
   options.toneCurve = ToneCurve::reinhard;
   EXPECT_EQ(exposureOf(glowing(Rgb(0.3f / 0.7f)), options), 0);  // x / (1 + x) = 0.3
+
   options.toneCurve = ToneCurve::filmic;
   const float ev = exposureOf(glowing(Rgb(0.1f)), options);
   EXPECT_NEAR(applyToneCurve(ToneCurve::filmic, 0.1 * std::exp2(double{ev})), 0.3, 0.02)
@@ -96,10 +100,13 @@ TEST(AutoExposure, IsSettledOnce) {
   RenderOptions options;
   setOption(options, "exposure", "auto");
   EXPECT_EQ(optionText(options, "exposure"), "auto");
+
   Renderer renderer(scene, options);
   settleExposure(renderer, scene.cameras[0], options);
   EXPECT_EQ(optionText(options, "exposure"), "-2");
   EXPECT_EQ(renderer.options().exposure, options.exposure);
+
+  // An exposure that is given stays.
   setOption(options, "exposure", "1.5");
   settleExposure(renderer, scene.cameras[0], options);
   EXPECT_EQ(options.exposure.ev, 1.5f);

@@ -1,4 +1,4 @@
-// Channels of scenes whose every pixel is known, by both ways to trace.
+// Channels of scenes whose every pixel is known, by packets and by the reference.
 #include <gtest/gtest.h>
 #include <algorithm>
 
@@ -38,7 +38,7 @@ Film filmOf(const Scene& scene, const RenderOptions& options) {
   return film;
 }
 
-// What is kept of pixel (x, y) of the whole image, as numbers of the channel.
+// Returns the values of a channel at pixel (x, y) of the whole image.
 std::vector<float> floatsAt(const Film& film, Channel channel, int x, int y) {
   const std::size_t n = infoOf(channel).components, first = n * film.image.index(x, y);
   const std::span<const float> all = film.channels.floats(channel);
@@ -49,7 +49,7 @@ std::uint32_t numberAt(const Film& film, Channel channel, int x, int y) {
   return film.channels.numbers(channel)[film.image.index(x, y)];
 }
 
-// The ray through a place of the picture, in closed form: of a camera at the eye that looks along
+// The ray through a point of the picture, in closed form, from a camera at the eye that looks along
 // -z.
 struct ViewRay {
   Vec3d origin, direction;
@@ -61,7 +61,7 @@ struct ViewRay {
   Vec3d at(double t) const { return origin + direction * t; }
 };
 
-// A few units in the last place of what goes into a position.
+// A position is off by a few units in the last place of the numbers that make it up.
 constexpr double kNear = 2.0e-6;
 
 void expectNear(const std::vector<float>& found, const std::vector<double>& wanted, double bound) {
@@ -69,13 +69,14 @@ void expectNear(const std::vector<float>& found, const std::vector<double>& want
   for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], wanted[i], bound) << i;
 }
 
-// A square of side 4 in the plane z = 0, of the color (0.5, 0.25, 0.1), uv (0, 0) to (1, 1), seen
-// from z = 5; nothing around it, no light.
+// A square of side 4 lies in the plane z = 0 and is seen from z = 5. It has the color
+// (0.5, 0.25, 0.1) and uv from (0, 0) to (1, 1). There is nothing around it and no light.
 SceneDescription squareScene() {
   SceneDescription d;
   d.name = "square";
   d.materials.resize(2);
   d.materials[1].diffuse = {0.5f, 0.25f, 0.1f};
+
   Mesh mesh;
   mesh.positions = {{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}};
   mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
@@ -83,6 +84,7 @@ SceneDescription squareScene() {
   mesh.materials = {1};
   d.objects.push_back({"square", {mesh}});
   d.instances.push_back({0, Affine{}});
+
   d.cameras.resize(1);  // at z = 5, looking along -z
   d.cameras[0].fov = 60;
   return d;
@@ -112,14 +114,15 @@ class Channels : public testing::TestWithParam<Mode> {
   }
 };
 
-// The square is 4 / (10 tan 30 degrees) of the height wide. 1 %: 16 samples of each pixel at its
-// edges.
+// The square is 4 / (10 tan 30 degrees) of the height wide. The bound of 1 % allows for the 16
+// samples of each pixel at its edges.
 TEST_P(Channels, AlphaIsTheShareOfThePixelThatIsCovered) {
   const Scene scene = finalized(squareScene());
   RenderOptions o = options("alpha");
   o.spp = 16;
   o.adaptive = true;  // takes all samples
   const Film film = filmOf(scene, o);
+
   const double side = 4 / (10 * std::tan(3.14159265358979323846 / 6)) * film.image.height;
   double sum = 0;
   int edges = 0;
@@ -128,52 +131,60 @@ TEST_P(Channels, AlphaIsTheShareOfThePixelThatIsCovered) {
     edges += alpha > 0 && alpha < 1;
     sum += double{alpha};
   }
+
   EXPECT_NEAR(sum, side * side, 0.01 * side * side);
   EXPECT_GT(edges, side);
   EXPECT_EQ(floatsAt(film, Channel::alpha, 0, 0)[0], 0);
   EXPECT_EQ(floatsAt(film, Channel::alpha, film.image.width / 2, film.image.height / 2)[0], 1);
 }
 
-// Surfaces keep their radiance, times their share of the pixel; the sky is left out of primary rays
-// alone.
+// Surfaces keep their radiance, times their share of the pixel. Primary rays alone leave out the
+// sky.
 TEST_P(Channels, ABackgroundTakesThePlaceOfTheSky) {
   SceneDescription d = squareScene();
   d.ambient.up = d.ambient.down = Rgb(1.0f);
   const Scene alone = finalized(d);
+
   d.sky.kind = Sky::Kind::color;
   d.sky.zenith = Rgb(3.0f);
   const Scene scene = finalized(d);
   RenderOptions o = options("");
   o.spp = 4;
   const Film black = filmOf(alone, o);
+
   setOption(o, "background", "transparent");
   setOption(o, "exposure", "1");
   const Film clear = filmOf(scene, o);
   EXPECT_EQ(clear.image.pixels, black.image.pixels);
   ASSERT_TRUE(clear.display.hasAlpha);
+
   setOption(o, "background", "#0080ff");
   setOption(o, "tonemap", "filmic");
   const Film colored = filmOf(scene, o);
   EXPECT_EQ(colored.image.pixels, black.image.pixels);
+
   const auto codes = [](const Film& film, std::size_t i) {
     const auto at = film.display.rgba.begin() + static_cast<std::ptrdiff_t>(4 * i);
     return std::vector<int>(at, at + 4);
   };
+
   const std::size_t middle = clear.image.index(clear.image.width / 2, clear.image.height / 2);
   EXPECT_EQ(codes(clear, 0), (std::vector<int>{0, 0, 0, 0}));
   EXPECT_EQ(codes(clear, middle), (std::vector<int>{255, 188, 124, 255}));  // 1, 0.5, 0.2
   EXPECT_EQ(codes(colored, 0), (std::vector<int>{0, 128, 255, 255})) << "whatever the tone curve";
+
   const std::span<const float> alpha = clear.channels.floats(Channel::alpha);
   for (std::size_t i = 0; i < alpha.size(); ++i) {
     EXPECT_EQ(codes(clear, i)[3], std::lround(255 * alpha[i]));
-    // Straight: an edge has the color of the square, not a darker one.
+
+    // Colors are not multiplied by alpha: an edge has the color of the square, not a darker one.
     if (alpha[i] > 0) {
       EXPECT_EQ(codes(clear, i)[0], 255);
     }
   }
 }
 
-// A pixel in the middle of the square, over whatever else the scene has.
+// A pixel in the middle of the square, whatever else the scene has.
 struct SeenPixel {
   Rgb image;
   float alpha = 0;
@@ -189,13 +200,14 @@ SeenPixel middleOf(const Scene& scene, const RenderOptions& o) {
   return seen;
 }
 
-// The square as a sheet before a sky of 1; behind it there may be a second square.
+// The square is a sheet before a sky of 1; behind it there may be a second square.
 Scene sheetBeforeSky(Material sheet, const Material* behind = nullptr) {
   SceneDescription d = squareScene();
   d.sky.kind = Sky::Kind::color;
   d.sky.zenith = Rgb(1.0f);
   sheet.diffuse = Rgb(0.0f);
   d.materials[1] = sheet;
+
   if (behind) {
     d.materials.push_back(*behind);
     Mesh mesh = d.objects[0].meshes[0];
@@ -207,12 +219,13 @@ Scene sheetBeforeSky(Material sheet, const Material* behind = nullptr) {
   return finalized(std::move(d));
 }
 
-// Porter and Duff 1984: what a sheet sends, and 1 - alpha of the background.
+// A sheet sends its own light, and 1 - alpha of the background passes it (Porter and Duff 1984).
 TEST_P(Channels, ASheetShowsTheBackgroundInPlaceOfTheSky) {
   Material sheet;
   sheet.emission = {1, 0.5f, 0.25f};
   sheet.coverage = 0.5f;
   const Scene scene = sheetBeforeSky(sheet);
+
   RenderOptions o = options("");
   setOption(o, "background", "transparent");
   const SeenPixel clear = middleOf(scene, o);
@@ -220,7 +233,7 @@ TEST_P(Channels, ASheetShowsTheBackgroundInPlaceOfTheSky) {
   EXPECT_EQ(clear.alpha, 0.5f);
   EXPECT_EQ(clear.codes, (std::array<int, 4>{255, 188, 137, 128}));
 
-  // Over red, half of each.
+  // Over red, half of each is seen.
   setOption(o, "background", "ff0000");
   const SeenPixel red = middleOf(scene, o);
   EXPECT_EQ(red.image, clear.image);
@@ -237,28 +250,30 @@ TEST_P(Channels, AlphaFollowsAllThatLightPassesStraight) {
   const auto alphaOf = [&](const Material& sheet, const Material* behind = nullptr) {
     return middleOf(sheetBeforeSky(sheet, behind), o).alpha;
   };
+
   Material half;
   half.coverage = 0.5f;
   EXPECT_EQ(alphaOf(half), 0.5f);
   EXPECT_EQ(alphaOf(half, &half), 0.75f);
+
   const Material opaque;
   EXPECT_EQ(alphaOf(half, &opaque), 1.0f);
 
-  // A mask that cuts everything, as glTF's MASK below its cutoff.
+  // A mask cuts everything, as glTF's MASK below its cutoff.
   Material gone;
   gone.coverage = 0;
   const SeenPixel nothing = middleOf(sheetBeforeSky(gone), o);
   EXPECT_EQ(nothing.image, Rgb(0.0f));
   EXPECT_EQ(nothing.alpha, 0.0f);
 
-  // A tinted pane, whose ior is that of what surrounds it: the mean of its colors.
+  // The alpha of a tinted pane is the mean of its colors. Its ior is that of what surrounds it.
   Material pane;
   pane.transmission = {0.75f, 0.5f, 0.25f};
   pane.thin = true;
   pane.ior = 1;
   EXPECT_NEAR(alphaOf(pane), 0.5f, 1e-6);
 
-  // Light that turns back or is bent brings the sky along, and is as good as a surface.
+  // Light that is reflected or refracted brings the sky along, and counts as light of a surface.
   Material mirror;
   mirror.mirror = mirror.mirrorGrazing = Rgb(1.0f);
   const SeenPixel reflected = middleOf(sheetBeforeSky(half, &mirror), o);
@@ -266,17 +281,19 @@ TEST_P(Channels, AlphaFollowsAllThatLightPassesStraight) {
   EXPECT_EQ(reflected.image, Rgb(0.25f)) << "through the sheet, and back through it";
 }
 
-// Neither the sky that the lobe reflects, nor a mirror, nor the view have a part in it.
+// Neither the sky that the lobe reflects, nor a mirror, nor the view changes the albedo.
 TEST_P(Channels, AlbedoIsTheMaterialsOwn) {
   SceneDescription d = squareScene();
   d.materials[1].specular = Rgb(0.5f);
   d.materials[1].mirror = {0.2f, 0.9f, 0.1f};
   d.materials[1].mirrorGrazing = Rgb(1.0f);
   d.cameras[0].eye = {3, 1, 2};
+
   for (const float sky : {0.0f, 1.0f}) {
     d.sky.kind = Sky::Kind::color;
     d.sky.zenith = Rgb(sky);
     d.materials[1].mirror = d.materials[1].mirror * 0.5f;
+
     for (const char* const rays : {"0", "4"}) {
       RenderOptions o = options("albedo");
       setOption(o, "glossy", rays);
@@ -287,7 +304,7 @@ TEST_P(Channels, AlbedoIsTheMaterialsOwn) {
   }
 }
 
-// In each channel mirror and diffuse color send out 1 in sum, so neither is dimmed.
+// In each channel mirror and diffuse color reflect 1 in sum, so neither is dimmed.
 TEST_P(Channels, OfAColoredCoatAreLimitedOneByOne) {
   SceneDescription d = squareScene();
   d.materials[1].diffuse = {1, 0.5f, 0};
@@ -295,11 +312,14 @@ TEST_P(Channels, OfAColoredCoatAreLimitedOneByOne) {
   d.sky.kind = Sky::Kind::color;
   d.sky.zenith = Rgb(1.0f);
   d.ambient.up = d.ambient.down = Rgb(1.0f);
+
   EXPECT_EQ(middleOf(finalized(d), options("alpha")).image, Rgb(1.0f));
+
   // A gray coat leaves the hue as it is.
   d.materials[1].mirror = d.materials[1].mirrorGrazing = Rgb(0.75f);
   EXPECT_EQ(middleOf(finalized(d), options("alpha")).image, (Rgb{1, 0.875f, 0.75f}));
-  // A red one takes nothing of green and blue.
+
+  // A red coat takes nothing of green and blue.
   d.materials[1].diffuse = Rgb(1.0f);
   d.materials[1].mirror = d.materials[1].mirrorGrazing = {1, 0, 0};
   EXPECT_EQ(middleOf(finalized(d), options("alpha")).image, Rgb(1.0f));
@@ -308,6 +328,7 @@ TEST_P(Channels, OfAColoredCoatAreLimitedOneByOne) {
 TEST_P(Channels, OfASquareAreItsOwn) {
   const Scene scene = finalized(squareScene());
   const Film film = filmOf(scene, options());
+
   int met = 0;
   for (int y = 0; y < film.image.height; ++y) {
     for (int x = 0; x < film.image.width; ++x) {
@@ -323,18 +344,23 @@ TEST_P(Channels, OfASquareAreItsOwn) {
       expectNear(floatsAt(film, Channel::uv, x, y), {(p.x + 2) / 4, (p.y + 2) / 4}, kNear);
       EXPECT_EQ(numberAt(film, Channel::object, x, y), 0u);
       EXPECT_EQ(numberAt(film, Channel::material, x, y), 1u);
+
+      // On the diagonal, either of the two triangles may be hit.
       if (std::abs(p.x - p.y) > kNear) {
         EXPECT_EQ(numberAt(film, Channel::triangle, x, y), p.x > p.y ? 0u : 1u);
       }
-      EXPECT_EQ(numberAt(film, Channel::rays, x, y), 1u);  // there is no light
+      // There is no light, so the primary ray is the only one.
+      EXPECT_EQ(numberAt(film, Channel::rays, x, y), 1u);
     }
   }
+
   EXPECT_GT(met, 500);
 }
 
 TEST_P(Channels, WhereNothingIsMetSayItIsNot) {
   const Scene scene = finalized(squareScene());
   const Film film = filmOf(scene, options());
+
   expectNear(floatsAt(film, Channel::position, 0, 0), {0, 0, 0}, 0);
   expectNear(floatsAt(film, Channel::normal, 0, 0), {0, 0, 0}, 0);
   expectNear(floatsAt(film, Channel::albedo, 0, 0), {0, 0, 0}, 0);
@@ -346,20 +372,23 @@ TEST_P(Channels, WhereNothingIsMetSayItIsNot) {
   EXPECT_EQ(numberAt(film, Channel::rays, 0, 0), 1u);
 }
 
-// Along parallel rays both depths are one.
+// Along parallel rays both depths are equal.
 TEST_P(Channels, OfParallelRaysHaveOneDepth) {
   SceneDescription d = squareScene();
   d.cameras[0].orthographicHeight = 3;
   const Film film = filmOf(finalized(std::move(d)), options("depth"));
-  expectNear(floatsAt(film, Channel::depth, 53, 33), {5, 5}, kNear);  // Embree divides
+  // Embree divides to find the depth, which rounds.
+  expectNear(floatsAt(film, Channel::depth, 53, 33), {5, 5}, kNear);
 }
 
-// A unit sphere about the origin, exact and seen from z = 5: the nearer root of a quadratic.
+// A unit sphere about the origin is exact. Seen from z = 5, its depth is the nearer root of a
+// quadratic.
 TEST_P(Channels, OfASphereAreItsOwn) {
   SceneDescription d = squareScene();
   d.objects[0].meshes[0] = {};
   d.objects[0].meshes[0].spheres = {Affine()};
   d.objects[0].meshes[0].materials = {1};
+
   const Scene scene = finalized(std::move(d));
   const Film film = filmOf(scene, options());
   int met = 0;
@@ -367,26 +396,31 @@ TEST_P(Channels, OfASphereAreItsOwn) {
     for (int x = 0; x < film.image.width; ++x) {
       const ViewRay ray(scene.cameras[0], film.image, x + 0.5, y + 0.5);
       const double b = dot(ray.origin, ray.direction), inside = b * b - 24;
-      if (inside < 0.01) continue;  // not where the sphere is grazed
+      // Where rays graze the sphere, the root has no accuracy.
+      if (inside < 0.01) continue;
       ++met;
       const double t = -b - std::sqrt(inside);
       const Vec3d p = ray.at(t);
-      constexpr double kGrazing = 2.0e-5;  // the root's error, ten times at most
+      // The error of the root grows ten times at most.
+      constexpr double kGrazing = 2.0e-5;
+
       expectNear(floatsAt(film, Channel::depth, x, y), {-t * ray.direction.z, t}, kGrazing);
       expectNear(floatsAt(film, Channel::position, x, y), {p.x, p.y, p.z}, kGrazing);
       expectNear(floatsAt(film, Channel::normal, x, y), {p.x, p.y, p.z}, kGrazing);
       EXPECT_EQ(numberAt(film, Channel::object, x, y), 0u);
       EXPECT_EQ(numberAt(film, Channel::triangle, x, y), 0u);
+
       const std::vector<float> uv = floatsAt(film, Channel::uv, x, y);
       EXPECT_NEAR(uv[1], 0.5 + std::asin(p.y) / 3.14159265358979323846, 1e-4);
       EXPECT_NEAR(std::cos(2 * 3.14159265358979323846 * double{uv[0]}), p.x / std::hypot(p.x, p.z),
                   1e-4);
     }
   }
+
   EXPECT_GT(met, 100);
 }
 
-// Three boxes of known depth, of which two are one object that is placed twice.
+// There are three boxes of known depth, of which two are one object that is placed twice.
 TEST_P(Channels, NumbersTellThingsApart) {
   const std::string text = R"({"whit": 1, "size": [107, 67],
     "cameras": {"main": {"eye": [0, 0, 9], "at": [0, 0, 0], "fov": 40}},
@@ -400,22 +434,26 @@ TEST_P(Channels, NumbersTellThingsApart) {
                "transform": {"rotate": [1, 0, 0, 90], "translate": [0, 1, 0]}}]})";
   const Scene scene = finalized(loadText(text));
   const Film film = filmOf(scene, options());
-  // Columns of the middle row where the boxes' fronts are.
+
+  // Finds the column of the middle row that shows a point of a box's front.
   const auto column = [&](double x, double z) {
     const double half = std::tan(20 * 3.14159265358979323846 / 180) * film.image.width /
                         film.image.height * (9 - z);
     return static_cast<int>((x / half + 1) / 2 * film.image.width);
   };
+
   const int row = film.image.height / 2;
   const std::array<double, 3> places{-2, 0, 2}, fronts{0.5, 0.5, 1.0};
   for (std::size_t i = 0; i < 3; ++i) {
     const int x = column(places[i], fronts[i]);
     EXPECT_EQ(numberAt(film, Channel::object, x, row), i);
     EXPECT_NEAR(floatsAt(film, Channel::depth, x, row)[0], 9 - fronts[i], kNear);
+
     const std::uint32_t material = numberAt(film, Channel::material, x, row);
     EXPECT_EQ(scene.materials.at(material).name, i == 0 ? "a" : "b");
     EXPECT_LT(numberAt(film, Channel::triangle, x, row), 12u);
   }
+
   const std::vector<std::string> names{"/scene/0", "/objects/pair/0", "/objects/pair/0",
                                        "/scene/3"};
   EXPECT_EQ(scene.items.names, names);
@@ -443,11 +481,13 @@ TEST(ChannelLaws, BitsDependOnNothingAround) {
     RenderOptions o = channelOptions();
     o.spp = 3;
     const ChannelLayers whole = filmOf(scene, o).channels;
+
     const auto expectAs = [&](const std::string& what, const auto& change) {
       RenderOptions other = o;
       change(other);
       expectSame(whole, filmOf(scene, other).channels, name + ", " + what);
     };
+
     expectAs("threads", [](RenderOptions& x) { x.threads = 3; });
     expectAs("tile", [](RenderOptions& x) { x.tile = 7; });
     expectAs("queue", [](RenderOptions& x) { x.queue = 48; });
@@ -469,6 +509,8 @@ TEST(ChannelLaws, ACropHasTheBitsOfTheWhole) {
     const Film part = filmOf(scene, o);
     ChannelLayers same;
     same.resize(o.channels, part.image.pixels.size());
+
+    // The rows of the crop are copied from the whole image.
     for (int y = 20; y < 51; ++y) {
       const std::size_t first = whole.image.index(31, y), to = part.image.index(31, y);
       o.channels.forEach([&](Channel c) {
@@ -477,6 +519,7 @@ TEST(ChannelLaws, ACropHasTheBitsOfTheWhole) {
           std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(first * components),
                       49 * components, into.begin() + static_cast<std::ptrdiff_t>(to * components));
         };
+
         if (infoOf(c).countsThings) {
           copyRow(whole.channels.numbers(c), same.numbers(c));
         } else {
@@ -498,13 +541,14 @@ TEST(ChannelLaws, ThePictureIsTheSameWithThem) {
   }
 }
 
-// Never averaged: where the square ends, each pixel has the depth of the one or of nothing, and of
-// the sample that is nearest to its center.
+// Channels are never averaged: where the square ends, each pixel has the depth of the square or of
+// nothing, at the sample that is nearest to its center.
 TEST(ChannelLaws, AreThoseOfOneSample) {
   const Scene scene = finalized(squareScene());
   for (const int spp : {1, 2, 3, 4, 5, 16}) {
     RenderOptions o = channelOptions("depth,position");
     o.spp = spp;
+    // Finds the sample that is nearest to the center of a pixel.
     const std::vector<Vec2f> samples = samplePattern(spp);
     double best = 1;
     Vec2f nearest;
@@ -512,6 +556,7 @@ TEST(ChannelLaws, AreThoseOfOneSample) {
       const double away = std::hypot(double{s.x} - 0.5, double{s.y} - 0.5);
       if (away < best) best = away, nearest = s;
     }
+
     const Film film = filmOf(scene, o);
     for (int y = 0; y < film.image.height; ++y) {
       for (int x = 0; x < film.image.width; ++x) {
@@ -538,9 +583,10 @@ TEST(ChannelLaws, AdaptiveSamplingKeepsTheCenters) {
   }
 }
 
-// What both ways to trace keep, but where paths part by rounding.
+// Packets and the reference keep the same numbers, but where paths diverge by rounding.
 TEST(ChannelLaws, AgreeWithTheReference) {
-  constexpr double kMostParted = 0.01;  // of the pixels, whose rays pass an edge or a cutoff
+  // At most 1 % of the pixels have rays that pass an edge or a cutoff.
+  constexpr double kMostParted = 0.01;
   for (const std::string& name : smallScenes()) {
     const Scene scene = load(name);
     for (const bool adaptive : {false, true}) {
@@ -550,6 +596,7 @@ TEST(ChannelLaws, AgreeWithTheReference) {
       const Film packets = filmOf(scene, o);
       o.mode = Mode::reference;
       const Film reference = filmOf(scene, o);
+
       std::size_t parted = 0;
       for (std::size_t i = 0; i < packets.image.pixels.size(); ++i) {
         const auto same = [&](Channel c) {
@@ -559,6 +606,7 @@ TEST(ChannelLaws, AgreeWithTheReference) {
           ++parted;
           continue;
         }
+
         EXPECT_TRUE(same(Channel::material));
         const float z = packets.channels.floats(Channel::depth)[2 * i];
         const float other = reference.channels.floats(Channel::depth)[2 * i];
@@ -566,6 +614,7 @@ TEST(ChannelLaws, AgreeWithTheReference) {
           EXPECT_NEAR(z, other, 1e-4 * double{other}) << name;
         }
       }
+
       EXPECT_LE(static_cast<double>(parted),
                 kMostParted * static_cast<double>(packets.image.pixels.size()))
           << name;
@@ -573,7 +622,7 @@ TEST(ChannelLaws, AgreeWithTheReference) {
   }
 }
 
-// The sum over a picture is what the frame has traced.
+// The sum of the channel over a picture is the number of rays that the frame has traced.
 void expectAllRaysKept(const std::string& name, const RenderOptions& o) {
   const Scene scene = load(name);
   Renderer renderer(scene, o);
@@ -581,6 +630,7 @@ void expectAllRaysKept(const std::string& name, const RenderOptions& o) {
   const Camera camera = chooseCamera(scene, o);
   const FrameStats stats = o.mode == Mode::reference ? renderer.renderReference(camera, film)
                                                      : renderer.render(camera, film);
+
   std::uint64_t kept = 0, traced = 0;
   for (const std::uint32_t n : film.channels.numbers(Channel::rays)) kept += n;
   for (const RayTally& tally : stats.meter.tally) traced += tally.rays;
@@ -592,7 +642,8 @@ TEST(ChannelLaws, RaysAreAllThatWereTraced) {
     RenderOptions o = channelOptions("rays");
     o.mode = mode;
     for (const std::string& name : smallScenes()) expectAllRaysKept(name, o);
-    // Of every kind.
+
+    // These options trace rays of every kind.
     o.indirect = o.ambientSamples = 2;
     o.depth = 2;
     expectAllRaysKept("cornell", o);
@@ -607,9 +658,11 @@ TEST(ChannelLaws, PlansWithoutThemHaveNothingMore) {
     makePlan(scene, o).forEachStep([&](const Step& s) { names += s.name + " "; });
     return names;
   };
+
   const std::string plain = steps();
   EXPECT_EQ(plain.find("keep"), std::string::npos);
   EXPECT_EQ(plain.find("Counts"), std::string::npos);
+
   Renderer renderer(scene, o);
   Film film = makeFilm(scene, o);
   renderer.render(chooseCamera(scene, o), film);
@@ -617,6 +670,7 @@ TEST(ChannelLaws, PlansWithoutThemHaveNothingMore) {
   for (const auto& tracer : renderer.scheduler().tracers()) {
     EXPECT_EQ(tracer->bufferBytes().rayCounts, 0u);
   }
+
   o.channels = parseChannels("depth");
   EXPECT_EQ(steps().find("countRays"), std::string::npos);
   o.channels = parseChannels("rays");
@@ -631,12 +685,14 @@ TEST(ChannelLaws, ARendererTakesOthersOver) {
   Renderer renderer(scene, plain);
   Film film = makeFilm(scene, plain);
   renderer.render(chooseCamera(scene, plain), film);
+
   renderer.setOptions(o);
   renderer.render(chooseCamera(scene, o), film);
   expectSame(wanted, film.channels, "set later");
 }
 
-// What moves is instanced, what stands still is baked: numbers and names are the same.
+// Objects that move are instanced and objects that stand still are baked: numbers and names are
+// the same in both.
 TEST(ChannelLaws, NumbersAreThoseOfTheSceneThatStandsStill) {
   Warnings warnings;
   LoadOptions moving;
@@ -645,6 +701,7 @@ TEST(ChannelLaws, NumbersAreThoseOfTheSceneThatStandsStill) {
   Scene moved = Scene::finalize(loadScene("orrery", moving, warnings), warnings);
   moveScene(moved, 0);
   EXPECT_EQ(still.items.names, moved.items.names);
+
   const RenderOptions o = channelOptions("object,material,triangle");
   const Film a = filmOf(still, o), b = filmOf(moved, o);
   for (const Channel c : {Channel::object, Channel::material, Channel::triangle}) {
@@ -652,7 +709,8 @@ TEST(ChannelLaws, NumbersAreThoseOfTheSceneThatStandsStill) {
     for (std::size_t i = 0; i < a.channels.pixels(); ++i) {
       differing += a.channels.numbers(c)[i] != b.channels.numbers(c)[i];
     }
-    // Rays that pass an edge within rounding.
+
+    // The bound allows for rays that pass an edge within rounding.
     EXPECT_LE(differing, a.channels.pixels() / 500) << infoOf(c).name;
   }
 }
@@ -665,6 +723,7 @@ TEST(ChannelLaws, MovedThingsKeepTheirNumbers) {
   const RenderOptions o = channelOptions("object,position");
   moveScene(scene, 3);
   const Film fresh = filmOf(scene, o);
+
   moveScene(scene, 0);
   Renderer renderer(scene, o);
   Film film = makeFilm(scene, o);

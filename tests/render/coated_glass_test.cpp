@@ -6,7 +6,7 @@
 namespace whit::test {
 namespace {
 
-// Blocks of glass with coats and tints of all kinds, some of ior 1 and one without a coat.
+// The blocks of glass have coats and tints of all kinds; some have ior 1 and one has no coat.
 Scene blocks() {
   SceneBuilder builder;
   builder.sky(1);
@@ -35,7 +35,7 @@ TEST(CoatedGlass, HasTheSameBitsWhateverTheQueues) {
   expectBitsWhateverTheQueues(blocks(), smallOptions());
 }
 
-// Without the effect there is no coat that would take light away.
+// Without the effect there is no coat that would reflect light.
 TEST(CoatedGlass, LetsAllLightThroughWithoutMirrors) {
   RenderOptions o = smallOptions();
   o.disable = EffectSet().with(Effect::mirror);

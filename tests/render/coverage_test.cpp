@@ -1,5 +1,5 @@
-// Surfaces that are there in part, and sheets: in the reference against sums of what is seen
-// without them, in the vector pipeline against the reference.
+// Surfaces that cover a part of what is behind them, and thin sheets: the reference against sums of
+// what is seen without them, and the vector pipeline against the reference.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,7 +28,7 @@ std::int32_t addCoverageMap(SceneBuilder& builder, const std::vector<float>& val
       makeTexture(TexelFormat::data, static_cast<int>(values.size()), 1, std::move(texels)));
 }
 
-// Matte, shining, radiating and mirroring at once.
+// The material is matte, glossy, emitting and mirroring at once.
 Material allAtOnce() {
   Material m = diffuseMaterial(0.6f);
   m.specular = Rgb(0.9f, 0.5f, 0.2f);
@@ -40,11 +40,12 @@ Material allAtOnce() {
   return m;
 }
 
-// What is seen of a sheet of allAtOnce() over a floor, under a lamp that casts no shadow.
+// Returns the radiance of a sheet of allAtOnce() over a floor, under a light without shadows.
 RgbD sheetOverAFloor(float coverage, const Vec3d& direction) {
   SceneBuilder builder;
   Material sheet = inPart(allAtOnce(), coverage);
   sheet.castsShadow = false;
+
   builder.add(levelAt(0, builder.add(sheet)));
   builder.add(levelAt(-1, builder.add(diffuseMaterial(0.7f))));
   builder.sky(0.4f);
@@ -77,6 +78,7 @@ TEST(Coverage, CountsTexelByTexel) {
   reference::Settings settings = uncut();
   settings.options.shading.textureFilter = TextureFilter::nearest;
   const double values[] = {0, 0.2, 0.6, 1};
+
   for (int i = 0; i < 4; ++i) {
     const double seen = radianceAlong(scene, {i + 0.5, 2, -0.5}, {0, -1, 0}, settings).x;
     const double c = values[i] * 0.5;
@@ -84,8 +86,8 @@ TEST(Coverage, CountsTexelByTexel) {
   }
 }
 
-// From the front and from behind, where an open sheet that bounded a medium would be taken for the
-// end of one that never began.
+// The sheets are seen from the front and from behind, where a sheet that bounded a medium would be
+// taken for the end of a medium that never began.
 TEST(Coverage, LetsThroughSheetAfterSheetFromEitherSide) {
   for (const int sheets : {1, 2, 7}) {
     SceneBuilder builder;
@@ -93,8 +95,10 @@ TEST(Coverage, LetsThroughSheetAfterSheetFromEitherSide) {
     for (int i = 0; i < sheets; ++i) builder.add(levelAt(static_cast<float>(-i), sheet));
     builder.sky(5);
     const Scene scene = builder.build();
+
     const double through = std::pow(0.75, sheets), wanted = 1 - through + 5 * through;
     const reference::Settings settings = uncut(9);
+
     EXPECT_NEAR(radianceAlong(scene, {0, 1, 0}, steep(30), settings).x, wanted, 1e-6) << sheets;
     EXPECT_NEAR(radianceAlong(scene, {0, -8, 0}, -steep(30), settings).x, wanted, 1e-6) << sheets;
   }
@@ -108,6 +112,7 @@ TEST(Coverage, OfASheetInWaterBendsNothing) {
       builder.add(quad({-3, -3, -1}, {3, -3, -1}, {3, 3, -1}, {-3, 3, -1},
                        builder.add(inPart(emittingMaterial(0), 0.5f))));
     }
+
     Object lamp;
     lamp.meshes = {
         box({-0.4f, -0.4f, -2.4f}, {0.4f, 0.4f, -1.6f}, builder.add(emittingMaterial(1)))};
@@ -117,6 +122,8 @@ TEST(Coverage, OfASheetInWaterBendsNothing) {
     o.depth = 2;
     return render(builder.build(), o).image;
   };
+
+  // Half of the lamp's light passes the sheet, if no ray is bent on its way.
   const Image clear = picture(false), veiled = picture(true);
   std::size_t seen = 0, different = 0;
   for (std::size_t i = 0; i < clear.pixels.size(); ++i) {
@@ -124,17 +131,19 @@ TEST(Coverage, OfASheetInWaterBendsNothing) {
     ++seen;
     different += std::fabs(veiled.pixels[i].x - 0.5f) > 1e-6f;
   }
+
   EXPECT_GT(seen, 100u);
   EXPECT_LE(different, kPixelsAtEdges);
 }
 
-// The glass reflects through what is not there, and past its critical angle all of that.
+// The glass reflects where the sheet is clear, and reflects all light past its critical angle.
 TEST(Coverage, OfASheetOnGlassLeavesItsReflection) {
   for (const bool within : {false, true}) {
     SceneBuilder builder;
     builder.add(box({-2, -1, -2}, {2, 0, 2}, builder.add(glassMaterial(1.5f))));
     builder.add(quad({-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1},
                      builder.add(inPart(blackMaterial(), 0.25f))));
+
     builder.sky(2);
     const float y = within ? -0.5f : 0.5f;
     builder.description.cameras = {{.eye = {0.1f, y, 1.2f}, .at = {0.05f, 0, 0}, .fov = 20}};
@@ -142,10 +151,12 @@ TEST(Coverage, OfASheetOnGlassLeavesItsReflection) {
     const RenderOptions o = smallOptions();
     const Image image = render(scene, o).image;
     const Rgb& pixel = image.at(image.width / 2, image.height / 2);
+
     Renderer renderer(scene, o);
     Film film = makeFilm(scene, o);
     renderer.renderReference(chooseCamera(scene, o), film);
     const Rgb wanted = film.image.at(image.width / 2, image.height / 2);
+
     EXPECT_GT(wanted.x, 0.1f) << within;
     EXPECT_NEAR(pixel.x, wanted.x, 1e-5f) << within;
   }
@@ -157,13 +168,14 @@ TEST(Coverage, LiesOnWhatIsOpaqueWithoutALeak) {
   builder.add(levelAt(-1, builder.add(emittingMaterial(9))));
   builder.add(quad({-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1},
                    builder.add(inPart(emittingMaterial(0), 0.5f))));
+
   const Scene scene = builder.build();
   for (const double x : {-0.7, 0.3, 0.9, 2.0}) {
     EXPECT_EQ(radianceAlong(scene, {x, 2, 0.4}, {0, -1, 0}).x, 1) << x;
   }
 }
 
-// By its own map, and where another one has cut holes besides.
+// The sheet covers by its own map, and by its map where another map has cut holes besides.
 TEST(Coverage, CastsShadowsWhereItIsHalfOrMore) {
   for (const float factor : {1.0f, 0.9f}) {
     for (const bool cut : {false, true}) {
@@ -173,6 +185,7 @@ TEST(Coverage, CastsShadowsWhereItIsHalfOrMore) {
       sheet.cutWhereClear();
       if (cut) sheet.alphaMap = addCoverageMap(builder, {1, 1, 0.8f, 0.4f});
       if (cut) sheet.alphaCutoff = 0.5f;
+
       builder.add(quad({0, 1, 0}, {4, 1, 0}, {4, 1, -1}, {0, 1, -1}, builder.add(sheet)));
       builder.add(levelAt(0, builder.add(diffuseMaterial(0.5f))));
       builder.description.lights = {sun({0, -1, 0}, 2)};
@@ -180,9 +193,12 @@ TEST(Coverage, CastsShadowsWhereItIsHalfOrMore) {
           {.eye = {2, 0.5f, -0.5f}, .at = {2, 0, -0.5f}, .up = {0, 0, -1}}};
       builder.description.cameras[0].orthographicHeight = 1;
       const Scene scene = builder.build();
+
       RenderOptions o = smallOptions();
       o.size = ImageSize{4, 1};
       const Image image = render(scene, o).image;
+
+      // Texels of a coverage of 0.5 or more cast shadows; the other map cuts the last one.
       const bool lit[] = {true, true, false, cut};
       for (int i = 0; i < 4; ++i) {
         const double seen = radianceAlong(scene, {i + 0.5, 0.5, -0.5}, {0, -1, 0}).x;
@@ -206,7 +222,7 @@ TEST(Coverage, ClearTexelsAreNoBounce) {
   EXPECT_EQ(counts[RayKind::refraction], 0u);
 }
 
-// Of any index: what is thin begins no medium.
+// A thin sheet of any index bounds no medium, so light passes straight.
 TEST(ThinSheet, TintsWhatGoesStraightOn) {
   SceneBuilder builder;
   Material sheet = blackMaterial();
@@ -216,6 +232,7 @@ TEST(ThinSheet, TintsWhatGoesStraightOn) {
   sheet.mirror = sheet.mirrorGrazing = Rgb(0.25f);
   builder.add(levelAt(0, builder.add(sheet)));
   builder.sky(0.4f);
+
   const Scene scene = builder.build();
   for (const double height : {1.0, -1.0}) {
     const RgbD seen = radianceAlong(scene, {0, height, 0}, steep(60) * height);
@@ -225,13 +242,14 @@ TEST(ThinSheet, TintsWhatGoesStraightOn) {
   }
 }
 
-// Tiles that cover by maps and numbers, mirror and shine, one over the other, and a thin one.
+// Pairs of tiles, one over the other, cover by maps and numbers, mirror and shine. One is thin.
 Scene tilesInPart() {
   SceneBuilder builder;
   const std::int32_t few = addCoverageMap(builder, {0, 0.3f, 1, 0.6f});
   std::vector<float> many;
   for (int i = 0; i < 37; ++i) many.push_back(static_cast<float>(i) / 36);
   const std::int32_t slope = addCoverageMap(builder, many);
+
   builder.sky(0.3f);
   return rowOfTiles(builder, [&](int i) {
     Material m = allAtOnce();
@@ -243,6 +261,7 @@ Scene tilesInPart() {
       m.transmission = Rgb(0.5f);
       m.thin = true;
     }
+
     const std::uint32_t material = builder.add(m);
     Mesh tile = quad({0, 0, 0}, {1, 0, 0}, {1, 0, -1}, {0, 0, -1}, material);
     const Mesh upper = tile;

@@ -12,7 +12,7 @@ namespace {
 
 using Code = std::array<int, 3>;
 
-// A wall at z = 0 that fills the view from z = 5, of the color (0.5, 0.25, 0.1), and one light.
+// A wall at z = 0 of the color (0.5, 0.25, 0.1) fills the view from z = 5; there is one light.
 Scene wall(const std::function<void(SceneDescription&)>& change = {}) {
   SceneDescription d;
   d.name = "wall";
@@ -20,6 +20,7 @@ Scene wall(const std::function<void(SceneDescription&)>& change = {}) {
   d.materials[0].diffuse = {0.5f, 0.25f, 0.1f};
   d.lights.resize(1);
   d.lights[0].position = {0, 0, 4};
+
   Mesh mesh;
   mesh.positions = {{-50, -50, 0}, {50, -50, 0}, {50, 50, 0}, {-50, 50, 0}};
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
@@ -27,6 +28,7 @@ Scene wall(const std::function<void(SceneDescription&)>& change = {}) {
   d.objects.push_back({"wall", {mesh}});
   d.instances.push_back({0, Affine{}});
   d.cameras.resize(1);  // at z = 5, looking along -z
+
   if (change) change(d);
   Warnings warnings;
   return Scene::finalize(std::move(d), warnings);
@@ -48,7 +50,7 @@ Viewed view(const Scene& scene, DebugView what, const RenderOptions& options = s
   return viewed;
 }
 
-// The same code in every pixel.
+// Every pixel has the same code.
 void expectAll(const Viewed& viewed, const Code& code) {
   for (int y = 0; y < viewed.film.display.height; ++y) {
     for (int x = 0; x < viewed.film.display.width; ++x) {
@@ -69,23 +71,28 @@ TEST(DebugView, DepthBeginsWhereTheWallIsNearest) {
   const Viewed viewed = view(wall(), DebugView::depth);
   EXPECT_EQ(viewed.frame.legend.substr(0, 17), "distance, from 5 ");
   EXPECT_GT(viewed.code(53, 33)[0], viewed.code(0, 0)[0]);  // the middle is nearer
+
+  // A camera that looks away from the wall sees nothing.
   expectAll(view(wall([](SceneDescription& d) {
                    d.cameras[0].at = {0, 0, 10};
                  }),
                  DebugView::depth),
-            {0, 0, 0});  // looking away
+            {0, 0, 0});
 }
 
 TEST(DebugView, CountsRays) {
-  EXPECT_EQ(view(wall(), DebugView::rays).frame.legend,
-            "rays a pixel and sample, from 2 to 2");  // and one to the light
+  // Every pixel has a primary ray and a shadow ray.
+  EXPECT_EQ(view(wall(), DebugView::rays).frame.legend, "rays a pixel and sample, from 2 to 2");
+
   const auto dark = [](SceneDescription& d) { d.lights.clear(); };
   EXPECT_EQ(view(wall(dark), DebugView::rays).frame.legend, "rays a pixel and sample, from 1 to 1");
-  // A mirror in the dark: its ray leaves the scene.
+
+  // In the dark, the ray that a mirror reflects leaves the scene.
   const auto mirror = [&](SceneDescription& d) {
     dark(d);
     d.materials[0].mirror = d.materials[0].mirrorGrazing = {1, 1, 1};
   };
+
   RenderOptions several = smallOptions();
   several.spp = 4;
   EXPECT_EQ(view(wall(mirror), DebugView::rays, several).frame.legend,
@@ -94,11 +101,14 @@ TEST(DebugView, CountsRays) {
 
 TEST(DebugView, FullPacketsAreBright) {
   RenderOptions options = smallOptions();
-  options.size = ImageSize{96, 64};  // whole tiles: no packet is partly filled
+  // In whole tiles no packet is partly filled.
+  options.size = ImageSize{96, 64};
   expectAll(view(wall(), DebugView::occupancy, options), {255, 245, 170});
+
   options.size = ImageSize{1, 1};
   options.packet = 8;
-  const Code alone = view(wall(), DebugView::occupancy, options).code(0, 0);  // an eighth
+  // One ray fills an eighth of its packet.
+  const Code alone = view(wall(), DebugView::occupancy, options).code(0, 0);
   EXPECT_LT(alone[0] + alone[1] + alone[2], 128);
 }
 

@@ -1,4 +1,4 @@
-// Depth of field by a thin lens: packets and reference against the circle of confusion.
+// Depth of field by a thin lens: packets and the reference against the circle of confusion.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -16,7 +16,7 @@ constexpr int kSide = 64;           // of the picture, in pixels
 constexpr double kHalfEmitter = 3;  // half the side of the emitter's sharp image, in pixels
 constexpr double kFov = 40, kHeight = 3;
 
-// A square that emits, at a distance from a camera that is focused on another one.
+// A square that emits lies at `distance` from a camera that is focused at `focus`.
 struct Focusing {
   double focus, distance;
   bool parallel = false;
@@ -27,6 +27,7 @@ struct Focusing {
     return (parallel ? kHeight : 2 * std::tan(kFov * std::numbers::pi / 360)) / kSide;
   }
   double pixelAt(double d) const { return pixel() * (parallel ? 1 : d); }
+
   // The diameter of the circle of confusion, in pixels. A ray through the lens at l and through q
   // in the plane of focus, at distance F, is at l + (q - l) d / F in the plane at distance d. The
   // rays that meet a point p there have q = p F / d + l (1 - F / d): l in a disk of radius A makes
@@ -44,7 +45,7 @@ void PrintTo(const Focusing& f, std::ostream* out) {
 
 constexpr std::array<double, 2> kCenter{34.6, 35.4};  // of the emitter's image, in pixels
 
-// Everything is `scale` times as large.
+// Builds the scene `scale` times as large.
 Scene sceneOf(const Focusing& setup, double scale = 1) {
   SceneBuilder builder;
   Camera camera;
@@ -54,11 +55,13 @@ Scene sceneOf(const Focusing& setup, double scale = 1) {
   if (setup.parallel) camera.orthographicHeight = static_cast<float>(kHeight * scale);
   camera.aperture = static_cast<float>(setup.aperture * scale);
   builder.description.cameras = {camera};
+
   const double pixel = setup.pixelAt(setup.distance), half = kHalfEmitter * pixel;
   const double x = 0.5 + (kCenter[0] - kSide / 2) * pixel, y = 1 - (kCenter[1] - kSide / 2) * pixel;
   const auto corner = [&](double right, double up) {
     return Vec3f(Vec3d{x + right, y + up, 2 - setup.distance} * scale);
   };
+
   builder.add(quad(corner(-half, -half), corner(half, -half), corner(half, half),
                    corner(-half, half), builder.add(emittingMaterial(1))));
   return builder.build();
@@ -83,7 +86,8 @@ Image pictureOf(const Scene& scene, const RenderOptions& o, Mode mode) {
   return film.image;
 }
 
-// The light of a picture: all of it, in cells of the middle of the disk, and how far it reaches.
+// Sums up the light of a picture: all of it, in cells of the middle of the disk, and how far it
+// reaches.
 struct Spread {
   static constexpr int kSectors = 6, kRings = 2;
   double flux = 0, x = 0, y = 0, farthest = 0;
@@ -98,6 +102,7 @@ struct Spread {
         flux += value;
         x += value * dx, y += value * dy;
         if (value > 0) farthest = std::max(farthest, r);
+
         if (r >= inner) continue;
         const double turn = std::atan2(dy, dx) / (2 * std::numbers::pi) + 0.5;
         const auto sector = std::min(static_cast<int>(turn * kSectors), kSectors - 1);
@@ -112,7 +117,8 @@ struct Spread {
 };
 
 constexpr double kEmitterArea = 4 * kHalfEmitter * kHalfEmitter;
-// The emitter's image and the pixels' own size blur the edge of the disk by as much.
+
+// The emitter's image and the pixels' own size blur the edge of the disk by so much.
 constexpr double kEdge = (kHalfEmitter + 0.5) * std::numbers::sqrt2;
 
 class CircleOfConfusion : public testing::TestWithParam<std::tuple<Focusing, Mode>> {};
@@ -122,11 +128,14 @@ TEST_P(CircleOfConfusion, GetsTheLightEvenly) {
   const double radius = setup.diameter() / 2, inner = radius - kEdge;
   ASSERT_GT(inner, 8);
   const Spread spread(pictureOf(sceneOf(setup), optionsOf(256), mode), inner);
+
   EXPECT_NEAR(spread.flux, kEmitterArea, 0.01 * kEmitterArea);
   EXPECT_NEAR(spread.x, 0, 0.1);
   EXPECT_NEAR(spread.y, 0, 0.1);
   EXPECT_LE(spread.farthest, radius + kEdge);
   EXPECT_GE(spread.farthest, radius + kHalfEmitter / 2);
+
+  // Away from its edge, the disk has the same light everywhere.
   const double even = kEmitterArea / (std::numbers::pi * radius * radius);
   for (std::size_t cell = 0; cell < spread.light.size(); ++cell) {
     EXPECT_NEAR(spread.light[cell] / spread.pixels[cell], even, 0.06 * even) << cell;
@@ -146,24 +155,27 @@ TEST(DepthOfField, IsSharpInThePlaneOfFocus) {
       RenderOptions o = optionsOf(16);
       const Image lens = pictureOf(scene, o, mode);
       EXPECT_LE(Spread(lens, 1).farthest, kEdge);
+
       o.disable = EffectSet().with(Effect::depthOfField);
       const Image pinhole = pictureOf(scene, o, mode);
       for (std::size_t i = 0; i < lens.pixels.size(); ++i) {
-        // A ray at the emitter's edge may pass it by rounding.
+        // A ray at the emitter's edge may miss it by rounding.
         ASSERT_NEAR(lens.pixels[i].x, pinhole.pixels[i].x, 1.01 / 16) << i;
       }
     }
   }
 }
 
-// The view stays the same, but `at` is farther away.
+// The view stays the same, but `at` is farther away, so `focus` has to give the distance.
 TEST(DepthOfField, FocusReplacesTheDistanceOfTheTarget) {
   const Scene scene = sceneOf({4, 8});
   Scene told = sceneOf({4, 8});
   const RenderOptions o = optionsOf(4);
+
   told.cameras[0].focus = 4;
   told.cameras[0].at = {0.5f, 1, -30};
   EXPECT_EQ(firstDifference(render(told, o).image, render(scene, o).image), "");
+
   told.cameras[0].focus = 5;
   EXPECT_NE(firstDifference(render(told, o).image, render(scene, o).image), "");
 }
@@ -173,15 +185,19 @@ TEST(DepthOfField, PinholesKeepEveryBit) {
     const Focusing setup{4, 8, parallel}, pinhole{4, 8, parallel, 0};
     const Scene scene = sceneOf(pinhole);
     EXPECT_FALSE(scene.effects.has(Effect::depthOfField));
+
     for (const Mode mode : {Mode::packets, Mode::reference}) {
       RenderOptions o = optionsOf(4);
       const Image plain = pictureOf(scene, o, mode);
       const auto same = [&](const Scene& other, const char* what) {
         EXPECT_EQ(firstDifference(pictureOf(other, o, mode), plain), "") << what;
       };
-      Scene beside = sceneOf(pinhole);  // another camera calls for the effect
+
+      // The scene has the effect as if another of its cameras needed it.
+      Scene beside = sceneOf(pinhole);
       beside.effects = beside.effects.with(Effect::depthOfField);
       same(beside, "beside another camera");
+
       EXPECT_NE(firstDifference(pictureOf(sceneOf(setup), o, mode), plain), "");
       o.disable = EffectSet().with(Effect::depthOfField);
       same(sceneOf(setup), "switched off");
@@ -189,6 +205,7 @@ TEST(DepthOfField, PinholesKeepEveryBit) {
       o.effects = EffectChoice::all;
       same(scene, "every effect");
     }
+
     // One sample goes through the center of the lens.
     EXPECT_EQ(firstDifference(render(sceneOf(setup), optionsOf(1)).image,
                               render(scene, optionsOf(1)).image),
@@ -229,22 +246,27 @@ TEST(DepthOfField, HasTheSameBitsWhateverTheQueues) {
   expectBitsWhateverTheQueues(load("effects"), o);
 }
 
-// The first pass goes through the lens, too, and so finds what is blurred beside sharp edges.
+// The first pass goes through the lens, too, and so finds regions that are blurred beside sharp
+// edges.
 TEST(DepthOfField, AdaptiveSamplingFindsTheBlur) {
   RenderOptions o = lensOptions(16);
   o.shading.textureFilter = TextureFilter::bilinear;  // pixels of one sample are not blurred
   const Image all = render(load("effects"), o).image;
+
   o.adaptive = true;
   const ImageDifference d = compareImages(render(load("effects"), o).image, all);
   std::printf("adaptive against all samples: FLIP %.4f\n", d.flipMean);
   EXPECT_LE(d.flipMean, 0.0125);  // 0.0142 with a first pass through the center of the lens
 }
 
+// The sample whose channels are kept is not the first one, so its ray passes beside the center of
+// the lens.
 TEST(DepthOfField, ChannelsAreThoseOfTheRayThroughTheLens) {
   RenderOptions o = optionsOf(9);
   ASSERT_NE(nearestToCenter(samplePattern(o.spp)), 0u);
   o.channels = parseChannels("depth,position,rays");
   const Scene scene = sceneOf({4, 8});
+
   Renderer renderer(scene, o);
   Film packets = makeFilm(scene, o), reference = makeFilm(scene, o);
   renderer.render(chooseCamera(scene, o), packets);
@@ -254,23 +276,27 @@ TEST(DepthOfField, ChannelsAreThoseOfTheRayThroughTheLens) {
     const float z = packets.channels.floats(Channel::depth)[2 * i];
     apart += std::isinf(z) != std::isinf(reference.channels.floats(Channel::depth)[2 * i]);
     if (std::isinf(z)) continue;
+
     EXPECT_NEAR(z, 8, 1e-5);
     EXPECT_NEAR(packets.channels.floats(Channel::position)[3 * i + 2], -6, 1e-5);
+
     const double x = static_cast<double>(i % kSide) + 0.5, y = static_cast<double>(i / kSide) + 0.5;
     aside += std::hypot(x - kCenter[0], y - kCenter[1]) > kEdge;
   }
+
   EXPECT_LE(apart, 2);
   EXPECT_GT(aside, 5);
 }
 
-// Half of the space around the lens, x < 0, is filled with a dielectric that does not refract but
-// absorbs three quarters of the light on its way to the sky. Rays are nearly parallel.
+// A dielectric fills half of the space around the lens, x < 0. It does not refract but absorbs
+// three quarters of the light on its way to the sky. Rays are nearly parallel.
 Scene halfInMedium(float eye) {
   SceneBuilder builder;
   builder.sky(1);
   Material m = glassMaterial(1);
   m.absorption = Rgb(static_cast<float>(std::log(4.0)));
   builder.add(box({-10, -10, -1}, {0, 10, 10}, builder.add(m)));
+
   Camera camera;
   camera.eye = {eye, 0, 0};
   camera.at = {eye, 0, -1};
@@ -283,12 +309,13 @@ Scene halfInMedium(float eye) {
 
 TEST(DepthOfField, RaysStartInTheMediumAroundTheirPointOfTheLens) {
   for (const double eye : {-0.08, -0.02, 0.05}) {
-    // The part of the disk beyond the chord at x = 0.
+    // The share of the disk beyond the chord at x = 0 sees the sky undimmed.
     const double h = -eye / 0.1;
     const double outside = (std::acos(h) - h * std::sqrt(1 - h * h)) / std::numbers::pi;
     const Scene scene = halfInMedium(static_cast<float>(eye));
     RenderOptions o = optionsOf(64);
     o.size = ImageSize{8, 8};
+
     for (const Mode mode : {Mode::packets, Mode::reference}) {
       double mean = 0;
       for (const Rgb& pixel : pictureOf(scene, o, mode).pixels) mean += double{pixel.x} / 64;

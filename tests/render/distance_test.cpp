@@ -1,6 +1,6 @@
-// Distance changes nothing on average: a plane of each kind of texture, seen at 1 to 32 texels a
-// pixel with one sample a pixel, has the mean of an integral over the texture that shares no code
-// with the renderer.
+// Distance does not change the mean: a plane of each kind of texture, seen at 1 to 32 texels a
+// pixel with one sample a pixel, has the mean of an integral over the texture. The integral shares
+// no code with the renderer.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,7 +19,7 @@ constexpr int kTexelsAcross = 96;  // texels
 constexpr int kPoints = 8;         // of the integral, a side of a texel
 constexpr int kPixels = 120;
 
-// A texture in the test's own numbers: linear light, or data, from 0 to 1.
+// Returns a texel in the test's own numbers, linear light or data, from 0 to 1.
 using Pattern = std::function<oracle::Color(int x, int y)>;
 
 std::int32_t add(SceneBuilder& builder, const Pattern& pattern, TexelFormat format) {
@@ -35,7 +35,7 @@ std::int32_t add(SceneBuilder& builder, const Pattern& pattern, TexelFormat form
   return builder.add(makeTexture(format, kTexelsAcross, kTexelsAcross, std::move(texels)));
 }
 
-// Leaves of 12x32 texels that cover 21 % of the texture.
+// The leaves have 12x32 texels and cover 21 % of the texture.
 int leafAt(int x, int y) {
   constexpr int kCorners[][2] = {{3, 5}, {40, 12}, {70, 50}, {22, 60}, {55, 62}};
   for (int leaf = 0; leaf < 5; ++leaf) {
@@ -47,7 +47,7 @@ int leafAt(int x, int y) {
 
 oracle::Color opacity(int x, int y) { return oracle::gray(leafAt(x, y) >= 0 ? 1 : 0); }
 
-// Opaque in the middle and thinner towards either side.
+// The leaves are opaque in the middle and thinner towards either side.
 oracle::Color softOpacity(int x, int y) {
   if (leafAt(x, y) < 0) return oracle::gray(0);
   const int toLeft = leafAt(x - 3, y) >= 0 ? 1 : 0, toRight = leafAt(x + 3, y) >= 0 ? 1 : 0;
@@ -61,7 +61,7 @@ Pattern leavesOn(oracle::Color clear) {
   };
 }
 
-// Some number from 0 to 1 that texels do not share with their neighbors.
+// Returns a number from 0 to 1 that is independent of those of neighboring texels.
 double noise(int x, int y, int channel) {
   const double s = std::sin(x * 12.9898 + y * 78.233 + channel * 37.719) * 43758.5453;
   return s - std::floor(s);
@@ -73,7 +73,7 @@ oracle::Color at(const Pattern& pattern, double x, double y) {
   });
 }
 
-// The mean over the texture.
+// Returns the mean over the texture.
 double integral(const std::function<double(double x, double y)>& value) {
   double sum = 0;
   const double step = 1.0 / kPoints;
@@ -84,8 +84,8 @@ double integral(const std::function<double(double x, double y)>& value) {
   return sum / std::pow(kTexelsAcross * kPoints, 2);
 }
 
-// The mean green of a picture from above. The step from pixel to pixel and its part of the texture
-// are incommensurable, so that all places are seen alike.
+// Returns the mean green of a picture from above. The step from pixel to pixel and the period of
+// the texture are incommensurable, so that all points of the texture are seen alike.
 double meanSeen(SceneDescription description, double texelsPerPixel, bool byReference) {
   constexpr double kUneven = 1.0137;
   Camera camera;
@@ -94,10 +94,12 @@ double meanSeen(SceneDescription description, double texelsPerPixel, bool byRefe
   camera.up = {0.23f, 0, -1};
   camera.orthographicHeight = static_cast<float>(texelsPerPixel * kUneven * kPixels);
   description.cameras = {camera};
+
   Warnings strict(true);
   const Scene scene = Scene::finalize(std::move(description), strict);
   RenderOptions o = smallOptions();
   o.size = ImageSize{kPixels, kPixels};
+
   Renderer renderer(scene, o);
   Film film = makeFilm(scene, o);
   if (byReference) {
@@ -105,12 +107,13 @@ double meanSeen(SceneDescription description, double texelsPerPixel, bool byRefe
   } else {
     renderer.render(chooseCamera(scene, o), film);
   }
+
   double sum = 0;
   for (const Rgb& pixel : film.image.pixels) sum += double{pixel.y};
   return sum / static_cast<double>(film.image.pixels.size());
 }
 
-// A floor of one texel a unit.
+// The floor has one texel a unit.
 SceneDescription floorOf(SceneBuilder& builder, const Material& material) {
   constexpr float kHalf = 40 * kTexelsAcross;
   Mesh floor = floorAt(0, kHalf, builder.add(material));
@@ -144,10 +147,11 @@ struct Leaves {
   }
 };
 
-// Samples of the leaves' area, and rounding of texels to codes.
+// The integral samples the area of the leaves, and texels are rounded to codes.
 constexpr double kSampled = 0.02;
-// Full-size lookups mix leaves with what lies beside them, within half a texel of their edges: of
-// leaves 12 texels wide that is 4 % of the light, and smaller levels have none of it.
+
+// Full-size lookups mix leaves with the texels beside them, within half a texel of their edges.
+// That is 4 % of the light of leaves 12 texels wide, and smaller levels have none of it.
 constexpr double kEdges = 0.05;
 
 TEST(Distance, ColorsKeepTheirMean) {
@@ -173,7 +177,7 @@ TEST(Distance, MasksKeepTheirArea) {
   }
 }
 
-// As glTF's BLEND and the scene file's coverageMap have it.
+// The alpha covers as in glTF's BLEND and as the coverageMap of a scene file.
 TEST(Distance, CoverageCountsOnce) {
   const Pattern green = leavesOn({0, 0.5, 0}), black = leavesOn({});
   for (const auto& alpha : {opacity, softOpacity}) {
@@ -182,6 +186,7 @@ TEST(Distance, CoverageCountsOnce) {
       const auto& what = kind.first;
       const Pattern& color = kind.second;
       Leaves leaves(color, alpha);
+
       leaves.material.coverageMap = leaves.material.alphaMap;
       leaves.material.cutWhereClear();
       expectTheSameFromAfar(
@@ -192,7 +197,7 @@ TEST(Distance, CoverageCountsOnce) {
   }
 }
 
-// A map that cuts and another one that covers.
+// One map cuts and another one covers.
 TEST(Distance, MasksAndCoverageTogether) {
   const Pattern color = leavesOn({}), covers = [](int x, int y) {
     return oracle::gray(x / 24 % 2 == 0 ? 0.8 : 0.2 + 0.1 * (y / 48));
@@ -207,13 +212,14 @@ TEST(Distance, MasksAndCoverageTogether) {
                         kEdges);
 }
 
-// One texture on an opaque floor and, masked, in the same scene.
+// One texture is on an opaque floor and, masked, in the same scene.
 TEST(Distance, ATextureMayBeShownInSeveralWays) {
   const Pattern color = leavesOn({0, 0.9, 0});
   Leaves leaves(color, opacity);
   Material opaque = leaves.material;
   opaque.alphaMap = kNoTexture;
-  leaves.builder.add(leaves.material);  // of no surface
+  // This material has no surface.
+  leaves.builder.add(leaves.material);
   expectTheSameFromAfar("opaque beside a mask", floorOf(leaves.builder, opaque),
                         integral([&](double x, double y) { return at(color, x, y).y; }), kSampled);
 }
@@ -226,26 +232,28 @@ Light slantedSun() { return sun({-1, -1, -0.3f}, 1); }
 
 oracle::Vec towardsSun() { return normalized(oracle::Vec{1, 1, 0.3}); }
 
-// The mean of normals is shorter than one and is made a unit vector again, so distant bumps are a
-// little brighter: by 1 / length of the mean, 1.3 % for these, which lean by up to 15 degrees.
+// The mean of normals is shorter than one and is normalized again, so distant bumps are a little
+// brighter: by 1 / length of the mean, 1.3 % for these bumps, which lean by up to 15 degrees.
 TEST(Distance, NormalMapsKeepDiffuseLight) {
   SceneBuilder builder;
   builder.description.lights = {slantedSun()};
   Material m = diffuseMaterial(1);
   m.normalMap = add(builder, bumps, TexelFormat::data);
+
   const auto diffuse = [&](double x, double y) {
     const oracle::Color c = at(bumps, x, y);
     // u runs along x, v, which is the map's y, against z.
     const oracle::Vec n = normalized(oracle::Vec{2 * c.x - 1, 2 * c.z - 1, 1 - 2 * c.y});
     return std::max(0.0, dot(n, towardsSun())) / std::numbers::pi;
   };
+
   expectTheSameFromAfar("normals", floorOf(builder, m), integral(diffuse), 0.02);
 }
 
 oracle::Color roughness(int x, int y) { return oracle::gray(0.5 + 0.5 * noise(x / 3, y / 3, 2)); }
 
-// The GGX lobe of reflectance 1 seen along its normal (Walter et al. 2007): with F = 1, D G1 G1
-// / 4.
+// Returns the GGX lobe of reflectance 1 seen along its normal (Walter et al. 2007): D G1 G1 / 4,
+// where F = 1.
 double ggx(double alpha, double cosine) {
   const double half = std::cos(std::acos(cosine) / 2), square = alpha * alpha;
   const double d = square / (std::numbers::pi * std::pow(half * half * (square - 1) + 1, 2));
@@ -262,10 +270,12 @@ TEST(Distance, RoughnessKeepsTheHighlight) {
   m.specular = Rgb(1.0f);
   m.roughness = 0.8f;
   m.roughnessMap = add(builder, roughness, TexelFormat::data);
+
   const auto highlight = [&](double x, double y) {
     const double r = 0.8 * at(roughness, x, y).y;
     return ggx(r * r, towardsSun().y);
   };
+
   expectTheSameFromAfar("roughness", floorOf(builder, m), integral(highlight), 0.13);
 }
 

@@ -1,6 +1,7 @@
-// Pictures of packets and of the scalar reference against brute force in double, which tries every
-// triangle for every eye ray and shadow ray. Each pixel that differs must have a cause: its eye ray
-// or a shadow ray passes an edge, a surface or the border of a mask within rounding, or a needle.
+// Pictures of packets and of the scalar reference against brute force in double, which tests every
+// triangle for every primary ray and shadow ray. Each pixel that differs must have a cause: its
+// primary ray or a shadow ray passes an edge, a surface or the border of a mask within rounding, or
+// a needle.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,10 +24,12 @@ constexpr double kUlp = 0x1p-24;  // half of one, relative
 
 struct Triangle {
   std::array<Vec3d, 3> corner;
-  Vec3d normal;  // twice the area long
+  // The length of the normal is twice the area.
+  Vec3d normal;
   double longest = 0;
   std::uint32_t number = 0;
-  // Twice the area as a share of the longest edge squared; needles have little.
+
+  // Returns twice the area as a share of the longest edge squared; needles have little.
   double share() const { return length(normal) / (longest * longest); }
   bool isNeedle() const { return share() < 0x1p-8; }
 };
@@ -36,11 +39,13 @@ struct Segment {
   Vec3d way() const { return to - from; }
 };
 
-// The least distance between two segments (Ericson 2005, "Real-Time Collision Detection", 5.1.9).
+// Returns the least distance between two segments (Ericson 2005, "Real-Time Collision Detection",
+// 5.1.9).
 double distanceBetween(const Segment& a, const Segment& b) {
   const Vec3d p = a.way(), q = b.way(), r = a.from - b.from;
   const double pp = dot(p, p), qq = dot(q, q), pq = dot(p, q), pr = dot(p, r), qr = dot(q, r);
   const double det = pp * qq - pq * pq;
+
   double s = det > 0 ? std::clamp((pq * qr - pr * qq) / det, 0.0, 1.0) : 0;
   const double t = qq > 0 ? std::clamp((pq * s + qr) / qq, 0.0, 1.0) : 0;
   s = pp > 0 ? std::clamp((pq * t - pr) / pp, 0.0, 1.0) : 0;
@@ -70,16 +75,18 @@ class BruteForceInDouble {
     }
   }
 
-  // The nearest triangle, its distance in lengths of the ray.
+  // Finds the nearest triangle. Its distance is in lengths of the ray.
   std::optional<Found> nearest(const Segment& ray) const {
     Found found;
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
       const std::optional<double> t = meet(triangles_[i], ray, false);
       if (t && *t < found.t) found = {i, *t};
     }
+
     if (!std::isfinite(found.t)) return std::nullopt;
     return found;
   }
+
   bool blocked(const Segment& ray, std::size_t self) const {
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
       if (i == self) continue;
@@ -89,12 +96,13 @@ class BruteForceInDouble {
     return false;
   }
 
-  // Why rays within `reach` of this one, rounded, may find something else than it does.
+  // Tells why rays within `reach` of this one, after rounding, may hit something else than it does.
   // Shadow rays start on `self`.
   Cause causeOf(const Segment& ray, double reach, bool forShadow,
                 std::size_t self = reference::kNoHit) const {
     Cause cause =
         self != reference::kNoHit && triangles_[self].isNeedle() ? Cause::needle : Cause::unknown;
+
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
       if (forShadow && i == self) continue;
       if (grazes(triangles_[i], ray, reach, forShadow)) return Cause::edge;
@@ -112,14 +120,18 @@ class BruteForceInDouble {
 
   std::optional<double> meet(const Triangle& t, const Segment& ray, bool forShadow) const {
     const Vec3d d = ray.way();
+
+    // The signs of these volumes tell on which side of each edge the ray passes.
     std::array<double, 3> side{};
     for (std::size_t k = 0; k < 3; ++k) {
       side[k] = dot(d, cross(t.corner[k] - ray.from, t.corner[(k + 1) % 3] - ray.from));
     }
+
     const double sum = side[0] + side[1] + side[2];
     const bool in = (side[0] >= 0 && side[1] >= 0 && side[2] >= 0) ||
                     (side[0] <= 0 && side[1] <= 0 && side[2] <= 0);
     if (!in || sum == 0) return std::nullopt;
+
     const double distance = dot(t.corner[0] - ray.from, t.normal) / dot(d, t.normal);
     if (!(distance > 0)) return std::nullopt;
     if (reference::cutAway(scene_, t.number, {distance, side[2] / sum, side[0] / sum}, forShadow)) {
@@ -135,16 +147,21 @@ class BruteForceInDouble {
     for (const Segment& edge : edgesOf(t)) {
       if (distanceBetween(ray, edge) < near) return true;
     }
+
+    // An end of the ray may lie on either side of the surface.
     const Vec3d n = t.normal / length(t.normal);
     for (const Vec3d& end : {ray.from, ray.to}) {
       if (std::fabs(dot(end - t.corner[0], n)) > near) continue;
       if (meet(t, {end - n, end + n}, forShadow)) return true;
     }
+
     if (scene_.materials[scene_.triangles[t.number].material].alphaMap == kNoTexture) return false;
-    // Rays beside it, for the borders of masks.
+
+    // At the border of a mask, rays beside this one may pass where it is blocked.
     const Vec3d d = ray.way();
     const double least = near / std::max(std::fabs(dot(n, d)) / length(d), 0x1p-20);
     const Vec3d x = normalized(cross(d, n)), y = normalized(cross(d, x));
+
     const bool met = meet(t, ray, forShadow).has_value();
     for (const Vec3d& aside : {x, -x, y, -y}) {
       const Vec3d moved = aside * least;
@@ -153,12 +170,13 @@ class BruteForceInDouble {
     return false;
   }
 
-  // True if no rounding lets Embree find the triangle: two of its edge functions have opposite
+  // True if no rounding lets Embree report the triangle: two of its edge functions have opposite
   // signs by more than the rounding errors of their sums.
   static bool surelyMissed(const Triangle& t, const Segment& ray) {
     const Vec3d d = ray.way();
     double away = 0;
     for (const Vec3d& p : t.corner) away = std::max(away, length(p - ray.from));
+
     bool above = false, below = false;
     for (const Segment& edge : edgesOf(t)) {
       const Vec3d e = edge.way(), middle = edge.from - ray.from;
@@ -175,7 +193,7 @@ class BruteForceInDouble {
   std::vector<Triangle> triangles_;
 };
 
-// Numbers of pixels; of those that differ, by cause.
+// Counts pixels and, by cause, those that differ.
 struct Tally {
   std::size_t pixels = 0, lit = 0, edges = 0, needles = 0, unknown = 0;
 };
@@ -203,6 +221,8 @@ class Comparison {
     const std::optional<Found> found = truth_.nearest(toAll);
     ++tally.pixels;
     tally.lit += value > 0;
+
+    // A lit pixel beside all triangles needs a cause, too.
     if (!found) {
       if (value > 0) {
         const Segment far{eye.origin, eye.origin + eye.direction * 1e6};
@@ -210,19 +230,25 @@ class Comparison {
       }
       return;
     }
+
     const Triangle& t = truth_[found->triangle];
     const Vec3d p = eye.origin + eye.direction * found->t;
     Vec3d n = normalized(t.normal);
     if (dot(n, eye.direction) > 0) n = -n;
+
+    // Rounding moves the hit's position by `reach` at most, and farther at grazing angles.
     const double cosine = -dot(n, eye.direction);
     const Vec3d sizes = abs(p) + abs(eye.origin);
     const double reach = kUlp * (8 * (sizes.x + sizes.y + sizes.z) + 32 * t.longest +
                                  4 * found->t / std::max(cosine, 1e-6));
+
+    // The surface reflects by Lambert's law the lights that no triangle blocks.
     double expected = 0, tolerance = 0;
     std::vector<Segment> shadowRays;
     for (const Light& light : scene_.lights) {
       const bool directional = light.kind == Light::Kind::directional;
       const Vec3d way = towards(light, p);
+
       const Segment ray{p + n * (1e-13 * reach / kUlp), p + way * (directional ? 1e6 : 1.0)};
       const double distance2 = directional ? 1 : std::max(dot(way, way), 1e-4);
       const double most = double{light.intensity.x} / distance2 * 0.8 / std::numbers::pi;
@@ -233,6 +259,7 @@ class Comparison {
       if (!truth_.blocked(ray, found->triangle)) expected += most * facing;
     }
     if (std::fabs(value - expected) <= tolerance) return;
+
     Cause cause = truth_.causeOf({eye.origin, p}, reach, false, found->triangle);
     if (cause != Cause::edge) {
       for (const Segment& ray : shadowRays) {
@@ -241,6 +268,7 @@ class Comparison {
         if (cause == Cause::edge) break;
       }
     }
+
     if (cause == Cause::unknown) {
       std::printf("pixel %d,%d: %g for %g, triangle %u of share %g\n", x, y, value, expected,
                   t.number, t.share());
@@ -259,8 +287,8 @@ class Comparison {
   CameraFrame frame_;
 };
 
-// The kinds of randomScene() in which pixels are within rounding of an edge: needles, far from the
-// origin, huge triangles.
+// These kinds of randomScene() have pixels within rounding of an edge: needles, scenes far from the
+// origin, and huge triangles.
 std::size_t mostAtEdges(unsigned kind, std::size_t pixels) {
   if (kind == 1) return pixels / 200;
   if (kind == 5) return pixels / 20;
@@ -281,6 +309,7 @@ TEST(DoubleShadows, H92_differOnlyWithinRoundingOfAnEdge) {
       Film packets = makeFilm(scene, options), reference = makeFilm(scene, options);
       renderer.render(camera, packets);
       renderer.renderReference(camera, reference);
+
       const Comparison comparison(scene, options);
       for (const Film* film : {&packets, &reference}) {
         const Tally t = comparison.compare(film->image);
@@ -292,6 +321,7 @@ TEST(DoubleShadows, H92_differOnlyWithinRoundingOfAnEdge) {
       }
     }
   }
+
   EXPECT_GT(lit, pixels / 10);
 }
 

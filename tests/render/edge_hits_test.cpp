@@ -1,5 +1,6 @@
-// H59 where it is hardest: rays at the edges that triangles share, where which of them is met
-// depends on the order in which they are tested. A ray's hit must not depend on the rays beside it.
+// H59 where it is hardest: rays at the edges that triangles share. Which of the triangles is hit
+// there depends on the order in which they are tested, and a ray's hit must not depend on the rays
+// beside it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,8 +18,8 @@ namespace {
 constexpr std::size_t kRays = 20000;
 constexpr int kSide = 32;
 
-// A crumpled sheet: whole numbers for x and y, halves for z, so that the middles of edges are
-// floats and rays reach them without any rounding: both triangles are met, at one distance.
+// A crumpled sheet has whole numbers for x and y and halves for z, so that the middles of edges are
+// floats and rays reach them without any rounding: a ray hits both triangles, at one distance.
 Mesh sheet(std::mt19937& random) {
   Mesh mesh;
   mesh.materials = {0};
@@ -28,6 +29,7 @@ Mesh sheet(std::mt19937& random) {
       mesh.positions.push_back({static_cast<float>(x), static_cast<float>(y), z});
     }
   }
+
   for (std::uint32_t y = 0; y < kSide; ++y) {
     for (std::uint32_t x = 0; x < kSide; ++x) {
       const std::uint32_t a = y * (kSide + 1) + x, b = a + 1, c = a + kSide + 1, d = c + 1;
@@ -42,10 +44,11 @@ struct Rays {
   std::vector<Vec3f> origin, direction;  // not of unit length, which would round
 };
 
-// From above the sheet through middles of its edges; every fourth anywhere.
+// The rays start above the sheet and go through middles of its edges; every fourth goes anywhere.
 Rays raysAtEdges(const Mesh& mesh, std::mt19937& random) {
   std::uniform_real_distribution<float> uniform(0, kSide);
   Rays rays;
+
   for (std::size_t i = 0; i < kRays; ++i) {
     const auto& corners = mesh.triangles[random() % mesh.triangles.size()];
     const std::size_t side = random() % 3;
@@ -66,6 +69,7 @@ std::vector<HitBits> trace(const Accel& accel, const Rays& rays,
   ColumnStore<HitColumns> hits;
   columns.allocate(roundUpToBlock(kRays), FeatureSet());
   hits.allocate(roundUpToBlock(kRays), FeatureSet());
+
   for (std::size_t k = 0; k < kRays; ++k) {
     const Vec3f& o = rays.origin[order[k]];
     const Vec3f& d = rays.direction[order[k]];
@@ -76,9 +80,11 @@ std::vector<HitBits> trace(const Accel& accel, const Rays& rays,
     columns->dirY[k] = d.y;
     columns->dirZ[k] = d.z;
   }
+
   FrameConstants constants;
   constants.accel = &accel;
   TraceMeter meter;
+
   Chunk chunk;
   chunk.frame = &constants;
   chunk.meter = &meter;
@@ -89,6 +95,7 @@ std::vector<HitBits> trace(const Accel& accel, const Rays& rays,
   chunk.rays = *columns;
   chunk.hits = *hits;
   findHits(chunk);
+
   std::vector<HitBits> result(kRays);
   for (std::size_t k = 0; k < kRays; ++k) {
     HitBits& hit = result[order[k]];
@@ -109,9 +116,11 @@ TEST(EdgeHits, H59_doNotDependOnTheRaysBeside) {
   const Scene scene = finalized(sceneOf(mesh));
   std::vector<std::size_t> order(kRays);
   std::iota(order.begin(), order.end(), 0);
+
   RenderOptions single;
   single.packet = 1;
   const std::vector<HitBits> expected = trace(Accel(scene, single), rays, order, true);
+
   for (const int packet : {4, 8, 16}) {
     RenderOptions options;
     options.packet = packet;
@@ -124,8 +133,10 @@ TEST(EdgeHits, H59_doNotDependOnTheRaysBeside) {
         ++differ;
         first = i;
       }
+
       EXPECT_EQ(differ, 0u) << "packets of " << packet << ", turn " << turn << ", seed " << kSeed
                             << ", first ray " << first;
+      // In another order, other rays share a packet.
       std::shuffle(order.begin(), order.end(), random);
     }
   }

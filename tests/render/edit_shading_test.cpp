@@ -18,6 +18,7 @@ void expectAsIfRead(const std::string& name, const Edit& edit) {
   RenderOptions options = smallOptions();
   options.size = ImageSize{53, 37};
   Warnings warnings;
+
   SceneDescription description = loadScene(name, LoadOptions{}, warnings);
   Scene edited = Scene::finalize(loadScene(name, LoadOptions{}, warnings), warnings);
   edit(description.materials, description.lights);
@@ -27,6 +28,7 @@ void expectAsIfRead(const std::string& name, const Edit& edit) {
   Film film = makeFilm(edited, options);
   const Camera camera = chooseCamera(edited, options);
   renderer.render(camera, film);
+
   const Image before = film.image;
   std::vector<Material> materials = edited.materials;
   std::vector<Light> lights = edited.lights;
@@ -95,13 +97,15 @@ TEST(EditShading, MapsAndShadowsStay) {
   materials[0].castsShadow = !first.castsShadow;
   materials[0].diffuseMap = 77;
   materials[0].alphaCutoff = 0.9f;
+
   editShading(scene, materials, scene.lights);
   EXPECT_EQ(scene.materials[0].castsShadow, first.castsShadow);
   EXPECT_EQ(scene.materials[0].diffuseMap, first.diffuseMap);
   EXPECT_EQ(scene.materials[0].alphaCutoff, first.alphaCutoff);
 }
 
-// With the same renderer, as if the scene had been read like that; and back again.
+// The same renderer shows the new sky as if the scene had been read like that, and then the first
+// sky again.
 TEST(EditShading, SkiesAreExchanged) {
   const RenderOptions options = smallOptions();
   Warnings warnings;
@@ -110,12 +114,14 @@ TEST(EditShading, SkiesAreExchanged) {
     description.sky = other;
     description.ambient = ambientFromSky(other, 0.5);
     const Scene read = Scene::finalize(std::move(description), warnings);
+
     Scene edited = load("whitted");
     Renderer renderer(edited, options);
     Film film = makeFilm(edited, options);
     const Camera camera = chooseCamera(edited, options);
     renderer.render(camera, film);
     const Image before = film.image;
+
     const Ambient ambient = edited.ambient;
     Sky sky = other;
     editSky(edited, sky, ambientFromSky(other, 0.5));
@@ -123,6 +129,7 @@ TEST(EditShading, SkiesAreExchanged) {
     renderer.render(camera, film);
     EXPECT_EQ(firstDifference(render(read, options).image, film.image), "");
     EXPECT_EQ(edited.effects, read.effects);
+
     editSky(edited, sky, ambient);
     renderer.shadingChanged();
     renderer.render(camera, film);
@@ -153,6 +160,7 @@ TEST(EditShading, WhatCannotBeIsRefused) {
     }
     return ExitStatus::done;
   };
+
   const Vec3f position = scene.lights[0].position;
   EXPECT_EQ(statusOf([](auto&, auto& lights) { lights[0].position.y = std::nanf(""); }),
             ExitStatus::badScene);

@@ -1,4 +1,4 @@
-// A scene without an effect, and the same scene with it: what the effect costs when it is absent.
+// A scene without an effect, and the same scene with it: an absent effect costs nothing.
 #include <gtest/gtest.h>
 
 #include "make/leave_out.h"
@@ -14,9 +14,10 @@ Scene loadWithout(EffectSet effects) {
   return Scene::finalize(std::move(description), warnings);
 }
 
-// What cannot be there without `effect`.
+// Adds the effects that cannot exist without `effect`.
 EffectSet withDependents(Effect effect) {
   const EffectSet set = EffectSet().with(effect);
+
   switch (effect) {
     case Effect::lights:
       return set.with(Effect::shadows)
@@ -43,7 +44,7 @@ EffectSet withDependents(Effect effect) {
   }
 }
 
-// With every effect that a scene may have.
+// The options sample every effect that a scene may have.
 RenderOptions glossyOptions() {
   RenderOptions o = smallOptions();
   o.glossy = 2;
@@ -70,6 +71,7 @@ TEST_P(AbsentEffect, CompiledInAllTheSameGivesTheSameBits) {
   const Image plain = render(scene, o).image;
   o.effects = EffectChoice::all;
   EXPECT_EQ(firstDifference(render(scene, o).image, plain), "");
+
   o.disable = withDependents(effect()).without(EffectSet().with(effect()));
   EXPECT_EQ(firstDifference(render(scene, o).image, plain), "") << "this one alone";
 }
@@ -78,6 +80,7 @@ TEST_P(AbsentEffect, OnTopOfTheMatteSceneGivesTheSameBits) {
   const EffectSet matte = kMatteEffects.without(withDependents(effect()));
   const Scene scene = loadWithout(EffectSet::all().without(matte));
   ASSERT_EQ(scene.effects, matte);
+
   RenderOptions o = glossyOptions();
   const Image plain = render(scene, o).image;
   o.effects = EffectChoice::all;
@@ -101,13 +104,16 @@ Cost costWithout(EffectSet effects) {
   o.depth = 1;
   Renderer renderer(scene, o);
   Film film = makeFilm(scene, o);
+
   Cost cost;
   cost.stats = renderer.render(chooseCamera(scene, o), film);
   cost.buffers = renderer.scheduler().tracers().at(0)->bufferBytes();
   cost.capacity = static_cast<std::size_t>(2 * o.tile * o.tile);
+  // A texture of one texel stands for one that is left out.
   for (const TextureRecord& t : renderer.tables().textures) {
     cost.texels += static_cast<std::size_t>(t.width) * static_cast<std::size_t>(t.height) - 1;
   }
+
   cost.instances = renderer.tables().instances.size();
   cost.lights = renderer.tables().lights.size();
   cost.skyImage = renderer.tables().sky.r != nullptr;
@@ -142,10 +148,12 @@ TEST(AbsentEffects, WithAllOfThemEveryRayKernelAndBufferIsThere) {
   const Cost cost = costWithout(EffectSet());
   for (const RayTally& tally : cost.stats.meter.tally) EXPECT_GT(tally.rays, 0u);
   for (const std::uint64_t calls : cost.stats.stageCalls) EXPECT_GT(calls, 0u);
+
   EXPECT_GT(cost.stats.callsOf(simd::kAddReflections), 0u);
   EXPECT_GT(cost.stats.callsOf(simd::kAddGlossyReflections), 0u);
   EXPECT_GT(cost.stats.callsOf(simd::kAddRefractions), 0u);
   EXPECT_GT(cost.stats.callsOf(simd::kAddIndirect), 0u);
+
   EXPECT_EQ(cost.buffers.hits, columnBytes<HitColumns>(cost, true, true, true));
   EXPECT_EQ(cost.buffers.surfels, columnBytes<SurfelColumns>(cost, true, true, true));
   EXPECT_EQ(cost.buffers.unshadowed, columnBytes<UnshadowedColumns>(cost, true, true, true));
@@ -231,7 +239,8 @@ TEST(AbsentEffects, WithoutGlossyNoSpecularColumns) {
 TEST(AbsentEffects, WithoutInstancesNoColumnAndNoTransforms) {
   const Cost cost = costWithout(EffectSet().with(Effect::instances));
   EXPECT_EQ(cost.buffers.hits, columnBytes<HitColumns>(cost, true, true, false));
-  EXPECT_EQ(cost.instances, 1u);  // what masked lanes read
+  // Masked lanes need one transform to read.
+  EXPECT_EQ(cost.instances, 1u);
 }
 
 TEST(AbsentEffects, WithoutCoverageNoKernelAndNoColumn) {

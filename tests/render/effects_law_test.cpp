@@ -1,4 +1,4 @@
-// Only the effects that a scene calls for.
+// A frame runs only the effects that its scene needs.
 #include <gtest/gtest.h>
 
 #include "inspect/metrics.h"
@@ -7,7 +7,7 @@
 namespace whit::test {
 namespace {
 
-// A shipped scene that has the effect.
+// Names a shipped scene that has the effect.
 const char* sceneWith(Effect effect) {
   switch (effect) {
     case Effect::transmission:
@@ -31,20 +31,23 @@ const char* sceneWith(Effect effect) {
     case Effect::directionalLights:
     case Effect::depthOfField:
       return "effects";
+
     default:
       return "whitted";
   }
 }
 
-// Not misplaced, not seen in part: gone, as in the reference.
+// The instances are neither misplaced nor partly visible but gone, as in the reference.
 TEST(Instances, LeftOutAreNotThereAsInTheReference) {
   const Scene scene = load("landscape?triangles=20000");
   RenderOptions o = smallOptions();
   o.disable = EffectSet().with(Effect::instances);
+
   Renderer renderer(scene, o);
   Film packets = makeFilm(scene, o), reference = makeFilm(scene, o);
   renderer.render(chooseCamera(scene, o), packets);
   renderer.renderReference(chooseCamera(scene, o), reference);
+
   EXPECT_LE(compareImages(packets.image, reference.image).pixelsGe2CodesPct, 0.1);
 }
 
@@ -55,12 +58,15 @@ TEST_P(EffectLaw, DisablingAnEffectChangesASceneThatHasIt) {
   const char* name = sceneWith(effect);
   const Scene scene = load(name);
   ASSERT_TRUE(scene.effects.has(effect)) << name;
+
+  // Some effects show only with options that sample them.
   RenderOptions o = smallOptions();
   if (effect == Effect::glossyReflection) o.glossy = 2;
   if (effect == Effect::softShadows) o.lightSamples = 2;
   if (effect == Effect::indirect) o.indirect = 2;
   if (effect == Effect::ambientOcclusion) o.ambientSamples = 2;
   if (effect == Effect::depthOfField) o.camera = "lens", o.spp = 2;
+
   const Image with = render(scene, o).image;
   o.disable = EffectSet().with(effect);
   EXPECT_NE(firstDifference(render(scene, o).image, with), "") << name;
@@ -73,6 +79,7 @@ INSTANTIATE_TEST_SUITE_P(All, EffectLaw, testing::Range(0, kEffectCount), [](con
 TEST(EffectLaw, MatteTracesNothingButPrimaryAndShadowRays) {
   const Scene scene = load("matte");
   const Picture p = render(scene, smallOptions());
+
   EXPECT_GT(p.stats.of(RayKind::primary).rays, 0u);
   EXPECT_GT(p.stats.of(RayKind::shadow).rays, 0u);
   EXPECT_EQ(p.stats.of(RayKind::reflection).rays, 0u);
@@ -98,6 +105,7 @@ TEST(EffectLaw, WithoutShadowsEveryLightShines) {
   o.disable = EffectSet().with(Effect::shadows);
   const Picture lit = render(scene, o);
   EXPECT_EQ(lit.stats.of(RayKind::shadow).rays, 0u);
+
   for (std::size_t i = 0; i < lit.image.pixels.size(); ++i) {
     EXPECT_GE(lit.image.pixels[i].x, shadowed.image.pixels[i].x);
   }

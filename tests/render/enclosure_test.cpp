@@ -1,4 +1,4 @@
-// Where rays that find nothing are traced once more.
+// Closed scenes: rays that hit nothing are traced once more, if the camera is inside.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -17,15 +17,18 @@ TEST(Enclosure, HoldsForEyesWithinOnly) {
   RenderOptions options;
   options.size = ImageSize{16, 16};
   options.threads = 1;
+
   Renderer renderer(scene, options);
   Film film = makeFilm(scene, options);
   const Camera inside = scene.cameras.front();
   Camera outside = inside;
   outside.eye = scene.upper + (scene.upper - scene.lower) * 10.0f;
+
   const auto enclosedFrom = [&](const Camera& camera) {
     renderer.render(camera, film);
     return renderer.accel().enclosed();
   };
+
   EXPECT_TRUE(enclosedFrom(inside));
   EXPECT_FALSE(enclosedFrom(outside));
   EXPECT_TRUE(enclosedFrom(inside));

@@ -22,6 +22,7 @@ std::vector<std::uint32_t> codesOf(const std::vector<float>& values) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     radiance->r[i] = radiance->g[i] = radiance->b[i] = values[i];
   }
+
   std::vector<std::uint32_t> codes(values.size() + 16);
   simd::encodeDisplay({.radiance = *radiance, .n = values.size(), .codes = codes.data()});
   return codes;
@@ -39,7 +40,7 @@ void expectScalarCodes(const std::vector<float>& values) {
   }
 }
 
-// The floats on both sides of every rounding: found by bisection over their bits.
+// The values are the floats on both sides of every rounding, found by bisection over their bits.
 TEST_F(EncodeDisplay, EveryCodeBeginsAtTheSameFloat) {
   std::vector<float> values;
   for (int code = 1; code < 256; ++code) {
@@ -48,6 +49,7 @@ TEST_F(EncodeDisplay, EveryCodeBeginsAtTheSameFloat) {
       const std::uint32_t middle = below + (from - below) / 2;
       (srgbCode(static_cast<double>(std::bit_cast<float>(middle))) >= code ? from : below) = middle;
     }
+
     values.push_back(std::bit_cast<float>(below));
     values.push_back(std::bit_cast<float>(from));
   }

@@ -1,7 +1,7 @@
-// The channel `error`. Its first component, the standard error: a closed form where every sample is
-// black or of one color, and whether the interval that it states holds the true error where light
-// is sampled. Its second, the share of the paths that --depth and --cutoff end: a closed form
-// between mirrors, and whether it bounds what is left out.
+// The channel `error`. Its first component is the standard error: tested against a closed form
+// where every sample is black or of one color, and against the true error where light is sampled.
+// Its second component is the share of the paths that --depth and --cutoff end: tested against a
+// closed form between mirrors, and as a bound of what these options leave out.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,19 +23,21 @@ Film filmWithErrors(const Scene& scene, const RenderOptions& options) {
 
 double meanOf(const Rgb& p) { return (double{p.x} + double{p.y} + double{p.z}) / 3; }
 
-// A shining disc before nothing: samples are 0 or 0.6 in the mean.
+// A triangle emits before a black background: the mean of the color channels is 0 or 0.6.
 Scene discScene() {
   SceneDescription d;
   d.name = "disc";
   d.materials.resize(2);
   d.materials[1].diffuse = {0, 0, 0};
   d.materials[1].emission = {0.3f, 0.6f, 0.9f};
+
   Mesh mesh;
   mesh.positions = {{-2, -2, 0}, {2, -1.7f, 0}, {0.3f, 2, 0}};
   mesh.triangles = {{0, 1, 2}};
   mesh.materials = {1};
   d.objects.push_back({"disc", {mesh}});
   d.instances.push_back({0, Affine{}});
+
   d.cameras.resize(1);
   d.cameras[0].fov = 60;
   Warnings warnings;
@@ -44,7 +46,8 @@ Scene discScene() {
 
 class ErrorChannel : public testing::TestWithParam<Mode> {};
 
-// The share p of samples that hit gives the error of a pixel: 0.6 sqrt(p (1 - p) / (n - 1)).
+// The share p of samples that hit the triangle gives the error of a pixel,
+// 0.6 sqrt(p (1 - p) / (n - 1)). The squares of errors are averaged within kPoolReach.
 TEST_P(ErrorChannel, IsThatOfABinomialAtAnEdge) {
   constexpr double kRadiance = 0.6;
   const Scene scene = discScene();
@@ -55,8 +58,10 @@ TEST_P(ErrorChannel, IsThatOfABinomialAtAnEdge) {
   const Film film = filmWithErrors(scene, o);
   const auto errors = film.channels.floats(Channel::error),
              hits = film.channels.floats(Channel::alpha);
+
   const int width = film.image.width, height = film.image.height;
   double largest = 0;
+
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       double squares = 0, count = 0;
@@ -67,7 +72,7 @@ TEST_P(ErrorChannel, IsThatOfABinomialAtAnEdge) {
         }
       }
       const double expected = std::sqrt(squares / count);
-      // Sums in double of numbers in float; equal samples leave the root of their rounding.
+      // Double sums numbers in float, so equal samples leave the root of their rounding.
       EXPECT_NEAR(double{errors[2 * film.image.index(x, y)]}, expected, 1e-6) << x << "," << y;
       largest = std::max(largest, expected);
     }
@@ -86,19 +91,21 @@ TEST_P(ErrorChannel, IsInfiniteForOneSample) {
   }
 }
 
-// Two mirrors that face each other, with the camera between them.
+// Two mirrors face each other, with the camera between them.
 Scene hallScene() {
   SceneDescription d;
   d.name = "hall";
   d.materials.resize(1);
   d.materials[0].diffuse = {0, 0, 0};
   d.materials[0].mirror = d.materials[0].mirrorGrazing = {0.2f, 0.5f, 0.3f};
+
   constexpr float kFar = 1000;  // no ray of the tests gets past the edges
   Mesh mesh;
   for (const float z : {-1.0f, 4.0f}) {
     mesh.positions.insert(mesh.positions.end(),
                           {{-kFar, -kFar, z}, {kFar, -kFar, z}, {0, kFar, z}});
   }
+
   mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
   mesh.materials = {0, 0};
   d.objects.push_back({"mirrors", {mesh}});
@@ -124,15 +131,17 @@ TEST_P(ErrorChannel, HasTheShareOfThePathsThatEndBetweenMirrors) {
     o.cutoff = c.cutoff;
     o.spp = 2;
     o.channels = parseChannels("error");
+
     const Film film = filmWithErrors(hallScene(), o);
     const auto errors = film.channels.floats(Channel::error);
     for (std::size_t i = 1; i < errors.size(); i += 2) EXPECT_EQ(double{errors[i]}, c.share);
   }
 }
 
-// All light of this frame is the sky's: no path brings more than its brightest color.
+// All light of this frame is the sky's, so no path brings more than the sky's brightest color,
+// which is that of its horizon.
 TEST_P(ErrorChannel, BoundsWhatDepthAndCutoffLeaveOut) {
-  constexpr double kBrightest = 0.86, kRounding = 1e-5;  // of the sky's horizon
+  constexpr double kBrightest = 0.86, kRounding = 1e-5;
   const Scene scene = load("glass");
   RenderOptions o = smallOptions();
   o.size = ImageSize{53, 33};
@@ -142,6 +151,7 @@ TEST_P(ErrorChannel, BoundsWhatDepthAndCutoffLeaveOut) {
   o.depth = 3;
   o.cutoff = 0.02f;
   const Film film = filmWithErrors(scene, o);
+
   o.depth = 32;
   o.cutoff = 1e-4f;
   const Film exact = filmWithErrors(scene, o);
@@ -151,6 +161,7 @@ TEST_P(ErrorChannel, BoundsWhatDepthAndCutoffLeaveOut) {
     const auto boundOf = [&](const Film& f) {
       return kBrightest * double{f.channels.floats(Channel::error)[2 * i + 1]} + kRounding;
     };
+
     EXPECT_LE(double{maxComponent(missing)}, boundOf(film));
     EXPECT_GE(double{std::min({missing.x, missing.y, missing.z})}, -boundOf(exact));
     largest = std::max(largest, double{maxComponent(missing)} / boundOf(film));
@@ -165,7 +176,7 @@ struct Sampled {
   int indirect, ambientSamples;
 };
 
-// With soft shadows, glossy reflections and indirect light or ambient occlusion.
+// The scenes have soft shadows, glossy reflections, and indirect light or ambient occlusion.
 TEST(ErrorChannelCoverage, HoldsTheTrueErrorOfNineTenthsOfThePixels) {
   constexpr double kDeviations = 1.96;  // 95 % of a normal distribution
   constexpr double kLeastCovered = 0.9;
@@ -178,12 +189,17 @@ TEST(ErrorChannelCoverage, HoldsTheTrueErrorOfNineTenthsOfThePixels) {
     o.indirect = sampled.indirect;
     o.ambientSamples = sampled.ambientSamples;
     o.channels = parseChannels("error");
+
     const Scene scene = load(sampled.scene);
+
+    // The truth has a quarter of the error of 16 samples, which adds 3 % to the difference of the
+    // two.
     RenderOptions many = o;
-    many.spp = 256;  // a quarter of the error of 16 samples: 3 % more between both
+    many.spp = 256;
     o.spp = 16;
     const Image truth = filmWithErrors(scene, many).image;
     const Film film = filmWithErrors(scene, o);
+
     double covered = 0, noisy = 0;
     for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
       const double apart = std::abs(meanOf(film.image.pixels[i]) - meanOf(truth.pixels[i]));
@@ -192,6 +208,7 @@ TEST(ErrorChannelCoverage, HoldsTheTrueErrorOfNineTenthsOfThePixels) {
       covered += apart <= kDeviations * error + rounding;
       noisy += error > 1e-3 * meanOf(truth.pixels[i]);
     }
+
     const auto pixels = static_cast<double>(truth.pixels.size());
     EXPECT_GE(covered / pixels, kLeastCovered) << sampled.scene << sampled.indirect;
     EXPECT_GT(noisy / pixels, 0.1) << sampled.scene << ": hardly anything is sampled";

@@ -1,4 +1,4 @@
-// Few facets with the normals of what they stand for.
+// A polyhedron with the vertex normals of a sphere.
 #pragma once
 
 #include <cmath>
@@ -9,10 +9,11 @@
 
 namespace whit::test {
 
-// A sphere of radius 1 about the origin, with the sphere's own normals.
+// Approximates a sphere of radius 1 about the origin and has the sphere's own normals.
 inline Mesh facettedSphere(std::uint32_t material, std::uint32_t rows = 16,
                            std::uint32_t columns = 32) {
   Mesh mesh;
+
   for (std::uint32_t row = 0; row <= rows; ++row) {
     for (std::uint32_t column = 0; column <= columns; ++column) {
       const double polar = kPi * row / rows, turn = 2 * kPi * column / columns;
@@ -22,6 +23,7 @@ inline Mesh facettedSphere(std::uint32_t material, std::uint32_t rows = 16,
       mesh.normals.push_back(n);
     }
   }
+
   for (std::uint32_t row = 0; row < rows; ++row) {
     for (std::uint32_t column = 0; column < columns; ++column) {
       const std::uint32_t a = row * (columns + 1) + column, b = a + columns + 1;
@@ -29,6 +31,7 @@ inline Mesh facettedSphere(std::uint32_t material, std::uint32_t rows = 16,
       if (row != rows - 1) mesh.triangles.push_back({a + 1, b, b + 1});
     }
   }
+
   mesh.materials = {material};
   return mesh;
 }

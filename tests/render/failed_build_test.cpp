@@ -1,5 +1,5 @@
-// A BVH that cannot be built leaves nothing of it behind. Embree is told to fail by functions of
-// this program that stand before its own.
+// A BVH that cannot be built leaves no Embree objects behind. Functions of this program stand
+// before Embree's own and make Embree fail.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 
@@ -11,9 +11,11 @@ namespace {
 
 constexpr int kOutOfMemory = 4;  // RTC_ERROR_OUT_OF_MEMORY
 
-// Of devices, scenes and geometries: how many references were made and not given back.
+// Number of devices, scenes and geometries that have been made and not released.
 int heldReferences = 0;
-// How many questions for an error have none for an answer; below 0: all.
+
+// Number of calls of rtcGetDeviceError() that report no error before one fails; below 0, none
+// fails.
 int errorFreeAnswers = -1;
 
 template <typename Result, typename... Arguments>
@@ -65,6 +67,7 @@ TEST(FailedBuild, GivesBackWhatEmbreeCounts) {
     EXPECT_GE(heldReferences - before, 3) << "this test's functions are not those that are called";
   }
   EXPECT_EQ(heldReferences, before);
+
   for (const int built : {0, 1}) {
     errorFreeAnswers = built;
     try {

@@ -9,7 +9,7 @@
 namespace whit::test {
 namespace {
 
-// A row of rough spheres; textures, masks, glass and instances.
+// The scenes have rough spheres; textures, masks, glass and instances.
 class Glossy : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override { scene_ = load(GetParam()); }
@@ -53,10 +53,12 @@ TEST_P(Glossy, WithoutSamplesThereIsNoCallNoRayAndNoColumn) {
   const Picture plain = render(scene_, o);
   EXPECT_EQ(plain.stats.callsOf(simd::kAddGlossyReflections), 0u);
   EXPECT_FALSE(Renderer(scene_, o).plan().features.has(Feature::streams));
+
   o.glossy = 3;
   const Picture sampled = render(scene_, o);
   EXPECT_GT(sampled.stats.callsOf(simd::kAddGlossyReflections), 0u);
   EXPECT_GT(sampled.stats.of(RayKind::reflection).rays, plain.stats.of(RayKind::reflection).rays);
+
   o.disable = o.disable.with(Effect::glossyReflection);
   EXPECT_EQ(firstDifference(render(scene_, o).image, plain.image), "");
 }
@@ -64,19 +66,21 @@ TEST_P(Glossy, WithoutSamplesThereIsNoCallNoRayAndNoColumn) {
 INSTANTIATE_TEST_SUITE_P(Shipped, Glossy, testing::Values("glossy", "effects"),
                          [](const auto& info) { return info.param; });
 
-// More samples come nearer to what very many would show.
+// More samples come nearer to the picture of very many samples.
 TEST(GlossyNoise, FallsWithTheNumberOfSamples) {
   const Scene scene = load("glossy");
   RenderOptions o = smallOptions();
-  o.disable = EffectSet().with(Effect::lights);  // whose highlights are rare and bright
+  // The highlights of lights are rare and bright, and would dominate the error.
+  o.disable = EffectSet().with(Effect::lights);
   o.glossy = 64;
   o.spp = 4;
   const Image settled = render(scene, o).image;
+
   double previous = 1e9;
   for (const int glossy : {1, 4, 16}) {
     o.glossy = glossy;
     const double error = compareImages(render(scene, o).image, settled).rmse;
-    // Random points would halve it; those of a lattice do no worse.
+    // Four times as many random points halve the error; points of a lattice do no worse.
     EXPECT_LT(error, 0.6 * previous) << glossy;
     previous = error;
   }

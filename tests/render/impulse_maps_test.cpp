@@ -1,4 +1,4 @@
-// Mirrors and transmission by maps and vertex colors: in the reference against closed forms, in the
+// Mirrors and transmission by maps and vertex colors: the reference against closed forms, and the
 // vector pipeline against the reference.
 #include <gtest/gtest.h>
 
@@ -13,12 +13,13 @@
 namespace whit::test {
 namespace {
 
-// The square [0, 1]^2 of the floor, with white to the left and (1/4, 0, 1) to the right, between a
-// sky of 2 and a dark below.
+// The square [0, 1]^2 of the floor has a map that is white to the left and (1/4, 0, 1) to the
+// right. The sky above is 2, and it is dark below.
 Scene halves(const std::function<void(Material&, std::int32_t)>& set, bool tinted = false) {
   SceneBuilder builder;
   const std::int32_t map = builder.add(makeTexture(
       TexelFormat::color, 2, 1, {encodeColorTexel({1, 1, 1}), encodeColorTexel({0.25f, 0, 1})}));
+
   Material m = blackMaterial();
   set(m, map);
   Mesh mesh = quad({0, 0, 0}, {1, 0, 0}, {1, 0, -1}, {0, 0, -1}, builder.add(m));
@@ -44,8 +45,10 @@ TEST(MirrorMaps, MultiplyTheReflectedRayAtNormalIncidence) {
     m.mirrorGrazing = Rgb(1.0f);
     m.mirrorMap = map;
   });
+
   expectColor(reflectedAt(scene, 0.25), RgbD(1.0));
   expectColor(reflectedAt(scene, 0.75), {0.25, 0, 1});
+
   const double schlick = reference::schlickTerm(std::cos(70 * kPi / 180));
   const auto at70 = [&](double normal) { return 2 * (normal + (1 - normal) * schlick); };
   expectColor(reflectedAt(scene, 0.75, 70), {at70(0.125), at70(0), at70(0.5)});
@@ -56,12 +59,13 @@ TEST(MirrorMaps, AreNotLookedUpWithoutTextures) {
     m.mirror = m.mirrorGrazing = Rgb(0.5f);
     m.mirrorMap = map;
   });
+
   reference::Settings settings = uncut();
   settings.effects = settings.effects.without(Effect::textures);
   expectColor(radianceAlong(scene, {0.75, 1, -0.5}, {0, -1, 0}, settings), RgbD(1.0));
 }
 
-// A metal's reflection has the colors of its vertices, another's has not.
+// A metal reflects with the colors of its vertices; another material does not.
 TEST(VertexColors, TintTheMirrorsOfMetals) {
   for (const VertexTint tint : {VertexTint::diffuse, VertexTint::diffuseAndSpecular}) {
     const Scene scene = halves(
@@ -71,12 +75,13 @@ TEST(VertexColors, TintTheMirrorsOfMetals) {
           m.vertexTint = tint;
         },
         true);
+
     const bool metal = tint == VertexTint::diffuseAndSpecular;
     expectColor(reflectedAt(scene, 0.5), metal ? RgbD{0.75, 1, 0.5} : RgbD(1.0));
   }
 }
 
-// A sheet that passes what the map says, and the colors of its vertices.
+// A sheet transmits what the map and the colors of its vertices multiply.
 TEST(TransmissionMaps, MultiplyTheRefractedRay) {
   for (const bool tinted : {false, true}) {
     const Scene scene = halves(
@@ -84,10 +89,12 @@ TEST(TransmissionMaps, MultiplyTheRefractedRay) {
           m.transmission = Rgb(0.5f);
           m.thin = true;
           m.transmissionMap = map;
-          m.diffuse = Rgb(1.0f);  // of which the light that passes is missing
+          // The light that is transmitted is missing from the diffuse reflection.
+          m.diffuse = Rgb(1.0f);
           m.diffuseReflection = false;
         },
         tinted);
+
     const RgbD color = tinted ? RgbD{0.625, 1, 0.25} : RgbD(1.0);
     expectColor(reflectedAt(scene, 0.75), RgbD{0.25, 0, 1} * color);
     expectColor(reflectedAt(scene, 0.25), tinted ? RgbD{0.875, 1, 0.75} : RgbD(1.0));
@@ -102,6 +109,7 @@ TEST(TransmissionMaps, LeaveTheRestToTheDiffuseColor) {
     m.thin = true;
     m.transmissionMap =
         builder.add(makeTexture(TexelFormat::color, 1, 1, {encodeColorTexel(Rgb(0.25f))}));
+
     builder.add(floorAt(0, 10, builder.add(m)));
     builder.description.ambient = {Rgb(1.0f), Rgb(1.0f)};
     return builder.build();
@@ -109,17 +117,19 @@ TEST(TransmissionMaps, LeaveTheRestToTheDiffuseColor) {
   expectColor(radianceAlong(scene, {0.3, 1, 0.2}, {0, -1, 0}), RgbD(0.75));
 }
 
-// Mirrors, sheets and glass by maps, by vertex colors and by neither.
+// The tiles are mirrors, sheets and glass with maps, with vertex colors and with neither.
 Scene mappedTiles() {
   SceneBuilder builder;
   const std::int32_t map = builder.add(makeTexture(
       TexelFormat::color, 2, 2, {1023u, 700u << 10 | 300u, 341u | 341u << 10 | 341u << 20, 900u}));
+
   builder.sky(0.5f);
   return rowOfTiles(builder, [&](int i) {
     Material m = diffuseMaterial(0.5f);
     if (i != 2) m.mirror = Rgb(0.4f);
     m.mirrorGrazing = Rgb(1.0f);
     if (i < 2) m.mirrorMap = map;
+
     if (i % 2 == 0) m.vertexTint = VertexTint::diffuseAndSpecular;
     if (i > 1) {
       m.transmission = {0.5f, 0.25f, 0.5f};

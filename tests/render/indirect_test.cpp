@@ -1,5 +1,5 @@
-// Light from one diffuse surface to the next: kernels against the reference, and what the picture's
-// bits must not depend on.
+// Indirect diffuse light: kernels against the reference, and what the picture's bits must not
+// depend on.
 #include <gtest/gtest.h>
 
 #include "render/pipeline_laws.h"
@@ -8,7 +8,7 @@
 namespace whit::test {
 namespace {
 
-// Walls, a mirror and glass; textures, masks, coverage and instances.
+// The scenes have walls, a mirror and glass; textures, masks, coverage and instances.
 class Indirect : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override { scene_ = load(GetParam()); }
@@ -65,10 +65,12 @@ TEST_P(Indirect, WithoutSamplesThereIsNoCallNoRayAndNoColumn) {
   EXPECT_EQ(plain.stats.callsOf(simd::kAddIndirect), 0u);
   EXPECT_EQ(plain.stats.of(RayKind::indirect).rays, 0u);
   EXPECT_FALSE(Renderer(scene_, o).plan().features.has(Feature::streams));
+
   o.indirect = 2;
   const Picture sampled = render(scene_, o);
   EXPECT_GT(sampled.stats.callsOf(simd::kAddIndirect), 0u);
   EXPECT_GT(sampled.stats.of(RayKind::indirect).rays, sampled.stats.of(RayKind::primary).rays);
+
   o.disable = EffectSet().with(Effect::indirect);
   EXPECT_EQ(firstDifference(render(scene_, o).image, plain.image), "");
 }
@@ -78,6 +80,8 @@ TEST_P(Indirect, RouletteTracesLessAndNeedsThePathsNumbersAlone) {
   const std::uint64_t all = render(scene_, o).stats.of(RayKind::indirect).rays;
   o.roulette = 0.5f;
   EXPECT_LT(render(scene_, o).stats.of(RayKind::indirect).rays, all);
+
+  // Roulette draws its chances from the numbers of paths, also where no lobe is sampled.
   o.indirect = 0;
   EXPECT_TRUE(Renderer(scene_, o).plan().features.has(Feature::streams));
 }

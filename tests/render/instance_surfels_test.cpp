@@ -1,4 +1,5 @@
-// What a surface of an instance has of its transform: how far rays start from it, and its normals.
+// What a surface takes from the transform of its instance: how far rays start from it, and its
+// normals.
 #include <gtest/gtest.h>
 
 #include "reference/small_scenes.h"
@@ -7,8 +8,9 @@
 namespace whit::test {
 namespace {
 
-// 32 u times the magnitudes that make up the point (|x| + |y| + |z| of the corner, scaled by 2, and
-// the translation), and 16 u times the two edges, 4 and 4 + 4 long by axes, scaled by 2.
+// The offset is 32 u times the magnitudes that make up the point (|x| + |y| + |z| of the corner,
+// scaled by 2, and the translation), and 16 u times the two edges, 4 and 4 + 4 long by axes, scaled
+// by 2.
 TEST(InstanceOffset, GrowsWithTheTranslationInBothPaths) {
   for (const double far : {0.0, 1.0, 1e3, 1e6}) {
     SceneBuilder builder;
@@ -16,13 +18,15 @@ TEST(InstanceOffset, GrowsWithTheTranslationInBothPaths) {
     const Affine carried = Affine::translation({far, -far, 0.5 * far}) * Affine::scaling(Vec3d(2));
     builder.place({"floor", {mesh}}, {carried, Affine()});
     const Scene scene = builder.build();
+
     ASSERT_EQ(scene.instances.size(), 2u);
     const double wanted = 0x1p-19 * (2 * (2 + 3 + 2) + 2.5 * far) + 0x1p-20 * 2 * (4 + 4 + 4);
     for (const std::string& target : simd::availableTargets()) {
       KernelSurfels kernel(scene, target);
       kernel.hit(0, 0, {0, -1, 0}, 0, 0);
       kernel.interpolate();
-      // A dozen sums of nonnegative numbers.
+
+      // A dozen sums of nonnegative numbers are rounded.
       const double rounding = 12 * 0x1p-24 * wanted;
       EXPECT_NEAR(static_cast<double>(kernel.chunk().surfels.offset[0]), wanted, rounding)
           << target << " " << far;
@@ -32,7 +36,8 @@ TEST(InstanceOffset, GrowsWithTheTranslationInBothPaths) {
   simd::chooseTarget("auto");
 }
 
-// Cofactors are of the order of the scale's square, whose own square is in no float's range.
+// Cofactors are of the order of the scale's square, and the square of a cofactor exceeds the range
+// of floats.
 TEST(InstanceNormals, TurnWithTheInstanceWhateverItsScale) {
   const Affine turn = Affine::rotation({1, 2, 3}, 40);
   const Vec3d wanted = turn.normal({0, 1, 0});
@@ -41,7 +46,9 @@ TEST(InstanceNormals, TurnWithTheInstanceWhateverItsScale) {
     const Mesh mesh = floorAt(0, 1, builder.add(diffuseMaterial(0.5f)));
     builder.place({"floor", {mesh}}, {turn * Affine::scaling(Vec3d(scale)), Affine()});
     const Scene scene = builder.build();
+
     ASSERT_EQ(scene.instances.size(), 2u);
+
     for (const std::string& target : simd::availableTargets()) {
       KernelSurfels kernel(scene, target);
       kernel.hit(0, 0, Vec3f(-wanted), 0, 0);
@@ -50,6 +57,7 @@ TEST(InstanceNormals, TurnWithTheInstanceWhateverItsScale) {
       const Vec3d ng(s.ngX[0], s.ngY[0], s.ngZ[0]), ns(s.nsX[0], s.nsY[0], s.nsZ[0]);
       EXPECT_LE(length(ng - wanted), 1e-6) << target << " " << scale;
       EXPECT_LE(length(ns - wanted), 1e-6) << target << " " << scale;
+
       const SurfelRow scalar = kernel.scalar(0);
       EXPECT_LE(length(Vec3d(scalar.nsX, scalar.nsY, scalar.nsZ) - wanted), 1e-6) << scale;
     }

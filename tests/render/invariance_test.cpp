@@ -1,5 +1,5 @@
-// The image is a function of scene and view alone: not of threads, tiles, queues, batches, packet
-// widths or effects compiled in. Bit for bit.
+// The image is a function of scene and view alone. Threads, tiles, queues, batches, packet widths
+// and unused effects that are compiled in change no bit.
 #include <gtest/gtest.h>
 
 #include "render/shipped_scene.h"
@@ -94,11 +94,12 @@ TEST_P(Invariance, H76_supersamplingIsTheSameForAnyTileAndQueue) {
 
 TEST_P(Invariance, NoPixelIsNonFinite) { EXPECT_EQ(expected_.stats.nonFinitePixels, 0u); }
 
-// Large enough that some of the rays of its long chains meet edges.
+// The picture is large enough that some of the rays of its long chains hit edges.
 TEST(InvarianceAlone, H60_aHallOfMirrorsHasTheSameBitsInEachWay) {
   const Scene scene = load("mirrors");
   RenderOptions o = smallOptions();
   o.size = ImageSize{200, 120};
+
   for (const int spp : {1, 3}) {
     o.spp = spp;
     const Picture expected = render(scene, o);
@@ -108,6 +109,7 @@ TEST(InvarianceAlone, H60_aHallOfMirrorsHasTheSameBitsInEachWay) {
     variants[2].tile = 8;
     variants[3].queue = 64;
     variants[4].batch = Batch::frame;
+
     for (const RenderOptions& v : variants) {
       EXPECT_EQ(firstDifference(render(scene, v).image, expected.image), "")
           << "variant " << &v - variants.data() << ", " << spp << " samples";

@@ -1,5 +1,4 @@
-// interpolateSurfels by itself, on hits made by hand: what the kernel writes, and its scalar
-// reference.
+// The kernel interpolateSurfels by itself, on hits made by hand, and its scalar reference.
 #pragma once
 
 #include "reference/find_intersections.h"
@@ -9,7 +8,7 @@
 
 namespace whit::test {
 
-// Slots 0 to kBlock - 1 of a frame of `scene`, with every effect compiled in, for the target
+// Holds slots 0 to kBlock - 1 of a frame of `scene`, with every effect compiled in, for the target
 // `simd`. Leaves that target chosen.
 class KernelSurfels {
  public:
@@ -19,17 +18,19 @@ class KernelSurfels {
     constants_.accel = &renderer_.accel();
     constants_.features = renderer_.plan().features;
     constants_.options = renderer_.options();
+
     Chunk& c = chunk();
     c.frame = &constants_;
     c.n = kBlock;
     for (std::size_t i = 0; i < kBlock; ++i) c.hits.triangle[i] = c.hits.instance[i] = kMiss;
   }
 
-  // A ray of weight 1 that has gone 1 far along `direction`, in the media of `stack`, to the middle
-  // of a triangle.
+  // Sets a ray of weight 1 that has gone 1 far along `direction`, in the media of `stack`, to the
+  // middle of a triangle.
   void hit(std::size_t slot, std::uint32_t triangle, const Vec3f& direction,
            std::uint32_t stack = 0, std::uint32_t instance = kMiss) {
     Chunk& c = chunk();
+
     setRay(c.rays, slot, {0, 0, 0}, direction);
     c.rays.weightR[slot] = c.rays.weightG[slot] = c.rays.weightB[slot] = 1;
     c.rays.throughput[slot] = 1;
@@ -39,6 +40,7 @@ class KernelSurfels {
     c.hits.t[slot] = 1;
     c.hits.u[slot] = c.hits.v[slot] = 0.25f;
   }
+
   void interpolate() { simd::kInterpolateSurfels.find()(chunk()); }
 
   Chunk& chunk() { return small_.chunk; }

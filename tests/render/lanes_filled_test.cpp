@@ -1,4 +1,4 @@
-// Packets go to Embree nearly full at every depth: what compaction into queues is for.
+// Packets go to Embree nearly full at every depth, because rays are compacted into queues.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Spot and directional lights in the vector pipeline, and what they cost where there are none.
+// Spot and directional lights in the vector pipeline, and their cost where there are none.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -33,11 +33,12 @@ Light sun(const Vec3f& direction) {
   return light;
 }
 
-// Over a floor of albedo 0.5 that fills the picture.
+// The lights shine on a floor of albedo 0.5 that fills the picture.
 Scene floorUnder(const std::vector<Light>& lights) {
   SceneBuilder builder;
   builder.add(floorAt(0, 8, builder.add(diffuseMaterial(0.5f))));
   builder.description.lights = lights;
+
   Camera camera;
   camera.eye = {0, 3, 0};
   camera.at = {0, 0, 0};
@@ -53,7 +54,8 @@ TEST(LightKinds, ASpotLightDrawsItsConeOnTheFloor) {
   const Picture picture = render(scene, smallOptions());
   const Image& image = picture.image;
   const CameraFrame frame = makeCameraFrame(scene.cameras[0], image.width, image.height);
-  // Twenty roundings of a float, magnified by the edge of the cone.
+
+  // A float is rounded twenty times, and the edge of the cone magnifies the error.
   const double bound = 20 * 0x1p-24 / (std::cos(kInner) - std::cos(kOuter));
   std::uint64_t lit = 0;
   for (int y = 0; y < image.height; ++y) {
@@ -62,15 +64,19 @@ TEST(LightKinds, ASpotLightDrawsItsConeOnTheFloor) {
       const Vec3d point = ray.origin + ray.direction * (-ray.origin.y / ray.direction.y);
       const Vec3d l = Vec3d{0, 2, 0} - point;
       const double cosine = l.y / length(l);
+
+      // The light falls off with the square of s between the inner and the outer angle.
       const double s =
           std::clamp((cosine - std::cos(kOuter)) / (std::cos(kInner) - std::cos(kOuter)), 0.0, 1.0);
+
       const double full = 10 * 0.5 / kPi * cosine / dot(l, l);
       ASSERT_NEAR(static_cast<double>(image.at(x, y).x), full * s * s, bound * full)
           << x << "," << y;
       lit += s > 0;
     }
   }
-  // No ray looks for the light from outside of its cone.
+
+  // No shadow ray is traced from outside of a light's cone.
   EXPECT_GT(lit, 100u);
   EXPECT_NEAR(static_cast<double>(picture.stats.of(RayKind::shadow).rays), static_cast<double>(lit),
               2);
@@ -78,14 +84,16 @@ TEST(LightKinds, ASpotLightDrawsItsConeOnTheFloor) {
 
 TEST(LightKinds, ADirectionalLightIsEvenAndFacesTheSurface) {
   const Picture picture = render(floorUnder({sun({3, -4, 0})}), smallOptions());
+  // The light (3, -4, 0) reaches the floor at a cosine of 0.8.
   for (const Rgb& pixel : picture.image.pixels) {
     ASSERT_NEAR(static_cast<double>(pixel.x), 0.5 / kPi * 3 * 0.8, 20 * 0x1p-24);
   }
+
   const Picture below = render(floorUnder({sun({0, 1, 0})}), smallOptions());
   EXPECT_EQ(below.stats.of(RayKind::shadow).rays, 0u) << "the floor faces away";
 }
 
-// Every stage against the scalar reference, on every target, and the picture against the reference.
+// Every stage agrees with the scalar reference on every target, and the picture with the reference.
 TEST(LightKinds, AgreeWithTheReference) {
   const Scene scene = load("effects");
   expectStagesAgreeOnEveryTarget(scene, smallOptions());
@@ -94,7 +102,7 @@ TEST(LightKinds, AgreeWithTheReference) {
   EXPECT_LE(d.pixelsGe2CodesPct, 0.1);
 }
 
-// Each effect left out by --disable, in both renderers.
+// --disable leaves out each effect in packets and in the reference.
 TEST(LightKinds, LeftOutAreGoneAsInTheReference) {
   const Scene scene = floorUnder({spot(15, 25), sun({3, -4, 0})});
   for (const Effect effect : {Effect::spotLights, Effect::directionalLights}) {
@@ -104,15 +112,17 @@ TEST(LightKinds, LeftOutAreGoneAsInTheReference) {
     Film packets = makeFilm(scene, o), reference = makeFilm(scene, o);
     renderer.render(chooseCamera(scene, o), packets);
     renderer.renderReference(chooseCamera(scene, o), reference);
+
     EXPECT_LE(compareImages(packets.image, reference.image).pixelsGe2CodesPct, 0);
   }
 }
 
-// The code of spot and directional lights gives the bits of point lights, where it is compiled in.
+// The code of spot and directional lights keeps the bits of point lights where it is compiled in.
 TEST(LightKinds, TheirKernelsKeepTheBitsOfPointLights) {
   const Scene scene = floorUnder({lightAt({0.5f, 2, -0.25f}, 10), lightAt({-1, 1, 1}, 4)});
   ASSERT_FALSE(scene.effects.has(Effect::spotLights) ||
                scene.effects.has(Effect::directionalLights));
+
   RenderOptions o = smallOptions();
   const Image plain = render(scene, o).image;
   o.effects = EffectChoice::all;

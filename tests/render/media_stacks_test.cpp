@@ -1,4 +1,4 @@
-// The stacks of nested media that the kernels keep: every stack of up to four, against the
+// The stacks of nested media that the kernels keep: every stack of up to four media against the
 // reference.
 #include <gtest/gtest.h>
 
@@ -12,7 +12,8 @@ namespace whit::test {
 namespace {
 
 constexpr std::uint32_t kMedia = 5;  // four that fit a stack, and one that is in none
-// An exponential in float and what it is taken of.
+
+// Rounding of an exponential in float and of its argument.
 constexpr double kAbsorbed = 12 * 0x1p-24;
 
 // Triangle 2 m of the scene bounds medium m + 1.
@@ -26,7 +27,7 @@ Scene sceneOfMedia(const std::vector<int>& priorities) {
   return builder.build();
 }
 
-// All of media 1 to 4, the empty one first.
+// Lists all stacks of up to four of the media 1 to 4; the empty stack comes first.
 std::vector<std::uint32_t> everyStack() {
   std::vector<std::uint32_t> stacks{0};
   for (std::size_t first = 0, depth = 0; depth < 4; ++depth) {
@@ -40,19 +41,23 @@ std::vector<std::uint32_t> everyStack() {
   return stacks;
 }
 
-// Each stack meets each medium from outside and from inside.
+// A ray in each stack hits each medium from outside and from inside.
 void expectTheStacksOfTheReference(const Scene& scene, const std::string& simd) {
   KernelSurfels kernel(scene, simd);
   const std::vector<std::uint32_t> stacks = everyStack();
   ASSERT_EQ(stacks.size(), 1u + 4 + 16 + 64 + 256);
+
   for (const std::uint32_t stack : stacks) {
+    // Each medium has a slot for a ray from outside and a slot for a ray from inside.
     const auto triangleAt = [](std::size_t slot) { return static_cast<std::uint32_t>(slot & ~1u); };
     for (std::size_t slot = 0; slot < 2 * kMedia; ++slot) {
       kernel.hit(slot, triangleAt(slot), {0, slot % 2 ? 1.0f : -1.0f, 0}, stack);
     }
+
     kernel.interpolate();
     const double left = reference::transmittance(scene, stack, 1).x;
     const Chunk& c = kernel.chunk();
+
     for (std::size_t slot = 0; slot < 2 * kMedia; ++slot) {
       const SurfelRow scalar = kernel.scalar(slot);
       ASSERT_EQ(c.surfels.mediaBehind[slot], scalar.mediaBehind)
@@ -65,11 +70,13 @@ void expectTheStacksOfTheReference(const Scene& scene, const std::string& simd) 
   }
 }
 
-// The medium that counts is the newest, the oldest or one between; or of two alike the newer one.
+// Depending on the priorities, the medium that counts is the newest, the oldest or one between; of
+// two equal ones it is the newer.
 TEST(MediaStacks, AreThoseOfTheReferenceOnEveryTarget) {
   for (const std::vector<int>& priorities :
        {std::vector<int>{0, 0, 0, 0, 0}, {1, 2, 3, 4, 5}, {4, 3, 2, 1, 0}, {-1, 3, 3, -2, 2}}) {
     const Scene scene = sceneOfMedia(priorities);
+
     ASSERT_EQ(scene.media.size(), 1u + kMedia);
     for (const std::string& target : simd::availableTargets()) {
       expectTheStacksOfTheReference(scene, target);

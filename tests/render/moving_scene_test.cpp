@@ -1,4 +1,4 @@
-// Scenes that move: pictures by closed forms, and that they follow from the time alone.
+// Scenes that move: pictures against closed forms, and that pictures depend on the time alone.
 #include "bake/edit_scene.h"
 
 #include <gtest/gtest.h>
@@ -60,6 +60,7 @@ TEST(MovingScene, PicturesDoNotDependOnThreadsOrPackets) {
     options.threads = threads;
     EXPECT_EQ(firstDifference(pictureOf(scene, options), expected), "") << threads;
   }
+
   for (const int packet : {1, 4}) {
     options.packet = packet;
     EXPECT_EQ(firstDifference(pictureOf(scene, options), expected), "") << packet;
@@ -70,8 +71,10 @@ TEST(MovingScene, LightsAndCamerasOfFilesKeepWhatWasEdited) {
   Scene scene = orreryAt(0);
   scene.lights.at(1).intensity = Rgb(7.0f);
   moveScene(scene, 2.5);
+
   EXPECT_EQ(scene.lights[1].intensity, Rgb(7.0f));
-  const double turn = -std::numbers::pi / 2;  // the lamp goes once around in ten seconds
+  // The lamp goes once around in ten seconds.
+  const double turn = -std::numbers::pi / 2;
   const Vec3d expected{4.5 * std::cos(turn) + 3 * std::sin(turn), 8,
                        -4.5 * std::sin(turn) + 3 * std::cos(turn)};
   EXPECT_LT(length(Vec3d(scene.lights[1].position) - expected), 1e-6);
@@ -86,6 +89,7 @@ class MovingFile : public testing::Test {
     return std::to_string(getpid()) +
            testing::UnitTest::GetInstance()->current_test_info()->name() + ".json";
   }
+
   Scene at(double seconds, const std::string& members) const {
     std::ofstream(file_)
         << "{\"whit\": 1, \"size\": [64, 64], \"cameras\": {\"c\": {\"eye\": [0, "
@@ -93,6 +97,7 @@ class MovingFile : public testing::Test {
            "{\"lit\": {\"diffuse\": 0, \"emission\": 1}, \"red\": {\"diffuse\": 0, "
            "\"emission\": [1, 0, 0]}}, "
         << members << "}";
+
     Warnings warnings;
     LoadOptions options;
     options.instant.seconds = seconds;
@@ -102,7 +107,7 @@ class MovingFile : public testing::Test {
   std::filesystem::path file_;
 };
 
-// Center and area of what shines, in pixels from the middle of the picture.
+// Center and area of the bright pixels, measured from the middle of the picture.
 struct Seen {
   double x = 0, y = 0, area = 0;
 };
@@ -116,12 +121,13 @@ Seen seenIn(const Image& image) {
       seen.y += image.height / 2.0 - y - 0.5;
     }
   }
+
   seen.x /= seen.area;
   seen.y /= seen.area;
   return seen;
 }
 
-// A glowing ball in parallel rays, eight pixels a unit: a disc where it is, as large as it is.
+// An emitting ball in parallel rays is seen as a disc, eight pixels a unit.
 TEST_F(MovingFile, ABallIsSeenWhereItIs) {
   constexpr double kPixels = 8;
   Scene scene =
@@ -130,6 +136,7 @@ TEST_F(MovingFile, ABallIsSeenWhereItIs) {
          "[{\"time\": "
          "0}, {\"time\": 4, \"translate\": [2, -1, 0], \"scale\": 2}]}}, {\"shape\": \"box\", "
          "\"material\": \"lit\", \"transform\": {\"translate\": [0, 0, 40]}}]");
+
   const RenderOptions options;
   Renderer renderer(scene, options);
   for (const double seconds : {3.0, 1.0, 4.0}) {
@@ -137,9 +144,11 @@ TEST_F(MovingFile, ABallIsSeenWhereItIs) {
     renderer.sceneMoved();
     const Seen seen = seenIn(pictureOf(renderer, scene, options));
     const double t = seconds / 4, radius = (1 + t) * kPixels;
-    // Of pixels along the rim as many are counted that are less than half covered as are not that
-    // are more: the circumference's pixels err as in a walk.
+
+    // About as many pixels at the edge of the disc are counted that are less than half covered as
+    // are left out that are more than half covered: the error grows as that of a random walk.
     const double rim = std::sqrt(2 * std::numbers::pi * radius);
+
     EXPECT_NEAR(seen.x, 2 * t * kPixels, 0.1) << seconds;
     EXPECT_NEAR(seen.y, -t * kPixels, 0.1) << seconds;
     EXPECT_NEAR(seen.area, std::numbers::pi * radius * radius, rim) << seconds;
@@ -155,10 +164,12 @@ TEST_F(MovingFile, CoplanarSquaresMoveTogether) {
            "\", \"motion\": {\"keys\": [{\"time\": 0, \"translate\": " + from +
            "}, {\"time\": 1, \"translate\": " + to + "}]}}";
   };
+
   const std::string group = "\"scene\": [{\"group\": [" +
                             square("6", "red", "[0, 0, 0]", "[0.5, 0, 0]") + ", " +
                             square("2", "lit", "[0.3, 0, 0.2]", "[0.8, 0, 0.2]") +
                             "], \"transform\": {\"rotate\": [1, 0, 0, 90]}}]";
+
   Scene scene = at(0, group);
   EXPECT_FALSE(scene.coplanar.empty());
   const RenderOptions options;
@@ -167,16 +178,18 @@ TEST_F(MovingFile, CoplanarSquaresMoveTogether) {
     moveScene(scene, seconds);
     renderer.sceneMoved();
     EXPECT_FALSE(scene.coplanar.empty());
+
     int white = 0;
     for (const Rgb& pixel : pictureOf(renderer, scene, options).pixels) white += pixel.y > 0.5f;
-    EXPECT_EQ(white, 16 * 16) << seconds;  // two by two units
+    // The smaller square measures two by two units.
+    EXPECT_EQ(white, 16 * 16) << seconds;
   }
 }
 
-// From 1 s on it mirrors at x = 0.
+// From 1 s on the transform mirrors at x = 0.
 Affine mirroring(double seconds) { return Affine::scaling({seconds < 1 ? 1.0 : -1.0, 1, 1}); }
 
-// A vault along y: heights and normals depend on x alone, and x and -x are alike.
+// Adds a vault along y: heights and normals depend on x alone, and x and -x are alike.
 void addVault(float shift, Mesh& mesh) {
   constexpr int kColumns = 8;
   for (int i = 0; i <= kColumns; ++i) {
@@ -186,18 +199,21 @@ void addVault(float shift, Mesh& mesh) {
       mesh.positions.push_back({x + shift, y, 0.5f - 0.5f * x * x});
       mesh.normals.emplace_back(normalized(Vec3d{double{x}, 0, 1}));
     }
+
+    // Two triangles join this column to the next one.
     if (i == kColumns) break;
     mesh.triangles.push_back({first, first + 2, first + 3});
     mesh.triangles.push_back({first, first + 3, first + 1});
   }
 }
 
-// Joint 0, which mirrors, holds the vertices up to x = 1, and joint 1, which stands still, the
+// Joint 0, which mirrors, moves the vertices up to x = 1; joint 1, which stands still, moves the
 // others. A morph target bends all of them.
 std::shared_ptr<const Deformation> mirroredSkin(const Mesh& mesh) {
   Deformation d;
   d.positions = mesh.positions;
   d.normals = mesh.normals;
+
   d.targets.resize(1);
   for (const Vec3f& p : mesh.positions) d.targets[0].positions.push_back({0, 0, 0.1f * p.x * p.x});
   d.weights = {0.5};
@@ -205,6 +221,7 @@ std::shared_ptr<const Deformation> mirroredSkin(const Mesh& mesh) {
       Rig{{kNoNode, Affine(), std::make_shared<const Motion>(mirroring)}, {}});
   d.joints = {{0, Affine()}, {1, Affine()}};
   d.firstInfluence = {0};
+
   for (const Vec3f& p : mesh.positions) {
     d.influences.push_back({p.x > 1 ? 1u : 0u, 1});
     d.firstInfluence.push_back(static_cast<std::uint32_t>(d.influences.size()));
@@ -223,6 +240,7 @@ Scene mirroredVault(Mirrors what, bool doubleSided) {
   addVault(0, mesh);
   if (what == Mirrors::partOfASkin) addVault(3, mesh);
   if (what != Mirrors::node) mesh.deformation = mirroredSkin(mesh);
+
   Object object;
   object.meshes = {mesh};
   builder.place(std::move(object), {Affine()});
@@ -233,7 +251,7 @@ Scene mirroredVault(Mirrors what, bool doubleSided) {
   return builder.build();
 }
 
-// A symmetrical surface looks as before when it is mirrored, in packets and in the reference.
+// A symmetric surface looks as before when it is mirrored, in packets and in the reference.
 void expectAlikeMirrored(Scene scene) {
   const RenderOptions options = smallOptions();
   Renderer renderer(scene, options);
@@ -243,10 +261,12 @@ void expectAlikeMirrored(Scene scene) {
     renderer.renderReference(chooseCamera(scene, options), reference);
     return std::array<Image, 2>{packets.image, reference.image};
   };
+
   const auto before = pictures();
   moveScene(scene, 2);
   renderer.sceneMoved();
   const auto after = pictures();
+
   for (std::size_t mode = 0; mode < 2; ++mode) {
     int lit = 0, other = 0;
     for (std::size_t i = 0; i < before[mode].pixels.size(); ++i) {
@@ -254,9 +274,12 @@ void expectAlikeMirrored(Scene scene) {
       lit += a > 0.1f;
       other += std::abs(a - b) > 1e-5f;
     }
+
     EXPECT_GT(lit, 200) << mode;
-    EXPECT_LE(other, lit / 100) << mode;  // on edges, which lie otherwise in the last bits
+    // Edges move in the last bits, so pixels at edges may differ.
+    EXPECT_LE(other, lit / 100) << mode;
   }
+
   moveScene(scene, 0);
   renderer.sceneMoved();
   EXPECT_EQ(firstDifference(pictures()[0], before[0]), "");

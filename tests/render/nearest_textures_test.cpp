@@ -1,4 +1,4 @@
-// Textures whose texels are not interpolated, whatever --texture-filter says of the others.
+// Textures whose texels are not interpolated, whatever --texture-filter is for the others.
 #include <gtest/gtest.h>
 
 #include "render/row_of_tiles.h"
@@ -6,11 +6,12 @@
 namespace whit::test {
 namespace {
 
-// Pixel art as color, roughness and mask, beside the same interpolated.
+// Tiles have textures of nearest texels for color, roughness and mask, beside interpolated ones.
 Scene pixelArt(bool everywhere) {
   SceneBuilder builder;
   const auto isNearest = [&](int i) { return everywhere || i % 2 == 0; };
   std::array<std::int32_t, 2> color{}, data{}, mask{};
+
   for (const int i : {0, 1}) {
     const auto add = [&](TexelFormat format, const std::vector<std::uint32_t>& texels) {
       Texture t = makeTexture(format, 3, 2, texels);
@@ -18,6 +19,7 @@ Scene pixelArt(bool everywhere) {
       t.wrapU = Wrap::mirror;
       return builder.add(t);
     };
+
     const auto texel = [](float x) { return encodeDataTexel(x, x, x, x); };
     const auto at = static_cast<std::size_t>(i);
     color[at] = add(TexelFormat::color, {1023u, 0u, 700u << 10, 1023u << 20, 341u, 900u << 10});
@@ -25,6 +27,7 @@ Scene pixelArt(bool everywhere) {
                    {texel(1), texel(0.3f), texel(0.6f), texel(0.2f), texel(0.9f), texel(0.5f)});
     mask[at] = add(TexelFormat::data, {texel(1), texel(0), texel(1), texel(0), texel(1), texel(0)});
   }
+
   return rowOfTiles(builder, [&](int i) {
     const auto at = static_cast<std::size_t>(i % 2);
     Material m = diffuseMaterial(0.8f);
@@ -50,13 +53,16 @@ TEST(NearestTextures, AgreeWithTheReferenceOnEveryTarget) {
 TEST(NearestTextures, AreLookedUpAsWhereAllAre) {
   Scene scene = pixelArt(true);
   RenderOptions o = smallOptions();
-  o.disable = EffectSet().with(Effect::alphaMasks);  // --texture-filter is not about those
+  // --texture-filter does not apply to masks.
+  o.disable = EffectSet().with(Effect::alphaMasks);
   o.shading.textureFilter = TextureFilter::bilinear;
   const Image alone = render(scene, o).image;
+
   for (Texture& t : scene.textures) t.nearest = false;
   const Image interpolated = render(scene, o).image;
   o.shading.textureFilter = TextureFilter::nearest;
   const Image all = render(scene, o).image;
+
   EXPECT_EQ(alone.pixels, all.pixels);
   EXPECT_NE(alone.pixels, interpolated.pixels);
 }
@@ -68,13 +74,16 @@ TEST(NearestTextures, CutTexelByTexel) {
     SceneBuilder builder;
     Material m = blackMaterial();
     m.emission = Rgb(1.0f);
+
     Texture t = makeTexture(TexelFormat::data, 2, 1,
                             {encodeDataTexel(1, 0, 0, 0), encodeDataTexel(right, 0, 0, 0)});
     t.nearest = true;
     m.alphaMap = builder.add(t);
-    m.alphaCutoff = 0.4f;  // bilinear alpha is below it only beyond u = 0.55, or nowhere
+    // Bilinear alpha is below the cutoff only beyond u = 0.55, or nowhere.
+    m.alphaCutoff = 0.4f;
     builder.add(quad({0, 0, 0}, {1, 0, 0}, {1, 0, -1}, {0, 0, -1}, builder.add(m)));
     const Scene scene = builder.build();
+
     for (int i = 0; i < 100; ++i) {
       const double u = (i + 0.5) / 100;
       const double seen = radianceAlong(scene, {u, 1, -0.5}, {0, -1, 0}).x;

@@ -7,11 +7,12 @@
 namespace whit::test {
 namespace {
 
-// A light's direction rounded to float, and a dozen roundings.
+// A light's direction is rounded to float, and a dozen operations are rounded.
 constexpr double kShaded = 1e-6;
 
-// A floor whose normal leans by 45 degrees along u, which runs along x over `u` units of texture
-// space; v runs along -z over `v`. Seen from above, under sunlight from +x and from above.
+// The normal of the floor leans by 45 degrees along u, which runs along x over `u` units of texture
+// space; v runs along -z over `v`. The floor is seen from above, in sunlight from +x and from
+// above.
 struct LeaningFloor {
   Scene scene;
   double wanted;  // radiance
@@ -22,31 +23,38 @@ LeaningFloor leaningFloor(float u, float v) {
   const float lean = 0.5f + 0.5f * std::sqrt(0.5f);
   m.normalMap =
       builder.add(makeTexture(TexelFormat::data, 1, 1, {encodeDataTexel(lean, 0.5f, lean, 1)}));
+
   Mesh mesh = floorAt(0, 8, builder.add(m));
   for (Vec2f& uv : mesh.uvs) uv = {uv.x * u, uv.y * v};
   builder.add(std::move(mesh));
   builder.description.lights = {whit::test::sun({-1, -1, 0}, 2)};
+
   Camera camera;
-  camera.eye = {0.03f, 3, 0};  // the diagonal of the floor in no pixel's center
+  // The diagonal of the floor passes no pixel's center.
+  camera.eye = {0.03f, 3, 0};
   camera.at = {0.03f, 0, 0};
   camera.up = {0, 0, -1};
   builder.description.cameras = {camera};
+
+  // The texel is rounded to eight bits, of which 128 does not decode to 0.
   const double x = std::round(lean * 255) / 127.5 - 1, y = 128 / 127.5 - 1;
   const double cosine = dot(normalized(Vec3d{x, x, -y}), normalized(Vec3d{1, 1, 0}));
   return {builder.build(), 0.5 / kPi * 2 * cosine};
 }
 
-// Only the directions of u and v count, not how far they run: products of spans may vanish in a
-// float, or overflow.
+// The directions of u and v count, but not the lengths of their spans: products of spans may vanish
+// in a float, or overflow.
 TEST(NormalMaps, ApplyWhateverTheSpanOfTheirCoordinates) {
   constexpr float kSpans[][2] = {{1, 1},      {1e-15f, 1e-15f}, {1e-20f, 1e-20f}, {1e-30f, 1e-30f},
                                  {1e-30f, 1}, {1, 1e-30f},      {1e-36f, 1e-30f}, {1e30f, 1e30f}};
+
   for (const auto& [u, v] : kSpans) {
     const auto [scene, wanted] = leaningFloor(u, v);
     Renderer renderer(scene, smallOptions());
     Film packets = makeFilm(scene, smallOptions()), reference = makeFilm(scene, smallOptions());
     renderer.render(scene.cameras[0], packets);
     renderer.renderReference(scene.cameras[0], reference);
+
     for (std::size_t i = 0; i < packets.image.pixels.size(); ++i) {
       const double p = static_cast<double>(packets.image.pixels[i].x);
       ASSERT_NEAR(static_cast<double>(reference.image.pixels[i].x), wanted, kShaded)

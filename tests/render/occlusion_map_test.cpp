@@ -1,5 +1,4 @@
-// Maps of occlusion: the vector pipeline against the reference, and what they cost where there are
-// none.
+// Occlusion maps: the vector pipeline against the reference, and their cost where there are none.
 #include <gtest/gtest.h>
 
 #include "render/plan.h"
@@ -8,12 +7,13 @@
 namespace whit::test {
 namespace {
 
-// Diffuse and rough tiles by a map, by either coordinates, and without one.
+// The tiles are diffuse or rough, with a map by either set of coordinates and without a map.
 Scene occludedTiles() {
   SceneBuilder builder;
   const auto red = [](float r) { return encodeDataTexel(r, 0.3f, 0.7f, 1); };
   const std::int32_t map =
       builder.add(makeTexture(TexelFormat::data, 2, 2, {red(1), red(0), red(0.5f), red(0.8f)}));
+
   builder.sky(0.5f);
   return rowOfTiles(builder, [&](int i) {
     Material m = diffuseMaterial(0.3f);
@@ -36,6 +36,7 @@ TEST(OcclusionMaps, AgreeWithTheReferenceOnEveryTarget) {
     o.ambientSamples = samples;
     expectTheReferenceOnEveryTarget(scene, o);
   }
+
   o.indirect = 2;
   expectTheReferenceOnEveryTarget(scene, o);
 }
@@ -49,9 +50,11 @@ TEST(OcclusionMaps, KeepTheirBitsWhateverTheQueues) {
 TEST(OcclusionMaps, HaveAStepWhereTheSceneHasThem) {
   Scene scene = occludedTiles();
   EXPECT_NE(makePlan(scene, smallOptions()).find("lookUpOcclusion"), nullptr);
+
   RenderOptions o = smallOptions();
   o.disable = EffectSet().with(Effect::textures);
   EXPECT_EQ(makePlan(scene, o).find("lookUpOcclusion"), nullptr);
+
   for (Material& m : scene.materials) m.occlusionMap = kNoTexture;
   EXPECT_EQ(makePlan(scene, smallOptions()).find("lookUpOcclusion"), nullptr);
 }

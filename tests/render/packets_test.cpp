@@ -1,4 +1,4 @@
-// Rays into packets and back, on every target and for every width.
+// Rays are packed and hits are unpacked, on every target and for every width of packets.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ class Packets : public testing::Test {
  protected:
   void TearDown() override { simd::chooseTarget("auto"); }
 
-  // `check(width)` for each width and target.
+  // Calls check(width) for each width and target.
   template <typename Check>
   void forEachWidthAndTarget(const Check& check) {
     for (const std::string& target : simd::availableTargets()) {
@@ -35,6 +35,7 @@ class Packets : public testing::Test {
   }
 
   PacketWords packets(std::size_t width) { return {words.data(), kColumns * width, width}; }
+
   float& word(std::size_t ray, std::size_t column, std::size_t width) {
     return words[ray / width * kColumns * width + column * width + ray % width];
   }
@@ -51,7 +52,7 @@ void fillRays(const Columns& rays) {
   }
 }
 
-// Each breaks the rule in a way of its own; the rays between them are good.
+// Makes some rays invalid, each in another way; the rays between them stay valid.
 template <typename Columns>
 std::vector<std::size_t> spoilSome(const Columns& rays) {
   rays.orgX[3] = std::nanf("");
@@ -71,6 +72,7 @@ TEST_F(Packets, HoldTheRaysAndEmptyOnesInTheirPlace) {
     for (std::size_t i = 0; i < (kPacked + width - 1) / width * width; ++i) {
       const auto at = [&](std::size_t c) { return word(i, c, width); };
       const bool good = i < kPacked && std::find(bad.begin(), bad.end(), i) == bad.end();
+
       if (good) {
         EXPECT_EQ(at(column::orgX), rays->orgX[i]) << i;
         EXPECT_EQ(at(column::orgY), rays->orgY[i]) << i;
@@ -81,16 +83,20 @@ TEST_F(Packets, HoldTheRaysAndEmptyOnesInTheirPlace) {
         EXPECT_EQ(at(column::tFar), kInf) << i;
         continue;
       }
+
+      // Invalid rays and lanes behind the last ray are inactive: their tFar is negative.
       const float place = i < kPacked ? kReach / 4 : 0;
       for (const std::size_t c : {column::orgX, column::orgY, column::orgZ}) {
         EXPECT_EQ(at(c), place) << i;
       }
+
       EXPECT_EQ(at(column::dirX), 0) << i;
       EXPECT_EQ(at(column::dirY), 0) << i;
       EXPECT_EQ(at(column::dirZ), 1) << i;
       EXPECT_EQ(at(column::tFar), -1) << i;
     }
-    // What kernels do not know they leave alone.
+
+    // Kernels leave the columns alone that they do not know.
     for (const std::size_t c : {3u, 7u, 9u, 10u, 11u, 12u, 19u}) EXPECT_EQ(word(0, c, width), -7);
   });
 }
@@ -123,8 +129,10 @@ TEST_F(Packets, GiveHitsBackWithTheNumbersOfTheirTriangles) {
       word(i, packet_column::primitive, width) = floatOf(7 * number);
       word(i, packet_column::geometry, width) = floatOf(i % 5 == 4 ? kMiss : number % 5);
     }
+
     ColumnStore<HitColumns> hits(kPacked, FeatureSet());
     simd::findPacketKernels().unpackHits(packets(width), kPacked, triangleBase, *hits);
+
     for (std::size_t i = 0; i < kPacked; ++i) {
       const auto number = static_cast<std::uint32_t>(i);
       EXPECT_EQ(hits->t[i], static_cast<float>(i) + 0.5f);
@@ -140,11 +148,14 @@ TEST_F(Packets, GiveVisibilityBackToTheSlots) {
     std::vector<std::uint32_t> slot(kPacked);
     std::vector<float> visible(4 * kPacked, -7.0f);
     for (std::size_t i = 0; i < kPacked; ++i) {
+      // Embree sets tFar to -infinity where a ray is occluded.
       slot[i] = static_cast<std::uint32_t>(3 * i);
       word(i, packet_column::tFar, width) = i % 3 == 0 ? -kInf : i % 3 == 1 ? 0.0f : 0.75f;
     }
+
     simd::findPacketKernels().unpackVisibility(packets(width), kPacked, slot.data(),
                                                visible.data());
+
     for (std::size_t at = 0; at < visible.size(); ++at) {
       const bool written = at % 3 == 0 && at / 3 < kPacked;
       EXPECT_EQ(visible[at], !written ? -7.0f : at / 3 % 3 == 0 ? 0.0f : 1.0f) << at;

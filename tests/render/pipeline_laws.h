@@ -1,4 +1,4 @@
-// What holds for every scene and effect.
+// Laws that hold for every scene and effect.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,13 +10,14 @@
 
 namespace whit::test {
 
-// Every stage is as near to its scalar reference as its limit says, on every SIMD target of the
-// machine. Leaves the target as it is by default.
+// Expects every stage to be as near to its scalar reference as its limit requires, on every SIMD
+// target of the machine. Leaves the default target chosen.
 inline void expectStagesAgreeOnEveryTarget(const Scene& scene, RenderOptions options) {
   for (const std::string& target : simd::availableTargets()) {
     options.simd = target;
     Renderer renderer(scene, options);
     const Film film = makeFilm(scene, options);
+
     for (const StageDifference& row : compareStages(renderer, chooseCamera(scene, options), film)) {
       EXPECT_LE(row.worstUlp, row.limitUlp)
           << target << " " << kStageNames[static_cast<std::size_t>(row.stage)] << " " << row.column
@@ -27,7 +28,7 @@ inline void expectStagesAgreeOnEveryTarget(const Scene& scene, RenderOptions opt
   simd::chooseTarget("auto");
 }
 
-// How far packets are from the reference.
+// Returns the difference between packets and the reference.
 inline ImageDifference differenceFromReference(const Scene& scene, const RenderOptions& options) {
   Renderer renderer(scene, options);
   Film packets = makeFilm(scene, options), reference = makeFilm(scene, options);
@@ -36,8 +37,8 @@ inline ImageDifference differenceFromReference(const Scene& scene, const RenderO
   return compareImages(packets.image, reference.image);
 }
 
-// The picture agrees with the reference where rays are sampled. Half a per cent: each pixel is the
-// mean of dozens of paths, any of which may meet an edge.
+// Expects the picture to agree with the reference where rays are sampled. Half a per cent of the
+// pixels may differ: each is the mean of dozens of paths, any of which may hit an edge.
 inline void expectSampledPictureAgrees(const Scene& scene, const RenderOptions& options) {
   const ImageDifference d = differenceFromReference(scene, options);
   EXPECT_LE(d.pixelsGe2CodesPct, 0.5);
@@ -45,7 +46,7 @@ inline void expectSampledPictureAgrees(const Scene& scene, const RenderOptions& 
   EXPECT_EQ(d.nonFinite, 0u);
 }
 
-// However the work is cut up, the picture has the same bits.
+// Expects the same bits however the work is divided.
 inline void expectBitsWhateverTheQueues(const Scene& scene, const RenderOptions& options) {
   const Image expected = render(scene, options).image;
   const auto same = [&](const char* what, auto&& change) {
@@ -53,6 +54,7 @@ inline void expectBitsWhateverTheQueues(const Scene& scene, const RenderOptions&
     change(o);
     EXPECT_EQ(firstDifference(render(scene, o).image, expected), "") << what;
   };
+
   same("1 thread", [](RenderOptions& o) { o.threads = 1; });
   same("3 threads", [](RenderOptions& o) { o.threads = 3; });
   same("tiles of 8", [](RenderOptions& o) { o.tile = 8; });

@@ -1,4 +1,4 @@
-// The table of kernels, and the plans that are made of them.
+// The table of kernels, and the plans that are made of it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,8 +14,8 @@ namespace {
 using simd::Kernel;
 using simd::kKernels;
 
-// None, all, what differs from either by one or two effects, and random ones: a step is there for
-// one effect or for two, and all of them together are too many to try.
+// The sets are none, all, those that differ from either by one or two effects, and random ones. A
+// step depends on one effect or two, and all combinations of effects are too many to try.
 std::vector<EffectSet> manySets() {
   constexpr int kRandomOnes = 1000;
   const std::uint32_t all = EffectSet::all().bits();
@@ -25,10 +25,12 @@ std::vector<EffectSet> manySets() {
       sets.insert(sets.end(), {EffectSet(a | b), EffectSet(all & ~(a | b))});
     }
   }
+
   std::mt19937 random(1);
   for (int i = 0; i < kRandomOnes; ++i) {
     sets.push_back(EffectSet(static_cast<std::uint32_t>(random()) & all));
   }
+
   sets.insert(sets.end(), {EffectSet(), EffectSet(all)});
   return sets;
 }
@@ -45,6 +47,7 @@ Plan planOf(EffectSet effects) {
 TEST(Kernels, BelongToStagesInOrder) {
   EXPECT_TRUE(std::is_sorted(kKernels.begin(), kKernels.end(),
                              [](const Kernel& a, const Kernel& b) { return a.stage < b.stage; }));
+
   for (std::size_t s = 0; s < kStageCount; ++s) {
     const auto stage = static_cast<Stage>(s);
     const bool has = std::any_of(kKernels.begin(), kKernels.end(),
@@ -60,12 +63,15 @@ TEST(KernelsOfAPlan, RunInTheOrderOfItsStagesAndComeFromTheTable) {
     const std::vector<KernelUse> uses = kernelsOf(plan);
     for (const KernelUse& use : uses) {
       stages.insert(use.stage);
+
+      // Embree's own calls are not kernels of the table.
       if (use.target == "embree") continue;
       const auto kernel = std::find_if(kKernels.begin(), kKernels.end(),
                                        [&](const Kernel& k) { return k.name == use.kernel; });
       ASSERT_NE(kernel, kKernels.end()) << use.kernel;
       EXPECT_EQ(use.stage, kernel->stage);
     }
+
     EXPECT_EQ(std::vector<Stage>(stages.begin(), stages.end()), plan.stages());
     EXPECT_TRUE(
         std::is_sorted(uses.begin(), uses.end(),
@@ -79,6 +85,7 @@ TEST(KernelsOfAPlan, AreThoseThatItsEffectsNeed) {
                                .with(Effect::textures)
                                .with(Effect::normalMaps)
                                .with(Effect::mirror));
+
   std::vector<std::string> names;
   for (const KernelUse& use : kernelsOf(plan)) names.push_back(use.kernel);
   EXPECT_EQ(names, (std::vector<std::string>{
@@ -100,6 +107,7 @@ TEST(KernelsOfAPlan, EmbreesCallsComeOnceAndBetweenPackingAndUnpacking) {
       const bool traces = use.stage == Stage::findIntersections || use.stage == Stage::checkShadows;
       if (traces) names.push_back(use.kernel);
     }
+
     const std::vector<std::string> singly{"intersect", "interpolateSurfels", "lookUpCoverage",
                                           "liftShadowOrigins", "occluded"};
     const std::vector<std::string> inPackets{
@@ -115,7 +123,7 @@ TEST(Plans, HaveNoStepThatReadsWhatNoneHasWritten) {
   }
 }
 
-// As often as the stage runs: once a queue, and once a light.
+// A step ends its stage as often as the stage runs: once a queue, and once a light.
 TEST(Plans, EndEachStageWithItsLastStep) {
   const Plan plan = planOf(EffectSet::all());
   const Step* before = nullptr;
@@ -123,9 +131,11 @@ TEST(Plans, EndEachStageWithItsLastStep) {
     if (before && before->stage != step.stage) {
       EXPECT_TRUE(before->endsStage) << before->name;
     }
+
     EXPECT_NE(step.run, nullptr) << step.name;
     before = &step;
   });
+
   EXPECT_FALSE(plan.find("findHits")->endsStage);
   EXPECT_FALSE(plan.find("addReflections")->endsStage);
   EXPECT_FALSE(plan.find("addRefractions")->endsStage);

@@ -15,7 +15,7 @@
 namespace whit::test {
 namespace {
 
-// Of each projection, looking from `eye` to `at`.
+// Makes a camera of each projection, looking from `eye` to `at` of the pose.
 std::map<std::string, Camera> projectedCameras(const Camera& pose) {
   std::map<std::string, Camera> all;
   const auto add = [&](const char* name, Projection projection) -> Camera& {
@@ -23,21 +23,25 @@ std::map<std::string, Camera> projectedCameras(const Camera& pose) {
     camera.projection = projection;
     return camera;
   };
+
   const auto withMatrix = [](Camera& camera) {
     camera.k = {80, 70, 55, 30, 3};
     camera.kSize = {107, 67};
   };
+
   withMatrix(add("matrix", Projection::perspective));
   Camera& lens = add("distortion", Projection::perspective);
   withMatrix(lens);
   lens.distortion = {-0.2f, 0.05f, 0.002f, -0.003f, 0.01f, 0.02f, 0.01f, 0.003f};
   add("equidistant", Projection::equidistant);
   add("equisolid", Projection::equisolid).angle = 250;
+
   Camera& calibrated = add("fisheye", Projection::fisheye);
   calibrated.k = {25, 24, 52, 34};
   calibrated.kSize = {107, 67};
   calibrated.distortion = {0.05f, -0.01f, 0.002f, -0.0001f};
   add("panorama", Projection::panorama);
+
   Camera& table = add("directions", Projection::directions);
   for (int i = 0; i < 31; ++i) table.azimuths.push_back(static_cast<float>(3 * i - 45));
   for (int i = 0; i < 17; ++i) table.elevations.push_back(static_cast<float>(20 - 2 * i));
@@ -45,6 +49,7 @@ std::map<std::string, Camera> projectedCameras(const Camera& pose) {
   Camera& both = add("stereo", Projection::perspective);
   both.stereo = Stereo::leftRight;
   both.eyeDistance = 0.3f;
+
   Camera& round = add("stereo panorama", Projection::panorama);
   round.stereo = Stereo::topBottom;
   round.eyeDistance = 0.3f;
@@ -81,20 +86,24 @@ TEST(Projected, EveryWayOfRenderingGivesTheSameBits) {
     const auto expectSame = [&](const RenderOptions& o, const std::string& what) {
       EXPECT_EQ(firstDifference(render(scene, o).image, expected), "") << what;
     };
+
     for (const int packet : {1, 4, 8, 16}) {
       RenderOptions o = usual;
       o.packet = packet;
       expectSame(o, "packets of " + std::to_string(packet));
     }
+
     RenderOptions tiled = usual;
     tiled.tile = 5, tiled.threads = 3;
     expectSame(tiled, "tiles of 5");
+
     for (const std::string& target : simd::availableTargets()) {
       RenderOptions o = usual;
       o.simd = target;
       expectSame(o, target);
     }
     simd::chooseTarget("auto");
+
     RenderOptions cropped = usual;
     cropped.crop = Crop{50, 20, 60, 40};
     const Image part = render(scene, cropped).image;
@@ -136,7 +145,7 @@ TEST(Projected, SizesThatTheViewsDoNotDivideShowTheSameViews) {
   }
 }
 
-// A sphere of radius 1.5 about the origin, seen from (0, 0, 4), and a wall at z = -2.
+// A sphere of radius 1.5 about the origin is seen from (0, 0, 4); there is a wall at z = -2.
 Scene ballAndWall(const Camera& camera) {
   SceneBuilder builder;
   builder.description.cameras = {camera};
@@ -146,14 +155,17 @@ Scene ballAndWall(const Camera& camera) {
   builder.add(std::move(ball));
   builder.add(quad({-90, -90, -2}, {90, -90, -2}, {90, 90, -2}, {-90, 90, -2},
                    builder.add(diffuseMaterial(0.5f))));
+
   builder.sky(1);
   return builder.build();
 }
 
+// Returns the distance to the nearer of the two along the ray, or infinity.
 double ballOrWall(const reference::Ray& ray) {
   const double b = dot(ray.origin, ray.direction);
   const double root = b * b - (dot(ray.origin, ray.origin) - 2.25);
   if (root >= 0 && b < 0) return -b - std::sqrt(root);
+
   const double way = (-2 - ray.origin.z) / ray.direction.z;
   const Vec3d at = ray.origin + ray.direction * way;
   const bool hit = way > 0 && std::fabs(at.x) < 90 && std::fabs(at.y) < 90;
@@ -180,6 +192,7 @@ TEST(Projected, DepthsOfASphereAndAPlaneAreTheClosedForm) {
     renderer.render(camera, packets);
     renderer.renderReference(camera, reference);
     const CameraFrame frame = makeCameraFrame(camera, 107, 67);
+
     int blind = 0, hits = 0, apart = 0;
     for (std::size_t i = 0; i < 107 * 67; ++i) {
       const int x = static_cast<int>(i % 107), y = static_cast<int>(i / 107);
@@ -188,6 +201,8 @@ TEST(Projected, DepthsOfASphereAndAPlaneAreTheClosedForm) {
         return film.channels.floats(Channel::depth)[2 * i + k];
       };
       const auto alpha = [&](Film& film) { return film.channels.floats(Channel::alpha)[i]; };
+
+      // Pixels beyond the image circle of a lens have no ray.
       if (ray.direction == Vec3d()) {
         ++blind;
         for (Film* film : {&packets, &reference}) {
@@ -197,22 +212,28 @@ TEST(Projected, DepthsOfASphereAndAPlaneAreTheClosedForm) {
         }
         continue;
       }
+
       const double wanted = ballOrWall(ray);
       if (std::isinf(wanted)) {
         EXPECT_TRUE(std::isinf(values(reference, 1))) << x << "," << y;
         EXPECT_EQ(reference.image.at(x, y), Rgb(1.0f));
         continue;
       }
+
       ++hits;
       EXPECT_LE(unitsInTheLastPlace(values(reference, 1), wanted), 2) << x << "," << y;
       const double z = wanted * dot(ray.direction, frame.forward);
       EXPECT_LE(unitsInTheLastPlace(values(reference, 0), z), 2) << x << "," << y;
+
       // The packets' directions are floats; at grazing angles their rounding moves the hit.
       apart += !(std::fabs(double{values(packets, 1)} / wanted - 1) < 1e-4);
       EXPECT_EQ(alpha(packets), 1) << x << "," << y;
     }
+
     EXPECT_GT(hits, 200);
     EXPECT_LE(apart, 6);
+
+    // Rays of fisheyes exist only within their image circle.
     const bool round = name == "equidistant" || name == "equisolid" || name == "fisheye";
     EXPECT_EQ(blind > 500, round) << blind;
   }

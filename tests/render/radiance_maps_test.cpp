@@ -1,4 +1,4 @@
-// Emission maps of radiance, beside those of color: the vector pipeline against the reference.
+// Emission maps of radiance and of color: the vector pipeline against the reference.
 #include <gtest/gtest.h>
 
 #include "render/row_of_tiles.h"
@@ -6,7 +6,7 @@
 namespace whit::test {
 namespace {
 
-// Maps of both kinds side by side, by either set of coordinates, with and without instances.
+// Maps of both kinds are side by side, by either set of coordinates, with and without instances.
 Scene glowingTiles() {
   SceneBuilder builder;
   const std::int32_t color = builder.add(makeTexture(
@@ -15,6 +15,7 @@ Scene glowingTiles() {
       makeTexture(TexelFormat::radiance, 2, 2,
                   {encodeRadianceTexel({20, 3, 0.5f}), encodeRadianceTexel({1e-4f, 0, 2e-5f}),
                    encodeRadianceTexel({0, 7, 0}), encodeRadianceTexel({1, 1, 1.5f})}));
+
   return rowOfTiles(builder, [&](int i) {
     Material m = diffuseMaterial(0.5f);
     if (i < 5) m.emission = {0.5f, 0.25f, 1};

@@ -1,7 +1,7 @@
-// A closed room of diffuse walls with a panel of light in its ceiling, against radiosity: what
-// every wall sends out, found from the form factors of small patches (Goral, Torrance, Greenberg
-// and Battaile 1984, "Modeling the interaction of light between diffuse surfaces"). Nothing of it
-// but the scene is shared with src.
+// A closed room of diffuse walls with a panel of light in its ceiling, against radiosity: the
+// radiance of every wall follows from the form factors of small patches (Goral, Torrance, Greenberg
+// and Battaile 1984, "Modeling the interaction of light between diffuse surfaces"). Only the scene
+// is shared with src.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -19,7 +19,8 @@ using namespace verify;
 
 constexpr double kPanel = 5;  // radiance of the panel, a third of the ceiling each way
 
-// A wall of the room [-1, 1]^3: from its corner along two edges of length 2; u x v points inwards.
+// A wall of the room [-1, 1]^3 runs from its corner along two edges of length 2; u x v points
+// inwards.
 struct Wall {
   Vec3d corner, u, v;
   double albedo;
@@ -42,7 +43,8 @@ bool isPanel(std::size_t wall, double s, double t) {
   return wall == kCeiling && s > kThird && s < 2 * kThird && t > kThird && t < 2 * kThird;
 }
 
-// The form factor of a point to a rectangle that lies wholly above its surface (Lambert 1760).
+// Returns the form factor of a point to a rectangle that lies wholly above its surface (Lambert
+// 1760).
 double factor(const Vec3d& point, const Vec3d& normal, const std::array<Vec3d, 4>& corners) {
   double sum = 0;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -56,7 +58,7 @@ double factor(const Vec3d& point, const Vec3d& normal, const std::array<Vec3d, 4
 
 class Radiosity {
  public:
-  // So many patches a side of each wall, a multiple of 3.
+  // Each wall has side x side patches; `side` is a multiple of 3.
   explicit Radiosity(int side) : step_(2.0 / side) {
     for (std::size_t w = 0; w < walls().size(); ++w) {
       for (int i = 0; i < side; ++i) {
@@ -100,7 +102,10 @@ class Radiosity {
         factors[i * n + j] = factor(p.center, walls()[p.wall].normal(), patches_[j].corners);
       }
     }
+
+    // Gauss-Seidel iteration: a sweep leaves at most 0.9 of the error, and far less in this room.
     radiance_.assign(n, 0);
+
     for (int sweep = 0; sweep < 60; ++sweep) {
       for (std::size_t i = 0; i < n; ++i) {
         double gathered = 0;
@@ -132,6 +137,7 @@ Scene room() {
       }
     }
   }
+
   Camera camera;
   camera.eye = {-0.8f, 0.7f, 0.85f};
   camera.at = {0.3f, -0.35f, -0.6f};
@@ -142,8 +148,8 @@ Scene room() {
 
 constexpr int kPicture = 48;
 
-// Where a pixel's ray meets the room, and what is to be seen there; nothing where two walls or the
-// panel's edge lie in the pixel.
+// A pixel's ray hits `wall`, whose radiance is known. Pixels do not count that contain two walls or
+// the panel's edge.
 struct Seen {
   bool counts = false;
   std::size_t wall = 0;
@@ -179,15 +185,19 @@ std::vector<Seen> wantedImage(const Scene& scene, const Radiosity& radiosity) {
     return meet(eye, forward + right * (half * (2 * x / kPicture - 1)) +
                          up * (half * (1 - 2 * y / kPicture)));
   };
+
   std::vector<Seen> image;
   for (int y = 0; y < kPicture; ++y) {
     for (int x = 0; x < kPicture; ++x) {
       const Met met = through(x + 0.5, y + 0.5);
+
+      // A pixel lies on one wall if its corners do.
       bool whole = !isPanel(met.wall, met.s, met.t);
       for (const int corner : {0, 1, 2, 3}) {
         const Met other = through(x + corner % 2, y + corner / 2);
         whole = whole && other.wall == met.wall && !isPanel(other.wall, other.s, other.t);
       }
+
       Seen seen{whole, met.wall, 0};
       if (whole) seen.radiance = radiosity.at(met.wall, walls()[met.wall].at(met.s, met.t));
       image.push_back(seen);
@@ -202,6 +212,7 @@ struct Residuals {
     sum += got - expected, squares += (got - expected) * (got - expected);
     wanted += expected, ++n;
   }
+
   double mean() const { return sum / n; }
   double error() const { return std::sqrt((squares / n - mean() * mean()) / n); }
   double rmse() const { return std::sqrt(squares / n); }
@@ -224,9 +235,11 @@ class RadiosityRoom : public testing::Test {
     o.indirect = indirect;
     o.spp = spp;
     o.cutoff = 0;
-    o.depth = 40;  // 0.9^40 of the light is left at most, of that of the whitest wall alone
+    // At most 0.9^40 of the light is left, and of the whitest wall's light alone.
+    o.depth = 40;
     return o;
   }
+
   static std::array<Residuals, 6> residualsOf(const RenderOptions& o) {
     Renderer renderer(*scene_, o);
     Film film = makeFilm(*scene_, o);
@@ -238,6 +251,7 @@ class RadiosityRoom : public testing::Test {
     }
     return walls;
   }
+
   static Residuals all(const std::array<Residuals, 6>& walls) {
     Residuals sum;
     for (const Residuals& w : walls) {
@@ -260,8 +274,8 @@ TEST_F(RadiosityRoom, PatchesAreSmallEnough) {
   }
 }
 
-// 256 samples a pixel: each wall's mean within three standard errors, and that of all, which is
-// known to a hundredth.
+// With 256 samples a pixel, the mean of each wall is within three standard errors, and so is that
+// of all walls, whose standard error is a hundredth at most.
 TEST_F(RadiosityRoom, WallsSendWhatRadiositySays) {
   for (const float roulette : {0.0f, 0.5f}) {
     RenderOptions o = options(64, 4);
@@ -271,14 +285,17 @@ TEST_F(RadiosityRoom, WallsSendWhatRadiositySays) {
       if (walls[w].n < 50) continue;
       std::printf("wall %zu, %.0f pixels: %.5f, off by %.5f, standard error %.5f\n", w, walls[w].n,
                   walls[w].wanted / walls[w].n, walls[w].mean(), walls[w].error());
+
       EXPECT_LE(std::fabs(walls[w].mean()), 3 * walls[w].error()) << w;
     }
+
     const Residuals room = all(walls);
     EXPECT_LE(std::fabs(room.mean()), 3 * room.error());
     EXPECT_LE(room.error(), 0.01 * room.wanted / room.n);
   }
 }
 
+// Returns the slope of the line of least squares through the logarithms.
 double slopeOf(const std::vector<std::pair<double, double>>& errors) {
   double x = 0, y = 0, xx = 0, xy = 0;
   const auto n = static_cast<double>(errors.size());
@@ -295,6 +312,7 @@ TEST_F(RadiosityRoom, ErrorFallsAsTheRootOfTheSamples) {
     errors.emplace_back(indirect * spp, all(residualsOf(options(indirect, spp))).rmse());
     std::printf("%4.0f samples: RMSE %.5f\n", errors.back().first, errors.back().second);
   }
+
   const double slope = slopeOf(errors);
   std::printf("slope %.3f\n", slope);
   EXPECT_NEAR(slope, -0.5, 0.05);

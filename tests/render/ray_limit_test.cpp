@@ -1,5 +1,5 @@
-// --max-rays in the vector pipeline: what it concerns, and that its chances are those of the
-// reference whatever the queues.
+// --max-rays in the vector pipeline: which pixels it limits, and that its random choices are those
+// of the reference whatever the queues.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,7 +9,7 @@
 namespace whit::test {
 namespace {
 
-// Glass, mirrors and samples of lobes, of which many pixels have trees of more rays than this.
+// Glass, mirrors and samples of lobes give many pixels trees of more rays than the limit.
 RenderOptions branching() {
   RenderOptions o = smallOptions();
   o.size = ImageSize{48, 30};
@@ -35,20 +35,23 @@ TEST(RayLimit, ChangesThePixelsThatItCountsAndNoOthers) {
   const Picture whole = render(scene, o);
   o.maxRays = 1000000;
   const Picture large = render(scene, o);
+
   EXPECT_EQ(whole.stats.limitedPixels, 0u);
   EXPECT_EQ(large.stats.limitedPixels, 0u);
   EXPECT_EQ(firstDifference(large.image, whole.image), "");
   EXPECT_GT(limited.stats.limitedPixels, 100u);
   EXPECT_LT(limited.stats.limitedPixels, limited.image.pixels.size());
+
   std::uint64_t different = 0;
   for (std::size_t i = 0; i < whole.image.pixels.size(); ++i) {
     different += !(limited.image.pixels[i] == whole.image.pixels[i]);
   }
+
   EXPECT_LE(different, limited.stats.limitedPixels);
   EXPECT_GT(different, limited.stats.limitedPixels / 2);
 }
 
-// The bounds are many and differ much, so that a wrong weight of any kind of ray would show.
+// The limits are small and differ much, so that a wrong weight of any kind of ray would show.
 TEST(RayLimit, KeepsTheMeanOfPictures) {
   const Scene scene = load("glass");
   RenderOptions o = branching();
@@ -59,6 +62,7 @@ TEST(RayLimit, KeepsTheMeanOfPictures) {
   for (const int maxRays : {8, 40}) {
     o.maxRays = maxRays;
     const Image limited = render(scene, o).image;
+
     double sum = 0, squares = 0;
     const auto n = static_cast<double>(whole.pixels.size());
     for (std::size_t i = 0; i < whole.pixels.size(); ++i) {
@@ -67,18 +71,21 @@ TEST(RayLimit, KeepsTheMeanOfPictures) {
       sum += change;
       squares += change * change;
     }
+
+    // The standard error of the mean bounds its change.
     const double error = std::sqrt((squares / n - sum * sum / n / n) / (n - 1));
     EXPECT_LE(std::fabs(sum / n), 4.5 * error) << maxRays;
     EXPECT_GT(error, 0) << maxRays;
   }
 }
 
-// The channel of the rays counts those of the tree that the picture shows.
+// The channel `rays` counts the rays of the tree that the picture shows.
 TEST(RayLimit, BoundsTheCountedRays) {
   const Scene scene = load("glass");
   RenderOptions o = branching();
   o.spp = 3;
   o.channels = parseChannels("rays,error");
+
   const auto film = [&](int maxRays) {
     o.maxRays = maxRays;
     Renderer renderer(scene, o);
@@ -86,15 +93,18 @@ TEST(RayLimit, BoundsTheCountedRays) {
     renderer.render(chooseCamera(scene, o), film);
     return film;
   };
+
   Film limited = film(24), whole = film(0);
   std::uint32_t most = 0;
   for (const std::uint32_t rays : limited.channels.numbers(Channel::rays)) {
     most = std::max(most, rays);
   }
+
   std::uint32_t mostOfWhole = 0;
   for (const std::uint32_t rays : whole.channels.numbers(Channel::rays)) {
     mostOfWhole = std::max(mostOfWhole, rays);
   }
+
   // Each ray has a shadow ray to each light.
   EXPECT_LE(most, 25 * (1 + scene.lights.size()));
   EXPECT_GT(mostOfWhole, most);

@@ -1,4 +1,4 @@
-// The lines of a pixel's rays: each kind of ray has a look, and each look a color.
+// The lines of a pixel's rays: each kind of ray has a style, and each style a color.
 #include "inspect/ray_tree.h"
 
 #include <gtest/gtest.h>
@@ -18,8 +18,10 @@ TEST(RayLines, EveryLookHasAColorOfItsOwn) {
     lines.push_back({{}, {}, {row.kind, false}});
     lines.push_back(lines.back());
   }
+
   const std::vector<RayLook> looks = looksOf(lines);
   EXPECT_TRUE(std::ranges::is_sorted(looks, {}, isDashed));
+
   std::set<std::array<std::uint8_t, 3>> colors;
   std::set<std::string_view> names;
   std::set<RayKind> kinds;
@@ -28,20 +30,23 @@ TEST(RayLines, EveryLookHasAColorOfItsOwn) {
     names.insert(styleOf(look).name);
     kinds.insert(look.kind);
   }
+
   EXPECT_EQ(colors.size(), looks.size());
   EXPECT_EQ(names.size(), looks.size());
   EXPECT_EQ(kinds.size(), kRayKindCount);
 }
 
-// Of a part of the room's picture.
+// Collects the styles of the rays in one row of the room's picture.
 std::set<RayLook> looksIn(const RenderOptions& options) {
   const Scene scene = load("cornell");
   Renderer renderer(scene, options);
   const Film film = makeFilm(scene, options);
   std::set<RayLook> looks;
+
   for (int x = 0; x < options.size->width; ++x) {
     const RayTree tree =
         traceRayTree(renderer, chooseCamera(scene, options), film, x, options.size->height / 2);
+
     std::size_t shadows = 0;
     for (const RayLine& line : linesOf(tree, chooseCamera(scene, options))) {
       looks.insert(line.look);
@@ -49,6 +54,7 @@ std::set<RayLook> looksIn(const RenderOptions& options) {
       if (isDashed(line.look)) continue;
       EXPECT_EQ(line.look, RayLook{tree.nodes[line.node].kind});
     }
+
     EXPECT_EQ(shadows, tree.shadowRays());
   }
   return looks;
@@ -64,6 +70,7 @@ TEST(RayLines, ShowIndirectLightAndOcclusionAsSuch) {
   for (const RayLook look : {scattered, open, blocked}) EXPECT_FALSE(plain.contains(look));
   options.indirect = 1;
   EXPECT_TRUE(looksIn(options).contains(scattered));
+
   options.indirect = 0;
   options.ambientSamples = 2;
   const std::set<RayLook> occluded = looksIn(options);

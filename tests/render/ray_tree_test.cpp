@@ -1,5 +1,5 @@
-// The tree of a pixel's rays against the pixel: its sum is the radiance of the picture, to the last
-// bit, and the reference's likewise.
+// The tree of a pixel's rays against the pixel: the sum of the tree is the radiance of the picture,
+// to the last bit, and so is that of the reference's tree.
 #include "inspect/ray_tree.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 namespace whit::test {
 namespace {
 
-// As the frame sums: floats, products rounded.
+// Sums as the frame does: in floats, with rounded products.
 Rgb sumOf(const RayTree& tree, std::size_t node) {
   Rgb sum(tree.nodes[node].local);
   for (const std::size_t child : tree.nodes[node].children) {
@@ -41,6 +41,7 @@ TEST_P(ShippedRayTree, SumsUpToThePixel) {
   options.depth = 10;
   Renderer renderer(scene, options);
   const Camera camera = chooseCamera(scene, options);
+
   Film film = makeFilm(scene, options), reference = film;
   renderer.render(camera, film);
   renderer.renderReference(camera, reference);
@@ -48,6 +49,7 @@ TEST_P(ShippedRayTree, SumsUpToThePixel) {
   for (int i = 0; i < 40; ++i) {
     const int x = static_cast<int>(random() % 60), y = static_cast<int>(random() % 40);
     const RayTree tree = traceRayTree(renderer, camera, film, x, y);
+
     EXPECT_EQ(tree.pixel, film.image.at(x, y)) << x << "," << y;
     EXPECT_EQ(pixelOf(tree), film.image.at(x, y)) << x << "," << y;
     EXPECT_EQ(traceReferenceTree(renderer, camera, film, x, y, tree.samples).pixel,
@@ -58,18 +60,20 @@ TEST_P(ShippedRayTree, SumsUpToThePixel) {
 
 class AdaptiveRayTree : public testing::TestWithParam<const char*> {};
 
-// Pixels of one sample, of the probes, and of all samples.
+// Some pixels have one sample, some those of the probes, and some all.
 TEST_P(AdaptiveRayTree, TracesTheSamplesOfThePixel) {
   const Scene scene = load(GetParam());
   RenderOptions options;
   options.size = kSanitized ? ImageSize{30, 20} : ImageSize{60, 40};
   options.spp = 9;
   options.adaptive = true;
+
   Renderer renderer(scene, options);
   const Camera camera = chooseCamera(scene, options);
   Film film = makeFilm(scene, options), reference = film;
   renderer.render(camera, film);
   renderer.renderReference(camera, reference);
+
   std::map<std::size_t, int> pixels;
   int otherReference = 0;
   const int step = kSanitized ? 5 : 3;
@@ -83,11 +87,13 @@ TEST_P(AdaptiveRayTree, TracesTheSamplesOfThePixel) {
                         reference.image.at(x, y);
     }
   }
+
   for (const auto& [samples, count] : pixels) {
     EXPECT_TRUE(samples == 1 || samples == 4 || samples == 9) << samples;
   }
   EXPECT_EQ(pixels.size(), 3u);
-  EXPECT_LE(otherReference, 2);  // where its probes decide otherwise
+  // The probes of the reference may decide otherwise.
+  EXPECT_LE(otherReference, 2);
 }
 
 std::string nameOfScene(const testing::TestParamInfo<const char*>& info) {
@@ -99,10 +105,11 @@ INSTANTIATE_TEST_SUITE_P(All, ShippedRayTree,
                          testing::Values("matte", "whitted", "mirrors", "glass", "effects",
                                          "glossy"),
                          nameOfScene);
-// One whose samples differ at edges only, and one with samples of lobes.
+
+// The samples of one scene differ at edges only, and the other scene samples lobes.
 INSTANTIATE_TEST_SUITE_P(All, AdaptiveRayTree, testing::Values("whitted", "glossy"), nameOfScene);
 
-// A surface before a wall, which glows if nothing else is said.
+// A surface stands before a wall, which emits light by default.
 Scene surfaceAndWall(const Material& surface, const Material& behind = emittingMaterial(0.8f)) {
   SceneBuilder builder;
   const auto wallAt = [&](float z, const Material& material) {
@@ -112,6 +119,7 @@ Scene surfaceAndWall(const Material& surface, const Material& behind = emittingM
     wall.materials = {builder.add(material)};
     builder.add(std::move(wall));
   };
+
   wallAt(0, surface);
   wallAt(4, behind);
   builder.description.cameras = {{.eye = {0.1f, 0.2f, 2}, .at = {0.1f, 0.2f, 0}}};
@@ -126,6 +134,8 @@ TEST(RayTree, OfAMirror) {
   const Film film = makeFilm(scene, options);
   const Camera camera = chooseCamera(scene, options);
   const RayTree tree = traceRayTree(renderer, camera, film, 4, 4);
+
+  // The mirror is 2 before the camera, and the wall 4 behind the mirror in the mirrored direction.
   ASSERT_EQ(tree.nodes.size(), 2u);
   EXPECT_EQ(tree.nodes[0].kind, RayKind::primary);
   EXPECT_NEAR(tree.nodes[0].distance, 2, 1e-6);
@@ -150,6 +160,7 @@ TEST(RayTree, SaysWhyPathsEnd) {
   const Scene scene = surfaceAndWall(mirrorMaterial(0.5f));
   RenderOptions options;
   options.size = ImageSize{9, 9};
+
   const auto endWith = [&] {
     Renderer renderer(scene, options);
     const Film film = makeFilm(scene, options);
@@ -157,16 +168,19 @@ TEST(RayTree, SaysWhyPathsEnd) {
         .nodes[0]
         .endOf(RayKind::reflection);
   };
+
   options.depth = 0;
   EXPECT_EQ(endWith(), PathEnd::depth);
+
   options.depth = 8;
   options.cutoff = 0.6f;
   EXPECT_EQ(endWith(), PathEnd::cutoff);
 }
 
-// How often paths end so, of the first surfaces that 81 pixels show.
+// Counts how paths end at the first surfaces that 81 pixels show.
 std::map<PathEnd, int> endsIn(const Scene& scene, const RenderOptions& options, RayKind kind) {
   Renderer renderer(scene, options);
+
   const Film film = makeFilm(scene, options);
   std::map<PathEnd, int> ends;
   for (int i = 0; i < 81; ++i) {
@@ -182,11 +196,12 @@ std::map<PathEnd, int> endsIn(const Scene& scene, const RenderOptions& options, 
   return ends;
 }
 
-// Half of the paths go on: a mirror reflects half, a wall is half white.
+// Roulette lets half of the paths go on: a mirror reflects half, and a wall is half white.
 TEST(RayTree, SaysThatRouletteEndsPaths) {
   RenderOptions options;
   options.size = ImageSize{9, 9};
   options.roulette = 1;
+
   auto mirrored = endsIn(surfaceAndWall(mirrorMaterial(0.5f)), options, RayKind::reflection);
   EXPECT_EQ(mirrored.size(), 2u);
   EXPECT_GT(mirrored[PathEnd::none], 10);
@@ -198,8 +213,10 @@ TEST(RayTree, SaysThatRouletteEndsPaths) {
   EXPECT_EQ(scattered.size(), 2u);
   EXPECT_GT(scattered[PathEnd::none], 10);
   EXPECT_GT(scattered[PathEnd::roulette], 10);
+
   options.roulette = 0;
   EXPECT_EQ(endsIn(wall, options, RayKind::indirect).count(PathEnd::none), 1u);
+
   options.depth = 0;
   scattered = endsIn(wall, options, RayKind::indirect);
   EXPECT_EQ(scattered.size(), 1u);
@@ -213,13 +230,16 @@ TEST(RayTree, TellsOfNoEndOfWhatIsNotAskedFor) {
     const RayTree tree = traceRayTree(renderer, chooseCamera(scene, options), film, 4, 4);
     return tree.nodes[0].endOf(RayKind::indirect);
   };
+
   RenderOptions options;
   options.size = ImageSize{9, 9};
   options.depth = 0;
   Material wall = diffuseMaterial(0.5f);
   EXPECT_EQ(endIn(surfaceAndWall(wall), options), PathEnd::none);
+
   options.indirect = 1;
   EXPECT_EQ(endIn(surfaceAndWall(wall), options), PathEnd::depth);
+
   const Material other = wall;
   wall.diffuseReflection = false;
   EXPECT_EQ(endIn(surfaceAndWall(wall, other), options), PathEnd::none);

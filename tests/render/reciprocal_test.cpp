@@ -1,4 +1,4 @@
-// Kernels divide and take roots truly: no estimate of 1 / sqrt is used.
+// Kernels divide and take square roots exactly: they do not use an estimate of 1 / sqrt.
 #include <gtest/gtest.h>
 
 #include "inspect/stage_comparison.h"
@@ -8,15 +8,16 @@
 namespace whit::test {
 namespace {
 
-// Each stage against the scalar reference on the same input: normals, and the directions of
-// mirrored rays. An estimate with a step of Newton's method would be off by some ulps more than the
-// limit.
+// Each stage is compared with the scalar reference on the same input: normals, and the directions
+// of mirrored rays. An estimate with a step of Newton's method would exceed the limit by a few
+// ulps.
 TEST(ReciprocalRoot, H53_isExactOnEveryTarget) {
   const Scene scene = load("mirrors");
   for (const std::string& target : simd::availableTargets()) {
     RenderOptions o = smallOptions();
     o.size = ImageSize{61, 37};
     o.simd = target;
+
     Renderer renderer(scene, o);
     int rows = 0;
     for (const StageDifference& row :
@@ -25,6 +26,7 @@ TEST(ReciprocalRoot, H53_isExactOnEveryTarget) {
       ++rows;
       EXPECT_LE(row.worstUlp, row.limitUlp) << target << " " << row.column;
     }
+
     EXPECT_GE(rows, 2) << target;
   }
   simd::chooseTarget("auto");

@@ -1,4 +1,4 @@
-// What a renderer makes anew when its options change.
+// What a renderer rebuilds when its options change.
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -9,8 +9,8 @@
 namespace whit {
 namespace {
 
-// Renderer::setOptions() keeps the shading tables after changes of options that are said not to
-// touch them. No table is made from a lens, which is the camera's.
+// Renderer::setOptions() keeps the shading tables after changes of options that are declared not to
+// affect them. The lens belongs to the camera and no table depends on it.
 TEST(Replan, OnlyOptionsOfTheTablesChangeWhatTablesAreMadeFrom) {
   Scene scene;
   scene.effects = EffectSet::all();
@@ -21,6 +21,7 @@ TEST(Replan, OnlyOptionsOfTheTablesChangeWhatTablesAreMadeFrom) {
     const Plan plan = makePlan(scene, base);
     forEachOption(std::as_const(base), [&](const OptionSpec& spec, const auto&) {
       if (!spec.knob || spec.rebuilds >= Rebuild::tables) return;
+
       std::istringstream values{std::string(spec.knob->values)};
       for (std::string value; values >> value;) {
         RenderOptions options = base;

@@ -1,5 +1,4 @@
-// Roughness by a map: the vector pipeline against the reference, and what it costs where there is
-// none.
+// Roughness maps: the vector pipeline against the reference, and their cost where there are none.
 #include <gtest/gtest.h>
 
 #include "render/plan.h"
@@ -8,17 +7,19 @@
 namespace whit::test {
 namespace {
 
-// Lobes by maps of several sizes, by none, and of a mirror beside them.
+// The tiles have lobes with maps of several sizes and without a map, and one has a mirror besides.
 Scene roughTiles() {
   SceneBuilder builder;
   const auto green = [](float g) { return encodeDataTexel(0.3f, g, 0.7f, 1); };
   const std::int32_t checks = builder.add(
       makeTexture(TexelFormat::data, 2, 2, {green(1), green(0.3f), green(0.5f), green(0.8f)}));
+
   std::vector<std::uint32_t> ramp;
   for (int i = 0; i < 33 * 7; ++i) ramp.push_back(green(static_cast<float>(i % 33) / 32));
   Texture wide = makeTexture(TexelFormat::data, 33, 7, ramp);
   wide.wrapU = Wrap::mirror;
   const std::int32_t slope = builder.add(wide);
+
   return rowOfTiles(builder, [&](int i) {
     Material m = diffuseMaterial(0.3f);
     m.specular = Rgb(0.6f);
@@ -52,10 +53,13 @@ TEST(RoughnessMaps, KeepTheirBitsWhateverTheQueues) {
 
 TEST(RoughnessMaps, OfOnesChangeNothingBeyondRounding) {
   Scene scene = roughTiles();
+
+  // The green channel holds roughness.
   for (Texture& t : scene.textures) {
     t.texels.assign(std::size_t{1} * t.width * t.height, encodeDataTexel(0, 1, 0, 0));
     t.strips = nullptr;
   }
+
   packTextures(scene.textures, 1);
   const Image ones = render(scene, withSamples()).image;
   for (Material& m : scene.materials) m.roughnessMap = kNoTexture;
@@ -69,9 +73,11 @@ TEST(RoughnessMaps, OfOnesChangeNothingBeyondRounding) {
 TEST(RoughnessMaps, HaveAStepWhereTheSceneHasThem) {
   Scene scene = roughTiles();
   EXPECT_NE(makePlan(scene, withSamples()).find("lookUpRoughness"), nullptr);
+
   RenderOptions o = withSamples();
   o.disable = EffectSet().with(Effect::textures);
   EXPECT_EQ(makePlan(scene, o).find("lookUpRoughness"), nullptr);
+
   for (Material& m : scene.materials) m.roughnessMap = kNoTexture;
   EXPECT_EQ(makePlan(scene, withSamples()).find("lookUpRoughness"), nullptr);
 }

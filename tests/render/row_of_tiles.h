@@ -1,4 +1,5 @@
-// Surfaces of many kinds in one picture, and how nearly its pixels are those of the reference.
+// Surfaces of many kinds in one picture, and how nearly its pixels agree with those of the
+// reference.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,17 +14,18 @@
 
 namespace whit::test {
 
-// Six squares [0, 1]^2 of the floor y = 0 side by side, each as make(i) gives it, and the same
-// again before them; seen from above, lit by a lamp and from all sides.
+// Places six squares [0, 1]^2 of the floor y = 0 side by side, each as make(i) gives it, and the
+// same squares again before them. They are seen from above, lit by a lamp and from all sides.
 template <typename Make>
 Scene rowOfTiles(SceneBuilder& builder, Make&& make) {
   Object tiles;
   for (int i = 0; i < 6; ++i) {
     Mesh mesh = make(i);
     for (Vec3f& p : mesh.positions)
-      p.x += static_cast<float>(i) - 3.03f;  // no edge in a column of centers
+      p.x += static_cast<float>(i) - 3.03f;  // no edge passes a column of pixel centers
     tiles.meshes.push_back(std::move(mesh));
   }
+
   builder.place(std::move(tiles), {Affine(), Affine::translation({0, 0, 1.5})});
   builder.description.ambient = {Rgb(0.25f), Rgb(0.25f)};
   builder.description.lights = {lightAt({0.5f, 2, 0.5f}, 5)};
@@ -35,7 +37,8 @@ Scene rowOfTiles(SceneBuilder& builder, Make&& make) {
   return builder.build();
 }
 
-inline constexpr std::size_t kPixelsAtEdges = 7;  // 0.1 % of the picture: another surface is hit
+// Another surface may be hit at edges, in 0.1 % of the picture.
+inline constexpr std::size_t kPixelsAtEdges = 7;
 
 inline void expectThePictureOfTheReference(const Scene& scene, const RenderOptions& o,
                                            const std::string& what) {
@@ -43,15 +46,17 @@ inline void expectThePictureOfTheReference(const Scene& scene, const RenderOptio
   Film film = makeFilm(scene, o), reference = makeFilm(scene, o);
   renderer.render(chooseCamera(scene, o), film);
   renderer.renderReference(chooseCamera(scene, o), reference);
+
   std::size_t differences = 0;
   for (std::size_t i = 0; i < film.image.pixels.size(); ++i) {
     const Rgb apart = abs(film.image.pixels[i] - reference.image.pixels[i]);
     differences += !(maxComponent(apart) < 1e-3f);
   }
+
   EXPECT_LE(differences, kPixelsAtEdges) << what;
 }
 
-// The picture and each of its stages. Leaves the target as it is by default.
+// Compares the picture and each of its stages. Leaves the default target chosen.
 inline void expectTheReferenceOnEveryTarget(const Scene& scene, RenderOptions options) {
   expectStagesAgreeOnEveryTarget(scene, options);
   for (const std::string& target : simd::availableTargets()) {

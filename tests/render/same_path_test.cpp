@@ -1,5 +1,5 @@
-// What arithmetic alone does: pixels whose rays meet the same surfaces, in packets of floats and in
-// the reference's doubles.
+// The effect of arithmetic alone: pixels whose rays hit the same surfaces, in packets of floats and
+// in the reference's doubles.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -12,22 +12,25 @@
 namespace whit::test {
 namespace {
 
-// Of pictures whose diverged pixels are put right, at the default depth and cutoff.
+// Pixels whose paths diverged are taken from the reference, at the default depth and cutoff.
 int largestStepOfSamePaths(const std::string& name) {
   const Scene scene = load(name);
   RenderOptions o = smallOptions();
   o.depth = RenderOptions().depth;
+
   Renderer renderer(scene, o);
   const Film film = makeFilm(scene, o);
   PathComparison paths = comparePaths(renderer, chooseCamera(scene, o), film);
   for (std::size_t i = 0; i < paths.diverged.size(); ++i) {
     if (paths.diverged[i]) paths.packets.pixels[i] = paths.reference.pixels[i];
   }
+
   const ImageDifference d = compareImages(paths.packets, paths.reference);
   std::printf("%s: %llu of %zu pixels diverged, the others within %d codes, RMSE %.2e\n",
               name.c_str(), static_cast<unsigned long long>(paths.divergences),
               paths.diverged.size(), d.maxCode, d.rmse);
-  // Else there would be little to assert: 6 % flip where paths are caught in glass.
+
+  // Most pixels must remain to compare: 6 % diverge where paths are caught in glass.
   EXPECT_LT(static_cast<double>(paths.divergences),
             0.1 * static_cast<double>(paths.diverged.size()));
   return d.maxCode;
@@ -48,8 +51,8 @@ TEST(SamePathOfLargeScenes, SponzaIsWithinOneCode) {
   EXPECT_LE(largestStepOfSamePaths("sponza-mirror"), 1);
 }
 
-// Nested glass: curved surfaces magnify what rounding did with every bounce, as long as the path
-// meets the same triangles.
+// Curved surfaces of nested glass magnify rounding errors with every bounce, as long as the path
+// hits the same triangles.
 TEST(SamePathInGlass, PixelsAreWithinTwoCodes) { EXPECT_LE(largestStepOfSamePaths("glass"), 2); }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Maps that are looked up with second texture coordinates: in the reference against closed forms,
-// in the vector pipeline against the reference.
+// Maps that are looked up with second texture coordinates: the reference against closed forms, and
+// the vector pipeline against the reference.
 #include <gtest/gtest.h>
 
 #include "pi.h"
@@ -10,15 +10,15 @@
 namespace whit::test {
 namespace {
 
-// The square [0, 1]^2 of the floor y = 0, seen from above: u runs along x and v along -z; of the
-// second coordinates, u along -z and v along -x.
+// The square [0, 1]^2 of the floor y = 0 is seen from above. The first u runs along x and v along
+// -z; the second u runs along -z and v along -x.
 Mesh twoWayFloor(std::uint32_t material) {
   Mesh mesh = quad({0, 0, 0}, {1, 0, 0}, {1, 0, -1}, {0, 0, -1}, material);
   mesh.secondUvs = {{0, 1}, {0, 0}, {1, 0}, {1, 1}};
   return mesh;
 }
 
-// Red beside black; (code / 1023)^2 is the light.
+// Red is beside black; the light is (code / 1023)^2.
 std::int32_t addColumns(SceneBuilder& builder) {
   return builder.add(makeTexture(TexelFormat::color, 2, 1, {1023u, 0u}));
 }
@@ -33,6 +33,7 @@ TEST(SecondUvs, AreThoseOfTheEmissionMapThatSaysSo) {
     builder.add(twoWayFloor(builder.add(m)));
     builder.description.ambient = {Rgb(1.0f), Rgb(1.0f)};
     const Scene scene = builder.build();
+
     for (const double u : {0.25, 0.75}) {
       for (const double v : {0.25, 0.75}) {
         const double diffuse = u < 0.5 ? 0.5 : 0, light = (second ? v : u) < 0.5 ? 4 : 0;
@@ -43,8 +44,8 @@ TEST(SecondUvs, AreThoseOfTheEmissionMapThatSaysSo) {
   }
 }
 
-// Leans by 45 degrees along u: towards +x, or by the second coordinates towards -z. Sunlight comes
-// from +x and from above.
+// The normal leans by 45 degrees along u: towards +x, or by the second coordinates towards -z.
+// Sunlight comes from +x and from above.
 TEST(SecondUvs, AreTheFrameOfTheNormalMapThatSaysSo) {
   for (const bool second : {false, true}) {
     SceneBuilder builder;
@@ -54,21 +55,24 @@ TEST(SecondUvs, AreTheFrameOfTheNormalMapThatSaysSo) {
         builder.add(makeTexture(TexelFormat::data, 1, 1, {encodeDataTexel(lean, 0.5f, lean, 1)}));
     m.normalBySecondUvs = second;
     builder.add(twoWayFloor(builder.add(m)));
+
     Light sun;
     sun.kind = Light::Kind::directional;
     sun.direction = {-1, -1, 0};
     sun.intensity = Rgb(2.0f);
     builder.description.lights = {sun};
+
     const double x = std::round(lean * 255) / 127.5 - 1, y = 128 / 127.5 - 1;
     const Vec3d n = normalized(second ? Vec3d{-y, x, -x} : Vec3d{x, x, -y});
     const Vec3d toLight = normalized(Vec3d{1, 1, 0});
     const double wanted = 0.5 / kPi * 2 * dot(n, toLight);
     const RgbD seen = radianceAlong(builder.build(), {0.5, 1, -0.5}, {0, -1, 0});
-    EXPECT_NEAR(seen.x, wanted, 1e-6) << second;  // the light's direction is rounded to float
+    // The light's direction is rounded to float.
+    EXPECT_NEAR(seen.x, wanted, 1e-6) << second;
   }
 }
 
-// Maps of all kinds, by both coordinates and side by side, with and without instances.
+// Maps of all kinds are side by side, by both coordinates, with and without instances.
 Scene everyMapTwice() {
   SceneBuilder builder;
   const std::int32_t color = builder.add(makeTexture(
@@ -77,6 +81,7 @@ Scene everyMapTwice() {
       makeTexture(TexelFormat::data, 2, 2,
                   {encodeDataTexel(0.8f, 0.5f, 0.9f, 1), encodeDataTexel(0.5f, 0.2f, 0.9f, 1),
                    encodeDataTexel(0.5f, 0.5f, 1, 1), encodeDataTexel(0.3f, 0.7f, 0.9f, 1)}));
+
   return rowOfTiles(builder, [&](int i) {
     Material m = diffuseMaterial(0.5f);
     m.diffuseMap = color;
@@ -87,6 +92,7 @@ Scene everyMapTwice() {
     if (i != 3) m.normalMap = normal;
     m.emissionBySecondUvs = i % 2 == 0;
     m.normalBySecondUvs = i % 3 != 0;
+
     Mesh mesh = twoWayFloor(builder.add(m));
     if (i == 5) mesh.secondUvs.clear();
     return mesh;
@@ -102,7 +108,7 @@ TEST(SecondUvs, AgreeWithTheReferenceOnEveryTarget) {
   }
 }
 
-// The table alone, when no material asks for it, changes no bit; nor do queues and packets.
+// A table that no material uses changes no bit; nor do queues and packets.
 TEST(SecondUvs, ChangeNothingWhereNoMapAsksForThem) {
   Scene scene = everyMapTwice();
   expectBitsWhateverTheQueues(scene, smallOptions());

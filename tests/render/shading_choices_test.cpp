@@ -1,5 +1,5 @@
-// The choices that change a formula: what each promises, and that kernels and reference keep to the
-// same rule.
+// The options that change a formula: the promise of each, and that kernels and the reference obey
+// the same rule.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -33,7 +33,7 @@ const std::vector<Choice>& choices() {
   return all;
 }
 
-// Small, since every choice is rendered on every target.
+// The pictures are small, since every choice is rendered on every target.
 RenderOptions tinyOptions() {
   RenderOptions o = smallOptions();
   o.size = ImageSize{61, 37};
@@ -56,6 +56,7 @@ TEST_P(ShadingChoice, EveryStageAgreesWithItsReferenceOnEveryTarget) {
       RenderOptions o = tinyOptions();
       o.simd = target;
       choice.make(o);
+
       Renderer renderer(scene, o);
       const Film film = makeFilm(scene, o);
       for (const StageDifference& row : compareStages(renderer, chooseCamera(scene, o), film)) {
@@ -63,9 +64,11 @@ TEST_P(ShadingChoice, EveryStageAgreesWithItsReferenceOnEveryTarget) {
         const bool mapped =
             row.column == "diffuse" || row.column == "specular" || row.column == "shadingNormal";
         if (mapped && choice.name == "nearestTexel") continue;
-        // Offsets and cutoffs do not touch the weights; but the rays that they move may come nearer
-        // to the critical angle, where Fresnel's root amplifies rounding without bound.
+
+        // Offsets and cutoffs do not affect the weights; but the rays that they move may come
+        // nearer to the critical angle, where Fresnel's root amplifies rounding without bound.
         if (row.column == "weight" && choice.name != "schlick") continue;
+
         EXPECT_LE(row.worstUlp, row.limitUlp)
             << choice.name << " on " << target << ": "
             << kStageNames[static_cast<std::size_t>(row.stage)] << " " << row.column << " at "
@@ -89,9 +92,11 @@ TEST_P(ShadingChoice, PicturesAgreeWithTheReference) {
     const ImageDifference d = compareImages(packets.image, reference.image);
     std::printf("%s, %s: %.4f %% of pixels off by two codes or more (at most 0.1)\n",
                 GetParam().c_str(), choice.name.c_str(), d.pixelsGe2CodesPct);
-    // A start of 1e-3 puts some rays of the thin parts of a scene on the other side of them; which
-    // ones depends on the last bit of the direction.
+
+    // An offset of 1e-3 moves the start of some rays to the other side of thin parts of a scene;
+    // which ones depends on the last bit of the direction.
     EXPECT_LE(d.pixelsGe2CodesPct, choice.name == "fixedOffset" ? 0.5 : 0.1) << choice.name;
+
     for (std::size_t kind = 0; kind < kRayKindCount; ++kind) {
       const auto rays = static_cast<double>(b.meter.tally[kind].rays);
       EXPECT_NEAR(static_cast<double>(a.meter.tally[kind].rays), rays, 1e-3 * rays + 1)
@@ -102,26 +107,28 @@ TEST_P(ShadingChoice, PicturesAgreeWithTheReference) {
 
 INSTANTIATE_TEST_SUITE_P(Shipped, ShadingChoice, testing::ValuesIn(choiceScenes()));
 
-// A floor with many lights of unlike strength, half of it in the shadow of a small roof, and a
-// mirror on the other half.
+// A floor has many lights of unlike strength, the shadow of a small roof on one half, and a mirror
+// on the other half.
 Scene manyLights(int lights) {
   SceneBuilder builder;
   Material floor = diffuseMaterial(0.5f);
   floor.mirror = floor.mirrorGrazing = Rgb(0.25f);
   builder.add(floorAt(0, 8, builder.add(floor)));
   builder.add(box({-2, 1, -2}, {0, 1.25f, 2}, builder.add(diffuseMaterial(0.7f))));
+
   Numbers numbers(64);
   for (int i = 0; i < lights; ++i) {
     const Vec3d p(numbers.in(-5, 5), numbers.in(1.5, 4), numbers.in(-5, 5));
     builder.description.lights.push_back(
         lightAt(Vec3f(p), static_cast<float>(std::exp(numbers.in(-6, 1)))));
   }
+
   builder.description.cameras.resize(1);
   builder.description.cameras[0].eye = {0, 6, 6};
   return builder.build();
 }
 
-// H64: what is left out adds up to no more than the cutoff, for each light and surfel.
+// H64: the light that is left out is at most the cutoff, for each light and surfel.
 TEST(LightCutoff, H64_boundsTheErrorAndSavesShadowRays) {
   constexpr int kLights = 40, kSurfelsAPixel = 2;  // a mirror shows no second mirror here
   const Scene scene = manyLights(kLights);
@@ -131,32 +138,37 @@ TEST(LightCutoff, H64_boundsTheErrorAndSavesShadowRays) {
     RenderOptions o = exact;
     o.shading.lightCutoff = cutoff;
     const Picture got = render(scene, o);
+
     double worst = 0;
     for (std::size_t i = 0; i < got.image.pixels.size(); ++i) {
       const Rgb lost = wanted.image.pixels[i] - got.image.pixels[i];
       worst = std::max(worst, static_cast<double>(maxComponent(lost)));
-      // Never more light than there is, but for the order of rounding.
+      // There is never more light than without the cutoff, but for the order of rounding.
       EXPECT_GE(std::min({lost.x, lost.y, lost.z}), -1e-6f);
     }
+
     const double bound = static_cast<double>(cutoff) * kLights * kSurfelsAPixel;
     const std::uint64_t rays = got.stats.of(RayKind::shadow).rays;
     std::printf("light cutoff %g: lost %.3g of %.3g allowed, shadow rays %llu of %llu\n",
                 double{cutoff}, worst, bound, static_cast<unsigned long long>(rays),
                 static_cast<unsigned long long>(wanted.stats.of(RayKind::shadow).rays));
+
     EXPECT_LE(worst, bound);
     EXPECT_GT(worst, 0);
     EXPECT_LT(rays, wanted.stats.of(RayKind::shadow).rays);
   }
 }
 
-// I kd / pi / d^2 straight under the light is 1 / pi: just below it the light counts, just above it
-// does not, and behind a mirror of reflectance 1/4 the same holds for a quarter.
+// The light straight below is I kd / pi / d^2 = 1 / pi. With a cutoff just below that the light
+// counts, with one just above it does not, and behind a mirror of reflectance 1/4 the same holds
+// for a quarter.
 TEST(LightCutoff, DecidesByTheContributionToThePixel) {
   SceneBuilder builder;
   builder.add(floorAt(0, 8, builder.add(diffuseMaterial(0.5f))));
   builder.add(ceilingAt(4, 8, builder.add(mirrorMaterial(0.25f))));
   builder.description.lights.push_back(lightAt({0, 2, 0}, 8));
   const Scene scene = builder.build();
+
   const auto seen = [&](double y, bool lookUp, double cutoff) {
     reference::Settings settings = uncut();
     settings.options.shading.lightCutoff = static_cast<float>(cutoff);
@@ -166,6 +178,7 @@ TEST(LightCutoff, DecidesByTheContributionToThePixel) {
     EXPECT_EQ(counts[RayKind::shadow], light.x > 0 ? 1u : 0u);
     return light.x;
   };
+
   const double direct = 1 / 3.14159265358979323846;
   EXPECT_NEAR(seen(1, false, direct * 0.999), direct, 1e-6);
   EXPECT_EQ(seen(1, false, direct * 1.001), 0);
@@ -173,7 +186,7 @@ TEST(LightCutoff, DecidesByTheContributionToThePixel) {
   EXPECT_EQ(seen(1, true, direct / 4 * 1.001), 0);
 }
 
-// Embree's builders give the same hits: the triangles are the same.
+// All of Embree's builders give the same hits, because the triangles are the same.
 TEST(BvhQuality, ChangesNoHit) {
   for (const char* name : {"whitted", "glass"}) {
     const Scene scene = load(name);
@@ -182,7 +195,8 @@ TEST(BvhQuality, ChangesNoHit) {
       RenderOptions o = smallOptions();
       o.bvh = quality;
       const ImageDifference d = compareImages(render(scene, o).image, wanted);
-      // Rays through an edge may meet either of its triangles first.
+
+      // Rays through an edge may hit either of its triangles first.
       EXPECT_LE(d.pixelsGe2CodesPct, 0.1) << name;
     }
   }

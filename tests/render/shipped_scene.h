@@ -1,4 +1,4 @@
-// Shipped scenes, small, rendered in different ways.
+// Shipped scenes in small pictures, rendered in different ways.
 #pragma once
 
 #include <cstring>
@@ -13,18 +13,20 @@
 
 namespace whit::test {
 
-// Made once a process: it takes most of the time of a small picture.
+// Scenes are made once a process, because that takes most of the time of a small picture.
 inline Scene load(const std::string& name) {
   static std::map<std::string, Scene> scenes;
   const auto known = scenes.find(name);
   if (known != scenes.end()) return known->second;
+
   Warnings warnings;
   return scenes.emplace(name, Scene::finalize(loadScene(name, LoadOptions{}, warnings), warnings))
       .first->second;
 }
 
-// The default small picture: wide enough for several tiles, and not a multiple of any of them.
-// Paths caught in glass multiply rounding errors with every bounce; at this depth few have parted.
+// The default small picture is wide enough for several tiles and not a multiple of any of them.
+// Paths caught in glass multiply rounding errors with every bounce; at this depth few have
+// diverged.
 inline RenderOptions smallOptions() {
   RenderOptions o;
   o.size = ImageSize{107, 67};
@@ -47,7 +49,7 @@ inline Picture render(const Scene& scene, const RenderOptions& options) {
   return picture;
 }
 
-// The first pixel whose bits differ, or an empty string.
+// Returns a description of the first pixel whose bits differ, or an empty string.
 inline std::string firstDifference(const Image& a, const Image& b) {
   if (a.pixels.size() != b.pixels.size()) return "different sizes";
   for (std::size_t i = 0; i < a.pixels.size(); ++i) {
@@ -62,7 +64,7 @@ inline std::string firstDifference(const Image& a, const Image& b) {
   return {};
 }
 
-// Scenes that between them use every effect.
+// Scenes with the common effects. Only the scene `effects` has all of them.
 inline const std::vector<std::string>& smallScenes() {
   static const std::vector<std::string> names{"whitted", "glass", "mirrors", "matte",
                                               "landscape?triangles=20000"};

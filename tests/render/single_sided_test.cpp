@@ -1,5 +1,5 @@
-// Surfaces that are seen from one side only: in the reference against what lies behind them, in the
-// vector pipeline against the reference.
+// Surfaces that are visible from one side only: the reference against what lies behind them, and
+// the vector pipeline against the reference.
 #include <gtest/gtest.h>
 
 #include "render/row_of_tiles.h"
@@ -17,7 +17,7 @@ Mesh tile(std::uint32_t material) {
   return quad({0, 0, 0}, {1, 0, 0}, {1, 0, -1}, {0, 0, -1}, material);
 }
 
-// Triangles of all geometries whose hits are filtered.
+// Counts the triangles of all geometries whose hits are filtered.
 std::uint32_t filtered(const Scene& scene) {
   std::uint32_t count = 0;
   for (const Geometry& g : scene.geometries) {
@@ -37,21 +37,25 @@ TEST(SingleSided, AreSeenFromTheFrontAndPassedFromBehind) {
   EXPECT_NEAR(radianceAlong(scene, {0.5, -1, -0.25}, {0, 1, 0}).x, 0.5, kRounding);
 }
 
-// As modelled, whatever the transform: the mirrored one is seen from below.
+// The front is the one that was modelled, whatever the transform: the mirrored instance is seen
+// from below.
 TEST(SingleSided, KeepTheirFrontInInstancesThatMirror) {
   SceneBuilder builder;
   Object object;
   object.meshes = {tile(builder.add(singleSided(emittingMaterial(2))))};
+
   Affine mirrored = Affine::translation({3, 0, 0});
   mirrored.y = {0, -1, 0};
   Affine sideways = Affine::translation({6, 0, 0});
   sideways.x = {-1, 0, 0};
   builder.place(std::move(object), {Affine(), mirrored, sideways});
   const Scene scene = builder.build();
+
   const auto seen = [&](double x, bool above) {
     const double y = above ? 1 : -1;
     return radianceAlong(scene, {x, y, -0.25}, {0, -y, 0}).x;
   };
+
   EXPECT_NEAR(seen(0.5, true), 2, kRounding);
   EXPECT_EQ(seen(0.5, false), 0);
   EXPECT_NEAR(seen(3.5, false), 2, kRounding);
@@ -68,6 +72,7 @@ TEST(SingleSided, CastShadowsFromBothSides) {
     if (turned) {
       for (auto& t : roof.triangles) std::swap(t[1], t[2]);
     }
+
     builder.add(roof);
     builder.add(floorAt(0, 1, builder.add(diffuseMaterial(0.5f))));
     builder.description.lights = {lightAt({0, 5, 0}, 10)};
@@ -86,12 +91,15 @@ TEST(SingleSided, CallForNoFilterWhereNoBackIsToBeSeen) {
     builder.add(mesh);
     return builder.build();
   };
+
   const Material matt = diffuseMaterial(0.5f);
   EXPECT_EQ(filtered(scene(false, false, singleSided(matt))), 0u);
   EXPECT_EQ(filtered(scene(false, true, singleSided(matt))), 11u);
   EXPECT_EQ(filtered(scene(true, false, singleSided(matt))), 12u);
   EXPECT_EQ(filtered(scene(true, true, matt)), 0u);
   EXPECT_EQ(filtered(scene(true, true, singleSided(glassMaterial(1.5f)))), 0u);
+
+  // Backs are visible through holes, so a closed box with holes stays single-sided.
   SceneBuilder pierced;
   Material net = singleSided(matt);
   net.alphaMap = pierced.add(makeTexture(TexelFormat::data, 1, 1, {encodeDataTexel(0, 0, 0, 0)}));
@@ -99,11 +107,12 @@ TEST(SingleSided, CallForNoFilterWhereNoBackIsToBeSeen) {
   EXPECT_FALSE(pierced.build().materials[0].doubleSided);
 }
 
-// Back to back in one place they are two surfaces.
+// Two coincident triangles back to back are two surfaces.
 TEST(SingleSided, AreKeptBackToBack) {
   SceneBuilder builder;
   Mesh back = tile(builder.add(singleSided(emittingMaterial(3))));
   for (auto& t : back.triangles) std::swap(t[1], t[2]);
+
   builder.add(tile(builder.add(singleSided(emittingMaterial(2)))));
   builder.add(back);
   const Scene scene = builder.build();
@@ -112,7 +121,7 @@ TEST(SingleSided, AreKeptBackToBack) {
   EXPECT_NEAR(radianceAlong(scene, {0.5, -1, -0.25}, {0, 1, 0}).x, 3, kRounding);
 }
 
-// Some turned away, some masked, over a mirror that sees their backs.
+// Some tiles face away and some have masks, over a mirror that shows their backs.
 Scene turnedTiles() {
   SceneBuilder builder;
   Material ground = diffuseMaterial(0.3f);
@@ -120,6 +129,7 @@ Scene turnedTiles() {
   builder.add(floorAt(-1, 8, builder.add(ground)));
   const std::int32_t holes = builder.add(makeTexture(
       TexelFormat::data, 2, 1, {encodeDataTexel(0, 0, 0, 0), encodeDataTexel(1, 1, 1, 1)}));
+
   return rowOfTiles(builder, [&](int i) {
     Material m = diffuseMaterial(0.2f + 0.1f * static_cast<float>(i));
     m.doubleSided = i == 4;

@@ -1,4 +1,4 @@
-// Lights with a radius: kernels against the reference and the integral, and what the picture's bits
+// Lights with a radius: kernels against the reference and an integral, and what the picture's bits
 // must not depend on.
 #include <gtest/gtest.h>
 
@@ -10,7 +10,8 @@
 namespace whit::test {
 namespace {
 
-// Wide lights, point and spot, over smooth and textured surfaces, mirrors and glass.
+// The scenes have wide lights, point and spot, over smooth and textured surfaces, mirrors and
+// glass.
 class SoftShadows : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
@@ -45,9 +46,12 @@ TEST_P(SoftShadows, PictureAgreesWithTheReference) {
   const ImageDifference d = compareImages(packets.image, reference.image);
   std::printf("%s: %.4f %% off by two codes or more, FLIP %.6f\n", GetParam().c_str(),
               d.pixelsGe2CodesPct, d.flipMean);
-  // As of glossy reflections: a shadow ray in three that passes an edge on the other side shows.
+
+  // The bound is that of glossy reflections: one shadow ray in three that passes an edge on the
+  // other side is visible.
   EXPECT_LE(d.pixelsGe2CodesPct, 0.5);
   EXPECT_LE(d.flipMean, 0.01);
+
   EXPECT_NEAR(static_cast<double>(fast.of(RayKind::shadow).rays),
               static_cast<double>(slow.of(RayKind::shadow).rays),
               1e-3 * static_cast<double>(slow.of(RayKind::shadow).rays));
@@ -62,6 +66,7 @@ TEST_P(SoftShadows, OneSampleIsThePictureOfPoints) {
   const Picture wide = render(scene_, o);
   EXPECT_NE(firstDifference(wide.image, points.image), "");
   EXPECT_GT(wide.stats.of(RayKind::shadow).rays, 2 * points.stats.of(RayKind::shadow).rays);
+
   o.disable = EffectSet().with(Effect::softShadows);
   const Picture disabled = render(scene_, o);
   EXPECT_EQ(firstDifference(disabled.image, points.image), "");
@@ -71,17 +76,21 @@ TEST_P(SoftShadows, OneSampleIsThePictureOfPoints) {
 INSTANTIATE_TEST_SUITE_P(Shipped, SoftShadows, testing::Values("whitted", "effects"),
                          [](const auto& info) { return info.param; });
 
-// Pixels along x on a floor under a screen's edge; the samples of a pixel are one longer lattice.
+// The pixels lie along x on a floor under a screen's edge. The samples of a pixel form one longer
+// lattice.
 TEST(SoftShadowsPicture, AnEdgeHasThePenumbraOfTheIntegral) {
   const Penumbra p;
   SceneBuilder builder;
   builder.add(floorAt(0, 100, builder.add(diffuseMaterial(static_cast<float>(p.albedo)))));
+
   const auto y = static_cast<float>(p.edge);
   builder.add(
       quad({-90, y, -90}, {0, y, -90}, {0, y, 90}, {-90, y, 90}, builder.add(blackMaterial())));
+
   Light light = lightAt({0, static_cast<float>(p.height), 0}, static_cast<float>(p.intensity));
   light.radius = static_cast<float>(p.radius);
   builder.description.lights = {light};
+
   Camera camera;
   camera.eye = {0, 1.2f, 0};
   camera.at = {0, 0, 0};
@@ -89,12 +98,14 @@ TEST(SoftShadowsPicture, AnEdgeHasThePenumbraOfTheIntegral) {
   camera.orthographicHeight = 0.002f;
   builder.description.cameras = {camera};
   const Scene scene = builder.build();
+
   RenderOptions o;
   o.size = ImageSize{1001, 1};
   o.lightSamples = 64;
   o.spp = 16;
   const Image image = render(scene, o).image;
-  // A pixel is 0.002 wide; its shade is that of its middle.
+
+  // A pixel is 0.002 wide, so its shade is that of its middle.
   for (int x = 0; x <= 1000; x += 50) {
     const double at = (x - 500) * 0.002;
     EXPECT_NEAR(double{image.at(x, 0).x}, p.radianceAt(at), 0.012 * p.unshadowedAt(at)) << at;

@@ -1,5 +1,5 @@
-// Exact spheres: a glass ball against the two refractions of each pixel, worked out here; surfaces
-// of every kind against the same in triangles, and against the reference.
+// Exact spheres: a glass ball against the two refractions of each pixel, computed here; surfaces of
+// every kind against triangles, and against the reference.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ Affine placedBall(const Vec3d& center, double radius) {
   return Affine::translation(center) * Affine::scaling(Vec3d(radius));
 }
 
-// --- A glass ball of radius 1 about the origin before a checkered wall that shines.
+// --- A glass ball of radius 1 about the origin stands before a checkered wall that emits light.
 
 constexpr double kGlassIndex = 1.5, kWallDistance = 3, kEyeDistance = 5;
 constexpr int kWallHalf = 32;  // fields from the middle to an end
@@ -46,7 +46,7 @@ double wallRadiance(const Vec3d& from, const Vec3d& direction) {
   return field % 2 == 0 ? 0 : 1;
 }
 
-// Fresnel's equations, unpolarized; `cosine` on the side of the index `from`.
+// Fresnel's equations for unpolarized light; `cosine` is on the side of the index `from`.
 double fresnelReflectance(double cosine, double from, double to) {
   const double sine2 = (1 - cosine * cosine) * (from / to) * (from / to);
   if (sine2 >= 1) return 1;
@@ -61,7 +61,7 @@ Vec3d refractedAlong(const Vec3d& d, const Vec3d& n, double from, double to) {
   return d * ratio + n * (ratio * cosine - std::sqrt(1 - ratio * ratio * (1 - cosine * cosine)));
 }
 
-// Through both faces, and by the mirror of the first: what impulses up to depth 2 bring.
+// Impulses up to depth 2 see the wall through both faces, and by reflection at the first.
 double ballRadiance(const Vec3d& eye, const Vec3d& d) {
   const double b = dot(eye, d), inside = b * b - dot(eye, eye) + 1;
   if (inside < 0) return wallRadiance(eye, d);
@@ -85,6 +85,7 @@ Scene ballBeforeWall() {
   Texture fields = makeTexture(TexelFormat::color, 2, 2,
                                {encodeColorTexel(Rgb(1.0f)), encodeColorTexel(Rgb(0.0f)),
                                 encodeColorTexel(Rgb(0.0f)), encodeColorTexel(Rgb(1.0f))});
+
   Material wall = emittingMaterial(1);
   wall.emissionMap = builder.add(std::move(fields));
   constexpr float kHalf = kWallHalf, kZ = -kWallDistance;
@@ -92,6 +93,7 @@ Scene ballBeforeWall() {
                    {-kHalf, kHalf, kZ}, builder.add(wall));
   for (Vec2f& uv : mesh.uvs) uv = {uv.x * kHalf, uv.y * kHalf};
   builder.add(std::move(mesh));
+
   builder.add(ballOf(Affine(), builder.add(glassMaterial(kGlassIndex))));
   builder.description.cameras = {{.eye = {0, 0, kEyeDistance}, .at = {0, 0, 0}, .fov = 40}};
   return builder.build();
@@ -104,20 +106,25 @@ TEST(Spheres, GlassBallShowsWhatTwoRefractionsShow) {
   o.cutoff = 0;
   o.shading.textureFilter = TextureFilter::nearest;
   const Image image = render(ballBeforeWall(), o).image;
+
+  // The camera's field of view is 40 degrees high.
   const double half = std::tan(20 * kPi / 180);
   int off = 0, seen = 0;
   for (int y = 0; y < kBallHeight; ++y) {
     for (int x = 0; x < kBallWidth; ++x) {
       const double right = (x + 0.5 - kBallWidth / 2.0) / (kBallHeight / 2.0) * half,
                    up = (kBallHeight / 2.0 - y - 0.5) / (kBallHeight / 2.0) * half;
+
       const double expected = ballRadiance({0, 0, kEyeDistance}, normalized(Vec3d{right, up, -1}));
       const Rgb& got = image.pixels[static_cast<std::size_t>(y * kBallWidth + x)];
       off += std::abs(displayCode(double{got.x}) - displayCode(expected)) > 1;
       seen += expected > 0;
     }
   }
+
   EXPECT_GT(seen, kBallWidth * kBallHeight / 3);
-  // Where a field of the wall ends, or the ball, rounding decides.
+
+  // At the borders of the wall's fields and of the ball, rounding decides.
   EXPECT_LE(off, kBallWidth * kBallHeight / 1000);
 }
 
@@ -137,10 +144,12 @@ std::int32_t addFields(SceneBuilder& builder, TexelFormat format, int width, int
 std::vector<Material> everyKind(SceneBuilder& builder) {
   const std::int32_t colors = addFields(builder, TexelFormat::color, 64, 32),
                      data = addFields(builder, TexelFormat::data, 64, 32);
+
   Material textured = diffuseMaterial(1);
   textured.diffuseMap = colors;
   Material bumpy = diffuseMaterial(0.7f);
   bumpy.normalMap = data;
+
   Material shiny = diffuseMaterial(0.2f);
   shiny.specular = Rgb(0.5f);
   shiny.roughness = 0.6f;
@@ -148,6 +157,7 @@ std::vector<Material> everyKind(SceneBuilder& builder) {
   shiny.glossyReflection = false;
   Material lamp = emittingMaterial(0.8f);
   lamp.emissionMap = colors;
+
   Material masked = textured;
   masked.alphaMap = data;
   masked.alphaCutoff = 0.5f;
@@ -157,8 +167,8 @@ std::vector<Material> everyKind(SceneBuilder& builder) {
   return {textured, bumpy, shiny, lamp, mirrorMaterial(0.8f), glassMaterial(1.5f), masked, veil};
 }
 
-// Balls in two rows over a floor: round, stretched, mirrored, and each kind once as an instance.
-// `segments` above 0: triangles in their place.
+// Places balls in two rows over a floor: round, stretched and mirrored, and each kind once as an
+// instance. With `segments` above 0, triangles replace the spheres.
 Scene ballsOfEveryKind(int segments = 0) {
   SceneBuilder builder;
   const std::vector<Material> kinds = everyKind(builder);
@@ -166,16 +176,19 @@ Scene ballsOfEveryKind(int segments = 0) {
     if (segments > 0) procedural::tessellateSpheres(mesh, segments);
     return mesh;
   };
+
   Object all;
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     const double x = static_cast<double>(i % 4) * 1.3 - 2, z = i < 4 ? -1.2 : 0.4;
     const Affine stretch = i % 3 == 0   ? Affine::scaling({0.6, 0.4, 0.6})
                            : i % 3 == 1 ? Affine::scaling({-0.5, 0.5, 0.5})
                                         : Affine::scaling(Vec3d(0.55));
+
     const Affine map = Affine::translation({x, 0.62, z}) *
                        Affine::rotation({1, 1, 0}, 35.0 * static_cast<double>(i)) * stretch;
     all.meshes.push_back(put(ballOf(map, builder.add(kinds[i]))));
   }
+
   builder.place(std::move(all),
                 {Affine(), Affine::translation({0.4, 1.3, -2.5}) * Affine::rotation({0, 1, 0}, 20) *
                                Affine::scaling({1, 1.2, -1})});
@@ -199,7 +212,8 @@ TEST_P(SpheresOfEveryKind, AgreeWithTheReferenceOnEveryTarget) {
   expectTheReferenceOnEveryTarget(ballsOfEveryKind(), options());
 }
 
-// Outlines differ by less than a hundredth of a pixel; what differs besides is where fields end.
+// Outlines differ by less than a hundredth of a pixel; other differences are at the borders of
+// fields.
 TEST_P(SpheresOfEveryKind, LookLikeFineTriangles) {
   const ImageDifference d = compareImages(render(ballsOfEveryKind(), options()).image,
                                           render(ballsOfEveryKind(96), options()).image);
@@ -215,8 +229,6 @@ TEST(Spheres, KeepTheirBitsWhateverTheQueues) {
   expectBitsWhateverTheQueues(ballsOfEveryKind(), smallOptions());
 }
 
-// --- Where something else is in the way.
-
 // --- Coincident spheres. The eye is at (0, 0, 3) and looks at the origin.
 
 struct Piece {
@@ -229,17 +241,20 @@ struct Piece {
 const Affine kTurn = Affine::rotation({1, 2, 3}, 50),
              kOtherTurn = Affine::rotation({-2, 1, 0.5}, 117);
 
-// Pictures of both modes, with packets of all widths, and of the reference with its own search.
+// Renders pictures by packets of all widths, by the reference, and by the reference with its own
+// search.
 std::vector<std::pair<std::string, Image>> picturesOf(const Scene& scene, RenderOptions o) {
   std::vector<std::pair<std::string, Image>> pictures;
   for (const int packet : {1, 4, 8, 16}) {
     o.packet = packet;
     pictures.emplace_back("packets of " + std::to_string(packet), render(scene, o).image);
   }
+
   Renderer renderer(scene, o);
   Film film = makeFilm(scene, o);
   renderer.renderReference(chooseCamera(scene, o), film);
   pictures.emplace_back("reference", film.image);
+
   reference::Settings settings;
   settings.options = o;
   reference::render(scene, reference::BruteForce(scene), chooseCamera(scene, o), settings,
@@ -250,8 +265,8 @@ std::vector<std::pair<std::string, Image>> picturesOf(const Scene& scene, Render
 
 class CoincidentSpheres : public testing::Test {
  protected:
-  // Materials of the pieces: emission 0.25, 0.5 and 0.75, glass, and 0.75 where the lower half of z
-  // is, in the space of the unit sphere.
+  // Emissions of the materials are 0.25, 0.5 and 0.75; then there is glass, and 0.75 on the lower
+  // half of z in the space of the unit sphere.
   enum : std::uint32_t { kDim, kMiddle, kBright, kGlass, kHalfBright };
 
   CoincidentSpheres() {
@@ -275,14 +290,16 @@ class CoincidentSpheres : public testing::Test {
     builder.description.cameras = {{.eye = {0, 0, 3}, .at = {0, 0, 0}, .fov = 40}};
     return builder;
   }
+
   Scene sceneOf(const std::vector<Piece>& pieces) { return builderOf(pieces).build(); }
 
-  // Compares all pictures with expected(point), where `axes` are those of an ellipsoid about the
-  // origin along x, y and z, and `point` is that of the ellipsoid that a pixel's center shows.
+  // Compares all pictures with expected(point). `axes` are those of an ellipsoid about the origin
+  // along x, y and z, and `point` is the point of the ellipsoid that a pixel's center shows.
   template <typename Expected>
   void expectPictures(const char* what, const Scene& scene, const Vec3d& axes,
                       const Expected& expected) {
     SCOPED_TRACE(what);
+
     RenderOptions o = smallOptions();
     const double half = std::tan(20 * kPi / 180), height = o.size->height, width = o.size->width;
     for (const auto& [mode, image] : picturesOf(scene, o)) {
@@ -291,9 +308,11 @@ class CoincidentSpheres : public testing::Test {
         for (int x = 0; x < o.size->width; ++x) {
           const Vec3d d{(x + 0.5 - width / 2) / (height / 2) * half,
                         (height / 2 - y - 0.5) / (height / 2) * half, -1};
+          // The ellipsoid is a unit sphere in the space that is scaled by its axes.
           const Vec3d eye{0, 0, 3}, e{0, 0, 3 / axes.z}, v{d.x / axes.x, d.y / axes.y, -1 / axes.z};
           const double a = dot(v, v), b = dot(e, v), inside = b * b - a * (dot(e, e) - 1);
           if (std::fabs(inside) < 1e-3) continue;
+
           const float got = image.pixels[static_cast<std::size_t>(y * o.size->width + x)].x;
           const Vec3d point = eye + d * ((-b - std::sqrt(std::max(inside, 0.0))) / a);
           const std::optional<float> right = inside < 0 ? 0.0f : expected(point);
@@ -301,6 +320,7 @@ class CoincidentSpheres : public testing::Test {
           seen += inside > 0;
         }
       }
+
       EXPECT_EQ(wrong, 0) << mode;
       EXPECT_GT(seen, 500) << mode;
     }
@@ -324,9 +344,11 @@ TEST_F(CoincidentSpheres, TheLastInTheSceneIsHit) {
   expectAll("instances", 0.75f, {{{}, kDim, true, kOtherTurn}, {kTurn, kBright, true}});
   expectAll("an instance after the world", 0.25f, {{{}, kBright}, {kTurn, kDim, true, kOtherTurn}});
   expectAll("the world after an instance", 0.75f, {{{}, kDim, true, kTurn}, {{}, kBright}});
+
   const Affine far = Affine::translation({-7, 3, 11});
   expectAll("placed by an instance", 0.75f,
             {{{}, kDim}, {far * kTurn, kBright, true, Affine::translation({7, -3, -11})}});
+
   const Vec3d axes{1, 0.7, 0.05};
   const Affine flat = Affine::scaling(axes);
   expectAll("ellipsoids", 0.75f, {{flat * kTurn, kDim}, {flat * kOtherTurn, kBright}}, axes);
@@ -343,7 +365,8 @@ TEST_F(CoincidentSpheres, OthersAreHitWhereAMaskCutsThem) {
     const Affine map = turned ? kTurn : Affine();
     expectPictures("masked", sceneOf({{kOtherTurn, kDim}, {map, kHalfBright}}), Vec3d(1),
                    [&](const Vec3d& point) -> std::optional<float> {
-                     const double z = dot(map.z, point);  // the inverse is the transpose
+                     // The inverse of a rotation is its transpose.
+                     const double z = dot(map.z, point);
                      if (std::fabs(z) < 1e-3) return std::nullopt;
                      return z < 0 ? 0.75f : 0.25f;
                    });
@@ -360,7 +383,7 @@ TEST_F(CoincidentSpheres, OthersKeepTheirDistance) {
             {{Affine::scaling(thin), kBright}, {Affine::scaling(thinner) * kTurn, kDim}}, thin);
 }
 
-// Comes from aside and is at rest at 1 s.
+// The sphere comes from aside and reaches its place at 1 s.
 Affine arrival(double seconds) { return Affine::translation({5 * (1 - seconds), 0, 0}) * kTurn; }
 
 TEST_F(CoincidentSpheres, MoveIntoOnePlaceAndOut) {
@@ -371,6 +394,7 @@ TEST_F(CoincidentSpheres, MoveIntoOnePlaceAndOut) {
   for (Instance& instance : builder.description.instances) {
     if (instance.object == builder.description.instances.back().object) instance.mover = 0;
   }
+
   Scene scene = builder.build();
   for (const double seconds : {1.0, 0.0, 1.0}) {
     moveScene(scene, seconds);
@@ -398,6 +422,7 @@ TEST(Spheres, TheEyeSeesNothingOfWhatItLiesIn) {
     builder.add(floorAt(-40, 100, builder.add(emittingMaterial(0.5f))));
     builder.sky(0.75f);
     builder.description.cameras = {{.eye = {0, 1, 1}, .at = {0, 4, z}, .up = {1, 0, 0}, .fov = 5}};
+
     for (const Rgb& pixel : render(builder.build(), smallOptions()).image.pixels) {
       ASSERT_EQ(pixel.x, 0.75f) << z;
     }

@@ -12,12 +12,12 @@
 namespace whit::test {
 namespace {
 
-// What a picture may differ from the reference by: the gate for defaults.
+// A picture may differ from the reference by so much with default options.
 constexpr double kPixelsGe2CodesPct = 0.1;
 constexpr double kFlipMean = 0.01;
 
-// At the default depth, in glass: pixels whose paths have parted from the reference's for good. By
-// depth 8 there are none to speak of; they are as many between any two ways of rounding.
+// At the default depth in glass, the paths of some pixels have diverged from the reference's for
+// good. At depth 8 hardly any have; they are as many between any two ways of rounding.
 constexpr double kPartedInGlassPct = 1;
 
 void expectPictureAgrees(const std::string& name, int depth = smallOptions().depth,
@@ -28,6 +28,7 @@ void expectPictureAgrees(const std::string& name, int depth = smallOptions().dep
   const ImageDifference d = differenceFromReference(scene, o);
   std::printf("%s: %.4f %% of pixels off by two codes or more (at most %.4f), FLIP %.6f (%.6f)\n",
               name.c_str(), d.pixelsGe2CodesPct, limitPct, d.flipMean, kFlipMean);
+
   EXPECT_LE(d.pixelsGe2CodesPct, limitPct);
   EXPECT_LE(d.flipMean, kFlipMean);
   EXPECT_EQ(d.nonFinite, 0u);

@@ -11,13 +11,14 @@ namespace {
 
 const Affine kStretched = Affine::rotation({1, 2, 3}, 40) * Affine::scaling({1, 3, 0.3});
 
-// An ellipsoid of few facets under sunlight; used twice, the second one far behind the camera.
+// An ellipsoid of few facets is in sunlight. With `twice`, a second one is far behind the camera.
 Scene ellipsoid(bool twice, bool terminator = false) {
   SceneBuilder builder;
   const Mesh sphere = facettedSphere(builder.add(diffuseMaterial(0.5f)), 8, 12);
   std::vector<Affine> placements{kStretched};
   if (twice) placements.push_back(Affine::translation({0, 0, 1000}) * kStretched);
   builder.place({"sphere", {sphere}}, placements);
+
   builder.description.lights = {whit::test::sun({-2, -1, -2}, 2)};
   if (terminator) builder.description.lights = {lightAt({224, 96, 224}, 1e5f)};
   builder.description.ambient = {Rgb(0.5f), Rgb(0.1f)};
@@ -27,8 +28,8 @@ Scene ellipsoid(bool twice, bool terminator = false) {
   return builder.build();
 }
 
-// Corners are rounded to float where they are baked: at the edges of facets another is met, and so
-// much do the others differ by.
+// Baked corners are rounded to float. At the edges of facets a ray may hit another facet, and the
+// other pixels differ by so much.
 constexpr std::size_t kPixelsAtFacetEdges = 36;  // 0.5 % of the picture
 constexpr float kCornersRounded = 1e-4f;
 
@@ -52,8 +53,10 @@ TEST(StretchedNormals, AreThoseOfAnInstance) {
     const Scene once = ellipsoid(false, terminator), twice = ellipsoid(true, terminator);
     ASSERT_TRUE(once.instances.empty());
     ASSERT_EQ(twice.instances.size(), 2u);
+
     RenderOptions o = smallOptions();
     o.shading.terminator = terminator;
+    // The single ellipsoid is baked, and the two are instances.
     const Image packets = render(once, o).image, reference = referenceOf(once, o);
     expectAlike(packets, render(twice, o).image, "packets");
     expectAlike(reference, referenceOf(twice, o), "reference");

@@ -1,4 +1,4 @@
-// Whatever Highway's version makes of the kernels can be asked for by its name.
+// Every target that Highway's version compiles the kernels for has a name that --simd accepts.
 #include <gtest/gtest.h>
 
 #include "core/option_table.h"
@@ -7,7 +7,7 @@
 namespace whit {
 namespace {
 
-// As the command line would take it.
+// Returns the value that the option keeps.
 std::string takenBySimd(const std::string& text) {
   RenderOptions options;
   setOption(options, "simd", text);

@@ -1,4 +1,4 @@
-// Texels in strips: each footprint is where the kernels look for it.
+// Texels in strips: each footprint is where the kernels read it.
 #include <gtest/gtest.h>
 
 #include <numeric>
@@ -23,8 +23,11 @@ Texture numbered(int width, int height) {
 TEST(TextureTables, EveryFootprintIsWholeInOneStrip) {
   SceneBuilder builder;
   Material floor = diffuseMaterial(0.5f);
-  // Columns left over, whole strips, less than one, and a single texel.
+
+  // The widths leave columns over, make whole strips, make less than one strip, or are a single
+  // texel.
   const std::vector<std::pair<int, int>> sizes{{9, 6}, {7, 2}, {1, 1}, {22, 4}, {2, 11}};
+
   for (const Wrap wrap : {Wrap::repeat, Wrap::mirror, Wrap::clamp}) {
     for (const auto& [width, height] : sizes) {
       Texture texture = numbered(width, height);
@@ -33,15 +36,19 @@ TEST(TextureTables, EveryFootprintIsWholeInOneStrip) {
       builder.add(floorAt(0, 1, builder.add(floor)));
     }
   }
+
   const Scene scene = builder.build();
   const ShadingTables tables = buildTables(scene, EffectSet::all(), {});
   ASSERT_EQ(tables.textures.size(), 3 * sizes.size());
+
   for (std::size_t i = 0; i < tables.textures.size(); ++i) {
     const TextureRecord& record = tables.textures[i];
     const Texture& texture = scene.textures[i];
     const Texture rows = numbered(record.width, record.height);
     EXPECT_EQ(record.firstTexel % 8, 0u) << "no row crosses a cache line";
-    // Footprint (x, y) has its upper texels at (x, y): the last is half beyond the border.
+
+    // Footprint (x, y) has its upper texels at (x - 1, y - 1) and (x, y - 1), so the first and the
+    // last are half beyond the border. A strip holds seven footprints in eight columns.
     for (int y = 0; y <= record.height; ++y) {
       for (int x = 0; x <= record.width; ++x) {
         const int first = (x / 7 * (record.height + 2) + y) * 8 + x % 7;
@@ -58,7 +65,7 @@ TEST(TextureTables, EveryFootprintIsWholeInOneStrip) {
   }
 }
 
-// A floor under one row of texels that grow brighter from left to right.
+// A floor has one row of texels that grow brighter from left to right.
 Scene paintedOver(int width) {
   SceneBuilder builder;
   Material floor = diffuseMaterial(0.5f);
@@ -66,12 +73,13 @@ Scene paintedOver(int width) {
   for (std::size_t i = 0; i < texels.size(); ++i) {
     texels[i] = static_cast<std::uint32_t>(i * 1024 / texels.size());
   }
+
   floor.diffuseMap = builder.add(makeTexture(TexelFormat::color, width, 1, texels));
   builder.add(floorAt(0, 1, builder.add(floor)));
   return builder.build();
 }
 
-// The kernels find its strips in float: at its right end, where that is coarsest, too.
+// The kernels compute strips in float, which is coarsest at the right end of the widest texture.
 TEST(TextureTables, TheWidestTextureIsReadAsByTheReference) {
   expectStagesAgreeOnEveryTarget(paintedOver(kTextureSideLimit), smallOptions());
 }

@@ -1,6 +1,6 @@
-// A plane casts no shadow on itself, whatever its size, its place and its direction (hard case H2):
-// rays have to start farther from a large triangle than its points' own coordinates suggest, since
-// Embree's distances to it are rounded in proportion to its edges.
+// A plane casts no shadow on itself, whatever its size, its place and its direction (hard case H2).
+// Rays have to start farther from a large triangle than the coordinates of its points suggest,
+// because Embree's distances to it are rounded in proportion to its edges.
 #include <gtest/gtest.h>
 
 #include "reference/small_scenes.h"
@@ -10,7 +10,8 @@
 namespace whit::test {
 namespace {
 
-// Two by two squares of side size / 2 around `center`, facing along the second axis of `turn`.
+// Makes two by two squares of side size / 2 around `center`, facing along the second axis of
+// `turn`.
 Mesh squares(const Affine& turn, const Vec3d& center, double size) {
   Mesh mesh;
   for (int i = 0; i < 9; ++i) {
@@ -44,12 +45,13 @@ Light lightOf(const View& view) {
   return lightAt(Vec3f(view.center + up), static_cast<float>(view.distance() * view.distance()));
 }
 
-// Pixels without light, by packets and by the reference. All see the plane.
+// Counts the pixels without light; all of them see the plane.
 int darkPixels(const Scene& scene, Mode mode) {
   RenderOptions options;
   options.size = ImageSize{96, 72};
   options.threads = 2;
   options.mode = mode;
+
   Renderer renderer(scene, options);
   Film film = makeFilm(scene, options);
   renderFrame(renderer, mode, scene.cameras.front(), film);
@@ -80,7 +82,7 @@ std::vector<View> views(std::initializer_list<double> sizes, double farthest) {
 
 TEST(TiltedPlanes, H2_lieInNoShadowOfTheirOwn) {
   for (const View& view : views({1e-3, 20, 100, 300, 1e3, 1e4, 1e6}, 1e5)) {
-    // Vertices of a small plane far away are rounded to places that make it rough.
+    // Vertices of a small plane far away are rounded to points that make it rough.
     if (view.center != Vec3d{} && view.size < 20) continue;
     SceneBuilder builder;
     Mesh mesh = squares(view.turn, view.center, view.size);
@@ -101,6 +103,7 @@ TEST(TiltedPlanes, H11_norAsInstances) {
     object.meshes.push_back(std::move(mesh));
     const Vec3d below = view.turn.vector({0, -10 * view.size, 0});
     builder.place(std::move(object), {Affine::scaling(Vec3d(1.5)), Affine::translation(below)});
+
     builder.description.lights = {lightOf(view)};
     builder.description.cameras = {cameraOf(view)};
     expectLit(builder.build(), view);
@@ -113,6 +116,8 @@ TEST(TiltedPlanes, H25_norAsNeedles) {
     SceneBuilder builder;
     Mesh mesh;
     mesh.materials = {builder.add(diffuseMaterial(0.8f))};
+
+    // Needles side by side make up a strip that is wider than the view.
     constexpr std::uint32_t kNeedles = 64;
     const double width = 12 * view.distance() / kNeedles;
     for (std::uint32_t i = 0; i <= kNeedles; ++i) {
@@ -120,10 +125,12 @@ TEST(TiltedPlanes, H25_norAsNeedles) {
       for (const double z : {-view.size / 2, view.size / 2}) {
         mesh.positions.emplace_back(view.turn.vector({x, 0, z}));
       }
+
       if (i == 0) continue;
       mesh.triangles.push_back({2 * i - 2, 2 * i - 1, 2 * i + 1});
       mesh.triangles.push_back({2 * i - 2, 2 * i + 1, 2 * i});
     }
+
     builder.add(std::move(mesh));
     builder.description.lights = {lightOf(view)};
     builder.description.cameras = {cameraOf(view)};

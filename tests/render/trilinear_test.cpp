@@ -1,4 +1,4 @@
-// Mip levels in the vector pipeline: as in the reference, and laws of pictures that they keep.
+// Mip levels in the vector pipeline: agreement with the reference, and laws of pictures.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -40,7 +40,8 @@ Texture noise(TexelFormat format, int width, int height) {
   return t;
 }
 
-// Floor, walls of instances, a mirror and a glass pane, with every kind of map, to the horizon.
+// The scene has a floor, walls as instances, a mirror and a glass pane, with every kind of map, to
+// the horizon.
 SceneDescription textured() {
   SceneBuilder builder;
   Material m = diffuseMaterial(0.6f);
@@ -48,6 +49,7 @@ SceneDescription textured() {
   m.diffuseMap = builder.add(noise(TexelFormat::color, 33, 64));
   m.specularMap = builder.add(noise(TexelFormat::color, 16, 16));
   m.emissionMap = builder.add(noise(TexelFormat::color, 8, 1));
+
   Material bumpy = diffuseMaterial(0.8f);
   bumpy.normalMap = builder.add(noise(TexelFormat::data, 16, 50));
   bumpy.mirror = bumpy.mirrorGrazing = Rgb(0.3f);
@@ -57,11 +59,13 @@ SceneDescription textured() {
   builder.add(floor);
   builder.add(quad({-6, 0, -8}, {-1, 0, -9}, {-1, 4, -9}, {-6, 4, -8}, waves));
   builder.add(box({1, 1, -3}, {2.5f, 2, -2.5f}, builder.add(glassMaterial(1.5f))));
+
   Object sign;
   sign.meshes = {quad({0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, matt)};
   Affine far = Affine::translation({3, 0, -20});
   far.x *= 3, far.y *= 5;
   builder.place(std::move(sign), {Affine::translation({-3, 0, -4}), far});
+
   builder.description.lights.push_back(lightAt({2, 8, 3}, 300));
   builder.sky(0.2f);
   builder.description.cameras.resize(1);
@@ -80,13 +84,15 @@ TEST(Trilinear, AgreesWithTheReferenceOnEveryTarget) {
   RenderOptions o = trilinear();
   Film reference = makeFilm(scene, o);
   Renderer(scene, o).renderReference(chooseCamera(scene, o), reference);
+
   expectStagesAgreeOnEveryTarget(scene, o);
   for (const std::string& target : simd::availableTargets()) {
     o.simd = target;
     Renderer renderer(scene, o);
     Film film = makeFilm(scene, o);
     renderer.render(chooseCamera(scene, o), film);
-    // What else holds for pictures of the defaults.
+
+    // The bound is that of pictures with default options.
     EXPECT_LE(compareImages(film.image, reference.image).pixelsGe2CodesPct, 0.1) << target;
   }
   simd::chooseTarget("auto");
@@ -106,12 +112,14 @@ TEST(Trilinear, H61a_keepsItsBitsAtAnyPowerOfTwo) {
         for (Vec3f& p : mesh.positions) p = p * scale;
       }
     }
+
     for (Instance& instance : d.instances) instance.toWorld.p *= double{scale};
     d.lights[0].position = d.lights[0].position * scale;
     d.lights[0].radius *= scale;
     d.lights[0].intensity = d.lights[0].intensity * (scale * scale);
     d.cameras[0].eye = d.cameras[0].eye * scale;
     d.cameras[0].at = d.cameras[0].at * scale;
+
     EXPECT_EQ(firstDifference(render(frozen(std::move(d)), trilinear()).image, expected), "")
         << "2^" << k;
   }
@@ -125,13 +133,16 @@ TEST(Trilinear, CostsColumnsAndTexelsOnlyWhereItIsAskedFor) {
     return std::tuple(renderer.plan().features.has(Feature::cones), tables.copiedTexels,
                       tables.mipLevels.size());
   };
-  // Full textures, and what their halves add: 33x64, 16x16, 8x1 and 16x50, in strips of 8 columns
-  // that hold 7 of the width + 1 footprints, in height + 2 rows.
+
+  // Each level takes strips of 8 columns that hold 7 of the width + 1 footprints, in height + 2
+  // rows. The full textures have 33x64, 16x16, 8x1 and 16x50 texels, and the others are their
+  // halves.
   constexpr std::size_t kRow = 8;
   constexpr std::size_t kFull = kRow * (5 * 66 + 3 * 18 + 2 * 3 + 3 * 52);
   constexpr std::size_t kLevels =
       kRow * ((3 * 34 + 2 * 18 + 10 + 6 + 4 + 3) + (2 * 10 + 6 + 4 + 3) + (3 + 3 + 3) +
               (2 * 27 + 14 + 8 + 5 + 3));
+
   EXPECT_EQ(parts(scene, bilinear()), std::tuple(false, std::size_t{0}, std::size_t{0}));
   EXPECT_EQ(parts(scene, trilinear()), std::tuple(true, kFull + kLevels, 4u * kMipStride));
   EXPECT_FALSE(plain.effects.has(Effect::textures));
@@ -143,6 +154,7 @@ TEST(Trilinear, CanBeAskedForBetweenFrames) {
   const Image sharp = render(scene, bilinear()).image;
   const Image soft = render(scene, trilinear()).image;
   EXPECT_NE(firstDifference(sharp, soft), "");
+
   Renderer renderer(scene, bilinear());
   Film film = makeFilm(scene, bilinear());
   for (const bool mips : {false, true, false, true}) {
@@ -154,14 +166,15 @@ TEST(Trilinear, CanBeAskedForBetweenFrames) {
   }
 }
 
-// A chequerboard to the horizon, of which distant squares are smaller than pixels: trilinear
-// lookups come closer to the mean of many samples than any one texel.
+// The distant squares of a chequerboard are smaller than pixels: trilinear lookups come closer to
+// the mean of many samples than any one texel.
 TEST(Trilinear, IsCloserToManySamples) {
   SceneBuilder builder;
   Material m = blackMaterial();
   m.emission = Rgb(1.0f);
   m.emissionMap =
       builder.add(makeTexture(TexelFormat::color, 2, 2, {0x3fffffffu, 0, 0, 0x3fffffffu}));
+
   Mesh floor = floorAt(0, 500, builder.add(m));
   for (Vec2f& uv : floor.uvs) uv = {uv.x * 500, uv.y * 500};
   builder.add(floor);
@@ -169,6 +182,7 @@ TEST(Trilinear, IsCloserToManySamples) {
   builder.description.cameras[0].eye = {0.3f, 2, 0};
   builder.description.cameras[0].at = {1.3f, 1.4f, -5};
   const Scene scene = builder.build();
+
   RenderOptions many = bilinear();
   many.spp = 256;
   const Image wanted = render(scene, many).image;
@@ -176,6 +190,7 @@ TEST(Trilinear, IsCloserToManySamples) {
     o.spp = spp;
     return compareImages(render(scene, o).image, wanted).rmse;
   };
+
   for (const int spp : {1, 4, 16}) {
     const double texels = error(bilinear(), spp), areas = error(trilinear(), spp);
     std::printf("error of a distant chequerboard, %d samples: bilinear %.4f, trilinear %.4f\n", spp,

@@ -1,4 +1,4 @@
-// Embree's calls return whatever the stack below them was used for before.
+// Embree's calls return whatever the stack below them held before.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -11,11 +11,11 @@
 namespace whit {
 namespace {
 
-// Seconds after which a call that does not return ends the program.
+// A call that does not return ends the program after so many seconds.
 constexpr unsigned kPatience = 60;
-constexpr std::size_t kRays = 40;  // not a multiple of a packet
+constexpr std::size_t kRays = 40;  // not a multiple of the widest packet
 
-// Leaves ones where the functions called next keep their variables.
+// Leaves ones where the functions that are called next keep their variables.
 [[gnu::noinline]] void useStack() {
   volatile unsigned char used[1 << 16];
   for (volatile unsigned char& byte : used) byte = 0xff;
@@ -23,7 +23,7 @@ constexpr std::size_t kRays = 40;  // not a multiple of a packet
 
 class UsedStack : public testing::TestWithParam<int> {
  protected:
-  // A scene of instances: see EmbreeScene::coherentAnyHitMayHang.
+  // The scene has instances: see EmbreeScene::coherentAnyHitMayHang.
   UsedStack() : scene_(test::load("mirrors")), accel_(scene_, optionsOf(GetParam())) {
     rays_.allocate(kRays, FeatureSet());
     hits_.allocate(kRays, FeatureSet());
@@ -38,7 +38,8 @@ class UsedStack : public testing::TestWithParam<int> {
     options.packet = packet;
     return options;
   }
-  // From above the scene and away from it, side by side: rays that no part of it stops.
+
+  // Aims rays from above the scene and away from it, side by side, so that nothing stops them.
   template <typename Columns>
   void aim(const Columns& rays) {
     const Vec3f middle = 0.5f * (scene_.lower + scene_.upper), size = scene_.upper - scene_.lower;
@@ -53,7 +54,8 @@ class UsedStack : public testing::TestWithParam<int> {
 
   const Scene scene_;
   const Accel accel_;
-  // One segment of all rays.
+
+  // Makes a chunk that has all rays in one segment.
   Chunk chunkOf(const Accel& accel, bool coherent) {
     constants_.accel = &accel;
     Chunk chunk;
@@ -82,6 +84,7 @@ TEST_P(UsedStack, OcclusionReturns) {
     shadows_->tFar[i] = 10 * (scene_.upper.y - scene_.lower.y);
     shadows_->slot[i] = static_cast<std::uint32_t>(i);
   }
+
   for (const bool coherent : {true, false}) {
     std::vector<float> visible(kRays, -1.0f);
     useStack();

@@ -1,4 +1,4 @@
-// The lines that the page sends: what is read, and what is refused.
+// The lines that the page sends: which are read, and which are refused.
 #include "viewer/serve/messages.h"
 
 #include <gtest/gtest.h>
@@ -14,6 +14,7 @@ TEST(Messages, AreRead) {
   EXPECT_EQ(messages[0].verb, "left");
   EXPECT_EQ(messages[0].numbers[0], 3);
   EXPECT_EQ(messages[0].numbers[1], -4.5);
+
   EXPECT_EQ(messages[1].verb, "set");
   EXPECT_EQ(messages[1].name, "depth");
   EXPECT_EQ(messages[1].text, "2");
@@ -33,6 +34,7 @@ TEST(Messages, WhatIsNotOneIsRefusedWithItsLine) {
     SCOPED_TRACE(body.substr(0, 40));
     EXPECT_THROW(readMessages(body), Error);
   }
+
   try {
     readMessages("fit\nleft 3 x");
     FAIL();

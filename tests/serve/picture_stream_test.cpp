@@ -1,4 +1,4 @@
-// The tiles that a page is sent, and how they adapt to its link.
+// The tiles that a page gets, and how they adapt to its link.
 #include "viewer/serve/picture_stream.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ DisplayImage picture(int width, int height, int shade = 0) {
   return image;
 }
 
-// What a page shows that draws all tiles it is sent.
+// The picture of a page that draws all tiles that it gets.
 class Drawn {
  public:
   Drawn(int width, int height) : image_{width, height, {}, false} {
@@ -40,12 +40,14 @@ class Drawn {
           "tile", {reinterpret_cast<const std::uint8_t*>(tiles.bytes.data()) + at, size}, {},
           warnings);
       at += size;
+
       for (std::size_t i = 0; i < raw.pixels(); ++i) {
         const std::size_t x = tile[0].get<std::size_t>() + i % raw.width;
         const std::size_t y = tile[1].get<std::size_t>() + i / raw.width;
         std::memcpy(&image_.rgba[4 * (y * image_.width + x)], &raw.codes[i * raw.channels], 3);
       }
     }
+
     EXPECT_EQ(at, tiles.bytes.size());
   }
 
@@ -66,10 +68,11 @@ TEST(PictureStream, IsCloseInMotionAndExactAtRest) {
   PictureStream stream;
   Drawn drawn(300, 200);
   drawn.draw(stream.next(image, false, 0));
-  // A gradient under JPEG of quality 80 with halved chroma.
+  // JPEG of quality 80 with halved chroma distorts a gradient by so much.
   EXPECT_LE(drawn.worst(image), 16);
   EXPECT_GT(drawn.worst(image), 0);
   EXPECT_TRUE(stream.next(image, false, 1).empty()) << "nothing has changed";
+
   int messages = 0;
   for (Tiles tiles; !(tiles = stream.next(image, true, 2)).empty(); ++messages) drawn.draw(tiles);
   EXPECT_EQ(drawn.worst(image), 0);
@@ -83,26 +86,30 @@ TEST(PictureStream, SendsOnlyTilesThatChanged) {
   const std::size_t whole = stream.next(image, true, 0).bytes.size();
   while (!stream.next(image, true, 0).empty()) {
   }
-  image.rgba[4 * (150 * 400 + 200)] ^= 255;  // in the tile at 128, 128
+
+  // The pixel lies in the tile at 128, 128.
+  image.rgba[4 * (150 * 400 + 200)] ^= 255;
   const Tiles tiles = stream.next(image, false, 1);
+
   const Json list = parseJson(tiles.list, "tiles");
   ASSERT_EQ(list.size(), 1u);
   EXPECT_EQ(list[0][0], 128);
   EXPECT_EQ(list[0][1], 128);
   EXPECT_LT(tiles.bytes.size(), whole);
-  // The tile that was sent with losses is sent again at rest, and no other.
+
+  // At rest the tile is sent again without losses, and no other tile is.
   EXPECT_EQ(parseJson(stream.next(image, true, 2).list, "tiles").size(), 1u);
   EXPECT_TRUE(stream.next(image, true, 2).empty());
 }
 
-// Messages at rest are short. The tiles that were left out of one come when the picture moves
-// again.
+// Messages at rest are short. Tiles that do not fit into one come when the picture moves again.
 TEST(PictureStream, TilesLeftOutAreNotForgotten) {
   DisplayImage noise = picture(400, 300);
   std::uint32_t random = 1;
   for (std::uint8_t& code : noise.rgba) {
     code = static_cast<std::uint8_t>((random = 1664525 * random + 1013904223) >> 24);
   }
+
   PictureStream stream;
   const std::size_t first = parseJson(stream.next(noise, true, 0).list, "tiles").size();
   const Tiles rest = stream.next(noise, false, 1);
@@ -115,6 +122,7 @@ TEST(PictureStream, WaitsForAcknowledgements) {
   int sent = 0;
   for (; stream.ready() && sent < 100; ++sent)
     stream.next(picture(64, 64, sent), false, 10.0 * sent);
+
   EXPECT_LT(sent, 10);
   EXPECT_GT(stream.waitedMs(1000), 900);
   EXPECT_FALSE(stream.acknowledge(12345, 1000)) << "of a message that was not sent";
@@ -124,7 +132,7 @@ TEST(PictureStream, WaitsForAcknowledgements) {
   EXPECT_EQ(stream.waitedMs(1000), 0);
 }
 
-// A link whose queue fills gets fewer and smaller messages, and more again when it is free.
+// A link whose queue fills gets fewer and smaller messages, and more when it is free again.
 TEST(PictureStream, AdaptsToTheLink) {
   PictureStream stream;
   double now = 0;
@@ -134,10 +142,12 @@ TEST(PictureStream, AdaptsToTheLink) {
       stream.acknowledge(tiles.number, now += delay);
     }
   };
+
   exchange(20, 1);
   exchange(400, 30);
   EXPECT_LE(stream.quality(), 40);
   EXPECT_LT(stream.mostPixels(), 320 * 200 / 2);
+
   exchange(20, 80);
   EXPECT_GE(stream.quality(), 80);
   EXPECT_GT(stream.mostPixels(), 320 * 200);

@@ -1,4 +1,5 @@
-// The server against friends and strangers: who is answered, and what hostile clients can do.
+// The server against friends and strangers: which requests are answered, and what hostile clients
+// can do.
 #include "viewer/serve/server.h"
 #include "output/open_and_tell.h"
 
@@ -24,6 +25,7 @@ TEST(Token, IsRandomAndCompared) {
   EXPECT_TRUE(sameToken(token, token));
   EXPECT_FALSE(sameToken(token, token.substr(1)));
   EXPECT_FALSE(sameToken("", token));
+
   for (std::size_t i = 0; i < token.size(); ++i) {
     std::string other = token;
     other[i] ^= 1;
@@ -31,7 +33,7 @@ TEST(Token, IsRandomAndCompared) {
   }
 }
 
-// A name that somebody else's DNS may point at this machine is not its own.
+// A name that somebody else's DNS may point at this machine is not the machine's own.
 TEST(Host, IsOurs) {
   for (const char* host : {"localhost", "localhost:8765", "127.0.0.1:1", "[::1]:80", "[::1]",
                            "192.168.1.7:8765", "box:8765"}) {
@@ -46,7 +48,7 @@ TEST(Host, IsOurs) {
 
 class Serving : public testing::Test {
  protected:
-  // Strangers are not given up in the time of a test, unless it asks for that.
+  // The server does not drop slow strangers within the time of a test, unless the test asks for it.
   explicit Serving(double requestSeconds = 600) {
     options_.common.quiet = true;
     options_.common.render.threads = 2;
@@ -55,11 +57,13 @@ class Serving : public testing::Test {
         options_, openAndTell(options_.scene, options_.common, nullptr));
     server_ = std::make_unique<Server>(*session_, ServerOptions{.requestSeconds = requestSeconds});
     root_ = "/" + server_->token() + "/";
+
     thread_ = std::thread([this] { server_->run(); });
     for (int i = 0; i < 1000 && status(root_) != 200; ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
   }
+
   ~Serving() override {
     server_->stop();
     thread_.join();
@@ -82,23 +86,26 @@ class Serving : public testing::Test {
     return answer ? answer->status : 0;
   }
 
-  // A connection by hand.
+  // Opens a connection without httplib.
   int connection() const {
     const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
     sockaddr_in to{};
     to.sin_family = AF_INET;
     to.sin_port = htons(static_cast<std::uint16_t>(server_->port()));
     to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+
     const timeval limit{20, 0};
     ::setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
     EXPECT_EQ(::connect(socket, reinterpret_cast<sockaddr*>(&to), sizeof to), 0);
     return socket;
   }
+
   static bool send(int socket, const std::string& bytes) {
     return ::send(socket, bytes.data(), bytes.size(), MSG_NOSIGNAL) ==
            static_cast<ssize_t>(bytes.size());
   }
-  // Reads to the end of the connection.
+
+  // Reads to the end of the connection, and closes it.
   static std::string rest(int socket) {
     std::string text;
     char bytes[4096];
@@ -107,7 +114,7 @@ class Serving : public testing::Test {
     return text;
   }
 
-  // A page that acknowledges what it gets. Returns when it has drawn so many pictures.
+  // Acts as a page that acknowledges its pictures. Returns when it has drawn `pictures` of them.
   int watch(int pictures, bool shakes = true) {
     std::string held;
     int drawn = 0;
@@ -121,7 +128,8 @@ class Serving : public testing::Test {
       while (held.size() >= 8 && held.size() >= 4 + word(0)) {
         const Json json = parseJson(held.substr(8, word(4)), "message");
         held.erase(0, 4 + word(0));
-        // Turns to and fro, for at some places there is nothing to see that changes.
+
+        // The camera turns to and fro, because in some directions a turn changes no pixel.
         std::string acts = !shakes ? "" : drawn % 16 < 8 ? "left 7 0" : "left -7 0";
         if (json.contains("frame")) {
           ++drawn;
@@ -141,11 +149,13 @@ class Serving : public testing::Test {
   std::unique_ptr<Server> server_;
   std::string root_;
   std::thread thread_;
-  std::atomic<bool> pageDraws_ = false;  // watch() has got a picture
+  // True when watch() has received a picture.
+  std::atomic<bool> pageDraws_ = false;
 };
 
 TEST_F(Serving, OnlyThoseWithTheTokenAreAnswered) {
   EXPECT_EQ(status(root_), 200);
+
   std::string wrong = root_;
   wrong[5] ^= 1;
   for (const std::string& path :
@@ -170,6 +180,7 @@ TEST_F(Serving, OtherHostsAndOriginsAreRefused) {
   EXPECT_EQ(status(root_, {{"Host", "evil.example"}}), 421);
   EXPECT_EQ(status(root_, {{"Origin", "http://evil.example"}}), 403);
   EXPECT_EQ(status(root_, {{"Origin", "null"}}), 403);
+
   const std::string own = "127.0.0.1:" + std::to_string(server_->port());
   EXPECT_EQ(status(root_, {{"Host", own}, {"Origin", "http://" + own}}), 200);
   EXPECT_EQ(post("fit", {{"Origin", "http://localhost:1"}}), 403);
@@ -187,11 +198,13 @@ TEST_F(Serving, OtherMethodsAndEncodingsAreRefused) {
 TEST_F(Serving, ThePageMayLoadNothing) {
   const auto page = client().Get(root_);
   ASSERT_TRUE(page);
+
   const std::string policy = page->get_header_value("Content-Security-Policy");
   EXPECT_NE(policy.find("default-src 'none'"), std::string::npos) << policy;
   EXPECT_NE(policy.find("frame-ancestors 'none'"), std::string::npos) << policy;
   EXPECT_EQ(policy.find("NONCE"), std::string::npos) << policy;
   EXPECT_EQ(page->body.find("NONCE"), std::string::npos);
+
   for (const char* elsewhere : {"http://", "https://", " src=", "@import", "url("}) {
     EXPECT_EQ(page->body.find(elsewhere), std::string::npos) << elsewhere;
   }
@@ -200,13 +213,15 @@ TEST_F(Serving, ThePageMayLoadNothing) {
 TEST_F(Serving, InputIsTakenOrRefusedWithItsReason) {
   EXPECT_EQ(post("left 3 4\nfit"), 204);
   EXPECT_EQ(post(""), 204);
+
   const auto answer = client().Post(root_ + "input", "left 3", "text/plain");
   ASSERT_TRUE(answer);
   EXPECT_EQ(answer->status, 400);
   EXPECT_NE(answer->body.find("line 1"), std::string::npos) << answer->body;
   EXPECT_NE(post(std::string(kMessageBytes + 1, 'x')), 204);
   EXPECT_EQ(post("ack 99 1\nack 0 0"), 204) << "of a page that there is not";
-  // Nobody watches, so nothing is served: the queue fills, and no further.
+
+  // No page is open, so nothing is served: the queue fills, and no further.
   std::string many;
   for (std::size_t i = 0; i < kMessageLines; ++i) many += "fit\n";
   EXPECT_EQ(post(many), 204);
@@ -215,15 +230,18 @@ TEST_F(Serving, InputIsTakenOrRefusedWithItsReason) {
 TEST_F(Serving, EveryVerbIsServed) {
   session_->watch(1);
   for (const Verb& verb : kVerbs) {
-    if (verb.name == "ack") continue;  // tells the server about its pictures
+    // The server itself handles `ack`.
+    if (verb.name == "ack") continue;
     std::string line(verb.name);
     if (verb.named) line += " depth";
     for (std::size_t i = 0; i < verb.numbers; ++i) line += " 1";
     if (verb.text) line += " 1";
+
     const auto before = session_->wait(0);
     ASSERT_TRUE(session_->post(readMessages(line))) << line;
     auto shot = session_->wait(before ? before->number : 0);
-    if (shot) shot = session_->wait(shot->number);  // the first may be older than the line
+    // The first picture may be older than the line.
+    if (shot) shot = session_->wait(shot->number);
     ASSERT_TRUE(shot) << line;
     EXPECT_EQ(shot->live.find("map::at"), std::string::npos) << line;
   }
@@ -236,6 +254,7 @@ TEST_F(Serving, ADownloadIsAnExr) {
   std::thread page([&] { watch(100000, false); });
   while (session_->wait(0) == nullptr) {
   }
+
   ASSERT_EQ(post("size 48 32 1\nset depth 1\nmore"), 204);
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   const auto answer = client().Get(root_ + "picture.exr");
@@ -248,31 +267,38 @@ TEST_F(Serving, ADownloadIsAnExr) {
 TEST_F(Serving, HugeRequestsEnd) {
   const int endless = connection();
   ASSERT_TRUE(send(endless, "GET / HTTP/1.1\r\nHost: localhost\r\n"));
+
   std::size_t sent = 0;
   while (sent < (64u << 20) &&
          send(endless, "X-" + std::to_string(sent) + ": " + std::string(1000, 'x') + "\r\n")) {
     sent += 1000;
   }
-  // What the kernel holds for both sides is beyond the server's limit, but bounded.
+
+  // Both sides' kernel buffers exceed the server's limit, but are bounded.
   EXPECT_LT(sent, 64u << 20);
   rest(endless);
+
   const int line = connection();
   send(line, "GET /" + std::string(1 << 20, 'a') + " HTTP/1.1\r\n\r\n");
   rest(line);
+
   const int ranges = connection();
   std::string range = "Range: bytes=0-0";
   while (range.size() < 7900) range += ",0-0";
   send(ranges, "GET " + root_ + " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n" + range +
                    "\r\n\r\n");
   rest(ranges);
+
   const int chunked = connection();
   send(chunked,
        "POST " + root_ + "input HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n");
+
   const std::string chunk = "1000\r\n" + std::string(0x1000, 'x') + "\r\n";
   sent = 0;
   while (sent < (64u << 20) && send(chunked, chunk)) sent += chunk.size();
   EXPECT_LT(sent, 64u << 20);
   rest(chunked);
+
   EXPECT_EQ(status(root_), 200);
 }
 
@@ -294,7 +320,7 @@ TEST_F(ServingSoon, HalfARequestEnds) {
   }
 }
 
-// Connections that send half a request, or nothing, do not keep a page from its pictures.
+// Connections that send half a request, or nothing, do not keep pictures from a page.
 TEST_F(Serving, StrangersDoNotDisplaceAPage) {
   std::atomic<bool> done = false;
   std::atomic<int> drawn = 0;
@@ -333,7 +359,7 @@ TEST_F(Serving, GarbageEndsItsOwnConnectionOnly) {
   EXPECT_EQ(status(root_), 200);
 }
 
-// Pages that never read are dropped, and keep nobody from watching meanwhile.
+// Pages that never read are dropped, and do not keep others from watching meanwhile.
 TEST_F(Serving, DeafPagesAreDropped) {
   std::vector<int> deaf;
   for (int i = 0; i < kMostPages - 1; ++i) {
@@ -341,7 +367,9 @@ TEST_F(Serving, DeafPagesAreDropped) {
     send(deaf.back(), "GET " + root_ + "stream HTTP/1.1\r\nHost: localhost\r\n\r\n");
   }
   EXPECT_EQ(watch(60), 60);
-  std::string answer;  // the place of the page that has watched may become free a little later
+
+  // The place of the page that has watched may become free a little later.
+  std::string answer;
   for (int i = 0; i < kMostPages && answer.find(" 503 ") == std::string::npos; ++i) {
     deaf.push_back(connection());
     send(deaf.back(), "GET " + root_ + "stream HTTP/1.1\r\nHost: localhost\r\n\r\n");
@@ -350,6 +378,7 @@ TEST_F(Serving, DeafPagesAreDropped) {
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
   }
   EXPECT_NE(answer.find(" 503 "), std::string::npos) << "there is always another place";
+
   int drawn = 0;
   const int tries = static_cast<int>(4 * kDeafSeconds);
   for (int i = 0; i < tries && drawn == 0; ++i) {

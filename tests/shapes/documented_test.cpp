@@ -16,7 +16,7 @@
 namespace whit {
 namespace {
 
-// Gives every parameter its default, and writes down which were asked for.
+// Gives every parameter its default, and records the parameters that were queried.
 class RecordingParameters : public ShapeParameters {
  public:
   double number(const std::string& key, double fallback, double, double) override {
@@ -44,7 +44,9 @@ class RecordingParameters : public ShapeParameters {
     note(key, fallback + others);
     return fallback;
   }
-  // Of the row of a table; in the order that this compiler evaluates arguments in.
+
+  // Lists the parameters as a row of the table does, in the order in which this compiler evaluates
+  // arguments.
   const std::vector<std::string>& listed() const { return listed_; }
 
  private:
@@ -69,7 +71,7 @@ std::vector<std::string> lines() {
   return lines;
 }
 
-// The row of a name; what it lists has to be all there is.
+// Returns the table's row of a shape or pattern, or an empty string.
 std::string rowOf(const std::string& name) {
   for (const std::string& line : lines()) {
     if (line.starts_with("| `" + name + "` |")) return line;
@@ -101,6 +103,8 @@ void expectDocumented(const Generators& generators) {
     ASSERT_FALSE(row.empty()) << name;
     expectListed(row, parameters.listed());
     expectListed(row, slots);
+
+    // The row lists nothing else: every name is between two backquotes.
     const auto marks = std::count(row.begin(), row.end(), '`');
     EXPECT_EQ(static_cast<std::size_t>(marks), 2 * (1 + parameters.listed().size() + slots.size()))
         << row;
@@ -110,18 +114,20 @@ void expectDocumented(const Generators& generators) {
 TEST(Documented, EveryShape) { expectDocumented(shapeGenerators()); }
 TEST(Documented, EveryPattern) { expectDocumented(patternGenerators()); }
 
-// The example is a scene.
+// The example of the page can be loaded as a scene.
 TEST(Documented, ExampleCanBeRead) {
   const std::vector<std::string> page = lines();
   const auto begin = std::find(page.begin(), page.end(), "```json");
   const auto end = std::find(begin, page.end(), "```");
   ASSERT_NE(end, page.end());
+
   const std::string name = testing::TempDir() + "whit-documented-example.json";
   std::ofstream file(name);
   for (auto line = begin + 1; line != end; ++line) file << *line << "\n";
   file.close();
   Warnings warnings;
   const Scene scene = Scene::finalize(loadScene(name, LoadOptions{}, warnings), warnings);
+
   EXPECT_TRUE(scene.effects.has(Effect::mirror));
   EXPECT_TRUE(scene.effects.has(Effect::absorption));
   EXPECT_EQ(scene.instances.size(), 3u);

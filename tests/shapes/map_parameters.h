@@ -1,4 +1,4 @@
-// Parameters from maps, as strict about ranges as a scene file's reader, for tests.
+// Parameters from maps for tests, as strict about ranges as the reader of scene files.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ class MapParameters : public ShapeParameters {
   explicit MapParameters(std::map<std::string, Value> values) : values_(std::move(values)) {}
 
   double number(const std::string& key, double fallback, double low, double high) override {
-    // Defaults have to keep to the range as well.
+    // Defaults have to be within the range, too.
     const double value = get(key, fallback);
     if (!(value >= low && value <= high)) throwBadScene(key, "out of range");
     return value;
@@ -41,7 +41,8 @@ class MapParameters : public ShapeParameters {
     }
     return value;
   }
-  // Keys that were given but that nobody asked for.
+
+  // Returns the keys that were given but not queried.
   std::vector<std::string> unasked() const {
     std::vector<std::string> keys;
     for (const auto& [key, value] : values_) {

@@ -15,7 +15,7 @@ inline std::array<Vec3d, 3> corners(const Mesh& mesh, std::size_t t) {
   return {Vec3d(mesh.positions[k[0]]), Vec3d(mesh.positions[k[1]]), Vec3d(mesh.positions[k[2]])};
 }
 
-// Twice the triangle's area, along its outward normal.
+// Returns twice the triangle's area along its outward normal.
 inline Vec3d areaVector(const Mesh& mesh, std::size_t t) {
   const auto [a, b, c] = corners(mesh, t);
   return cross(b - a, c - a);
@@ -27,7 +27,7 @@ inline double area(const Mesh& mesh) {
   return sum;
 }
 
-// By the divergence theorem; positive where the triangles face outwards.
+// Uses the divergence theorem; the result is positive where the triangles face outwards.
 inline double volume(const Mesh& mesh) {
   double sum = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -45,8 +45,8 @@ inline PositionBits bits(const Vec3f& p) {
   return b;
 }
 
-// Edges, by the bits of their ends, that are not run through as often one way as the other. A
-// closed mesh has none; one whose solids touch along an edge still has none.
+// Counts the edges, by the bits of their ends, that triangles do not traverse equally often in both
+// directions. A closed mesh has none, and neither has one whose solids touch along an edge.
 inline std::size_t openEdges(const Mesh& mesh) {
   std::map<std::pair<PositionBits, PositionBits>, int> balance;
   for (const auto& t : mesh.triangles) {
@@ -55,12 +55,13 @@ inline std::size_t openEdges(const Mesh& mesh) {
       balance[std::minmax(a, b)] += a < b ? 1 : -1;
     }
   }
+
   std::size_t open = 0;
   for (const auto& [edge, count] : balance) open += count != 0;
   return open;
 }
 
-// Edges that other than two triangles share.
+// Counts the edges that are not shared by exactly two triangles.
 inline std::size_t unpairedEdges(const Mesh& mesh) {
   std::map<std::pair<PositionBits, PositionBits>, int> uses;
   for (const auto& t : mesh.triangles) {
@@ -68,6 +69,7 @@ inline std::size_t unpairedEdges(const Mesh& mesh) {
       ++uses[std::minmax(bits(mesh.positions[t[k]]), bits(mesh.positions[t[(k + 1) % 3]]))];
     }
   }
+
   std::size_t unpaired = 0;
   for (const auto& [edge, count] : uses) unpaired += count != 2;
   return unpaired;

@@ -31,11 +31,13 @@ class EveryPattern : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryPattern, IsCompleteAndTheSameEachTime) {
   const Texture a = paint(GetParam(), {{"size", 64.0}}), b = paint(GetParam(), {{"size", 64.0}});
+
   EXPECT_EQ(a.width, 64);
   EXPECT_EQ(a.height, 64);
   EXPECT_EQ(a.texels.size(), 64u * 64u);
   EXPECT_EQ(a.texels, b.texels);
   EXPECT_EQ(a.wrapU, Wrap::repeat);
+
   const bool isData = GetParam().ends_with("Normals") || GetParam().ends_with("Mask");
   EXPECT_EQ(a.format, isData ? TexelFormat::data : TexelFormat::color);
 }
@@ -54,16 +56,19 @@ class EveryNormalMap : public testing::TestWithParam<std::string> {};
 TEST_P(EveryNormalMap, HoldsUnitVectorsOnTheOutside) {
   const Texture texture = paint(GetParam(), {{"size", 128.0}});
   Vec3d mean;
+
   for (int row = 0; row < 128; ++row) {
     for (int column = 0; column < 128; ++column) {
       const Vec3d n = data(texture, column, row) * 2.0 - Vec3d(1.0);
       ASSERT_GT(n.z, 0);
-      ASSERT_NEAR(length(n), 1, std::sqrt(3.0) * kStep8);  // half a code a channel, doubled
+      // Each channel is rounded by half a code, and doubled.
+      ASSERT_NEAR(length(n), 1, std::sqrt(3.0) * kStep8);
       mean += n / (128.0 * 128.0);
     }
   }
-  // A repeating surface is level on the whole; steep sides weigh less once they are normalized,
-  // which tells where one side is steeper than the other (overlapping pans of a roof).
+
+  // A repeating surface is level on the whole. Steep sides weigh less once they are normalized,
+  // which matters where one side is steeper than the other (overlapping pans of a roof).
   EXPECT_NEAR(mean.x, 0, 0.05);
   EXPECT_NEAR(mean.y, 0, 0.10);
 }
@@ -84,7 +89,8 @@ TEST(Patterns, CheckerStartsWithItsFirstColorAtTheLowerLeft) {
 }
 
 TEST(Patterns, NormalsOfAnUpwardJointLeanAwayFromIt) {
-  // One tile: near its left joint the surface rises to the right, so the normal leans left.
+  // There is one tile: near its left joint the surface rises to the right, so the normal leans
+  // left.
   const Texture texture = paint("tilesNormals", {{"size", 128.0},
                                                  {"columns", 1.0},
                                                  {"rows", 1.0},
@@ -92,6 +98,7 @@ TEST(Patterns, NormalsOfAnUpwardJointLeanAwayFromIt) {
                                                  {"bevel", 0.2},
                                                  {"rough", 0.0},
                                                  {"depth", 0.05}});
+
   const double level = 0.5 + kStep8;
   EXPECT_LT(data(texture, 12, 64).x, 0.5 - 4 * kStep8);
   EXPECT_GT(data(texture, 127 - 12, 64).x, 0.5 + 4 * kStep8);
@@ -113,12 +120,15 @@ TEST(Noise, RepeatsAfterItsPeriodAndVanishesOnTheLattice) {
   using procedural::fractalNoise;
   for (int k = 0; k < 50; ++k) {
     const double x = 0.37 * k, y = 0.61 * k;
-    // x + 8 is rounded differently from x: 2^-49 times a slope of about two an octave.
+
+    // x + 8 is rounded differently from x: by 2^-49 times a slope of about two an octave.
     EXPECT_NEAR(fractalNoise(3, x, y, 5, 8), fractalNoise(3, x + 8, y, 5, 8), 1e-12);
     EXPECT_NEAR(fractalNoise(3, x, y, 5, 8), fractalNoise(3, x, y - 8, 5, 8), 1e-12);
-    // No seam where the period ends; slopes stay below ten an octave's cell.
+
+    // There is no seam where the period ends; slopes stay below ten per cell of an octave.
     EXPECT_NEAR(fractalNoise(3, 8 - 1e-9, y, 5, 8), fractalNoise(3, 1e-9, y, 5, 8), 1e-6);
     EXPECT_NEAR(fractalNoise(3, x, 8 - 1e-9, 5, 8), fractalNoise(3, x, 1e-9, 5, 8), 1e-6);
+
     EXPECT_EQ(procedural::gradientNoise(3, k, 2 * k), 0);
     EXPECT_LE(std::fabs(fractalNoise(3, x, y, 5)), 1.1);
   }
@@ -133,8 +143,9 @@ TEST(Noise, HashesSpreadEvenly) {
     ASSERT_LT(x, 1);
     ++counts[static_cast<std::size_t>(x * kBins)];
   }
-  // Chi-squared with 15 degrees of freedom: 37.7 is its 99.9th percentile; hashes are fixed, so
-  // this either holds or does not.
+
+  // 37.7 is the 99.9th percentile of chi-squared with 15 degrees of freedom. Hashes are fixed, so
+  // the test either always passes or never.
   double chi = 0;
   for (const int c : counts) chi += (c - 1000.0) * (c - 1000.0) / 1000.0;
   EXPECT_LT(chi, 37.7);

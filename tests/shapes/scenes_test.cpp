@@ -1,4 +1,4 @@
-// The shipped scenes load, hold what they promise and need no repairing.
+// The shipped scenes load, hold what they promise and need no repairs.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -21,6 +21,7 @@ Scene load(const std::string& name, const std::string& query = "") {
   const std::string file = (sourceDir() / "scenes" / (name + ".json")).string();
   SceneDescription description = loadScene(file + query, {}, warnings);
   Scene scene = Scene::finalize(std::move(description), warnings);
+
   for (const auto& [kind, entry] : warnings.entries()) {
     ADD_FAILURE() << name << ": " << kind << ", first at " << entry.first;
   }
@@ -52,7 +53,7 @@ TEST(Scenes, AtriumIsLargeAndCallsForItsEffects) {
   }
 }
 
-// Penumbras and light between surfaces have to be asked for.
+// Soft shadows and indirect light are effects that options switch on.
 TEST(Scenes, MatteCallsForLightsAndShadowsOnly) {
   EXPECT_EQ(load("matte").effects.without(Effect::softShadows).without(Effect::indirect),
             EffectSet().with(Effect::lights).with(Effect::shadows));
@@ -66,9 +67,11 @@ TEST(Scenes, GlassNestsItsMedia) {
 }
 
 TEST(Scenes, LandscapeHasAboutTheTrianglesAskedFor) {
-  // Each of three forests rounds down by less than a tree of 4,000, the ground by less than a row.
+  // Each of three forests rounds down by less than a tree of 4,000 triangles, and the ground by
+  // less than a row.
   const Scene usual = load("landscape");
   EXPECT_NEAR(static_cast<double>(usual.instancedTriangles), 1e6, 2e4);
+
   const Scene small = load("landscape", "?triangles=300000");
   EXPECT_NEAR(static_cast<double>(small.instancedTriangles), 3e5, 2e4);
   EXPECT_TRUE(usual.effects.has(Effect::instances));

@@ -1,5 +1,5 @@
-// What every shape promises: closed where it is a solid, normals that are unit and on the outside,
-// indices in range, the same bits each time.
+// Laws of every shape: solids are closed, normals are of unit length and point outwards, indices
+// are in range, and the bits are the same each time.
 #include <gtest/gtest.h>
 
 #include "shapes/map_parameters.h"
@@ -22,7 +22,7 @@ std::string caseName(const testing::TestParamInfo<Case>& info) {
   return info.param.shape + info.param.label;
 }
 
-// Solids whose every edge is shared by exactly two triangles.
+// These are solids whose every edge is shared by exactly two triangles.
 std::vector<Case> solids() {
   return {{"sphere", {{"segments", 64.0}}, ""},
           {"sphere", {{"segments", 7.0}, {"rings", 5.0}, {"smooth", false}}, "Coarse"},
@@ -68,7 +68,8 @@ TEST_P(Solid, FacesOutwards) {
 
 INSTANTIATE_TEST_SUITE_P(Shapes, Solid, testing::ValuesIn(solids()), caseName);
 
-// Several closed solids in a part; they may touch, so that an edge may serve four triangles.
+// These have several closed solids in a part. They may touch, so that four triangles may share an
+// edge.
 class Assembly : public testing::TestWithParam<Case> {};
 
 TEST_P(Assembly, IsClosed) {
@@ -100,16 +101,20 @@ TEST_P(EveryShape, HasUnitNormalsThatAgreeWithTheWinding) {
     const Mesh& mesh = part.mesh;
     EXPECT_TRUE(mesh.materials.empty());
     EXPECT_EQ(mesh.uvs.size(), mesh.positions.size());
+
     if (mesh.normals.empty()) continue;
     ASSERT_EQ(mesh.normals.size(), mesh.positions.size());
+
     std::size_t against = 0;
     for (const Vec3f& n : mesh.normals) EXPECT_NEAR(length(Vec3d(n)), 1, kUnit);
+
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       const Vec3d face = areaVector(mesh, t);
       Vec3d mean;
       for (const std::uint32_t k : mesh.triangles[t]) mean += Vec3d(mesh.normals[k]);
       against += dot(face, mean) < 0;
     }
+
     // Strongly bent sheets (the tips of limbs, curled leaves) may have a few such triangles.
     EXPECT_LE(static_cast<double>(against), 0.02 * static_cast<double>(mesh.triangles.size()))
         << part.slot;

@@ -14,7 +14,7 @@ TEST(Terrain, HasTheTrianglesAskedFor) {
   EXPECT_EQ(generate("terrain", {{"triangles", 20100.0}}).parts[0].mesh.triangles.size(), 20000u);
 }
 
-// Heights of the ground at the nodes of a grid of `cells` x `cells`.
+// Returns the ground on a grid of `cells` x `cells`.
 Mesh terrainOf(double size, int cells) {
   return generate("terrain", {{"seed", 5.0}, {"size", size}, {"triangles", 2.0 * cells * cells}})
       .parts[0]
@@ -50,17 +50,21 @@ TEST(Forest, StandsOnTheGroundOfItsTerrain) {
   const Shape shape =
       generate("forest", {{"seed", 5.0}, {"size", 100.0}, {"trees", 150.0}, {"leaves", 50.0}});
   ASSERT_EQ(shape.placements.size(), 150u);
-  // Roots go in by up to two per cent of the largest scale. The terrain differs from the ground
-  // between its nodes.
+
+  // Roots go into the ground by up to two per cent of the largest scale. The terrain differs from
+  // the ground between its nodes.
   constexpr double kSink = 0.05, kBetween = 0.05;
+
   for (const Affine& place : shape.placements) {
     const double u = (place.p.x / 100 + 0.5) * kCells, v = (0.5 - place.p.z / 100) * kCells;
     const auto at = [&](double i, double j) {
       return double{terrain.positions[static_cast<std::size_t>(j * (kCells + 1) + i)].y};
     };
+
     const double i = std::floor(u), j = std::floor(v);
     const double y = std::lerp(std::lerp(at(i, j), at(i + 1, j), u - i),
                                std::lerp(at(i, j + 1), at(i + 1, j + 1), u - i), v - j);
+
     EXPECT_LE(place.p.y, y + kBetween);
     EXPECT_GE(place.p.y, y - kBetween - kSink);
     EXPECT_NEAR(place.y.x, 0, 1e-12) << "upright";
@@ -81,10 +85,12 @@ TEST(Tree, HasItsLeavesAndReachesItsHeight) {
   for (const char* kind : {"broadleaf", "conifer"}) {
     const Shape shape =
         generate("tree", {{"kind", std::string(kind)}, {"leaves", 700.0}, {"height", 10.0}});
+
     ASSERT_EQ(shape.parts.size(), 2u);
     EXPECT_EQ(shape.parts[0].slot, "bark");
     EXPECT_EQ(shape.parts[1].slot, "leaves");
     EXPECT_EQ(shape.parts[1].mesh.triangles.size(), 1400u);
+
     float high = 0;
     for (const Vec3f& p : shape.parts[0].mesh.positions) high = std::max(high, p.y);
     EXPECT_GT(high, 6) << kind;

@@ -1,5 +1,5 @@
 // Areas, volumes and triangle counts against formulas. Inscribed polygons with n sides miss a
-// circle by a relative 2 pi^2 / (3 n^2) in area; that bounds the tolerances below.
+// circle by a relative 2 pi^2 / (3 n^2) in area, which bounds the tolerances below.
 #include <gtest/gtest.h>
 
 #include "pi.h"
@@ -9,10 +9,10 @@
 namespace whit::test {
 namespace {
 
-// Corners are rounded to float: 2^-24 relative each, sums of up to six products of three.
+// Corners are rounded to float by 2^-24 relative each, in sums of up to six products of three.
 constexpr double kFloat = 2e-6;
 
-// Area of the regular n-gon over that of its circumscribed circle.
+// Returns the area of the regular n-gon over that of its circumscribed circle.
 double polygonShare(int n) { return n / (2 * kPi) * std::sin(2 * kPi / n); }
 
 const Mesh& only(const Shape& shape) {
@@ -24,10 +24,12 @@ const Mesh& only(const Shape& shape) {
 TEST(Measures, SpheresApproachTheirVolumeAndArea) {
   const Shape shape = generate("sphere", {{"radius", 2.0}, {"segments", 128.0}});
   const double miss = 3 * 2 * kPi * kPi / (3 * 128.0 * 128.0);  // three directions of curvature
+
   EXPECT_NEAR(volume(only(shape)) / (4.0 / 3 * kPi * 8), 1, miss);
   EXPECT_LT(volume(only(shape)), 4.0 / 3 * kPi * 8);
   EXPECT_NEAR(area(only(shape)) / (4 * kPi * 4), 1, miss);
-  // Two fans at the poles, two triangles a cell between them.
+
+  // There are two fans at the poles, and two triangles a cell between them.
   EXPECT_EQ(only(shape).triangles.size(), 128u * (2 * 62 + 2));
 }
 
@@ -36,7 +38,9 @@ TEST(Measures, IcospheresQuadrupleTheirTriangles) {
     const Shape shape = generate("icosphere", {{"level", static_cast<double>(level)}});
     EXPECT_EQ(only(shape).triangles.size(), 20u << (2 * level));
   }
-  // Volume of the icosahedron in the unit sphere: (5/12)(3 + sqrt 5) a^3, a = 1 / sin(2 pi / 5).
+
+  // The icosahedron in the unit sphere has the volume (5/12)(3 + sqrt 5) a^3, where
+  // a = 1 / sin(2 pi / 5).
   const double edge = 1 / std::sin(2 * kPi / 5);
   EXPECT_NEAR(volume(only(generate("icosphere", {{"level", 0.0}}))),
               5.0 / 12 * (3 + std::sqrt(5.0)) * edge * edge * edge, 10 * kFloat);
@@ -46,8 +50,10 @@ TEST(Measures, PrismsAreExactForTheirPolygon) {
   const double n = 24, share = polygonShare(24);
   const Shape cylinder = generate("cylinder", {{"radius", 1.5}, {"height", 3.0}, {"segments", n}});
   EXPECT_NEAR(volume(only(cylinder)) / (kPi * 2.25 * 3 * share), 1, kFloat);
+
   const Shape cone = generate("cone", {{"radius", 1.5}, {"height", 3.0}, {"segments", n}});
   EXPECT_NEAR(volume(only(cone)) / (kPi * 2.25 * share), 1, kFloat);
+
   const Shape disc = generate("disc", {{"radius", 2.0}, {"segments", n}});
   EXPECT_NEAR(area(only(disc)) / (kPi * 4 * share), 1, kFloat);
 }
@@ -65,6 +71,7 @@ TEST(Measures, BoxesAndSheetsAreExact) {
   EXPECT_NEAR(volume(only(box)), 6, 6 * kFloat);
   EXPECT_NEAR(area(only(box)), 22, 22 * kFloat);
   EXPECT_EQ(only(box).triangles.size(), 12u);
+
   const Shape quad = generate("quad", {{"width", 3.0}, {"depth", 2.0}});
   EXPECT_NEAR(area(only(quad)), 6, 6 * kFloat);
   EXPECT_GT(areaVector(only(quad), 0).y, 0) << "faces up";
@@ -74,11 +81,13 @@ TEST(Measures, RoundedBoxFollowsSteiner) {
   const double r = 0.2;
   const Vec3d size{1, 2, 3}, core = size - Vec3d(2 * r);
   const Shape shape = generate("roundedBox", {{"size", size}, {"radius", r}, {"steps", 12.0}});
-  // Steiner's formula: volume of a box grown by r.
+
+  // Steiner's formula gives the volume of a box grown by r.
   const double faces = core.x * core.y + core.y * core.z + core.z * core.x;
   const double edges = core.x + core.y + core.z;
   const double exact =
       core.x * core.y * core.z + 2 * faces * r + kPi * edges * r * r + 4.0 / 3 * kPi * r * r * r;
+
   EXPECT_NEAR(volume(only(shape)), exact, 0.003 * exact);
   EXPECT_LT(volume(only(shape)), exact);
 }
@@ -99,6 +108,7 @@ TEST(Measures, WallsAreTheirBoxLessTheOpenings) {
                                         {"spring", 2.5},
                                         {"sill", 0.5},
                                         {"segments", n}});
+
   const double opening = 2 * 2.0 + kPi / 2 * polygonShare(128);
   EXPECT_NEAR(volume(only(shape)), 0.5 * (12 * 5 - 4 * opening), 60 * kFloat);
 }
@@ -111,10 +121,12 @@ TEST(Measures, ArchIsHalfARing) {
 
 TEST(Measures, GroinVaultMeetsItsBarrels) {
   const Shape shape = generate("vault", {{"width", 4.0}, {"depth", 4.0}, {"segments", 64.0}});
+
   // A quarter of the square shows the strip |x| < z of a half cylinder of radius a, whose area is
   // the integral of 2 a asin(z / a) over [0, a], 2 a^2 (pi / 2 - 1).
   const double a = 2;
   EXPECT_NEAR(area(only(shape)) / (8 * a * a * (kPi / 2 - 1)), 1, 0.01);
+
   for (std::size_t t = 0; t < only(shape).triangles.size(); ++t) {
     ASSERT_LE(areaVector(only(shape), t).y, 1e-9) << "seen from below";
   }
@@ -131,6 +143,7 @@ TEST(Measures, SphereNormalsPointAwayFromTheCenter) {
 TEST(Measures, ColumnsStandBetweenFloorAndHeight) {
   const Shape shape = generate("column", {{"height", 5.0}, {"radius", 0.4}, {"flutes", 16.0}});
   ASSERT_EQ(shape.parts.size(), 2u);
+
   float low = 1e9f, high = -1e9f;
   for (const ShapePart& part : shape.parts) {
     for (const Vec3f& p : part.mesh.positions) {
@@ -138,6 +151,7 @@ TEST(Measures, ColumnsStandBetweenFloorAndHeight) {
       high = std::max(high, p.y);
     }
   }
+
   EXPECT_EQ(low, 0);
   EXPECT_EQ(high, 5);
 }
