@@ -804,12 +804,17 @@ QueryHit RayQueries::Parts::nearestOf(std::vector<QueryHit>& hits) const {
 void RayQueries::Parts::keepDistinct(std::vector<QueryHit>& hits) const {
   std::ranges::sort(hits, isNearer);
   std::vector<QueryHit> kept;
+  double largestError = 0;  // of the kept hits
 
   for (const QueryHit& hit : hits) {
     bool isNew = true;
 
-    // A hit repeats an earlier one if both surfaces coincide or share the edge that was hit.
-    for (std::size_t i = kept.size(); i-- > 0 && isNew && mayBeAtOnce(kept[i], hit);) {
+    // A hit repeats an earlier one if both surfaces coincide or share the edge that was hit. A hit
+    // between them that is known more exactly may be at another place than both.
+    for (std::size_t i = kept.size(); i-- > 0 && isNew;) {
+      if (hit.t - kept[i].t > hit.tError + largestError) break;
+      if (!mayBeAtOnce(kept[i], hit)) continue;
+
       if (arePartners(kept[i].id, hit.id)) {
         if (comesBefore(hit.id, kept[i].id)) kept[i] = hit;
         isNew = false;
@@ -821,6 +826,7 @@ void RayQueries::Parts::keepDistinct(std::vector<QueryHit>& hits) const {
     }
 
     if (isNew) kept.push_back(hit);
+    largestError = std::max(largestError, hit.tError);
   }
 
   hits = std::move(kept);

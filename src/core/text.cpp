@@ -22,21 +22,26 @@ std::size_t printableBytes(const std::string& text, std::size_t at) {
   // ASCII characters, except for control characters, are printable.
   if (first < 0x80) return first >= 0x20 && first != 0x7f ? 1 : 0;
 
-  // The first byte of a UTF-8 sequence gives its length (RFC 3629); 0xc0, 0xc1 and bytes above 0xf4
-  // never occur.
-  const std::size_t length = first < 0xc2 || first > 0xf4 ? 0
-                             : first < 0xe0               ? 2
-                             : first < 0xf0               ? 3
-                                                          : 4;
+  // The first byte of a UTF-8 sequence gives its length and bounds the second byte, so that each
+  // character has one spelling (RFC 3629, section 4). U+0080 to U+009F are control characters.
+  struct Form {
+    unsigned first, last, lowest, highest;
+    std::size_t length;
+  };
+  constexpr Form kForms[] = {
+      {0xc2, 0xc2, 0xa0, 0xbf, 2}, {0xc3, 0xdf, 0x80, 0xbf, 2}, {0xe0, 0xe0, 0xa0, 0xbf, 3},
+      {0xe1, 0xec, 0x80, 0xbf, 3}, {0xed, 0xed, 0x80, 0x9f, 3}, {0xee, 0xef, 0x80, 0xbf, 3},
+      {0xf0, 0xf0, 0x90, 0xbf, 4}, {0xf1, 0xf3, 0x80, 0xbf, 4}, {0xf4, 0xf4, 0x80, 0x8f, 4}};
+  const Form* const form = std::ranges::find_if(
+      kForms, [&](const Form& f) { return first >= f.first && first <= f.last; });
+  if (form == std::end(kForms) || at + form->length > text.size()) return 0;
+  if (byte(at + 1) < form->lowest || byte(at + 1) > form->highest) return 0;
 
-  if (length == 0 || at + length > text.size()) return 0;
-  // The bytes that continue a sequence have the form 10xxxxxx.
-  for (std::size_t i = at + 1; i < at + length; ++i) {
+  // The other bytes of a sequence have the form 10xxxxxx.
+  for (std::size_t i = at + 2; i < at + form->length; ++i) {
     if ((byte(i) & 0xc0) != 0x80) return 0;
   }
-
-  const bool control = first == 0xc2 && byte(at + 1) < 0xa0;  // U+0080 to U+009F
-  return control ? 0 : length;
+  return form->length;
 }
 
 // Damerau's edit distance (1964), by dynamic programming: two neighbors that changed places count

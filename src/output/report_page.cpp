@@ -17,7 +17,7 @@ std::string fieldOf(const Json& value) {
   if (!value.is_string()) return value.dump();
 
   const auto& text = value.get_ref<const std::string&>();
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
 
   // A field with a separator is quoted, and quotation marks in it are doubled (RFC 4180).
   std::string quoted = "\"";

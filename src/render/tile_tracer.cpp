@@ -237,7 +237,7 @@ TileTracer::TileTracer(const Plan& plan, std::size_t capacity)
     : plan_(plan), work_(plan, capacity) {}
 
 std::size_t TileTracer::bytes() const {
-  return work_.bytes() + sums_.capacity() * sizeof(SampleSum);
+  return work_.bytes() + sums_.capacity() * sizeof(SampleSum) + limited_.capacity();
 }
 
 void TileTracer::trace(const Frame& frame, std::span<const std::uint32_t> pixels, FrameStats& stats,

@@ -7,6 +7,7 @@
 #include "accuracy/report.h"
 #include "accuracy/sweep_rows.h"
 #include "core/error.h"
+#include "output/report_page.h"
 
 namespace whit::accuracy {
 namespace {
@@ -156,6 +157,15 @@ TEST(CheckErrors, AnotherReferenceCannotBeCompared) {
   now = sweepOfTwo();
   now.scene = "other";
   EXPECT_FALSE(grownErrors(rowsOf(sweepOfTwo()), rowsOf(now), {}).empty());
+}
+
+// RFC 4180, section 2: a carriage return would end the record for many readers.
+TEST(Csv, FieldsWithSeparatorsAreQuoted) {
+  for (const char* separator : {",", "\n", "\r"}) {
+    const std::string text = std::string("x") + separator + "y";
+    EXPECT_EQ(csvOf(Json::array({{{"a", text}}})), "a\n\"" + text + "\"\n");
+  }
+  EXPECT_EQ(csvOf(Json::array({{{"a", "x \"y\""}}})), "a\n\"x \"\"y\"\"\"\n");
 }
 
 }  // namespace

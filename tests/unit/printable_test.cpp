@@ -22,6 +22,12 @@ TEST(Printable, BytesThatAreNoUtf8AreSpelled) {
   EXPECT_EQ(printable("\x9b\xff"), "\\x9b\\xff");
   EXPECT_EQ(printable("\xc3"), "\\xc3");
   EXPECT_EQ(printable("\xe2\x82!"), "\\xe2\\x82!");
+
+  // Spellings that are too long (of ESC), a surrogate, and a code point above U+10FFFF.
+  EXPECT_EQ(printable("\xe0\x80\x9b"), "\\xe0\\x80\\x9b");
+  EXPECT_EQ(printable("\xf0\x80\x80\x9b"), "\\xf0\\x80\\x80\\x9b");
+  EXPECT_EQ(printable("\xed\xa0\x80"), "\\xed\\xa0\\x80");
+  EXPECT_EQ(printable("\xf4\x90\x80\x80"), "\\xf4\\x90\\x80\\x80");
 }
 
 }  // namespace
