@@ -113,7 +113,7 @@ within "$entry" --version
 within "$entry" render whitted --size 64x40 -o there.png --quiet
 test -s "$system/work/there.png"
 [ "$(within id -un)" = whit ]
-within "$entry" turntable whitted --size 64x40 --frames 4 -o there.mp4 --quiet
+within "$entry" turntable whitted --size 64x40 --count 4 -o there.mp4 --quiet
 test -s "$system/work/there.mp4"
 if within touch /usr/bin/of_others 2>/dev/null; then
   echo "container: it does not run as a user" >&2

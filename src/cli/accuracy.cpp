@@ -126,8 +126,10 @@ int accuracyCommand(const Words& words) {
 
   const WriteScope scope;
   const std::filesystem::path folder(job.out);
-  writeTextFile((folder / "sweep.csv").string(), accuracy::sweepCsv(sweeps, facts));
-  writeTextFile((folder / "report.html").string(), reportPage(accuracy::reportJson(sweeps, facts)));
+  const std::string table = folder / "sweep.csv", page = folder / "report.html";
+  writeTextFile(table, accuracy::sweepCsv(sweeps, facts));
+  writeTextFile(page, reportPage(accuracy::reportJson(sweeps, facts)));
+  tellFiles({table, page}, job.common);
   return 0;
 }
 

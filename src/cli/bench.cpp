@@ -171,7 +171,10 @@ int benchCommand(const Words& words) {
   // Where JSON takes standard output, the tables for people go to standard error.
   FILE* const people = job.json == "-" ? stderr : stdout;
   if (people == stdout || !job.common.quiet) {
-    for (const RunSummary& run : summaries) std::fprintf(people, "%s\n", stageTable(run).c_str());
+    for (const RunSummary& run : summaries) {
+      std::fprintf(people, "%s\n", stageTable(run).c_str());
+      tellPictureWarnings(run);
+    }
     if (std::string_view(job.series().option) == "threads") {
       std::fprintf(people, "%s", scalingText(summaries).c_str());
     }
@@ -181,6 +184,7 @@ int benchCommand(const Words& words) {
   }
 
   if (!job.json.empty()) writeJson(job.json, benchJson(summaries, job.series().isPair));
+  tellFiles({job.json}, job.common);
   return 0;
 }
 

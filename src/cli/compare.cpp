@@ -326,6 +326,7 @@ int compareCommand(const Words& words) {
 
   if (!job.json.empty()) writeJson(job.json, compareJson(compared.numbers));
   if (!job.heatmap.empty()) writeHeatMap(job, compared);
+  tellFiles({job.json, job.heatmap}, job.common);
 
   // With --stages, each column that a vector stage writes must be within its limit as well.
   const bool pictures = picturesPass(job, compared.numbers.difference);

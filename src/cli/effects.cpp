@@ -16,6 +16,7 @@
 #include "make/leave_out.h"
 #include "output/image_output.h"
 #include "output/json_report.h"
+#include "output/open_and_tell.h"
 #include "output/report_page.h"
 
 namespace whit::cli {
@@ -57,7 +58,7 @@ std::vector<EffectStep> measureSteps(const EffectsJob& job, Progress* progress) 
   Warnings warnings(job.common.render.strict);
   const std::string name = job.scenes.empty() ? "effects" : job.scenes[0];
   const SceneDescription whole = loadScene(name, job.common.load, warnings, progress);
-  if (!job.common.quiet) tellWarnings(warnings);
+  tellWarnings(warnings);
 
   const EffectSet has = openStep(whole, EffectSet::all(), job)->scene.effects;
   std::vector<EffectStep> steps;
@@ -124,8 +125,10 @@ int effectsCommand(const Words& words) {
 
   const WriteScope scope;
   const std::filesystem::path folder(job.out);
-  writeTextFile((folder / "effects.csv").string(), csvOf(report["effects"]));
-  writeTextFile((folder / "report.html").string(), reportPage(report));
+  const std::string table = folder / "effects.csv", page = folder / "report.html";
+  writeTextFile(table, csvOf(report["effects"]));
+  writeTextFile(page, reportPage(report));
+  tellFiles({table, page}, job.common);
   return 0;
 }
 

@@ -349,6 +349,7 @@ int explainCommand(const Words& words) {
                              {"reference", treeJson(e, e.rays.reference, false)}});
   }
   if (job.json != "-") std::fputs((headOf(e) + TreeText(e, job.least).text()).c_str(), stdout);
+  tellFiles({job.svg, job.html, job.json}, job.common);
   return 0;
 }
 

@@ -168,7 +168,7 @@ int infoCommand(const Words& words) {
   requireJsonWritable(json);
   auto progress = makeProgressBar(common);
   CommonOptions loading = common;
-  loading.quiet = true;  // the warnings are part of the report
+  loading.warns = false;  // they are part of the report
   const auto open = openAndTell(scenes[0], loading, progress.get());
   const RenderOptions options = optionsFor(open->scene, common);
   const Renderer renderer(open->scene, options, progress.get());

@@ -1,6 +1,7 @@
 // whit: the command line program.
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <iterator>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "command_line/program.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "io/files.h"
 
 namespace whit::serve {
 
@@ -110,10 +112,12 @@ int complete(const Words& words) {
   std::vector<std::string> names = namesIn(kCommands);
   if (word.starts_with('-')) names = {"--help", "--version", "--man", "--completion"};
 
-  // A word that looks like a file is most likely meant as a scene to render.
+  // A word that looks like a file, or is the name of a shipped scene, is meant to be rendered.
   const bool isFile = word.find_first_of("./") != std::string::npos && word[0] != '-';
+  const bool isScene = std::ranges::any_of(
+      shippedScenes(), [&](const std::filesystem::path& scene) { return scene.stem() == word; });
   const std::string meant =
-      isFile ? "; did you mean 'whit render " + word + "'?" : didYouMean(word, names);
+      isFile || isScene ? "; did you mean 'whit render " + word + "'?" : didYouMean(word, names);
 
   throwUsage("'" + word + "' is not a command" +
              (meant.empty() ? "; whit --help lists the commands" : meant));

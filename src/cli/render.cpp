@@ -39,9 +39,8 @@ constexpr const char* kRenderUsage = "whit render SCENE [-o OUT.exr|OUT.png|FILM
 constexpr const char* kRenderSummary =
     "Renders one image, or with --frames those of the scene's animation and camera path, as images "
     "or, where ffmpeg is installed, as a film. On standard output (-o -) frames follow each other "
-    "as "
-    "PNG files, which ffmpeg -f image2pipe reads. An EXR has all of --channels; a PNG named after "
-    "one (out.depth.png) has that channel in 16 bits.";
+    "as PNG files, which ffmpeg -f image2pipe reads. An EXR has all of --channels; a PNG or EXR "
+    "named after a channel (out.depth.png) has that channel alone.";
 constexpr const char* kTurntableUsage = "whit turntable SCENE -o FILM.mp4|FRAMES####.png [options]";
 constexpr const char* kTurntableSummary =
     "Renders a model on a turntable: supplies a view and light, moves the camera once around the "
@@ -57,7 +56,7 @@ struct RenderJob {
   std::string frames, json, time, target, command;
   Budget budget;
   double fps = 24;
-  bool resume = false;
+  bool resume = false, stats = false;
   ExrStorage exr = ExrStorage::zip;
   bool onTurntable = false;
   double turns = 1;
@@ -83,8 +82,8 @@ OptionList listOptions(RenderJob& job) {
   if (job.onTurntable) {
     list.value({"turns", "X", -1000, 1000}, "turns of the camera; below 0: the other way around",
                job.turns);
-    list.value({"frames", "N", 1, 1e6}, "frames of all turns together", job.turntableFrames);
-    list.value({"range", "A..B"}, "frames that are rendered, counted from 0 (default: all)",
+    list.value({"count", "N", 1, 1e6}, "frames of all turns together", job.turntableFrames);
+    list.value({"frames", "A..B"}, "frames that are rendered, counted from 0 (default: all)",
                job.frames);
   } else {
     list.value({"budget", "TIME"},
@@ -107,6 +106,7 @@ OptionList listOptions(RenderJob& job) {
              "pixels of an EXR: floats, compressed or not; half floats, compressed; or half floats "
              "with OpenEXR's lossy DWAA compression",
              job.exr);
+  list.flag("stats", "prints the stages with their times, and the rays", job.stats);
   list.value({"json", "FILE"}, "settings, times and counts as JSON; - is standard output",
              job.json);
   listCommonOptions(list, job.common);
@@ -136,21 +136,25 @@ void checkBackground(const RenderJob& job) {
   }
 }
 
-// Throws if no output has a place for --channels.
-void checkChannels(const RenderJob& job) {
-  const ChannelSet kept = job.common.render.channels;
-  if (kept.empty()) return;
-
-  bool written = false;
+// Outputs that are named after a channel need no --channels. Throws if no output has a place for
+// those that are given.
+void addNamedChannels(RenderJob& job) {
+  ChannelSet& kept = job.common.render.channels;
+  ChannelSet named;
+  bool holdsAll = false;
   for (const std::string& output : job.outputs) {
+    const bool isExr = extensionOf(output) == ".exr";
     const std::optional<Channel> channel = channelNamedBy(output, kept);
-    written |= channel || extensionOf(output) == ".exr";
-    refuseIf(channel == Channel::position,
+    if (channel) named = named.with(*channel);
+    holdsAll |= isExr && !channel;
+    refuseIf(channel == Channel::position && !isExr,
              "'" + output + "': positions do not fit into a PNG: write an EXR");
   }
 
-  refuseIf(!written,
-           "--channels: expected an EXR to keep them in, or a PNG named by one, as out.depth.png");
+  const ChannelSet homeless = holdsAll ? ChannelSet() : kept.without(named);
+  refuseIf(!homeless.empty(), "--channels: expected an EXR to keep " + namesOf(homeless) +
+                                  " in, or an image named after each, as out.depth.png");
+  kept = kept.with(named);
 }
 
 void checkFilm(const RenderJob& job) {
@@ -206,8 +210,8 @@ void checkBudget(RenderJob& job) {
 
 void checkJob(RenderJob& job) {
   checkBudget(job);
+  addNamedChannels(job);
   checkBackground(job);
-  checkChannels(job);
   checkFilm(job);
   checkStandardOutput(job);
 
@@ -463,14 +467,27 @@ void writeFilm(const RenderJob& job, ImageWriter& writer, Progress* progress) {
   }
 }
 
-void tellWritten(const ImageWriter& writer, double seconds) {
+// Prints what was asked for besides the picture.
+void tell(const ImageWriter& writer, const RenderJob& job) {
+  if (job.common.quiet) return;
+  if (job.stats) std::fputs(stageTable(writer.run()).c_str(), stderr);
+  if (writer.receipt()) {
+    std::fputs(receiptText(*writer.receipt(), job.command).c_str(), stderr);
+  }
+}
+
+void tellWritten(const ImageWriter& writer, const RenderJob& job, double seconds) {
   const std::vector<std::string>& files = writer.written();
+  const RunSummary& run = writer.run();
   std::string what = std::to_string(files.size()) + " images";
   if (files.size() == 1) what = files[0] == kStandardOutput ? "an image" : printable(files[0]);
-  std::string kept;
-  if (writer.kept() > 0) kept = ", kept " + std::to_string(writer.kept());
+  if (writer.kept() > 0) what += ", kept " + std::to_string(writer.kept());
+  if (!run.frames.empty()) what += formatted(", %dx%d", run.width, run.height);
+  if (job.common.render.exposure.automatic) {
+    what += formatted(", exposure %g EV", static_cast<double>(writer.exposure().ev));
+  }
 
-  std::fprintf(stderr, "wrote %s%s, %.1f s\n", what.c_str(), kept.c_str(), seconds);
+  std::fprintf(stderr, "wrote %s, %.1f s\n", what.c_str(), seconds);
 }
 
 void writeReport(const RenderJob& job, const ImageWriter& writer) {
@@ -521,14 +538,9 @@ int render(RenderJob& job) {
   progress.reset();
 
   const bool traced = !writer.run().frames.empty();  // else all images were there
-  if (traced && !job.common.quiet) {
-    std::fputs(stageTable(writer.run()).c_str(), stderr);
-    if (writer.receipt()) {
-      std::fputs(receiptText(*writer.receipt(), job.command).c_str(), stderr);
-    }
-    if (job.common.render.exposure.automatic) {
-      std::fprintf(stderr, "exposure %g EV\n", static_cast<double>(writer.exposure().ev));
-    }
+  if (traced) {
+    tell(writer, job);
+    tellPictureWarnings(writer.run());
   }
 
   if (job.graphics != TerminalGraphics::none) {
@@ -537,8 +549,9 @@ int render(RenderJob& job) {
     std::fflush(stdout);
   }
 
-  if (!job.common.quiet && !job.outputs.empty()) tellWritten(writer, stopwatch.ms() / 1000);
+  if (!job.common.quiet && !job.outputs.empty()) tellWritten(writer, job, stopwatch.ms() / 1000);
   if (!job.json.empty()) writeReport(job, writer);
+  tellFiles({job.json}, job.common);
   return 0;
 }
 
@@ -554,6 +567,7 @@ int turntableCommand(const Words& words) {
   RenderJob job;
   job.onTurntable = true;
   job.common.render.quality = Quality::good;
+  applyQuality(job.common.render, {});  // --help states the values of the preset
   if (!parseOptions(kTurntableUsage, kTurntableSummary, listOptions(job), words)) return 0;
 
   if (job.frames.empty()) job.frames = "0.." + std::to_string(job.turntableFrames - 1);

@@ -13,10 +13,12 @@ namespace whit::cli {
 
 namespace {
 
-[[noreturn]] void throwUnknownOption(const std::string& name, const OptionList& list) {
+// `command` is as it is typed: "whit render".
+[[noreturn]] void throwUnknownOption(const std::string& name, const OptionList& list,
+                                     const std::string& command) {
   std::vector<std::string> names{"--help", "--help-all"};
   for (const OptionList::Entry& e : list.entries) names.push_back("--" + e.name);
-  throwNoOption(name, names);
+  throwUsage(noOption(name, names) + "; " + command + " --help-all lists them");
 }
 
 // An option as it was typed: "--name=value", "--name" or, of one letter, "-n", "-nvalue".
@@ -40,7 +42,8 @@ TypedOption splitOption(const std::string& word) {
 }
 
 // Sets every value; stops at a call for help, which is the name of its option.
-std::string takeWords(const std::vector<std::string>& words, const OptionList& list) {
+std::string takeWords(const std::vector<std::string>& words, const OptionList& list,
+                      const std::string& command) {
   std::vector<std::string> operands;
   bool onlyOperands = false;
 
@@ -60,7 +63,7 @@ std::string takeWords(const std::vector<std::string>& words, const OptionList& l
     const auto entry = std::ranges::find_if(list.entries, [&](const OptionList::Entry& e) {
       return typed.isLetter ? typed.name == "-" + e.shortName : typed.name == "--" + e.name;
     });
-    if (entry == list.entries.end()) throwUnknownOption(typed.name, list);
+    if (entry == list.entries.end()) throwUnknownOption(typed.name, list, command);
 
     // A flag without a value means true; any other option takes the next word.
     if (typed.value || entry->placeholder.empty()) {
@@ -92,7 +95,8 @@ std::string quotedJson(const std::string& text) {
 
 void listReportOptions(OptionList& list, CommonOptions& common) {
   list.group("Reporting");
-  list.flag("quiet", "nothing on standard error but errors", common.quiet).common = true;
+  list.flag("quiet", "nothing on standard error but warnings and errors", common.quiet).common =
+      true;
   list.value({"progress", "auto|never"}, "progress bar (auto: on a terminal)", common.progress)
       .common = true;
 }
@@ -183,7 +187,10 @@ bool parseOptions(const std::string& usage, const std::string& summary, const Op
     return false;
   }
 
-  const std::string help = takeWords(words, list);
+  // The words of the command end where its operands begin.
+  const std::string command =
+      usage.substr(0, usage.find_first_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ[") - 1);
+  const std::string help = takeWords(words, list, command);
   if (help.empty()) {
     if (list.settle) list.settle();
     return true;

@@ -19,6 +19,7 @@ struct CommonOptions {
   LoadOptions load;
   double maxMemoryGb = 16;
   bool quiet = false;
+  bool warns = true;  // false: whoever opens a scene reports its warnings
   std::string progress = "auto";
 };
 

@@ -40,7 +40,7 @@ void visitOption(Options& options, const std::string& name, Visitor&& visit) {
   });
 
   if (found) return;
-  throwNoOption(name, names);
+  throwUsage(noOption(name, names));
 }
 
 // Calls visit(spec, a's, b's) for each option.
@@ -70,8 +70,8 @@ constexpr std::array<const char*, kPresetOptions.size()> kPresets[] = {
 
 }  // namespace
 
-void throwNoOption(const std::string& name, const std::vector<std::string>& names) {
-  throwUsage("there is no option '" + name + "'" + didYouMean(name, names));
+std::string noOption(const std::string& name, const std::vector<std::string>& names) {
+  return "there is no option '" + name + "'" + didYouMean(name, names);
 }
 
 void setOption(RenderOptions& options, const std::string& name, const std::string& text) {
@@ -183,12 +183,17 @@ std::vector<std::string> split(const std::string& text, char separator) {
 
 bool readBackground(const std::string& text, Background& value) {
   using Kind = Background::Kind;
-  value.kind = text == "sky" ? Kind::sky : text == "transparent" ? Kind::transparent : Kind::color;
+  value.kind = Kind::color;
+  if (text == "sky") value.kind = Kind::sky;
+  if (text == "transparent" || text == "none") value.kind = Kind::transparent;
   if (value.kind != Kind::color) return true;
 
-  // A color is two hexadecimal digits for each channel, or one of two names.
+  // A color is one or two hexadecimal digits for each channel, or one of two names.
   std::string digits = text.substr(text.starts_with('#') ? 1 : 0);
-  if (text == "white" || text == "black") digits = text == "white" ? "ffffff" : "000000";
+  if (text == "white" || text == "black") digits = text == "white" ? "fff" : "000";
+  if (digits.size() == 3) {
+    digits = {digits[0], digits[0], digits[1], digits[1], digits[2], digits[2]};
+  }
 
   for (std::size_t i = 0; i < 3 && digits.size() == 6; ++i) {
     const char* const first = digits.data() + 2 * i;

@@ -18,9 +18,9 @@
 
 namespace whit {
 
-// Throws Error(usage) for a name, with or without "--", that no option has: with the present name
-// of one that was renamed, or with a near one of `names`.
-[[noreturn]] void throwNoOption(const std::string& name, const std::vector<std::string>& names);
+// Says that no option has this name, with or without "--": with what the option is called here if
+// other programs call it so, or with a near one of `names`.
+std::string noOption(const std::string& name, const std::vector<std::string>& names);
 
 // Set or format the option of this name. They throw Error(usage), which for an unknown name
 // suggests a near one.
@@ -117,7 +117,7 @@ void parseValue(const OptionSpec& spec, const std::string& text, T& value) {
     v.automatic = text == "auto";
     if (!v.automatic) parseNumber("auto or a number", v.ev);
   } else if constexpr (std::is_same_v<T, Background>) {
-    expect(readBackground(text, v), "sky, transparent, white, black, or six digits as ff8000");
+    expect(readBackground(text, v), "sky, transparent, white, black, or digits as ff8000 or #fff");
   } else if constexpr (std::is_same_v<T, ImageSize>) {
     expect(readAll('x', v.width, v.height) && std::min(v.width, v.height) >= 1 &&
                std::max(v.width, v.height) <= kImageSideLimit,

@@ -66,9 +66,18 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
 
 // Options of other programs and of former versions, and what they are called here.
 constexpr std::pair<std::string_view, std::string_view> kSynonyms[] = {
-    {"ao", "ambient-samples"}, {"bounces", "depth"}, {"gi", "indirect"},
-    {"height", "size"},        {"j", "threads"},     {"out", "output"},
-    {"resolution", "size"},    {"samples", "spp"},   {"width", "size"}};
+    {"alpha", "background"}, {"ao", "ambient-samples"},
+    {"avx512", "avx3"},      {"bg", "background"},
+    {"bounces", "depth"},    {"env", "sky"},
+    {"environment", "sky"},  {"from", "eye"},
+    {"gi", "indirect"},      {"hdri", "sky"},
+    {"height", "size"},      {"j", "threads"},
+    {"look-at", "at"},       {"lookat", "at"},
+    {"lookfrom", "eye"},     {"out", "output"},
+    {"range", "frames"},     {"resolution", "size"},
+    {"samples", "spp"},      {"transparent", "background"},
+    {"v", "stats"},          {"verbose", "stats"},
+    {"width", "size"},       {"zoom", "fov"}};
 
 }  // namespace
 
@@ -128,9 +137,15 @@ std::string nearestName(const std::string& word, const std::vector<std::string>&
   return nearest;
 }
 
-std::string didYouMean(const std::string& word, const std::vector<std::string>& names) {
+std::string didYouMean(const std::string& word, const std::vector<std::string>& names,
+                       const std::string& kind) {
   const std::string nearest = nearestName(word, names);
-  return nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
+  if (!nearest.empty()) return "; did you mean '" + nearest + "'?";
+  if (kind.empty() || names.empty()) return "";
+
+  std::string all;
+  for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
+  return "; every " + kind + " there is: " + all;
 }
 
 std::vector<std::size_t> indicesOf(const std::string& commaSeparated,
@@ -143,7 +158,7 @@ std::vector<std::size_t> indicesOf(const std::string& commaSeparated,
 
     const auto found = std::ranges::find(names, word);
     if (found == names.end()) {
-      throwUsage("no " + kind + " is called '" + word + "'" + didYouMean(word, names));
+      throwUsage("no " + kind + " is called '" + word + "'" + didYouMean(word, names, kind));
     }
 
     indices.push_back(static_cast<std::size_t>(found - names.begin()));

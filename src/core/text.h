@@ -63,11 +63,13 @@ std::string printable(const std::string& text);
 // distance from it, if that is about a third of the word at most; otherwise empty.
 std::string nearestName(const std::string& word, const std::vector<std::string>& names);
 
-// "; did you mean 'NAME'?" for the end of a message; empty if no name is near.
-std::string didYouMean(const std::string& word, const std::vector<std::string>& names);
+// "; did you mean 'NAME'?" for the end of a message. If no name is near, all names where `kind`
+// says what they are, else nothing.
+std::string didYouMean(const std::string& word, const std::vector<std::string>& names,
+                       const std::string& kind = "");
 
 // The indices in `names` of the names in the text, which are separated by commas. Throws
-// Error(usage) for an unknown one: "no KIND is called ...".
+// Error(usage) for an unknown one: "no KIND is called ...", with all there are.
 std::vector<std::size_t> indicesOf(const std::string& commaSeparated,
                                    const std::vector<std::string>& names, const std::string& kind);
 

@@ -93,14 +93,27 @@ void Image::write(const std::string& path) const {
     const std::string extension = extensionOf(path);
     if (width() == 0) throwUsage("cannot write '" + path + "': nothing has been rendered");
 
-    if (extension == ".exr") {
+    const Film& film = data_->film;
+    if (const auto named = channelNamedBy(path, film.channels.channels())) {
+      const std::string name(infoOf(*named).name);
+      channel(name);  // throws if the image lacks it
+      ImageMetadata said = data_->metadata;
+      said.emplace_back("channel", name);
+      if (extension == ".exr") {
+        writeChannelExr(path, film.image, film.channels, *named, said, ExrStorage::zip, 1);
+      } else {
+        writeChannelPng(path, film.image, film.channels, *named, said);
+      }
+    } else if (extension == ".exr") {
       ImageMetadata said = data_->metadata;
       said.insert(said.end(), data_->aboutChannels.begin(), data_->aboutChannels.end());
-      writeExr(path, data_->film.image, said, ExrStorage::zip, 1, layersOf(data_->film.channels));
+      writeExr(path, film.image, said, ExrStorage::zip, 1, layersOf(film.channels));
     } else if (extension == ".png") {
-      writePng(path, data_->film.display, data_->metadata);
+      writePng(path, film.display, data_->metadata);
+    } else if (extension == ".jpg" || extension == ".jpeg") {
+      writeTextFile(path, encodeJpeg(film.display));
     } else {
-      throwUsage("'" + path + "': expected a name that ends in .exr or .png");
+      throwUsage("'" + path + "': expected a name that ends in .exr, .png or .jpg");
     }
   });
 }

@@ -252,8 +252,9 @@ class Image {
   };
   std::vector<Channel> channels() const;
   Channel channel(std::string_view name) const;  // status 2 if the image does not have it
-  // Writes .exr (linear, with the channels) or .png (sRGB), with the options as metadata. The file
-  // is replaced when it is complete.
+  // Writes .exr (linear, with the channels), .png or .jpg (sRGB), with the options as metadata but
+  // for .jpg; "x.depth.png" and "x.depth.exr" hold that channel alone. The file is replaced when it
+  // is complete. Throws status 2 where the image lacks the channel.
   void write(const std::string& path) const;
   std::string png() const;  // the bytes of a PNG file
   // All of the image as bytes, which the same version of the library reads. fromBytes() throws

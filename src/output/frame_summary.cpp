@@ -178,17 +178,26 @@ std::string stageTable(const RunSummary& run) {
                       floor, floor > 0 ? frame.frameMs / floor : 0);
   }
 
-  if (frame.limitedPixels > 0) {
-    text += formatted(
-        "  %llu pixels have samples of more than %d rays, which were traced with fewer "
-        "(--max-rays)\n",
-        static_cast<unsigned long long>(frame.limitedPixels), run.options.maxRays);
-  }
-  if (frame.nonFinitePixels > 0) {
-    text += formatted("  %llu pixels are not finite\n",
-                      static_cast<unsigned long long>(frame.nonFinitePixels));
-  }
   return text;
+}
+
+std::vector<std::string> pictureWarnings(const RunSummary& run) {
+  unsigned long long limited = 0, notFinite = 0;
+  for (const FrameStats& frame : run.frames) {
+    limited += frame.limitedPixels;
+    notFinite += frame.nonFinitePixels;
+  }
+
+  std::vector<std::string> warnings;
+  if (limited > 0) {
+    warnings.push_back(
+        formatted("%llu %s samples of more than %d rays, which were traced with fewer (--max-rays)",
+                  limited, limited == 1 ? "pixel has" : "pixels have", run.options.maxRays));
+  }
+  if (notFinite > 0)
+    warnings.push_back(
+        formatted("%llu %s not finite", notFinite, notFinite == 1 ? "pixel is" : "pixels are"));
+  return warnings;
 }
 
 std::string ratioText(const RunSummary& first, const RunSummary& second) {

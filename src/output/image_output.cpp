@@ -103,23 +103,6 @@ void makeFolder(const std::string& path) {
   if (error) throwIo("cannot make the folder '" + path + "': " + error.message());
 }
 
-std::optional<Channel> channelNamedBy(const std::string& path, ChannelSet kept) {
-  if (kept.empty() || extensionOf(path) != ".png") return std::nullopt;
-
-  std::string name = std::filesystem::path(path).stem().string();
-  // The frame's number and the separators before it are no part of the channel's name.
-  if (const std::size_t frame = name.find('#'); frame != std::string::npos) name.resize(frame);
-  while (!name.empty() && std::string_view("-_.").find(name.back()) != std::string_view::npos) {
-    name.pop_back();
-  }
-  const std::string last = name.substr(name.rfind('.') + 1);
-  std::optional<Channel> channel;
-  kept.forEach([&](Channel c) {
-    if (infoOf(c).name == last) channel = c;
-  });
-  return channel;
-}
-
 ImageMetadata ownMetadata(const std::string& path, const ImageFormat& format) {
   if (format.channel) return {{"channel", std::string(infoOf(*format.channel).name)}};
   if (extensionOf(path) != ".exr") return {};
@@ -138,7 +121,10 @@ void writeImage(const std::string& path, const Film& film, const ImageMetadata& 
   const ImageMetadata own = ownMetadata(path, format);
   said.insert(said.end(), own.begin(), own.end());
 
-  if (extensionOf(path) == ".exr") {
+  if (extensionOf(path) == ".exr" && format.channel) {
+    writeChannelExr(path, film.image, film.channels, *format.channel, said, format.exr,
+                    format.threads);
+  } else if (extensionOf(path) == ".exr") {
     writeExr(path, film.image, said, format.exr, format.threads, layersOf(film.channels));
   } else if (format.channel) {
     writeChannelPng(path, film.image, film.channels, *format.channel, said);

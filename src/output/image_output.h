@@ -31,20 +31,17 @@ inline constexpr OptionSpec kExrOption{.name = "exr", .words = "zip|none|half|dw
 struct ImageFormat {
   ExrStorage exr = ExrStorage::zip;
   int threads = 1;                      // that compress it
-  std::optional<Channel> channel = {};  // that a PNG shows in place of the picture
+  std::optional<Channel> channel = {};  // that the file holds in place of the picture
   ImageMetadata aboutChannels = {};     // of describeChannels()
 };
 
-// Which of the channels that are kept a PNG of this name shows, by the part of the name before its
-// end or before the frame's number: "out.depth.png", "normal-####.png". None: the picture.
-std::optional<Channel> channelNamedBy(const std::string& path, ChannelSet kept);
-
-// Writes .exr (linear, with the film's channels), .jpg or .png (display, or a channel) by the
-// name's extension; a PNG to standard output. Throws Error(io), and what writeChannelPng() throws.
+// Writes .exr (linear, with the film's channels), .jpg or .png (display), or the format's channel
+// alone as .exr or .png, by the name's extension; a PNG to standard output. Throws Error(io), and
+// what writeChannelPng() throws.
 void writeImage(const std::string& path, const Film& film, const ImageMetadata& metadata,
                 const ImageFormat& format = {});
-// The metadata that writeImage() adds: for an EXR its channels and an unusual storage, for the PNG
-// of a channel its name.
+// The metadata that writeImage() adds: for an EXR its channels and an unusual storage, for the image
+// of one channel its name.
 ImageMetadata ownMetadata(const std::string& path, const ImageFormat& format);
 
 // True if `path` (.exr or .png) is what a render into `image` would write: readable to its last

@@ -10,7 +10,7 @@ namespace whit {
 std::unique_ptr<OpenScene> openAndTell(const std::string& name, const cli::CommonOptions& common,
                                        Progress* progress, const LookAtScene& look) {
   auto open = openScene({name, nullptr}, common.load, common.render.strict, progress, look);
-  if (common.quiet) return open;
+  if (!common.warns) return open;
 
   cli::tellWarnings(open->warnings);
   const EffectSet effects = open->scene.effects;
@@ -24,6 +24,22 @@ std::unique_ptr<OpenScene> openAndTell(const std::string& name, const cli::Commo
   }
 
   return open;
+}
+
+void tellPictureWarnings(const RunSummary& run) {
+  for (const std::string& warning : pictureWarnings(run)) {
+    std::fprintf(stderr, "whit: warning: %s\n", warning.c_str());
+  }
+}
+
+void tellFiles(const std::vector<std::string>& files, const cli::CommonOptions& common) {
+  if (common.quiet) return;
+
+  std::string names;
+  for (const std::string& file : files) {
+    if (!file.empty() && file != "-") names += (names.empty() ? "" : ", ") + printable(file);
+  }
+  if (!names.empty()) std::fprintf(stderr, "wrote %s\n", names.c_str());
 }
 
 }  // namespace whit

@@ -1,17 +1,25 @@
-// Opens a scene for a program.
+// Opens a scene for a program, and tells people on standard error what they should know.
 #pragma once
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "command_line/parse_options.h"
 #include "engine/open_scene.h"
+#include "output/frame_summary.h"
 
 namespace whit {
 
-// Opens the scene and, unless --quiet, tells people on standard error what was repaired, and if
-// nothing in the scene gives light.
+// Opens the scene. Warns of what was repaired, and if nothing in the scene gives light, unless the
+// caller reports the warnings itself.
 std::unique_ptr<OpenScene> openAndTell(const std::string& name, const cli::CommonOptions& common,
                                        Progress* progress, const LookAtScene& look = {});
+
+// Warns of what pictureWarnings() finds.
+void tellPictureWarnings(const RunSummary& run);
+
+// Says what was written, unless --quiet. Empty names and standard output are left out.
+void tellFiles(const std::vector<std::string>& files, const cli::CommonOptions& common);
 
 }  // namespace whit

@@ -17,6 +17,7 @@ view::ViewOptions viewOptions(const OpenScene& open, const OptionTexts& options)
   all.scene = open.source.name;
   cli::CommonOptions& common = all.common;
   common.quiet = true;
+  common.warns = false;  // the scene has warned when it was opened
 
   for (const auto& [name, value] : options) {
     setOption(common.render, name, value);

@@ -26,6 +26,11 @@ Camera aimed(Camera camera, const RenderOptions& options) {
     if (options.*option) camera.*member = *(options.*option);
   });
   if (options.fov || options.ortho) camera.aspect = 0;
+
+  const bool isMoved = options.eye || options.at;
+  if (isMoved && camera.eye == camera.at) {
+    throwUsage("--eye and --at are the same point, so that the camera looks nowhere");
+  }
   return camera;
 }
 
@@ -36,7 +41,7 @@ Camera chooseCamera(const Scene& scene, const RenderOptions& options) {
                                   [&](const Camera& c) { return c.name == options.camera; });
   if (found == cameras.rend()) {
     throwUsage("scene '" + scene.name + "' has no camera '" + options.camera + "'" +
-               didYouMean(options.camera, namesIn(cameras)));
+               didYouMean(options.camera, namesIn(cameras), "camera"));
   }
   return aimed(*found, options);
 }

@@ -68,6 +68,44 @@ TEST(Channels, AreBesideThePicture) {
   }
 }
 
+// The name of an image asks for its channel. The gray EXR is what programs without knowledge of
+// channels read; its values are those of the layers beside a picture.
+TEST(Channels, AnImageNamedByOneHoldsItAlone) {
+  const TemporaryFolder folder;
+  const std::string scene = writeTinyScene(folder);
+  expectDone({"render", scene, "-o", folder / "a.png", "-o", folder / "a.depth.png", "-o",
+              folder / "a.depth.exr", "-o", folder / "a.normal.exr", "-o", folder / "a.uv.exr",
+              "-o", folder / "a.object.exr", "--quiet"});
+  expectDone({"render", scene, "-o", folder / "b.exr", "-o", folder / "b.depth.png", "--channels",
+              "depth,normal,uv,object", "--quiet"});
+  expectDone({"render", scene, "-o", folder / "depth.png", "--quiet"});
+  EXPECT_EQ(readFile(folder / "a.depth.png").size(), readFile(folder / "b.depth.png").size());
+  EXPECT_EQ(readFile(folder / "depth.png").size(), readFile(folder / "a.png").size());
+
+  const std::vector<ImageLayer> all = readLayers(folder / "b.exr", ImageLimits());
+  const auto layer = [&](const std::string& name) {
+    const auto found = std::ranges::find(all, name, &ImageLayer::name);
+    return found->countsThings ? std::vector<float>(found->words.begin(), found->words.end())
+                               : found->floats();
+  };
+  const auto expectColors = [&](const std::string& file, std::array<std::string, 3> names) {
+    const Image image = readImage(folder / file, ImageLimits());
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (names[c].empty()) continue;
+      const std::vector<float> expected = layer(names[c]);
+      for (std::size_t i = 0; i < expected.size(); ++i) {
+        const bool isNothing = names[c] == "object.id" && expected[i] > 1e9f;
+        ASSERT_EQ(image.pixels[i][static_cast<int>(c)], isNothing ? -1 : expected[i])
+            << file << " " << names[c] << " " << i;
+      }
+    }
+  };
+  expectColors("a.depth.exr", {"depth.Z", "depth.Z", "depth.Z"});
+  expectColors("a.object.exr", {"object.id", "object.id", "object.id"});
+  expectColors("a.normal.exr", {"normal.X", "normal.Y", "normal.Z"});
+  expectColors("a.uv.exr", {"uv.U", "uv.V", ""});
+}
+
 TEST(Channels, WhatCannotBeIsSaid) {
   const TemporaryFolder folder;
   const std::string scene = writeTinyScene(folder);
@@ -79,7 +117,8 @@ TEST(Channels, WhatCannotBeIsSaid) {
         folder);
   };
   refuse(2, "did you mean 'depth'?", "a.exr", "deth");
-  refuse(2, "expected an EXR to keep them in", "a.png", "depth");
+  refuse(2, "expected an EXR to keep depth in", "a.png", "depth");
+  refuse(2, "expected an EXR to keep depth in", "a.normal.exr", "depth,normal");
   refuse(2, "positions do not fit into a PNG", "a.position.png", "position");
   refuse(2, "dwaa is lossy for channels", "a.exr", "depth", "dwaa");
   refuse(4, "there is no folder", "none/a.exr", "depth");

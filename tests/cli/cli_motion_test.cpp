@@ -100,7 +100,7 @@ TEST(Motion, IsTimedAndListed) {
   EXPECT_EQ(listed, nlohmann::json::parse(R"([{"name": "up", "seconds": 2, "nodes": 2}])"));
 
   const Outcome film = runWhit({"render", moving, "-o", folder / "f#.png", "--frames", "0..1",
-                                "--size", "32x20", "--json", folder / "f.json"});
+                                "--size", "32x20", "--stats", "--json", folder / "f.json"});
   EXPECT_NE(film.err.find("updateScene"), std::string::npos) << film.err;
   EXPECT_GT(nlohmann::json::parse(readFile(folder / "f.json"))["updateScene_ms"], 0);
 }

@@ -244,10 +244,12 @@ TEST(Quality, GoodHasAllEffectsAndIsNamedFirst) {
 TEST(Background, GoesBothWays) {
   EXPECT_EQ(parsed({"--background", "white"}).render.background.color,
             (std::array<std::uint8_t, 3>{255, 255, 255}));
+  EXPECT_EQ(optionText(parsed({"--background", "#f80"}).render, "background"), "ff8800");
+  EXPECT_EQ(optionText(parsed({"--background", "none"}).render, "background"), "transparent");
   for (const char* text : {"sky", "transparent", "ff8000", "000000"}) {
     EXPECT_EQ(optionText(parsed({"--background", text}).render, "background"), text);
   }
-  for (const char* text : {"", "fff", "ff80zz", "ff800000", "#", "Sky"}) {
+  for (const char* text : {"", "ffff", "ff80zz", "ff800000", "#", "Sky"}) {
     EXPECT_NE(usageError({"s", "--background", text}).find("--background: expected"),
               std::string::npos)
         << text;

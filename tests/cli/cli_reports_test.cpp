@@ -73,7 +73,21 @@ TEST(StageTable, NamesStagesTimesAndRays) {
   EXPECT_NE(table.find("     1.600     8.0\n"), std::string::npos) << table;  // 8 % of 20 ms
   EXPECT_NE(table.find("75.0\n"), std::string::npos) << table;
   EXPECT_NE(table.find("frame over floor 1.25"), std::string::npos) << table;
-  EXPECT_EQ(table.find("not finite"), std::string::npos) << table;
+}
+
+// Of all frames, not of the one that stands for them in the table.
+TEST(PictureWarnings, CountTheFramesTogether) {
+  RunSummary run = madeUpRun(3);
+  EXPECT_TRUE(pictureWarnings(run).empty());
+
+  run.options.maxRays = 77;
+  run.frames[0].limitedPixels = 3;
+  run.frames[2].limitedPixels = 4;
+  run.frames[1].nonFinitePixels = 1;
+  const std::vector<std::string> warnings = pictureWarnings(run);
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_TRUE(warnings[0].starts_with("7 pixels have samples of more than 77 rays"));
+  EXPECT_EQ(warnings[1], "1 pixel is not finite");
 }
 
 // The table leaves out the kinds of rays that the scene's effects do not trace.

@@ -1,6 +1,7 @@
 // Turntables and films as users make them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "core/option_table.h"
@@ -49,11 +50,11 @@ std::vector<std::string> namesIn(const TemporaryFolder& folder) {
 TEST(TurntableCommand, AFrameIsTheSameAloneAndInARun) {
   const TemporaryFolder folder;
   const std::string cube = cubeObj(folder);
-  const Outcome all = turn(cube, {"-o", folder / "all-##.exr", "--frames", "5", "--size", "48x32"});
+  const Outcome all = turn(cube, {"-o", folder / "all-##.exr", "--count", "5", "--size", "48x32"});
   ASSERT_EQ(all.status, 0) << all.err;
 
-  const Outcome one = turn(cube, {"-o", folder / "one-##.exr", "--frames", "5", "--size", "48x32",
-                                  "--range", "3", "--threads", "1"});
+  const Outcome one = turn(cube, {"-o", folder / "one-##.exr", "--count", "5", "--size", "48x32",
+                                  "--frames", "3", "--threads", "1"});
   ASSERT_EQ(one.status, 0) << one.err;
 
   EXPECT_EQ(readFile(folder / "all-03.exr"), readFile(folder / "one-03.exr"));
@@ -66,7 +67,7 @@ TEST(TurntableCommand, AFrameIsTheSameAloneAndInARun) {
 TEST(TurntableCommand, TheCameraGoesAroundOnACircle) {
   const TemporaryFolder folder;
   ASSERT_EQ(
-      turn(cubeObj(folder), {"-o", folder / "f#.exr", "--frames", "4", "--size", "48x48"}).status,
+      turn(cubeObj(folder), {"-o", folder / "f#.exr", "--count", "4", "--size", "48x48"}).status,
       0);
 
   const auto eye = [&](int k) {
@@ -91,7 +92,7 @@ TEST(TurntableCommand, TheCameraGoesAroundOnACircle) {
 TEST(TurntableCommand, WithoutFfmpegThereIsNoFilm) {
   const TemporaryFolder folder;
   const Outcome outcome =
-      turn(cubeObj(folder), {"-o", folder / "film.mp4", "--frames", "3"}, "/nonexistent");
+      turn(cubeObj(folder), {"-o", folder / "film.mp4", "--count", "3"}, "/nonexistent");
   EXPECT_EQ(outcome.status, 4) << outcome.err;
   EXPECT_NE(outcome.err.find("ffmpeg"), std::string::npos) << outcome.err;
   EXPECT_EQ(namesIn(folder), (std::vector<std::string>{"cube.obj"}));
@@ -103,7 +104,7 @@ TEST(TurntableCommand, AProgramThatFailsIsAnErrorWithItsMessage) {
   const auto expectFailure = [&](const std::string& program, const std::string& said) {
     writeProgram(programs, program);
     const Outcome outcome =
-        turn(cube, {"-o", folder / "film.mp4", "--frames", "40", "--size", "320x200"},
+        turn(cube, {"-o", folder / "film.mp4", "--count", "40", "--size", "320x200"},
              programs.path().string() + ":/usr/bin:/bin");
     EXPECT_EQ(outcome.status, 4) << outcome.err;
     EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
@@ -120,7 +121,7 @@ TEST(TurntableCommand, AnInterruptionLeavesNothing) {
   const std::string cube = cubeObj(folder);
 
   const pid_t child =
-      startWhit({"turntable", cube, "-o", folder / "film.mp4", "--frames", "100000", "--size",
+      startWhit({"turntable", cube, "-o", folder / "film.mp4", "--count", "100000", "--size",
                  "64x40", "--quiet"},
                 output, [&] { setenv("PATH", (programs.path().string() + ":/bin").c_str(), 1); });
 
@@ -148,7 +149,7 @@ TEST(TurntableCommand, WrongUsageIsSaid) {
   refuse(2, "--resume", {"-o", folder / "a.mp4", "--resume"});
   refuse(2, "####", {"-o", folder / "a.png"});
   refuse(2, "even numbers", {"-o", folder / "a.mp4", "--size", "31x20"});
-  refuse(2, "--frames", {"-o", folder / "a#.png", "--range", "4..2"});
+  refuse(2, "--frames", {"-o", folder / "a#.png", "--frames", "4..2"});
   refuse(4, "there is no folder", {"-o", folder / "none/a.mp4"});
   EXPECT_EQ(turn(folder / "none.glb", {"-o", folder / "a.mp4"}).status, 4);
 }
@@ -186,7 +187,7 @@ TEST(Film, FramesAreThoseOfTheirOwnFiles) {
 
 TEST(TurntableCommand, SceneFilesTurnAboutWhatIsLookedAt) {
   const TemporaryFolder folder;
-  const Outcome outcome = turn(writeTinyScene(folder), {"-o", folder / "a#.exr", "--frames", "2",
+  const Outcome outcome = turn(writeTinyScene(folder), {"-o", folder / "a#.exr", "--count", "2",
                                                         "--camera", "side", "--json", "-"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
 
@@ -194,13 +195,14 @@ TEST(TurntableCommand, SceneFilesTurnAboutWhatIsLookedAt) {
   EXPECT_EQ(json["frames"], 2);
   EXPECT_EQ(json["size"], (Json{48, 32}));
   EXPECT_EQ(json["files"].size(), 2u);
-  for (const auto& [name, text] : readExrMetadata(folder / "a1.exr")) {
-    if (name != "eye") continue;
-    Vec3f v;
-    parseValue(OptionSpec{}, text, v);
-    EXPECT_NEAR(v.x, -6, 1e-5);
-    EXPECT_NEAR(v.y, 2, 1e-6);
-  }
+
+  const ImageMetadata metadata = readExrMetadata(folder / "a1.exr");
+  const auto eye = std::ranges::find(metadata, "eye", &ImageMetadata::value_type::first);
+  ASSERT_NE(eye, metadata.end());
+  Vec3f v;
+  parseValue(OptionSpec{}, eye->second, v);
+  EXPECT_NEAR(v.x, -6, 1e-5);
+  EXPECT_NEAR(v.y, 2, 1e-6);
 }
 
 // The model is one of the real world, and the real ffmpeg makes the film.

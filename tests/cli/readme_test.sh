@@ -45,7 +45,7 @@ commandsOf() {
 cheap() {
   sed -E -e 's/ *((&&|\|) ffmpeg.*)?$//' -e '/whit-view/s/SCENE/sponza-mirror/' -e 's/SCENE/whitted/' \
     -e 's/COMMAND/render/' -e '/--truth transport/s/atrium whitted glass sponza-mirror/matte/' \
-    -e '/-o atrium/!s/atrium/whitted/g' -e '/turntable/s/$/ --frames 2 --size 64x40/' \
+    -e '/-o atrium/!s/atrium/whitted/g' -e '/turntable/s/$/ --count 2 --size 64x40/' \
     -e 's/--size [0-9]+x[0-9]+/--size 64x40/' -e 's/--spp [0-9]+/--spp 2/' \
     -e 's/--frames [0-9]+( |$)/--frames 1\1/' -e 's/--depth N/--depth 4/' -e 's/--sphere-segments N/--sphere-segments 8/' \
     -e 's/triangles=(N|[0-9]+)/triangles=20000/' -e 's/(render|info) FILE/\1 whitted/' -e 's/1\.\.48/1..2/' -e 's/0\.\.239/0..2/' \

@@ -180,11 +180,6 @@ TEST_F(SceneItems, MaterialsOfShapesAndTheirSlots) {
   const SceneDescription scene =
       loadMembers(materials + ", \"materials\": {\"leaves\": \"green\"}}, {\"shape\": \"quad\"}]");
 
-  std::map<std::string, std::string> materialOf;
-  for (const Object& object : scene.objects) {
-    materialOf[object.meshes[0].name] = scene.materials[object.meshes[0].material(0)].name;
-  }
-
   ASSERT_EQ(scene.objects.size(), 3u);
   EXPECT_EQ(scene.materials[scene.objects[0].meshes[0].material(0)].name, "red");    // bark
   EXPECT_EQ(scene.materials[scene.objects[1].meshes[0].material(0)].name, "green");  // leaves

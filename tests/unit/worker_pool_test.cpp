@@ -71,7 +71,7 @@ int statusOfChild(const std::function<int()>& body) {
   }
 
   int status = 0;
-  waitpid(child, &status, 0);
+  if (child < 0 || waitpid(child, &status, 0) != child) return -1;
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 

@@ -38,6 +38,7 @@ class VirtualDisplay {
     if (!number.empty()) name_ = ":" + number;
   }
   ~VirtualDisplay() {
+    if (child_ < 0) return;  // kill(-1) would end every process of the user
     kill(child_, SIGTERM);
     cli::waitFor(child_);
   }

@@ -357,8 +357,10 @@ Imf::Header makeHeader(const Image& image, const ImageMetadata& metadata, ExrSto
   header.compression() = storage == ExrStorage::none   ? Imf::NO_COMPRESSION
                          : storage == ExrStorage::dwaa ? Imf::DWAA_COMPRESSION
                                                        : Imf::ZIP_COMPRESSION;
-  const Imf::Channel channel(inHalf(storage) ? Imf::HALF : Imf::FLOAT);
-  for (const char* name : kRadianceLayers) header.channels().insert(name, channel);
+  if (!image.pixels.empty()) {
+    const Imf::Channel channel(inHalf(storage) ? Imf::HALF : Imf::FLOAT);
+    for (const char* name : kRadianceLayers) header.channels().insert(name, channel);
+  }
   for (const ImageLayer& layer : layers) {
     header.channels().insert(layer.name, Imf::Channel(typeOf(layer)));
   }
@@ -374,7 +376,7 @@ void writePixels(Imf::OutputFile& exr, Imf::PixelType type, const Image& image, 
   const Box2i& data = exr.header().dataWindow();
   const std::size_t bytes = type == Imf::HALF ? sizeof(half) : sizeof(float);
   Imf::FrameBuffer frame;
-  for (std::size_t c = 0; c < kRadianceLayers.size(); ++c) {
+  for (std::size_t c = 0; c < kRadianceLayers.size() && !image.pixels.empty(); ++c) {
     frame.insert(kRadianceLayers[c],
                  Imf::Slice::Make(type, static_cast<const char*>(colors) + c * bytes, data,
                                   kRadianceLayers.size() * bytes));
@@ -394,7 +396,7 @@ void writeTo(Imf::OStream& out, const Image& image, const Imf::Header& header, E
     const std::vector<half> values = inHalf(image);
     writePixels(exr, Imf::HALF, image, values.data(), layers);
   } else {
-    writePixels(exr, Imf::FLOAT, image, &image.pixels[0][0], layers);
+    writePixels(exr, Imf::FLOAT, image, image.pixels.data(), layers);
   }
 }
 
@@ -467,7 +469,8 @@ std::string encodeExr(const Image& image, const ImageMetadata& metadata,
 
 void writeExr(const std::string& path, const Image& image, const ImageMetadata& metadata,
               ExrStorage storage, int threads, const std::vector<ImageLayer>& layers) {
-  if (image.pixels.empty()) throwUsage("cannot write '" + path + "': the image has no pixels");
+  if (image.pixels.empty() && layers.empty())
+    throwUsage("cannot write '" + path + "': the image has no pixels");
   if (!layers.empty() && storage == ExrStorage::dwaa) {
     throwUsage("cannot write '" + path +
                "': DWAA is lossy for channels as well (position.Y): zip, none and half are not");

@@ -73,8 +73,9 @@ struct ImageLayer {
   std::vector<float> floats() const;
 };
 
-// Writes linear RGB with metadata as string attributes; the data window is image.window. `layers`
-// keep all their bits, so dwaa with layers is Error(usage). Up to `threads` threads compress the
+// Writes linear RGB with metadata as string attributes; the data window is image.window. An image
+// without pixels has no colors, only layers. `layers` keep all their bits, so dwaa with layers is
+// Error(usage). Up to `threads` threads compress the
 // pixels; the bytes do not depend on their number.
 void writeExr(const std::string& path, const Image& image, const ImageMetadata& metadata,
               ExrStorage storage = ExrStorage::zip, int threads = 1,

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -25,8 +26,10 @@ std::string manifest(const std::vector<std::string>& names) {
 constexpr double kWhite16 = 65535;
 constexpr double kDepthCodesPerUnit = 1000;
 
+// True for channels that images show as three colors; others are gray.
 bool isColor(Channel channel) {
-  return channel == Channel::normal || channel == Channel::albedo || channel == Channel::uv;
+  return channel == Channel::normal || channel == Channel::albedo || channel == Channel::uv ||
+         channel == Channel::position;
 }
 
 // Returns the 16-bit code of a value before it is rounded; it may be out of range.
@@ -144,9 +147,10 @@ std::vector<float> ImageLayer::floats() const {
   return values;
 }
 
-std::vector<ImageLayer> layersOf(const ChannelLayers& channels) {
+std::vector<ImageLayer> layersOf(const ChannelLayers& channels, ChannelSet wanted) {
   std::vector<ImageLayer> layers;
   channels.channels().forEach([&](Channel channel) {
+    if (!wanted.has(channel)) return;
     const ChannelInfo& info = infoOf(channel);
     for (std::size_t c = 0; c < info.components; ++c) {
       ImageLayer& layer = layers.emplace_back();
@@ -165,6 +169,48 @@ std::vector<ImageLayer> layersOf(const ChannelLayers& channels) {
   });
 
   return layers;
+}
+
+std::optional<Channel> channelNamedBy(const std::string& path, ChannelSet kept) {
+  if (extensionOf(path) != ".png" && extensionOf(path) != ".exr") return std::nullopt;
+
+  std::string name = std::filesystem::path(path).stem().string();
+  // The frame's number and the separators before it are no part of the channel's name.
+  if (const std::size_t frame = name.find('#'); frame != std::string::npos) name.resize(frame);
+  while (!name.empty() && std::string_view("-_.").find(name.back()) != std::string_view::npos) {
+    name.pop_back();
+  }
+
+  const std::string last = name.substr(name.rfind('.') + 1);
+  const auto found = std::ranges::find(kChannels, last, &ChannelInfo::name);
+  if (found == kChannels.end()) return std::nullopt;
+
+  const auto channel = static_cast<Channel>(found - kChannels.begin());
+  const bool isOnlyPart = last == name;
+  if (isOnlyPart && (extensionOf(path) == ".exr" || !kept.has(channel))) return std::nullopt;
+  return channel;
+}
+
+void writeChannelExr(const std::string& path, const Image& image, const ChannelLayers& channels,
+                     Channel channel, const ImageMetadata& metadata, ExrStorage storage,
+                     int threads) {
+  constexpr const char* kColors[] = {"R", "G", "B"};
+  std::vector<ImageLayer> layers = layersOf(channels, {channel});
+  layers.resize(isColor(channel) ? 3 : 1);
+
+  for (std::size_t c = 0; c < layers.size(); ++c) {
+    layers[c].name = isColor(channel) ? kColors[c] : "Y";
+    layers[c].words.resize(channels.pixels());  // texture coordinates have no third component
+    if (!std::exchange(layers[c].countsThings, false)) continue;
+
+    for (std::uint32_t& word : layers[c].words) {
+      word = std::bit_cast<std::uint32_t>(word == kNoNumber ? -1.0f : static_cast<float>(word));
+    }
+  }
+
+  Image noColors(image.width, image.height, Crop{});
+  noColors.window = image.window;
+  writeExr(path, noColors, metadata, storage, threads, layers);
 }
 
 ImageMetadata describeChannels(const Scene& scene, ChannelSet channels) {

@@ -1,6 +1,7 @@
 // Reads, makes and merges the channels of an image beside its colors.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,13 +19,26 @@ namespace whit {
 // readImage() does, and badScene for a subsampled channel.
 std::vector<ImageLayer> readLayers(const std::string& path, const ImageLimits& limits);
 
-// Copies the channels; the layers are named as in a file.
-std::vector<ImageLayer> layersOf(const ChannelLayers& channels);
+// Copies the channels that are wanted; the layers are named as in a file.
+std::vector<ImageLayer> layersOf(const ChannelLayers& channels,
+                                 ChannelSet wanted = ChannelSet::all());
 
 // Attributes of an EXR that describe its channels: the list of channels ("channels"), and the names
 // of objects ("whit:objects", by their numbers, for the first kNamedItems) and materials
 // ("whit:materials") as JSON objects. Empty without channels.
 ImageMetadata describeChannels(const Scene& scene, ChannelSet channels);
+
+// Returns the channel that a PNG or EXR of this name holds in place of the picture, by the last part
+// of the name before its extension or before a frame's number: "out.depth.png", "a.normal-####.exr".
+// A PNG whose name has no other part, as "depth.png", holds a channel that is kept.
+std::optional<Channel> channelNamedBy(const std::string& path, ChannelSet kept);
+
+// Writes a channel as an EXR that programs without knowledge of channels read: normals, positions,
+// albedo and texture coordinates as R, G, B, of others the first component as Y. Numbers become
+// floats, exact below 2^24, and -1 where nothing was hit.
+void writeChannelExr(const std::string& path, const Image& image, const ChannelLayers& channels,
+                     Channel channel, const ImageMetadata& metadata, ExrStorage storage,
+                     int threads);
 
 // Writes a channel as a 16-bit PNG with the metadata as text chunks. The codes are: depth along the
 // camera's axis in thousandths of a unit, 0 without a hit; normals as (n + 1) / 2, 0 without a hit;
