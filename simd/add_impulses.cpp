@@ -1,5 +1,5 @@
-// The surfels that send rays on, the children that these become, and the way back; and what mirror
-// and transmission leave for the diffuse color.
+// The surfels that send rays on, the children that these become, and the way back; and what the
+// layers of a surface leave for each other.
 #include <limits>
 
 #include "simd/kernels.h"
@@ -29,7 +29,7 @@ struct ImpulseJob {
   SurfelColumns surfels = chunk.surfels;
   size_t n = chunk.n;
   LobeSampling glossySampling =
-      lobeSampling(chunk.depth, chunk.options().glossy, chunk.sampleNumber);
+      lobeSampling(chunk.depth, glossySamples(chunk.options()), chunk.sampleNumber);
   bool cones = chunk.has(Feature::cones), coverage = chunk.has(Feature::coverage);
   bool glossy = chunk.has(Feature::glossy), streams = chunk.has(Feature::streams);
   bool transmission = chunk.has(Feature::transmission);
@@ -44,8 +44,10 @@ struct ImpulseLanes {
   MF live;        // the surfel has an impulse of the kind in question
   MF dielectric;  // and bounds a medium
   MF hidden;      // and is not there, because a higher priority fills its place
-  MF scatters;    // the surfel's glossy lobe is sampled
-  MF blurs;       // or it reflects the blurred sky
+  MF covers;      // the surfel's glossy lobe takes light from what lies below it
+  MF scatters;    // rays sample that lobe
+  MF mirrors;     // or a mirrored ray stands for it as far as it is smooth
+  MF coated;      // the surfel's mirror is a coat
   V3 direction, ng, ns;
   VF facing;  // cosine between viewer and geometric normal
   VF cosine;  // between viewer and shading normal, in [0, 1]
@@ -71,14 +73,17 @@ HWY_INLINE ImpulseLanes LoadImpulseLanes(const ImpulseJob& job, size_t i) {
   ImpulseLanes lanes;
   lanes.material = hn::Load(di, reinterpret_cast<const int32_t*>(surfels.material) + i);
   lanes.live = hn::RebindMask(d, NonNegative(lanes.material));
-  lanes.dielectric = lanes.hidden = lanes.scatters = lanes.blurs = hn::MaskFromVec(hn::Zero(d));
+  lanes.dielectric = lanes.hidden = lanes.covers = lanes.scatters = lanes.mirrors = lanes.coated =
+      hn::MaskFromVec(hn::Zero(d));
   if (hn::AllFalse(d, lanes.live)) return lanes;
   const VU flags = MaterialLanes(job.tables, lanes.material, lanes.live).Lobe().flags;
   lanes.live = hn::And(lanes.live, HasFlags(flags, kWanted));
   if (hn::AllFalse(d, lanes.live)) return lanes;
+  lanes.coated = HasFlags(flags, kMaterialCoated);
   if (job.glossy) {
+    lanes.covers = hn::And(lanes.live, HasFlags(flags, kMaterialCovers));
     lanes.scatters = hn::And(lanes.live, HasFlags(flags, kMaterialScatters));
-    lanes.blurs = hn::And(lanes.live, HasFlags(flags, kMaterialBlursSky));
+    lanes.mirrors = hn::And(lanes.live, HasFlags(flags, kMaterialMirrorsByLobe));
   }
   if (kWanted == kMaterialTransmits || job.transmission) {
     lanes.dielectric = hn::And(lanes.live, HasFlags(flags, kMaterialTransmits));
@@ -101,13 +106,8 @@ HWY_INLINE Interface InterfaceOf(const ImpulseJob& job, const ImpulseLanes& lane
   return DielectricInterface(job.shading.fresnel, before, behind, lanes.cosine);
 }
 
-// The mirror coat's reflectance at the surfels at i.
-HWY_INLINE V3 CoatReflectance(const ImpulseJob& job, const MaterialLanes& material, VF cosine,
-                              size_t i) {
-  const SurfelColumns& s = job.surfels;
-  V3 normal = material.Mirror().color;
-  if (job.mirrorMaps) normal = Mul3(normal, Load3(s.mirrorR, s.mirrorG, s.mirrorB, i));
-  return MulAdd3(Sub3(material.MirrorGrazing(), normal), SchlickTerm(cosine), normal);
+HWY_INLINE V3 MirrorAt(const ImpulseJob& job, const MaterialLanes& material, VF cosine, size_t i) {
+  return MirrorReflectance(material, job.surfels, job.mirrorMaps, cosine, i);
 }
 
 HWY_INLINE V3 TransmissionAt(const ImpulseJob& job, const MaterialLanes& material, size_t i) {
@@ -134,6 +134,24 @@ HWY_INLINE V3 Limited(const V3& color, const V3& taken) {
     return hn::IfThenElse(hn::Ge(of, largest), one, hn::Max(common, hn::Div(of, largest)));
   };
   return Mul3(color, {share(left.x), share(left.y), share(left.z)});
+}
+
+// The scalar reference is underMirror in src/reference/add_impulses.cpp.
+HWY_INLINE V3 UnderMirror(const ImpulseLanes& lanes, const V3& color, const V3& mirror,
+                          const V3& others) {
+  const FloatTag d;
+  const V3 limited = Limited(color, Add3(mirror, others));
+  if (HWY_LIKELY(hn::AllFalse(d, lanes.coated))) return limited;
+  const VF one = hn::Set(d, 1.0f);
+  return Select3(lanes.coated, Mul3(color, Sub3({one, one, one}, mirror)), limited);
+}
+
+// What the lobes of the surfels at i take of the light that mirrors leave; 0 in other lanes.
+HWY_INLINE V3 LobeAt(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i) {
+  const VF zero = hn::Zero(FloatTag());
+  if (!job.glossy) return {zero, zero, zero};
+  const SurfelColumns& s = job.surfels;
+  return Select3(lanes.covers, Load3(s.lobeR, s.lobeG, s.lobeB, i), {zero, zero, zero});
 }
 
 // The coverage of the surfels at i.
@@ -233,11 +251,18 @@ void AddReflections(Chunk& c) {
     lanes.live = hn::AndNot(lanes.hidden, lanes.live);
     if (hn::AllFalse(d, lanes.live)) continue;
     const MaterialLanes material(job.tables, lanes.material, lanes.live);
-    V3 weight = CoatReflectance(job, material, lanes.cosine, i);
+    const V3 mirror = MirrorAt(job, material, lanes.cosine, i);
+    V3 weight = mirror;
     if (job.coverage) weight = Scale3(weight, CoverageAt(job, i));
     if (job.transmission && !hn::AllFalse(d, lanes.dielectric)) {
       const VF f = hn::IfThenElseZero(lanes.dielectric, InterfaceOf(job, lanes, i).reflectance);
       weight = MulAdd3(weight, hn::Sub(hn::Set(d, 1.0f), f), {f, f, f});
+    }
+    if (!hn::AllFalse(d, lanes.mirrors)) {
+      const VF one = hn::Set(d, 1.0f), roughness = hn::Sqrt(hn::Load(d, job.surfels.alpha + i));
+      const VF share = hn::IfThenElseZero(lanes.mirrors, MirroredShare(roughness));
+      const V3 lobe = Mul3(LobeAt(job, lanes, i), Sub3({one, one, one}, mirror));
+      weight = MulAdd3(lobe, hn::Mul(share, CoverageAt(job, i)), weight);
     }
     // d - 2 (d.n) n
     const VF twice = hn::Mul(hn::Set(d, -2.0f), Dot(lanes.direction, lanes.ns));
@@ -261,7 +286,8 @@ struct GlossySamples {
   static constexpr const Lobe& kLobe = kGlossyLobe;
 
   HWY_INLINE GlossySamples(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i)
-      : lobes(LoadGlossyLobes(job.surfels, lanes.direction, lanes.ns, i)), several(lobes.rough) {}
+      : lobes(LoadGlossyLobes(job.tables, job.surfels, lanes.direction, lanes.ns, i)),
+        several(lobes.rough) {}
   HWY_INLINE LobeSample At(const UnitPoints& at) const { return SampleLobe(lobes, at); }
 
   GlossyLobes lobes;
@@ -301,62 +327,75 @@ HWY_INLINE V3 LeftAboveLobe(const ImpulseJob& job, const ImpulseLanes& lanes, si
   const FloatTag d;
   const MaterialLanes material(job.tables, lanes.material, lanes.live);
   const VF one = hn::Set(d, 1.0f);
-  const V3 left = Sub3({one, one, one}, CoatReflectance(job, material, lanes.cosine, i));
+  const V3 left = Sub3({one, one, one}, MirrorAt(job, material, lanes.cosine, i));
   if (!job.transmission || hn::AllFalse(d, lanes.dielectric)) return left;
   const VF f = hn::IfThenElseZero(lanes.dielectric, InterfaceOf(job, lanes, i).reflectance);
   return Scale3(left, hn::Sub(one, f));
 }
 
-// The light that the samples of the glossy lobes, the same that AddSamples() takes, or reflections
-// of the blurred sky leave for transmission and diffuse color.
-HWY_INLINE V3 LeftBelowLobe(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i) {
+// The albedo of the glossy lobes towards the viewer: of those that are sampled, the mean weight of
+// the samples that AddSamples() takes.
+HWY_INLINE V3 WeightOfLobe(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i) {
   const FloatTag d;
-  const VF one = hn::Set(d, 1.0f), zero = hn::Zero(d);
-  V3 taken{zero, zero, zero};
-  if (!hn::AllFalse(d, lanes.blurs)) {
-    const SurfelColumns& s = job.surfels;
-    const V3 lobe = LobeAlbedo(Load3(s.specularR, s.specularG, s.specularB, i), lanes.cosine,
-                               hn::Sqrt(hn::Load(d, s.alpha + i)));
-    return Select3(lanes.blurs, Sub3({one, one, one}, lobe), {one, one, one});
+  const VF zero = hn::Zero(d);
+  const SurfelColumns& s = job.surfels;
+  V3 weight{zero, zero, zero};
+  if (hn::AllFalse(d, lanes.covers)) return weight;
+  if (!hn::AllTrue(d, hn::Or(lanes.scatters, hn::Not(lanes.covers)))) {
+    const V3 f0 = Load3(s.specularR, s.specularG, s.specularB, i);
+    const VF roughness = hn::Sqrt(hn::Load(d, s.alpha + i));
+    const VF f90 = LobeGrazing(job.tables, s, f0, i);
+    weight = LobeAlbedo(*job.tables.lobes, f0, f90, lanes.cosine, roughness, lanes.covers);
+    weight = Select3(lanes.covers, weight, {zero, zero, zero});
   }
-  if (hn::AllFalse(d, lanes.scatters)) return {one, one, one};
+  if (hn::AllFalse(d, lanes.scatters)) return weight;
   const GlossySamples samples(job, lanes, i);
   const VU path = hn::Load(UintTag(), job.rays.path + i);
+  V3 sum{zero, zero, zero};
   for (uint32_t k = 0; k < job.glossySampling.count; ++k) {
     const LobeSample sample = samples.At(PointsOf<kGlossyLobe>(path, job.glossySampling, k));
-    const MF counts = hn::And(lanes.scatters, hn::Gt(sample.cosine, zero));
-    taken = Select3(counts, Add3(taken, sample.weight), taken);
+    sum = Select3(hn::Gt(sample.cosine, zero), Add3(sum, sample.weight), sum);
   }
   const VF share = hn::Set(d, 1.0f / static_cast<float>(job.glossySampling.count));
-  return Sub3({one, one, one}, Scale3(taken, share));
+  return Select3(lanes.scatters, Scale3(sum, share), weight);
 }
 
-// The scalar reference is limitDiffuse in src/reference/add_impulses.cpp.
-void LimitDiffuse(Chunk& c) {
+// The scalar reference is findLayers in src/reference/add_impulses.cpp.
+void FindLayers(Chunk& c) {
   const FloatTag d;
   const ImpulseJob job{c};
   const SurfelColumns& surfels = job.surfels;
-  const VF one = hn::Set(d, 1.0f);
+  const VF one = hn::Set(d, 1.0f), zero = hn::Zero(d);
   for (size_t i = 0; i < job.n; i += hn::Lanes(d)) {
-    ImpulseLanes lanes = LoadImpulseLanes<kMaterialLimitsDiffuse>(job, i);
+    ImpulseLanes lanes = LoadImpulseLanes<kMaterialLayered>(job, i);
     lanes.live = hn::AndNot(lanes.hidden, lanes.live);
+    lanes.covers = hn::And(lanes.covers, lanes.live);
     if (hn::AllFalse(d, lanes.live)) continue;
     const MaterialLanes material(job.tables, lanes.material, lanes.live);
-    V3 taken = CoatReflectance(job, material, lanes.cosine, i);
-    VF passed = one;
+    const V3 mirror = MirrorAt(job, material, lanes.cosine, i);
+    const V3 albedo = WeightOfLobe(job, lanes, i);
+    V3 lobe = albedo, below = Sub3({one, one, one}, albedo), through{zero, zero, zero};
+
     if (job.transmission) {
-      const V3 transmission = TransmissionAt(job, material, i),
-               through = Limited(transmission, taken);
-      const MF transmits = hn::And(
-          lanes.dielectric, hn::Gt(MaxComponent(material.Transmission().color), hn::Zero(d)));
-      taken = Select3(transmits, Add3(taken, through), taken);
-      const VF reflectance = InterfaceOf(job, lanes, i).reflectance;
-      passed = hn::IfThenElse(transmits, hn::Sub(one, reflectance), one);
+      const V3 transmission = TransmissionAt(job, material, i);
+      const MF transmits =
+          hn::And(lanes.dielectric, hn::Gt(MaxComponent(material.Transmission().color), zero));
+      const VF reflectance =
+          hn::IfThenElseZero(lanes.dielectric, InterfaceOf(job, lanes, i).reflectance);
+      const VF passed = hn::Sub(one, reflectance);
+      through = Select3(transmits, UnderMirror(lanes, transmission, mirror, through), through);
+      lobe = Scale3(lobe, passed);
+      below = Scale3(below, hn::IfThenElse(transmits, passed, one));
+    }
+
+    if (job.glossy) {
+      const V3 before = Load3(surfels.lobeR, surfels.lobeG, surfels.lobeB, i);
+      Store3(Select3(lanes.live, lobe, before), surfels.lobeR, surfels.lobeG, surfels.lobeB, i);
     }
     const V3 diffuse = Load3(surfels.diffuseR, surfels.diffuseG, surfels.diffuseB, i);
-    const V3 limited = Mul3(Scale3(Limited(diffuse, taken), passed), LeftBelowLobe(job, lanes, i));
-    Store3(Select3(lanes.live, limited, diffuse), surfels.diffuseR, surfels.diffuseG,
-           surfels.diffuseB, i);
+    const V3 left = Mul3(UnderMirror(lanes, diffuse, mirror, through), below);
+    Store3(Select3(lanes.live, left, diffuse), surfels.diffuseR, surfels.diffuseG, surfels.diffuseB,
+           i);
   }
 }
 
@@ -366,7 +405,7 @@ HWY_INLINE void AddSamples(Chunk& c) {
   const FloatTag d;
   const UintTag du;
   const ImpulseJob job{c};
-  const LobeSampling sampling = lobeSampling(c.depth, c.options().*kLobe.samples, c.sampleNumber);
+  const LobeSampling sampling = lobeSampling(c.depth, kLobe.samples(c.options()), c.sampleNumber);
   const VF one = hn::Set(d, 1.0f), share = hn::Set(d, 1.0f / static_cast<float>(sampling.count));
   // occlusionOfLobes().
   const bool occluded = c.depth == 0 && c.has(Feature::occlusionMaps);
@@ -412,7 +451,7 @@ void AddRefractions(Chunk& c) {
   const FloatTag d;
   const UintTag du;
   const ImpulseJob job{c};
-  const VF one = hn::Set(d, 1.0f);
+  const VF one = hn::Set(d, 1.0f), zero = hn::Zero(d);
   size_t count = c.childCount;
   for (size_t i = 0; i < job.n; i += hn::Lanes(d)) {
     const ImpulseLanes lanes = LoadImpulseLanes<kMaterialTransmits>(job, i);
@@ -420,9 +459,14 @@ void AddRefractions(Chunk& c) {
     const Interface interface = InterfaceOf(job, lanes, i);
     const MaterialLanes material(job.tables, lanes.material, lanes.live);
     const VF through = hn::Sub(one, interface.reflectance);
-    const V3 coat = CoatReflectance(job, material, lanes.cosine, i);
+    const V3 mirror = MirrorAt(job, material, lanes.cosine, i);
     V3 transmittance =
-        Mul3(Limited(TransmissionAt(job, material, i), coat), LeftBelowLobe(job, lanes, i));
+        UnderMirror(lanes, TransmissionAt(job, material, i), mirror, {zero, zero, zero});
+    if (!hn::AllFalse(d, lanes.covers)) {
+      const VF inverse = hn::Div(one, hn::Max(through, hn::Set(d, 1e-30f)));
+      const V3 albedo = Scale3(LobeAt(job, lanes, i), inverse);
+      transmittance = Mul3(transmittance, Sub3({one, one, one}, albedo));
+    }
     if (job.coverage) {
       const VF covered = CoverageAt(job, i), rest = hn::Sub(one, covered);
       transmittance = MulAdd3(transmittance, covered, {rest, rest, rest});
@@ -491,7 +535,7 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace whit::simd {
-WHIT_EXPORT_KERNEL(LimitDiffuse)
+WHIT_EXPORT_KERNEL(FindLayers)
 WHIT_EXPORT_KERNEL(AddReflections)
 WHIT_EXPORT_KERNEL(AddGlossyReflections)
 WHIT_EXPORT_KERNEL(AddRefractions)

@@ -104,7 +104,8 @@ class ReflectedAmbient {
         middle_(Broadcast3((tables_.ambient.up + tables_.ambient.down) * 0.5f)),
         half_(Broadcast3((tables_.ambient.up - tables_.ambient.down) * 0.5f)),
         special_((c.materialFlags & (kMaterialDiffuses | kMaterialBlursSky)) != 0),
-        occluded_(c.has(Feature::occlusionMaps)) {}
+        occluded_(c.has(Feature::occlusionMaps)),
+        mirrorMaps_(c.has(Feature::mirrorMaps)) {}
 
   // The ambient light at the surfels from i on; `hit` masks the lanes whose ray hit a surface.
   HWY_INLINE V3 At(size_t i, MF hit) const {
@@ -126,12 +127,20 @@ class ReflectedAmbient {
     const MF blurs = hn::And(hit, HasFlags(flags, kMaterialBlursSky));
     if (hn::AllFalse(d, blurs)) return left;
     const V3 direction = Load3(rays_.dirX, rays_.dirY, rays_.dirZ, i);
+    const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
     const VF towards = hn::Neg(Dot(ns, direction));
     const VF roughness = hn::Sqrt(hn::Load(d, surfels_.alpha + i));
-    const V3 f0 = Load3(surfels_.specularR, surfels_.specularG, surfels_.specularB, i);
-    const V3 lobe = LobeAlbedo(f0, hn::Max(towards, hn::Zero(d)), roughness);
     const V3 mirrored = Normalize3(MulAdd3(ns, hn::Add(towards, towards), direction));
     const V3 sky = BlurredRadiance(tables_.blurredSky, mirrored, roughness, blurs);
+    V3 lobe = Load3(surfels_.lobeR, surfels_.lobeG, surfels_.lobeB, i);
+    const MF smooth = HasFlags(flags, kMaterialMirrorsByLobe);
+    lobe = Scale3(lobe, hn::Sub(one, hn::IfThenElseZero(smooth, MirroredShare(roughness))));
+    if (HWY_UNLIKELY(!hn::AllFalse(d, hn::And(hit, HasFlags(flags, kMaterialReflects))))) {
+      const VF cosine = hn::Min(hn::Max(towards, zero), one);
+      const V3 mirror = MirrorReflectance(MaterialLanes(tables_, material, hit), surfels_,
+                                          mirrorMaps_, cosine, i);
+      lobe = Mul3(lobe, Sub3({one, one, one}, mirror));
+    }
     return Select3(blurs, Add3(left, Mul3(sky, lobe)), left);
   }
 
@@ -139,7 +148,7 @@ class ReflectedAmbient {
   RayColumns rays_;
   SurfelColumns surfels_;
   V3 middle_, half_;
-  bool special_, occluded_;
+  bool special_, occluded_, mirrorMaps_;
 };
 
 }  // namespace whit::simd::HWY_NAMESPACE

@@ -137,6 +137,8 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
     const V3 f0 = job.vertexColors ? Mul3(specular, tints.specular) : specular;
     Store3(f0, surfels.specularR, surfels.specularG, surfels.specularB, i);
     hn::Store(lobe.alpha, d, surfels.alpha + i);
+    const VF none = hn::Zero(d);
+    Store3({none, none, none}, surfels.lobeR, surfels.lobeG, surfels.lobeB, i);  // see FindLayers
   }
   if (job.transmission) {
     StoreMedia(tables, rays, lobe.medium, entering, others, i, surfels);
@@ -311,7 +313,9 @@ void LookUpOcclusion(Chunk& c) {
 struct MirrorFactors {
   static constexpr uint32_t kVaries = kMaterialVariesMirror;
   static HWY_INLINE VI Map(const MaterialLanes& m) { return m.Mirror().map; }
-  static HWY_INLINE MF Tinted(VU flags) { return HasFlags(flags, kMaterialTintsSpecular); }
+  static HWY_INLINE MF Tinted(VU flags) {
+    return hn::AndNot(HasFlags(flags, kMaterialCoated), HasFlags(flags, kMaterialTintsSpecular));
+  }
   static HWY_INLINE Columns3 Columns(const SurfelColumns& s) {
     return {s.mirrorR, s.mirrorG, s.mirrorB};
   }

@@ -7,6 +7,7 @@
 #define HWY_TARGET_INCLUDE "simd/find_radiance_and_shadow_rays.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 #include "scene/light.h"
+#include "simd/lobes-inl.h"
 #include "simd/material-inl.h"
 #include "simd/new_rays-inl.h"
 #include "simd/random_streams-inl.h"
@@ -112,8 +113,9 @@ class LightLanes {
 };
 
 // GGX lobe with height-correlated Smith masking (Walter et al. 2007; Heitz 2014, equation 99) and
-// Schlick's Fresnel term, whose grazing value fades out for reflectances below 4 %.
-HWY_INLINE V3 GlossyLobe(const V3& f0, VF alpha, VF nl, VF nv, const V3& n, const V3& h, VF vh) {
+// Schlick's Fresnel term, from f0 to f90.
+HWY_INLINE V3 GlossyLobe(const V3& f0, VF f90, VF alpha, VF nl, VF nv, const V3& n, const V3& h,
+                         VF vh) {
   const FloatTag d;
   const VF one = hn::Set(d, 1.0f);
   const VF a2 = hn::Mul(alpha, alpha);
@@ -128,12 +130,26 @@ HWY_INLINE V3 GlossyLobe(const V3& f0, VF alpha, VF nl, VF nv, const V3& n, cons
   const VF maskV = hn::Mul(nl, hn::Sqrt(MulThenAdd(hn::Mul(nv, nv), rest, a2)));
   const VF maskL = hn::Mul(nv, hn::Sqrt(MulThenAdd(hn::Mul(nl, nl), rest, a2)));
   const VF visibility = hn::Div(hn::Set(d, 0.5f), hn::Add(maskV, maskL));
-  const VF f90 = hn::Min(one, hn::Mul(hn::Set(d, 25.0f), MaxComponent(f0)));
   const VF m = hn::Sub(one, vh), m2 = hn::Mul(m, m);
   const VF schlick = hn::Mul(hn::Mul(m2, m2), m);
   const VF scale = hn::Mul(distribution, visibility);
   const V3 grazing{hn::Sub(f90, f0.x), hn::Sub(f90, f0.y), hn::Sub(f90, f0.z)};
   return Scale3(MulAdd3(grazing, schlick, f0), scale);
+}
+
+// The light of the lobe, of which coats of the surfels at i leave what they do not reflect.
+// `cosine`: between viewer and normal.
+HWY_INLINE V3 UnderCoat(const Chunk& c, const V3& lobe, VF cosine, MF shiny, size_t i) {
+  const FloatTag d;
+  const VF one = hn::Set(d, 1.0f);
+  const SurfelColumns& surfels = c.surfels;
+  const VI number = hn::Load(IntTag(), reinterpret_cast<const int32_t*>(surfels.material) + i);
+  const MaterialLanes material(c.tables(), number, shiny);
+  const MF coated = hn::And(shiny, HasFlags(material.Lobe().flags, kMaterialIsUnderCoat));
+  if (hn::AllFalse(d, coated)) return lobe;
+  const VF towards = hn::Min(hn::Max(cosine, hn::Zero(d)), one);
+  const V3 coat = MirrorReflectance(material, surfels, c.has(Feature::mirrorMaps), towards, i);
+  return Select3(coated, Mul3(lobe, Sub3({one, one, one}, coat)), lobe);
 }
 
 void FindRadianceAndShadowRays(Chunk& c) {
@@ -149,6 +165,7 @@ void FindRadianceAndShadowRays(Chunk& c) {
   const bool traced = c.has(Feature::shadows), hidden = c.has(Feature::transmission);
   const bool lifted = c.has(Feature::lift), coverage = c.has(Feature::coverage);
   const bool glossy = c.has(Feature::glossy) && (c.materialFlags & kMaterialGlossy) != 0;
+  const bool coats = (c.materialFlags & kMaterialIsUnderCoat) != 0;
   const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
   const LightLanes lanes(light, c.has(Feature::spotLights));
   const V3 intensity = Broadcast3(light.intensity);
@@ -202,7 +219,9 @@ void FindRadianceAndShadowRays(Chunk& c) {
         const V3 h = NormalizeOr(Add3(l, v), ns);
         const VF nv = hn::Max(Dot(ns, v), hn::Set(d, 1e-4f));
         const VF alpha = hn::Load(d, surfels.alpha + i);
-        const V3 lobe = GlossyLobe(f0, alpha, nl, nv, ns, h, Dot(v, h));
+        const VF f90 = LobeGrazing(c.tables(), surfels, f0, i);
+        V3 lobe = GlossyLobe(f0, f90, alpha, nl, nv, ns, h, Dot(v, h));
+        if (HWY_UNLIKELY(coats)) lobe = UnderCoat(c, lobe, Dot(ns, v), shiny, i);
         bsdf = Select3(shiny, Add3(bsdf, lobe), bsdf);
       }
     }

@@ -80,9 +80,9 @@ WHIT_KERNEL(LookUpMirror, "lookUpMirror", findIntersections,
 WHIT_KERNEL(LookUpTransmission, "lookUpTransmission", findIntersections,
             {Part::rays, Part::hits, Part::surfels}, {Part::surfels});
 
-// Scales diffuse colors to the light that mirror, Fresnel's law, sampled lobes and transmission
-// leave.
-WHIT_KERNEL(LimitDiffuse, "limitDiffuse", findIntersections, {Part::rays, Part::surfels},
+// Finds what glossy lobes take of the light, and scales diffuse colors to what mirror, Fresnel's
+// law, lobe and transmission leave.
+WHIT_KERNEL(FindLayers, "findLayers", findIntersections, {Part::rays, Part::surfels},
             {Part::surfels});
 
 // Computes how far shadow rays start above the facet, for surfels between vertex normals that
@@ -152,7 +152,7 @@ inline constexpr std::array kKernels{kGenerateRays,
                                      kLookUpOcclusion,
                                      kLookUpMirror,
                                      kLookUpTransmission,
-                                     kLimitDiffuse,
+                                     kFindLayers,
                                      kLiftShadowOrigins,
                                      kWriteEmittedAndReflectiveAmbient,
                                      kFindRadianceAndShadowRays,

@@ -9,8 +9,10 @@
 #endif
 
 #include "core/shading_choices.h"
+#include "sampling/ggx_lobe.h"
 #include "sampling/random_streams.h"
 #include "scene/material.h"
+#include "simd/material-inl.h"
 #include "simd/random_streams-inl.h"
 #include "stages/columns.h"
 
@@ -26,13 +28,6 @@ struct Interface {
   VF bend;         // k / (c + g), the share of the normal that refraction takes off the direction
   MF straight;     // same ior on both sides: the direction does not change at all
 };
-
-// (1 - c)^5 (Schlick 1994).
-HWY_INLINE VF SchlickTerm(VF c) {
-  const VF m = hn::Sub(hn::Set(FloatTag(), 1.0f), c);
-  const VF m2 = hn::Mul(m, m);
-  return hn::Mul(hn::Mul(m2, m2), m);
-}
 
 // Schlick's polynomial, of the refracted ray's cosine g / eta where that is the smaller one.
 HWY_INLINE VF SchlickReflectance(VF iorBefore, VF iorBehind, VF c, VF g) {
@@ -69,6 +64,18 @@ HWY_INLINE Interface DielectricInterface(FresnelModel model, VF iorBefore, VF io
   return {f, eta, k, bend, straight};
 }
 
+// The reflectance of the lobes at grazing incidence, with the reflectance `f0` at normal incidence.
+HWY_INLINE VF LobeGrazing(const ShadingTables& tables, const SurfelColumns& surfels, const V3& f0,
+                          size_t i) {
+  const FloatTag d;
+  VF ratio = hn::Set(d, kGrazingRatio);
+  if (HWY_UNLIKELY(!tables.grazingRatios.empty())) {
+    const VI material = hn::Load(IntTag(), reinterpret_cast<const int32_t*>(surfels.material) + i);
+    ratio = GatherMember<0>(std::span(tables.grazingRatios), material);
+  }
+  return hn::Min(hn::Set(d, 1.0f), hn::Mul(ratio, MaxComponent(f0)));
+}
+
 // The values that all samples of a vector of surfels share.
 struct GlossyLobes {
   V3 view;
@@ -81,8 +88,8 @@ struct GlossyLobes {
   MF rough;
 };
 
-HWY_INLINE GlossyLobes LoadGlossyLobes(const SurfelColumns& surfels, const V3& direction,
-                                       const V3& ns, size_t i) {
+HWY_INLINE GlossyLobes LoadGlossyLobes(const ShadingTables& tables, const SurfelColumns& surfels,
+                                       const V3& direction, const V3& ns, size_t i) {
   const FloatTag d;
   const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
   GlossyLobes lobes;
@@ -100,7 +107,7 @@ HWY_INLINE GlossyLobes LoadGlossyLobes(const SurfelColumns& surfels, const V3& d
   lobes.x = Select3(oblique, Scale3(along, scale), across);
   lobes.y = Cross(ns, lobes.x);
   lobes.f0 = Load3(surfels.specularR, surfels.specularG, surfels.specularB, i);
-  lobes.f90 = hn::Min(one, hn::Mul(hn::Set(d, 25.0f), MaxComponent(lobes.f0)));
+  lobes.f90 = LobeGrazing(tables, surfels, lobes.f0, i);
   const VF alpha = hn::Load(d, surfels.alpha + i);
   lobes.rough = hn::Gt(alpha, hn::Set(d, kSmoothAlpha));
   lobes.alpha = hn::IfThenElseZero(lobes.rough, alpha);
@@ -150,22 +157,37 @@ HWY_INLINE LobeSample SampleLobe(const GlossyLobes& lobes, const UnitPoints& at)
   return {l, Scale3(MulAdd3(grazing, schlick, lobes.f0), passes), nl};
 }
 
-// The counterpart of lobeAlbedo().
-HWY_INLINE V3 LobeAlbedo(const V3& f0, VF cosine, VF r) {
+// The counterpart of lobeAlbedo(), in the lanes of `live`.
+HWY_INLINE V3 LobeAlbedo(const LobeTable& table, const V3& f0, VF f90, VF cosine, VF roughness,
+                         MF live) {
   const FloatTag d;
-  const auto number = [&](float x) HWY_ATTR { return hn::Set(d, x); };
-  const VF q = hn::Sub(number(1), cosine), q2 = hn::Mul(q, q), r2 = hn::Mul(r, r);
-  const VF side = MulThenAdd(q2, number(-0.55f), MulThenAdd(r, number(-0.563f), number(0.975f)));
-  const VF lost =
-      MulThenAdd(q, side, MulThenAdd(hn::Mul(r, cosine), number(0.561f), number(0.165f)));
-  const VF all = hn::Sub(number(1), hn::Mul(r2, lost));
-  const VF schlick = MulThenAdd(r, MulThenAdd(r, number(1.17f), number(-2.3f)), number(1.1f));
-  const VF grazing = hn::Mul(q2, MulThenAdd(hn::Mul(q2, q), schlick, hn::Mul(r2, number(0.057f))));
-  const VF f90 = hn::Min(number(1), hn::Mul(number(25), MaxComponent(f0)));
+  const IntTag di;
+  const VF last = hn::Set(d, kLobeSteps - 1.0f), most = hn::Set(d, kLobeSteps - 2.0f);
+  const VF row = hn::Mul(roughness, last), column = hn::Mul(hn::Sqrt(cosine), last);
+  const VF top = hn::Min(hn::Floor(row), most), left = hn::Min(hn::Floor(column), most);
+  const VF down = hn::Sub(row, top), right = hn::Sub(column, left);
+  const VF first = hn::IfThenElseZero(live, MulThenAdd(top, hn::Set(d, float{kLobeSteps}), left));
+  // Three more texels are looked up behind it.
+  const VI at = Clamped(hn::ConvertTo(di, first), kLobeSteps * (kLobeSteps - 1) - 1);
+  const auto lookUp = [&](const float* plane) HWY_ATTR {
+    const auto inRow = [&](const float* from) HWY_ATTR {
+      const VF a = hn::GatherIndex(d, from, at);
+      return MulThenAdd(hn::Sub(hn::GatherIndex(d, from + 1, at), a), right, a);
+    };
+    const VF upper = inRow(plane);
+    return MulThenAdd(hn::Sub(inRow(plane + kLobeSteps), upper), down, upper);
+  };
+  const VF grazing = lookUp(table.grazing.data());
   const VF rest = hn::Mul(f90, grazing);
-  const V3 share = MulAdd3(f0, hn::Sub(all, grazing), {rest, rest, rest});
-  const auto held = [&](VF x) HWY_ATTR { return hn::Min(hn::Max(x, hn::Zero(d)), number(1)); };
-  return {held(share.x), held(share.y), held(share.z)};
+  return MulAdd3(f0, hn::Sub(lookUp(table.all.data()), grazing), {rest, rest, rest});
+}
+
+// The counterpart of mirroredShareOf().
+HWY_INLINE VF MirroredShare(VF roughness) {
+  const FloatTag d;
+  const VF left = hn::Sub(hn::Set(d, kBlurredRoughness), roughness);
+  const VF share = hn::Mul(left, hn::Set(d, 1 / (kBlurredRoughness - kMirroredRoughness)));
+  return hn::Min(hn::Max(share, hn::Zero(d)), hn::Set(d, 1.0f));
 }
 
 // About a vector of unit normals.

@@ -86,6 +86,22 @@ class MaterialLanes {
   SharedRecords<MaterialRecord> records_;
 };
 
+// (1 - c)^5 (Schlick 1994).
+HWY_INLINE VF SchlickTerm(VF c) {
+  const VF m = hn::Sub(hn::Set(FloatTag(), 1.0f), c);
+  const VF m2 = hn::Mul(m, m);
+  return hn::Mul(hn::Mul(m2, m2), m);
+}
+
+// The mirror's reflectance at the surfels from i on; `byMaps`: the frame has Feature::mirrorMaps,
+// `cosine`: between viewer and normal.
+HWY_INLINE V3 MirrorReflectance(const MaterialLanes& material, const SurfelColumns& s, bool byMaps,
+                                VF cosine, size_t i) {
+  V3 normal = material.Mirror().color;
+  if (byMaps) normal = Mul3(normal, Load3(s.mirrorR, s.mirrorG, s.mirrorB, i));
+  return MulAdd3(Sub3(material.MirrorGrazing(), normal), SchlickTerm(cosine), normal);
+}
+
 // The lanes in which a word of flags has some of `bits`.
 HWY_INLINE MF HasFlags(VU flags, uint32_t bits) {
   const UintTag du;

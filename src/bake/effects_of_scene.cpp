@@ -60,8 +60,10 @@ constexpr MaterialRule kMaterialRules[] = {
     {Effect::absorption, "with absorption", [](const Material& m) { return m.hasAbsorption(); }},
     // Fresnel reflection needs two different refractive indices at a surface. The vacuum's is 1, so
     // one that differs from it is enough; and where none does, nested media do not reflect either.
-    {Effect::mirror, "with a mirror or a reflecting dielectric",
-     [](const Material& m) { return m.hasMirror() || (m.boundsMedium() && m.ior != 1); }},
+    {Effect::mirror, "with a mirror, a smooth lobe or a reflecting dielectric",
+     [](const Material& m) {
+       return m.hasMirror() || m.isSmooth() || (m.boundsMedium() && m.ior != 1);
+     }},
 };
 
 class Gatherer {
@@ -130,9 +132,10 @@ class Gatherer {
     scene_.blurredSky = blurred ? blurredSky(scene_.sky) : EnvironmentImage();
     const bool ambient = !isBlack(scene_.ambient.up) || !isBlack(scene_.ambient.down);
     set(Effect::ambient, ambient, "the ambient light is not black", "the ambient light is black");
-    set(Effect::ambientOcclusion, ambient && scene_.ambient.occlusion > 0,
+    const bool occludes = ambient || blurred;
+    set(Effect::ambientOcclusion, occludes && scene_.ambient.occlusion > 0,
         "the ambient light has a radius of occlusion",
-        ambient ? "the ambient light has no radius of occlusion" : "the ambient light is black");
+        occludes ? "the ambient light has no radius of occlusion" : "the ambient light is black");
   }
 
   void lights() {

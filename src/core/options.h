@@ -453,6 +453,12 @@ void forEachOption(Options& o, Visitor&& visit) {
   withOptions(o, [&](const auto&... option) { (visit(option.spec, option.field), ...); });
 }
 
+// The rays that sample a glossy lobe at the first hit. Paths of indirect light sample lobes, too:
+// the blurred sky would light closed rooms.
+inline int glossySamples(const RenderOptions& o) {
+  return o.glossy == 0 && o.indirect > 0 && !o.disable.has(Effect::indirect) ? 1 : o.glossy;
+}
+
 // The channels that frames keep.
 inline ChannelSet keptChannels(const RenderOptions& o) {
   return o.background.hidesSky() ? o.channels.with(Channel::alpha) : o.channels;
@@ -465,8 +471,9 @@ struct AskedFor {
   std::string_view otherwise;  // said if it does not
 };
 inline std::array<AskedFor, 6> effectsAskedFor(const RenderOptions& o) {
-  return {{{Effect::glossyReflection, o.glossy > 0, "but --glossy is 0"},
-           {Effect::blurredSky, o.glossy == 0, "but --glossy samples reflections"},
+  return {{{Effect::glossyReflection, glossySamples(o) > 0, "but --glossy and --indirect are 0"},
+           {Effect::blurredSky, glossySamples(o) == 0,
+            "but --glossy or --indirect samples reflections"},
            {Effect::softShadows, o.lightSamples > 1, "but --light-samples is 1"},
            {Effect::indirect, o.indirect > 0, "but --indirect is 0"},
            {Effect::ambientOcclusion, o.ambientSamples > 0, "but --ambient-samples is 0"},

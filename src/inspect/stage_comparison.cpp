@@ -254,6 +254,7 @@ std::vector<Quantity<SurfelRow>> quantitiesOf(const SurfelRow*) {
       {stage, "diffuse", rgb("diffuse"), kTexturedLimit, notEdgeOn<byFootprint>},
       {stage, "specular", rgb("specular"), kTexturedLimit, notEdgeOn<byFootprint>},
       {stage, "alpha", {"alpha"}, kTexturedLimit, notEdgeOn<byFootprint>},
+      {stage, "lobe", rgb("lobe"), kTexturedLimit, notEdgeOn<byFootprint>},
       {stage, "emission", rgb("emission"), kTexturedLimit, notEdgeOn<byFootprint>},
       {stage, "coverage", {"coverage"}, kTexturedLimit, notEdgeOn<byFootprint>},
       {stage, "occlusion", {"occlusion"}, kTexturedLimit, notEdgeOn<byFootprint>},

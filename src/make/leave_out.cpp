@@ -1,5 +1,7 @@
 #include "make/leave_out.h"
 
+#include <algorithm>
+
 #include "make/shape.h"
 
 namespace whit {
@@ -27,6 +29,8 @@ void leaveOutOfMaterial(Material& m, EffectSet effects) {
   if (effects.has(Effect::shadows)) m.castsShadow = false;
   if (effects.has(Effect::mirror)) {
     m.mirror = m.mirrorGrazing = kBlack;
+    m.roughness = std::max(m.roughness, kBlurredRoughness);
+    m.roughnessMap = kNoTexture;
     m.ior = 1;
   }
   if (effects.has(Effect::transmission)) m.transmission = kBlack;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "reference/fresnel.h"
+#include "sampling/ggx_lobe.h"
 #include "sampling/random_streams.h"
 
 namespace whit::reference {
@@ -34,8 +35,8 @@ Ray refractedRay(const Surfel& s, const Interface& interface, double c,
 }
 
 // The color, reduced to what is left of the light where the share `taken` of it is not: in
-// proportion, so that glass keeps its hue under a coat; but a channel whose own sum allows more
-// than the others' keeps more, where a coat is colored.
+// proportion, so that glass keeps its hue under a mirror; but a channel whose own sum allows more
+// than the others' keeps more, where a mirror is colored.
 RgbD limited(const RgbD& color, const RgbD& taken) {
   const RgbD left = max(RgbD(1.0) - taken, RgbD(0.0));
   const double largest = maxComponent(color);
@@ -53,11 +54,11 @@ double cosineOf(const Surfel& surfel) {
   return std::clamp(dot(surfel.view, surfel.shadingNormal), 0.0, 1.0);
 }
 
-// The mirror coat's reflectance towards the viewer.
-RgbD coatOf(const Material& material, EffectSet effects, const Surfel& surfel) {
-  if (!effects.has(Effect::mirror)) return {};
-  const RgbD normal = RgbD(material.mirror) * surfel.mirror, grazing(material.mirrorGrazing);
-  return normal + (grazing - normal) * schlickTerm(cosineOf(surfel));
+// What is left of a color that lies under the mirror, where others that have come before it send
+// out the share `others`. Under a coat that is what the coat lets through.
+RgbD underMirror(const Material& material, const RgbD& color, const RgbD& mirror,
+                 const RgbD& others = {}) {
+  return material.coat ? color * (RgbD(1.0) - mirror) : limited(color, mirror + others);
 }
 
 // The share of the light that the interface does not reflect.
@@ -99,7 +100,7 @@ std::optional<LobeChild> sampleOfLobe(const Chunk& chunk, std::size_t child, Ray
   for (const auto& [lobe, raysOf, impulseOf] : kSampledLobes) {
     if (lobe.kind != kind) continue;
     const LobeSampling sampling =
-        lobeSampling(chunk.depth, chunk.options().*lobe.samples, chunk.sampleNumber);
+        lobeSampling(chunk.depth, lobe.samples(chunk.options()), chunk.sampleNumber);
     const int rays = raysOf(surfel, sampling);
     for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(rays); ++k) {
       if (chunk.children.path[child] != childStream(path, lobe.firstBranch + k)) continue;
@@ -142,19 +143,22 @@ Impulses findImpulses(const Scene& scene, EffectSet effects, const Surfel& surfe
   const Material& material = scene.materials[surfel.material];
   const double c = cosineOf(surfel);
   const bool mirrors = effects.has(Effect::mirror);
-  const RgbD coat = coatOf(material, effects, surfel);
-  RgbD reflectance = coat * surfel.coverage;
+  const RgbD mirror = mirrorOf(material, effects, surfel);
+  RgbD reflectance = mirror * surfel.coverage;
   if (crossing.dielectric) {
     const Interface interface = makeInterface(crossing.n1, crossing.n2, c, choices.fresnel);
     const double passed = 1 - interface.reflectance;
     if (mirrors) reflectance = RgbD(interface.reflectance) + reflectance * passed;
     if (passed > 0) {
-      const RgbD through = limited(RgbD(material.transmission) * surfel.transmission, coat) *
-                           surfel.belowLobe * surfel.coverage;
-      result.refracted = {(through + RgbD(1 - surfel.coverage)) * passed,
+      const RgbD transmission = RgbD(material.transmission) * surfel.transmission;
+      const RgbD through = underMirror(material, transmission, mirror) *
+                           (RgbD(passed) - surfel.lobe) * surfel.coverage;
+      result.refracted = {through + RgbD((1 - surfel.coverage) * passed),
                           refractedRay(surfel, interface, c, choices), crossing.stackBehind};
     }
   }
+  const double alongMirror = mirroredShare(material, effects, surfel);
+  reflectance += surfel.lobe * (RgbD(1.0) - mirror) * (alongMirror * surfel.coverage);
   if (maxComponent(reflectance) > 0) {
     result.reflected = {reflectance, reflectedRay(surfel, choices), stack};
   }
@@ -163,55 +167,72 @@ Impulses findImpulses(const Scene& scene, EffectSet effects, const Surfel& surfe
 
 LobePoints lobePointsOf(const Chunk& chunk, std::size_t slot) {
   const std::uint32_t path = chunk.has(Feature::streams) ? chunk.rays.path[slot] : 0;
-  return {path, lobeSampling(chunk.depth, chunk.options().glossy, chunk.sampleNumber)};
+  return {path, lobeSampling(chunk.depth, glossySamples(chunk.options()), chunk.sampleNumber)};
 }
 
-void shareWithLobe(const Scene& scene, EffectSet effects, const Crossing& crossing,
-                   const ShadingChoices& choices, const LobePoints& points, Surfel& surfel) {
-  const Material& material = scene.materials[surfel.material];
-  if (!crossing.hidden && material.reflectsBlurredSky(effects) && !scene.blurredSky.r.empty()) {
-    const double cosine = std::clamp(dot(surfel.shadingNormal, surfel.view), 0.0, 1.0);
-    surfel.belowLobe = RgbD(1.0) - lobeAlbedo(surfel.specular, cosine, std::sqrt(surfel.alpha));
+RgbD mirrorOf(const Material& material, EffectSet effects, const Surfel& surfel) {
+  if (!effects.has(Effect::mirror)) return {};
+  const RgbD normal = RgbD(material.mirror) * surfel.mirror, grazing(material.mirrorGrazing);
+  return normal + (grazing - normal) * schlickTerm(cosineOf(surfel));
+}
+
+double mirroredShare(const Material& material, EffectSet effects, const Surfel& surfel) {
+  return material.mirrorsByLobe(effects) ? mirroredShareOf(std::sqrt(surfel.alpha)) : 0;
+}
+
+RgbD underCoat(const Material& material, EffectSet effects, const Surfel& surfel) {
+  if (!material.isUnderCoat(effects)) return RgbD(1.0);
+  return RgbD(1.0) - mirrorOf(material, effects, surfel);
+}
+
+RgbD aboveLobe(const Material& material, EffectSet effects, const Crossing& crossing,
+               const ShadingChoices& choices, const Surfel& surfel) {
+  return (RgbD(1.0) - mirrorOf(material, effects, surfel)) * passedBy(crossing, choices, surfel);
+}
+
+namespace {
+
+// The mean weight of the very samples of the lobe that are taken, or else its albedo.
+RgbD weightOfLobe(const Material& material, EffectSet effects, const ShadingChoices& choices,
+                  const LobePoints& points, const Surfel& surfel) {
+  if (!material.scatters(effects)) {
+    const double f90 = lobeGrazing(surfel.specular, surfel.grazingRatio);
+    return lobeAlbedo(surfel.specular, f90, cosineOf(surfel), std::sqrt(surfel.alpha));
   }
-  if (crossing.hidden || !material.scatters(effects)) return;
   Surfel alone = surfel;
   alone.coverage = 1;
-  RgbD taken;
+  RgbD sum;
   const int rays = glossyRays(surfel, points.sampling);
   for (int i = 0; i < rays; ++i) {
     const auto k = static_cast<std::uint32_t>(i);
     const UnitPoint at = pointOf(kGlossyLobe, points.path, points.sampling, k);
-    taken += glossyImpulse(alone, 0, at, choices).weight / rays;
+    sum += glossyImpulse(alone, 0, at, choices).weight / rays;
   }
-  surfel.belowLobe = RgbD(1.0) - taken;
-  surfel.aboveLobe =
-      (RgbD(1.0) - coatOf(material, effects, surfel)) * passedBy(crossing, choices, surfel);
+  return sum;
 }
 
-void limitDiffuse(const Scene& scene, EffectSet effects, const Crossing& crossing,
-                  const ShadingChoices& choices, const LobePoints& points, Surfel& surfel) {
-  shareWithLobe(scene, effects, crossing, choices, points, surfel);
+}  // namespace
+
+void findLayers(const Scene& scene, EffectSet effects, const Crossing& crossing,
+                const ShadingChoices& choices, const LobePoints& points, Surfel& surfel) {
   const Material& material = scene.materials[surfel.material];
-  if (crossing.hidden || !material.limitsDiffuse(effects)) return;
-  RgbD taken = coatOf(material, effects, surfel);
-  double passed = 1;
-  if (crossing.dielectric && material.hasTransmission()) {
-    taken += limited(RgbD(material.transmission) * surfel.transmission, taken);
-    passed = passedBy(crossing, choices, surfel);
+  if (crossing.hidden || !material.isLayered(effects)) return;
+  const RgbD mirror = mirrorOf(material, effects, surfel);
+  const double passed = passedBy(crossing, choices, surfel);
+  RgbD albedo, through;
+  if (material.covers(effects)) {
+    albedo = weightOfLobe(material, effects, choices, points, surfel);
   }
-  surfel.diffuse = limited(surfel.diffuse, taken) * passed * surfel.belowLobe;
-}
+  surfel.lobe = albedo * passed;
+  surfel.aboveLobe = (RgbD(1.0) - mirror) * passed;
+  surfel.underCoat = underCoat(material, effects, surfel);
 
-Vec3d visibleNormal(const Vec3d& view, double alpha, const UnitPoint& at) {
-  const double u = static_cast<double>(at.u), v = static_cast<double>(at.v);
-  // The view for a unit sphere instead of the stretched one: facets that mirror the view into the
-  // cap above the plane that it grazes.
-  const Vec3d seen = normalized(Vec3d(view.x * alpha, view.y * alpha, view.z));
-  const double fall = v * (1 + seen.z);  // how far below the pole
-  const double radius = std::sqrt(std::max(0.0, fall * (2 - fall)));
-  const Vec3d halfway{radius * std::cos(2 * std::numbers::pi * u) + seen.x,
-                      radius * std::sin(2 * std::numbers::pi * u) + seen.y, (1 - v) * (1 + seen.z)};
-  return normalized(Vec3d(halfway.x * alpha, halfway.y * alpha, halfway.z), {0, 0, 1});
+  const bool transmits = crossing.dielectric && material.hasTransmission();
+  if (transmits) {
+    through = underMirror(material, RgbD(material.transmission) * surfel.transmission, mirror);
+  }
+  surfel.diffuse = underMirror(material, surfel.diffuse, mirror, through) * (RgbD(1.0) - albedo) *
+                   (transmits ? passed : 1);
 }
 
 int glossyRays(const Surfel& surfel, const LobeSampling& sampling) {
@@ -222,18 +243,18 @@ Impulse glossyImpulse(const Surfel& s, MediaStack stack, const UnitPoint& at,
                       const ShadingChoices& choices) {
   const Frame frame = frameOfIncidence(s.shadingNormal, s.view);
   const double nv = std::max(dot(s.shadingNormal, s.view), 1e-4);
-  const double alpha = s.alpha > double{kSmoothAlpha} ? s.alpha : 0, a2 = alpha * alpha;
-  const Vec3d m = visibleNormal(normalized(Vec3d(frame.sine, 0, nv)), alpha, at);
+  const double alpha = s.alpha > double{kSmoothAlpha} ? s.alpha : 0;
+  const double turn = 2 * std::numbers::pi * double{at.u};
+  const Vec3d m = visibleNormal(normalized(Vec3d(frame.sine, 0, nv)), alpha, std::cos(turn),
+                                std::sin(turn), double{at.v});
   const Vec3d h = frame.x * m.x + frame.y * m.y + frame.z * m.z;
   const double vh = dot(s.view, h);
   const Vec3d mirrored = normalized(h * (2 * vh) - s.view);
   const double nl = dot(s.shadingNormal, mirrored);
   if (!(nl > 0)) return {};
 
-  const double maskV = std::sqrt(nv * nv * (1 - a2) + a2),
-               maskL = std::sqrt(nl * nl * (1 - a2) + a2);
-  const double passes = nl * (nv + maskV) / (nl * maskV + nv * maskL);
-  const RgbD f0 = s.specular, f90(std::min(1.0, 25 * maxComponent(f0)));
+  const double passes = passingShare(nv, nl, alpha);
+  const RgbD f0 = s.specular, f90(lobeGrazing(f0, s.grazingRatio));
   const RgbD fresnel = f0 + (f90 - f0) * schlickTerm(std::clamp(vh, 0.0, 1.0));
   // Turned back by bent normals only: where both agree the ray is high enough as it is.
   const Vec3d r =
@@ -268,8 +289,9 @@ RayRow addImpulses(const World& world, const Chunk& chunk, std::size_t child) {
   const std::uint32_t stack = mediaOf(chunk, slot);
   const Crossing crossing = crossMedia(world.scene, world.effects, surfel.material, surfel.entering,
                                        stack, alsoCrossedAt(chunk, slot));
-  shareWithLobe(world.scene, world.effects, crossing, chunk.options().shading,
-                lobePointsOf(chunk, slot), surfel);
+  const Material& material = world.scene.materials[surfel.material];
+  surfel.grazingRatio = double{material.grazingRatio};
+  surfel.aboveLobe = aboveLobe(material, world.effects, crossing, chunk.options().shading, surfel);
   const RayKind kind = kindOf(chunk, child);
   RayRow row;
   row.path = childStream(path, branchOf(kind));

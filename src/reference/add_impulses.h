@@ -51,26 +51,24 @@ struct LobePoints {
 
 LobePoints lobePointsOf(const Chunk& chunk, std::size_t slot);
 
-// The share of even light that a GGX lobe reflects of this reflectance and roughness: polynomials
-// fitted to the samples' mean weight, off by at most 0.07 and by 0.024 in the root mean square.
-// `all` is the share with F = 1, `grazing` that of Schlick's term.
-inline RgbD lobeAlbedo(const RgbD& f0, double cosine, double roughness) {
-  const double q = 1 - cosine, q2 = q * q, r = roughness, r2 = r * r;
-  const double all = 1 - r2 * (0.165 + q * (0.975 - 0.563 * r - 0.55 * q2) + 0.561 * r * cosine);
-  const double grazing = q2 * (q2 * q * (1.1 - 2.3 * r + 1.17 * r2) + 0.057 * r2);
-  const RgbD share = f0 * (all - grazing) + RgbD(std::min(1.0, 25 * maxComponent(f0)) * grazing);
-  return min(max(share, RgbD(0.0)), RgbD(1.0));
-}
+// The mirror's reflectance towards the viewer.
+RgbD mirrorOf(const Material& material, EffectSet effects, const Surfel& surfel);
 
-// Sets aboveLobe and belowLobe of a surfel whose glossy lobe is sampled or reflects the blurred sky
-// (scene/material.h has the rule).
-void shareWithLobe(const Scene& scene, EffectSet effects, const Crossing& crossing,
-                   const ShadingChoices& choices, const LobePoints& points, Surfel& surfel);
+// The share of its lobe that the mirrored ray stands for.
+double mirroredShare(const Material& material, EffectSet effects, const Surfel& surfel);
 
-// shareWithLobe(), and scales the diffuse color to the light that mirror, Fresnel's law, the lobe
-// and transmission leave, so that a surface never sends out more than it gets.
-void limitDiffuse(const Scene& scene, EffectSet effects, const Crossing& crossing,
-                  const ShadingChoices& choices, const LobePoints& points, Surfel& surfel);
+// What a coat leaves of the light of lamps for the lobe below.
+RgbD underCoat(const Material& material, EffectSet effects, const Surfel& surfel);
+
+// What mirror and interface leave for the lobe.
+RgbD aboveLobe(const Material& material, EffectSet effects, const Crossing& crossing,
+               const ShadingChoices& choices, const Surfel& surfel);
+
+// Finds what the layers of the surface leave for each other (scene/material.h has the rule): sets
+// the lobe's share, and scales the diffuse color, so that a surface never sends out more light than
+// it gets.
+void findLayers(const Scene& scene, EffectSet effects, const Crossing& crossing,
+                const ShadingChoices& choices, const LobePoints& points, Surfel& surfel);
 
 // A reflected direction stays at least this far, as a sine, above the surface, and a refracted one
 // below: shading normals would send some through to the wrong side (hard case H32). Less than the
@@ -79,13 +77,6 @@ void limitDiffuse(const Scene& scene, EffectSet effects, const Crossing& crossin
 double smallestElevation(const Surfel& surfel);
 // The unit direction `r` raised to `elevation` above the plane of `normal` if it lies lower.
 Vec3d lifted(const Vec3d& r, const Vec3d& normal, double elevation);
-
-// A normal of the microsurface, drawn from those that can be seen along `view`, each as often as it
-// is seen (Heitz 2018, "Sampling the GGX distribution of visible normals", JCGT 7(4); by the
-// spherical cap of Dupuy and Benyoub 2023, "Sampling visible GGX normals with spherical caps",
-// Computer Graphics Forum 42(8)). The surface's normal is z; `view` is a unit vector above it; of
-// width 0 the surface is smooth and the result z.
-Vec3d visibleNormal(const Vec3d& view, double alpha, const UnitPoint& at);
 
 // The rays that sample a surfel's glossy lobe: a smooth one is sampled by one.
 int glossyRays(const Surfel& surfel, const LobeSampling& sampling);

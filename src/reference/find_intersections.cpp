@@ -245,7 +245,7 @@ void tint(const RgbD& color, const Material& material, Surfel& s) {
   if (material.hasTransmission()) s.transmission = s.transmission * color;
   if (material.vertexTint != VertexTint::diffuseAndSpecular) return;
   s.specular = s.specular * color;
-  if (material.hasMirror()) s.mirror = s.mirror * color;
+  if (material.hasMirror() && !material.coat) s.mirror = s.mirror * color;
 }
 
 void findColors(const Scene& scene, EffectSet effects, std::uint32_t number, const TriangleHit& hit,
@@ -259,6 +259,7 @@ void findColors(const Scene& scene, EffectSet effects, std::uint32_t number, con
   };
   s.diffuse = textured(material.diffuse, &Material::diffuseMap);
   s.specular = textured(material.specular, &Material::specularMap);
+  s.grazingRatio = double{material.grazingRatio};
   if (material.hasMirror()) s.mirror = textured(Rgb(1.0f), &Material::mirrorMap);
   if (material.hasTransmission()) {
     s.transmission = textured(Rgb(1.0f), &Material::transmissionMap);
@@ -415,8 +416,8 @@ std::optional<SurfelRow> findIntersections(const World& world, const Chunk& chun
   const std::uint32_t media = mediaOf(chunk, slot);
   const Crossing crossing =
       crossMedia(world.scene, world.effects, s.material, s.entering, media, others);
-  limitDiffuse(world.scene, world.effects, crossing, chunk.options().shading,
-               lobePointsOf(chunk, slot), s);
+  findLayers(world.scene, world.effects, crossing, chunk.options().shading,
+             lobePointsOf(chunk, slot), s);
   const RayCone cone{ray.cone.width, pixelCone(chunk.frame->camera).spread};
   SurfelRow row;
   put(s.position, row.posX, row.posY, row.posZ);
@@ -428,6 +429,7 @@ std::optional<SurfelRow> findIntersections(const World& world, const Chunk& chun
   row.material = s.material;
   put(s.specular, row.specularR, row.specularG, row.specularB);
   row.alpha = s.alpha;
+  put(s.lobe, row.lobeR, row.lobeG, row.lobeB);
   put(s.emission, row.emissionR, row.emissionG, row.emissionB);
   row.coverage = s.coverage;
   row.occlusion = s.occlusion;

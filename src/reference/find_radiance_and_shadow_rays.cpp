@@ -5,8 +5,10 @@
 #include <limits>
 #include <numbers>
 
+#include "reference/add_impulses.h"
 #include "reference/fresnel.h"
 #include "reference/write_emitted_and_reflective_ambient.h"
+#include "sampling/ggx_lobe.h"
 #include "sampling/random_streams.h"
 
 namespace whit::reference {
@@ -62,7 +64,7 @@ RgbD glossyLobe(const Surfel& surfel, const Vec3d& toLight) {
   const double distribution = a2 / (std::numbers::pi * spread * spread);
   const double visibility =
       0.5 / (nl * std::sqrt(nv * nv * (1 - a2) + a2) + nv * std::sqrt(nl * nl * (1 - a2) + a2));
-  const RgbD f0 = surfel.specular, f90(std::min(1.0, 25 * maxComponent(f0)));
+  const RgbD f0 = surfel.specular, f90(lobeGrazing(f0, surfel.grazingRatio));
   const RgbD fresnel = f0 + (f90 - f0) * schlickTerm(vh);
   return fresnel * (distribution * visibility);
 }
@@ -90,7 +92,7 @@ LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const Li
   }
   RgbD reflected = surfel.diffuse / std::numbers::pi;
   if (effects.has(Effect::glossy) && maxComponent(surfel.specular) > 0) {
-    reflected += glossyLobe(surfel, l);
+    reflected += glossyLobe(surfel, l) * surfel.underCoat;
   }
   arrival.radiance = reflected * biradiance * (cosine * surfel.coverage);
   Surfel start = surfel;
@@ -129,8 +131,11 @@ LightArrival arrivalAt(const World& world, const Chunk& chunk, std::size_t slot)
     point = {false,
              lightPoint(chunk.rays.path[slot], sampling, chunk.lightNumber, chunk.lightSample)};
   }
-  return radianceFromLight(world.effects, surfelOf(chunk, slot), *chunk.light,
-                           chunk.options().shading, point);
+  Surfel surfel = surfelOf(chunk, slot);
+  const Material& material = world.scene.materials[surfel.material];
+  surfel.grazingRatio = double{material.grazingRatio};
+  surfel.underCoat = underCoat(material, world.effects, surfel);
+  return radianceFromLight(world.effects, surfel, *chunk.light, chunk.options().shading, point);
 }
 
 std::optional<UnshadowedRow> findRadiance(const World& world, const Chunk& chunk,

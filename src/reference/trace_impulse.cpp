@@ -57,8 +57,8 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
   Surfel surfel = surfelAt(ray, *met, hit);
   const Crossing crossing =
       crossMedia(scene_, effects_, surfel.material, surfel.entering, media, met->alsoCrossed);
-  const LobePoints points{path.number, lobeSampling(depth, options_.glossy, path.sample)};
-  limitDiffuse(scene_, effects_, crossing, options_.shading, points, surfel);
+  const LobePoints points{path.number, lobeSampling(depth, glossySamples(options_), path.sample)};
+  findLayers(scene_, effects_, crossing, options_.shading, points, surfel);
 
   const double left = throughput * maxComponent(arrives), ended = counts.ended;
   const RgbD clear = counts.clear;
@@ -122,7 +122,7 @@ RgbD Tracer::radianceByLobe(const SampledLobe& sampled, const Surfel& surfel, in
                             Choice& choice) const {
   const auto& [lobe, raysOf, impulseOf] = sampled;
   if (!lobe.isSampled(scene_.materials[surfel.material], effects_)) return {};
-  const LobeSampling sampling = lobeSampling(depth, options_.*lobe.samples, path.sample);
+  const LobeSampling sampling = lobeSampling(depth, lobe.samples(options_), path.sample);
   const int rays = raysOf(surfel, sampling);
   RgbD sum;
   const double ended = counts.ended;
@@ -157,7 +157,7 @@ Choice Tracer::chooseImpulses(const Impulses& impulses, const Surfel& surfel,
     for (const auto& [lobe, raysOf, impulseOf] : kSampledLobes) {
       if (lobe.kind != kind || crossing.hidden) continue;
       if (!lobe.isSampled(scene_.materials[surfel.material], effects_)) continue;
-      const LobeSampling sampling = lobeSampling(depth, options_.*lobe.samples, path.sample);
+      const LobeSampling sampling = lobeSampling(depth, lobe.samples(options_), path.sample);
       const int rays = raysOf(surfel, sampling);
       for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(rays); ++k) {
         const UnitPoint at = pointOf(lobe, path.number, sampling, k);

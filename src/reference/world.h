@@ -30,14 +30,16 @@ struct Surfel {
   double retreat = 0;     // on the viewer's side, how far along `view` as well
   bool entering = false;  // the ray met the outside, where corners run counter-clockwise
   std::uint32_t material = 0;
-  RgbD diffuse, specular;  // textures and vertex colors applied
+  RgbD diffuse, specular;                       // textures and vertex colors applied
+  double grazingRatio = double{kGrazingRatio};  // the material's
   // Maps and vertex colors multiply the material's own values by these.
   RgbD emission{1, 1, 1}, mirror{1, 1, 1}, transmission{1, 1, 1};
   double alpha = 1;         // width of the glossy lobe (GGX), roughness squared
   double coverage = 1;      // the share of the surface that is there
   double occlusion = 1;     // what indirect light is multiplied by
   RgbD aboveLobe{1, 1, 1};  // what mirror and interface leave for the samples of the lobe
-  RgbD belowLobe{1, 1, 1};  // what these leave for transmission and diffuse color
+  RgbD underCoat{1, 1, 1};  // what a coat leaves of the light of lamps for the lobe
+  RgbD lobe;                // what the lobe takes of the light that the mirror leaves
   RayCone cone;             // of rays that go on from here
 };
 
@@ -107,6 +109,7 @@ inline Surfel surfelOf(const Chunk& chunk, std::size_t slot) {
     s.transmission = {r.transmissionR, r.transmissionG, r.transmissionB};
   }
   if (chunk.has(Feature::glossy)) s.alpha = r.alpha;
+  s.lobe = {r.lobeR, r.lobeG, r.lobeB};
   if (chunk.has(Feature::coverage)) s.coverage = r.coverage;
   if (chunk.has(Feature::occlusionMaps)) s.occlusion = r.occlusion;
   s.cone.width = r.cone;

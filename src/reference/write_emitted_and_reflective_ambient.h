@@ -31,7 +31,8 @@ inline RgbD reflectedAmbient(const Scene& scene, EffectSet effects, const Surfel
   const Vec3d mirrored = normalized(surfel.shadingNormal * (2 * cosine) - surfel.view);
   const RgbD sky = blurredRadiance(scene.sky, scene.blurredSky, mirrored, roughness) *
                    (double{scene.ambient.reflection} * surfel.occlusion);
-  return light + sky * lobeAlbedo(surfel.specular, std::max(cosine, 0.0), roughness);
+  const double blurred = 1 - mirroredShare(material, effects, surfel);
+  return light + sky * surfel.lobe * (RgbD(1.0) - mirrorOf(material, effects, surfel)) * blurred;
 }
 
 // Emission, and ambient light that nothing is looked for to hold off.

@@ -28,14 +28,19 @@ std::array<std::int32_t, 9> mapsOf(const MaterialRecord& r) {
 // `onOthers`: a sheet may lie on a dielectric's face, which reflects through it.
 std::uint32_t flagsOf(const Material& m, bool onOthers, EffectSet effects) {
   const bool transmits = m.passesLight() && effects.has(Effect::transmission);
-  const bool reflects = m.hasMirror() || (transmits && (onOthers || m.boundsMedium()));
+  const bool reflects =
+      m.hasMirror() || m.mirrorsByLobe(effects) || (transmits && (onOthers || m.boundsMedium()));
   std::uint32_t flags = 0;
   if (effects.has(Effect::mirror) && reflects) flags |= kMaterialReflects;
   if (transmits) flags |= kMaterialTransmits;
   if (maxComponent(m.emission) > 0) flags |= kMaterialEmits;
   if (m.hasGlossy()) flags |= kMaterialGlossy;
   if (m.reflectsBlurredSky(effects)) flags |= kMaterialBlursSky;
-  if (m.limitsDiffuse(effects)) flags |= kMaterialLimitsDiffuse;
+  if (m.isLayered(effects)) flags |= kMaterialLayered;
+  if (m.covers(effects)) flags |= kMaterialCovers;
+  if (m.mirrorsByLobe(effects)) flags |= kMaterialMirrorsByLobe;
+  if (m.coat) flags |= kMaterialCoated;
+  if (m.isUnderCoat(effects)) flags |= kMaterialIsUnderCoat;
   if (effects.has(Effect::textures) && m.variesRoughness()) flags |= kMaterialVariesRoughness;
   if (effects.has(Effect::coverage) && m.isPartlyThere()) flags |= kMaterialIsPartlyThere;
   for (const Lobe& lobe : kLobes) {
@@ -122,6 +127,11 @@ void addMaterials(const Scene& scene, EffectSet effects, ShadingTables& tables) 
       tables.radianceMaps = true;
     }
     tables.materials.push_back(r);
+  }
+  tables.grazingRatios.clear();
+  const auto isSpecial = [](const Material& m) { return m.grazingRatio != kGrazingRatio; };
+  if (std::ranges::any_of(scene.materials, isSpecial)) {
+    for (const Material& m : scene.materials) tables.grazingRatios.push_back(m.grazingRatio);
   }
   if (tables.materials.empty()) {
     tables.materials.push_back(recordOf(Material{}, 0, false, effects, maps));
@@ -210,11 +220,13 @@ SkyTable skyTable(const Sky& sky, EffectSet effects) {
 void addLighting(const Scene& scene, EffectSet effects, ShadingTables& tables) {
   addMedia(scene, tables);
   if (effects.has(Effect::lights)) tables.lights = scene.lights;
+  if (effects.has(Effect::glossy)) tables.lobes = &lobeTable();
   tables.sky = skyTable(scene.sky, effects);
   tables.blurredSky = tables.sky;
   setImage(scene.blurredSky, kBlurRows, tables.blurredSky);
   tables.blurredSky.scale *= scene.ambient.reflection;
-  tables.ambient = effects.has(Effect::ambient) ? scene.ambient : Ambient();
+  tables.ambient = scene.ambient;
+  if (!effects.has(Effect::ambient)) tables.ambient.up = tables.ambient.down = Rgb(0.0f);
 }
 
 }  // namespace

@@ -22,12 +22,11 @@ EffectSet consistent(const Scene& scene, EffectSet e) {
   if (!e.has(Effect::lights)) {
     e = e.without(Effect::shadows);
     e = e.without(Effect::spotLights).without(Effect::directionalLights);
-    if (!e.has(Effect::glossyReflection) && !e.has(Effect::blurredSky)) {
-      e = e.without(Effect::glossy);
-    }
   }
   if (!e.has(Effect::shadows)) e = e.without(Effect::softShadows);
-  if (!e.has(Effect::ambient)) e = e.without(Effect::ambientOcclusion);
+  if (!e.has(Effect::ambient) && !e.has(Effect::blurredSky)) {
+    e = e.without(Effect::ambientOcclusion);
+  }
   if (!e.has(Effect::textures) || !e.has(Effect::emission)) e = e.without(Effect::emissionMaps);
   if (!e.has(Effect::transmission)) e = e.without(Effect::absorption).without(Effect::coverage);
   return e;
@@ -195,7 +194,7 @@ class Planner {
     if (plan_.features.has(Feature::coverage)) {
       plan_.perQueue.push_back(stepOf(simd::kLookUpCoverage));
     }
-    // Before limitDiffuse: the channel of albedo is that of the material, whatever the view.
+    // Before findLayers: the channel of albedo is that of the material, whatever the view.
     if (!plan_.channels.empty()) {
       plan_.perQueue.push_back(amendingStep("keepChannels", simd::kInterpolateSurfels, keepChannels,
                                             {Part::rays, Part::hits, Part::surfels},
@@ -211,9 +210,9 @@ class Planner {
       plan_.perQueue.push_back(stepOf(simd::kLookUpTransmission));
     }
     if (std::ranges::any_of(scene_.materials,
-                            [&](const Material& m) { return m.limitsDiffuse(plan_.effects); })) {
-      plan_.perQueue.push_back(stepOf(simd::kLimitDiffuse));
-      plan_.perQueue.back().wants = kMaterialLimitsDiffuse;
+                            [&](const Material& m) { return m.isLayered(plan_.effects); })) {
+      plan_.perQueue.push_back(stepOf(simd::kFindLayers));
+      plan_.perQueue.back().wants = kMaterialLayered;
     }
     if (plan_.features.has(Feature::lift)) {
       plan_.perQueue.push_back(stepOf(simd::kLiftShadowOrigins));
@@ -326,7 +325,7 @@ class Planner {
 
   void addLobe(const simd::Kernel& kernel, const Lobe& lobe) {
     if (!has(lobe.effect)) return;
-    addImpulse(kernel, lobe.flag, lobe.kind, static_cast<std::size_t>(options_.*lobe.samples));
+    addImpulse(kernel, lobe.flag, lobe.kind, static_cast<std::size_t>(lobe.samples(options_)));
   }
 
   void addImpulse(const simd::Kernel& kernel, std::uint32_t flag, RayKind kind, std::size_t atEye) {

@@ -81,8 +81,7 @@ struct Ambient {
 
 // Frames with these effects trace rays for ambient occlusion.
 inline bool isOccluded(const Ambient& ambient, EffectSet effects) {
-  return effects.has(Effect::ambient) && effects.has(Effect::ambientOcclusion) &&
-         ambient.occlusion > 0;
+  return effects.has(Effect::ambientOcclusion) && ambient.occlusion > 0;
 }
 
 // none, color, gradient, studio, or the name of the image's file.

@@ -16,21 +16,25 @@
 // Ambient light, the blurred sky, and the rays of lobes at the first hit count by `occlusionMap`.
 // All of that counts by the share of the surface that is there (`coverage`); through the rest light
 // goes straight on, as glTF's and most other formats' alpha has it (Porter and Duff 1984).
-// With the mirror's weight m and Fresnel's reflectance F of the interface (0 of what is no
-// dielectric),
+// With the mirror's weight m, Fresnel's reflectance F of the interface (0 of what is no dielectric)
+// and the albedo A of the glossy lobe towards the viewer, the layers share the light from the top:
 //   reflectance = m + (1 - m) * F
-//   transmittance = (1 - F) * transmission * min(1, (1 - m) / largest channel of the transmission)
-// so that they never make light: the mirror comes first, and what it leaves is all that passes. The
-// diffuse color gets the rest: with t the part of the transmission that passes, it is multiplied by
-//   (1 - F) * min(1, (1 - m - t) / largest channel of the diffuse color).
-// A glossy lobe that rays sample (--glossy) lies between the mirror and the others: its samples
-// count (1 - F) * (1 - m), and transmission and diffuse color count 1 - G besides (glTF 2.0
-// specification, appendix B: mix(diffuse, specular, F)). G is the mean weight of the very samples
-// that are taken, whose expected value is the lobe's albedo towards the viewer; so the sum is at
-// most 1 at every angle and for every number of samples, and 1 where nothing absorbs. A lobe that
-// is not sampled shows lights, and in place of the scene a blurred sky: with S the sky as a lobe of
-// its roughness sees it along the mirrored view and A the lobe's albedo, A * S is added, and 1 - A
-// is what transmission and diffuse color count.
+//   glossy lobe = (1 - m) * (1 - F) * A
+//   transmittance = (1 - F) * (1 - A) * t
+//   diffuse = (1 - F) * (1 - A) * d
+// Mirror and colors of scene files add up as far as there is light for them:
+//   t = transmission * min(1, (1 - m) / largest channel of the transmission)
+//   d = diffuse color * min(1, (1 - m - t) / largest channel of the diffuse color)
+// The mirrors of models are coats, which leave (1 - m) * transmission and (1 - m) * diffuse color
+// (glTF 2.0 specification, appendix B: mix(base, layer, F)), and 1 - m of the light of lamps that
+// the lobe below reflects. The shares depend on the view and on
+// no light, so that light is linear, and their sum is at most 1 at every angle.
+// Where rays sample the lobe (--glossy), A is the mean weight of the very samples that are taken,
+// whose expected value is the lobe's albedo; so the sum is 1 for every number of samples where
+// nothing absorbs. Otherwise A is the albedo by a table (sampling/ggx_lobe.h), and the scene that
+// the lobe reflects is the mirrored ray's if the lobe is smooth, the sky blurred by roughness if it
+// is rough, and a mixture of both between. A lobe in whose place mirror or interface reflect the
+// scene shows lights only, as their highlight, and takes nothing from the others.
 #pragma once
 
 #include <algorithm>
@@ -57,6 +61,23 @@ inline constexpr const char* kNoMaterialName = "default";
 // glass in `transmission`.
 enum class VertexTint : std::uint8_t { diffuse, diffuseAndSpecular, emission };
 
+inline constexpr float kMinRoughness = 0.03f;
+// With this one the grazing reflectance of a lobe fades out below a reflectance of 4 %, as that of
+// a common dielectric does, so that a lobe of 0 reflects nothing.
+inline constexpr float kGrazingRatio = 25;
+// A lobe of no more than this alpha reflects the scene by a single impulse: it is about as wide as
+// a pixel, 0.002 radians to either side.
+inline constexpr float kSmoothAlpha = 1e-3f;
+// A lobe that is not sampled reflects the scene along the mirrored ray up to the first roughness,
+// the blurred sky from the second one on, and in between a mixture, so that neither begins with a
+// jump.
+inline constexpr float kMirroredRoughness = 0.05f, kBlurredRoughness = 0.3f;
+// The share of the mirrored ray.
+inline double mirroredShareOf(double roughness) {
+  constexpr double kEnd = kBlurredRoughness, kBegin = kMirroredRoughness;
+  return std::clamp((kEnd - roughness) / (kEnd - kBegin), 0.0, 1.0);
+}
+
 // Members are listed in scene/members.h.
 struct Material {
   std::string name;
@@ -65,8 +86,11 @@ struct Material {
   std::int32_t diffuseMap = kNoTexture;  // color
   // The diffuse color reflects the scene under --indirect, not only lights and ambient light.
   bool diffuseReflection = true;
-  Rgb specular{0, 0, 0};                   // glossy lobe's reflectance at normal incidence (F0)
-  std::int32_t specularMap = kNoTexture;   // color, multiplies `specular`
+  Rgb specular{0, 0, 0};                  // glossy lobe's reflectance at normal incidence (F0)
+  std::int32_t specularMap = kNoTexture;  // color, multiplies `specular`
+  // The lobe's reflectance at grazing incidence over that at normal incidence; at most 1 is
+  // reflected.
+  float grazingRatio = kGrazingRatio;
   float roughness = 0.5f;                  // GGX; alpha = roughness^2, at least kMinRoughness
   std::int32_t roughnessMap = kNoTexture;  // data, channel g; multiplies `roughness`
   // The lobe reflects the scene, not only lights. It is false where the reflection is a mirrored
@@ -92,6 +116,8 @@ struct Material {
   Rgb mirror{0, 0, 0};
   std::int32_t mirrorMap = kNoTexture;  // color, multiplies `mirror`
   Rgb mirrorGrazing{0, 0, 0};
+  // What lies below gets the light that the mirror leaves, in place of all that there is for it.
+  bool coat = false;
 
   // Refracted impulse, when `transmission` is above zero: the surface bounds a dielectric, or is a
   // sheet so thin that light goes straight on.
@@ -122,26 +148,43 @@ struct Material {
   bool diffuses(EffectSet effects) const {
     return effects.has(Effect::indirect) && hasDiffuseReflection();
   }
+  // In frames with these effects the lobe takes light from what lies below it.
+  bool covers(EffectSet effects) const {
+    return effects.has(Effect::glossy) && hasGlossy() &&
+           (glossyReflection || !(hasMirror() || hasTransmission()));
+  }
+  // In frames with these effects lamps reach the lobe through a coat.
+  bool isUnderCoat(EffectSet effects) const {
+    return coat && effects.has(Effect::mirror) && hasMirror() && covers(effects);
+  }
   // In frames with these effects the lobe reflects the blurred sky.
   bool reflectsBlurredSky(EffectSet effects) const {
-    return effects.has(Effect::blurredSky) && hasGlossyReflection() && !hasMirror();
+    return effects.has(Effect::blurredSky) && hasGlossyReflection();
   }
-  // In frames with these effects the lobe is sampled, and takes light from what lies below it.
+  // The lobe is so smooth, somewhere, that a mirrored ray stands for it unless rays sample it.
+  bool isSmooth() const {
+    return hasGlossyReflection() && (roughness < kBlurredRoughness || variesRoughness());
+  }
+  bool mirrorsByLobe(EffectSet effects) const {
+    return effects.has(Effect::mirror) && effects.has(Effect::glossy) &&
+           !effects.has(Effect::glossyReflection) && isSmooth();
+  }
+  // In frames with these effects rays sample the lobe.
   bool scatters(EffectSet effects) const {
     return effects.has(Effect::glossyReflection) && hasGlossyReflection();
   }
-  // Mirror, lobe or transmission may leave less light than the diffuse color asks for.
-  bool limitsDiffuse(EffectSet effects) const {
-    const float coat = std::max(maxComponent(mirror), maxComponent(mirrorGrazing));
+  // Mirror, lobe or transmission may leave less light than those below them ask for.
+  bool isLayered(EffectSet effects) const {
+    const float most = std::max(maxComponent(mirror), maxComponent(mirrorGrazing));
     const float color = maxComponent(diffuse);
-    return color > 0 && (hasTransmission() || scatters(effects) || reflectsBlurredSky(effects) ||
-                         (coat > 0 && coat + color > 1));
+    const bool limits = most > 0 && (coat || most + color > 1);
+    return covers(effects) || (color > 0 && (hasTransmission() || limits));
   }
   bool hasMirror() const { return maxComponent(mirror) > 0 || maxComponent(mirrorGrazing) > 0; }
   bool hasTransmission() const { return maxComponent(transmission) > 0; }
   // In frames with these effects the weight of the mirrored ray differs from hit to hit.
   bool variesMirror(EffectSet effects) const {
-    const bool tinted = vertexTint == VertexTint::diffuseAndSpecular;
+    const bool tinted = vertexTint == VertexTint::diffuseAndSpecular && !coat;
     return hasMirror() && ((effects.has(Effect::textures) && mirrorMap != kNoTexture) ||
                            (effects.has(Effect::vertexColors) && tinted));
   }
@@ -175,9 +218,5 @@ struct Material {
   // Default of castsShadow.
   bool blocksLight() const { return !hasTransmission() && coverage >= 0.5f; }
 };
-
-inline constexpr float kMinRoughness = 0.03f;
-// A lobe of no more than this alpha reflects the scene by a single impulse.
-inline constexpr float kSmoothAlpha = 1e-3f;
 
 }  // namespace whit

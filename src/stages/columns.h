@@ -124,7 +124,8 @@ inline constexpr std::uint32_t kSharesPlace = 1u << 30;
 // `coverage` is the share of the surface that is there: of all that it sends so much arrives, and
 // through the rest light goes straight on; `occlusion` multiplies indirect light; `lift` is added
 // to the position where shadow rays start; `cone` is the width that the ray's cone has reached, and
-// its children's start with.
+// its children's start with; `lobe` is the share that the glossy lobe reflects of the light that
+// the mirror leaves (stages/shading_tables.h: kMaterialLayered).
 #define WHIT_SURFEL_COLUMNS(X)                \
   WHIT_XYZ(X, pos, always)                    \
   WHIT_XYZ(X, ng, always)                     \
@@ -135,6 +136,7 @@ inline constexpr std::uint32_t kSharesPlace = 1u << 30;
   X(std::uint32_t, material, always)          \
   WHIT_RGB(X, specular, glossy)               \
   X(float, alpha, glossy)                     \
+  WHIT_RGB(X, lobe, glossy)                   \
   WHIT_RGB(X, emission, emissionFactors)      \
   X(float, coverage, coverage)                \
   X(float, occlusion, occlusionMaps)          \

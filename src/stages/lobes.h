@@ -16,13 +16,13 @@
 namespace whit {
 
 struct Lobe {
-  Effect effect;                   // in whose frames it is sampled
-  bool (Material::*isOf)() const;  // the materials that have it
-  std::uint32_t flag;              // of these in such frames
-  RayKind kind;                    // of its rays
-  int RenderOptions::*samples;     // of a surfel that the eye sees
-  std::uint32_t firstBranch;       // of them, to childStream(); 64 follow
-  std::uint32_t salt;              // of their lattice; 0: it is the path's own
+  Effect effect;                         // in whose frames it is sampled
+  bool (Material::*isOf)() const;        // the materials that have it
+  std::uint32_t flag;                    // of these in such frames
+  RayKind kind;                          // of its rays
+  int (*samples)(const RenderOptions&);  // of a surfel that the eye sees
+  std::uint32_t firstBranch;             // of them, to childStream(); 64 follow
+  std::uint32_t salt;                    // of their lattice; 0: it is the path's own
 
   bool isSampled(const Material& material, EffectSet effects) const {
     return effects.has(effect) && (material.*isOf)();
@@ -33,13 +33,16 @@ inline constexpr Lobe kGlossyLobe{Effect::glossyReflection,
                                   &Material::hasGlossyReflection,
                                   kMaterialScatters,
                                   RayKind::reflection,
-                                  &RenderOptions::glossy,
+                                  glossySamples,
                                   3,
                                   0};
-inline constexpr Lobe kDiffuseLobe{
-    Effect::indirect,  &Material::hasDiffuseReflection, kMaterialDiffuses,
-    RayKind::indirect, &RenderOptions::indirect,        128,
-    0x5851f42du};
+inline constexpr Lobe kDiffuseLobe{Effect::indirect,
+                                   &Material::hasDiffuseReflection,
+                                   kMaterialDiffuses,
+                                   RayKind::indirect,
+                                   [](const RenderOptions& o) { return o.indirect; },
+                                   128,
+                                   0x5851f42du};
 inline constexpr std::array kLobes{kGlossyLobe, kDiffuseLobe};
 
 // True if frames with these effects sample any lobe.

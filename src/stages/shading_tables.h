@@ -7,6 +7,7 @@
 
 #include "bake/mip_maps.h"
 #include "bake/scene.h"
+#include "sampling/ggx_lobe.h"
 
 namespace whit {
 
@@ -49,8 +50,11 @@ inline constexpr std::uint32_t kMaterialMapped = 4096;
 inline constexpr std::uint32_t kMaterialDiffuses = 8192;
 // Material::reflectsBlurredSky() in such frames.
 inline constexpr std::uint32_t kMaterialBlursSky = 32768;
-// Material::limitsDiffuse() in such frames.
-inline constexpr std::uint32_t kMaterialLimitsDiffuse = 16384;
+// Material::isLayered(), covers() and mirrorsByLobe() in such frames.
+inline constexpr std::uint32_t kMaterialLayered = 16384, kMaterialCovers = 1u << 20,
+                               kMaterialMirrorsByLobe = 1u << 21;
+// Material::coat, and isUnderCoat() in such frames.
+inline constexpr std::uint32_t kMaterialCoated = 1u << 22, kMaterialIsUnderCoat = 1u << 23;
 inline constexpr std::uint32_t kMaterialIsOccluded = 1u << 16,
                                kMaterialOcclusionBySecondUvs = 1u << 17;
 // Maps or vertex colors multiply it.
@@ -110,8 +114,10 @@ struct ShadingTables {
   int colorStride = 0;                    // floats
   const UvRecord* secondUvs = nullptr;    // none: no material's flags name them
   std::vector<MaterialRecord> materials;  // at least one
-  std::vector<ShownMap> maps;             // those of all materials
-  std::vector<TextureRecord> textures;    // one for each of `maps`, at least one
+  // Material::grazingRatio; empty where all are kGrazingRatio.
+  std::vector<float> grazingRatios;
+  std::vector<ShownMap> maps;           // those of all materials
+  std::vector<TextureRecord> textures;  // one for each of `maps`, at least one
   // kMipStride for each of `maps`, from the full texture on; none unless lookups are trilinear.
   std::vector<TextureRecord> mipLevels;
   TexelStrips texels;                        // at least one
@@ -120,6 +126,7 @@ struct ShadingTables {
   std::vector<MediumRecord> media;           // [0] is vacuum
   std::vector<Light> lights;
   SkyTable sky, blurredSky;  // the latter kSkyBlurs images of this size, one below the other
+  const LobeTable* lobes = nullptr;  // where lobes exist
   Ambient ambient;
   bool samePriority = true;   // no medium outranks another
   bool radianceMaps = false;  // some material has kMaterialEmissionIsRadiance

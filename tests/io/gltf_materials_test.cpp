@@ -18,14 +18,16 @@ TEST_F(GltfMaterials, RoughMetalReflectsItsBaseColor) {
 
 // 1 for the albedo, 0.04 / 4 for the lobe.
 TEST_F(GltfMaterials, RoughDielectricHasBoth) {
-  expectColor(pixel("{\"pbrMetallicRoughness\":{\"metallicFactor\":0}}"), Rgb(1.01f));
+  expectColor(pixel("{\"pbrMetallicRoughness\":{\"metallicFactor\":0}}"),
+              Rgb(1 - 0.04f * kRoughestAlbedo + 0.01f));
 }
 
 TEST_F(GltfMaterials, HalfMetalIsTheMean) {
-  // 0.5 * 0.8 + (0.5 * 0.04 + 0.5 * 0.8) / 4
+  // The lobe reflects 0.5 * 0.04 + 0.5 * 0.8, of lamps a fourth of that, and leaves the rest to
+  // 0.5 * 0.8.
   expectColor(pixel("{\"pbrMetallicRoughness\":{\"metallicFactor\":0.5,"
                     "\"baseColorFactor\":[0.8,0.8,0.8,1]}}"),
-              Rgb(0.505f));
+              Rgb(0.4f * (1 - 0.42f * kRoughestAlbedo) + 0.42f / 4));
 }
 
 TEST_F(GltfMaterials, SpecularExtensionSetsTheReflectance) {
@@ -134,7 +136,8 @@ TEST_F(GltfMaterials, MetalnessTexelByTexel) {
   const double d2 = 0.25 + 0.25 + 9, lobe = 9 / (4 * d2);
   const auto metal = static_cast<float>(lobe), rest = static_cast<float>(lit(0.5, 0.5));
   expectColor(p[0], Rgb{0.8f, 0.4f, 0.2f} * metal);
-  expectColor(p[1], Rgb{0.8f, 0.4f, 0.2f} * rest + Rgb(0.04f * metal));
+  const float left = rest * (1 - 0.04f * kRoughestAlbedo);
+  expectColor(p[1], Rgb{0.8f, 0.4f, 0.2f} * left + Rgb(0.04f * metal));
 }
 
 // Lit from the eye, the half vector is where both are: D V cos with Smith's correlated V.
@@ -356,11 +359,13 @@ TEST_F(GltfMaterials, SmoothSurfacesMirror) {
   const auto mirrored = [&](const std::string& material) {
     return picture({{0, material, 1}, {6, behindTheEye, 9}}, 1)[0];
   };
-  expectColor(mirrored("{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.1,\"baseColorFactor\":"
+  expectColor(mirrored("{\"pbrMetallicRoughness\":{\"roughnessFactor\":0,\"baseColorFactor\":"
                        "[0.9,0.6,0.3,1]}}"),
               {0.9f, 0.6f, 0.3f});
-  expectColor(mirrored("{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.1,\"metallicFactor\":0}}"),
+  expectColor(mirrored("{\"pbrMetallicRoughness\":{\"roughnessFactor\":0,\"metallicFactor\":0}}"),
               Rgb(0.04f));
+  // Half of a lobe between smooth and rough.
+  EXPECT_NEAR(mirrored("{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.175}}").x, 0.5, 0.01);
   expectColor(mirrored("{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.5}}"), Rgb(0.0f));
   expectColor(mirrored(matte("\"roughnessFactor\":1").insert(1, "\"name\":\"x\",")), Rgb(0.0f));
   expectColor(mirrored("{\"pbrMetallicRoughness\":{\"metallicFactor\":0},\"extensions\":"
@@ -391,7 +396,7 @@ TEST_F(GltfMaterials, RoughSurfacesReflectInSamples) {
   EXPECT_NEAR(seen.y, seen.x / 2, 1e-5);
   EXPECT_NEAR(seen.z, seen.x / 4, 1e-5);
   // Smooth: one impulse, whatever the number of samples.
-  expectColor(reflected("{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.2}}", 64),
+  expectColor(reflected("{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.03}}", 64),
               {1, 0.5f, 0.25f});
   // What bounds a volume keeps to its impulses.
   const std::string glass =

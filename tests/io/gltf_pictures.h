@@ -16,6 +16,11 @@ namespace whit {
 // Some roundings of float, and of texels to 10 bits of their square roots.
 inline constexpr double kClose = 2e-3;
 
+// The share of even light that a lobe of roughness 1 and reflectance 1 reflects along the normal,
+// 1 - ln 2: the integral of c / (1 + c) over [0, 1]. It takes so much from the color below. A
+// little off the normal it differs by less than kClose where the reflectance is 0.04.
+inline constexpr float kRoughestAlbedo = 0.30685282f;
+
 // [-1, 1]^2 at `z`, facing +z, its texture upright and not mirrored as seen from there.
 struct Square {
   double z = 0;

@@ -110,6 +110,38 @@ Color glossyLobe(const Material& material, const Vec& normal, const Vec& toViewe
          (facetsFacing(material, nh) * masking / (4 * nl * nv));
 }
 
+// Half of the facets, on one side of the plane of incidence, evenly by D cos: the masked share of
+// what they reflect, over what the surface shows of itself. Facets that reflect below the horizon
+// are left out by the bounds of the inner integral, and the ends of the outer one are sampled more
+// densely: the result is off by 0.003 at most, 0.001 from a cosine of 0.2 on.
+Color lobeAlbedo(const Material& material, double nv) {
+  constexpr int kTilts = 48, kTurns = 24;
+  const double a2 = squaredAlpha(material), sine = std::sqrt(1 - nv * nv);
+  Color sum;
+  for (int i = 0; i < kTilts; ++i) {
+    const double x = (i + 0.5) / kTilts, u = x * x * (3 - 2 * x), density = 6 * x * (1 - x);
+    const double nh = std::sqrt((1 - u) / (1 + (a2 - 1) * u));
+    const double aside = sine * std::sqrt(1 - nh * nh);
+
+    // Where the reflected ray lies in the surface.
+    const double limit = nv * (1 / (2 * nh) - nh);
+    const double widest = std::acos(aside > 0 ? std::clamp(limit / aside, -1.0, 1.0) : -1.0);
+    for (int k = 0; k < kTurns; ++k) {
+      const double vh = aside * std::cos(widest * (k + 0.5) / kTurns) + nv * nh;
+      const double nl = 2 * vh * nh - nv;
+      if (!(vh > 0 && nl > 0)) continue;
+      const double masking = 1 / (1 + smithLambda(material, nl) + smithLambda(material, nv));
+      const double weight = density * widest / kPi * vh / (nv * nh) * masking;
+      sum += lobeReflectance(material, vh) * weight;
+    }
+  }
+  return sum / (kTilts * kTurns);
+}
+
+double mirroredShare(const Material& material) {
+  return clamped((0.3 - material.roughness) / (0.3 - 0.05));
+}
+
 Arrival arrivalOf(const Light& light, const Vec& point) {
   if (light.kind == Light::Kind::directional) {
     return {light.intensity, -normalized(light.direction), INFINITY};

@@ -27,6 +27,12 @@ Color glossyLobe(const Material& material, const Vec& normal, const Vec& toViewe
 // Of its facets, which the viewer sees at this cosine.
 Color lobeReflectance(const Material& material, double vh);
 
+// The share of even light that the lobe reflects towards the viewer: an integral over its facets.
+Color lobeAlbedo(const Material& material, double nv);
+
+// The share of an unsampled lobe for which one mirrored ray stands, as the page has it.
+double mirroredShare(const Material& material);
+
 // The normals of the lobe's facets, 1/sr: D of Walter et al. 2007.
 double facetsFacing(const Material& material, double nh);
 // The share of them that a viewer at this cosine sees: Smith's G1.

@@ -58,6 +58,11 @@ struct Material {
     if (glossyReflection != Choice::unsaid) return glossyReflection == Choice::yes;
     return !isMirror() && !transmits();
   }
+  // Whether the lobe takes light from what lies below it: beside a mirror or an interface that
+  // reflect the scene in its place it is their highlight.
+  bool lobeCovers() const {
+    return largest(specular) > 0 && (reflectsGlossily() || !(isMirror() || transmits()));
+  }
 };
 
 struct Mesh {
@@ -165,6 +170,9 @@ struct Options {
   bool terminator = false;
   Filter filter = Filter::bilinear;
   bool schlickFresnel = false;
+
+  // Samples of a lobe where the eye sees it. Paths of indirect light sample lobes, too.
+  int lobeSamples() const { return glossy == 0 && indirect > 0 ? 1 : glossy; }
 };
 
 }  // namespace oracle

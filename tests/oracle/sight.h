@@ -16,6 +16,8 @@ struct Sight {
   // and the most that one ray counts for.
   Color variance{};
   double largestSample = 0, largestShare = 0;
+  // Radiance that counts by an albedo, or what an albedo leaves, which whit looks up in a table.
+  double tabled = 0;
 };
 
 inline Sight operator+(const Sight& a, const Sight& b) {
@@ -24,13 +26,14 @@ inline Sight operator+(const Sight& a, const Sight& b) {
           std::max(a.brightest, b.brightest),
           a.variance + b.variance,
           std::max(a.largestSample, b.largestSample),
-          std::max(a.largestShare, b.largestShare)};
+          std::max(a.largestShare, b.largestShare),
+          a.tabled + b.tabled};
 }
 inline Sight& operator+=(Sight& a, const Sight& b) { return a = a + b; }
 inline Sight operator*(const Sight& a, const Color& part) {
   const double most = largest(part);
-  return {a.radiance * part,        a.undecided * most,     a.brightest,
-          a.variance * part * part, a.largestSample * most, a.largestShare * most};
+  return {a.radiance * part,      a.undecided * most,    a.brightest,    a.variance * part * part,
+          a.largestSample * most, a.largestShare * most, a.tabled * most};
 }
 
 }  // namespace oracle

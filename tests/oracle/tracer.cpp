@@ -18,6 +18,8 @@ constexpr double kNegligible = 1e-10;
 // As a sine: a ray this near to the plane of a surface whose normals differ from the plane's is one
 // that the surface may have to turn back.
 constexpr double kSkimming = 0.011;
+// The page states no error of the table of albedos for views within 3 degrees of the surface.
+constexpr double kLeastTabled = 0.0523;
 
 // A lobe of no more than this alpha is a mirror's.
 constexpr double kSmooth = 1e-3;
@@ -57,7 +59,8 @@ struct Tracer::Surface {
   Vec lift;           // from a triangle to the surface that its vertex normals stand for
   bool smooth = false, entering = false;
   Material material;          // textures and vertex colors applied
-  Color belowLobe = gray(1);  // of the light, what samples of the glossy lobe leave
+  Color belowLobe = gray(1);  // of the light, what the glossy lobe leaves
+  bool tabled = false;        // whit looks the lobe's albedo up
 };
 
 int Tracer::pointsASide(const Branch& branch) {
@@ -326,6 +329,7 @@ Sight Tracer::trace(const Ray& ray, const Branch& branch, Random& random) const 
   }
   const Sight taken = lobeWeight(surface, there, random);
   surface.belowLobe = gray(1) - taken.radiance;
+  surface.tabled = largest(taken.radiance) > 0 && !samplesLobe(surface.material);
   surface.material.diffuse = diffuseLeft(surface, branch.media, behind) * surface.belowLobe;
   Sight seen = lightFrom(surface, there, random);
   seen.radiance += surface.material.emission;
@@ -335,10 +339,15 @@ Sight Tracer::trace(const Ray& ray, const Branch& branch, Random& random) const 
   // bring: the square of a sum is at most twice the sum of the squares.
   const auto grows = [](double left) { return 1 / std::max(left, 0.01); };
   const Color below = surface.belowLobe;
+  if (surface.tabled) {
+    const double left = std::min({below.x, below.y, below.z});
+    seen.tabled += largest(seen.radiance) * grows(left);
+  }
   Sight varies = taken * (seen.radiance * Color{grows(below.x), grows(below.y), grows(below.z)});
   varies.radiance = {};
   varies.variance = varies.variance * gray(2);
   seen += varies;
+  seen.undecided += taken.undecided;
   Sight on;
   if (there.depth < options_.depth) {
     on = impulses(surface, there, behind, random);
@@ -466,7 +475,9 @@ Sight Tracer::follow(const Surface& surface, const Branch& branch, const Impulse
 Sight Tracer::impulses(const Surface& surface, const Branch& branch, const Media& behind,
                        Random& random) const {
   const Material& material = surface.material;
-  if (!material.isMirror() && !material.passesLight()) return {};
+  const bool mirrors = surface.tabled && material.reflectsGlossily();
+  const double alongMirror = mirrors ? mirroredShare(material) : 0;
+  if (!material.isMirror() && !material.passesLight() && alongMirror == 0) return {};
   const Vec direction = -surface.toViewer;
   const double cosine = dot(surface.toViewer, surface.normal);
   if (surface.smooth && cosine < kSkimming) return {.undecided = 1};
@@ -476,10 +487,12 @@ Sight Tracer::impulses(const Surface& surface, const Branch& branch, const Media
   // place is theirs, and all that comes through that.
   const double there = material.coverage;
   Color reflectance = coat * there;
+  double passed = 1;
   if (material.passesLight()) {
     const double n1 = branch.media.current().ior, n2 = behind.current().ior;
     const double interface =
         options_.schlickFresnel ? fresnelBySchlick(n1, n2, cosine) : fresnel(n1, n2, cosine);
+    passed = 1 - interface;
     reflectance += (gray(1) - coat) * interface * there + gray(interface) * (1 - there);
     if (interface < 1) {
       const Vec on = refracted(direction, surface.normal, n1, n2);
@@ -489,19 +502,31 @@ Sight Tracer::impulses(const Surface& surface, const Branch& branch, const Media
       sum += follow(surface, branch, {on, passed, behind, -dot(on, surface.plane)}, random);
     }
   }
+  const Color albedo = gray(1) - surface.belowLobe;
+  reflectance += albedo * (gray(1) - coat) * (passed * alongMirror * there);
   if (largest(reflectance) > 0) {
     const Vec back = mirrored(direction, surface.normal);
     const double height = dot(back, surface.plane);
-    sum += follow(surface, branch, {back, reflectance, branch.media, height}, random);
+    Sight reflected = follow(surface, branch, {back, reflectance, branch.media, height}, random);
+    reflected.tabled += alongMirror * largest(reflected.radiance) / largest(reflectance);
+    sum += reflected;
   }
   return sum;
 }
 
-// The mean weight of the samples of the glossy lobe: its albedo towards the viewer.
+bool Tracer::samplesLobe(const Material& material) const {
+  return options_.lobeSamples() > 0 && material.reflectsGlossily();
+}
+
+// The lobe's albedo towards the viewer, of which whit has the mean weight of its samples or a
+// table.
 Sight Tracer::lobeWeight(const Surface& surface, const Branch& branch, Random& random) const {
   const Material& material = surface.material;
   const double nv = dot(surface.normal, surface.toViewer);
-  if (options_.glossy == 0 || !material.reflectsGlossily() || nv < kSkimming) return {};
+  if (!material.lobeCovers()) return {};
+  const bool tabled = !samplesLobe(material) && !branch.drawn;
+  if (nv < (tabled ? kLeastTabled : kSkimming)) return {.undecided = 1};
+  if (tabled) return {.radiance = lobeAlbedo(material, nv)};
   if (material.roughness * material.roughness <= kSmooth) {
     return {.radiance = lobeReflectance(material, nv)};
   }
@@ -515,14 +540,14 @@ Sight Tracer::lobeWeight(const Surface& surface, const Branch& branch, Random& r
     const Color lobe = glossyLobe(material, surface.normal, surface.toViewer, toLight);
     integral.add({.radiance = gray(1)}, lobe * (nl / density), 1);
   });
-  return integral.mean(branch.depth == 0 ? options_.glossy : 1);
+  return integral.mean(branch.depth == 0 ? options_.lobeSamples() : 1);
 }
 
 // By the facets that are seen, as whit samples them; what they reflect has the density
 // D G1 / (4 nv).
 Sight Tracer::glossyReflection(const Surface& surface, const Branch& branch, Random& random) const {
   const Material& material = surface.material;
-  if (options_.glossy == 0 || !material.reflectsGlossily()) return {};
+  if (!samplesLobe(material)) return {};
   const Vec& normal = surface.normal;
   const Vec& toViewer = surface.toViewer;
   const double nv = dot(normal, toViewer);
@@ -548,7 +573,7 @@ Sight Tracer::glossyReflection(const Surface& surface, const Branch& branch, Ran
     integral.add(seen, part, 1);
   };
   forEvenPoints(pointsASide(branch), random, addPoint);
-  return integral.mean(branch.depth == 0 ? options_.glossy : 1);
+  return integral.mean(branch.depth == 0 ? options_.lobeSamples() : 1);
 }
 
 }  // namespace oracle

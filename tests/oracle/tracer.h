@@ -62,6 +62,7 @@ class Tracer {
   Sight indirectLight(const Surface& surface, const Branch& branch, Random& random) const;
   Color diffuseLeft(const Surface& surface, const Media& before, const Media& behind) const;
   Color aboveLobe(const Surface& surface, const Media& before, const Media& behind) const;
+  bool samplesLobe(const Material& material) const;
   Sight lobeWeight(const Surface& surface, const Branch& branch, Random& random) const;
   Sight impulses(const Surface& surface, const Branch& branch, const Media& behind,
                  Random& random) const;

@@ -12,6 +12,7 @@
 #include "reference/find_radiance_and_shadow_rays.h"
 #include "reference/fresnel.h"
 #include "reference/small_scenes.h"
+#include "sampling/ggx_lobe.h"
 
 namespace whit::reference {
 namespace {
@@ -54,7 +55,9 @@ TEST_P(VisibleNormals, AreDistributedAsTheyAreSeen) {
   std::array<double, kRows * kColumns> seen{}, expected{};
   test::Numbers numbers(7);
   for (int i = 0; i < kDraws; ++i) {
-    const Vec3d m = visibleNormal(view, alpha, pointOf(numbers));
+    const UnitPoint point = pointOf(numbers);
+    const double angle = 2 * kPi * double{point.u};
+    const Vec3d m = visibleNormal(view, alpha, std::cos(angle), std::sin(angle), double{point.v});
     const double turn = std::atan2(m.y, m.x) / (2 * kPi) + 0.5;
     const int row = std::min(static_cast<int>(m.z * kRows), kRows - 1);
     const int column = std::min(static_cast<int>(turn * kColumns), kColumns - 1);

@@ -71,18 +71,23 @@ TEST(BlurredSky, IsReflectedByRoughSurfaces) {
   s.view = normalized(Vec3d(1, 1, 0));
   s.alpha = 0.25;
   s.specular = {1, 0.5, 0.04};
+  const RgbD albedo = lobeAlbedo(s.specular, 1, std::sqrt(0.5), 0.5);
+  findLayers(scene, effects, {}, {}, {}, s);
   const RgbD metal = emittedAndAmbient(scene, effects, s);
-  const RgbD albedo = lobeAlbedo(s.specular, std::sqrt(0.5), 0.5);
   EXPECT_NEAR(metal.x, albedo.x, 1e-6);
   EXPECT_NEAR(metal.z, albedo.z, 1e-6);
   s.diffuse = RgbD(1.0);
-  limitDiffuse(scene, effects, {}, {}, {}, s);
+  findLayers(scene, effects, {}, {}, {}, s);
   EXPECT_NEAR(s.diffuse.x, 1 - albedo.x, 1e-12);
   EXPECT_NEAR(emittedAndAmbient(scene, effects, s).y, 1, 1e-6);
   EXPECT_EQ(emittedAndAmbient(scene, effects.without(Effect::blurredSky), s), s.diffuse);
   scene.ambient.reflection = 0.5f;
   EXPECT_NEAR(emittedAndAmbient(scene, effects, s).x, 1 - albedo.x / 2, 1e-6);
-  scene.materials[0].mirror = Rgb(0.1f);
+  scene.ambient.reflection = 1;
+  scene.materials[0].mirror = scene.materials[0].mirrorGrazing = Rgb(0.25f);
+  EXPECT_NEAR(emittedAndAmbient(scene, effects, s).x, s.diffuse.x + 0.75 * albedo.x, 1e-6)
+      << "under the mirror";
+  scene.materials[0].glossyReflection = false;
   EXPECT_EQ(emittedAndAmbient(scene, effects, s), s.diffuse) << "the mirror shows the scene";
 }
 

@@ -165,7 +165,7 @@ const std::vector<Rule>& rules() {
        EffectSet().with(Effect::lights).with(Effect::shadows)},
       {Effect::mirror,
        [](auto& d) { first(d).mirrorGrazing = Rgb(1.0f); },
-       "1 material with a mirror or a reflecting dielectric, 2 triangles use it",
+       "1 material with a mirror, a smooth lobe or a reflecting dielectric, 2 triangles use it",
        {}},
       {Effect::transmission,
        [](auto& d) {
@@ -265,8 +265,9 @@ TEST(SceneEffects, CountsMaterialsAndTriangles) {
   d.materials.resize(3);
   d.materials[1].mirror = d.materials[2].mirror = Rgb(0.5f);
   d.objects[0].meshes[0].materials = {1, 2};
-  EXPECT_EQ(reason(finalized(std::move(d)), Effect::mirror).because,
-            "2 materials with a mirror or a reflecting dielectric, 2 triangles use them");
+  EXPECT_EQ(
+      reason(finalized(std::move(d)), Effect::mirror).because,
+      "2 materials with a mirror, a smooth lobe or a reflecting dielectric, 2 triangles use them");
 }
 
 TEST(SceneEffects, WhatIsMultipliedByNothingDoesNotCount) {

@@ -151,6 +151,19 @@ GltfMaterial readMaterial(const GltfDocument& document, const JsonValue& source)
   return m;
 }
 
+// The reflectance at grazing incidence over that at normal incidence. Strengths and textures
+// multiply both, so that the ratio is the material's. A metal has kGrazingRatio at least, since the
+// texture of its color does not multiply what it reflects at grazing incidence.
+float grazingRatioOf(const GltfMaterial& g, float metal) {
+  if (g.grazingFades) return kGrazingRatio;
+  constexpr float kLeast = 1e-18f;  // the ratio stays finite
+  const float ratio = 1 / std::clamp(maxComponent(g.specularColor), kLeast, 1.0f);
+
+  // What rounding alone makes of the usual index of refraction needs no value of its own.
+  const bool isUsual = std::fabs(ratio - kGrazingRatio) < 1e-3f;
+  return isUsual || (metal > 0 && ratio < kGrazingRatio) ? kGrazingRatio : ratio;
+}
+
 Rgb mix(const Rgb& a, const Rgb& b, float t) { return a * (1 - t) + b * t; }
 
 }  // namespace
@@ -245,23 +258,24 @@ Material shadedAs(const GltfMaterial& g, const GltfMeans& means) {
   if (metal >= 0.5f) m.vertexTint = VertexTint::diffuseAndSpecular;
   m.diffuse = g.base * ((g.mixesMetal() ? 1 : 1 - metal) * (1 - clear));
   m.specular = g.bakesSpecular() ? Rgb(1.0f) : mix(f0, g.base, metal);
+  m.grazingRatio = grazingRatioOf(g, metal);
   m.transmission = g.base * (g.transmission * (g.bakesTransmission() ? 1 : 1 - metal));
   if (m.boundsMedium()) {
     m.ior = g.ior;
     m.absorption = g.absorption;
   }
-  m.glossyReflection = roughness > kGltfSmoothRoughness && !m.boundsMedium();
-  if (roughness <= kGltfSmoothRoughness) {
-    // The dielectric adds its own reflectance.
-    const float share = m.boundsMedium() ? metal : 1.0f;
+  m.glossyReflection = !m.boundsMedium();
+  m.coat = true;
+  if (m.boundsMedium()) {
+    const auto share = static_cast<float>(metal * mirroredShareOf(roughness));
     m.mirror = (g.mirrorsByMap() ? m.specular : mix(f0, base, metal)) * share;
     m.mirrorGrazing = Rgb((f90 * (1 - metal) + metal) * share);
   }
-  if (g.clearcoatRoughness * means.clearcoatRoughness <= kGltfSmoothRoughness) {
-    const float coat = g.clearcoat * means.clearcoat;
-    m.mirror = min(m.mirror + Rgb(0.04f * coat), Rgb(1.0f));
-    m.mirrorGrazing = max(m.mirrorGrazing, Rgb(coat));
-  }
+  const double coatRoughness = g.clearcoatRoughness * means.clearcoatRoughness;
+  const auto coat =
+      static_cast<float>(g.clearcoat * means.clearcoat * mirroredShareOf(coatRoughness));
+  m.mirror = min(m.mirror + Rgb(0.04f * coat), Rgb(1.0f));
+  m.mirrorGrazing = max(m.mirrorGrazing, Rgb(coat));
   m.castsShadow = m.blocksLight();
   return m;
 }

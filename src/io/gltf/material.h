@@ -52,6 +52,7 @@ struct GltfMaterial {
   float alpha = 1, metallic = 1, roughness = 1;
   Rgb specularColor{0.04f, 0.04f, 0.04f};  // of what is no metal: its ior's, times a factor
   float f90 = 1;                           // its reflectance at grazing incidence
+  bool grazingFades = false;               // of MTL: below 4 % at normal incidence, f90 is less
   Rgb emission{0, 0, 0};
   Alpha alphaMode = Alpha::opaque;
   float alphaCutoff = 0.5f;
@@ -134,24 +135,20 @@ struct GltfMeans {
 // because others already take both sets.
 bool lacksCoordinates(const GltfMaterial& material);
 
-// Below this a surface reflects the scene by a single impulse.
-inline constexpr float kGltfSmoothRoughness = 0.25f;
-
 // The Material, without its maps:
-// - diffuse is the base color of what is neither metal nor transmission. Mirror and
-//   sampled lobes reduce it by what they reflect (scene/material.h).
-// - specular, the lobe that lights are seen in, is f0 = ((ior - 1) / (ior + 1))^2 or the base
-//   color of metal, texel by texel, as are strength and color of KHR_materials_specular, and the
-//   roughness.
-// - Surfaces that are smooth on average also mirror the scene, from that to f90 at grazing
-//   incidence, below a clearcoat from its mean. Rough ones reflect it in samples of the lobe,
-//   unless they bound a volume.
+// - diffuse is the base color of what is neither metal nor transmission. Clearcoat and lobe reduce
+//   it by what they reflect (scene/material.h).
+// - specular, the lobe, is f0 = ((ior - 1) / (ior + 1))^2 or the base color of metal, texel by
+//   texel, as are strength and color of KHR_materials_specular, and the roughness. It reflects
+//   lights and the scene, but where the surface bounds a volume: there it shows lights, the
+//   dielectric adds its own reflection, and smooth metal that of a mirror.
 // - transmission is tinted by the base color at each crossing. With a volume of some thickness the
 //   surface bounds a dielectric of this ior (exact Fresnel reflectance) and absorption, and must be
 //   closed; without one it is a thin wall. It is clear whatever the roughness.
 // - blending lets 1 - alpha straight through, texel by texel; what blends is a sheet, whatever it
 //   transmits besides.
-// - a smooth clearcoat adds a mirror of 0.04 at normal incidence; maps of it count by their means.
+// - a clearcoat is a mirror of 0.04 at normal incidence over the rest, as far as it is smooth; maps
+//   of it count by their means.
 // - unlit colors are emitted, and nothing else is.
 // - single-sided surfaces are passed from behind by all rays but those of shadows, unless they
 //   bound a volume.

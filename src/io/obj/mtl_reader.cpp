@@ -306,8 +306,9 @@ class Interpreter {
     if (isMetallic && !(maxComponent(highlight) > 0)) m.specularColor = Rgb(kDielectricReflectance);
     if (illum_ == 0 || illum_ == 1) m.specularColor = Rgb(0.0f);
     m.f90 = maxComponent(m.specularColor) > 0 ? 1.0f : 0.0f;
+    m.grazingFades = true;
     // A roughness that is given makes a rough metal of a mirror.
-    const bool isRough = source_.has("pr") && m.roughness > kGltfSmoothRoughness;
+    const bool isRough = source_.has("pr") && m.roughness > kBlurredRoughness;
     if (!isMirror || isRough) return;
     result.mirror = highlight;
     result.mirrorGrazing = illum_ == 5 ? Rgb(1.0f) : highlight;
