@@ -48,6 +48,7 @@ struct ImpulseLanes {
   MF scatters;    // rays sample that lobe
   MF mirrors;     // or a mirrored ray stands for it as far as it is smooth
   MF coated;      // the surfel's mirror is a coat
+  MF chooses;     // one of the surfel's lobes is followed
   V3 direction, ng, ns;
   VF facing;  // cosine between viewer and geometric normal
   VF cosine;  // between viewer and shading normal, in [0, 1]
@@ -74,7 +75,7 @@ HWY_INLINE ImpulseLanes LoadImpulseLanes(const ImpulseJob& job, size_t i) {
   lanes.material = hn::Load(di, reinterpret_cast<const int32_t*>(surfels.material) + i);
   lanes.live = hn::RebindMask(d, NonNegative(lanes.material));
   lanes.dielectric = lanes.hidden = lanes.covers = lanes.scatters = lanes.mirrors = lanes.coated =
-      hn::MaskFromVec(hn::Zero(d));
+      lanes.chooses = hn::MaskFromVec(hn::Zero(d));
   if (hn::AllFalse(d, lanes.live)) return lanes;
   const VU flags = MaterialLanes(job.tables, lanes.material, lanes.live).Lobe().flags;
   lanes.live = hn::And(lanes.live, HasFlags(flags, kWanted));
@@ -84,6 +85,9 @@ HWY_INLINE ImpulseLanes LoadImpulseLanes(const ImpulseJob& job, size_t i) {
     lanes.covers = hn::And(lanes.live, HasFlags(flags, kMaterialCovers));
     lanes.scatters = hn::And(lanes.live, HasFlags(flags, kMaterialScatters));
     lanes.mirrors = hn::And(lanes.live, HasFlags(flags, kMaterialMirrorsByLobe));
+    if (job.chunk.depth > 0) {
+      lanes.chooses = hn::And(lanes.scatters, HasFlags(flags, kMaterialDiffuses));
+    }
   }
   if (kWanted == kMaterialTransmits || job.transmission) {
     lanes.dielectric = hn::And(lanes.live, HasFlags(flags, kMaterialTransmits));
@@ -171,7 +175,7 @@ struct Child {
 HWY_INLINE MF Survivors(const ImpulseJob& job, Child& child, VF& throughput) {
   const FloatTag d;
   const VF roulette = hn::Set(d, job.roulette), one = hn::Set(d, 1.0f);
-  const MF survives = hn::Lt(hn::Mul(RouletteDraw(child.path), roulette), throughput);
+  const MF survives = hn::Lt(hn::Mul(PathDraw(child.path, kRouletteSalt), roulette), throughput);
   const MF chance = hn::And(survives, hn::Lt(throughput, roulette));
   if (hn::AllFalse(d, chance)) return survives;
   const VF grows = hn::IfThenElse(chance, hn::Div(roulette, throughput), one);
@@ -399,6 +403,26 @@ void FindLayers(Chunk& c) {
   }
 }
 
+// The counterpart of factorOfLobe() behind the first hit: 0 where the other lobe is followed.
+HWY_INLINE VF FactorOfChoice(const ImpulseJob& job, const ImpulseLanes& lanes, bool isGlossy,
+                             size_t i) {
+  const FloatTag d;
+  const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  const SurfelColumns& s = job.surfels;
+  const MaterialLanes material(job.tables, lanes.material, lanes.live);
+  const V3 left = Sub3({one, one, one}, MirrorAt(job, material, lanes.cosine, i));
+  const VF glossy = MaxComponent(Mul3(LobeAt(job, lanes, i), left));
+  const VF diffuse = MaxComponent(Load3(s.diffuseR, s.diffuseG, s.diffuseB, i));
+  const VF both = hn::Add(glossy, diffuse);
+
+  const VU path = hn::Load(UintTag(), job.rays.path + i);
+  const MF followsGlossy = hn::Lt(hn::Mul(PathDraw(path, kLobeSalt), both), glossy);
+  const MF followed = isGlossy ? followsGlossy : hn::Not(followsGlossy);
+  const VF own = isGlossy ? glossy : diffuse;
+  const VF grows = hn::IfThenElse(hn::Gt(own, zero), hn::Div(both, own), one);
+  return hn::IfThenElse(lanes.chooses, hn::IfThenElseZero(followed, grows), one);
+}
+
 template <typename Samples>
 HWY_INLINE void AddSamples(Chunk& c) {
   constexpr const Lobe& kLobe = Samples::kLobe;
@@ -407,15 +431,22 @@ HWY_INLINE void AddSamples(Chunk& c) {
   const ImpulseJob job{c};
   const LobeSampling sampling = lobeSampling(c.depth, kLobe.samples(c.options()), c.sampleNumber);
   const VF one = hn::Set(d, 1.0f), share = hn::Set(d, 1.0f / static_cast<float>(sampling.count));
-  // occlusionOfLobes().
+  // factorOfLobe().
   const bool occluded = c.depth == 0 && c.has(Feature::occlusionMaps);
   size_t count = c.childCount;
   for (size_t i = 0; i < job.n; i += hn::Lanes(d)) {
     ImpulseLanes lanes = LoadImpulseLanes<kLobe.flag>(job, i);
     lanes.live = hn::AndNot(lanes.hidden, lanes.live);
     if (hn::AllFalse(d, lanes.live)) continue;
-    V3 covered{one, one, one};
-    if constexpr (kLobe.flag == kMaterialScatters) covered = LeftAboveLobe(job, lanes, i);
+    constexpr bool kIsGlossy = kLobe.flag == kMaterialScatters;
+    VF factor = one;
+    if (HWY_UNLIKELY(!hn::AllFalse(d, lanes.chooses))) {
+      factor = FactorOfChoice(job, lanes, kIsGlossy, i);
+      lanes.live = hn::And(lanes.live, hn::Gt(factor, hn::Zero(d)));
+      if (hn::AllFalse(d, lanes.live)) continue;
+    }
+    V3 covered{factor, factor, factor};
+    if constexpr (kIsGlossy) covered = Scale3(LeftAboveLobe(job, lanes, i), factor);
     if (job.coverage) covered = Scale3(covered, CoverageAt(job, i));
     if (occluded) covered = Scale3(covered, hn::Load(d, job.surfels.occlusion + i));
     const Samples samples(job, lanes, i);

@@ -62,8 +62,8 @@ HWY_INLINE UnitPoints LightPoints(VU path, const LobeSampling& sampling, uint32_
   return SaltedPoints(path, sampling, lightSalt(light), k);
 }
 
-HWY_INLINE VF RouletteDraw(VU path) {
-  return UnitFraction(Mixed(hn::Xor(path, hn::Set(UintTag(), kRouletteSalt))));
+HWY_INLINE VF PathDraw(VU path, uint32_t salt) {
+  return UnitFraction(Mixed(hn::Xor(path, hn::Set(UintTag(), salt))));
 }
 
 }  // namespace whit::simd::HWY_NAMESPACE

@@ -93,8 +93,8 @@ struct LobeChild {
 };
 
 // The sample of the lobe that its path says it is; none if it is no sample of a lobe.
-std::optional<LobeChild> sampleOfLobe(const Chunk& chunk, std::size_t child, RayKind kind,
-                                      const Surfel& surfel) {
+std::optional<LobeChild> sampleOfLobe(const World& world, const Chunk& chunk, std::size_t child,
+                                      RayKind kind, const Surfel& surfel) {
   if (!chunk.has(Feature::streams)) return std::nullopt;
   const std::uint32_t slot = chunk.children.parent[child], path = chunk.rays.path[slot];
   for (const auto& [lobe, raysOf, impulseOf] : kSampledLobes) {
@@ -106,7 +106,8 @@ std::optional<LobeChild> sampleOfLobe(const Chunk& chunk, std::size_t child, Ray
       if (chunk.children.path[child] != childStream(path, lobe.firstBranch + k)) continue;
       const UnitPoint at = pointOf(lobe, path, sampling, k);
       Impulse impulse = impulseOf(surfel, mediaOf(chunk, slot), at, chunk.options().shading);
-      impulse.weight *= occlusionOfLobes(surfel, chunk.depth);
+      const Material& material = world.scene.materials[surfel.material];
+      impulse.weight *= factorOfLobe(lobe, material, world.effects, surfel, chunk.depth, path);
       return LobeChild{impulse, rays};
     }
   }
@@ -272,6 +273,24 @@ Impulse indirectImpulse(const Surfel& s, MediaStack stack, const UnitPoint& at,
   return {s.diffuse * s.coverage, {rayOrigin(choices.offset, s, 1), r, s.cone}, stack};
 }
 
+double factorOfLobe(const Lobe& lobe, const Material& material, EffectSet effects,
+                    const Surfel& surfel, int depth, std::uint32_t path) {
+  if (depth == 0) return surfel.occlusion;
+  const auto isSampled = [&](const Lobe& one) { return one.isSampled(material, effects); };
+  if (!std::ranges::all_of(kLobes, isSampled)) return 1;
+
+  // The lobe's weight is that of its one sample (findLayers).
+  const RgbD mirror = mirrorOf(material, effects, surfel);
+  const double glossy = maxComponent(surfel.lobe * (RgbD(1.0) - mirror));
+  const double diffuse = maxComponent(surfel.diffuse), both = glossy + diffuse;
+
+  const bool isGlossy = lobe.effect == kGlossyLobe.effect;
+  const bool followsGlossy = double{pathDraw(path, kLobeSalt)} * both < glossy;
+  if (isGlossy != followsGlossy) return 0;
+  const double own = isGlossy ? glossy : diffuse;
+  return own > 0 ? both / own : 1;
+}
+
 bool survives(const RenderOptions& options, double contribution, std::uint32_t path) {
   // Written so that a NaN ends the path.
   if (options.roulette == 0) return contribution >= double{options.cutoff};
@@ -296,7 +315,7 @@ RayRow addImpulses(const World& world, const Chunk& chunk, std::size_t child) {
   RayRow row;
   row.path = childStream(path, branchOf(kind));
   LobeChild traced;
-  if (const auto sample = sampleOfLobe(chunk, child, kind, surfel)) {
+  if (const auto sample = sampleOfLobe(world, chunk, child, kind, surfel)) {
     traced = *sample;
     row.path = chunk.children.path[child];
   } else {

@@ -94,11 +94,11 @@ Impulse glossyImpulse(const Surfel& surfel, MediaStack stack, const UnitPoint& a
 Impulse indirectImpulse(const Surfel& surfel, MediaStack stack, const UnitPoint& at,
                         const ShadingChoices& choices = {});
 
-// Returns the factor for samples of lobes: the occlusion map of the surface that the eye sees.
-// Light that went around more corners has met what the map stands for, if it is there.
-inline double occlusionOfLobes(const Surfel& surfel, int depth) {
-  return depth == 0 ? surfel.occlusion : 1;
-}
+// Returns the factor for samples of the lobe. At the surface that the eye sees it is the occlusion
+// map: light that went around more corners has met what the map stands for, if it is there. Behind
+// it one lobe is chosen (stages/lobes.h) and counts for both; the factor of the other one is 0.
+double factorOfLobe(const Lobe& lobe, const Material& material, EffectSet effects,
+                    const Surfel& surfel, int depth, std::uint32_t path);
 
 // A lobe as it is sampled here.
 struct SampledLobe {

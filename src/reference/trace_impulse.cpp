@@ -124,13 +124,15 @@ RgbD Tracer::radianceByLobe(const SampledLobe& sampled, const Surfel& surfel, in
   if (!lobe.isSampled(scene_.materials[surfel.material], effects_)) return {};
   const LobeSampling sampling = lobeSampling(depth, lobe.samples(options_), path.sample);
   const int rays = raysOf(surfel, sampling);
+  const double factor =
+      factorOfLobe(lobe, scene_.materials[surfel.material], effects_, surfel, depth, path.number);
   RgbD sum;
   const double ended = counts.ended;
   for (int i = 0; i < rays; ++i) {
     const auto k = static_cast<std::uint32_t>(i);
     const UnitPoint at = pointOf(lobe, path.number, sampling, k);
     Impulse impulse = impulseOf(surfel, media, at, options_.shading);
-    impulse.weight *= occlusionOfLobes(surfel, depth);
+    impulse.weight *= factor;
     sum += follow(impulse, lobe.kind, depth + 1, throughput, counts,
                   childOf(path, lobe.firstBranch + k), rays, choice);
   }
@@ -156,12 +158,16 @@ Choice Tracer::chooseImpulses(const Impulses& impulses, const Surfel& surfel,
     add(impulses.of(kind), branchOf(kind), 1);
     for (const auto& [lobe, raysOf, impulseOf] : kSampledLobes) {
       if (lobe.kind != kind || crossing.hidden) continue;
-      if (!lobe.isSampled(scene_.materials[surfel.material], effects_)) continue;
+      const Material& material = scene_.materials[surfel.material];
+      if (!lobe.isSampled(material, effects_)) continue;
+      const double factor = factorOfLobe(lobe, material, effects_, surfel, depth, path.number);
       const LobeSampling sampling = lobeSampling(depth, lobe.samples(options_), path.sample);
       const int rays = raysOf(surfel, sampling);
       for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(rays); ++k) {
         const UnitPoint at = pointOf(lobe, path.number, sampling, k);
-        add(impulseOf(surfel, media, at, options_.shading), lobe.firstBranch + k, rays);
+        Impulse impulse = impulseOf(surfel, media, at, options_.shading);
+        impulse.weight *= factor;
+        add(impulse, lobe.firstBranch + k, rays);
       }
     }
   }

@@ -316,6 +316,7 @@ class Planner {
       ofDepth += static_cast<double>(step.childrenAt(0));
       kinds += static_cast<double>(step.childrenAt(1));
     }
+    if (choosesLobe(plan_.effects)) kinds -= 1;
     for (int depth = 0; depth < options_.depth; ++depth) {
       all += ofDepth;
       ofDepth *= kinds;

@@ -95,13 +95,16 @@ constexpr UnitPoint lightPoint(std::uint32_t path, const LobeSampling& sampling,
   return saltedPoint(path, sampling, lightSalt(light), k);
 }
 
+// Returns a number of the path in [0, 1), a multiple of 2^-24.
+constexpr float pathDraw(std::uint32_t path, std::uint32_t salt) {
+  return static_cast<float>(mixed(path ^ salt) >> 8) * 0x1p-24f;
+}
+
 // Russian roulette (Arvo and Kirk 1990, "Particle transport and image synthesis"): an impulse whose
 // contribution x is below the option's X survives with the probability x / X, if this number of its
 // path, in [0, 1), times X is less than x; it then counts for X instead.
 inline constexpr std::uint32_t kRouletteSalt = 0x14057b7eu;
-constexpr float rouletteDraw(std::uint32_t path) {
-  return static_cast<float>(mixed(path ^ kRouletteSalt) >> 8) * 0x1p-24f;
-}
+constexpr float rouletteDraw(std::uint32_t path) { return pathDraw(path, kRouletteSalt); }
 
 // The frame about a normal begins with the x axis, or where the normal's own x is this large or
 // larger with the y axis. Normals that differ by rounding have to get directions that differ by no

@@ -45,6 +45,15 @@ inline constexpr Lobe kDiffuseLobe{Effect::indirect,
                                    0x5851f42du};
 inline constexpr std::array kLobes{kGlossyLobe, kDiffuseLobe};
 
+// Where a surface behind the first hit has both lobes, one of them is followed, or the rays would
+// double at every bounce and the cutoff would end them all. It is drawn with a probability in
+// proportion to the largest channel of its weight, and its weight is divided by that probability,
+// so that the mean stays. The choice comes before the cutoff, which then sees the weight of both.
+inline constexpr std::uint32_t kLobeSalt = 0x9216d5d9u;
+constexpr bool choosesLobe(EffectSet effects) {
+  return effects.has(kGlossyLobe.effect) && effects.has(kDiffuseLobe.effect);
+}
+
 // True if frames with these effects sample any lobe.
 constexpr bool samplesLobes(EffectSet effects) {
   return std::ranges::any_of(kLobes, [&](const Lobe& lobe) { return effects.has(lobe.effect); });

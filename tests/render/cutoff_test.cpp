@@ -10,13 +10,12 @@ namespace whit::test {
 namespace {
 
 // A closed room that emits 1 - a and reflects a has the radiance 1 everywhere, to what the depth
-// cuts off. The default cutoff must not take more, though the material has a lobe for lights.
+// cuts off. The default cutoff must not take more.
 TEST(Cutoff, ClosedRoomsKeepTheirLight) {
   for (const float albedo : {0.5f, 0.8f, 0.9f}) {
     SceneBuilder builder;
     Material wall = diffuseMaterial(albedo);
     wall.emission = Rgb(1 - albedo);
-    wall.specular = Rgb(0.04f);
     builder.add(box({-1, -1, -1}, {1, 1, 1}, builder.add(wall)));
     builder.description.cameras.resize(1);
     builder.description.cameras[0].eye = {0.1f, 0.2f, 0.3f};
@@ -41,6 +40,46 @@ TEST(Cutoff, ClosedRoomsKeepTheirLight) {
       for (const Rgb& pixel : film.image.pixels) {
         EXPECT_LE(pixel.x, 1 + 1e-4) << albedo;
         EXPECT_GE(pixel.x, 1 - bound) << albedo;
+      }
+    }
+  }
+}
+
+// The walls of a white room reflect all light, by lobe and diffuse color together. So each path
+// collects the emission of as many surfaces as the depth lets it reach, without noise, and the
+// cutoff takes nothing. Two rays at each surface would halve in weight with every bounce.
+TEST(Cutoff, WhiteRoomsKeepTheirLightWithOneRayABounce) {
+  constexpr int kDepth = 64, kSamples = 4;
+  for (const float specular : {0.04f, 0.5f, 1.0f}) {
+    for (const float roughness : {0.02f, 0.3f, 1.0f}) {
+      SceneBuilder builder;
+      Material wall = diffuseMaterial(1);
+      wall.emission = Rgb(1.0f / (kDepth + 1));
+      wall.specular = Rgb(specular);
+      wall.roughness = roughness;
+      builder.add(box({-1, -1, -1}, {1, 1, 1}, builder.add(wall)));
+      builder.description.cameras.resize(1);
+      builder.description.cameras[0].eye = {0.1f, 0.2f, 0.3f};
+      builder.description.cameras[0].at = {1, 0, 0};
+      const Scene scene = builder.build();
+      RenderOptions o = smallOptions();
+      o.size = ImageSize{8, 8};
+      o.depth = kDepth;
+      o.cutoff = RenderOptions().cutoff;
+      o.glossy = o.indirect = kSamples;
+
+      for (const bool packets : {false, true}) {
+        const auto [image, stats] = render(scene, o, packets);
+        // Rounding adds up over the bounces of a path, to less than an ulp of 1 at each.
+        constexpr double kRounding = kDepth * 0x1p-23;
+        // A sample of weight below the cutoff at the first surface takes its light along.
+        const double bound = kRounding + 2 * kSamples * double{o.cutoff};
+        for (const Rgb& pixel : image.pixels) {
+          EXPECT_NEAR(pixel.x, 1, bound) << specular << ' ' << roughness << packets;
+        }
+        // The samples of both lobes of the first surface go on as one ray a bounce.
+        const std::size_t most = image.pixels.size() * (1 + 2 * kSamples * kDepth);
+        EXPECT_LE(stats.allRays(), most) << specular << ' ' << roughness << packets;
       }
     }
   }

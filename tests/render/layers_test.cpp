@@ -51,19 +51,11 @@ RenderOptions plain() {
   return o;
 }
 
-// The mean of a picture, in packets or by the reference.
 double meanOf(const Scene& scene, const RenderOptions& o, bool packets) {
-  Renderer renderer(scene, o);
-  Film film = makeFilm(scene, o);
-  const Camera camera = chooseCamera(scene, o);
-  if (packets) {
-    renderer.render(camera, film);
-  } else {
-    renderer.renderReference(camera, film);
-  }
+  const Image image = render(scene, o, packets).image;
   double sum = 0;
-  for (const Rgb& pixel : film.image.pixels) sum += (pixel.x + pixel.y + pixel.z) / 3.0;
-  return sum / static_cast<double>(film.image.pixels.size());
+  for (const Rgb& pixel : image.pixels) sum += (pixel.x + pixel.y + pixel.z) / 3.0;
+  return sum / static_cast<double>(image.pixels.size());
 }
 
 // A wide floor, seen in parallel at an angle of this cosine.
@@ -241,6 +233,48 @@ TEST(Layers, BlurredSkyHasTheAlbedoOfTheLobe) {
   // The root mean square that scenes/README.md states.
   EXPECT_LT(std::sqrt(squares / count), 0.001);
   EXPECT_NEAR(underEvenSky(plastic(0, 0.04f, 0.3f), 0.3, plain(), true), 0.168, 0.001);
+}
+
+// Behind the first surface, here a clear sheet, --indirect follows one of lobe and diffuse color,
+// and the mean over many pixels is that of both.
+TEST(Layers, TheChoiceOfALobeKeepsTheMean) {
+  Material clear = diffuseMaterial(0);
+  clear.transmission = Rgb(1.0f);
+  clear.ior = 1;
+  clear.thin = true;
+  clear.castsShadow = false;
+  RenderOptions o = plain();
+  o.size = ImageSize{48, 48};
+  o.indirect = 1;
+  for (const float f0 : {0.04f, 0.3f}) {
+    for (const double cosine : {0.6, 0.2}) {
+      Material red = plastic(0, f0, 0.4f);
+      red.diffuse = {0.8f, 0.3f, 0.0f};
+      SceneBuilder builder = floorOf(red, cosine);
+      builder.add(ceilingAt(1, 100, builder.add(clear)));
+      builder.sky(1);
+      const Scene scene = builder.build();
+      const double albedo = albedoByFacets(f0, 1, 0.4, cosine);
+      for (const bool packets : {false, true}) {
+        const Image image = render(scene, o, packets).image;
+        for (int channel = 0; channel < 3; ++channel) {
+          double sum = 0, squares = 0;
+          for (const Rgb& pixel : image.pixels) {
+            const auto value = double{pixel[channel]};
+            sum += value;
+            squares += value * value;
+          }
+          const auto count = static_cast<double>(image.pixels.size());
+          const double mean = sum / count;
+          const double error = std::sqrt((squares / count - mean * mean) / (count - 1));
+          // 4.5 standard errors, and the error of the midpoint rule.
+          EXPECT_NEAR(mean, albedo + (1 - albedo) * double{red.diffuse[channel]},
+                      4.5 * error + 2e-4)
+              << f0 << ' ' << cosine << packets << channel;
+        }
+      }
+    }
+  }
 }
 
 // The diffuse color is what the lobe leaves, whatever the light.
@@ -469,16 +503,7 @@ TEST(LightIsLinear, InRandomScenesWithAnyOptions) {
     const bool packets = seed % 4 != 0;
     std::vector<Image> images;
     for (const Lighting& lighting : {halves[0], halves[1], all}) {
-      const Scene scene = litScene(seed, lighting);
-      Renderer renderer(scene, o);
-      Film film = makeFilm(scene, o);
-      const Camera camera = chooseCamera(scene, o);
-      if (packets) {
-        renderer.render(camera, film);
-      } else {
-        renderer.renderReference(camera, film);
-      }
-      images.push_back(film.image);
+      images.push_back(render(litScene(seed, lighting), o, packets).image);
     }
     double brightest = 0, worst = 0;
     for (std::size_t k = 0; k < images[2].pixels.size(); ++k) {

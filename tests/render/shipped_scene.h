@@ -40,11 +40,13 @@ struct Picture {
   FrameStats stats;
 };
 
-inline Picture render(const Scene& scene, const RenderOptions& options) {
+// In packets or by the reference.
+inline Picture render(const Scene& scene, const RenderOptions& options, bool packets = true) {
   Renderer renderer(scene, options);
   Film film = makeFilm(scene, options);
+  const Camera camera = chooseCamera(scene, options);
   Picture picture;
-  picture.stats = renderer.render(chooseCamera(scene, options), film);
+  picture.stats = packets ? renderer.render(camera, film) : renderer.renderReference(camera, film);
   picture.image = film.image;
   return picture;
 }
