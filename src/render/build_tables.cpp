@@ -220,7 +220,11 @@ SkyTable skyTable(const Sky& sky, EffectSet effects) {
 void addLighting(const Scene& scene, EffectSet effects, ShadingTables& tables) {
   addMedia(scene, tables);
   if (effects.has(Effect::lights)) tables.lights = scene.lights;
-  if (effects.has(Effect::glossy)) tables.lobes = &lobeTable();
+  // Rays find the albedo of lobes that they sample, and the table takes time to make.
+  const bool looksUp = std::ranges::any_of(scene.materials, [&](const Material& m) {
+    return m.covers(effects) && !m.scatters(effects);
+  });
+  if (looksUp) tables.lobes = &lobeTable();
   tables.sky = skyTable(scene.sky, effects);
   tables.blurredSky = tables.sky;
   setImage(scene.blurredSky, kBlurRows, tables.blurredSky);

@@ -36,7 +36,8 @@ Albedo integrate(double cosine, double roughness) {
       if (!(nl > 0)) continue;
       const double weight = density * passingShare(cosine, nl, alpha) / (kTurns * kFalls);
       sum.all += weight;
-      sum.grazing += weight * std::pow(1 - vh, 5);
+      const double away = 1 - vh, squared = away * away;
+      sum.grazing += weight * squared * squared * away;
     }
   }
   return sum;

@@ -126,7 +126,7 @@ struct ShadingTables {
   std::vector<MediumRecord> media;           // [0] is vacuum
   std::vector<Light> lights;
   SkyTable sky, blurredSky;  // the latter kSkyBlurs images of this size, one below the other
-  const LobeTable* lobes = nullptr;  // where lobes exist
+  const LobeTable* lobes = nullptr;  // where lobes exist that no rays sample
   Ambient ambient;
   bool samePriority = true;   // no medium outranks another
   bool radianceMaps = false;  // some material has kMaterialEmissionIsRadiance
