@@ -22,19 +22,19 @@
 //   glossy lobe = (1 - m) * (1 - F) * A
 //   transmittance = (1 - F) * (1 - A) * t
 //   diffuse = (1 - F) * (1 - A) * d
-// Mirror and colors of scene files add up as far as there is light for them:
+// Mirror and colors add up as far as there is light for them:
 //   t = transmission * min(1, (1 - m) / largest channel of the transmission)
 //   d = diffuse color * min(1, (1 - m - t) / largest channel of the diffuse color)
-// The mirrors of models are coats, which leave (1 - m) * transmission and (1 - m) * diffuse color
-// (glTF 2.0 specification, appendix B: mix(base, layer, F)), and 1 - m of the light of lamps that
-// the lobe below reflects. The shares depend on the view and on
-// no light, so that light is linear, and their sum is at most 1 at every angle.
-// Where rays sample the lobe (--glossy), A is the mean weight of the very samples that are taken,
-// whose expected value is the lobe's albedo; so the sum is 1 for every number of samples where
-// nothing absorbs. Otherwise A is the albedo by a table (sampling/ggx_lobe.h), and the scene that
-// the lobe reflects is the mirrored ray's if the lobe is smooth, the sky blurred by roughness if it
-// is rough, and a mixture of both between. A lobe in whose place mirror or interface reflect the
-// scene shows lights only, as their highlight, and takes nothing from the others.
+// Coats, as the mirrors of models are, leave (1 - m) * transmission and (1 - m) * diffuse color
+// instead (glTF 2.0 specification, appendix B: mix(base, layer, F)), and 1 - m of the light of
+// lamps that the lobe below reflects. The shares depend on the view and on no light, so that light
+// is linear, and their sum is at most 1 at every angle. Where rays sample the lobe (--glossy), A is
+// the mean weight of the very samples that are taken, whose expected value is the lobe's albedo; so
+// the sum is 1 for every number of samples where nothing absorbs. Otherwise A is the albedo by a
+// table (sampling/ggx_lobe.h), and the scene that the lobe reflects is the mirrored ray's if the
+// lobe is smooth, the sky blurred by roughness if it is rough, and a mixture of both between. A
+// lobe in whose place mirror or interface reflect the scene shows lights only, as their highlight,
+// and takes nothing from the others.
 #pragma once
 
 #include <algorithm>
@@ -117,6 +117,7 @@ struct Material {
   std::int32_t mirrorMap = kNoTexture;  // color, multiplies `mirror`
   Rgb mirrorGrazing{0, 0, 0};
   // What lies below gets the light that the mirror leaves, in place of all that there is for it.
+  // False of a mirror that a scene file states, unless it states this as well.
   bool coat = false;
 
   // Refracted impulse, when `transmission` is above zero: the surface bounds a dielectric, or is a

@@ -37,7 +37,7 @@ struct MemberRules {
   double usual = high;                                  // upper end of widgets
   bool (*exists)(const Noun&) = nullptr;   // where it is false, scene files cannot give the member
   bool (*matters)(const Noun&) = nullptr;  // where it is false, widgets do not show the member
-  std::array<std::string_view, 2> decides{};  // members whose default values follow from this one
+  std::array<std::string_view, 3> decides{};  // members whose default values follow from this one
 };
 
 template <typename Noun, typename Value>
@@ -107,6 +107,7 @@ constexpr MemberRules<Material> mapOf(TextureUse use) {
   return {.kind = MemberKind::map, .use = use, .baked = true};
 }
 inline bool isGlossy(const Material& m) { return m.hasGlossy(); }
+inline bool isMirror(const Material& m) { return m.hasMirror(); }
 inline bool isTransparent(const Material& m) { return m.hasTransmission(); }
 
 // clang-format off
@@ -134,11 +135,12 @@ inline constexpr auto kMembers<Material> = std::tuple{
             .baked = true,
             .decides = {"alphaMap", "alphaCutoff"}}},
     Member{"mirror", &Material::mirror,
-           {.kind = kColorMember, .high = 1, .decides = {"mirrorGrazing", "glossyReflection"}}},
+           {.kind = kColorMember,
+            .high = 1,
+            .decides = {"mirrorGrazing", "glossyReflection", "coat"}}},
     Member{"mirrorMap", &Material::mirrorMap, mapOf(TextureUse::color)},
     Member{"mirrorGrazing", &Material::mirrorGrazing,
            {.kind = kColorMember, .high = 1, .decides = {"glossyReflection"}}},
-    Member{"coat", &Material::coat, {.inFiles = false}},
     Member{"transmission", &Material::transmission,
            {.kind = kColorMember, .high = 1, .decides = {"castsShadow", "glossyReflection"}}},
     Member{"transmissionMap", &Material::transmissionMap, mapOf(TextureUse::color)},
@@ -151,6 +153,7 @@ inline constexpr auto kMembers<Material> = std::tuple{
     Member{"diffuseReflection", &Material::diffuseReflection},
     Member{"glossyReflection", &Material::glossyReflection, {.matters = isGlossy}},
     Member{"castsShadow", &Material::castsShadow, {.baked = true}},
+    Member{"coat", &Material::coat, {.matters = isMirror}},
     Member{"vertexTint", &Material::vertexTint, {.inFiles = false}},
     Member{"emissionBySecondUvs", &Material::emissionBySecondUvs, {.inFiles = false, .baked = true}},
     Member{"normalBySecondUvs", &Material::normalBySecondUvs, {.inFiles = false, .baked = true}},

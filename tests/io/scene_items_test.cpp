@@ -39,6 +39,21 @@ TEST_F(SceneItems, ListsOfTransformsApplyTheFirstFirst) {
   expectPoint(cornerOf(scene, 0, 1), {5, 6, 11});
 }
 
+// A scene file that states a mirror asks for the sum of mirror and color, also for a model.
+TEST_F(SceneItems, MirrorsOfModelsAreCoatsUnlessTheSceneStatesThem) {
+  save("t.obj", kTriangleObj);
+  const auto isCoat = [&](const std::string& members) {
+    const std::string overrides = "\"materials\": {\"*\": {" + members + "}}";
+    const SceneDescription scene =
+        loadMembers("\"scene\": [{\"model\": \"t.obj\", " + overrides + "}]");
+    return scene.materials.at(0).coat;
+  };
+  EXPECT_TRUE(isCoat("\"diffuse\": 0.4"));
+  EXPECT_FALSE(isCoat("\"mirror\": 0.3"));
+  EXPECT_TRUE(isCoat("\"mirror\": 0.3, \"coat\": true"));
+  EXPECT_FALSE(isCoat("\"coat\": false"));
+}
+
 // A stretched object looks the same whether it is baked once or instanced twice.
 TEST_F(SceneItems, StretchedPartsKeepTheirNormals) {
   const std::string egg =

@@ -193,6 +193,7 @@ void MaterialReader::read(JsonObject& object, Material& m) {
   if (m.coverageMap != kNoTexture && m.alphaMap == kNoTexture) m.cutWhereClear();
   const bool mirrors = object.has("mirror"), transmits = object.has("transmission");
   if (mirrors && !object.has("mirrorGrazing")) m.mirrorGrazing = m.mirror;
+  if (mirrors && !object.has("coat")) m.coat = false;
   const bool hasImpulses = mirrors || transmits || object.has("mirrorGrazing");
   if (hasImpulses && !object.has("glossyReflection")) {
     m.glossyReflection = !m.hasMirror() && !m.hasTransmission();
