@@ -31,7 +31,7 @@ struct ImpulseJob {
   LobeSampling glossySampling =
       lobeSampling(chunk.depth, glossySamples(chunk.options()), chunk.sampleNumber);
   bool cones = chunk.has(Feature::cones), coverage = chunk.has(Feature::coverage);
-  bool glossy = chunk.has(Feature::glossy), streams = chunk.has(Feature::streams);
+  bool lobes = chunk.has(Feature::lobes), streams = chunk.has(Feature::streams);
   bool transmission = chunk.has(Feature::transmission);
   bool mirrorMaps = chunk.has(Feature::mirrorMaps);
   bool transmissionMaps = chunk.has(Feature::transmissionMaps);
@@ -81,7 +81,7 @@ HWY_INLINE ImpulseLanes LoadImpulseLanes(const ImpulseJob& job, size_t i) {
   lanes.live = hn::And(lanes.live, HasFlags(flags, kWanted));
   if (hn::AllFalse(d, lanes.live)) return lanes;
   lanes.coated = HasFlags(flags, kMaterialCoated);
-  if (job.glossy) {
+  if (job.lobes) {
     lanes.covers = hn::And(lanes.live, HasFlags(flags, kMaterialCovers));
     lanes.scatters = hn::And(lanes.live, HasFlags(flags, kMaterialScatters));
     lanes.mirrors = hn::And(lanes.live, HasFlags(flags, kMaterialMirrorsByLobe));
@@ -153,7 +153,7 @@ HWY_INLINE V3 UnderMirror(const ImpulseLanes& lanes, const V3& color, const V3& 
 // What the lobes of the surfels at i take of the light that mirrors leave; 0 in other lanes.
 HWY_INLINE V3 LobeAt(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i) {
   const VF zero = hn::Zero(FloatTag());
-  if (!job.glossy) return {zero, zero, zero};
+  if (!job.lobes) return {zero, zero, zero};
   const SurfelColumns& s = job.surfels;
   return Select3(lanes.covers, Load3(s.lobeR, s.lobeG, s.lobeB, i), {zero, zero, zero});
 }
@@ -392,7 +392,7 @@ void FindLayers(Chunk& c) {
       below = Scale3(below, hn::IfThenElse(transmits, passed, one));
     }
 
-    if (job.glossy) {
+    if (job.lobes) {
       const V3 before = Load3(surfels.lobeR, surfels.lobeG, surfels.lobeB, i);
       Store3(Select3(lanes.live, lobe, before), surfels.lobeR, surfels.lobeG, surfels.lobeB, i);
     }

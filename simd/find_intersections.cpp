@@ -137,8 +137,11 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
     const V3 f0 = job.vertexColors ? Mul3(specular, tints.specular) : specular;
     Store3(f0, surfels.specularR, surfels.specularG, surfels.specularB, i);
     hn::Store(lobe.alpha, d, surfels.alpha + i);
+  }
+  // FindLayers sets it where there is one.
+  if (job.lobes) {
     const VF none = hn::Zero(d);
-    Store3({none, none, none}, surfels.lobeR, surfels.lobeG, surfels.lobeB, i);  // see FindLayers
+    Store3({none, none, none}, surfels.lobeR, surfels.lobeG, surfels.lobeB, i);
   }
   if (job.transmission) {
     StoreMedia(tables, rays, lobe.medium, entering, others, i, surfels);

@@ -27,6 +27,7 @@ struct SurfelJob {
   bool absorption = chunk.has(Feature::absorption), cones = chunk.has(Feature::cones);
   bool emissionFactors = chunk.has(Feature::emissionFactors);
   bool coplanar = chunk.has(Feature::coplanar), glossy = chunk.has(Feature::glossy);
+  bool lobes = chunk.has(Feature::lobes);
   bool instances = chunk.has(Feature::instances), normalMaps = chunk.has(Feature::normalMaps);
   bool radianceMaps = tables.radianceMaps, secondUvs = chunk.has(Feature::secondUvs);
   bool smooth = chunk.has(Feature::smoothNormals), spheres = chunk.has(Feature::spheres);

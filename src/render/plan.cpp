@@ -45,6 +45,7 @@ FeatureSet featuresOf(const Scene& scene, const RenderOptions& options, EffectSe
       .with(Feature::vertexColors, e.has(Effect::vertexColors))
       .with(Feature::sky, e.has(Effect::sky))
       .with(Feature::glossy, e.has(Effect::glossy))
+      .with(Feature::lobes, any([&](const Material& m) { return m.covers(e); }))
       .with(Feature::roughnessMaps, e.has(Effect::glossy) && e.has(Effect::textures) &&
                                         any([](const Material& m) { return m.variesRoughness(); }))
       .with(Feature::occlusionMaps, e.has(Effect::textures) && any([](const Material& m) {

@@ -28,6 +28,7 @@ namespace whit {
   X(vertexColors, "vertex colors")                                          \
   X(sky, "a sky that is not black")                                         \
   X(glossy, "glossy lobes")                                                 \
+  X(lobes, "glossy lobes that take light from what lies below")             \
   X(roughnessMaps, "roughness by a map")                                    \
   X(occlusionMaps, "maps that dim indirect light")                          \
   X(mirrorMaps, "mirrors by a map or vertex colors")                        \
@@ -136,7 +137,7 @@ inline constexpr std::uint32_t kSharesPlace = 1u << 30;
   X(std::uint32_t, material, always)          \
   WHIT_RGB(X, specular, glossy)               \
   X(float, alpha, glossy)                     \
-  WHIT_RGB(X, lobe, glossy)                   \
+  WHIT_RGB(X, lobe, lobes)                    \
   WHIT_RGB(X, emission, emissionFactors)      \
   X(float, coverage, coverage)                \
   X(float, occlusion, occlusionMaps)          \

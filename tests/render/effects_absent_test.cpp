@@ -135,6 +135,7 @@ std::size_t columnBytes(const Cost& cost, bool glossy, bool transmission, bool i
                                   .with(Feature::streams)
                                   .with(Feature::coplanar, cost.coplanar)
                                   .with(Feature::glossy, glossy)
+                                  .with(Feature::lobes, glossy)
                                   .with(Feature::transmission, transmission)
                                   .with(Feature::coverage, cost.coverage)
                                   .with(Feature::mirrorMaps, cost.mirrorMaps)
@@ -234,6 +235,13 @@ TEST(AbsentEffects, WithoutImpulsesNothingBelowTheFirstDepth) {
 TEST(AbsentEffects, WithoutGlossyNoSpecularColumns) {
   const Cost cost = costWithout(EffectSet().with(Effect::glossy));
   EXPECT_EQ(cost.buffers.surfels, columnBytes<SurfelColumns>(cost, false, true, true));
+}
+
+// The lobes of whitted are the highlights of its mirrors and glass, and take nothing from others.
+TEST(AbsentEffects, WithoutLobesThatCoverNoColumnsOfTheirShare) {
+  const FeatureSet features = makePlan(load("whitted"), smallOptions()).features;
+  EXPECT_TRUE(features.has(Feature::glossy));
+  EXPECT_FALSE(features.has(Feature::lobes));
 }
 
 TEST(AbsentEffects, WithoutInstancesNoColumnAndNoTransforms) {
