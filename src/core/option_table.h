@@ -127,8 +127,9 @@ void parseValue(const OptionSpec& spec, const std::string& text, T& value) {
     expect(readAll(',', v.x0, v.y0, v.x1, v.y1) && std::min(v.x0, v.y0) >= 0 && v.x0 < v.x1 &&
                v.y0 < v.y1 && std::max(v.x1, v.y1) <= kImageSideLimit,
            "x0,y0,x1,y1 in pixels with 0 <= x0 < x1 and 0 <= y0 < y1");
-  } else if constexpr (std::is_same_v<T, Vec3f>) {
-    expect(readAll(',', v.x, v.y, v.z), "three numbers x,y,z without blanks, as 0,1.5,-2");
+  } else if constexpr (std::is_same_v<T, Vec3f> || std::is_same_v<T, Vec3d>) {
+    expect(readAll(',', v.x, v.y, v.z) && isFinite(Vec3f(v)),
+           "three numbers x,y,z without blanks, as 0,1.5,-2");
   } else if constexpr (std::is_same_v<T, EffectSet>) {
     v = parseEffects(text);
   } else if constexpr (std::is_same_v<T, ChannelSet>) {
@@ -164,7 +165,7 @@ std::string formatValue(const OptionSpec& spec, const T& v) {
     return joined("x", v.width, v.height);
   } else if constexpr (std::is_same_v<T, Crop>) {
     return joined(",", v.x0, v.y0, v.x1, v.y1);
-  } else if constexpr (std::is_same_v<T, Vec3f>) {
+  } else if constexpr (std::is_same_v<T, Vec3f> || std::is_same_v<T, Vec3d>) {
     return joined(",", v.x, v.y, v.z);
   } else if constexpr (std::is_same_v<T, std::string>) {
     return v;

@@ -116,7 +116,8 @@ struct RenderOptions {
   Quality quality = Quality::standard;
   std::optional<ImageSize> size;
   std::string camera;
-  std::optional<Vec3f> eye, at, up;
+  std::optional<Vec3d> eye, at;  // in coordinates of the file
+  std::optional<Vec3f> up;
   std::optional<float> fov, ortho;
   std::optional<Crop> crop;
   int spp = 1;

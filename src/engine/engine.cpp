@@ -117,7 +117,8 @@ void Engine::lookThrough(const std::optional<Camera>& camera) {
 }
 
 Camera Engine::camera() const {
-  return lookedThrough_ ? aimed(*lookedThrough_, options_) : chooseCamera(scene(), options_);
+  if (!lookedThrough_) return chooseCamera(scene(), options_);
+  return aimed(*lookedThrough_, scene().origin, options_);
 }
 
 void Engine::update() {

@@ -44,7 +44,7 @@ constexpr bool kIsOneOf = (std::is_same_v<T, Others> || ...);
 template <typename T>
 constexpr bool kPlain =
     std::is_arithmetic_v<T> || std::is_enum_v<T> ||
-    kIsOneOf<T, Vec3f, Affine, TriangleRecord, NormalRecord, ColorRecord, UvRecord>;
+    kIsOneOf<T, Vec3f, Vec3d, Affine, TriangleRecord, NormalRecord, ColorRecord, UvRecord>;
 static_assert(sizeof(Affine) == 12 * sizeof(double) &&
               sizeof(TriangleRecord) == 16 * sizeof(float) &&
               sizeof(NormalRecord) == 9 * sizeof(float) &&
@@ -101,8 +101,8 @@ void add(Digester& d, const EnvironmentImage& image) {
 }  // namespace
 
 std::string digestOf(const Scene& scene) {
-  const auto& [name, isModel, width, height, options, cameras, cameraPath, animations, variants,
-               lights, sky, ambient, materials, textures] =
+  const auto& [name, isModel, origin, width, height, options, cameras, cameraPath, animations,
+               variants, lights, sky, ambient, materials, textures] =
       static_cast<const SceneContents&>(scene);
   const auto& [blurred, mediumOfMaterial, media, geometries, instances, triangles, firstSphere,
                normals, colors, secondUvs, lower, upper, instancedTriangles, instancedSpheres,
@@ -115,6 +115,8 @@ std::string digestOf(const Scene& scene) {
   addTable(d, materials), addTable(d, textures), addTable(d, geometries), addTable(d, instances);
   addTable(d, triangles), addTable(d, normals), addTable(d, colors), addTable(d, secondUvs);
   addTable(d, coplanar.ranks());
+  // Options place the camera in coordinates of the file.
+  if (origin != Vec3d()) add(d, origin);
 
   for (const auto& sphere : coincidentSpheres) {
     for (const PlacedTriangleId& id : *sphere.second) add(d, orderOf(id));

@@ -16,14 +16,14 @@ constexpr std::uint64_t kBytesPerPixel = 32;
 
 }  // namespace
 
-Camera aimed(Camera camera, const RenderOptions& options) {
+Camera aimed(Camera camera, const Vec3d& origin, const RenderOptions& options) {
   const bool hasFov = isPerspective(camera) && camera.k.empty();
   if (!hasFov && (options.fov || options.ortho.value_or(0) > 0)) {
     throwUsage("--fov and --ortho: camera '" + camera.name +
                "' has a matrix k or another projection than \"perspective\"");
   }
   forEachCameraOption([&](auto option, auto member) {
-    if (options.*option) camera.*member = *(options.*option);
+    if (options.*option) camera.*member = memberOf(*(options.*option), origin);
   });
   if (options.fov || options.ortho) camera.aspect = 0;
 
@@ -35,7 +35,7 @@ Camera aimed(Camera camera, const RenderOptions& options) {
 }
 
 Camera chooseCamera(const Scene& scene, const RenderOptions& options) {
-  if (options.camera.empty()) return aimed(scene.cameras.front(), options);
+  if (options.camera.empty()) return aimed(scene.cameras.front(), scene.origin, options);
   const auto& cameras = scene.cameras;
   const auto found = std::find_if(cameras.rbegin(), cameras.rend(),
                                   [&](const Camera& c) { return c.name == options.camera; });
@@ -43,12 +43,12 @@ Camera chooseCamera(const Scene& scene, const RenderOptions& options) {
     throwUsage("scene '" + scene.name + "' has no camera '" + options.camera + "'" +
                didYouMean(options.camera, namesIn(cameras), "camera"));
   }
-  return aimed(*found, options);
+  return aimed(*found, scene.origin, options);
 }
 
 Camera cameraOnPath(const Scene& scene, const RenderOptions& options, double seconds) {
   if (scene.cameraPath.empty()) throwUsage("scene '" + scene.name + "' has no camera path");
-  return aimed(cameraAt(scene.cameraPath, seconds), options);
+  return aimed(cameraAt(scene.cameraPath, seconds), scene.origin, options);
 }
 
 Film makeFilm(const Scene& scene, const RenderOptions& options, std::uint64_t maxBytes) {

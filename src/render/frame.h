@@ -59,9 +59,9 @@ struct FrameStats {
   void add(const FrameStats& worker);  // counters and times of one worker
 };
 
-// The camera, changed by the options of forEachCameraOption(). Throws Error(usage) for a field of
-// view of a camera that has none.
-Camera aimed(Camera camera, const RenderOptions& options);
+// The camera of a scene with this origin, changed by the options of forEachCameraOption(). Throws
+// Error(usage) for a field of view of a camera that has none.
+Camera aimed(Camera camera, const Vec3d& origin, const RenderOptions& options);
 // The camera that the options ask for: --camera, changed by the options of forEachCameraOption().
 // Throws Error(usage) naming the nearest camera.
 Camera chooseCamera(const Scene& scene, const RenderOptions& options);

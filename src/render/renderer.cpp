@@ -302,7 +302,8 @@ std::vector<std::pair<std::string, std::string>> describeImage(const Scene& scen
       if (value == 0 && !(options.*option)) return;
       if (!isFramedByOptions(camera)) return;
     }
-    resolved.*option = value;
+    using Option = typename std::remove_cvref_t<decltype(resolved.*option)>::value_type;
+    resolved.*option = optionOf<Option>(value, scene.origin);
   });
   if (options.mode == Mode::packets) {
     resolved.packet = renderer.machine().packet;

@@ -48,9 +48,15 @@ struct SceneMotion {
 
 // The members of a scene that baking leaves as they are.
 struct SceneContents {
-  std::string name;               // the bare name of the file
-  bool isModel = false;           // without a scene file: light, sky and view are supplied
-  int width = 480, height = 300;  // the scene's own image size
+  std::string name;      // the bare name of the file
+  bool isModel = false;  // without a scene file: light, sky and view are supplied
+  // What was subtracted from the coordinates of the file, see scene/origin.h. Whatever a user gives
+  // or gets is in coordinates of the file.
+  Vec3d origin;
+  // A point of the scene in coordinates of the file. Where nothing was moved the bits stay, those
+  // of -0 included.
+  Vec3d inFile(const Vec3d& point) const { return origin == Vec3d() ? point : point + origin; }
+  int width = 480, height = 300;               // the scene's own image size
   std::map<std::string, std::string> options;  // of the picture, see applySceneOptions()
   std::vector<Camera> cameras;                 // the first is the default
   std::vector<Keyframe> cameraPath;

@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/option_table.h"
 #include "core/options.h"
 #include "scene/camera.h"
 #include "scene/light.h"
@@ -243,6 +244,25 @@ bool sameMembers(const Noun& a, const Noun& b) {
   forEachMember<Noun>(
       [&](const auto& member) { same = same && a.*member.field == b.*member.field; });
   return same;
+}
+
+// Options give points in coordinates of the file, the members of cameras are those of the scene.
+inline Vec3f memberOf(const Vec3d& option, const Vec3d& origin) { return Vec3f(option - origin); }
+template <typename Value>
+const Value& memberOf(const Value& option, const Vec3d& /*origin*/) {
+  return option;
+}
+// The inverse. In a scene that was not moved a point has the digits of its single precision.
+template <typename Option, typename Value>
+Option optionOf(const Value& member, const Vec3d& origin) {
+  if constexpr (std::is_same_v<Option, Vec3d>) {
+    if (origin != Vec3d()) return Vec3d(member) + origin;
+    Vec3d point;
+    for (int i = 0; i < 3; ++i) readNumber(shortest(member[i]), point[i]);
+    return point;
+  } else {
+    return member;
+  }
 }
 
 // Calls visit(option, member) for each option that replaces a member of the chosen camera.

@@ -113,7 +113,7 @@ TEST(OptionsDigest, CoversWhatShapesThePictureAndNothingElse) {
   options.shading.fresnel = FresnelModel::schlick;
   EXPECT_NE(digestOf(options), before);
   options = {};
-  options.eye = Vec3f(0);
+  options.eye = Vec3d();
   EXPECT_NE(digestOf(options), before) << "nothing is not zero";
 }
 

@@ -47,7 +47,7 @@ TEST(Options, TakesEveryKindOfValue) {
               "--disable", "shadows,mirror", "--tonemap", "filmic",       "--strict"})
           .render;
   EXPECT_EQ(o.size, (ImageSize{640, 360}));
-  EXPECT_EQ(o.eye, Vec3f(-1, 2.5f, -0.3f));
+  EXPECT_EQ(o.eye, Vec3d(-1, 2.5, -0.3));
   EXPECT_EQ(o.fov, 35.0f);
   EXPECT_EQ(o.crop, (Crop{1, 2, 30, 40}));
   EXPECT_EQ(o.packet, 16);
@@ -176,8 +176,9 @@ TEST(Options, EveryChoiceGoesBothWays) {
   };
   options.size = ImageSize{3, 4};
   options.camera = "front";
-  options.eye = Vec3f{0.1f, -1e-30f, 3e20f};
-  options.at = options.up = Vec3f{0, 1, 0};
+  options.eye = Vec3d{0.1, -1e-30, 3e20};
+  options.at = Vec3d{0, 1, 0};
+  options.up = Vec3f{0, 1, 0};
   options.fov = 1.0f / 3;
   options.ortho = 2.5f;
   options.crop = Crop{1, 2, 3, 4};

@@ -44,7 +44,9 @@ void setCamera(const Scene& scene, const Camera& camera, RenderOptions& options)
   if (named == end) named = first;
   if (named != first) options.camera = named->name;
   forEachCameraOption([&](auto option, auto member) {
-    if (camera.*member != (*named).*member) options.*option = camera.*member;
+    using Option = typename std::remove_cvref_t<decltype(options.*option)>::value_type;
+    if (camera.*member == (*named).*member) return;
+    options.*option = optionOf<Option>(camera.*member, scene.origin);
   });
 }
 
@@ -119,6 +121,10 @@ Json sceneOfModel(const fs::path& path, const std::vector<std::string>& read, co
   JsonDocument item{path.string(), {{"model", path.filename().string()}}, {}};
   apply(read, inItem, item);
   apply(edit.settings, inItem, item);
+  // Models that scene files name are not moved by themselves.
+  if (const Vec3d origin = scene.origin; origin != Vec3d()) {
+    item.root["transform"] = {{"translate", {-origin.x, -origin.y, -origin.z}}};
+  }
   JsonDocument whole{path.string(), std::move(root), {}};
   const std::set<std::string> butSky{"lights", "ambient", "materials", "options"};
   apply(read, butSky, whole);

@@ -302,9 +302,12 @@ void addCamera(const ImageMetadata& metadata, const Image& image, Imf::Header& h
     if (name == "projection") isLinear = false;
   }
   if (!options.eye || !options.at) return;
+  // The frame of a far view has the eye in its origin, because single precision would round it.
+  const bool isFar = optionOf<Vec3d>(Vec3f(*options.eye), Vec3d()) != *options.eye;
+  const Vec3d origin = isFar ? *options.eye : Vec3d();
   Camera camera;
   forEachCameraOption([&](auto option, auto member) {
-    if (options.*option) camera.*member = *(options.*option);
+    if (options.*option) camera.*member = memberOf(*(options.*option), origin);
   });
   const CameraFrame frame = makeCameraFrame(camera, image.width, image.height);
   const double pixel = length(frame.up);
@@ -312,7 +315,7 @@ void addCamera(const ImageMetadata& metadata, const Image& image, Imf::Header& h
   Imath::M44f toCamera, toNdc;
   for (int i = 0; i < 3; ++i) {
     for (int k = 0; k < 3; ++k) toCamera[k][i] = static_cast<float>(axes[i][k]);
-    toCamera[3][i] = static_cast<float>(-dot(frame.eye, axes[i]));
+    toCamera[3][i] = static_cast<float>(-dot(frame.eye + origin, axes[i]));
   }
   Imf::addWorldToCamera(header, toCamera);
   if (!isLinear) return;
