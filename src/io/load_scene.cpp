@@ -137,6 +137,11 @@ void replaceSky(SceneContext& context) {
   context.textures.addEnvironment(context.sky, "--sky", sky.image);
 }
 
+void moveLights(const Vec3d& way, Json& root) {
+  if (!root.contains("lights") || !root["lights"].is_array()) return;
+  for (Json& light : root["lights"]) movePoints(light, way);
+}
+
 // Applies the settings of one section, or of all sections where it is empty.
 void applySettings(const LoadOptions& options, const std::string& section, JsonDocument& document) {
   for (const std::string& text : options.settings) {
@@ -302,7 +307,9 @@ SceneDescription loadModelFile(const fs::path& path, const SceneName& name,
   // The settings are read as if a scene file contained them and the model's lights.
   JsonDocument document = nothing;
   if (!options.settings.empty()) document.root["lights"] = describe(scene.lights);
+  moveLights(scene.origin, document.root);
   applySettings(options, "", document);
+  moveLights(-scene.origin, document.root);
   JsonObject file{JsonValue(document)};
   file.find("materials");
   file.find("up");

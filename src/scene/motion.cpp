@@ -184,7 +184,8 @@ DeformedVertices deformVertices(const Deformation& deformation, const Deformatio
   }
 
   bent.positions.reserve(positions.size());
-  for (const Vec3d& position : positions) bent.positions.emplace_back(position);
+  for (const Vec3d& position : positions)
+    bent.positions.emplace_back(position - deformation.middle);
   bent.normals.reserve(normals.size());
   for (const Vec3d& normal : normals) bent.normals.emplace_back(normalized(normal, Vec3d()));
   return bent;

@@ -67,8 +67,9 @@ TEST_F(Ply, TextAndBytesOfEitherOrderAreTheSame) {
   for (const std::string& file : {text, binarySquare(true), binarySquare(false)}) {
     const SceneDescription scene = loadPly(file);
     ASSERT_EQ(triangleCount(scene), 2u);
+    EXPECT_EQ(scene.origin, Vec3d(0, 0, -300));
     EXPECT_EQ(scene.objects[0].meshes[0].positions,
-              (std::vector<Vec3f>{{0, 0, -300}, {1, 0, -300}, {1, 1, -300}, {0, 1, -300}}));
+              (std::vector<Vec3f>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
   }
 
   EXPECT_EQ(warned("vertex colors that lack a channel left out"), 3u);

@@ -15,6 +15,7 @@
 #include "io/model.h"
 #include "io/polygon.h"
 #include "scene/members.h"
+#include "scene/origin.h"
 
 namespace whit {
 namespace {
@@ -85,7 +86,9 @@ void readSkin(const GltfDocument& document, const JsonValue& primitive, Deformat
 }
 
 // Deforms the mesh as it is at the start, and gives it the deformation where that depends on time.
-void deform(const GltfDocument& document, const JsonValue& primitive, Deformation own, Mesh& mesh) {
+// `middle` is subtracted from the positions; the first primitive of a mesh chooses it.
+void deform(const GltfDocument& document, const JsonValue& primitive, Deformation own,
+            std::optional<Vec3d>& middle, Mesh& mesh) {
   document.budget().charge(2 * (mesh.positions.size() + mesh.normals.size()), sizeof(Vec3d),
                            primitive.where());
   own.positions = mesh.positions;
@@ -93,6 +96,13 @@ void deform(const GltfDocument& document, const JsonValue& primitive, Deformatio
   readTargets(document, primitive["targets"], own);
   if (own.skeleton) readSkin(document, primitive, own);
   DeformedVertices start = deformVertices(own, poseAt(own, 0));
+  if (!middle) {
+    Box box;
+    for (const Vec3f& p : start.positions) box.add(p);
+    middle = originOf({Vec3d(box.lower), Vec3d(box.upper)});
+  }
+  own.middle = *middle;
+  if (own.middle != Vec3d()) start = deformVertices(own, poseAt(own, 0));
   mesh.positions = std::move(start.positions);
   mesh.normals = std::move(start.normals);
   for (auto& triangle : mesh.triangles) {
@@ -120,8 +130,8 @@ constexpr std::uint64_t kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6;
 // are those of the material, with its transforms applied, v pointing up. `variant` is the number of
 // the chosen variant of the materials. Points, lines and vertices without joints are counted in the
 // document's warnings. The mesh is deformed as at the start; tangents are left out, because the
-// directions of normal maps follow from texture coordinates. Throws as the accessors do, and
-// badScene where attributes differ in length.
+// directions of normal maps follow from texture coordinates. `middle` is that of deform(). Throws
+// as the accessors do, and badScene where attributes differ in length.
 class PrimitiveReader {
  public:
   PrimitiveReader(const GltfDocument& document, const JsonValue& primitive,
@@ -139,7 +149,7 @@ class PrimitiveReader {
         coordinates_(source_.coordinates()) {}
 
   // Returns false where nothing is to be seen.
-  bool read(Mesh& mesh) {
+  bool read(std::optional<Vec3d>& middle, Mesh& mesh) {
     const JsonValue position = attributes_["POSITION"];
     if (mode_ < kTriangles || !position.exists()) {
       warn(mode_ < kTriangles ? "points or lines left out"
@@ -161,7 +171,7 @@ class PrimitiveReader {
     if (attributes_["COLOR_1"].exists()) warn("second set of vertex colors left out");
     connect(mesh, corners(mesh.positions.size()));
     mesh.materials = {static_cast<std::uint32_t>(material_)};
-    if (placed_.isDeformed()) deform(document_, primitive_, placed_.deformation, mesh);
+    if (placed_.isDeformed()) deform(document_, primitive_, placed_.deformation, middle, mesh);
     return !mesh.triangles.empty();
   }
 
@@ -324,24 +334,45 @@ class GltfModel : public Model {
       const double aspect = std::clamp(stage_.aspect, kNarrowest, kWidest);
       scene.width = static_cast<int>(std::lround(aspect * scene.height));
     }
-    scene.cameras = stage_.cameras;
-    scene.lights = stage_.lights;
     const auto first = static_cast<std::uint32_t>(scene.motion.rig.size());
     for (RigNode node : stage_.movers) {
-      if (node.parent != kNoNode) node.parent += first;
+      putInParent(node.parent, node.toParent, first, scene);
       scene.motion.rig.push_back(std::move(node));
     }
-    for (MovingCamera camera : stage_.movingCameras) {
-      camera.node += first;
-      scene.motion.cameras.push_back(camera);
+    for (auto [camera, map, mover] : stage_.cameras) {
+      putInParent(mover, map, first, scene);
+      camera.eye = Vec3f(map.p);
+      // Far enough for the direction to survive the rounding of eye and at.
+      camera.at = Vec3f(map.p - normalized(map.z) * std::max(1.0, length(map.p)));
+      camera.up = Vec3f(normalized(map.y));
+      const auto number = static_cast<std::uint32_t>(scene.cameras.size());
+      if (mover != kNoNode) scene.motion.cameras.push_back({number, mover, camera});
+      scene.cameras.push_back(camera);
     }
-    for (MovingLight light : stage_.movingLights) {
-      light.node += first;
-      scene.motion.lights.push_back(light);
+    for (auto [light, map, mover] : stage_.lights) {
+      putInParent(mover, map, first, scene);
+      light.position = Vec3f(map.p);
+      light.direction = Vec3f(-normalized(map.z));
+      const auto number = static_cast<std::uint32_t>(scene.lights.size());
+      if (mover != kNoNode) {
+        scene.motion.lights.push_back({number, mover, light.position, light.direction});
+      }
+      scene.lights.push_back(light);
     }
   }
 
  private:
+  // The nodes that move are numbered from `first` on. What none of them carries is moved to the
+  // origin here.
+  static void putInParent(std::uint32_t& parent, Affine& toParent, std::uint32_t first,
+                          const SceneDescription& scene) {
+    if (parent == kNoNode) {
+      toParent.p = toParent.p - scene.origin;
+    } else {
+      parent += first;
+    }
+  }
+
   // Finds the materials for which the alpha of vertex colors counts.
   void findVertexAlpha() {
     for (const JsonValue& mesh : document_.list("meshes").elements()) {
@@ -369,14 +400,16 @@ class GltfModel : public Model {
     const JsonValue source = document_.list("meshes")[placed.mesh];
     const std::string name = source["name"].textOr("");
     std::vector<Mesh> meshes;
+    std::optional<Vec3d> middle;
     for (const JsonValue& primitive : source.need("primitives").elements()) {
       Mesh mesh;
       mesh.name = name;
       PrimitiveReader reader(document_, primitive, sources_, placed, variant);
-      if (reader.read(mesh)) meshes.push_back(std::move(mesh));
+      if (reader.read(middle, mesh)) meshes.push_back(std::move(mesh));
     }
     const std::uint32_t body = layout.add(name);
     addParts(std::move(meshes), materials, document_.name(), document_.budget(), layout.body(body));
+    for (Placement& part : layout.body(body).placements) part.toParent.p = middle.value_or(Vec3d());
     return body;
   }
 

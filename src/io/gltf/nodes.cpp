@@ -419,15 +419,9 @@ class TreeReader {
     camera.name = node["name"].textOr("");
     if (camera.name.empty()) camera.name = source["name"].textOr("");
     if (camera.name.empty()) camera.name = "camera";
-    camera.eye = Vec3f(map.p);
-    // Far enough for the direction to survive the rounding of eye and at.
-    camera.at = Vec3f(map.p - normalized(map.z) * std::max(1.0, length(map.p)));
-    camera.up = Vec3f(normalized(map.y));
     camera.aspect = static_cast<float>(std::clamp(aspect, 0.0, kLargestAspect));
     if (stage_.cameras.empty()) stage_.aspect = aspect;
-    const auto number = static_cast<std::uint32_t>(stage_.cameras.size());
-    if (mover != kNoNode) stage_.movingCameras.push_back({number, mover, camera});
-    stage_.cameras.push_back(camera);
+    stage_.cameras.push_back({camera, map, mover});
   }
 
   void addLight(std::size_t index, const Affine& map, std::uint32_t mover) {
@@ -451,22 +445,16 @@ class TreeReader {
       warn("light's range left out, it shines on", index);
     }
     const Vec3d color = tripleOr(source["color"].numbers(3), Vec3d(1.0));
-    light.position = Vec3f(map.p);
-    light.direction = Vec3f(-normalized(map.z));
     light.intensity = Rgb(color * (source["intensity"].numberOr(1) / kLumensPerWatt));
-    const auto place = static_cast<std::uint32_t>(stage_.lights.size());
-    if (mover != kNoNode) {
-      stage_.movingLights.push_back({place, mover, light.position, light.direction});
-    }
-    stage_.lights.push_back(light);
+    stage_.lights.push_back({light, map, mover});
   }
 
   // A camera is chosen by its name.
   void nameCameras() {
     std::vector<std::string> names;
-    for (const Camera& camera : stage_.cameras) names.push_back(camera.name);
+    for (const auto& placed : stage_.cameras) names.push_back(placed.thing.name);
     names = distinctNames(names);
-    for (std::size_t i = 0; i < names.size(); ++i) stage_.cameras[i].name = names[i];
+    for (std::size_t i = 0; i < names.size(); ++i) stage_.cameras[i].thing.name = names[i];
   }
 
   // Equal angles, a sharp edge, are accepted: the extension forbids them, but writers produce them.

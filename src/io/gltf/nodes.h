@@ -32,14 +32,21 @@ struct GltfPlacedMesh {
   bool isDeformed() const;
 };
 
+// A camera or a light, which looks along the -z axis of its own space. GltfModel::addView() places
+// it, because the origin of the scene has to be known then.
+template <typename Thing>
+struct GltfPlaced {
+  Thing thing;
+  Affine toMover;
+  std::uint32_t mover = kNoNode;
+};
+
 struct GltfStage {
   Rig movers;
   std::vector<GltfPlacedMesh> meshes;  // in the order of the tree
-  std::vector<Camera> cameras;
-  std::vector<MovingCamera> movingCameras;
+  std::vector<GltfPlaced<Camera>> cameras;
   double aspect = 0;  // of the first camera; 0: none is given
-  std::vector<Light> lights;
-  std::vector<MovingLight> movingLights;
+  std::vector<GltfPlaced<Light>> lights;
 };
 
 // The names are distinct.

@@ -22,6 +22,7 @@
 #include "io/line_reader.h"
 #include "io/obj/mtl_reader.h"
 #include "io/polygon.h"
+#include "scene/origin.h"
 
 namespace whit {
 
@@ -93,6 +94,7 @@ class ObjReader {
   Mesh read() {
     const auto count = static_cast<std::uint32_t>(materials.size());
     material_ = kNoMaterial;
+    findMiddle();
     for (; !lines_.done(); lines_.nextLine()) statement(lines_.word());
     if (mesh_.triangles.empty()) {
       warnNothingToDraw(hasFaces_ ? "no face that can be built" : "no faces", file_, warnings_);
@@ -112,8 +114,36 @@ class ObjReader {
   // Different names of "usemtl" and of "mtllib", in the file's order.
   std::vector<ObjName> materials, libraries;
   bool isColored = false;  // the first vertex has a color
+  Vec3d middle;            // subtracted from all vertices, see originOf()
 
  private:
+  // Reading faces needs vertices that are rounded already, so that the vertices which faces use are
+  // found first: up to where their box is as large as it is far away, because a box with that
+  // property stays near however it grows.
+  void findMiddle() {
+    constexpr std::size_t kLettersOfVertex = 6;  // at least: "v 0 0"
+    std::vector<Vec3d> all;
+    all.reserve(text_.size() / kLettersOfVertex);
+    BoxOf<Vec3d> box;
+    for (LineReader line(text_, file_); !line.done(); line.nextLine()) {
+      const std::string_view keyword = line.word();
+      if (keyword == "v") {
+        Vec3d& v = all.emplace_back();
+        if (!line.number(v.x) || !line.number(v.y)) return;  // position() refuses it
+        line.number(v.z);
+      }
+      if (keyword != "f") continue;
+
+      for (; line.hasMore(); line.finishWord()) {
+        const std::int32_t vertex = index(line, all.size());
+        if (vertex >= 0 && placeOf(vertex) < all.size()) box.add(all[placeOf(vertex)]);
+      }
+      const bool isNear = !box.empty() && length(box.center()) < box.diagonal();
+      if (isNear) return;
+    }
+    middle = originOf(box);
+  }
+
   void statement(std::string_view keyword) {
     if (keyword == "v") {
       position();
@@ -165,8 +195,7 @@ class ObjReader {
     if (count < 2 || (count < 3 && lines_.hasMore())) {
       throwBadScene(lines_.place(), "expected three numbers after \"v\"");
     }
-    positions_.push_back(
-        {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])});
+    positions_.emplace_back(Vec3d(v[0], v[1], v[2]) - middle);
     if (count < 6) return;
     colors_.resize(positions_.size(), Rgb(1.0f));
     const double* const color = &v[count - 3];
@@ -191,9 +220,9 @@ class ObjReader {
                          5 * sizeof(std::uint32_t),
                      file_);
       ObjCorner& corner = corners_.emplace_back();
-      corner.position = index(positions_.size());
-      if (lines_.take('/')) corner.uv = index(uvs_.size());
-      if (lines_.take('/')) corner.normal = index(normals_.size());
+      corner.position = index(lines_, positions_.size());
+      if (lines_.take('/')) corner.uv = index(lines_, uvs_.size());
+      if (lines_.take('/')) corner.normal = index(lines_, normals_.size());
       if (!lines_.finishWord()) corner.position = kOutOfRange;
     }
     if (corners_.empty()) return;
@@ -218,8 +247,8 @@ class ObjReader {
   void warn(const char* kind) { warnings_.add(kind, file_ + ":" + std::to_string(line_)); }
 
   // The format counts from 1, and negative numbers back from the vertex that was read last.
-  std::int32_t index(std::size_t count) {
-    const std::int64_t written = lines_.integer();
+  static std::int32_t index(LineReader& line, std::size_t count) {
+    const std::int64_t written = line.integer();
     if (written > 0) return static_cast<std::int32_t>(written - 1);
     if (written == 0) return kNoIndex;
     const std::int64_t fromStart = static_cast<std::int64_t>(count) + written;
@@ -397,6 +426,7 @@ class ObjModel : public MeshModel {
   Body content(SceneLayout& layout, const std::vector<std::uint32_t>& materials) override {
     if (reader_) {
       mesh_ = reader_->read();
+      middle_ = reader_->middle;
       mesh_.name = source_.path.stem().string();
       reader_.reset();
       std::string().swap(text_);

@@ -22,6 +22,7 @@
 #include "io/line_reader.h"
 #include "io/model.h"
 #include "io/polygon.h"
+#include "scene/origin.h"
 
 namespace whit {
 
@@ -152,6 +153,7 @@ class PlyReader {
   }
 
   std::vector<PlyPicture> pictures;
+  Vec3d middle;  // subtracted from all vertices, see originOf()
 
  private:
   // "file:line", or "file: byte N" in binary data.
@@ -305,10 +307,12 @@ class PlyReader {
     const bool colors = has[kR] && has[kG] && has[kB];
     if (has[kR] && !colors) warnings_.add("vertex colors that lack a channel left out", file_);
     bool isTranslucent = false;
-    budget_.charge(element.count, 2 * sizeof(Vec3f) + sizeof(Vec2f) + (colors ? sizeof(Rgb) : 0),
+    budget_.charge(element.count,
+                   sizeof(Vec3d) + 2 * sizeof(Vec3f) + sizeof(Vec2f) + (colors ? sizeof(Rgb) : 0),
                    file_);
     vertices_ = element.count;
-    mesh_.positions.resize(element.count);
+    std::vector<Vec3d> positions(element.count);
+    BoxOf<Vec3d> box;
     if (normals) mesh_.normals.resize(element.count);
     if (uvs) mesh_.uvs.resize(element.count);
     if (colors) mesh_.colors.resize(element.count);
@@ -318,13 +322,17 @@ class PlyReader {
         const Component to =
             components[static_cast<std::size_t>(&property - element.properties.data())];
         v[to] = valueOf(property, to, value);
+        if (to <= kZ) positions[i][to] = value;
       });
       isTranslucent = isTranslucent || (has[kAlpha] && v[kAlpha] < 1);
-      mesh_.positions[i] = {v[kX], v[kY], v[kZ]};
+      box.add(positions[i]);
       if (normals) mesh_.normals[i] = {v[kNx], v[kNy], v[kNz]};
       if (uvs) mesh_.uvs[i] = {v[kU], v[kV]};
       if (colors) mesh_.colors[i] = {v[kR], v[kG], v[kB]};
     }
+    middle = originOf(box);
+    mesh_.positions.reserve(element.count);
+    for (const Vec3d& position : positions) mesh_.positions.emplace_back(position - middle);
     if (isTranslucent) warnings_.add("alpha of vertex colors left out", file_);
   }
 
@@ -498,6 +506,7 @@ class PlyModel : public MeshModel {
     source.budget.charge(text.size(), 1, file);
     PlyReader reader(text, file, source.budget, source.warnings);
     mesh_ = reader.read();
+    middle_ = reader.middle;
     mesh_.name = source.path.stem().string();
     for (const PlyPicture& picture : reader.pictures) pictures_.push_back(sourceOf(picture));
     const bool isPictured = std::ranges::any_of(

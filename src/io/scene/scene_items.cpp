@@ -143,7 +143,12 @@ class ItemReader {
                      static_cast<double>(i) / static_cast<double>(items.size()));
       readItem(items[i], layout_.body(0));
     }
-    layout_.moveTo(context_.scene);
+    if (layout_.moveTo(context_.scene, false) != Vec3d()) {
+      context_.warnings.note(
+          "scene far from the origin: single precision rounds its coordinates (its items should be "
+          "moved to the origin)",
+          context_.scene.name);
+    }
   }
 
   void readModelAlone(JsonObject& file, const std::filesystem::path& path) {
@@ -151,7 +156,13 @@ class ItemReader {
     Body content = contentOf(model, path, file);
     nameItem(content, path.stem().string());
     layout_.append(content, {upright(file, path, content)}, layout_.body(0));
-    layout_.moveTo(context_.scene);
+    const Vec3d origin = layout_.moveTo(context_.scene, true);
+    if (origin != Vec3d()) {
+      context_.warnings.note(
+          formatted("model far from the origin: origin moved by %.17g,%.17g,%.17g", origin.x,
+                    origin.y, origin.z),
+          context_.scene.name);
+    }
     model.addView(context_.scene);
   }
 

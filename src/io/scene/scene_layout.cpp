@@ -1,6 +1,7 @@
 #include "io/scene/scene_layout.h"
 
 #include "core/error.h"
+#include "scene/origin.h"
 
 namespace whit {
 
@@ -10,6 +11,27 @@ std::uint64_t bytesOf(const Mesh& mesh) {
          mesh.colors.size() * sizeof(Rgb) + mesh.triangles.size() * 3 * sizeof(std::uint32_t) +
          mesh.spheres.size() * sizeof(Affine) + mesh.materials.size() * sizeof(std::uint32_t);
 }
+
+namespace {
+
+// Adds the box `own`, moved by `map`.
+void addMoved(const BoxOf<Vec3d>& own, const Affine& map, BoxOf<Vec3d>& box) {
+  if (own.empty()) return;
+  for (int corner = 0; corner < 8; ++corner) box.add(map.point(own.corner(corner)));
+}
+
+BoxOf<Vec3d> boundsOfMesh(const Mesh& mesh) {
+  Box corners;
+  for (const Vec3f& p : mesh.positions) corners.add(p);
+
+  BoxOf<Vec3d> box;
+  if (!corners.empty()) box = {Vec3d(corners.lower), Vec3d(corners.upper)};
+  const BoxOf<Vec3d> unit{Vec3d(-1.0), Vec3d(1.0)};
+  for (const Affine& sphere : mesh.spheres) addMoved(unit, sphere, box);
+  return box;
+}
+
+}  // namespace
 
 std::uint32_t SceneLayout::add(const std::string& name) {
   bodies_.emplace_back().name = name;
@@ -49,9 +71,21 @@ int SceneLayout::measure(std::uint32_t index, int depth, std::vector<std::uint32
   return body.height = height;
 }
 
-void SceneLayout::moveTo(SceneDescription& scene) {
+// `body` as it is at 0 s, when those that it holds have their boxes.
+BoxOf<Vec3d> SceneLayout::boundsOf(const Body& body) const {
+  BoxOf<Vec3d> box;
+  for (const Placement& placed : body.placements) {
+    const Affine map = placed.motion ? placed.toParent * (*placed.motion)(0) : placed.toParent;
+    addMoved(placed.isMesh() ? boundsOfMesh(*placed.mesh) : bodies_[placed.body].box, map, box);
+  }
+  return box;
+}
+
+Vec3d SceneLayout::moveTo(SceneDescription& scene, bool toOrigin) {
   std::vector<std::uint32_t> order;
   measure(0, 0, order);
+  for (const std::uint32_t index : order) bodies_[index].box = boundsOf(bodies_[index]);
+  const Vec3d middle = originOf(bodies_[0].box);
   double instances = 0;  // may be more than an integer can hold
   bodies_[0].places = 1;
   for (auto index = order.rbegin(); index != order.rend(); ++index) {
@@ -66,7 +100,11 @@ void SceneLayout::moveTo(SceneDescription& scene) {
                  "instances");
   scene.items = bodies_[0].within.item;
   scene.itemNames.resize(std::min<std::uint64_t>(scene.items, kNamedItems));
-  place({.body = 0}, Affine(), kNoNode, {}, scene);
+
+  const bool isMoved = toOrigin && middle != Vec3d();
+  if (isMoved) scene.origin = middle;
+  place({.body = 0}, isMoved ? Affine::translation(-middle) : Affine(), kNoNode, {}, scene);
+  return middle;
 }
 
 // The last user of a mesh gets it, others a copy.
@@ -92,11 +130,22 @@ void SceneLayout::placeOnce(Body& body, const Affine& toWorld, Standing at,
 
 void SceneLayout::addObject(Body& body, SceneDescription& scene) {
   body.object = static_cast<std::uint32_t>(scene.objects.size());
+  BoxOf<Vec3d> box;
+  const Placement* bent = nullptr;
+  for (const Placement& placed : body.placements) {
+    if (!placed.isMesh()) continue;
+    addMoved(boundsOfMesh(*placed.mesh), placed.toParent, box);
+    // Meshes that bend stay as they are: all of the body's have the same Deformation::middle.
+    if (placed.mesh->deformation) bent = &placed;
+  }
+  body.middle = bent ? bent->toParent.p : originOf(box);
   Object object{body.name, {}};
   for (Placement& placed : body.placements) {
     if (!placed.isMesh()) continue;
     Mesh mesh = take(placed, body.name);
-    if (!(placed.toParent == Affine())) transform(mesh, placed.toParent);
+    Affine toObject = placed.toParent;
+    toObject.p = toObject.p - body.middle;
+    if (!(toObject == Affine())) transform(mesh, toObject);
     mesh.rank = placed.at.rank;
     mesh.item = static_cast<std::uint32_t>(placed.at.item);
     object.meshes.push_back(std::move(mesh));
@@ -118,7 +167,9 @@ void SceneLayout::place(const Placement& placed, const Affine& toMover, std::uin
     placeOnce(body, toMover, at, scene);
   } else if (body.hasMeshes()) {
     if (body.object == kNoObject) addObject(body, scene);
-    scene.instances.push_back({body.object, toMover, at.rank, mover, at.item});
+    const bool isMoved = body.middle != Vec3d();
+    const Affine toObject = isMoved ? toMover * Affine::translation(body.middle) : toMover;
+    scene.instances.push_back({body.object, toObject, at.rank, mover, at.item});
   }
   for (const Placement& child : body.placements) {
     if (child.isMesh()) continue;

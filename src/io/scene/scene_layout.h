@@ -57,9 +57,11 @@ struct Body {
 
   // SceneLayout::moveTo() fills these in.
   Standing within{};                 // the meshes and items that it holds, its bodies' included
+  BoxOf<Vec3d> box{};                // at 0 s
   double places = 0;                 // how often it is placed
   int height = 0;                    // how many bodies are within one another from this one down
   std::uint32_t object = kNoObject;  // of the scene, where the body is placed more than once
+  Vec3d middle{};                    // subtracted from the object's coordinates, see originOf()
 
   bool hasMeshes() const { return std::ranges::any_of(placements, &Placement::isMesh); }
   // Adds a mesh to the only item of the body.
@@ -84,12 +86,15 @@ class SceneLayout {
   // each with its own map, so that vertices are rounded once; one that moves or is placed more
   // often becomes an object with an instance for each place. Ranks and the numbers of items follow
   // the file. Throws Error(limit) where bodies are nested deeper than kNestingLimit.
-  void moveTo(SceneDescription& scene);
+  // Returns the middle of all meshes at 0 s if they are far from the origin (originOf()), else
+  // zero. `toOrigin`: the middle becomes scene.origin and is subtracted.
+  Vec3d moveTo(SceneDescription& scene, bool toOrigin);
 
  private:
   // Computes `within`, `height` and Placement::at of a body and of all that it holds, and adds
   // these to `order`, each behind the bodies in it. Returns the height.
   int measure(std::uint32_t index, int depth, std::vector<std::uint32_t>& order);
+  BoxOf<Vec3d> boundsOf(const Body& body) const;
   // `toMover`: to the space of the rig's node that carries it, or to the world.
   void place(const Placement& placed, const Affine& toMover, std::uint32_t mover, Standing at,
              SceneDescription& scene);

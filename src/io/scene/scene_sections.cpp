@@ -335,6 +335,17 @@ Json describe(const std::vector<float>& numbers) {
 
 Json describe(const Camera& camera) { return describeMembers(camera); }
 
+void movePoints(Json& noun, const Vec3d& way) {
+  if (way == Vec3d() || !noun.is_object()) return;
+  for (const char* name : {"eye", "at", "position"}) {
+    if (!noun.contains(name) || !noun[name].is_array() || noun[name].size() != 3) continue;
+    for (int i = 0; i < 3; ++i) {
+      Json& number = noun[name][static_cast<std::size_t>(i)];
+      if (number.is_number()) number = number.get<double>() + way[i];
+    }
+  }
+}
+
 Json describe(const Ambient& ambient) {
   Json json = ambient.ofSky > 0
                   ? Json{{"fromSky", ambient.ofSky}}

@@ -194,6 +194,8 @@ requires std::is_enum_v<Enum> Json describe(Enum value) {
 }
 Json describe(const std::vector<float>& numbers);
 Json describe(const Camera& camera);
+// Moves the points of a camera's or a light's JSON, in double precision.
+void movePoints(Json& noun, const Vec3d& way);
 Json describe(const std::vector<Light>& lights);
 Json describe(const Ambient& ambient);
 

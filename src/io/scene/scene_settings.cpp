@@ -178,7 +178,9 @@ bool editScene(const SceneSetting& setting, const LoadOptions& options, JsonDocu
   const std::string& section = setting.tokens.front();
   JsonDocument lights{scene.name, {{"lights", describe(scene.lights)}}, {}};
   const JsonDocument& from = document ? *document : lights;
-  if (!document && section != "lights") return false;
+  // The lights of a model that was moved are read with it.
+  const bool isMoved = scene.origin != Vec3d();
+  if (!document && (section != "lights" || isMoved)) return false;
   JsonDocument sections{from.file, Json::object(), from.parameters};
   for (const auto& [name, value] : from.root.items()) {
     if (name != "objects" && name != "scene") sections.root[name] = value;
