@@ -183,7 +183,11 @@ bool drawAmbient(bool skyThere, Ambient& ambient) {
 }  // namespace
 
 bool drawSceneTab(const SkyChoice& ownSky, RayView& picked, ShadingEdit& scene) {
+  const Vec3d origin = scene.scene ? scene.scene->scene.origin : Vec3d();
   ImGui::TextDisabled("lights");
+  if (origin != Vec3d()) {
+    ImGui::TextDisabled("positions are from %.17g,%.17g,%.17g", origin.x, origin.y, origin.z);
+  }
   bool edited = drawItems(scene.lights, "light", picked.light, drawLight);
 
   ImGui::TextDisabled("materials");

@@ -155,7 +155,7 @@ Json lightJson(const Scene& scene, const LightContribution& light) {
                                        : "blocked"},
             {"radiance", jsonOf(light.radiance)}};
   if (light.traced) {
-    json["origin"] = jsonOf(light.origin);
+    json["origin"] = jsonOf(scene.inFile(light.origin));
     json["to_light"] = jsonOf(light.toLight);
   }
   return json;
@@ -166,7 +166,7 @@ Json surfaceJson(const Scene& scene, const RayNode& n) {
   Json json{{"material", materialName(scene, n.material)},
             {scene.isSphere(n.triangle) ? "sphere" : "triangle", n.triangle},
             {"distance", n.distance},
-            {"position", jsonOf(n.position)},
+            {"position", jsonOf(scene.inFile(n.position))},
             {"hidden", n.hidden}};
   if (n.instance != kMiss) json["instance"] = n.instance;
   return json;
@@ -174,7 +174,7 @@ Json surfaceJson(const Scene& scene, const RayNode& n) {
 
 Json nodeJson(const Scene& scene, const RayTree& tree, std::size_t number, bool ofPackets) {
   const RayNode& n = tree.nodes[number];
-  Json json{{"kind", rowOf(n.kind).name},           {"origin", jsonOf(n.origin)},
+  Json json{{"kind", rowOf(n.kind).name},           {"origin", jsonOf(scene.inFile(n.origin))},
             {"direction", jsonOf(n.direction)},     {"weight", jsonOf(n.weight)},
             {"medium", mediumName(scene, n.media)}, {"surface", surfaceJson(scene, n)},
             {"radiance", jsonOf(n.radiance)}};

@@ -15,7 +15,7 @@ namespace whit::cli {
 
 namespace {
 
-Json vectorJson(const Vec3f& v) { return Json::array({v.x, v.y, v.z}); }
+Json vectorJson(const Vec3d& v) { return Json::array({v.x, v.y, v.z}); }
 
 // Every effect, whether it is on, and why.
 Json effectsJson(const Scene& scene, const RenderOptions& options) {
@@ -63,7 +63,10 @@ Json infoJson(const OpenScene& open, const Renderer& renderer, const CommonOptio
             {"triangles", scene.instancedTriangles},
             {"spheres", scene.instancedSpheres},
             {"instances", scene.instances.size()},
-            {"bounds", {{"lower", vectorJson(scene.lower)}, {"upper", vectorJson(scene.upper)}}},
+            {"bounds",
+             {{"lower", vectorJson(scene.inFile(Vec3d(scene.lower)))},
+              {"upper", vectorJson(scene.inFile(Vec3d(scene.upper)))}}},
+            {"origin", vectorJson(scene.origin)},
             {"materials", scene.materials.size()},
             {"material_names", namesIn(scene.materials)},
             {"objects", scene.items.count},
@@ -111,6 +114,9 @@ void printInfo(const Json& info, const OpenScene& open, const Renderer& renderer
   }
   std::printf("  %-12s%s to %s\n", "bounds", info["bounds"]["lower"].dump().c_str(),
               info["bounds"]["upper"].dump().c_str());
+  if (open.scene.origin != Vec3d()) {
+    std::printf("  %-12smoved by %s\n", "origin", info["origin"].dump().c_str());
+  }
   std::printf("  %-12s", "cameras");
   for (const Json& camera : info["cameras"]) std::printf("%s ", textOf(camera).c_str());
   for (const Json& animation : info["animations"]) {

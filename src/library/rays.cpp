@@ -52,13 +52,14 @@ std::size_t checkedCount(const Rays& rays) {
   return count;
 }
 
-void readRays(const Rays& rays, std::size_t first, std::span<QueryRay> to) {
+// `origin` is that of the scene.
+void readRays(const Rays& rays, const Vec3d& origin, std::size_t first, std::span<QueryRay> to) {
   const auto limitOf = [](const Numbers& numbers, std::size_t i, double fallback) {
     return numbers.size() == 0 ? fallback : numbers[numbers.size() == 1 ? 0 : i];
   };
   for (std::size_t i = 0; i < to.size(); ++i) {
     const std::size_t ray = first + i;
-    to[i].origin = pointAt(rays.origins, ray);
+    to[i].origin = pointAt(rays.origins, ray) - origin;
     to[i].direction = pointAt(rays.directions, ray);
     to[i].tNear = limitOf(rays.near, ray, 0);
     to[i].tFar = limitOf(rays.far, ray, std::numeric_limits<double>::infinity());
@@ -122,7 +123,7 @@ void putSurface(const whit::Scene& scene, const QueryHit& hit, const RayHits& to
       shading = normalized(map ? map->normal(mean) : mean, normal);
     }
   }
-  put(to.points, i, point);
+  put(to.points, i, scene.inFile(point));
   put(to.geometricNormals, i, normal);
   put(to.shadingNormals, i, shading);
   const Vec2f uv = uvAt(scene, number, hit.u, hit.v);
@@ -184,7 +185,7 @@ RayHits closest(const Queried& at, const Rays& rays) {
   inParts(at, count, [&](std::size_t first, std::size_t end) {
     std::vector<QueryRay> part(end - first);
     std::vector<QueryHit> found(part.size());
-    readRays(rays, first, part);
+    readRays(rays, at.scene.origin, first, part);
     at.queries.closest(part, found.data());
     for (std::size_t i = first; i < end; ++i) putHit(at.scene, found[i - first], hits, i);
   });
@@ -194,7 +195,7 @@ RayHits closest(const Queried& at, const Rays& rays) {
 RayAnswers occluded(const Queried& at, const Rays& rays) {
   return blockedRays(at, checkedCount(rays), true, [&](std::size_t i) {
     QueryRay ray;
-    readRays(rays, i, {&ray, 1});
+    readRays(rays, at.scene.origin, i, {&ray, 1});
     return ray;
   });
 }
@@ -205,7 +206,7 @@ RayHits allHits(const Queried& at, const Rays& rays, std::size_t limit) {
   std::vector<std::size_t> counts(count);
   inParts(at, count, [&](std::size_t first, std::size_t end) {
     std::vector<QueryRay> part(end - first);
-    readRays(rays, first, part);
+    readRays(rays, at.scene.origin, first, part);
     at.queries.all(part, limit, found[first / kChunk], &counts[first]);
   });
   std::vector<std::uint64_t> offsets(count + 1);
@@ -229,7 +230,7 @@ RayAnswers visible(const Queried& at, const Numbers& from, const Numbers& to,
   return blockedRays(at, count, false, [&](std::size_t i) {
     constexpr double kWithoutNormal = 4;
     QueryRay ray;
-    Vec3d a = pointAt(from, i), b = pointAt(to, i);
+    Vec3d a = pointAt(from, i) - at.scene.origin, b = pointAt(to, i) - at.scene.origin;
     const Vec3d way = b - a;
     const auto passedOver = [&](const Vec3d& p) {
       return kWithoutNormal * roundingOf(at, p) / length(way);
@@ -256,7 +257,8 @@ std::vector<float> ambientOcclusion(const Queried& at, const Numbers& points,
     std::vector<Blocked> blocked(rays.size());
     const LobeSampling sampling{static_cast<std::uint32_t>(samples)};
     for (std::size_t i = first; i < end; ++i) {
-      const Vec3d point = pointAt(points, i), normal = normalized(pointAt(normals, i));
+      const Vec3d point = pointAt(points, i) - at.scene.origin;
+      const Vec3d normal = normalized(pointAt(normals, i));
       std::uint32_t stream = 0;
       for (int k = 0; k < 3; ++k) {
         const auto bits = std::bit_cast<std::uint64_t>(point[k]);

@@ -117,7 +117,8 @@ Renderer& Renderer::lookThrough(const std::string& camera) {
   return guarded([&]() -> Renderer& {
     std::optional<whit::Camera> own;
     if (!camera.empty()) {
-      const JsonDocument document{"camera", parseJson(camera, "camera"), {}};
+      JsonDocument document{"camera", parseJson(camera, "camera"), {}};
+      movePoints(document.root, -data_->engine.scene().origin);
       JsonObject object{JsonValue(document)};
       readCamera(object, own.emplace());
       object.finish();

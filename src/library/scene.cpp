@@ -129,7 +129,10 @@ std::string Scene::camera(const std::string& name) const {
     RenderOptions options;
     options.camera = name;
     const double aspect = static_cast<double>(width()) / height();
-    return whit::describe(fitted(chooseCamera(data_->open->scene, options), aspect)).dump();
+    const whit::Scene& scene = data_->open->scene;
+    Json camera = whit::describe(fitted(chooseCamera(scene, options), aspect));
+    movePoints(camera, scene.origin);
+    return camera.dump();
   });
 }
 

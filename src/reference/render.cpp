@@ -162,7 +162,7 @@ ChannelValues Tracer::channels(const CameraFrame& camera, int x, int y, const Ve
   const Surfel surfel = surfelAt(ray, *met, hit);
   values.distance = static_cast<float>(hit.t);
   values.z = static_cast<float>(hit.t * dot(ray.direction, camera.forward));
-  values.position = Vec3f(surfel.position);
+  values.position = Vec3f(scene_.inFile(surfel.position));
   values.normal = Vec3f(surfel.shadingNormal);
   values.albedo = Rgb(surfel.diffuse);
   values.uv = uvAt(scene_, candidate.triangle, hit.u, hit.v);

@@ -119,7 +119,7 @@ ChannelValues valuesOf(const Chunk& c, std::size_t i) {
   values.distance = c.hits.t[i];
   values.z = values.distance *
              (c.rays.dirX[i] * forward.x + c.rays.dirY[i] * forward.y + c.rays.dirZ[i] * forward.z);
-  values.position = {s.posX[i], s.posY[i], s.posZ[i]};
+  values.position = Vec3f(scene.inFile(Vec3d(Vec3f{s.posX[i], s.posY[i], s.posZ[i]})));
   values.normal = {s.nsX[i], s.nsY[i], s.nsZ[i]};
   values.albedo = {s.diffuseR[i], s.diffuseG[i], s.diffuseB[i]};
   values.material = s.material[i];

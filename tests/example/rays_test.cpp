@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -541,6 +542,41 @@ TEST(RayQueries, SeeFromSurfaceToSurface) {
   const Numbers from{{}, floor}, to{{}, ceiling}, about{{}, normals};
   EXPECT_EQ(renderer.visible(from, to).yes, expected);
   EXPECT_EQ(renderer.visible(from, to, about, about).yes, expected);
+}
+
+// A model that was moved to the origin is asked, and answers, in coordinates of its file.
+TEST(RayQueries, AreInCoordinatesOfAFarFile) {
+  const TemporaryFolder folder;
+  const std::string model = folder.file("far.obj");
+  std::ofstream(model) << "v 4000000.1 500000.2 10\nv 4000001.1 500000.2 10\n"
+                          "v 4000000.1 500001.2 10\nf 1 2 3\n";
+  Renderer renderer(loadScene(model, {.settings = {"/up=\"y\""}}));
+  constexpr double kRounding = 1.2e-7;  // of coordinates below 2
+
+  // Beside the hypotenuse, on either side of it.
+  const double inside = 0.499, outside = 0.501;
+  const std::vector<double> from{4000000.1 + inside,  500000.2 + 0.5, 12,
+                                 4000000.1 + outside, 500000.2 + 0.5, 12};
+  const std::vector<double> down{0, 0, -1, 0, 0, -1};
+  const Rays rays{.origins = {{}, from}, .directions = {{}, down}};
+  const RayHits hits = renderer.closest(rays);
+  EXPECT_NEAR(hits.t[0], 2, kRounding);
+  EXPECT_EQ(hits.triangles[1], 0xffffffffu);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(hits.points[i], from[i], kRounding);
+  EXPECT_NEAR(hits.points[2], 10, kRounding);
+  EXPECT_EQ(renderer.occluded(rays).yes, (std::vector<std::uint8_t>{1, 0}));
+  EXPECT_EQ(renderer.allHits(rays).offsets, (std::vector<std::uint64_t>{0, 1, 1}));
+
+  std::vector<double> below = from;
+  below[2] = below[5] = 8;
+  EXPECT_EQ(renderer.visible({{}, from}, {{}, below}).yes, (std::vector<std::uint8_t>{0, 1}));
+  const std::vector<double> up{0, 0, 1, 0, 0, 1};
+  EXPECT_EQ(renderer.ambientOcclusion({{}, from}, {{}, up}, 10, 16), (std::vector<float>{1, 1}));
+
+  // The camera of such a scene comes back.
+  const Image first = renderer.set("size", "40x24").render();
+  EXPECT_TRUE(samePictures(renderer.lookThrough(renderer.scene().camera()).render(), first));
+  EXPECT_NE(renderer.scene().camera().find("\"at\":[400000"), std::string::npos);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@ import unittest
 import numpy as np
 
 import whit
-from samples import square_scene
+from samples import square_scene, temporary_folder
 
 SIZE = (64, 48)
 K = np.array([[70.0, 3, 30.5], [0, 66, 21.25], [0, 0, 1]])
@@ -72,6 +72,29 @@ class Cameras(unittest.TestCase):
         x, y = np.meshgrid(np.arange(SIZE[0]), np.arange(SIZE[1]))
         np.testing.assert_allclose(camera.project(points), np.stack([x, y], -1), atol=1e-3)
 
+    def test_far_models_are_seen_in_coordinates_of_their_file(self):
+        far = np.array([4000000.1, 0, 500000.2])
+        with temporary_folder():
+            with open("far.obj", "w", encoding="utf-8") as file:
+                for x, z in ((-20, -20), (-20, 20), (20, 20), (20, -20)):
+                    print("v", *(far + (x, 0, z)), file=file)
+                print("f 1 2 3 4", file=file)
+            scene = whit.Scene("far.obj")
+        x, y, z = far + (0, 4, 0)
+        down = [[1, 0, 0, x], [0, 0, -1, y], [0, 1, 0, z]]
+        for camera in (scene.camera(), whit.Camera.from_k(K, down, SIZE)):
+            picture = scene.render(camera=camera, size=SIZE, channels=["depth", "position"])
+            points = whit.Camera(camera.members, SIZE).unproject(picture["depth.Z"])
+            hit = np.isfinite(picture["depth.Z"])
+            self.assertTrue(hit.sum() > 100)
+            # Coordinates of the channel are in single precision.
+            np.testing.assert_allclose(points[hit], picture["position"][hit], atol=0.3)
+            np.testing.assert_allclose(points[hit][:, 1], 0, atol=1e-3)
+            eye = camera.pose[:3, 3]
+            ways = points[hit] - eye
+            found = scene.closest(np.broadcast_to(eye, ways.shape), ways)
+            np.testing.assert_allclose(found.point, points[hit], atol=1e-3)
+
     def test_distortion_moves_what_is_projected(self):
         camera = whit.Camera.from_k(K, pose(), SIZE, distortion=[-0.2, 0.05, 0.01, -0.02, 0.01])
         picture = wall().render(camera=camera, channels=["position"])
@@ -86,7 +109,7 @@ class Cameras(unittest.TestCase):
             "eye": [0, 0, 5], "at": [0, 0, 0], "fov": 30}}, "scene": []})
         for camera in (scene.camera(), scene.camera("a")):
             np.testing.assert_array_equal(camera.k, K)
-            np.testing.assert_array_equal(camera.pose, given.pose)
+            np.testing.assert_allclose(camera.pose, given.pose, atol=1e-6)
         back = scene.camera("b", axes="opengl")
         self.assertAlmostEqual(back.fov, 30)
         wanted = np.eye(4)

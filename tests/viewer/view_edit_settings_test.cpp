@@ -1,6 +1,7 @@
 // Edits as settings: a scene that is read with them is the edited one, bit for bit.
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <random>
 
 #include "cli/run_program.h"
@@ -16,7 +17,9 @@ ShadingEdit readEdit(const std::string& name, const std::vector<std::string>& se
   options.settings = settings;
   Warnings warnings;
   const SceneDescription scene = loadScene(name, options, warnings);
-  return {nullptr, scene.materials, scene.lights, {}, {}, settings};
+  const auto open = std::make_shared<OpenScene>(false);
+  open->scene.origin = scene.origin;
+  return {open, scene.materials, scene.lights, {}, {}, settings};
 }
 
 template <typename Item, typename Field>
@@ -113,6 +116,13 @@ TEST(EditSettings, OfItemsWithoutAMaterial) {
   std::ofstream(folder / "s.json")
       << R"({"whit": 1, "scene": [{"shape": "quad"}, {"shape": "box"}]})";
   expectThatEditsComeBack(folder / "s.json");
+}
+
+// Its lights are moved with it, and back.
+TEST(EditSettings, OfAFarModel) {
+  const cli::TemporaryFolder folder;
+  std::ofstream(folder / "far.obj") << "v 4000000 0 0\nv 4000001 0 0\nv 4000000 1 0\nf 1 2 3\n";
+  expectThatEditsComeBack(folder / "far.obj");
 }
 
 // The model has maps that count only where a material is glossy, and names with characters that

@@ -95,6 +95,20 @@ TEST_F(SavedScenes, FindTheirFilesFromElsewhere) {
   EXPECT_EQ(read("s-edited.json")["textures"]["t"]["image"], "sub/maps/t.png");
 }
 
+// The copied command states the eye in coordinates of the model's file; the saved scene brings the
+// model to the origin.
+TEST_F(SavedScenes, KeepTheViewOfAFarModel) {
+  std::ofstream(folder_ / "far.obj") << "v 4000000.1 500000 10\nv 4000001.1 500000 10\n"
+                                        "v 4000000.1 500001 10\nf 1 2 3\n";
+  const cli::Outcome outcome = play(
+      "drop far.obj\nwait 60 frames\nkey D 0.2\nwait 20 frames\nwait sharp\nbare\n"
+      "wait 2 frames\nscreenshot shown.png\nkey C\nkey Ctrl+S\n");
+  const std::vector<std::string> lines = linesOf(outcome.out);
+  ASSERT_EQ(lines.size(), 2u) << outcome.out;
+  EXPECT_NE(lines[0].find("--eye=400000"), std::string::npos) << lines[0];
+  for (const std::string& line : lines) expectThatItShows("shown.png", line);
+}
+
 TEST_F(SavedScenes, StateTheOptionsThatWereChosen) {
   Json scene = read("tiny.json");
   scene["options"] = {{"depth", 2}, {"spp", 4}, {"background", "ff8000"}};

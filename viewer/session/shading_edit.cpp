@@ -10,9 +10,11 @@ namespace whit::view {
 
 namespace {
 
-// A member whose default value depends on a changed member has to be set as well.
+// A member whose default value depends on a changed member has to be set as well. Settings have
+// coordinates of the file, which `origin` was subtracted from.
 template <typename Noun>
-void addMembers(const Noun& read, const Noun& edited, std::vector<std::string>& settings) {
+void addMembers(const Noun& read, const Noun& edited, const Vec3d& origin,
+                std::vector<std::string>& settings) {
   std::set<std::string_view> decided;
   forEachMemberInFiles(read, [&](const auto& member) {
     const auto& value = edited.*member.field;
@@ -20,12 +22,14 @@ void addMembers(const Noun& read, const Noun& edited, std::vector<std::string>& 
     if (changed) decided.insert(member.rules.decides.begin(), member.rules.decides.end());
 
     if (!changed && !decided.contains(member.name)) return;
-    settings.push_back(edited.pointer + "/" + member.name + "=" + describe(value).dump());
+    Json noun{{member.name, describe(value)}};
+    movePoints(noun, origin);
+    settings.push_back(edited.pointer + "/" + member.name + "=" + noun[member.name].dump());
   });
 }
 
 void addMaterial(const Material& read, const Material& edited, std::vector<std::string>& settings) {
-  addMembers(read, edited, settings);
+  addMembers(read, edited, {}, settings);
   // A model may have a specular map although the material is not glossy, which readers leave out.
   if (!read.hasGlossy() && edited.hasGlossy() && edited.specularMap == kNoTexture) {
     settings.push_back(edited.pointer + "/specularMap=null");
@@ -79,8 +83,9 @@ ShadingEdit withoutEdits(const std::shared_ptr<const OpenScene>& scene) {
 
 std::vector<std::string> editSettings(const ShadingEdit& read, const ShadingEdit& edited) {
   std::vector<std::string> settings;
+  const Vec3d origin = read.scene ? read.scene->scene.origin : Vec3d();
   for (std::size_t i = 0; i < read.lights.size(); ++i) {
-    addMembers(read.lights[i], edited.lights[i], settings);
+    addMembers(read.lights[i], edited.lights[i], origin, settings);
   }
 
   for (std::size_t i = 0; i < read.materials.size(); ++i) {

@@ -63,7 +63,7 @@ class Camera:
     @property
     def pose(self) -> np.ndarray:
         """(4, 4), from the camera's `axes` to the scene."""
-        eye, at, up = (np.asarray(self.members.get(name, preset), np.float32).astype(float)
+        eye, at, up = (np.asarray(self.members.get(name, preset), float)
                        for name, preset in (("eye", 0), ("at", 0), ("up", (0, 1, 0))))
         forward = (at - eye) / np.linalg.norm(at - eye)
         right = np.cross(forward, up)
