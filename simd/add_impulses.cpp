@@ -33,6 +33,7 @@ struct ImpulseJob {
   bool cones = chunk.has(Feature::cones), coverage = chunk.has(Feature::coverage);
   bool lobes = chunk.has(Feature::lobes), streams = chunk.has(Feature::streams);
   bool transmission = chunk.has(Feature::transmission);
+  bool frosted = transmission && (chunk.materialFlags & kMaterialFrosts) != 0;
   bool mirrorMaps = chunk.has(Feature::mirrorMaps);
   bool transmissionMaps = chunk.has(Feature::transmissionMaps);
   float* ended = chunk.radiance.ended;
@@ -49,6 +50,8 @@ struct ImpulseLanes {
   MF mirrors;     // or a mirrored ray stands for it as far as it is smooth
   MF coated;      // the surfel's mirror is a coat
   MF chooses;     // one of the surfel's lobes is followed
+  MF frosts;      // rays sample what it transmits
+  MF facets;      // and the facets of its interface reflect in place of the lobe
   V3 direction, ng, ns;
   VF facing;  // cosine between viewer and geometric normal
   VF cosine;  // between viewer and shading normal, in [0, 1]
@@ -75,7 +78,7 @@ HWY_INLINE ImpulseLanes LoadImpulseLanes(const ImpulseJob& job, size_t i) {
   lanes.material = hn::Load(di, reinterpret_cast<const int32_t*>(surfels.material) + i);
   lanes.live = hn::RebindMask(d, NonNegative(lanes.material));
   lanes.dielectric = lanes.hidden = lanes.covers = lanes.scatters = lanes.mirrors = lanes.coated =
-      lanes.chooses = hn::MaskFromVec(hn::Zero(d));
+      lanes.chooses = lanes.frosts = lanes.facets = hn::MaskFromVec(hn::Zero(d));
   if (hn::AllFalse(d, lanes.live)) return lanes;
   const VU flags = MaterialLanes(job.tables, lanes.material, lanes.live).Lobe().flags;
   lanes.live = hn::And(lanes.live, HasFlags(flags, kWanted));
@@ -93,6 +96,10 @@ HWY_INLINE ImpulseLanes LoadImpulseLanes(const ImpulseJob& job, size_t i) {
     lanes.dielectric = hn::And(lanes.live, HasFlags(flags, kMaterialTransmits));
     lanes.hidden = hn::And(lanes.dielectric, HasFlags(hn::Load(du, surfels.flags + i), kHidden));
   }
+  if (job.frosted) {
+    lanes.facets = hn::And(lanes.live, HasFlags(flags, kMaterialFrostedInterface));
+    lanes.frosts = hn::And(lanes.live, HasFlags(flags, kMaterialFrosts));
+  }
   lanes.direction = Load3(rays.dirX, rays.dirY, rays.dirZ, i);
   lanes.ng = Load3(surfels.ngX, surfels.ngY, surfels.ngZ, i);
   lanes.ns = Load3(surfels.nsX, surfels.nsY, surfels.nsZ, i);
@@ -108,6 +115,12 @@ HWY_INLINE Interface InterfaceOf(const ImpulseJob& job, const ImpulseLanes& lane
   const VF before = IorOf(job.tables, hn::Load(du, job.rays.media + i));
   const VF behind = IorOf(job.tables, hn::Load(du, job.surfels.mediaBehind + i));
   return DielectricInterface(job.shading.fresnel, before, behind, lanes.cosine);
+}
+
+// The share of the light that interfaces reflect, but for facets, which are a lobe.
+HWY_INLINE VF SmoothReflectance(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i) {
+  return hn::IfThenElseZero(hn::AndNot(lanes.facets, lanes.dielectric),
+                            InterfaceOf(job, lanes, i).reflectance);
 }
 
 HWY_INLINE V3 MirrorAt(const ImpulseJob& job, const MaterialLanes& material, VF cosine, size_t i) {
@@ -259,7 +272,7 @@ void AddReflections(Chunk& c) {
     V3 weight = mirror;
     if (job.coverage) weight = Scale3(weight, CoverageAt(job, i));
     if (job.transmission && !hn::AllFalse(d, lanes.dielectric)) {
-      const VF f = hn::IfThenElseZero(lanes.dielectric, InterfaceOf(job, lanes, i).reflectance);
+      const VF f = SmoothReflectance(job, lanes, i);
       weight = MulAdd3(weight, hn::Sub(hn::Set(d, 1.0f), f), {f, f, f});
     }
     if (!hn::AllFalse(d, lanes.mirrors)) {
@@ -284,22 +297,107 @@ void AddReflections(Chunk& c) {
   c.childCount = count;
 }
 
-// The interface of a lobe that AddSamples() uses: its samples, and the lanes that take more than
-// one.
-struct GlossySamples {
-  static constexpr const Lobe& kLobe = kGlossyLobe;
+// The facets of glossy lobes and of frosted glass.
+class Facets {
+ public:
+  HWY_INLINE Facets(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i)
+      : ofInterface(lanes.facets),
+        any(!hn::AllFalse(FloatTag(), ofInterface)),
+        model_(job.shading.fresnel) {
+    const FloatTag d;
+    const UintTag du;
+    before_ = behind_ = hn::Set(d, 1.0f);
+    if (any) {
+      before_ = IorOf(job.tables, hn::Load(du, job.rays.media + i));
+      behind_ = IorOf(job.tables, hn::Load(du, job.surfels.mediaBehind + i));
+    }
+    const MF flat = hn::And(ofInterface, hn::Eq(before_, behind_));
+    lobes = LoadGlossyLobes(job.tables, job.surfels, lanes.direction, lanes.ns, flat, i);
+  }
 
-  HWY_INLINE GlossySamples(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i)
-      : lobes(LoadGlossyLobes(job.tables, job.surfels, lanes.direction, lanes.ns, i)),
-        several(lobes.rough) {}
-  HWY_INLINE LobeSample At(const UnitPoints& at) const { return SampleLobe(lobes, at); }
+  HWY_INLINE Facet At(const UnitPoints& at) const {
+    Facet facet = FacetAt(lobes, at);
+    if (!any) return facet;
+    const VF f = InterfaceAt(facet.cosine).reflectance;
+    facet.reflectance = Select3(ofInterface, {f, f, f}, facet.reflectance);
+    return facet;
+  }
+
+  HWY_INLINE Interface InterfaceAt(VF cosine) const {
+    return DielectricInterface(model_, before_, behind_, cosine);
+  }
 
   GlossyLobes lobes;
+  MF ofInterface;
+  bool any;  // of an interface
+
+ private:
+  FresnelModel model_;
+  VF before_, behind_;
+};
+
+// The interface of a lobe that AddSamples() uses: its samples, and the lanes that take more than
+// one. `kSide` is RayOrigin's.
+struct GlossySamples {
+  static constexpr const Lobe& kLobe = kGlossyLobe;
+  static constexpr float kSide = 1;
+
+  HWY_INLINE GlossySamples(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i)
+      : facets(job, lanes, i), several(facets.lobes.rough) {}
+  HWY_INLINE LobeSample At(const UnitPoints& at) const {
+    const Facet facet = facets.At(at);
+    return {facet.mirrored, Scale3(facet.reflectance, PassingShare(facets.lobes, facet.elevation)),
+            facet.elevation};
+  }
+
+  Facets facets;
   MF several;  // a smooth lobe is one impulse
+};
+
+// What frosted glass transmits: frostedImpulse() of the scalar reference.
+struct FrostedSamples {
+  static constexpr const Lobe& kLobe = kFrostedLobe;
+  static constexpr float kSide = -1;
+
+  HWY_INLINE FrostedSamples(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i)
+      : facets(job, lanes, i),
+        several(facets.lobes.rough),
+        reflects(lanes.scatters),
+        straight(hn::AndNot(several, InterfaceOf(job, lanes, i).straight)) {}
+
+  HWY_INLINE LobeSample At(const UnitPoints& at) const {
+    const FloatTag d;
+    const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+    const GlossyLobes& lobes = facets.lobes;
+    const Facet facet = facets.At(at);
+    // Sheets: the mirrored view, mirrored once more.
+    VF depth = hn::Abs(facet.elevation), passes = one;
+    const VF twice = hn::Add(depth, facet.elevation);
+    V3 direction = MulAdd3(lobes.z, hn::Neg(twice), facet.mirrored);
+
+    if (facets.any) {
+      const Interface bending = facets.InterfaceAt(facet.cosine);
+      const V3 back = MulAdd3(facet.normal, bending.bend, lobes.view);
+      const VF scale = hn::Div(hn::Set(d, -1.0f), bending.eta);
+      direction =
+          Select3(facets.ofInterface, NormalizeOr(Scale3(back, scale), facet.normal), direction);
+      const VF below = hn::Neg(Dot(lobes.z, direction));
+      depth = hn::IfThenElse(facets.ofInterface, below, depth);
+      passes = hn::IfThenElse(facets.ofInterface, SeenShare(below, lobes.alpha), one);
+    }
+
+    const V3 reflected = Select3(reflects, facet.reflectance, {zero, zero, zero});
+    return {direction, Scale3(Sub3({one, one, one}, reflected), passes), depth};
+  }
+
+  Facets facets;
+  MF several, reflects;
+  MF straight;  // the direction does not change at all
 };
 
 struct DiffuseSamples {
   static constexpr const Lobe& kLobe = kDiffuseLobe;
+  static constexpr float kSide = 1;
 
   HWY_INLINE DiffuseSamples(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i)
       : normal(lanes.ns),
@@ -333,7 +431,7 @@ HWY_INLINE V3 LeftAboveLobe(const ImpulseJob& job, const ImpulseLanes& lanes, si
   const VF one = hn::Set(d, 1.0f);
   const V3 left = Sub3({one, one, one}, MirrorAt(job, material, lanes.cosine, i));
   if (!job.transmission || hn::AllFalse(d, lanes.dielectric)) return left;
-  const VF f = hn::IfThenElseZero(lanes.dielectric, InterfaceOf(job, lanes, i).reflectance);
+  const VF f = SmoothReflectance(job, lanes, i);
   return Scale3(left, hn::Sub(one, f));
 }
 
@@ -384,9 +482,7 @@ void FindLayers(Chunk& c) {
       const V3 transmission = TransmissionAt(job, material, i);
       const MF transmits =
           hn::And(lanes.dielectric, hn::Gt(MaxComponent(material.Transmission().color), zero));
-      const VF reflectance =
-          hn::IfThenElseZero(lanes.dielectric, InterfaceOf(job, lanes, i).reflectance);
-      const VF passed = hn::Sub(one, reflectance);
+      const VF passed = hn::Sub(one, SmoothReflectance(job, lanes, i));
       through = Select3(transmits, UnderMirror(lanes, transmission, mirror, through), through);
       lobe = Scale3(lobe, passed);
       below = Scale3(below, hn::IfThenElse(transmits, passed, one));
@@ -423,6 +519,27 @@ HWY_INLINE VF FactorOfChoice(const ImpulseJob& job, const ImpulseLanes& lanes, b
   return hn::IfThenElse(lanes.chooses, hn::IfThenElseZero(followed, grows), one);
 }
 
+// The lanes whose transmitted light is sampled: sheets that lie on a dielectric's face are clear.
+HWY_INLINE MF Frosts(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i) {
+  const FloatTag d;
+  if (hn::AllFalse(d, lanes.frosts)) return lanes.frosts;
+  const MF scatters = hn::Or(lanes.facets, InterfaceOf(job, lanes, i).straight);
+  return hn::AndNot(lanes.hidden, hn::And(lanes.frosts, scatters));
+}
+
+// The light that the layers above leave for samples of this kind.
+template <typename Samples>
+HWY_INLINE V3 LeftForSamples(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i) {
+  const VF one = hn::Set(FloatTag(), 1.0f);
+  if constexpr (Samples::kLobe.flag == kMaterialScatters) return LeftAboveLobe(job, lanes, i);
+  if constexpr (Samples::kLobe.flag == kMaterialFrosts) {
+    const MaterialLanes material(job.tables, lanes.material, lanes.live);
+    const V3 mirror = MirrorAt(job, material, lanes.cosine, i);
+    return UnderMirror(lanes, TransmissionAt(job, material, i), mirror, Broadcast3(Vec3f()));
+  }
+  return {one, one, one};
+}
+
 template <typename Samples>
 HWY_INLINE void AddSamples(Chunk& c) {
   constexpr const Lobe& kLobe = Samples::kLobe;
@@ -431,28 +548,28 @@ HWY_INLINE void AddSamples(Chunk& c) {
   const ImpulseJob job{c};
   const LobeSampling sampling = lobeSampling(c.depth, kLobe.samples(c.options()), c.sampleNumber);
   const VF one = hn::Set(d, 1.0f), share = hn::Set(d, 1.0f / static_cast<float>(sampling.count));
+  constexpr bool kPasses = Samples::kSide < 0;
   // factorOfLobe().
-  const bool occluded = c.depth == 0 && c.has(Feature::occlusionMaps);
+  const bool occluded = !kPasses && c.depth == 0 && c.has(Feature::occlusionMaps);
   size_t count = c.childCount;
   for (size_t i = 0; i < job.n; i += hn::Lanes(d)) {
     ImpulseLanes lanes = LoadImpulseLanes<kLobe.flag>(job, i);
-    lanes.live = hn::AndNot(lanes.hidden, lanes.live);
+    lanes.live = kPasses ? Frosts(job, lanes, i) : hn::AndNot(lanes.hidden, lanes.live);
     if (hn::AllFalse(d, lanes.live)) continue;
-    constexpr bool kIsGlossy = kLobe.flag == kMaterialScatters;
-    VF factor = one;
-    if (HWY_UNLIKELY(!hn::AllFalse(d, lanes.chooses))) {
-      factor = FactorOfChoice(job, lanes, kIsGlossy, i);
+    V3 covered = LeftForSamples<Samples>(job, lanes, i);
+    if (HWY_UNLIKELY(!kPasses && !hn::AllFalse(d, lanes.chooses))) {
+      const VF factor = FactorOfChoice(job, lanes, kLobe.flag == kMaterialScatters, i);
       lanes.live = hn::And(lanes.live, hn::Gt(factor, hn::Zero(d)));
       if (hn::AllFalse(d, lanes.live)) continue;
+      covered = Scale3(covered, factor);
     }
-    V3 covered{factor, factor, factor};
-    if constexpr (kIsGlossy) covered = Scale3(LeftAboveLobe(job, lanes, i), factor);
     if (job.coverage) covered = Scale3(covered, CoverageAt(job, i));
     if (occluded) covered = Scale3(covered, hn::Load(d, job.surfels.occlusion + i));
     const Samples samples(job, lanes, i);
     const VF counts = hn::IfThenElse(samples.several, share, one);
-    const V3 origin = ChildOrigin(job, lanes, i, 1.0f);
-    const VU media = MediaAt(job, i);
+    const V3 origin = ChildOrigin(job, lanes, i, Samples::kSide);
+    const VU media = kPasses ? hn::Load(du, job.surfels.mediaBehind + i) : MediaAt(job, i);
+    const V3 outward = Scale3(lanes.ng, hn::Set(d, Samples::kSide));
     const VU path = hn::Load(du, job.rays.path + i);
     const VF cone = ConesAt(job, i);
     for (uint32_t k = 0; k < sampling.count; ++k) {
@@ -461,7 +578,8 @@ HWY_INLINE void AddSamples(Chunk& c) {
       LobeSample sample = samples.At(PointsOf<kLobe>(path, sampling, k));
       sample.weight = Mul3(sample.weight, covered);
       const MF live = hn::And(sampled, hn::Gt(sample.cosine, hn::Zero(d)));
-      const V3 r = Lifted(sample.direction, lanes.ng, LeastElevation(job, sample.cosine), live);
+      V3 r = Lifted(sample.direction, outward, LeastElevation(job, sample.cosine), live);
+      if constexpr (kPasses) r = Select3(samples.straight, lanes.direction, r);
       const Child child{origin,
                         r,
                         Scale3(sample.weight, counts),
@@ -476,6 +594,7 @@ HWY_INLINE void AddSamples(Chunk& c) {
 }
 
 void AddGlossyReflections(Chunk& c) { AddSamples<GlossySamples>(c); }
+void AddFrostedRefractions(Chunk& c) { AddSamples<FrostedSamples>(c); }
 void AddIndirect(Chunk& c) { AddSamples<DiffuseSamples>(c); }
 
 void AddRefractions(Chunk& c) {
@@ -498,6 +617,8 @@ void AddRefractions(Chunk& c) {
       const V3 albedo = Scale3(LobeAt(job, lanes, i), inverse);
       transmittance = Mul3(transmittance, Sub3({one, one, one}, albedo));
     }
+    // Samples bring what frosted glass transmits.
+    transmittance = Select3(Frosts(job, lanes, i), {zero, zero, zero}, transmittance);
     if (job.coverage) {
       const VF covered = CoverageAt(job, i), rest = hn::Sub(one, covered);
       transmittance = MulAdd3(transmittance, covered, {rest, rest, rest});
@@ -570,6 +691,7 @@ WHIT_EXPORT_KERNEL(FindLayers)
 WHIT_EXPORT_KERNEL(AddReflections)
 WHIT_EXPORT_KERNEL(AddGlossyReflections)
 WHIT_EXPORT_KERNEL(AddRefractions)
+WHIT_EXPORT_KERNEL(AddFrostedRefractions)
 WHIT_EXPORT_KERNEL(AddIndirect)
 WHIT_EXPORT_KERNEL(ReturnImpulses)
 WHIT_EXPORT_KERNEL(ReturnToEye)

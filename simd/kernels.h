@@ -125,6 +125,9 @@ WHIT_KERNEL(AddGlossyReflections, "addGlossyReflections", addImpulses, {Part::ra
             {Part::children, Part::radiance});
 WHIT_KERNEL(AddRefractions, "addRefractions", addImpulses, {Part::rays, Part::surfels},
             {Part::children, Part::radiance});
+// Samples of what frosted glass transmits, written and decided on like those of glossy lobes.
+WHIT_KERNEL(AddFrostedRefractions, "addFrostedRefractions", addImpulses,
+            {Part::rays, Part::surfels}, {Part::children, Part::radiance});
 // Rays drawn by the cosine to the normals of diffuse surfels, written and decided on like samples
 // of glossy lobes.
 WHIT_KERNEL(AddIndirect, "addIndirect", addImpulses, {Part::rays, Part::surfels},
@@ -163,6 +166,7 @@ inline constexpr std::array kKernels{kGenerateRays,
                                      kAddReflections,
                                      kAddGlossyReflections,
                                      kAddRefractions,
+                                     kAddFrostedRefractions,
                                      kAddIndirect,
                                      kReturnImpulses,
                                      kReturnToEye,

@@ -88,8 +88,9 @@ struct GlossyLobes {
   MF rough;
 };
 
+// The lanes of `flat` are smooth whatever their roughness.
 HWY_INLINE GlossyLobes LoadGlossyLobes(const ShadingTables& tables, const SurfelColumns& surfels,
-                                       const V3& direction, const V3& ns, size_t i) {
+                                       const V3& direction, const V3& ns, MF flat, size_t i) {
   const FloatTag d;
   const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
   GlossyLobes lobes;
@@ -109,7 +110,7 @@ HWY_INLINE GlossyLobes LoadGlossyLobes(const ShadingTables& tables, const Surfel
   lobes.f0 = Load3(surfels.specularR, surfels.specularG, surfels.specularB, i);
   lobes.f90 = LobeGrazing(tables, surfels, lobes.f0, i);
   const VF alpha = hn::Load(d, surfels.alpha + i);
-  lobes.rough = hn::Gt(alpha, hn::Set(d, kSmoothAlpha));
+  lobes.rough = hn::AndNot(flat, hn::Gt(alpha, hn::Set(d, kSmoothAlpha)));
   lobes.alpha = hn::IfThenElseZero(lobes.rough, alpha);
   lobes.nv = hn::Max(towards, hn::Set(d, 1e-4f));
   const V3 seen = Normalize3({hn::Mul(sine, lobes.alpha), zero, lobes.nv});
@@ -138,23 +139,41 @@ struct LobeSample {
   VF cosine;  // of the direction to the shading normal; the ray ends in the surface unless above 0
 };
 
-HWY_INLINE LobeSample SampleLobe(const GlossyLobes& lobes, const UnitPoints& at) {
+// facetAt() of the scalar reference, with the reflectance of a lobe.
+struct Facet {
+  V3 normal;
+  VF cosine;     // between viewer and facet, in [0, 1]
+  V3 mirrored;   // the view
+  VF elevation;  // of that over the surface
+  V3 reflectance;
+};
+
+HWY_INLINE Facet FacetAt(const GlossyLobes& lobes, const UnitPoints& at) {
   const FloatTag d;
-  const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
   const V3 h = VisibleNormal(lobes, at);
-  const VF vh = Dot(lobes.view, h);
+  const VF vh = Dot(lobes.view, h), cosine = hn::Min(hn::Max(vh, hn::Zero(d)), hn::Set(d, 1.0f));
   const V3 l = Normalize3(Sub3(Scale3(h, hn::Add(vh, vh)), lobes.view));
-  const VF nl = Dot(lobes.z, l), nv = lobes.nv;
-  // G2 / G1.
+  const V3 grazing{hn::Sub(lobes.f90, lobes.f0.x), hn::Sub(lobes.f90, lobes.f0.y),
+                   hn::Sub(lobes.f90, lobes.f0.z)};
+  return {h, cosine, l, Dot(lobes.z, l), MulAdd3(grazing, SchlickTerm(cosine), lobes.f0)};
+}
+
+// passingShare().
+HWY_INLINE VF PassingShare(const GlossyLobes& lobes, VF nl) {
+  const FloatTag d;
+  const VF one = hn::Set(d, 1.0f), nv = lobes.nv;
   const VF a2 = hn::Mul(lobes.alpha, lobes.alpha), rest = hn::Sub(one, a2);
   const VF maskV = hn::Sqrt(MulThenAdd(hn::Mul(nv, nv), rest, a2));
   const VF maskL = hn::Sqrt(MulThenAdd(hn::Mul(nl, nl), rest, a2));
-  const VF passes =
-      hn::Div(hn::Mul(nl, hn::Add(nv, maskV)), MulThenAdd(nl, maskV, hn::Mul(nv, maskL)));
-  const VF schlick = SchlickTerm(hn::Min(hn::Max(vh, zero), one));
-  const V3 grazing{hn::Sub(lobes.f90, lobes.f0.x), hn::Sub(lobes.f90, lobes.f0.y),
-                   hn::Sub(lobes.f90, lobes.f0.z)};
-  return {l, Scale3(MulAdd3(grazing, schlick, lobes.f0), passes), nl};
+  return hn::Div(hn::Mul(nl, hn::Add(nv, maskV)), MulThenAdd(nl, maskV, hn::Mul(nv, maskL)));
+}
+
+// seenShare().
+HWY_INLINE VF SeenShare(VF cosine, VF alpha) {
+  const FloatTag d;
+  const VF a2 = hn::Mul(alpha, alpha), rest = hn::Sub(hn::Set(d, 1.0f), a2);
+  const VF mask = hn::Sqrt(MulThenAdd(hn::Mul(cosine, cosine), rest, a2));
+  return hn::Div(hn::Add(cosine, cosine), hn::Add(cosine, mask));
 }
 
 // The counterpart of lobeAlbedo(), in the lanes of `live`.

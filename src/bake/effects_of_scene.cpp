@@ -50,9 +50,10 @@ constexpr MaterialRule kMaterialRules[] = {
      [](const Material& m) { return m.alphaMap != kNoTexture && m.alphaCutoff > 0; }},
     {Effect::coverage, "whose coverage is not 1",
      [](const Material& m) { return m.isPartlyThere(); }},
-    {Effect::glossy, "with a glossy lobe", [](const Material& m) { return m.hasGlossy(); }},
+    {Effect::glossy, "with a glossy lobe",
+     [](const Material& m) { return m.hasGlossy() || m.isFrosted(); }},
     {Effect::glossyReflection, "whose glossy lobe reflects the scene",
-     [](const Material& m) { return m.hasGlossyReflection(); }},
+     [](const Material& m) { return m.hasGlossyReflection() || m.isFrosted(); }},
     {Effect::indirect, "whose diffuse color reflects the scene",
      [](const Material& m) { return m.hasDiffuseReflection(); }},
     {Effect::emission, "with emission", [](const Material& m) { return !isBlack(m.emission); }},
@@ -122,7 +123,9 @@ class Gatherer {
     set(Effect::sky, sky, "the sky is not black", "the sky is black");
     set(Effect::skyImage, image, "the sky is an image",
         sky ? "the sky is not an image" : "the sky is black");
-    const bool rough = scene_.effects.has(Effect::glossyReflection);
+    // The interface of frosted glass reflects no blurred sky.
+    const bool rough = scene_.effects.has(Effect::glossyReflection) &&
+                       std::ranges::any_of(scene_.materials, &Material::hasGlossyReflection);
     set(Effect::blurredSky, sky && rough && scene_.ambient.reflection > 0,
         "a glossy lobe reflects the sky",
         !sky    ? "the sky is black"

@@ -239,7 +239,8 @@ decltype(auto) withOptions(Options& o, Use&& use) {
       // The exact value is that of each of the many samples per pixel of the reference.
       Option{{.name = "glossy", .words = "N", .low = 0, .high = 64,
               .help = "glossy reflections: sampled rays per hit on a rough surface, one per hit "
-                      "after a bounce; 0: rough surfaces reflect lights and a blurred sky",
+                      "after a bounce; 0: rough surfaces reflect lights and a blurred sky, and frosted "
+                      "glass is clear",
               .rebuilds = Rebuild::tables,
               .cheapest = "0",
               .everyday = true,

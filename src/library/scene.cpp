@@ -74,7 +74,7 @@ Json describe(const Material& m) {
   add("transmissionMap", m.transmissionMap);
   add("coverage", m.coverage), add("coverageMap", m.coverageMap);
   add("mirror", m.mirror), add("mirrorGrazing", m.mirrorGrazing);
-  add("transmission", m.transmission), add("thin", m.thin);
+  add("transmission", m.transmission), add("thin", m.thin), add("frosted", m.frosted);
   add("ior", m.ior), add("absorption", m.absorption);
   add("glossyReflection", m.glossyReflection), add("castsShadow", m.castsShadow);
   return json;

@@ -188,7 +188,7 @@ struct Material {
   Vector diffuse{0.8, 0.8, 0.8}, specular{0, 0, 0}, emission{0, 0, 0};
   double roughness = 0.5, coverage = 1, ior = 1.5;
   std::optional<Vector> mirror, mirrorGrazing, transmission, absorption;
-  std::optional<bool> thin, glossyReflection, castsShadow;
+  std::optional<bool> thin, frosted, glossyReflection, castsShadow;
   std::string diffuseMap, specularMap, roughnessMap, emissionMap, normalMap, alphaMap, coverageMap,
       occlusionMap, mirrorMap, transmissionMap;
 };

@@ -22,8 +22,11 @@ void leaveOutOfMaterial(Material& m, EffectSet effects) {
     m.coverage = 1;
     m.coverageMap = kNoTexture;
   }
-  if (effects.has(Effect::glossy)) m.specular = kBlack;
-  if (effects.has(Effect::glossyReflection)) m.glossyReflection = false;
+  if (effects.has(Effect::glossy)) {
+    m.specular = kBlack;
+    m.frosted = false;
+  }
+  if (effects.has(Effect::glossyReflection)) m.glossyReflection = m.frosted = false;
   if (effects.has(Effect::indirect)) m.diffuseReflection = false;
   if (effects.has(Effect::emission)) m.emission = kBlack;
   if (effects.has(Effect::shadows)) m.castsShadow = false;

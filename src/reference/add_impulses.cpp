@@ -61,9 +61,9 @@ RgbD underMirror(const Material& material, const RgbD& color, const RgbD& mirror
   return material.coat ? color * (RgbD(1.0) - mirror) : limited(color, mirror + others);
 }
 
-// The share of the light that the interface does not reflect.
+// The share of the light that the interface does not reflect, but for facets, which are a lobe.
 double passedBy(const Crossing& crossing, const ShadingChoices& choices, const Surfel& surfel) {
-  if (!crossing.dielectric) return 1;
+  if (!crossing.dielectric || surfel.frosting.ofInterface) return 1;
   const double c = cosineOf(surfel);
   return 1 - makeInterface(crossing.n1, crossing.n2, c, choices.fresnel).reflectance;
 }
@@ -149,11 +149,16 @@ Impulses findImpulses(const Scene& scene, EffectSet effects, const Surfel& surfe
   if (crossing.dielectric) {
     const Interface interface = makeInterface(crossing.n1, crossing.n2, c, choices.fresnel);
     const double passed = 1 - interface.reflectance;
-    if (mirrors) reflectance = RgbD(interface.reflectance) + reflectance * passed;
-    if (passed > 0) {
-      const RgbD transmission = RgbD(material.transmission) * surfel.transmission;
-      const RgbD through = underMirror(material, transmission, mirror) *
-                           (RgbD(passed) - surfel.lobe) * surfel.coverage;
+    const bool isRough = surfel.frosting.ofInterface;
+    if (mirrors && !isRough) reflectance = RgbD(interface.reflectance) + reflectance * passed;
+    if (passed > 0 && !isRough) {
+      // Samples bring what frosted sheets transmit.
+      RgbD through;
+      if (!surfel.frosting.ofSheet) {
+        const RgbD transmission = RgbD(material.transmission) * surfel.transmission;
+        through = underMirror(material, transmission, mirror) * (RgbD(passed) - surfel.lobe) *
+                  surfel.coverage;
+      }
       result.refracted = {through + RgbD((1 - surfel.coverage) * passed),
                           refractedRay(surfel, interface, c, choices), crossing.stackBehind};
     }
@@ -186,9 +191,21 @@ RgbD underCoat(const Material& material, EffectSet effects, const Surfel& surfel
   return RgbD(1.0) - mirrorOf(material, effects, surfel);
 }
 
-RgbD aboveLobe(const Material& material, EffectSet effects, const Crossing& crossing,
-               const ShadingChoices& choices, const Surfel& surfel) {
-  return (RgbD(1.0) - mirrorOf(material, effects, surfel)) * passedBy(crossing, choices, surfel);
+void findLobes(const Material& material, EffectSet effects, const Crossing& crossing,
+               const ShadingChoices& choices, Surfel& surfel) {
+  const RgbD mirror = mirrorOf(material, effects, surfel);
+  if (material.frosts(effects) && !crossing.hidden) {
+    Frosting& frosting = surfel.frosting;
+    frosting.ofInterface = material.boundsMedium();
+    frosting.ofSheet = !frosting.ofInterface && crossing.n1 == crossing.n2;
+    frosting.reflects = material.scatters(effects);
+    frosting.n1 = crossing.n1;
+    frosting.n2 = crossing.n2;
+    frosting.transmission =
+        underMirror(material, RgbD(material.transmission) * surfel.transmission, mirror);
+    frosting.mediaBehind = crossing.stackBehind;
+  }
+  surfel.aboveLobe = (RgbD(1.0) - mirror) * passedBy(crossing, choices, surfel);
 }
 
 namespace {
@@ -202,6 +219,7 @@ RgbD weightOfLobe(const Material& material, EffectSet effects, const ShadingChoi
   }
   Surfel alone = surfel;
   alone.coverage = 1;
+  alone.aboveLobe = RgbD(1.0);
   RgbD sum;
   const int rays = glossyRays(surfel, points.sampling);
   for (int i = 0; i < rays; ++i) {
@@ -217,6 +235,7 @@ RgbD weightOfLobe(const Material& material, EffectSet effects, const ShadingChoi
 void findLayers(const Scene& scene, EffectSet effects, const Crossing& crossing,
                 const ShadingChoices& choices, const LobePoints& points, Surfel& surfel) {
   const Material& material = scene.materials[surfel.material];
+  findLobes(material, effects, crossing, choices, surfel);
   if (crossing.hidden || !material.isLayered(effects)) return;
   const RgbD mirror = mirrorOf(material, effects, surfel);
   const double passed = passedBy(crossing, choices, surfel);
@@ -225,7 +244,6 @@ void findLayers(const Scene& scene, EffectSet effects, const Crossing& crossing,
     albedo = weightOfLobe(material, effects, choices, points, surfel);
   }
   surfel.lobe = albedo * passed;
-  surfel.aboveLobe = (RgbD(1.0) - mirror) * passed;
   surfel.underCoat = underCoat(material, effects, surfel);
 
   const bool transmits = crossing.dielectric && material.hasTransmission();
@@ -236,33 +254,92 @@ void findLayers(const Scene& scene, EffectSet effects, const Crossing& crossing,
                    (transmits ? passed : 1);
 }
 
+namespace {
+
+// The width of the facets' distribution; 0 where they are as good as smooth, or bend no light.
+double widthOfFacets(const Surfel& s) {
+  const bool bends = !s.frosting.ofInterface || s.frosting.n1 != s.frosting.n2;
+  return s.alpha > double{kSmoothAlpha} && bends ? s.alpha : 0;
+}
+
+// A facet that the viewer sees.
+struct Facet {
+  Vec3d normal;
+  double cosine = 0;  // between viewer and facet, in [0, 1]
+  RgbD reflectance;
+  Vec3d mirrored;        // the view, unit
+  double elevation = 0;  // of that over the surface
+  double passes = 0;     // of what goes there, past other facets
+};
+
+Facet facetAt(const Surfel& s, const UnitPoint& at, FresnelModel model) {
+  const Frame frame = frameOfIncidence(s.shadingNormal, s.view);
+  const double nv = std::max(dot(s.shadingNormal, s.view), 1e-4), alpha = widthOfFacets(s);
+  const double turn = 2 * std::numbers::pi * double{at.u};
+  const Vec3d m = visibleNormal(normalized(Vec3d(frame.sine, 0, nv)), alpha, std::cos(turn),
+                                std::sin(turn), double{at.v});
+  Facet facet;
+  facet.normal = frame.x * m.x + frame.y * m.y + frame.z * m.z;
+  const double vh = dot(s.view, facet.normal);
+  facet.cosine = std::clamp(vh, 0.0, 1.0);
+  facet.mirrored = normalized(facet.normal * (2 * vh) - s.view);
+  facet.elevation = dot(s.shadingNormal, facet.mirrored);
+  facet.passes = passingShare(nv, facet.elevation, alpha);
+
+  if (s.frosting.ofInterface) {
+    const Frosting& f = s.frosting;
+    facet.reflectance = RgbD(makeInterface(f.n1, f.n2, facet.cosine, model).reflectance);
+  } else {
+    const RgbD f0 = s.specular, f90(lobeGrazing(f0, s.grazingRatio));
+    facet.reflectance = f0 + (f90 - f0) * schlickTerm(facet.cosine);
+  }
+  return facet;
+}
+
+}  // namespace
+
 int glossyRays(const Surfel& surfel, const LobeSampling& sampling) {
-  return surfel.alpha > double{kSmoothAlpha} ? static_cast<int>(sampling.count) : 1;
+  return widthOfFacets(surfel) > 0 ? static_cast<int>(sampling.count) : 1;
 }
 
 Impulse glossyImpulse(const Surfel& s, MediaStack stack, const UnitPoint& at,
                       const ShadingChoices& choices) {
-  const Frame frame = frameOfIncidence(s.shadingNormal, s.view);
-  const double nv = std::max(dot(s.shadingNormal, s.view), 1e-4);
-  const double alpha = s.alpha > double{kSmoothAlpha} ? s.alpha : 0;
-  const double turn = 2 * std::numbers::pi * double{at.u};
-  const Vec3d m = visibleNormal(normalized(Vec3d(frame.sine, 0, nv)), alpha, std::cos(turn),
-                                std::sin(turn), double{at.v});
-  const Vec3d h = frame.x * m.x + frame.y * m.y + frame.z * m.z;
-  const double vh = dot(s.view, h);
-  const Vec3d mirrored = normalized(h * (2 * vh) - s.view);
-  const double nl = dot(s.shadingNormal, mirrored);
-  if (!(nl > 0)) return {};
+  const Facet facet = facetAt(s, at, choices.fresnel);
+  if (!(facet.elevation > 0)) return {};
 
-  const double passes = passingShare(nv, nl, alpha);
-  const RgbD f0 = s.specular, f90(lobeGrazing(f0, s.grazingRatio));
-  const RgbD fresnel = f0 + (f90 - f0) * schlickTerm(std::clamp(vh, 0.0, 1.0));
   // Turned back by bent normals only: where both agree the ray is high enough as it is.
-  const Vec3d r =
-      choices.bend ? lifted(mirrored, s.geometricNormal, std::min(0.9 * nl, 0.01)) : mirrored;
-  return {fresnel * (passes * s.coverage) * s.aboveLobe,
+  const double least = std::min(0.9 * facet.elevation, 0.01);
+  const Vec3d r = choices.bend ? lifted(facet.mirrored, s.geometricNormal, least) : facet.mirrored;
+  return {facet.reflectance * (facet.passes * s.coverage) * s.aboveLobe,
           {rayOrigin(choices.offset, s, 1), r, s.cone},
           stack};
+}
+
+Impulse frostedImpulse(const Surfel& s, MediaStack, const UnitPoint& at,
+                       const ShadingChoices& choices) {
+  const Frosting& f = s.frosting;
+  Facet facet = facetAt(s, at, choices.fresnel);
+  const double alpha = widthOfFacets(s);
+  Vec3d direction;
+  double depth = 0, passes = 0;  // as a sine, under the surface; past other facets
+  if (f.ofSheet) {
+    if (!f.reflects) facet.reflectance = {};
+    depth = std::fabs(facet.elevation);
+    direction = facet.mirrored - s.shadingNormal * (depth + facet.elevation);
+    passes = 1;
+  } else if (f.ofInterface && facet.reflectance.x < 1) {
+    const Interface interface = makeInterface(f.n1, f.n2, facet.cosine, choices.fresnel);
+    direction = refract(interface, -s.view, facet.normal, facet.cosine);
+    depth = -dot(s.shadingNormal, direction);
+    passes = seenShare(depth, alpha);
+  }
+  if (!(depth > 0)) return {};
+
+  const bool goesOn = alpha == 0 && f.n1 == f.n2;
+  if (choices.bend) direction = lifted(direction, -s.geometricNormal, std::min(0.9 * depth, 0.01));
+  return {(RgbD(1.0) - facet.reflectance) * (passes * s.coverage) * f.transmission,
+          {rayOrigin(choices.offset, s, -1), goesOn ? -s.view : direction, s.cone},
+          f.mediaBehind};
 }
 
 Impulse indirectImpulse(const Surfel& s, MediaStack stack, const UnitPoint& at,
@@ -275,16 +352,16 @@ Impulse indirectImpulse(const Surfel& s, MediaStack stack, const UnitPoint& at,
 
 double factorOfLobe(const Lobe& lobe, const Material& material, EffectSet effects,
                     const Surfel& surfel, int depth, std::uint32_t path) {
+  if (lobe.kind == RayKind::refraction) return 1;
   if (depth == 0) return surfel.occlusion;
-  const auto isSampled = [&](const Lobe& one) { return one.isSampled(material, effects); };
-  if (!std::ranges::all_of(kLobes, isSampled)) return 1;
+  if (!material.scatters(effects) || !material.diffuses(effects)) return 1;
 
   // The lobe's weight is that of its one sample (findLayers).
   const RgbD mirror = mirrorOf(material, effects, surfel);
   const double glossy = maxComponent(surfel.lobe * (RgbD(1.0) - mirror));
   const double diffuse = maxComponent(surfel.diffuse), both = glossy + diffuse;
 
-  const bool isGlossy = lobe.effect == kGlossyLobe.effect;
+  const bool isGlossy = lobe.kind == RayKind::reflection;
   const bool followsGlossy = double{pathDraw(path, kLobeSalt)} * both < glossy;
   if (isGlossy != followsGlossy) return 0;
   const double own = isGlossy ? glossy : diffuse;
@@ -310,7 +387,7 @@ RayRow addImpulses(const World& world, const Chunk& chunk, std::size_t child) {
                                        stack, alsoCrossedAt(chunk, slot));
   const Material& material = world.scene.materials[surfel.material];
   surfel.grazingRatio = double{material.grazingRatio};
-  surfel.aboveLobe = aboveLobe(material, world.effects, crossing, chunk.options().shading, surfel);
+  findLobes(material, world.effects, crossing, chunk.options().shading, surfel);
   const RayKind kind = kindOf(chunk, child);
   RayRow row;
   row.path = childStream(path, branchOf(kind));

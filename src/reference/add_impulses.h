@@ -1,6 +1,6 @@
 // addImpulses: the rays that a surfel sends on, mirrored and refracted (Whitted 1980, "An improved
-// illumination model for shaded display"), samples of the GGX lobe of a rough one and
-// of what a diffuse one sees.
+// illumination model for shaded display"), samples of the GGX lobe of a rough one, of what frosted
+// glass transmits and of what a diffuse one sees.
 #pragma once
 
 #include <algorithm>
@@ -60,9 +60,9 @@ double mirroredShare(const Material& material, EffectSet effects, const Surfel& 
 // What a coat leaves of the light of lamps for the lobe below.
 RgbD underCoat(const Material& material, EffectSet effects, const Surfel& surfel);
 
-// What mirror and interface leave for the lobe.
-RgbD aboveLobe(const Material& material, EffectSet effects, const Crossing& crossing,
-               const ShadingChoices& choices, const Surfel& surfel);
+// Sets what mirror and interface leave for the lobe, and how frosted glass scatters light.
+void findLobes(const Material& material, EffectSet effects, const Crossing& crossing,
+               const ShadingChoices& choices, Surfel& surfel);
 
 // Finds what the layers of the surface leave for each other (scene/material.h has the rule): sets
 // the lobe's share, and scales the diffuse color, so that a surface never sends out more light than
@@ -84,9 +84,19 @@ int glossyRays(const Surfel& surfel, const LobeSampling& sampling);
 // The ray mirrored by the visible normal at `at`, with the weight F G2 / G1 (height-correlated
 // Smith masking, as in glossyLobe) times what lies above leaves: its mean over the unit square is
 // what the lobe reflects. Weight 0 for rays that end in the surface: what several bounces between
-// its facets would rescue is lost. `stack` is that of the incoming ray.
+// its facets would rescue is lost. `stack` is that of the incoming ray. The facets of a frosted
+// interface reflect by its indices of refraction.
 Impulse glossyImpulse(const Surfel& surfel, MediaStack stack, const UnitPoint& at,
                       const ShadingChoices& choices = {});
+
+// The ray that the visible normal at `at` lets pass, the same one as in glossyImpulse: refracted by
+// an interface with the weight (1 - F) G1 (Walter et al. 2007, eq. 41, for visible normals), and by
+// a sheet with 1 - F in the direction that it mirrors, mirrored once more at the sheet. A sheet
+// masks nothing: what its facets send into it leaves it at the far side. As for smooth glass the
+// radiance is not scaled by the square of the indices' ratio, which cancels where light leaves the
+// glass again.
+Impulse frostedImpulse(const Surfel& surfel, MediaStack stack, const UnitPoint& at,
+                       const ShadingChoices& choices = {});
 
 // A ray drawn by the cosine to the shading normal, with the weight of the albedo: its mean over the
 // unit square is what the diffuse surface reflects of the radiance around it. `stack` is that of
@@ -97,6 +107,7 @@ Impulse indirectImpulse(const Surfel& surfel, MediaStack stack, const UnitPoint&
 // Returns the factor for samples of the lobe. At the surface that the eye sees it is the occlusion
 // map: light that went around more corners has met what the map stands for, if it is there. Behind
 // it one lobe is chosen (stages/lobes.h) and counts for both; the factor of the other one is 0.
+// What glass transmits is neither occluded nor part of that choice.
 double factorOfLobe(const Lobe& lobe, const Material& material, EffectSet effects,
                     const Surfel& surfel, int depth, std::uint32_t path);
 
@@ -111,6 +122,7 @@ struct SampledLobe {
 };
 inline constexpr std::array kSampledLobes{
     SampledLobe{kGlossyLobe, glossyRays, glossyImpulse},
+    SampledLobe{kFrostedLobe, glossyRays, frostedImpulse},
     SampledLobe{kDiffuseLobe,
                 [](const Surfel&, const LobeSampling& s) { return static_cast<int>(s.count); },
                 indirectImpulse}};

@@ -133,8 +133,9 @@ RgbD Tracer::radianceByLobe(const SampledLobe& sampled, const Surfel& surfel, in
     const UnitPoint at = pointOf(lobe, path.number, sampling, k);
     Impulse impulse = impulseOf(surfel, media, at, options_.shading);
     impulse.weight *= factor;
-    sum += follow(impulse, lobe.kind, depth + 1, throughput, counts,
-                  childOf(path, lobe.firstBranch + k), rays, choice);
+    Path child = childOf(path, lobe.firstBranch + k);
+    child.straight = path.straight && impulse.ray.direction == -surfel.view;
+    sum += follow(impulse, lobe.kind, depth + 1, throughput, counts, child, rays, choice);
   }
   counts.ended = ended + (counts.ended - ended) / rays;
   return sum / rays;

@@ -19,6 +19,16 @@ namespace whit::reference {
 
 inline constexpr double kUnitRoundOff = 0x1p-24;  // of float
 
+// How the facets of frosted glass scatter what passes it, in frames that sample them.
+struct Frosting {
+  bool ofInterface = false;  // they are those of the interface between two media
+  bool ofSheet = false;      // or those of a sheet that has the same medium on both sides
+  bool reflects = false;     // the facets of a sheet reflect as its glossy lobe says
+  double n1 = 1, n2 = 1;     // refractive indices in front and behind
+  RgbD transmission;         // what the surface lets pass of the light that no facet reflects
+  std::uint32_t mediaBehind = 0;
+};
+
 // A point of a surface with all that shading needs to know about it, and where rays leave it.
 struct Surfel {
   Vec3d position;
@@ -40,7 +50,8 @@ struct Surfel {
   RgbD aboveLobe{1, 1, 1};  // what mirror and interface leave for the samples of the lobe
   RgbD underCoat{1, 1, 1};  // what a coat leaves of the light of lamps for the lobe
   RgbD lobe;                // what the lobe takes of the light that the mirror leaves
-  RayCone cone;             // of rays that go on from here
+  Frosting frosting;
+  RayCone cone;  // of rays that go on from here
 };
 
 // One coordinate, moved towards `direction`.

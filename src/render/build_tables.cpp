@@ -41,6 +41,7 @@ std::uint32_t flagsOf(const Material& m, bool onOthers, EffectSet effects) {
   if (m.mirrorsByLobe(effects)) flags |= kMaterialMirrorsByLobe;
   if (m.coat) flags |= kMaterialCoated;
   if (m.isUnderCoat(effects)) flags |= kMaterialIsUnderCoat;
+  if (m.hasFrostedInterface(effects)) flags |= kMaterialFrostedInterface;
   if (effects.has(Effect::textures) && m.variesRoughness()) flags |= kMaterialVariesRoughness;
   if (effects.has(Effect::coverage) && m.isPartlyThere()) flags |= kMaterialIsPartlyThere;
   for (const Lobe& lobe : kLobes) {
@@ -82,7 +83,7 @@ MaterialRecord recordOf(const Material& m, std::uint32_t medium, bool onOthers, 
   r.diffuseMap = maps.of(m, &Material::diffuseMap, textured);
   copy3(m.specular, r.specular);
   r.specularMap = maps.of(m, &Material::specularMap, textured && m.hasGlossy());
-  r.roughnessMap = maps.of(m, &Material::roughnessMap, textured && m.hasGlossy());
+  r.roughnessMap = maps.of(m, &Material::roughnessMap, textured && m.hasFacets());
   r.roughness = m.roughness;
   r.coverage = m.coverage;
   r.coverageMap = maps.of(m, &Material::coverageMap, effects.has(Effect::coverage));

@@ -275,6 +275,10 @@ class Planner {
     if (has(Effect::transmission)) {
       addImpulse(simd::kAddRefractions, kMaterialTransmits, RayKind::refraction, 1);
     }
+    if (std::ranges::any_of(scene_.materials,
+                            [&](const Material& m) { return m.frosts(plan_.effects); })) {
+      addLobe(simd::kAddFrostedRefractions, kFrostedLobe);
+    }
     addLobe(simd::kAddIndirect, kDiffuseLobe);
     if (options_.depth == 0 && !notesEnds()) plan_.impulses.clear();
     if (plan_.impulses.empty()) return;

@@ -77,6 +77,11 @@ double passingShare(double nv, double nl, double alpha) {
   return nl * (nv + maskV) / (nl * maskV + nv * maskL);
 }
 
+double seenShare(double cosine, double alpha) {
+  const double a2 = alpha * alpha;
+  return 2 * cosine / (cosine + std::sqrt(cosine * cosine * (1 - a2) + a2));
+}
+
 const LobeTable& lobeTable() {
   static const LobeTable table = makeTable();
   return table;

@@ -22,6 +22,11 @@ Vec3d visibleNormal(const Vec3d& view, double alpha, double cosine, double sine,
 // are the cosines of view and reflected ray to the normal.
 double passingShare(double nv, double nl, double alpha);
 
+// Smith's G1: the share of a facet that is seen at this cosine to the surface's normal. Of what a
+// visible facet transmits as much gets out, since either side of the surface has its own masking
+// (Walter et al. 2007, section 5.1).
+double seenShare(double cosine, double alpha);
+
 // A table of the share of even light that the lobe reflects (Karis 2013, "Real Shading in Unreal
 // Engine 4"): F0 * (all - grazing) + F90 * grazing with the reflectances F0 at normal and F90 at
 // grazing incidence. It has a row for each roughness from 0 to 1 and a column for each square root

@@ -35,6 +35,12 @@
 // lobe is smooth, the sky blurred by roughness if it is rough, and a mixture of both between. A
 // lobe in whose place mirror or interface reflect the scene shows lights only, as their highlight,
 // and takes nothing from the others.
+//
+// Rays that sample lobes sample frosted glass, too. The facets of a frosted dielectric are its
+// interface: each reflects F and transmits 1 - F of its own angle (Walter et al. 2007), so that the
+// mean weight A of the reflected samples stands for F. Those of a frosted sheet transmit what they
+// do not reflect, in the mean straight on: the direction that they mirror, mirrored once more at
+// the sheet.
 #pragma once
 
 #include <algorithm>
@@ -125,6 +131,7 @@ struct Material {
   Rgb transmission{0, 0, 0};
   std::int32_t transmissionMap = kNoTexture;  // color
   bool thin = false;
+  bool frosted = false;  // facets of `roughness` scatter what passes, in frames that sample lobes
   float ior = 1.5f;
   Rgb absorption{0, 0, 0};  // per unit length, inside
   int priority = 0;         // of nested dielectrics: the highest wins where they overlap
@@ -142,21 +149,36 @@ struct Material {
             alphaMap,   coverageMap, occlusionMap, mirrorMap,   transmissionMap};
   }
   bool hasGlossy() const { return maxComponent(specular) > 0; }
-  bool variesRoughness() const { return hasGlossy() && roughnessMap != kNoTexture; }
+  bool hasFacets() const { return hasGlossy() || (frosted && hasTransmission()); }
+  bool variesRoughness() const { return hasFacets() && roughnessMap != kNoTexture; }
   bool hasGlossyReflection() const { return hasGlossy() && glossyReflection; }
   bool hasDiffuseReflection() const { return maxComponent(diffuse) > 0 && diffuseReflection; }
   // In frames with these effects the diffuse color reflects the scene in place of ambient light.
   bool diffuses(EffectSet effects) const {
     return effects.has(Effect::indirect) && hasDiffuseReflection();
   }
+  // It is frosted and rough, at least somewhere.
+  bool isFrosted() const {
+    const bool isRough = roughness * roughness > kSmoothAlpha || roughnessMap != kNoTexture;
+    return frosted && hasTransmission() && isRough;
+  }
+  // In frames with these effects rays sample what frosted glass transmits.
+  bool frosts(EffectSet effects) const {
+    return effects.has(Effect::glossyReflection) && effects.has(Effect::transmission) &&
+           isFrosted();
+  }
+  // In frames with these effects the facets of the interface reflect in place of a lobe.
+  bool hasFrostedInterface(EffectSet effects) const { return frosts(effects) && boundsMedium(); }
   // In frames with these effects the lobe takes light from what lies below it.
   bool covers(EffectSet effects) const {
-    return effects.has(Effect::glossy) && hasGlossy() &&
-           (glossyReflection || !(hasMirror() || hasTransmission()));
+    const bool isHighlight = !glossyReflection && (hasMirror() || hasTransmission());
+    return (effects.has(Effect::glossy) && hasGlossy() && !isHighlight) ||
+           hasFrostedInterface(effects);
   }
   // In frames with these effects lamps reach the lobe through a coat.
   bool isUnderCoat(EffectSet effects) const {
-    return coat && effects.has(Effect::mirror) && hasMirror() && covers(effects);
+    return coat && effects.has(Effect::mirror) && hasMirror() && covers(effects) &&
+           !hasFrostedInterface(effects);
   }
   // In frames with these effects the lobe reflects the blurred sky.
   bool reflectsBlurredSky(EffectSet effects) const {
@@ -172,7 +194,8 @@ struct Material {
   }
   // In frames with these effects rays sample the lobe.
   bool scatters(EffectSet effects) const {
-    return effects.has(Effect::glossyReflection) && hasGlossyReflection();
+    return (effects.has(Effect::glossyReflection) && hasGlossyReflection()) ||
+           hasFrostedInterface(effects);
   }
   // Mirror, lobe or transmission may leave less light than those below them ask for.
   bool isLayered(EffectSet effects) const {

@@ -109,6 +109,7 @@ constexpr MemberRules<Material> mapOf(TextureUse use) {
 }
 inline bool isGlossy(const Material& m) { return m.hasGlossy(); }
 inline bool isMirror(const Material& m) { return m.hasMirror(); }
+inline bool hasFacets(const Material& m) { return m.hasFacets(); }
 inline bool isTransparent(const Material& m) { return m.hasTransmission(); }
 
 // clang-format off
@@ -120,7 +121,7 @@ inline constexpr auto kMembers<Material> = std::tuple{
     Member{"specular", &Material::specular, {.kind = kColorMember, .high = 1}},
     Member{"specularMap", &Material::specularMap, mapOf(TextureUse::color)},
     Member{"grazingRatio", &Material::grazingRatio, {.inFiles = false}},
-    Member{"roughness", &Material::roughness, {.low = 0, .high = 1, .matters = isGlossy}},
+    Member{"roughness", &Material::roughness, {.low = 0, .high = 1, .matters = hasFacets}},
     Member{"roughnessMap", &Material::roughnessMap, mapOf(TextureUse::data)},
     Member{"emission", &Material::emission, {.kind = kColorMember, .usual = 1e4}},
     Member{"emissionMap", &Material::emissionMap, mapOf(TextureUse::emission)},
@@ -146,6 +147,7 @@ inline constexpr auto kMembers<Material> = std::tuple{
            {.kind = kColorMember, .high = 1, .decides = {"castsShadow", "glossyReflection"}}},
     Member{"transmissionMap", &Material::transmissionMap, mapOf(TextureUse::color)},
     Member{"thin", &Material::thin, {.matters = isTransparent}},
+    Member{"frosted", &Material::frosted, {.matters = isTransparent}},
     Member{"ior", &Material::ior,
            {.low = kLeastIor, .high = kLargestIor, .usual = 3, .matters = isTransparent}},
     Member{"absorption", &Material::absorption,

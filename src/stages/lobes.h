@@ -1,6 +1,6 @@
-// Lobes by which surfaces reflect the scene, sampled by rays that are drawn at random. What a lobe
-// is to plan, tables, kernels and reference stands here alone; how a ray of it is drawn, in
-// reference/add_impulses.h and simd/add_impulses.cpp.
+// Lobes by which surfaces reflect and transmit the scene, sampled by rays that are drawn at random.
+// What a lobe is to plan, tables, kernels and reference stands here alone; how a ray of it is
+// drawn, in reference/add_impulses.h and simd/add_impulses.cpp.
 #pragma once
 
 #include <algorithm>
@@ -16,34 +16,43 @@
 namespace whit {
 
 struct Lobe {
-  Effect effect;                         // in whose frames it is sampled
-  bool (Material::*isOf)() const;        // the materials that have it
-  std::uint32_t flag;                    // of these in such frames
-  RayKind kind;                          // of its rays
-  int (*samples)(const RenderOptions&);  // of a surfel that the eye sees
-  std::uint32_t firstBranch;             // of them, to childStream(); 64 follow
-  std::uint32_t salt;                    // of their lattice; 0: it is the path's own
+  Effect effect;                            // in whose frames it is sampled
+  bool (Material::*isOf)(EffectSet) const;  // the materials that have it in frames
+  std::uint32_t flag;                       // of these
+  RayKind kind;                             // of its rays
+  int (*samples)(const RenderOptions&);     // of a surfel that the eye sees
+  std::uint32_t firstBranch;                // of them, to childStream(); 64 follow
+  std::uint32_t salt;                       // of their lattice; 0: it is the path's own
 
   bool isSampled(const Material& material, EffectSet effects) const {
-    return effects.has(effect) && (material.*isOf)();
+    return (material.*isOf)(effects);
   }
 };
 
 inline constexpr Lobe kGlossyLobe{Effect::glossyReflection,
-                                  &Material::hasGlossyReflection,
+                                  &Material::scatters,
                                   kMaterialScatters,
                                   RayKind::reflection,
                                   glossySamples,
                                   3,
                                   0};
 inline constexpr Lobe kDiffuseLobe{Effect::indirect,
-                                   &Material::hasDiffuseReflection,
+                                   &Material::diffuses,
                                    kMaterialDiffuses,
                                    RayKind::indirect,
                                    [](const RenderOptions& o) { return o.indirect; },
                                    128,
                                    0x5851f42du};
-inline constexpr std::array kLobes{kGlossyLobe, kDiffuseLobe};
+// What frosted glass transmits. The points are those of the glossy lobe, so that each facet that is
+// drawn both reflects and transmits.
+inline constexpr Lobe kFrostedLobe{Effect::glossyReflection,
+                                   &Material::frosts,
+                                   kMaterialFrosts,
+                                   RayKind::refraction,
+                                   glossySamples,
+                                   256,
+                                   0};
+inline constexpr std::array kLobes{kGlossyLobe, kFrostedLobe, kDiffuseLobe};
 
 // Where a surface behind the first hit has both lobes, one of them is followed, or the rays would
 // double at every bounce and the cutoff would end them all. It is drawn with a probability in

@@ -55,6 +55,8 @@ inline constexpr std::uint32_t kMaterialLayered = 16384, kMaterialCovers = 1u <<
                                kMaterialMirrorsByLobe = 1u << 21;
 // Material::coat, and isUnderCoat() in such frames.
 inline constexpr std::uint32_t kMaterialCoated = 1u << 22, kMaterialIsUnderCoat = 1u << 23;
+// Material::frosts() and hasFrostedInterface() in such frames.
+inline constexpr std::uint32_t kMaterialFrosts = 1u << 24, kMaterialFrostedInterface = 1u << 25;
 inline constexpr std::uint32_t kMaterialIsOccluded = 1u << 16,
                                kMaterialOcclusionBySecondUvs = 1u << 17;
 // Maps or vertex colors multiply it.

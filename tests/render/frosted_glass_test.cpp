@@ -1,0 +1,141 @@
+// Frosted glass: the vector pipeline against the reference, energy, and its cost where there is
+// none.
+#include <gtest/gtest.h>
+
+#include "reference/small_scenes.h"
+#include "render/pipeline_laws.h"
+#include "render/plan.h"
+
+namespace whit::test {
+namespace {
+
+Material glassOf(float roughness) {
+  Material m = blackMaterial();
+  m.transmission = Rgb(0.9f, 1.0f, 0.8f);
+  m.roughness = roughness;
+  m.frosted = true;
+  m.glossyReflection = m.castsShadow = false;
+  return m;
+}
+
+// Solids and sheets before a lit floor: smooth and rough ones, in one another and one upon another,
+// with a coat, a lobe, a color, a roughness map, and partly there.
+Scene frostedThings() {
+  SceneBuilder builder;
+  builder.sky(1);
+  builder.add(floorAt(0, 6, builder.add(diffuseMaterial(0.6f))));
+  const auto green = [](float g) { return encodeDataTexel(0.3f, g, 0.7f, 1); };
+  const std::int32_t map = builder.add(
+      makeTexture(TexelFormat::data, 2, 2, {green(1), green(0.01f), green(0.5f), green(0.8f)}));
+
+  for (int i = 0; i < 6; ++i) {
+    Material m = glassOf(i == 0 ? 0.02f : 0.15f * static_cast<float>(i));
+    m.ior = 1.2f + 0.2f * static_cast<float>(i);
+    if (i == 1) m.mirror = Rgb(0.1f), m.mirrorGrazing = Rgb(0.5f);
+    if (i == 2) m.coat = true, m.mirror = Rgb(0.2f), m.mirrorGrazing = Rgb(1.0f);
+    if (i == 3) m.specular = Rgb(0.04f), m.diffuse = Rgb(0.4f, 0.2f, 0.1f), m.transmission *= 0.5f;
+    if (i == 4) m.roughnessMap = map;
+    const float x = static_cast<float>(i) - 2.5f;
+    Mesh block = box({x - 0.4f, 0.1f, -0.4f}, {x + 0.4f, 0.9f, 0.4f}, builder.add(m));
+    builder.add(std::move(block));
+    if (i == 5) {
+      m.ior = 1.1f;
+      builder.add(box({x - 0.2f, 0.3f, -0.2f}, {x + 0.2f, 0.6f, 0.6f}, builder.add(m)));
+    }
+  }
+
+  // The last sheet lies on the face of a block.
+  for (int i = 0; i < 4; ++i) {
+    Material m = glassOf(0.3f);
+    m.thin = true;
+    if (i > 0) m.specular = Rgb(0.04f), m.glossyReflection = true;
+    if (i == 2) m.coverage = 0.6f;
+    const float x = static_cast<float>(i) - 2.5f, z = i == 3 ? 0.4f : 1.5f;
+    builder.add(quad({x - 0.3f, 0.2f, z}, {x + 0.3f, 0.2f, z}, {x + 0.3f, 0.8f, z},
+                     {x - 0.3f, 0.8f, z}, builder.add(m)));
+  }
+
+  builder.description.lights = {sun({0.5f, -1, -0.5f}, 2)};
+  Camera camera;
+  camera.eye = {0.3f, 1.8f, 5};
+  camera.at = {0, 0.4f, 0};
+  builder.description.cameras = {camera};
+  return builder.build();
+}
+
+RenderOptions withSamples() {
+  RenderOptions o = smallOptions();
+  o.glossy = 3;
+  return o;
+}
+
+TEST(FrostedGlass, AgreesWithTheReferenceOnEveryTarget) {
+  expectStagesAgreeOnEveryTarget(frostedThings(), withSamples());
+  expectSampledPictureAgrees(frostedThings(), withSamples());
+  RenderOptions o = withSamples();
+  o.indirect = 1;
+  o.shading.fresnel = FresnelModel::schlick;
+  expectStagesAgreeOnEveryTarget(frostedThings(), o);
+  expectSampledPictureAgrees(frostedThings(), o);
+}
+
+TEST(FrostedGlass, KeepsItsBitsWhateverTheQueues) {
+  expectBitsWhateverTheQueues(frostedThings(), withSamples());
+}
+
+// From each surface behind the first hit at most one ray is reflected and one refracted.
+TEST(FrostedGlass, HasBoundedTrees) {
+  RenderOptions o = withSamples();
+  o.maxRays = 100000;
+  for (int depth = 1; depth < 5; ++depth) {
+    o.depth = depth;
+    const Plan plan = makePlan(frostedThings(), o);
+    for (const Step& step : plan.impulses) EXPECT_EQ(step.childrenAt(1), 1u) << step.name;
+  }
+}
+
+TEST(FrostedGlass, HasAStepWhereTheSceneHasIt) {
+  Scene scene = frostedThings();
+  EXPECT_NE(makePlan(scene, withSamples()).find("addFrostedRefractions"), nullptr);
+  EXPECT_EQ(makePlan(scene, smallOptions()).find("addFrostedRefractions"), nullptr);
+
+  RenderOptions o = withSamples();
+  o.disable = EffectSet().with(Effect::transmission);
+  EXPECT_EQ(makePlan(scene, o).find("addFrostedRefractions"), nullptr);
+
+  for (Material& m : scene.materials) m.frosted = false;
+  EXPECT_EQ(makePlan(scene, withSamples()).find("addFrostedRefractions"), nullptr);
+}
+
+// Up to the roughness of sharp mirrors the picture is that of clear glass, and it goes on from
+// there without a jump.
+TEST(FrostedGlass, BeginsWhereLobesCeaseToBeMirrors) {
+  const auto block = [](float roughness, bool isFrosted) {
+    SceneBuilder builder;
+    builder.sky(1);
+    builder.add(floorAt(-0.5f, 2, builder.add(diffuseMaterial(0.2f))));
+    Material m = glassOf(roughness);
+    m.frosted = isFrosted;
+    builder.add(box({-0.6f, -0.4f, -0.4f}, {0.6f, 0.6f, 0.4f}, builder.add(m)));
+    Camera camera;
+    camera.eye = {1, 1, 3};
+    camera.at = {0, 0, 0};
+    builder.description.cameras = {camera};
+    return render(builder.build(), withSamples()).image;
+  };
+  const Image clear = block(0.5f, false);
+  EXPECT_EQ(firstDifference(block(0.03f, true), clear), "");
+  const auto meanOff = [&](float roughness) {
+    const Image image = block(roughness, true);
+    double sum = 0;
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+      sum += maxComponent(abs(image.pixels[i] - clear.pixels[i]));
+    }
+    return sum / static_cast<double>(image.pixels.size());
+  };
+  EXPECT_LT(meanOff(0.032f), 0.005);
+  EXPECT_GT(meanOff(0.5f), 4 * meanOff(0.032f));
+}
+
+}  // namespace
+}  // namespace whit::test
