@@ -103,6 +103,7 @@ Material anyMaterial(SceneMaker& maker) {
     material.glossyReflection = maker.random.chance(0.5) ? Choice::yes : Choice::no;
   }
   material.diffuseReflection = maker.random.chance(0.8);
+  material.frosted = material.transmits() && maker.random.chance(0.3);
   return material;
 }
 

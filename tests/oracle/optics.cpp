@@ -104,10 +104,46 @@ Color lobeReflectance(const Material& material, double vh) {
 Color glossyLobe(const Material& material, const Vec& normal, const Vec& toViewer,
                  const Vec& toLight) {
   const Vec half = normalized(toViewer + toLight);
+  return lobeReflectance(material, dot(toViewer, half)) *
+         facetLobe(material, normal, toViewer, toLight);
+}
+
+double facetLobe(const Material& material, const Vec& normal, const Vec& toViewer,
+                 const Vec& toLight) {
+  const Vec half = normalized(toViewer + toLight);
   const double nl = dot(normal, toLight), nv = dot(normal, toViewer), nh = dot(normal, half);
   const double masking = 1 / (1 + smithLambda(material, nl) + smithLambda(material, nv));
-  return lobeReflectance(material, dot(toViewer, half)) *
-         (facetsFacing(material, nh) * masking / (4 * nl * nv));
+  return facetsFacing(material, nh) * masking / (4 * nl * nv);
+}
+
+namespace {
+
+// The facet that refracts one direction to the other, on the viewer's side.
+Vec refractingFacet(double n1, double n2, const Vec& normal, const Vec& toViewer,
+                    const Vec& toLight) {
+  const Vec facet = normalized(toViewer * n1 + toLight * n2);
+  return dot(facet, normal) > 0 ? facet : -facet;
+}
+
+}  // namespace
+
+double transmittedLobe(const Material& material, double n1, double n2, const Vec& normal,
+                       const Vec& toViewer, const Vec& toLight) {
+  const Vec facet = refractingFacet(n1, n2, normal, toViewer, toLight);
+  const double vh = dot(toViewer, facet), lh = -dot(toLight, facet);
+  const double nv = dot(normal, toViewer), nl = -dot(normal, toLight), root = n1 * vh - n2 * lh;
+  return vh * lh / (nv * nl) * n2 * n2 * shareSeen(material, nv) * shareSeen(material, nl) *
+         facetsFacing(material, dot(normal, facet)) / (root * root);
+}
+
+double transmittedDensity(const Material& material, double n1, double n2, const Vec& normal,
+                          const Vec& toViewer, const Vec& toLight) {
+  const Vec facet = refractingFacet(n1, n2, normal, toViewer, toLight);
+  const double vh = dot(toViewer, facet), lh = -dot(toLight, facet), nv = dot(normal, toViewer);
+  const double seen =
+      facetsFacing(material, dot(normal, facet)) * shareSeen(material, nv) * vh / nv;
+  const double root = n1 * vh - n2 * lh;
+  return seen * n2 * n2 * lh / (root * root);
 }
 
 // Half of the facets, on one side of the plane of incidence, evenly by D cos: the masked share of

@@ -24,6 +24,19 @@ Vec refracted(const Vec& direction, const Vec& normal, double n1, double n2);
 Color glossyLobe(const Material& material, const Vec& normal, const Vec& toViewer,
                  const Vec& toLight);
 
+// The same with a reflectance of 1.
+double facetLobe(const Material& material, const Vec& normal, const Vec& toViewer,
+                 const Vec& toLight);
+
+// What facets between two indices of refraction let pass of light that comes from `toLight`, behind
+// the surface, 1/sr: equation 21 of Walter et al. 2007 without 1 - F. n1 is the viewer's index, and
+// the radiance is not scaled, as if light went from the viewer.
+double transmittedLobe(const Material& material, double n1, double n2, const Vec& normal,
+                       const Vec& toViewer, const Vec& toLight);
+// The density of these directions if the facets are drawn from those that are seen: equation 17.
+double transmittedDensity(const Material& material, double n1, double n2, const Vec& normal,
+                          const Vec& toViewer, const Vec& toLight);
+
 // Of its facets, which the viewer sees at this cosine.
 Color lobeReflectance(const Material& material, double vh);
 

@@ -84,6 +84,52 @@ TEST_F(Sampled, LobesAsSmoothAsAMirror) {
                    {.depth = 4, .glossy = 16}});
 }
 
+// Frosted solids and sheets before things to see through them.
+void frostedRoom(SceneMaker& maker) {
+  litRoom(maker);
+  maker.scene.width = 30, maker.scene.height = 20;  // slow
+  maker.add(box(), maker.matte(), maker.random.placement({-1.4, 0.8, -2}, 0.9));
+  Material shining = maker.matte();
+  shining.emission = maker.random.color(0.2, 1.5);
+  maker.add(tetrahedron(), shining, maker.random.placement({1.2, 0.9, -1.8}, 1));
+  for (int i = 0; i < 4; ++i) {
+    Material glass = maker.glass(maker.random.between(1.2, 1.9));
+    glass.frosted = true;
+    glass.roughness = maker.random.between(0.2, 0.8);
+    glass.thin = i == 3;
+    if (i == 1) glass.mirror = maker.random.color(0.05, 0.2);
+    if (i == 1) glass.mirrorGrazing = maker.random.color(0.3, 0.6);
+    if (i == 2 || maker.random.chance(0.5)) glass.specular = maker.random.color(0.02, 0.2);
+    if (i == 3) glass.glossyReflection = static_cast<Choice>(maker.random.below(3));
+    if (i == 3 && maker.random.chance(0.5)) glass.coverage = maker.random.between(0.3, 0.9);
+    maker.add(i == 2 ? ball(16, 10) : flatSolid(maker), glass, maker.standing(i, 4));
+  }
+}
+
+TEST_F(Sampled, FrostedGlass) {
+  expectAgreement({"--glossy 64 of frosted glass", frostedRoom, {.depth = 3, .glossy = 64}});
+  expectAgreement({"--glossy 5 of frosted glass",
+                   frostedRoom,
+                   {.depth = 4, .glossy = 5, .schlickFresnel = true}});
+}
+
+// Glass within glass, of which the outer or the inner one is frosted.
+TEST_F(Sampled, FrostedGlassWithinGlass) {
+  expectAgreement({"--glossy 16 of frosted glass in glass",
+                   [](SceneMaker& maker) {
+                     litRoom(maker);
+                     Material outer = maker.glass(1.5, maker.random.below(3)),
+                              inner = maker.glass(1.3, maker.random.below(3));
+                     outer.frosted = maker.random.chance(0.5);
+                     inner.frosted = !outer.frosted;
+                     outer.roughness = inner.roughness = maker.random.between(0.2, 0.6);
+                     const Vec center{0, 1.1, 0.2};
+                     maker.add(box(), outer, maker.random.placement(center, 1.3));
+                     maker.add(box(), inner, maker.random.placement(center, 0.7));
+                   },
+                   {.depth = 4, .glossy = 16}});
+}
+
 // Solids, some of which shine, stand near each other and hide ambient light from each other and
 // from the floor. One of them casts no shadow.
 void occludedRoom(SceneMaker& maker) {

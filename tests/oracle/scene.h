@@ -45,6 +45,7 @@ struct Material {
   double coverage = 1;      // the share that is there
   int coverageMap = kNone;  // its first channel multiplies it
   bool thin = false;
+  bool frosted = false;  // the roughness is also that of the light that passes
 
   bool isInPart() const { return coverage < 1 || coverageMap != kNone; }
   bool transmits() const { return largest(transmission) > 0; }

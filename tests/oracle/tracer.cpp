@@ -61,6 +61,10 @@ struct Tracer::Surface {
   Material material;          // textures and vertex colors applied
   Color belowLobe = gray(1);  // of the light, what the glossy lobe leaves
   bool tabled = false;        // whit looks the lobe's albedo up
+  // Frosted glass: the facets of an interface reflect and refract, those of a sheet scatter what
+  // goes straight on.
+  bool roughInterface = false, roughSheet = false;
+  double n1 = 1, n2 = 1;  // indices in front and behind, where it is frosted
 };
 
 int Tracer::pointsASide(const Branch& branch) {
@@ -285,8 +289,7 @@ Color Tracer::diffuseLeft(const Surface& surface, const Media& before, const Med
   const Color coat = schlick(material.mirror, material.mirrorGrazing, cosine);
   if (!material.transmits()) return underCoat(material.diffuse, coat);
   const double n1 = before.current().ior, n2 = behind.current().ior;
-  const double interface =
-      options_.schlickFresnel ? fresnelBySchlick(n1, n2, cosine) : fresnel(n1, n2, cosine);
+  const double interface = surface.roughInterface ? 0 : interfaceReflectance(n1, n2, cosine);
   const Color through = underCoat(material.transmission, coat);
   return underCoat(material.diffuse, coat + through) * (1 - interface);
 }
@@ -296,10 +299,30 @@ Color Tracer::aboveLobe(const Surface& surface, const Media& before, const Media
   const Material& material = surface.material;
   const double cosine = std::clamp(dot(surface.toViewer, surface.normal), 0.0, 1.0);
   const Color left = gray(1) - schlick(material.mirror, material.mirrorGrazing, cosine);
-  if (!material.passesLight()) return left;
-  const double n1 = before.current().ior, n2 = behind.current().ior;
-  return left * (1 - (options_.schlickFresnel ? fresnelBySchlick(n1, n2, cosine)
-                                              : fresnel(n1, n2, cosine)));
+  if (!material.passesLight() || surface.roughInterface) return left;
+  return left * (1 - interfaceReflectance(before.current().ior, behind.current().ior, cosine));
+}
+
+double Tracer::interfaceReflectance(double n1, double n2, double cosine) const {
+  return options_.schlickFresnel ? fresnelBySchlick(n1, n2, cosine) : fresnel(n1, n2, cosine);
+}
+
+// Where samples are taken of lobes. A sheet on a solid's face is clear, and so is a surface between
+// equal indices.
+void Tracer::findFrosting(Surface& surface, const Media& before, const Media& behind) const {
+  const Material& m = surface.material;
+  const bool isRough = m.frosted && m.transmits() && m.roughness * m.roughness > kSmooth;
+  if (options_.lobeSamples() == 0 || !isRough) return;
+  surface.n1 = before.current().ior;
+  surface.n2 = behind.current().ior;
+  // Where both indices are equal, an interface is as clear as if it were smooth.
+  surface.roughInterface = m.isDielectric() && surface.n1 != surface.n2;
+  surface.roughSheet = !m.isDielectric() && surface.n1 == surface.n2;
+}
+
+Color Tracer::facetReflectance(const Surface& surface, double vh) const {
+  if (!surface.roughInterface) return lobeReflectance(surface.material, vh);
+  return gray(interfaceReflectance(surface.n1, surface.n2, vh));
 }
 
 Sight Tracer::trace(const Ray& ray, const Branch& branch, Random& random) const {
@@ -327,16 +350,20 @@ Sight Tracer::trace(const Ray& ray, const Branch& branch, Random& random) const 
     there.media = behind;
     return trace({surface.position, ray.direction}, there, random) * left;
   }
+  findFrosting(surface, branch.media, behind);
   const Sight taken = lobeWeight(surface, there, random);
+  const bool isSampled = samplesLobe(surface.material) || surface.roughInterface;
   surface.belowLobe = gray(1) - taken.radiance;
-  surface.tabled = largest(taken.radiance) > 0 && !samplesLobe(surface.material);
+  surface.tabled = largest(taken.radiance) > 0 && !isSampled;
   surface.material.diffuse = diffuseLeft(surface, branch.media, behind) * surface.belowLobe;
   Sight seen = lightFrom(surface, there, random);
   seen.radiance += surface.material.emission;
   const bool indirectly = options_.indirect > 0 && surface.material.diffuseReflection;
   if (!indirectly) seen += ambientLight(surface, there, random);
   // What whit takes from the diffuse color varies with its samples, and together with what these
-  // bring: the square of a sum is at most twice the sum of the squares.
+  // bring: the square of a sum of two is at most twice the sum of the squares, and of three, where
+  // frosted glass transmits samples of the same facets, three times.
+  const Color together = gray(surface.roughInterface || surface.roughSheet ? 3 : 2);
   const auto grows = [](double left) { return 1 / std::max(left, 0.01); };
   const Color below = surface.belowLobe;
   if (surface.tabled) {
@@ -345,7 +372,7 @@ Sight Tracer::trace(const Ray& ray, const Branch& branch, Random& random) const 
   }
   Sight varies = taken * (seen.radiance * Color{grows(below.x), grows(below.y), grows(below.z)});
   varies.radiance = {};
-  varies.variance = varies.variance * gray(2);
+  varies.variance = varies.variance * together;
   seen += varies;
   seen.undecided += taken.undecided;
   Sight on;
@@ -353,8 +380,11 @@ Sight Tracer::trace(const Ray& ray, const Branch& branch, Random& random) const 
     on = impulses(surface, there, behind, random);
     if (indirectly) seen += indirectLight(surface, there, random);
     Sight sampled = glossyReflection(surface, there, random);
-    sampled.variance = sampled.variance * gray(2);
+    sampled.variance = sampled.variance * together;
     seen += sampled * aboveLobe(surface, branch.media, behind);
+    Sight frosted = frostedTransmission(surface, there, behind, random);
+    frosted.variance = frosted.variance * together;
+    seen += frosted;
   }
   seen = seen * gray(surface.material.coverage) + on;
   seen = seen * left;
@@ -490,14 +520,14 @@ Sight Tracer::impulses(const Surface& surface, const Branch& branch, const Media
   double passed = 1;
   if (material.passesLight()) {
     const double n1 = branch.media.current().ior, n2 = behind.current().ior;
-    const double interface =
-        options_.schlickFresnel ? fresnelBySchlick(n1, n2, cosine) : fresnel(n1, n2, cosine);
+    const double interface = surface.roughInterface ? 0 : interfaceReflectance(n1, n2, cosine);
     passed = 1 - interface;
     reflectance += (gray(1) - coat) * interface * there + gray(interface) * (1 - there);
-    if (interface < 1) {
+    if (interface < 1 && !surface.roughInterface) {
       const Vec on = refracted(direction, surface.normal, n1, n2);
-      const Color through =
+      Color through =
           underCoat(material.transmission, coat) * surface.belowLobe * there + gray(1 - there);
+      if (surface.roughSheet) through = gray(1 - there);
       const Color passed = through * (1 - interface);
       sum += follow(surface, branch, {on, passed, behind, -dot(on, surface.plane)}, random);
     }
@@ -523,8 +553,8 @@ bool Tracer::samplesLobe(const Material& material) const {
 Sight Tracer::lobeWeight(const Surface& surface, const Branch& branch, Random& random) const {
   const Material& material = surface.material;
   const double nv = dot(surface.normal, surface.toViewer);
-  if (!material.lobeCovers()) return {};
-  const bool tabled = !samplesLobe(material) && !branch.drawn;
+  if (!material.lobeCovers() && !surface.roughInterface) return {};
+  const bool tabled = !samplesLobe(material) && !surface.roughInterface && !branch.drawn;
   if (nv < (tabled ? kLeastTabled : kSkimming)) return {.undecided = 1};
   if (tabled) return {.radiance = lobeAlbedo(material, nv)};
   if (material.roughness * material.roughness <= kSmooth) {
@@ -537,7 +567,8 @@ Sight Tracer::lobeWeight(const Surface& surface, const Branch& branch, Random& r
     const double nh = dot(surface.normal, facet), nl = dot(surface.normal, toLight);
     if (!(dot(surface.toViewer, facet) > 0) || !(nl > 0)) return integral.addNothing();
     const double density = facetsFacing(material, nh) * shareSeen(material, nv) / (4 * nv);
-    const Color lobe = glossyLobe(material, surface.normal, surface.toViewer, toLight);
+    const Color lobe = facetReflectance(surface, dot(surface.toViewer, facet)) *
+                       facetLobe(material, surface.normal, surface.toViewer, toLight);
     integral.add({.radiance = gray(1)}, lobe * (nl / density), 1);
   });
   return integral.mean(branch.depth == 0 ? options_.lobeSamples() : 1);
@@ -547,7 +578,7 @@ Sight Tracer::lobeWeight(const Surface& surface, const Branch& branch, Random& r
 // D G1 / (4 nv).
 Sight Tracer::glossyReflection(const Surface& surface, const Branch& branch, Random& random) const {
   const Material& material = surface.material;
-  if (!samplesLobe(material)) return {};
+  if (!samplesLobe(material) && !surface.roughInterface) return {};
   const Vec& normal = surface.normal;
   const Vec& toViewer = surface.toViewer;
   const double nv = dot(normal, toViewer);
@@ -564,12 +595,56 @@ Sight Tracer::glossyReflection(const Surface& surface, const Branch& branch, Ran
     const double vh = dot(toViewer, facet), nh = dot(normal, facet), nl = dot(normal, toLight);
     if (!(vh > 0) || !(nl > 0)) return integral.addNothing();
     const double density = facetsFacing(material, nh) * shareSeen(material, nv) / (4 * nv);
-    const Color part = glossyLobe(material, normal, toViewer, toLight) * (nl / density);
+    const Color part = facetReflectance(surface, vh) *
+                       (facetLobe(material, normal, toViewer, toLight) * nl / density);
     const Branch child{
         branch.depth + 1, branch.weight * largest(part), true, branch.drawn, branch.width,
         branch.media};
     Sight seen = trace({surface.position, toLight}, child, random);
     if (surface.smooth && dot(toLight, surface.plane) < kSkimming) seen.undecided += 1;
+    integral.add(seen, part, 1);
+  };
+  forEvenPoints(pointsASide(branch), random, addPoint);
+  return integral.mean(branch.depth == 0 ? options_.lobeSamples() : 1);
+}
+
+// What frosted glass transmits, by the facets that are seen.
+Sight Tracer::frostedTransmission(const Surface& surface, const Branch& branch, const Media& behind,
+                                  Random& random) const {
+  if (!surface.roughInterface && !surface.roughSheet) return {};
+  const Material& material = surface.material;
+  const Vec& normal = surface.normal;
+  const Vec& toViewer = surface.toViewer;
+  const double nv = dot(normal, toViewer), n1 = surface.n1, n2 = surface.n2;
+  if (surface.smooth && nv < kSkimming) return {.undecided = 1};
+  const Color coat = schlick(material.mirror, material.mirrorGrazing, nv);
+  const Color through = underCoat(material.transmission, coat);
+
+  Integral integral;
+  const auto addPoint = [&](double u, double v) {
+    const Vec facet = facetSeen(material, normal, toViewer, u, v);
+    const double vh = dot(toViewer, facet);
+    if (!(vh > 0)) return integral.addNothing();
+    Vec on;
+    Color part = through;
+    if (surface.roughInterface) {
+      const double passed = 1 - interfaceReflectance(n1, n2, vh);
+      if (!(passed > 0)) return integral.addNothing();
+      on = refracted(-toViewer, facet, n1, n2);
+      const double nl = -dot(normal, on);
+      if (!(nl > 0)) return integral.addNothing();
+      part = part * (passed * nl * transmittedLobe(material, n1, n2, normal, toViewer, on) /
+                     transmittedDensity(material, n1, n2, normal, toViewer, on));
+    } else {
+      // Whatever the facets do, a sheet lets it out at its far side.
+      const Vec back = mirrored(-toViewer, facet);
+      on = back - normal * (dot(normal, back) + std::abs(dot(normal, back)));
+      if (samplesLobe(material)) part = part * (gray(1) - lobeReflectance(material, vh));
+    }
+    const Branch child{
+        branch.depth + 1, branch.weight * largest(part), true, branch.drawn, branch.width, behind};
+    Sight seen = trace({surface.position, on}, child, random);
+    if (surface.smooth && -dot(on, surface.plane) < kSkimming) seen.undecided += 1;
     integral.add(seen, part, 1);
   };
   forEvenPoints(pointsASide(branch), random, addPoint);

@@ -63,6 +63,11 @@ class Tracer {
   Color diffuseLeft(const Surface& surface, const Media& before, const Media& behind) const;
   Color aboveLobe(const Surface& surface, const Media& before, const Media& behind) const;
   bool samplesLobe(const Material& material) const;
+  void findFrosting(Surface& surface, const Media& before, const Media& behind) const;
+  double interfaceReflectance(double n1, double n2, double cosine) const;
+  Color facetReflectance(const Surface& surface, double vh) const;
+  Sight frostedTransmission(const Surface& surface, const Branch& branch, const Media& behind,
+                            Random& random) const;
   Sight lobeWeight(const Surface& surface, const Branch& branch, Random& random) const;
   Sight impulses(const Surface& surface, const Branch& branch, const Media& behind,
                  Random& random) const;

@@ -120,6 +120,7 @@ std::string materialText(const Material& m) {
   }
   if (!m.diffuseReflection) text += R"(, "diffuseReflection": false)";
   if (m.thin) text += R"(, "thin": true)";
+  if (m.frosted) text += R"(, "frosted": true)";
   if (m.glossyReflection != Choice::unsaid) {
     const bool reflects = m.glossyReflection == Choice::yes;
     text += std::string(R"(, "glossyReflection": )") + (reflects ? "true" : "false");

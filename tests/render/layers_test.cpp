@@ -411,6 +411,7 @@ Material anyMaterial(Numbers& numbers) {
   m.glossyReflection = maybe(0.8);
   if (maybe(0.2)) m.coverage = static_cast<float>(numbers.in(0, 1));
   m.castsShadow = m.blocksLight();
+  m.frosted = maybe(0.5);
   return m;
 }
 

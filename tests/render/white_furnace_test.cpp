@@ -115,7 +115,8 @@ std::string sceneMaterial(Numbers& numbers, Colors colors) {
        {"diffuse", "specular", "mirror", "mirrorGrazing", "transmission", "absorption"}) {
     m.maybe(name, listOf(numbers, 3, colors));
   }
-  for (const char* name : {"thin", "diffuseReflection", "glossyReflection", "castsShadow"}) {
+  for (const char* name :
+       {"thin", "frosted", "diffuseReflection", "glossyReflection", "castsShadow"}) {
     m.maybe(name, numbers.in(0, 1) < 0.5 ? "true" : "false");
   }
   m.maybe("priority", std::to_string(static_cast<int>(numbers.in(0, 9))));
