@@ -136,6 +136,15 @@ void checkBackground(const RenderJob& job) {
   }
 }
 
+// Warns that rays have to sample frosted glass, if the picture's do not.
+void tellClearGlass(const RenderJob& job, const Scene& scene) {
+  if (glossySamples(job.common.render) > 0) return;
+  if (std::ranges::none_of(scene.materials, &Material::isFrosted)) return;
+
+  std::fputs("whit: warning: frosted glass shown clear: set --glossy 16 or --quality good\n",
+             stderr);
+}
+
 // Outputs that are named after a channel need no --channels. Throws if no output has a place for
 // those that are given.
 void addNamedChannels(RenderJob& job) {
@@ -278,6 +287,7 @@ Engine openFor(RenderJob& job, Progress* progress) {
   options = engine.wantedOptions();
   checkBackground(job);
   checkFilmed(job, engine.scene());
+  tellClearGlass(job, engine.scene());
 
   // In a scene with a viewpoint, the camera turns around the point that it looks at.
   if (job.onTurntable && !job.turntable) {

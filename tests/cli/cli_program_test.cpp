@@ -75,6 +75,23 @@ TEST(Program, SaysThatASceneIsDark) {
   EXPECT_EQ(errorsOf(folder / "tiny.json").find("is black"), std::string::npos);
 }
 
+TEST(Program, SaysThatFrostedGlassIsShownClear) {
+  const TemporaryFolder folder;
+  std::string text = readFile(writeTinyScene(folder));
+  const std::string mirror = "\"mirror\": 0.8", file = folder / "frosted.json";
+  text.replace(text.find(mirror), mirror.size(), "\"transmission\": 0.8, \"frosted\": true");
+  std::ofstream(file) << text;
+
+  const auto errorsOf = [&](const std::string& glossy, const std::string& set) {
+    return runWhit({"render", file, "-o", folder / "out.png", "--glossy", glossy, "--set", set})
+        .err;
+  };
+  const std::string roughness = "/materials/mirror/roughness=", told = "frosted glass shown clear";
+  EXPECT_NE(errorsOf("0", roughness + "0.5").find(told), std::string::npos);
+  EXPECT_EQ(errorsOf("2", roughness + "0.5").find(told), std::string::npos);
+  EXPECT_EQ(errorsOf("0", roughness + "0.03").find(told), std::string::npos);
+}
+
 TEST(Program, SaysThatAFileIsNoGlb) {
   const TemporaryFolder folder;
   for (const char* text : {"", "garbage", "\x89PNG", "  [1]"}) {

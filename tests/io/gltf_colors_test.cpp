@@ -86,19 +86,22 @@ TEST_F(GltfMaterials, WhatCannotBeShownIsCounted) {
   EXPECT_EQ(warned("texture left out"), 1u);
 }
 
-TEST_F(GltfMaterials, FrostedGlassIsCounted) {
-  const auto count = [&](const std::string& roughness) {
-    loadText(sceneText(
-        {{0,
-          "{\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"roughnessFactor\":" + roughness +
-              "},\"extensions\":{\"KHR_materials_transmission\":"
-              "{\"transmissionFactor\":1}}}",
-          1}}));
-    return warned("frosted glass shown clear: the roughness of transmission left out");
+// The roughness of a metal is that of no glass: it transmits nothing.
+TEST_F(GltfMaterials, RoughnessFrostsGlass) {
+  const auto isFrosted = [&](const std::string& roughness, const std::string& metal) {
+    const SceneDescription d =
+        loadText(sceneText({{0,
+                             "{\"pbrMetallicRoughness\":{\"metallicFactor\":" + metal +
+                                 ",\"roughnessFactor\":" + roughness +
+                                 "},\"extensions\":{\"KHR_materials_transmission\":"
+                                 "{\"transmissionFactor\":1}}}",
+                             1}}));
+    return d.materials.at(0).isFrosted();
   };
-
-  EXPECT_EQ(count("0.05"), 0u);
-  EXPECT_EQ(count("0.5"), 1u);
+  EXPECT_FALSE(isFrosted("0.03", "0"));
+  EXPECT_TRUE(isFrosted("0.05", "0"));
+  EXPECT_TRUE(isFrosted("0.5", "0.5"));
+  EXPECT_FALSE(isFrosted("0.5", "1"));
 }
 
 }  // namespace

@@ -398,12 +398,13 @@ TEST_F(GltfMaterials, RoughSurfacesReflectInSamples) {
   // Smooth: one impulse, whatever the number of samples.
   expectColor(reflected("{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.03}}", 64),
               {1, 0.5f, 0.25f});
-  // What bounds a volume keeps to its impulses.
+  // The facets of what bounds a volume reflect by its index of refraction.
   const std::string glass =
       "{\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"roughnessFactor\":0.5},\"extensions\":"
       "{\"KHR_materials_transmission\":{\"transmissionFactor\":1},"
       "\"KHR_materials_volume\":{\"thicknessFactor\":1}}}";
-  expectColor(reflected(glass, 64), Rgb{0.04f, 0.02f, 0.01f});
+  expectColor(reflected(glass, 64), Rgb(0.04f, 0.02f, 0.01f) * 0.916f);
+  expectColor(reflected(glass, 0), Rgb{0.04f, 0.02f, 0.01f});
 }
 
 TEST_F(GltfMaterials, EmissionAndUnlit) {

@@ -128,10 +128,6 @@ GltfMaterial readMaterial(const GltfDocument& document, const JsonValue& source)
   const JsonValue transmission = extensions["KHR_materials_transmission"];
   m.transmission = readNumber(transmission["transmissionFactor"], 0);
   m.transmissionMap = texture(transmission["transmissionTexture"]);
-  // Below this nobody sees that the glass is not frosted.
-  constexpr float kClearRoughness = 0.1f;
-  warnIf(m.transmission > 0 && m.roughness > kClearRoughness,
-         "frosted glass shown clear: the roughness of transmission left out");
   const JsonValue volume = extensions["KHR_materials_volume"];
   warnIf(volume["thicknessTexture"].exists(),
          "thickness of a volume by a texture left out: what the mesh encloses counts");
@@ -264,6 +260,7 @@ Material shadedAs(const GltfMaterial& g, const GltfMeans& means) {
     m.ior = g.ior;
     m.absorption = g.absorption;
   }
+  m.frosted = m.hasTransmission();
   m.glossyReflection = !m.boundsMedium();
   m.coat = true;
   if (m.boundsMedium()) {

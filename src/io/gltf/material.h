@@ -144,7 +144,7 @@ bool lacksCoordinates(const GltfMaterial& material);
 //   dielectric adds its own reflection, and smooth metal that of a mirror.
 // - transmission is tinted by the base color at each crossing. With a volume of some thickness the
 //   surface bounds a dielectric of this ior (exact Fresnel reflectance) and absorption, and must be
-//   closed; without one it is a thin wall. It is clear whatever the roughness.
+//   closed; without one it is a thin wall. It is frosted by its roughness.
 // - blending lets 1 - alpha straight through, texel by texel; what blends is a sheet, whatever it
 //   transmits besides.
 // - a clearcoat is a mirror of 0.04 at normal incidence over the rest, as far as it is smooth; maps
