@@ -289,9 +289,9 @@ fs::path findScene(const std::string& file, const std::string& shippedScenes) {
   }
 
   const std::vector<std::string> names = shippedNames(folders);
-  throwUsage(
-      "no scene is called '" + file + "'" +
-      (names.empty() ? " (no scenes found; is $WHIT_SCENES set?)" : didYouMean(file, names, "scene")));
+  throwUsage("no scene is called '" + file + "'" +
+             (names.empty() ? " (no scenes found; is $WHIT_SCENES set?)"
+                            : didYouMean(file, names, "scene")));
 }
 
 std::vector<fs::path> shippedScenes() {

@@ -40,8 +40,8 @@ struct ImageFormat {
 // what writeChannelPng() throws.
 void writeImage(const std::string& path, const Film& film, const ImageMetadata& metadata,
                 const ImageFormat& format = {});
-// The metadata that writeImage() adds: for an EXR its channels and an unusual storage, for the image
-// of one channel its name.
+// The metadata that writeImage() adds: for an EXR its channels and an unusual storage, for the
+// image of one channel its name.
 ImageMetadata ownMetadata(const std::string& path, const ImageFormat& format);
 
 // True if `path` (.exr or .png) is what a render into `image` would write: readable to its last

@@ -268,7 +268,7 @@ TEST(Library, FailsWithTheProgramsStatus) {
   EXPECT_EQ(statusOf([] { loadScene("no/such/file.json"); }), 4);
   EXPECT_EQ(statusOf([] { Image().write("nothing.png"); }), 2);
   EXPECT_EQ(statusOf([&] { renderer.render().write("no/such/folder/a.png"); }), 4);
-  EXPECT_EQ(statusOf([&] { renderer.render().write("a.jpg"); }), 2);
+  EXPECT_EQ(statusOf([&] { renderer.render().write("a.gif"); }), 2);
   EXPECT_EQ(statusOf([&] { renderer.set("camera", "nobody").render(); }), 2);
   EXPECT_EQ(statusOf([&] { renderer.set("camera", "").set("size", "65536x65536").render(); }), 5);
 

@@ -156,7 +156,7 @@ class Control(unittest.TestCase):
 
     def test_errors_of_files(self):
         picture = self.scene.render(size=SIZE)
-        for path, status in (("no/such/folder/a.png", 4), ("a.jpg", 2)):
+        for path, status in (("no/such/folder/a.png", 4), ("a.gif", 2)):
             with self.assertRaises(whit.Error) as caught:
                 picture.write(path)
             self.assertEqual(caught.exception.exit_status, status)

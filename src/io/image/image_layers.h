@@ -28,9 +28,10 @@ std::vector<ImageLayer> layersOf(const ChannelLayers& channels,
 // ("whit:materials") as JSON objects. Empty without channels.
 ImageMetadata describeChannels(const Scene& scene, ChannelSet channels);
 
-// Returns the channel that a PNG or EXR of this name holds in place of the picture, by the last part
-// of the name before its extension or before a frame's number: "out.depth.png", "a.normal-####.exr".
-// A PNG whose name has no other part, as "depth.png", holds a channel that is kept.
+// Returns the channel that a PNG or EXR of this name holds in place of the picture, by the last
+// part of the name before its extension or before a frame's number: "out.depth.png",
+// "a.normal-####.exr". A PNG whose name has no other part, as "depth.png", holds a channel that is
+// kept.
 std::optional<Channel> channelNamedBy(const std::string& path, ChannelSet kept);
 
 // Writes a channel as an EXR that programs without knowledge of channels read: normals, positions,
