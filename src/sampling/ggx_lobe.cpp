@@ -91,9 +91,12 @@ RgbD lobeAlbedo(const RgbD& f0, double f90, double cosine, double roughness) {
   const LobeTable& table = lobeTable();
   const double row = std::clamp(roughness, 0.0, 1.0) * (kLobeSteps - 1);
   const double column = std::sqrt(std::clamp(cosine, 0.0, 1.0)) * (kLobeSteps - 1);
+
+  // The entry above and to the left of the place, between whose neighbors values are interpolated.
   const int top = std::min(static_cast<int>(row), kLobeSteps - 2);
   const int first = std::min(static_cast<int>(column), kLobeSteps - 2);
-  const auto at = static_cast<std::size_t>(top * kLobeSteps + first);
+  const std::size_t at =
+      static_cast<std::size_t>(top) * kLobeSteps + static_cast<std::size_t>(first);
   const auto lookUp = [&](const auto& plane) {
     const auto inRow = [&](std::size_t i) {
       const double left = plane[i], right = plane[i + 1];
@@ -101,6 +104,7 @@ RgbD lobeAlbedo(const RgbD& f0, double f90, double cosine, double roughness) {
     };
     return inRow(at) + (inRow(at + kLobeSteps) - inRow(at)) * (row - top);
   };
+
   const double grazing = lookUp(table.grazing);
   return f0 * (lookUp(table.all) - grazing) + RgbD(f90 * grazing);
 }
