@@ -63,16 +63,16 @@ Scene frostedThings() {
   return builder.build();
 }
 
-RenderOptions withSamples() {
+RenderOptions withSampledLobes() {
   RenderOptions o = smallOptions();
   o.glossy = 3;
   return o;
 }
 
 TEST(FrostedGlass, AgreesWithTheReferenceOnEveryTarget) {
-  expectStagesAgreeOnEveryTarget(frostedThings(), withSamples());
-  expectSampledPictureAgrees(frostedThings(), withSamples());
-  RenderOptions o = withSamples();
+  expectStagesAgreeOnEveryTarget(frostedThings(), withSampledLobes());
+  expectSampledPictureAgrees(frostedThings(), withSampledLobes());
+  RenderOptions o = withSampledLobes();
   o.indirect = 1;
   o.shading.fresnel = FresnelModel::schlick;
   expectStagesAgreeOnEveryTarget(frostedThings(), o);
@@ -80,12 +80,12 @@ TEST(FrostedGlass, AgreesWithTheReferenceOnEveryTarget) {
 }
 
 TEST(FrostedGlass, KeepsItsBitsWhateverTheQueues) {
-  expectBitsWhateverTheQueues(frostedThings(), withSamples());
+  expectBitsWhateverTheQueues(frostedThings(), withSampledLobes());
 }
 
 // From each surface behind the first hit at most one ray is reflected and one refracted.
 TEST(FrostedGlass, HasBoundedTrees) {
-  RenderOptions o = withSamples();
+  RenderOptions o = withSampledLobes();
   o.maxRays = 100000;
   for (int depth = 1; depth < 5; ++depth) {
     o.depth = depth;
@@ -96,15 +96,15 @@ TEST(FrostedGlass, HasBoundedTrees) {
 
 TEST(FrostedGlass, HasAStepWhereTheSceneHasIt) {
   Scene scene = frostedThings();
-  EXPECT_NE(makePlan(scene, withSamples()).find("addFrostedRefractions"), nullptr);
+  EXPECT_NE(makePlan(scene, withSampledLobes()).find("addFrostedRefractions"), nullptr);
   EXPECT_EQ(makePlan(scene, smallOptions()).find("addFrostedRefractions"), nullptr);
 
-  RenderOptions o = withSamples();
+  RenderOptions o = withSampledLobes();
   o.disable = EffectSet().with(Effect::transmission);
   EXPECT_EQ(makePlan(scene, o).find("addFrostedRefractions"), nullptr);
 
   for (Material& m : scene.materials) m.frosted = false;
-  EXPECT_EQ(makePlan(scene, withSamples()).find("addFrostedRefractions"), nullptr);
+  EXPECT_EQ(makePlan(scene, withSampledLobes()).find("addFrostedRefractions"), nullptr);
 }
 
 // Up to the roughness of sharp mirrors the picture is that of clear glass, and it goes on from
@@ -121,7 +121,7 @@ TEST(FrostedGlass, BeginsWhereLobesCeaseToBeMirrors) {
     camera.eye = {1, 1, 3};
     camera.at = {0, 0, 0};
     builder.description.cameras = {camera};
-    return render(builder.build(), withSamples()).image;
+    return render(builder.build(), withSampledLobes()).image;
   };
   const Image clear = block(0.5f, false);
   EXPECT_EQ(firstDifference(block(0.03f, true), clear), "");
