@@ -62,6 +62,10 @@ class Engine {
   // Sets a member of the scene, as --set POINTER=VALUE. The scene is read again where that is
   // needed. Throws as the reader does, with nothing changed.
   void edit(const std::string& setting, Progress* progress = nullptr);
+  // Adds settings. `load` has them, and is what the scene is read with then; another sky in it
+  // needs a setting of the sky.
+  void edit(const std::vector<std::string>& added, const LoadOptions& load,
+            Progress* progress = nullptr);
   // To be called after the scene's materials, lights or sky were changed (bake/edit_scene.h).
   void shadingChanged();
   // Moves everything that follows the time. Takes effect with the next picture, or update().
@@ -95,11 +99,13 @@ class Engine {
   std::uint64_t memoryBytes() const;
 
  private:
-  void readAgain(const std::string& setting, Progress* progress);
+  void readAgain(const LoadOptions& load, Progress* progress);
+  JsonDocument readSceneDocument() const;
   void forgetRenderer();
 
   std::shared_ptr<OpenScene> opened_;
-  std::optional<JsonDocument> document_;  // that the scene was read from, after the first edit
+  // The document that the scene is read from, with its settings; none before the first edit.
+  std::optional<JsonDocument> document_;
 
   RenderOptions asked_;
   // Names of the options in asked_ that the caller chose; none: asked_ is complete.
