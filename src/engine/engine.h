@@ -66,8 +66,6 @@ class Engine {
   // needs a setting of the sky.
   void edit(const std::vector<std::string>& added, const LoadOptions& load,
             Progress* progress = nullptr);
-  // To be called after the scene's materials, lights or sky were changed (bake/edit_scene.h).
-  void shadingChanged();
   // Moves everything that follows the time. Takes effect with the next picture, or update().
   void setTime(double seconds);
   double seconds() const { return seconds_; }
