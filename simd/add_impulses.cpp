@@ -74,15 +74,19 @@ HWY_INLINE ImpulseLanes LoadImpulseLanes(const ImpulseJob& job, size_t i) {
   const UintTag du;
   const RayColumns& rays = job.rays;
   const SurfelColumns& surfels = job.surfels;
+
   ImpulseLanes lanes;
   lanes.material = hn::Load(di, reinterpret_cast<const int32_t*>(surfels.material) + i);
   lanes.live = hn::RebindMask(d, NonNegative(lanes.material));
   lanes.dielectric = lanes.hidden = lanes.covers = lanes.scatters = lanes.mirrors = lanes.coated =
       lanes.chooses = lanes.frosts = lanes.facets = hn::MaskFromVec(hn::Zero(d));
   if (hn::AllFalse(d, lanes.live)) return lanes;
+
   const VU flags = MaterialLanes(job.tables, lanes.material, lanes.live).Lobe().flags;
   lanes.live = hn::And(lanes.live, HasFlags(flags, kWanted));
   if (hn::AllFalse(d, lanes.live)) return lanes;
+
+  // The flags say which layers the material has.
   lanes.coated = HasFlags(flags, kMaterialCoated);
   if (job.lobes) {
     lanes.covers = hn::And(lanes.live, HasFlags(flags, kMaterialCovers));
@@ -92,17 +96,21 @@ HWY_INLINE ImpulseLanes LoadImpulseLanes(const ImpulseJob& job, size_t i) {
       lanes.chooses = hn::And(lanes.scatters, HasFlags(flags, kMaterialDiffuses));
     }
   }
+
   if (kWanted == kMaterialTransmits || job.transmission) {
     lanes.dielectric = hn::And(lanes.live, HasFlags(flags, kMaterialTransmits));
     lanes.hidden = hn::And(lanes.dielectric, HasFlags(hn::Load(du, surfels.flags + i), kHidden));
   }
+
   if (job.frosted) {
     lanes.facets = hn::And(lanes.live, HasFlags(flags, kMaterialFrostedInterface));
     lanes.frosts = hn::And(lanes.live, HasFlags(flags, kMaterialFrosts));
   }
+
   lanes.direction = Load3(rays.dirX, rays.dirY, rays.dirZ, i);
   lanes.ng = Load3(surfels.ngX, surfels.ngY, surfels.ngZ, i);
   lanes.ns = Load3(surfels.nsX, surfels.nsY, surfels.nsZ, i);
+
   const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
   const VF towards = hn::Neg(Dot(lanes.direction, lanes.ns));
   lanes.cosine = hn::Min(hn::Max(towards, zero), one);
@@ -163,7 +171,8 @@ HWY_INLINE V3 UnderMirror(const ImpulseLanes& lanes, const V3& color, const V3& 
   return Select3(lanes.coated, Mul3(color, Sub3({one, one, one}, mirror)), limited);
 }
 
-// What the lobes of the surfels at i take of the light that mirrors leave; 0 in other lanes.
+// Returns the share of the light below their mirrors that the lobes of the surfels at i take, and 0
+// in other lanes.
 HWY_INLINE V3 LobeAt(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i) {
   const VF zero = hn::Zero(FloatTag());
   if (!job.lobes) return {zero, zero, zero};
@@ -263,10 +272,13 @@ void AddReflections(Chunk& c) {
   const FloatTag d;
   const ImpulseJob job{c};
   size_t count = c.childCount;
+
   for (size_t i = 0; i < job.n; i += hn::Lanes(d)) {
     ImpulseLanes lanes = LoadImpulseLanes<kMaterialReflects>(job, i);
     lanes.live = hn::AndNot(lanes.hidden, lanes.live);
     if (hn::AllFalse(d, lanes.live)) continue;
+
+    // The mirror lies above the interface of a dielectric.
     const MaterialLanes material(job.tables, lanes.material, lanes.live);
     const V3 mirror = MirrorAt(job, material, lanes.cosine, i);
     V3 weight = mirror;
@@ -275,16 +287,20 @@ void AddReflections(Chunk& c) {
       const VF f = SmoothReflectance(job, lanes, i);
       weight = MulAdd3(weight, hn::Sub(hn::Set(d, 1.0f), f), {f, f, f});
     }
+
+    // A smooth lobe is stood for by the mirrored ray, as far as it is smooth.
     if (!hn::AllFalse(d, lanes.mirrors)) {
       const VF one = hn::Set(d, 1.0f), roughness = hn::Sqrt(hn::Load(d, job.surfels.alpha + i));
       const VF share = hn::IfThenElseZero(lanes.mirrors, MirroredShare(roughness));
       const V3 lobe = Mul3(LobeAt(job, lanes, i), Sub3({one, one, one}, mirror));
       weight = MulAdd3(lobe, hn::Mul(share, CoverageAt(job, i)), weight);
     }
+
     // d - 2 (d.n) n
     const VF twice = hn::Mul(hn::Set(d, -2.0f), Dot(lanes.direction, lanes.ns));
     const V3 mirrored = Normalize3(MulAdd3(lanes.ns, twice, lanes.direction));
     const V3 r = Lifted(mirrored, lanes.ng, LeastElevation(job, lanes.facing), lanes.live);
+
     const Child child{ChildOrigin(job, lanes, i, 1.0f),
                       r,
                       weight,
@@ -292,12 +308,13 @@ void AddReflections(Chunk& c) {
                       ChildStreamsAt(job, i, kMirroredBranch),
                       MaxComponent(weight),
                       ConesAt(job, i)};
+
     count += Append(job, child, lanes.live, i, count);
   }
   c.childCount = count;
 }
 
-// The facets of glossy lobes and of frosted glass.
+// Describes the facets of glossy lobes and of frosted glass.
 class Facets {
  public:
   HWY_INLINE Facets(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i)
@@ -354,7 +371,8 @@ struct GlossySamples {
   MF several;  // a smooth lobe is one impulse
 };
 
-// What frosted glass transmits: frostedImpulse() of the scalar reference.
+// Draws directions of transmitted light through frosted glass. The scalar reference is
+// frostedImpulse() in src/reference/add_impulses.cpp.
 struct FrostedSamples {
   static constexpr const Lobe& kLobe = kFrostedLobe;
   static constexpr float kSide = -1;
@@ -370,7 +388,7 @@ struct FrostedSamples {
     const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
     const GlossyLobes& lobes = facets.lobes;
     const Facet facet = facets.At(at);
-    // Sheets: the mirrored view, mirrored once more.
+    // A sheet mirrors the mirrored direction once more.
     VF depth = hn::Abs(facet.elevation), passes = one;
     const VF twice = hn::Add(depth, facet.elevation);
     V3 direction = MulAdd3(lobes.z, hn::Neg(twice), facet.mirrored);
@@ -549,13 +567,17 @@ HWY_INLINE void AddSamples(Chunk& c) {
   const LobeSampling sampling = lobeSampling(c.depth, kLobe.samples(c.options()), c.sampleNumber);
   const VF one = hn::Set(d, 1.0f), share = hn::Set(d, 1.0f / static_cast<float>(sampling.count));
   constexpr bool kPasses = Samples::kSide < 0;
-  // factorOfLobe().
+
+  // The rule is factorOfLobe() in src/stages/lobes.h.
   const bool occluded = !kPasses && c.depth == 0 && c.has(Feature::occlusionMaps);
+
   size_t count = c.childCount;
+
   for (size_t i = 0; i < job.n; i += hn::Lanes(d)) {
     ImpulseLanes lanes = LoadImpulseLanes<kLobe.flag>(job, i);
     lanes.live = kPasses ? Frosts(job, lanes, i) : hn::AndNot(lanes.hidden, lanes.live);
     if (hn::AllFalse(d, lanes.live)) continue;
+
     V3 covered = LeftForSamples<Samples>(job, lanes, i);
     if (HWY_UNLIKELY(!kPasses && !hn::AllFalse(d, lanes.chooses))) {
       const VF factor = FactorOfChoice(job, lanes, kLobe.flag == kMaterialScatters, i);
@@ -563,8 +585,10 @@ HWY_INLINE void AddSamples(Chunk& c) {
       if (hn::AllFalse(d, lanes.live)) continue;
       covered = Scale3(covered, factor);
     }
+
     if (job.coverage) covered = Scale3(covered, CoverageAt(job, i));
     if (occluded) covered = Scale3(covered, hn::Load(d, job.surfels.occlusion + i));
+
     const Samples samples(job, lanes, i);
     const VF counts = hn::IfThenElse(samples.several, share, one);
     const V3 origin = ChildOrigin(job, lanes, i, Samples::kSide);
@@ -572,14 +596,18 @@ HWY_INLINE void AddSamples(Chunk& c) {
     const V3 outward = Scale3(lanes.ng, hn::Set(d, Samples::kSide));
     const VU path = hn::Load(du, job.rays.path + i);
     const VF cone = ConesAt(job, i);
+
+    // The first sample stands for all of a lobe that is a single impulse.
     for (uint32_t k = 0; k < sampling.count; ++k) {
       const MF sampled = k == 0 ? lanes.live : hn::And(lanes.live, samples.several);
       if (hn::AllFalse(d, sampled)) break;
+
       LobeSample sample = samples.At(PointsOf<kLobe>(path, sampling, k));
       sample.weight = Mul3(sample.weight, covered);
       const MF live = hn::And(sampled, hn::Gt(sample.cosine, hn::Zero(d)));
       V3 r = Lifted(sample.direction, outward, LeastElevation(job, sample.cosine), live);
       if constexpr (kPasses) r = Select3(samples.straight, lanes.direction, r);
+
       const Child child{origin,
                         r,
                         Scale3(sample.weight, counts),
@@ -602,14 +630,18 @@ void AddRefractions(Chunk& c) {
   const UintTag du;
   const ImpulseJob job{c};
   const VF one = hn::Set(d, 1.0f), zero = hn::Zero(d);
+
   size_t count = c.childCount;
   for (size_t i = 0; i < job.n; i += hn::Lanes(d)) {
     const ImpulseLanes lanes = LoadImpulseLanes<kMaterialTransmits>(job, i);
     if (hn::AllFalse(d, lanes.live)) continue;
+
     const Interface interface = InterfaceOf(job, lanes, i);
     const MaterialLanes material(job.tables, lanes.material, lanes.live);
     const VF through = hn::Sub(one, interface.reflectance);
     const V3 mirror = MirrorAt(job, material, lanes.cosine, i);
+
+    // The mirror and the lobe lie above what passes.
     V3 transmittance =
         UnderMirror(lanes, TransmissionAt(job, material, i), mirror, {zero, zero, zero});
     if (!hn::AllFalse(d, lanes.covers)) {
@@ -617,15 +649,19 @@ void AddRefractions(Chunk& c) {
       const V3 albedo = Scale3(LobeAt(job, lanes, i), inverse);
       transmittance = Mul3(transmittance, Sub3({one, one, one}, albedo));
     }
+
     // Samples bring what frosted glass transmits.
     transmittance = Select3(Frosts(job, lanes, i), {zero, zero, zero}, transmittance);
+
     if (job.coverage) {
       const VF covered = CoverageAt(job, i), rest = hn::Sub(one, covered);
       transmittance = MulAdd3(transmittance, covered, {rest, rest, rest});
     }
+
     const V3 weight = Select3(lanes.hidden, {one, one, one}, Scale3(transmittance, through));
     const V3 bent = MulAdd3(lanes.ns, hn::Neg(interface.bend), lanes.direction);
     V3 r = NormalizeOr(Scale3(bent, hn::Div(one, interface.eta)), lanes.direction);
+
     const VF height = Dot(r, lanes.ng);
     // Under the geometric normal the ray would leave this steeply, if at all; normals that agree
     // change nothing.
@@ -633,10 +669,12 @@ void AddRefractions(Chunk& c) {
     const VF leaving = hn::Div(hn::Sqrt(hn::Max(g2, hn::Zero(d))), interface.eta);
     const VF lift = LeastElevation(job, hn::IfThenElse(hn::Gt(g2, hn::Zero(d)), leaving, one));
     const MF high = hn::Gt(height, hn::Neg(lift));
+
     const V3 pressed =
         NormalizeOr(MulAdd3(lanes.ng, hn::Neg(hn::Add(lift, height)), r), lanes.direction);
     r = Select3(high, pressed, r);
     r = Select3(hn::Or(interface.straight, lanes.hidden), lanes.direction, r);
+
     const Child child{ChildOrigin(job, lanes, i, -1.0f),
                       r,
                       weight,

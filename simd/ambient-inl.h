@@ -32,32 +32,40 @@ HWY_INLINE V3 ImageSky(const SkyTable& sky, const V3& direction, MF live, VI ima
   const IntTag di;
   const VF width = hn::Set(d, static_cast<float>(sky.width));
   const VF height = hn::Set(d, static_cast<float>(sky.height));
+
   VF turn = hn::Add(AzimuthFraction(direction.x, direction.z), hn::Set(d, sky.turn));
   turn = hn::Sub(turn, hn::Floor(turn));
   const VF y = hn::Min(hn::Max(direction.y, hn::Set(d, -1.0f)), hn::Set(d, 1.0f));
   const VF polar = hn::Mul(hn::Acos(d, y), hn::Set(d, 0.318309886f));
+
   const VF px = MulThenSub(turn, width, hn::Set(d, 0.5f));
   const VF py = MulThenSub(polar, height, hn::Set(d, 0.5f));
   const VF floorX = hn::Floor(px), floorY = hn::Floor(py);
   const VF fx = hn::Sub(px, floorX), fy = hn::Sub(py, floorY);
+
   const VI lastX = hn::Set(di, sky.width - 1), lastY = hn::Set(di, sky.height - 1);
   const VI zero = hn::Zero(di), one = hn::Set(di, 1);
+
   // Not a number has no integer: other lanes may hold it.
   const VI x0 = hn::ConvertTo(di, hn::IfThenElseZero(live, floorX));
   const VI y0 = hn::ConvertTo(di, hn::IfThenElseZero(live, floorY));
   const VI y1 = hn::Add(y0, one);
+
   // All of these are texels of the image whatever x0 and y0 are, and x0 + 1 may overflow.
   const VI left = hn::IfThenElse(hn::Lt(x0, zero), lastX, hn::Min(x0, lastX));
   const VI right = hn::IfThenZeroElse(hn::Eq(left, lastX), hn::Add(left, one));
   const VI top = hn::Min(hn::Max(y0, zero), lastY), bottom = hn::Min(hn::Max(y1, zero), lastY);
+
   const VI stride = hn::Set(di, sky.width);
   const VI first = hn::Mul(image, hn::Set(di, sky.height));
   const auto liveInt = hn::RebindMask(di, live);
   const auto index = [&](VI row, VI column) HWY_ATTR {
     return hn::IfThenElseZero(liveInt, hn::Add(hn::Mul(hn::Add(first, row), stride), column));
   };
+
   const VI i00 = index(top, left), i10 = index(top, right);
   const VI i01 = index(bottom, left), i11 = index(bottom, right);
+
   const auto channel = [&](const float* plane) HWY_ATTR {
     const VF a = hn::GatherIndex(d, plane, i00), b = hn::GatherIndex(d, plane, i10);
     const VF c = hn::GatherIndex(d, plane, i01), e = hn::GatherIndex(d, plane, i11);
@@ -120,27 +128,35 @@ class ReflectedAmbient {
     const V3 albedo = Load3(surfels_.diffuseR, surfels_.diffuseG, surfels_.diffuseB, i);
     const V3 all = Mul3(albedo, MulAdd3(half_, ns.y, middle_));
     if (HWY_LIKELY(!special_ || hn::AllFalse(d, hit))) return all;
+
     // Surfaces that reflect the scene do so in place of ambient light.
     const VI material = hn::Load(IntTag(), reinterpret_cast<const int32_t*>(surfels_.material) + i);
     const VU flags = MaterialLanes(tables_, material, hit).Lobe().flags;
     const V3 left = Select3(HasFlags(flags, kMaterialDiffuses), Broadcast3(Vec3f()), all);
     const MF blurs = hn::And(hit, HasFlags(flags, kMaterialBlursSky));
+
     if (hn::AllFalse(d, blurs)) return left;
+
+    // Lobes reflect the blurred sky with the share that no mirrored ray stands for.
     const V3 direction = Load3(rays_.dirX, rays_.dirY, rays_.dirZ, i);
     const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
     const VF towards = hn::Neg(Dot(ns, direction));
     const VF roughness = hn::Sqrt(hn::Load(d, surfels_.alpha + i));
     const V3 mirrored = Normalize3(MulAdd3(ns, hn::Add(towards, towards), direction));
     const V3 sky = BlurredRadiance(tables_.blurredSky, mirrored, roughness, blurs);
+
     V3 lobe = Load3(surfels_.lobeR, surfels_.lobeG, surfels_.lobeB, i);
     const MF smooth = HasFlags(flags, kMaterialMirrorsByLobe);
     lobe = Scale3(lobe, hn::Sub(one, hn::IfThenElseZero(smooth, MirroredShare(roughness))));
+
+    // A mirror or a coat lies above the lobe.
     if (HWY_UNLIKELY(!hn::AllFalse(d, hn::And(hit, HasFlags(flags, kMaterialReflects))))) {
       const VF cosine = hn::Min(hn::Max(towards, zero), one);
       const V3 mirror = MirrorReflectance(MaterialLanes(tables_, material, hit), surfels_,
                                           mirrorMaps_, cosine, i);
       lobe = Mul3(lobe, Sub3({one, one, one}, mirror));
     }
+
     return Select3(blurs, Add3(left, Mul3(sky, lobe)), left);
   }
 

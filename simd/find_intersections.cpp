@@ -72,27 +72,33 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
   const SurfelColumns& surfels = job.surfels;
   const VF one = hn::Set(d, 1.0f);
   ClearSlot(slot, block);
+
   const auto [valid, triangle] = LoadHits(hits, tables.triangleCount, i);
   if (job.absorption) Absorb(tables, rays, hits, valid, i);
   if (hn::AllFalse(d, valid)) {
     hn::Store(hn::Set(du, kMiss), du, surfels.material + i);
     return hn::Zero(du);
   }
+
+  // The surface is interpolated from the corners, on spheres computed, and carried to the world.
   TriangleLanes t = LoadTriangles(tables, triangle);
   Weights w = LoadWeights(hits, i);
   Surface s = InterpolateSurface(tables, t, triangle, w, job.smooth);
   if (job.spheres) PutOnSpheres(tables, hits, valid, triangle, i, s, t, w);
   if (job.instances) CarryToWorld(tables, hits, valid, i, s);
+
   const VU others = job.coplanar ? hn::Load(du, hits.alsoCrossed + i) : hn::Zero(du);
   if (job.coplanar) {
     const auto shared = hn::Ne(hn::And(others, hn::Set(du, kSharesPlace)), hn::Zero(du));
     s.inDoubt = hn::Or(s.inDoubt, hn::RebindMask(d, shared));
   }
+
   const MaterialLanes material(tables, t.material, valid);
   const auto [diffuse, diffuseMap] = material.Diffuse();
   TexturePoints at{Interpolate(w, t.uv.u0, t.uv.u1, t.uv.u2),
                    Interpolate(w, t.uv.v0, t.uv.v1, t.uv.v2), hn::Zero(d)};
   const VF cosine = Dot(Load3(rays.dirX, rays.dirY, rays.dirZ, i), s.ng);
+
   if (job.cones) {
     const VF width =
         MulThenAdd(hn::Set(d, job.coneSpread), hn::Load(d, hits.t + i), hn::Load(d, rays.cone + i));
@@ -101,17 +107,22 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
       at.footprint = TextureFootprint(t.uv, s.edge1, s.edge2, width, cosine);
     }
   }
+
   const MF entering = hn::Lt(cosine, hn::Zero(d));
   const VF flip = TurnToViewer(entering);
+
   if (job.textures) {
     QueueMap(job, diffuseMap, valid, at, slot, block.diffuse);
   }
   if (job.normalMaps) {
     QueueNormal(job, material.NormalMap(), t.uv, valid, s, flip, at, slot, block);
   }
+
   const VF distance = hn::Load(d, hits.t + i);
   FollowRay(t, rays, distance, i, s);
   StoreSurface(s, distance, flip, i, surfels);
+
+  // Vertex colors tint the material, and textures are queued for what it has.
   const LobeLanes lobe = material.Lobe();
   Tints tints{{one, one, one}, {one, one, one}, {one, one, one}};
   V3 scattered = diffuse;
@@ -119,6 +130,7 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
     tints = FindTints(VertexColor(tables, triangle, w.w1, w.w2), lobe.flags);
     scattered = Mul3(scattered, tints.diffuse);
   }
+
   Store3(scattered, surfels.diffuseR, surfels.diffuseG, surfels.diffuseB, i);
   if (job.emissionFactors) {
     Store3(tints.emission, surfels.emissionR, surfels.emissionG, surfels.emissionB, i);
@@ -126,9 +138,11 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
       QueueMap(job, lobe.emissionMap, valid, at, slot, block.emission);
     }
   }
+
   const VU materialOrMiss =
       hn::IfThenElse(hn::RebindMask(du, valid), hn::BitCast(du, t.material), hn::Set(du, kMiss));
   hn::Store(materialOrMiss, du, surfels.material + i);
+
   if (job.glossy) {
     const auto [specular, specularMap] = material.Specular();
     if (job.textures) {
@@ -138,14 +152,17 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
     Store3(f0, surfels.specularR, surfels.specularG, surfels.specularB, i);
     hn::Store(lobe.alpha, d, surfels.alpha + i);
   }
+
   // FindLayers sets it where there is one.
   if (job.lobes) {
     const VF none = hn::Zero(d);
     Store3({none, none, none}, surfels.lobeR, surfels.lobeG, surfels.lobeB, i);
   }
+
   if (job.transmission) {
     StoreMedia(tables, rays, lobe.medium, entering, others, i, surfels);
   }
+
   return hn::IfThenElseZero(hn::RebindMask(du, valid), lobe.flags);
 }
 
@@ -407,6 +424,7 @@ void LiftShadowOrigins(Chunk& c) {
   const size_t n = c.n;
   const bool instanced = c.has(Feature::instances), spheres = c.has(Feature::spheres);
   const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+
   for (size_t i = 0; i < n; i += hn::Lanes(d)) {
     const auto [valid, triangle] = LoadHits(hits, tables.triangleCount, i);
     const TriangleLanes t = LoadTriangles(tables, triangle);
@@ -415,10 +433,14 @@ void LiftShadowOrigins(Chunk& c) {
       const InstanceHits on = LoadInstances(hits, tables.instances.size(), valid, i);
       if (!hn::AllFalse(d, on.placed)) CarryToWorld(tables, on, w);
     }
+
     const VF u = hn::Load(d, hits.u + i), v = hn::Load(d, hits.v + i);
     const V3 position = Load3(surfels.posX, surfels.posY, surfels.posZ, i);
     const V3 ng = Load3(surfels.ngX, surfels.ngY, surfels.ngZ, i);
     const VF offset = hn::Load(d, surfels.offset + i);
+
+    // The surface that the vertex normals stand for lies above the facet by the weighted depths
+    // below the planes of the corners.
     V3 lift{zero, zero, zero};
     const auto add = [&](const V3& corner, const V3& normal, VF weight) HWY_ATTR {
       // Corner normals point to the outside, the surfel's to the viewer.
@@ -426,13 +448,16 @@ void LiftShadowOrigins(Chunk& c) {
       const VF below = hn::Neg(hn::Add(Dot(Sub3(position, corner), m), offset));
       lift = MulAdd3(m, hn::Mul(weight, hn::Max(below, zero)), lift);
     };
+
     add(w.position.c0, w.normal.c0, hn::Sub(hn::Sub(one, u), v));
     add(w.position.c1, w.normal.c1, u);
     add(w.position.c2, w.normal.c2, v);
+
     if (spheres) {
       const MF on = LoadSpheres(tables, hits, valid, triangle, i).on;
       lift = Select3(on, {zero, zero, zero}, lift);
     }
+
     Store3(lift, surfels.liftX, surfels.liftY, surfels.liftZ, i);
   }
 }

@@ -169,11 +169,13 @@ void FindRadianceAndShadowRays(Chunk& c) {
   const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
   const LightLanes lanes(light, c.has(Feature::spotLights));
   const V3 intensity = Broadcast3(light.intensity);
+
   size_t count = 0;
   // One point of several of a light with a radius.
   const bool sampled = c.lightSamples > 1;
   const LobeSampling points = lightSampling(c.depth, c.lightSamples, c.sampleNumber);
   const VF share = hn::Set(d, 1.0f / static_cast<float>(c.lightSamples));
+
   for (size_t i = 0; i < n; i += hn::Lanes(d)) {
     const VU material = hn::Load(du, surfels.material + i);
     MF live = hn::RebindMask(d, hn::Ne(material, hn::Set(du, kMiss)));
@@ -181,6 +183,8 @@ void FindRadianceAndShadowRays(Chunk& c) {
     const V3 position = Load3(surfels.posX, surfels.posY, surfels.posZ, i);
     const V3 ng = Load3(surfels.ngX, surfels.ngY, surfels.ngZ, i);
     const V3 ns = Load3(surfels.nsX, surfels.nsY, surfels.nsZ, i);
+
+    // The light is looked at from the surfel, or one of its points is.
     V3 toLight = lanes.Towards(position);
     VF distanceSquared = Dot(toLight, toLight), area = lanes.Area(distanceSquared);
     if (HWY_UNLIKELY(sampled)) {
@@ -191,6 +195,8 @@ void FindRadianceAndShadowRays(Chunk& c) {
       area = view.area;
       distanceSquared = Dot(toLight, toLight);
     }
+
+    // Surfels that turn away from the light, or that it does not reach, are done.
     MF front = hn::Gt(Dot(ng, toLight), zero);
     V3 start = position;
     if (lifted) {
@@ -205,11 +211,14 @@ void FindRadianceAndShadowRays(Chunk& c) {
       hn::Store(zero, d, unshadowed.visible + i);
       continue;
     }
+
+    // The radiance is the light's, by the diffuse color and the glossy lobe.
     const VF inverseDistance = InverseSqrt(distanceSquared);
     const V3 l = Scale3(toLight, inverseDistance);
     const VF nl = Dot(ns, l);
     V3 bsdf = Scale3(Load3(surfels.diffuseR, surfels.diffuseG, surfels.diffuseB, i),
                      hn::Set(d, 0.318309886f));
+
     if (glossy) {
       const V3 f0 = Load3(surfels.specularR, surfels.specularG, surfels.specularB, i);
       const MF shiny = hn::And(live, hn::Gt(MaxComponent(f0), zero));
@@ -225,20 +234,25 @@ void FindRadianceAndShadowRays(Chunk& c) {
         bsdf = Select3(shiny, Add3(bsdf, lobe), bsdf);
       }
     }
+
     V3 radiance = Scale3(Mul3(bsdf, intensity), lanes.Falloff(nl, l, area));
     if (coverage) radiance = Scale3(radiance, hn::Load(d, surfels.coverage + i));
+
+    // Light that is too weak for --light-cutoff is left out.
     const VF largest = MaxComponent(radiance);
     live = hn::And(live, hn::Gt(largest, zero));
     if (choices.lightCutoff > 0) {
       const VF contribution = hn::Mul(hn::Load(d, rays.throughput + i), largest);
       live = hn::And(live, hn::Ge(contribution, hn::Set(d, choices.lightCutoff)));
     }
+
     Store3(sampled ? Scale3(radiance, share) : radiance, unshadowed.r, unshadowed.g, unshadowed.b,
            i);
     if (!traced) {
       hn::Store(hn::IfThenElseZero(live, one), d, unshadowed.visible + i);
       continue;
     }
+
     hn::Store(zero, d, unshadowed.visible + i);
     const V3 origin =
         RayOrigin(choices.offset, start, ng, Load3(rays.dirX, rays.dirY, rays.dirZ, i),

@@ -161,24 +161,29 @@ int infoCommand(const Words& words) {
   CommonOptions common;
   std::vector<std::string> scenes;
   std::string json;
+
   OptionList list;
   list.value({"json", "FILE"}, "the same as JSON; - is standard output", json);
   listCommonOptions(list, common);
   list.operands("SCENE", "a scene file, a model, or the name of a shipped scene", 1, 1, scenes);
+
   if (!parseOptions("whit info SCENE [options]",
                     "Lists the contents of a scene, its effects and why they are on, and the "
                     "kernels that run.",
                     list, words)) {
     return 0;
   }
+
   requireJsonWritable(json);
   auto progress = makeProgressBar(common);
+
   CommonOptions loading = common;
   loading.warns = false;  // they are part of the report
   const auto open = openAndTell(scenes[0], loading, progress.get());
   const RenderOptions options = optionsFor(open->scene, common);
   const Renderer renderer(open->scene, options, progress.get());
   progress.reset();
+
   const Json info = infoJson(*open, renderer, common, options);
   if (!json.empty()) writeJson(json, info);
   if (json != "-") printInfo(info, *open, renderer);

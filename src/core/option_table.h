@@ -90,15 +90,18 @@ void parseValue(const OptionSpec& spec, const std::string& text, T& value) {
     if (good) return;
     throwUsage("--" + std::string(spec.name) + ": expected " + expected + ", found '" + text + "'");
   };
+
   const auto parseNumber = [&](const std::string& noun, auto& number) {
     const bool read = readNumber(text, number);
     expect(read && number >= spec.low && number <= spec.high, rangeText(noun, spec));
   };
+
   const auto readAll = [&](char separator, auto&... numbers) {
     const std::vector<std::string> parts = split(text, separator);
     std::size_t i = 0;
     return parts.size() == sizeof...(numbers) && (readNumber(parts[i++], numbers) && ...);
   };
+
   T v{};
   if constexpr (kIsOptional<T>) {
     parseValue(spec, text, v.emplace());
@@ -138,6 +141,7 @@ void parseValue(const OptionSpec& spec, const std::string& text, T& value) {
     if (!choicesOf(spec).empty()) parseChoice(spec, text);
     v = text;
   }
+
   value = std::move(v);
 }
 
@@ -147,6 +151,7 @@ std::string formatValue(const OptionSpec& spec, const T& v) {
   const auto joined = [](const std::string& separator, auto first, auto... numbers) {
     return (shortest(first) + ... + (separator + shortest(numbers)));
   };
+
   if constexpr (kIsOptional<T>) {
     return v ? formatValue(spec, *v) : std::string();
   } else if constexpr (std::is_enum_v<T>) {

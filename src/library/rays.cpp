@@ -102,6 +102,7 @@ void putSurface(const whit::Scene& scene, const QueryHit& hit, const RayHits& to
   const std::uint32_t number = hit.id.triangle, instance = hit.id.instance;
   const TriangleRecord& record = scene.triangles[number];
   const Affine* const map = instance == kNoInstance ? nullptr : &scene.instances[instance].toWorld;
+
   Vec3d point, normal, shading;
   if (scene.isSphere(number)) {
     const Affine own = sphereInWorld(scene, hit.id);
@@ -123,11 +124,14 @@ void putSurface(const whit::Scene& scene, const QueryHit& hit, const RayHits& to
       shading = normalized(map ? map->normal(mean) : mean, normal);
     }
   }
+
   put(to.points, i, scene.inFile(point));
   put(to.geometricNormals, i, normal);
   put(to.shadingNormals, i, shading);
+
   const Vec2f uv = uvAt(scene, number, hit.u, hit.v);
   to.uvs[2 * i] = uv.x, to.uvs[2 * i + 1] = uv.y;
+
   const whit::Scene::MetNumbers numbers = scene.numbersOf(number, instance);
   to.triangles[i] = numbers.triangle, to.objects[i] = numbers.item;
   to.materials[i] = record.material;

@@ -15,27 +15,34 @@ void leaveOutOfMaterial(Material& m, EffectSet effects) {
     m.diffuseMap = m.specularMap = m.roughnessMap = m.emissionMap = m.occlusionMap = kNoTexture;
     m.mirrorMap = m.transmissionMap = kNoTexture;
   }
+
   if (effects.has(Effect::emissionMaps)) m.emissionMap = kNoTexture;
   if (effects.has(Effect::normalMaps)) m.normalMap = kNoTexture;
   if (effects.has(Effect::alphaMasks)) m.alphaMap = kNoTexture;
+
   if (effects.has(Effect::coverage) || effects.has(Effect::transmission)) {
     m.coverage = 1;
     m.coverageMap = kNoTexture;
   }
+
   if (effects.has(Effect::glossy)) {
     m.specular = kBlack;
     m.frosted = false;
   }
   if (effects.has(Effect::glossyReflection)) m.glossyReflection = m.frosted = false;
   if (effects.has(Effect::indirect)) m.diffuseReflection = false;
+
   if (effects.has(Effect::emission)) m.emission = kBlack;
   if (effects.has(Effect::shadows)) m.castsShadow = false;
+
+  // Without mirrored rays all lobes reflect the blurred sky.
   if (effects.has(Effect::mirror)) {
     m.mirror = m.mirrorGrazing = kBlack;
     m.roughness = std::max(m.roughness, kBlurredRoughness);
     m.roughnessMap = kNoTexture;
     m.ior = 1;
   }
+
   if (effects.has(Effect::transmission)) m.transmission = kBlack;
   if (effects.has(Effect::absorption)) m.absorption = kBlack;
 }

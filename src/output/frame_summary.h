@@ -67,8 +67,8 @@ double memoryMb(const Scene& scene, const Renderer& renderer);
 // written, and the floor if it was measured.
 std::string stageTable(const RunSummary& run);
 
-// What is wrong with the pictures of all frames, a sentence each: pixels whose rays were limited,
-// and pixels that are not finite.
+// Returns a sentence for each kind of fault in the pictures of all frames: pixels whose rays were
+// limited, and pixels that are not finite.
 std::vector<std::string> pictureWarnings(const RunSummary& run);
 
 // The second of two runs of one scene, whose frames took turns, over the first.

@@ -54,8 +54,8 @@ double cosineOf(const Surfel& surfel) {
   return std::clamp(dot(surfel.view, surfel.shadingNormal), 0.0, 1.0);
 }
 
-// What is left of a color that lies under the mirror, where others that have come before it send
-// out the share `others`. Under a coat that is what the coat lets through.
+// Returns how much of `color`, which lies under the mirror, is sent out if layers between them send
+// out the share `others`. Under a coat it is the light that the coat lets through.
 RgbD underMirror(const Material& material, const RgbD& color, const RgbD& mirror,
                  const RgbD& others = {}) {
   return material.coat ? color * (RgbD(1.0) - mirror) : limited(color, mirror + others);
@@ -381,16 +381,22 @@ double growthOfSurvivors(const RenderOptions& options, double contribution) {
 RayRow addImpulses(const World& world, const Chunk& chunk, std::size_t child) {
   const std::uint32_t slot = chunk.children.parent[child];
   const std::uint32_t path = chunk.has(Feature::streams) ? chunk.rays.path[slot] : 0;
+
   Surfel surfel = surfelOf(chunk, slot);
   const std::uint32_t stack = mediaOf(chunk, slot);
   const Crossing crossing = crossMedia(world.scene, world.effects, surfel.material, surfel.entering,
                                        stack, alsoCrossedAt(chunk, slot));
+
   const Material& material = world.scene.materials[surfel.material];
   surfel.grazingRatio = double{material.grazingRatio};
   findLobes(material, world.effects, crossing, chunk.options().shading, surfel);
+
+  // A sample of a lobe has the path that its random numbers came from, other impulses that of their
+  // branch.
   const RayKind kind = kindOf(chunk, child);
   RayRow row;
   row.path = childStream(path, branchOf(kind));
+
   LobeChild traced;
   if (const auto sample = sampleOfLobe(world, chunk, child, kind, surfel)) {
     traced = *sample;
@@ -400,18 +406,23 @@ RayRow addImpulses(const World& world, const Chunk& chunk, std::size_t child) {
         findImpulses(world.scene, world.effects, surfel, crossing, stack, chunk.options().shading)
             .of(kind);
   }
+
   const Impulse& impulse = traced.impulse;
   const double contribution = double{chunk.rays.throughput[slot]} * maxComponent(impulse.weight);
   const double grows = growthOfSurvivors(chunk.options(), contribution);
+
   put(impulse.ray.origin, row.orgX, row.orgY, row.orgZ);
   put(impulse.ray.direction, row.dirX, row.dirY, row.dirZ);
   put(impulse.weight * (grows / traced.rays), row.weightR, row.weightG, row.weightB);
+
   row.throughput = contribution * grows;
   row.parent = slot;
   row.media = impulse.media;
+
   const bool goesOn = impulse.ray.direction == rayOf(chunk, slot).direction;
   row.straight = goesOn && chunk.has(Feature::alpha) && chunk.isStraight(slot) ? 1 : 0;
   row.cone = impulse.ray.cone.width;
+
   return row;
 }
 

@@ -57,7 +57,7 @@ RgbD mirrorOf(const Material& material, EffectSet effects, const Surfel& surfel)
 // The share of its lobe that the mirrored ray stands for.
 double mirroredShare(const Material& material, EffectSet effects, const Surfel& surfel);
 
-// What a coat leaves of the light of lamps for the lobe below.
+// Returns the share of the light of lamps that a coat leaves for the lobe below.
 RgbD underCoat(const Material& material, EffectSet effects, const Surfel& surfel);
 
 // Sets what mirror and interface leave for the lobe, and how frosted glass scatters light.

@@ -30,10 +30,12 @@ std::uint32_t flagsOf(const Material& m, bool onOthers, EffectSet effects) {
   const bool transmits = m.passesLight() && effects.has(Effect::transmission);
   const bool reflects =
       m.hasMirror() || m.mirrorsByLobe(effects) || (transmits && (onOthers || m.boundsMedium()));
+
   std::uint32_t flags = 0;
   if (effects.has(Effect::mirror) && reflects) flags |= kMaterialReflects;
   if (transmits) flags |= kMaterialTransmits;
   if (maxComponent(m.emission) > 0) flags |= kMaterialEmits;
+
   if (m.hasGlossy()) flags |= kMaterialGlossy;
   if (m.reflectsBlurredSky(effects)) flags |= kMaterialBlursSky;
   if (m.isLayered(effects)) flags |= kMaterialLayered;
@@ -42,16 +44,20 @@ std::uint32_t flagsOf(const Material& m, bool onOthers, EffectSet effects) {
   if (m.coat) flags |= kMaterialCoated;
   if (m.isUnderCoat(effects)) flags |= kMaterialIsUnderCoat;
   if (m.hasFrostedInterface(effects)) flags |= kMaterialFrostedInterface;
+
   if (effects.has(Effect::textures) && m.variesRoughness()) flags |= kMaterialVariesRoughness;
   if (effects.has(Effect::coverage) && m.isPartlyThere()) flags |= kMaterialIsPartlyThere;
+
   for (const Lobe& lobe : kLobes) {
     if (lobe.isSampled(m, effects)) flags |= lobe.flag;
   }
+
   if (m.vertexTint == VertexTint::diffuseAndSpecular) flags |= kMaterialTintsSpecular;
   if (m.vertexTint == VertexTint::emission) flags |= kMaterialTintsEmission;
   if (m.emissionBySecondUvs) flags |= kMaterialEmissionBySecondUvs;
   if (m.normalBySecondUvs) flags |= kMaterialNormalBySecondUvs;
   if (m.occlusionBySecondUvs) flags |= kMaterialOcclusionBySecondUvs;
+
   return flags;
 }
 

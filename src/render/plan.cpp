@@ -36,6 +36,7 @@ FeatureSet featuresOf(const Scene& scene, const RenderOptions& options, EffectSe
   const bool maps = e.has(Effect::textures) || e.has(Effect::normalMaps) || e.has(Effect::coverage);
   const bool emission = e.has(Effect::emission);
   const auto any = [&](const auto& is) { return std::ranges::any_of(scene.materials, is); };
+
   return FeatureSet()
       .with(Feature::ambient,
             (e.has(Effect::ambient) || e.has(Effect::blurredSky)) && !isOccluded(scene.ambient, e))
@@ -126,6 +127,7 @@ class Planner {
       plan_.perSample.push_back(amendingStep("findInitialMedia", simd::kGenerateRays,
                                              findInitialMedia, {Part::rays}, {Part::rays}));
     }
+
     findIntersections();
     plan_.perQueue.push_back(stepOf(simd::kWriteEmittedAndReflectiveAmbient));
     if (seesThrough()) {
@@ -133,10 +135,12 @@ class Planner {
                                             startAlpha, {Part::rays, Part::surfels},
                                             {Part::radiance}));
     }
+
     if (isOccluded(scene_.ambient, plan_.effects)) addAmbientLight();
     if (has(Effect::lights)) {
       for (std::size_t i = 0; i < scene_.lights.size(); ++i) addSamplesOf(i);
     }
+
     addImpulses();
     if (has(Effect::absorption)) plan_.atEye = {stepOf(simd::kReturnToEye)};
     if (countsRays()) {
@@ -151,6 +155,7 @@ class Planner {
       plan_.atEye.push_back(amendingStep("keepAlpha", simd::kReturnToEye, keepAlpha,
                                          {Part::rays, Part::radiance}, {Part::channels}));
     }
+
     plan_.perTile = {amendingStep("updateImage", simd::kEncodeDisplay, updateImage,
                                   {Part::radiance, Part::pixels},
                                   {Part::radiance, Part::codes, Part::film})};
@@ -171,12 +176,14 @@ class Planner {
       plan_.perQueue = {
           amendingStep("countRays", simd::kPackRays, countRays, {Part::rays}, {Part::rayCounts})};
     }
+
     plan_.perQueue.push_back(embreeStep("findHits", "intersect", findHits, simd::kPackRays,
                                         simd::kUnpackHits, inPackets()));
     if (plan_.features.has(Feature::coplanar)) {
       plan_.perQueue.push_back(amendingStep("settleCoplanar", simd::kUnpackHits, settleCoplanar,
                                             {Part::rays, Part::hits}, {Part::hits}));
     }
+
     // Spheres that move may become coincident at any time.
     const bool coincide = scene_.motion.ofGeometry || !scene_.coincidentSpheres.empty();
     if (has(Effect::spheres) && coincide) {
@@ -187,6 +194,7 @@ class Planner {
       plan_.perQueue.push_back(
           amendingStep("startEnds", simd::kUnpackHits, startEnds, {Part::rays}, {Part::radiance}));
     }
+
     plan_.perQueue.push_back(stepOf(simd::kInterpolateSurfels));
     if (plan_.features.has(Feature::roughnessMaps)) {
       plan_.perQueue.push_back(stepOf(simd::kLookUpRoughness));
@@ -195,12 +203,14 @@ class Planner {
     if (plan_.features.has(Feature::coverage)) {
       plan_.perQueue.push_back(stepOf(simd::kLookUpCoverage));
     }
-    // Before findLayers: the channel of albedo is that of the material, whatever the view.
+
+    // Channels are kept before findLayers, because the albedo is the material's, whatever the view.
     if (!plan_.channels.empty()) {
       plan_.perQueue.push_back(amendingStep("keepChannels", simd::kInterpolateSurfels, keepChannels,
                                             {Part::rays, Part::hits, Part::surfels},
                                             {Part::channels}));
     }
+
     if (plan_.features.has(Feature::occlusionMaps)) {
       plan_.perQueue.push_back(stepOf(simd::kLookUpOcclusion));
     }
@@ -215,6 +225,7 @@ class Planner {
       plan_.perQueue.push_back(stepOf(simd::kFindLayers));
       plan_.perQueue.back().wants = kMaterialLayered;
     }
+
     if (plan_.features.has(Feature::lift)) {
       plan_.perQueue.push_back(stepOf(simd::kLiftShadowOrigins));
     }
@@ -280,8 +291,10 @@ class Planner {
       addLobe(simd::kAddFrostedRefractions, kFrostedLobe);
     }
     addLobe(simd::kAddIndirect, kDiffuseLobe);
+
     if (options_.depth == 0 && !notesEnds()) plan_.impulses.clear();
     if (plan_.impulses.empty()) return;
+
     plan_.depth = options_.depth;
     if (seesThrough()) {
       plan_.impulses.push_back(amendingStep("markStraight", simd::kAddRefractions, markStraight,
@@ -293,6 +306,7 @@ class Planner {
       plan_.impulses.push_back(amendingStep("limitRays", simd::kReturnImpulses, limitRays,
                                             {Part::rays, Part::children}, {Part::children}));
     }
+
     plan_.onReturn = {stepOf(simd::kReturnImpulses)};
     if (countsRays()) {
       plan_.onReturn.push_back(amendingStep("returnRayCounts", simd::kReturnImpulses,
@@ -306,6 +320,7 @@ class Planner {
       plan_.onReturn.push_back(amendingStep("returnAlpha", simd::kReturnImpulses, returnAlpha,
                                             {Part::rays, Part::radiance}, {Part::parentRadiance}));
     }
+
     // Primary rays and the impulses of flat mirrors are coherent; Embree then traverses packets as
     // frustums. Paths that have met more than two surfaces no longer are, and samples of lobes
     // never were: told so, frames with 8 of them took 0.7 of the time, to the same bits. Sorting

@@ -245,19 +245,23 @@ reference::Settings Renderer::referenceSettings() const {
 FrameStats Renderer::renderReference(const Camera& camera, Film& film, Progress* progress) {
   const Stopwatch stopwatch;
   lookFrom(camera, film);
+
   const EmbreeIntersector intersector(*accel_);
   const reference::RayCounts counts =
       reference::render(scene_, intersector, camera, referenceSettings(), film.image, progress);
+
   film.channels.resize(plan_.channels, film.image.pixels.size());
   if (!plan_.channels.empty()) {
     reference::keepChannels(scene_, intersector, camera, referenceSettings(), film.image,
                             film.channels);
     poolErrors(film);
   }
+
   if (film.wantDisplay) {
     film.display = toDisplay(film.image, options_.exposure.ev, options_.toneCurve);
   }
   showBackground(film);
+
   FrameStats stats;
   stats.frameMs = stopwatch.ms();
   stats.workers = machine_.threads;
@@ -265,6 +269,7 @@ FrameStats Renderer::renderReference(const Camera& camera, Film& film, Progress*
     const std::uint64_t rays = counts[static_cast<RayKind>(k)];
     stats.meter.tally[k] = {rays, rays};
   }
+
   for (const Rgb& pixel : film.image.pixels) stats.nonFinitePixels += !isFinite(pixel);
   stats.limitedPixels = counts.limitedPixels;
   return stats;

@@ -173,6 +173,7 @@ void encodeForDisplay(Chunk& c) {
 void updateImage(Chunk& c) {
   Film& film = *c.film;
   if (film.wantDisplay) encodeForDisplay(c);
+
   // Locals: what memory may alias would be read again for every pixel.
   const int left = film.image.window.x0, top = film.image.window.y0;
   const auto width = static_cast<std::size_t>(film.image.windowWidth());
@@ -182,15 +183,18 @@ void updateImage(Chunk& c) {
   auto* const display = reinterpret_cast<std::uint32_t*>(film.display.rgba.data());
   Rgb* const image = film.image.pixels.data();
   const std::size_t n = c.n;
+
   const auto placeOf = [&](std::uint32_t pixel) {
     return static_cast<std::size_t>(pixelY(pixel) - top) * width +
            static_cast<std::size_t>(pixelX(pixel) - left);
   };
+
   // The film is larger than the caches: its lines are asked for before they are written.
   constexpr std::size_t kAhead = 64;
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t next = placeOf(pixels[std::min(i + kAhead, n - 1)]);
     __builtin_prefetch(image + next, 1);
+
     const std::size_t place = placeOf(pixels[i]);
     image[place].x = r[i], image[place].y = g[i], image[place].z = b[i];
     if (codes) {

@@ -25,21 +25,26 @@ Albedo integrate(double cosine, double roughness) {
     }
     return list;
   }();
+
   const double alpha = roughness * roughness;
   const Vec3d view{std::sqrt(1 - cosine * cosine), 0, cosine};
   Albedo sum;
+
   for (int k = 0; k < kFalls; ++k) {
     const double x = (k + 0.5) / kFalls, v = x * (2 - x), density = 2 * (1 - x);
     for (const auto& [c, s] : turns) {
       const Vec3d facet = visibleNormal(view, alpha, c, s, v);
       const double vh = dot(view, facet), nl = 2 * vh * facet.z - cosine;
       if (!(nl > 0)) continue;
+
       const double weight = density * passingShare(cosine, nl, alpha) / (kTurns * kFalls);
       sum.all += weight;
+
       const double away = 1 - vh, squared = away * away;
       sum.grazing += weight * squared * squared * away;
     }
   }
+
   return sum;
 }
 

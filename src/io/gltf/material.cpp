@@ -85,24 +85,29 @@ GltfMaterial readMaterial(const GltfDocument& document, const JsonValue& source)
   m.where = source.where();
   m.doubleSided = source["doubleSided"].flagOr(false);
   m.unlit = extensions["KHR_materials_unlit"].exists();
+
   const auto warnIf = [&](bool isTrue, const char* what) {
     if (isTrue) document.warnings().add(what, m.where);
   };
   const auto texture = [&](const JsonValue& info) {
     return m.unlit ? GltfTexture() : readTexture(document, m.where, info);
   };
+
   const std::vector<double> base = pbr["baseColorFactor"].numbers(4);
   m.base = colorOf(base);
   m.alpha = base.empty() ? 1 : static_cast<float>(std::clamp(base[3], 0.0, 1.0));
   m.baseMap = readTexture(document, m.where, pbr["baseColorTexture"]);
+
   m.metallic = m.unlit ? 0 : readNumber(pbr["metallicFactor"], 1);
   m.roughness = readNumber(pbr["roughnessFactor"], 1);
   m.metallicRoughnessMap = texture(pbr["metallicRoughnessTexture"]);
   m.roughnessMap = m.metallicRoughnessMap;
+
   m.normalMap = texture(source["normalTexture"]);
   m.normalScale = readNumber(source["normalTexture"]["scale"], 1, -1e3, 1e3);
   m.occlusionMap = texture(source["occlusionTexture"]);
   m.occlusionStrength = readNumber(source["occlusionTexture"]["strength"], 1);
+
   const JsonValue emission =
       source["emissiveFactor"];  // some writers store a strength above 1 here
   if (emission.exists() && !m.unlit) {
@@ -111,12 +116,16 @@ GltfMaterial readMaterial(const GltfDocument& document, const JsonValue& source)
                  readNumber(strength, 1, 0, kLargestEmission);
   }
   m.emissiveMap = texture(source["emissiveTexture"]);
+
   const std::string alphaMode = source["alphaMode"].textOr("OPAQUE");
   if (alphaMode == "MASK") m.alphaMode = GltfMaterial::Alpha::mask;
   if (alphaMode == "BLEND") m.alphaMode = GltfMaterial::Alpha::blend;
   warnIf(alphaMode != "OPAQUE" && m.alphaMode == GltfMaterial::Alpha::opaque,
          "unknown alpha mode taken as OPAQUE");
   m.alphaCutoff = readNumber(source["alphaCutoff"], 0.5, 0, 2);
+
+  // Reflectance of what is no metal: that of its index of refraction, times the extension's
+  // factors.
   m.ior = readNumber(extensions["KHR_materials_ior"]["ior"], 1.5, 1, kLargestIor);
   const float step = (m.ior - 1) / (m.ior + 1);
   const JsonValue specular = extensions["KHR_materials_specular"];
@@ -125,25 +134,30 @@ GltfMaterial readMaterial(const GltfDocument& document, const JsonValue& source)
       Rgb(step * step) * colorOf(specular["specularColorFactor"].numbers(3), kLargestEmission);
   m.specularMap = texture(specular["specularTexture"]);
   m.specularColorMap = texture(specular["specularColorTexture"]);
+
   const JsonValue transmission = extensions["KHR_materials_transmission"];
   m.transmission = readNumber(transmission["transmissionFactor"], 0);
   m.transmissionMap = texture(transmission["transmissionTexture"]);
+
   const JsonValue volume = extensions["KHR_materials_volume"];
   warnIf(volume["thicknessTexture"].exists(),
          "thickness of a volume by a texture left out: what the mesh encloses counts");
   m.thickness = readNumber(volume["thicknessFactor"], 0, 0, kLargestNumber);
+
   const double distance = volume["attenuationDistance"].numberOr(0);  // 0: nothing is absorbed
   const Rgb kept = colorOf(volume["attenuationColor"].numbers(3));
   for (int i = 0; distance > 0 && i < 3; ++i) {
     const double logarithm = std::log(double{std::max(kept[i], kLeastAttenuation)});
     m.absorption[i] = static_cast<float>(std::min(-logarithm / distance, 1e18));
   }
+
   const JsonValue coat = extensions["KHR_materials_clearcoat"];
   m.clearcoat = readNumber(coat["clearcoatFactor"], 0);
   m.clearcoatRoughness = readNumber(coat["clearcoatRoughnessFactor"], 0);
   m.clearcoatMap = texture(coat["clearcoatTexture"]);
   m.clearcoatRoughnessMap = texture(coat["clearcoatRoughnessTexture"]);
   warnIf(coat["clearcoatNormalTexture"].exists(), "normal map of a clearcoat left out");
+
   return m;
 }
 
@@ -155,7 +169,8 @@ float grazingRatioOf(const GltfMaterial& g, float metal) {
   constexpr float kLeast = 1e-18f;  // the ratio stays finite
   const float ratio = 1 / std::clamp(maxComponent(g.specularColor), kLeast, 1.0f);
 
-  // What rounding alone makes of the usual index of refraction needs no value of its own.
+  // A ratio that differs from that of the usual index of refraction by rounding alone is the usual
+  // one.
   const bool isUsual = std::fabs(ratio - kGrazingRatio) < 1e-3f;
   return isUsual || (metal > 0 && ratio < kGrazingRatio) ? kGrazingRatio : ratio;
 }
@@ -221,24 +236,32 @@ Material shadedAs(const GltfMaterial& g, const GltfMeans& means) {
   Material m;
   m.name = g.name;
   m.doubleSided = g.doubleSided;
+
   const float roughness = std::min(g.roughness * means.roughness, 1.0f);
   m.roughness = means.roughnessByMap ? g.roughness : roughness;
   m.emission = g.emission;
+
   const GltfMaterial::Coordinates coordinates = g.coordinates();
   m.normalBySecondUvs = coordinates.bySecond(g.normalMap);
   m.emissionBySecondUvs = coordinates.bySecond(g.emissiveMap);
   m.occlusionBySecondUvs = coordinates.bySecond(g.occlusionMap);
+
   m.alphaCutoff = g.alphaMode == GltfMaterial::Alpha::mask && g.alpha > 0
                       ? std::min(g.alphaCutoff / g.alpha, 1.0f)
                       : 0.5f;
   m.thin = g.transmission > 0 && g.thickness == 0;
+
+  // What blends is a sheet that is there in part.
   if (g.alphaMode == GltfMaterial::Alpha::blend) {
     m.coverage = std::min(g.alpha * means.alpha, 1.0f);
     m.thin = m.thin || means.alphaByMap;
     if (means.alphaByMap) m.alphaCutoff = kClearCoverage;
   }
+
   // A mask that cuts everything, with or without a map.
   if (g.alphaMode == GltfMaterial::Alpha::mask && g.alpha < g.alphaCutoff) m.coverage = 0;
+
+  // Unlit materials emit their color and do nothing else.
   if (g.unlit) {
     m.diffuse = Rgb(0.0f);
     m.emission = g.base;
@@ -246,6 +269,8 @@ Material shadedAs(const GltfMaterial& g, const GltfMeans& means) {
     m.castsShadow = m.blocksLight();
     return m;
   }
+
+  // The diffuse color gets the light that metal does not reflect and glass does not transmit.
   const Rgb base = g.base * means.base;
   const Rgb f0 = g.f0(means.specularColor, means.specular);
   const float f90 = g.f90 * means.specular;
@@ -253,26 +278,35 @@ Material shadedAs(const GltfMaterial& g, const GltfMeans& means) {
   const float clear = g.variesTransmission() ? 0 : g.transmission;
   if (metal >= 0.5f) m.vertexTint = VertexTint::diffuseAndSpecular;
   m.diffuse = g.base * ((g.mixesMetal() ? 1 : 1 - metal) * (1 - clear));
+
   m.specular = g.bakesSpecular() ? Rgb(1.0f) : mix(f0, g.base, metal);
   m.grazingRatio = grazingRatioOf(g, metal);
   m.transmission = g.base * (g.transmission * (g.bakesTransmission() ? 1 : 1 - metal));
+
   if (m.boundsMedium()) {
     m.ior = g.ior;
     m.absorption = g.absorption;
   }
+
   m.frosted = m.hasTransmission();
   m.glossyReflection = !m.boundsMedium();
   m.coat = true;
+
+  // Dielectrics mirror by their interface. The metal in them, as far as it is smooth, mirrors
+  // besides.
   if (m.boundsMedium()) {
     const auto share = static_cast<float>(metal * mirroredShareOf(roughness));
     m.mirror = (g.mirrorsByMap() ? m.specular : mix(f0, base, metal)) * share;
     m.mirrorGrazing = Rgb((f90 * (1 - metal) + metal) * share);
   }
+
+  // The clearcoat is a mirror above all of this.
   const double coatRoughness = g.clearcoatRoughness * means.clearcoatRoughness;
   const auto coat =
       static_cast<float>(g.clearcoat * means.clearcoat * mirroredShareOf(coatRoughness));
   m.mirror = min(m.mirror + Rgb(0.04f * coat), Rgb(1.0f));
   m.mirrorGrazing = max(m.mirrorGrazing, Rgb(coat));
+
   m.castsShadow = m.blocksLight();
   return m;
 }

@@ -50,6 +50,7 @@ void readSkin(const GltfDocument& document, const JsonValue& primitive, Deformat
   const JsonValue attributes = primitive["attributes"];
   const std::string where = primitive.where();
   const std::size_t count = to.positions.size(), own = to.joints.size() - 1;
+
   std::vector<std::vector<float>> joints, weights;
   for (int set = 0;; ++set) {
     const JsonValue j = attributes["JOINTS_" + std::to_string(set)];
@@ -60,6 +61,7 @@ void readSkin(const GltfDocument& document, const JsonValue& primitive, Deformat
     checkLength(joints.back().size() / 4, count, j);
     checkLength(weights.back().size() / 4, count, w);
   }
+
   document.budget().charge(
       count, sizeof(std::uint32_t) + (4 * joints.size() + 1) * sizeof(Influence), where);
   to.firstInfluence.push_back(0);
@@ -76,6 +78,7 @@ void readSkin(const GltfDocument& document, const JsonValue& primitive, Deformat
         document.warnings().add("joint that the skin does not have left out", where);
       }
     }
+
     if (!(sum > 0) || !std::isfinite(sum)) {
       document.warnings().add("vertex that no joint holds placed by its node", where);
       to.influences.resize(to.firstInfluence.back());
@@ -334,11 +337,13 @@ class GltfModel : public Model {
       const double aspect = std::clamp(stage_.aspect, kNarrowest, kWidest);
       scene.width = static_cast<int>(std::lround(aspect * scene.height));
     }
+
     const auto first = static_cast<std::uint32_t>(scene.motion.rig.size());
     for (RigNode node : stage_.movers) {
       putInParent(node.parent, node.toParent, first, scene);
       scene.motion.rig.push_back(std::move(node));
     }
+
     for (auto [camera, map, mover] : stage_.cameras) {
       putInParent(mover, map, first, scene);
       camera.eye = Vec3f(map.p);
@@ -349,6 +354,7 @@ class GltfModel : public Model {
       if (mover != kNoNode) scene.motion.cameras.push_back({number, mover, camera});
       scene.cameras.push_back(camera);
     }
+
     for (auto [light, map, mover] : stage_.lights) {
       putInParent(mover, map, first, scene);
       light.position = Vec3f(map.p);

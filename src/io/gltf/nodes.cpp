@@ -373,6 +373,7 @@ class TreeReader {
     if (translation.exists()) translations = readVectors(document_, translation);
     if (rotation.exists()) rotations = readTuples(document_, rotation, 4);
     if (scale.exists()) scales = readVectors(document_, scale);
+
     const std::size_t turns = rotations.size() / 4;
     const std::size_t count = std::max({translations.size(), turns, scales.size()});
     for (const std::size_t size : {translations.size(), turns, scales.size()}) {
@@ -381,8 +382,10 @@ class TreeReader {
                         std::to_string(size) + " beside " + std::to_string(count));
       }
     }
+
     document_.budget().charge(count, 2 * sizeof(GltfPlacedMesh) + sizeof(Instance),
                               attributes.where());
+
     std::vector<Affine> copies;
     for (std::size_t i = 0; i < count; ++i) {
       Quaternion turn{0, 0, 0, 1};
@@ -391,6 +394,7 @@ class TreeReader {
                             scales.empty() ? Vec3d(1.0) : Vec3d(scales[i])};
       copies.push_back(place.map());
     }
+
     return copies;
   }
 
@@ -398,6 +402,7 @@ class TreeReader {
     const JsonValue node = nodes_[index], cameras = document_.list("cameras");
     const JsonValue source = cameras[*node["camera"].indexInto(cameras)];
     const std::string type = source.need("type").textOr("");
+
     Camera camera;
     double aspect = 0;
     bool shows = false;
@@ -415,10 +420,13 @@ class TreeReader {
       camera.orthographicHeight = static_cast<float>(2 * ymag);
       aspect = xmag / ymag;
     }
+
     if (!shows) return warn("camera of an unknown type or without an extent left out", index);
+
     camera.name = node["name"].textOr("");
     if (camera.name.empty()) camera.name = source["name"].textOr("");
     if (camera.name.empty()) camera.name = "camera";
+
     camera.aspect = static_cast<float>(std::clamp(aspect, 0.0, kLargestAspect));
     if (stage_.cameras.empty()) stage_.aspect = aspect;
     stage_.cameras.push_back({camera, map, mover});

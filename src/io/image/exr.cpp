@@ -58,11 +58,13 @@ std::int32_t checkHeaders(const std::string& path) {
   settings.error_handler_fn = [](exr_const_context_t, exr_result_t, const char* text) {
     message = text;
   };
+
   exr_context_t file = nullptr;
   const bool valid = exr_start_read(&file, path.c_str(), &settings) == EXR_ERR_SUCCESS;
   int parts = 0;
   std::int32_t lines = 1, chunks = 0;
   std::uint64_t allChunks = 0;
+
   if (valid) {
     exr_get_count(file, &parts);
     exr_get_scanlines_per_chunk(file, 0, &lines);
@@ -71,17 +73,20 @@ std::int32_t checkHeaders(const std::string& path) {
       allChunks += static_cast<std::uint64_t>(std::max(chunks, 0));
     }
   }
+
   exr_finish(&file);
   if (!valid) {
     throwBadScene(path + ": header",
                   "expected valid OpenEXR data, found an error: " + said(message));
   }
+
   const std::uint64_t most = std::filesystem::file_size(path) / sizeof(std::uint64_t);
   if (allChunks > most) {
     throwBadScene(path + ": header",
                   "expected at most the " + std::to_string(most) +
                       " tiles or blocks of lines whose places the file can hold");
   }
+
   return std::max(lines, 1);
 }
 
@@ -301,31 +306,38 @@ void addCamera(const ImageMetadata& metadata, const Image& image, Imf::Header& h
     if (isOfCamera || name == "ortho") setOption(options, name, text);
     if (name == "projection") isLinear = false;
   }
+
   if (!options.eye || !options.at) return;
   // The frame of a far view has the eye in its origin, because single precision would round it.
   const bool isFar = optionOf<Vec3d>(Vec3f(*options.eye), Vec3d()) != *options.eye;
   const Vec3d origin = isFar ? *options.eye : Vec3d();
+
   Camera camera;
   forEachCameraOption([&](auto option, auto member) {
     if (options.*option) camera.*member = memberOf(*(options.*option), origin);
   });
+
   const CameraFrame frame = makeCameraFrame(camera, image.width, image.height);
   const double pixel = length(frame.up);
   const Vec3d axes[] = {frame.right * (1 / pixel), frame.up * (1 / pixel), frame.forward};
+
   Imath::M44f toCamera, toNdc;
   for (int i = 0; i < 3; ++i) {
     for (int k = 0; k < 3; ++k) toCamera[k][i] = static_cast<float>(axes[i][k]);
     toCamera[3][i] = static_cast<float>(-dot(frame.eye + origin, axes[i]));
   }
   Imf::addWorldToCamera(header, toCamera);
+
   if (!isLinear) return;
   toNdc[0][0] = static_cast<float>(1 / (pixel * image.width));
   toNdc[1][1] = static_cast<float>(-1 / (pixel * image.height));
+
   // A perspective camera divides by the depth.
   const int offset = frame.orthographic ? 3 : 2;
   toNdc[2][2] = toNdc[3][3] = frame.orthographic ? 1 : 0;
   toNdc[2][3] = toNdc[3][2] = frame.orthographic ? 0 : 1;
   toNdc[offset][0] = toNdc[offset][1] = 0.5f;
+
   Imf::addWorldToNDC(header, toCamera * toNdc);
 }
 

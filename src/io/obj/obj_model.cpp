@@ -225,9 +225,11 @@ class ObjReader {
       if (lines_.take('/')) corner.normal = index(lines_, normals_.size());
       if (!lines_.finishWord()) corner.position = kOutOfRange;
     }
+
     if (corners_.empty()) return;
     hasFaces_ = true;
     if (corners_.size() < 3) return warn("face with fewer than three corners dropped");
+
     for (ObjCorner& c : corners_) {
       if (c.position < 0 || placeOf(c.position) >= positions_.size()) {
         return warn("face with a vertex index out of range dropped");
@@ -235,6 +237,7 @@ class ObjReader {
       require(c.uv, uvs_.size(), "texture coordinate index out of range ignored");
       require(c.normal, normals_.size(), "normal index out of range ignored");
     }
+
     addFace();
   }
 

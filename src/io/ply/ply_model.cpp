@@ -127,6 +127,7 @@ class PlyReader {
     readHeader();
     // Each corner may become a triangle.
     budget_.charge(text_.size() / (ascii_ ? 2 : 1), sizeof(mesh_.triangles[0]), file_);
+
     std::uint64_t faces = 0;
     for (const PlyElement& element : elements_) {
       if (element.properties.empty()) continue;
@@ -142,12 +143,14 @@ class PlyReader {
         warnings_.add("elements of a kind that is not shown", file_);
       }
     }
+
     if (mesh_.triangles.empty()) {
       warnNothingToDraw(mesh_.positions.empty() ? "no vertices"
                         : faces == 0            ? "no faces"
                                                 : "no face that can be built",
                         file_, warnings_);
     }
+
     if (mesh_.materials.empty()) mesh_.materials = {0};
     return std::move(mesh_);
   }
@@ -166,15 +169,18 @@ class PlyReader {
 
   void readHeader() {
     if (nextWords() != std::vector<std::string>{"ply"}) failInHeader("expected a line \"ply\"");
+
     bool hasFormat = false;
     for (;;) {
       lines_.nextLine();
       if (LineReader line = lines_; line.word() == "comment" && line.word() == "TextureFile") {
         pictures.push_back({std::string(line.rest()), lines_.place()});
       }
+
       const std::vector<std::string> words = nextWords();
       const std::string keyword = words.empty() ? "" : words[0];
       if (keyword == "end_header") break;
+
       if (keyword == "format") {
         readFormat(words);
         hasFormat = true;
@@ -186,6 +192,7 @@ class PlyReader {
         failInHeader("expected \"format\", \"element\", \"property\" or \"end_header\"");
       }
     }
+
     if (!hasFormat) failInHeader("expected a line \"format\" before the header's end");
     lines_.nextLine();
     at_ = lines_.at();
@@ -297,26 +304,31 @@ class PlyReader {
       has[component] = true;
       if (component == kComponents) nameUnread(element, property);
     }
+
     if (!has[kX] || !has[kY] || !has[kZ] || !mesh_.positions.empty()) {
       throwBadScene(element.where, "expected one element \"vertex\" with x, y and z");
     }
     if (element.count > std::numeric_limits<std::uint32_t>::max()) {
       throwLimit(element.where + ": more than 2^32 - 1 vertices");
     }
+
     const bool normals = has[kNx] && has[kNy] && has[kNz], uvs = has[kU] && has[kV];
     const bool colors = has[kR] && has[kG] && has[kB];
     if (has[kR] && !colors) warnings_.add("vertex colors that lack a channel left out", file_);
     bool isTranslucent = false;
+
     budget_.charge(element.count,
                    sizeof(Vec3d) + 2 * sizeof(Vec3f) + sizeof(Vec2f) + (colors ? sizeof(Rgb) : 0),
                    file_);
     vertices_ = element.count;
+
     std::vector<Vec3d> positions(element.count);
     BoxOf<Vec3d> box;
     if (normals) mesh_.normals.resize(element.count);
     if (uvs) mesh_.uvs.resize(element.count);
     if (colors) mesh_.colors.resize(element.count);
     std::array<float, kComponents + 1> v{};
+
     for (std::uint64_t i = 0; i < element.count; ++i) {
       readElement(element, [&](const PlyProperty& property, double value) {
         const Component to =
@@ -324,15 +336,19 @@ class PlyReader {
         v[to] = valueOf(property, to, value);
         if (to <= kZ) positions[i][to] = value;
       });
+
       isTranslucent = isTranslucent || (has[kAlpha] && v[kAlpha] < 1);
       box.add(positions[i]);
       if (normals) mesh_.normals[i] = {v[kNx], v[kNy], v[kNz]};
       if (uvs) mesh_.uvs[i] = {v[kU], v[kV]};
       if (colors) mesh_.colors[i] = {v[kR], v[kG], v[kB]};
     }
+
+    // Positions are rounded after the middle of a far model was subtracted.
     middle = originOf(box);
     mesh_.positions.reserve(element.count);
     for (const Vec3d& position : positions) mesh_.positions.emplace_back(position - middle);
+
     if (isTranslucent) warnings_.add("alpha of vertex colors left out", file_);
   }
 
@@ -504,11 +520,14 @@ class PlyModel : public MeshModel {
     const std::string text = readTextFile(source.path, source.budget.left());
     const std::string file = source.path.string();
     source.budget.charge(text.size(), 1, file);
+
     PlyReader reader(text, file, source.budget, source.warnings);
     mesh_ = reader.read();
     middle_ = reader.middle;
     mesh_.name = source.path.stem().string();
+
     for (const PlyPicture& picture : reader.pictures) pictures_.push_back(sourceOf(picture));
+
     const bool isPictured = std::ranges::any_of(
         pictures_, [](const TextureSource& picture) { return !picture.path.empty(); });
     if (isPictured && mesh_.uvs.empty()) {
@@ -519,6 +538,7 @@ class PlyModel : public MeshModel {
       source.warnings.add("colors left out, because the file has pictures", file);
       mesh_.colors.clear();
     }
+
     if (pictures_.empty()) pictures_.emplace_back();
     for (const TextureSource& picture : pictures_) {
       Material& material = materials_.emplace_back();
@@ -528,6 +548,7 @@ class PlyModel : public MeshModel {
       const bool isWhite = !picture.path.empty() || !mesh_.colors.empty();
       material.diffuse = Rgb(isWhite ? 1.0f : kModelGray);
     }
+
     if (pictures_.size() == 1) mesh_.materials = {0};
   }
 

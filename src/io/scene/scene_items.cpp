@@ -200,6 +200,7 @@ class ItemReader {
       throwBadScene(value.where(),
                     "nested deeper than " + std::to_string(kNestingLimit) + " items");
     }
+
     JsonObject item(value);
     Body content;
     if (const JsonValue shape = item.find("shape")) {
@@ -217,10 +218,13 @@ class ItemReader {
       item.finish();
       value.fail("an item with \"shape\", \"model\", \"use\" or \"group\"");
     }
+
     nameItem(content, value.pointer());
     std::vector<Affine> placements = readPlacements(item);
     const SharedMotion motion = readMotion(item, context_.instant, context_.scene);
     item.finish();
+
+    // What moves is a body of its own, which its placement carries.
     if (motion && context_.instant.moves()) {
       const std::uint32_t carried = layout_.add("");
       layout_.append(content, placements, layout_.body(carried));
@@ -232,20 +236,24 @@ class ItemReader {
       }
       layout_.append(content, placements, to);
     }
+
     --depth_;
   }
 
   Body readShape(JsonObject& item, const JsonValue& name) {
     const GenerationLimit limit(context_.budget.left());
     Shape shape = generate(name, shapeGenerators(), item);
+
     const JsonValue everywhere = item.find("material");
     std::map<std::string, std::uint32_t> slots;
     std::vector<std::string> names;
     for (const ShapePart& part : shape.parts) names.push_back(part.slot);
+
     for (const auto& [slot, material] : item.find("materials").members()) {
       slotOf(material, slot, names, "slot of this shape");
       slots[slot] = materials_.find(material);
     }
+
     Body content;
     for (ShapePart& part : shape.parts) {
       const auto slot = slots.find(part.slot);
@@ -257,9 +265,11 @@ class ItemReader {
       if (part.mesh.name.empty()) part.mesh.name = name.text() + "/" + part.slot;
       content.addMesh(std::move(part.mesh));
     }
+
     if (shape.placements.empty()) return content;
     const std::uint32_t body = layout_.add(name.text());
     layout_.body(body) = std::move(content);
+
     Body placed;
     for (const Affine& placement : shape.placements)
       placed.placements.push_back({.body = body, .toParent = placement});
@@ -310,14 +320,18 @@ class ItemReader {
     std::vector<GivenMembers> given(materials.size());
     const std::vector<std::string> names = distinctNames(namesIn(materials));
     const std::string section = item.value().pointer() + "/materials/";
+
     for (std::size_t i = 0; i < materials.size(); ++i) {
       materials[i].pointer = section + escapePointer(names[i]);
     }
+
     const auto apply = [&](const JsonValue& value, std::size_t i) {
       JsonObject object(value);
       materials_.override(object, materials[i], given[i]);
       object.finish();
     };
+
+    // Overrides of all materials come before those of one.
     const auto overrides = item.find("materials").members();
     for (const auto& [name, value] : overrides) {
       if (name != "*") continue;
@@ -326,6 +340,7 @@ class ItemReader {
     for (const auto& [name, value] : overrides) {
       if (name != "*") apply(value, slotOf(value, name, names, "material of this model"));
     }
+
     std::vector<std::uint32_t> indices;
     for (std::size_t i = 0; i < materials.size(); ++i) {
       TexturedMaterial textured =

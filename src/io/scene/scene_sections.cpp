@@ -261,6 +261,7 @@ void readSky(JsonObject& file, SceneContext& context) {
   Sky& sky = context.scene.sky;
   sky = Sky();
   sky.scale = object.number("scale", sky.scale, 0);
+
   if (const JsonValue image = object.find("image")) {
     sky.kind = Sky::Kind::image;
     sky.rotation = object.number("rotation", sky.rotation);
