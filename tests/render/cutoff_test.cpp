@@ -9,24 +9,38 @@
 namespace whit::test {
 namespace {
 
+constexpr int kDepth = 64;
+
+// A cube seen from within.
+Scene closedRoom(const Material& wall) {
+  SceneBuilder builder;
+  builder.add(box({-1, -1, -1}, {1, 1, 1}, builder.add(wall)));
+  builder.description.cameras.resize(1);
+  builder.description.cameras[0].eye = {0.1f, 0.2f, 0.3f};
+  builder.description.cameras[0].at = {1, 0, 0};
+  return builder.build();
+}
+
+// The depth ends paths late, and the cutoff is the default one.
+RenderOptions deepOptions() {
+  RenderOptions o = smallOptions();
+  o.size = ImageSize{8, 8};
+  o.depth = kDepth;
+  o.cutoff = RenderOptions().cutoff;
+  return o;
+}
+
 // A closed room that emits 1 - a and reflects a has the radiance 1 everywhere, to what the depth
 // cuts off. The default cutoff must not take more.
 TEST(Cutoff, ClosedRoomsKeepTheirLight) {
   for (const float albedo : {0.5f, 0.8f, 0.9f}) {
-    SceneBuilder builder;
     Material wall = diffuseMaterial(albedo);
     wall.emission = Rgb(1 - albedo);
-    builder.add(box({-1, -1, -1}, {1, 1, 1}, builder.add(wall)));
-    builder.description.cameras.resize(1);
-    builder.description.cameras[0].eye = {0.1f, 0.2f, 0.3f};
-    builder.description.cameras[0].at = {1, 0, 0};
-    const Scene scene = builder.build();
-    RenderOptions o = smallOptions();
-    o.size = ImageSize{8, 8};
-    o.depth = 64;
-    o.cutoff = RenderOptions().cutoff;
+    const Scene scene = closedRoom(wall);
+    RenderOptions o = deepOptions();
     o.indirect = 4;
-    const double tail = std::pow(double{albedo}, 65);
+
+    const double tail = std::pow(double{albedo}, kDepth + 1);
     Renderer renderer(scene, o);
     for (const bool packets : {false, true}) {
       Film film = makeFilm(scene, o);
@@ -49,23 +63,15 @@ TEST(Cutoff, ClosedRoomsKeepTheirLight) {
 // collects the emission of as many surfaces as the depth lets it reach, without noise, and the
 // cutoff takes nothing. Two rays at each surface would halve in weight with every bounce.
 TEST(Cutoff, WhiteRoomsKeepTheirLightWithOneRayABounce) {
-  constexpr int kDepth = 64, kSamples = 4;
+  constexpr int kSamples = 4;
   for (const float specular : {0.04f, 0.5f, 1.0f}) {
     for (const float roughness : {0.02f, 0.3f, 1.0f}) {
-      SceneBuilder builder;
       Material wall = diffuseMaterial(1);
       wall.emission = Rgb(1.0f / (kDepth + 1));
       wall.specular = Rgb(specular);
       wall.roughness = roughness;
-      builder.add(box({-1, -1, -1}, {1, 1, 1}, builder.add(wall)));
-      builder.description.cameras.resize(1);
-      builder.description.cameras[0].eye = {0.1f, 0.2f, 0.3f};
-      builder.description.cameras[0].at = {1, 0, 0};
-      const Scene scene = builder.build();
-      RenderOptions o = smallOptions();
-      o.size = ImageSize{8, 8};
-      o.depth = kDepth;
-      o.cutoff = RenderOptions().cutoff;
+      const Scene scene = closedRoom(wall);
+      RenderOptions o = deepOptions();
       o.glossy = o.indirect = kSamples;
 
       for (const bool packets : {false, true}) {
