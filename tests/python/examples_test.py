@@ -29,8 +29,9 @@ def examples():
 class Examples(unittest.TestCase):
     def run_example(self, heading, *files):
         with temporary_folder():
-            done = subprocess.run([sys.executable, "-c", examples()[heading]], capture_output=True,
-                                  text=True, check=False, env={**os.environ, "MPLBACKEND": "Agg"})
+            done = subprocess.run([sys.executable, "-W", "error", "-c", examples()[heading]],
+                                  capture_output=True, text=True, check=False,
+                                  env={**os.environ, "MPLBACKEND": "Agg"})
             self.assertEqual(done.returncode, 0, done.stderr)
             for file in files:
                 self.assertGreater(os.path.getsize(file), 500, file)

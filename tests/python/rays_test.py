@@ -39,6 +39,31 @@ class Rays(unittest.TestCase):
         np.testing.assert_array_equal(np.diff(everything.offsets.astype(int)), inside.ravel())
         self.assertEqual(everything.point.shape, (inside.sum(), 3))
 
+    def test_one_ray(self):
+        """Its answers are single numbers; arrays of any leading shape give arrays of that shape."""
+        hits = self.scene.closest([0.25, 2, 0], [0, -1, 0])
+        self.assertEqual((hits.t.shape, hits.point.shape, hits.uv.shape), ((), (3,), (2,)))
+        self.assertEqual((hits.t, hits.side, bool(hits.hit)), (2, 1, True))
+        np.testing.assert_allclose(hits.point, [0.25, 0, 0], atol=1e-15)
+        self.assertEqual(repr(hits), "<whit.Hits: 1 of shape ()>")
+        self.assertFalse(self.scene.closest([3, 2, 0], [0, -1, 0]).hit)
+
+        everything = self.scene.all_hits([0.25, 2, 0], [0, -1, 0])
+        self.assertEqual((everything.t.tolist(), everything.offsets.tolist()), ([2], [0, 1]))
+        for origin, expected in ([0.25, 2, 0], True), ([3, 2, 0], False):
+            occluded = self.scene.occluded(origin, [0, -1, 0])
+            self.assertEqual((occluded.shape, bool(occluded)), ((), expected))
+            seen, certain = self.scene.visible(origin, [origin[0], -1, 0], return_certain=True)
+            self.assertEqual((seen.shape, bool(seen), bool(certain)), ((), not expected, True))
+        open_ = self.scene.ambient_occlusion([0, 0, 0], [0, 1, 0], 10, 16)
+        self.assertEqual((open_.shape, open_), ((), 1))
+
+        for shape in (1,), (2, 1), (3, 0, 2), (1, 2, 1, 2):
+            points = np.zeros((*shape, 3)) + [0.25, 2, 0]
+            hits = self.scene.closest(points, DOWN)
+            self.assertEqual((hits.t.shape, hits.point.shape), (shape, (*shape, 3)))
+            self.assertEqual(self.scene.occluded(points, DOWN).shape, shape)
+
     def test_any_kind_of_numbers(self):
         points = grid(3, 3).astype(np.float32)
         expected = self.scene.closest(points, DOWN).t

@@ -341,8 +341,8 @@ class Scene:
                 progress: Optional[Progress] = None) -> Hits:
         """The nearest hit of each ray with the scene as it is at its present time.
 
-        origins, directions: (..., 3), float32 or float64, in the world; shapes are broadcast. A
-            direction may have any length but zero.
+        origins, directions: (..., 3), float32 or float64, in the world; shapes are broadcast, and
+            (3,) is one ray. A direction may have any length but zero.
         t_near, t_far: hits count from t_near to t_far, both included, in lengths of the direction;
             a number, or one for each ray.
 
@@ -358,7 +358,7 @@ class Scene:
                  limit: Optional[int] = None, progress: Optional[Progress] = None) -> Hits:
         """All hits of each ray, by their distance: at most `limit`; None: all. Coplanar surfaces
         that overlap count once, as do triangles whose common edge is hit. Arguments as in
-        closest()."""
+        closest(); results have one row a hit whatever the shape of the rays."""
         rays, _ = self._rays(origins, directions, t_near, t_far)
         most = 2**64 - 1 if limit is None else max(operator.index(limit), 0)
         columns = self._object.all_hits(rays, most, progress)

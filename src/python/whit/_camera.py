@@ -102,7 +102,8 @@ class Camera:
         """Pixels (..., 2) where points (..., 3) of the scene are seen; NaN where a point is not in
         front of the camera."""
         turn = self.pose[:3, :3] * _AXES[self.axes]
-        x, y, z = np.moveaxis((np.asarray(points, float) - self.pose[:3, 3]) @ turn, -1, 0)
+        with np.errstate(invalid="ignore"):  # points at infinity, where rays hit nothing
+            x, y, z = np.moveaxis((np.asarray(points, float) - self.pose[:3, 3]) @ turn, -1, 0)
         z = np.where(z > 0, z, np.nan)
         x, y = x / z, y / z
         k1, k2, p1, p2, k3, k4, k5, k6 = (*self.members.get("distortion", ()), *[0.0] * 8)[:8]
@@ -132,7 +133,8 @@ class Camera:
         y = y / k[1, 1]
         rays = np.stack([(x - k[0, 1] * y) / k[0, 0], y, np.ones_like(y)], -1)
         turn = self.pose[:3, :3] * _AXES[self.axes]
-        return (rays * depth[..., None]) @ turn.T + self.pose[:3, 3]
+        with np.errstate(invalid="ignore"):  # infinite depths
+            return (rays * depth[..., None]) @ turn.T + self.pose[:3, 3]
 
     def __repr__(self) -> str:
         return f"<whit.Camera: {self.size[0]} x {self.size[1]}, {self.members}>"

@@ -84,7 +84,7 @@ def hits(columns: dict[str, np.ndarray], shape: tuple[int, ...]) -> Hits:
     """Gives the columns of a query their shapes."""
     components = {"point": (3,), "geometric_normal": (3,), "shading_normal": (3,),
                   "weights": (2,), "uv": (2,)}
-    found = {name: column.reshape(*shape, *components.get(name, ()))
+    found = {name: column.reshape(shape + components.get(name, ()))
              for name, column in columns.items() if name != "offsets"}
     found["offsets"] = columns.get("offsets")
     found["certain"] = found["certain"].view(np.bool_)
