@@ -1,6 +1,8 @@
 """Errors as Python users expect them: by their types, and by names that Python has."""
 
+import errno
 import inspect
+import os
 import pathlib
 import re
 import unittest
@@ -69,6 +71,24 @@ class Messages(unittest.TestCase):
                 call()
             self.assertIsInstance(caught.exception, whit.Error)
             self.assertIsNone(COMMAND_LINE.search(str(caught.exception)))
+
+    def test_errors_of_files_are_those_of_the_system(self):
+        picture = whit.Scene("whitted").render(size=SIZE)
+        with temporary_folder():
+            os.mkdir("folder.png")
+            cases = [
+                (lambda: whit.Scene("none.json"), FileNotFoundError, errno.ENOENT, "none.json"),
+                (lambda: picture.write("no/a.png"), FileNotFoundError, errno.ENOENT, "no/a.png"),
+                (lambda: picture.write("folder.png"), OSError, errno.EISDIR, "folder.png"),
+            ]
+            for call, kind, number, file in cases:
+                with self.subTest(file=file), self.assertRaises(kind) as caught:
+                    call()
+                error = caught.exception
+                self.assertEqual((error.errno, error.filename, error.file), (number, file, file))
+                self.assertEqual(isinstance(error, FileNotFoundError), number == errno.ENOENT)
+                self.assertRegex(str(error), f"^cannot (open|write) '?{file}'?: ")
+        self.assertIsNone(whit.Error("a device failed", 4, "/").errno)
 
     def test_files_outside_and_strict(self):
         with temporary_folder():

@@ -2,17 +2,27 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import re
 from typing import Any, Optional
 
 
+def _errno_of(message: str, file: str) -> Optional[int]:
+    """The system's number of an error, from the words at the end of its message; None: unknown."""
+    for code in errno.errorcode:
+        if message.endswith(os.strerror(code)):
+            return code
+    return None if os.path.exists(file) else errno.ENOENT
+
+
 class Error(Exception):
     """An error in a scene, an option or a file.
 
-    It is a ValueError as well for wrong usage and bad scenes, an OSError for files that cannot be
-    read or written (FileNotFoundError where there is none), and a MemoryError for limits. str() is
-    the message in one line. An attribute is None if it is unknown.
+    It is a ValueError as well for wrong usage and bad scenes, an OSError with `errno` and
+    `filename` for files that cannot be read or written (FileNotFoundError where there is none), and
+    a MemoryError for limits. str() is the message in one line. An attribute is None if it is
+    unknown.
     """
 
     exit_status: int
@@ -30,7 +40,7 @@ class Error(Exception):
         kind = cls
         if cls is Error:
             kind = {2: UsageError, 3: UsageError, 4: FileError, 5: LimitError}.get(exit_status, cls)
-            if kind is FileError and file and not os.path.exists(file):
+            if kind is FileError and file and _errno_of(message, file) == errno.ENOENT:
                 kind = MissingFileError
         return (OSError if issubclass(kind, OSError) else Exception).__new__(kind, message)
 
@@ -41,6 +51,13 @@ class Error(Exception):
         self.file = file
         self.place = place
         self.expected = expected
+        if isinstance(self, OSError) and file:
+            self.errno = _errno_of(message, file)
+            self.strerror = message
+            self.filename = file
+
+    def __str__(self) -> str:
+        return self.args[0]  # OSError would put errno and filename around it
 
     def __reduce__(self):
         return type(self), (str(self), self.exit_status, self.file, self.place, self.expected)
