@@ -279,14 +279,16 @@ SceneName parseSceneName(const std::string& name) {
 
 fs::path findScene(const std::string& file, const std::string& shippedScenes) {
   fs::path path(file);
-  if (path.has_extension() || path.has_parent_path()) return path;
+  std::error_code error;
+  if (path.has_parent_path() || (path.has_extension() && fs::exists(path, error))) return path;
 
+  // Shipped models are found by the name of their file: "chess.glb".
   const std::vector<fs::path> folders = sceneFolders(shippedScenes);
   for (const fs::path& folder : folders) {
-    fs::path candidate = folder / (file + ".json");
-    std::error_code error;
+    fs::path candidate = folder / (path.has_extension() ? file : file + ".json");
     if (fs::is_regular_file(candidate, error)) return candidate;
   }
+  if (path.has_extension()) return path;
 
   const std::vector<std::string> names = shippedNames(folders);
   throwUsage("no scene is called '" + file + "'" +

@@ -52,9 +52,10 @@ struct SceneName {
 // Throws Error(usage) when a parameter is not of the form name=number.
 SceneName parseSceneName(const std::string& name);
 
-// A path for names that look like one (a separator or an extension), a shipped scene for bare
-// names, which are also looked for in `shippedScenes` unless that is empty. Throws Error(usage) for
-// a bare name that is not shipped, naming the nearest.
+// Returns the path of a scene. Names with a separator are paths. Names with an extension are paths
+// unless there is no such file and a shipped scene or model is called so. Bare names are shipped
+// scenes. These are also looked for in `shippedScenes` unless that is empty. Throws Error(usage)
+// for a bare name that is not shipped, naming the nearest.
 std::filesystem::path findScene(const std::string& file, const std::string& shippedScenes = "");
 
 // Returns all shipped scenes that are found, in order of their names.

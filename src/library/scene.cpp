@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include "core/text.h"
@@ -94,7 +95,8 @@ whit::LoadOptions loadOptions(const LoadOptions& options, const char* shippedSce
   load.instant.movable = {options.movable.begin(), options.movable.end()};
   load.instant.animation = options.animation;
   load.settings = options.settings;
-  load.shippedScenes = shippedScenes;
+  // Folders are searched by this path, which may lead through the file of a header.
+  load.shippedScenes = std::filesystem::path(shippedScenes).lexically_normal().string();
   return load;
 }
 
@@ -240,7 +242,7 @@ SceneBuilder& SceneBuilder::set(const std::string& pointer, const std::string& j
 Scene SceneBuilder::build(const LoadOptions& options) const {
   return guarded(options.progress, [&](whit::Progress* progress) {
     const SceneSource source{data_->text.name, std::make_shared<const SceneText>(data_->text)};
-    return Scene(Scene::Data::read(source, options, WHIT_SHIPPED_SCENES, progress));
+    return Scene(Scene::Data::read(source, options, "", progress));
   });
 }
 

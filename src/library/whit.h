@@ -8,8 +8,8 @@
 // setTransform() and setMember().
 //
 // In CMake: find_package(whit) and target_link_libraries(... whit::whit); elsewhere pkg-config's
-// package whit, whose variable `scenes` is the folder of the shipped scenes. Every function throws
-// whit::api::Error and nothing else, except the exceptions of the caller's own callbacks.
+// package whit. Every function throws whit::api::Error and nothing else, except the exceptions of
+// the caller's own callbacks.
 #pragma once
 
 #include <array>
@@ -29,9 +29,10 @@
 #define WHIT_VERSION_MINOR 1
 #define WHIT_VERSION_PATCH 0
 
-// The folder of the shipped scenes; find_package(whit) defines it.
+// The folder of the shipped scenes: find_package(whit) defines it; else it is found from the place
+// of this header, as in /usr/include/whit and /usr/share/whit.
 #ifndef WHIT_SHIPPED_SCENES
-#define WHIT_SHIPPED_SCENES ""
+#define WHIT_SHIPPED_SCENES __FILE__ "/../../../share/whit/scenes"
 #endif
 
 #pragma GCC visibility push(default)  // for a shared library
@@ -129,8 +130,8 @@ class Scene {
   DataPointer<std::shared_ptr<Data>> data_;
 };
 
-// Loads a scene file (.json), a model, or a shipped scene ("landscape?triangles=20000000") from
-// $WHIT_SCENES, from beside the program or from `shippedScenes`.
+// Loads a scene file (.json), a model, or a shipped scene ("landscape?triangles=20000000",
+// "chess.glb") from $WHIT_SCENES, from beside the program or from `shippedScenes`.
 Scene loadScene(const std::string& name, const LoadOptions& options = {},
                 const char* shippedScenes = WHIT_SHIPPED_SCENES);
 

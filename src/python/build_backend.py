@@ -30,7 +30,8 @@ def _build(folder):
              for path in (folder / "python" / "whit").iterdir() if path.is_file()}
     files.update({f"whit/scenes/{path.relative_to(scenes)}": path.read_bytes()
                   for path in scenes.rglob("*")
-                  if path.suffix in (".json", ".hdr", ".ply") and "pictures" not in path.parts})
+                  if path.suffix in (".json", ".hdr", ".ply", ".glb")
+                  and "pictures" not in path.parts})
     return files
 
 

@@ -22,7 +22,8 @@ cd "$work"
 venv/bin/python -c '
 import whit
 assert whit.__file__.startswith("'"$work"'"), whit.__file__
-assert whit.Scene("whitted").render(size=(48, 30)).rgb.max() > 0.1'
+assert whit.Scene("whitted").render(size=(48, 30)).rgb.max() > 0.1
+assert whit.Scene("chess.glb").triangles > 1000'
 test -s venv/lib/python3*/site-packages/whit/scenes/whitted.json
 venv/bin/pip uninstall -y whit >"$work/log" 2>&1
 test ! -e venv/lib/python3*/site-packages/whit

@@ -38,12 +38,16 @@ def _native(name: str, doc: str) -> Any:
 
 
 def _shipped_scenes() -> str:
-    """The folder of the shipped scenes: beside the module, or in share/whit of its prefix."""
-    here = os.path.dirname(os.path.abspath(__file__))
-    beside = os.path.join(here, "scenes")
-    if os.path.isdir(beside):
-        return beside
-    return os.path.join(here, *[os.pardir] * 4, "share", "whit", "scenes")
+    """The folder of the shipped scenes: beside the module, or in share/whit of its prefix, which
+    may be any folder above. Empty where there is none."""
+    folder = os.path.dirname(os.path.abspath(__file__))
+    scenes = os.path.join(folder, "scenes")
+    while not os.path.isdir(scenes):
+        if folder == os.path.dirname(folder):
+            return ""
+        folder = os.path.dirname(folder)
+        scenes = os.path.join(folder, "share", "whit", "scenes")
+    return scenes
 
 
 class Picture:
@@ -179,11 +183,11 @@ class Scene:
 
     source: the path of a scene file (.json) or model (.gltf, .glb, .vrm, .obj, .ply; .stl, .fbx,
         .dae, .3ds and .off where the module was built with assimp), the name of a shipped scene
-        ("atrium", "landscape?triangles=20000000"), or a dict with the content of a scene file
-        (share/doc/whit/scenes/README.md). An item of the dict may be {"mesh": whit.Mesh(...)},
-        and a texture an array (height, width, 1 to 4 channels) of uint8 codes or linear floats, or
-        {"array": array, "wrap": "clamp"}. A Mesh that several items use is stored once.
-        Lengths, positions and transforms are in the scene's own units, y up.
+        ("atrium", "landscape?triangles=20000000", "chess.glb"), or a dict with the content of a
+        scene file (share/doc/whit/scenes/README.md). An item of the dict may be
+        {"mesh": whit.Mesh(...)}, and a texture an array (height, width, 1 to 4 channels) of uint8
+        codes or linear floats, or {"array": array, "wrap": "clamp"}. A Mesh that several items use
+        is stored once. Lengths, positions and transforms are in the scene's own units, y up.
     settings: values by their JSON pointers, as in set(), and {"/variant": "red"} of a glTF file.
     sky: replaces the scene's sky: "none", "studio" or an image file.
     moves: loads animations, so that set_time() works.
