@@ -240,7 +240,8 @@ class Image {
   // Linear radiance, Rec. 709 primaries: r, g, b of each pixel, row by row from the top. The span
   // is valid until the image has another size; frames are traced into its memory.
   std::span<const float> rgb() const;
-  // 8-bit sRGB after exposure and tone curve: r, g, b, 255 of each pixel, in the same order.
+  // 8-bit sRGB after exposure and tone curve: r, g, b, alpha of each pixel, in the same order.
+  // Alpha is 255 but with set("background", "transparent").
   std::span<const std::uint8_t> srgb() const;
   // A channel that set("channels", "depth,object") asked for. scenes/README.md lists the channels,
   // their units and their values where nothing is hit. The spans are views of the image's memory,

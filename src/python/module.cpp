@@ -521,6 +521,10 @@ void defineSession(py::module_& module) {
            [](Session& session, const std::string& name) {
              return session.ask([&](const api::Renderer& r) { return r.scene().camera(name); });
            })
+      .def("option",
+           [](Session& session, const std::string& name) {
+             return session.ask([&](const api::Renderer& r) { return r.get(name); });
+           })
       .def("render", &Session::render)
       .def("set_member", &Session::setMember)
       .def("set_time", &Session::setTime)

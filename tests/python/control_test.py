@@ -113,7 +113,7 @@ class Control(unittest.TestCase):
                 self.scene.render(**options)
             self.assertEqual(caught.exception.exit_status, 2)
             self.assertIn(words, str(caught.exception))
-        with self.assertRaisesRegex(TypeError, "is 'size' meant"):
+        with self.assertRaisesRegex(TypeError, "did you mean 'size'"):
             self.scene.render(sise=SIZE)
         with self.assertRaisesRegex(TypeError, "depth: expected N"):
             self.scene.render(depth=object())

@@ -96,6 +96,30 @@ class Signatures(unittest.TestCase):
         self.assertEqual(text["spp"](np.uint8(4)), "4")
         self.assertEqual(text["exposure"]("auto"), "auto")
 
+    def test_colors_as_python_has_them(self):
+        text = _options.OPTIONS["background"].text
+        for color in (1, 0.5, 0), (255, 128, 0), [1.0, 0.5, 0.0], np.array([255, 128, 0], np.uint8):
+            self.assertEqual(text(color), "ff8000")
+        self.assertEqual([text((0, 0, 0)), text((1, 1, 1)), text("sky")],
+                         ["000000", "ffffff", "sky"])
+        for color in (), (1, 1), (1, 1, 1, 1), (0, 0, 256), (-0.1, 0, 0), (0, float("nan"), 0):
+            with self.subTest(color=color), self.assertRaisesRegex(ValueError, "^background: exp"):
+                text(color)
+        picture = whit.Scene(square_scene()).render(size=SIZE, background=(1, 0.5, 0))
+        self.assertEqual(picture.srgb[0, 0].tolist(), [255, 128, 0])
+
+    def test_the_module_lists_what_it_offers(self):
+        self.assertEqual(dir(whit), sorted([*whit.__all__, "__version__"]))
+        for name in dir(whit):
+            self.assertTrue(hasattr(whit, name), name)
+
+    def test_shipped_scenes_have_names(self):
+        with temporary_folder():
+            chess = whit.Scene("chess.glb")
+            self.assertEqual(chess.name, "chess")
+            self.assertGreater(chess.triangles, 1000)
+            self.assertEqual(whit.Scene("whitted.json").triangles, whit.Scene("whitted").triangles)
+
 
 class Pictures(unittest.TestCase):
     def test_arrays(self):
@@ -105,6 +129,27 @@ class Pictures(unittest.TestCase):
         self.assertTrue(np.shares_memory(picture.rgb, picture.rgb))
         self.assertEqual(np.asarray(picture).shape, (30, 48, 3))
         self.assertEqual(np.asarray(picture, np.float64).dtype, np.float64)
+
+    def test_alpha(self):
+        scene = whit.Scene(square_scene())
+        picture = scene.render(size=SIZE)
+        self.assertEqual((picture.rgba.shape, picture.rgba.dtype), ((30, 48, 4), np.uint8))
+        self.assertTrue(np.shares_memory(picture.rgba, picture.srgb))
+        np.testing.assert_array_equal(picture.rgba[..., :3], picture.srgb)
+        self.assertTrue((picture.rgba[..., 3] == 255).all())
+        alpha = scene.render(size=SIZE, background="transparent").rgba[..., 3]
+        self.assertEqual((alpha[0, 0], alpha[15, 24]), (0, 255))
+
+    def test_files_by_their_names(self):
+        picture = whit.Scene("whitted").render(size=SIZE, channels=["depth"])
+        with temporary_folder():
+            picture.write("a.jpg")
+            with open("a.jpg", "rb") as file:
+                self.assertEqual(file.read(3), b"\xff\xd8\xff")
+            picture.write("a.depth.exr")
+            with self.assertRaisesRegex(ValueError, "normal"):
+                picture.write("a.normal.exr")
+            self.assertEqual(sorted(os.listdir()), ["a.depth.exr", "a.jpg"])
 
     def test_arrays_for_other_libraries(self):
         picture = whit.Scene("whitted").render(size=SIZE, channels=["depth", "object", "normal"])

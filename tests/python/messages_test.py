@@ -90,6 +90,18 @@ class Messages(unittest.TestCase):
                 self.assertRegex(str(error), f"^cannot (open|write) '?{file}'?: ")
         self.assertIsNone(whit.Error("a device failed", 4, "/").errno)
 
+    def test_options_of_other_programs(self):
+        scene = whit.Scene("whitted")
+        for options, words in (({"samples": 4}, "did you mean 'spp'"),
+                               ({"width": 64}, "did you mean 'size'"),
+                               ({"light-samples": 4}, "did you mean 'light_samples'"),
+                               ({"nonsense": 64}, r"'nonsense'; help\(whit\.Scene\.render\)"),
+                               ({"light_sample": 4}, "did you mean 'light_samples'"),
+                               ({"time": 1.0}, r"use Scene\.set_time\(seconds\), or path_time"),
+                               ({"sky": "none"}, r"use an argument of whit\.Scene\(\)")):
+            with self.subTest(**options), self.assertRaisesRegex(TypeError, words):
+                scene.render(**options)
+
     def test_files_outside_and_strict(self):
         with temporary_folder():
             with open("a.json", "w", encoding="utf-8") as file:

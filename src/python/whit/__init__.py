@@ -32,6 +32,10 @@ __version__ = _whit.version()
 Progress = Callable[[str, float], Optional[bool]]
 
 
+def __dir__() -> list[str]:
+    return [*__all__, "__version__"]
+
+
 def _native(name: str, doc: str) -> Any:
     """A property that the extension's object has."""
     return property(operator.attrgetter(f"_object.{name}"), doc=doc)
@@ -69,10 +73,14 @@ class Picture:
     rgb: np.ndarray = _native("rgb", (
         "Linear radiance, Rec. 709 primaries: (height, width, 3), float32, top row first."))
 
+    rgba: np.ndarray = _native("rgba", (
+        "sRGB codes after exposure and tone curve, and alpha: (height, width, 4), uint8, top row "
+        "first. Alpha is 255 but with background='transparent'."))
+
     @property
     def srgb(self) -> np.ndarray:
-        """After exposure and tone curve: (height, width, 3), uint8 sRGB codes, top row first."""
-        return self._object.rgba[:, :, :3]
+        """The colors of `rgba`: (height, width, 3), uint8 sRGB codes."""
+        return self.rgba[:, :, :3]
 
     @property
     def channels(self) -> dict[str, np.ndarray]:
@@ -121,7 +129,8 @@ class Picture:
         return self._statistics.get("receipt")
 
     def write(self, path: Union[str, os.PathLike]) -> None:
-        """Writes .exr (linear, float) or .png (8-bit sRGB), with the render's options."""
+        """Writes .exr (linear, float), .png or .jpg (8-bit sRGB), with the render's options but for
+        .jpg. "x.depth.exr" and "x.depth.png" hold that channel alone."""
         self._object.write(os.fspath(path))
 
     def png(self) -> bytes:
@@ -315,9 +324,9 @@ class Scene:
         self._object  # noqa: B018 (the attribute is there only if __init__ came to its end)
         camera = options.get("camera")
         if not isinstance(camera, Camera):
-            return Picture(self._object.render(_options.texts(options), path_time, progress, "",
-                                               (budget, target)))
-        texts = _options.texts({"size": camera.size, **options, "camera": None})
+            texts = _options.texts(options, self._object)
+            return Picture(self._object.render(texts, path_time, progress, "", (budget, target)))
+        texts = _options.texts({"size": camera.size, **options, "camera": None}, self._object)
         text = Description("camera").text(camera.members)
         return Picture(self._object.render(texts, path_time, progress, text, (budget, target)))
 
@@ -336,7 +345,7 @@ class Scene:
         """
         if isinstance(options.get("camera"), Camera):
             raise TypeError("camera: view() takes the name of one of the scene's cameras")
-        texts = _options.texts(options, "view")
+        texts = _options.texts(options, self._object, "view")
         if not hasattr(self._object, "view"):
             return self.render(**options)
         return View(self._object.view(texts, port), width, height)

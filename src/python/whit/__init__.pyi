@@ -22,6 +22,10 @@ class Picture:
         ...
 
     @property
+    def rgba(self) -> np.ndarray:
+        ...
+
+    @property
     def srgb(self) -> np.ndarray:
         ...
 
