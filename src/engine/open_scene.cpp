@@ -37,6 +37,14 @@ std::unique_ptr<OpenScene> openScene(const SceneSource& source, const LoadOption
   return open;
 }
 
+std::string lackOfLight(const Scene& scene) {
+  for (const Effect effect : {Effect::lights, Effect::sky, Effect::ambient, Effect::emission}) {
+    if (scene.effects.has(effect)) return "";
+  }
+  return scene.name +
+         " is black: it has no lights, no sky, no ambient light and no emissive surface";
+}
+
 void addSettings(const std::vector<std::string>& settings, const std::string& sky,
                  ImageMetadata& metadata) {
   // The metadata have one entry for all settings, a line for each.

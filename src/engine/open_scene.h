@@ -44,6 +44,9 @@ std::unique_ptr<OpenScene> openScene(const SceneSource& source, const LoadOption
                                      bool strict, Progress* progress = nullptr,
                                      const LookAtScene& look = {});
 
+// Says that nothing in the scene gives light; empty if something does.
+std::string lackOfLight(const Scene& scene);
+
 // Adds the settings of LoadOptions with which the scene was read to the metadata of a picture.
 void addSettings(const std::vector<std::string>& settings, const std::string& sky,
                  ImageMetadata& metadata);

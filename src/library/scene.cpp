@@ -13,12 +13,13 @@ namespace whit::api {
 
 namespace {
 
-std::vector<std::string> textsOf(const Warnings& warnings) {
+std::vector<std::string> warningsOf(const OpenScene& open) {
   std::vector<std::string> all;
-  for (const auto& [kind, entry] : warnings.entries()) {
+  for (const auto& [kind, entry] : open.warnings.entries()) {
     all.push_back(kind + " (" + std::to_string(entry.count) + " times, first: " + entry.first +
                   ")");
   }
+  if (std::string dark = lackOfLight(open.scene); !dark.empty()) all.push_back(std::move(dark));
   return all;
 }
 
@@ -122,7 +123,7 @@ const std::string& Scene::name() const { return data_->open->scene.name; }
 int Scene::width() const { return data_->open->scene.width; }
 int Scene::height() const { return data_->open->scene.height; }
 std::uint64_t Scene::triangles() const { return data_->open->scene.instancedTriangles; }
-std::vector<std::string> Scene::warnings() const { return textsOf(data_->open->warnings); }
+std::vector<std::string> Scene::warnings() const { return warningsOf(*data_->open); }
 
 std::vector<std::string> Scene::cameras() const { return namesIn(data_->open->scene.cameras); }
 

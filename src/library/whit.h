@@ -113,8 +113,9 @@ class Scene {
   std::string camera(const std::string& name = {}) const;
   double pathSeconds() const;  // end of the camera path; 0 without a path
   std::vector<Animation> animations() const;
-  std::uint64_t triangles() const;            // counted once for each instance
-  std::vector<std::string> warnings() const;  // repairs that were made while loading
+  std::uint64_t triangles() const;  // counted once for each instance
+  // Repairs that were made while loading, and whether the scene has nothing that gives light.
+  std::vector<std::string> warnings() const;
   // The channels "object" (names of the first 65,536) and "material" hold indices into these.
   std::vector<std::string> objects() const, materials() const;
   // LoadOptions::settings and those of Renderer::setMember(): a scene that is read with them equals

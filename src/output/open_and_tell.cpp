@@ -13,15 +13,8 @@ std::unique_ptr<OpenScene> openAndTell(const std::string& name, const cli::Commo
   if (!common.warns) return open;
 
   cli::tellWarnings(open->warnings);
-  const EffectSet effects = open->scene.effects;
-  const bool shines = effects.has(Effect::lights) || effects.has(Effect::sky) ||
-                      effects.has(Effect::ambient) || effects.has(Effect::emission);
-  if (!shines) {
-    std::fprintf(stderr,
-                 "whit: warning: %s is black: it has no lights, no sky, no ambient light and no "
-                 "emissive surface\n",
-                 printable(open->scene.name).c_str());
-  }
+  const std::string dark = lackOfLight(open->scene);
+  if (!dark.empty()) std::fprintf(stderr, "whit: warning: %s\n", printable(dark).c_str());
 
   return open;
 }

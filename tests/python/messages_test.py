@@ -6,9 +6,10 @@ import os
 import pathlib
 import re
 import unittest
+import warnings
 
 import whit
-from samples import SIZE, temporary_folder
+from samples import SIZE, square_scene, temporary_folder
 from whit import _options
 from whit._error import in_python
 
@@ -102,6 +103,19 @@ class Messages(unittest.TestCase):
             with self.subTest(**options), self.assertRaisesRegex(TypeError, words):
                 scene.render(**options)
 
+    def test_what_is_told_of_scenes(self):
+        dark = {"lights": []}
+        with self.assertWarnsRegex(UserWarning, "^cellar is black: it has no lights, ") as caught:
+            scene = whit.Scene(square_scene(**dark), name="cellar")
+        self.assertEqual(caught.filename, __file__)
+        self.assertEqual([str(caught.warning)], scene.warnings)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            for light in ({"lights": [{"position": [0, 3, 0], "intensity": 1}]},
+                          {**dark, "sky": {"color": 1}}, {**dark, "ambient": {"color": 0.5}},
+                          {**dark, "materials": {"red": {"emission": 1}}}):
+                self.assertEqual(whit.Scene(square_scene(**light)).warnings, [])
+
     def test_files_outside_and_strict(self):
         with temporary_folder():
             with open("a.json", "w", encoding="utf-8") as file:
@@ -110,7 +124,8 @@ class Messages(unittest.TestCase):
                 whit.Scene("a.json")
             with open("a.obj", "w", encoding="utf-8") as file:
                 file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 1 2\n")
-            self.assertTrue(whit.Scene("a.obj").warnings)
+            with self.assertWarnsRegex(UserWarning, "^degenerate triangle dropped"):
+                self.assertTrue(whit.Scene("a.obj").warnings)
             with self.assertRaisesRegex(ValueError, r"\(refused by strict=True\)"):
                 whit.Scene("a.obj", strict=True)
 

@@ -14,6 +14,7 @@ from __future__ import annotations
 import json
 import operator
 import os
+import warnings
 import weakref
 from typing import Any, Callable, Mapping, Optional, Sequence, Union
 
@@ -243,6 +244,8 @@ class Scene:
         self._read(progress)
         if len(self._source) == 1 and os.path.exists(source):  # copies may be read elsewhere
             self._source = (os.path.abspath(source),)
+        for text in self.warnings:
+            warnings.warn(text, stacklevel=2)
 
     def _read(self, progress: Optional[Progress]) -> None:
         if len(self._source) > 1:
@@ -284,7 +287,7 @@ class Scene:
 
     @property
     def warnings(self) -> list[str]:
-        """Repairs that were made while the scene was read."""
+        """Repairs that were made while the scene was read, and whether nothing gives light."""
         return [in_python(text) for text in self._object.warnings]
 
     def set(self, pointer: str, value: Any, *, progress: Optional[Progress] = None) -> None:

@@ -1,6 +1,7 @@
 # By make_stubs.py, of __init__.py and the library's table of options.
 import json
 import os
+import warnings
 import weakref
 from typing import Any, Callable, Literal, Mapping, Optional, Sequence, Union
 import numpy as np
