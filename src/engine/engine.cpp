@@ -5,6 +5,7 @@
 #include "bake/edit_scene.h"
 #include "core/option_table.h"
 #include "core/stopwatch.h"
+#include "core/text.h"
 #include "core/worker_pool.h"
 #include "io/scene/scene_settings.h"
 
@@ -67,7 +68,9 @@ void Engine::edit(const std::string& text, Progress* progress) {
   }
   JsonDocument* const document = document_ ? &*document_ : nullptr;
   if (!editScene(setting, load, document, opened_->scene)) {
-    readAgain(text, progress);
+    LoadOptions changed = load;
+    addSceneSetting(text, changed.settings);
+    readAgain(source, changed, progress);
     return;
   }
 
@@ -82,10 +85,24 @@ void Engine::edit(const std::string& text, Progress* progress) {
   }
 }
 
-void Engine::readAgain(const std::string& setting, Progress* progress) {
-  LoadOptions load = opened_->load;
-  addSceneSetting(setting, load.settings);
-  std::shared_ptr<OpenScene> next = openScene(opened_->source, load, opened_->strict, progress);
+void Engine::setMesh(const std::string& name, GivenMesh mesh, Progress* progress) {
+  const SceneSource& source = opened_->source;
+  auto changed = std::make_shared<SceneText>(source.text ? *source.text : SceneText());
+  std::map<std::string, GivenMesh>& meshes = changed->parts.meshes;
+  const auto found = meshes.find(name);
+  if (found == meshes.end()) {
+    std::vector<std::string> names;
+    for (const auto& [known, arrays] : meshes) names.push_back(known);
+    throwUsage("updateMesh: the scene has no mesh '" + name + "' of a program's arrays" +
+               didYouMean(name, names, "mesh"));
+  }
+
+  found->second = std::move(mesh);
+  readAgain({source.name, std::move(changed)}, opened_->load, progress);
+}
+
+void Engine::readAgain(const SceneSource& source, const LoadOptions& load, Progress* progress) {
+  std::shared_ptr<OpenScene> next = openScene(source, load, opened_->strict, progress);
   for (const auto& [pointer, place] : places_) setPlace(next->scene, pointer, place);
 
   forgetRenderer();

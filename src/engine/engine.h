@@ -62,6 +62,9 @@ class Engine {
   // Sets a member of the scene, as --set POINTER=VALUE. The scene is read again where that is
   // needed. Throws as the reader does, with nothing changed.
   void edit(const std::string& setting, Progress* progress = nullptr);
+  // Replaces the arrays of a mesh that a program made, and reads the scene again. Throws as the
+  // reader does, with nothing changed.
+  void setMesh(const std::string& name, GivenMesh mesh, Progress* progress = nullptr);
   // To be called after the scene's materials, lights or sky were changed (bake/edit_scene.h).
   void shadingChanged();
   // Moves everything that follows the time. Takes effect with the next picture, or update().
@@ -95,7 +98,7 @@ class Engine {
   std::uint64_t memoryBytes() const;
 
  private:
-  void readAgain(const std::string& setting, Progress* progress);
+  void readAgain(const SceneSource& source, const LoadOptions& load, Progress* progress);
   void forgetRenderer();
 
   std::shared_ptr<OpenScene> opened_;

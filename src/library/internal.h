@@ -104,6 +104,8 @@ struct Image::Data {
   ImageMetadata metadata, aboutChannels;
 };
 
+GivenMesh givenMesh(MeshArrays arrays);
+
 // Copies the scene of a renderer at its present time, for the views of the Python module.
 struct [[gnu::visibility("default")]] SceneCopy {
   static std::shared_ptr<OpenScene> of(Renderer & renderer);

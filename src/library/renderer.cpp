@@ -142,6 +142,14 @@ Renderer& Renderer::setMember(const std::string& pointer, const std::string& jso
   return *this;
 }
 
+Renderer& Renderer::updateMesh(const std::string& name, MeshArrays arrays) {
+  guarded(data_->progress, [&](whit::Progress* told) {
+    data_->engine.setMesh(name, givenMesh(std::move(arrays)), told);
+    data_->followEngine();
+  });
+  return *this;
+}
+
 Renderer& Renderer::setTime(double seconds) {
   guarded([&] {
     const whit::Scene& scene = data_->engine.scene();

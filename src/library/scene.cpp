@@ -103,6 +103,11 @@ whit::LoadOptions loadOptions(const LoadOptions& options, const char* shippedSce
 
 }  // namespace
 
+GivenMesh givenMesh(MeshArrays arrays) {
+  return {arrays.positions, arrays.normals,   arrays.uvs,
+          arrays.colors,    arrays.triangles, std::move(arrays.keep)};
+}
+
 std::shared_ptr<Scene::Data> Scene::Data::read(const SceneSource& source,
                                                const LoadOptions& options,
                                                const char* shippedScenes,
@@ -193,8 +198,7 @@ SceneBuilder::~SceneBuilder() = default;
 
 SceneBuilder& SceneBuilder::addMesh(const std::string& name, MeshArrays arrays) {
   return guarded([&]() -> SceneBuilder& {
-    data_->text.parts.meshes[name] = {arrays.positions, arrays.normals,   arrays.uvs,
-                                      arrays.colors,    arrays.triangles, std::move(arrays.keep)};
+    data_->text.parts.meshes[name] = givenMesh(std::move(arrays));
     return *this;
   });
 }

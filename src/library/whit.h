@@ -5,7 +5,7 @@
 //   renderer.render().write("atrium.png");
 //
 // SceneBuilder makes scenes in memory. Scenes can change between frames: Renderer::setTime(),
-// setTransform() and setMember().
+// setTransform(), setMember() and updateMesh().
 //
 // In CMake: find_package(whit) and target_link_libraries(... whit::whit); elsewhere pkg-config's
 // package whit. Every function throws whit::api::Error and nothing else, except the exceptions of
@@ -383,6 +383,14 @@ class Renderer {
   // materials of scene files and builders, and cameras need no rebuild unless they move; for other
   // members the scene is read again. After an error the scene is unchanged.
   Renderer& setMember(const std::string& pointer, const std::string& json);
+
+  // Replaces the arrays of a mesh of SceneBuilder::addMesh(), as a simulation moves its vertices;
+  // also their number and the triangles may change. The picture equals that of a scene which was
+  // built with these arrays, and takes as long: the scene is read again, textures included, and the
+  // acceleration structure is built anew. setTransform() moves a rigid mesh in far less time.
+  // Throws status 2 for a mesh that the scene does not have, 3 for arrays that are no mesh; after
+  // an error the scene is unchanged.
+  Renderer& updateMesh(const std::string& name, MeshArrays arrays);
 
   // Looks through this camera, in JSON as in a scene file, in place of the scene's; empty: through
   // those again. "eye" and the other options that replace a camera's members still do so.

@@ -131,6 +131,31 @@ auto call(const py::object& function, Body&& body) {
   return body(std::ref(onlooker));
 }
 
+using Floats = py::array_t<float, py::array::c_style>;
+using Indices = py::array_t<std::uint32_t, py::array::c_style>;
+
+// Keeps an object alive for the library, which releases it without holding the GIL.
+std::shared_ptr<const void> kept(const py::object& object) {
+  return {new py::object(object), [](const py::object* held) {
+            const py::gil_scoped_acquire gil;
+            delete held;
+          }};
+}
+
+template <typename Array>
+auto spanOf(const Array& array) {
+  return std::span(array.data(), static_cast<std::size_t>(array.size()));
+}
+
+// The arrays of a whit.Mesh, in the order of Mesh._arrays(). They are read in place.
+api::MeshArrays meshOf(const py::tuple& arrays) {
+  const auto triangles = arrays[1].cast<Indices>();
+  const Floats positions = arrays[0].cast<Floats>(), normals = arrays[2].cast<Floats>(),
+               uvs = arrays[3].cast<Floats>(), colors = arrays[4].cast<Floats>();
+  return {spanOf(positions), spanOf(triangles), spanOf(normals),
+          spanOf(uvs),       spanOf(colors),    kept(arrays)};
+}
+
 struct Picture {
   api::Image image;
   api::FrameStatistics statistics;
@@ -186,6 +211,11 @@ class Session {
 
   void setMember(const std::string& pointer, const std::string& json, const py::object& progress) {
     trace(progress, [&](api::Renderer& renderer) { renderer.setMember(pointer, json); });
+  }
+
+  void updateMesh(const std::string& name, const py::tuple& arrays, const py::object& progress) {
+    const api::MeshArrays mesh = meshOf(arrays);
+    trace(progress, [&](api::Renderer& renderer) { renderer.updateMesh(name, mesh); });
   }
 
   void setTime(double seconds) {
@@ -256,22 +286,6 @@ class Session {
   pid_t process_ = getpid();            // the process that used the scene last
 };
 
-using Floats = py::array_t<float, py::array::c_style>;
-using Indices = py::array_t<std::uint32_t, py::array::c_style>;
-
-// Keeps an object alive for the library, which releases it without holding the GIL.
-std::shared_ptr<const void> kept(const py::object& object) {
-  return {new py::object(object), [](const py::object* held) {
-            const py::gil_scoped_acquire gil;
-            delete held;
-          }};
-}
-
-template <typename Array>
-auto spanOf(const Array& array) {
-  return std::span(array.data(), static_cast<std::size_t>(array.size()));
-}
-
 template <typename T>
 py::array_t<T> arrayOf(const std::vector<T>& values) {
   return py::array_t<T>(static_cast<py::ssize_t>(values.size()), values.data());
@@ -311,13 +325,7 @@ api::SceneBuilder builderOf(const std::string& name, const std::string& descript
                             const py::dict& meshes, const py::dict& images) {
   api::SceneBuilder builder(name, description);
   for (const auto& [key, value] : meshes) {
-    const auto arrays = value.cast<py::tuple>();
-    const auto triangles = arrays[1].cast<Indices>();
-    const Floats positions = arrays[0].cast<Floats>(), normals = arrays[2].cast<Floats>(),
-                 uvs = arrays[3].cast<Floats>(), colors = arrays[4].cast<Floats>();
-
-    builder.addMesh(key.cast<std::string>(), {spanOf(positions), spanOf(triangles), spanOf(normals),
-                                              spanOf(uvs), spanOf(colors), kept(arrays)});
+    builder.addMesh(key.cast<std::string>(), meshOf(value.cast<py::tuple>()));
   }
 
   for (const auto& [key, value] : images) {
@@ -528,7 +536,8 @@ void defineSession(py::module_& module) {
       .def("render", &Session::render)
       .def("set_member", &Session::setMember)
       .def("set_time", &Session::setTime)
-      .def("set_transform", &Session::setTransform);
+      .def("set_transform", &Session::setTransform)
+      .def("update_mesh", &Session::updateMesh);
 #ifdef WHIT_SERVE
   defineView(module, session);
 #endif

@@ -1,5 +1,6 @@
 """Scenes of arrays: the pictures of files that say the same, and errors for what is wrong."""
 
+import copy
 import pickle
 import unittest
 
@@ -97,6 +98,70 @@ class Arrays(unittest.TestCase):
         np.testing.assert_array_equal(moved, placed.render(size=SIZE).rgb)
         scene.set_transform("/scene/0", np.eye(4)[:3])
         np.testing.assert_array_equal(rest, scene.render(size=SIZE).rgb)
+
+    def test_vertices_that_move(self):
+        mesh = square(name="sheet")
+        scene = whit.Scene(square_scene(mesh))
+        rest = scene.render(size=SIZE).rgb
+        positions = mesh.positions + np.array([0, 0.5, 0.25], np.float32)
+        expected = whit.Scene(square_scene(square(positions=positions))).render(size=SIZE).rgb
+        self.assertFalse(np.array_equal(expected, rest))
+
+        moving = positions.astype(np.float64)
+        scene.update_mesh("sheet", moving)
+        moving[:] = 0  # the scene has a copy
+        np.testing.assert_array_equal(scene.render(size=SIZE).rgb, expected)
+        np.testing.assert_array_equal(copy.copy(scene).render(size=SIZE).rgb, expected)
+        self.assertAlmostEqual(float(scene.closest([0, 2, 0], [0, -1, 0]).t), 1.5)
+        scene.update_mesh("sheet", mesh.positions)
+        np.testing.assert_array_equal(scene.render(size=SIZE).rgb, rest)
+
+        # Members that were set before stay.
+        scene.set("/lights/0/intensity", 6)
+        dim = scene.render(size=SIZE).rgb
+        scene.update_mesh("sheet", positions)
+        scene.update_mesh("sheet", mesh.positions)
+        np.testing.assert_array_equal(scene.render(size=SIZE).rgb, dim)
+
+    def test_other_arrays_of_a_mesh(self):
+        normals = np.tile(np.array([0, 1, 0], np.float32), (4, 1))
+        tilted = np.tile(np.array([0.6, 0.8, 0], np.float32), (4, 1))
+        mesh = square(name="sheet", normals=normals)
+        scene = whit.Scene(square_scene(mesh))
+        for given, expected in ((None, normals), (tilted, tilted), (None, tilted)):
+            scene.update_mesh("sheet", mesh.positions, normals=given)
+            other = whit.Scene(square_scene(square(normals=expected)))
+            np.testing.assert_array_equal(scene.render(size=SIZE).rgb, other.render(size=SIZE).rgb)
+
+        half = square(triangles=[[0, 1, 2]])
+        scene.update_mesh("sheet", half)
+        self.assertEqual(scene.triangles, 1)
+        np.testing.assert_array_equal(scene.render(size=SIZE).rgb,
+                                      whit.Scene(square_scene(half)).render(size=SIZE).rgb)
+
+    def test_vertices_that_cannot_move(self):
+        mesh = square(name="sheet")
+        scene = whit.Scene(square_scene(mesh))
+        rest = scene.render(size=SIZE).rgb
+        nan = mesh.positions * np.nan
+        cases = [
+            ("name", "'sheet'", lambda: scene.update_mesh("shet", mesh.positions)),
+            ("name", "a dict", lambda: whit.Scene("whitted").update_mesh("a", mesh.positions)),
+            ("positions", "(4, 3)", lambda: scene.update_mesh("sheet", mesh.positions[:3])),
+            ("positions", "(n, 3)", lambda: scene.update_mesh("sheet", None)),
+            ("/scene/0/mesh", "finite", lambda: scene.update_mesh("sheet", nan)),
+            ("/scene/0/mesh", "normals", lambda: scene.update_mesh("sheet", mesh.positions,
+                                                                   normals=[[0, 1, 0]])),
+        ]
+        for place, expected, make in cases:
+            with self.subTest(place=place, expected=expected):
+                self.expect(place, expected, make)
+        np.testing.assert_array_equal(scene.render(size=SIZE).rgb, rest)
+        scene.set("/materials/red/diffuseMap", None)  # reads the scene again
+        np.testing.assert_array_equal(scene.render(size=SIZE).rgb, rest)
+
+        items = [{"mesh": mesh}, {"mesh": square(name="sheet")}]
+        self.expect("/scene/1/mesh", "different names", lambda: whit.Scene(square_scene(scene=items)))
 
     def expect(self, place, expected, make, status=3):
         with self.assertRaises(whit.Error) as caught:

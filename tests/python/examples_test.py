@@ -58,12 +58,16 @@ class Examples(unittest.TestCase):
         self.assertAlmostEqual(nearest, 2.75, delta=0.01)
         self.assertAlmostEqual(farthest, 3.25, delta=0.01)
 
+    def test_a_mesh_that_moves(self):
+        said = self.run_example("A mesh that moves", *[f"sea{i:04}.jpg" for i in range(3)])
+        self.assertAlmostEqual(float(said), 0.1 * np.sin(-2), delta=0.003)
+
     def test_a_film(self):
         self.run_example("A film, and a lidar that turns while things move",
                          *[f"frame{i:04}.png" for i in range(12)])
 
     def test_all_are_tested(self):
-        self.assertEqual(len(examples()), 4)
+        self.assertEqual(len(examples()), 5)
 
 
 class Signatures(unittest.TestCase):

@@ -15,7 +15,7 @@ from whit._error import in_python
 
 SOURCES = pathlib.Path(__file__).resolve().parents[2] / "src"
 NOT_IN_THE_LIBRARY = ("cli", "command_line", "output", "accuracy", "python")
-COMMAND_LINE = re.compile(r"(?<![\w-])--[a-z]|[A-Za-z]::[a-z]|POINTER=VALUE|\bset[A-Z][a-z]+\b")
+COMMAND_LINE = re.compile(r"(?<![\w-])--[a-z]|[A-Za-z]::[a-z]|POINTER=VALUE|\bset[A-Z][a-z]+\b|updateMesh")
 
 
 def literals():

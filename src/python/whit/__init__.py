@@ -218,7 +218,10 @@ class Scene:
     processes may use the scenes that no thread was using.
 
     Pickles and copies keep the arguments, with the arrays of a dict and the path of a file, and
-    what set(), set_time() and set_transform() have changed. They read the scene again.
+    what set(), update_mesh(), set_time() and set_transform() have changed. They read the scene
+    again.
+
+    warnings.warn() tells of repairs and of scenes without light, which `warnings` lists.
     """
 
     def __init__(self, source: Union[str, os.PathLike, Mapping[str, Any]], *,
@@ -302,6 +305,32 @@ class Scene:
         read again. After an error the scene is unchanged.
         """
         self._object.set_member(pointer, Description(self.name).text(value, pointer), progress)
+
+    def update_mesh(self, name: str, positions: Any, *, normals: Optional[Any] = None,
+                    progress: Optional[Progress] = None) -> None:
+        """Moves the vertices of a whit.Mesh for the following pictures, as in a simulation. They
+        equal those of a scene that was made with these arrays.
+
+        name: the `name` of the mesh.
+        positions: (n, 3), as many as before, in the mesh's own space; they are copied. Or a Mesh,
+            which replaces all arrays of the old one: then the number of vertices may change.
+        normals: (n, 3) of unit length; None: those of before.
+
+        This takes as long as making the scene: it is read again, with its textures, and its
+        acceleration structure is built anew. set_transform() moves rigid things in far less time.
+        After an error the scene is unchanged.
+        """
+        meshes = self._source[2] if len(self._source) > 1 else {}
+        if name not in meshes:
+            known = ", ".join(map(repr, meshes)) or "a scene of a dict with a whit.Mesh"
+            _arrays._fail("name", known, repr(name))
+        if isinstance(positions, Mesh):
+            arrays = positions._arrays()
+        else:
+            arrays = _arrays.moved(meshes[name], positions, normals)
+        self._object.update_mesh(name, arrays, progress)
+        made, text, _, images = self._source
+        self._source = (made, text, {**meshes, name: arrays}, images)
 
     def set_time(self, seconds: float) -> None:
         """Moves animated items, cameras and lights to a time in seconds. The scene must have been

@@ -151,6 +151,9 @@ class Scene:
     def set(self, pointer: str, value: Any, *, progress: Optional[Progress]=None) -> None:
         ...
 
+    def update_mesh(self, name: str, positions: Any, *, normals: Optional[Any]=None, progress: Optional[Progress]=None) -> None:
+        ...
+
     def set_time(self, seconds: float) -> None:
         ...
 

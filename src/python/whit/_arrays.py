@@ -84,6 +84,17 @@ def matrix(values: Any, what: str) -> list[float]:
     return [float(x) for x in array[:3].ravel()]
 
 
+def moved(arrays: tuple, positions: Any, normals: Optional[Any]) -> tuple:
+    """The arrays of a mesh (Mesh._arrays()) with copies of other positions and normals."""
+    changed = list(arrays)
+    for at, what, values in ((0, "positions", positions), (2, "normals", normals)):
+        if at == 0 or values is not None:
+            changed[at] = floats(values, 3, what).copy()
+    if changed[0].shape != arrays[0].shape:
+        _fail("positions", f"an array of shape {arrays[0].shape}", f"shape {changed[0].shape}")
+    return tuple(changed)
+
+
 class Mesh:
     """Triangles in arrays. {"mesh": Mesh(...)} is an item of a scene described by a dict.
 
@@ -94,13 +105,15 @@ class Mesh:
     uvs: (n, 2), v pointing up, or None.
     colors: (n, 3), linear, from 0 to 1, which multiply the material's; None: white.
 
+    name: for Scene.update_mesh(); empty: a name is made up.
+
     C-contiguous arrays of float32, and of uint32 or int32, are used without a copy; others are
-    converted. Do not change the arrays while a scene uses them.
+    converted. Do not change the arrays while a scene uses them: Scene.update_mesh() moves vertices.
     """
 
     def __init__(self, positions: Any, triangles: Optional[Any] = None, *,
                  normals: Optional[Any] = None, uvs: Optional[Any] = None,
-                 colors: Optional[Any] = None) -> None:
+                 colors: Optional[Any] = None, name: str = "") -> None:
         if positions is None:
             _fail("positions", "numbers of shape (n, 3)", "None")
         self.positions = floats(positions, 3, "positions")
@@ -108,6 +121,7 @@ class Mesh:
         self.normals = None if normals is None else floats(normals, 3, "normals")
         self.uvs = None if uvs is None else floats(uvs, 2, "uvs")
         self.colors = None if colors is None else floats(colors, 3, "colors")
+        self.name = name
 
     def __repr__(self) -> str:
         count = len(self.positions) // 3 if self.triangles is None else len(self.triangles)

@@ -37,10 +37,12 @@ class Description:
         raise Error(f"{self.name}#{pointer}: expected {expected}, found {found}", file=self.name,
                     place=pointer, expected=expected)
 
-    def _named(self, thing: Any, kept: dict, make: Callable[[], Any]) -> str:
+    def _named(self, thing: Any, kept: dict, make: Callable[[], Any], pointer: str) -> str:
         """The name under which `kept` has the thing; one that several items use is there once."""
         if id(thing) not in self._names:
-            name = f"array {len(self._held)}"
+            name = getattr(thing, "name", "") or f"array {len(self._held)}"
+            if name in kept:
+                self._fail(pointer, "meshes with different names", f"two that are called {name!r}")
             kept[name] = make()
             self._names[id(thing)] = name
             self._held.append(thing)
@@ -48,13 +50,13 @@ class Description:
 
     def _image(self, array: np.ndarray, pointer: str) -> str:
         return self._named(array, self.images,
-                           lambda: _arrays.image(array, f"{self.name}#{pointer}"))
+                           lambda: _arrays.image(array, f"{self.name}#{pointer}"), pointer)
 
     def _plain(self, value: Any, pointer: str, depth: int) -> Any:
         if depth > _DEEPEST:
             self._fail(pointer, f"at most {_DEEPEST} levels", "more")
         if isinstance(value, _arrays.Mesh):
-            return self._named(value, self.meshes, value._arrays)
+            return self._named(value, self.meshes, value._arrays, pointer)
         if isinstance(value, Camera):
             return self._plain(value.members, pointer, depth)
         if isinstance(value, np.ndarray):

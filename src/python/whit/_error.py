@@ -83,6 +83,7 @@ _NAMES = (  # what the library says, and what Python says; the first that fits c
     (r"it was loaded without LoadOptions::moves", "the scene was made without moves=True"),
     (r"\bsetTime\b", "set_time"),
     (r"\bsetTransform\b", "set_transform"),
+    (r"\bupdateMesh\b", "update_mesh"),
     (r"expected POINTER=VALUE, a JSON pointer .*", "expected a JSON pointer such as /lights/0"),
     (r"--set (/\S+)=true", r'settings={"\1": True}'),
     (r"--set ", ""),

@@ -1,0 +1,96 @@
+// Meshes whose arrays are replaced between frames give the picture of a scene that was built with
+// the new arrays.
+#include <array>
+#include <limits>
+
+#include "library_scenes.h"
+
+namespace whit::api {
+namespace {
+
+using Corners = std::array<float, 12>;
+constexpr Corners kFlatCorners{-1, 0, -1, 1, 0, -1, 1, 0, 1, -1, 0, 1};
+constexpr Corners kBentCorners{-1, 0, -1, 1, 0.25f, -1, 1, 0, 1, -1, 0.5f, 1};
+constexpr std::array<std::uint32_t, 6> kHalves{0, 2, 1, 0, 3, 2};
+
+MeshArrays sheet(const Corners& corners) { return {.positions = corners, .triangles = kHalves}; }
+
+Scene sheetScene(const Corners& corners) {
+  SceneBuilder builder("sheets");
+  builder.addMesh("sheet", sheet(corners));
+  builder.addInstance("sheet");
+  builder.addCamera("front", {{0.5, 2, 4}, {0, 0, 0}});
+
+  Light lamp;
+  lamp.position = {1, 4, 2};
+  lamp.intensity = {30, 30, 30};
+  builder.addLight(lamp);
+
+  LoadOptions options;
+  options.movable = {"/scene/0"};
+  return builder.build(options);
+}
+
+TEST(UpdateMesh, HasThePictureOfASceneThatWasBuiltSo) {
+  Renderer renderer = smallRenderer(sheetScene(kFlatCorners));
+  const Image flat = renderer.render();
+  const Image bent = smallRenderer(sheetScene(kBentCorners)).render();
+  ASSERT_FALSE(samePictures(flat, bent));
+
+  EXPECT_TRUE(samePictures(renderer.updateMesh("sheet", sheet(kBentCorners)).render(), bent));
+  EXPECT_TRUE(samePictures(renderer.updateMesh("sheet", sheet(kFlatCorners)).render(), flat));
+
+  MeshArrays half = sheet(kBentCorners);
+  half.triangles = half.triangles.first(3);
+  EXPECT_FALSE(samePictures(renderer.updateMesh("sheet", half).render(), bent));
+  EXPECT_EQ(renderer.scene().triangles(), 1u);
+}
+
+TEST(UpdateMesh, KeepsMembersTransformsAndOptions) {
+  constexpr Matrix kRaised{1, 0, 0, 0.25, 0, 1, 0, 0.5, 0, 0, 1, 0};
+  Renderer expected = smallRenderer(sheetScene(kBentCorners));
+  expected.setMember("/lights/0/intensity", "[60, 60, 60]").setTransform("/scene/0", kRaised);
+
+  Renderer renderer = smallRenderer(sheetScene(kFlatCorners));
+  renderer.setMember("/lights/0/intensity", "[60, 60, 60]").setTransform("/scene/0", kRaised);
+  renderer.updateMesh("sheet", sheet(kBentCorners));
+  const Image picture = renderer.render();
+  EXPECT_TRUE(samePictures(picture, expected.render()));
+  EXPECT_EQ(picture.width(), 40);
+
+  // A member for which the scene is read again finds the new arrays.
+  renderer.setMember("/materials/unused", R"({"diffuse": 0.5})");
+  EXPECT_TRUE(samePictures(renderer.render(), picture));
+}
+
+TEST(UpdateMesh, LeavesTheScenesOfOthersAlone) {
+  const Scene scene = sheetScene(kFlatCorners);
+  Renderer changed = smallRenderer(scene), other = smallRenderer(scene);
+  const Image before = other.render();
+  changed.updateMesh("sheet", sheet(kBentCorners));
+  EXPECT_FALSE(samePictures(changed.render(), before));
+  EXPECT_TRUE(samePictures(other.render(), before));
+  EXPECT_TRUE(samePictures(smallRenderer(scene).render(), before));
+}
+
+TEST(UpdateMesh, RefusesWhatIsNoMesh) {
+  Renderer renderer = smallRenderer(sheetScene(kFlatCorners));
+  const Image before = renderer.render();
+
+  const Error unknown = errorOf([&] { renderer.updateMesh("shet", sheet(kBentCorners)); });
+  EXPECT_EQ(unknown.status(), 2);
+  EXPECT_NE(std::string(unknown.what()).find("did you mean 'sheet'?"), std::string::npos);
+
+  Corners infinite = kBentCorners;
+  infinite[4] = std::numeric_limits<float>::infinity();
+  const Error refused = errorOf([&] { renderer.updateMesh("sheet", sheet(infinite)); });
+  EXPECT_EQ(refused.status(), 3);
+  EXPECT_EQ(refused.place(), "/scene/0/mesh");
+  EXPECT_TRUE(samePictures(renderer.render(), before));
+
+  Renderer file = smallRenderer(loadScene("whitted"));
+  EXPECT_EQ(errorOf([&] { file.updateMesh("sheet", sheet(kBentCorners)); }).status(), 2);
+}
+
+}  // namespace
+}  // namespace whit::api
