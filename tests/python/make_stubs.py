@@ -31,8 +31,10 @@ def _annotation(words):
         return "Union[str, tuple[int, int, int, int]]"
     if words == "EV|auto":
         return 'Union[float, Literal["auto"]]'
-    if words == "sky|transparent|COLOR":
-        return "str"
+    if "COLOR" in words:
+        return "Union[str, Sequence[float]]"
+    if words == "NAME":
+        return "Union[str, Camera]"
     if "|" in words:
         choices = [w if w.isdigit() else f'"{w}"' for w in words.split("|")]
         return f"Literal[{', '.join(choices)}]"
@@ -73,7 +75,7 @@ def stubs() -> str:
             kept.append(ast.parse("from typing import Any, Callable, Literal, Mapping, Optional, "
                                   "Sequence, Union").body[0])
         elif isinstance(node, ast.ImportFrom) and node.level == 1:
-            if node.module in ("_arrays", "_error"):
+            if node.module in ("_arrays", "_camera", "_error", "_rays"):
                 name = node.names[0].name
                 node.names[0].asname = name
                 kept.append(node)
