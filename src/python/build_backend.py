@@ -1,9 +1,11 @@
 """Makes the wheel of the module by CMake, for pip (PEP 517), with the libraries of the system.
 
---config-settings build-dir=FOLDER: a build folder that is kept, or is there already."""
+--config-settings build-dir=FOLDER: a build folder that is kept, or is there already; it is
+relative to the folder that pip was called in."""
 
 import base64
 import hashlib
+import os
 import pathlib
 import re
 import subprocess
@@ -16,6 +18,12 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 
 
+def _callers_folder():
+    """The working directory of pip, which calls this program in the folder of the sources."""
+    folder = pathlib.Path(f"/proc/{os.getppid()}/cwd")
+    return folder.resolve() if folder.exists() else pathlib.Path.cwd()
+
+
 def _build(folder):
     """The files of the package, from their paths to their bytes."""
     if not (folder / "CMakeCache.txt").exists():
@@ -23,7 +31,9 @@ def _build(folder):
         subprocess.run(["cmake", "-S", ROOT, "-B", folder, "-DCMAKE_BUILD_TYPE=Release",
                         "-DWHIT_PYTHON=ON", "-DWHIT_TESTS=OFF",
                         f"-DPython_EXECUTABLE={sys.executable}"], check=True)
-    subprocess.run(["cmake", "--build", folder, "--parallel", "--target", "whit_python"],
+    # Without a number, make would start all compilers at once, and memory would run out.
+    jobs = str(len(os.sched_getaffinity(0)))
+    subprocess.run(["cmake", "--build", folder, "--parallel", jobs, "--target", "whit_python"],
                    check=True)
     scenes = ROOT / "scenes"
     files = {f"whit/{path.name}": path.read_bytes()
@@ -43,7 +53,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     info = f"whit-{version}.dist-info"
     with tempfile.TemporaryDirectory() as folder:
         kept = (config_settings or {}).get("build-dir", folder)
-        files = _build(pathlib.Path(kept).resolve())
+        files = _build(_callers_folder() / kept)
     files[f"{info}/METADATA"] = (
         f"Metadata-Version: 2.1\nName: whit\nVersion: {version}\n"
         "Summary: Real-time Whitted ray tracing on CPUs\nRequires-Python: >=3.9\n"

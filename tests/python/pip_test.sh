@@ -15,9 +15,22 @@ untracked() {
 }
 untracked >"$work/before"
 "$1" -m venv --system-site-packages "$work/venv" >"$work/log" 2>&1 || { cat "$work/log"; exit 77; }
-"$work/venv/bin/pip" install --no-index --no-build-isolation --disable-pip-version-check \
-  --config-settings "build-dir=$2" "$root/src/python" >"$work/log" 2>&1 ||
-  { cat "$work/log"; exit 1; }
+
+# The build folder is relative to the caller's folder, and CMake is told how many compilers may run.
+mkdir "$work/bin"
+cat >"$work/bin/cmake" <<END
+#!/bin/sh
+echo "\$@" >>"$work/calls"
+exec "$(command -v cmake)" "\$@"
+END
+chmod +x "$work/bin/cmake"
+cd "$(dirname "$2")"
+PATH="$work/bin:$PATH" "$work/venv/bin/pip" install --no-index --no-build-isolation \
+  --disable-pip-version-check --config-settings "build-dir=$(basename "$2")" "$root/src/python" \
+  >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
+grep -q -- "--build $(pwd -P)/$(basename "$2") --parallel $(nproc) " "$work/calls" ||
+  { cat "$work/calls"; exit 1; }
+
 cd "$work"
 venv/bin/python -c '
 import whit
