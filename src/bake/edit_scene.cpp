@@ -9,8 +9,8 @@
 #include "bake/finalize_steps.h"
 #include "bake/sphere.h"
 #include "core/error.h"
+#include "core/machine_limits.h"
 #include "core/warnings.h"
-#include "core/worker_pool.h"
 #include "scene/members.h"
 
 namespace whit {

@@ -6,8 +6,8 @@
 
 #include "bake/edit_scene.h"
 #include "bake/finalize_steps.h"
+#include "core/machine_limits.h"
 #include "core/text.h"
-#include "core/worker_pool.h"
 #include "scene/members.h"
 
 namespace whit {

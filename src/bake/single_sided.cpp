@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bake/finalize_steps.h"
+#include "core/machine_limits.h"
 #include "core/worker_pool.h"
 
 namespace whit {

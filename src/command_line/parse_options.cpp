@@ -6,6 +6,7 @@
 
 #include "command_line/help_text.h"
 #include "core/error.h"
+#include "core/machine_limits.h"
 #include "core/option_table.h"
 #include "core/text.h"
 
@@ -149,7 +150,9 @@ void listCommonOptions(OptionList& list, CommonOptions& common) {
       .set = [&common](const std::string& side) {
     common.load.settings.push_back("/viewpoint=" + quotedJson(side));
   };
-  list.value({"max-memory", "GB", 0.001, 1e6}, "limit of memory for geometry and images",
+  list.value({"max-memory", "GB", 0.001, 1e6},
+             "limit of memory for geometry and images (default: what the machine and its control "
+             "group have left, at most 16)",
              common.maxMemoryGb)
       .everyday = false;
 
@@ -162,7 +165,9 @@ void listCommonOptions(OptionList& list, CommonOptions& common) {
     common.load.threads = common.render.threads;
     common.load.size = common.render.size;
     common.load.sphereSegments = common.render.sphereSegments;
-    common.load.maxMemoryBytes = static_cast<std::uint64_t>(common.maxMemoryGb * 1e9);
+    common.load.maxMemoryBytes = common.maxMemoryGb
+                                     ? static_cast<std::uint64_t>(*common.maxMemoryGb * 1e9)
+                                     : defaultMaxMemory();
   };
 }
 

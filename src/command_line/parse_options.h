@@ -1,6 +1,7 @@
 // From the words of a command line to options.
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -17,7 +18,7 @@ struct CommonOptions {
   RenderOptions render;
   std::set<std::string> given;  // names of the render options on the command line
   LoadOptions load;
-  double maxMemoryGb = 16;
+  std::optional<double> maxMemoryGb;  // empty: defaultMaxMemory()
   bool quiet = false;
   bool warns = true;  // false: whoever opens a scene reports its warnings
   std::string progress = "auto";

@@ -3,10 +3,10 @@
 #include <utility>
 
 #include "bake/edit_scene.h"
+#include "core/machine_limits.h"
 #include "core/option_table.h"
 #include "core/stopwatch.h"
 #include "core/text.h"
-#include "core/worker_pool.h"
 #include "io/scene/scene_settings.h"
 
 namespace whit {

@@ -56,7 +56,7 @@ class MemoryBudget {
     if (!fits(count, size)) {
       throwLimit(what + " needs " + std::to_string(count) + " x " + std::to_string(size) +
                  " bytes, and " + std::to_string(limit_ - used_ - held_) + " of " +
-                 std::to_string(limit_) + " are left");
+                 std::to_string(limit_) + " are left (--max-memory)");
     }
 
     used_ += count * size;

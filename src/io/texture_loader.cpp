@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/machine_limits.h"
 #include "io/files.h"
 #include "io/image/texture_from_image.h"
 #include "scene/members.h"

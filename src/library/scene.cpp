@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "core/machine_limits.h"
 #include "core/text.h"
 #include "io/json_reader.h"
 #include "io/scene/scene_sections.h"
@@ -87,7 +88,8 @@ whit::LoadOptions loadOptions(const LoadOptions& options, const char* shippedSce
   load.allowOutside = options.allowOutside;
   constexpr double kMostGb = 1.8e10;  // what 64 bits hold; a NaN becomes 0
   const double gigabytes = std::min(std::fmax(options.maxMemoryGb, 0.0), kMostGb);
-  load.maxMemoryBytes = static_cast<std::uint64_t>(gigabytes * 1e9);
+  load.maxMemoryBytes =
+      gigabytes > 0 ? static_cast<std::uint64_t>(gigabytes * 1e9) : defaultMaxMemory();
   constexpr int kMostThreads = 1024;  // as of the option "threads"
   load.threads = std::clamp(options.threads, 0, kMostThreads);
   load.sky = options.sky;

@@ -81,8 +81,10 @@ using Progress = std::function<bool(const std::string& phase, double fraction)>;
 struct LoadOptions {
   bool allowOutside = false;  // a scene may name files outside its own folder and $WHIT_DATA
   bool strict = false;        // repairs are errors
-  double maxMemoryGb = 16;    // limit for geometry and images, in 10^9 bytes
-  int threads = 0;            // 0: as many as CPU affinity and cgroup quota allow
+  // Limit for geometry and images, in 10^9 bytes; 0: what the machine and its control group have
+  // left, at most 16.
+  double maxMemoryGb = 0;
+  int threads = 0;  // 0: as many as CPU affinity and cgroup quota allow
   // Replaces the scene's sky: none, studio or an image file. Empty: the scene's own, or the studio
   // for a model.
   std::string sky = {};

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "command_line/program.h"
+#include "core/machine_limits.h"
 #include "core/option_table.h"
-#include "core/worker_pool.h"
 #include "io/files.h"
 
 namespace whit {

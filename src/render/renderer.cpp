@@ -6,9 +6,9 @@
 
 #include "core/display.h"
 #include "core/error.h"
+#include "core/machine_limits.h"
 #include "core/option_table.h"
 #include "core/stopwatch.h"
-#include "core/worker_pool.h"
 #include "reference/media.h"
 #include "render/build_tables.h"
 #include "render/steps.h"

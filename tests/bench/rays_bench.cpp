@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "accel/embree_scene.h"
+#include "core/machine_limits.h"
 #include "core/worker_pool.h"
 #include "io/load_scene.h"
 #include "library/whit.h"

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/worker_pool.h"
+#include "core/machine_limits.h"
 #include "run_program.h"
 
 namespace whit::cli {

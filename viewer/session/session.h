@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "core/machine_limits.h"
 #include "core/stopwatch.h"
-#include "core/worker_pool.h"
 #include "scene/motion.h"
 #include "viewer/session/camera_control.h"
 #include "viewer/session/frame_tracer.h"

@@ -208,7 +208,8 @@ class Scene:
     sphere_segments: triangles around each sphere in place of exact spheres; 0: exact spheres.
     strict: raises an error instead of a repair (`warnings`).
     allow_outside: a scene may name files outside its own folder and $WHIT_DATA.
-    max_memory_gb: memory limit for geometry and images in 10^9 bytes.
+    max_memory_gb: memory limit for geometry and images in 10^9 bytes; 0: what the machine and its
+        control group have left, at most 16.
     threads: number of worker threads; 0: as many as CPU affinity and cgroup quota allow.
     progress: called now and then with the current phase and the fraction done, 0 to 1; returning
         False ends the work.
@@ -228,7 +229,7 @@ class Scene:
                  settings: Optional[Mapping[str, Any]] = None, sky: Union[str, os.PathLike] = "",
                  moves: bool = False, movable: Sequence[str] = (), animation: str = "",
                  sphere_segments: int = 0, strict: bool = False, allow_outside: bool = False,
-                 max_memory_gb: float = 16.0, threads: int = 0,
+                 max_memory_gb: float = 0.0, threads: int = 0,
                  progress: Optional[Progress] = None, name: str = "scene") -> None:
         description = Description(name)
         texts = [f"{pointer}={description.text(value, pointer)}"

@@ -102,7 +102,7 @@ class View:
         ...
 class Scene:
 
-    def __init__(self, source: Union[str, os.PathLike, Mapping[str, Any]], *, settings: Optional[Mapping[str, Any]]=None, sky: Union[str, os.PathLike]='', moves: bool=False, movable: Sequence[str]=(), animation: str='', sphere_segments: int=0, strict: bool=False, allow_outside: bool=False, max_memory_gb: float=16.0, threads: int=0, progress: Optional[Progress]=None, name: str='scene') -> None:
+    def __init__(self, source: Union[str, os.PathLike, Mapping[str, Any]], *, settings: Optional[Mapping[str, Any]]=None, sky: Union[str, os.PathLike]='', moves: bool=False, movable: Sequence[str]=(), animation: str='', sphere_segments: int=0, strict: bool=False, allow_outside: bool=False, max_memory_gb: float=0.0, threads: int=0, progress: Optional[Progress]=None, name: str='scene') -> None:
         ...
 
     def _read(self, progress: Optional[Progress]) -> None:
