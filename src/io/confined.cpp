@@ -135,7 +135,8 @@ std::string failureOfChild(int status) {
 
 }  // namespace
 
-ConfinedAnswer runConfined(const std::function<void(const ConfinedWriter&)>& work,
+ConfinedAnswer runConfined(const std::string& where,
+                           const std::function<void(const ConfinedWriter&)>& work,
                            std::uint64_t mostBytes, int seconds) {
   mostBytes = std::min(mostBytes, addressesLeft() / 4);
 
@@ -144,7 +145,7 @@ ConfinedAnswer runConfined(const std::function<void(const ConfinedWriter&)>& wor
   void* const shared = mmap(nullptr, size, PROT_READ | PROT_WRITE,
                             MAP_SHARED | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (shared == MAP_FAILED) {
-    throwLimit(std::string("cannot share memory with a process: ") + std::strerror(errno));
+    throwLimit(where + ": cannot share memory with a process: " + std::strerror(errno));
   }
 
   const auto unmap = [size](void* memory) { munmap(memory, size); };
@@ -167,7 +168,7 @@ ConfinedAnswer runConfined(const std::function<void(const ConfinedWriter&)>& wor
   const std::uint64_t mostAddresses = addressSpace() + mostBytes;
   const pid_t child = fork();
   if (child == 0) beChild(work, writer, mostAddresses, seconds);
-  if (child < 0) throwLimit(std::string("cannot start a process: ") + std::strerror(errno));
+  if (child < 0) throwLimit(where + ": cannot start a process: " + std::strerror(errno));
 
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;

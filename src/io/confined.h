@@ -21,8 +21,10 @@ struct ConfinedAnswer {
 // the copy may have held it. The child may take `mostBytes` of memory beyond what this process has,
 // and answer with as many, but no more than a quarter of the address space that is left here
 // (ulimit -v); it lives for `seconds` at most. Where the kernel offers seccomp, every system call
-// but those that take memory ends the child. Throws Error(limit) where no child can be started.
-ConfinedAnswer runConfined(const std::function<void(const ConfinedWriter&)>& work,
+// but those that take memory ends the child. Throws Error(limit), which begins with `where`, if no
+// child can be started.
+ConfinedAnswer runConfined(const std::string& where,
+                           const std::function<void(const ConfinedWriter&)>& work,
                            std::uint64_t mostBytes, int seconds);
 
 }  // namespace whit

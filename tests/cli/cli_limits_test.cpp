@@ -95,6 +95,22 @@ TEST_F(Limits, TooLittleMemoryIsALimit) {
   EXPECT_EQ(successes, 2);
 }
 
+// The child process that decodes the mesh takes a part of the addresses that are left.
+TEST_F(Limits, DracoWorksUnderALimitOfAddressSpace) {
+  if (kSanitized) GTEST_SKIP() << "sanitizers need terabytes of addresses";
+  const char* const source = std::getenv("WHIT_SOURCE_DIR");
+  const std::string model =
+      std::string(source ? source : ".") + "/tests/fuzz/corpus/gltf/draco.glb";
+  const Outcome outcome =
+      runWhit({"info", model, "--quiet"}, [] { limit(RLIMIT_AS, rlim_t{6'000'000} << 10); });
+  if (outcome.err.find("KHR_draco_mesh_compression") != std::string::npos) {
+    GTEST_SKIP() << "built without libdraco";
+  }
+
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("triangles   8"), std::string::npos) << outcome.out;
+}
+
 TEST_F(Limits, WorkersAreNoMoreThanTheProcessMayUse) {
   const auto threadsWith = [&](int cpus) {
     const Outcome outcome =

@@ -21,7 +21,7 @@ constexpr char kWithout[] = "built without libassimp";
 class Assimp : public GltfTest {
  protected:
   void SetUp() override {
-    if (convertByAssimp("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", ".off", 1 << 30)
+    if (convertByAssimp("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", 1 << 30)
             .glb.empty()) {
       GTEST_SKIP() << kWithout;
     }

@@ -18,6 +18,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/error.h"
 #include "sanitized.h"
 
 namespace whit {
@@ -26,13 +27,14 @@ namespace {
 constexpr std::uint64_t kMemory = 64u << 20;
 
 std::string failureOf(const std::function<void(const ConfinedWriter&)>& work) {
-  return runConfined(work, kMemory, 20).failure;
+  return runConfined("a.glb", work, kMemory, 20).failure;
 }
 
 TEST(Confined, AnswersWithWhatItComputes) {
   int seen = 7;
   const std::string text = "what the parent knows";
   const ConfinedAnswer answer = runConfined(
+      "a.glb",
       [&](const ConfinedWriter& write) {
         seen = 8;
         const std::vector<char> much(1 << 20, 'x');  // more than a pipe holds
@@ -59,9 +61,32 @@ TEST(Confined, LimitsOfAddressSpaceAreKept) {
     const rlimit limits{most, most};
     setrlimit(RLIMIT_AS, &limits);
 
-    const ConfinedAnswer answer = runConfined([](const ConfinedWriter& write) { write("yes", 3); },
-                                              std::uint64_t{64} << 30, 20);
+    const ConfinedAnswer answer = runConfined(
+        "a.glb", [](const ConfinedWriter& write) { write("yes", 3); }, std::uint64_t{64} << 30, 20);
     _exit(answer.bytes == "yes" && answer.failure.empty() ? 0 : 1);
+  }
+
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+}
+
+// A process that may take no more addresses than it has cannot share memory with a child.
+TEST(Confined, ErrorsNameWhatTheChildWasFor) {
+  if (kSanitized) GTEST_SKIP() << "sanitizers take address space of their own";
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    const rlimit none{1, 1};
+    setrlimit(RLIMIT_AS, &none);
+    std::string said;
+    try {
+      runConfined(
+          "a.glb", [](const ConfinedWriter&) {}, kMemory, 20);
+    } catch (const Error& error) {
+      if (error.status() == ExitStatus::limit) said = error.what();
+    }
+    _exit(said.starts_with("a.glb: cannot share memory") ? 0 : 1);
   }
 
   int status = 0;
@@ -78,6 +103,7 @@ TEST(Confined, CrashesAreReported) {
 
 TEST(Confined, BytesBeforeACrashArrive) {
   const ConfinedAnswer answer = runConfined(
+      "a.glb",
       [](const ConfinedWriter& write) {
         write("half", 4);
         throw std::runtime_error("no");
@@ -93,7 +119,7 @@ TEST(Confined, TimeIsLimited) {
     const volatile bool goesOn = true;
     while (goesOn) continue;
   };
-  EXPECT_EQ(runConfined(forever, kMemory, 1).failure, "it took too long");
+  EXPECT_EQ(runConfined("a.glb", forever, kMemory, 1).failure, "it took too long");
 }
 
 TEST(Confined, MemoryIsLimited) {
@@ -126,6 +152,7 @@ TEST(Confined, StartsFromAProgramWithThreads) {
 
   for (int i = 0; i < 40; ++i) {
     const ConfinedAnswer answer = runConfined(
+        "a.glb",
         [](const ConfinedWriter& write) {
           const std::vector<std::string> many(1000, std::string(1000, 'y'));
           write(many[999].data(), 1000);

@@ -293,16 +293,19 @@ void convert(const std::string& bytes, const std::string& extension, const Confi
 
 }  // namespace
 
-ConvertedModel convertByAssimp(const std::string& bytes, const std::string& extension,
+ConvertedModel convertByAssimp(const std::string& file, const std::string& bytes,
                                std::uint64_t mostBytes) {
   if (bytes.empty()) return {"", "it is empty"};
   if (bytes.size() > std::numeric_limits<unsigned>::max()) {
     return {"", "it has more than 2^32 - 1 bytes"};
   }
 
-  const ConfinedAnswer answer =
-      runConfined([&](const ConfinedWriter& write) { convert(bytes, extension, write); }, mostBytes,
-                  kConversionSeconds);
+  const ConfinedAnswer answer = runConfined(
+      file,
+      [&, extension = extensionOf(file)](const ConfinedWriter& write) {
+        convert(bytes, extension, write);
+      },
+      mostBytes, kConversionSeconds);
 
   // The answer has the form in which convert() writes it.
   ConvertedModel model;
@@ -332,8 +335,7 @@ std::unique_ptr<Model> openByAssimp(const ModelSource& source) {
   const std::string file = source.path.string();
   const std::string bytes = readFile(source.path, source.budget.left() / 2);
   const MemoryHold hold(&source.budget, bytes.size(), 1, file);
-  const ConvertedModel model =
-      convertByAssimp(bytes, extensionOf(source.path), source.budget.left() / 2);
+  const ConvertedModel model = convertByAssimp(file, bytes, source.budget.left() / 2);
 
   if (!model.failure.empty()) {
     throwBadScene(file, "expected a model that the library assimp can read, but " + model.failure);

@@ -21,10 +21,10 @@ struct ConvertedModel {
   std::uint32_t notes = 0;
 };
 
-// Converts the content of a file of that extension (".stl") in a child process that can only
-// compute (io/confined.h), because damaged files break the library. The child may take `mostBytes`
-// of memory. Nothing but `bytes` is read, so that files which consist of several lack the others.
-ConvertedModel convertByAssimp(const std::string& bytes, const std::string& extension,
+// Converts `bytes`, the content of the file of that name, in a child process that can only compute
+// (io/confined.h), because damaged files break the library. The child may take `mostBytes` of
+// memory. No file is read, so that models which consist of several files lack the others.
+ConvertedModel convertByAssimp(const std::string& file, const std::string& bytes,
                                std::uint64_t mostBytes);
 
 }  // namespace whit

@@ -134,9 +134,9 @@ void decodeDraco(const GltfDocument& document, std::map<std::string, std::string
   const std::vector<DracoArray> arrays = dracoArrays(document);
   if (arrays.empty()) return;
 
-  const ConfinedAnswer answer =
-      runConfined([&](const ConfinedWriter& write) { decodeArrays(arrays, write); },
-                  document.budget().left() / 2, kSeconds);
+  const ConfinedAnswer answer = runConfined(
+      arrays[0].where, [&](const ConfinedWriter& write) { decodeArrays(arrays, write); },
+      document.budget().left() / 2, kSeconds);
 
   // The answer holds the arrays in the same order, each behind its size.
   std::string_view left = answer.bytes;
