@@ -136,7 +136,7 @@ std::string scalingText(const std::vector<RunSummary>& runs) {
 
 // Runs that come in pairs add the ratio of the second run over the first.
 Json benchJson(const std::vector<RunSummary>& runs, bool arePairs) {
-  Json json{{"schema", 1}, {"machine", machineJson(runs.at(0).machine)}};
+  Json json{{"machine", machineJson(runs.at(0).machine)}};
   json["runs"] = Json::array();
   for (const RunSummary& run : runs) json["runs"].push_back(runJson(run));
 

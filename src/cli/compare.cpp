@@ -9,6 +9,7 @@
 #include "command_line/program.h"
 #include "command_line/progress_bar.h"
 #include "core/error.h"
+#include "core/option_table.h"
 #include "core/text.h"
 #include "engine/engine.h"
 #include "inspect/metrics.h"
@@ -30,8 +31,8 @@ constexpr const char* kCompareUsage =
 constexpr const char* kCompareSummary =
     "Renders SCENE by packets (A) and by the scalar reference (B) and compares the two. Without "
     "--tolerance up to 5 % of the pixels may differ by 2 codes or more, and the energy by 2 %. Or "
-    "compares the image files A and B, where B is the reference. Channels that both have are "
-    "compared as well.";
+    "measures how the image file A differs from B, the reference: two files fail by --tolerance "
+    "only. Channels that both have are compared as well.";
 
 struct CompareJob {
   CommonOptions common;
@@ -60,6 +61,7 @@ struct Compared {
   Image a, b;
   std::vector<ImageLayer> layersA, layersB;
   float exposure = 0;  // EV
+  Json about;          // the scene, or the files, and the options
 };
 
 OptionList listOptions(CompareJob& job) {
@@ -96,6 +98,11 @@ Compared compareFiles(const CompareJob& job) {
   result.b = readImage(job.subjects[1], ImageLimits());
   result.layersA = readLayers(job.subjects[0], ImageLimits());
   result.layersB = readLayers(job.subjects[1], ImageLimits());
+
+  result.about = {{"a", job.subjects[0]}, {"b", job.subjects[1]}};
+  for (const char* option : {"exposure", "tonemap"}) {
+    result.about["options"][option] = optionText(common.render, option);
+  }
   return result;
 }
 
@@ -114,6 +121,7 @@ Compared compareModes(const CompareJob& job) {
   Film reference = packets;
   Compared result;
   result.exposure = options.exposure.ev;
+  result.about = {{"scene", open->scene.name}, {"options", optionsJson(options)}};
   result.numbers.timeMsA = renderer.render(camera, packets).frameMs;
   result.numbers.timeMsB = renderer.renderReference(camera, reference, progress.get()).frameMs;
 
@@ -259,10 +267,11 @@ std::string verdict(const CompareJob& job, const Comparison& c, bool passed) {
         formatted("%.4g %% of the pixels differ by two 8-bit codes or more", d.pixelsGe2CodesPct);
   }
 
-  // Without --tolerance, two files are described but not judged.
-  const bool judged = job.subjects.size() == 1 || job.tolerance || c.stages;
-  const char* const judgment = passed ? "; passed" : "; FAILED";
-  return "verdict: " + text + (judged ? judgment : "");
+  const bool judged = job.subjects.size() == 1 || job.tolerance;
+  const char* const judgment = !judged  ? "; measured, not judged: --tolerance X sets what passes"
+                               : passed ? "; passed"
+                                        : "; FAILED";
+  return "verdict: " + text + judgment;
 }
 
 void writeHeatMap(const CompareJob& job, const Compared& compared) {
@@ -273,8 +282,10 @@ void writeHeatMap(const CompareJob& job, const Compared& compared) {
 }
 
 // Infinite and unknown numbers are null.
-Json compareJson(const Comparison& comparison) {
-  Json json;
+Json compareJson(const Compared& compared) {
+  const Comparison& comparison = compared.numbers;
+  Json json = compared.about;
+  json["size"] = {compared.a.width, compared.a.height};
   for (const Number& n : numbersOf(comparison)) json[n.key] = n.value;
   json["time_ms"] = {{"a", orNull(comparison.timeMsA)}, {"b", orNull(comparison.timeMsB)}};
 
@@ -324,7 +335,7 @@ int compareCommand(const Words& words) {
     if (compared.numbers.stages) printStages(people, *compared.numbers.stages);
   }
 
-  if (!job.json.empty()) writeJson(job.json, compareJson(compared.numbers));
+  if (!job.json.empty()) writeJson(job.json, compareJson(compared));
   if (!job.heatmap.empty()) writeHeatMap(job, compared);
   tellFiles({job.json, job.heatmap}, job.common);
 

@@ -1,6 +1,7 @@
 // whit scenes: the list of the shipped scenes.
 #include <algorithm>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "cli/commands.h"
@@ -8,6 +9,8 @@
 #include "command_line/parse_options.h"
 #include "core/text.h"
 #include "io/files.h"
+#include "output/image_output.h"
+#include "output/json_report.h"
 
 namespace whit::cli {
 
@@ -32,12 +35,25 @@ std::string aboutOf(const std::string& text) {
 }  // namespace
 
 int scenesCommand(const Words& words) {
-  const OptionList list;
-  if (!parseOptions("whit scenes", "Lists the shipped scenes.", list, words)) return 0;
+  std::string json;
+  OptionList list;
+  list.value({"json", "FILE"}, "name, file and meaning of each scene as JSON; - is standard output",
+             json);
+  if (!parseOptions("whit scenes [options]", "Lists the shipped scenes.", list, words)) return 0;
+  requireJsonWritable(json);
 
-  for (const std::filesystem::path& scene : shippedScenes()) {
-    const std::string about = aboutOf(readTextFile(scene.string(), kSceneBytesLimit));
-    std::printf("%-16s%s\n", printable(scene.stem().string()).c_str(), printable(about).c_str());
+  Json scenes = Json::array();
+  for (const std::filesystem::path& file : shippedScenes()) {
+    scenes.push_back({{"name", file.stem().string()},
+                      {"file", file.string()},
+                      {"about", aboutOf(readTextFile(file.string(), kSceneBytesLimit))}});
+  }
+
+  if (!json.empty()) writeJson(json, {{"scenes", scenes}});
+  if (json == "-") return 0;
+  for (const Json& scene : scenes) {
+    std::printf("%-16s%s\n", printable(scene["name"].get<std::string>()).c_str(),
+                printable(scene["about"].get<std::string>()).c_str());
   }
   return 0;
 }

@@ -80,6 +80,12 @@ void addFrames(const RunSummary& run, Json& json) {
 
 }  // namespace
 
+Json optionsJson(const RenderOptions& options) {
+  Json json = Json::object();
+  for (const auto& [name, value] : pictureOptions(options)) json[name] = value;
+  return json;
+}
+
 Json machineJson(const Machine& machine) {
   return {{"cpu", cpuName()},         {"cores", affinityThreads()}, {"simd", machine.simd},
           {"embree", machine.embree}, {"compiler", kCompiler},      {"commit", WHIT_COMMIT}};
@@ -95,6 +101,7 @@ Json runJson(const RunSummary& run) {
             {"batch", optionText(run.options, "batch")},
             {"robust", run.options.robust}};
 
+  json["options"] = optionsJson(run.options);
   json["effects_choice"] = run.options.effects == EffectChoice::all ? "all" : "auto";
   json["effects"] = effectNames(run.effects);
   json["exposure_ev"] = run.options.exposure.ev;
@@ -109,8 +116,12 @@ Json runJson(const RunSummary& run) {
 }
 
 void writeJson(const std::string& path, const Json& json) {
+  constexpr int kSchema = 1;
+  Json all{{"schema", kSchema}};
+  all.update(json);
+
   // Names in a scene may hold any bytes; what is no UTF-8 is replaced.
-  const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  const std::string text = all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
   if (path == "-") {
     std::fputs(text.c_str(), stdout);
     return;

@@ -11,6 +11,8 @@ namespace whit {
 
 using Json = nlohmann::ordered_json;
 
+// The options that can change a picture: names and values as on the command line.
+Json optionsJson(const RenderOptions& options);
 // The machine and the build.
 Json machineJson(const Machine& machine);
 // `writing_ms`, where images were written, has the medians of what writing one took and of what the
@@ -18,7 +20,8 @@ Json machineJson(const Machine& machine);
 // `rays` and what follows are those of the median frame; a run of no frames, whose images were all
 // there, has none of what is measured on frames.
 Json runJson(const RunSummary& run);
-// "-" is standard output. Throws Error(io).
+// Writes an object, with the number of the format as its first member: "schema", which changes when
+// a key is renamed or gets another meaning. "-" is standard output. Throws Error(io).
 void writeJson(const std::string& path, const Json& json);
 
 }  // namespace whit

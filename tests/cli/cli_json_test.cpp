@@ -1,6 +1,7 @@
 // The JSON results have the keys that tools rely on, and numbers that agree with each other.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "core/machine_limits.h"
@@ -127,8 +128,12 @@ const std::vector<std::string> kCompareKeys{"rmse",      "relmse",
                                             "time_ms",   "path_flips_per_mpx"};
 
 TEST_F(JsonResults, CompareScene) {
-  const Json json = resultOf({"compare", tiny_, "--stages"});
+  const Json json = resultOf({"compare", tiny_, "--stages", "--depth", "3"});
   expectKeys(json, kCompareKeys);
+  EXPECT_EQ(json["schema"], 1);
+  EXPECT_EQ(json["scene"], "tiny");
+  EXPECT_EQ(json["size"], Json({48, 32}));
+  EXPECT_EQ(json["options"]["depth"], "3");
   EXPECT_GT(json["time_ms"]["a"].get<double>(), 0);
   EXPECT_GT(json["time_ms"]["b"].get<double>(), 0);
   EXPECT_GE(json["path_flips_per_mpx"].get<double>(), 0);
@@ -144,9 +149,14 @@ TEST_F(JsonResults, CompareScene) {
 TEST_F(JsonResults, CompareFiles) {
   const std::string a = folder_ / "a.exr";
   ASSERT_EQ(runWhit({"render", tiny_, "-o", a}).status, 0);
-  const Json json = resultOf({"compare", a, a});
+  const Json json = resultOf({"compare", a, a, "--exposure", "1"});
 
   expectKeys(json, kCompareKeys);
+  EXPECT_EQ(json["schema"], 1);
+  EXPECT_EQ(json["a"], a);
+  EXPECT_EQ(json["b"], a);
+  EXPECT_EQ(json["size"], Json({48, 32}));
+  EXPECT_EQ(json["options"], Json({{"exposure", "1"}, {"tonemap", "none"}}));
   EXPECT_EQ(json["rmse"], 0);
   EXPECT_EQ(json["max_code"], 0);
   EXPECT_TRUE(json["psnr_db"].is_null());  // infinite
@@ -174,6 +184,16 @@ TEST_F(JsonResults, Info) {
   EXPECT_EQ(json["spheres"], 0);
 }
 
+TEST_F(JsonResults, Scenes) {
+  const Json json = resultOf({"scenes"});
+  EXPECT_EQ(json["schema"], 1);
+  const auto atrium = std::ranges::find_if(
+      json["scenes"], [](const Json& scene) { return scene["name"] == "atrium"; });
+  ASSERT_NE(atrium, json["scenes"].end());
+  EXPECT_TRUE((*atrium)["about"].get<std::string>().starts_with("A two-storeyed court"));
+  EXPECT_TRUE(std::filesystem::exists((*atrium)["file"].get<std::string>()));
+}
+
 TEST_F(JsonResults, BenchCountsSpheres) {
   const Outcome outcome =
       runWhit({"bench", "whitted", "--size", "16x10", "--frames", "1", "--json", "-"});
@@ -192,6 +212,8 @@ TEST_F(JsonResults, RenderWritesAFile) {
 
   EXPECT_EQ(json["files"], Json({image}));
   EXPECT_EQ(json["kept"], 0);
+  EXPECT_EQ(json["schema"], 1);
+  EXPECT_EQ(json["options"]["depth"], "3");
   expectKeys(json["writing_ms"], {"spent", "waited"});
   EXPECT_GT(json["writing_ms"]["spent"].get<double>(), 0);
   EXPECT_GT(json["written_per_s"].get<double>(), 0);

@@ -237,10 +237,12 @@ TEST(Program, CompareFailsAboveTheTolerance) {
   EXPECT_TRUE(same.out.ends_with("verdict: the pictures are the same, bit for bit; passed\n"))
       << same.out;
 
-  // Without a tolerance the pictures are compared but not judged.
+  // Without a tolerance the pictures are measured, and the last line says that nothing was judged.
   const Outcome unjudged = runWhit({"compare", a, b});
   EXPECT_EQ(unjudged.status, 0);
-  EXPECT_TRUE(unjudged.out.ends_with("% of the pixels differ by two 8-bit codes or more\n"))
+  EXPECT_TRUE(
+      unjudged.out.ends_with("% of the pixels differ by two 8-bit codes or more; measured, "
+                             "not judged: --tolerance X sets what passes\n"))
       << unjudged.out;
 
   const Outcome apart =
