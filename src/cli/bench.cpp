@@ -8,6 +8,7 @@
 
 #include "cli/bench_run.h"
 #include "cli/commands.h"
+#include "command_line/program.h"
 #include "command_line/progress_bar.h"
 #include "core/error.h"
 #include "core/machine_limits.h"
@@ -17,6 +18,7 @@
 #include "output/image_output.h"
 #include "output/json_report.h"
 #include "output/open_and_tell.h"
+#include "output/report_page.h"
 
 namespace whit::cli {
 
@@ -51,7 +53,7 @@ struct BenchJob {
   int frames = 0;  // 0: not given
   bool floor = false;
   std::array<bool, std::size(kSeries)> wanted{};
-  std::string json;
+  std::string json, csv;
 
   bool reference() const { return common.render.mode == Mode::reference; }
   // The reference takes seconds a frame, so frames to warm up would change nothing.
@@ -77,6 +79,7 @@ OptionList listOptions(BenchJob& job) {
   for (std::size_t i = 0; i < job.wanted.size(); ++i)
     list.flag(kSeries[i].flag, kSeries[i].help, job.wanted[i]);
   list.value({"json", "FILE"}, "all runs as JSON; - is standard output", job.json);
+  list.value({"csv", "FILE"}, "all runs as a table, a line each", job.csv);
 
   listCommonOptions(list, job.common);
   list.operands("SCENE...", "scene files, models, or names of shipped scenes", 1,
@@ -101,12 +104,14 @@ void addRuns(BenchRuns& runs, const std::string& name, const BenchJob& job, Prog
   for (const std::string& value : valuesOf(series)) {
     RenderOptions options = optionsToMeasure(open->scene, job.common);
     if (!value.empty()) setOption(options, series.option, value);
-    runs.push_back(std::make_unique<BenchRun>(open, options, progress));
+    const std::string name = value.empty() ? "" : series.option + (" " + value);
+    runs.push_back(std::make_unique<BenchRun>(open, options, progress, name));
   }
 }
 
 void checkJob(const BenchJob& job) {
   requireJsonWritable(job.json);
+  if (!job.csv.empty()) requireWritable(job.csv, {".csv"});
   const Series& series = job.series();
   const bool compares = &series != &kOneRun;
   refuseIf(job.reference() && (job.floor || compares),
@@ -149,6 +154,27 @@ Json benchJson(const std::vector<RunSummary>& runs, bool arePairs) {
   return json;
 }
 
+// A line for each run, with a column for each number in the JSON: "frame_ms_median".
+std::string benchCsv(const std::vector<RunSummary>& runs) {
+  Json rows = Json::array();
+  for (const RunSummary& run : runs) {
+    // Lists and options may differ from scene to scene, and all lines have the same columns.
+    Json all = runJson(run), row;
+    all["size"] = formatted("%dx%d", run.width, run.height);
+    all.erase("options");
+    all.erase("effects");
+
+    const Json flat = all.flatten();
+    for (const auto& [pointer, value] : flat.items()) {
+      std::string column = pointer.substr(1);
+      std::ranges::replace(column, '/', '_');
+      row[column] = value;
+    }
+    rows.push_back(std::move(row));
+  }
+  return csvOf(rows);
+}
+
 }  // namespace
 
 int benchCommand(const Words& words) {
@@ -185,7 +211,11 @@ int benchCommand(const Words& words) {
   }
 
   if (!job.json.empty()) writeJson(job.json, benchJson(summaries, job.series().isPair));
-  tellFiles({job.json}, job.common);
+  if (!job.csv.empty()) {
+    const WriteScope scope;
+    writeTextFile(job.csv, benchCsv(summaries));
+  }
+  tellFiles({job.json, job.csv}, job.common);
   return 0;
 }
 

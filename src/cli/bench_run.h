@@ -3,9 +3,11 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "core/machine_limits.h"
 #include "engine/engine.h"
 #include "inspect/floor.h"
 #include "output/digest.h"
@@ -17,19 +19,23 @@ namespace whit::cli {
 // A scene with one choice of options.
 class BenchRun {
  public:
-  BenchRun(std::shared_ptr<OpenScene> open, const RenderOptions& options, Progress* progress)
+  BenchRun(std::shared_ptr<OpenScene> open, const RenderOptions& options, Progress* progress,
+           const std::string& name = "")
       : engine_(std::move(open)),
         film_(makeFilm(engine_.scene(), options, engine_.opened()->load.maxMemoryBytes)) {
     engine_.setOptions(options);
     const Renderer& renderer = engine_.prepare(progress);
     summary_ =
         summarize(engine_.scene(), engine_.options(), renderer, film_, engine_.opened()->loadMs);
+    summary_.name = name;
   }
 
   void warmUp() { engine_.render({}, film_); }
 
   // Measures one frame; with `floor` also Embree alone for its rays.
   void measure(bool floor) {
+    // Our own threads wait for the frame, so all other tasks are of other programs.
+    summary_.otherTasks.push_back(otherRunnableTasks());
     summary_.frames.push_back(engine_.render({}, film_).stats);
     summary_.imageHash = digestOf(film_.image);
     if (floor)

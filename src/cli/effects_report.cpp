@@ -12,14 +12,28 @@ namespace whit::cli {
 
 namespace {
 
-// Returns the median over the turns of how much `of` differs between the frames of two runs.
+// Adds to a row how much longer the frames of a run take than those of the run before in the same
+// turn: the median, and the interval that it is known to lie in. A single turn has no interval.
 template <typename Of>
-double medianAdded(const RunSummary& run, const RunSummary& before, const Of& of) {
+void putAdded(Json& row, const std::string& key, const RunSummary& run, const RunSummary* before,
+              const Of& of) {
   std::vector<double> added;
-  for (std::size_t i = 0; i < std::min(run.frames.size(), before.frames.size()); ++i) {
-    added.push_back(std::invoke(of, run.frames[i]) - std::invoke(of, before.frames[i]));
+  for (std::size_t i = 0; i < run.frames.size(); ++i) {
+    const double base = before ? std::invoke(of, before->frames.at(i)) : 0;
+    added.push_back(std::invoke(of, run.frames[i]) - base);
   }
-  return quantile(added, 0.5);
+
+  const Interval known = medianInterval(added);
+  const bool isKnown = added.size() > 1;
+  row[key] = quantile(added, 0.5);
+  row[key + "_low"] = isKnown ? Json(known.low) : Json(nullptr);
+  row[key + "_high"] = isKnown ? Json(known.high) : Json(nullptr);
+}
+
+// True if the interval of an added time holds 0, or is unknown.
+bool isNoise(const Json& row) {
+  const Json &low = row["added_ms_low"], &high = row["added_ms_high"];
+  return low.is_null() || (low.get<double>() <= 0 && high.get<double>() >= 0);
 }
 
 std::int64_t raysOf(const EffectStep& step) {
@@ -33,7 +47,8 @@ std::string noteOn(const Json& rows, std::size_t turns) {
   return formatted(
       "Rays and MB add up. Times do not: an added time is the median, over %zu turns, of the\n"
       "difference from the row above, in which disturbances of both frames cancel. All rows\n"
-      "together come to %.2f ms; the last frame takes %.2f ms.\n",
+      "together come to %.2f ms; the last frame takes %.2f ms. The median lies in the interval\n"
+      "with a probability of 95 %%; '~' marks noise: the interval holds 0, or is not known.\n",
       turns, sum, rows.back()["frame_ms"].get<double>());
 }
 
@@ -45,13 +60,10 @@ Json effectsRows(const std::vector<EffectStep>& steps) {
     // The first step has none before it and counts in full.
     const EffectStep* const before = &step == steps.data() ? nullptr : &step - 1;
     const FrameStats frame = medianFrame(step.run);
-    Json row{
-        {"effect", step.added},
-        {"frame_ms", frame.frameMs},
-        {"added_ms",
-         before ? medianAdded(step.run, before->run, &FrameStats::frameMs) : frame.frameMs},
-        {"added_outside_embree_ms",
-         before ? medianAdded(step.run, before->run, outsideEmbreeMs) : outsideEmbreeMs(frame)}};
+    const RunSummary* const runBefore = before ? &before->run : nullptr;
+    Json row{{"effect", step.added}, {"frame_ms", frame.frameMs}};
+    putAdded(row, "added_ms", step.run, runBefore, &FrameStats::frameMs);
+    putAdded(row, "added_outside_embree_ms", step.run, runBefore, outsideEmbreeMs);
 
     for (std::size_t k = 0; k < kRayKindCount; ++k)
       row[std::string(kRayKinds[k].name) + "_rays"] = frame.meter.tally[k].rays;
@@ -65,16 +77,22 @@ Json effectsRows(const std::vector<EffectStep>& steps) {
 }
 
 std::string effectsTable(const Json& effects) {
-  std::string text = formatted("%-18s%10s%10s%16s%12s%10s\n", "effect", "frame ms", "added ms",
-                               "outside Embree", "added rays", "added MB");
+  std::string text =
+      formatted("%-18s%10s%11s  %-18s%16s%12s%10s\n", "effect", "frame ms", "added ms",
+                "95 % interval", "outside Embree", "added rays", "added MB");
 
   for (const Json& row : effects["effects"]) {
     const auto number = [&](const char* key) { return row[key].get<double>(); };
     const bool first = row == effects["effects"].front();
     const std::string label = (first ? "" : "+ ") + row["effect"].get<std::string>();
-    text += formatted("%-18s%10.2f%+10.2f%+16.2f%+12.0f%+10.2f\n", label.c_str(),
-                      number("frame_ms"), number("added_ms"), number("added_outside_embree_ms"),
-                      number("added_rays"), number("added_memory_mb"));
+    const std::string interval =
+        row["added_ms_low"].is_null()
+            ? "unknown"
+            : formatted("%+.2f to %+.2f", number("added_ms_low"), number("added_ms_high"));
+    text += formatted("%-18s%10.2f %c%+9.2f  %-18s%+16.2f%+12.0f%+10.2f\n", label.c_str(),
+                      number("frame_ms"), isNoise(row) ? '~' : ' ', number("added_ms"),
+                      interval.c_str(), number("added_outside_embree_ms"), number("added_rays"),
+                      number("added_memory_mb"));
   }
 
   return text + "\n" + effects["note"].get<std::string>();

@@ -1,5 +1,7 @@
 #include "output/frame_summary.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -20,6 +22,7 @@ RunSummary summarize(const Scene& scene, const RenderOptions& options, const Ren
   run.triangles = scene.instancedTriangles;
   run.spheres = scene.instancedSpheres;
 
+  run.processors = static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN));
   run.loadMs = loadMs;
   run.buildMs = renderer.buildMs();
   return run;
@@ -34,6 +37,23 @@ std::vector<double> frameTimes(const RunSummary& run) {
 const FrameStats& medianFrame(const RunSummary& run) {
   const double median = quantile(frameTimes(run), 0.5);
   return *std::ranges::find(run.frames, median, &FrameStats::frameMs);
+}
+
+std::string loadText(const RunSummary& run) {
+  // Frames of one picture do the same work, so on an idle machine their times differ by little.
+  constexpr double kLargestSpread = 1.5;
+  const std::vector<double> times = frameTimes(run);
+  const double least = quantile(times, 1e-9);
+  const double spread = least > 0 ? quantile(times, 0.95) / least : 1;
+  const double others = quantile(run.otherTasks, 0.5);
+
+  const bool crowded = others > 0 && others + run.machine.threads > run.processors;
+  if (!crowded && spread <= kLargestSpread) return "";
+
+  return formatted(
+      "  machine busy or throttled: %.0f other tasks for %d processors, 95 %% of the frames within "
+      "%.2f times the least%s\n",
+      others, run.processors, spread, run.floorMs.empty() ? "" : "; frame over floor is too high");
 }
 
 double writtenPerSecond(const RunSummary& run) {
@@ -81,9 +101,10 @@ namespace {
 
 void appendSettings(std::string& text, const RunSummary& run) {
   const bool packets = run.options.mode == Mode::packets;
-  text += formatted("%s  %dx%d  %s  %d thread%s  ", run.scene.c_str(), run.width, run.height,
-                    surfacesText(run.triangles, run.spheres).c_str(), run.machine.threads,
-                    run.machine.threads == 1 ? "" : "s");
+  const std::string name = run.name.empty() ? "" : ", " + run.name;
+  text += formatted("%s%s  %dx%d  %s  %d thread%s  ", run.scene.c_str(), name.c_str(), run.width,
+                    run.height, surfacesText(run.triangles, run.spheres).c_str(),
+                    run.machine.threads, run.machine.threads == 1 ? "" : "s");
   if (packets) {
     text +=
         formatted("packets of %d, %s, %s at a time\n", run.machine.packet, run.machine.simd.c_str(),
@@ -178,7 +199,7 @@ std::string stageTable(const RunSummary& run) {
                       floor, floor > 0 ? frame.frameMs / floor : 0);
   }
 
-  return text;
+  return run.otherTasks.empty() ? text : text + loadText(run);
 }
 
 std::vector<std::string> pictureWarnings(const RunSummary& run) {
@@ -206,8 +227,8 @@ std::string ratioText(const RunSummary& first, const RunSummary& second) {
     return formatted("  %-34s%10.3f  (%.2f over %.2f ms)\n", what, of, a, b);
   };
 
-  std::string text = formatted("%s, every effect over the scene's, medians of %zu turns\n",
-                               first.scene.c_str(), first.frames.size());
+  std::string text = formatted("%s, %s over %s, medians of %zu turns\n", first.scene.c_str(),
+                               second.name.c_str(), first.name.c_str(), first.frames.size());
   text += row("whole frame", ratio.frame, medianFrame(second).frameMs, medianFrame(first).frameMs);
   return text + row("outside Embree", ratio.outsideEmbree, outsideEmbreeMs(medianFrame(second)),
                     outsideEmbreeMs(medianFrame(first)));

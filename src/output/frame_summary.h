@@ -15,6 +15,7 @@ namespace whit {
 
 struct RunSummary {
   std::string scene;
+  std::string name;  // tells runs of one scene apart: "effects all"; may be empty
   int width = 0, height = 0;
   RenderOptions options;
   Machine machine;
@@ -23,7 +24,10 @@ struct RunSummary {
   double loadMs = 0, buildMs = 0;
   std::vector<FrameStats> frames;  // counted ones; none: all images were there
   std::vector<double> floorMs;     // empty without --floor
-  std::string imageHash;           // of the last frame: digestOf(image)
+  // Tasks of other programs that wanted a processor before each frame; empty if nobody looked.
+  std::vector<double> otherTasks;
+  int processors = 0;     // of the machine
+  std::string imageHash;  // of the last frame: digestOf(image)
   // Images are written while the next frame is traced: the time of writing each image, and how
   // long the tracing waited for it.
   std::vector<double> writingMs, waitedMs;
@@ -38,6 +42,9 @@ RunSummary summarize(const Scene& scene, const RenderOptions& options, const Ren
 // The frame of median duration (the lower of the two middle ones): its stages add up.
 const FrameStats& medianFrame(const RunSummary& run);
 std::vector<double> frameTimes(const RunSummary& run);
+
+// One line that says why the figures are higher than on an idle machine; empty if they are not.
+std::string loadText(const RunSummary& run);
 
 // Frames per second, traced and written.
 double writtenPerSecond(const RunSummary& run);

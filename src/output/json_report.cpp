@@ -70,6 +70,7 @@ void addFrames(const RunSummary& run, Json& json) {
     json["frame_over_floor"] = floor > 0 ? Json(frame.frameMs / floor) : Json(nullptr);
   }
 
+  if (!run.otherTasks.empty()) json["other_tasks"] = quantile(run.otherTasks, 0.5);
   if (!run.updateMs.empty()) json["updateScene_ms"] = quantile(run.updateMs, 0.5);
   if (!run.writingMs.empty()) {
     json["writing_ms"] = {{"spent", quantile(run.writingMs, 0.5)},
@@ -93,6 +94,7 @@ Json machineJson(const Machine& machine) {
 
 Json runJson(const RunSummary& run) {
   Json json{{"scene", run.scene},
+            {"name", run.name},
             {"size", Json::array({run.width, run.height})},
             {"threads", run.machine.threads},
             {"packet", run.machine.packet},

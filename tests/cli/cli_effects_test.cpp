@@ -39,8 +39,12 @@ TEST(AbEffects, MeasuresTheSceneTwice) {
   const std::string tiny = writeTinyScene(folder);
   const Outcome table = runWhit({"bench", tiny, "--ab-effects", "--frames", "3"});
   ASSERT_EQ(table.status, 0) << table.err;
-  EXPECT_NE(table.out.find("every effect over the scene's, medians of 3 turns"), std::string::npos)
+  EXPECT_NE(table.out.find("tiny, effects all over effects auto, medians of 3 turns"),
+            std::string::npos)
       << table.out;
+  for (const char* head : {"tiny, effects auto  48x32", "tiny, effects all  48x32"}) {
+    EXPECT_NE(table.out.find(head), std::string::npos) << table.out;
+  }
   EXPECT_NE(table.out.find("outside Embree"), std::string::npos) << table.out;
 
   const Json json = Json::parse(
@@ -48,6 +52,8 @@ TEST(AbEffects, MeasuresTheSceneTwice) {
   ASSERT_EQ(json["runs"].size(), 4u);
   ASSERT_EQ(json["all_over_auto"].size(), 2u);
   for (std::size_t i = 0; i < 4; i += 2) {
+    EXPECT_EQ(json["runs"][i]["name"], "effects auto");
+    EXPECT_EQ(json["runs"][i + 1]["name"], "effects all");
     EXPECT_EQ(json["runs"][i]["effects_choice"], "auto");
     EXPECT_EQ(json["runs"][i + 1]["effects_choice"], "all");
     // More kernels are compiled in, but they trace the same rays.
@@ -80,7 +86,7 @@ TEST(EffectsCommand, WritesATableAndAPicture) {
   const auto kLines =
       std::ptrdiff_t{2} + kEffectCount - 2 - std::popcount(notAskedFor(RenderOptions()).bits());
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), kLines) << csv;
-  EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), kLines + 4) << outcome.out;
+  EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), kLines + 5) << outcome.out;
 
   const auto codes = [&](const char* name) {
     Warnings warnings;

@@ -99,6 +99,26 @@ TEST_F(JsonResults, BenchFloorAndWidths) {
   }
 }
 
+// The table has a line for each run, with the numbers of the JSON.
+TEST_F(JsonResults, BenchAsATable) {
+  const std::string file = folder_ / "bench.csv";
+  const Json json =
+      resultOf({"bench", tiny_, "whitted", "--frames", "2", "--size", "16x10", "--csv", file});
+  const std::string csv = readFile(file);
+  EXPECT_EQ(std::ranges::count(csv, '\n'), 3) << csv;
+  EXPECT_TRUE(csv.starts_with("scene,name,size,threads,packet,simd,mode,batch,robust,")) << csv;
+  EXPECT_NE(csv.find(",frame_ms_median,frame_ms_min,frame_ms_p95,fps,stages_ms_generateRays,"),
+            std::string::npos)
+      << csv;
+  EXPECT_NE(csv.find("\ntiny,,16x10,"), std::string::npos) << csv;
+  for (const Json& run : json["runs"]) {
+    EXPECT_NE(csv.find(run["image_hash"].get<std::string>()), std::string::npos) << csv;
+    EXPECT_GE(run["other_tasks"].get<double>(), 0);
+  }
+
+  EXPECT_EQ(runWhit({"bench", tiny_, "--csv", folder_ / "bench.txt"}).status, 2);
+}
+
 TEST_F(JsonResults, BenchOfPowersOfTwoThreads) {
   const Json json = resultOf({"bench", tiny_, "--frames", "1", "--threads-scaling"});
 
@@ -205,7 +225,7 @@ TEST_F(JsonResults, InfoOfSpheres) { EXPECT_EQ(resultOf({"info", "whitted"})["sp
 
 TEST_F(JsonResults, RenderWritesAFile) {
   const std::string image = folder_ / "a.png", file = folder_ / "a.json";
-  ASSERT_EQ(runWhit({"render", tiny_, "-o", image, "--json", file}).status, 0);
+  ASSERT_EQ(runWhit({"render", tiny_, "-o", image, "--depth", "3", "--json", file}).status, 0);
   const Json json = Json::parse(readFile(file), nullptr, false);
   ASSERT_FALSE(json.is_discarded());
   checkRun(json);

@@ -75,6 +75,30 @@ TEST(StageTable, NamesStagesTimesAndRays) {
   EXPECT_NE(table.find("frame over floor 1.25"), std::string::npos) << table;
 }
 
+TEST(LoadText, TellsOfABusyMachine) {
+  RunSummary run = madeUpRun(3);  // 10, 20 and 30 ms
+  run.processors = 2;
+  run.otherTasks = {20, 21, 22};
+  EXPECT_EQ(
+      loadText(run),
+      "  machine busy or throttled: 21 other tasks for 2 processors, 95 % of the frames within "
+      "3.00 times the least\n");
+  EXPECT_NE(stageTable(run).find("throttled: 21 other"), std::string::npos) << stageTable(run);
+  run.floorMs = {5, 5, 5};
+  EXPECT_TRUE(loadText(run).ends_with("the least; frame over floor is too high\n"));
+
+  // Two threads and six other tasks fit on eight processors, but the frames differ by much.
+  run.processors = 8;
+  run.otherTasks = {6, 6, 6};
+  EXPECT_TRUE(loadText(run).starts_with("  machine busy or throttled: 6 other tasks for 8 proc"));
+  for (FrameStats& frame : run.frames) frame.frameMs = 10;
+  EXPECT_EQ(loadText(run), "");
+
+  // Nobody has looked at the machine.
+  run = madeUpRun(3);
+  EXPECT_EQ(stageTable(run).find("machine busy"), std::string::npos) << stageTable(run);
+}
+
 // Of all frames, not of the one that stands for them in the table.
 TEST(PictureWarnings, CountTheFramesTogether) {
   RunSummary run = madeUpRun(3);

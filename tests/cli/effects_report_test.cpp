@@ -62,29 +62,68 @@ TEST(RunRatios, AreMediansOfRatiosWithinATurn) {
   EXPECT_DOUBLE_EQ(ratio.frame, 1.5);
   EXPECT_DOUBLE_EQ(ratio.outsideEmbree, 1.5);
 
-  const std::string text = ratioText(steps[0].run, steps[1].run);
+  RunSummary first = steps[0].run, second = steps[1].run;
+  first.name = "effects auto", second.name = "effects all";
+  const std::string text = ratioText(first, second);
+  EXPECT_TRUE(text.starts_with("made-up, effects all over effects auto, medians of 5 turns\n"))
+      << text;
   EXPECT_NE(text.find("1.500  (15.00 over 10.00 ms)"), std::string::npos) << text;
   EXPECT_NE(text.find("1.500  (9.00 over 6.00 ms)"), std::string::npos) << text;
 }
 
 TEST(EffectsTable, HasARowForEachStep) {
   const std::string table = effectsTable(effectsJson(madeUpSteps(), {}));
-  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3 + 4);
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3 + 5);
   // The medians of a turn are 10 ms and 5 ms more; the last step alone takes 15 ms.
   EXPECT_NE(table.find("come to 15.00 ms; the last frame takes 15.00 ms."), std::string::npos)
       << table;
-  EXPECT_NE(table.find("+ mirror               15.00     +5.00           +3.00       +3000"),
+  EXPECT_NE(table.find("+ mirror               15.00      +5.00  +5.00 to +15.00              "
+                       "+3.00       +3000"),
             std::string::npos)
       << table;
 }
 
+// Five turns tell no more than the least and the largest difference.
+TEST(EffectsRows, SayWhatIsNoise) {
+  std::vector<EffectStep> steps = madeUpSteps();
+  steps.push_back({"caustics", madeUpRun({15.5, 44, 16, 15.25, 46}, 3000), 1.75});
+  nlohmann::ordered_json rows = effectsRows(steps);
+  EXPECT_EQ(rows[1]["added_ms_low"], 5);
+  EXPECT_EQ(rows[1]["added_ms_high"], 15);
+  EXPECT_EQ(rows[2]["added_ms"], 0.5);
+  EXPECT_EQ(rows[2]["added_ms_low"], -1);
+  EXPECT_EQ(rows[2]["added_ms_high"], 1);
+  const std::string table = effectsTable(effectsJson(steps, {}));
+  EXPECT_NE(table.find("~    +0.50  -1.00 to +1.00 "), std::string::npos) << table;
+
+  // Of a single turn nothing is known.
+  for (EffectStep& step : steps) step.run.frames.resize(1);
+  rows = effectsRows(steps);
+  EXPECT_TRUE(rows[1]["added_ms_low"].is_null());
+  EXPECT_NE(effectsTable(effectsJson(steps, {})).find("~    +5.00  unknown "), std::string::npos);
+}
+
+// The ranks of the sign test: of 20 values the fifth from each end, whatever their order.
+TEST(MedianInterval, HoldsTheMiddleValues) {
+  EXPECT_EQ(medianInterval({}).high, 0);
+  EXPECT_EQ(medianInterval({3}).low, 3);
+  EXPECT_EQ(medianInterval({3, 1, 2}).low, 1);
+  EXPECT_EQ(medianInterval({3, 1, 2}).high, 3);
+
+  std::vector<double> values;
+  for (int i = 1; i <= 20; ++i) values.push_back(21 - i);
+  EXPECT_EQ(medianInterval(values).low, 5);
+  EXPECT_EQ(medianInterval(values).high, 16);
+}
+
 TEST(EffectsRows, AreTheLinesOfTheCsvFile) {
   EXPECT_EQ(csvOf(effectsRows(madeUpSteps())),
-            "effect,frame_ms,added_ms,added_outside_embree_ms,primary_rays,shadow_rays,"
-            "reflection_rays,refraction_rays,indirect_rays,occlusion_rays,added_rays,memory_mb,"
-            "added_memory_mb\n"
-            "matte,10,10,6,2048,0,0,0,0,0,2048,1.5,1.5\n"
-            "mirror,15,5,3,2048,0,3000,0,0,0,3000,1.75,0.25\n");
+            "effect,frame_ms,added_ms,added_ms_low,added_ms_high,added_outside_embree_ms,"
+            "added_outside_embree_ms_low,added_outside_embree_ms_high,primary_rays,"
+            "shadow_rays,reflection_rays,refraction_rays,indirect_rays,occlusion_rays,added_rays,"
+            "memory_mb,added_memory_mb\n"
+            "matte,10,10,10,30,6,6,18,2048,0,0,0,0,0,2048,1.5,1.5\n"
+            "mirror,15,5,5,15,3,3,9,2048,0,3000,0,0,0,3000,1.75,0.25\n");
 }
 
 TEST(EffectsReport, HasTheRows) {
