@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <optional>
 
 #include "command_line/help_text.h"
@@ -9,6 +10,8 @@
 #include "core/machine_limits.h"
 #include "core/option_table.h"
 #include "core/text.h"
+#include "io/files.h"
+#include "io/json_reader.h"
 
 namespace whit::cli {
 
@@ -88,8 +91,17 @@ std::string takeWords(const std::vector<std::string>& words, const OptionList& l
   return "";
 }
 
-std::string quotedJson(const std::string& text) {
-  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+std::string textOf(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+// Adds the camera that a file describes to the scene, under the name of the file, and chooses it.
+void takeCameraFile(const std::string& file, CommonOptions& common) {
+  constexpr std::uint64_t kBytesLimit = 1u << 20;
+  const Json camera = parseJson(readTextFile(file, kBytesLimit), file);
+  const std::string name = std::filesystem::path(file).stem().string();
+  common.load.settings.push_back("/cameras/" + escapePointer(name) + "=" + textOf(camera));
+  common.render.camera = name;
 }
 
 }  // namespace
@@ -108,6 +120,10 @@ void listCommonOptions(OptionList& list, CommonOptions& common) {
   forEachOption(common.render, [&](const OptionSpec& spec, auto& field) {
     OptionList::Entry& entry = list.value(spec, std::string(spec.help), field);
     entry.everyday = spec.everyday;
+    if (entry.name == "camera") {
+      entry.placeholder = "NAME|FILE.json";
+      entry.help += ", or one with the members of a scene file's camera";
+    }
 
     // The names of the given options are kept, because presets and scenes must not override them.
     entry.set = [set = std::move(entry.set), &common, name = entry.name](const std::string& text) {
@@ -115,8 +131,12 @@ void listCommonOptions(OptionList& list, CommonOptions& common) {
         common.load.settings.push_back("/up=\"" + text + "\"");
         return;
       }
-      set(text);
       common.given.insert(name);
+      if (name == "camera" && extensionOf(text) == ".json") {
+        takeCameraFile(text, common);
+      } else {
+        set(text);
+      }
     };
   });
 
@@ -142,13 +162,13 @@ void listCommonOptions(OptionList& list, CommonOptions& common) {
   list.many({"variant", "NAME"}, "materials of a glTF model that has several sets (see whit info)",
             common.load.settings)
       .set = [&common](const std::string& name) {
-    common.load.settings.push_back("/variant=" + quotedJson(name));
+    common.load.settings.push_back("/variant=" + textOf(name));
   };
   list.many({"viewpoint", "outside|inside"},
             "side from which a model is seen, in place of the cameras in its file",
             common.load.settings)
       .set = [&common](const std::string& side) {
-    common.load.settings.push_back("/viewpoint=" + quotedJson(side));
+    common.load.settings.push_back("/viewpoint=" + textOf(side));
   };
   list.value({"max-memory", "GB", 0.001, 1e6},
              "limit of memory for geometry and images (default: what the machine and its control "

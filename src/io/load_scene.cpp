@@ -108,22 +108,41 @@ void supplyCamera(const ModelView& view, SceneContext& context) {
   addFirstCamera(view.camera, scene);
 }
 
-// Completes a model whose own lights and cameras are there. The sky is the studio, unless none or
-// another was asked for, as bright as it suits the lights. A supplied camera, and lights with it,
-// hold all of the animation that is played.
+// Completes a model whose own lights and cameras are there. The sky is the studio, unless there is
+// one, or none or another was asked for, as bright as it suits the lights. A supplied camera, and
+// lights with it, hold all of the animation that is played.
 void supplyView(SceneContext& context) {
   SceneDescription& scene = context.scene;
   const ModelView view = viewOfAnimation(context);
   scene.isModel = true;
-  scene.options = {{"exposure", "auto"}, {"terminator", "on"}};
+  scene.options.emplace("exposure", "auto");
+  scene.options.emplace("terminator", "on");
   scene.ambient.occlusion = kOcclusion * static_cast<float>(view.radius);
-  if (context.sky.empty() || context.sky == kStudio) scene.sky = studioSky();
+
+  const bool asksForStudio = context.sky.empty() || context.sky == kStudio;
+  const bool suppliesSky = asksForStudio && scene.sky.kind == Sky::Kind::none;
+  if (suppliesSky) scene.sky = studioSky();
   if (scene.lights.empty()) {
     supplyLights(view, scene);
-  } else if (const double level = lightLevel(scene); level > 0) {
+  } else if (const double level = lightLevel(scene); level > 0 && suppliesSky) {
     scene.sky.scale = static_cast<float>(std::clamp(level / kUsualLevel, kDimmest, kBrightest));
   }
   supplyCamera(view, context);
+}
+
+// Reads the member "view" of a scene file: "model" completes the scene as if it were a model.
+void readView(JsonObject& file, std::optional<double>& fromSky, SceneContext& context) {
+  const JsonValue view = file.find("view");
+  if (!view) return;
+  view.word({"model"});
+
+  const Ambient own = context.scene.ambient;
+  supplyView(context);
+  if (file.has("ambient")) {
+    context.scene.ambient = own;
+  } else if (context.scene.sky.kind != Sky::Kind::none) {
+    fromSky = kAmbientOfSky;
+  }
 }
 
 // Replaces the scene's sky if LoadOptions::sky names another.
@@ -148,6 +167,25 @@ void applySettings(const LoadOptions& options, const std::string& section, JsonD
     const SceneSetting setting = parseSceneSetting(text);
     if (section.empty() || setting.tokens.front() == section) applySceneSetting(setting, document);
   }
+}
+
+// Reads the cameras of a model again if settings change or add one. They then stand still where the
+// file has them, because the nodes of an animation know nothing of the changes.
+void readCameraSettings(const LoadOptions& options, JsonDocument document,
+                        SceneDescription& scene) {
+  Json& cameras = document.root["cameras"];
+  for (const Camera& camera : scene.cameras) {
+    movePoints(cameras[camera.name] = describe(camera), scene.origin);
+  }
+  const Json own = document.root;
+  applySettings(options, "cameras", document);
+  if (document.root == own) return;
+
+  for (Json& camera : cameras) movePoints(camera, -scene.origin);
+  scene.cameras.clear();
+  scene.motion.cameras.clear();
+  JsonObject file{JsonValue(document)};
+  readCameras(file, {}, scene);
 }
 
 // The scene's own values, then those that were given with its name.
@@ -271,7 +309,7 @@ SceneDescription readScene(const JsonDocument& document, const LoadOptions& opti
   readOptions(file, context.scene);
   readLights(file, options.instant, context.scene);
   readSky(file, context);
-  const std::optional<double> fromSky = readAmbient(file, context.scene);
+  std::optional<double> fromSky = readAmbient(file, context.scene);
   replaceSky(context);
   MaterialReader materials(file, context);
   readItems(file, context, materials);
@@ -281,6 +319,7 @@ SceneDescription readScene(const JsonDocument& document, const LoadOptions& opti
                   "variants are those of glTF files: a scene states one in the item of the model, "
                   "as {\"model\": \"shoe.glb\", \"variant\": \"NAME\"}");
   }
+  readView(file, fromSky, context);
   file.finish();
   settleInstant(options.instant, context.scene);
   return finish(options, fromSky, context);
@@ -303,6 +342,7 @@ SceneDescription loadModelFile(const fs::path& path, const SceneName& name,
   readViewpoint(items, scene);
   takeSize(options, scene);
   supplyView(context);  // before the scene has another time than 0
+  readCameraSettings(options, nothing, scene);
   settleInstant(options.instant, scene);
   // The settings are read as if a scene file contained them and the model's lights.
   JsonDocument document = nothing;
@@ -315,6 +355,7 @@ SceneDescription loadModelFile(const fs::path& path, const SceneName& name,
   file.find("up");
   file.find("variant");
   file.find("viewpoint");
+  file.find("cameras");
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     scene.lights[i].pointer = "/lights/" + std::to_string(i);
   }

@@ -24,10 +24,10 @@ struct LoadOptions {
   std::string shippedScenes;                   // where else shipped scenes are; empty: nowhere
 
   // "POINTER=VALUE" for members of the scene file, see scene_settings.h. For a model they are
-  // members of "materials" by their names there, its "lights" or the supplied ones, "sky" and
-  // "ambient"; for a glTF file "variant" (KHR_materials_variants), and for other models "up", the
-  // axis that is up in them: "x", "y" or "z"; "viewpoint", the side from which a supplied camera
-  // sees it: "outside" or "inside".
+  // members of "materials" and "cameras" by their names there, its "lights" or the supplied ones,
+  // "sky" and "ambient"; for a glTF file "variant" (KHR_materials_variants), and for other models
+  // "up", the axis that is up in them: "x", "y" or "z"; "viewpoint", the side from which a supplied
+  // camera sees it: "outside" or "inside".
   std::vector<std::string> settings;
 
   // Replaces the scene's own sky: "none", "studio" (make/model_view.h) or an equirectangular image.

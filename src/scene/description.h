@@ -49,7 +49,7 @@ struct SceneMotion {
 // The members of a scene that baking leaves as they are.
 struct SceneContents {
   std::string name;      // the bare name of the file
-  bool isModel = false;  // without a scene file: light, sky and view are supplied
+  bool isModel = false;  // light, sky and view are supplied where there are none
   // What was subtracted from the coordinates of the file, see scene/origin.h. Whatever a user gives
   // or gets is in coordinates of the file.
   Vec3d origin;

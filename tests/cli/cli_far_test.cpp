@@ -140,6 +140,15 @@ TEST_F(FarModels, AreSeenFromTheEyeInTheirFile) {
             hashOf({here, "--eye", "0.5,2.25,3", "--at", "0.125,0.5,0"}));
 }
 
+TEST_F(FarModels, TakeCamerasInTheirFile) {
+  const std::string there = save("far.obj", objOf(1)), here = save("near.obj", objOf(0));
+  const std::string far = save("pose.json", R"({"eye": [4000000.5, 2.25, 500003],
+                                               "at": [4000000.125, 0.5, 500000], "fov": 50})");
+  const std::string near =
+      R"(/cameras/c={"eye": [0.5, 2.25, 3], "at": [0.125, 0.5, 0], "fov": 50})";
+  EXPECT_EQ(hashOf({there, "--camera", far}), hashOf({here, "--set", near, "--camera", "c"}));
+}
+
 TEST_F(FarModels, AreMeasuredInTheirFile) {
   const std::string there = save("far.obj", objOf(1)), here = save("near.obj", objOf(0));
   const auto info = [](const std::string& model) {

@@ -106,6 +106,95 @@ TEST(Models, ThePictureTellsItsExposureAndIsMadeAgainWithIt) {
   EXPECT_EQ(saidIn(a).at("exposure"), ev) << "of another size";
 }
 
+std::vector<std::uint8_t> codesOf(const std::string& scene, std::vector<std::string> more,
+                                  const TemporaryFolder& folder) {
+  const std::string picture = folder / "codes.png";
+  std::vector<std::string> words{"render", scene, "-o", picture, "--size", "48x30", "--quiet"};
+  words.insert(words.end(), more.begin(), more.end());
+  const Outcome outcome = runWhit(words);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  Warnings warnings;
+  return readRawImage(picture, ImageLimits(), warnings).codes;
+}
+
+TEST(Models, ASceneFileCanShowOneAsTheCommandDoes) {
+  const TemporaryFolder folder;
+  const std::string model = writeModel(folder), scene = folder / "scene.json";
+  const auto write = [&](const std::string& more) {
+    std::ofstream(scene) << R"({"whit": 1, "view": "model", "scene": [{"model": "model.obj"}])"
+                         << more << "}";
+    return scene;
+  };
+
+  const auto shown = codesOf(model, {}, folder);
+  EXPECT_EQ(codesOf(write(""), {}, folder), shown);
+  EXPECT_EQ(codesOf(scene, {"--sky", "none"}, folder), codesOf(model, {"--sky", "none"}, folder));
+
+  // What the file has is kept.
+  const auto dark = codesOf(write(R"(, "options": {"exposure": -3})"), {}, folder);
+  EXPECT_EQ(dark, codesOf(model, {"--exposure", "-3"}, folder));
+  EXPECT_NE(dark, shown);
+  for (const char* own : {R"("sky": {"color": [1, 0, 0]})", R"("ambient": {"color": [1, 0, 0]})",
+                          R"("lights": [{"position": [0, 9, 0], "intensity": 50}])",
+                          R"("cameras": {"near": {"eye": [0.5, 0.5, 1], "at": [0.5, 0.5, 0]}})"}) {
+    const std::string members = std::string(", \"options\": {\"exposure\": 0}, ") + own;
+    EXPECT_NE(codesOf(write(members), {}, folder), codesOf(model, {"--exposure", "0"}, folder))
+        << own;
+  }
+
+  std::ofstream(scene) << R"({"whit": 1, "view": "round", "scene": [{"model": "model.obj"}]})";
+  const Outcome refused = runWhit({"info", scene});
+  EXPECT_EQ(refused.status, 3);
+  EXPECT_NE(refused.err.find("scene.json#/view: expected"), std::string::npos) << refused.err;
+}
+
+constexpr char kPose[] = R"({"eye": [0.5, 1.5, 4], "at": [0.8, 0.5, 0], "k": [40, 44, 23, 16],
+                             "kSize": [48, 30], "distortion": [0.1, 0.02]})";
+
+// One camera by three ways: a file of its own, a setting, and a scene file.
+TEST(Models, TakeACameraFromAFile) {
+  const TemporaryFolder folder;
+  const std::string model = writeModel(folder), pose = folder / "pose.json";
+  std::ofstream(pose) << kPose;
+  std::ofstream(folder / "scene.json")
+      << R"({"whit": 1, "view": "model", "scene": [{"model": "model.obj"}], "cameras": {"own": )"
+      << kPose << "}}";
+
+  const auto seen = codesOf(model, {"--camera", pose}, folder);
+  EXPECT_NE(seen, codesOf(model, {}, folder));
+  EXPECT_EQ(
+      codesOf(model, {"--camera", "mine", "--set", "/cameras/mine=" + std::string(kPose)}, folder),
+      seen);
+  EXPECT_EQ(codesOf(folder / "scene.json", {}, folder), seen);
+  EXPECT_EQ(codesOf(writeTinyScene(folder),
+                    {"--camera", pose, "--set", "/cameras/pose/k=[9,9,9,9]"}, folder)
+                .size(),
+            seen.size())
+      << "a scene takes one as well";
+
+  std::ofstream(pose) << R"({"eye": [0, 0, 1], "at": [0, 0, 0], "lens": 3})";
+  const Outcome refused = runWhit({"info", model, "--camera", pose});
+  EXPECT_EQ(refused.status, 3);
+  EXPECT_NE(refused.err.find("model.obj#/cameras/pose/lens"), std::string::npos) << refused.err;
+  std::ofstream(pose) << "{\n\"eye\" [";
+  const Outcome broken = runWhit({"info", model, "--camera", pose});
+  EXPECT_EQ(broken.status, 3);
+  EXPECT_NE(broken.err.find("pose.json:2"), std::string::npos) << broken.err;
+  EXPECT_EQ(runWhit({"info", model, "--camera", folder / "none.json"}).status, 4);
+}
+
+TEST(Models, TheirCamerasHaveMembersToSet) {
+  const TemporaryFolder folder;
+  const std::string model = writeModel(folder);
+  const auto cameras =
+      nlohmann::json::parse(runWhit({"info", model, "--json", "-"}).out)["cameras"];
+  ASSERT_EQ(cameras.size(), 1u);
+  const std::string pointer = "/cameras/" + cameras[0].get<std::string>();
+  const auto narrow = codesOf(model, {"--set", pointer + "/fov=20"}, folder);
+  EXPECT_EQ(narrow, codesOf(model, {"--fov", "20"}, folder));
+  EXPECT_NE(narrow, codesOf(model, {}, folder));
+}
+
 TEST(Models, ACropIsExposedAsTheWhole) {
   const TemporaryFolder folder;
   const std::string model = writeModel(folder), tiny = writeTinyScene(folder);

@@ -181,6 +181,8 @@ bool editScene(const SceneSetting& setting, const LoadOptions& options, JsonDocu
   // The lights of a model that was moved are read with it.
   const bool isMoved = scene.origin != Vec3d();
   if (!document && (section != "lights" || isMoved)) return false;
+  // What "view" supplies depends on the other sections.
+  if (document && document->root.contains("view")) return false;
   JsonDocument sections{from.file, Json::object(), from.parameters};
   for (const auto& [name, value] : from.root.items()) {
     if (name != "objects" && name != "scene") sections.root[name] = value;
