@@ -16,7 +16,11 @@ float leastWithCode(int code) {
   // Invariant: the code of `low` is below `code`, the code of `high` is not.
   while (std::nextafter(low, 2.0f) < high) {
     const float middle = low + (high - low) / 2;
-    (srgbCode(static_cast<double>(middle)) >= code ? high : low) = middle;
+    if (srgbCode(static_cast<double>(middle)) >= code) {
+      high = middle;
+    } else {
+      low = middle;
+    }
   }
 
   return high;

@@ -195,13 +195,15 @@ bool readBackground(const std::string& text, Background& value) {
     digits = {digits[0], digits[0], digits[1], digits[1], digits[2], digits[2]};
   }
 
-  for (std::size_t i = 0; i < 3 && digits.size() == 6; ++i) {
+  if (digits.size() != 6) return false;
+
+  for (std::size_t i = 0; i < 3; ++i) {
     const char* const first = digits.data() + 2 * i;
     const auto [stop, error] = std::from_chars(first, first + 2, value.color[i], 16);
     if (error != std::errc() || stop != first + 2) return false;
   }
 
-  return digits.size() == 6;
+  return true;
 }
 
 std::string backgroundText(const Background& b) {

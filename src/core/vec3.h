@@ -19,8 +19,14 @@ struct Vec3 {
   constexpr explicit Vec3(const Vec3<U>& v)
       : x(static_cast<T>(v.x)), y(static_cast<T>(v.y)), z(static_cast<T>(v.z)) {}
 
-  constexpr T& operator[](int i) { return i == 0 ? x : i == 1 ? y : z; }
-  constexpr const T& operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
+  constexpr T& operator[](int i) {
+    if (i == 0) return x;
+    return i == 1 ? y : z;
+  }
+  constexpr const T& operator[](int i) const {
+    if (i == 0) return x;
+    return i == 1 ? y : z;
+  }
 
   constexpr Vec3 operator-() const { return {-x, -y, -z}; }
   constexpr Vec3 operator+(const Vec3& b) const { return {x + b.x, y + b.y, z + b.z}; }
@@ -63,7 +69,13 @@ constexpr Vec3<T> max(const Vec3<T>& a, const Vec3<T>& b) {
 }
 template <typename T>
 constexpr Vec3<T> abs(const Vec3<T>& v) {
-  return {v.x < 0 ? -v.x : v.x, v.y < 0 ? -v.y : v.y, v.z < 0 ? -v.z : v.z};
+  return {std::max(v.x, -v.x), std::max(v.y, -v.y), std::max(v.z, -v.z)};
+}
+// The axis along which `v` is largest; of equal ones the first.
+template <typename T>
+constexpr int largestAxis(const Vec3<T>& v) {
+  if (v.x >= v.y && v.x >= v.z) return 0;
+  return v.y >= v.z ? 1 : 2;
 }
 template <typename T>
 bool isFinite(const Vec3<T>& v) {
@@ -123,7 +135,8 @@ struct BoxOf {
   Vector half() const { return (upper - lower) * 0.5; }
   // Corner i of eight: bit k of `i` chooses the lower or the upper end of axis k.
   Vector corner(int i) const {
-    return {i & 1 ? upper.x : lower.x, i & 2 ? upper.y : lower.y, i & 4 ? upper.z : lower.z};
+    const Vector ends[] = {lower, upper};
+    return {ends[i & 1].x, ends[i >> 1 & 1].y, ends[i >> 2 & 1].z};
   }
 };
 using Box = BoxOf<Vec3f>;
