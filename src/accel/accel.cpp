@@ -10,6 +10,7 @@
 #include "accel/embree_scene.h"
 #include "bake/facet.h"
 #include "core/stopwatch.h"
+#include "core/text.h"
 #include "simd/kernels.h"
 #include "stages/packet_words.h"
 
@@ -87,7 +88,8 @@ RTCRayHit singleRay(const EmbreeScene& scene, const Vec3f& origin, const Vec3f& 
   // The comparison fails for a NaN as well.
   const bool traceable =
       size.x + size.y + size.z + way.x + way.y + way.z <= reach && direction != Vec3f();
-  const Vec3f o = traceable ? origin : Vec3f(place), d = traceable ? direction : Vec3f{0, 0, 1};
+  const Vec3f o = traceable ? origin : Vec3f(place);
+  const Vec3f d = traceable ? direction : Vec3f{0, 0, 1};
   RTCRayHit r{};
   r.ray = {o.x, o.y, o.z, tNear, d.x, d.y, d.z, 0, traceable ? tFar : -1, mask, 0, 0};
   r.hit.geomID = r.hit.primID = r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
@@ -130,9 +132,15 @@ Hit findHit(const Accel::Parts& parts, const Vec3f& origin, const Vec3f& directi
   alignas(64) std::uint32_t triangle[kBlock], instance[kBlock];
   std::fill_n(triangle, kBlock, kMiss);
   std::fill_n(instance, kBlock, kMiss);
-  for (int i = 0; i < 3; ++i) words[i][0] = origin[i], words[3 + i][0] = direction[i];
-  triangle[0] = hit.triangle, instance[0] = hit.instance;
-  words[6][0] = hit.t, words[7][0] = hit.u, words[8][0] = hit.v;
+  for (int i = 0; i < 3; ++i) {
+    words[i][0] = origin[i];
+    words[3 + i][0] = direction[i];
+  }
+  triangle[0] = hit.triangle;
+  instance[0] = hit.instance;
+  words[6][0] = hit.t;
+  words[7][0] = hit.u;
+  words[8][0] = hit.v;
   RayColumns rays{words[0], words[1], words[2], words[3], words[4], words[5]};
   parts.kernels.refineHits(parts.tables, rays, 1,
                            {triangle, words[6], words[7], words[8], instance});
@@ -375,6 +383,12 @@ Vec3f nudged(const Vec3f& d, int attempt) {
   return result;
 }
 
+// The instruction set of Embree, with which packets of at most `widest` rays come.
+const char* instructionSet(int widest) {
+  if (widest == 16) return "avx512";
+  return widest == 8 ? "avx2" : "sse4.2";
+}
+
 }  // namespace
 
 Accel::Accel(const Scene& scene, const RenderOptions& options, EffectSet effects, int threads,
@@ -386,11 +400,8 @@ Accel::Accel(const Scene& scene, const RenderOptions& options, EffectSet effects
 
   // Embree's version is a decimal number: 31305 stands for 3.13.5.
   const auto version = rtcGetDeviceProperty(parts_->embree.device(), RTC_DEVICE_PROPERTY_VERSION);
-  parts_->description = std::to_string(version / 10000) + "." +
-                        std::to_string(version / 100 % 100) + "." + std::to_string(version % 100) +
-                        (widest == 16  ? " avx512"
-                         : widest == 8 ? " avx2"
-                                       : " sse4.2");
+  parts_->description = formatted("%zd.%zd.%zd %s", version / 10000, version / 100 % 100,
+                                  version % 100, instructionSet(widest));
 }
 
 Accel::~Accel() = default;
@@ -425,10 +436,12 @@ void Accel::findHits(Chunk& c) const noexcept {
   if (parts_->packet != 1) settleEdges(*parts_, all);
 
   // A ray that leaves an enclosed scene has slipped through a corner (hard case H14).
-  for (std::size_t i = 0; enclosed_ && i < all.n; ++i) {
-    if (c.hits.triangle[i] != kMiss) continue;
-    const Hit hit = closest(originAt(c.rays, i), directionAt(c.rays, i));
-    if (hit.found()) store(hit, all, i);
+  if (enclosed_) {
+    for (std::size_t i = 0; i < all.n; ++i) {
+      if (c.hits.triangle[i] != kMiss) continue;
+      const Hit hit = closest(originAt(c.rays, i), directionAt(c.rays, i));
+      if (hit.found()) store(hit, all, i);
+    }
   }
 
   // The eye sees nothing of a surface that it lies in.

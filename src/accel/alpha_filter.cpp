@@ -31,8 +31,9 @@ inline AxisTexels wrapAxis(Wrap wrap, float s, int size) noexcept {
   if (wrap == Wrap::repeat) {
     const float x = (s - static_cast<float>(floorOf(s))) * static_cast<float>(size) - 0.5f;
     const int lower = floorOf(x);
-    return {lower < 0 ? size - 1 : lower, lower + 1 >= size ? 0 : lower + 1,
-            x - static_cast<float>(lower)};
+    const int before = lower < 0 ? size - 1 : lower;
+    const int after = lower + 1 >= size ? 0 : lower + 1;
+    return {before, after, x - static_cast<float>(lower)};
   }
 
   // Mirrored and clamped coordinates lie in 0..1, where the outermost texels have no neighbor.
@@ -45,8 +46,7 @@ inline AxisTexels wrapAxis(Wrap wrap, float s, int size) noexcept {
 
   const float x = s * static_cast<float>(size) - 0.5f;
   const int lower = floorOf(x);
-  return {lower < 0 ? 0 : lower, lower + 1 >= size ? size - 1 : lower + 1,
-          x - static_cast<float>(lower)};
+  return {std::max(lower, 0), std::min(lower + 1, size - 1), x - static_cast<float>(lower)};
 }
 
 }  // namespace
@@ -100,8 +100,8 @@ float AlphaMap::marginAt(float u, float v, float cutoff) const noexcept {
 
   // Opaque and transparent cells share one branch: a processor cannot predict which of the two a
   // cell is, but nearly always it is one of them.
-  const bool everywhere = static_cast<float>(bounds.least) >= wanted + slack,
-             somewhere = static_cast<float>(bounds.most) >= wanted - slack;
+  const bool everywhere = static_cast<float>(bounds.least) >= wanted + slack;
+  const bool somewhere = static_cast<float>(bounds.most) >= wanted - slack;
   if (everywhere == somewhere) return everywhere ? 1.0f : -1.0f;
   const auto texel = [&](int row, int column) {
     return static_cast<float>(alpha_[index(row, column)]) * (1.0f / 255.0f);
@@ -110,9 +110,9 @@ float AlphaMap::marginAt(float u, float v, float cutoff) const noexcept {
   // Without interpolation the alpha jumps at a texel's border, so the distance to it limits the
   // margin.
   if (nearest_) {
-    const float margin =
-        texel(y.fraction < 0.5f ? y.lower : y.upper, x.fraction < 0.5f ? x.lower : x.upper) -
-        cutoff;
+    const int row = y.fraction < 0.5f ? y.lower : y.upper;
+    const int column = x.fraction < 0.5f ? x.lower : x.upper;
+    const float margin = texel(row, column) - cutoff;
     const float toBorder = std::min(std::abs(x.fraction - 0.5f), std::abs(y.fraction - 0.5f));
 
     // The limit is above 0, so that the margin keeps its sign.

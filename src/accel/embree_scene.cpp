@@ -123,9 +123,8 @@ void filterByAlpha(const RTCFilterFunctionNArguments* args) {
 }
 
 RTCBuildQuality buildQuality(BvhQuality quality) {
-  return quality == BvhQuality::low    ? RTC_BUILD_QUALITY_LOW
-         : quality == BvhQuality::high ? RTC_BUILD_QUALITY_HIGH
-                                       : RTC_BUILD_QUALITY_MEDIUM;
+  if (quality == BvhQuality::low) return RTC_BUILD_QUALITY_LOW;
+  return quality == BvhQuality::high ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM;
 }
 
 // Embree gets the instruction set of the kernels' target, so that a picture does not depend on
@@ -391,7 +390,8 @@ void EmbreeScene::moveInstances(const Scene& scene) {
                          [](const InstanceRecord& i, std::uint32_t g) { return i.geometry == g; });
   if (!same || !instances_) {
     for (unsigned k = 0; k < instanced_.size(); ++k) rtcDetachGeometry(top(), kFirstInstanceId + k);
-    return addInstances(scene);
+    addInstances(scene);
+    return;
   }
 
   reach_ = kLargestCoordinate;

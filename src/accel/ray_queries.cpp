@@ -46,8 +46,9 @@ constexpr double kWidestRim = 1e6;
 // Products with shorter or longer directions could leave the range of doubles.
 constexpr double kShortest = 1e-100, kLongest = 1e100;
 
-constexpr unsigned kTriangles = 0, kSpheres = 1,
-                   kFirstInstance = 2;  // numbers of Embree geometries
+// Numbers of Embree geometries.
+constexpr unsigned kTriangles = 0, kSpheres = 1, kFirstInstance = 2;
+
 constexpr std::size_t kPacket = 16;
 constexpr float kNowhere = -std::numeric_limits<float>::infinity();
 // Upper bound on the squared differences of origins and directions, added, in a coherent packet.
@@ -66,8 +67,8 @@ QueryFrame frameAround(const Box& box) {
 Corners enlarged(const Corners& corners, double by) {
   Corners result;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3d one = normalized(corners[(i + 1) % 3] - corners[i]),
-                other = normalized(corners[(i + 2) % 3] - corners[i]);
+    const Vec3d one = normalized(corners[(i + 1) % 3] - corners[i]);
+    const Vec3d other = normalized(corners[(i + 2) % 3] - corners[i]);
 
     // Both edges move outwards by `by` if their corner moves along each of them by `by` over its
     // sine.
@@ -81,7 +82,8 @@ double sumOf(const Vec3d& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v
 // The sign of a number that is known up to an error.
 enum class Lies { below, unknown, above };
 Lies lies(double value, double error) {
-  return value > error ? Lies::above : value < -error ? Lies::below : Lies::unknown;
+  if (value > error) return Lies::above;
+  return value < -error ? Lies::below : Lies::unknown;
 }
 
 // Returns false where the hit surely lies outside the interval from tNear to tFar. A hit that may
@@ -234,9 +236,8 @@ void filterCandidates(const RTCFilterFunctionNArguments* args) {
 
 void boundBox(const RTCBoundsFunctionArguments* args) {
   const Box& box = static_cast<const QuerySpheres*>(args->geometryUserPtr)->boxes[args->primID];
-  RTCBounds& to = *args->bounds_o;
-  to.lower_x = box.lower.x, to.lower_y = box.lower.y, to.lower_z = box.lower.z;
-  to.upper_x = box.upper.x, to.upper_y = box.upper.y, to.upper_z = box.upper.z;
+  *args->bounds_o = {box.lower.x, box.lower.y, box.lower.z, 0,
+                     box.upper.x, box.upper.y, box.upper.z, 0};
 }
 
 template <typename Arguments>
@@ -382,8 +383,8 @@ void RayBatch::traceAs() {
     const std::size_t n = std::min(kPacket, rays_.size() - begin);
     const auto run = std::span<const Start>(starts_).subspan(begin, n);
     const bool coherent = n == kPacket && std::ranges::all_of(run, [&](const Start& s) {
-                            const Vec3f turn = s.direction - run[0].direction,
-                                        apart = s.origin - run[0].origin;
+                            const Vec3f turn = s.direction - run[0].direction;
+                            const Vec3f apart = s.origin - run[0].origin;
                             return s.tFar >= 0 && dot(turn, turn) + dot(apart, apart) < kCoherent;
                           });
 
@@ -393,8 +394,12 @@ void RayBatch::traceAs() {
       auto& rays = rayOf(packet);
       for (std::size_t i = 0; i < kPacket; ++i) {
         const Start& s = run[i];
-        rays.org_x[i] = s.origin.x, rays.org_y[i] = s.origin.y, rays.org_z[i] = s.origin.z;
-        rays.dir_x[i] = s.direction.x, rays.dir_y[i] = s.direction.y, rays.dir_z[i] = s.direction.z;
+        rays.org_x[i] = s.origin.x;
+        rays.org_y[i] = s.origin.y;
+        rays.org_z[i] = s.origin.z;
+        rays.dir_x[i] = s.direction.x;
+        rays.dir_y[i] = s.direction.y;
+        rays.dir_z[i] = s.direction.z;
         rays.tfar[i] = s.tFar;
         rays.mask[i] = ~0u;
         rays.id[i] = static_cast<unsigned>(begin + i);
@@ -464,8 +469,7 @@ std::vector<QueryHit>& RayBatch::hits(std::size_t ray) {
 
 RayQueries::Parts::Parts(const Scene& scene_, int threads, Progress* progress)
     : scene(scene_), masks(makeMasks(scene_, true)), device(newDevice(threads)) {
-  Box world;
-  world.lower = scene.lower, world.upper = scene.upper;
+  const Box world{scene.lower, scene.upper};
   std::vector<double> rims(scene.geometries.size(), kRim);
 
   // Each geometry has a frame of its own, so that floats are as fine as its extent allows.
@@ -476,7 +480,8 @@ RayQueries::Parts::Parts(const Scene& scene_, int threads, Progress* progress)
       for (const Vec3f& p : geometry.position) box.add(p);
       for (std::uint32_t i = 0; i < geometry.spheres; ++i) {
         const Box sphere = sphereBounds(sphereMap(scene.triangles[geometry.firstSphere + i]));
-        box.add(sphere.lower), box.add(sphere.upper);
+        box.add(sphere.lower);
+        box.add(sphere.upper);
       }
     }
 
@@ -573,8 +578,9 @@ float RayQueries::Parts::marginOf(std::uint32_t number, const Corners& corners, 
   const Mask& mask = masks[scene.triangles[number].material];
   if (mask.map || !mask.doubleSided) return std::numeric_limits<float>::infinity();
 
-  const Vec3d ab = corners[1] - corners[0], bc = corners[2] - corners[1],
-              ca = corners[0] - corners[2];
+  const Vec3d ab = corners[1] - corners[0];
+  const Vec3d bc = corners[2] - corners[1];
+  const Vec3d ca = corners[0] - corners[2];
   const double longest = std::max({length(ab), length(bc), length(ca)});
   const double height = length(cross(ab, ca)) / longest;
   return static_cast<float>(std::min(2 * rim / height, 1.0));
@@ -606,8 +612,9 @@ std::optional<QueryHit> RayQueries::Parts::meetTriangle(const QueryRay& ray,
 
   const Corners corners = worldCorners(scene, id.triangle, id.instance);
   const Vec3d a = corners[0] - ray.origin, b = corners[1] - ray.origin, c = corners[2] - ray.origin;
-  const Vec3d ab = corners[1] - corners[0], bc = corners[2] - corners[1],
-              ca = corners[0] - corners[2];
+  const Vec3d ab = corners[1] - corners[0];
+  const Vec3d bc = corners[2] - corners[1];
+  const Vec3d ca = corners[0] - corners[2];
   const double sizeA = sumOf(a), sizeB = sumOf(b), sizeC = sumOf(c), sizeD = sumOf(ray.direction);
   const double sizeAB = sumOf(ab), sizeBC = sumOf(bc), sizeCA = sumOf(ca);
 
@@ -625,10 +632,12 @@ std::optional<QueryHit> RayQueries::Parts::meetTriangle(const QueryRay& ray,
   };
 
   // A weight is the volume that the ray's direction spans with an edge, as seen from its origin.
-  const double wa = dot(ray.direction, cross(b, bc)), wb = dot(ray.direction, cross(c, ca)),
-               wc = dot(ray.direction, cross(a, ab));
-  const double ea = errorOf(sizeB, sizeBC), eb = errorOf(sizeC, sizeCA),
-               ec = errorOf(sizeA, sizeAB);
+  const double wa = dot(ray.direction, cross(b, bc));
+  const double wb = dot(ray.direction, cross(c, ca));
+  const double wc = dot(ray.direction, cross(a, ab));
+  const double ea = errorOf(sizeB, sizeBC);
+  const double eb = errorOf(sizeC, sizeCA);
+  const double ec = errorOf(sizeA, sizeAB);
   const Lies la = lies(wa, ea), lb = lies(wb, eb), lc = lies(wc, ec);
 
   // Two weights of opposite sign mean that the ray passes outside an edge.
@@ -660,7 +669,8 @@ std::optional<QueryHit> RayQueries::Parts::meetTriangle(const QueryRay& ray,
   if (!isOnRay(ray, hit)) return std::nullopt;
 
   const double sum = wa + wb + wc;
-  hit.u = std::clamp(wb / sum, 0.0, 1.0), hit.v = std::clamp(wc / sum, 0.0, 1.0 - hit.u);
+  hit.u = std::clamp(wb / sum, 0.0, 1.0);
+  hit.v = std::clamp(wc / sum, 0.0, 1.0 - hit.u);
 
   // A mirroring transform swaps the sides of a triangle.
   const bool mirrored =
@@ -712,7 +722,8 @@ int RayQueries::Parts::meetSphere(const QueryRay& ray, PlacedTriangleId id,
 
     if (!isOnRay(ray, hit)) continue;
     const std::array<double, 2> weights = sphereWeights(origin + way * hit.t);
-    hit.u = weights[0], hit.v = weights[1];
+    hit.u = weights[0];
+    hit.v = weights[1];
 
     const Mask& mask = masks[scene.triangles[id.triangle].material];
     if (mask.map) {
@@ -746,8 +757,8 @@ bool RayQueries::Parts::comesBefore(PlacedTriangleId a, PlacedTriangleId b) cons
   const auto preference = [&](PlacedTriangleId id) {
     const std::uint32_t material = scene.triangles[id.triangle].material;
     const std::uint8_t medium = scene.mediumOfMaterial[material];
-    const std::uint64_t rank =
-        scene.isSphere(id.triangle) ? orderOf(id) : scene.coplanar.rankOf(id);
+    const bool isSphere = scene.isSphere(id.triangle);
+    const std::uint64_t rank = isSphere ? orderOf(id) : scene.coplanar.rankOf(id);
     return std::tuple(!scene.materials[material].passesLight(), medium == 0,
                       scene.media[medium].priority, rank);
   };
@@ -761,8 +772,8 @@ bool RayQueries::Parts::areNeighbors(const QueryHit& a, const QueryHit& b) const
       scene.isSphere(a.id.triangle) || scene.isSphere(b.id.triangle)) {
     return false;
   }
-  const Corners own = worldCorners(scene, a.id.triangle, kNoInstance),
-                other = worldCorners(scene, b.id.triangle, kNoInstance);
+  const Corners own = worldCorners(scene, a.id.triangle, kNoInstance);
+  const Corners other = worldCorners(scene, b.id.triangle, kNoInstance);
   return std::ranges::find_first_of(own, other) != own.end();
 }
 

@@ -71,9 +71,8 @@ void SphereGeometry::attachTo(RTCGeometry geometry) {
 void SphereGeometry::bound(const RTCBoundsFunctionArguments* args) {
   const auto& own = *static_cast<const SphereGeometry*>(args->geometryUserPtr);
   const Box box = sphereBounds(sphereMap(own.records_[args->primID]));
-  RTCBounds& to = *args->bounds_o;
-  to.lower_x = box.lower.x, to.lower_y = box.lower.y, to.lower_z = box.lower.z;
-  to.upper_x = box.upper.x, to.upper_y = box.upper.y, to.upper_z = box.upper.z;
+  *args->bounds_o = {box.lower.x, box.lower.y, box.lower.z, 0,
+                     box.upper.x, box.upper.y, box.upper.z, 0};
 }
 
 // Returns one number for the world, which is above those of all instances.
