@@ -17,12 +17,14 @@ namespace {
 
 // JSON has no number for what is not finite.
 Json numberOf(double value) {
-  return std::isfinite(value) ? Json(value) : Json(value > 0 ? "inf" : "nan");
+  if (std::isfinite(value)) return value;
+  return value > 0 ? "inf" : "nan";
 }
 
 template <typename Value>
 Json orNull(bool known, const Value& value) {
-  return known ? Json(value) : Json();
+  if (known) return value;
+  return nullptr;
 }
 
 // Null: the difference was not measured.
@@ -190,8 +192,9 @@ std::string spreadCell(const Point& point) {
   const Timing& t = point.timing;
   if (!t.hasSpread()) return "? ";
   const double pct = t.spreadPct();
-  return (pct <= kLargest ? formatted("%.*f", pct < 10 ? 1 : 0, pct) : ">1e4") +
-         (t.noisy() ? "~" : " ");
+  const int decimals = pct < 10 ? 1 : 0;
+  const std::string number = pct <= kLargest ? formatted("%.*f", decimals, pct) : ">1e4";
+  return number + (t.noisy() ? "~" : " ");
 }
 
 // The rows below have these columns.

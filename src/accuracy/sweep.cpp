@@ -362,7 +362,9 @@ class SceneSweeper {
     // The report shows a combination's pictures only if it is on the front.
     for (Point& point : sweep_.points) {
       if (point.kind != PointKind::joint || point.onFront) continue;
-      point.imagePng.clear(), point.totalMapPng.clear(), point.sameSamplesMapPng.clear();
+      point.imagePng.clear();
+      point.totalMapPng.clear();
+      point.sameSamplesMapPng.clear();
     }
   }
 

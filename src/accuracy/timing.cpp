@@ -45,7 +45,8 @@ Timing TimeSamples::timing() const {
   timing.ratio = quantile(ratios, 0.5);
 
   const Interval interval = medianInterval(ratios);
-  timing.ratioLow = interval.low, timing.ratioHigh = interval.high;
+  timing.ratioLow = interval.low;
+  timing.ratioHigh = interval.high;
   return timing;
 }
 

@@ -309,8 +309,11 @@ class Baker {
       }
       if (kept.empty()) kept.push_back(triangle(order[n - 1].second));
       const PlacedTriangle own = triangle(k);
-      const bool isKnown = std::ranges::find(kept, own) != kept.end();
-      isKnown ? again.push_back(k) : kept.push_back(own);
+      if (std::ranges::find(kept, own) != kept.end()) {
+        again.push_back(k);
+      } else {
+        kept.push_back(own);
+      }
     }
 
     std::ranges::sort(again);

@@ -94,7 +94,10 @@ struct CoveredPart {
   // point of the part.
   bool meets(float u, float v, float side) const {
     return std::ranges::all_of(edges, [&](const Edge& e) {
-      return e.a * (e.a > 0 ? u + side : u) + e.b * (e.b > 0 ? v + side : v) + e.c >= 0;
+      // The corner of the square that lies farthest to the inner side of the edge decides.
+      const float farU = e.a > 0 ? u + side : u;
+      const float farV = e.b > 0 ? v + side : v;
+      return e.a * farU + e.b * farV + e.c >= 0;
     });
   }
 };

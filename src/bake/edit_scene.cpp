@@ -37,7 +37,11 @@ void keepBaked(const Material& from, Material& to) {
 
 void moveCamera(const Scene& scene, const MovingCamera& moving, const std::vector<Affine>& poses,
                 double seconds, Camera& camera) {
-  if (moving.node != kNoNode) return carry(moving.own, poses[moving.node], camera);
+  if (moving.node != kNoNode) {
+    carry(moving.own, poses[moving.node], camera);
+    return;
+  }
+
   camera = cameraAt(scene.cameraPath, seconds);
   camera.name = moving.own.name;
 }

@@ -67,7 +67,9 @@ std::array<CoveredPart::Edge, 3> edgesAround(const std::array<Weights, 3>& corne
     // An edge whose inner side is lost in rounding has nothing outside.
     if (!(std::abs(inside) > kRounding * std::abs(size))) continue;
 
-    a /= size, b /= size, c /= size;
+    a /= size;
+    b /= size;
+    c /= size;
     c += std::abs(a) * off.u + std::abs(b) * off.v + 3 * kRounding;
     edges[i] = {static_cast<float>(a), static_cast<float>(b), static_cast<float>(c)};
   }

@@ -117,7 +117,10 @@ float farthestStart(const Scene& scene, const std::vector<Box>& boxes) {
   for (const InstanceRecord& instance : scene.instances) addInstance(scene, instance, boxes, all);
   float farthest = 0;
   const auto add = [&](const Vec3f& p) { farthest = std::max(farthest, maxComponent(abs(p))); };
-  if (!all.empty()) add(all.lower), add(all.upper);
+  if (!all.empty()) {
+    add(all.lower);
+    add(all.upper);
+  }
 
   // Rays start at points of the lens, and in stereo pairs beside the eye.
   const auto addStarts = [&](const Camera& camera) {

@@ -76,8 +76,7 @@ void sortInSpace(std::span<BoxedItem> items, std::size_t children, int threads) 
 
   Box box;
   for (const BoxedItem& item : items) box.add(item.center());
-  const Vec3f size = box.upper - box.lower;
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const int axis = largestAxis(box.upper - box.lower);
 
   // The split lies between two full nodes, about in the middle.
   const std::size_t middle = ((items.size() + full - 1) / full + 1) / 2 * full;
@@ -90,9 +89,12 @@ void sortInSpace(std::span<BoxedItem> items, std::size_t children, int threads) 
   const auto sortHalf = [&](std::size_t half, int) {
     sortInSpace(half == 0 ? items.first(middle) : items.subspan(middle), children, threads / 2);
   };
-  if (threads > 1) return parallelFor(threads, 2, sortHalf);
-  sortHalf(0, 0);
-  sortHalf(1, 0);
+  if (threads > 1) {
+    parallelFor(threads, 2, sortHalf);
+  } else {
+    sortHalf(0, 0);
+    sortHalf(1, 0);
+  }
 }
 
 // A tree over boxes: eight neighbors share a box of the next level, up to the one box that holds
@@ -247,7 +249,8 @@ class PairFinder {
   // nothing is left of it.
   void search(const Node& a, const Node& b, std::atomic<std::int64_t>& work,
               std::vector<Task>* tasks = nullptr) {
-    const std::int64_t before = left_ = work;
+    const std::int64_t before = work;
+    left_ = before;
     tasks_ = tasks;
     search(a, b);
     work -= before - left_;
@@ -275,8 +278,8 @@ class PairFinder {
     }
 
     const BoxTree& tree = node.group ? *node.group->tree : groupTree_;
-    const std::uint32_t first = node.number * BoxTree::kChildren,
-                        end = std::min(first + BoxTree::kChildren, tree.count(node.level - 1));
+    const std::uint32_t first = node.number * BoxTree::kChildren;
+    const std::uint32_t end = std::min(first + BoxTree::kChildren, tree.count(node.level - 1));
     for (std::uint32_t number = first; number < end; ++number) {
       const Node child = nodeOf(node.group, node.level - 1, number);
       if (meet(child.box, other.box)) stack_.push_back(child);
@@ -290,7 +293,10 @@ class PairFinder {
     if (a.group && b.group) {
       // Triangles of one instance are compared in the space of their geometry.
       if (a.group->instance != kNoInstance && a.group->instance == b.group->instance) return;
-      if (a.isTriangle() && b.isTriangle()) return compare(a, b);
+      if (a.isTriangle() && b.isTriangle()) {
+        compare(a, b);
+        return;
+      }
 
       // Small pairs are left to the threads.
       if (tasks_ && a.mostTriangles() + b.mostTriangles() <= kTaskTriangles) {
@@ -367,7 +373,9 @@ class CoplanarFinder {
   CoplanarFinder(const Scene& scene, int threads)
       : scene_(scene), threads_(threads), world_(scene), trees_(scene.geometries.size()) {
     // Threads share the geometries, or the one tree if there is no other geometry.
-    const int outer = trees_.size() > 1 ? threads : 1, inner = trees_.size() > 1 ? 1 : threads;
+    const bool several = trees_.size() > 1;
+    const int outer = several ? threads : 1;
+    const int inner = several ? 1 : threads;
     parallelFor(outer, trees_.size(), [&](std::size_t i, int) {
       trees_[i] = treeOf(static_cast<std::uint32_t>(i), inner);
     });

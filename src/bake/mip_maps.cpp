@@ -49,8 +49,8 @@ std::uint32_t meanTexel(const Texture& texture, const TexelWeights* weights,
 
   for (std::size_t y = 0; y < rows.shares.size(); ++y) {
     for (std::size_t x = 0; x < columns.shares.size(); ++x) {
-      const int column = columns.first + static_cast<int>(x),
-                row = rows.first + static_cast<int>(y);
+      const int column = columns.first + static_cast<int>(x);
+      const int row = rows.first + static_cast<int>(y);
       const std::uint32_t texel = texture.texel(column, row);
       double share = rows.shares[y] * columns.shares[x];
       if (weights) share *= weights->at(column, row);
@@ -102,8 +102,10 @@ std::optional<TexelWeights> weightsOf(const std::vector<Texture>& textures, cons
   if (map.coverageMap == kNoTexture) return weights;
 
   TexelWeights coverage = resized(firstChannel(texture(map.coverageMap)), own.width, own.height);
-  for (std::size_t i = 0; weights && i < coverage.values.size(); ++i) {
-    coverage.values[i] *= weights->values[i];
+  if (weights) {
+    for (std::size_t i = 0; i < coverage.values.size(); ++i) {
+      coverage.values[i] *= weights->values[i];
+    }
   }
   return coverage;
 }

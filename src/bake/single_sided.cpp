@@ -60,7 +60,10 @@ class WeldedMesh {
     std::vector<std::uint32_t> part(positions_.size());
     std::iota(part.begin(), part.end(), 0u);
     const auto partOf = [&](std::uint32_t vertex) {
-      while (part[vertex] != vertex) vertex = part[vertex] = part[part[vertex]];
+      while (part[vertex] != vertex) {
+        part[vertex] = part[part[vertex]];
+        vertex = part[vertex];
+      }
       return vertex;
     };
 

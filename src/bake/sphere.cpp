@@ -156,7 +156,8 @@ TriangleRecord touchingTriangle(const TriangleRecord& sphere, double u, double v
   const auto [s, t] = sphereUv(q);
 
   const double rho = std::hypot(q.x, q.z);
-  const double cosine = rho > 0 ? q.x / rho : 1, sine = rho > 0 ? q.z / rho : 0;
+  const double cosine = rho > 0 ? q.x / rho : 1;
+  const double sine = rho > 0 ? q.z / rho : 0;
 
   // Derivatives of the surface point by u and by v, times the edges' length in texture coordinates.
   const double step = double{kTouchingEdge} * std::numbers::pi;
@@ -167,15 +168,12 @@ TriangleRecord touchingTriangle(const TriangleRecord& sphere, double u, double v
   TriangleRecord record{};
   // Where the map mirrors, the edges change places, so that the triangle still faces outwards.
   const bool mirrored = map.determinant() < 0;
-  const Vec3d corners[] = {{}, mirrored ? across : along, mirrored ? along : across};
+  Vec3d corners[] = {{}, along, across};
+  if (mirrored) std::swap(corners[1], corners[2]);
 
-  const auto edge = double{kTouchingEdge};
-  const double uvs[] = {s,
-                        t,
-                        s + (mirrored ? 0 : edge),
-                        t + (mirrored ? edge : 0),
-                        s + (mirrored ? edge : 0),
-                        t + (mirrored ? 0 : edge)};
+  const double own = mirrored ? 0 : double{kTouchingEdge};
+  const double other = mirrored ? double{kTouchingEdge} : 0;
+  const double uvs[] = {s, t, s + own, t + other, s + other, t + own};
 
   for (int i = 0; i < 9; ++i) record.position[i] = static_cast<float>(corners[i / 3][i % 3]);
   for (int i = 0; i < 6; ++i) record.uv[i] = static_cast<float>(uvs[i]);
