@@ -145,7 +145,8 @@ Json benchJson(const std::vector<RunSummary>& runs, bool arePairs) {
   json["runs"] = Json::array();
   for (const RunSummary& run : runs) json["runs"].push_back(runJson(run));
 
-  for (std::size_t i = 0; arePairs && i + 1 < runs.size(); i += 2) {
+  if (!arePairs) return json;
+  for (std::size_t i = 0; i + 1 < runs.size(); i += 2) {
     const RunRatio ratio = ratioOf(runs[i + 1], runs[i]);
     json["all_over_auto"].push_back({{"scene", runs[i].scene},
                                      {"frame", ratio.frame},

@@ -135,8 +135,10 @@ class StageRecorder : public StageObserver {
 
     // Unshadowed radiance has a value where the light is visible or a shadow ray was made.
     std::vector<bool> lit(c.n, !kOfLight);
-    for (std::size_t i = 0; kOfLight && i < c.n; ++i) lit[i] = c.unshadowed.visible[i] > 0;
-    for (std::size_t i = 0; kOfLight && i < c.shadowCount; ++i) lit[c.shadows.slot[i]] = true;
+    if constexpr (kOfLight) {
+      for (std::size_t i = 0; i < c.n; ++i) lit[i] = c.unshadowed.visible[i] > 0;
+      for (std::size_t i = 0; i < c.shadowCount; ++i) lit[c.shadows.slot[i]] = true;
+    }
 
     Columns::forEachColumn(columns, [&](const char* name, const auto* column, Feature) {
       if (!column) return;

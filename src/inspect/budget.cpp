@@ -57,8 +57,8 @@ constexpr double kCostOfProbe = 1.5, kFlipMicroseconds = 1;
 // Most pictures have between half and twice the modelled error; a target is taken with a margin.
 // Squared noise falls with a power of the number of samples. FLIP is about the 0.7th power of a
 // difference, so that it falls more slowly; probes of one and four samples tell the power badly.
-constexpr double kModelError = 1, kTargetMargin = 1.25, kLeastPower = 0.6, kMostFlipPower = 0.9,
-                 kMostCodesPower = 1.3;
+constexpr double kModelError = 1, kTargetMargin = 1.25;
+constexpr double kLeastPower = 0.6, kMostFlipPower = 0.9, kMostCodesPower = 1.3;
 // Noise below this share of the middle's is not believed. Among so many combinations those whose
 // measurements flatter them would win, so that each value beside the middle's has to gain this
 // share over the root of the number of blocks.
@@ -87,7 +87,8 @@ Image pooled(const Image& image) {
 
 void setError(Receipt& r, double error) {
   r.error = error;
-  r.low = error / (1 + kModelError), r.high = error * (1 + kModelError);
+  r.low = error / (1 + kModelError);
+  r.high = error * (1 + kModelError);
 }
 
 // The error is an estimate that nothing bounds.
@@ -147,7 +148,8 @@ std::vector<std::pair<int, int>> spreadCells(int columns, int rows, double count
   for (std::size_t k = 0; k < 8 * all && static_cast<double>(cells.size()) < count; ++k) {
     double u = 0.5 + 0.7548776662466927 * static_cast<double>(k), whole = 0;
     double v = 0.5 + 0.5698402909980532 * static_cast<double>(k);
-    u = std::modf(u, &whole), v = std::modf(v, &whole);
+    u = std::modf(u, &whole);
+    v = std::modf(v, &whole);
 
     const int x = static_cast<int>(u * columns), y = static_cast<int>(v * rows);
     const std::size_t cell = static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) +
@@ -382,7 +384,8 @@ class Chooser {
       ms = sampleOfMiddle();
     }
 
-    probeSpp_ = timed() && ms > budget_.ms ? 1 : probeMs() < kShortMs ? kFewSpp : kSomeSpp;
+    probeSpp_ = probeMs() < kShortMs ? kFewSpp : kSomeSpp;
+    if (timed() && ms > budget_.ms) probeSpp_ = 1;
 
     // A moderate value is measured first, in case there is no time for all of them.
     for (Ladder& ladder : ladders_) {
@@ -396,7 +399,8 @@ class Chooser {
     double samples = kTruthFactor * probeSpp_, pictures = 0;  // of a pixel
     for (const Ladder& ladder : ladders_) {
       const auto levels = static_cast<double>(ladder.levels.size());
-      samples += levels * (1 + (ladder.off.empty() ? 1 : probeSpp_)), pictures += levels;
+      samples += levels * (1 + (ladder.off.empty() ? 1 : probeSpp_));
+      pictures += levels;
     }
 
     // The time that is left for probes gives the number of pixels that can be measured.
@@ -492,7 +496,9 @@ class Chooser {
     double bias2 = 0, noise2 = noise2_, ms = scale_ * sampleUs_ * prober_.pixels() / 1e3;
     for (std::size_t i = 0; i < ladders_.size(); ++i) {
       const Level& level = ladders_[i].levels[c.levels[i]];
-      bias2 += level.bias2, noise2 += level.noise2, ms *= level.cost;
+      bias2 += level.bias2;
+      noise2 += level.noise2;
+      ms *= level.cost;
     }
 
     // Noise far below the middle's is taken for a measuring error.
@@ -528,7 +534,8 @@ class Chooser {
     const double left = leftMs();
 
     // The levels of all ladders are counted up like the digits of a number.
-    for (bool more = true; more;) {
+    bool more = true;
+    while (more) {
       complete(c, left);
       all.push_back(c);
 
@@ -628,7 +635,8 @@ Budget parseBudget(const std::string& time, const std::string& target) {
   Budget budget;
   std::smatch parts;
   if (std::regex_match(time, parts, times) && readNumber(parts[1].str(), budget.ms)) {
-    budget.ms *= parts[2] == "s" ? 1e3 : parts[2] == "min" ? 60e3 : 1;
+    if (parts[2] == "s") budget.ms *= 1e3;
+    if (parts[2] == "min") budget.ms *= 60e3;
   }
   if (!time.empty() && !(budget.ms >= 1 && budget.ms <= kMostMs)) {
     throwUsage("--budget: expected a time of at least 1 ms, as 50ms, 10s or 2min, found '" + time +

@@ -141,7 +141,8 @@ void findScale(DebugPicture& picture) {
   constexpr double kLongestScale = 1000;
   const DebugView view = picture.view;
 
-  picture.low = 0, picture.high = 1;
+  picture.low = 0;
+  picture.high = 1;
   if (view != DebugView::depth && !isLogarithmic(view)) return;
 
   std::vector<double> amounts;
@@ -168,9 +169,9 @@ void paint(const DebugPicture& picture, DisplayImage& display) {
   const double perLog = !flat && isLogarithmic(view) ? 1 / std::log(high / low) : 0;
 
   const auto shareOf = [&](double amount) {
-    const double share = flat                  ? 0
-                         : isLogarithmic(view) ? std::log(amount / low) * perLog
-                                               : (amount - low) / (high - low);
+    if (flat) return 0.0;
+    const double share =
+        isLogarithmic(view) ? std::log(amount / low) * perLog : (amount - low) / (high - low);
     return share > 0 ? std::min(share, 1.0) : 0;
   };
 

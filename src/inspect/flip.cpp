@@ -146,7 +146,10 @@ Planes opponentPlanes(const DisplayImage& image) {
 // Returns weights whose positive ones sum to 1 and whose negative ones sum to -1.
 Taps balanced(const std::vector<double>& weights) {
   double positive = 0, negative = 0;
-  for (const double w : weights) (w > 0 ? positive : negative) += std::abs(w);
+  for (const double w : weights) {
+    double& sum = w > 0 ? positive : negative;
+    sum += std::abs(w);
+  }
 
   Taps taps;
   for (const double w : weights)

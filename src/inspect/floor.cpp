@@ -83,8 +83,7 @@ double replay(const Accel& accel, const RayStream& stream) {
   // Closest-hit rays form a single segment.
   const ColumnStore<HitColumns> results(stream.count, {});
   c.hits = *results;
-  c.rays.orgX = column(0), c.rays.orgY = column(1), c.rays.orgZ = column(2);
-  c.rays.dirX = column(3), c.rays.dirY = column(4), c.rays.dirZ = column(5);
+  c.rays = {column(0), column(1), column(2), column(3), column(4), column(5)};
   c.n = stream.count;
   c.segments[0] = {RayKind::primary, 0, c.n};
   c.segmentCount = 1;

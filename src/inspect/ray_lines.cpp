@@ -83,8 +83,10 @@ double shareSeen(const std::vector<SeenPoint>& points, const Camera& camera, con
     if (hit.found() && hit.t < 1) continue;
 
     share += point.weight;
-    left = std::min(left, at->x1), right = std::max(right, at->x1);
-    top = std::min(top, at->y1), bottom = std::max(bottom, at->y1);
+    left = std::min(left, at->x1);
+    right = std::max(right, at->x1);
+    top = std::min(top, at->y1);
+    bottom = std::max(bottom, at->y1);
   }
 
   const double across = std::hypot(std::max(right - left, 0.0), std::max(bottom - top, 0.0));

@@ -88,7 +88,8 @@ class TreeObserver : public StageObserver {
     const reference::Candidate met = reference::candidateOf(chunk, i);
     n.triangle = met.triangle;
     n.instance = met.instance;
-    n.u = met.u, n.v = met.v;
+    n.u = met.u;
+    n.v = met.v;
     n.distance = double{chunk.hits.t[i]};
     n.material = chunk.surfels.material[i];
     n.position = at(chunk.surfels.posX, chunk.surfels.posY, chunk.surfels.posZ, i);
@@ -166,7 +167,8 @@ class TreeIntersector : public EmbreeIntersector {
     RayNode& n = tree_.nodes[current_];
     n.triangle = c.triangle;
     n.instance = c.instance;
-    n.u = c.u, n.v = c.v;
+    n.u = c.u;
+    n.v = c.v;
   }
 
   bool occluded(const reference::Ray& ray, double tFar) const override {
