@@ -68,8 +68,9 @@ void filterSystemCalls() {
                                         __NR_mremap, __NR_madvise,    __NR_mprotect,
                                         __NR_exit,   __NR_exit_group, __NR_sigaltstack};
   constexpr std::uint8_t kCount = std::size(kAllowed);
-  constexpr std::uint16_t kLoad = BPF_LD | BPF_W | BPF_ABS, kReturn = BPF_RET | BPF_K,
-                          kSkipIfEqual = BPF_JMP | BPF_JEQ | BPF_K;
+  constexpr std::uint16_t kLoad = BPF_LD | BPF_W | BPF_ABS;
+  constexpr std::uint16_t kReturn = BPF_RET | BPF_K;
+  constexpr std::uint16_t kSkipIfEqual = BPF_JMP | BPF_JEQ | BPF_K;
 
   // The BPF program ends the process unless the architecture and the number of the system call are
   // among the expected ones.

@@ -119,7 +119,15 @@ std::string isMeant(const std::string& word, const std::vector<std::string>& nam
 
 std::string escapePointer(const std::string& token) {
   std::string result;
-  for (const char c : token) result += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+  for (const char c : token) {
+    if (c == '~') {
+      result += "~0";
+    } else if (c == '/') {
+      result += "~1";
+    } else {
+      result += c;
+    }
+  }
   return result;
 }
 

@@ -31,8 +31,7 @@ Vec3d newellNormal(const std::vector<Vec3d>& corners) {
 // Projects along the largest axis of the normal, in the order of axes that makes the polygon
 // counter-clockwise.
 std::vector<Point> project(const std::vector<Vec3d>& corners, const Vec3d& normal) {
-  const Vec3d size = abs(normal);
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const int axis = largestAxis(abs(normal));
   int first = (axis + 1) % 3, second = (axis + 2) % 3;
   if (normal[axis] < 0) std::swap(first, second);
 

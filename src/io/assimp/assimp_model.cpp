@@ -255,7 +255,11 @@ void convert(const std::string& bytes, const std::string& extension, const Confi
   };
 
   const aiScene* imported = importScene(bytes, extension);
-  for (unsigned i = 0; imported && i < imported->mNumMeshes; ++i) {
+  if (!imported) {
+    fail(aiGetErrorString());
+    return;
+  }
+  for (unsigned i = 0; i < imported->mNumMeshes; ++i) {
     aiMesh& mesh = *imported->mMeshes[i];
     if (!mesh.mNormals && mesh.mNumAnimMeshes + mesh.mNumBones == 0) separateCorners(mesh);
   }
@@ -264,11 +268,17 @@ void convert(const std::string& bytes, const std::string& extension, const Confi
   // once for each of its triangles.
   constexpr unsigned kFinish =
       aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_JoinIdenticalVertices;
-  if (imported) imported = aiApplyPostProcessing(imported, aiProcess_GenSmoothNormals);
+  imported = aiApplyPostProcessing(imported, aiProcess_GenSmoothNormals);
   if (imported) imported = aiApplyPostProcessing(imported, kFinish);
 
-  if (!imported) return fail(aiGetErrorString());
-  if (imported->mNumMeshes == 0 || !imported->mRootNode) return fail("it has no faces");
+  if (!imported) {
+    fail(aiGetErrorString());
+    return;
+  }
+  if (imported->mNumMeshes == 0 || !imported->mRootNode) {
+    fail("it has no faces");
+    return;
+  }
 
   // The scene is adapted to what glTF can express; `notes` records what is lost.
   auto& scene = *const_cast<aiScene*>(imported);
@@ -285,7 +295,10 @@ void convert(const std::string& bytes, const std::string& extension, const Confi
   turnUp(scene);
 
   const aiExportDataBlob* const blob = aiExportSceneToBlob(&scene, "glb2", 0);
-  if (!blob) return fail(aiGetErrorString());
+  if (!blob) {
+    fail(aiGetErrorString());
+    return;
+  }
   write("\1", 1);
   write(&notes, sizeof notes);
   write(blob->data, blob->size);

@@ -38,12 +38,12 @@ struct DracoArray {
 // Calls use(T()) with the type of an accessor's components.
 template <typename Use>
 void withComponentType(std::uint64_t code, const Use& use) {
-  if (code == 5120) return use(std::int8_t());
-  if (code == 5121) return use(std::uint8_t());
-  if (code == 5122) return use(std::int16_t());
-  if (code == 5123) return use(std::uint16_t());
-  if (code == 5125) return use(std::uint32_t());
-  if (code == 5126) return use(float());
+  if (code == 5120) use(std::int8_t());
+  if (code == 5121) use(std::uint8_t());
+  if (code == 5122) use(std::int16_t());
+  if (code == 5123) use(std::uint16_t());
+  if (code == 5125) use(std::uint32_t());
+  if (code == 5126) use(float());
 }
 
 // Lists the accessors whose data Draco has compressed. The arrays of one mesh follow each other, so
@@ -82,13 +82,15 @@ bool copyAttribute(const draco::Mesh& mesh, const DracoArray& array, std::vector
       mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(array.id));
   all.resize(std::size_t{mesh.num_points()} * array.components);
 
-  for (std::uint32_t i = 0; attribute && i < mesh.num_points(); ++i) {
+  if (!attribute) return false;
+
+  for (std::uint32_t i = 0; i < mesh.num_points(); ++i) {
     const bool known = attribute->ConvertValue(attribute->mapped_index(draco::PointIndex(i)),
                                                static_cast<std::int8_t>(array.components),
                                                all.data() + i * array.components);
     if (!known) return false;
   }
-  return attribute != nullptr;
+  return true;
 }
 
 template <typename T>
@@ -162,6 +164,14 @@ void decodeDraco(const GltfDocument& document, std::map<std::string, std::string
 
 namespace {
 
+// Tells whether elements may have the size of `stride` bytes (EXT_meshopt_compression).
+bool suits(const std::string& mode, const std::string& filter, std::size_t stride) {
+  if (mode != "ATTRIBUTES") return filter == "NONE" && (stride == 2 || stride == 4);
+  if (filter == "QUATERNION") return stride == 8;
+  if (filter == "OCTAHEDRAL") return stride == 4 || stride == 8;
+  return stride % 4 == 0;
+}
+
 // The decoders of meshoptimizer are made for damaged data, but rely on the arguments checked here.
 std::string decodeView(const GltfDocument& document, const JsonValue& view,
                        const JsonValue& source) {
@@ -172,11 +182,9 @@ std::string decodeView(const GltfDocument& document, const JsonValue& view,
   const std::uint64_t count = source.need("count").wholeOr(0);
   const auto stride = static_cast<std::size_t>(source.need("byteStride").integer(2, 256));
 
-  const bool suits = mode != "ATTRIBUTES"     ? filter == "NONE" && (stride == 2 || stride == 4)
-                     : filter == "QUATERNION" ? stride == 8
-                     : filter == "OCTAHEDRAL" ? stride == 4 || stride == 8
-                                              : stride % 4 == 0;
-  if (!suits) source["byteStride"].fail("a size of elements that mode and filter have");
+  if (!suits(mode, filter, stride)) {
+    source["byteStride"].fail("a size of elements that mode and filter have");
+  }
   if (view.need("byteLength").wholeOr(0) != count * stride) {
     view["byteLength"].fail("the " + std::to_string(count * stride) + " bytes that are compressed");
   }
@@ -185,13 +193,12 @@ std::string decodeView(const GltfDocument& document, const JsonValue& view,
   document.budget().charge(count, stride, source.where());
   std::string all(count * stride, '\0');
   const Bytes from = document.range(source);
-  const int failure =
-      mode == "ATTRIBUTES"
-          ? meshopt_decodeVertexBuffer(all.data(), count, stride, from.data(), from.size())
-      : mode == "TRIANGLES"
-          ? meshopt_decodeIndexBuffer(all.data(), count, stride, from.data(), from.size())
-          : meshopt_decodeIndexSequence(all.data(), count, stride, from.data(), from.size());
-  if (failure != 0) source.fail("data that meshoptimizer can decode", "damaged data");
+  auto* decode = &meshopt_decodeVertexBuffer;
+  if (mode == "TRIANGLES") decode = &meshopt_decodeIndexBuffer;
+  if (mode == "INDICES") decode = &meshopt_decodeIndexSequence;
+  if (decode(all.data(), count, stride, from.data(), from.size()) != 0) {
+    source.fail("data that meshoptimizer can decode", "damaged data");
+  }
 
   // The filters turn quantized directions, rotations and numbers into their final form in place.
   if (filter == "OCTAHEDRAL") meshopt_decodeFilterOct(all.data(), count, stride);

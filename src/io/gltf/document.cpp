@@ -19,7 +19,8 @@ int base64Value(char c) {
   if (c >= 'A' && c <= 'Z') return c - 'A';
   if (c >= 'a' && c <= 'z') return c - 'a' + 26;
   if (c >= '0' && c <= '9') return c - '0' + 52;
-  return c == '+' ? 62 : c == '/' ? 63 : -1;
+  if (c == '+') return 62;
+  return c == '/' ? 63 : -1;
 }
 
 std::string base64Decoded(std::string_view digits, const std::string& where) {
@@ -126,8 +127,8 @@ Json parseGltf(const std::string& bytes, const std::string& name, MemoryBudget& 
     throwBadScene(name, "expected a GLB, which begins with \"glTF\", or JSON, which begins with {");
   }
 
-  const std::string_view text =
-      isBinary ? splitBinary(bytes, name, binary) : std::string_view(bytes);
+  std::string_view text = bytes;
+  if (isBinary) text = splitBinary(bytes, name, binary);
 
   // Each value follows a separator, so that their number limits the memory of the parsed text.
   const auto values =

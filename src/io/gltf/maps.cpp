@@ -382,7 +382,8 @@ GltfMaps GltfMapMaker::ask(const GltfMaterial& m, TextureLoader& textures) {
     });
 
     if (wantsBaked(m, kGltfDiffuse)) {
-      (m.unlit ? slots.emissionMap : slots.diffuseMap) = baked[kGltfDiffuse];
+      auto& slot = m.unlit ? slots.emissionMap : slots.diffuseMap;
+      slot = baked[kGltfDiffuse];
     }
     if (wantsBaked(m, kGltfSpecular)) {
       slots.specularMap = baked[kGltfSpecular];

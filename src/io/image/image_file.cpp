@@ -164,7 +164,8 @@ Rgb linearPixel(const RawImage& raw, std::size_t i) {
   const auto value = [&](std::size_t channel) {
     return raw.linear ? raw.values[first + channel] : linearOfCode(raw.codes[first + channel]);
   };
-  return raw.channels < 3 ? Rgb(value(0)) : Rgb(value(0), value(1), value(2));
+  if (raw.channels < 3) return Rgb(value(0));
+  return Rgb(value(0), value(1), value(2));
 }
 
 Image readImage(const std::string& path, const ImageLimits& limits) {

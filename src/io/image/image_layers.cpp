@@ -49,7 +49,8 @@ double codeOf(Channel channel, double value) {
     case Channel::rays:
       return value;
     default:  // the largest code says that nothing was hit
-      return value == kNoNumber ? kWhite16 : value < kWhite16 ? value : value + 1;
+      if (value == kNoNumber) return kWhite16;
+      return value < kWhite16 ? value : value + 1;
   }
 }
 

@@ -181,11 +181,9 @@ class PlainReader {
   // but the last end with `padding` bytes.
   void readPixels(std::int64_t width, std::int64_t height, bool inRuns, std::size_t padding) {
     constexpr std::uint64_t kLongestRun = 128;
-    image_ = startImage(path_, width, height,
-                        bits_ > 8          ? bits_ / 8
-                        : palette_.empty() ? 1
-                                           : 3,
-                        false, limits_);
+    int stored = palette_.empty() ? 1 : 3;
+    if (bits_ > 8) stored = bits_ / 8;
+    image_ = startImage(path_, width, height, stored, false, limits_);
 
     const auto channels = static_cast<std::size_t>(image_.channels);
     const auto columns = static_cast<std::uint64_t>(width);

@@ -26,10 +26,11 @@ Rgb cubePixel(const RawImage& raw, const Vec3d& direction) {
 
   // The largest component of the direction selects the face, and the others give the place on it.
   const Vec3d size = abs(direction);
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const int axis = largestAxis(size);
   // Centers of pixels lie on the edges of the cube.
   const auto place = [&](int along) { return (direction[along] / size[axis] + 1) / 2 * last; };
-  const double s = place(axis == 0 ? 1 : 0), t = place(axis == 2 ? 1 : 2);
+  const double s = place(axis == 0 ? 1 : 0);
+  const double t = place(axis == 2 ? 1 : 2);
 
   // Column and row within the faces in the file's order, x, -x, y, -y, z and -z.
   const bool isNegative = direction[axis] < 0;
@@ -139,8 +140,9 @@ EnvironmentImage makeEnvironment(const RawImage& raw) {
 }
 
 bool hasTranslucentAlpha(const RawImage& raw) {
-  const bool hasAlpha = raw.channels == 2 || raw.channels == 4;
-  for (std::size_t i = 0; hasAlpha && i < raw.pixels(); ++i) {
+  if (raw.channels != 2 && raw.channels != 4) return false;
+
+  for (std::size_t i = 0; i < raw.pixels(); ++i) {
     if (valuesAt(raw, i)[3] < 1.0f) return true;
   }
   return false;

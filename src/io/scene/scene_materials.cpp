@@ -15,7 +15,8 @@ const char* formatName(TexelFormat format) {
 
 Wrap readWrapWord(const JsonValue& value) {
   const std::string word = value.word({"repeat", "mirror", "clamp"});
-  return word == "repeat" ? Wrap::repeat : word == "mirror" ? Wrap::mirror : Wrap::clamp;
+  if (word == "repeat") return Wrap::repeat;
+  return word == "mirror" ? Wrap::mirror : Wrap::clamp;
 }
 
 // Reads how a texture (a Texture or its TextureSource) is looked up.
@@ -67,7 +68,7 @@ void warnOfSum(const Material& m, const std::string& where, Warnings& warnings) 
   // Only the color channel with the largest sum is reported.
   Rgb sum;
   for (const auto& [name, part] : parts) sum += part;
-  const int largest = sum.x == maxComponent(sum) ? 0 : sum.y == maxComponent(sum) ? 1 : 2;
+  const int largest = largestAxis(sum);
   if (sum[largest] <= kMost) return;
 
   std::string text;
