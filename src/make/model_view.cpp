@@ -346,7 +346,10 @@ std::vector<Vec3d> outermostPoints(const SceneDescription& scene, double seconds
   const auto add = [&](const Vec3d& corner) {
     for (std::size_t k = 0; k < ways.size(); ++k) {
       const double own = dot(corner, ways[k]);
-      if (own > reach[k]) reach[k] = own, points[k] = corner;
+      if (own > reach[k]) {
+        reach[k] = own;
+        points[k] = corner;
+      }
     }
   };
 

@@ -10,7 +10,8 @@ namespace whit {
 namespace {
 
 std::string nameOf(const std::string& name, const char* kind, std::size_t number) {
-  return name.empty() ? kind + (" " + std::to_string(number)) : printable(name);
+  if (!name.empty()) return printable(name);
+  return kind + (" " + std::to_string(number));
 }
 
 std::string metText(const Scene& scene, const RayNode& node) {

@@ -54,8 +54,13 @@ std::string pageWith(std::string_view html, const Json& data) {
   std::string page(html.substr(0, place));
 
   // Only strings hold a '<' in JSON. Escaped, it cannot end the element <script>.
-  for (const char c : data.dump(-1, ' ', false, Json::error_handler_t::replace))
-    c == '<' ? page += "\\u003c" : page += c;
+  for (const char c : data.dump(-1, ' ', false, Json::error_handler_t::replace)) {
+    if (c == '<') {
+      page += "\\u003c";
+    } else {
+      page += c;
+    }
+  }
 
   return page.append(html.substr(place + kPlace.size()));
 }

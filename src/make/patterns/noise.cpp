@@ -57,8 +57,10 @@ double slope2(std::uint32_t h, double x, double y) {
 // The slopes point to the middles of a cube's twelve edges (Perlin 2002).
 double slope3(std::uint32_t h, double x, double y, double z) {
   const std::uint32_t k = h % 12u;
-  const double a = k < 8 ? x : y, b = k < 4 ? y : z;
-  return ((h & 16u) ? -a : a) + ((h & 32u) ? -b : b);
+  const double a = k < 8 ? x : y;
+  const double b = k < 4 ? y : z;
+  const double signedA = (h & 16u) ? -a : a;
+  return signedA + ((h & 32u) ? -b : b);
 }
 
 }  // namespace
@@ -70,7 +72,9 @@ double unitHash(std::uint32_t seed, std::int32_t x, std::int32_t y, std::int32_t
 double lerp(double a, double b, double t) { return a + (b - a) * t; }
 
 double smoothStep(double low, double high, double x) {
-  const double t = x <= low ? 0 : x >= high ? 1 : (x - low) / (high - low);
+  if (x <= low) return 0;
+  if (x >= high) return 1;
+  const double t = (x - low) / (high - low);
   return t * t * (3 - 2 * t);
 }
 
@@ -111,7 +115,9 @@ double fractalNoise(std::uint32_t seed, double x, double y, int octaves, int per
     total += amplitude;
     amplitude *= 0.5;
     // The period counts cells, so it doubles with the frequency.
-    x *= 2, y *= 2, period *= 2;
+    x *= 2;
+    y *= 2;
+    period *= 2;
   }
   return total > 0 ? sum / total : 0;
 }
@@ -127,7 +133,8 @@ double ridgedNoise(std::uint32_t seed, double x, double y, int octaves) {
     total += amplitude;
     weight = crest;  // valleys stay smooth, crests gather detail
     amplitude *= 0.5;
-    x *= 2, y *= 2;
+    x *= 2;
+    y *= 2;
   }
   return total > 0 ? sum / total : 0;
 }

@@ -57,11 +57,13 @@ Texture paintNormals(ShapeParameters& parameters, const ScalarFormula& height) {
   forEachTexel(texture, [&](double u, double v) { heights.push_back(height(u, v)); });
 
   // The texture repeats, so texels on opposite edges are neighbors.
+  const auto wrapped = [side](int i) {
+    if (i < 0) return side - 1;
+    return i < side ? i : 0;
+  };
   const auto at = [&](int row, int column) {
-    const int r = row < 0 ? side - 1 : row < side ? row : 0;
-    const int c = column < 0 ? side - 1 : column < side ? column : 0;
-    return heights[static_cast<std::size_t>(r) * static_cast<std::size_t>(side) +
-                   static_cast<std::size_t>(c)];
+    return heights[static_cast<std::size_t>(wrapped(row)) * static_cast<std::size_t>(side) +
+                   static_cast<std::size_t>(wrapped(column))];
   };
 
   const double reach = 2.0 / side;  // between the neighbors on both sides

@@ -319,8 +319,9 @@ void addShaft(MeshBuilder& builder, const ColumnPlan& plan, int segments) {
     }
 
     for (std::size_t i = 0; i < rim.size(); ++i) {
-      const std::uint32_t a = rim[i], b = rim[(i + 1) % rim.size()];
-      builder.triangle(center, top ? a : b, top ? b : a);
+      std::uint32_t a = rim[i], b = rim[(i + 1) % rim.size()];
+      if (!top) std::swap(a, b);
+      builder.triangle(center, a, b);
     }
   }
 }
@@ -372,8 +373,9 @@ void addGroinBay(MeshBuilder& builder, const Vec3d& center, double a, double b, 
     const int x = std::abs(2 * (p[0] + q[0] + r[0]) - 3 * n);
     const int z = std::abs(2 * (p[1] + q[1] + r[1]) - 3 * n);
 
-    const std::uint32_t i0 = corner(p[0], p[1], x < z), i1 = corner(q[0], q[1], x < z),
-                        i2 = corner(r[0], r[1], x < z);
+    const std::uint32_t i0 = corner(p[0], p[1], x < z);
+    const std::uint32_t i1 = corner(q[0], q[1], x < z);
+    const std::uint32_t i2 = corner(r[0], r[1], x < z);
     builder.triangle(i0, i1, i2);
   };
 
@@ -601,8 +603,10 @@ Shape makeCornice(ShapeParameters& parameters) {
   // A point of the section is equally far from both sides of a corner, which mitres the moulding.
   const double sign = inward ? 1 : -1;
   const auto corner = [&](int k, const std::array<double, 2>& s) {
-    const double x = width / 2 - sign * s[0], z = depth / 2 - sign * s[0];
-    return Vec3d{k == 0 || k == 3 ? -x : x, s[1], k < 2 ? z : -z};
+    double x = width / 2 - sign * s[0], z = depth / 2 - sign * s[0];
+    if (k == 0 || k == 3) x = -x;
+    if (k >= 2) z = -z;
+    return Vec3d{x, s[1], z};
   };
 
   MeshBuilder builder(MeshBuilder::Shading::flat);
@@ -611,7 +615,8 @@ Shape makeCornice(ShapeParameters& parameters) {
       const auto &s = section[m], &t = section[(m + 1) % section.size()];
       // Outside of the rectangle the section is mirrored, so the ends of a side change places to
       // keep the fronts outwards.
-      const int k0 = inward ? side : (side + 1) % 4, k1 = inward ? (side + 1) % 4 : side;
+      int k0 = side, k1 = (side + 1) % 4;
+      if (!inward) std::swap(k0, k1);
       builder.plate({corner(k0, s), corner(k0, t), corner(k1, t), corner(k1, s)}, repeat);
     }
   }

@@ -105,10 +105,11 @@ class TreeBuilder {
       const bool foot = j == 0, tip = j == last + 2;
       const Vec3d out = side * t.cosine - other * t.sine;
       const Vec3d& middle = points[node(j)];
+      Vec3d normal = out;
+      if (foot) normal = -course;
+      if (tip) normal = course;
       return SurfacePoint{middle + out * (foot || tip ? 0 : radii[node(j)]),
-                          foot  ? -course
-                          : tip ? course
-                                : out,
+                          normal,
                           {around * i / sides, length(middle - points[0])}};
     });
   }
@@ -122,7 +123,8 @@ class TreeBuilder {
 
   void grow(const Vec3d& foot, const Vec3d& course, double size, double radius, int level) {
     // The limb varies its direction at random and bends upwards, the trunk with less variation.
-    const int pieces = level == 0 ? 6 : level == 1 ? 4 : 3;
+    constexpr int kPieces[] = {6, 4, 3}, kSides[] = {10, 7, 5, 3};  // by level; the last go on
+    const int pieces = kPieces[std::min(level, 2)];
     std::vector<Vec3d> points{foot};
     std::vector<double> radii{level == 0 ? radius * 1.5 : radius};
 
@@ -133,7 +135,7 @@ class TreeBuilder {
       points.push_back(points.back() + direction * (size / pieces));
       radii.push_back(radius * (1 - 0.45 * k / pieces));
     }
-    limb(points, radii, level == 0 ? 10 : level == 1 ? 7 : level == 2 ? 5 : 3);
+    limb(points, radii, kSides[std::min(level, 3)]);
 
     // Leaves grow on the last two levels of branching.
     if (level >= levels_ - 2) {
@@ -148,12 +150,14 @@ class TreeBuilder {
     const int children = level == 0 ? 6 : 4;
     const double turnStart = random_.between(0, 2 * std::numbers::pi);
     for (int c = 0; c < children; ++c) {
-      const double t = c == 0 ? 1.0 : lerp(level == 0 ? 0.55 : 0.35, 1.0, random_.next());
+      const double lowest = level == 0 ? 0.55 : 0.35;
+      const double t = c == 0 ? 1.0 : lerp(lowest, 1.0, random_.next());
       const double at = t * pieces;
       const auto k = static_cast<std::size_t>(std::min(pieces - 1, static_cast<int>(at)));
       const Vec3d origin = points[k] + (points[k + 1] - points[k]) * (at - static_cast<double>(k));
 
-      const double a = turnStart + 2.39996 * c, spread = c == 0 ? 0.25 : random_.between(0.7, 1.1);
+      const double a = turnStart + 2.39996 * c;
+      const double spread = c == 0 ? 0.25 : random_.between(0.7, 1.1);
       const Vec3d side = normalized(cross(direction, Vec3d{std::cos(a), 0.3, std::sin(a)}));
       const Vec3d way = normalized(direction * std::cos(spread) + side * std::sin(spread));
       grow(origin, way, size * random_.between(0.62, 0.82), radius * 0.5, level + 1);

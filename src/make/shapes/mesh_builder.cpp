@@ -145,8 +145,9 @@ void MeshBuilder::append(const Mesh& mesh, const Affine& map) {
   }
 
   // A map that mirrors would turn the triangles inside out.
-  for (const auto& t : mesh.triangles) {
-    triangle(first + t[0], first + t[mirrored ? 2 : 1], first + t[mirrored ? 1 : 2]);
+  for (auto [a, b, c] : mesh.triangles) {
+    if (mirrored) std::swap(b, c);
+    triangle(first + a, first + b, first + c);
   }
 }
 

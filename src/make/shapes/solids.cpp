@@ -63,8 +63,8 @@ double side(ShapeParameters& parameters, const char* key, double fallback) {
 
 Shape makeSphere(ShapeParameters& parameters) {
   const double radius = radiusOf(parameters);
-  const int segments = facetsOf(parameters, "segments", 3),
-            rings = facetsOf(parameters, "rings", 2);
+  const int segments = facetsOf(parameters, "segments", 3);
+  const int rings = facetsOf(parameters, "rings", 2);
   const bool smooth = parameters.flag("smooth", true);
   if (segments == 0 && rings == 0 && smooth) return exactSphere(radius);
 
