@@ -45,7 +45,8 @@ inline Interface makeInterface(double n1, double n2, double c,
     return interface;
   }
 
-  const double g = interface.g = std::sqrt(g2);
+  const double g = std::sqrt(g2);
+  interface.g = g;
   if (model == FresnelModel::schlick) {
     const double normal = (n2 - n1) / (n2 + n1), f0 = normal * normal;
     // Schlick's term takes the smaller of the two cosines, which is the refracted ray's where the

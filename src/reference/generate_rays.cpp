@@ -139,7 +139,8 @@ Vec3d bent(const CameraFrame& camera, double X, double Y) {
   switch (camera.projection) {
     case Projection::perspective: {
       const auto point = undistorted(camera, x, -y);
-      return point ? normalized(Vec3d{(*point)[0], -(*point)[1], 1}) : Vec3d();
+      if (!point) return Vec3d();
+      return normalized(Vec3d{(*point)[0], -(*point)[1], 1});
     }
     case Projection::panorama:
       return towards(azimuthAt(camera, X), y);
@@ -193,8 +194,8 @@ Ray generateRay(const CameraFrame& camera, double x, double y) {
 
   // Omni-directional stereo (Google 2015, "Rendering omni-directional stereo content"): the eyes
   // stand on the tangent to the circle where the azimuth meets it; the left eye has the first view.
-  const double azimuth = azimuthAt(camera, x),
-               side = number == 0 ? -camera.turning : camera.turning;
+  const double azimuth = azimuthAt(camera, x);
+  const double side = number == 0 ? -camera.turning : camera.turning;
   const Vec3d tangent = right * std::cos(azimuth) - view.forward * std::sin(azimuth);
   return {start + tangent * side, direction, pixelCone(camera)};
 }

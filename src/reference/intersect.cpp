@@ -12,11 +12,10 @@ struct Pierced {
 };
 
 std::optional<Pierced> pierce(const Ray& ray, const Corners& corners) {
-  const Vec3d size = abs(ray.direction);
-  const int z = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const int z = largestAxis(abs(ray.direction));
   const int x = (z + 1) % 3, y = (z + 2) % 3;
-  const double speed = ray.direction[z], slopeX = ray.direction[x] / speed,
-               slopeY = ray.direction[y] / speed;
+  const double speed = ray.direction[z];
+  const double slopeX = ray.direction[x] / speed, slopeY = ray.direction[y] / speed;
 
   // A corner seen from the ray's origin, in axes in which the ray runs along z at speed 1. It is
   // rounded here and never again, so that all triangles see a shared corner in one place.

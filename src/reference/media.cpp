@@ -17,7 +17,8 @@ constexpr int kStackBits = 32, kEntryBits = 8;
 std::uint32_t entryAt(MediaStack stack, int shift) { return stack >> shift & 0xff; }
 
 MediaStack crossed(MediaStack stack, std::uint32_t medium, bool entering) {
-  return entering ? pushMedium(stack, medium) : removeMedium(stack, medium);
+  if (entering) return pushMedium(stack, medium);
+  return removeMedium(stack, medium);
 }
 
 constexpr int kOtherBits = 10, kMostOthers = 3;

@@ -41,8 +41,8 @@ bool areNeighbors(const Scene& scene, const Place& a, const Place& b) {
   if (a.medium != b.medium || a.entering != b.entering) return false;
   if (a.candidate.instance != b.candidate.instance) return false;
 
-  const Corners corners = worldCorners(scene, a.candidate.triangle, kNoInstance),
-                others = worldCorners(scene, b.candidate.triangle, kNoInstance);
+  const Corners corners = worldCorners(scene, a.candidate.triangle, kNoInstance);
+  const Corners others = worldCorners(scene, b.candidate.triangle, kNoInstance);
   const int shared = cornersBetween(corners, others, a.hit);
   return shared > 0 && shared < 3 && cornersBetween(others, corners, b.hit) == shared;
 }

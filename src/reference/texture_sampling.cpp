@@ -23,7 +23,9 @@ struct Between {
 Between repeated(double s, int size) {
   const double x = (s - std::floor(s)) * size - 0.5;
   const int lower = static_cast<int>(std::floor(x));
-  return {lower < 0 ? size - 1 : lower, lower + 1 < size ? lower + 1 : 0, x - std::floor(x)};
+  const int before = lower < 0 ? size - 1 : lower;
+  const int after = lower + 1 < size ? lower + 1 : 0;
+  return {before, after, x - std::floor(x)};
 }
 
 Between held(double s, int size) {
@@ -82,8 +84,8 @@ double mipLevel(double area) {
 RgbD sampleTexture(const MipMaps& maps, const ShownMap& map, double u, double v, double level) {
   const int lower = static_cast<int>(level);
   const double between = level - lower;
-  const RgbD a = sampleTexture(maps.level(map, lower), u, v),
-             b = sampleTexture(maps.level(map, lower + 1), u, v);
+  const RgbD a = sampleTexture(maps.level(map, lower), u, v);
+  const RgbD b = sampleTexture(maps.level(map, lower + 1), u, v);
   return a + (b - a) * between;
 }
 

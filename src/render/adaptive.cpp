@@ -155,7 +155,8 @@ FrameStats AdaptiveSampler::findContrast(const Frame& frame) {
         contrasting_[source] = more && edges_[source] != 0 && probes_->differ(x, y, contrast);
         if (contrasting_[source] != 0) continue;
 
-        const Rgb value = film.image.pixels[target] = first_.image.pixels[source];
+        const Rgb value = first_.image.pixels[source];
+        film.image.pixels[target] = value;
         if (!isFinite(value)) ++nonFinite;
         if (!film.wantDisplay) continue;
         std::memcpy(&film.display.rgba[4 * target], &first_.display.rgba[4 * source], 4);

@@ -60,7 +60,8 @@ Luminances luminancesOf(const Renderer& renderer, const Camera& camera) {
       const double l = luminance(Rgb(tracer.center(frame, x, y, counts)));
       if (!(l >= 0) || !std::isfinite(l)) continue;
       const bool nothing = tracer.surfaceAtCenter(frame, x, y).material == kNothing;
-      (nothing ? rows[row].sky : rows[row].surfaces).push_back(l);
+      auto& to = nothing ? rows[row].sky : rows[row].surfaces;
+      to.push_back(l);
     }
   });
 
@@ -79,7 +80,11 @@ double exposed(ToneCurve curve, double level) {
   double low = -kMostEv, high = kMostEv;
   for (int i = 0; i < 64; ++i) {
     const double middle = (low + high) / 2;
-    (applyToneCurve(curve, std::exp2(middle)) < level ? low : high) = middle;
+    if (applyToneCurve(curve, std::exp2(middle)) < level) {
+      low = middle;
+    } else {
+      high = middle;
+    }
   }
 
   return low;

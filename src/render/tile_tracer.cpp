@@ -30,7 +30,8 @@ std::uint64_t sumOf(const Columns& columns, std::size_t n) {
   std::uint64_t sum = 0xcbf29ce484222325u;  // FNV-1a, a word at a time
 
   Columns::forEachColumn(columns, [&](const char*, const auto* column, Feature) {
-    for (std::size_t i = 0; column && i < n; ++i) {
+    if (!column) return;
+    for (std::size_t i = 0; i < n; ++i) {
       std::uint32_t word = 0;
       std::memcpy(&word, column + i, sizeof word);
       sum = (sum ^ word) * 0x100000001b3u;
@@ -257,7 +258,8 @@ void TileTracer::trace(const Frame& frame, std::span<const std::uint32_t> pixels
     if (frame.samples.size() == 1 && !frame.probes && !frame.sums) {
       chunk_.sample = frame.samples[0];
       chunk_.sampleNumber = 0;
-      sums_.assign(keepsErrors(frame) ? chunk_.pixels.size() : 0, SampleSum());
+      const std::size_t kept = keepsErrors(frame) ? chunk_.pixels.size() : 0;
+      sums_.assign(kept, SampleSum());
       traceSample(watch);
     } else if (!traceSamples(frame, watch)) {
       return;
@@ -294,7 +296,9 @@ bool TileTracer::traceSamples(const Frame& frame, const Watch& watch) {
   const RadianceColumns& radiance = chunk_.radiance;
   for (std::size_t i = 0; i < n; ++i) {
     const Rgb mean(sums_[i].total / static_cast<double>(frame.endSample));
-    radiance.r[i] = mean.x, radiance.g[i] = mean.y, radiance.b[i] = mean.z;
+    radiance.r[i] = mean.x;
+    radiance.g[i] = mean.y;
+    radiance.b[i] = mean.z;
   }
 
   return true;
@@ -388,8 +392,9 @@ void TileTracer::traceNarrowed(const std::vector<std::uint32_t>& slots, const Wa
   std::size_t number = 0;
   RadianceColumns::forEachColumn(chunk_.radiance, [&](const char*, float* column, Feature) {
     std::vector<float>& values = all[number++];
-    for (std::size_t i = 0; column && i < slots.size(); ++i) values[slots[i]] = column[i];
-    if (column) std::ranges::copy(values, column);
+    if (!column) return;
+    for (std::size_t i = 0; i < slots.size(); ++i) values[slots[i]] = column[i];
+    std::ranges::copy(values, column);
   });
 
   work_.setNarrows(false);

@@ -69,7 +69,10 @@ std::array<std::size_t, kProbeSamples> chooseProbes(const std::vector<Vec2f>& sa
       const Vec2f center{kProbeSamples / 2.0f, kProbeSamples / 2.0f};
       constexpr double kScale = kWeightOfMean / (kProbeSamples * kProbeSamples);
       const double cost = away + kScale * squaredDistance(sum, center);
-      if (cost < least) least = cost, best = chosen;
+      if (cost < least) {
+        least = cost;
+        best = chosen;
+      }
       return;
     }
 
@@ -146,7 +149,11 @@ std::vector<std::size_t> spreadOrder(const std::vector<Vec2f>& samples,
       if (distance[i] == kTaken || 2 * distance[i] < farthest) continue;
 
       const Cell with = summed(cells[i]);
-      if (squared(with.x, with.y) < least) least = squared(with.x, with.y), best = i;
+      const auto cost = squared(with.x, with.y);
+      if (cost < least) {
+        least = cost;
+        best = i;
+      }
     }
     return best;
   };
@@ -190,7 +197,11 @@ std::size_t nearestProbe(const std::vector<Vec2f>& pattern, int dx, int dy) {
   for (std::size_t k = 0; k < kProbeSamples; ++k) {
     const float x = static_cast<float>(dx) + pattern[k].x - 0.5f;
     const float y = static_cast<float>(dy) + pattern[k].y - 0.5f;
-    if (x * x + y * y < least) least = x * x + y * y, nearest = k;
+    const float square = x * x + y * y;
+    if (square < least) {
+      least = square;
+      nearest = k;
+    }
   }
   return nearest;
 }

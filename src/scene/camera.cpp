@@ -183,12 +183,17 @@ CameraFrame makeCameraFrame(const Camera& camera, int width, int height) {
   if (isFisheye(camera)) frame.limit = camera.angle * (std::numbers::pi / 360);
 
   // The views of a cube map or of a stereo pair share the picture in a grid.
-  const bool cube = camera.projection == Projection::cubeMap, inRow = width >= 4 * height;
-  const int columns = cube ? (inRow ? 6 : 3) : camera.stereo == Stereo::leftRight ? 2 : 1;
-  const int rows = cube ? (inRow ? 1 : 2) : camera.stereo == Stereo::topBottom ? 2 : 1;
-  frame.viewColumns = columns, frame.viewRows = rows;
-  const int w = frame.viewWidth = std::max(width / columns, 1);
-  const int h = frame.viewHeight = std::max(height / rows, 1);
+  frame.viewColumns = camera.stereo == Stereo::leftRight ? 2 : 1;
+  frame.viewRows = camera.stereo == Stereo::topBottom ? 2 : 1;
+  if (camera.projection == Projection::cubeMap) {
+    const bool inRow = width >= 4 * height;
+    frame.viewColumns = inRow ? 6 : 3;
+    frame.viewRows = inRow ? 1 : 2;
+  }
+  const int w = std::max(width / frame.viewColumns, 1);
+  const int h = std::max(height / frame.viewRows, 1);
+  frame.viewWidth = w;
+  frame.viewHeight = h;
 
   // From here on, `right` and `up` span one pixel.
   const Camera seen = fitted(camera, static_cast<double>(w) / h);
@@ -196,7 +201,8 @@ CameraFrame makeCameraFrame(const Camera& camera, int width, int height) {
   frame.right = frame.right * stepX;
   frame.up = frame.up * stepY;
 
-  frame.centerX = w / 2.0, frame.centerY = h / 2.0;
+  frame.centerX = w / 2.0;
+  frame.centerY = h / 2.0;
   // The matrix gives the image position of the optical axis, in pixels whose centers lie at whole
   // numbers. Centers lie at half-integers here.
   if (!camera.k.empty() && hasMatrix(camera)) {
@@ -210,7 +216,10 @@ CameraFrame makeCameraFrame(const Camera& camera, int width, int height) {
     std::ranges::copy(camera.distortion, frame.distortion.begin());
     frame.distorted = std::ranges::any_of(frame.distortion, [](double c) { return c != 0; });
   }
-  if (isTable(camera)) frame.azimuths = camera.azimuths, frame.elevations = camera.elevations;
+  if (isTable(camera)) {
+    frame.azimuths = camera.azimuths;
+    frame.elevations = camera.elevations;
+  }
 
   // `reach` bounds the points where rays start: in a plane, at two eyes, or on the circle on which
   // these turn.

@@ -145,8 +145,8 @@ RgbD hemisphereMean(const EnvironmentImage& image, bool upper) {
   for (int y = 0; y < image.height; ++y) {
     // Polar angles are measured from the pole of the hemisphere and cut at the horizon.
     const int row = upper ? y : image.height - 1 - y;
-    const double a = std::numbers::pi * y / image.height,
-                 b = std::min(std::numbers::pi * (y + 1) / image.height, std::numbers::pi / 2);
+    const double a = std::numbers::pi * y / image.height;
+    const double b = std::min(std::numbers::pi * (y + 1) / image.height, std::numbers::pi / 2);
     if (a >= b) break;
     RgbD rowSum;
     for (int x = 0; x < image.width; ++x) rowSum += texel(image, x, row);

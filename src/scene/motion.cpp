@@ -62,7 +62,8 @@ std::vector<double> between(const Track& track, std::size_t key, double time) {
   const Values a = valueOf(track, key), b = valueOf(track, key + 1);
   if (track.interpolation == Track::Interpolation::step) return {a.begin(), a.end()};
   if (track.interpolation == Track::Interpolation::cubic) return splined(track, key, t);
-  return track.rotation ? slerped(a, b, t) : blended(a, 1 - t, b, t);
+  if (track.rotation) return slerped(a, b, t);
+  return blended(a, 1 - t, b, t);
 }
 
 void normalize(std::vector<double>& quaternion) {

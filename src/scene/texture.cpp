@@ -33,11 +33,14 @@ std::uint32_t dataCode(float value) {
 }
 
 void copyTexels(const Texture& t, std::uint32_t* to) {
-  if (t.strips) std::copy_n(t.strips.get() + t.firstTexel, t.packedSize(), to);
+  if (t.strips) {
+    std::copy_n(t.strips.get() + t.firstTexel, t.packedSize(), to);
+    return;
+  }
 
   // The columns of a strip overlap those of the next by one, so that each footprint lies in one
   // strip.
-  for (int first = -1; !t.strips && first < t.width; first += kTexelCells) {
+  for (int first = -1; first < t.width; first += kTexelCells) {
     std::array<int, kTexelStrip> columns{};
     for (int column = first; int& from : columns) from = wrapTexel(column++, t.width, t.wrapU);
     for (int row = -1; row <= t.height; ++row) {

@@ -15,8 +15,8 @@ struct PacketWords {
 // Columns of RTCRay4, 8 and 16 that kernels use. RTCRayHit4, 8 and 16 begin with the same columns,
 // and those of the hit follow.
 namespace packet_column {
-inline constexpr std::size_t orgX = 0, orgY = 1, orgZ = 2, tNear = 3, dirX = 4, dirY = 5, dirZ = 6,
-                             tFar = 8, id = 10;
+inline constexpr std::size_t orgX = 0, orgY = 1, orgZ = 2, tNear = 3;
+inline constexpr std::size_t dirX = 4, dirY = 5, dirZ = 6, tFar = 8, id = 10;
 inline constexpr std::size_t u = 15, v = 16, primitive = 17, geometry = 18, instance = 19;
 }  // namespace packet_column
 
