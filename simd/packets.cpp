@@ -80,11 +80,14 @@ template <class Call>
 HWY_INLINE void ForWidth(size_t width, const Call& call) {
   switch (width) {
     case 16:
-      return call(std::integral_constant<size_t, 16>());
+      call(std::integral_constant<size_t, 16>());
+      break;
     case 8:
-      return call(std::integral_constant<size_t, 8>());
+      call(std::integral_constant<size_t, 8>());
+      break;
     default:
-      return call(std::integral_constant<size_t, 4>());
+      call(std::integral_constant<size_t, 4>());
+      break;
   }
 }
 

@@ -219,7 +219,8 @@ struct Surface {
 HWY_INLINE Surface InterpolateSurface(const ShadingTables& tables, const TriangleLanes& t,
                                       VI triangle, const Weights& w, bool smooth) {
   Surface s;
-  s.edge1 = Sub3(t.p1, t.p0), s.edge2 = Sub3(t.p2, t.p0);
+  s.edge1 = Sub3(t.p1, t.p0);
+  s.edge2 = Sub3(t.p2, t.p0);
   s.spans = Add3(Abs3(s.edge1), Abs3(s.edge2));
   s.position = InterpolatePosition(w, t.p0, t.p1, t.p2);
 
@@ -349,7 +350,9 @@ HWY_INLINE SphereLanes LoadSpheres(const ShadingTables& tables, const HitColumns
   const V4 a = records.Load4<offsetof(R, axes[0]), offsetof(R, axes[3])>();
   const V4 b = records.Load4<offsetof(R, axes[4]), offsetof(R, axes[7])>();
   const V4 c = records.Load4<offsetof(R, axes[8]), offsetof(R, center[2])>();
-  s.x = {a.x, a.y, a.z}, s.y = {a.w, b.x, b.y}, s.z = {b.z, b.w, c.x};
+  s.x = {a.x, a.y, a.z};
+  s.y = {a.w, b.x, b.y};
+  s.z = {b.z, b.w, c.x};
   s.center = {c.y, c.z, c.w};
   s.outward = records.Load4<offsetof(R, outward), offsetof(R, material)>().x;
 

@@ -231,8 +231,10 @@ HWY_INLINE VF RadianceWeight(VU texel, VF weight) {
   return hn::Mul(weight, hn::BitCast(FloatTag(), hn::ShiftLeft<23>(exponent)));
 }
 HWY_INLINE V3 FilterRadiance(Footprint f) {
-  f.w00 = RadianceWeight(f.t00, f.w00), f.w10 = RadianceWeight(f.t10, f.w10);
-  f.w01 = RadianceWeight(f.t01, f.w01), f.w11 = RadianceWeight(f.t11, f.w11);
+  f.w00 = RadianceWeight(f.t00, f.w00);
+  f.w10 = RadianceWeight(f.t10, f.w10);
+  f.w01 = RadianceWeight(f.t01, f.w01);
+  f.w11 = RadianceWeight(f.t11, f.w11);
   return {FilterChannel(f, [](VU texel) HWY_ATTR { return CodeOf<0, 511>(texel); }),
           FilterChannel(f, [](VU texel) HWY_ATTR { return CodeOf<9, 511>(texel); }),
           FilterChannel(f, [](VU texel) HWY_ATTR { return CodeOf<18, 511>(texel); })};
