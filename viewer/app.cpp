@@ -157,7 +157,10 @@ void App::fail(const std::string& error) {
 // Opens a scene, or shows an image as the sky.
 void App::openFile(const std::string& file) {
   const std::string extension = extensionOf(file);
-  if (extension == ".hdr" || extension == ".exr") return showSky(file);
+  if (extension == ".hdr" || extension == ".exr") {
+    showSky(file);
+    return;
+  }
   open(file);
 }
 

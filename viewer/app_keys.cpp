@@ -196,7 +196,8 @@ void App::click(const Input::Click& place) {
     clicked_.reset();
     forgetRays();
     settings_.shown = shownBeforeClick_;
-    return fitView(window_.size());
+    fitView(window_.size());
+    return;
   }
 
   // A single click picks the pixel and explains its rays in the panel.

@@ -124,8 +124,8 @@ void drawStatus(const TracedFrame& frame, const UnfinishedFrame* next, double ra
     return at.x;
   };
 
-  std::string text =
-      next ? samplesText(*next) : sharpnessText(frame.request) + errorText(frame.sampleError);
+  std::string text = sharpnessText(frame.request) + errorText(frame.sampleError);
+  if (next) text = samplesText(*next);
   if (rate > 0) text += formatted(", %.0f frames/s", rate);
   draw(text);
   if (!frame.debug) return;

@@ -189,7 +189,10 @@ bool Panel::draw(const TracedFrame& frame, const RayPick& pick, const std::vecto
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   const float em = ImGui::GetFontSize(), height = std::max(window.y - 2 * kMargin, kMargin);
   const float widest = std::min(em * kWidth, window.x - 2 * kMargin);
-  if (width_ == 0) left_ = kMargin, width_ = widest;
+  if (width_ == 0) {
+    left_ = kMargin;
+    width_ = widest;
+  }
 
   // The panel moves to the wider side of a pixel that it would cover, and shrinks to fit there.
   const auto x = std::exchange(settings.keepClear, std::nullopt);

@@ -297,7 +297,10 @@ void Window::onKey(GLFWwindow* window, int key, int, int action, int mods) {
   if (action == GLFW_RELEASE) {
     input.held.erase(key);
   } else if (action == GLFW_PRESS && !ImGui::GetIO().WantTextInput) {
-    if ((mods & GLFW_MOD_CONTROL) != 0) return input.commands.push_back(key);
+    if ((mods & GLFW_MOD_CONTROL) != 0) {
+      input.commands.push_back(key);
+      return;
+    }
 
     input.held.insert(key);
     input.pressed.push_back(key);
@@ -318,10 +321,10 @@ void Window::onButton(GLFWwindow* window, int button, int action, int mods) {
     self.dragged_ = nullptr;
   } else if (!ImGui::GetIO().WantCaptureMouse && button <= GLFW_MOUSE_BUTTON_MIDDLE) {
     const bool left = button == GLFW_MOUSE_BUTTON_LEFT && (mods & GLFW_MOD_SHIFT) == 0;
-    self.dragged_ = left                                ? &Input::left
-                    : button == GLFW_MOUSE_BUTTON_RIGHT ? &Input::right
-                                                        : &Input::middle;
-    self.pressedX_ = self.cursorX_, self.pressedY_ = self.cursorY_;
+    self.dragged_ = left ? &Input::left : &Input::middle;
+    if (button == GLFW_MOUSE_BUTTON_RIGHT) self.dragged_ = &Input::right;
+    self.pressedX_ = self.cursorX_;
+    self.pressedY_ = self.cursorY_;
   }
 }
 
@@ -331,7 +334,8 @@ void Window::onCursor(GLFWwindow* window, double x, double y) {
 
   if (self.dragged_) {
     Drag& drag = self.input.*self.dragged_;
-    drag.x += x - self.cursorX_, drag.y += y - self.cursorY_;
+    drag.x += x - self.cursorX_;
+    drag.y += y - self.cursorY_;
   }
 
   self.cursorX_ = x;
