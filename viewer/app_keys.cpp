@@ -140,8 +140,11 @@ void App::handleKey(int key) {
       {GLFW_KEY_SPACE, [&] { startOrStopPath(); }},
       {GLFW_KEY_P,
        [&] {
-         if (!settings_.timeline.there) return say("nothing moves in this scene");
-         settings_.timeline.playing = !settings_.timeline.playing;
+         if (settings_.timeline.there) {
+           settings_.timeline.playing = !settings_.timeline.playing;
+         } else {
+           say("nothing moves in this scene");
+         }
        }},
   };
 

@@ -246,10 +246,14 @@ void Window::drawImage() const {
   glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_REPLACE);
 
   glBegin(GL_TRIANGLE_STRIP);  // the image's first row is at the top
-  glTexCoord2f(0, 0), glVertex2f(-x, y);
-  glTexCoord2f(0, 1), glVertex2f(-x, -y);
-  glTexCoord2f(1, 0), glVertex2f(x, y);
-  glTexCoord2f(1, 1), glVertex2f(x, -y);
+  glTexCoord2f(0, 0);
+  glVertex2f(-x, y);
+  glTexCoord2f(0, 1);
+  glVertex2f(-x, -y);
+  glTexCoord2f(1, 0);
+  glVertex2f(x, y);
+  glTexCoord2f(1, 1);
+  glVertex2f(x, -y);
   glEnd();
   glDisable(GL_TEXTURE_2D);
 }

@@ -167,12 +167,13 @@ TriangleRecord touchingTriangle(const TriangleRecord& sphere, double u, double v
 
   TriangleRecord record{};
   // Where the map mirrors, the edges change places, so that the triangle still faces outwards.
-  const bool mirrored = map.determinant() < 0;
   Vec3d corners[] = {{}, along, across};
-  if (mirrored) std::swap(corners[1], corners[2]);
+  double own = kTouchingEdge, other = 0;
+  if (map.determinant() < 0) {
+    std::swap(corners[1], corners[2]);
+    std::swap(own, other);
+  }
 
-  const double own = mirrored ? 0 : double{kTouchingEdge};
-  const double other = mirrored ? double{kTouchingEdge} : 0;
   const double uvs[] = {s, t, s + own, t + other, s + other, t + own};
 
   for (int i = 0; i < 9; ++i) record.position[i] = static_cast<float>(corners[i / 3][i % 3]);

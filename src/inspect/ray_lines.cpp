@@ -177,7 +177,10 @@ std::optional<ScreenLine> LineView::see(Vec3d from, Vec3d to) const {
   if (std::max(a, b) < near_) return std::nullopt;
 
   // The part of the line behind the near plane is cut off.
-  if (a > b) std::swap(a, b), std::swap(from, to);
+  if (a > b) {
+    std::swap(a, b);
+    std::swap(from, to);
+  }
   if (a < near_) from = from + (to - from) * ((near_ - a) / (b - a));
 
   const auto [x1, y1] = project(from);

@@ -60,7 +60,8 @@ void add(Digester& d, const T& value) { d.bytes(&value, sizeof value); }
 // here.
 void add(Digester& d, const InstanceRecord& instance) {
   const auto& [geometry, written, toWorld, mover, toMover, firstItem] = instance;
-  add(d, geometry), add(d, toWorld);
+  add(d, geometry);
+  add(d, toWorld);
 }
 
 template <typename Noun>
@@ -84,18 +85,30 @@ void addTable(Digester& d, const Table& table) {
 
 void add(Digester& d, const Texture& texture) {
   const auto& [name, format, wrapU, wrapV, nearest, width, height, texels, strips, first] = texture;
-  add(d, format), add(d, wrapU), add(d, wrapV), add(d, nearest), add(d, width), add(d, height);
+  add(d, format);
+  add(d, wrapU);
+  add(d, wrapV);
+  add(d, nearest);
+  add(d, width);
+  add(d, height);
   d.bytes(strips.get() + first, texture.packedSize() * sizeof(std::uint32_t));
 }
 void add(Digester& d, const Geometry& geometry) {
   const auto& [position, index, classBegin, firstTriangle, firstSphere, spheres] = geometry;
-  addTable(d, position), addTable(d, index);
-  add(d, classBegin), add(d, firstTriangle), add(d, firstSphere), add(d, spheres);
+  addTable(d, position);
+  addTable(d, index);
+  add(d, classBegin);
+  add(d, firstTriangle);
+  add(d, firstSphere);
+  add(d, spheres);
 }
 void add(Digester& d, const EnvironmentImage& image) {
   const auto& [width, height, r, g, b] = image;
-  add(d, width), add(d, height);
-  addTable(d, r), addTable(d, g), addTable(d, b);
+  add(d, width);
+  add(d, height);
+  addTable(d, r);
+  addTable(d, g);
+  addTable(d, b);
 }
 
 }  // namespace
@@ -111,9 +124,19 @@ std::string digestOf(const Scene& scene) {
 
   Digester d;
   // Media, bounds and effects follow from these; the order in which things were written does not.
-  addTable(d, lights), add(d, sky), add(d, sky.kind), add(d, sky.image), add(d, ambient);
-  addTable(d, materials), addTable(d, textures), addTable(d, geometries), addTable(d, instances);
-  addTable(d, triangles), addTable(d, normals), addTable(d, colors), addTable(d, secondUvs);
+  addTable(d, lights);
+  add(d, sky);
+  add(d, sky.kind);
+  add(d, sky.image);
+  add(d, ambient);
+  addTable(d, materials);
+  addTable(d, textures);
+  addTable(d, geometries);
+  addTable(d, instances);
+  addTable(d, triangles);
+  addTable(d, normals);
+  addTable(d, colors);
+  addTable(d, secondUvs);
   addTable(d, coplanar.ranks());
   // Options place the camera in coordinates of the file.
   if (origin != Vec3d()) add(d, origin);
@@ -127,7 +150,9 @@ std::string digestOf(const Scene& scene) {
 std::string digestOf(const RenderOptions& options) {
   Digester d;
   for (const auto& [name, value] : pictureOptions(options)) {
-    if (name != "quality") d.text(name), d.text(value);
+    if (name == "quality") continue;
+    d.text(name);
+    d.text(value);
   }
   return d.hex();
 }

@@ -150,8 +150,11 @@ auto spanOf(const Array& array) {
 // The arrays of a whit.Mesh, in the order of Mesh._arrays(). They are read in place.
 api::MeshArrays meshOf(const py::tuple& arrays) {
   const auto triangles = arrays[1].cast<Indices>();
-  const Floats positions = arrays[0].cast<Floats>(), normals = arrays[2].cast<Floats>(),
-               uvs = arrays[3].cast<Floats>(), colors = arrays[4].cast<Floats>();
+  const auto positions = arrays[0].cast<Floats>();
+  const auto normals = arrays[2].cast<Floats>();
+  const auto uvs = arrays[3].cast<Floats>();
+  const auto colors = arrays[4].cast<Floats>();
+
   return {spanOf(positions), spanOf(triangles), spanOf(normals),
           spanOf(uvs),       spanOf(colors),    kept(arrays)};
 }

@@ -124,8 +124,11 @@ void decodeArrays(const std::vector<DracoArray>& arrays, const ConfinedWriter& w
     withComponentType(array.type, [&](auto kind) {
       std::vector<decltype(kind)> all;
       copied = array.id == kIndices ? copyIndices(*mesh, all) : copyAttribute(*mesh, array, all);
+      if (!copied) return;
+
       const std::uint64_t size = all.size() * sizeof kind;
-      if (copied) write(&size, sizeof size), write(all.data(), size);
+      write(&size, sizeof size);
+      write(all.data(), size);
     });
     if (!copied) return;
   }
