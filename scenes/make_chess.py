@@ -63,7 +63,10 @@ def turned(profile):
         for side in range(SIDES):
             a = row * (SIDES + 1) + side
             b = a + SIDES + 1
-            triangles += [(a, b, a + 1), (a + 1, b, b + 1)]
+            # At a crease both rows are in one place, and at the tip all points of a row: there
+            # a triangle would have no area.
+            triangles += [corners for corners in ((a, b, a + 1), (a + 1, b, b + 1))
+                          if len({positions[corner] for corner in corners}) == 3]
     return positions, normals, triangles
 
 
