@@ -54,12 +54,15 @@ class LoadingProgress : public Progress {
   std::string text_;
 };
 
-const cli::ManPage kPage{"whit-view", "flies through a scene that is ray traced as it is seen",
+const cli::ManPage kPage{"whit-view",
+                         "flies through a scene that is ray traced as it is seen",
                          kUsage,
                          "Traces the scene anew for every picture, at the resolution that holds "
                          "the rate asked for while "
                          "something moves, and sharpens the picture at rest.",
-                         "whit"};
+                         "whit",
+                         {{"whit-view helmet.glb", "shows a model; H shows the keys"},
+                          {"whit-view atrium --rate 60", "walks through a shipped scene"}}};
 
 void showManual(const cli::OptionList& list) {
   cli::printManual(kPage, [&] {

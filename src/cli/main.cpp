@@ -44,14 +44,27 @@ constexpr Command kCommands[] = {
 };
 
 const ManPage kPage{
-    "whit", "real-time Whitted ray tracing on CPUs", "whit COMMAND ...",
+    "whit",
+    "real-time Whitted ray tracing on CPUs",
+    "whit COMMAND ...",
     "Renders scenes with Embree packets and SIMD kernels, measures the time of each stage, and "
     "checks itself against a scalar reference in double precision. "
     "SCENE is a scene file (.json), a model (.gltf, .glb, .vrm, .obj, .ply; .stl, .fbx, .dae, .3ds "
     "and .off by the library assimp), or the name of a shipped scene (atrium). Standard output "
     "carries results, standard error everything for "
     "people. Files appear under their name only when complete.",
-    "whit-view"};
+    "whit-view",
+    {{"whit render helmet.glb",
+      "a picture of a model, as helmet.png; adds lights, a sky and a camera"},
+     {"whit render helmet.glb -o helmet.jpg --size 1280x960 --quality good",
+      "the same to show: antialiased, with soft shadows and ambient occlusion"},
+     {"whit render chess.glb -o chess.exr --channels depth,normal,object",
+      "the picture, and what the camera sees in each pixel, in one EXR file"},
+     {"whit render orrery --frames 0..239 --fps 24 -o orrery.mp4",
+      "a film of an animated scene, by ffmpeg"},
+     {"whit explain whitted --pixel 355,240 --html lesson.html",
+      "a page on the rays behind one pixel"},
+     {"whit bench atrium --size 1280x720", "where the time of a frame goes"}}};
 
 void showHelp() {
   std::printf("whit %s: %s\n\nUsage: %s\n\nCommands:\n", WHIT_VERSION, kPage.summary.c_str(),

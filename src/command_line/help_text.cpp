@@ -277,7 +277,8 @@ void printManual(const ManPage& page, const std::function<void()>& body) {
           manSection("environment",
                      {{"WHIT_SCENES", "folder that is searched first for shipped scenes"},
                       {"WHIT_DATA", "folder of models that scenes may name as $WHIT_DATA/..."}}) +
-          heading("see also") + ".BR " + roff(page.seeAlso) + " (1)\n";
+          manSection("examples", page.examples) + heading("see also") + ".BR " +
+          roff(page.seeAlso) + " (1)\n";
   std::fputs(text.c_str(), stdout);
 }
 

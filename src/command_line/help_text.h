@@ -39,6 +39,7 @@ using Terms = std::vector<std::pair<std::string, std::string>>;
 
 struct ManPage {
   std::string name, summary, synopsis, description, seeAlso;
+  Terms examples;  // command lines, and what they do
 };
 
 // Prints a page to standard output: the sections up to the options of the program itself, what

@@ -38,6 +38,9 @@ for program in bin/*; do
 done
 if [ -x bin/whit-view ]; then
   grep -qx 'Exec=whit-view %f' share/applications/whit-view.desktop
+  icon=$(sed -n 's/^Icon=//p' share/applications/whit-view.desktop)
+  python3 -c 'import sys, xml.dom.minidom; xml.dom.minidom.parse(sys.argv[1])' \
+    "share/icons/hicolor/scalable/apps/$icon.svg"
   if command -v desktop-file-validate >/dev/null; then
     desktop-file-validate share/applications/whit-view.desktop
   fi

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Every option of --help is in the manual page with its meaning, and man finds no fault with the
-# page: manual_test.sh PROGRAM...
+# Every option of --help is in the manual page with its meaning, the examples of the page have options
+# that there are, and man finds no fault with the page: manual_test.sh PROGRAM...
 set -eu
 
 work=$(mktemp -d)
@@ -26,6 +26,13 @@ for program in "$@"; do
     count=$((count + 1))
   done
   test "$count" -gt 20
+
+  sed -n '/^.SH "EXAMPLES"/,/^.SH "SEE/p' "$work/plain" | grep "^$(basename "$program") " >"$work/examples"
+  for option in $(grep -oE -e '--[a-z-]+' "$work/examples" | sort -u); do
+    grep -qE -e "^  (-[a-z],)?$option( |\$)" "$work/help" ||
+      { echo "$program --man has an example with the unknown $option"; exit 1; }
+  done
+
   if command -v man >/dev/null; then
     shown "$page" >"$work/text"
     cat "$work/faults"
