@@ -368,23 +368,29 @@ def adaptive_table(rows):
                   "16 samples: relMSE, FLIP"], cells)
 
 
-def home_speed(frames):
-    """README.md: two sizes of three scenes."""
+def sizes_table(frames, scenes):
     rows = []
     for size, data in frames:
         for r in data["runs"]:
-            if scene_of(r) != "whitted":
+            if scene_of(r) in scenes:
                 rows.append([f"{scene_of(r)}, {size}", number(r["frame_ms"]["median"]),
                              number(r["fps"]), number(r["frame_over_floor"], 2),
                              number(r["mrays_per_s"])])
+    return table(["", "ms a frame", "frames a second", "frame over floor", "Mray/s"], rows)
+
+
+def home_speed(frames):
+    """README.md: one scene at two sizes."""
     first = frames[0][1]["runs"][0]
     return (f"{first['threads']} threads, packets of {first['packet']}, {machine_text(frames[0][1])}:"
-            "\n\n" + table(["", "ms a frame", "frames a second", "frame over floor", "Mray/s"], rows))
+            "\n\n" + sizes_table(frames, ["atrium"]))
 
 
 def home_accuracy(data):
+    """README.md: the worst scene and a common one."""
     rows = [[r["scene"], f"{100 - r['pixels_ge_2_codes_pct']:.3f} %", f"{r['flip_mean']:.5f}",
-             number(r["path_flips_per_mpx"], 0)] for r in data["runs"]]
+             number(r["path_flips_per_mpx"], 0)]
+            for r in data["runs"] if r["scene"] in ("glass", "atrium")]
     return (f"480x300, {machine_text(data)}:\n\n" +
             table(["", "within one 8-bit code", "FLIP", "path divergences a Mpixel"], rows))
 
@@ -435,6 +441,7 @@ def write_speed():
                         [(name, data["machine"]) for name, data in files.items() if data])
     tables = {"machine": machine_line(frames[0][1], f"frames-{SIZES[0]}.json")}
     tables["frames-" + SIZES[0]] = frame_table(frames[0][1])
+    tables["sizes"] = sizes_table(frames, ["sponza-mirror", "atrium", "landscape"])
     tables |= {name: make(files[name]) for name, make in made.items() if files[name]}
     if files["effects-kernels"]:
         ratio = files["effects-kernels"]["all_over_auto"][0]

@@ -17,13 +17,15 @@ from whit import _options
 from whit._error import in_python
 
 HERE = pathlib.Path(__file__).resolve().parent
-PAGE = (HERE.parents[1] / "src" / "python" / "README.md").read_text()
+ROOT = HERE.parents[1]
+PAGES = ROOT / "src" / "python" / "README.md", ROOT / "README.md"
 
 
 def examples():
-    """By their headings."""
-    return dict(re.findall(r"^## (.+?)\n(?:(?!^## ).)*?```python\n(.+?)```", PAGE,
-                           re.DOTALL | re.MULTILINE))
+    """By their headings: those of the module's page and of README."""
+    return {heading: code for page in PAGES
+            for heading, code in re.findall(r"^##+ ([^\n]+)\n(?:(?!^##).)*?```python\n(.+?)```",
+                                            page.read_text(), re.DOTALL | re.MULTILINE)}
 
 
 class Examples(unittest.TestCase):
@@ -40,6 +42,10 @@ class Examples(unittest.TestCase):
     def test_a_picture(self):
         said = self.run_example("A picture", "whitted.png")
         self.assertTrue(said.startswith("(480, 640, 3) float32\n"), said)
+
+    def test_readme(self):
+        said = self.run_example("In Python", "chess.png")
+        self.assertRegex(said, r"^0\.\d+ .+ king 0\.9\d+\n$")
 
     def test_what_rays_hit(self):
         said = self.run_example("What rays hit")
@@ -67,7 +73,7 @@ class Examples(unittest.TestCase):
                          *[f"frame{i:04}.png" for i in range(12)])
 
     def test_all_are_tested(self):
-        self.assertEqual(len(examples()), 5)
+        self.assertEqual(len(examples()), 6)
 
 
 class Signatures(unittest.TestCase):
@@ -186,7 +192,7 @@ class Pictures(unittest.TestCase):
 
     def test_a_mesh_of_trimesh(self):
         """The page's line, with a stand-in that has trimesh's members and kinds of arrays."""
-        line = re.search(r"`(whit\.Mesh\(m\.vertices.*?\))`", PAGE)[1]
+        line = re.search(r"`(whit\.Mesh\(m\.vertices.*?\))`", PAGES[0].read_text())[1]
 
         class TrackedArray(np.ndarray):
             pass
