@@ -24,9 +24,9 @@
 #include <utility>
 #include <vector>
 
-#define WHIT_VERSION "0.1.0"
+#define WHIT_VERSION "0.2.0"
 #define WHIT_VERSION_MAJOR 0
-#define WHIT_VERSION_MINOR 1
+#define WHIT_VERSION_MINOR 2
 #define WHIT_VERSION_PATCH 0
 
 // The folder of the shipped scenes: find_package(whit) defines it; else it is found from the place
@@ -448,7 +448,7 @@ class Renderer {
   DataPointer<std::unique_ptr<Data>> data_;
 };
 
-std::string version();  // "0.1.0"
+std::string version();  // "0.2.0"
 
 }  // namespace whit::api
 

@@ -14,6 +14,10 @@ bin/whit render only-installed --size 32x20 -o picture.png --quiet
 test -s picture.png
 bin/whit info only-installed --quiet | grep triangles >/dev/null
 test -s share/doc/whit/copyright
+# All name the same version.
+version=$(bin/whit --version | sed -n 's/^whit //p')
+grep -qx "version: $version" share/doc/whit/CITATION.cff
+grep -q "^## $version (" share/doc/whit/CHANGELOG.md
 test -s share/doc/whit/tests/example/CMakeLists.txt
 # Links of installed pages lead to installed files.
 find share/doc/whit -name '*.md' | while read -r page; do
