@@ -15,6 +15,7 @@
 #include "inspect/metrics.h"
 #include "inspect/path_divergence.h"
 #include "inspect/stage_comparison.h"
+#include "io/files.h"
 #include "io/image/image_layers.h"
 #include "output/image_output.h"
 #include "output/json_report.h"
@@ -90,6 +91,10 @@ Compared compareFiles(const CompareJob& job) {
         std::pair{!common.load.sky.empty(), "--sky"},
         std::pair{common.render.exposure.automatic, "--exposure auto"}}) {
     refuseIf(isGiven, std::string(option) + " needs a scene, not two images");
+  }
+
+  for (const std::string& file : job.subjects) {
+    refuseIf(extensionOf(file).empty(), "'" + file + "': expected one scene, or two image files");
   }
 
   Compared result;

@@ -158,6 +158,10 @@ void addNamedChannels(RenderJob& job) {
     holdsAll |= isExr && !channel;
     refuseIf(channel == Channel::position && !isExr,
              "'" + output + "': positions do not fit into a PNG: write an EXR");
+
+    const std::string asPng = std::filesystem::path(output).replace_extension(".png").string();
+    refuseIf(isJpeg(output) && channelNamedBy(asPng, ChannelSet()),
+             "'" + output + "': a JPEG holds no channel: write '" + asPng + "'");
   }
 
   const ChannelSet homeless = holdsAll ? ChannelSet() : kept.without(named);
@@ -186,6 +190,13 @@ bool isOurPicture(const std::string& file) try {
   });
 } catch (const Error&) {
   return false;
+}
+
+void checkFrames(const RenderJob& job) {
+  if (job.frames.empty()) return;
+  parseFrameRange(job.frames);
+  refuseIf(job.common.load.instant.seconds && !job.onTurntable,
+           "--time is one instant, --frames are many: give one");
 }
 
 // A picture without -o goes to SCENE.png, and to a terminal that shows pictures. A model may have a
@@ -242,11 +253,6 @@ void checkJob(RenderJob& job) {
   if (job.makesFilm() && !hasFfmpeg()) {
     throwIo("ffmpeg, which makes films, is not in $PATH: write frames, as -o frame-####.png");
   }
-
-  if (job.frames.empty()) return;
-  parseFrameRange(job.frames);
-  refuseIf(job.common.load.instant.seconds && !job.onTurntable,
-           "--time is one instant, --frames are many: give one");
 }
 
 void checkFilmed(const RenderJob& job, const Scene& scene) {
@@ -527,6 +533,7 @@ std::string commandWithout(const std::vector<std::string>& options, const Words&
 
 int render(RenderJob& job) {
   const Stopwatch stopwatch;
+  checkFrames(job);
   chooseOutputs(job);
   checkJob(job);
 

@@ -45,6 +45,9 @@ TypedOption splitOption(const std::string& word) {
   return {word.substr(0, equals), word.substr(equals + 1)};
 }
 
+// A forgotten value is more likely than one that begins as an option; --json=--odd says it is one.
+bool looksLikeOption(const std::string& word) { return word.size() > 2 && word.starts_with("--"); }
+
 // Sets every value; stops at a call for help, which is the name of its option.
 std::string takeWords(const std::vector<std::string>& words, const OptionList& list,
                       const std::string& command) {
@@ -72,10 +75,11 @@ std::string takeWords(const std::vector<std::string>& words, const OptionList& l
     // A flag without a value means true; any other option takes the next word.
     if (typed.value || entry->placeholder.empty()) {
       entry->set(typed.value.value_or("true"));
-    } else if (i + 1 < words.size()) {
+    } else if (i + 1 < words.size() && !looksLikeOption(words[i + 1])) {
       entry->set(words[++i]);
     } else {
-      throwUsage(typed.name + ": expected " + entry->placeholder + " after it");
+      const std::string found = i + 1 < words.size() ? ", found '" + words[i + 1] + "'" : "";
+      throwUsage(typed.name + ": expected " + entry->placeholder + " after it" + found);
     }
   }
 

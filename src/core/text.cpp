@@ -66,18 +66,19 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
 
 // Options of other programs and of former versions, and what they are called here.
 constexpr std::pair<std::string_view, std::string_view> kSynonyms[] = {
-    {"alpha", "background"}, {"ao", "ambient-samples"},
-    {"avx512", "avx3"},      {"bg", "background"},
-    {"bounces", "depth"},    {"env", "sky"},
-    {"environment", "sky"},  {"from", "eye"},
-    {"gi", "indirect"},      {"hdri", "sky"},
-    {"height", "size"},      {"j", "threads"},
-    {"look-at", "at"},       {"lookat", "at"},
-    {"lookfrom", "eye"},     {"out", "output"},
-    {"range", "frames"},     {"resolution", "size"},
-    {"samples", "spp"},      {"transparent", "background"},
-    {"v", "stats"},          {"verbose", "stats"},
-    {"width", "size"},       {"zoom", "fov"}};
+    {"aa", "spp"},          {"alpha", "background"}, {"ao", "ambient-samples"},
+    {"avx512", "avx3"},     {"bg", "background"},    {"bounces", "depth"},
+    {"env", "sky"},         {"environment", "sky"},  {"envmap", "sky"},
+    {"from", "eye"},        {"gamma", "tonemap"},    {"gi", "indirect"},
+    {"hdr", "sky"},         {"hdri", "sky"},         {"height", "size"},
+    {"host", "bind"},       {"j", "threads"},        {"look-at", "at"},
+    {"lookat", "at"},       {"lookfrom", "eye"},     {"max-depth", "depth"},
+    {"O", "output"},        {"out", "output"},       {"range", "frames"},
+    {"ray-depth", "depth"}, {"reference", "mode"},   {"res", "size"},
+    {"resolution", "size"}, {"runs", "frames"},      {"s", "spp"},
+    {"samples", "spp"},     {"seconds", "budget"},   {"transparent", "background"},
+    {"v", "stats"},         {"verbose", "stats"},    {"w", "size"},
+    {"width", "size"},      {"zoom", "fov"}};
 
 }  // namespace
 
@@ -120,6 +121,13 @@ std::string nearestName(const std::string& word, const std::vector<std::string>&
     std::string name = (dashes > 0 ? "--" : "") + std::string(ours);
     const bool isKnown = std::ranges::find(names, name) != names.end();
     if (isKnown && word.compare(dashes, std::string::npos, theirs) == 0) return name;
+  }
+
+  // The beginning of a single name stands for it.
+  constexpr std::size_t kClearBeginning = 3;  // letters
+  const auto beginsSo = [&](const std::string& name) { return name.starts_with(word); };
+  if (word.size() >= dashes + kClearBeginning && std::ranges::count_if(names, beginsSo) == 1) {
+    return *std::ranges::find_if(names, beginsSo);
   }
 
   // Otherwise the name with the fewest edits is taken, at most about a third of the letters.

@@ -39,6 +39,12 @@ TEST(NearestName, ShortWordsNeedToBeNearer) {
   EXPECT_EQ(nearestName("--dpeth", {"--depth"}), "--depth");
 }
 
+TEST(NearestName, ABeginningStandsForItsOnlyName) {
+  EXPECT_EQ(nearestName("ref", {"packets", "reference"}), "reference");
+  EXPECT_EQ(nearestName("--amb", {"--ambient", "--ambient-samples"}), "");  // two begin so
+  EXPECT_EQ(nearestName("re", {"packets", "reference"}), "");
+}
+
 TEST(NearestName, WordsOfOtherProgramsLeadToOurs) {
   const std::vector<std::string> names{"--spp",     "--size", "--ambient-samples", "--indirect",
                                        "--threads", "--at",   "--sample"};

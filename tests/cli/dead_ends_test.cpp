@@ -1,0 +1,165 @@
+// Command lines which people try and which whit refuses: each error leads on.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "run_program.h"
+
+namespace whit::cli {
+namespace {
+
+struct DeadEnd {
+  const char* line;  // the words after "whit", separated by blanks
+  int status;
+  const char* message;  // part of what is written to standard error
+};
+
+constexpr int kUsage = 2, kBadScene = 3, kIo = 4;
+constexpr const char* kAllScenes = "every scene there is: atrium, cornell";
+constexpr const char* kSizes = "expected WIDTHxHEIGHT in pixels";
+constexpr const char* kColors =
+    "expected sky, transparent, white, black, or digits as ff8000 or #fff";
+constexpr const char* kOutputs = "expected a name that ends in .exr or .png";
+
+constexpr DeadEnd kDeadEnds[] = {
+    // Commands
+    {"atrium", kUsage, "did you mean 'whit render atrium'?"},
+    {"chess.glb", kUsage, "did you mean 'whit render chess.glb'?"},
+    {"nope", kUsage, "whit --help lists the commands"},
+    {"rendr whitted", kUsage, "did you mean 'render'?"},
+    {"help rendr", kUsage, "did you mean 'render'?"},
+    {"--versoin", kUsage, "did you mean '--version'?"},
+    {"view chess.glb", kUsage, "whit-view"},
+
+    // Scenes and other operands
+    {"render", kUsage, "expected SCENE: a scene file, a model, or the name of a shipped scene"},
+    {"render --size 64x40", kUsage, "expected SCENE"},
+    {"render nope", kUsage, kAllScenes},
+    {"render witted", kUsage, "did you mean 'whitted'?"},
+    {"render nope.glb", kIo, "cannot open nope.glb: no such file"},
+    {"render whitted extra", kUsage, "one word too many: 'extra'"},
+    {"info", kUsage, "expected SCENE"},
+    {"info nope", kUsage, kAllScenes},
+    {"bench", kUsage, "expected SCENE..."},
+    {"bench nope", kUsage, kAllScenes},
+    {"turntable", kUsage, "expected SCENE"},
+    {"compare", kUsage, "expected SCENE, or A B: a scene, or two image files"},
+    {"compare whitted nope.png", kUsage, "'whitted': expected one scene, or two image files"},
+    {"compare a.png b.png", kIo, "cannot open a.png: no such file"},
+    {"compare a.png", kUsage, "expected a scene (.json), a model (.3ds"},
+    {"merge", kUsage, "expected OUT.exr PART.exr...: the image to write"},
+    {"merge x.exr", kUsage, "expected OUT.exr PART.exr..."},
+    {"scenes nope", kUsage, "one word too many: 'nope'"},
+    {"accuracy", kUsage, "expected SCENE..."},
+    {"accuracy nope", kUsage, "expected --out DIR"},
+    {"explain whitted", kUsage, "expected --pixel x,y"},
+    {"explain whitted --pixel 3", kUsage, "--pixel expected x,y, as in 240,150; found '3'"},
+    {"explain whitted --pixel 99,99 --size 16x10", kUsage, "is not in the picture of 16x10"},
+
+    // Options of other programs
+    {"render whitted --transparent", kUsage, "did you mean '--background'?"},
+    {"render whitted --alpha", kUsage, "did you mean '--background'?"},
+    {"render whitted --bg white", kUsage, "did you mean '--background'?"},
+    {"render whitted --env studio", kUsage, "did you mean '--sky'?"},
+    {"render whitted --hdri studio", kUsage, "did you mean '--sky'?"},
+    {"render whitted --envmap studio", kUsage, "did you mean '--sky'?"},
+    {"render whitted --lookat 0,0,0", kUsage, "did you mean '--at'?"},
+    {"render whitted --look-at 0,0,0", kUsage, "did you mean '--at'?"},
+    {"render whitted --from 1,2,3", kUsage, "did you mean '--eye'?"},
+    {"render whitted --verbose", kUsage, "did you mean '--stats'?"},
+    {"render whitted -v", kUsage, "did you mean '--stats'?"},
+    {"render whitted --samples 4", kUsage, "did you mean '--spp'?"},
+    {"render whitted -s 4", kUsage, "did you mean '--spp'?"},
+    {"render whitted --aa 4", kUsage, "did you mean '--spp'?"},
+    {"render whitted --width 64", kUsage, "did you mean '--size'?"},
+    {"render whitted --height 40", kUsage, "did you mean '--size'?"},
+    {"render whitted -w 64", kUsage, "did you mean '--size'?"},
+    {"render whitted --resolution 64x40", kUsage, "did you mean '--size'?"},
+    {"render whitted --res 64x40", kUsage, "did you mean '--size'?"},
+    {"render whitted --out x.png", kUsage, "did you mean '--output'?"},
+    {"render whitted -O x.png", kUsage, "did you mean '--output'?"},
+    {"render whitted --frame 1", kUsage, "did you mean '--frames'?"},
+    {"render whitted --reference", kUsage, "did you mean '--mode'?"},
+    {"render whitted --bounces 4", kUsage, "did you mean '--depth'?"},
+    {"render whitted --max-depth 4", kUsage, "did you mean '--depth'?"},
+    {"render whitted --tone-map filmic", kUsage, "did you mean '--tonemap'?"},
+    {"render whitted --gamma 2.2", kUsage, "did you mean '--tonemap'?"},
+    {"render whitted --gi 4", kUsage, "did you mean '--indirect'?"},
+    {"render whitted --ao 4", kUsage, "did you mean '--ambient-samples'?"},
+    {"render whitted -j 2", kUsage, "did you mean '--threads'?"},
+    {"render whitted --gpu", kUsage, "whit render --help-all lists them"},
+    {"render whitted --denoise", kUsage, "whit render --help-all lists them"},
+    {"bench whitted --runs 5", kUsage, "did you mean '--frames'?"},
+    {"bench whitted --warmup 3", kUsage, "whit bench --help-all lists them"},
+
+    // Values
+    {"render --size", kUsage, "--size: expected WxH after it"},
+    {"render whitted --spp --size 64x40", kUsage, "--spp: expected N after it, found '--size'"},
+    {"info whitted --json --nope", kUsage, "--json: expected FILE after it, found '--nope'"},
+    {"render whitted --size 640", kUsage, kSizes},
+    {"render whitted --size 640*480", kUsage, kSizes},
+    {"render whitted --size 0x40", kUsage, kSizes},
+    {"render whitted --size 99999999x9", kUsage, kSizes},
+    {"render whitted --spp 0", kUsage, "expected a whole number from 1 to 4096, found '0'"},
+    {"render whitted --spp many", kUsage, "expected a whole number from 1 to 4096"},
+    {"render whitted --depth -1", kUsage, "expected a whole number from 0 to 64, found '-1'"},
+    {"render whitted --threads many", kUsage, "expected a whole number from 0 to 1024"},
+    {"render whitted --time now", kUsage, "expected a number from -1e+09 to 1e+09"},
+    {"render whitted --fov 0", kUsage, "expected a number from 0.001 to 179.9"},
+    {"render whitted --exposure bright", kUsage, "expected auto or a number from -64 to 64"},
+    {"render whitted --simd avx512", kUsage, "did you mean 'avx3'?"},
+    {"render whitted --packet 32", kUsage, "expected one of auto|1|4|8|16"},
+    {"render whitted --mode ref", kUsage, "did you mean 'reference'?"},
+    {"render whitted --quality best", kUsage, "expected one of good|standard|"},
+    {"render whitted --tonemap aces", kUsage, "expected one of none|filmic|reinhard"},
+    {"render whitted --disable shadow", kUsage, "did you mean 'shadows'?"},
+    {"render whitted --disable nothing", kUsage, "every effect there is: textures"},
+    {"render whitted --background notacolor", kUsage, kColors},
+    {"render whitted --background #12", kUsage, kColors},
+    {"render whitted --eye 1,2", kUsage, "expected three numbers x,y,z without blanks"},
+    {"render whitted --eye 0,0,0 --at 0,0,0", kUsage, "are the same point"},
+    {"render whitted --camera nope", kUsage, "every camera there is: main, through, above"},
+    {"render whitted --camera nope.json", kIo, "cannot open nope.json: no such file"},
+    {"render whitted --sky nope.hdr", kIo, "--sky: cannot open nope.hdr: no such file"},
+    {"render whitted --crop 0,0,9999,9999 --size 16x10", kUsage, "must lie within the image"},
+    {"render whitted --set lights", kUsage, "expected POINTER=VALUE, a JSON pointer"},
+    {"render whitted --set /nope=1", kBadScene, "#/nope: unknown key"},
+    {"render whitted --set /lights/9/intensity=4", kBadScene, "expected an index below 1"},
+    {"render whitted --budget 0", kUsage, "expected a time of at least 1 ms, as 50ms"},
+    {"render whitted --target 0", kUsage, "expected an error above 0, as 0.5codes"},
+    {"render whitted --frames 5..1", kUsage, "5..1"},
+    {"render whitted --frames a..b", kUsage, "a..b"},
+    {"turntable chess.glb --count 0", kUsage, "expected a whole number from 1"},
+
+    // Files to write
+    {"render whitted -o x", kUsage, kOutputs},
+    {"render whitted -o x.gif", kUsage, kOutputs},
+    {"render whitted -o nofolder/x.png", kIo, "there is no folder 'nofolder'"},
+    {"render whitted -o x.depth.jpg", kUsage, "a JPEG holds no channel: write 'x.depth.png'"},
+    {"render whitted -o x.png --channels depth", kUsage, "expected an EXR to keep depth in"},
+    {"render whitted -o x.exr --channels deepth", kUsage, "did you mean 'depth'?"},
+    {"effects --out", kUsage, "--out: expected DIR after it"},
+};
+
+TEST(DeadEnds, EachErrorLeadsOn) {
+  for (const DeadEnd& end : kDeadEnds) {
+    SCOPED_TRACE(std::string("whit ") + end.line);
+    std::istringstream line(end.line);
+    const std::vector<std::string> words{std::istream_iterator<std::string>(line), {}};
+
+    const TemporaryFolder folder;
+    const auto enter = [&] { (void)chdir(folder.path().c_str()); };
+    const Outcome outcome = runWhit(words, enter);
+
+    EXPECT_EQ(outcome.status, end.status);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(outcome.err.rfind("whit: ", 0), 0u) << outcome.err;
+    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+    EXPECT_NE(outcome.err.find(end.message), std::string::npos) << outcome.err;
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << "a file is left";
+  }
+}
+
+}  // namespace
+}  // namespace whit::cli
