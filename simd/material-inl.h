@@ -165,12 +165,13 @@ HWY_INLINE VU CrossOthers(VU stack, VU others) {
   const UintTag du;
   const VU zero = hn::Zero(du), one = hn::Set(du, 1u);
   while (!hn::AllTrue(du, hn::Eq(others, zero))) {
-    const VU other = hn::And(others, hn::Set(du, 0x3FFu)), medium = hn::ShiftRight<1>(other);
+    const VU other = hn::And(others, hn::Set(du, (1u << kCrossedBits) - 1)),
+             medium = hn::ShiftRight<1>(other);
     const auto enters = hn::Eq(hn::And(other, one), one);
     const VU behind =
         hn::IfThenElse(enters, PushMedium(stack, medium), RemoveMedium(stack, medium));
     stack = hn::IfThenElse(hn::Ne(medium, zero), behind, stack);
-    others = hn::ShiftRight<10>(others);
+    others = hn::ShiftRight<kCrossedBits>(others);
   }
   return stack;
 }

@@ -209,7 +209,7 @@ HWY_INLINE HitPoint MoveOntoTriangle(const SeenTriangle& t, const V3& direction,
 
 // The distance and the weights by Cramer's rule (Moeller and Trumbore 1997, "Fast, minimum storage
 // ray/triangle intersection"). The scalar reference is refineHit in
-// src/reference/find_intersections.cpp.
+// src/surfaces/intersect.cpp.
 HWY_INLINE HitPoint PierceTriangle(const SeenTriangle& t, const V3& direction, MF on) {
   const FloatTag d;
   const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);

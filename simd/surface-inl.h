@@ -238,8 +238,8 @@ HWY_INLINE Surface InterpolateSurface(const ShadingTables& tables, const Triangl
   return s;
 }
 
-// The scalar reference, which explains the terms, is placeSurfel in
-// src/reference/find_intersections.cpp.
+// The scalar reference, which explains the terms, is findStart in
+// src/surfaces/surface_point.cpp.
 HWY_INLINE void StoreClearance(const Surface& s, VF t, size_t i, const SurfelColumns& surfels) {
   const FloatTag d;
   const V3 edges = s.spans, n = Abs3(s.ng);
@@ -449,7 +449,7 @@ HWY_INLINE bool AnyMapped(const ShadingTables& tables, const SphereLanes& s,
 }
 
 // Computes the surfaces of hits on spheres, in the space of their geometry. The scalar reference is
-// placeOnSphere in src/reference/find_intersections.cpp.
+// placementOnSphere in src/surfaces/surface_point.cpp.
 HWY_INLINE void PutOnSpheres(const ShadingTables& tables, const HitColumns& hits, MF valid,
                              VI number, size_t i, Surface& surface, TriangleLanes& t, Weights& w) {
   const FloatTag d;

@@ -3,10 +3,10 @@
 #include <limits>
 
 #include "bake/sphere.h"
-#include "reference/find_intersections.h"
-#include "reference/intersect.h"
+#include "surfaces/intersect.h"
+#include "surfaces/passed_surfaces.h"
 
-namespace whit::reference {
+namespace whit {
 
 namespace {
 
@@ -74,4 +74,4 @@ bool BruteForce::occluded(const Ray& ray, double tFar) const {
   return found;
 }
 
-}  // namespace whit::reference
+}  // namespace whit

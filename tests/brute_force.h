@@ -2,9 +2,9 @@
 #pragma once
 
 #include "bake/scene.h"
-#include "reference/intersector.h"
+#include "surfaces/intersector.h"
 
-namespace whit::reference {
+namespace whit {
 
 // Alpha masks and instances are the effects that matter here: without them masks cut no holes and
 // instanced geometry is not there.
@@ -20,4 +20,4 @@ class BruteForce : public Intersector {
   EffectSet effects_;
 };
 
-}  // namespace whit::reference
+}  // namespace whit

@@ -137,11 +137,11 @@ mutations() {
   plant no-retry src/render/renderer.cpp \
     'options_.retry && isEnclosed(scene_, *accel_)' 'false && isEnclosed(scene_, *accel_)'
   plant eye-in-vacuum simd/generate_rays.cpp 'hn::Set(du, camera.media)' 'hn::Zero(du)'
-  plant media-never-entered src/reference/media.cpp \
-    '++entered[place.medium];' ''
-  plant eye-beside-the-surface src/reference/media.cpp \
+  plant media-never-entered src/surfaces/initial_media.cpp \
+    '++entered[surface.medium];' ''
+  plant eye-beside-the-surface src/surfaces/initial_media.cpp \
     '|| liesOnDielectric(scene, effects, intersector, frame.eye);' ';'
-  plant glass-before-opaque src/reference/settle_coplanar.cpp \
+  plant glass-before-opaque src/surfaces/choose_surface.cpp \
     'return a.opaque;' 'return b.opaque;'
   plant not-robust src/accel/embree_scene.cpp 'options.robust ? RTC_SCENE_FLAG_ROBUST' \
     'false ? RTC_SCENE_FLAG_ROBUST'

@@ -752,7 +752,7 @@ bool RayQueries::Parts::arePartners(PlacedTriangleId a, PlacedTriangleId b) cons
   return std::ranges::find(partners, b) != partners.end();
 }
 
-// Applies the rule of reference/settle_coplanar.h, which prefers `a` to `b` if this returns true.
+// Applies the rule of surfaces/choose_surface.h, which prefers `a` to `b` if this returns true.
 bool RayQueries::Parts::comesBefore(PlacedTriangleId a, PlacedTriangleId b) const {
   const auto preference = [&](PlacedTriangleId id) {
     const std::uint32_t material = scene.triangles[id.triangle].material;

@@ -20,6 +20,7 @@
 #include "core/worker_pool.h"
 #include "inspect/metrics.h"
 #include "inspect/path_divergence.h"
+#include "inspect/reference_frame.h"
 #include "io/image/image_file.h"
 #include "output/digest.h"
 #include "render/renderer.h"
@@ -444,7 +445,7 @@ const ReferencePicture& ReferenceCache::get(const RenderOptions& options, Progre
   Film film = makeFilm(scene_, options);
   film.wantDisplay = false;
   Renderer renderer(scene_, options);
-  const FrameStats stats = renderer.renderReference(camera_, film, progress);
+  const FrameStats stats = renderReference(renderer, camera_, film, progress);
 
   ReferencePicture picture{std::move(film.image), stats.frameMs,
                            static_cast<double>(stats.allRays())};

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "accuracy/measurement.h"
+#include "inspect/reference_frame.h"
 #include "render/renderer.h"
 
 namespace whit::accuracy {

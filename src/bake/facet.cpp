@@ -93,18 +93,12 @@ Corners cornersOf(const TriangleRecord& triangle, const Affine* toWorld) {
 }
 
 Corners worldCorners(const Scene& scene, std::uint32_t triangle, std::uint32_t instance) {
-  const bool carried = instance != kNoInstance;
-  return cornersOf(scene.triangles[triangle],
-                   carried ? &scene.instances[instance].toWorld : nullptr);
+  return cornersOf(scene.triangles[triangle], toWorldOf(scene, instance));
 }
 
 double magnitudeOf(const Vec3d& point, const Affine* toWorld) {
-  const Vec3d size = abs(point);
-  if (!toWorld) return size.x + size.y + size.z;
-
-  const Vec3d carried = abs(toWorld->x) * size.x + abs(toWorld->y) * size.y +
-                        abs(toWorld->z) * size.z + abs(toWorld->p);
-  return carried.x + carried.y + carried.z;
+  const Vec3d size = toWorld ? abs(*toWorld).point(abs(point)) : abs(point);
+  return size.x + size.y + size.z;
 }
 
 Facet facetOf(const TriangleRecord& triangle, const Affine* toWorld) {
@@ -126,9 +120,7 @@ Facet facetOf(const TriangleRecord& triangle, const Affine* toWorld) {
 }
 
 Facet facetOf(const Scene& scene, PlacedTriangleId id) {
-  const bool carried = id.instance != kNoInstance;
-  return facetOf(scene.triangles[id.triangle],
-                 carried ? &scene.instances[id.instance].toWorld : nullptr);
+  return facetOf(scene.triangles[id.triangle], toWorldOf(scene, id.instance));
 }
 
 bool facetsOverlap(const Facet& a, const Facet& b) {
@@ -181,8 +173,7 @@ bool liesInSurface(const Scene& scene, const Vec3d& eye, std::uint32_t number,
                    std::uint32_t instance) {
   if (!scene.isSphere(number)) return liesInPlane(eye, worldCorners(scene, number, instance));
 
-  Affine map = sphereMap(scene.triangles[number]);
-  if (instance != kNoInstance) map = scene.instances[instance].toWorld * map;
+  const Affine map = sphereInWorld(scene, {number, instance});
   const Vec3d unit = onUnitSphere(map, eye), direction = normalized(unit);
   // The map stretches distances along the normal of its surface by this factor.
   const double stretch = std::fabs(map.determinant()) / length(map.normal(direction));

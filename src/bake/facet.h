@@ -9,6 +9,11 @@ namespace whit {
 
 using Corners = std::array<Vec3d, 3>;
 
+// Returns the map of an instance, none for kNoInstance.
+inline const Affine* toWorldOf(const Scene& scene, std::uint32_t instance) {
+  return instance == kNoInstance ? nullptr : &scene.instances[instance].toWorld;
+}
+
 // Returns the corners, transformed by the map if there is one.
 Corners cornersOf(const TriangleRecord& triangle, const Affine* toWorld);
 

@@ -198,7 +198,7 @@ class Space {
     // The absolute values of the linear part carry the half sides of the box.
     const Affine& map = scene_.instances[instance].toWorld;
     const Vec3d center = map.point((lower + upper) * 0.5), half = (upper - lower) * 0.5;
-    const Vec3d reach = abs(map.x) * half.x + abs(map.y) * half.y + abs(map.z) * half.z;
+    const Vec3d reach = abs(map).vector(half);
     return grown(center - reach, center + reach,
                  kErrorOfMagnitude * magnitudeOf(max(abs(lower), abs(upper)), &map));
   }

@@ -14,6 +14,7 @@
 #include "engine/engine.h"
 #include "inspect/metrics.h"
 #include "inspect/path_divergence.h"
+#include "inspect/reference_frame.h"
 #include "inspect/stage_comparison.h"
 #include "io/files.h"
 #include "io/image/image_layers.h"
@@ -128,7 +129,7 @@ Compared compareModes(const CompareJob& job) {
   result.exposure = options.exposure.ev;
   result.about = {{"scene", open->scene.name}, {"options", optionsJson(options)}};
   result.numbers.timeMsA = renderer.render(camera, packets).frameMs;
-  result.numbers.timeMsB = renderer.renderReference(camera, reference, progress.get()).frameMs;
+  result.numbers.timeMsB = renderReference(renderer, camera, reference, progress.get()).frameMs;
 
   // A path diverges where rounding decides between two branches.
   const double megapixels = static_cast<double>(packets.image.pixels.size()) / 1e6;

@@ -43,4 +43,7 @@ struct Affine {
   }
 };
 
+// Maps magnitudes to upper bounds on those of the images.
+inline Affine abs(const Affine& map) { return {abs(map.x), abs(map.y), abs(map.z), abs(map.p)}; }
+
 }  // namespace whit

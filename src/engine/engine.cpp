@@ -7,6 +7,8 @@
 #include "core/option_table.h"
 #include "core/stopwatch.h"
 #include "core/text.h"
+#include "inspect/auto_exposure.h"
+#include "inspect/reference_frame.h"
 #include "io/scene/scene_settings.h"
 
 namespace whit {
@@ -158,7 +160,7 @@ Renderer& Engine::prepare(Progress* progress) {
     renderer_.reset();  // two acceleration structures may need too much memory
     renderer_ = std::make_unique<Renderer>(scene(), options_, progress);
   }
-  settleExposure(*renderer_, camera(), options_);
+  chooseExposure(*renderer_, camera(), options_);
   optionsChanged_ = false;
   return *renderer_;
 }

@@ -4,7 +4,8 @@
 
 #include "bake/coplanar_triangles.h"
 #include "core/image.h"
-#include "reference/reference.h"
+#include "inspect/reference_frame.h"
+#include "render/embree_intersector.h"
 
 namespace whit {
 
@@ -51,13 +52,11 @@ class SignatureObserver : public StageObserver {
   std::vector<std::uint64_t>& signatures_;
 };
 
-class RecordingIntersector : public EmbreeIntersector {
+class RecordingIntersector : public EmbreeIntersector, public reference::PathObserver {
  public:
   using EmbreeIntersector::EmbreeIntersector;
-  void met(const reference::Candidate& c) const override {
-    signature += hitEvent(c.triangle, c.instance);
-  }
-  bool occluded(const reference::Ray& ray, double tFar) const override {
+  void hit(const Candidate& c) const override { signature += hitEvent(c.triangle, c.instance); }
+  bool occluded(const Ray& ray, double tFar) const override {
     const bool blocked = EmbreeIntersector::occluded(ray, tFar);
     signature += shadowEvent(!blocked);
     return blocked;
@@ -69,14 +68,14 @@ class RecordingIntersector : public EmbreeIntersector {
 
 ReferencePaths traceReferencePaths(Renderer& renderer, const Camera& camera, const Film& film) {
   const CameraFrame frame = renderer.lookFrom(camera, film);
-  const reference::Settings settings = renderer.referenceSettings();
+  const reference::Settings settings = referenceSettings(renderer);
   ReferencePaths paths{film.image, std::vector<std::uint64_t>(film.image.pixels.size())};
   const Crop& window = film.image.window;
   std::atomic<int> nextRow{window.y0};
 
   renderer.scheduler().pool().run([&](int) {
     const RecordingIntersector intersector(renderer.accel());
-    const reference::Tracer tracer(renderer.scene(), intersector, settings);
+    const reference::Tracer tracer(renderer.scene(), intersector, settings, intersector);
     reference::RayCounts counts;
     for (int y = nextRow++; y < window.y1; y = nextRow++) {
       for (int x = window.x0; x < window.x1; ++x) {

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 
+#include "inspect/reference_frame.h"
 #include "reference/add_impulses.h"
 #include "reference/find_intersections.h"
 #include "reference/update_image.h"
+#include "render/embree_intersector.h"
 #include "render/frame.h"
 
 namespace whit {
@@ -78,14 +80,14 @@ class TreeObserver : public StageObserver {
 
   void meet(const Chunk& chunk, std::size_t i) {
     RayNode& n = node(chunk, i);
-    const reference::Ray ray = reference::rayOf(chunk, i);
+    const Ray ray = rayOf(chunk, i);
     n.origin = ray.origin;
     n.direction = ray.direction;
     n.weight = at(chunk.rays.weightR, chunk.rays.weightG, chunk.rays.weightB, i);
     n.media = reference::mediaOf(chunk, i);
     if (chunk.hits.triangle[i] == kMiss) return;
 
-    const reference::Candidate met = reference::candidateOf(chunk, i);
+    const Candidate met = candidateOf(chunk, i);
     n.triangle = met.triangle;
     n.instance = met.instance;
     n.u = met.u;
@@ -143,7 +145,7 @@ class TreeObserver : public StageObserver {
 };
 
 // Writes the tree down while the reference follows its paths, one after the other.
-class TreeIntersector : public EmbreeIntersector {
+class TreeIntersector : public EmbreeIntersector, public reference::PathObserver {
  public:
   TreeIntersector(const Accel& accel, RayTree& tree) : EmbreeIntersector(accel), tree_(tree) {}
 
@@ -156,14 +158,14 @@ class TreeIntersector : public EmbreeIntersector {
 
   void endSample(const RgbD& radiance) { tree_.nodes[tree_.primaries.back()].radiance = radiance; }
 
-  bool closest(const reference::Ray& ray, reference::Candidate& c) const override {
+  bool closest(const Ray& ray, Candidate& c) const override {
     RayNode& n = tree_.nodes[current_];
     n.origin = ray.origin;
     n.direction = ray.direction;
     return EmbreeIntersector::closest(ray, c);
   }
 
-  void met(const reference::Candidate& c) const override {
+  void hit(const Candidate& c) const override {
     RayNode& n = tree_.nodes[current_];
     n.triangle = c.triangle;
     n.instance = c.instance;
@@ -171,7 +173,7 @@ class TreeIntersector : public EmbreeIntersector {
     n.v = c.v;
   }
 
-  bool occluded(const reference::Ray& ray, double tFar) const override {
+  bool occluded(const Ray& ray, double tFar) const override {
     LightContribution light;
     light.traced = true;
     light.origin = ray.origin;
@@ -248,9 +250,9 @@ struct Wanted {
 Wanted wantedOf(const Scene& scene, const Plan& plan, const RenderOptions& options,
                 const RayNode& n) {
   // The reference computes the surface again from the hit that the tree holds.
-  const reference::Ray ray{n.origin, n.direction};
-  const reference::Candidate met{n.triangle, n.instance, n.u, n.v};
-  const reference::TriangleHit hit = reference::refineHit(scene, ray, met);
+  const Ray ray{n.origin, n.direction};
+  const Candidate met{n.triangle, n.instance, n.u, n.v};
+  const TriangleHit hit = refineHit(scene, ray, met);
   const reference::Surfel surfel = reference::makeSurfel(scene, plan.effects, met, hit, ray);
 
   const reference::Crossing crossing = reference::crossMedia(
@@ -298,8 +300,8 @@ void fillHits(const Scene& scene, RayTree& tree) {
   for (RayNode& n : tree.nodes) {
     if (n.triangle == kMiss) continue;
 
-    const reference::Ray ray{n.origin, n.direction};
-    n.distance = reference::refineHit(scene, ray, {n.triangle, n.instance, n.u, n.v}).t;
+    const Ray ray{n.origin, n.direction};
+    n.distance = refineHit(scene, ray, {n.triangle, n.instance, n.u, n.v}).t;
     n.position = n.origin + n.direction * n.distance;
     n.material = scene.triangles[n.triangle].material;
   }
@@ -337,7 +339,8 @@ RayTree traceReferenceTree(Renderer& renderer, const Camera& camera, const Film&
   tree.samples = samples;
 
   TreeIntersector intersector(renderer.accel(), tree);
-  const reference::Tracer tracer(renderer.scene(), intersector, renderer.referenceSettings());
+  const reference::Tracer tracer(renderer.scene(), intersector, referenceSettings(renderer),
+                                 intersector);
   CameraFrame frame = renderer.lookFrom(camera, film);
   if (samples.size() == 1) frame.footprint = 1;  // adaptive sampling took the center alone
 

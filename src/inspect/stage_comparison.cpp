@@ -15,12 +15,13 @@
 #include "reference/find_intersections.h"
 #include "reference/find_radiance_and_shadow_rays.h"
 #include "reference/generate_rays.h"
-#include "reference/intersect.h"
 #include "reference/update_image.h"
 #include "reference/world.h"
 #include "reference/write_emitted_and_reflective_ambient.h"
+#include "render/embree_intersector.h"
 #include "render/frame.h"
 #include "scene/light.h"
+#include "surfaces/intersect.h"
 
 namespace whit {
 
@@ -105,7 +106,7 @@ double byItself(const Place<RayRow>&) { return 0; }
 
 double cosineOf(const Place<SurfelRow>& p) {
   const SurfelRow& s = p.scalar;
-  return std::fabs(dot(Vec3d{s.ngX, s.ngY, s.ngZ}, reference::rayOf(p.chunk, p.slot).direction));
+  return std::fabs(dot(Vec3d{s.ngX, s.ngY, s.ngZ}, rayOf(p.chunk, p.slot).direction));
 }
 // A surface seen edge on may be entered in one precision and left in the other.
 template <double (*kScale)(const Place<SurfelRow>&)>
@@ -114,14 +115,13 @@ double notEdgeOn(const Place<SurfelRow>& p) {
 }
 double byItself(const Place<SurfelRow>&) { return 0; }
 Corners cornersAt(const Place<SurfelRow>& p) {
-  const reference::Candidate candidate = reference::candidateOf(p.chunk, p.slot);
+  const Candidate candidate = candidateOf(p.chunk, p.slot);
   const Scene& scene = p.world.scene;
   if (!scene.isSphere(candidate.triangle)) {
     return worldCorners(scene, candidate.triangle, candidate.instance);
   }
-  const bool placed = candidate.instance != reference::kNoHit;
   return cornersOf(touchingTriangle(scene.triangles[candidate.triangle], candidate.u, candidate.v),
-                   placed ? &scene.instances[candidate.instance].toWorld : nullptr);
+                   toWorldOf(scene, candidate.instance));
 }
 // The factor by which the cross product of the edges amplifies their rounding.
 double bySliver(const Place<SurfelRow>& p) {
@@ -131,20 +131,20 @@ double bySliver(const Place<SurfelRow>& p) {
 }
 // The map that makes the sphere of the unit sphere, in the world; none on triangles.
 std::optional<Affine> sphereAt(const Place<SurfelRow>& p) {
-  const reference::Candidate candidate = reference::candidateOf(p.chunk, p.slot);
+  const Candidate candidate = candidateOf(p.chunk, p.slot);
   if (!p.world.scene.isSphere(candidate.triangle)) return {};
   return sphereInWorld(p.world.scene, {candidate.triangle, candidate.instance});
 }
 Vec3d axesOf(const Affine& map) { return abs(map.x) + abs(map.y) + abs(map.z); }
-// The magnitude of a position that placeSurfel found along the ray; none where it follows from the
-// corners.
+// The magnitude of a position that surfacePoint() found along the ray; none where it follows from
+// the corners.
 std::optional<double> alongRay(const Place<SurfelRow>& p) {
   const double t = double{p.chunk.hits.t[p.slot]};
   const Corners c = cornersAt(p);
   const auto sphere = sphereAt(p);
   const Vec3d edges =
       sphere ? axesOf(*sphere) * double{kSphereSpan} : abs(c[1] - c[0]) + abs(c[2] - c[0]);
-  const bool placed = reference::candidateOf(p.chunk, p.slot).instance != reference::kNoHit;
+  const bool placed = candidateOf(p.chunk, p.slot).instance != kNoHit;
   const bool shared = reference::alsoCrossedAt(p.chunk, p.slot) >= kSharesPlace;
   if (placed || shared || (!sphere && bySliver(p) > 0x1p11) ||
       !(8 * t < edges.x + edges.y + edges.z))

@@ -101,7 +101,7 @@ void put(std::span<T> column, std::size_t i, const Vec3d& v) {
 void putSurface(const whit::Scene& scene, const QueryHit& hit, const RayHits& to, std::size_t i) {
   const std::uint32_t number = hit.id.triangle, instance = hit.id.instance;
   const TriangleRecord& record = scene.triangles[number];
-  const Affine* const map = instance == kNoInstance ? nullptr : &scene.instances[instance].toWorld;
+  const Affine* const map = toWorldOf(scene, instance);
 
   Vec3d point, normal, shading;
   if (scene.isSphere(number)) {

@@ -4,42 +4,13 @@
 #include <cmath>
 #include <limits>
 
-#include "bake/sphere.h"
 #include "reference/add_impulses.h"
-#include "reference/intersect.h"
 #include "reference/media.h"
-#include "reference/texture_sampling.h"
+#include "surfaces/texture_sampling.h"
 
 namespace whit::reference {
 
 namespace {
-
-// The nearest weights that belong to a point of the triangle.
-void moveOntoTriangle(TriangleHit& hit) {
-  const double w = std::max(0.0, 1 - hit.u - hit.v);
-  const double u = std::max(0.0, hit.u), v = std::max(0.0, hit.v);
-  const double sum = w + u + v;
-  hit.u = sum > 0 ? u / sum : 1.0 / 3;
-  hit.v = sum > 0 ? v / sum : 1.0 / 3;
-}
-
-Vec3d triple(const float* values) { return {values[0], values[1], values[2]}; }
-
-// A value given at the corners, at the hit.
-Vec3d interpolate(const float* corners, const TriangleHit& hit) {
-  return triple(corners) * (1 - hit.u - hit.v) + triple(corners + 3) * hit.u +
-         triple(corners + 6) * hit.v;
-}
-
-// From corner 0 to corners 1 and 2.
-struct Edges {
-  Vec3d e1, e2;
-};
-
-Edges edgesOf(const TriangleRecord& t) {
-  const Vec3d p0 = triple(t.position);
-  return {triple(t.position + 3) - p0, triple(t.position + 6) - p0};
-}
 
 // The edges in texture space.
 struct TextureEdges {
@@ -50,103 +21,6 @@ struct TextureEdges {
 TextureEdges textureEdgesOf(const float* uvs) {
   const double u0 = uvs[0], v0 = uvs[1];
   return {uvs[2] - u0, uvs[3] - v0, uvs[4] - u0, uvs[5] - v0};
-}
-
-// The magnitudes that the hit point is added up from, per axis.
-Vec3d magnitudeOnTriangle(const TriangleRecord& t, const TriangleHit& hit) {
-  const double w = std::max(0.0, 1 - hit.u - hit.v);
-  return abs(triple(t.position)) * w + abs(triple(t.position + 3)) * hit.u +
-         abs(triple(t.position + 6)) * hit.v;
-}
-Vec3d magnitudeOnSphere(const Affine& map, const Vec3d& unit) {
-  const Vec3d q = abs(unit);
-  return abs(map.x) * q.x + abs(map.y) * q.y + abs(map.z) * q.z + abs(map.p);
-}
-
-// The magnitudes in the world.
-Vec3d magnitudeInWorld(const Vec3d& sum, const Affine* toWorld) {
-  if (!toWorld) return sum;
-  return abs(toWorld->x) * sum.x + abs(toWorld->y) * sum.y + abs(toWorld->z) * sum.z +
-         abs(toWorld->p);
-}
-
-Vec3d spansInWorld(const Vec3d& spans, const Affine* toWorld) {
-  if (!toWorld) return spans;
-  return abs(toWorld->x) * spans.x + abs(toWorld->y) * spans.y + abs(toWorld->z) * spans.z;
-}
-
-double sumOf(const Vec3d& v) { return v.x + v.y + v.z; }
-
-// True if the triangle is so narrow that its normal may be turned by rounding to float.
-bool isNarrow(const Edges& e) {
-  const Vec3d area = abs(cross(e.e1, e.e2));
-  return sumOf(area) <= 0x1p-14 * sumOf(abs(e.e1)) * sumOf(abs(e.e2));
-}
-
-// The inputs of a position, in the space of the geometry.
-struct Placement {
-  Vec3d position, magnitude;
-  Vec3d spans;    // along the edges, or of a sphere kSphereSpan of its axes
-  Vec3d inPlane;  // some point of the triangle's plane, or of the one that touches the sphere
-  bool isNarrow = false;
-};
-
-// Where the ray meets the plane, if that is more than the weights say: of a triangle that is larger
-// than its distance from the ray's start the weights of a hit found in floats say less.
-std::optional<Vec3d> pointOnRay(const Placement& place, double t, const Ray& ray,
-                                const Vec3d& normal) {
-  if (!(8 * t < sumOf(place.spans))) return std::nullopt;
-  const Vec3d point = ray.origin + ray.direction * t;
-  return point - normal * dot(point - place.inPlane, normal);
-}
-
-// The position, and how far from it rays start, in the arithmetic of floats. The bound on the
-// distance between the plane as Embree computes it and the start has three parts. The products that
-// a point is added up from are rounded by an ulp or two of themselves along each axis (pbrt-v4,
-// section 6.8.5). Embree subtracts a ray's origin from the corners and takes t from products of
-// those differences, so its plane is off by some ulps of the edges. Only what these errors
-// contribute along the normal counts, plus 2^-6 of an ulp of everything, because a start must not
-// lie in the plane and the normal is rounded as well. Near the origin of a large triangle the
-// second part is the largest by far, so no bound may rest on the point's coordinates alone.
-// Across the normal the point is off as well; the retreat makes that good, because half of the way
-// that the ray has come is known to be clear. Where the errors of several axes mix, which is so in
-// an instance's space and where other surfaces lie in the same place (`inDoubt`), all of them
-// count.
-void placeSurfel(const Placement& place, double t, const Ray& ray, const Affine* toWorld,
-                 bool inDoubt, Surfel& s) {
-  const Vec3d point = magnitudeInWorld(place.magnitude, toWorld);
-  s.position = place.position;
-  if (toWorld) s.position = toWorld->point(s.position);
-  const Vec3d edges = spansInWorld(place.spans, toWorld), n = abs(s.geometricNormal);
-  s.offset = kUnitRoundOff * (32 * sumOf(point) + 16 * sumOf(edges));
-  s.retreat = std::min(s.offset, t) / 2;
-  if (inDoubt || toWorld || place.isNarrow) return;
-  double across = sumOf(point * 2.0 + edges);
-  if (const auto onRay = pointOnRay(place, t, ray, s.geometricNormal)) {
-    s.position = *onRay;
-    across = 2 * sumOf(abs(s.position)) + 8 * t + 2 * dot(n, edges);
-  }
-  const double along = 4 * dot(n, point) + 16 * dot(n, edges) + sumOf(point + edges) / 64;
-  s.offset = kUnitRoundOff * along;
-  s.retreat = std::min(s.retreat, kUnitRoundOff * across);
-}
-
-// The triangle and weights by which textures are looked up: those of the hit, or of a triangle that
-// touches the sphere.
-struct Textured {
-  TriangleRecord triangle;
-  TriangleHit hit;
-  const float* secondUvs = nullptr;
-
-  const float* uvs(bool second) const { return second && secondUvs ? secondUvs : triangle.uv; }
-};
-
-Textured texturedAt(const Scene& scene, std::uint32_t number, const TriangleHit& hit) {
-  const TriangleRecord& record = scene.triangles[number];
-  if (scene.isSphere(number)) {
-    return {touchingTriangle(record, hit.u, hit.v), {hit.t, 0, 0}, nullptr};
-  }
-  return {record, hit, scene.secondUvs.empty() ? nullptr : scene.secondUvs[number].uv};
 }
 
 // The textures at a hit. `cosine` is that between ray and geometric normal.
@@ -200,31 +74,14 @@ Vec3d bentNormal(const RgbD& m, const TriangleRecord& triangle, const float* uvs
                     normal);
 }
 
-// Both normals as modelled, on the outside of the surface, without normal maps.
-void findNormals(const Scene& scene, EffectSet effects, const Candidate& candidate,
-                 const TriangleHit& hit, const Affine* toWorld, Surfel& s) {
-  const TriangleRecord& triangle = scene.triangles[candidate.triangle];
-  const auto carried = [&](const Vec3d& n) { return toWorld ? toWorld->normal(n) : n; };
-  const Edges e = edgesOf(triangle);
-  s.geometricNormal = normalized(carried(cross(e.e1, e.e2)), s.view);
-  s.shadingNormal = s.geometricNormal;
-  if (effects.has(Effect::smoothNormals) && !scene.normals.empty()) {
-    const Vec3d n = interpolate(scene.normals[candidate.triangle].normal, hit);
-    s.shadingNormal = normalized(carried(n), s.geometricNormal);
-  }
-}
+// The shading normal as modelled, on the outside of the surface as `geometric`.
+Vec3d modelledNormal(const Scene& scene, EffectSet effects, const Candidate& candidate,
+                     const TriangleHit& hit, const Affine* toWorld, const Vec3d& geometric) {
+  if (scene.isSphere(candidate.triangle)) return geometric;
+  if (!effects.has(Effect::smoothNormals) || scene.normals.empty()) return geometric;
 
-// Position and normals of a hit on a sphere.
-void placeOnSphere(const TriangleRecord& record, const TriangleHit& hit, const Ray& ray,
-                   const Affine* toWorld, bool inDoubt, Surfel& s) {
-  const Affine own = sphereMap(record);
-  const Vec3d unit = spherePoint(hit.u, hit.v), point = own.point(unit);
-  const Vec3d normal = own.normal(unit);
-  s.geometricNormal = normalized(toWorld ? toWorld->normal(normal) : normal, s.view);
-  s.shadingNormal = s.geometricNormal;
-  const Vec3d spans = (abs(own.x) + abs(own.y) + abs(own.z)) * double{kSphereSpan};
-  const Placement place{point, magnitudeOnSphere(own, unit), spans, point};
-  placeSurfel(place, hit.t, ray, toWorld, inDoubt, s);
+  const Vec3d n = interpolate(scene.normals[candidate.triangle].normal, hit);
+  return normalized(toWorld ? toWorld->normal(n) : n, geometric);
 }
 
 // Interpolates vertex colors as the first corner's color plus the differences of the others, so
@@ -286,26 +143,6 @@ void findColors(const Scene& scene, EffectSet effects, std::uint32_t number, con
 
 }  // namespace
 
-TriangleHit refineHit(const Scene& scene, const Ray& ray, const Candidate& candidate) {
-  if (scene.isSphere(candidate.triangle)) return refineSphereHit(scene, ray, candidate);
-  const Corners corners = worldCorners(scene, candidate.triangle, candidate.instance);
-  if (std::optional<TriangleHit> hit = piercePlane(ray, corners); hit && hit->t > 0) {
-    moveOntoTriangle(*hit);
-    return *hit;
-  }
-  TriangleHit hit{0, candidate.u, candidate.v};
-  moveOntoTriangle(hit);
-  const Vec3d point = corners[0] * (1 - hit.u - hit.v) + corners[1] * hit.u + corners[2] * hit.v;
-  const double t = dot(point - ray.origin, ray.direction) / dot(ray.direction, ray.direction);
-  hit.t = t > 0 ? t : std::numeric_limits<double>::min();
-  return hit;
-}
-
-TexturePoint texturePoint(const float* uv, const TriangleHit& hit) {
-  const double w = 1 - hit.u - hit.v;
-  return {uv[0] * w + uv[2] * hit.u + uv[4] * hit.v, uv[1] * w + uv[3] * hit.u + uv[5] * hit.v};
-}
-
 double textureFootprint(const TriangleRecord& triangle, const float* uvs, const Affine* toWorld,
                         double coneWidth, double cosine) {
   const Edges e = edgesOf(triangle);
@@ -316,32 +153,6 @@ double textureFootprint(const TriangleRecord& triangle, const float* uvs, const 
   return inTexture / inWorld * across * across;
 }
 
-bool cutAway(const Scene& scene, std::uint32_t triangle, const TriangleHit& hit, bool forShadows) {
-  const TriangleRecord& record = scene.triangles[triangle];
-  const Material& material = scene.materials[record.material];
-  if (material.alphaMap == kNoTexture) return false;
-  const Textured textured = texturedAt(scene, triangle, hit);
-  const TexturePoint at = texturePoint(textured.triangle.uv, textured.hit);
-  const auto isBelow = [&](std::int32_t map, float cutoff) {
-    const Texture& mask = scene.textures[static_cast<std::size_t>(map)];
-    return sampleTexture(mask, at.u, at.v).x < double{cutoff};
-  };
-  if (!forShadows) return isBelow(material.alphaMap, material.alphaCutoff);
-  return isBelow(material.alphaMap, material.shadowCutoff()) ||
-         (material.isCutBesidesCoverage() &&
-          isBelow(material.coverageMap, material.coverageCutoff()));
-}
-
-bool isPassed(const Scene& scene, std::uint32_t triangle, std::uint32_t instance,
-              const Vec3d& direction) {
-  const TriangleRecord& record = scene.triangles[triangle];
-  if (scene.materials[record.material].doubleSided || scene.isSphere(triangle)) return false;
-  const Edges e = edgesOf(record);
-  Vec3d normal = cross(e.e1, e.e2);
-  if (instance != kNoHit) normal = scene.instances[instance].toWorld.normal(normal);
-  return dot(direction, normal) > 0;
-}
-
 Vec3d terminatorLift(const Scene& scene, EffectSet effects, const Candidate& candidate,
                      const TriangleHit& hit, const Surfel& s) {
   if (!effects.has(Effect::smoothNormals) || scene.normals.empty()) return {};
@@ -349,11 +160,12 @@ Vec3d terminatorLift(const Scene& scene, EffectSet effects, const Candidate& can
   const Corners corners = worldCorners(scene, candidate.triangle, candidate.instance);
   const float* normals = scene.normals[candidate.triangle].normal;
   const double weights[] = {1 - hit.u - hit.v, hit.u, hit.v};
+  const Affine* toWorld = toWorldOf(scene, candidate.instance);
   Vec3d lift;
   for (std::size_t i = 0; i < 3; ++i) {
     Vec3d n = triple(normals + 3 * i);
-    if (candidate.instance != kNoHit) {
-      n = normalized(scene.instances[candidate.instance].toWorld.normal(n));
+    if (toWorld) {
+      n = normalized(toWorld->normal(n));
     } else if (isStretched(dot(n, n))) {
       n = normalized(n);
     }
@@ -368,34 +180,28 @@ Surfel makeSurfel(const Scene& scene, EffectSet effects, const Candidate& candid
                   const TriangleHit& hit, const Ray& ray, const TextureLookup& lookup,
                   bool sharesPlace) {
   const TriangleRecord& triangle = scene.triangles[candidate.triangle];
-  const Affine* toWorld =
-      candidate.instance == kNoHit ? nullptr : &scene.instances[candidate.instance].toWorld;
+  const Affine* toWorld = toWorldOf(scene, candidate.instance);
+
   Surfel s;
+  s.SurfacePoint::operator=(surfacePoint(scene, candidate, hit, ray, sharesPlace));
   s.view = -ray.direction;
   s.cone = lookup.cone;
+
   const Textured textured = texturedAt(scene, candidate.triangle, hit);
-  if (scene.isSphere(candidate.triangle)) {
-    placeOnSphere(triangle, hit, ray, toWorld, sharesPlace, s);
-  } else {
-    findNormals(scene, effects, candidate, hit, toWorld, s);
-    const Edges e = edgesOf(triangle);
-    const Placement place{interpolate(triangle.position, hit), magnitudeOnTriangle(triangle, hit),
-                          abs(e.e1) + abs(e.e2), triple(triangle.position), isNarrow(e)};
-    placeSurfel(place, hit.t, ray, toWorld, sharesPlace, s);
-  }
-  const double cosine = dot(ray.direction, s.geometricNormal);
-  const Lookups lookups(scene, lookup, textured, toWorld, cosine);
+  const Lookups lookups(scene, lookup, textured, toWorld, dot(ray.direction, s.geometricNormal));
+
+  // The shading normal is bent on the outside of the surface.
+  const double side = s.entering ? 1 : -1;
+  s.shadingNormal =
+      modelledNormal(scene, effects, candidate, hit, toWorld, s.geometricNormal * side);
   const Material& material = scene.materials[triangle.material];
   if (effects.has(Effect::normalMaps) && material.normalMap != kNoTexture) {
     const bool second = material.normalBySecondUvs;
     s.shadingNormal = bentNormal(lookups.sample(&Material::normalMap, second), textured.triangle,
                                  lookups.uvs(second), toWorld, s.shadingNormal);
   }
-  s.entering = cosine < 0;
-  if (!s.entering) {
-    s.geometricNormal = -s.geometricNormal;
-    s.shadingNormal = -s.shadingNormal;
-  }
+  s.shadingNormal *= side;
+
   s.lift = terminatorLift(scene, effects, candidate, hit, s);
   findColors(scene, effects, candidate.triangle, hit, lookups, s);
   return s;

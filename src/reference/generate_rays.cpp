@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/image.h"
-#include "reference/media.h"
 #include "sampling/random_streams.h"
+#include "surfaces/initial_media.h"
 
 namespace whit::reference {
 

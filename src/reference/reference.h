@@ -1,5 +1,7 @@
 // The scalar reference: Whitted's recursion in double precision, one ray at a time. No SIMD, no
-// queues, no tiles; independent of the kernels.
+// queues, no tiles. It shares no formula with the kernels. Both modes share the tables of `bake`,
+// the random numbers of `sampling` and two rules of `surfaces`: which of several surfaces in one
+// place is hit, and the media that a ray starts in (tests/README.md, "What both modes share").
 #pragma once
 
 #include <array>
@@ -15,10 +17,11 @@
 #include "core/image.h"
 #include "core/options.h"
 #include "core/progress.h"
-#include "reference/intersector.h"
+#include "reference/path_observer.h"
 #include "sampling/sample_pattern.h"
 #include "stages/lobes.h"
 #include "stages/ray_kinds.h"
+#include "surfaces/choose_surface.h"
 
 namespace whit::reference {
 
@@ -58,13 +61,10 @@ class RayCounts {
   std::array<std::uint64_t, kRayKindCount> counts_{};
 };
 
-struct Impulse;
 struct Impulses;
 struct SampledLobe;
 struct Surfel;
-struct TriangleHit;
 struct Crossing;
-struct Settled;
 
 // The impulses that a sample has followed, and whether it is traced again as a narrower tree
 // (sampling/ray_limit.h).
@@ -96,7 +96,8 @@ struct Choice {
 // lobes.
 class Tracer {
  public:
-  Tracer(const Scene& scene, const Intersector& intersector, const Settings& settings);
+  Tracer(const Scene& scene, const Intersector& intersector, const Settings& settings,
+         const PathObserver& observer = kUnobserved);
 
   RgbD traceImpulse(const Ray& ray, int depth, double throughput, std::uint32_t media,
                     RayCounts& counts, Path path = {}) const;
@@ -125,8 +126,8 @@ class Tracer {
                          std::size_t sample) const;
 
  private:
-  std::optional<Settled> nearest(Ray ray, int depth) const;
-  Surfel surfelAt(const Ray& ray, const Settled& met, const TriangleHit& hit) const;
+  std::optional<ChosenSurface> nearest(Ray ray, int depth) const;
+  Surfel surfelAt(const Ray& ray, const ChosenSurface& chosen, const TriangleHit& hit) const;
   RgbD radianceFromLights(const Surfel& surfel, int depth, double throughput, RayCounts& counts,
                           Path path) const;
   RgbD radianceFromAmbient(const Surfel& surfel, int depth, RayCounts& counts, Path path) const;
@@ -140,6 +141,7 @@ class Tracer {
 
   const Scene& scene_;
   const Intersector& intersector_;
+  const PathObserver& observer_;
   RenderOptions options_;
   EffectSet effects_;
   std::vector<Vec2f> samples_;

@@ -11,9 +11,7 @@
 #include "reference/add_impulses.h"
 #include "reference/find_intersections.h"
 #include "reference/generate_rays.h"
-#include "reference/media.h"
 #include "reference/reference.h"
-#include "reference/settle_coplanar.h"
 #include "reference/update_image.h"
 
 namespace whit::reference {
@@ -138,28 +136,28 @@ RgbD Tracer::sampled(const CameraFrame& camera, int x, int y, const Vec2f& at, s
   counts = before;
   ++counts.limitedSamples;
   tree.narrows = true;
-  intersector_.beganAgain();
+  observer_.beganAgain();
   return traceImpulse(ray, 0, 1.0, media, counts, bounded);
 }
 
 PixelSurface Tracer::surfaceAtCenter(const CameraFrame& camera, int x, int y) const {
   const Ray ray = primaryRay(camera, x, y, {0.5f, 0.5f}, 0).ray;
-  const std::optional<Settled> met = nearest(ray, 0);
-  if (!met) return {};
-  const TriangleHit hit = refineHit(scene_, ray, met->candidate);
-  const Surfel s = makeSurfel(scene_, effects_, met->candidate, hit, ray);
-  return {s.material, met->candidate.instance, Vec3f(s.position), Vec3f(s.geometricNormal)};
+  const std::optional<ChosenSurface> found = nearest(ray, 0);
+  if (!found) return {};
+  const TriangleHit hit = refineHit(scene_, ray, found->candidate);
+  const Surfel s = makeSurfel(scene_, effects_, found->candidate, hit, ray);
+  return {s.material, found->candidate.instance, Vec3f(s.position), Vec3f(s.geometricNormal)};
 }
 
 ChannelValues Tracer::channels(const CameraFrame& camera, int x, int y, const Vec2f& at,
                                std::size_t sample) const {
   const auto [ray, path] = primaryRay(camera, x, y, at, sample);
-  const std::optional<Settled> met = nearest(ray, 0);
+  const std::optional<ChosenSurface> found = nearest(ray, 0);
   ChannelValues values;
-  if (!met) return values;
-  const Candidate& candidate = met->candidate;
+  if (!found) return values;
+  const Candidate& candidate = found->candidate;
   const TriangleHit hit = refineHit(scene_, ray, candidate);
-  const Surfel surfel = surfelAt(ray, *met, hit);
+  const Surfel surfel = surfelAt(ray, *found, hit);
   values.distance = static_cast<float>(hit.t);
   values.z = static_cast<float>(hit.t * dot(ray.direction, camera.forward));
   values.position = Vec3f(scene_.inFile(surfel.position));

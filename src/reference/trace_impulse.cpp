@@ -9,7 +9,6 @@
 #include "reference/find_radiance_and_shadow_rays.h"
 #include "reference/media.h"
 #include "reference/reference.h"
-#include "reference/settle_coplanar.h"
 #include "reference/write_emitted_and_reflective_ambient.h"
 #include "sampling/random_streams.h"
 #include "sampling/ray_limit.h"
@@ -28,9 +27,11 @@ Path childOf(const Path& path, std::uint32_t branch) {
 
 }  // namespace
 
-Tracer::Tracer(const Scene& scene, const Intersector& intersector, const Settings& settings)
+Tracer::Tracer(const Scene& scene, const Intersector& intersector, const Settings& settings,
+               const PathObserver& observer)
     : scene_(scene),
       intersector_(intersector),
+      observer_(observer),
       options_(settings.options),
       effects_(settings.effects.without(notAskedFor(options_))),
       samples_(samplePattern(options_.spp)) {
@@ -42,8 +43,8 @@ Tracer::Tracer(const Scene& scene, const Intersector& intersector, const Setting
 RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uint32_t media,
                           RayCounts& counts, Path path) const {
   const bool absorbs = effects_.has(Effect::absorption) && media != 0;
-  const std::optional<Settled> met = nearest(ray, depth);
-  if (!met) {
+  const std::optional<ChosenSurface> found = nearest(ray, depth);
+  if (!found) {
     constexpr double kForEver = std::numeric_limits<double>::infinity();
     const RgbD left = absorbs ? transmittance(scene_, media, kForEver) : RgbD(1.0);
     if (path.straight) counts.clear += left;
@@ -51,12 +52,12 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
     return skyAlong(scene_, effects_, ray.direction) * left;
   }
 
-  const Candidate& candidate = met->candidate;
+  const Candidate& candidate = found->candidate;
   const TriangleHit hit = refineHit(scene_, ray, candidate);
   const RgbD arrives = absorbs ? transmittance(scene_, media, hit.t) : RgbD(1.0);
-  Surfel surfel = surfelAt(ray, *met, hit);
+  Surfel surfel = surfelAt(ray, *found, hit);
   const Crossing crossing =
-      crossMedia(scene_, effects_, surfel.material, surfel.entering, media, met->alsoCrossed);
+      crossMedia(scene_, effects_, surfel.material, surfel.entering, media, found->alsoCrossed);
   const LobePoints points{path.number, lobeSampling(depth, glossySamples(options_), path.sample)};
   findLayers(scene_, effects_, crossing, options_.shading, points, surfel);
 
@@ -93,16 +94,16 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
   return radiance * arrives;
 }
 
-Surfel Tracer::surfelAt(const Ray& ray, const Settled& met, const TriangleHit& hit) const {
+Surfel Tracer::surfelAt(const Ray& ray, const ChosenSurface& chosen, const TriangleHit& hit) const {
   const TextureLookup lookup{options_.shading.textureFilter,
                              maps_ ? &*maps_ : nullptr,
                              {ray.cone.widthAt(hit.t), ray.cone.spread}};
-  return makeSurfel(scene_, effects_, met.candidate, hit, ray, lookup,
-                    met.alsoCrossed >= kSharesPlace);
+  return makeSurfel(scene_, effects_, chosen.candidate, hit, ray, lookup,
+                    chosen.alsoCrossed >= kSharesPlace);
 }
 
 // The nearest surface; of the camera's rays, that their start does not lie in.
-std::optional<Settled> Tracer::nearest(Ray ray, int depth) const {
+std::optional<ChosenSurface> Tracer::nearest(Ray ray, int depth) const {
   Candidate candidate;
   for (int attempt = 0; attempt < kAttemptsPastEye; ++attempt) {
     if (!intersector_.closest(ray, candidate)) return std::nullopt;
@@ -110,9 +111,9 @@ std::optional<Settled> Tracer::nearest(Ray ray, int depth) const {
     if (!liesInSurface(scene_, ray.origin, candidate.triangle, candidate.instance)) break;
     ray.tNear = wayPastEye(ray.origin, attempt);
   }
-  const Settled settled = settleCoplanar(scene_, effects_, ray, candidate);
-  intersector_.met(settled.candidate);
-  return settled;
+  const ChosenSurface chosen = chooseSurface(scene_, effects_, ray, candidate);
+  observer_.hit(chosen.candidate);
+  return chosen;
 }
 
 // The mean of the lobe's samples. Each is followed as if it were the whole lobe, so that their
@@ -209,13 +210,13 @@ RgbD Tracer::follow(const Impulse& impulse, RayKind kind, int depth, double thro
     reaches = throughput * choice.weights;
   }
   const Impulse followed{impulse.weight * grows, impulse.ray, impulse.media};
-  intersector_.began(followed, kind);
+  observer_.began(followed, kind);
   const double ended = counts.ended;
   const RgbD clear = counts.clear;
   const RgbD radiance = traceImpulse(impulse.ray, depth, reaches, impulse.media, counts, path);
   counts.ended = ended + largest * grows * (counts.ended - ended);
   counts.clear = clear + (counts.clear - clear) * followed.weight;
-  intersector_.ended(radiance);
+  observer_.ended(radiance);
   return followed.weight * radiance;
 }
 

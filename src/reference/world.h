@@ -10,14 +10,12 @@
 #include "bake/mip_maps.h"
 #include "core/shading_choices.h"
 #include "core/vec3.h"
-#include "reference/intersector.h"
 #include "scene/camera.h"
 #include "stages/chunk.h"
 #include "stages/columns.h"
+#include "surfaces/surface_point.h"
 
 namespace whit::reference {
-
-inline constexpr double kUnitRoundOff = 0x1p-24;  // of float
 
 // How the facets of frosted glass scatter what passes it, in frames that sample them.
 struct Frosting {
@@ -29,16 +27,11 @@ struct Frosting {
   std::uint32_t mediaBehind = 0;
 };
 
-// A point of a surface with all that shading needs to know about it, and where rays leave it.
-struct Surfel {
-  Vec3d position;
-  Vec3d view;             // unit, back along the ray
-  Vec3d geometricNormal;  // unit, the triangle's, on the viewer's side
-  Vec3d shadingNormal;    // unit, interpolated and bent by the normal map; see makeSurfel
-  Vec3d lift;             // from the facet to the surface its vertex normals stand for
-  double offset = 0;      // how far along the geometric normal a new ray must start
-  double retreat = 0;     // on the viewer's side, how far along `view` as well
-  bool entering = false;  // the ray met the outside, where corners run counter-clockwise
+// A point of a surface with all that shading needs to know about it.
+struct Surfel : SurfacePoint {
+  Vec3d view;           // unit, back along the ray
+  Vec3d shadingNormal;  // unit, interpolated and bent by the normal map; see makeSurfel
+  Vec3d lift;           // from the facet to the surface its vertex normals stand for
   std::uint32_t material = 0;
   RgbD diffuse, specular;                       // textures and vertex colors applied
   double grazingRatio = double{kGrazingRatio};  // the material's
@@ -90,16 +83,6 @@ struct World {
 };
 
 // Slots of the chunk's columns in the reference's own terms.
-inline Ray rayOf(const Chunk& chunk, std::size_t slot) {
-  const RayRow r = RayRow::at(chunk.rays, slot);
-  return {{r.orgX, r.orgY, r.orgZ}, {r.dirX, r.dirY, r.dirZ}, {r.cone, 0}};
-}
-
-inline Candidate candidateOf(const Chunk& chunk, std::size_t slot) {
-  const HitRow h = HitRow::at(chunk.hits, slot);
-  return {h.triangle, chunk.has(Feature::instances) ? h.instance : kNoHit, h.u, h.v};
-}
-
 inline Surfel surfelOf(const Chunk& chunk, std::size_t slot) {
   const SurfelRow r = SurfelRow::at(chunk.surfels, slot);
   Surfel s;

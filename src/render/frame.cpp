@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/display.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "scene/members.h"
@@ -97,6 +98,11 @@ void poolErrors(Film& film) {
       errors[2 * film.image.index(x, y)] = static_cast<float>(std::sqrt(squares / count));
     }
   }
+}
+
+void showBackground(const RenderOptions& options, Film& film) {
+  if (!film.wantDisplay || !options.background.hidesSky()) return;
+  film.display = overBackground(film.image, film.channels.floats(Channel::alpha), options);
 }
 
 void refuseNonFinite(const Scene& scene, const RenderOptions& options, const FrameStats& frame) {

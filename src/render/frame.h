@@ -76,6 +76,8 @@ Film makeFilm(const Scene& scene, const RenderOptions& options,
 // By itself a pixel whose few samples all missed the light would claim to be exact.
 void poolErrors(Film& film);
 inline constexpr int kPoolReach = 2;  // pixels to each side, within the film's window
+// Shows the background of the options where the film was asked for display codes.
+void showBackground(const RenderOptions& options, Film& film);
 // Throws Error(badScene) for a frame with pixels that are not finite when the options are strict.
 void refuseNonFinite(const Scene& scene, const RenderOptions& options, const FrameStats& frame);
 

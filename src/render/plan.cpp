@@ -180,14 +180,14 @@ class Planner {
     plan_.perQueue.push_back(embreeStep("findHits", "intersect", findHits, simd::kPackRays,
                                         simd::kUnpackHits, inPackets()));
     if (plan_.features.has(Feature::coplanar)) {
-      plan_.perQueue.push_back(amendingStep("settleCoplanar", simd::kUnpackHits, settleCoplanar,
+      plan_.perQueue.push_back(amendingStep("chooseCoplanar", simd::kUnpackHits, chooseCoplanar,
                                             {Part::rays, Part::hits}, {Part::hits}));
     }
 
     // Spheres that move may become coincident at any time.
     const bool coincide = scene_.motion.ofGeometry || !scene_.coincidentSpheres.empty();
     if (has(Effect::spheres) && coincide) {
-      plan_.perQueue.push_back(amendingStep("settleSpheres", simd::kUnpackHits, settleSpheres,
+      plan_.perQueue.push_back(amendingStep("chooseSpheres", simd::kUnpackHits, chooseSpheres,
                                             {Part::hits}, {Part::hits}));
     }
     if (notesEnds()) {

@@ -1,20 +1,19 @@
 #include "render/renderer.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
-#include "core/display.h"
 #include "core/error.h"
 #include "core/machine_limits.h"
 #include "core/option_table.h"
 #include "core/stopwatch.h"
-#include "reference/media.h"
 #include "render/build_tables.h"
+#include "render/embree_intersector.h"
 #include "render/steps.h"
 #include "sampling/sample_pattern.h"
 #include "scene/members.h"
 #include "simd/kernels.h"
+#include "surfaces/initial_media.h"
 
 namespace whit {
 
@@ -116,9 +115,8 @@ CameraFrame Renderer::lookFrom(const Camera& camera, const Film& film) {
     accel_->setEnclosed(false);
     accel_->setEnclosed(isEnclosed(*accel_, camera.eye));
   }
-  CameraFrame frame =
-      reference::frameWithMedia(scene_, plan_.effects, EmbreeIntersector(*accel_), camera,
-                                film.image.width, film.image.height, options_.spp);
+  CameraFrame frame = frameWithMedia(scene_, plan_.effects, EmbreeIntersector(*accel_), camera,
+                                     film.image.width, film.image.height, options_.spp);
   if (frame.reach != Vec3d()) frame.mediaVary = startsMeet(frame, dielectrics_);
   return frame;
 }
@@ -162,11 +160,6 @@ Frame Renderer::frameOf(const TraceRequest& request, bool adaptively) {
   return frame;
 }
 
-void Renderer::showBackground(Film& film) const {
-  if (!film.wantDisplay || !options_.background.hidesSky()) return;
-  film.display = overBackground(film.image, film.channels.floats(Channel::alpha), options_);
-}
-
 FrameStats Renderer::render(const TraceRequest& request) {
   const bool isWhole = !request.pixels && !request.pattern && !request.sums;
   const bool adaptively = adaptive() && isWhole && !request.uniform;
@@ -177,7 +170,7 @@ FrameStats Renderer::render(const TraceRequest& request) {
   FrameStats stats = adaptively ? adaptive_.render(frame) : scheduler_.trace(frame, pixels);
   if (!request.pixels) {
     poolErrors(request.film);
-    showBackground(request.film);
+    showBackground(options_, request.film);
   }
   stats.frameMs = stopwatch.ms();
   if (request.observers.empty()) stats.workers = machine_.threads;
@@ -222,73 +215,6 @@ void Renderer::setOptions(const RenderOptions& options) {
 bool Renderer::canSetOptions(const RenderOptions& options) const {
   return rebuildNeeded(options_, options) <= Rebuild::tables &&
          builtIn(makePlan(scene_, options)) == builtIn(plan_);
-}
-
-bool EmbreeIntersector::closest(const reference::Ray& ray, reference::Candidate& c) const {
-  const Hit hit =
-      accel_.closest(Vec3f(ray.origin), Vec3f(ray.direction), static_cast<float>(ray.tNear));
-  c.triangle = hit.triangle;
-  c.instance = hit.instance;
-  c.u = static_cast<double>(hit.u);
-  c.v = static_cast<double>(hit.v);
-  return hit.found();
-}
-
-bool EmbreeIntersector::occluded(const reference::Ray& ray, double tFar) const {
-  return accel_.occluded(Vec3f(ray.origin), Vec3f(ray.direction), static_cast<float>(tFar));
-}
-
-reference::Settings Renderer::referenceSettings() const {
-  return {options_, plan_.effects, machine_.threads};
-}
-
-FrameStats Renderer::renderReference(const Camera& camera, Film& film, Progress* progress) {
-  const Stopwatch stopwatch;
-  lookFrom(camera, film);
-
-  const EmbreeIntersector intersector(*accel_);
-  const reference::RayCounts counts =
-      reference::render(scene_, intersector, camera, referenceSettings(), film.image, progress);
-
-  film.channels.resize(plan_.channels, film.image.pixels.size());
-  if (!plan_.channels.empty()) {
-    reference::keepChannels(scene_, intersector, camera, referenceSettings(), film.image,
-                            film.channels);
-    poolErrors(film);
-  }
-
-  if (film.wantDisplay) {
-    film.display = toDisplay(film.image, options_.exposure.ev, options_.toneCurve);
-  }
-  showBackground(film);
-
-  FrameStats stats;
-  stats.frameMs = stopwatch.ms();
-  stats.workers = machine_.threads;
-  for (std::size_t k = 0; k < kRayKindCount; ++k) {
-    const std::uint64_t rays = counts[static_cast<RayKind>(k)];
-    stats.meter.tally[k] = {rays, rays};
-  }
-
-  for (const Rgb& pixel : film.image.pixels) stats.nonFinitePixels += !isFinite(pixel);
-  stats.limitedPixels = counts.limitedPixels;
-  return stats;
-}
-
-FrameStats renderFrame(Renderer& renderer, Mode mode, const Camera& camera, Film& film,
-                       Progress* progress) {
-  if (mode == Mode::reference) return renderer.renderReference(camera, film, progress);
-  if (!progress) return renderer.render(camera, film);
-  std::atomic<std::size_t> finished{0};
-  FrameHooks hooks;
-  hooks.finished = [&](std::span<const std::uint32_t> pixels) {
-    // Adaptive sampling traces all pixels once, then some of them again.
-    const auto all = static_cast<double>(film.image.pixels.size());
-    const double done = static_cast<double>(finished += pixels.size()) / all;
-    progress->report(done <= 1 ? "tracing" : "tracing edges",
-                     done <= 1 ? done : std::min(done - 1, 1.0));
-  };
-  return renderer.render({.camera = camera, .film = film, .hooks = &hooks});
 }
 
 std::vector<std::pair<std::string, std::string>> describeImage(const Scene& scene,

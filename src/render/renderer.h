@@ -14,7 +14,6 @@
 #include "core/options.h"
 #include "core/progress.h"
 #include "core/vec3.h"
-#include "reference/reference.h"
 #include "render/adaptive.h"
 #include "render/frame.h"
 #include "render/plan.h"
@@ -29,18 +28,6 @@ struct Machine {
   std::string embree;  // version and ISA, "3.13.5 avx2"
   int packet = 8;
   int threads = 1;
-};
-
-// Embree as the reference's finder of candidate triangles. Origins and directions are rounded to
-// float for it; the reference computes the hit again in double.
-class EmbreeIntersector : public reference::Intersector {
- public:
-  explicit EmbreeIntersector(const Accel& accel) : accel_(accel) {}
-  bool closest(const reference::Ray& ray, reference::Candidate& candidate) const override;
-  bool occluded(const reference::Ray& ray, double tFar) const override;
-
- private:
-  const Accel& accel_;
 };
 
 // Functions that change a renderer or its scene take effect from the next frame on. They must not
@@ -59,10 +46,6 @@ class Renderer {
 
   // The samples that render() takes the mean of at the film's only pixel.
   std::vector<Vec2f> samplesOf(const Camera& camera, Film& film);
-
-  // Renders the same image with the scalar reference, which takes its candidates from this
-  // renderer's Embree scene.
-  FrameStats renderReference(const Camera& camera, Film& film, Progress* progress = nullptr);
 
   // Takes all options that change neither the acceleration structure nor the workers (see
   // canSetOptions). Throws Error(usage) when alpha masks, spheres or instances would come or go,
@@ -97,7 +80,6 @@ class Renderer {
   // if the eye, too, is where the scene is closed: outside, most of them find nothing for good.
   CameraFrame lookFrom(const Camera& camera, const Film& film);
   FrameConstants constantsOf(const CameraFrame& camera) const;
-  reference::Settings referenceSettings() const;
 
   double buildMs() const { return buildMs_; }  // acceleration structure and tables
   std::uint64_t memoryBytes() const;           // tables, queues, acceleration structure
@@ -105,7 +87,6 @@ class Renderer {
  private:
   bool adaptive() const { return samplesAdaptively(options_, scene_.effects); }
   Frame frameOf(const TraceRequest& request, bool adaptively);
-  void showBackground(Film& film) const;
   const std::vector<Vec2f>& pattern();
   void replan(Plan next);
   void lookAround();
@@ -126,11 +107,6 @@ class Renderer {
   double buildMs_ = 0;
 };
 
-// Renders one frame by the pipeline or by the reference. Each finished tile is reported to
-// `progress`, if any; a frame that is traced as one batch (--batch frame) reports none.
-FrameStats renderFrame(Renderer& renderer, Mode mode, const Camera& camera, Film& film,
-                       Progress* progress = nullptr);
-
 // Returns the metadata of an image file: everything needed to make the image again: version, scene,
 // and each option by its name with "auto" resolved. Never a date or a host: the same picture gives
 // the same text.
@@ -139,13 +115,5 @@ std::vector<std::pair<std::string, std::string>> describeImage(const Scene& scen
                                                                const Renderer& renderer,
                                                                const Film& film,
                                                                const RenderOptions& options);
-
-// The exposure that a view calls for (--exposure auto), in steps of 1/8 EV. Follows from scene,
-// camera, effects and tone curve alone, not from size, crop or how the picture is computed: the
-// reference traces a small picture of the scene's own shape first.
-float exposureFor(const Renderer& renderer, const Camera& camera);
-
-// Gives an automatic exposure of the options its value, and tells the renderer.
-void settleExposure(Renderer& renderer, const Camera& camera, RenderOptions& options);
 
 }  // namespace whit

@@ -13,12 +13,12 @@
 #include "core/error.h"
 #include "core/image.h"
 #include "core/text.h"
-#include "reference/media.h"
-#include "reference/settle_coplanar.h"
-#include "reference/world.h"
+#include "render/embree_intersector.h"
 #include "render/renderer.h"
 #include "sampling/ray_limit.h"
 #include "simd/kernels.h"
+#include "surfaces/choose_surface.h"
+#include "surfaces/initial_media.h"
 
 namespace whit {
 
@@ -137,7 +137,7 @@ ChannelValues valuesOf(const Chunk& c, std::size_t i) {
   return values;
 }
 
-void setSurface(const reference::Candidate& chosen, std::size_t i, Chunk& c) {
+void setSurface(const Candidate& chosen, std::size_t i, Chunk& c) {
   c.hits.triangle[i] = chosen.triangle;
   if (c.has(Feature::instances)) c.hits.instance[i] = chosen.instance;
   c.hits.u[i] = static_cast<float>(chosen.u);
@@ -322,25 +322,24 @@ void keepAlpha(Chunk& c) {
   });
 }
 
-void settleCoplanar(Chunk& c) {
+void chooseCoplanar(Chunk& c) {
   const Scene& scene = *c.frame->scene;
   std::fill_n(c.hits.alsoCrossed, c.n, 0u);
   for (std::size_t i = 0; i < c.n; ++i) {
     if (!scene.coplanar.any(c.hits.triangle[i])) continue;
-    const reference::Settled settled = reference::settleCoplanar(
-        scene, c.frame->effects, reference::rayOf(c, i), reference::candidateOf(c, i));
-    if (!settled.hit) continue;
-    setSurface(settled.candidate, i, c);
-    c.hits.t[i] = static_cast<float>(settled.hit->t);
-    c.hits.alsoCrossed[i] = settled.alsoCrossed;
+    const ChosenSurface chosen =
+        chooseSurface(scene, c.frame->effects, rayOf(c, i), candidateOf(c, i));
+    if (!chosen.hit) continue;
+    setSurface(chosen.candidate, i, c);
+    c.hits.t[i] = static_cast<float>(chosen.hit->t);
+    c.hits.alsoCrossed[i] = chosen.alsoCrossed;
   }
 }
 
-void settleSpheres(Chunk& c) {
+void chooseSpheres(Chunk& c) {
   for (std::size_t i = 0; i < c.n; ++i) {
-    const reference::Candidate found = reference::candidateOf(c, i);
-    const reference::Candidate best =
-        reference::settleSpheres(*c.frame->scene, c.frame->effects, found);
+    const Candidate found = candidateOf(c, i);
+    const Candidate best = chooseSphere(*c.frame->scene, c.frame->effects, found);
     if (best.triangle != found.triangle || best.instance != found.instance) setSurface(best, i, c);
   }
 }
@@ -379,8 +378,8 @@ void findInitialMedia(Chunk& c) {
   if (!c.frame->camera.mediaVary) return;
   const EmbreeIntersector intersector(*c.frame->accel);
   for (std::size_t i = 0; i < c.n; ++i) {
-    c.rays.media[i] = reference::mediaAtStart(*c.frame->scene, c.frame->effects, intersector,
-                                              c.frame->camera, reference::rayOf(c, i));
+    c.rays.media[i] =
+        mediaAtStart(*c.frame->scene, c.frame->effects, intersector, c.frame->camera, rayOf(c, i));
   }
 }
 

@@ -49,16 +49,16 @@ void keepAlpha(Chunk& c);
 
 // Steps after findHits, in scenes with coplanar triangles that overlap or with coincident spheres.
 // They choose among the surfaces that a ray hits in one place, by the rule of
-// reference/settle_coplanar.h, and note the dielectrics that the ray crosses there
-// (HitColumns::alsoCrossed). The rule is the reference's own: few rays need it, and it has to be
-// computed in double.
-void settleCoplanar(Chunk& c);
-void settleSpheres(Chunk& c);
+// surfaces/choose_surface.h, and note the dielectrics that the ray crosses there
+// (HitColumns::alsoCrossed). The reference follows the same code: few rays need it, and it has to
+// be computed in double.
+void chooseCoplanar(Chunk& c);
+void chooseSpheres(Chunk& c);
 
-// The dielectrics that primary rays start inside of (reference/media.h). All rays of a perspective
-// camera start in one point, which may lie on the surface of a dielectric; those of a parallel
-// camera start all over a rectangle, through which such a surface may cut. Then each ray starts in
-// media of its own.
+// The dielectrics that primary rays start inside of (surfaces/initial_media.h). All rays of a
+// perspective camera start in one point, which may lie on the surface of a dielectric; those of a
+// parallel camera start all over a rectangle, through which such a surface may cut. Then each ray
+// starts in media of its own.
 
 // A box around all surfaces of dielectrics, instances included; empty without any.
 Box dielectricBounds(const Scene& scene);

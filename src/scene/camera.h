@@ -92,7 +92,7 @@ struct CameraFrame {
   // Half the sides of the box around the points where rays start; 0: all start at the eye.
   Vec3d reach;
   // Dielectrics that contain the eye, in the encoding of rays (stages/columns.h). The renderer
-  // determines them (reference/media.h).
+  // determines them (surfaces/initial_media.h).
   std::uint32_t media = 0;
   bool orthographic = false;
   bool mediaVary = false;  // each ray may start in others

@@ -106,8 +106,9 @@ inline constexpr std::size_t roundUpToBlock(std::size_t n) {
 
 // `triangle` indexes Scene::triangles, kMiss where nothing was hit; u, v weigh corners 1 and 2;
 // `instance` indexes Scene::instances, kMiss in the world; `alsoCrossed` are the dielectrics whose
-// faces lie in the very place of the one that was hit: 10 bits each, medium * 2 + (1 if its outside
-// is hit), 0 for none; with kSharesPlace where any surface does.
+// faces lie in the very place of the one that was hit: kCrossedBits each, medium * 2 + (1 if its
+// outside is hit), 0 for none; with kSharesPlace where any surface does.
+inline constexpr int kCrossedBits = 10;
 inline constexpr std::uint32_t kSharesPlace = 1u << 30;
 #define WHIT_HIT_COLUMNS(X)             \
   X(std::uint32_t, triangle, always)    \

@@ -11,6 +11,7 @@
 #include <functional>
 
 #include "core/option_table.h"
+#include "inspect/reference_frame.h"
 #include "io/image/image_file.h"
 #include "io/image/image_layers.h"
 #include "io/load_scene.h"
@@ -62,7 +63,7 @@ struct Inside {
     if (mode == Mode::packets) {
       renderer.render(camera, film);
     } else {
-      renderer.renderReference(camera, film);
+      renderReference(renderer, camera, film);
     }
     return film;
   }

@@ -9,6 +9,7 @@
 #include "bake/scene.h"
 #include "core/error.h"
 #include "core/option_table.h"
+#include "inspect/reference_frame.h"
 #include "make/model_view.h"
 #include "render/renderer.h"
 #include "scene/members.h"

@@ -1,5 +1,6 @@
 // Emission maps from images that hold radiance: what is above 1 stays above 1.
 #include "gltf_pictures.h"
+#include "inspect/reference_frame.h"
 #include "io/image/image_file.h"
 
 namespace whit {
@@ -47,7 +48,7 @@ class EmissionRange : public GltfMaterials {
     Film film = makeFilm(scene, options);
 
     if (reference) {
-      renderer.renderReference(scene.cameras[0], film);
+      renderReference(renderer, scene.cameras[0], film);
     } else {
       renderer.render(scene.cameras[0], film);
     }

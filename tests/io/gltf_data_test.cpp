@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "inspect/reference_frame.h"
 #include "io/files.h"
 #include "io/load_scene.h"
 #include "render/renderer.h"
@@ -35,7 +36,7 @@ TEST_P(GltfData, LoadsAndAgreesWithTheReference) {
 
   Film a = makeFilm(scene, options), b = makeFilm(scene, options);
   renderer.render(scene.cameras[0], a);
-  renderer.renderReference(scene.cameras[0], b);
+  renderReference(renderer, scene.cameras[0], b);
 
   std::size_t different = 0, lit = 0;
   for (std::size_t i = 0; i < a.display.rgba.size(); ++i) {

@@ -7,8 +7,8 @@
 
 #include "reference/generate_rays.h"
 #include "reference/small_scenes.h"
-#include "reference/texture_sampling.h"
 #include "rounding.h"
+#include "surfaces/texture_sampling.h"
 
 namespace whit::reference {
 namespace {

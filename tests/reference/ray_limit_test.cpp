@@ -84,7 +84,7 @@ class BelowPile {
     return settings;
   }
 
-  reference::BruteForce bruteForce_;
+  BruteForce bruteForce_;
   reference::Tracer tracer_;
   CameraFrame frame_;
 };

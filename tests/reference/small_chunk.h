@@ -55,7 +55,7 @@ class SmallChunk {
   ColumnStore<SurfelColumns> surfels_;
   ColumnStore<UnshadowedColumns> unshadowed_;
   ColumnStore<ShadowColumns> shadows_;
-  reference::BruteForce bruteForce_;
+  BruteForce bruteForce_;
 
  public:
   Chunk chunk;

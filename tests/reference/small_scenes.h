@@ -36,7 +36,7 @@ inline reference::Settings uncut(int depth = 8) {
 inline RgbD radianceAlong(const Scene& scene, const Vec3d& origin, const Vec3d& direction,
                           const reference::Settings& settings = uncut(),
                           reference::RayCounts* counts = nullptr) {
-  const reference::BruteForce bruteForce(scene, settings.effects);
+  const BruteForce bruteForce(scene, settings.effects);
   const reference::Tracer tracer(scene, bruteForce, settings);
   reference::RayCounts own;
   return tracer.traceImpulse({origin, normalized(direction)}, 0, 1.0, 0, counts ? *counts : own);

@@ -1,5 +1,5 @@
 // Bilinear lookups (hard cases H68, H69).
-#include "reference/texture_sampling.h"
+#include "surfaces/texture_sampling.h"
 
 #include <gtest/gtest.h>
 

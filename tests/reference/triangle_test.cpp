@@ -1,5 +1,5 @@
 // Rays against triangles in double precision, one by one and by brute force.
-#include "reference/intersect.h"
+#include "surfaces/intersect.h"
 
 #include <gtest/gtest.h>
 

@@ -3,6 +3,7 @@
 
 #include "core/display.h"
 #include "inspect/metrics.h"
+#include "inspect/reference_frame.h"
 #include "render/shipped_scene.h"
 #include "sampling/sample_pattern.h"
 
@@ -108,7 +109,7 @@ TEST_P(Adaptive, AgreesWithTheReference) {
   Renderer renderer(scene_, o);
   Film packets = makeFilm(scene_, o), reference = makeFilm(scene_, o);
   const FrameStats a = renderer.render(chooseCamera(scene_, o), packets);
-  const FrameStats b = renderer.renderReference(chooseCamera(scene_, o), reference);
+  const FrameStats b = renderReference(renderer, chooseCamera(scene_, o), reference);
 
   const ImageDifference d = compareImages(packets.image, reference.image);
   // The bound is twice that of pictures without decisions between neighbors, because pixels within
@@ -154,8 +155,8 @@ TEST(AdaptiveError, SampledLobesAreNotEndedEarly) {
     // The reference decides the same.
     Renderer uniform(scene, all), chosen(scene, adaptive);
     Film a = makeFilm(scene, all), b = makeFilm(scene, adaptive);
-    uniform.renderReference(chooseCamera(scene, all), a);
-    chosen.renderReference(chooseCamera(scene, adaptive), b);
+    renderReference(uniform, chooseCamera(scene, all), a);
+    renderReference(chosen, chooseCamera(scene, adaptive), b);
     EXPECT_TRUE(a.image.pixels == b.image.pixels);
   }
 }

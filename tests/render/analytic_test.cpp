@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "inspect/reference_frame.h"
 #include "inspect/stage_comparison.h"
 #include "pi.h"
 #include "reference/generate_rays.h"
@@ -45,7 +46,7 @@ TEST(Analytic, LightFallsOffOverAPlane) {
   double worst = 0;
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
-      const reference::Ray ray = reference::generateRay(frame, x + 0.5, y + 0.5);
+      const Ray ray = reference::generateRay(frame, x + 0.5, y + 0.5);
       const Vec3d point = ray.origin + ray.direction * (-ray.origin.y / ray.direction.y);
       const Vec3d l = Vec3d(light.position) - point;
       const double wanted = 10 * 0.5 / kPi * (l.y / length(l)) / dot(l, l);
@@ -79,7 +80,7 @@ TEST(Analytic, AnOrthographicCameraDrawsAMap) {
     Renderer renderer(scene, o);
     Film packets = makeFilm(scene, o), reference = makeFilm(scene, o);
     renderer.render(camera, packets);
-    renderer.renderReference(camera, reference);
+    renderReference(renderer, camera, reference);
 
     for (int y = 0; y < 40; ++y) {
       for (int x = 0; x < 60; ++x) {

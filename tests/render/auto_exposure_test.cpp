@@ -7,6 +7,7 @@
 
 #include "core/display.h"
 #include "core/option_table.h"
+#include "inspect/auto_exposure.h"
 #include "shipped_scene.h"
 
 namespace whit {
@@ -102,13 +103,13 @@ TEST(AutoExposure, IsSettledOnce) {
   EXPECT_EQ(optionText(options, "exposure"), "auto");
 
   Renderer renderer(scene, options);
-  settleExposure(renderer, scene.cameras[0], options);
+  chooseExposure(renderer, scene.cameras[0], options);
   EXPECT_EQ(optionText(options, "exposure"), "-2");
   EXPECT_EQ(renderer.options().exposure, options.exposure);
 
   // An exposure that is given stays.
   setOption(options, "exposure", "1.5");
-  settleExposure(renderer, scene.cameras[0], options);
+  chooseExposure(renderer, scene.cameras[0], options);
   EXPECT_EQ(options.exposure.ev, 1.5f);
 }
 

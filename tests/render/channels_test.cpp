@@ -11,6 +11,7 @@
 
 #include "bake/edit_scene.h"
 #include "core/option_table.h"
+#include "inspect/reference_frame.h"
 #include "sampling/sample_pattern.h"
 #include "shipped_scene.h"
 
@@ -31,7 +32,7 @@ Film filmOf(const Scene& scene, const RenderOptions& options) {
   Film film = makeFilm(scene, options);
   const Camera camera = chooseCamera(scene, options);
   if (options.mode == Mode::reference) {
-    renderer.renderReference(camera, film);
+    renderReference(renderer, camera, film);
   } else {
     renderer.render(camera, film);
   }
@@ -628,7 +629,7 @@ void expectAllRaysKept(const std::string& name, const RenderOptions& o) {
   Renderer renderer(scene, o);
   Film film = makeFilm(scene, o);
   const Camera camera = chooseCamera(scene, o);
-  const FrameStats stats = o.mode == Mode::reference ? renderer.renderReference(camera, film)
+  const FrameStats stats = o.mode == Mode::reference ? renderReference(renderer, camera, film)
                                                      : renderer.render(camera, film);
 
   std::uint64_t kept = 0, traced = 0;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "inspect/reference_frame.h"
 #include "render/plan.h"
 #include "render/row_of_tiles.h"
 #include "rounding.h"
@@ -154,7 +155,7 @@ TEST(Coverage, OfASheetOnGlassLeavesItsReflection) {
 
     Renderer renderer(scene, o);
     Film film = makeFilm(scene, o);
-    renderer.renderReference(chooseCamera(scene, o), film);
+    renderReference(renderer, chooseCamera(scene, o), film);
     const Rgb wanted = film.image.at(image.width / 2, image.height / 2);
 
     EXPECT_GT(wanted.x, 0.1f) << within;

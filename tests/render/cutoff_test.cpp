@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "inspect/reference_frame.h"
 #include "reference/small_scenes.h"
 #include "render/shipped_scene.h"
 
@@ -47,7 +48,7 @@ TEST(Cutoff, ClosedRoomsKeepTheirLight) {
       if (packets) {
         renderer.render(chooseCamera(scene, o), film);
       } else {
-        renderer.renderReference(chooseCamera(scene, o), film);
+        renderReference(renderer, chooseCamera(scene, o), film);
       }
       // Paths end where they count for less than the cutoff, if that is before the depth does.
       const double bound = std::max(tail, double{o.cutoff} / (1 - double{albedo})) + 1e-4;
@@ -110,7 +111,7 @@ TEST(DiffuseLimit, CountsFresnelWhereTheCoatTakesTheTransmission) {
   Renderer renderer(scene, o);
   Film packets = makeFilm(scene, o), reference = makeFilm(scene, o);
   renderer.render(chooseCamera(scene, o), packets);
-  renderer.renderReference(chooseCamera(scene, o), reference);
+  renderReference(renderer, chooseCamera(scene, o), reference);
   for (std::size_t i = 0; i < packets.image.pixels.size(); ++i) {
     EXPECT_NEAR(packets.image.pixels[i].y, reference.image.pixels[i].y, 1e-4) << i;
   }
@@ -141,7 +142,7 @@ TEST(Cutoff, RaysOfCoatedGlassAreBounded) {
   Renderer renderer(scene, o);
   Film film = makeFilm(scene, o);
   const FrameStats packets = renderer.render(chooseCamera(scene, o), film);
-  const FrameStats reference = renderer.renderReference(chooseCamera(scene, o), film);
+  const FrameStats reference = renderReference(renderer, chooseCamera(scene, o), film);
   // As many paths as cutoffs go into 1, each with a ray a depth.
   const double bound = 16 * o.depth / static_cast<double>(o.cutoff);
   std::printf("%llu rays of 16 pixels (at most %.0f)\n",

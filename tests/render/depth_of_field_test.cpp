@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "inspect/reference_frame.h"
 #include "reference/small_scenes.h"
 #include "render/pipeline_laws.h"
 #include "sampling/sample_pattern.h"
@@ -79,7 +80,7 @@ Image pictureOf(const Scene& scene, const RenderOptions& o, Mode mode) {
   Renderer renderer(scene, o);
   Film film = makeFilm(scene, o);
   if (mode == Mode::reference) {
-    renderer.renderReference(chooseCamera(scene, o), film);
+    renderReference(renderer, chooseCamera(scene, o), film);
   } else {
     renderer.render(chooseCamera(scene, o), film);
   }
@@ -270,7 +271,7 @@ TEST(DepthOfField, ChannelsAreThoseOfTheRayThroughTheLens) {
   Renderer renderer(scene, o);
   Film packets = makeFilm(scene, o), reference = makeFilm(scene, o);
   renderer.render(chooseCamera(scene, o), packets);
-  renderer.renderReference(chooseCamera(scene, o), reference);
+  renderReference(renderer, chooseCamera(scene, o), reference);
   int apart = 0, aside = 0;
   for (std::size_t i = 0; i < packets.image.pixels.size(); ++i) {
     const float z = packets.channels.floats(Channel::depth)[2 * i];

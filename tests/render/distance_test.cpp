@@ -8,6 +8,7 @@
 #include <functional>
 #include <numbers>
 
+#include "inspect/reference_frame.h"
 #include "oracle/bilinear.h"
 #include "reference/small_scenes.h"
 #include "render/shipped_scene.h"
@@ -103,7 +104,7 @@ double meanSeen(SceneDescription description, double texelsPerPixel, bool byRefe
   Renderer renderer(scene, o);
   Film film = makeFilm(scene, o);
   if (byReference) {
-    renderer.renderReference(chooseCamera(scene, o), film);
+    renderReference(renderer, chooseCamera(scene, o), film);
   } else {
     renderer.render(chooseCamera(scene, o), film);
   }

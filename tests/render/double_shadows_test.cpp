@@ -12,10 +12,11 @@
 #include <optional>
 #include <vector>
 
-#include "reference/find_intersections.h"
+#include "inspect/reference_frame.h"
 #include "reference/generate_rays.h"
 #include "render/random_scenes.h"
 #include "render/shipped_scene.h"
+#include "surfaces/passed_surfaces.h"
 
 namespace whit::test {
 namespace {
@@ -98,10 +99,8 @@ class BruteForceInDouble {
 
   // Tells why rays within `reach` of this one, after rounding, may hit something else than it does.
   // Shadow rays start on `self`.
-  Cause causeOf(const Segment& ray, double reach, bool forShadow,
-                std::size_t self = reference::kNoHit) const {
-    Cause cause =
-        self != reference::kNoHit && triangles_[self].isNeedle() ? Cause::needle : Cause::unknown;
+  Cause causeOf(const Segment& ray, double reach, bool forShadow, std::size_t self = kNoHit) const {
+    Cause cause = self != kNoHit && triangles_[self].isNeedle() ? Cause::needle : Cause::unknown;
 
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
       if (forShadow && i == self) continue;
@@ -134,7 +133,7 @@ class BruteForceInDouble {
 
     const double distance = dot(t.corner[0] - ray.from, t.normal) / dot(d, t.normal);
     if (!(distance > 0)) return std::nullopt;
-    if (reference::cutAway(scene_, t.number, {distance, side[2] / sum, side[0] / sum}, forShadow)) {
+    if (cutAway(scene_, t.number, {distance, side[2] / sum, side[0] / sum}, forShadow)) {
       return std::nullopt;
     }
     return distance;
@@ -216,7 +215,7 @@ class Comparison {
 
  private:
   void add(int x, int y, double value, Tally& tally) const {
-    const reference::Ray eye = reference::generateRay(frame_, x + 0.5, y + 0.5);
+    const Ray eye = reference::generateRay(frame_, x + 0.5, y + 0.5);
     const Segment toAll{eye.origin, eye.origin + eye.direction};
     const std::optional<Found> found = truth_.nearest(toAll);
     ++tally.pixels;
@@ -308,7 +307,7 @@ TEST(DoubleShadows, H92_differOnlyWithinRoundingOfAnEdge) {
       const Camera camera = chooseCamera(scene, options);
       Film packets = makeFilm(scene, options), reference = makeFilm(scene, options);
       renderer.render(camera, packets);
-      renderer.renderReference(camera, reference);
+      renderReference(renderer, camera, reference);
 
       const Comparison comparison(scene, options);
       for (const Film* film : {&packets, &reference}) {

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "inspect/reference_frame.h"
 #include "render/renderer.h"
 #include "shipped_scene.h"
 
@@ -32,7 +33,7 @@ TEST(Enclosure, HoldsForEyesWithinOnly) {
   EXPECT_TRUE(enclosedFrom(inside));
   EXPECT_FALSE(enclosedFrom(outside));
   EXPECT_TRUE(enclosedFrom(inside));
-  renderer.renderReference(outside, film);
+  renderReference(renderer, outside, film);
   EXPECT_FALSE(renderer.accel().enclosed());
 }
 

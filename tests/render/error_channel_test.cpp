@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "core/channels.h"
+#include "inspect/reference_frame.h"
 #include "shipped_scene.h"
 
 namespace whit::test {

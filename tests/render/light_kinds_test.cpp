@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "inspect/metrics.h"
+#include "inspect/reference_frame.h"
 #include "pi.h"
 #include "reference/generate_rays.h"
 #include "render/pipeline_laws.h"
@@ -60,7 +61,7 @@ TEST(LightKinds, ASpotLightDrawsItsConeOnTheFloor) {
   std::uint64_t lit = 0;
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
-      const reference::Ray ray = reference::generateRay(frame, x + 0.5, y + 0.5);
+      const Ray ray = reference::generateRay(frame, x + 0.5, y + 0.5);
       const Vec3d point = ray.origin + ray.direction * (-ray.origin.y / ray.direction.y);
       const Vec3d l = Vec3d{0, 2, 0} - point;
       const double cosine = l.y / length(l);
@@ -111,7 +112,7 @@ TEST(LightKinds, LeftOutAreGoneAsInTheReference) {
     Renderer renderer(scene, o);
     Film packets = makeFilm(scene, o), reference = makeFilm(scene, o);
     renderer.render(chooseCamera(scene, o), packets);
-    renderer.renderReference(chooseCamera(scene, o), reference);
+    renderReference(renderer, chooseCamera(scene, o), reference);
 
     EXPECT_LE(compareImages(packets.image, reference.image).pixelsGe2CodesPct, 0);
   }

@@ -10,6 +10,8 @@
 #include <fstream>
 #include <numbers>
 
+#include "inspect/reference_frame.h"
+#include "reference/small_scenes.h"
 #include "render/frame.h"
 #include "shipped_scene.h"
 #include "verify/scene_builder.h"
@@ -258,7 +260,7 @@ void expectAlikeMirrored(Scene scene) {
   const auto pictures = [&] {
     Film packets = makeFilm(scene, options), reference = packets;
     renderer.render(chooseCamera(scene, options), packets);
-    renderer.renderReference(chooseCamera(scene, options), reference);
+    renderReference(renderer, chooseCamera(scene, options), reference);
     return std::array<Image, 2>{packets.image, reference.image};
   };
 

@@ -1,6 +1,7 @@
 // Normal maps in the vector pipeline: against closed forms and the reference.
 #include <gtest/gtest.h>
 
+#include "inspect/reference_frame.h"
 #include "pi.h"
 #include "render/row_of_tiles.h"
 
@@ -53,7 +54,7 @@ TEST(NormalMaps, ApplyWhateverTheSpanOfTheirCoordinates) {
     Renderer renderer(scene, smallOptions());
     Film packets = makeFilm(scene, smallOptions()), reference = makeFilm(scene, smallOptions());
     renderer.render(scene.cameras[0], packets);
-    renderer.renderReference(scene.cameras[0], reference);
+    renderReference(renderer, scene.cameras[0], reference);
 
     for (std::size_t i = 0; i < packets.image.pixels.size(); ++i) {
       const double p = static_cast<double>(packets.image.pixels[i].x);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "inspect/metrics.h"
+#include "inspect/reference_frame.h"
 #include "inspect/stage_comparison.h"
 #include "render/shipped_scene.h"
 #include "simd/kernels.h"
@@ -33,7 +34,7 @@ inline ImageDifference differenceFromReference(const Scene& scene, const RenderO
   Renderer renderer(scene, options);
   Film packets = makeFilm(scene, options), reference = makeFilm(scene, options);
   renderer.render(chooseCamera(scene, options), packets);
-  renderer.renderReference(chooseCamera(scene, options), reference);
+  renderReference(renderer, chooseCamera(scene, options), reference);
   return compareImages(packets.image, reference.image);
 }
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 
+#include "inspect/reference_frame.h"
 #include "reference/generate_rays.h"
 #include "reference/small_scenes.h"
 #include "render/pipeline_laws.h"
@@ -161,7 +162,7 @@ Scene ballAndWall(const Camera& camera) {
 }
 
 // Returns the distance to the nearer of the two along the ray, or infinity.
-double ballOrWall(const reference::Ray& ray) {
+double ballOrWall(const Ray& ray) {
   const double b = dot(ray.origin, ray.direction);
   const double root = b * b - (dot(ray.origin, ray.origin) - 2.25);
   if (root >= 0 && b < 0) return -b - std::sqrt(root);
@@ -190,13 +191,13 @@ TEST(Projected, DepthsOfASphereAndAPlaneAreTheClosedForm) {
     Renderer renderer(scene, o);
     Film packets = makeFilm(scene, o), reference = makeFilm(scene, o);
     renderer.render(camera, packets);
-    renderer.renderReference(camera, reference);
+    renderReference(renderer, camera, reference);
     const CameraFrame frame = makeCameraFrame(camera, 107, 67);
 
     int blind = 0, hits = 0, apart = 0;
     for (std::size_t i = 0; i < 107 * 67; ++i) {
       const int x = static_cast<int>(i % 107), y = static_cast<int>(i / 107);
-      const reference::Ray ray = reference::generateRay(frame, x + 0.5, y + 0.5);
+      const Ray ray = reference::generateRay(frame, x + 0.5, y + 0.5);
       const auto values = [&](Film& film, std::size_t k) {
         return film.channels.floats(Channel::depth)[2 * i + k];
       };

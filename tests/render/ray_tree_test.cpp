@@ -8,6 +8,7 @@
 #include <map>
 #include <random>
 
+#include "inspect/reference_frame.h"
 #include "render/row_of_tiles.h"
 #include "render/shipped_scene.h"
 #include "sanitized.h"
@@ -44,7 +45,7 @@ TEST_P(ShippedRayTree, SumsUpToThePixel) {
 
   Film film = makeFilm(scene, options), reference = film;
   renderer.render(camera, film);
-  renderer.renderReference(camera, reference);
+  renderReference(renderer, camera, reference);
   std::mt19937 random(7);
   for (int i = 0; i < 40; ++i) {
     const int x = static_cast<int>(random() % 60), y = static_cast<int>(random() % 40);
@@ -72,7 +73,7 @@ TEST_P(AdaptiveRayTree, TracesTheSamplesOfThePixel) {
   const Camera camera = chooseCamera(scene, options);
   Film film = makeFilm(scene, options), reference = film;
   renderer.render(camera, film);
-  renderer.renderReference(camera, reference);
+  renderReference(renderer, camera, reference);
 
   std::map<std::size_t, int> pixels;
   int otherReference = 0;

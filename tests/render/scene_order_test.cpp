@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "inspect/reference_frame.h"
 #include "io/scene_files.h"
 #include "reference/small_scenes.h"
 #include "render/pipeline_laws.h"
@@ -32,7 +33,7 @@ SeenOfOrder seenOf(const Scene& scene, int width = 1) {
   SeenOfOrder seen;
   for (const bool reference : {false, true}) {
     Film film = makeFilm(scene, options);
-    reference ? renderer.renderReference(camera, film) : renderer.render(camera, film);
+    reference ? renderReference(renderer, camera, film) : renderer.render(camera, film);
     for (const Rgb& pixel : film.image.pixels) seen[reference].push_back(pixel.x);
   }
   return seen;

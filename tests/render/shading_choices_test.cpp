@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "inspect/metrics.h"
+#include "inspect/reference_frame.h"
 #include "inspect/stage_comparison.h"
 #include "reference/small_scenes.h"
 #include "render/shipped_scene.h"
@@ -88,7 +89,7 @@ TEST_P(ShadingChoice, PicturesAgreeWithTheReference) {
     Renderer renderer(scene, o);
     Film packets = makeFilm(scene, o), reference = makeFilm(scene, o);
     const FrameStats a = renderer.render(chooseCamera(scene, o), packets);
-    const FrameStats b = renderer.renderReference(chooseCamera(scene, o), reference);
+    const FrameStats b = renderReference(renderer, chooseCamera(scene, o), reference);
     const ImageDifference d = compareImages(packets.image, reference.image);
     std::printf("%s, %s: %.4f %% of pixels off by two codes or more (at most 0.1)\n",
                 GetParam().c_str(), choice.name.c_str(), d.pixelsGe2CodesPct);

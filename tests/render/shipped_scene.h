@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bake/scene.h"
+#include "inspect/reference_frame.h"
 #include "io/load_scene.h"
 #include "render/renderer.h"
 
@@ -46,7 +47,7 @@ inline Picture render(const Scene& scene, const RenderOptions& options, bool pac
   Film film = makeFilm(scene, options);
   const Camera camera = chooseCamera(scene, options);
   Picture picture;
-  picture.stats = packets ? renderer.render(camera, film) : renderer.renderReference(camera, film);
+  picture.stats = packets ? renderer.render(camera, film) : renderReference(renderer, camera, film);
   picture.image = film.image;
   return picture;
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "inspect/metrics.h"
+#include "inspect/reference_frame.h"
 #include "penumbra.h"
 #include "reference/small_scenes.h"
 #include "render/pipeline_laws.h"
@@ -42,7 +43,7 @@ TEST_P(SoftShadows, PictureAgreesWithTheReference) {
   Renderer renderer(scene_, o);
   Film packets = makeFilm(scene_, o), reference = makeFilm(scene_, o);
   const FrameStats fast = renderer.render(chooseCamera(scene_, o), packets);
-  const FrameStats slow = renderer.renderReference(chooseCamera(scene_, o), reference);
+  const FrameStats slow = renderReference(renderer, chooseCamera(scene_, o), reference);
   const ImageDifference d = compareImages(packets.image, reference.image);
   std::printf("%s: %.4f %% off by two codes or more, FLIP %.6f\n", GetParam().c_str(),
               d.pixelsGe2CodesPct, d.flipMean);

@@ -12,6 +12,7 @@
 #include "bake/edit_scene.h"
 #include "brute_force.h"
 #include "inspect/metrics.h"
+#include "inspect/reference_frame.h"
 #include "make/shape.h"
 #include "pi.h"
 #include "reference/reference.h"
@@ -252,13 +253,12 @@ std::vector<std::pair<std::string, Image>> picturesOf(const Scene& scene, Render
 
   Renderer renderer(scene, o);
   Film film = makeFilm(scene, o);
-  renderer.renderReference(chooseCamera(scene, o), film);
+  renderReference(renderer, chooseCamera(scene, o), film);
   pictures.emplace_back("reference", film.image);
 
   reference::Settings settings;
   settings.options = o;
-  reference::render(scene, reference::BruteForce(scene), chooseCamera(scene, o), settings,
-                    film.image);
+  reference::render(scene, BruteForce(scene), chooseCamera(scene, o), settings, film.image);
   pictures.emplace_back("brute force", film.image);
   return pictures;
 }
@@ -410,7 +410,7 @@ TEST(Spheres, LeftOutAreNotThereInEitherMode) {
   Renderer renderer(scene, o);
   Film packets = makeFilm(scene, o), reference = makeFilm(scene, o);
   renderer.render(chooseCamera(scene, o), packets);
-  renderer.renderReference(chooseCamera(scene, o), reference);
+  renderReference(renderer, chooseCamera(scene, o), reference);
   EXPECT_LE(compareImages(packets.image, reference.image).pixelsGe2CodesPct, 0.1);
 }
 

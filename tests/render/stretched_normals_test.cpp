@@ -2,6 +2,7 @@
 // often.
 #include <gtest/gtest.h>
 
+#include "inspect/reference_frame.h"
 #include "reference/small_scenes.h"
 #include "render/facetted_sphere.h"
 #include "render/pipeline_laws.h"
@@ -44,7 +45,7 @@ void expectAlike(const Image& a, const Image& b, const char* what) {
 Image referenceOf(const Scene& scene, const RenderOptions& o) {
   Renderer renderer(scene, o);
   Film film = makeFilm(scene, o);
-  renderer.renderReference(chooseCamera(scene, o), film);
+  renderReference(renderer, chooseCamera(scene, o), film);
   return film.image;
 }
 

@@ -51,7 +51,7 @@ RenderOptions square(bool terminator) {
 // Returns the cosine of light and normal on the true sphere along a pixel's ray, or -2 where the
 // ray misses the sphere.
 double trueCosine(const CameraFrame& frame, int x, int y) {
-  const reference::Ray ray = reference::generateRay(frame, x + 0.5, y + 0.5);
+  const Ray ray = reference::generateRay(frame, x + 0.5, y + 0.5);
   const double b = dot(ray.origin, ray.direction);
   const double discriminant = b * b - dot(ray.origin, ray.origin) + 1;
   if (discriminant < 0) return -2;
@@ -92,7 +92,7 @@ TEST(Terminator, H35_anOccluderStillCastsItsShadow) {
   int shaded = 0;
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
-      const reference::Ray ray = reference::generateRay(frame, x + 0.5, y + 0.5);
+      const Ray ray = reference::generateRay(frame, x + 0.5, y + 0.5);
       const double b = dot(ray.origin, ray.direction);
       const double discriminant = b * b - dot(ray.origin, ray.origin) + 1;
       if (discriminant < 0) continue;

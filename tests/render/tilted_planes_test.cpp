@@ -3,6 +3,7 @@
 // because Embree's distances to it are rounded in proportion to its edges.
 #include <gtest/gtest.h>
 
+#include "inspect/reference_frame.h"
 #include "reference/small_scenes.h"
 #include "render/renderer.h"
 #include "render/shipped_scene.h"

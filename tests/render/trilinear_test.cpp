@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "inspect/metrics.h"
+#include "inspect/reference_frame.h"
 #include "reference/small_scenes.h"
 #include "render/pipeline_laws.h"
 #include "render/renderer.h"
@@ -83,7 +84,8 @@ TEST(Trilinear, AgreesWithTheReferenceOnEveryTarget) {
   const Scene scene = frozen(textured());
   RenderOptions o = trilinear();
   Film reference = makeFilm(scene, o);
-  Renderer(scene, o).renderReference(chooseCamera(scene, o), reference);
+  Renderer renderer(scene, o);
+  renderReference(renderer, chooseCamera(scene, o), reference);
 
   expectStagesAgreeOnEveryTarget(scene, o);
   for (const std::string& target : simd::availableTargets()) {

@@ -1,7 +1,7 @@
 // H23 to H29: triangles without area, of extreme sizes, and with coordinates that are not numbers.
 #include <array>
 #include <bit>
-#include "reference/intersect.h"
+#include "surfaces/intersect.h"
 #include "verify/bodies.h"
 
 namespace whit::verify {
@@ -109,7 +109,7 @@ Finding tinyAndHugeTriangles(const Setup& setup) {
   probe.hitEach(count);
 
   for (std::uint32_t i = 0; i < count; ++i) {
-    const Corners c = worldCorners(scene, i, reference::kNoHit);
+    const Corners c = worldCorners(scene, i, kNoHit);
     Vec3d n = normalized(cross(c[1] - c[0], c[2] - c[0]));
     if (n.z < 0) n = -n;
     finding.note(maxComponent(abs(Vec3d(probe.ng(i)) - n)),

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <array>
 
-#include "reference/intersect.h"
+#include "surfaces/intersect.h"
 #include "verify/bodies.h"
 
 namespace whit::verify {
@@ -82,7 +82,7 @@ Finding pointsFromFarAway(const Setup& setup) {
   Probe probe(scene, setup, rays);
   for (std::size_t i = 0; i < probe.size(); ++i) {
     if (!probe.isHit(i)) continue;
-    const Corners c = worldCorners(scene, probe.hits().triangle[i], reference::kNoHit);
+    const Corners c = worldCorners(scene, probe.hits().triangle[i], kNoHit);
     const Vec3d n = normalized(cross(c[1] - c[0], c[2] - c[0]));
     const Vec3d at(probe.position(i));
     const double sum = std::fabs(at.x) + std::fabs(at.y) + std::fabs(at.z);
@@ -130,7 +130,7 @@ Finding offsetBoundsTheError(const Setup& setup) {
   probe.interpolate();
 
   for (std::uint32_t i = 0; i < kTriangles; ++i) {
-    const Corners c = worldCorners(scene, i, reference::kNoHit);
+    const Corners c = worldCorners(scene, i, kNoHit);
     const double u = static_cast<double>(probe.hits().u[i]),
                  v = static_cast<double>(probe.hits().v[i]);
     // Only the distance to the plane counts: the rounding of 1 - u - v moves the point further

@@ -1,5 +1,5 @@
 // H19 to H22 and H30: rays along axes and planes, and coincident surfaces.
-#include "reference/intersect.h"
+#include "surfaces/intersect.h"
 #include "verify/bodies.h"
 
 namespace whit::verify {
@@ -94,7 +94,7 @@ Finding nearlyCoplanar(const Setup& setup) {
       continue;
     }
 
-    const Corners c = worldCorners(scene, probe.hits().triangle[i], reference::kNoHit);
+    const Corners c = worldCorners(scene, probe.hits().triangle[i], kNoHit);
     const Vec3d point =
         Vec3d(rays[i].origin) + Vec3d(rays[i].direction) * static_cast<double>(probe.hits().t[i]);
     const Vec3d low = min(c[0], min(c[1], c[2])), high = max(c[0], max(c[1], c[2]));

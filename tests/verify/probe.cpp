@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstring>
 
+#include "inspect/reference_frame.h"
 #include "render/steps.h"
 #include "simd/kernels.h"
 
@@ -130,8 +131,8 @@ void Probe::cast(const std::vector<ProbeRay>& rays) {
   // At depth 0 the eye would not see the surfaces in whose plane it lies.
   chunk_.depth = 1;
   findHits(chunk_);
-  if (chunk_.has(Feature::coplanar)) settleCoplanar(chunk_);
-  settleSpheres(chunk_);
+  if (chunk_.has(Feature::coplanar)) chooseCoplanar(chunk_);
+  chooseSpheres(chunk_);
 
   chunk_.depth = 0;
   interpolate();
@@ -259,7 +260,7 @@ std::array<Image, 2> picturesOf(const Scene& scene, const Camera& camera,
   Renderer renderer(scene, options);
   Film packets = makeFilm(scene, options), reference = packets;
   renderer.render(camera, packets);
-  renderer.renderReference(camera, reference);
+  renderReference(renderer, camera, reference);
   return {packets.image, reference.image};
 }
 

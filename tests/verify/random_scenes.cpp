@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "inspect/reference_frame.h"
 #include "verify/bodies.h"
 
 namespace whit::verify {
@@ -235,7 +236,7 @@ Finding randomScenes(const Setup& setup) {
 
     renderer.render(scene->cameras[0], film);
     look("packets");
-    renderer.renderReference(scene->cameras[0], film);
+    renderReference(renderer, scene->cameras[0], film);
     look("reference");
   }
   return finding;

@@ -2,17 +2,17 @@
 // which point of the unit sphere it is (bake/sphere.h).
 #pragma once
 
-#include <cmath>
-#include <limits>
 #include <optional>
 #include <vector>
 
 #include "bake/facet.h"
 #include "bake/scene.h"
 #include "bake/sphere.h"
-#include "reference/intersector.h"
+#include "surfaces/intersector.h"
 
-namespace whit::reference {
+namespace whit {
+
+inline constexpr double kUnitRoundOff = 0x1p-24;  // of float
 
 // t counts in lengths of the ray's direction; u and v weigh corners 1 and 2.
 struct TriangleHit {
@@ -42,26 +42,27 @@ inline std::vector<TriangleHit> intersectSphere(const Ray& ray, const Affine& fr
   return hits;
 }
 
-// Computes the hit that the candidate stands for again. If there is none in double precision, the
-// hit keeps the candidate's weights.
-inline TriangleHit refineSphereHit(const Scene& scene, const Ray& ray, const Candidate& candidate) {
-  const Affine map = sphereInWorld(scene, {candidate.triangle, candidate.instance});
+// Computes the hit that a candidate stands for again. On triangles u, v >= 0, u + v <= 1, t > 0: a
+// hit that rounding has put just beside the triangle is moved onto it. Where the intersection is
+// undefined, the candidate's own u and v are used.
+TriangleHit refineHit(const Scene& scene, const Ray& ray, const Candidate& candidate);
 
-  const Vec3d there = map.point(spherePoint(candidate.u, candidate.v));
-  const double squared = dot(ray.direction, ray.direction);
-  const double hint = dot(there - ray.origin, ray.direction) / squared;
+inline Vec3d triple(const float* values) { return {values[0], values[1], values[2]}; }
 
-  TriangleHit best{hint > 0 ? hint : std::numeric_limits<double>::min(), candidate.u, candidate.v};
-  double least = std::numeric_limits<double>::infinity();
-
-  // The weights name a point, and the nearer of the two hits is kept.
-  for (const TriangleHit& hit : intersectSphere(ray, map)) {
-    const double off = std::fabs(hit.t - hint);
-    if (!(off < least)) continue;
-    least = off;
-    best = hit;
-  }
-  return best;
+// Returns at the hit what is given at the corners.
+inline Vec3d interpolate(const float* corners, const TriangleHit& hit) {
+  return triple(corners) * (1 - hit.u - hit.v) + triple(corners + 3) * hit.u +
+         triple(corners + 6) * hit.v;
 }
 
-}  // namespace whit::reference
+// From corner 0 to corners 1 and 2.
+struct Edges {
+  Vec3d e1, e2;
+};
+
+Edges edgesOf(const TriangleRecord& triangle);
+
+// Returns the normal on the outside of a triangle, in the world and of any length.
+Vec3d outwardNormal(const Scene& scene, std::uint32_t triangle, std::uint32_t instance);
+
+}  // namespace whit

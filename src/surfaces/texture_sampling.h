@@ -3,8 +3,28 @@
 
 #include "bake/mip_maps.h"
 #include "core/shading_choices.h"
+#include "surfaces/intersect.h"
 
-namespace whit::reference {
+namespace whit {
+
+// The triangle and weights by which textures are looked up: those of the hit, or of a triangle that
+// touches the sphere.
+struct Textured {
+  TriangleRecord triangle;
+  TriangleHit hit;
+  const float* secondUvs = nullptr;
+
+  const float* uvs(bool second) const { return second && secondUvs ? secondUvs : triangle.uv; }
+};
+
+Textured texturedAt(const Scene& scene, std::uint32_t number, const TriangleHit& hit);
+
+// Texture coordinates at the hit, from those of the corners (Scene::uvsOf).
+struct TexturePoint {
+  double u = 0, v = 0;
+};
+
+TexturePoint texturePoint(const float* uvs, const TriangleHit& hit);
 
 // u runs to the right and v upwards; texel centers lie at half-integers. Coordinates that are not
 // finite or beyond 2^20 either way, where a float holds no fraction of a texel any more, count as
@@ -19,4 +39,4 @@ double mipLevel(double area);
 // Mixes bilinear lookups in the levels below and above `level` by its fraction.
 RgbD sampleTexture(const MipMaps& maps, const ShownMap& map, double u, double v, double level);
 
-}  // namespace whit::reference
+}  // namespace whit

@@ -1,14 +1,15 @@
-// The interface through which the reference queries geometry. Embree or brute force may answer;
-// either way the reference computes t, u, v and the hit point again in double from the corners.
+// The interface through which double precision queries geometry. Embree or brute force may answer;
+// either way t, u, v and the hit point are computed again in double from the corners.
 #pragma once
 
 #include <cstdint>
 
 #include "core/vec3.h"
 #include "scene/camera.h"
-#include "stages/ray_kinds.h"
+#include "stages/chunk.h"
+#include "stages/columns.h"
 
-namespace whit::reference {
+namespace whit {
 
 struct Ray {
   Vec3d origin, direction;
@@ -25,8 +26,6 @@ struct Candidate {
   double u = 0, v = 0;
 };
 
-struct Impulse;
-
 class Intersector {
  public:
   virtual ~Intersector() = default;
@@ -35,19 +34,19 @@ class Intersector {
   // is none.
   virtual bool closest(const Ray& ray, Candidate& candidate) const = 0;
 
-  // Called for each triangle that a path goes on from: among coplanar ones, the one that was
-  // chosen.
-  virtual void met(const Candidate&) const {}
-
-  // Called before each impulse is followed, and with the radiance that it returns, unweighted.
-  virtual void began(const Impulse&, RayKind) const {}
-  virtual void ended(const RgbD& /*radiance*/) const {}
-
-  // Called when the sample that was begun last is traced again (sampling/ray_limit.h).
-  virtual void beganAgain() const {}
-
   // True if a surface that casts shadows lies at 0 < t < tFar (direction not normalized).
   virtual bool occluded(const Ray& ray, double tFar) const = 0;
 };
 
-}  // namespace whit::reference
+// The ray and the hit of a slot of the chunk.
+inline Ray rayOf(const Chunk& chunk, std::size_t slot) {
+  const RayRow r = RayRow::at(chunk.rays, slot);
+  return {{r.orgX, r.orgY, r.orgZ}, {r.dirX, r.dirY, r.dirZ}, {r.cone, 0}};
+}
+
+inline Candidate candidateOf(const Chunk& chunk, std::size_t slot) {
+  const HitRow h = HitRow::at(chunk.hits, slot);
+  return {h.triangle, chunk.has(Feature::instances) ? h.instance : kNoHit, h.u, h.v};
+}
+
+}  // namespace whit

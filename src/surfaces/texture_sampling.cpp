@@ -1,9 +1,11 @@
-#include "reference/texture_sampling.h"
+#include "surfaces/texture_sampling.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace whit::reference {
+#include "bake/sphere.h"
+
+namespace whit {
 
 namespace {
 
@@ -54,6 +56,19 @@ double valueOf(TexelFormat format, std::uint32_t texel, int channel) {
 
 }  // namespace
 
+Textured texturedAt(const Scene& scene, std::uint32_t number, const TriangleHit& hit) {
+  const TriangleRecord& record = scene.triangles[number];
+  if (scene.isSphere(number)) {
+    return {touchingTriangle(record, hit.u, hit.v), {hit.t, 0, 0}, nullptr};
+  }
+  return {record, hit, scene.secondUvs.empty() ? nullptr : scene.secondUvs[number].uv};
+}
+
+TexturePoint texturePoint(const float* uv, const TriangleHit& hit) {
+  const double w = 1 - hit.u - hit.v;
+  return {uv[0] * w + uv[2] * hit.u + uv[4] * hit.v, uv[1] * w + uv[3] * hit.u + uv[5] * hit.v};
+}
+
 RgbD sampleTexture(const Texture& texture, double u, double v, TextureFilter filter) {
   const Between x = texelsAround(tame(u), texture.width, texture.wrapU);
   const Between y = texelsAround(1 - tame(v), texture.height, texture.wrapV);
@@ -89,4 +104,4 @@ RgbD sampleTexture(const MipMaps& maps, const ShownMap& map, double u, double v,
   return a + (b - a) * between;
 }
 
-}  // namespace whit::reference
+}  // namespace whit

@@ -1,4 +1,4 @@
-#include "render/renderer.h"
+#include "inspect/auto_exposure.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,9 @@
 #include "core/quantile.h"
 #include "core/vec3.h"
 #include "core/worker_pool.h"
-#include "reference/media.h"
 #include "reference/reference.h"
+#include "render/embree_intersector.h"
+#include "surfaces/initial_media.h"
 
 namespace whit {
 
@@ -49,7 +50,7 @@ Luminances luminancesOf(const Renderer& renderer, const Camera& camera) {
   const EmbreeIntersector intersector(renderer.accel());
   const reference::Tracer tracer(scene, intersector, settings);
   const CameraFrame frame =
-      reference::frameWithMedia(scene, settings.effects, intersector, camera, width, height, 1);
+      frameWithMedia(scene, settings.effects, intersector, camera, width, height, 1);
 
   // Rows are joined in order, so that the result does not depend on the threads.
   std::vector<Luminances> rows(static_cast<std::size_t>(height));
@@ -121,7 +122,7 @@ float exposureFor(const Renderer& renderer, const Camera& camera) {
   return static_cast<float>(std::clamp(std::round(ev * kSteps) / kSteps, -kMostEv, kMostEv) + 0.0);
 }
 
-void settleExposure(Renderer& renderer, const Camera& camera, RenderOptions& options) {
+void chooseExposure(Renderer& renderer, const Camera& camera, RenderOptions& options) {
   if (!options.exposure.automatic) return;
   options.exposure = {exposureFor(renderer, camera), false};
   renderer.setOptions(options);

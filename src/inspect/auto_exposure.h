@@ -1,0 +1,16 @@
+// The exposure that a view calls for (--exposure auto).
+#pragma once
+
+#include "render/renderer.h"
+
+namespace whit {
+
+// Returns the exposure in steps of 1/8 EV. It follows from scene, camera, effects and tone curve
+// alone, not from size, crop or how the picture is computed: the reference traces a small picture
+// of the scene's own shape first.
+float exposureFor(const Renderer& renderer, const Camera& camera);
+
+// Gives an automatic exposure of the options its value, and tells the renderer.
+void chooseExposure(Renderer& renderer, const Camera& camera, RenderOptions& options);
+
+}  // namespace whit
