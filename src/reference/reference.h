@@ -80,6 +80,8 @@ struct Path {
   bool straight = true;  // the path has gone on along its camera ray
   SampleTree* tree = nullptr;
   std::uint64_t width = 1;
+  double share = 1;      // 1 over the product of the numbers of samples of lobes on the way
+  RgbD weight{1, 1, 1};  // of the background where it ends
 };
 
 // Selects the impulses of a surface that are followed: all, or the chosen one, which then counts

@@ -47,7 +47,7 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
   if (!found) {
     constexpr double kForEver = std::numeric_limits<double>::infinity();
     const RgbD left = absorbs ? transmittance(scene_, media, kForEver) : RgbD(1.0);
-    if (path.straight) counts.clear += left;
+    if (path.straight) counts.clear += left * path.weight;
     if (path.straight && options_.background.hidesSky()) return {};
     return skyAlong(scene_, effects_, ray.direction) * left;
   }
@@ -61,8 +61,8 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
   const LobePoints points{path.number, lobeSampling(depth, glossySamples(options_), path.sample)};
   findLayers(scene_, effects_, crossing, options_.shading, points, surfel);
 
-  const double left = throughput * maxComponent(arrives), ended = counts.ended;
-  const RgbD clear = counts.clear;
+  const double left = throughput * maxComponent(arrives);
+  path.weight = path.weight * arrives;
   RgbD radiance;
   if (!crossing.hidden) {
     radiance = emittedAndAmbient(scene_, effects_, surfel);
@@ -89,8 +89,6 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
       radiance += sum;
     }
   }
-  counts.ended = ended + maxComponent(arrives) * (counts.ended - ended);
-  counts.clear = clear + (counts.clear - clear) * arrives;
   return radiance * arrives;
 }
 
@@ -128,7 +126,6 @@ RgbD Tracer::radianceByLobe(const SampledLobe& sampled, const Surfel& surfel, in
   const double factor =
       factorOfLobe(lobe, scene_.materials[surfel.material], effects_, surfel, depth, path.number);
   RgbD sum;
-  const double ended = counts.ended;
   for (int i = 0; i < rays; ++i) {
     const auto k = static_cast<std::uint32_t>(i);
     const UnitPoint at = pointOf(lobe, path.number, sampling, k);
@@ -138,7 +135,6 @@ RgbD Tracer::radianceByLobe(const SampledLobe& sampled, const Surfel& surfel, in
     child.straight = path.straight && impulse.ray.direction == -surfel.view;
     sum += follow(impulse, lobe.kind, depth + 1, throughput, counts, child, rays, choice);
   }
-  counts.ended = ended + (counts.ended - ended) / rays;
   return sum / rays;
 }
 
@@ -193,7 +189,7 @@ RgbD Tracer::follow(const Impulse& impulse, RayKind kind, int depth, double thro
   // Written so that a NaN ends the path.
   const bool isLast = depth > options_.depth;
   if (isLast || !(largest > 0 && survives(options_, contribution, path.number))) {
-    if (isLast || options_.roulette == 0) counts.ended += largest;
+    if (isLast || options_.roulette == 0) counts.ended += contribution * path.share / shares;
     return {};
   }
   const bool isChosen = choice.all || choice.next == choice.chosen;
@@ -205,17 +201,16 @@ RgbD Tracer::follow(const Impulse& impulse, RayKind kind, int depth, double thro
   ++counts[kind];
   path.width = choice.width;
   double grows = growthOfSurvivors(options_, contribution), reaches = contribution * grows;
-  if (!choice.all) {
+  if (choice.all) {
+    path.share /= shares;
+  } else {
     grows = choice.weights * shares / largest;
     reaches = throughput * choice.weights;
   }
   const Impulse followed{impulse.weight * grows, impulse.ray, impulse.media};
+  path.weight = path.weight * followed.weight / shares;
   observer_.began(followed, kind);
-  const double ended = counts.ended;
-  const RgbD clear = counts.clear;
   const RgbD radiance = traceImpulse(impulse.ray, depth, reaches, impulse.media, counts, path);
-  counts.ended = ended + largest * grows * (counts.ended - ended);
-  counts.clear = clear + (counts.clear - clear) * followed.weight;
   observer_.ended(radiance);
   return followed.weight * radiance;
 }
