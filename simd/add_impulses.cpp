@@ -241,7 +241,8 @@ HWY_INLINE VU MediaAt(const ImpulseJob& job, size_t i) {
 // The number of the child's path.
 HWY_INLINE VU ChildStreamsAt(const ImpulseJob& job, size_t i, uint32_t branch) {
   const UintTag du;
-  return job.streams ? ChildStream(hn::Load(du, job.rays.path + i), branch) : hn::Zero(du);
+  if (!job.streams) return hn::Zero(du);
+  return ChildStream(hn::Load(du, job.rays.path + i), branch);
 }
 
 // The children's cones begin as wide as their parents' end.

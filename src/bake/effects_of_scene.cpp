@@ -94,9 +94,11 @@ class Gatherer {
       ++count;
       triangles += uses_[i];
     }
+
+    const char* const uses = triangles == 1 ? " uses " : " use ";
     set(rule.effect, count > 0,
-        counted(count, "material") + " " + what + ", " + counted(triangles, surface()) +
-            (triangles == 1 ? " uses " : " use ") + (count == 1 ? "it" : "them"),
+        counted(count, "material") + " " + what + ", " + counted(triangles, surface()) + uses +
+            (count == 1 ? "it" : "them"),
         "no mesh uses a material " + what);
   }
 
@@ -111,8 +113,9 @@ class Gatherer {
         "no vertex has a color");
     set(Effect::spheres, scene_.triangles.size() > scene_.firstSphere,
         counted(scene_.instancedSpheres, "sphere"), "no analytic spheres");
-    const std::size_t instances =
-        scene_.motion.ofGeometry ? scene_.motion.instances.size() : scene_.instances.size();
+
+    const auto& records = scene_.motion.ofGeometry ? scene_.motion.instances : scene_.instances;
+    const std::size_t instances = records.size();
     set(Effect::instances, instances > 0,
         counted(instances, "instance") + " of " + counted(scene_.geometries.size() - 1, "object"),
         "no object is used more than once");

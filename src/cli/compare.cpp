@@ -157,9 +157,14 @@ std::vector<ChannelDifference> compareChannels(const Compared& compared) {
     });
     if (b == compared.layersB.end()) continue;
 
-    differences.push_back(
-        {a.name, a.countsThings,
-         a.countsThings ? differenceOf(a.words, b->words) : differenceOf(a.floats(), b->floats())});
+    ChannelDifference& row = differences.emplace_back();
+    row.name = a.name;
+    row.countsThings = a.countsThings;
+    if (a.countsThings) {
+      row.difference = differenceOf(a.words, b->words);
+    } else {
+      row.difference = differenceOf(a.floats(), b->floats());
+    }
   }
   return differences;
 }

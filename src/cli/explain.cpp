@@ -135,13 +135,17 @@ std::string headOf(const Explained& e) {
     return formatted("  %-11s%.6f %.6f %.6f  codes %d %d %d\n", name, double{pixel.x},
                      double{pixel.y}, double{pixel.z}, codes[0], codes[1], codes[2]);
   };
-  const std::size_t rays = e.rays.packets.nodes.size(), shadowRays = e.rays.packets.shadowRays();
+  const auto counted = [](std::size_t n, const char* noun) {
+    return std::to_string(n) + noun + (n == 1 ? "" : "s");
+  };
+
+  const std::size_t rays = e.rays.packets.nodes.size();
   bool parts = false;
   for (std::size_t i = 0; i < rays; ++i) parts |= e.rays.partsAt(i);
-  return formatted("%s, pixel %d,%d: %zu ray%s and %zu shadow ray%s\n",
-                   printable(e.scene.name).c_str(), e.place.x, e.place.y, rays,
-                   rays == 1 ? "" : "s", shadowRays, shadowRays == 1 ? "" : "s") +
-         line("packets", e.rays.packets.pixel) + line("reference", e.rays.reference.pixel) +
+
+  return formatted("%s, pixel %d,%d: ", printable(e.scene.name).c_str(), e.place.x, e.place.y) +
+         counted(rays, " ray") + " and " + counted(e.rays.packets.shadowRays(), " shadow ray") +
+         "\n" + line("packets", e.rays.packets.pixel) + line("reference", e.rays.reference.pixel) +
          (parts ? "  their paths part\n" : "") + "\n";
 }
 

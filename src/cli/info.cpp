@@ -102,7 +102,8 @@ Json infoJson(const OpenScene& open, const Renderer& renderer, const CommonOptio
 }
 
 std::string textOf(const Json& value) {
-  return value.is_string() ? printable(value.get<std::string>()) : value.dump();
+  if (value.is_string()) return printable(value.get<std::string>());
+  return value.dump();
 }
 
 // Prints what infoJson() returns for people.
@@ -112,11 +113,13 @@ void printInfo(const Json& info, const OpenScene& open, const Renderer& renderer
        {"triangles", "spheres", "instances", "objects", "materials", "lights", "textures", "sky"}) {
     std::printf("  %-12s%s\n", key, textOf(info[key]).c_str());
   }
+
   std::printf("  %-12s%s to %s\n", "bounds", info["bounds"]["lower"].dump().c_str(),
               info["bounds"]["upper"].dump().c_str());
   if (open.scene.origin != Vec3d()) {
     std::printf("  %-12smoved by %s\n", "origin", info["origin"].dump().c_str());
   }
+
   std::printf("  %-12s", "cameras");
   for (const Json& camera : info["cameras"]) std::printf("%s ", textOf(camera).c_str());
   for (const Json& animation : info["animations"]) {
@@ -124,6 +127,7 @@ void printInfo(const Json& info, const OpenScene& open, const Renderer& renderer
                 textOf(animation["name"]).c_str(), animation["seconds"].get<double>(),
                 textOf(animation["nodes"]).c_str(), animation["nodes"] == 1 ? "" : "s");
   }
+
   const char* before = "\n  options     ";
   for (const auto& [name, option] : info["options"].items()) {
     std::printf("%s%s %s (%s)", before, name.c_str(), textOf(option["value"]).c_str(),
@@ -136,6 +140,8 @@ void printInfo(const Json& info, const OpenScene& open, const Renderer& renderer
   std::printf("\n  %-12s%.1f MB\n", "memory", info["memory_mb"].get<double>());
   std::printf("  %-12s%.0f ms to load, %.0f ms to build\n", "time", open.loadMs,
               renderer.buildMs());
+
+  // What the scene calls for, and what traces it.
   std::printf("\neffects\n");
   for (const auto& [name, effect] : info["effects"].items()) {
     std::printf("  %-18s%-5s%s\n", name.c_str(), effect["on"] == true ? "on" : "-",
@@ -148,6 +154,7 @@ void printInfo(const Json& info, const OpenScene& open, const Renderer& renderer
     std::printf("  %-34s%-34s%s\n", textOf(kernel["stage"]).c_str(),
                 textOf(kernel["kernel"]).c_str(), textOf(kernel["target"]).c_str());
   }
+
   if (!info["warnings"].empty()) std::printf("\nwarnings\n");
   for (const auto& [kind, entry] : info["warnings"].items()) {
     std::printf("  %8s  %s (first: %s)\n", textOf(entry["count"]).c_str(), printable(kind).c_str(),

@@ -136,10 +136,9 @@ int otherRunnableTasks(const fs::path& loadavg) {
 int affinityThreads() {
   cpu_set_t set;
   CPU_ZERO(&set);
-  const bool known = sched_getaffinity(0, sizeof(set), &set) == 0;
+  if (sched_getaffinity(0, sizeof(set), &set) == 0) return std::max(1, CPU_COUNT(&set));
 
-  return std::max(1,
-                  known ? CPU_COUNT(&set) : static_cast<int>(std::thread::hardware_concurrency()));
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 int usableThreads() {

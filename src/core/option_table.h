@@ -153,7 +153,7 @@ std::string formatValue(const OptionSpec& spec, const T& v) {
   };
 
   if constexpr (kIsOptional<T>) {
-    return v ? formatValue(spec, *v) : std::string();
+    return v ? formatValue(spec, *v) : "";
   } else if constexpr (std::is_enum_v<T>) {
     return choicesOf(spec).at(static_cast<std::size_t>(v));
   } else if constexpr (std::is_same_v<T, bool>) {

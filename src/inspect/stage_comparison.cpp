@@ -443,36 +443,45 @@ class StageComparer : public StageObserver {
   void compareStage(Stage stage, const Chunk& c) {
     switch (stage) {
       case Stage::generateRays:
-        return compareRows<RayRow>(stage, c, c.rays, c.n, reference::generateRays);
+        compareRows<RayRow>(stage, c, c.rays, c.n, reference::generateRays);
+        break;
       case Stage::findIntersections:
-        return compareRows<SurfelRow>(stage, c, c.surfels, c.n, reference::findIntersections);
+        compareRows<SurfelRow>(stage, c, c.surfels, c.n, reference::findIntersections);
+        break;
       case Stage::writeEmittedAndReflectiveAmbient:
-        return compareRows<RadianceRow>(stage, c, c.radiance, c.n,
-                                        reference::writeEmittedAndReflectiveAmbient);
+        compareRows<RadianceRow>(stage, c, c.radiance, c.n,
+                                 reference::writeEmittedAndReflectiveAmbient);
+        break;
+
+      // Steps of a light write to the slots of surfels that it reaches.
       case Stage::findRadianceAndShadowRays:
         for (const std::size_t i : litSlots(c)) {
           compareRow(stage, c, i, UnshadowedRow::at(c.unshadowed, i),
                      reference::findRadiance(world_, c, i));
         }
-        return compareRows<ShadowRow>(stage, c, c.shadows, c.shadowCount, reference::findShadowRay,
-                                      c.shadows.slot);
+        compareRows<ShadowRow>(stage, c, c.shadows, c.shadowCount, reference::findShadowRay,
+                               c.shadows.slot);
+        break;
       case Stage::checkShadows:
         for (std::size_t k = 0; k < c.shadowCount; ++k) {
           const std::uint32_t i = c.shadows.slot[k];
           compareRow(stage, c, i, UnshadowedRow::at(c.unshadowed, i),
                      reference::checkShadows(world_, c, k));
         }
-        return;
+        break;
       case Stage::addShading:
-        return compareRows<RadianceRow>(stage, c, c.radiance, c.n,
-                                        [&](const reference::World&, const Chunk&, std::size_t i) {
-                                          return reference::addShading(before_[i], c, i);
-                                        });
+        compareRows<RadianceRow>(stage, c, c.radiance, c.n,
+                                 [&](const reference::World&, const Chunk&, std::size_t i) {
+                                   return reference::addShading(before_[i], c, i);
+                                 });
+        break;
+
       case Stage::addImpulses:
-        return compareRows<RayRow>(stage, c, c.children, c.childCount, reference::addImpulses,
-                                   c.children.parent);
+        compareRows<RayRow>(stage, c, c.children, c.childCount, reference::addImpulses,
+                            c.children.parent);
+        break;
       case Stage::updateImage:
-        return;  // compareImage
+        break;  // compareImage() compares the picture
     }
   }
 

@@ -183,8 +183,12 @@ double JsonValue::expression(const std::string& text) const {
 
 double JsonValue::number(double low, double high) const {
   if (!isNumber()) fail(rangeText(low, high, false));
-  const double value =
-      isText() ? expression(value_->get_ref<const std::string&>()) : value_->get<double>();
+  double value = 0;
+  if (isText()) {
+    value = expression(value_->get_ref<const std::string&>());
+  } else {
+    value = value_->get<double>();
+  }
   if (!(value >= low && value <= high)) fail(rangeText(low, high, true));
   return value;
 }

@@ -175,8 +175,8 @@ void readMember(const JsonValue& json, const Member<Noun, Value>& member, Value&
 template <typename Noun>
 void readMembers(JsonObject& object, Noun& noun) {
   forEachMemberInFiles(noun, [&](const auto& member) {
-    const JsonValue json =
-        member.rules.required ? object.need(member.name) : object.find(member.name);
+    const JsonValue json = object.find(member.name);
+    if (!json && member.rules.required) object.need(member.name);
     if (json) readMember(json, member, noun.*member.field);
   });
 }

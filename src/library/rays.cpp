@@ -55,7 +55,8 @@ std::size_t checkedCount(const Rays& rays) {
 // `origin` is that of the scene.
 void readRays(const Rays& rays, const Vec3d& origin, std::size_t first, std::span<QueryRay> to) {
   const auto limitOf = [](const Numbers& numbers, std::size_t i, double fallback) {
-    return numbers.size() == 0 ? fallback : numbers[numbers.size() == 1 ? 0 : i];
+    if (numbers.size() == 0) return fallback;
+    return numbers[numbers.size() == 1 ? 0 : i];
   };
   for (std::size_t i = 0; i < to.size(); ++i) {
     const std::size_t ray = first + i;
@@ -130,21 +131,32 @@ void putSurface(const whit::Scene& scene, const QueryHit& hit, const RayHits& to
   put(to.shadingNormals, i, shading);
 
   const Vec2f uv = uvAt(scene, number, hit.u, hit.v);
-  to.uvs[2 * i] = uv.x, to.uvs[2 * i + 1] = uv.y;
+  to.uvs[2 * i] = uv.x;
+  to.uvs[2 * i + 1] = uv.y;
 
   const whit::Scene::MetNumbers numbers = scene.numbersOf(number, instance);
-  to.triangles[i] = numbers.triangle, to.objects[i] = numbers.item;
+  to.triangles[i] = numbers.triangle;
+  to.objects[i] = numbers.item;
   to.materials[i] = record.material;
   to.instances[i] = map ? scene.instances[instance].written : kNoInstance;
   to.sides[i] = hit.back ? -1 : 1;
 }
 
 void putHit(const whit::Scene& scene, const QueryHit& hit, const RayHits& to, std::size_t i) {
-  to.t[i] = hit.t, to.tError[i] = hit.tError;
-  to.weights[2 * i] = static_cast<float>(hit.u), to.weights[2 * i + 1] = static_cast<float>(hit.v);
+  to.t[i] = hit.t;
+  to.tError[i] = hit.tError;
+  to.weights[2 * i] = static_cast<float>(hit.u);
+  to.weights[2 * i + 1] = static_cast<float>(hit.v);
   to.certain[i] = hit.certain ? 1 : 0;
-  if (hit.found()) return putSurface(scene, hit, to, i);
-  put(to.points, i, {}), put(to.geometricNormals, i, {}), put(to.shadingNormals, i, {});
+  if (hit.found()) {
+    putSurface(scene, hit, to, i);
+    return;
+  }
+
+  // What a ray that misses leaves in the columns of surfaces.
+  put(to.points, i, {});
+  put(to.geometricNormals, i, {});
+  put(to.shadingNormals, i, {});
   to.uvs[2 * i] = to.uvs[2 * i + 1] = 0;
   to.triangles[i] = to.objects[i] = to.materials[i] = to.instances[i] = kMiss;
   to.sides[i] = 0;
@@ -154,7 +166,8 @@ void putHit(const whit::Scene& scene, const QueryHit& hit, const RayHits& to, st
 template <typename MakeRay>
 RayAnswers blockedRays(const Queried& at, std::size_t count, bool wanted, const MakeRay& makeRay) {
   RayAnswers answers;
-  answers.yes.resize(count), answers.certain.resize(count);
+  answers.yes.resize(count);
+  answers.certain.resize(count);
   inParts(at, count, [&](std::size_t first, std::size_t end) {
     std::vector<QueryRay> rays;
     for (std::size_t i = first; i < end; ++i) rays.push_back(makeRay(i));
@@ -239,12 +252,22 @@ RayAnswers visible(const Queried& at, const Numbers& from, const Numbers& to,
     const auto passedOver = [&](const Vec3d& p) {
       return kWithoutNormal * roundingOf(at, p) / length(way);
     };
-    ray.tNear = 0, ray.tFar = 1;
-    if (fromNormals.size() == 0) ray.tNear = passedOver(a);
-    if (toNormals.size() == 0) ray.tFar = 1 - passedOver(b);
-    if (fromNormals.size() != 0) a = offSurface(at, a, normalized(pointAt(fromNormals, i)), way);
-    if (toNormals.size() != 0) b = offSurface(at, b, normalized(pointAt(toNormals, i)), -way);
-    ray.origin = a, ray.direction = b - a;
+
+    // With a normal an end moves off its surface; without one the ray begins or ends short of it.
+    ray.tFar = 1;
+    if (fromNormals.size() == 0) {
+      ray.tNear = passedOver(a);
+    } else {
+      a = offSurface(at, a, normalized(pointAt(fromNormals, i)), way);
+    }
+    if (toNormals.size() == 0) {
+      ray.tFar -= passedOver(b);
+    } else {
+      b = offSurface(at, b, normalized(pointAt(toNormals, i)), -way);
+    }
+
+    ray.origin = a;
+    ray.direction = b - a;
     return ray;
   });
 }

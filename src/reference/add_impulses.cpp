@@ -58,7 +58,8 @@ double cosineOf(const Surfel& surfel) {
 // out the share `others`. Under a coat it is the light that the coat lets through.
 RgbD underMirror(const Material& material, const RgbD& color, const RgbD& mirror,
                  const RgbD& others = {}) {
-  return material.coat ? color * (RgbD(1.0) - mirror) : limited(color, mirror + others);
+  if (material.coat) return color * (RgbD(1.0) - mirror);
+  return limited(color, mirror + others);
 }
 
 // The share of the light that the interface does not reflect, but for facets, which are a lobe.

@@ -243,7 +243,8 @@ std::optional<SurfelRow> findIntersections(const World& world, const Chunk& chun
   put(s.transmission, row.transmissionR, row.transmissionG, row.transmissionB);
   put(s.lift, row.liftX, row.liftY, row.liftZ);
   row.cone = cone.widthAt(hit.t);
-  row.flags = (s.entering ? kEntering : 0) | (crossing.hidden ? kHidden : 0);
+  if (s.entering) row.flags |= kEntering;
+  if (crossing.hidden) row.flags |= kHidden;
   row.mediaBehind = crossing.stackBehind;
   return row;
 }

@@ -196,7 +196,9 @@ void updateImage(Chunk& c) {
     __builtin_prefetch(image + next, 1);
 
     const std::size_t place = placeOf(pixels[i]);
-    image[place].x = r[i], image[place].y = g[i], image[place].z = b[i];
+    image[place].x = r[i];
+    image[place].y = g[i];
+    image[place].z = b[i];
     if (codes) {
       __builtin_prefetch(display + next, 1);
       display[place] = codes[i];

@@ -220,7 +220,8 @@ void ServedSession::serve(const Message& message) {
   const std::string& text = message.text;
 
   const auto drag = [&](view::Drag& sum) {
-    sum.x += n[0], sum.y += n[1];
+    sum.x += n[0];
+    sum.y += n[1];
     if (sum.any()) pathTime_.reset();
   };
 

@@ -58,7 +58,8 @@ class Connection : public httplib::Stream {
 
       const ssize_t got = ::recv(socket_, buffer_, std::min(left_, sizeof buffer_), 0);
       if (got <= 0) return got;
-      at_ = 0, size_ = static_cast<std::size_t>(got);
+      at_ = 0;
+      size_ = static_cast<std::size_t>(got);
       left_ -= size_;
     }
 

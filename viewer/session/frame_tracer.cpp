@@ -85,7 +85,8 @@ void FrameTracer::editSurroundings(const ShadingEdit& edit, Sky opened) {
   const bool another = edit.sky.source != sky_.source;
 
   // The sky stays, becomes the scene's own again, or is the one that was just read.
-  Sky next = std::move(!another ? scene.sky : edit.sky.source.empty() ? ownSky_ : opened);
+  Sky& read = edit.sky.source.empty() ? ownSky_ : opened;
+  Sky next = std::move(another ? read : scene.sky);
   next.scale = edit.sky.scale;
   next.rotation = edit.sky.rotation;
 

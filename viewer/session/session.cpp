@@ -50,7 +50,7 @@ void settleViewOptions(ViewOptions& options) {
 }
 
 std::string errorText(double sampleError) {
-  return sampleError > 0 ? formatted(", within about %.2g %%", 100 * sampleError) : std::string();
+  return sampleError > 0 ? formatted(", within about %.2g %%", 100 * sampleError) : "";
 }
 
 std::string samplesText(const UnfinishedFrame& frame) {
@@ -577,7 +577,8 @@ void Session::pick(int x, int y) {
   RayQuery query;
   query.picture.camera = shown_.request.camera;
   query.picture.options.size = windowPixels();
-  query.x = x, query.y = y;
+  query.x = x;
+  query.y = y;
 
   // The answer also selects the surface and its strongest light in the scene's tab.
   picked_ = query;

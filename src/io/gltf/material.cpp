@@ -75,7 +75,8 @@ float readNumber(const JsonValue& json, double fallback, double low = 0, double 
 
 Rgb colorOf(const std::vector<double>& c, double high = 1) {
   const auto clamped = [&](double x) { return static_cast<float>(std::clamp(x, 0.0, high)); };
-  return c.empty() ? Rgb(1.0f) : Rgb(clamped(c[0]), clamped(c[1]), clamped(c[2]));
+  if (c.empty()) return Rgb(1.0f);
+  return {clamped(c[0]), clamped(c[1]), clamped(c[2])};
 }
 
 GltfMaterial readMaterial(const GltfDocument& document, const JsonValue& source) {
@@ -90,7 +91,8 @@ GltfMaterial readMaterial(const GltfDocument& document, const JsonValue& source)
     if (isTrue) document.warnings().add(what, m.where);
   };
   const auto texture = [&](const JsonValue& info) {
-    return m.unlit ? GltfTexture() : readTexture(document, m.where, info);
+    if (m.unlit) return GltfTexture();
+    return readTexture(document, m.where, info);
   };
 
   const std::vector<double> base = pbr["baseColorFactor"].numbers(4);

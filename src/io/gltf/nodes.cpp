@@ -173,7 +173,8 @@ struct NodePlace {
 
 Affine placeAt(double seconds, NodePlace place, const GltfTracks& tracks) {
   const auto value = [&](const std::optional<Track>& track) {
-    return track ? valueAt(*track, seconds) : std::vector<double>();
+    if (!track) return std::vector<double>();
+    return valueAt(*track, seconds);
   };
   place.translation = tripleOr(value(tracks.translation), place.translation);
   place.scale = tripleOr(value(tracks.scale), place.scale);

@@ -433,8 +433,11 @@ ExrImage decodeExr(const std::string& path, bool wholeDisplay, const ImageLimits
                     kept.max.x - display.min.x + 1, kept.max.y - display.min.y + 1};
     image.raw =
         startImage(path, widthOf(kept), heightOf(kept), static_cast<int>(count), true, limits);
-    image.raw.values =
-        isChroma ? readChroma(path, kept, limits) : file.read<float>(kept, channels, limits);
+    if (isChroma) {
+      image.raw.values = readChroma(path, kept, limits);
+    } else {
+      image.raw.values = file.read<float>(kept, channels, limits);
+    }
     const Imf::Header& header = file.header();
     image.raw.isCube = Imf::hasEnvmap(header) && Imf::envmap(header) == Imf::ENVMAP_CUBE;
     return image;

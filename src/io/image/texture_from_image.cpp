@@ -128,8 +128,12 @@ EnvironmentImage makeEnvironment(const RawImage& raw) {
   std::size_t i = 0;
   for (int row = 0; row < environment.height; ++row) {
     for (int column = 0; column < environment.width; ++column, ++i) {
-      const Rgb value =
-          isCube ? cubePixel(raw, directionOf(column, row, environment)) : linearPixel(raw, i);
+      Rgb value;
+      if (isCube) {
+        value = cubePixel(raw, directionOf(column, row, environment));
+      } else {
+        value = linearPixel(raw, i);
+      }
       environment.r[i] = value.x;
       environment.g[i] = value.y;
       environment.b[i] = value.z;

@@ -172,7 +172,8 @@ class Interpreter {
     illum_ = numberOr("illum", 2);
     result.dissolve = dissolve();
     readMaps(m);
-    m.base = source_.has("kd") ? color("kd") : Rgb(source_.hasMap("map_kd") ? 1.0f : 0.8f);
+    m.base = Rgb(source_.hasMap("map_kd") ? 1.0f : 0.8f);
+    if (source_.has("kd")) m.base = color("kd");
     readSurface(m);
     readReflectance(result);
     if (isGlass()) readGlass(result);

@@ -161,7 +161,8 @@ class PlyReader {
  private:
   // "file:line", or "file: byte N" in binary data.
   std::string place() const {
-    return ascii_ ? lines_.place() : file_ + ": byte " + std::to_string(at_);
+    if (ascii_) return lines_.place();
+    return file_ + ": byte " + std::to_string(at_);
   }
   [[noreturn]] void failInHeader(const std::string& what) const {
     throwBadScene(lines_.place(), what);
@@ -388,7 +389,11 @@ class PlyReader {
         const Component component = componentOf(property);
         face.values[component] = valueOf(property, component, value);
       });
-      areFaces ? addFace(face) : addStrips(face.corners);
+      if (areFaces) {
+        addFace(face);
+      } else {
+        addStrips(face.corners);
+      }
     }
   }
 
