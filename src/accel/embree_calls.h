@@ -73,7 +73,7 @@ using EmbreeContext = RTCIntersectContext;
 #endif
 struct ContextWithRays : EmbreeContext {
   std::array<const float*, 6> rays;
-  void* batch;  // a RayBatch in place of the columns (ray_queries.cpp)
+  void* batch;  // a RayBatch in place of the columns (query_batch.h)
 };
 inline const std::array<const float*, 6>& raysOf(const EmbreeContext* context) {
   return static_cast<const ContextWithRays*>(context)->rays;

@@ -39,6 +39,8 @@ struct Blocked {
   bool blocked = false, certain = true;
 };
 
+class QueryScene;  // no other folder sees Embree
+
 class RayQueries {
  public:
   // The scene must outlive this, and stay as it is. Throws as Accel's constructor.
@@ -58,10 +60,8 @@ class RayQueries {
   void all(std::span<const QueryRay> rays, std::size_t limit, std::vector<QueryHit>& hits,
            std::size_t* counts) const;
 
-  struct Parts;  // ray_queries.cpp; no other folder sees Embree
-
  private:
-  std::unique_ptr<Parts> parts_;
+  std::unique_ptr<const QueryScene> scene_;
 };
 
 }  // namespace whit
