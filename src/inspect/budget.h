@@ -49,6 +49,8 @@ struct Receipt {
   std::string note;  // empty, or why budget or target are not met or the error is not known
 
   double usedMs() const { return probeMs + measuredMs; }
+  // Sets the error to what the model expects, with the bounds of the model's own error.
+  void setError(double value);
 };
 
 // Chooses the options that are not in `fixed`. `film` is that of the picture, whose pixels are

@@ -1,0 +1,480 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/error.h"
+#include "core/option_table.h"
+#include "core/stopwatch.h"
+#include "inspect/budget.h"
+#include "inspect/knobs.h"
+#include "inspect/prober.h"
+
+namespace whit {
+
+namespace {
+
+// The knobs are measured in this order, and a small budget ends the measurements early: those that
+// matter most come first.
+constexpr std::array kChosenKnobs{"glossy",       "ambient-samples", "light-samples",
+                                  "indirect",     "depth",           "cutoff",
+                                  "light-cutoff", "texture-filter",  "fresnel"};
+
+// Shares of the budget: of all measurements, with a least and a largest; and the share of the
+// picture's time that measuring it takes.
+constexpr double kProbeShare = 0.1, kMostProbeShare = 0.2, kLeastProbeMs = 12, kPictureShare = 0.05;
+constexpr double kProbeMsOfTarget = 300, kShortMs = 40;
+constexpr double kMostBlocks = 1000;
+constexpr int kRounds = 3;
+// The time that is aimed at, over the rest of the budget: whole samples leave some of it, and
+// measured times are a little too long, by caches that are cold.
+constexpr double kAim = 1.06;
+// Samples of the probes; the probe that stands for the truth has so many times as many.
+constexpr int kFewSpp = 2, kSomeSpp = 4, kTruthFactor = 4;
+constexpr double kCostOfProbe = 1.5;  // time that is expected of a probe, over the baseline's
+// The pixels of a side that are pooled to tell bias from noise.
+constexpr int kPooledSide = 4;
+// A target is taken with a margin. Squared noise falls with a power of the number of samples. FLIP
+// is about the 0.7th power of a difference, so that it falls more slowly; probes of one and four
+// samples tell the power badly.
+constexpr double kTargetMargin = 1.25;
+constexpr double kLeastPower = 0.6, kMostFlipPower = 0.9, kMostCodesPower = 1.3;
+// Noise below this share of the baseline's is not believed. Among so many combinations those whose
+// measurements flatter them would win, so that each value beside the baseline's has to gain this
+// share over the root of the number of blocks.
+constexpr double kLeastNoise = 0.02, kDoubt = 0.5;
+constexpr double kUnseenFlip = 2e-4, kUnseenCodes = 0.02;
+// A pattern of 4096 samples takes 0.15 to 0.3 s: about a 25th of the budget.
+constexpr double kSppOfRootMs = 50;
+
+// Returns the means of squares of kPooledSide pixels, or the image itself if it is smaller.
+Image pooled(const Image& image) {
+  if (std::min(image.width, image.height) < kPooledSide) return image;
+
+  Image means(image.width / kPooledSide, image.height / kPooledSide);
+  for (int y = 0; y < means.height * kPooledSide; ++y) {
+    for (int x = 0; x < means.width * kPooledSide; ++x) {
+      means.at(x / kPooledSide, y / kPooledSide) +=
+          image.at(x, y) / static_cast<float>(squared(kPooledSide));
+    }
+  }
+  return means;
+}
+
+// A value of a knob, with its cost and its error against the baseline of the model.
+struct Level {
+  std::string value;
+  double cost = 1;    // factor of the time of a sample
+  double bias2 = 0;   // squared error that more samples of pixels do not take away
+  double noise2 = 0;  // added to the squared error of one sample
+};
+
+// A knob and the values that are measured for it.
+struct KnobLevels {
+  std::string name, exact, off;  // off: without samples; empty for other knobs
+  std::vector<Level> levels;     // the first is the baseline's
+  bool endsExact() const { return levels.back().value == exact; }
+};
+
+// A picture of the chosen blocks.
+struct Probe {
+  double sampleUs = 0;  // time of a sample of a pixel
+  Image image;
+};
+
+struct Combination {
+  std::array<std::size_t, kChosenKnobs.size()> levels{};
+  int spp = 1;
+  double bias = 0;
+  CostAndError total;  // milliseconds of the picture
+};
+
+class Chooser {
+ public:
+  Chooser(Renderer& renderer, const Camera& camera, const std::set<std::string>& fixed,
+          const Budget& budget, Film& film)
+      : renderer_(renderer),
+        fixed_(fixed),
+        budget_(budget),
+        channels_(renderer.options().channels),
+        measured_(channels_.with(Channel::error)),
+        wasAdaptive_(renderer.options().adaptive),
+        baseline_(renderer.options()),
+        prober_(renderer, camera, film, budget.inCodes) {
+    // Probes keep no channels, and take all samples unless --adaptive was given explicitly.
+    baseline_.channels = {};
+    baseline_.adaptive = baseline_.adaptive && fixed.contains("adaptive");
+    if (baseline_.adaptive) measured_ = channels_;  // it takes all samples with the channel
+  }
+
+  Receipt choose() {
+    for (const char* const name : kChosenKnobs) addKnob(chooseKnobs({name}).front());
+    chooseBlocks();
+    measure();
+    Combination best = search();
+
+    // Costs that were measured one by one may not multiply exactly. The measured time of the best
+    // combination corrects the scale, after which another one may be better.
+    for (int round = 0; round < kRounds; ++round) {
+      scale_ *= prober_.wholePictureMs(optionsOf(best), kPictureShare) / best.total.cost;
+      const Combination next = search();
+      const bool same = next.levels == best.levels;
+      // The last round keeps the combination whose time was measured.
+      if (same || round + 1 < kRounds) best = next;
+      complete(best, leftMs());
+      if (same) break;
+    }
+
+    return receiptOf(best);
+  }
+
+ private:
+  bool timed() const { return budget_.ms > 0; }
+  double leftMs() const { return budget_.ms - clock_.ms(); }
+  double probeMs() const {
+    const double most = kMostProbeShare * budget_.ms;
+    return timed() ? std::clamp(kProbeShare * budget_.ms, std::min(kLeastProbeMs, most), most)
+                   : kProbeMsOfTarget;
+  }
+
+  // The baseline has one sample of each lobe and light that the scene calls for, and of the other
+  // knobs the values of the options. Cheap values come first and the exact one last, in case there
+  // is no time for all.
+  void addKnob(const Knob& knob) {
+    const EffectSet effects = renderer_.scene().effects.without(baseline_.disable);
+    const bool transports = knob.cause == Cause::transport;
+    if (fixed_.contains(knob.name) || !knob.idle(effects).empty()) return;
+    if (transports && baseline_.indirect == 0) return;
+
+    RenderOptions exact = baseline_;
+    knob.makeExact(exact, exactCutoff(effects, false));
+    KnobLevels added{knob.name, optionText(exact, knob.name), {}, {}};
+
+    if (knob.cause == Cause::algorithm) {
+      // The value of the options comes first, then those of the sweep, and the exact one last.
+      added.levels = {{optionText(baseline_, knob.name)}};
+      for (const KnobValue& value : knob.values) {
+        const bool known = value.label == added.levels[0].value || value.label == added.exact;
+        if (!known && !value.endless && !value.spare) added.levels.push_back({value.label});
+      }
+      if (added.levels[0].value != added.exact) added.levels.push_back({added.exact});
+    } else {
+      // The baseline takes the fewest samples. The other levels are off and exact, but light
+      // transport that was asked for is not switched off.
+      const bool ofLights = knob.name == "light-samples";
+      added.off = ofLights ? "1" : "0";
+      added.levels = {{ofLights ? "2" : "1"}};
+      if (!transports) added.levels.push_back({added.off});
+      added.levels.push_back({added.exact});
+      setOption(baseline_, knob.name, added.levels[0].value);
+    }
+
+    knobs_.push_back(std::move(added));
+  }
+
+  double baselineMs() { return prober_.time(baseline_, 1) * prober_.pixels() / 1e3; }
+
+  // As many blocks as there is time for, by the time of a few packets.
+  void chooseBlocks() {
+    prober_.chooseBlocks(kPacketSide, kLeastPackets);
+    double ms = baselineMs();
+
+    // Where not even one sample of the baseline fits, lobes and lights are not sampled.
+    if (timed() && ms > budget_.ms) {
+      for (KnobLevels& knob : knobs_) {
+        if (knob.off.empty() || knob.name == "indirect") continue;
+        knob.levels = {{knob.off}};
+        setOption(baseline_, knob.name, knob.off);
+      }
+      ms = baselineMs();
+    }
+
+    probeSpp_ = probeMs() < kShortMs ? kFewSpp : kSomeSpp;
+    if (timed() && ms > budget_.ms) probeSpp_ = 1;
+    if (probeSpp_ > 1) putModerateFirst();
+
+    // The time that is left for probes gives the number of pixels that can be measured.
+    const double us = 1e3 * ms / prober_.pixels() * kCostOfProbe;
+    const double pixels = 1e3 * (probeMs() - clock_.ms()) / usOfProbes(us);
+    prober_.chooseBlocks(kBlockSide,
+                         std::clamp(pixels / squared(kBlockSide), kLeastBlocks, kMostBlocks));
+  }
+
+  // A moderate value is measured first, in case there is no time for all of them.
+  void putModerateFirst() {
+    for (KnobLevels& knob : knobs_) {
+      const auto first = knob.levels.begin() + 1;
+      const auto last = knob.levels.end() - (knob.endsExact() ? 1 : 0);
+      if (first < last) std::rotate(first, first + (last - first) / 2, last);
+    }
+  }
+
+  // Microseconds that all probes take for a pixel, of whose samples each takes `us`. Each level
+  // renders one sample to warm up, then the samples of its probe, and is compared once.
+  double usOfProbes(double us) const {
+    double samples = kTruthFactor * probeSpp_, pictures = 0;  // of a pixel
+    for (const KnobLevels& knob : knobs_) {
+      const auto levels = static_cast<double>(knob.levels.size());
+      samples += levels * (1 + (knob.off.empty() ? 1 : probeSpp_));
+      pictures += levels;
+    }
+    return us * samples + kFlipMicroseconds * pictures;
+  }
+
+  void measure() {
+    probed_ = prober_.probed();
+
+    // The truth has other random numbers: noise that the probes share would hide what samples gain.
+    renderer_.setSeed(1);
+    const Image truth = probe(baseline_, kTruthFactor * probeSpp_).image;
+    renderer_.setSeed(0);
+
+    // The noise of the baseline is measured with one sample and with several.
+    const Probe one = probe(baseline_, 1), several = probe(baseline_, probeSpp_);
+    const double error2 = difference2(several.image, truth);
+    sampleUs_ = several.sampleUs;
+    noise2_ = difference2(one.image, truth);
+    findPower(error2);
+
+    for (KnobLevels& knob : knobs_) {
+      if (knob.off.empty()) {
+        measureBias(knob, one);
+      } else {
+        measureSampling(knob, several, error2, truth);
+      }
+    }
+  }
+
+  Probe probe(const RenderOptions& options, int spp) {
+    return {.sampleUs = prober_.time(options, spp), .image = prober_.mosaic()};
+  }
+
+  double difference2(const Image& a, const Image& b) const {
+    return squared(prober_.difference(a, b));
+  }
+
+  // Squared noise falls as spp^-power, to `error2` with the samples of a probe. The truth is noisy
+  // as well, by an amount that depends on the power, so that we iterate.
+  void findPower(double error2) {
+    const double most = budget_.inCodes ? kMostCodesPower : kMostFlipPower;
+    for (int i = 0; i < 3 && noise2_ > 0 && probeSpp_ > 1; ++i) {
+      const double ofTruth = noise2_ * std::pow(kTruthFactor * probeSpp_, -power_);
+      const double rest = std::max(error2 - ofTruth, error2 / 4);
+      power_ = std::clamp(std::log(noise2_ / rest) / std::log(probeSpp_), kLeastPower, most);
+    }
+  }
+
+  // One sample is enough to measure a bias, because all values share its noise.
+  void measureBias(KnobLevels& knob, const Probe& one) {
+    const std::vector<Image> shown = renderLevels(1, one, knob);
+    const Image& truth = shown[knob.endsExact() ? shown.size() - 1 : 0];
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+      knob.levels[i].bias2 = difference2(shown[i], truth);
+    }
+  }
+
+  // `several` is the probe of the baseline, and `error2` its squared error.
+  void measureSampling(KnobLevels& knob, const Probe& several, double error2, const Image& truth) {
+    const std::vector<Image> shown = renderLevels(probeSpp_, several, knob);
+    for (std::size_t i = 1; i < shown.size(); ++i) {
+      Level& level = knob.levels[i];
+      // Pooling tells bias from noise: means of many pixels show what all of them lack.
+      if (level.value == knob.off) level.bias2 = pooledBias2(shown[i], several.image, truth);
+
+      // No level has more noise than the baseline, so a positive difference is a measuring error.
+      const double more = difference2(shown[i], truth) - level.bias2 - error2;
+      level.noise2 = std::min(more, 0.0) * std::pow(probeSpp_, power_);
+    }
+  }
+
+  // Returns the squared bias of the picture without samples of a knob. The truth's own noise is
+  // subtracted by its share in the difference of two pictures that differ in nothing but noise.
+  double pooledBias2(const Image& off, const Image& own, const Image& truth) const {
+    const Image mean = pooled(truth);
+    const double noise2 = difference2(pooled(own), mean) / (1 + kTruthFactor);
+    return std::max(difference2(pooled(off), mean) - noise2, 0.0);
+  }
+
+  // Renders a picture with each value and sets the values' costs; the probe of the first is known.
+  // Values that there is no time for are left out.
+  std::vector<Image> renderLevels(int spp, const Probe& first, KnobLevels& knob) {
+    std::vector<Image> shown{first.image};
+    for (std::size_t i = 1; i < knob.levels.size(); ++i) {
+      const bool isLate = timed() && clock_.ms() > kMostProbeShare * budget_.ms;
+      if (isLate && (i > 1 || probeSpp_ > 1)) {
+        knob.levels.resize(i);
+        break;
+      }
+
+      RenderOptions options = baseline_;
+      setOption(options, knob.name, knob.levels[i].value);
+      Probe own = probe(options, spp);
+      knob.levels[i].cost = own.sampleUs / first.sampleUs;
+      shown.push_back(std::move(own.image));
+    }
+    return shown;
+  }
+
+  double wantedError() const { return budget_.error / kTargetMargin; }
+
+  // Sets the samples of the combination, and the cost and error of the picture by its levels.
+  void complete(Combination& c, double leftMs) const {
+    // Costs multiply, and squared errors add up.
+    double bias2 = 0, noise2 = noise2_, ms = scale_ * sampleUs_ * prober_.pixels() / 1e3;
+    for (std::size_t i = 0; i < knobs_.size(); ++i) {
+      const Level& level = knobs_[i].levels[c.levels[i]];
+      bias2 += level.bias2;
+      noise2 += level.noise2;
+      ms *= level.cost;
+    }
+
+    // Noise far below the baseline's is taken for a measuring error.
+    noise2 = std::max(noise2, kLeastNoise * noise2_);
+
+    c.spp = baseline_.spp;
+    if (!fixed_.contains("spp")) {
+      // A budget takes as many samples as fit; a target, as many as bring the noise down to the
+      // part of the error that the bias leaves.
+      const double spp = timed() ? std::min(kAim * leftMs / ms, usefulSamples(noise2))
+                                 : samplesFor(noise2, squared(wantedError()) - bias2);
+      c.spp = static_cast<int>(std::clamp(spp, 1.0, double{kSppLimit}));
+    }
+
+    c.bias = std::sqrt(bias2);
+    c.total = {ms * c.spp, std::sqrt(bias2 + noise2 * std::pow(c.spp, -power_))};
+  }
+
+  // The samples that bring the squared noise of one down to `error2`.
+  double samplesFor(double noise2, double error2) const {
+    return error2 > 0 ? std::ceil(std::pow(noise2 / error2, 1 / power_)) : kSppLimit;
+  }
+
+  // More samples than take the noise below what anybody could see buy nothing, and making a pattern
+  // of samples takes a time that grows with their square.
+  double usefulSamples(double noise2) const {
+    const double unseen = budget_.inCodes ? kUnseenCodes : kUnseenFlip;
+    return std::min(samplesFor(noise2, squared(unseen)), kSppOfRootMs * std::sqrt(budget_.ms));
+  }
+
+  // Counts the levels of all knobs up, like the digits of a number. Returns false after the last
+  // combination.
+  bool advance(Combination& c) const {
+    for (std::size_t i = 0; i < knobs_.size(); ++i) {
+      if (++c.levels[i] < knobs_[i].levels.size()) return true;
+      c.levels[i] = 0;
+    }
+    return false;
+  }
+
+  // Returns the best combination of levels, or the one that is nearest to the budget or target.
+  Combination search() const {
+    std::vector<Combination> all;
+    std::vector<CostAndError> costs, errors;
+    Combination c;
+    const double left = leftMs();
+
+    do {
+      complete(c, left);
+      all.push_back(c);
+
+      // Each value beside the baseline's has to win by a margin, because it may only seem better.
+      const auto same = static_cast<double>(std::ranges::count(c.levels, std::size_t{0}));
+      const double doubt = std::pow(1 + kDoubt * kBlockSide / std::sqrt(probed_),
+                                    static_cast<double>(c.levels.size()) - same);
+      costs.push_back({c.total.cost, c.total.error * doubt});
+      errors.push_back({c.total.error, c.total.cost * doubt});
+    } while (advance(c));
+
+    constexpr double kAny = std::numeric_limits<double>::infinity(), kRounding = 1 + 1e-9;
+    const std::vector<CostAndError>& wanted = timed() ? costs : errors;
+    const double most = timed() ? kAim * left : wantedError() * kRounding;
+    if (const auto best = bestWithin(wanted, most)) return all[*best];
+
+    // If nothing fits, we take the cheapest combination, or for a target the most accurate one.
+    return all[bestWithin(timed() ? errors : costs, kAny).value_or(0)];
+  }
+
+  RenderOptions optionsOf(const Combination& c) const {
+    RenderOptions options = baseline_;
+    for (std::size_t i = 0; i < knobs_.size(); ++i) {
+      setOption(options, knobs_[i].name, knobs_[i].levels[c.levels[i]].value);
+    }
+
+    options.spp = c.spp;
+    options.channels = measured_;
+    return options;
+  }
+
+  Receipt receiptOf(const Combination& best) const {
+    Receipt r;
+    r.budget = budget_;
+    r.options = optionsOf(best);
+    renderer_.setOptions(r.options);
+    r.options.channels = channels_;
+
+    // The receipt lists the chosen values, and among them those that are not exact.
+    if (!fixed_.contains("spp")) r.chosen.emplace_back("spp", std::to_string(best.spp));
+    if (wasAdaptive_ && !baseline_.adaptive) r.chosen.emplace_back("adaptive", "off");
+    for (std::size_t i = 0; i < knobs_.size(); ++i) {
+      const KnobLevels& knob = knobs_[i];
+      const Level& level = knob.levels[best.levels[i]];
+      r.chosen.emplace_back(knob.name, level.value);
+      if (level.bias2 > 0 || level.value == knob.off) {
+        r.approximate.push_back({knob.name, level.value, knob.exact, std::sqrt(level.bias2)});
+      }
+    }
+
+    r.bias = best.bias;
+    r.setError(best.total.error);
+    r.expectedMs = best.total.cost;
+
+    // The note explains a budget or target that is missed, and time that is left over.
+    const double left = leftMs();
+    const bool isCheapest = best.spp == 1 || fixed_.contains("spp");
+    if (timed() && isCheapest && r.expectedMs > kAim * left) {
+      r.note = "the budget is too small: this is the cheapest choice";
+    } else if (timed() && r.expectedMs * (1 + 1.0 / best.spp) < left) {
+      r.note = "more time would buy nothing that was measured: the picture is done early";
+    } else if (budget_.error > 0 && r.error > budget_.error) {
+      r.note = "the target is out of reach: this is the least error";
+    }
+
+    r.probeMs = clock_.ms();
+    return r;
+  }
+
+  Stopwatch clock_;
+  Renderer& renderer_;
+  const std::set<std::string>& fixed_;
+  Budget budget_;
+  ChannelSet channels_, measured_;  // asked for, and of the picture
+  bool wasAdaptive_;
+  RenderOptions baseline_;  // of which one knob at a time is changed
+  Prober prober_;
+  std::vector<KnobLevels> knobs_;
+  int probeSpp_ = kSomeSpp;
+  double probed_ = 1;                           // pixels
+  double sampleUs_ = 0, scale_ = 1;             // of a sample of the baseline
+  double noise2_ = 0, power_ = kMostFlipPower;  // squared error of one sample; see measure()
+};
+
+}  // namespace
+
+Receipt chooseOptions(Renderer& renderer, const Camera& camera, const std::set<std::string>& fixed,
+                      const Budget& budget, Film& film) {
+  if (fixed.contains("quality")) throwUsage("--budget and --target choose what --quality sets");
+  if (renderer.options().mode == Mode::reference) {
+    throwUsage("--budget and --target choose options of packets: leave out --mode reference");
+  }
+
+  // Measuring changes the seed, and a failure must not leave it changed.
+  try {
+    return Chooser(renderer, camera, fixed, budget, film).choose();
+  } catch (...) {
+    renderer.setSeed(0);
+    throw;
+  }
+}
+
+}  // namespace whit
