@@ -21,11 +21,6 @@ inline bool hasTransport(const RenderOptions& options) { return options.indirect
 inline double transportPaths(const RenderOptions& options) {
   return options.spp * options.indirect;
 }
-// The cutoff of the picture with all transport. Paths between diffuse surfaces do not end by
-// themselves.
-inline constexpr float kTransportCutoff = 1e-4f;
-// Options of packets that are exact and have all transport, with `samples` samples in every pixel.
-RenderOptions transportOptions(const RenderOptions& options, int samples);
 
 enum class PointKind { baseline, knob, preset, joint };
 inline constexpr const char* kPointKindNames[] = {"baseline", "knob", "preset", "joint"};
@@ -44,7 +39,7 @@ struct Timing {
   int rounds = 0;
   double ratio = 1;                    // to the baseline, the median of the rounds
   double ratioLow = 1, ratioHigh = 1;  // see medianInterval()
-  double settledMs = 0;  // ratio times the baseline's median: drift of the machine cancels
+  double steadyMs = 0;  // ratio times the baseline's median: drift of the machine cancels
 
   bool hasSpread() const { return rounds >= kLeastRounds; }
   double spreadPct() const { return ratio > 0 ? 50 * (ratioHigh - ratioLow) / ratio : 0; }
@@ -84,7 +79,7 @@ struct Point : PointErrors {
   std::string knob, value;  // "depth", "4"; of a joint point: "", "spp=4 depth=2"
   std::optional<Cause> cause;
   RenderOptions options;
-  bool spare = false;  // a quick sweep measures it last
+  bool minor = false;  // a quick sweep measures it last
 
   Timing timing;
   FrameStats stats;                 // of the last frame: rays by kind
@@ -96,7 +91,7 @@ struct Point : PointErrors {
   std::string imagePng, totalMapPng, sameSamplesMapPng;
 
   // "depth=4", "standard"
-  std::string label() const;
+  std::string label() const { return kind == PointKind::knob ? knob + "=" + value : value; }
 };
 
 // A knob or a point that was not measured.

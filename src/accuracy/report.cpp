@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "accuracy/reference_pictures.h"
 #include "core/option_table.h"
 #include "core/quantile.h"
 #include "core/text.h"
@@ -56,7 +57,7 @@ void addTiming(Json& row, const Point& point) {
   row["x_baseline_low"] = orNull(t.hasSpread(), t.ratioLow);
   row["x_baseline_high"] = orNull(t.hasSpread(), t.ratioHigh);
   row["noisy"] = t.noisy();
-  row["settled_ms"] = numberOf(t.settledMs);
+  row["steady_ms"] = numberOf(t.steadyMs);
 
   for (std::size_t k = 0; k < kRayKindCount; ++k)
     row[std::string(kRayKinds[k].name) + "_rays"] = point.stats.meter.tally[k].rays;
@@ -216,7 +217,7 @@ std::string rowOf(const Point& point, std::size_t labelWidth) {
   const Timing& t = point.timing;
   const double rays = static_cast<double>(point.stats.allRays());
   row += label + (point.onFront ? "*" : " ");
-  row += formatted("%9.2f%6s", t.settledMs, spreadCell(point).c_str());
+  row += formatted("%9.2f%6s", t.steadyMs, spreadCell(point).c_str());
   row += t.ratio <= kLargest ? formatted("%7.2f", t.ratio) : formatted("%7.1e", t.ratio);
   row += formatted("%9.*f%9.5f%8.1e%8.2f", rays < 1e6 ? 1 : 0, rays / 1e3, point.total.flipMean,
                    point.total.rmse, point.total.pixelsGe1CodePct);
@@ -259,7 +260,7 @@ void markFronts(std::vector<Point>& points) {
 
   for (Point& point : points) {
     point.onFront = point.onFrontSameSamples = false;
-    const double ms = point.timing.hasSpread() ? point.timing.settledMs : kNone;
+    const double ms = point.timing.hasSpread() ? point.timing.steadyMs : kNone;
     total.push_back({ms, point.total.flipMean});
     same.push_back({ms, point.sameSamples ? point.sameSamples->flipMean : kNone});
   }

@@ -39,7 +39,7 @@ Interval medianInterval(std::vector<double> values) {
 Timing TimeSamples::timing() const {
   Timing timing;
   timing.frames = static_cast<int>(ms.size());
-  timing.medianMs = timing.settledMs = quantile(ms, 0.5);
+  timing.medianMs = timing.steadyMs = quantile(ms, 0.5);
   timing.leastMs = quantile(ms, 1e-9);
   timing.rounds = provisional ? 0 : static_cast<int>(ratios.size());
   timing.ratio = quantile(ratios, 0.5);

@@ -53,7 +53,7 @@ struct TimeSamples {
   std::vector<double> ms;      // one for each frame
   std::vector<double> ratios;  // one for each round
   bool provisional = false;    // only the first frame, which allocates
-  Timing timing() const;       // without settledMs
+  Timing timing() const;       // without steadyMs
 };
 
 // Times all points of a sweep within `budgetMs`. `baseline` has rendered a frame and must outlive

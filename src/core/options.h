@@ -40,9 +40,9 @@ struct KnobSpec {
   std::string_view values = {};  // the sweep
   // Values between others, or that make the same picture by construction: a quick sweep measures
   // them last, if there is time.
-  std::string_view spare = {};
+  std::string_view minor = {};
   // Options that the inexact values need to have an effect, as on the command line.
-  std::string_view alongside = {};
+  std::string_view prerequisites = {};
   // With the exact value, branching rays would never end: scenes with such rays skip it.
   bool endless = false;
   // Effects that the option changes: it is swept in scenes that use one of each set.
@@ -211,7 +211,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .help = "samples per pixel, for anti-aliasing",
               .everyday = true,
               .knob = KnobSpec{.cause = Cause::sampling, .exact = "1",
-                               .values = "1 2 4 8 16", .spare = "2"}},
+                               .values = "1 2 4 8 16", .minor = "2"}},
              o.spp},
       // It is swept with 24 samples, not 16, to make up for the pixels that get one.
       Option{{.name = "adaptive", .words = "on|off",
@@ -219,13 +219,13 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                       "one elsewhere; with --glossy or --indirect all pixels get all samples",
               .everyday = true,
               .knob = KnobSpec{.cause = Cause::sampling, .exact = "off", .values = "off on",
-                               .alongside = "--spp 24"}},
+                               .prerequisites = "--spp 24"}},
              o.adaptive},
       Option{{.name = "contrast", .words = "N", .low = 0, .high = 255,
               .help = "difference of neighboring pixels, in 8-bit codes, above which --adaptive "
                       "samples them",
               .knob = KnobSpec{.cause = Cause::sampling, .exact = "8", .values = "8 4 16 24",
-                               .alongside = "--adaptive on --spp 24"}},
+                               .prerequisites = "--adaptive on --spp 24"}},
              o.contrast},
       Option{{.name = "depth", .words = "N", .low = 0, .high = kDepthLimit,
               .help = "maximum ray depth: bounces of reflected and refracted rays, here also "
@@ -234,7 +234,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .everyday = true,
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "64",
                                .values = "0 1 2 3 4 8 16 32 64",
-                               .spare = "1 3 16 32", .needs = {kNeedsImpulses}}},
+                               .minor = "1 3 16 32", .needs = {kNeedsImpulses}}},
              o.depth},
       // The exact value is that of each of the many samples per pixel of the reference.
       Option{{.name = "glossy", .words = "N", .low = 0, .high = 64,
@@ -245,7 +245,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .cheapest = "0",
               .everyday = true,
               .knob = KnobSpec{.cause = Cause::sampling, .exact = "4", .values = "0 1 4 16",
-                               .spare = "1 4 16",
+                               .minor = "1 4 16",
                                .needs = {EffectSet().with(Effect::glossyReflection)}}},
              o.glossy},
       Option{{.name = "indirect", .words = "N", .low = 0, .high = 64,
@@ -264,7 +264,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .cheapest = "0.004",
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "0",
                                .values = "0 1e-4 3e-4 1e-3 4e-3 1.6e-2",
-                               .spare = "3e-4", .endless = true,
+                               .minor = "3e-4", .endless = true,
                                .needs = {kNeedsImpulses}}},
              o.cutoff},
       Option{{.name = "roulette", .words = "X", .low = 0, .high = 1,
@@ -272,7 +272,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                       "weighted to keep the mean; replaces --cutoff; 0: off",
               .rebuilds = Rebuild::tables,
               .knob = KnobSpec{.cause = Cause::sampling, .exact = "0", .values = "0 0.01 0.1 0.5",
-                               .spare = "0.01 0.1 0.5",
+                               .minor = "0.01 0.1 0.5",
                                .needs = {kNeedsImpulses}}},
              o.roulette},
       Option{{.name = "max-rays", .words = "N", .low = 0, .high = 1e9,
@@ -297,7 +297,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .cheapest = "0",
               .everyday = true,
               .knob = KnobSpec{.cause = Cause::sampling, .exact = "4", .values = "0 1 4 16",
-                               .spare = "1 16",
+                               .minor = "1 16",
                                .needs = {EffectSet().with(Effect::ambientOcclusion)}}},
              o.ambientSamples},
       Option{{.name = "light-cutoff", .words = "X", .low = 0, .high = 1e6,
@@ -305,7 +305,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                       "ray",
               .cheapest = "0.004",
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "0",
-                               .values = "0 1e-4 1e-3 4e-3", .spare = "1e-4",
+                               .values = "0 1e-4 1e-3 4e-3", .minor = "1e-4",
                                .needs = {EffectSet().with(Effect::lights)}}},
              o.shading.lightCutoff},
       Option{{.name = "fresnel", .words = "exact|schlick",
@@ -332,7 +332,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .cheapest = "fixed",
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "bound",
                                .values = "bound fixed wachter-binder",
-                               .spare = "fixed wachter-binder",
+                               .minor = "fixed wachter-binder",
                                .needs = {kNeedsImpulses.with(Effect::shadows)}}},
              o.shading.offset},
       Option{{.name = "terminator", .words = "on|off",
@@ -340,7 +340,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                       "start above the facets, Hanika 2021",
               .cheapest = "off",
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "off", .values = "off on",
-                               .spare = "on",
+                               .minor = "on",
                                .needs = {kNeedsVertexNormals,
                                          EffectSet().with(Effect::shadows)}}},
              o.shading.terminator},
@@ -349,7 +349,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                       "wrong side of the surface",
               .cheapest = "off",
               .knob = KnobSpec{.cause = Cause::algorithm, .exact = "on", .values = "on off",
-                               .spare = "off",
+                               .minor = "off",
                                .needs = {kNeedsVertexNormals.with(Effect::normalMaps),
                                          kNeedsImpulses}}},
              o.shading.bend},
@@ -361,7 +361,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .help = "rays per packet (auto: widest the CPU runs natively)",
               .rebuilds = Rebuild::workers,
               .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "auto", .values = "1 4 8 16",
-                               .spare = "1 4 8 16"}},
+                               .minor = "1 4 8 16"}},
              o.packet},
       Option{{.name = "simd", .words = "auto|avx3|avx2|sse4|sse2|neon|scalar",
               .help = "SIMD target of the kernels and of Embree",
@@ -372,7 +372,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .rebuilds = Rebuild::nothing, .tab = Tab::none,
               .everyday = true,
               .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "reference",
-                               .values = "packets reference", .spare = "reference"}},
+                               .values = "packets reference", .minor = "reference"}},
              o.mode},
       Option{{.name = "batch", .words = "tile|frame",
               .help = "run each stage over one tile at a time, or over the whole frame",
@@ -386,14 +386,14 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .help = "trace rays of --robust that miss in a closed scene once more",
               .rebuilds = Rebuild::acceleration,
               .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "on", .values = "on off",
-                               .spare = "off"}},
+                               .minor = "off"}},
              o.retry},
       Option{{.name = "bvh", .words = "low|medium|high",
               .help = "Embree's build quality; high adds spatial splits, which Embree ignores "
                       "when robust",
               .rebuilds = Rebuild::acceleration,
               .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "medium",
-                               .values = "low medium high", .spare = "low high"}},
+                               .values = "low medium high", .minor = "low high"}},
              o.bvh},
       Option{{.name = "sphere-segments", .words = "N", .low = 0, .high = kSphereSegmentsLimit,
               .help = "triangles in place of exact spheres: N around and half as many from pole "
@@ -405,7 +405,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .rebuilds = Rebuild::tables,
               .cheapest = "auto",
               .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "auto", .values = "auto all",
-                               .spare = "all"}},
+                               .minor = "all"}},
              o.effects},
       Option{{.name = "disable", .words = "a,b",
               .help = "effects to leave out, by the names that whit info prints",

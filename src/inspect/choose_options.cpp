@@ -156,7 +156,7 @@ class Chooser {
       added.levels = {{optionText(baseline_, knob.name)}};
       for (const KnobValue& value : knob.values) {
         const bool known = value.label == added.levels[0].value || value.label == added.exact;
-        if (!known && !value.endless && !value.spare) added.levels.push_back({value.label});
+        if (!known && !value.endless && !value.minor) added.levels.push_back({value.label});
       }
       if (added.levels[0].value != added.exact) added.levels.push_back({added.exact});
     } else {

@@ -34,13 +34,13 @@ Knob knobOf(const std::string& name, const KnobSpec& spec) {
   };
 
   const std::string exact = labelOf(name, std::string(spec.exact));
-  const std::vector<std::string> spare = labels(spec.spare);
+  const std::vector<std::string> minor = labels(spec.minor);
   Knob knob{name, spec.cause, {}, spec, exact};
 
   for (const std::string& label : labels(spec.values)) {
-    KnobValue value{name, label, std::ranges::count(spare, label) > 0, false, {}};
+    KnobValue value{name, label, std::ranges::count(minor, label) > 0, false, {}};
     value.endless = label == exact && spec.endless;
-    if (label != exact) value.alongside = wordsOf(spec.alongside);
+    if (label != exact) value.prerequisites = wordsOf(spec.prerequisites);
     knob.values.push_back(std::move(value));
   }
   return knob;
@@ -50,8 +50,8 @@ Knob knobOf(const std::string& name, const KnobSpec& spec) {
 
 void KnobValue::apply(RenderOptions& options) const {
   setOption(options, knob, label);
-  for (std::size_t i = 0; i + 1 < alongside.size(); i += 2) {
-    setOption(options, alongside[i].substr(2), alongside[i + 1]);
+  for (std::size_t i = 0; i + 1 < prerequisites.size(); i += 2) {
+    setOption(options, prerequisites[i].substr(2), prerequisites[i + 1]);
   }
 }
 

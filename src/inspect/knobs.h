@@ -13,10 +13,10 @@
 namespace whit {
 
 struct KnobValue {
-  std::string knob, label;             // as on the command line: --KNOB LABEL
-  bool spare = false;                  // see KnobSpec
-  bool endless = false;                // branching rays never end with it
-  std::vector<std::string> alongside;  // other options that it sets, as on the command line
+  std::string knob, label;                 // as on the command line: --KNOB LABEL
+  bool minor = false;                      // see KnobSpec
+  bool endless = false;                    // branching rays never end with it
+  std::vector<std::string> prerequisites;  // other options that it sets, as on the command line
 
   void apply(RenderOptions& options) const;
   // The reason why the value is impossible in scenes with these effects, beyond the knob's own;

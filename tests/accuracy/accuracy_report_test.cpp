@@ -21,7 +21,7 @@ Point pointOf(PointKind kind, const std::string& knob, const std::string& value,
   point.knob = knob;
   point.value = value;
 
-  point.timing.settledMs = ms;
+  point.timing.steadyMs = ms;
   point.timing.frames = point.timing.rounds = 9;
   point.timing.ratio = point.timing.ratioLow = point.timing.ratioHigh = ms / 10;
   point.total.flipMean = flip;

@@ -64,7 +64,7 @@ TEST(Fronts, HoldOnlyPointsWhoseTimesHaveASpread) {
     std::vector<Point> points(1 + random() % 10);
     for (Point& p : points) {
       p.timing.rounds = static_cast<int>(random() % 6);
-      p.timing.settledMs = static_cast<double>(1 + random() % 50);
+      p.timing.steadyMs = static_cast<double>(1 + random() % 50);
       p.total.flipMean = static_cast<double>(random() % 50);
       if (random() % 2) p.sameSamples.emplace().flipMean = static_cast<double>(random() % 50);
       p.onFront = p.onFrontSameSamples = random() % 2;  // stale marks, which markFronts() replaces
@@ -81,9 +81,9 @@ TEST(Fronts, HoldOnlyPointsWhoseTimesHaveASpread) {
       bool beaten = false, beatenSame = false;
       for (const Point& q : points) {
         if (!q.timing.hasSpread()) continue;
-        beaten |= beats(q.timing.settledMs, q.total.flipMean, p.timing.settledMs, p.total.flipMean);
+        beaten |= beats(q.timing.steadyMs, q.total.flipMean, p.timing.steadyMs, p.total.flipMean);
         beatenSame |= q.sameSamples && p.sameSamples &&
-                      beats(q.timing.settledMs, q.sameSamples->flipMean, p.timing.settledMs,
+                      beats(q.timing.steadyMs, q.sameSamples->flipMean, p.timing.steadyMs,
                             p.sameSamples->flipMean);
       }
       EXPECT_FALSE(p.onFront && (beaten || p.timing.rounds < kLeastRounds));

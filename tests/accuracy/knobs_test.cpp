@@ -1,5 +1,5 @@
 // The knobs against the options of the command line.
-#include "accuracy/measurement.h"
+#include "accuracy/reference_pictures.h"
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ TEST(Knobs, LabelsAreWhatTheCommandLineTakes) {
       RenderOptions options;
       value.apply(options);
       std::vector<std::string> words{"--" + knob.name, value.label};
-      words.insert(words.end(), value.alongside.begin(), value.alongside.end());
+      words.insert(words.end(), value.prerequisites.begin(), value.prerequisites.end());
       EXPECT_EQ(pictureOptions(options), pictureOptions(parsed(words)))
           << knob.name << "=" << value.label;
     }

@@ -1,5 +1,5 @@
 // The mean of passes and its standard error, where both have a closed form.
-#include "accuracy/sweep.h"
+#include "accuracy/reference_pictures.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "accuracy/sweep.h"
+#include "accuracy/points.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Digests, and the pictures that points are measured against.
-#include "accuracy/sweep.h"
+#include "accuracy/reference_pictures.h"
 
 #include <gtest/gtest.h>
 

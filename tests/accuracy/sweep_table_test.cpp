@@ -3,8 +3,8 @@
 
 #include <sstream>
 
+#include "accuracy/points.h"
 #include "accuracy/report.h"
-#include "accuracy/sweep.h"
 
 namespace whit::accuracy {
 namespace {
@@ -28,7 +28,7 @@ SceneSweep widest() {
     sweep.idle.push_back({point.label(), "the minute was over"});
     Timing& t = point.timing;
     t.rounds = t.frames = 5;
-    t.settledMs = 99999.99, t.ratio = 9999, t.ratioLow = 1, t.ratioHigh = 19999;
+    t.steadyMs = 99999.99, t.ratio = 9999, t.ratioLow = 1, t.ratioHigh = 19999;
     point.stats.meter.tally[0].rays = 9'999'999'999;
     point.total.flipMean = 0.99999, point.total.rmse = 9.9e+10, point.total.pixelsGe1CodePct = 100;
     point.total.nonFinite = 1'000'000;

@@ -63,15 +63,15 @@ TEST(OptionTable, WordsOfKnobsAreValues) {
       EXPECT_NO_THROW(setOption(options, name, word)) << name << " " << word;
     }
 
-    for (const std::string& word : wordsOf(spec.knob->spare)) {
+    for (const std::string& word : wordsOf(spec.knob->minor)) {
       EXPECT_NE(std::find(values.begin(), values.end(), word), values.end()) << name << word;
     }
 
-    const std::vector<std::string> alongside = wordsOf(spec.knob->alongside);
-    for (std::size_t i = 0; i < alongside.size(); i += 2) {
-      ASSERT_LT(i + 1, alongside.size()) << name;
-      EXPECT_TRUE(alongside[i].starts_with("--")) << name;
-      EXPECT_NO_THROW(setOption(options, alongside[i].substr(2), alongside[i + 1])) << name;
+    const std::vector<std::string> prerequisites = wordsOf(spec.knob->prerequisites);
+    for (std::size_t i = 0; i < prerequisites.size(); i += 2) {
+      ASSERT_LT(i + 1, prerequisites.size()) << name;
+      EXPECT_TRUE(prerequisites[i].starts_with("--")) << name;
+      EXPECT_NO_THROW(setOption(options, prerequisites[i].substr(2), prerequisites[i + 1])) << name;
     }
   });
 }

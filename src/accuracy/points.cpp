@@ -1,9 +1,8 @@
-#include "accuracy/measurement.h"
+#include "accuracy/points.h"
 
 #include <algorithm>
 #include <cstdlib>
 
-#include "accuracy/sweep.h"
 #include "core/option_table.h"
 #include "output/digest.h"
 
@@ -21,7 +20,7 @@ RenderOptions presetOf(const RenderOptions& base, const std::string& quality) {
 // Adds a point, unless an earlier one has its options.
 void addPoint(std::vector<Point>& points, PointKind kind, const std::string& knob,
               const std::string& value, std::optional<Cause> cause, const RenderOptions& options,
-              bool spare = false) {
+              bool minor = false) {
   // Two points with equal options would have the same picture and the same time.
   const std::string digest = digestOf(options);
   for (const Point& earlier : points) {
@@ -34,14 +33,14 @@ void addPoint(std::vector<Point>& points, PointKind kind, const std::string& kno
   point.value = value;
   point.cause = cause;
   point.options = options;
-  point.spare = spare;
+  point.minor = minor;
 }
 
 // True if the knob's values are plain numbers of samples of pixels, lobes or lights.
 bool countsSamples(const Knob& knob) {
   return std::ranges::all_of(knob.values, [](const KnobValue& value) {
     const bool whole = value.label.find_first_not_of("0123456789") == std::string::npos;
-    return whole && value.alongside.empty();
+    return whole && value.prerequisites.empty();
   });
 }
 
@@ -56,15 +55,6 @@ const KnobValue& atMost(const Knob& knob, const KnobValue& other) {
 }
 
 }  // namespace
-
-RenderOptions transportOptions(const RenderOptions& options, int samples) {
-  RenderOptions exact = referenceOptions(options, samples, kTransportCutoff);
-  exact = exactIn(exact, Cause::transport, kTransportCutoff);
-  exact.mode = Mode::packets;
-  return exact;
-}
-
-std::string Point::label() const { return kind == PointKind::knob ? knob + "=" + value : value; }
 
 PointList makePoints(const RenderOptions& base, EffectSet effects, const std::vector<Knob>& knobs) {
   PointList list;
@@ -95,7 +85,7 @@ PointList makePoints(const RenderOptions& base, EffectSet effects, const std::ve
       RenderOptions options = base;
       value.apply(options);
       addPoint(list.points, PointKind::knob, knob.name, value.label, knob.cause, options,
-               value.spare);
+               value.minor);
     }
   }
   return list;
