@@ -39,116 +39,141 @@ double squaredDistance(const Vec2f& a, const Vec2f& b) {
   return x * x + y * y;
 }
 
-// Returns the indices of the samples that stand for the whole pixel. They are near the points of
-// the pattern of kProbeSamples samples. Above all their mean is in the center, because a pixel that
-// gets no further samples would otherwise be displaced. There must be at least kProbeSamples
-// samples.
-std::array<std::size_t, kProbeSamples> chooseProbes(const std::vector<Vec2f>& samples) {
-  constexpr std::size_t kNearest = 6;
-  constexpr double kWeightOfMean = 64;
+// Finds the samples that stand for the whole pixel. They are near the points of the pattern of
+// kProbeSamples samples. Above all their mean is in the center, because a pixel that gets no
+// further samples would otherwise be displaced. There must be at least kProbeSamples samples.
+class ProbeChooser {
+ public:
+  using Probes = std::array<std::size_t, kProbeSamples>;
 
   // The candidates for probe k are the samples nearest to point k of the small pattern.
-  const std::vector<Vec2f> wanted = rooks(kProbeSamples);
-  const std::size_t candidates = std::min(kNearest, samples.size());
-  std::array<std::vector<std::pair<double, std::size_t>>, kProbeSamples> near;
-  for (std::size_t k = 0; k < near.size(); ++k) {
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-      near[k].emplace_back(squaredDistance(samples[i], wanted[k]), i);
+  explicit ProbeChooser(const std::vector<Vec2f>& samples)
+      : samples_(samples), candidates_(std::min<std::size_t>(kNearest, samples.size())) {
+    const std::vector<Vec2f> wanted = rooks(kProbeSamples);
+    for (std::size_t k = 0; k < near_.size(); ++k) {
+      for (std::size_t i = 0; i < samples.size(); ++i) {
+        near_[k].emplace_back(squaredDistance(samples[i], wanted[k]), i);
+      }
+      std::partial_sort(near_[k].begin(),
+                        near_[k].begin() + static_cast<std::ptrdiff_t>(candidates_),
+                        near_[k].end());
     }
-    std::partial_sort(near[k].begin(), near[k].begin() + static_cast<std::ptrdiff_t>(candidates),
-                      near[k].end());
   }
 
-  // All combinations of candidates are tried, at most 6^4. Their cost is the sum of squared
-  // distances to the wanted places, and 64 times that of their mean from the center.
-  std::array<std::size_t, kProbeSamples> chosen{}, best{};
-  double least = std::numeric_limits<double>::infinity();
+  // All combinations of candidates are tried, at most 6^4.
+  Probes choose() {
+    tryFrom(0, 0, {0, 0});
+    return best_;
+  }
 
-  const auto choose = [&](auto&& self, std::size_t k, double away, Vec2f sum) -> void {
-    if (k == chosen.size()) {
-      const Vec2f center{kProbeSamples / 2.0f, kProbeSamples / 2.0f};
-      constexpr double kScale = kWeightOfMean / (kProbeSamples * kProbeSamples);
-      const double cost = away + kScale * squaredDistance(sum, center);
-      if (cost < least) {
-        least = cost;
-        best = chosen;
-      }
+ private:
+  static constexpr std::size_t kNearest = 6;
+
+  // Tries all candidates for the probes from k on. The first k probes are `away` from the wanted
+  // places, in sum of squares, and their places have this sum.
+  void tryFrom(std::size_t k, double away, Vec2f sum) {
+    if (k == chosen_.size()) {
+      keepIfBetter(away, sum);
       return;
     }
 
-    for (std::size_t i = 0; i < candidates; ++i) {
-      const auto& [distance, at] = near[k][i];
-      chosen[k] = at;
-      const auto before = chosen.begin() + static_cast<std::ptrdiff_t>(k);
-      if (std::find(chosen.begin(), before, at) != before) continue;
+    for (std::size_t i = 0; i < candidates_; ++i) {
+      const auto& [distance, at] = near_[k][i];
+      chosen_[k] = at;
+      const auto before = chosen_.begin() + static_cast<std::ptrdiff_t>(k);
+      if (std::find(chosen_.begin(), before, at) != before) continue;
 
-      const Vec2f& s = samples[at];
-      self(self, k + 1, away + distance, {sum.x + s.x, sum.y + s.y});
+      const Vec2f& s = samples_[at];
+      tryFrom(k + 1, away + distance, {sum.x + s.x, sum.y + s.y});
     }
-  };
+  }
 
-  choose(choose, 0, 0, {0, 0});
-  return best;
-}
+  // The cost is the sum of squared distances to the wanted places, and 64 times that of the mean
+  // from the center.
+  void keepIfBetter(double away, const Vec2f& sum) {
+    constexpr Vec2f kCenter{kProbeSamples / 2.0f, kProbeSamples / 2.0f};
+    constexpr double kScale = 64.0 / (kProbeSamples * kProbeSamples);
+    const double cost = away + kScale * squaredDistance(sum, kCenter);
+    if (cost < least_) {
+      least_ = cost;
+      best_ = chosen_;
+    }
+  }
 
-// Returns all indices, those of `first` before the others. Each further sample is far from all
-// before it, measured as if copies of the pixel lay side by side (Eldar et al. 1997, "The farthest
-// point strategy for progressive image sampling"): among those at least 0.7 times as far as the
-// farthest, the one that brings the mean of all samples nearest to the center. Distances are in
-// whole cells, so that the order is the same on every machine.
-std::vector<std::size_t> spreadOrder(const std::vector<Vec2f>& samples,
-                                     const std::vector<std::size_t>& first) {
+  const std::vector<Vec2f>& samples_;
+  std::size_t candidates_;
+  // Squared distances and indices, the candidates first.
+  std::array<std::vector<std::pair<double, std::size_t>>, kProbeSamples> near_;
+  Probes chosen_{}, best_{};
+  double least_ = std::numeric_limits<double>::infinity();
+};
+
+// Puts samples into an order in which each is far from all before it, measured as if copies of the
+// pixel lay side by side (Eldar et al. 1997, "The farthest point strategy for progressive image
+// sampling"): among those at least 0.7 times as far as the farthest, the one that brings the mean
+// of all samples nearest to the center. Distances are in whole cells, so that the order is the same
+// on every machine.
+class SpreadOrder {
+ public:
+  // Samples lie in the middles of the cells of an n x n board.
+  explicit SpreadOrder(const std::vector<Vec2f>& samples)
+      : n_(static_cast<std::int64_t>(samples.size())),
+        distance_(samples.size(), std::numeric_limits<std::int64_t>::max() / 2) {
+    const auto cellOf = [&](float place) {
+      return static_cast<std::int64_t>(place * static_cast<float>(n_));
+    };
+    cells_.reserve(samples.size());
+    for (const Vec2f& sample : samples) cells_.push_back({cellOf(sample.x), cellOf(sample.y)});
+  }
+
+  // Returns all indices, those of `first` before the others.
+  template <typename First>
+  std::vector<std::size_t> startingWith(const First& first) {
+    for (const std::size_t i : first) take(i);
+    while (order_.size() < cells_.size()) take(next());
+    return order_;
+  }
+
+ private:
+  static constexpr std::int64_t kTaken = -1;
+
   struct Cell {
     std::int64_t x = 0, y = 0;
   };
 
-  // Samples lie in the middles of the cells of an n x n board.
-  const auto n = static_cast<std::int64_t>(samples.size());
-  const auto cellOf = [&](float place) {
-    return static_cast<std::int64_t>(place * static_cast<float>(n));
-  };
-
-  std::vector<Cell> cells;
-  cells.reserve(samples.size());
-  for (const Vec2f& sample : samples) cells.push_back({cellOf(sample.x), cellOf(sample.y)});
+  static std::int64_t squared(std::int64_t x, std::int64_t y) { return x * x + y * y; }
 
   // The pattern repeats from pixel to pixel, so distances wrap around at the pixel's borders.
-  const auto squared = [](std::int64_t x, std::int64_t y) { return x * x + y * y; };
-  const auto apart = [&](std::int64_t a, std::int64_t b) {
-    return std::min(std::abs(a - b), n - std::abs(a - b));
-  };
+  std::int64_t apart(std::int64_t a, std::int64_t b) const {
+    return std::min(std::abs(a - b), n_ - std::abs(a - b));
+  }
 
-  // Untaken samples have the squared distance to the nearest sample taken so far.
-  constexpr std::int64_t kTaken = -1;
-  std::vector<std::int64_t> distance(samples.size(), std::numeric_limits<std::int64_t>::max() / 2);
-  std::vector<std::size_t> order;
-  Cell sum;  // twice the sum of the taken samples' offsets from the center, in cells
+  // The sum of the taken samples and this one.
+  Cell summed(const Cell& c) const {
+    return {sum_.x + 2 * c.x + 1 - n_, sum_.y + 2 * c.y + 1 - n_};
+  }
 
-  const auto summed = [&](const Cell& c) {
-    return Cell{sum.x + 2 * c.x + 1 - n, sum.y + 2 * c.y + 1 - n};
-  };
+  void take(std::size_t taken) {
+    order_.push_back(taken);
+    sum_ = summed(cells_[taken]);
+    distance_[taken] = kTaken;
 
-  const auto take = [&](std::size_t taken) {
-    order.push_back(taken);
-    sum = summed(cells[taken]);
-    distance[taken] = kTaken;
-
-    for (std::size_t i = 0; i < cells.size(); ++i) {
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
       const std::int64_t away =
-          squared(apart(cells[i].x, cells[taken].x), apart(cells[i].y, cells[taken].y));
-      distance[i] = std::min(distance[i], away);
+          squared(apart(cells_[i].x, cells_[taken].x), apart(cells_[i].y, cells_[taken].y));
+      distance_[i] = std::min(distance_[i], away);
     }
-  };
+  }
 
-  const auto next = [&] {
-    const std::int64_t farthest = *std::ranges::max_element(distance);
-    std::size_t best = samples.size();
+  std::size_t next() const {
+    const std::int64_t farthest = *std::ranges::max_element(distance_);
+    std::size_t best = cells_.size();
     std::int64_t least = std::numeric_limits<std::int64_t>::max();
-    for (std::size_t i = 0; i < cells.size(); ++i) {
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
       // Half of the squared distance is 0.7 of the distance.
-      if (distance[i] == kTaken || 2 * distance[i] < farthest) continue;
+      if (distance_[i] == kTaken || 2 * distance_[i] < farthest) continue;
 
-      const Cell with = summed(cells[i]);
+      const Cell with = summed(cells_[i]);
       const auto cost = squared(with.x, with.y);
       if (cost < least) {
         least = cost;
@@ -156,12 +181,14 @@ std::vector<std::size_t> spreadOrder(const std::vector<Vec2f>& samples,
       }
     }
     return best;
-  };
+  }
 
-  for (const std::size_t i : first) take(i);
-  while (order.size() < samples.size()) take(next());
-  return order;
-}
+  std::int64_t n_;
+  std::vector<Cell> cells_;
+  std::vector<std::int64_t> distance_;  // squared, to the nearest taken sample; or kTaken
+  std::vector<std::size_t> order_;
+  Cell sum_;  // twice the sum of the taken samples' offsets from the center, in cells
+};
 
 constexpr double kCosOfTurn = 0.99619469809;  // 5 degrees
 constexpr double kSinOfTurn = 0.08715574275;
@@ -221,10 +248,9 @@ std::vector<Vec2f> samplePattern(int spp) {
   if (spp <= kProbeSamples) return samples;
 
   // The probes come first, and further samples spread over the rest of the pixel.
-  const auto probes = chooseProbes(samples);
   std::vector<Vec2f> ordered;
   ordered.reserve(samples.size());
-  for (const std::size_t i : spreadOrder(samples, {probes.begin(), probes.end()})) {
+  for (const std::size_t i : SpreadOrder(samples).startingWith(ProbeChooser(samples).choose())) {
     ordered.push_back(samples[i]);
   }
   return ordered;
