@@ -1,5 +1,5 @@
-// Work shared among threads: a fixed crew that runs one function together, and loops shared out one
-// index at a time.
+// Work shared among threads: a fixed team of threads that runs one function together, and loops
+// shared out one index at a time.
 #pragma once
 
 #include <sys/types.h>
@@ -44,30 +44,30 @@ class WorkerPool {
   void finish();
 
  private:
-  struct Crew {
-    explicit Crew(int workers) : start(workers), finish(workers) {}
+  struct Team {
+    explicit Team(int workers) : start(workers), finish(workers) {}
     std::barrier<> start, finish;
     std::mutex mutex;
     std::vector<std::thread> threads;
-    pid_t process = getpid();  // a child of this process has no threads of the crew
+    pid_t process = getpid();  // a child of this process has no threads of the team
   };
 
   void work(int worker);
   void call(int worker) noexcept;
-  void startCrew();
-  void sendHome();
+  void startWorkers();
+  void stopWorkers();
 
-  // Leaks the crew of a parent process, because destructors would wait for its threads.
-  void forgetDeadCrew() {
-    if (!hasCrew()) static_cast<void>(crew_.release());
+  // Leaks the team of a parent process, because destructors would wait for its threads.
+  void forgetParentsTeam() {
+    if (!hasTeam()) static_cast<void>(team_.release());
   }
-  bool hasCrew() const { return crew_ && crew_->process == getpid(); }
+  bool hasTeam() const { return team_ && team_->process == getpid(); }
 
   int workers_;
   Denormals denormals_;
-  const std::function<void(int)>* job_ = nullptr;  // null: the crew goes home
+  const std::function<void(int)>* job_ = nullptr;  // null: the workers end
   std::exception_ptr error_;
-  std::unique_ptr<Crew> crew_;  // null after it could not be started
+  std::unique_ptr<Team> team_;  // null after it could not be started
 };
 
 // Calls task(i, worker) once for every i below `count`, in this order as workers become free, on
@@ -75,17 +75,5 @@ class WorkerPool {
 // the first of it reaches the caller. Denormals are kept. Throws as WorkerPool does.
 void parallelFor(int threads, std::size_t count,
                  const std::function<void(std::size_t i, int worker)>& task);
-
-// Sets flush-to-zero and denormals-are-zero for the current thread while it lives.
-class FlushDenormals {
- public:
-  FlushDenormals();
-  ~FlushDenormals();
-  FlushDenormals(const FlushDenormals&) = delete;
-  FlushDenormals& operator=(const FlushDenormals&) = delete;
-
- private:
-  unsigned long long saved_;
-};
 
 }  // namespace whit

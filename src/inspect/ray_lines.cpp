@@ -1,4 +1,4 @@
-#include "inspect/ray_tree.h"
+#include "inspect/ray_lines.h"
 
 #include <algorithm>
 #include <cmath>

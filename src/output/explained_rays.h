@@ -9,7 +9,7 @@
 
 #include "core/display.h"
 #include "core/text.h"
-#include "inspect/ray_tree.h"
+#include "inspect/ray_lines.h"
 #include "io/json_reader.h"
 
 namespace whit {

@@ -1,5 +1,5 @@
 // The lines of a pixel's rays: each kind of ray has a style, and each style a color.
-#include "inspect/ray_tree.h"
+#include "inspect/ray_lines.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "core/worker_pool.h"
+#include "core/flush_denormals.h"
 #include "render/renderer.h"
 #include "verify/case.h"
 

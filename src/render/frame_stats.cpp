@@ -1,0 +1,29 @@
+#include "render/frame_stats.h"
+
+#include "core/error.h"
+
+namespace whit {
+
+void refuseNonFinite(const Scene& scene, const RenderOptions& options, const FrameStats& frame) {
+  if (!options.strict || frame.nonFinitePixels == 0) return;
+  throw Error(ExitStatus::badScene, scene.name + ": the image has " +
+                                        std::to_string(frame.nonFinitePixels) +
+                                        " pixels that are not finite (refused by --strict)");
+}
+
+void FrameStats::add(const FrameStats& worker) {
+  for (std::size_t i = 0; i < kStageCount; ++i) {
+    stageWorkerMs[i] += worker.stageWorkerMs[i];
+    stageCalls[i] += worker.stageCalls[i];
+  }
+  for (std::size_t i = 0; i < stepCalls.size(); ++i) stepCalls[i] += worker.stepCalls[i];
+  for (std::size_t i = 0; i < kRayKindCount; ++i) {
+    meter.tally[i].rays += worker.meter.tally[i].rays;
+    meter.tally[i].lanes += worker.meter.tally[i].lanes;
+  }
+  meter.embreeMs += worker.meter.embreeMs;
+  nonFinitePixels += worker.nonFinitePixels;
+  limitedPixels += worker.limitedPixels;
+}
+
+}  // namespace whit

@@ -1,0 +1,24 @@
+#include "render/sample_sums.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace whit {
+
+double SampleSum::standardError(int samples) const {
+  if (samples < 2) return std::numeric_limits<double>::infinity();
+  const double n = samples, mean = (total.x + total.y + total.z) / (3 * n);
+  return std::sqrt(std::max(squares / n - mean * mean, 0.0) / (n - 1));
+}
+
+double SampleSums::relativeError(int samples) const {
+  double errors = 0, radiance = 0;
+  for (const SampleSum& sum : sums_) {
+    errors += sum.standardError(samples);
+    radiance += (sum.total.x + sum.total.y + sum.total.z) / (3.0 * samples);
+  }
+  return radiance > 0 ? errors / radiance : 0;
+}
+
+}  // namespace whit
