@@ -107,7 +107,7 @@ HWY_INLINE ImpulseLanes LoadImpulseLanes(const ImpulseJob& job, size_t i) {
     lanes.frosts = hn::And(lanes.live, HasFlags(flags, kMaterialFrosts));
   }
 
-  lanes.direction = Load3(rays.dirX, rays.dirY, rays.dirZ, i);
+  lanes.direction = DirectionAt(rays, i);
   lanes.ng = Load3(surfels.ngX, surfels.ngY, surfels.ngZ, i);
   lanes.ns = Load3(surfels.nsX, surfels.nsY, surfels.nsZ, i);
 
@@ -167,8 +167,7 @@ HWY_INLINE V3 UnderMirror(const ImpulseLanes& lanes, const V3& color, const V3& 
   const FloatTag d;
   const V3 limited = Limited(color, Add3(mirror, others));
   if (HWY_LIKELY(hn::AllFalse(d, lanes.coated))) return limited;
-  const VF one = hn::Set(d, 1.0f);
-  return Select3(lanes.coated, Mul3(color, Sub3({one, one, one}, mirror)), limited);
+  return Select3(lanes.coated, Mul3(color, Complement3(mirror)), limited);
 }
 
 // Returns the share of the light below their mirrors that the lobes of the surfels at i take, and 0
@@ -291,9 +290,9 @@ void AddReflections(Chunk& c) {
 
     // A smooth lobe is stood for by the mirrored ray, as far as it is smooth.
     if (!hn::AllFalse(d, lanes.mirrors)) {
-      const VF one = hn::Set(d, 1.0f), roughness = hn::Sqrt(hn::Load(d, job.surfels.alpha + i));
+      const VF roughness = hn::Sqrt(hn::Load(d, job.surfels.alpha + i));
       const VF share = hn::IfThenElseZero(lanes.mirrors, MirroredShare(roughness));
-      const V3 lobe = Mul3(LobeAt(job, lanes, i), Sub3({one, one, one}, mirror));
+      const V3 lobe = Mul3(LobeAt(job, lanes, i), Complement3(mirror));
       weight = MulAdd3(lobe, hn::Mul(share, CoverageAt(job, i)), weight);
     }
 
@@ -406,7 +405,7 @@ struct FrostedSamples {
     }
 
     const V3 reflected = Select3(reflects, facet.reflectance, {zero, zero, zero});
-    return {direction, Scale3(Sub3({one, one, one}, reflected), passes), depth};
+    return {direction, Scale3(Complement3(reflected), passes), depth};
   }
 
   Facets facets;
@@ -447,11 +446,10 @@ HWY_INLINE UnitPoints PointsOf(VU path, const LobeSampling& sampling, uint32_t k
 HWY_INLINE V3 LeftAboveLobe(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i) {
   const FloatTag d;
   const MaterialLanes material(job.tables, lanes.material, lanes.live);
-  const VF one = hn::Set(d, 1.0f);
-  const V3 left = Sub3({one, one, one}, MirrorAt(job, material, lanes.cosine, i));
+  const V3 left = Complement3(MirrorAt(job, material, lanes.cosine, i));
   if (!job.transmission || hn::AllFalse(d, lanes.dielectric)) return left;
   const VF f = SmoothReflectance(job, lanes, i);
-  return Scale3(left, hn::Sub(one, f));
+  return Scale3(left, hn::Sub(hn::Set(d, 1.0f), f));
 }
 
 // The albedo of the glossy lobes towards the viewer: of those that are sampled, the mean weight of
@@ -495,7 +493,7 @@ void FindLayers(Chunk& c) {
     const MaterialLanes material(job.tables, lanes.material, lanes.live);
     const V3 mirror = MirrorAt(job, material, lanes.cosine, i);
     const V3 albedo = WeightOfLobe(job, lanes, i);
-    V3 lobe = albedo, below = Sub3({one, one, one}, albedo), through{zero, zero, zero};
+    V3 lobe = albedo, below = Complement3(albedo), through{zero, zero, zero};
 
     if (job.transmission) {
       const V3 transmission = TransmissionAt(job, material, i);
@@ -525,7 +523,7 @@ HWY_INLINE VF FactorOfChoice(const ImpulseJob& job, const ImpulseLanes& lanes, b
   const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
   const SurfelColumns& s = job.surfels;
   const MaterialLanes material(job.tables, lanes.material, lanes.live);
-  const V3 left = Sub3({one, one, one}, MirrorAt(job, material, lanes.cosine, i));
+  const V3 left = Complement3(MirrorAt(job, material, lanes.cosine, i));
   const VF glossy = MaxComponent(Mul3(LobeAt(job, lanes, i), left));
   const VF diffuse = MaxComponent(Load3(s.diffuseR, s.diffuseG, s.diffuseB, i));
   const VF both = hn::Add(glossy, diffuse);
@@ -648,7 +646,7 @@ void AddRefractions(Chunk& c) {
     if (!hn::AllFalse(d, lanes.covers)) {
       const VF inverse = hn::Div(one, hn::Max(through, hn::Set(d, 1e-30f)));
       const V3 albedo = Scale3(LobeAt(job, lanes, i), inverse);
-      transmittance = Mul3(transmittance, Sub3({one, one, one}, albedo));
+      transmittance = Mul3(transmittance, Complement3(albedo));
     }
 
     // Samples bring what frosted glass transmits.
@@ -688,20 +686,24 @@ void AddRefractions(Chunk& c) {
   c.childCount = count;
 }
 
+// The radiance at i, as the parent's radiance or the eye gets it.
+HWY_INLINE V3 WeightedRadiance(const Chunk& c, size_t i) {
+  const V3 weight = Load3(c.rays.weightR, c.rays.weightG, c.rays.weightB, i);
+  return Mul3(weight, Load3(c.radiance.r, c.radiance.g, c.radiance.b, i));
+}
+
 void ReturnImpulses(Chunk& c) {
   const FloatTag d;
-  const RayColumns rays = c.rays;
-  const RadianceColumns radiance = c.radiance, parentRadiance = c.parentRadiance;
+  const RadianceColumns parentRadiance = c.parentRadiance;
   const size_t n = c.n;
   HWY_ALIGN float r[16], g[16], b[16];
   for (size_t i = 0; i < n; i += hn::Lanes(d)) {
-    const V3 weight = Load3(rays.weightR, rays.weightG, rays.weightB, i);
-    const V3 light = Load3(radiance.r, radiance.g, radiance.b, i);
-    Store3(Mul3(weight, light), r, g, b, 0);
+    Store3(WeightedRadiance(c, i), r, g, b, 0);
+
     // A parent may occur twice, for its reflected and its refracted child: one after the other.
     const size_t live = HWY_MIN(hn::Lanes(d), n - i);
     for (size_t lane = 0; lane < live; ++lane) {
-      const uint32_t parent = rays.parent[i + lane];
+      const uint32_t parent = c.rays.parent[i + lane];
       parentRadiance.r[parent] += r[lane];
       parentRadiance.g[parent] += g[lane];
       parentRadiance.b[parent] += b[lane];
@@ -711,13 +713,10 @@ void ReturnImpulses(Chunk& c) {
 
 void ReturnToEye(Chunk& c) {
   const FloatTag d;
-  const RayColumns rays = c.rays;
   const RadianceColumns radiance = c.radiance;
   const size_t n = c.n;
   for (size_t i = 0; i < n; i += hn::Lanes(d)) {
-    const V3 weight = Load3(rays.weightR, rays.weightG, rays.weightB, i);
-    const V3 light = Load3(radiance.r, radiance.g, radiance.b, i);
-    Store3(Mul3(weight, light), radiance.r, radiance.g, radiance.b, i);
+    Store3(WeightedRadiance(c, i), radiance.r, radiance.g, radiance.b, i);
   }
 }
 

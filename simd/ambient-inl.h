@@ -130,7 +130,7 @@ class ReflectedAmbient {
     if (HWY_LIKELY(!special_ || hn::AllFalse(d, hit))) return all;
 
     // Surfaces that reflect the scene do so in place of ambient light.
-    const VI material = hn::Load(IntTag(), reinterpret_cast<const int32_t*>(surfels_.material) + i);
+    const VI material = MaterialNumbers(surfels_, i);
     const VU flags = MaterialLanes(tables_, material, hit).Lobe().flags;
     const V3 left = Select3(HasFlags(flags, kMaterialDiffuses), Broadcast3(Vec3f()), all);
     const MF blurs = hn::And(hit, HasFlags(flags, kMaterialBlursSky));
@@ -138,7 +138,7 @@ class ReflectedAmbient {
     if (hn::AllFalse(d, blurs)) return left;
 
     // Lobes reflect the blurred sky with the share that no mirrored ray stands for.
-    const V3 direction = Load3(rays_.dirX, rays_.dirY, rays_.dirZ, i);
+    const V3 direction = DirectionAt(rays_, i);
     const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
     const VF towards = hn::Neg(Dot(ns, direction));
     const VF roughness = hn::Sqrt(hn::Load(d, surfels_.alpha + i));
@@ -154,7 +154,7 @@ class ReflectedAmbient {
       const VF cosine = hn::Min(hn::Max(towards, zero), one);
       const V3 mirror = MirrorReflectance(MaterialLanes(tables_, material, hit), surfels_,
                                           mirrorMaps_, cosine, i);
-      lobe = Mul3(lobe, Sub3({one, one, one}, mirror));
+      lobe = Mul3(lobe, Complement3(mirror));
     }
 
     return Select3(blurs, Add3(left, Mul3(sky, lobe)), left);

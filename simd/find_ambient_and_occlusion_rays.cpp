@@ -20,7 +20,7 @@ void FindAmbientAndOcclusionRays(Chunk& c) {
   const ShadowColumns shadows = c.shadows;
 
   const OffsetMethod offset = c.options().shading.offset;
-  const bool hidden = c.has(Feature::transmission), lifted = c.has(Feature::lift);
+  const bool nested = c.has(Feature::transmission), lifted = c.has(Feature::lift);
   const bool coverage = c.has(Feature::coverage);
 
   // Each of the samples carries an equal share of the ambient light.
@@ -35,9 +35,7 @@ void FindAmbientAndOcclusionRays(Chunk& c) {
     hn::Store(zero, d, unshadowed.visible + i);
 
     // Misses and surfaces inside a dielectric of higher priority reflect nothing.
-    const VU material = hn::Load(du, surfels.material + i);
-    MF live = hn::RebindMask(d, hn::Ne(material, hn::Set(du, kMiss)));
-    if (hidden) live = hn::AndNot(HasFlags(hn::Load(du, surfels.flags + i), kHidden), live);
+    MF live = SurfaceLanes(surfels, nested, i);
     if (hn::AllFalse(d, live)) continue;
 
     // Occlusion rays are distributed by the cosine to the shading normal.
@@ -48,14 +46,10 @@ void FindAmbientAndOcclusionRays(Chunk& c) {
         CosineLobes(ns).Direction(LightPoints(path, points, c.lightNumber, c.lightSample));
 
     // A direction below the facet is occluded by the surface itself, unless the shading terminator
-    // is smoothed: then the ray starts above the facet (Hanika 2021).
+    // is smoothed.
     V3 start = Load3(surfels.posX, surfels.posY, surfels.posZ, i);
     MF front = hn::Gt(Dot(ng, way), zero);
-    if (lifted) {
-      const V3 lift = Load3(surfels.liftX, surfels.liftY, surfels.liftZ, i);
-      front = hn::Or(front, hn::Gt(MaxComponent(Abs3(lift)), zero));
-      start = Add3(start, lift);
-    }
+    if (lifted) LiftStart(surfels, i, start, front);
 
     // The surface reflects this light if nothing is in the way.
     V3 radiance = Scale3(ambient.At(i, live), share);
@@ -64,8 +58,8 @@ void FindAmbientAndOcclusionRays(Chunk& c) {
     if (hn::AllFalse(d, live)) continue;
 
     Store3(radiance, unshadowed.r, unshadowed.g, unshadowed.b, i);
-    const V3 origin = RayOrigin(offset, start, ng, Load3(rays.dirX, rays.dirY, rays.dirZ, i),
-                                LoadClearance(surfels, i), 1.0f);
+    const V3 origin =
+        RayOrigin(offset, start, ng, DirectionAt(rays, i), LoadClearance(surfels, i), 1.0f);
     const VU slot = hn::Iota(du, static_cast<uint32_t>(i));
     AppendShadowRays(shadows, live, origin, way, radius, slot, count);
   }

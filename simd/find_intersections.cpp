@@ -97,7 +97,7 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
   const auto [diffuse, diffuseMap] = material.Diffuse();
   TexturePoints at{Interpolate(w, t.uv.u0, t.uv.u1, t.uv.u2),
                    Interpolate(w, t.uv.v0, t.uv.v1, t.uv.v2), hn::Zero(d)};
-  const VF cosine = Dot(Load3(rays.dirX, rays.dirY, rays.dirZ, i), s.ng);
+  const VF cosine = Dot(DirectionAt(rays, i), s.ng);
 
   if (job.cones) {
     const VF width =
@@ -225,13 +225,9 @@ HWY_INLINE void QueueDataMap(const SurfelJob& job, size_t i, size_t slot, MapOf&
   const VI map = mapOf(MaterialLanes(job.tables, t.material, valid));
   const MF mapped = MappedLanes(map, valid);
   if (hn::AllFalse(d, mapped)) return;
-  Weights w = LoadWeights(job.hits, i);
-  Surface s = InterpolateSurface(job.tables, t, triangle, w, false);
-  if (job.spheres) PutOnSpheres(job.tables, job.hits, valid, triangle, i, s, t, w);
-  if (job.instances) CarryToWorld(job.tables, job.hits, valid, i, s);
-  const VF cosine = Dot(Load3(job.rays.dirX, job.rays.dirY, job.rays.dirZ, i), s.ng);
-  const VF width = job.cones ? hn::Load(d, job.surfels.cone + i) : hn::Zero(d);
-  const MapHits at{t.uv, triangle, t.material, valid, w, s.edge1, s.edge2, width, cosine};
+
+  Surface s;
+  const MapHits at = MapHitsAt(job, valid, triangle, t, false, i, s);
   const bool second = kBySecond != 0 && job.secondUvs;
   const UvLanes uv = second ? UvsOfMap(job.tables, at, kBySecond) : t.uv;
   QueueMap(job, map, mapped, PointsAt(job, at, uv), slot, queue);
@@ -241,10 +237,9 @@ HWY_INLINE void ApplyRoughness(const SurfelJob& job, const MapQueue& queue, size
   if (!queue.level.any[slot]) return;
   const FloatTag d;
   const MF queued = QueuedLanes(queue.level, slot);
-  const VI number = hn::Load(IntTag(), reinterpret_cast<const int32_t*>(job.surfels.material) + i);
+  const VI number = MaterialNumbers(job.surfels, i);
   const VF factor = MaterialLanes(job.tables, number, queued).Roughness().number;
-  const V3 map =
-      FilterMap(job, queue, slot, [](const Footprint& f) HWY_ATTR { return FilterData3(f); });
+  const V3 map = FilterData(job, queue, slot);
   const VF roughness = hn::Max(hn::Mul(factor, map.y), hn::Set(d, kMinRoughness));
   const VF alpha = hn::Load(d, job.surfels.alpha + i);
   hn::Store(hn::IfThenElse(queued, hn::Mul(roughness, roughness), alpha), d, job.surfels.alpha + i);
@@ -273,7 +268,7 @@ void LookUpRoughness(Chunk& c) {
 // 1 where a ray has left the scene.
 HWY_INLINE void StoreCoverage(const SurfelJob& job, const MapQueue& queue, size_t slot, size_t i) {
   const FloatTag d;
-  const VI number = hn::Load(IntTag(), reinterpret_cast<const int32_t*>(job.surfels.material) + i);
+  const VI number = MaterialNumbers(job.surfels, i);
   const MF live = hn::RebindMask(d, NonNegative(number));
   VF coverage = hn::Set(d, 1.0f);
   if (!hn::AllFalse(d, live)) {
@@ -281,8 +276,7 @@ HWY_INLINE void StoreCoverage(const SurfelJob& job, const MapQueue& queue, size_
     coverage = hn::IfThenElse(live, own, coverage);
   }
   if (queue.level.any[slot]) {
-    const V3 map =
-        FilterMap(job, queue, slot, [](const Footprint& f) HWY_ATTR { return FilterData3(f); });
+    const V3 map = FilterData(job, queue, slot);
     const VF mapped = hn::Mul(coverage, map.x);
     coverage = hn::IfThenElse(QueuedLanes(queue.level, slot), mapped, coverage);
   }
@@ -312,8 +306,7 @@ HWY_INLINE void StoreOcclusion(const SurfelJob& job, const MapQueue& queue, size
   const FloatTag d;
   VF occlusion = hn::Set(d, 1.0f);
   if (queue.level.any[slot]) {
-    const V3 map =
-        FilterMap(job, queue, slot, [](const Footprint& f) HWY_ATTR { return FilterData3(f); });
+    const V3 map = FilterData(job, queue, slot);
     occlusion = hn::IfThenElse(QueuedLanes(queue.level, slot), map.x, occlusion);
   }
   hn::Store(occlusion, d, job.surfels.occlusion + i);
@@ -362,8 +355,7 @@ HWY_INLINE void StoreFactors(const SurfelJob& job, const MapQueue& queue, size_t
 
   const auto [valid, triangle] = LoadHits(job.hits, job.tables.triangleCount, i);
   if (job.vertexColors && !hn::AllFalse(d, valid)) {
-    const VI material =
-        hn::Load(IntTag(), reinterpret_cast<const int32_t*>(job.surfels.material) + i);
+    const VI material = MaterialNumbers(job.surfels, i);
     const VU flags = MaterialLanes(job.tables, material, valid).Lobe().flags;
     const Weights w = LoadWeights(job.hits, i);
     const V3 tinted = Mul3(factor, VertexColor(job.tables, triangle, w.w1, w.w2));

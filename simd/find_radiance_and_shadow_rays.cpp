@@ -143,13 +143,13 @@ HWY_INLINE V3 UnderCoat(const Chunk& c, const V3& lobe, VF cosine, MF shiny, siz
   const FloatTag d;
   const VF one = hn::Set(d, 1.0f);
   const SurfelColumns& surfels = c.surfels;
-  const VI number = hn::Load(IntTag(), reinterpret_cast<const int32_t*>(surfels.material) + i);
+  const VI number = MaterialNumbers(surfels, i);
   const MaterialLanes material(c.tables(), number, shiny);
   const MF coated = hn::And(shiny, HasFlags(material.Lobe().flags, kMaterialIsUnderCoat));
   if (hn::AllFalse(d, coated)) return lobe;
   const VF towards = hn::Min(hn::Max(cosine, hn::Zero(d)), one);
   const V3 coat = MirrorReflectance(material, surfels, c.has(Feature::mirrorMaps), towards, i);
-  return Select3(coated, Mul3(lobe, Sub3({one, one, one}, coat)), lobe);
+  return Select3(coated, Mul3(lobe, Complement3(coat)), lobe);
 }
 
 void FindRadianceAndShadowRays(Chunk& c) {
@@ -162,7 +162,7 @@ void FindRadianceAndShadowRays(Chunk& c) {
   const UnshadowedColumns unshadowed = c.unshadowed;
   const ShadowColumns shadows = c.shadows;
   const size_t n = c.n;
-  const bool traced = c.has(Feature::shadows), hidden = c.has(Feature::transmission);
+  const bool traced = c.has(Feature::shadows), nested = c.has(Feature::transmission);
   const bool lifted = c.has(Feature::lift), coverage = c.has(Feature::coverage);
   const bool glossy = c.has(Feature::glossy) && (c.materialFlags & kMaterialGlossy) != 0;
   const bool coats = (c.materialFlags & kMaterialIsUnderCoat) != 0;
@@ -177,9 +177,7 @@ void FindRadianceAndShadowRays(Chunk& c) {
   const VF share = hn::Set(d, 1.0f / static_cast<float>(c.lightSamples));
 
   for (size_t i = 0; i < n; i += hn::Lanes(d)) {
-    const VU material = hn::Load(du, surfels.material + i);
-    MF live = hn::RebindMask(d, hn::Ne(material, hn::Set(du, kMiss)));
-    if (hidden) live = hn::AndNot(HasFlags(hn::Load(du, surfels.flags + i), kHidden), live);
+    MF live = SurfaceLanes(surfels, nested, i);
     const V3 position = Load3(surfels.posX, surfels.posY, surfels.posZ, i);
     const V3 ng = Load3(surfels.ngX, surfels.ngY, surfels.ngZ, i);
     const V3 ns = Load3(surfels.nsX, surfels.nsY, surfels.nsZ, i);
@@ -199,12 +197,7 @@ void FindRadianceAndShadowRays(Chunk& c) {
     // Surfels that turn away from the light, or that it does not reach, are done.
     MF front = hn::Gt(Dot(ng, toLight), zero);
     V3 start = position;
-    if (lifted) {
-      // Above the facet, the smooth surface alone decides what lies behind the horizon.
-      const V3 lift = Load3(surfels.liftX, surfels.liftY, surfels.liftZ, i);
-      front = hn::Or(front, hn::Gt(MaxComponent(Abs3(lift)), zero));
-      start = Add3(position, lift);
-    }
+    if (lifted) LiftStart(surfels, i, start, front);
     live = hn::And(live, hn::And(front, hn::Gt(Dot(ns, toLight), zero)));
     live = lanes.Within(hn::And(live, hn::Gt(distanceSquared, zero)), toLight, distanceSquared);
     if (hn::AllFalse(d, live)) {
@@ -223,7 +216,7 @@ void FindRadianceAndShadowRays(Chunk& c) {
       const V3 f0 = Load3(surfels.specularR, surfels.specularG, surfels.specularB, i);
       const MF shiny = hn::And(live, hn::Gt(MaxComponent(f0), zero));
       if (!hn::AllFalse(d, shiny)) {
-        const V3 direction = Load3(rays.dirX, rays.dirY, rays.dirZ, i);
+        const V3 direction = DirectionAt(rays, i);
         const V3 v{hn::Neg(direction.x), hn::Neg(direction.y), hn::Neg(direction.z)};
         const V3 h = NormalizeOr(Add3(l, v), ns);
         const VF nv = hn::Max(Dot(ns, v), hn::Set(d, 1e-4f));
@@ -255,8 +248,7 @@ void FindRadianceAndShadowRays(Chunk& c) {
 
     hn::Store(zero, d, unshadowed.visible + i);
     const V3 origin =
-        RayOrigin(choices.offset, start, ng, Load3(rays.dirX, rays.dirY, rays.dirZ, i),
-                  LoadClearance(surfels, i), 1.0f);
+        RayOrigin(choices.offset, start, ng, DirectionAt(rays, i), LoadClearance(surfels, i), 1.0f);
     const V3 way = sampled ? Sub3(Add3(position, toLight), origin) : lanes.Towards(origin);
     const VU slot = hn::Iota(du, static_cast<uint32_t>(i));
     AppendShadowRays(shadows, live, origin, way, lanes.Reach(), slot, count);

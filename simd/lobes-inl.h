@@ -70,7 +70,7 @@ HWY_INLINE VF LobeGrazing(const ShadingTables& tables, const SurfelColumns& surf
   const FloatTag d;
   VF ratio = hn::Set(d, kGrazingRatio);
   if (HWY_UNLIKELY(!tables.grazingRatios.empty())) {
-    const VI material = hn::Load(IntTag(), reinterpret_cast<const int32_t*>(surfels.material) + i);
+    const VI material = MaterialNumbers(surfels, i);
     ratio = GatherMember<0>(std::span(tables.grazingRatios), material);
   }
   return hn::Min(hn::Set(d, 1.0f), hn::Mul(ratio, MaxComponent(f0)));

@@ -16,6 +16,15 @@
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
 
+HWY_INLINE V3 DirectionAt(const RayColumns& rays, size_t i) {
+  return Load3(rays.dirX, rays.dirY, rays.dirZ, i);
+}
+
+// Numbers of materials; kMiss, where rays missed, is negative.
+HWY_INLINE VI MaterialNumbers(const SurfelColumns& surfels, size_t i) {
+  return hn::Load(IntTag(), reinterpret_cast<const int32_t*>(surfels.material) + i);
+}
+
 // A color or a number of the materials, and the map that it is multiplied by.
 struct ColorLanes {
   V3 color;
@@ -106,6 +115,23 @@ HWY_INLINE V3 MirrorReflectance(const MaterialLanes& material, const SurfelColum
 HWY_INLINE MF HasFlags(VU flags, uint32_t bits) {
   const UintTag du;
   return hn::RebindMask(FloatTag(), hn::Ne(hn::And(flags, hn::Set(du, bits)), hn::Zero(du)));
+}
+
+// Lanes of surfaces that are there: no misses, and none inside a dielectric of higher priority,
+// where media are `nested`.
+HWY_INLINE MF SurfaceLanes(const SurfelColumns& surfels, bool nested, size_t i) {
+  const UintTag du;
+  const VU material = hn::Load(du, surfels.material + i);
+  const MF hit = hn::RebindMask(FloatTag(), hn::Ne(material, hn::Set(du, kMiss)));
+  return nested ? hn::AndNot(HasFlags(hn::Load(du, surfels.flags + i), kHidden), hit) : hit;
+}
+
+// Moves the start of a shadow ray above its facet. Above the facet, the smooth surface alone
+// decides what lies behind the horizon (Hanika 2021).
+HWY_INLINE void LiftStart(const SurfelColumns& surfels, size_t i, V3& start, MF& front) {
+  const V3 lift = Load3(surfels.liftX, surfels.liftY, surfels.liftZ, i);
+  front = hn::Or(front, hn::Gt(MaxComponent(Abs3(lift)), hn::Zero(FloatTag())));
+  start = Add3(start, lift);
 }
 
 HWY_INLINE VU PushMedium(VU stack, VU medium) { return hn::Or(hn::ShiftLeft<8>(stack), medium); }

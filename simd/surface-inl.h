@@ -304,7 +304,7 @@ HWY_INLINE void FollowRay(const TriangleLanes& t, const RayColumns& rays, VF dis
 
   // The ray's point is moved along the normal into the triangle's plane.
   const V3 origin = Load3(rays.orgX, rays.orgY, rays.orgZ, i);
-  const V3 point = MulAdd3(Load3(rays.dirX, rays.dirY, rays.dirZ, i), distance, origin);
+  const V3 point = MulAdd3(DirectionAt(rays, i), distance, origin);
   const VF height = Dot(Sub3(point, t.p0), s.ng);
   s.position = Select3(large, MulAdd3(s.ng, hn::Neg(height), point), s.position);
 

@@ -198,6 +198,10 @@ HWY_INLINE V3 FilterMap(const SurfelJob& job, const MapQueue& queue, size_t slot
   return MulAdd3(Sub3(above, value), hn::Load(FloatTag(), queue.between + slot), value);
 }
 
+HWY_INLINE V3 FilterData(const SurfelJob& job, const MapQueue& queue, size_t slot) {
+  return FilterMap(job, queue, slot, [](const Footprint& f) HWY_ATTR { return FilterData3(f); });
+}
+
 // Multiplies the columns at slot i with the texture that waits at `slot`.
 HWY_INLINE void ApplyColor(const SurfelJob& job, const MapQueue& queue, size_t slot, float* r,
                            float* g, float* b, size_t i) {
@@ -218,7 +222,7 @@ inline HWY_NOINLINE void ApplyRadianceMaps(const SurfelJob& job, const MapQueue&
 
   const SurfelColumns& to = job.surfels;
   const MF queued = QueuedLanes(queue.level, slot);
-  const VI number = hn::Load(IntTag(), reinterpret_cast<const int32_t*>(to.material) + i);
+  const VI number = MaterialNumbers(to, i);
   const VU flags = MaterialLanes(job.tables, number, queued).Lobe().flags;
 
   // The map is decoded both as a color and as radiance; the material's flag selects one.
@@ -243,8 +247,7 @@ HWY_INLINE void ApplyNormalMap(const SurfelJob& job, const BlockTextures& block,
   const SurfelColumns& surfels = job.surfels;
 
   // Texels store the components of tangent-space normals, moved from [-1, 1] to [0, 1].
-  const V3 code = FilterMap(job, block.normal, slot,
-                            [](const Footprint& f) HWY_ATTR { return FilterData3(f); });
+  const V3 code = FilterData(job, block.normal, slot);
   const V3 m{MulThenSub(code.x, two, one), MulThenSub(code.y, two, one),
              MulThenSub(code.z, two, one)};
 
@@ -265,6 +268,20 @@ struct MapHits {
   V3 edge1, edge2;
   VF coneWidth, cosine;
 };
+
+// Computes the surface at hits on `t` again, and what lookups of maps need of it.
+HWY_INLINE MapHits MapHitsAt(const SurfelJob& job, MF live, VI triangle, TriangleLanes& t,
+                             bool smooth, size_t i, Surface& s) {
+  Weights w = LoadWeights(job.hits, i);
+  s = InterpolateSurface(job.tables, t, triangle, w, smooth);
+  if (job.spheres) PutOnSpheres(job.tables, job.hits, live, triangle, i, s, t, w);
+  if (job.instances) CarryToWorld(job.tables, job.hits, live, i, s);
+
+  const FloatTag d;
+  const VF cosine = Dot(DirectionAt(job.rays, i), s.ng);
+  const VF width = job.cones ? hn::Load(d, job.surfels.cone + i) : hn::Zero(d);
+  return {t.uv, triangle, t.material, live, w, s.edge1, s.edge2, width, cosine};
+}
 
 // Returns the second coordinates where the flags of the lane's material have `bySecond`, and the
 // first ones elsewhere.
@@ -325,22 +342,15 @@ inline HWY_NOINLINE void QueueByOwnUvs(const SurfelJob& job, size_t i, size_t sl
   const auto [valid, triangle] = LoadHits(job.hits, tables.triangleCount, i);
   if (hn::AllFalse(d, valid)) return;
 
-  // The surface is computed again from the hit.
   TriangleLanes t = LoadTriangles(tables, triangle);
-  Weights w = LoadWeights(job.hits, i);
-  Surface s = InterpolateSurface(tables, t, triangle, w, job.smooth);
-  if (job.spheres) PutOnSpheres(tables, job.hits, valid, triangle, i, s, t, w);
-  if (job.instances) CarryToWorld(tables, job.hits, valid, i, s);
-
-  const VF cosine = Dot(Load3(job.rays.dirX, job.rays.dirY, job.rays.dirZ, i), s.ng);
-  const VF width = job.cones ? hn::Load(d, job.surfels.cone + i) : hn::Zero(d);
-  const MapHits map{t.uv, triangle, t.material, valid, w, s.edge1, s.edge2, width, cosine};
+  Surface s;
+  const MapHits map = MapHitsAt(job, valid, triangle, t, job.smooth, i, s);
   const MaterialLanes material(tables, t.material, valid);
 
   if (job.normalMaps) {
     const VI normalMap = material.NormalMap();
     if (!hn::AllFalse(d, MappedLanes(normalMap, valid))) {
-      const VF flip = TurnToViewer(hn::Lt(cosine, hn::Zero(d)));
+      const VF flip = TurnToViewer(hn::Lt(map.cosine, hn::Zero(d)));
       QueueNormalByOwnUvs(job, map, normalMap, NormalSpace{s.ns, s.handedness, flip}, slot, block);
     }
   }

@@ -58,7 +58,7 @@ void WriteEmittedAndReflectiveAmbient(Chunk& c) {
     // Rays that left the scene see the sky.
     V3 beyond = black;
     if (sky) {
-      const V3 direction = Load3(rays.dirX, rays.dirY, rays.dirZ, i);
+      const V3 direction = DirectionAt(rays, i);
       beyond = SkyRadiance(tables.sky, direction, hn::AndNot(hit, hn::FirstN(d, n - i)));
 
       // A direction of 0 belongs to a pixel that sees nothing.

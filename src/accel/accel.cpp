@@ -422,7 +422,7 @@ void Accel::findHits(Chunk& c) const noexcept {
     const HitRange range{advanced(c.rays, segment.begin), advanced(c.hits, segment.begin),
                          segment.end - segment.begin, c.coherent, instances};
     if (range.n == 0) continue;
-    RayTally& tally = c.meter->tally[static_cast<std::size_t>(segment.kind)];
+    RayTally& tally = entryOf(c.meter->tally, segment.kind);
     tally.rays += range.n;
     tally.lanes += traceAll(*parts_, parts_->packet, range, c.meter->embreeMs);
   }
@@ -451,7 +451,7 @@ void Accel::findHits(Chunk& c) const noexcept {
 void Accel::checkShadows(Chunk& c) const noexcept {
   const RayKind kind = shadowKind(c.lightIsAmbient());
   const ShadowRange range{c.shadows, c.unshadowed.visible, c.shadowCount, c.shadowsAreCoherent()};
-  RayTally& tally = c.meter->tally[static_cast<std::size_t>(kind)];
+  RayTally& tally = entryOf(c.meter->tally, kind);
   tally.rays += range.n;
   tally.lanes += traceAll(*parts_, parts_->shadowPacket(range.coherent), range, c.meter->embreeMs);
 }

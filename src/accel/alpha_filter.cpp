@@ -58,7 +58,7 @@ AlphaMap::AlphaMap(const Texture& texture)
       width_(texture.width),
       height_(texture.height),
       cellsAcross_(((texture.width - 1) >> kCellShift) + 1),
-      alpha_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_)) {
+      alpha_(cellsOf(width_, height_)) {
   for (int y = 0; y < height_; ++y) {
     for (int x = 0; x < width_; ++x) {
       alpha_[index(y, x)] = static_cast<std::uint8_t>(texture.texel(x, y) & 255u);
@@ -67,7 +67,7 @@ AlphaMap::AlphaMap(const Texture& texture)
 
   // Most lookups read this table of bounds and no texel.
   const int cellsDown = ((height_ - 1) >> kCellShift) + 1;
-  cells_.reserve(static_cast<std::size_t>(cellsAcross_) * static_cast<std::size_t>(cellsDown));
+  cells_.reserve(cellsOf(cellsAcross_, cellsDown));
   for (int y = 0; y < cellsDown; ++y) {
     for (int x = 0; x < cellsAcross_; ++x) cells_.push_back(boundsOf(x, y));
   }
@@ -94,7 +94,7 @@ float AlphaMap::marginAt(float u, float v, float cutoff) const noexcept {
 
   // The bounds of the cell decide alone if all of its texels are clearly on one side of the cutoff.
   const int cell = (y.lower >> kCellShift) * cellsAcross_ + (x.lower >> kCellShift);
-  const Bounds bounds = cells_[static_cast<std::size_t>(cell)];
+  const Bounds bounds = entryOf(cells_, cell);
   const float wanted = cutoff * 255.0f;
   const float slack = bounds.least == bounds.most ? kRounding : 255 * kCloseCall;
 
@@ -131,8 +131,8 @@ std::vector<Mask> makeMasks(const Scene& scene, bool cut) {
   // Materials with the same texture share one map.
   std::vector<std::shared_ptr<const AlphaMap>> maps(scene.textures.size());
   const auto mapOf = [&](std::int32_t number) {
-    std::shared_ptr<const AlphaMap>& map = maps[static_cast<std::size_t>(number)];
-    if (!map) map = std::make_shared<AlphaMap>(scene.textures[static_cast<std::size_t>(number)]);
+    std::shared_ptr<const AlphaMap>& map = entryOf(maps, number);
+    if (!map) map = std::make_shared<AlphaMap>(entryOf(scene.textures, number));
     return map;
   };
 

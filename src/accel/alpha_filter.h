@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bake/scene.h"
+#include "core/index.h"
 
 namespace whit {
 
@@ -26,10 +27,7 @@ class AlphaMap {
     std::uint8_t least = 255, most = 0;
   };
 
-  std::size_t index(int row, int column) const {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
-           static_cast<std::size_t>(column);
-  }
+  std::size_t index(int row, int column) const { return cellAt(column, row, width_); }
   Bounds boundsOf(int cellX, int cellY) const;
 
   Wrap wrapU_, wrapV_;

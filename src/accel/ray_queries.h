@@ -7,8 +7,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -22,11 +20,11 @@ namespace whit {
 // Hits count from tNear to tFar, both included, in lengths of the direction.
 struct QueryRay {
   Vec3d origin, direction;
-  double tNear = 0, tFar = std::numeric_limits<double>::infinity();
+  double tNear = 0, tFar = kInfinity;
 };
 
 struct QueryHit {
-  double t = std::numeric_limits<double>::infinity();
+  double t = kInfinity;
   double tError = 0;  // bound on the error of t
   double u = 0, v = 0;
   PlacedTriangleId id{kMiss, kNoInstance};

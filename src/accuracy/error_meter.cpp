@@ -26,7 +26,7 @@ double ulpsApart(const Rgb& a, const Rgb& b) {
 
 ImageDifference noDifference() {
   ImageDifference none;
-  none.psnrDb = std::numeric_limits<double>::infinity();
+  none.psnrDb = kInfinity;
   return none;
 }
 

@@ -94,7 +94,7 @@ void addRun(Json& row, const SceneSweep& sweep, const Point& point, const Json& 
   row["options"] = options;
   row["reference_samples"] = sweep.referenceSamples;
   row["reference_cutoff"] = static_cast<double>(sweep.referenceCutoff);
-  row["truth"] = kTruthNames[static_cast<std::size_t>(sweep.truth())];
+  row["truth"] = entryOf(kTruthNames, sweep.truth());
 
   // The columns of the picture with all transport are null if Whitted's model is the truth.
   const bool known = sweep.transport.has_value();
@@ -112,10 +112,10 @@ Json sweepRows(const SceneSweep& sweep, const Json& facts) {
   Json rows = Json::array();
   for (const Point& point : sweep.points) {
     Json row{{"scene", sweep.scene}, {"width", sweep.width}, {"height", sweep.height}};
-    row["kind"] = kPointKindNames[static_cast<std::size_t>(point.kind)];
+    row["kind"] = entryOf(kPointKindNames, point.kind);
     row["knob"] = point.knob;
     row["value"] = point.value;
-    row["cause"] = point.cause ? kCauseNames[static_cast<std::size_t>(*point.cause)] : "";
+    row["cause"] = point.cause ? entryOf(kCauseNames, *point.cause) : "";
 
     addTiming(row, point);
     addErrors(row, point);
@@ -245,7 +245,7 @@ std::vector<std::size_t> paretoFront(const std::vector<CostAndError>& points) {
 
   // A point is on the front if its error is below the errors of all points before it.
   std::vector<std::size_t> front;
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   for (const std::size_t i : order) {
     if (points[i].error >= least) continue;
     least = points[i].error;

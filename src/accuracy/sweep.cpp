@@ -1,11 +1,8 @@
 #include "accuracy/sweep.h"
 
-#include <algorithm>
 #include <map>
 #include <numeric>
 #include <random>
-#include <string>
-#include <vector>
 
 #include "accuracy/error_meter.h"
 #include "accuracy/points.h"
@@ -32,6 +29,27 @@ std::vector<Knob> sweptKnobs(const SweepSettings& settings, std::vector<IdleKnob
     return true;
   });
   return knobs;
+}
+
+// The rays of a frame, and of a sample of the exact picture, limit what is measured.
+Scope scopeOf(const RenderOptions& base, EffectSet effects, const SweepSettings& settings,
+              const FrameSource& baseline, ReferenceCache& cache) {
+  Scope scope{settings.full ? kFull : kQuick, 0, 0, !settings.knobs.empty(), base.spp, 0};
+  scope.cutoff = exactCutoff(effects, settings.full);
+  scope.raysPerSample = cache.get(exactAtSameSamples(base, scope.cutoff), nullptr).rays / base.spp;
+  scope.frameRays = static_cast<double>(baseline.stats.allRays());
+  return scope;
+}
+
+SceneSweep startSweep(const Scene& scene, const FrameSource& baseline, const Scope& scope) {
+  SceneSweep sweep;
+  sweep.scene = scene.name;
+  sweep.width = baseline.film.image.windowWidth();
+  sweep.height = baseline.film.image.windowHeight();
+  sweep.machine = baseline.renderer.machine();
+  sweep.referenceCutoff = scope.cutoff;
+  sweep.referenceSamples = scope.samples();
+  return sweep;
 }
 
 void choosePoints(const RenderOptions& base, EffectSet effects, const SweepSettings& settings,
@@ -81,64 +99,36 @@ std::vector<std::size_t> chooseOrder(const std::vector<Point>& points,
   return order;
 }
 
-// Measures the points after the first, which is the baseline.
-class PointMeter {
- public:
-  PointMeter(const Scene& scene, const Camera& camera, FrameSource& baseline, PointTimer& timer,
-             ErrorMeter& errors)
-      : scene_(scene), camera_(camera), baseline_(baseline), timer_(timer), errors_(errors) {}
+// An approximation that changes neither rays nor pixels does not apply to this scene.
+bool changesNothing(const Point& point, const FrameSource& frames, const FrameSource& baseline) {
+  if (point.kind != PointKind::knob || point.cause != Cause::algorithm) return false;
 
-  void measureBaseline(Point& point) {
-    errors_.measure(point, baseline_);
-    errors_.addPictures(point, baseline_.film.image);
+  for (std::size_t k = 0; k < kRayKindCount; ++k) {
+    if (frames.stats.meter.tally[k].rays != baseline.stats.meter.tally[k].rays) return false;
+  }
+  return frames.film.image.pixels == baseline.film.image.pixels;
+}
+
+// `baseline` is the point of `baselineFrames`.
+void measureErrors(Point& point, FrameSource& frames, const Point& baseline,
+                   const FrameSource& baselineFrames, ErrorMeter& errors) {
+  // A point with the picture of the baseline shares its errors and needs no pictures of its own.
+  if (frames.film.image.pixels == baselineFrames.film.image.pixels) {
+    static_cast<PointErrors&>(point) = static_cast<const PointErrors&>(baseline);
+    point.stats = frames.stats;
+    return;
   }
 
-  // `points` is the number of points that are still to come, including this one. Returns false if
-  // the point has the rays and the picture of the baseline.
-  bool measure(Point& point, const Point& baseline, std::size_t points) {
-    FrameSource frames(scene_, camera_, point.options);
-    frames.render();  // this frame allocates; its time counts only if there is no time for another
-    // An approximation that changes neither rays nor pixels does not apply to this scene.
-    if (point.kind == PointKind::knob && point.cause == Cause::algorithm && isBaseline(frames)) {
-      return false;
-    }
+  errors.measure(point, frames);
+  errors.addPictures(point, frames.film.image);
 
-    timer_.time(point, frames, points);
-
-    // A point with the picture of the baseline shares its errors and needs no pictures of its own.
-    if (frames.film.image.pixels == baseline_.film.image.pixels) {
-      static_cast<PointErrors&>(point) = static_cast<const PointErrors&>(baseline);
-      point.stats = frames.stats;
-      return true;
-    }
-
-    errors_.measure(point, frames);
-    if (point.cause == Cause::arithmetic) copyErrorsOfRays(point, baseline);
-    errors_.addPictures(point, frames.film.image);
-    return true;
+  // Knobs of arithmetic leave samples and algorithm as they are.
+  if (point.cause == Cause::arithmetic) {
+    point.sampling = baseline.sampling;
+    point.algorithm = baseline.algorithm;
+    point.transport = baseline.transport;
   }
-
- private:
-  // For points with the same samples and the same algorithm.
-  static void copyErrorsOfRays(Point& point, const Point& from) {
-    point.sampling = from.sampling;
-    point.algorithm = from.algorithm;
-    point.transport = from.transport;
-  }
-
-  bool isBaseline(const FrameSource& frames) const {
-    for (std::size_t k = 0; k < kRayKindCount; ++k) {
-      if (frames.stats.meter.tally[k].rays != baseline_.stats.meter.tally[k].rays) return false;
-    }
-    return frames.film.image.pixels == baseline_.film.image.pixels;
-  }
-
-  const Scene& scene_;
-  const Camera& camera_;
-  FrameSource& baseline_;
-  PointTimer& timer_;
-  ErrorMeter& errors_;
-};
+}
 
 // Removes the points without a measurement from the results and lists them as idle, with the
 // reason by label.
@@ -180,20 +170,9 @@ SceneSweep sweepScene(const Scene& scene, const RenderOptions& base, const Sweep
   FrameSource baseline(scene, camera, base);
   baseline.render();
 
-  // The rays of a frame, and of a sample of the exact picture, limit what is measured.
   ReferenceCache cache(scene, camera);
-  Scope scope{settings.full ? kFull : kQuick, 0, 0, !settings.knobs.empty(), base.spp, 0};
-  scope.cutoff = exactCutoff(effects, settings.full);
-  scope.raysPerSample = cache.get(exactAtSameSamples(base, scope.cutoff), nullptr).rays / base.spp;
-  scope.frameRays = static_cast<double>(baseline.stats.allRays());
-
-  SceneSweep sweep;
-  sweep.scene = scene.name;
-  sweep.width = baseline.film.image.windowWidth();
-  sweep.height = baseline.film.image.windowHeight();
-  sweep.machine = baseline.renderer.machine();
-  sweep.referenceCutoff = scope.cutoff;
-  sweep.referenceSamples = scope.samples();
+  Scope scope = scopeOf(base, effects, settings, baseline, cache);
+  SceneSweep sweep = startSweep(scene, baseline, scope);
   PointTimer timer(baseline, 1000 * settings.timingSeconds.value_or(scope.limits.timingSeconds));
 
   // The time limit of a quick sweep does not include the picture with all transport.
@@ -209,26 +188,35 @@ SceneSweep sweepScene(const Scene& scene, const RenderOptions& base, const Sweep
   sweep.referenceMs = errors.referenceMs();
   sweep.truthPng = errors.pngOf(errors.truth());
 
-  PointMeter meter(scene, camera, baseline, timer, errors);
   Point& standard = sweep.points.front();
-  meter.measureBaseline(standard);
+  errors.measure(standard, baseline);
+  errors.addPictures(standard, baseline.film.image);
 
   std::map<std::string, std::string> unmeasured;  // label and reason
   const std::vector<std::size_t> order = chooseOrder(sweep.points, settings);
   for (std::size_t k = 0; k < order.size(); ++k) {
     Point& point = sweep.points[order[k]];
+    const std::size_t remaining = order.size() - k;
     reportProgress(progress, sweep.scene + ": " + point.label(),
                    static_cast<double>(k) / static_cast<double>(order.size()));
 
     // Timing has a budget of its own, so the limit applies to the other work only.
     if (scope.isOver((clock.ms() - timer.spentMs()) / 1000)) {
       unmeasured[point.label()] = Scope::kOverBecause;
-    } else if (meter.measure(point, standard, order.size() - k)) {
-      sweep.order.push_back(point.label());
-    } else {
+      continue;
+    }
+
+    FrameSource frames(scene, camera, point.options);
+    frames.render();  // this frame allocates; its time counts only if there is no time for another
+    if (changesNothing(point, frames, baseline)) {
       unmeasured[point.label()] =
           "the same rays and the same picture as '" + standard.label() + "'";
+      continue;
     }
+
+    timer.time(point, frames, remaining);
+    measureErrors(point, frames, standard, baseline, errors);
+    sweep.order.push_back(point.label());
   }
 
   leaveOut(unmeasured, sweep);

@@ -106,7 +106,7 @@ MaterialUse useOf(const Material& material, const std::vector<Texture>& textures
   for (const std::int32_t map : material.maps()) {
     if (map == kNoTexture) continue;
 
-    const Texture& texture = textures[static_cast<std::size_t>(map)];
+    const Texture& texture = entryOf(textures, map);
     textured = true;
     u = u && texture.wrapU == Wrap::repeat;
     v = v && texture.wrapV == Wrap::repeat;

@@ -82,7 +82,7 @@ class Gatherer {
 
  private:
   void set(Effect effect, bool on, const std::string& yes, const std::string& no) {
-    scene_.reasons[static_cast<std::size_t>(effect)] = {on, on ? yes : no};
+    entryOf(scene_.reasons, effect) = {on, on ? yes : no};
     if (on) scene_.effects = scene_.effects.with(effect);
   }
 

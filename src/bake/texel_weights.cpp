@@ -13,8 +13,7 @@ float firstChannelAt(const Texture& mask, int column, int row) {
 
 TexelWeights weightsLike(const Texture& mask) {
   TexelWeights weights{mask.width, mask.height, {}};
-  weights.values.reserve(static_cast<std::size_t>(mask.width) *
-                         static_cast<std::size_t>(mask.height));
+  weights.values.reserve(cellsOf(mask.width, mask.height));
   return weights;
 }
 

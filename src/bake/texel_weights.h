@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/index.h"
 #include "scene/texture.h"
 
 namespace whit {
@@ -23,10 +24,7 @@ struct TexelWeights {
   int width = 1, height = 1;
   std::vector<double> values;
 
-  double at(int column, int row) const {
-    return values[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
-                  static_cast<std::size_t>(column)];
-  }
+  double at(int column, int row) const { return values[cellAt(column, row, width)]; }
 };
 
 // Returns the share of each texel's area in which the first channel of `mask`, looked up

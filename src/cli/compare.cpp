@@ -226,7 +226,7 @@ void printStages(FILE* out, const std::vector<StageDifference>& rows) {
                "limit ulp", "at");
   for (const StageDifference& row : rows) {
     std::fprintf(out, "%-34s%-22s%12llu%12.3g%12.3g  %d,%d depth %d%s\n",
-                 kStageNames[static_cast<std::size_t>(row.stage)].data(), row.column.c_str(),
+                 entryOf(kStageNames, row.stage).data(), row.column.c_str(),
                  static_cast<unsigned long long>(row.slots), row.worstUlp, row.limitUlp, row.pixelX,
                  row.pixelY, row.depth, row.worstUlp <= row.limitUlp ? "" : "  TOO FAR");
   }
@@ -313,7 +313,7 @@ Json compareJson(const Compared& compared) {
   if (!comparison.stages) return json;
   json["stages"] = Json::array();
   for (const StageDifference& row : *comparison.stages) {
-    json["stages"].push_back({{"stage", kStageNames[static_cast<std::size_t>(row.stage)]},
+    json["stages"].push_back({{"stage", entryOf(kStageNames, row.stage)},
                               {"column", row.column},
                               {"slots", row.slots},
                               {"worst_ulp", row.worstUlp},

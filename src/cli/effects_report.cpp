@@ -4,7 +4,6 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "cli/commands.h"
 #include "core/text.h"
 #include "output/json_report.h"
 

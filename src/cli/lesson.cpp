@@ -111,8 +111,7 @@ class StageRecorder : public StageObserver {
   }
 
   void endStep(Stage stage) {
-    steps_.push_back({{"stage", kStageNames[static_cast<std::size_t>(stage)]},
-                      {"columns", std::move(columns_)}});
+    steps_.push_back({{"stage", entryOf(kStageNames, stage)}, {"columns", std::move(columns_)}});
   }
 
   template <typename Columns>

@@ -2,8 +2,6 @@
 // whit explain --html writes.
 #pragma once
 
-#include "cli/commands.h"
-#include "core/image.h"
 #include "output/json_report.h"
 #include "render/renderer.h"
 

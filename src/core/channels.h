@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/enum_set.h"
+#include "core/index.h"
 #include "core/vec3.h"
 
 namespace whit {
@@ -50,9 +51,7 @@ inline constexpr std::array<ChannelInfo, kChannelCount> kChannels{
      {"rays", true, 1, {"count"}},
      {"alpha", false, 1, {"A"}},
      {"error", false, 2, {"standard", "ended"}}}};
-inline constexpr const ChannelInfo& infoOf(Channel channel) {
-  return kChannels[static_cast<std::size_t>(channel)];
-}
+inline constexpr const ChannelInfo& infoOf(Channel channel) { return entryOf(kChannels, channel); }
 
 using ChannelSet = EnumSet<Channel, kChannelCount>;
 

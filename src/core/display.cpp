@@ -50,7 +50,7 @@ double linearToSrgb(double linear) {
 std::array<float, 256> makeLinearOfCode() {
   std::array<float, 256> table{};
   for (int code = 0; code < 256; ++code) {
-    table[static_cast<std::size_t>(code)] = static_cast<float>(srgbToLinear(code / 255.0));
+    entryOf(table, code) = static_cast<float>(srgbToLinear(code / 255.0));
   }
   return table;
 }
@@ -65,7 +65,7 @@ int srgbCode(double linear) {
 const std::array<float, 257>& leastWithCodes() {
   static const std::array<float, 257> least = [] {
     std::array<float, 257> of{};
-    for (int code = 0; code < 256; ++code) of[static_cast<std::size_t>(code)] = leastWithCode(code);
+    for (int code = 0; code < 256; ++code) entryOf(of, code) = leastWithCode(code);
     // No value has a code above 255, so the table ends with infinity.
     of[256] = std::numeric_limits<float>::infinity();
     return of;

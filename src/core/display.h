@@ -19,7 +19,7 @@ double linearToSrgb(double linear);
 std::array<float, 256> makeLinearOfCode();
 inline float linearOfCode(int code) {
   static const std::array<float, 256> table = makeLinearOfCode();
-  return table[static_cast<std::size_t>(code)];
+  return entryOf(table, code);
 }
 
 // round(255 * srgb(x)) with x clamped to [0, 1]; NaN and negatives give 0.

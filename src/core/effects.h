@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "core/enum_set.h"
+#include "core/index.h"
 
 namespace whit {
 
@@ -61,9 +62,7 @@ inline constexpr std::array<EffectName, kEffectCount> kEffectNames{{
 #undef WHIT_EFFECT_NAME
 }};
 
-constexpr std::string_view nameOf(Effect e) {
-  return kEffectNames[static_cast<std::size_t>(e)].name;
-}
+constexpr std::string_view nameOf(Effect e) { return entryOf(kEffectNames, e).name; }
 
 using EffectSet = EnumSet<Effect, kEffectCount>;
 

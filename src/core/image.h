@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/index.h"
 #include "core/options.h"
 #include "core/vec3.h"
 
@@ -18,17 +19,13 @@ struct Image {
   Image() = default;
   Image(int w, int h) : Image(w, h, Crop{0, 0, w, h}) {}
   Image(int w, int h, const Crop& c)
-      : width(w),
-        height(h),
-        window(c),
-        pixels(static_cast<std::size_t>(c.x1 - c.x0) * static_cast<std::size_t>(c.y1 - c.y0)) {}
+      : width(w), height(h), window(c), pixels(cellsOf(c.x1 - c.x0, c.y1 - c.y0)) {}
 
   int windowWidth() const { return window.x1 - window.x0; }
   int windowHeight() const { return window.y1 - window.y0; }
   // x, y in image coordinates, inside the window.
   std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y - window.y0) * static_cast<std::size_t>(windowWidth()) +
-           static_cast<std::size_t>(x - window.x0);
+    return cellAt(x - window.x0, y - window.y0, windowWidth());
   }
   Rgb& at(int x, int y) { return pixels[index(x, y)]; }
   const Rgb& at(int x, int y) const { return pixels[index(x, y)]; }

@@ -113,7 +113,7 @@ void takeOver(const RenderOptions& from, Rebuild most, RenderOptions& to) {
 }
 
 void applyQuality(RenderOptions& options, const std::set<std::string>& given) {
-  const auto& preset = kPresets[static_cast<std::size_t>(options.quality)];
+  const auto& preset = entryOf(kPresets, options.quality);
   for (std::size_t i = 0; i < preset.size(); ++i) {
     if (!given.contains(kPresetOptions[i])) setOption(options, kPresetOptions[i], preset[i]);
   }
@@ -147,10 +147,9 @@ std::vector<std::string> sceneOptionNames() {
   const RenderOptions defaults;
 
   forEachOption(defaults, [&](const OptionSpec& spec, const auto&) {
-    // A scene may set options that change its picture, but not those of loading and of arithmetic.
+    // A scene may set options that change its picture, but not those of loading and of kernels.
     const bool ofFrames = spec.rebuilds == Rebuild::frame || spec.rebuilds == Rebuild::tables;
-    const bool ofKernels = spec.knob && spec.knob->cause == Cause::arithmetic;
-    if (spec.changesPicture && ofFrames && !ofKernels) names.emplace_back(spec.name);
+    if (spec.changesPicture && ofFrames && spec.name != "effects") names.emplace_back(spec.name);
   });
 
   return names;

@@ -1,7 +1,7 @@
 // Every option of a render, declared once: a member of RenderOptions and its entry in
 // withOptions(). The command line, --help, the manual page, the metadata of images, the library,
-// what a renderer makes anew, the viewer's panel and the sweep of `whit accuracy` all follow from
-// the entry.
+// what a renderer makes anew and the viewer's panel all follow from the entry; inspect/knobs.cpp has
+// what the sweep of `whit accuracy` adds.
 #pragma once
 
 #include <array>
@@ -28,27 +28,6 @@ enum class Rebuild {
   scene,  // it is loaded again, by the caller of the renderer
 };
 
-// The kind of error of an inexact value: rounding; rays and terms that are left out or approximated
-// within Whitted's model; too few samples per pixel; or light transport that the model leaves out.
-enum class Cause { arithmetic, algorithm, sampling, transport };
-
-// An option that trades accuracy for time, as `whit accuracy` sweeps it. Values are written as on
-// the command line; lists of them are separated by blanks.
-struct KnobSpec {
-  Cause cause = Cause::algorithm;
-  std::string_view exact = {};
-  std::string_view values = {};  // the sweep
-  // Values between others, or that make the same picture by construction: a quick sweep measures
-  // them last, if there is time.
-  std::string_view minor = {};
-  // Options that the inexact values need to have an effect, as on the command line.
-  std::string_view prerequisites = {};
-  // With the exact value, branching rays would never end: scenes with such rays skip it.
-  bool endless = false;
-  // Effects that the option changes: it is swept in scenes that use one of each set.
-  std::array<EffectSet, 2> needs = {};
-};
-
 // The tab of the viewer's panel that has a control for it.
 enum class Tab { none, knobs, picture };
 
@@ -67,7 +46,6 @@ struct OptionSpec {
   // other values against it, and not at all if this is empty.
   std::string_view cheapest = {};
   bool everyday = false;  // in --help; the other options are in --help-all only
-  std::optional<KnobSpec> knob = {};
 };
 
 enum class Mode { packets, reference };
@@ -76,11 +54,6 @@ enum class EffectChoice { automatic, all };
 enum class ToneCurve { none, filmic, reinhard };
 enum class Quality { good, standard, fine, reference };
 enum class BvhQuality { low, medium, high };
-
-// Needs that several options share.
-inline constexpr EffectSet kNeedsImpulses =
-    EffectSet().with(Effect::mirror).with(Effect::transmission);
-inline constexpr EffectSet kNeedsVertexNormals = EffectSet().with(Effect::smoothNormals);
 
 // Exposure of 8-bit output in EV. An automatic one is computed from the view by
 // render/renderer.h and is 0 until then.
@@ -209,44 +182,30 @@ decltype(auto) withOptions(Options& o, Use&& use) {
              o.crop},
       Option{{.name = "spp", .words = "N", .low = 1, .high = kSppLimit,
               .help = "samples per pixel, for anti-aliasing",
-              .everyday = true,
-              .knob = KnobSpec{.cause = Cause::sampling, .exact = "1",
-                               .values = "1 2 4 8 16", .minor = "2"}},
+              .everyday = true},
              o.spp},
-      // It is swept with 24 samples, not 16, to make up for the pixels that get one.
       Option{{.name = "adaptive", .words = "on|off",
               .help = "adaptive anti-aliasing: --spp samples at edges of surfaces and contrast, "
                       "one elsewhere; with --glossy or --indirect all pixels get all samples",
-              .everyday = true,
-              .knob = KnobSpec{.cause = Cause::sampling, .exact = "off", .values = "off on",
-                               .prerequisites = "--spp 24"}},
+              .everyday = true},
              o.adaptive},
       Option{{.name = "contrast", .words = "N", .low = 0, .high = 255,
               .help = "difference of neighboring pixels, in 8-bit codes, above which --adaptive "
-                      "samples them",
-              .knob = KnobSpec{.cause = Cause::sampling, .exact = "8", .values = "8 4 16 24",
-                               .prerequisites = "--adaptive on --spp 24"}},
+                      "samples them"},
              o.contrast},
       Option{{.name = "depth", .words = "N", .low = 0, .high = kDepthLimit,
               .help = "maximum ray depth: bounces of reflected and refracted rays, here also "
                       "called impulses",
               .cheapest = "0",
-              .everyday = true,
-              .knob = KnobSpec{.cause = Cause::algorithm, .exact = "64",
-                               .values = "0 1 2 3 4 8 16 32 64",
-                               .minor = "1 3 16 32", .needs = {kNeedsImpulses}}},
+              .everyday = true},
              o.depth},
-      // The exact value is that of each of the many samples per pixel of the reference.
       Option{{.name = "glossy", .words = "N", .low = 0, .high = 64,
               .help = "glossy reflections: sampled rays per hit on a rough surface, one per hit "
                       "after a bounce; 0: rough surfaces reflect lights and a blurred sky, and frosted "
                       "glass is clear",
               .rebuilds = Rebuild::tables,
               .cheapest = "0",
-              .everyday = true,
-              .knob = KnobSpec{.cause = Cause::sampling, .exact = "4", .values = "0 1 4 16",
-                               .minor = "1 4 16",
-                               .needs = {EffectSet().with(Effect::glossyReflection)}}},
+              .everyday = true},
              o.glossy},
       Option{{.name = "indirect", .words = "N", .low = 0, .high = 64,
               .help = "indirect diffuse lighting, as by a path tracer: sampled rays per hit on a "
@@ -254,26 +213,17 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                       "0: direct and ambient light only",
               .rebuilds = Rebuild::tables,
               .cheapest = "0",
-              .everyday = true,
-              .knob = KnobSpec{.cause = Cause::transport, .exact = "4", .values = "0 1 4 16 64",
-                               .needs = {EffectSet().with(Effect::indirect)}}},
+              .everyday = true},
              o.indirect},
       Option{{.name = "cutoff", .words = "X", .low = 0, .high = 1,
               .help = "contribution to the pixel below which reflected and refracted rays are not "
                       "traced",
-              .cheapest = "0.004",
-              .knob = KnobSpec{.cause = Cause::algorithm, .exact = "0",
-                               .values = "0 1e-4 3e-4 1e-3 4e-3 1.6e-2",
-                               .minor = "3e-4", .endless = true,
-                               .needs = {kNeedsImpulses}}},
+              .cheapest = "0.004"},
              o.cutoff},
       Option{{.name = "roulette", .words = "X", .low = 0, .high = 1,
               .help = "Russian roulette: rays that contribute less are traced by chance and "
                       "weighted to keep the mean; replaces --cutoff; 0: off",
-              .rebuilds = Rebuild::tables,
-              .knob = KnobSpec{.cause = Cause::sampling, .exact = "0", .values = "0 0.01 0.1 0.5",
-                               .minor = "0.01 0.1 0.5",
-                               .needs = {kNeedsImpulses}}},
+              .rebuilds = Rebuild::tables},
              o.roulette},
       Option{{.name = "max-rays", .words = "N", .low = 0, .high = 1e9,
               .help = "reflected, refracted and sampled rays of a sample; a sample that would have "
@@ -286,72 +236,45 @@ decltype(auto) withOptions(Options& o, Use&& use) {
                       "1: to its center only",
               .rebuilds = Rebuild::tables,
               .cheapest = "1",
-              .everyday = true,
-              .knob = KnobSpec{.cause = Cause::sampling, .exact = "4", .values = "1 4 16",
-                               .needs = {EffectSet().with(Effect::softShadows)}}},
+              .everyday = true},
              o.lightSamples},
       Option{{.name = "ambient-samples", .words = "N", .low = 0, .high = 64,
               .help = "ambient occlusion: rays per hit, of the length that the scene gives; 0: "
                       "off",
               .rebuilds = Rebuild::tables,
               .cheapest = "0",
-              .everyday = true,
-              .knob = KnobSpec{.cause = Cause::sampling, .exact = "4", .values = "0 1 4 16",
-                               .minor = "1 16",
-                               .needs = {EffectSet().with(Effect::ambientOcclusion)}}},
+              .everyday = true},
              o.ambientSamples},
       Option{{.name = "light-cutoff", .words = "X", .low = 0, .high = 1e6,
               .help = "contribution to the pixel below which a light is skipped, with its shadow "
                       "ray",
-              .cheapest = "0.004",
-              .knob = KnobSpec{.cause = Cause::algorithm, .exact = "0",
-                               .values = "0 1e-4 1e-3 4e-3", .minor = "1e-4",
-                               .needs = {EffectSet().with(Effect::lights)}}},
+              .cheapest = "0.004"},
              o.shading.lightCutoff},
       Option{{.name = "fresnel", .words = "exact|schlick",
               .help = "reflectance of dielectrics: Fresnel's equations or Schlick's approximation",
-              .cheapest = "schlick",
-              .knob = KnobSpec{.cause = Cause::algorithm, .exact = "exact",
-                               .values = "exact schlick",
-                               .needs = {EffectSet().with(Effect::transmission)}}},
+              .cheapest = "schlick"},
              o.shading.fresnel},
       Option{{.name = "texture-filter", .words = "nearest|bilinear|trilinear",
               .help = "texture filtering; trilinear uses mip maps; alpha masks are always "
                       "bilinear",
               .rebuilds = Rebuild::tables,
               .cheapest = "nearest",
-              .everyday = true,
-              .knob = KnobSpec{.cause = Cause::algorithm, .exact = "trilinear",
-                               .values = "trilinear bilinear nearest",
-                               .needs = {EffectSet().with(Effect::textures)
-                                                    .with(Effect::normalMaps)}}},
+              .everyday = true},
              o.shading.textureFilter},
       Option{{.name = "offset", .words = "bound|fixed|wachter-binder",
               .help = "offset of ray origins from the surface, against self-intersection: the "
                       "error bound of the point, 1e-3, or 256 ulps and more",
-              .cheapest = "fixed",
-              .knob = KnobSpec{.cause = Cause::algorithm, .exact = "bound",
-                               .values = "bound fixed wachter-binder",
-                               .minor = "fixed wachter-binder",
-                               .needs = {kNeedsImpulses.with(Effect::shadows)}}},
+              .cheapest = "fixed"},
              o.shading.offset},
       Option{{.name = "terminator", .words = "on|off",
               .help = "avoid shadow-terminator artifacts on smooth-shaded meshes: shadow rays "
                       "start above the facets, Hanika 2021",
-              .cheapest = "off",
-              .knob = KnobSpec{.cause = Cause::algorithm, .exact = "off", .values = "off on",
-                               .minor = "on",
-                               .needs = {kNeedsVertexNormals,
-                                         EffectSet().with(Effect::shadows)}}},
+              .cheapest = "off"},
              o.shading.terminator},
       Option{{.name = "bend", .words = "on|off",
               .help = "turn back reflected and refracted rays that a normal map sends to the "
                       "wrong side of the surface",
-              .cheapest = "off",
-              .knob = KnobSpec{.cause = Cause::algorithm, .exact = "on", .values = "on off",
-                               .minor = "off",
-                               .needs = {kNeedsVertexNormals.with(Effect::normalMaps),
-                                         kNeedsImpulses}}},
+              .cheapest = "off"},
              o.shading.bend},
       Option{{.name = "threads", .words = "N", .low = 0, .high = 1024,
               .help = "worker threads (default: those that CPU affinity and cgroup quota allow)",
@@ -359,9 +282,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
              o.threads},
       Option{{.name = "packet", .words = "auto|1|4|8|16",
               .help = "rays per packet (auto: widest the CPU runs natively)",
-              .rebuilds = Rebuild::workers,
-              .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "auto", .values = "1 4 8 16",
-                               .minor = "1 4 8 16"}},
+              .rebuilds = Rebuild::workers},
              o.packet},
       Option{{.name = "simd", .words = "auto|avx3|avx2|sse4|sse2|neon|scalar",
               .help = "SIMD target of the kernels and of Embree",
@@ -370,30 +291,23 @@ decltype(auto) withOptions(Options& o, Use&& use) {
       Option{{.name = "mode", .words = "packets|reference",
               .help = "vector pipeline in float, or the scalar recursive reference in double",
               .rebuilds = Rebuild::nothing, .tab = Tab::none,
-              .everyday = true,
-              .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "reference",
-                               .values = "packets reference", .minor = "reference"}},
+              .everyday = true},
              o.mode},
       Option{{.name = "batch", .words = "tile|frame",
               .help = "run each stage over one tile at a time, or over the whole frame",
               .rebuilds = Rebuild::workers, .changesPicture = false},
              o.batch},
       Option{{.name = "robust", .words = "on|off", .help = "Embree's watertight traversal",
-              .rebuilds = Rebuild::acceleration,
-              .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "on", .values = "on off"}},
+              .rebuilds = Rebuild::acceleration},
              o.robust},
       Option{{.name = "retry", .words = "on|off",
               .help = "trace rays of --robust that miss in a closed scene once more",
-              .rebuilds = Rebuild::acceleration,
-              .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "on", .values = "on off",
-                               .minor = "off"}},
+              .rebuilds = Rebuild::acceleration},
              o.retry},
       Option{{.name = "bvh", .words = "low|medium|high",
               .help = "Embree's build quality; high adds spatial splits, which Embree ignores "
                       "when robust",
-              .rebuilds = Rebuild::acceleration,
-              .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "medium",
-                               .values = "low medium high", .minor = "low high"}},
+              .rebuilds = Rebuild::acceleration},
              o.bvh},
       Option{{.name = "sphere-segments", .words = "N", .low = 0, .high = kSphereSegmentsLimit,
               .help = "triangles in place of exact spheres: N around and half as many from pole "
@@ -403,9 +317,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
       Option{{.name = "effects", .words = "auto|all",
               .help = "kernels for the effects that the scene uses, or for every effect",
               .rebuilds = Rebuild::tables,
-              .cheapest = "auto",
-              .knob = KnobSpec{.cause = Cause::arithmetic, .exact = "auto", .values = "auto all",
-                               .minor = "all"}},
+              .cheapest = "auto"},
              o.effects},
       Option{{.name = "disable", .words = "a,b",
               .help = "effects to leave out, by the names that whit info prints",

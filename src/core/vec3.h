@@ -8,6 +8,8 @@
 
 namespace whit {
 
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 template <typename T>
 struct Vec3 {
   T x{}, y{}, z{};

@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 #include <system_error>
-#include <thread>
 
 #include "core/error.h"
 #include "core/flush_denormals.h"

@@ -1,9 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 #include <span>
-#include <utility>
 
 #include "core/stopwatch.h"
 #include "inspect/budget.h"
@@ -25,7 +23,7 @@ constexpr double kFewSamples = 8, kLeastKnown = 0.5;
 // The error is an estimate that nothing bounds.
 void leaveUnknown(Receipt& r, double estimate) {
   r.error = estimate;
-  r.high = std::numeric_limits<double>::infinity();
+  r.high = kInfinity;
   if (!r.note.empty()) r.note += "; ";
   r.note += "the error is not known: few samples decide most of what was measured";
 }

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "core/error.h"
@@ -386,13 +385,13 @@ class Chooser {
       errors.push_back({c.total.error, c.total.cost * doubt});
     } while (advance(c));
 
-    constexpr double kAny = std::numeric_limits<double>::infinity(), kRounding = 1 + 1e-9;
+    constexpr double kRounding = 1 + 1e-9;
     const std::vector<CostAndError>& wanted = timed() ? costs : errors;
     const double most = timed() ? kAim * left : wantedError() * kRounding;
     if (const auto best = bestWithin(wanted, most)) return all[*best];
 
     // If nothing fits, we take the cheapest combination, or for a target the most accurate one.
-    return all[bestWithin(timed() ? errors : costs, kAny).value_or(0)];
+    return all[bestWithin(timed() ? errors : costs, kInfinity).value_or(0)];
   }
 
   RenderOptions optionsOf(const Combination& c) const {

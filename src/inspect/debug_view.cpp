@@ -207,7 +207,7 @@ FrameStats watchFrame(Renderer& renderer, const Camera& camera, Film& film, Debu
 }
 
 std::string DebugPicture::legend() const {
-  const char* const amounts = kAmounts[static_cast<std::size_t>(view)];
+  const char* const amounts = entryOf(kAmounts, view);
   return *amounts == 0 ? "" : formatted("%s, from %.3g to %.3g", amounts, low, high);
 }
 

@@ -22,14 +22,9 @@ struct Plane {
   std::vector<float> values;  // row by row
 
   Plane() = default;
-  Plane(int w, int h)
-      : width(w), height(h), values(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}
-  float* row(int y) {
-    return values.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
-  }
-  const float* row(int y) const {
-    return values.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
-  }
+  Plane(int w, int h) : width(w), height(h), values(cellsOf(w, h)) {}
+  float* row(int y) { return values.data() + cellAt(0, y, width); }
+  const float* row(int y) const { return values.data() + cellAt(0, y, width); }
 };
 
 // Weights at -radius .. radius, so always an odd number of them.
@@ -138,7 +133,7 @@ Planes opponentPlanes(const DisplayImage& image) {
     const std::uint8_t* code = image.rgba.data() + 4 * i;
     const Vec3f o = opponentOfXyz(
         toXyz * Rgb{linearOfCode(code[0]), linearOfCode(code[1]), linearOfCode(code[2])});
-    for (int c = 0; c < 3; ++c) planes[static_cast<std::size_t>(c)].values[i] = o[c];
+    for (int c = 0; c < 3; ++c) entryOf(planes, c).values[i] = o[c];
   }
   return planes;
 }

@@ -12,6 +12,57 @@ namespace whit {
 
 namespace {
 
+constexpr EffectSet only(Effect effect) { return EffectSet().with(effect); }
+constexpr EffectSet kImpulses = only(Effect::mirror).with(Effect::transmission);
+constexpr EffectSet kVertexNormals = only(Effect::smoothNormals);
+
+using enum Cause;
+
+// The columns are name, cause, exact value, values, minor values, needs, prerequisites, endless.
+// The order is that of the options.
+constexpr KnobSpec kKnobs[] = {
+    {"spp", sampling, "1", "1 2 4 8 16", "2"},
+    // With 24 samples, not 16, to make up for the pixels that get one.
+    {"adaptive", sampling, "off", "off on", "", {}, "--spp 24"},
+    {"contrast", sampling, "8", "8 4 16 24", "", {}, "--adaptive on --spp 24"},
+    {"depth", algorithm, "64", "0 1 2 3 4 8 16 32 64", "1 3 16 32", {kImpulses}},
+    // The exact numbers of samples are those of each of the many samples per pixel of the
+    // reference.
+    {"glossy", sampling, "4", "0 1 4 16", "1 4 16", {only(Effect::glossyReflection)}},
+    {"indirect", transport, "4", "0 1 4 16 64", "", {only(Effect::indirect)}},
+    {"cutoff", algorithm, "0", "0 1e-4 3e-4 1e-3 4e-3 1.6e-2", "3e-4", {kImpulses}, "", true},
+    {"roulette", sampling, "0", "0 0.01 0.1 0.5", "0.01 0.1 0.5", {kImpulses}},
+    {"light-samples", sampling, "4", "1 4 16", "", {only(Effect::softShadows)}},
+    {"ambient-samples", sampling, "4", "0 1 4 16", "1 16", {only(Effect::ambientOcclusion)}},
+    {"light-cutoff", algorithm, "0", "0 1e-4 1e-3 4e-3", "1e-4", {only(Effect::lights)}},
+    {"fresnel", algorithm, "exact", "exact schlick", "", {only(Effect::transmission)}},
+    {"texture-filter",
+     algorithm,
+     "trilinear",
+     "trilinear bilinear nearest",
+     "",
+     {only(Effect::textures).with(Effect::normalMaps)}},
+    {"offset",
+     algorithm,
+     "bound",
+     "bound fixed wachter-binder",
+     "fixed wachter-binder",
+     {kImpulses.with(Effect::shadows)}},
+    {"terminator", algorithm, "off", "off on", "on", {kVertexNormals, only(Effect::shadows)}},
+    {"bend",
+     algorithm,
+     "on",
+     "on off",
+     "off",
+     {kVertexNormals.with(Effect::normalMaps), kImpulses}},
+    {"packet", arithmetic, "auto", "1 4 8 16", "1 4 8 16"},
+    {"mode", arithmetic, "reference", "packets reference", "reference"},
+    {"robust", arithmetic, "on", "on off"},
+    {"retry", arithmetic, "on", "on off", "off"},
+    {"bvh", arithmetic, "medium", "low medium high", "low high"},
+    {"effects", arithmetic, "auto", "auto all", "all"},
+};
+
 std::vector<std::string> wordsOf(std::string_view text) {
   std::istringstream stream{std::string(text)};
   std::vector<std::string> words;
@@ -26,7 +77,8 @@ std::string labelOf(const std::string& option, const std::string& word) {
   return optionText(options, option);
 }
 
-Knob knobOf(const std::string& name, const KnobSpec& spec) {
+Knob knobOf(const KnobSpec& spec) {
+  const std::string name(spec.name);
   const auto labels = [&](std::string_view text) {
     std::vector<std::string> all = wordsOf(text);
     for (std::string& word : all) word = labelOf(name, word);
@@ -73,15 +125,12 @@ std::string Knob::idle(EffectSet effects) const {
 }
 
 const std::vector<Knob>& allKnobs() {
-  static const std::vector<Knob> kKnobs = [] {
-    std::vector<Knob> knobs;
-    const RenderOptions defaults;
-    forEachOption(defaults, [&](const OptionSpec& spec, const auto&) {
-      if (spec.knob) knobs.push_back(knobOf(std::string(spec.name), *spec.knob));
-    });
-    return knobs;
+  static const std::vector<Knob> knobs = [] {
+    std::vector<Knob> made;
+    for (const KnobSpec& spec : kKnobs) made.push_back(knobOf(spec));
+    return made;
   }();
-  return kKnobs;
+  return knobs;
 }
 
 std::vector<Knob> chooseKnobs(const std::vector<std::string>& names) {

@@ -1,8 +1,9 @@
-// The knobs, which are options that trade accuracy for time (core/options.h has their table): their
-// values, which of them a scene calls for, and options that are exact. `whit accuracy` sweeps them,
+// The knobs, which are options that trade accuracy for time: their values, which of them a scene
+// calls for, and options that are exact. `whit accuracy` sweeps them,
 // and --budget chooses among them.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -11,6 +12,28 @@
 #include "core/options.h"
 
 namespace whit {
+
+// The kind of error of an inexact value: rounding; rays and terms that are left out or approximated
+// within Whitted's model; too few samples per pixel; or light transport that the model leaves out.
+enum class Cause { arithmetic, algorithm, sampling, transport };
+
+// A row of the table in knobs.cpp. Values are written as on the command line; lists of them are
+// separated by blanks.
+struct KnobSpec {
+  std::string_view name = {};
+  Cause cause = Cause::algorithm;
+  std::string_view exact = {};
+  std::string_view values = {};  // the sweep
+  // Values between others, or that make the same picture by construction: a quick sweep measures
+  // them last, if there is time.
+  std::string_view minor = {};
+  // Effects that the option changes: it is swept in scenes that use one of each set.
+  std::array<EffectSet, 2> needs = {};
+  // Options that the inexact values need to have an effect, as on the command line.
+  std::string_view prerequisites = {};
+  // With the exact value, branching rays would never end: scenes with such rays skip it.
+  bool endless = false;
+};
 
 struct KnobValue {
   std::string knob, label;                 // as on the command line: --KNOB LABEL

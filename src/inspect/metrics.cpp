@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <numeric>
 #include <string>
 
@@ -55,7 +54,7 @@ double psnr(const DisplayImage& a, const DisplayImage& b) {
     squares += static_cast<std::uint64_t>(d * d);
   }
 
-  if (squares == 0) return std::numeric_limits<double>::infinity();
+  if (squares == 0) return kInfinity;
   const std::size_t values = a.rgba.size() / 4 * 3;
   return 10 *
          std::log10(255.0 * 255.0 * static_cast<double>(values) / static_cast<double>(squares));
@@ -174,8 +173,7 @@ DisplayImage heatMap(const Image& a, const Image& b) {
 
   std::array<std::array<std::uint8_t, 3>, kLargest + 1> colors{};
   for (int code = 0; code <= kLargest; ++code) {
-    colors[static_cast<std::size_t>(code)] =
-        heatColor(std::log2(1.0 + code) / std::log2(1.0 + kLargest));
+    entryOf(colors, code) = heatColor(std::log2(1.0 + code) / std::log2(1.0 + kLargest));
   }
 
   for (std::size_t i = 0; i < codes.size(); ++i) {

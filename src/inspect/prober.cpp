@@ -20,7 +20,7 @@ constexpr double kLeastTimed = 16;
 // Cells of a grid by the lattice of the plastic number (Roberts 2018): the first few lie all over
 // it.
 std::vector<std::pair<int, int>> spreadCells(int columns, int rows, double count) {
-  const auto all = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+  const auto all = cellsOf(columns, rows);
   std::vector<std::pair<int, int>> cells;
   std::vector<bool> taken(all);
 
@@ -31,8 +31,7 @@ std::vector<std::pair<int, int>> spreadCells(int columns, int rows, double count
     v = std::modf(v, &whole);
 
     const int x = static_cast<int>(u * columns), y = static_cast<int>(v * rows);
-    const std::size_t cell = static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) +
-                             static_cast<std::size_t>(x);
+    const std::size_t cell = cellAt(x, y, columns);
     if (!taken[cell]) cells.emplace_back(x, y);
     taken[cell] = true;
   }
@@ -102,7 +101,7 @@ Image Prober::mosaic(const Image& picture) const {
   Image image(columns * side_, (count + columns - 1) / columns * side_);
 
   for (int b = 0; b < count; ++b) {
-    const std::vector<std::uint32_t>& block = blocks_[static_cast<std::size_t>(b)];
+    const std::vector<std::uint32_t>& block = entryOf(blocks_, b);
     for (const std::uint32_t pixel : block) {
       image.at(b % columns * side_ + pixelX(pixel) - pixelX(block[0]),
                b / columns * side_ + pixelY(pixel) - pixelY(block[0])) =

@@ -74,7 +74,7 @@ class TreeObserver : public StageObserver {
   }
 
   std::size_t numberOf(const Chunk& chunk, std::size_t i) const {
-    return levels_[static_cast<std::size_t>(chunk.depth)][chunk.first + i];
+    return entryOf(levels_, chunk.depth)[chunk.first + i];
   }
   RayNode& node(const Chunk& chunk, std::size_t i) { return tree_.nodes[numberOf(chunk, i)]; }
 

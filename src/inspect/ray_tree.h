@@ -35,7 +35,7 @@ struct RayNode {
   std::uint32_t triangle = kMiss, instance = kMiss;  // kMiss: it left the scene
   std::uint32_t material = kMiss;
   double u = 0, v = 0;  // of the hit
-  double distance = std::numeric_limits<double>::infinity();
+  double distance = kInfinity;
   Vec3d position;
   std::uint32_t alsoCrossed = 0;  // as hits have it
   bool hidden = false;            // a surface inside a dielectric of higher priority: not there
@@ -47,8 +47,8 @@ struct RayNode {
   std::array<PathEnd, kRayKindCount> ends{};
   std::vector<std::size_t> children;
 
-  PathEnd& endOf(RayKind of) { return ends[static_cast<std::size_t>(of)]; }
-  PathEnd endOf(RayKind of) const { return ends[static_cast<std::size_t>(of)]; }
+  PathEnd& endOf(RayKind of) { return entryOf(ends, of); }
+  PathEnd endOf(RayKind of) const { return entryOf(ends, of); }
 };
 
 // Parents come before their children.

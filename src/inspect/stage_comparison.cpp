@@ -335,7 +335,7 @@ double distance(const Values& got, const Values& wanted, const std::vector<std::
   for (const std::size_t i : columns) {
     magnitude = std::max({magnitude, std::fabs(got[i]), std::fabs(wanted[i])});
     if (got[i] == wanted[i]) continue;
-    if (!std::isfinite(got[i])) return std::numeric_limits<double>::infinity();
+    if (!std::isfinite(got[i])) return kInfinity;
     const double difference = std::fabs(got[i] - wanted[i]);
     if (!(difference <= largest)) largest = difference;
   }
@@ -408,7 +408,7 @@ class StageComparer : public StageObserver {
     ++row->slots;
     // Written so that a NaN counts as worse than anything.
     if (ulp <= row->worstUlp) return;
-    row->worstUlp = std::isnan(ulp) ? std::numeric_limits<double>::infinity() : ulp;
+    row->worstUlp = std::isnan(ulp) ? kInfinity : ulp;
     row->pixelX = pixelX(pixel);
     row->pixelY = pixelY(pixel);
     row->depth = depth;

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <string>
 #include <utility>
 
@@ -63,7 +62,7 @@ void readRays(const Rays& rays, const Vec3d& origin, std::size_t first, std::spa
     to[i].origin = pointAt(rays.origins, ray) - origin;
     to[i].direction = pointAt(rays.directions, ray);
     to[i].tNear = limitOf(rays.near, ray, 0);
-    to[i].tFar = limitOf(rays.far, ray, std::numeric_limits<double>::infinity());
+    to[i].tFar = limitOf(rays.far, ray, kInfinity);
   }
 }
 

@@ -76,7 +76,7 @@ std::string mediumName(const Scene& scene, std::uint32_t media) {
 const char* nameOf(PathEnd end) {
   constexpr const char* kNames[] = {
       "", "depth", "cutoff", "roulette", "cutoff or --max-rays", "total reflection"};
-  return kNames[static_cast<std::size_t>(end)];
+  return entryOf(kNames, end);
 }
 
 std::string colorOf(RayLook look) {

@@ -44,8 +44,7 @@ constexpr std::uint64_t kLargestPixel = 4 * sizeof(float);  // in a file that mi
 ImageMetadata readThrough(const std::string& path, const Image& image) {
   if (extensionOf(path) == ".png") return readPngMetadata(path);
 
-  const std::uint64_t pixels =
-      static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
+  const std::uint64_t pixels = cellsOf(image.width, image.height);
   // The limits keep a foreign file from taking more memory than this picture can need.
   const ImageLimits limits{kImageSideLimit, kLargestPixel * pixels};
 

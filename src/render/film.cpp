@@ -25,8 +25,7 @@ Film makeFilm(const Scene& scene, const RenderOptions& options, std::uint64_t ma
   }
 
   const std::uint64_t bytes =
-      static_cast<std::uint64_t>(window.x1 - window.x0) *
-      static_cast<std::uint64_t>(window.y1 - window.y0) *
+      cellsOf(window.x1 - window.x0, window.y1 - window.y0) *
       (kBytesPerPixel + ChannelLayers::bytesPerPixel(keptChannels(options)));
   if (bytes > maxBytes) {
     throwLimit("the image needs " + std::to_string(bytes / 1000000) +

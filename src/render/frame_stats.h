@@ -27,10 +27,10 @@ struct FrameStats {
   // Pixels of which a sample had more rays than --max-rays; with --adaptive once for each pass.
   std::uint64_t limitedPixels = 0;
 
-  double stageMs(Stage s) const { return stageWorkerMs[static_cast<std::size_t>(s)] / workers; }
+  double stageMs(Stage s) const { return entryOf(stageWorkerMs, s) / workers; }
   double embreeMs() const { return meter.embreeMs / workers; }
-  const RayTally& of(RayKind k) const { return meter.tally[static_cast<std::size_t>(k)]; }
-  std::uint64_t callsOf(Stage s) const { return stageCalls[static_cast<std::size_t>(s)]; }
+  const RayTally& of(RayKind k) const { return entryOf(meter.tally, k); }
+  std::uint64_t callsOf(Stage s) const { return entryOf(stageCalls, s); }
   std::uint64_t callsOf(const simd::Kernel& k) const { return stepCalls[simd::indexOf(k)]; }
   std::uint64_t allRays() const {
     std::uint64_t sum = 0;

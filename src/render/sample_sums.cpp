@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace whit {
 
 double SampleSum::standardError(int samples) const {
-  if (samples < 2) return std::numeric_limits<double>::infinity();
+  if (samples < 2) return kInfinity;
   const double n = samples, mean = (total.x + total.y + total.z) / (3 * n);
   return std::sqrt(std::max(squares / n - mean * mean, 0.0) / (n - 1));
 }

@@ -20,8 +20,7 @@ struct SampleSum {
 class SampleSums {
  public:
   explicit SampleSums(const Crop& window)
-      : sums_(static_cast<std::size_t>(window.x1 - window.x0) *
-              static_cast<std::size_t>(window.y1 - window.y0)) {
+      : sums_(cellsOf(window.x1 - window.x0, window.y1 - window.y0)) {
     shape_.window = window;
   }
 

@@ -85,9 +85,8 @@ void Scheduler::layOut(const Plan& plan, const RenderOptions& options, const Cro
   tracers_.clear();
   Tracers made(workers);
   // Each worker makes its own, so that the system can put the memory near it.
-  pool_.run([&](int worker) {
-    made[static_cast<std::size_t>(worker)] = std::make_unique<TileTracer>(plan, capacity);
-  });
+  pool_.run(
+      [&](int worker) { entryOf(made, worker) = std::make_unique<TileTracer>(plan, capacity); });
 
   tracers_ = std::move(made);
   capacity_ = capacity;

@@ -2,7 +2,6 @@
 // with --batch frame, all at once, a batch a worker and everyone in the same stage.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <vector>

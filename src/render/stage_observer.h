@@ -35,7 +35,7 @@ class PixelTracker {
 
   // The packed pixel that slot i of the chunk is traced for.
   std::uint32_t pixel(const Chunk& chunk, std::size_t i) const {
-    return levels_[static_cast<std::size_t>(chunk.depth)][chunk.first + i];
+    return entryOf(levels_, chunk.depth)[chunk.first + i];
   }
 
  private:

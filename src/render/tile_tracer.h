@@ -31,8 +31,8 @@ class StageClock {
   // The time since the last lap belongs to `stage`; below depth 0 all of it is addImpulses.
   void lap(Stage stage, int depth) {
     const Stage account = depth == 0 || stage == Stage::updateImage ? stage : Stage::addImpulses;
-    stats_.stageWorkerMs[static_cast<std::size_t>(account)] += last_.restart();
-    ++stats_.stageCalls[static_cast<std::size_t>(stage)];
+    entryOf(stats_.stageWorkerMs, account) += last_.restart();
+    ++entryOf(stats_.stageCalls, stage);
   }
   // Time that no stage should be charged with, such as waiting for the others.
   void skip() { last_.restart(); }
@@ -97,8 +97,8 @@ class Workspace {
     std::size_t segmentCount = 0;
     std::size_t cursor = 0, chunk = 0;  // the chunk in hand: its first ray, its length
   };
-  Level& level(int depth) { return levels_[static_cast<std::size_t>(depth)]; }
-  const Level& level(int depth) const { return levels_[static_cast<std::size_t>(depth)]; }
+  Level& level(int depth) { return entryOf(levels_, depth); }
+  const Level& level(int depth) const { return entryOf(levels_, depth); }
   void reserveRays(int depth, std::size_t rays);
 
   const Plan& plan_;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/index.h"
+
 namespace whit {
 
 namespace {
@@ -21,7 +23,7 @@ Albedo integrate(double cosine, double roughness) {
     std::array<std::array<double, 2>, kTurns> list{};
     for (int i = 0; i < kTurns; ++i) {
       const double angle = std::numbers::pi * (i + 0.5) / kTurns;
-      list[static_cast<std::size_t>(i)] = {std::cos(angle), std::sin(angle)};
+      entryOf(list, i) = {std::cos(angle), std::sin(angle)};
     }
     return list;
   }();

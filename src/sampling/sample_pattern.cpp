@@ -1,9 +1,7 @@
 #include "sampling/sample_pattern.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <cstdlib>
 #include <limits>
 #include <utility>
@@ -28,8 +26,8 @@ std::vector<Vec2f> rooks(int spp) {
   const auto middleOf = [&](int cell) { return static_cast<float>((cell + 0.5) / spp); };
   std::vector<Vec2f> samples(byHeight.size());
   for (int row = 0; row < spp; ++row) {
-    const int column = byHeight[static_cast<std::size_t>(row)].second;
-    samples[static_cast<std::size_t>(column)] = {middleOf(column), middleOf(row)};
+    const int column = entryOf(byHeight, row).second;
+    entryOf(samples, column) = {middleOf(column), middleOf(row)};
   }
   return samples;
 }
@@ -105,7 +103,7 @@ class ProbeChooser {
   // Squared distances and indices, the candidates first.
   std::array<std::vector<std::pair<double, std::size_t>>, kProbeSamples> near_;
   Probes chosen_{}, best_{};
-  double least_ = std::numeric_limits<double>::infinity();
+  double least_ = kInfinity;
 };
 
 // Puts samples into an order in which each is far from all before it, measured as if copies of the
@@ -277,10 +275,7 @@ Crop grown(const Crop& window, int more, int width, int height) {
 void findEdges(const DisplayImage& display, const std::vector<PixelSurface>& surfaces, int contrast,
                int row0, int row1, std::vector<std::uint8_t>& edges) {
   const int width = display.width, height = display.height;
-  const auto at = [&](int x, int y) {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-           static_cast<std::size_t>(x);
-  };
+  const auto at = [&](int x, int y) { return cellAt(x, y, width); };
 
   std::fill(edges.begin() + static_cast<std::ptrdiff_t>(at(0, row0)),
             edges.begin() + static_cast<std::ptrdiff_t>(at(0, row1)), std::uint8_t{0});

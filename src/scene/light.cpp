@@ -6,6 +6,8 @@
 #include <numeric>
 #include <vector>
 
+#include "core/index.h"
+
 namespace whit {
 
 namespace {
@@ -13,8 +15,7 @@ namespace {
 RgbD mix(const Rgb& a, const Rgb& b, double t) { return RgbD(a) * (1 - t) + RgbD(b) * t; }
 
 RgbD texel(const EnvironmentImage& image, int x, int y) {
-  const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
-                        static_cast<std::size_t>(x);
+  const std::size_t i = cellAt(x, y, image.width);
   return {image.r[i], image.g[i], image.b[i]};
 }
 

@@ -1,9 +1,7 @@
 // The decoders behind image_file.h; private to this folder.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string>
 
 #include "core/error.h"
@@ -27,8 +25,7 @@ void checkImageSize(const std::string& path, std::int64_t width, std::int64_t he
 
 // The decoders throw as readRawImage() does; a file that is cut short or has wrong checksums is
 // badScene.
-using ImageDecoder = RawImage(const std::string& path, std::span<const std::uint8_t> file,
-                              const ImageLimits& limits);
+using ImageDecoder = RawImage(const std::string& path, FileBytes file, const ImageLimits& limits);
 ImageDecoder decodePng, decodeJpeg, decodeWebp, decodeBmp, decodeHdr, decodeTga;
 
 // The first part of an OpenEXR file; values keep their bits.

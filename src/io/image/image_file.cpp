@@ -20,12 +20,12 @@ std::string sizeText(std::int64_t width, std::int64_t height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
-std::string_view asText(std::span<const std::uint8_t> file) {
+std::string_view asText(FileBytes file) {
   return {reinterpret_cast<const char*>(file.data()), file.size()};
 }
 
 // Names formats that are often used for textures but not supported.
-std::string kindOf(std::span<const std::uint8_t> file) {
+std::string kindOf(FileBytes file) {
   constexpr std::pair<std::string_view, const char*> kBeginnings[] = {
       {"GIF8", "a GIF image"},
       {"RIFF", "a WebP image (this whit was built without libwebp-dev)"},
@@ -57,8 +57,7 @@ constexpr Format kFormats[] = {{"\x89PNG\r\n\x1a\n", decodePng},
                                {"#?RADIANCE", decodeHdr},
                                {"#?RGBE", decodeHdr}};
 
-RawImage decodeBytes(const std::string& name, std::span<const std::uint8_t> file,
-                     const ImageLimits& limits) {
+RawImage decodeBytes(const std::string& name, FileBytes file, const ImageLimits& limits) {
   for (const Format& format : kFormats) {
     if (asText(file).starts_with(format.beginning)) return format.decode(name, file, limits);
   }
@@ -144,8 +143,8 @@ RawImage readRawImage(const std::string& path, const ImageLimits& limits, Warnin
   return raw;
 }
 
-RawImage decodeRawImage(const std::string& name, std::span<const std::uint8_t> file,
-                        const ImageLimits& limits, Warnings& warnings) {
+RawImage decodeRawImage(const std::string& name, FileBytes file, const ImageLimits& limits,
+                        Warnings& warnings) {
   RawImage raw = decodeBytes(name, file, limits);
   sanitise(name, raw.values, warnings);
   return raw;

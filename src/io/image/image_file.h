@@ -14,6 +14,8 @@
 
 namespace whit {
 
+// An encoded image.
+using FileBytes = std::span<const std::uint8_t>;
 using ImageMetadata = std::vector<std::pair<std::string, std::string>>;
 
 struct ImageLimits {
@@ -34,9 +36,7 @@ struct RawImage {
   std::vector<float> values;  // when linear; sanitised: NaN and negatives 0, inf 65504, counted
   MemoryHold held;            // the memory of codes and values
 
-  std::size_t pixels() const {
-    return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  }
+  std::size_t pixels() const { return cellsOf(width, height); }
 };
 
 // Reads PNG, JPEG, WebP, TGA, BMP, Radiance HDR or OpenEXR. Throws Error(io) if the file cannot be
@@ -44,8 +44,8 @@ struct RawImage {
 RawImage readRawImage(const std::string& path, const ImageLimits& limits, Warnings& warnings);
 
 // Decodes a file that is in memory: PNG, JPEG, WebP, BMP or Radiance HDR. `name` is for errors.
-RawImage decodeRawImage(const std::string& name, std::span<const std::uint8_t> file,
-                        const ImageLimits& limits, Warnings& warnings);
+RawImage decodeRawImage(const std::string& name, FileBytes file, const ImageLimits& limits,
+                        Warnings& warnings);
 
 // True if the file holds linear light without an upper bound (Radiance HDR, OpenEXR), by its first
 // bytes; false where it cannot be read.

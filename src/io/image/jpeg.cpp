@@ -40,8 +40,7 @@ struct JpegErrors {
 
 class JpegReader {
  public:
-  JpegReader(const std::string& path, std::span<const std::uint8_t> file)
-      : path_(path), file_(file) {
+  JpegReader(const std::string& path, FileBytes file) : path_(path), file_(file) {
     errors_.watch(decoder_);
     errors_.manager.emit_message = onMessage;
   }
@@ -132,7 +131,7 @@ class JpegReader {
   }
 
   const std::string& path_;
-  std::span<const std::uint8_t> file_;
+  FileBytes file_;
   jpeg_decompress_struct decoder_{};
   JpegErrors errors_;
 };
@@ -193,8 +192,7 @@ void printInks(RawImage& image, bool isInverted) {
 
 }  // namespace
 
-RawImage decodeJpeg(const std::string& path, std::span<const std::uint8_t> file,
-                    const ImageLimits& limits) {
+RawImage decodeJpeg(const std::string& path, FileBytes file, const ImageLimits& limits) {
   JpegReader reader(path, file);
   reader.readHeader();
   RawImage image =

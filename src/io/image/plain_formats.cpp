@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <string_view>
 
@@ -16,8 +15,7 @@ namespace {
 // The bytes of a file, which decoders read one after the other.
 class ImageBytes {
  public:
-  ImageBytes(const std::string& path, std::span<const std::uint8_t> file)
-      : path_(path), file_(file) {}
+  ImageBytes(const std::string& path, FileBytes file) : path_(path), file_(file) {}
 
   std::size_t at() const { return at_; }
   std::size_t left() const { return file_.size() - at_; }
@@ -48,7 +46,7 @@ class ImageBytes {
 
  private:
   const std::string& path_;
-  std::span<const std::uint8_t> file_;
+  FileBytes file_;
   std::size_t at_ = 0;
 };
 
@@ -56,8 +54,7 @@ using Codes = std::array<std::uint8_t, 4>;
 
 class PlainReader {
  public:
-  PlainReader(const std::string& path, std::span<const std::uint8_t> file,
-              const ImageLimits& limits)
+  PlainReader(const std::string& path, FileBytes file, const ImageLimits& limits)
       : path_(path), bytes_(path, file), limits_(limits) {}
 
   RawImage readBmp() {
@@ -325,18 +322,15 @@ void readRow(ImageBytes& bytes, std::vector<Rgbe>& row) {
 
 }  // namespace
 
-RawImage decodeBmp(const std::string& path, std::span<const std::uint8_t> file,
-                   const ImageLimits& limits) {
+RawImage decodeBmp(const std::string& path, FileBytes file, const ImageLimits& limits) {
   return PlainReader(path, file, limits).readBmp();
 }
 
-RawImage decodeTga(const std::string& path, std::span<const std::uint8_t> file,
-                   const ImageLimits& limits) {
+RawImage decodeTga(const std::string& path, FileBytes file, const ImageLimits& limits) {
   return PlainReader(path, file, limits).readTga();
 }
 
-RawImage decodeHdr(const std::string& path, std::span<const std::uint8_t> file,
-                   const ImageLimits& limits) {
+RawImage decodeHdr(const std::string& path, FileBytes file, const ImageLimits& limits) {
   constexpr std::string_view kFormat = "FORMAT=", kKnown = "32-bit_rle_rgbe";
   ImageBytes bytes(path, file);
 

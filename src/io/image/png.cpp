@@ -41,8 +41,7 @@ void onWarning(png_structp png, png_const_charp message) {
 
 class PngReader {
  public:
-  PngReader(const std::string& path, std::span<const std::uint8_t> file)
-      : path_(path), file_(file) {
+  PngReader(const std::string& path, FileBytes file) : path_(path), file_(file) {
     lib_.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &lib_, onError, onWarning);
     lib_.info = lib_.png != nullptr ? png_create_info_struct(lib_.png) : nullptr;
   }
@@ -124,14 +123,14 @@ class PngReader {
   }
 
   const std::string& path_;
-  std::span<const std::uint8_t> file_;
+  FileBytes file_;
   std::size_t at_ = 0;
   Libpng lib_;
   int passes_ = 1;
 };
 
-RawImage decode(const std::string& path, std::span<const std::uint8_t> file,
-                const ImageLimits& limits, ImageMetadata* texts) {
+RawImage decode(const std::string& path, FileBytes file, const ImageLimits& limits,
+                ImageMetadata* texts) {
   constexpr std::uint64_t kMostFromOneByte = 1032;  // of deflate
   PngReader reader(path, file);
   reader.readHeader();
@@ -237,8 +236,7 @@ std::string encode(const Rows& rows, const ImageMetadata& metadata) {
 
 }  // namespace
 
-RawImage decodePng(const std::string& path, std::span<const std::uint8_t> file,
-                   const ImageLimits& limits) {
+RawImage decodePng(const std::string& path, FileBytes file, const ImageLimits& limits) {
   return decode(path, file, limits, nullptr);
 }
 

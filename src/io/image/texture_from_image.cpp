@@ -121,8 +121,7 @@ EnvironmentImage makeEnvironment(const RawImage& raw) {
   EnvironmentImage environment;
   environment.width = isCube ? 4 * cubeSide(raw) : raw.width;
   environment.height = isCube ? 2 * cubeSide(raw) : raw.height;
-  const std::size_t count =
-      static_cast<std::size_t>(environment.width) * static_cast<std::size_t>(environment.height);
+  const std::size_t count = cellsOf(environment.width, environment.height);
   for (auto* plane : {&environment.r, &environment.g, &environment.b}) plane->resize(count);
 
   std::size_t i = 0;

@@ -6,8 +6,7 @@
 
 namespace whit {
 
-RawImage decodeWebp(const std::string& path, std::span<const std::uint8_t> file,
-                    const ImageLimits& limits) {
+RawImage decodeWebp(const std::string& path, FileBytes file, const ImageLimits& limits) {
   WebPBitstreamFeatures features;
   if (WebPGetFeatures(file.data(), file.size(), &features) != VP8_STATUS_OK) {
     throwBadScene(path, "expected a WebP image, found a damaged header");

@@ -47,7 +47,7 @@ Outline contour(const std::string& profile) {
 Outline smoothed(const Outline& points, int pieces) {
   Outline fine;
   const int last = static_cast<int>(points.size()) - 1;
-  const auto at = [&](int k) { return points[static_cast<std::size_t>(std::clamp(k, 0, last))]; };
+  const auto at = [&](int k) { return entryOf(points, std::clamp(k, 0, last)); };
 
   for (int k = 0; k < last; ++k) {
     for (int s = 0; s < pieces; ++s) {

@@ -440,7 +440,7 @@ Shape makePlant(ShapeParameters& parameters) {
         kAcross, kAlong, false,
         [&](int i, int j) {
           const double s = 2.0 * i / kAcross - 1, keel = 0.35 * half * std::fabs(s);
-          return spine[static_cast<std::size_t>(j)] + side * (s * half) + Vec3d{0, keel, 0};
+          return entryOf(spine, j) + side * (s * half) + Vec3d{0, keel, 0};
         },
         [](int i, int j) {
           return Uv{1.0 * i / kAcross, 1.0 * j / kAlong};

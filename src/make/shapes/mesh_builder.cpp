@@ -113,7 +113,7 @@ void MeshBuilder::smoothSheet(int nu, int nv, bool wrapU,
 
 void MeshBuilder::revolve(const std::vector<ProfilePoint>& profile, int segments, double uRepeat) {
   sheet(segments, static_cast<int>(profile.size()) - 1, [&](int i, int j) {
-    const ProfilePoint& q = profile[static_cast<std::size_t>(j)];
+    const ProfilePoint& q = entryOf(profile, j);
     const TurnPoint t = turn(i, segments);
     return SurfacePoint{{q.r * t.cosine, q.y, -q.r * t.sine},
                         {q.nr * t.cosine, q.ny, -q.nr * t.sine},
@@ -163,7 +163,7 @@ TurnPoint turn(int i, int n) {
   // cos() and sin() are not exact at the quarters, but shapes need them to be.
   if (quarters % n == 0) {
     constexpr std::array<TurnPoint, 4> kQuarter{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
-    return kQuarter[static_cast<std::size_t>(quarters / n)];
+    return entryOf(kQuarter, quarters / n);
   }
 
   const double angle = 2 * std::numbers::pi * k / n;

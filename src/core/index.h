@@ -1,0 +1,22 @@
+// Indices of type int and enumerators, which are not negative, as places in tables and grids.
+#pragma once
+
+#include <cstddef>
+
+namespace whit {
+
+template <typename Table, typename Index>
+constexpr decltype(auto) entryOf(Table& table, Index index) {
+  return table[static_cast<std::size_t>(index)];
+}
+
+// Cells of a grid that is kept row by row.
+constexpr std::size_t cellsOf(int columns, int rows) {
+  return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+}
+
+constexpr std::size_t cellAt(int column, int row, int columns) {
+  return cellsOf(columns, row) + static_cast<std::size_t>(column);
+}
+
+}  // namespace whit
