@@ -93,12 +93,12 @@ HWY_INLINE uint32_t MeetLanes(D d, const SphereInverse& sphere, const float* wor
                           MulThenAdd(v.z, middle, f.z)};
   const auto inside = hn::Sub(one, DotOf<D>(nearest, nearest));
 
-  const auto met = hn::Ge(inside, zero);
-  if (hn::AllFalse(d, met)) return 0;
+  const auto hit = hn::Ge(inside, zero);
+  if (hn::AllFalse(d, hit)) return 0;
 
   // The root of larger magnitude is q / a; the other one follows from the product of both, so that
   // neither suffers from cancellation.
-  const auto root = hn::Sqrt(hn::Mul(a, hn::IfThenElseZero(met, inside)));
+  const auto root = hn::Sqrt(hn::Mul(a, hn::IfThenElseZero(hit, inside)));
   const auto q = hn::Add(b, hn::CopySign(root, b));
   const auto first = hn::Div(hn::Sub(DotOf<D>(f, f), one), q), second = hn::Mul(q, inverse);
   const auto low = hn::Min(first, second), high = hn::Max(first, second);
@@ -106,7 +106,7 @@ HWY_INLINE uint32_t MeetLanes(D d, const SphereInverse& sphere, const float* wor
   // The hit is the nearer root beyond `after`, rounded to a float as Embree keeps it.
   const auto start = hn::PromoteTo(d, hn::LoadU(df, after + i));
   const auto t = hn::IfThenElse(hn::Gt(low, start), low, high);
-  const auto there = hn::And(hn::And(met, hn::Ne(q, zero)), hn::Gt(t, start));
+  const auto there = hn::And(hn::And(hit, hn::Ne(q, zero)), hn::Gt(t, start));
   const auto rounded = hn::DemoteTo(df, hn::IfThenElse(there, t, hn::NaN(d)));
   hn::StoreU(rounded, df, to.t + i);
 
@@ -134,14 +134,14 @@ HWY_INLINE uint32_t MeetPacket(const SphereInverse& sphere, const float* words, 
   const size_t lanes = hn::Lanes(d);
   static_assert(hn::MaxLanes(d) <= 8);
 
-  uint32_t met = 0;
+  uint32_t hitLanes = 0;
   for (size_t i = 0; i < width; i += lanes) {
     int any = 0;
     for (size_t lane = 0; lane < lanes; ++lane) any |= valid[i + lane];
-    if (any != 0) met |= MeetLanes(d, sphere, words, width, i, valid, after, end, to);
+    if (any != 0) hitLanes |= MeetLanes(d, sphere, words, width, i, valid, after, end, to);
   }
 
-  return met;
+  return hitLanes;
 }
 
 uint32_t MeetSphere(const SphereInverse& sphere, const float* words, size_t width, const int* valid,

@@ -106,7 +106,7 @@ class RayTreeTab {
     ImGui::PushStyleColor(ImGuiCol_Text, textColorOf(n.kind));
 
     const std::string text =
-        formatted("%s: %s, %d codes", rowOf(n.kind).name.data(), pick_.words[number].met.c_str(),
+        formatted("%s: %s, %d codes", rowOf(n.kind).name.data(), pick_.words[number].hit.c_str(),
                   codesAddedBy(tree_, number, options_));
     const bool open =
         ImGui::TreeNodeEx("node", ImGuiTreeNodeFlags_SpanFullWidth, "%s", text.c_str());

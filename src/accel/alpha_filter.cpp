@@ -1,6 +1,5 @@
 #include "accel/alpha_filter.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace whit {

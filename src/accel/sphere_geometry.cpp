@@ -81,15 +81,15 @@ unsigned SphereGeometry::placeOf(unsigned instance) {
 }
 
 // Returns the index of the sphere in Scene::triangles.
-std::uint32_t SphereGeometry::numberOf(const Met& met) const {
+std::uint32_t SphereGeometry::numberOf(const HitId& hit) const {
   const std::uint32_t geometry =
-      isInWorld(met.instance) ? 0 : scene_.instances[met.instance - kFirstInstanceId].geometry;
-  return scene_.geometries[geometry].firstTriangle + met.primitive;
+      isInWorld(hit.instance) ? 0 : scene_.instances[hit.instance - kFirstInstanceId].geometry;
+  return scene_.geometries[geometry].firstTriangle + hit.primitive;
 }
 
 // True if a sphere is chosen instead of the sphere that the ray has hit at the same distance,
 // possibly in another geometry, so that the order of the tests does not matter.
-bool SphereGeometry::comesBefore(const Met& sphere, const Met& other) const {
+bool SphereGeometry::comesBefore(const HitId& sphere, const HitId& other) const {
   if (other.geometry != sphere.geometry) return false;
   const std::uint32_t own = numberOf(sphere), its = numberOf(other);
   return scene_.isSphere(its) && std::tie(sphere.instance, own) > std::tie(other.instance, its);
@@ -122,7 +122,7 @@ void SphereGeometry::meet(unsigned primitive, const EmbreeContext* context, floa
   const simd::SphereHits hits{t.data(), asksWhere ? u.data() : nullptr, v.data()};
   const float* const tNear = words + packet_column::tNear * width;
   const float* const tFar = words + packet_column::tFar * width;
-  std::uint32_t met = meeter_(*inverse, rays, width, valid, tNear, tFar, hits);
+  std::uint32_t hitLanes = meeter_(*inverse, rays, width, valid, tNear, tFar, hits);
 
   const auto isCut = [&](unsigned i) {
     const auto [s, r] = sphereUv(spherePoint(double{u[i]}, double{v[i]}));
@@ -133,14 +133,14 @@ void SphereGeometry::meet(unsigned primitive, const EmbreeContext* context, floa
   if (sphere.mask) {
     std::array<float, kWidestPacket> after{};
     for (unsigned i = 0; i < width; ++i) {
-      const bool cut = (met >> i & 1) != 0 && isCut(i);
+      const bool cut = (hitLanes >> i & 1) != 0 && isCut(i);
       after[i] = cut ? std::nextafter(t[i], std::numeric_limits<float>::infinity()) : tNear[i];
     }
-    met = meeter_(*inverse, rays, width, valid, after.data(), tFar, hits);
+    hitLanes = meeter_(*inverse, rays, width, valid, after.data(), tFar, hits);
   }
 
-  for (; met != 0; met &= met - 1) {
-    const auto i = static_cast<unsigned>(std::countr_zero(met));
+  for (; hitLanes != 0; hitLanes &= hitLanes - 1) {
+    const auto i = static_cast<unsigned>(std::countr_zero(hitLanes));
     if (sphere.mask && isCut(i)) continue;
     accept(i, t[i], u[i], v[i]);
   }
@@ -151,7 +151,7 @@ void SphereGeometry::intersect(const RTCIntersectFunctionNArguments* args) {
   const unsigned width = args->N;
   auto* const words = reinterpret_cast<float*>(args->rayhit);
   auto* const numbers = reinterpret_cast<unsigned*>(args->rayhit);
-  const Met here{placeOf(args->context->instID[0]), 0, own.firstPrimitive_ + args->primID};
+  const HitId here{placeOf(args->context->instID[0]), 0, own.firstPrimitive_ + args->primID};
 
   const auto put = [&](unsigned i, float t, float u, float v) {
     const auto number = [&](std::size_t column) -> unsigned& {
@@ -160,8 +160,8 @@ void SphereGeometry::intersect(const RTCIntersectFunctionNArguments* args) {
     float& tFar = words[packet_column::tFar * width + i];
     // Between spheres at one distance a fixed order decides, whichever of them Embree tests first.
     if (t == tFar) {
-      const Met before{placeOf(number(packet_column::instance)), number(packet_column::geometry),
-                       number(packet_column::primitive)};
+      const HitId before{placeOf(number(packet_column::instance)), number(packet_column::geometry),
+                         number(packet_column::primitive)};
       if (!own.comesBefore(here, before)) return;
     }
 

@@ -40,7 +40,7 @@ class SphereGeometry {
     bool castsShadow = true;
   };
   // The ids of a hit as Embree's packets hold them.
-  struct Met {
+  struct HitId {
     unsigned instance, geometry, primitive;
   };
 
@@ -51,8 +51,8 @@ class SphereGeometry {
   void meet(unsigned primitive, const EmbreeContext* context, float* words, unsigned width,
             const int* valid, const Accept& accept) const;
   static unsigned placeOf(unsigned instance);
-  std::uint32_t numberOf(const Met& met) const;
-  bool comesBefore(const Met& sphere, const Met& other) const;
+  std::uint32_t numberOf(const HitId& hit) const;
+  bool comesBefore(const HitId& sphere, const HitId& other) const;
 
   simd::SphereMeeter meeter_ = simd::findMeetSphere();
   const Scene& scene_;

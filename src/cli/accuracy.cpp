@@ -1,7 +1,6 @@
 // whit accuracy: measures time and error with one knob of accuracy changed at a time.
 #include <cstdio>
 #include <filesystem>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "accuracy/report.h"
@@ -65,7 +64,7 @@ OptionList listOptions(AccuracyJob& job) {
 
   listCommonOptions(list, job.common);
   list.operands("SCENE...", "scene files, models, or names of shipped scenes", 1,
-                std::numeric_limits<std::size_t>::max(), job.scenes);
+                OptionList::kAnyNumber, job.scenes);
   return list;
 }
 

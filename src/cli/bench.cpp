@@ -3,7 +3,6 @@
 #include <array>
 #include <cstdio>
 #include <iterator>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "cli/bench_run.h"
@@ -83,7 +82,7 @@ OptionList listOptions(BenchJob& job) {
 
   listCommonOptions(list, job.common);
   list.operands("SCENE...", "scene files, models, or names of shipped scenes", 1,
-                std::numeric_limits<std::size_t>::max(), job.scenes);
+                OptionList::kAnyNumber, job.scenes);
   return list;
 }
 

@@ -110,7 +110,7 @@ class TreeText {
     }
     const RayText ray = describeRay(e_.scene, e_.rays, number);
     text_ += indent(n) + std::string(rowOf(n.kind).name) + ", weight " + textOf(n.weight) +
-             ", in " + ray.medium + ": " + ray.met + "\n";
+             ", in " + ray.medium + ": " + ray.hit + "\n";
     for (const std::string& line : ray.lines) text_ += indent(n, 1) + line + "\n";
     for (const std::size_t child : n.children) appendNode(child);
   }

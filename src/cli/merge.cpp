@@ -1,8 +1,6 @@
 // whit merge: crops of one image, put together.
 #include "io/image/image_layers.h"
 
-#include <limits>
-
 #include "cli/commands.h"
 #include "command_line/program.h"
 #include "command_line/progress_bar.h"
@@ -19,7 +17,7 @@ int mergeCommand(const Words& words) {
   list.flag("strict", "crops that disagree where they overlap are an error", common.render.strict);
   listReportOptions(list, common);
   list.operands("OUT.exr PART.exr...", "the image to write, and the crops it is made of", 2,
-                std::numeric_limits<std::size_t>::max(), files);
+                OptionList::kAnyNumber, files);
 
   if (!parseOptions(
           "whit merge OUT.exr PART.exr... [options]",

@@ -53,7 +53,8 @@ class OptionList {
     return push(spec, help, [&field](const std::string& text) { field.push_back(text); });
   }
 
-  // Words that are not options.
+  // Words that are not options, from `least` to `most` of them.
+  static constexpr std::size_t kAnyNumber = std::numeric_limits<std::size_t>::max();
   void operands(const std::string& placeholder, const std::string& help, std::size_t least,
                 std::size_t most, std::vector<std::string>& values) {
     operand = {placeholder, help, least, most, &values};

@@ -87,14 +87,14 @@ std::string optionText(const RenderOptions& options, const std::string& name) {
 }
 
 std::vector<std::pair<std::string, std::string>> pictureOptions(const RenderOptions& options) {
-  std::vector<std::pair<std::string, std::string>> said;
+  std::vector<std::pair<std::string, std::string>> texts;
   forEachOption(options, [&](const OptionSpec& spec, const auto& field) {
     if (!spec.changesPicture) return;
     const std::string value = formatValue(spec, field);
-    if (!value.empty()) said.emplace_back(spec.name, value);
+    if (!value.empty()) texts.emplace_back(spec.name, value);
   });
 
-  return said;
+  return texts;
 }
 
 Rebuild rebuildNeeded(const RenderOptions& a, const RenderOptions& b) {

@@ -382,7 +382,7 @@ inline ChannelSet keptChannels(const RenderOptions& o) {
 struct AskedFor {
   Effect effect;
   bool asked;
-  std::string_view otherwise;  // said if it does not
+  std::string_view otherwise;  // the reason if it is not
 };
 inline std::array<AskedFor, 6> effectsAskedFor(const RenderOptions& o) {
   return {{{Effect::glossyReflection, glossySamples(o) > 0, "but --glossy and --indirect are 0"},

@@ -1,7 +1,6 @@
 #include "inspect/metrics.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <numeric>

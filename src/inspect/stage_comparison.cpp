@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "bake/sphere.h"
 #include "core/image.h"

@@ -97,17 +97,17 @@ void Image::write(const std::string& path) const {
     if (const auto named = channelNamedBy(path, film.channels.channels())) {
       const std::string name(infoOf(*named).name);
       channel(name);  // throws if the image lacks it
-      ImageMetadata said = data_->metadata;
-      said.emplace_back("channel", name);
+      ImageMetadata metadata = data_->metadata;
+      metadata.emplace_back("channel", name);
       if (extension == ".exr") {
-        writeChannelExr(path, film.image, film.channels, *named, said, ExrStorage::zip, 1);
+        writeChannelExr(path, film.image, film.channels, *named, metadata, ExrStorage::zip, 1);
       } else {
-        writeChannelPng(path, film.image, film.channels, *named, said);
+        writeChannelPng(path, film.image, film.channels, *named, metadata);
       }
     } else if (extension == ".exr") {
-      ImageMetadata said = data_->metadata;
-      said.insert(said.end(), data_->aboutChannels.begin(), data_->aboutChannels.end());
-      writeExr(path, film.image, said, ExrStorage::zip, 1, layersOf(film.channels));
+      ImageMetadata metadata = data_->metadata;
+      metadata.insert(metadata.end(), data_->aboutChannels.begin(), data_->aboutChannels.end());
+      writeExr(path, film.image, metadata, ExrStorage::zip, 1, layersOf(film.channels));
     } else if (extension == ".png") {
       writePng(path, film.display, data_->metadata);
     } else if (extension == ".jpg" || extension == ".jpeg") {

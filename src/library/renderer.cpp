@@ -13,18 +13,18 @@ namespace whit::api {
 namespace {
 
 FrameStatistics statisticsOf(const FrameStats& frame, Mode mode) {
-  FrameStatistics said;
-  said.frameMs = frame.frameMs;
-  said.embreeMs = frame.embreeMs();
-  said.nonFinitePixels = frame.nonFinitePixels;
-  said.limitedPixels = frame.limitedPixels;
+  FrameStatistics result;
+  result.frameMs = frame.frameMs;
+  result.embreeMs = frame.embreeMs();
+  result.nonFinitePixels = frame.nonFinitePixels;
+  result.limitedPixels = frame.limitedPixels;
   for (std::size_t i = 0; i < kStageCount && mode == Mode::packets; ++i) {
-    said.stages.push_back({kStageNames[i], frame.stageMs(static_cast<Stage>(i))});
+    result.stages.push_back({kStageNames[i], frame.stageMs(static_cast<Stage>(i))});
   }
   for (std::size_t i = 0; i < kRayKindCount; ++i) {
-    said.rays.push_back({kRayKinds[i].name, frame.meter.tally[i].rays});
+    result.rays.push_back({kRayKinds[i].name, frame.meter.tally[i].rays});
   }
-  return said;
+  return result;
 }
 
 }  // namespace
@@ -35,10 +35,10 @@ struct Renderer::Data {
   // Calls one of the queries of rays.
   template <typename Query, typename... Asked>
   auto ask(const Query& query, const Asked&... asked) {
-    return guarded(progress, [&](whit::Progress* told) {
-      const RayQueries& queries = engine.rayQueries(told);
+    return guarded(progress, [&](whit::Progress* reporter) {
+      const RayQueries& queries = engine.rayQueries(reporter);
       const int threads = threadsOf(engine.wantedOptions());
-      return query(Queried{engine.scene(), queries, threads, told}, asked...);
+      return query(Queried{engine.scene(), queries, threads, reporter}, asked...);
     });
   }
 
@@ -134,17 +134,17 @@ Renderer& Renderer::setProgress(Progress progress) {
 }
 
 Renderer& Renderer::setMember(const std::string& pointer, const std::string& json) {
-  guarded(data_->progress, [&](whit::Progress* told) {
+  guarded(data_->progress, [&](whit::Progress* reporter) {
     data_->ownScene();
-    data_->engine.edit(pointer + "=" + json, told);
+    data_->engine.edit(pointer + "=" + json, reporter);
     data_->followEngine();
   });
   return *this;
 }
 
 Renderer& Renderer::updateMesh(const std::string& name, MeshArrays arrays) {
-  guarded(data_->progress, [&](whit::Progress* told) {
-    data_->engine.setMesh(name, givenMesh(std::move(arrays)), told);
+  guarded(data_->progress, [&](whit::Progress* reporter) {
+    data_->engine.setMesh(name, givenMesh(std::move(arrays)), reporter);
     data_->followEngine();
   });
   return *this;
@@ -184,14 +184,15 @@ Image Renderer::render() {
 }
 
 void Renderer::render(Image& image) {
-  guarded(data_->progress, [&](whit::Progress* told) { data_->render({.progress = told}, image); });
+  guarded(data_->progress,
+          [&](whit::Progress* reporter) { data_->render({.progress = reporter}, image); });
 }
 
 Receipt Renderer::renderWithin(const std::string& budget, const std::string& target, Image& image) {
-  return guarded(data_->progress, [&](whit::Progress* told) {
+  return guarded(data_->progress, [&](whit::Progress* reporter) {
     const Budget wanted = parseBudget(budget, target);
     if (!wanted.isSet()) throwUsage("renderWithin: expected a budget or a target");
-    const Picture picture = data_->render({.budget = wanted, .progress = told}, image);
+    const Picture picture = data_->render({.budget = wanted, .progress = reporter}, image);
     const whit::Receipt& made = *picture.receipt;
     return Receipt{made.chosen, made.probeMs, made.expectedMs, made.measuredMs,      made.error,
                    made.low,    made.high,    made.note,       receiptText(made, "")};
@@ -199,11 +200,11 @@ Receipt Renderer::renderWithin(const std::string& budget, const std::string& tar
 }
 
 void Renderer::renderOnPath(double seconds, Image& image) {
-  guarded(data_->progress, [&](whit::Progress* told) {
+  guarded(data_->progress, [&](whit::Progress* reporter) {
     Engine& engine = data_->engine;
-    engine.prepare(told);
+    engine.prepare(reporter);
     const whit::Camera camera = cameraOnPath(engine.scene(), engine.options(), seconds);
-    data_->render({.camera = camera, .progress = told}, image);
+    data_->render({.camera = camera, .progress = reporter}, image);
   });
 }
 

@@ -38,7 +38,7 @@ std::string colorOf(RayLook look);  // of its lines, "#ff0000"
 
 // The words that describe a ray of the packets.
 struct RayText {
-  std::string met, medium;         // "glass, 2.5 away" and "vacuum"
+  std::string hit, medium;         // "glass, 2.5 away" and "vacuum"
   std::vector<std::string> lines;  // where the reference parts, what the ray adds, and how it ends
 };
 RayText describeRay(const Scene& scene, const ExplainedRays& rays, std::size_t node);

@@ -116,17 +116,17 @@ ImageMetadata ownMetadata(const std::string& path, const ImageFormat& format) {
 void writeImage(const std::string& path, const Film& film, const ImageMetadata& metadata,
                 const ImageFormat& format) {
   const cli::WriteScope scope;
-  ImageMetadata said = metadata;
+  ImageMetadata all = metadata;
   const ImageMetadata own = ownMetadata(path, format);
-  said.insert(said.end(), own.begin(), own.end());
+  all.insert(all.end(), own.begin(), own.end());
 
   if (extensionOf(path) == ".exr" && format.channel) {
-    writeChannelExr(path, film.image, film.channels, *format.channel, said, format.exr,
+    writeChannelExr(path, film.image, film.channels, *format.channel, all, format.exr,
                     format.threads);
   } else if (extensionOf(path) == ".exr") {
-    writeExr(path, film.image, said, format.exr, format.threads, layersOf(film.channels));
+    writeExr(path, film.image, all, format.exr, format.threads, layersOf(film.channels));
   } else if (format.channel) {
-    writeChannelPng(path, film.image, film.channels, *format.channel, said);
+    writeChannelPng(path, film.image, film.channels, *format.channel, all);
   } else if (isJpeg(path)) {
     writeTextFile(path, encodeJpeg(film.display));
   } else {

@@ -94,9 +94,9 @@ class Call {
 
 // Receives the progress of a call. On the calling thread it handles Python's signals and calls the
 // caller's progress function now and then.
-class Onlooker {
+class ProgressRelay {
  public:
-  explicit Onlooker(py::object function) : function_(std::move(function)) {}
+  explicit ProgressRelay(py::object function) : function_(std::move(function)) {}
 
   bool operator()(const std::string& phase, double fraction) {
     constexpr std::chrono::milliseconds kBetween{20};  // each call acquires the GIL
@@ -126,9 +126,9 @@ class Onlooker {
 template <typename Body>
 auto call(const py::object& function, Body&& body) {
   const Call running;
-  Onlooker onlooker(function);
+  ProgressRelay relay(function);
   const py::gil_scoped_release noGil;
-  return body(std::ref(onlooker));
+  return body(std::ref(relay));
 }
 
 using Floats = py::array_t<float, py::array::c_style>;
@@ -176,16 +176,16 @@ class Session {
   // Calls the question with the renderer, with the GIL.
   template <typename Question>
   auto ask(const Question& question) {
-    const Turn turn(*this);
+    const Lock lock(*this);
     return question(renderer_);
   }
 
   // Calls the question with the renderer, without the GIL.
   template <typename Question>
   auto trace(const py::object& progress, const Question& question) {
-    const Turn turn(*this);
-    return call(progress, [&](const api::Progress& told) {
-      renderer_.setProgress(told);
+    const Lock lock(*this);
+    return call(progress, [&](const api::Progress& reporter) {
+      renderer_.setProgress(reporter);
       return question(renderer_);
     });
   }
@@ -239,9 +239,9 @@ class Session {
 
  private:
   // Waits until other threads are done. Python's lock handles signals meanwhile.
-  class Turn {
+  class Lock {
    public:
-    explicit Turn(Session& session) : session_(session) {
+    explicit Lock(Session& session) : session_(session) {
       constexpr int kUsage = 2;
       // A progress function runs while its thread has the lock, so waiting here would never end.
       if (session.owner_ == std::this_thread::get_id()) {
@@ -257,12 +257,12 @@ class Session {
       session.lock_.attr("acquire")();
       session.owner_ = std::this_thread::get_id();
     }
-    ~Turn() {
+    ~Lock() {
       session_.owner_ = std::thread::id();
       Py_XDECREF(PyObject_CallMethod(session_.lock_.ptr(), "release", nullptr));
     }
-    Turn(const Turn&) = delete;
-    Turn& operator=(const Turn&) = delete;
+    Lock(const Lock&) = delete;
+    Lock& operator=(const Lock&) = delete;
 
    private:
     Session& session_;
@@ -318,8 +318,8 @@ api::LoadOptions loadOptions(const py::dict& given) {
 std::unique_ptr<Session> load(const std::string& name, const py::dict& given,
                               const std::string& shippedScenes, const py::object& progress) {
   api::LoadOptions options = loadOptions(given);
-  return std::make_unique<Session>(call(progress, [&](const api::Progress& told) {
-    options.progress = told;
+  return std::make_unique<Session>(call(progress, [&](const api::Progress& reporter) {
+    options.progress = reporter;
     return api::loadScene(name, options, shippedScenes.c_str());
   }));
 }
@@ -354,8 +354,8 @@ std::unique_ptr<Session> build(const std::string& name, const std::string& descr
                                const py::dict& given, const py::object& progress) {
   const api::SceneBuilder builder = builderOf(name, description, meshes, images);
   api::LoadOptions options = loadOptions(given);
-  return std::make_unique<Session>(call(progress, [&](const api::Progress& told) {
-    options.progress = told;
+  return std::make_unique<Session>(call(progress, [&](const api::Progress& reporter) {
+    options.progress = reporter;
     return builder.build(options);
   }));
 }
@@ -508,7 +508,7 @@ void defineView(py::module_& module, py::class_<Session>& session) {
 
 void defineSession(py::module_& module) {
   // Queries a scene while no other thread uses it.
-  const auto asked = [](auto member) {
+  const auto getter = [](auto member) {
     return [member](Session& session) {
       return session.ask([&](const api::Renderer& r) { return (r.scene().*member)(); });
     };
@@ -517,16 +517,16 @@ void defineSession(py::module_& module) {
   py::class_<Session> session(module, "Session");
   defineQueries(session);
 
-  session.def_property_readonly("name", asked(&api::Scene::name))
-      .def_property_readonly("width", asked(&api::Scene::width))
-      .def_property_readonly("height", asked(&api::Scene::height))
-      .def_property_readonly("cameras", asked(&api::Scene::cameras))
-      .def_property_readonly("objects", asked(&api::Scene::objects))
-      .def_property_readonly("materials", asked(&api::Scene::materials))
-      .def_property_readonly("triangles", asked(&api::Scene::triangles))
-      .def_property_readonly("warnings", asked(&api::Scene::warnings))
-      .def_property_readonly("settings", asked(&api::Scene::settings))
-      .def_property_readonly("path_seconds", asked(&api::Scene::pathSeconds))
+  session.def_property_readonly("name", getter(&api::Scene::name))
+      .def_property_readonly("width", getter(&api::Scene::width))
+      .def_property_readonly("height", getter(&api::Scene::height))
+      .def_property_readonly("cameras", getter(&api::Scene::cameras))
+      .def_property_readonly("objects", getter(&api::Scene::objects))
+      .def_property_readonly("materials", getter(&api::Scene::materials))
+      .def_property_readonly("triangles", getter(&api::Scene::triangles))
+      .def_property_readonly("warnings", getter(&api::Scene::warnings))
+      .def_property_readonly("settings", getter(&api::Scene::settings))
+      .def_property_readonly("path_seconds", getter(&api::Scene::pathSeconds))
       .def_property_readonly("animations", &animationsOf)
       .def("camera",
            [](Session& session, const std::string& name) {

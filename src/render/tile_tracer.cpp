@@ -1,7 +1,6 @@
 #include "render/tile_tracer.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>

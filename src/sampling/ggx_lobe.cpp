@@ -1,6 +1,5 @@
 #include "sampling/ggx_lobe.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
