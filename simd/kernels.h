@@ -203,7 +203,7 @@ struct PacketKernels {
   // the processor. Hits are in the world unless there is a column of instances.
   void (*refineHits)(const HitTables& tables, const RayColumns& rays, std::size_t n,
                      const HitColumns& hits);
-  // visible[slot[i]]: 1 where ray i met nothing, otherwise 0.
+  // visible[slot[i]]: 1 where ray i hit nothing, otherwise 0.
   void (*unpackVisibility)(const PacketWords& from, std::size_t n, const std::uint32_t* slot,
                            float* visible);
 };

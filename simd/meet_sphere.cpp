@@ -1,4 +1,4 @@
-// Where rays of a packet meet an exact sphere: what Embree asks for, in both findIntersections and
+// Intersections of a packet's rays with an exact sphere, for Embree, in both findIntersections and
 // checkShadows. In double, so that a sphere far away or far from the origin is as round as a near
 // one.
 #include "simd/meet_sphere.h"

@@ -1,6 +1,6 @@
 // Records fetched for every lane at once, four floats at a time: one 16-byte load a lane and a
-// transposition instead of four gathers, which cost several times as much on AVX2. Which four is
-// said by the offsets of the record's members.
+// transposition instead of four gathers, which cost several times as much on AVX2. The offsets of
+// the record's members choose the four.
 #if defined(WHIT_SIMD_RECORDS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef WHIT_SIMD_RECORDS_INL_H_
 #undef WHIT_SIMD_RECORDS_INL_H_

@@ -1,4 +1,4 @@
-// Exact spheres as Embree's user geometry: their boxes, and what a ray meets of one.
+// Exact spheres as Embree's user geometry: their boxes, and the hits of rays.
 #pragma once
 
 #include <cstdint>

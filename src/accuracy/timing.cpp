@@ -11,9 +11,9 @@ namespace whit::accuracy {
 namespace {
 
 // The number of values that can be left out at either end. The median of the distribution lies
-// beyond the remaining values with P(Binomial(n, 1/2) <= spare) at either end, and half of the
+// beyond the remaining values with P(Binomial(n, 1/2) <= leftOut) at either end, and half of the
 // error that the confidence allows is available for each.
-std::size_t spareValues(std::size_t n) {
+std::size_t valuesLeftOut(std::size_t n) {
   // Logarithms, because 2^-n underflows for the thousands of frames of a baseline.
   double logTerm = -static_cast<double>(n) * std::log(2.0), below = 0;  // P(X = k), P(X < k)
   std::size_t k = 0;
@@ -32,8 +32,8 @@ std::size_t spareValues(std::size_t n) {
 Interval medianInterval(std::vector<double> values) {
   if (values.empty()) return {};
   std::ranges::sort(values);
-  const std::size_t spare = spareValues(values.size());
-  return {values[spare], values[values.size() - 1 - spare]};
+  const std::size_t leftOut = valuesLeftOut(values.size());
+  return {values[leftOut], values[values.size() - 1 - leftOut]};
 }
 
 Timing TimeSamples::timing() const {

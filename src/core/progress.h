@@ -9,8 +9,8 @@ class Progress {
  public:
   virtual ~Progress() = default;
   // `fraction` in [0, 1]; `phase` is what is going on ("decoding textures"). May come from any
-  // thread. What it throws ends the work and reaches the caller; it has to throw again whenever it
-  // is told of the same work, for some of it is done where nothing can be thrown.
+  // thread. What it throws ends the work and reaches the caller; it has to throw again at each
+  // later report of the same work, because some of it is done where nothing can be thrown.
   virtual void report(const std::string& phase, double fraction) = 0;
 };
 

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
+#include <sstream>
 
 #include "command_line/parse_options.h"
 #include "core/error.h"
@@ -21,6 +23,44 @@ RenderOptions parsed(const std::vector<std::string>& words) {
   list.operands("SCENE", "a scene", 0, 0, scenes);
   EXPECT_TRUE(cli::parseOptions("usage", "summary", list, words));
   return common.render;
+}
+
+std::vector<std::string> wordsOf(std::string_view text) {
+  std::istringstream stream{std::string(text)};
+  std::vector<std::string> words;
+  for (std::string word; stream >> word;) words.push_back(word);
+  return words;
+}
+
+TEST(Knobs, TheTableHasValuesOfTheOptions) {
+  const RenderOptions defaults;
+  for (const Knob& knob : allKnobs()) {
+    RenderOptions options;
+    EXPECT_NO_THROW(setOption(options, knob.name, knob.exact)) << knob.name;
+
+    const std::vector<std::string> values = wordsOf(knob.spec.values);
+    EXPECT_GE(values.size(), 2u) << knob.name;
+    for (const std::string& word : values) {
+      EXPECT_NO_THROW(setOption(options, knob.name, word)) << knob.name << " " << word;
+    }
+
+    for (const std::string& word : wordsOf(knob.spec.minor)) {
+      EXPECT_NE(std::find(values.begin(), values.end(), word), values.end()) << knob.name << word;
+    }
+
+    const std::vector<std::string> prerequisites = wordsOf(knob.spec.prerequisites);
+    for (std::size_t i = 0; i < prerequisites.size(); i += 2) {
+      ASSERT_LT(i + 1, prerequisites.size()) << knob.name;
+      EXPECT_TRUE(prerequisites[i].starts_with("--")) << knob.name;
+      EXPECT_NO_THROW(setOption(options, prerequisites[i].substr(2), prerequisites[i + 1]))
+          << knob.name;
+    }
+
+    // An option that only shares out the work has no error to measure.
+    forEachOption(defaults, [&](const OptionSpec& spec, const auto&) {
+      EXPECT_TRUE(spec.changesPicture || spec.name != knob.name) << knob.name;
+    });
+  }
 }
 
 // Each value does what its label says on the command line, and nothing else.
