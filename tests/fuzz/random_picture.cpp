@@ -68,13 +68,14 @@ Texture anyTexture(Draws& draws, TexelFormat format) {
   texture.height = 1 + static_cast<int>(draws.below(9));
   texture.wrapU = static_cast<Wrap>(draws.below(3));
   texture.wrapV = static_cast<Wrap>(draws.below(3));
+
   for (int i = 0; i < texture.width * texture.height; ++i) {
     const Rgb color = anyColor(draws, 0, 1);
     const float alpha = draws.chance(0.3) ? 0.0f : 1.0f;
-    texture.texels.push_back(format == TexelFormat::data
-                                 ? encodeDataTexel(color.x, color.y, color.z, alpha)
-                             : format == TexelFormat::color ? encodeColorTexel(color)
-                                                            : encodeRadianceTexel(color * 100.0f));
+    std::uint32_t texel = encodeRadianceTexel(color * 100.0f);
+    if (format == TexelFormat::data) texel = encodeDataTexel(color.x, color.y, color.z, alpha);
+    if (format == TexelFormat::color) texel = encodeColorTexel(color);
+    texture.texels.push_back(texel);
   }
   return texture;
 }
@@ -183,6 +184,7 @@ Sky anySky(Draws& draws, SceneDescription& scene) {
       image.b.push_back(color.z);
     }
   }
+
   drawMembers(draws, 0.5, scene, sky);
   sky.scale = std::min(sky.scale, 1e3f);
   return sky;
@@ -222,7 +224,10 @@ SceneDescription anyScene(Draws& draws) {
   camera.eye = pointIn(draws, 4);
   camera.at = pointIn(draws, 1);
   camera.projection = static_cast<Projection>(draws.below(kWords<Projection>.size()));
-  if (isTable(camera)) camera.azimuths = {-30, 30}, camera.elevations = {20, -20};
+  if (isTable(camera)) {
+    camera.azimuths = {-30, 30};
+    camera.elevations = {20, -20};
+  }
   // The projection was drawn already, and other members depend on it.
   const Projection kept = camera.projection;
   drawMembers(draws, 0.2, scene, camera);
@@ -231,7 +236,10 @@ SceneDescription anyScene(Draws& draws) {
 
   // Some members depend on each other.
   if (camera.projection == Projection::fisheye && camera.k.empty()) camera.k = {30, 30, 16, 12};
-  if (!camera.k.empty()) camera.k[0] = camera.k[1] = 30, camera.kSize = {33, 24};
+  if (!camera.k.empty()) {
+    camera.k[0] = camera.k[1] = 30;
+    camera.kSize = {33, 24};
+  }
   if (!camera.k.empty() || !camera.distortion.empty()) camera.orthographicHeight = 0;
   scene.cameras.push_back(camera);
   return scene;

@@ -9,6 +9,7 @@
 
 #include "core/vec3.h"
 #include "make/model_view.h"
+#include "pi.h"
 #include "scene_files.h"
 
 namespace whit {
@@ -243,9 +244,9 @@ std::string frustum(int axis, double top) {
 std::string boxObj(const Vec3d& low, const Vec3d& high, int first) {
   std::string text;
   for (int i = 0; i < 8; ++i) {
-    text += "v " + std::to_string(i & 1 ? high.x : low.x) + " " +
-            std::to_string(i & 2 ? high.y : low.y) + " " + std::to_string(i & 4 ? high.z : low.z) +
-            "\n";
+    const Vec3d p = BoxOf<Vec3d>{low, high}.corner(i);
+    text +=
+        "v " + std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) + "\n";
   }
 
   for (const auto& face : {std::array{0, 2, 3, 1},
@@ -294,7 +295,7 @@ TEST_F(SuppliedView, TheModelFillsThePictureThatIsAskedFor) {
     const Camera& camera = scene.cameras[0];
     const Vec3d forward = normalized(Vec3d(camera.at) - Vec3d(camera.eye));
     const Vec3d right = normalized(cross(forward, Vec3d(camera.up))), up = cross(right, forward);
-    const double half = std::tan(double{camera.fov} * 3.14159265358979323846 / 360);
+    const double half = std::tan(double{camera.fov} * kPi / 360);
     const double aspect = static_cast<double>(size.width) / size.height;
 
     // Largest distance of a corner from the middle, in halves of the picture's width or height.

@@ -302,6 +302,7 @@ TEST_F(Spheres, InstancesWithMaps) {
       return material;
     });
   };
+
   expectAgreement({"instances of spheres with maps", mapped});
   expectAgreement(
       {"instances of spheres with maps, trilinear", mapped, {.filter = Filter::trilinear}});

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
-#include <numbers>
 
 #include "inspect/reference_frame.h"
 #include "oracle/bilinear.h"
+#include "pi.h"
 #include "reference/small_scenes.h"
 #include "render/shipped_scene.h"
 
@@ -51,8 +51,8 @@ oracle::Color opacity(int x, int y) { return oracle::gray(leafAt(x, y) >= 0 ? 1 
 // The leaves are opaque in the middle and thinner towards either side.
 oracle::Color softOpacity(int x, int y) {
   if (leafAt(x, y) < 0) return oracle::gray(0);
-  const int toLeft = leafAt(x - 3, y) >= 0 ? 1 : 0, toRight = leafAt(x + 3, y) >= 0 ? 1 : 0;
-  return oracle::gray(toLeft + toRight == 2 ? 1 : 0.3);
+  const bool inside = leafAt(x - 3, y) >= 0 && leafAt(x + 3, y) >= 0;
+  return oracle::gray(inside ? 1 : 0.3);
 }
 
 Pattern leavesOn(oracle::Color clear) {
@@ -245,7 +245,7 @@ TEST(Distance, NormalMapsKeepDiffuseLight) {
     const oracle::Color c = at(bumps, x, y);
     // u runs along x, v, which is the map's y, against z.
     const oracle::Vec n = normalized(oracle::Vec{2 * c.x - 1, 2 * c.z - 1, 1 - 2 * c.y});
-    return std::max(0.0, dot(n, towardsSun())) / std::numbers::pi;
+    return std::max(0.0, dot(n, towardsSun())) / kPi;
   };
 
   expectTheSameFromAfar("normals", floorOf(builder, m), integral(diffuse), 0.02);
@@ -257,7 +257,7 @@ oracle::Color roughness(int x, int y) { return oracle::gray(0.5 + 0.5 * noise(x 
 // where F = 1.
 double ggx(double alpha, double cosine) {
   const double half = std::cos(std::acos(cosine) / 2), square = alpha * alpha;
-  const double d = square / (std::numbers::pi * std::pow(half * half * (square - 1) + 1, 2));
+  const double d = square / (kPi * std::pow(half * half * (square - 1) + 1, 2));
   const double g = 2 * cosine / (cosine + std::sqrt(square + (1 - square) * cosine * cosine));
   return d * g / 4;
 }

@@ -31,9 +31,20 @@ Scene frostedThings() {
   for (int i = 0; i < 6; ++i) {
     Material m = glassOf(i == 0 ? 0.02f : 0.15f * static_cast<float>(i));
     m.ior = 1.2f + 0.2f * static_cast<float>(i);
-    if (i == 1) m.mirror = Rgb(0.1f), m.mirrorGrazing = Rgb(0.5f);
-    if (i == 2) m.coat = true, m.mirror = Rgb(0.2f), m.mirrorGrazing = Rgb(1.0f);
-    if (i == 3) m.specular = Rgb(0.04f), m.diffuse = Rgb(0.4f, 0.2f, 0.1f), m.transmission *= 0.5f;
+    if (i == 1) {
+      m.mirror = Rgb(0.1f);
+      m.mirrorGrazing = Rgb(0.5f);
+    }
+    if (i == 2) {
+      m.coat = true;
+      m.mirror = Rgb(0.2f);
+      m.mirrorGrazing = Rgb(1.0f);
+    }
+    if (i == 3) {
+      m.specular = Rgb(0.04f);
+      m.diffuse = Rgb(0.4f, 0.2f, 0.1f);
+      m.transmission *= 0.5f;
+    }
     if (i == 4) m.roughnessMap = map;
     const float x = static_cast<float>(i) - 2.5f;
     Mesh block = box({x - 0.4f, 0.1f, -0.4f}, {x + 0.4f, 0.9f, 0.4f}, builder.add(m));
@@ -48,7 +59,10 @@ Scene frostedThings() {
   for (int i = 0; i < 4; ++i) {
     Material m = glassOf(0.3f);
     m.thin = true;
-    if (i > 0) m.specular = Rgb(0.04f), m.glossyReflection = true;
+    if (i > 0) {
+      m.specular = Rgb(0.04f);
+      m.glossyReflection = true;
+    }
     if (i == 2) m.coverage = 0.6f;
     const float x = static_cast<float>(i) - 2.5f, z = i == 3 ? 0.4f : 1.5f;
     builder.add(quad({x - 0.3f, 0.2f, z}, {x + 0.3f, 0.2f, z}, {x + 0.3f, 0.8f, z},
@@ -56,10 +70,7 @@ Scene frostedThings() {
   }
 
   builder.description.lights = {sun({0.5f, -1, -0.5f}, 2)};
-  Camera camera;
-  camera.eye = {0.3f, 1.8f, 5};
-  camera.at = {0, 0.4f, 0};
-  builder.description.cameras = {camera};
+  builder.lookFrom({0.3f, 1.8f, 5}, {0, 0.4f, 0});
   return builder.build();
 }
 
@@ -114,17 +125,18 @@ TEST(FrostedGlass, BeginsWhereLobesCeaseToBeMirrors) {
     SceneBuilder builder;
     builder.sky(1);
     builder.add(floorAt(-0.5f, 2, builder.add(diffuseMaterial(0.2f))));
+
     Material m = glassOf(roughness);
     m.frosted = isFrosted;
     builder.add(box({-0.6f, -0.4f, -0.4f}, {0.6f, 0.6f, 0.4f}, builder.add(m)));
-    Camera camera;
-    camera.eye = {1, 1, 3};
-    camera.at = {0, 0, 0};
-    builder.description.cameras = {camera};
+
+    builder.lookFrom({1, 1, 3});
     return render(builder.build(), withSampledLobes()).image;
   };
+
   const Image clear = block(0.5f, false);
   EXPECT_EQ(firstDifference(block(0.03f, true), clear), "");
+
   const auto meanOff = [&](float roughness) {
     const Image image = block(roughness, true);
     double sum = 0;
@@ -133,6 +145,7 @@ TEST(FrostedGlass, BeginsWhereLobesCeaseToBeMirrors) {
     }
     return sum / static_cast<double>(image.pixels.size());
   };
+
   EXPECT_LT(meanOff(0.032f), 0.005);
   EXPECT_GT(meanOff(0.5f), 4 * meanOff(0.032f));
 }

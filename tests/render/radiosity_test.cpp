@@ -138,11 +138,8 @@ Scene room() {
     }
   }
 
-  Camera camera;
-  camera.eye = {-0.8f, 0.7f, 0.85f};
-  camera.at = {0.3f, -0.35f, -0.6f};
+  Camera& camera = builder.lookFrom({-0.8f, 0.7f, 0.85f}, {0.3f, -0.35f, -0.6f});
   camera.fov = 100;
-  builder.description.cameras = {camera};
   return builder.build();
 }
 
@@ -163,12 +160,14 @@ struct Met {
 Met meet(const Vec3d& eye, const Vec3d& direction) {
   Met met;
   double nearest = 1e9;
+
   for (std::size_t w = 0; w < walls().size(); ++w) {
     const Wall& wall = walls()[w];
     const double towards = dot(direction, wall.normal());
     if (!(towards < 0)) continue;
     const double distance = dot(wall.corner - eye, wall.normal()) / towards;
     if (distance >= nearest) continue;
+
     nearest = distance;
     const Vec3d at = eye + direction * distance - wall.corner;
     met = {w, dot(at, wall.u), dot(at, wall.v)};
@@ -209,8 +208,10 @@ std::vector<Seen> wantedImage(const Scene& scene, const Radiosity& radiosity) {
 struct Residuals {
   double sum = 0, squares = 0, wanted = 0, n = 0;
   void add(double got, double expected) {
-    sum += got - expected, squares += (got - expected) * (got - expected);
-    wanted += expected, ++n;
+    sum += got - expected;
+    squares += (got - expected) * (got - expected);
+    wanted += expected;
+    ++n;
   }
 
   double mean() const { return sum / n; }
@@ -255,7 +256,10 @@ class RadiosityRoom : public testing::Test {
   static Residuals all(const std::array<Residuals, 6>& walls) {
     Residuals sum;
     for (const Residuals& w : walls) {
-      sum.sum += w.sum, sum.squares += w.squares, sum.wanted += w.wanted, sum.n += w.n;
+      sum.sum += w.sum;
+      sum.squares += w.squares;
+      sum.wanted += w.wanted;
+      sum.n += w.n;
     }
     return sum;
   }
@@ -301,7 +305,10 @@ double slopeOf(const std::vector<std::pair<double, double>>& errors) {
   const auto n = static_cast<double>(errors.size());
   for (const auto& [samples, error] : errors) {
     const double a = std::log(samples), b = std::log(error);
-    x += a, y += b, xx += a * a, xy += a * b;
+    x += a;
+    y += b;
+    xx += a * a;
+    xy += a * b;
   }
   return (n * xy - x * y) / (n * xx - x * x);
 }

@@ -63,15 +63,12 @@ SceneDescription textured() {
 
   Object sign;
   sign.meshes = {quad({0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, matt)};
-  Affine far = Affine::translation({3, 0, -20});
-  far.x *= 3, far.y *= 5;
+  const Affine far = Affine::translation({3, 0, -20}) * Affine::scaling({3, 5, 1});
   builder.place(std::move(sign), {Affine::translation({-3, 0, -4}), far});
 
   builder.description.lights.push_back(lightAt({2, 8, 3}, 300));
   builder.sky(0.2f);
-  builder.description.cameras.resize(1);
-  builder.description.cameras[0].eye = {0, 2, 4};
-  builder.description.cameras[0].at = {0, 1, -4};
+  builder.lookFrom({0, 2, 4}, {0, 1, -4});
   return builder.describe();
 }
 
@@ -180,9 +177,7 @@ TEST(Trilinear, IsCloserToManySamples) {
   Mesh floor = floorAt(0, 500, builder.add(m));
   for (Vec2f& uv : floor.uvs) uv = {uv.x * 500, uv.y * 500};
   builder.add(floor);
-  builder.description.cameras.resize(1);
-  builder.description.cameras[0].eye = {0.3f, 2, 0};
-  builder.description.cameras[0].at = {1.3f, 1.4f, -5};
+  builder.lookFrom({0.3f, 2, 0}, {1.3f, 1.4f, -5});
   const Scene scene = builder.build();
 
   RenderOptions many = bilinear();

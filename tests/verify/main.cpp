@@ -90,7 +90,13 @@ std::string numberText(double value) { return std::isinf(value) ? "-" : formatte
 std::string summaryOf(const std::vector<Row>& rows) {
   std::size_t held = 0, broken = 0, reported = 0;
   for (const Row& row : worstRows(rows)) {
-    ++(!row.finding.holds() ? broken : row.isReportedOnly() ? reported : held);
+    if (!row.finding.holds()) {
+      ++broken;
+    } else if (row.isReportedOnly()) {
+      ++reported;
+    } else {
+      ++held;
+    }
   }
 
   std::string text = formatted("%zu cases in %zu runs: %zu hold, %zu broken",
@@ -272,10 +278,11 @@ bool comparesHashes(const std::vector<PublishedHash>& pictures, const std::strin
       options.simd = simd;
       hash = scene.hash(options);
       const std::string published(picture.hashWith(simd::chosenTarget()));
-      verdict = hash == published   ? "as published"
-                : published.empty() ? "NOT PUBLISHED"
-                                    : "DIFFERS from " + published;
-      if (hash != published) different.push_back(name);
+      verdict = "as published";
+      if (hash != published) {
+        verdict = published.empty() ? "NOT PUBLISHED" : "DIFFERS from " + published;
+        different.push_back(name);
+      }
     } catch (const Error& error) {
       // A scene whose files are missing is left out; every other error ends the run.
       if (error.status() != ExitStatus::io) throw;
