@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Plants known mistakes one at a time in a copy of the sources, builds the tests of the hard cases,
-# and sees that some test turns red. Slow: most mistakes rebuild kernels.
+# Plants known mistakes one at a time in a copy of the sources, builds the tests that have to catch
+# them (those of the hard cases, or others that testedBy names), and sees that some test turns red.
+# Slow: most mistakes rebuild kernels.
 #   tests/mutate.sh              all
 #   tests/mutate.sh NAME...      these
 #   tests/mutate.sh --list       their names
@@ -16,6 +17,11 @@ useCompilerCache "$copy"
 planted=0
 red=
 survived=()
+target=hard_test filter=
+declare -A green  # tests that pass without a mistake
+
+# testedBy TARGET FILTER: the tests that have to catch the mistakes that follow.
+testedBy() { target=$1 filter=$2; }
 
 # plant NAME FILE OLD NEW: OLD occurs once in FILE.
 plant() {
@@ -33,6 +39,14 @@ plant() {
     return
   fi
   if [ "$mode" = check ]; then return; fi
+  if [ -z "${green[$target $filter]:-}" ]; then
+    if ! try; then
+      echo "unchanged: not all green, see $copy/build.log and test.*.log beside it: $red" >&2
+      exit 1
+    fi
+    green[$target $filter]=yes
+    echo "unchanged: $target $filter is all green, as it must be"
+  fi
   # An interrupted run must not leave its mistake to the next.
   # shellcheck disable=SC2064  # the file of now
   trap "cp '$root/$file' '$copy/$file'" EXIT
@@ -52,10 +66,24 @@ hardCases() {
     timeout 600 "$copy/build/tests/hard_test" --gtest_filter=-Hard/HashTest.* >"$copy/test.$1.log" 2>&1
 }
 
+# As the tests of CMake run them, with a home of their own.
+otherTests() {
+  mkdir -p "$copy/build/tests/home"
+  HOME=$copy/build/tests/home WHIT_SOURCE_DIR=$copy \
+    timeout 600 "$copy/build/tests/$target" --gtest_filter="$filter" >"$copy/test.0.log" 2>&1
+}
+
 # Builds and tests the copy as it is now: 0 all green, 1 red, 2 not built. What is red goes to $red.
 try() {
   local shard status=0
-  cmake --build "$copy/build" --target hard_test >"$copy/build.log" 2>&1 || return 2
+  cmake --build "$copy/build" --target "$target" >"$copy/build.log" 2>&1 || return 2
+  if [ "$target" != hard_test ]; then
+    otherTests || status=$?
+    red=$(sed -n 's|^\[  FAILED  \] \([A-Za-z0-9_/.]*\) (.*|\1|p' "$copy/test.0.log" | paste -sd' ')
+    [ -n "$red" ] || red="(the program ended with status $status)"
+    [ $status -eq 0 ] || return 1
+    return 0
+  fi
   hardCases 0 &
   hardCases 1 || status=$?
   wait $! || status=$?
@@ -164,6 +192,44 @@ mutations() {
   plant spheres-in-any-order src/accel/sphere_geometry.cpp \
     'if (other.geometry != sphere.geometry) return false;' \
     'if (other.geometry <= sphere.geometry) return false;'
+
+  testedBy images_test 'OverBackground.*:ChannelPng.*'
+  plant background-twice src/core/display.cpp \
+    '(double{linearOfCode(codes[c])} - behind) * covered;' \
+    '(double{linearOfCode(codes[c])} - behind) * covered * covered;'
+  plant data-png-as-srgb src/io/image/image_layers.cpp \
+    'channel == Channel::albedo, metadata);' 'true, metadata);'
+  testedBy io_test 'EveryProperty.*'
+  plant wrap-t-of-s src/io/gltf/material.cpp 'readWrap(sampler["wrapT"])' 'readWrap(sampler["wrapS"])'
+  plant specular-not-clamped src/io/gltf/material.cpp \
+    'm.f90 = readNumber(specular["specularFactor"], 1);' \
+    'm.f90 = readNumber(specular["specularFactor"], 1, -1e9, 1e9);'
+  testedBy cli_test 'EveryOption.*:Program.*:TurntableCommand.*:MemoryMb.*:Limits.*'
+  plant too-little-energy-passes src/cli/compare.cpp \
+    'std::fabs(d.energyRatio - 1) <= kMostEnergyOff' 'd.energyRatio - 1 <= kMostEnergyOff'
+  plant merge-not-strict src/cli/merge.cpp 'warnings(common.render.strict)' 'warnings(false)'
+  plant one-turn src/cli/render.cpp \
+    'job_.turns * frame / job_.turntableFrames' '1.0 * frame / job_.turntableFrames'
+  plant kilobytes-as-megabytes src/output/frame_summary.cpp \
+    'renderer.memoryBytes()) / 1e6;' 'renderer.memoryBytes()) / 1e3;'
+  plant max-memory-ignored src/command_line/parse_options.cpp \
+    'common.load.maxMemoryBytes = common.maxMemoryGb
+' 'common.load.maxMemoryBytes = false
+'
+  plant film-without-a-limit src/cli/render.cpp \
+    'const std::uint64_t most = job.common.load.maxMemoryBytes;' \
+    'const std::uint64_t most = 64ull << 30;'
+  testedBy unit_test 'FailureOf.*:ThreadsWithin.*'
+  plant no-memory-is-a-failure src/core/error.cpp \
+    '{ExitStatus::limit, "out of memory"}' '{ExitStatus::checkFailed, "out of memory"}'
+  plant quota-rounded-up src/core/machine_limits.cpp \
+    'std::floor(quota + 0.001)' 'std::ceil(quota - 0.001)'
+  testedBy serve_test 'PictureStream.*:Serving.Every*'
+  plant last-row-of-a-tile viewer/serve/picture_stream.cpp \
+    'y < part.y + part.height; ++y) {
+    if (std::memcmp' 'y < part.y + part.height - 1; ++y) {
+    if (std::memcmp'
+  plant no-referrer-policy viewer/serve/server.cpp '{"Referrer-Policy", "no-referrer"},' ''
 }
 
 mode=run
@@ -185,11 +251,6 @@ if [ "$mode" = run ]; then
   # shellcheck disable=SC2086  # a list of words
   cmake -G Ninja -S "$copy" -B "$copy/build" -DCMAKE_BUILD_TYPE=Release -DWHIT_SIMD_TARGETS=TWO \
     ${WHIT_MUTATE_CMAKE:-} >/dev/null || exit 1
-  if ! try; then
-    echo "unchanged: not all green, see $copy/build.log and test.*.log beside it: $red" >&2
-    exit 1
-  fi
-  echo "unchanged: all green, as it must be"
 fi
 mutations
 if [ "${#wanted[@]}" -gt $planted ]; then

@@ -371,10 +371,16 @@ TEST(Images, ATransparentBackgroundIsAlpha) {
 
 TEST(Images, ABackgroundColorIsShownAsItIs) {
   const TemporaryFolder folder;
-  render({"glossy", "-o", folder / "a.png", "--size", "64x32", "--background", "ff8000",
-          "--exposure", "2", "--tonemap", "filmic", "--quiet"});
+  render({"glossy", "-o", folder / "a.png", "-o", folder / "a.jpg", "--size", "64x32",
+          "--background", "ff8000", "--exposure", "2", "--tonemap", "filmic", "--quiet"});
 
-  const RawImage png = codes(folder / "a.png");
+  const RawImage png = codes(folder / "a.png"), jpeg = codes(folder / "a.jpg");
+  ASSERT_EQ(jpeg.channels, 3);
+  // JPEG rounds the brightness and the two differences of color of a flat block.
+  constexpr int kRounded = 3;
+  for (const std::size_t channel : {0, 1, 2}) {
+    EXPECT_NEAR(jpeg.codes[channel], png.codes[channel], kRounded) << channel;
+  }
   ASSERT_EQ(png.channels, 3);
   EXPECT_EQ(std::vector<int>(png.codes.begin(), png.codes.begin() + 3),
             (std::vector<int>{255, 128, 0}));

@@ -95,6 +95,15 @@ TEST_F(Limits, TooLittleMemoryIsALimit) {
   EXPECT_EQ(successes, 2);
 }
 
+// The picture alone takes more than the process may.
+TEST_F(Limits, AFilmWithoutMemoryIsALimit) {
+  if (kSanitized) GTEST_SKIP() << "sanitizers need terabytes of addresses";
+  const Outcome outcome = runWhit({"render", tiny_, "-o", results_ / "a.exr", "--size",
+                                   "16000x16000", "--max-memory", "64", "--threads", "1"},
+                                  [] { limit(RLIMIT_AS, rlim_t{1} << 30); });
+  expectFailure(outcome, 5, "out of memory");
+}
+
 // The child process that decodes the mesh takes a part of the addresses that are left.
 TEST_F(Limits, DracoWorksUnderALimitOfAddressSpace) {
   if (kSanitized) GTEST_SKIP() << "sanitizers need terabytes of addresses";

@@ -2,7 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
+#include <regex>
+#include <set>
 
+#include "command_line/program.h"
 #include "run_program.h"
 
 namespace whit::cli {
@@ -223,6 +227,72 @@ TEST(Program, QuietSaysNothing) {
   EXPECT_EQ(loud.out, "");
   EXPECT_NE(loud.err.find("addImpulses"), std::string::npos) << loud.err;
   EXPECT_EQ(loud.err.find('\r'), std::string::npos) << "a progress bar, but no terminal";
+}
+
+// One command for each status that README.md lists.
+TEST(Program, EveryExitStatusOfThePageHasACause) {
+  const TemporaryFolder folder;
+  const std::string tiny = writeTinyScene(folder), picture = folder / "a.exr";
+  std::ofstream(folder / "bad.json") << "{";
+
+  const std::map<int, std::vector<std::string>> causes{
+      {0, {"render", tiny, "-o", picture, "--quiet"}},
+      {1, {"compare", picture, folder / "b.exr", "--tolerance", "0"}},
+      {2, {"render", tiny, "--spp", "0"}},
+      {3, {"render", folder / "bad.json", "-o", picture}},
+      {4, {"render", tiny, "-o", folder / "none/a.exr"}},
+      {5, {"render", tiny, "-o", picture, "--size", "65536x65536"}},
+      {130, {"render", tiny, "-o", picture, "--spp", "4096", "--size", "2000x2000"}}};
+
+  ASSERT_EQ(runWhit({"render", tiny, "-o", folder / "b.exr", "--depth", "0"}).status, 0);
+  std::set<int> met;
+  for (const auto& [status, words] : causes) {
+    const TemporaryFolder said;
+    // The program inherits that interruptions pass, until it handles them.
+    const auto handler = signal(SIGINT, SIG_IGN);
+    const pid_t child = startWhit(words, said);
+    signal(SIGINT, handler);
+
+    int found = 0;
+    if (status == kInterruptedStatus) {
+      while (waitpid(child, &found, WNOHANG) == 0) {
+        kill(child, SIGINT);
+        usleep(10'000);
+      }
+      found = WIFEXITED(found) ? WEXITSTATUS(found) : -1;
+    } else {
+      found = waitFor(child);
+    }
+    EXPECT_EQ(found, status) << testing::PrintToString(words) << readFile(said / "stderr");
+    met.insert(found);
+  }
+
+  // The sentence ends with the last status.
+  const char* const source = std::getenv("WHIT_SOURCE_DIR");
+  ASSERT_NE(source, nullptr);
+  std::string page = readFile(std::string(source) + "/README.md");
+  page.erase(0, page.find("Exit status: "));
+  page.resize(page.find("interrupted."));
+
+  std::set<int> listed, known;
+  const std::regex number("[0-9]+");
+  for (std::sregex_iterator i(page.begin(), page.end(), number), end; i != end; ++i) {
+    listed.insert(std::stoi(i->str()));
+  }
+  for (const ExitMeaning& row : kExitMeanings) known.insert(row.status);
+  EXPECT_EQ(listed, met);
+  EXPECT_EQ(known, met);
+}
+
+// Packets flush numbers below the least normal one to zero, and the reference keeps them: a scene
+// this dark loses all of its light, and no 8-bit code shows it.
+TEST(Program, CompareFailsIfLightIsMissing) {
+  const TemporaryFolder folder;
+  const Outcome outcome = runWhit(
+      {"compare", writeTinyScene(folder), "--set", "/lights/0/intensity=[1e-38, 1e-38, 1e-38]"});
+  EXPECT_EQ(outcome.status, 1) << outcome.out;
+  EXPECT_NE(outcome.err.find("the energy of A over B is 0.000000"), std::string::npos)
+      << outcome.err;
 }
 
 TEST(Program, CompareFailsAboveTheTolerance) {

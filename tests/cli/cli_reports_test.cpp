@@ -1,8 +1,13 @@
 // Tables and summaries of made-up frames, whose numbers are known.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "command_line/progress_bar.h"
+#include "core/text.h"
 #include "output/frame_summary.h"
+#include "output/json_report.h"
+#include "run_program.h"
 
 namespace whit::cli {
 namespace {
@@ -73,6 +78,97 @@ TEST(StageTable, NamesStagesTimesAndRays) {
   EXPECT_NE(table.find("     1.600     8.0\n"), std::string::npos) << table;  // 8 % of 20 ms
   EXPECT_NE(table.find("75.0\n"), std::string::npos) << table;
   EXPECT_NE(table.find("frame over floor 1.25"), std::string::npos) << table;
+}
+
+// Every number of the table with its unit, from numbers whose results are known by heart.
+TEST(StageTable, HasTheseWords) {
+  RunSummary run = madeUpRun(1);
+  run.frames[0].frameMs = 200;
+  run.frames[0].meter.embreeMs = 80;  // of two workers
+  for (std::size_t i = 0; i < kStageCount; ++i) {
+    run.frames[0].stageWorkerMs[i] = 20 * static_cast<double>(i + 1);
+  }
+  run.frames[0].meter.tally[0] = {3'000'000, 4'000'000};
+  run.frames[0].meter.tally[1] = {1'000'000, 1'000'000};
+  run.effects = EffectSet().with(Effect::shadows);
+  run.loadMs = 1234;
+  run.buildMs = 56;
+  run.updateMs = {7};
+  run.writingMs = {8};
+  run.waitedMs = {0.5};
+  run.floorMs = {160};
+
+  std::string stages;
+  double sum = 0;
+  for (std::size_t i = 0; i < kStageCount; ++i) {
+    const double ms = 10 * static_cast<double>(i + 1);
+    sum += ms;
+    stages += formatted("  %-34s%10.3f%8.1f\n", kStageNames[i].data(), ms, ms / 2);
+  }
+  EXPECT_EQ(stageTable(run),
+            "made-up  64x32  12 triangles  2 threads  packets of 8, avx2, a tile at a time\n"
+            "  frame 200.00 ms (5.0 a second); load 1234 ms, build 56 ms\n"
+            "  stage                                     ms       %\n" +
+                stages +
+                formatted("  between the stages, waiting       %11.3f%8.1f\n", 200 - sum,
+                          (200 - sum) / 2) +
+                "  of all this inside Embree             40.000    20.0\n"
+                "  updateScene, before the frame          7.000\n"
+                "  writing the image                      8.000          0.500 waited for\n"
+                "  rays                traced    Mray/s  lanes filled %\n"
+                "  primary            3000000     15.00            75.0\n"
+                "  shadow             1000000      5.00           100.0\n"
+                "  all                4000000     20.00\n"
+                "  floor 160.00 ms (Embree alone, the same rays); frame over floor 1.25\n");
+}
+
+// The same in the JSON.
+TEST(RunJson, HasTheseNumbers) {
+  RunSummary run = madeUpRun(3);     // 10, 20 and 30 ms
+  run.frames[1].meter.embreeMs = 8;  // of two workers
+  run.frames[1].meter.tally[0] = {300'000, 400'000};
+  run.frames[1].meter.tally[1] = {100'000, 100'000};
+  run.loadMs = 1234;
+  run.buildMs = 56;
+  run.floorMs = {16};
+  run.updateMs = {7};
+  run.writingMs = {30, 50, 40};
+  run.waitedMs = {5, 30, 40};
+  run.tracedAndWrittenMs = 150;
+
+  const Json json = runJson(run);
+  const std::pair<const char*, double> numbers[] = {
+      {"/frame_ms/median", 20},    {"/frame_ms/min", 10},
+      {"/frame_ms/p95", 30},       {"/fps", 50},
+      {"/embree_ms", 4},           {"/outside_embree_ms", 16},
+      {"/rays/primary", 300'000},  {"/lanes_filled/primary", 0.75},
+      {"/mrays_per_s", 20},        {"/floor_ms", 16},
+      {"/frame_over_floor", 1.25}, {"/updateScene_ms", 7},
+      {"/writing_ms/spent", 40},   {"/writing_ms/waited", 30},
+      {"/written_per_s", 20},      {"/load_ms", 1234},
+      {"/build_ms", 56},           {"/stages_ms/generateRays", 0.2}};
+  for (const auto& [pointer, value] : numbers) {
+    EXPECT_NEAR(json[Json::json_pointer(pointer)].get<double>(), value, 1e-9) << pointer;
+  }
+  // This process takes more than a megabyte and less than a hundred gigabytes.
+  EXPECT_GT(json["peak_rss_mb"].get<double>(), 1);
+  EXPECT_LT(json["peak_rss_mb"].get<double>(), 1e5);
+}
+
+// 1024 x 1024 texels of 4 bytes are 4.2 MB; strips and mip levels add a half at most.
+TEST(MemoryMb, IsInMillionsOfBytes) {
+  const auto memoryOf = [](int side) {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "a.json")
+        << R"({"whit": 1, "textures": {"t": {"pattern": "checker", "size": )" << side
+        << R"(}}, "materials": {"m": {"diffuseMap": "t"}},
+            "scene": [{"shape": "quad", "material": "m"}]})";
+    const Outcome outcome = runWhit({"info", folder / "a.json", "--json", "-", "--quiet"});
+    return Json::parse(outcome.out).at("memory_mb").get<double>();
+  };
+  const double more = memoryOf(1024) - memoryOf(16);
+  EXPECT_GT(more, 4.1);
+  EXPECT_LT(more, 4.2 * 1.6);
 }
 
 TEST(LoadText, TellsOfABusyMachine) {

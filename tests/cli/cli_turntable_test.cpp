@@ -62,6 +62,29 @@ TEST(TurntableCommand, AFrameIsTheSameAloneAndInARun) {
   EXPECT_FALSE(fs::exists(folder / "one-02.exr"));
 }
 
+// The share of a turn that a frame shows is turns * frame / count.
+TEST(TurntableCommand, TurnsAndCountMakeTheAngle) {
+  const TemporaryFolder folder;
+  const std::string cube = cubeObj(folder);
+  const auto hashOf = [&](const std::string& turns, const std::string& count,
+                          const std::string& frame) {
+    const Outcome outcome =
+        turn(cube, {"-o", folder / "f#.exr", "--size", "24x16", "--quality", "standard", "--turns",
+                    turns, "--count", count, "--frames", frame, "--json", "-"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return Json::parse(outcome.out).at("image_hash").get<std::string>();
+  };
+
+  const std::string half = hashOf("1", "4", "2");
+  EXPECT_EQ(hashOf("2", "4", "1"), half);
+  EXPECT_EQ(hashOf("1", "2", "1"), half);
+
+  const std::string quarter = hashOf("1", "4", "1");
+  EXPECT_NE(quarter, half);
+  EXPECT_EQ(hashOf("0.5", "2", "1"), quarter);
+  EXPECT_NE(hashOf("-1", "4", "1"), quarter) << "the other way around";
+}
+
 // The four eyes are a quarter of a turn apart, on a circle around the axis through the cube's
 // middle.
 TEST(TurntableCommand, TheCameraGoesAroundOnACircle) {

@@ -104,5 +104,46 @@ TEST(ToDisplay, ExposureCurveAndWindow) {
   EXPECT_EQ(curved.rgba, (std::vector<std::uint8_t>{94, 156, 0, 255, 0, 0, 255, 255}));
 }
 
+// Pixels are premultiplied: half of the first one is covered by white, and a quarter of the second
+// one, and the last one has the color of the background.
+TEST(OverBackground, MixesInLinearLightByCoverage) {
+  Image image(3, 1);
+  image.pixels = {Rgb(0.5f), Rgb(0.25f), Rgb(0.0f)};
+  const std::vector<float> alpha{0.5f, 0.25f, 0};
+  const auto over = [&](const Background& background) {
+    RenderOptions options;
+    options.background = background;
+    return overBackground(image, alpha, options);
+  };
+
+  // In linear light, 1/2 has the code 188, and 1/4 has 137.
+  const DisplayImage red = over({Background::Kind::color, {255, 0, 0}});
+  EXPECT_EQ(red.rgba, (std::vector<std::uint8_t>{255, 188, 188, 255,  //
+                                                 255, 137, 137, 255,  //
+                                                 255, 0, 0, 255}));
+  EXPECT_FALSE(red.hasAlpha);
+
+  const DisplayImage clear = over({Background::Kind::transparent});
+  EXPECT_EQ(clear.rgba, (std::vector<std::uint8_t>{255, 255, 255, 128,  //
+                                                   255, 255, 255, 64,   //
+                                                   0, 0, 0, 0}));
+  EXPECT_TRUE(clear.hasAlpha);
+}
+
+// The exposure brightens the surfaces, and not the background.
+TEST(OverBackground, IsNotExposed) {
+  Image image(1, 1);
+  image.pixels = {Rgb(0.0625f)};
+  RenderOptions options;
+  options.background = {Background::Kind::color, {128, 0, 0}};
+  options.exposure.ev = 2;
+
+  // The surfaces' own color is 1/8, which the exposure makes 1/2. The code 128 is 0.2159 in linear
+  // light, so that red is 0.3579, whose code is 162; the other channels are 1/4.
+  const std::vector<float> alpha{0.5f};
+  EXPECT_EQ(overBackground(image, alpha, options).rgba,
+            (std::vector<std::uint8_t>{162, 137, 137, 255}));
+}
+
 }  // namespace
 }  // namespace whit

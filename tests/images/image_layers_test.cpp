@@ -134,13 +134,14 @@ TEST_F(ImageLayers, APartThatLacksOneIsRefused) {
 }
 
 // Returns the values of a PNG of 16 bits as libpng reads them.
-std::vector<std::uint16_t> readPng16(const std::string& path, int& channels) {
+std::vector<std::uint16_t> readPng16(const std::string& path, int& channels, bool& isSrgb) {
   std::FILE* const file = std::fopen(path.c_str(), "rb");
   png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   png_infop info = png_create_info_struct(png);
   png_init_io(png, file);
   png_read_info(png, info);
   EXPECT_EQ(png_get_bit_depth(png, info), 16);
+  isSrgb = png_get_valid(png, info, PNG_INFO_sRGB | PNG_INFO_gAMA | PNG_INFO_cHRM) != 0;
   channels = png_get_channels(png, info);
 
   std::vector<std::uint16_t> values;
@@ -170,9 +171,10 @@ class ChannelPng : public ImageLayers {
     if (channel == Channel::rays) layers.numbers(channel)[0] = layers.numbers(channel)[1] = rays;
 
     writeChannelPng(path("a.png"), Image(2, 1), layers, channel, {});
-    return readPng16(path("a.png"), components_);
+    return readPng16(path("a.png"), components_, isSrgb_);
   }
   int components_ = 0;
+  bool isSrgb_ = false;  // the file names the color space of its codes
 };
 
 using Codes = std::vector<std::uint16_t>;
@@ -206,6 +208,18 @@ TEST_F(ChannelPng, VectorsAndColors) {
   v.uv = {1.25f, -0.25f};
   EXPECT_EQ(codes(Channel::uv, v), (Codes{16384, 49151, 0, 0, 0, 0}));
   EXPECT_EQ(statusOf([&] { codes(Channel::position, v); }), ExitStatus::usage);
+}
+
+// Programs that show a picture convert the codes of a color space, which would falsify data.
+TEST_F(ChannelPng, OnlyColorsAreSrgb) {
+  ChannelValues v;
+  v.object = v.material = v.triangle = 1;
+  for (std::size_t i = 0; i < kChannels.size(); ++i) {
+    const auto channel = static_cast<Channel>(i);
+    const bool hasPng = statusOf([&] { codes(channel, v); }) == ExitStatus::done;
+    if (!hasPng) continue;
+    EXPECT_EQ(isSrgb_, channel == Channel::albedo) << kChannels[i].name;
+  }
 }
 
 TEST_F(ChannelPng, NumbersAreWholeOrRefused) {

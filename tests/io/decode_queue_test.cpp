@@ -68,11 +68,20 @@ TEST(DecodeQueue, WhatAnObserverThrowsReachesTheCallerOfFinish) {
 
     for (int i = 0; i < 50; ++i) queue.add([&] { ++runs; });
     EXPECT_THROW(queue.finish(), std::runtime_error) << threads;
+    // Each thread ends with the first task that it reports; no other task is begun then.
     EXPECT_GE(runs, 1);
+    EXPECT_LE(runs, threads);
   }
+}
 
-  // A queue without tasks is destroyed without finish().
-  DecodeQueue dropped(2, nullptr, "never asked for");
+TEST(DecodeQueue, WithoutTasksReportsNothing) {
+  Recorder progress;
+  {
+    DecodeQueue dropped(2, &progress, "never asked for");
+    DecodeQueue finished(2, &progress, "asked for");
+    finished.finish();
+  }
+  EXPECT_EQ(progress.reports_, 0);
 }
 
 TEST(DecodeQueue, MayBeDroppedUnfinished) {

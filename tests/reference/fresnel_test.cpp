@@ -66,15 +66,28 @@ TEST(Fresnel, EqualIndicesDoNothing) {
   }
 }
 
+// The same for n1 = 1 without differences of nearly equal numbers: with n the index and m the
+// cosine behind the surface, c - n m = (1 - n^2) / (c + n m), and
+// n c - m = (n^2 - 1) ((n^2 + 1) c^2 - 1) / (n^2 (n c + m)).
+long double oracleOfNearlyEqual(long double delta, long double c) {
+  const long double n = 1 + delta, square = delta * (2 + delta);  // n^2 - 1
+  const long double m = std::sqrt(c * c + square) / n;
+  const long double s = square / ((c + n * m) * (c + n * m));
+  const long double p = square * ((n * n + 1) * c * c - 1) / (n * n * (n * c + m) * (n * c + m));
+  return (s * s + p * p) / 2;
+}
+
 // Hard case H39: nearly equal indices keep a relative accuracy of 1e-12.
 TEST(Fresnel, NearlyEqualIndices) {
-  for (const double delta : {1e-4, 1e-5, 1e-7}) {
+  for (const int exponent : {-3, -13, -17, -23, -40}) {
+    const double delta = std::ldexp(1.0, exponent);  // so that 1 + delta is exact
     for (const double c : {0.01, 0.3, 1.0}) {
-      const double truth = static_cast<double>(fresnelOracle(1, 1.0L + delta, c));
-      // The oracle loses about delta's share of the 64 bits of a long double, squared.
-      EXPECT_NEAR(reflectance(1, 1 + delta, c), truth, 1e-8 * truth) << delta << " at " << c;
+      const auto truth = static_cast<double>(oracleOfNearlyEqual(delta, c));
+      EXPECT_NEAR(reflectance(1, 1 + delta, c), truth, 1e-12 * truth) << delta << " at " << c;
     }
   }
+  EXPECT_NEAR(static_cast<double>(oracleOfNearlyEqual(0.5, 0.3)),
+              static_cast<double>(fresnelOracle(1, 1.5, 0.3L)), 1e-15);
 }
 
 // Hard case H37: the reflectance is 1 from the critical angle on, exactly where g2 is at most 0.

@@ -81,7 +81,7 @@ class BruteForceInDouble {
   std::optional<Found> nearest(const Segment& ray) const {
     Found found;
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
-      const std::optional<double> t = meet(triangles_[i], ray, false);
+      const std::optional<double> t = meet(triangles_[i], ray);
       if (t && *t < found.t) found = {i, *t};
     }
 
@@ -92,7 +92,7 @@ class BruteForceInDouble {
   bool blocked(const Segment& ray, std::size_t self) const {
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
       if (i == self) continue;
-      const std::optional<double> t = meet(triangles_[i], ray, true);
+      const std::optional<double> t = meet(triangles_[i], ray);
       if (t && *t < 1) return true;
     }
     return false;
@@ -105,7 +105,7 @@ class BruteForceInDouble {
 
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
       if (forShadow && i == self) continue;
-      if (grazes(triangles_[i], ray, reach, forShadow)) return Cause::edge;
+      if (grazes(triangles_[i], ray, reach)) return Cause::edge;
       if (triangles_[i].isNeedle() && !surelyMissed(triangles_[i], ray)) cause = Cause::needle;
     }
     return cause;
@@ -118,7 +118,20 @@ class BruteForceInDouble {
     return {{{t.corner[0], t.corner[1]}, {t.corner[1], t.corner[2]}, {t.corner[2], t.corner[0]}}};
   }
 
-  std::optional<double> meet(const Triangle& t, const Segment& ray, bool forShadow) const {
+  // The mask of randomScene() is two texels wide, 1 at u = 1/4 and 0 at u = 3/4, repeated: between
+  // them it is linear, and below the cutoff of 1/2 is a hole, for shadow rays as well. `weights`
+  // are those of the corners.
+  bool isHole(const Triangle& t, const std::array<double, 3>& weights) const {
+    const TriangleRecord& record = scene_.triangles[t.number];
+    if (scene_.materials[record.material].alphaMap == kNoTexture) return false;
+
+    double u = 0;
+    for (std::size_t k = 0; k < 3; ++k) u += weights[k] * double{record.uv[2 * k]};
+    const double fromBlack = u - 0.75 - std::round(u - 0.75);
+    return 2 * std::fabs(fromBlack) < 0.5;
+  }
+
+  std::optional<double> meet(const Triangle& t, const Segment& ray) const {
     const Vec3d d = ray.way();
 
     // The signs of these volumes tell on which side of each edge the ray passes.
@@ -134,13 +147,11 @@ class BruteForceInDouble {
 
     const double distance = dot(t.corner[0] - ray.from, t.normal) / dot(d, t.normal);
     if (!(distance > 0)) return std::nullopt;
-    if (cutAway(scene_, t.number, {distance, side[2] / sum, side[0] / sum}, forShadow)) {
-      return std::nullopt;
-    }
+    if (isHole(t, {side[1] / sum, side[2] / sum, side[0] / sum})) return std::nullopt;
     return distance;
   }
 
-  bool grazes(const Triangle& t, const Segment& ray, double reach, bool forShadow) const {
+  bool grazes(const Triangle& t, const Segment& ray, double reach) const {
     double away = 0;
     for (const Vec3d& p : t.corner) away = std::max(away, length(p - ray.from));
     const double near = reach + 16 * kUlp * away;
@@ -152,7 +163,7 @@ class BruteForceInDouble {
     const Vec3d n = t.normal / length(t.normal);
     for (const Vec3d& end : {ray.from, ray.to}) {
       if (std::fabs(dot(end - t.corner[0], n)) > near) continue;
-      if (meet(t, {end - n, end + n}, forShadow)) return true;
+      if (meet(t, {end - n, end + n})) return true;
     }
 
     if (scene_.materials[scene_.triangles[t.number].material].alphaMap == kNoTexture) return false;
@@ -162,10 +173,10 @@ class BruteForceInDouble {
     const double least = near / std::max(std::fabs(dot(n, d)) / length(d), 0x1p-20);
     const Vec3d x = normalized(cross(d, n)), y = normalized(cross(d, x));
 
-    const bool met = meet(t, ray, forShadow).has_value();
+    const bool met = meet(t, ray).has_value();
     for (const Vec3d& aside : {x, -x, y, -y}) {
       const Vec3d moved = aside * least;
-      if (meet(t, {ray.from + moved, ray.to + moved}, forShadow).has_value() != met) return true;
+      if (meet(t, {ray.from + moved, ray.to + moved}).has_value() != met) return true;
     }
     return false;
   }

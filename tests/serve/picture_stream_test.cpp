@@ -102,6 +102,26 @@ TEST(PictureStream, SendsOnlyTilesThatChanged) {
   EXPECT_TRUE(stream.next(image, true, 2).empty());
 }
 
+// Each border of a whole tile and of the smaller ones at the right and at the bottom counts.
+TEST(PictureStream, SendsATileForAnyOfItsPixels) {
+  constexpr int kWidth = kTileSide + 24, kHeight = kTileSide + 9;
+  DisplayImage image = picture(kWidth, kHeight);
+  PictureStream stream;
+  stream.next(image, false, 0);
+
+  for (const int y : {0, 1, kTileSide - 1, kTileSide, kHeight - 1}) {
+    for (const int x : {0, 1, kTileSide - 1, kTileSide, kWidth - 1}) {
+      for (int channel = 0; channel < 3; ++channel) {
+        image.rgba[4 * (y * kWidth + x) + channel] ^= 1;
+        const Tiles tiles = stream.next(image, false, 1);
+        const std::string place = "[[" + std::to_string(x / kTileSide * kTileSide) + "," +
+                                  std::to_string(y / kTileSide * kTileSide) + ",";
+        EXPECT_TRUE(tiles.list.starts_with(place)) << x << "," << y << ": " << tiles.list;
+      }
+    }
+  }
+}
+
 // Messages at rest are short. Tiles that do not fit into one come when the picture moves again.
 TEST(PictureStream, TilesLeftOutAreNotForgotten) {
   DisplayImage noise = picture(400, 300);

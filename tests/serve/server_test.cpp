@@ -10,6 +10,7 @@
 #include <atomic>
 #include <chrono>
 #include <fstream>
+#include <regex>
 #include <thread>
 
 #include "cli/run_program.h"
@@ -196,6 +197,68 @@ TEST_F(Serving, OtherMethodsAndEncodingsAreRefused) {
   EXPECT_EQ(client().Post(root_ + "input", "x", "multipart/form-data; boundary=a")->status, 415);
 }
 
+// The token is in the URL: no answer may hand it on, be kept, or be taken for something else.
+TEST_F(Serving, EveryAnswerHasItsHeaders) {
+  std::thread page([&] { watch(100000, false); });
+  while (session_->wait(0) == nullptr) {
+  }
+
+  struct Row {
+    const char *path, *type, *file;
+    int status;
+  };
+  const Row rows[] = {{"", "text/html; charset=utf-8", "", 200},
+                      {"picture.png", "image/png", "attachment; filename=\"tiny.png\"", 200},
+                      {"picture.exr", "image/x-exr", "attachment; filename=\"tiny.exr\"", 200},
+                      {"none", "text/plain", "", 404},
+                      {"input", "text/plain", "", 405},
+                      {"../", "text/plain", "", 404}};
+
+  const std::regex policy(
+      "default-src 'none'; connect-src 'self'; img-src blob: data:; base-uri 'none'; "
+      "form-action 'none'; script-src 'nonce-([0-9a-f]{32})'; style-src 'nonce-\\1'; "
+      "frame-ancestors 'none'");
+  const auto expectCommon = [&](const httplib::Response& answer, const std::string& what) {
+    EXPECT_EQ(answer.get_header_value("Referrer-Policy"), "no-referrer") << what;
+    EXPECT_EQ(answer.get_header_value("X-Content-Type-Options"), "nosniff") << what;
+    EXPECT_EQ(answer.get_header_value("Cache-Control"), "no-store") << what;
+    EXPECT_TRUE(std::regex_match(answer.get_header_value("Content-Security-Policy"), policy))
+        << what << answer.get_header_value("Content-Security-Policy");
+    EXPECT_FALSE(answer.has_header("Access-Control-Allow-Origin")) << what;
+  };
+
+  for (const Row& row : rows) {
+    const auto answer = client().Get(root_ + row.path);
+    ASSERT_TRUE(answer) << row.path;
+    EXPECT_EQ(answer->status, row.status) << row.path;
+    EXPECT_EQ(answer->get_header_value("Content-Type"), row.type) << row.path;
+    EXPECT_EQ(answer->get_header_value("Content-Disposition"), row.file) << row.path;
+    expectCommon(*answer, row.path);
+  }
+
+  const auto stranger = client().Get("/");
+  const auto input = client().Post(root_ + "input", "left 1 0", "text/plain");
+  const auto wrong = client().Post(root_ + "input", "left", "text/plain");
+  std::string ofStream;
+  client().Get(
+      root_ + "stream",
+      [&](const httplib::Response& answer) {
+        ofStream = answer.get_header_value("Content-Type");
+        expectCommon(answer, "stream");
+        return false;
+      },
+      [](const char*, std::size_t) { return false; });
+  server_->stop();
+  page.join();
+
+  ASSERT_TRUE(stranger && input && wrong);
+  EXPECT_EQ(stranger->status, 403);
+  EXPECT_EQ(input->status, 204);
+  EXPECT_EQ(wrong->status, 400);
+  for (const auto* answer : {&stranger, &input, &wrong}) expectCommon(**answer, "input");
+  EXPECT_EQ(ofStream, "application/octet-stream");
+}
+
 TEST_F(Serving, ThePageMayLoadNothing) {
   const auto page = client().Get(root_);
   ASSERT_TRUE(page);
@@ -245,6 +308,53 @@ TEST_F(Serving, EveryVerbIsServed) {
     if (shot) shot = session_->wait(shot->number);
     ASSERT_TRUE(shot) << line;
     EXPECT_EQ(shot->live.find("map::at"), std::string::npos) << line;
+  }
+  session_->watch(-1);
+}
+
+// What a line of the page changes in what the page is then told: the pointer into the JSON and the
+// text there, or the part of the command that makes the picture.
+TEST_F(Serving, EveryVerbChangesWhatItSays) {
+  struct Row {
+    const char *line, *pointer, *value;
+  };
+  const Row rows[] = {{"size 64 40 1", "/window", "[64,40]"},
+                      {"camera 1", "/command", "--camera side"},
+                      {"left 30 0", "/command", "--eye"},
+                      {"fit", "/command", "--at"},
+                      {"expose 2", "/options/exposure", "2"},
+                      {"set depth 3", "/options/depth", "3"},
+                      {"effect shadows 0", "/command", "--disable shadows"},
+                      {"preset fine", "/options/spp", "4"},
+                      {"view depth", "/view", "depth"},
+                      {"rate 7", "/rate", "7"},
+                      {"more", "/more", "false"},
+                      {"measure", "/measured", ""},
+                      {"view none\nclick 20 20", "/tree/pixel", "[20,20]"}};
+
+  session_->watch(1);
+  std::shared_ptr<const Shot> shot;
+  const auto told = [&](const Row& row) {
+    const Json::json_pointer pointer(row.pointer);
+    for (const std::string* text : {&shot->live, &shot->settled}) {
+      const Json json = parseJson(*text, "shot");
+      if (!json.contains(pointer)) continue;
+      const Json& there = json[pointer];
+      const std::string words = there.is_string() ? there.get<std::string>() : there.dump();
+      return words.find(row.value) != std::string::npos;
+    }
+    return false;
+  };
+
+  while (!shot) shot = session_->wait(0);
+  for (const Row& row : rows) {
+    EXPECT_FALSE(told(row)) << row.line << " has nothing to change";
+    ASSERT_TRUE(session_->post(readMessages(row.line))) << row.line;
+    // Each wait ends after some time without a newer shot.
+    for (int i = 0; i < 600 && !told(row); ++i) {
+      if (const auto next = session_->wait(shot->number)) shot = next;
+    }
+    EXPECT_TRUE(told(row)) << row.line << ": " << shot->settled.substr(0, 400);
   }
   session_->watch(-1);
 }

@@ -2,6 +2,7 @@
 #include "core/machine_limits.h"
 
 #include <gtest/gtest.h>
+#include <sched.h>
 #include <stdlib.h>
 
 #include <fstream>
@@ -170,7 +171,23 @@ TEST_F(RunnableTasks, AreReadFromTheLoadWithoutThisOne) {
   EXPECT_EQ(otherRunnableTasks(root_ / "none"), 0);
 }
 
-TEST(UsableThreads, ThereIsAtLeastOne) { EXPECT_GE(usableThreads(), 1); }
+// A thread that may use one processor makes one thread.
+TEST(UsableThreads, AreNoMoreThanTheAffinityAllows) {
+  cpu_set_t before, one;
+  ASSERT_EQ(sched_getaffinity(0, sizeof before, &before), 0);
+  EXPECT_EQ(affinityThreads(), CPU_COUNT(&before));
+  EXPECT_GE(usableThreads(), 1);
+  EXPECT_LE(usableThreads(), CPU_COUNT(&before));
+
+  CPU_ZERO(&one);
+  for (int i = 0; i < CPU_SETSIZE && CPU_COUNT(&one) == 0; ++i) {
+    if (CPU_ISSET(i, &before)) CPU_SET(i, &one);
+  }
+  ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);
+  EXPECT_EQ(affinityThreads(), 1);
+  EXPECT_EQ(usableThreads(), 1);
+  sched_setaffinity(0, sizeof before, &before);
+}
 
 }  // namespace
 }  // namespace whit
