@@ -219,7 +219,9 @@ std::uint64_t Scene::memoryBytes() const {
                         bytesOf(sky.image.g) + bytesOf(sky.image.b) + coplanar.bytes() +
                         items.bytes();
   for (const Geometry& g : geometries) bytes += bytesOf(g.position) + bytesOf(g.index);
-  for (const Texture& t : textures) bytes += t.packedSize() * sizeof(std::uint32_t);
+  for (const Texture& t : textures) {
+    if (!t.late) bytes += t.packedSize() * sizeof(std::uint32_t);
+  }
   return bytes;
 }
 

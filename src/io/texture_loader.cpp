@@ -197,7 +197,7 @@ std::vector<std::int32_t> TextureLoader::add(
     std::vector<std::optional<Texture>> made = make();
     for (std::size_t i = 0; i < targets.size(); ++i) {
       if (!made[i]) continue;
-      budget_.charge(made[i]->texels.size(), sizeof(std::uint32_t), "texture " + made[i]->name);
+      budget_.charge(made[i]->texelCount(), sizeof(std::uint32_t), "texture " + made[i]->name);
       *targets[i] = std::move(made[i]);
     }
   });

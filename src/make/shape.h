@@ -55,6 +55,7 @@ struct Shape {
 };
 
 using ShapeGenerator = Shape(ShapeParameters& parameters);
+// Reads the parameters; the texels are late.
 using PatternGenerator = Texture(ShapeParameters& parameters);
 
 // Returns all generators of shapes by the name used in scene files ("sphere", "terrain", ...).

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "core/error.h"
@@ -166,12 +168,33 @@ TextureRecord recordOf(const Texture& t) {
               (t.nearest ? kNearestTexel : 0)};
 }
 
+// Returns the textures of the scene, and makes the late texels of those that frames look up.
+std::vector<Texture> madeTextures(const Scene& scene, const std::vector<ShownMap>& maps,
+                                  int threads) {
+  std::vector<Texture> textures = scene.textures;
+  std::set<Texture*> late;
+  for (const ShownMap& map : maps) {
+    Texture& texture = textures[static_cast<std::size_t>(map.texture)];
+    if (texture.late) late.insert(&texture);
+  }
+
+  // The largest texture is begun first, so that no thread ends long after the others.
+  std::vector<Texture*> inOrder(late.begin(), late.end());
+  std::ranges::stable_sort(inOrder, std::greater(), &Texture::texelCount);
+  parallelFor(threads, inOrder.size(), [&](std::size_t i, int) {
+    inOrder[i]->texels = inOrder[i]->late->make();
+    inOrder[i]->late = nullptr;
+  });
+  return textures;
+}
+
 // Adds the textures that the materials of `tables` use: those of the scene, or where lookups are
-// trilinear copies of them with their mip levels.
+// trilinear, or texels were made, copies of them with their mip levels.
 void addTextures(const Scene& scene, TextureFilter filter, int threads, ShadingTables& tables) {
   static const TexelStrips none(new std::uint32_t[1]{});
   const bool trilinear = filter == TextureFilter::trilinear;
-  MipMaps mips(scene.textures, trilinear ? tables.maps : std::vector<ShownMap>(), threads);
+  std::vector<Texture> textures = madeTextures(scene, tables.maps, threads);
+  MipMaps mips(textures, trilinear ? tables.maps : std::vector<ShownMap>(), threads);
 
   // Maps of one texture share its full size.
   std::vector<Texture> levels;
@@ -180,7 +203,7 @@ void addTextures(const Scene& scene, TextureFilter filter, int threads, ShadingT
   for (const ShownMap& map : tables.maps) {
     std::vector<std::size_t>& own = levelsOfMaps.emplace_back();
     const auto [full, isNew] = fullSizes.try_emplace(map.texture, levels.size());
-    if (isNew) levels.push_back(scene.textures[static_cast<std::size_t>(map.texture)]);
+    if (isNew) levels.push_back(std::move(textures[static_cast<std::size_t>(map.texture)]));
     own.push_back(full->second);
     for (int level = 1; level < mips.levels(map); ++level) {
       own.push_back(levels.size());
@@ -188,7 +211,7 @@ void addTextures(const Scene& scene, TextureFilter filter, int threads, ShadingT
     }
   }
 
-  if (trilinear) {
+  if (std::ranges::any_of(levels, [](const Texture& t) { return !t.strips; })) {
     packTextures(levels, threads);
     for (const Texture& t : levels) tables.copiedTexels += t.packedSize();
   }

@@ -52,6 +52,11 @@ void copyTexels(const Texture& t, std::uint32_t* to) {
 
 }  // namespace
 
+const std::vector<std::uint32_t>& LateTexels::kept() const {
+  std::call_once(once_, [this] { kept_ = make_(); });
+  return kept_;
+}
+
 int wrapTexel(int texel, int size, Wrap wrap) {
   return wrap == Wrap::repeat ? (texel + size) % size : std::clamp(texel, 0, size - 1);
 }
@@ -75,7 +80,7 @@ void packTextures(std::vector<Texture>& textures, int threads) {
       throwLimit("texture '" + t.name + "' has more than 2^20 texels a side");
     }
     begins.push_back(total);
-    total += t.packedSize();
+    if (!t.late) total += t.packedSize();
     if (total > 0x7fffffffu) throwLimit("textures hold more than 2^31 texels");
   }
   if (total == 0) return;
@@ -86,6 +91,7 @@ void packTextures(std::vector<Texture>& textures, int threads) {
 
   parallelFor(threads, textures.size(), [&](std::size_t i, int) {
     Texture& t = textures[i];
+    if (t.late) return;
     copyTexels(t, strips.get() + begins[i]);
     // The copied texels are freed at once, so that few textures are in memory twice.
     t.texels = std::vector<std::uint32_t>();

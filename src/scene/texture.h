@@ -3,8 +3,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/vec3.h"
@@ -55,6 +58,24 @@ inline constexpr int kTexelBorder = 2;
 // Kernels find strips in float: exact up to here.
 inline constexpr int kTextureSideLimit = 1 << 20;
 
+// Texels that are made when a frame or a mask needs them. Threads may ask at the same time.
+class LateTexels {
+ public:
+  explicit LateTexels(std::function<std::vector<std::uint32_t>()> make) : make_(std::move(make)) {}
+
+  // Makes the texels for the caller alone, anew at each call.
+  std::vector<std::uint32_t> make() const { return make_(); }
+  // Makes the texels at the first call and keeps them.
+  const std::vector<std::uint32_t>& kept() const;
+
+  std::string recipe;  // everything that the texels depend on; digests tell textures apart by it
+
+ private:
+  std::function<std::vector<std::uint32_t>()> make_;
+  mutable std::once_flag once_;
+  mutable std::vector<std::uint32_t> kept_;
+};
+
 // `texels` holds width * height rows from the top: texel (0, 0) is at uv (0, 1), as in OBJ, where v
 // points up. Texel centers lie at half-integers.
 struct Texture {
@@ -64,15 +85,19 @@ struct Texture {
   bool nearest = false;  // its texels are not interpolated; smaller mip levels are
   int width = 1, height = 1;
   std::vector<std::uint32_t> texels;
+  std::shared_ptr<LateTexels> late;  // stands for `texels` if it is set
   // These take the place of `texels` in packTextures().
   TexelStrips strips;
   std::size_t firstTexel = 0;
 
   std::uint32_t texel(int column, int row) const {
-    if (!strips) return texels[static_cast<std::size_t>(row) * width + column];
+    if (!strips) return rows()[static_cast<std::size_t>(row) * width + column];
     const std::size_t strip = (column + 1) / kTexelCells, cell = (column + 1) % kTexelCells;
     return strips[firstTexel + (strip * (height + kTexelBorder) + row + 1) * kTexelStrip + cell];
   }
+  // Returns the texels of a texture without strips.
+  const std::vector<std::uint32_t>& rows() const { return late ? late->kept() : texels; }
+  std::size_t texelCount() const { return std::size_t{1} * width * height; }
   // Returns the number of texels in its strips.
   std::size_t packedSize() const {
     return std::size_t{1} * (width / kTexelCells + 1) * (height + kTexelBorder) * kTexelStrip;
@@ -86,8 +111,8 @@ int wrapTexel(int texel, int size, Wrap wrap);
 Texture emptyTexture(const std::string& name, TexelFormat format, int width, int height);
 
 // Moves the texels of all textures into strips in one block of memory, one texture after the other,
-// so that few texels are in memory twice. Throws Error(limit) when a 31-bit index does not reach
-// all texels.
+// so that few texels are in memory twice. Textures with late texels stay as they are. Throws
+// Error(limit) when a 31-bit index does not reach all texels.
 void packTextures(std::vector<Texture>& textures, int threads);
 
 // Each function encodes a texel from channels in [0, 1], or radiance up to kLargestRadianceTexel.

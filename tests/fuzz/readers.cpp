@@ -110,9 +110,7 @@ void checkScene(const Scene& scene) {
 }
 
 void checkTexture(const Texture& texture) {
-  require(texture.width > 0 && texture.height > 0 &&
-              texture.texels.size() == static_cast<std::size_t>(texture.width) *
-                                           static_cast<std::size_t>(texture.height),
+  require(texture.width > 0 && texture.height > 0 && texture.rows().size() == texture.texelCount(),
           "a texture without its texels");
 }
 

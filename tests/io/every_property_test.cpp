@@ -47,7 +47,7 @@ Content contentOf(const SceneDescription& scene) {
   addMembers(scene.lights, all);
 
   for (const Texture& texture : scene.textures) {
-    appendAll(texture.texels, all["texels"]);
+    appendAll(texture.rows(), all["texels"]);
     append(texture.wrapU, all["wrapU"]);
     append(texture.wrapV, all["wrapV"]);
     append(texture.nearest, all["nearest"]);

@@ -375,7 +375,7 @@ TEST_F(SceneSections, ColorsOfPatternsMayBeNumbers) {
                        "}}, \"materials\": {\"m\": {\"diffuseMap\": \"c\"}}, \"scene\": ["
                        "{\"shape\": \"quad\", \"material\": \"m\"}]")
         .textures.at(0)
-        .texels;
+        .rows();
   };
   EXPECT_EQ(texelsOf("0.5"), texelsOf("[0.5, 0.5, 0.5]"));
   EXPECT_NE(texelsOf("0.5"), texelsOf("1"));

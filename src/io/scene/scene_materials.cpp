@@ -37,14 +37,31 @@ void readSampler(JsonObject& object, Sampled& sampled) {
   }
 }
 
+// Returns a value as text in which expressions are replaced by their numbers.
+std::string recipeOf(const JsonValue& value) {
+  if (value.isNumber()) return formatted("%a,", value.number());
+  if (value.isText()) return value.text() + ",";
+
+  std::string recipe;
+  if (value.isArray()) {
+    for (const JsonValue& element : value.elements()) recipe += recipeOf(element);
+  } else if (value.isObject()) {
+    for (const auto& [name, member] : value.members()) recipe += name + ":" + recipeOf(member);
+  }
+  return recipe;
+}
+
+// Reads the parameters of a pattern, whose texels are made later.
 Texture makePattern(const JsonValue& definition, std::uint64_t mostBytes) {
   const GenerationLimit limit(mostBytes);
   JsonObject object(definition);
   const JsonValue pattern = object.need("pattern");
   Texture made = generate(pattern, patternGenerators(), object);
   made.name = pattern.text();
+
   readSampler(object, made);
   object.finish();
+  made.late->recipe = recipeOf(definition);
   return made;
 }
 

@@ -92,8 +92,8 @@ std::string movableName(const JsonObject& object, const Instant& instant);
 class MaterialReader {
  public:
   // Reads both sections. Images are asked for when a material names their texture: the kind of
-  // map says how they are to be read. Patterns are computed while the rest is read, so that the
-  // errors of their parameters come from TextureLoader::finish().
+  // map says how they are to be read. The errors of patterns' parameters come from
+  // TextureLoader::finish().
   MaterialReader(JsonObject& file, SceneContext& context);
 
   // The index of the material that the text of `name` stands for.

@@ -1,6 +1,7 @@
 #include "make/patterns/noise.h"
 
 #include <cmath>
+#include <span>
 
 namespace whit::procedural {
 namespace {
@@ -49,11 +50,6 @@ constexpr double kDiagonal = 0.70710678118654752440;
 constexpr double kSlopeX[8] = {1, -1, 0, 0, kDiagonal, kDiagonal, -kDiagonal, -kDiagonal};
 constexpr double kSlopeY[8] = {0, 0, 1, -1, kDiagonal, -kDiagonal, kDiagonal, -kDiagonal};
 
-double slope2(std::uint32_t h, double x, double y) {
-  const std::uint32_t k = h & 7u;
-  return kSlopeX[k] * x + kSlopeY[k] * y;
-}
-
 // The slopes point to the middles of a cube's twelve edges (Perlin 2002).
 double slope3(std::uint32_t h, double x, double y, double z) {
   const std::uint32_t k = h % 12u;
@@ -78,21 +74,41 @@ double smoothStep(double low, double high, double x) {
   return t * t * (3 - 2 * t);
 }
 
-double gradientNoise(std::uint32_t seed, double x, double y, int period) {
+void NoiseCell::enter(std::uint32_t seed, std::int32_t x, std::int32_t y, int period) {
+  seed_ = seed;
+  x_ = x;
+  y_ = y;
+  isKnown_ = true;
+
+  const std::int32_t x0 = wrapped(x, period), x1 = wrapped(x + 1, period);
+  const std::int32_t y0 = wrapped(y, period), y1 = wrapped(y + 1, period);
+  const std::uint32_t hashes[4] = {latticeHash(seed, x0, y0), latticeHash(seed, x1, y0),
+                                   latticeHash(seed, x0, y1), latticeHash(seed, x1, y1)};
+  for (int i = 0; i < 4; ++i) {
+    slopes_[i][0] = kSlopeX[hashes[i] & 7u];
+    slopes_[i][1] = kSlopeY[hashes[i] & 7u];
+  }
+}
+
+double NoiseCell::at(std::uint32_t seed, double x, double y, int period) {
   const std::int32_t ix = floorOf(x), iy = floorOf(y);
-  const std::int32_t x0 = wrapped(ix, period), x1 = wrapped(ix + 1, period);
-  const std::int32_t y0 = wrapped(iy, period), y1 = wrapped(iy + 1, period);
+  if (ix != x_ || iy != y_ || seed != seed_ || !isKnown_) enter(seed, ix, iy, period);
 
   // Weights are quintic in the position within the cell, so that slopes and curvatures are
   // continuous.
   const double tx = x - ix, ty = y - iy, u = fade(tx), v = fade(ty);
 
   // Each corner has a linear ramp with a random slope; the four are interpolated.
-  const double low = lerp(slope2(latticeHash(seed, x0, y0), tx, ty),
-                          slope2(latticeHash(seed, x1, y0), tx - 1, ty), u);
-  const double high = lerp(slope2(latticeHash(seed, x0, y1), tx, ty - 1),
-                           slope2(latticeHash(seed, x1, y1), tx - 1, ty - 1), u);
+  const auto ramp = [&](int i, double dx, double dy) {
+    return slopes_[i][0] * dx + slopes_[i][1] * dy;
+  };
+  const double low = lerp(ramp(0, tx, ty), ramp(1, tx - 1, ty), u);
+  const double high = lerp(ramp(2, tx, ty - 1), ramp(3, tx - 1, ty - 1), u);
   return lerp(low, high, v) * 1.5;  // brings the usual extremes of about 0.66 to 1
+}
+
+double gradientNoise(std::uint32_t seed, double x, double y, int period) {
+  return NoiseCell().at(seed, x, y, period);
 }
 
 double gradientNoise3(std::uint32_t seed, double x, double y, double z) {
@@ -108,10 +124,11 @@ double gradientNoise3(std::uint32_t seed, double x, double y, double z) {
   return lerp(plane(0), plane(1), fade(tz));
 }
 
-double fractalNoise(std::uint32_t seed, double x, double y, int octaves, int period) {
+double FractalNoise::operator()(std::uint32_t seed, double x, double y) {
   double sum = 0, amplitude = 1, total = 0;
-  for (int i = 0; i < octaves; ++i) {
-    sum += amplitude * gradientNoise(seed + static_cast<std::uint32_t>(i), x, y, period);
+  int period = period_;
+  for (NoiseCell& cell : std::span(cells_).first(octaves_)) {
+    sum += amplitude * cell.at(seed++, x, y, period);
     total += amplitude;
     amplitude *= 0.5;
     // The period counts cells, so it doubles with the frequency.
@@ -120,6 +137,10 @@ double fractalNoise(std::uint32_t seed, double x, double y, int octaves, int per
     period *= 2;
   }
   return total > 0 ? sum / total : 0;
+}
+
+double fractalNoise(std::uint32_t seed, double x, double y, int octaves, int period) {
+  return FractalNoise(octaves, period)(seed, x, y);
 }
 
 double ridgedNoise(std::uint32_t seed, double x, double y, int octaves) {

@@ -2,7 +2,7 @@
 // v) and the same in v; v points up.
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <memory>
 
 #include "make/patterns/noise.h"
 #include "make/shape.h"
@@ -13,85 +13,100 @@ namespace {
 
 using namespace procedural;
 
-using ColorFormula = std::function<Rgb(double u, double v)>;
-using ScalarFormula = std::function<double(double u, double v)>;
-
 // Every pattern has the parameter `size`, texels a side.
 Texture blank(ShapeParameters& parameters, int fallback, TexelFormat format) {
-  const int side = parameters.integer("size", fallback, 1, 8192);
-  const std::uint64_t texels = static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side);
+  Texture texture;
+  texture.format = format;
+  texture.width = texture.height = parameters.integer("size", fallback, 1, 8192);
 
-  GenerationLimit::charge(texels, sizeof(std::uint32_t));
-  return emptyTexture("", format, side, side);
+  GenerationLimit::charge(texture.texelCount(), sizeof(std::uint32_t));
+  return texture;
 }
 
 // Calls visit(u, v) at the texel centers, row by row from the top.
 template <typename Visitor>
-void forEachTexel(const Texture& texture, Visitor&& visit) {
-  for (int row = 0; row < texture.height; ++row) {
-    for (int column = 0; column < texture.width; ++column) {
-      visit((column + 0.5) / texture.width, 1 - (row + 0.5) / texture.height);
-    }
+void forEachTexel(int side, Visitor&& visit) {
+  for (int row = 0; row < side; ++row) {
+    const double v = 1 - (row + 0.5) / side;
+    for (int column = 0; column < side; ++column) visit((column + 0.5) / side, v);
   }
 }
 
-// Paints linear colors in [0, 1].
-Texture paintColor(ShapeParameters& parameters, const ColorFormula& color, int fallback = 512) {
-  Texture texture = blank(parameters, fallback, TexelFormat::color);
-  std::uint32_t* to = texture.texels.data();
-
-  forEachTexel(texture, [&](double u, double v) { *to++ = encodeColorTexel(color(u, v)); });
+// A formula is copied each time that a texture is painted, because its noise keeps what it has
+// computed last. `codeOf` encodes what the formula returns for u and v.
+template <typename Formula, typename Code>
+Texture paint(Texture texture, const Formula& formula, const Code& codeOf) {
+  texture.late = std::make_shared<LateTexels>([formula, codeOf, side = texture.width] {
+    Formula own = formula;
+    std::vector<std::uint32_t> texels;
+    texels.reserve(std::size_t{1} * side * side);
+    forEachTexel(side, [&](double u, double v) { texels.push_back(codeOf(own(u, v))); });
+    return texels;
+  });
   return texture;
 }
 
-// Paints tangent-space normals (data, n / 2 + 1 / 2, +y up) of the surface whose height over the
-// square, in units of the square's side, is `height`: (-dh/du, -dh/dv, 1), normalized.
-Texture paintNormals(ShapeParameters& parameters, const ScalarFormula& height) {
-  Texture texture = blank(parameters, 512, TexelFormat::data);
-  const int side = texture.width;
+// Paints linear colors in [0, 1].
+template <typename Formula>
+Texture paintColor(ShapeParameters& parameters, const Formula& color, int fallback = 512) {
+  return paint(blank(parameters, fallback, TexelFormat::color), color,
+               [](const Rgb& linear) { return encodeColorTexel(linear); });
+}
 
-  // Heights are computed once, because each is a neighbor of four texels.
-  std::vector<double> heights;
-  GenerationLimit::charge(texture.texels.size(), sizeof(double));
-  heights.reserve(texture.texels.size());
-  forEachTexel(texture, [&](double u, double v) { heights.push_back(height(u, v)); });
-
+// Encodes the normals of a surface whose heights over a square of `side` x `side` texels are given
+// in units of the square's side.
+std::vector<std::uint32_t> normalTexels(const std::vector<double>& heights, int side) {
   // The texture repeats, so texels on opposite edges are neighbors.
   const auto wrapped = [side](int i) {
     if (i < 0) return side - 1;
     return i < side ? i : 0;
   };
-  const auto at = [&](int row, int column) {
-    return heights[static_cast<std::size_t>(wrapped(row)) * static_cast<std::size_t>(side) +
-                   static_cast<std::size_t>(wrapped(column))];
+  const auto rowAt = [&](int row) {
+    return &heights[static_cast<std::size_t>(wrapped(row)) * static_cast<std::size_t>(side)];
   };
 
   const double reach = 2.0 / side;  // between the neighbors on both sides
-  std::uint32_t* to = texture.texels.data();
+  std::vector<std::uint32_t> texels;
+  texels.reserve(heights.size());
   for (int row = 0; row < side; ++row) {
+    // Rows run downwards and v points up.
+    const double *above = rowAt(row - 1), *own = rowAt(row), *below = rowAt(row + 1);
     for (int column = 0; column < side; ++column) {
-      // Rows run downwards and v points up.
-      const double du = at(row, column + 1) - at(row, column - 1);
-      const double dv = at(row - 1, column) - at(row + 1, column);
+      const double du = own[wrapped(column + 1)] - own[wrapped(column - 1)];
+      const double dv = above[column] - below[column];
       const Vec3d n = normalized(Vec3d{-du, -dv, reach});
 
       const auto code = [](double x) { return static_cast<float>(0.5 + 0.5 * x); };
-      *to++ = encodeDataTexel(code(n.x), code(n.y), code(n.z), 1);
+      texels.push_back(encodeDataTexel(code(n.x), code(n.y), code(n.z), 1));
     }
   }
+  return texels;
+}
+
+// Paints tangent-space normals (data, n / 2 + 1 / 2, +y up) of the surface whose height over the
+// square, in units of the square's side, is `height`: (-dh/du, -dh/dv, 1), normalized.
+template <typename Formula>
+Texture paintNormals(ShapeParameters& parameters, const Formula& height) {
+  Texture texture = blank(parameters, 512, TexelFormat::data);
+  GenerationLimit::charge(texture.texelCount(), sizeof(double));
+
+  texture.late = std::make_shared<LateTexels>([height, side = texture.width] {
+    Formula own = height;
+    std::vector<double> heights;
+    heights.reserve(std::size_t{1} * side * side);
+    forEachTexel(side, [&](double u, double v) { heights.push_back(own(u, v)); });
+    return normalTexels(heights, side);
+  });
   return texture;
 }
 
 // Paints the same value into r, g and b; a is 1.
-Texture paintScalar(ShapeParameters& parameters, const ScalarFormula& value, int fallback) {
-  Texture texture = blank(parameters, fallback, TexelFormat::data);
-  std::uint32_t* to = texture.texels.data();
-
-  forEachTexel(texture, [&](double u, double v) {
-    const auto x = static_cast<float>(value(u, v));
-    *to++ = encodeDataTexel(x, x, x, 1);
+template <typename Formula>
+Texture paintScalar(ShapeParameters& parameters, const Formula& value, int fallback) {
+  return paint(blank(parameters, fallback, TexelFormat::data), value, [](double level) {
+    const auto x = static_cast<float>(level);
+    return encodeDataTexel(x, x, x, 1);
   });
-  return texture;
 }
 
 // Reads a linear color, which is clamped to [0, 1] when it is encoded.
@@ -124,11 +139,12 @@ double frondShape(double u, double v, int leaflets) {
   return s < reach ? 0.86 - 0.62 * (s / reach) * (s / reach) - across : -1;
 }
 
-ScalarFormula plasterHeight(int cells, std::uint32_t seed) {
-  return [=](double u, double v) {
-    const double rough = fractalNoise(seed, cells * u, cells * v, 5, cells);
+auto plasterHeight(int cells, std::uint32_t seed) {
+  FractalNoise roughness(5, cells), stroke(1, cells);
+  return [=](double u, double v) mutable {
+    const double rough = roughness(seed, cells * u, cells * v);
     // One more layer of the lowest frequency stands for the strokes of the trowel.
-    const double strokes = gradientNoise(seed + 8, cells * u, 0.25 * cells * v * 4, cells);
+    const double strokes = stroke(seed + 8, cells * u, 0.25 * cells * v * 4);
     return rough + 0.3 * strokes;
   };
 }
@@ -169,12 +185,14 @@ Texture makeFabric(ShapeParameters& parameters) {
   const double contrast = parameters.number("contrast", 0.35, 0, 1);
   const std::uint32_t seed = parameters.seed();
 
-  return paintColor(parameters, [=](double u, double v) {
+  FractalNoise weaving(3, 32);
+
+  return paintColor(parameters, [=](double u, double v) mutable {
     // Each cell of the weave has a diamond's outline and a small diamond in its middle.
     const double fu = u * columns - std::floor(u * columns) - 0.5;
     const double fv = v * rows - std::floor(v * rows) - 0.5;
     const double diamond = std::fabs(fu) + std::fabs(fv);
-    const double weave = 0.92 + 0.08 * fractalNoise(seed, 32 * u, 32 * v, 3, 32);
+    const double weave = 0.92 + 0.08 * weaving(seed, 32 * u, 32 * v);
     const bool line = std::fabs(diamond - 0.36) < 0.035 || diamond < 0.10;
     Rgb color = mix(ground, figure, line ? contrast : 0.0);
 
@@ -213,16 +231,18 @@ Texture makeLeaf(ShapeParameters& parameters) {
   const int veins = parameters.integer("veins", 7, 0, 100);
   const std::uint32_t seed = parameters.seed();
 
+  FractalNoise patches(4, 4);
+
   return paintColor(
       parameters,
-      [=](double u, double v) {
+      [=](double u, double v) mutable {
         // Side veins leave the rib and slant towards the tip.
         const double s = std::fabs(u - 0.5) * 2;
         const double along = (v - 0.3 * s) * veins;
         const double across = std::fabs(along - std::round(along));
         const double rib = std::max(1 - s / 0.08, 0.6 * (1 - across / 0.1));
 
-        const double patch = 0.5 + 0.5 * fractalNoise(seed, 4 * u, 4 * v, 4, 4);
+        const double patch = 0.5 + 0.5 * patches(seed, 4 * u, 4 * v);
         const Rgb color = mix(blade, vein, std::clamp(rib, 0.0, 1.0));
         return color * static_cast<float>(0.75 + 0.5 * patch);
       },
@@ -238,8 +258,10 @@ Texture makeNoise(ShapeParameters& parameters) {
   const double contrast = parameters.number("contrast", 1, 0, 100);
   const std::uint32_t seed = parameters.seed();
 
-  return paintColor(parameters, [=](double u, double v) {
-    const double n = fractalNoise(seed, cells * u, cells * v, octaves, cells);
+  FractalNoise noise(octaves, cells);
+
+  return paintColor(parameters, [=](double u, double v) mutable {
+    const double n = noise(seed, cells * u, cells * v);
     return mix(a, b, std::clamp(0.5 + contrast * n, 0.0, 1.0));
   });
 }
@@ -250,10 +272,12 @@ Texture makePlaster(ShapeParameters& parameters) {
   const int cells = parameters.integer("cells", 6, 1, 1024);
   const double stain = parameters.number("stain", 0.5, 0, 1);
   const std::uint32_t seed = parameters.seed();
-  const ScalarFormula height = plasterHeight(cells, seed);
+  auto height = plasterHeight(cells, seed);
 
-  return paintColor(parameters, [=](double u, double v) {
-    const double cloud = 0.5 + 0.6 * fractalNoise(seed + 40, 3 * u, 3 * v, 5, 3);
+  FractalNoise clouds(5, 3);
+
+  return paintColor(parameters, [=](double u, double v) mutable {
+    const double cloud = 0.5 + 0.6 * clouds(seed + 40, 3 * u, 3 * v);
     const Rgb base = mix(color, color2, std::clamp(stain * cloud, 0.0, 1.0));
     return base * static_cast<float>(1 + 0.12 * height(u, v));
   });
@@ -262,8 +286,8 @@ Texture makePlaster(ShapeParameters& parameters) {
 Texture makePlasterNormals(ShapeParameters& parameters) {
   const int cells = parameters.integer("cells", 6, 1, 1024);
   const double depth = parameters.number("depth", 0.004, 0, 0.5);
-  const ScalarFormula height = plasterHeight(cells, parameters.seed());
-  return paintNormals(parameters, [=](double u, double v) { return depth * height(u, v); });
+  auto height = plasterHeight(cells, parameters.seed());
+  return paintNormals(parameters, [=](double u, double v) mutable { return depth * height(u, v); });
 }
 
 // Veins run along the zero lines of warped noise.
@@ -274,14 +298,15 @@ Texture makeMarble(ShapeParameters& parameters) {
   const double sharpness = parameters.number("sharpness", 10, 0.1, 1000);
   const std::uint32_t seed = parameters.seed();
 
-  return paintColor(parameters, [=](double u, double v) {
+  FractalNoise warping(5, cells), coarseVeins(4, cells), fineVeins(4, 2 * cells);
+
+  return paintColor(parameters, [=](double u, double v) mutable {
     const double x = cells * u, y = cells * v;
-    const double warp = 0.7 * fractalNoise(seed + 20, x, y, 5, cells);
+    const double warp = 0.7 * warping(seed + 20, x, y);
 
     // Coarse and fine veins lie where warped noise crosses zero, and a power narrows them.
-    const double coarse = 1 - std::fabs(fractalNoise(seed, x + warp, y + 0.5 * warp, 4, cells));
-    const double fine =
-        1 - std::fabs(fractalNoise(seed + 60, 2 * x - warp, 2 * y + warp, 4, 2 * cells));
+    const double coarse = 1 - std::fabs(coarseVeins(seed, x + warp, y + 0.5 * warp));
+    const double fine = 1 - std::fabs(fineVeins(seed + 60, 2 * x - warp, 2 * y + warp));
 
     const double depth = std::pow(std::clamp(coarse, 0.0, 1.0), sharpness) +
                          0.4 * std::pow(std::clamp(fine, 0.0, 1.0), 1.6 * sharpness);
@@ -298,17 +323,19 @@ Texture makeWood(ShapeParameters& parameters) {
   const double rings = parameters.number("rings", 5, 0, 200);
   const std::uint32_t seed = parameters.seed();
 
-  return paintColor(parameters, [=](double u, double v) {
+  FractalNoise swaying(3, 2), fibres(3, 64);
+
+  return paintColor(parameters, [=](double u, double v) mutable {
     // Each board has noise and a density of rings of its own.
     const int board = std::min(static_cast<int>(v * boards), boards - 1);
     const double y = v * boards - board, own = unitHash(seed, board);
     const auto boardSeed = seed + 100u * static_cast<std::uint32_t>(board);
 
     // Rings sway along the board, fibres are noise that is stretched along it.
-    const double sway = fractalNoise(boardSeed + 7, 2 * u, y, 3, 2);
+    const double sway = swaying(boardSeed + 7, 2 * u, y);
     const double ring =
         0.5 + 0.5 * std::sin(6.283185307 * (rings * (y - 0.5) * (1 + own) + 2 * sway));
-    const double fibre = 0.5 + 0.5 * fractalNoise(boardSeed + 9, 4 * u, 64 * y, 3, 64);
+    const double fibre = 0.5 + 0.5 * fibres(boardSeed + 9, 4 * u, 64 * y);
 
     // Dark gaps separate the boards.
     const double gap = smoothStep(0, 0.015, std::min(y, 1 - y));
@@ -366,9 +393,11 @@ Texture masonryNormals(ShapeParameters& parameters, const Layout& layout, double
   const double rough = parameters.number("rough", roughFallback, 0, 10);
   const std::uint32_t seed = parameters.seed();
 
-  return paintNormals(parameters, [=](double u, double v) {
+  FractalNoise grains(4, 16);
+
+  return paintNormals(parameters, [=](double u, double v) mutable {
     const Stone s = layout.at(u, v);
-    const double grain = fractalNoise(seed + 11, 16 * u, 16 * v, 4, 16);
+    const double grain = grains(seed + 11, 16 * u, 16 * v);
 
     // The face of each stone slopes at random, across and up.
     const double lean = (unitHash(seed + 5, s.column, s.row) - 0.5) * (s.across - 0.5) +
@@ -393,10 +422,12 @@ Texture makeBricks(ShapeParameters& parameters) {
   const double stain = parameters.number("stain", 0.25, 0, 1);
   const std::uint32_t seed = parameters.seed();
 
-  return paintColor(parameters, [=](double u, double v) {
+  FractalNoise grains(5, 16), clouds(4, 3);
+
+  return paintColor(parameters, [=](double u, double v) mutable {
     const Stone s = layout.at(u, v);
-    const double grain = 0.5 + 0.5 * fractalNoise(seed + 11, 16 * u, 16 * v, 5, 16);
-    const double cloud = 0.5 + 0.5 * fractalNoise(seed + 3, 3 * u, 3 * v, 4, 3);
+    const double grain = 0.5 + 0.5 * grains(seed + 11, 16 * u, 16 * v);
+    const double cloud = 0.5 + 0.5 * clouds(seed + 3, 3 * u, 3 * v);
 
     const Rgb stone = mix(color, color2, unitHash(seed, s.column, s.row));
     const Rgb base = mix(mortar, stone, layout.face(s));
@@ -421,19 +452,21 @@ Texture makeTiles(ShapeParameters& parameters) {
   const double veins = parameters.number("veins", 0.35, 0, 1);
   const std::uint32_t seed = parameters.seed();
 
+  FractalNoise warping(4), lines(4);
+
   return paintColor(
       parameters,
-      [=](double u, double v) {
+      [=](double u, double v) mutable {
         const Stone s = layout.at(u, v);
         const bool odd = (s.column + s.row) % 2 == 1;
         const double own = unitHash(seed, s.column, s.row);
 
         // Each slab is cut from another part of the block.
         const double x = s.across + 17 * own, y = s.up + 29 * unitHash(seed + 1, s.column, s.row);
-        const double warp = fractalNoise(seed + 20, 1.5 * x, 1.5 * y, 4);
+        const double warp = warping(seed + 20, 1.5 * x, 1.5 * y);
 
         // Narrow veins lie where warped noise crosses zero.
-        const double line = 1 - std::fabs(fractalNoise(seed + 30, 1.2 * x + warp, 1.6 * y, 4));
+        const double line = 1 - std::fabs(lines(seed + 30, 1.2 * x + warp, 1.6 * y));
         const double vein = std::pow(std::clamp(line, 0.0, 1.0), 14);
         const double cloud = 0.5 + 0.5 * warp;
 
@@ -457,11 +490,13 @@ Texture makeRoof(ShapeParameters& parameters) {
   const Rgb color2 = colorOf(parameters, "color2", {0.30, 0.13, 0.08});
   const std::uint32_t seed = parameters.seed();
 
-  return paintColor(parameters, [=](double u, double v) {
+  FractalNoise grains(4, 16);
+
+  return paintColor(parameters, [=](double u, double v) mutable {
     const double fu = u * columns - std::floor(u * columns);
     const double fv = v * rows - std::floor(v * rows);
     const double own = unitHash(seed, static_cast<int>(u * columns), static_cast<int>(v * rows));
-    const double grain = fractalNoise(seed + 2, 16 * u, 16 * v, 4, 16);
+    const double grain = grains(seed + 2, 16 * u, 16 * v);
 
     // The gutters between columns and the strip below the next row lie in the shade.
     const double gutter = smoothStep(0, 0.14, std::min(fu, 1 - fu));
