@@ -131,8 +131,19 @@ bool facetsTouch(const Facet& a, const Facet& b) {
   return lieInOnePlane(a, b) && haveInCommon(a, b, -(a.error + b.error));
 }
 
+double leastAltitude(const Facet& facet) {
+  const auto& [a, b, c] = facet.corners;
+  const Vec3d ab = b - a, bc = c - b, ca = a - c;
+  const double longest = std::sqrt(std::max({dot(ab, ab), dot(bc, bc), dot(ca, ca)}));
+  return dot(cross(ca, ab), facet.normal) / longest;
+}
+
 // Two triangles have no part in common that is wider than either of them.
-bool isTooNarrowToOverlap(const Facet& facet) { return !haveInCommon(facet, facet, facet.least); }
+bool isTooNarrowToOverlap(const Facet& facet) {
+  constexpr double kBeyondRounding = 1.001;
+  if (leastAltitude(facet) > kBeyondRounding * facet.least) return false;
+  return !haveInCommon(facet, facet, facet.least);
+}
 
 CoveredPart coveredPart(const Facet& on, const Facet& of) {
   // Rounding of the hits' weights, which are floats.

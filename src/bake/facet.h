@@ -41,6 +41,8 @@ struct Facet {
 Facet facetOf(const TriangleRecord& triangle, const Affine* toWorld);
 Facet facetOf(const Scene& scene, PlacedTriangleId id);
 
+double leastAltitude(const Facet& facet);
+
 // Both tests are false for facets without area and for facets that do not lie in one plane.
 bool facetsOverlap(const Facet& a, const Facet& b);
 bool facetsTouch(const Facet& a, const Facet& b);

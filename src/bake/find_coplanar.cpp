@@ -5,6 +5,8 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <map>
 #include <span>
 #include <utility>
@@ -44,15 +46,6 @@ void addBoth(const Pairs& pairs, Orders& orders) {
   orders.erase(std::unique(orders.begin(), orders.end()), orders.end());
 }
 
-// True if the boxes have a point in common. The test has no branches, because processors could not
-// predict them.
-bool meet(const Box& a, const Box& b) {
-  const unsigned x = unsigned{a.lower.x <= b.upper.x} & unsigned{b.lower.x <= a.upper.x};
-  const unsigned y = unsigned{a.lower.y <= b.upper.y} & unsigned{b.lower.y <= a.upper.y};
-  const unsigned z = unsigned{a.lower.z <= b.upper.z} & unsigned{b.lower.z <= a.upper.z};
-  return (x & y & z) != 0;
-}
-
 Box grown(const Vec3d& lower, const Vec3d& upper, double error) {
   // 1 would do but for the rounding of the box to float and for corners of two triangles that no
   // edge separates, though they are farther apart.
@@ -60,9 +53,32 @@ Box grown(const Vec3d& lower, const Vec3d& upper, double error) {
   return {Vec3f(lower - Vec3d(kGrowth * error)), Vec3f(upper + Vec3d(kGrowth * error))};
 }
 
-// An item of a BoxTree and its box.
+// How a triangle lies. `lean` bounds its share of the sine of the angle between two triangles that
+// lie in one plane: the corners of one are no farther from the plane of the other than the sum of
+// their errors, and the triangle is as wide as its least altitude, so that the sine is at most
+// twice that sum over the altitude.
+struct Slope {
+  Vec3f normal;
+  float lean = 1;
+};
+
+Slope slopeOf(const Facet& facet) {
+  constexpr double kRounding = 1e-6;  // of the normals and of their cross product in floats
+  constexpr double kMargin = 1.001;
+  return {Vec3f(facet.normal),
+          static_cast<float>(kRounding + kMargin * 2 * facet.error / leastAltitude(facet))};
+}
+
+// False only if the triangles do not lie in one plane.
+bool mayLieInOnePlane(const Slope& a, const Slope& b) {
+  const Vec3f sine = cross(a.normal, b.normal);
+  const float most = a.lean + b.lean;
+  return !(dot(sine, sine) > most * most);
+}
+
+// A box, and the place of its item in the list of items.
 struct BoxedItem {
-  std::uint64_t item = 0;
+  std::uint32_t place = 0;
   Box box;
   Vec3f center() const { return box.lower * 0.5f + box.upper * 0.5f; }
 };
@@ -80,10 +96,11 @@ void sortInSpace(std::span<BoxedItem> items, std::size_t children, int threads) 
 
   // The split lies between two full nodes, about in the middle.
   const std::size_t middle = ((items.size() + full - 1) / full + 1) / 2 * full;
+  const auto along = std::array{&Vec3f::x, &Vec3f::y, &Vec3f::z}[static_cast<std::size_t>(axis)];
   std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(middle), items.end(),
-                   [axis](const BoxedItem& a, const BoxedItem& b) {
-                     return a.box.lower[axis] + a.box.upper[axis] <
-                            b.box.lower[axis] + b.box.upper[axis];
+                   [along](const BoxedItem& a, const BoxedItem& b) {
+                     return a.box.lower.*along + a.box.upper.*along <
+                            b.box.lower.*along + b.box.upper.*along;
                    });
 
   const auto sortHalf = [&](std::size_t half, int) {
@@ -97,47 +114,114 @@ void sortInSpace(std::span<BoxedItem> items, std::size_t children, int threads) 
   }
 }
 
+// The boxes of eight neighbors, which are tested together; empty ones after the last.
+class BoxBlock {
+ public:
+  static constexpr std::size_t kBoxes = 8;
+  // A byte for each box, the first one the lowest: 1 or 0.
+  using Bytes = std::uint64_t;
+
+  BoxBlock() {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      lower_[axis].fill(std::numeric_limits<float>::max());
+      upper_[axis].fill(std::numeric_limits<float>::lowest());
+    }
+  }
+
+  void set(std::size_t i, const Box& box) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      lower_[axis][i] = box.lower[static_cast<int>(axis)];
+      upper_[axis][i] = box.upper[static_cast<int>(axis)];
+    }
+  }
+  Box box(std::size_t i) const {
+    return {{lower_[0][i], lower_[1][i], lower_[2][i]}, {upper_[0][i], upper_[1][i], upper_[2][i]}};
+  }
+
+  // Marks the boxes that have a point in common with `other`. The tests have no branches, because
+  // processors could not predict them.
+  Bytes meeting(const Box& other) const {
+    std::array<std::uint8_t, kBoxes> marks;
+    for (std::size_t i = 0; i < kBoxes; ++i) {
+      const unsigned x =
+          unsigned{lower_[0][i] <= other.upper.x} & unsigned{other.lower.x <= upper_[0][i]};
+      const unsigned y =
+          unsigned{lower_[1][i] <= other.upper.y} & unsigned{other.lower.y <= upper_[1][i]};
+      const unsigned z =
+          unsigned{lower_[2][i] <= other.upper.z} & unsigned{other.lower.z <= upper_[2][i]};
+      marks[i] = static_cast<std::uint8_t>(x & y & z);
+    }
+    return std::bit_cast<Bytes>(marks);
+  }
+
+ private:
+  std::array<std::array<float, kBoxes>, 3> lower_, upper_;
+};
+
+// Calls visit(i) for each marked box.
+template <typename Visitor>
+void forEachMarked(BoxBlock::Bytes marks, Visitor&& visit) {
+  for (; marks != 0; marks &= marks - 1)
+    visit(static_cast<std::size_t>(std::countr_zero(marks)) / 8);
+}
+
+struct TreeItem {
+  std::uint64_t item = 0;
+  Slope slope;
+};
+
 // A tree over boxes: eight neighbors share a box of the next level, up to the one box that holds
 // all. Level 0 are the items.
 class BoxTree {
  public:
-  static constexpr std::uint32_t kChildren = 8;
+  static constexpr std::uint32_t kChildren = BoxBlock::kBoxes;
 
   BoxTree() = default;
-  BoxTree(std::vector<BoxedItem> items, int threads) {
-    if (items.empty()) return;
-    sortInSpace(items, kChildren, items.size() > kTaskTriangles ? threads : 1);
+  BoxTree(const std::vector<TreeItem>& items, std::vector<BoxedItem> boxes, int threads) {
+    if (boxes.empty()) return;
+    sortInSpace(boxes, kChildren, boxes.size() > kTaskTriangles ? threads : 1);
 
-    items_.reserve(items.size());
-    levels_.emplace_back().reserve(items.size());
-    for (const BoxedItem& item : items) {
-      items_.push_back(item.item);
-      levels_[0].push_back(item.box);
+    items_.reserve(boxes.size());
+    levels_.emplace_back((boxes.size() + kChildren - 1) / kChildren);
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      items_.push_back(items[boxes[i].place]);
+      levels_[0][i / kChildren].set(i % kChildren, boxes[i].box);
     }
+    counts_.push_back(static_cast<std::uint32_t>(boxes.size()));
 
     // Each further level has one box for eight neighbors of the level below.
-    while (levels_.back().size() > 1) {
-      const std::vector<Box>& below = levels_.back();
-      std::vector<Box> boxes((below.size() + kChildren - 1) / kChildren);
+    while (counts_.back() > 1) {
+      const std::vector<BoxBlock>& below = levels_.back();
+      std::vector<BoxBlock> level((below.size() + kChildren - 1) / kChildren);
       for (std::size_t i = 0; i < below.size(); ++i) {
-        boxes[i / kChildren].add(below[i].lower);
-        boxes[i / kChildren].add(below[i].upper);
+        Box all;
+        for (std::size_t k = 0;
+             k < std::min<std::size_t>(kChildren, counts_.back() - i * kChildren); ++k) {
+          all.add(below[i].box(k).lower);
+          all.add(below[i].box(k).upper);
+        }
+        level[i / kChildren].set(i % kChildren, all);
       }
-      levels_.push_back(std::move(boxes));
+      counts_.push_back(static_cast<std::uint32_t>(below.size()));
+      levels_.push_back(std::move(level));
     }
   }
 
   bool empty() const { return items_.empty(); }
   std::uint32_t top() const { return static_cast<std::uint32_t>(levels_.size() - 1); }
-  std::uint32_t count(std::uint32_t level) const {
-    return static_cast<std::uint32_t>(levels_[level].size());
+  std::uint32_t count(std::uint32_t level) const { return counts_[level]; }
+  // The boxes of a level from number 8 * `block` on.
+  const BoxBlock& block(std::uint32_t level, std::uint32_t block) const {
+    return levels_[level][block];
   }
-  const Box& box(std::uint32_t level, std::uint32_t number) const { return levels_[level][number]; }
-  std::uint64_t item(std::uint32_t number) const { return items_[number]; }
+  Box box() const { return levels_.back()[0].box(0); }  // around everything
+  std::uint64_t item(std::uint32_t number) const { return items_[number].item; }
+  const Slope& slope(std::uint32_t number) const { return items_[number].slope; }
 
  private:
-  std::vector<std::uint64_t> items_;
-  std::vector<std::vector<Box>> levels_;
+  std::vector<TreeItem> items_;
+  std::vector<std::vector<BoxBlock>> levels_;
+  std::vector<std::uint32_t> counts_;  // boxes of each level
 };
 
 // The space that is searched: the world, or that of one instanced geometry for all of its instances
@@ -189,6 +273,8 @@ class Space {
     return grown(min(min(a, b), c), max(max(a, b), c), facet.error);
   }
 
+  // True if boxOf() of a tree's box is that box.
+  bool keepsBoxes(std::uint32_t instance) const { return instance == kNoInstance && error_ == 0; }
   // Returns the box in the world of a box of a tree: the world's own tree has grown boxes already,
   // an instance's has not.
   Box boxOf(const Box& box, std::uint32_t instance) const {
@@ -243,7 +329,9 @@ class PairFinder {
       : space_(space), groups_(groups), groupTree_(groupTree), test_(test) {}
 
   Node rootOf(const Group* group) const {
-    return nodeOf(group, (group ? *group->tree : groupTree_).top(), 0);
+    const BoxTree& tree = group ? *group->tree : groupTree_;
+    const Box box = group ? space_.boxOf(tree.box(), group->instance) : tree.box();
+    return nodeOf(box, group, tree.top(), 0);
   }
   // Searches below two nodes. The comparisons are subtracted from `work`, and the search stops when
   // nothing is left of it.
@@ -258,32 +346,44 @@ class PairFinder {
   const Pairs& found() const { return found_; }
 
  private:
-  Node nodeOf(const Group* group, std::uint32_t level, std::uint32_t number) const {
+  Node nodeOf(const Box& box, const Group* group, std::uint32_t level, std::uint32_t number) const {
     // A leaf of the tree over the groups is the root of a group's own tree.
     if (!group && level == 0) {
       group = &groups_[groupTree_.item(number)];
       level = group->tree->top();
       number = 0;
     }
-    const Box& box = (group ? *group->tree : groupTree_).box(level, number);
-    return {group ? space_.boxOf(box, group->instance) : box, group, level, number};
+    return {box, group, level, number};
   }
 
-  // Pushes the node's children whose boxes meet the other node's, or the node itself if the other
-  // one is higher.
-  void split(const Node& node, const Node& other) {
+  // The children of a node, or the node itself if the other one of its pair is higher.
+  struct Children {
+    const Group* group = nullptr;
+    std::uint32_t level = 0, first = 0;
+    BoxBlock boxes;
+  };
+  Children childrenOf(const Node& node, const Node& other) const {
+    Children children{node.group, node.level, node.number, {}};
     if (node.height() < other.height()) {
-      stack_.push_back(node);
-      return;
+      children.boxes.set(0, node.box);
+      return children;
     }
 
     const BoxTree& tree = node.group ? *node.group->tree : groupTree_;
-    const std::uint32_t first = node.number * BoxTree::kChildren;
-    const std::uint32_t end = std::min(first + BoxTree::kChildren, tree.count(node.level - 1));
-    for (std::uint32_t number = first; number < end; ++number) {
-      const Node child = nodeOf(node.group, node.level - 1, number);
-      if (meet(child.box, other.box)) stack_.push_back(child);
+    --children.level;
+    children.first *= BoxTree::kChildren;
+    const BoxBlock& own = tree.block(children.level, node.number);
+    if (!node.group || space_.keepsBoxes(node.group->instance)) {
+      children.boxes = own;
+      return children;
     }
+
+    const std::uint32_t count =
+        std::min(BoxTree::kChildren, tree.count(children.level) - children.first);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      children.boxes.set(i, space_.boxOf(own.box(i), node.group->instance));
+    }
+    return children;
   }
 
   void search(const Node& a, const Node& b) {
@@ -306,29 +406,25 @@ class PairFinder {
       }
     }
 
-    // Below two groups that passed these tests, triangles are compared without another call.
-    const bool isWanted = a.group && b.group;
+    const Children ofA = childrenOf(a, b), ofB = isSame ? ofA : childrenOf(b, a);
+    const BoxBlock::Bytes markedA = ofA.boxes.meeting(b.box);
+    const BoxBlock::Bytes markedB = isSame ? markedA : ofB.boxes.meeting(a.box);
+    left_ -= kWorkOfNodes + std::int64_t{std::popcount(markedA)} * std::popcount(markedB);
 
-    // The children of both nodes are on top of the stack, those of `a` first.
-    const std::size_t beginA = stack_.size();
-    split(a, b);
-    const std::size_t endA = stack_.size(), beginB = isSame ? beginA : endA;
-    if (!isSame) split(b, a);
-    const std::size_t endB = stack_.size();
-    left_ -= kWorkOfNodes + static_cast<std::int64_t>((endA - beginA) * (endB - beginB));
+    forEachMarked(markedA, [&](std::size_t i) {
+      const Box box = ofA.boxes.box(i);
+      BoxBlock::Bytes met = ofB.boxes.meeting(box) & markedB;
+      if (isSame) met &= ~BoxBlock::Bytes{0} << 8 * i;  // each pair once
+      if (met == 0) return;
 
-    for (std::size_t i = beginA; i < endA; ++i) {
-      for (std::size_t k = isSame ? i : beginB; k < endB; ++k) {
-        if (!meet(stack_[i].box, stack_[k].box)) continue;
-        if (stack_[i].isTriangle() && stack_[k].isTriangle() && isWanted) {
-          compare(stack_[i], stack_[k]);
-        } else {
-          const Node first = stack_[i], second = stack_[k];  // The search moves the stack.
-          search(first, second);
-        }
-      }
-    }
-    stack_.resize(beginA);
+      const Node first =
+          nodeOf(box, ofA.group, ofA.level, ofA.first + static_cast<std::uint32_t>(i));
+      forEachMarked(met, [&](std::size_t k) {
+        const Node second = nodeOf(ofB.boxes.box(k), ofB.group, ofB.level,
+                                   ofB.first + static_cast<std::uint32_t>(k));
+        search(first, second);
+      });
+    });
   }
 
   void compare(const Node& nodeA, const Node& nodeB) {
@@ -340,8 +436,16 @@ class PairFinder {
 
     const PlacedTriangleId a = idOf(nodeA), b = idOf(nodeB);
     if (a == b) return;
-
     left_ -= kWorkOfFacets;
+
+    // An instance turns the slopes of its triangles.
+    const bool knowsSlopes =
+        nodeA.group->instance == kNoInstance && nodeB.group->instance == kNoInstance;
+    if (knowsSlopes && !mayLieInOnePlane(nodeA.group->tree->slope(nodeA.number),
+                                         nodeB.group->tree->slope(nodeB.number))) {
+      return;
+    }
+
     const Facet facet = facetOf(nodeA, a);  // the second may take its place in the cache
     if (!test_(facet, facetOf(nodeB, b))) return;
 
@@ -362,7 +466,6 @@ class PairFinder {
   FacetTest test_;
   std::int64_t left_ = 0;  // work
   std::vector<Task>* tasks_ = nullptr;
-  std::vector<Node> stack_;  // children of the nodes that are split
   // A cache, because neighbors are compared again and again.
   std::array<std::pair<PlacedTriangleId, Facet>, 512> known_{};
   Pairs found_;
@@ -409,11 +512,14 @@ class CoplanarFinder {
     for (std::uint32_t g = 1; g < trees_.size(); ++g) addWithinInstances(g, all);
 
     const auto treeOfAll = [&] {
-      std::vector<BoxedItem> items;
+      std::vector<TreeItem> items;
+      std::vector<BoxedItem> boxes;
       for (const std::uint64_t order : all) {
-        items.push_back({order, world_.boxOf(world_.facet(placedTriangle(order)))});
+        const Facet facet = world_.facet(placedTriangle(order));
+        boxes.push_back({static_cast<std::uint32_t>(items.size()), world_.boxOf(facet)});
+        items.push_back({order, slopeOf(facet)});
       }
-      return BoxTree(std::move(items), 1);
+      return BoxTree(items, std::move(boxes), 1);
     };
     if (all.empty()) return {};
 
@@ -434,7 +540,8 @@ class CoplanarFinder {
   BoxTree treeOf(std::uint32_t geometry, int threads) const {
     const Geometry& g = scene_.geometries[geometry];
     const Space space = geometry == 0 ? world_ : Space(scene_, geometry);
-    std::vector<BoxedItem> items(g.index.size());
+    std::vector<TreeItem> items(g.index.size());
+    std::vector<BoxedItem> boxes(items.size());
 
     constexpr std::size_t kChunk = 4096;
     const std::size_t chunks = (items.size() + kChunk - 1) / kChunk;
@@ -443,16 +550,18 @@ class CoplanarFinder {
         const PlacedTriangleId id{g.firstTriangle + static_cast<std::uint32_t>(i), kNoInstance};
         const Facet facet = space.facet(id);
         if (isTooNarrowToOverlap(facet)) continue;
+        items[i] = {orderOf(id), slopeOf(facet)};
+        boxes[i].place = static_cast<std::uint32_t>(i);
+
         // Boxes of instanced geometries grow later, by the error bound of each instance.
-        items[i].item = orderOf(id);
-        for (const Vec3d& corner : facet.corners) items[i].box.add(Vec3f(corner));
-        if (geometry == 0) items[i].box = space.boxOf(facet);
+        for (const Vec3d& corner : facet.corners) boxes[i].box.add(Vec3f(corner));
+        if (geometry == 0) boxes[i].box = space.boxOf(facet);
       }
     });
 
     // Triangles that were skipped have empty boxes.
-    std::erase_if(items, [](const BoxedItem& item) { return item.box.empty(); });
-    return {std::move(items), threads};
+    std::erase_if(boxes, [](const BoxedItem& item) { return item.box.empty(); });
+    return {items, std::move(boxes), threads};
   }
 
   // The pairs of the groups, or of the groups with the others.
@@ -460,12 +569,14 @@ class CoplanarFinder {
                   FacetTest test) {
     if (groups.empty()) return {};
 
+    std::vector<TreeItem> items;
     std::vector<BoxedItem> boxes;
     for (const Group& group : groups) {
-      const Box& box = group.tree->box(group.tree->top(), 0);
-      boxes.push_back({boxes.size(), space.boxOf(box, group.instance)});
+      const Box box = space.boxOf(group.tree->box(), group.instance);
+      boxes.push_back({static_cast<std::uint32_t>(items.size()), box});
+      items.push_back({items.size(), {}});
     }
-    const BoxTree groupTree(std::move(boxes), 1);
+    const BoxTree groupTree(items, std::move(boxes), 1);
 
     std::atomic<std::int64_t> work =
         (groups.size() < kManyGroups ? kWork : kWorkOfInstances) +
