@@ -56,7 +56,7 @@ Json optionsJson(const Scene& scene, const CommonOptions& common, const RenderOp
   return rows;
 }
 
-Json infoJson(const OpenScene& open, const Renderer& renderer, const CommonOptions& common,
+Json infoJson(const OpenScene& open, const Plan& plan, const CommonOptions& common,
               const RenderOptions& options) {
   const Scene& scene = open.scene;
   Json json{{"scene", scene.name},
@@ -74,7 +74,7 @@ Json infoJson(const OpenScene& open, const Renderer& renderer, const CommonOptio
             {"lights", scene.lights.size()},
             {"textures", scene.textures.size()},
             {"sky", skyName(scene.sky)},
-            {"memory_mb", memoryMb(scene, renderer)},
+            {"memory_mb", static_cast<double>(scene.memoryBytes()) / 1e6},
             {"animations", Json::array()},
             {"variants", scene.variants},
             {"cameras", namesIn(scene.cameras)},
@@ -90,10 +90,10 @@ Json infoJson(const OpenScene& open, const Renderer& renderer, const CommonOptio
   for (const auto& [kind, entry] : open.warnings.entries()) {
     json["warnings"][kind] = {{"count", entry.count}, {"first", entry.first}};
   }
-  for (const Stage stage : renderer.plan().stages()) {
+  for (const Stage stage : plan.stages()) {
     json["stages"].push_back(kStageNames[static_cast<std::size_t>(stage)]);
   }
-  for (const KernelUse& kernel : kernelsOf(renderer.plan())) {
+  for (const KernelUse& kernel : kernelsOf(plan)) {
     json["kernels"].push_back({{"stage", kStageNames[static_cast<std::size_t>(kernel.stage)]},
                                {"kernel", kernel.kernel},
                                {"target", kernel.target}});
@@ -107,7 +107,7 @@ std::string textOf(const Json& value) {
 }
 
 // Prints what infoJson() returns for people.
-void printInfo(const Json& info, const OpenScene& open, const Renderer& renderer) {
+void printInfo(const Json& info, const OpenScene& open) {
   std::printf("%s\n", textOf(info["scene"]).c_str());
   for (const char* key :
        {"triangles", "spheres", "instances", "objects", "materials", "lights", "textures", "sky"}) {
@@ -137,9 +137,9 @@ void printInfo(const Json& info, const OpenScene& open, const Renderer& renderer
   for (const Json& variant : info["variants"]) {
     std::printf("\n  %-12s%s", "variant", textOf(variant).c_str());
   }
-  std::printf("\n  %-12s%.1f MB\n", "memory", info["memory_mb"].get<double>());
-  std::printf("  %-12s%.0f ms to load, %.0f ms to build\n", "time", open.loadMs,
-              renderer.buildMs());
+  std::printf("\n  %-12s%.1f MB of geometry and images\n", "memory",
+              info["memory_mb"].get<double>());
+  std::printf("  %-12s%.0f ms to load\n", "time", open.loadMs);
 
   // What the scene calls for, and what traces it.
   std::printf("\neffects\n");
@@ -188,12 +188,12 @@ int infoCommand(const Words& words) {
   loading.warns = false;  // they are part of the report
   const auto open = openAndTell(scenes[0], loading, progress.get());
   const RenderOptions options = optionsFor(open->scene, common);
-  const Renderer renderer(open->scene, options, progress.get());
+  const Plan plan = planOf(open->scene, options);
   progress.reset();
 
-  const Json info = infoJson(*open, renderer, common, options);
+  const Json info = infoJson(*open, plan, common, options);
   if (!json.empty()) writeJson(json, info);
-  if (json != "-") printInfo(info, *open, renderer);
+  if (json != "-") printInfo(info, *open);
   return 0;
 }
 

@@ -68,17 +68,21 @@ EffectSet builtIn(const Plan& plan) {
 
 }  // namespace
 
+Plan planOf(const Scene& scene, const RenderOptions& options) {
+  if (options.sphereSegments > 0 && scene.effects.has(Effect::spheres)) {
+    throwUsage("sphere-segments is taken while a scene is loaded: this one has exact spheres");
+  }
+  chooseSimd(options.simd);
+  return makePlan(scene, options);
+}
+
 Renderer::Renderer(const Scene& scene, const RenderOptions& options, Progress* progress)
     : scene_(scene),
       options_(options),
       scheduler_(options.threads > 0 ? options.threads : usableThreads()),
       adaptive_(scheduler_) {
   const Stopwatch stopwatch;
-  if (options.sphereSegments > 0 && scene.effects.has(Effect::spheres)) {
-    throwUsage("sphere-segments is taken while a scene is loaded: this one has exact spheres");
-  }
-  chooseSimd(options.simd);
-  plan_ = makePlan(scene, options);
+  plan_ = planOf(scene, options);
   const int threads = scheduler_.threads();
   accel_.emplace(scene, options, plan_.effects, threads, progress);
   lookAround();

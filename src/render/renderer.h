@@ -30,6 +30,10 @@ struct Machine {
   int threads = 1;
 };
 
+// Returns the plan of frames with these options, whose SIMD target becomes the chosen one. Throws
+// Error(usage) as the renderer's constructor does.
+Plan planOf(const Scene& scene, const RenderOptions& options);
+
 // Functions that change a renderer or its scene take effect from the next frame on. They must not
 // be called while a frame is rendered.
 class Renderer {
