@@ -177,14 +177,15 @@ class BoxTree {
   static constexpr std::uint32_t kChildren = BoxBlock::kBoxes;
 
   BoxTree() = default;
-  BoxTree(const std::vector<TreeItem>& items, std::vector<BoxedItem> boxes, int threads) {
+  BoxTree(std::vector<TreeItem> items, std::vector<BoxedItem> boxes, int threads)
+      : items_(std::move(items)) {
     if (boxes.empty()) return;
     sortInSpace(boxes, kChildren, boxes.size() > kTaskTriangles ? threads : 1);
 
-    items_.reserve(boxes.size());
+    places_.reserve(boxes.size());
     levels_.emplace_back((boxes.size() + kChildren - 1) / kChildren);
     for (std::size_t i = 0; i < boxes.size(); ++i) {
-      items_.push_back(items[boxes[i].place]);
+      places_.push_back(boxes[i].place);
       levels_[0][i / kChildren].set(i % kChildren, boxes[i].box);
     }
     counts_.push_back(static_cast<std::uint32_t>(boxes.size()));
@@ -207,7 +208,7 @@ class BoxTree {
     }
   }
 
-  bool empty() const { return items_.empty(); }
+  bool empty() const { return places_.empty(); }
   std::uint32_t top() const { return static_cast<std::uint32_t>(levels_.size() - 1); }
   std::uint32_t count(std::uint32_t level) const { return counts_[level]; }
   // The boxes of a level from number 8 * `block` on.
@@ -215,11 +216,12 @@ class BoxTree {
     return levels_[level][block];
   }
   Box box() const { return levels_.back()[0].box(0); }  // around everything
-  std::uint64_t item(std::uint32_t number) const { return items_[number].item; }
-  const Slope& slope(std::uint32_t number) const { return items_[number].slope; }
+  std::uint64_t item(std::uint32_t number) const { return items_[places_[number]].item; }
+  const Slope& slope(std::uint32_t number) const { return items_[places_[number]].slope; }
 
  private:
   std::vector<TreeItem> items_;
+  std::vector<std::uint32_t> places_;  // in items_, of each box of level 0
   std::vector<std::vector<BoxBlock>> levels_;
   std::vector<std::uint32_t> counts_;  // boxes of each level
 };
@@ -519,7 +521,7 @@ class CoplanarFinder {
         boxes.push_back({static_cast<std::uint32_t>(items.size()), world_.boxOf(facet)});
         items.push_back({order, slopeOf(facet)});
       }
-      return BoxTree(items, std::move(boxes), 1);
+      return BoxTree(std::move(items), std::move(boxes), 1);
     };
     if (all.empty()) return {};
 
@@ -561,7 +563,7 @@ class CoplanarFinder {
 
     // Triangles that were skipped have empty boxes.
     std::erase_if(boxes, [](const BoxedItem& item) { return item.box.empty(); });
-    return {items, std::move(boxes), threads};
+    return {std::move(items), std::move(boxes), threads};
   }
 
   // The pairs of the groups, or of the groups with the others.
@@ -576,7 +578,7 @@ class CoplanarFinder {
       boxes.push_back({static_cast<std::uint32_t>(items.size()), box});
       items.push_back({items.size(), {}});
     }
-    const BoxTree groupTree(items, std::move(boxes), 1);
+    const BoxTree groupTree(std::move(items), std::move(boxes), 1);
 
     std::atomic<std::int64_t> work =
         (groups.size() < kManyGroups ? kWork : kWorkOfInstances) +

@@ -381,6 +381,20 @@ TEST_F(SceneSections, ColorsOfPatternsMayBeNumbers) {
   EXPECT_NE(texelsOf("0.5"), texelsOf("1"));
 }
 
+// Digests tell patterns apart by their recipes.
+TEST_F(SceneSections, RecipesOfPatternsHoldTheValuesOfParameters) {
+  const auto recipeOf = [&](const std::string& count, const std::string& parameter) {
+    return loadMembers("\"parameters\": {\"n\": " + parameter +
+                       "}, \"textures\": {\"c\": {\"pattern\": \"stripes\", \"count\": " + count +
+                       "}}, \"materials\": {\"m\": {\"diffuseMap\": \"c\"}}, \"scene\": ["
+                       "{\"shape\": \"quad\", \"material\": \"m\"}]")
+        .textures.at(0)
+        .late->recipe;
+  };
+  EXPECT_EQ(recipeOf("\"$n\"", "3"), recipeOf("3", "4"));
+  EXPECT_NE(recipeOf("\"$n\"", "3"), recipeOf("\"$n\"", "4"));
+}
+
 TEST_F(SceneSections, PatternsAndTheirErrors) {
   const SceneDescription scene = loadMembers(
       "\"textures\": {\"c\": {\"pattern\": \"checker\", \"columns\": 4, \"size\": 16}},"

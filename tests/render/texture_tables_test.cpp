@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "accel/ray_queries.h"
 #include "core/error.h"
 #include "reference/small_scenes.h"
 #include "render/build_tables.h"
@@ -63,6 +64,38 @@ TEST(TextureTables, EveryFootprintIsWholeInOneStrip) {
       }
     }
   }
+}
+
+Texture lateTexture(int& made) {
+  Texture texture = makeTexture(TexelFormat::data, 1, 2, {0, 0xffffffffu});
+  texture.late = std::make_shared<LateTexels>([&made, texels = std::exchange(texture.texels, {})] {
+    ++made;
+    return texels;
+  });
+  return texture;
+}
+
+TEST(TextureTables, LateTexelsAreMadeForWhatLooksThemUp) {
+  int colors = 0, masks = 0;
+  SceneBuilder builder;
+  Material floor = diffuseMaterial(0.5f);
+  floor.diffuseMap = builder.add(lateTexture(colors));
+  floor.alphaMap = builder.add(lateTexture(masks));
+  floor.alphaCutoff = 0.5f;
+  builder.add(floorAt(0, 1, builder.add(floor)));
+  const Scene scene = builder.build();
+
+  buildTables(scene, EffectSet::all().without(Effect::textures), {});
+  EXPECT_EQ(colors + masks, 0);
+
+  const RayQueries queries(scene, 1);
+  EXPECT_EQ(colors, 0);
+  EXPECT_EQ(masks, 1);
+
+  const ShadingTables tables = buildTables(scene, EffectSet::all(), {});
+  EXPECT_EQ(colors, 1);
+  EXPECT_EQ(masks, 1) << "masks are kept";
+  EXPECT_EQ(tables.texels[tables.textures.at(0).firstTexel], 0xffffffffu) << "a row beyond the top";
 }
 
 // A floor has one row of texels that grow brighter from left to right.

@@ -62,6 +62,32 @@ TEST(Halved, DataAreMeansOfCodes) {
   EXPECT_EQ(halved(t).texels[0], 0x40000180u);
 }
 
+// Even sides are halved in whole numbers. A code is the nearest to the mean of four, and of two
+// that are as near the even one.
+TEST(Halved, MeansOfFourAreTheNearestCodes) {
+  const auto mean = [](const Texture& t, int column, int row, int shift, bool isData) {
+    double sum = 0;
+    for (const int i : {0, 1, 2, 3}) {
+      const std::uint32_t code = t.texel(2 * column + i % 2, 2 * row + i / 2) >> shift;
+      sum += isData ? code & 255u : std::pow(code & 1023u, 2);
+    }
+    return std::nearbyint(isData ? sum / 4 : std::sqrt(sum / 4));
+  };
+
+  for (const bool isData : {false, true}) {
+    const Texture t = noise(isData ? TexelFormat::data : TexelFormat::color, 256, 256);
+    const Texture half = halved(t);
+    for (int row = 0; row < half.height; ++row) {
+      for (int column = 0; column < half.width; ++column) {
+        for (int shift = 0; shift < 30; shift += isData ? 8 : 10) {
+          const std::uint32_t code = half.texel(column, row) >> shift & (isData ? 255u : 1023u);
+          ASSERT_EQ(code, mean(t, column, row, shift, isData)) << column << "," << row;
+        }
+      }
+    }
+  }
+}
+
 // Each of 2 texels covers 2.5 of 5.
 TEST(Halved, OddSizesCutThroughTexels) {
   const Texture t = makeTexture(TexelFormat::data, 5, 1, {100, 50, 20, 70, 90});
