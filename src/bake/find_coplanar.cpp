@@ -46,10 +46,11 @@ void addBoth(const Pairs& pairs, Orders& orders) {
   orders.erase(std::unique(orders.begin(), orders.end()), orders.end());
 }
 
+// Boxes grow by this many errors. 1 would do but for the rounding of the box to float and for
+// corners of two triangles that no edge separates, though they are farther apart.
+constexpr double kGrowth = 2;
+
 Box grown(const Vec3d& lower, const Vec3d& upper, double error) {
-  // 1 would do but for the rounding of the box to float and for corners of two triangles that no
-  // edge separates, though they are farther apart.
-  constexpr double kGrowth = 2;
   return {Vec3f(lower - Vec3d(kGrowth * error)), Vec3f(upper + Vec3d(kGrowth * error))};
 }
 
@@ -142,16 +143,58 @@ class BoxBlock {
   // processors could not predict them.
   Bytes meeting(const Box& other) const {
     std::array<std::uint8_t, kBoxes> marks;
-    for (std::size_t i = 0; i < kBoxes; ++i) {
-      const unsigned x =
-          unsigned{lower_[0][i] <= other.upper.x} & unsigned{other.lower.x <= upper_[0][i]};
-      const unsigned y =
-          unsigned{lower_[1][i] <= other.upper.y} & unsigned{other.lower.y <= upper_[1][i]};
-      const unsigned z =
-          unsigned{lower_[2][i] <= other.upper.z} & unsigned{other.lower.z <= upper_[2][i]};
-      marks[i] = static_cast<std::uint8_t>(x & y & z);
+    marks.fill(1);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float lower = other.lower[static_cast<int>(axis)];
+      const float upper = other.upper[static_cast<int>(axis)];
+      for (std::size_t i = 0; i < kBoxes; ++i) {
+        const unsigned meets =
+            unsigned{lower_[axis][i] <= upper} & unsigned{lower <= upper_[axis][i]};
+        marks[i] = static_cast<std::uint8_t>(marks[i] & meets);
+      }
     }
     return std::bit_cast<Bytes>(marks);
+  }
+
+  // Returns boxes that hold these ones after the map, grown by `error` and the error bound of their
+  // corners.
+  BoxBlock moved(const Affine& map, double error) const {
+    using Doubles = std::array<double, kBoxes>;
+    const std::array<Vec3d, 3> columns{map.x, map.y, map.z};
+    Doubles growth;
+    growth.fill(error + kErrorOfMagnitude * magnitudeOf({}, &map));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double share = kErrorOfMagnitude * magnitudeOf(columns[axis], nullptr);
+      for (std::size_t i = 0; i < kBoxes; ++i) {
+        growth[i] += share * std::max(std::abs(lower_[axis][i]), std::abs(upper_[axis][i]));
+      }
+    }
+
+    // The absolute values of the linear part carry the half sides of the box.
+    BoxBlock to;
+    for (int row = 0; row < 3; ++row) {
+      Doubles center, half;
+      center.fill(map.p[row]);
+      for (std::size_t i = 0; i < kBoxes; ++i) half[i] = kGrowth * growth[i];
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double factor = 0.5 * columns[axis][row], size = std::abs(factor);
+        for (std::size_t i = 0; i < kBoxes; ++i) {
+          const double lower = lower_[axis][i], upper = upper_[axis][i];
+          center[i] += factor * (lower + upper);
+          half[i] += size * (upper - lower);
+        }
+      }
+
+      // Empty boxes would leave the range of floats.
+      constexpr double kMost = std::numeric_limits<float>::max();
+      for (std::size_t i = 0; i < kBoxes; ++i) {
+        to.lower_[static_cast<std::size_t>(row)][i] =
+            static_cast<float>(std::min(center[i] - half[i], kMost));
+        to.upper_[static_cast<std::size_t>(row)][i] =
+            static_cast<float>(std::max(center[i] + half[i], -kMost));
+      }
+    }
+    return to;
   }
 
  private:
@@ -161,8 +204,9 @@ class BoxBlock {
 // Calls visit(i) for each marked box.
 template <typename Visitor>
 void forEachMarked(BoxBlock::Bytes marks, Visitor&& visit) {
-  for (; marks != 0; marks &= marks - 1)
+  for (; marks != 0; marks &= marks - 1) {
     visit(static_cast<std::size_t>(std::countr_zero(marks)) / 8);
+  }
 }
 
 struct TreeItem {
@@ -215,7 +259,6 @@ class BoxTree {
   const BoxBlock& block(std::uint32_t level, std::uint32_t block) const {
     return levels_[level][block];
   }
-  Box box() const { return levels_.back()[0].box(0); }  // around everything
   std::uint64_t item(std::uint32_t number) const { return items_[places_[number]].item; }
   const Slope& slope(std::uint32_t number) const { return items_[places_[number]].slope; }
 
@@ -275,20 +318,11 @@ class Space {
     return grown(min(min(a, b), c), max(max(a, b), c), facet.error);
   }
 
-  // True if boxOf() of a tree's box is that box.
-  bool keepsBoxes(std::uint32_t instance) const { return instance == kNoInstance && error_ == 0; }
-  // Returns the box in the world of a box of a tree: the world's own tree has grown boxes already,
-  // an instance's has not.
-  Box boxOf(const Box& box, std::uint32_t instance) const {
-    const Vec3d lower(box.lower), upper(box.upper);
-    if (instance == kNoInstance) return error_ > 0 ? grown(lower, upper, error_) : box;
-
-    // The absolute values of the linear part carry the half sides of the box.
-    const Affine& map = scene_.instances[instance].toWorld;
-    const Vec3d center = map.point((lower + upper) * 0.5), half = (upper - lower) * 0.5;
-    const Vec3d reach = abs(map).vector(half);
-    return grown(center - reach, center + reach,
-                 kErrorOfMagnitude * magnitudeOf(max(abs(lower), abs(upper)), &map));
+  // Returns the boxes in the world of boxes of a tree: the world's own tree has grown boxes
+  // already, an instance's has not.
+  BoxBlock boxesOf(const BoxBlock& boxes, std::uint32_t instance) const {
+    if (instance != kNoInstance) return boxes.moved(scene_.instances[instance].toWorld, 0);
+    return error_ > 0 ? boxes.moved(Affine(), error_) : boxes;
   }
 
  private:
@@ -332,8 +366,9 @@ class PairFinder {
 
   Node rootOf(const Group* group) const {
     const BoxTree& tree = group ? *group->tree : groupTree_;
-    const Box box = group ? space_.boxOf(tree.box(), group->instance) : tree.box();
-    return nodeOf(box, group, tree.top(), 0);
+    const BoxBlock& top = tree.block(tree.top(), 0);
+    const BoxBlock boxes = group ? space_.boxesOf(top, group->instance) : top;
+    return nodeOf(boxes.box(0), group, tree.top(), 0);
   }
   // Searches below two nodes. The comparisons are subtracted from `work`, and the search stops when
   // nothing is left of it.
@@ -375,16 +410,7 @@ class PairFinder {
     --children.level;
     children.first *= BoxTree::kChildren;
     const BoxBlock& own = tree.block(children.level, node.number);
-    if (!node.group || space_.keepsBoxes(node.group->instance)) {
-      children.boxes = own;
-      return children;
-    }
-
-    const std::uint32_t count =
-        std::min(BoxTree::kChildren, tree.count(children.level) - children.first);
-    for (std::uint32_t i = 0; i < count; ++i) {
-      children.boxes.set(i, space_.boxOf(own.box(i), node.group->instance));
-    }
+    children.boxes = node.group ? space_.boxesOf(own, node.group->instance) : own;
     return children;
   }
 
@@ -574,7 +600,8 @@ class CoplanarFinder {
     std::vector<TreeItem> items;
     std::vector<BoxedItem> boxes;
     for (const Group& group : groups) {
-      const Box box = space.boxOf(group.tree->box(), group.instance);
+      const BoxBlock& top = group.tree->block(group.tree->top(), 0);
+      const Box box = space.boxesOf(top, group.instance).box(0);
       boxes.push_back({static_cast<std::uint32_t>(items.size()), box});
       items.push_back({items.size(), {}});
     }

@@ -75,41 +75,27 @@ std::uint32_t meanTexel(const Texture& texture, const TexelWeights* weights,
   return mean;
 }
 
-// The mean of four texels, in whole numbers: the codes that meanTexel() finds, halves included.
+// The codes that meanTexel() finds for four texels, from whole numbers.
 std::uint32_t meanOfFour(TexelFormat format, const std::array<std::uint32_t, 4>& texels) {
-  std::uint32_t mean = 0;
-  if (format == TexelFormat::data) {
-    for (int shift = 0; shift < 32; shift += 8) {
-      std::uint32_t sum = 0;
-      for (const std::uint32_t texel : texels) sum += texel >> shift & 255u;
-      mean |= (sum + 1 + (sum >> 2 & 1)) >> 2 << shift;
-    }
-    return mean;
-  }
+  const bool isData = format == TexelFormat::data;
+  const int bits = isData ? 8 : 10;
+  const std::uint32_t most = (1u << bits) - 1;
 
-  for (int shift = 0; shift < 30; shift += 10) {
-    std::uint32_t squares = 0;
+  std::uint32_t mean = 0;
+  for (int shift = 0; shift + bits <= 32; shift += bits) {
+    std::uint32_t sum = 0;
     for (const std::uint32_t texel : texels) {
-      const std::uint32_t root = texel >> shift & 1023u;
-      squares += root * root;
+      const std::uint32_t code = texel >> shift & most;
+      sum += isData ? code : code * code;
     }
-    // The sum rounds the root of the mean to a whole number, in the low bits of its mantissa. A
-    // float suffices: no sum of squares has a root so close to an odd number without being one.
-    const float code = std::sqrt(static_cast<float>(squares)) * 0.5f + 0x1p23f;
-    mean |= (std::bit_cast<std::uint32_t>(code) & 1023u) << shift;
+
+    // Adding 2^23 rounds to a whole number in the low bits. Floats suffice: no sum of squares has a
+    // root so close to an odd number without being one.
+    const float exact = static_cast<float>(sum);
+    const float code = (isData ? exact * 0.25f : std::sqrt(exact) * 0.5f) + 0x1p23f;
+    mean |= (std::bit_cast<std::uint32_t>(code) & most) << shift;
   }
   return mean;
-}
-
-void halveEvenSides(const Texture& texture, Texture& half) {
-  std::uint32_t* to = half.texels.data();
-  for (int row = 0; row < texture.height; row += 2) {
-    for (int column = 0; column < texture.width; column += 2) {
-      *to++ = meanOfFour(texture.format,
-                         {texture.texel(column, row), texture.texel(column + 1, row),
-                          texture.texel(column, row + 1), texture.texel(column + 1, row + 1)});
-    }
-  }
 }
 
 Texture halvedBy(const Texture& texture, const TexelWeights* weights) {
@@ -118,13 +104,18 @@ Texture halvedBy(const Texture& texture, const TexelWeights* weights) {
   half.wrapU = texture.wrapU;
   half.wrapV = texture.wrapV;
 
+  std::uint32_t* to = half.texels.data();
   const bool isEven = texture.width % 2 == 0 && texture.height % 2 == 0;
   if (isEven && !weights && texture.format != TexelFormat::radiance) {
-    halveEvenSides(texture, half);
+    for (int y = 0; y < texture.height; y += 2) {
+      for (int x = 0; x < texture.width; x += 2) {
+        *to++ = meanOfFour(texture.format, {texture.texel(x, y), texture.texel(x + 1, y),
+                                            texture.texel(x, y + 1), texture.texel(x + 1, y + 1)});
+      }
+    }
     return half;
   }
 
-  std::uint32_t* to = half.texels.data();
   const std::vector<TexelCover> columns = texelCovers(texture.width, half.width);
   for (const TexelCover& row : texelCovers(texture.height, half.height)) {
     for (const TexelCover& column : columns) *to++ = meanTexel(texture, weights, column, row);
