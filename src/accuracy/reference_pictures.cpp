@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "inspect/reference_frame.h"
 #include "output/digest.h"
 
 namespace whit::accuracy {
@@ -64,7 +65,7 @@ const ReferencePicture& ReferenceCache::get(const RenderOptions& options, Progre
   Film film = makeFilm(scene_, options);
   film.wantDisplay = false;
   Renderer renderer(scene_, options);
-  const FrameStats stats = renderer.renderReference(camera_, film, progress);
+  const FrameStats stats = renderReference(renderer, camera_, film, progress);
 
   ReferencePicture picture{std::move(film.image), stats.frameMs,
                            static_cast<double>(stats.allRays())};

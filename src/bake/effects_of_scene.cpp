@@ -50,6 +50,7 @@ constexpr MaterialRule kMaterialRules[] = {
      [](const Material& m) { return m.alphaMap != kNoTexture && m.alphaCutoff > 0; }},
     {Effect::coverage, "whose coverage is not 1",
      [](const Material& m) { return m.isPartlyThere(); }},
+
     {Effect::glossy, "with a glossy lobe",
      [](const Material& m) { return m.hasGlossy() || m.isFrosted(); }},
     {Effect::glossyReflection, "whose glossy lobe reflects the scene",

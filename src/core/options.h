@@ -1,7 +1,7 @@
 // Every option of a render, declared once: a member of RenderOptions and its entry in
 // withOptions(). The command line, --help, the manual page, the metadata of images, the library,
-// what a renderer makes anew and the viewer's panel all follow from the entry; inspect/knobs.cpp has
-// what the sweep of `whit accuracy` adds.
+// what a renderer makes anew and the viewer's panel all follow from the entry; inspect/knobs.cpp
+// has what the sweep of `whit accuracy` adds.
 #pragma once
 
 #include <array>

@@ -110,7 +110,7 @@ TEST(StageTable, HasTheseWords) {
             "  frame 200.00 ms (5.0 a second); load 1234 ms, build 56 ms\n"
             "  stage                                     ms       %\n" +
                 stages +
-                formatted("  between the stages, waiting       %11.3f%8.1f\n", 200 - sum,
+                formatted("  between the stages, waiting       %10.3f%8.1f\n", 200 - sum,
                           (200 - sum) / 2) +
                 "  of all this inside Embree             40.000    20.0\n"
                 "  updateScene, before the frame          7.000\n"
@@ -155,7 +155,8 @@ TEST(RunJson, HasTheseNumbers) {
   EXPECT_LT(json["peak_rss_mb"].get<double>(), 1e5);
 }
 
-// 1024 x 1024 texels of 4 bytes are 4.2 MB; strips and mip levels add a half at most.
+// 1024 x 1024 texels of 4 bytes are 4.2 MB. Mip levels and the tables of kernels hold no more than
+// twice as much again.
 TEST(MemoryMb, IsInMillionsOfBytes) {
   const auto memoryOf = [](int side) {
     const TemporaryFolder folder;
@@ -168,7 +169,7 @@ TEST(MemoryMb, IsInMillionsOfBytes) {
   };
   const double more = memoryOf(1024) - memoryOf(16);
   EXPECT_GT(more, 4.1);
-  EXPECT_LT(more, 4.2 * 1.6);
+  EXPECT_LT(more, 4.2 * 3);
 }
 
 TEST(LoadText, TellsOfABusyMachine) {

@@ -53,7 +53,7 @@ cheap() {
     -e 's/--crop 0,0,640,720/--crop 0,0,32,40/' -e 's/--crop 640,0,1280,720/--crop 32,0,64,40/' \
     -e '/whit (bench|effects)/{/--frames/!s/$/ --frames 1/}' \
     -e '/whit (render|bench|effects|compare [a-z]+ )/{/--(size|help)/!s/$/ --size 64x40/}' \
-    -e '/whit accuracy/s/$/ --size 16x10 --knobs cutoff --time-budget 0/' -e 's/--hashes 480x300/--hashes 48x30/' -e '/--hashes/!s/(whit-verify).*/\1 --only H13/' \
+    -e '/whit accuracy/s/$/ --size 16x10 --knobs cutoff --time-budget 0/' -e 's/--hashes 480x300/--hashes 48x30/' -e '/--hashes/!s/whit-verify.*/& --only H13/' \
     -e '/whit-view/s/$/ --script leave.txt --size 64x40/'
 }
 

@@ -17,7 +17,8 @@ endif()
 if(NOT WHIT_SANITIZE)
   whit_program_test(cli readme.commands_work
                     ${folder}/readme_test.sh
-                    ${CMAKE_SOURCE_DIR}/README.md ${CMAKE_SOURCE_DIR}/viewer/README.md
+                    ${CMAKE_SOURCE_DIR}/README.md ${CMAKE_SOURCE_DIR}/tests/README.md
+                    ${CMAKE_SOURCE_DIR}/viewer/README.md
                     ${CMAKE_SOURCE_DIR}/scenes/README.md ${CMAKE_SOURCE_DIR}/tests/bench/README.md
                     ${CMAKE_SOURCE_DIR}/src/accuracy/README.md ${readers})
   # Takes longest: begins first.

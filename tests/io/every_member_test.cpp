@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 
+#include "inspect/reference_frame.h"
 #include "render/renderer.h"
 #include "scene/members.h"
 #include "scene_files.h"
@@ -15,11 +16,12 @@ namespace {
 using Json = nlohmann::json;
 using Names = std::set<std::string>;
 
-// A member in a scene file: the noun's place, the name, a value, and members that have to be there
-// as well, as a JSON object.
+// A member in a scene file: the noun's place, the name and a value, and as JSON objects members
+// that have to be there as well, and those that come with the value.
 struct Row {
   const char *place, *name, *value;
   const char* beside = "{}";
+  const char* with = "{}";
 };
 
 const char kCamera[] = "/cameras/main", kMaterial[] = "/materials/a", kPoint[] = "/lights/0",
@@ -80,10 +82,10 @@ const Row kRows[] = {
     {kMaterial, "diffuseReflection", "false"},
     {kMaterial, "glossyReflection", "false", kGlossy},
     {kMaterial, "castsShadow", "false"},
-    {kMaterial, "coat", "false", kMirror},
+    {kMaterial, "coat", "true", kMirror},
     {kMaterial, "doubleSided", "false"},
 
-    {kPoint, "type", "\"spot\"", R"({"direction": [0, -1, 0]})"},
+    {kPoint, "type", "\"spot\"", "{}", R"({"direction": [0, -1, 0]})"},
     {kPoint, "position", "[-2, 3, 1]"},
     {kPoint, "intensity", "[9, 20, 30]"},
     {kPoint, "radius", "0.8"},
@@ -151,6 +153,7 @@ class EveryMember : public SceneFileTest {
     options.depth = 4;
     options.lightSamples = options.ambientSamples = 2;
     options.glossy = withRays_ ? 1 : 0;
+    options.indirect = indirect_;
     options.mode = mode;
 
     Renderer renderer(loaded, options);
@@ -159,11 +162,12 @@ class EveryMember : public SceneFileTest {
     if (mode == Mode::packets) {
       renderer.render(camera, film);
     } else {
-      renderer.renderReference(camera, film);
+      renderReference(renderer, camera, film);
     }
     return film.image;
   }
 
+  int indirect_ = 0;
   bool withRays_ = false;  // rough surfaces sample their lobe, in place of a blurred sky
 };
 
@@ -178,10 +182,12 @@ TEST_F(EveryMember, ChangesThePicture) {
     if (beside.contains("image")) before[place] = Json::object();  // the gradient of the sky goes
     before[place].update(beside);
     Json after = before;
+    after[place].update(Json::parse(row.with));
     after[place][row.name] = Json::parse(row.value);
 
     // Samples of the lobe see the material's own members, and the blurred sky the ambient light's.
     withRays_ = std::string(row.name) == "glossyReflection" || std::string(row.name) == "frosted";
+    indirect_ = std::string(row.name) == "diffuseReflection" ? 1 : 0;
     for (const Mode mode : {Mode::packets, Mode::reference}) {
       SCOPED_TRACE(std::string(row.place) + "/" + row.name);
       EXPECT_TRUE(picture(before, mode).pixels != picture(after, mode).pixels)

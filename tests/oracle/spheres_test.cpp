@@ -48,14 +48,14 @@ void addBalls(SceneMaker& maker, const std::function<Material()>& material) {
   addSheared(maker, material(), maker.standing(3, 4));
 }
 
-Material anyOpaque(SceneMaker& maker) {
+Material anyBallMaterial(SceneMaker& maker) {
   if (maker.random.chance(0.3)) return maker.mirror();
   if (maker.random.chance(0.6)) return maker.glossy();
   return maker.matte();
 }
 
 Material anyFinish(SceneMaker& maker) {
-  Material material = anyOpaque(maker);
+  Material material = anyBallMaterial(maker);
   if (maker.random.chance(0.3)) material.emission = maker.random.color(0, 1);
   return material;
 }

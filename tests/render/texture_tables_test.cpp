@@ -88,7 +88,7 @@ TEST(TextureTables, LateTexelsAreMadeForWhatLooksThemUp) {
   buildTables(scene, EffectSet::all().without(Effect::textures), {});
   EXPECT_EQ(colors + masks, 0);
 
-  const RayQueries queries(scene, 1);
+  const RayQueries queries(scene, 1, nullptr);
   EXPECT_EQ(colors, 0);
   EXPECT_EQ(masks, 1);
 

@@ -312,19 +312,22 @@ TEST_F(Serving, EveryVerbIsServed) {
   session_->watch(-1);
 }
 
-// What a line of the page changes in what the page is then told: the pointer into the JSON and the
-// text there, or the part of the command that makes the picture.
+// What a line of the page changes in what the page is then told: a pointer into the JSON, and words
+// that are there then and were not before; without them the text there is another one.
 TEST_F(Serving, EveryVerbChangesWhatItSays) {
   struct Row {
     const char *line, *pointer, *value;
   };
   const Row rows[] = {{"size 64 40 1", "/window", "[64,40]"},
-                      {"camera 1", "/command", "--camera side"},
-                      {"left 30 0", "/command", "--eye"},
-                      {"fit", "/command", "--at"},
+                      {"camera 1", "/command", "--camera=side"},
+                      {"fit", "/command", "--eye="},
+                      {"left 30 0", "/command", nullptr},
+                      {"middle 20 9", "/command", nullptr},
+                      {"wheel 2", "/command", nullptr},
+                      {"hold 0 0 0 1 0 0", "/command", nullptr},
                       {"expose 2", "/options/exposure", "2"},
                       {"set depth 3", "/options/depth", "3"},
-                      {"effect shadows 0", "/command", "--disable shadows"},
+                      {"effect shadows 0", "/command", "--disable=shadows"},
                       {"preset fine", "/options/spp", "4"},
                       {"view depth", "/view", "depth"},
                       {"rate 7", "/rate", "7"},
@@ -334,27 +337,36 @@ TEST_F(Serving, EveryVerbChangesWhatItSays) {
 
   session_->watch(1);
   std::shared_ptr<const Shot> shot;
-  const auto told = [&](const Row& row) {
-    const Json::json_pointer pointer(row.pointer);
+  const auto textAt = [&](const char* pointer) {
     for (const std::string* text : {&shot->live, &shot->settled}) {
       const Json json = parseJson(*text, "shot");
-      if (!json.contains(pointer)) continue;
-      const Json& there = json[pointer];
-      const std::string words = there.is_string() ? there.get<std::string>() : there.dump();
-      return words.find(row.value) != std::string::npos;
+      const Json::json_pointer place(pointer);
+      if (!json.contains(place)) continue;
+      return json[place].is_string() ? json[place].get<std::string>() : json[place].dump();
     }
-    return false;
+    return std::string("nothing");
   };
 
   while (!shot) shot = session_->wait(0);
   for (const Row& row : rows) {
-    EXPECT_FALSE(told(row)) << row.line << " has nothing to change";
-    ASSERT_TRUE(session_->post(readMessages(row.line))) << row.line;
-    // Each wait ends after some time without a newer shot.
-    for (int i = 0; i < 600 && !told(row); ++i) {
+    // The command is that of the picture at rest.
+    Stopwatch waited;
+    constexpr double kLongEnoughMs = 30'000;
+    while (!shot->exact && waited.ms() < kLongEnoughMs) {
       if (const auto next = session_->wait(shot->number)) shot = next;
     }
-    EXPECT_TRUE(told(row)) << row.line << ": " << shot->settled.substr(0, 400);
+    const std::string before = textAt(row.pointer);
+    const auto isTold = [&] {
+      const std::string now = textAt(row.pointer);
+      return row.value ? now.find(row.value) != std::string::npos : now != before;
+    };
+    EXPECT_FALSE(isTold()) << row.line << " has nothing to change";
+
+    ASSERT_TRUE(session_->post(readMessages(row.line))) << row.line;
+    for (waited = Stopwatch(); !isTold() && waited.ms() < kLongEnoughMs;) {
+      if (const auto next = session_->wait(shot->number)) shot = next;
+    }
+    EXPECT_TRUE(isTold()) << row.line << ": " << textAt(row.pointer) << ", as " << before;
   }
   session_->watch(-1);
 }

@@ -2,7 +2,6 @@
 #include <array>
 #include <bit>
 #include "pi.h"
-#include "reference/intersect.h"
 #include "surfaces/intersect.h"
 #include "verify/bodies.h"
 

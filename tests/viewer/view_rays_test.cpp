@@ -32,8 +32,8 @@ TEST_F(RayPicking, TheRaysAreThoseOfThePicture) {
     EXPECT_EQ(pick->rays.packets.pixel, frame.film.image.at(x, y)) << x << "," << y;
     EXPECT_EQ(pick->words.size(), pick->rays.packets.nodes.size());
     // The pixels in row 14 show the ball, the others the floor.
-    EXPECT_EQ(pick->words[0].met.rfind(y == 14 ? "mirror, " : "floor, ", 0), 0u)
-        << pick->words[0].met;
+    EXPECT_EQ(pick->words[0].hit.rfind(y == 14 ? "mirror, " : "floor, ", 0), 0u)
+        << pick->words[0].hit;
     EXPECT_FALSE(thread.takePick());
   }
   expectRightPicture(thread);
