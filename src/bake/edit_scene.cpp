@@ -30,9 +30,15 @@ bool sameKindOfLight(const Light& a, const Light& b) {
 }
 
 void keepBaked(const Material& from, Material& to) {
+  const Material next = to;
   forEachMember<Material>([&](const auto& member) {
     if (member.rules.baked) to.*member.field = from.*member.field;
   });
+
+  // No triangle depends on these maps, so they can be left out.
+  for (auto map : {&Material::roughnessMap, &Material::mirrorMap, &Material::transmissionMap}) {
+    if (next.*map == kNoTexture) to.*map = kNoTexture;
+  }
 }
 
 void moveCamera(const Scene& scene, const MovingCamera& moving, const std::vector<Affine>& poses,

@@ -9,7 +9,8 @@
 namespace whit {
 
 // Replaces the scene's materials and lights by as many others, item by item. Materials keep their
-// maps, alpha cutoff and shadow, because triangles were sorted by them. Numbers the media and
+// alpha cutoff and shadow, because triangles were sorted by them, and their maps, except that maps
+// of roughness, mirror and transmission can be left out. Numbers the media and
 // gathers the effects again; geometry is not touched, so that pointers into it stay valid. Values
 // are validated as by Scene::finalize(): throws Error(badScene), and the scene is then unchanged;
 // throws Error(usage) for another number of items. The caller has to notify renderers of the scene

@@ -1,5 +1,6 @@
 #include "engine/engine.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "bake/edit_scene.h"
@@ -9,6 +10,7 @@
 #include "core/text.h"
 #include "inspect/auto_exposure.h"
 #include "inspect/reference_frame.h"
+#include "io/files.h"
 #include "io/scene/scene_settings.h"
 
 namespace whit {
@@ -60,27 +62,45 @@ RenderOptions Engine::wantedOptions() const {
   return wanted;
 }
 
-void Engine::edit(const std::string& text, Progress* progress) {
-  const SceneSetting setting = parseSceneSetting(text);
-  const SceneSource& source = opened_->source;
-  LoadOptions& load = opened_->load;
+void Engine::edit(const std::string& setting, Progress* progress) {
+  LoadOptions load = opened_->load;
+  addSceneSetting(setting, load.settings);
+  edit({setting}, load, progress);
+}
+
+void Engine::edit(const std::vector<std::string>& added, const LoadOptions& load,
+                  Progress* progress) {
+  std::vector<SceneSetting> touched;
+  for (const std::string& setting : added) touched.push_back(parseSceneSetting(setting));
+
+  // The document is forgotten if anything fails, because it then has settings that do not count.
+  std::optional<JsonDocument> document = std::exchange(document_, std::nullopt);
+  if (!document) document = readSceneDocument();
+  for (const SceneSetting& setting : touched) applySceneSetting(setting, *document);
+
   queries_.reset();  // they know the materials' masks
-  if (!document_) {
-    document_ = source.text ? readDocument(*source.text, load) : readDocument(source.name, load);
-  }
-  JsonDocument* const document = document_ ? &*document_ : nullptr;
-  if (!editScene(setting, load, document, opened_->scene)) {
-    LoadOptions changed = load;
-    addSceneSetting(text, changed.settings);
-    readAgain(source, changed, progress);
+  const std::vector<std::uint8_t> media = scene().mediumOfMaterial;
+  Warnings warnings(opened_->strict);
+  if (!editScene(touched, load, *document, warnings, opened_->scene)) {
+    readAgain(opened_->source, load, progress);
     return;
   }
 
+  document_ = std::move(document);
+  opened_->load.settings = load.settings;
+  opened_->load.sky = load.sky;
   optionsChanged_ = true;  // for the automatic exposure
-  addSceneSetting(text, load.settings);
+
+  const auto touches = [&](const char* section) {
+    return std::ranges::any_of(
+        touched, [&](const SceneSetting& setting) { return setting.tokens.front() == section; });
+  };
+  moved_ |= touches("lights") && scene().motion.ofLights();
+  if (!renderer_) return;
   try {
-    if (renderer_) renderer_->camerasChanged();
-    if (renderer_) renderer_->shadingChanged();
+    // What surrounds a camera depends on the surfaces that bound a medium, too.
+    if (touches("cameras") || media != scene().mediumOfMaterial) renderer_->camerasChanged();
+    renderer_->shadingChanged();
   } catch (...) {
     renderer_.reset();  // prepare() makes another one for the present scene
     throw;
@@ -101,6 +121,16 @@ void Engine::setMesh(const std::string& name, GivenMesh mesh, Progress* progress
 
   found->second = std::move(mesh);
   readAgain({source.name, std::move(changed)}, opened_->load, progress);
+}
+
+JsonDocument Engine::readSceneDocument() const {
+  const SceneSource& source = opened_->source;
+  const LoadOptions& load = opened_->load;
+  if (source.text) return readDocument(*source.text, load);
+  if (std::optional<JsonDocument> document = readDocument(source.name, load)) return *document;
+
+  const auto path = findScene(parseSceneName(source.name).file, load.shippedScenes);
+  return describeModel(path.string(), scene(), load);
 }
 
 void Engine::readAgain(const SceneSource& source, const LoadOptions& load, Progress* progress) {

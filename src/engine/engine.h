@@ -62,6 +62,10 @@ class Engine {
   // Sets a member of the scene, as --set POINTER=VALUE. The scene is read again where that is
   // needed. Throws as the reader does, with nothing changed.
   void edit(const std::string& setting, Progress* progress = nullptr);
+  // Adds settings. `load` has them, and is what the scene is read with then; another sky in it
+  // needs a setting of the sky.
+  void edit(const std::vector<std::string>& added, const LoadOptions& load,
+            Progress* progress = nullptr);
   // Replaces the arrays of a mesh that a program made, and reads the scene again. Throws as the
   // reader does, with nothing changed.
   void setMesh(const std::string& name, GivenMesh mesh, Progress* progress = nullptr);
@@ -99,10 +103,12 @@ class Engine {
 
  private:
   void readAgain(const SceneSource& source, const LoadOptions& load, Progress* progress);
+  JsonDocument readSceneDocument() const;
   void forgetRenderer();
 
   std::shared_ptr<OpenScene> opened_;
-  std::optional<JsonDocument> document_;  // that the scene was read from, after the first edit
+  // The document that the scene is read from, with its settings; none before the first edit.
+  std::optional<JsonDocument> document_;
 
   RenderOptions asked_;
   // Names of the options in asked_ that the caller chose; none: asked_ is complete.

@@ -145,22 +145,6 @@ void readView(JsonObject& file, std::optional<double>& fromSky, SceneContext& co
   }
 }
 
-// Replaces the scene's sky if LoadOptions::sky names another.
-void replaceSky(SceneContext& context) {
-  Sky& sky = context.scene.sky;
-  if (context.sky.empty() || (context.sky == kStudio && sky.name == kStudio)) return;
-  sky = context.sky == kStudio ? studioSky() : Sky();
-  if (context.sky == kStudio || context.sky == kNoSky) return;
-  sky.kind = Sky::Kind::image;
-  sky.name = context.sky;
-  context.textures.addEnvironment(context.sky, "--sky", sky.image);
-}
-
-void moveLights(const Vec3d& way, Json& root) {
-  if (!root.contains("lights") || !root["lights"].is_array()) return;
-  for (Json& light : root["lights"]) movePoints(light, way);
-}
-
 // Applies the settings of one section, or of all sections where it is empty.
 void applySettings(const LoadOptions& options, const std::string& section, JsonDocument& document) {
   for (const std::string& text : options.settings) {
@@ -347,9 +331,9 @@ SceneDescription loadModelFile(const fs::path& path, const SceneName& name,
   // The settings are read as if a scene file contained them and the model's lights.
   JsonDocument document = nothing;
   if (!options.settings.empty()) document.root["lights"] = describe(scene.lights);
-  moveLights(scene.origin, document.root);
+  moveLights(document.root, scene.origin);
   applySettings(options, "", document);
-  moveLights(-scene.origin, document.root);
+  moveLights(document.root, -scene.origin);
   JsonObject file{JsonValue(document)};
   file.find("materials");
   file.find("up");

@@ -1,6 +1,7 @@
 // Models: files with geometry and the materials that belong to it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -26,6 +27,17 @@ inline constexpr float kModelGray = 0.6f;  // albedo of what has no material
 // Names of a material's members that a scene file gives itself or that follow from those, in place
 // of what a model's own file says.
 using GivenMembers = std::set<std::string>;
+
+// Maps that the reader of a model leaves out where a scene gives the member that they multiply,
+// because that is meant as it stands. The map of a member is called as the member and "Map".
+struct ReplacedMap {
+  const char* member;
+  std::int32_t Material::*map;
+};
+inline constexpr std::array kReplacedMaps{ReplacedMap{"roughness", &Material::roughnessMap},
+                                          ReplacedMap{"mirror", &Material::mirrorMap},
+                                          ReplacedMap{"transmission", &Material::transmissionMap},
+                                          ReplacedMap{"coverage", &Material::coverageMap}};
 
 struct TexturedMaterial {
   Material material;

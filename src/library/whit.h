@@ -381,8 +381,8 @@ class Renderer {
 
   // Sets a member of the scene's description for the following frames, like --set of the program:
   // setMember("/lights/0/intensity", "40"). The picture equals that of a scene which was loaded
-  // with this value. Lights, colors of the sky, ambient light, the image size, numbers of the
-  // materials of scene files and builders, and cameras need no rebuild unless they move; for other
+  // with this value. Lights, the sky, ambient light, the image size, numbers of materials,
+  // and cameras that stand still need no rebuild, of models only lights and materials; for other
   // members the scene is read again. After an error the scene is unchanged.
   Renderer& setMember(const std::string& pointer, const std::string& json);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <numeric>
 #include <vector>
@@ -180,7 +181,7 @@ double SpotCone::falloff(const Vec3d& unitToLight) const {
 }
 
 std::string skyName(const Sky& sky) {
-  if (!sky.name.empty()) return sky.name;
+  if (!sky.name.empty()) return std::filesystem::path(sky.name).filename().string();
   constexpr const char* kKinds[] = {"none", "color", "gradient", "image"};
   return kKinds[static_cast<std::size_t>(sky.kind)];
 }

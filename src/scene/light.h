@@ -54,7 +54,7 @@ SpotCone coneOf(const Light& light);
 // Members are listed in scene/members.h.
 struct Sky {
   enum class Kind { none, color, gradient, image };
-  std::string name;  // studio, the image's file, or empty
+  std::string name;  // studio, the whole path of the image's file, or empty
   Kind kind = Kind::none;
   // gradient: linear in the sine of the elevation, horizon to zenith above, horizon to ground
   // below. color: `zenith` everywhere.

@@ -333,12 +333,9 @@ TexturedMaterial GltfMapMaker::withMaps(const GltfMaterial& source, Material mat
 
   const GltfMaps maps = ask(source, textures);
   forEachMap([&](const auto& member) {
-    // A roughness, mirror, transmission or coverage that is given is meant as it stands.
-    const bool isReplaced =
-        (member.field == &Material::roughnessMap && given.contains("roughness")) ||
-        (member.field == &Material::mirrorMap && given.contains("mirror")) ||
-        (member.field == &Material::transmissionMap && given.contains("transmission")) ||
-        (member.field == &Material::coverageMap && given.contains("coverage"));
+    const bool isReplaced = std::ranges::any_of(kReplacedMaps, [&](const ReplacedMap& replaced) {
+      return replaced.map == member.field && given.contains(replaced.member);
+    });
     if (isReplaced || given.contains(member.name)) return;
     material.*member.field = maps.slots.*member.field;
   });

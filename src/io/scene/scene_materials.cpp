@@ -198,13 +198,30 @@ void MaterialReader::checkUnused() {
   }
 }
 
-void MaterialReader::read(JsonObject& object, Material& m) {
+void MaterialReader::read(JsonObject& object, Material& material) {
+  const auto readMap = [&](const JsonValue& name, const auto& map) {
+    return texture(name, map.rules.use);
+  };
+  readMaterial(object, readMap, material);
+}
+
+void MaterialReader::override(JsonObject& object, Material& material, GivenMembers& given) {
+  read(object, material);
+  for (const auto& [name, value] : object.value().members()) given.insert(name);
+
+  // Members that are given decide the defaults of others.
+  forEachMember<Material>([&](const auto& member) {
+    if (!given.contains(member.name)) return;
+    for (const std::string_view name : member.rules.decides) given.emplace(name);
+  });
+}
+
+void readMaterial(JsonObject& object, const ReadMap& readMap, Material& m) {
   readMembers(object, m);
 
-  forEachMap([&](const auto& member) {
-    const JsonValue name = object.find(member.name);
-    if (!name) return;
-    m.*member.field = name.isNull() ? kNoTexture : texture(name, member.rules.use);
+  forEachMap([&](const auto& map) {
+    const JsonValue name = object.find(map.name);
+    if (name) m.*map.field = name.isNull() ? kNoTexture : readMap(name, map);
   });
 
   // Other members decide these defaults; see `decides` in scene/members.h.
@@ -219,17 +236,6 @@ void MaterialReader::read(JsonObject& object, Material& m) {
   if ((transmits || object.has("coverage")) && !object.has("castsShadow")) {
     m.castsShadow = m.blocksLight();
   }
-}
-
-void MaterialReader::override(JsonObject& object, Material& material, GivenMembers& given) {
-  read(object, material);
-  for (const auto& [name, value] : object.value().members()) given.insert(name);
-
-  // Members that are given decide the defaults of others.
-  forEachMember<Material>([&](const auto& member) {
-    if (!given.contains(member.name)) return;
-    for (const std::string_view name : member.rules.decides) given.emplace(name);
-  });
 }
 
 }  // namespace whit

@@ -86,6 +86,26 @@ std::filesystem::path absolutePath(const std::filesystem::path& path) {
   return std::filesystem::weakly_canonical(std::filesystem::current_path() / path);
 }
 
+void readSkyImage(const std::filesystem::path& path, const std::string& where,
+                  SceneContext& context) {
+  Sky& sky = context.scene.sky;
+  sky.kind = Sky::Kind::image;
+  sky.name = std::filesystem::absolute(path).lexically_normal().string();
+  if (sky.name != context.knownSky) {
+    context.textures.addEnvironment(path.string(), where, sky.image);
+  }
+}
+
+void setStudio(SceneContext& context) {
+  Sky& sky = context.scene.sky;
+  if (context.knownSky != kStudio) {
+    sky = studioSky();
+    return;
+  }
+  sky.kind = Sky::Kind::image;
+  sky.name = kStudio;
+}
+
 constexpr double kLeastScale = 1e-9, kLargestScale = 1e9;
 
 // Numbers of a key: three of translation, the degrees, three of scale.
@@ -260,21 +280,16 @@ void readSky(JsonObject& file, SceneContext& context) {
   JsonObject object(value);
   Sky& sky = context.scene.sky;
   sky = Sky();
-  sky.scale = object.number("scale", sky.scale, 0);
+  const float scale = object.number("scale", sky.scale, 0);
 
   if (const JsonValue image = object.find("image")) {
     sky.kind = Sky::Kind::image;
     sky.rotation = object.number("rotation", sky.rotation);
     const auto path = context.rules.resolve(image.text(), context.folder, image.where());
-    sky.name = path.filename().string();
-    if (context.sky.empty()) {
-      context.textures.addEnvironment(path.string(), image.where(), sky.image);
-    }
+    if (context.sky.empty()) readSkyImage(path, image.where(), context);
   } else if (const JsonValue preset = object.find("preset")) {
     preset.word({kStudio});
-    const float scale = sky.scale;
-    sky = studioSky();
-    sky.scale = scale;
+    setStudio(context);
     sky.rotation = object.number("rotation", sky.rotation);
   } else if (const JsonValue color = object.find("color")) {
     sky.kind = Sky::Kind::color;
@@ -290,7 +305,18 @@ void readSky(JsonObject& file, SceneContext& context) {
         "a sky with \"color\", with \"zenith\", \"horizon\" and \"ground\", with \"image\" or with "
         "\"preset\"");
   }
+  sky.scale = scale;
   object.finish();
+}
+
+void replaceSky(SceneContext& context) {
+  Sky& sky = context.scene.sky;
+  if (context.sky.empty() || (context.sky == kStudio && sky.name == kStudio)) return;
+
+  sky = Sky();
+  if (context.sky == kNoSky) return;
+  if (context.sky == kStudio) return setStudio(context);
+  readSkyImage(context.sky, "--sky", context);
 }
 
 // The ambient light's share of the sky says how open the scene is.
@@ -347,6 +373,11 @@ void movePoints(Json& noun, const Vec3d& way) {
   }
 }
 
+void moveLights(Json& root, const Vec3d& way) {
+  if (!root.contains("lights") || !root["lights"].is_array()) return;
+  for (Json& light : root["lights"]) movePoints(light, way);
+}
+
 Json describe(const Ambient& ambient) {
   Json json = ambient.ofSky > 0
                   ? Json{{"fromSky", ambient.ofSky}}
@@ -354,6 +385,23 @@ Json describe(const Ambient& ambient) {
   if (ambient.occlusion > 0) json["occlusion"] = describe(ambient.occlusion);
   const bool usual = ambient.reflection == usualReflection(ambient.ofSky > 0 ? ambient.ofSky : 1);
   if (!usual) json["reflection"] = describe(ambient.reflection);
+  return json;
+}
+
+Json describe(const Sky& sky) {
+  if (sky.kind == Sky::Kind::none) return {{"color", 0}};
+
+  Json json{{"scale", describe(sky.scale)}};
+  if (sky.kind == Sky::Kind::image) {
+    json["rotation"] = describe(sky.rotation);
+    json[sky.name == kStudio ? "preset" : "image"] = sky.name;
+  } else if (sky.kind == Sky::Kind::color) {
+    json["color"] = describe(sky.zenith);
+  } else {
+    json["zenith"] = describe(sky.zenith);
+    json["horizon"] = describe(sky.horizon);
+    json["ground"] = describe(sky.ground);
+  }
   return json;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -59,6 +60,7 @@ struct SceneContext {
   const SceneParts* parts = nullptr;  // of a scene that a program makes
   std::string sky;                    // this and the next as in LoadOptions
   Instant instant;
+  std::string knownSky;  // Sky::name of an image that the caller has, which is not read again
   std::map<std::string, std::unique_ptr<Model>> models;
   TextureLoader textures;  // last: its workers write to the scene
 };
@@ -72,8 +74,10 @@ void readCameras(JsonObject& file, const Instant& instant, SceneDescription& sce
 void readOptions(JsonObject& file, SceneDescription& scene);
 // "lights": see scene/members.h for what each type has. "name" is free.
 void readLights(JsonObject& file, const Instant& instant, SceneDescription& scene);
-// "sky"; its image is there after context.textures.finish().
+// "sky". Its image is there after context.textures.finish().
 void readSky(JsonObject& file, SceneContext& context);
+// Replaces the scene's sky if LoadOptions::sky names another.
+void replaceSky(SceneContext& context);
 // "ambient". Returns the strength that ambientFromSky() is to be called with, once the sky's image
 // is there.
 std::optional<double> readAmbient(JsonObject& file, SceneDescription& scene);
@@ -87,6 +91,12 @@ std::pair<Vec3d, double> readTurn(const JsonValue& value);
 SharedMotion readMotion(JsonObject& object, const Instant& instant, SceneDescription& scene);
 // The pointer to the object if it is moved by hand, otherwise empty.
 std::string movableName(const JsonObject& object, const Instant& instant);
+
+// Returns the texture that replaces a map of a material. Its name is not null.
+using ReadMap =
+    std::function<std::int32_t(const JsonValue& name, const Member<Material, std::int32_t>& map)>;
+// Reads the members of a material that are given; the others keep their values.
+void readMaterial(JsonObject& object, const ReadMap& readMap, Material& material);
 
 // The sections "textures" and "materials".
 class MaterialReader {
@@ -196,8 +206,11 @@ Json describe(const std::vector<float>& numbers);
 Json describe(const Camera& camera);
 // Moves the points of a camera's or a light's JSON, in double precision.
 void movePoints(Json& noun, const Vec3d& way);
+// Does so for the lights of a scene.
+void moveLights(Json& root, const Vec3d& way);
 Json describe(const std::vector<Light>& lights);
 Json describe(const Ambient& ambient);
+Json describe(const Sky& sky);
 
 // Rewrites all paths of images and models in a scene file from the folder `from` to the folder
 // `to`, or to "$WHIT_DATA/..." where they lie below that. Returns whether one of them leaves the

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <optional>
 #include <string_view>
 #include <utility>
 
 #include "bake/edit_scene.h"
+#include "bake/finalize_steps.h"
 #include "bake/scene.h"
 #include "core/error.h"
 #include "io/load_scene.h"
@@ -48,73 +50,74 @@ bool areRelated(const std::vector<std::string>& a, const std::vector<std::string
       a.begin(), a.begin() + static_cast<std::ptrdiff_t>(std::min(a.size(), b.size())), b.begin());
 }
 
-bool editLights(const LoadOptions& options, const JsonDocument& sections, Scene& scene) {
-  SceneDescription read;
-  JsonObject file{JsonValue(sections)};
-  readLights(file, options.instant, read);
-  const bool moves = scene.motion.ofLights() || !read.motion.lights.empty();
-  if (moves || read.lights.size() != scene.lights.size()) return false;
-  editShading(scene, scene.materials, std::move(read.lights));
-  return true;
+// Reads the lights. Returns false where others than before would move.
+bool readEditedLights(const Scene& scene, JsonDocument lights, SceneContext& context) {
+  moveLights(lights.root, -scene.origin);
+  JsonObject file{JsonValue(lights)};
+  readLights(file, context.instant, context.scene);
+  if (context.scene.lights.size() != scene.lights.size()) return false;
+  if (scene.isModel) return true;  // its nodes carry its lights
+  return std::ranges::equal(scene.motion.given.lights, context.scene.motion.lights, {},
+                            &MovingLight::light, &MovingLight::light);
 }
 
-// Edits cameras that stand still, and the image size. The positions of cameras decide which
+// Reads cameras that stand still, and the image size. The positions of cameras decide which
 // instances are too small to be traced.
-bool editView(const LoadOptions& options, const JsonDocument& sections, Scene& scene) {
-  SceneDescription read;
-  JsonObject file{JsonValue(sections)};
-  readCameras(file, options.instant, read);
-  const bool moves = !scene.motion.given.cameras.empty() || !read.motion.cameras.empty();
-  if (moves || read.cameras.empty() || !scene.instances.empty()) return false;
-  scene.cameras = std::move(read.cameras);
-  scene.cameraPath = std::move(read.cameraPath);
-  scene.width = read.width;
-  scene.height = read.height;
-  gatherEffects(scene);
-  return true;
+bool readEditedView(const Scene& scene, JsonObject& file, SceneContext& context) {
+  readCameras(file, context.instant, context.scene);
+  const bool moves = !scene.motion.given.cameras.empty() || !context.scene.motion.cameras.empty();
+  return !moves && !context.scene.cameras.empty() && scene.instances.empty();
 }
 
-bool editSurroundings(const LoadOptions& options, const JsonDocument& sections, Scene& scene) {
-  if (!options.sky.empty() || scene.sky.kind == Sky::Kind::image) return false;
-  Warnings none;
-  SceneContext context("scene", options, none, nullptr);
-  JsonObject file{JsonValue(sections)};
-  const JsonValue given = file.find("sky");
-  if (given.isObject() && given["image"]) return false;
+// Reads the sky and the ambient light, which is `fromSky` times the sky's if that is there. Returns
+// false for ambient light that a model was supplied with, because its sky may have been another.
+bool readEditedSurroundings(const Scene& scene, JsonObject& file, SceneContext& context,
+                            std::optional<double>& fromSky) {
+  if (scene.isModel && !file.has("ambient")) return false;
+  context.knownSky = scene.sky.name;
   readSky(file, context);
-  const std::optional<double> fromSky = readAmbient(file, context.scene);
-  Sky& sky = context.scene.sky;
-  if (sky.kind == Sky::Kind::image) return false;
-  const Ambient& ambient = context.scene.ambient;
-  editSky(scene, sky, fromSky ? ambientFromSky(sky, *fromSky, ambient) : ambient);
+  fromSky = readAmbient(file, context.scene);
+  replaceSky(context);
+  context.textures.finish(context.scene);
   return true;
 }
 
-bool isBakedIn(std::string_view name) {
-  bool baked = false;
-  forEachMember<Material>(
-      [&](const auto& member) { baked = baked || (member.rules.baked && member.name == name); });
-  return baked;
-}
+// Changes the material that the setting is about, as its reader would have. Returns false for other
+// settings, and for members that triangles or textures depend on.
+bool editMaterial(const SceneSetting& setting, const JsonDocument& document, const Scene& scene,
+                  std::vector<Material>& materials) {
+  // The pointer to the material comes before the name of the member.
+  std::string pointer;
+  auto before = scene.materials.end();
+  auto token = setting.tokens.begin();
+  for (; token != setting.tokens.end() && before == scene.materials.end(); ++token) {
+    pointer += "/" + escapePointer(*token);
+    before = std::ranges::find(scene.materials, pointer, &Material::pointer);
+  }
+  if (token == setting.tokens.end()) return false;
 
-bool editMaterial(const SceneSetting& setting, const LoadOptions& options, JsonDocument& sections,
-                  Scene& scene) {
-  const std::string& name = setting.tokens[1];
-  const std::string pointer = "/materials/" + escapePointer(name);
-  const auto known = std::ranges::find(scene.materials, pointer, &Material::pointer);
-  if (known == scene.materials.end()) return false;
-  Json members = std::move(sections.root["materials"][name]);
-  forEachMap([&](const auto& member) { members.erase(member.name); });
-  sections.root["materials"] = {{name, std::move(members)}};
-  Warnings none;
-  SceneContext context("scene", options, none, nullptr);
-  JsonObject file{JsonValue(sections)};
-  MaterialReader reader(file, context);
-  Material& read = context.scene.materials.front();
-  if (read.castsShadow != known->castsShadow) return false;
-  std::vector<Material> materials = scene.materials;
-  materials[static_cast<std::size_t>(known - scene.materials.begin())] = std::move(read);
-  editShading(scene, std::move(materials), scene.lights);
+  Material& material = materials[static_cast<std::size_t>(before - scene.materials.begin())];
+  JsonObject object(JsonValue(document, document.root.at(Json::json_pointer(pointer)), pointer));
+  const auto keepMap = [&](const JsonValue& /*name*/, const auto& map) {
+    return (*before).*map.field;
+  };
+  readMaterial(object, keepMap, material);
+  object.finish();
+
+  bool isBaked = material.castsShadow != before->castsShadow;
+  forEachMember<Material>([&](const auto& member) {
+    if (!member.rules.baked || *token != member.name) return;
+    isBaked |=
+        member.rules.kind == MemberKind::map || material.*member.field != (*before).*member.field;
+  });
+  if (isBaked) return false;
+
+  // Only the readers of models leave maps out.
+  if (!scene.isModel && pointer.starts_with("/materials/")) return true;
+  for (const auto& [name, map] : kReplacedMaps) {
+    const bool isGiven = object.has(std::string(name) + "Map");
+    if (object.has(name) && !isGiven) material.*map = kNoTexture;
+  }
   return true;
 }
 
@@ -173,31 +176,82 @@ void applySceneSetting(const SceneSetting& setting, JsonDocument& document) {
   *at = setting.value;
 }
 
-bool editScene(const SceneSetting& setting, const LoadOptions& options, JsonDocument* document,
-               Scene& scene) {
-  const std::string& section = setting.tokens.front();
-  JsonDocument lights{scene.name, {{"lights", describe(scene.lights)}}, {}};
-  const JsonDocument& from = document ? *document : lights;
-  // The lights of a model that was moved are read with it.
-  const bool isMoved = scene.origin != Vec3d();
-  if (!document && (section != "lights" || isMoved)) return false;
-  // What "view" supplies depends on the other sections.
-  if (document && document->root.contains("view")) return false;
-  JsonDocument sections{from.file, Json::object(), from.parameters};
-  for (const auto& [name, value] : from.root.items()) {
-    if (name != "objects" && name != "scene") sections.root[name] = value;
+JsonDocument describeModel(const std::string& file, const Scene& scene,
+                           const LoadOptions& options) {
+  JsonDocument document{
+      file, {{"lights", describe(scene.lights)}, {"sky", describe(scene.sky)}}, {}};
+  moveLights(document.root, scene.origin);
+  for (const std::string& text : options.settings) {
+    const SceneSetting setting = parseSceneSetting(text);
+    const std::string& section = setting.tokens.front();
+    if (section != "lights" && section != "sky") applySceneSetting(setting, document);
   }
-  applySceneSetting(setting, sections);
-  bool done = false;
-  if (section == "lights") done = editLights(options, sections, scene);
-  if (section == "cameras" || section == "size") done = editView(options, sections, scene);
-  if (section == "sky" || section == "ambient") done = editSurroundings(options, sections, scene);
-  if (section == "materials" && setting.tokens.size() > 2 && !isBakedIn(setting.tokens[2]) &&
-      from.root.contains(Json::json_pointer{} / section / setting.tokens[1])) {
-    done = editMaterial(setting, options, sections, scene);
+  return document;
+}
+
+bool editScene(const std::vector<SceneSetting>& touched, const LoadOptions& options,
+               const JsonDocument& document, Warnings& warnings, Scene& scene) {
+  bool shading = false, lights = false, view = false, surroundings = false;
+  std::vector<Material> materials = scene.materials;
+  for (const auto& [tokens, value] : touched) {
+    const std::string& section = tokens.front();
+    if (section == "lights") {
+      // Of a light that moves, the members can be edited, but not its motion.
+      const bool isMember = tokens.size() > 2 && tokens[2] != "motion";
+      if (scene.motion.ofLights() && !isMember) return false;
+      lights = true;
+    } else if (section == "sky" || section == "ambient") {
+      surroundings = true;
+    } else if ((section == "cameras" || section == "size") && !scene.isModel) {
+      view = true;
+    } else if (editMaterial({tokens, value}, document, scene, materials)) {
+      shading = true;
+    } else {
+      return false;
+    }
   }
-  if (done && document) applySceneSetting(setting, *document);
-  return done;
+
+  // All that may fail comes before the first change.
+  SceneContext context(std::filesystem::absolute(document.file), options, warnings, nullptr);
+  JsonObject file{JsonValue(document)};
+  std::optional<double> fromSky;
+  if (lights) {
+    const JsonDocument own{
+        document.file, {{"lights", document.root.at("lights")}}, document.parameters};
+    if (!readEditedLights(scene, own, context)) return false;
+  }
+  if (view && !readEditedView(scene, file, context)) return false;
+  if (surroundings && !readEditedSurroundings(scene, file, context, fromSky)) return false;
+
+  SceneDescription& read = context.scene;
+  if (!lights) read.lights = scene.lights;
+  const bool sameImage = surroundings && !read.sky.name.empty() && read.sky.name == scene.sky.name;
+  if (sameImage) std::swap(read.sky.image, scene.sky.image);
+  try {
+    if (fromSky) read.ambient = ambientFromSky(read.sky, *fromSky, read.ambient);
+    if (surroundings) validate(scene.name, read.sky, read.ambient);
+    if (shading || lights) editShading(scene, std::move(materials), std::move(read.lights));
+  } catch (...) {
+    if (sameImage) std::swap(read.sky.image, scene.sky.image);
+    throw;
+  }
+  if (surroundings) editSky(scene, read.sky, read.ambient);
+
+  // A light that moves is edited where it starts.
+  for (const MovingLight& light : read.motion.lights) {
+    MovingLight& moving =
+        *std::ranges::find(scene.motion.given.lights, light.light, &MovingLight::light);
+    moving.position = light.position;
+    moving.direction = light.direction;
+  }
+  if (!view) return true;
+
+  scene.cameras = std::move(read.cameras);
+  scene.cameraPath = std::move(read.cameraPath);
+  scene.width = read.width;
+  scene.height = read.height;
+  gatherEffects(scene);
+  return true;
 }
 
 }  // namespace whit

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/warnings.h"
 #include "io/json_reader.h"
 
 namespace whit {
@@ -30,13 +31,18 @@ void addSceneSetting(const std::string& text, std::vector<std::string>& settings
 // badScene with "file#/json/pointer".
 void applySceneSetting(const SceneSetting& setting, JsonDocument& document);
 
-// Sets the member in `document` and changes `scene`, which was read from it with `options`, as a
-// reader would have, bit for bit: lights, colors of the sky, ambient light, numbers of materials,
-// and in scenes without instances cameras and the image size. Without a document (a model) only
-// lights. Returns false, with nothing done, where the scene has to be read again with the setting.
-// Throws as the reader does, with nothing done. Renderers of the scene have to be told
-// (Renderer::shadingChanged, camerasChanged) before their next frame.
-bool editScene(const SceneSetting& setting, const LoadOptions& options, JsonDocument* document,
-               Scene& scene);
+// Returns what the settings of the model in `file` are applied to: its lights, its sky and the
+// settings of `options`, with which it was read.
+JsonDocument describeModel(const std::string& file, const Scene& scene, const LoadOptions& options);
+
+// Changes `scene` into the one that a reader makes of `document` and `options`, bit for bit, if the
+// settings that were applied to the document since then are about lights, materials, sky or ambient
+// light, or in scenes without instances about cameras or the image size; not about textures, and
+// not about members of materials that triangles depend on. Sky images are read. Returns false, with
+// nothing done, where the scene has to be read again. Throws as the reader does, with nothing done.
+// Renderers of the scene have to be told (Renderer::shadingChanged, camerasChanged) before their
+// next frame.
+bool editScene(const std::vector<SceneSetting>& touched, const LoadOptions& options,
+               const JsonDocument& document, Warnings& warnings, Scene& scene);
 
 }  // namespace whit
