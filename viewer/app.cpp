@@ -105,8 +105,8 @@ void App::drawPanel() {
   if (!settings_.shown || !shown_.scene) return;
 
   const PanelSettings before = settings_;
-  const bool edited =
-      panel_.draw(shown_, rays_, costs_, control_.speed(), settings_, read_.sky, edit_);
+  const std::vector<std::string> edits =
+      panel_.draw(shown_, rays_, costs_, control_.speed(), settings_, ownSky_, edited_);
 
   if (drawTimeline(settings_.timeline)) {
     restSeconds_ = 0;
@@ -114,10 +114,8 @@ void App::drawPanel() {
   }
 
   // A change resets the rest, so that the picture sharpens again from coarse to fine.
-  if (edited) passOnEdit();
-  if (edited || settings_.options != before.options || settings_.view != before.view) {
-    restSeconds_ = 0;
-  }
+  if (!edits.empty()) edit(edits);
+  if (settings_.options != before.options || settings_.view != before.view) restSeconds_ = 0;
 }
 
 void App::inspectPointed() const {
@@ -165,9 +163,10 @@ void App::openFile(const std::string& file) {
 }
 
 void App::showSky(const std::string& file) {
-  edit_.sky = chooseSky(file);
-  passOnEdit();
-  restSeconds_ = 0;
+  edited_.sky = skyFrom(file);
+  std::vector<std::string> settings;
+  stateSky(edited_, settings);
+  edit(settings);
   say("sky: " + file);
 }
 

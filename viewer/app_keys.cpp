@@ -181,7 +181,7 @@ void App::saveScene() {
 
   // The lock keeps the animation from moving the scene while it is written.
   const std::lock_guard lock(scene_->moving);
-  const SavedScene saved = view::saveScene(options_.common.load, sceneName_, *scene_, edit_,
+  const SavedScene saved = view::saveScene(options_.common.load, sceneName_, shown_,
                                            control_.camera(), viewOptions(), settings_.options);
   std::printf("%s\n", saved.command.c_str());
   std::fflush(stdout);

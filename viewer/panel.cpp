@@ -123,9 +123,10 @@ void drawTimes(const TracedFrame& frame) {
   ImGui::Text("%.2f ms traced, %.2f in Embree", stats.frameMs, stats.embreeMs());
 }
 
-bool drawTabs(const TracedFrame& frame, const RayPick& pick, const std::vector<KnobCost>& costs,
-              PanelSettings& settings, const SkyChoice& ownSky, ShadingEdit& scene) {
-  bool edited = false;
+std::vector<std::string> drawTabs(const TracedFrame& frame, const RayPick& pick,
+                                  const std::vector<KnobCost>& costs, PanelSettings& settings,
+                                  const Sky& ownSky, EditedScene& scene) {
+  std::vector<std::string> edits;
   const std::string chosen = std::exchange(settings.tab, std::string());
   const auto tab = [&](const char* name, auto&& draw) {
     const bool choose = chosen == name;
@@ -141,7 +142,7 @@ bool drawTabs(const TracedFrame& frame, const RayPick& pick, const std::vector<K
     ImGui::EndTabItem();
   };
 
-  if (!ImGui::BeginTabBar("tabs", ImGuiTabBarFlags_FittingPolicyResizeDown)) return false;
+  if (!ImGui::BeginTabBar("tabs", ImGuiTabBarFlags_FittingPolicyResizeDown)) return edits;
 
   tab("frame", [&] {
     drawStages(frame.stats);
@@ -169,7 +170,7 @@ bool drawTabs(const TracedFrame& frame, const RayPick& pick, const std::vector<K
   tab("rays", [&] { drawRayTree(pick, frame, settings.rays); });
   tab("scene", [&] {
     settings.saveScene |= ImGui::Button("save as a scene file (Ctrl+S)");
-    edited = drawSceneTab(ownSky, settings.rays, scene);
+    edits = drawSceneTab(ownSky, settings.rays, scene);
   });
   tab("keys", [&] {
     drawRecent(settings);
@@ -177,14 +178,15 @@ bool drawTabs(const TracedFrame& frame, const RayPick& pick, const std::vector<K
   });
 
   ImGui::EndTabBar();
-  return edited;
+  return edits;
 }
 
 }  // namespace
 
-bool Panel::draw(const TracedFrame& frame, const RayPick& pick, const std::vector<KnobCost>& costs,
-                 double speed, PanelSettings& settings, const SkyChoice& ownSky,
-                 ShadingEdit& scene) {
+std::vector<std::string> Panel::draw(const TracedFrame& frame, const RayPick& pick,
+                                     const std::vector<KnobCost>& costs, double speed,
+                                     PanelSettings& settings, const Sky& ownSky,
+                                     EditedScene& scene) {
   constexpr float kMargin = 10, kWidth = 32, kLeastWidth = 12;  // pixels; heights of the font
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   const float em = ImGui::GetFontSize(), height = std::max(window.y - 2 * kMargin, kMargin);
@@ -208,17 +210,17 @@ bool Panel::draw(const TracedFrame& frame, const RayPick& pick, const std::vecto
   ImGui::SetNextWindowSizeConstraints(ImVec2(width_, 0), ImVec2(width_, height));
   ImGui::SetNextWindowBgAlpha(kPanelAlpha);
 
-  bool edited = false;
+  std::vector<std::string> edits;
   if (ImGui::Begin("whit", &settings.shown, ImGuiWindowFlags_AlwaysAutoResize)) {
     drawTimes(frame);
     ImGui::Text("speed %.3g units a second", speed);
-    edited = drawTabs(frame, pick, costs, settings, ownSky, scene);
+    edits = drawTabs(frame, pick, costs, settings, ownSky, scene);
   }
 
   // The user may have dragged the panel, so its place is read back.
   left_ = ImGui::GetWindowPos().x;
   ImGui::End();
-  return edited;
+  return edits;
 }
 
 }  // namespace whit::view

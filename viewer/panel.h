@@ -18,9 +18,11 @@ inline constexpr float kPanelAlpha = 0.82f;  // how much of the picture panels c
 
 class Panel {
  public:
-  // `frame` must hold a picture. Returns whether the scene was edited.
-  bool draw(const TracedFrame& frame, const RayPick& pick, const std::vector<KnobCost>& costs,
-            double speed, PanelSettings& settings, const SkyChoice& ownSky, ShadingEdit& scene);
+  // `frame` must hold a picture, and `ownSky` is the scene's. Returns the settings by which the
+  // user has edited the scene.
+  std::vector<std::string> draw(const TracedFrame& frame, const RayPick& pick,
+                                const std::vector<KnobCost>& costs, double speed,
+                                PanelSettings& settings, const Sky& ownSky, EditedScene& scene);
 
  private:
   float left_ = 0, width_ = 0;  // of the panel in the last frame
@@ -39,8 +41,8 @@ void drawCost(const std::vector<KnobCost>& costs, const std::string& name);
 void drawMeasured(const std::vector<KnobCost>& costs);
 
 // scene_panel.cpp: draws lights, materials, sky and ambient light as controls, and unfolds what was
-// picked; `ownSky` is the scene's. Returns whether something was changed.
-bool drawSceneTab(const SkyChoice& ownSky, RayView& picked, ShadingEdit& scene);
+// picked; `ownSky` is the scene's. Returns the settings by which the user has edited the scene.
+std::vector<std::string> drawSceneTab(const Sky& ownSky, RayView& picked, EditedScene& scene);
 
 // ray_panel.cpp: the rays of a picked pixel, or how to pick one; and as lines behind the panels, as
 // this camera sees them.

@@ -87,11 +87,10 @@ bool drawLight(Light& light) {
 }
 
 // Draws a foldable node for each item, under its name or number; unfolds `selected` once and
-// scrolls to it. Returns whether something was changed.
+// scrolls to it. Adds the settings by which the user has edited the items.
 template <typename Item, typename Draw>
-bool drawItems(std::vector<Item>& items, const char* kind, std::size_t& selected,
-               const Draw& draw) {
-  bool changed = false;
+void drawItems(std::vector<Item>& items, const char* kind, std::size_t& selected, const Draw& draw,
+               const Vec3d& origin, std::vector<std::string>& settings) {
   ImGui::PushItemWidth(ImGui::GetFontSize() * 13);
 
   for (std::size_t i = 0; i < items.size(); ++i) {
@@ -106,7 +105,8 @@ bool drawItems(std::vector<Item>& items, const char* kind, std::size_t& selected
     }
 
     if (ImGui::TreeNode(kind, "%s", name.c_str())) {
-      changed |= draw(items[i]);
+      const Item before = items[i];
+      if (draw(items[i])) state(before, items[i], origin, settings);
       ImGui::TreePop();
     }
     ImGui::PopID();
@@ -114,36 +114,37 @@ bool drawItems(std::vector<Item>& items, const char* kind, std::size_t& selected
 
   ImGui::PopItemWidth();
   if (items.empty()) ImGui::TextDisabled("none");
-  return changed;
 }
 
-std::string nameOf(const SkyChoice& sky) {
-  if (sky.source.empty()) return "the scene's own";
-  return std::filesystem::path(sky.source).filename().string();
+std::string nameOf(const Sky& sky) {
+  if (isNoSky(sky)) return kNoSky;
+  return sky.name.empty() ? "the scene's own" : skyName(sky);
 }
 
-bool drawChoice(const SkyChoice& own, SkyChoice& sky) {
-  const SkyChoice before = sky;
+bool drawChoice(const Sky& own, Sky& sky) {
   if (!ImGui::BeginCombo("sky", nameOf(sky).c_str())) return false;
 
-  const auto offer = [&](const SkyChoice& choice) {
-    const bool current = choice.source == sky.source;
-    if (ImGui::Selectable(nameOf(choice).c_str(), current) && !current) sky = choice;
+  bool changed = false;
+  const auto offer = [&](const Sky& choice) {
+    const bool current = isSameSky(choice, sky);
+    if (!ImGui::Selectable(nameOf(choice).c_str(), current) || current) return;
+    sky = choice;
+    changed = true;
   };
 
   // The scene's own sky comes first. If it is one of the two others, it is listed only once.
   offer(own);
   for (const char* source : {kNoSky, kStudio}) {
-    if (own.source != source) offer(chooseSky(source));
+    if (nameOf(own) != source) offer(skyFrom(source));
   }
 
   ImGui::EndCombo();
-  return sky != before;
+  return changed;
 }
 
-bool drawSky(const SkyChoice& own, SkyChoice& sky) {
+bool drawSky(const Sky& own, Sky& sky) {
   bool changed = drawChoice(own, sky);
-  if (sky.kind == Sky::Kind::none) return changed;
+  if (isNoSky(sky)) return changed;
 
   changed |= ImGui::SliderFloat("brightness", &sky.scale, 0, kLargestScale, "%.3g", kLogarithmic);
   if (sky.kind == Sky::Kind::image) {
@@ -182,23 +183,24 @@ bool drawAmbient(bool skyThere, Ambient& ambient) {
 
 }  // namespace
 
-bool drawSceneTab(const SkyChoice& ownSky, RayView& picked, ShadingEdit& scene) {
-  const Vec3d origin = scene.scene ? scene.scene->scene.origin : Vec3d();
+std::vector<std::string> drawSceneTab(const Sky& ownSky, RayView& picked, EditedScene& scene) {
+  std::vector<std::string> settings;
+  const Vec3d& origin = scene.origin;
   ImGui::TextDisabled("lights");
   if (origin != Vec3d()) {
     ImGui::TextDisabled("positions are from %.17g,%.17g,%.17g", origin.x, origin.y, origin.z);
   }
-  bool edited = drawItems(scene.lights, "light", picked.light, drawLight);
+  drawItems(scene.lights, "light", picked.light, drawLight, origin, settings);
 
   ImGui::TextDisabled("materials");
-  edited |= drawItems(scene.materials, "material", picked.material, drawMembers<Material>);
+  drawItems(scene.materials, "material", picked.material, drawMembers<Material>, origin, settings);
 
   ImGui::TextDisabled("surroundings");
   ImGui::PushItemWidth(ImGui::GetFontSize() * 13);
-  edited |= drawSky(ownSky, scene.sky);
-  edited |= drawAmbient(scene.sky.kind != Sky::Kind::none, scene.ambient);
+  if (drawSky(ownSky, scene.sky)) stateSky(scene, settings);
+  if (drawAmbient(!isNoSky(scene.sky), scene.ambient)) stateAmbient(scene, settings);
   ImGui::PopItemWidth();
-  return edited;
+  return settings;
 }
 
 }  // namespace whit::view

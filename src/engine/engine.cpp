@@ -143,12 +143,6 @@ void Engine::readAgain(const SceneSource& source, const LoadOptions& load, Progr
   moved_ = !scene().motion.empty();
 }
 
-void Engine::shadingChanged() {
-  queries_.reset();
-  if (renderer_) renderer_->shadingChanged();
-  moved_ |= !scene().motion.empty();  // edits of moving lights are edits of their start
-}
-
 void Engine::setTime(double seconds) {
   seconds_ = seconds;
   moved_ = true;

@@ -69,8 +69,6 @@ class Engine {
   // Replaces the arrays of a mesh that a program made, and reads the scene again. Throws as the
   // reader does, with nothing changed.
   void setMesh(const std::string& name, GivenMesh mesh, Progress* progress = nullptr);
-  // To be called after the scene's materials, lights or sky were changed (bake/edit_scene.h).
-  void shadingChanged();
   // Moves everything that follows the time. Takes effect with the next picture, or update().
   void setTime(double seconds);
   double seconds() const { return seconds_; }

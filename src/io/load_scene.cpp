@@ -7,8 +7,6 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "io/files.h"
-#include "io/image/image_file.h"
-#include "io/image/texture_from_image.h"
 #include "io/scene/scene_sections.h"
 #include "io/scene/scene_settings.h"
 #include "make/model_view.h"
@@ -391,19 +389,6 @@ std::optional<JsonDocument> readDocument(const std::string& name, const LoadOpti
 
 JsonDocument readDocument(const SceneText& text, const LoadOptions& options) {
   return documentOf(text.name, text.root, {}, options);
-}
-
-Sky namedSky(const std::string& name, std::uint64_t mostBytes, Warnings& warnings) {
-  if (name == kStudio) return studioSky();
-  Sky sky;
-  if (name == kNoSky) return sky;
-  MemoryBudget budget(mostBytes);
-  ImageLimits limits;
-  limits.budget = &budget;
-  sky.kind = Sky::Kind::image;
-  sky.name = name;
-  sky.image = makeEnvironment(readRawImage(name, limits, warnings));
-  return sky;
 }
 
 Scene finalizeScene(const std::string& file, SceneDescription description, Warnings& warnings,

@@ -79,8 +79,4 @@ inline constexpr double kAmbientOfSky = 0.4;
 
 inline constexpr const char* kNoSky = "none";
 
-// Makes the sky for kNoSky, "studio" (make/model_view.h) or the file of an equirectangular image.
-// The file and its decoded texels may take `mostBytes`. Throws as readRawImage() does.
-Sky namedSky(const std::string& name, std::uint64_t mostBytes, Warnings& warnings);
-
 }  // namespace whit

@@ -6,7 +6,7 @@
 
 #include "core/text.h"
 #include "io/image/image_file.h"
-#include "io/load_scene.h"
+#include "io/image/texture_from_image.h"
 #include "simd/kernels.h"
 #include "verify/bodies.h"
 
@@ -121,7 +121,8 @@ Finding badSkyTexels(const Setup& setup) {
     writeExr(file, image, {});
 
     Warnings warnings;
-    builder.description.sky = namedSky(file, 1u << 20, warnings);
+    builder.description.sky.kind = Sky::Kind::image;
+    builder.description.sky.image = makeEnvironment(readRawImage(file, ImageLimits(), warnings));
     std::filesystem::remove(file);
     const Scene scene = repaired(builder.describe());
     finding.count(warnings.entries().empty(),

@@ -1,128 +1,161 @@
-// Edits as settings: a scene that is read with them is the edited one, bit for bit.
+// Edits of the panel are settings: they change the scene in place, and a scene that is read with
+// them is the edited one, bit for bit.
 #include <gtest/gtest.h>
 
-#include <memory>
 #include <random>
+#include <type_traits>
 
 #include "cli/run_program.h"
+#include "core/error.h"
+#include "engine/engine.h"
 #include "io/image/image_file.h"
 #include "io/load_scene.h"
-#include "viewer/session/frame_tracer.h"
+#include "make/model_view.h"
+#include "scene/members.h"
+#include "viewer/session/scene_edit.h"
 
 namespace whit::view {
 namespace {
 
-ShadingEdit readEdit(const std::string& name, const std::vector<std::string>& settings = {}) {
-  LoadOptions options;
-  options.settings = settings;
-  Warnings warnings;
-  const SceneDescription scene = loadScene(name, options, warnings);
-  const auto open = std::make_shared<OpenScene>(false);
-  open->scene.origin = scene.origin;
-  return {open, scene.materials, scene.lights, {}, {}, settings};
+std::shared_ptr<OpenScene> openWith(const std::string& name, const LoadOptions& load = {}) {
+  return openScene({name, nullptr}, load, false);
 }
 
-template <typename Item, typename Field>
-void expectSame(const Item& a, const Item& b, Field Item::*field, const char* what) {
-  EXPECT_TRUE(a.*field == b.*field) << what << " of " << a.pointer;
+void expectSame(const Material& a, const Material& b) {
+  EXPECT_EQ(a.pointer, b.pointer);
+  forEachMember<Material>([&](const auto& member) {
+    bool same = a.*member.field == b.*member.field;
+    // A texture that no material uses any more still has its number.
+    if constexpr (std::is_same_v<decltype(member.field), std::int32_t Material::*>) {
+      const bool isMap = member.rules.kind == MemberKind::map;
+      if (isMap) same = (a.*member.field == kNoTexture) == (b.*member.field == kNoTexture);
+    }
+    EXPECT_TRUE(same) << member.name << " of " << a.pointer;
+  });
 }
 
-void expectSame(const ShadingEdit& a, const ShadingEdit& b) {
+void expectSame(const Scene& a, const Scene& b) {
   ASSERT_EQ(a.materials.size(), b.materials.size());
+  for (std::size_t i = 0; i < a.materials.size(); ++i) expectSame(a.materials[i], b.materials[i]);
   ASSERT_EQ(a.lights.size(), b.lights.size());
-  for (std::size_t i = 0; i < a.materials.size(); ++i) {
-    const Material &x = a.materials[i], &y = b.materials[i];
-    EXPECT_EQ(x.pointer, y.pointer);
-    expectSame(x, y, &Material::diffuse, "diffuse");
-    expectSame(x, y, &Material::specular, "specular");
-    expectSame(x, y, &Material::roughness, "roughness");
-    expectSame(x, y, &Material::emission, "emission");
-    expectSame(x, y, &Material::mirror, "mirror");
-    expectSame(x, y, &Material::mirrorGrazing, "mirrorGrazing");
-    expectSame(x, y, &Material::transmission, "transmission");
-    expectSame(x, y, &Material::ior, "ior");
-    expectSame(x, y, &Material::absorption, "absorption");
-    expectSame(x, y, &Material::castsShadow, "castsShadow");
-    expectSame(x, y, &Material::glossyReflection, "glossyReflection");
-    if (x.hasGlossy()) expectSame(x, y, &Material::specularMap, "specularMap");
-    expectSame(x, y, &Material::diffuseMap, "diffuseMap");
+  for (std::size_t i = 0; i < a.lights.size(); ++i) {
+    EXPECT_TRUE(sameMembers(a.lights[i], b.lights[i])) << a.lights[i].pointer;
   }
 
-  for (std::size_t i = 0; i < a.lights.size(); ++i) {
-    expectSame(a.lights[i], b.lights[i], &Light::position, "position");
-    expectSame(a.lights[i], b.lights[i], &Light::intensity, "intensity");
-    expectSame(a.lights[i], b.lights[i], &Light::radius, "radius");
-    expectSame(a.lights[i], b.lights[i], &Light::direction, "direction");
-    expectSame(a.lights[i], b.lights[i], &Light::innerConeAngle, "innerConeAngle");
-    expectSame(a.lights[i], b.lights[i], &Light::outerConeAngle, "outerConeAngle");
-  }
+  EXPECT_EQ(a.sky.kind, b.sky.kind);
+  EXPECT_EQ(a.sky.name, b.sky.name);
+  EXPECT_TRUE(sameMembers(a.sky, b.sky));
+  EXPECT_EQ(a.sky.image.r, b.sky.image.r);
+  EXPECT_EQ(a.ambient, b.ambient);
+  EXPECT_EQ(a.effects, b.effects);
 }
+
+// A scene and its edits, in place and as settings of another reading.
+class Editing {
+ public:
+  explicit Editing(const std::string& name, const LoadOptions& load = {})
+      : open_(openWith(name, load)), engine_(open_), scene(editedScene(*open_)) {}
+
+  // Applies the settings.
+  void apply(const std::vector<std::string>& settings) {
+    engine_.edit(settings, editedLoad({engine_.opened(), settings}));
+    EXPECT_EQ(engine_.opened(), open_) << "the scene was read again for " << settings.front();
+    expectSame(engine_.scene(), openWith(open_->source.name, open_->load)->scene);
+  }
+  void applySky(const Sky& sky) {
+    scene.sky = sky;
+    std::vector<std::string> settings;
+    stateSky(scene, settings);
+    apply(settings);
+    scene = editedScene(*open_);
+  }
+  const Scene& now() const { return engine_.scene(); }
+
+ private:
+  std::shared_ptr<OpenScene> open_;
+  Engine engine_;
+
+ public:
+  EditedScene scene;
+};
 
 // Changes some members of materials and lights that the panel can change, at random.
 class RandomEdit {
  public:
   explicit RandomEdit(unsigned seed) : random_(seed) {}
 
-  ShadingEdit of(ShadingEdit scene) {
+  // Returns the settings of the edit.
+  std::vector<std::string> change(EditedScene& scene) {
+    std::vector<std::string> settings;
     for (Material& m : scene.materials) {
+      const Material before = m;
       for (Rgb* c : {&m.diffuse, &m.specular, &m.emission, &m.mirror, &m.mirrorGrazing,
                      &m.transmission, &m.absorption}) {
         if (chance()) *c = chance() ? Rgb(0.0f) : Rgb{unit(), unit(), unit()};
       }
       if (chance()) m.roughness = unit();
       if (chance()) m.ior = 1 + unit();
+      state(before, m, scene.origin, settings);
     }
     for (Light& light : scene.lights) {
-      if (light.kind != Light::Kind::point && chance()) light.direction = {unit(), -1, unit()};
-      if (light.kind == Light::Kind::spot && chance()) {
-        light.innerConeAngle = 10 * unit();
-        light.outerConeAngle = 20 + 30 * unit();
-      }
-      if (light.kind == Light::Kind::directional) {
-        if (chance()) light.intensity = Rgb{unit(), unit(), 0};
-        continue;
-      }
-      if (chance()) light.position = {1e3f * unit() - 500, -1e-3f * unit(), 1e9f * unit()};
-      if (chance()) light.intensity = Rgb{unit(), 1e6f * unit(), 0};
+      const Light before = light;
+      change(light);
+      state(before, light, scene.origin, settings);
     }
-    return scene;
+    return settings;
   }
 
  private:
+  void change(Light& light) {
+    if (light.kind != Light::Kind::point && chance()) light.direction = {unit(), -1, unit()};
+    if (light.kind == Light::Kind::spot && chance()) {
+      light.innerConeAngle = 10 * unit();
+      light.outerConeAngle = 20 + 30 * unit();
+    }
+    if (light.kind == Light::Kind::directional) {
+      if (chance()) light.intensity = Rgb{unit(), unit(), 0};
+      return;
+    }
+    if (chance()) light.position = {1e3f * unit() - 500, -1e-3f * unit(), 1e9f * unit()};
+    if (chance()) light.intensity = Rgb{unit(), 1e6f * unit(), 0};
+  }
   bool chance() { return random_() % 2 == 0; }
   float unit() { return static_cast<float>(random_() % 16'777'216) / 16'777'216; }
   std::mt19937 random_;
 };
 
-void expectThatEditsComeBack(const std::string& name) {
-  const ShadingEdit plain = readEdit(name);
-  EXPECT_TRUE(editSettings(plain, plain).empty());
-  // The settings of an edit make the edited scene, and nothing is left to set then.
+void expectEditsInPlace(const std::string& name) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
-    const ShadingEdit edited = RandomEdit(seed).of(plain);
-    const std::vector<std::string> settings = editSettings(plain, edited);
-    EXPECT_FALSE(settings.empty());
+    Editing editing(name);
+    RandomEdit random(seed);
+    for (int i = 0; i < 3; ++i) editing.apply(random.change(editing.scene));
 
-    const ShadingEdit again = readEdit(name, settings);
-    expectSame(edited, again);
-    EXPECT_TRUE(editSettings(edited, again).empty());
+    // The panel shows what the scene has.
+    std::vector<std::string> differences;
+    for (std::size_t k = 0; k < editing.now().lights.size(); ++k) {
+      state(editing.now().lights[k], editing.scene.lights[k], {}, differences);
+    }
+    for (std::size_t k = 0; k < editing.now().materials.size(); ++k) {
+      state(editing.now().materials[k], editing.scene.materials[k], {}, differences);
+    }
+    EXPECT_EQ(differences, std::vector<std::string>());
   }
 }
 
-TEST(EditSettings, OfASceneFile) { expectThatEditsComeBack("glass"); }
+TEST(EditSettings, OfASceneFile) { expectEditsInPlace("glass"); }
 
 TEST(EditSettings, OfItemsWithoutAMaterial) {
   const cli::TemporaryFolder folder;
   std::ofstream(folder / "s.json")
       << R"({"whit": 1, "scene": [{"shape": "quad"}, {"shape": "box"}]})";
-  expectThatEditsComeBack(folder / "s.json");
+  expectEditsInPlace(folder / "s.json");
 }
 
 // Its lights are moved with it, and back.
 TEST(EditSettings, OfAFarModel) {
   const cli::TemporaryFolder folder;
   std::ofstream(folder / "far.obj") << "v 4000000 0 0\nv 4000001 0 0\nv 4000000 1 0\nf 1 2 3\n";
-  expectThatEditsComeBack(folder / "far.obj");
+  expectEditsInPlace(folder / "far.obj");
 }
 
 // The model has maps that count only where a material is glossy, and names with characters that
@@ -141,10 +174,10 @@ class EditedModel : public testing::Test {
 };
 
 TEST_F(EditedModel, Alone) {
-  const std::vector<Material> materials = readEdit(folder_ / "m.obj").materials;
+  const std::vector<Material> materials = openWith(folder_ / "m.obj")->scene.materials;
   EXPECT_EQ(materials[0].specularMap, kNoTexture);
   EXPECT_NE(materials[1].specularMap, kNoTexture);
-  expectThatEditsComeBack(folder_ / "m.obj");
+  expectEditsInPlace(folder_ / "m.obj");
 }
 
 TEST_F(EditedModel, InAScene) {
@@ -153,7 +186,92 @@ TEST_F(EditedModel, InAScene) {
     "irradiance": 2}, {"type": "spot", "position": [0, 1, 0], "direction": [0, -1, 0],
     "intensity": 3}], "scene": [{"group": [{"model": "m.obj",
     "materials": {"*": {"mirror": 0.2}, "it's=1": {"transmission": 0.5, "ior": 1.3}}}]}]})";
-  expectThatEditsComeBack(folder_ / "s.json");
+  expectEditsInPlace(folder_ / "s.json");
+}
+
+// A roughness that is set is meant as it stands, so that the map of a model's material goes.
+TEST_F(EditedModel, LosesMapsThatMultiplyWhatIsSet) {
+  writePng(folder_ / "r.png", DisplayImage{2, 1, {0, 50, 0, 255, 0, 200, 0, 255}}, {});
+  std::ofstream(folder_ / "m.gltf")
+      << R"({"asset": {"version": "2.0"}, "scene": 0,
+    "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1},
+      "material": 0}]}],
+    "materials": [{"name": "m", "pbrMetallicRoughness": {"metallicRoughnessTexture":
+      {"index": 0}}}],
+    "textures": [{"source": 0}], "images": [{"uri": "r.png"}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+      "min": [0, 0, 0], "max": [1, 1, 0]},
+      {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36,
+      "byteLength": 24}],
+    "buffers": [{"byteLength": 60, "uri": "data:application/octet-stream;base64,)"
+      << "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA/"
+      << R"("}]})";
+  Editing editing(folder_ / "m.gltf");
+  EXPECT_NE(editing.now().materials[0].roughnessMap, kNoTexture);
+  editing.apply({"/materials/m/diffuse=[0.5, 0.25, 1]"});
+  EXPECT_NE(editing.now().materials[0].roughnessMap, kNoTexture);
+  editing.apply({"/materials/m/roughness=0.25"});
+  EXPECT_EQ(editing.now().materials[0].roughnessMap, kNoTexture);
+}
+
+class EditedSky : public EditedModel {
+ protected:
+  EditedSky() {
+    Image sky(4, 2);
+    for (std::size_t i = 0; i < sky.pixels.size(); ++i) {
+      sky.pixels[i] = {0.2f * static_cast<float>(i), 1, i == 1 ? 5.0f : 0.5f};
+    }
+    writeExr(folder_ / "sky.exr", sky, {});
+    std::ofstream(folder_ / "s.json") << R"({"whit": 1, "sky": {"image": "sky.exr", "scale": 0.5},
+      "ambient": {"fromSky": 0.5}, "scene": [{"shape": "sphere"}]})";
+  }
+
+  // Chooses other skies and goes back.
+  static void expectSkiesInPlace(Editing& editing) {
+    const Sky own = editing.scene.sky;
+    Sky bright = own;
+    bright.scale *= 3;
+    bright.rotation = 70;
+    for (const Sky& sky : {bright, skyFrom(kNoSky), skyFrom(kStudio), bright, own}) {
+      editing.applySky(sky);
+      EXPECT_TRUE(isSameSky(editing.scene.sky, sky));
+    }
+  }
+};
+
+TEST_F(EditedSky, OfASceneFile) {
+  Editing editing(folder_ / "s.json");
+  expectSkiesInPlace(editing);
+  editing.apply({"/ambient/fromSky=2"});
+}
+
+TEST_F(EditedSky, OfAModel) {
+  Editing editing(folder_ / "m.obj");
+  expectSkiesInPlace(editing);
+}
+
+TEST_F(EditedSky, TakesThePlaceOfAGivenOne) {
+  std::ofstream(folder_ / "s.json") << R"({"whit": 1, "scene": [{"shape": "sphere"}]})";
+  LoadOptions load;
+  load.sky = folder_ / "sky.exr";
+  Editing editing(folder_ / "s.json", load);
+  editing.scene.ambient.ofSky = 0.5;
+  std::vector<std::string> settings;
+  stateAmbient(editing.scene, settings);
+  editing.apply(settings);
+  EXPECT_GT(editing.now().ambient.up.x, 0);
+  expectSkiesInPlace(editing);
+}
+
+TEST_F(EditedSky, ThatCannotBeReadLeavesAllAsItWas) {
+  Editing editing(folder_ / "s.json");
+  const Scene before = editing.now();
+  EXPECT_THROW(editing.apply({"/materials/default/diffuse=0.1", "/sky={\"image\": \"no.exr\"}"}),
+               Error);
+  expectSame(editing.now(), before);
+  editing.apply({"/materials/default/diffuse=0.1"});
 }
 
 }  // namespace

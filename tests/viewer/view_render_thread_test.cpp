@@ -220,10 +220,13 @@ TEST_F(RenderThreadTest, EditsBetweenFrames) {
   RenderThread thread(opened_, common_, [] {});
   const TracedFrame before = traced(thread);
 
-  ShadingEdit edit = withoutEdits(scene_);
-  for (Material& m : edit.materials) m.mirror = m.mirrorGrazing = {0, 0, 0};
-  for (Material& m : edit.materials) m.diffuse = {0.2f, 0.9f, 0.1f};
-  edit.lights[0].position.x = -2;
+  SceneEdit edit{scene_, {"/lights/0/position/0=-2"}};
+  for (const Material& m : scene_->scene.materials) {
+    Material edited = m;
+    edited.mirror = edited.mirrorGrazing = {0, 0, 0};
+    edited.diffuse = {0.2f, 0.9f, 0.1f};
+    state(m, edited, {}, edit.settings);
+  }
   // The edit must change the picture, and mirrors must be off.
   // An edit of a scene that was replaced is ignored.
   thread.edit(edit);
@@ -235,9 +238,7 @@ TEST_F(RenderThreadTest, EditsBetweenFrames) {
   EXPECT_FALSE(after.reasons[static_cast<std::size_t>(Effect::mirror)].on);
 
   expectRightPicture(thread);  // the picture of a renderer made for the edited scene
-  edit.scene = nullptr;        // an edit of a scene that is no longer there
-  edit.lights[0].position.x = 2;
-  thread.edit(edit);
+  thread.edit({nullptr, {"/lights/0/position/0=2"}});  // of a scene that is no longer there
   ASSERT_TRUE(waitFor(thread));
   EXPECT_EQ(scene_->scene.lights[0].position.x, -2);
 }

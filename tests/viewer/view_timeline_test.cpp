@@ -93,22 +93,20 @@ TEST_F(MovingPictures, AreOfTheirTime) {
   for (const double seconds : {1.2, 0.0, 2.0}) expectPictureAt(seconds, thread);
 }
 
-// The lamp's color is edited; the lamp goes on moving from where the file has it.
+// The lamp's color is edited, then where it begins; it goes on moving from there.
 TEST_F(MovingPictures, KeepWhatWasEdited) {
   RenderThread thread(opened_, common_, [] {});
   expectPictureAt(1.2, thread);
 
-  ShadingEdit edit = withoutEdits(opened_);
-  edit.lights[0].intensity = Rgb(90.0f);
-  edit.lights[0].position = {3, 6, 4};  // where it begins
-  thread.edit(edit);
-
+  thread.edit({opened_, {"/lights/0/intensity=90"}});
   request_.edits = 1;
   common_.load.settings = {"/lights/0/intensity=90"};
   expectPictureAt(1.2, thread);
 
-  request_.edits = 1;
-  expectPictureAt(0.4, thread);
+  thread.edit({opened_, {"/lights/0/position=[1, 6, 5]"}});
+  request_.edits = 2;
+  common_.load.settings.emplace_back("/lights/0/position=[1, 6, 5]");
+  for (const double seconds : {1.2, 0.4}) expectPictureAt(seconds, thread);
 }
 
 TEST_F(Viewer, PlaysUntilItIsPaused) {

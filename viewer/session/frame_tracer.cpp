@@ -2,9 +2,7 @@
 
 #include <algorithm>
 
-#include "bake/edit_scene.h"
 #include "core/option_table.h"
-#include "io/load_scene.h"
 #include "output/frame_summary.h"
 #include "output/open_and_tell.h"
 #include "render/renderer.h"
@@ -41,7 +39,6 @@ class OptionsInUse {
 FrameTracer::FrameTracer(std::shared_ptr<OpenScene> scene, const cli::CommonOptions& common)
     : common_(common),
       engine_(std::make_unique<Engine>(std::move(scene))),
-      sky_(skyOf(*engine_->opened())),
       animation_(common.load.instant.animation) {
   engine_->setOptions(common.render, common.given);
   engine_->prepare();
@@ -56,49 +53,14 @@ void FrameTracer::load(const SceneChoice& choice) {
   next->prepare();
 
   engine_ = std::move(next);
-  editSettings_.clear();
-  sky_ = skyOf(*engine_->opened());
-  ownSky_ = Sky();
+  edited_.reset();
   animation_ = choice.animation;
 }
 
-void FrameTracer::edit(ShadingEdit edit) {
+void FrameTracer::edit(const SceneEdit& edit) {
   if (edit.scene != engine_->opened()) return;
-
-  Scene& scene = engine_->opened()->scene;
-  Sky opened;  // reading may fail, so it comes before any change
-  if (edit.sky.source != sky_.source && !edit.sky.source.empty()) {
-    Warnings warnings(common_.render.strict);
-    opened = namedSky(edit.sky.source, common_.load.maxMemoryBytes, warnings);
-  }
-
-  editShading(scene, std::move(edit.materials), std::move(edit.lights));
-  if (edit.sky != sky_ || !sameAmbient(edit.ambient, scene.ambient)) {
-    editSurroundings(edit, std::move(opened));
-  }
-  engine_->shadingChanged();
-  editSettings_ = std::move(edit.settings);
-}
-
-void FrameTracer::editSurroundings(const ShadingEdit& edit, Sky opened) {
-  Scene& scene = engine_->opened()->scene;
-  const bool another = edit.sky.source != sky_.source;
-
-  // The sky stays, becomes the scene's own again, or is the one that was just read.
-  Sky& read = edit.sky.source.empty() ? ownSky_ : opened;
-  Sky next = std::move(another ? read : scene.sky);
-  next.scale = edit.sky.scale;
-  next.rotation = edit.sky.rotation;
-
-  // Ambient light may be a multiple of the sky's mean radiance.
-  const Ambient ambient = edit.ambient.ofSky > 0
-                              ? ambientFromSky(next, edit.ambient.ofSky, edit.ambient)
-                              : edit.ambient;
-
-  // editSky() exchanges the two skies, so `next` is the former one afterwards.
-  editSky(scene, next, ambient);
-  if (another && sky_.source.empty()) ownSky_ = std::move(next);
-  sky_ = edit.sky;
+  engine_->edit(edit.settings, editedLoad(edit));
+  edited_.reset();
 }
 
 RayPick FrameTracer::explain(const RayQuery& query) {
@@ -160,18 +122,10 @@ void FrameTracer::describe(const FrameRequest& request, TracedFrame& frame) {
   frame.reasons = scene.reasons;
   frame.machine = renderer.machine();
 
-  // The settings are those that the scene was read with, followed by the edits since then.
-  frame.settings = open->load.settings;
-  frame.settings.insert(frame.settings.end(), editSettings_.begin(), editSettings_.end());
+  if (!edited_) edited_ = std::make_shared<const EditedScene>(editedScene(*open));
+  frame.edited = edited_;
 
-  // An edit of the sky replaces the choice by --sky.
-  frame.sky = open->load.sky;
-  for (const std::string& setting : editSettings_) {
-    if (setting.starts_with("/sky")) frame.sky.clear();
-  }
-
-  frame.metadata = describeImage(scene, request.camera, renderer, frame.film, frame.options);
-  addSettings(frame.settings, frame.sky, frame.metadata);
+  frame.metadata = engine_->describe(request.camera, frame.film);
 }
 
 bool FrameTracer::measure(const FrameRequest& request, TracedFrame& frame,

@@ -16,49 +16,9 @@
 #include "io/image/image_file.h"
 #include "io/json_reader.h"
 #include "output/explained_rays.h"
+#include "viewer/session/scene_edit.h"
 
 namespace whit::view {
-
-// shading_edit.cpp: edits of a scene's materials, lights, sky and ambient light, and the settings
-// (--set) that amount to them.
-
-// The sky that is shown, and its settings.
-struct SkyChoice {
-  std::string source;  // for namedSky(), with the whole path of files; empty: the scene's own
-  Sky::Kind kind = Sky::Kind::none;
-  float scale = 1, rotation = 0;
-
-  friend bool operator==(const SkyChoice&, const SkyChoice&) = default;
-};
-// Returns the sky of a scene as it was read.
-SkyChoice skyOf(const OpenScene& scene);
-// Returns the choice of another sky with its default settings.
-SkyChoice chooseSky(const std::string& source);
-// Describes a sky whose source is not empty as scene files do.
-Json describeSky(const SkyChoice& sky);
-
-// Returns whether both give the same light under the same sky.
-inline bool sameAmbient(const Ambient& a, Ambient b) {
-  if (a.ofSky > 0 || b.ofSky > 0) b.up = a.up, b.down = a.down;  // the sky decides
-  return a == b;
-}
-
-// The edited materials, lights, sky and ambient light of a scene; see bake/edit_scene.h.
-struct ShadingEdit {
-  std::shared_ptr<const OpenScene> scene;
-  std::vector<Material> materials;
-  std::vector<Light> lights;
-  SkyChoice sky;
-  Ambient ambient;                    // its colors do not count where the sky makes them
-  std::vector<std::string> settings;  // editSettings() of this edit
-};
-// Returns the state of a scene as it was read.
-ShadingEdit withoutEdits(const std::shared_ptr<const OpenScene>& scene);
-
-// Returns the edits as values of --set. A scene that is read with these as well has the edited
-// materials, lights, sky and ambient light, bit for bit. Settings of the sky hold for a scene that
-// is read without --sky.
-std::vector<std::string> editSettings(const ShadingEdit& read, const ShadingEdit& edited);
 
 // knob_costs.cpp: the cost of each option and each effect at the present view. Frames with it and
 // without it are timed in turns as `whit accuracy` does.
@@ -148,8 +108,7 @@ struct TracedFrame {
   bool sampled = false;                            // rays were drawn at random
   double sampleError = 0;                          // SampleSums::relativeError(), 0: not known
   std::array<EffectReason, kEffectCount> reasons;  // a copy, as edits change the scene's own
-  std::vector<std::string> settings;               // settings of the scene, then those of an edit
-  std::string sky;  // the scene's --sky, unless another sky was chosen
+  std::shared_ptr<const EditedScene> edited;       // a copy, as well
   Machine machine;
   std::shared_ptr<const DebugPicture> debug;  // null: the request is without a debug view
   // If the request measures knobs: the costs measured so far, and the share of the knobs.
@@ -211,8 +170,8 @@ class FrameTracer {
 
   // Reads a scene; the old one stays when that fails.
   void load(const SceneChoice& choice);
-  // Changes materials, lights and surroundings; does nothing when the scene is another one by now.
-  void edit(ShadingEdit edit);
+  // Edits the scene; does nothing when it is another one by now. Throws with nothing changed.
+  void edit(const SceneEdit& edit);
 
   // Follows the rays of a pixel; leaves the renderer's options as they were.
   RayPick explain(const RayQuery& query);
@@ -222,7 +181,6 @@ class FrameTracer {
   bool trace(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
 
  private:
-  void editSurroundings(const ShadingEdit& edit, Sky opened);
   // Tells what the picture shows and how it was made.
   void describe(const FrameRequest& request, TracedFrame& frame);
   bool tracePicture(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
@@ -235,13 +193,11 @@ class FrameTracer {
 
   const cli::CommonOptions common_;
   std::unique_ptr<Engine> engine_;
-  std::vector<std::string> editSettings_;  // of the scene as it is now
-  SkyChoice sky_;                          // the sky that the scene has now
-  Sky ownSky_;                             // the scene's own sky, while it has another one
-  std::string animation_;                  // the animation that the scene was read with
-  Film band_;                              // frames that are measured
-  std::optional<FrameRequest> finished_;   // the last picture
-  double msPerSample_ = 0;                 // 0: nothing traced yet
+  std::shared_ptr<const EditedScene> edited_;  // the scene as it is now; null: to be copied
+  std::string animation_;                      // the animation that the scene was read with
+  Film band_;                                  // frames that are measured
+  std::optional<FrameRequest> finished_;       // the last picture
+  double msPerSample_ = 0;                     // 0: nothing traced yet
 };
 
 }  // namespace whit::view

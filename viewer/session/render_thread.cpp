@@ -3,6 +3,8 @@
 #include <exception>
 #include <utility>
 
+#include "io/scene/scene_settings.h"
+
 namespace whit::view {
 
 RenderThread::RenderThread(std::shared_ptr<OpenScene> scene, const cli::CommonOptions& common,
@@ -54,8 +56,11 @@ void RenderThread::load(const SceneChoice& scene) {
   post([&] { scene_ = scene; });
 }
 
-void RenderThread::edit(ShadingEdit edit) {
-  post([&] { edit_ = std::move(edit); });
+void RenderThread::edit(const SceneEdit& edit) {
+  post([&] {
+    if (!edit_ || edit_->scene != edit.scene) edit_ = SceneEdit{edit.scene, {}};
+    for (const std::string& setting : edit.settings) addSceneSetting(setting, edit_->settings);
+  });
 }
 
 void RenderThread::query(const RayQuery& query) {
@@ -87,11 +92,13 @@ void RenderThread::loop() {
     wake_.wait(lock, [this] { return hasWork() || quit_; });
     if (quit_) return;
 
+    const bool loads = scene_.has_value();
     try {
       serve(lock);
     } catch (const std::exception& error) {
       // The work may have failed while the lock was released.
       if (!lock.owns_lock()) lock.lock();
+      loadFailed_ |= loads && !scene_;  // another one may be waiting
       tracing_.reset();
       unfinished_.reset();
       error_ = error.what();
@@ -113,8 +120,8 @@ void RenderThread::serve(std::unique_lock<std::mutex>& lock) {
   // Changes of the scene come before queries and pictures, which then are of the new state.
   if (const auto scene = std::exchange(scene_, std::nullopt)) {
     unlocked([&] { tracer_.load(*scene); });
-  } else if (auto edit = std::exchange(edit_, std::nullopt)) {
-    unlocked([&] { tracer_.edit(std::move(*edit)); });
+  } else if (const auto edit = std::exchange(edit_, std::nullopt)) {
+    unlocked([&] { tracer_.edit(*edit); });
   } else if (query_) {
     unlocked([&] { answerQuery(); });
   } else {

@@ -32,9 +32,9 @@ class RenderThread {
   bool ask(const FrameRequest& request);
   // Reads a scene before the next frame; the old one stays when that fails.
   void load(const SceneChoice& scene);
-  // Changes materials and lights before the next frame; does nothing when the scene is another one
-  // by then.
-  void edit(ShadingEdit edit);
+  // Edits the scene before the next frame, after the edits that wait; does nothing when the scene
+  // is another one by then.
+  void edit(const SceneEdit& edit);
   // Follows the rays of a pixel. A picture at rest is interrupted for it and begun again; one that
   // gains samples goes on.
   void query(const RayQuery& query);
@@ -45,8 +45,10 @@ class RenderThread {
   // The samples so far of the picture that is being traced; null if there are no new ones.
   std::optional<UnfinishedFrame> takeUnfinished() { return taken(unfinished_); }
   std::string takeError() { return taken(error_); }  // empty: none
-  bool busy() const;                                 // tracing, or about to
-  bool committed() const;                            // tracing a picture that nothing stops
+  // Returns whether a scene could not be read since the last call.
+  bool takeLoadFailure() { return taken(loadFailed_); }
+  bool busy() const;       // tracing, or about to
+  bool committed() const;  // tracing a picture that nothing stops
 
  private:
   template <typename Result>
@@ -76,7 +78,7 @@ class RenderThread {
   std::condition_variable wake_;
   // Requests of the window; each is handed to the tracing thread once, in this order.
   std::optional<SceneChoice> scene_;
-  std::optional<ShadingEdit> edit_;
+  std::optional<SceneEdit> edit_;
   std::optional<RayQuery> query_;
   std::optional<FrameRequest> asked_;
   std::optional<FrameRequest> tracing_;
@@ -85,6 +87,7 @@ class RenderThread {
   std::optional<UnfinishedFrame> unfinished_;
   TracedFrame ready_;
   std::string error_;
+  bool loadFailed_ = false;
   bool fresh_ = false;  // ready_ is still to be taken
   bool busy_ = false, quit_ = false;
   std::thread thread_;

@@ -163,14 +163,13 @@ Session::Session(const ViewOptions& options, const std::shared_ptr<OpenScene>& s
       thread_(scene, options.common, std::move(onChange)),
       control_(chooseCamera(scene->scene, options.common.render), cruisingSpeed(scene->scene)),
       resolution_(options.rate, options.common.render.spp),
-      read_(withoutEdits(scene)),
-      edit_(read_),
-      traced_(read_),
-      own_(cli::optionsFor(scene->scene, options.common)) {
+      edited_(editedScene(*scene)),
+      ownSky_(edited_.sky),
+      readSettings_(edited_.settings) {
   watch(options.scene);
 
   settings_.rate = resolution_.rate();
-  settings_.options = own_;
+  settings_.options = cli::optionsFor(scene->scene, options.common);
   settings_.view = options.view;
   settings_.timeline = timelineOf(scene->scene, options.common.load.instant);
   if (scene->isMade) settings_.timeline.animations.clear();  // others would have to be read
@@ -257,10 +256,10 @@ bool Session::fetchFrame() {
   bool answered = false;
   const std::string error = thread_.takeError();
   if (!error.empty()) {
-    opening_.clear();
-    // The options and edits of the picture that is shown are known to work.
+    if (thread_.takeLoadFailure()) opening_.clear();
+
+    // The options of the picture that is shown are known to work.
     if (shown_.scene) settings_.options = shown_.request.options;
-    edit_ = traced_;
     fail(error);
   }
 
@@ -287,11 +286,8 @@ bool Session::fetchFrame() {
   const FrameRequest& request = shown_.request;
   if (settings_.options.exposure.automatic) settings_.options.exposure = request.options.exposure;
 
-  // The edits of this picture have been traced, so an error may fall back on them.
-  if (request.edits != tracedEdits_ && request.edits == edits_) {
-    tracedEdits_ = edits_;
-    traced_ = edit_;
-  }
+  // An edit that failed is taken back.
+  if (request.edits == edits_) edited_ = *shown_.edited;
 
   // The cost of a sample decides the resolution of the next picture in motion.
   if (request.view == settings_.view) resolution_.learn(shown_.stats.frameMs, samplesOf(request));
@@ -405,10 +401,10 @@ void Session::askForFrame() {
   if (thread_.ask(request)) asked_ = request;
 }
 
-void Session::passOnEdit() {
+void Session::edit(const std::vector<std::string>& settings) {
   ++edits_;
-  edit_.settings = editSettings(read_, edit_);
-  thread_.edit(edit_);
+  restSeconds_ = 0;
+  thread_.edit({scene_, settings});
 }
 
 void Session::watch(const std::string& scene) {
@@ -437,8 +433,7 @@ void Session::load(const SceneChoice& choice, const std::string& message) {
 void Session::reload() {
   if (!opening_.empty()) return open(opening_);  // sceneName_ is still that of the old scene
   if (scene_->isMade) throwUsage("the scene was made by a program: it cannot be read again here");
-  load({sceneName_, scene_->load.settings, settings_.timeline.animation},
-       "reading the scene again");
+  load({sceneName_, readSettings_, settings_.timeline.animation}, "reading the scene again");
 }
 
 void Session::changeAnimation() {
@@ -448,24 +443,26 @@ void Session::changeAnimation() {
 
 // Takes the options of the scene that was just read where the user has not changed them. The
 // exposure for one scene says nothing about another.
-void Session::takeOptions() {
-  const RenderOptions before = std::exchange(own_, cli::optionsFor(scene(), options_.common));
+void Session::takeOptions(const Scene& last) {
+  const RenderOptions before = cli::optionsFor(last, options_.common);
+  const RenderOptions own = cli::optionsFor(scene(), options_.common);
   for (const std::string& name : sceneOptionNames()) {
     const bool isKept = opening_.empty() || name != "exposure";
     if (isKept && optionText(settings_.options, name) != optionText(before, name)) continue;
-    setOption(settings_.options, name, optionText(own_, name));
+    setOption(settings_.options, name, optionText(own, name));
   }
 }
 
 // Called when the frame that was just fetched shows another scene, or the scene read again.
 void Session::takeScene() {
-  scene_ = shown_.scene;
+  const std::shared_ptr<const OpenScene> last = std::exchange(scene_, shown_.scene);
   const std::lock_guard lock(scene_->moving);
 
   // Edits do not outlive a scene, but the user's options do.
-  read_ = edit_ = traced_ = withoutEdits(scene_);
-  edits_ = tracedEdits_ = 0;
-  takeOptions();
+  edited_ = *shown_.edited;
+  ownSky_ = edited_.sky;
+  readSettings_ = edited_.settings;
+  takeOptions(last->scene);
 
   // A scene that was read again keeps the camera and the time.
   if (opening_.empty()) {

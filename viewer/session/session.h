@@ -142,7 +142,7 @@ class Session {
   void forgetRays();
   std::string command(const RenderOptions& options) const;
   RenderOptions viewOptions() const;
-  void passOnEdit();
+  void edit(const std::vector<std::string>& settings);
   void watch(const std::string& scene);
   void load(const SceneChoice& choice, const std::string& message);
   void reload();
@@ -161,10 +161,10 @@ class Session {
   TracedFrame shown_;
   std::vector<KnobCost> costs_;                // measured so far at the view of the last frame
   std::optional<UnfinishedFrame> unfinished_;  // is shown in place of the frame
-  double pictureMs_ = 0;  // mean time between pictures in motion; 0: nothing moves
-  RayPick rays_;          // the last answer
-  // The scene's shading as it was read, as it is edited, and as it was last traced.
-  ShadingEdit read_, edit_, traced_;
+  double pictureMs_ = 0;            // mean time between pictures in motion; 0: nothing moves
+  RayPick rays_;                    // the last answer
+  EditedScene edited_;              // with edits that are not traced yet
+  Sky ownSky_;                      // of the scene as it was read
   double restSeconds_ = 0;          // time since something changed
   bool sharp_ = false;              // the frame shown gets no finer
   std::optional<double> pathTime_;  // the time on the camera path that is flown
@@ -183,7 +183,7 @@ class Session {
   FrameRequest requestFor(const Sharpness& sharpness, bool still) const;
   void followRays();
   void watchSceneFile();
-  void takeOptions();
+  void takeOptions(const Scene& last);
   void takeScene();
 
   FrameRequest measuredFor_;              // of costs_
@@ -192,10 +192,10 @@ class Session {
   Stopwatch sincePicture_;
   std::optional<FrameRequest> asked_;
   std::optional<RayQuery> picked_, queried_;  // the user's pick, and the last query for it
-  RenderOptions own_;                         // without the user's changes
-  int reloads_ = 0, edits_ = 0, tracedEdits_ = 0;
-  bool selects_ = false;                 // the next answer selects a material and a light
-  std::optional<std::size_t> followed_;  // the scene's camera whose view is shown
+  int reloads_ = 0, edits_ = 0;
+  std::vector<std::string> readSettings_;  // with which the scene was read
+  bool selects_ = false;                   // the next answer selects a material and a light
+  std::optional<std::size_t> followed_;    // the scene's camera whose view is shown
   std::filesystem::path sceneFile_;
   std::filesystem::file_time_type sceneFileTime_;
 };

@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <set>
 
 #include "command_line/program.h"
 #include "core/error.h"
@@ -86,27 +85,18 @@ bool skyLeavesFolder(const std::string& scene, const std::string& shippedScenes,
   return movePaths(root, folder, folder);
 }
 
-void apply(const std::vector<std::string>& settings, const std::set<std::string>& but,
-           JsonDocument& document) {
-  for (const std::string& text : settings) {
-    const SceneSetting setting = parseSceneSetting(text);
-    if (!but.contains(setting.tokens.front())) applySceneSetting(setting, document);
-  }
-}
-
-// `document` is the scene's file with the settings that it was read with.
-Json editedFile(JsonDocument document, const SceneName& name, const ShadingEdit& edit) {
+// `document` is the scene's file with all settings.
+Json editedFile(JsonDocument document, const SceneName& name, const EditedScene& edited) {
   for (const auto& [parameter, value] : name.parameters) {
     document.root["parameters"][parameter] = value;
   }
-  apply(edit.settings, {}, document);
-  if (!edit.sky.source.empty()) document.root["sky"] = describeSky(edit.sky);
+  if (!edited.givenSky.empty()) document.root["sky"] = describe(edited.sky);
   return std::move(document.root);
 }
 
-// Cameras and lights were supplied, or come from the model's own file; a scene has to state them.
-Json sceneOfModel(const fs::path& path, const std::vector<std::string>& read, const Scene& scene,
-                  const ShadingEdit& edit) {
+// Cameras, lights and sky were supplied, or come from the model's own file; a scene has to state
+// them.
+Json sceneOfModel(const fs::path& path, const Scene& scene, const EditedScene& edited) {
   Json root{{"whit", 1}, {"size", {scene.width, scene.height}}};
   std::vector<std::string> names;
   for (const Camera& camera : scene.cameras) names.push_back(camera.name);
@@ -115,23 +105,23 @@ Json sceneOfModel(const fs::path& path, const std::vector<std::string>& read, co
   for (std::size_t i = 0; i < names.size(); ++i) {
     root["cameras"][names[i]] = describe(scene.cameras[i]);
   }
-  root["lights"] = describe(edit.lights);
-  root["ambient"] = describe(edit.ambient);
-  const std::set<std::string> inItem{"lights", "ambient", "sky", "options"};
+  root["lights"] = describe(edited.lights);
+  root["ambient"] = describe(edited.ambient);
+  root["sky"] = describe(edited.sky);
+
+  // The item has the materials of the model, and what chooses among them.
   JsonDocument item{path.string(), {{"model", path.filename().string()}}, {}};
-  apply(read, inItem, item);
-  apply(edit.settings, inItem, item);
+  for (const std::string& text : edited.settings) {
+    const SceneSetting setting = parseSceneSetting(text);
+    const std::string& section = setting.tokens.front();
+    if (section == "materials" || section == "variant") applySceneSetting(setting, item);
+  }
   // Models that scene files name are not moved by themselves.
   if (const Vec3d origin = scene.origin; origin != Vec3d()) {
     item.root["transform"] = {{"translate", {-origin.x, -origin.y, -origin.z}}};
   }
-  JsonDocument whole{path.string(), std::move(root), {}};
-  const std::set<std::string> butSky{"lights", "ambient", "materials", "options"};
-  apply(read, butSky, whole);
-  apply(edit.settings, butSky, whole);
-  if (!edit.sky.source.empty()) whole.root["sky"] = describeSky(edit.sky);
-  whole.root["scene"] = Json::array({std::move(item.root)});
-  return std::move(whole.root);
+  root["scene"] = Json::array({std::move(item.root)});
+  return root;
 }
 
 // Makes `camera` the first one, under a name of its own. The path's first keyframe states what it
@@ -190,38 +180,40 @@ std::string renderCommand(const std::string& scene, const cli::CommonOptions& co
   if (frame.request.seconds && !frame.animation.empty()) {
     text += " --animation " + quoted(frame.animation);
   }
-  for (const std::string& setting : frame.settings) text += " --set " + quoted(setting);
-  if (!frame.sky.empty()) text += " --sky " + quoted(frame.sky);
+  const EditedScene& edited = *frame.edited;
+  for (const std::string& setting : edited.settings) text += " --set " + quoted(setting);
+  if (!edited.givenSky.empty()) text += " --sky " + quoted(edited.givenSky);
   if (common.load.allowOutside ||
-      skyLeavesFolder(scene, common.load.shippedScenes, frame.settings)) {
+      skyLeavesFolder(scene, common.load.shippedScenes, edited.settings)) {
     text += " --allow-outside";
   }
   return text;
 }
 
-SavedScene saveScene(const LoadOptions& load, const std::string& name, const OpenScene& scene,
-                     const ShadingEdit& edit, const Camera& camera, RenderOptions options,
-                     const RenderOptions& chosen) {
+SavedScene saveScene(const LoadOptions& load, const std::string& name, const TracedFrame& frame,
+                     const Camera& camera, RenderOptions options, const RenderOptions& chosen) {
+  const Scene& scene = frame.scene->scene;
+  const EditedScene& edited = *frame.edited;
   const SceneName parsed = parseSceneName(name);
   const fs::path path = findScene(parsed.file, load.shippedScenes);
   LoadOptions read = load;
-  read.settings = scene.load.settings;
+  read.settings = edited.settings;
   std::optional<JsonDocument> document = readDocument(name, read);  // none for a model
-  Json root = document ? editedFile(std::move(*document), parsed, edit)
-                       : sceneOfModel(path, scene.load.settings, scene.scene, edit);
-  lookThrough(camera, scene.scene, root);
+  Json root = document ? editedFile(std::move(*document), parsed, edited)
+                       : sceneOfModel(path, scene, edited);
+  lookThrough(camera, scene, root);
   RenderOptions stated;
-  if (document) applySceneOptions(scene.scene.options, {}, stated);
+  if (document) applySceneOptions(scene.options, {}, stated);
   stateOptions(chosen, stated, root);
   const auto nameOf = [&](int i) {
-    return scene.scene.name + "-edited" + (i == 1 ? "" : "-" + std::to_string(i));
+    return scene.name + "-edited" + (i == 1 ? "" : "-" + std::to_string(i));
   };
   const std::string saved = freeName(nameOf, {".json"}), file = saved + ".json";
   const bool leavesFolder = movePaths(root, path.parent_path(), ".");
   const cli::WriteScope scope;
   writeTextFile(file, root.dump(2) + "\n");
   clearCamera(options);
-  resetOwnSize(load, scene.scene, options);
+  resetOwnSize(load, scene, options);
   return {file,
           commandWith(file, saved, options, stated) + (leavesFolder ? " --allow-outside" : "")};
 }

@@ -19,13 +19,12 @@ struct SavedScene {
 };
 
 // Writes NAME-edited.json, with the first number that is free, into the current folder. It is the
-// file of the scene called `name` with its settings and edits, or a scene that holds the model
+// file of the scene called `name` with the settings of the frame, or a scene that holds the model
 // called `name`; its first camera is `camera`, and it states the options `chosen`. `load` holds the
 // options that the scene was read with, and `options` are those of the command. Throws Error(io),
 // and writes nothing then.
-SavedScene saveScene(const LoadOptions& load, const std::string& name, const OpenScene& scene,
-                     const ShadingEdit& edit, const Camera& camera, RenderOptions options,
-                     const RenderOptions& chosen);
+SavedScene saveScene(const LoadOptions& load, const std::string& name, const TracedFrame& frame,
+                     const Camera& camera, RenderOptions options, const RenderOptions& chosen);
 
 // Writes NAME-NNNN.png and .exr into the current folder, with the first number that is free;
 // returns "NAME-NNNN". Throws Error(io).

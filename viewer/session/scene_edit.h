@@ -1,0 +1,51 @@
+// Edits of a scene's materials, lights, sky and ambient light. They are settings (--set): the
+// engine applies them, the printed command states them, and the saved scene holds them.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/open_scene.h"
+
+namespace whit::view {
+
+// A scene as it is after its edits: the settings with which a reader makes it, and the members that
+// the panel shows.
+struct EditedScene {
+  std::vector<std::string> settings;
+  std::string givenSky;  // replaces the scene's own (--sky); empty: none does
+  bool isModel = false;
+  Vec3d origin;  // of the scene's coordinates, in those of the file
+  std::vector<Material> materials;
+  std::vector<Light> lights;  // those that move, where they start
+  Sky sky;                    // without its image
+  Ambient ambient;
+};
+EditedScene editedScene(const OpenScene& open);
+
+// Settings that are to be added to those of a scene.
+struct SceneEdit {
+  std::shared_ptr<const OpenScene> scene;
+  std::vector<std::string> settings;
+};
+// Returns what the edited scene is read with.
+LoadOptions editedLoad(const SceneEdit& edit);
+
+// These add settings that make the members of a scene what they are now: those of a material or
+// light that have changed, the sky, or the ambient light.
+void state(const Material& before, const Material& after, const Vec3d& origin,
+           std::vector<std::string>& settings);
+void state(const Light& before, const Light& after, const Vec3d& origin,
+           std::vector<std::string>& settings);
+void stateSky(const EditedScene& scene, std::vector<std::string>& settings);
+void stateAmbient(const EditedScene& scene, std::vector<std::string>& settings);
+
+// Returns the sky kNoSky, kStudio or that of an image file, without its image.
+Sky skyFrom(const std::string& source);
+// Returns whether there is no sky, or the black one that settings have in its place.
+bool isNoSky(const Sky& sky);
+// Returns whether both skies differ at most in brightness and rotation.
+bool isSameSky(const Sky& a, const Sky& b);
+
+}  // namespace whit::view
