@@ -53,6 +53,8 @@ class App : public Session {
 
   // app_keys.cpp:
   CameraMotion keysAndDrags() const;
+  template <typename Action>
+  void attempt(const Action& action);
   void handleInput();
   void handleKey(int key);
   void savePicture();

@@ -8,7 +8,6 @@
 #include <map>
 #include <string_view>
 
-#include "bake/edit_scene.h"
 #include "core/text.h"
 #include "viewer/app.h"
 #include "viewer/session/view_files.h"
@@ -73,6 +72,16 @@ CameraMotion App::keysAndDrags() const {
   return motion;
 }
 
+// Shows the error if the user's action fails.
+template <typename Action>
+void App::attempt(const Action& action) {
+  try {
+    action();
+  } catch (const std::exception& error) {
+    fail(error.what());
+  }
+}
+
 void App::handleInput() {
   Input& input = window_.input;
   // Dragging takes the camera off the path that it flies along.
@@ -85,31 +94,25 @@ void App::handleInput() {
 
   for (const int key : input.pressed) {
     if (flies(key)) pathTime_.reset();
-    try {
-      handleKey(key);
-    } catch (const std::exception& error) {
-      fail(error.what());
-    }
+    attempt([&] { handleKey(key); });
   }
 
   // These keys were pressed together with Ctrl.
   for (const int key : input.commands) {
     settings_.saveScene |= key == GLFW_KEY_S;
-    if (key == GLFW_KEY_C) printView();
+    if (key == GLFW_KEY_C) attempt([&] { printView(); });
   }
 
-  if (clicked) click(*clicked);
-  if (!input.dropped.empty()) openFile(input.dropped.front());
+  if (clicked) attempt([&] { click(*clicked); });
+  if (!input.dropped.empty()) attempt([&] { openFile(input.dropped.front()); });
 }
 
 void App::servePanel() {
-  try {
+  attempt([&] {
     if (std::exchange(settings_.saveScene, false)) saveScene();
     if (std::exchange(settings_.timeline.another, false)) changeAnimation();
     if (!settings_.open.empty()) openFile(std::exchange(settings_.open, std::string()));
-  } catch (const std::exception& error) {
-    fail(error.what());
-  }
+  });
 }
 
 void App::handleKey(int key) {

@@ -181,12 +181,13 @@ void ServedSession::step(double seconds) {
     downloads = downloads_ > 0;
   }
 
+  // An error is shown until the user goes on.
+  if (!messages.empty()) error_.clear();
   changed_ |= fetchFrame();
 
   // An error of one message does not keep the others from being served.
   for (const Message& message : messages) {
     try {
-      error_.clear();
       serve(message);
     } catch (const std::exception& error) {
       fail(error.what());
