@@ -106,7 +106,9 @@ void drawItems(std::vector<Item>& items, const char* kind, std::size_t& selected
 
     if (ImGui::TreeNode(kind, "%s", name.c_str())) {
       const Item before = items[i];
+      ImGui::BeginDisabled(before.pointer.empty());  // no setting can name it
       if (draw(items[i])) state(before, items[i], origin, settings);
+      ImGui::EndDisabled();
       ImGui::TreePop();
     }
     ImGui::PopID();

@@ -29,6 +29,13 @@ bool sameKindOfLight(const Light& a, const Light& b) {
          isBlack(a.intensity) == isBlack(b.intensity);
 }
 
+// Returns whether both skies are known to differ at most in brightness and rotation.
+bool sameBlurredSky(const Sky& a, const Sky& b) {
+  if (a.kind != b.kind) return false;
+  if (a.kind == Sky::Kind::image) return !a.name.empty() && a.name == b.name;
+  return a.zenith == b.zenith && a.horizon == b.horizon && a.ground == b.ground;
+}
+
 void keepBaked(const Material& from, Material& to) {
   const Material next = to;
   forEachMember<Material>([&](const auto& member) {
@@ -183,6 +190,7 @@ void editShading(Scene& scene, std::vector<Material> materials, std::vector<Ligh
 
 void editSky(Scene& scene, Sky& sky, const Ambient& ambient) {
   validate(scene.name, sky, ambient);
+  if (!sameBlurredSky(scene.sky, sky)) scene.blurredSky = EnvironmentImage();
   std::swap(scene.sky, sky);
   scene.ambient = ambient;
   gatherEffects(scene);

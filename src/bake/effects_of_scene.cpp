@@ -136,7 +136,10 @@ class Gatherer {
         : rough ? "the ambient light has a reflection of 0"
                 : "no mesh uses a material whose glossy lobe reflects the scene");
     const bool blurred = scene_.effects.has(Effect::blurredSky);
-    scene_.blurredSky = blurred ? blurredSky(scene_.sky) : EnvironmentImage();
+    // Making the image takes milliseconds; editSky() removes it where the sky becomes another one.
+    if (!blurred) scene_.blurredSky = EnvironmentImage();
+    if (blurred && scene_.blurredSky.r.empty()) scene_.blurredSky = blurredSky(scene_.sky);
+
     const bool ambient = !isBlack(scene_.ambient.up) || !isBlack(scene_.ambient.down);
     set(Effect::ambient, ambient, "the ambient light is not black", "the ambient light is black");
     const bool occludes = ambient || blurred;

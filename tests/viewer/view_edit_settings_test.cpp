@@ -46,6 +46,7 @@ void expectSame(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.sky.name, b.sky.name);
   EXPECT_TRUE(sameMembers(a.sky, b.sky));
   EXPECT_EQ(a.sky.image.r, b.sky.image.r);
+  EXPECT_EQ(a.blurredSky.r, b.blurredSky.r);
   EXPECT_EQ(a.ambient, b.ambient);
   EXPECT_EQ(a.effects, b.effects);
 }
@@ -225,7 +226,8 @@ class EditedSky : public EditedModel {
     }
     writeExr(folder_ / "sky.exr", sky, {});
     std::ofstream(folder_ / "s.json") << R"({"whit": 1, "sky": {"image": "sky.exr", "scale": 0.5},
-      "ambient": {"fromSky": 0.5}, "scene": [{"shape": "sphere"}]})";
+      "ambient": {"fromSky": 0.5}, "materials": {"glossy": {"specular": 0.5, "roughness": 0.5}},
+      "scene": [{"shape": "sphere", "material": "glossy"}]})";
   }
 
   // Chooses other skies and goes back.
@@ -252,6 +254,27 @@ TEST_F(EditedSky, OfAModel) {
   expectSkiesInPlace(editing);
 }
 
+// A scene that is shown as a model is has a supplied sky, which the lights make brighter.
+TEST_F(EditedSky, OfASceneWithTheViewOfAModel) {
+  std::ofstream(folder_ / "s.json") << R"({"whit": 1, "view": "model", "lights":
+    [{"position": [1, 2, 3], "intensity": 5}], "materials": {"m": {"diffuse": 0.5}},
+    "scene": [{"model": "m.obj"}, {"shape": "sphere", "material": "m"}]})";
+  const std::string brighter = "/lights/0/intensity=500";
+
+  Editing editing(folder_ / "s.json");
+  editing.apply({"/materials/m/roughness=0.25", "/scene/0/materials/it's=1/mirror=0.5"});
+  editing.apply({"/ambient={\"fromSky\": 0.25}"});
+  expectSkiesInPlace(editing);
+  editing.apply({brighter});
+
+  const std::shared_ptr<OpenScene> open = openWith(folder_ / "s.json");
+  const float before = open->scene.sky.scale;
+  Engine engine(open);
+  engine.edit(brighter);
+  EXPECT_GT(engine.scene().sky.scale, before);
+  expectSame(engine.scene(), openWith(folder_ / "s.json", engine.opened()->load)->scene);
+}
+
 TEST_F(EditedSky, TakesThePlaceOfAGivenOne) {
   std::ofstream(folder_ / "s.json") << R"({"whit": 1, "scene": [{"shape": "sphere"}]})";
   LoadOptions load;
@@ -268,10 +291,10 @@ TEST_F(EditedSky, TakesThePlaceOfAGivenOne) {
 TEST_F(EditedSky, ThatCannotBeReadLeavesAllAsItWas) {
   Editing editing(folder_ / "s.json");
   const Scene before = editing.now();
-  EXPECT_THROW(editing.apply({"/materials/default/diffuse=0.1", "/sky={\"image\": \"no.exr\"}"}),
+  EXPECT_THROW(editing.apply({"/materials/glossy/diffuse=0.1", "/sky={\"image\": \"no.exr\"}"}),
                Error);
   expectSame(editing.now(), before);
-  editing.apply({"/materials/default/diffuse=0.1"});
+  editing.apply({"/materials/glossy/diffuse=0.1"});
 }
 
 }  // namespace

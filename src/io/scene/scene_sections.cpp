@@ -332,7 +332,8 @@ std::optional<double> readAmbient(JsonObject& file, SceneDescription& scene) {
   std::optional<double> fromSky;
   if (const JsonValue strength = object.find("fromSky")) {
     fromSky = strength.number(0);
-    if (scene.sky.kind == Sky::Kind::none) strength.fail("a scene with a sky");
+    const bool hasSky = scene.sky.kind != Sky::Kind::none || file.has("view");
+    if (!hasSky) strength.fail("a scene with a sky");
   } else if (const JsonValue color = object.find("color")) {
     scene.ambient.up = scene.ambient.down = color.color();
   } else if (const JsonValue up = object.find("up")) {

@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "io/load_scene.h"
 #include "io/scene/scene_sections.h"
+#include "make/model_view.h"
 
 namespace whit {
 namespace {
@@ -50,13 +51,22 @@ bool areRelated(const std::vector<std::string>& a, const std::vector<std::string
       a.begin(), a.begin() + static_cast<std::ptrdiff_t>(std::min(a.size(), b.size())), b.begin());
 }
 
+// Returns whether the document is that of a model by itself, see describeModel().
+bool isModelAlone(const JsonDocument& document) { return !document.root.contains("whit"); }
+
+// Returns whether "view" supplies the sky, which is as bright as it suits the lights.
+bool hasSuppliedSky(const JsonDocument& document) {
+  return document.root.contains("view") && !document.root.contains("sky");
+}
+
 // Reads the lights. Returns false where others than before would move.
-bool readEditedLights(const Scene& scene, JsonDocument lights, SceneContext& context) {
+bool readEditedLights(const Scene& scene, const JsonDocument& document, SceneContext& context) {
+  JsonDocument lights{document.file, {{"lights", document.root.at("lights")}}, document.parameters};
   moveLights(lights.root, -scene.origin);
   JsonObject file{JsonValue(lights)};
   readLights(file, context.instant, context.scene);
   if (context.scene.lights.size() != scene.lights.size()) return false;
-  if (scene.isModel) return true;  // its nodes carry its lights
+  if (isModelAlone(document)) return true;  // its nodes carry its lights
   return std::ranges::equal(scene.motion.given.lights, context.scene.motion.lights, {},
                             &MovingLight::light, &MovingLight::light);
 }
@@ -71,10 +81,18 @@ bool readEditedView(const Scene& scene, JsonObject& file, SceneContext& context)
 
 // Reads the sky and the ambient light, which is `fromSky` times the sky's if that is there. Returns
 // false for ambient light that a model was supplied with, because its sky may have been another.
-bool readEditedSurroundings(const Scene& scene, JsonObject& file, SceneContext& context,
+bool readEditedSurroundings(const Scene& scene, const JsonDocument& document, SceneContext& context,
                             std::optional<double>& fromSky) {
+  JsonObject file{JsonValue(document)};
   if (scene.isModel && !file.has("ambient")) return false;
+
   context.knownSky = scene.sky.name;
+  if (hasSuppliedSky(document) && scene.sky.name == kStudio) {
+    Sky& sky = context.scene.sky;
+    sky.kind = Sky::Kind::image;
+    sky.name = kStudio;
+    sky.scale = scene.sky.scale;
+  }
   readSky(file, context);
   fromSky = readAmbient(file, context.scene);
   replaceSky(context);
@@ -113,7 +131,7 @@ bool editMaterial(const SceneSetting& setting, const JsonDocument& document, con
   if (isBaked) return false;
 
   // Only the readers of models leave maps out.
-  if (!scene.isModel && pointer.starts_with("/materials/")) return true;
+  if (!isModelAlone(document) && pointer.starts_with("/materials/")) return true;
   for (const auto& [name, map] : kReplacedMaps) {
     const bool isGiven = object.has(std::string(name) + "Map");
     if (object.has(name) && !isGiven) material.*map = kNoTexture;
@@ -198,7 +216,7 @@ bool editScene(const std::vector<SceneSetting>& touched, const LoadOptions& opti
     if (section == "lights") {
       // Of a light that moves, the members can be edited, but not its motion.
       const bool isMember = tokens.size() > 2 && tokens[2] != "motion";
-      if (scene.motion.ofLights() && !isMember) return false;
+      if (hasSuppliedSky(document) || (scene.motion.ofLights() && !isMember)) return false;
       lights = true;
     } else if (section == "sky" || section == "ambient") {
       surroundings = true;
@@ -215,13 +233,9 @@ bool editScene(const std::vector<SceneSetting>& touched, const LoadOptions& opti
   SceneContext context(std::filesystem::absolute(document.file), options, warnings, nullptr);
   JsonObject file{JsonValue(document)};
   std::optional<double> fromSky;
-  if (lights) {
-    const JsonDocument own{
-        document.file, {{"lights", document.root.at("lights")}}, document.parameters};
-    if (!readEditedLights(scene, own, context)) return false;
-  }
+  if (lights && !readEditedLights(scene, document, context)) return false;
   if (view && !readEditedView(scene, file, context)) return false;
-  if (surroundings && !readEditedSurroundings(scene, file, context, fromSky)) return false;
+  if (surroundings && !readEditedSurroundings(scene, document, context, fromSky)) return false;
 
   SceneDescription& read = context.scene;
   if (!lights) read.lights = scene.lights;
