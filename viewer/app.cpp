@@ -1,7 +1,6 @@
 #include "viewer/app.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <limits>
 
@@ -29,13 +28,17 @@ App::App(const ViewOptions& options, const std::shared_ptr<OpenScene>& scene, Wi
   rememberRecent(options.scene, settings_.recent);
   settings_.tab = kept.tabShown;
 
-  say(control_.orbits() ? "H: help. Drag to orbit, Shift to pan, wheel to move closer"
-                        : "H: help. Drag to look around, W A S D to walk");
+  if (message_.empty()) {
+    say("H: help. Drag to turn, Shift to pan, wheel to go forward, W A S D to walk");
+  }
   messageSeconds_ = std::numeric_limits<double>::infinity();  // until a key or a click
 }
 
 void App::run() {
-  while (!window_.closing() && step()) {
+  while (step()) {
+    if (!window_.closing()) continue;
+    if (mayQuit()) return;
+    window_.setClosing(false);
   }
 }
 
@@ -55,11 +58,11 @@ bool App::step() {
   handleInput();
   servePanel();
   advance(keysAndDrags(), seconds);
+  if (savesPicture_ && isComplete()) savePicture();
 
   if (fresh) showPicture();
   if (worthDrawing(fresh, seconds)) draw();
   window_.input.endFrame();
-  clickSeconds_ += seconds;
   return true;
 }
 
@@ -102,16 +105,21 @@ void App::showPicture() {
 }
 
 void App::drawPanel() {
-  if (!settings_.shown || !shown_.scene) return;
-
-  const PanelSettings before = settings_;
-  const std::vector<std::string> edits =
-      panel_.draw(shown_, rays_, costs_, control_.speed(), settings_, ownSky_, edited_);
-
-  if (drawTimeline(settings_.timeline)) {
+  if (!shown_.scene) return;
+  if (settings_.words && drawTimeline(settings_.timeline)) {
     restSeconds_ = 0;
     followCamera();
   }
+
+  if (listsCameras_) {
+    const auto chosen = drawCameras(scene().cameras, followed_);
+    if (chosen) jumpToNumber(*chosen);
+  }
+
+  if (!settings_.shown) return;
+  const PanelSettings before = settings_;
+  const std::vector<std::string> edits =
+      panel_.draw(shown_, rays_, costs_, settings_, ownSky_, edited_);
 
   // A change resets the rest, so that the picture sharpens again from coarse to fine.
   if (!edits.empty()) edit(edits);
@@ -120,7 +128,7 @@ void App::drawPanel() {
 
 void App::inspectPointed() const {
   const bool somebodyPoints = !scripted_ || window_.input.pointer;
-  if (!settings_.words || !settings_.inspects || !somebodyPoints || !shown_.scene) return;
+  if (!settings_.words || !shown_.debug || !somebodyPoints) return;
 
   const auto at = window_.pointed();
   if (!at) return;

@@ -57,6 +57,8 @@ class App : public Session {
   void attempt(const Action& action);
   void handleInput();
   void handleKey(int key);
+  void closeOrQuit();
+  bool mayQuit();
   void savePicture();
   void printView();
   void click(const Input::Click& place);
@@ -68,9 +70,9 @@ class App : public Session {
   ScriptedUser* scripted_;  // null: a person
   Window& window_;
   Panel panel_;
-  std::optional<Input::Click> clicked_;  // the last click, until it is too old for a double one
-  double clickSeconds_ = 0;              // time since then
-  bool shownBeforeClick_ = false;        // the panel was
+  bool listsCameras_ = false;
+  bool savesPicture_ = false;  // as soon as it is complete
+  bool asked_ = false;         // whether edits may be lost
   double undrawnSeconds_ = 0;
   int drawAgain_ = 0;  // frames to draw without waiting, see kFramesToAnswer
   Stopwatch sinceTick_;

@@ -2,7 +2,6 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -17,37 +16,34 @@ namespace whit::view {
 namespace {
 
 constexpr float kExposureStep = 0.25f;
-constexpr double kDoubleClickSeconds = 0.35, kDoubleClickPixels = 6;
 
 // GLFW's codes of letters are their ASCII codes.
 bool flies(int key) {
   return key < 128 && std::string_view("WASDQE").find(static_cast<char>(key)) != std::string::npos;
 }
 
-constexpr KeyHelp kHelp[] = {{"left drag", "orbit a model; look around in a room"},
-                             {"middle or Shift drag", "pan"},
-                             {"right drag", "move closer to a model; orbit in a room"},
-                             {"wheel", "move closer to a model; speed in a room"},
-                             {"Home, double click", "fit the model; first camera of a room"},
-                             {"W A S D, Q E", "walk; down and up"},
-                             {"Shift, arrows", "four times as fast; look around"},
-                             {"click; T", "the rays of that pixel; their lines, or not"},
-                             {"I", "what the pixel under the pointer holds, or not"},
-                             {"1 ... 9", "cameras of the scene"},
-                             {"Space", "fly the camera path"},
-                             {"P", "play or pause what moves"},
-                             {"[ ]", "exposure"},
-                             {"F", "full screen"},
-                             {"H", "this panel"},
-                             {"V", "depth, normals and other views"},
-                             {"N", "more samples at rest, or not"},
-                             {"M", "measure what each knob and effect costs"},
-                             {"C", "print and copy the view as whit render makes it"},
-                             {"F12", "save PNG and EXR, print the command"},
-                             {"R", "reload the scene"},
-                             {"Ctrl+S", "save what was edited as a scene file"},
-                             {"drop a file", "open it; an HDR or EXR image as the sky"},
-                             {"Esc", "quit"}};
+constexpr KeyHelp kHelp[] = {
+    {"left drag", "orbit a model; look around in a room"},
+    {"middle or Shift drag", "pan"},
+    {"wheel, right drag", "move closer to a model; walk forward or back in a room"},
+    {"F", "fit what is looked at; first camera of a room"},
+    {"Home", "first camera"},
+    {"W A S D, Q E", "walk; down and up"},
+    {"Shift, arrows", "four times as fast; look around"},
+    {"click; T", "the rays of that pixel; their lines, or not"},
+    {"1 ... 9; L", "cameras of the scene; their list"},
+    {"Space", "play or pause what moves, or fly the camera path"},
+    {"[ ]", "exposure"},
+    {"F11", "full screen"},
+    {"H", "this panel"},
+    {"V", "depth, normals and other views, with the value of each pixel"},
+    {"C", "print and copy the view as whit render makes it"},
+    {"F12", "save PNG and EXR at full resolution, print the command"},
+    {"R", "reload the scene"},
+    {"Ctrl+Z", "undo the last edit"},
+    {"Ctrl+S", "save what was edited as a scene file"},
+    {"drop a file", "open it; an HDR or EXR image as the sky"},
+    {"Esc", "close what is open; then quit"}};
 
 }  // namespace
 
@@ -100,7 +96,7 @@ void App::handleInput() {
   // These keys were pressed together with Ctrl.
   for (const int key : input.commands) {
     settings_.saveScene |= key == GLFW_KEY_S;
-    if (key == GLFW_KEY_C) attempt([&] { printView(); });
+    if (key == GLFW_KEY_Z) undoEdit();
   }
 
   if (clicked) attempt([&] { click(*clicked); });
@@ -117,38 +113,25 @@ void App::servePanel() {
 
 void App::handleKey(int key) {
   const std::map<int, std::function<void()>> actions{
-      {GLFW_KEY_ESCAPE, [&] { window_.close(); }},
-      {GLFW_KEY_F, [&] { window_.toggleFullScreen(); }},
+      {GLFW_KEY_ESCAPE, [&] { closeOrQuit(); }},
+      {GLFW_KEY_F11, [&] { window_.toggleFullScreen(); }},
       {GLFW_KEY_H, [&] { settings_.shown = !settings_.shown; }},
-      {GLFW_KEY_HOME, [&] { fitView(window_.size()); }},
+      {GLFW_KEY_F, [&] { fitView(window_.size()); }},
+      {GLFW_KEY_HOME, [&] { jumpToNumber(0); }},
+      {GLFW_KEY_L, [&] { listsCameras_ = !listsCameras_; }},
       {GLFW_KEY_R, [&] { reload(); }},
-      {GLFW_KEY_F12, [&] { savePicture(); }},
+      {GLFW_KEY_F12,
+       [&] {
+         savesPicture_ = true;
+         holdStill();
+         say("the picture is saved as soon as it has full resolution and all samples");
+       }},
       {GLFW_KEY_C, [&] { printView(); }},
       {GLFW_KEY_LEFT_BRACKET, [&] { expose(-kExposureStep); }},
       {GLFW_KEY_RIGHT_BRACKET, [&] { expose(kExposureStep); }},
       {GLFW_KEY_V, [&] { showNextView(); }},
-      {GLFW_KEY_N,
-       [&] {
-         settings_.supersample = !settings_.supersample;
-         say(settings_.supersample ? "supersamples at rest" : "no more samples at rest");
-       }},
-      {GLFW_KEY_M,
-       [&] {
-         settings_.measureKnobs = settings_.shown = true;
-         settings_.tab = "knobs";
-         say("measuring what each knob and effect costs");
-       }},
-      {GLFW_KEY_I, [&] { settings_.inspects = !settings_.inspects; }},
       {GLFW_KEY_T, [&] { settings_.rays.lines = !settings_.rays.lines; }},
-      {GLFW_KEY_SPACE, [&] { startOrStopPath(); }},
-      {GLFW_KEY_P,
-       [&] {
-         if (settings_.timeline.there) {
-           settings_.timeline.playing = !settings_.timeline.playing;
-         } else {
-           say("nothing moves in this scene");
-         }
-       }},
+      {GLFW_KEY_SPACE, [&] { playOrPause(); }},
   };
 
   const auto found = actions.find(key);
@@ -160,12 +143,40 @@ void App::handleKey(int key) {
   }
 }
 
+void App::closeOrQuit() {
+  if (!error_.empty()) {
+    error_.clear();
+  } else if (listsCameras_) {
+    listsCameras_ = false;
+  } else if (settings_.shown) {
+    settings_.shown = false;
+  } else if (rays_.scene) {
+    forgetRays();
+  } else if (window_.isFullScreen()) {
+    window_.toggleFullScreen();
+  } else {
+    window_.setClosing(true);
+  }
+}
+
+// Asks once before edits are lost.
+bool App::mayQuit() {
+  if (edited_.settings == savedSettings_ || std::exchange(asked_, true)) return true;
+  say("there are edits that no file has: Ctrl+S saves them, Esc once more quits without them");
+  return false;
+}
+
 void App::savePicture() {
-  if (!shown_.scene) return;
-  const std::string name = view::savePicture(shown_);
-  std::printf("%s\n", command(shown_.options).c_str());
-  std::fflush(stdout);
-  say("saved " + name + ".png and .exr; the command that renders them is printed");
+  savesPicture_ = false;
+  attempt([&] {
+    const std::string name = view::savePicture(shown_);
+    std::printf("%s\n", command(shown_.options).c_str());
+    std::fflush(stdout);
+
+    const Image& image = shown_.film.image;
+    say(formatted("saved %s.png and .exr, %d x %d, %d samples a pixel", name.c_str(), image.width,
+                  image.height, shown_.request.spp));
+  });
 }
 
 void App::printView() {
@@ -188,28 +199,13 @@ void App::saveScene() {
                                            control_.camera(), viewOptions(), settings_.options);
   std::printf("%s\n", saved.command.c_str());
   std::fflush(stdout);
+  savedSettings_ = shown_.edited->settings;
   say("saved the scene as " + saved.file + "; the command that renders it is printed");
 }
 
 void App::click(const Input::Click& place) {
   if (!shown_.scene) return;
 
-  // A double click takes back what its first click did, and fits the view instead.
-  const double slack = kDoubleClickPixels * window_.scale();
-  const bool again = clicked_ && clickSeconds_ < kDoubleClickSeconds &&
-                     std::abs(place.x - clicked_->x) + std::abs(place.y - clicked_->y) <= slack;
-  if (again) {
-    clicked_.reset();
-    forgetRays();
-    settings_.shown = shownBeforeClick_;
-    fitView(window_.size());
-    return;
-  }
-
-  // A single click picks the pixel and explains its rays in the panel.
-  clicked_ = place;
-  clickSeconds_ = 0;
-  shownBeforeClick_ = settings_.shown;
   const auto [x, y] = window_.pixelAt(place);
   pick(x, y);
 

@@ -20,12 +20,13 @@ constexpr ImU32 kBrightWhite = IM_COL32(255, 255, 255, 255), kDarkShade = IM_COL
 // and has round corners of that radius.
 void drawLabel(const ImVec2& at, const char* text, float margin = 3, ImU32 color = kWhite,
                ImU32 shade = kShade) {
-  const ImVec2 size = ImGui::CalcTextSize(text);
+  const float widest = ImGui::GetIO().DisplaySize.x;
+  const ImVec2 size = ImGui::CalcTextSize(text, nullptr, false, widest);
   ImDrawList& list = *ImGui::GetForegroundDrawList();
 
   list.AddRectFilled(ImVec2(at.x - margin, at.y - margin),
                      ImVec2(at.x + size.x + margin, at.y + size.y + margin), shade, margin);
-  list.AddText(at, color, text);
+  list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), at, color, text, nullptr, widest);
 }
 
 // Draws a bar of colors; colorOf(share) returns the color at a share of the way along it.
@@ -65,31 +66,17 @@ int indexAt(double share, int pixels) { return static_cast<int>(share * pixels);
 std::string inspect(const TracedFrame& frame, const ImageSize& window,
                     const std::array<int, 2>& pixel) {
   const Image& image = frame.film.image;
-  const DisplayImage& display = frame.film.display;
   const ImageSize& madeFor = frame.request.window;
-  if (!frame.scene || window.width < 1 || window.height < 1 || madeFor.width < 1 ||
-      image.pixels.empty() || display.rgba.size() < 4 * image.pixels.size()) {
-    return "";
-  }
+  if (!frame.debug) return "";
 
   const auto place = placeIn(madeFor, window, pixel);
   if (!place) return "";
   const auto [shareX, shareY] = *place;
   const int x = indexAt(shareX, image.width), y = indexAt(shareY, image.height);
 
-  const std::size_t at = image.index(x, y);
-  std::string text =
-      formatted("pixel %d, %d", indexAt(shareX, madeFor.width), indexAt(shareY, madeFor.height));
-
-  if (frame.debug) {
-    text += "\n" + frame.debug->textOf(at);
-  } else {
-    const std::uint8_t* codes = &display.rgba[4 * at];
-    const RgbD radiance(image.pixels[at]);
-    text += formatted("\n8-bit codes %d %d %d\nradiance, W/sr a square unit\n%.4g %.4g %.4g",
-                      codes[0], codes[1], codes[2], radiance.x, radiance.y, radiance.z);
-  }
-  return text;
+  return formatted("pixel %d, %d\n", indexAt(shareX, madeFor.width),
+                   indexAt(shareY, madeFor.height)) +
+         frame.debug->textOf(image.index(x, y));
 }
 
 void drawInspection(const std::string& lines, double pointerX, double pointerY) {
@@ -141,7 +128,8 @@ void drawStatus(const TracedFrame& frame, const UnfinishedFrame* next, double ra
 
 void drawMessage(const std::string& message) {
   constexpr float kMargin = 10, kPadding = 6;
-  const ImVec2 window = ImGui::GetIO().DisplaySize, size = ImGui::CalcTextSize(message.c_str());
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  const ImVec2 size = ImGui::CalcTextSize(message.c_str(), nullptr, false, window.x);
   drawLabel(ImVec2((window.x - size.x) / 2, window.y - kMargin - kPadding - size.y),
             message.c_str(), kPadding, kBrightWhite, kDarkShade);
 }
@@ -160,6 +148,24 @@ bool drawError(const std::string& error) {
 
   ImGui::End();
   return open;
+}
+
+std::optional<std::size_t> drawCameras(const std::vector<Camera>& cameras,
+                                       std::optional<std::size_t> current) {
+  constexpr float kMargin = 10;
+  const float right = ImGui::GetIO().DisplaySize.x - kMargin;
+  ImGui::SetNextWindowPos(ImVec2(right, kMargin), ImGuiCond_Always, ImVec2(1, 0));
+
+  std::optional<std::size_t> chosen;
+  if (ImGui::Begin("cameras", nullptr, kBare)) {
+    ImGui::TextDisabled("cameras (L)");
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+      const std::string text = formatted("%zu  %s", i + 1, cameras[i].name.c_str());
+      if (ImGui::Selectable(text.c_str(), i == current)) chosen = i;
+    }
+  }
+  ImGui::End();
+  return chosen;
 }
 
 bool drawTimeline(Timeline& timeline) {

@@ -70,16 +70,6 @@ void drawEffects(const TracedFrame& frame, const std::vector<KnobCost>& costs, E
   }
 }
 
-void drawPicture(PanelSettings& settings) {
-  drawOptions(Tab::picture, settings.options, {});
-  auto rate = static_cast<float>(settings.rate);
-  ImGui::SetNextItemWidth(ImGui::GetFontSize() * 11);
-  if (ImGui::SliderFloat("frames/s", &rate, kLeastRate, kLargestRate, "%.0f")) {
-    settings.rate = static_cast<double>(rate);
-  }
-  ImGui::Checkbox("supersample at rest (N)", &settings.supersample);
-}
-
 // Draws the choice of debug view.
 void drawView(PanelSettings& settings) {
   int view = static_cast<int>(settings.view);
@@ -150,7 +140,7 @@ std::vector<std::string> drawTabs(const TracedFrame& frame, const RayPick& pick,
   });
 
   tab("picture", [&] {
-    drawPicture(settings);
+    drawOptions(Tab::picture, settings.options, {});
     drawView(settings);
   });
 
@@ -158,7 +148,7 @@ std::vector<std::string> drawTabs(const TracedFrame& frame, const RayPick& pick,
     if (settings.measureKnobs) {
       ImGui::ProgressBar(static_cast<float>(frame.measured), ImVec2(-1, 0),
                          formatted("measuring: %.0f %%", 100 * frame.measured).c_str());
-    } else if (ImGui::Button("measure what each costs (M)")) {
+    } else if (ImGui::Button("measure what each costs")) {
       settings.measureKnobs = true;
     }
 
@@ -184,9 +174,8 @@ std::vector<std::string> drawTabs(const TracedFrame& frame, const RayPick& pick,
 }  // namespace
 
 std::vector<std::string> Panel::draw(const TracedFrame& frame, const RayPick& pick,
-                                     const std::vector<KnobCost>& costs, double speed,
-                                     PanelSettings& settings, const Sky& ownSky,
-                                     EditedScene& scene) {
+                                     const std::vector<KnobCost>& costs, PanelSettings& settings,
+                                     const Sky& ownSky, EditedScene& scene) {
   constexpr float kMargin = 10, kWidth = 32, kLeastWidth = 12;  // pixels; heights of the font
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   const float em = ImGui::GetFontSize(), height = std::max(window.y - 2 * kMargin, kMargin);
@@ -213,7 +202,6 @@ std::vector<std::string> Panel::draw(const TracedFrame& frame, const RayPick& pi
   std::vector<std::string> edits;
   if (ImGui::Begin("whit", &settings.shown, ImGuiWindowFlags_AlwaysAutoResize)) {
     drawTimes(frame);
-    ImGui::Text("speed %.3g units a second", speed);
     edits = drawTabs(frame, pick, costs, settings, ownSky, scene);
   }
 

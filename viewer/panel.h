@@ -21,8 +21,8 @@ class Panel {
   // `frame` must hold a picture, and `ownSky` is the scene's. Returns the settings by which the
   // user has edited the scene.
   std::vector<std::string> draw(const TracedFrame& frame, const RayPick& pick,
-                                const std::vector<KnobCost>& costs, double speed,
-                                PanelSettings& settings, const Sky& ownSky, EditedScene& scene);
+                                const std::vector<KnobCost>& costs, PanelSettings& settings,
+                                const Sky& ownSky, EditedScene& scene);
 
  private:
   float left_ = 0, width_ = 0;  // of the panel in the last frame
@@ -53,8 +53,12 @@ void drawRayLines(const RayPick& pick, const Camera& camera, const RayView& view
 // Draws a bar at the bottom of the window if the scene moves. Returns whether something was
 // changed.
 bool drawTimeline(Timeline& timeline);
-// Describes that pixel of a window of this size in lines, with units: by the view that was traced,
-// or by its radiance. Empty beside the picture.
+// Draws the list of the scene's cameras, of which `current` is shown. Returns the number of the one
+// that was chosen.
+std::optional<std::size_t> drawCameras(const std::vector<Camera>& cameras,
+                                       std::optional<std::size_t> current);
+// Describes that pixel of a debug view in a window of this size, in lines with units. Empty beside
+// the picture, and for others.
 std::string inspect(const TracedFrame& frame, const ImageSize& window,
                     const std::array<int, 2>& pixel);
 // Draws such lines beside the pointer, inside the window.

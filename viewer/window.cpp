@@ -143,7 +143,7 @@ Window::~Window() {
 
 bool Window::closing() const { return glfwWindowShouldClose(window_) != 0; }
 
-void Window::close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
+void Window::setClosing(bool closing) { glfwSetWindowShouldClose(window_, closing); }
 
 ImageSize Window::pixels() const {
   ImageSize size;

@@ -73,7 +73,7 @@ class Window {
   Input input;  // the caller ends its frames
 
   bool closing() const;
-  void close();
+  void setClosing(bool closing);
   ImageSize pixels() const;  // size of the framebuffer; zero when minimized
   // Returns the framebuffer's pixel at that place of the window.
   std::array<int, 2> pixelAt(const Input::Click& place) const;

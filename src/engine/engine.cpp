@@ -65,13 +65,32 @@ RenderOptions Engine::wantedOptions() const {
 void Engine::edit(const std::string& setting, Progress* progress) {
   LoadOptions load = opened_->load;
   addSceneSetting(setting, load.settings);
-  edit({setting}, load, progress);
+  setSettings(load, progress);
 }
 
-void Engine::edit(const std::vector<std::string>& added, const LoadOptions& load,
-                  Progress* progress) {
+void Engine::setSettings(const LoadOptions& load, Progress* progress) {
   std::vector<SceneSetting> touched;
-  for (const std::string& setting : added) touched.push_back(parseSceneSetting(setting));
+  const std::vector<std::string>& before = opened_->load.settings;
+  std::vector<std::string> grown = before;
+  auto rest = before.begin();
+  for (const std::string& setting : load.settings) {
+    const auto known = std::find(rest, before.end(), setting);
+    if (known != before.end()) {
+      rest = known + 1;
+      continue;
+    }
+
+    // The new ones are at the end, and with them those that were set again.
+    rest = before.end();
+    touched.push_back(parseSceneSetting(setting));
+    addSceneSetting(setting, grown);
+  }
+
+  // Where settings are gone, values of the file count again, which only its reader knows.
+  if (grown != load.settings) {
+    readAgain(opened_->source, load, progress);
+    return;
+  }
 
   // The document is forgotten if anything fails, because it then has settings that do not count.
   std::optional<JsonDocument> document = std::exchange(document_, std::nullopt);

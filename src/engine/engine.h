@@ -62,10 +62,9 @@ class Engine {
   // Sets a member of the scene, as --set POINTER=VALUE. The scene is read again where that is
   // needed. Throws as the reader does, with nothing changed.
   void edit(const std::string& setting, Progress* progress = nullptr);
-  // Adds settings. `load` has them, and is what the scene is read with then; another sky in it
-  // needs a setting of the sky.
-  void edit(const std::vector<std::string>& added, const LoadOptions& load,
-            Progress* progress = nullptr);
+  // Replaces all settings by those of `load`, which is what the scene is read with then; another
+  // sky in it needs another setting of the sky.
+  void setSettings(const LoadOptions& load, Progress* progress = nullptr);
   // Replaces the arrays of a mesh that a program made, and reads the scene again. Throws as the
   // reader does, with nothing changed.
   void setMesh(const std::string& name, GivenMesh mesh, Progress* progress = nullptr);

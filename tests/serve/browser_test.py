@@ -76,7 +76,9 @@ def test_motion(browser, server):
     changes(browser, lambda: browser.mouse("mouseWheel", *middle(browser), deltaX=0, deltaY=-240),
             "the wheel moves closer")
     changes(browser, lambda: browser.key("KeyW", "w", pause=0.4), "W walks")
-    changes(browser, lambda: browser.key("Home", "Home"), "Home fits the model")
+    changes(browser, lambda: browser.key("KeyF", "f"), "F fits the model")
+    changes(browser, lambda: browser.mouse("mouseWheel", *middle(browser), deltaX=0, deltaY=-240), "the wheel again")
+    changes(browser, lambda: browser.key("Home", "Home"), "Home returns to the first camera")
 
 
 def test_rays(browser, server):

@@ -378,7 +378,7 @@ TEST_F(Serving, ADownloadIsAnExr) {
   while (session_->wait(0) == nullptr) {
   }
 
-  ASSERT_EQ(post("size 48 32 1\nset depth 1\nmore"), 204);
+  ASSERT_EQ(post("size 48 32 1\nset depth 1"), 204);
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   const auto answer = client().Get(root_ + "picture.exr");
   server_->stop();

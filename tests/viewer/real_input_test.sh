@@ -100,8 +100,8 @@ look
 hold eye "keydown w" "keyup w"
 hold eye "keydown shift keydown d" "keyup d keyup shift"
 from="mousemove --window $window 200 150"
-hold at "$from mousedown 1 sleep 0.2 mousemove_relative -- 40 15" "mouseup 1"
-hold eye "$from mousedown 3 sleep 0.2 mousemove_relative -- 60 0" "mouseup 3"
+hold eye "$from mousedown 1 sleep 0.2 mousemove_relative -- 40 15" "mouseup 1"
+hold eye "$from mousedown 3 sleep 0.2 mousemove_relative -- 0 60" "mouseup 3"
 
 # A key counts while the panel has the mouse, and right after.
 xdotool key h
@@ -132,10 +132,10 @@ look
 [ "$(option eye)" = "$eye" ] || fail "Ctrl+S has moved the camera"
 
 first=$(size)
-xdotool key f
+xdotool key F11
 within isSize 1024x700
 within shows 1024x700
-xdotool key f
+xdotool key F11
 within isSize "$first"
 within shows "$first"
 
@@ -146,6 +146,9 @@ xdotool windowsize --sync "$window" 500 400
 within isSize 500x400
 within shows 500x400
 
+# Escape closes the panel, and then the window.
+xdotool key Escape sleep 1
+kill -0 $viewer || fail "Escape ended it while the panel was open"
 xdotool key Escape
 status=0
 wait $viewer || status=$?

@@ -189,6 +189,7 @@ constexpr std::pair<const char*, bool ScriptStep::*> kPlainCommands[] = {
     {"minimize", &ScriptStep::minimize},
     {"restore", &ScriptStep::restore},
     {"bare", &ScriptStep::bare},
+    {"asked", &ScriptStep::askedSamples},
     {"quit", &ScriptStep::quit}};
 
 ScriptCommand commandOf(const Words& words) {
@@ -201,7 +202,7 @@ ScriptCommand commandOf(const Words& words) {
   }
   expected(
       "key, mouse, wheel, wait, screenshot, click, point, panel, drop, resize, minimize, restore, "
-      "bare, errors or quit, got '" +
+      "bare, asked, errors or quit, got '" +
       words[0] + "'");
 }
 

@@ -12,6 +12,7 @@
 //   drop FILE                     a file dropped on the window
 //   resize W H | minimize | restore
 //   bare                          the picture alone, without panel, words and messages
+//   asked                         at rest no more samples than asked for
 //   errors show | errors end      errors are shown as to a user; by default they end the script
 //   quit
 //
@@ -33,6 +34,7 @@ struct ScriptStep {
   bool quit = false;       // the end of the script quits too
   std::optional<ImageSize> resize;
   bool minimize = false, restore = false, bare = false;
+  bool askedSamples = false;           // at rest no more samples than asked for
   std::string tab;                     // tab of the panel to turn to; empty: it stays
   std::optional<Input::Pointer> rest;  // where the pointer rests from now on
   std::optional<bool> showErrors;      // false: errors end the script

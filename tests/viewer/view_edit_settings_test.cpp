@@ -59,9 +59,17 @@ class Editing {
 
   // Applies the settings.
   void apply(const std::vector<std::string>& settings) {
-    engine_.edit(settings, editedLoad({engine_.opened(), settings}));
+    EditedScene next = editedScene(*open_);
+    addEdit(settings, next);
+    become(next);
     EXPECT_EQ(engine_.opened(), open_) << "the scene was read again for " << settings.front();
-    expectSame(engine_.scene(), openWith(open_->source.name, open_->load)->scene);
+  }
+  // Has the settings of `next` alone. The scene is read again where some are gone.
+  void become(const EditedScene& next) {
+    engine_.setSettings(editedLoad({engine_.opened(), next.settings, next.givenSky}));
+    const OpenScene& now = *engine_.opened();
+    EXPECT_EQ(now.load.settings, next.settings);
+    expectSame(engine_.scene(), openWith(now.source.name, now.load)->scene);
   }
   void applySky(const Sky& sky) {
     scene.sky = sky;
@@ -71,6 +79,7 @@ class Editing {
     scene = editedScene(*open_);
   }
   const Scene& now() const { return engine_.scene(); }
+  const std::vector<std::string>& settings() const { return engine_.opened()->load.settings; }
 
  private:
   std::shared_ptr<OpenScene> open_;
@@ -140,6 +149,11 @@ void expectEditsInPlace(const std::string& name) {
       state(editing.now().materials[k], editing.scene.materials[k], {}, differences);
     }
     EXPECT_EQ(differences, std::vector<std::string>());
+
+    EditedScene fewer = editing.scene;
+    fewer.settings = editing.settings();
+    fewer.settings.resize(fewer.settings.size() / 2);
+    editing.become(fewer);
   }
 }
 

@@ -42,7 +42,7 @@ TEST_F(Viewer, DroppedFilesOpen) {
 // A reload before the dropped scene is there loads the dropped scene.
 TEST_F(Viewer, ADroppedSceneReadAgainIsTheOneNamed) {
   const cli::Outcome outcome = play(
-      "bare\nkey N\nwait sharp\ndrop whitted\nkey R\nwait 60 frames\nwait sharp\n"
+      "bare\nasked\nwait sharp\ndrop whitted\nkey R\nwait 60 frames\nwait sharp\n"
       "screenshot shown.png\nkey C\n");
 
   const std::vector<std::string> lines = linesOf(outcome.out);
@@ -81,9 +81,9 @@ void expectSameFile(const std::string& viewed, const std::string& rendered) {
 // the panel.
 TEST_F(Viewer, EditsComeBackFromThePrintedCommand) {
   const cli::Outcome outcome = play(
-      "key N\nkey W 0.3\nmouse left 10 5\npanel scene\nwait 10 frames\n"
-      "click 30 200\nwait 5 frames\nclick 100 269\nclick 60 221 130 221\n"         // the lamp
-      "click 30 350\nwait 5 frames\nclick 60 395 90 395\nclick 110 371 140 371\n"  // the mirror
+      "asked\nkey W 0.3\nmouse left 10 5\npanel scene\nwait 10 frames\n"
+      "click 30 182\nwait 5 frames\nclick 100 251\nclick 60 203 130 203\n"         // the lamp
+      "click 30 332\nwait 5 frames\nclick 60 377 90 377\nclick 110 353 140 353\n"  // the mirror
       "bare\nwait 20 frames\nwait sharp\nscreenshot shown.png\nkey C\nkey F12\n",
       {"--size", "800x480"});
 
@@ -109,7 +109,7 @@ TEST_F(Viewer, EditsComeBackFromThePrintedCommand) {
 TEST_F(Viewer, SettingsStayWithTheirScene) {
   std::ofstream(folder_ / "other.json") << cli::readFile(folder_ / "tiny.json");
   const cli::Outcome outcome = play(
-      "key N\nwait sharp\nkey C\nkey R\nwait 60 frames\nwait sharp\nkey C\n"
+      "asked\nwait sharp\nkey C\nkey R\nwait 60 frames\nwait sharp\nkey C\n"
       "drop other.json\nwait 60 frames\nwait sharp\nkey C\n",
       {"--set", "/materials/floor/diffuse=[0.9, 0.1, 0.1]"});
 
@@ -122,8 +122,9 @@ TEST_F(Viewer, SettingsStayWithTheirScene) {
 
 // Makes events of all kinds that keys and mouse have, except for quitting and for writing files.
 std::string randomEvents(unsigned seed, int count) {
-  constexpr std::array kKeys{"W", "A", "S", "D", "Q", "E", "Left", "Up", "Space", "1",     "2",
-                             "9", "+", "-", "[", "]", "F", "H",    "V",  "R",     "Shift", "Home"};
+  constexpr std::array kKeys{"W",     "A", "S", "D", "Q",     "E",    "Left", "Up",
+                             "Space", "1", "2", "9", "+",     "-",    "[",    "]",
+                             "F",     "H", "V", "R", "Shift", "Home", "F11",  "L"};
   std::mt19937 random(seed);
   const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
   std::ostringstream script;
@@ -149,6 +150,7 @@ std::string randomEvents(unsigned seed, int count) {
         break;
       case 5:
         if (below(4) == 0) script << "resize " << 1 + below(400) << ' ' << 1 + below(300) << "\n";
+        if (below(4) == 0) script << "key Ctrl+Z\n";
         if (below(8) == 0) script << "minimize\nwait 2 frames\nrestore\n";
         if (below(8) == 0) script << "drop " << (below(2) == 0 ? "tiny.json" : "none.json") << "\n";
         script << "wait " << 1 + below(10) << " frames\n";
@@ -169,7 +171,7 @@ TEST_F(Viewer, SurvivesTwoHundredRandomEvents) {
 
 TEST_F(Viewer, FullScreenMinimizedAndResized) {
   const cli::Outcome outcome = play(
-      "bare\nkey F\nwait 5 frames\nkey F\nwait 5 frames\nminimize\nwait 5 frames\nrestore\n"
+      "bare\nkey F11\nwait 5 frames\nkey F11\nwait 5 frames\nminimize\nwait 5 frames\nrestore\n"
       "wait 5 frames\nresize 200 100\nwait 10 frames\nwait sharp\nscreenshot shown.png\nkey C\n");
 
   const RawImage shown = codes("shown.png");

@@ -118,7 +118,7 @@ TEST_F(RayPicking, LinesEndWhereThePictureShowsWhatTheyMeet) {
 
 TEST_F(Viewer, AClickDrawsTheRaysIntoTheScene) {
   play(
-      "bare\nkey N\nwait sharp\nscreenshot plain.png\nclick 120 70\nwait 2 frames\nbare\nwait 2 "
+      "bare\nasked\nwait sharp\nscreenshot plain.png\nclick 120 70\nwait 2 frames\nbare\nwait 2 "
       "frames\nwait "
       "sharp\n"
       "screenshot rays.png\nkey T\nwait 2 frames\nscreenshot hidden.png\nkey T\n"
@@ -134,10 +134,10 @@ TEST_F(Viewer, AClickDrawsTheRaysIntoTheScene) {
 
 TEST_F(Viewer, AClickTurnsThePanelToTheRays) {
   play(
-      "key N\nwait sharp\npanel keys\nwait 2 frames\nclick 560 300\nwait 2 frames\nwait sharp\n"
+      "asked\nwait sharp\npanel keys\nwait 2 frames\nclick 560 300\nwait 2 frames\nwait sharp\n"
       "wait 250 frames\nscreenshot rays.png\n",
       {"--size", "800x480"});
-  play("key N\nwait sharp\npanel keys\nwait 2 frames\nwait 250 frames\nscreenshot keys.png\n",
+  play("asked\nwait sharp\npanel keys\nwait 2 frames\nwait 250 frames\nscreenshot keys.png\n",
        {"--size", "800x480"});
   EXPECT_NE(codes("rays.png").codes, codes("keys.png").codes);
 }

@@ -47,23 +47,46 @@ TEST(ResolutionControl, TakesTheFinestScaleThatHoldsTheRate) {
   EXPECT_EQ(scaleOf(hopeless), kScales.back());
 }
 
-TEST(ResolutionControl, MoreSamplesCostMore) {
-  ResolutionControl control(kDefaultRate, 4);
-  control.learn(100, 4 * kPixels);  // four samples a pixel
-  EXPECT_EQ(scaleOf(control), 0.375);
+TEST(ResolutionControl, SamplesGoBeforeResolution) {
+  ResolutionControl control(kDefaultRate, 16);
+  const auto chosen = [&](double msForOneSample) {
+    for (int i = 0; i < 100; ++i) control.learn(msForOneSample, kPixels);
+    for (std::size_t i = 0; i < 2 * kScales.size(); ++i) control.moving(kPixels);
+    return control.moving(kPixels);
+  };
+
+  EXPECT_EQ(chosen(0.5), (Sharpness{1, 16}));
+  EXPECT_EQ(chosen(3), (Sharpness{1, 4}));  // 12 ms; 8 would take 24
+  EXPECT_EQ(chosen(16), (Sharpness{1, 1}));
+  EXPECT_EQ(chosen(100), (Sharpness{0.375, 1}));
 }
 
-TEST(ResolutionControl, FewerSamplesWhereTheCoarsestScaleIsNotEnough) {
-  ResolutionControl control(kDefaultRate, 64);
-  control.learn(1000, kPixels);
-  // A 64th of the pixels takes 15.6 ms a sample, of which one fits.
-  EXPECT_EQ(scaleOf(control), kScales.back());
-  EXPECT_EQ(control.moving(kPixels), (Sharpness{kScales.back(), 1}));
+// A sample costs 30 ms with sampled rays, of which plain ones take a tenth.
+TEST(ResolutionControl, SampledRaysGoBeforeResolution) {
+  ResolutionControl control(kDefaultRate, 1);
+  control.setSamples(1, true);
+  control.learn(3, kPixels, true);
+  for (int i = 0; i < 100; ++i) control.learn(30, kPixels);
+  for (int i = 0; i < 3; ++i) control.moving(kPixels);
+  EXPECT_EQ(control.moving(kPixels), (Sharpness{1, 1, true}));
 
-  ResolutionControl quicker(kDefaultRate, 64);
-  quicker.learn(100, kPixels);  // ten samples fit
-  EXPECT_EQ(scaleOf(quicker), kScales.back());
-  EXPECT_EQ(quicker.moving(kPixels), (Sharpness{kScales.back(), 10}));
+  // They come back where there is time for them, and resolution goes after they have gone.
+  for (int i = 0; i < 100; ++i) control.learn(1, kPixels, true);
+  EXPECT_EQ(control.moving(kPixels), (Sharpness{1, 1, false}));
+  for (int i = 0; i < 100; ++i) control.learn(100, kPixels, true);
+  EXPECT_EQ(control.moving(kPixels), (Sharpness{0.375, 1, true}));
+}
+
+// Until a sample with them was traced, they are only tried where they seem to be affordable.
+TEST(ResolutionControl, SampledRaysAreExpectedToCostMore) {
+  const auto first = [](double plainMs) {
+    ResolutionControl control(kDefaultRate, 1);
+    control.setSamples(1, true);
+    control.learn(plainMs, kPixels, true);
+    return control.moving(kPixels);
+  };
+  EXPECT_TRUE(first(8).plain);
+  EXPECT_FALSE(first(2).plain);
 }
 
 TEST(ResolutionControl, DoesNotFlutter) {
@@ -116,6 +139,13 @@ TEST(ResolutionControl, SharpensAtRestStepByStep) {
 
   ResolutionControl fast = learned(10);
   EXPECT_EQ(stepsAtRest(fast, true), (Steps{{1, 1}, {1, 4}, {1, 16}}));
+}
+
+TEST(ResolutionControl, RestBeginsWithOneSample) {
+  using Steps = std::vector<Sharpness>;
+  ResolutionControl slow(kDefaultRate, 4);
+  for (int i = 0; i < 100; ++i) slow.learn(1e5, kPixels);
+  EXPECT_EQ(stepsAtRest(slow, false), (Steps{{0.125, 1}, {0.25, 1}, {0.5, 1}, {1, 1}, {1, 4}}));
 }
 
 TEST(ResolutionControl, WhatIsShownGetsNoCoarser) {

@@ -30,8 +30,8 @@ class SavedScenes : public Viewer {
 
 TEST_F(SavedScenes, KeepWhatWasNotEdited) {
   const cli::Outcome outcome = play(
-      "key N\nkey W 0.3\nwait 10 frames\npanel scene\nwait 10 frames\n"
-      "click 30 200\nwait 5 frames\nclick 100 269\nbare\nwait 20 frames\nwait sharp\n"
+      "asked\nkey W 0.3\nwait 10 frames\npanel scene\nwait 10 frames\n"
+      "click 30 182\nwait 5 frames\nclick 100 251\nbare\nwait 20 frames\nwait sharp\n"
       "screenshot shown.png\nkey Ctrl+S\nkey Ctrl+S\n",
       {"--size", "800x480"});
 
@@ -115,7 +115,7 @@ TEST_F(SavedScenes, StateTheOptionsThatWereChosen) {
   std::ofstream(folder_ / "tiny.json") << scene.dump();
 
   const cli::Outcome outcome = play(
-      "bare\nkey N\nwait sharp\nkey C\nkey ]\nwait 20 frames\nwait sharp\n"
+      "bare\nasked\nwait sharp\nkey C\nkey ]\nwait 20 frames\nwait sharp\n"
       "screenshot shown.png\nkey C\nkey Ctrl+S\n",
       {"--spp", "2", "--fresnel", "schlick"});
 
@@ -140,7 +140,7 @@ TEST_F(SavedScenes, OptionsOfAnotherSceneAreTaken) {
   std::ofstream(folder_ / "other.json") << scene.dump();
 
   const cli::Outcome outcome = play(
-      "bare\nkey N\nkey ]\nwait sharp\nkey C\ndrop other.json\nwait 60 frames\nwait sharp\n"
+      "bare\nasked\nkey ]\nwait sharp\nkey C\ndrop other.json\nwait 60 frames\nwait sharp\n"
       "screenshot shown.png\nkey C\ndrop tiny.json\nwait 60 frames\nwait sharp\nkey C\n",
       {"--spp", "2"});
 
@@ -217,8 +217,8 @@ TEST_F(SavedScenes, HaveTheSkyThatWasChosen) {
 // the sky.
 TEST_F(SavedScenes, HaveTheSurroundingsOfThePanel) {
   const cli::Outcome outcome = play(
-      "drop sky.exr\nkey N\npanel scene\nwait 30 frames\nwait sharp\n"
-      "click 93 317 120 317\nclick 60 341 150 341\nclick 30 365\nwait 5 frames\n"
+      "drop sky.exr\nasked\npanel scene\nwait 30 frames\nwait sharp\n"
+      "click 93 299 120 299\nclick 60 323 150 323\nclick 30 347\nwait 5 frames\n"
       "bare\nwait 30 frames\nwait sharp\nscreenshot shown.png\nkey C\n"
       "key Ctrl+S\n",
       {"--size", "800x560"});
@@ -237,7 +237,7 @@ TEST_F(SavedScenes, ASkyThatCannotBeReadLeavesTheOneThatIsThere) {
   std::ofstream(folder_ / "bad.hdr") << "#?RADIANCE\n\n-Y 1 +X 1000000\n";
 
   const cli::Outcome outcome = play(
-      "errors show\nbare\nkey N\nwait sharp\ndrop bad.hdr\nwait 30 frames\nwait sharp\nbare\n"
+      "errors show\nbare\nasked\nwait sharp\ndrop bad.hdr\nwait 30 frames\nwait sharp\nbare\n"
       "key Ctrl+S\nkey C\n");
   EXPECT_NE(outcome.err.find("bad.hdr"), std::string::npos) << outcome.err;
 

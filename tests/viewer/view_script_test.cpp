@@ -38,7 +38,7 @@ TEST(Script, ErrorsNameTheLine) {
   EXPECT_EQ(errorOf("screenshot a.jpg"), "walk.txt:1: expected screenshot FILE.png");
   EXPECT_EQ(errorOf("jump"),
             "walk.txt:1: expected key, mouse, wheel, wait, screenshot, click, point, panel, drop, "
-            "resize, minimize, restore, bare, errors or quit, got 'jump'");
+            "resize, minimize, restore, bare, asked, errors or quit, got 'jump'");
 }
 
 TEST(Script, ErrorsOfCommandsToTheWindow) {

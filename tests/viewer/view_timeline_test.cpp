@@ -98,12 +98,12 @@ TEST_F(MovingPictures, KeepWhatWasEdited) {
   RenderThread thread(opened_, common_, [] {});
   expectPictureAt(1.2, thread);
 
-  thread.edit({opened_, {"/lights/0/intensity=90"}});
+  thread.edit({opened_, {"/lights/0/intensity=90"}, ""});
   request_.edits = 1;
   common_.load.settings = {"/lights/0/intensity=90"};
   expectPictureAt(1.2, thread);
 
-  thread.edit({opened_, {"/lights/0/position=[1, 6, 5]"}});
+  thread.edit({opened_, {"/lights/0/intensity=90", "/lights/0/position=[1, 6, 5]"}, ""});
   request_.edits = 2;
   common_.load.settings.emplace_back("/lights/0/position=[1, 6, 5]");
   for (const double seconds : {1.2, 0.4}) expectPictureAt(seconds, thread);
@@ -112,9 +112,10 @@ TEST_F(MovingPictures, KeepWhatWasEdited) {
 TEST_F(Viewer, PlaysUntilItIsPaused) {
   writeMovingScene(folder_);
   const cli::Outcome outcome = play(
-      "bare\nkey N\nwait 58 frames\nkey P\nwait 3 frames\nwait sharp\nscreenshot shown.png\nkey "
+      "bare\nasked\nwait 58 frames\nkey Space\nwait 3 frames\nwait sharp\nscreenshot "
+      "shown.png\nkey "
       "C\n"
-      "key A 0.2\nkey P\nwait 30 frames\nkey P\nwait sharp\nkey C\n",
+      "key A 0.2\nkey Space\nwait 30 frames\nkey Space\nwait sharp\nkey C\n",
       {"--size", "240x160"});
 
   const std::vector<std::string> lines = linesOf(outcome.out);
@@ -131,10 +132,19 @@ TEST_F(Viewer, PlaysUntilItIsPaused) {
   EXPECT_NE(lines[1].find("--time 1."), std::string::npos) << lines[1];
 }
 
+// The bar of the time is there without a panel. A click on its button pauses, and then the picture
+// gets sharp.
+TEST_F(Viewer, TheTimeBarPauses) {
+  writeMovingScene(folder_);
+  const cli::Outcome outcome =
+      play("asked\nwait 30 frames\nclick 135 236\nwait sharp\nkey C\n", {"--size", "400x300"});
+  EXPECT_NE(outcome.out.find(" --time "), std::string::npos) << outcome.out;
+}
+
 TEST_F(Viewer, AScenePausedAtATimeShowsThat) {
   writeMovingScene(folder_);
   const cli::Outcome outcome =
-      play("key N\nwait sharp\nkey C\n", {"--size", "240x160", "--time", "1.5"});
+      play("asked\nwait sharp\nkey C\n", {"--size", "240x160", "--time", "1.5"});
   EXPECT_EQ(linesOf(outcome.out).at(0),
             "whit render tiny.json -o tiny.png --size=240x160 --time 1.5");
 }

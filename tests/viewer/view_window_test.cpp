@@ -10,6 +10,8 @@
 namespace whit::view {
 namespace {
 
+namespace fs = std::filesystem;
+
 TEST_F(Viewer, ShowsWhatThePrintedCommandRenders) {
   const cli::Outcome outcome = play(
       "bare\nkey W 0.5\nmouse left 40 -25\nmouse right -30 5\nkey ]\nwait 3 frames\nwait sharp\n"
@@ -28,7 +30,7 @@ TEST_F(Viewer, ShowsWhatThePrintedCommandRenders) {
 // The command is pasted into a shell as it is.
 TEST_F(Viewer, OnlyWhatDiffersIsPrinted) {
   const cli::Outcome outcome = play(
-      "bare\nkey N\nresize 48 32\nwait 20 frames\nwait sharp\nscreenshot first.png\nkey C\nkey 2\n"
+      "bare\nasked\nresize 48 32\nwait 20 frames\nwait sharp\nscreenshot first.png\nkey C\nkey 2\n"
       "wait 20 frames\nwait sharp\nscreenshot second.png\nkey C\n",
       {"--size", "scene"});
 
@@ -136,21 +138,17 @@ TEST_F(Viewer, StartsWithThePictureAndOneLine) {
 
 // The picture is 480x300 and the screen 800x600.
 TEST_F(Viewer, OpensAtTwoThirdsOfTheScreenAndKeepsItsSettings) {
-  const cli::Outcome first =
-      play("wait sharp\nkey C\nkey I\nkey H\nwait 2 frames\n", {"--size", "scene"});
+  const cli::Outcome first = play("wait sharp\nkey C\nkey H\nwait 2 frames\n", {"--size", "scene"});
   EXPECT_NE(first.out.find(" --size=533x355"), std::string::npos) << first.out;
 
   const std::string kept = cli::readFile(folder_ / "whit/viewer.json");
-  EXPECT_NE(kept.find("\"inspector\": true"), std::string::npos) << kept;
   EXPECT_NE(kept.find("\"panel\": true"), std::string::npos) << kept;
   EXPECT_NE(kept.find("/tiny.json\""), std::string::npos) << kept;
 
-  // The size of the window and the inspector are kept for the next run.
-  play("wait sharp\nresize 300 300\nwait 10 frames\nkey I\n", {"--size", "scene"});
+  // The size of the window is kept for the next run.
+  play("wait sharp\nresize 300 300\nwait 10 frames\n", {"--size", "scene"});
   const cli::Outcome third = play("wait sharp\nkey C\n", {"--size", "scene"});
   EXPECT_NE(third.out.find(" --size=300x200"), std::string::npos) << third.out;
-  EXPECT_NE(cli::readFile(folder_ / "whit/viewer.json").find("\"inspector\": false"),
-            std::string::npos);
 }
 
 TEST_F(Viewer, AKeptWindowIsLimitedToTheScreen) {
@@ -178,7 +176,7 @@ TEST_F(Viewer, WithoutASceneTheLastOneOpens) {
 // A pixel is clicked on at the left, then one at the right: the panel is on the other side.
 TEST_F(Viewer, ThePanelLeavesTheClickedPointFree) {
   play(
-      "bare\nkey N\nwait sharp\nscreenshot bare.png\nclick 60 100\nwait 2 frames\nkey T\n"
+      "bare\nasked\nwait sharp\nscreenshot bare.png\nclick 60 100\nwait 2 frames\nkey T\n"
       "wait 4 frames\nwait sharp\nscreenshot left.png\nbare\nwait 2 frames\nclick 240 160\n"
       "wait 2 frames\nkey T\nwait 4 frames\nwait sharp\nscreenshot middle.png\n",
       {"--size", "500x300"});
@@ -190,17 +188,17 @@ TEST_F(Viewer, ThePanelLeavesTheClickedPointFree) {
   EXPECT_FALSE(sameIn(codes("middle.png"), bare, 0, 0, 500, 300));
 }
 
-// No drag loses a model; Home and a double click fit it.
+// No drag loses a model; F fits it.
 TEST_F(Viewer, AModelStaysInThePicture) {
   std::ofstream(folder_ / "box.obj")
       << "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
          "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
 
   const cli::Outcome outcome = play(
-      "bare\nkey N\ndrop box.obj\nwait 60 frames\nmouse left 900 -700\nmouse middle 5000 -3000\n"
+      "bare\nasked\ndrop box.obj\nwait 60 frames\nmouse left 900 -700\nmouse middle 5000 -3000\n"
       "wheel -500\nmouse right 100 4000\nwait 3 frames\nwait sharp\nscreenshot far.png\n"
-      "key Home\nwait 3 frames\nwait sharp\nscreenshot fit.png\nwheel 3\nmouse middle 30 9\n"
-      "wait 3 frames\nwait sharp\nclick 100 60\nclick 100 60\nbare\nwait 3 frames\nwait sharp\n"
+      "key F\nwait 3 frames\nwait sharp\nscreenshot fit.png\nwheel 3\nmouse middle 30 9\n"
+      "wait 3 frames\nwait sharp\nkey F\nbare\nwait 3 frames\nwait sharp\n"
       "screenshot again.png\n",
       {"--size", "240x160"});
 
@@ -218,6 +216,76 @@ TEST_F(Viewer, AModelStaysInThePicture) {
   EXPECT_GT(covered("far.png"), 0.001);
   EXPECT_GT(covered("fit.png"), 0.2);
   expectSameCodes("again.png", "fit.png");
+}
+
+// F12 is pressed in motion, where the picture is coarser and has one sample.
+TEST_F(Viewer, TheSavedPictureHasAllPixelsAndSamples) {
+  const cli::Outcome outcome = play("asked\nkey D 0.3\nkey F12\nwait 3 frames\nwait sharp\nkey C\n",
+                                    {"--size", "400x300", "--spp", "4", "--light-samples", "4"});
+
+  const std::vector<std::string> lines = linesOf(outcome.out);
+  ASSERT_EQ(lines.size(), 2u) << outcome.out;
+  EXPECT_EQ(lines[0], lines[1]);
+  for (const char* part : {"--size=400x300", "--spp=4", "--light-samples=4"}) {
+    EXPECT_NE(lines[0].find(part), std::string::npos) << lines[0];
+  }
+  render(lines[0], "again.png");
+  expectSameCodes("tiny-0001.png", "again.png");
+}
+
+// Escape closes the list of cameras, then the panel, and then the viewer.
+TEST_F(Viewer, EscapeClosesWhatIsOpen) {
+  play(
+      "asked\nwait 300 frames\nwait sharp\nkey Shift\nwait 3 frames\nscreenshot first.png\n"
+      "key H\nkey L\nwait 5 frames\nscreenshot open.png\nkey Escape\nwait 3 frames\n"
+      "screenshot panel.png\nkey Escape\nwait 3 frames\nscreenshot closed.png\n"
+      "key Escape\nwait 3 frames\nscreenshot never.png\n",
+      {"--size", "500x300"});
+  expectSameCodes("closed.png", "first.png");
+  EXPECT_NE(codes("open.png").codes, codes("panel.png").codes);
+  EXPECT_NE(codes("panel.png").codes, codes("closed.png").codes);
+  EXPECT_FALSE(fs::exists(folder_ / "never.png"));
+}
+
+// The list of cameras is at the right; its second entry is clicked on.
+TEST_F(Viewer, CamerasAreChosenFromTheirList) {
+  const cli::Outcome outcome =
+      play("asked\nkey L\nwait 5 frames\nclick 440 61\nwait 3 frames\nwait sharp\nkey C\n",
+           {"--size", "500x300"});
+  EXPECT_NE(outcome.out.find(" --camera=side"), std::string::npos) << outcome.out;
+}
+
+// The first edit is of the lamp, the second one of its position.
+constexpr char kTwoEdits[] =
+    "asked\npanel scene\nwait 10 frames\nclick 30 182\nwait 5 frames\nclick 100 251\n"
+    "wait 60 frames\nclick 60 203 130 203\nwait 60 frames\nwait sharp\nkey C\n";
+
+TEST_F(Viewer, EditsAreUndoneOneByOne) {
+  const cli::Outcome outcome =
+      play(std::string(kTwoEdits) +
+               "key Ctrl+Z\nwait 60 frames\nwait sharp\nkey C\nkey Ctrl+Z\nkey Ctrl+Z\n"
+               "wait 60 frames\nbare\nwait 3 frames\nwait sharp\nscreenshot shown.png\nkey C\n",
+           {"--size", "800x480"});
+
+  const std::vector<std::string> lines = linesOf(outcome.out);
+  ASSERT_EQ(lines.size(), 3u) << outcome.out;
+  EXPECT_NE(lines[0].find("/lights/0/position="), std::string::npos) << lines[0];
+  EXPECT_NE(lines[1].find("/lights/0/intensity="), std::string::npos) << lines[1];
+  EXPECT_EQ(lines[1].find("/lights/0/position="), std::string::npos) << lines[1];
+  EXPECT_EQ(lines[2], "whit render tiny.json -o tiny.png --size=800x480");
+  render(lines[2], "again.png");
+  expectSameCodes("shown.png", "again.png");
+}
+
+TEST_F(Viewer, AsksBeforeEditsAreLost) {
+  const std::string escapes = "key Escape\nwait 3 frames\nkey Escape\nwait 3 frames\n";
+  play(kTwoEdits + escapes + "screenshot asked.png\nkey Escape\nwait 3 frames\nscreenshot no.png\n",
+       {"--size", "800x480"});
+  EXPECT_TRUE(fs::exists(folder_ / "asked.png"));
+  EXPECT_FALSE(fs::exists(folder_ / "no.png"));
+
+  play(kTwoEdits + ("key Ctrl+S\n" + escapes) + "screenshot saved.png\n", {"--size", "800x480"});
+  EXPECT_FALSE(fs::exists(folder_ / "saved.png"));
 }
 
 TEST(Letterbox, AnotherWindowKeepsThePicturesShape) {

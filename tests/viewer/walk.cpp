@@ -30,7 +30,7 @@ class Walker : public Session {
   // Moves for `length` seconds, and returns `kept` of the pictures at equal times.
   std::vector<Shown> fly(double length, int kept) {
     moveFor(kSecondsAtRest, [](double) {});
-    startOrStopPath();
+    playOrPause();
     if (!pathTime_) throwUsage(sceneName_ + " has no camera path");
     std::vector<Shown> all;
 

@@ -46,6 +46,7 @@ class PlayedScript : public ScriptedUser {
       settings.tab = step.tab;
       settings.shown = true;
     }
+    if (step.askedSamples) settings.supersample = false;
     if (step.bare) settings.words = settings.shown = false;
     if (step.showErrors) survivesErrors_ = *step.showErrors;
 

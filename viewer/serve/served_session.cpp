@@ -194,9 +194,9 @@ void ServedSession::step(double seconds) {
     }
   }
 
-  // Downloads get the first frame at the full resolution of the view.
-  const view::FrameRequest& request = shown_.request;
-  if (downloads && shown_.scene && (sharp_ || (request.interruptible && !request.coarse))) {
+  // Downloads get the first frame with full resolution and all samples.
+  if (downloads) holdStill();
+  if (downloads && isComplete()) {
     auto frame = std::make_shared<const view::TracedFrame>(shown_);
     const std::lock_guard lock(mutex_);
     frame_ = std::move(frame);
@@ -257,16 +257,13 @@ void ServedSession::serve(const Message& message) {
        }},
       {"camera", [&] { jumpToNumber(static_cast<std::size_t>(n[0])); }},
       {"fit", [&] { fitView(size_); }},
-      {"path", [&] { startOrStopPath(); }},
       {"aside", [&] { settings_.rays.fromAside = true; }},
       {"forget", [&] { settings_.rays.forget = true; }},
       {"reload", [&] { reload(); }},
-      {"play", [&] { setTime(settings_.timeline.seconds, !settings_.timeline.playing); }},
-      {"time", [&] { setTime(n[0], false); }},
+      {"play", [&] { playOrPause(); }},
+      {"time", [&] { setTime(n[0]); }},
       {"animation", [&] { chooseAnimation(text); }},
       {"expose", [&] { expose(static_cast<float>(n[0])); }},
-      {"rate", [&] { settings_.rate = n[0]; }},
-      {"more", [&] { settings_.supersample = !settings_.supersample; }},
       {"measure", [&] { settings_.measureKnobs = !settings_.measureKnobs; }},
       {"view",
        [&] { change([&](auto&) { parseValue(view::kViewOption, text, settings_.view); }); }},
@@ -310,10 +307,10 @@ void ServedSession::resize(double width, double height, double pixelsForCss) {
   pixelsForCss_ = pixelsForCss;
 }
 
-void ServedSession::setTime(double seconds, bool playing) {
+void ServedSession::setTime(double seconds) {
   if (!settings_.timeline.there) throwUsage("nothing moves in this scene");
   settings_.timeline.seconds = std::min(seconds, settings_.timeline.length);
-  settings_.timeline.playing = playing;
+  settings_.timeline.playing = false;
   restSeconds_ = 0;
   followCamera();
 }
@@ -357,13 +354,12 @@ void ServedSession::publish() {
 
 Json ServedSession::tablesJson() const {
   Json json{{"scene", scene().name},
-            {"orbits", control_.orbits()},
             {"options", Json::array()},
             {"presets", {"good", "standard", "fine", "reference"}},
             {"views", Json::array()}};
 
   for (const Camera& camera : scene().cameras) json["cameras"].push_back(camera.name);
-  json["path"] = !scene().cameraPath.empty();
+  json["path"] = !scene().cameraPath.empty() && !settings_.timeline.there;
   for (const char* name : kDebugViewNames) json["views"].push_back(name);
 
   forEachOption(settings_.options, [&](const OptionSpec& spec, const auto& field) {
@@ -426,8 +422,6 @@ Json ServedSession::settledJson() const {
   // Every page sets its controls by these values.
   Json json{{"command", command_},
             {"view", kDebugViewNames[static_cast<std::size_t>(settings_.view)]},
-            {"rate", settings_.rate},
-            {"more", settings_.supersample},
             {"options", Json::object()}};
 
   forEachOption(settings_.options, [&](const OptionSpec& spec, const auto& field) {

@@ -67,7 +67,7 @@ class ServedSession : public view::Session {
   void step(double seconds);
   void serve(const Message& message);
   void resize(double width, double height, double pixelsForCss);
-  void setTime(double seconds, bool playing);
+  void setTime(double seconds);
   void chooseAnimation(const std::string& name);
   void publish();
   Json tablesJson() const;

@@ -4,12 +4,46 @@
 #include <cmath>
 #include <numbers>
 
+#include "bake/sphere.h"
+
 namespace whit::view {
 
 namespace {
 
 double halfHeightAtOne(const Camera& camera) {
   return std::tan(double{camera.fov} * std::numbers::pi / 360);
+}
+
+void grow(Box& box, const Box& other) {
+  box.add(other.lower);
+  box.add(other.upper);
+}
+
+// Returns whether a triangle of that size is level and reaches across half of the room.
+bool isFloor(const Vec3f& triangle, const Vec3f& room, int up) {
+  constexpr float kLevel = 1e-3f, kFar = 0.5f;
+  for (int axis = 0; axis < 3; ++axis) {
+    const bool fits =
+        axis == up ? triangle[axis] <= kLevel * room[axis] : triangle[axis] >= kFar * room[axis];
+    if (!fits) return false;
+  }
+  return true;
+}
+
+// Returns the bounds of a geometry in its own space, without its floor.
+Box boundsAboveFloor(const Scene& scene, const Geometry& geometry) {
+  const int up = largestAxis(abs(scene.cameras.front().up));
+  Box box;
+  for (const auto& corners : geometry.index) {
+    Box triangle;
+    for (const std::uint32_t i : corners) triangle.add(geometry.position[i]);
+    const bool left = isFloor(triangle.upper - triangle.lower, scene.upper - scene.lower, up);
+    if (!left) grow(box, triangle);
+  }
+  for (std::uint32_t i = 0; i < geometry.spheres; ++i) {
+    grow(box, sphereBounds(sphereMap(scene.triangles[geometry.firstSphere + i])));
+  }
+  return box;
 }
 
 }  // namespace
@@ -20,11 +54,27 @@ double cruisingSpeed(const Scene& scene) {
   return std::isfinite(size) ? std::max(size / kSeconds, kLeast) : 1;
 }
 
-Box boundsToOrbit(const Scene& scene, const Camera& camera) {
-  const Box box{scene.lower, scene.upper};
-  const double size = box.diagonal();
-  const bool inside = min(max(camera.eye, box.lower), box.upper) == camera.eye;
-  return scene.isModel && !inside && size > 0 && std::isfinite(size) ? box : Box();
+Box subjectOf(const Scene& scene) {
+  const Box all{scene.lower, scene.upper};
+  if (scene.isModel) return all;
+
+  std::vector<Box> boxes;
+  for (const Geometry& geometry : scene.geometries) {
+    boxes.push_back(boundsAboveFloor(scene, geometry));
+  }
+
+  Box box = boxes.front();  // of the world, and the others are instanced
+  for (const InstanceRecord& instance : scene.instances) {
+    const Box& own = boxes[instance.geometry];
+    for (int i = 0; i < 8; ++i) box.add(Vec3f(instance.toWorld.point(Vec3d(own.corner(i)))));
+  }
+  return box.empty() ? all : box;
+}
+
+Box boundsToOrbit(const Box& subject, const Camera& camera) {
+  const double size = subject.diagonal();
+  const bool inside = min(max(camera.eye, subject.lower), subject.upper) == camera.eye;
+  return !inside && size > 0 && std::isfinite(size) ? subject : Box();
 }
 
 void CameraControl::set(const Camera& camera, const Box& model) {
@@ -76,25 +126,24 @@ void CameraControl::lookFrom(const Vec3d& center, double distance) {
 
 bool CameraControl::drag(const CameraMotion& m) {
   const double zoom = orbits() ? std::pow(kZoomFactor, m.wheel) : 1;
-  if (m.orbitX == 0 && m.orbitY == 0 && m.panX == 0 && m.panY == 0 && zoom == 1) return false;
+  if (m.turnX == 0 && m.turnY == 0 && m.panX == 0 && m.panY == 0 && zoom == 1) return false;
 
   Vec3d middle = center();
-  turn(m.orbitX * kRadiansPerPixel, -m.orbitY * kRadiansPerPixel);
+  turn(m.turnX * kRadiansPerPixel, -m.turnY * kRadiansPerPixel);
 
   // Panning shifts the middle so that it follows the pointer: a share of the picture's height there
   // is a length of the scene.
   const bool parallel = camera_.orthographicHeight > 0;
   const double height =
       parallel ? double{camera_.orthographicHeight} : 2 * halfHeightAtOne(camera_) * distance_;
-  middle = middle + (cross(right_, forward()) * m.panY - right_ * m.panX) * height;
-
+  const Vec3d shift = (cross(right_, forward()) * m.panY - right_ * m.panX) * height;
   if (!orbits()) {
-    lookFrom(middle, distance_);
+    eye_ = eye_ + shift;
     return true;
   }
 
   // A model does not get lost: the middle stays in its bounds, and the zoom has limits.
-  middle = min(max(middle, Vec3d(reach_.lower)), Vec3d(reach_.upper));
+  middle = min(max(middle + shift, Vec3d(reach_.lower)), Vec3d(reach_.upper));
   const double size = model_.diagonal();
   const auto zoomed = [&](double length) {
     return std::clamp(length * zoom, std::min(kNearest * size, length),
@@ -106,18 +155,10 @@ bool CameraControl::drag(const CameraMotion& m) {
 }
 
 bool CameraControl::step(const CameraMotion& m, double seconds) {
-  // The wheel sets the speed in a room; at a model it zooms.
-  if (!orbits()) {
-    speed_ = std::clamp(speed_ * std::pow(kWheelFactor, m.wheel), firstSpeed_ / kSpeedRange,
-                        firstSpeed_ * kSpeedRange);
-  }
-
-  // The view turns by the distance that the pointer was dragged, and while arrow keys are held.
+  // The view turns while arrow keys are held.
   const double arrows = kRadiansPerSecond * seconds;
-  const double right = m.lookX * kRadiansPerPixel + m.turnRight * arrows;
-  const double up = -m.lookY * kRadiansPerPixel + m.turnUp * arrows;
-  const bool turns = right != 0 || up != 0;
-  if (turns) turn(right, up);
+  const bool turns = arrows > 0 && (m.turnRight != 0 || m.turnUp != 0);
+  if (turns) turn(m.turnRight * arrows, m.turnUp * arrows);
 
   // The eye moves after that, but stays in the range of coordinates that scenes may have.
   const Vec3d before = eye_;
@@ -125,6 +166,9 @@ bool CameraControl::step(const CameraMotion& m, double seconds) {
   const Vec3d direction =
       normalized(forward() * m.forward + right_ * m.right + up_ * m.up);  // zero when at rest
   if (seconds > 0) eye_ = eye_ + direction * (speed_ * seconds * (m.fast ? kFastFactor : 1));
+
+  // The wheel goes forward in a room; around a model it has moved closer already.
+  if (!orbits()) eye_ = eye_ + forward() * (speed_ * kNotchSeconds * m.wheel);
 
   const auto largest = static_cast<double>(kLargestCoordinate);
   if (!(maxComponent(abs(eye_)) + distance_ < largest)) eye_ = before;

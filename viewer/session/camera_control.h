@@ -10,39 +10,37 @@ struct CameraMotion {
   double forward = 0, right = 0, up = 0;  // moves
   bool fast = false;
   double turnRight = 0, turnUp = 0;  // arrow keys
-  double lookX = 0, lookY = 0;       // pixels dragged; y grows downwards
-  double orbitX = 0, orbitY = 0;     // pixels dragged
+  double turnX = 0, turnY = 0;       // pixels dragged; y grows downwards
   double panX = 0, panY = 0;         // dragged shares of the window's height
   double wheel = 0;                  // notches
 };
 
 inline constexpr double kFastFactor = 4;
-inline constexpr double kWheelFactor = 1.25;           // of speed, a notch
-inline constexpr double kZoomFactor = 0.88;            // of the distance to a model, a notch
-inline constexpr double kSpeedRange = 1e6;             // largest factor up or down from the start
-inline constexpr double kRadiansPerPixel = 0.004;      // mouse
-inline constexpr double kRadiansPerSecond = 1.2;       // arrow keys
-inline constexpr double kSteepestRadians = 1.5533430;  // 89 degrees: `up` stays meaningful
+inline constexpr double kZoomFactor = 0.88;        // of the distance to what is orbited, a notch
+inline constexpr double kNotchSeconds = 0.3;       // of walking, a notch in a room
+inline constexpr double kRadiansPerPixel = 0.004;  // mouse
+inline constexpr double kRadiansPerSecond = 1.2;   // arrow keys
+inline constexpr double kSteepestRadians = 1.5533430;     // 89 degrees: `up` stays meaningful
 inline constexpr double kNearest = 1e-3, kFarthest = 10;  // distances, in diagonals of the model
 
-// Returns the speed to begin with, in units a second: it crosses the scene in twelve seconds.
+// Returns the speed of walking, in units a second: it crosses the scene in twelve seconds.
 double cruisingSpeed(const Scene& scene);
 
-// Returns the bounds of a model that the camera sees from outside; empty where it is in a room.
-Box boundsToOrbit(const Scene& scene, const Camera& camera);
+// Returns the bounds of what a scene shows: all of a model, and of a scene file what stands on its
+// floor, which may reach far beyond.
+Box subjectOf(const Scene& scene);
+// Returns these bounds if the camera sees them from outside; empty where it is in a room.
+Box boundsToOrbit(const Box& subject, const Camera& camera);
 
 class CameraControl {
  public:
   // `speed` in scene units a second.
-  CameraControl(const Camera& camera, double speed) : firstSpeed_(speed), speed_(speed) {
-    set(camera);
-  }
+  CameraControl(const Camera& camera, double speed) : speed_(speed) { set(camera); }
 
   // `model` bounds the point to orbit; an empty box means that nothing is orbited.
   void set(const Camera& camera, const Box& model = {});
   // The camera of the last set(), bit for bit, until something moves it.
   const Camera& camera() const { return camera_; }
-  double speed() const { return speed_; }
   bool orbits() const { return !model_.empty(); }
 
   // Turns first, then moves, but not out of the range of coordinates that scenes have. Dragging
@@ -62,7 +60,7 @@ class CameraControl {
   void writeCamera();
 
   Camera camera_;
-  double firstSpeed_, speed_;
+  double speed_;
   Box model_, reach_;  // bounds of the model, and of the points that may be orbited
   // In double, so that slow motion far from the origin does not stall.
   Vec3d eye_, up_, right_;  // right_ is perpendicular to up_, both of unit length

@@ -36,6 +36,19 @@ class OptionsInUse {
 
 }  // namespace
 
+void copySampledRays(const RenderOptions& from, RenderOptions& to) {
+  to.glossy = from.glossy;
+  to.indirect = from.indirect;
+  to.lightSamples = from.lightSamples;
+  to.ambientSamples = from.ambientSamples;
+}
+
+bool hasSampledRays(const RenderOptions& options) {
+  RenderOptions plain = options;
+  copySampledRays(RenderOptions(), plain);
+  return plain != options;
+}
+
 FrameTracer::FrameTracer(std::shared_ptr<OpenScene> scene, const cli::CommonOptions& common)
     : common_(common),
       engine_(std::make_unique<Engine>(std::move(scene))),
@@ -58,8 +71,9 @@ void FrameTracer::load(const SceneChoice& choice) {
 }
 
 void FrameTracer::edit(const SceneEdit& edit) {
-  if (edit.scene != engine_->opened()) return;
-  engine_->edit(edit.settings, editedLoad(edit));
+  // Earlier edits may have had the scene read again.
+  if (!edit.scene || edit.scene->source.name != engine_->opened()->source.name) return;
+  engine_->setSettings(editedLoad(edit));
   edited_.reset();
 }
 
@@ -93,6 +107,7 @@ bool FrameTracer::trace(const FrameRequest& request, TracedFrame& frame, const T
 
   RenderOptions options = request.options;
   options.spp = request.spp;
+  if (request.plain) copySampledRays(RenderOptions(), options);
   engine_->setOptions(options);
   engine_->prepare();
 
@@ -114,6 +129,7 @@ void FrameTracer::describe(const FrameRequest& request, TracedFrame& frame) {
   frame.request = request;
   frame.request.options.exposure = engine_->options().exposure;
   frame.options = engine_->options();
+  copySampledRays(request.options, frame.options);
   frame.animation = animation_;
 
   frame.surfaces = surfacesText(scene.instancedTriangles, scene.instancedSpheres);
@@ -163,7 +179,7 @@ bool FrameTracer::tracePicture(const FrameRequest& request, TracedFrame& frame,
   frame.sampleError = 0;
   const bool complete = accumulates(request) ? traceInPasses(request, frame, calls)
                                              : traceAtOnce(request, frame, calls);
-  if (complete) msPerSample_ = frame.stats.frameMs / samplesOf(request);
+  if (complete && !request.plain) msPerSample_ = frame.stats.frameMs / samplesOf(request);
   return complete;
 }
 

@@ -67,7 +67,7 @@ struct FrameRequest {
   RenderOptions options;  // the user's options; the size must be set
   ImageSize window;       // the window that the picture is to fill
   int spp = 1;            // samples that are traced: the options', or more at rest
-  bool coarse = false;    // finer pixels will follow at rest
+  bool plain = false;     // without sampled rays, which follow at rest
   DebugView view = DebugView::none;
   bool measureKnobs = false;      // the cost of each knob is measured as well
   int reloads = 0, edits = 0;     // number of reloads and edits of the scene so far
@@ -78,17 +78,23 @@ struct FrameRequest {
 // Returns whether both ask for the same picture.
 inline bool samePicture(const FrameRequest& a, const FrameRequest& b) {
   return sameView(a.camera, b.camera) && a.options == b.options && a.window == b.window &&
-         a.spp == b.spp && a.view == b.view && a.measureKnobs == b.measureKnobs &&
-         a.reloads == b.reloads && a.edits == b.edits && a.seconds == b.seconds;
+         a.spp == b.spp && a.plain == b.plain && a.view == b.view &&
+         a.measureKnobs == b.measureKnobs && a.reloads == b.reloads && a.edits == b.edits &&
+         a.seconds == b.seconds;
 }
 
 // Returns whether both show the same, at any resolution.
 inline bool sameSubject(const FrameRequest& a, FrameRequest b) {
   b.options.size = a.options.size;
   b.spp = a.spp;
+  b.plain = a.plain;
   b.measureKnobs = a.measureKnobs;
   return samePicture(a, b);
 }
+
+// Copies the numbers of rays that are sampled for each hit; by default there are none.
+void copySampledRays(const RenderOptions& from, RenderOptions& to);
+bool hasSampledRays(const RenderOptions& options);
 
 inline double samplesOf(const FrameRequest& request) {
   const ImageSize size = request.options.size.value();
@@ -98,7 +104,7 @@ inline double samplesOf(const FrameRequest& request) {
 struct TracedFrame {
   std::shared_ptr<const OpenScene> scene;  // null: nothing traced yet
   FrameRequest request;
-  RenderOptions options;  // the options of the picture
+  RenderOptions options;  // the options of the picture, with the sampled rays that it leaves out
   std::string surfaces;   // the number of triangles and spheres, in words
   std::string animation;  // the animation that was asked for
   Film film;

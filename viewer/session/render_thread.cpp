@@ -3,8 +3,6 @@
 #include <exception>
 #include <utility>
 
-#include "io/scene/scene_settings.h"
-
 namespace whit::view {
 
 RenderThread::RenderThread(std::shared_ptr<OpenScene> scene, const cli::CommonOptions& common,
@@ -53,14 +51,14 @@ bool RenderThread::ask(const FrameRequest& request) {
 }
 
 void RenderThread::load(const SceneChoice& scene) {
-  post([&] { scene_ = scene; });
+  post([&] {
+    scene_ = scene;
+    edit_.reset();
+  });
 }
 
 void RenderThread::edit(const SceneEdit& edit) {
-  post([&] {
-    if (!edit_ || edit_->scene != edit.scene) edit_ = SceneEdit{edit.scene, {}};
-    for (const std::string& setting : edit.settings) addSceneSetting(setting, edit_->settings);
-  });
+  post([&] { edit_ = edit; });
 }
 
 void RenderThread::query(const RayQuery& query) {

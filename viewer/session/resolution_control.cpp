@@ -10,45 +10,57 @@ void ResolutionControl::setRate(double framesPerSecond) {
   rate_ = std::clamp(framesPerSecond, kLeastRate, kLargestRate);
 }
 
-void ResolutionControl::learn(double ms, double samples) {
+void ResolutionControl::learn(double ms, double samples, bool plain) {
   if (!(ms > 0) || !(samples > 0)) return;
   const double cost = ms / samples;
-  msPerSample_ = msPerSample_ > 0 ? std::lerp(msPerSample_, cost, kNewest) : cost;
+  if (msPerSample_ == 0) {
+    msPerSample_ = cost;  // an upper bound if rays are sampled
+  } else if (plain || !raysAreSampled_) {
+    msPerSample_ = std::lerp(msPerSample_, cost, kNewest);
+  } else {
+    const double factor = std::lerp(sampledRaysFactor_, cost / msPerSample_, kNewest);
+    sampledRaysFactor_ = std::max(factor, 1.0);
+  }
 }
 
-void ResolutionControl::chooseLevel(double frameMs) {
-  const std::size_t coarsest = kScales.size() - 1;
-  if (level_ > 0 && predictMs(kScales[level_ - 1]) < kHeadroom * frameMs) {
-    --level_;
-  } else {
-    while (level_ < coarsest && predictMs(kScales[level_]) > frameMs) ++level_;
-  }
+double ResolutionControl::predictMs(const Sharpness& step) const {
+  const double factor = raysAreSampled_ && !step.plain ? sampledRaysFactor_ : 1;
+  return factor * msPerSample_ * windowPixels_ * step.scale * step.scale * step.spp;
+}
+
+std::vector<Sharpness> ResolutionControl::stepsInMotion() const {
+  std::vector<Sharpness> steps;
+  for (int spp = spp_; spp > 1; spp /= 2) steps.push_back({1, spp});
+  if (raysAreSampled_) steps.push_back({1, 1});
+  for (const double scale : kScales) steps.push_back({scale, 1, raysAreSampled_});
+  return steps;
 }
 
 Sharpness ResolutionControl::moving(double windowPixels) {
   windowPixels_ = windowPixels;
   const double frameMs = 1000 / rate_;
-  const std::size_t coarsest = kScales.size() - 1;
-  if (msPerSample_ == 0) return {kScales[coarsest], 1};  // cheap in any scene
-  chooseLevel(frameMs);
+  const std::vector<Sharpness> steps = stepsInMotion();
+  const std::size_t cheapest = steps.size() - 1;
+  if (msPerSample_ == 0) return steps[cheapest];
+
+  level_ = std::min(level_, cheapest);
+  if (level_ > 0 && predictMs(steps[level_ - 1]) < kHeadroom * frameMs) {
+    --level_;
+  } else {
+    while (level_ < cheapest && predictMs(steps[level_]) > frameMs) ++level_;
+  }
 
   // A link may carry fewer pixels than the machine can trace.
-  const auto pixels = [&] { return windowPixels_ * kScales[level_] * kScales[level_]; };
-  while (level_ < coarsest && pixels() > mostPixels_) ++level_;
-
-  // Where even the coarsest scale is too slow, samples are saved as well.
-  Sharpness chosen{kScales[level_], spp_};
-  if (level_ < coarsest) return chosen;
-  const double share = frameMs / predictMs(chosen.scale);
-  if (share < 1) chosen.spp = std::max(static_cast<int>(spp_ * share), 1);
-  return chosen;
+  const double most = std::sqrt(mostPixels_ / windowPixels_);
+  while (level_ < cheapest && steps[level_].scale > most) ++level_;
+  return steps[level_];
 }
 
 std::vector<Sharpness> ResolutionControl::stepsAtRest(bool supersample) const {
   std::vector<Sharpness> steps;
-  steps.reserve(std::size(kCoarseScales) + kStillSppFactors.size());
+  for (const double scale : kCoarseScales) steps.push_back({scale, 1});
+  if (spp_ > 1) steps.push_back({1, 1});
 
-  for (const double scale : kCoarseScales) steps.push_back({scale, spp_});
   const std::size_t factors = sampled_ ? kStillSppFactors.size() : kUnsampledSppFactors;
   for (std::size_t i = 0; i < (supersample ? factors : 1); ++i) {
     steps.push_back({1, std::min(spp_ * kStillSppFactors[i], kSppLimit)});
@@ -75,12 +87,12 @@ void ResolutionControl::startSharpening(double windowPixels, double shownScale) 
   // Steps are skipped if the next one takes little time, or if they are coarser than the picture
   // that is shown.
   const std::vector<Sharpness> steps = stepsAtRest(false);
-  const auto soonThere = [&](double scale) {
-    return msPerSample_ > 0 && predictMs(scale) <= kFirstStillMs;
+  const auto soonThere = [&](const Sharpness& step) {
+    return msPerSample_ > 0 && predictMs(step) <= kFirstStillMs;
   };
 
   while (step_ + 1 < steps.size() &&
-         (soonThere(steps[step_ + 1].scale) || steps[step_].scale < shownScale)) {
+         (soonThere(steps[step_ + 1]) || steps[step_].scale < shownScale)) {
     ++step_;
   }
 }

@@ -1,11 +1,11 @@
 // Chooses the resolution and samples of the next frame, without knowledge of window and
 // clock.
 //
-// In motion it takes a scale of the window's size that holds the frame rate, by the cost of recent
-// samples, and where the coarsest scale is still too slow, fewer samples. At rest it goes step by
-// step through 1/8, 1/4, 1/2 and all of the window's pixels, beginning with a step that takes
-// little time, then through 4 and 16 times the samples, and where rays are sampled 64 and 256
-// times.
+// In motion it holds the frame rate, by the cost of recent samples. What is given up first is what
+// the eye misses least: samples down to one a pixel, then rays that are sampled, then resolution.
+// At rest it goes step by step through 1/8, 1/4, 1/2 and all of the window's pixels with one sample
+// each, beginning with a step that takes little time, then through 1, 4 and 16 times the samples
+// that were asked for, and where rays are sampled 64 and 256 times.
 #pragma once
 
 #include <array>
@@ -19,6 +19,7 @@ namespace whit::view {
 struct Sharpness {
   double scale = 1;  // factor of the window's sides
   int spp = 1;
+  bool plain = false;  // without sampled rays
   bool operator==(const Sharpness&) const = default;
 };
 
@@ -44,14 +45,18 @@ class ResolutionControl {
 
   void setRate(double framesPerSecond);  // brought into [kLeastRate, kLargestRate]
   double rate() const { return rate_; }
-  void setSpp(int spp) { spp_ = spp; }
+  // Sets the samples asked for, and whether they have sampled rays, which can be left out.
+  void setSamples(int spp, bool raysAreSampled) {
+    spp_ = spp;
+    raysAreSampled_ = raysAreSampled;
+  }
   // Limits pictures in motion where a link cannot carry more.
   void setMostPixels(double pixels) { mostPixels_ = pixels; }
   // Pictures whose rays are sampled get more samples at rest.
   void setSampled(bool sampled) { sampled_ = sampled; }
 
-  // Notes the time of a frame with this number of samples.
-  void learn(double ms, double samples);
+  // Notes the time of a frame with this number of samples; `plain`: without sampled rays.
+  void learn(double ms, double samples, bool plain = false);
 
   // Returns the choice for a frame in motion.
   Sharpness moving(double windowPixels);
@@ -64,19 +69,20 @@ class ResolutionControl {
   void startSharpening(double windowPixels, double shownScale);
 
  private:
-  double predictMs(double scale) const {
-    return msPerSample_ * windowPixels_ * scale * scale * spp_;
-  }
-  void chooseLevel(double frameMs);
+  double predictMs(const Sharpness& step) const;
+  std::vector<Sharpness> stepsInMotion() const;
   std::vector<Sharpness> stepsAtRest(bool supersample) const;
 
   double rate_ = kFewCoresRate;
   int spp_;
+  bool raysAreSampled_ = false;
   bool sampled_ = false;
-  std::size_t level_ = 0;  // index of kScales
+  std::size_t level_ = 0;  // index of the steps in motion
   std::size_t step_ = 0;   // index of the steps at rest
   double windowPixels_ = 0, mostPixels_ = 1e9;
-  double msPerSample_ = 0;  // 0: nothing learned yet
+  double msPerSample_ = 0;  // of plain samples; 0: nothing learned yet
+  // Plain samples that cost as much as one with sampled rays; a guess until one was traced.
+  double sampledRaysFactor_ = 4;
 };
 
 }  // namespace whit::view

@@ -54,13 +54,18 @@ EditedScene editedScene(const OpenScene& open) {
   return edited;
 }
 
+void addEdit(const std::vector<std::string>& added, EditedScene& scene) {
+  for (const std::string& setting : added) {
+    addSceneSetting(setting, scene.settings);
+    if (setting.starts_with("/sky=")) scene.givenSky.clear();
+  }
+}
+
 LoadOptions editedLoad(const SceneEdit& edit) {
   LoadOptions load = edit.scene->load;
   load.allowOutside = true;  // the user chose the file of the sky
-  for (const std::string& setting : edit.settings) {
-    addSceneSetting(setting, load.settings);
-    if (setting.starts_with("/sky=")) load.sky.clear();
-  }
+  load.settings = edit.settings;
+  load.sky = edit.givenSky;
   return load;
 }
 

@@ -24,10 +24,14 @@ struct EditedScene {
 };
 EditedScene editedScene(const OpenScene& open);
 
-// Settings that are to be added to those of a scene.
+// Adds settings to those of the edited scene; its members stay as they are.
+void addEdit(const std::vector<std::string>& added, EditedScene& scene);
+
+// All settings that a scene is to have, and the sky that replaces its own.
 struct SceneEdit {
   std::shared_ptr<const OpenScene> scene;
   std::vector<std::string> settings;
+  std::string givenSky = {};
 };
 // Returns what the edited scene is read with.
 LoadOptions editedLoad(const SceneEdit& edit);

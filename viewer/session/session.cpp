@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/option_table.h"
 #include "core/text.h"
+#include "engine/open_scene.h"
 #include "io/files.h"
 
 namespace whit::view {
@@ -15,7 +16,8 @@ namespace {
 
 constexpr float kExposureLimit = 64;
 constexpr double kMessageSeconds = 4;
-constexpr double kPixelsPerNotch = 20;  // dragged with the right button to move closer to a model
+constexpr double kEditPauseSeconds = 0.5;  // a longer pause begins another edit
+constexpr double kPixelsPerNotch = 20;     // dragged with the right button to go forward
 
 std::filesystem::file_time_type timeOf(const std::filesystem::path& file) {
   std::error_code error;  // a file that is just being replaced is not an error
@@ -63,6 +65,7 @@ std::string sharpnessText(const FrameRequest& request) {
   const int width = request.options.size ? request.options.size->width : window;
   std::string text = fraction(static_cast<double>(width) / window);
   if (request.spp != 1) text += formatted(", %d samples", request.spp);
+  if (request.plain) text += ", without sampled rays";
   return text;
 }
 
@@ -165,10 +168,12 @@ Session::Session(const ViewOptions& options, const std::shared_ptr<OpenScene>& s
       resolution_(options.rate, options.common.render.spp),
       edited_(editedScene(*scene)),
       ownSky_(edited_.sky),
-      readSettings_(edited_.settings) {
+      readSettings_(edited_.settings),
+      subject_(subjectOf(scene->scene)) {
+  savedSettings_ = readSettings_;
   watch(options.scene);
+  say(lackOfLight(scene->scene));
 
-  settings_.rate = resolution_.rate();
   settings_.options = cli::optionsFor(scene->scene, options.common);
   settings_.view = options.view;
   settings_.timeline = timelineOf(scene->scene, options.common.load.instant);
@@ -194,28 +199,32 @@ void Session::advance(const CameraMotion& motion, double seconds) {
   followRays();
   askForFrame();
   messageSeconds_ -= seconds;
+  sinceEdit_ += seconds;
 }
 
 bool Session::isActive() const {
   return pathTime_ || settings_.timeline.playing || restSeconds_ < kSettleSeconds;
 }
 
+bool Session::isComplete() const {
+  const FrameRequest& shown = shown_.request;
+  return shown_.scene && shown.options.size == shown.window && !shown.plain &&
+         shown.spp >= settings_.options.spp && sameSubject(shown, requestFor({}, true));
+}
+
+void Session::holdStill() {
+  pathTime_.reset();
+  settings_.timeline.playing = false;
+}
+
 CameraMotion Session::motionOf(const Drags& drags, double height, double scale,
                                CameraMotion motion) const {
   motion.wheel = drags.wheel;
 
-  // Around a model the left button orbits and the right one zooms; in a room the left one looks
-  // around and the right one orbits.
-  const bool orbits = control_.orbits();
-  const Drag& orbit = orbits ? drags.left : drags.right;
-  motion.orbitX = orbit.x / scale;
-  motion.orbitY = orbit.y / scale;
-  if (orbits) {
-    motion.wheel -= drags.right.y / scale / kPixelsPerNotch;
-  } else {
-    motion.lookX = drags.left.x / scale;
-    motion.lookY = drags.left.y / scale;
-  }
+  // The left button orbits, or looks around in a room; the right one goes forward and back.
+  motion.turnX = drags.left.x / scale;
+  motion.turnY = drags.left.y / scale;
+  motion.wheel -= drags.right.y / scale / kPixelsPerNotch;
 
   motion.panX = drags.middle.x / std::max(height, 1.0);
   motion.panY = drags.middle.y / std::max(height, 1.0);
@@ -290,8 +299,10 @@ bool Session::fetchFrame() {
   if (request.edits == edits_) edited_ = *shown_.edited;
 
   // The cost of a sample decides the resolution of the next picture in motion.
-  if (request.view == settings_.view) resolution_.learn(shown_.stats.frameMs, samplesOf(request));
-  resolution_.setSampled(shown_.sampled);
+  if (request.view == settings_.view) {
+    resolution_.learn(shown_.stats.frameMs, samplesOf(request), request.plain);
+  }
+  if (!request.plain) resolution_.setSampled(shown_.sampled);
   rememberCosts();
 
   // The frame rate is shown as a mean over the last pictures in motion, the newest counting most.
@@ -308,7 +319,6 @@ FrameRequest Session::requestFor(const Sharpness& sharpness, bool still) const {
   const auto side = [&](int pixels) {
     return std::max(1, static_cast<int>(std::lround(pixels * sharpness.scale)));
   };
-  const bool finest = sharpness.scale >= 1;
 
   FrameRequest request;
   request.window = windowPixels();
@@ -317,9 +327,10 @@ FrameRequest Session::requestFor(const Sharpness& sharpness, bool still) const {
   request.options.size = ImageSize{side(request.window.width), side(request.window.height)};
 
   request.spp = sharpness.spp;
-  request.coarse = !finest;
+  // An automatic exposure is measured with all rays.
+  request.plain = sharpness.plain && !settings_.options.exposure.automatic;
   request.view = settings_.view;
-  request.measureKnobs = still && finest && settings_.measureKnobs;
+  request.measureKnobs = still && sharpness.scale >= 1 && settings_.measureKnobs;
 
   request.reloads = reloads_;
   request.edits = edits_;
@@ -389,8 +400,7 @@ void Session::askForFrame() {
   const ImageSize window = windowPixels();
   if (window.width < 1 || window.height < 1) return;
 
-  resolution_.setRate(settings_.rate);
-  resolution_.setSpp(settings_.options.spp);
+  resolution_.setSamples(settings_.options.spp, hasSampledRays(settings_.options));
 
   // A new window size counts as motion, so that the first picture for it comes at once.
   if (std::exchange(windowSize_, window) != window) restSeconds_ = 0;
@@ -402,9 +412,30 @@ void Session::askForFrame() {
 }
 
 void Session::edit(const std::vector<std::string>& settings) {
+  // What is edited without a pause is one edit, as dragging a slider makes many.
+  const bool goesOn = !undo_.empty() && sinceEdit_ < kEditPauseSeconds;
+  if (!goesOn) undo_.push_back(edited_);
+  sinceEdit_ = 0;
+  addEdit(settings, edited_);
+  postEdit();
+}
+
+void Session::undoEdit() {
+  if (undo_.empty()) {
+    say("there is no edit to undo");
+    return;
+  }
+
+  edited_ = std::move(undo_.back());
+  undo_.pop_back();
+  postEdit();
+  say("the last edit is undone");
+}
+
+void Session::postEdit() {
   ++edits_;
   restSeconds_ = 0;
-  thread_.edit({scene_, settings});
+  thread_.edit({scene_, edited_.settings, edited_.givenSky});
 }
 
 void Session::watch(const std::string& scene) {
@@ -426,6 +457,7 @@ void Session::load(const SceneChoice& choice, const std::string& message) {
   ++reloads_;
   restSeconds_ = 0;
   error_.clear();
+  undo_.clear();
   thread_.load(choice);
   say(message);
 }
@@ -460,8 +492,8 @@ void Session::takeScene() {
 
   // Edits do not outlive a scene, but the user's options do.
   edited_ = *shown_.edited;
-  ownSky_ = edited_.sky;
-  readSettings_ = edited_.settings;
+  if (!opening_.empty() || edited_.settings == readSettings_) ownSky_ = edited_.sky;
+  subject_ = subjectOf(scene());
   takeOptions(last->scene);
 
   // A scene that was read again keeps the camera and the time.
@@ -479,6 +511,7 @@ void Session::takeScene() {
   watch(opening_);
   opening_.clear();
   forgetRays();
+  savedSettings_ = readSettings_ = edited_.settings;
 
   control_ = CameraControl(scene().cameras.front(), cruisingSpeed(scene()));
   show(control_.camera());
@@ -487,11 +520,11 @@ void Session::takeScene() {
 
   settings_.timeline = timelineOf(scene(), {});
   restSeconds_ = 0;
-  say("opened " + sceneName_);
+  say("opened " + sceneName_ + ". " + lackOfLight(scene()));
   opened();
 }
 
-void Session::show(const Camera& camera) { control_.set(camera, boundsToOrbit(scene(), camera)); }
+void Session::show(const Camera& camera) { control_.set(camera, boundsToOrbit(subject_, camera)); }
 
 void Session::fitView(const ImageSize& window) {
   if (!control_.orbits()) return jumpToNumber(0);
@@ -510,10 +543,9 @@ std::string Session::command(const RenderOptions& options) const {
 // have when it is.
 RenderOptions Session::viewOptions() const {
   RenderOptions options = shown_.options;
-  if (shown_.request.coarse || !shown_.request.interruptible) {
-    const Sharpness full{1, settings_.options.spp};
-    options.size = requestFor(full, true).options.size;
-    options.spp = full.spp;
+  if (!isComplete()) {
+    options.size = windowPixels();
+    options.spp = settings_.options.spp;
   }
   return options;
 }
@@ -532,9 +564,12 @@ void Session::showNextView() {
   say(std::string("view: ") + kDebugViewNames[next]);
 }
 
-void Session::startOrStopPath() {
-  if (scene().cameraPath.empty()) {
-    say("the scene has no camera path");
+void Session::playOrPause() {
+  Timeline& timeline = settings_.timeline;
+  if (timeline.there) {
+    timeline.playing = !timeline.playing;
+  } else if (scene().cameraPath.empty()) {
+    say("nothing moves in this scene, and it has no camera path");
   } else if (pathTime_) {
     pathTime_.reset();
   } else {

@@ -77,10 +77,10 @@ Timeline timelineOf(const Scene& scene, const Instant& instant);
 // The settings that the panel and the keys change.
 struct PanelSettings : KeptSettings {
   bool words = true;               // anything is written or drawn over the picture
+  bool supersample = true;         // at rest; scripts compare pictures without
   std::optional<float> keepClear;  // a place across the window that the panel must not cover
   std::string open;                // a scene to open
   std::string tab;                 // the tab of kPanelTabs to turn to; empty: it stays
-  double rate = 60;                // frames a second to hold
   RenderOptions options;
   DebugView view = DebugView::none;
   bool measureKnobs = false;  // true until the measurement is done
@@ -126,6 +126,9 @@ class Session {
   // Moves on by that many seconds, and asks for the picture and the rays that are to be shown next.
   void advance(const CameraMotion& motion, double seconds);
   bool isActive() const;  // something moves, or the picture is about to sharpen
+  // Returns whether the present view is shown at full resolution with the samples asked for.
+  bool isComplete() const;
+  void holdStill();  // pauses the animation and the flight, so that the picture sharpens
 
   // Adds what these drags ask for in a window of this height; `scale` pixels make one point.
   CameraMotion motionOf(const Drags& drags, double height, double scale,
@@ -135,7 +138,7 @@ class Session {
   void jumpToNumber(std::size_t number);
   void fitView(const ImageSize& window);
   void followCamera();
-  void startOrStopPath();
+  void playOrPause();  // the animation, or else the flight along the camera path
   void expose(float step);
   void showNextView();
   void pick(int x, int y);  // a pixel of the window
@@ -143,6 +146,7 @@ class Session {
   std::string command(const RenderOptions& options) const;
   RenderOptions viewOptions() const;
   void edit(const std::vector<std::string>& settings);
+  void undoEdit();
   void watch(const std::string& scene);
   void load(const SceneChoice& choice, const std::string& message);
   void reload();
@@ -161,17 +165,20 @@ class Session {
   TracedFrame shown_;
   std::vector<KnobCost> costs_;                // measured so far at the view of the last frame
   std::optional<UnfinishedFrame> unfinished_;  // is shown in place of the frame
-  double pictureMs_ = 0;            // mean time between pictures in motion; 0: nothing moves
-  RayPick rays_;                    // the last answer
-  EditedScene edited_;              // with edits that are not traced yet
-  Sky ownSky_;                      // of the scene as it was read
-  double restSeconds_ = 0;          // time since something changed
-  bool sharp_ = false;              // the frame shown gets no finer
-  std::optional<double> pathTime_;  // the time on the camera path that is flown
+  double pictureMs_ = 0;  // mean time between pictures in motion; 0: nothing moves
+  RayPick rays_;          // the last answer
+  EditedScene edited_;    // with edits that are not traced yet
+  std::vector<std::string> savedSettings_;  // that a file or the command line holds
+  std::optional<std::size_t> followed_;     // the scene's camera whose view is shown
+  Sky ownSky_;                              // of the scene as it was read
+  double restSeconds_ = 0;                  // time since something changed
+  bool sharp_ = false;                      // the frame shown gets no finer
+  std::optional<double> pathTime_;          // the time on the camera path that is flown
   std::string message_, error_;
   double messageSeconds_ = 0;  // time for which the message is still shown
 
  private:
+  void postEdit();
   bool moveCamera(const CameraMotion& motion, double seconds);
   bool play(double seconds);
   void flyPath(double seconds);
@@ -195,7 +202,9 @@ class Session {
   int reloads_ = 0, edits_ = 0;
   std::vector<std::string> readSettings_;  // with which the scene was read
   bool selects_ = false;                   // the next answer selects a material and a light
-  std::optional<std::size_t> followed_;    // the scene's camera whose view is shown
+  std::vector<EditedScene> undo_;          // the settings before each edit
+  double sinceEdit_ = 0;                   // seconds
+  Box subject_;                            // of the scene
   std::filesystem::path sceneFile_;
   std::filesystem::file_time_type sceneFileTime_;
 };

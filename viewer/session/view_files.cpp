@@ -232,8 +232,6 @@ KeptSettings readKeptSettings() try {
   const Json json = parseJson(readTextFile(file, kSettingsBytesLimit), file);
   KeptSettings kept;
   kept.shown = json.at("panel");
-  kept.inspects = json.at("inspector");
-  kept.supersample = json.at("supersample");
   kept.tabShown = json.at("tab");
   kept.window = {json.at("window").at(0), json.at("window").at(1)};
   kept.recent = json.at("recent").get<std::vector<std::string>>();
@@ -244,8 +242,6 @@ KeptSettings readKeptSettings() try {
 
 void writeKeptSettings(const KeptSettings& kept) try {
   const Json json{{"panel", kept.shown},
-                  {"inspector", kept.inspects},
-                  {"supersample", kept.supersample},
                   {"tab", kept.tabShown},
                   {"window", {kept.window.width, kept.window.height}},
                   {"recent", kept.recent}};

@@ -33,8 +33,6 @@ std::string savePicture(const TracedFrame& frame);
 // Settings that stay from one run to the next, in whit/viewer.json below $XDG_CONFIG_HOME.
 struct KeptSettings {
   bool shown = false;               // the panel is
-  bool inspects = false;            // the pixel under the pointer is described
-  bool supersample = true;          // at rest
   std::string tabShown = "keys";    // of kPanelTabs
   ImageSize window;                 // zero: the user has not changed it
   std::vector<std::string> recent;  // names of scenes, the last one first
