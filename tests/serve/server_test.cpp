@@ -320,10 +320,9 @@ TEST_F(Serving, EveryVerbChangesWhatItSays) {
   };
   const Row rows[] = {{"size 64 40 1", "/window", "[64,40]"},
                       {"camera 1", "/command", "--camera=side"},
-                      {"fit", "/command", "--eye="},
+                      {"fit", "/command", nullptr},
                       {"left 30 0", "/command", nullptr},
                       {"middle 20 9", "/command", nullptr},
-                      {"wheel 2", "/command", nullptr},
                       {"hold 0 0 0 1 0 0", "/command", nullptr},
                       {"expose 2", "/options/exposure", "2"},
                       {"set depth 3", "/options/depth", "3"},
@@ -332,7 +331,7 @@ TEST_F(Serving, EveryVerbChangesWhatItSays) {
                       {"view depth", "/view", "depth"},
                       {"rate 7", "/rate", "7"},
                       {"more", "/more", "false"},
-                      {"measure", "/measured", ""},
+                      {"measure", "/measured", nullptr},
                       {"view none\nclick 20 20", "/tree/pixel", "[20,20]"}};
 
   session_->watch(1);
