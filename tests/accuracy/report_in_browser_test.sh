@@ -60,7 +60,7 @@ if (data.report === 'accuracy') {
   let block = heading;
   while (!block.querySelector('table')) block = block.nextElementSibling;
   const [scene] = data.scenes, [point] = scene.points, thousand = key => (point[key] / 1e3).toFixed(1);
-  const expected = [['time', 'ms', point.settled_ms.toFixed(2)], ['time', 'frames', String(point.frames)],
+  const expected = [['time', 'ms', point.steady_ms.toFixed(2)], ['time', 'frames', String(point.frames)],
     ['against ' + truthOf(scene), 'FLIP', point.total_flip.toFixed(5)],
     ['at equal samples', 'FLIP', point.same_samples_flip.toFixed(5)],
     ...Object.keys(point).filter(key => key.endsWith('_rays') && point[key]).map(

@@ -160,10 +160,12 @@ TEST(RunJson, HasTheseNumbers) {
 TEST(MemoryMb, IsInMillionsOfBytes) {
   const auto memoryOf = [](int side) {
     const TemporaryFolder folder;
-    std::ofstream(folder / "a.json")
-        << R"({"whit": 1, "textures": {"t": {"pattern": "checker", "size": )" << side
-        << R"(}}, "materials": {"m": {"diffuseMap": "t"}},
-            "scene": [{"shape": "quad", "material": "m"}]})";
+    // An uncompressed TGA with 24 bits a pixel.
+    const char low = static_cast<char>(side % 256), high = static_cast<char>(side / 256);
+    const std::string head{0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, low, high, low, high, 24, 0x20};
+    std::ofstream(folder / "a.tga") << head << std::string(3 * std::size_t(side) * side, 'x');
+    std::ofstream(folder / "a.json") << R"({"whit": 1, "textures": {"t": {"image": "a.tga"}},
+        "materials": {"m": {"diffuseMap": "t"}}, "scene": [{"shape": "quad", "material": "m"}]})";
     const Outcome outcome = runWhit({"info", folder / "a.json", "--json", "-", "--quiet"});
     return Json::parse(outcome.out).at("memory_mb").get<double>();
   };

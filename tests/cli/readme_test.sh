@@ -49,7 +49,7 @@ cheap() {
     -e '/-o atrium/!s/atrium/whitted/g' -e '/turntable/s/$/ --count 2 --size 64x40/' \
     -e 's/--size [0-9]+x[0-9]+/--size 64x40/' -e 's/--spp [0-9]+/--spp 2/' \
     -e 's/--frames [0-9]+( |$)/--frames 1\1/' -e 's/--depth N/--depth 4/' -e 's/--sphere-segments N/--sphere-segments 8/' \
-    -e 's/triangles=(N|[0-9]+)/triangles=20000/' -e 's/(render|info) FILE/\1 whitted/' -e 's/1\.\.48/1..2/' -e 's/0\.\.239/0..2/' \
+    -e 's/triangles=(N|[0-9]+)/triangles=20000/' -e 's/(render|info) (FILE|MODEL)/\1 whitted/' -e 's/1\.\.48/1..2/' -e 's/0\.\.239/0..2/' \
     -e 's/--crop 0,0,640,720/--crop 0,0,32,40/' -e 's/--crop 640,0,1280,720/--crop 32,0,64,40/' \
     -e '/whit (bench|effects)/{/--frames/!s/$/ --frames 1/}' \
     -e '/whit (render|bench|effects|compare [a-z]+ )/{/--(size|help)/!s/$/ --size 64x40/}' \

@@ -329,8 +329,6 @@ TEST_F(Serving, EveryVerbChangesWhatItSays) {
                       {"effect shadows 0", "/command", "--disable=shadows"},
                       {"preset fine", "/options/spp", "4"},
                       {"view depth", "/view", "depth"},
-                      {"rate 7", "/rate", "7"},
-                      {"more", "/more", "false"},
                       {"measure", "/measured", nullptr},
                       {"view none\nclick 20 20", "/tree/pixel", "[20,20]"}};
 
