@@ -58,7 +58,7 @@ struct Comparison {
   std::optional<std::vector<StageDifference>> stages;  // with --stages
   std::vector<ChannelDifference> channels;
 };
-struct Compared {
+struct Compared {  // NOLINT(bugprone-exception-escape): moving Json does not throw
   Comparison numbers;
   Image a, b;
   std::vector<ImageLayer> layersA, layersB;

@@ -133,6 +133,7 @@ void Engine::setMesh(const std::string& name, GivenMesh mesh, Progress* progress
   const auto found = meshes.find(name);
   if (found == meshes.end()) {
     std::vector<std::string> names;
+    names.reserve(meshes.size());
     for (const auto& [known, arrays] : meshes) names.push_back(known);
     throwUsage("updateMesh: the scene has no mesh '" + name + "' of a program's arrays" +
                didYouMean(name, names, "mesh"));

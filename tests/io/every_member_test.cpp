@@ -13,7 +13,7 @@
 namespace whit {
 namespace {
 
-using Json = nlohmann::json;
+using PlainJson = nlohmann::json;
 using Names = std::set<std::string>;
 
 // A member in a scene file: the noun's place, the name and a value, and as JSON objects members
@@ -106,8 +106,8 @@ const Row kRows[] = {
     {kAmbient, "reflection", "0.2"},
 };
 
-Json yard() {
-  return Json::parse(R"({"whit": 1, "size": [36, 24],
+PlainJson yard() {
+  return PlainJson::parse(R"({"whit": 1, "size": [36, 24],
     "cameras": {"main": {"eye": [0, 1.6, 4], "at": [0, 0.7, 0], "fov": 50}},
     "lights": [{"type": "point", "position": [2, 3, 2], "intensity": [20, 20, 20], "radius": 0.3},
                {"type": "spot", "position": [-1.5, 4, 1], "direction": [0, -1, 0],
@@ -143,7 +143,7 @@ class EveryMember : public SceneFileTest {
     save("data.tga", tga(2, 2, {{255, 255, 255}, {40, 40, 40}, {90, 90, 90}, {200, 200, 200}}));
   }
 
-  Image picture(const Json& scene, Mode mode) {
+  Image picture(const PlainJson& scene, Mode mode) {
     Warnings warnings;
     const Scene loaded =
         Scene::finalize(loadScene(save("s.json", scene.dump()), options_, warnings), warnings);
@@ -176,15 +176,16 @@ TEST_F(EveryMember, ChangesThePicture) {
   std::map<std::string, Image> pictures;
   for (const Row& row : kRows) {
     tested[row.place].insert(row.name);
-    const Json::json_pointer place(row.place);
+    const PlainJson::json_pointer place(row.place);
 
-    Json before = yard();
-    const Json beside = Json::parse(row.beside);
-    if (beside.contains("image")) before[place] = Json::object();  // the gradient of the sky goes
+    PlainJson before = yard();
+    const PlainJson beside = PlainJson::parse(row.beside);
+    if (beside.contains("image"))
+      before[place] = PlainJson::object();  // the gradient of the sky goes
     before[place].update(beside);
-    Json after = before;
-    after[place].update(Json::parse(row.with));
-    after[place][row.name] = Json::parse(row.value);
+    PlainJson after = before;
+    after[place].update(PlainJson::parse(row.with));
+    after[place][row.name] = PlainJson::parse(row.value);
 
     // Samples of the lobe see the material's own members, and the blurred sky the ambient light's.
     withRays_ = std::string(row.name) == "glossyReflection" || std::string(row.name) == "frosted";

@@ -493,9 +493,9 @@ TEST_F(EveryProperty, OfGltfHasALimit) {
   const Read plain = read(save("m.gltf", base.dump()));
   std::map<std::string, bool> isRead;
   for (const auto& [pointer, beyond, limit] : limits) {
-    const auto readWith = [&](const SchemaJson& value) {
+    const auto readWith = [&, at = pointer](const SchemaJson& value) {
       SchemaJson changed = base;
-      changed[SchemaJson::json_pointer(pointer)] = value;
+      changed[SchemaJson::json_pointer(at)] = value;
       return read(save("m.gltf", changed.dump()));
     };
     const Read limited = readWith(limit);

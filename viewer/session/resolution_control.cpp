@@ -58,6 +58,7 @@ Sharpness ResolutionControl::moving(double windowPixels) {
 
 std::vector<Sharpness> ResolutionControl::stepsAtRest(bool supersample) const {
   std::vector<Sharpness> steps;
+  steps.reserve(kCoarseScales.size() + 1 + kStillSppFactors.size());
   for (const double scale : kCoarseScales) steps.push_back({scale, 1});
   if (spp_ > 1) steps.push_back({1, 1});
 
