@@ -9,18 +9,22 @@ namespace whit {
 
 namespace {
 
-// The point where a ray enters the ball is not known to kAcrossError if its origin is farther away
-// than this.
+// If the origin of a ray is farther from the ball's center than this (in radii of the scene's ball,
+// see query_scene.h), rounding may move the point where the ray enters the ball by more than
+// kAcrossError.
 constexpr double kFarthestOrigin = 0x1p30;
-// Products with shorter or longer directions could leave the range of doubles.
+// Products with directions shorter or longer than this could leave the range of doubles.
 constexpr double kShortest = 1e-100, kLongest = 1e100;
 
 constexpr std::size_t kPacket = 16;
+// Embree's tFar of a ray that hits nothing, or that needs no more candidates.
 constexpr float kNowhere = -std::numeric_limits<float>::infinity();
-// Upper bound on the squared differences of origins and directions, added, in a coherent packet.
+// The squared distance of a ray's origin from that of the packet's first ray, plus the squared
+// difference of their directions, is below this for all rays of a coherent packet.
 constexpr float kCoherent = 0.02f;
 
-// True where single precision is enough to know that the ray hits the triangle, and where.
+// Returns true if Embree's hit, in single precision, proves that the ray hits the exact triangle,
+// and if the distance of the hit is accurate to kAlongError.
 bool isSurelyHit(const RTCFilterFunctionNArguments& args, unsigned lane, float margin) {
   RTCHitN* const hit = args.hit;
   RTCRayN* const ray = args.ray;
@@ -28,7 +32,8 @@ bool isSurelyHit(const RTCFilterFunctionNArguments& args, unsigned lane, float m
   const float u = RTCHitN_u(hit, n, lane), v = RTCHitN_v(hit, n, lane);
   if (!(std::min({u, v, 1 - u - v}) > margin)) return false;
 
-  // At a grazing angle the distance of the hit is not reliable.
+  // At a grazing angle the distance is less accurate. kLeastSlope is the least sine of the angle
+  // between ray and triangle.
   constexpr float kLeastSlope = 0x1p-6f;
   const Vec3f normal{RTCHitN_Ng_x(hit, n, lane), RTCHitN_Ng_y(hit, n, lane),
                      RTCHitN_Ng_z(hit, n, lane)};
@@ -38,6 +43,7 @@ bool isSurelyHit(const RTCFilterFunctionNArguments& args, unsigned lane, float m
   return slope * slope > kLeastSlope * kLeastSlope * dot(normal, normal) * dot(way, way);
 }
 
+// Runs the exact test for the rays that hit the box of a sphere, and shortens them to their hits.
 template <typename Arguments>
 void testSpheres(const Arguments& args, RTCRayN* rays) {
   RayBatch& batch = *static_cast<RayBatch*>(batchOf(args.context));
@@ -76,6 +82,8 @@ void filterCandidates(const RTCFilterFunctionNArguments* args) {
     const bool ends =
         (isSurelyHit(*args, lane, triangles.margins[primitive]) && batch.postpone(ray, id, tFar)) ||
         batch.test(ray, id, tFar);
+    // With -1 Embree accepts the hit and ends the ray there. With 0 it rejects the hit, and goes on
+    // with the candidates behind it.
     args->valid[lane] = ends ? -1 : 0;
   }
 }
@@ -85,8 +93,8 @@ void intersectSpheres(const RTCIntersectFunctionNArguments* args) {
 }
 void occludeSpheres(const RTCOccludedFunctionNArguments* args) { testSpheres(*args, args->ray); }
 
-// Computes where the ray enters and leaves the ball. Returns false where it is unknown which part
-// of the scene the ray crosses.
+// Computes the part of the ray that Embree traces, which lies within the ball. Returns false if
+// this part is not known, so that the answer for the ray is not certain.
 bool RayBatch::start(const QueryRay& ray, Start& to) const {
   to.tFar = kNowhere;
   to.postponed.triangle = kMiss;
@@ -97,18 +105,19 @@ bool RayBatch::start(const QueryRay& ray, Start& to) const {
   if (!isFinite(ray.origin) || !(size > kShortest && size < kLongest)) return false;
   if (!(ray.tNear <= ray.tFar)) return ray.tNear > ray.tFar;
 
-  // A ray crosses the ball if its point closest to the center lies inside.
+  // The ray's line crosses the ball if its point closest to the center lies inside. `room` is then
+  // the squared half of the chord.
   const QueryFrame& frame = scene_.frame();
   const Vec3d unit = ray.direction / size;
   const Vec3d origin = frame.of(ray.origin);
-  const double along = -dot(origin, unit);  // to the point next to the center
+  const double along = -dot(origin, unit);  // distance to the point closest to the center
   const Vec3d nearest = origin + unit * along;
   const double room = kBall * kBall - dot(nearest, nearest);
   const bool known = maxComponent(abs(origin)) < kFarthestOrigin;
   if (!(room > 0)) return known;
 
-  // Embree's ray starts at tNear or where the ray enters the ball, moved back by the error along
-  // it.
+  // Embree's ray starts at tNear or where the ray enters the ball, whichever is later. Both of its
+  // ends are moved outwards by kAlongError, so that no hit is lost.
   const double half = std::sqrt(room);
   to.perT = size / frame.scale;
   to.shift = std::max(along - half, ray.tNear * to.perT) - kAlongError;
@@ -134,17 +143,20 @@ bool RayBatch::postpone(unsigned ray, PlacedTriangleId id, float& tFar) {
     return true;
   }
 
-  // An earlier postponed triangle is replaced only by one that is surely not behind it.
+  // An earlier postponed triangle is dropped only for one that is surely nearer. Otherwise this one
+  // is tested now.
   if (start.postponed.triangle != kMiss && t >= start.at - kTolerance) return false;
   start.postponed = id;
   start.at = t;
   __builtin_prefetch(&scene_.source().triangles[id.triangle]);
 
-  // Embree goes on with candidates that the error may put behind this one.
+  // A candidate that seems up to kTolerance farther away may in fact be nearer, so Embree goes on
+  // with such candidates.
   tFar = start.tFar = std::min(start.tFar, t + kTolerance);
   return true;
 }
 
+// Takes a hit that the exact test has found. Returns true if Embree's ray ends there.
 bool RayBatch::keep(unsigned ray, const QueryHit& hit, float& tFar) {
   if (kind_ == QueryKind::any) {
     answers_[ray] = {true, hit.certain};
@@ -158,7 +170,8 @@ bool RayBatch::keep(unsigned ray, const QueryHit& hit, float& tFar) {
   QueryHit& first = first_[ray];
   const bool nearest = kind_ == QueryKind::closest;
 
-  // Where only the nearest hit counts, hits that are surely behind the first one are dropped.
+  // If only the nearest hit counts, first_ becomes the hit that is surely nearer, and hits surely
+  // behind it are dropped. All others are kept for hits().
   if (!first.found() || (nearest && isSurelyBefore(hit, first))) {
     first = hit;
   } else if (!nearest || !isSurelyBefore(first, hit)) {
@@ -166,7 +179,8 @@ bool RayBatch::keep(unsigned ray, const QueryHit& hit, float& tFar) {
   }
 
   if (!nearest || !hit.certain) return false;
-  // Embree goes on to find all candidates at this distance, whichever of them it tests first.
+  // The ray is shortened to the far end of the hit's error bounds and no further, so that Embree
+  // finds all candidates that may be as near, in whichever order it tests them.
   Start& start = starts_[ray];
   const double end = (hit.t + hit.tError) * start.perT - start.shift + kAlongError;
   start.tFar = std::min(start.tFar, static_cast<float>(end));
@@ -218,7 +232,8 @@ template <typename Single, typename Packet>
 void RayBatch::traceAs() {
   RTCScene const scene = scene_.embree();
 
-  // Any-hit queries of coherent packets may never return (EmbreeScene::coherentAnyHitMayHang).
+  // The flag declares the rays of packets coherent to Embree. Any-hit queries do not set it,
+  // because rtcOccluded16 may then never return (EmbreeScene::coherentAnyHitMayHang).
   QueryContext alone(false), together(kWantsHits<Packet>);
   alone.setBatch(this);
   together.setBatch(this);
@@ -275,7 +290,7 @@ void RayBatch::trace(std::span<const QueryRay> rays) {
     }
   }
 
-  // hits() looks for a ray's other hits by its number.
+  // hits() searches others_ by the number of the ray.
   std::ranges::stable_sort(others_, {}, [](const auto& other) { return other.first; });
 }
 

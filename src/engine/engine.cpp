@@ -29,7 +29,7 @@ void Engine::forgetRenderer() {
 }
 
 void Engine::ownScene() {
-  forgetRenderer();  // it refers to the shared scene
+  forgetRenderer();  // renderer and ray queries refer to the shared scene
   opened_ = std::make_shared<OpenScene>(*opened_);
 }
 
@@ -37,6 +37,7 @@ std::shared_ptr<OpenScene> Engine::copyScene() {
   update();
   auto copy = std::make_shared<OpenScene>(*opened_);
   if (seconds_ != 0) copy->load.instant.seconds = seconds_;
+  // No command line can state transforms that a program has set.
   copy->isMade |= !places_.empty();
   return copy;
 }
@@ -69,6 +70,8 @@ void Engine::edit(const std::string& setting, Progress* progress) {
 }
 
 void Engine::setSettings(const LoadOptions& load, Progress* progress) {
+  // Compares the settings with the present ones: `touched` are those that are new or were set
+  // again, and `grown` is the list that results if they are added to the present ones.
   std::vector<SceneSetting> touched;
   const std::vector<std::string>& before = opened_->load.settings;
   std::vector<std::string> grown = before;
@@ -80,24 +83,26 @@ void Engine::setSettings(const LoadOptions& load, Progress* progress) {
       continue;
     }
 
-    // The new ones are at the end, and with them those that were set again.
+    // Settings that are new or were set again stand at the end of the list, so none of the settings
+    // that follow is an old one.
     rest = before.end();
     touched.push_back(parseSceneSetting(setting));
     addSceneSetting(setting, grown);
   }
 
-  // Where settings are gone, values of the file count again, which only its reader knows.
+  // If settings were removed, the file's own values count again, and only the reader knows them.
   if (grown != load.settings) {
     readAgain(opened_->source, load, progress);
     return;
   }
 
-  // The document is forgotten if anything fails, because it then has settings that do not count.
+  // If anything fails below, document_ stays empty, because the document may then hold settings
+  // that the scene does not have.
   std::optional<JsonDocument> document = std::exchange(document_, std::nullopt);
   if (!document) document = readSceneDocument();
   for (const SceneSetting& setting : touched) applySceneSetting(setting, *document);
 
-  queries_.reset();  // they know the materials' masks
+  queries_.reset();  // ray queries hold the masks of the materials
   const std::vector<std::uint8_t> media = scene().mediumOfMaterial;
   Warnings warnings(opened_->strict);
   if (!editScene(touched, load, *document, warnings, opened_->scene)) {
@@ -108,16 +113,17 @@ void Engine::setSettings(const LoadOptions& load, Progress* progress) {
   document_ = std::move(document);
   opened_->load.settings = load.settings;
   opened_->load.sky = load.sky;
-  optionsChanged_ = true;  // for the automatic exposure
+  optionsChanged_ = true;  // an automatic exposure has to be chosen again
 
   const auto touches = [&](const char* section) {
     return std::ranges::any_of(
         touched, [&](const SceneSetting& setting) { return setting.tokens.front() == section; });
   };
+  // Edits put lights that move where they start.
   moved_ |= touches("lights") && scene().motion.ofLights();
   if (!renderer_) return;
   try {
-    // What surrounds a camera depends on the surfaces that bound a medium, too.
+    // The media around a camera depend on the cameras and on the surfaces that bound a medium.
     if (touches("cameras") || media != scene().mediumOfMaterial) renderer_->camerasChanged();
     renderer_->shadingChanged();
   } catch (...) {
@@ -175,7 +181,7 @@ void Engine::setTransform(const std::string& pointer, const Affine& place) {
 }
 
 void Engine::lookThrough(const std::optional<Camera>& camera) {
-  optionsChanged_ |= camera || lookedThrough_;  // for the automatic exposure
+  optionsChanged_ |= camera || lookedThrough_;  // an automatic exposure is chosen again
   lookedThrough_ = camera;
 }
 
@@ -228,7 +234,8 @@ Picture Engine::render(const PictureRequest& request, Film& film) {
   const Camera camera = request.camera ? *request.camera : this->camera();
   Picture picture;
 
-  // The options of a budget hold for this picture alone.
+  // The options that are chosen for a budget hold for this picture alone: the next prepare()
+  // replaces them.
   if (request.budget.isSet()) {
     reportProgress(request.progress, "choosing options", 0);
     picture.receipt = chooseOptions(renderer, camera, given_.value_or(std::set<std::string>()),
@@ -242,7 +249,7 @@ Picture Engine::render(const PictureRequest& request, Film& film) {
   try {
     picture.stats = renderFrame(renderer, options_.mode, camera, film, request.progress);
   } catch (...) {
-    renderer.scheduler().forgetTracers();  // their queues are not empty
+    renderer.scheduler().forgetTracers();  // the tracers' queues are not empty
     throw;
   }
   if (picture.receipt) assess(*picture.receipt, renderer, camera, stopwatch.ms(), film);

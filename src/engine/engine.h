@@ -1,6 +1,6 @@
-// The life of a picture. An engine knows the scene, options, edits, time, transforms and camera of
-// the next picture; it keeps the renderer while it suits them and builds another one where it does
-// not. An engine belongs to one thread.
+// An engine makes pictures of one scene. It holds the scene, options, edits, time, transforms and
+// camera of the next picture. It keeps its renderer as long as the renderer suits them, and builds
+// another one when it does not. An engine belongs to one thread.
 #pragma once
 
 #include <map>
@@ -21,19 +21,19 @@
 
 namespace whit {
 
-// Returns the number of threads that the option `threads` stands for.
+// Returns options.threads, or the number of usable threads if that is 0.
 int threadsOf(const RenderOptions& options);
 
 struct PictureRequest {
   std::optional<Camera> camera = {};  // none: the engine's
-  Budget budget = {};                 // if it is set, options that were not given are chosen for it
+  Budget budget = {};  // if set, options that the caller did not choose are chosen for it
   Progress* progress = nullptr;
 };
 
 struct Picture {
   FrameStats stats;
   ImageMetadata about;             // everything that is needed to make the picture again
-  std::optional<Receipt> receipt;  // of a request with a budget
+  std::optional<Receipt> receipt;  // set if the request has a budget
 };
 
 class Engine {
@@ -59,43 +59,47 @@ class Engine {
   // Returns the options of the renderer, in which an automatic exposure is replaced by its value.
   const RenderOptions& options() const { return options_; }
 
-  // Sets a member of the scene, as --set POINTER=VALUE. The scene is read again where that is
-  // needed. Throws as the reader does, with nothing changed.
+  // Sets a member of the scene: `setting` is "POINTER=VALUE", as for --set. The scene is read again
+  // only if the member cannot be changed in place (editScene). Throws as the reader does; the scene
+  // is then unchanged.
   void edit(const std::string& setting, Progress* progress = nullptr);
-  // Replaces all settings by those of `load`, which is what the scene is read with then; another
-  // sky in it needs another setting of the sky.
+  // Replaces all settings (--set) by those of `load`. The scene becomes the one that would be read
+  // with `load`. If load.sky changes, a setting of the sky has to change as well; otherwise the new
+  // sky may be ignored.
   void setSettings(const LoadOptions& load, Progress* progress = nullptr);
-  // Replaces the arrays of a mesh that a program made, and reads the scene again. Throws as the
-  // reader does, with nothing changed.
+  // Replaces the arrays of a mesh that a program made, and reads the scene again. Throws
+  // Error(usage) for an unknown name, and as the reader does; the scene is then unchanged.
   void setMesh(const std::string& name, GivenMesh mesh, Progress* progress = nullptr);
-  // Moves everything that follows the time. Takes effect with the next picture, or update().
+  // Sets the time of everything that moves. Takes effect with the next picture, or update().
   void setTime(double seconds);
   double seconds() const { return seconds_; }
-  // Sets the transform of a named item (Instant::movable). Takes effect with the next picture, or
-  // update().
+  // Sets the transform of the item at a JSON pointer (Instant::movable). Takes effect with the next
+  // picture, or update().
   void setTransform(const std::string& pointer, const Affine& place);
 
-  // Replaces the scene's camera; none restores it.
+  // Replaces the scene's camera. Without a camera, the scene's own counts again.
   void lookThrough(const std::optional<Camera>& camera);
-  // The camera of the next picture, changed by the options. To be called after prepare().
+  // Returns the camera of the next picture, changed by the options. Call it after prepare().
   Camera camera() const;
 
-  // Brings the scene to its time and the transforms.
+  // Moves the scene to the time and the transforms that were set.
   void update();
-  // Brings scene, renderer and exposure up to date, and returns the renderer.
+  // Brings scene and renderer up to date, and returns the renderer. An automatic exposure is chosen
+  // again after changes of options, settings or camera, but not if only time or transforms changed.
   Renderer& prepare(Progress* progress = nullptr);
-  // The renderer of the last prepare().
+  // Returns the renderer of the last prepare(), which must have been called.
   Renderer& renderer() { return *renderer_; }
   // Returns the object that answers ray queries about the scene at its present time.
   const RayQueries& rayQueries(Progress* progress = nullptr);
 
-  // Returns the metadata of a picture by the prepared renderer.
+  // Returns the metadata of a picture that the renderer of the last prepare() makes.
   ImageMetadata describe(const Camera& camera, const Film& film) const;
-  // Renders all samples of a picture. `film` has the size of the picture. Throws
-  // Error(badScene) for pixels that are not finite where the options are strict.
+  // Prepares, and renders all samples of a picture into `film`, whose size is that of the picture.
+  // Throws Error(badScene) if the options are strict and a pixel is not finite.
   Picture render(const PictureRequest& request, Film& film);
 
-  // Returns the memory of scene, tables, queues and acceleration structure.
+  // Returns the memory of the scene and of the renderer with its tables, queues and acceleration
+  // structure. The memory of rayQueries() is not included.
   std::uint64_t memoryBytes() const;
 
  private:
@@ -104,17 +108,18 @@ class Engine {
   void forgetRenderer();
 
   std::shared_ptr<OpenScene> opened_;
-  // The document that the scene is read from, with its settings; none before the first edit.
+  // The document that the scene is read from, with its settings. Empty until the first edit, and
+  // after the scene was read again or an edit failed.
   std::optional<JsonDocument> document_;
 
   RenderOptions asked_;
-  // Names of the options in asked_ that the caller chose; none: asked_ is complete.
+  // Names of the options in asked_ that the caller chose. Without this set, asked_ is complete.
   std::optional<std::set<std::string>> given_ = std::set<std::string>();
   RenderOptions options_;
   bool optionsChanged_ = true;
 
   double seconds_ = 0;
-  std::map<std::string, Affine> places_;  // by pointer
+  std::map<std::string, Affine> places_;  // transforms by JSON pointer
   bool moved_ = false;                    // time or transforms have changed
   std::optional<Camera> lookedThrough_;
 

@@ -14,40 +14,48 @@ namespace whit {
 
 namespace {
 
-// The knobs are measured in this order, and a small budget ends the measurements early: those that
-// matter most come first.
+// The knobs are measured in this order. A small budget ends the measurements early, so the knobs
+// that matter most come first.
 constexpr std::array kChosenKnobs{"glossy",       "ambient-samples", "light-samples",
                                   "indirect",     "depth",           "cutoff",
                                   "light-cutoff", "texture-filter",  "fresnel"};
 
-// Shares of the budget: of all measurements, with a least and a largest; and the share of the
-// picture's time that measuring it takes.
+// All measurements together take kProbeShare of the budget, but at least kLeastProbeMs and at most
+// kMostProbeShare of the budget. Each measurement of the whole picture's time takes kPictureShare
+// of that time.
 constexpr double kProbeShare = 0.1, kMostProbeShare = 0.2, kLeastProbeMs = 12, kPictureShare = 0.05;
+// Time of all measurements for a target; measurements shorter than kShortMs use kFewSpp.
 constexpr double kProbeMsOfTarget = 300, kShortMs = 40;
 constexpr double kMostBlocks = 1000;
-constexpr int kRounds = 3;
-// The time that is aimed at, over the rest of the budget: whole samples leave some of it, and
-// measured times are a little too long, by caches that are cold.
+constexpr int kRounds = 3;  // of correcting the expected time by the measured one, at most
+// The choice aims at this factor of the time that is left: rounding down to whole samples leaves
+// some time unused, and cold caches make the measured times a little too long.
 constexpr double kAim = 1.06;
-// Samples of the probes; the probe that stands for the truth has so many times as many.
+// Samples per pixel of the probes. The truth, which the probes are compared with, has kTruthFactor
+// times as many.
 constexpr int kFewSpp = 2, kSomeSpp = 4, kTruthFactor = 4;
-constexpr double kCostOfProbe = 1.5;  // time that is expected of a probe, over the baseline's
-// The pixels of a side that are pooled to tell bias from noise.
+constexpr double kCostOfProbe = 1.5;  // expected time of a probe, in times of the baseline
+// Squares with sides of this many pixels are averaged to tell bias from noise.
 constexpr int kPooledSide = 4;
-// A target is taken with a margin. Squared noise falls with a power of the number of samples. FLIP
-// is about the 0.7th power of a difference, so that it falls more slowly; probes of one and four
-// samples tell the power badly.
+// The choice aims at the target divided by this margin.
 constexpr double kTargetMargin = 1.25;
+// Bounds on the power of the number of samples by which squared noise falls. Probes with few
+// samples measure the power badly. It is smaller for FLIP, which is about the 0.7th power of a
+// difference.
 constexpr double kLeastPower = 0.6, kMostFlipPower = 0.9, kMostCodesPower = 1.3;
-// Noise below this share of the baseline's is not believed. Among so many combinations those whose
-// measurements flatter them would win, so that each value beside the baseline's has to gain this
-// share over the root of the number of blocks.
+// Squared noise below kLeastNoise of the baseline's is taken for a measuring error. Among many
+// combinations, one with lucky measurements would win. Each value that is not the baseline's
+// therefore has to gain at least kDoubt over the root of the number of measured blocks.
 constexpr double kLeastNoise = 0.02, kDoubt = 0.5;
+// Noise that nobody can see; more samples than reach it are of no use.
 constexpr double kUnseenFlip = 2e-4, kUnseenCodes = 0.02;
-// A pattern of 4096 samples takes 0.15 to 0.3 s: about a 25th of the budget.
+// At most this many samples, times the root of the budget in milliseconds. The time that making the
+// sample pattern takes grows with the square of their number (0.15 to 0.3 s for 4096 samples), and
+// thus stays about a 25th of the budget.
 constexpr double kSppOfRootMs = 50;
 
-// Returns the means of squares of kPooledSide pixels, or the image itself if it is smaller.
+// Returns the means of squares of kPooledSide x kPooledSide pixels, or the image itself if it is
+// smaller than one square.
 Image pooled(const Image& image) {
   if (std::min(image.width, image.height) < kPooledSide) return image;
 
@@ -61,17 +69,17 @@ Image pooled(const Image& image) {
   return means;
 }
 
-// A value of a knob, with its cost and its error against the baseline of the model.
+// A value of a knob, with its cost and its error. Cost and noise are relative to the baseline.
 struct Level {
   std::string value;
   double cost = 1;    // factor of the time of a sample
-  double bias2 = 0;   // squared error that more samples of pixels do not take away
-  double noise2 = 0;  // added to the squared error of one sample
+  double bias2 = 0;   // squared error that more samples per pixel do not reduce
+  double noise2 = 0;  // change of the squared noise of one sample, at most 0
 };
 
 // A knob and the values that are measured for it.
 struct KnobLevels {
-  std::string name, exact, off;  // off: without samples; empty for other knobs
+  std::string name, exact, off;  // off: the value without samples; empty if the knob has none
   std::vector<Level> levels;     // the first is the baseline's
   bool endsExact() const { return levels.back().value == exact; }
 };
@@ -86,9 +94,11 @@ struct Combination {
   std::array<std::size_t, kChosenKnobs.size()> levels{};
   int spp = 1;
   double bias = 0;
-  CostAndError total;  // milliseconds of the picture
+  CostAndError total;  // of the picture; the cost in milliseconds
 };
 
+// Measures the knobs one by one against a baseline, and searches their combinations by the model
+// that budget.h explains.
 class Chooser {
  public:
   Chooser(Renderer& renderer, const Camera& camera, const std::set<std::string>& fixed,
@@ -104,7 +114,8 @@ class Chooser {
     // Probes keep no channels, and take all samples unless --adaptive was given explicitly.
     baseline_.channels = {};
     baseline_.adaptive = baseline_.adaptive && fixed.contains("adaptive");
-    if (baseline_.adaptive) measured_ = channels_;  // it takes all samples with the channel
+    // Channel::error would turn adaptive sampling off.
+    if (baseline_.adaptive) measured_ = channels_;
   }
 
   Receipt choose() {
@@ -137,9 +148,9 @@ class Chooser {
                    : kProbeMsOfTarget;
   }
 
-  // The baseline has one sample of each lobe and light that the scene calls for, and of the other
-  // knobs the values of the options. Cheap values come first and the exact one last, in case there
-  // is no time for all.
+  // Adds a knob, with the values to measure, if the scene uses it and the user has not fixed it. In
+  // the baseline, lobes and lights take the fewest samples, and all other knobs have the values of
+  // the options. The exact value comes last, in case there is no time for all.
   void addKnob(const Knob& knob) {
     const EffectSet effects = renderer_.scene().effects.without(baseline_.disable);
     const bool transports = knob.cause == Cause::transport;
@@ -172,14 +183,17 @@ class Chooser {
     knobs_.push_back(std::move(added));
   }
 
+  // Returns the time of the whole picture with one sample per pixel.
   double baselineMs() { return prober_.time(baseline_, 1) * prober_.pixels() / 1e3; }
 
-  // As many blocks as there is time for, by the time of a few packets.
+  // Measures the time of a few packets, and chooses from it the samples per pixel of the probes and
+  // the number of blocks.
   void chooseBlocks() {
     prober_.chooseBlocks(kPacketSide, kLeastPackets);
     double ms = baselineMs();
 
-    // Where not even one sample of the baseline fits, lobes and lights are not sampled.
+    // If not even one sample of the baseline fits, lobes and lights are not sampled. Indirect light
+    // stays, because it was asked for.
     if (timed() && ms > budget_.ms) {
       for (KnobLevels& knob : knobs_) {
         if (knob.off.empty() || knob.name == "indirect") continue;
@@ -209,10 +223,10 @@ class Chooser {
     }
   }
 
-  // Microseconds that all probes take for a pixel, of whose samples each takes `us`. Each level
-  // renders one sample to warm up, then the samples of its probe, and is compared once.
+  // Returns the microseconds that all probes together take for one pixel, if one sample takes `us`.
+  // Each level renders one sample to warm up, then the samples of its probe, and is compared once.
   double usOfProbes(double us) const {
-    double samples = kTruthFactor * probeSpp_, pictures = 0;  // of a pixel
+    double samples = kTruthFactor * probeSpp_, pictures = 0;
     for (const KnobLevels& knob : knobs_) {
       const auto levels = static_cast<double>(knob.levels.size());
       samples += levels * (1 + (knob.off.empty() ? 1 : probeSpp_));
@@ -224,7 +238,8 @@ class Chooser {
   void measure() {
     probed_ = prober_.probed();
 
-    // The truth has other random numbers: noise that the probes share would hide what samples gain.
+    // The truth uses other random numbers than the probes. Otherwise part of their noise would
+    // cancel in the differences, and more samples would seem to gain less.
     renderer_.setSeed(1);
     const Image truth = probe(baseline_, kTruthFactor * probeSpp_).image;
     renderer_.setSeed(0);
@@ -253,8 +268,9 @@ class Chooser {
     return squared(prober_.difference(a, b));
   }
 
-  // Squared noise falls as spp^-power, to `error2` with the samples of a probe. The truth is noisy
-  // as well, by an amount that depends on the power, so that we iterate.
+  // Finds the power with which squared noise falls as spp^-power: it is noise2_ with one sample and
+  // `error2` with probeSpp_ samples. The truth is noisy as well, by an amount that depends on the
+  // power, so we iterate.
   void findPower(double error2) {
     const double most = budget_.inCodes ? kMostCodesPower : kMostFlipPower;
     for (int i = 0; i < 3 && noise2_ > 0 && probeSpp_ > 1; ++i) {
@@ -278,25 +294,28 @@ class Chooser {
     const std::vector<Image> shown = renderLevels(probeSpp_, several, knob);
     for (std::size_t i = 1; i < shown.size(); ++i) {
       Level& level = knob.levels[i];
-      // Pooling tells bias from noise: means of many pixels show what all of them lack.
+      // The mean of many pixels has little noise, so its error is the bias.
       if (level.value == knob.off) level.bias2 = pooledBias2(shown[i], several.image, truth);
 
       // No level has more noise than the baseline, so a positive difference is a measuring error.
+      // The difference is scaled from the samples of the probe to one sample.
       const double more = difference2(shown[i], truth) - level.bias2 - error2;
       level.noise2 = std::min(more, 0.0) * std::pow(probeSpp_, power_);
     }
   }
 
-  // Returns the squared bias of the picture without samples of a knob. The truth's own noise is
-  // subtracted by its share in the difference of two pictures that differ in nothing but noise.
+  // Returns the squared bias of `off`, the picture without a knob's samples. The noise of the truth
+  // is subtracted. It is estimated from the baseline's picture `own`, which differs from the truth
+  // in noise only: the truth has kTruthFactor times the samples, so that it has one part in
+  // 1 + kTruthFactor of the squared difference.
   double pooledBias2(const Image& off, const Image& own, const Image& truth) const {
     const Image mean = pooled(truth);
     const double noise2 = difference2(pooled(own), mean) / (1 + kTruthFactor);
     return std::max(difference2(pooled(off), mean) - noise2, 0.0);
   }
 
-  // Renders a picture with each value and sets the values' costs; the probe of the first is known.
-  // Values that there is no time for are left out.
+  // Renders a picture with each value of the knob and sets the costs of the values. `first` is the
+  // probe of the first value. Values that there is no time for are removed from the knob.
   std::vector<Image> renderLevels(int spp, const Probe& first, KnobLevels& knob) {
     std::vector<Image> shown{first.image};
     for (std::size_t i = 1; i < knob.levels.size(); ++i) {
@@ -317,7 +336,8 @@ class Chooser {
 
   double wantedError() const { return budget_.error / kTargetMargin; }
 
-  // Sets the samples of the combination, and the cost and error of the picture by its levels.
+  // Sets the number of samples of the combination, and the cost and error that the model expects of
+  // the picture.
   void complete(Combination& c, double leftMs) const {
     // Costs multiply, and squared errors add up.
     double bias2 = 0, noise2 = noise2_, ms = scale_ * sampleUs_ * prober_.pixels() / 1e3;
@@ -333,8 +353,8 @@ class Chooser {
 
     c.spp = baseline_.spp;
     if (!fixed_.contains("spp")) {
-      // A budget takes as many samples as fit; a target, as many as bring the noise down to the
-      // part of the error that the bias leaves.
+      // For a budget we take as many samples as fit. For a target we take as many as reduce the
+      // squared noise to what the squared bias leaves of the squared target.
       const double spp = timed() ? std::min(kAim * leftMs / ms, usefulSamples(noise2))
                                  : samplesFor(noise2, squared(wantedError()) - bias2);
       c.spp = static_cast<int>(std::clamp(spp, 1.0, double{kSppLimit}));
@@ -344,13 +364,14 @@ class Chooser {
     c.total = {ms * c.spp, std::sqrt(bias2 + noise2 * std::pow(c.spp, -power_))};
   }
 
-  // The samples that bring the squared noise of one down to `error2`.
+  // Returns the number of samples that reduces `noise2`, the squared noise of one sample, to
+  // `error2`.
   double samplesFor(double noise2, double error2) const {
     return error2 > 0 ? std::ceil(std::pow(noise2 / error2, 1 / power_)) : kSppLimit;
   }
 
-  // More samples than take the noise below what anybody could see buy nothing, and making a pattern
-  // of samples takes a time that grows with their square.
+  // Returns the number of samples with which nobody could see the noise that is left, or fewer if
+  // making their pattern would take too much of the budget.
   double usefulSamples(double noise2) const {
     const double unseen = budget_.inCodes ? kUnseenCodes : kUnseenFlip;
     return std::min(samplesFor(noise2, squared(unseen)), kSppOfRootMs * std::sqrt(budget_.ms));
@@ -412,7 +433,7 @@ class Chooser {
     renderer_.setOptions(r.options);
     r.options.channels = channels_;
 
-    // The receipt lists the chosen values, and among them those that are not exact.
+    // The receipt lists all chosen values, and once more those that are not exact.
     if (!fixed_.contains("spp")) r.chosen.emplace_back("spp", std::to_string(best.spp));
     if (wasAdaptive_ && !baseline_.adaptive) r.chosen.emplace_back("adaptive", "off");
     for (std::size_t i = 0; i < knobs_.size(); ++i) {
@@ -447,15 +468,15 @@ class Chooser {
   Renderer& renderer_;
   const std::set<std::string>& fixed_;
   Budget budget_;
-  ChannelSet channels_, measured_;  // asked for, and of the picture
+  ChannelSet channels_, measured_;  // those asked for, and those of the picture for assess()
   bool wasAdaptive_;
-  RenderOptions baseline_;  // of which one knob at a time is changed
+  RenderOptions baseline_;  // probes change one knob of it at a time
   Prober prober_;
   std::vector<KnobLevels> knobs_;
   int probeSpp_ = kSomeSpp;
-  double probed_ = 1;                           // pixels
-  double sampleUs_ = 0, scale_ = 1;             // of a sample of the baseline
-  double noise2_ = 0, power_ = kMostFlipPower;  // squared error of one sample; see measure()
+  double probed_ = 1;                // pixels of a probe
+  double sampleUs_ = 0, scale_ = 1;  // time of a baseline sample; factor that corrects costs
+  double noise2_ = 0, power_ = kMostFlipPower;  // squared error of one sample; see findPower()
 };
 
 }  // namespace

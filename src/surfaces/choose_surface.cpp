@@ -12,8 +12,8 @@ namespace {
 
 PlacedTriangleId idOf(const Candidate& c) { return {c.triangle, c.instance}; }
 
-// Returns how many corners of `a` are corners of `b` as well; 0 where the hit does not lie between
-// these.
+// Returns the number of corners that `a` and `b` share, or 0 if the hit on `a` does not lie on the
+// corner or edge that they share.
 int cornersBetween(const Corners& a, const Corners& b, const TriangleHit& hit) {
   constexpr double kRounding = 1e-9;
   const double weights[] = {1 - hit.u - hit.v, hit.u, hit.v};
@@ -26,19 +26,21 @@ int cornersBetween(const Corners& a, const Corners& b, const TriangleHit& hit) {
   return shared;
 }
 
-// True if two triangles are neighbors in one surface, which a ray passes once through the edge or
-// corner that they share. With all corners in common they lie on each other instead.
+// Returns true if two triangles are neighbors in one surface and both hits lie on the edge or
+// corner that they share: the ray crosses that surface once. Triangles that share all three corners
+// lie on each other and are not neighbors.
 bool areNeighbors(const Scene& scene, const SurfaceHit& a, const SurfaceHit& b) {
   if (a.medium != b.medium || a.entering != b.entering) return false;
   if (a.candidate.instance != b.candidate.instance) return false;
 
+  // Both belong to one instance, so we compare their corners as the object has them.
   const Corners corners = worldCorners(scene, a.candidate.triangle, kNoInstance);
   const Corners others = worldCorners(scene, b.candidate.triangle, kNoInstance);
   const int shared = cornersBetween(corners, others, a.hit);
   return shared > 0 && shared < 3 && cornersBetween(others, corners, b.hit) == shared;
 }
 
-// Keeps the first of neighboring triangles.
+// Sorts the hits by rank, and keeps the one of lowest rank among neighboring triangles.
 void mergeNeighbors(const Scene& scene, std::vector<SurfaceHit>& hits) {
   std::ranges::sort(hits, [](const SurfaceHit& a, const SurfaceHit& b) { return a.rank < b.rank; });
   std::vector<SurfaceHit> merged;
@@ -51,8 +53,9 @@ void mergeNeighbors(const Scene& scene, std::vector<SurfaceHit>& hits) {
   hits = std::move(merged);
 }
 
-// Returns a bound on the rounding error of a hit's distance in floats. Only the components along
-// the normal of the corners, relative to the ray's start, count.
+// Returns a bound on the rounding error of a hit's distance in floats. Rounding the corners,
+// relative to the ray's origin, moves the triangle's plane along its normal. Divided by the ray's
+// component along the normal, this is the error along the ray.
 double distanceError(const Scene& scene, const Ray& ray, const SurfaceHit& surface) {
   const Corners corners =
       worldCorners(scene, surface.candidate.triangle, surface.candidate.instance);
@@ -75,7 +78,7 @@ void keepNearest(const Scene& scene, const Ray& ray, std::vector<SurfaceHit>& hi
   });
 }
 
-// True if light hits `a` rather than `b`: an opaque surface first, and a sheet before a dielectric.
+// Returns true if light hits `a` rather than `b`, by the order of chooseSurface().
 bool comesFirst(const Scene& scene, const SurfaceHit& a, const SurfaceHit& b) {
   if (a.opaque != b.opaque) return a.opaque;
   if ((a.medium == 0) != (b.medium == 0)) return a.medium == 0;
@@ -85,8 +88,8 @@ bool comesFirst(const Scene& scene, const SurfaceHit& a, const SurfaceHit& b) {
   return a.rank > b.rank;
 }
 
-// Adds a dielectric to those whose faces share the place of the crossed one, packed as in hits
-// (stages/columns.h). Three fit.
+// Adds a dielectric to those that light crosses together with the chosen one, packed as in
+// HitColumns::alsoCrossed (stages/columns.h). Three fit; a fourth is left out.
 std::uint32_t withCrossing(std::uint32_t others, std::uint32_t medium, bool entering) {
   constexpr int kMostOthers = 3;
   if (others >> (kCrossedBits * (kMostOthers - 1)) != 0) return others;
@@ -108,7 +111,8 @@ std::vector<SurfaceHit> coplanarHits(const Scene& scene, EffectSet effects, cons
     if (!hit) return;
     if (effects.has(Effect::alphaMasks) && cutAway(scene, id.triangle, *hit)) return;
 
-    // The triangle that was hit is there, although rounding may deny it for edge-on triangles.
+    // The triangle of `found` always counts: if it is seen edge-on, rounding may take its front for
+    // its back.
     const bool isFound = id == idOf(found);
     if (!isFound && isPassed(scene, id.triangle, id.instance, ray.direction)) return;
 
@@ -153,6 +157,8 @@ ChosenSurface chooseSurface(const Scene& scene, EffectSet effects, const Ray& ra
     chosen.alsoCrossed = withCrossing(chosen.alsoCrossed, surface.medium, surface.entering);
   }
 
+  // With kSharesPlace, surfacePoint() gives new rays the larger offset that other surfaces here
+  // need.
   if (hits.size() > 1) chosen.alsoCrossed |= kSharesPlace;
   return chosen;
 }
@@ -169,7 +175,7 @@ Candidate chooseSphere(const Scene& scene, EffectSet effects, const Candidate& f
   for (const PlacedTriangleId& id : *group->second) {
     if (id.instance != kNoInstance && !effects.has(Effect::instances)) continue;
 
-    // Coincident spheres may be rotated, so the point has other weights on each of them.
+    // Coincident spheres may be rotated, so the point has different u and v on each of them.
     const auto [u, v] = sphereWeights(onUnitSphere(sphereInWorld(scene, id), point));
     const TriangleHit hit{0, u, v};
     if (id != sphere && effects.has(Effect::alphaMasks) && cutAway(scene, id.triangle, hit)) {

@@ -18,7 +18,7 @@ void sizeFilm(Film& film, const ImageSize& size, const Crop& window) {
   film.image = Image(size.width, size.height, window);
 }
 
-// Sets a renderer's options for its own lifetime.
+// Gives a renderer other options for as long as this object lives.
 class OptionsInUse {
  public:
   OptionsInUse(Renderer& renderer, const RenderOptions& options)
@@ -71,7 +71,8 @@ void FrameTracer::load(const SceneChoice& choice) {
 }
 
 void FrameTracer::edit(const SceneEdit& edit) {
-  // Earlier edits may have had the scene read again.
+  // The edit is for the scene of this name. Pointers to scenes do not tell, because an earlier edit
+  // may have had the same scene read again.
   if (!edit.scene || edit.scene->source.name != engine_->opened()->source.name) return;
   engine_->setSettings(editedLoad(edit));
   edited_.reset();
@@ -81,12 +82,13 @@ RayPick FrameTracer::explain(const RayQuery& query) {
   Renderer& renderer = engine_->prepare();
   const Scene& scene = engine_->scene();
 
-  // The query's options hold for as long as it is answered, without those that would need another
-  // acceleration structure.
+  // While the query is answered, the renderer has the query's options, except those that would need
+  // other workers or another acceleration structure.
   RenderOptions options = renderer.options();
   takeOver(query.picture.options, Rebuild::tables, options);
   const OptionsInUse used(renderer, options);
 
+  // The film has the size of the picture, but memory for the queried pixel only.
   Film film;
   sizeFilm(film, options.size.value(), Crop{query.x, query.y, query.x + 1, query.y + 1});
 
@@ -127,6 +129,7 @@ void FrameTracer::describe(const FrameRequest& request, TracedFrame& frame) {
 
   frame.scene = open;
   frame.request = request;
+  // The renderer's exposure is a number even if the request's is automatic.
   frame.request.options.exposure = engine_->options().exposure;
   frame.options = engine_->options();
   copySampledRays(request.options, frame.options);
@@ -205,8 +208,8 @@ bool FrameTracer::accumulates(const FrameRequest& request) const {
          !options.adaptive && engine_->renderer().plan().features.has(Feature::streams);
 }
 
-// The pictures that are shown on the way have more samples than the one before; until then that
-// one stays.
+// A finished picture of the same view stays until the new one has more samples; only then are the
+// passes shown.
 bool FrameTracer::traceInPasses(const FrameRequest& request, TracedFrame& frame,
                                 const TraceCalls& calls) {
   const ImageSize size = filmSizeOf(frame.film);
@@ -218,7 +221,8 @@ bool FrameTracer::traceInPasses(const FrameRequest& request, TracedFrame& frame,
       finished_ && sameSubject(*finished_, request) && finished_->options.size == size;
   const int shown = again ? finished_->spp : 0;
 
-  // A pass has as many samples as fit into kPassMs, but few enough for kLeastPasses passes.
+  // A pass has as many samples per pixel as fit into kPassMs, but few enough for kLeastPasses
+  // passes. `passMs` is the time of one sample in every pixel.
   const double passMs = msPerSample_ * static_cast<double>(size.width) * size.height;
   const double wanted = passMs > 0 ? kPassMs / passMs : 1;
   const int most = static_cast<int>(std::clamp(wanted, 1.0, std::max(spp / kLeastPasses, 1.0)));
@@ -238,7 +242,7 @@ bool FrameTracer::traceInPasses(const FrameRequest& request, TracedFrame& frame,
     frame.stats.workers = stats.workers;
     if (part.end > 1) frame.sampleError = sums.relativeError(part.end);
 
-    // The finished picture is handed over by the caller.
+    // The caller hands over the finished picture.
     if (part.end == spp) break;
     if (part.end > shown) {
       calls.showUnfinished({request, frame.film.display, part.end, frame.sampleError});

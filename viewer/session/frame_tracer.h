@@ -1,4 +1,5 @@
-// The viewer's pictures: requests, frames, and their tracer.
+// Makes the viewer's pictures: what is requested, what is traced, and the tracer. It also measures
+// the costs of options and answers queries for the rays of a pixel.
 #pragma once
 
 #include <array>
@@ -20,15 +21,14 @@
 
 namespace whit::view {
 
-// knob_costs.cpp: the cost of each option and each effect at the present view. Frames with it and
-// without it are timed in turns as `whit accuracy` does.
-
+// The cost of an option or an effect at the present view (knob_costs.cpp). Frames with the present
+// setting and with the option's cheapest one, or without the effect, are timed in turns.
 struct KnobCost {
   std::string name;         // of the option, or of the effect
-  std::string other;        // the setting that is compared with, "off" for an effect
+  std::string other;        // the setting to compare with: the cheapest, or "off" for an effect
   FrameStats now, then;     // with the present setting and with the other
-  accuracy::Timing timing;  // of frames with the other setting; the present one is the baseline
-  double presentMs = 0;     // of a frame of the whole window
+  accuracy::Timing timing;  // its ratio is that of the other setting's time to the present one's
+  double presentMs = 0;     // of a frame of the whole window with the present setting
 
   // The time that the present setting adds to a frame of the whole window.
   double ms() const { return presentMs * (1 - timing.ratio); }
@@ -38,21 +38,22 @@ struct KnobCost {
 
 // Returns the costs that exceed the noise of the machine, the largest first.
 std::vector<KnobCost> toldFromNoise(std::vector<KnobCost> costs);
-// "off would be 35 ms faster".
+// Returns a text such as "off would be 35 ms faster".
 std::string costText(const KnobCost& cost);
 
-// The size of the frames that are measured for a window of that size: smaller where a frame of it
-// would take longer than kMeasuredMs.
+// Returns the size of the frames whose time is measured. It is that of the window, or smaller if a
+// frame of the whole window would take longer than kMeasuredMs.
 ImageSize measuredSize(const ImageSize& window, double msPerPixel);
 inline constexpr double kMeasuredMs = 50;
 
-// Called between frames and at the end with the costs so far and the share of the knobs; returns
-// false to end the measurement.
+// Called between frames and at the end, with the costs so far and the share of the knobs that is
+// measured. Returns false to end the measurement.
 using MeasureCall = std::function<bool(const std::vector<KnobCost>& sofar, double measured)>;
 
-// Leaves out options that are at their cheapest setting already, and those that need another
-// acceleration structure. `film` is overwritten; a pixel of it stands for `scale` pixels of the
-// window. The renderer has `options` before and after. Returns false if `goesOn` ended it.
+// Measures the cost of each option and each effect. Leaves out options that are at their cheapest
+// setting already, and those that need another renderer. `film` is overwritten; a pixel of it
+// stands for `scale` pixels of the window. The renderer has `options` before and after. Returns
+// false if `goesOn` ended the measurement.
 bool measureKnobs(Renderer& renderer, const RenderOptions& options, const Camera& camera,
                   Film& film, double scale, const MeasureCall& goesOn);
 
@@ -65,14 +66,14 @@ struct SceneChoice {
 struct FrameRequest {
   Camera camera;
   RenderOptions options;  // the user's options; the size must be set
-  ImageSize window;       // the window that the picture is to fill
-  int spp = 1;            // samples that are traced: the options', or more at rest
-  bool plain = false;     // without sampled rays, which follow at rest
+  ImageSize window;       // the size of the window that the picture fills
+  int spp = 1;            // samples per pixel to trace, in place of options.spp: fewer or more
+  bool plain = false;     // without sampled rays; a later picture has them
   DebugView view = DebugView::none;
   bool measureKnobs = false;      // the cost of each knob is measured as well
   int reloads = 0, edits = 0;     // number of reloads and edits of the scene so far
-  std::optional<double> seconds;  // the instant of a scene that moves
-  bool interruptible = false;     // given up when another one is asked for
+  std::optional<double> seconds;  // the time of a scene that moves
+  bool interruptible = false;     // may be given up for another request
 };
 
 // Returns whether both ask for the same picture.
@@ -83,7 +84,8 @@ inline bool samePicture(const FrameRequest& a, const FrameRequest& b) {
          a.seconds == b.seconds;
 }
 
-// Returns whether both show the same, at any resolution.
+// Returns whether both show the same thing, at any resolution and number of samples, and with or
+// without sampled rays.
 inline bool sameSubject(const FrameRequest& a, FrameRequest b) {
   b.options.size = a.options.size;
   b.spp = a.spp;
@@ -92,10 +94,12 @@ inline bool sameSubject(const FrameRequest& a, FrameRequest b) {
   return samePicture(a, b);
 }
 
-// Copies the numbers of rays that are sampled for each hit; by default there are none.
+// Copies the options that say how many rays are sampled for each hit. The default options sample
+// none.
 void copySampledRays(const RenderOptions& from, RenderOptions& to);
 bool hasSampledRays(const RenderOptions& options);
 
+// Returns the number of samples of all pixels.
 inline double samplesOf(const FrameRequest& request) {
   const ImageSize size = request.options.size.value();
   return static_cast<double>(size.width) * size.height * request.spp;
@@ -104,7 +108,7 @@ inline double samplesOf(const FrameRequest& request) {
 struct TracedFrame {
   std::shared_ptr<const OpenScene> scene;  // null: nothing traced yet
   FrameRequest request;
-  RenderOptions options;  // the options of the picture, with the sampled rays that it leaves out
+  RenderOptions options;  // the renderer's, with the sampled rays that a plain picture leaves out
   std::string surfaces;   // the number of triangles and spheres, in words
   std::string animation;  // the animation that was asked for
   Film film;
@@ -113,16 +117,16 @@ struct TracedFrame {
   EffectSet effects;                               // the effects that were traced
   bool sampled = false;                            // rays were drawn at random
   double sampleError = 0;                          // SampleSums::relativeError(), 0: not known
-  std::array<EffectReason, kEffectCount> reasons;  // a copy, as edits change the scene's own
-  std::shared_ptr<const EditedScene> edited;       // a copy, as well
+  std::array<EffectReason, kEffectCount> reasons;  // copied, because edits change the scene's own
+  std::shared_ptr<const EditedScene> edited;       // copied as well: the scene after its edits
   Machine machine;
-  std::shared_ptr<const DebugPicture> debug;  // null: the request is without a debug view
-  // If the request measures knobs: the costs measured so far, and the share of the knobs.
+  std::shared_ptr<const DebugPicture> debug;  // null: the request has no debug view
+  // If the request measures knobs: the costs so far, and the share of the knobs that is measured.
   std::vector<KnobCost> costs;
   double measured = 0;
 };
 
-// A picture that gains samples, with those traced so far.
+// A picture that is traced in passes, with the samples that it has so far.
 struct UnfinishedFrame {
   FrameRequest request;
   DisplayImage display;
@@ -145,26 +149,30 @@ struct RayPick {
   std::shared_ptr<const OpenScene> scene;  // null: nothing was picked
   RayQuery query;
   ExplainedRays rays;
-  // One for each node of the packets: the scene may be edited before they are shown.
+  // The text of each node of the packets, written now because the scene may be edited before it is
+  // shown.
   std::vector<RayText> words;
   std::vector<RayLine> lines;  // the rays of the packets
-  Camera aside;                // sees them
+  Camera aside;                // sees the hits of the rays from the side
 };
 
-// Each pass of a picture that gains samples takes about this long, with at least one sample a
-// pixel.
+// Each pass of a picture takes about this long, but has at least one sample per pixel.
 inline constexpr double kPassMs = 100;
-inline constexpr double kLeastPasses = 8;  // where there are as many samples
+inline constexpr double kLeastPasses = 8;  // or one for each sample if there are fewer
 
 struct TraceCalls {
-  // The workers call these two between tiles and samples. Once true they stay true.
-  std::function<bool()> superseded;  // another picture is wanted
-  std::function<bool()> stopped;     // the picture is to be given up for anything else
-  // Answers a query for the rays of a pixel; called between passes and measured frames.
+  // The workers call one of these two between tiles and samples. Once true it stays true while the
+  // picture is traced. Only `superseded` ends a picture that is traced in passes, so that queries
+  // for rays do not. Both are true as well when the viewer ends.
+  std::function<bool()> superseded;  // another picture, scene or edit waits
+  std::function<bool()> stopped;     // the picture is interruptible, and anything else waits
+  // Answers a query for the rays of a pixel if one waits; called between passes and between frames
+  // that are measured.
   std::function<void()> answer;
   // Called with frames whose knobs are being measured.
   std::function<void(const TracedFrame&)> publish;
-  // Called when a picture has more samples than the one before.
+  // Called between passes, once the picture has more samples than the finished one of the same
+  // view.
   std::function<void(UnfinishedFrame)> showUnfinished;
 };
 
@@ -176,34 +184,36 @@ class FrameTracer {
 
   // Reads a scene; the old one stays when that fails.
   void load(const SceneChoice& choice);
-  // Edits the scene; does nothing when it is another one by now. Throws with nothing changed.
+  // Edits the scene; does nothing if another scene was loaded since. If it throws, the scene is
+  // unchanged.
   void edit(const SceneEdit& edit);
 
-  // Follows the rays of a pixel; leaves the renderer's options as they were.
+  // Traces and explains the rays of a pixel; the renderer's options are then what they were.
   RayPick explain(const RayQuery& query);
 
-  // Returns false when the picture was given up; `frame` is not to be shown then. Throws when the
-  // options ask for what the machine does not have; the old ones then stay.
+  // Returns false if the picture was given up; `frame` is then not to be shown. Throws if the
+  // options ask for what the machine does not have; the next request then has to bring others.
   bool trace(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
 
  private:
-  // Tells what the picture shows and how it was made.
+  // Notes in the frame what the picture shows and how it was made.
   void describe(const FrameRequest& request, TracedFrame& frame);
   bool tracePicture(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
   // Traces the picture as one frame.
   bool traceAtOnce(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
-  // At rest, where rays are sampled: pass by pass, each with some of the samples of all pixels.
+  // Returns whether the picture is traced in passes, each with some of the samples of every pixel:
+  // at rest, if rays are sampled.
   bool accumulates(const FrameRequest& request) const;
   bool traceInPasses(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
   bool measure(const FrameRequest& request, TracedFrame& frame, const TraceCalls& calls);
 
   const cli::CommonOptions common_;
   std::unique_ptr<Engine> engine_;
-  std::shared_ptr<const EditedScene> edited_;  // the scene as it is now; null: to be copied
+  std::shared_ptr<const EditedScene> edited_;  // the scene with its edits; null: to be copied again
   std::string animation_;                      // the animation that the scene was read with
-  Film band_;                                  // frames that are measured
-  std::optional<FrameRequest> finished_;       // the last picture
-  double msPerSample_ = 0;                     // 0: nothing traced yet
+  Film band_;                                  // the film of measure()
+  std::optional<FrameRequest> finished_;       // the last picture that was not given up
+  double msPerSample_ = 0;  // of the last picture that was not plain; 0: none yet
 };
 
 }  // namespace whit::view
