@@ -567,7 +567,7 @@ HWY_INLINE void AddSamples(Chunk& c) {
   const VF one = hn::Set(d, 1.0f), share = hn::Set(d, 1.0f / static_cast<float>(sampling.count));
   constexpr bool kPasses = Samples::kSide < 0;
 
-  // The rule is factorOfLobe() in src/stages/lobes.h.
+  // The scalar reference is factorOfLobe() in src/reference/add_impulses.cpp.
   const bool occluded = !kPasses && c.depth == 0 && c.has(Feature::occlusionMaps);
 
   size_t count = c.childCount;

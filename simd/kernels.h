@@ -1,5 +1,5 @@
 // The vector kernels, seen from the rest of the program: the one table from which they are named,
-// listed (whit info --kernels) and found.
+// listed (whit info) and found.
 //
 // A kernel that is a step of its own is a function of a chunk (stages/chunk.h); the others work for
 // steps that call Embree or write the film. Kernels run over the slots [0, n) of their columns with

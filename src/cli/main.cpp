@@ -14,8 +14,8 @@
 
 namespace whit::serve {
 
-// Defined in viewer/serve/serve_command.cpp: src includes nothing of the viewer, and this program
-// links it.
+// Defined in viewer/serve/serve_command.cpp: the commands include nothing of the viewer, and this
+// program links it.
 int serveCommand(const std::vector<std::string>& words);
 
 }  // namespace whit::serve

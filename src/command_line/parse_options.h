@@ -29,7 +29,7 @@ void listCommonOptions(OptionList& list, CommonOptions& common);
 void listReportOptions(OptionList& list, CommonOptions& common);
 
 // The options of a picture of the scene: those that were given, else those that the scene states.
-// An automatic exposure is still to be settled (render/renderer.h).
+// An automatic exposure is still to be measured (inspect/auto_exposure.h).
 RenderOptions optionsFor(const Scene& scene, const CommonOptions& common);
 // The options of frames whose cost or accuracy is measured: without those of a scene file, so that
 // figures of different scenes, and of one option alone, can be compared.

@@ -1,6 +1,6 @@
 // The effects the renderer knows, one bit each. A scene calls for some of them; a frame's plan
 // leaves out the rest. Adding one: a line here, the rule in bake/effects_of_scene.cpp that turns
-// it on, and the `if constexpr` of the kernel that computes it.
+// it on, and its step or feature in render/plan.cpp.
 #pragma once
 
 #include <array>

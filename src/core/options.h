@@ -56,7 +56,7 @@ enum class Quality { good, standard, fine, reference };
 enum class BvhQuality { low, medium, high };
 
 // Exposure of 8-bit output in EV. An automatic one is computed from the view by
-// render/renderer.h and is 0 until then.
+// inspect/auto_exposure.h and is 0 until then.
 struct Exposure {
   float ev = 0;
   bool automatic = false;

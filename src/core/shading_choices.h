@@ -18,10 +18,10 @@ enum class TextureFilter { nearest, bilinear, trilinear };
 
 // How far from its surface a ray starts, along the geometric normal on the side that it goes to.
 enum class OffsetMethod {
-  // The surfel's own bound on the rounding error of its position (see makeSurfel). On the viewer's
-  // side back along the ray as well: the way there is clear, so a point that has been rounded onto
-  // or beyond a wall which meets the surface in an edge comes back inside of that, and no light
-  // leaks in (hard case H7).
+  // The surfel's own bound on the rounding error of its position (see surfacePoint). On the
+  // viewer's side back along the ray as well: the way there is clear, so a point that has been
+  // rounded onto or beyond a wall which meets the surface in an edge comes back inside of that, and
+  // no light leaks in (hard case H7).
   bound,
   // kFixedOffset, whatever the size of the scene.
   fixed,

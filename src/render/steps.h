@@ -10,11 +10,10 @@
 
 namespace whit {
 
-// Rounds radiance to what the film keeps (--film), encodes it where display codes are wanted, and
-// writes both to the pixels.
+// Writes radiance to the pixels, and display codes of it where they are wanted.
 void updateImage(Chunk& c);
 
-// Display codes of the chunk's radiance, as --exposure, --tonemap and --srgb say.
+// Display codes of the chunk's radiance, as --exposure and --tonemap say.
 void encodeForDisplay(Chunk& c);
 
 // Pixels of the chunk that are not finite.
