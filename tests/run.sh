@@ -110,7 +110,7 @@ buildAndTest() {
 checkThreads() {
   local areas=(unit render) area
   local filter='WorkerPool*:ParallelFor*:Analytic.*:*Invariance.H60_any*:*Adaptive.H60*'
-  filter+=':RenderThreadTest.*:ComparisonTest.*:SplitPicture.*'
+  filter+=':RenderThreadTest.*'
   filter+=':Viewer.SurvivesTwoHundredRandomEvents:Viewer.FullScreenMinimizedAndResized'
   filter+=':MovingPictures.*:Viewer.PlaysUntilItIsPaused:Serving*'
   cmake --preset tsan -DWHIT_WERROR=ON >/dev/null || return 1

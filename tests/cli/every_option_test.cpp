@@ -319,7 +319,7 @@ constexpr OwnOption kOwnOptions[] = {
 // These options are tested together with others: EffectsCommand, TurntableCommand and Variants.
 const Names kTestedElsewhere{"--out of effects", "--frames of effects", "--turns of turntable",
                              "--count of turntable"};
-// Every command has these: Help, Program.QuietSaysNothing, Terminal and CliModel.
+// Every command has these: Help, Program.QuietSaysNothing, Terminal and Models.
 const Names kOfAllCommands{"--help", "--help-all", "--quiet", "--progress", "--variant"};
 
 TEST_F(EveryOption, OfACommandSaysSomething) {

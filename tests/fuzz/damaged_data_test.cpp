@@ -1,6 +1,7 @@
 // The program gets real files that are cut short or have flipped bits. It makes a scene or reports
 // an error, and never crashes, hangs or takes more memory than is allowed.
-//   WHIT_DAMAGED_VERSIONS=200 WHIT_DAMAGED_BYTES=30000000 build/tests/damaged_data_test
+//   WHIT_DAMAGED_VERSIONS=200 WHIT_DAMAGED_BYTES=30000000 build/tests/fuzz_test
+//   --gtest_filter=DamagedData.*
 // tries more versions of each file, and larger files.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
