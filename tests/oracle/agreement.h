@@ -105,11 +105,13 @@ class Agreement : public testing::Test {
       compare(kind, seen, file, "reference", kReferenceTolerance, reference);
       compare(kind, seen, file, "packets", kPacketTolerance, packets);
     }
+
     expectNoBias(reference.sampled, kind.name + ", reference");
     expectNoBias(packets.sampled, kind.name + ", packets");
     std::printf("%s: %d scenes, %d pixels; reference %.1e off, %d left out; packets %.1e, %d\n",
                 kind.name.c_str(), scenes, packets.pixels, reference.worst, reference.leftOut,
                 packets.worst, packets.leftOut);
+
     const auto describeSum = [](const char* mode, const Sum& sum) {
       if (sum.pixels() == 0) return;
       std::printf("  %d with samples, together: %s %.2f of what is allowed, which is %.1e\n",
@@ -131,6 +133,7 @@ class Agreement : public testing::Test {
       EXPECT_EQ(warning.find("material whose parts exceed 1"), 0u) << warning;
     }
     whit::api::Renderer renderer(scene);
+
     // The blurred sky is no light transport but stands for it; its own tests have a closed form.
     renderer.set("mode", mode).set("cutoff", "0").set("threads", "2").set("disable", "blurredSky");
     renderer.set("spp", std::to_string(options.spp));
@@ -143,6 +146,7 @@ class Agreement : public testing::Test {
     renderer.set("terminator", options.terminator ? "on" : "off");
     renderer.set("fresnel", options.schlickFresnel ? "schlick" : "exact");
     renderer.set("texture-filter", nameOf(options.filter));
+
     if (time) renderer.setTime(*time);
     return renderer.render();
   }
@@ -170,6 +174,7 @@ class Agreement : public testing::Test {
         seen.brightest = std::max(seen.brightest, seen.sights.back().brightest);
       }
     }
+
     seen.mean /= static_cast<double>(seen.sights.size());
     return seen;
   }
@@ -183,6 +188,7 @@ class Agreement : public testing::Test {
   static bool decidedByAnEdge(const Seen& seen, int x, int y, const Sight& center, double beside,
                               double tolerance) {
     if (isUndecided(seen, center, tolerance)) return true;
+
     for (int i = 0; i < 8; ++i) {
       const double angle = (i + 0.5) * 0.785398163;
       const Sight other =
@@ -198,6 +204,7 @@ class Agreement : public testing::Test {
     const whit::api::Image image = render(kind.options, file, mode);
     const int width = seen.scene.width, height = seen.scene.height;
     ASSERT_EQ(image.rgb().size(), static_cast<std::size_t>(3 * width * height));
+
     Tally tally;
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
@@ -207,6 +214,7 @@ class Agreement : public testing::Test {
         const double unit = seen.mean + largest(wanted.radiance);
         const double rounding = tolerance * kind.rounding * unit + kTableError * wanted.tabled;
         const double off = differenceOf(got, wanted.radiance);
+
         ++tally.pixels;
         if (off >
             rounding + chance(largest(wanted.variance), largestSample(wanted, seen.brightest))) {
@@ -226,12 +234,15 @@ class Agreement : public testing::Test {
         if (largest(wanted.variance) > 0) all.sampled.add(got, wanted, rounding, seen.brightest);
       }
     }
+
     for (const auto& [face, sum] : tally.sums) expectNoBias(sum, mode + " of " + file);
     EXPECT_EQ(tally.wrong, 0) << "of " << tally.pixels << " pixels of " << mode << " of " << file
                               << ", the worst off by " << tally.worst << "; the first is "
                               << tally.firstWrong;
     EXPECT_LE(tally.leftOut, kLargestShareLeftOut * tally.pixels) << mode << " of " << file;
-    all.pixels += tally.pixels, all.leftOut += tally.leftOut;
+
+    all.pixels += tally.pixels;
+    all.leftOut += tally.leftOut;
     all.worst = std::max(all.worst, tally.worst);
   }
 

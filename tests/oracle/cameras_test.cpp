@@ -11,10 +11,10 @@ void someSolids(SceneMaker& maker) {
   maker.room();
   for (int i = 0; i < 3; ++i) {
     const bool mirror = maker.random.chance(0.3);
-    maker.add(i == 1 ? ball(12, 8) : maker.solid(), mirror ? maker.mirror() : maker.glossy(),
-              maker.standing(i, 3));
+    const Mesh mesh = i == 1 ? ball(12, 8) : maker.solid();
+    maker.add(mesh, mirror ? maker.mirror() : maker.glossy(), maker.standing(i, 3));
   }
-  for (int i = 0; i < 2; ++i) maker.scene.lights.push_back(maker.lamp());
+  maker.addLamps(2);
 }
 
 // A box about the point; its absorption shows at once, its tint only from outside.

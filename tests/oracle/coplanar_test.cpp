@@ -27,7 +27,7 @@ void gridRoom(SceneMaker& maker) {
   maker.room();
   maker.scene.bodies.back().transform.translate.y = 0;
   maker.scene.camera.eye.y = maker.random.between(1.6, 4);
-  maker.scene.lights.push_back(maker.lamp());
+  maker.addLamps(1);
 }
 
 Material anyOpaque(SceneMaker& maker) {
@@ -64,8 +64,9 @@ void glassBlocks(SceneMaker& maker) {
   gridRoom(maker);
   std::vector<Material> glasses;
   for (int i = 0; i < 3; ++i) {
-    glasses.push_back(maker.glass(maker.random.between(1.2, 1.9), maker.random.below(3) * 3 + i));
+    glasses.push_back(maker.anyGlass(maker.random.below(3) * 3 + i));
   }
+
   layDecals(maker, 2);
   for (int i = 0; i < 7; ++i) {
     Material material =
@@ -87,8 +88,7 @@ TEST_F(Coplanar, GlassAgainstGlass) {
                    [](SceneMaker& maker) {
                      gridRoom(maker);
                      for (int i = 0; i < 4; ++i) {
-                       maker.add(box(), maker.glass(maker.random.between(1.2, 1.9), i),
-                                 block(maker));
+                       maker.add(box(), maker.anyGlass(i), block(maker));
                      }
                    },
                    {.depth = 10}});
@@ -100,20 +100,18 @@ void instancedBlocks(SceneMaker& maker) {
   std::vector<int> objects;
   for (int i = 0; i < 4; ++i) {
     const bool glass = i == 3;
-    objects.push_back(maker.addObject(
-        box(), glass ? maker.glass(maker.random.between(1.2, 1.9)) : anyOpaque(maker)));
+    objects.push_back(maker.addObject(box(), glass ? maker.anyGlass() : anyOpaque(maker)));
   }
+
   for (int i = 0; i < 8; ++i) maker.place(objects[static_cast<std::size_t>(i % 4)], block(maker));
 }
 
 int addHoles(SceneMaker& maker) {
-  Texture mask;
-  mask.width = mask.height = 4, mask.isData = true;
+  Texture mask{4, 4, {}, true};
   for (int i = 0; i < mask.width * mask.height; ++i) {
     mask.texels.push_back({maker.random.chance(0.4) ? 0 : 255, 0, 0});
   }
-  maker.scene.textures.push_back(mask);
-  return static_cast<int>(maker.scene.textures.size()) - 1;
+  return maker.addTexture(mask);
 }
 
 // Of every class by which whit sorts what it stores.
@@ -145,14 +143,16 @@ void blocksInAnyOrder(SceneMaker& maker) {
                        maker.addObject(pane(), ofAnyClass(maker, true)),
                        maker.addObject(pane(), ofAnyClass(maker, true))};
   const int blocks[] = {maker.addObject(box(), ofAnyClass(maker, false)),
-                        maker.addObject(box(), maker.glass(maker.random.between(1.2, 1.9), 1)),
-                        addDecorated(maker, panes[0]), addDecorated(maker, panes[1])};
+                        maker.addObject(box(), maker.anyGlass(1)), addDecorated(maker, panes[0]),
+                        addDecorated(maker, panes[1])};
+
   for (int i = 0; i < 14; ++i) {
     Transform transform = block(maker);
     if (i % 2 == 0) {
       maker.place(blocks[maker.random.below(4)], transform, maker.random.chance(0.3));
       continue;
     }
+
     transform.scale = {transform.scale.x * 2, 1, transform.scale.z * 2};
     transform.translate.y = 0.5 * maker.random.below(2);
     maker.place(panes[maker.random.below(3)], transform, maker.random.chance(0.3));

@@ -30,7 +30,7 @@ Material anySheet(SceneMaker& maker) {
       return glass;
     }
     default: {
-      Material film = maker.glass(maker.random.between(1.2, 1.9), maker.random.below(5));
+      Material film = maker.anyGlass(maker.random.below(5));
       film.thin = true;
       if (maker.random.chance(0.5)) film.mirror = maker.random.color(0.05, 0.4);
       if (maker.random.chance(0.3)) film.emission = maker.random.color(0, 0.3);
@@ -43,13 +43,14 @@ void litRoomWithSomethingBehind(SceneMaker& maker) {
   maker.room();
   maker.add(box(), maker.glossy(), maker.random.placement({-1.4, 0.8, -2}, 0.9));
   maker.add(tetrahedron(), maker.mirror(), maker.random.placement({1.2, 0.9, -1.8}, 1));
-  for (int i = 0; i < 2; ++i) maker.scene.lights.push_back(maker.lamp());
+  maker.addLamps(2);
 }
 
 // Seen from both sides: what is closed is left through its back faces.
 void sheetsInARoom(SceneMaker& maker) {
   litRoomWithSomethingBehind(maker);
   for (int i = 0; i < 4; ++i) maker.add(maker.solid(), anySheet(maker), maker.standing(i, 4));
+
   const int veil = maker.addObject(pane(), anySheet(maker));
   for (int i = 0; i < 3; ++i) {
     Transform standing = maker.random.placement({0.5 * i - 0.5, 1.2, 1 + 0.4 * i}, 1);
@@ -62,14 +63,12 @@ TEST_F(Coverage, SheetsInARoom) { expectAgreement({"sheets", sheetsInARoom, {.de
 
 // From nothing to all, over whole texels and between them.
 int addShares(SceneMaker& maker) {
-  Texture texture;
-  texture.width = 16, texture.height = 8, texture.isData = true;
+  Texture texture{16, 8, {}, true};
   for (int i = 0; i < texture.width * texture.height; ++i) {
     const int share = maker.random.below(256), kind = maker.random.below(4);
-    texture.texels.push_back({kind == 0 ? 0 : kind == 1 ? 255 : share, 0, 0});
+    texture.texels.push_back({kind > 1 ? share : 255 * kind, 0, 0});
   }
-  maker.scene.textures.push_back(texture);
-  return static_cast<int>(maker.scene.textures.size()) - 1;
+  return maker.addTexture(texture);
 }
 
 Mesh repeatedPane(double repeats) {
@@ -88,8 +87,11 @@ void mappedSheets(SceneMaker& maker) {
     Material material = maker.random.chance(0.5) ? maker.glossy() : maker.mirror();
     material.coverageMap = addShares(maker);
     if (i % 2 == 1) material.coverage = maker.random.between(0.5, 1);
-    if (i == 2) material.transmission = maker.random.color(0.2, 0.9), material.thin = true;
-    if (i == 2) material.castsShadow = false;
+    if (i == 2) {
+      material.transmission = maker.random.color(0.2, 0.9);
+      material.thin = true;
+      material.castsShadow = false;
+    }
     if (i == 3) material.alphaMap = addShares(maker);
     maker.add(repeatedPane(i == 0 ? 3 : 0.7), material, maker.standing(i, 4));
   }
@@ -109,10 +111,9 @@ void sheetsInGlass(SceneMaker& maker) {
   const Vec left{-0.9, 1.2, 0.3}, right{0.9, 1.2, 0.3};
   for (const Vec& center : {left, right}) {
     const int priority = maker.random.below(2);
-    maker.add(box(), maker.glass(maker.random.between(1.2, 1.9), priority),
-              maker.random.placement(center, 1.4));
+    maker.add(box(), maker.anyGlass(priority), maker.random.placement(center, 1.4));
     maker.add(
-        box(), maker.glass(maker.random.between(1.2, 1.9), 2),
+        box(), maker.anyGlass(2),
         maker.random.placement(center + maker.random.inBox({-0.3, -0.3, 0}, {0.3, 0.3, 0.5}), 0.8));
     maker.add(pane(), anySheet(maker), maker.random.placement(center, 1.9));
     maker.add(box(), anySheet(maker), maker.random.placement(center, 0.7));
@@ -133,11 +134,17 @@ Transform onTheGrid(SceneMaker& maker, bool flat) {
   return transform;
 }
 
+Material besideOthers(SceneMaker& maker, int i) {
+  if (i % 3 == 0) return maker.anyGlass(i);
+  return i % 6 == 4 ? maker.glossy() : anySheet(maker);
+}
+
 void coplanarSheets(SceneMaker& maker) {
   maker.room();
   maker.scene.bodies.back().transform.translate.y = 0;
   maker.scene.camera.eye.y = maker.random.between(1.6, 4);
-  maker.scene.lights.push_back(maker.lamp());
+  maker.addLamps(1);
+
   const int twice = maker.addObject(box(), anySheet(maker));
   for (int i = 0; i < 12; ++i) {
     const bool flat = i % 3 == 2;
@@ -146,10 +153,9 @@ void coplanarSheets(SceneMaker& maker) {
       maker.place(twice, transform);
       continue;
     }
-    const Material material = i % 3 == 0   ? maker.glass(maker.random.between(1.2, 1.9), i)
-                              : i % 6 == 4 ? maker.glossy()
-                                           : anySheet(maker);
-    maker.add(flat ? pane() : box(), material, transform);
+
+    const Mesh mesh = flat ? pane() : box();
+    maker.add(mesh, besideOthers(maker, i), transform);
   }
 }
 
@@ -160,9 +166,9 @@ TEST_F(Coverage, FaceInFace) {
 // Of the lobe of what is there in part, and of lights upon it.
 void sampledSheets(SceneMaker& maker) {
   maker.roomFromNear();
+  maker.scene.lights[0].radius = maker.random.between(0.2, 0.6);
   for (int i = 0; i < 3; ++i) {
-    Material material = maker.glossy();
-    material.roughness = maker.random.between(0.55, 0.9);
+    Material material = maker.rough();
     if (i < 2) material = inPart(maker, material);
     maker.add(box(), material, maker.standing(i, 3));
   }

@@ -12,7 +12,7 @@ void somethingBehind(SceneMaker& maker) {
   maker.room();
   maker.add(box(), maker.glossy(), maker.random.placement({-1.4, 0.8, -2}, 0.9));
   maker.add(tetrahedron(), maker.matte(), maker.random.placement({1.2, 0.9, -1.8}, 1));
-  for (int i = 0; i < 2; ++i) maker.scene.lights.push_back(maker.lamp());
+  maker.addLamps(2);
 }
 
 Transform about(SceneMaker& maker, const Vec& center, double reach, double size) {
@@ -20,15 +20,14 @@ Transform about(SceneMaker& maker, const Vec& center, double reach, double size)
       center + maker.random.inBox({-reach, -reach, -reach}, {reach, reach, reach}), size);
 }
 
-double anyIor(SceneMaker& maker) { return maker.random.between(1.2, 1.9); }
-
 void someGlass(SceneMaker& maker) {
   somethingBehind(maker);
   for (int i = 0; i < 3; ++i) {
-    Material glass = maker.glass(anyIor(maker));
+    Material glass = maker.anyGlass();
     if (i == 1) glass.mirror = maker.random.color(0.05, 0.2);
     if (i == 1) glass.mirrorGrazing = maker.random.color(0.3, 0.6);
-    maker.add(maker.random.chance(0.6) ? box() : tetrahedron(), glass, maker.standing(i, 3));
+    const Mesh mesh = maker.random.chance(0.6) ? box() : tetrahedron();
+    maker.add(mesh, glass, maker.standing(i, 3));
   }
 }
 
@@ -41,7 +40,7 @@ TEST_F(Dielectrics, Balls) {
   expectAgreement({"dielectric balls", [](SceneMaker& maker) {
                      somethingBehind(maker);
                      for (int i = 0; i < 2; ++i) {
-                       maker.add(ball(16, 10), maker.glass(anyIor(maker)), maker.standing(i, 2));
+                       maker.add(ball(16, 10), maker.anyGlass(), maker.standing(i, 2));
                      }
                    }});
 }
@@ -50,10 +49,11 @@ TEST_F(Dielectrics, Balls) {
 void nested(SceneMaker& maker, int outer, int inner, int left, int right) {
   somethingBehind(maker);
   const Vec shells{-0.9, 1.1, 0.2}, pair{0.9, 1.1, 0.2};
-  maker.add(box(), maker.glass(anyIor(maker), outer), maker.random.placement(shells, 1.3));
-  maker.add(box(), maker.glass(anyIor(maker), inner), about(maker, shells, 0.1, 0.6));
-  maker.add(box(), maker.glass(anyIor(maker), left), about(maker, pair, 0.3, 1));
-  maker.add(tetrahedron(), maker.glass(anyIor(maker), right), about(maker, pair, 0.2, 1.3));
+
+  maker.add(box(), maker.anyGlass(outer), maker.random.placement(shells, 1.3));
+  maker.add(box(), maker.anyGlass(inner), about(maker, shells, 0.1, 0.6));
+  maker.add(box(), maker.anyGlass(left), about(maker, pair, 0.3, 1));
+  maker.add(tetrahedron(), maker.anyGlass(right), about(maker, pair, 0.2, 1.3));
 }
 
 TEST_F(Dielectrics, NestedOnesOfEqualPriority) {
@@ -64,8 +64,11 @@ TEST_F(Dielectrics, NestedOnesOfEqualPriority) {
 TEST_F(Dielectrics, NestedOnesOfUnequalPriority) {
   expectAgreement({"unequal priorities",
                    [](SceneMaker& maker) {
-                     const bool shell = maker.random.chance(0.5);
-                     nested(maker, shell ? -1 : 0, shell ? 3 : -2, 1, 2);
+                     if (maker.random.chance(0.5)) {
+                       nested(maker, -1, 3, 1, 2);
+                     } else {
+                       nested(maker, 0, -2, 1, 2);
+                     }
                    },
                    {.depth = 10}});
 }
@@ -75,7 +78,7 @@ TEST_F(Dielectrics, OverlappingOnesOfOneMedium) {
   expectAgreement({"one medium",
                    [](SceneMaker& maker) {
                      somethingBehind(maker);
-                     const Material glass = maker.glass(anyIor(maker), 1);
+                     const Material glass = maker.anyGlass(1);
                      for (int i = 0; i < 3; ++i) {
                        Material alike = maker.glass(glass.ior, i == 2 ? 0 : 1);
                        alike.absorption = glass.absorption;
@@ -92,10 +95,14 @@ TEST_F(Dielectrics, ThreeThatOverlap) {
                      const bool equal = maker.random.chance(0.4);
                      for (int i = 0; i < 3; ++i) {
                        const int priority = equal ? 0 : maker.random.below(3);
-                       Material glass = maker.glass(anyIor(maker), priority);
+                       Material glass = maker.anyGlass(priority);
                        glass.absorption = glass.absorption * 3;
-                       maker.add(i == 1 ? tetrahedron() : box(), glass,
-                                 about(maker, {0, 1.2, 0.3}, 0.35, i == 1 ? 1.7 : 1.4));
+                       const Vec center{0, 1.2, 0.3};
+                       if (i == 1) {
+                         maker.add(tetrahedron(), glass, about(maker, center, 0.35, 1.7));
+                       } else {
+                         maker.add(box(), glass, about(maker, center, 0.35, 1.4));
+                       }
                      }
                    },
                    {.depth = 12}});
@@ -108,7 +115,7 @@ TEST_F(Dielectrics, FourWithinEachOther) {
                      somethingBehind(maker);
                      for (int i = 0; i < 4; ++i) {
                        const double size = 1.7 - 0.38 * i;
-                       maker.add(box(), maker.glass(anyIor(maker), maker.random.below(3)),
+                       maker.add(box(), maker.anyGlass(maker.random.below(3)),
                                  about(maker, {0, 1.2, 0.3}, 0.25, size));
                      }
                    },
@@ -120,8 +127,8 @@ TEST_F(Dielectrics, Instances) {
   expectAgreement({"dielectric instances",
                    [](SceneMaker& maker) {
                      somethingBehind(maker);
-                     const int glass = maker.addObject(box(), maker.glass(anyIor(maker), 1));
-                     const int other = maker.addObject(tetrahedron(), maker.glass(anyIor(maker)));
+                     const int glass = maker.addObject(box(), maker.anyGlass(1));
+                     const int other = maker.addObject(tetrahedron(), maker.anyGlass());
                      for (int i = 0; i < 4; ++i) {
                        maker.place(i % 2 == 0 ? glass : other,
                                    about(maker, {0.8 * i - 1.2, 1.1, 0.3}, 0.2, 0.9));

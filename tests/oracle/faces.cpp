@@ -15,6 +15,7 @@ void measureTexture(Triangle& triangle) {
   const double v1 = b.uv[1] - a.uv[1], v2 = c.uv[1] - a.uv[1];
   const double area = u1 * v2 - u2 * v1;
   if (area == 0) return;
+
   triangle.alongU = (e1 * v2 - e2 * v1) / area;
   triangle.alongV = (e2 * u1 - e1 * u2) / area;
 }
@@ -35,11 +36,13 @@ Hit hitAt(const Vec& unit, double t, const Sphere& sphere) {
   constexpr double kPi = std::numbers::pi;
   const auto& [x, y, z] = unit;
   const double rho = std::hypot(x, z), turn = std::atan2(-z, x) / (2 * kPi);
+
   Hit hit;
   hit.t = t;
   hit.face = &sphere;
   const auto& [alongX, alongY, alongZ] = sphere.crossways;
   hit.outward = normalized(alongX * x + alongY * y + alongZ * z);  // by the inverse transpose
+
   hit.uv = {turn - std::floor(turn), std::acos(std::clamp(-y, -1.0, 1.0)) / kPi};
   hit.alongU = inWorld(Vec{z, 0, -x} * (2 * kPi), sphere);
   hit.alongV = inWorld(Vec{-y * x / rho, rho, -y * z / rho} * kPi, sphere);
@@ -60,6 +63,7 @@ Triangle placedTriangle(const Mesh& mesh, const std::array<int, 3>& indices,
     corner.color = mesh.colors.empty() ? gray(1) : mesh.colors[index];
     if (!mesh.uvs.empty()) corner.uv = mesh.uvs[index];
   }
+
   const auto& [a, b, c] = triangle.corners;
   const double mirrored = areMirroring(transforms) ? -1 : 1;
   triangle.outward = normalized(cross(b.position - a.position, c.position - a.position)) * mirrored;
@@ -86,12 +90,15 @@ std::optional<Hit> meet(const Ray& ray, const Triangle& triangle) {
   const Vec p = cross(ray.direction, e2);
   const double determinant = dot(e1, p);
   if (determinant == 0) return std::nullopt;
+
   const Vec from = ray.origin - a.position;
   const double u = dot(from, p) / determinant;
   if (u < 0 || u > 1) return std::nullopt;
+
   const Vec q = cross(from, e1);
   const double v = dot(ray.direction, q) / determinant;
   if (v < 0 || u + v > 1) return std::nullopt;
+
   const double w = 1 - u - v;
   Hit hit{dot(e2, q) / determinant, &triangle,       triangle.outward, {},
           triangle.alongU,          triangle.alongV, &triangle,        {w, u, v}};
@@ -106,6 +113,7 @@ std::vector<Hit> meet(const Ray& ray, const Sphere& sphere) {
   const double a = dot(direction, direction), b = dot(from, direction);
   const double discriminant = b * b - a * (dot(from, from) - 1);
   if (!(discriminant > 0)) return {};
+
   const double root = std::sqrt(discriminant);
   std::vector<Hit> hits;
   for (const double t : {(-b - root) / a, (-b + root) / a}) {

@@ -85,6 +85,8 @@ Geometry::Part Geometry::meshPart(const Scene& scene, const Object& object,
     addFace(part.triangles, placedTriangle(mesh, indices, transforms), material, object.material,
             faces_++);
   }
+
+  // A sphere about the corners, which most rays miss.
   for (const Vec& p : mesh.positions) part.center += placed(p, transforms);
   part.center = part.center / static_cast<double>(mesh.positions.size());
   for (const Vec& p : mesh.positions) {
@@ -151,15 +153,20 @@ std::optional<Meeting> Geometry::nearest(const Ray& ray) const {
   visit(ray, [&](const Part&, const Hit& hit) {
     const double same = kSamePlace * (1 + hit.t);
     if (hit.t > end + same) return true;
-    if (hit.t < end - same) hits.clear(), end = hit.t;
+    if (hit.t < end - same) {
+      hits.clear();
+      end = hit.t;
+    }
     hits.push_back(hit);
     return true;
   });
+
   if (hits.empty()) return std::nullopt;
   Meeting meeting{hits[0], {}};
   for (const Hit& hit : hits) {
     if (comesFirst(*hit.face, *meeting.hit.face)) meeting.hit = hit;
   }
+
   if (meeting.hit.face->opaque) return meeting;
   for (const Hit& hit : hits) {
     if (hit.face == meeting.hit.face || hit.face->sheet) continue;

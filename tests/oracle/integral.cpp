@@ -36,11 +36,13 @@ Sight Integral::mean(int samples) const {
   sight.radiance = sum_ / points_;
   sight.undecided = undecided_ / points_;
   sight.brightest = brightest_;
+
   // A single point says nothing of the variance: who draws one compares many pixels instead.
   if (points_ > 1) {
     sight.variance = varianceOf(squaresOfSamples_ / points_, sight.radiance) / samples +
                      varianceOf(squares_ / points_, sight.radiance) / (points_ - 1);
   }
+
   sight.largestShare = std::max(largestShareOfSamples_ / samples, largestShare_ / points_);
   return sight;
 }

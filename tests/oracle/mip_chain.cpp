@@ -42,6 +42,7 @@ Shares uncutShares(const Texture& alpha, double cutoff) {
     const int place = wrapped(y, alpha.height) * alpha.width + wrapped(x, alpha.width);
     return gray(alpha.texels[static_cast<std::size_t>(place)][0] / 255.0);
   };
+
   for (int y = 0; y < alpha.height; ++y) {
     for (int x = 0; x < alpha.width; ++x) {
       double left = 0;
@@ -53,6 +54,7 @@ Shares uncutShares(const Texture& alpha, double cutoff) {
       shares.of.push_back(left);
     }
   }
+
   return shares;
 }
 
@@ -79,6 +81,7 @@ Shares stretched(const Shares& shares, int width, int height) {
       result.of.push_back(sum / area);
     }
   }
+
   return result;
 }
 
@@ -88,6 +91,7 @@ MipChain::MipChain(const Texture& texture, Shares left) {
     whole.texels.push_back(Color{double(r), double(g), double(b)} / 255);
   }
   levels_.push_back(whole);
+
   // The shares of each level; none where nothing is cut away.
   const bool isCut = !left.of.empty();
   std::vector<Shares> leftOf;
@@ -121,6 +125,7 @@ MipChain::Level MipChain::halved(const Level& level, const Shares& left, bool is
     for (int x = 0; x < half.width; ++x) {
       const Stretch columns = stretchOf(x, level.width, half.width),
                     rows = stretchOf(y, level.height, half.height);
+
       Color sum;
       double area = 0;
       for (int row = 0; row < level.height; ++row) {
@@ -158,6 +163,7 @@ Color MipChain::at(double u, double v, Filter filter, double texels) const {
     return whole.texel(static_cast<int>(std::floor(u * whole.width)),
                        static_cast<int>(std::floor((1 - v) * whole.height)));
   }
+
   // Each level's texels are four times as large as those before.
   const double number = std::max(0.0, std::log(texels) / std::log(4));
   const int below = static_cast<int>(number);

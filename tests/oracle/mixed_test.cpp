@@ -58,6 +58,7 @@ Material sheet(SceneMaker& maker) {
   if (maker.random.chance(0.5)) {
     material.coverageMap = maker.addData(16, 8, {}, {255.99, 1, 1});
   }
+
   material.castsShadow = material.coverage >= 0.5;
   return material;
 }
@@ -97,11 +98,13 @@ Material anyMaterial(SceneMaker& maker) {
                                             sheet,
                                             cutOut,
                                             shining};
+
   Material material = kinds[maker.random.below(8)](maker);
   material.roughness = maker.random.between(0.4, 0.9);
   if (maker.random.chance(0.3)) {
     material.glossyReflection = maker.random.chance(0.5) ? Choice::yes : Choice::no;
   }
+
   material.diffuseReflection = maker.random.chance(0.8);
   material.frosted = material.transmits() && maker.random.chance(0.3);
   return material;
@@ -127,6 +130,7 @@ Motion anyMotion(SceneMaker& maker, double reach, double turn) {
   Motion motion;
   motion.axis = maker.random.inBox({-1, 0.3, -1}, {1, 1, 1});
   motion.inSteps = maker.random.chance(0.2);
+
   for (int i = 0; i < 3; ++i) {
     Motion::Key key;
     key.time = i * 0.75;
@@ -139,13 +143,15 @@ Motion anyMotion(SceneMaker& maker, double reach, double turn) {
 
 void addBodies(SceneMaker& maker) {
   const int objects[] = {anyObject(maker), anyObject(maker), anyObject(maker), anyObject(maker)};
+
   const int bodies = 5 + maker.random.below(4);
   for (int i = 0; i < bodies; ++i) {
     Transform transform = maker.standing(i % 5, 5);
-    if (i >= 5) transform.translate.z -= 1.4, transform.translate.y += 0.6;
+    if (i >= 5) transform.translate += {0, 0.6, -1.4};
     transform.translate = asFloat(transform.translate);
     if (maker.random.chance(0.4)) transform.scale = asFloat(transform.scale * gray(1.4));
     if (maker.random.chance(0.3)) transform.scale.x = asFloat(-0.7 * transform.scale.x);
+
     maker.place(objects[i % 4], transform);
     if (maker.random.chance(0.25)) maker.scene.bodies.back().motion = anyMotion(maker, 0.2, 60);
   }
@@ -159,15 +165,18 @@ void addLights(SceneMaker& maker) {
                                          Light::Kind::directional});
     light.intensity = maker.random.color(8, 25);
     light.radius = maker.random.between(0.05, 1.2);
+
     if (light.kind == Light::Kind::spot) {
       light.direction = asFloat(maker.random.inBox({-1, 0, -1}, {1, 1, 1}) - light.position);
       light.innerConeAngle = maker.random.between(0, 15);
       light.outerConeAngle = maker.random.between(20, 50);
     }
+
     if (light.kind == Light::Kind::directional) {
       light.direction = maker.random.inBox({-1, -2, -1}, {1, -0.5, 0.2});
       light.intensity = maker.random.color(0.5, 2);
     }
+
     if (maker.random.chance(0.25)) light.motion = anyMotion(maker, 0.3, 10);
     maker.scene.lights.push_back(light);
   }
@@ -178,7 +187,8 @@ void setSky(SceneMaker& maker) {
   sky.scale = maker.random.between(0.2, 1.2);
   if (maker.random.chance(0.2)) {
     sky.kind = Sky::Kind::image;
-    sky.width = 7, sky.height = 4;
+    sky.width = 7;
+    sky.height = 4;
     sky.rotation = maker.random.between(-180, 360);
     for (int i = 0; i < sky.width * sky.height; ++i) {
       const Color c = maker.random.color(20, 255);
@@ -187,6 +197,7 @@ void setSky(SceneMaker& maker) {
   } else if (maker.random.chance(0.5)) {
     maker.scene.ambient.fromSky = maker.random.between(0.2, 0.8);
   }
+
   if (maker.random.chance(0.6)) maker.scene.ambient.occlusion = maker.random.between(0.3, 3);
 }
 
@@ -201,15 +212,19 @@ void setCamera(SceneMaker& maker) {
 
 void mixedScene(SceneMaker& maker) {
   maker.room();
-  maker.scene.width = kWidth, maker.scene.height = kHeight;
+  maker.scene.width = kWidth;
+  maker.scene.height = kHeight;
   maker.scene.time = maker.random.between(-0.2, 1.7);
+
   setSky(maker);
   setCamera(maker);
   addBodies(maker);
+
   if (maker.random.chance(0.25)) {  // the scene is closed and shows no sky
     const int shell = maker.addSphere(12, anyMaterial(maker));
     maker.place(shell, maker.random.placement({0, 1, 0}, 1));
   }
+
   maker.floor(anyMaterial(maker));
   maker.scene.bodies.back().transform.translate.y = 0.05;
   addLights(maker);
@@ -245,6 +260,7 @@ std::vector<std::string> effectsOf(const Scene& scene, const Options& options) {
   const auto add = [&](bool is, const char* name) {
     if (is) effects.emplace_back(name);
   };
+
   const bool occluded = scene.ambient.occlusion > 0 && options.ambientSamples > 0;
   add(options.indirect > 0, "indirect light");
   add(options.indirect == 0 && occluded, "ambient occlusion");
@@ -292,6 +308,7 @@ class Comparison {
     Paired picture;
     std::array<Paired, 2> halves;  // every other pixel
     double mean = 0;
+
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       const Color got{image.rgb()[3 * i], image.rgb()[3 * i + 1], image.rgb()[3 * i + 2]};
       const std::size_t x = i % kWidth, y = i / kWidth;
@@ -300,6 +317,7 @@ class Comparison {
       halves[(x + y) % 2].add(got - wanted[i]);
       mean += dot(got + wanted[i], gray(1.0 / 6)) / static_cast<double>(wanted.size());
     }
+
     for (std::size_t i = 0; i < blocks.size(); ++i) {
       const Color t = standardErrors(blocks[i].mean(), blocks[i].variance(), kRounding * mean);
       const double most = largestOf(t);
@@ -308,10 +326,12 @@ class Comparison {
       largest_ = std::max(largest_, most);
       for (const double channel : {t.x, t.y, t.z}) {
         ++numbers_;
+
         squares_ += channel * channel;
         if (std::abs(channel) > kManyErrors) ++many_;
       }
     }
+
     const Color t = standardErrors(picture.mean(), picture.variance(), kRounding * mean);
     EXPECT_LE(largestOf(t), kLargestOfPictures)
         << "standard errors: the picture of " << mode_ << " of " << file;
@@ -326,17 +346,21 @@ class Comparison {
     const double most = kShareOfMany * count + 5 * std::sqrt(alike * kShareOfMany * count);
     EXPECT_LE(many_, most) << "blocks and channels of " << mode_ << " beyond " << kManyErrors
                            << " standard errors";
+
     const double spread = kSpreadOfSquare * std::sqrt(alike / count);
     EXPECT_NEAR(squares_ / count, kMeanSquare, 5 * spread) << "mean square of t of " << mode_;
+
     std::printf(
         "%s: %d blocks, the worst %.2f standard errors off (picture %.2f); %d of %d "
         "channels beyond %.0f (at most %.0f); mean square %.3f (%.3f +- %.3f)\n",
         mode_.c_str(), numbers_ / 3, largest_, largestOfPictures_, many_, numbers_, kManyErrors,
         most, squares_ / count, kMeanSquare, 5 * spread);
+
     for (const auto& [name, all] : effects_) {
       const Color t = standardErrors(all.off, all.variance, kRounding * all.weights);
       EXPECT_LE(largestOf(t), kLargestOfEffects)
           << "standard errors: scenes of " << mode_ << " with " << name;
+
       const Color off = all.off * (100 / all.weights);
       const double error = 100 * std::sqrt(largest(all.variance)) / all.weights;
       std::printf("  %s: %d scenes, %+.3f %+.3f %+.3f %% off, standard error %.3f %%, t %.2f\n",
@@ -361,11 +385,14 @@ TEST_F(Mixed, MeansOfAllEffectsTogether) {
   for (int i = 0; i < scenes; ++i) {
     SceneMaker maker(static_cast<std::uint32_t>(5000 + i));
     mixedScene(maker);
+
     const Scene& scene = maker.scene;
     const Options options = mixedOptions(maker);
     const std::string folder = folder_ + "/" + std::to_string(i);
     std::filesystem::create_directory(folder);
     const std::string file = writeScene(scene, folder);
+
+    // The mean of what the oracle draws for each pixel.
     const Tracer tracer(scene, options);
     Random random(static_cast<std::uint32_t>(90000 + i));
     std::vector<Color> wanted;
@@ -376,11 +403,13 @@ TEST_F(Mixed, MeansOfAllEffectsTogether) {
         wanted.push_back(sum / drawn);
       }
     }
+
     const auto time = moves(scene) ? std::optional(scene.time) : std::nullopt;
     packets.add(scene, options, wanted, render(options, file, "packets", time), file);
     if (i % kScenesPerReference != 0) continue;
     reference.add(scene, options, wanted, render(options, file, "reference", time), file);
   }
+
   packets.conclude();
   reference.conclude();
 }

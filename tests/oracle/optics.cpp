@@ -27,6 +27,7 @@ double fresnel(double n1, double n2, double cosine) {
   if (n1 == n2) return 0;
   const double sine2 = n1 / n2 * (n1 / n2) * (1 - cosine * cosine);  // of the refracted ray
   if (sine2 >= 1) return 1;
+
   const double behind = std::sqrt(1 - sine2);
   const double s = (n1 * cosine - n2 * behind) / (n1 * cosine + n2 * behind);
   const double p = (n1 * behind - n2 * cosine) / (n1 * behind + n2 * cosine);
@@ -37,6 +38,7 @@ double fresnelBySchlick(double n1, double n2, double cosine) {
   if (n1 == n2) return 0;
   const double sine2 = n1 / n2 * (n1 / n2) * (1 - cosine * cosine);
   if (sine2 >= 1) return 1;
+
   const double outside = n1 < n2 ? cosine : std::sqrt(1 - sine2);
   const double normal = (n1 - n2) / (n1 + n2) * ((n1 - n2) / (n1 + n2));
   return schlick(gray(normal), gray(1), outside).x;
@@ -81,16 +83,20 @@ Vec facetSeen(const Material& material, const Vec& normal, const Vec& toViewer, 
   const double alpha = std::sqrt(squaredAlpha(material));
   const Vec other = std::abs(normal.y) < 0.7 ? Vec{0, 1, 0} : Vec{1, 0, 0};
   const Vec x = normalized(cross(other, normal)), y = cross(normal, x);
+
   // Where the facets make a hemisphere: a point of the disk that the view sees of it.
   const Vec view =
       normalized({alpha * dot(toViewer, x), alpha * dot(toViewer, y), dot(toViewer, normal)});
   const double aside = std::hypot(view.x, view.y);
   const Vec right = aside > 0 ? Vec{-view.y / aside, view.x / aside, 0} : Vec{1, 0, 0};
   const Vec up = cross(view, right);
+
   const double radius = std::sqrt(u), turn = 2 * kPi * v, across = radius * std::cos(turn);
   const double seen = (1 + view.z) / 2;
   const double along = (1 - seen) * std::sqrt(1 - across * across) + seen * radius * std::sin(turn);
   const double out = std::sqrt(std::max(0.0, 1 - across * across - along * along));
+
+  // Back from the hemisphere to the facets as they are.
   const Vec facet = right * across + up * along + view * out;
   return normalized(x * (alpha * facet.x) + y * (alpha * facet.y) +
                     normal * std::max(0.0, facet.z));
@@ -162,6 +168,7 @@ Color lobeAlbedo(const Material& material, double nv) {
     // Where the reflected ray lies in the surface.
     const double limit = nv * (1 / (2 * nh) - nh);
     const double widest = std::acos(aside > 0 ? std::clamp(limit / aside, -1.0, 1.0) : -1.0);
+
     for (int k = 0; k < kTurns; ++k) {
       const double vh = aside * std::cos(widest * (k + 0.5) / kTurns) + nv * nh;
       const double nl = 2 * vh * nh - nv;
@@ -182,11 +189,13 @@ Arrival arrivalOf(const Light& light, const Vec& point) {
   if (light.kind == Light::Kind::directional) {
     return {light.intensity, -normalized(light.direction), INFINITY};
   }
+
   const Vec way = light.position - point;
   const double distance = length(way);
   Arrival arrival{{}, way / distance, distance};
   const double nearness = std::max(distance * distance, light.radius * light.radius);
   arrival.irradiance = light.intensity / nearness;
+
   if (light.kind == Light::Kind::spot) {
     arrival.irradiance = arrival.irradiance * spotFalloff(light, arrival.toLight);
   }
@@ -203,9 +212,11 @@ LightSphere::LightSphere(const Light& light, const Vec& point) : light_(light) {
 LightSphere::Part LightSphere::partAt(double u, double v) const {
   const Vec other = std::abs(axis_.y) < 0.7 ? Vec{0, 1, 0} : Vec{1, 0, 0};
   const Vec x = normalized(cross(other, axis_)), y = cross(axis_, x);
+
   const double angle = widest_ * u, turn = 2 * kPi * v, radius = light_.radius;
   const Vec aside = x * std::cos(turn) + y * std::sin(turn);
   const Vec toLight = axis_ * std::cos(angle) + aside * std::sin(angle);
+
   const double beside = distance_ * std::sin(angle);  // of the way, at the sphere's center
   const double inside = std::sqrt(std::max(0.0, radius * radius - beside * beside));
   const Color radiance = light_.intensity / (kPi * radius * radius);
@@ -220,12 +231,14 @@ double LightSphere::largestSample(const Material& material, const Vec& normal,
   const double lowest = std::acos(std::clamp(dot(normal, axis_), -1.0, 1.0)) - widest_;
   const double cosine = std::cos(std::max(0.0, lowest)), nv = dot(normal, toViewer);
   if (!(cosine > 0)) return 0;
+
   double reflected = largest(material.diffuse) / kPi * cosine;
   if (largest(material.specular) > 0 && nv > 0) {
     // The light is masked from itself and from the viewer at least as much as by either alone.
     const double seen = std::min(shareSeen(material, nv), shareSeen(material, cosine));
     reflected += facetsFacing(material, 1) * seen / (4 * nv);
   }
+
   const double cone = 2 * kPi * (1 - std::cos(widest_));
   return reflected * cone * largest(light_.intensity) / (kPi * light_.radius * light_.radius);
 }
@@ -235,6 +248,7 @@ Color skyAlong(const Sky& sky, const Vec& direction) {
     const Color& pole = direction.y > 0 ? sky.zenith : sky.ground;
     return mix(sky.horizon, pole, std::abs(direction.y)) * sky.scale;
   }
+
   // Equirectangular: the first column begins at -z, further ones lie towards +x. The image turned
   // about +y, right-handed, shows towards -x what it has at -z.
   const double angle = std::atan2(direction.x, -direction.z) / (2 * kPi) + sky.rotation / 360;
@@ -251,6 +265,7 @@ Color skyAlong(const Sky& sky, const Vec& direction) {
 Color ambientAt(const Ambient& ambient, const Sky& sky, const Vec& normal) {
   const double up = (1 + normal.y) / 2;
   if (ambient.fromSky == 0) return mix(ambient.down, ambient.up, up);
+
   // Means over either hemisphere, weighed by the cosine c to its pole: that of c itself is the
   // integral of 2 c c over [0, 1].
   constexpr double kMeanCosine = 2.0 / 3;

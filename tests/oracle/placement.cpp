@@ -51,6 +51,7 @@ Transform placeAt(const Motion& motion, double time) {
   while (next < keys.size() && keys[next].time <= time) ++next;
   const Motion::Key& from = keys[next == 0 ? 0 : next - 1];
   const Motion::Key& to = next == keys.size() ? from : keys[next];
+
   const double way = to.time - from.time;
   const double t = next == 0 || !(way > 0) || motion.inSteps ? 0 : (time - from.time) / way;
   return {from.scale * (1 - t) + to.scale * t, motion.axis, from.degrees * (1 - t) + to.degrees * t,
@@ -64,6 +65,7 @@ Scene atItsTime(Scene scene) {
     light.position = placed(light.position, by);
     light.direction = placedDifference(light.direction, by);
   }
+
   Camera& camera = scene.camera;
   if (!camera.motion.keys.empty()) {
     const std::array by{placeAt(camera.motion, scene.time)};
@@ -71,6 +73,7 @@ Scene atItsTime(Scene scene) {
     camera.at = placed(camera.at, by);
     camera.up = placedDifference(camera.up, by);
   }
+
   return scene;
 }
 

@@ -43,19 +43,21 @@ void SceneMaker::room() {
   scene.sky.horizon = random.color(0.3, 0.8);
   scene.sky.ground = random.color(0.05, 0.3);
   scene.ambient = {random.color(0.02, 0.2), random.color(0.02, 0.1)};
+
   scene.camera.eye = random.inBox({-2, 1, 5}, {2, 2.5, 6});
   scene.camera.at = random.inBox({-0.3, 0.7, -0.3}, {0.3, 1, 0.3});
   scene.camera.up = random.inBox({-0.2, 1, -0.2}, {0.2, 1, 0.2});
   scene.camera.fov = random.between(35, 50);
+
   floor(matte());
 }
 
 void SceneMaker::roomFromNear() {
   room();
   scene.camera.fov = random.between(24, 30);
+
   Light light = lamp();
   light.intensity = random.color(2, 6);
-  light.radius = random.between(0.2, 0.6);
   scene.lights.push_back(light);
 }
 
@@ -74,6 +76,18 @@ Light SceneMaker::lamp() {
   return light;
 }
 
+void SceneMaker::addLamps(int count) {
+  for (int i = 0; i < count; ++i) scene.lights.push_back(lamp());
+}
+
+void SceneMaker::moveBy(const Vec& way) {
+  const auto move = [&](Vec& p) { p = asFloat(p + way); };
+  for (Body& body : scene.bodies) move(body.transform.translate);
+  for (Light& light : scene.lights) move(light.position);
+  move(scene.camera.eye);
+  move(scene.camera.at);
+}
+
 Material SceneMaker::matte() {
   Material material;
   material.diffuse = random.color(0.2, 0.9);
@@ -84,6 +98,12 @@ Material SceneMaker::glossy() {
   Material material = matte();
   material.specular = random.color(0.05, 0.6);
   material.roughness = random.between(0.25, 0.8);
+  return material;
+}
+
+Material SceneMaker::rough() {
+  Material material = glossy();
+  material.roughness = random.between(0.55, 0.9);
   return material;
 }
 
@@ -114,28 +134,34 @@ Material SceneMaker::painted() {
   return material;
 }
 
-int SceneMaker::addColors() {
-  Texture texture;
-  texture.width = 3 + random.below(12), texture.height = 2 + random.below(7);
-  for (int i = 0; i < texture.width * texture.height; ++i) {
-    const auto channel = [&] { return random.chance(0.5) ? 255 : 0; };
-    const int r = channel(), g = channel(), b = channel();
-    texture.texels.push_back({r, g, b});
-  }
+int SceneMaker::addTexture(const Texture& texture) {
   scene.textures.push_back(texture);
   return static_cast<int>(scene.textures.size()) - 1;
 }
 
+int SceneMaker::addColors() {
+  const int width = 3 + random.below(12), height = 2 + random.below(7);
+  return addColors(width, height);
+}
+
+int SceneMaker::addColors(int width, int height) {
+  Texture texture{width, height, {}};
+  for (int i = 0; i < width * height; ++i) {
+    const auto channel = [&] { return random.chance(0.5) ? 255 : 0; };
+    const int r = channel(), g = channel(), b = channel();
+    texture.texels.push_back({r, g, b});
+  }
+  return addTexture(texture);
+}
+
 int SceneMaker::addData(int width, int height, const Color& low, const Color& high) {
-  Texture texture;
-  texture.width = width, texture.height = height, texture.isData = true;
+  Texture texture{width, height, {}, true};
   for (int i = 0; i < width * height; ++i) {
     const Vec texel = random.inBox(low, high);
     texture.texels.push_back(
         {static_cast<int>(texel.x), static_cast<int>(texel.y), static_cast<int>(texel.z)});
   }
-  scene.textures.push_back(texture);
-  return static_cast<int>(scene.textures.size()) - 1;
+  return addTexture(texture);
 }
 
 Mesh SceneMaker::solid() {

@@ -53,23 +53,33 @@ class SceneMaker {
   // A floor, a sky that is nowhere black, ambient light, and an eye that looks at what stands about
   // (0, 1, 0), from some 6 away.
   void room();
-  // The same from near, so that what is sampled fills the picture, and a light with a radius.
+  // The same from near, so that what is sampled fills the picture, and a lamp that few samples see
+  // without much noise.
   void roomFromNear();
   void floor(const Material& material);
   // A point light somewhere above, on the eye's side.
   Light lamp();
+  void addLamps(int count);
+  // Moves everything in the scene.
+  void moveBy(const Vec& way);
 
   Material matte();
   Material glossy();
+  // A highlight narrower than the light would be met by few samples, and by none of the oracle's.
+  Material rough();
   Material mirror();
   // Tinted and absorbing; `priority` as it is.
   Material glass(double ior, int priority = 0);
+  Material anyGlass(int priority = 0) { return glass(random.between(1.2, 1.9), priority); }
 
   // Glossy, of several textures.
   Material painted();
 
+  // Returns the number of the texture.
+  int addTexture(const Texture& texture);
   // A texture of colors that are exact as sRGB, of a few texels; its number.
   int addColors();
+  int addColors(int width, int height);
   // A texture of numbers within the box, all three of a texel at once; its number.
   int addData(int width, int height, const Color& low, const Color& high);
 

@@ -11,6 +11,7 @@ Mesh box() {
       for (const double z : {-0.5, 0.5}) mesh.positions.push_back({x, y, z});
     }
   }
+
   // Each face as a quad, counter-clockwise from outside.
   for (const auto& [a, b, c, d] : std::vector<std::array<int, 4>>{
            {0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}}) {
@@ -43,6 +44,8 @@ Mesh ball(int segments, int rings) {
     mesh.normals.push_back(n);
     mesh.positions.push_back(n * 0.5);
   };
+
+  // The upper pole, the rings below it, and the lower pole.
   add(0, 0);
   for (int ring = 1; ring < rings; ++ring) {
     for (int i = 0; i < segments; ++i) {
@@ -50,6 +53,8 @@ Mesh ball(int segments, int rings) {
     }
   }
   add(std::numbers::pi, 0);
+
+  // Fans at both poles, and two triangles for each quad between two rings.
   const int bottom = static_cast<int>(mesh.positions.size()) - 1;
   const auto at = [&](int ring, int i) { return 1 + (ring - 1) * segments + i % segments; };
   for (int i = 0; i < segments; ++i) {
@@ -61,6 +66,7 @@ Mesh ball(int segments, int rings) {
     }
     mesh.triangles.push_back({at(rings - 1, i), bottom, at(rings - 1, i + 1)});
   }
+
   return mesh;
 }
 

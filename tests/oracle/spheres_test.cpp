@@ -7,10 +7,6 @@ namespace {
 
 class Spheres : public Agreement {};
 
-void lampsAbove(SceneMaker& maker, int count) {
-  for (int i = 0; i < count; ++i) maker.scene.lights.push_back(maker.lamp());
-}
-
 // Of any axes, and mirrored now and then.
 Transform stretched(SceneMaker& maker, Transform transform) {
   transform.scale = transform.scale * maker.random.color(0.5, 1);
@@ -33,10 +29,12 @@ double anyRadius(SceneMaker& maker) { return maker.random.between(0.5, 0.9); }
 void addSheared(SceneMaker& maker, const Material& material, const Transform& transform) {
   const int sheared = maker.addSphere(0.8, material);
   const int holder = maker.addSphere(0.25, maker.matte());
+
   Body within;
   within.object = sheared;
   within.transform = stretched(maker, maker.random.placement({0, 0.2, 0}, 1));
   within.inPlace = maker.random.chance(0.5);
+
   maker.scene.objects[static_cast<std::size_t>(holder)].after.push_back(within);
   maker.place(holder, stretched(maker, transform), maker.random.chance(0.5));
 }
@@ -50,10 +48,14 @@ void addBalls(SceneMaker& maker, const std::function<Material()>& material) {
   addSheared(maker, material(), maker.standing(3, 4));
 }
 
+Material anyOpaque(SceneMaker& maker) {
+  if (maker.random.chance(0.3)) return maker.mirror();
+  if (maker.random.chance(0.6)) return maker.glossy();
+  return maker.matte();
+}
+
 Material anyFinish(SceneMaker& maker) {
-  Material material = maker.random.chance(0.3)   ? maker.mirror()
-                      : maker.random.chance(0.6) ? maker.glossy()
-                                                 : maker.matte();
+  Material material = anyOpaque(maker);
   if (maker.random.chance(0.3)) material.emission = maker.random.color(0, 1);
   return material;
 }
@@ -62,9 +64,10 @@ Material anyFinish(SceneMaker& maker) {
 void opaqueBalls(SceneMaker& maker) {
   maker.room();
   addBalls(maker, [&] { return anyFinish(maker); });
+
   maker.add(box(), maker.glossy(), maker.random.placement({-1, 2.2, 0.3}, 0.4));
   maker.add(tetrahedron(), maker.matte(), maker.random.placement({1.2, 1, 1.2}, 0.5));
-  lampsAbove(maker, 2);
+  maker.addLamps(2);
 }
 
 TEST_F(Spheres, OpaqueOnesAndTheirShadows) {
@@ -85,7 +88,7 @@ void paintedBalls(SceneMaker& maker) {
   maker.room();
   addBalls(maker, [&] { return maker.painted(); });
   maker.add(pane(), maker.mirror(), maker.random.placement({0.4, 2.3, -1.2}, 1.6));
-  lampsAbove(maker, 2);
+  maker.addLamps(2);
 }
 
 TEST_F(Spheres, Textures) { expectAgreementWithEachFilter({"textured spheres", paintedBalls}); }
@@ -98,7 +101,7 @@ void bumpyBalls(SceneMaker& maker) {
     material.normalMap = maker.addData(16, 8, {80, 80, 200}, {176, 176, 255.99});
     return material;
   });
-  lampsAbove(maker, 2);
+  maker.addLamps(2);
 }
 
 TEST_F(Spheres, NormalMaps) {
@@ -114,7 +117,7 @@ void maskedBalls(SceneMaker& maker) {
     if (maker.random.chance(0.5)) material.alphaCutoff = maker.random.between(0.3, 0.7);
     return material;
   });
-  lampsAbove(maker, 2);
+  maker.addLamps(2);
 }
 
 TEST_F(Spheres, AlphaMasks) { expectAgreement({"masked spheres", maskedBalls}); }
@@ -131,7 +134,7 @@ Material anyPart(SceneMaker& maker) {
 }
 
 Material film(SceneMaker& maker) {
-  Material material = maker.glass(maker.random.between(1.2, 1.9));
+  Material material = maker.anyGlass();
   material.thin = true;
   return material;
 }
@@ -140,7 +143,7 @@ void ballsInPart(SceneMaker& maker) {
   maker.room();
   maker.add(box(), maker.glossy(), maker.random.placement({-1.4, 0.8, -2}, 0.9));
   addBalls(maker, [&] { return maker.random.chance(0.8) ? anyPart(maker) : film(maker); });
-  lampsAbove(maker, 2);
+  maker.addLamps(2);
 }
 
 TEST_F(Spheres, ThereInPart) {
@@ -155,11 +158,7 @@ void roomBehindGlass(SceneMaker& maker) {
   maker.add(box(), maker.glossy(), maker.random.placement({-1.4, 0.8, -2}, 0.9));
   maker.add(tetrahedron(), maker.matte(), maker.random.placement({1.2, 0.9, -1.8}, 1));
   maker.place(maker.addSphere(0.4, anyFinish(maker)), maker.random.placement({0, 1.5, -2}, 1));
-  lampsAbove(maker, 2);
-}
-
-Material anyGlass(SceneMaker& maker, int priority) {
-  return maker.glass(maker.random.between(1.2, 1.9), priority);
+  maker.addLamps(2);
 }
 
 // Within `reach` of the center, of some `radius`.
@@ -175,7 +174,7 @@ TEST_F(Spheres, Glass) {
   expectAgreement({"glass spheres", [](SceneMaker& maker) {
                      roomBehindGlass(maker);
                      for (int i = 0; i < 3; ++i) {
-                       Material glass = anyGlass(maker, 0);
+                       Material glass = maker.anyGlass();
                        if (i == 1) glass.mirror = maker.random.color(0.05, 0.2);
                        if (i == 1) glass.mirrorGrazing = maker.random.color(0.3, 0.6);
                        addGlassBall(maker, {1.4 * i - 1.4, 1.1, 0.2}, 0.1, 0.6, glass);
@@ -187,10 +186,11 @@ TEST_F(Spheres, Glass) {
 void nestedBalls(SceneMaker& maker, int outer, int inner, int left, int right) {
   roomBehindGlass(maker);
   const Vec shells{-0.9, 1.1, 0.2}, pair{0.9, 1.1, 0.2};
-  maker.place(maker.addSphere(0.8, anyGlass(maker, outer)), maker.random.placement(shells, 1));
-  addGlassBall(maker, shells, 0.1, 0.5, anyGlass(maker, inner));
-  addGlassBall(maker, pair, 0.3, 0.7, anyGlass(maker, left));
-  addGlassBall(maker, pair, 0.2, 0.8, anyGlass(maker, right));
+
+  maker.place(maker.addSphere(0.8, maker.anyGlass(outer)), maker.random.placement(shells, 1));
+  addGlassBall(maker, shells, 0.1, 0.5, maker.anyGlass(inner));
+  addGlassBall(maker, pair, 0.3, 0.7, maker.anyGlass(left));
+  addGlassBall(maker, pair, 0.2, 0.8, maker.anyGlass(right));
 }
 
 TEST_F(Spheres, NestedGlassOfEqualPriority) {
@@ -200,8 +200,11 @@ TEST_F(Spheres, NestedGlassOfEqualPriority) {
 
 TEST_F(Spheres, NestedGlassOfUnequalPriority) {
   expectAgreement({"nested glass spheres, unequal priorities", [](SceneMaker& maker) {
-                     const bool shell = maker.random.chance(0.5);
-                     nestedBalls(maker, shell ? -1 : 0, shell ? 3 : -2, 1, 2);
+                     if (maker.random.chance(0.5)) {
+                       nestedBalls(maker, -1, 3, 1, 2);
+                     } else {
+                       nestedBalls(maker, 0, -2, 1, 2);
+                     }
                    }});
 }
 
@@ -211,7 +214,7 @@ TEST_F(Spheres, GlassAcrossBoxes) {
                      roomBehindGlass(maker);
                      const Vec center{0, 1.2, 0.3};
                      for (int i = 0; i < 3; ++i) {
-                       Material glass = anyGlass(maker, maker.random.below(3));
+                       Material glass = maker.anyGlass(maker.random.below(3));
                        glass.absorption = glass.absorption * 2;
                        if (i == 1) {
                          maker.add(box(), glass, maker.random.placement(center, 1));
@@ -229,7 +232,7 @@ TEST_F(Spheres, EyesInside) {
                      opaqueBalls(maker);
                      const int innerWins = maker.random.chance(0.5) ? 1 : -1;
                      for (int i = 0; i < 2; ++i) {
-                       Material water = anyGlass(maker, i * innerWins);
+                       Material water = maker.anyGlass(i * innerWins);
                        water.castsShadow = false;
                        water.absorption = maker.random.color(0.1, 0.5);
                        addGlassBall(maker, maker.scene.camera.eye, 0.2, 1.6 - 0.6 * i, water);
@@ -241,7 +244,7 @@ TEST_F(Spheres, EyesInside) {
 TEST_F(Spheres, EyesUnderWater) {
   expectAgreement({"eyes in a sphere of water", [](SceneMaker& maker) {
                      opaqueBalls(maker);
-                     Material water = anyGlass(maker, 0);
+                     Material water = maker.anyGlass();
                      water.castsShadow = false;
                      addGlassBall(maker, {0, 0, 0}, 2, 40, water);
                    }});
@@ -252,7 +255,7 @@ TEST_F(Spheres, ParallelRaysFromWithinGlassAndFromBeside) {
   expectAgreement({"parallel rays across a sphere", [](SceneMaker& maker) {
                      opaqueBalls(maker);
                      maker.scene.camera.orthographicHeight = 4;
-                     Material water = anyGlass(maker, 0);
+                     Material water = maker.anyGlass();
                      water.castsShadow = false;
                      addGlassBall(maker, maker.scene.camera.eye, 0.6, 1.2, water);
                    }});
@@ -264,18 +267,21 @@ void usedOften(SceneMaker& maker, const std::function<Material()>& material) {
   const int balls[] = {maker.addSphere(anyRadius(maker), material()),
                        maker.addSphere(anyRadius(maker), material()),
                        maker.addSphere(0.4, material())};
+
   Body within;
   within.object = balls[1];
   within.transform = stretched(maker, maker.random.placement({0.3, 0.5, 0}, 0.6));
   within.inPlace = maker.random.chance(0.7);
   maker.scene.objects[static_cast<std::size_t>(balls[2])].after.push_back(within);
+
   for (int i = 0; i < 9; ++i) {
     Transform transform = ballStanding(maker, i % 5, 5);
-    if (i >= 5) transform.translate.z -= 1.5, transform.translate.y += 0.5;
+    if (i >= 5) transform.translate += {0, 0.5, -1.5};
     transform.translate = asFloat(transform.translate);
     maker.place(balls[i % 3], transform);
   }
-  lampsAbove(maker, 2);
+
+  maker.addLamps(2);
 }
 
 void opaqueInstances(SceneMaker& maker) {
@@ -304,12 +310,7 @@ TEST_F(Spheres, InstancesWithMaps) {
 TEST_F(Spheres, InstancesFarFromTheOrigin) {
   const auto make = [](SceneMaker& maker) {
     opaqueInstances(maker);
-    const Vec away{150, -90, 120};
-    const auto move = [&](Vec& p) { p = asFloat(p + away); };
-    for (Body& body : maker.scene.bodies) move(body.transform.translate);
-    for (Light& light : maker.scene.lights) move(light.position);
-    move(maker.scene.camera.eye);
-    move(maker.scene.camera.at);
+    maker.moveBy({150, -90, 120});
   };
   expectAgreement({"instances of spheres far away", make, {}, 10, 10});
 }
@@ -318,8 +319,8 @@ TEST_F(Spheres, InstancesFarFromTheOrigin) {
 TEST_F(Spheres, InstancesOfGlass) {
   expectAgreement({"instances of glass spheres", [](SceneMaker& maker) {
                      roomBehindGlass(maker);
-                     const int glass = maker.addSphere(0.6, anyGlass(maker, 1));
-                     const int other = maker.addSphere(0.5, anyGlass(maker, 0));
+                     const int glass = maker.addSphere(0.6, maker.anyGlass(1));
+                     const int other = maker.addSphere(0.5, maker.anyGlass());
                      for (int i = 0; i < 4; ++i) {
                        const Vec at{0.8 * i - 1.2, 1.1, 0.3};
                        const Vec beside = maker.random.inBox(gray(-0.2), gray(0.2));
@@ -331,11 +332,8 @@ TEST_F(Spheres, InstancesOfGlass) {
 
 void roughBalls(SceneMaker& maker) {
   maker.roomFromNear();
-  addBalls(maker, [&] {
-    Material material = maker.glossy();
-    material.roughness = maker.random.between(0.55, 0.9);
-    return material;
-  });
+  maker.scene.lights[0].radius = maker.random.between(0.2, 0.6);
+  addBalls(maker, [&] { return maker.rough(); });
 }
 
 TEST_F(Spheres, Sampled) {

@@ -13,10 +13,6 @@ void addSolids(SceneMaker& maker, int count, const std::function<Material()>& ma
   }
 }
 
-void addLamps(SceneMaker& maker, int count) {
-  for (int i = 0; i < count; ++i) maker.scene.lights.push_back(maker.lamp());
-}
-
 void hangPane(SceneMaker& maker, const Material& material) {
   maker.add(pane(), material, maker.random.placement({0.4, 2.3, -1.2}, 1.6));
 }
@@ -25,7 +21,7 @@ void opaque(SceneMaker& maker) {
   maker.room();
   addSolids(maker, 4, [&] { return maker.random.chance(0.6) ? maker.glossy() : maker.matte(); });
   hangPane(maker, maker.matte());
-  addLamps(maker, 2);
+  maker.addLamps(2);
 }
 
 TEST_F(Surfaces, OpaqueOnesAndTheirShadows) { expectAgreement({"opaque", opaque}); }
@@ -54,20 +50,24 @@ void shadedLights(SceneMaker& maker, double height, double gap) {
   for (Body& body : maker.scene.bodies) body.transform.translate.y += asFloat(down);
   maker.scene.camera.eye.y = asFloat(maker.scene.camera.eye.y + down);
   maker.scene.camera.at.y = asFloat(maker.scene.camera.at.y + down);
+
   for (int i = 0; i < 3; ++i) {
     Transform standing = maker.standing(i, 3);
     standing.translate.y = asFloat(standing.translate.y + down);
     maker.add(maker.solid(), maker.glossy(), standing);
   }
+
   const bool near = height == 0;
   for (const double side : {1.0, -1.0}) {
     const Vec at =
         near && side > 0 ? Vec{} : asFloat(Vec{1.8 * side, height, maker.random.between(0, 1)});
+
     Transform shade;
     shade.degrees = maker.random.between(0, 90);
     shade.scale = {1.5, 1, 1.5};
     shade.translate = at;
     maker.add(pane(), maker.matte(), shade);
+
     Light light;
     light.position = asFloat(at + Vec{0, side * (at.x == 0 ? gap / 4 : gap), 0});
     light.intensity = maker.random.color(8, 20);
@@ -97,6 +97,7 @@ void spotsAndSuns(SceneMaker& maker) {
     spot.outerConeAngle = random.between(16, 40);
     spot.radius = random.between(0.01, 2);
     maker.scene.lights.push_back(spot);
+
     Light sun;
     sun.kind = Light::Kind::directional;
     sun.direction = random.inBox({-1, -2, -1}, {1, -0.5, 0.2});
@@ -116,7 +117,7 @@ void mirrors(SceneMaker& maker) {
   addSolids(maker, 3, [&] { return maker.mirror(); });
   hangPane(maker, maker.mirror());
   maker.add(box(), maker.glossy(), maker.random.placement({1, 1.9, 0.9}, 0.4));
-  addLamps(maker, 2);
+  maker.addLamps(2);
 }
 
 TEST_F(Surfaces, Mirrors) { expectAgreement({"mirrors", mirrors, {.depth = 10}}); }
@@ -131,12 +132,14 @@ TEST_F(Surfaces, HighlightsBelowFourPercent) {
                        material.roughness = maker.random.between(0.3, 0.6);
                        return material;
                      };
+
                      maker.room();
                      maker.scene.ambient = {};
                      maker.scene.camera.eye.y = 0.6;  // grazing, against the light
                      maker.scene.bodies.clear();
                      maker.floor(faint());
                      addSolids(maker, 4, faint);
+
                      for (int i = 0; i < 3; ++i) {
                        Light light = maker.lamp();
                        light.position = maker.random.inBox({-3, 0.6, -4}, {3, 2, -2});
@@ -154,11 +157,12 @@ TEST_F(Surfaces, ColorsOfVertices) {
                        for (std::size_t k = 0; k < mesh.positions.size(); ++k) {
                          mesh.colors.push_back(maker.random.color(0, 1));
                        }
+
                        const bool mirror = maker.random.chance(0.3);
                        maker.add(mesh, mirror ? maker.mirror() : maker.glossy(),
                                  maker.standing(i, 4));
                      }
-                     addLamps(maker, 2);
+                     maker.addLamps(2);
                    }});
 }
 
@@ -166,15 +170,16 @@ TEST_F(Surfaces, Emission) {
   expectAgreement({"emission", [](SceneMaker& maker) {
                      maker.room();
                      addSolids(maker, 4, [&] {
-                       Material material =
-                           maker.random.chance(0.4) ? maker.mirror() : maker.matte();
+                       const bool mirror = maker.random.chance(0.4);
+                       Material material = mirror ? maker.mirror() : maker.matte();
                        material.emission = maker.random.color(0, 1.5);
                        return material;
                      });
+
                      Material glowing = maker.matte();
                      glowing.emission = maker.random.color(0.2, 1);
                      hangPane(maker, glowing);  // from both sides
-                     addLamps(maker, 1);
+                     maker.addLamps(1);
                    }});
 }
 
@@ -184,7 +189,7 @@ TEST_F(Surfaces, AmbientLightFromTheSky) {
                      maker.scene.sky.scale = maker.random.between(0.5, 2);
                      maker.scene.ambient.fromSky = maker.random.between(0.2, 1);
                      addSolids(maker, 4, [&] { return maker.matte(); });
-                     addLamps(maker, 1);
+                     maker.addLamps(1);
                    }});
 }
 
@@ -194,25 +199,28 @@ TEST_F(Surfaces, ImagesOfTheSky) {
          maker.room();
          Sky& sky = maker.scene.sky;
          sky.kind = Sky::Kind::image;
-         sky.width = 7, sky.height = 4;
+         sky.width = 7;
+         sky.height = 4;
          for (int i = 0; i < sky.width * sky.height; ++i) {
            const Color c = maker.random.color(0, 250);
            sky.texels.push_back(Color{std::floor(c.x), std::floor(c.y), std::floor(c.z)} / 256);
          }
          sky.scale = maker.random.between(0.5, 2);
          sky.rotation = maker.random.between(-180, 360);
+
          maker.scene.camera.fov = 80;
          addSolids(maker, 4, [&] { return maker.mirror(); });
-         addLamps(maker, 1);
+         maker.addLamps(1);
        }});
 }
 
 // A ball of large facets that fills the picture, lit from the side: the light ends across it.
 void facetedBall(SceneMaker& maker) {
   maker.room();
-  Transform large = maker.random.placement({0, 1.3, 0}, 2.4);
-  const bool fine = maker.random.chance(0.5);
-  maker.add(ball(fine ? 12 : 8, fine ? 8 : 5), maker.matte(), large);
+  const Transform large = maker.random.placement({0, 1.3, 0}, 2.4);
+  const Mesh sphere = maker.random.chance(0.5) ? ball(12, 8) : ball(8, 5);
+  maker.add(sphere, maker.matte(), large);
+
   maker.add(box(), maker.matte(), maker.random.placement({-1.6, 1.9, 0.9}, 0.4));
   for (const double side : {-1.0, 1.0}) {
     Light light = maker.lamp();
@@ -224,16 +232,6 @@ void facetedBall(SceneMaker& maker) {
 TEST_F(Surfaces, ShadowRaysFromAboveTheFacets) {
   expectAgreement({"--terminator on", facetedBall, {.terminator = true}});
   expectAgreement({"--terminator off", facetedBall});
-}
-
-void addTexture(SceneMaker& maker, int width, int height) {
-  Texture texture;
-  texture.width = width, texture.height = height;
-  for (int k = 0; k < width * height; ++k) {
-    const auto channel = [&] { return maker.random.chance(0.5) ? 255 : 0; };
-    texture.texels.push_back({channel(), channel(), channel()});
-  }
-  maker.scene.textures.push_back(texture);
 }
 
 // Repeated, turned and from below 0.
@@ -250,13 +248,18 @@ Mesh turnedPane(double repeats) {
 void textured(SceneMaker& maker) {
   maker.room();
   maker.scene.bodies.clear();
-  for (int i = 0; i < 2; ++i) addTexture(maker, 5 + 3 * i, 4);
+
+  for (int i = 0; i < 2; ++i) maker.addColors(5 + 3 * i, 4);
   for (int i = 0; i < 4; ++i) {
     const Mesh mesh = turnedPane(1);
     Material material = maker.glossy();
     material.diffuseMap = i % 2;
     if (i == 1) material.specularMap = 0;
-    if (i == 2) material.emission = maker.random.color(0.2, 1), material.emissionMap = 1;
+    if (i == 2) {
+      material.emission = maker.random.color(0.2, 1);
+      material.emissionMap = 1;
+    }
+
     if (i == 0) {
       Transform below;
       below.scale = {9, 1, 9};
@@ -265,7 +268,7 @@ void textured(SceneMaker& maker) {
       maker.add(mesh, material, maker.standing(i - 1, 3));
     }
   }
-  addLamps(maker, 2);
+  maker.addLamps(2);
 }
 
 TEST_F(Surfaces, TexturesOfNearestAndMixedTexels) {
@@ -292,15 +295,18 @@ void normalMapped(SceneMaker& maker) {
     material.normalMap = map;
     return material;
   };
+
   Transform below;
   below.scale = {9, 1, 9};
   below.degrees = maker.random.between(0, 90);
   maker.add(turnedPane(2), bumpy(maker.matte()), below);
   maker.add(mappedBall(maker), bumpy(maker.matte()), maker.standing(0, 4));
+
   Transform facing = maker.standing(1, 4);  // a lobe has no value for a viewer behind it
   facing.axis = {1, 0, 0};
   facing.degrees = maker.random.between(50, 80);
   maker.add(turnedPane(1), bumpy(maker.glossy()), facing);
+
   const int twice = maker.addObject(turnedPane(0.7), bumpy(maker.matte()));
   for (int i = 2; i < 4; ++i) {
     Transform standing = maker.standing(i, 4);
@@ -308,7 +314,8 @@ void normalMapped(SceneMaker& maker) {
     if (i == 3) standing.scale.x = -standing.scale.x;
     maker.place(twice, standing);
   }
-  addLamps(maker, 2);
+
+  maker.addLamps(2);
 }
 
 TEST_F(Surfaces, NormalMaps) { expectAgreementWithEachFilter({"normal maps", normalMapped}); }
@@ -316,18 +323,18 @@ TEST_F(Surfaces, NormalMaps) { expectAgreementWithEachFilter({"normal maps", nor
 // With parts that are cut out as a whole, parts that are not, and some that are torn.
 int addMask(SceneMaker& maker) {
   constexpr int kPart = 8, kParts = 3;
-  Texture texture;
-  texture.width = texture.height = kPart * kParts, texture.isData = true;
+  Texture texture{kPart * kParts, kPart * kParts, {}, true};
   std::array<int, kParts * kParts> lowest{};
   for (int& low : lowest) low = 75 * maker.random.below(3);
+
   for (int y = 0; y < texture.height; ++y) {
     for (int x = 0; x < texture.width; ++x) {
       const int low = lowest[static_cast<std::size_t>(y / kPart * kParts + x / kPart)];
       texture.texels.push_back({low + maker.random.below(105), 0, 0});
     }
   }
-  maker.scene.textures.push_back(texture);
-  return static_cast<int>(maker.scene.textures.size()) - 1;
+
+  return maker.addTexture(texture);
 }
 
 // In shadows too, and seen in mirrors.
@@ -335,13 +342,14 @@ void masked(SceneMaker& maker) {
   maker.room();
   maker.floor(maker.mirror());
   maker.scene.bodies.back().transform.translate.y = 0.05;
+
   for (int i = 0; i < 4; ++i) {
     Material material = maker.glossy();
     material.alphaMap = addMask(maker);
     if (i == 1) material.alphaCutoff = maker.random.between(0.3, 0.7);
     maker.add(turnedPane(0.7), material, maker.standing(i, 4));
   }
-  addLamps(maker, 2);
+  maker.addLamps(2);
 }
 
 TEST_F(Surfaces, AlphaMasks) {
@@ -353,8 +361,8 @@ TEST_F(Surfaces, AlphaMasks) {
 void texturedAtAnyDistance(SceneMaker& maker) {
   maker.room();
   maker.scene.bodies.clear();
-  addTexture(maker, 32, 16);
-  addTexture(maker, 13, 7);
+  maker.addColors(32, 16);
+  maker.addColors(13, 7);
   const auto image = [&] {
     Material material = maker.glossy();
     material.diffuseMap = maker.random.below(2);
@@ -363,10 +371,12 @@ void texturedAtAnyDistance(SceneMaker& maker) {
     if (largest(material.emission) > 0) material.emissionMap = maker.random.below(2);
     return material;
   };
+
   Transform below;
   below.scale = {30, 1, 30};
   below.degrees = maker.random.between(0, 90);
   maker.add(turnedPane(maker.random.between(2, 20)), image(), below);
+
   const int instance = maker.addObject(turnedPane(maker.random.between(0.2, 4)), image());
   for (int i = 0; i < 3; ++i) {
     Transform standing = maker.standing(i, 5);
@@ -374,9 +384,10 @@ void texturedAtAnyDistance(SceneMaker& maker) {
     if (i == 1) standing.scale.x = -standing.scale.x;
     maker.place(instance, standing);
   }
+
   maker.add(box(), maker.mirror(), maker.standing(3, 5));
   maker.add(box(), maker.glass(1.4), maker.standing(4, 5));
-  addLamps(maker, 2);
+  maker.addLamps(2);
 }
 
 TEST_F(Surfaces, MixedMipMaps) {
@@ -396,9 +407,10 @@ void maskedAtAnyDistance(SceneMaker& maker) {
   for (Material& material : maker.scene.materials) {
     if (material.diffuseMap == kNone && material.emissionMap == kNone) continue;
     if (maker.random.chance(0.3)) continue;
+
     const bool isCovered = maker.random.chance(0.5);
-    (isCovered ? material.coverageMap : material.alphaMap) = addMask(maker);
-    if (isCovered && maker.random.chance(0.3)) material.alphaMap = addMask(maker);
+    if (isCovered) material.coverageMap = addMask(maker);
+    if (!isCovered || maker.random.chance(0.3)) material.alphaMap = addMask(maker);
     material.alphaCutoff = maker.random.between(0.2, 0.6);
   }
 }
@@ -415,15 +427,17 @@ void addInstances(SceneMaker& maker) {
   const int solids[] = {maker.addObject(box(), maker.glossy()),
                         maker.addObject(tetrahedron(), maker.mirror()),
                         maker.addObject(ball(12, 8), maker.glossy())};
+
   for (int i = 0; i < 9; ++i) {
     Transform transform = maker.standing(i % 5, 5);
-    if (i >= 5) transform.translate.z -= 1.5, transform.translate.y += 0.5;
+    if (i >= 5) transform.translate += {0, 0.5, -1.5};
     if (i % 3 != 2) transform.scale = transform.scale * maker.random.color(0.6, 1);
     if (i % 2 == 0) transform.scale.x = -transform.scale.x;
     transform.scale = asFloat(transform.scale);
     maker.place(solids[i % 3], transform);
   }
-  addLamps(maker, 2);
+
+  maker.addLamps(2);
 }
 
 TEST_F(Surfaces, Instances) { expectAgreement({"instances", addInstances}); }
@@ -431,12 +445,7 @@ TEST_F(Surfaces, Instances) { expectAgreement({"instances", addInstances}); }
 TEST_F(Surfaces, InstancesFarFromTheOrigin) {
   const auto make = [](SceneMaker& maker) {
     addInstances(maker);
-    const Vec away{150, -90, 120};
-    const auto move = [&](Vec& p) { p = asFloat(p + away); };
-    for (Body& body : maker.scene.bodies) move(body.transform.translate);
-    for (Light& light : maker.scene.lights) move(light.position);
-    move(maker.scene.camera.eye);
-    move(maker.scene.camera.at);
+    maker.moveBy({150, -90, 120});
   };
   expectAgreement({"instances far away", make, {}, 10, 10});
 }

@@ -40,10 +40,12 @@ Shares sharesLeft(const Scene& scene, const Material& material, int Material::*m
   const Texture own = texture(material.*map);
   const bool isCut = material.alphaMap != kNone, isCovered = material.coverageMap != kNone;
   if (!isCut && !isCovered) return {};
+
   const Shares uncut = isCut ? uncutShares(texture(material.alphaMap), material.alphaCutoff)
                              : uncutShares(texture(material.coverageMap), kClear);
   Shares left = stretched(uncut, own.width, own.height);
   if (!isCovered || map == &Material::coverageMap) return left;
+
   const Shares covered =
       stretched(coveredShares(texture(material.coverageMap)), own.width, own.height);
   for (std::size_t i = 0; i < left.of.size(); ++i) left.of[i] *= covered.of[i];
@@ -114,10 +116,13 @@ Color Tracer::sample(int x, int y, Random& random) const {
 Ray Tracer::throughLens(const Ray& ray, Random& random) const {
   const Camera& camera = scene_.camera;
   if (!(camera.aperture > 0)) return ray;
+
   const Vec forward = normalized(camera.at - camera.eye);
   const Vec right = normalized(cross(forward, camera.up)), up = cross(right, forward);
   const double focus = camera.focus > 0 ? camera.focus : length(camera.at - camera.eye);
   const Vec sharp = ray.origin + ray.direction * (focus / dot(ray.direction, forward));
+
+  // A random point of the lens.
   const double radius = camera.aperture * std::sqrt(random.between(0, 1));
   const double turn = random.between(0, 2 * std::numbers::pi);
   const Vec start = ray.origin + (right * std::cos(turn) + up * std::sin(turn)) * radius;
@@ -174,6 +179,7 @@ Media Tracer::mediaAround(const Vec& point) const {
       entered.erase(known);
     }
   }
+
   Media media;
   for (auto medium = left.rbegin(); medium != left.rend(); ++medium) media.enter(*medium);
   return media;
@@ -205,6 +211,7 @@ void Tracer::addVertices(Surface& s, const Hit& hit) {
   if (hit.triangle == nullptr) return;
   s.smooth = hit.triangle->smooth;
   const double side = s.entering ? 1 : -1;
+
   Vec normal;
   Color color;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -217,6 +224,7 @@ void Tracer::addVertices(Surface& s, const Hit& hit) {
     const Vec n = corner.normal * side;
     s.lift += n * (weight * std::max(0.0, -dot(s.position - corner.position, n)));
   }
+
   if (s.smooth) s.normal = normalized(normal) * side;
   s.material.diffuse = s.material.diffuse * color;
 }
@@ -231,6 +239,8 @@ Tracer::Surface Tracer::surfaceAt(const Ray& ray, const Hit& hit, double width) 
   s.plane = hit.outward * side;
   s.normal = s.plane;
   addVertices(s, hit);
+
+  // The footprint chooses the mip level of a trilinear lookup.
   const double footprint = footprintOf(hit, width, -dot(ray.direction, s.plane));
   const auto texel = [&](int Material::*map) {
     const Texture& texture = scene_.textures[static_cast<std::size_t>(s.material.*map)];
@@ -242,6 +252,7 @@ Tracer::Surface Tracer::surfaceAt(const Ray& ray, const Hit& hit, double width) 
   const auto textured = [&](int Material::*map, Color& what) {
     if (s.material.*map != kNone) what = what * texel(map);
   };
+
   textured(&Material::diffuseMap, s.material.diffuse);
   textured(&Material::specularMap, s.material.specular);
   textured(&Material::emissionMap, s.material.emission);
@@ -255,7 +266,11 @@ Tracer::Surface Tracer::surfaceAt(const Ray& ray, const Hit& hit, double width) 
 
 void Tracer::pass(Media& media, const Ray& ray, const Hit& hit) const {
   const Medium medium = mediumOf(scene_.materials[static_cast<std::size_t>(hit.face->material)]);
-  dot(ray.direction, hit.outward) < 0 ? media.enter(medium) : media.leave(medium);
+  if (dot(ray.direction, hit.outward) < 0) {
+    media.enter(medium);
+  } else {
+    media.leave(medium);
+  }
 }
 
 namespace {
@@ -288,6 +303,7 @@ Color Tracer::diffuseLeft(const Surface& surface, const Media& before, const Med
   const double cosine = std::clamp(dot(surface.toViewer, surface.normal), 0.0, 1.0);
   const Color coat = schlick(material.mirror, material.mirrorGrazing, cosine);
   if (!material.transmits()) return underCoat(material.diffuse, coat);
+
   const double n1 = before.current().ior, n2 = behind.current().ior;
   const double interface = surface.roughInterface ? 0 : interfaceReflectance(n1, n2, cosine);
   const Color through = underCoat(material.transmission, coat);
@@ -304,7 +320,8 @@ Color Tracer::aboveLobe(const Surface& surface, const Media& before, const Media
 }
 
 double Tracer::interfaceReflectance(double n1, double n2, double cosine) const {
-  return options_.schlickFresnel ? fresnelBySchlick(n1, n2, cosine) : fresnel(n1, n2, cosine);
+  const auto reflectance = options_.schlickFresnel ? fresnelBySchlick : fresnel;
+  return reflectance(n1, n2, cosine);
 }
 
 // Where samples are taken of lobes. A sheet on a solid's face is clear, and so is a surface between
@@ -313,6 +330,7 @@ void Tracer::findFrosting(Surface& surface, const Media& before, const Media& be
   const Material& m = surface.material;
   const bool isRough = m.frosted && m.transmits() && m.roughness * m.roughness > kSmooth;
   if (options_.lobeSamples() == 0 || !isRough) return;
+
   surface.n1 = before.current().ior;
   surface.n2 = behind.current().ior;
   // Where both indices are equal, an interface is as clear as if it were smooth.
@@ -327,6 +345,7 @@ Color Tracer::facetReflectance(const Surface& surface, double vh) const {
 
 Sight Tracer::trace(const Ray& ray, const Branch& branch, Random& random) const {
   if (branch.weight < kNegligible) return {};
+
   const Color absorption = branch.media.current().absorption;
   const std::optional<Meeting> meeting = geometry_.nearest(ray);
   if (!meeting) {
@@ -334,32 +353,40 @@ Sight Tracer::trace(const Ray& ray, const Branch& branch, Random& random) const 
     const Color sky = skyAlong(scene_.sky, ray.direction) * left;
     return {.radiance = sky, .brightest = largest(sky)};
   }
+
   const Color left = transmittance(absorption, meeting->hit.t);
   Branch there = branch;
   there.weight *= largest(left);
   there.width = widthAfter(branch.width, meeting->hit.t);
 
   Surface surface = surfaceAt(ray, meeting->hit, there.width);
+
   Media behind = branch.media;
   const bool isDielectric = surface.material.isDielectric();
   if (isDielectric) pass(behind, ray, meeting->hit);
   for (const Hit& other : meeting->alsoCrossed) pass(behind, ray, other);
+
   if (isDielectric && behind.current() == branch.media.current()) {  // the surface is not there
     if (branch.depth == options_.depth) return {};
     ++there.depth;
     there.media = behind;
     return trace({surface.position, ray.direction}, there, random) * left;
   }
+
+  // What the glossy lobe reflects, the diffuse color does not get.
   findFrosting(surface, branch.media, behind);
   const Sight taken = lobeWeight(surface, there, random);
   const bool isSampled = samplesLobe(surface.material) || surface.roughInterface;
   surface.belowLobe = gray(1) - taken.radiance;
   surface.tabled = largest(taken.radiance) > 0 && !isSampled;
   surface.material.diffuse = diffuseLeft(surface, branch.media, behind) * surface.belowLobe;
+
+  // Light that arrives without further surfaces between.
   Sight seen = lightFrom(surface, there, random);
   seen.radiance += surface.material.emission;
   const bool indirectly = options_.indirect > 0 && surface.material.diffuseReflection;
   if (!indirectly) seen += ambientLight(surface, there, random);
+
   // What whit takes from the diffuse color varies with its samples, and together with what these
   // bring: the square of a sum of two is at most twice the sum of the squares, and of three, where
   // frosted glass transmits samples of the same facets, three times.
@@ -375,6 +402,8 @@ Sight Tracer::trace(const Ray& ray, const Branch& branch, Random& random) const 
   varies.variance = varies.variance * together;
   seen += varies;
   seen.undecided += taken.undecided;
+
+  // Light that arrives from other surfaces.
   Sight on;
   if (there.depth < options_.depth) {
     on = impulses(surface, there, behind, random);
@@ -386,6 +415,7 @@ Sight Tracer::trace(const Ray& ray, const Branch& branch, Random& random) const 
     frosted.variance = frosted.variance * together;
     seen += frosted;
   }
+
   seen = seen * gray(surface.material.coverage) + on;
   seen = seen * left;
   seen.brightest = std::max(seen.brightest, largest(seen.radiance));
@@ -396,6 +426,7 @@ Sight Tracer::trace(const Ray& ray, const Branch& branch, Random& random) const 
 Sight Tracer::reflectedFrom(const Surface& surface, const Arrival& arrival) {
   const double cosine = dot(surface.normal, arrival.toLight);
   if (!(cosine > 0) || !(largest(arrival.irradiance) > 0)) return {};
+
   Sight sight;
   Color reflected = surface.material.diffuse / std::numbers::pi;
   if (largest(surface.material.specular) > 0) {
@@ -406,6 +437,7 @@ Sight Tracer::reflectedFrom(const Surface& surface, const Arrival& arrival) {
       reflected += glossyLobe(surface.material, surface.normal, surface.toViewer, arrival.toLight);
     }
   }
+
   sight.radiance = reflected * arrival.irradiance * cosine;
   return sight;
 }
@@ -419,6 +451,7 @@ Sight Tracer::lightFrom(const Surface& surface, const Branch& branch, Random& ra
       sum += lightFromSphere(surface, light, branch, random);
       continue;
     }
+
     const Arrival arrival = arrivalOf(light, surface.position);
     const Sight reflected = reflectedFrom(surface, arrival);
     if (largest(reflected.radiance) > 0 && lit(surface, arrival)) sum += reflected;
@@ -431,6 +464,7 @@ Sight Tracer::lightFromSphere(const Surface& surface, const Light& light, const 
   const LightSphere sphere(light, surface.position);
   Integral integral;
   double undecided = 0;
+
   const auto addPart = [&](double u, double v) {
     const auto [arrival, ratio] = sphere.partAt(u, v);
     const Sight reflected = reflectedFrom(surface, arrival);
@@ -438,6 +472,7 @@ Sight Tracer::lightFromSphere(const Surface& surface, const Light& light, const 
     undecided = std::max(undecided, reflected.undecided);
     integral.addLight(lit(surface, arrival), reflected.radiance, ratio);
   };
+
   forEvenPoints(pointsASide(branch), random, addPart);
   Sight sight = integral.mean(options_.lightSamples);
   sight.undecided = undecided;
@@ -453,11 +488,13 @@ Sight Tracer::ambientLight(const Surface& surface, const Branch& branch, Random&
   if (options_.ambientSamples == 0 || scene_.ambient.occlusion == 0 || !(largest(all) > 0)) {
     return {.radiance = all};
   }
+
   Integral integral;
   forEvenPoints(pointsASide(branch), random, [&](double u, double v) {
     const Ray ray{surface.position, cosineDirection(surface.normal, u, v)};
     integral.addLight(!geometry_.blocked(ray, scene_.ambient.occlusion), all, 1);
   });
+
   const int samples = branch.depth == 0 ? options_.ambientSamples : 1;
   Sight sight = integral.mean(samples);
   sight.largestSample = largest(all) / std::min(samples, integral.points());
@@ -468,6 +505,7 @@ Sight Tracer::ambientLight(const Surface& surface, const Branch& branch, Random&
 Sight Tracer::indirectLight(const Surface& surface, const Branch& branch, Random& random) const {
   const Color& part = surface.material.diffuse;
   if (!(largest(part) > 0)) return {};
+
   Integral integral;
   forEvenPoints(pointsASide(branch), random, [&](double u, double v) {
     const Branch child{
@@ -486,6 +524,7 @@ bool Tracer::lit(const Surface& surface, const Arrival& arrival) const {
     if (!(dot(surface.plane, arrival.toLight) > 0)) return false;
     return !geometry_.blocked({surface.position, arrival.toLight}, arrival.distance);
   }
+
   const Vec start = surface.position + surface.lift;
   if (arrival.distance == INFINITY) return !geometry_.blocked({start, arrival.toLight}, INFINITY);
   const Vec way = surface.position + arrival.toLight * arrival.distance - start;
@@ -508,9 +547,11 @@ Sight Tracer::impulses(const Surface& surface, const Branch& branch, const Media
   const bool mirrors = surface.tabled && material.reflectsGlossily();
   const double alongMirror = mirrors ? mirroredShare(material) : 0;
   if (!material.isMirror() && !material.passesLight() && alongMirror == 0) return {};
+
   const Vec direction = -surface.toViewer;
   const double cosine = dot(surface.toViewer, surface.normal);
   if (surface.smooth && cosine < kSkimming) return {.undecided = 1};
+
   Sight sum;
   const Color coat = schlick(material.mirror, material.mirrorGrazing, cosine);
   // What is not there of a sheet leaves what is behind it: the interface of other solids, if its
@@ -518,6 +559,7 @@ Sight Tracer::impulses(const Surface& surface, const Branch& branch, const Media
   const double there = material.coverage;
   Color reflectance = coat * there;
   double passed = 1;
+
   if (material.passesLight()) {
     const double n1 = branch.media.current().ior, n2 = behind.current().ior;
     const double interface = surface.roughInterface ? 0 : interfaceReflectance(n1, n2, cosine);
@@ -532,6 +574,8 @@ Sight Tracer::impulses(const Surface& surface, const Branch& branch, const Media
       sum += follow(surface, branch, {on, passed, behind, -dot(on, surface.plane)}, random);
     }
   }
+
+  // What the mirror, the interface and a smooth lobe reflect is one ray.
   const Color albedo = gray(1) - surface.belowLobe;
   reflectance += albedo * (gray(1) - coat) * (passed * alongMirror * there);
   if (largest(reflectance) > 0) {
@@ -541,6 +585,7 @@ Sight Tracer::impulses(const Surface& surface, const Branch& branch, const Media
     reflected.tabled += alongMirror * largest(reflected.radiance) / largest(reflectance);
     sum += reflected;
   }
+
   return sum;
 }
 
@@ -560,6 +605,7 @@ Sight Tracer::lobeWeight(const Surface& surface, const Branch& branch, Random& r
   if (material.roughness * material.roughness <= kSmooth) {
     return {.radiance = lobeReflectance(material, nv)};
   }
+
   Integral integral;
   forEvenPoints(pointsASide(branch), random, [&](double u, double v) {
     const Vec facet = facetSeen(material, surface.normal, surface.toViewer, u, v);
@@ -579,15 +625,18 @@ Sight Tracer::lobeWeight(const Surface& surface, const Branch& branch, Random& r
 Sight Tracer::glossyReflection(const Surface& surface, const Branch& branch, Random& random) const {
   const Material& material = surface.material;
   if (!samplesLobe(material) && !surface.roughInterface) return {};
+
   const Vec& normal = surface.normal;
   const Vec& toViewer = surface.toViewer;
   const double nv = dot(normal, toViewer);
   if (surface.smooth && nv < kSkimming) return {.undecided = 1};
+
   if (material.roughness * material.roughness <= kSmooth) {
     const Vec back = mirrored(-toViewer, normal);
     const Color part = lobeReflectance(material, nv);
     return follow(surface, branch, {back, part, branch.media, dot(back, surface.plane)}, random);
   }
+
   Integral integral;
   const auto addPoint = [&](double u, double v) {
     const Vec facet = facetSeen(material, normal, toViewer, u, v);
@@ -604,6 +653,7 @@ Sight Tracer::glossyReflection(const Surface& surface, const Branch& branch, Ran
     if (surface.smooth && dot(toLight, surface.plane) < kSkimming) seen.undecided += 1;
     integral.add(seen, part, 1);
   };
+
   forEvenPoints(pointsASide(branch), random, addPoint);
   return integral.mean(branch.depth == 0 ? options_.lobeSamples() : 1);
 }
@@ -612,6 +662,7 @@ Sight Tracer::glossyReflection(const Surface& surface, const Branch& branch, Ran
 Sight Tracer::frostedTransmission(const Surface& surface, const Branch& branch, const Media& behind,
                                   Random& random) const {
   if (!surface.roughInterface && !surface.roughSheet) return {};
+
   const Material& material = surface.material;
   const Vec& normal = surface.normal;
   const Vec& toViewer = surface.toViewer;
@@ -625,6 +676,7 @@ Sight Tracer::frostedTransmission(const Surface& surface, const Branch& branch, 
     const Vec facet = facetSeen(material, normal, toViewer, u, v);
     const double vh = dot(toViewer, facet);
     if (!(vh > 0)) return integral.addNothing();
+
     Vec on;
     Color part = through;
     if (surface.roughInterface) {
@@ -641,12 +693,14 @@ Sight Tracer::frostedTransmission(const Surface& surface, const Branch& branch, 
       on = back - normal * (dot(normal, back) + std::abs(dot(normal, back)));
       if (samplesLobe(material)) part = part * (gray(1) - lobeReflectance(material, vh));
     }
+
     const Branch child{
         branch.depth + 1, branch.weight * largest(part), true, branch.drawn, branch.width, behind};
     Sight seen = trace({surface.position, on}, child, random);
     if (surface.smooth && -dot(on, surface.plane) < kSkimming) seen.undecided += 1;
     integral.add(seen, part, 1);
   };
+
   forEvenPoints(pointsASide(branch), random, addPoint);
   return integral.mean(branch.depth == 0 ? options_.lobeSamples() : 1);
 }

@@ -50,6 +50,7 @@ std::string motionText(const Motion& motion) {
             number(motion.axis.y) + ", " + number(motion.axis.z) + ", " + number(degrees) +
             R"(], "translate": )" + list(translate) + "}";
   }
+
   const std::string how = motion.inSteps ? R"(, "interpolation": "step"})" : "}";
   return R"(, "motion": {"keys": [)" + text + "]" + how;
 }
@@ -71,6 +72,7 @@ std::string lightText(const Light& light) {
     return R"({"type": "directional", "direction": )" + list(light.direction) +
            R"(, "irradiance": )" + list(light.intensity) + motionText(light.motion) + "}";
   }
+
   std::string text = R"({"position": )" + list(light.position) + R"(, "intensity": )" +
                      list(light.intensity) + R"(, "radius": )" + number(light.radius);
   if (light.kind == Light::Kind::spot) {
@@ -102,9 +104,11 @@ std::string materialText(const Material& m) {
                      R"(, "roughness": )" + number(m.roughness) + R"(, "emission": )" +
                      list(m.emission) + R"(, "mirror": )" + list(m.mirror) +
                      R"(, "mirrorGrazing": )" + list(m.mirrorGrazing);
+
   const auto map = [&](const char* key, int number) {
     if (number != kNone) text += R"(, ")" + (key + (R"(": "map)" + std::to_string(number))) + '"';
   };
+
   map("diffuseMap", m.diffuseMap);
   map("specularMap", m.specularMap);
   map("emissionMap", m.emissionMap);
@@ -113,11 +117,13 @@ std::string materialText(const Material& m) {
   if (m.alphaMap != kNone) text += R"(, "alphaCutoff": )" + number(m.alphaCutoff);
   if (m.coverage < 1) text += R"(, "coverage": )" + number(m.coverage);
   map("coverageMap", m.coverageMap);
+
   if (m.transmits()) {
     text += R"(, "transmission": )" + list(m.transmission) + R"(, "ior": )" + number(m.ior) +
             R"(, "absorption": )" + list(m.absorption) + R"(, "priority": )" +
             std::to_string(m.priority);
   }
+
   if (!m.diffuseReflection) text += R"(, "diffuseReflection": false)";
   if (m.thin) text += R"(, "thin": true)";
   if (m.frosted) text += R"(, "frosted": true)";
@@ -125,11 +131,13 @@ std::string materialText(const Material& m) {
     const bool reflects = m.glossyReflection == Choice::yes;
     text += std::string(R"(, "glossyReflection": )") + (reflects ? "true" : "false");
   }
+
   // Said only where it is not what the rest makes of it.
   const bool casts = !m.transmits() && m.coverage >= 0.5;
   if (m.castsShadow != casts) {
     text += std::string(R"(, "castsShadow": )") + (m.castsShadow ? "true" : "false");
   }
+
   return text + "}";
 }
 
@@ -149,6 +157,7 @@ std::string ply(const Mesh& mesh) {
   if (!mesh.uvs.empty()) out << "property float u\nproperty float v\n";
   out << "element face " << mesh.triangles.size()
       << "\nproperty list uchar int vertex_indices\nend_header\n";
+
   const auto put = [&](const Vec& v) { out << v.x << ' ' << v.y << ' ' << v.z << ' '; };
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     put(mesh.positions[i]);
@@ -157,6 +166,7 @@ std::string ply(const Mesh& mesh) {
     if (!mesh.uvs.empty()) out << mesh.uvs[i][0] << ' ' << mesh.uvs[i][1];
     out << '\n';
   }
+
   for (const auto& [a, b, c] : mesh.triangles) out << "3 " << a << ' ' << b << ' ' << c << '\n';
   return out.str();
 }
