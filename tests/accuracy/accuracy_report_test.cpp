@@ -32,7 +32,8 @@ Point pointOf(PointKind kind, const std::string& knob, const std::string& value,
 SceneSweep sweepOfThree() {
   SceneSweep sweep;
   sweep.scene = "a<b & \"c\" </script>";
-  sweep.width = 32, sweep.height = 20;
+  sweep.width = 32;
+  sweep.height = 20;
   sweep.referenceSamples = 64;
   sweep.truthPng = "png";
 
@@ -61,11 +62,19 @@ TEST(AccuracyReport, EmbedsItsDataUnchanged) {
       << "the name of the scene must not end the script";
 }
 
+// Returns the field of the CSV file for a value that is no number.
+std::string fieldOf(const Json& value) {
+  if (value.is_null()) return "";
+  if (value.is_boolean()) return value == true ? "yes" : "no";
+  return value.get<std::string>();
+}
+
 // The points of the report are the rows of the CSV file, with more digits.
 TEST(AccuracyReport, HasTheRowsOfTheCsvFile) {
   const Json facts{{"cpu", "A <fast> processor"}, {"seed", 1}};
   SceneSweep sweep = sweepOfThree();
-  sweep.points[1].total.rmse = 1.0 / 3, sweep.points[2].total.psnrDb = HUGE_VAL;
+  sweep.points[1].total.rmse = 1.0 / 3;
+  sweep.points[2].total.psnrDb = HUGE_VAL;
 
   const Json points = reportJson({sweep}, facts)["scenes"][0]["points"];
   const std::vector<CsvRow> rows = parseCsv(sweepCsv({sweep}, facts), "sweep.csv");
@@ -75,14 +84,11 @@ TEST(AccuracyReport, HasTheRowsOfTheCsvFile) {
     EXPECT_GT(rows[i].size(), 65u);
     for (const auto& [name, field] : rows[i]) {
       const Json& value = points[i].at(name);
-      if (value.is_number())
+      if (value.is_number()) {
         EXPECT_NEAR(value.get<double>(), std::stod(field), 1e-6 * std::abs(std::stod(field)));
-      else
-        EXPECT_EQ(value.is_null()      ? ""
-                  : value.is_boolean() ? (value == true ? "yes" : "no")
-                                       : value.get<std::string>(),
-                  field)
-            << name;
+      } else {
+        EXPECT_EQ(fieldOf(value), field) << name;
+      }
     }
   }
 }

@@ -184,9 +184,8 @@ Scene lattice(double share, float radiance) {
       const double left = x - 32 + place(random), low = y - 24 + place(random);
       const auto first = static_cast<std::uint32_t>(squares.positions.size());
       for (int corner = 0; corner < 4; ++corner) {
-        const bool isRight = corner == 1 || corner == 2, isHigh = corner >= 2;
-        squares.positions.emplace_back(
-            Vec3d{left + (isRight ? side : 0), low + (isHigh ? side : 0), 0});
+        const double right = corner == 1 || corner == 2 ? side : 0, up = corner < 2 ? 0 : side;
+        squares.positions.emplace_back(Vec3d{left + right, low + up, 0});
       }
       squares.triangles.push_back({first, first + 1, first + 2});
       squares.triangles.push_back({first, first + 2, first + 3});
@@ -324,8 +323,13 @@ TEST(Receipts, HaveTheCommandWithoutTheBudget) {
   receipt.budget.ms = 100;
   receipt.chosen = {{"spp", "4"}, {"depth", "8"}};
   receipt.approximate = {{"depth", "8", "64", 0.002}};
-  receipt.probeMs = 10, receipt.measuredMs = 85, receipt.expectedMs = 80;
-  receipt.error = 0.02, receipt.low = 0.015, receipt.high = 0.025, receipt.ended = 0.001;
+  receipt.probeMs = 10;
+  receipt.measuredMs = 85;
+  receipt.expectedMs = 80;
+  receipt.error = 0.02;
+  receipt.low = 0.015;
+  receipt.high = 0.025;
+  receipt.ended = 0.001;
 
   EXPECT_EQ(receiptText(receipt, "whit render atrium"),
             "  chosen --spp 4 --depth 8\n"

@@ -124,9 +124,12 @@ SceneSweep sweepOf(const std::vector<Point>& points) {
 TEST(Noise, IsTheMedianSpread) {
   SceneSweep sweep = sweepOf({knobPoint("a", "1", 1, 0), knobPoint("b", "1", 2, 0),
                               knobPoint("c", "1", 1, 0), knobPoint("d", "1", 1, 0)});
-  sweep.points[1].timing.ratioLow = 0.98, sweep.points[1].timing.ratioHigh = 1.02;
-  sweep.points[2].timing.ratioLow = 1.8, sweep.points[2].timing.ratioHigh = 2.2;
-  sweep.points[3].timing.ratioLow = 0.5, sweep.points[3].timing.ratioHigh = 1.5;
+  sweep.points[1].timing.ratioLow = 0.98;
+  sweep.points[1].timing.ratioHigh = 1.02;
+  sweep.points[2].timing.ratioLow = 1.8;
+  sweep.points[2].timing.ratioHigh = 2.2;
+  sweep.points[3].timing.ratioLow = 0.5;
+  sweep.points[3].timing.ratioHigh = 1.5;
   sweep.points[4].timing.rounds = 1;
   sweep.points[0].sameSamples.emplace().flipMean = 0.0015;
 

@@ -137,7 +137,8 @@ TEST(Knobs, TransportIsWhatTheModelLeavesOut) {
   RenderOptions options;
   EXPECT_FALSE(hasTransport(options));
 
-  options.spp = 4, options.indirect = 16;
+  options.spp = 4;
+  options.indirect = 16;
   EXPECT_TRUE(hasTransport(options));
   EXPECT_EQ(transportPaths(options), 64);
 

@@ -103,7 +103,10 @@ TEST(SceneDigest, TheOrderOfCoincidentSpheresMatters) {
 TEST(OptionsDigest, CoversWhatShapesThePictureAndNothingElse) {
   RenderOptions options;
   const std::string before = digestOf(options);
-  options.threads = 7, options.tile = 8, options.batch = Batch::frame, options.queue = 99;
+  options.threads = 7;
+  options.tile = 8;
+  options.batch = Batch::frame;
+  options.queue = 99;
   EXPECT_EQ(digestOf(options), before);
   options.quality = Quality::fine;  // only a name
   EXPECT_EQ(digestOf(options), before);

@@ -12,7 +12,8 @@ Scope quick(double frameRays, double raysPerSample) {
 
 Point arithmeticPoint() {
   Point point;
-  point.knob = "robust", point.value = "off";
+  point.knob = "robust";
+  point.value = "off";
   point.cause = Cause::arithmetic;
   return point;
 }

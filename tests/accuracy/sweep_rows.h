@@ -92,8 +92,9 @@ inline void compareRows(const CsvRow& before, const CsvRow& now, const GrowthTol
 
     const double limit = *old * (1 + tolerance.relative) + slack;
     if (fresh && *fresh <= limit) return;  // false for NaN, which counts as grown
-    grown.push_back(keyOf(now) + ": " + name + " was " + field(before, name) + ", is " +
-                    (fresh ? field(now, name) : "missing") + formatted(" (limit %.4g)", limit));
+    const std::string found = fresh ? field(now, name) : "missing";
+    grown.push_back(keyOf(now) + ": " + name + " was " + field(before, name) + ", is " + found +
+                    formatted(" (limit %.4g)", limit));
   };
 
   for (const char* group :

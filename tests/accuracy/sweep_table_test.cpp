@@ -15,7 +15,8 @@ SceneSweep widest() {
   sweep.scene = "a/long/path/to/" + std::string(60, 'x') + ".json";
   sweep.width = sweep.height = 16384;
   sweep.machine.threads = 128;
-  sweep.machine.simd = "avx3_zen4", sweep.machine.embree = "4.3.3 avx512";
+  sweep.machine.simd = "avx3_zen4";
+  sweep.machine.embree = "4.3.3 avx512";
   sweep.referenceSamples = 256;
   sweep.referenceMs = 1e7;
 
@@ -28,9 +29,14 @@ SceneSweep widest() {
     sweep.idle.push_back({point.label(), "the minute was over"});
     Timing& t = point.timing;
     t.rounds = t.frames = 5;
-    t.settledMs = 99999.99, t.ratio = 9999, t.ratioLow = 1, t.ratioHigh = 19999;
+    t.settledMs = 99999.99;
+    t.ratio = 9999;
+    t.ratioLow = 1;
+    t.ratioHigh = 19999;
     point.stats.meter.tally[0].rays = 9'999'999'999;
-    point.total.flipMean = 0.99999, point.total.rmse = 9.9e+10, point.total.pixelsGe1CodePct = 100;
+    point.total.flipMean = 0.99999;
+    point.total.rmse = 9.9e+10;
+    point.total.pixelsGe1CodePct = 100;
     point.total.nonFinite = 1'000'000;
     point.sameSamples = point.total;
     point.onFront = true;
@@ -56,7 +62,9 @@ TEST(SweepTable, TimesThatSayNothingTakeNoMoreRoom) {
   SceneSweep wild = widest();
   for (Point& point : wild.points) {
     Timing& t = point.timing;
-    t.ratio = 1.26e7, t.ratioLow = 1e-5, t.ratioHigh = 1e12;
+    t.ratio = 1.26e7;
+    t.ratioLow = 1e-5;
+    t.ratioHigh = 1e12;
   }
   expectToFit(wild);
 

@@ -105,9 +105,15 @@ std::vector<float> traceInPackets(const whit::EmbreeScene& scene, const Arrays& 
         // Lanes beyond the row's end hold a ray, but are not live.
         const std::size_t i = std::min(first + k, kRays - 1);
         const Vec3f o = rays.origin(i), d = rays.direction(i);
-        ray.org_x[k] = o.x, ray.org_y[k] = o.y, ray.org_z[k] = o.z;
-        ray.dir_x[k] = d.x, ray.dir_y[k] = d.y, ray.dir_z[k] = d.z;
-        ray.tfar[k] = INFINITY, ray.mask[k] = ~0u, ray.id[k] = static_cast<unsigned>(k);
+        ray.org_x[k] = o.x;
+        ray.org_y[k] = o.y;
+        ray.org_z[k] = o.z;
+        ray.dir_x[k] = d.x;
+        ray.dir_y[k] = d.y;
+        ray.dir_z[k] = d.z;
+        ray.tfar[k] = INFINITY;
+        ray.mask[k] = ~0u;
+        ray.id[k] = static_cast<unsigned>(k);
         packet.hit.geomID[k] = packet.hit.instID[0][k] = kNone;
       }
 

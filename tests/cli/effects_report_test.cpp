@@ -63,7 +63,8 @@ TEST(RunRatios, AreMediansOfRatiosWithinATurn) {
   EXPECT_DOUBLE_EQ(ratio.outsideEmbree, 1.5);
 
   RunSummary first = steps[0].run, second = steps[1].run;
-  first.name = "effects auto", second.name = "effects all";
+  first.name = "effects auto";
+  second.name = "effects all";
   const std::string text = ratioText(first, second);
   EXPECT_TRUE(text.starts_with("made-up, effects all over effects auto, medians of 5 turns\n"))
       << text;

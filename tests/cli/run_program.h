@@ -72,7 +72,8 @@ inline pid_t startWhit(
 inline int waitFor(pid_t child) {
   int status = 0;
   waitpid(child, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  if (WIFEXITED(status)) return WEXITSTATUS(status);
+  return -WTERMSIG(status);
 }
 
 // Waits for `happened` for a minute at most, which is far longer than it ever takes. Ends the

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <numeric>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "exact_rays.h"
@@ -324,8 +325,8 @@ TEST(RayQueries, FindSpheresInClosedForm) {
     EXPECT_EQ(all.sides[all.offsets[i] + 1], -1);
     EXPECT_EQ(hits.objects[i], first ? 0u : 1u);
     // The normal of x^2/a^2 + y^2/b^2 + z^2/c^2 = 1.
-    const double nx = first ? x : (x - 10) / 4, ny = y, nz = first ? z : z / 0.25;
-    EXPECT_NEAR(hits.shadingNormals[3 * i], nx / std::hypot(nx, ny, nz), 1e-5);
+    const auto [nx, nz] = first ? std::pair{x, z} : std::pair{(x - 10) / 4, z / 0.25};
+    EXPECT_NEAR(hits.shadingNormals[3 * i], nx / std::hypot(nx, y, nz), 1e-5);
   }
 }
 
@@ -421,7 +422,8 @@ TEST(RayQueries, CountHitsBetweenTheLimits) {
   const auto tOf = [&](double from, double to) {
     const double limits[] = {from, to};
     Rays rays = down.rays();
-    rays.near.doubles = {limits, 1}, rays.far.doubles = {limits + 1, 1};
+    rays.near.doubles = {limits, 1};
+    rays.far.doubles = {limits + 1, 1};
     return renderer.closest(rays).t[0];
   };
 

@@ -93,7 +93,8 @@ void putJpeg(const std::string& name, int side, int channels, bool progressive, 
   jpeg_mem_dest(&encoder, &bytes, &size);
   encoder.image_width = encoder.image_height = static_cast<JDIMENSION>(side);
   encoder.input_components = channels;
-  encoder.in_color_space = channels == 1 ? JCS_GRAYSCALE : channels == 3 ? JCS_RGB : JCS_CMYK;
+  encoder.in_color_space = channels == 3 ? JCS_RGB : JCS_CMYK;
+  if (channels == 1) encoder.in_color_space = JCS_GRAYSCALE;
   jpeg_set_defaults(&encoder);
   encoder.restart_interval = static_cast<unsigned>(restart);
   if (progressive) jpeg_simple_progression(&encoder);

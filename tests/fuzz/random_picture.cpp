@@ -221,7 +221,10 @@ SceneDescription anyScene(Draws& draws) {
   camera.eye = pointIn(draws, 4);
   camera.at = pointIn(draws, 1);
   camera.projection = static_cast<Projection>(draws.below(kWords<Projection>.size()));
-  if (isTable(camera)) camera.azimuths = {-30, 30}, camera.elevations = {20, -20};
+  if (isTable(camera)) {
+    camera.azimuths = {-30, 30};
+    camera.elevations = {20, -20};
+  }
   // The projection was drawn already, and other members depend on it.
   const Projection kept = camera.projection;
   drawMembers(draws, 0.2, scene, camera);
@@ -230,7 +233,10 @@ SceneDescription anyScene(Draws& draws) {
 
   // Some members depend on each other.
   if (camera.projection == Projection::fisheye && camera.k.empty()) camera.k = {30, 30, 16, 12};
-  if (!camera.k.empty()) camera.k[0] = camera.k[1] = 30, camera.kSize = {33, 24};
+  if (!camera.k.empty()) {
+    camera.k[0] = camera.k[1] = 30;
+    camera.kSize = {33, 24};
+  }
   if (!camera.k.empty() || !camera.distortion.empty()) camera.orthographicHeight = 0;
   scene.cameras.push_back(camera);
   return scene;

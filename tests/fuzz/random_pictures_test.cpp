@@ -35,7 +35,10 @@ void renderPictures(std::uint32_t first, std::uint32_t count, const std::string&
     EXPECT_NO_THROW(made += renderPicture(bytesOfPicture(number), target, &stats));
     limited += stats.limitedPixels > 0;
     notFinite += stats.nonFinitePixels > 0;
-    if (watch.ms() > most) most = watch.ms(), slowest = number;
+    if (watch.ms() > most) {
+      most = watch.ms();
+      slowest = number;
+    }
   }
 
   std::printf(

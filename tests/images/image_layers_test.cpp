@@ -17,10 +17,15 @@ ChannelLayers sampleChannels() {
   for (std::size_t i = 0; i < 12; ++i) {
     const auto x = static_cast<float>(i);
     ChannelValues v;
-    v.z = 1.0f / 3 + x, v.distance = 1e-7f * x;
-    v.position = {x, -x, 70001.25f}, v.normal = {0, x / 12, -1}, v.albedo = {0.1f, x / 12, 1};
+    v.z = 1.0f / 3 + x;
+    v.distance = 1e-7f * x;
+    v.position = {x, -x, 70001.25f};
+    v.normal = {0, x / 12, -1};
+    v.albedo = {0.1f, x / 12, 1};
     v.uv = {x, 0.5f};
-    v.object = 0xfffffff0u + static_cast<std::uint32_t>(i), v.material = 3, v.triangle = 1u << 24;
+    v.object = 0xfffffff0u + static_cast<std::uint32_t>(i);
+    v.material = 3;
+    v.triangle = 1u << 24;
 
     // Pixel 5 shows no surface.
     layers.keep(i, i == 5 ? ChannelValues() : v);
@@ -173,7 +178,8 @@ using Codes = std::vector<std::uint16_t>;
 
 TEST_F(ChannelPng, DepthIsInThousandthsOfAUnit) {
   ChannelValues v;
-  v.z = 1.2344f, v.distance = 9;
+  v.z = 1.2344f;
+  v.distance = 9;
   EXPECT_EQ(codes(Channel::depth, v), (Codes{1234, 0}));
   EXPECT_EQ(components_, 1);
 
@@ -203,7 +209,9 @@ TEST_F(ChannelPng, VectorsAndColors) {
 
 TEST_F(ChannelPng, NumbersAreWholeOrRefused) {
   ChannelValues v;
-  v.object = 65534, v.material = 0, v.triangle = 65535;
+  v.object = 65534;
+  v.material = 0;
+  v.triangle = 65535;
   EXPECT_EQ(codes(Channel::object, v), (Codes{65534, 65535}));
   EXPECT_EQ(codes(Channel::material, v), (Codes{0, 65535}));
   EXPECT_EQ(statusOf([&] { codes(Channel::triangle, v); }), ExitStatus::limit);

@@ -153,7 +153,7 @@ TEST_F(ReadImage, RealFilesLoad) {
   if (!std::filesystem::exists(folder + "/env"))
     GTEST_SKIP() << "SKIPPED: no test data in '" << folder << "'; set WHIT_DATA";
 
-  int read = 0;
+  int images = 0;
   for (const char* part : {"/env", "/crytek_sponza/textures"}) {
     for (const auto& entry : std::filesystem::directory_iterator(folder + part)) {
       const std::string extension = entry.path().extension().string();
@@ -164,12 +164,13 @@ TEST_F(ReadImage, RealFilesLoad) {
       const RawImage image = readRawImage(entry.path().string(), limits_, warnings_);
       const std::size_t values =
           static_cast<std::size_t>(image.width * image.height * image.channels);
-      EXPECT_EQ(image.linear ? image.values.size() : image.codes.size(), values);
+      const std::size_t read = image.linear ? image.values.size() : image.codes.size();
+      EXPECT_EQ(read, values);
       EXPECT_GT(values, 0u);
-      ++read;
+      ++images;
     }
   }
-  EXPECT_GE(read, 3);
+  EXPECT_GE(images, 3);
 }
 
 // Both files hold the same picture, one in scanlines of DWAB and one in tiles of ZIP.

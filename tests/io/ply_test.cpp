@@ -40,9 +40,9 @@ class Ply : public SceneFileTest {
 
   static std::string binarySquare(bool little) {
     std::string text = squareHeader(little ? "binary_little_endian" : "binary_big_endian");
-    for (int i = 0; i < 4; ++i) {
-      text += bytes(i == 1 || i == 2 ? 1.0f : 0.0f, little) + bytes(i >= 2 ? 1.0 : 0.0, little) +
-              bytes<std::int16_t>(-300, little) + bytes<std::uint8_t>(255, little);
+    for (const auto& [x, y] : {std::pair{0.0f, 0.0}, {1.0f, 0.0}, {1.0f, 1.0}, {0.0f, 1.0}}) {
+      text += bytes(x, little) + bytes(y, little) + bytes<std::int16_t>(-300, little) +
+              bytes<std::uint8_t>(255, little);
     }
 
     // The unknown element, whose bytes are skipped by its declaration.

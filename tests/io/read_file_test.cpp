@@ -39,7 +39,8 @@ TEST_F(ReadFile, PointersOfGitLfsAreNoImages) {
 }
 
 std::string inUtf16(const std::string& text, bool little, bool marked) {
-  std::string wide = !marked ? "" : little ? "\xff\xfe" : "\xfe\xff";
+  std::string wide;
+  if (marked) wide = little ? "\xff\xfe" : "\xfe\xff";
   for (const char c : text) {
     if (!little) wide += '\0';
     wide += c;

@@ -243,9 +243,9 @@ std::string frustum(int axis, double top) {
 std::string boxObj(const Vec3d& low, const Vec3d& high, int first) {
   std::string text;
   for (int i = 0; i < 8; ++i) {
-    text += "v " + std::to_string(i & 1 ? high.x : low.x) + " " +
-            std::to_string(i & 2 ? high.y : low.y) + " " + std::to_string(i & 4 ? high.z : low.z) +
-            "\n";
+    const Vec3d p = BoxOf<Vec3d>{low, high}.corner(i);
+    text +=
+        "v " + std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) + "\n";
   }
 
   for (const auto& face : {std::array{0, 2, 3, 1},

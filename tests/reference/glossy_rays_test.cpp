@@ -75,7 +75,8 @@ TEST_P(VisibleNormals, AreDistributedAsTheyAreSeen) {
   int cells = 0;
   for (std::size_t i = 0; i < seen.size(); ++i) {
     if (expected[i] < 20) {  // too few for the normal approximation: taken together
-      pooledSeen += seen[i], pooledExpected += expected[i];
+      pooledSeen += seen[i];
+      pooledExpected += expected[i];
       continue;
     }
     chiSquared += (seen[i] - expected[i]) * (seen[i] - expected[i]) / expected[i];

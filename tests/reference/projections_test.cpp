@@ -241,7 +241,7 @@ TEST(Projections, TheFacesOfACubeMapJoin) {
                                    {0, 1, 0}, {0, 0, 1},  {0, 0, -1}};
 
   const auto at = [&](const CameraFrame& frame, int face, double x, double y) {
-    const int column = &frame == &inRow ? face : face % 3, row = &frame == &inRow ? 0 : face / 3;
+    const int columns = frame.width / 100, column = face % columns, row = face / columns;
     return inCamera(frame, generateRay(frame, column * 100 + x, row * 100 + y).direction);
   };
 
@@ -268,12 +268,18 @@ TEST(Projections, AStereoPairLooksThroughTwoEyes) {
   const CameraFrame one = makeCameraFrame(camera, 100, 80);
   const Vec3d aside = normalized(one.right) * 0.25;
 
-  for (const Stereo stereo : {Stereo::leftRight, Stereo::topBottom}) {
+  // The second picture lies this many pixels beside or below the first one.
+  struct Place {
+    Stereo stereo;
+    int x, y;
+  };
+  for (const auto& [stereo, x, y] :
+       {Place{Stereo::leftRight, 100, 0}, {Stereo::topBottom, 0, 80}}) {
     camera.stereo = stereo;
-    const bool beside = stereo == Stereo::leftRight;
-    const CameraFrame two = makeCameraFrame(camera, beside ? 200 : 100, beside ? 80 : 160);
+    const CameraFrame two = makeCameraFrame(camera, 100 + x, 80 + y);
     const Ray wanted = generateRay(one, 30.5, 20.5), left = generateRay(two, 30.5, 20.5);
-    const Ray right = generateRay(two, beside ? 130.5 : 30.5, beside ? 20.5 : 100.5);
+    const Ray right = generateRay(two, x + 30.5, y + 20.5);
+
     EXPECT_EQ(left.direction, wanted.direction);
     EXPECT_EQ(right.direction, wanted.direction);
     EXPECT_LT(length(left.origin - (one.eye - aside)), 1e-15);

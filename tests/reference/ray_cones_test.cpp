@@ -186,10 +186,8 @@ TEST(RayCone, CountsTexelsOfInstancesInTheWorld) {
 
   Object floor;
   floor.meshes = {floorAt(0, kTexels / 2.0f, builder.add(m))};
-  Affine twice;
-  twice.x *= 2, twice.y *= 2, twice.z *= 2;
 
-  builder.place(std::move(floor), {twice, Affine::translation({1000, 0, 0})});
+  builder.place(std::move(floor), {Affine::scaling(Vec3d(2)), Affine::translation({1000, 0, 0})});
   const Scene scene = builder.build();
   ASSERT_EQ(scene.instances.size(), 2u);
 

@@ -6,6 +6,7 @@
 #include "brute_force.h"
 #include "reference/reference.h"
 #include "reference/world.h"
+#include "set_columns.h"
 #include "stages/chunk.h"
 
 namespace whit::test {
@@ -61,11 +62,5 @@ class SmallChunk {
   Chunk chunk;
   reference::World world;
 };
-
-template <typename Columns>
-void setRay(const Columns& rays, std::size_t i, const Vec3f& origin, const Vec3f& direction) {
-  rays.orgX[i] = origin.x, rays.orgY[i] = origin.y, rays.orgZ[i] = origin.z;
-  rays.dirX[i] = direction.x, rays.dirY[i] = direction.y, rays.dirZ[i] = direction.z;
-}
 
 }  // namespace whit::test

@@ -80,7 +80,8 @@ TEST_P(Accumulating, FewerSamplesShowTheSameWithMoreNoise) {
 
     EXPECT_LT(squares, last);
     EXPECT_LT(said, lastSaid);
-    last = squares, lastSaid = said;
+    last = squares;
+    lastSaid = said;
   }
 }
 

@@ -554,7 +554,10 @@ TEST(ChannelLaws, AreThoseOfOneSample) {
     Vec2f nearest;
     for (const Vec2f& s : samples) {
       const double away = std::hypot(double{s.x} - 0.5, double{s.y} - 0.5);
-      if (away < best) best = away, nearest = s;
+      if (away < best) {
+        best = away;
+        nearest = s;
+      }
     }
 
     const Film film = filmOf(scene, o);

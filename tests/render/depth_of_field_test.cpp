@@ -35,7 +35,8 @@ struct Focusing {
   // 2 A |d - F| / F.
   double diameter() const {
     const double off = 2 * aperture * std::fabs(distance - focus);
-    return parallel ? off / focus / pixel() : off / distance / pixelAt(focus);
+    if (parallel) return off / focus / pixel();
+    return off / distance / pixelAt(focus);
   }
 };
 
@@ -100,7 +101,8 @@ struct Spread {
         const double dx = px + 0.5 - kCenter[0], dy = py + 0.5 - kCenter[1];
         const double r = std::hypot(dx, dy);
         flux += value;
-        x += value * dx, y += value * dy;
+        x += value * dx;
+        y += value * dy;
         if (value > 0) farthest = std::max(farthest, r);
 
         if (r >= inner) continue;
@@ -112,7 +114,8 @@ struct Spread {
         pixels[cell] += 1;
       }
     }
-    x /= flux, y /= flux;
+    x /= flux;
+    y /= flux;
   }
 };
 

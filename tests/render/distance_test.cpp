@@ -50,8 +50,8 @@ oracle::Color opacity(int x, int y) { return oracle::gray(leafAt(x, y) >= 0 ? 1 
 // The leaves are opaque in the middle and thinner towards either side.
 oracle::Color softOpacity(int x, int y) {
   if (leafAt(x, y) < 0) return oracle::gray(0);
-  const int toLeft = leafAt(x - 3, y) >= 0 ? 1 : 0, toRight = leafAt(x + 3, y) >= 0 ? 1 : 0;
-  return oracle::gray(toLeft + toRight == 2 ? 1 : 0.3);
+  const bool inside = leafAt(x - 3, y) >= 0 && leafAt(x + 3, y) >= 0;
+  return oracle::gray(inside ? 1 : 0.3);
 }
 
 Pattern leavesOn(oracle::Color clear) {

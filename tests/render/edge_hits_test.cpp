@@ -10,6 +10,7 @@
 #include <random>
 
 #include "accel/accel.h"
+#include "set_columns.h"
 #include "unit/scene_builder.h"
 
 namespace whit::test {
@@ -71,14 +72,7 @@ std::vector<HitBits> trace(const Accel& accel, const Rays& rays,
   hits.allocate(roundUpToBlock(kRays), FeatureSet());
 
   for (std::size_t k = 0; k < kRays; ++k) {
-    const Vec3f& o = rays.origin[order[k]];
-    const Vec3f& d = rays.direction[order[k]];
-    columns->orgX[k] = o.x;
-    columns->orgY[k] = o.y;
-    columns->orgZ[k] = o.z;
-    columns->dirX[k] = d.x;
-    columns->dirY[k] = d.y;
-    columns->dirZ[k] = d.z;
+    setRay(*columns, k, rays.origin[order[k]], rays.direction[order[k]]);
   }
 
   FrameConstants constants;

@@ -65,7 +65,10 @@ TEST_P(EffectLaw, DisablingAnEffectChangesASceneThatHasIt) {
   if (effect == Effect::softShadows) o.lightSamples = 2;
   if (effect == Effect::indirect) o.indirect = 2;
   if (effect == Effect::ambientOcclusion) o.ambientSamples = 2;
-  if (effect == Effect::depthOfField) o.camera = "lens", o.spp = 2;
+  if (effect == Effect::depthOfField) {
+    o.camera = "lens";
+    o.spp = 2;
+  }
 
   const Image with = render(scene, o).image;
   o.disable = EffectSet().with(effect);

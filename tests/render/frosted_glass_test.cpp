@@ -31,9 +31,20 @@ Scene frostedThings() {
   for (int i = 0; i < 6; ++i) {
     Material m = glassOf(i == 0 ? 0.02f : 0.15f * static_cast<float>(i));
     m.ior = 1.2f + 0.2f * static_cast<float>(i);
-    if (i == 1) m.mirror = Rgb(0.1f), m.mirrorGrazing = Rgb(0.5f);
-    if (i == 2) m.coat = true, m.mirror = Rgb(0.2f), m.mirrorGrazing = Rgb(1.0f);
-    if (i == 3) m.specular = Rgb(0.04f), m.diffuse = Rgb(0.4f, 0.2f, 0.1f), m.transmission *= 0.5f;
+    if (i == 1) {
+      m.mirror = Rgb(0.1f);
+      m.mirrorGrazing = Rgb(0.5f);
+    }
+    if (i == 2) {
+      m.coat = true;
+      m.mirror = Rgb(0.2f);
+      m.mirrorGrazing = Rgb(1.0f);
+    }
+    if (i == 3) {
+      m.specular = Rgb(0.04f);
+      m.diffuse = Rgb(0.4f, 0.2f, 0.1f);
+      m.transmission *= 0.5f;
+    }
     if (i == 4) m.roughnessMap = map;
     const float x = static_cast<float>(i) - 2.5f;
     Mesh block = box({x - 0.4f, 0.1f, -0.4f}, {x + 0.4f, 0.9f, 0.4f}, builder.add(m));
@@ -48,7 +59,10 @@ Scene frostedThings() {
   for (int i = 0; i < 4; ++i) {
     Material m = glassOf(0.3f);
     m.thin = true;
-    if (i > 0) m.specular = Rgb(0.04f), m.glossyReflection = true;
+    if (i > 0) {
+      m.specular = Rgb(0.04f);
+      m.glossyReflection = true;
+    }
     if (i == 2) m.coverage = 0.6f;
     const float x = static_cast<float>(i) - 2.5f, z = i == 3 ? 0.4f : 1.5f;
     builder.add(quad({x - 0.3f, 0.2f, z}, {x + 0.3f, 0.2f, z}, {x + 0.3f, 0.8f, z},

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "set_columns.h"
 #include "simd/kernels.h"
 #include "stages/columns.h"
 
@@ -47,8 +48,7 @@ template <typename Columns>
 void fillRays(const Columns& rays) {
   for (std::size_t i = 0; i < kPacked; ++i) {
     const auto x = static_cast<float>(i);
-    rays.orgX[i] = x, rays.orgY[i] = -2 * x, rays.orgZ[i] = x + 0.5f;
-    rays.dirX[i] = 1, rays.dirY[i] = -x, rays.dirZ[i] = 0.25f * x;
+    setRay(rays, i, {x, -2 * x, x + 0.5f}, {1, -x, 0.25f * x});
   }
 }
 
@@ -149,8 +149,9 @@ TEST_F(Packets, GiveVisibilityBackToTheSlots) {
     std::vector<float> visible(4 * kPacked, -7.0f);
     for (std::size_t i = 0; i < kPacked; ++i) {
       // Embree sets tFar to -infinity where a ray is occluded.
+      constexpr float kFar[] = {-kInf, 0, 0.75f};
       slot[i] = static_cast<std::uint32_t>(3 * i);
-      word(i, packet_column::tFar, width) = i % 3 == 0 ? -kInf : i % 3 == 1 ? 0.0f : 0.75f;
+      word(i, packet_column::tFar, width) = kFar[i % 3];
     }
 
     simd::findPacketKernels().unpackVisibility(packets(width), kPacked, slot.data(),
@@ -158,7 +159,8 @@ TEST_F(Packets, GiveVisibilityBackToTheSlots) {
 
     for (std::size_t at = 0; at < visible.size(); ++at) {
       const bool written = at % 3 == 0 && at / 3 < kPacked;
-      EXPECT_EQ(visible[at], !written ? -7.0f : at / 3 % 3 == 0 ? 0.0f : 1.0f) << at;
+      const float visibility = at / 3 % 3 == 0 ? 0.0f : 1.0f;
+      EXPECT_EQ(visible[at], written ? visibility : -7.0f) << at;
     }
   });
 }

@@ -94,7 +94,8 @@ TEST(Projected, EveryWayOfRenderingGivesTheSameBits) {
     }
 
     RenderOptions tiled = usual;
-    tiled.tile = 5, tiled.threads = 3;
+    tiled.tile = 5;
+    tiled.threads = 3;
     expectSame(tiled, "tiles of 5");
 
     for (const std::string& target : simd::availableTargets()) {

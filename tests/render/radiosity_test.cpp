@@ -209,7 +209,8 @@ std::vector<Seen> wantedImage(const Scene& scene, const Radiosity& radiosity) {
 struct Residuals {
   double sum = 0, squares = 0, wanted = 0, n = 0;
   void add(double got, double expected) {
-    sum += got - expected, squares += (got - expected) * (got - expected);
+    sum += got - expected;
+    squares += (got - expected) * (got - expected);
     wanted += expected, ++n;
   }
 
@@ -255,7 +256,10 @@ class RadiosityRoom : public testing::Test {
   static Residuals all(const std::array<Residuals, 6>& walls) {
     Residuals sum;
     for (const Residuals& w : walls) {
-      sum.sum += w.sum, sum.squares += w.squares, sum.wanted += w.wanted, sum.n += w.n;
+      sum.sum += w.sum;
+      sum.squares += w.squares;
+      sum.wanted += w.wanted;
+      sum.n += w.n;
     }
     return sum;
   }
@@ -301,7 +305,10 @@ double slopeOf(const std::vector<std::pair<double, double>>& errors) {
   const auto n = static_cast<double>(errors.size());
   for (const auto& [samples, error] : errors) {
     const double a = std::log(samples), b = std::log(error);
-    x += a, y += b, xx += a * a, xy += a * b;
+    x += a;
+    y += b;
+    xx += a * a;
+    xy += a * b;
   }
   return (n * xy - x * y) / (n * xx - x * x);
 }

@@ -23,7 +23,8 @@ struct Soup {
     description.name = "soup";
     description.materials.resize(1);
     description.materials[0].name = "gray";
-    description.width = 64, description.height = 48;
+    description.width = 64;
+    description.height = 48;
     mesh.materials = {0};
   }
 

@@ -32,7 +32,11 @@ SeenOfOrder seenOf(const Scene& scene, int width = 1) {
   SeenOfOrder seen;
   for (const bool reference : {false, true}) {
     Film film = makeFilm(scene, options);
-    reference ? renderer.renderReference(camera, film) : renderer.render(camera, film);
+    if (reference) {
+      renderer.renderReference(camera, film);
+    } else {
+      renderer.render(camera, film);
+    }
     for (const Rgb& pixel : film.image.pixels) seen[reference].push_back(pixel.x);
   }
   return seen;
@@ -114,10 +118,11 @@ TEST(SceneOrder, TrianglesOfAMeshComeInTheirOrder) {
       std::vector<Affine> places{Affine()};
       if (twice) places.push_back(Affine::translation({0, 7, 0}) * Affine::scaling(Vec3d(0.01)));
 
-      Object object{"object", {both}};
-      object.meshes.insert(behind ? object.meshes.end() : object.meshes.begin(), apart);
+      Object object{"object", {apart, both}};
+      if (behind) object.meshes = {both, apart};
       one.place(std::move(object), places);
-      expectOfOrder(seenOf(one.build()), {behind ? kEarly : kLate}, behind ? "behind" : "before");
+      const float wanted = behind ? kEarly : kLate;
+      expectOfOrder(seenOf(one.build()), {wanted}, behind ? "behind" : "before");
     }
   }
 }

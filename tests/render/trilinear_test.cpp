@@ -62,8 +62,7 @@ SceneDescription textured() {
 
   Object sign;
   sign.meshes = {quad({0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, matt)};
-  Affine far = Affine::translation({3, 0, -20});
-  far.x *= 3, far.y *= 5;
+  const Affine far = Affine::translation({3, 0, -20}) * Affine::scaling({3, 5, 1});
   builder.place(std::move(sign), {Affine::translation({-3, 0, -4}), far});
 
   builder.description.lights.push_back(lightAt({2, 8, 3}, 300));

@@ -83,9 +83,9 @@ std::string listOf(Numbers& numbers, int count, Colors colors, double high = 1) 
   std::string list;
   for (int i = 0; i < count; ++i) {
     const bool isGray = colors == Colors::gray && i < 3;
-    list += (i == 0 ? "[" : ",") + (isGray ? gray : std::to_string(numbers.in(0, high)));
+    list += "," + (isGray ? gray : std::to_string(numbers.in(0, high)));
   }
-  return list + "]";
+  return "[" + list.substr(1) + "]";
 }
 std::string number(Numbers& numbers, double low = 0, double high = 1) {
   return std::to_string(numbers.in(low, high));

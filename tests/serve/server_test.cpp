@@ -130,7 +130,8 @@ class Serving : public testing::Test {
         held.erase(0, 4 + word(0));
 
         // The camera turns to and fro, because in some directions a turn changes no pixel.
-        std::string acts = !shakes ? "" : drawn % 16 < 8 ? "left 7 0" : "left -7 0";
+        std::string acts;
+        if (shakes) acts = drawn % 16 < 8 ? "left 7 0" : "left -7 0";
         if (json.contains("frame")) {
           ++drawn;
           pageDraws_ = true;

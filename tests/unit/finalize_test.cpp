@@ -77,9 +77,7 @@ TEST(Finalize, SuppliedCameraSeesAllOfTheScene) {
     const Vec3d right = f.right / dot(f.right, f.right), up = f.up / dot(f.up, f.up);
 
     for (int i = 0; i < 8; ++i) {
-      const Vec3d p{i & 1 ? scene.upper.x : scene.lower.x, i & 2 ? scene.upper.y : scene.lower.y,
-                    i & 4 ? scene.upper.z : scene.lower.z};
-      const Vec3d v = p - f.eye;
+      const Vec3d v = Vec3d(BoxOf{scene.lower, scene.upper}.corner(i)) - f.eye;
       const double depth = dot(v, f.forward);
       ASSERT_GT(depth, 0);
       EXPECT_LE(std::abs(dot(v, right) / depth), width / 2.0);

@@ -28,18 +28,15 @@ SceneDescription plate(const Affine& turn) {
 Mesh box(const Vec3f& half, bool room, unsigned open = 0) {
   Mesh mesh;
   mesh.materials = {0};
-  for (int i = 0; i < 8; ++i) {
-    mesh.positions.push_back(
-        {i & 1 ? half.x : -half.x, i & 2 ? half.y : -half.y, i & 4 ? half.z : -half.z});
-  }
+  for (int i = 0; i < 8; ++i) mesh.positions.push_back(Box{-half, half}.corner(i));
 
   for (int axis = 0; axis < 3; ++axis) {
     const auto u = 1u << ((axis + 1) % 3), v = 1u << ((axis + 2) % 3), w = 1u << axis;
     for (const unsigned end : {0u, 1u}) {
       if ((open >> (2 * axis)) & (1u << end)) continue;
       const unsigned at = end * w;
-      const bool turned = (end == 0) != room;
-      const unsigned a = turned ? v : u, b = turned ? u : v;
+      unsigned a = u, b = v;
+      if ((end == 0) != room) std::swap(a, b);
       mesh.triangles.push_back({at, at + a, at + a + b});
       mesh.triangles.push_back({at, at + a + b, at + b});
     }

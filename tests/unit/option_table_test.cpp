@@ -95,7 +95,10 @@ TEST(OptionTable, SaysWhatHasToBeMadeAnew) {
 
 TEST(OptionTable, TakesOverNoMoreThanWasAskedFor) {
   RenderOptions from, to;
-  from.camera = "front", from.shading.bend = false, from.glossy = 3, from.tile = 8;
+  from.camera = "front";
+  from.shading.bend = false;
+  from.glossy = 3;
+  from.tile = 8;
   takeOver(from, Rebuild::tables, to);
   EXPECT_EQ(to.camera, "front");
   EXPECT_FALSE(to.shading.bend);

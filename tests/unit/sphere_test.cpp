@@ -166,7 +166,8 @@ TEST(ExactSphere, BoundsHoldItAndLittleMore) {
   Vec3d lower(1e9), upper(-1e9);
   for (int i = 0; i < 100000; ++i) {
     const Vec3d p = map.point(anyDirection(random));
-    lower = min(lower, p), upper = max(upper, p);
+    lower = min(lower, p);
+    upper = max(upper, p);
   }
 
   for (int axis = 0; axis < 3; ++axis) {

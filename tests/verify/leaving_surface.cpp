@@ -421,10 +421,11 @@ Finding hitsAreExact(const Setup& setup) {
                          Affine{{0, 1, 0}, {1, 0, 0}, {0, 0, 1}, {-16, 3, 0}}});
   const Scene scene = builder.build();
 
+  const Vec3d middles[] = {{}, {16, 0, 0}, {-16, 3, 0}};
   Numbers numbers(54);
   std::vector<ProbeRay> rays;
   for (std::size_t i = 0; i < 6000; ++i) {
-    const Vec3d middle = i % 3 == 0 ? Vec3d{} : i % 3 == 1 ? Vec3d{16, 0, 0} : Vec3d{-16, 3, 0};
+    const Vec3d& middle = middles[i % 3];
     const Vec3d target{numbers.in(-2, 2), numbers.in(-2, 2), numbers.in(-2, 2)};
     const Vec3f from(middle + numbers.direction() * 9.0);
     rays.push_back(rayThrough(from, Vec3f(middle + target)));

@@ -90,7 +90,13 @@ std::string numberText(double value) { return std::isinf(value) ? "-" : formatte
 std::string summaryOf(const std::vector<Row>& rows) {
   std::size_t held = 0, broken = 0, reported = 0;
   for (const Row& row : worstRows(rows)) {
-    ++(!row.finding.holds() ? broken : row.isReportedOnly() ? reported : held);
+    if (!row.finding.holds()) {
+      ++broken;
+    } else if (row.isReportedOnly()) {
+      ++reported;
+    } else {
+      ++held;
+    }
   }
 
   std::string text = formatted("%zu cases in %zu runs: %zu hold, %zu broken",

@@ -84,12 +84,13 @@ Finding overlapIsOneInterface(const Setup& setup) {
   Probe probe(scene, setup);
   std::vector<ProbeRay> rays{{{0, 2, 0}, {0, -1, 0}}};
 
+  // From above: into glass, into the overlap (hidden), out of glass into water.
+  const double wanted[] = {0.04, 0, std::pow((1.5 - 1.33) / (1.5 + 1.33), 2)};
   for (int face = 0; face < 3; ++face) {
     probe.cast(rays);
     const std::vector<ProbeChild> refracted = probe.refractions(), reflected = probe.reflections();
     if (refracted.size() != 1) break;
-    // From above: into glass, into the overlap (hidden), out of glass into water.
-    const double r = face == 0 ? 0.04 : face == 1 ? 0 : std::pow((1.5 - 1.33) / (1.5 + 1.33), 2);
+    const double r = wanted[face];
     const double got = reflected.empty() ? 0 : static_cast<double>(reflected[0].weight.x);
     finding.note(r == 0 ? got : std::fabs(got / r - 1),
                  [&] { return "face " + std::to_string(face); });
@@ -404,7 +405,8 @@ Finding absorption(const Setup& setup) {
       // Values below the least normal float are 0.
       const double exact = sigma[c] == 0 ? 1 : std::exp(-sigma[c] * t);
       const double least = 0x1p-125, g = static_cast<double>(got[c]);
-      const double error = exact < least ? (g > least ? 1 : 0) : std::fabs(g / exact - 1);
+      double error = std::fabs(g / exact - 1);
+      if (exact < least) error = g > least ? 1 : 0;
       finding.note(error, [&] { return "sigma " + hexText(sigma[c]) + ", t " + hexText(t); });
     }
   }

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "render/steps.h"
+#include "set_columns.h"
 #include "simd/kernels.h"
 
 namespace whit::verify {
@@ -79,8 +80,7 @@ void Probe::load(const std::vector<ProbeRay>& rays) {
   const RayColumns& c = *rays_;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const auto& [o, d, media] = rays[i];
-    c.orgX[i] = o.x, c.orgY[i] = o.y, c.orgZ[i] = o.z;
-    c.dirX[i] = d.x, c.dirY[i] = d.y, c.dirZ[i] = d.z;
+    test::setRay(c, i, o, d);
     c.weightR[i] = c.weightG[i] = c.weightB[i] = c.throughput[i] = 1;
     c.parent[i] = static_cast<std::uint32_t>(i);
     c.media[i] = media;
@@ -140,8 +140,8 @@ void Probe::cast(const std::vector<ProbeRay>& rays) {
 void Probe::surfel(std::size_t i, std::uint32_t material, const Vec3f& ng, const Vec3f& ns) {
   const SurfelColumns& s = *surfels_;
   s.posX[i] = s.posY[i] = s.posZ[i] = 0;
-  s.ngX[i] = ng.x, s.ngY[i] = ng.y, s.ngZ[i] = ng.z;
-  s.nsX[i] = ns.x, s.nsY[i] = ns.y, s.nsZ[i] = ns.z;
+  test::setVector(s.ngX, s.ngY, s.ngZ, i, ng);
+  test::setVector(s.nsX, s.nsY, s.nsZ, i, ns);
   s.offset[i] = 0x1p-19f;
   s.retreat[i] = 0x1p-20f;
 

@@ -44,13 +44,11 @@ class RandomScene {
   }
   // An amount of light: none, an ordinary one, or any.
   float amount() {
-    return one(4) ? 0.0f
-                  : static_cast<float>(
-                        std::pow(10.0, one(4) ? numbers_.in(-18, 18) : numbers_.in(-2, 3)));
+    if (one(4)) return 0;
+    const double exponent = one(4) ? numbers_.in(-18, 18) : numbers_.in(-2, 3);
+    return static_cast<float>(std::pow(10.0, exponent));
   }
-  float unit() {
-    return one(3) ? static_cast<float>(below(2)) : static_cast<float>(numbers_.in(0, 1));
-  }
+  float unit() { return static_cast<float>(one(3) ? below(2) : numbers_.in(0, 1)); }
   Rgb color(float largest = 1) { return Rgb{unit(), unit(), unit()} * largest; }
   std::uint32_t bits() { return static_cast<std::uint32_t>(numbers_.in(0, 4294967296.0)); }
 

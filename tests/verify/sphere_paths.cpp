@@ -122,7 +122,8 @@ void crossShell(const Shell& shell, const Setup& setup, std::vector<ProbeRay> ra
   probe.cast(rays);
   for (std::size_t i = 0; i < probe.size(); ++i) {
     const bool gone = !probe.isHit(i) && rays[i].media == 0;
-    finding.note(gone ? errorOf(start[i], rays[i]) : kNoBound, shell.outer.described(start[i]));
+    const double error = gone ? errorOf(start[i], rays[i]) : kNoBound;
+    finding.note(error, shell.outer.described(start[i]));
   }
 }
 
@@ -324,8 +325,8 @@ Finding ballsInOnePlace(const Setup& setup) {
       for (std::size_t i = 0; i < probe.size(); ++i) {
         const bool right = probe.isHit(i) && probe.surfels().material[i] == two.winner;
         finding.count(!right && ball.chord(rays[i]).aside < 1, [&] {
-          return std::string(apart ? "instances, " : "one object, ") + (turned ? "turned, " : "") +
-                 describeRay(rays[i]);
+          const std::string text = apart ? "instances, " : "one object, ";
+          return text + (turned ? "turned, " : "") + describeRay(rays[i]);
         });
       }
     }

@@ -58,7 +58,9 @@ Finding contactLeak(const Setup& setup) {
     SceneBuilder builder;
     const auto gray = builder.add(diffuseMaterial(1));
     builder.add(floorAt(0, 50, gray));
-    builder.add(ball ? sphereMesh(4, {0, 1, 0}, 1, gray) : box({-1, 0, -1}, {1, 1.5f, 1}, gray));
+    Mesh body = box({-1, 0, -1}, {1, 1.5f, 1}, gray);
+    if (ball) body = sphereMesh(4, {0, 1, 0}, 1, gray);
+    builder.add(std::move(body));
     builder.description.lights = {lightAt({0.2f, -1, 0.3f}, 100), lightAt({0, -1e-3f, 0}, 100)};
     finding.merge(litPixels(builder.build(), setup));
   }

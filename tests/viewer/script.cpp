@@ -4,6 +4,7 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -122,13 +123,13 @@ ScriptCommand clickCommand(const Words& words) {
   constexpr int kFrames = 4;  // the pointer goes to the place, presses, moves along and is released
   if (words.size() != 3 && words.size() != 5) expected("click X Y [X2 Y2]");
 
-  const double x = number(words[1]), y = number(words[2]);
-  const bool drags = words.size() == 5;
-  const double toX = drags ? number(words[3]) : x, toY = drags ? number(words[4]) : y;
+  const std::array from{number(words[1]), number(words[2])};
+  std::array to = from;
+  if (words.size() == 5) to = {number(words[3]), number(words[4])};
 
   const auto point = [=](int frame, Input& input, ScriptStep&) {
-    const bool begins = frame < 2;
-    input.pointer = {begins ? x : toX, begins ? y : toY, frame == 1 || frame == 2};
+    const auto& [x, y] = frame < 2 ? from : to;
+    input.pointer = {x, y, frame == 1 || frame == 2};
   };
   return {point, kFrames};
 }

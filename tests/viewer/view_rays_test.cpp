@@ -15,7 +15,8 @@ RayQuery queryFor(const FrameRequest& request, int x, int y) {
   RayQuery query;
   query.picture.camera = request.camera;
   query.picture.options = request.options;
-  query.x = x, query.y = y;
+  query.x = x;
+  query.y = y;
   return query;
 }
 

@@ -42,7 +42,10 @@ class PlayedScript : public ScriptedUser {
     if (step.resize) glfwSetWindowSize(window, step.resize->width, step.resize->height);
     if (step.minimize) glfwIconifyWindow(window);
     if (step.restore) glfwRestoreWindow(window);
-    if (!step.tab.empty()) settings.tab = step.tab, settings.shown = true;
+    if (!step.tab.empty()) {
+      settings.tab = step.tab;
+      settings.shown = true;
+    }
     if (step.bare) settings.words = settings.shown = false;
     if (step.showErrors) survivesErrors_ = *step.showErrors;
 
