@@ -183,9 +183,8 @@ Scene lattice(double share, float radiance) {
       // The square lies anywhere within its pixel.
       const double left = x - 32 + place(random), low = y - 24 + place(random);
       const auto first = static_cast<std::uint32_t>(squares.positions.size());
-      for (int corner = 0; corner < 4; ++corner) {
-        const double right = corner == 1 || corner == 2 ? side : 0, up = corner < 2 ? 0 : side;
-        squares.positions.emplace_back(Vec3d{left + right, low + up, 0});
+      for (const auto& [right, up] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
+        squares.positions.emplace_back(Vec3d{left + right * side, low + up * side, 0});
       }
       squares.triangles.push_back({first, first + 1, first + 2});
       squares.triangles.push_back({first, first + 2, first + 3});

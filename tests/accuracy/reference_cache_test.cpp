@@ -64,6 +64,7 @@ TEST(SceneDigest, EveryTableMatters) {
         d.instances.push_back({0, Affine::translation({5, 0, 0})});
       },
   };
+
   const std::string before = digestAfter([](auto&) {});
   for (std::size_t i = 0; i < changes.size(); ++i) EXPECT_NE(digestAfter(changes[i]), before) << i;
 }
@@ -96,6 +97,7 @@ TEST(SceneDigest, TheOrderOfCoincidentSpheresMatters) {
       d.instances.push_back({2, Affine(), second});
     });
   };
+
   EXPECT_EQ(withRanks(0, 1), withRanks(3, 7));
   EXPECT_NE(withRanks(0, 1), withRanks(1, 0));
 }
@@ -103,18 +105,23 @@ TEST(SceneDigest, TheOrderOfCoincidentSpheresMatters) {
 TEST(OptionsDigest, CoversWhatShapesThePictureAndNothingElse) {
   RenderOptions options;
   const std::string before = digestOf(options);
+
   options.threads = 7;
   options.tile = 8;
   options.batch = Batch::frame;
   options.queue = 99;
   EXPECT_EQ(digestOf(options), before);
+
   options.quality = Quality::fine;  // only a name
   EXPECT_EQ(digestOf(options), before);
+
   options.disable = EffectSet().with(Effect::mirror);
   EXPECT_NE(digestOf(options), before);
+
   options = {};
   options.shading.fresnel = FresnelModel::schlick;
   EXPECT_NE(digestOf(options), before);
+
   options = {};
   options.eye = Vec3d();
   EXPECT_NE(digestOf(options), before) << "nothing is not zero";
@@ -160,6 +167,7 @@ class TransportCache : public Cache {
 TEST_F(TransportCache, IsTheMeanOfItsPasses) {
   const TransportPicture picture = renderTransport(scene_, camera_, options_, nullptr);
   Renderer renderer(scene_, options_);
+
   Film film = makeFilm(scene_, options_);
   PassMean passes;
   for (std::uint32_t seed = 0; seed < 8; ++seed) {
@@ -167,6 +175,7 @@ TEST_F(TransportCache, IsTheMeanOfItsPasses) {
     renderer.render(camera_, film);
     passes.add(film.image);
   }
+
   EXPECT_EQ(picture.image.pixels, passes.mean().pixels);
   EXPECT_EQ(picture.standardError, passes.standardError());
   EXPECT_GT(picture.standardError, 0) << "the sky lights the square";

@@ -113,6 +113,7 @@ inline void compareRows(const CsvRow& before, const CsvRow& now, const GrowthTol
 inline std::vector<CsvRow> parseCsv(const std::string& text, const std::string& name) {
   std::size_t at = 0;
   const std::vector<std::string> header = readLine(text, at);
+
   std::vector<CsvRow> rows;
   for (int line = 2; at < text.size(); ++line) {
     const std::vector<std::string> fields = readLine(text, at);
@@ -122,6 +123,7 @@ inline std::vector<CsvRow> parseCsv(const std::string& text, const std::string& 
                                                            " fields as in the header, found " +
                                                            std::to_string(fields.size()));
     }
+
     CsvRow row;
     for (std::size_t i = 0; i < fields.size(); ++i) row[header[i]] = fields[i];
     rows.push_back(std::move(row));

@@ -50,6 +50,7 @@ class PacketBench {
   void forEachKernel(Visitor&& visit) {
     const simd::PacketKernels kernels = simd::findPacketKernels();
     const PacketWords words{words_.data(), kWords, kPacket};
+
     visit(
         "packRays", [=, this] { kernels.packRays(chunk_.rays, chunk_.n, kReach, words); },
         chunk_.n);
@@ -144,6 +145,7 @@ void registerAll(Subject& subject, std::vector<std::string>& known) {
     const std::string name = step.name + "/" + subject.target;
     if (std::find(known.begin(), known.end(), name) != known.end()) return;
     known.push_back(name);
+
     registerOne(
         step.name, subject,
         [&tile, &step] {

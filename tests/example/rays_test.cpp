@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
-#include <numbers>
 #include <numeric>
 #include <random>
 #include <utility>
@@ -16,6 +15,7 @@
 #include "exact_rays.h"
 #include "library/whit.h"
 #include "library_scenes.h"
+#include "pi.h"
 
 namespace whit::api {
 namespace {
@@ -502,7 +502,7 @@ TEST(RayQueries, SayWhatTheyCannotTake) {
 // parallel rectangle, four times).
 double coveredBySquare(double a, double h) {
   const double x = a / h, root = std::sqrt(1 + x * x);
-  return 4 * 2 * (x / root * std::atan(x / root)) / (2 * std::numbers::pi);
+  return 4 * 2 * (x / root * std::atan(x / root)) / (2 * kPi);
 }
 
 TEST(RayQueries, FindAmbientOcclusionInClosedForm) {

@@ -67,13 +67,14 @@ Texture anyTexture(Draws& draws, TexelFormat format) {
   texture.height = 1 + static_cast<int>(draws.below(9));
   texture.wrapU = static_cast<Wrap>(draws.below(3));
   texture.wrapV = static_cast<Wrap>(draws.below(3));
+
   for (int i = 0; i < texture.width * texture.height; ++i) {
     const Rgb color = anyColor(draws, 0, 1);
     const float alpha = draws.chance(0.3) ? 0.0f : 1.0f;
-    texture.texels.push_back(format == TexelFormat::data
-                                 ? encodeDataTexel(color.x, color.y, color.z, alpha)
-                             : format == TexelFormat::color ? encodeColorTexel(color)
-                                                            : encodeRadianceTexel(color * 100.0f));
+    std::uint32_t texel = encodeRadianceTexel(color * 100.0f);
+    if (format == TexelFormat::data) texel = encodeDataTexel(color.x, color.y, color.z, alpha);
+    if (format == TexelFormat::color) texel = encodeColorTexel(color);
+    texture.texels.push_back(texel);
   }
   return texture;
 }
@@ -182,6 +183,7 @@ Sky anySky(Draws& draws, SceneDescription& scene) {
       image.b.push_back(color.z);
     }
   }
+
   drawMembers(draws, 0.5, scene, sky);
   sky.scale = std::min(sky.scale, 1e3f);
   return sky;

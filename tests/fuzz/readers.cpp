@@ -216,6 +216,7 @@ bool mayCause(ExitStatus status) {
 // Reads what a page of `whit serve` sends. A value out of its verb's range is a finding.
 void readInput(const fs::path& file) {
   const std::vector<std::uint8_t> bytes = bytesOfFile(file);
+
   try {
     for (const serve::Message& m :
          serve::readMessages({reinterpret_cast<const char*>(bytes.data()), bytes.size()})) {

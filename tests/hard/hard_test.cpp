@@ -27,7 +27,8 @@ TEST_P(CaseTest, Holds) {
 
   // A sanitizer sees the same code with fewer setups. Where every target has four widths of
   // packets, each fifth setup has another target and another width.
-  const std::size_t sparse = c.runs == Runs::targets ? 3 : 5, step = kSanitized ? sparse : 1;
+  const std::size_t sparse = c.runs == Runs::targets ? 3 : 5;
+  const std::size_t step = kSanitized ? sparse : 1;
 
   for (std::size_t i = 0; i < setups.size(); i += step) {
     const verify::Setup& setup = setups[i];

@@ -32,6 +32,7 @@ class BrokenImage : public ImageTest {
     Imf::Header header(9, 7);
     header.channels().insert("Y", Imf::Channel(Imf::HALF));
     header.setTileDescription(Imf::TileDescription(4, 4, Imf::ONE_LEVEL));
+
     {
       std::vector<half> values(63, half(0.5f));
       Imf::TiledOutputFile file(path("tiled.exr").c_str(), header);
@@ -73,6 +74,7 @@ TEST_F(BrokenImage, EveryPrefixIsAnErrorOrTheWholePicture) {
     SCOPED_TRACE(sample.name);
     const RawImage whole = readRawImage(save(sample.name, sample.bytes), limits_, warnings_);
     std::size_t refused = 0;
+
     for (std::size_t size = 0; size < sample.bytes.size(); ++size) {
       const std::string file = save(
           sample.name,
@@ -85,6 +87,7 @@ TEST_F(BrokenImage, EveryPrefixIsAnErrorOrTheWholePicture) {
         ++refused;
       }
     }
+
     // Only what follows the pixels may go missing: BMP's first row is followed by 2 bytes of
     // padding.
     EXPECT_GE(refused, sample.bytes.size() - 2);

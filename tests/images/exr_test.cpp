@@ -199,14 +199,17 @@ TEST_F(ExrTest, SaysHowTheWorldIsSeenFromFarAway) {
     writeExr(path("a.exr"), Image(4, 2), {{"eye", eye}, {"at", at}, {"fov", "90"}});
     return Imf::worldToCamera(Imf::InputFile(path("a.exr").c_str()).header());
   };
+
   const Imath::M44f near = matrix("0.1,2,6", "0.2,2,0");
   const Imath::M44f far = matrix("4000000.1,2,6", "4000000.2,2,0");
+
   constexpr float kDirection = 1e-7f;  // of a unit vector
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) {
       EXPECT_NEAR(far[row][column], near[row][column], kDirection);
     }
   }
+
   for (int column = 0; column < 3; ++column) {
     const double moved = near[3][column] - 4e6 * near[0][column];
     EXPECT_NEAR(far[3][column], moved, 0x1p-22 * std::abs(moved) + 4e6 * kDirection);

@@ -120,6 +120,7 @@ TEST_F(ImageLayers, APartThatLacksOneIsRefused) {
   ChannelLayers less;
   less.resize(parseChannels("depth"), 12);
   const std::string all = write("a.exr", sampleChannels()), some = write("s.exr", less);
+
   for (const auto& parts : {std::vector{all, some}, std::vector{some, all}}) {
     try {
       mergeImages(parts, limits_, warnings_);

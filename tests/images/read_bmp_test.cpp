@@ -85,10 +85,12 @@ TEST_F(ReadBmp, DamageIsToldWithItsPlace) {
   EXPECT_EQ(errorOf("a.bmp", bmpOf({.bits = 8, .compression = 1}, palette(2), {})),
             ": byte 54: expected uncompressed pixels of 8, 24 or 32 bits, found 8 bits and "
             "compression 1");
+
   Bytes core = bmpOf({}, palette(2), {});
   core[14] = 12;
   EXPECT_EQ(errorOf("a.bmp", core),
             ": byte 18: expected a header of 40 to 124 bytes, found one of 12");
+
   EXPECT_EQ(errorOf("a.bmp", bmpOf({}, palette(2), {0, 1})), ": byte 62: the file is cut short");
 }
 

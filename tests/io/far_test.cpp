@@ -78,11 +78,13 @@ TEST_F(FarModels, NodesOfGltfKeepEdgesCamerasAndLights) {
              "\"nodes\":[{\"translation\":[4000000.1,0,0],\"children\":[1,2,3]},{\"mesh\":0},"
              "{\"camera\":0,\"translation\":[0,0,5]},"
              "{\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}},\"translation\":[0,3,0]}]"));
+
   ASSERT_NE(scene.origin, Vec3d());
   constexpr double kRounding = 5e-7;  // of coordinates below 8
   const auto expectAt = [&](const Vec3f& found, const Vec3d& right) {
     EXPECT_LT(maxComponent(abs(scene.inFile(Vec3d(found)) - right)), kRounding);
   };
+
   const std::array corners = cornersOf(scene);
   expectAt(Vec3f(corners[0] - scene.origin),
            Vec3d(kTriangleXyz[0], kTriangleXyz[1], kTriangleXyz[2]) + Vec3d(4000000.1, 0, 0));
@@ -165,6 +167,7 @@ TEST_F(FarModels, NodesOfColladaKeepTheirEdges) {
     <node id="n"><translate>4000000 0 0</translate><instance_geometry url="#g"/></node>
     </visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene>
     </COLLADA>)";
+
   if (convertByAssimp(far, ".dae", 1 << 30).glb.empty()) GTEST_SKIP() << "built without libassimp";
   expectLegsOfOne(load(save("far.dae", far)), {4000000.1, 0, 0});
 }

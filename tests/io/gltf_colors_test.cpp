@@ -98,6 +98,7 @@ TEST_F(GltfMaterials, RoughnessFrostsGlass) {
                              1}}));
     return d.materials.at(0).isFrosted();
   };
+
   EXPECT_FALSE(isFrosted("0.03", "0"));
   EXPECT_TRUE(isFrosted("0.05", "0"));
   EXPECT_TRUE(isFrosted("0.5", "0.5"));

@@ -17,6 +17,7 @@ TEST_F(GltfMaterials, SpecularTexelByTexel) {
   save("strength.tga", tga(2, 1, {{0, 0, 0, 255}, {0, 0, 0, 102}}));
   save("color.tga", tga(2, 1, {{255, 0, 0}, {188, 188, 188}}));
   useImages({"strength.tga", "color.tga"});
+
   const auto gray = static_cast<float>(srgbToLinear(188 / 255.0));
   const float lobe = lobeAt(0.5, 0.5);
   const auto show = [&](const std::string& specular) {
@@ -25,21 +26,26 @@ TEST_F(GltfMaterials, SpecularTexelByTexel) {
   const std::string strength = "\"specularFactor\":0.5,\"specularTexture\":{\"index\":0}";
   const std::string color =
       "\"specularColorFactor\":[10,5,10],\"specularColorTexture\":{\"index\":1}";
+
   auto p = show(strength);
   expectColor(p[0], Rgb(0.04f * 0.5f * lobe));
   expectColor(p[1], Rgb(0.04f * 0.2f * lobe));
+
   p = show(color);
   expectColor(p[0], Rgb{0.4f, 0, 0} * lobe);
   expectColor(p[1], Rgb{0.4f, 0.2f, 0.4f} * (gray * lobe));
+
   p = show(strength + "," + color);
   expectColor(p[0], Rgb{0.4f, 0, 0} * (0.5f * lobe));
   expectColor(p[1], Rgb{0.4f, 0.2f, 0.4f} * (gray * 0.2f * lobe));
+
   // Color is bounded by 1 before the strength counts.
   p = show(strength +
            ",\"specularColorFactor\":[100,100,100],\"specularColorTexture\":"
            "{\"index\":1}");
   expectColor(p[0], Rgb{0.5f, 0, 0} * lobe);
   expectColor(p[1], Rgb(0.2f * lobe));
+
   EXPECT_EQ(kinds(), "");
 }
 
@@ -54,8 +60,10 @@ TEST_F(GltfMaterials, SpecularTexturesOfWhatIsPartlyMetal) {
                            "{\"KHR_materials_specular\":{\"specularTexture\":{\"index\":1}}}}",
                            1}},
                          2);
+
   const float lobe = lobeAt(0.5, 0.5), white = static_cast<float>(lit(0.5, 0.5));
   expectColor(p[0], Rgb{0.8f, 0.4f, 0.2f} * lobe);
+
   const float f0 = 0.04f * 0.4f, left = white * (1 - f0 * kRoughestAlbedo);
   expectColor(p[1], Rgb{0.8f, 0.4f, 0.2f} * left + Rgb(f0 * lobe));
 }
@@ -72,6 +80,7 @@ TEST_F(GltfMaterials, MirrorsFollowSpecularTextures) {
   save("strength.tga", tga(2, 1, {{0, 0, 0, 255}, {0, 0, 0, 102}}));
   save("color.tga", tga(2, 1, {{255, 255, 255}, {0, 0, 255}}));
   useImages({"strength.tga", "color.tga"});
+
   const auto p =
       picture({{0,
                 lobeOnly("\"specularColorFactor\":[5,5,5],\"specularTexture\":{\"index\":0},"
@@ -80,6 +89,7 @@ TEST_F(GltfMaterials, MirrorsFollowSpecularTextures) {
                 1},
                kWhiteWall},
               2);
+
   // 5 * 0.04, and next to nothing of Schlick's term.
   expectColor(p[0], Rgb(0.2f));
   expectColor(p[1], Rgb{0, 0, 0.2f} * 0.4f);
@@ -91,9 +101,11 @@ TEST_F(GltfMaterials, SmoothMetalsReflectByTexturesAndVertexColors) {
   save("t.tga", tga(2, 1, {{255, 0, 0}, {0, 255, 0}}));
   useImages({"t.tga"});
   const std::string metal = "{\"pbrMetallicRoughness\":{\"roughnessFactor\":0";
+
   auto p = picture({{0, metal + ",\"baseColorTexture\":{\"index\":0}}}", 1}, kWhiteWall}, 2);
   expectColor(p[0], {1, 0, 0});
   expectColor(p[1], {0, 1, 0});
+
   // A clearcoat reflects 0.04 by half, and leaves the rest to the metal.
   p = picture({{0,
                 metal + ",\"baseColorTexture\":{\"index\":0}},\"extensions\":{"
@@ -103,6 +115,7 @@ TEST_F(GltfMaterials, SmoothMetalsReflectByTexturesAndVertexColors) {
               2);
   expectColor(p[0], {1, 0.02f, 0.02f});
   expectColor(p[1], {0.02f, 1, 0.02f});
+
   colors_ = {1, 0, 0, 0, 0, 1, 0, 0, 1, 1, 0, 0};
   p = picture({{0, metal + "}}", 1}, kWhiteWall}, 2);
   expectColor(p[0], {0.75f, 0, 0.25f});
@@ -115,6 +128,7 @@ TEST_F(GltfMaterials, TransmissionTexelByTexel) {
   save("clear.tga", tga(2, 1, {{255, 0, 0}, {51, 0, 0}}));
   save("color.tga", tga(2, 1, {{255, 0, 0}, {0, 255, 0}}));
   useImages({"clear.tga", "color.tga"});
+
   const auto show = [&](const std::string& pbr) {
     const std::string pane =
         "{\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"roughnessFactor\":1" + pbr +
@@ -125,12 +139,15 @@ TEST_F(GltfMaterials, TransmissionTexelByTexel) {
     d.ambient.up = d.ambient.down = Rgb(0.25f);
     return pictureOf(std::move(d), 2);
   };
+
   auto p = show("");
   expectColor(p[0], Rgb(0.5f + 0.5f * 0.25f));
   expectColor(p[1], Rgb(0.1f + 0.9f * 0.25f));
+
   p = show(",\"baseColorTexture\":{\"index\":1}");
   expectColor(p[0], {0.5f + 0.5f * 0.25f, 0, 0});
   expectColor(p[1], {0, 0.1f + 0.9f * 0.25f, 0});
+
   EXPECT_EQ(warned("transmission by a texture taken by its mean"), 0u);
 }
 

@@ -61,6 +61,7 @@ TEST_F(GltfMaterials, ImagesInDataUris) {
 
 TEST_F(GltfMaterials, TextureTransformsAndSamplers) {
   save("t.tga", tga(2, 2, {{255, 0, 0}, {0, 255, 0}, {0, 0, 255}, {255, 255, 255}}));
+
   const auto show = [&](const std::string& transform) {
     return picture({{0,
                      matte("\"baseColorTexture\":{\"index\":0,\"extensions\":"
@@ -69,11 +70,13 @@ TEST_F(GltfMaterials, TextureTransformsAndSamplers) {
                      1}},
                    2);
   };
+
   const auto at = static_cast<float>(lit(0.5, 0.5));
   const Rgb red = Rgb{1, 0, 0} * at, green = Rgb{0, 1, 0} * at, blue = Rgb{0, 0, 1} * at, white(at);
   const auto expectPicture = [&](const std::vector<Rgb>& got, const std::vector<Rgb>& wanted) {
     for (std::size_t i = 0; i < 4; ++i) expectColor(got[i], wanted[i]);
   };
+
   useImages({"t.tga"});
   expectPicture(show("\"offset\":[0.5,0]"), {green, red, white, blue});
   expectPicture(show("\"offset\":[0,0.5]"), {blue, white, red, green});
@@ -81,6 +84,7 @@ TEST_F(GltfMaterials, TextureTransformsAndSamplers) {
   expectPicture(show("\"offset\":[0,1],\"rotation\":1.5707963267948966"),
                 {blue, red, white, green});
   expectPicture(show("\"offset\":[0,1],\"scale\":[1,-1]"), {blue, white, red, green});
+
   useImages({"t.tga"}, "\"wrapS\":33071,\"wrapT\":10497");
   expectPicture(show("\"offset\":[1,0]"), {green, green, white, white});
   useImages({"t.tga"}, "\"wrapS\":33648");
@@ -108,12 +112,14 @@ TEST_F(GltfMaterials, OcclusionDimsIndirectLight) {
   save("o.tga", tga(2, 1, {{51, 255, 255}, {255, 0, 0}}));  // 0.2 and 1
   save("even.tga", tga(1, 1, {{255, 0, 0}}));
   useImages({"o.tga", "even.tga"});
+
   const auto show = [&](const std::string& rest, const char* image = "0") {
     SceneDescription d = loadText(sceneText(
         {{0, matte("", "\"occlusionTexture\":{\"index\":" + std::string(image) + rest + "}"), 1}}));
     d.ambient.up = d.ambient.down = Rgb(0.5f);
     return pictureOf(std::move(d), 2);
   };
+
   const auto lamp = static_cast<float>(lit(0.5, 0.5));
   expectColor(show("")[0], Rgb(lamp + 0.1f));
   expectColor(show("")[1], Rgb(lamp + 0.5f));
@@ -132,6 +138,7 @@ TEST_F(GltfMaterials, MetalnessTexelByTexel) {
                            "\"metallicRoughnessTexture\":{\"index\":0}}}",
                            1}},
                          2);
+
   // Off the middle the lobe of alpha 1 is f0 / (4 pi cos), which the cosine cancels.
   const double d2 = 0.25 + 0.25 + 9, lobe = 9 / (4 * d2);
   const auto metal = static_cast<float>(lobe), rest = static_cast<float>(lit(0.5, 0.5));
@@ -149,11 +156,13 @@ TEST_F(GltfMaterials, RoughnessTexelByTexel) {
                            "\"metallicRoughnessTexture\":{\"index\":0}}}",
                            1}},
                          2);
+
   const auto lobe = [](double roughness) {
     const double a2 = std::pow(roughness, 4), cosine2 = 9 / 9.5;
     const double bell = cosine2 * (a2 - 1) + 1, root = std::sqrt(cosine2 * (1 - a2) + a2);
     return static_cast<float>(a2 / (bell * bell) / (4 * root) * cosine2);
   };
+
   expectColor(p[0], Rgb(lobe(0.9)));
   expectColor(p[1], Rgb(lobe(0.9 * 0.8)));
 }
@@ -185,13 +194,16 @@ TEST_F(GltfMaterials, MeshesThatAreOnlySeenFromBehindAreNoted) {
     Scene::finalize(loadText(text), strict);
     return strict.entries().size();
   };
+
   const std::string turned = ",\"rotation\":[0,1,0,0]", mirrored = ",\"scale\":[1,1,-1]";
   EXPECT_EQ(notes("", ""), 0u);
   EXPECT_EQ(notes(turned, ""), 1u);
   EXPECT_EQ(notes(turned, "\"doubleSided\":true"), 0u);
+
   options_.settings = {"/materials/*/doubleSided=true"};  // as the note says
   EXPECT_EQ(notes(turned, ""), 0u);
   options_.settings.clear();
+
   EXPECT_EQ(notes(mirrored, ""), 1u);
   EXPECT_EQ(notes(mirrored + turned, ""), 0u);
 }
@@ -200,6 +212,7 @@ TEST_F(GltfMaterials, RoughnessThatIsTheSameAllOverNeedsNoMap) {
   save("even.tga", tga(2, 1, {{0, 51, 255}, {0, 51, 0}}));
   save("uneven.tga", tga(2, 1, {{0, 51, 255}, {0, 153, 255}}));
   useImages({"even.tga", "uneven.tga"});
+
   const auto load = [&](const std::string& index) {
     return loadText(sceneText({{0,
                                 "{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.5,"
@@ -208,6 +221,7 @@ TEST_F(GltfMaterials, RoughnessThatIsTheSameAllOverNeedsNoMap) {
                                 1}}))
         .materials[0];
   };
+
   EXPECT_EQ(load("0").roughnessMap, kNoTexture);
   EXPECT_NEAR(load("0").roughness, 0.1f, 1e-6f);
   EXPECT_NE(load("1").roughnessMap, kNoTexture);
@@ -227,6 +241,7 @@ TEST_F(GltfMaterials, WhatIsGivenStaysEvenIfItIsWhatTheFileSaysWithoutItsMaps) {
 TEST_F(GltfMaterials, MasksCutBelowTheCutoff) {
   save("t.tga", tga(2, 1, {{255, 255, 255, 100}, {255, 255, 255, 255}}));
   useImages({"t.tga"});
+
   const auto show = [&](const std::string& alpha, const std::string& rest) {
     return picture(
         {{0,
@@ -235,6 +250,7 @@ TEST_F(GltfMaterials, MasksCutBelowTheCutoff) {
           1}},
         2);
   };
+
   const Rgb seen(static_cast<float>(lit(0.5, 0.5)));
   expectColor(show("1", "")[0], Rgb(0.0f));  // 100 / 255 is below 0.5
   expectColor(show("1", "")[1], seen);
@@ -263,6 +279,7 @@ TEST_F(GltfMaterials, BlendingCountsTexelByTexel) {
   // 0.2, 0.6; times the factor's alpha
   save("t.tga", tga(2, 1, {{255, 255, 255, 51}, {255, 255, 255, 153}}));
   save("even.tga", tga(2, 1, {{255, 255, 255, 102}, {255, 255, 255, 102}}));
+
   const auto show = [&](const std::string& image, const std::string& alpha) {
     useImages({image});
     return picture(
@@ -273,10 +290,12 @@ TEST_F(GltfMaterials, BlendingCountsTexelByTexel) {
          {-1, glowing("[1,0,0]"), 4}},
         2);
   };
+
   const auto blended = [](double alpha) {
     const auto own = static_cast<float>(alpha * lit(0.5, 0.5));
     return Rgb{own + static_cast<float>(1 - alpha), own, own};
   };
+
   for (const auto& [factor, text] : {std::pair(1.0, "1"), std::pair(0.5, "0.5")}) {
     const auto pixels = show("t.tga", text);
     expectColor(pixels[0], blended(0.2 * factor));
@@ -307,10 +326,13 @@ TEST_F(GltfMaterials, TransmissionIsADielectric) {
   const auto through = [&](const std::string& rest) {
     return picture({{0, glass + rest + "}}", 1}, {-2, glowing("[1,1,1]"), 9}}, 1)[0];
   };
+
   const std::string volume = ",\"KHR_materials_volume\":{\"thicknessFactor\":1}";
   expectColor(through(volume), Rgb{0.96f, 0.48f, 0.24f});
+
   // ior 2: a ninth is reflected.
   expectColor(through(volume + ",\"KHR_materials_ior\":{\"ior\":2}"), Rgb{8.0f, 4.0f, 2.0f} / 9.0f);
+
   // Over a distance of 2, the square of what a distance of 1 leaves.
   expectColor(through(",\"KHR_materials_volume\":{\"thicknessFactor\":1,\"attenuationDistance\":1,"
                       "\"attenuationColor\":[0.5,1,1]}"),
@@ -327,6 +349,7 @@ TEST_F(GltfMaterials, WithoutAThicknessTransmissionDoesNotBendLight) {
   const std::string wall =
       "{\"emissiveFactor\":[1,1,1],\"emissiveTexture\":{\"index\":0},\"pbrMetallicRoughness\":"
       "{\"baseColorFactor\":[0,0,0,1]}}";
+
   const auto seen = [&](const std::string& rest) {
     const std::string pane =
         "{\"doubleSided\":true,\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"roughnessFactor\":"
@@ -337,6 +360,7 @@ TEST_F(GltfMaterials, WithoutAThicknessTransmissionDoesNotBendLight) {
     d.instances.at(0).toWorld = Affine::rotation({0, 1, 0}, 45);
     return pictureOf(std::move(d), 1)[0].x;
   };
+
   // Through a thin wall the middle of the wall is seen, 1/2, but for what the pane reflects by
   // Schlick's law at 45 degrees.
   const double reflected = 0.04 + 0.96 * std::pow(1 - std::sqrt(0.5), 5);
@@ -347,6 +371,7 @@ TEST_F(GltfMaterials, WithoutAThicknessTransmissionDoesNotBendLight) {
   EXPECT_NEAR(seen(",\"KHR_materials_volume\":{\"thicknessFactor\":0,\"attenuationDistance\":1,"
                    "\"attenuationColor\":[0.1,0.1,0.1]}"),
               thin, kClose);
+
   // The exact Fresnel reflectance of ior 1.5 at 45 degrees is 0.0502.
   const double inside = std::asin(std::sin(kPi / 4) / 1.5), moved = std::tan(kPi / 4 - inside);
   EXPECT_NEAR(seen(",\"KHR_materials_volume\":{\"thicknessFactor\":1}"),
@@ -356,14 +381,17 @@ TEST_F(GltfMaterials, WithoutAThicknessTransmissionDoesNotBendLight) {
 TEST_F(GltfMaterials, SmoothSurfacesMirror) {
   candela_ = 0;
   const std::string behindTheEye = glowing("[1,1,1]");
+
   const auto mirrored = [&](const std::string& material) {
     return picture({{0, material, 1}, {6, behindTheEye, 9}}, 1)[0];
   };
+
   expectColor(mirrored("{\"pbrMetallicRoughness\":{\"roughnessFactor\":0,\"baseColorFactor\":"
                        "[0.9,0.6,0.3,1]}}"),
               {0.9f, 0.6f, 0.3f});
   expectColor(mirrored("{\"pbrMetallicRoughness\":{\"roughnessFactor\":0,\"metallicFactor\":0}}"),
               Rgb(0.04f));
+
   // Half of a lobe between smooth and rough.
   EXPECT_NEAR(mirrored("{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.175}}").x, 0.5, 0.01);
   expectColor(mirrored("{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.5}}"), Rgb(0.0f));
@@ -379,6 +407,7 @@ TEST_F(GltfMaterials, RoughSurfacesReflectInSamples) {
   const auto reflected = [&](const std::string& material, int glossy) {
     const std::vector<Square> squares{{0, material, 1}, {6, glowing("[1,0.5,0.25]"), 60}};
     const Scene scene = Scene::finalize(loadText(sceneText(squares)), warnings_);
+
     RenderOptions options;
     options.size = ImageSize{1, 1};
     options.glossy = glossy;
@@ -387,17 +416,21 @@ TEST_F(GltfMaterials, RoughSurfacesReflectInSamples) {
     renderer.render(scene.cameras[0], film);
     return film.image.pixels[0];
   };
+
   const std::string rough = "{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.5}}";
   expectColor(reflected(rough, 0), Rgb(0.0f));
+
   const Rgb seen = reflected(rough, 64);
   // Of alpha 1/4, a white lobe reflects 0.916 of an even light to who looks along the normal: the
   // integral of 2 c / (c + sqrt(c^2 (1 - alpha^2) + alpha^2)) over its samples; 64 of them.
   EXPECT_NEAR(seen.x, 0.916, 0.05);
   EXPECT_NEAR(seen.y, seen.x / 2, 1e-5);
   EXPECT_NEAR(seen.z, seen.x / 4, 1e-5);
+
   // Smooth: one impulse, whatever the number of samples.
   expectColor(reflected("{\"pbrMetallicRoughness\":{\"roughnessFactor\":0.03}}", 64),
               {1, 0.5f, 0.25f});
+
   // The facets of what bounds a volume reflect by its index of refraction.
   const std::string glass =
       "{\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"roughnessFactor\":0.5},\"extensions\":"
@@ -421,19 +454,23 @@ TEST_F(GltfMaterials, EmissionAndUnlit) {
 TEST_F(GltfMaterials, NormalMaps) {
   save("right.tga", tga(1, 1, {{204, 128, 230}}));
   save("up.tga", tga(1, 1, {{128, 204, 230}}));
+
   const double distance2 = 18, cosine = (0.6 + 0.8) / std::sqrt(2.0), arriving = 9 / distance2;
   const auto show = [&](const char* light, const std::string& image, const std::string& scale) {
     light_ = light;
     useImages({image});
     return pixel(matte("", "\"normalTexture\":{\"index\":0" + scale + "}"));
   };
+
   constexpr double kCode = 0.01;  // of a normal in 8 bits
   const Rgb facing(static_cast<float>(arriving * cosine));
   expectColor(show("3,0,3", "right.tga", ""), facing, kCode);
   expectColor(show("0,3,3", "up.tga", ""), facing, kCode);
+
   const double away = (0.8 - 0.6) / std::sqrt(2.0);
   expectColor(show("-3,0,3", "right.tga", ""), Rgb(static_cast<float>(arriving * away)), kCode);
   expectColor(show("0,-3,3", "up.tga", ""), Rgb(static_cast<float>(arriving * away)), kCode);
+
   const double half = (0.3 + 0.8) / std::sqrt(2 * (0.09 + 0.64));
   expectColor(show("3,0,3", "right.tga", ",\"scale\":0.5"),
               Rgb(static_cast<float>(arriving * half)), kCode);
@@ -452,6 +489,7 @@ TEST_F(GltfMaterials, AVariantHasMaterialsOfItsOwn) {
                   "\"extensions\":{\"KHR_materials_variants\":{\"variants\":[{\"name\":\"a\"},"
                   "{\"name\":\"b\"},{\"name\":\"c\"}]}}," +
                   oneMesh(first + "," + second)));
+
   const auto names = [](const SceneDescription& scene) {
     std::string found;
     for (const Object& object : scene.objects) {
@@ -459,16 +497,21 @@ TEST_F(GltfMaterials, AVariantHasMaterialsOfItsOwn) {
     }
     return found;
   };
+
   const SceneDescription plain = load(model);
   EXPECT_EQ(names(plain), "plain plain ");
   EXPECT_EQ(plain.variants, (std::vector<std::string>{"a", "b", "c"}));
+
   EXPECT_EQ(names(loadMembers(R"("scene": [{"model": "m.gltf", "variant": "a"}])")), "red plain ");
+
   options_.settings = {"/variant=\"c\""};
   EXPECT_EQ(names(load(model)), "blue plain ");
+
   options_.settings = {"/variant=\"cc\""};
   EXPECT_NE(
       errorOf([&] { load(model); }).find("m.gltf#/variant: expected one of \"a\", \"b\", \"c\""),
       std::string::npos);
+
   const std::string obj = save("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   EXPECT_NE(errorOf([&] { load(obj); }).find("the model has none"), std::string::npos);
 }

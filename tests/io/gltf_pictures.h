@@ -38,6 +38,7 @@ class GltfMaterials : public GltfTest {
     GltfBuilder b;
     const std::string uv = std::to_string(b.uvs({0, 1, 1, 1, 1, 0, 0, 0}));
     const std::string indices = std::to_string(b.indices({0, 1, 2, 0, 2, 3}));
+
     std::string attributes = ",\"TEXCOORD_0\":" + uv;
     if (!colors_.empty()) {
       attributes +=
@@ -50,6 +51,7 @@ class GltfMaterials : public GltfTest {
           ",\"COLOR_0\":" + std::to_string(b.accessor(b.view(bytesOf(rgba)), 5126, "VEC4", 4));
     }
     if (!secondUvs_.empty()) attributes += ",\"TEXCOORD_1\":" + std::to_string(b.uvs(secondUvs_));
+
     std::string meshes, nodes, roots, materials;
     for (std::size_t i = 0; i < squares.size(); ++i) {
       const auto z = static_cast<float>(squares[i].z), s = static_cast<float>(squares[i].size);
@@ -62,6 +64,7 @@ class GltfMaterials : public GltfTest {
       nodes += "{\"mesh\":" + number + "},";
       roots += number + ",";
     }
+
     const std::string n = std::to_string(squares.size());
     const double cd = 683 * candela_;
     return b.json("\"materials\":[" + materials + "],\"meshes\":[" + meshes + "],\"nodes\":[" +

@@ -78,12 +78,11 @@ TEST_F(Ply, TextAndBytesOfEitherOrderAreTheSame) {
 
 // Integers are sRGB codes, scaled by the largest of their type; floats are linear.
 TEST_F(Ply, ColorsOfVertices) {
-  for (const auto& [type, half] :
-       {std::pair("uchar", "188"), std::pair("ushort", "48316"), std::pair("float", "0.502886")}) {
-    const std::string one = std::string(type) == "uchar"    ? "255"
-                            : std::string(type) == "ushort" ? "65535"
-                                                            : "1";
-
+  struct Codes {
+    std::string type, half, one;
+  };
+  for (const auto& [type, half, one] :
+       {Codes{"uchar", "188", "255"}, {"ushort", "48316", "65535"}, {"float", "0.502886", "1"}}) {
     const std::string property = std::string("property ") + type;
     const SceneDescription scene = loadPly(
         header("ascii", "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n" +

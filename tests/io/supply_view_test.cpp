@@ -9,6 +9,7 @@
 
 #include "core/vec3.h"
 #include "make/model_view.h"
+#include "pi.h"
 #include "scene_files.h"
 
 namespace whit {
@@ -294,7 +295,7 @@ TEST_F(SuppliedView, TheModelFillsThePictureThatIsAskedFor) {
     const Camera& camera = scene.cameras[0];
     const Vec3d forward = normalized(Vec3d(camera.at) - Vec3d(camera.eye));
     const Vec3d right = normalized(cross(forward, Vec3d(camera.up))), up = cross(right, forward);
-    const double half = std::tan(double{camera.fov} * 3.14159265358979323846 / 360);
+    const double half = std::tan(double{camera.fov} * kPi / 360);
     const double aspect = static_cast<double>(size.width) / size.height;
 
     // Largest distance of a corner from the middle, in halves of the picture's width or height.

@@ -83,6 +83,7 @@ Mesh repeatedPane(double repeats) {
 
 void mappedSheets(SceneMaker& maker) {
   litRoomWithSomethingBehind(maker);
+
   for (int i = 0; i < 4; ++i) {
     Material material = maker.random.chance(0.5) ? maker.glossy() : maker.mirror();
     material.coverageMap = addShares(maker);
@@ -92,6 +93,7 @@ void mappedSheets(SceneMaker& maker) {
       material.thin = true;
       material.castsShadow = false;
     }
+
     if (i == 3) material.alphaMap = addShares(maker);
     maker.add(repeatedPane(i == 0 ? 3 : 0.7), material, maker.standing(i, 4));
   }

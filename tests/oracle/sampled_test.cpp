@@ -123,6 +123,7 @@ TEST_F(Sampled, FrostedGlassWithinGlass) {
                      outer.frosted = maker.random.chance(0.5);
                      inner.frosted = !outer.frosted;
                      outer.roughness = inner.roughness = maker.random.between(0.2, 0.6);
+
                      const Vec center{0, 1.1, 0.2};
                      maker.add(box(), outer, maker.random.placement(center, 1.3));
                      maker.add(box(), inner, maker.random.placement(center, 0.7));

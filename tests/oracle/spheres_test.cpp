@@ -48,14 +48,14 @@ void addBalls(SceneMaker& maker, const std::function<Material()>& material) {
   addSheared(maker, material(), maker.standing(3, 4));
 }
 
-Material anyOpaque(SceneMaker& maker) {
+Material matteToMirror(SceneMaker& maker) {
   if (maker.random.chance(0.3)) return maker.mirror();
   if (maker.random.chance(0.6)) return maker.glossy();
   return maker.matte();
 }
 
 Material anyFinish(SceneMaker& maker) {
-  Material material = anyOpaque(maker);
+  Material material = matteToMirror(maker);
   if (maker.random.chance(0.3)) material.emission = maker.random.color(0, 1);
   return material;
 }
@@ -302,6 +302,7 @@ TEST_F(Spheres, InstancesWithMaps) {
       return material;
     });
   };
+
   expectAgreement({"instances of spheres with maps", mapped});
   expectAgreement(
       {"instances of spheres with maps, trilinear", mapped, {.filter = Filter::trilinear}});

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "pi.h"
 #include "reference/add_impulses.h"
 #include "reference/find_intersections.h"
 #include "reference/fresnel.h"
@@ -74,7 +75,7 @@ TEST(Slab, ShiftsAndKeepsTheDirection) {
 
 // A path through plane layers keeps n sin, so that the shift is the sum over the layers.
 double shiftThrough(double degrees, const std::vector<std::pair<double, double>>& layers) {
-  const double angle = degrees * 3.14159265358979323846 / 180;
+  const double angle = degrees * kPi / 180;
   double shift = 0;
   for (const auto& [ior, thickness] : layers) {
     const double inside = std::asin(std::sin(angle) / ior);
@@ -108,8 +109,7 @@ TEST_F(NestedTest, OverlapActsAsOneInterface) {
               shiftThrough(kAngle, {{1.5f, 1}, {1.33f, 1}}), kOffsetsOfFourFaces);
 
   // The middle interface is that of glass into water, with ratio 0.8867.
-  const double inGlass =
-      std::sqrt(1 - std::pow(std::sin(kAngle * 3.14159265358979 / 180) / 1.5, 2));
+  const double inGlass = std::sqrt(1 - std::pow(std::sin(kAngle * kPi / 180) / 1.5, 2));
   ASSERT_EQ(seen.reflectances.size(), 3u);
   EXPECT_NEAR(seen.reflectances[1], makeInterface(1.5f, 1.33f, inGlass).reflectance, 1e-12);
 }

@@ -7,9 +7,9 @@
 #include <array>
 #include <cmath>
 
-#include "pi.h"
 #include "reference/add_impulses.h"
 #include "reference/fresnel.h"
+#include "reference/lobe.h"
 #include "reference/small_scenes.h"
 
 namespace whit::reference {
@@ -18,17 +18,9 @@ namespace {
 // What 4096 points of a lattice leave of a smooth integrand, and the midpoint rule.
 constexpr double kOfLattice = 2e-3;
 
-Vec3d directionAt(double cosine, double turn) {
-  const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
-  return {sine * std::cos(turn), sine * std::sin(turn), cosine};
-}
-
 // The level interface of frosted glass, seen at an angle with this cosine.
 Surfel interfaceOf(double alpha, double n1, double n2, double viewCosine) {
-  Surfel s;
-  s.geometricNormal = s.shadingNormal = {0, 0, 1};
-  s.view = directionAt(viewCosine, 0.3);
-  s.alpha = alpha;
+  Surfel s = levelSurfel(alpha, 0, directionAt(viewCosine, 0.3));
   s.frosting.ofInterface = true;
   s.frosting.n1 = n1;
   s.frosting.n2 = n2;
@@ -44,17 +36,6 @@ Surfel sheetOf(double alpha, double f0, double viewCosine) {
   return s;
 }
 
-// Formulas of the paper, in its terms: i and o are the directions of light, m the facet's normal.
-double facetsOf(double alpha, double nm) {
-  const double a2 = alpha * alpha, spread = nm * nm * (a2 - 1) + 1;
-  return a2 / (kPi * spread * spread);
-}
-
-double smithG1(double alpha, double cosine) {
-  const double tangent2 = 1 / (cosine * cosine) - 1;
-  return 2 / (1 + std::sqrt(1 + alpha * alpha * tangent2));
-}
-
 // Fresnel's reflectance by Snell's law and the two amplitudes.
 double fresnelOf(double n1, double n2, double c) {
   const double sine = n1 / n2 * std::sqrt(1 - c * c);
@@ -65,7 +46,8 @@ double fresnelOf(double n1, double n2, double c) {
   return (s * s + p * p) / 2;
 }
 
-// Equation 21; n1 is the index on the side of i. Zero where no facet refracts i to o.
+// Equation 21 of the paper, in its terms: i and o are the directions of light, m the facet's
+// normal, and n1 is the index on the side of i. Zero where no facet refracts i to o.
 double btdf(double alpha, double n1, double n2, const Vec3d& i, const Vec3d& o) {
   Vec3d m = normalized(i * -n1 - o * n2);
   if (m.z < 0) m = -m;
@@ -81,8 +63,7 @@ double densityOf(double alpha, double n1, double n2, const Vec3d& i, const Vec3d
   Vec3d m = normalized(i * -n1 - o * n2);
   if (m.z < 0) m = -m;
   const double im = dot(i, m), om = dot(o, m), root = n1 * im + n2 * om;
-  const double seen = smithG1(alpha, i.z) * im * facetsOf(alpha, m.z) / i.z;
-  return seen * n2 * n2 * -om / (root * root);
+  return visibleDensity(alpha, i, m) * n2 * n2 * -om / (root * root);
 }
 
 struct Moments {
@@ -141,11 +122,12 @@ TEST(FrostedGlass, SamplesWeighWhatTheLobeSaysOverTheirDensity) {
     const double n1 = numbers.in(1, 2.5), n2 = numbers.in(1, 2.5);
     if (std::fabs(n1 - n2) < 0.05) continue;  // rounding decides about the facet
     const Surfel s = interfaceOf(numbers.in(0.05, 1), n1, n2, numbers.in(0.02, 1));
-    const UnitPoint point{static_cast<float>(numbers.in(0, 1)),
-                          static_cast<float>(numbers.in(0, 1))};
+    const UnitPoint point = pointOf(numbers);
+
     const Impulse ray = frostedImpulse(s, 0, point);
     const Vec3d& o = ray.ray.direction;
     if (ray.weight.x == 0 || o.z > -0.01) continue;
+
     const double wanted =
         btdf(s.alpha, n1, n2, s.view, o) * -o.z / densityOf(s.alpha, n1, n2, s.view, o);
     EXPECT_NEAR(ray.weight.x, wanted, 1e-7 * wanted) << s.alpha << ' ' << n1 << ' ' << n2;
@@ -160,6 +142,7 @@ UnitPoint pointOfFacet(const Surfel& s, const Vec3d& facet) {
   const Vec3d x = normalized(Vec3d(s.view.x, s.view.y, 0)), y{-x.y, x.x, 0};
   const Vec3d seen = normalized(Vec3d(dot(s.view, x) * a, 0, s.view.z));
   const Vec3d h = normalized(Vec3d(dot(facet, x) / a, dot(facet, y) / a, facet.z));
+
   const Vec3d cap = h * (2 * dot(seen, h)) - seen;
   const double turn = std::atan2(cap.y, cap.x) / (2 * kPi);
   return {static_cast<float>(turn - std::floor(turn)),
@@ -173,8 +156,7 @@ TEST(FrostedGlass, IsReciprocalUpToTheSquareOfTheIndices) {
   for (int i = 0; i < 2000; ++i) {
     const double n1 = numbers.in(1, 1.3), n2 = numbers.in(1.4, 2.5), alpha = numbers.in(0.1, 1);
     const Surfel s = interfaceOf(alpha, n1, n2, numbers.in(0.1, 1));
-    const UnitPoint point{static_cast<float>(numbers.in(0, 1)),
-                          static_cast<float>(numbers.in(0, 1))};
+    const UnitPoint point = pointOf(numbers);
     const Impulse there = frostedImpulse(s, 0, point);
     const Vec3d o = there.ray.direction;
     // Along the normal the frame of the facets is any.
@@ -214,8 +196,10 @@ TEST(FrostedGlass, NeverSendsOutMoreThanItGets) {
             largest = std::max(largest, both);
             sum += both / 1024;
           }
+
           // Roundings, of each facet.
           EXPECT_LE(largest, 1 + 1e-12);
+
           // What facets mask is lost, as of every lobe: nothing if the surface is smooth, and along
           // the normal at most what the roughest metal loses, which keeps 1 - log 2.
           if (roughness == 0) {
@@ -236,6 +220,7 @@ TEST(FrostedGlass, ReflectsTotally) {
   const Surfel s = interfaceOf(0.0025, 1.5, 1, 0.5);
   EXPECT_GT(samplesOf(s, glossyImpulse).all, 0.99);
   EXPECT_LT(samplesOf(s, frostedImpulse).all, 1e-3);
+
   Surfel smooth = s;
   smooth.alpha = 0;
   EXPECT_EQ(frostedImpulse(smooth, 0, {0.3f, 0.4f}).weight, RgbD());
@@ -250,6 +235,7 @@ TEST(FrostedGlass, OfAVanishingRoughnessIsSmoothGlass) {
         const Interface interface = makeInterface(n1, n2, viewCosine);
         const Vec3d straight = refract(interface, -s.view, {0, 0, 1}, viewCosine);
         const bool isSmooth = alpha <= double{kSmoothAlpha};
+
         const Moments found = samplesOf(s, frostedImpulse);
         EXPECT_NEAR(found.all, 1 - interface.reflectance, isSmooth ? 1e-12 : 10 * alpha);
         // The mean of GGX's long tails.
@@ -258,6 +244,7 @@ TEST(FrostedGlass, OfAVanishingRoughnessIsSmoothGlass) {
       }
     }
   }
+
   // Equal indices bend nothing, however rough the surface is.
   const Surfel none = interfaceOf(0.5, 1.5, 1.5, 0.4);
   EXPECT_EQ(frostedImpulse(none, 0, {0.3f, 0.9f}).ray.direction, -none.view);
@@ -273,11 +260,13 @@ TEST(FrostedGlass, SheetsGoStraightOnInTheMean) {
       const Surfel clear = sheetOf(alpha, 0, viewCosine), white = sheetOf(alpha, 1, viewCosine);
       EXPECT_NEAR(samplesOf(clear, frostedImpulse).all, 1, 1e-12);
       EXPECT_NEAR(samplesOf(white, frostedImpulse).all, 0, 1e-12);
+
       for (std::uint32_t k = 0; k < 256; ++k) {
         const UnitPoint point = lobePoint(4, {256, 0, 0}, k);
         const Vec3d through = frostedImpulse(clear, 0, point).ray.direction;
         const Impulse back = glossyImpulse(white, 0, point);
         EXPECT_LT(through.z, 0);
+
         if (back.weight.x == 0) continue;
         const Vec3d& r = back.ray.direction;
         EXPECT_LT(length(through - Vec3d(r.x, r.y, -r.z)), 1e-12);
@@ -285,14 +274,16 @@ TEST(FrostedGlass, SheetsGoStraightOnInTheMean) {
 
       // Of the reflected share, what facets mask is lost.
       const Surfel glass = sheetOf(alpha, 0.04, viewCosine);
-      const double reflected = samplesOf(glass, glossyImpulse).all,
-                   both = reflected + samplesOf(glass, frostedImpulse).all;
+      const double reflected = samplesOf(glass, glossyImpulse).all;
+      const double both = reflected + samplesOf(glass, frostedImpulse).all;
       EXPECT_LE(both, 1);
       EXPECT_GE(both, 1 - reflected * (1 / samplesOf(white, glossyImpulse).all - 1) * 4);
     }
   }
+
   const Vec3d mean = samplesOf(sheetOf(0.1, 0, 0.7), frostedImpulse).direction;
   EXPECT_LT(length(normalized(mean) + directionAt(0.7, 0.3)), 0.05);  // half of alpha
+
   const Surfel smooth = sheetOf(kSmoothAlpha, 0.04, 0.3);
   const Impulse ray = frostedImpulse(smooth, 0, {0.3f, 0.9f});
   EXPECT_EQ(ray.ray.direction, -smooth.view);
@@ -305,8 +296,8 @@ TEST(FrostedGlass, StaysBelowTheSurfaceThatNormalsAreBentOf) {
     Surfel s = interfaceOf(numbers.in(0.1, 1), 1, 1.5, numbers.in(0.05, 1));
     if (i % 2 == 0) s = sheetOf(s.alpha, 0.04, s.view.z);
     s.shadingNormal = normalized(Vec3d(numbers.in(-1, 1), numbers.in(-1, 1), 1));
-    const UnitPoint point{static_cast<float>(numbers.in(0, 1)),
-                          static_cast<float>(numbers.in(0, 1))};
+    const UnitPoint point = pointOf(numbers);
+
     const Impulse ray = frostedImpulse(s, 0, point);
     if (maxComponent(ray.weight) == 0) continue;
     EXPECT_LT(ray.ray.direction.z, 0);
@@ -360,9 +351,10 @@ TEST(FrostedGlass, IsClearWithoutSamplesOrWithoutTheEffect) {
   for (const bool isThin : {false, true}) {
     Material clear = frostedGlass(0.5f, isThin);
     clear.frosted = false;
-    RayCounts counts, expected;
     Settings disabled = sampledBy(8);
     disabled.effects = disabled.effects.without(Effect::glossyReflection);
+
+    RayCounts counts, expected;
     for (const Settings& settings : {sampledBy(0), disabled}) {
       const RgbD seen = throughBlock(frostedGlass(0.5f, isThin), settings, counts);
       EXPECT_EQ(seen, throughBlock(clear, settings, expected));
@@ -379,8 +371,9 @@ TEST(FrostedGlass, SheetsMayBeThereInPart) {
   test::SceneBuilder builder;
   builder.add(test::floorAt(0, 50, builder.add(m)));
   builder.sky(1);
-  RayCounts counts;
   const Scene scene = builder.build();
+
+  RayCounts counts;
   const double seen =
       test::radianceAlong(scene, {0, 1, 0}, test::steep(0), sampledBy(64), &counts).x;
   EXPECT_NEAR(seen, 0.75 + 0.25 * 0.5, 1e-12);

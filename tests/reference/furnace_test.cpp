@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "pi.h"
 #include "reference/small_scenes.h"
 
 namespace whit::reference {
@@ -136,7 +137,7 @@ TEST(Absorption, DependsOnThePathInside) {
   const Scene scene = builder.build();
 
   for (const double degrees : {0.0, 30.0, 60.0}) {
-    const double path = 1 / std::cos(degrees * 3.14159265358979323846 / 180);
+    const double path = 1 / std::cos(degrees * kPi / 180);
     const RgbD seen = radianceAlong(scene, {0, 1, 0}, steep(degrees));
     EXPECT_NEAR(seen.x, std::exp(-path), kOffsetsOfTwoFaces) << degrees;
     EXPECT_NEAR(seen.y, std::exp(-path / 2), kOffsetsOfTwoFaces) << degrees;

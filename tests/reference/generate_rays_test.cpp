@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/image.h"
+#include "pi.h"
 #include "reference/small_chunk.h"
 #include "reference/small_scenes.h"
 #include "sampling/random_streams.h"
@@ -78,7 +79,7 @@ TEST(PrimaryRay, PassesTheLensAndMeetsThePlaneOfFocus) {
       mean += aside * (1.0 / kSamples);
       squares += dot(aside, aside) / kSamples;
       const double turn = std::atan2(dot(aside, frame.up), dot(aside, frame.right));
-      ++sectors[static_cast<std::size_t>((turn / 3.14159265358979 + 1) * 4) % 8];
+      ++sectors[static_cast<std::size_t>((turn / kPi + 1) * 4) % 8];
     }
 
     EXPECT_LT(length(mean), 0.01);

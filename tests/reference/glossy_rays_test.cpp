@@ -7,42 +7,17 @@
 #include <set>
 
 #include "core/image.h"
-#include "pi.h"
 #include "reference/add_impulses.h"
-#include "reference/find_radiance_and_shadow_rays.h"
 #include "reference/fresnel.h"
+#include "reference/lobe.h"
 #include "reference/small_scenes.h"
-#include "sampling/ggx_lobe.h"
 
 namespace whit::reference {
 namespace {
 
-Vec3d at(double cosine, double turn) {
-  const double sine = std::sqrt(1 - cosine * cosine);
-  return {sine * std::cos(turn), sine * std::sin(turn), cosine};
-}
-
 // Level, seen from an angle with this cosine.
 Surfel surfel(double alpha, double f0, double viewCosine) {
-  Surfel s;
-  s.geometricNormal = s.shadingNormal = {0, 0, 1};
-  s.view = at(viewCosine, 0);
-  s.alpha = alpha;
-  s.specular = RgbD(f0);
-  return s;
-}
-
-// The density of visible normals by solid angle: G1(v) max(0, v.m) D(m) / (v.n) (Heitz 2018, eq.
-// 3).
-double visibleDensity(const Vec3d& view, double alpha, const Vec3d& m) {
-  const double a2 = alpha * alpha, c = m.z, spread = c * c * (a2 - 1) + 1;
-  const double d = a2 / (kPi * spread * spread);
-  const double g1 = 2 / (1 + std::sqrt(1 - a2 + a2 / (view.z * view.z)));
-  return g1 * std::max(0.0, dot(view, m)) * d / view.z;
-}
-
-UnitPoint pointOf(test::Numbers& numbers) {
-  return {static_cast<float>(numbers.in(0, 1)), static_cast<float>(numbers.in(0, 1))};
+  return levelSurfel(alpha, f0, directionAt(viewCosine, 0));
 }
 
 class VisibleNormals : public testing::TestWithParam<std::tuple<double, double>> {};
@@ -51,8 +26,9 @@ class VisibleNormals : public testing::TestWithParam<std::tuple<double, double>>
 TEST_P(VisibleNormals, AreDistributedAsTheyAreSeen) {
   constexpr int kRows = 10, kColumns = 12, kFine = 40, kDraws = 100000;
   const auto [alpha, viewCosine] = GetParam();
-  const Vec3d view = at(viewCosine, 0);
+  const Vec3d view = directionAt(viewCosine, 0);
   std::array<double, kRows * kColumns> seen{}, expected{};
+
   test::Numbers numbers(7);
   for (int i = 0; i < kDraws; ++i) {
     const UnitPoint point = pointOf(numbers);
@@ -63,14 +39,16 @@ TEST_P(VisibleNormals, AreDistributedAsTheyAreSeen) {
     const int column = std::min(static_cast<int>(turn * kColumns), kColumns - 1);
     ++seen[static_cast<std::size_t>(row * kColumns + column)];
   }
+
   for (int i = 0; i < kRows * kFine; ++i) {
     for (int j = 0; j < kColumns * kFine; ++j) {
       const double c = (i + 0.5) / (kRows * kFine), turn = (j + 0.5) / (kColumns * kFine) - 0.5;
-      const double share = visibleDensity(view, alpha, at(c, 2 * kPi * turn)) * 2 * kPi /
+      const double share = visibleDensity(alpha, view, directionAt(c, 2 * kPi * turn)) * 2 * kPi /
                            (kRows * kFine * kColumns * kFine);
       expected[static_cast<std::size_t>(i / kFine * kColumns + j / kFine)] += share * kDraws;
     }
   }
+
   double chiSquared = 0, pooledSeen = 0, pooledExpected = 0;
   int cells = 0;
   for (std::size_t i = 0; i < seen.size(); ++i) {
@@ -82,6 +60,7 @@ TEST_P(VisibleNormals, AreDistributedAsTheyAreSeen) {
     chiSquared += (seen[i] - expected[i]) * (seen[i] - expected[i]) / expected[i];
     ++cells;
   }
+
   EXPECT_GT(cells, 8);
   // Five standard deviations of the statistic above its mean.
   EXPECT_LT(chiSquared, cells + 5 * std::sqrt(2.0 * cells));
@@ -103,24 +82,12 @@ TEST(GlossyRays, WeighWhatTheLobeSaysOverTheirDensity) {
     if (weight == 0) continue;
     const Vec3d& l = ray.ray.direction;
     if (l.z < 0.01) continue;  // next to the horizon, rounding decides about the half vector
+
     const Vec3d h = normalized(s.view + l);
-    const double density = visibleDensity(s.view, s.alpha, h) / (4 * dot(s.view, h));
+    const double density = visibleDensity(s.alpha, s.view, h) / (4 * dot(s.view, h));
     const double wanted = glossyLobe(s, l).x * l.z / density;
     EXPECT_NEAR(weight, wanted, 1e-9 * wanted) << s.alpha << ' ' << s.view.z << ' ' << l.z;
   }
-}
-
-// The lobe's albedo by the midpoint rule over half vectors' cosines and angles.
-double quadrature(const Surfel& s) {
-  constexpr int kRows = 600, kColumns = 400;
-  double sum = 0;
-  for (int i = 0; i < kRows; ++i) {
-    for (int j = 0; j < kColumns; ++j) {
-      const double c = (i + 0.5) / kRows;
-      sum += glossyLobe(s, at(c, 2 * kPi * (j + 0.5) / kColumns)).x * c;
-    }
-  }
-  return sum * 2 * kPi / (kRows * kColumns);
 }
 
 double sampledAlbedo(const Surfel& s, std::uint32_t points) {
@@ -138,7 +105,8 @@ TEST(GlossyRays, BringTheAlbedoOfTheLobe) {
     for (const double viewCosine : {0.1, 0.5, 0.95}) {
       const Surfel s = surfel(alpha, 0.3, viewCosine);
       // 1e-3: what 4096 points of a lattice leave of a smooth integrand, and the midpoint rule.
-      EXPECT_NEAR(sampledAlbedo(s, 4096), quadrature(s), 1e-3) << alpha << ' ' << viewCosine;
+      EXPECT_NEAR(sampledAlbedo(s, 4096), albedoByQuadrature(s), 1e-3)
+          << alpha << ' ' << viewCosine;
     }
   }
 }
@@ -154,6 +122,7 @@ TEST(GlossyRays, LoseWhatSeveralBouncesWouldBringAndGainNothing) {
         EXPECT_GE(ray.weight.x, 0);
       }
     }
+
     // A white surface keeps the less light the rougher it is.
     const double kept = sampledAlbedo(surfel(alpha, 1, 1), 4096);
     EXPECT_LT(kept, alongNormal) << alpha;
@@ -162,6 +131,7 @@ TEST(GlossyRays, LoseWhatSeveralBouncesWouldBringAndGainNothing) {
     }
     alongNormal = kept;
   }
+
   // The integral of c / (1 + c) over [0, 1]; 1e-3 as above.
   EXPECT_NEAR(alongNormal, 1 - std::log(2.0), 1e-3);
 }
@@ -172,6 +142,7 @@ TEST(GlossyRays, OfAVanishingLobeAreTheMirroredRay) {
       const Surfel s = surfel(alpha, 0.04, viewCosine);
       const Vec3d mirrored = reflect(-s.view, s.shadingNormal);
       const double schlick = 0.04 + 0.96 * schlickTerm(viewCosine);
+
       for (std::uint32_t k = 0; k < 64; ++k) {
         const Impulse ray = glossyImpulse(s, 0, lobePoint(3, {64, 0, 0}, k));
         const double off = length(ray.ray.direction - mirrored);
@@ -185,6 +156,7 @@ TEST(GlossyRays, OfAVanishingLobeAreTheMirroredRay) {
       }
     }
   }
+
   EXPECT_EQ(glossyRays(surfel(kSmoothAlpha, 1, 1), {8, 0, 0}), 1);
   EXPECT_EQ(glossyRays(surfel(0.01, 1, 1), {8, 0, 0}), 8);
 }
@@ -221,12 +193,14 @@ TEST(GlossyScenes, AFloorUnderAUniformSkyShowsItsAlbedo) {
     builder.add(test::floorAt(0, 1000, builder.add(rough(0.5f, roughness))));
     builder.sky(2);
     const Scene scene = builder.build();
+
     for (const double degrees : {10.0, 60.0}) {
       RayCounts counts;
       const RgbD seen =
           test::radianceAlong(scene, {0, 1, 0}, test::steep(degrees), sampled(64), &counts);
+
       const double alpha = double{roughness} * double{roughness};
-      const double albedo = quadrature(surfel(alpha, 0.5, std::cos(degrees * kPi / 180)));
+      const double albedo = albedoByQuadrature(surfel(alpha, 0.5, std::cos(degrees * kPi / 180)));
       // 0.03: what 64 points leave of weights that vary by 0.3, twice.
       EXPECT_NEAR(seen.x, 2 * albedo, 0.03) << roughness << ' ' << degrees;
       EXPECT_LE(counts[RayKind::reflection], 64u);
@@ -240,12 +214,14 @@ TEST(GlossyScenes, WithoutSamplesOrWithoutTheEffectNoRayIsReflected) {
   builder.add(test::floorAt(0, 1000, builder.add(rough(0.5f, 0.5f))));
   builder.sky(2);
   const Scene scene = builder.build();
+
   RayCounts counts;
   Settings none = sampled(0);
   EXPECT_GT(test::radianceAlong(scene, {0, 1, 0}, test::steep(30), none, &counts).x, 0.5)
       << "the blurred sky";
   none.effects = none.effects.without(Effect::blurredSky);
   EXPECT_EQ(test::radianceAlong(scene, {0, 1, 0}, test::steep(30), none, &counts), RgbD());
+
   Settings disabled = sampled(8);
   disabled.effects = disabled.effects.without(Effect::glossyReflection);
   EXPECT_EQ(test::radianceAlong(scene, {0, 1, 0}, test::steep(30), disabled, &counts), RgbD());
@@ -259,6 +235,7 @@ TEST(GlossyScenes, OnlyTheFirstSurfaceSendsOutSeveralRays) {
   builder.add(test::floorAt(0, 1000, metal));
   builder.add(test::ceilingAt(2, 1000, metal));
   const Scene scene = builder.build();
+
   for (const int depth : {1, 3}) {
     Settings settings = sampled(16);
     settings.options.depth = depth;
@@ -277,6 +254,7 @@ TEST(GlossyScenes, AMaterialMayKeepItsLobeForLights) {
   m.glossyReflection = false;
   builder.add(test::floorAt(0, 1000, builder.add(m)));
   builder.sky(2);
+
   RayCounts counts;
   const RgbD seen =
       test::radianceAlong(builder.build(), {0, 1, 0}, test::steep(30), sampled(8), &counts);
@@ -290,6 +268,7 @@ TEST(GlossyScenes, TheCutoffIsAboutTheWholeLobe) {
   builder.add(test::floorAt(0, 1000, builder.add(rough(0.04f, 0.3f))));
   builder.sky(1);
   const Scene scene = builder.build();
+
   Settings settings = sampled(64);
   settings.options.cutoff = 0.01f;  // between the weight of the lobe and that of one of its samples
   RayCounts counts;
@@ -310,6 +289,7 @@ TEST(PathNumbers, TellPixelsSamplesAndBranchesApart) {
       }
     }
   }
+
   // Of 32000 random numbers of 32 bits two are the same in one case of eight; never ten.
   EXPECT_GT(numbers.size(), 32000u - 10);
 }
@@ -318,6 +298,7 @@ TEST(PathNumbers, TellPixelsSamplesAndBranchesApart) {
 TEST(PathNumbers, SamplesOfAPixelAreOneLattice) {
   const std::uint32_t pixel = packedPixel(5, 9);
   const LobeSampling whole = lobeSampling(0, 12, 0);
+
   for (std::uint32_t sample = 0; sample < 3; ++sample) {
     const LobeSampling part = lobeSampling(0, 4, sample);
     for (std::uint32_t k = 0; k < 4; ++k) {

@@ -115,10 +115,7 @@ TEST(IndirectFurnace, IsTheGeometricSeries) {
     Material wall = test::diffuseMaterial(albedo);
     wall.emission = Rgb(0.25f);
     SceneBuilder builder;
-    Mesh ball;
-    ball.spheres = {{Affine{}}};
-    ball.materials = {builder.add(wall)};
-    builder.add(std::move(ball));
+    builder.add(test::exactSphere(builder.add(wall)));
     const Scene scene = builder.build();
 
     const double rho = double{albedo};
@@ -165,10 +162,7 @@ TEST(IndirectFurnace, IsTheGeometricSeriesUnderRouletteToo) {
 
 Scene ballInWhiteRoom(const Material& material) {
   SceneBuilder builder;
-  Mesh ball;
-  ball.spheres = {{Affine{}}};
-  ball.materials = {builder.add(material)};
-  builder.add(std::move(ball));
+  builder.add(test::exactSphere(builder.add(material)));
   builder.sky(1);
   return builder.build();
 }
@@ -384,10 +378,7 @@ constexpr double kLampRadius = 0.3, kLampHeight = 4;
 
 Scene lampAndBall(double height) {
   SceneBuilder builder;
-  Mesh ball;
-  ball.spheres = {{Affine{}}};
-  ball.materials = {builder.add(test::glassMaterial(1.5f))};
-  builder.add(std::move(ball));
+  builder.add(test::exactSphere(builder.add(test::glassMaterial(1.5f))));
   builder.add(disc(kLampHeight, kLampRadius, false, builder.add(test::emittingMaterial(1))));
   builder.add(
       test::floorAt(static_cast<float>(-height), 0.01f, builder.add(test::diffuseMaterial(1))));

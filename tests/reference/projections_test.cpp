@@ -309,11 +309,11 @@ TEST(Projections, AStereoPanoramaHasItsParallaxAllAround) {
   const double parallax = std::asin(kEyes / 2 / kDistance);
 
   for (const double degrees : {-170.0, -90.0, 0.0, 45.0, 90.0, 170.0}) {
-    const double azimuth = degrees * std::numbers::pi / 180;
+    const double azimuth = degrees * kPi / 180;
     const Vec3d point = eye + Vec3d{std::sin(azimuth), 0, -std::cos(azimuth)} * kDistance;
     for (const double side : {-1.0, 1.0}) {
       // The left eye sees the point further to the right.
-      const double x = 180 + (azimuth - side * parallax) * 180 / std::numbers::pi;
+      const double x = 180 + (azimuth - side * parallax) * 180 / kPi;
       const double y = side < 0 ? 90 : 270;
 
       const Ray ray = generateRay(panorama, x, y);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "reference/sample_mean.h"
 #include "reference/small_scenes.h"
 #include "sampling/ray_limit.h"
 
@@ -113,20 +114,15 @@ TEST(RayLimit, BoundsTheRaysAndKeepsTheMean) {
     const Scene scene = pile(8, mirrored);
     for (const int maxRays : {1, 200}) {
       BelowPile pixel(scene, kDepth, maxRays);
-      double sum = 0, squares = 0;
-
+      SampleMean mean;
       for (std::size_t sample = 0; sample < kSamples; ++sample) {
-        const double value = pixel.look(sample);
-        sum += value;
-        squares += value * value;
+        mean.add(pixel.look(sample));
         ASSERT_LE(pixel.impulses(), static_cast<unsigned>(std::max(maxRays, kDepth)));
         ASSERT_EQ(pixel.counts.limitedSamples, 1u);
       }
 
-      const double mean = sum / kSamples;
-      const double error = std::sqrt((squares / kSamples - mean * mean) / (kSamples - 1));
       // 4.5 standard errors: one comparison in 150,000 would fail by chance.
-      EXPECT_NEAR(mean, seenBelow(8, double{mirrored}, kDepth), 4.5 * error)
+      EXPECT_NEAR(mean.value(), seenBelow(8, double{mirrored}, kDepth), 4.5 * mean.error())
           << mirrored << " mirrored, at most " << maxRays << " rays";
     }
   }

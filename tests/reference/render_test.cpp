@@ -32,9 +32,7 @@ Scene stillLife() {
   light.intensity = Rgb(20.0f);
   builder.description.lights = {light};
 
-  Camera camera;
-  camera.eye = {0, 2, 5};
-  builder.description.cameras = {camera};
+  builder.lookFrom({0, 2, 5});
   return builder.build();
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "brute_force.h"
+#include "pi.h"
 #include "reference/reference.h"
 #include "verify/scene_builder.h"
 
@@ -11,7 +12,7 @@ using namespace verify;
 
 // Returns a direction downwards, at an angle to the vertical.
 inline Vec3d steep(double degrees) {
-  const double angle = degrees * 3.14159265358979323846 / 180;
+  const double angle = degrees * kPi / 180;
   return {std::sin(angle), -std::cos(angle), 0};
 }
 

@@ -52,10 +52,11 @@ Mesh facetedSphere(const Vec3d& center, double radius, int rings, int sectors) {
   Mesh mesh;
   for (int i = 0; i <= rings; ++i) {
     for (int j = 0; j < sectors; ++j) {
-      const double polar = kPi * i / rings, turn = 2 * kPi * j / sectors;
+      const double polar = 3.14159265358979 * i / rings, turn = 6.28318530717958 * j / sectors;
       Vec3d d{std::sin(polar) * std::cos(turn), std::cos(polar), std::sin(polar) * std::sin(turn)};
       // All corners of a pole are one point.
-      if (i == 0 || i == rings) d = {0, std::cos(polar), 0};
+      if (i == 0) d = {0, 1, 0};
+      if (i == rings) d = {0, -1, 0};
       mesh.positions.push_back(Vec3f(center + d * radius));
     }
   }

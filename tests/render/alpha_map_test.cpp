@@ -22,9 +22,8 @@ Texture noise(int width, int height, Wrap wrap, unsigned seed) {
     // The texture is mostly flat, so that bounds decide, and has borders where they must not.
     const int x = i % width, y = i / width;
     const bool solid = (x / 20 + y / 20) % 2 == 0;
-    const float alpha = random() % 50 == 0 ? static_cast<float>(random() % 256) / 255
-                        : solid            ? 1.0f
-                                           : 0.0f;
+    float alpha = solid ? 1 : 0;
+    if (random() % 50 == 0) alpha = static_cast<float>(random() % 256) / 255;
     texture.texels.push_back(encodeDataTexel(alpha, 0, 0, 1));
   }
   return texture;

@@ -76,6 +76,7 @@ TEST(AutoExposure, IsTheSameHoweverThePictureIsComputed) {
   const Scene scene = test::load("glass");
   const float expected = exposureOf(scene);
   EXPECT_NE(expected, 0);
+
   for (const auto& [name, value] : {std::pair{"size", "33x21"},
                                     {"crop", "0,0,5,5"},
                                     {"threads", "1"},

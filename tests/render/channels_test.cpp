@@ -11,6 +11,7 @@
 
 #include "bake/edit_scene.h"
 #include "core/option_table.h"
+#include "pi.h"
 #include "sampling/sample_pattern.h"
 #include "shipped_scene.h"
 
@@ -54,7 +55,7 @@ std::uint32_t numberAt(const Film& film, Channel channel, int x, int y) {
 struct ViewRay {
   Vec3d origin, direction;
   ViewRay(const Camera& camera, const Image& image, double x, double y) : origin(camera.eye) {
-    const double half = std::tan(double{camera.fov} * 3.14159265358979323846 / 360);
+    const double half = std::tan(double{camera.fov} * kPi / 360);
     const double right = (2 * x / image.width - 1) * half * image.width / image.height;
     direction = normalized(Vec3d{right, (1 - 2 * y / image.height) * half, -1});
   }
@@ -123,7 +124,7 @@ TEST_P(Channels, AlphaIsTheShareOfThePixelThatIsCovered) {
   o.adaptive = true;  // takes all samples
   const Film film = filmOf(scene, o);
 
-  const double side = 4 / (10 * std::tan(3.14159265358979323846 / 6)) * film.image.height;
+  const double side = 4 / (10 * std::tan(kPi / 6)) * film.image.height;
   double sum = 0;
   int edges = 0;
   for (const float alpha : film.channels.floats(Channel::alpha)) {
@@ -411,9 +412,8 @@ TEST_P(Channels, OfASphereAreItsOwn) {
       EXPECT_EQ(numberAt(film, Channel::triangle, x, y), 0u);
 
       const std::vector<float> uv = floatsAt(film, Channel::uv, x, y);
-      EXPECT_NEAR(uv[1], 0.5 + std::asin(p.y) / 3.14159265358979323846, 1e-4);
-      EXPECT_NEAR(std::cos(2 * 3.14159265358979323846 * double{uv[0]}), p.x / std::hypot(p.x, p.z),
-                  1e-4);
+      EXPECT_NEAR(uv[1], 0.5 + std::asin(p.y) / kPi, 1e-4);
+      EXPECT_NEAR(std::cos(2 * kPi * double{uv[0]}), p.x / std::hypot(p.x, p.z), 1e-4);
     }
   }
 
@@ -437,8 +437,7 @@ TEST_P(Channels, NumbersTellThingsApart) {
 
   // Finds the column of the middle row that shows a point of a box's front.
   const auto column = [&](double x, double z) {
-    const double half = std::tan(20 * 3.14159265358979323846 / 180) * film.image.width /
-                        film.image.height * (9 - z);
+    const double half = std::tan(20 * kPi / 180) * film.image.width / film.image.height * (9 - z);
     return static_cast<int>((x / half + 1) / 2 * film.image.width);
   };
 

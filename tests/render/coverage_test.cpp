@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "pi.h"
 #include "render/plan.h"
 #include "render/row_of_tiles.h"
 #include "rounding.h"
@@ -202,7 +203,7 @@ TEST(Coverage, CastsShadowsWhereItIsHalfOrMore) {
       const bool lit[] = {true, true, false, cut};
       for (int i = 0; i < 4; ++i) {
         const double seen = radianceAlong(scene, {i + 0.5, 0.5, -0.5}, {0, -1, 0}).x;
-        const double wanted = lit[i] ? 1 / 3.14159265358979 : 0;
+        const double wanted = lit[i] ? 1 / kPi : 0;
         EXPECT_NEAR(seen, wanted, 1e-6) << i << " " << factor << cut;
         EXPECT_NEAR(double{image.at(i, 0).x}, wanted, 1e-6) << i << " " << factor << cut;
       }

@@ -15,9 +15,7 @@ constexpr int kDepth = 64;
 Scene closedRoom(const Material& wall) {
   SceneBuilder builder;
   builder.add(box({-1, -1, -1}, {1, 1, 1}, builder.add(wall)));
-  builder.description.cameras.resize(1);
-  builder.description.cameras[0].eye = {0.1f, 0.2f, 0.3f};
-  builder.description.cameras[0].at = {1, 0, 0};
+  builder.lookFrom({0.1f, 0.2f, 0.3f}, {1, 0, 0});
   return builder.build();
 }
 
@@ -101,16 +99,17 @@ TEST(DiffuseLimit, CountsFresnelWhereTheCoatTakesTheTransmission) {
   m.ior = 2.5f;
   builder.add(box({-1, -1, -1}, {1, 1, 1}, builder.add(m)));
   builder.description.ambient.up = builder.description.ambient.down = Rgb(1.0f);
-  builder.description.cameras.resize(1);
-  builder.description.cameras[0].eye = {0.5f, 0.7f, 3};
-  builder.description.cameras[0].at = {0, 0, 0};
+  builder.lookFrom({0.5f, 0.7f, 3});
+
   const Scene scene = builder.build();
+
   RenderOptions o = smallOptions();
   o.size = ImageSize{16, 12};
   Renderer renderer(scene, o);
   Film packets = makeFilm(scene, o), reference = makeFilm(scene, o);
   renderer.render(chooseCamera(scene, o), packets);
   renderer.renderReference(chooseCamera(scene, o), reference);
+
   for (std::size_t i = 0; i < packets.image.pixels.size(); ++i) {
     EXPECT_NEAR(packets.image.pixels[i].y, reference.image.pixels[i].y, 1e-4) << i;
   }
@@ -124,25 +123,26 @@ TEST(Cutoff, RaysOfCoatedGlassAreBounded) {
   coated.transmission = Rgb(1.0f);
   coated.ior = 1;
   coated.mirror = coated.mirrorGrazing = Rgb(0.9f);
+
   const auto material = builder.add(coated);
   for (int i = 0; i < 10; ++i) {
     const auto y = static_cast<float>(i);
     builder.add(box({-500, y, -500}, {500, y + 0.5f, 500}, material));
   }
-  builder.description.cameras.resize(1);
-  builder.description.cameras[0].eye = {0, 4.75, 0};
-  builder.description.cameras[0].at = {1, 0, 0};
+  builder.lookFrom({0, 4.75, 0}, {1, 0, 0});
   const Scene scene = builder.build();
 
   RenderOptions o = smallOptions();
   o.size = ImageSize{4, 4};
   o.depth = 16;
   o.cutoff = 1e-2f;
+
   Renderer renderer(scene, o);
   Film film = makeFilm(scene, o);
   const FrameStats packets = renderer.render(chooseCamera(scene, o), film);
   const FrameStats reference = renderer.renderReference(chooseCamera(scene, o), film);
   // As many paths as cutoffs go into 1, each with a ray a depth.
+
   const double bound = 16 * o.depth / static_cast<double>(o.cutoff);
   std::printf("%llu rays of 16 pixels (at most %.0f)\n",
               static_cast<unsigned long long>(packets.allRays()), bound);

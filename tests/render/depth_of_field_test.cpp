@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "pi.h"
 #include "reference/small_scenes.h"
 #include "render/pipeline_laws.h"
 #include "sampling/sample_pattern.h"
@@ -23,9 +24,7 @@ struct Focusing {
   double aperture = 1.5;
 
   // The width of a pixel at distance 1, or anywhere with parallel rays.
-  double pixel() const {
-    return (parallel ? kHeight : 2 * std::tan(kFov * std::numbers::pi / 360)) / kSide;
-  }
+  double pixel() const { return (parallel ? kHeight : 2 * std::tan(kFov * kPi / 360)) / kSide; }
   double pixelAt(double d) const { return pixel() * (parallel ? 1 : d); }
 
   // The diameter of the circle of confusion, in pixels. A ray through the lens at l and through q
@@ -106,7 +105,7 @@ struct Spread {
         if (value > 0) farthest = std::max(farthest, r);
 
         if (r >= inner) continue;
-        const double turn = std::atan2(dy, dx) / (2 * std::numbers::pi) + 0.5;
+        const double turn = std::atan2(dy, dx) / (2 * kPi) + 0.5;
         const auto sector = std::min(static_cast<int>(turn * kSectors), kSectors - 1);
         const auto ring = static_cast<int>(r * r / (inner * inner) * kRings);
         const auto cell = static_cast<std::size_t>(ring * kSectors + sector);
@@ -139,7 +138,7 @@ TEST_P(CircleOfConfusion, GetsTheLightEvenly) {
   EXPECT_GE(spread.farthest, radius + kHalfEmitter / 2);
 
   // Away from its edge, the disk has the same light everywhere.
-  const double even = kEmitterArea / (std::numbers::pi * radius * radius);
+  const double even = kEmitterArea / (kPi * radius * radius);
   for (std::size_t cell = 0; cell < spread.light.size(); ++cell) {
     EXPECT_NEAR(spread.light[cell] / spread.pixels[cell], even, 0.06 * even) << cell;
   }
@@ -300,13 +299,10 @@ Scene halfInMedium(float eye) {
   m.absorption = Rgb(static_cast<float>(std::log(4.0)));
   builder.add(box({-10, -10, -1}, {0, 10, 10}, builder.add(m)));
 
-  Camera camera;
-  camera.eye = {eye, 0, 0};
-  camera.at = {eye, 0, -1};
+  Camera& camera = builder.lookFrom({eye, 0, 0}, {eye, 0, -1});
   camera.fov = 0.02f;
   camera.aperture = 0.1f;
   camera.focus = 1e4f;
-  builder.description.cameras = {camera};
   return builder.build();
 }
 
@@ -314,7 +310,7 @@ TEST(DepthOfField, RaysStartInTheMediumAroundTheirPointOfTheLens) {
   for (const double eye : {-0.08, -0.02, 0.05}) {
     // The share of the disk beyond the chord at x = 0 sees the sky undimmed.
     const double h = -eye / 0.1;
-    const double outside = (std::acos(h) - h * std::sqrt(1 - h * h)) / std::numbers::pi;
+    const double outside = (std::acos(h) - h * std::sqrt(1 - h * h)) / kPi;
     const Scene scene = halfInMedium(static_cast<float>(eye));
     RenderOptions o = optionsOf(64);
     o.size = ImageSize{8, 8};

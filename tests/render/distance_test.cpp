@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
-#include <numbers>
 
 #include "oracle/bilinear.h"
+#include "pi.h"
 #include "reference/small_scenes.h"
 #include "render/shipped_scene.h"
 
@@ -244,7 +244,7 @@ TEST(Distance, NormalMapsKeepDiffuseLight) {
     const oracle::Color c = at(bumps, x, y);
     // u runs along x, v, which is the map's y, against z.
     const oracle::Vec n = normalized(oracle::Vec{2 * c.x - 1, 2 * c.z - 1, 1 - 2 * c.y});
-    return std::max(0.0, dot(n, towardsSun())) / std::numbers::pi;
+    return std::max(0.0, dot(n, towardsSun())) / kPi;
   };
 
   expectTheSameFromAfar("normals", floorOf(builder, m), integral(diffuse), 0.02);
@@ -256,7 +256,7 @@ oracle::Color roughness(int x, int y) { return oracle::gray(0.5 + 0.5 * noise(x 
 // where F = 1.
 double ggx(double alpha, double cosine) {
   const double half = std::cos(std::acos(cosine) / 2), square = alpha * alpha;
-  const double d = square / (std::numbers::pi * std::pow(half * half * (square - 1) + 1, 2));
+  const double d = square / (kPi * std::pow(half * half * (square - 1) + 1, 2));
   const double g = 2 * cosine / (cosine + std::sqrt(square + (1 - square) * cosine * cosine));
   return d * g / 4;
 }

@@ -8,10 +8,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <vector>
 
+#include "pi.h"
 #include "reference/find_intersections.h"
 #include "reference/generate_rays.h"
 #include "render/random_scenes.h"
@@ -251,7 +251,7 @@ class Comparison {
 
       const Segment ray{p + n * (1e-13 * reach / kUlp), p + way * (directional ? 1e6 : 1.0)};
       const double distance2 = directional ? 1 : std::max(dot(way, way), 1e-4);
-      const double most = double{light.intensity.x} / distance2 * 0.8 / std::numbers::pi;
+      const double most = double{light.intensity.x} / distance2 * 0.8 / kPi;
       tolerance += most * (2e-3 + 4 * reach / std::sqrt(distance2));
       const double facing = dot(n, normalized(way));
       if (facing < 1e-3) continue;

@@ -70,10 +70,7 @@ Scene frostedThings() {
   }
 
   builder.description.lights = {sun({0.5f, -1, -0.5f}, 2)};
-  Camera camera;
-  camera.eye = {0.3f, 1.8f, 5};
-  camera.at = {0, 0.4f, 0};
-  builder.description.cameras = {camera};
+  builder.lookFrom({0.3f, 1.8f, 5}, {0, 0.4f, 0});
   return builder.build();
 }
 
@@ -128,17 +125,18 @@ TEST(FrostedGlass, BeginsWhereLobesCeaseToBeMirrors) {
     SceneBuilder builder;
     builder.sky(1);
     builder.add(floorAt(-0.5f, 2, builder.add(diffuseMaterial(0.2f))));
+
     Material m = glassOf(roughness);
     m.frosted = isFrosted;
     builder.add(box({-0.6f, -0.4f, -0.4f}, {0.6f, 0.6f, 0.4f}, builder.add(m)));
-    Camera camera;
-    camera.eye = {1, 1, 3};
-    camera.at = {0, 0, 0};
-    builder.description.cameras = {camera};
+
+    builder.lookFrom({1, 1, 3});
     return render(builder.build(), withSampledLobes()).image;
   };
+
   const Image clear = block(0.5f, false);
   EXPECT_EQ(firstDifference(block(0.03f, true), clear), "");
+
   const auto meanOff = [&](float roughness) {
     const Image image = block(roughness, true);
     double sum = 0;
@@ -147,6 +145,7 @@ TEST(FrostedGlass, BeginsWhereLobesCeaseToBeMirrors) {
     }
     return sum / static_cast<double>(image.pixels.size());
   };
+
   EXPECT_LT(meanOff(0.032f), 0.005);
   EXPECT_GT(meanOff(0.5f), 4 * meanOff(0.032f));
 }

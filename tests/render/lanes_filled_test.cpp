@@ -23,7 +23,9 @@ void expectFullPackets(const std::string& name) {
   RenderOptions options;
   options.size = ImageSize{480, 300};
   options.depth = 8;
+
   const Scene scene = load(name);
+
   for (const int packet : {8, 16}) {
     options.packet = packet;
     const FrameStats stats = render(scene, options).stats;

@@ -9,6 +9,7 @@
 
 #include "io/gltf/material.h"
 #include "pi.h"
+#include "reference/sample_mean.h"
 #include "reference/small_scenes.h"
 #include "render/shipped_scene.h"
 
@@ -22,6 +23,7 @@ double albedoByFacets(double f0, double f90, double roughness, double nv) {
   constexpr int kSteps = 300;
   const double a2 = std::pow(roughness, 4), sine = std::sqrt(1 - nv * nv);
   const auto lambda = [&](double c) { return (std::sqrt(1 + a2 * (1 / (c * c) - 1)) - 1) / 2; };
+
   double sum = 0;
   for (int i = 0; i < kSteps; ++i) {
     const double u = (i + 0.5) / kSteps, nh = std::sqrt((1 - u) / (1 + (a2 - 1) * u));
@@ -29,6 +31,7 @@ double albedoByFacets(double f0, double f90, double roughness, double nv) {
       const double across = std::sqrt(1 - nh * nh) * std::cos(kPi * (k + 0.5) / kSteps);
       const double vh = sine * across + nv * nh, nl = 2 * vh * nh - nv;
       if (!(vh > 0 && nl > 0)) continue;
+
       const double fresnel = f0 + (f90 - f0) * std::pow(1 - vh, 5);
       sum += fresnel * vh / (nv * nh) / (1 + lambda(nl) + lambda(nv));
     }
@@ -62,13 +65,11 @@ double meanOf(const Scene& scene, const RenderOptions& o, bool packets) {
 SceneBuilder floorOf(const Material& material, double cosine) {
   SceneBuilder builder;
   builder.add(floorAt(0, 100, builder.add(material)));
-  Camera camera;
+
   const double sine = std::sqrt(1 - cosine * cosine);
-  camera.eye = Vec3f(Vec3d(0, cosine, sine) * 10);
-  camera.at = {0, 0, 0};
+  Camera& camera = builder.lookFrom(Vec3f(Vec3d(0, cosine, sine) * 10));
   camera.up = {0, 0.6f, -0.8f};
   camera.orthographicHeight = 0.01f;
-  builder.description.cameras = {camera};
   return builder;
 }
 
@@ -224,12 +225,14 @@ TEST(Layers, BlurredSkyHasTheAlbedoOfTheLobe) {
           const double albedo = albedoByFacets(f0, f90, roughness, cosine);
           const double seen = underEvenSky(plastic(0, f0, roughness), cosine, plain(), packets);
           EXPECT_NEAR(seen, albedo, kTableError) << packets << roughness << ' ' << cosine << f0;
+
           squares += (seen - albedo) * (seen - albedo);
           ++count;
         }
       }
     }
   }
+
   // The root mean square that scenes/README.md states.
   EXPECT_LT(std::sqrt(squares / count), 0.001);
   EXPECT_NEAR(underEvenSky(plastic(0, 0.04f, 0.3f), 0.3, plain(), true), 0.168, 0.001);
@@ -243,33 +246,31 @@ TEST(Layers, TheChoiceOfALobeKeepsTheMean) {
   clear.ior = 1;
   clear.thin = true;
   clear.castsShadow = false;
+
   RenderOptions o = plain();
   o.size = ImageSize{48, 48};
   o.indirect = 1;
+
   for (const float f0 : {0.04f, 0.3f}) {
     for (const double cosine : {0.6, 0.2}) {
       Material red = plastic(0, f0, 0.4f);
       red.diffuse = {0.8f, 0.3f, 0.0f};
+
       SceneBuilder builder = floorOf(red, cosine);
       builder.add(ceilingAt(1, 100, builder.add(clear)));
       builder.sky(1);
       const Scene scene = builder.build();
+
       const double albedo = albedoByFacets(f0, 1, 0.4, cosine);
       for (const bool packets : {false, true}) {
         const Image image = render(scene, o, packets).image;
+
         for (int channel = 0; channel < 3; ++channel) {
-          double sum = 0, squares = 0;
-          for (const Rgb& pixel : image.pixels) {
-            const auto value = double{pixel[channel]};
-            sum += value;
-            squares += value * value;
-          }
-          const auto count = static_cast<double>(image.pixels.size());
-          const double mean = sum / count;
-          const double error = std::sqrt((squares / count - mean * mean) / (count - 1));
+          SampleMean mean;
+          for (const Rgb& pixel : image.pixels) mean.add(double{pixel[channel]});
           // 4.5 standard errors, and the error of the midpoint rule.
-          EXPECT_NEAR(mean, albedo + (1 - albedo) * double{red.diffuse[channel]},
-                      4.5 * error + 2e-4)
+          EXPECT_NEAR(mean.value(), albedo + (1 - albedo) * double{red.diffuse[channel]},
+                      4.5 * mean.error() + 2e-4)
               << f0 << ' ' << cosine << packets << channel;
         }
       }
@@ -287,8 +288,10 @@ TEST(Layers, ALampLightsWhatTheLobeLeaves) {
         builder.description.lights = {sun({0.2f, -1, -0.1f}, 2)};
         return meanOf(builder.build(), plain(), packets);
       };
+
       const double nl = 1 / std::sqrt(1 + 0.04 + 0.01);
       const double left = 1 - albedoByFacets(0.04, 1, 0.5, cosine);
+
       EXPECT_NEAR(lit(0.5f, 0) - lit(0, 0), 0.5 / kPi * left * 2 * nl, kTableError / kPi);
       EXPECT_NEAR(lit(0.5f, 1e-6f), lit(0.5f, 0), 2e-6);
     }
@@ -299,15 +302,13 @@ TEST(Layers, ALampLightsWhatTheLobeLeaves) {
 TEST(Layers, IndirectLightKeepsTheSkyOutOfClosedRooms) {
   for (const float roughness : {0.02f, 0.2f, 0.6f}) {
     SceneBuilder builder;
-    Mesh room = box({-1, -1, -1}, {1, 1, 1}, builder.add(plastic(0.5f, 0.04f, roughness)));
-    builder.add(std::move(room));
+    builder.add(box({-1, -1, -1}, {1, 1, 1}, builder.add(plastic(0.5f, 0.04f, roughness))));
     builder.sky(1);
     builder.description.ambient.up = builder.description.ambient.down = Rgb(1.0f);
-    Camera camera;
-    camera.eye = {0.1f, 0.2f, 0.7f};
-    camera.at = {-0.3f, 0, -1};
-    builder.description.cameras = {camera};
+
+    builder.lookFrom({0.1f, 0.2f, 0.7f}, {-0.3f, 0, -1});
     const Scene scene = builder.build();
+
     RenderOptions o = plain();
     o.indirect = 4;
     o.depth = 3;
@@ -323,6 +324,7 @@ TEST(Layers, OcclusionHidesTheReflectedSky) {
   builder.sky(1);
   builder.description.ambient.occlusion = 100;
   const Scene scene = builder.build();
+
   RenderOptions o = plain();
   for (const bool packets : {false, true}) {
     EXPECT_GT(meanOf(scene, o, packets), 0.3);
@@ -338,9 +340,11 @@ TEST(Layers, SampledLobesAreBlurredBeyondThePixel) {
   SceneBuilder builder = floorOf(gltf(0.24f), 0.6);
   for (Material& m : builder.description.materials) m.diffuse = Rgb(0.0f);
   builder.sky(1);
+
   RenderOptions o = plain();
   o.glossy = 64;
   EXPECT_NEAR(meanOf(builder.build(), o, true), albedoByFacets(0.04, 1, 0.24, 0.6), 1e-3);
+
   for (const float roughness : {0.03f, 0.05f, 0.1f, 0.24f}) {
     const Material metal = plastic(0, 0.9f, roughness);
     EXPECT_TRUE(metal.scatters(EffectSet::all()));
@@ -353,27 +357,27 @@ TEST(Layers, SampledLobesAreBlurredBeyondThePixel) {
 TEST(Layers, NeighborsInARowOfRoughnessesDifferSmoothly) {
   std::vector<double> means;
   std::vector<Image> pictures;
+
   for (int i = 0; i <= 25; ++i) {
     GltfMaterial metal;
     metal.base = Rgb(0.9f);
     metal.roughness = 0.02f * static_cast<float>(i);
+
     SceneBuilder builder;
-    Mesh ball;
-    ball.spheres = {Affine::translation({0, 1, 0})};
-    ball.materials = {builder.add(shadedAs(metal, {}))};
-    builder.add(std::move(ball));
+    builder.add(exactSphere(builder.add(shadedAs(metal, {})), Affine::translation({0, 1, 0})));
     builder.add(floorAt(0, 4, builder.add(diffuseMaterial(0.2f))));
+
     builder.sky(1);
     builder.description.lights = {sun({0.5f, -1, -0.5f}, 2)};
     builder.description.ambient.up = Rgb(0.5f);
-    Camera camera;
-    camera.eye = {0, 1.5f, 5};
-    camera.at = {0, 1, 0};
-    builder.description.cameras = {camera};
+
+    builder.lookFrom({0, 1.5f, 5}, {0, 1, 0});
+
     RenderOptions o = plain();
     o.size = ImageSize{48, 32};
     pictures.push_back(render(builder.build(), o).image);
   }
+
   std::vector<double> steps;
   for (std::size_t i = 1; i < pictures.size(); ++i) {
     double sum = 0;
@@ -385,6 +389,7 @@ TEST(Layers, NeighborsInARowOfRoughnessesDifferSmoothly) {
     }
     steps.push_back(sum / static_cast<double>(pictures[i].pixels.size()));
   }
+
   // The mixture goes through 13 steps: no step is more than a sixth of all of them.
   double all = 0;
   for (const double step : steps) all += step;
@@ -398,6 +403,7 @@ Material anyMaterial(Numbers& numbers) {
     return Rgb(Vec3d(numbers.in(0, 1), numbers.in(0, 1), numbers.in(0, 1)));
   };
   const auto maybe = [&](double chance) { return numbers.in(0, 1) < chance; };
+
   Material m = diffuseMaterial(0);
   m.diffuse = color();
   if (maybe(0.7)) m.specular = color() * (maybe(0.5) ? 0.1f : 1.0f);
@@ -405,6 +411,7 @@ Material anyMaterial(Numbers& numbers) {
   if (maybe(0.3)) m.mirror = m.mirrorGrazing = color() * 0.4f;
   if (maybe(0.3)) m.mirrorGrazing = color();
   if (maybe(0.2)) m.transmission = color();
+
   m.coat = maybe(0.3);
   m.thin = maybe(0.3);
   m.diffuseReflection = maybe(0.8);
@@ -427,15 +434,15 @@ Scene litScene(int seed, const Lighting& lighting) {
   SceneBuilder builder;
   builder.add(floorAt(0, 6, builder.add(anyMaterial(numbers))));
   for (int i = 0; i < 4; ++i) {
-    Mesh ball;
     const Vec3d center{numbers.in(-1.5, 1.5), numbers.in(0.3, 1.5), numbers.in(-1.5, 1)};
-    ball.spheres = {Affine::translation(center) * Affine::scaling(Vec3d(numbers.in(0.2, 0.7)))};
-    ball.materials = {builder.add(anyMaterial(numbers))};
-    builder.add(std::move(ball));
+    const Affine map = Affine::translation(center) * Affine::scaling(Vec3d(numbers.in(0.2, 0.7)));
+    builder.add(exactSphere(builder.add(anyMaterial(numbers)), map));
   }
+
   Material lamp = diffuseMaterial(0.3f);
   lamp.emission = Rgb(lighting.emission);
   builder.add(ceilingAt(3, 1, builder.add(lamp)));
+
   if (lighting.sky > 0) {
     Sky& sky = builder.description.sky;
     sky.kind = Sky::Kind::gradient;
@@ -443,15 +450,14 @@ Scene litScene(int seed, const Lighting& lighting) {
     sky.horizon = Rgb(lighting.sky);
     sky.ground = Rgb(0.1f) * lighting.sky;
   }
+
   Ambient& ambient = builder.description.ambient;
   ambient.up = Rgb(1.0f, 0.8f, 0.6f) * lighting.ambient;
   ambient.down = Rgb(0.3f) * lighting.ambient;
   ambient.occlusion = seed % 2 == 0 ? 1.0f : 0.0f;
   builder.description.lights = lighting.lights;
-  Camera camera;
-  camera.eye = {0, 1.5f, 5};
-  camera.at = {0, 0.6f, 0};
-  builder.description.cameras = {camera};
+
+  builder.lookFrom({0, 1.5f, 5}, {0, 0.6f, 0});
   return builder.build();
 }
 
@@ -462,6 +468,7 @@ RenderOptions anyOptions(Numbers& numbers) {
     return *(choices.begin() +
              static_cast<int>(numbers.in(0, static_cast<double>(choices.size()) - 1e-9)));
   };
+
   RenderOptions o = plain();
   o.size = ImageSize{12, 8};
   o.spp = one({1, 1, 2, 4});
@@ -470,6 +477,7 @@ RenderOptions anyOptions(Numbers& numbers) {
   o.indirect = one({0, 0, 1, 2});
   o.ambientSamples = one({0, 0, 1, 4});
   o.lightSamples = one({1, 1, 4});
+
   if (one({0, 1}) == 1) o.cutoff = 1e-3f;
   if (one({0, 0, 1}) == 1) o.roulette = 0.3f;
   o.shading.terminator = one({0, 1}) == 1;
@@ -483,6 +491,7 @@ TEST(LightIsLinear, InRandomScenesWithAnyOptions) {
   for (int seed = 0; seed < kScenes; ++seed) {
     Numbers numbers(static_cast<unsigned>(10000 + seed));
     const RenderOptions o = anyOptions(numbers);
+
     Lighting all;
     for (int i = 0; i < 3; ++i) {
       Light light =
@@ -493,6 +502,7 @@ TEST(LightIsLinear, InRandomScenesWithAnyOptions) {
       all.lights.push_back(light);
     }
     all.sky = all.ambient = all.emission = 1;
+
     // Each light is in one of two halves.
     Lighting halves[2] = {all, all};
     for (std::size_t i = 0; i < all.lights.size(); ++i) {
@@ -501,17 +511,20 @@ TEST(LightIsLinear, InRandomScenesWithAnyOptions) {
     for (float Lighting::*part : {&Lighting::sky, &Lighting::ambient, &Lighting::emission}) {
       halves[numbers.in(0, 1) < 0.5 ? 0 : 1].*part = 0;
     }
+
     const bool packets = seed % 4 != 0;
     std::vector<Image> images;
     for (const Lighting& lighting : {halves[0], halves[1], all}) {
       images.push_back(render(litScene(seed, lighting), o, packets).image);
     }
+
     double brightest = 0, worst = 0;
     for (std::size_t k = 0; k < images[2].pixels.size(); ++k) {
       const Rgb sum = images[0].pixels[k] + images[1].pixels[k], both = images[2].pixels[k];
       brightest = std::max(brightest, double{maxComponent(both)});
       worst = std::max(worst, maxComponent(abs(sum - both)) / (0.1 + maxComponent(both)));
     }
+
     // Roundings of the sums of a path.
     EXPECT_LT(worst, 1e-5) << "scene " << seed << (packets ? " packets" : " reference");
     EXPECT_GT(brightest, 0) << seed;

@@ -39,12 +39,9 @@ Scene floorUnder(const std::vector<Light>& lights) {
   builder.add(floorAt(0, 8, builder.add(diffuseMaterial(0.5f))));
   builder.description.lights = lights;
 
-  Camera camera;
-  camera.eye = {0, 3, 0};
-  camera.at = {0, 0, 0};
+  Camera& camera = builder.lookFrom({0, 3, 0});
   camera.up = {0, 0, -1};
   camera.fov = 50;
-  builder.description.cameras = {camera};
   return builder.build();
 }
 

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <numbers>
 
+#include "pi.h"
 #include "render/frame.h"
 #include "shipped_scene.h"
 #include "verify/scene_builder.h"
@@ -74,7 +74,7 @@ TEST(MovingScene, LightsAndCamerasOfFilesKeepWhatWasEdited) {
 
   EXPECT_EQ(scene.lights[1].intensity, Rgb(7.0f));
   // The lamp goes once around in ten seconds.
-  const double turn = -std::numbers::pi / 2;
+  const double turn = -kPi / 2;
   const Vec3d expected{4.5 * std::cos(turn) + 3 * std::sin(turn), 8,
                        -4.5 * std::sin(turn) + 3 * std::cos(turn)};
   EXPECT_LT(length(Vec3d(scene.lights[1].position) - expected), 1e-6);
@@ -147,11 +147,11 @@ TEST_F(MovingFile, ABallIsSeenWhereItIs) {
 
     // About as many pixels at the edge of the disc are counted that are less than half covered as
     // are left out that are more than half covered: the error grows as that of a random walk.
-    const double rim = std::sqrt(2 * std::numbers::pi * radius);
+    const double rim = std::sqrt(2 * kPi * radius);
 
     EXPECT_NEAR(seen.x, 2 * t * kPixels, 0.1) << seconds;
     EXPECT_NEAR(seen.y, -t * kPixels, 0.1) << seconds;
-    EXPECT_NEAR(seen.area, std::numbers::pi * radius * radius, rim) << seconds;
+    EXPECT_NEAR(seen.area, kPi * radius * radius, rim) << seconds;
   }
 }
 
@@ -232,8 +232,8 @@ std::shared_ptr<const Deformation> mirroredSkin(const Mesh& mesh) {
 enum class Mirrors { skin, partOfASkin, node };
 
 Scene mirroredVault(Mirrors what, bool doubleSided) {
-  test::SceneBuilder builder;
-  Material material = test::diffuseMaterial(0.8f);
+  verify::SceneBuilder builder;
+  Material material = verify::diffuseMaterial(0.8f);
   material.doubleSided = doubleSided;
   Mesh mesh;
   mesh.materials = {builder.add(material)};
@@ -246,7 +246,7 @@ Scene mirroredVault(Mirrors what, bool doubleSided) {
   builder.place(std::move(object), {Affine()});
   builder.description.motion.rig = {{kNoNode, Affine(), std::make_shared<const Motion>(mirroring)}};
   if (what == Mirrors::node) builder.description.instances[0].mover = 0;
-  builder.description.lights = {test::lightAt({0, 2, 5}, 60)};
+  builder.description.lights = {verify::lightAt({0, 2, 5}, 60)};
   builder.description.cameras = {{.eye = {1.03f, 0, 9}, .at = {1.03f, 0, 0}, .fov = 40}};
   return builder.build();
 }

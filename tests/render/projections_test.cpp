@@ -150,10 +150,7 @@ TEST(Projected, SizesThatTheViewsDoNotDivideShowTheSameViews) {
 Scene ballAndWall(const Camera& camera) {
   SceneBuilder builder;
   builder.description.cameras = {camera};
-  Mesh ball;
-  ball.spheres = {Affine::scaling(Vec3d(1.5))};
-  ball.materials = {builder.add(diffuseMaterial(0.5f))};
-  builder.add(std::move(ball));
+  builder.add(exactSphere(builder.add(diffuseMaterial(0.5f)), Affine::scaling(Vec3d(1.5))));
   builder.add(quad({-90, -90, -2}, {90, -90, -2}, {90, 90, -2}, {-90, 90, -2},
                    builder.add(diffuseMaterial(0.5f))));
 

@@ -138,11 +138,8 @@ Scene room() {
     }
   }
 
-  Camera camera;
-  camera.eye = {-0.8f, 0.7f, 0.85f};
-  camera.at = {0.3f, -0.35f, -0.6f};
+  Camera& camera = builder.lookFrom({-0.8f, 0.7f, 0.85f}, {0.3f, -0.35f, -0.6f});
   camera.fov = 100;
-  builder.description.cameras = {camera};
   return builder.build();
 }
 
@@ -163,12 +160,14 @@ struct Met {
 Met meet(const Vec3d& eye, const Vec3d& direction) {
   Met met;
   double nearest = 1e9;
+
   for (std::size_t w = 0; w < walls().size(); ++w) {
     const Wall& wall = walls()[w];
     const double towards = dot(direction, wall.normal());
     if (!(towards < 0)) continue;
     const double distance = dot(wall.corner - eye, wall.normal()) / towards;
     if (distance >= nearest) continue;
+
     nearest = distance;
     const Vec3d at = eye + direction * distance - wall.corner;
     met = {w, dot(at, wall.u), dot(at, wall.v)};
@@ -211,7 +210,8 @@ struct Residuals {
   void add(double got, double expected) {
     sum += got - expected;
     squares += (got - expected) * (got - expected);
-    wanted += expected, ++n;
+    wanted += expected;
+    ++n;
   }
 
   double mean() const { return sum / n; }

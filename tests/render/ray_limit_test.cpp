@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "reference/sample_mean.h"
 #include "render/pipeline_laws.h"
 
 namespace whit::test {
@@ -63,19 +64,15 @@ TEST(RayLimit, KeepsTheMeanOfPictures) {
     o.maxRays = maxRays;
     const Image limited = render(scene, o).image;
 
-    double sum = 0, squares = 0;
-    const auto n = static_cast<double>(whole.pixels.size());
+    SampleMean change;
     for (std::size_t i = 0; i < whole.pixels.size(); ++i) {
       const RgbD a(limited.pixels[i]), b(whole.pixels[i]);
-      const double change = a.x + a.y + a.z - b.x - b.y - b.z;
-      sum += change;
-      squares += change * change;
+      change.add(a.x + a.y + a.z - b.x - b.y - b.z);
     }
 
     // The standard error of the mean bounds its change.
-    const double error = std::sqrt((squares / n - sum * sum / n / n) / (n - 1));
-    EXPECT_LE(std::fabs(sum / n), 4.5 * error) << maxRays;
-    EXPECT_GT(error, 0) << maxRays;
+    EXPECT_LE(std::fabs(change.value()), 4.5 * change.error()) << maxRays;
+    EXPECT_GT(change.error(), 0) << maxRays;
   }
 }
 

@@ -29,11 +29,8 @@ Scene rowOfTiles(SceneBuilder& builder, Make&& make) {
   builder.place(std::move(tiles), {Affine(), Affine::translation({0, 0, 1.5})});
   builder.description.ambient = {Rgb(0.25f), Rgb(0.25f)};
   builder.description.lights = {lightAt({0.5f, 2, 0.5f}, 5)};
-  Camera camera;
-  camera.eye = {0, 5, 1};
-  camera.at = {0, 0, 0.25f};
+  Camera& camera = builder.lookFrom({0, 5, 1}, {0, 0, 0.25f});
   camera.up = {0, 0, -1};
-  builder.description.cameras = {camera};
   return builder.build();
 }
 

@@ -36,10 +36,10 @@ TEST(SecondUvs, AreThoseOfTheEmissionMapThatSaysSo) {
 
     for (const double u : {0.25, 0.75}) {
       for (const double v : {0.25, 0.75}) {
-        const double diffuse = u < 0.5 ? 0.5 : 0, ofLight = second ? v : u;
-        const double light = ofLight < 0.5 ? 4 : 0;
+        const double diffuse = u < 0.5 ? 0.5 : 0;
+        const bool isLit = (second ? v : u) < 0.5;
         const RgbD seen = radianceAlong(scene, {u, 1, -v}, {0, -1, 0});
-        EXPECT_NEAR(seen.x, diffuse + light, kRounding) << second << " " << u << " " << v;
+        EXPECT_NEAR(seen.x, diffuse + (isLit ? 4 : 0), kRounding) << second << " " << u << " " << v;
       }
     }
   }

@@ -7,6 +7,7 @@
 
 #include "inspect/metrics.h"
 #include "inspect/stage_comparison.h"
+#include "pi.h"
 #include "reference/small_scenes.h"
 #include "render/shipped_scene.h"
 #include "simd/kernels.h"
@@ -123,8 +124,7 @@ Scene manyLights(int lights) {
         lightAt(Vec3f(p), static_cast<float>(std::exp(numbers.in(-6, 1)))));
   }
 
-  builder.description.cameras.resize(1);
-  builder.description.cameras[0].eye = {0, 6, 6};
+  builder.lookFrom({0, 6, 6});
   return builder.build();
 }
 
@@ -179,7 +179,7 @@ TEST(LightCutoff, DecidesByTheContributionToThePixel) {
     return light.x;
   };
 
-  const double direct = 1 / 3.14159265358979323846;
+  const double direct = 1 / kPi;
   EXPECT_NEAR(seen(1, false, direct * 0.999), direct, 1e-6);
   EXPECT_EQ(seen(1, false, direct * 1.001), 0);
   EXPECT_NEAR(seen(1, true, direct / 4 * 0.999), direct / 4, 1e-6);

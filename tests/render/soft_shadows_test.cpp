@@ -91,12 +91,9 @@ TEST(SoftShadowsPicture, AnEdgeHasThePenumbraOfTheIntegral) {
   light.radius = static_cast<float>(p.radius);
   builder.description.lights = {light};
 
-  Camera camera;
-  camera.eye = {0, 1.2f, 0};
-  camera.at = {0, 0, 0};
+  Camera& camera = builder.lookFrom({0, 1.2f, 0});
   camera.up = {0, 0, -1};
   camera.orthographicHeight = 0.002f;
-  builder.description.cameras = {camera};
   const Scene scene = builder.build();
 
   RenderOptions o;

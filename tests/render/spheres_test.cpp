@@ -20,13 +20,6 @@
 namespace whit::test {
 namespace {
 
-Mesh ballOf(const Affine& map, std::uint32_t material) {
-  Mesh mesh;
-  mesh.spheres = {map};
-  mesh.materials = {material};
-  return mesh;
-}
-
 Affine placedBall(const Vec3d& center, double radius) {
   return Affine::translation(center) * Affine::scaling(Vec3d(radius));
 }
@@ -94,7 +87,7 @@ Scene ballBeforeWall() {
   for (Vec2f& uv : mesh.uvs) uv = {uv.x * kHalf, uv.y * kHalf};
   builder.add(std::move(mesh));
 
-  builder.add(ballOf(Affine(), builder.add(glassMaterial(kGlassIndex))));
+  builder.add(exactSphere(builder.add(glassMaterial(kGlassIndex))));
   builder.description.cameras = {{.eye = {0, 0, kEyeDistance}, .at = {0, 0, 0}, .fov = 40}};
   return builder.build();
 }
@@ -186,7 +179,7 @@ Scene ballsOfEveryKind(int segments = 0) {
 
     const Affine map = Affine::translation({x, 0.62, z}) *
                        Affine::rotation({1, 1, 0}, 35.0 * static_cast<double>(i)) * stretch;
-    all.meshes.push_back(put(ballOf(map, builder.add(kinds[i]))));
+    all.meshes.push_back(put(exactSphere(builder.add(kinds[i]), map)));
   }
 
   builder.place(std::move(all),
@@ -285,7 +278,7 @@ class CoincidentSpheres : public testing::Test {
       const Affine elsewhere = Affine::translation({40, 0, 0}) * piece.toWorld;
       std::vector<Affine> places{piece.toWorld};
       if (piece.isInstance) places.push_back(elsewhere);
-      builder.place({"ball", {ballOf(piece.map, piece.material)}}, places);
+      builder.place({"ball", {exactSphere(piece.material, piece.map)}}, places);
     }
     builder.description.cameras = {{.eye = {0, 0, 3}, .at = {0, 0, 0}, .fov = 40}};
     return builder;
@@ -418,7 +411,7 @@ TEST(Spheres, LeftOutAreNotThereInEitherMode) {
 TEST(Spheres, TheEyeSeesNothingOfWhatItLiesIn) {
   for (const float z : {3.0f, -3.0f, 1.0f}) {
     SceneBuilder builder;
-    builder.add(ballOf(placedBall({0, 0, 1}, 1), builder.add(emittingMaterial(0.25f))));
+    builder.add(exactSphere(builder.add(emittingMaterial(0.25f)), placedBall({0, 0, 1}, 1)));
     builder.add(floorAt(-40, 100, builder.add(emittingMaterial(0.5f))));
     builder.sky(0.75f);
     builder.description.cameras = {{.eye = {0, 1, 1}, .at = {0, 4, z}, .up = {1, 0, 0}, .fov = 5}};

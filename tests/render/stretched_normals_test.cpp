@@ -22,9 +22,7 @@ Scene ellipsoid(bool twice, bool terminator = false) {
   builder.description.lights = {whit::test::sun({-2, -1, -2}, 2)};
   if (terminator) builder.description.lights = {lightAt({224, 96, 224}, 1e5f)};
   builder.description.ambient = {Rgb(0.5f), Rgb(0.1f)};
-  builder.description.cameras.resize(1);
-  builder.description.cameras[0].eye = {0, 0, 8};
-  builder.description.cameras[0].at = {0, 0, 0};
+  builder.lookFrom({0, 0, 8});
   return builder.build();
 }
 

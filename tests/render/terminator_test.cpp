@@ -64,6 +64,7 @@ double bandError(const Scene& scene, const Image& image) {
   const CameraFrame frame = makeCameraFrame(scene.cameras[0], image.width, image.height);
   double sum = 0;
   int pixels = 0;
+
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       const double cosine = trueCosine(frame, x, y);
@@ -120,9 +121,7 @@ TEST(Terminator, H35_flatFacesAreLeftAlone) {
   builder.add(floorAt(-1, 20, builder.add(diffuseMaterial(0.7f))));
   builder.add(box({-1, -1, -1}, {1, 0.3f, 0.7f}, builder.add(diffuseMaterial(0.4f))));
   builder.description.lights.push_back(lightAt({2, 3, 1}, 20));
-  builder.description.cameras.resize(1);
-  builder.description.cameras[0].eye = {3, 2, 4};
-  builder.description.cameras[0].at = {0, 0, 0};
+  builder.lookFrom({3, 2, 4});
 
   const Scene scene = builder.build();
   ASSERT_TRUE(scene.effects.has(Effect::smoothNormals));

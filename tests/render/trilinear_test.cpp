@@ -67,9 +67,7 @@ SceneDescription textured() {
 
   builder.description.lights.push_back(lightAt({2, 8, 3}, 300));
   builder.sky(0.2f);
-  builder.description.cameras.resize(1);
-  builder.description.cameras[0].eye = {0, 2, 4};
-  builder.description.cameras[0].at = {0, 1, -4};
+  builder.lookFrom({0, 2, 4}, {0, 1, -4});
   return builder.describe();
 }
 
@@ -177,9 +175,7 @@ TEST(Trilinear, IsCloserToManySamples) {
   Mesh floor = floorAt(0, 500, builder.add(m));
   for (Vec2f& uv : floor.uvs) uv = {uv.x * 500, uv.y * 500};
   builder.add(floor);
-  builder.description.cameras.resize(1);
-  builder.description.cameras[0].eye = {0.3f, 2, 0};
-  builder.description.cameras[0].at = {1.3f, 1.4f, -5};
+  builder.lookFrom({0.3f, 2, 0}, {1.3f, 1.4f, -5});
   const Scene scene = builder.build();
 
   RenderOptions many = bilinear();

@@ -11,6 +11,8 @@
 #include "io/scene_files.h"
 #include "pi.h"
 #include "reference/add_impulses.h"
+#include "reference/lobe.h"
+#include "reference/sample_mean.h"
 #include "reference/small_scenes.h"
 #include "render/shipped_scene.h"
 
@@ -33,18 +35,13 @@ Scene balls(const std::vector<Material>& materials) {
   for (std::size_t i = 0; i < materials.size(); ++i) {
     const auto column = static_cast<double>(i % kBallsAcross),
                row = static_cast<double>(i / kBallsAcross);
-    Mesh ball;
     const Vec3d center{column - (kBallsAcross - 1) / 2.0, row - (kBallsDown - 1) / 2.0,
                        -8 * static_cast<double>(i)};
-    ball.spheres = {Affine::translation(center) * Affine::scaling(Vec3d(0.49))};
-    ball.materials = {builder.add(materials[i])};
-    builder.add(std::move(ball));
+    const Affine map = Affine::translation(center) * Affine::scaling(Vec3d(0.49));
+    builder.add(exactSphere(builder.add(materials[i]), map));
   }
-  Camera camera;
-  camera.eye = {0, 0, 50};
-  camera.at = {0, 0, 0};
-  camera.orthographicHeight = kBallsDown;
-  builder.description.cameras = {camera};
+
+  builder.lookFrom({0, 0, 50}).orthographicHeight = kBallsDown;
   return builder.build();
 }
 
@@ -119,6 +116,7 @@ std::string sceneMaterial(Numbers& numbers, Colors colors) {
        {"thin", "frosted", "diffuseReflection", "glossyReflection", "castsShadow"}) {
     m.maybe(name, numbers.in(0, 1) < 0.5 ? "true" : "false");
   }
+
   m.maybe("priority", std::to_string(static_cast<int>(numbers.in(0, 9))));
   return m.maybe("roughness", number(numbers))
       .maybe("coverage", number(numbers))
@@ -133,20 +131,25 @@ std::string gltfMaterial(Numbers& numbers, Colors colors) {
                               .maybe("metallicFactor", number(numbers))
                               .maybe("roughnessFactor", number(numbers))
                               .text();
+
   const std::string specular = object()
                                    .maybe("specularFactor", number(numbers))
                                    .maybe("specularColorFactor", listOf(numbers, 3, colors, 9))
                                    .text();
+
   const std::string volume = object()
                                  .add("thicknessFactor", "1")
                                  .maybe("attenuationDistance", number(numbers, 0.1, 9))
                                  .maybe("attenuationColor", listOf(numbers, 3, colors))
                                  .text();
+
   const std::string coat = object()
                                .maybe("clearcoatFactor", number(numbers))
                                .maybe("clearcoatRoughnessFactor", number(numbers, 0, 0.2))
                                .text();
+
   const std::string transmission = object().maybe("transmissionFactor", number(numbers)).text();
+
   const std::string extensions =
       object()
           .maybe("KHR_materials_ior", "{\"ior\":" + number(numbers, 1, 2.5) + "}")
@@ -155,6 +158,7 @@ std::string gltfMaterial(Numbers& numbers, Colors colors) {
           .maybe("KHR_materials_volume", volume)
           .maybe("KHR_materials_clearcoat", coat)
           .text();
+
   return object()
       .add("pbrMetallicRoughness", pbr)
       .add("extensions", extensions)
@@ -181,6 +185,7 @@ std::string whiteGltfMaterial(Numbers& numbers, Colors /*all are gray*/) {
           .maybe("KHR_materials_ior", "{\"ior\":" + number(numbers, 1, 2.5) + "}")
           .maybe("KHR_materials_clearcoat", coat)
           .text();
+
   const std::string roughness = numbers.in(0, 1) < 0.2 ? "0" : number(numbers);
   return "{\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"roughnessFactor\":" + roughness +
          "},\"extensions\":" + extensions + "}";
@@ -203,11 +208,14 @@ class WrittenMaterials : public SceneFileTest {
     Numbers numbers(500);
     std::string materials;
     for (int i = 0; i < kBalls; ++i) materials += (i == 0 ? "" : ",") + write(numbers, colors);
+
     const std::string file =
         save("m.gltf", "{\"asset\":{\"version\":\"2.0\"},\"materials\":[" + materials + "]}");
+
     const PathRules rules(root_, false);
     MemoryBudget budget(1u << 30);
     const Instant instant;
+
     std::vector<Material> read = openModel({file, rules, budget, warnings_, instant})->materials();
     read.resize(kBalls);  // without the one of what has none
     return balls(read);
@@ -253,17 +261,14 @@ TEST_F(WrittenMaterials, WhatDoesNotAbsorbVanishesOnAverageWithAnyColors) {
   const Scene scene = ballsOfScene(whiteSceneMaterial, Colors::any);
   for (const bool packets : {false, true}) {
     const Image image = render(scene, furnace(), packets).image;
-    double sum = 0, squares = 0;
+    SampleMean off;
     for (const Rgb& pixel : image.pixels) {
-      const double off = double{pixel.x} + double{pixel.y} + double{pixel.z} - 3;
-      sum += off;
-      squares += off * off;
+      off.add(double{pixel.x} + double{pixel.y} + double{pixel.z} - 3);
     }
-    const auto count = static_cast<double>(image.pixels.size());
-    const double mean = sum / count, error = std::sqrt((squares / count - mean * mean) / count);
-    EXPECT_GT(error, 0) << "some paths choose";
+
+    EXPECT_GT(off.error(), 0) << "some paths choose";
     // 4.5 standard errors: one comparison in 150,000 would fail by chance.
-    EXPECT_NEAR(mean, 0, 4.5 * error + double{kRoundingsOfAPath}) << packets;
+    EXPECT_NEAR(off.value(), 0, 4.5 * off.error() + double{kRoundingsOfAPath}) << packets;
   }
 }
 
@@ -274,54 +279,61 @@ TEST(WhiteFurnace, LobesThatAreNotSampledTakeWhatTheyReflect) {
   plastic.specular = Rgb(0.3f);
   RenderOptions o = furnace();
   o.glossy = o.indirect = 0;
+
   for (const bool packets : {false, true}) {
     const auto [least, largest] = rangeOf(balls({plastic}), o, packets);
     EXPECT_LE(largest, 1 + kRoundingsOfAPath) << packets;
     EXPECT_GE(least, 0.9 - kRoundingsOfAPath) << packets;
+
     o.disable = EffectSet().with(Effect::blurredSky);
     EXPECT_LT(rangeOf(balls({plastic}), o, packets).first, 0.9 * 0.75) << packets;
     o.disable = {};
   }
 }
 
-// The mean of what the samples leave is 1 less the lobe's albedo, here by the midpoint rule over
-// the half vectors of the formulas: Walter et al. 2007 for the facets, Heitz 2014 for the masking.
+// The lobe's albedo by the midpoint rule over the half vectors of the formulas: Walter et al. 2007
+// for the facets, Heitz 2014 for the masking.
+double albedoByHalfVectors(double roughness, double nv) {
+  constexpr int kSteps = 400;
+  const double a2 = std::pow(roughness, 4), sine = std::sqrt(1 - nv * nv);
+  const auto lambda = [&](double c) { return (std::sqrt(1 + a2 * (1 / (c * c) - 1)) - 1) / 2; };
+
+  double albedo = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    for (int k = 0; k < kSteps; ++k) {
+      const double nl = (i + 0.5) / kSteps, turn = 2 * kPi * (k + 0.5) / kSteps;
+      const double across = std::sqrt(1 - nl * nl);
+      const double x = sine + across * std::cos(turn), y = across * std::sin(turn), z = nv + nl;
+      const double size = std::sqrt(x * x + y * y + z * z), nh = z / size;
+      const double vh = (sine * x + nv * z) / size, spread = nh * nh * (a2 - 1) + 1;
+
+      const double lobe = a2 / (kPi * spread * spread) / (1 + lambda(nl) + lambda(nv)) /
+                          (4 * nl * nv) * (0.04 + 0.96 * std::pow(1 - vh, 5));
+      albedo += lobe * nl * 2 * kPi / (kSteps * kSteps);
+    }
+  }
+  return albedo;
+}
+
+// The mean of what the samples leave is 1 less the lobe's albedo.
 TEST(WhiteFurnace, DiffuseColorsGetWhatTheLobesAlbedoLeaves) {
+  SceneBuilder builder;
+  Material plastic = diffuseMaterial(1);
+  plastic.specular = Rgb(0.04f);
+  builder.add(floorAt(0, 1, builder.add(plastic)));
+  const Scene scene = builder.build();
+  const EffectSet effects = EffectSet().with(Effect::glossy).with(Effect::glossyReflection);
+
   for (const double roughness : {0.3, 0.6, 1.0}) {
     for (const double nv : {0.15, 0.5, 0.95}) {
-      constexpr int kSteps = 400;
-      const double a2 = std::pow(roughness, 4), sine = std::sqrt(1 - nv * nv);
-      double albedo = 0;
-      for (int i = 0; i < kSteps; ++i) {
-        for (int k = 0; k < kSteps; ++k) {
-          const double nl = (i + 0.5) / kSteps, turn = 2 * kPi * (k + 0.5) / kSteps;
-          const double across = std::sqrt(1 - nl * nl);
-          const double x = sine + across * std::cos(turn), y = across * std::sin(turn), z = nv + nl;
-          const double size = std::sqrt(x * x + y * y + z * z), nh = z / size;
-          const double vh = (sine * x + nv * z) / size, spread = nh * nh * (a2 - 1) + 1;
-          const auto lambda = [&](double c) {
-            return (std::sqrt(1 + a2 * (1 / (c * c) - 1)) - 1) / 2;
-          };
-          const double lobe = a2 / (kPi * spread * spread) / (1 + lambda(nl) + lambda(nv)) /
-                              (4 * nl * nv) * (0.04 + 0.96 * std::pow(1 - vh, 5));
-          albedo += lobe * nl * 2 * kPi / (kSteps * kSteps);
-        }
-      }
-      SceneBuilder builder;
-      Material plastic = diffuseMaterial(1);
-      plastic.specular = Rgb(0.04f);
-      builder.add(floorAt(0, 1, builder.add(plastic)));
-      const Scene scene = builder.build();
-      reference::Surfel s;
-      s.geometricNormal = s.shadingNormal = {0, 0, 1};
-      s.view = {sine, 0, nv};
-      s.alpha = roughness * roughness;
-      s.specular = RgbD(double{plastic.specular.x});
+      reference::Surfel s = reference::levelSurfel(
+          roughness * roughness, double{plastic.specular.x}, reference::directionAt(nv, 0));
       s.diffuse = RgbD(1.0);
-      const EffectSet effects = EffectSet().with(Effect::glossy).with(Effect::glossyReflection);
       reference::findLayers(scene, effects, {}, {}, {1, {4096, 0, 0}}, s);
+
       // 2e-3: what 4096 points of a lattice and the midpoint rule leave.
-      EXPECT_NEAR(s.diffuse.x, 1 - albedo, 2e-3) << roughness << ' ' << nv;
+      EXPECT_NEAR(s.diffuse.x, 1 - albedoByHalfVectors(roughness, nv), 2e-3)
+          << roughness << ' ' << nv;
     }
   }
 }

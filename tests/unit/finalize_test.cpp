@@ -50,6 +50,7 @@ TEST(Finalize, At255MediaTheNumbersEnd) {
   const auto withMedia = [](std::uint32_t count) {
     SceneDescription d = sceneOf(square());
     d.materials.resize(count);
+
     Mesh& mesh = d.objects[0].meshes[0];
     mesh.triangles.assign(count, {0, 1, 2});
     mesh.materials.clear();
@@ -60,6 +61,7 @@ TEST(Finalize, At255MediaTheNumbersEnd) {
     }
     return d;
   };
+
   EXPECT_EQ(finalized(withMedia(255)).mediumOfMaterial.back(), 255);
   expectError(ExitStatus::limit, {"255"}, [&] { finalized(withMedia(256)); });
 }
@@ -77,7 +79,7 @@ TEST(Finalize, SuppliedCameraSeesAllOfTheScene) {
     const Vec3d right = f.right / dot(f.right, f.right), up = f.up / dot(f.up, f.up);
 
     for (int i = 0; i < 8; ++i) {
-      const Vec3d v = Vec3d(BoxOf{scene.lower, scene.upper}.corner(i)) - f.eye;
+      const Vec3d v = Vec3d(Box{scene.lower, scene.upper}.corner(i)) - f.eye;
       const double depth = dot(v, f.forward);
       ASSERT_GT(depth, 0);
       EXPECT_LE(std::abs(dot(v, right) / depth), width / 2.0);

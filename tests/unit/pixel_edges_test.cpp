@@ -1,4 +1,5 @@
 // Which pixels are edges.
+#include "pi.h"
 #include "sampling/sample_pattern.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +9,7 @@
 namespace whit::test {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
+constexpr double kDegree = kPi / 180;
 
 PixelSurface pointOnFloor(float x, float z) { return {1, 7, {x, 0, z}, {0, 1, 0}}; }
 

@@ -1,5 +1,6 @@
 // The fixed pattern of samples in a pixel.
 #include "sampling/sample_pattern.h"
+#include "pi.h"
 
 #include <gtest/gtest.h>
 
@@ -57,7 +58,7 @@ double edgeError(const std::vector<Vec2f>& samples, int from, int to) {
   double sum = 0;
   int edges = 0;
   for (int direction = from; direction < to; ++direction) {
-    const double angle = (direction + 0.5) * 3.14159265358979323846 / 180;
+    const double angle = (direction + 0.5) * kPi / 180;
     const double nx = std::cos(angle), ny = std::sin(angle);
 
     // The exact coverage is taken from a fine grid.

@@ -247,14 +247,17 @@ TEST(SceneEffects, ACameraPathMayHaveAnAperture) {
 TEST(SceneEffects, UnusedMaterialsDoNotCount) {
   SceneDescription d = plainScene();
   d.ambient.occlusion = 1;  // of what is black
+
   for (int i = 1; i <= 2; ++i) d.materials.emplace_back().mirror = Rgb(1.0f);
   d.materials.emplace_back().transmission = Rgb(1.0f);
   d.objects.push_back({"never placed", {square()}});
   d.objects[1].meshes[0].materials = {1};
+
   // Material 2 only colors a triangle that is dropped.
   Mesh& mesh = d.objects[0].meshes[0];
   mesh.triangles.push_back({0, 0, 1});
   mesh.materials = {0, 0, 2};
+
   const Scene scene = finalized(std::move(d));
   EXPECT_EQ(scene.effects, EffectSet());
   EXPECT_EQ(scene.media.size(), 1u);

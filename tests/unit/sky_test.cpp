@@ -24,6 +24,7 @@ Sky imageSky(int width, int height, const Value& value) {
   sky.kind = Sky::Kind::image;
   sky.image.width = width;
   sky.image.height = height;
+
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const float v = static_cast<float>(value(x, y));

@@ -1,8 +1,8 @@
 #include "make/model_view.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "pi.h"
 #include "scene_builder.h"
 
 namespace whit {
@@ -27,7 +27,7 @@ Camera lookingAt(const Vec3f& eye, const Vec3f& at) {
 TEST(Turntable, TheEyeGoesAroundOnACircle) {
   const Turntable turntable = aroundTarget(lookingAt({5, 3, 2}, {1, 1, 2}));
   for (int k = 0; k < 12; ++k) {
-    const double angle = 2 * std::numbers::pi * k / 12;
+    const double angle = 2 * kPi * k / 12;
     const Camera camera = turned(turntable, k / 12.0);
     expectNear(camera.eye, {1 + 4 * std::cos(angle), 3, 2 - 4 * std::sin(angle)}, 2e-6);
     expectNear(camera.at, {1, 1, 2}, 1e-6);

@@ -43,10 +43,7 @@ struct Ball {
     return Vec3d(center) + direction * (radii * r());
   }
   Mesh mesh(std::uint32_t material) const {
-    Mesh mesh;
-    mesh.spheres = {Affine::translation(Vec3d(center)) * Affine::scaling(Vec3d(r()))};
-    mesh.materials = {material};
-    return mesh;
+    return exactSphere(material, Affine::translation(Vec3d(center)) * Affine::scaling(Vec3d(r())));
   }
   Scene scene(const Material& material) const { return sceneOf(mesh(0), material); }
 

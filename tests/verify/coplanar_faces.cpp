@@ -59,10 +59,8 @@ Scene blocksOnGrid(std::uint64_t seed) {
   builder.description.lights = {lightAt(Vec3f(place.point({3.3, 7, 5.1})), 60)};
   builder.sky(0.3f);
 
-  Camera camera;
-  camera.eye = Vec3f(place.point(numbers.direction() * 9.0));
-  camera.at = Vec3f(place.point({0.1, -0.2, 0.05}));
-  builder.description.cameras = {camera};
+  builder.lookFrom(Vec3f(place.point(numbers.direction() * 9.0)),
+                   Vec3f(place.point({0.1, -0.2, 0.05})));
 
   Warnings warnings;  // coincident boxes of one material
   return Scene::finalize(builder.describe(), warnings);

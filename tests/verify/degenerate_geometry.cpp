@@ -1,6 +1,7 @@
 // H23 to H29: triangles without area, of extreme sizes, and with coordinates that are not numbers.
 #include <array>
 #include <bit>
+#include "pi.h"
 #include "reference/intersect.h"
 #include "verify/bodies.h"
 
@@ -38,7 +39,7 @@ Finding positionsOfNeedles(const Setup& setup) {
   fan.positions.push_back({0, 0, 0});
   fan.normals.push_back({0, 1, 0});
   for (std::uint32_t i = 0; i <= kNeedles; ++i) {
-    const double turn = 2 * 3.14159265358979 * i / kNeedles;
+    const double turn = 2 * kPi * i / kNeedles;
     fan.positions.emplace_back(Vec3d{std::cos(turn), 0, -std::sin(turn)});
     fan.normals.emplace_back(normalized(Vec3d{std::cos(turn), 3, -std::sin(turn)}));
     if (i > 0) fan.triangles.push_back({0, i, i + 1});

@@ -278,10 +278,11 @@ bool comparesHashes(const std::vector<PublishedHash>& pictures, const std::strin
       options.simd = simd;
       hash = scene.hash(options);
       const std::string published(picture.hashWith(simd::chosenTarget()));
-      verdict = hash == published   ? "as published"
-                : published.empty() ? "NOT PUBLISHED"
-                                    : "DIFFERS from " + published;
-      if (hash != published) different.push_back(name);
+      verdict = "as published";
+      if (hash != published) {
+        verdict = published.empty() ? "NOT PUBLISHED" : "DIFFERS from " + published;
+        different.push_back(name);
+      }
     } catch (const Error& error) {
       // A scene whose files are missing is left out; every other error ends the run.
       if (error.status() != ExitStatus::io) throw;

@@ -93,6 +93,7 @@ Finding extremeIntensities(const Setup& setup) {
   for (const float intensity : {0x1p-90f, 0x1p90f, 1e-30f, 1e-10f, 1e10f, 1e30f}) {
     const Image image = litPicture(intensity, setup);
     const bool power = std::fabs(std::log2(intensity)) == 90;
+
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
       const double one = static_cast<double>(unit.pixels[i].x);
       const double got = static_cast<double>(image.pixels[i].x) / static_cast<double>(intensity);

@@ -8,6 +8,7 @@
 
 #include "bake/scene.h"
 #include "core/vec3.h"
+#include "pi.h"
 
 namespace whit::verify {
 
@@ -80,6 +81,13 @@ class SceneBuilder {
     description.sky.kind = Sky::Kind::color;
     description.sky.zenith = Rgb(radiance);
   }
+  // Sets the only camera. The reference ends with the next call.
+  Camera& lookFrom(const Vec3f& eye, const Vec3f& at = {}) {
+    description.cameras.resize(1);
+    description.cameras[0].eye = eye;
+    description.cameras[0].at = at;
+    return description.cameras[0];
+  }
   // Two or more placements make instances.
   void place(Object object, const std::vector<Affine>& placements) {
     description.objects.push_back(std::move(object));
@@ -144,6 +152,14 @@ inline Mesh box(const Vec3f& low, const Vec3f& high, std::uint32_t material) {
   return mesh;
 }
 
+// The sphere of radius 1 about the origin, or the ellipsoid that `map` makes of it.
+inline Mesh exactSphere(std::uint32_t material, const Affine& map = {}) {
+  Mesh mesh;
+  mesh.spheres = {map};
+  mesh.materials = {material};
+  return mesh;
+}
+
 // A fixed sequence of numbers, the same on every machine.
 class Numbers {
  public:
@@ -154,7 +170,7 @@ class Numbers {
   }
   // A unit vector, uniform on the sphere.
   Vec3d direction() {
-    const double z = in(-1, 1), angle = in(0, 6.283185307179586);
+    const double z = in(-1, 1), angle = in(0, 2 * kPi);
     const double r = std::sqrt(1 - z * z);
     return {r * std::cos(angle), r * std::sin(angle), z};
   }

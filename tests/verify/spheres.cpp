@@ -55,6 +55,7 @@ Finding pointsOnBalls(const Setup& setup) {
       [&](const Probe& probe, const Ball& ball, const ProbeRay& ray, std::size_t i) {
         const BallChord chord = ball.chord(ray);
         if (!probe.isHit(i) || chord.aside > 0.99L) return;
+
         const long double t = chord.near > 0 ? chord.near : chord.far;
         const double over = ball.heightError();
         const double along = kWeightAngle * ball.r() + 2 * over;
@@ -62,6 +63,7 @@ Finding pointsOnBalls(const Setup& setup) {
         // The distance is rounded once; the double before it is off by less than a thousandth of
         // that rounding.
         const auto far = static_cast<double>(static_cast<long double>(probe.hits().t[i]) / t - 1);
+
         finding.note(std::max({std::fabs(ball.heightOf(probe.position(i))) / over,
                                static_cast<double>(length(off)) / along,
                                std::fabs(far) / (1.001 * kBallRounding)}),
@@ -275,10 +277,8 @@ Finding ellipsoids(const Setup& setup) {
   Finding finding(1);
   for (const Affine& map : ellipsoidMaps()) {
     const Quadric quadric(map);
-    Mesh mesh;
-    mesh.spheres = {map};
     // Rays pass straight through glass of index 1 and hit both faces.
-    const Scene scene = sceneOf(mesh, glassMaterial(1));
+    const Scene scene = sceneOf(exactSphere(0, map), glassMaterial(1));
 
     Probe probe(scene, setup);
     std::vector<ProbeRay> rays = raysOntoEllipsoid(map);
@@ -286,9 +286,8 @@ Finding ellipsoids(const Setup& setup) {
       probe.cast(rays);
       for (std::size_t i = 0; i < probe.size(); ++i) {
         const bool clear = quadric.chord(rays[i]).aside < 0.999L;
-        const double error = probe.isHit(i) ? normalError(probe, quadric, i, entering)
-                             : clear        ? kNoBound
-                                            : 0;
+        double error = clear ? kNoBound : 0;
+        if (probe.isHit(i)) error = normalError(probe, quadric, i, entering);
         finding.note(error, [&] { return describeEllipsoid(map, rays[i]); });
       }
       rays = raysOf(probe.refractions());

@@ -73,6 +73,7 @@ Finding edges(const Setup& setup) {
   for (const Vec3d& center : {Vec3d{}, kFar}) {
     const Mesh ball = sphereMesh(3, center, 2, 0);
     std::vector<ProbeRay> rays = throughEdges(ball, center, 2);
+
     if (center == Vec3d{}) {
       for (const auto& triangle : ball.triangles) {
         const Vec3f a = ball.positions[triangle[0]], b = ball.positions[triangle[1]];
