@@ -58,7 +58,7 @@ HWY_INLINE V3 Sub3(const V3& a, const V3& b) {
   return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
 }
 
-// What a share of light leaves of 1.
+// Returns 1 - share for each channel: the light that remains for the layers below.
 HWY_INLINE V3 Complement3(const V3& share) { return Sub3(Broadcast3(Vec3f(1.0f)), share); }
 
 HWY_INLINE V3 Mul3(const V3& a, const V3& b) {

@@ -141,7 +141,6 @@ void printInfo(const Json& info, const OpenScene& open) {
               info["memory_mb"].get<double>());
   std::printf("  %-12s%.0f ms to load\n", "time", open.loadMs);
 
-  // What the scene calls for, and what traces it.
   std::printf("\neffects\n");
   for (const auto& [name, effect] : info["effects"].items()) {
     std::printf("  %-18s%-5s%s\n", name.c_str(), effect["on"] == true ? "on" : "-",

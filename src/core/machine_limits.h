@@ -1,4 +1,5 @@
-// What the machine grants this process: processors and memory, bounded by its control groups.
+// Functions that return how many processors and how much memory this process may use, which its
+// control groups may bound below what the machine has.
 #pragma once
 
 #include <cstdint>

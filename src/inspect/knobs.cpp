@@ -22,7 +22,7 @@ using enum Cause;
 // The order is that of the options.
 constexpr KnobSpec kKnobs[] = {
     {"spp", sampling, "1", "1 2 4 8 16", "2"},
-    // With 24 samples, not 16, to make up for the pixels that get one.
+    // The base has 24 samples, not 16, to make up for the pixels that get one.
     {"adaptive", sampling, "off", "off on", "", {}, "--spp 24"},
     {"contrast", sampling, "8", "8 4 16 24", "", {}, "--adaptive on --spp 24"},
     {"depth", algorithm, "64", "0 1 2 3 4 8 16 32 64", "1 3 16 32", {kImpulses}},

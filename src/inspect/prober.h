@@ -24,7 +24,8 @@ class Prober {
 
   double pixels() const { return static_cast<double>(film_.image.pixels.size()); }
 
-  // From now on so many blocks are rendered, or all.
+  // Later calls of render() trace `count` blocks of side * side pixels, or all blocks if there are
+  // no more.
   void chooseBlocks(int side, double count);
   // Number of pixels in the chosen blocks.
   double probed() const { return static_cast<double>(blocks_.size()) * side_ * side_; }

@@ -152,7 +152,7 @@ void putHit(const whit::Scene& scene, const QueryHit& hit, const RayHits& to, st
     return;
   }
 
-  // What a ray that misses leaves in the columns of surfaces.
+  // The ray missed: its row holds zeros, and kMiss in place of numbers.
   put(to.points, i, {});
   put(to.geometricNormals, i, {});
   put(to.shadingNormals, i, {});

@@ -1,4 +1,5 @@
-// What is traced of a picture, and what all workers that trace it share.
+// A frame describes which pixels and samples of a picture are traced, and holds what the workers
+// that trace it share.
 #pragma once
 
 #include <cstdint>

@@ -55,7 +55,7 @@ inline Vec3d interpolate(const float* corners, const TriangleHit& hit) {
          triple(corners + 6) * hit.v;
 }
 
-// From corner 0 to corners 1 and 2.
+// The edges of a triangle that lead from corner 0 to corners 1 and 2.
 struct Edges {
   Vec3d e1, e2;
 };

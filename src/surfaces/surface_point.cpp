@@ -50,8 +50,9 @@ Placement placementOnSphere(const TriangleRecord& sphere, const TriangleHit& hit
   return {point, abs(own).point(abs(unit)), spans, point, own.normal(unit)};
 }
 
-// Where the ray hits the plane, if that is more precise than the weights: of a triangle that is
-// larger than its distance from the ray's start the weights of a hit found in floats say less.
+// Returns the point where the ray hits the triangle's plane if it is more precise than the point
+// that the weights give. It is where a triangle is larger than its distance from the ray's start,
+// because the weights of a hit were found in floats.
 std::optional<Vec3d> pointOnRay(const Placement& place, double t, const Ray& ray,
                                 const Vec3d& normal) {
   if (!(8 * t < sumOf(place.spans))) return std::nullopt;

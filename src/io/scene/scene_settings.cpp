@@ -214,7 +214,7 @@ bool editScene(const std::vector<SceneSetting>& touched, const LoadOptions& opti
   for (const auto& [tokens, value] : touched) {
     const std::string& section = tokens.front();
     if (section == "lights") {
-      // Of a light that moves, the members can be edited, but not its motion.
+      // The members of a moving light can be edited in place, but its motion cannot.
       const bool isMember = tokens.size() > 2 && tokens[2] != "motion";
       if (hasSuppliedSky(document) || (scene.motion.ofLights() && !isMember)) return false;
       lights = true;
