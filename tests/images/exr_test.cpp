@@ -268,6 +268,23 @@ TEST_F(ExrTest, NoColorAtAllIsAnError) {
   }
 }
 
+// OpenEXR would take what follows the list for an attribute, and allocate what that claims to take.
+TEST_F(ExrTest, ListsOfChannelsEndWithTheirAttribute) {
+  ForeignFile file;
+  file.channels = {{"G", 0.5f}};
+  Bytes bytes = load(write(file));
+
+  // Another list of one channel, "A", without the empty name at its end.
+  constexpr int kAttributesAt = 8, kChannelBytes = 18;
+  Bytes attribute{'m', 'o', 'r', 'e', 0, 'c', 'h', 'l', 'i', 's', 't', 0, kChannelBytes,
+                  0,   0,   0,   'A', 0, 2,   0,   0,   0,   0,   0,   0, 0,
+                  1,   0,   0,   0,   1, 0,   0,   0};
+  bytes.insert(bytes.begin() + kAttributesAt, attribute.begin(), attribute.end());
+  const std::string message = errorOf("list.exr", bytes);
+  EXPECT_EQ(message,
+            ": header: expected the list of channels 'more' to end where its attribute does");
+}
+
 // Windows need neither begin at 0 nor lie inside one another.
 TEST_F(ExrTest, DataWindowIsTakenRelativeToTheDisplayWindow) {
   ForeignFile file;

@@ -28,6 +28,7 @@
 
 #include "core/error.h"
 #include "core/option_table.h"
+#include "core/text.h"
 #include "io/files.h"
 #include "io/image/image_decoders.h"
 #include "io/image/image_layers.h"
@@ -46,6 +47,56 @@ std::int64_t heightOf(const Box2i& box) { return std::int64_t{box.max.y} - box.m
 std::string said(const std::string& message) {
   constexpr std::size_t kShown = 150;
   return message.size() > kShown ? "..." + message.substr(message.size() - kShown) : message;
+}
+
+// Returns whether a list of channels ends with its mark, an empty name, and there only.
+bool endsWithItsMark(const std::string& list) {
+  constexpr std::size_t kAfterName = 16;  // bytes of a channel behind the end of its name
+  std::size_t at = 0;
+  while (at < list.size() && list[at] != 0) {
+    at = list.find('\0', at);
+    if (at == std::string::npos) return false;
+    at += 1 + kAfterName;
+  }
+  return at + 1 == list.size();
+}
+
+// Throws unless each list of channels ends where its attribute does. OpenEXR reads a list up to its
+// mark and takes what follows for the next attribute, of any size; its core library goes by the
+// sizes of attributes. It has checked these sizes.
+void checkChannelLists(const std::string& path) {
+  constexpr int kFlagsAt = 5, kAttributesAt = 8;  // bytes from the start of the file
+  constexpr int kSeveralParts = 0x10;
+  std::ifstream in(path, std::ios::binary);
+  in.seekg(kFlagsAt);
+  const bool hasSeveralParts = (in.get() & kSeveralParts) != 0;
+  in.seekg(kAttributesAt);
+
+  std::string name, type;
+  while (std::getline(in, name, '\0')) {
+    // An empty name ends a header, and an empty header ends those of several parts.
+    if (name.empty()) {
+      if (!hasSeveralParts || in.peek() == 0) return;
+      continue;
+    }
+
+    std::uint8_t bytes[4] = {};
+    std::getline(in, type, '\0');
+    in.read(reinterpret_cast<char*>(bytes), sizeof(bytes));
+    const std::uint32_t size =
+        bytes[0] | bytes[1] << 8 | bytes[2] << 16 | static_cast<std::uint32_t>(bytes[3]) << 24;
+    if (type != "chlist") {
+      in.seekg(size, std::ios::cur);
+      continue;
+    }
+
+    std::string list(size, '\0');
+    in.read(list.data(), static_cast<std::streamsize>(size));
+    if (!endsWithItsMark(list)) {
+      throwBadScene(path + ": header", "expected the list of channels '" + printable(name) +
+                                           "' to end where its attribute does");
+    }
+  }
 }
 
 // Checks the headers of all parts by OpenEXR's core library, because the library above it allocates
@@ -79,6 +130,8 @@ std::int32_t checkHeaders(const std::string& path) {
     throwBadScene(path + ": header",
                   "expected valid OpenEXR data, found an error: " + said(message));
   }
+
+  checkChannelLists(path);
 
   const std::uint64_t most = std::filesystem::file_size(path) / sizeof(std::uint64_t);
   if (allChunks > most) {
