@@ -72,7 +72,8 @@ class App : public Session {
   Panel panel_;
   bool listsCameras_ = false;
   bool savesPicture_ = false;  // as soon as it is complete
-  bool asked_ = false;         // whether edits may be lost
+  // The edits of which the user was asked whether they may be lost.
+  std::optional<std::vector<std::string>> askedAbout_;
   double undrawnSeconds_ = 0;
   int drawAgain_ = 0;  // frames to draw without waiting, see kFramesToAnswer
   Stopwatch sinceTick_;

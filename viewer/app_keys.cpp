@@ -159,9 +159,11 @@ void App::closeOrQuit() {
   }
 }
 
-// Asks once before edits are lost.
+// Asks once before edits are lost, and again after further edits.
 bool App::mayQuit() {
-  if (edited_.settings == savedSettings_ || std::exchange(asked_, true)) return true;
+  const std::vector<std::string>& settings = edited_.settings;
+  if (settings == savedSettings_ || settings == askedAbout_) return true;
+  askedAbout_ = settings;
   say("there are edits that no file has: Ctrl+S saves them, Esc once more quits without them");
   return false;
 }

@@ -428,6 +428,7 @@ void Session::undoEdit() {
 
   edited_ = std::move(undo_.back());
   undo_.pop_back();
+  sinceEdit_ = kEditPauseSeconds;  // what is edited next is another edit
   postEdit();
   say("the last edit is undone");
 }
