@@ -28,8 +28,28 @@ usr/bin/whit render only-installed -o rendered.exr --size 96x60 --depth 4 --quie
   --set /lights/0/intensity=550
 usr/bin/whit compare looped.exr rendered.exr --tolerance 0 --quiet >log || { cat log; exit 1; }
 
+# The scene made in memory, from files.
 build/made made.png | grep -qx '8192 triangles'
-usr/bin/whit compare made.png made.png --quiet >log || { cat log; exit 1; }
+awk 'BEGIN {
+  side = 65
+  for (row = 0; row < side; ++row) for (column = 0; column < side; ++column) {
+    x = column / 32 - 1; z = row / 32 - 1
+    printf "v %.9g %.9g %.9g\n", x, 0.25 * cos(7 * sqrt(x * x + z * z)), z
+  }
+  for (row = 0; row + 1 < side; ++row) for (column = 0; column + 1 < side; ++column) {
+    a = row * side + column + 1; b = a + side  # OBJ counts from 1
+    printf "f %d %d %d\nf %d %d %d\n", a, b, b + 1, a, b + 1, a + 1
+  }
+}' >sheet.obj
+cat >sheet.json <<'END'
+{"whit": 1, "sky": {"color": [0.4, 0.5, 0.7]}, "ambient": {"fromSky": 0.5},
+ "lights": [{"position": [2, 4, 1], "intensity": [60, 60, 60]}],
+ "cameras": {"front": {"eye": [0, 2, 3], "at": [0, 0, 0]}},
+ "scene": [{"model": "sheet.obj",
+            "materials": {"*": {"diffuse": [0.8, 0.2, 0.1], "mirror": [0.1, 0.1, 0.1]}}}]}
+END
+usr/bin/whit render sheet.json -o sheet.png --size 160x100 --spp 4 --quiet
+usr/bin/whit compare made.png sheet.png --tolerance 0 --quiet >log || { cat log; exit 1; }
 
 # By pkg-config as well, if it is there.
 if command -v pkg-config >/dev/null; then
