@@ -229,7 +229,8 @@ TEST_F(Serving, EveryAnswerHasItsHeaders) {
 
   for (const Row& row : rows) {
     const auto answer = client().Get(root_ + row.path);
-    ASSERT_TRUE(answer) << row.path;
+    EXPECT_TRUE(answer) << row.path;
+    if (!answer) continue;  // the page's thread has to be joined
     EXPECT_EQ(answer->status, row.status) << row.path;
     EXPECT_EQ(answer->get_header_value("Content-Type"), row.type) << row.path;
     EXPECT_EQ(answer->get_header_value("Content-Disposition"), row.file) << row.path;
