@@ -185,13 +185,14 @@ class BoxBlock {
         }
       }
 
-      // Empty boxes would leave the range of floats.
+      // Empty boxes stay empty: a map that shrinks them could let large boxes meet them.
       constexpr double kMost = std::numeric_limits<float>::max();
       for (std::size_t i = 0; i < kBoxes; ++i) {
+        const bool isEmpty = lower_[0][i] > upper_[0][i];
         to.lower_[static_cast<std::size_t>(row)][i] =
-            static_cast<float>(std::min(center[i] - half[i], kMost));
+            static_cast<float>(isEmpty ? kMost : center[i] - half[i]);
         to.upper_[static_cast<std::size_t>(row)][i] =
-            static_cast<float>(std::max(center[i] + half[i], -kMost));
+            static_cast<float>(isEmpty ? -kMost : center[i] + half[i]);
       }
     }
     return to;
