@@ -2,6 +2,7 @@
 // them is the edited one, bit for bit.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <random>
 #include <type_traits>
 
@@ -266,6 +267,21 @@ TEST_F(EditedSky, OfASceneFile) {
 TEST_F(EditedSky, OfAModel) {
   Editing editing(folder_ / "m.obj");
   expectSkiesInPlace(editing);
+}
+
+// Settings of a model describe its sky from nothing, for the reader and for edits alike.
+TEST_F(EditedSky, OfAModelHasNoMembersOfItsOwn) {
+  const cli::TemporaryFolder elsewhere;
+  std::filesystem::copy_file(folder_ / "sky.exr", elsewhere / "sky.exr");
+
+  for (const std::string& sky : {std::string(), std::string(elsewhere / "sky.exr")}) {
+    LoadOptions load;
+    load.sky = sky;
+    Engine engine(openWith(folder_ / "m.obj", load));
+    engine.edit("/ambient={\"color\": 0.5}");
+    EXPECT_THROW(engine.edit("/sky/scale=2"), Error);
+    expectSame(engine.scene(), openWith(folder_ / "m.obj", engine.opened()->load)->scene);
+  }
 }
 
 // A scene that is shown as a model is has a supplied sky, which the lights make brighter.

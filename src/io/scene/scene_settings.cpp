@@ -87,7 +87,10 @@ bool readEditedSurroundings(const Scene& scene, const JsonDocument& document, Sc
   if (scene.isModel && !file.has("ambient")) return false;
 
   context.knownSky = scene.sky.name;
-  if (hasSuppliedSky(document) && scene.sky.name == kStudio) {
+  // The studio of a model is none that the settings describe, and as bright as its lights are.
+  const bool isSupplied =
+      hasSuppliedSky(document) || (isModelAlone(document) && !document.root.contains("sky"));
+  if (isSupplied && scene.sky.name == kStudio) {
     Sky& sky = context.scene.sky;
     sky.kind = Sky::Kind::image;
     sky.name = kStudio;
@@ -196,13 +199,12 @@ void applySceneSetting(const SceneSetting& setting, JsonDocument& document) {
 
 JsonDocument describeModel(const std::string& file, const Scene& scene,
                            const LoadOptions& options) {
-  JsonDocument document{
-      file, {{"lights", describe(scene.lights)}, {"sky", describe(scene.sky)}}, {}};
+  JsonDocument document{file, {{"lights", describe(scene.lights)}}, {}};
   moveLights(document.root, scene.origin);
   for (const std::string& text : options.settings) {
     const SceneSetting setting = parseSceneSetting(text);
     const std::string& section = setting.tokens.front();
-    if (section != "lights" && section != "sky") applySceneSetting(setting, document);
+    if (section != "lights") applySceneSetting(setting, document);
   }
   return document;
 }

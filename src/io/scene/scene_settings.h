@@ -31,8 +31,8 @@ void addSceneSetting(const std::string& text, std::vector<std::string>& settings
 // badScene with "file#/json/pointer".
 void applySceneSetting(const SceneSetting& setting, JsonDocument& document);
 
-// Returns what the settings of the model in `file` are applied to: its lights, its sky and the
-// settings of `options`, with which it was read.
+// Returns what the settings of the model in `file` are applied to: its lights and the settings of
+// `options`, with which it was read.
 JsonDocument describeModel(const std::string& file, const Scene& scene, const LoadOptions& options);
 
 // Changes `scene` into the one that a reader makes of `document` and `options`, bit for bit, if the
