@@ -135,6 +135,8 @@ void readView(JsonObject& file, std::optional<double>& fromSky, SceneContext& co
   view.word({"model"});
 
   const Ambient own = context.scene.ambient;
+  // A studio that --sky names is supplied like the one that is there without it.
+  if (context.sky == kStudio && !file.has("sky")) context.scene.sky = Sky();
   supplyView(context);
   if (file.has("ambient")) {
     context.scene.ambient = own;

@@ -130,6 +130,10 @@ TEST(Models, ASceneFileCanShowOneAsTheCommandDoes) {
   EXPECT_EQ(codesOf(write(""), {}, folder), shown);
   EXPECT_EQ(codesOf(scene, {"--sky", "none"}, folder), codesOf(model, {"--sky", "none"}, folder));
 
+  // The studio suits the lights, whether it is named or not.
+  write(R"(, "lights": [{"position": [0, 9, 0], "intensity": 0.01}])");
+  EXPECT_EQ(codesOf(scene, {"--sky", "studio"}, folder), codesOf(scene, {}, folder));
+
   // What the file has is kept.
   const auto dark = codesOf(write(R"(, "options": {"exposure": -3})"), {}, folder);
   EXPECT_EQ(dark, codesOf(model, {"--exposure", "-3"}, folder));
