@@ -46,7 +46,12 @@ TypedOption splitOption(const std::string& word) {
 }
 
 // A forgotten value is more likely than one that begins as an option; --json=--odd says it is one.
-bool looksLikeOption(const std::string& word) { return word.size() > 2 && word.starts_with("--"); }
+bool looksLikeOption(const std::string& word, const OptionList& list) {
+  if (word.size() > 2 && word.starts_with("--")) return true;
+  return std::ranges::any_of(list.entries, [&](const OptionList::Entry& entry) {
+    return !entry.shortName.empty() && word == "-" + entry.shortName;
+  });
+}
 
 // Sets every value; stops at a call for help, which is the name of its option.
 std::string takeWords(const std::vector<std::string>& words, const OptionList& list,
@@ -75,7 +80,7 @@ std::string takeWords(const std::vector<std::string>& words, const OptionList& l
     // A flag without a value means true; any other option takes the next word.
     if (typed.value || entry->placeholder.empty()) {
       entry->set(typed.value.value_or("true"));
-    } else if (i + 1 < words.size() && !looksLikeOption(words[i + 1])) {
+    } else if (i + 1 < words.size() && !looksLikeOption(words[i + 1], list)) {
       entry->set(words[++i]);
     } else {
       const std::string found = i + 1 < words.size() ? ", found '" + words[i + 1] + "'" : "";

@@ -96,6 +96,7 @@ constexpr DeadEnd kDeadEnds[] = {
     // Values
     {"render --size", kUsage, "--size: expected WxH after it"},
     {"render whitted --spp --size 64x40", kUsage, "--spp: expected N after it, found '--size'"},
+    {"render whitted --json -o a.png", kUsage, "--json: expected FILE after it, found '-o'"},
     {"info whitted --json --nope", kUsage, "--json: expected FILE after it, found '--nope'"},
     {"render whitted --size 640", kUsage, kSizes},
     {"render whitted --size 640*480", kUsage, kSizes},
