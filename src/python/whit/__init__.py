@@ -330,7 +330,8 @@ class Scene:
         else:
             arrays = _arrays.moved(meshes[name], positions, normals)
         self._object.update_mesh(name, arrays, progress)
-        made, text, _, images = self._source
+        # Another thread may have updated other meshes meanwhile.
+        made, text, meshes, images = self._source
         self._source = (made, text, {**meshes, name: arrays}, images)
 
     def set_time(self, seconds: float) -> None:
