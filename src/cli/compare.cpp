@@ -279,10 +279,8 @@ std::string verdict(const CompareJob& job, const Comparison& c, bool passed) {
   }
 
   const bool judged = job.subjects.size() == 1 || job.tolerance;
-  const char* const judgment = !judged  ? "; measured, not judged: --tolerance X sets what passes"
-                               : passed ? "; passed"
-                                        : "; FAILED";
-  return "verdict: " + text + judgment;
+  if (!judged) return "verdict: " + text + "; measured, not judged: --tolerance X sets what passes";
+  return "verdict: " + text + (passed ? "; passed" : "; FAILED");
 }
 
 void writeHeatMap(const CompareJob& job, const Compared& compared) {

@@ -315,8 +315,11 @@ void replaceSky(SceneContext& context) {
 
   sky = Sky();
   if (context.sky == kNoSky) return;
-  if (context.sky == kStudio) return setStudio(context);
-  readSkyImage(context.sky, "--sky", context);
+  if (context.sky == kStudio) {
+    setStudio(context);
+  } else {
+    readSkyImage(context.sky, "--sky", context);
+  }
 }
 
 // The ambient light's share of the sky says how open the scene is.
