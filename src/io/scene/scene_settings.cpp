@@ -80,11 +80,15 @@ bool readEditedView(const Scene& scene, JsonObject& file, SceneContext& context)
 }
 
 // Reads the sky and the ambient light, which is `fromSky` times the sky's if that is there. Returns
-// false for ambient light that a model was supplied with, because its sky may have been another.
+// false for ambient light that a model was supplied with, because its sky may have been another,
+// and where a model's own radius of occlusion is needed, which an edit may have replaced.
 bool readEditedSurroundings(const Scene& scene, const JsonDocument& document, SceneContext& context,
                             std::optional<double>& fromSky) {
   JsonObject file{JsonValue(document)};
   if (scene.isModel && !file.has("ambient")) return false;
+  const bool suppliesRadius =
+      isModelAlone(document) && !document.root["ambient"].contains("occlusion");
+  if (suppliesRadius) return false;
 
   context.knownSky = scene.sky.name;
   // The studio of a model is none that the settings describe, and as bright as its lights are.
