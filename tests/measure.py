@@ -332,7 +332,7 @@ def preset_table(rows):
         row = baseline(rows, scene) if name == "standard" else find(rows, scene, "quality", name)
         return (f"{number(value(row, 'x_baseline'), 2)}, {number(value(row, 'total_flip'), 4)}"
                 if row else "")
-    names = ["standard", "fine", "reference"]
+    names = ["standard", "reference"]
     cells = []
     for scene in sweep_scenes(rows):
         row, eight = baseline(rows, scene), find(rows, scene, "depth", "8")

@@ -56,7 +56,7 @@ void drawKnob(const OptionSpec& spec, Field& field) {
 }
 
 void drawPresets(RenderOptions& options) {
-  constexpr std::array kNames{"good", "standard", "fine", "reference"};
+  constexpr std::array kNames{"good", "standard", "reference"};
   for (std::size_t i = 0; i < kNames.size(); ++i) {
     RenderOptions preset = options;
     preset.quality = static_cast<Quality>(i);

@@ -275,8 +275,9 @@ std::string pictureBy(const Camera& camera, RenderOptions options, ImageSize siz
   options.size = size;
   options.crop.reset();
   Film film = makeFilm(renderer.scene(), options, job.common.load.maxMemoryBytes);
+  film.wantDisplay = true;
   renderer.render(camera, film);
-  return encodePng(toDisplay(film.image, options.exposure.ev, options.toneCurve));
+  return encodePng(film.display);
 }
 
 std::string drawDiagram(const ExplainJob& job, const Explained& e, Renderer& renderer,

@@ -113,6 +113,14 @@ void takeCameraFile(const std::string& file, CommonOptions& common) {
   common.render.camera = name;
 }
 
+// Turns the options of a model's view into members of its scene.
+void takeView(CommonOptions& common) {
+  const auto set = [&](const std::string& text) { common.load.settings.push_back(text); };
+  if (common.azimuth) set("/azimuth=" + shortest(*common.azimuth));
+  if (common.zoom) set("/zoom=" + shortest(*common.zoom));
+  if (common.ground) set("/ground=true");
+}
+
 }  // namespace
 
 void listReportOptions(OptionList& list, CommonOptions& common) {
@@ -179,6 +187,11 @@ void listCommonOptions(OptionList& list, CommonOptions& common) {
       .set = [&common](const std::string& side) {
     common.load.settings.push_back("/viewpoint=" + textOf(side));
   };
+  list.value({"azimuth", "DEG", -360, 360},
+             "direction from which a model is seen: 0 is its front, 90 its right, 180 its back",
+             common.azimuth);
+  list.value({"zoom", "X", 0.01, 100}, "how much nearer than usual a model is seen", common.zoom);
+  list.flag("ground", "a soft shadow on the ground below a model", common.ground);
   list.value({"max-memory", "GB", 0.001, 1e6},
              "limit of memory for geometry and images (default: what the machine and its control "
              "group have left, at most 16)",
@@ -191,6 +204,7 @@ void listCommonOptions(OptionList& list, CommonOptions& common) {
 
   list.settle = [&common] {
     applyQuality(common.render, common.given);
+    takeView(common);
     common.load.threads = common.render.threads;
     common.load.size = common.render.size;
     common.load.sphereSegments = common.render.sphereSegments;

@@ -18,7 +18,9 @@ struct CommonOptions {
   RenderOptions render;
   std::set<std::string> given;  // names of the render options on the command line
   LoadOptions load;
-  std::optional<double> maxMemoryGb;  // empty: defaultMaxMemory()
+  std::optional<double> azimuth, zoom;  // of a model's camera
+  bool ground = false;                  // a shadow below a model
+  std::optional<double> maxMemoryGb;    // empty: defaultMaxMemory()
   bool quiet = false;
   bool warns = true;  // false: whoever opens a scene reports its warnings
   std::string progress = "auto";

@@ -64,7 +64,6 @@ constexpr std::array kPresetOptions{"spp",  "depth",  "cutoff",        "light-cu
 constexpr std::array<const char*, kPresetOptions.size()> kPresets[] = {
     {"16", "64", "1e-3", "1e-3", "packets", "1", "2", "1"},
     {"1", "64", "1e-3", "0", "packets", "0", "1", "0"},
-    {"4", "64", "1e-4", "1e-4", "packets", "0", "1", "0"},
     {"16", "64", "1e-5", "0", "reference", "0", "1", "0"},
 };
 

@@ -52,7 +52,7 @@ enum class Mode { packets, reference };
 enum class Batch { tile, frame };
 enum class EffectChoice { automatic, all };
 enum class ToneCurve { none, filmic, reinhard };
-enum class Quality { good, standard, fine, reference };
+enum class Quality { good, standard, reference };
 enum class BvhQuality { low, medium, high };
 
 // Exposure of 8-bit output in EV. An automatic one is computed from the view by
@@ -145,7 +145,7 @@ template <typename Options, typename Use>
 decltype(auto) withOptions(Options& o, Use&& use) {
   // clang-format off
   return use(
-      Option{{.name = "quality", .words = "good|standard|fine|reference",
+      Option{{.name = "quality", .words = "good|standard|reference",
               .help = "preset of other options, see below; good: a picture to show (default: "
                       "standard, one sample per pixel)",
               .rebuilds = Rebuild::nothing, .tab = Tab::none, .everyday = true},

@@ -78,7 +78,7 @@ constexpr std::pair<std::string_view, std::string_view> kSynonyms[] = {
     {"resolution", "size"}, {"runs", "frames"},      {"s", "spp"},
     {"samples", "spp"},     {"seconds", "budget"},   {"transparent", "background"},
     {"v", "stats"},         {"verbose", "stats"},    {"w", "size"},
-    {"width", "size"},      {"zoom", "fov"}};
+    {"width", "size"},      {"fine", "good"}};
 
 }  // namespace
 

@@ -25,6 +25,10 @@ constexpr double kBrightShare = 0.93, kBright = 0.95, kClearShare = 0.8, kClear 
 // For half of the sky to stay below this the surfaces may be that many EV darker: what is dark
 // before a gray sky is meant to be dark.
 constexpr double kSky = 0.5, kMostForSky = 2;
+// Of a model the brightest channel of so many surfaces stays below the code 255, unless the picture
+// would then be more than kMostForHighlights EV darker. The bound is stricter than what is promised
+// (0.5 % of the model), because few pixels are looked at and the exposure is rounded.
+constexpr double kUnclippedShare = 0.998, kUnclipped = 0.95, kMostForHighlights = 3;
 constexpr double kDarkest = 1.0e-2;  // of the bright ones: darker pixels count as this
 constexpr double kSteps = 8;         // of an EV
 constexpr double kMostEv = 32;
@@ -32,6 +36,7 @@ constexpr auto kNothing = PixelSurface::kNothing;
 
 struct Luminances {
   std::vector<double> surfaces, sky;  // of the pixels that show the one or the other
+  std::vector<double> channels;       // the brightest channel of each pixel of a surface
 };
 
 Luminances luminancesOf(const Renderer& renderer, const Camera& camera) {
@@ -58,11 +63,17 @@ Luminances luminancesOf(const Renderer& renderer, const Camera& camera) {
     reference::RayCounts counts;
     const int y = static_cast<int>(row);
     for (int x = 0; x < width; ++x) {
-      const double l = luminance(Rgb(tracer.center(frame, x, y, counts)));
+      const Rgb pixel(tracer.center(frame, x, y, counts));
+      const double l = luminance(pixel);
       if (!(l >= 0) || !std::isfinite(l)) continue;
-      const bool nothing = tracer.surfaceAtCenter(frame, x, y).material == kNothing;
-      auto& to = nothing ? rows[row].sky : rows[row].surfaces;
-      to.push_back(l);
+
+      const std::uint32_t material = tracer.surfaceAtCenter(frame, x, y).material;
+      if (material == kNothing || scene.materials[material].name == kGroundShadowName) {
+        rows[row].sky.push_back(l);
+      } else {
+        rows[row].surfaces.push_back(l);
+        rows[row].channels.push_back(double{maxComponent(pixel)});
+      }
     }
   });
 
@@ -70,6 +81,7 @@ Luminances luminancesOf(const Renderer& renderer, const Camera& camera) {
   for (const Luminances& row : rows) {
     all.surfaces.insert(all.surfaces.end(), row.surfaces.begin(), row.surfaces.end());
     all.sky.insert(all.sky.end(), row.sky.begin(), row.sky.end());
+    all.channels.insert(all.channels.end(), row.channels.begin(), row.channels.end());
   }
 
   return all;
@@ -94,7 +106,7 @@ double exposed(ToneCurve curve, double level) {
 }  // namespace
 
 float exposureFor(const Renderer& renderer, const Camera& camera) {
-  auto [surfaces, sky] = luminancesOf(renderer, camera);
+  auto [surfaces, sky, channels] = luminancesOf(renderer, camera);
   const auto curve = renderer.options().toneCurve;
   const double bright = quantile(surfaces, kBrightShare), middleOfSky = quantile(sky, 0.5);
   if (!(bright > 0)) return 0;
@@ -117,6 +129,12 @@ float exposureFor(const Renderer& renderer, const Camera& camera) {
   // Most pixels of surfaces and sky together stay below kClear.
   surfaces.insert(surfaces.end(), sky.begin(), sky.end());
   ev = std::min(ev, exposed(curve, kClear) - std::log2(quantile(surfaces, kClearShare)));
+
+  // The highlights of a model keep their shape.
+  if (renderer.scene().isModel) {
+    const double highlight = quantile(channels, kUnclippedShare);
+    ev = std::clamp(exposed(curve, kUnclipped) - std::log2(highlight), ev - kMostForHighlights, ev);
+  }
 
   // Adding 0.0 turns -0 into 0, so that no minus sign is printed.
   return static_cast<float>(std::clamp(std::round(ev * kSteps) / kSteps, -kMostEv, kMostEv) + 0.0);

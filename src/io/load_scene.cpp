@@ -1,6 +1,7 @@
 #include "io/load_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 
@@ -9,6 +10,7 @@
 #include "io/files.h"
 #include "io/scene/scene_sections.h"
 #include "io/scene/scene_settings.h"
+#include "make/ground_shadow.h"
 #include "make/model_view.h"
 #include "make/shape.h"
 #include "scene/generation_limit.h"
@@ -25,6 +27,8 @@ constexpr double kUsualLevel = 0.5;
 // The radius of ambient occlusion over the model's.
 constexpr float kOcclusion = 0.3f;
 constexpr double kDimmest = 1.0e-6, kBrightest = 1.0e6;
+// The color behind models, lighter than most of them and darker than white ones.
+constexpr const char* kModelBackground = "c8c8c8";
 
 // White surfaces that face the light from `distance` are seen as `level`.
 Light supplied(const char* name, const Vec3f& position, float distance, float level, float size) {
@@ -54,12 +58,22 @@ void supplyLights(const ModelView& view, SceneDescription& scene) {
   scene.ambient.down = Rgb(0.1f);
 }
 
-// The setting "viewpoint" chooses the side of a supplied camera.
-void readViewpoint(JsonObject& settings, SceneDescription& scene) {
-  const JsonValue view = settings.find("viewpoint");
-  if (!view) return;
-  const std::string side = view.word({"outside", "inside"});
-  scene.viewpoint = side == "inside" ? Viewpoint::inside : Viewpoint::outside;
+// Members of a scene that concern the view of a model.
+constexpr std::array<const char*, 4> kViewMembers{"viewpoint", "azimuth", "zoom", "ground"};
+
+// Reads what a supplied camera is asked for.
+void readViewMembers(JsonObject& members, SceneDescription& scene) {
+  constexpr double kWholeTurn = 360, kLargestZoom = 100;
+  if (const JsonValue view = members.find("viewpoint")) {
+    const bool isInside = view.word({"outside", "inside"}) == "inside";
+    scene.viewpoint = isInside ? Viewpoint::inside : Viewpoint::outside;
+  }
+  if (const JsonValue azimuth = members.find("azimuth")) {
+    scene.azimuth = azimuth.number(-kWholeTurn, kWholeTurn);
+  }
+  if (const JsonValue zoom = members.find("zoom")) {
+    scene.zoom = zoom.number(1 / kLargestZoom, kLargestZoom);
+  }
 }
 
 // A supplied camera has to see the whole animation that is played.
@@ -67,7 +81,7 @@ ModelView viewOfAnimation(const SceneContext& context) {
   const SceneDescription& scene = context.scene;
   const std::string& played = context.instant.animation;
   for (const Animation& animation : scene.animations) {
-    const bool supplies = scene.cameras.empty() || scene.viewpoint != Viewpoint::automatic;
+    const bool supplies = scene.cameras.empty() || scene.asksForView();
     if (!supplies || !context.instant.moves()) break;
     if (played.empty() || animation.name == played) return viewOf(scene, animation.seconds);
   }
@@ -88,8 +102,7 @@ void supplyCamera(const ModelView& view, SceneContext& context) {
   SceneDescription& scene = context.scene;
   if (!(view.radius > 0)) return;
 
-  const bool automatic = scene.viewpoint == Viewpoint::automatic;
-  if (automatic && !scene.cameras.empty()) {
+  if (!scene.asksForView() && !scene.cameras.empty()) {
     const Camera& first = scene.cameras.front();
     if (context.instant.moves() || seesSomething(scene, first)) return;
     context.warnings.note(
@@ -97,7 +110,7 @@ void supplyCamera(const ModelView& view, SceneContext& context) {
         "(--camera NAME chooses a camera of the file)",
         scene.name + ": " + first.name);
   }
-  if (automatic && view.inside) {
+  if (scene.viewpoint == Viewpoint::automatic && view.inside) {
     context.warnings.note(
         "model taken for a room is seen from inside (--viewpoint outside shows it "
         "from outside)",
@@ -109,11 +122,13 @@ void supplyCamera(const ModelView& view, SceneContext& context) {
 // Completes a model whose own lights and cameras are there. The sky is the studio, unless there is
 // one, or none or another was asked for, as bright as it suits the lights. A supplied camera, and
 // lights with it, hold all of the animation that is played.
-void supplyView(SceneContext& context) {
+void supplyView(JsonObject& members, SceneContext& context) {
   SceneDescription& scene = context.scene;
+  readViewMembers(members, scene);
   const ModelView view = viewOfAnimation(context);
   scene.isModel = true;
   scene.options.emplace("exposure", "auto");
+  scene.options.emplace("tonemap", "filmic");
   scene.options.emplace("terminator", "on");
   scene.ambient.occlusion = kOcclusion * static_cast<float>(view.radius);
 
@@ -126,18 +141,26 @@ void supplyView(SceneContext& context) {
     scene.sky.scale = static_cast<float>(std::clamp(level / kUsualLevel, kDimmest, kBrightest));
   }
   supplyCamera(view, context);
+  context.hasGround = members.find("ground").flagOr(false) && !view.inside;
 }
 
 // Reads the member "view" of a scene file: "model" completes the scene as if it were a model.
 void readView(JsonObject& file, std::optional<double>& fromSky, SceneContext& context) {
   const JsonValue view = file.find("view");
-  if (!view) return;
+  if (!view) {
+    for (const char* member : kViewMembers) {
+      if (!file.has(member)) continue;
+      throwUsage(std::string(member) + ": " + context.scene.name +
+                 " is neither a model nor a scene file with \"view\": \"model\"");
+    }
+    return;
+  }
   view.word({"model"});
 
   const Ambient own = context.scene.ambient;
   // A studio that --sky names is supplied like the one that is there without it.
   if (context.sky == kStudio && !file.has("sky")) context.scene.sky = Sky();
-  supplyView(context);
+  supplyView(file, context);
   if (file.has("ambient")) {
     context.scene.ambient = own;
   } else if (context.scene.sky.kind != Sky::Kind::none) {
@@ -255,7 +278,12 @@ SceneDescription finish(const LoadOptions& options, std::optional<double> fromSk
   SceneDescription& scene = context.scene;
   context.textures.finish(scene);
   if (fromSky) scene.ambient = ambientFromSky(scene.sky, *fromSky, scene.ambient);
+  // The studio is there for light and reflections. What is behind models has one tone, however the
+  // picture is exposed.
+  const bool isInStudio = scene.sky.kind == Sky::Kind::image && scene.sky.name == kStudio;
+  if (scene.isModel && isInStudio) scene.options.emplace("background", kModelBackground);
   replaceSpheres(options.sphereSegments, context);
+  if (context.hasGround) addGroundShadow(scene);
   return std::move(scene);
 }
 
@@ -319,13 +347,12 @@ SceneDescription loadModelFile(const fs::path& path, const SceneName& name,
   applySettings(options, "materials", overrides);
   applySettings(options, "up", overrides);
   applySettings(options, "variant", overrides);
-  applySettings(options, "viewpoint", overrides);
+  for (const char* member : kViewMembers) applySettings(options, member, overrides);
   JsonObject noMaterials{JsonValue(nothing)}, items{JsonValue(overrides)};
   MaterialReader materials(noMaterials, context);
   readModelAlone(items, path, context, materials);
-  readViewpoint(items, scene);
   takeSize(options, scene);
-  supplyView(context);  // before the scene has another time than 0
+  supplyView(items, context);  // before the scene has another time than 0
   readCameraSettings(options, nothing, scene);
   settleInstant(options.instant, scene);
   // The settings are read as if a scene file contained them and the model's lights.
@@ -338,7 +365,7 @@ SceneDescription loadModelFile(const fs::path& path, const SceneName& name,
   file.find("materials");
   file.find("up");
   file.find("variant");
-  file.find("viewpoint");
+  for (const char* member : kViewMembers) file.find(member);
   file.find("cameras");
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     scene.lights[i].pointer = "/lights/" + std::to_string(i);

@@ -26,8 +26,10 @@ struct LoadOptions {
   // "POINTER=VALUE" for members of the scene file, see scene_settings.h. For a model they are
   // members of "materials" and "cameras" by their names there, its "lights" or the supplied ones,
   // "sky" and "ambient"; for a glTF file "variant" (KHR_materials_variants), and for other models
-  // "up", the axis that is up in them: "x", "y" or "z"; "viewpoint", the side from which a supplied
-  // camera sees it: "outside" or "inside".
+  // "up", the axis that is up in them: "x", "y" or "z". For models and scene files with "view":
+  // "model", "viewpoint", the side from which a supplied camera sees it: "outside" or "inside";
+  // "azimuth", its direction in degrees, from the front towards the right; "zoom", how much larger
+  // than usual it shows the model; and "ground": true for a soft shadow below the model.
   std::vector<std::string> settings;
 
   // Replaces the scene's own sky: "none", "studio" (make/model_view.h) or an equirectangular image.

@@ -13,18 +13,16 @@
 #include <utility>
 #include <vector>
 
-#include "bake/facet.h"
 #include "core/affine.h"
 #include "core/vec3.h"
 #include "make/patterns/noise.h"
+#include "make/placed_triangles.h"
 
 namespace whit {
 namespace {
 
-// Models of more triangles than kMostLookedAt are sampled. Models of more than kMostOfRoom are
-// never taken for a room.
-constexpr std::uint64_t kMostLookedAt = 4'000'000, kMostOfRoom = 1'000'000;
-constexpr auto kEveryTriangle = std::numeric_limits<std::uint64_t>::max();
+// Models of more triangles are never taken for a room.
+constexpr std::uint64_t kMostOfRoom = 1'000'000;
 
 // Directions towards the eye, the most usual first. The front is +z.
 constexpr std::array<Vec3d, 7> kSides{{{0.5, 0.4, 1.0},
@@ -38,73 +36,6 @@ constexpr std::array<Vec3d, 7> kSides{{{0.5, 0.4, 1.0},
 constexpr double kEnough = 0.6;
 
 using Bounds = BoxOf<Vec3d>;
-
-std::uint64_t placedTriangleCount(const SceneDescription& scene) {
-  std::uint64_t count = 0;
-  for (const Instance& instance : scene.instances) {
-    for (const Mesh& mesh : scene.objects[instance.object].meshes) count += mesh.triangles.size();
-  }
-  return count;
-}
-
-// Returns none where a corner is missing or lies beyond the range that can be traced: nothing is
-// validated yet.
-std::optional<Corners> placed(const std::vector<Vec3f>& positions,
-                              const std::array<std::uint32_t, 3>& triangle, const Affine& toWorld) {
-  Corners corners;
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (triangle[i] >= positions.size()) return std::nullopt;
-    corners[i] = toWorld.point(Vec3d(positions[triangle[i]]));
-    if (!(maxComponent(abs(corners[i])) < double{kLargestCoordinate})) return std::nullopt;
-    if (!isFinite(corners[i])) return std::nullopt;
-  }
-  return corners;
-}
-
-// Calls use(corners) for every triangle, or for about `most` of them, evenly spread. A scene that
-// moves is posed at the time `seconds`, by default at the time of the scene.
-template <typename Use>
-void forEachPlacedTriangle(const SceneDescription& scene, std::uint64_t most, const Use& use,
-                           std::optional<double> seconds = {}) {
-  const std::uint64_t stride = std::max<std::uint64_t>(1, placedTriangleCount(scene) / most);
-  const double time = seconds.value_or(scene.motion.seconds);
-  const std::vector<Affine> poses = poseRig(scene.motion.rig, time);
-
-  // One count runs over the triangles of all instances, and every stride-th of them is used.
-  std::uint64_t number = 0;
-  for (const Instance& instance : scene.instances) {
-    const bool moves = instance.mover != kNoNode;
-    const Affine toWorld = moves ? poses[instance.mover] * instance.toWorld : instance.toWorld;
-    const bool mirrored = toWorld.determinant() < 0;
-
-    for (const Mesh& mesh : scene.objects[instance.object].meshes) {
-      // Morphed and skinned meshes take their shape at that time.
-      std::vector<Vec3f> bent;
-      if (const Deformation* deformation = mesh.deformation.get()) {
-        bent = deformVertices(*deformation, poseAt(*deformation, time)).positions;
-      }
-      const std::vector<Vec3f>& positions = mesh.deformation ? bent : mesh.positions;
-
-      for (const auto& triangle : mesh.triangles) {
-        if (number++ % stride != 0) continue;
-        auto corners = placed(positions, triangle, toWorld);
-        if (!corners) continue;
-
-        // A transform that mirrors would turn fronts into backs.
-        if (mirrored) std::swap((*corners)[1], (*corners)[2]);
-        use(*corners);
-      }
-    }
-  }
-}
-
-// Calls use(corner) for each corner of these triangles.
-template <typename Use>
-void forEachPlacedCorner(const SceneDescription& scene, std::uint64_t most, const Use& use,
-                         std::optional<double> seconds = {}) {
-  const auto useAll = [&](const Corners& t) { std::ranges::for_each(t, use); };
-  forEachPlacedTriangle(scene, most, useAll, seconds);
-}
 
 // Finds the side to which fronts turn the largest area, occluded or not.
 Vec3d bestSide(const SceneDescription& scene, double radius) {
@@ -177,6 +108,7 @@ double areaWithNormals(const SceneDescription& scene) {
   double sum = 0;
   for (const Object& object : scene.objects) {
     for (const Mesh& mesh : object.meshes) {
+      if (mesh.hasMadeNormals) continue;  // they say nothing that the faces do not say
       for (const auto& t : mesh.triangles) {
         // Meshes may lack normals, and indices are not validated yet.
         if (std::ranges::max(t) >= std::min(mesh.normals.size(), mesh.positions.size())) continue;
@@ -268,16 +200,23 @@ Vec3d placeInRoom(const SceneDescription& scene, const Vec3d& from, const Vec3d&
   return isInRoom(scene, to) ? to : from;
 }
 
-// Looks from near a corner across the room.
+// Looks from near a corner across the room, or from where the azimuth meets the walls.
 void lookAround(const SceneDescription& scene, const Bounds& bounds, ModelView& view) {
-  constexpr float kWide = 65;
-  constexpr double kNearWall = 0.85, kBelowCeiling = 0.6;
+  constexpr double kWide = 65;
+  constexpr double kNearWall = 0.85, kBelowCeiling = 0.35;
   const Vec3d center = bounds.center(), half = bounds.half();
 
-  view.camera.eye =
-      Vec3f(placeInRoom(scene, center + half * Vec3d{kNearWall, 0.1, kNearWall}, center));
-  view.camera.at = Vec3f(center - half * Vec3d{0.4, 0.2, 0.4});
-  view.camera.fov = kWide;
+  // The corner is at 45 degrees of a square room.
+  const double azimuth = scene.azimuth.value_or(45) * (std::numbers::pi / 180);
+  const Vec3d way{std::sin(azimuth), 0, std::cos(azimuth)};
+  const Vec3d corner = way / std::max(std::abs(way.x), std::abs(way.z));
+
+  const Vec3d eye = corner * kNearWall + Vec3d{0, 0.1, 0}, at = corner * -0.4 - Vec3d{0, 0.2, 0};
+  view.camera.eye = Vec3f(placeInRoom(scene, center + half * eye, center));
+  view.camera.at = Vec3f(center + half * at);
+  // A nearer eye might stand in a wall: the picture is enlarged.
+  const double wide = std::tan(kWide * (std::numbers::pi / 360)) / scene.zoom;
+  view.camera.fov = static_cast<float>(std::atan(wide) * (360 / std::numbers::pi));
   view.ceiling = placeInRoom(scene, center + half * Vec3d{0, kBelowCeiling, 0}, center);
 }
 
@@ -296,7 +235,7 @@ Framing framingOf(const Vec3d& side, const SceneDescription& scene, const Camera
 
 // Fits the points that everyPoint(use) visits into the picture.
 template <typename EveryPoint>
-void lookFrom(const Framing& f, const EveryPoint& everyPoint, ModelView& view) {
+void lookFrom(const Framing& f, double zoom, const EveryPoint& everyPoint, ModelView& view) {
   // The points are seen along the axes of the picture: right, up, and towards the eye.
   const auto everySeen = [&](const auto& use) {
     everyPoint([&](const Vec3d& point) {
@@ -319,7 +258,7 @@ void lookFrom(const Framing& f, const EveryPoint& everyPoint, ModelView& view) {
 
   const Vec3d at = view.center + f.right * middle.x + f.up * middle.y + f.side * middle.z;
   view.camera.at = Vec3f(at);
-  view.camera.eye = Vec3f(at + f.side * distance);
+  view.camera.eye = Vec3f(at + f.side * (distance / zoom));
 }
 
 // Finds the points of a moving model that decide its bounds and its distance: at all times together
@@ -358,6 +297,14 @@ std::vector<Vec3d> outermostPoints(const SceneDescription& scene, double seconds
     forEachPlacedCorner(scene, kMostLookedAt, add, seconds * share);
   }
   return points;
+}
+
+// Returns the side at the azimuth that the scene asks for, as high above the horizon as this one.
+Vec3d atAzimuth(const SceneDescription& scene, const Vec3d& side) {
+  if (!scene.azimuth) return side;
+  const double azimuth = *scene.azimuth * (std::numbers::pi / 180);
+  const double across = std::hypot(side.x, side.z);
+  return {across * std::sin(azimuth), side.y, across * std::cos(azimuth)};
 }
 
 // Returns the irradiance from the light at a point with this unit normal.
@@ -479,7 +426,7 @@ ModelView viewOf(const SceneDescription& scene) {
     lookAround(scene, bounds, view);
   } else {
     lookFrom(
-        framingOf(bestSide(scene, view.radius), scene, view.camera),
+        framingOf(atAzimuth(scene, bestSide(scene, view.radius)), scene, view.camera), scene.zoom,
         [&](const auto& use) { forEachPlacedCorner(scene, kMostLookedAt, use); }, view);
   }
   return view;
@@ -490,7 +437,8 @@ ModelView viewOf(const SceneDescription& scene, double seconds) {
   if (view.inside) return view;
 
   const double size = view.radius > 0 ? view.radius : 1;  // it may grow from nothing
-  const Framing framing = framingOf(bestSide(scene, size), scene, view.camera);
+  const Vec3d side = atAzimuth(scene, bestSide(scene, size));
+  const Framing framing = framingOf(side, scene, view.camera);
   const std::vector<Vec3d> points = outermostPoints(scene, seconds, framing);
 
   // The bounds enclose the model at all times, and the eye is far enough away for all of them.
@@ -500,7 +448,7 @@ ModelView viewOf(const SceneDescription& scene, double seconds) {
   view.radius = length(bounds.half());
 
   const auto everyPoint = [&](const auto& use) { std::ranges::for_each(points, use); };
-  lookFrom(framing, everyPoint, view);
+  lookFrom(framing, scene.zoom, everyPoint, view);
   return view;
 }
 
@@ -586,7 +534,7 @@ Turntable aroundModel(const SceneDescription& scene, const ModelView& view, int 
 
   turntable.pivot = view.center;
   turntable.camera.at = Vec3f(view.center);
-  turntable.camera.eye = Vec3f(view.center + side * distance);
+  turntable.camera.eye = Vec3f(view.center + side * (distance / scene.zoom));
   return turntable;
 }
 

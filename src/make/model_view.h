@@ -20,7 +20,8 @@ struct ModelView {
 
 // Returns a view from the front, a little to the right and above, that fills the picture; from
 // another side if the model turns its back or its edge there; or from inside a closed room.
-// SceneDescription::viewpoint replaces the choice between outside and inside.
+// SceneDescription::viewpoint replaces the choice between outside and inside, `azimuth` the side,
+// and `zoom` divides the distance.
 ModelView viewOf(const SceneDescription& scene);
 // Returns a view of a moving model, so far away that it stays in the picture from 0 to `seconds`.
 // The side, and the view of a room, are those of the present time.

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -77,6 +78,13 @@ struct SceneDescription : SceneContents {
   std::vector<Instance> instances;
   SceneMotion motion;  // given where the scene is to move
   Viewpoint viewpoint = Viewpoint::automatic;
+  // Direction of a supplied camera around the vertical axis, in degrees from the front (+z) towards
+  // +x, and how much larger than usual it shows the model.
+  std::optional<double> azimuth;
+  double zoom = 1;
+  bool asksForView() const {
+    return viewpoint != Viewpoint::automatic || azimuth.has_value() || zoom != 1;
+  }
   // How many items its author has placed, and the names of the first kNamedItems. 0: each instance
   // is one, with the name of its object.
   std::uint64_t items = 0;

@@ -62,6 +62,9 @@ inline constexpr float kClearCoverage = 1.0f / 1024;  // less counts as clear
 
 // The name of the material of meshes that have none in their file.
 inline constexpr const char* kNoMaterialName = "default";
+// The name of the material that darkens the ground below a model (make/ground_shadow.h). It says
+// nothing about how bright the model is.
+inline constexpr const char* kGroundShadowName = "ground shadow";
 
 // Vertex colors multiply the base color, which a metal has in `specular` and `mirror` too, and
 // glass in `transmission`.

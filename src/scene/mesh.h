@@ -24,8 +24,9 @@ struct Mesh {
   std::vector<Affine> spheres;  // from the unit sphere (bake/sphere.h); of the first material
   // One index into SceneDescription::materials a triangle, or a single one for all.
   std::vector<std::uint32_t> materials;
-  Affine fromModel;           // what transform() has applied so far
-  bool hasFlatFaces = false;  // some faces have no normals: those of their corners are zero
+  Affine fromModel;             // what transform() has applied so far
+  bool hasFlatFaces = false;    // some faces have no normals: those of their corners are zero
+  bool hasMadeNormals = false;  // the file has no normals: they follow from the faces
   // Not none: it bends while the scene moves, and has the vertices of its start here.
   std::shared_ptr<const Deformation> deformation;
 

@@ -38,7 +38,7 @@ TEST(Points, OneKnobAtATime) {
   EXPECT_EQ(digestOf(depth->options), digestOf(expected));
   EXPECT_EQ(depth->cause, Cause::algorithm);
   EXPECT_FALSE(find(list, "depth=64")) << "the default is the baseline";
-  EXPECT_TRUE(find(list, "fine"));
+  EXPECT_TRUE(find(list, "good"));
 }
 
 TEST(Points, WhatDoesNothingIsLeftOutWithTheReason) {

@@ -112,7 +112,7 @@ TEST(OptionsDigest, CoversWhatShapesThePictureAndNothingElse) {
   options.queue = 99;
   EXPECT_EQ(digestOf(options), before);
 
-  options.quality = Quality::fine;  // only a name
+  options.quality = Quality::good;  // only a name
   EXPECT_EQ(digestOf(options), before);
 
   options.disable = EffectSet().with(Effect::mirror);

@@ -150,7 +150,7 @@ TEST(Help, FitsTheTerminal) {
 
 TEST(Help, SaysWhatThePresetsStandFor) {
   const std::string help = helpOf(HelpTier::everyday, 120);
-  EXPECT_NE(help.find("  fine                      --spp 4 --cutoff 1e-04 --light-cutoff 1e-04\n"),
+  EXPECT_NE(help.find("  reference                 --spp 16 --cutoff 1e-05 --mode reference\n"),
             std::string::npos)
       << help;
   EXPECT_NE(help.find("  standard                  the defaults\n"), std::string::npos) << help;
@@ -183,8 +183,7 @@ TEST(Options, EveryChoiceGoesBothWays) {
   options.ortho = 2.5f;
   options.crop = Crop{1, 2, 3, 4};
   options.disable = EffectSet::all();
-  for (const Quality quality :
-       {Quality::good, Quality::standard, Quality::fine, Quality::reference}) {
+  for (const Quality quality : {Quality::good, Quality::standard, Quality::reference}) {
     options.quality = quality;
     options.mode = Mode::reference;
     options.batch = Batch::frame;
@@ -205,7 +204,6 @@ TEST(Options, ChoicesAreNamedRight) {
   EXPECT_EQ(parsed({"--tonemap", "reinhard"}).render.toneCurve, ToneCurve::reinhard);
   EXPECT_EQ(parsed({"--quality", "good"}).render.quality, Quality::good);
   EXPECT_EQ(parsed({"--quality", "standard"}).render.quality, Quality::standard);
-  EXPECT_EQ(parsed({"--quality", "fine"}).render.quality, Quality::fine);
   EXPECT_EQ(parsed({"--quality", "reference"}).render.quality, Quality::reference);
   EXPECT_EQ(parsed({"--batch", "tile"}).render.batch, Batch::tile);
 }
@@ -219,11 +217,23 @@ TEST(Quality, StandardIsTheDefaults) {
   EXPECT_EQ(standard.mode, defaults.mode);
 }
 
+TEST(Quality, AFormerPresetLeadsToTheNearOne) {
+  EXPECT_NE(usageError({"--quality", "fine"}).find("did you mean 'good'?"), std::string::npos);
+}
+
+TEST(Options, OfAModelsViewAreMembersOfItsScene) {
+  const CommonOptions common = parsed({"--azimuth", "-30", "--zoom", "1.25", "--ground"});
+  EXPECT_EQ(common.load.settings,
+            (std::vector<std::string>{"/azimuth=-30", "/zoom=1.25", "/ground=true"}));
+  EXPECT_NE(usageError({"--zoom", "0"}), "");
+  EXPECT_NE(usageError({"--azimuth", "left"}), "");
+}
+
 TEST(Quality, PresetsGiveWayToWhatIsGiven) {
-  const RenderOptions fine = parsed({"--depth", "6", "--quality", "fine"}).render;
-  EXPECT_EQ(fine.depth, 6);
-  EXPECT_EQ(fine.cutoff, 1e-4f);
-  EXPECT_EQ(fine.shading.lightCutoff, 1e-4f);
+  const RenderOptions good = parsed({"--depth", "6", "--quality", "good"}).render;
+  EXPECT_EQ(good.depth, 6);
+  EXPECT_EQ(good.spp, 16);
+  EXPECT_EQ(good.shading.lightCutoff, 1e-3f);
   const RenderOptions reference = parsed({"--quality", "reference", "--spp", "2"}).render;
   EXPECT_EQ(reference.spp, 2);
   EXPECT_EQ(reference.depth, kDepthLimit);

@@ -94,9 +94,9 @@ TEST(SceneOptions, MayNameAPresetButNotTheReference) {
   EXPECT_EQ(own.spp, 3);
   EXPECT_EQ(own.mode, Mode::packets);
 
-  const RenderOptions given = settled({{"quality", "reference"}}, {{"quality", "fine"}});
-  EXPECT_EQ(given.quality, Quality::fine);
-  EXPECT_EQ(given.cutoff, 1e-4f);
+  const RenderOptions given = settled({{"quality", "reference"}}, {{"quality", "good"}});
+  EXPECT_EQ(given.quality, Quality::good);
+  EXPECT_EQ(given.cutoff, 1e-3f);
 }
 
 TEST(SceneOptions, AreThoseThatDescribeThePicture) {

@@ -140,9 +140,9 @@ TEST(Library, PresetsGiveWayToWhatIsSaid) {
   Renderer renderer(whittedScene());
   EXPECT_EQ(renderer.get("depth"), "64");
   EXPECT_EQ(renderer.get("size"), "");
-  renderer.set("depth", "3").set("quality", "fine");
+  renderer.set("depth", "3").set("quality", "good");
   EXPECT_EQ(renderer.get("depth"), "3");
-  EXPECT_EQ(renderer.get("spp"), "4");
+  EXPECT_EQ(renderer.get("spp"), "16");
   EXPECT_EQ(renderer.set("quality", "standard").get("spp"), "1");
 }
 

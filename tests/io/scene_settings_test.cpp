@@ -119,13 +119,15 @@ TEST_F(SceneSettings, OfAModel) {
 
 TEST_F(SceneSettings, OptionsOfAModel) {
   save("m.obj", kTriangleObj);
-  EXPECT_EQ(load(root_ + "m.obj").options,
-            (std::map<std::string, std::string>{{"exposure", "auto"}, {"terminator", "on"}}));
+  std::map<std::string, std::string> expected{
+      {"background", "c8c8c8"}, {"exposure", "auto"}, {"terminator", "on"}, {"tonemap", "filmic"}};
+  EXPECT_EQ(load(root_ + "m.obj").options, expected);
 
-  options_.settings = {"/options/exposure=2", "/options/spp=4"};
-  EXPECT_EQ(
-      load(root_ + "m.obj").options,
-      (std::map<std::string, std::string>{{"exposure", "2"}, {"spp", "4"}, {"terminator", "on"}}));
+  options_.settings = {"/options/exposure=2", "/options/spp=4", "/options/background=\"sky\""};
+  expected["background"] = "sky";
+  expected["exposure"] = "2";
+  expected["spp"] = "4";
+  EXPECT_EQ(load(root_ + "m.obj").options, expected);
 }
 
 TEST_F(SceneSettings, ItemsWithoutAMaterialHaveTheDefaultOne) {

@@ -60,6 +60,54 @@ TEST_F(SuppliedView, AModelStandsInAStudio) {
   EXPECT_EQ(scene.cameras.size(), 1u);
 }
 
+TEST_F(SuppliedView, ModelsHaveOneBackgroundInTheStudio) {
+  const SceneDescription model = loadObj(kTriangleObj);
+  EXPECT_EQ(model.options.at("tonemap"), "filmic");
+  EXPECT_EQ(model.options.at("background"), "c8c8c8");
+  const SceneDescription file = loadMembers(R"("view": "model", "options": {"tonemap": "none"},
+                     "scene": [{"shape": "quad"}])");
+  EXPECT_EQ(file.options.at("tonemap"), "none");
+  EXPECT_EQ(file.options.at("background"), "c8c8c8");
+
+  // Another sky is there to be seen.
+  for (const std::string& sky : {std::string("none"), save("one.hdr", kOne)}) {
+    options_.sky = sky;
+    EXPECT_FALSE(loadObj(kTriangleObj).options.contains("background")) << sky;
+  }
+}
+
+TEST_F(SuppliedView, AzimuthAndZoomReplaceTheCameraOfTheFile) {
+  EXPECT_EQ(loadLit(1, "[0,0,0,1]").cameras.at(0).name, "own");
+  options_.settings = {"/azimuth=90", "/zoom=2"};
+  const SceneDescription scene = loadLit(1, "[0,0,0,1]");
+  ASSERT_EQ(scene.cameras.size(), 2u);
+  const Camera& camera = scene.cameras[0];
+  EXPECT_NEAR(camera.eye.z, camera.at.z, 1e-5);
+  EXPECT_GT(camera.eye.x, camera.at.x);
+
+  const SceneDescription file = loadMembers(R"("view": "model", "scene": [{"shape": "quad"}])");
+  EXPECT_NEAR(file.cameras.at(0).eye.z, file.cameras[0].at.z, 1e-5);
+  EXPECT_NE(errorOf([&] {
+              loadMembers(R"("scene": [{"shape": "quad"}])");
+            }).find("azimuth: s is neither a model nor a scene file with \"view\": \"model\""),
+            std::string::npos);
+  options_.settings = {"/zoom=0"};
+  EXPECT_NE(errorOf([&] { loadObj(kTriangleObj); }).find("m.obj#/zoom: expected"),
+            std::string::npos);
+}
+
+TEST_F(SuppliedView, AShadowLiesBelowAModel) {
+  const SceneDescription without = loadObj(kTriangleObj);
+  options_.settings = {"/ground=true"};
+  const SceneDescription with = loadObj(kTriangleObj);
+  ASSERT_EQ(with.materials.size(), without.materials.size() + 1);
+  EXPECT_EQ(with.materials.back().name, kGroundShadowName);
+  EXPECT_EQ(with.cameras.at(0).eye, without.cameras.at(0).eye);
+  EXPECT_EQ(with.items, without.items + 1);
+  Scene::finalize(SceneDescription(with), warnings_);
+  EXPECT_EQ(kinds(), "");
+}
+
 TEST_F(SuppliedView, TheStudioIsAsBrightAsItsLights) {
   const SceneDescription dim = loadLit(0.01), bright = loadLit(1000);
   EXPECT_EQ(dim.lights.size(), 1u);

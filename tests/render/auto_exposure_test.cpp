@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/display.h"
@@ -71,6 +73,87 @@ TEST(AutoExposure, LevelsAreThoseBehindTheToneCurve) {
   const float ev = exposureOf(glowing(Rgb(0.1f)), options);
   EXPECT_NEAR(applyToneCurve(ToneCurve::filmic, 0.1 * std::exp2(double{ev})), 0.3, 0.02)
       << "steps of 1/8 EV";
+}
+
+// A closed box around the camera, whose far wall has 32 x 20 emitting fields. One in
+// twenty glows `peak` times as bright as the rest, in one channel only.
+Scene closedBox(float peak, bool isModel) {
+  constexpr int kColumns = 32, kRows = 20;
+  SceneDescription d;
+  d.isModel = isModel;
+  d.materials.resize(3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    d.materials[i].diffuse = Rgb(0.0f);
+    d.materials[i].emission = Rgb(i == 1 ? 0.4f : 0.2f);
+  }
+  d.materials[2].emission.x = 0.2f * peak;
+
+  Mesh wall;
+  const auto addField = [&](const std::array<Vec3f, 4>& corners, std::uint32_t material) {
+    const auto first = static_cast<std::uint32_t>(wall.positions.size());
+    wall.positions.insert(wall.positions.end(), corners.begin(), corners.end());
+    wall.triangles.push_back({first, first + 1, first + 2});
+    wall.triangles.push_back({first, first + 2, first + 3});
+    wall.materials.insert(wall.materials.end(), 2, material);
+  };
+  for (int i = 0; i < kColumns * kRows; ++i) {
+    const auto x = static_cast<float>(i % kColumns - kColumns / 2);
+    const auto y = static_cast<float>(i / kColumns - kRows / 2);
+    const bool isBright = i * 7 % 20 == 0;
+    addField({Vec3f{x, y, 0}, {x + 1, y, 0}, {x + 1, y + 1, 0}, {x, y + 1, 0}},
+             isBright ? 2u : static_cast<std::uint32_t>(i & 1));
+  }
+  constexpr float kX = 16, kY = 10, kDeep = 50;
+  addField({Vec3f{-kX, -kY, 0}, {kX, -kY, 0}, {kX, -kY, kDeep}, {-kX, -kY, kDeep}}, 0);
+  addField({Vec3f{-kX, kY, 0}, {kX, kY, 0}, {kX, kY, kDeep}, {-kX, kY, kDeep}}, 0);
+  addField({Vec3f{-kX, -kY, 0}, {-kX, kY, 0}, {-kX, kY, kDeep}, {-kX, -kY, kDeep}}, 0);
+  addField({Vec3f{kX, -kY, 0}, {kX, kY, 0}, {kX, kY, kDeep}, {kX, -kY, kDeep}}, 0);
+  addField({Vec3f{-kX, -kY, kDeep}, {kX, -kY, kDeep}, {kX, kY, kDeep}, {-kX, kY, kDeep}}, 0);
+  d.objects.push_back({"box", {wall}});
+  d.instances.push_back({0, Affine{}});
+
+  Camera camera;
+  camera.eye = {0, 0, 20};
+  camera.at = {0, 0, 0};
+  d.cameras = {camera};
+  Warnings warnings;
+  return Scene::finalize(std::move(d), warnings);
+}
+
+// The share of the pixels that have a channel at 255.
+double clippedShare(const Scene& scene, RenderOptions options) {
+  options.exposure.automatic = true;
+  Renderer renderer(scene, options);
+  chooseExposure(renderer, scene.cameras[0], options);
+
+  Film film;
+  film.image = Image(240, 150);
+  film.wantDisplay = true;
+  renderFrame(renderer, options.mode, scene.cameras[0], film);
+  std::size_t clipped = 0;
+  for (std::size_t i = 0; i < film.display.rgba.size(); i += 4) {
+    const auto* const pixel = &film.display.rgba[i];
+    clipped += std::max({pixel[0], pixel[1], pixel[2]}) == 255;
+  }
+  return static_cast<double>(clipped) / static_cast<double>(film.image.pixels.size());
+}
+
+TEST(AutoExposure, OfAModelClipsAtMostOneHalfPercent) {
+  for (const Mode mode : {Mode::packets, Mode::reference}) {
+    for (const ToneCurve curve : {ToneCurve::none, ToneCurve::filmic}) {
+      RenderOptions options;
+      options.mode = mode;
+      options.toneCurve = curve;
+      for (const float peak : {1.0f, 9.0f, 20.0f}) {
+        EXPECT_LE(clippedShare(closedBox(peak, true), options), 0.005) << peak;
+      }
+      EXPECT_GT(clippedShare(closedBox(20, false), options), 0.005) << "of other scenes";
+    }
+  }
+}
+
+TEST(AutoExposure, HighlightsDarkenAModelByThreeStopsAtMost) {
+  EXPECT_EQ(exposureOf(closedBox(1.0e6f, true)), exposureOf(closedBox(1.0e6f, false)) - 3);
 }
 
 TEST(AutoExposure, IsTheSameHoweverThePictureIsComputed) {

@@ -198,6 +198,53 @@ TEST(ModelViews, TheSideCanBeChosen) {
   EXPECT_LT(view.camera.eye.z, 3);
 }
 
+// The azimuth turns the usual view about the vertical axis, and leaves its height.
+TEST(ModelViews, TheAzimuthCanBeChosen) {
+  SceneDescription scene = sceneOf(box({1, 1, 1}, false));
+  const double height = towardsEye(viewOf(scene)).y;
+  for (const double degrees : {0.0, 30.0, 90.0, 180.0, -135.0}) {
+    scene.azimuth = degrees;
+    const Vec3d eye = towardsEye(viewOf(scene));
+    const double across = std::sqrt(1 - height * height), angle = degrees * kPi / 180;
+    EXPECT_NEAR(eye.x, across * std::sin(angle), 1e-6) << degrees;
+    EXPECT_NEAR(eye.y, height, 1e-6) << degrees;
+    EXPECT_NEAR(eye.z, across * std::cos(angle), 1e-6) << degrees;
+  }
+}
+
+TEST(ModelViews, ZoomDividesTheDistance) {
+  SceneDescription scene = sceneOf(box({1, 2, 3}, false));
+  const auto distance = [&](const ModelView& view) {
+    return length(Vec3d(view.camera.eye) - Vec3d(view.camera.at));
+  };
+  const ModelView usual = viewOf(scene);
+  const Turntable usualTurn = aroundModel(scene, usual, 48, 30);
+  for (const double zoom : {0.5, 1.25, 3.0}) {
+    scene.zoom = zoom;
+    const ModelView view = viewOf(scene);
+    EXPECT_NEAR(distance(view) * zoom, distance(usual), 1e-5);
+    EXPECT_EQ(view.camera.at, usual.camera.at);
+
+    const Turntable turn = aroundModel(scene, view, 48, 30);
+    const auto away = [](const Turntable& t) { return length(Vec3d(t.camera.eye) - t.pivot); };
+    EXPECT_NEAR(away(turn) * zoom, away(usualTurn), 1e-5);
+  }
+}
+
+// In a room the eye stands where the azimuth meets the walls, and zoom enlarges the picture.
+TEST(ModelViews, ARoomHasAzimuthAndZoomToo) {
+  SceneDescription scene = sceneOf(box({4, 1.5f, 3}, true));
+  const Camera usual = viewOf(scene).camera;
+  scene.azimuth = -90;
+  scene.zoom = 2;
+  const ModelView view = viewOf(scene);
+  EXPECT_TRUE(view.inside);
+  EXPECT_NEAR(view.camera.eye.x, -0.85 * 4, 1e-5);
+  EXPECT_NEAR(view.camera.eye.z, 0, 1e-5);
+  const auto half = [](float fov) { return std::tan(double{fov} * kPi / 360); };
+  EXPECT_NEAR(half(usual.fov) / half(view.camera.fov), 2, 1e-5);
+}
+
 // The plate is 4 by 2 at a distance of 5. The eye moves sideways, step by step.
 TEST(ModelViews, ACameraSeesWhatOverlapsItsPicture) {
   SceneDescription scene = sceneOf(square());

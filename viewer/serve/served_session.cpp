@@ -355,7 +355,7 @@ void ServedSession::publish() {
 Json ServedSession::tablesJson() const {
   Json json{{"scene", scene().name},
             {"options", Json::array()},
-            {"presets", {"good", "standard", "fine", "reference"}},
+            {"presets", {"good", "standard", "reference"}},
             {"views", Json::array()}};
 
   for (const Camera& camera : scene().cameras) json["cameras"].push_back(camera.name);

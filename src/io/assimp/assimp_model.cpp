@@ -22,6 +22,7 @@
 #include "core/text.h"
 #include "io/confined.h"
 #include "io/model.h"
+#include "io/smooth_normals.h"
 
 namespace whit {
 
@@ -30,8 +31,6 @@ namespace whit {
 namespace {
 
 constexpr int kConversionSeconds = 60;
-// Edges between faces that meet at a larger angle stay hard where a file has no normals.
-constexpr float kSmoothestDegrees = 35;
 
 // The following functions run in the child, up to convert().
 

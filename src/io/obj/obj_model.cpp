@@ -22,6 +22,7 @@
 #include "io/line_reader.h"
 #include "io/obj/mtl_reader.h"
 #include "io/polygon.h"
+#include "io/smooth_normals.h"
 #include "scene/origin.h"
 
 namespace whit {
@@ -104,6 +105,8 @@ class ObjReader {
     finishColors();
     if (!hasUvs_) mesh_.uvs.clear();
     if (!hasNormals_) mesh_.normals.clear();
+    // A file that says nothing about its normals is smoothed; "s off" says that faces are flat.
+    if (normals_.empty() && !statesSmoothing_) smoothNormals(mesh_, file_, budget_);
     for (std::uint32_t& material : mesh_.materials) material = std::min(material, count);
     if (std::ranges::count(mesh_.materials, mesh_.materials[0]) == std::ssize(mesh_.materials)) {
       mesh_.materials.resize(1);
@@ -159,6 +162,7 @@ class ObjReader {
     } else if (keyword == "usemtl" || keyword == "mtllib") {
       noteName(keyword, lines_);
     } else if (keyword == "s") {
+      statesSmoothing_ = true;
       const std::string_view group = lines_.word();
       const bool isNone = group.empty() || group == "off" || group == "0";
       smoothing_ = isNone ? 0 : std::hash<std::string_view>()(group);
@@ -368,7 +372,7 @@ class ObjReader {
   Mesh mesh_;
   std::vector<ObjVertex> known_;       // one for each vertex of the mesh
   std::vector<std::uint32_t> newest_;  // of the vertices at each position
-  bool hasFaces_ = false, hasUvs_ = false, hasNormals_ = false;
+  bool hasFaces_ = false, hasUvs_ = false, hasNormals_ = false, statesSmoothing_ = false;
   // The face that is being added.
   std::uint64_t line_ = 0;
   std::vector<ObjCorner> corners_;

@@ -22,6 +22,7 @@
 #include "io/line_reader.h"
 #include "io/model.h"
 #include "io/polygon.h"
+#include "io/smooth_normals.h"
 #include "scene/origin.h"
 
 namespace whit {
@@ -529,6 +530,7 @@ class PlyModel : public MeshModel {
     PlyReader reader(text, file, source.budget, source.warnings);
     mesh_ = reader.read();
     middle_ = reader.middle;
+    if (mesh_.normals.empty()) smoothNormals(mesh_, file, source.budget);
     mesh_.name = source.path.stem().string();
 
     for (const PlyPicture& picture : reader.pictures) pictures_.push_back(sourceOf(picture));

@@ -1,0 +1,99 @@
+// The triangles of a scene that is not baked yet, in their places.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "bake/facet.h"
+#include "core/affine.h"
+#include "core/vec3.h"
+#include "scene/description.h"
+
+namespace whit {
+
+// Models of more triangles are sampled.
+inline constexpr std::uint64_t kMostLookedAt = 4'000'000;
+inline constexpr auto kEveryTriangle = std::numeric_limits<std::uint64_t>::max();
+
+// The shadow that addGroundShadow() has added is no part of the model.
+inline bool isGroundShadow(const SceneDescription& scene, const Mesh& mesh) {
+  const std::uint32_t material = mesh.materials.empty() ? 0 : mesh.materials[0];
+  return material < scene.materials.size() && scene.materials[material].name == kGroundShadowName;
+}
+
+inline std::uint64_t placedTriangleCount(const SceneDescription& scene) {
+  std::uint64_t count = 0;
+  for (const Instance& instance : scene.instances) {
+    for (const Mesh& mesh : scene.objects[instance.object].meshes) count += mesh.triangles.size();
+  }
+  return count;
+}
+
+// Returns none where a corner is missing or lies beyond the range that can be traced: nothing is
+// validated yet.
+inline std::optional<Corners> placed(const std::vector<Vec3f>& positions,
+                                     const std::array<std::uint32_t, 3>& triangle,
+                                     const Affine& toWorld) {
+  Corners corners;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (triangle[i] >= positions.size()) return std::nullopt;
+    corners[i] = toWorld.point(Vec3d(positions[triangle[i]]));
+    if (!(maxComponent(abs(corners[i])) < double{kLargestCoordinate})) return std::nullopt;
+    if (!isFinite(corners[i])) return std::nullopt;
+  }
+  return corners;
+}
+
+// Calls use(corners) for every triangle, or for about `most` of them, evenly spread. A scene that
+// moves is posed at the time `seconds`, by default at the time of the scene.
+template <typename Use>
+void forEachPlacedTriangle(const SceneDescription& scene, std::uint64_t most, const Use& use,
+                           std::optional<double> seconds = {}) {
+  const std::uint64_t stride = std::max<std::uint64_t>(1, placedTriangleCount(scene) / most);
+  const double time = seconds.value_or(scene.motion.seconds);
+  const std::vector<Affine> poses = poseRig(scene.motion.rig, time);
+
+  // One count runs over the triangles of all instances, and every stride-th of them is used.
+  std::uint64_t number = 0;
+  for (const Instance& instance : scene.instances) {
+    const bool moves = instance.mover != kNoNode;
+    const Affine toWorld = moves ? poses[instance.mover] * instance.toWorld : instance.toWorld;
+    const bool mirrored = toWorld.determinant() < 0;
+
+    for (const Mesh& mesh : scene.objects[instance.object].meshes) {
+      if (isGroundShadow(scene, mesh)) continue;
+
+      // Morphed and skinned meshes take their shape at that time.
+      std::vector<Vec3f> bent;
+      if (const Deformation* deformation = mesh.deformation.get()) {
+        bent = deformVertices(*deformation, poseAt(*deformation, time)).positions;
+      }
+      const std::vector<Vec3f>& positions = mesh.deformation ? bent : mesh.positions;
+
+      for (const auto& triangle : mesh.triangles) {
+        if (number++ % stride != 0) continue;
+        auto corners = placed(positions, triangle, toWorld);
+        if (!corners) continue;
+
+        // A transform that mirrors would turn fronts into backs.
+        if (mirrored) std::swap((*corners)[1], (*corners)[2]);
+        use(*corners);
+      }
+    }
+  }
+}
+
+// Calls use(corner) for each corner of these triangles.
+template <typename Use>
+void forEachPlacedCorner(const SceneDescription& scene, std::uint64_t most, const Use& use,
+                         std::optional<double> seconds = {}) {
+  const auto useAll = [&](const Corners& t) { std::ranges::for_each(t, use); };
+  forEachPlacedTriangle(scene, most, useAll, seconds);
+}
+
+}  // namespace whit
