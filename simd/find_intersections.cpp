@@ -265,6 +265,21 @@ void LookUpRoughness(Chunk& c) {
       c, [](const MaterialLanes& m) HWY_ATTR { return m.Roughness().map; }, ApplyRoughness);
 }
 
+// Multiplies the coverage of the lanes that a map covers with the alpha of vertices. The function
+// is not inlined, so that scenes without second texture coordinates do not pay for it.
+inline HWY_NOINLINE VF MulVertexAlpha(const SurfelJob& job, VF coverage, MF mapped, size_t i) {
+  const VI number = MaterialNumbers(job.surfels, i);
+  const VU flags = MaterialLanes(job.tables, number, mapped).Lobe().flags;
+  const MF byVertex = hn::And(mapped, HasFlags(flags, kMaterialAlphaByVertex));
+  if (hn::AllFalse(FloatTag(), byVertex)) return coverage;
+
+  // The coordinates have what the alpha lacks of 1.
+  const VI triangle = LoadHits(job.hits, job.tables.triangleCount, i).triangle;
+  const UvLanes uv = LoadSecondUvs(job.tables, triangle);
+  const VF lacks = Interpolate(LoadWeights(job.hits, i), uv.u0, uv.u1, uv.u2);
+  return hn::IfThenElse(byVertex, NegMulThenAdd(coverage, lacks, coverage), coverage);
+}
+
 // 1 where a ray has left the scene.
 HWY_INLINE void StoreCoverage(const SurfelJob& job, const MapQueue& queue, size_t slot, size_t i) {
   const FloatTag d;
@@ -278,7 +293,9 @@ HWY_INLINE void StoreCoverage(const SurfelJob& job, const MapQueue& queue, size_
   if (queue.level.any[slot]) {
     const V3 map = FilterData(job, queue, slot);
     const VF mapped = hn::Mul(coverage, map.x);
-    coverage = hn::IfThenElse(QueuedLanes(queue.level, slot), mapped, coverage);
+    const MF queued = QueuedLanes(queue.level, slot);
+    coverage = hn::IfThenElse(queued, mapped, coverage);
+    if (HWY_UNLIKELY(job.secondUvs)) coverage = MulVertexAlpha(job, coverage, queued, i);
   }
   hn::Store(coverage, d, job.surfels.coverage + i);
 }

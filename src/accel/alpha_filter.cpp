@@ -87,7 +87,7 @@ AlphaMap::Bounds AlphaMap::boundsOf(int cellX, int cellY) const {
   return bounds;
 }
 
-float AlphaMap::marginAt(float u, float v, float cutoff) const noexcept {
+float AlphaMap::marginAt(float u, float v, float cutoff, bool cutoffVaries) const noexcept {
   const AxisTexels x = wrapAxis(wrapU_, u, width_);
   const AxisTexels y = wrapAxis(wrapV_, 1.0f - v, height_);
 
@@ -95,7 +95,8 @@ float AlphaMap::marginAt(float u, float v, float cutoff) const noexcept {
   const int cell = (y.lower >> kCellShift) * cellsAcross_ + (x.lower >> kCellShift);
   const Bounds bounds = entryOf(cells_, cell);
   const float wanted = cutoff * 255.0f;
-  const float slack = bounds.least == bounds.most ? kRounding : 255 * kCloseCall;
+  const bool isEven = bounds.least == bounds.most && !cutoffVaries;
+  const float slack = isEven ? kRounding : 255 * kCloseCall;
 
   // Opaque and transparent cells share one branch: a processor cannot predict which of the two a
   // cell is, but nearly always it is one of them.
@@ -143,6 +144,7 @@ std::vector<Mask> makeMasks(const Scene& scene, bool cut) {
     mask.map = mapOf(material.alphaMap);
     mask.cutoff = material.alphaCutoff;
     mask.shadowCutoff = material.shadowCutoff();
+    mask.byVertex = material.alphaByVertex && !scene.secondUvs.empty();
 
     // Shadows are also cut by the coverage where the alpha map does not contain it.
     if (!material.isCutBesidesCoverage()) continue;

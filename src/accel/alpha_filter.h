@@ -19,8 +19,9 @@ class AlphaMap {
 
   // Returns by how much the alpha at texture coordinates (u, v) is above `cutoff`; 1 or -1 where
   // the bounds of the cell alone show that it is well above or below. Without interpolation the
-  // margin is at most the distance from the texel's border, so that close calls are known.
-  float marginAt(float u, float v, float cutoff) const noexcept;
+  // margin is at most the distance from the texel's border, so that close calls are known. A cutoff
+  // that differs from point to point makes close calls where the texels are equal, too.
+  float marginAt(float u, float v, float cutoff, bool cutoffVaries = false) const noexcept;
 
  private:
   struct Bounds {
@@ -46,6 +47,7 @@ struct Mask {
   std::shared_ptr<const AlphaMap> coverage;
   float coverageCutoff = 0;
   bool doubleSided = true;
+  bool byVertex = false;  // Material::alphaByVertex, in scenes with second texture coordinates
 };
 
 // One mask a material; none of them has a map unless the scene is `cut`.
@@ -56,25 +58,35 @@ std::vector<Mask> makeMasks(const Scene& scene, bool cut);
 inline constexpr float kCloseCall = 1.0f / 64;
 
 // Returns a number below 0 where the mask, with that cutoff of it, cuts the point with these
-// texture coordinates; for shadows also where less than half of the point is covered.
+// texture coordinates; for shadows also where less than half of the point is covered. `alpha` is
+// above 0 and multiplies the texels.
 template <float Mask::*kCutoff>
-float marginAt(const Mask& mask, float s, float t) noexcept {
+float marginAt(const Mask& mask, float s, float t, float alpha = 1) noexcept {
   if (!mask.map) return 1;
-  const float margin = mask.map->marginAt(s, t, mask.*kCutoff);
+  const float margin = mask.map->marginAt(s, t, mask.*kCutoff / alpha, mask.byVertex);
   if constexpr (kCutoff == &Mask::shadowCutoff) {
     if (mask.coverage) {
-      return std::min(margin, mask.coverage->marginAt(s, t, mask.coverageCutoff));
+      const float cutoff = mask.coverageCutoff / alpha;
+      return std::min(margin, mask.coverage->marginAt(s, t, cutoff, mask.byVertex));
     }
   }
   return margin;
 }
 
-// The same for the point (u, v) of a triangle with these texture coordinates at its corners.
+// Does the same for the point (u, v) of a triangle of the scene.
 template <float Mask::*kCutoff>
-float marginAt(const Mask& mask, const float (&uv)[6], float u, float v) noexcept {
+float marginAt(const Mask& mask, const Scene& scene, std::uint32_t triangle, float u,
+               float v) noexcept {
   const float w = 1.0f - u - v;
-  return marginAt<kCutoff>(mask, uv[0] * w + uv[2] * u + uv[4] * v,
-                           uv[1] * w + uv[3] * u + uv[5] * v);
+  const float(&uv)[6] = scene.triangles[triangle].uv;
+  const float s = uv[0] * w + uv[2] * u + uv[4] * v, t = uv[1] * w + uv[3] * u + uv[5] * v;
+  if (!mask.byVertex) return marginAt<kCutoff>(mask, s, t);
+
+  // The division by it stays finite.
+  constexpr float kLeastAlpha = 1e-9f;
+  const float(&lacks)[6] = scene.secondUvs[triangle].uv;
+  const float alpha = 1.0f - (lacks[0] * w + lacks[2] * u + lacks[4] * v);
+  return marginAt<kCutoff>(mask, s, t, std::max(alpha, kLeastAlpha));
 }
 
 // The triangles of one Embree geometry, as its filters read them.
@@ -83,10 +95,9 @@ struct FilteredTriangles {
   std::uint32_t first;  // number of the first triangle
   const Mask* masks;    // one a material of the scene
 
-  const TriangleRecord& recordOf(std::uint32_t primitive) const {
-    return scene.triangles[first + primitive];
+  const Mask& maskOf(std::uint32_t primitive) const {
+    return masks[scene.triangles[first + primitive].material];
   }
-  const Mask& maskOf(std::uint32_t primitive) const { return masks[recordOf(primitive).material]; }
 };
 
 }  // namespace whit

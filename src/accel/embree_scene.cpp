@@ -82,10 +82,11 @@ bool isBehind(const RTCFilterFunctionNArguments& args, unsigned lane) {
 template <float Mask::*kCutoff>
 bool isOpaque(const RTCFilterFunctionNArguments& args, unsigned lane) {
   const auto& triangles = *static_cast<const FilteredTriangles*>(args.geometryUserPtr);
-  const TriangleRecord& record = triangles.recordOf(RTCHitN_primID(args.hit, args.N, lane));
-  const Mask& mask = triangles.masks[record.material];
+  const unsigned primitive = RTCHitN_primID(args.hit, args.N, lane);
+  const std::uint32_t number = triangles.first + primitive;
+  const Mask& mask = triangles.maskOf(primitive);
   float u = RTCHitN_u(args.hit, args.N, lane), v = RTCHitN_v(args.hit, args.N, lane);
-  float margin = marginAt<kCutoff>(mask, record.uv, u, v);
+  float margin = marginAt<kCutoff>(mask, triangles.scene, number, u, v);
 
   // Embree reports the first corner for every hit where the product of the triangle's area vector
   // and the ray's direction is below 1e-18.
@@ -94,7 +95,7 @@ bool isOpaque(const RTCFilterFunctionNArguments& args, unsigned lane) {
     const ExactHit hit = exactHit(args, lane);
     u = static_cast<float>(hit.u);
     v = static_cast<float>(hit.v);
-    margin = marginAt<kCutoff>(mask, record.uv, u, v);
+    margin = marginAt<kCutoff>(mask, triangles.scene, number, u, v);
   }
   return margin >= 0;
 }

@@ -130,8 +130,8 @@ std::optional<QueryHit> ExactIntersector::hitTriangle(const QueryRay& ray,
   const Mask& mask = maskOf(id.triangle);
   if (hit.back && !mask.doubleSided) return std::nullopt;
   if (mask.map &&
-      !isOnMask(marginAt<&Mask::cutoff>(mask, scene_.triangles[id.triangle].uv,
-                                        static_cast<float>(hit.u), static_cast<float>(hit.v)),
+      !isOnMask(marginAt<&Mask::cutoff>(mask, scene_, id.triangle, static_cast<float>(hit.u),
+                                        static_cast<float>(hit.v)),
                 hit)) {
     return std::nullopt;
   }

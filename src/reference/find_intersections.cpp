@@ -31,6 +31,9 @@ class Lookups {
       : scene_(scene), how_(how), at_(at), toWorld_(toWorld), cosine_(cosine) {}
 
   const float* uvs(bool second) const { return at_.uvs(second); }
+  double alphaOfVertices() const {
+    return vertexAlpha(scene_.materials[at_.triangle.material], at_);
+  }
 
   RgbD sample(std::int32_t Material::*map, bool second = false) const {
     const Material& material = scene_.materials[at_.triangle.material];
@@ -138,7 +141,9 @@ void findColors(const Scene& scene, EffectSet effects, std::uint32_t number, con
   }
   if (!effects.has(Effect::coverage)) return;
   s.coverage = material.coverage;
-  if (material.coverageMap != kNoTexture) s.coverage *= lookups.sample(&Material::coverageMap).x;
+  if (material.coverageMap != kNoTexture) {
+    s.coverage *= lookups.sample(&Material::coverageMap).x * lookups.alphaOfVertices();
+  }
 }
 
 }  // namespace

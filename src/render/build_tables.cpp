@@ -59,6 +59,7 @@ std::uint32_t flagsOf(const Material& m, bool onOthers, EffectSet effects) {
   if (m.emissionBySecondUvs) flags |= kMaterialEmissionBySecondUvs;
   if (m.normalBySecondUvs) flags |= kMaterialNormalBySecondUvs;
   if (m.occlusionBySecondUvs) flags |= kMaterialOcclusionBySecondUvs;
+  if (m.alphaByVertex) flags |= kMaterialAlphaByVertex;
 
   return flags;
 }

@@ -112,6 +112,9 @@ struct Material {
   std::int32_t occlusionMap = kNoTexture;  // data, channel r
   // These maps are looked up with Mesh::secondUvs.
   bool emissionBySecondUvs = false, normalBySecondUvs = false, occlusionBySecondUvs = false;
+  // The alpha of vertices multiplies alphaMap and coverageMap. Mesh::secondUvs have what the alpha
+  // lacks of 1 as their u, so that meshes without them are opaque; no map is looked up with them.
+  bool alphaByVertex = false;
   std::int32_t alphaMap = kNoTexture;  // data, channel r; cut where below alphaCutoff
   float alphaCutoff = 0.5f;
   // The share of the surface that is there, times coverageMap (data, channel r). Shadows are cast

@@ -160,6 +160,7 @@ inline constexpr auto kMembers<Material> = std::tuple{
     Member{"emissionBySecondUvs", &Material::emissionBySecondUvs, {.inFiles = false, .baked = true}},
     Member{"normalBySecondUvs", &Material::normalBySecondUvs, {.inFiles = false, .baked = true}},
     Member{"occlusionBySecondUvs", &Material::occlusionBySecondUvs, {.inFiles = false, .baked = true}},
+    Member{"alphaByVertex", &Material::alphaByVertex, {.inFiles = false, .baked = true}},
     Member{"doubleSided", &Material::doubleSided, {.baked = true}},
 };
 // clang-format on

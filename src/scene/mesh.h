@@ -18,7 +18,7 @@ struct Mesh {
   std::vector<Vec3f> positions;
   std::vector<Vec3f> normals;    // empty (flat shading), or one a position
   std::vector<Vec2f> uvs;        // empty (0, 0), or one a position; v points up
-  std::vector<Vec2f> secondUvs;  // likewise, for the maps of a Material that say so
+  std::vector<Vec2f> secondUvs;  // likewise, for what the members of a Material say
   std::vector<Rgb> colors;       // empty (white), or one a position; linear, 0 to 1
   std::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise seen from outside
   std::vector<Affine> spheres;  // from the unit sphere (bake/sphere.h); of the first material

@@ -59,6 +59,8 @@ inline constexpr std::uint32_t kMaterialCoated = 1u << 22, kMaterialIsUnderCoat 
 inline constexpr std::uint32_t kMaterialFrosts = 1u << 24, kMaterialFrostedInterface = 1u << 25;
 inline constexpr std::uint32_t kMaterialIsOccluded = 1u << 16,
                                kMaterialOcclusionBySecondUvs = 1u << 17;
+// Material::alphaByVertex.
+inline constexpr std::uint32_t kMaterialAlphaByVertex = 1u << 26;
 // Maps or vertex colors multiply it.
 inline constexpr std::uint32_t kMaterialVariesMirror = 1u << 18,
                                kMaterialVariesTransmission = 1u << 19;

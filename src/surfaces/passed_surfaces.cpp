@@ -10,9 +10,10 @@ bool cutAway(const Scene& scene, std::uint32_t triangle, const TriangleHit& hit,
   if (material.alphaMap == kNoTexture) return false;
   const Textured textured = texturedAt(scene, triangle, hit);
   const TexturePoint at = texturePoint(textured.triangle.uv, textured.hit);
+  const double alpha = vertexAlpha(material, textured);
   const auto isBelow = [&](std::int32_t map, float cutoff) {
     const Texture& mask = scene.textures[static_cast<std::size_t>(map)];
-    return sampleTexture(mask, at.u, at.v).x < double{cutoff};
+    return sampleTexture(mask, at.u, at.v).x * alpha < double{cutoff};
   };
   if (!forShadows) return isBelow(material.alphaMap, material.alphaCutoff);
   return isBelow(material.alphaMap, material.shadowCutoff()) ||

@@ -69,6 +69,11 @@ TexturePoint texturePoint(const float* uv, const TriangleHit& hit) {
   return {uv[0] * w + uv[2] * hit.u + uv[4] * hit.v, uv[1] * w + uv[3] * hit.u + uv[5] * hit.v};
 }
 
+double vertexAlpha(const Material& material, const Textured& at) {
+  if (!material.alphaByVertex || at.secondUvs == nullptr) return 1;
+  return 1 - texturePoint(at.secondUvs, at.hit).u;
+}
+
 RgbD sampleTexture(const Texture& texture, double u, double v, TextureFilter filter) {
   const Between x = texelsAround(tame(u), texture.width, texture.wrapU);
   const Between y = texelsAround(1 - tame(v), texture.height, texture.wrapV);

@@ -19,6 +19,9 @@ struct Textured {
 
 Textured texturedAt(const Scene& scene, std::uint32_t number, const TriangleHit& hit);
 
+// The factor of alpha and coverage maps by the alpha of vertices (Material::alphaByVertex).
+double vertexAlpha(const Material& material, const Textured& at);
+
 // Texture coordinates at the hit, from those of the corners (Scene::uvsOf).
 struct TexturePoint {
   double u = 0, v = 0;

@@ -221,6 +221,15 @@ Images bake(const GltfMaterial& m, const GltfBakeImages& images, const ImageLimi
   means.specularColor = Rgb(tintSum / texels);
 
   if (images[kBase]) maps[kGltfAlpha] = bakeAlpha(m, *images[kBase], limits, means);
+
+  // The alpha of vertices multiplies a map, which is opaque if the image is.
+  if (m.multipliesAlpha()) {
+    means.alphaByMap = true;
+    if (!maps[kGltfAlpha]) {
+      maps[kGltfAlpha] = emptyTexture(m.name, TexelFormat::data, 1, 1);
+      maps[kGltfAlpha]->texels = {encodeDataTexel(1, 1, 1, 1)};
+    }
+  }
   return maps;
 }
 
@@ -364,7 +373,7 @@ GltfMaps GltfMapMaker::ask(const GltfMaterial& m, TextureLoader& textures) {
   // The images of base color, metalness, specular reflection and transmission are baked into the
   // maps that a Material has.
   if (m.baseMap.exists() || m.metallicRoughnessMap.exists() || m.variesF0() ||
-      m.variesTransmission()) {
+      m.variesTransmission() || m.multipliesAlpha()) {
     const std::array sources{image(m.baseMap), image(m.metallicRoughnessMap), image(m.specularMap),
                              image(m.specularColorMap), image(m.transmissionMap)};
 
@@ -392,9 +401,9 @@ GltfMaps GltfMapMaker::ask(const GltfMaterial& m, TextureLoader& textures) {
     if (m.alphaMode == GltfMaterial::Alpha::blend) slots.coverageMap = baked[kGltfAlpha];
   }
 
-  // Meshes keep the alpha of their vertices as the coordinate u, which this ramp turns into
-  // opacity.
-  if (m.alphaByVertex) {
+  // Where there are no maps, meshes keep the alpha of their vertices as the coordinate u, which
+  // this ramp turns into opacity.
+  if (m.alphaByVertex && !m.isMapped()) {
     slots.alphaMap = textures.add(1, [name = m.name] { return Images{alphaRamp(name)}; })[0];
     if (m.alphaMode == GltfMaterial::Alpha::blend) slots.coverageMap = slots.alphaMap;
     means->alphaByMap = true;

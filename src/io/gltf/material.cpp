@@ -248,6 +248,7 @@ Material shadedAs(const GltfMaterial& g, const GltfMeans& means) {
   m.emissionBySecondUvs = coordinates.bySecond(g.emissiveMap);
   m.occlusionBySecondUvs = coordinates.bySecond(g.occlusionMap);
 
+  m.alphaByVertex = g.multipliesAlpha();
   m.alphaCutoff = g.alphaMode == GltfMaterial::Alpha::mask && g.alpha > 0
                       ? std::min(g.alphaCutoff / g.alpha, 1.0f)
                       : 0.5f;

@@ -67,7 +67,8 @@ struct GltfMaterial {
   GltfTexture specularMap, specularColorMap;  // strength in alpha, color
   GltfTexture transmissionMap, clearcoatMap, clearcoatRoughnessMap;
   float normalScale = 1, occlusionStrength = 1;
-  // The alpha of vertex colors counts: u is alphaRampU() of it. There are no maps then.
+  // The alpha of vertex colors counts. Without maps u is alphaRampU() of it, and beside maps the
+  // second coordinates have it (Material::alphaByVertex).
   bool alphaByVertex = false;
   bool mirrorIsApart = false;        // of MTL: no reflectance at normal incidence
   bool normalsMayBeHeights = false;  // of MTL: a gray normalMap holds heights
@@ -110,6 +111,7 @@ struct GltfMaterial {
            occlusionMap.exists();
   }
   bool emitsByMap() const { return emissiveMap.exists() && maxComponent(emission) > 0; }
+  bool multipliesAlpha() const { return alphaByVertex && isMapped(); }
 };
 
 // Alpha is looked up in a texture of two texels, between whose centers it rises evenly from 0 to 1.

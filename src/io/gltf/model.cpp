@@ -183,17 +183,32 @@ class PrimitiveReader {
 
   void readVertexColors(Mesh& mesh) {
     const JsonValue color = attributes_["COLOR_0"];
-    if (source_.alphaByVertex) mesh.uvs.assign(mesh.positions.size(), {alphaRampU(1), 0.5f});
+    const bool byRamp = source_.alphaByVertex && !source_.isMapped();
+    if (byRamp) mesh.uvs.assign(mesh.positions.size(), {alphaRampU(1), 0.5f});
     if (!color.exists()) return;
     GltfColors read = readColors(document_, color);
     mesh.colors = std::move(read.colors);
     checkLength(mesh.colors.size(), mesh.positions.size(), color);
     if (!read.translucent) return;
-    if (source_.alphaByVertex) {
-      const std::vector<float> rgba = readTuples(document_, color, 4);
-      for (std::size_t i = 0; i < mesh.uvs.size(); ++i) mesh.uvs[i].x = alphaRampU(rgba[4 * i + 3]);
-    } else if (source_.alphaMode != GltfMaterial::Alpha::opaque) {
-      warn("alpha of vertex colors left out, because the material has textures");
+
+    if (!source_.alphaByVertex) {
+      if (source_.alphaMode == GltfMaterial::Alpha::opaque) return;
+      warn("alpha of vertex colors left out, because textures have two sets of coordinates");
+      return;
+    }
+
+    const std::vector<float> rgba = readTuples(document_, color, 4);
+    if (!byRamp) {
+      document_.budget().charge(mesh.positions.size(), sizeof(Vec2f), primitive_.where());
+      mesh.secondUvs.resize(mesh.positions.size());
+    }
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+      const float alpha = rgba[4 * i + 3];
+      if (byRamp) {
+        mesh.uvs[i].x = alphaRampU(alpha);
+      } else {
+        mesh.secondUvs[i].x = 1 - std::clamp(alpha, 0.0f, 1.0f);
+      }
     }
   }
 
@@ -392,7 +407,7 @@ class GltfModel : public Model {
           if (!number || !color.exists()) continue;
           GltfMaterial& material = sources_[*number];
           const bool mayBlend =
-              material.alphaMode != GltfMaterial::Alpha::opaque && !material.isMapped();
+              material.alphaMode != GltfMaterial::Alpha::opaque && !material.coordinates().areTwo();
           if (mayBlend && !material.alphaByVertex) {
             material.alphaByVertex = readColors(document_, color).translucent;
           }
