@@ -63,6 +63,81 @@ TEST_F(GltfMaterials, AlphaOfVertexColorsCuts) {
   expectColor(p[7], Rgb(1.0f));
 }
 
+// Shows four columns, whose middles lie at the centers of texels: the alpha of the texture is 1, 1,
+// 0.4, 1, and that of the vertices 1/8, 3/8, 5/8, 7/8.
+class GltfAlphas : public GltfMaterials {
+ protected:
+  void SetUp() override {
+    GltfMaterials::SetUp();
+    alphas_ = {0, 1, 1, 0};
+    save("t.tga", tga(4, 1,
+                      {{255, 255, 255, 255},
+                       {255, 255, 255, 255},
+                       {255, 255, 255, 102},
+                       {255, 255, 255, 255}}));
+    useImages({"t.tga"});
+  }
+
+  // A black surface whose alpha is that of the texture times `factor`.
+  static std::string material(const std::string& mode, const std::string& factor) {
+    return matte("\"baseColorFactor\":[0,0,0," + factor + "],\"baseColorTexture\":{\"index\":0}",
+                 "\"doubleSided\":true,\"alphaMode\":" + mode);
+  }
+
+  static constexpr float kByTextureAndVertices[] = {0.125f, 0.375f, 0.4f * 0.625f, 0.875f};
+};
+
+TEST_F(GltfAlphas, OfTextureVerticesAndFactorAreMultiplied) {
+  candela_ = 0;
+  const std::string blend = material("\"BLEND\",\"emissiveFactor\":[1,1,1]", "0.5");
+  const auto p = picture({{0, blend, 1}}, 4);
+  for (std::size_t i = 0; i < 4; ++i) expectColor(p[4 + i], Rgb(0.5f * kByTextureAndVertices[i]));
+  EXPECT_EQ(kinds(), "");
+}
+
+// The texture alone would be cut nowhere, and the vertices alone in the first column.
+TEST_F(GltfAlphas, CutWhereTheirProductIsBelowTheCutoff) {
+  candela_ = 0;
+  const std::string mask = material("\"MASK\",\"alphaCutoff\":0.3,\"emissiveFactor\":[1,1,1]", "1");
+  const auto p = picture({{0, mask, 1}}, 4);
+  const float seen[] = {0, 1, 0, 1};
+  for (std::size_t i = 0; i < 4; ++i) expectColor(p[4 + i], Rgb(seen[i]));
+  EXPECT_EQ(kinds(), "");
+}
+
+// A texture without alpha counts as opaque.
+TEST_F(GltfAlphas, OfVerticesCountBesideAnOpaqueTexture) {
+  candela_ = 0;
+  save("t.tga", tga(1, 1, {{255, 255, 255}}));
+  const std::string blend = material("\"BLEND\",\"emissiveFactor\":[1,1,1]", "1");
+  const auto p = picture({{0, blend, 1}}, 4);
+  const float columns[] = {0.125f, 0.375f, 0.625f, 0.875f};
+  for (std::size_t i = 0; i < 4; ++i) expectColor(p[4 + i], Rgb(columns[i]));
+}
+
+// Light goes the way that it is seen, through a black sheet that fills the picture: it is kept off
+// where the sheet covers half and more. The floor is seen through what the sheet leaves.
+TEST_F(GltfAlphas, DecideTogetherWhereShadowsAreCast) {
+  const auto p = picture({{0, matte(""), 1}, {1, material("\"BLEND\"", "1"), 2.0 / 3}}, 4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const float covered = kByTextureAndVertices[i];
+    const double x = (static_cast<double>(i) - 1.5) / 2;
+    const float floor = covered < 0.5f ? static_cast<float>(lit(x, 0.25)) : 0;
+    expectColor(p[4 + i], Rgb((1 - covered) * floor));
+  }
+}
+
+// The mesh has no place for alpha where its maps have two sets of coordinates.
+TEST_F(GltfAlphas, OfVerticesAreCountedBesideTwoSetsOfCoordinates) {
+  loadText(sceneText({{0,
+                       material("\"BLEND\",\"emissiveFactor\":[1,1,1],\"emissiveTexture\":"
+                                "{\"index\":0,\"texCoord\":1}",
+                                "1"),
+                       1}}));
+  EXPECT_EQ(
+      warned("alpha of vertex colors left out, because textures have two sets of coordinates"), 1u);
+}
+
 TEST_F(GltfMaterials, OpaqueMaterialsIgnoreAlphaOfVertexColors) {
   candela_ = 0;
   alphas_ = {0, 0, 0, 0};

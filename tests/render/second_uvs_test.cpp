@@ -109,6 +109,39 @@ TEST(SecondUvs, AgreeWithTheReferenceOnEveryTarget) {
   }
 }
 
+// Materials blend or are cut, with and without the alpha of vertices. One mesh has none of it.
+TEST(SecondUvs, AgreeWithTheReferenceAsTheAlphaOfVertices) {
+  SceneBuilder builder;
+  const auto gray = [](float r) { return encodeDataTexel(r, r, r, 1); };
+  const std::int32_t map = builder.add(
+      makeTexture(TexelFormat::data, 2, 2, {gray(1), gray(0.3f), gray(0.6f), gray(0.8f)}));
+
+  const Scene scene = rowOfTiles(builder, [&](int i) {
+    Material m = diffuseMaterial(0.5f);
+    m.alphaMap = map;
+    m.alphaCutoff = 0.45f;
+    m.alphaByVertex = i != 3;
+    if (i % 2 == 0) {
+      m.coverage = 0.9f;
+      m.coverageMap = map;
+      m.cutWhereClear();
+    }
+
+    // The u of a second coordinate is what the alpha lacks of 1.
+    Mesh mesh = twoWayFloor(builder.add(m));
+    mesh.secondUvs = {{1, 0}, {0.25f, 0}, {0, 0}, {0.5f, 0}};
+    if (i == 5) mesh.secondUvs.clear();
+    return mesh;
+  });
+
+  for (const TextureFilter filter : {TextureFilter::bilinear, TextureFilter::trilinear}) {
+    RenderOptions o = smallOptions();
+    o.shading.textureFilter = filter;
+    expectTheReferenceOnEveryTarget(scene, o);
+  }
+  expectBitsWhateverTheQueues(scene, smallOptions());
+}
+
 // A table that no material uses changes no bit; nor do queues and packets.
 TEST(SecondUvs, ChangeNothingWhereNoMapAsksForThem) {
   Scene scene = everyMapTwice();
