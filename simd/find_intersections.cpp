@@ -273,11 +273,14 @@ inline HWY_NOINLINE VF MulVertexAlpha(const SurfelJob& job, VF coverage, MF mapp
   const MF byVertex = hn::And(mapped, HasFlags(flags, kMaterialAlphaByVertex));
   if (hn::AllFalse(FloatTag(), byVertex)) return coverage;
 
-  // The coordinates have what the alpha lacks of 1.
+  // The coordinates have what the alpha lacks of 1. Subtracted at the corners, a small alpha keeps
+  // its precision.
   const VI triangle = LoadHits(job.hits, job.tables.triangleCount, i).triangle;
-  const UvLanes uv = LoadSecondUvs(job.tables, triangle);
-  const VF lacks = Interpolate(LoadWeights(job.hits, i), uv.u0, uv.u1, uv.u2);
-  return hn::IfThenElse(byVertex, NegMulThenAdd(coverage, lacks, coverage), coverage);
+  const UvLanes lacks = LoadSecondUvs(job.tables, triangle);
+  const VF one = hn::Set(FloatTag(), 1.0f);
+  const VF alpha = Interpolate(LoadWeights(job.hits, i), hn::Sub(one, lacks.u0),
+                               hn::Sub(one, lacks.u1), hn::Sub(one, lacks.u2));
+  return hn::IfThenElse(byVertex, hn::Mul(coverage, alpha), coverage);
 }
 
 // 1 where a ray has left the scene.
