@@ -152,6 +152,17 @@ HWY_INLINE V3 UnderCoat(const Chunk& c, const V3& lobe, VF cosine, MF shiny, siz
   return Select3(coated, Mul3(lobe, Complement3(coat)), lobe);
 }
 
+// What the fog leaves of light from this distance.
+HWY_INLINE V3 ThroughFog(const Fog& fog, VF distance) {
+  const FloatTag d;
+  const V3 density = Broadcast3(fog.density);
+  const auto left = [&](VF sigma) HWY_ATTR {
+    const VF depth = hn::Min(hn::Mul(sigma, distance), hn::Set(d, kOpaqueFog));
+    return hn::Exp(d, hn::Neg(depth));
+  };
+  return {left(density.x), left(density.y), left(density.z)};
+}
+
 void FindRadianceAndShadowRays(Chunk& c) {
   const FloatTag d;
   const UintTag du;
@@ -164,6 +175,7 @@ void FindRadianceAndShadowRays(Chunk& c) {
   const size_t n = c.n;
   const bool traced = c.has(Feature::shadows), nested = c.has(Feature::transmission);
   const bool lifted = c.has(Feature::lift), coverage = c.has(Feature::coverage);
+  const bool fog = c.has(Feature::fog) && light.kind != Light::Kind::directional;
   const bool glossy = c.has(Feature::glossy) && (c.materialFlags & kMaterialGlossy) != 0;
   const bool coats = (c.materialFlags & kMaterialIsUnderCoat) != 0;
   const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
@@ -230,6 +242,11 @@ void FindRadianceAndShadowRays(Chunk& c) {
 
     V3 radiance = Scale3(Mul3(bsdf, intensity), lanes.Falloff(nl, l, area));
     if (coverage) radiance = Scale3(radiance, hn::Load(d, surfels.coverage + i));
+
+    if (fog) {
+      const VF distance = hn::Mul(distanceSquared, inverseDistance);
+      radiance = Mul3(radiance, ThroughFog(c.tables().fog, distance));
+    }
 
     // Light that is too weak for --light-cutoff is left out.
     const VF largest = MaxComponent(radiance);

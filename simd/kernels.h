@@ -94,6 +94,11 @@ WHIT_KERNEL(LiftShadowOrigins, "liftShadowOrigins", findIntersections, {Part::hi
 WHIT_KERNEL(WriteEmittedAndReflectiveAmbient, "writeEmittedAndReflectiveAmbient",
             writeEmittedAndReflectiveAmbient, {Part::rays, Part::surfels}, {Part::radiance});
 
+// Multiplies what the fog leaves into the weight and throughput of rays in air. What it adds is
+// divided by what it leaves, because a ray's weight multiplies all of its radiance.
+WHIT_KERNEL(AddFog, "addFog", writeEmittedAndReflectiveAmbient,
+            {Part::rays, Part::hits, Part::surfels, Part::radiance}, {Part::rays, Part::radiance});
+
 // Unshadowed radiance from the chunk's light, and a shadow ray for each slot where it is not zero.
 // `visible` is 0 in the slots that have one, and 0 where nothing contributes. Without
 // Feature::shadows no rays are written and `visible` is 1 where light falls.
@@ -158,6 +163,7 @@ inline constexpr std::array kKernels{kGenerateRays,
                                      kFindLayers,
                                      kLiftShadowOrigins,
                                      kWriteEmittedAndReflectiveAmbient,
+                                     kAddFog,
                                      kFindRadianceAndShadowRays,
                                      kFindAmbientAndOcclusionRays,
                                      kPackShadowRays,

@@ -70,11 +70,53 @@ void WriteEmittedAndReflectiveAmbient(Chunk& c) {
   }
 }
 
+void AddFog(Chunk& c) {
+  const FloatTag d;
+  const UintTag du;
+  const RayColumns rays = c.rays;
+  const RadianceColumns radiance = c.radiance;
+  const bool media = c.has(Feature::transmission);
+  const V3 density = Broadcast3(c.tables().fog.density), color = Broadcast3(c.tables().fog.color);
+  const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f), opaque = hn::Set(d, kOpaqueFog);
+
+  for (size_t i = 0; i < c.n; i += hn::Lanes(d)) {
+    // A direction of 0 belongs to a pixel that sees nothing.
+    MF fogged = hn::Gt(MaxComponent(Abs3(DirectionAt(rays, i))), zero);
+    if (media) {
+      const VU stack = hn::Load(du, rays.media + i);
+      fogged = hn::And(fogged, hn::RebindMask(d, hn::Eq(stack, hn::Zero(du))));
+    }
+    if (hn::AllFalse(d, fogged)) continue;
+
+    const VU material = hn::Load(du, c.surfels.material + i);
+    const MF hit = hn::RebindMask(d, hn::Ne(material, hn::Set(du, kMiss)));
+    const VF t = hn::Load(d, c.hits.t + i);
+
+    // exp(sigma * t) - 1 in channels with fog.
+    const auto growth = [&](VF sigma) HWY_ATTR {
+      const VF depth = hn::IfThenElse(hit, hn::Min(hn::Mul(sigma, t), opaque), opaque);
+      const MF dims = hn::And(fogged, hn::Gt(sigma, zero));
+      return hn::Expm1(d, hn::IfThenElseZero(dims, depth));
+    };
+    const V3 more{growth(density.x), growth(density.y), growth(density.z)};
+    const V3 left{hn::Div(one, hn::Add(one, more.x)), hn::Div(one, hn::Add(one, more.y)),
+                  hn::Div(one, hn::Add(one, more.z))};
+
+    const V3 sum = Load3(radiance.r, radiance.g, radiance.b, i);
+    Store3(Add3(sum, Mul3(color, more)), radiance.r, radiance.g, radiance.b, i);
+    const V3 weight = Load3(rays.weightR, rays.weightG, rays.weightB, i);
+    Store3(Mul3(weight, left), rays.weightR, rays.weightG, rays.weightB, i);
+    const VF throughput = hn::Load(d, rays.throughput + i);
+    hn::Store(hn::Mul(throughput, MaxComponent(left)), d, rays.throughput + i);
+  }
+}
+
 }  // namespace whit::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace whit::simd {
 WHIT_EXPORT_KERNEL(WriteEmittedAndReflectiveAmbient)
+WHIT_EXPORT_KERNEL(AddFog)
 }  // namespace whit::simd
 #endif

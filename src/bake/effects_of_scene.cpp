@@ -140,6 +140,8 @@ class Gatherer {
     if (!blurred) scene_.blurredSky = EnvironmentImage();
     if (blurred && scene_.blurredSky.r.empty()) scene_.blurredSky = blurredSky(scene_.sky);
 
+    set(Effect::fog, !isBlack(scene_.fog.density), "the fog has a density", "the scene has no fog");
+
     const bool ambient = !isBlack(scene_.ambient.up) || !isBlack(scene_.ambient.down);
     set(Effect::ambient, ambient, "the ambient light is not black", "the ambient light is black");
     const bool occludes = ambient || blurred;

@@ -39,6 +39,7 @@ namespace whit {
   X(transmission, "refraction")                     \
   X(indirect, "indirect diffuse lighting")          \
   X(absorption, "absorption in dielectrics")        \
+  X(fog, "fog of the air")                          \
   X(spheres, "exact spheres")                       \
   X(instances, "instanced geometry")                \
   X(depthOfField, "depth of field by a thin lens")

@@ -168,6 +168,14 @@ void readView(JsonObject& file, std::optional<double>& fromSky, SceneContext& co
   }
 }
 
+void readFog(JsonObject& file, SceneDescription& scene) {
+  const JsonValue value = file.find("fog");
+  if (!value) return;
+  JsonObject object(value);
+  readMembers(object, scene.fog);
+  object.finish();
+}
+
 // Applies the settings of one section, or of all sections where it is empty.
 void applySettings(const LoadOptions& options, const std::string& section, JsonDocument& document) {
   for (const std::string& text : options.settings) {
@@ -322,6 +330,7 @@ SceneDescription readScene(const JsonDocument& document, const LoadOptions& opti
   readLights(file, options.instant, context.scene);
   readSky(file, context);
   std::optional<double> fromSky = readAmbient(file, context.scene);
+  readFog(file, context.scene);
   replaceSky(context);
   MaterialReader materials(file, context);
   readItems(file, context, materials);
@@ -378,6 +387,7 @@ SceneDescription loadModelFile(const fs::path& path, const SceneName& name,
   readSky(file, context);
   const bool ownAmbient = file.has("ambient");
   std::optional<double> fromSky = readAmbient(file, scene);
+  readFog(file, scene);
   file.finish();
   replaceSky(context);
   if (!ownAmbient && scene.sky.kind != Sky::Kind::none) fromSky = kAmbientOfSky;

@@ -84,6 +84,7 @@ constexpr int kSegmentsOfSphere = 64;
 void leaveOut(SceneDescription& d, EffectSet effects) {
   for (Material& m : d.materials) leaveOutOfMaterial(m, effects);
   leaveOutOfSky(d.sky, effects);
+  if (effects.has(Effect::fog)) d.fog = Fog();
   if (effects.has(Effect::ambient)) d.ambient = {.reflection = d.ambient.reflection};
   if (effects.has(Effect::blurredSky)) d.ambient.reflection = 0;
   if (effects.has(Effect::ambientOcclusion)) d.ambient.occlusion = 0;

@@ -21,13 +21,13 @@ inline constexpr EffectSet kMatteEffects = EffectSet().with(Effect::lights).with
 
 // Effects that are added to the matte scene, in this order: each needs only those before it.
 inline constexpr std::array kAddedEffects{
-    Effect::spotLights,   Effect::directionalLights, Effect::ambient,          Effect::emission,
-    Effect::sky,          Effect::skyImage,          Effect::smoothNormals,    Effect::vertexColors,
-    Effect::textures,     Effect::emissionMaps,      Effect::normalMaps,       Effect::alphaMasks,
-    Effect::glossy,       Effect::blurredSky,        Effect::instances,        Effect::spheres,
-    Effect::mirror,       Effect::transmission,      Effect::absorption,       Effect::coverage,
-    Effect::softShadows,  Effect::glossyReflection,  Effect::ambientOcclusion, Effect::indirect,
-    Effect::depthOfField,
+    Effect::spotLights,  Effect::directionalLights, Effect::ambient,          Effect::emission,
+    Effect::sky,         Effect::skyImage,          Effect::smoothNormals,    Effect::vertexColors,
+    Effect::textures,    Effect::emissionMaps,      Effect::normalMaps,       Effect::alphaMasks,
+    Effect::glossy,      Effect::blurredSky,        Effect::instances,        Effect::spheres,
+    Effect::mirror,      Effect::transmission,      Effect::absorption,       Effect::coverage,
+    Effect::softShadows, Effect::glossyReflection,  Effect::ambientOcclusion, Effect::fog,
+    Effect::indirect,    Effect::depthOfField,
 };
 static_assert(kAddedEffects.size() + 2 == kEffectCount);
 

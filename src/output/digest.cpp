@@ -120,7 +120,7 @@ void add(Digester& d, const EnvironmentImage& image) {
 
 std::string digestOf(const Scene& scene) {
   const auto& [name, isModel, origin, width, height, options, cameras, cameraPath, animations,
-               variants, lights, sky, ambient, materials, textures] =
+               variants, lights, sky, ambient, fog, materials, textures] =
       static_cast<const SceneContents&>(scene);
   const auto& [blurred, mediumOfMaterial, media, geometries, instances, triangles, firstSphere,
                normals, colors, secondUvs, lower, upper, instancedTriangles, instancedSpheres,
@@ -134,6 +134,7 @@ std::string digestOf(const Scene& scene) {
   add(d, sky.kind);
   add(d, sky.image);
   add(d, ambient);
+  if (!isBlack(fog.density)) add(d, fog);  // scenes without fog keep their digests
   addTable(d, materials);
   addTable(d, textures);
   addTable(d, geometries);

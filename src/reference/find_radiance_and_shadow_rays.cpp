@@ -135,7 +135,14 @@ LightArrival arrivalAt(const World& world, const Chunk& chunk, std::size_t slot)
   const Material& material = world.scene.materials[surfel.material];
   surfel.grazingRatio = double{material.grazingRatio};
   surfel.underCoat = underCoat(material, world.effects, surfel);
-  return radianceFromLight(world.effects, surfel, *chunk.light, chunk.options().shading, point);
+  LightArrival arrival =
+      radianceFromLight(world.effects, surfel, *chunk.light, chunk.options().shading, point);
+  if (world.effects.has(Effect::fog)) {
+    const Vec3d way = arrival.shadowRay.origin + arrival.shadowRay.direction - surfel.position;
+    arrival.radiance = arrival.radiance * leftOfLight(world.scene.fog, *chunk.light, way);
+  }
+
+  return arrival;
 }
 
 std::optional<UnshadowedRow> findRadiance(const World& world, const Chunk& chunk,

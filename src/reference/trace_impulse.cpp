@@ -43,18 +43,29 @@ Tracer::Tracer(const Scene& scene, const Intersector& intersector, const Setting
 RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uint32_t media,
                           RayCounts& counts, Path path) const {
   const bool absorbs = effects_.has(Effect::absorption) && media != 0;
+  const bool foggy = effects_.has(Effect::fog) && media == 0 && !(ray.direction == Vec3d());
+  const auto leftAfter = [&](double distance) {
+    if (foggy) return leftBy(scene_.fog, distance);
+    if (absorbs) return transmittance(scene_, media, distance);
+    return RgbD(1.0);
+  };
+  const auto scattered = [&](const RgbD& left) {
+    if (!foggy) return RgbD();
+    return RgbD(scene_.fog.color) * (RgbD(1.0) - left);
+  };
+
   const std::optional<ChosenSurface> found = nearest(ray, depth);
   if (!found) {
     constexpr double kForEver = std::numeric_limits<double>::infinity();
-    const RgbD left = absorbs ? transmittance(scene_, media, kForEver) : RgbD(1.0);
+    const RgbD left = leftAfter(kForEver);
     if (path.straight) counts.clear += left * path.weight;
-    if (path.straight && options_.background.hidesSky()) return {};
-    return skyAlong(scene_, effects_, ray.direction) * left;
+    if (path.straight && options_.background.hidesSky()) return scattered(left);
+    return skyAlong(scene_, effects_, ray.direction) * left + scattered(left);
   }
 
   const Candidate& candidate = found->candidate;
   const TriangleHit hit = refineHit(scene_, ray, candidate);
-  const RgbD arrives = absorbs ? transmittance(scene_, media, hit.t) : RgbD(1.0);
+  const RgbD arrives = leftAfter(hit.t);
   Surfel surfel = surfelAt(ray, *found, hit);
   const Crossing crossing =
       crossMedia(scene_, effects_, surfel.material, surfel.entering, media, found->alsoCrossed);
@@ -89,7 +100,7 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
       radiance += sum;
     }
   }
-  return radiance * arrives;
+  return radiance * arrives + scattered(arrives);
 }
 
 Surfel Tracer::surfelAt(const Ray& ray, const ChosenSurface& chosen, const TriangleHit& hit) const {
@@ -243,8 +254,13 @@ RgbD Tracer::radianceFromLights(const Surfel& surfel, int depth, double throughp
         depth, static_cast<std::uint32_t>(soft ? options_.lightSamples : 1), path.sample);
     for (std::uint32_t k = 0; k < points.count; ++k) {
       const LightPoint point{points.count == 1, lightPoint(path.number, points, number, k)};
-      const LightArrival arrival =
-          radianceFromLight(effects_, surfel, light, options_.shading, point);
+      LightArrival arrival = radianceFromLight(effects_, surfel, light, options_.shading, point);
+      if (effects_.has(Effect::fog)) {
+        const Ray& ray = arrival.shadowRay;
+        const Vec3d way = ray.origin + ray.direction - surfel.position;
+        arrival.radiance = arrival.radiance * leftOfLight(scene_.fog, light, way);
+      }
+
       const double largest = maxComponent(arrival.radiance);
       if (!(largest > 0 && throughput * largest >= options_.shading.lightCutoff)) continue;
       if (effects_.has(Effect::shadows)) {

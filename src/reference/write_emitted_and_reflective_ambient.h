@@ -45,7 +45,25 @@ inline RgbD emittedAndAmbient(const Scene& scene, EffectSet effects, const Surfe
   return radiance * surfel.coverage;
 }
 
-// The row that the step writes.
+// What fog adds, divided by what it leaves: the ray's weight is to multiply it.
+inline RgbD fogBefore(const World& world, const Chunk& chunk, std::size_t slot) {
+  if (!world.effects.has(Effect::fog) || rayOf(chunk, slot).direction == Vec3d()) return {};
+  if (chunk.has(Feature::transmission) && chunk.rays.media[slot] != 0) return {};
+
+  const bool hit = chunk.surfels.material[slot] != kMiss;
+  const auto growth = [&](float sigma) {
+    if (!(sigma > 0)) return 0.0;
+    // Rounded as in kernels, because the exponential multiplies relative errors by the depth.
+    const float depth = hit ? std::min(sigma * chunk.hits.t[slot], kOpaqueFog) : kOpaqueFog;
+    return std::expm1(double{depth});
+  };
+
+  const Fog& fog = world.scene.fog;
+  return RgbD(fog.color) *
+         RgbD(growth(fog.density.x), growth(fog.density.y), growth(fog.density.z));
+}
+
+// The row that the steps write.
 inline RadianceRow writeEmittedAndReflectiveAmbient(const World& world, const Chunk& chunk,
                                                     std::size_t slot) {
   RgbD radiance, clear;
@@ -57,6 +75,7 @@ inline RadianceRow writeEmittedAndReflectiveAmbient(const World& world, const Ch
   } else if (!isHidden(chunk, slot)) {
     radiance = emittedAndAmbient(world.scene, world.effects, surfelOf(chunk, slot));
   }
+  radiance += fogBefore(world, chunk, slot);
   RadianceRow row{radiance.x, radiance.y, radiance.z};
   put(clear, row.clearR, row.clearG, row.clearB);
   return row;

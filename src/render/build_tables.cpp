@@ -261,6 +261,7 @@ void addLighting(const Scene& scene, EffectSet effects, ShadingTables& tables) {
   setImage(scene.blurredSky, kBlurRows, tables.blurredSky);
   tables.blurredSky.scale *= scene.ambient.reflection;
   tables.ambient = scene.ambient;
+  tables.fog = scene.fog;
   if (!effects.has(Effect::ambient)) tables.ambient.up = tables.ambient.down = Rgb(0.0f);
 }
 

@@ -62,6 +62,7 @@ FeatureSet featuresOf(const Scene& scene, const RenderOptions& options, EffectSe
                                   isOccluded(scene.ambient, e) || options.roulette > 0)
       .with(Feature::transmission, e.has(Effect::transmission))
       .with(Feature::absorption, e.has(Effect::absorption))
+      .with(Feature::fog, e.has(Effect::fog))
       .with(Feature::instances, e.has(Effect::instances))
       .with(Feature::spheres, e.has(Effect::spheres))
       .with(Feature::coplanar, !scene.coplanar.empty())
@@ -136,13 +137,16 @@ class Planner {
                                             {Part::radiance}));
     }
 
+    // After startAlpha, which takes the sky away but not the fog before it.
+    if (has(Effect::fog)) plan_.perQueue.push_back(stepOf(simd::kAddFog));
+
     if (isOccluded(scene_.ambient, plan_.effects)) addAmbientLight();
     if (has(Effect::lights)) {
       for (std::size_t i = 0; i < scene_.lights.size(); ++i) addSamplesOf(i);
     }
 
     addImpulses();
-    if (has(Effect::absorption)) plan_.atEye = {stepOf(simd::kReturnToEye)};
+    if (has(Effect::absorption) || has(Effect::fog)) plan_.atEye = {stepOf(simd::kReturnToEye)};
     if (countsRays()) {
       plan_.atEye.push_back(amendingStep("keepRayCounts", simd::kReturnToEye, keepRayCounts,
                                          {Part::rayCounts}, {Part::channels}));

@@ -66,6 +66,7 @@ struct SceneContents {
   std::vector<Light> lights;
   Sky sky;
   Ambient ambient;
+  Fog fog;
   std::vector<Material> materials;
   std::vector<Texture> textures;
 };

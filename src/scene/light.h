@@ -1,6 +1,7 @@
 // Lights, the sky, and the ambient light made from it.
 #pragma once
 
+#include <cmath>
 #include <string>
 
 #include "core/effects.h"
@@ -78,6 +79,28 @@ struct Ambient {
 
   bool operator==(const Ambient&) const = default;
 };
+
+// Homogeneous fog of the air, which is all that lies outside of dielectrics. Of the radiance behind
+// a way of length t it leaves exp(-density t), and adds `color` times the rest.
+struct Fog {
+  Rgb density{0, 0, 0};  // per unit length
+  Rgb color{0, 0, 0};    // radiance that the fog scatters towards the viewer, however deep it is
+};
+
+// Fog of this optical depth hides what is behind it from any float. Rays that leave the scene pass
+// through as much, so that no factor becomes 0 or infinite.
+inline constexpr float kOpaqueFog = 40;
+
+// Beer's law: what fog leaves of each channel, after any distance.
+inline RgbD leftBy(const Fog& fog, double distance) {
+  const auto channel = [&](double sigma) { return sigma > 0 ? std::exp(-sigma * distance) : 1.0; };
+  return {channel(fog.density.x), channel(fog.density.y), channel(fog.density.z)};
+}
+// The same of a light at the end of `way`. A directional light is what arrives.
+inline RgbD leftOfLight(const Fog& fog, const Light& light, const Vec3d& way) {
+  if (light.kind == Light::Kind::directional) return RgbD(1.0);
+  return leftBy(fog, std::sqrt(dot(way, way)));
+}
 
 // Frames with these effects trace rays for ambient occlusion.
 inline bool isOccluded(const Ambient& ambient, EffectSet effects) {

@@ -210,6 +210,12 @@ inline constexpr auto kMembers<Ambient> = std::tuple{
     Member{"reflection", &Ambient::reflection, {.low = 0, .high = 1}},
 };
 
+template <>
+inline constexpr auto kMembers<Fog> = std::tuple{
+    Member{"density", &Fog::density, {.kind = kColorMember, .usual = 1}},
+    Member{"color", &Fog::color, {.kind = kColorMember}},
+};
+
 // Calls visit(member) for each member of the noun.
 template <typename Noun, typename Visit>
 constexpr void forEachMember(Visit&& visit) {

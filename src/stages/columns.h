@@ -37,6 +37,7 @@ namespace whit {
   X(streams, "random numbers along paths")                                  \
   X(transmission, "media along rays")                                       \
   X(absorption, "media that absorb")                                        \
+  X(fog, "fog of the air")                                                  \
   X(instances, "hits on instances")                                         \
   X(spheres, "hits on exact spheres")                                       \
   X(coplanar, "triangles that overlap others in their plane")               \

@@ -132,6 +132,7 @@ struct ShadingTables {
   SkyTable sky, blurredSky;  // the latter kSkyBlurs images of this size, one below the other
   const LobeTable* lobes = nullptr;  // where lobes exist that no rays sample
   Ambient ambient;
+  Fog fog;
   bool samePriority = true;   // no medium outranks another
   bool radianceMaps = false;  // some material has kMaterialEmissionIsRadiance
 };

@@ -25,7 +25,8 @@ struct Row {
 };
 
 const char kCamera[] = "/cameras/main", kMaterial[] = "/materials/a", kPoint[] = "/lights/0",
-           kSpot[] = "/lights/1", kSun[] = "/lights/2", kSky[] = "/sky", kAmbient[] = "/ambient";
+           kSpot[] = "/lights/1", kSun[] = "/lights/2", kSky[] = "/sky", kAmbient[] = "/ambient",
+           kFog[] = "/fog";
 
 constexpr const char* kGlossy = R"({"diffuse": 0.2, "specular": 0.5, "roughness": 0.4})";
 constexpr const char* kMirror = R"({"diffuse": 0.2, "mirror": 0.6})";
@@ -104,6 +105,9 @@ const Row kRows[] = {
     {kAmbient, "down", "[0.5, 0, 0]"},
     {kAmbient, "occlusion", "0.3"},
     {kAmbient, "reflection", "0.2"},
+
+    {kFog, "density", "[0.1, 0, 0]"},
+    {kFog, "color", "0.4", R"({"density": 0.1})"},
 };
 
 PlainJson yard() {
@@ -215,6 +219,7 @@ TEST_F(EveryMember, ChangesThePicture) {
   expectTested(ofLights, static_cast<const Light*>(nullptr));
   expectTested(tested[kSky], static_cast<const Sky*>(nullptr));
   expectTested(tested[kAmbient], static_cast<const Ambient*>(nullptr));
+  expectTested(tested[kFog], static_cast<const Fog*>(nullptr));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@ namespace {
 Scene loadWithout(EffectSet effects) {
   Warnings warnings;
   SceneDescription description = loadScene("effects", LoadOptions{}, warnings);
+  description.fog = {Rgb(0.05f), Rgb(0.5f)};
   leaveOut(description, effects);
   return Scene::finalize(std::move(description), warnings);
 }

@@ -43,6 +43,7 @@ void scale(SceneDescription& d, int k) {
 
   // Absorption is a rate per length.
   for (Material& m : d.materials) m.absorption = scaled(m.absorption, -k);
+  d.fog.density = scaled(d.fog.density, -k);
 }
 
 class Scaling : public testing::TestWithParam<std::string> {};

@@ -194,6 +194,12 @@ const std::vector<Rule>& rules() {
        },
        "1 camera with an aperture",
        {}},
+      {Effect::fog,
+       [](auto& d) {
+         d.fog.density = {0, 0.1f, 0};
+       },
+       "the fog has a density",
+       {}},
   };
   return all;
 }
