@@ -11,8 +11,10 @@ void someSolids(SceneMaker& maker) {
   maker.room();
   for (int i = 0; i < 3; ++i) {
     const bool mirror = maker.random.chance(0.3);
+    const Transform place = maker.standing(i, 3);
+    const Material material = mirror ? maker.mirror() : maker.glossy();
     const Mesh mesh = i == 1 ? ball(12, 8) : maker.solid();
-    maker.add(mesh, mirror ? maker.mirror() : maker.glossy(), maker.standing(i, 3));
+    maker.add(mesh, material, place);
   }
   maker.addLamps(2);
 }

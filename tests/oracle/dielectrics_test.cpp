@@ -26,8 +26,10 @@ void someGlass(SceneMaker& maker) {
     Material glass = maker.anyGlass();
     if (i == 1) glass.mirror = maker.random.color(0.05, 0.2);
     if (i == 1) glass.mirrorGrazing = maker.random.color(0.3, 0.6);
+
+    const Transform place = maker.standing(i, 3);
     const Mesh mesh = maker.random.chance(0.6) ? box() : tetrahedron();
-    maker.add(mesh, glass, maker.standing(i, 3));
+    maker.add(mesh, glass, place);
   }
 }
 

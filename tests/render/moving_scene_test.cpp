@@ -248,7 +248,7 @@ Scene mirroredVault(Mirrors what, bool doubleSided) {
   builder.place(std::move(object), {Affine()});
   builder.description.motion.rig = {{kNoNode, Affine(), std::make_shared<const Motion>(mirroring)}};
   if (what == Mirrors::node) builder.description.instances[0].mover = 0;
-  builder.description.lights = {test::lightAt({0, 2, 5}, 60)};
+  builder.description.lights = {verify::lightAt({0, 2, 5}, 60)};
   builder.description.cameras = {{.eye = {1.03f, 0, 9}, .at = {1.03f, 0, 0}, .fov = 40}};
   return builder.build();
 }

@@ -60,7 +60,7 @@ struct SceneContext {
   const SceneParts* parts = nullptr;  // of a scene that a program makes
   std::string sky;                    // this and the next as in LoadOptions
   Instant instant;
-  std::string knownSky;  // Sky::name of an image that the caller has, which is not read again
+  std::string knownSky;    // Sky::name of an image that the caller has, which is not read again
   bool hasGround = false;  // a model gets a shadow on the ground
   std::map<std::string, std::unique_ptr<Model>> models;
   TextureLoader textures;  // last: its workers write to the scene
