@@ -68,15 +68,15 @@ TEST(TransportPoints, LeadToAllTransport) {
   PointList list = makePoints(RenderOptions(), kSoftAndRough, knobsTowardsTransport());
   addTransportPoints(RenderOptions(), kSoftAndRough, knobsTowardsTransport(), list);
   for (const char* label :
-       {"standard", "indirect=1", "indirect=4", "indirect=16", "indirect=64", "spp=4 indirect=16",
+       {"standard", "indirect=1", "indirect=4", "indirect=16", "indirect=64", "spp=16 indirect=16",
         "spp=16 indirect=64", "indirect=4 glossy=4 light-samples=4",
-        "spp=4 indirect=64 glossy=16 light-samples=16"}) {
+        "spp=16 indirect=64 glossy=16 light-samples=16"}) {
     EXPECT_TRUE(find(list, label)) << label;
   }
 
-  const Point* rough = find(list, "spp=4 indirect=64 glossy=16 light-samples=16");
+  const Point* rough = find(list, "spp=16 indirect=64 glossy=16 light-samples=16");
   ASSERT_TRUE(rough);
-  EXPECT_EQ(rough->options.spp, 4);
+  EXPECT_EQ(rough->options.spp, 16);
   EXPECT_EQ(rough->options.indirect, 64);
   EXPECT_EQ(rough->options.glossy, 16);
   EXPECT_EQ(rough->options.lightSamples, 16);
@@ -97,7 +97,7 @@ TEST(TransportPoints, HaveNoLobesWhereTheSceneHasNone) {
   PointList list;
   addTransportPoints(RenderOptions(), effects, knobsTowardsTransport(), list);
 
-  EXPECT_EQ(list.points.size(), 12u) << "1, 4, 16 and 64, with 1, 4 and 16 samples";
+  EXPECT_EQ(list.points.size(), 8u) << "1, 4, 16 and 64, with 1 and 16 samples";
   for (const Point& point : list.points) {
     EXPECT_EQ(point.options.glossy, 0);
     EXPECT_EQ(point.options.lightSamples, 1);

@@ -181,6 +181,7 @@ TEST_F(FarModels, AreMeasuredInTheirFile) {
     // The channel is in single precision.
     hashOf({there, "--mode", mode, "--channels", "position"});
     for (const ImageLayer& layer : readLayers(folder_ / "p.exr", ImageLimits())) {
+      if (!layer.name.starts_with("position.")) continue;
       const auto axis = static_cast<std::size_t>(layer.name.back() - 'X');
       const double position = a["surface"]["position"][axis];
       EXPECT_NEAR(layer.floats().at(32 * 96 + 48), position, 1e-4 + 0x1p-23 * position);

@@ -246,9 +246,14 @@ constexpr LoadOption kLoadOptions[] = {
     {"--set /lights/0/intensity=40", "@tiny.json", "image_hash"},
     {"--sky studio", "@tiny.json", "image_hash effects"},
     {"--time 0.5", "@all.json", "image_hash"},
-    {"--time 0.5", "@moving.gltf", "image_hash effects"},
-    {"--animation first", "@moving.gltf --time 0.5", "image_hash"},
+    {"--time 0.5", "@moving.gltf", "image_hash effects exposure_ev options.exposure"},
+    {"--animation first", "@moving.gltf --time 0.5", "image_hash exposure_ev options.exposure"},
     {"--viewpoint inside", "@moving.gltf", "image_hash exposure_ev options.exposure message"},
+    {"--azimuth 40", "@a.obj", "image_hash"},
+    {"--zoom 1.5", "@a.obj", "image_hash"},
+    // The shadow is black and covers in part: it changes no color, only the share of the
+    // background.
+    {"--ground", "@a.obj", "codes effects lanes_filled rays triangles"},
     {"--strict", "@mended.obj --size 8x8", "status"},
     {"--max-memory 0.001", "@tiny.json", ""},
     {"--max-memory 0.001", "@tiny.json --size 400x400", "status"},

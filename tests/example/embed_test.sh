@@ -32,6 +32,7 @@ usr/bin/whit compare looped.exr rendered.exr --tolerance 0 --quiet >log || { cat
 build/made made.png | grep -qx '8192 triangles'
 awk 'BEGIN {
   side = 65
+  print "s off"
   for (row = 0; row < side; ++row) for (column = 0; column < side; ++column) {
     x = column / 32 - 1; z = row / 32 - 1
     printf "v %.9g %.9g %.9g\n", x, 0.25 * cos(7 * sqrt(x * x + z * z)), z

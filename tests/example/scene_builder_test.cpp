@@ -50,7 +50,7 @@ SceneBuilder sheetBuilder() {
 // Writes the same scene as a scene file, a model and an image.
 std::string writeSheets(const TemporaryFolder& folder) {
   std::ofstream(folder.file("sheet.obj"))
-      << "v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0.5 1\nvt 0 0\nvt 2 0\nvt 2 1\nvt 0 1\n"
+      << "v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0.5 1\nvt 0 0\nvt 2 0\nvt 2 1\nvt 0 1\ns off\n"
       << "f 1/1 3/3 2/2\nf 1/1 4/4 3/3\n";
 
   DisplayImage image;

@@ -223,7 +223,9 @@ TEST(AbsentEffects, WithoutTransmissionNoRefractionsAndNoMedia) {
 }
 
 TEST(AbsentEffects, WithoutImpulsesNothingBelowTheFirstDepth) {
+  // Fog returns each ray to its eye in the stage that is counted here.
   const Cost cost = costWithout(EffectSet()
+                                    .with(Effect::fog)
                                     .with(Effect::transmission)
                                     .with(Effect::mirror)
                                     .with(Effect::glossyReflection)

@@ -328,7 +328,7 @@ TEST_F(Serving, EveryVerbChangesWhatItSays) {
                       {"expose 2", "/options/exposure", "2"},
                       {"set depth 3", "/options/depth", "3"},
                       {"effect shadows 0", "/command", "--disable=shadows"},
-                      {"preset fine", "/options/spp", "4"},
+                      {"preset good", "/options/spp", "16"},
                       {"view depth", "/view", "depth"},
                       {"measure", "/measured", nullptr},
                       {"view none\nclick 20 20", "/tree/pixel", "[20,20]"}};
