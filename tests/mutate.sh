@@ -105,7 +105,7 @@ mutations() {
     'MulAdd3(ng, clearance.offset,' 'MulAdd3(ng, hn::Set(d, 1e-3f),'
   plant no-offset simd/new_rays-inl.h \
     'MulAdd3(ng, clearance.offset,' 'MulAdd3(ng, hn::Zero(d),'
-  plant normal-offset-only simd/new_rays-inl.h 'hn::Neg(clearance.retreat)' 'hn::Zero(d)'
+  plant normal-offset-only simd/new_rays-inl.h 'hn::Neg(clearance.viewOffset)' 'hn::Zero(d)'
   plant wrong-offset-side simd/add_impulses.cpp \
     'ChildOrigin(job, lanes, i, -1.0f)' 'ChildOrigin(job, lanes, i, 1.0f)'
   plant approximate-distance simd/packets.cpp \

@@ -245,7 +245,7 @@ std::vector<Quantity<SurfelRow>> quantitiesOf(const SurfelRow*) {
   return {
       {stage, "position", xyz("pos"), kPositionLimit, byMagnitude},
       {stage, "offset", {"offset"}, kOffsetLimit, byOffset},
-      {stage, "retreat", {"retreat"}, kOffsetLimit, byOffset},
+      {stage, "viewOffset", {"viewOffset"}, kOffsetLimit, byOffset},
       {stage, "geometricNormal", xyz("ng"), kNormalLimit, notEdgeOn<bySliver>},
       {stage, "shadingNormal", xyz("ns"), kNormalLimit, notEdgeOn<bySliverIfNotMapped>},
       {stage, "shadingNormal", xyz("ns"), kTexturedLimit, notEdgeOn<bySliverIfMapped>},

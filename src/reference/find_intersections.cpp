@@ -235,7 +235,7 @@ std::optional<SurfelRow> findIntersections(const World& world, const Chunk& chun
   put(s.geometricNormal, row.ngX, row.ngY, row.ngZ);
   put(s.shadingNormal, row.nsX, row.nsY, row.nsZ);
   row.offset = s.offset;
-  row.retreat = s.retreat;
+  row.viewOffset = s.viewOffset;
   put(s.diffuse, row.diffuseR, row.diffuseG, row.diffuseB);
   row.material = s.material;
   put(s.specular, row.specularR, row.specularG, row.specularB);

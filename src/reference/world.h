@@ -68,7 +68,7 @@ inline Vec3d rayOrigin(OffsetMethod method, const Surfel& surfel, double side) {
     case OffsetMethod::bound:
       break;
   }
-  const Vec3d back = side > 0 ? surfel.view * surfel.retreat : Vec3d{};
+  const Vec3d back = side > 0 ? surfel.view * surfel.viewOffset : Vec3d{};
   return p + n * surfel.offset + back;
 }
 
@@ -92,7 +92,7 @@ inline Surfel surfelOf(const Chunk& chunk, std::size_t slot) {
   s.shadingNormal = {r.nsX, r.nsY, r.nsZ};
   s.lift = {r.liftX, r.liftY, r.liftZ};
   s.offset = r.offset;
-  s.retreat = r.retreat;
+  s.viewOffset = r.viewOffset;
   s.entering = (r.flags & kEntering) != 0;
   s.material = r.material;
   s.diffuse = {r.diffuseR, r.diffuseG, r.diffuseB};

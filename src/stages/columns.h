@@ -121,7 +121,7 @@ inline constexpr std::uint32_t kSharesPlace = 1u << 30;
 
 // A surfel is a point of a surface with all that shading needs. Normals face the viewer. `material`
 // is kMiss where the ray left the scene. `offset` is how far along the geometric normal a new ray
-// must start (hard cases H1-H4), and `retreat`, on the viewer's side, how far back along the
+// must start (hard cases H1-H4), and `viewOffset`, on the viewer's side, how far back along the
 // viewer's ray (H7). `flags`: kEntering, kHidden. `mediaBehind` is the stack of a refracted child;
 // the material's emission, mirror and transmission are multiplied by the columns of these names;
 // `coverage` is the share of the surface that is there: of all that it sends so much arrives, and
@@ -134,7 +134,7 @@ inline constexpr std::uint32_t kSharesPlace = 1u << 30;
   WHIT_XYZ(X, ng, always)                     \
   WHIT_XYZ(X, ns, always)                     \
   X(float, offset, always)                    \
-  X(float, retreat, always)                   \
+  X(float, viewOffset, always)                \
   WHIT_RGB(X, diffuse, always)                \
   X(std::uint32_t, material, always)          \
   WHIT_RGB(X, specular, glossy)               \

@@ -29,7 +29,7 @@ Surfel surfelSeen(const Vec3d& view, const Vec3d& shadingNormal) {
   s.geometricNormal = {0, 1, 0};
   s.shadingNormal = normalized(shadingNormal);
   s.offset = 1e-3;
-  s.retreat = 0.5e-3;
+  s.viewOffset = 0.5e-3;
   s.entering = true;
   return s;
 }
@@ -55,7 +55,7 @@ TEST(Mirror, WeightFollowsSchlick) {
 
 TEST(Mirror, StartsAboveTheSurface) {
   const Impulses found = impulsesOf(sceneOf(mirrorMaterial(1)), surfelSeen({3, 4, 0}, {0, 1, 0}));
-  // The origin is moved by `offset` along the normal and by `retreat` towards the viewer.
+  // The origin is moved by `offset` along the normal and by `viewOffset` towards the viewer.
   EXPECT_NEAR(found.reflected.ray.origin.x, 0.3e-3, 1e-15);
   EXPECT_NEAR(found.reflected.ray.origin.y, 1.4e-3, 1e-15);
   EXPECT_NEAR(found.reflected.ray.direction.x, -0.6, 1e-15);
