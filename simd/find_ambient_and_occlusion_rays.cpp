@@ -20,7 +20,7 @@ void FindAmbientAndOcclusionRays(Chunk& c) {
   const ShadowColumns shadows = c.shadows;
 
   const OffsetMethod offset = c.options().shading.offset;
-  const bool nested = c.has(Feature::transmission), lifted = c.has(Feature::lift);
+  const bool nested = c.has(Feature::transmission), offsetsShadows = c.has(Feature::shadowOffset);
   const bool coverage = c.has(Feature::coverage);
 
   // Each of the samples carries an equal share of the ambient light.
@@ -49,7 +49,7 @@ void FindAmbientAndOcclusionRays(Chunk& c) {
     // is smoothed.
     V3 start = Load3(surfels.posX, surfels.posY, surfels.posZ, i);
     MF front = hn::Gt(Dot(ng, way), zero);
-    if (lifted) LiftStart(surfels, i, start, front);
+    if (offsetsShadows) OffsetShadowStart(surfels, i, start, front);
 
     // The surface reflects this light if nothing is in the way.
     V3 radiance = Scale3(ambient.At(i, live), share);

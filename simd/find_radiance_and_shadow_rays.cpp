@@ -174,7 +174,7 @@ void FindRadianceAndShadowRays(Chunk& c) {
   const ShadowColumns shadows = c.shadows;
   const size_t n = c.n;
   const bool traced = c.has(Feature::shadows), nested = c.has(Feature::transmission);
-  const bool lifted = c.has(Feature::lift), coverage = c.has(Feature::coverage);
+  const bool offsetsShadows = c.has(Feature::shadowOffset), coverage = c.has(Feature::coverage);
   const bool fog = c.has(Feature::fog) && light.kind != Light::Kind::directional;
   const bool glossy = c.has(Feature::glossy) && (c.materialFlags & kMaterialGlossy) != 0;
   const bool coats = (c.materialFlags & kMaterialIsUnderCoat) != 0;
@@ -209,7 +209,7 @@ void FindRadianceAndShadowRays(Chunk& c) {
     // Surfels that turn away from the light, or that it does not reach, are done.
     MF front = hn::Gt(Dot(ng, toLight), zero);
     V3 start = position;
-    if (lifted) LiftStart(surfels, i, start, front);
+    if (offsetsShadows) OffsetShadowStart(surfels, i, start, front);
     live = hn::And(live, hn::And(front, hn::Gt(Dot(ns, toLight), zero)));
     live = lanes.Within(hn::And(live, hn::Gt(distanceSquared, zero)), toLight, distanceSquared);
     if (hn::AllFalse(d, live)) {

@@ -85,9 +85,9 @@ WHIT_KERNEL(LookUpTransmission, "lookUpTransmission", findIntersections,
 WHIT_KERNEL(FindLayers, "findLayers", findIntersections, {Part::rays, Part::surfels},
             {Part::surfels});
 
-// Computes how far shadow rays start above the facet, for surfels between vertex normals that
-// differ, into the lift columns (Hanika 2021, "Hacking the shadow terminator", Ray Tracing Gems II,
-// chapter 4).
+// Computes how far above the facet shadow rays start, for surfels between vertex normals that
+// differ, and stores it as shadowOffset (Hanika 2021, "Hacking the shadow terminator", Ray Tracing
+// Gems II, chapter 4).
 WHIT_KERNEL(LiftShadowOrigins, "liftShadowOrigins", findIntersections, {Part::hits, Part::surfels},
             {Part::surfels});
 

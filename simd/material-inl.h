@@ -128,10 +128,10 @@ HWY_INLINE MF SurfaceLanes(const SurfelColumns& surfels, bool nested, size_t i) 
 
 // Moves the start of a shadow ray above its facet. Above the facet, the smooth surface alone
 // decides what lies behind the horizon (Hanika 2021).
-HWY_INLINE void LiftStart(const SurfelColumns& surfels, size_t i, V3& start, MF& front) {
-  const V3 lift = Load3(surfels.liftX, surfels.liftY, surfels.liftZ, i);
-  front = hn::Or(front, hn::Gt(MaxComponent(Abs3(lift)), hn::Zero(FloatTag())));
-  start = Add3(start, lift);
+HWY_INLINE void OffsetShadowStart(const SurfelColumns& surfels, size_t i, V3& start, MF& front) {
+  const V3 offset = Load3(surfels.shadowOffsetX, surfels.shadowOffsetY, surfels.shadowOffsetZ, i);
+  front = hn::Or(front, hn::Gt(MaxComponent(Abs3(offset)), hn::Zero(FloatTag())));
+  start = Add3(start, offset);
 }
 
 HWY_INLINE VU PushMedium(VU stack, VU medium) { return hn::Or(hn::ShiftLeft<8>(stack), medium); }

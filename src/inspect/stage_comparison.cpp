@@ -37,8 +37,8 @@ constexpr double kPositionLimit = 4;   // three products, against the largest co
 // An ulp of the normal along the edges, of which the offset counts 16, against the 2^-6 that it
 // counts of all; times two for what the normal and the edges are rounded themselves.
 constexpr double kOffsetLimit = 2048;
-constexpr double kLiftLimit = 8;    // three products of two positions' difference
-constexpr double kNormalLimit = 4;  // cross product by differences of products, normalized
+constexpr double kShadowOffsetLimit = 8;  // three products of two positions' difference
+constexpr double kNormalLimit = 4;        // cross product by differences of products, normalized
 // An ulp of a texture coordinate u is 2^-23 u of a repeat; times the texture's size in texels and
 // the contrast between two of them it is a visible number of ulps of the color (hard case H68).
 constexpr double kTexturedLimit = 4096;
@@ -258,7 +258,7 @@ std::vector<Quantity<SurfelRow>> quantitiesOf(const SurfelRow*) {
       {stage, "occlusion", {"occlusion"}, kTexturedLimit, notEdgeOn<byFootprint>},
       {stage, "mirror", rgb("mirror"), kTexturedLimit, notEdgeOn<byFootprint>},
       {stage, "transmission", rgb("transmission"), kTexturedLimit, notEdgeOn<byFootprint>},
-      {stage, "lift", xyz("lift"), kLiftLimit, notEdgeOn<byMagnitude>},
+      {stage, "shadowOffset", xyz("shadowOffset"), kShadowOffsetLimit, notEdgeOn<byMagnitude>},
       {stage, "cone", {"cone"}, kConeLimit},
       {stage, "flags", {"flags"}, kExact, notEdgeOn<byItself>},
       {stage, "mediaBehind", {"mediaBehind"}, kExact, notEdgeOn<byItself>},

@@ -158,15 +158,15 @@ double textureFootprint(const TriangleRecord& triangle, const float* uvs, const 
   return inTexture / inWorld * across * across;
 }
 
-Vec3d terminatorLift(const Scene& scene, EffectSet effects, const Candidate& candidate,
-                     const TriangleHit& hit, const Surfel& s) {
+Vec3d shadowTerminatorOffset(const Scene& scene, EffectSet effects, const Candidate& candidate,
+                             const TriangleHit& hit, const Surfel& s) {
   if (!effects.has(Effect::smoothNormals) || scene.normals.empty()) return {};
   if (scene.isSphere(candidate.triangle)) return {};
   const Corners corners = worldCorners(scene, candidate.triangle, candidate.instance);
   const float* normals = scene.normals[candidate.triangle].normal;
   const double weights[] = {1 - hit.u - hit.v, hit.u, hit.v};
   const Affine* toWorld = toWorldOf(scene, candidate.instance);
-  Vec3d lift;
+  Vec3d offset;
   for (std::size_t i = 0; i < 3; ++i) {
     Vec3d n = triple(normals + 3 * i);
     if (toWorld) {
@@ -176,9 +176,9 @@ Vec3d terminatorLift(const Scene& scene, EffectSet effects, const Candidate& can
     }
     if (dot(n, s.geometricNormal) < 0) n = -n;
     const double below = -dot(s.position - corners[i], n) - s.offset;
-    lift += n * (weights[i] * std::max(below, 0.0));
+    offset += n * (weights[i] * std::max(below, 0.0));
   }
-  return lift;
+  return offset;
 }
 
 Surfel makeSurfel(const Scene& scene, EffectSet effects, const Candidate& candidate,
@@ -207,7 +207,7 @@ Surfel makeSurfel(const Scene& scene, EffectSet effects, const Candidate& candid
   }
   s.shadingNormal *= side;
 
-  s.lift = terminatorLift(scene, effects, candidate, hit, s);
+  s.shadowOffset = shadowTerminatorOffset(scene, effects, candidate, hit, s);
   findColors(scene, effects, candidate.triangle, hit, lookups, s);
   return s;
 }
@@ -246,7 +246,7 @@ std::optional<SurfelRow> findIntersections(const World& world, const Chunk& chun
   row.occlusion = s.occlusion;
   put(s.mirror, row.mirrorR, row.mirrorG, row.mirrorB);
   put(s.transmission, row.transmissionR, row.transmissionG, row.transmissionB);
-  put(s.lift, row.liftX, row.liftY, row.liftZ);
+  put(s.shadowOffset, row.shadowOffsetX, row.shadowOffsetY, row.shadowOffsetZ);
   row.cone = cone.widthAt(hit.t);
   if (s.entering) row.flags |= kEntering;
   if (crossing.hidden) row.flags |= kHidden;

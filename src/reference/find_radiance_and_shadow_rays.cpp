@@ -80,9 +80,9 @@ LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const Li
   const double distance = std::sqrt(squaredDistance);
   const Vec3d l = toLight / distance;
   const double cosine = dot(surfel.shadingNormal, l);
-  const bool lifted = choices.terminator && !(surfel.lift == Vec3d{});
+  const bool isOffset = choices.terminator && !(surfel.shadowOffset == Vec3d{});
   // Above the facet, the smooth surface alone decides what lies behind the horizon.
-  const bool front = lifted || dot(surfel.geometricNormal, l) > 0;
+  const bool front = isOffset || dot(surfel.geometricNormal, l) > 0;
   if (!(front && cosine > 0)) return arrival;
 
   RgbD biradiance(light.intensity);
@@ -96,7 +96,7 @@ LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const Li
   }
   arrival.radiance = reflected * biradiance * (cosine * surfel.coverage);
   Surfel start = surfel;
-  if (lifted) start.position += surfel.lift;
+  if (isOffset) start.position += surfel.shadowOffset;
   const Vec3d origin = rayOrigin(choices.offset, start, 1);
   arrival.shadowRay = {origin,
                        point.center ? towards(light, origin) : surfel.position + toLight - origin};
@@ -107,10 +107,10 @@ LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const Li
 LightArrival ambientArrival(const Scene& scene, EffectSet effects, const Surfel& surfel,
                             const ShadingChoices& choices, const UnitPoint& at) {
   const Vec3d way = cosineDirection(surfel.shadingNormal, at);
-  const bool lifted = choices.terminator && !(surfel.lift == Vec3d{});
-  if (!lifted && !(dot(surfel.geometricNormal, way) > 0)) return {};
+  const bool isOffset = choices.terminator && !(surfel.shadowOffset == Vec3d{});
+  if (!isOffset && !(dot(surfel.geometricNormal, way) > 0)) return {};
   Surfel start = surfel;
-  if (lifted) start.position += surfel.lift;
+  if (isOffset) start.position += surfel.shadowOffset;
   return {reflectedAmbient(scene, effects, surfel) * surfel.coverage,
           {rayOrigin(choices.offset, start, 1), way},
           double{scene.ambient.occlusion}};

@@ -31,7 +31,7 @@ struct Frosting {
 struct Surfel : SurfacePoint {
   Vec3d view;           // unit, back along the ray
   Vec3d shadingNormal;  // unit, interpolated and bent by the normal map; see makeSurfel
-  Vec3d lift;           // from the facet to the surface its vertex normals stand for
+  Vec3d shadowOffset;   // from the facet to the surface its vertex normals stand for
   std::uint32_t material = 0;
   RgbD diffuse, specular;                       // textures and vertex colors applied
   double grazingRatio = double{kGrazingRatio};  // the material's
@@ -90,7 +90,7 @@ inline Surfel surfelOf(const Chunk& chunk, std::size_t slot) {
   s.view = -rayOf(chunk, slot).direction;
   s.geometricNormal = {r.ngX, r.ngY, r.ngZ};
   s.shadingNormal = {r.nsX, r.nsY, r.nsZ};
-  s.lift = {r.liftX, r.liftY, r.liftZ};
+  s.shadowOffset = {r.shadowOffsetX, r.shadowOffsetY, r.shadowOffsetZ};
   s.offset = r.offset;
   s.viewOffset = r.viewOffset;
   s.entering = (r.flags & kEntering) != 0;

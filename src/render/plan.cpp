@@ -69,8 +69,8 @@ FeatureSet featuresOf(const Scene& scene, const RenderOptions& options, EffectSe
       .with(Feature::shadows, e.has(Effect::shadows))
       .with(Feature::spotLights, e.has(Effect::spotLights))
       .with(Feature::smoothNormals, e.has(Effect::smoothNormals))
-      // Where no vertex normal differs from its triangle's there is nothing to lift.
-      .with(Feature::lift,
+      // Without vertex normals that differ from their triangles' nothing is to be corrected.
+      .with(Feature::shadowOffset,
             options.shading.terminator && e.has(Effect::shadows) && e.has(Effect::smoothNormals))
       .with(Feature::cones, maps && options.shading.textureFilter == TextureFilter::trilinear)
       .with(Feature::ended, keptChannels(options).has(Channel::error))
@@ -230,7 +230,7 @@ class Planner {
       plan_.perQueue.back().wants = kMaterialLayered;
     }
 
-    if (plan_.features.has(Feature::lift)) {
+    if (plan_.features.has(Feature::shadowOffset)) {
       plan_.perQueue.push_back(stepOf(simd::kLiftShadowOrigins));
     }
   }
