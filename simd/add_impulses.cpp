@@ -250,14 +250,14 @@ HWY_INLINE VF ConesAt(const ImpulseJob& job, size_t i) {
   return job.cones ? hn::Load(d, job.surfels.cone + i) : hn::Zero(d);
 }
 
-// A reflected direction, lifted where a bent normal would send it below the surface (hard case
-// H32).
-HWY_INLINE V3 Lifted(const V3& r, const V3& ng, VF lift, MF live) {
+// Returns the unit direction `r`, raised to the sine `elevation` above the plane of `ng` if it lies
+// lower: a bent normal would send it below the surface (hard case H32).
+HWY_INLINE V3 Raised(const V3& r, const V3& ng, VF elevation, MF live) {
   const FloatTag d;
   const VF height = Dot(r, ng);
-  const MF low = hn::Lt(height, lift);
+  const MF low = hn::Lt(height, elevation);
   if (HWY_LIKELY(hn::AllFalse(d, hn::And(low, live)))) return r;
-  return Select3(low, NormalizeOr(MulAdd3(ng, hn::Sub(lift, height), r), ng), r);
+  return Select3(low, NormalizeOr(MulAdd3(ng, hn::Sub(elevation, height), r), ng), r);
 }
 
 // `side`: RayOrigin's.
@@ -299,7 +299,7 @@ void AddReflections(Chunk& c) {
     // d - 2 (d.n) n
     const VF twice = hn::Mul(hn::Set(d, -2.0f), Dot(lanes.direction, lanes.ns));
     const V3 mirrored = Normalize3(MulAdd3(lanes.ns, twice, lanes.direction));
-    const V3 r = Lifted(mirrored, lanes.ng, LeastElevation(job, lanes.facing), lanes.live);
+    const V3 r = Raised(mirrored, lanes.ng, LeastElevation(job, lanes.facing), lanes.live);
 
     const Child child{ChildOrigin(job, lanes, i, 1.0f),
                       r,
@@ -604,7 +604,7 @@ HWY_INLINE void AddSamples(Chunk& c) {
       LobeSample sample = samples.At(PointsOf<kLobe>(path, sampling, k));
       sample.weight = Mul3(sample.weight, covered);
       const MF live = hn::And(sampled, hn::Gt(sample.cosine, hn::Zero(d)));
-      V3 r = Lifted(sample.direction, outward, LeastElevation(job, sample.cosine), live);
+      V3 r = Raised(sample.direction, outward, LeastElevation(job, sample.cosine), live);
       if constexpr (kPasses) r = Select3(samples.straight, lanes.direction, r);
 
       const Child child{origin,
@@ -666,11 +666,11 @@ void AddRefractions(Chunk& c) {
     // change nothing.
     const VF g2 = MulThenAdd(lanes.facing, lanes.facing, interface.k);
     const VF leaving = hn::Div(hn::Sqrt(hn::Max(g2, hn::Zero(d))), interface.eta);
-    const VF lift = LeastElevation(job, hn::IfThenElse(hn::Gt(g2, hn::Zero(d)), leaving, one));
-    const MF high = hn::Gt(height, hn::Neg(lift));
+    const VF elevation = LeastElevation(job, hn::IfThenElse(hn::Gt(g2, hn::Zero(d)), leaving, one));
+    const MF high = hn::Gt(height, hn::Neg(elevation));
 
     const V3 pressed =
-        NormalizeOr(MulAdd3(lanes.ng, hn::Neg(hn::Add(lift, height)), r), lanes.direction);
+        NormalizeOr(MulAdd3(lanes.ng, hn::Neg(hn::Add(elevation, height)), r), lanes.direction);
     r = Select3(high, pressed, r);
     r = Select3(hn::Or(interface.straight, lanes.hidden), lanes.direction, r);
 

@@ -136,8 +136,8 @@ mutations() {
     'const size_t live = HWY_MIN(hn::Lanes(d), n - i);' 'const size_t live = hn::Lanes(d);'
   plant dropped-lane simd/add_impulses.cpp \
     'return compactor.Count();' 'return compactor.Count() - (compactor.Count() > 3 ? 1 : 0);'
-  plant no-lift simd/add_impulses.cpp \
-    'const MF low = hn::Lt(height, lift);' 'const MF low = hn::Lt(height, hn::Set(d, -2.0f)); (void)lift;'
+  plant no-elevation simd/add_impulses.cpp \
+    'const MF low = hn::Lt(height, elevation);' 'const MF low = hn::Lt(height, hn::Set(d, -2.0f)); (void)elevation;'
   plant wrong-bend simd/add_impulses.cpp \
     'MulAdd3(lanes.ns, hn::Neg(interface.bend), lanes.direction)' \
     'MulAdd3(lanes.ns, interface.bend, lanes.direction)'

@@ -17,7 +17,7 @@ Ray reflectedRay(const Surfel& s, const ShadingChoices& choices) {
   const Vec3d mirrored = reflect(-s.view, s.shadingNormal),
               origin = rayOrigin(choices.offset, s, 1);
   if (!choices.bend) return {origin, mirrored, s.cone};
-  return {origin, lifted(mirrored, s.geometricNormal, smallestElevation(s)), s.cone};
+  return {origin, raised(mirrored, s.geometricNormal, smallestElevation(s)), s.cone};
 }
 
 Ray refractedRay(const Surfel& s, const Interface& interface, double c,
@@ -31,7 +31,7 @@ Ray refractedRay(const Surfel& s, const Interface& interface, double c,
   const double facing = dot(s.view, s.geometricNormal);
   const double g2 = interface.k + facing * facing;
   const double steepness = g2 > 0 ? std::sqrt(g2) / interface.eta : 1;
-  return {origin, lifted(bent, -s.geometricNormal, std::min(0.9 * steepness, 0.01)), s.cone};
+  return {origin, raised(bent, -s.geometricNormal, std::min(0.9 * steepness, 0.01)), s.cone};
 }
 
 // The color, reduced to what is left of the light where the share `taken` of it is not: in
@@ -128,7 +128,7 @@ double smallestElevation(const Surfel& surfel) {
   return std::min(0.9 * dot(surfel.view, surfel.geometricNormal), 0.01);
 }
 
-Vec3d lifted(const Vec3d& r, const Vec3d& normal, double elevation) {
+Vec3d raised(const Vec3d& r, const Vec3d& normal, double elevation) {
   const double own = dot(r, normal);
   return own < elevation ? normalized(r + normal * (elevation - own)) : r;
 }
@@ -310,7 +310,7 @@ Impulse glossyImpulse(const Surfel& s, MediaStack stack, const UnitPoint& at,
 
   // Turned back by bent normals only: where both agree the ray is high enough as it is.
   const double least = std::min(0.9 * facet.elevation, 0.01);
-  const Vec3d r = choices.bend ? lifted(facet.mirrored, s.geometricNormal, least) : facet.mirrored;
+  const Vec3d r = choices.bend ? raised(facet.mirrored, s.geometricNormal, least) : facet.mirrored;
   return {facet.reflectance * (facet.passes * s.coverage) * s.aboveLobe,
           {rayOrigin(choices.offset, s, 1), r, s.cone},
           stack};
@@ -337,7 +337,7 @@ Impulse frostedImpulse(const Surfel& s, MediaStack, const UnitPoint& at,
   if (!(depth > 0)) return {};
 
   const bool goesOn = alpha == 0 && f.n1 == f.n2;
-  if (choices.bend) direction = lifted(direction, -s.geometricNormal, std::min(0.9 * depth, 0.01));
+  if (choices.bend) direction = raised(direction, -s.geometricNormal, std::min(0.9 * depth, 0.01));
   return {(RgbD(1.0) - facet.reflectance) * (passes * s.coverage) * f.transmission,
           {rayOrigin(choices.offset, s, -1), goesOn ? -s.view : direction, s.cone},
           f.mediaBehind};
@@ -347,7 +347,7 @@ Impulse indirectImpulse(const Surfel& s, MediaStack stack, const UnitPoint& at,
                         const ShadingChoices& choices) {
   const Vec3d drawn = cosineDirection(s.shadingNormal, at);
   const double elevation = std::min(0.9 * dot(s.shadingNormal, drawn), 0.01);
-  const Vec3d r = choices.bend ? lifted(drawn, s.geometricNormal, elevation) : drawn;
+  const Vec3d r = choices.bend ? raised(drawn, s.geometricNormal, elevation) : drawn;
   return {s.diffuse * s.coverage, {rayOrigin(choices.offset, s, 1), r, s.cone}, stack};
 }
 
