@@ -75,7 +75,7 @@ std::vector<EffectStep> measureSteps(const EffectsJob& job, Progress* progress) 
   add("matte", kept);
   for (const Effect effect : kAddedEffects) {
     kept = kept.with(effect);
-    const bool left = notAskedFor(job.common.render).has(effect);
+    const bool left = optionalEffectsOff(job.common.render).has(effect);
     if (has.has(effect) && !left) add(nameOf(effect), kept);
   }
 

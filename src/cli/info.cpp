@@ -28,11 +28,11 @@ Json effectsJson(const Scene& scene, const RenderOptions& options) {
         {"on", reason.on && !disabled},
         {"because", reason.on && disabled ? "disabled by --disable" : reason.because}};
   }
-  for (const AskedFor& a : effectsAskedFor(options)) {
-    Json& row = effects[std::string(kEffectNames[static_cast<std::size_t>(a.effect)].name)];
-    if (a.asked || row["on"] == false) continue;
+  for (const OptionalEffect& optional : optionalEffects(options)) {
+    Json& row = effects[std::string(kEffectNames[static_cast<std::size_t>(optional.effect)].name)];
+    if (optional.isOn || row["on"] == false) continue;
     row["on"] = false;
-    row["because"] = row["because"].get<std::string>() + ", " + std::string(a.otherwise);
+    row["because"] = row["because"].get<std::string>() + ", " + std::string(optional.otherwise);
   }
   return effects;
 }

@@ -117,7 +117,7 @@ class Planner {
     const bool all = options.effects == EffectChoice::all;
     const EffectSet called = all ? EffectSet::all() : scene.effects;
     plan_.effects =
-        consistent(scene, called.without(options.disable).without(notAskedFor(options)));
+        consistent(scene, called.without(options.disable).without(optionalEffectsOff(options)));
     plan_.features = featuresOf(scene, options, plan_.effects);
     plan_.channels = keptChannels(options);
   }

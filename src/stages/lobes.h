@@ -72,7 +72,7 @@ constexpr bool samplesLobes(EffectSet effects) {
 // pixels whose first samples agree because all of them missed the light would end there, and the
 // picture would be too dark. `effects` are the scene's.
 inline bool samplesAdaptively(const RenderOptions& options, EffectSet effects) {
-  const EffectSet used = effects.without(options.disable).without(notAskedFor(options));
+  const EffectSet used = effects.without(options.disable).without(optionalEffectsOff(options));
   const ChannelSet kept = keptChannels(options);
   const bool overAll = kept.has(Channel::alpha) || kept.has(Channel::error);  // need all samples
   return options.adaptive && options.spp > 1 && !samplesLobes(used) && !overAll;
