@@ -206,7 +206,7 @@ ItemNumbers::Run ItemNumbers::find(std::uint32_t triangle) const {
   return run;
 }
 
-Scene::MetNumbers Scene::numbersOf(std::uint32_t triangle, std::uint32_t instance) const {
+Scene::HitNumbers Scene::numbersOf(std::uint32_t triangle, std::uint32_t instance) const {
   constexpr std::uint64_t kLast = std::numeric_limits<std::uint32_t>::max() - 1;
   const ItemNumbers::Run own = items.find(triangle);
   const std::uint64_t first = instance == kNoInstance ? 0 : instances[instance].firstItem;

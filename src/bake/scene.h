@@ -196,10 +196,10 @@ class Scene : public SceneContents, public SceneTables {
   // The number of the item that a triangle (or sphere) belongs to where it stands, `instance` being
   // kNoInstance in the world; and its own among that item's triangles. What is beyond 2^32 - 2 has
   // that number.
-  struct MetNumbers {
+  struct HitNumbers {
     std::uint32_t item = 0, triangle = 0;
   };
-  MetNumbers numbersOf(std::uint32_t triangle, std::uint32_t instance) const;
+  HitNumbers numbersOf(std::uint32_t triangle, std::uint32_t instance) const;
 
   bool isSphere(std::uint32_t number) const { return number >= firstSphere; }
 

@@ -133,7 +133,7 @@ void putSurface(const whit::Scene& scene, const QueryHit& hit, const RayHits& to
   to.uvs[2 * i] = uv.x;
   to.uvs[2 * i + 1] = uv.y;
 
-  const whit::Scene::MetNumbers numbers = scene.numbersOf(number, instance);
+  const whit::Scene::HitNumbers numbers = scene.numbersOf(number, instance);
   to.triangles[i] = numbers.triangle;
   to.objects[i] = numbers.item;
   to.materials[i] = record.material;

@@ -164,7 +164,7 @@ ChannelValues Tracer::channels(const CameraFrame& camera, int x, int y, const Ve
   values.normal = Vec3f(surfel.shadingNormal);
   values.albedo = Rgb(surfel.diffuse);
   values.uv = uvAt(scene_, candidate.triangle, hit.u, hit.v);
-  const Scene::MetNumbers numbers = scene_.numbersOf(candidate.triangle, candidate.instance);
+  const Scene::HitNumbers numbers = scene_.numbersOf(candidate.triangle, candidate.instance);
   values.object = numbers.item;
   values.triangle = numbers.triangle;
   values.material = surfel.material;

@@ -130,7 +130,7 @@ ChannelValues valuesOf(const Chunk& c, std::size_t i) {
   }
   if (kept.has(Channel::object) || kept.has(Channel::triangle)) {
     const std::uint32_t instance = c.has(Feature::instances) ? c.hits.instance[i] : kNoInstance;
-    const Scene::MetNumbers numbers = scene.numbersOf(triangle, instance);
+    const Scene::HitNumbers numbers = scene.numbersOf(triangle, instance);
     values.object = numbers.item;
     values.triangle = numbers.triangle;
   }
