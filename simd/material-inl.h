@@ -1,7 +1,7 @@
 // Materials at surfels, by the names of their records' members; media along rays and at the
 // surfaces that they meet. A ray travels in a stack of nested dielectrics: four bytes of an
 // integer, each a medium's number, the one entered last in the low byte, 0 for none. Overlaps are
-// settled by priority (Schmidt and Budge 2002, "Simple Nested Dielectrics in Ray Traced Images").
+// decided by priority (Schmidt and Budge 2002, "Simple Nested Dielectrics in Ray Traced Images").
 #if defined(WHIT_SIMD_MATERIAL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef WHIT_SIMD_MATERIAL_INL_H_
 #undef WHIT_SIMD_MATERIAL_INL_H_

@@ -322,7 +322,7 @@ int isNearEdge(float u, float v) {
 // Among triangles at one distance, Embree keeps one that depends on the order of its tests, and the
 // other rays of a packet change that order. Hits near an edge are therefore traced again, each by
 // itself, in the one order that a single ray has.
-void settleEdges(const Accel::Parts& parts, const HitRange& range) noexcept {
+void retraceEdgeHits(const Accel::Parts& parts, const HitRange& range) noexcept {
   constexpr std::size_t kRun = 4 * kBlock;  // hits that are tested together for any near an edge
   const HitColumns& hits = range.hits;
   for (std::size_t begin = 0; begin < range.n; begin += kRun) {
@@ -433,7 +433,7 @@ void Accel::findHits(Chunk& c) const noexcept {
 
   // The rays of a packet must not influence which of two neighbors is hit on their edge.
   const HitRange all{c.rays, c.hits, c.n, c.coherent, instances};
-  if (parts_->packet != 1) settleEdges(*parts_, all);
+  if (parts_->packet != 1) retraceEdgeHits(*parts_, all);
 
   // A ray that leaves an enclosed scene has slipped through a corner (hard case H14).
   if (enclosed_) {

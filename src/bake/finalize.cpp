@@ -157,7 +157,7 @@ Scene Scene::finalize(SceneDescription&& description, Warnings& warnings, Progre
   SceneDescription d = std::move(description);
   validate(d);
   // Triangles are classified by the sides that are seen, so these are decided before baking.
-  settleSides(d);
+  decideDoubleSided(d);
   if (d.isModel && d.motion.rig.empty()) noteHiddenSides(d, warnings);
   packTextures(d.textures, usableThreads());
 

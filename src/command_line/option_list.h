@@ -62,7 +62,7 @@ class OptionList {
 
   std::vector<Entry> entries;
   Operand operand;
-  std::function<void()> settle;  // called when all values are set
+  std::function<void()> whenParsed;  // called when all values are set
 
  private:
   Entry& push(const OptionSpec& spec, const std::string& help,

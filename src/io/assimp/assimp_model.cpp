@@ -131,8 +131,9 @@ bool hasMap(const aiMaterial& material, aiTextureType type) {
   return material.GetTextureCount(type) > 0;
 }
 
-// Sets the factors of the surface as glTF means them. Faces have two sides in these formats.
-void settleSurface(aiMaterial& material, std::uint32_t& notes) {
+// Replaces the factors of the surface by those that glTF has. Faces have two sides in these
+// formats.
+void convertFactors(aiMaterial& material, std::uint32_t& notes) {
   setMember(material, 1, AI_MATKEY_TWOSIDED);
 
   // The exponent n of Blinn's lobe corresponds to roughness^2 = sqrt(2 / (n + 2)), as in MTL files.
@@ -161,7 +162,7 @@ void settleSurface(aiMaterial& material, std::uint32_t& notes) {
 
 // A diffuse map replaces the color, and its alpha counts if it is named as the map of opacity, too.
 // Backslashes separate folders in files that were written on Windows.
-void settleMaps(aiMaterial& material, std::uint32_t& notes) {
+void convertMaps(aiMaterial& material, std::uint32_t& notes) {
   constexpr aiTextureType kKept[] = {aiTextureType_DIFFUSE,           aiTextureType_BASE_COLOR,
                                      aiTextureType_NORMALS,           aiTextureType_EMISSIVE,
                                      aiTextureType_LIGHTMAP,          aiTextureType_METALNESS,
@@ -191,7 +192,7 @@ void settleMaps(aiMaterial& material, std::uint32_t& notes) {
 }
 
 // Meshes without a material get that of models without materials.
-void settleDefault(const aiScene& scene, unsigned index) {
+void makeDefaultMaterial(const aiScene& scene, unsigned index) {
   const auto isColored = [&](const aiMesh* mesh) {
     return mesh->mMaterialIndex == index && mesh->mColors[0];
   };
@@ -204,11 +205,11 @@ void settleDefault(const aiScene& scene, unsigned index) {
   setMember(material, aiColor4D(gray, gray, gray, 1), AI_MATKEY_COLOR_DIFFUSE);
 }
 
-void settleMaterials(const aiScene& scene, std::uint32_t& notes) {
+void convertMaterials(const aiScene& scene, std::uint32_t& notes) {
   for (unsigned i = 0; i < scene.mNumMaterials; ++i) {
     aiMaterial& material = *scene.mMaterials[i];
-    settleSurface(material, notes);
-    settleMaps(material, notes);
+    convertFactors(material, notes);
+    convertMaps(material, notes);
 
     aiString name;
     material.Get(AI_MATKEY_NAME, name);
@@ -216,7 +217,7 @@ void settleMaterials(const aiScene& scene, std::uint32_t& notes) {
     setMember(material, name, AI_MATKEY_NAME);
 
     const bool isDefault = name.length == 0 || name == aiString(AI_DEFAULT_MATERIAL_NAME);
-    if (isDefault && !hasMap(material, aiTextureType_DIFFUSE)) settleDefault(scene, i);
+    if (isDefault && !hasMap(material, aiTextureType_DIFFUSE)) makeDefaultMaterial(scene, i);
   }
 }
 
@@ -289,7 +290,7 @@ void convert(const std::string& bytes, const std::string& extension, const Confi
   }
 
   makePrintable(*scene.mRootNode);
-  settleMaterials(scene, notes);
+  convertMaterials(scene, notes);
   leaveOutSkins(scene, notes);
   turnUp(scene);
 
