@@ -16,7 +16,7 @@
 #include "io/files.h"
 #include "output/image_output.h"
 #include "output/json_report.h"
-#include "output/open_and_tell.h"
+#include "output/open_and_warn.h"
 #include "output/report_page.h"
 
 namespace whit::cli {
@@ -97,7 +97,7 @@ std::vector<std::string> valuesOf(const Series& series) {
 }
 
 void addRuns(BenchRuns& runs, const std::string& name, const BenchJob& job, Progress* progress) {
-  const std::shared_ptr<OpenScene> open = openAndTell(name, job.common, progress);
+  const std::shared_ptr<OpenScene> open = openAndWarn(name, job.common, progress);
   const Series& series = job.series();
 
   for (const std::string& value : valuesOf(series)) {
@@ -200,7 +200,7 @@ int benchCommand(const Words& words) {
   if (people == stdout || !job.common.quiet) {
     for (const RunSummary& run : summaries) {
       std::fprintf(people, "%s\n", stageTable(run).c_str());
-      tellPictureWarnings(run);
+      printPictureWarnings(run);
     }
     if (std::string_view(job.series().option) == "threads") {
       std::fprintf(people, "%s", scalingText(summaries).c_str());
@@ -215,7 +215,7 @@ int benchCommand(const Words& words) {
     const WriteScope scope;
     writeTextFile(job.csv, benchCsv(summaries));
   }
-  tellFiles({job.json, job.csv}, job.common);
+  printWrittenFiles({job.json, job.csv}, job.common);
   return 0;
 }
 

@@ -16,7 +16,7 @@
 #include "make/leave_out.h"
 #include "output/image_output.h"
 #include "output/json_report.h"
-#include "output/open_and_tell.h"
+#include "output/open_and_warn.h"
 #include "output/report_page.h"
 
 namespace whit::cli {
@@ -58,7 +58,7 @@ std::vector<EffectStep> measureSteps(const EffectsJob& job, Progress* progress) 
   Warnings warnings(job.common.render.strict);
   const std::string name = job.scenes.empty() ? "effects" : job.scenes[0];
   const SceneDescription whole = loadScene(name, job.common.load, warnings, progress);
-  tellWarnings(warnings);
+  printWarnings(warnings);
 
   const EffectSet has = openStep(whole, EffectSet::all(), job)->scene.effects;
   std::vector<EffectStep> steps;
@@ -128,7 +128,7 @@ int effectsCommand(const Words& words) {
   const std::string table = folder / "effects.csv", page = folder / "report.html";
   writeTextFile(table, csvOf(report["effects"]));
   writeTextFile(page, reportPage(report));
-  tellFiles({table, page}, job.common);
+  printWrittenFiles({table, page}, job.common);
   return 0;
 }
 

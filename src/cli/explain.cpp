@@ -18,7 +18,7 @@
 #include "output/explained_rays.h"
 #include "output/image_output.h"
 #include "output/json_report.h"
-#include "output/open_and_tell.h"
+#include "output/open_and_warn.h"
 #include "output/report_page.h"
 
 namespace whit::cli {
@@ -328,7 +328,7 @@ int explainCommand(const Words& words) {
   if (!job.html.empty()) requireWritable(job.html, {".html"});
   requireJsonWritable(job.json);
   auto progress = makeProgressBar(job.common);
-  Engine engine(openAndTell(job.scenes[0], job.common, progress.get()));
+  Engine engine(openAndWarn(job.scenes[0], job.common, progress.get()));
   engine.setOptions(job.common.render, job.common.given);
   const Film film =
       makeFilm(engine.scene(), engine.wantedOptions(), job.common.load.maxMemoryBytes);
@@ -354,7 +354,7 @@ int explainCommand(const Words& words) {
                              {"reference", treeJson(e, e.rays.reference, false)}});
   }
   if (job.json != "-") std::fputs((headOf(e) + TreeText(e, job.least).text()).c_str(), stdout);
-  tellFiles({job.svg, job.html, job.json}, job.common);
+  printWrittenFiles({job.svg, job.html, job.json}, job.common);
   return 0;
 }
 

@@ -8,7 +8,7 @@
 #include "core/text.h"
 #include "output/image_output.h"
 #include "output/json_report.h"
-#include "output/open_and_tell.h"
+#include "output/open_and_warn.h"
 #include "render/renderer.h"
 
 namespace whit::cli {
@@ -185,7 +185,7 @@ int infoCommand(const Words& words) {
 
   CommonOptions loading = common;
   loading.warns = false;  // they are part of the report
-  const auto open = openAndTell(scenes[0], loading, progress.get());
+  const auto open = openAndWarn(scenes[0], loading, progress.get());
   const RenderOptions options = optionsFor(open->scene, common);
   const Plan plan = planOf(open->scene, options);
   progress.reset();

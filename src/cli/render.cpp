@@ -29,7 +29,7 @@
 #include "output/film_pipe.h"
 #include "output/image_output.h"
 #include "output/json_report.h"
-#include "output/open_and_tell.h"
+#include "output/open_and_warn.h"
 
 namespace whit::cli {
 
@@ -137,7 +137,7 @@ void checkBackground(const RenderJob& job) {
 }
 
 // Warns that rays have to sample frosted glass, if the picture's do not.
-void tellClearGlass(const RenderJob& job, const Scene& scene) {
+void warnOfClearGlass(const RenderJob& job, const Scene& scene) {
   if (glossySamples(job.common.render) > 0) return;
   if (std::ranges::none_of(scene.materials, &Material::isFrosted)) return;
 
@@ -288,12 +288,12 @@ Engine openFor(RenderJob& job, Progress* progress) {
   };
 
   // Presets and the options that the scene states fill in what the user has not given.
-  Engine engine(openAndTell(job.scenes[0], job.common, progress, look));
+  Engine engine(openAndWarn(job.scenes[0], job.common, progress, look));
   engine.setOptions(options, job.common.given);
   options = engine.wantedOptions();
   checkBackground(job);
   checkFilmed(job, engine.scene());
-  tellClearGlass(job, engine.scene());
+  warnOfClearGlass(job, engine.scene());
 
   // In a scene with a viewpoint, the camera turns around the point that it looks at.
   if (job.onTurntable && !job.turntable) {
@@ -492,7 +492,7 @@ void tell(const ImageWriter& writer, const RenderJob& job) {
   }
 }
 
-void tellWritten(const ImageWriter& writer, const RenderJob& job, double seconds) {
+void printWrittenImages(const ImageWriter& writer, const RenderJob& job, double seconds) {
   const std::vector<std::string>& files = writer.written();
   const RunSummary& run = writer.run();
   std::string what = std::to_string(files.size()) + " images";
@@ -557,7 +557,7 @@ int render(RenderJob& job) {
   const bool traced = !writer.run().frames.empty();  // else all images were there
   if (traced) {
     tell(writer, job);
-    tellPictureWarnings(writer.run());
+    printPictureWarnings(writer.run());
   }
 
   if (job.graphics != TerminalGraphics::none) {
@@ -566,9 +566,10 @@ int render(RenderJob& job) {
     std::fflush(stdout);
   }
 
-  if (!job.common.quiet && !job.outputs.empty()) tellWritten(writer, job, stopwatch.ms() / 1000);
+  if (!job.common.quiet && !job.outputs.empty())
+    printWrittenImages(writer, job, stopwatch.ms() / 1000);
   if (!job.json.empty()) writeReport(job, writer);
-  tellFiles({job.json}, job.common);
+  printWrittenFiles({job.json}, job.common);
   return 0;
 }
 
