@@ -331,7 +331,7 @@ int explainCommand(const Words& words) {
   Engine engine(openAndWarn(job.scenes[0], job.common, progress.get()));
   engine.setOptions(job.common.render, job.common.given);
   const Film film =
-      makeFilm(engine.scene(), engine.wantedOptions(), job.common.load.maxMemoryBytes);
+      makeFilm(engine.scene(), engine.requestedOptions(), job.common.load.maxMemoryBytes);
   const PixelPlace place = readPixel(job.pixel, film.image);
   Renderer& renderer = engine.prepare(progress.get());
   const Camera camera = engine.camera();

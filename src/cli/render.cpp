@@ -290,7 +290,7 @@ Engine openFor(RenderJob& job, Progress* progress) {
   // Presets and the options that the scene states fill in what the user has not given.
   Engine engine(openAndWarn(job.scenes[0], job.common, progress, look));
   engine.setOptions(options, job.common.given);
-  options = engine.wantedOptions();
+  options = engine.requestedOptions();
   checkBackground(job);
   checkFilmed(job, engine.scene());
   warnOfClearGlass(job, engine.scene());
