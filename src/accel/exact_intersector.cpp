@@ -145,31 +145,32 @@ int ExactIntersector::hitSphere(const QueryRay& ray, PlacedTriangleId id,
                                 QueryHit (&hits)[2]) const {
   const Affine map = sphereInWorld(scene_, id);
   const std::array<Vec3d, 3> rows = inverseRows(map);
-  const Vec3d origin = multiply(rows, ray.origin - map.p), way = multiply(rows, ray.direction);
-  const double square = dot(way, way), along = -dot(origin, way) / square;
-  const Vec3d nearest = origin + way * along;
+  const Vec3d origin = multiply(rows, ray.origin - map.p),
+              direction = multiply(rows, ray.direction);
+  const double square = dot(direction, direction), along = -dot(origin, direction) / square;
+  const Vec3d nearest = origin + direction * along;
 
   // The condition number of the map bounds by how much it magnifies rounding errors.
   const double stretch = (sumOf(rows[0]) + sumOf(rows[1]) + sumOf(rows[2])) *
                          (sumOf(map.x) + sumOf(map.y) + sumOf(map.z));
   const double error = 64 * 0x1p-53 * stretch * (1 + sumOf(origin));
 
-  const double room = 1 - dot(nearest, nearest);
-  if (!(room > -error)) return 0;
+  const double halfChord2 = 1 - dot(nearest, nearest);
+  if (!(halfChord2 > -error)) return 0;
 
   // The two hits lie half a chord before and behind that point.
-  const double half = std::sqrt(std::max(room, 0.0));
+  const double half = std::sqrt(std::max(halfChord2, 0.0));
   int count = 0;
   for (const double sign : {-1.0, 1.0}) {
     QueryHit hit;
     hit.id = id;
     hit.t = along + sign * half / std::sqrt(square);
     hit.tError = (error + error / std::max(half, std::sqrt(error))) / std::sqrt(square);
-    hit.certain = room > error;
+    hit.certain = halfChord2 > error;
     hit.back = sign > 0;
 
     if (!isOnRay(ray, hit)) continue;
-    const std::array<double, 2> weights = sphereWeights(origin + way * hit.t);
+    const std::array<double, 2> weights = sphereWeights(origin + direction * hit.t);
     hit.u = weights[0];
     hit.v = weights[1];
 
