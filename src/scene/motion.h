@@ -113,7 +113,7 @@ struct Deformation {
   // Vertex i has the influences from firstInfluence[i] to firstInfluence[i + 1], at least one.
   std::vector<std::uint32_t> firstInfluence;
   std::vector<Influence> influences;
-  Vec3d middle;  // subtracted from the deformed positions, see scene/origin.h
+  Vec3d origin;  // subtracted from the deformed positions, see scene/origin.h
 
   bool hasSkin() const { return skeleton != nullptr; }
   // True if the shape depends on time.

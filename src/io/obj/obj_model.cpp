@@ -117,7 +117,7 @@ class ObjReader {
   // Different names of "usemtl" and of "mtllib", in the file's order.
   std::vector<ObjName> materials, libraries;
   bool isColored = false;  // the first vertex has a color
-  Vec3d middle;            // subtracted from all vertices, see originOf()
+  Vec3d origin;            // subtracted from all vertices, see originOf()
 
  private:
   // Reading faces needs vertices that are rounded already, so that the vertices which faces use are
@@ -144,7 +144,7 @@ class ObjReader {
       const bool isNear = !box.empty() && length(box.center()) < box.diagonal();
       if (isNear) return;
     }
-    middle = originOf(box);
+    origin = originOf(box);
   }
 
   void statement(std::string_view keyword) {
@@ -199,7 +199,7 @@ class ObjReader {
     if (count < 2 || (count < 3 && lines_.hasMore())) {
       throwBadScene(lines_.place(), "expected three numbers after \"v\"");
     }
-    positions_.emplace_back(Vec3d(v[0], v[1], v[2]) - middle);
+    positions_.emplace_back(Vec3d(v[0], v[1], v[2]) - origin);
     if (count < 6) return;
     colors_.resize(positions_.size(), Rgb(1.0f));
     const double* const color = &v[count - 3];
@@ -433,7 +433,7 @@ class ObjModel : public MeshModel {
   Body content(SceneLayout& layout, const std::vector<std::uint32_t>& materials) override {
     if (reader_) {
       mesh_ = reader_->read();
-      middle_ = reader_->middle;
+      origin_ = reader_->origin;
       mesh_.name = source_.path.stem().string();
       reader_.reset();
       std::string().swap(text_);

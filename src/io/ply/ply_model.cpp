@@ -157,7 +157,7 @@ class PlyReader {
   }
 
   std::vector<PlyPicture> pictures;
-  Vec3d middle;  // subtracted from all vertices, see originOf()
+  Vec3d origin;  // subtracted from all vertices, see originOf()
 
  private:
   // "file:line", or "file: byte N" in binary data.
@@ -346,10 +346,10 @@ class PlyReader {
       if (colors) mesh_.colors[i] = {v[kR], v[kG], v[kB]};
     }
 
-    // Positions are rounded after the middle of a far model was subtracted.
-    middle = originOf(box);
+    // Positions are rounded after the origin of a far model was subtracted.
+    origin = originOf(box);
     mesh_.positions.reserve(element.count);
-    for (const Vec3d& position : positions) mesh_.positions.emplace_back(position - middle);
+    for (const Vec3d& position : positions) mesh_.positions.emplace_back(position - origin);
 
     if (isTranslucent) warnings_.add("alpha of vertex colors left out", file_);
   }
@@ -529,7 +529,7 @@ class PlyModel : public MeshModel {
 
     PlyReader reader(text, file, source.budget, source.warnings);
     mesh_ = reader.read();
-    middle_ = reader.middle;
+    origin_ = reader.origin;
     if (mesh_.normals.empty()) smoothNormals(mesh_, file, source.budget);
     mesh_.name = source.path.stem().string();
 
