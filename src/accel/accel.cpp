@@ -367,7 +367,7 @@ void lookPastEye(const Accel& accel, const Scene& scene, const HitRange& range) 
     for (int attempt = 0; attempt < kAttemptsPastEye && hits.triangle[i] != kMiss; ++attempt) {
       const std::uint32_t instance = range.instances ? hits.instance[i] : kNoInstance;
       if (!liesInSurface(scene, Vec3d(origin), hits.triangle[i], instance)) break;
-      const auto tNear = static_cast<float>(wayPastEye(Vec3d(origin), attempt));
+      const auto tNear = static_cast<float>(distancePastEye(Vec3d(origin), attempt));
       store(accel.closest(origin, direction, tNear), range, i);
     }
   }

@@ -191,7 +191,7 @@ bool liesInSurface(const Scene& scene, const Vec3d& eye, std::uint32_t number,
   return std::fabs(length(unit) - 1) * stretch <= roundingOf(eye);
 }
 
-double wayPastEye(const Vec3d& eye, int attempt) {
+double distancePastEye(const Vec3d& eye, int attempt) {
   constexpr double kLeast = 1e-30;  // a product with it still is a float
   return std::ldexp(std::max(roundingOf(eye), kLeast), attempt);
 }

@@ -56,8 +56,8 @@ struct BenchJob {
 
   bool reference() const { return common.render.mode == Mode::reference; }
   // The reference takes seconds a frame, so frames to warm up would change nothing.
-  Turns turns() const {
-    Turns turns;
+  TurnCounts turns() const {
+    TurnCounts turns;
     if (reference()) turns = {0, 1};
     if (frames > 0) turns.counted = frames;
     turns.floor = floor;
@@ -189,7 +189,7 @@ int benchCommand(const Words& words) {
     addRuns(runs, job.scenes[i], job, progress.get());
     // Runs to be compared are held in memory together; others one after the other.
     if (&job.series() != &kOneRun && i + 1 < job.scenes.size()) continue;
-    takeTurns(runs, job.turns(), progress.get());
+    measureInTurn(runs, job.turns(), progress.get());
     for (const auto& run : runs) summaries.push_back(run->summary());
     runs.clear();
   }

@@ -80,7 +80,7 @@ std::vector<EffectStep> measureSteps(const EffectsJob& job, Progress* progress) 
   }
 
   // The frames of all steps take turns, so that other load of the machine affects all alike.
-  takeTurns(runs, Turns{3, job.frames, false}, progress);
+  measureInTurn(runs, TurnCounts{3, job.frames, false}, progress);
   for (std::size_t i = 0; i < steps.size(); ++i) {
     steps[i].run = runs[i]->summary();
     steps[i].memoryMb = runs[i]->memoryMb();

@@ -104,7 +104,7 @@ class TreeText {
 
   void appendNode(std::size_t number) {
     const RayNode& n = e_.rays.packets.nodes[number];
-    if (maxComponent(addedBy(e_.rays.packets, number, n.radiance)) < least_) {
+    if (maxComponent(contributionOf(e_.rays.packets, number, n.radiance)) < least_) {
       leaveOut(number);
       return;
     }
@@ -118,7 +118,7 @@ class TreeText {
   void leaveOut(std::size_t number) {
     const RayNode& n = e_.rays.packets.nodes[number];
     ++leftOut_;
-    restAdds_ += addedBy(e_.rays.packets, number, n.local);
+    restAdds_ += contributionOf(e_.rays.packets, number, n.local);
     for (const std::size_t child : n.children) leaveOut(child);
   }
 
@@ -185,7 +185,7 @@ Json nodeJson(const Scene& scene, const RayTree& tree, std::size_t number, bool 
   if (ofPackets) {
     json["emitted"] = jsonOf(n.emitted);
     json["local"] = jsonOf(n.local);
-    json["adds"] = jsonOf(addedBy(tree, number, n.local));
+    json["adds"] = jsonOf(contributionOf(tree, number, n.local));
     json["lights"] = Json::array();
     for (const LightContribution& light : n.lights)
       json["lights"].push_back(lightJson(scene, light));

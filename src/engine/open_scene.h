@@ -45,7 +45,7 @@ std::unique_ptr<OpenScene> openScene(const SceneSource& source, const LoadOption
                                      const LookAtScene& look = {});
 
 // Says that nothing in the scene gives light; empty if something does.
-std::string lackOfLight(const Scene& scene);
+std::string noLightWarning(const Scene& scene);
 
 // Adds the settings of LoadOptions with which the scene was read to the metadata of a picture.
 void addSettings(const std::vector<std::string>& settings, const std::string& sky,

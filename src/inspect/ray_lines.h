@@ -20,7 +20,7 @@ struct RayLook {
 constexpr const RayStyle& styleOf(RayLook look) {
   return look.blocked ? rowOf(look.kind).blocked : rowOf(look.kind).style;
 }
-constexpr bool isDashed(RayLook look) { return rowOf(look.kind).onlyAsk(); }
+constexpr bool isDashed(RayLook look) { return rowOf(look.kind).testsOcclusion(); }
 
 struct RayLine {
   Vec3d from, to;

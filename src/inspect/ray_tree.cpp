@@ -392,11 +392,11 @@ std::vector<std::size_t> counterparts(const RayTree& a, const RayTree& b) {
   return found;
 }
 
-bool meetsTheSame(const RayNode& a, const RayNode& b) {
+bool hitsSameSurface(const RayNode& a, const RayNode& b) {
   return a.triangle == b.triangle && a.instance == b.instance;
 }
 
-bool seesTheSame(const RayNode& a, const RayNode& b) {
+bool seesSameLights(const RayNode& a, const RayNode& b) {
   const auto shadows = [](const RayNode& n) {
     std::vector<bool> seen;
     for (const LightContribution& light : n.lights) {
@@ -409,7 +409,7 @@ bool seesTheSame(const RayNode& a, const RayNode& b) {
 }
 
 bool agree(const RayNode& a, const RayNode& b) {
-  return meetsTheSame(a, b) && seesTheSame(a, b) && a.children.size() == b.children.size();
+  return hitsSameSurface(a, b) && seesSameLights(a, b) && a.children.size() == b.children.size();
 }
 
 }  // namespace whit

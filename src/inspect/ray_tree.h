@@ -82,8 +82,8 @@ RgbD weightAtEye(const RayTree& tree, std::size_t node);
 inline constexpr std::size_t kNoCounterpart = std::numeric_limits<std::size_t>::max();
 std::vector<std::size_t> counterparts(const RayTree& a, const RayTree& b);
 
-bool meetsTheSame(const RayNode& a, const RayNode& b);  // the same surface, or none
-bool seesTheSame(const RayNode& a, const RayNode& b);   // the same lights are visible
+bool hitsSameSurface(const RayNode& a, const RayNode& b);  // true if neither hits any, too
+bool seesSameLights(const RayNode& a, const RayNode& b);   // those that are visible
 // True if both nodes hit and see the same surfaces and lights and send the same number of impulses.
 bool agree(const RayNode& a, const RayNode& b);
 

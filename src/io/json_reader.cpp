@@ -112,7 +112,7 @@ Json parseJson(const std::string& text, const std::string& file) {
   }
 }
 
-std::string isMeant(const std::string& word, const std::vector<std::string>& names) {
+std::string suggestion(const std::string& word, const std::vector<std::string>& names) {
   const std::string nearest = nearestName(word, names);
   return nearest.empty() ? "" : " (is " + inQuotes(excerpt(nearest)) + " meant?)";
 }
@@ -167,8 +167,8 @@ double JsonValue::expression(const std::string& text) const {
   if (parameter == document_->parameters.end()) {
     std::vector<std::string> names;
     for (const auto& [known, value] : document_->parameters) names.push_back("$" + known);
-    fail("a number or a parameter" +
-         (names.empty() ? "; the scene has no parameters" : isMeant(text.substr(0, sign), names)));
+    fail("a number or a parameter" + (names.empty() ? "; the scene has no parameters"
+                                                    : suggestion(text.substr(0, sign), names)));
   }
   if (sign == text.size()) return parameter->second;
 
@@ -223,7 +223,7 @@ std::string JsonValue::word(const std::vector<std::string>& choices) const {
 
   std::string list;
   for (const std::string& choice : choices) list += (list.empty() ? "" : ", ") + inQuotes(choice);
-  fail("one of " + list + (isText() ? isMeant(text(), choices) : ""));
+  fail("one of " + list + (isText() ? suggestion(text(), choices) : ""));
 }
 
 Vec3d JsonValue::vector() const {
@@ -363,7 +363,7 @@ float JsonObject::number(const std::string& key, double fallback, double low, do
 void JsonObject::finish() const {
   for (const auto& [key, value] : value_.members()) {
     if (std::ranges::find(known_, key) != known_.end()) continue;
-    throwBadScene(value.where(), "unknown key" + isMeant(key, known_));
+    throwBadScene(value.where(), "unknown key" + suggestion(key, known_));
   }
 }
 

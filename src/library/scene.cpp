@@ -20,7 +20,7 @@ std::vector<std::string> warningsOf(const OpenScene& open) {
     all.push_back(kind + " (" + std::to_string(entry.count) + " times, first: " + entry.first +
                   ")");
   }
-  if (std::string dark = lackOfLight(open.scene); !dark.empty()) all.push_back(std::move(dark));
+  if (std::string dark = noLightWarning(open.scene); !dark.empty()) all.push_back(std::move(dark));
   return all;
 }
 

@@ -110,7 +110,7 @@ void addGroundShadow(SceneDescription& scene) {
   material.name = kGroundShadowName;
   material.diffuse = Rgb(0.0f);
   material.coverageMap = static_cast<std::int32_t>(scene.textures.size());
-  material.cutWhereClear();
+  material.passClearTexels();
   material.castsShadow = material.doubleSided = false;
 
   // The rows of the texture begin at v = 1, where z is least.

@@ -27,7 +27,7 @@ struct ExplainedRays {
 ExplainedRays explainRays(Renderer& renderer, const Camera& camera, const Film& film, int x, int y);
 
 // The radiance that `own` of a node adds to the pixel.
-RgbD addedBy(const RayTree& tree, std::size_t node, const RgbD& own);
+RgbD contributionOf(const RayTree& tree, std::size_t node, const RgbD& own);
 
 std::string materialName(const Scene& scene, std::uint32_t material);
 std::string lightName(const Scene& scene, std::uint32_t light);

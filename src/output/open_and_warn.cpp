@@ -13,7 +13,7 @@ std::unique_ptr<OpenScene> openAndWarn(const std::string& name, const cli::Commo
   if (!common.warns) return open;
 
   cli::printWarnings(open->warnings);
-  const std::string dark = lackOfLight(open->scene);
+  const std::string dark = noLightWarning(open->scene);
   if (!dark.empty()) std::fprintf(stderr, "whit: warning: %s\n", printable(dark).c_str());
 
   return open;

@@ -118,7 +118,7 @@ std::optional<ChosenSurface> Tracer::nearest(Ray ray, int depth) const {
     if (!intersector_.closest(ray, candidate)) return std::nullopt;
     if (depth > 0) break;
     if (!liesInSurface(scene_, ray.origin, candidate.triangle, candidate.instance)) break;
-    ray.tNear = wayPastEye(ray.origin, attempt);
+    ray.tNear = distancePastEye(ray.origin, attempt);
   }
   const ChosenSurface chosen = chooseSurface(scene_, effects_, ray, candidate);
   observer_.hit(chosen.candidate);

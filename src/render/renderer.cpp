@@ -121,7 +121,7 @@ CameraFrame Renderer::lookFrom(const Camera& camera, const Film& film) {
   }
   CameraFrame frame = frameWithMedia(scene_, plan_.effects, EmbreeIntersector(*accel_), camera,
                                      film.image.width, film.image.height, options_.spp);
-  if (frame.reach != Vec3d()) frame.mediaVary = startsMeet(frame, dielectrics_);
+  if (frame.reach != Vec3d()) frame.mediaVary = startsMayLieInside(frame, dielectrics_);
   return frame;
 }
 

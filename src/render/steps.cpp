@@ -359,7 +359,7 @@ Box dielectricBounds(const Scene& scene) {
   return all;
 }
 
-bool startsMeet(const CameraFrame& camera, const Box& dielectrics) {
+bool startsMayLieInside(const CameraFrame& camera, const Box& dielectrics) {
   if (dielectrics.empty()) return false;
   const Vec3d lower = Vec3d(dielectrics.lower), upper = Vec3d(dielectrics.upper);
   double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;

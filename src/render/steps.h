@@ -65,7 +65,7 @@ Box dielectricBounds(const Scene& scene);
 // True if rays that start at different points, all in the plane through the eye, may start in
 // different media. The test is conservative because it compares boxes; `dielectrics` are the bounds
 // above.
-bool startsMeet(const CameraFrame& camera, const Box& dielectrics);
+bool startsMayLieInside(const CameraFrame& camera, const Box& dielectrics);
 
 // A step after generateRays: the media of each ray, where they vary.
 void findInitialMedia(Chunk& c);

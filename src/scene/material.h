@@ -241,7 +241,7 @@ struct Material {
   }
   float coverageCutoff() const { return std::min(0.5f / coverage, 1.0f); }
   // Rays pass clear texels without a bounce.
-  void cutWhereClear() {
+  void passClearTexels() {
     alphaMap = coverageMap;
     alphaCutoff = kClearCoverage;
   }

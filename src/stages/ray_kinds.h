@@ -21,14 +21,14 @@ struct RayStyle {
 
 struct RayKindRow {
   RayKind kind;
-  std::string_view name;   // in tables and files
+  std::string_view name;   // name in tables and files
   EffectSet effects;       // a frame traces such rays if it has any of these; none: every frame
-  std::string_view light;  // of impulses: what they bring a surface, in sentences
+  std::string_view light;  // the light that impulses bring a surface, for sentences
   RayStyle style;
-  RayStyle blocked;  // of rays that only ask whether something is in between, and find that it is
+  RayStyle blocked;  // style of occluded rays, if such rays only test for occlusion
 
   // True for rays that only test for occlusion; others find their closest hit.
-  constexpr bool onlyAsk() const { return !blocked.name.empty(); }
+  constexpr bool testsOcclusion() const { return !blocked.name.empty(); }
 
   constexpr bool calledForBy(EffectSet frame) const {
     return effects == EffectSet() || (frame.bits() & effects.bits()) != 0;

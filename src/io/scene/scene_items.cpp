@@ -117,7 +117,7 @@ void nameItem(Body& content, const std::string& pointer) {
 std::size_t slotOf(const JsonValue& slot, const std::string& key,
                    const std::vector<std::string>& names, const std::string& kind) {
   const auto found = std::ranges::find(names, key);
-  if (found == names.end()) throwBadScene(slot.where(), "unknown " + kind + isMeant(key, names));
+  if (found == names.end()) throwBadScene(slot.where(), "unknown " + kind + suggestion(key, names));
   return static_cast<std::size_t>(found - names.begin());
 }
 

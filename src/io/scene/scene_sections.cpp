@@ -233,7 +233,7 @@ void readOptions(JsonObject& file, SceneDescription& scene) {
   RenderOptions checked;
   for (const auto& [name, value] : file.find("options").members()) {
     if (std::ranges::find(names, name) == names.end()) {
-      throwBadScene(value.where(), "expected an option of the picture" + isMeant(name, names) +
+      throwBadScene(value.where(), "expected an option of the picture" + suggestion(name, names) +
                                        ", found \"" + excerpt(name) + "\"");
     }
     if (value.isObject() || value.isArray() || value.isNull()) {
