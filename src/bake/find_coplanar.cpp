@@ -442,13 +442,13 @@ class PairFinder {
 
     forEachMarked(markedA, [&](std::size_t i) {
       const Box box = ofA.boxes.box(i);
-      BoxBlock::Bytes met = ofB.boxes.meeting(box) & markedB;
-      if (isSame) met &= ~BoxBlock::Bytes{0} << 8 * i;  // each pair once
-      if (met == 0) return;
+      BoxBlock::Bytes overlapping = ofB.boxes.meeting(box) & markedB;
+      if (isSame) overlapping &= ~BoxBlock::Bytes{0} << 8 * i;  // each pair once
+      if (overlapping == 0) return;
 
       const Node first =
           nodeOf(box, ofA.group, ofA.level, ofA.first + static_cast<std::uint32_t>(i));
-      forEachMarked(met, [&](std::size_t k) {
+      forEachMarked(overlapping, [&](std::size_t k) {
         const Node second = nodeOf(ofB.boxes.box(k), ofB.group, ofB.level,
                                    ofB.first + static_cast<std::uint32_t>(k));
         search(first, second);

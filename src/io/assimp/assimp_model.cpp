@@ -322,15 +322,15 @@ ConvertedModel convertByAssimp(const std::string& file, const std::string& bytes
 
   // The answer has the form in which convert() writes it.
   ConvertedModel model;
-  const std::string& said = answer.bytes;
+  const std::string& reply = answer.bytes;
   constexpr std::size_t kHead = 1 + sizeof model.notes;
   if (!answer.failure.empty()) {
     model.failure = answer.failure;
-  } else if (said.size() < kHead || said[0] != 1) {
-    model.failure = said.empty() ? "it said nothing" : excerpt(said.substr(1));
+  } else if (reply.size() < kHead || reply[0] != 1) {
+    model.failure = reply.empty() ? "it said nothing" : excerpt(reply.substr(1));
   } else {
-    std::memcpy(&model.notes, said.data() + 1, sizeof model.notes);
-    model.glb = said.substr(kHead);
+    std::memcpy(&model.notes, reply.data() + 1, sizeof model.notes);
+    model.glb = reply.substr(kHead);
   }
 
   return model;
@@ -346,9 +346,9 @@ ConvertedModel convertByAssimp(const std::string&, const std::string&, std::uint
 
 std::unique_ptr<Model> openByAssimp(const ModelSource& source) {
   const std::string file = source.path.string();
-  const std::string bytes = readFile(source.path, source.budget.left() / 2);
-  const MemoryHold hold(&source.budget, bytes.size(), 1, file);
-  const ConvertedModel model = convertByAssimp(file, bytes, source.budget.left() / 2);
+  const std::string reply = readFile(source.path, source.budget.left() / 2);
+  const MemoryHold hold(&source.budget, reply.size(), 1, file);
+  const ConvertedModel model = convertByAssimp(file, reply, source.budget.left() / 2);
 
   if (!model.failure.empty()) {
     throwBadScene(file, "expected a model that the library assimp can read, but " + model.failure);

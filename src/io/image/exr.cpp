@@ -43,8 +43,8 @@ using Imath::Box2i;
 std::int64_t widthOf(const Box2i& box) { return std::int64_t{box.max.x} - box.min.x + 1; }
 std::int64_t heightOf(const Box2i& box) { return std::int64_t{box.max.y} - box.min.y + 1; }
 
-// The end of a message, which OpenEXR begins with the path of the file.
-std::string said(const std::string& message) {
+// OpenEXR begins its messages with the path of the file, which may be long.
+std::string endOfMessage(const std::string& message) {
   constexpr std::size_t kShown = 150;
   return message.size() > kShown ? "..." + message.substr(message.size() - kShown) : message;
 }
@@ -128,7 +128,7 @@ std::int32_t checkHeaders(const std::string& path) {
   exr_finish(&file);
   if (!valid) {
     throwBadScene(path + ": header",
-                  "expected valid OpenEXR data, found an error: " + said(message));
+                  "expected valid OpenEXR data, found an error: " + endOfMessage(message));
   }
 
   checkChannelLists(path);
@@ -252,7 +252,7 @@ auto reading(const std::string& path, Use&& use) {
     throwLimit(path + ": not enough memory for this image");
   } catch (const std::exception& e) {
     throwBadScene(path + ": pixels",
-                  "expected valid OpenEXR data, found an error: " + said(e.what()));
+                  "expected valid OpenEXR data, found an error: " + endOfMessage(e.what()));
   }
 }
 
