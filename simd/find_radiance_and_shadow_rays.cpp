@@ -31,7 +31,7 @@ class LightLanes {
     coneScale_ = hn::Set(d, static_cast<float>(cone.scale));
   }
 
-  // All the way, or a unit vector where the light is directional.
+  // Returns the vector to the light, of length 1 if the light is directional.
   HWY_INLINE V3 Towards(const V3& from) const {
     return directional_ ? position_ : Sub3(position_, from);
   }
@@ -75,10 +75,10 @@ class LightLanes {
                          MulAdd3(y, hn::Mul(s, hn::Sin(d, turn)), Scale3(z, hn::Sub(one, h))));
     const VF far = hn::Mul(hn::Sub(one, at.u), NegMulThenAdd(height, hn::Add(one, at.u), two));
     const VF inside = hn::Sqrt(hn::Div(far, hn::Sub(two, height)));
-    const VF way =
+    const VF toPoint =
         NegMulThenAdd(hn::Sqrt(radiusSquared_), inside, hn::Mul(distance, hn::Sub(one, h)));
     const VF area = hn::Div(radiusSquared_, hn::Add(height, height));
-    return {Select3(outside, Scale3(l, way), toCenter),
+    return {Select3(outside, Scale3(l, toPoint), toCenter),
             hn::IfThenElse(outside, area, Area(squared))};
   }
 
@@ -266,9 +266,9 @@ void FindRadianceAndShadowRays(Chunk& c) {
     hn::Store(zero, d, unshadowed.visible + i);
     const V3 origin =
         RayOrigin(choices.offset, start, ng, DirectionAt(rays, i), LoadClearance(surfels, i), 1.0f);
-    const V3 way = sampled ? Sub3(Add3(position, toLight), origin) : lanes.Towards(origin);
+    const V3 direction = sampled ? Sub3(Add3(position, toLight), origin) : lanes.Towards(origin);
     const VU slot = hn::Iota(du, static_cast<uint32_t>(i));
-    AppendShadowRays(shadows, live, origin, way, lanes.Reach(), slot, count);
+    AppendShadowRays(shadows, live, origin, direction, lanes.Reach(), slot, count);
   }
   c.shadowCount = count;
 }

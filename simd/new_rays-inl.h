@@ -85,11 +85,11 @@ class Compactor {
 
 // Appends the shadow rays of the live lanes to the first `count` ones.
 HWY_INLINE void AppendShadowRays(const ShadowColumns& rays, MF live, const V3& origin,
-                                 const V3& way, VF tFar, VU slot, size_t& count) {
+                                 const V3& direction, VF tFar, VU slot, size_t& count) {
   const Compactor compactor(live);
 
   compactor.Store(origin, rays.orgX, rays.orgY, rays.orgZ, count);
-  compactor.Store(way, rays.dirX, rays.dirY, rays.dirZ, count);
+  compactor.Store(direction, rays.dirX, rays.dirY, rays.dirZ, count);
   compactor.Store(tFar, rays.tFar + count);
   compactor.Store(slot, rays.slot + count);
 

@@ -106,13 +106,13 @@ LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const Li
 
 LightArrival ambientArrival(const Scene& scene, EffectSet effects, const Surfel& surfel,
                             const ShadingChoices& choices, const UnitPoint& at) {
-  const Vec3d way = cosineDirection(surfel.shadingNormal, at);
+  const Vec3d direction = cosineDirection(surfel.shadingNormal, at);
   const bool isOffset = choices.terminator && !(surfel.shadowOffset == Vec3d{});
-  if (!isOffset && !(dot(surfel.geometricNormal, way) > 0)) return {};
+  if (!isOffset && !(dot(surfel.geometricNormal, direction) > 0)) return {};
   Surfel start = surfel;
   if (isOffset) start.position += surfel.shadowOffset;
   return {reflectedAmbient(scene, effects, surfel) * surfel.coverage,
-          {rayOrigin(choices.offset, start, 1), way},
+          {rayOrigin(choices.offset, start, 1), direction},
           double{scene.ambient.occlusion}};
 }
 

@@ -346,9 +346,9 @@ ConvertedModel convertByAssimp(const std::string&, const std::string&, std::uint
 
 std::unique_ptr<Model> openByAssimp(const ModelSource& source) {
   const std::string file = source.path.string();
-  const std::string reply = readFile(source.path, source.budget.left() / 2);
-  const MemoryHold hold(&source.budget, reply.size(), 1, file);
-  const ConvertedModel model = convertByAssimp(file, reply, source.budget.left() / 2);
+  const std::string bytes = readFile(source.path, source.budget.left() / 2);
+  const MemoryHold hold(&source.budget, bytes.size(), 1, file);
+  const ConvertedModel model = convertByAssimp(file, bytes, source.budget.left() / 2);
 
   if (!model.failure.empty()) {
     throwBadScene(file, "expected a model that the library assimp can read, but " + model.failure);

@@ -366,20 +366,20 @@ Json describe(const std::vector<float>& numbers) {
 
 Json describe(const Camera& camera) { return describeMembers(camera); }
 
-void movePoints(Json& noun, const Vec3d& way) {
-  if (way == Vec3d() || !noun.is_object()) return;
+void movePoints(Json& noun, const Vec3d& offset) {
+  if (offset == Vec3d() || !noun.is_object()) return;
   for (const char* name : {"eye", "at", "position"}) {
     if (!noun.contains(name) || !noun[name].is_array() || noun[name].size() != 3) continue;
     for (int i = 0; i < 3; ++i) {
       Json& number = noun[name][static_cast<std::size_t>(i)];
-      if (number.is_number()) number = number.get<double>() + way[i];
+      if (number.is_number()) number = number.get<double>() + offset[i];
     }
   }
 }
 
-void moveLights(Json& root, const Vec3d& way) {
+void moveLights(Json& root, const Vec3d& offset) {
   if (!root.contains("lights") || !root["lights"].is_array()) return;
-  for (Json& light : root["lights"]) movePoints(light, way);
+  for (Json& light : root["lights"]) movePoints(light, offset);
 }
 
 Json describe(const Ambient& ambient) {
