@@ -183,7 +183,7 @@ class GltfMapMaker {
 
  private:
   // Materials with the same maps share slots.
-  GltfMaps ask(const GltfMaterial& material, TextureLoader& textures);
+  GltfMaps request(const GltfMaterial& material, TextureLoader& textures);
 
   Warnings& warnings_;
   std::vector<std::shared_ptr<GltfImage>> images_;
