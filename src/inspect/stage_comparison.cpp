@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "bake/sphere.h"
+#include "core/contains.h"
 #include "core/image.h"
 #include "reference/add_impulses.h"
 #include "reference/add_shading.h"
@@ -311,7 +312,7 @@ std::vector<Compared<Row>> comparedOf() {
   Row::forEachColumn(row, [&](const std::string& column, auto value, Feature feature) {
     bool listed = false;
     for (Compared<Row>& compared : result) {
-      if (std::ranges::find(compared.what.columns, column) == compared.what.columns.end()) continue;
+      if (!contains(compared.what.columns, column)) continue;
       compared.columns.push_back(place);
       compared.feature = feature;
       listed = true;

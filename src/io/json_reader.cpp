@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <unordered_set>
 
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "io/files.h"
@@ -218,7 +219,7 @@ std::string JsonValue::text() const {
 std::string JsonValue::word(const std::vector<std::string>& choices) const {
   if (isText()) {
     std::string chosen = text();
-    if (std::ranges::find(choices, chosen) != choices.end()) return chosen;
+    if (contains(choices, chosen)) return chosen;
   }
 
   std::string list;
@@ -336,7 +337,7 @@ JsonObject::JsonObject(const JsonValue& value) : value_(value) {
 }
 
 JsonValue JsonObject::find(const std::string& key) {
-  if (std::ranges::find(known_, key) == known_.end()) known_.push_back(key);
+  if (!contains(known_, key)) known_.push_back(key);
   return value_[key];
 }
 
@@ -346,7 +347,7 @@ JsonValue JsonObject::need(const std::string& key) {
   // The error suggests a similar key among those that have not been read.
   std::vector<std::string> others;
   for (const auto& [name, member] : value_.members()) {
-    if (std::ranges::find(known_, name) == known_.end()) others.push_back(name);
+    if (!contains(known_, name)) others.push_back(name);
   }
 
   const std::string meant = nearestName(key, others);
@@ -362,7 +363,7 @@ float JsonObject::number(const std::string& key, double fallback, double low, do
 
 void JsonObject::finish() const {
   for (const auto& [key, value] : value_.members()) {
-    if (std::ranges::find(known_, key) != known_.end()) continue;
+    if (contains(known_, key)) continue;
     throwBadScene(value.where(), "unknown key" + suggestion(key, known_));
   }
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "io/files.h"
@@ -255,7 +256,7 @@ void requireMovable(const std::string& pointer, const SceneDescription& scene) {
 // moved does not exist, or if nothing moves.
 void applyInstant(const Instant& instant, SceneDescription& scene) {
   const std::vector<std::string> names = namesIn(scene.animations);
-  const bool known = std::ranges::find(names, instant.animation) != names.end();
+  const bool known = contains(names, instant.animation);
   if (!instant.animation.empty() && !known) {
     throwUsage(scene.name + " has no animation '" + instant.animation + "'" +
                didYouMean(instant.animation, names));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/image.h"
+#include "core/index.h"
 #include "sampling/random_streams.h"
 #include "surfaces/initial_media.h"
 
@@ -168,7 +169,7 @@ Ray generateRay(const CameraFrame& camera, double x, double y) {
     const int column = std::min(static_cast<int>(x / camera.viewWidth), columns - 1);
     const int row = std::min(static_cast<int>(y / camera.viewHeight), rows - 1);
     number = row * columns + column;
-    view = camera.views[static_cast<std::size_t>(number)];
+    view = entryOf(camera.views, number);
     x -= column * camera.viewWidth;
     y -= row * camera.viewHeight;
   }

@@ -7,6 +7,7 @@
 
 #include "bake/sphere.h"
 #include "core/display.h"
+#include "core/index.h"
 #include "core/worker_pool.h"
 #include "reference/add_impulses.h"
 #include "reference/find_intersections.h"
@@ -27,7 +28,7 @@ RayCounts forEachPixel(const Crop& window, int threads, Progress* progress, cons
   std::atomic<int> rowsDone{0};
   parallelFor(threads, static_cast<std::size_t>(rows), [&](std::size_t row, int worker) {
     const int y = window.y0 + static_cast<int>(row);
-    RayCounts& own = counts[static_cast<std::size_t>(worker)];
+    RayCounts& own = entryOf(counts, worker);
     for (int x = window.x0; x < window.x1; ++x) {
       const std::uint64_t before = own.limitedSamples;
       task(x, y, own);

@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/contains.h"
 #include "core/display.h"
 #include "core/error.h"
 #include "core/text.h"
@@ -177,8 +178,7 @@ void convertMaps(aiMaterial& material, std::uint32_t& notes) {
 
   for (unsigned type = aiTextureType_DIFFUSE; type <= AI_TEXTURE_TYPE_MAX; ++type) {
     const auto kind = static_cast<aiTextureType>(type);
-    const bool isKept = std::ranges::find(kKept, kind) != std::end(kKept) ||
-                        (kind == aiTextureType_OPACITY && byAlpha);
+    const bool isKept = contains(kKept, kind) || (kind == aiTextureType_OPACITY && byAlpha);
     if (hasMap(material, kind) && !isKept) notes |= kMapLeftOut;
 
     for (unsigned i = 0; i < material.GetTextureCount(kind); ++i) {

@@ -26,6 +26,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/option_table.h"
 #include "core/text.h"
@@ -331,7 +332,7 @@ ExrChannels layerChannels(const std::string& path, const Imf::ChannelList& list)
   ExrChannels channels;
   for (auto it = list.begin(); it != list.end(); ++it) {
     const std::string name = it.name();
-    if (std::ranges::find(kColors, name) != std::end(kColors)) continue;
+    if (contains(kColors, name)) continue;
     if (it.channel().xSampling != 1 || it.channel().ySampling != 1) {
       throwBadScene(path + ": header",
                     "expected a value a pixel of channel " + excerpt(name) + ", found fewer");

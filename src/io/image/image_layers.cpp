@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "core/contains.h"
 #include "core/display.h"
 #include "core/error.h"
 #include "core/text.h"
@@ -268,7 +269,7 @@ MergedImage mergeImages(const std::vector<std::string>& paths, const ImageLimits
     const ImageMetadata own = readExrMetadata(path);
     if (std::exchange(isFirstExr, false)) merged.metadata = own;
     std::erase_if(merged.metadata, [&](const auto& entry) {
-      return entry.first == "crop" || std::ranges::find(own, entry) == own.end();
+      return entry.first == "crop" || !contains(own, entry);
     });
   }
 

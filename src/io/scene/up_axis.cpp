@@ -1,5 +1,7 @@
 #include "io/scene/up_axis.h"
 
+#include "core/index.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -44,7 +46,7 @@ std::array<FlatParts, 3> flatPartsOf(const Body& content, const Box& box) {
         };
 
         const double side = double{size[(axis + 1) % 3]} * size[(axis + 2) % 3];
-        FlatParts& flat = all[static_cast<std::size_t>(axis)];
+        FlatParts& flat = entryOf(all, axis);
         if (liesAt(box.lower[axis])) {
           flat.lower += area / side;
         } else if (liesAt(box.upper[axis])) {
