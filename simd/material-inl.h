@@ -219,7 +219,16 @@ HWY_INLINE void StoreMedia(const ShadingTables& tables, const RayColumns& rays, 
   hn::Store(behind, du, surfels.mediaBehind + i);
 }
 
-// exp(-sigma * t) into weight and throughput of rays that crossed an absorbing medium.
+// Multiplies weight and throughput of rays by what a medium leaves of their light.
+HWY_INLINE void DimRays(const RayColumns& rays, const V3& factor, size_t i) {
+  const FloatTag d;
+  const V3 weight = Load3(rays.weightR, rays.weightG, rays.weightB, i);
+  Store3(Mul3(weight, factor), rays.weightR, rays.weightG, rays.weightB, i);
+  const VF throughput = hn::Load(d, rays.throughput + i);
+  hn::Store(hn::Mul(throughput, MaxComponent(factor)), d, rays.throughput + i);
+}
+
+// Dims rays that crossed an absorbing medium by exp(-sigma * t).
 HWY_INLINE void Absorb(const ShadingTables& tables, const RayColumns& rays, const HitColumns& hits,
                        MF valid, size_t i) {
   const FloatTag d;
@@ -239,11 +248,7 @@ HWY_INLINE void Absorb(const ShadingTables& tables, const RayColumns& rays, cons
     const VF through = hn::IfThenElseZero(valid, hit);
     return hn::IfThenElse(hn::Gt(sigma, hn::Zero(d)), through, hn::Set(d, 1.0f));
   };
-  const V3 factor{transmittance(record.y), transmittance(record.z), transmittance(record.w)};
-  const V3 weight = Load3(rays.weightR, rays.weightG, rays.weightB, i);
-  Store3(Mul3(weight, factor), rays.weightR, rays.weightG, rays.weightB, i);
-  const VF throughput = hn::Load(d, rays.throughput + i);
-  hn::Store(hn::Mul(throughput, MaxComponent(factor)), d, rays.throughput + i);
+  DimRays(rays, {transmittance(record.y), transmittance(record.z), transmittance(record.w)}, i);
 }
 
 }  // namespace whit::simd::HWY_NAMESPACE

@@ -8,6 +8,7 @@
 
 #include "bake/facet.h"
 #include "bake/sphere.h"
+#include "core/contains.h"
 
 namespace whit {
 
@@ -34,6 +35,16 @@ bool isOnRay(const QueryRay& ray, QueryHit& hit) {
 bool isOnMask(float margin, QueryHit& hit) {
   hit.certain = hit.certain && margin > 0x1p-16f;
   return margin >= 0;
+}
+
+// Returns false where rays pass a triangle: single-sided ones from behind, others where a mask cuts
+// them.
+bool isSolid(const Mask& mask, const Scene& scene, QueryHit& hit) {
+  if (hit.back && !mask.doubleSided) return false;
+  return !mask.map ||
+         isOnMask(marginAt<&Mask::cutoff>(mask, scene, hit.id.triangle, static_cast<float>(hit.u),
+                                          static_cast<float>(hit.v)),
+                  hit);
 }
 
 // Bound on the error of a corner that an instance transforms.
@@ -82,19 +93,15 @@ std::optional<QueryHit> ExactIntersector::hitTriangle(const QueryRay& ray,
   const double wa = dot(ray.direction, cross(b, bc));
   const double wb = dot(ray.direction, cross(c, ca));
   const double wc = dot(ray.direction, cross(a, ab));
-  const double ea = errorOf(sizeB, sizeBC);
-  const double eb = errorOf(sizeC, sizeCA);
-  const double ec = errorOf(sizeA, sizeAB);
-  const Sign sa = signOf(wa, ea), sb = signOf(wb, eb), sc = signOf(wc, ec);
+  const std::array signs{signOf(wa, errorOf(sizeB, sizeBC)), signOf(wb, errorOf(sizeC, sizeCA)),
+                         signOf(wc, errorOf(sizeA, sizeAB))};
 
   // Two weights of opposite sign mean that the ray passes outside an edge.
-  const bool anyNegative = sa == Sign::negative || sb == Sign::negative || sc == Sign::negative;
-  const bool anyPositive = sa == Sign::positive || sb == Sign::positive || sc == Sign::positive;
-  if (anyNegative && anyPositive) return std::nullopt;
+  if (contains(signs, Sign::negative) && contains(signs, Sign::positive)) return std::nullopt;
 
   QueryHit hit;
   hit.id = id;
-  hit.certain = sa == sb && sb == sc && sa != Sign::unknown;
+  hit.certain = !contains(signs, Sign::unknown);
 
   // The distance is the ratio of height and slope, each of which has its error.
   const Vec3d normal = cross(ab, -ca);
@@ -126,17 +133,7 @@ std::optional<QueryHit> ExactIntersector::hitTriangle(const QueryRay& ray,
       id.instance != kNoInstance && scene_.instances[id.instance].toWorld.determinant() < 0;
   hit.back = (slope > 0) != mirrored;
 
-  // Rays pass single-sided surfaces from behind, and surfaces where a mask cuts them.
-  const Mask& mask = maskOf(id.triangle);
-  if (hit.back && !mask.doubleSided) return std::nullopt;
-  if (mask.map &&
-      !isOnMask(marginAt<&Mask::cutoff>(mask, scene_, id.triangle, static_cast<float>(hit.u),
-                                        static_cast<float>(hit.v)),
-                hit)) {
-    return std::nullopt;
-  }
-
-  return hit;
+  return isSolid(maskOf(id.triangle), scene_, hit) ? std::optional(hit) : std::nullopt;
 }
 
 // In the space of the unit sphere, the ray's point closest to the center shows without cancellation
@@ -191,13 +188,12 @@ int ExactIntersector::hitSphere(const QueryRay& ray, PlacedTriangleId id,
 bool ExactIntersector::areCoincident(PlacedTriangleId a, PlacedTriangleId b) const {
   if (scene_.isSphere(a.triangle)) {
     const auto place = scene_.coincidentSpheres.find(orderOf(a));
-    return place != scene_.coincidentSpheres.end() &&
-           std::ranges::find(*place->second, b) != place->second->end();
+    return place != scene_.coincidentSpheres.end() && contains(*place->second, b);
   }
 
   if (!scene_.coplanar.any(a.triangle)) return false;
   const auto partners = scene_.coplanar.partnersOf(a);
-  return std::ranges::find(partners, b) != partners.end();
+  return contains(partners, b);
 }
 
 // Applies the rule of surfaces/choose_surface.h, which prefers `a` to `b` if this returns true.

@@ -114,6 +114,20 @@ std::vector<CameraView> viewsOf(const Camera& camera, const CameraFrame& frame) 
   return {{-aside, f, r, u}, {aside, f, r, u}};
 }
 
+// The views of a cube map or of a stereo pair share the picture in a grid.
+void divideIntoViews(const Camera& camera, CameraFrame& frame) {
+  frame.viewColumns = camera.stereo == Stereo::leftRight ? 2 : 1;
+  frame.viewRows = camera.stereo == Stereo::topBottom ? 2 : 1;
+  if (camera.projection == Projection::cubeMap) {
+    const bool inRow = frame.width >= 4 * frame.height;
+    frame.viewColumns = inRow ? 6 : 3;
+    frame.viewRows = inRow ? 1 : 2;
+  }
+
+  frame.viewWidth = std::max(frame.width / frame.viewColumns, 1);
+  frame.viewHeight = std::max(frame.height / frame.viewRows, 1);
+}
+
 }  // namespace
 
 Camera fitted(Camera camera, double pictureAspect) {
@@ -182,18 +196,8 @@ CameraFrame makeCameraFrame(const Camera& camera, int width, int height) {
   frame.orthographic = isPerspective(camera) && camera.orthographicHeight > 0;
   if (isFisheye(camera)) frame.limit = camera.angle * (std::numbers::pi / 360);
 
-  // The views of a cube map or of a stereo pair share the picture in a grid.
-  frame.viewColumns = camera.stereo == Stereo::leftRight ? 2 : 1;
-  frame.viewRows = camera.stereo == Stereo::topBottom ? 2 : 1;
-  if (camera.projection == Projection::cubeMap) {
-    const bool inRow = width >= 4 * height;
-    frame.viewColumns = inRow ? 6 : 3;
-    frame.viewRows = inRow ? 1 : 2;
-  }
-  const int w = std::max(width / frame.viewColumns, 1);
-  const int h = std::max(height / frame.viewRows, 1);
-  frame.viewWidth = w;
-  frame.viewHeight = h;
+  divideIntoViews(camera, frame);
+  const int w = frame.viewWidth, h = frame.viewHeight;
 
   // From here on, `right` and `up` span one pixel.
   const Camera seen = fitted(camera, static_cast<double>(w) / h);

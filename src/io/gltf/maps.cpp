@@ -125,9 +125,9 @@ void setSampler(const GltfTexture& map, Texture& texture) {
   texture.nearest = map.nearest;
 }
 
-// Makes the texture of the alpha channel, or none where it has the same value everywhere.
-std::optional<Texture> bakeAlpha(const GltfMaterial& m, const RawImage& raw,
-                                 const ImageLimits& limits, GltfMeans& means) {
+// Makes the texture of an image's alpha channel, or none where it has the same value everywhere.
+std::optional<Texture> alphaOfImage(const GltfMaterial& m, const RawImage& raw,
+                                    const ImageLimits& limits, GltfMeans& means) {
   const bool isUsed = m.alphaMode != GltfMaterial::Alpha::opaque && !m.maskMap.exists();
   if (!isUsed || !hasTranslucentAlpha(raw)) return {};
 
@@ -145,6 +145,21 @@ std::optional<Texture> bakeAlpha(const GltfMaterial& m, const RawImage& raw,
   Texture texture = makeAlphaTexture(m.name, raw);
   setSampler(m.baseMap, texture);
   return texture;
+}
+
+// The alpha of vertices multiplies a map, which is opaque if the image is.
+std::optional<Texture> bakeAlpha(const GltfMaterial& m, const RawImage* base,
+                                 const ImageLimits& limits, GltfMeans& means) {
+  std::optional<Texture> alpha;
+  if (base) alpha = alphaOfImage(m, *base, limits, means);
+  if (!m.multipliesAlpha()) return alpha;
+
+  means.alphaByMap = true;
+  if (!alpha) {
+    alpha = emptyTexture(m.name, TexelFormat::data, 1, 1);
+    alpha->texels = {encodeDataTexel(1, 1, 1, 1)};
+  }
+  return alpha;
 }
 
 // Returns a black texture for each GltfBakedMap that is needed, but for the alpha map.
@@ -225,16 +240,7 @@ Images bake(const GltfMaterial& m, const GltfBakeImages& images, const ImageLimi
   means.specular = static_cast<float>(strengths / texels);
   means.specularColor = Rgb(tintSum / texels);
 
-  if (images[kBase]) maps[kGltfAlpha] = bakeAlpha(m, *images[kBase], limits, means);
-
-  // The alpha of vertices multiplies a map, which is opaque if the image is.
-  if (m.multipliesAlpha()) {
-    means.alphaByMap = true;
-    if (!maps[kGltfAlpha]) {
-      maps[kGltfAlpha] = emptyTexture(m.name, TexelFormat::data, 1, 1);
-      maps[kGltfAlpha]->texels = {encodeDataTexel(1, 1, 1, 1)};
-    }
-  }
+  maps[kGltfAlpha] = bakeAlpha(m, images[kBase].get(), limits, means);
   return maps;
 }
 
