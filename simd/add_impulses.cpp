@@ -43,7 +43,7 @@ struct ImpulseJob {
 // The values that both kinds of impulse need for a vector of surfels.
 struct ImpulseLanes {
   MF live;        // the surfel has an impulse of the kind in question
-  MF dielectric;  // and bounds a medium
+  MF dielectric;  // true if the surface bounds a medium, too
   MF hidden;      // and is not there, because a higher priority fills its place
   MF covers;      // the surfel's glossy lobe takes light from what lies below it
   MF scatters;    // rays sample that lobe
@@ -188,7 +188,7 @@ HWY_INLINE VF CoverageAt(const ImpulseJob& job, size_t i) {
 struct Child {
   V3 origin, direction, weight;
   VU media, path;
-  VF largest;  // of the weight, for the cutoff
+  VF largest;  // largest channel of the weight, for the cutoff
   VF cone;
 };
 
@@ -346,7 +346,7 @@ class Facets {
 
   GlossyLobes lobes;
   MF ofInterface;
-  bool any;  // of an interface
+  bool any;  // true if any lane has an interface
 
  private:
   FresnelModel model_;

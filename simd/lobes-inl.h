@@ -142,9 +142,9 @@ struct LobeSample {
 // facetAt() of the scalar reference, with the reflectance of a lobe.
 struct Facet {
   V3 normal;
-  VF cosine;     // between viewer and facet, in [0, 1]
+  VF cosine;     // cosine between viewer and facet, in [0, 1]
   V3 mirrored;   // the view
-  VF elevation;  // of that over the surface
+  VF elevation;  // sine of its elevation over the surface
   V3 reflectance;
 };
 

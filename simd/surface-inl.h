@@ -175,7 +175,7 @@ HWY_INLINE V3 TransformVector(const MatrixLanes& m, const V3& v) {
 // Transforms from the space of an instance to the world.
 struct PlacementLanes {
   MatrixLanes toWorld, normal;
-  V3 origin;  // of the instance's space
+  V3 origin;  // origin of the instance's space
   VF handedness;
 };
 

@@ -248,7 +248,7 @@ QueryHit ExactIntersector::nearestOf(std::vector<QueryHit>& hits) const {
 void ExactIntersector::keepDistinct(std::vector<QueryHit>& hits) const {
   std::ranges::sort(hits, isNearer);
   std::vector<QueryHit> kept;
-  double largestError = 0;  // of the kept hits
+  double largestError = 0;  // largest tError of the kept hits
 
   for (const QueryHit& hit : hits) {
     bool isNew = true;

@@ -247,7 +247,8 @@ std::string rayDiagram(const RayTree& tree, const Camera& eye, const Camera& cam
   svg += "data:image/png;base64," + base64(picture) + "\"/>\n";
   const LineView view(camera, width, height);
   const std::vector<RayLine> lines = linesOf(tree, eye);
-  std::map<std::string, ScreenLine> places;  // of the words; lines that weigh more come later
+  // Places of the words. Lines that weigh more come later and replace others.
+  std::map<std::string, ScreenLine> places;
   for (const RayLine& line : lines) {
     const auto seen = view.see(line.from, line.to);
     if (!seen) continue;

@@ -63,7 +63,7 @@ struct RenderJob {
   double turns = 1;
   TerminalGraphics graphics = TerminalGraphics::none;  // shows the picture on standard output
   std::optional<Turntable> turntable;                  // once the scene is open
-  int turntableFrames = 96;                            // of all turns together
+  int turntableFrames = 96;                            // number of frames of all turns together
 
   bool toStandardOutput() const { return contains(outputs, kStandardOutput); }
   bool makesFilm() const { return std::ranges::any_of(outputs, isFilm); }
@@ -452,7 +452,7 @@ class ImageWriter {
 
   const RenderJob& job_;
   Engine& engine_;
-  std::optional<Camera> camera_;  // of a turntable
+  std::optional<Camera> camera_;  // camera of a turntable
   std::optional<Receipt> receipt_;
   std::vector<Film> films_;
   std::size_t film_ = 0;  // the film that is traced next

@@ -37,7 +37,7 @@ struct ChannelInfo {
   std::string_view name;
   bool countsThings = false;  // values are 32-bit unsigned numbers; else floats
   std::size_t components = 1;
-  std::array<std::string_view, 3> suffixes;  // of its layers in a file: "depth.Z"
+  std::array<std::string_view, 3> suffixes;  // suffixes of its layers in a file: "depth.Z"
 };
 inline constexpr std::array<ChannelInfo, kChannelCount> kChannels{
     {{"depth", false, 2, {"Z", "distance"}},

@@ -45,7 +45,7 @@ struct OptionSpec {
   // The cheapest value that still makes a picture of the scene; the viewer measures the cost of the
   // other values against it, and not at all if this is empty.
   std::string_view cheapest = {};
-  bool everyday = false;  // in --help; the other options are in --help-all only
+  bool everyday = false;  // listed in --help; the others only in --help-all
 };
 
 enum class Mode { packets, reference };
@@ -89,7 +89,7 @@ struct RenderOptions {
   Quality quality = Quality::standard;
   std::optional<ImageSize> size;
   std::string camera;
-  std::optional<Vec3d> eye, at;  // in coordinates of the file
+  std::optional<Vec3d> eye, at;  // points in coordinates of the file
   std::optional<Vec3f> up;
   std::optional<float> fov, ortho;
   std::optional<Crop> crop;

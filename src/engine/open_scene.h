@@ -17,7 +17,7 @@ namespace whit {
 
 struct SceneSource {
   std::string name;                       // a scene file, a model, or a shipped scene
-  std::shared_ptr<const SceneText> text;  // of a scene that a program made; null: `name` is read
+  std::shared_ptr<const SceneText> text;  // made by a program; null: the file `name` is read
 };
 
 struct OpenScene {

@@ -29,13 +29,13 @@ constexpr double kSky = 0.5, kMostForSky = 2;
 // would then be more than kMostForHighlights EV darker. The bound is stricter than what is promised
 // (0.5 % of the model), because few pixels are looked at and the exposure is rounded.
 constexpr double kUnclippedShare = 0.998, kUnclipped = 0.95, kMostForHighlights = 3;
-constexpr double kDarkest = 1.0e-2;  // of the bright ones: darker pixels count as this
-constexpr double kSteps = 8;         // of an EV
+constexpr double kDarkest = 1.0e-2;  // share of the bright ones' level; darker pixels count as this
+constexpr double kSteps = 8;         // steps in an EV
 constexpr double kMostEv = 32;
 constexpr auto kNothing = PixelSurface::kNothing;
 
 struct Luminances {
-  std::vector<double> surfaces, sky;  // of the pixels that show the one or the other
+  std::vector<double> surfaces, sky;  // luminances of the pixels that show the one or the other
   std::vector<double> channels;       // the brightest channel of each pixel of a surface
 };
 

@@ -25,7 +25,7 @@ constexpr bool isDashed(RayLook look) { return rowOf(look.kind).testsOcclusion()
 struct RayLine {
   Vec3d from, to;
   RayLook look;
-  std::size_t node = 0;  // of the tree; of a shadow ray that which sent it
+  std::size_t node = 0;  // node of the tree; of a shadow ray, the node that sent it
   double width = 0;      // pixels; thinner for what weighs less at the eye
 };
 

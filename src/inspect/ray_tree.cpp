@@ -141,7 +141,7 @@ class TreeObserver : public StageObserver {
 
   RayTree& tree_;
   std::vector<std::vector<std::size_t>> levels_;  // a queue a depth
-  std::vector<LightContribution> shadows_;        // of the light in hand, a slot each
+  std::vector<LightContribution> shadows_;  // contributions of the current light, one for each slot
 };
 
 // Writes the tree down while the reference follows its paths, one after the other.

@@ -86,7 +86,7 @@ class JsonValue {
   JsonValue operator[](const std::string& name) const;
   JsonValue operator[](std::size_t i) const;
   JsonValue need(const std::string& name) const;  // fails where the member is missing
-  std::size_t size() const;                       // of a list
+  std::size_t size() const;                       // number of elements of a list
   double numberOr(double fallback) const;
 
   // Accepts 1e0 and 1.0 as well as 1.

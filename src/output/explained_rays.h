@@ -16,7 +16,7 @@ namespace whit {
 
 struct ExplainedRays {
   RayTree packets, reference;
-  std::vector<std::size_t> counterpart;  // of the packets' nodes in the reference
+  std::vector<std::size_t> counterpart;  // the reference's node for each of the packets'
 
   // Where the two part: the surface, shadows or impulses differ.
   bool partsAt(std::size_t node) const;

@@ -76,7 +76,7 @@ constexpr double kLeastSine = 0.01;
 // Right-handed, z along the surface's normal, the view in the plane of x and z.
 struct Frame {
   Vec3d x, y, z;
-  double sine = 0;  // of the view to z
+  double sine = 0;  // sine of the angle between view and z
 };
 
 Frame frameOfIncidence(const Vec3d& n, const Vec3d& view) {
@@ -90,7 +90,7 @@ Frame frameOfIncidence(const Vec3d& n, const Vec3d& view) {
 // The sample of a lobe that the child is.
 struct LobeChild {
   Impulse impulse;
-  int rays = 1;  // that share the lobe
+  int rays = 1;  // number of rays that share the lobe
 };
 
 // The sample of the lobe that its path says it is; none if it is no sample of a lobe.
@@ -269,8 +269,8 @@ struct Facet {
   double cosine = 0;  // between viewer and facet, in [0, 1]
   RgbD reflectance;
   Vec3d mirrored;        // the view, unit
-  double elevation = 0;  // of that over the surface
-  double passes = 0;     // of what goes there, past other facets
+  double elevation = 0;  // sine of its elevation over the surface
+  double passes = 0;     // share of the light that passes other facets
 };
 
 Facet facetAt(const Surfel& s, const UnitPoint& at, FresnelModel model) {

@@ -16,7 +16,7 @@ namespace whit::reference {
 // The parameters of makeSurfel's texture lookups.
 struct TextureLookup {
   TextureFilter filter = TextureFilter::bilinear;
-  const MipMaps* maps = nullptr;  // those of the scene; needed for trilinear lookups
+  const MipMaps* maps = nullptr;  // mip maps of the scene, for trilinear lookups
   RayCone cone{};                 // the cone at the hit, with which rays from there start
 };
 

@@ -22,7 +22,7 @@ namespace {
 std::array<double, 2> diskPoint(const UnitPoint& square) {
   const double a = 2 * double{square.u} - 1, b = 2 * double{square.v} - 1;
   if (a == 0 && b == 0) return {0, 0};
-  constexpr double kEighth = std::numbers::pi / 4;  // of a turn
+  constexpr double kEighth = std::numbers::pi / 4;  // an eighth of a turn
 
   // The larger coordinate becomes the radius, so squares about the center become circles.
   const bool byA = std::fabs(a) > std::fabs(b);

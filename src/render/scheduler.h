@@ -57,7 +57,7 @@ class Scheduler {
   Crop window_;
   bool inBatches_ = false;
   PixelLists tiles_;
-  Tracers tracers_;           // one a worker; none after another plan
+  Tracers tracers_;           // a tracer for each worker; empty after another plan
   std::size_t capacity_ = 0;  // rays, of each
 };
 

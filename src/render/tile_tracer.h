@@ -93,7 +93,7 @@ class Workspace {
     std::vector<std::uint32_t> rayCounts, pixelSlots;
     std::vector<Narrowing> narrowings;
     std::size_t count = 0;                          // rays in the queue
-    std::array<Segment, kSegmentLimit> segments{};  // of the queue
+    std::array<Segment, kSegmentLimit> segments{};  // kinds of the queue's rays
     std::size_t segmentCount = 0;
     std::size_t cursor = 0, chunk = 0;  // the chunk in hand: its first ray, its length
   };

@@ -47,7 +47,7 @@ Vec3d fallbackRight(const Vec3d& forward) {
 // Mean step in radians between the entries of a table of degrees that is stretched over `pixels`
 // pixels.
 double meanStep(const std::vector<float>& degrees, int pixels) {
-  constexpr double kLeast = 1e-6;  // of a table with one entry
+  constexpr double kLeast = 1e-6;  // step of a table with one entry
   if (degrees.empty()) return kLeast;
   const double span = double{degrees.back()} - double{degrees.front()};
   return std::max(std::abs(span) * (std::numbers::pi / 180) / pixels, kLeast);
@@ -62,7 +62,7 @@ std::array<double, 2> pixelSteps(const Camera& camera, const CameraFrame& frame,
             camera.kSize[1] / (double{camera.k[1]} * height)};
   }
 
-  const double radius = std::min(width, height) / 2.0;  // of a fisheye's image circle
+  const double radius = std::min(width, height) / 2.0;  // radius of a fisheye's image circle
   switch (camera.projection) {
     case Projection::perspective:
       break;

@@ -45,8 +45,8 @@ struct Camera {
   std::vector<float> k = {}, kSize = {};
   // As OpenCV orders them: k1, k2, p1, p2, k3, k4, k5, k6; of a fisheye k1 to k4.
   std::vector<float> distortion = {};
-  float angle = 180;                                  // of a fisheye's image circle, degrees
-  std::vector<float> azimuths = {}, elevations = {};  // of columns and rows, degrees
+  float angle = 180;  // angle of a fisheye's image circle in degrees
+  std::vector<float> azimuths = {}, elevations = {};  // directions of columns and rows in degrees
   Stereo stereo = Stereo::none;
   float eyeDistance = 0.065f;  // in scene units
 

@@ -50,28 +50,28 @@ struct GltfMaterial {
   std::string name, where;
   Rgb base{1, 1, 1};
   float alpha = 1, metallic = 1, roughness = 1;
-  Rgb specularColor{0.04f, 0.04f, 0.04f};  // of what is no metal: its ior's, times a factor
+  Rgb specularColor{0.04f, 0.04f, 0.04f};  // F0 of what is no metal: from the ior, times a factor
   float f90 = 1;                           // its reflectance at grazing incidence
-  bool grazingFades = false;               // of MTL: below 4 % at normal incidence, f90 is less
+  bool grazingFades = false;  // set for MTL: below 4 % at normal incidence, f90 is less
   Rgb emission{0, 0, 0};
   Alpha alphaMode = Alpha::opaque;
   float alphaCutoff = 0.5f;
   float transmission = 0, ior = 1.5f;
-  float thickness = 0;  // of the volume; 0: the surface is a thin wall
+  float thickness = 0;  // thickness of the volume; 0: the surface is a thin wall
   Rgb absorption{0, 0, 0};
   float clearcoat = 0, clearcoatRoughness = 0;
   bool unlit = false, doubleSided = false;
   GltfTexture baseMap, metallicRoughnessMap, normalMap, emissiveMap, occlusionMap;
   GltfTexture roughnessMap;                   // glTF has it in metallicRoughnessMap, MTL apart
-  GltfTexture maskMap;                        // of MTL: cuts in place of the base color's alpha
+  GltfTexture maskMap;                        // MTL only: cuts in place of the base color's alpha
   GltfTexture specularMap, specularColorMap;  // strength in alpha, color
   GltfTexture transmissionMap, clearcoatMap, clearcoatRoughnessMap;
   float normalScale = 1, occlusionStrength = 1;
   // The alpha of vertex colors counts. Without maps u is alphaRampU() of it, and beside maps the
   // second coordinates have it (Material::alphaByVertex).
   bool alphaByVertex = false;
-  bool mirrorIsApart = false;        // of MTL: no reflectance at normal incidence
-  bool normalsMayBeHeights = false;  // of MTL: a gray normalMap holds heights
+  bool mirrorIsApart = false;        // set for MTL: no reflectance at normal incidence
+  bool normalsMayBeHeights = false;  // set for MTL: a gray normalMap holds heights
 
   // The coordinates of the maps that it needs texel by texel: those of the first there is, and the
   // first that differ from them (equal where none do).
@@ -129,7 +129,7 @@ struct GltfMeans {
   float specular = 1;           // its strength
   Rgb specularColor{1, 1, 1};
   float clearcoat = 1, clearcoatRoughness = 1;
-  float alpha = 1;          // of a texture that blends and is the same everywhere
+  float alpha = 1;          // alpha of a texture that blends and is the same everywhere
   bool alphaByMap = false;  // its texels differ and are multiplied with the factor
 };
 

@@ -444,7 +444,7 @@ class GltfModel : public Model {
 
   GltfDocument document_;
   std::vector<GltfMaterial> sources_;
-  std::vector<Material> materials_;  // of sources_
+  std::vector<Material> materials_;  // materials made from sources_
   GltfMapMaker maps_;
   GltfStage stage_;
 };

@@ -21,14 +21,14 @@ namespace {
 // Animated properties of a node. Properties without a track keep the value of the node itself.
 struct GltfTracks {
   std::optional<Track> translation, rotation, scale;  // 3, 4 (x, y, z, w) and 3 components
-  std::optional<Track> weights;                       // of its mesh's morph targets
+  std::optional<Track> weights;                       // weights of its mesh's morph targets
 
   bool place() const { return translation || rotation || scale; }
 };
 
 struct Target {
   std::string_view path;
-  std::size_t components;  // of a key; 0: as many scalars as the mesh has morph targets
+  std::size_t components;  // numbers in a key; 0: one for each morph target of the mesh
   std::optional<Track> GltfTracks::*track;
 };
 constexpr Target kTargets[] = {
@@ -101,7 +101,7 @@ Track readTrack(const GltfDocument& document, const Target& target, std::size_t 
   return track;
 }
 
-using AllTracks = std::vector<GltfTracks>;  // of each node
+using AllTracks = std::vector<GltfTracks>;  // tracks of each node
 
 AllTracks readTracks(const GltfDocument& document, const Instant& instant) {
   AllTracks tracks(document.list("nodes").size());
@@ -123,7 +123,7 @@ AllTracks readTracks(const GltfDocument& document, const Instant& instant) {
   return tracks;
 }
 
-constexpr double kLargestHeight = 1e9;  // of an orthographic camera's view
+constexpr double kLargestHeight = 1e9;  // largest height of an orthographic camera's view
 constexpr char kLights[] = "KHR_lights_punctual";
 constexpr std::size_t kTopmost = ~std::size_t{0};  // parent of a node without one
 

@@ -150,7 +150,7 @@ class MtlParser {
   }
 
   LineReader lines_;
-  std::string keyword_;  // of this line
+  std::string keyword_;  // keyword of this line
   Warnings& warnings_;
   std::vector<MtlMaterial> materials_;
 };

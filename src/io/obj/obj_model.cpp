@@ -359,19 +359,19 @@ class ObjReader {
   const std::string& file_;
   std::map<std::string, std::uint32_t> materialNumbers_;
   std::set<std::string> libraryNames_;
-  std::uint32_t material_ = kNoMaterial;  // of the faces that follow
+  std::uint32_t material_ = kNoMaterial;  // material of the faces that follow
   MemoryBudget& budget_;
   Warnings& warnings_;
   std::vector<Vec3f> positions_, normals_;
   std::vector<Vec2f> uvs_;
-  std::vector<Rgb> colors_;    // of the first positions, as the file has them
+  std::vector<Rgb> colors_;    // colors of the first positions, as the file has them
   std::size_t smoothing_ = 0;  // the group of the faces that follow; 0: none
   // Numbers in groupSums_ by position and group.
   std::unordered_map<std::size_t, std::map<std::size_t, std::int32_t>> groupNormals_;
   std::vector<Vec3d> groupSums_;
   Mesh mesh_;
-  std::vector<ObjVertex> known_;       // one for each vertex of the mesh
-  std::vector<std::uint32_t> newest_;  // of the vertices at each position
+  std::vector<ObjVertex> known_;       // the file's indices for each vertex of the mesh
+  std::vector<std::uint32_t> newest_;  // newest vertex at each position
   bool hasFaces_ = false, hasUvs_ = false, hasNormals_ = false, statesSmoothing_ = false;
   // The face that is being added.
   std::uint64_t line_ = 0;
@@ -506,8 +506,8 @@ class ObjModel : public MeshModel {
   }
 
   std::string file_, text_;
-  std::optional<ObjReader> reader_;   // until the geometry is asked for
-  std::vector<ObjMaterial> sources_;  // of materials_
+  std::optional<ObjReader> reader_;   // empty after the geometry was read
+  std::vector<ObjMaterial> sources_;  // sources of materials_
   std::vector<GltfImageSource> images_;
   std::optional<GltfMapMaker> maps_;  // over images_
 };

@@ -56,7 +56,7 @@ constexpr PlyType kTypes[] = {{"char", "int8", 1, valueOf<std::int8_t>, 255},
 struct PlyProperty {
   std::string name;
   const PlyType* type;
-  const PlyType* countType;  // of a list, else null
+  const PlyType* countType;  // type of a list's count, else null
 };
 
 struct PlyElement {
@@ -111,7 +111,7 @@ float valueOf(const PlyProperty& property, Component component, double value) {
 
 // A face with its corners, texture coordinates and color.
 struct PlyFace {
-  std::vector<double> corners, coordinates;  // of coordinates u and v for each corner
+  std::vector<double> corners, coordinates;  // coordinates u and v of each corner
   std::array<float, kComponents + 1> values{};
   double picture = 0;
 };
@@ -508,9 +508,9 @@ class PlyReader {
   Warnings& warnings_;
   bool ascii_ = false, reversed_ = false;
   std::vector<PlyElement> elements_;
-  std::size_t at_ = 0;  // in binary data
+  std::size_t at_ = 0;  // position in binary data
   Mesh mesh_;
-  std::uint64_t vertices_ = 0;  // of the file; those that faces get follow them
+  std::uint64_t vertices_ = 0;  // number of the file's vertices; those that faces get follow
   bool hasFaceColors_ = false, hasFaceCoordinates_ = false;
   // The face that is being added.
   std::vector<Vec3d> points_;
@@ -588,7 +588,7 @@ class PlyModel : public MeshModel {
     return found;
   }
 
-  std::vector<TextureSource> pictures_;  // of materials_
+  std::vector<TextureSource> pictures_;  // pictures of materials_
 };
 
 }  // namespace

@@ -374,7 +374,7 @@ class ItemReader {
   std::map<std::string, NamedObject> objects_;
   // Bodies of the meshes that a program hands over, by name and material.
   std::map<std::pair<std::string, std::uint32_t>, std::uint32_t> meshes_;
-  int depth_ = 0;  // of the item that is being read
+  int depth_ = 0;  // depth of the item that is being read
 };
 
 }  // namespace

@@ -57,7 +57,7 @@ struct SceneContext {
   Warnings& warnings;
   Progress* progress;
   SceneDescription scene;
-  const SceneParts* parts = nullptr;  // of a scene that a program makes
+  const SceneParts* parts = nullptr;  // parts of a scene that a program makes
   std::string sky;                    // this and the next as in LoadOptions
   Instant instant;
   std::string knownSky;    // Sky::name of an image that the caller has, which is not read again

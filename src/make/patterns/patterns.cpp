@@ -346,7 +346,7 @@ Texture makeWood(ShapeParameters& parameters) {
 
 // The stone of a layout in which a point lies, and the point's position in it.
 struct Stone {
-  int column, row;    // of the stone, wrapped
+  int column, row;    // place of the stone, wrapped
   double across, up;  // within the stone, 0 to 1
   double edge;        // distance to the stone's edge, in parts of the texture's side
 };
