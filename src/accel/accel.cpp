@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -99,7 +98,7 @@ RTCRayHit singleRay(const EmbreeScene& scene, const Vec3f& origin, const Vec3f& 
 // Returns the hit with Embree's own t, u and v, which other processors round differently.
 Hit findUnrefined(const EmbreeScene& scene, const Vec3f& origin, const Vec3f& direction,
                   bool coherent, float tNear) noexcept {
-  constexpr float kUnbounded = std::numeric_limits<float>::infinity();
+  constexpr float kUnbounded = kInfinity;
   RTCRayHit r = singleRay(scene, origin, direction, tNear, kUnbounded, kSeenMask);
   QueryContext context(coherent);
   context.setRay(origin, direction);

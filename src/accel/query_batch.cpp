@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 namespace whit {
@@ -18,7 +17,7 @@ constexpr double kShortest = 1e-100, kLongest = 1e100;
 
 constexpr std::size_t kPacket = 16;
 // Embree's tFar of a ray that hits nothing, or that needs no more candidates.
-constexpr float kNowhere = -std::numeric_limits<float>::infinity();
+constexpr float kNowhere = -kInfinity;
 // The squared distance of a ray's origin from that of the packet's first ray, plus the squared
 // difference of their directions, is below this for all rays of a coherent packet.
 constexpr float kCoherent = 0.02f;

@@ -152,11 +152,10 @@ std::string headOf(const Explained& e) {
 Json jsonOf(const RgbD& v) { return Json::array({v.x, v.y, v.z}); }
 
 Json lightJson(const Scene& scene, const LightContribution& light) {
+  const char* const found = light.visible ? "lit" : "blocked";
   Json json{{"light", lightName(scene, light.light)},
             {"sample", light.sample},
-            {"shadow", !light.traced   ? "none"
-                       : light.visible ? "lit"
-                                       : "blocked"},
+            {"shadow", light.traced ? found : "none"},
             {"radiance", jsonOf(light.radiance)}};
   if (light.traced) {
     json["origin"] = jsonOf(scene.inFile(light.origin));

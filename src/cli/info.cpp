@@ -48,10 +48,9 @@ Json optionsJson(const Scene& scene, const CommonOptions& common, const RenderOp
     const std::string value = optionText(options, name);
     const bool isGiven = common.given.contains(name), isStated = scene.options.contains(name);
     if (!isGiven && !isStated && value == optionText(defaults, name)) continue;
-    const char* const from = isGiven                             ? "command line"
-                             : value != optionText(stated, name) ? "--quality"
-                             : scene.isModel                     ? "model"
-                                                                 : "scene";
+    const char* from = scene.isModel ? "model" : "scene";
+    if (value != optionText(stated, name)) from = "--quality";
+    if (isGiven) from = "command line";
     rows[name] = {{"value", value}, {"from", from}};
   }
   return rows;

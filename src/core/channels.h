@@ -6,7 +6,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -66,8 +65,8 @@ inline constexpr std::uint32_t kNoNumber = 0xffffffffu;
 // those of a ray without a hit.
 struct ChannelValues {
   // Along the camera's axis, and along the ray.
-  float z = std::numeric_limits<float>::infinity();
-  float distance = std::numeric_limits<float>::infinity();
+  float z = kInfinity;
+  float distance = kInfinity;
   Vec3f position, normal;
   Rgb albedo;
   Vec2f uv;

@@ -26,9 +26,8 @@ struct Impulses {
 
   // Returns an empty impulse for a kind that exists for samples of a lobe only.
   Impulse of(RayKind kind) const {
-    return kind == RayKind::reflection   ? reflected
-           : kind == RayKind::refraction ? refracted
-                                         : Impulse();
+    if (kind == RayKind::reflection) return reflected;
+    return kind == RayKind::refraction ? refracted : Impulse();
   }
 };
 // The branch of the paths that it leads.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "reference/add_impulses.h"
@@ -17,7 +16,7 @@ namespace {
 
 // Up to which occluders count, in lengths of the shadow ray.
 double shadowReach(const Light& light) {
-  if (light.kind == Light::Kind::directional) return std::numeric_limits<double>::infinity();
+  if (light.kind == Light::Kind::directional) return kInfinity;
   return double{kShadowReach};
 }
 

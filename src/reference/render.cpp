@@ -2,7 +2,6 @@
 #include <atomic>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <vector>
 
 #include "bake/sphere.h"
@@ -111,8 +110,7 @@ double Tracer::standardError(const CameraFrame& camera, int x, int y, RayCounts&
     mean += before / ++taken;
     deviations += before * (value - mean);
   }
-  return taken > 1 ? std::sqrt(deviations / (taken - 1) / taken)
-                   : std::numeric_limits<double>::infinity();
+  return taken > 1 ? std::sqrt(deviations / (taken - 1) / taken) : kInfinity;
 }
 
 RgbD Tracer::center(const CameraFrame& camera, int x, int y, RayCounts& counts) const {

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <limits>
 #include <vector>
 
 #include "bake/facet.h"
@@ -56,8 +55,7 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
 
   const std::optional<ChosenSurface> found = nearest(ray, depth);
   if (!found) {
-    constexpr double kForEver = std::numeric_limits<double>::infinity();
-    const RgbD left = leftAfter(kForEver);
+    const RgbD left = leftAfter(kInfinity);
     if (path.straight) counts.clear += left * path.weight;
     if (path.straight && options_.background.hidesSky()) return scattered(left);
     return skyAlong(scene_, effects_, ray.direction) * left + scattered(left);

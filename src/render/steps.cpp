@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -362,7 +361,7 @@ Box dielectricBounds(const Scene& scene) {
 bool startsMayLieInside(const CameraFrame& camera, const Box& dielectrics) {
   if (dielectrics.empty()) return false;
   const Vec3d lower = Vec3d(dielectrics.lower), upper = Vec3d(dielectrics.upper);
-  double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
+  double nearest = kInfinity, farthest = -nearest;
   for (int i = 0; i < 8; ++i) {
     const double ahead = dot(Vec3d(dielectrics.corner(i)) - camera.eye, camera.forward);
     nearest = std::min(nearest, ahead);

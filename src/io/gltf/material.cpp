@@ -12,9 +12,8 @@ namespace {
 Wrap readWrap(const JsonValue& code) {
   constexpr std::uint64_t kRepeat = 10497, kClampToEdge = 33071, kMirroredRepeat = 33648;
   const std::uint64_t found = code.wholeOr(kRepeat);
-  return found == kClampToEdge      ? Wrap::clamp
-         : found == kMirroredRepeat ? Wrap::mirror
-                                    : Wrap::repeat;
+  if (found == kClampToEdge) return Wrap::clamp;
+  return found == kMirroredRepeat ? Wrap::mirror : Wrap::repeat;
 }
 
 std::size_t readSet(const JsonValue& texCoord, std::size_t fallback) {

@@ -246,7 +246,11 @@ class PrimitiveReader {
     if (separate && c.size() % 3 != 0) warn("triangle with fewer than three corners left out");
     document_.budget().charge(count, sizeof(mesh.triangles[0]), primitive_.where());
     mesh.triangles.reserve(count);
-    if (mode_ == kTriangleStrip) return addStrip(c, mesh.triangles);
+    if (mode_ == kTriangleStrip) {
+      addStrip(c, mesh.triangles);
+      return;
+    }
+
     for (std::size_t i = 0; i < count; ++i) {
       if (separate) {
         mesh.triangles.push_back({c[3 * i], c[3 * i + 1], c[3 * i + 2]});
@@ -337,10 +341,10 @@ class GltfModel : public Model {
                                  .item = std::make_shared<const std::string>(nameOf(placed))});
     }
     if (empty) {
-      warnNothingToDraw(document_.list("meshes").size() == 0 ? "no meshes"
-                        : stage_.meshes.empty()              ? "no node shows a mesh"
-                                                             : "its meshes have no triangles",
-                        document_.name(), document_.warnings());
+      const char* why = "its meshes have no triangles";
+      if (stage_.meshes.empty()) why = "no node shows a mesh";
+      if (document_.list("meshes").size() == 0) why = "no meshes";
+      warnNothingToDraw(why, document_.name(), document_.warnings());
     }
     return all;
   }

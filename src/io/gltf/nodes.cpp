@@ -247,7 +247,11 @@ class TreeReader {
       stage_.movers.push_back({mover, toMover, std::move(own.motion), own.name});
       mover = static_cast<std::uint32_t>(stage_.movers.size() - 1);
     }
-    if (!isUsable(map)) return warn("node that flattens space left out", index);
+    if (!isUsable(map)) {
+      warn("node that flattens space left out", index);
+      return;
+    }
+
     if (node["mesh"].exists()) placeMesh(index, map, mover);
     if (node["camera"].exists()) addCamera(index, map, mover);
     if (node["extensions"][kLights].exists()) addLight(index, map, mover);
@@ -289,9 +293,14 @@ class TreeReader {
     const std::size_t mesh = *nodes_[index]["mesh"].indexInto(document_.list("meshes"));
     const Deformation deformation = deformationOf(index, mesh);
     if (deformation.skeleton) {
-      return stage_.meshes.push_back({mesh, Affine(), kNoNode, deformation, index});
+      stage_.meshes.push_back({mesh, Affine(), kNoNode, deformation, index});
+      return;
     }
-    if (!copies.exists()) return stage_.meshes.push_back({mesh, map, mover, deformation, index});
+    if (!copies.exists()) {
+      stage_.meshes.push_back({mesh, map, mover, deformation, index});
+      return;
+    }
+
     for (const Affine& copy : readCopies(copies.need("attributes"))) {
       const Affine toMover = map * copy;
       if (isUsable(toMover)) {
@@ -422,7 +431,10 @@ class TreeReader {
       aspect = xmag / ymag;
     }
 
-    if (!shows) return warn("camera of an unknown type or without an extent left out", index);
+    if (!shows) {
+      warn("camera of an unknown type or without an extent left out", index);
+      return;
+    }
 
     camera.name = node["name"].textOr("");
     if (camera.name.empty()) camera.name = source["name"].textOr("");
@@ -448,8 +460,10 @@ class TreeReader {
     } else if (type == "directional") {
       light.kind = Light::Kind::directional;
     } else if (type != "point") {
-      return warn("light of an unknown type left out", index);
+      warn("light of an unknown type left out", index);
+      return;
     }
+
     if (source["range"].numberOr(0) > 0 && light.kind != Light::Kind::directional) {
       warn("light's range left out, it shines on", index);
     }

@@ -423,9 +423,10 @@ Imf::Header makeHeader(const Image& image, const ImageMetadata& metadata, ExrSto
   const Crop& w = image.window;
   Imf::Header header(Imath::Box2i({0, 0}, {image.width - 1, image.height - 1}),
                      Imath::Box2i({w.x0, w.y0}, {w.x1 - 1, w.y1 - 1}));
-  header.compression() = storage == ExrStorage::none   ? Imf::NO_COMPRESSION
-                         : storage == ExrStorage::dwaa ? Imf::DWAA_COMPRESSION
-                                                       : Imf::ZIP_COMPRESSION;
+  header.compression() = Imf::ZIP_COMPRESSION;
+  if (storage == ExrStorage::none) header.compression() = Imf::NO_COMPRESSION;
+  if (storage == ExrStorage::dwaa) header.compression() = Imf::DWAA_COMPRESSION;
+
   if (!image.pixels.empty()) {
     const Imf::Channel channel(inHalf(storage) ? Imf::HALF : Imf::FLOAT);
     for (const char* name : kRadianceLayers) header.channels().insert(name, channel);

@@ -232,11 +232,15 @@ class ObjReader {
 
     if (corners_.empty()) return;
     hasFaces_ = true;
-    if (corners_.size() < 3) return warn("face with fewer than three corners dropped");
+    if (corners_.size() < 3) {
+      warn("face with fewer than three corners dropped");
+      return;
+    }
 
     for (ObjCorner& c : corners_) {
       if (c.position < 0 || placeOf(c.position) >= positions_.size()) {
-        return warn("face with a vertex index out of range dropped");
+        warn("face with a vertex index out of range dropped");
+        return;
       }
       require(c.uv, uvs_.size(), "texture coordinate index out of range ignored");
       require(c.normal, normals_.size(), "normal index out of range ignored");

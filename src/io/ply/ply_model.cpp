@@ -146,10 +146,8 @@ class PlyReader {
     }
 
     if (mesh_.triangles.empty()) {
-      warnNothingToDraw(mesh_.positions.empty() ? "no vertices"
-                        : faces == 0            ? "no faces"
-                                                : "no face that can be built",
-                        file_, warnings_);
+      const char* const why = faces == 0 ? "no faces" : "no face that can be built";
+      warnNothingToDraw(mesh_.positions.empty() ? "no vertices" : why, file_, warnings_);
     }
 
     if (mesh_.materials.empty()) mesh_.materials = {0};
@@ -480,13 +478,16 @@ class PlyReader {
 
   void addFace(const PlyFace& face) {
     if (face.corners.size() < 3) {
-      return warnings_.add("face with fewer than three corners dropped", place());
+      warnings_.add("face with fewer than three corners dropped", place());
+      return;
     }
+
     points_.clear();
     numbers_.clear();
     for (const double corner : face.corners) {
       if (!addCorner(corner)) {
-        return warnings_.add("face with a vertex index out of range dropped", place());
+        warnings_.add("face with a vertex index out of range dropped", place());
+        return;
       }
       points_.emplace_back(mesh_.positions[numbers_.back()]);
     }

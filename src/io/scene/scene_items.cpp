@@ -257,9 +257,13 @@ class ItemReader {
     Body content;
     for (ShapePart& part : shape.parts) {
       const auto slot = slots.find(part.slot);
-      const std::uint32_t material = slot != slots.end() ? slot->second
-                                     : everywhere        ? materials_.find(everywhere)
-                                                         : materials_.defaultMaterial();
+      std::uint32_t material = 0;
+      if (slot != slots.end()) {
+        material = slot->second;
+      } else {
+        material = everywhere ? materials_.find(everywhere) : materials_.defaultMaterial();
+      }
+
       context_.budget.charge(1, bytesOf(part.mesh), name.where());
       part.mesh.materials = {material};
       if (part.mesh.name.empty()) part.mesh.name = name.text() + "/" + part.slot;

@@ -240,10 +240,15 @@ void readOptions(JsonObject& file, SceneDescription& scene) {
     if (value.isObject() || value.isArray() || value.isNull()) {
       value.fail("a number, a word, true or false");
     }
-    const std::string text = value.isNumber() ? shortest(value.number())
-                             : value.isText() ? value.text()
-                             : value.flag()   ? "on"
-                                              : "off";
+    std::string text;
+    if (value.isNumber()) {
+      text = shortest(value.number());
+    } else if (value.isText()) {
+      text = value.text();
+    } else {
+      text = value.flag() ? "on" : "off";
+    }
+
     try {
       setOption(checked, name, text);
     } catch (const Error& error) {
