@@ -105,7 +105,7 @@ class LightLanes {
     return hn::Mul(s, s);
   }
 
-  V3 position_;  // of a directional light the unit vector towards it
+  V3 position_;  // or the unit vector towards a directional light
   VF radiusSquared_;
   bool spot_, directional_;
   V3 axis_;

@@ -136,7 +136,8 @@ HWY_INLINE V3 VisibleNormal(const GlossyLobes& lobes, const UnitPoints& at) {
 
 struct LobeSample {
   V3 direction, weight;
-  VF cosine;  // of the direction to the shading normal; the ray ends in the surface unless above 0
+  // Cosine between direction and shading normal. Unless it is above 0, the ray ends in the surface.
+  VF cosine;
 };
 
 // facetAt() of the scalar reference, with the reflectance of a lobe.

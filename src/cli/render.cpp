@@ -327,7 +327,7 @@ class ImageWriter {
  public:
   ImageWriter(const RenderJob& job, Engine& engine, Progress* progress)
       : job_(job), engine_(engine), films_(openFilms(job, engine.scene())) {
-    engine_.prepare(progress);  // one exposure for all frames, whichever of them are asked for
+    engine_.prepare(progress);  // all frames have one exposure, whichever are written
     run_ = summary();
     sceneDigest_ = digestOf(engine_.scene());
     aboutChannels_ = describeChannels(engine_.scene(), engine_.options().channels);

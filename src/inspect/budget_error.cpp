@@ -15,9 +15,9 @@ namespace {
 constexpr double kAssessShare = 0.01;    // time to assess the error, as a share of the picture's
 constexpr double kChannelMargin = 1.25;  // factor of the noise that the channel `error` estimates
 // The mean of k equal samples among black ones has the relative standard error 1 / sqrt(k) (Kish
-// 1965 calls k the effective number of samples). Where fewer than so many decide a pixel and those
-// around it, they tell little about the samples that were not drawn; and where the other pixels
-// have less than this share of the squared error, the error is not known.
+// 1965 calls k the effective number of samples). Where fewer than kFewSamples decide a pixel and
+// those around it, they tell little about the samples that were not drawn. Where the other pixels
+// have less than the share kLeastKnown of the squared error, the error is not known.
 constexpr double kFewSamples = 8, kLeastKnown = 0.5;
 
 // The error is an estimate that nothing bounds.

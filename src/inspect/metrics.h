@@ -39,7 +39,7 @@ std::array<std::uint8_t, 3> heatColor(double t);
 struct ValueDifference {
   std::uint64_t differing = 0;     // pixels whose values are not equal; two NaN are
   std::uint64_t incomparable = 0;  // number of values that are not finite
-  double largest = 0, rms = 0;     // of the differences of all others; 0 of numbers
+  double largest = 0, rms = 0;     // differences of all others; 0 for numbers
 };
 
 // Both have the same length.

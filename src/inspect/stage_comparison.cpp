@@ -44,8 +44,8 @@ constexpr double kNormalLimit = 4;        // cross product by differences of pro
 // the contrast between two of them it is a visible number of ulps of the color (hard case H68).
 constexpr double kTexturedLimit = 4096;
 constexpr double kSkyLimit = 512;  // likewise, for azimuth and elevation
-// A footprint that is wrong by so many ulps moves the lookup between mip levels, whose contrast may
-// be that of the color; of a compact triangle that is seen head on.
+// Largest error of a footprint on a compact triangle that is seen head on. The footprint moves the
+// lookup between mip levels, whose contrast may be that of the color.
 constexpr double kFootprintLimit = 16;
 constexpr double kConeLimit = 2;       // one product and one sum
 constexpr double kRadianceLimit = 32;  // a dozen factors, some of them squared

@@ -34,7 +34,7 @@ std::string lightName(const Scene& scene, std::uint32_t light);
 // The name of the medium in which a ray travels.
 std::string mediumName(const Scene& scene, std::uint32_t media);
 const char* nameOf(PathEnd end);    // "" for none
-std::string colorOf(RayLook look);  // of its lines, "#ff0000"
+std::string colorOf(RayLook look);  // color of its lines, "#ff0000"
 
 // The words that describe a ray of the packets.
 struct RayText {

@@ -322,7 +322,7 @@ Impulse frostedImpulse(const Surfel& s, MediaStack, const UnitPoint& at,
   Facet facet = facetAt(s, at, choices.fresnel);
   const double alpha = widthOfFacets(s);
   Vec3d direction;
-  double depth = 0, passes = 0;  // as a sine, under the surface; past other facets
+  double depth = 0, passes = 0;  // sine under the surface; share that passes other facets
   if (f.ofSheet) {
     if (!f.reflects) facet.reflectance = {};
     depth = std::fabs(facet.elevation);

@@ -190,8 +190,8 @@ Choice Tracer::chooseImpulses(const Impulses& impulses, const Surfel& surfel,
   return choice;
 }
 
-// The radiance that an impulse brings back, if it is worth following. It has one of so many shares
-// of its lobe.
+// Returns the radiance that an impulse brings back, if it is worth following. The impulse is one of
+// `shares` samples of its lobe.
 RgbD Tracer::follow(const Impulse& impulse, RayKind kind, int depth, double throughput,
                     RayCounts& counts, Path path, int shares, Choice& choice) const {
   const double largest = maxComponent(impulse.weight), contribution = throughput * largest;

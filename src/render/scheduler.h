@@ -13,7 +13,7 @@
 
 namespace whit {
 
-// Kernels read whole vectors of pixels: lists have room for so many behind their end.
+// Number of entries behind the end of a list, because kernels read whole vectors of pixels.
 inline constexpr std::size_t kListPadding = 2 * kBlock;
 
 // The packed pixels of each tile of the window, in Morton order: any 4, 8 or 16 that follow each

@@ -30,7 +30,7 @@ void keepChannels(Chunk& c);
 // Rays are counted where they are traced, and the counts follow the way of the radiance: each ray
 // is one, with its shadow rays and all that its children bring back.
 void countRays(Chunk& c);
-void countShadowRays(Chunk& c);  // of the light in hand
+void countShadowRays(Chunk& c);  // the rays to the current light
 void returnRayCounts(Chunk& c);  // to the parents
 void keepRayCounts(Chunk& c);
 

@@ -20,7 +20,7 @@ namespace whit {
 // from there.
 inline constexpr float kLargestCoordinate = 1.844e18f;
 
-// Names are kept of so many items.
+// Names are kept of the first kNamedItems items.
 inline constexpr std::size_t kNamedItems = 65536;
 
 // Cameras and lights in the space of the node that moves them. A camera without a node follows the

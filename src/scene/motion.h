@@ -52,7 +52,7 @@ struct RigNode {
   std::uint32_t parent = kNoNode;  // comes before it
   Affine toParent;                 // map from the space in which it moves
   SharedMotion motion;             // none: it stands still there
-  std::string name = {};           // of what is moved by hand: its place in the file
+  std::string name = {};           // place in the file, if a program moves the node
 };
 
 // A hierarchy of frames of reference that move, each in the frame of its parent.
@@ -103,7 +103,7 @@ struct Deformation {
   std::vector<Vec3f> positions, normals;  // as they were modelled; normals of all vertices or none
   std::vector<MorphTarget> targets;
   std::vector<double> weights;          // weights of targets; missing ones are zero
-  std::optional<Track> movingWeights;   // in place of them
+  std::optional<Track> movingWeights;   // replaces `weights` if they move
   std::shared_ptr<const Rig> skeleton;  // none: no skin
   struct Joint {
     std::uint32_t node = 0;  // node of the skeleton

@@ -214,7 +214,7 @@ float grazingRatioOf(const GltfMaterial& g, float metal) {
 
 Rgb mix(const Rgb& a, const Rgb& b, float t) { return a * (1 - t) + b * t; }
 
-// What is cut out of a surface, and how much of the rest is there.
+// Sets where the surface is cut out, and how much of the rest is there.
 void setCoverage(const GltfMaterial& g, const GltfMeans& means, Material& m) {
   m.alphaByVertex = g.multipliesAlpha();
   const bool cuts = g.alphaMode == GltfMaterial::Alpha::mask;

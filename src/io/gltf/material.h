@@ -117,8 +117,8 @@ struct GltfMaterial {
 // Alpha is looked up in a texture of two texels, between whose centers it rises evenly from 0 to 1.
 inline float alphaRampU(float alpha) { return 0.25f + 0.5f * std::clamp(alpha, 0.0f, 1.0f); }
 
-// One for each material, and the format's default last. What cannot be represented is counted in
-// the document's warnings.
+// Reads all materials of the document, and adds the format's default as the last one. Properties
+// that cannot be represented are counted in the document's warnings.
 std::vector<GltfMaterial> readGltfMaterials(const GltfDocument& document);
 
 // The means of maps that the factors of a Material depend on.
@@ -158,7 +158,7 @@ bool lacksCoordinates(const GltfMaterial& material);
 //   specular and mirror as well; of unlit materials the emission.
 Material shadedAs(const GltfMaterial& source, const GltfMeans& means);
 
-// An image of the document, decoded when it is asked for and for as long as somebody holds it.
+// An image of the document. It is decoded when it is needed, and freed when nobody holds it.
 class GltfImage;
 
 struct GltfMaps {
@@ -171,7 +171,7 @@ using GltfShading = std::function<Material(const GltfMeans& means)>;
 
 class GltfMapMaker {
  public:
-  // Materials refer to `images` by their numbers.
+  // Materials refer to `images` by their indices.
   GltfMapMaker(const std::vector<GltfImageSource>& images, Warnings& warnings);
 
   // Returns `material` with slots for the maps of `source` that are not `given`. When the textures
@@ -182,7 +182,7 @@ class GltfMapMaker {
                             GltfShading shading);
 
  private:
-  // Materials with the same maps share slots.
+  // Returns the slots of a material's maps. Materials with the same maps share slots.
   GltfMaps request(const GltfMaterial& material, TextureLoader& textures);
 
   Warnings& warnings_;

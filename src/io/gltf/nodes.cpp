@@ -151,7 +151,7 @@ Affine mapOf(const std::vector<double>& matrix) {
   return {column(0), column(1), column(2), column(3)};
 }
 
-// As Scene::finalize() wants maps to be.
+// True if the map is finite and flattens nothing, as Scene::finalize() requires.
 bool isUsable(const Affine& a) {
   constexpr double kSmallestSine = 1e-12;
   for (const Vec3d& column : {a.x, a.y, a.z, a.p}) {

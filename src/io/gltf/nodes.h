@@ -24,7 +24,7 @@ inline constexpr double kLumensPerWatt = 683;
 // by index; kNoNode stands for the scene.
 struct GltfPlacedMesh {
   std::size_t mesh = 0;
-  Affine toMover;  // of a skinned mesh the identity: its joints place it
+  Affine toMover;  // identity for a skinned mesh: its joints place it
   std::uint32_t mover = kNoNode;
   Deformation deformation;  // only weights, skeleton and joints are set; the mesh has the rest
   std::size_t node = 0;     // node that shows it
