@@ -202,8 +202,8 @@ mutations() {
   testedBy io_test 'EveryProperty.*'
   plant wrap-t-of-s src/io/gltf/material.cpp 'readWrap(sampler["wrapT"])' 'readWrap(sampler["wrapS"])'
   plant specular-not-clamped src/io/gltf/material.cpp \
-    'm.f90 = readNumber(specular["specularFactor"], 1);' \
-    'm.f90 = readNumber(specular["specularFactor"], 1, -1e9, 1e9);'
+    'm_.f90 = readNumber(specular["specularFactor"], 1);' \
+    'm_.f90 = readNumber(specular["specularFactor"], 1, -1e9, 1e9);'
   testedBy cli_test 'EveryOption.*:Program.*:TurntableCommand.*:MemoryMb.*:Limits.*'
   plant too-little-energy-passes src/cli/compare.cpp \
     'std::fabs(d.energyRatio - 1) <= kMostEnergyOff' 'd.energyRatio - 1 <= kMostEnergyOff'
