@@ -1,5 +1,5 @@
-// The surfels that send rays on, the children that these become, and the way back; and what the
-// layers of a surface leave for each other.
+// addImpulses: the rays that surfels reflect, refract and sample become children, whose radiance
+// returns to them. findLayers: how much light each layer of a surface leaves for the layers below.
 #include <limits>
 
 #include "simd/kernels.h"
@@ -16,8 +16,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
 
-// A chunk as addImpulses sees it: what lies in the chunk itself would be read again after each
-// store to its columns.
+// Copies of what the kernels of this file read from a chunk. Compilers would read the chunk's own
+// members again after each store to its columns, because the store might change them.
 struct ImpulseJob {
   const Chunk& chunk;
   const ShadingTables& tables = chunk.tables();
@@ -37,24 +37,25 @@ struct ImpulseJob {
   bool mirrorMaps = chunk.has(Feature::mirrorMaps);
   bool transmissionMaps = chunk.has(Feature::transmissionMaps);
   float* ended = chunk.radiance.ended;
-  bool notesEnds = chunk.has(Feature::ended) && roulette == 0;  // which ends none but by chance
+  // Notes the light that ended paths could bring. Roulette loses none on average.
+  bool notesEnds = chunk.has(Feature::ended) && roulette == 0;
 };
 
-// The values that both kinds of impulse need for a vector of surfels.
+// The values of a vector of surfels that all kinds of impulse need. Masks select surfels that:
 struct ImpulseLanes {
-  MF live;        // the surfel has an impulse of the kind in question
-  MF dielectric;  // and bounds a medium
-  MF hidden;      // and is not there, because a higher priority fills its place
-  MF covers;      // the surfel's glossy lobe takes light from what lies below it
-  MF scatters;    // rays sample that lobe
-  MF mirrors;     // or a mirrored ray stands for it as far as it is smooth
-  MF coated;      // the surfel's mirror is a coat
-  MF chooses;     // one of the surfel's lobes is followed
-  MF frosts;      // rays sample what it transmits
-  MF facets;      // and the facets of its interface reflect in place of the lobe
+  MF live;        // have an impulse of the kind in question
+  MF dielectric;  // bound a medium
+  MF hidden;      // bound a medium, where one of a higher priority is already
+  MF covers;      // have a glossy lobe, which takes light from what lies below it
+  MF scatters;    // have a glossy lobe that rays sample
+  MF mirrors;     // have a glossy lobe that a mirrored ray replaces as far as it is smooth
+  MF coated;      // have a mirror that is a coat
+  MF chooses;     // follow only one of their lobes
+  MF frosts;      // transmit light that rays sample
+  MF facets;      // have an interface whose facets reflect in place of the lobe
   V3 direction, ng, ns;
   VF facing;  // cosine between viewer and geometric normal
-  VF cosine;  // between viewer and shading normal, in [0, 1]
+  VF cosine;  // cosine between viewer and shading normal, in [0, 1]
   VI material;
 };
 
@@ -188,11 +189,12 @@ HWY_INLINE VF CoverageAt(const ImpulseJob& job, size_t i) {
 struct Child {
   V3 origin, direction, weight;
   VU media, path;
-  VF largest;  // of the weight, for the cutoff
+  VF largest;  // largest channel of the weight, for the cutoff
   VF cone;
 };
 
-// The lanes whose children go on by Russian roulette, which count for more where it was by chance.
+// Returns the lanes whose children survive Russian roulette. The weights of those that could have
+// been ended grow in return.
 HWY_INLINE MF Survivors(const ImpulseJob& job, Child& child, VF& throughput) {
   const FloatTag d;
   const VF roulette = hn::Set(d, job.roulette), one = hn::Set(d, 1.0f);
@@ -205,11 +207,13 @@ HWY_INLINE MF Survivors(const ImpulseJob& job, Child& child, VF& throughput) {
   return survives;
 }
 
-// Appends the children of the lanes that are worth tracing; returns how many.
+// Appends the children that are worth tracing, and returns their number.
 HWY_INLINE size_t Append(const ImpulseJob& job, Child child, MF live, size_t i, size_t at) {
   const FloatTag d;
   const UintTag du;
   const RayColumns& children = job.children;
+
+  // Without roulette, paths end whose throughput is below the cutoff.
   VF throughput = hn::Mul(hn::Load(d, job.rays.throughput + i), child.largest);
   const MF worth = HWY_UNLIKELY(job.roulette > 0) ? Survivors(job, child, throughput)
                                                   : hn::Ge(throughput, hn::Set(d, job.cutoff));
@@ -219,6 +223,7 @@ HWY_INLINE size_t Append(const ImpulseJob& job, Child child, MF live, size_t i, 
     hn::Store(hn::Add(hn::Load(d, job.ended + i), end), d, job.ended + i);
   }
   if (hn::AllFalse(d, traced)) return 0;
+
   const Compactor compactor(traced);
   compactor.Store(child.origin, children.orgX, children.orgY, children.orgZ, at);
   compactor.Store(child.direction, children.dirX, children.dirY, children.dirZ, at);
@@ -250,14 +255,14 @@ HWY_INLINE VF ConesAt(const ImpulseJob& job, size_t i) {
   return job.cones ? hn::Load(d, job.surfels.cone + i) : hn::Zero(d);
 }
 
-// A reflected direction, lifted where a bent normal would send it below the surface (hard case
-// H32).
-HWY_INLINE V3 Lifted(const V3& r, const V3& ng, VF lift, MF live) {
+// Returns the unit direction `r`, raised to the sine `elevation` above the plane of `ng` if it lies
+// lower: a bent normal would send it below the surface (hard case H32).
+HWY_INLINE V3 Raised(const V3& r, const V3& ng, VF elevation, MF live) {
   const FloatTag d;
   const VF height = Dot(r, ng);
-  const MF low = hn::Lt(height, lift);
+  const MF low = hn::Lt(height, elevation);
   if (HWY_LIKELY(hn::AllFalse(d, hn::And(low, live)))) return r;
-  return Select3(low, NormalizeOr(MulAdd3(ng, hn::Sub(lift, height), r), ng), r);
+  return Select3(low, NormalizeOr(MulAdd3(ng, hn::Sub(elevation, height), r), ng), r);
 }
 
 // `side`: RayOrigin's.
@@ -299,7 +304,7 @@ void AddReflections(Chunk& c) {
     // d - 2 (d.n) n
     const VF twice = hn::Mul(hn::Set(d, -2.0f), Dot(lanes.direction, lanes.ns));
     const V3 mirrored = Normalize3(MulAdd3(lanes.ns, twice, lanes.direction));
-    const V3 r = Lifted(mirrored, lanes.ng, LeastElevation(job, lanes.facing), lanes.live);
+    const V3 r = Raised(mirrored, lanes.ng, LeastElevation(job, lanes.facing), lanes.live);
 
     const Child child{ChildOrigin(job, lanes, i, 1.0f),
                       r,
@@ -346,15 +351,15 @@ class Facets {
 
   GlossyLobes lobes;
   MF ofInterface;
-  bool any;  // of an interface
+  bool any;  // true if any lane has an interface
 
  private:
   FresnelModel model_;
   VF before_, behind_;
 };
 
-// The interface of a lobe that AddSamples() uses: its samples, and the lanes that take more than
-// one. `kSide` is RayOrigin's.
+// AddSamples() takes a structure like this for each sampled lobe. `kSide` is RayOrigin's, At()
+// returns a sample, and `several` are the lanes that take more than one.
 struct GlossySamples {
   static constexpr const Lobe& kLobe = kGlossyLobe;
   static constexpr float kSide = 1;
@@ -388,11 +393,13 @@ struct FrostedSamples {
     const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
     const GlossyLobes& lobes = facets.lobes;
     const Facet facet = facets.At(at);
+
     // A sheet mirrors the mirrored direction once more.
     VF depth = hn::Abs(facet.elevation), passes = one;
     const VF twice = hn::Add(depth, facet.elevation);
     V3 direction = MulAdd3(lobes.z, hn::Neg(twice), facet.mirrored);
 
+    // An interface bends the direction at the facet.
     if (facets.any) {
       const Interface bending = facets.InterfaceAt(facet.cosine);
       const V3 back = MulAdd3(facet.normal, bending.bend, lobes.view);
@@ -432,7 +439,7 @@ struct DiffuseSamples {
   MF several;
 };
 
-// pointOf().
+// The scalar reference is pointOf() in src/stages/lobes.h.
 template <const Lobe& kLobe>
 HWY_INLINE UnitPoints PointsOf(VU path, const LobeSampling& sampling, uint32_t k) {
   if constexpr (kLobe.salt == 0) {
@@ -460,6 +467,8 @@ HWY_INLINE V3 WeightOfLobe(const ImpulseJob& job, const ImpulseLanes& lanes, siz
   const SurfelColumns& s = job.surfels;
   V3 weight{zero, zero, zero};
   if (hn::AllFalse(d, lanes.covers)) return weight;
+
+  // The albedo of lobes that no rays sample is looked up.
   if (!hn::AllTrue(d, hn::Or(lanes.scatters, hn::Not(lanes.covers)))) {
     const V3 f0 = Load3(s.specularR, s.specularG, s.specularB, i);
     const VF roughness = hn::Sqrt(hn::Load(d, s.alpha + i));
@@ -468,6 +477,7 @@ HWY_INLINE V3 WeightOfLobe(const ImpulseJob& job, const ImpulseLanes& lanes, siz
     weight = Select3(lanes.covers, weight, {zero, zero, zero});
   }
   if (hn::AllFalse(d, lanes.scatters)) return weight;
+
   const GlossySamples samples(job, lanes, i);
   const VU path = hn::Load(UintTag(), job.rays.path + i);
   V3 sum{zero, zero, zero};
@@ -490,11 +500,14 @@ void FindLayers(Chunk& c) {
     lanes.live = hn::AndNot(lanes.hidden, lanes.live);
     lanes.covers = hn::And(lanes.covers, lanes.live);
     if (hn::AllFalse(d, lanes.live)) continue;
+
+    // `below` is the share of the light that reaches the diffuse layer.
     const MaterialLanes material(job.tables, lanes.material, lanes.live);
     const V3 mirror = MirrorAt(job, material, lanes.cosine, i);
     const V3 albedo = WeightOfLobe(job, lanes, i);
     V3 lobe = albedo, below = Complement3(albedo), through{zero, zero, zero};
 
+    // Dielectrics transmit a part and reflect a part, which lobe and diffuse layer do not get.
     if (job.transmission) {
       const V3 transmission = TransmissionAt(job, material, i);
       const MF transmits =
@@ -604,7 +617,7 @@ HWY_INLINE void AddSamples(Chunk& c) {
       LobeSample sample = samples.At(PointsOf<kLobe>(path, sampling, k));
       sample.weight = Mul3(sample.weight, covered);
       const MF live = hn::And(sampled, hn::Gt(sample.cosine, hn::Zero(d)));
-      V3 r = Lifted(sample.direction, outward, LeastElevation(job, sample.cosine), live);
+      V3 r = Raised(sample.direction, outward, LeastElevation(job, sample.cosine), live);
       if constexpr (kPasses) r = Select3(samples.straight, lanes.direction, r);
 
       const Child child{origin,
@@ -661,16 +674,17 @@ void AddRefractions(Chunk& c) {
     const V3 bent = MulAdd3(lanes.ns, hn::Neg(interface.bend), lanes.direction);
     V3 r = NormalizeOr(Scale3(bent, hn::Div(one, interface.eta)), lanes.direction);
 
+    // A bent normal must not send the ray back out of the surface (hard case H32).
     const VF height = Dot(r, lanes.ng);
     // Under the geometric normal the ray would leave this steeply, if at all; normals that agree
     // change nothing.
     const VF g2 = MulThenAdd(lanes.facing, lanes.facing, interface.k);
     const VF leaving = hn::Div(hn::Sqrt(hn::Max(g2, hn::Zero(d))), interface.eta);
-    const VF lift = LeastElevation(job, hn::IfThenElse(hn::Gt(g2, hn::Zero(d)), leaving, one));
-    const MF high = hn::Gt(height, hn::Neg(lift));
+    const VF elevation = LeastElevation(job, hn::IfThenElse(hn::Gt(g2, hn::Zero(d)), leaving, one));
+    const MF high = hn::Gt(height, hn::Neg(elevation));
 
     const V3 pressed =
-        NormalizeOr(MulAdd3(lanes.ng, hn::Neg(hn::Add(lift, height)), r), lanes.direction);
+        NormalizeOr(MulAdd3(lanes.ng, hn::Neg(hn::Add(elevation, height)), r), lanes.direction);
     r = Select3(high, pressed, r);
     r = Select3(hn::Or(interface.straight, lanes.hidden), lanes.direction, r);
 

@@ -20,7 +20,7 @@ void FindAmbientAndOcclusionRays(Chunk& c) {
   const ShadowColumns shadows = c.shadows;
 
   const OffsetMethod offset = c.options().shading.offset;
-  const bool nested = c.has(Feature::transmission), lifted = c.has(Feature::lift);
+  const bool nested = c.has(Feature::transmission), offsetsShadows = c.has(Feature::shadowOffset);
   const bool coverage = c.has(Feature::coverage);
 
   // Each of the samples carries an equal share of the ambient light.
@@ -42,14 +42,14 @@ void FindAmbientAndOcclusionRays(Chunk& c) {
     const V3 ng = Load3(surfels.ngX, surfels.ngY, surfels.ngZ, i);
     const V3 ns = Load3(surfels.nsX, surfels.nsY, surfels.nsZ, i);
     const VU path = hn::Load(du, rays.path + i);
-    const V3 way =
+    const V3 direction =
         CosineLobes(ns).Direction(LightPoints(path, points, c.lightNumber, c.lightSample));
 
     // A direction below the facet is occluded by the surface itself, unless the shading terminator
     // is smoothed.
     V3 start = Load3(surfels.posX, surfels.posY, surfels.posZ, i);
-    MF front = hn::Gt(Dot(ng, way), zero);
-    if (lifted) LiftStart(surfels, i, start, front);
+    MF front = hn::Gt(Dot(ng, direction), zero);
+    if (offsetsShadows) OffsetShadowStart(surfels, i, start, front);
 
     // The surface reflects this light if nothing is in the way.
     V3 radiance = Scale3(ambient.At(i, live), share);
@@ -61,7 +61,7 @@ void FindAmbientAndOcclusionRays(Chunk& c) {
     const V3 origin =
         RayOrigin(offset, start, ng, DirectionAt(rays, i), LoadClearance(surfels, i), 1.0f);
     const VU slot = hn::Iota(du, static_cast<uint32_t>(i));
-    AppendShadowRays(shadows, live, origin, way, radius, slot, count);
+    AppendShadowRays(shadows, live, origin, direction, radius, slot, count);
   }
 
   c.shadowCount = count;

@@ -427,7 +427,7 @@ HWY_INLINE Corners UnitNormals(Corners normals) {
   return normals;
 }
 
-// The scalar reference is terminatorLift in src/reference/find_intersections.cpp.
+// The scalar reference is shadowTerminatorOffset in src/reference/find_intersections.cpp.
 void LiftShadowOrigins(Chunk& c) {
   const FloatTag d;
   const ShadingTables& tables = c.tables();
@@ -453,12 +453,12 @@ void LiftShadowOrigins(Chunk& c) {
 
     // The surface that the vertex normals stand for lies above the facet by the weighted depths
     // below the planes of the corners.
-    V3 lift{zero, zero, zero};
+    V3 raised{zero, zero, zero};
     const auto add = [&](const V3& corner, const V3& normal, VF weight) HWY_ATTR {
       // Corner normals point to the outside, the surfel's to the viewer.
       const V3 m = Scale3(normal, hn::CopySign(one, Dot(normal, ng)));
       const VF below = hn::Neg(hn::Add(Dot(Sub3(position, corner), m), offset));
-      lift = MulAdd3(m, hn::Mul(weight, hn::Max(below, zero)), lift);
+      raised = MulAdd3(m, hn::Mul(weight, hn::Max(below, zero)), raised);
     };
 
     add(w.position.c0, w.normal.c0, hn::Sub(hn::Sub(one, u), v));
@@ -467,10 +467,10 @@ void LiftShadowOrigins(Chunk& c) {
 
     if (spheres) {
       const MF on = LoadSpheres(tables, hits, valid, triangle, i).on;
-      lift = Select3(on, {zero, zero, zero}, lift);
+      raised = Select3(on, {zero, zero, zero}, raised);
     }
 
-    Store3(lift, surfels.liftX, surfels.liftY, surfels.liftZ, i);
+    Store3(raised, surfels.shadowOffsetX, surfels.shadowOffsetY, surfels.shadowOffsetZ, i);
   }
 }
 

@@ -31,7 +31,7 @@ class LightLanes {
     coneScale_ = hn::Set(d, static_cast<float>(cone.scale));
   }
 
-  // All the way, or a unit vector where the light is directional.
+  // Returns the vector to the light, of length 1 if the light is directional.
   HWY_INLINE V3 Towards(const V3& from) const {
     return directional_ ? position_ : Sub3(position_, from);
   }
@@ -75,10 +75,10 @@ class LightLanes {
                          MulAdd3(y, hn::Mul(s, hn::Sin(d, turn)), Scale3(z, hn::Sub(one, h))));
     const VF far = hn::Mul(hn::Sub(one, at.u), NegMulThenAdd(height, hn::Add(one, at.u), two));
     const VF inside = hn::Sqrt(hn::Div(far, hn::Sub(two, height)));
-    const VF way =
+    const VF toPoint =
         NegMulThenAdd(hn::Sqrt(radiusSquared_), inside, hn::Mul(distance, hn::Sub(one, h)));
     const VF area = hn::Div(radiusSquared_, hn::Add(height, height));
-    return {Select3(outside, Scale3(l, way), toCenter),
+    return {Select3(outside, Scale3(l, toPoint), toCenter),
             hn::IfThenElse(outside, area, Area(squared))};
   }
 
@@ -105,7 +105,7 @@ class LightLanes {
     return hn::Mul(s, s);
   }
 
-  V3 position_;  // of a directional light the unit vector towards it
+  V3 position_;  // or the unit vector towards a directional light
   VF radiusSquared_;
   bool spot_, directional_;
   V3 axis_;
@@ -174,7 +174,7 @@ void FindRadianceAndShadowRays(Chunk& c) {
   const ShadowColumns shadows = c.shadows;
   const size_t n = c.n;
   const bool traced = c.has(Feature::shadows), nested = c.has(Feature::transmission);
-  const bool lifted = c.has(Feature::lift), coverage = c.has(Feature::coverage);
+  const bool offsetsShadows = c.has(Feature::shadowOffset), coverage = c.has(Feature::coverage);
   const bool fog = c.has(Feature::fog) && light.kind != Light::Kind::directional;
   const bool glossy = c.has(Feature::glossy) && (c.materialFlags & kMaterialGlossy) != 0;
   const bool coats = (c.materialFlags & kMaterialIsUnderCoat) != 0;
@@ -209,7 +209,7 @@ void FindRadianceAndShadowRays(Chunk& c) {
     // Surfels that turn away from the light, or that it does not reach, are done.
     MF front = hn::Gt(Dot(ng, toLight), zero);
     V3 start = position;
-    if (lifted) LiftStart(surfels, i, start, front);
+    if (offsetsShadows) OffsetShadowStart(surfels, i, start, front);
     live = hn::And(live, hn::And(front, hn::Gt(Dot(ns, toLight), zero)));
     live = lanes.Within(hn::And(live, hn::Gt(distanceSquared, zero)), toLight, distanceSquared);
     if (hn::AllFalse(d, live)) {
@@ -266,9 +266,9 @@ void FindRadianceAndShadowRays(Chunk& c) {
     hn::Store(zero, d, unshadowed.visible + i);
     const V3 origin =
         RayOrigin(choices.offset, start, ng, DirectionAt(rays, i), LoadClearance(surfels, i), 1.0f);
-    const V3 way = sampled ? Sub3(Add3(position, toLight), origin) : lanes.Towards(origin);
+    const V3 direction = sampled ? Sub3(Add3(position, toLight), origin) : lanes.Towards(origin);
     const VU slot = hn::Iota(du, static_cast<uint32_t>(i));
-    AppendShadowRays(shadows, live, origin, way, lanes.Reach(), slot, count);
+    AppendShadowRays(shadows, live, origin, direction, lanes.Reach(), slot, count);
   }
   c.shadowCount = count;
 }

@@ -85,9 +85,9 @@ WHIT_KERNEL(LookUpTransmission, "lookUpTransmission", findIntersections,
 WHIT_KERNEL(FindLayers, "findLayers", findIntersections, {Part::rays, Part::surfels},
             {Part::surfels});
 
-// Computes how far shadow rays start above the facet, for surfels between vertex normals that
-// differ, into the lift columns (Hanika 2021, "Hacking the shadow terminator", Ray Tracing Gems II,
-// chapter 4).
+// Computes how far above the facet shadow rays start, for surfels between vertex normals that
+// differ, and stores it as shadowOffset (Hanika 2021, "Hacking the shadow terminator", Ray Tracing
+// Gems II, chapter 4).
 WHIT_KERNEL(LiftShadowOrigins, "liftShadowOrigins", findIntersections, {Part::hits, Part::surfels},
             {Part::surfels});
 
@@ -119,9 +119,9 @@ inline constexpr Kernel kUnpackVisibility{
 WHIT_KERNEL(AddShading, "addShading", addShading, {Part::unshadowed, Part::radiance},
             {Part::radiance});
 
-// Children of the surfels, appended to the chunk's. A child whose throughput is below the cutoff is
-// not written, or under --roulette by chance only, and then for more. There must be room for one a
-// slot, of sampled lobes for so many a slot as lobeSampling says.
+// Appends the children of the surfels to the chunk's. A child whose throughput is below the cutoff
+// is not written; under --roulette it is written by chance, with a larger weight. There must be
+// room for one child per slot, or for sampled lobes for lobeSampling().count children per slot.
 WHIT_KERNEL(AddReflections, "addReflections", addImpulses, {Part::rays, Part::surfels},
             {Part::children, Part::radiance});
 // Samples of the surfels' glossy lobes, each written with its share of the weight; whether it is

@@ -136,15 +136,16 @@ HWY_INLINE V3 VisibleNormal(const GlossyLobes& lobes, const UnitPoints& at) {
 
 struct LobeSample {
   V3 direction, weight;
-  VF cosine;  // of the direction to the shading normal; the ray ends in the surface unless above 0
+  // Cosine between direction and shading normal. Unless it is above 0, the ray ends in the surface.
+  VF cosine;
 };
 
 // facetAt() of the scalar reference, with the reflectance of a lobe.
 struct Facet {
   V3 normal;
-  VF cosine;     // between viewer and facet, in [0, 1]
+  VF cosine;     // cosine between viewer and facet, in [0, 1]
   V3 mirrored;   // the view
-  VF elevation;  // of that over the surface
+  VF elevation;  // sine of its elevation over the surface
   V3 reflectance;
 };
 

@@ -1,7 +1,7 @@
 // Materials at surfels, by the names of their records' members; media along rays and at the
 // surfaces that they meet. A ray travels in a stack of nested dielectrics: four bytes of an
 // integer, each a medium's number, the one entered last in the low byte, 0 for none. Overlaps are
-// settled by priority (Schmidt and Budge 2002, "Simple Nested Dielectrics in Ray Traced Images").
+// decided by priority (Schmidt and Budge 2002, "Simple Nested Dielectrics in Ray Traced Images").
 #if defined(WHIT_SIMD_MATERIAL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef WHIT_SIMD_MATERIAL_INL_H_
 #undef WHIT_SIMD_MATERIAL_INL_H_
@@ -128,10 +128,10 @@ HWY_INLINE MF SurfaceLanes(const SurfelColumns& surfels, bool nested, size_t i) 
 
 // Moves the start of a shadow ray above its facet. Above the facet, the smooth surface alone
 // decides what lies behind the horizon (Hanika 2021).
-HWY_INLINE void LiftStart(const SurfelColumns& surfels, size_t i, V3& start, MF& front) {
-  const V3 lift = Load3(surfels.liftX, surfels.liftY, surfels.liftZ, i);
-  front = hn::Or(front, hn::Gt(MaxComponent(Abs3(lift)), hn::Zero(FloatTag())));
-  start = Add3(start, lift);
+HWY_INLINE void OffsetShadowStart(const SurfelColumns& surfels, size_t i, V3& start, MF& front) {
+  const V3 offset = Load3(surfels.shadowOffsetX, surfels.shadowOffsetY, surfels.shadowOffsetZ, i);
+  front = hn::Or(front, hn::Gt(MaxComponent(Abs3(offset)), hn::Zero(FloatTag())));
+  start = Add3(start, offset);
 }
 
 HWY_INLINE VU PushMedium(VU stack, VU medium) { return hn::Or(hn::ShiftLeft<8>(stack), medium); }
@@ -219,7 +219,16 @@ HWY_INLINE void StoreMedia(const ShadingTables& tables, const RayColumns& rays, 
   hn::Store(behind, du, surfels.mediaBehind + i);
 }
 
-// exp(-sigma * t) into weight and throughput of rays that crossed an absorbing medium.
+// Multiplies weight and throughput of rays by what a medium leaves of their light.
+HWY_INLINE void DimRays(const RayColumns& rays, const V3& factor, size_t i) {
+  const FloatTag d;
+  const V3 weight = Load3(rays.weightR, rays.weightG, rays.weightB, i);
+  Store3(Mul3(weight, factor), rays.weightR, rays.weightG, rays.weightB, i);
+  const VF throughput = hn::Load(d, rays.throughput + i);
+  hn::Store(hn::Mul(throughput, MaxComponent(factor)), d, rays.throughput + i);
+}
+
+// Dims rays that crossed an absorbing medium by exp(-sigma * t).
 HWY_INLINE void Absorb(const ShadingTables& tables, const RayColumns& rays, const HitColumns& hits,
                        MF valid, size_t i) {
   const FloatTag d;
@@ -239,11 +248,7 @@ HWY_INLINE void Absorb(const ShadingTables& tables, const RayColumns& rays, cons
     const VF through = hn::IfThenElseZero(valid, hit);
     return hn::IfThenElse(hn::Gt(sigma, hn::Zero(d)), through, hn::Set(d, 1.0f));
   };
-  const V3 factor{transmittance(record.y), transmittance(record.z), transmittance(record.w)};
-  const V3 weight = Load3(rays.weightR, rays.weightG, rays.weightB, i);
-  Store3(Mul3(weight, factor), rays.weightR, rays.weightG, rays.weightB, i);
-  const VF throughput = hn::Load(d, rays.throughput + i);
-  hn::Store(hn::Mul(throughput, MaxComponent(factor)), d, rays.throughput + i);
+  DimRays(rays, {transmittance(record.y), transmittance(record.z), transmittance(record.w)}, i);
 }
 
 }  // namespace whit::simd::HWY_NAMESPACE

@@ -85,11 +85,11 @@ class Compactor {
 
 // Appends the shadow rays of the live lanes to the first `count` ones.
 HWY_INLINE void AppendShadowRays(const ShadowColumns& rays, MF live, const V3& origin,
-                                 const V3& way, VF tFar, VU slot, size_t& count) {
+                                 const V3& direction, VF tFar, VU slot, size_t& count) {
   const Compactor compactor(live);
 
   compactor.Store(origin, rays.orgX, rays.orgY, rays.orgZ, count);
-  compactor.Store(way, rays.dirX, rays.dirY, rays.dirZ, count);
+  compactor.Store(direction, rays.dirX, rays.dirY, rays.dirZ, count);
   compactor.Store(tFar, rays.tFar + count);
   compactor.Store(slot, rays.slot + count);
 
@@ -113,12 +113,12 @@ HWY_INLINE VF MovedByUlps(VF p, VF n) {
 
 // Distances from a surfel to the starts of its rays (SurfelColumns).
 struct Clearance {
-  VF offset, retreat;
+  VF offset, viewOffset;
 };
 
 HWY_INLINE Clearance LoadClearance(const SurfelColumns& surfels, size_t i) {
   const FloatTag d;
-  return {hn::Load(d, surfels.offset + i), hn::Load(d, surfels.retreat + i)};
+  return {hn::Load(d, surfels.offset + i), hn::Load(d, surfels.viewOffset + i)};
 }
 
 // `side` is 1 for the viewer's side of the surface and -1 for the other one; `direction` is that of
@@ -136,7 +136,8 @@ HWY_INLINE V3 RayOrigin(OffsetMethod method, const V3& position, const V3& ng, c
   // The way that the viewer's ray has come is clear, so on that side the ray also starts a little
   // back along it.
   if (method == OffsetMethod::bound && side > 0) {
-    return MulAdd3(ng, clearance.offset, MulAdd3(direction, hn::Neg(clearance.retreat), position));
+    return MulAdd3(ng, clearance.offset,
+                   MulAdd3(direction, hn::Neg(clearance.viewOffset), position));
   }
 
   const VF offset = method == OffsetMethod::fixed ? hn::Set(d, kFixedOffset) : clearance.offset;

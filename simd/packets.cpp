@@ -31,8 +31,9 @@ struct RaySource {
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE hn::Mask<D> Traceable(D d, V ox, V oy, V oz, V dx, V dy, V dz, float reach) {
   const V org = hn::Add(hn::Add(hn::Abs(ox), hn::Abs(oy)), hn::Abs(oz));
-  const V way = hn::Add(hn::Add(hn::Abs(dx), hn::Abs(dy)), hn::Abs(dz));
-  return hn::And(hn::Le(hn::Add(org, way), hn::Set(d, reach)), hn::Gt(way, hn::Zero(d)));
+  const V direction = hn::Add(hn::Add(hn::Abs(dx), hn::Abs(dy)), hn::Abs(dz));
+  return hn::And(hn::Le(hn::Add(org, direction), hn::Set(d, reach)),
+                 hn::Gt(direction, hn::Zero(d)));
 }
 
 template <size_t kWidth>

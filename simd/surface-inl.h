@@ -175,7 +175,7 @@ HWY_INLINE V3 TransformVector(const MatrixLanes& m, const V3& v) {
 // Transforms from the space of an instance to the world.
 struct PlacementLanes {
   MatrixLanes toWorld, normal;
-  V3 origin;  // of the instance's space
+  V3 origin;  // origin of the instance's space
   VF handedness;
 };
 
@@ -255,7 +255,7 @@ HWY_INLINE void StoreClearance(const Surface& s, VF t, size_t i, const SurfelCol
   const VF across = hn::Mul(s.across, hn::Set(d, 0x1p-24f));
   const VF half = hn::Set(d, 0.5f), back = hn::Min(hn::Mul(most, half), hn::Mul(t, half));
   hn::Store(hn::IfThenElse(s.inDoubt, most, along), d, surfels.offset + i);
-  hn::Store(hn::IfThenElse(s.inDoubt, back, hn::Min(across, back)), d, surfels.retreat + i);
+  hn::Store(hn::IfThenElse(s.inDoubt, back, hn::Min(across, back)), d, surfels.viewOffset + i);
 }
 
 // Transforms the surfaces of hits on instances to the world.

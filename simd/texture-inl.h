@@ -51,7 +51,7 @@ HWY_INLINE AxisTexels WrapAxis(VF s, VF size, VI mode) {
 
 // Texture coordinates that are not finite, or so large that no fraction of a texel is left, count
 // as 0 (H68).
-HWY_INLINE VF TameCoordinate(VF s) {
+HWY_INLINE VF CoordinateOrZero(VF s) {
   const FloatTag d;
   return hn::IfThenElseZero(hn::Le(hn::Abs(s), hn::Set(d, 1048576.0f)), s);
 }
@@ -135,9 +135,9 @@ HWY_INLINE void QueueTexels(TextureFilter filter, const TextureRecord* table,
   const VI wrapV = hn::And(hn::ShiftRight<8>(wrap), hn::Set(di, 0xFF));
 
   // Image rows run downwards, v upwards.
-  AxisTexels x = WrapAxis(TameCoordinate(u), width, wrapU);
+  AxisTexels x = WrapAxis(CoordinateOrZero(u), width, wrapU);
   AxisTexels y =
-      WrapAxis(hn::Sub(hn::Set(d, 1.0f), TameCoordinate(v)), hn::ConvertTo(d, height), wrapV);
+      WrapAxis(hn::Sub(hn::Set(d, 1.0f), CoordinateOrZero(v)), hn::ConvertTo(d, height), wrapV);
 
   // Textures that are not interpolated take the nearer texel along each axis.
   const auto snaps = hn::Gt(wrap, hn::Set(di, int32_t{kNearestTexel} - 1));

@@ -105,7 +105,7 @@ mutations() {
     'MulAdd3(ng, clearance.offset,' 'MulAdd3(ng, hn::Set(d, 1e-3f),'
   plant no-offset simd/new_rays-inl.h \
     'MulAdd3(ng, clearance.offset,' 'MulAdd3(ng, hn::Zero(d),'
-  plant normal-offset-only simd/new_rays-inl.h 'hn::Neg(clearance.retreat)' 'hn::Zero(d)'
+  plant normal-offset-only simd/new_rays-inl.h 'hn::Neg(clearance.viewOffset)' 'hn::Zero(d)'
   plant wrong-offset-side simd/add_impulses.cpp \
     'ChildOrigin(job, lanes, i, -1.0f)' 'ChildOrigin(job, lanes, i, 1.0f)'
   plant approximate-distance simd/packets.cpp \
@@ -136,8 +136,8 @@ mutations() {
     'const size_t live = HWY_MIN(hn::Lanes(d), n - i);' 'const size_t live = hn::Lanes(d);'
   plant dropped-lane simd/add_impulses.cpp \
     'return compactor.Count();' 'return compactor.Count() - (compactor.Count() > 3 ? 1 : 0);'
-  plant no-lift simd/add_impulses.cpp \
-    'const MF low = hn::Lt(height, lift);' 'const MF low = hn::Lt(height, hn::Set(d, -2.0f)); (void)lift;'
+  plant no-elevation simd/add_impulses.cpp \
+    'const MF low = hn::Lt(height, elevation);' 'const MF low = hn::Lt(height, hn::Set(d, -2.0f)); (void)elevation;'
   plant wrong-bend simd/add_impulses.cpp \
     'MulAdd3(lanes.ns, hn::Neg(interface.bend), lanes.direction)' \
     'MulAdd3(lanes.ns, interface.bend, lanes.direction)'
@@ -202,8 +202,8 @@ mutations() {
   testedBy io_test 'EveryProperty.*'
   plant wrap-t-of-s src/io/gltf/material.cpp 'readWrap(sampler["wrapT"])' 'readWrap(sampler["wrapS"])'
   plant specular-not-clamped src/io/gltf/material.cpp \
-    'm.f90 = readNumber(specular["specularFactor"], 1);' \
-    'm.f90 = readNumber(specular["specularFactor"], 1, -1e9, 1e9);'
+    'm_.f90 = readNumber(specular["specularFactor"], 1);' \
+    'm_.f90 = readNumber(specular["specularFactor"], 1, -1e9, 1e9);'
   testedBy cli_test 'EveryOption.*:Program.*:TurntableCommand.*:MemoryMb.*:Limits.*'
   plant too-little-energy-passes src/cli/compare.cpp \
     'std::fabs(d.energyRatio - 1) <= kMostEnergyOff' 'd.energyRatio - 1 <= kMostEnergyOff'

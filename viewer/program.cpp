@@ -9,7 +9,7 @@
 #include "command_line/help_text.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "output/open_and_tell.h"
+#include "output/open_and_warn.h"
 #include "viewer/app.h"
 
 namespace whit::view {
@@ -119,7 +119,7 @@ int runViewer(const std::vector<std::string>& words, ScriptedUser* scripted) {
 
   // This thread draws the window until the other one has read the scene.
   auto loading = std::async(std::launch::async, [&] {
-    const std::shared_ptr<OpenScene> scene = openAndTell(options.scene, options.common, &progress);
+    const std::shared_ptr<OpenScene> scene = openAndWarn(options.scene, options.common, &progress);
     opened = sizeFor({scene->scene.width, scene->scene.height});
     progress.report("building the acceleration structure", 0);
     auto app = std::make_unique<App>(options, scene, window, kept, scripted);

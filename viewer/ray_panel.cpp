@@ -98,7 +98,7 @@ class RayTreeTab {
     const RayNode& n = tree_.nodes[number];
 
     // Rays that add a noticeable share to the pixel begin unfolded.
-    const RgbD added = addedBy(tree_, number, n.radiance);
+    const RgbD added = contributionOf(tree_, number, n.radiance);
     const double share = maxComponent(added) / std::max(1e-12, double{maxComponent(tree_.pixel)});
 
     ImGui::PushID(static_cast<int>(number));

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -99,7 +98,7 @@ RTCRayHit singleRay(const EmbreeScene& scene, const Vec3f& origin, const Vec3f& 
 // Returns the hit with Embree's own t, u and v, which other processors round differently.
 Hit findUnrefined(const EmbreeScene& scene, const Vec3f& origin, const Vec3f& direction,
                   bool coherent, float tNear) noexcept {
-  constexpr float kUnbounded = std::numeric_limits<float>::infinity();
+  constexpr float kUnbounded = kInfinity;
   RTCRayHit r = singleRay(scene, origin, direction, tNear, kUnbounded, kSeenMask);
   QueryContext context(coherent);
   context.setRay(origin, direction);
@@ -322,7 +321,7 @@ int isNearEdge(float u, float v) {
 // Among triangles at one distance, Embree keeps one that depends on the order of its tests, and the
 // other rays of a packet change that order. Hits near an edge are therefore traced again, each by
 // itself, in the one order that a single ray has.
-void settleEdges(const Accel::Parts& parts, const HitRange& range) noexcept {
+void retraceEdgeHits(const Accel::Parts& parts, const HitRange& range) noexcept {
   constexpr std::size_t kRun = 4 * kBlock;  // hits that are tested together for any near an edge
   const HitColumns& hits = range.hits;
   for (std::size_t begin = 0; begin < range.n; begin += kRun) {
@@ -367,7 +366,7 @@ void lookPastEye(const Accel& accel, const Scene& scene, const HitRange& range) 
     for (int attempt = 0; attempt < kAttemptsPastEye && hits.triangle[i] != kMiss; ++attempt) {
       const std::uint32_t instance = range.instances ? hits.instance[i] : kNoInstance;
       if (!liesInSurface(scene, Vec3d(origin), hits.triangle[i], instance)) break;
-      const auto tNear = static_cast<float>(wayPastEye(Vec3d(origin), attempt));
+      const auto tNear = static_cast<float>(distancePastEye(Vec3d(origin), attempt));
       store(accel.closest(origin, direction, tNear), range, i);
     }
   }
@@ -433,7 +432,7 @@ void Accel::findHits(Chunk& c) const noexcept {
 
   // The rays of a packet must not influence which of two neighbors is hit on their edge.
   const HitRange all{c.rays, c.hits, c.n, c.coherent, instances};
-  if (parts_->packet != 1) settleEdges(*parts_, all);
+  if (parts_->packet != 1) retraceEdgeHits(*parts_, all);
 
   // A ray that leaves an enclosed scene has slipped through a corner (hard case H14).
   if (enclosed_) {

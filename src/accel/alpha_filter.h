@@ -93,7 +93,7 @@ float marginAt(const Mask& mask, const Scene& scene, std::uint32_t triangle, flo
 struct FilteredTriangles {
   const Scene& scene;
   std::uint32_t first;  // number of the first triangle
-  const Mask* masks;    // one a material of the scene
+  const Mask* masks;    // a mask for each material of the scene
 
   const Mask& maskOf(std::uint32_t primitive) const {
     return masks[scene.triangles[first + primitive].material];

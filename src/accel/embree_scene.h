@@ -102,7 +102,7 @@ class EmbreeScene {
   std::deque<SphereGeometry> spheres_;      // Embree keeps pointers to them
   std::vector<std::uint32_t> triangleBase_;
   DeviceHandle device_;
-  std::vector<SceneHandle> scenes_;  // one a Scene::geometries
+  std::vector<SceneHandle> scenes_;  // a scene for each of Scene::geometries
   // The top-level scene of a scene that moves. The world is an instance in it, so that it is not
   // built again with the other instances.
   SceneHandle top_;

@@ -8,6 +8,7 @@
 
 #include "bake/facet.h"
 #include "bake/sphere.h"
+#include "core/contains.h"
 
 namespace whit {
 
@@ -34,6 +35,16 @@ bool isOnRay(const QueryRay& ray, QueryHit& hit) {
 bool isOnMask(float margin, QueryHit& hit) {
   hit.certain = hit.certain && margin > 0x1p-16f;
   return margin >= 0;
+}
+
+// Returns false where rays pass a triangle: single-sided ones from behind, others where a mask cuts
+// them.
+bool isSolid(const Mask& mask, const Scene& scene, QueryHit& hit) {
+  if (hit.back && !mask.doubleSided) return false;
+  return !mask.map ||
+         isOnMask(marginAt<&Mask::cutoff>(mask, scene, hit.id.triangle, static_cast<float>(hit.u),
+                                          static_cast<float>(hit.v)),
+                  hit);
 }
 
 // Bound on the error of a corner that an instance transforms.
@@ -82,19 +93,15 @@ std::optional<QueryHit> ExactIntersector::hitTriangle(const QueryRay& ray,
   const double wa = dot(ray.direction, cross(b, bc));
   const double wb = dot(ray.direction, cross(c, ca));
   const double wc = dot(ray.direction, cross(a, ab));
-  const double ea = errorOf(sizeB, sizeBC);
-  const double eb = errorOf(sizeC, sizeCA);
-  const double ec = errorOf(sizeA, sizeAB);
-  const Sign sa = signOf(wa, ea), sb = signOf(wb, eb), sc = signOf(wc, ec);
+  const std::array signs{signOf(wa, errorOf(sizeB, sizeBC)), signOf(wb, errorOf(sizeC, sizeCA)),
+                         signOf(wc, errorOf(sizeA, sizeAB))};
 
   // Two weights of opposite sign mean that the ray passes outside an edge.
-  const bool anyNegative = sa == Sign::negative || sb == Sign::negative || sc == Sign::negative;
-  const bool anyPositive = sa == Sign::positive || sb == Sign::positive || sc == Sign::positive;
-  if (anyNegative && anyPositive) return std::nullopt;
+  if (contains(signs, Sign::negative) && contains(signs, Sign::positive)) return std::nullopt;
 
   QueryHit hit;
   hit.id = id;
-  hit.certain = sa == sb && sb == sc && sa != Sign::unknown;
+  hit.certain = !contains(signs, Sign::unknown);
 
   // The distance is the ratio of height and slope, each of which has its error.
   const Vec3d normal = cross(ab, -ca);
@@ -126,17 +133,7 @@ std::optional<QueryHit> ExactIntersector::hitTriangle(const QueryRay& ray,
       id.instance != kNoInstance && scene_.instances[id.instance].toWorld.determinant() < 0;
   hit.back = (slope > 0) != mirrored;
 
-  // Rays pass single-sided surfaces from behind, and surfaces where a mask cuts them.
-  const Mask& mask = maskOf(id.triangle);
-  if (hit.back && !mask.doubleSided) return std::nullopt;
-  if (mask.map &&
-      !isOnMask(marginAt<&Mask::cutoff>(mask, scene_, id.triangle, static_cast<float>(hit.u),
-                                        static_cast<float>(hit.v)),
-                hit)) {
-    return std::nullopt;
-  }
-
-  return hit;
+  return isSolid(maskOf(id.triangle), scene_, hit) ? std::optional(hit) : std::nullopt;
 }
 
 // In the space of the unit sphere, the ray's point closest to the center shows without cancellation
@@ -145,31 +142,32 @@ int ExactIntersector::hitSphere(const QueryRay& ray, PlacedTriangleId id,
                                 QueryHit (&hits)[2]) const {
   const Affine map = sphereInWorld(scene_, id);
   const std::array<Vec3d, 3> rows = inverseRows(map);
-  const Vec3d origin = multiply(rows, ray.origin - map.p), way = multiply(rows, ray.direction);
-  const double square = dot(way, way), along = -dot(origin, way) / square;
-  const Vec3d nearest = origin + way * along;
+  const Vec3d origin = multiply(rows, ray.origin - map.p),
+              direction = multiply(rows, ray.direction);
+  const double square = dot(direction, direction), along = -dot(origin, direction) / square;
+  const Vec3d nearest = origin + direction * along;
 
   // The condition number of the map bounds by how much it magnifies rounding errors.
   const double stretch = (sumOf(rows[0]) + sumOf(rows[1]) + sumOf(rows[2])) *
                          (sumOf(map.x) + sumOf(map.y) + sumOf(map.z));
   const double error = 64 * 0x1p-53 * stretch * (1 + sumOf(origin));
 
-  const double room = 1 - dot(nearest, nearest);
-  if (!(room > -error)) return 0;
+  const double halfChord2 = 1 - dot(nearest, nearest);
+  if (!(halfChord2 > -error)) return 0;
 
   // The two hits lie half a chord before and behind that point.
-  const double half = std::sqrt(std::max(room, 0.0));
+  const double half = std::sqrt(std::max(halfChord2, 0.0));
   int count = 0;
   for (const double sign : {-1.0, 1.0}) {
     QueryHit hit;
     hit.id = id;
     hit.t = along + sign * half / std::sqrt(square);
     hit.tError = (error + error / std::max(half, std::sqrt(error))) / std::sqrt(square);
-    hit.certain = room > error;
+    hit.certain = halfChord2 > error;
     hit.back = sign > 0;
 
     if (!isOnRay(ray, hit)) continue;
-    const std::array<double, 2> weights = sphereWeights(origin + way * hit.t);
+    const std::array<double, 2> weights = sphereWeights(origin + direction * hit.t);
     hit.u = weights[0];
     hit.v = weights[1];
 
@@ -190,13 +188,12 @@ int ExactIntersector::hitSphere(const QueryRay& ray, PlacedTriangleId id,
 bool ExactIntersector::areCoincident(PlacedTriangleId a, PlacedTriangleId b) const {
   if (scene_.isSphere(a.triangle)) {
     const auto place = scene_.coincidentSpheres.find(orderOf(a));
-    return place != scene_.coincidentSpheres.end() &&
-           std::ranges::find(*place->second, b) != place->second->end();
+    return place != scene_.coincidentSpheres.end() && contains(*place->second, b);
   }
 
   if (!scene_.coplanar.any(a.triangle)) return false;
   const auto partners = scene_.coplanar.partnersOf(a);
-  return std::ranges::find(partners, b) != partners.end();
+  return contains(partners, b);
 }
 
 // Applies the rule of surfaces/choose_surface.h, which prefers `a` to `b` if this returns true.
@@ -251,7 +248,7 @@ QueryHit ExactIntersector::nearestOf(std::vector<QueryHit>& hits) const {
 void ExactIntersector::keepDistinct(std::vector<QueryHit>& hits) const {
   std::ranges::sort(hits, isNearer);
   std::vector<QueryHit> kept;
-  double largestError = 0;  // of the kept hits
+  double largestError = 0;  // largest tError of the kept hits
 
   for (const QueryHit& hit : hits) {
     bool isNew = true;

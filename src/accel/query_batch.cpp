@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 namespace whit {
@@ -18,7 +17,7 @@ constexpr double kShortest = 1e-100, kLongest = 1e100;
 
 constexpr std::size_t kPacket = 16;
 // Embree's tFar of a ray that hits nothing, or that needs no more candidates.
-constexpr float kNowhere = -std::numeric_limits<float>::infinity();
+constexpr float kNowhere = -kInfinity;
 // The squared distance of a ray's origin from that of the packet's first ray, plus the squared
 // difference of their directions, is below this for all rays of a coherent packet.
 constexpr float kCoherent = 0.02f;
@@ -37,10 +36,11 @@ bool isSurelyHit(const RTCFilterFunctionNArguments& args, unsigned lane, float m
   constexpr float kLeastSlope = 0x1p-6f;
   const Vec3f normal{RTCHitN_Ng_x(hit, n, lane), RTCHitN_Ng_y(hit, n, lane),
                      RTCHitN_Ng_z(hit, n, lane)};
-  const Vec3f way{RTCRayN_dir_x(ray, n, lane), RTCRayN_dir_y(ray, n, lane),
-                  RTCRayN_dir_z(ray, n, lane)};
-  const float slope = dot(normal, way);
-  return slope * slope > kLeastSlope * kLeastSlope * dot(normal, normal) * dot(way, way);
+  const Vec3f direction{RTCRayN_dir_x(ray, n, lane), RTCRayN_dir_y(ray, n, lane),
+                        RTCRayN_dir_z(ray, n, lane)};
+  const float slope = dot(normal, direction);
+  return slope * slope >
+         kLeastSlope * kLeastSlope * dot(normal, normal) * dot(direction, direction);
 }
 
 // Runs the exact test for the rays that hit the box of a sphere, and shortens them to their hits.
@@ -105,20 +105,20 @@ bool RayBatch::start(const QueryRay& ray, Start& to) const {
   if (!isFinite(ray.origin) || !(size > kShortest && size < kLongest)) return false;
   if (!(ray.tNear <= ray.tFar)) return ray.tNear > ray.tFar;
 
-  // The ray's line crosses the ball if its point closest to the center lies inside. `room` is then
-  // the squared half of the chord.
+  // The ray's line crosses the ball if its point closest to the center lies inside. `halfChord2` is
+  // then the squared half of the chord.
   const QueryFrame& frame = scene_.frame();
   const Vec3d unit = ray.direction / size;
   const Vec3d origin = frame.of(ray.origin);
   const double along = -dot(origin, unit);  // distance to the point closest to the center
   const Vec3d nearest = origin + unit * along;
-  const double room = kBall * kBall - dot(nearest, nearest);
+  const double halfChord2 = kBall * kBall - dot(nearest, nearest);
   const bool known = maxComponent(abs(origin)) < kFarthestOrigin;
-  if (!(room > 0)) return known;
+  if (!(halfChord2 > 0)) return known;
 
   // Embree's ray starts at tNear or where the ray enters the ball, whichever is later. Both of its
   // ends are moved outwards by kAlongError, so that no hit is lost.
-  const double half = std::sqrt(room);
+  const double half = std::sqrt(halfChord2);
   to.perT = size / frame.scale;
   to.shift = std::max(along - half, ray.tNear * to.perT) - kAlongError;
   to.origin = Vec3f(nearest + unit * (to.shift - along));
@@ -167,14 +167,14 @@ bool RayBatch::keep(unsigned ray, const QueryHit& hit, float& tFar) {
   const auto isSurelyBefore = [](const QueryHit& a, const QueryHit& b) {
     return a.certain && a.t + a.tError < b.t - b.tError;
   };
-  QueryHit& first = first_[ray];
+  QueryHit& best = best_[ray];
   const bool nearest = kind_ == QueryKind::closest;
 
-  // If only the nearest hit counts, first_ becomes the hit that is surely nearer, and hits surely
+  // If only the nearest hit counts, best_ becomes the hit that is surely nearer, and hits surely
   // behind it are dropped. All others are kept for hits().
-  if (!first.found() || (nearest && isSurelyBefore(hit, first))) {
-    first = hit;
-  } else if (!nearest || !isSurelyBefore(first, hit)) {
+  if (!best.found() || (nearest && isSurelyBefore(hit, best))) {
+    best = hit;
+  } else if (!nearest || !isSurelyBefore(best, hit)) {
     others_.emplace_back(ray, hit);
   }
 
@@ -275,7 +275,7 @@ void RayBatch::trace(std::span<const QueryRay> rays) {
   others_.clear();
   for (std::size_t i = 0; i < rays.size(); ++i) {
     answers_[i] = {false, start(rays[i], starts_[i])};
-    first_[i] = {};
+    best_[i] = {};
   }
 
   if (kind_ == QueryKind::any) {
@@ -296,8 +296,8 @@ void RayBatch::trace(std::span<const QueryRay> rays) {
 
 std::vector<QueryHit>& RayBatch::hits(std::size_t ray) {
   hits_.clear();
-  if (!first_[ray].found()) return hits_;
-  hits_.push_back(first_[ray]);
+  if (!best_[ray].found()) return hits_;
+  hits_.push_back(best_[ray]);
   const auto isBefore = [](const Other& other, std::size_t own) { return other.first < own; };
   auto next = std::lower_bound(others_.begin(), others_.end(), ray, isBefore);
   for (; next != others_.end() && next->first == ray; ++next) hits_.push_back(next->second);

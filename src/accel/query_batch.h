@@ -25,9 +25,9 @@ class RayBatch {
   void trace(std::span<const QueryRay> rays);
   // Returns what is known about a ray of the last trace().
   const Blocked& answer(std::size_t ray) const { return answers_[ray]; }
-  // Returns the first hit that was kept for the ray. Unless hasOthers(), no ray of the batch has
-  // another.
-  const QueryHit& first(std::size_t ray) const { return first_[ray]; }
+  // Returns the nearest hit of the ray, if the query is for closest hits. While hasOthers(), hits()
+  // may hold some that are as near, because their distances are not exact.
+  const QueryHit& best(std::size_t ray) const { return best_[ray]; }
   bool hasOthers() const { return !others_.empty(); }
   std::vector<QueryHit>& hits(std::size_t ray);
 
@@ -64,7 +64,7 @@ class RayBatch {
   std::span<const QueryRay> rays_;
   std::array<Start, kRays> starts_;
   std::array<Blocked, kRays> answers_;
-  std::array<QueryHit, kRays> first_;  // the first hit that was kept for each ray
+  std::array<QueryHit, kRays> best_;  // each ray's nearest hit; of QueryKind::all any hit
   std::vector<Other> others_;
   std::vector<QueryHit> hits_;
 };

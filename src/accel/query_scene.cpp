@@ -181,7 +181,7 @@ void QueryScene::addSpheres(std::size_t index, double enlargement) {
 // height.
 float QueryScene::marginOf(std::uint32_t number, const Corners& corners, double enlargement) const {
   const Mask& mask = exact_.maskOf(number);
-  if (mask.map || !mask.doubleSided) return std::numeric_limits<float>::infinity();
+  if (mask.map || !mask.doubleSided) return kInfinity;
 
   const Vec3d ab = corners[1] - corners[0];
   const Vec3d bc = corners[2] - corners[1];

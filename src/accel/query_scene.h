@@ -30,7 +30,7 @@ constexpr double kAcrossError = 0x1p-17, kAlongError = 0x1p-13;
 
 // The triangles of an Embree geometry, as its filter reads them.
 struct EnlargedTriangles {
-  std::uint32_t first = 0;  // in Scene::triangles
+  std::uint32_t first = 0;  // index of the first one in Scene::triangles
   // A hit on the enlarged triangle surely lies within the triangle if all of its weights are above
   // this margin. The margin is infinite where a mask or the side counts as well.
   std::vector<float> margins;
@@ -38,7 +38,7 @@ struct EnlargedTriangles {
 
 // The spheres of an Embree geometry. Each is tested where Embree finds its box.
 struct QuerySpheres {
-  std::uint32_t first = 0;  // in Scene::triangles
+  std::uint32_t first = 0;  // index of the first one in Scene::triangles
   std::vector<Box> boxes;
 };
 
@@ -62,11 +62,11 @@ class QueryScene {
 
   const Scene& scene_;
   ExactIntersector exact_;
-  std::vector<QueryFrame> frames_;  // one a geometry; the first is the world's
+  std::vector<QueryFrame> frames_;  // a frame for each geometry; the first is the world's
   std::deque<EnlargedTriangles> triangles_;
   std::deque<QuerySpheres> spheres_;
   DeviceHandle device_;
-  std::vector<SceneHandle> scenes_;  // one a geometry
+  std::vector<SceneHandle> scenes_;  // a scene for each geometry
 };
 
 }  // namespace whit

@@ -30,7 +30,7 @@ RayQueries::~RayQueries() = default;
 void RayQueries::closest(std::span<const QueryRay> rays, QueryHit* hits) const {
   forEachRay(
       *scene_, QueryKind::closest, rays, [&](RayBatch& batch, std::size_t i, std::size_t ray) {
-        hits[ray] = batch.hasOthers() ? scene_->exact().nearestOf(batch.hits(i)) : batch.first(i);
+        hits[ray] = batch.hasOthers() ? scene_->exact().nearestOf(batch.hits(i)) : batch.best(i);
         hits[ray].certain = hits[ray].certain && batch.answer(i).certain;
       });
 }

@@ -183,10 +183,10 @@ void SphereGeometry::occlude(const RTCOccludedFunctionNArguments* args) {
   const unsigned width = args->N;
 
   // Embree takes a tFar of minus infinity as occlusion.
-  own.meet<&Mask::shadowCutoff>(
-      args->primID, args->context, words, width, args->valid, [&](unsigned i, float, float, float) {
-        words[packet_column::tFar * width + i] = -std::numeric_limits<float>::infinity();
-      });
+  own.meet<&Mask::shadowCutoff>(args->primID, args->context, words, width, args->valid,
+                                [&](unsigned i, float, float, float) {
+                                  words[packet_column::tFar * width + i] = -kInfinity;
+                                });
 }
 
 }  // namespace whit

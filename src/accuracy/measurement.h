@@ -37,7 +37,7 @@ struct Timing {
   double medianMs = 0;  // as measured
   double leastMs = 0;
   int rounds = 0;
-  double ratio = 1;                    // to the baseline, the median of the rounds
+  double ratio = 1;                    // median of the rounds' ratios to the baseline
   double ratioLow = 1, ratioHigh = 1;  // see medianInterval()
   double steadyMs = 0;  // ratio times the baseline's median: drift of the machine cancels
 
@@ -82,9 +82,9 @@ struct Point : PointErrors {
   bool minor = false;  // a quick sweep measures it last
 
   Timing timing;
-  FrameStats stats;                 // of the last frame: rays by kind
-  bool onFront = false;             // of `total` over time
-  bool onFrontSameSamples = false;  // of `sameSamples` over time
+  FrameStats stats;                 // rays by kind of the last frame
+  bool onFront = false;             // on the Pareto front of `total` over time
+  bool onFrontSameSamples = false;  // on the front of `sameSamples` over time
   // PNG files: the displayed image, its difference from the truth and from the exact picture with
   // equal samples. They are empty if the picture is the baseline's, and for combinations off the
   // front.

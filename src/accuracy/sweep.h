@@ -15,11 +15,11 @@ namespace whit::accuracy {
 // Most limits count rays, so that the reference does not depend on the speed of the machine.
 struct Limits {
   int samples, leastSamples;
-  double referenceRays;  // for the reference
-  double transportRays;  // for the picture with all transport
-  double scalarRays;     // for a point that the scalar reference renders
+  double referenceRays;  // rays for the reference
+  double transportRays;  // rays for the picture with all transport
+  double scalarRays;     // rays for a point that the scalar reference renders
   double longFrameRays;  // a frame of the baseline with more rays is long
-  double timingSeconds;  // for all points of a scene
+  double timingSeconds;  // time for all points of a scene
   double seconds;        // no point is begun later, apart from the time for timing
 };
 inline constexpr Limits kQuick{64, 2, 30e6, 400e6, 20e6, 2.5e6, 20, 30};
@@ -32,7 +32,7 @@ struct Scope {
   bool chosenKnobs = false;  // the user named the knobs, and all of them are measured
   int baselineSpp = 1;
   double transportPaths = 0;  // paths of a pixel in the picture with all transport, or 0 without it
-  float cutoff = 0;           // of exact pictures
+  float cutoff = 0;           // cutoff of exact pictures
 
   // Samples a pixel of the reference.
   int samples() const {
@@ -89,7 +89,7 @@ struct SweepSettings {
   // Empty for all knobs, or for knobsTowardsTransport() in a quick sweep with Truth::transport.
   std::vector<std::string> knobs;
   std::uint32_t seed = 1;               // gives the order of the points
-  std::optional<double> timingSeconds;  // for all points of a scene; see Limits for the default
+  std::optional<double> timingSeconds;  // for all points of a scene; default: see Limits
 };
 
 // `base` is the baseline. kQuick and kFull limit the samples of the reference and of the picture

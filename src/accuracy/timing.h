@@ -23,7 +23,7 @@ class FrameSource {
 
   Renderer renderer;
   Film film;
-  FrameStats stats;  // of the last frame
+  FrameStats stats;  // statistics of the last frame
 
  private:
   Camera camera_;
@@ -50,8 +50,8 @@ inline constexpr int kMostRounds = 25;
 
 // The times of a point so far.
 struct TimeSamples {
-  std::vector<double> ms;      // one for each frame
-  std::vector<double> ratios;  // one for each round
+  std::vector<double> ms;      // time of each frame
+  std::vector<double> ratios;  // ratio to the baseline of each round
   bool provisional = false;    // only the first frame, which allocates
   Timing timing() const;       // without steadyMs
 };

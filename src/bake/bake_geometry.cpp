@@ -7,6 +7,7 @@
 #include "bake/bake_triangles.h"
 #include "bake/finalize_steps.h"
 #include "bake/sphere.h"
+#include "core/contains.h"
 
 namespace whit {
 
@@ -27,7 +28,7 @@ struct Source {
 struct PlacedSphere {
   Affine map;
   std::uint32_t material = 0;
-  std::uint64_t rank = 0;  // in the order of the scene
+  std::uint64_t rank = 0;  // place in the order of the scene
   std::uint32_t instance = 0, item = 0, number = 0;
 };
 
@@ -272,7 +273,7 @@ class Baker {
     };
 
     // Candidates are the triangles of rigid meshes without transmission.
-    std::vector<Place> places;  // from the last on
+    std::vector<Place> places;  // the last one comes first
     for (const std::uint32_t s : fromTheLast(g)) {
       const Source& source = sources_[g][s];
       if (source.mesh->deformation) continue;
@@ -294,13 +295,14 @@ class Baker {
     };
 
     // Sorting by hash makes equal triangles neighbors; the one to keep comes first.
-    std::vector<std::pair<std::uint64_t, std::size_t>> order(places.size());  // by their hashes
+    // Pairs of a hash and an index of `places`.
+    std::vector<std::pair<std::uint64_t, std::size_t>> order(places.size());
     for (std::size_t k = 0; k < order.size(); ++k) order[k] = {triangle(k).hash(), k};
     std::ranges::sort(order);
 
     // Triangles of equal hashes are compared in full, because different ones may share a hash.
     std::vector<std::size_t> again;
-    std::vector<PlacedTriangle> kept;  // of one hash
+    std::vector<PlacedTriangle> kept;  // the kept triangles of one hash
     for (std::size_t n = 1; n < order.size(); ++n) {
       const auto [hash, k] = order[n];
       if (hash != order[n - 1].first) {
@@ -309,7 +311,7 @@ class Baker {
       }
       if (kept.empty()) kept.push_back(triangle(order[n - 1].second));
       const PlacedTriangle own = triangle(k);
-      if (std::ranges::find(kept, own) != kept.end()) {
+      if (contains(kept, own)) {
         again.push_back(k);
       } else {
         kept.push_back(own);
@@ -507,12 +509,12 @@ class Baker {
   Warnings& warnings_;
   Progress* progress_;
   SceneOrder order_;
-  std::vector<MaterialUse> uses_;                   // one a material
-  std::vector<std::vector<Source>> sources_;        // one list a geometry
+  std::vector<MaterialUse> uses_;                   // a use for each material
+  std::vector<std::vector<Source>> sources_;        // a list for each geometry
   std::vector<std::vector<PlacedSphere>> spheres_;  // likewise
-  std::vector<Box> boxes_;                          // one a geometry, in its own space
+  std::vector<Box> boxes_;                          // a box for each geometry, in its own space
   bool withNormals_ = false, withColors_ = false, withSecondUvs_ = false;
-  bool isSearched_ = false;  // for coplanar triangles
+  bool isSearched_ = false;  // true if coplanar triangles are searched
 };
 
 }  // namespace

@@ -104,7 +104,7 @@ CoplanarTriangles::CoplanarTriangles(const Scene& scene,
 }
 
 void CoplanarTriangles::rankBy(const Scene& scene, const SceneOrder& order) {
-  std::vector<std::pair<WrittenPlace, std::size_t>> all;  // of slots
+  std::vector<std::pair<WrittenPlace, std::size_t>> all;  // pairs of a place and a slot
   for (std::size_t k = 0; k < slots_.size(); ++k) {
     if (slots_[k].count > 0) all.emplace_back(order.placeOf(scene, slots_[k].id), k);
   }

@@ -53,8 +53,8 @@ using CoincidentSpheres =
 // The place of a triangle in the order in which the author wrote the scene; less is earlier.
 struct WrittenPlace {
   std::uint64_t rank = 0;      // Instance::rank + Mesh::rank
-  std::uint32_t instance = 0;  // in SceneDescription::instances
-  std::uint32_t triangle = 0;  // in what the instance places
+  std::uint32_t instance = 0;  // index in SceneDescription::instances
+  std::uint32_t triangle = 0;  // number in what the instance places
 
   // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy takes the 0 of the language for a pointer.
   auto operator<=>(const WrittenPlace&) const = default;
@@ -65,13 +65,13 @@ struct SceneOrder {
   // The triangles of a geometry from this number on, up to those of the next mesh.
   struct PlacedMesh {
     std::uint32_t firstTriangle = 0;
-    std::uint32_t instance = 0;  // of the world; others are placed by InstanceRecord::written
+    std::uint32_t instance = 0;  // instance in the world; others have InstanceRecord::written
     std::uint64_t rank = 0;      // likewise
   };
-  std::vector<std::vector<PlacedMesh>> meshes;  // one list a geometry, in the order of numbers
+  std::vector<std::vector<PlacedMesh>> meshes;  // a list for each geometry, in the order of numbers
   std::vector<std::uint32_t> triangles;         // the number of each of Scene::triangles
-  std::vector<WrittenPlace> spheres;            // of each sphere, as if its instance were the first
-  std::vector<std::uint64_t> instances;         // the rank of each of the description
+  std::vector<WrittenPlace> spheres;     // each sphere's place, as if its instance were the first
+  std::vector<std::uint64_t> instances;  // the rank of each of the description
 
   WrittenPlace placeOf(const Scene& scene, PlacedTriangleId id) const;
 };
@@ -162,8 +162,8 @@ class CoplanarTriangles {
     PlacedTriangleId id;
     std::uint32_t count = 0;  // 0: the slot is free
     std::uint32_t rank = 0;
-    std::uint64_t first = 0;    // in partners_
-    std::size_t firstCell = 0;  // in cells_
+    std::uint64_t first = 0;    // index in partners_
+    std::size_t firstCell = 0;  // index in cells_
     std::size_t side = 1;       // the number of cells along each side of a square
   };
   static std::size_t cellOf(double weight, std::size_t side) {
@@ -179,11 +179,11 @@ class CoplanarTriangles {
   std::vector<std::uint64_t> any_;  // a bit a triangle
   std::vector<Slot> slots_;         // a hash table with open addressing, at most half full
   std::vector<PlacedTriangleId> partners_;
-  std::vector<std::uint32_t> ranks_;  // one for each of partners_
+  std::vector<std::uint32_t> ranks_;  // a rank for each of partners_
   std::vector<CoveredPart> covered_;  // the part that each of partners_ covers of its triangle
   // A cell that some partner overlaps lists all partners that reach into it.
   struct Cell {
-    std::size_t first = 0, count = 0;  // in inCells_
+    std::size_t first = 0, count = 0;  // range of inCells_
   };
   std::vector<Cell> cells_;
   std::vector<std::size_t> inCells_;  // places in partners_

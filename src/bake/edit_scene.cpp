@@ -247,7 +247,7 @@ void moveScene(Scene& scene, double seconds) {
     if (instance.mover != kNoNode) instance.toWorld = poses[instance.mover] * instance.toMover;
   }
 
-  Warnings expected;  // that some are flattened at times
+  Warnings expected;  // instances that are flattened at times
   boundInstances(scene, motion.boxes, expected);
   scene.coincidentSpheres = findCoincidentSpheres(scene, motion.order);
 

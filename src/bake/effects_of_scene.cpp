@@ -130,11 +130,11 @@ class Gatherer {
     // The interface of frosted glass reflects no blurred sky.
     const bool rough = scene_.effects.has(Effect::glossyReflection) &&
                        std::ranges::any_of(scene_.materials, &Material::hasGlossyReflection);
+    const char* const missing =
+        rough ? "the ambient light has a reflection of 0"
+              : "no mesh uses a material whose glossy lobe reflects the scene";
     set(Effect::blurredSky, sky && rough && scene_.ambient.reflection > 0,
-        "a glossy lobe reflects the sky",
-        !sky    ? "the sky is black"
-        : rough ? "the ambient light has a reflection of 0"
-                : "no mesh uses a material whose glossy lobe reflects the scene");
+        "a glossy lobe reflects the sky", sky ? missing : "the sky is black");
     const bool blurred = scene_.effects.has(Effect::blurredSky);
     // Making the image takes milliseconds; editSky() removes it where the sky becomes another one.
     if (!blurred) scene_.blurredSky = EnvironmentImage();

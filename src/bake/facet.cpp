@@ -54,7 +54,7 @@ struct Weights {
 // if its weights are off by as much as `off`.
 std::array<CoveredPart::Edge, 3> edgesAround(const std::array<Weights, 3>& corners,
                                              const Weights& off) {
-  constexpr double kRounding = 0x1p-20;  // of the sum in floats
+  constexpr double kRounding = 0x1p-20;  // relative error of the sum in floats
   std::array<CoveredPart::Edge, 3> edges;
   for (std::size_t i = 0; i < 3; ++i) {
     // The line through corners p and q is a * u + b * v + c = 0.
@@ -191,7 +191,7 @@ bool liesInSurface(const Scene& scene, const Vec3d& eye, std::uint32_t number,
   return std::fabs(length(unit) - 1) * stretch <= roundingOf(eye);
 }
 
-double wayPastEye(const Vec3d& eye, int attempt) {
+double distancePastEye(const Vec3d& eye, int attempt) {
   constexpr double kLeast = 1e-30;  // a product with it still is a float
   return std::ldexp(std::max(roundingOf(eye), kLeast), attempt);
 }

@@ -62,7 +62,7 @@ bool liesInSurface(const Scene& scene, const Vec3d& eye, std::uint32_t number,
 
 // Distance along a ray from the eye, in lengths of its direction, within which surfaces that
 // contain the eye are skipped at attempt 0. It doubles with each further attempt.
-double wayPastEye(const Vec3d& eye, int attempt);
+double distancePastEye(const Vec3d& eye, int attempt);
 inline constexpr int kAttemptsPastEye = 40;
 
 }  // namespace whit

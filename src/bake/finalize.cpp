@@ -157,7 +157,7 @@ Scene Scene::finalize(SceneDescription&& description, Warnings& warnings, Progre
   SceneDescription d = std::move(description);
   validate(d);
   // Triangles are classified by the sides that are seen, so these are decided before baking.
-  settleSides(d);
+  decideDoubleSided(d);
   if (d.isModel && d.motion.rig.empty()) noteHiddenSides(d, warnings);
   packTextures(d.textures, usableThreads());
 
@@ -206,7 +206,7 @@ ItemNumbers::Run ItemNumbers::find(std::uint32_t triangle) const {
   return run;
 }
 
-Scene::MetNumbers Scene::numbersOf(std::uint32_t triangle, std::uint32_t instance) const {
+Scene::HitNumbers Scene::numbersOf(std::uint32_t triangle, std::uint32_t instance) const {
   constexpr std::uint64_t kLast = std::numeric_limits<std::uint32_t>::max() - 1;
   const ItemNumbers::Run own = items.find(triangle);
   const std::uint64_t first = instance == kNoInstance ? 0 : instances[instance].firstItem;

@@ -24,7 +24,7 @@ SceneOrder bakeGeometry(SceneDescription& description, Scene& scene, Warnings& w
 // Makes materials double-sided whose back faces cannot be seen or must not be passed: those that
 // bound a medium, and those that are used by closed surfaces without holes only, as seen from
 // outside.
-void settleSides(SceneDescription& description);
+void decideDoubleSided(SceneDescription& description);
 // Adds a note for each mesh that is invisible because all cameras are behind its single-sided
 // triangles.
 void noteHiddenSides(const SceneDescription& description, Warnings& warnings);

@@ -28,9 +28,9 @@ constexpr int kInstancesInOnePlace = 4;
 constexpr std::int64_t kWork = std::int64_t{1} << 28, kWorkPerTriangle = 256;
 constexpr std::int64_t kWorkOfInstances = std::int64_t{1} << 24;
 constexpr std::size_t kManyGroups = 64;
-constexpr std::int64_t kWorkOfNodes = 16;   // of splitting two nodes
-constexpr std::int64_t kWorkOfFacets = 4;   // of comparing two facets
-constexpr std::int64_t kWorkOfPair = 128;   // of a pair that is found, because it takes memory
+constexpr std::int64_t kWorkOfNodes = 16;   // cost of splitting two nodes
+constexpr std::int64_t kWorkOfFacets = 4;   // cost of comparing two facets
+constexpr std::int64_t kWorkOfPair = 128;   // cost of a pair that is found, because it takes memory
 constexpr std::int64_t kWorkOfTask = 1024;  // likewise
 
 // Pairs of nodes with at most this many triangles become tasks for threads.
@@ -64,7 +64,7 @@ struct Slope {
 };
 
 Slope slopeOf(const Facet& facet) {
-  constexpr double kRounding = 1e-6;  // of the normals and of their cross product in floats
+  constexpr double kRounding = 1e-6;  // error of the normals and of their cross product in floats
   constexpr double kMargin = 1.001;
   return {Vec3f(facet.normal),
           static_cast<float>(kRounding + kMargin * 2 * facet.error / leastAltitude(facet))};
@@ -265,7 +265,7 @@ class BoxTree {
 
  private:
   std::vector<TreeItem> items_;
-  std::vector<std::uint32_t> places_;  // in items_, of each box of level 0
+  std::vector<std::uint32_t> places_;  // index in items_ of each box of level 0
   std::vector<std::vector<BoxBlock>> levels_;
   std::vector<std::uint32_t> counts_;  // boxes of each level
 };
@@ -328,8 +328,8 @@ class Space {
 
  private:
   const Scene& scene_;
-  double error_ = 0;       // of all facets, if it is not 0
-  double leastShare_ = 1;  // of a facet's own error in Facet::least
+  double error_ = 0;       // error of all facets, if it is not 0
+  double leastShare_ = 1;  // least share of a facet's own error in Facet::least
 };
 
 // Triangles that are searched: the items of the tree are their orderOf(), or, in an instance, their
@@ -442,13 +442,13 @@ class PairFinder {
 
     forEachMarked(markedA, [&](std::size_t i) {
       const Box box = ofA.boxes.box(i);
-      BoxBlock::Bytes met = ofB.boxes.meeting(box) & markedB;
-      if (isSame) met &= ~BoxBlock::Bytes{0} << 8 * i;  // each pair once
-      if (met == 0) return;
+      BoxBlock::Bytes overlapping = ofB.boxes.meeting(box) & markedB;
+      if (isSame) overlapping &= ~BoxBlock::Bytes{0} << 8 * i;  // each pair once
+      if (overlapping == 0) return;
 
       const Node first =
           nodeOf(box, ofA.group, ofA.level, ofA.first + static_cast<std::uint32_t>(i));
-      forEachMarked(met, [&](std::size_t k) {
+      forEachMarked(overlapping, [&](std::size_t k) {
         const Node second = nodeOf(ofB.boxes.box(k), ofB.group, ofB.level,
                                    ofB.first + static_cast<std::uint32_t>(k));
         search(first, second);
@@ -669,8 +669,8 @@ class CoplanarFinder {
   const Scene& scene_;
   int threads_;
   Space world_;
-  std::vector<BoxTree> trees_;  // one a geometry
-  std::vector<bool> leftOut_;   // one an instance
+  std::vector<BoxTree> trees_;  // a tree for each geometry
+  std::vector<bool> leftOut_;   // true for each instance that is left out
   bool complete_ = true;
 };
 

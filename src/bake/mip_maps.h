@@ -13,7 +13,7 @@ namespace whit {
 
 // Levels of the largest texture: from 2^16 texels a side to one.
 inline constexpr int kMipLevels = 17;
-inline constexpr float kLargestArea = 0x1p32f;  // in texels
+inline constexpr float kLargestArea = 0x1p32f;  // number of texels
 
 // A texture as a material shows it. Rays that a mask cuts away see nothing of the texture, and
 // where coverage is low little is seen of it, so its mip levels are means weighted by what is left

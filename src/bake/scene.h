@@ -61,7 +61,7 @@ struct Geometry {
   std::vector<std::array<std::uint32_t, 3>> index;
   std::array<std::uint32_t, kTriangleClasses + 1> classBegin{};
   std::uint32_t firstTriangle = 0;
-  std::uint32_t firstSphere = 0, spheres = 0;  // in Scene::triangles too
+  std::uint32_t firstSphere = 0, spheres = 0;  // spheres are in Scene::triangles, too
 };
 
 // A dielectric that some triangle bounds. Number 0 is the vacuum around everything (ior 1).
@@ -76,7 +76,7 @@ struct InstanceRecord {
   std::uint32_t geometry = 0;  // index into Scene::geometries, never 0
   std::uint32_t written = 0;   // index into SceneDescription::instances
   Affine toWorld;
-  std::uint32_t mover = kNoNode;  // of the scene's rig
+  std::uint32_t mover = kNoNode;  // node of the scene's rig that moves it
   Affine toMover;
   std::uint32_t firstItem = 0;
 };
@@ -102,7 +102,7 @@ struct BakedMotion {
   // If not, only cameras and lights move, and all below is empty.
   bool ofGeometry = false;
   std::vector<InstanceRecord> instances;  // all of them, also those that are flattened at times
-  std::vector<Box> boxes;                 // of geometries, each in its own space
+  std::vector<Box> boxes;                 // bounds of geometries, each in its own space
   std::vector<BentVertices> bent;
   SceneOrder order;
   // At 0 s: the coplanar triangles, and the numbers (InstanceRecord::written) of the instances.
@@ -120,9 +120,9 @@ class ItemNumbers {
  public:
   // Triangles that follow each other in Scene::triangles, in their item and in its numbers.
   struct Run {
-    std::uint32_t first = 0;   // in Scene::triangles
-    std::uint32_t item = 0;    // of instanced ones counted from InstanceRecord::firstItem
-    std::uint32_t number = 0;  // in the item, of the first
+    std::uint32_t first = 0;   // index in Scene::triangles
+    std::uint32_t item = 0;    // instanced ones count from InstanceRecord::firstItem
+    std::uint32_t number = 0;  // number of the first triangle in the item
   };
 
   // In the order of Scene::triangles.
@@ -140,7 +140,7 @@ class ItemNumbers {
 
   // Names of the items 0, 1, ...: at most kNamedItems.
   std::vector<std::string> names;
-  std::uint64_t count = 0;  // of items
+  std::uint64_t count = 0;  // number of items
 
  private:
   std::vector<Run> runs_;
@@ -196,10 +196,10 @@ class Scene : public SceneContents, public SceneTables {
   // The number of the item that a triangle (or sphere) belongs to where it stands, `instance` being
   // kNoInstance in the world; and its own among that item's triangles. What is beyond 2^32 - 2 has
   // that number.
-  struct MetNumbers {
+  struct HitNumbers {
     std::uint32_t item = 0, triangle = 0;
   };
-  MetNumbers numbersOf(std::uint32_t triangle, std::uint32_t instance) const;
+  HitNumbers numbersOf(std::uint32_t triangle, std::uint32_t instance) const;
 
   bool isSphere(std::uint32_t number) const { return number >= firstSphere; }
 

@@ -114,7 +114,7 @@ bool isShell(const Mesh& mesh) {
 
 }  // namespace
 
-void settleSides(SceneDescription& description) {
+void decideDoubleSided(SceneDescription& description) {
   // A material culls if rays have to pass its back faces.
   std::vector<bool> culls(description.materials.size(), false);
   const auto isSingle = [&](const Mesh& mesh) {

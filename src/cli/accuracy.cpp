@@ -13,7 +13,7 @@
 #include "io/files.h"
 #include "output/image_output.h"
 #include "output/json_report.h"
-#include "output/open_and_tell.h"
+#include "output/open_and_warn.h"
 #include "output/report_page.h"
 
 namespace whit::cli {
@@ -96,7 +96,7 @@ std::vector<accuracy::SceneSweep> sweepScenes(const AccuracyJob& job) {
   auto progress = makeProgressBar(job.common);
   std::vector<accuracy::SceneSweep> sweeps;
   for (const std::string& name : job.scenes) {
-    const std::shared_ptr<OpenScene> open = openAndTell(name, job.common, progress.get());
+    const std::shared_ptr<OpenScene> open = openAndWarn(name, job.common, progress.get());
     const RenderOptions options = sweptOptions(open, job.common);
     makeFilm(open->scene, options, job.common.load.maxMemoryBytes);  // throws if it does not fit
     sweeps.push_back(sweepScene(open->scene, options, job.settings, progress.get()));
@@ -128,7 +128,7 @@ int accuracyCommand(const Words& words) {
   const std::string table = folder / "sweep.csv", page = folder / "report.html";
   writeTextFile(table, accuracy::sweepCsv(sweeps, facts));
   writeTextFile(page, reportPage(accuracy::reportJson(sweeps, facts)));
-  tellFiles({table, page}, job.common);
+  printWrittenFiles({table, page}, job.common);
   return 0;
 }
 

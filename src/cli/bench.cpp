@@ -16,7 +16,7 @@
 #include "io/files.h"
 #include "output/image_output.h"
 #include "output/json_report.h"
-#include "output/open_and_tell.h"
+#include "output/open_and_warn.h"
 #include "output/report_page.h"
 
 namespace whit::cli {
@@ -56,8 +56,8 @@ struct BenchJob {
 
   bool reference() const { return common.render.mode == Mode::reference; }
   // The reference takes seconds a frame, so frames to warm up would change nothing.
-  Turns turns() const {
-    Turns turns;
+  TurnCounts turns() const {
+    TurnCounts turns;
     if (reference()) turns = {0, 1};
     if (frames > 0) turns.counted = frames;
     turns.floor = floor;
@@ -97,7 +97,7 @@ std::vector<std::string> valuesOf(const Series& series) {
 }
 
 void addRuns(BenchRuns& runs, const std::string& name, const BenchJob& job, Progress* progress) {
-  const std::shared_ptr<OpenScene> open = openAndTell(name, job.common, progress);
+  const std::shared_ptr<OpenScene> open = openAndWarn(name, job.common, progress);
   const Series& series = job.series();
 
   for (const std::string& value : valuesOf(series)) {
@@ -189,7 +189,7 @@ int benchCommand(const Words& words) {
     addRuns(runs, job.scenes[i], job, progress.get());
     // Runs to be compared are held in memory together; others one after the other.
     if (&job.series() != &kOneRun && i + 1 < job.scenes.size()) continue;
-    takeTurns(runs, job.turns(), progress.get());
+    measureInTurn(runs, job.turns(), progress.get());
     for (const auto& run : runs) summaries.push_back(run->summary());
     runs.clear();
   }
@@ -200,7 +200,7 @@ int benchCommand(const Words& words) {
   if (people == stdout || !job.common.quiet) {
     for (const RunSummary& run : summaries) {
       std::fprintf(people, "%s\n", stageTable(run).c_str());
-      tellPictureWarnings(run);
+      printPictureWarnings(run);
     }
     if (std::string_view(job.series().option) == "threads") {
       std::fprintf(people, "%s", scalingText(summaries).c_str());
@@ -215,7 +215,7 @@ int benchCommand(const Words& words) {
     const WriteScope scope;
     writeTextFile(job.csv, benchCsv(summaries));
   }
-  tellFiles({job.json, job.csv}, job.common);
+  printWrittenFiles({job.json, job.csv}, job.common);
   return 0;
 }
 

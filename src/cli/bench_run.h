@@ -55,12 +55,12 @@ class BenchRun {
 
 using BenchRuns = std::vector<std::unique_ptr<BenchRun>>;
 
-struct Turns {
+struct TurnCounts {
   int warmUp = 3, counted = 20;
   bool floor = false;
 };
 // Measures one frame of each run in turn, and the floor of a frame right after it.
-inline void takeTurns(const BenchRuns& runs, const Turns& turns, Progress* progress) {
+inline void measureInTurn(const BenchRuns& runs, const TurnCounts& turns, Progress* progress) {
   for (int i = 0; i < turns.warmUp; ++i) {
     for (const auto& run : runs) run->warmUp();
   }

@@ -20,7 +20,7 @@
 #include "io/image/image_layers.h"
 #include "output/image_output.h"
 #include "output/json_report.h"
-#include "output/open_and_tell.h"
+#include "output/open_and_warn.h"
 #include "render/renderer.h"
 
 namespace whit::cli {
@@ -114,7 +114,7 @@ Compared compareFiles(const CompareJob& job) {
 
 Compared compareModes(const CompareJob& job) {
   const auto progress = makeProgressBar(job.common);
-  const std::shared_ptr<OpenScene> open = openAndTell(job.subjects[0], job.common, progress.get());
+  const std::shared_ptr<OpenScene> open = openAndWarn(job.subjects[0], job.common, progress.get());
 
   Engine engine(open);
   engine.setOptions(optionsToMeasure(open->scene, job.common));
@@ -346,7 +346,7 @@ int compareCommand(const Words& words) {
 
   if (!job.json.empty()) writeJson(job.json, compareJson(compared));
   if (!job.heatmap.empty()) writeHeatMap(job, compared);
-  tellFiles({job.json, job.heatmap}, job.common);
+  printWrittenFiles({job.json, job.heatmap}, job.common);
 
   // With --stages, each column that a vector stage writes must be within its limit as well.
   const bool pictures = picturesPass(job, compared.numbers.difference);

@@ -16,7 +16,7 @@
 #include "make/leave_out.h"
 #include "output/image_output.h"
 #include "output/json_report.h"
-#include "output/open_and_tell.h"
+#include "output/open_and_warn.h"
 #include "output/report_page.h"
 
 namespace whit::cli {
@@ -58,7 +58,7 @@ std::vector<EffectStep> measureSteps(const EffectsJob& job, Progress* progress) 
   Warnings warnings(job.common.render.strict);
   const std::string name = job.scenes.empty() ? "effects" : job.scenes[0];
   const SceneDescription whole = loadScene(name, job.common.load, warnings, progress);
-  tellWarnings(warnings);
+  printWarnings(warnings);
 
   const EffectSet has = openStep(whole, EffectSet::all(), job)->scene.effects;
   std::vector<EffectStep> steps;
@@ -75,12 +75,12 @@ std::vector<EffectStep> measureSteps(const EffectsJob& job, Progress* progress) 
   add("matte", kept);
   for (const Effect effect : kAddedEffects) {
     kept = kept.with(effect);
-    const bool left = notAskedFor(job.common.render).has(effect);
+    const bool left = optionalEffectsOff(job.common.render).has(effect);
     if (has.has(effect) && !left) add(nameOf(effect), kept);
   }
 
   // The frames of all steps take turns, so that other load of the machine affects all alike.
-  takeTurns(runs, Turns{3, job.frames, false}, progress);
+  measureInTurn(runs, TurnCounts{3, job.frames, false}, progress);
   for (std::size_t i = 0; i < steps.size(); ++i) {
     steps[i].run = runs[i]->summary();
     steps[i].memoryMb = runs[i]->memoryMb();
@@ -128,7 +128,7 @@ int effectsCommand(const Words& words) {
   const std::string table = folder / "effects.csv", page = folder / "report.html";
   writeTextFile(table, csvOf(report["effects"]));
   writeTextFile(page, reportPage(report));
-  tellFiles({table, page}, job.common);
+  printWrittenFiles({table, page}, job.common);
   return 0;
 }
 

@@ -18,7 +18,7 @@
 #include "output/explained_rays.h"
 #include "output/image_output.h"
 #include "output/json_report.h"
-#include "output/open_and_tell.h"
+#include "output/open_and_warn.h"
 #include "output/report_page.h"
 
 namespace whit::cli {
@@ -104,7 +104,7 @@ class TreeText {
 
   void appendNode(std::size_t number) {
     const RayNode& n = e_.rays.packets.nodes[number];
-    if (maxComponent(addedBy(e_.rays.packets, number, n.radiance)) < least_) {
+    if (maxComponent(contributionOf(e_.rays.packets, number, n.radiance)) < least_) {
       leaveOut(number);
       return;
     }
@@ -118,7 +118,7 @@ class TreeText {
   void leaveOut(std::size_t number) {
     const RayNode& n = e_.rays.packets.nodes[number];
     ++leftOut_;
-    restAdds_ += addedBy(e_.rays.packets, number, n.local);
+    restAdds_ += contributionOf(e_.rays.packets, number, n.local);
     for (const std::size_t child : n.children) leaveOut(child);
   }
 
@@ -152,11 +152,10 @@ std::string headOf(const Explained& e) {
 Json jsonOf(const RgbD& v) { return Json::array({v.x, v.y, v.z}); }
 
 Json lightJson(const Scene& scene, const LightContribution& light) {
+  const char* const found = light.visible ? "lit" : "blocked";
   Json json{{"light", lightName(scene, light.light)},
             {"sample", light.sample},
-            {"shadow", !light.traced   ? "none"
-                       : light.visible ? "lit"
-                                       : "blocked"},
+            {"shadow", light.traced ? found : "none"},
             {"radiance", jsonOf(light.radiance)}};
   if (light.traced) {
     json["origin"] = jsonOf(scene.inFile(light.origin));
@@ -185,7 +184,7 @@ Json nodeJson(const Scene& scene, const RayTree& tree, std::size_t number, bool 
   if (ofPackets) {
     json["emitted"] = jsonOf(n.emitted);
     json["local"] = jsonOf(n.local);
-    json["adds"] = jsonOf(addedBy(tree, number, n.local));
+    json["adds"] = jsonOf(contributionOf(tree, number, n.local));
     json["lights"] = Json::array();
     for (const LightContribution& light : n.lights)
       json["lights"].push_back(lightJson(scene, light));
@@ -247,7 +246,8 @@ std::string rayDiagram(const RayTree& tree, const Camera& eye, const Camera& cam
   svg += "data:image/png;base64," + base64(picture) + "\"/>\n";
   const LineView view(camera, width, height);
   const std::vector<RayLine> lines = linesOf(tree, eye);
-  std::map<std::string, ScreenLine> places;  // of the words; lines that weigh more come later
+  // Places of the words. Lines that weigh more come later and replace others.
+  std::map<std::string, ScreenLine> places;
   for (const RayLine& line : lines) {
     const auto seen = view.see(line.from, line.to);
     if (!seen) continue;
@@ -328,10 +328,10 @@ int explainCommand(const Words& words) {
   if (!job.html.empty()) requireWritable(job.html, {".html"});
   requireJsonWritable(job.json);
   auto progress = makeProgressBar(job.common);
-  Engine engine(openAndTell(job.scenes[0], job.common, progress.get()));
+  Engine engine(openAndWarn(job.scenes[0], job.common, progress.get()));
   engine.setOptions(job.common.render, job.common.given);
   const Film film =
-      makeFilm(engine.scene(), engine.wantedOptions(), job.common.load.maxMemoryBytes);
+      makeFilm(engine.scene(), engine.requestedOptions(), job.common.load.maxMemoryBytes);
   const PixelPlace place = readPixel(job.pixel, film.image);
   Renderer& renderer = engine.prepare(progress.get());
   const Camera camera = engine.camera();
@@ -354,7 +354,7 @@ int explainCommand(const Words& words) {
                              {"reference", treeJson(e, e.rays.reference, false)}});
   }
   if (job.json != "-") std::fputs((headOf(e) + TreeText(e, job.least).text()).c_str(), stdout);
-  tellFiles({job.svg, job.html, job.json}, job.common);
+  printWrittenFiles({job.svg, job.html, job.json}, job.common);
   return 0;
 }
 

@@ -4,11 +4,12 @@
 
 #include "cli/commands.h"
 #include "command_line/progress_bar.h"
+#include "core/index.h"
 #include "core/option_table.h"
 #include "core/text.h"
 #include "output/image_output.h"
 #include "output/json_report.h"
-#include "output/open_and_tell.h"
+#include "output/open_and_warn.h"
 #include "render/renderer.h"
 
 namespace whit::cli {
@@ -28,11 +29,11 @@ Json effectsJson(const Scene& scene, const RenderOptions& options) {
         {"on", reason.on && !disabled},
         {"because", reason.on && disabled ? "disabled by --disable" : reason.because}};
   }
-  for (const AskedFor& a : effectsAskedFor(options)) {
-    Json& row = effects[std::string(kEffectNames[static_cast<std::size_t>(a.effect)].name)];
-    if (a.asked || row["on"] == false) continue;
+  for (const OptionalEffect& optional : optionalEffects(options)) {
+    Json& row = effects[std::string(entryOf(kEffectNames, optional.effect).name)];
+    if (optional.isOn || row["on"] == false) continue;
     row["on"] = false;
-    row["because"] = row["because"].get<std::string>() + ", " + std::string(a.otherwise);
+    row["because"] = row["because"].get<std::string>() + ", " + std::string(optional.otherwise);
   }
   return effects;
 }
@@ -47,10 +48,9 @@ Json optionsJson(const Scene& scene, const CommonOptions& common, const RenderOp
     const std::string value = optionText(options, name);
     const bool isGiven = common.given.contains(name), isStated = scene.options.contains(name);
     if (!isGiven && !isStated && value == optionText(defaults, name)) continue;
-    const char* const from = isGiven                             ? "command line"
-                             : value != optionText(stated, name) ? "--quality"
-                             : scene.isModel                     ? "model"
-                                                                 : "scene";
+    const char* from = scene.isModel ? "model" : "scene";
+    if (value != optionText(stated, name)) from = "--quality";
+    if (isGiven) from = "command line";
     rows[name] = {{"value", value}, {"from", from}};
   }
   return rows;
@@ -91,10 +91,10 @@ Json infoJson(const OpenScene& open, const Plan& plan, const CommonOptions& comm
     json["warnings"][kind] = {{"count", entry.count}, {"first", entry.first}};
   }
   for (const Stage stage : plan.stages()) {
-    json["stages"].push_back(kStageNames[static_cast<std::size_t>(stage)]);
+    json["stages"].push_back(entryOf(kStageNames, stage));
   }
   for (const KernelUse& kernel : kernelsOf(plan)) {
-    json["kernels"].push_back({{"stage", kStageNames[static_cast<std::size_t>(kernel.stage)]},
+    json["kernels"].push_back({{"stage", entryOf(kStageNames, kernel.stage)},
                                {"kernel", kernel.kernel},
                                {"target", kernel.target}});
   }
@@ -185,7 +185,7 @@ int infoCommand(const Words& words) {
 
   CommonOptions loading = common;
   loading.warns = false;  // they are part of the report
-  const auto open = openAndTell(scenes[0], loading, progress.get());
+  const auto open = openAndWarn(scenes[0], loading, progress.get());
   const RenderOptions options = optionsFor(open->scene, common);
   const Plan plan = planOf(open->scene, options);
   progress.reset();

@@ -5,7 +5,7 @@
 #include "command_line/program.h"
 #include "command_line/progress_bar.h"
 #include "output/image_output.h"
-#include "output/open_and_tell.h"
+#include "output/open_and_warn.h"
 
 namespace whit::cli {
 
@@ -31,11 +31,11 @@ int mergeCommand(const Words& words) {
   requireWritable(files[0], {".exr"});
   Warnings warnings(common.render.strict);
   const MergedImage merged = mergeImages({files.begin() + 1, files.end()}, ImageLimits(), warnings);
-  tellWarnings(warnings);
+  printWarnings(warnings);
 
   const WriteScope scope;
   writeExr(files[0], merged.image, merged.metadata, ExrStorage::zip, 1, merged.layers);
-  tellFiles({files[0]}, common);
+  printWrittenFiles({files[0]}, common);
   return 0;
 }
 

@@ -16,6 +16,7 @@
 #include "cli/terminal_picture.h"
 #include "command_line/program.h"
 #include "command_line/progress_bar.h"
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/options.h"
 #include "core/stopwatch.h"
@@ -29,7 +30,7 @@
 #include "output/film_pipe.h"
 #include "output/image_output.h"
 #include "output/json_report.h"
-#include "output/open_and_tell.h"
+#include "output/open_and_warn.h"
 
 namespace whit::cli {
 
@@ -62,11 +63,9 @@ struct RenderJob {
   double turns = 1;
   TerminalGraphics graphics = TerminalGraphics::none;  // shows the picture on standard output
   std::optional<Turntable> turntable;                  // once the scene is open
-  int turntableFrames = 96;                            // of all turns together
+  int turntableFrames = 96;                            // number of frames of all turns together
 
-  bool toStandardOutput() const {
-    return std::ranges::find(outputs, kStandardOutput) != outputs.end();
-  }
+  bool toStandardOutput() const { return contains(outputs, kStandardOutput); }
   bool makesFilm() const { return std::ranges::any_of(outputs, isFilm); }
 };
 
@@ -137,7 +136,7 @@ void checkBackground(const RenderJob& job) {
 }
 
 // Warns that rays have to sample frosted glass, if the picture's do not.
-void tellClearGlass(const RenderJob& job, const Scene& scene) {
+void warnOfClearGlass(const RenderJob& job, const Scene& scene) {
   if (glossySamples(job.common.render) > 0) return;
   if (std::ranges::none_of(scene.materials, &Material::isFrosted)) return;
 
@@ -288,12 +287,12 @@ Engine openFor(RenderJob& job, Progress* progress) {
   };
 
   // Presets and the options that the scene states fill in what the user has not given.
-  Engine engine(openAndTell(job.scenes[0], job.common, progress, look));
+  Engine engine(openAndWarn(job.scenes[0], job.common, progress, look));
   engine.setOptions(options, job.common.given);
-  options = engine.wantedOptions();
+  options = engine.requestedOptions();
   checkBackground(job);
   checkFilmed(job, engine.scene());
-  tellClearGlass(job, engine.scene());
+  warnOfClearGlass(job, engine.scene());
 
   // In a scene with a viewpoint, the camera turns around the point that it looks at.
   if (job.onTurntable && !job.turntable) {
@@ -328,7 +327,7 @@ class ImageWriter {
  public:
   ImageWriter(const RenderJob& job, Engine& engine, Progress* progress)
       : job_(job), engine_(engine), films_(openFilms(job, engine.scene())) {
-    engine_.prepare(progress);  // one exposure for all frames, whichever of them are asked for
+    engine_.prepare(progress);  // all frames have one exposure, whichever are written
     run_ = summary();
     sceneDigest_ = digestOf(engine_.scene());
     aboutChannels_ = describeChannels(engine_.scene(), engine_.options().channels);
@@ -453,7 +452,7 @@ class ImageWriter {
 
   const RenderJob& job_;
   Engine& engine_;
-  std::optional<Camera> camera_;  // of a turntable
+  std::optional<Camera> camera_;  // camera of a turntable
   std::optional<Receipt> receipt_;
   std::vector<Film> films_;
   std::size_t film_ = 0;  // the film that is traced next
@@ -492,7 +491,7 @@ void tell(const ImageWriter& writer, const RenderJob& job) {
   }
 }
 
-void tellWritten(const ImageWriter& writer, const RenderJob& job, double seconds) {
+void printWrittenImages(const ImageWriter& writer, const RenderJob& job, double seconds) {
   const std::vector<std::string>& files = writer.written();
   const RunSummary& run = writer.run();
   std::string what = std::to_string(files.size()) + " images";
@@ -521,8 +520,7 @@ std::string commandWithout(const std::vector<std::string>& options, const Words&
   std::string command = "whit render";
   bool isValue = false;
   for (const std::string& word : words) {
-    const bool isLeftOut =
-        std::ranges::find(options, word.substr(0, word.find('='))) != options.end();
+    const bool isLeftOut = contains(options, word.substr(0, word.find('=')));
     if (!isLeftOut && !isValue) command += " " + printable(quoted(word));
 
     // The word behind an option without '=' is its value.
@@ -557,7 +555,7 @@ int render(RenderJob& job) {
   const bool traced = !writer.run().frames.empty();  // else all images were there
   if (traced) {
     tell(writer, job);
-    tellPictureWarnings(writer.run());
+    printPictureWarnings(writer.run());
   }
 
   if (job.graphics != TerminalGraphics::none) {
@@ -566,9 +564,10 @@ int render(RenderJob& job) {
     std::fflush(stdout);
   }
 
-  if (!job.common.quiet && !job.outputs.empty()) tellWritten(writer, job, stopwatch.ms() / 1000);
+  if (!job.common.quiet && !job.outputs.empty())
+    printWrittenImages(writer, job, stopwatch.ms() / 1000);
   if (!job.json.empty()) writeReport(job, writer);
-  tellFiles({job.json}, job.common);
+  printWrittenFiles({job.json}, job.common);
   return 0;
 }
 

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "core/index.h"
 #include "core/text.h"
 #include "core/vec3.h"
 #include "io/image/image_file.h"
@@ -46,9 +47,7 @@ std::string kittyText(const std::string& data, int columns) {
 std::string halfBlocks(const DisplayImage& picture, int columns) {
   const double scale = static_cast<double>(columns) / picture.width;
   const int rows = std::max(1, static_cast<int>(std::lround(picture.height * scale)));
-  const auto cell = [&](int column, int row) {
-    return static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column);
-  };
+  const auto cell = [&](int column, int row) { return cellAt(column, row, columns); };
 
   // A cell has the mean color of the pixels that fall into it, on black.
   std::vector<Vec3d> sums(cell(0, rows));

@@ -13,6 +13,7 @@
 
 #include "command_line/parse_options.h"
 #include "command_line/program.h"
+#include "core/contains.h"
 #include "core/option_table.h"
 #include "core/text.h"
 #include "io/files.h"
@@ -156,7 +157,7 @@ std::string helpText(const std::string& usage, const std::string& summary, const
                     {{"-h,--help", "the options of every day"},
                      {"--help-all", left > 0 ? formatted("all options, %zu more", left)
                                              : std::string("all options")}}});
-  if (std::ranges::find(list.entries, "quality", &OptionList::Entry::name) != list.entries.end()) {
+  if (contains(list.entries, "quality", &OptionList::Entry::name)) {
     groups.push_back({"What --quality stands for, where an option is not given", presetTerms()});
   }
 

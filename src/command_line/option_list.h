@@ -16,7 +16,7 @@ class OptionList {
   struct Entry {
     std::string group, name, shortName, placeholder, help;  // a flag has no placeholder
     std::vector<std::string> names = {};  // its value is a list of these, separated by commas
-    bool everyday = true;                 // in --help; the others are in --help-all only
+    bool everyday = true;                 // listed in --help; the others only in --help-all
     bool common = false;                  // an option of all commands that render
     std::function<void(const std::string&)> set;
   };
@@ -62,7 +62,7 @@ class OptionList {
 
   std::vector<Entry> entries;
   Operand operand;
-  std::function<void()> settle;  // called when all values are set
+  std::function<void()> whenParsed;  // called when all values are set
 
  private:
   Entry& push(const OptionSpec& spec, const std::string& help,

@@ -202,7 +202,7 @@ void listCommonOptions(OptionList& list, CommonOptions& common) {
   for (std::size_t i = own; i < list.entries.size(); ++i) list.entries[i].common = true;
   listReportOptions(list, common);
 
-  list.settle = [&common] {
+  list.whenParsed = [&common] {
     applyQuality(common.render, common.given);
     takeView(common);
     common.load.threads = common.render.threads;
@@ -240,7 +240,7 @@ bool parseOptions(const std::string& usage, const std::string& summary, const Op
       usage.substr(0, usage.find_first_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ[") - 1);
   const std::string help = takeWords(words, list, command);
   if (help.empty()) {
-    if (list.settle) list.settle();
+    if (list.whenParsed) list.whenParsed();
     return true;
   }
 

@@ -18,7 +18,7 @@ struct CommonOptions {
   RenderOptions render;
   std::set<std::string> given;  // names of the render options on the command line
   LoadOptions load;
-  std::optional<double> azimuth, zoom;  // of a model's camera
+  std::optional<double> azimuth, zoom;  // view of a model's camera
   bool ground = false;                  // a shadow below a model
   std::optional<double> maxMemoryGb;    // empty: defaultMaxMemory()
   bool quiet = false;

@@ -12,7 +12,7 @@
 
 namespace whit::cli {
 
-void tellWarnings(const Warnings& warnings) {
+void printWarnings(const Warnings& warnings) {
   for (const auto& [kind, entry] : warnings.entries()) {
     std::fprintf(stderr, "whit: warning: %s (%llu times, first: %s)\n", printable(kind).c_str(),
                  static_cast<unsigned long long>(entry.count), printable(entry.first).c_str());

@@ -11,7 +11,7 @@
 namespace whit::cli {
 
 // Prints what was repaired, one line each.
-void tellWarnings(const Warnings& warnings);
+void printWarnings(const Warnings& warnings);
 
 // Null when nobody would see it: not wanted, or standard error is no terminal. The bar removes
 // itself when destroyed.

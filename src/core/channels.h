@@ -6,7 +6,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -37,7 +36,7 @@ struct ChannelInfo {
   std::string_view name;
   bool countsThings = false;  // values are 32-bit unsigned numbers; else floats
   std::size_t components = 1;
-  std::array<std::string_view, 3> suffixes;  // of its layers in a file: "depth.Z"
+  std::array<std::string_view, 3> suffixes;  // suffixes of its layers in a file: "depth.Z"
 };
 inline constexpr std::array<ChannelInfo, kChannelCount> kChannels{
     {{"depth", false, 2, {"Z", "distance"}},
@@ -66,8 +65,8 @@ inline constexpr std::uint32_t kNoNumber = 0xffffffffu;
 // those of a ray without a hit.
 struct ChannelValues {
   // Along the camera's axis, and along the ray.
-  float z = std::numeric_limits<float>::infinity();
-  float distance = std::numeric_limits<float>::infinity();
+  float z = kInfinity;
+  float distance = kInfinity;
   Vec3f position, normal;
   Rgb albedo;
   Vec2f uv;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace whit {
 
@@ -67,7 +66,7 @@ const std::array<float, 257>& leastWithCodes() {
     std::array<float, 257> of{};
     for (int code = 0; code < 256; ++code) entryOf(of, code) = leastWithCode(code);
     // No value has a code above 255, so the table ends with infinity.
-    of[256] = std::numeric_limits<float>::infinity();
+    of[256] = kInfinity;
     return of;
   }();
   return least;

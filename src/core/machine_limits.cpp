@@ -84,8 +84,8 @@ double quotaOf(const fs::path& group) {
 }
 
 // Bytes that a group has left if its files have these names.
-double leftBy(const fs::path& group, const char* limitFile, const char* usageFile,
-              const std::string& prefix) {
+double freeMemory(const fs::path& group, const char* limitFile, const char* usageFile,
+                  const std::string& prefix) {
   const double limit = numberIn(group / limitFile);
   if (limit < 0) return kNoLimit;
 
@@ -119,8 +119,9 @@ double memoryLeft(const std::string& meminfo, const std::string& membership, con
   double least = kilobytes < 0 ? kNoLimit : 1024 * kilobytes;
 
   for (const fs::path& group : groupsOf("memory", membership, root)) {
-    least = std::min({least, leftBy(group, "memory.max", "memory.current", ""),
-                      leftBy(group, "memory.limit_in_bytes", "memory.usage_in_bytes", "total_")});
+    least =
+        std::min({least, freeMemory(group, "memory.max", "memory.current", ""),
+                  freeMemory(group, "memory.limit_in_bytes", "memory.usage_in_bytes", "total_")});
   }
   return least;
 }

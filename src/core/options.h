@@ -45,7 +45,7 @@ struct OptionSpec {
   // The cheapest value that still makes a picture of the scene; the viewer measures the cost of the
   // other values against it, and not at all if this is empty.
   std::string_view cheapest = {};
-  bool everyday = false;  // in --help; the other options are in --help-all only
+  bool everyday = false;  // listed in --help; the others only in --help-all
 };
 
 enum class Mode { packets, reference };
@@ -89,7 +89,7 @@ struct RenderOptions {
   Quality quality = Quality::standard;
   std::optional<ImageSize> size;
   std::string camera;
-  std::optional<Vec3d> eye, at;  // in coordinates of the file
+  std::optional<Vec3d> eye, at;  // points in coordinates of the file
   std::optional<Vec3f> up;
   std::optional<float> fov, ortho;
   std::optional<Crop> crop;
@@ -379,12 +379,12 @@ inline ChannelSet keptChannels(const RenderOptions& o) {
 }
 
 // Effects that a scene does not switch on by itself: an option must ask for them as well.
-struct AskedFor {
+struct OptionalEffect {
   Effect effect;
-  bool asked;
-  std::string_view otherwise;  // the reason if it is not
+  bool isOn;
+  std::string_view otherwise;  // the reason if it is off
 };
-inline std::array<AskedFor, 6> effectsAskedFor(const RenderOptions& o) {
+inline std::array<OptionalEffect, 6> optionalEffects(const RenderOptions& o) {
   return {{{Effect::glossyReflection, glossySamples(o) > 0, "but --glossy and --indirect are 0"},
            {Effect::blurredSky, glossySamples(o) == 0,
             "but --glossy or --indirect samples reflections"},
@@ -393,11 +393,12 @@ inline std::array<AskedFor, 6> effectsAskedFor(const RenderOptions& o) {
            {Effect::ambientOcclusion, o.ambientSamples > 0, "but --ambient-samples is 0"},
            {Effect::depthOfField, o.spp > 1, "but --spp is 1"}}};
 }
-// The effects above that the options do not ask for.
-inline EffectSet notAskedFor(const RenderOptions& o) {
+
+// Returns those of the effects above that the options leave off.
+inline EffectSet optionalEffectsOff(const RenderOptions& o) {
   EffectSet set;
-  for (const AskedFor& a : effectsAskedFor(o)) {
-    if (!a.asked) set = set.with(a.effect);
+  for (const OptionalEffect& optional : optionalEffects(o)) {
+    if (!optional.isOn) set = set.with(optional.effect);
   }
   return set;
 }

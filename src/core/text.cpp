@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/contains.h"
 #include "core/error.h"
 
 namespace whit {
@@ -119,7 +120,7 @@ std::string nearestName(const std::string& word, const std::vector<std::string>&
   // A known synonym of another program is a better guess than any similar name.
   for (const auto& [theirs, ours] : kSynonyms) {
     std::string name = (dashes > 0 ? "--" : "") + std::string(ours);
-    const bool isKnown = std::ranges::find(names, name) != names.end();
+    const bool isKnown = contains(names, name);
     if (isKnown && word.compare(dashes, std::string::npos, theirs) == 0) return name;
   }
 

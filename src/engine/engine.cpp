@@ -38,29 +38,29 @@ std::shared_ptr<OpenScene> Engine::copyScene() {
   auto copy = std::make_shared<OpenScene>(*opened_);
   if (seconds_ != 0) copy->load.instant.seconds = seconds_;
   // No command line can state transforms that a program has set.
-  copy->isMade |= !places_.empty();
+  copy->isMade |= !transforms_.empty();
   return copy;
 }
 
 void Engine::setOptions(const RenderOptions& options, const std::set<std::string>& given) {
-  asked_ = options;
+  requested_ = options;
   given_ = given;
   optionsChanged_ = true;
 }
 
 void Engine::setOptions(const RenderOptions& options) {
-  asked_ = options;
+  requested_ = options;
   given_.reset();
   optionsChanged_ = true;
 }
 
-RenderOptions Engine::wantedOptions() const {
-  RenderOptions wanted = asked_;
+RenderOptions Engine::requestedOptions() const {
+  RenderOptions options = requested_;
   if (given_) {
-    applyQuality(wanted, *given_);
-    applySceneOptions(scene().options, *given_, wanted);
+    applyQuality(options, *given_);
+    applySceneOptions(scene().options, *given_, options);
   }
-  return wanted;
+  return options;
 }
 
 void Engine::edit(const std::string& setting, Progress* progress) {
@@ -161,7 +161,7 @@ JsonDocument Engine::readSceneDocument() const {
 
 void Engine::readAgain(const SceneSource& source, const LoadOptions& load, Progress* progress) {
   std::shared_ptr<OpenScene> next = openScene(source, load, opened_->strict, progress);
-  for (const auto& [pointer, place] : places_) setPlace(next->scene, pointer, place);
+  for (const auto& [pointer, transform] : transforms_) setPlace(next->scene, pointer, transform);
 
   forgetRenderer();
   opened_ = std::move(next);
@@ -174,9 +174,9 @@ void Engine::setTime(double seconds) {
   moved_ = true;
 }
 
-void Engine::setTransform(const std::string& pointer, const Affine& place) {
-  setPlace(opened_->scene, pointer, place);
-  places_[pointer] = place;
+void Engine::setTransform(const std::string& pointer, const Affine& transform) {
+  setPlace(opened_->scene, pointer, transform);
+  transforms_[pointer] = transform;
   moved_ = true;
 }
 
@@ -203,7 +203,7 @@ Renderer& Engine::prepare(Progress* progress) {
   update();
   if (!optionsChanged_) return *renderer_;
 
-  options_ = wantedOptions();
+  options_ = requestedOptions();
   if (renderer_ && renderer_->canSetOptions(options_)) {
     renderer_->setOptions(options_);
   } else {
@@ -218,7 +218,7 @@ Renderer& Engine::prepare(Progress* progress) {
 const RayQueries& Engine::rayQueries(Progress* progress) {
   update();
   if (!queries_) {
-    queries_ = std::make_unique<RayQueries>(scene(), threadsOf(wantedOptions()), progress);
+    queries_ = std::make_unique<RayQueries>(scene(), threadsOf(requestedOptions()), progress);
   }
   return *queries_;
 }

@@ -55,7 +55,7 @@ class Engine {
   // Sets all options, without presets and without those that the scene states.
   void setOptions(const RenderOptions& options);
   // Returns the options that are requested for the next picture; the exposure may be automatic.
-  RenderOptions wantedOptions() const;
+  RenderOptions requestedOptions() const;
   // Returns the options of the renderer, in which an automatic exposure is replaced by its value.
   const RenderOptions& options() const { return options_; }
 
@@ -75,7 +75,7 @@ class Engine {
   double seconds() const { return seconds_; }
   // Sets the transform of the item at a JSON pointer (Instant::movable). Takes effect with the next
   // picture, or update().
-  void setTransform(const std::string& pointer, const Affine& place);
+  void setTransform(const std::string& pointer, const Affine& transform);
 
   // Replaces the scene's camera. Without a camera, the scene's own counts again.
   void lookThrough(const std::optional<Camera>& camera);
@@ -112,14 +112,14 @@ class Engine {
   // after the scene was read again or an edit failed.
   std::optional<JsonDocument> document_;
 
-  RenderOptions asked_;
-  // Names of the options in asked_ that the caller chose. Without this set, asked_ is complete.
+  RenderOptions requested_;
+  // Names of the options in requested_ that the caller chose. Without this set, requested_ is complete.
   std::optional<std::set<std::string>> given_ = std::set<std::string>();
   RenderOptions options_;
   bool optionsChanged_ = true;
 
   double seconds_ = 0;
-  std::map<std::string, Affine> places_;  // transforms by JSON pointer
+  std::map<std::string, Affine> transforms_;  // by JSON pointer of the item
   bool moved_ = false;                    // time or transforms have changed
   std::optional<Camera> lookedThrough_;
 

@@ -37,7 +37,7 @@ std::unique_ptr<OpenScene> openScene(const SceneSource& source, const LoadOption
   return open;
 }
 
-std::string lackOfLight(const Scene& scene) {
+std::string noLightWarning(const Scene& scene) {
   for (const Effect effect : {Effect::lights, Effect::sky, Effect::ambient, Effect::emission}) {
     if (scene.effects.has(effect)) return "";
   }

@@ -17,7 +17,7 @@ namespace whit {
 
 struct SceneSource {
   std::string name;                       // a scene file, a model, or a shipped scene
-  std::shared_ptr<const SceneText> text;  // of a scene that a program made; null: `name` is read
+  std::shared_ptr<const SceneText> text;  // made by a program; null: the file `name` is read
 };
 
 struct OpenScene {
@@ -45,7 +45,7 @@ std::unique_ptr<OpenScene> openScene(const SceneSource& source, const LoadOption
                                      const LookAtScene& look = {});
 
 // Says that nothing in the scene gives light; empty if something does.
-std::string lackOfLight(const Scene& scene);
+std::string noLightWarning(const Scene& scene);
 
 // Adds the settings of LoadOptions with which the scene was read to the metadata of a picture.
 void addSettings(const std::vector<std::string>& settings, const std::string& sky,

@@ -22,20 +22,20 @@ constexpr double kMiddle = 0.3;
 // This share of the surfaces' pixels stays below kBright, and this share of all pixels below
 // kClear, so that a background does not burn out around a dark model.
 constexpr double kBrightShare = 0.93, kBright = 0.95, kClearShare = 0.8, kClear = 0.8;
-// For half of the sky to stay below this the surfaces may be that many EV darker: what is dark
-// before a gray sky is meant to be dark.
+// The surfaces may be up to kMostForSky darker (in EV), so that half of the sky stays below kSky:
+// what is dark before a gray sky is meant to be dark.
 constexpr double kSky = 0.5, kMostForSky = 2;
-// Of a model the brightest channel of so many surfaces stays below the code 255, unless the picture
-// would then be more than kMostForHighlights EV darker. The bound is stricter than what is promised
-// (0.5 % of the model), because few pixels are looked at and the exposure is rounded.
+// For this share of a model's pixels, the brightest channel stays below the code 255, unless the
+// picture would then be more than kMostForHighlights EV darker. The bound is stricter than what is
+// promised (0.5 % of the model), because few pixels are looked at and the exposure is rounded.
 constexpr double kUnclippedShare = 0.998, kUnclipped = 0.95, kMostForHighlights = 3;
-constexpr double kDarkest = 1.0e-2;  // of the bright ones: darker pixels count as this
-constexpr double kSteps = 8;         // of an EV
+constexpr double kDarkest = 1.0e-2;  // share of the bright ones' level; darker pixels count as this
+constexpr double kSteps = 8;         // steps in an EV
 constexpr double kMostEv = 32;
 constexpr auto kNothing = PixelSurface::kNothing;
 
 struct Luminances {
-  std::vector<double> surfaces, sky;  // of the pixels that show the one or the other
+  std::vector<double> surfaces, sky;  // luminances of the pixels that show the one or the other
   std::vector<double> channels;       // the brightest channel of each pixel of a surface
 };
 

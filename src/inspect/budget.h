@@ -32,16 +32,16 @@ Budget parseBudget(const std::string& time, const std::string& target);
 struct Receipt {
   struct Knob {
     std::string name, value, exact;
-    double error = 0;  // that this value leaves, by itself
+    double error = 0;  // error that this value leaves by itself
   };
   Budget budget;
   RenderOptions options;
   std::vector<std::pair<std::string, std::string>> chosen;  // options and values, as given
   std::vector<Knob> approximate;                            // knobs that are not exact
   double probeMs = 0;                                       // spent on measuring and choosing
-  double expectedMs = 0;                                    // of the picture
-  double measuredMs = 0;                                    // of the picture, set by assess()
-  double bias = 0;  // of the error: what more samples would not take away
+  double expectedMs = 0;                                    // expected time of the picture
+  double measuredMs = 0;                                    // time of the picture, set by assess()
+  double bias = 0;  // the part of the error that more samples would not take away
   // The upper bound is infinite where the error is not known: then it is what the samples tell.
   double error = 0, low = 0, high = 0;
   // At most so much error is of paths that depth and cutoff ended; not measured with --adaptive.

@@ -12,12 +12,12 @@ namespace whit {
 
 namespace {
 
-constexpr double kAssessShare = 0.01;    // of the picture's time
+constexpr double kAssessShare = 0.01;    // time to assess the error, as a share of the picture's
 constexpr double kChannelMargin = 1.25;  // factor of the noise that the channel `error` estimates
 // The mean of k equal samples among black ones has the relative standard error 1 / sqrt(k) (Kish
-// 1965 calls k the effective number of samples). Where fewer than so many decide a pixel and those
-// around it, they tell little about the samples that were not drawn; and where the other pixels
-// have less than this share of the squared error, the error is not known.
+// 1965 calls k the effective number of samples). Where fewer than kFewSamples decide a pixel and
+// those around it, they tell little about the samples that were not drawn. Where the other pixels
+// have less than the share kLeastKnown of the squared error, the error is not known.
 constexpr double kFewSamples = 8, kLeastKnown = 0.5;
 
 // The error is an estimate that nothing bounds.
@@ -69,9 +69,9 @@ double brightestRadiance(const Scene& scene, const Image& image) {
 
 // Three pictures that differ from the rendered one.
 struct ChangedPictures {
-  Image noisy;   // by noise of the estimated size
-  Image steady;  // by the same noise, only where enough samples decide a pixel
-  Image whole;   // by the most light that ended paths could bring
+  Image noisy;   // the image with noise of the estimated size
+  Image steady;  // the same noise, only where enough samples decide a pixel
+  Image whole;   // with the most light that ended paths could bring
 };
 
 ChangedPictures changedPictures(const Scene& scene, const Film& film) {

@@ -27,14 +27,16 @@ constexpr double kProbeShare = 0.1, kMostProbeShare = 0.2, kLeastProbeMs = 12, k
 // Time of all measurements for a target; measurements shorter than kShortMs use kFewSpp.
 constexpr double kProbeMsOfTarget = 300, kShortMs = 40;
 constexpr double kMostBlocks = 1000;
-constexpr int kRounds = 3;  // of correcting the expected time by the measured one, at most
+// The expected time is corrected by the measured one in at most this many rounds.
+constexpr int kRounds = 3;
 // The choice aims at this factor of the time that is left: rounding down to whole samples leaves
 // some time unused, and cold caches make the measured times a little too long.
 constexpr double kAim = 1.06;
 // Samples per pixel of the probes. The truth, which the probes are compared with, has kTruthFactor
 // times as many.
 constexpr int kFewSpp = 2, kSomeSpp = 4, kTruthFactor = 4;
-constexpr double kCostOfProbe = 1.5;  // expected time of a probe, in times of the baseline
+// Expected time of a probe as a multiple of the baseline's time.
+constexpr double kCostOfProbe = 1.5;
 // Squares with sides of this many pixels are averaged to tell bias from noise.
 constexpr int kPooledSide = 4;
 // The choice aims at the target divided by this margin.
@@ -94,7 +96,7 @@ struct Combination {
   std::array<std::size_t, kChosenKnobs.size()> levels{};
   int spp = 1;
   double bias = 0;
-  CostAndError total;  // of the picture; the cost in milliseconds
+  CostAndError total;  // cost in milliseconds and error of the picture
 };
 
 // Measures the knobs one by one against a baseline, and searches their combinations by the model
@@ -107,7 +109,7 @@ class Chooser {
         fixed_(fixed),
         budget_(budget),
         channels_(renderer.options().channels),
-        measured_(channels_.with(Channel::error)),
+        pictureChannels_(channels_.with(Channel::error)),
         wasAdaptive_(renderer.options().adaptive),
         baseline_(renderer.options()),
         prober_(renderer, camera, film, budget.inCodes) {
@@ -115,7 +117,7 @@ class Chooser {
     baseline_.channels = {};
     baseline_.adaptive = baseline_.adaptive && fixed.contains("adaptive");
     // Channel::error would turn adaptive sampling off.
-    if (baseline_.adaptive) measured_ = channels_;
+    if (baseline_.adaptive) pictureChannels_ = channels_;
   }
 
   Receipt choose() {
@@ -422,7 +424,7 @@ class Chooser {
     }
 
     options.spp = c.spp;
-    options.channels = measured_;
+    options.channels = pictureChannels_;
     return options;
   }
 
@@ -468,7 +470,8 @@ class Chooser {
   Renderer& renderer_;
   const std::set<std::string>& fixed_;
   Budget budget_;
-  ChannelSet channels_, measured_;  // those asked for, and those of the picture for assess()
+  ChannelSet channels_;         // the channels that the user requested
+  ChannelSet pictureChannels_;  // with Channel::error, if assess() can use it
   bool wasAdaptive_;
   RenderOptions baseline_;  // probes change one knob of it at a time
   Prober prober_;

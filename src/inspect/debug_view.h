@@ -21,7 +21,7 @@ struct WatchedPixel {
 
 struct DebugPicture {
   DebugView view = DebugView::none;
-  int samples = 1;  // of each pixel
+  int samples = 1;  // samples of each pixel
   std::vector<WatchedPixel> pixels;
   double low = 0, high = 0;  // the amounts that have the first and the last color
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/option_table.h"
 #include "core/text.h"
@@ -138,11 +139,11 @@ std::vector<Knob> chooseKnobs(const std::vector<std::string>& names) {
 
   std::vector<Knob> chosen;
   for (const Knob& knob : allKnobs()) {
-    if (std::ranges::find(names, knob.name) != names.end()) chosen.push_back(knob);
+    if (contains(names, knob.name)) chosen.push_back(knob);
   }
 
   for (const std::string& name : names) {
-    if (std::ranges::find(chosen, name, &Knob::name) != chosen.end()) continue;
+    if (contains(chosen, name, &Knob::name)) continue;
     throwUsage("--knobs: there is no knob '" + name + "'" + didYouMean(name, namesIn(allKnobs())));
   }
   return chosen;

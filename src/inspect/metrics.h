@@ -15,7 +15,7 @@ struct ImageDifference {
   // The linear means, and energyRatio, leave out the pixels that nonFinite counts.
   double rmse = 0;      // linear, over all channels
   double relmse = 0;    // mean of (a - b)^2 / (b^2 + 1e-2) (pbrt's imgtool)
-  double psnrDb = 0;    // of the 8-bit encoded images; infinite when equal
+  double psnrDb = 0;    // PSNR of the 8-bit encoded images; infinite when equal
   double flipMean = 0;  // LDR-FLIP (Andersson et al. 2020), 67 pixels a degree
   int maxCode = 0;      // 8-bit sRGB steps, largest channel difference
   double pixelsGe1CodePct = 0, pixelsGe2CodesPct = 0;
@@ -38,8 +38,8 @@ std::array<std::uint8_t, 3> heatColor(double t);
 // Measures of the difference between two columns of values, a pixel each.
 struct ValueDifference {
   std::uint64_t differing = 0;     // pixels whose values are not equal; two NaN are
-  std::uint64_t incomparable = 0;  // of them those where a value is not finite
-  double largest = 0, rms = 0;     // of the differences of all others; 0 of numbers
+  std::uint64_t incomparable = 0;  // number of values that are not finite
+  double largest = 0, rms = 0;     // differences of all others; 0 for numbers
 };
 
 // Both have the same length.

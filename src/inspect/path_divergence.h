@@ -22,7 +22,7 @@ PathComparison comparePaths(Renderer& renderer, const Camera& camera, const Film
 // the film is kept) do not change it, so that renderers may share it.
 struct ReferencePaths {
   Image image;
-  std::vector<std::uint64_t> signatures;  // of the events along a pixel's paths, as image.pixels
+  std::vector<std::uint64_t> signatures;  // hashes of the events along each pixel's paths
 };
 ReferencePaths traceReferencePaths(Renderer& renderer, const Camera& camera, const Film& film);
 PathComparison comparePaths(Renderer& renderer, const Camera& camera, const Film& film,

@@ -78,8 +78,8 @@ double shareSeen(const std::vector<SeenPoint>& points, const Camera& camera, con
     }
 
     // A point counts unless a surface hides it from the camera.
-    const Vec3f way = Vec3f(Vec3d(camera.eye) - point.position);
-    const Hit hit = accel.closest(Vec3f(point.position), way);
+    const Vec3f toEye = Vec3f(Vec3d(camera.eye) - point.position);
+    const Hit hit = accel.closest(Vec3f(point.position), toEye);
     if (hit.found() && hit.t < 1) continue;
 
     share += point.weight;

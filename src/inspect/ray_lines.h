@@ -20,12 +20,12 @@ struct RayLook {
 constexpr const RayStyle& styleOf(RayLook look) {
   return look.blocked ? rowOf(look.kind).blocked : rowOf(look.kind).style;
 }
-constexpr bool isDashed(RayLook look) { return rowOf(look.kind).onlyAsk(); }
+constexpr bool isDashed(RayLook look) { return rowOf(look.kind).testsOcclusion(); }
 
 struct RayLine {
   Vec3d from, to;
   RayLook look;
-  std::size_t node = 0;  // of the tree; of a shadow ray that which sent it
+  std::size_t node = 0;  // node of the tree; of a shadow ray, the node that sent it
   double width = 0;      // pixels; thinner for what weighs less at the eye
 };
 

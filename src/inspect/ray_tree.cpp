@@ -33,14 +33,14 @@ class TreeObserver : public StageObserver {
         tree_.primaries.push_back(levels_[0][0]);
         return;
       case Stage::findIntersections:
-        for (std::size_t i = 0; i < chunk.n; ++i) meet(chunk, i);
+        for (std::size_t i = 0; i < chunk.n; ++i) recordHit(chunk, i);
         shadows_.assign(chunk.n, {});
         return;
       case Stage::writeEmittedAndReflectiveAmbient:
         for (std::size_t i = 0; i < chunk.n; ++i) node(chunk, i).emitted = at(chunk.radiance, i);
         break;
       case Stage::checkShadows:
-        for (std::size_t k = 0; k < chunk.shadowCount; ++k) lookForLight(chunk, k);
+        for (std::size_t k = 0; k < chunk.shadowCount; ++k) recordShadowRay(chunk, k);
         return;
       case Stage::addShading:
         for (std::size_t i = 0; i < chunk.n; ++i) addLight(chunk, i);
@@ -78,7 +78,7 @@ class TreeObserver : public StageObserver {
   }
   RayNode& node(const Chunk& chunk, std::size_t i) { return tree_.nodes[numberOf(chunk, i)]; }
 
-  void meet(const Chunk& chunk, std::size_t i) {
+  void recordHit(const Chunk& chunk, std::size_t i) {
     RayNode& n = node(chunk, i);
     const Ray ray = rayOf(chunk, i);
     n.origin = ray.origin;
@@ -87,11 +87,11 @@ class TreeObserver : public StageObserver {
     n.media = reference::mediaOf(chunk, i);
     if (chunk.hits.triangle[i] == kMiss) return;
 
-    const Candidate met = candidateOf(chunk, i);
-    n.triangle = met.triangle;
-    n.instance = met.instance;
-    n.u = met.u;
-    n.v = met.v;
+    const Candidate candidate = candidateOf(chunk, i);
+    n.triangle = candidate.triangle;
+    n.instance = candidate.instance;
+    n.u = candidate.u;
+    n.v = candidate.v;
     n.distance = double{chunk.hits.t[i]};
     n.material = chunk.surfels.material[i];
     n.position = at(chunk.surfels.posX, chunk.surfels.posY, chunk.surfels.posZ, i);
@@ -99,7 +99,7 @@ class TreeObserver : public StageObserver {
     n.hidden = reference::isHidden(chunk, i);
   }
 
-  void lookForLight(const Chunk& chunk, std::size_t k) {
+  void recordShadowRay(const Chunk& chunk, std::size_t k) {
     const ShadowColumns& s = chunk.shadows;
     LightContribution& light = shadows_[s.slot[k]];
 
@@ -141,7 +141,7 @@ class TreeObserver : public StageObserver {
 
   RayTree& tree_;
   std::vector<std::vector<std::size_t>> levels_;  // a queue a depth
-  std::vector<LightContribution> shadows_;        // of the light in hand, a slot each
+  std::vector<LightContribution> shadows_;  // contributions of the current light, one for each slot
 };
 
 // Writes the tree down while the reference follows its paths, one after the other.
@@ -251,9 +251,9 @@ Wanted wantedOf(const Scene& scene, const Plan& plan, const RenderOptions& optio
                 const RayNode& n) {
   // The reference computes the surface again from the hit that the tree holds.
   const Ray ray{n.origin, n.direction};
-  const Candidate met{n.triangle, n.instance, n.u, n.v};
-  const TriangleHit hit = refineHit(scene, ray, met);
-  const reference::Surfel surfel = reference::makeSurfel(scene, plan.effects, met, hit, ray);
+  const Candidate candidate{n.triangle, n.instance, n.u, n.v};
+  const TriangleHit hit = refineHit(scene, ray, candidate);
+  const reference::Surfel surfel = reference::makeSurfel(scene, plan.effects, candidate, hit, ray);
 
   const reference::Crossing crossing = reference::crossMedia(
       scene, plan.effects, surfel.material, surfel.entering, n.media, n.alsoCrossed);
@@ -392,11 +392,11 @@ std::vector<std::size_t> counterparts(const RayTree& a, const RayTree& b) {
   return found;
 }
 
-bool meetsTheSame(const RayNode& a, const RayNode& b) {
+bool hitsSameSurface(const RayNode& a, const RayNode& b) {
   return a.triangle == b.triangle && a.instance == b.instance;
 }
 
-bool seesTheSame(const RayNode& a, const RayNode& b) {
+bool seesSameLights(const RayNode& a, const RayNode& b) {
   const auto shadows = [](const RayNode& n) {
     std::vector<bool> seen;
     for (const LightContribution& light : n.lights) {
@@ -409,7 +409,7 @@ bool seesTheSame(const RayNode& a, const RayNode& b) {
 }
 
 bool agree(const RayNode& a, const RayNode& b) {
-  return meetsTheSame(a, b) && seesTheSame(a, b) && a.children.size() == b.children.size();
+  return hitsSameSurface(a, b) && seesSameLights(a, b) && a.children.size() == b.children.size();
 }
 
 }  // namespace whit

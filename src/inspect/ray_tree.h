@@ -16,7 +16,7 @@ namespace whit {
 // The contribution of a light, or of one of its samples, to a surfel's radiance.
 struct LightContribution {
   std::uint32_t light = 0, sample = 0;
-  Vec3d origin, toLight;  // of the shadow ray: it reaches from one to their sum
+  Vec3d origin, toLight;  // the shadow ray reaches from `origin` to their sum
   bool traced = false;    // else no shadow was looked for
   bool visible = true;
   RgbD radiance;
@@ -34,14 +34,14 @@ struct RayNode {
   std::uint32_t media = 0;  // around it, a byte each (surfaces/initial_media.h)
   std::uint32_t triangle = kMiss, instance = kMiss;  // kMiss: it left the scene
   std::uint32_t material = kMiss;
-  double u = 0, v = 0;  // of the hit
+  double u = 0, v = 0;  // barycentric coordinates of the hit
   double distance = kInfinity;
   Vec3d position;
   std::uint32_t alsoCrossed = 0;  // as hits have it
   bool hidden = false;            // a surface inside a dielectric of higher priority: not there
   RgbD emitted;  // with the reflective ambient; of rays that left the scene the sky
   std::vector<LightContribution> lights;
-  RgbD local;     // of emission, ambient and lights
+  RgbD local;     // radiance from emission, ambient light and lights
   RgbD radiance;  // with what its children brought back
   // The end of the path for each kind of impulse. For sampled lobes it is set if no sample goes on.
   std::array<PathEnd, kRayKindCount> ends{};
@@ -54,12 +54,12 @@ struct RayNode {
 // Parents come before their children.
 struct RayTree {
   std::vector<RayNode> nodes;
-  std::vector<std::size_t> primaries;  // one a sample of the pixel
+  std::vector<std::size_t> primaries;  // a node for each sample of the pixel
   std::vector<Vec2f> samples;          // their places in the pixel
   Rgb pixel;                           // as the film has it
   bool narrowed = false;               // a sample was traced again (sampling/ray_limit.h)
 
-  std::size_t shadowRays() const;  // that were traced
+  std::size_t shadowRays() const;  // number of those that were traced
 };
 
 // Traces the tree by the pipeline. The pixel is the mean, over the samples, of a primary ray's
@@ -82,8 +82,8 @@ RgbD weightAtEye(const RayTree& tree, std::size_t node);
 inline constexpr std::size_t kNoCounterpart = std::numeric_limits<std::size_t>::max();
 std::vector<std::size_t> counterparts(const RayTree& a, const RayTree& b);
 
-bool meetsTheSame(const RayNode& a, const RayNode& b);  // the same surface, or none
-bool seesTheSame(const RayNode& a, const RayNode& b);   // the same lights are visible
+bool hitsSameSurface(const RayNode& a, const RayNode& b);  // true if neither hits any, too
+bool seesSameLights(const RayNode& a, const RayNode& b);   // those that are visible
 // True if both nodes hit and see the same surfaces and lights and send the same number of impulses.
 bool agree(const RayNode& a, const RayNode& b);
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "bake/sphere.h"
+#include "core/contains.h"
 #include "core/image.h"
 #include "reference/add_impulses.h"
 #include "reference/add_shading.h"
@@ -37,14 +38,14 @@ constexpr double kPositionLimit = 4;   // three products, against the largest co
 // An ulp of the normal along the edges, of which the offset counts 16, against the 2^-6 that it
 // counts of all; times two for what the normal and the edges are rounded themselves.
 constexpr double kOffsetLimit = 2048;
-constexpr double kLiftLimit = 8;    // three products of two positions' difference
-constexpr double kNormalLimit = 4;  // cross product by differences of products, normalized
+constexpr double kShadowOffsetLimit = 8;  // three products of two positions' difference
+constexpr double kNormalLimit = 4;        // cross product by differences of products, normalized
 // An ulp of a texture coordinate u is 2^-23 u of a repeat; times the texture's size in texels and
 // the contrast between two of them it is a visible number of ulps of the color (hard case H68).
 constexpr double kTexturedLimit = 4096;
 constexpr double kSkyLimit = 512;  // likewise, for azimuth and elevation
-// A footprint that is wrong by so many ulps moves the lookup between mip levels, whose contrast may
-// be that of the color; of a compact triangle that is seen head on.
+// Largest error of a footprint on a compact triangle that is seen head on. The footprint moves the
+// lookup between mip levels, whose contrast may be that of the color.
 constexpr double kFootprintLimit = 16;
 constexpr double kConeLimit = 2;       // one product and one sum
 constexpr double kRadianceLimit = 32;  // a dozen factors, some of them squared
@@ -245,7 +246,7 @@ std::vector<Quantity<SurfelRow>> quantitiesOf(const SurfelRow*) {
   return {
       {stage, "position", xyz("pos"), kPositionLimit, byMagnitude},
       {stage, "offset", {"offset"}, kOffsetLimit, byOffset},
-      {stage, "retreat", {"retreat"}, kOffsetLimit, byOffset},
+      {stage, "viewOffset", {"viewOffset"}, kOffsetLimit, byOffset},
       {stage, "geometricNormal", xyz("ng"), kNormalLimit, notEdgeOn<bySliver>},
       {stage, "shadingNormal", xyz("ns"), kNormalLimit, notEdgeOn<bySliverIfNotMapped>},
       {stage, "shadingNormal", xyz("ns"), kTexturedLimit, notEdgeOn<bySliverIfMapped>},
@@ -258,7 +259,7 @@ std::vector<Quantity<SurfelRow>> quantitiesOf(const SurfelRow*) {
       {stage, "occlusion", {"occlusion"}, kTexturedLimit, notEdgeOn<byFootprint>},
       {stage, "mirror", rgb("mirror"), kTexturedLimit, notEdgeOn<byFootprint>},
       {stage, "transmission", rgb("transmission"), kTexturedLimit, notEdgeOn<byFootprint>},
-      {stage, "lift", xyz("lift"), kLiftLimit, notEdgeOn<byMagnitude>},
+      {stage, "shadowOffset", xyz("shadowOffset"), kShadowOffsetLimit, notEdgeOn<byMagnitude>},
       {stage, "cone", {"cone"}, kConeLimit},
       {stage, "flags", {"flags"}, kExact, notEdgeOn<byItself>},
       {stage, "mediaBehind", {"mediaBehind"}, kExact, notEdgeOn<byItself>},
@@ -311,7 +312,7 @@ std::vector<Compared<Row>> comparedOf() {
   Row::forEachColumn(row, [&](const std::string& column, auto value, Feature feature) {
     bool listed = false;
     for (Compared<Row>& compared : result) {
-      if (std::ranges::find(compared.what.columns, column) == compared.what.columns.end()) continue;
+      if (!contains(compared.what.columns, column)) continue;
       compared.columns.push_back(place);
       compared.feature = feature;
       listed = true;

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <unordered_set>
 
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "io/files.h"
@@ -112,7 +113,7 @@ Json parseJson(const std::string& text, const std::string& file) {
   }
 }
 
-std::string isMeant(const std::string& word, const std::vector<std::string>& names) {
+std::string suggestion(const std::string& word, const std::vector<std::string>& names) {
   const std::string nearest = nearestName(word, names);
   return nearest.empty() ? "" : " (is " + inQuotes(excerpt(nearest)) + " meant?)";
 }
@@ -167,8 +168,8 @@ double JsonValue::expression(const std::string& text) const {
   if (parameter == document_->parameters.end()) {
     std::vector<std::string> names;
     for (const auto& [known, value] : document_->parameters) names.push_back("$" + known);
-    fail("a number or a parameter" +
-         (names.empty() ? "; the scene has no parameters" : isMeant(text.substr(0, sign), names)));
+    fail("a number or a parameter" + (names.empty() ? "; the scene has no parameters"
+                                                    : suggestion(text.substr(0, sign), names)));
   }
   if (sign == text.size()) return parameter->second;
 
@@ -218,12 +219,12 @@ std::string JsonValue::text() const {
 std::string JsonValue::word(const std::vector<std::string>& choices) const {
   if (isText()) {
     std::string chosen = text();
-    if (std::ranges::find(choices, chosen) != choices.end()) return chosen;
+    if (contains(choices, chosen)) return chosen;
   }
 
   std::string list;
   for (const std::string& choice : choices) list += (list.empty() ? "" : ", ") + inQuotes(choice);
-  fail("one of " + list + (isText() ? isMeant(text(), choices) : ""));
+  fail("one of " + list + (isText() ? suggestion(text(), choices) : ""));
 }
 
 Vec3d JsonValue::vector() const {
@@ -336,7 +337,7 @@ JsonObject::JsonObject(const JsonValue& value) : value_(value) {
 }
 
 JsonValue JsonObject::find(const std::string& key) {
-  if (std::ranges::find(known_, key) == known_.end()) known_.push_back(key);
+  if (!contains(known_, key)) known_.push_back(key);
   return value_[key];
 }
 
@@ -346,7 +347,7 @@ JsonValue JsonObject::need(const std::string& key) {
   // The error suggests a similar key among those that have not been read.
   std::vector<std::string> others;
   for (const auto& [name, member] : value_.members()) {
-    if (std::ranges::find(known_, name) == known_.end()) others.push_back(name);
+    if (!contains(known_, name)) others.push_back(name);
   }
 
   const std::string meant = nearestName(key, others);
@@ -362,8 +363,8 @@ float JsonObject::number(const std::string& key, double fallback, double low, do
 
 void JsonObject::finish() const {
   for (const auto& [key, value] : value_.members()) {
-    if (std::ranges::find(known_, key) != known_.end()) continue;
-    throwBadScene(value.where(), "unknown key" + isMeant(key, known_));
+    if (contains(known_, key)) continue;
+    throwBadScene(value.where(), "unknown key" + suggestion(key, known_));
   }
 }
 

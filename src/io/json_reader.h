@@ -31,7 +31,7 @@ Json parseJson(const std::string& text, const std::string& file);
 
 // Returns " (is "NAME" meant?)" for the end of an error message, or an empty text if no name is
 // near.
-std::string isMeant(const std::string& word, const std::vector<std::string>& names);
+std::string suggestion(const std::string& word, const std::vector<std::string>& names);
 
 // Returns `token` as a part of a JSON pointer (RFC 6901, section 3).
 std::string escapePointer(const std::string& token);
@@ -86,7 +86,7 @@ class JsonValue {
   JsonValue operator[](const std::string& name) const;
   JsonValue operator[](std::size_t i) const;
   JsonValue need(const std::string& name) const;  // fails where the member is missing
-  std::size_t size() const;                       // of a list
+  std::size_t size() const;                       // number of elements of a list
   double numberOr(double fallback) const;
 
   // Accepts 1e0 and 1.0 as well as 1.
@@ -144,7 +144,7 @@ typename Entries::const_iterator findNamed(const Entries& entries, const JsonVal
   std::vector<std::string> names;
   names.reserve(entries.size());
   for (const auto& [known, entry] : entries) names.push_back(known);
-  name.fail("the name of " + kind + isMeant(name.text(), names));
+  name.fail("the name of " + kind + suggestion(name.text(), names));
 }
 
 template <typename Noun, typename Value>

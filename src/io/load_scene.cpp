@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "io/files.h"
@@ -251,10 +252,11 @@ void requireMovable(const std::string& pointer, const SceneDescription& scene) {
              "of a glTF model that holds something");
 }
 
-// The instant that was asked for is one of something that moves.
-void settleInstant(const Instant& instant, SceneDescription& scene) {
+// Sets the time at which the scene is looked at. Throws if the animation or an item that is to be
+// moved does not exist, or if nothing moves.
+void applyInstant(const Instant& instant, SceneDescription& scene) {
   const std::vector<std::string> names = namesIn(scene.animations);
-  const bool known = std::ranges::find(names, instant.animation) != names.end();
+  const bool known = contains(names, instant.animation);
   if (!instant.animation.empty() && !known) {
     throwUsage(scene.name + " has no animation '" + instant.animation + "'" +
                didYouMean(instant.animation, names));
@@ -342,7 +344,7 @@ SceneDescription readScene(const JsonDocument& document, const LoadOptions& opti
   }
   readView(file, fromSky, context);
   file.finish();
-  settleInstant(options.instant, context.scene);
+  applyInstant(options.instant, context.scene);
   return finish(options, fromSky, context);
 }
 
@@ -363,7 +365,7 @@ SceneDescription loadModelFile(const fs::path& path, const SceneName& name,
   takeSize(options, scene);
   supplyView(items, context);  // before the scene has another time than 0
   readCameraSettings(options, nothing, scene);
-  settleInstant(options.instant, scene);
+  applyInstant(options.instant, scene);
   // The settings are read as if a scene file contained them and the model's lights.
   JsonDocument document = nothing;
   if (!options.settings.empty()) document.root["lights"] = describe(scene.lights);

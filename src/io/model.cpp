@@ -37,7 +37,7 @@ Body MeshModel::content(SceneLayout&, const std::vector<std::uint32_t>& material
   Body body;
   if (mesh_.triangles.empty()) return body;
   addParts({mesh_}, materials, source_.path.string(), source_.budget, body);
-  if (middle_ != Vec3d()) body.placements.front().toParent = Affine::translation(middle_);
+  if (origin_ != Vec3d()) body.placements.front().toParent = Affine::translation(origin_);
   return body;
 }
 

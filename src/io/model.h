@@ -94,7 +94,7 @@ class MeshModel : public Model {
   ModelSource source_;
   std::vector<Material> materials_;
   Mesh mesh_;
-  Vec3d middle_;  // subtracted from the file's coordinates before they were rounded
+  Vec3d origin_;  // subtracted from the file's coordinates before they were rounded
 };
 
 // True if openModel() reads such a file, by its extension (any case).

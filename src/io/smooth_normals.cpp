@@ -21,9 +21,9 @@ constexpr float kCoplanar = 1 - 1.0e-6f;
 struct FaceCorner {
   std::array<float, 3> place;
   std::uint32_t former;   // the vertex as the file has it
-  std::uint32_t* vertex;  // of the triangle
+  std::uint32_t* vertex;  // vertex index of the triangle
   Vec3f faceNormal;       // zero where the face has none
-  float angle;            // of the face at this corner
+  float angle;            // angle of the face at this corner
   Vec3f normal = {};
 };
 

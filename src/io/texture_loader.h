@@ -62,7 +62,7 @@ class DecodeQueue {
   std::size_t begun_ = 0, ended_ = 0;
   bool closing_ = false;  // no more tasks will be added
   const std::function<void(int)> job_ = [this](int) { work(); };
-  std::optional<WorkerPool> pool_;  // from the first task on
+  std::optional<WorkerPool> pool_;  // created with the first task
   bool running_ = false;            // between begin() and finish() of the pool
 };
 

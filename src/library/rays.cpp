@@ -133,7 +133,7 @@ void putSurface(const whit::Scene& scene, const QueryHit& hit, const RayHits& to
   to.uvs[2 * i] = uv.x;
   to.uvs[2 * i + 1] = uv.y;
 
-  const whit::Scene::MetNumbers numbers = scene.numbersOf(number, instance);
+  const whit::Scene::HitNumbers numbers = scene.numbersOf(number, instance);
   to.triangles[i] = numbers.triangle;
   to.objects[i] = numbers.item;
   to.materials[i] = record.material;
@@ -247,9 +247,9 @@ RayAnswers visible(const Queried& at, const Numbers& from, const Numbers& to,
     constexpr double kWithoutNormal = 4;
     QueryRay ray;
     Vec3d a = pointAt(from, i) - at.scene.origin, b = pointAt(to, i) - at.scene.origin;
-    const Vec3d way = b - a;
+    const Vec3d along = b - a;
     const auto passedOver = [&](const Vec3d& p) {
-      return kWithoutNormal * roundingOf(at, p) / length(way);
+      return kWithoutNormal * roundingOf(at, p) / length(along);
     };
 
     // With a normal an end moves off its surface; without one the ray begins or ends short of it.
@@ -257,12 +257,12 @@ RayAnswers visible(const Queried& at, const Numbers& from, const Numbers& to,
     if (fromNormals.size() == 0) {
       ray.tNear = passedOver(a);
     } else {
-      a = offSurface(at, a, normalized(pointAt(fromNormals, i)), way);
+      a = offSurface(at, a, normalized(pointAt(fromNormals, i)), along);
     }
     if (toNormals.size() == 0) {
       ray.tFar -= passedOver(b);
     } else {
-      b = offSurface(at, b, normalized(pointAt(toNormals, i)), -way);
+      b = offSurface(at, b, normalized(pointAt(toNormals, i)), -along);
     }
 
     ray.origin = a;
@@ -291,8 +291,8 @@ std::vector<float> ambientOcclusion(const Queried& at, const Numbers& points,
         stream = mixed(stream ^ static_cast<std::uint32_t>(bits ^ bits >> 32));
       }
       for (std::uint32_t k = 0; k < sampling.count; ++k) {
-        const Vec3d way = cosineDirection(normal, lobePoint(stream, sampling, k));
-        rays[k] = {offSurface(at, point, normal, normal), way, 0, radius};
+        const Vec3d direction = cosineDirection(normal, lobePoint(stream, sampling, k));
+        rays[k] = {offSurface(at, point, normal, normal), direction, 0, radius};
       }
       at.queries.blocked(rays, blocked.data());
       const auto free = std::ranges::count_if(blocked, [](const Blocked& b) { return !b.blocked; });

@@ -37,7 +37,7 @@ struct Renderer::Data {
   auto ask(const Query& query, const Asked&... asked) {
     return guarded(progress, [&](whit::Progress* reporter) {
       const RayQueries& queries = engine.rayQueries(reporter);
-      const int threads = threadsOf(engine.wantedOptions());
+      const int threads = threadsOf(engine.requestedOptions());
       return query(Queried{engine.scene(), queries, threads, reporter}, asked...);
     });
   }
@@ -101,7 +101,7 @@ Renderer& Renderer::set(const std::string& name, const std::string& value) {
 }
 
 std::string Renderer::get(const std::string& name) const {
-  return guarded([&] { return optionText(data_->engine.wantedOptions(), name); });
+  return guarded([&] { return optionText(data_->engine.requestedOptions(), name); });
 }
 
 const Scene& Renderer::scene() const { return data_->scene; }

@@ -20,7 +20,7 @@ std::vector<std::string> warningsOf(const OpenScene& open) {
     all.push_back(kind + " (" + std::to_string(entry.count) + " times, first: " + entry.first +
                   ")");
   }
-  if (std::string dark = lackOfLight(open.scene); !dark.empty()) all.push_back(std::move(dark));
+  if (std::string dark = noLightWarning(open.scene); !dark.empty()) all.push_back(std::move(dark));
   return all;
 }
 
@@ -90,7 +90,7 @@ whit::LoadOptions loadOptions(const LoadOptions& options, const char* shippedSce
   const double gigabytes = std::min(std::fmax(options.maxMemoryGb, 0.0), kMostGb);
   load.maxMemoryBytes =
       gigabytes > 0 ? static_cast<std::uint64_t>(gigabytes * 1e9) : defaultMaxMemory();
-  constexpr int kMostThreads = 1024;  // as of the option "threads"
+  constexpr int kMostThreads = 1024;  // largest value of the option "threads"
   load.threads = std::clamp(options.threads, 0, kMostThreads);
   load.sky = options.sky;
   load.sphereSegments = options.sphereSegments;

@@ -298,7 +298,7 @@ struct RayHits {
   std::span<double> points;     // x, y, z of each
   // x, y, z of each, of unit length, on the front (where corners are counter-clockwise).
   std::span<float> geometricNormals, shadingNormals;
-  std::span<float> weights;  // of corners 1 and 2 of the triangle; on a sphere of no meaning
+  std::span<float> weights;  // weights of corners 1 and 2 of the triangle; meaningless on a sphere
   std::span<float> uvs;      // texture coordinates
   // Numbers as those of the channels. An instance is 0xffffffff for what is used once.
   std::span<std::uint32_t> triangles, objects, materials, instances;
@@ -335,7 +335,7 @@ struct FrameStatistics {
   std::vector<Stage> stages;
   std::vector<Rays> rays;
   std::uint64_t nonFinitePixels = 0;
-  std::uint64_t limitedPixels = 0;  // whose rays "max-rays" has bounded
+  std::uint64_t limitedPixels = 0;  // number of pixels whose rays "max-rays" has bounded
 };
 
 // An option of `whit render`.
@@ -422,7 +422,7 @@ class Renderer {
   // Renders from the scene's camera path, `seconds` after its begin.
   void renderOnPath(double seconds, Image& image);
 
-  const FrameStatistics& statistics() const;  // of the last frame
+  const FrameStatistics& statistics() const;  // statistics of the last frame
 
   // Queries of the scene as it is at its present time, without a picture. Surfaces count as the eye
   // sees them: alpha masks cut them, single-sided ones are passed from behind, and of coplanar ones

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <vector>
 
+#include "core/index.h"
 #include "core/machine_limits.h"
 #include "core/worker_pool.h"
 #include "make/patterns/noise.h"
@@ -52,7 +53,7 @@ void cover(const Corners& t, TexelCounts& silhouette) {
       const auto side = [&](const Vec3d& a, const Vec3d& b) { return cross(b - a, center - a).y; };
       const auto [least, most] =
           std::minmax({side(t[0], t[1]), side(t[1], t[2]), side(t[2], t[0])});
-      if (least >= 0 || most <= 0) silhouette[static_cast<std::size_t>(z * kSide + x)] = 1;
+      if (least >= 0 || most <= 0) entryOf(silhouette, z * kSide + x) = 1;
     }
   }
 }
@@ -110,7 +111,7 @@ void addGroundShadow(SceneDescription& scene) {
   material.name = kGroundShadowName;
   material.diffuse = Rgb(0.0f);
   material.coverageMap = static_cast<std::int32_t>(scene.textures.size());
-  material.cutWhereClear();
+  material.passClearTexels();
   material.castsShadow = material.doubleSided = false;
 
   // The rows of the texture begin at v = 1, where z is least.

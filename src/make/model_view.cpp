@@ -1,3 +1,5 @@
+// How a model is shown: from which side or from where in a room, how bright its light is, how it
+// turns on a turntable, and the sky of the studio around it.
 #include "make/model_view.h"
 
 #include <algorithm>
@@ -164,7 +166,7 @@ bool isMeantAsRoom(const SceneDescription& scene, const Bounds& bounds) {
   return hasSeveralMaterials(scene) || hasFlatWalls(scene, bounds);
 }
 
-// True if most of the places in the middle are in a room; some may lie inside objects.
+// True if most of seven places around the center are in a room; some may lie inside objects.
 bool isRoom(const SceneDescription& scene, const Bounds& bounds) {
   constexpr double kAside = 0.3, kFlattest = 0.05;
   constexpr std::size_t kPlaces = 7, kMostOutside = 2;
@@ -174,17 +176,17 @@ bool isRoom(const SceneDescription& scene, const Bounds& bounds) {
   if (std::min({half.x, half.y, half.z}) < kFlattest * maxComponent(half)) return false;
 
   // The center and six places around it are tested.
-  const std::array<Vec3d, kPlaces> ways{{{},
-                                         {half.x, 0, 0},
-                                         {-half.x, 0, 0},
-                                         {0, half.y, 0},
-                                         {0, -half.y, 0},
-                                         {0, 0, half.z},
-                                         {0, 0, -half.z}}};
+  const std::array<Vec3d, kPlaces> offsets{{{},
+                                            {half.x, 0, 0},
+                                            {-half.x, 0, 0},
+                                            {0, half.y, 0},
+                                            {0, -half.y, 0},
+                                            {0, 0, half.z},
+                                            {0, 0, -half.z}}};
 
   std::size_t outside = 0;
-  const bool closed = std::ranges::all_of(ways, [&](const Vec3d& way) {
-    return isInRoom(scene, center + way) || ++outside <= kMostOutside;
+  const bool closed = std::ranges::all_of(offsets, [&](const Vec3d& offset) {
+    return isInRoom(scene, center + offset) || ++outside <= kMostOutside;
   });
   return closed && isMeantAsRoom(scene, bounds);
 }
@@ -200,7 +202,8 @@ Vec3d placeInRoom(const SceneDescription& scene, const Vec3d& from, const Vec3d&
   return isInRoom(scene, to) ? to : from;
 }
 
-// Looks from near a corner across the room, or from where the azimuth meets the walls.
+// Looks across a room from near a corner, or from near the wall that lies in the direction of the
+// azimuth.
 void lookAround(const SceneDescription& scene, const Bounds& bounds, ModelView& view) {
   constexpr double kWide = 65;
   constexpr double kNearWall = 0.85, kBelowCeiling = 0.35;
@@ -208,8 +211,8 @@ void lookAround(const SceneDescription& scene, const Bounds& bounds, ModelView& 
 
   // The corner is at 45 degrees of a square room.
   const double azimuth = scene.azimuth.value_or(45) * (std::numbers::pi / 180);
-  const Vec3d way{std::sin(azimuth), 0, std::cos(azimuth)};
-  const Vec3d corner = way / std::max(std::abs(way.x), std::abs(way.z));
+  const Vec3d direction{std::sin(azimuth), 0, std::cos(azimuth)};
+  const Vec3d corner = direction / std::max(std::abs(direction.x), std::abs(direction.z));
 
   const Vec3d eye = corner * kNearWall + Vec3d{0, 0.1, 0}, at = corner * -0.4 - Vec3d{0, 0.2, 0};
   view.camera.eye = Vec3f(placeInRoom(scene, center + half * eye, center));
@@ -247,16 +250,16 @@ void lookFrom(const Framing& f, double zoom, const EveryPoint& everyPoint, Model
   // The picture is centered on the middle of their bounds.
   Bounds seen;
   everySeen([&](const Vec3d& p) { seen.add(p); });
-  const Vec3d middle = seen.center();
+  const Vec3d center = seen.center();
 
   // The eye stands as far away as the most demanding point needs.
   double distance = 0;
   everySeen([&](const Vec3d& p) {
-    const double away = std::max(std::abs(p.x - middle.x) / f.aspect, std::abs(p.y - middle.y));
-    distance = std::max(distance, p.z - middle.z + away / f.half);
+    const double away = std::max(std::abs(p.x - center.x) / f.aspect, std::abs(p.y - center.y));
+    distance = std::max(distance, p.z - center.z + away / f.half);
   });
 
-  const Vec3d at = view.center + f.right * middle.x + f.up * middle.y + f.side * middle.z;
+  const Vec3d at = view.center + f.right * center.x + f.up * center.y + f.side * center.z;
   view.camera.at = Vec3f(at);
   view.camera.eye = Vec3f(at + f.side * (distance / zoom));
 }
@@ -268,14 +271,14 @@ std::vector<Vec3d> outermostPoints(const SceneDescription& scene, double seconds
   constexpr std::uint64_t kFewestTimes = 32, kMostTimes = 256, kMostPosed = 1'000'000;
 
   // The directions are the axes both ways, and the normals of the four sides of the view's frustum.
-  std::vector<Vec3d> ways{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, f.right, f.up, f.side};
-  for (std::size_t i = 0; i < 6; ++i) ways.push_back(-ways[i]);
-  for (const Vec3d& way : {f.right / (f.aspect * f.half), f.up / f.half}) {
-    ways.insert(ways.end(), {f.side + way, f.side - way});
+  std::vector<Vec3d> directions{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, f.right, f.up, f.side};
+  for (std::size_t i = 0; i < 6; ++i) directions.push_back(-directions[i]);
+  for (const Vec3d& slope : {f.right / (f.aspect * f.half), f.up / f.half}) {
+    directions.insert(directions.end(), {f.side + slope, f.side - slope});
   }
 
-  std::vector<double> reach(ways.size(), std::numeric_limits<double>::lowest());
-  std::vector<Vec3d> points(ways.size());
+  std::vector<double> reach(directions.size(), std::numeric_limits<double>::lowest());
+  std::vector<Vec3d> points(directions.size());
 
   // A model of many triangles is posed at fewer times.
   const std::uint64_t posed = kMostPosed / (placedTriangleCount(scene) + 1);
@@ -283,8 +286,8 @@ std::vector<Vec3d> outermostPoints(const SceneDescription& scene, double seconds
 
   // Each direction keeps the corner that lies farthest along it.
   const auto add = [&](const Vec3d& corner) {
-    for (std::size_t k = 0; k < ways.size(); ++k) {
-      const double own = dot(corner, ways[k]);
+    for (std::size_t k = 0; k < directions.size(); ++k) {
+      const double own = dot(corner, directions[k]);
       if (own > reach[k]) {
         reach[k] = own;
         points[k] = corner;
@@ -309,17 +312,18 @@ Vec3d atAzimuth(const SceneDescription& scene, const Vec3d& side) {
 
 // Returns the irradiance from the light at a point with this unit normal.
 double irradiance(const Light& light, const Vec3d& point, const Vec3d& normal) {
-  const Vec3d way = towards(light, point), direction = normalized(way);
+  const Vec3d toLight = towards(light, point), direction = normalized(toLight);
   const double cosine = std::max(0.0, dot(normal, direction));
   if (light.kind == Light::Kind::directional) return luminance(light.intensity) * cosine;
 
   // Irradiance falls with the squared distance, but grows no more within the light's radius.
   const double radius{light.radius};
-  const double square = std::max(dot(way, way), radius * radius);
+  const double square = std::max(dot(toLight, toLight), radius * radius);
   const double cone = light.kind == Light::Kind::spot ? coneOf(light).falloff(direction) : 1;
   return square > 0 ? luminance(light.intensity) * cone * cosine / square : 0;
 }
 
+// Slices in which the outline of a model on a turntable is kept.
 constexpr std::size_t kSlices = 64;
 
 // The distance of the scene's outermost points from the axis, at each height.
@@ -372,11 +376,12 @@ double distanceFor(double radius, double y, double sine, double half, double asp
   return distance;
 }
 
+// Size of the studio's image, and the radiance of its gradient.
 constexpr int kWidth = 256, kHeight = 128;
 constexpr double kZenith = 0.15, kHorizon = 0.20, kGround = 0.10;
 
-// Angles are in degrees: the azimuth of the middle from -z towards +x, its elevation, half the
-// sides.
+// A soft box of the studio. Angles are in degrees: the azimuth of its center from -z towards +x,
+// the elevation of its center, and half of its sides.
 struct SoftBox {
   double azimuth, elevation, halfWidth, halfHeight, radiance;
 };
@@ -459,10 +464,10 @@ bool seesSomething(const SceneDescription& scene, const Camera& camera) {
 
   // Each side of the picture has a bit, set for points beyond it; one more is for points behind.
   const auto sidesBeyond = [&](const Vec3d& point) {
-    const Vec3d way = point - frame.eye;
-    const double ahead = dot(way, frame.forward), grows = frame.orthographic ? 1 : ahead;
-    const double x = dot(way, frame.right) / dot(frame.right, frame.right);
-    const double y = dot(way, frame.up) / dot(frame.up, frame.up);
+    const Vec3d fromEye = point - frame.eye;
+    const double ahead = dot(fromEye, frame.forward), grows = frame.orthographic ? 1 : ahead;
+    const double x = dot(fromEye, frame.right) / dot(frame.right, frame.right);
+    const double y = dot(fromEye, frame.up) / dot(frame.up, frame.up);
     const double right = halfWidth * grows, top = halfHeight * grows;
     return unsigned{ahead <= 0} | unsigned{x < -right} << 1 | unsigned{x > right} << 2 |
            unsigned{y < -top} << 3 | unsigned{y > top} << 4;

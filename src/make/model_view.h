@@ -10,7 +10,7 @@ namespace whit {
 
 struct ModelView {
   Vec3d center;
-  double radius = 0;  // of the sphere around its bounds; 0: the scene is empty
+  double radius = 0;  // radius of the sphere around its bounds; 0: the scene is empty
   // The model is a closed room: fronts of surfaces surround its middle, and vertex normals, several
   // materials or flat walls say that this is meant.
   bool inside = false;
@@ -36,7 +36,7 @@ bool seesSomething(const SceneDescription& scene, const Camera& camera);
 double lightLevel(const SceneDescription& scene);
 
 struct Turntable {
-  Camera camera;  // at the start
+  Camera camera;  // camera at the start
   Vec3d pivot;    // a point of the axis
   Vec3d axis{0, 1, 0};
 };

@@ -25,8 +25,8 @@ std::string partingText(const Scene& scene, const ExplainedRays& rays, std::size
   if (other == kNoCounterpart) return "it does not follow this ray";
 
   const RayNode &n = rays.packets.nodes[node], &reference = rays.reference.nodes[other];
-  if (!meetsTheSame(n, reference)) return metText(scene, reference);
-  return seesTheSame(n, reference) ? "it sends on other rays" : "it sees other lights";
+  if (!hitsSameSurface(n, reference)) return metText(scene, reference);
+  return seesSameLights(n, reference) ? "it sends on other rays" : "it sees other lights";
 }
 
 }  // namespace
@@ -49,7 +49,7 @@ ExplainedRays explainRays(Renderer& renderer, const Camera& camera, const Film& 
   return rays;
 }
 
-RgbD addedBy(const RayTree& tree, std::size_t node, const RgbD& own) {
+RgbD contributionOf(const RayTree& tree, std::size_t node, const RgbD& own) {
   return weightAtEye(tree, node) * own * (1.0 / static_cast<double>(tree.primaries.size()));
 }
 
@@ -89,7 +89,7 @@ RayText describeRay(const Scene& scene, const ExplainedRays& rays, std::size_t n
   RayText text{metText(scene, n), mediumName(scene, n.media), {}};
 
   const auto adds = [&](const std::string& what, const RgbD& own) {
-    text.lines.push_back(what + " adds " + textOf(addedBy(rays.packets, node, own)));
+    text.lines.push_back(what + " adds " + textOf(contributionOf(rays.packets, node, own)));
   };
 
   if (rays.partsFirstAt(node)) {
@@ -118,7 +118,7 @@ RayText describeRay(const Scene& scene, const ExplainedRays& rays, std::size_t n
 }
 
 int codesAddedBy(const RayTree& tree, std::size_t node, const RenderOptions& options) {
-  const RgbD added = addedBy(tree, node, tree.nodes[node].radiance);
+  const RgbD added = contributionOf(tree, node, tree.nodes[node].radiance);
   const auto with = codesOf(tree.pixel, options);
   const auto without = codesOf(max(tree.pixel - Rgb(added), Rgb(0.0f)), options);
 
@@ -146,7 +146,7 @@ Json pageTree(const std::vector<RayText>& words, const ExplainedRays& rays,
                              {"medium", words[i].medium},
                              {"weight", textOf(n.weight)},
                              {"codes", codesAddedBy(tree, i, options)},
-                             {"adds", jsonOf(addedBy(tree, i, n.local))},
+                             {"adds", jsonOf(contributionOf(tree, i, n.local))},
                              {"lines", words[i].lines}});
   }
   return json;

@@ -16,7 +16,7 @@ namespace whit {
 
 struct ExplainedRays {
   RayTree packets, reference;
-  std::vector<std::size_t> counterpart;  // of the packets' nodes in the reference
+  std::vector<std::size_t> counterpart;  // the reference's node for each of the packets'
 
   // Where the two part: the surface, shadows or impulses differ.
   bool partsAt(std::size_t node) const;
@@ -27,14 +27,14 @@ struct ExplainedRays {
 ExplainedRays explainRays(Renderer& renderer, const Camera& camera, const Film& film, int x, int y);
 
 // The radiance that `own` of a node adds to the pixel.
-RgbD addedBy(const RayTree& tree, std::size_t node, const RgbD& own);
+RgbD contributionOf(const RayTree& tree, std::size_t node, const RgbD& own);
 
 std::string materialName(const Scene& scene, std::uint32_t material);
 std::string lightName(const Scene& scene, std::uint32_t light);
 // The name of the medium in which a ray travels.
 std::string mediumName(const Scene& scene, std::uint32_t media);
 const char* nameOf(PathEnd end);    // "" for none
-std::string colorOf(RayLook look);  // of its lines, "#ff0000"
+std::string colorOf(RayLook look);  // color of its lines, "#ff0000"
 
 // The words that describe a ray of the packets.
 struct RayText {

@@ -25,13 +25,13 @@ struct RunSummary {
   std::vector<double> floorMs;     // empty without --floor
   // Tasks of other programs that wanted a processor before each frame; empty if nobody looked.
   std::vector<double> otherTasks;
-  int processors = 0;     // of the machine
-  std::string imageHash;  // of the last frame: digestOf(image)
+  int processors = 0;     // number of the machine's processors
+  std::string imageHash;  // digestOf() the last frame's image
   // Images are written while the next frame is traced: the time of writing each image, and how
   // long the tracing waited for it.
   std::vector<double> writingMs, waitedMs;
-  std::vector<double> updateMs;   // of a scene that moves: to bring it to each frame's instant
-  double tracedAndWrittenMs = 0;  // from the first frame to the last file
+  std::vector<double> updateMs;   // time to bring a scene that moves to each frame's instant
+  double tracedAndWrittenMs = 0;  // time from the first frame to the last file
   std::size_t kept = 0;           // frames whose images were there
 };
 

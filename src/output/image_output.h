@@ -30,9 +30,9 @@ inline constexpr OptionSpec kExrOption{.name = "exr", .words = "zip|none|half|dw
 // How an image is to be written, apart from what is in it.
 struct ImageFormat {
   ExrStorage exr = ExrStorage::zip;
-  int threads = 1;                      // that compress it
-  std::optional<Channel> channel = {};  // that the file holds in place of the picture
-  ImageMetadata aboutChannels = {};     // of describeChannels()
+  int threads = 1;                      // number of threads that compress it
+  std::optional<Channel> channel = {};  // channel that the file holds in place of the picture
+  ImageMetadata aboutChannels = {};     // result of describeChannels()
 };
 
 // Writes .exr (linear, with the film's channels), .jpg or .png (display), or the format's channel

@@ -283,7 +283,7 @@ class Session {
   }
 
   api::Renderer renderer_;
-  std::optional<OptionTexts> options_ = OptionTexts();  // of the renderer; none after an error
+  std::optional<OptionTexts> options_ = OptionTexts();  // the renderer's; none after an error
   py::object lock_ = py::module_::import("threading").attr("Lock")();
   std::atomic<std::thread::id> owner_;  // the thread that has the lock
   pid_t process_ = getpid();            // the process that used the scene last

@@ -17,7 +17,7 @@ Ray reflectedRay(const Surfel& s, const ShadingChoices& choices) {
   const Vec3d mirrored = reflect(-s.view, s.shadingNormal),
               origin = rayOrigin(choices.offset, s, 1);
   if (!choices.bend) return {origin, mirrored, s.cone};
-  return {origin, lifted(mirrored, s.geometricNormal, smallestElevation(s)), s.cone};
+  return {origin, raised(mirrored, s.geometricNormal, smallestElevation(s)), s.cone};
 }
 
 Ray refractedRay(const Surfel& s, const Interface& interface, double c,
@@ -31,7 +31,7 @@ Ray refractedRay(const Surfel& s, const Interface& interface, double c,
   const double facing = dot(s.view, s.geometricNormal);
   const double g2 = interface.k + facing * facing;
   const double steepness = g2 > 0 ? std::sqrt(g2) / interface.eta : 1;
-  return {origin, lifted(bent, -s.geometricNormal, std::min(0.9 * steepness, 0.01)), s.cone};
+  return {origin, raised(bent, -s.geometricNormal, std::min(0.9 * steepness, 0.01)), s.cone};
 }
 
 // The color, reduced to what is left of the light where the share `taken` of it is not: in
@@ -76,7 +76,7 @@ constexpr double kLeastSine = 0.01;
 // Right-handed, z along the surface's normal, the view in the plane of x and z.
 struct Frame {
   Vec3d x, y, z;
-  double sine = 0;  // of the view to z
+  double sine = 0;  // sine of the angle between view and z
 };
 
 Frame frameOfIncidence(const Vec3d& n, const Vec3d& view) {
@@ -90,7 +90,7 @@ Frame frameOfIncidence(const Vec3d& n, const Vec3d& view) {
 // The sample of a lobe that the child is.
 struct LobeChild {
   Impulse impulse;
-  int rays = 1;  // that share the lobe
+  int rays = 1;  // number of rays that share the lobe
 };
 
 // The sample of the lobe that its path says it is; none if it is no sample of a lobe.
@@ -128,7 +128,7 @@ double smallestElevation(const Surfel& surfel) {
   return std::min(0.9 * dot(surfel.view, surfel.geometricNormal), 0.01);
 }
 
-Vec3d lifted(const Vec3d& r, const Vec3d& normal, double elevation) {
+Vec3d raised(const Vec3d& r, const Vec3d& normal, double elevation) {
   const double own = dot(r, normal);
   return own < elevation ? normalized(r + normal * (elevation - own)) : r;
 }
@@ -269,8 +269,8 @@ struct Facet {
   double cosine = 0;  // between viewer and facet, in [0, 1]
   RgbD reflectance;
   Vec3d mirrored;        // the view, unit
-  double elevation = 0;  // of that over the surface
-  double passes = 0;     // of what goes there, past other facets
+  double elevation = 0;  // sine of its elevation over the surface
+  double passes = 0;     // share of the light that passes other facets
 };
 
 Facet facetAt(const Surfel& s, const UnitPoint& at, FresnelModel model) {
@@ -310,7 +310,7 @@ Impulse glossyImpulse(const Surfel& s, MediaStack stack, const UnitPoint& at,
 
   // Turned back by bent normals only: where both agree the ray is high enough as it is.
   const double least = std::min(0.9 * facet.elevation, 0.01);
-  const Vec3d r = choices.bend ? lifted(facet.mirrored, s.geometricNormal, least) : facet.mirrored;
+  const Vec3d r = choices.bend ? raised(facet.mirrored, s.geometricNormal, least) : facet.mirrored;
   return {facet.reflectance * (facet.passes * s.coverage) * s.aboveLobe,
           {rayOrigin(choices.offset, s, 1), r, s.cone},
           stack};
@@ -322,7 +322,7 @@ Impulse frostedImpulse(const Surfel& s, MediaStack, const UnitPoint& at,
   Facet facet = facetAt(s, at, choices.fresnel);
   const double alpha = widthOfFacets(s);
   Vec3d direction;
-  double depth = 0, passes = 0;  // as a sine, under the surface; past other facets
+  double depth = 0, passes = 0;  // sine under the surface; share that passes other facets
   if (f.ofSheet) {
     if (!f.reflects) facet.reflectance = {};
     depth = std::fabs(facet.elevation);
@@ -337,7 +337,7 @@ Impulse frostedImpulse(const Surfel& s, MediaStack, const UnitPoint& at,
   if (!(depth > 0)) return {};
 
   const bool goesOn = alpha == 0 && f.n1 == f.n2;
-  if (choices.bend) direction = lifted(direction, -s.geometricNormal, std::min(0.9 * depth, 0.01));
+  if (choices.bend) direction = raised(direction, -s.geometricNormal, std::min(0.9 * depth, 0.01));
   return {(RgbD(1.0) - facet.reflectance) * (passes * s.coverage) * f.transmission,
           {rayOrigin(choices.offset, s, -1), goesOn ? -s.view : direction, s.cone},
           f.mediaBehind};
@@ -347,7 +347,7 @@ Impulse indirectImpulse(const Surfel& s, MediaStack stack, const UnitPoint& at,
                         const ShadingChoices& choices) {
   const Vec3d drawn = cosineDirection(s.shadingNormal, at);
   const double elevation = std::min(0.9 * dot(s.shadingNormal, drawn), 0.01);
-  const Vec3d r = choices.bend ? lifted(drawn, s.geometricNormal, elevation) : drawn;
+  const Vec3d r = choices.bend ? raised(drawn, s.geometricNormal, elevation) : drawn;
   return {s.diffuse * s.coverage, {rayOrigin(choices.offset, s, 1), r, s.cone}, stack};
 }
 

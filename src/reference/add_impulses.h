@@ -26,9 +26,8 @@ struct Impulses {
 
   // Returns an empty impulse for a kind that exists for samples of a lobe only.
   Impulse of(RayKind kind) const {
-    return kind == RayKind::reflection   ? reflected
-           : kind == RayKind::refraction ? refracted
-                                         : Impulse();
+    if (kind == RayKind::reflection) return reflected;
+    return kind == RayKind::refraction ? refracted : Impulse();
   }
 };
 // The branch of the paths that it leads.
@@ -76,7 +75,7 @@ void findLayers(const Scene& scene, EffectSet effects, const Crossing& crossing,
 // rays, those are moved that leave a dense medium within 0.6 degrees of the surface.
 double smallestElevation(const Surfel& surfel);
 // The unit direction `r` raised to `elevation` above the plane of `normal` if it lies lower.
-Vec3d lifted(const Vec3d& r, const Vec3d& normal, double elevation);
+Vec3d raised(const Vec3d& r, const Vec3d& normal, double elevation);
 
 // The rays that sample a surfel's glossy lobe: a smooth one is sampled by one.
 int glossyRays(const Surfel& surfel, const LobeSampling& sampling);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/index.h"
 #include "reference/add_impulses.h"
 #include "reference/media.h"
 #include "surfaces/texture_sampling.h"
@@ -37,7 +38,7 @@ class Lookups {
 
   RgbD sample(std::int32_t Material::*map, bool second = false) const {
     const Material& material = scene_.materials[at_.triangle.material];
-    const Texture& texture = scene_.textures[static_cast<std::size_t>(material.*map)];
+    const Texture& texture = entryOf(scene_.textures, material.*map);
     const auto [u, v] = texturePoint(uvs(second), at_.hit);
     if (how_.filter != TextureFilter::trilinear) return sampleTexture(texture, u, v, how_.filter);
     const double footprint =
@@ -158,15 +159,15 @@ double textureFootprint(const TriangleRecord& triangle, const float* uvs, const 
   return inTexture / inWorld * across * across;
 }
 
-Vec3d terminatorLift(const Scene& scene, EffectSet effects, const Candidate& candidate,
-                     const TriangleHit& hit, const Surfel& s) {
+Vec3d shadowTerminatorOffset(const Scene& scene, EffectSet effects, const Candidate& candidate,
+                             const TriangleHit& hit, const Surfel& s) {
   if (!effects.has(Effect::smoothNormals) || scene.normals.empty()) return {};
   if (scene.isSphere(candidate.triangle)) return {};
   const Corners corners = worldCorners(scene, candidate.triangle, candidate.instance);
   const float* normals = scene.normals[candidate.triangle].normal;
   const double weights[] = {1 - hit.u - hit.v, hit.u, hit.v};
   const Affine* toWorld = toWorldOf(scene, candidate.instance);
-  Vec3d lift;
+  Vec3d offset;
   for (std::size_t i = 0; i < 3; ++i) {
     Vec3d n = triple(normals + 3 * i);
     if (toWorld) {
@@ -176,9 +177,9 @@ Vec3d terminatorLift(const Scene& scene, EffectSet effects, const Candidate& can
     }
     if (dot(n, s.geometricNormal) < 0) n = -n;
     const double below = -dot(s.position - corners[i], n) - s.offset;
-    lift += n * (weights[i] * std::max(below, 0.0));
+    offset += n * (weights[i] * std::max(below, 0.0));
   }
-  return lift;
+  return offset;
 }
 
 Surfel makeSurfel(const Scene& scene, EffectSet effects, const Candidate& candidate,
@@ -207,7 +208,7 @@ Surfel makeSurfel(const Scene& scene, EffectSet effects, const Candidate& candid
   }
   s.shadingNormal *= side;
 
-  s.lift = terminatorLift(scene, effects, candidate, hit, s);
+  s.shadowOffset = shadowTerminatorOffset(scene, effects, candidate, hit, s);
   findColors(scene, effects, candidate.triangle, hit, lookups, s);
   return s;
 }
@@ -235,7 +236,7 @@ std::optional<SurfelRow> findIntersections(const World& world, const Chunk& chun
   put(s.geometricNormal, row.ngX, row.ngY, row.ngZ);
   put(s.shadingNormal, row.nsX, row.nsY, row.nsZ);
   row.offset = s.offset;
-  row.retreat = s.retreat;
+  row.viewOffset = s.viewOffset;
   put(s.diffuse, row.diffuseR, row.diffuseG, row.diffuseB);
   row.material = s.material;
   put(s.specular, row.specularR, row.specularG, row.specularB);
@@ -246,7 +247,7 @@ std::optional<SurfelRow> findIntersections(const World& world, const Chunk& chun
   row.occlusion = s.occlusion;
   put(s.mirror, row.mirrorR, row.mirrorG, row.mirrorB);
   put(s.transmission, row.transmissionR, row.transmissionG, row.transmissionB);
-  put(s.lift, row.liftX, row.liftY, row.liftZ);
+  put(s.shadowOffset, row.shadowOffsetX, row.shadowOffsetY, row.shadowOffsetZ);
   row.cone = cone.widthAt(hit.t);
   if (s.entering) row.flags |= kEntering;
   if (crossing.hidden) row.flags |= kHidden;

@@ -16,7 +16,7 @@ namespace whit::reference {
 // The parameters of makeSurfel's texture lookups.
 struct TextureLookup {
   TextureFilter filter = TextureFilter::bilinear;
-  const MipMaps* maps = nullptr;  // those of the scene; needed for trilinear lookups
+  const MipMaps* maps = nullptr;  // mip maps of the scene, for trilinear lookups
   RayCone cone{};                 // the cone at the hit, with which rays from there start
 };
 
@@ -40,8 +40,8 @@ double textureFootprint(const TriangleRecord& triangle, const float* uvs, const 
 // corners' weights; only what exceeds `s.offset` counts, so that it is exactly 0 on flat faces
 // (Hanika 2021, "Hacking the shadow terminator", Ray Tracing Gems II, chapter 4). Part of
 // makeSurfel.
-Vec3d terminatorLift(const Scene& scene, EffectSet effects, const Candidate& candidate,
-                     const TriangleHit& hit, const Surfel& s);
+Vec3d shadowTerminatorOffset(const Scene& scene, EffectSet effects, const Candidate& candidate,
+                             const TriangleHit& hit, const Surfel& s);
 
 // Returns the row that the step writes for the hit that Embree has found; none where there is no
 // hit.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "reference/add_impulses.h"
@@ -17,7 +16,7 @@ namespace {
 
 // Up to which occluders count, in lengths of the shadow ray.
 double shadowReach(const Light& light) {
-  if (light.kind == Light::Kind::directional) return std::numeric_limits<double>::infinity();
+  if (light.kind == Light::Kind::directional) return kInfinity;
   return double{kShadowReach};
 }
 
@@ -80,9 +79,9 @@ LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const Li
   const double distance = std::sqrt(squaredDistance);
   const Vec3d l = toLight / distance;
   const double cosine = dot(surfel.shadingNormal, l);
-  const bool lifted = choices.terminator && !(surfel.lift == Vec3d{});
+  const bool isOffset = choices.terminator && !(surfel.shadowOffset == Vec3d{});
   // Above the facet, the smooth surface alone decides what lies behind the horizon.
-  const bool front = lifted || dot(surfel.geometricNormal, l) > 0;
+  const bool front = isOffset || dot(surfel.geometricNormal, l) > 0;
   if (!(front && cosine > 0)) return arrival;
 
   RgbD biradiance(light.intensity);
@@ -96,7 +95,7 @@ LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const Li
   }
   arrival.radiance = reflected * biradiance * (cosine * surfel.coverage);
   Surfel start = surfel;
-  if (lifted) start.position += surfel.lift;
+  if (isOffset) start.position += surfel.shadowOffset;
   const Vec3d origin = rayOrigin(choices.offset, start, 1);
   arrival.shadowRay = {origin,
                        point.center ? towards(light, origin) : surfel.position + toLight - origin};
@@ -106,13 +105,13 @@ LightArrival radianceFromLight(EffectSet effects, const Surfel& surfel, const Li
 
 LightArrival ambientArrival(const Scene& scene, EffectSet effects, const Surfel& surfel,
                             const ShadingChoices& choices, const UnitPoint& at) {
-  const Vec3d way = cosineDirection(surfel.shadingNormal, at);
-  const bool lifted = choices.terminator && !(surfel.lift == Vec3d{});
-  if (!lifted && !(dot(surfel.geometricNormal, way) > 0)) return {};
+  const Vec3d direction = cosineDirection(surfel.shadingNormal, at);
+  const bool isOffset = choices.terminator && !(surfel.shadowOffset == Vec3d{});
+  if (!isOffset && !(dot(surfel.geometricNormal, direction) > 0)) return {};
   Surfel start = surfel;
-  if (lifted) start.position += surfel.lift;
+  if (isOffset) start.position += surfel.shadowOffset;
   return {reflectedAmbient(scene, effects, surfel) * surfel.coverage,
-          {rayOrigin(choices.offset, start, 1), way},
+          {rayOrigin(choices.offset, start, 1), direction},
           double{scene.ambient.occlusion}};
 }
 

@@ -29,7 +29,7 @@ struct LightPoint {
 struct LightArrival {
   RgbD radiance;    // towards the viewer if nothing is in between, as if the whole light were at
                     // that point; 0 needs no shadow ray
-  Ray shadowRay;    // from the surfel to the light, not normalized
+  Ray shadowRay;    // reaches from the surfel to the light, not normalized
   double tFar = 0;  // a little before the light; infinite if the light is directional
 };
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/image.h"
+#include "core/index.h"
 #include "sampling/random_streams.h"
 #include "surfaces/initial_media.h"
 
@@ -21,7 +22,7 @@ namespace {
 std::array<double, 2> diskPoint(const UnitPoint& square) {
   const double a = 2 * double{square.u} - 1, b = 2 * double{square.v} - 1;
   if (a == 0 && b == 0) return {0, 0};
-  constexpr double kEighth = std::numbers::pi / 4;  // of a turn
+  constexpr double kEighth = std::numbers::pi / 4;  // an eighth of a turn
 
   // The larger coordinate becomes the radius, so squares about the center become circles.
   const bool byA = std::fabs(a) > std::fabs(b);
@@ -168,7 +169,7 @@ Ray generateRay(const CameraFrame& camera, double x, double y) {
     const int column = std::min(static_cast<int>(x / camera.viewWidth), columns - 1);
     const int row = std::min(static_cast<int>(y / camera.viewHeight), rows - 1);
     number = row * columns + column;
-    view = camera.views[static_cast<std::size_t>(number)];
+    view = entryOf(camera.views, number);
     x -= column * camera.viewWidth;
     y -= row * camera.viewHeight;
   }

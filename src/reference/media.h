@@ -25,7 +25,7 @@ struct Crossing {
   bool dielectric = false;
   bool hidden = false;         // the same medium on both sides: the surface is not there
   double n1 = 1, n2 = 1;       // refractive indices in front and behind
-  MediaStack stackBehind = 0;  // of a refracted ray
+  MediaStack stackBehind = 0;  // stack of a refracted ray
 };
 Crossing crossMedia(const Scene& scene, EffectSet effects, std::uint32_t material, bool entering,
                     MediaStack stack, std::uint32_t others = 0);

@@ -15,6 +15,7 @@
 #include "bake/scene.h"
 #include "core/channels.h"
 #include "core/image.h"
+#include "core/index.h"
 #include "core/options.h"
 #include "core/progress.h"
 #include "reference/path_observer.h"
@@ -38,8 +39,8 @@ class RayCounts {
   double ended = 0;
   RgbD clear;
 
-  std::uint64_t& operator[](RayKind kind) { return counts_[static_cast<std::size_t>(kind)]; }
-  std::uint64_t operator[](RayKind kind) const { return counts_[static_cast<std::size_t>(kind)]; }
+  std::uint64_t& operator[](RayKind kind) { return entryOf(counts_, kind); }
+  std::uint64_t operator[](RayKind kind) const { return entryOf(counts_, kind); }
 
   // Samples that were traced again as narrower trees, and pixels that have such samples.
   std::uint64_t limitedSamples = 0, limitedPixels = 0;
@@ -81,13 +82,13 @@ struct Path {
   SampleTree* tree = nullptr;
   std::uint64_t width = 1;
   double share = 1;      // 1 over the product of the numbers of samples of lobes on the way
-  RgbD weight{1, 1, 1};  // of the background where it ends
+  RgbD weight{1, 1, 1};  // weight of the background where it ends
 };
 
 // Selects the impulses of a surface that are followed: all, or the chosen one, which then counts
 // for all. `next` is the number of the next impulse.
 struct Choice {
-  std::uint64_t width = 1;  // of the rays that are followed
+  std::uint64_t width = 1;  // number of rays that are followed
   bool all = true;
   std::size_t chosen = 0, next = 0;
   double weights = 0;  // sum of the largest channels of all weights
@@ -147,7 +148,7 @@ class Tracer {
   RenderOptions options_;
   EffectSet effects_;
   std::vector<Vec2f> samples_;
-  std::optional<MipMaps> maps_;  // where lookups are trilinear
+  std::optional<MipMaps> maps_;  // empty unless lookups are trilinear
 };
 
 // Renders all pixels of image.window; settings.threads threads share the rows.

@@ -2,11 +2,11 @@
 #include <atomic>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <vector>
 
 #include "bake/sphere.h"
 #include "core/display.h"
+#include "core/index.h"
 #include "core/worker_pool.h"
 #include "reference/add_impulses.h"
 #include "reference/find_intersections.h"
@@ -27,7 +27,7 @@ RayCounts forEachPixel(const Crop& window, int threads, Progress* progress, cons
   std::atomic<int> rowsDone{0};
   parallelFor(threads, static_cast<std::size_t>(rows), [&](std::size_t row, int worker) {
     const int y = window.y0 + static_cast<int>(row);
-    RayCounts& own = counts[static_cast<std::size_t>(worker)];
+    RayCounts& own = entryOf(counts, worker);
     for (int x = window.x0; x < window.x1; ++x) {
       const std::uint64_t before = own.limitedSamples;
       task(x, y, own);
@@ -110,8 +110,7 @@ double Tracer::standardError(const CameraFrame& camera, int x, int y, RayCounts&
     mean += before / ++taken;
     deviations += before * (value - mean);
   }
-  return taken > 1 ? std::sqrt(deviations / (taken - 1) / taken)
-                   : std::numeric_limits<double>::infinity();
+  return taken > 1 ? std::sqrt(deviations / (taken - 1) / taken) : kInfinity;
 }
 
 RgbD Tracer::center(const CameraFrame& camera, int x, int y, RayCounts& counts) const {
@@ -164,7 +163,7 @@ ChannelValues Tracer::channels(const CameraFrame& camera, int x, int y, const Ve
   values.normal = Vec3f(surfel.shadingNormal);
   values.albedo = Rgb(surfel.diffuse);
   values.uv = uvAt(scene_, candidate.triangle, hit.u, hit.v);
-  const Scene::MetNumbers numbers = scene_.numbersOf(candidate.triangle, candidate.instance);
+  const Scene::HitNumbers numbers = scene_.numbersOf(candidate.triangle, candidate.instance);
   values.object = numbers.item;
   values.triangle = numbers.triangle;
   values.material = surfel.material;

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <limits>
 #include <vector>
 
 #include "bake/facet.h"
@@ -33,7 +32,7 @@ Tracer::Tracer(const Scene& scene, const Intersector& intersector, const Setting
       intersector_(intersector),
       observer_(observer),
       options_(settings.options),
-      effects_(settings.effects.without(notAskedFor(options_))),
+      effects_(settings.effects.without(optionalEffectsOff(options_))),
       samples_(samplePattern(options_.spp)) {
   if (options_.shading.textureFilter == TextureFilter::trilinear) {
     maps_.emplace(scene, settings.threads);
@@ -56,8 +55,7 @@ RgbD Tracer::traceImpulse(const Ray& ray, int depth, double throughput, std::uin
 
   const std::optional<ChosenSurface> found = nearest(ray, depth);
   if (!found) {
-    constexpr double kForEver = std::numeric_limits<double>::infinity();
-    const RgbD left = leftAfter(kForEver);
+    const RgbD left = leftAfter(kInfinity);
     if (path.straight) counts.clear += left * path.weight;
     if (path.straight && options_.background.hidesSky()) return scattered(left);
     return skyAlong(scene_, effects_, ray.direction) * left + scattered(left);
@@ -118,7 +116,7 @@ std::optional<ChosenSurface> Tracer::nearest(Ray ray, int depth) const {
     if (!intersector_.closest(ray, candidate)) return std::nullopt;
     if (depth > 0) break;
     if (!liesInSurface(scene_, ray.origin, candidate.triangle, candidate.instance)) break;
-    ray.tNear = wayPastEye(ray.origin, attempt);
+    ray.tNear = distancePastEye(ray.origin, attempt);
   }
   const ChosenSurface chosen = chooseSurface(scene_, effects_, ray, candidate);
   observer_.hit(chosen.candidate);
@@ -192,8 +190,8 @@ Choice Tracer::chooseImpulses(const Impulses& impulses, const Surfel& surfel,
   return choice;
 }
 
-// The radiance that an impulse brings back, if it is worth following. It has one of so many shares
-// of its lobe.
+// Returns the radiance that an impulse brings back, if it is worth following. The impulse is one of
+// `shares` samples of its lobe.
 RgbD Tracer::follow(const Impulse& impulse, RayKind kind, int depth, double throughput,
                     RayCounts& counts, Path path, int shares, Choice& choice) const {
   const double largest = maxComponent(impulse.weight), contribution = throughput * largest;

@@ -31,7 +31,7 @@ struct Frosting {
 struct Surfel : SurfacePoint {
   Vec3d view;           // unit, back along the ray
   Vec3d shadingNormal;  // unit, interpolated and bent by the normal map; see makeSurfel
-  Vec3d lift;           // from the facet to the surface its vertex normals stand for
+  Vec3d shadowOffset;   // leads from the facet to the surface of its vertex normals
   std::uint32_t material = 0;
   RgbD diffuse, specular;                       // textures and vertex colors applied
   double grazingRatio = double{kGrazingRatio};  // the material's
@@ -44,7 +44,7 @@ struct Surfel : SurfacePoint {
   RgbD underCoat{1, 1, 1};  // what a coat leaves of the light of lamps for the lobe
   RgbD lobe;                // what the lobe takes of the light that the mirror leaves
   Frosting frosting;
-  RayCone cone;  // of rays that go on from here
+  RayCone cone;  // cone of the rays that go on from here
 };
 
 // One coordinate, moved towards `direction`.
@@ -68,7 +68,7 @@ inline Vec3d rayOrigin(OffsetMethod method, const Surfel& surfel, double side) {
     case OffsetMethod::bound:
       break;
   }
-  const Vec3d back = side > 0 ? surfel.view * surfel.retreat : Vec3d{};
+  const Vec3d back = side > 0 ? surfel.view * surfel.viewOffset : Vec3d{};
   return p + n * surfel.offset + back;
 }
 
@@ -76,8 +76,8 @@ inline Vec3d rayOrigin(OffsetMethod method, const Surfel& surfel, double side) {
 // tables.
 struct World {
   const Scene& scene;
-  EffectSet effects;              // of the plan
-  const MipMaps* maps = nullptr;  // of the scene, where lookups are trilinear
+  EffectSet effects;              // effects of the plan
+  const MipMaps* maps = nullptr;  // mip maps of the scene, if lookups are trilinear
   CameraFrame camera;
   const Intersector& intersector;  // for shadow rays and what surrounds the eye
 };
@@ -90,9 +90,9 @@ inline Surfel surfelOf(const Chunk& chunk, std::size_t slot) {
   s.view = -rayOf(chunk, slot).direction;
   s.geometricNormal = {r.ngX, r.ngY, r.ngZ};
   s.shadingNormal = {r.nsX, r.nsY, r.nsZ};
-  s.lift = {r.liftX, r.liftY, r.liftZ};
+  s.shadowOffset = {r.shadowOffsetX, r.shadowOffsetY, r.shadowOffsetZ};
   s.offset = r.offset;
-  s.retreat = r.retreat;
+  s.viewOffset = r.viewOffset;
   s.entering = (r.flags & kEntering) != 0;
   s.material = r.material;
   s.diffuse = {r.diffuseR, r.diffuseG, r.diffuseB};

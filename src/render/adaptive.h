@@ -42,7 +42,7 @@ class AdaptiveSampler {
   // A mark a pixel: where probe samples are traced, and where all samples are.
   std::vector<std::uint8_t> edges_, contrasting_;
   std::optional<ProbeSamples> probes_;
-  std::size_t samples_ = 0;  // of the pattern that the probes belong to
+  std::size_t samples_ = 0;  // number of samples of the probes' pattern
 };
 
 }  // namespace whit

@@ -15,7 +15,7 @@ struct Film {
   Image image;  // linear radiance; size and window are set by whoever wants the frame
   bool wantDisplay = true;
   DisplayImage display;    // 8-bit codes of the window, when they are wanted
-  ChannelLayers channels;  // of the window, those of RenderOptions::channels
+  ChannelLayers channels;  // layers of RenderOptions::channels in the window
 };
 
 // Room for the display codes of the film's window, when they are wanted.

@@ -57,8 +57,8 @@ struct TraceRequest {
 // pixel is written by one worker.
 struct Frame {
   FrameConstants constants;
-  std::vector<Vec2f> samples;   // of each pixel, in the order of the pattern
-  std::size_t firstSample = 0;  // those before it were traced for the probes, or are in `sums`
+  std::vector<Vec2f> samples;   // samples of each pixel in the order of the pattern
+  std::size_t firstSample = 0;  // earlier ones were traced for the probes, or are in `sums`
   std::size_t endSample = 0;    // the first that is not traced
   Film* film = nullptr;
   // Adaptive sampling stores its first samples here, or takes their sum from here.

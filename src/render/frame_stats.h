@@ -22,7 +22,7 @@ struct FrameStats {
   std::array<double, kStageCount> stageWorkerMs{};
   TraceMeter meter;                                              // rays, and the time inside Embree
   std::array<std::uint64_t, kStageCount> stageCalls{};           // times that a stage has ended
-  std::array<std::uint64_t, simd::kKernels.size()> stepCalls{};  // by Step::number
+  std::array<std::uint64_t, simd::kKernels.size()> stepCalls{};  // indexed by Step::number
   std::uint64_t nonFinitePixels = 0;
   // Pixels of which a sample had more rays than --max-rays; with --adaptive once for each pass.
   std::uint64_t limitedPixels = 0;

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "accel/accel.h"
+#include "core/contains.h"
 #include "render/steps.h"
 #include "simd/kernels.h"
 #include "stages/lobes.h"
@@ -69,8 +70,8 @@ FeatureSet featuresOf(const Scene& scene, const RenderOptions& options, EffectSe
       .with(Feature::shadows, e.has(Effect::shadows))
       .with(Feature::spotLights, e.has(Effect::spotLights))
       .with(Feature::smoothNormals, e.has(Effect::smoothNormals))
-      // Where no vertex normal differs from its triangle's there is nothing to lift.
-      .with(Feature::lift,
+      // Without vertex normals that differ from their triangles' nothing is to be corrected.
+      .with(Feature::shadowOffset,
             options.shading.terminator && e.has(Effect::shadows) && e.has(Effect::smoothNormals))
       .with(Feature::cones, maps && options.shading.textureFilter == TextureFilter::trilinear)
       .with(Feature::ended, keptChannels(options).has(Channel::error))
@@ -117,7 +118,7 @@ class Planner {
     const bool all = options.effects == EffectChoice::all;
     const EffectSet called = all ? EffectSet::all() : scene.effects;
     plan_.effects =
-        consistent(scene, called.without(options.disable).without(notAskedFor(options)));
+        consistent(scene, called.without(options.disable).without(optionalEffectsOff(options)));
     plan_.features = featuresOf(scene, options, plan_.effects);
     plan_.channels = keptChannels(options);
   }
@@ -230,7 +231,7 @@ class Planner {
       plan_.perQueue.back().wants = kMaterialLayered;
     }
 
-    if (plan_.features.has(Feature::lift)) {
+    if (plan_.features.has(Feature::shadowOffset)) {
       plan_.perQueue.push_back(stepOf(simd::kLiftShadowOrigins));
     }
   }
@@ -396,7 +397,7 @@ void requireOrder(const Plan& plan) {
 std::vector<Stage> Plan::stages() const {
   std::vector<Stage> list;
   forEachStep([&](const Step& step) {
-    if (std::ranges::find(list, step.stage) == list.end()) list.push_back(step.stage);
+    if (!contains(list, step.stage)) list.push_back(step.stage);
   });
   return list;
 }
@@ -411,7 +412,7 @@ std::vector<KernelUse> kernelsOf(const Plan& plan) {
   std::vector<KernelUse> uses;
   plan.forEachStep([&](const Step& step) {
     for (const KernelUse& use : step.kernels) {
-      if (std::ranges::find(uses, use) == uses.end()) uses.push_back(use);
+      if (!contains(uses, use)) uses.push_back(use);
     }
   });
   // Lights begin with different kernels of the same stage.

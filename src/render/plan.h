@@ -25,7 +25,7 @@ struct KernelUse {
 
 struct Step {
   std::string name;
-  std::size_t number = 0;  // in simd::kKernels, of the kernel that it is or that begins it
+  std::size_t number = 0;  // index in simd::kKernels of the kernel that it is or begins with
   Stage stage;
   StepFunction run;
   Parts reads, writes;
@@ -53,12 +53,12 @@ struct LightSteps {
 };
 
 struct Plan {
-  EffectSet effects;        // of the scene and the options
+  EffectSet effects;        // effects that scene and options have
   FeatureSet features;      // what whole calls ask for
   int depth = 0;            // deepest impulse that can occur
   bool limitsRays = false;  // a sample may have more impulses than --max-rays
   int coherentDepth = 0;    // deepest queue whose rays travel close together
-  ChannelSet channels;      // that are kept
+  ChannelSet channels;      // channels that are kept
 
   std::vector<Step> perSample, perQueue, impulses, onReturn, atEye, perTile;
   std::vector<LightSteps> perLight;

@@ -121,7 +121,7 @@ CameraFrame Renderer::lookFrom(const Camera& camera, const Film& film) {
   }
   CameraFrame frame = frameWithMedia(scene_, plan_.effects, EmbreeIntersector(*accel_), camera,
                                      film.image.width, film.image.height, options_.spp);
-  if (frame.reach != Vec3d()) frame.mediaVary = startsMeet(frame, dielectrics_);
+  if (frame.reach != Vec3d()) frame.mediaVary = startsMayLieInside(frame, dielectrics_);
   return frame;
 }
 
@@ -244,16 +244,16 @@ std::vector<std::pair<std::string, std::string>> describeImage(const Scene& scen
     resolved.packet = renderer.machine().packet;
     resolved.simd = renderer.machine().simd;
   }
-  std::vector<std::pair<std::string, std::string>> said{
+  std::vector<std::pair<std::string, std::string>> metadata{
       {"software", "whit " WHIT_VERSION},
       {"scene", scene.name},
       {"effectsUsed", formatValue(OptionSpec{}, renderer.plan().effects)}};
   if (!isFramedByOptions(camera)) {
-    said.emplace_back("projection",
-                      kWords<Projection>[static_cast<std::size_t>(camera.projection)]);
+    metadata.emplace_back("projection",
+                          kWords<Projection>[static_cast<std::size_t>(camera.projection)]);
   }
-  for (auto& entry : pictureOptions(resolved)) said.push_back(std::move(entry));
-  return said;
+  for (auto& entry : pictureOptions(resolved)) metadata.push_back(std::move(entry));
+  return metadata;
 }
 
 }  // namespace whit

@@ -103,11 +103,11 @@ class Renderer {
   Machine machine_;
   Scheduler scheduler_;
   AdaptiveSampler adaptive_;
-  std::vector<Vec2f> pattern_;  // of options_.spp samples, once it was asked for
+  std::vector<Vec2f> pattern_;  // pattern of options_.spp samples; empty until it is needed
   std::uint32_t seed_ = 0;
   Box dielectrics_;        // around the surfaces of all of them
   bool enclosed_ = false;  // the scene is closed around its cameras, and rays are to be retried
-  std::optional<Vec3f> lookedFrom_;  // where the last frame's eye was
+  std::optional<Vec3f> lookedFrom_;  // eye of the last frame
   double buildMs_ = 0;
 };
 

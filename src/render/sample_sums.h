@@ -9,8 +9,8 @@
 namespace whit {
 
 struct SampleSum {
-  RgbD total;          // in the order of the pattern
-  double squares = 0;  // of the samples' mean channel, linear radiance
+  RgbD total;          // sum in the order of the pattern
+  double squares = 0;  // sum of squares of the samples' mean channels, linear radiance
   // The standard error of the mean of `samples` samples, as if they were independent; infinite for
   // one sample.
   double standardError(int samples) const;

@@ -13,7 +13,7 @@
 
 namespace whit {
 
-// Kernels read whole vectors of pixels: lists have room for so many behind their end.
+// Number of entries behind the end of a list, because kernels read whole vectors of pixels.
 inline constexpr std::size_t kListPadding = 2 * kBlock;
 
 // The packed pixels of each tile of the window, in Morton order: any 4, 8 or 16 that follow each
@@ -57,7 +57,7 @@ class Scheduler {
   Crop window_;
   bool inBatches_ = false;
   PixelLists tiles_;
-  Tracers tracers_;           // one a worker; none after another plan
+  Tracers tracers_;           // a tracer for each worker; empty after another plan
   std::size_t capacity_ = 0;  // rays, of each
 };
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -130,7 +129,7 @@ ChannelValues valuesOf(const Chunk& c, std::size_t i) {
   }
   if (kept.has(Channel::object) || kept.has(Channel::triangle)) {
     const std::uint32_t instance = c.has(Feature::instances) ? c.hits.instance[i] : kNoInstance;
-    const Scene::MetNumbers numbers = scene.numbersOf(triangle, instance);
+    const Scene::HitNumbers numbers = scene.numbersOf(triangle, instance);
     values.object = numbers.item;
     values.triangle = numbers.triangle;
   }
@@ -359,10 +358,10 @@ Box dielectricBounds(const Scene& scene) {
   return all;
 }
 
-bool startsMeet(const CameraFrame& camera, const Box& dielectrics) {
+bool startsMayLieInside(const CameraFrame& camera, const Box& dielectrics) {
   if (dielectrics.empty()) return false;
   const Vec3d lower = Vec3d(dielectrics.lower), upper = Vec3d(dielectrics.upper);
-  double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
+  double nearest = kInfinity, farthest = -nearest;
   for (int i = 0; i < 8; ++i) {
     const double ahead = dot(Vec3d(dielectrics.corner(i)) - camera.eye, camera.forward);
     nearest = std::min(nearest, ahead);

@@ -30,7 +30,7 @@ void keepChannels(Chunk& c);
 // Rays are counted where they are traced, and the counts follow the way of the radiance: each ray
 // is one, with its shadow rays and all that its children bring back.
 void countRays(Chunk& c);
-void countShadowRays(Chunk& c);  // of the light in hand
+void countShadowRays(Chunk& c);  // the rays to the current light
 void returnRayCounts(Chunk& c);  // to the parents
 void keepRayCounts(Chunk& c);
 
@@ -65,7 +65,7 @@ Box dielectricBounds(const Scene& scene);
 // True if rays that start at different points, all in the plane through the eye, may start in
 // different media. The test is conservative because it compares boxes; `dielectrics` are the bounds
 // above.
-bool startsMeet(const CameraFrame& camera, const Box& dielectrics);
+bool startsMayLieInside(const CameraFrame& camera, const Box& dielectrics);
 
 // A step after generateRays: the media of each ray, where they vary.
 void findInitialMedia(Chunk& c);

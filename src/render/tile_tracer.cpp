@@ -86,7 +86,7 @@ void runChecked(const Step& step, Chunk& chunk) {
 Workspace::Workspace(const Plan& plan, std::size_t capacity)
     : plan_(plan),
       capacity_(roundUpToBlock(capacity)),
-      levels_(static_cast<std::size_t>(plan.depth) + 2),  // the last for paths that end
+      levels_(static_cast<std::size_t>(plan.depth) + 2),  // the last one for paths that end
       hits_(capacity_, plan.features),
       surfels_(capacity_, plan.features) {
   if (plan.writes(Part::unshadowed)) unshadowed_.allocate(capacity_, plan.features);
@@ -114,6 +114,7 @@ void Workspace::startQueue(std::size_t rays) {
   first.cursor = 0;
 
   if (!plan_.limitsRays) return;
+
   // The first time the impulses of each sample are counted. When samples are traced again, the
   // widths of their rays are kept instead.
   std::iota(first.pixelSlots.begin(), first.pixelSlots.end(), 0u);

@@ -1,6 +1,6 @@
-// Walks a frame's plan over batches of pixels: one worker's part of a frame.
+// Runs the steps of a frame's plan on batches of pixels: one worker's part of a frame.
 //
-// A batch's rays form the queue of depth 0. A queue is worked off in chunks of at most the
+// A batch's rays form the queue of depth 0. A queue is processed in chunks of at most the
 // capacity; the children of a chunk become the queue of the next depth, which is drained completely
 // before the chunk is finished. So memory is bounded by capacity times depth, whatever the number
 // of paths, and nothing recurses. A finished chunk hands its radiance, times weight, to its
@@ -51,36 +51,36 @@ struct BufferBytes {
   }
 };
 
-// The columns that one worker traces with: rays and radiance of each depth's queue, and what the
-// chunk at hand of any depth goes through. Which of them are there follows from the plan: the parts
-// that its steps write, and its features.
+// The columns that one worker traces with: rays and radiance of each depth's queue, and the columns
+// of the current chunk, whatever its depth. Columns exist only if a step of the plan writes them or
+// a feature needs them.
 class Workspace {
  public:
-  // Chunks hold `capacity` rays at the most. The plan must outlive the workspace.
+  // Chunks hold at most `capacity` rays. The plan must outlive the workspace.
   Workspace(const Plan& plan, std::size_t capacity);
 
   std::size_t capacity() const { return capacity_; }
-  // Display codes of so many pixels, which chunks made from then on hold.
+  // Makes room for the display codes of `pixels` pixels.
   void reserveCodes(std::size_t pixels);
-  // Begins depth 0's queue with a ray a pixel.
+  // Starts the queue of depth 0, with one ray per pixel.
   void startQueue(std::size_t rays);
   // True if the queue of this depth has rays left.
   bool hasMore(int depth) const { return level(depth).cursor < level(depth).count; }
-  // Takes the queue's next chunk in hand: its columns, without children.
+  // Makes `chunk` the queue's next chunk, which has no children yet.
   void takeChunk(int depth, Chunk& chunk);
-  // The depth's chunk as it was taken in hand, for when the queues below it are drained.
+  // Makes `chunk` the depth's current chunk again, after the queues of its children are drained.
   void returnTo(int depth, Chunk& chunk) const;
-  // The chunk of depth 0, once all queues are drained: the batch's pixels.
+  // Makes `chunk` the pixels of the whole batch, after all queues are drained.
   void returnToPixels(Chunk& chunk);
-  // Room for so many children, which become the queue of the next depth.
+  // Makes room for `count` children, which become the queue of the next depth.
   void reserveChildren(std::size_t count, Chunk& chunk);
-  // Notes that the chunk has got children of this kind since it had `before` of them.
+  // Notes that all children after the first `before` are of this kind.
   static void noteChildren(RayKind kind, std::size_t before, Chunk& chunk);
-  // Makes the chunk's children the next depth's queue; false: there are none.
+  // Makes the chunk's children the queue of the next depth. Returns false if there are none.
   bool startQueueOfChildren(const Chunk& chunk);
-  // While samples are traced again as narrower trees (sampling/ray_limit.h).
+  // Set while samples are traced again as narrower trees (sampling/ray_limit.h).
   void setNarrows(bool narrows) { narrows_ = narrows; }
-  // The depth's chunk is done with.
+  // Removes the depth's current chunk from its queue.
   void finishChunk(int depth) { level(depth).cursor += level(depth).chunk; }
 
   BufferBytes bufferBytes() const;
@@ -93,9 +93,9 @@ class Workspace {
     std::vector<std::uint32_t> rayCounts, pixelSlots;
     std::vector<Narrowing> narrowings;
     std::size_t count = 0;                          // rays in the queue
-    std::array<Segment, kSegmentLimit> segments{};  // of the queue
+    std::array<Segment, kSegmentLimit> segments{};  // kinds of the queue's rays
     std::size_t segmentCount = 0;
-    std::size_t cursor = 0, chunk = 0;  // the chunk in hand: its first ray, its length
+    std::size_t cursor = 0, chunk = 0;  // first ray and length of the current chunk
   };
   Level& level(int depth) { return entryOf(levels_, depth); }
   const Level& level(int depth) const { return entryOf(levels_, depth); }
@@ -109,7 +109,7 @@ class Workspace {
   ColumnStore<UnshadowedColumns> unshadowed_;
   ColumnStore<ShadowColumns> shadows_;
   std::vector<std::uint32_t> codes_;
-  std::vector<std::uint32_t> followed_;  // impulses, by the slots of depth 0
+  std::vector<std::uint32_t> followed_;  // number of impulses by the slot of depth 0
   bool narrows_ = false;
 };
 
@@ -127,7 +127,7 @@ class TileTracer {
   std::size_t bytes() const;
 
  private:
-  // Who looks at the walk of the batch at hand.
+  // Statistics and observers of the current batch.
   struct Watch {
     FrameStats& stats;
     StageClock& clock;
@@ -157,9 +157,9 @@ class TileTracer {
 
   const Plan& plan_;
   Workspace work_;
-  Chunk chunk_;                        // the one in hand
-  std::vector<SampleSum> sums_;        // a pixel each, when there are several samples
-  std::vector<std::uint8_t> limited_;  // 1 for the pixels of which a sample was traced again
+  Chunk chunk_;                        // the current chunk
+  std::vector<SampleSum> sums_;        // sums of each pixel, if there are several samples
+  std::vector<std::uint8_t> limited_;  // 1 for pixels with a sample that was traced again
 };
 
 }  // namespace whit

@@ -101,8 +101,7 @@ RgbD lobeAlbedo(const RgbD& f0, double f90, double cosine, double roughness) {
   // The entry above and to the left of the place, between whose neighbors values are interpolated.
   const int top = std::min(static_cast<int>(row), kLobeSteps - 2);
   const int first = std::min(static_cast<int>(column), kLobeSteps - 2);
-  const std::size_t at =
-      static_cast<std::size_t>(top) * kLobeSteps + static_cast<std::size_t>(first);
+  const std::size_t at = cellAt(first, top, kLobeSteps);
   const auto lookUp = [&](const auto& plane) {
     const auto inRow = [&](std::size_t i) {
       const double left = plane[i], right = plane[i + 1];

@@ -218,7 +218,7 @@ int largestDifference(std::uint32_t a, std::uint32_t b) {
 // Returns the probe of the pixel at (dx, dy) that is nearest to the center of the pixel at (0, 0).
 std::size_t nearestProbe(const std::vector<Vec2f>& pattern, int dx, int dy) {
   std::size_t nearest = 0;
-  float least = std::numeric_limits<float>::infinity();
+  float least = kInfinity;
   for (std::size_t k = 0; k < kProbeSamples; ++k) {
     const float x = static_cast<float>(dx) + pattern[k].x - 0.5f;
     const float y = static_cast<float>(dy) + pattern[k].y - 0.5f;

@@ -85,7 +85,7 @@ class ProbeSamples {
  private:
   Image shape_;  // without pixels
   const std::vector<std::uint8_t>& edges_;
-  std::array<std::size_t, 9> nearest_{};  // of each neighbor's probes, row by row
+  std::array<std::size_t, 9> nearest_{};  // the nearest of each neighbor's probes, row by row
   std::vector<PixelProbes> samples_;
 };
 

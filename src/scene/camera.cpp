@@ -47,7 +47,7 @@ Vec3d fallbackRight(const Vec3d& forward) {
 // Mean step in radians between the entries of a table of degrees that is stretched over `pixels`
 // pixels.
 double meanStep(const std::vector<float>& degrees, int pixels) {
-  constexpr double kLeast = 1e-6;  // of a table with one entry
+  constexpr double kLeast = 1e-6;  // step of a table with one entry
   if (degrees.empty()) return kLeast;
   const double span = double{degrees.back()} - double{degrees.front()};
   return std::max(std::abs(span) * (std::numbers::pi / 180) / pixels, kLeast);
@@ -62,7 +62,7 @@ std::array<double, 2> pixelSteps(const Camera& camera, const CameraFrame& frame,
             camera.kSize[1] / (double{camera.k[1]} * height)};
   }
 
-  const double radius = std::min(width, height) / 2.0;  // of a fisheye's image circle
+  const double radius = std::min(width, height) / 2.0;  // radius of a fisheye's image circle
   switch (camera.projection) {
     case Projection::perspective:
       break;
@@ -112,6 +112,20 @@ std::vector<CameraView> viewsOf(const Camera& camera, const CameraFrame& frame) 
   if (!isStereo(camera)) return {};
   const Vec3d aside = turnsEyes(camera) ? Vec3d() : normalized(r) * (camera.eyeDistance / 2.0);
   return {{-aside, f, r, u}, {aside, f, r, u}};
+}
+
+// The views of a cube map or of a stereo pair share the picture in a grid.
+void divideIntoViews(const Camera& camera, CameraFrame& frame) {
+  frame.viewColumns = camera.stereo == Stereo::leftRight ? 2 : 1;
+  frame.viewRows = camera.stereo == Stereo::topBottom ? 2 : 1;
+  if (camera.projection == Projection::cubeMap) {
+    const bool inRow = frame.width >= 4 * frame.height;
+    frame.viewColumns = inRow ? 6 : 3;
+    frame.viewRows = inRow ? 1 : 2;
+  }
+
+  frame.viewWidth = std::max(frame.width / frame.viewColumns, 1);
+  frame.viewHeight = std::max(frame.height / frame.viewRows, 1);
 }
 
 }  // namespace
@@ -182,18 +196,8 @@ CameraFrame makeCameraFrame(const Camera& camera, int width, int height) {
   frame.orthographic = isPerspective(camera) && camera.orthographicHeight > 0;
   if (isFisheye(camera)) frame.limit = camera.angle * (std::numbers::pi / 360);
 
-  // The views of a cube map or of a stereo pair share the picture in a grid.
-  frame.viewColumns = camera.stereo == Stereo::leftRight ? 2 : 1;
-  frame.viewRows = camera.stereo == Stereo::topBottom ? 2 : 1;
-  if (camera.projection == Projection::cubeMap) {
-    const bool inRow = width >= 4 * height;
-    frame.viewColumns = inRow ? 6 : 3;
-    frame.viewRows = inRow ? 1 : 2;
-  }
-  const int w = std::max(width / frame.viewColumns, 1);
-  const int h = std::max(height / frame.viewRows, 1);
-  frame.viewWidth = w;
-  frame.viewHeight = h;
+  divideIntoViews(camera, frame);
+  const int w = frame.viewWidth, h = frame.viewHeight;
 
   // From here on, `right` and `up` span one pixel.
   const Camera seen = fitted(camera, static_cast<double>(w) / h);

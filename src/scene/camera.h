@@ -43,12 +43,12 @@ struct Camera {
   // fx, fy, cx, cy and perhaps the skew, in pixels of a picture of the size `kSize`, whose first
   // pixel has its center at (0, 0).
   std::vector<float> k = {}, kSize = {};
-  // As OpenCV orders them: k1, k2, p1, p2, k3, k4, k5, k6; of a fisheye k1 to k4.
+  // Coefficients in OpenCV's order: k1, k2, p1, p2, k3, k4, k5, k6; of a fisheye k1 to k4.
   std::vector<float> distortion = {};
-  float angle = 180;                                  // of a fisheye's image circle, degrees
-  std::vector<float> azimuths = {}, elevations = {};  // of columns and rows, degrees
+  float angle = 180;  // angle of a fisheye's image circle in degrees
+  std::vector<float> azimuths = {}, elevations = {};  // directions of columns and rows in degrees
   Stereo stereo = Stereo::none;
-  float eyeDistance = 0.065f;  // in scene units
+  float eyeDistance = 0.065f;  // distance of the eyes in scene units
 
   bool hasLens() const { return aperture > 0; }
   double focusDistance() const;

@@ -20,7 +20,7 @@ namespace whit {
 // from there.
 inline constexpr float kLargestCoordinate = 1.844e18f;
 
-// Names are kept of so many items.
+// Names are kept of the first kNamedItems items.
 inline constexpr std::size_t kNamedItems = 65536;
 
 // Cameras and lights in the space of the node that moves them. A camera without a node follows the
@@ -44,7 +44,7 @@ struct SceneMotion {
   Rig rig;  // instances refer to its nodes
   std::vector<MovingCamera> cameras;
   std::vector<MovingLight> lights;
-  double seconds = 0;  // when the scene is looked at
+  double seconds = 0;  // time at which the scene is looked at
 };
 
 // The members of a scene that baking leaves as they are.
@@ -58,10 +58,10 @@ struct SceneContents {
   // of -0 included.
   Vec3d inFile(const Vec3d& point) const { return origin == Vec3d() ? point : point + origin; }
   int width = 480, height = 300;               // the scene's own image size
-  std::map<std::string, std::string> options;  // of the picture, see applySceneOptions()
+  std::map<std::string, std::string> options;  // options of the picture, see applySceneOptions()
   std::vector<Camera> cameras;                 // the first is the default
   std::vector<Keyframe> cameraPath;
-  std::vector<Animation> animations;  // of its models, in the order in which they are read
+  std::vector<Animation> animations;  // those of its models, in the order of reading
   std::vector<std::string> variants;  // likewise
   std::vector<Light> lights;
   Sky sky;

@@ -122,7 +122,7 @@ std::vector<float> blurs(std::vector<float> plane, int width) {
         const double aside = sineOf(polar) * sineOf(other), area = sineOf(other);
 
         for (int turn = 0; turn < width; ++turn) {
-          const double cosine = toPole + aside * cosines[static_cast<std::size_t>(turn)];
+          const double cosine = toPole + aside * entryOf(cosines, turn);
           if (!(cosine > 0)) continue;
 
           // The GGX distribution. The view is along the normal, so that the half vector's squared
@@ -183,7 +183,7 @@ double SpotCone::falloff(const Vec3d& unitToLight) const {
 std::string skyName(const Sky& sky) {
   if (!sky.name.empty()) return std::filesystem::path(sky.name).filename().string();
   constexpr const char* kKinds[] = {"none", "color", "gradient", "image"};
-  return kKinds[static_cast<std::size_t>(sky.kind)];
+  return entryOf(kKinds, sky.kind);
 }
 
 RgbD skyRadiance(const Sky& sky, const Vec3d& d) {

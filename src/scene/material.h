@@ -140,7 +140,7 @@ struct Material {
   bool frosted = false;  // facets of `roughness` scatter what passes, in frames that sample lobes
   float ior = 1.5f;
   Rgb absorption{0, 0, 0};  // per unit length, inside
-  int priority = 0;         // of nested dielectrics: the highest wins where they overlap
+  int priority = 0;         // where dielectrics overlap, the highest wins
 
   VertexTint vertexTint = VertexTint::diffuse;
   // False: rays of the eye and impulses pass its back faces; shadows are cast by both sides.
@@ -241,7 +241,7 @@ struct Material {
   }
   float coverageCutoff() const { return std::min(0.5f / coverage, 1.0f); }
   // Rays pass clear texels without a bounce.
-  void cutWhereClear() {
+  void passClearTexels() {
     alphaMap = coverageMap;
     alphaCutoff = kClearCoverage;
   }

@@ -20,7 +20,7 @@ namespace whit {
 // Scene files give no number beyond this; Embree's limit for coordinates is 1.844e18.
 inline constexpr double kLargestNumber = 1e18;
 
-inline constexpr double kLargestAspect = 100;  // of a camera
+inline constexpr double kLargestAspect = 100;  // largest aspect ratio of a camera
 
 // Meaning of a member, where its type leaves it open.
 enum class MemberKind : std::uint8_t { plain, color, map };
@@ -29,12 +29,13 @@ inline constexpr MemberKind kColorMember = MemberKind::color;
 template <typename Noun>
 struct MemberRules {
   MemberKind kind = MemberKind::plain;
-  TextureUse use = TextureUse::color;  // of a map
+  TextureUse use = TextureUse::color;  // how a map is decoded
   bool inFiles = true;                 // false: only readers of models set it
   bool required = false;               // scene files have to give it
   bool baked = false;                  // triangles or images depend on it: no edit between frames
-  double low = -kLargestNumber, high = kLargestNumber;  // of numbers; channels are at least 0
-  double usual = high;                                  // upper end of widgets
+  double low = -kLargestNumber,
+         high = kLargestNumber;            // limits of numbers; channels are at least 0
+  double usual = high;                     // upper end of widgets
   bool (*exists)(const Noun&) = nullptr;   // where it is false, scene files cannot give the member
   bool (*matters)(const Noun&) = nullptr;  // where it is false, widgets do not show the member
   std::array<std::string_view, 3> decides{};  // members whose default values follow from this one
@@ -43,7 +44,7 @@ struct MemberRules {
 template <typename Noun, typename Value>
 struct Member {
   using Type = Value;
-  const char* name;  // in scene files and in the library
+  const char* name;  // name in scene files and in the library
   Value Noun::*field;
   MemberRules<Noun> rules = {};
 };

@@ -21,7 +21,8 @@ struct Mesh {
   std::vector<Vec2f> secondUvs;  // likewise, for what the members of a Material say
   std::vector<Rgb> colors;       // empty (white), or one a position; linear, 0 to 1
   std::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise seen from outside
-  std::vector<Affine> spheres;  // from the unit sphere (bake/sphere.h); of the first material
+  // Maps from the unit sphere (bake/sphere.h). Spheres have the first material.
+  std::vector<Affine> spheres;
   // One index into SceneDescription::materials a triangle, or a single one for all.
   std::vector<std::uint32_t> materials;
   Affine fromModel;             // what transform() has applied so far

@@ -186,7 +186,7 @@ DeformedVertices deformVertices(const Deformation& deformation, const Deformatio
 
   bent.positions.reserve(positions.size());
   for (const Vec3d& position : positions)
-    bent.positions.emplace_back(position - deformation.middle);
+    bent.positions.emplace_back(position - deformation.origin);
   bent.normals.reserve(normals.size());
   for (const Vec3d& normal : normals) bent.normals.emplace_back(normalized(normal, Vec3d()));
   return bent;

@@ -50,9 +50,9 @@ inline constexpr std::uint32_t kNoNode = 0xffffffffu;
 
 struct RigNode {
   std::uint32_t parent = kNoNode;  // comes before it
-  Affine toParent;                 // where its motion takes place
+  Affine toParent;                 // map from the space in which it moves
   SharedMotion motion;             // none: it stands still there
-  std::string name = {};           // of what is moved by hand: its place in the file
+  std::string name = {};           // place in the file, if a program moves the node
 };
 
 // A hierarchy of frames of reference that move, each in the frame of its parent.
@@ -68,7 +68,7 @@ inline constexpr char kSceneMotion[] = "scene";
 struct Animation {
   std::string name;       // the file's, or "animation N", counted from 0
   double seconds = 0;     // the time of its last key
-  std::size_t nodes = 0;  // that it moves or deforms
+  std::size_t nodes = 0;  // number of nodes that it moves or deforms
 };
 
 struct Instant {
@@ -100,20 +100,20 @@ struct Influence {
 };
 
 struct Deformation {
-  std::vector<Vec3f> positions, normals;  // as they were modelled; of all or none a normal
+  std::vector<Vec3f> positions, normals;  // as they were modelled; normals of all vertices or none
   std::vector<MorphTarget> targets;
-  std::vector<double> weights;          // of targets; those that are missing are zero
-  std::optional<Track> movingWeights;   // in place of them
+  std::vector<double> weights;          // weights of targets; missing ones are zero
+  std::optional<Track> movingWeights;   // replaces `weights` if they move
   std::shared_ptr<const Rig> skeleton;  // none: no skin
   struct Joint {
-    std::uint32_t node = 0;  // of the skeleton
-    Affine fromMesh;         // from the mesh as it was modelled to the joint's own space
+    std::uint32_t node = 0;  // node of the skeleton
+    Affine fromMesh;         // map from the mesh as it was modelled to the joint's own space
   };
   std::vector<Joint> joints;
   // Vertex i has the influences from firstInfluence[i] to firstInfluence[i + 1], at least one.
   std::vector<std::uint32_t> firstInfluence;
   std::vector<Influence> influences;
-  Vec3d middle;  // subtracted from the deformed positions, see scene/origin.h
+  Vec3d origin;  // subtracted from the deformed positions, see scene/origin.h
 
   bool hasSkin() const { return skeleton != nullptr; }
   // True if the shape depends on time.
@@ -131,8 +131,8 @@ bool turnsOver(const std::vector<double>& sides, const std::array<std::uint32_t,
 
 // Weights and joint transforms at one time.
 struct DeformationPose {
-  std::vector<double> weights;  // of targets
-  std::vector<Affine> joints;   // from the mesh as it was modelled
+  std::vector<double> weights;  // weights of targets
+  std::vector<Affine> joints;   // maps from the mesh as it was modelled
 };
 DeformationPose poseAt(const Deformation& deformation, double seconds);
 

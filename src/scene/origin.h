@@ -5,10 +5,10 @@
 
 namespace whit {
 
-// A scene is far along an axis if its middle is so many times its diagonal away from the origin
-// there. Nearer ones would gain fewer than six bits of their coordinates. At this distance
-// coordinates are rounded to 2^-19 of the diagonal, a sixth of a pixel in the widest picture that
-// shows all of the scene (65536).
+// A scene is far along an axis if its middle is more than kFarOverSize times its diagonal away from
+// the origin there. Nearer ones would gain fewer than six bits of their coordinates. At this
+// distance coordinates are rounded to 2^-19 of the diagonal, a sixth of a pixel in the widest
+// picture that shows all of the scene (65536).
 inline constexpr double kFarOverSize = 32;
 
 // Returns what to subtract from the coordinates of a scene in this box, in double precision: its

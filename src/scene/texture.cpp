@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/huge_vector.h"
+#include "core/index.h"
 #include "core/worker_pool.h"
 
 namespace whit {
@@ -67,7 +68,7 @@ Texture emptyTexture(const std::string& name, TexelFormat format, int width, int
   texture.format = format;
   texture.width = width;
   texture.height = height;
-  texture.texels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  texture.texels.resize(cellsOf(width, height));
   return texture;
 }
 

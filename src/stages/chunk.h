@@ -35,12 +35,12 @@ struct FrameConstants {
   const Scene* scene = nullptr;
   const ShadingTables* tables = nullptr;
   const Accel* accel = nullptr;
-  EffectSet effects;  // of the plan, for what the reference finds
+  EffectSet effects;  // effects of the plan, for what the reference finds
   FeatureSet features;
   RenderOptions options;
   CameraFrame camera;
   ChannelTarget channels;
-  std::uint32_t seed = 0;  // of the random numbers
+  std::uint32_t seed = 0;  // seed of the random numbers
 };
 
 // A range of a queue that holds rays of one kind; packets for Embree never mix kinds.
@@ -75,7 +75,7 @@ struct Narrowing {
 
 struct Chunk {
   const FrameConstants* frame = nullptr;
-  std::span<const std::uint32_t> pixels;  // of the queue of depth 0, packed (core/image.h)
+  std::span<const std::uint32_t> pixels;  // pixels of the queue of depth 0, packed (core/image.h)
   // The sample's position in the pixel, and its number in the pattern.
   Vec2f sample{0.5f, 0.5f};
   std::uint32_t sampleNumber = 0;
@@ -83,7 +83,7 @@ struct Chunk {
   int depth = 0;
   bool coherent = true;          // the rays travel so close together that Embree should know
   std::size_t first = 0, n = 0;  // the chunk's place in its queue
-  std::array<Segment, kSegmentLimit> segments{};  // of the chunk's rays, in order
+  std::array<Segment, kSegmentLimit> segments{};  // kinds of the chunk's rays, in order
   std::size_t segmentCount = 0;
   RayColumns rays;
   HitColumns hits;
@@ -93,7 +93,7 @@ struct Chunk {
 
   // From findRadianceAndShadowRays to addShading.
   const Light* light = nullptr;                     // null: none, or the ambient light
-  std::uint32_t lightNumber = 0;                    // of the light, in the tables; kAmbientLight
+  std::uint32_t lightNumber = 0;                    // number in the tables, or kAmbientLight
   std::uint32_t lightSample = 0, lightSamples = 1;  // which part of it, of how many
   UnshadowedColumns unshadowed;
   ShadowColumns shadows;
@@ -102,7 +102,7 @@ struct Chunk {
   // Impulses are appended behind the `childCount` children that exist already.
   RayColumns children;
   std::size_t childCount = 0;
-  std::array<Segment, kSegmentLimit> childSegments{};  // of them, in order
+  std::array<Segment, kSegmentLimit> childSegments{};  // kinds of the children, in order
   std::size_t childSegmentCount = 0;
   // Radiance of the chunk whose children these rays are.
   RadianceColumns parentRadiance;

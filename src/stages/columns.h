@@ -19,36 +19,36 @@ namespace whit {
 // Feature flags of a plan, found once for all frames. Whole calls test these and nothing else,
 // neither null columns nor empty tables: a set of columns belongs to a feature and exists only with
 // it, and steps ask their chunk (`chunk.has(Feature::cones)`). X(name, what it is there for)
-#define WHIT_FEATURES(X)                                                    \
-  X(always, "every frame")                                                  \
-  X(ambient, "ambient light, blurred sky")                                  \
-  X(spotLights, "cones of spot lights")                                     \
-  X(emission, "materials that emit")                                        \
-  X(emissionFactors, "emission by maps or vertex colors")                   \
-  X(vertexColors, "vertex colors")                                          \
-  X(sky, "a sky that is not black")                                         \
-  X(glossy, "glossy lobes")                                                 \
-  X(lobes, "glossy lobes that take light from what lies below")             \
-  X(roughnessMaps, "roughness by a map")                                    \
-  X(occlusionMaps, "maps that dim indirect light")                          \
-  X(mirrorMaps, "mirrors by a map or vertex colors")                        \
-  X(transmissionMaps, "transmission by a map or vertex colors")             \
-  X(coverage, "surfaces that are there in part")                            \
-  X(streams, "random numbers along paths")                                  \
-  X(transmission, "media along rays")                                       \
-  X(absorption, "media that absorb")                                        \
-  X(fog, "fog of the air")                                                  \
-  X(instances, "hits on instances")                                         \
-  X(spheres, "hits on exact spheres")                                       \
-  X(coplanar, "triangles that overlap others in their plane")               \
-  X(shadows, "shadow rays")                                                 \
-  X(lift, "shadow rays that start above their facets (--terminator)")       \
-  X(cones, "the width of pixels along rays (--texture-filter trilinear)")   \
-  X(smoothNormals, "vertex normals")                                        \
-  X(ended, "paths that --depth and --cutoff end (--channels error)")        \
-  X(alpha, "light that comes straight through surfaces (--channels alpha)") \
-  X(textures, "maps of colors")                                             \
-  X(normalMaps, "maps of normals")                                          \
+#define WHIT_FEATURES(X)                                                      \
+  X(always, "every frame")                                                    \
+  X(ambient, "ambient light, blurred sky")                                    \
+  X(spotLights, "cones of spot lights")                                       \
+  X(emission, "materials that emit")                                          \
+  X(emissionFactors, "emission by maps or vertex colors")                     \
+  X(vertexColors, "vertex colors")                                            \
+  X(sky, "a sky that is not black")                                           \
+  X(glossy, "glossy lobes")                                                   \
+  X(lobes, "glossy lobes that take light from what lies below")               \
+  X(roughnessMaps, "roughness by a map")                                      \
+  X(occlusionMaps, "maps that dim indirect light")                            \
+  X(mirrorMaps, "mirrors by a map or vertex colors")                          \
+  X(transmissionMaps, "transmission by a map or vertex colors")               \
+  X(coverage, "surfaces that are there in part")                              \
+  X(streams, "random numbers along paths")                                    \
+  X(transmission, "media along rays")                                         \
+  X(absorption, "media that absorb")                                          \
+  X(fog, "fog of the air")                                                    \
+  X(instances, "hits on instances")                                           \
+  X(spheres, "hits on exact spheres")                                         \
+  X(coplanar, "triangles that overlap others in their plane")                 \
+  X(shadows, "shadow rays")                                                   \
+  X(shadowOffset, "shadow rays that start above their facets (--terminator)") \
+  X(cones, "the width of pixels along rays (--texture-filter trilinear)")     \
+  X(smoothNormals, "vertex normals")                                          \
+  X(ended, "paths that --depth and --cutoff end (--channels error)")          \
+  X(alpha, "light that comes straight through surfaces (--channels alpha)")   \
+  X(textures, "maps of colors")                                               \
+  X(normalMaps, "maps of normals")                                            \
   X(secondUvs, "maps looked up with second texture coordinates")
 
 enum class Feature : std::uint8_t {
@@ -121,20 +121,20 @@ inline constexpr std::uint32_t kSharesPlace = 1u << 30;
 
 // A surfel is a point of a surface with all that shading needs. Normals face the viewer. `material`
 // is kMiss where the ray left the scene. `offset` is how far along the geometric normal a new ray
-// must start (hard cases H1-H4), and `retreat`, on the viewer's side, how far back along the
+// must start (hard cases H1-H4), and `viewOffset`, on the viewer's side, how far back along the
 // viewer's ray (H7). `flags`: kEntering, kHidden. `mediaBehind` is the stack of a refracted child;
 // the material's emission, mirror and transmission are multiplied by the columns of these names;
 // `coverage` is the share of the surface that is there: of all that it sends so much arrives, and
-// through the rest light goes straight on; `occlusion` multiplies indirect light; `lift` is added
-// to the position where shadow rays start; `cone` is the width that the ray's cone has reached, and
-// its children's start with; `lobe` is the share that the glossy lobe reflects of the light that
-// the mirror leaves (stages/shading_tables.h: kMaterialLayered).
+// through the rest light goes straight on; `occlusion` multiplies indirect light; `shadowOffset` is
+// added to the position where shadow rays start; `cone` is the width that the ray's cone has
+// reached, and its children's start with; `lobe` is the share that the glossy lobe reflects of the
+// light that the mirror leaves (stages/shading_tables.h: kMaterialLayered).
 #define WHIT_SURFEL_COLUMNS(X)                \
   WHIT_XYZ(X, pos, always)                    \
   WHIT_XYZ(X, ng, always)                     \
   WHIT_XYZ(X, ns, always)                     \
   X(float, offset, always)                    \
-  X(float, retreat, always)                   \
+  X(float, viewOffset, always)                \
   WHIT_RGB(X, diffuse, always)                \
   X(std::uint32_t, material, always)          \
   WHIT_RGB(X, specular, glossy)               \
@@ -145,7 +145,7 @@ inline constexpr std::uint32_t kSharesPlace = 1u << 30;
   X(float, occlusion, occlusionMaps)          \
   WHIT_RGB(X, mirror, mirrorMaps)             \
   WHIT_RGB(X, transmission, transmissionMaps) \
-  WHIT_XYZ(X, lift, lift)                     \
+  WHIT_XYZ(X, shadowOffset, shadowOffset)     \
   X(float, cone, cones)                       \
   X(std::uint32_t, flags, transmission)       \
   X(std::uint32_t, mediaBehind, transmission)

@@ -16,13 +16,13 @@
 namespace whit {
 
 struct Lobe {
-  Effect effect;                            // in whose frames it is sampled
+  Effect effect;                            // frames with this effect sample the lobe
   bool (Material::*isOf)(EffectSet) const;  // the materials that have it in frames
-  std::uint32_t flag;                       // of these
-  RayKind kind;                             // of its rays
-  int (*samples)(const RenderOptions&);     // of a surfel that the eye sees
-  std::uint32_t firstBranch;                // of them, to childStream(); 64 follow
-  std::uint32_t salt;                       // of their lattice; 0: it is the path's own
+  std::uint32_t flag;                       // materials with this flag have the lobe
+  RayKind kind;                             // kind of the lobe's rays
+  int (*samples)(const RenderOptions&);     // number of rays for a surfel that the eye sees
+  std::uint32_t firstBranch;                // first branch of the rays for childStream(); 64 follow
+  std::uint32_t salt;                       // salt of the rays' lattice; 0: the path's own lattice
 
   bool isSampled(const Material& material, EffectSet effects) const {
     return (material.*isOf)(effects);
@@ -72,7 +72,7 @@ constexpr bool samplesLobes(EffectSet effects) {
 // pixels whose first samples agree because all of them missed the light would end there, and the
 // picture would be too dark. `effects` are the scene's.
 inline bool samplesAdaptively(const RenderOptions& options, EffectSet effects) {
-  const EffectSet used = effects.without(options.disable).without(notAskedFor(options));
+  const EffectSet used = effects.without(options.disable).without(optionalEffectsOff(options));
   const ChannelSet kept = keptChannels(options);
   const bool overAll = kept.has(Channel::alpha) || kept.has(Channel::error);  // need all samples
   return options.adaptive && options.spp > 1 && !samplesLobes(used) && !overAll;

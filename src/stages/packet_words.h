@@ -7,7 +7,7 @@
 namespace whit {
 
 struct PacketWords {
-  float* first;        // of the first packet
+  float* first;        // word of the first packet
   std::size_t stride;  // words from one packet to the next
   std::size_t width;   // 4, 8 or 16: words of a column
 };

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/effects.h"
+#include "core/index.h"
 
 namespace whit {
 
@@ -21,14 +22,14 @@ struct RayStyle {
 
 struct RayKindRow {
   RayKind kind;
-  std::string_view name;   // in tables and files
+  std::string_view name;   // name in tables and files
   EffectSet effects;       // a frame traces such rays if it has any of these; none: every frame
-  std::string_view light;  // of impulses: what they bring a surface, in sentences
+  std::string_view light;  // the light that impulses bring a surface, for sentences
   RayStyle style;
-  RayStyle blocked;  // of rays that only ask whether something is in between, and find that it is
+  RayStyle blocked;  // style of occluded rays, if such rays only test for occlusion
 
   // True for rays that only test for occlusion; others find their closest hit.
-  constexpr bool onlyAsk() const { return !blocked.name.empty(); }
+  constexpr bool testsOcclusion() const { return !blocked.name.empty(); }
 
   constexpr bool calledForBy(EffectSet frame) const {
     return effects == EffectSet() || (frame.bits() & effects.bits()) != 0;
@@ -60,9 +61,7 @@ static_assert([] {
   return true;
 }());
 
-constexpr const RayKindRow& rowOf(RayKind kind) {
-  return kRayKinds[static_cast<std::size_t>(kind)];
-}
+constexpr const RayKindRow& rowOf(RayKind kind) { return entryOf(kRayKinds, kind); }
 
 // The kinds of impulses, in the order in which a queue holds them.
 inline constexpr std::array kImpulseKinds{RayKind::reflection, RayKind::refraction,

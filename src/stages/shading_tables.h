@@ -120,12 +120,12 @@ struct ShadingTables {
   std::vector<MaterialRecord> materials;  // at least one
   // Material::grazingRatio; empty where all are kGrazingRatio.
   std::vector<float> grazingRatios;
-  std::vector<ShownMap> maps;           // those of all materials
-  std::vector<TextureRecord> textures;  // one for each of `maps`, at least one
+  std::vector<ShownMap> maps;           // the maps of all materials
+  std::vector<TextureRecord> textures;  // a record for each of `maps`, at least one
   // kMipStride for each of `maps`, from the full texture on; none unless lookups are trilinear.
   std::vector<TextureRecord> mipLevels;
   TexelStrips texels;                        // at least one
-  std::size_t copiedTexels = 0;              // of them; the others are the scene's
+  std::size_t copiedTexels = 0;              // number of copied texels; the others are the scene's
   std::vector<InstanceTransform> instances;  // at least one
   std::vector<MediumRecord> media;           // [0] is vacuum
   std::vector<Light> lights;

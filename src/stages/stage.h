@@ -53,7 +53,7 @@ inline constexpr std::size_t kStageCount = kStageNames.size();
 // step has written.
 enum class Part : std::uint8_t {
   pixels,
-  rays,  // of the chunk
+  rays,  // the rays of the chunk
   hits,
   surfels,
   radiance,
@@ -63,8 +63,8 @@ enum class Part : std::uint8_t {
   parentRadiance,
   codes,
   film,
-  rayCounts,  // of each ray and all that follow from it
-  channels    // of the film
+  rayCounts,  // numbers of rays that follow from each ray, with itself
+  channels    // channels of the film
 };
 
 using Parts = EnumSet<Part, static_cast<int>(Part::channels) + 1>;

@@ -106,7 +106,7 @@ MediaStack mediaAtStart(const Scene& scene, EffectSet effects, const Intersector
   constexpr int kAttempt = 6;
   if (!camera.mediaVary) return camera.media;
 
-  const Vec3d start = ray.origin + ray.direction * wayPastEye(ray.origin, kAttempt);
+  const Vec3d start = ray.origin + ray.direction * distancePastEye(ray.origin, kAttempt);
   return initialMediumStack(scene, effects, intersector, start);
 }
 

@@ -59,7 +59,7 @@ TriangleHit refineSphereHit(const Scene& scene, const Ray& ray, const Candidate&
   const double hint = dot(there - ray.origin, ray.direction) / squared;
 
   TriangleHit best{hint > 0 ? hint : std::numeric_limits<double>::min(), candidate.u, candidate.v};
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
 
   // The weights name a point, and the nearer of the two hits is kept.
   for (const TriangleHit& hit : intersectSphere(ray, map)) {

@@ -12,7 +12,7 @@
 
 namespace whit {
 
-inline constexpr double kUnitRoundOff = 0x1p-24;  // of float
+inline constexpr double kUnitRoundOff = 0x1p-24;  // unit round-off of floats
 
 // t counts in lengths of the ray's direction; u and v weigh corners 1 and 2.
 struct TriangleHit {

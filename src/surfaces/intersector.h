@@ -13,7 +13,7 @@ namespace whit {
 
 struct Ray {
   Vec3d origin, direction;
-  RayCone cone{};    // for texture lookups
+  RayCone cone{};    // cone for texture lookups
   double tNear = 0;  // hits at this distance or nearer are ignored
 };
 

@@ -68,10 +68,10 @@ std::optional<Vec3d> pointOnRay(const Placement& place, double t, const Ray& ray
 // contribute along the normal counts, plus 2^-6 of an ulp of everything, because a start must not
 // lie in the plane and the normal is rounded as well. Near the origin of a large triangle the
 // second part is the largest by far, so no bound may rest on the point's coordinates alone.
-// Across the normal the point is off as well; the retreat makes that good, because half of the way
-// that the ray has come is known to be clear. Where the errors of several axes mix, which is so in
-// an instance's space and where other surfaces lie in the same place (`inDoubt`), all of them
-// count.
+// Across the normal the point is off as well. The offset towards the viewer makes up for that: half
+// of the way that the ray has come is known to be clear. Where the errors of several axes mix, as
+// they do in an instance's space and where other surfaces lie in the same place (`inDoubt`), all of
+// them count.
 void findStart(const Placement& place, double t, const Ray& ray, const Affine* toWorld,
                bool inDoubt, SurfacePoint& s) {
   s.position = place.position;
@@ -84,7 +84,7 @@ void findStart(const Placement& place, double t, const Ray& ray, const Affine* t
 
   const Vec3d n = abs(s.geometricNormal);
   s.offset = kUnitRoundOff * (32 * sumOf(point) + 16 * sumOf(edges));
-  s.retreat = std::min(s.offset, t) / 2;
+  s.viewOffset = std::min(s.offset, t) / 2;
   if (inDoubt || toWorld || place.isNarrow) return;
 
   double across = sumOf(point * 2.0 + edges);
@@ -95,7 +95,7 @@ void findStart(const Placement& place, double t, const Ray& ray, const Affine* t
 
   const double along = 4 * dot(n, point) + 16 * dot(n, edges) + sumOf(point + edges) / 64;
   s.offset = kUnitRoundOff * along;
-  s.retreat = std::min(s.retreat, kUnitRoundOff * across);
+  s.viewOffset = std::min(s.viewOffset, kUnitRoundOff * across);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ struct SurfacePoint {
   Vec3d position;
   Vec3d geometricNormal;  // unit, the surface's, on the viewer's side
   double offset = 0;      // how far along the geometric normal a new ray must start
-  double retreat = 0;     // on the viewer's side, how far back along the viewer's ray as well
+  double viewOffset = 0;  // on the viewer's side, how far back along the viewer's ray as well
   bool entering = false;  // the ray hits the outside, where corners run counter-clockwise
 };
 

@@ -84,8 +84,8 @@ TEST(EffectsCommand, WritesATableAndAPicture) {
   // The table has a head, a line for the matte scene and one for each effect, except for its lights
   // and their shadows, for fog, which the scene has not, and for the effects that are off unless an
   // option turns them on.
-  const auto kLines =
-      std::ptrdiff_t{2} + kEffectCount - 3 - std::popcount(notAskedFor(RenderOptions()).bits());
+  const auto kLines = std::ptrdiff_t{2} + kEffectCount - 3 -
+                      std::popcount(optionalEffectsOff(RenderOptions()).bits());
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), kLines) << csv;
   EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), kLines + 5) << outcome.out;
 

@@ -29,7 +29,7 @@ Surfel surfelSeen(const Vec3d& view, const Vec3d& shadingNormal) {
   s.geometricNormal = {0, 1, 0};
   s.shadingNormal = normalized(shadingNormal);
   s.offset = 1e-3;
-  s.retreat = 0.5e-3;
+  s.viewOffset = 0.5e-3;
   s.entering = true;
   return s;
 }
@@ -55,7 +55,7 @@ TEST(Mirror, WeightFollowsSchlick) {
 
 TEST(Mirror, StartsAboveTheSurface) {
   const Impulses found = impulsesOf(sceneOf(mirrorMaterial(1)), surfelSeen({3, 4, 0}, {0, 1, 0}));
-  // The origin is moved by `offset` along the normal and by `retreat` towards the viewer.
+  // The origin is moved by `offset` along the normal and by `viewOffset` towards the viewer.
   EXPECT_NEAR(found.reflected.ray.origin.x, 0.3e-3, 1e-15);
   EXPECT_NEAR(found.reflected.ray.origin.y, 1.4e-3, 1e-15);
   EXPECT_NEAR(found.reflected.ray.direction.x, -0.6, 1e-15);
@@ -77,7 +77,7 @@ TEST(Mirror, GrazingViewsReflectUpwards) {
 TEST(Lift, KeepsReflectionsAboveTheSurface) {
   const Scene scene = sceneOf(mirrorMaterial(1));
   test::Numbers numbers(11);
-  int lifted = 0;
+  int raised = 0;
   for (int i = 0; i < 20000; ++i) {
     const double elevation = numbers.in(1e-4, 1.5), tilt = numbers.in(0, 1.05);
     const double turn = numbers.in(0, 6.3);
@@ -97,23 +97,23 @@ TEST(Lift, KeepsReflectionsAboveTheSurface) {
     if (mirrored.y >= least) {
       EXPECT_LT(length(r - mirrored), 1e-14);
     } else {
-      ++lifted;
+      ++raised;
     }
   }
 
-  EXPECT_GT(lifted, 1000) << "the sweep was meant to reach the case";
+  EXPECT_GT(raised, 1000) << "the sweep was meant to reach the case";
 }
 
 TEST(Lift, IsContinuousAndIdempotent) {
   const Vec3d up{0, 1, 0};
   const Vec3d justBelow = normalized(Vec3d{1, 0.01 - 1e-9, 0}),
               just = normalized(Vec3d{1, 0.01, 0});
-  EXPECT_LT(length(lifted(justBelow, up, just.y) - just), 1e-8);
+  EXPECT_LT(length(raised(justBelow, up, just.y) - just), 1e-8);
 
-  const Vec3d once = lifted(normalized(Vec3d{1, -0.02, 0}), up, 0.01);
-  EXPECT_LT(length(lifted(once, up, 0.01) - once), 1e-5);
+  const Vec3d once = raised(normalized(Vec3d{1, -0.02, 0}), up, 0.01);
+  EXPECT_LT(length(raised(once, up, 0.01) - once), 1e-5);
   const Vec3d flat = normalized(Vec3d{0.3, 0.4, 0.5});
-  EXPECT_EQ(lifted(flat, up, 0.01), flat) << "not a bit changes where nothing is to be done";
+  EXPECT_EQ(raised(flat, up, 0.01), flat) << "not a bit changes where nothing is to be done";
 }
 
 // Hard case H33: the view is behind the shading normal.

@@ -92,10 +92,11 @@ TEST(Surfel, OffsetBoundsTheRounding) {
   const Scene scene = builder.build();
 
   // In the corner (-2, 3, 2) the edges add up to (8, 0, 4); the magnitude along the normal is 3.
-  const double u = 1 / 16777216.0, offset = u * (4 * 3 + (7 + 12) / 64.0), retreat = u * (14 + 12);
+  const double u = 1 / 16777216.0, offset = u * (4 * 3 + (7 + 12) / 64.0),
+               viewOffset = u * (14 + 12);
   const Surfel s = surfelAlong(scene, {-2, 9, 2}, {0, -1, 0});
   EXPECT_DOUBLE_EQ(s.offset, offset);
-  EXPECT_DOUBLE_EQ(s.retreat, retreat);
+  EXPECT_DOUBLE_EQ(s.viewOffset, viewOffset);
 
   // In the middle of the diagonal the magnitudes of both corners are averaged, not their
   // coordinates.
@@ -113,7 +114,7 @@ TEST(Surfel, OffsetIsThatOfAllMagnitudesWhereOthersLie) {
   const Surfel s =
       makeSurfel(scene, EffectSet::all(), {0}, {6, 0, 0}, {{-2, 9, 2}, {0, -1, 0}}, {}, true);
   EXPECT_DOUBLE_EQ(s.offset, (32 * 7 + 16 * 12) / 16777216.0);
-  EXPECT_DOUBLE_EQ(s.retreat, (16 * 7 + 8 * 12) / 16777216.0);
+  EXPECT_DOUBLE_EQ(s.viewOffset, (16 * 7 + 8 * 12) / 16777216.0);
 }
 
 Mesh withNormals(Mesh mesh, const std::vector<Vec3f>& normals) {

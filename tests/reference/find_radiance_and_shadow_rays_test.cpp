@@ -229,7 +229,7 @@ TEST(DirectionalLight, HasAHighlight) {
 // A white surface 2 below a light of intensity 4 pi has the radiance 4 pi / 4 / pi = 1.
 TEST(FindRadianceReference, LooksFromTheSurfelToTheLight) {
   const Scene scene = SceneBuilder().build();
-  test::SmallChunk small(scene, FeatureSet::all().without(Feature::lift));
+  test::SmallChunk small(scene, FeatureSet::all().without(Feature::shadowOffset));
   const Light light = lightAt({0, 2, 0}, static_cast<float>(4 * kPi));
   small.chunk.light = &light;
 

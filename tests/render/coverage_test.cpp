@@ -184,7 +184,7 @@ TEST(Coverage, CastsShadowsWhereItIsHalfOrMore) {
       SceneBuilder builder;
       Material sheet = inPart(blackMaterial(), factor);
       sheet.coverageMap = addCoverageMap(builder, {0.1f, 0.45f, 0.6f, 1});
-      sheet.cutWhereClear();
+      sheet.passClearTexels();
       if (cut) sheet.alphaMap = addCoverageMap(builder, {1, 1, 0.8f, 0.4f});
       if (cut) sheet.alphaCutoff = 0.5f;
 
@@ -216,7 +216,7 @@ TEST(Coverage, ClearTexelsAreNoBounce) {
   SceneBuilder builder;
   Material sheet = emittingMaterial(1);
   sheet.coverageMap = addCoverageMap(builder, {0});
-  sheet.cutWhereClear();
+  sheet.passClearTexels();
   builder.add(levelAt(0, builder.add(sheet)));
   builder.sky(0.5f);
   reference::RayCounts counts;
@@ -258,7 +258,7 @@ Scene tilesInPart() {
     m.glossyReflection = i % 2 == 0;
     m.coverage = i == 1 ? 1.0f : 0.8f;
     if (i != 2) m.coverageMap = i < 2 ? few : slope;
-    if (i > 3) m.cutWhereClear();
+    if (i > 3) m.passClearTexels();
     if (i == 5) {
       m.transmission = Rgb(0.5f);
       m.thin = true;

@@ -189,7 +189,7 @@ TEST(Distance, CoverageCountsOnce) {
       Leaves leaves(color, alpha);
 
       leaves.material.coverageMap = leaves.material.alphaMap;
-      leaves.material.cutWhereClear();
+      leaves.material.passClearTexels();
       expectTheSameFromAfar(
           what, floorOf(leaves.builder, leaves.material),
           integral([&](double x, double y) { return at(alpha, x, y).x * at(color, x, y).y; }),

@@ -14,7 +14,7 @@ namespace {
 TEST(RayLines, EveryLookHasAColorOfItsOwn) {
   std::vector<RayLine> lines;
   for (const RayKindRow& row : kRayKinds) {
-    if (row.onlyAsk()) lines.push_back({{}, {}, {row.kind, true}});
+    if (row.testsOcclusion()) lines.push_back({{}, {}, {row.kind, true}});
     lines.push_back({{}, {}, {row.kind, false}});
     lines.push_back(lines.back());
   }

@@ -124,7 +124,7 @@ TEST(SecondUvs, AgreeWithTheReferenceAsTheAlphaOfVertices) {
     if (i % 2 == 0) {
       m.coverage = 0.9f;
       m.coverageMap = map;
-      m.cutWhereClear();
+      m.passClearTexels();
     }
 
     // The u of a second coordinate is what the alpha lacks of 1.

@@ -1,7 +1,7 @@
 // The server against friends and strangers: which requests are answered, and what hostile clients
 // can do.
 #include "viewer/serve/server.h"
-#include "output/open_and_tell.h"
+#include "output/open_and_warn.h"
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
@@ -55,7 +55,7 @@ class Serving : public testing::Test {
     options_.common.render.threads = 2;
     options_.scene = cli::writeTinyScene(folder_);
     session_ = std::make_unique<ServedSession>(
-        options_, openAndTell(options_.scene, options_.common, nullptr));
+        options_, openAndWarn(options_.scene, options_.common, nullptr));
     server_ = std::make_unique<Server>(*session_, ServerOptions{.requestSeconds = requestSeconds});
     root_ = "/" + server_->token() + "/";
 

@@ -5,7 +5,7 @@
 
 #include "command_line/parse_options.h"
 #include "output/digest.h"
-#include "output/open_and_tell.h"
+#include "output/open_and_warn.h"
 #include "render/renderer.h"
 
 namespace whit::verify {
@@ -58,7 +58,7 @@ HashedScene::HashedScene(const PublishedHash& picture) {
   cli::listCommonOptions(list, common);
   list.operands("SCENE", "", 1, 1, names);
   cli::parseOptions("", "", list, words);
-  open_ = openAndTell(names[0], common, nullptr);
+  open_ = openAndWarn(names[0], common, nullptr);
   options_ = cli::optionsFor(open_->scene, common);
 }
 

@@ -144,7 +144,7 @@ void Probe::surfel(std::size_t i, std::uint32_t material, const Vec3f& ng, const
   test::setVector(s.ngX, s.ngY, s.ngZ, i, ng);
   test::setVector(s.nsX, s.nsY, s.nsZ, i, ns);
   s.offset[i] = 0x1p-19f;
-  s.retreat[i] = 0x1p-20f;
+  s.viewOffset[i] = 0x1p-20f;
 
   s.diffuseR[i] = s.diffuseG[i] = s.diffuseB[i] = 1;
   s.specularR[i] = s.specularG[i] = s.specularB[i] = 0;

@@ -180,8 +180,8 @@ std::vector<ProbeRay> galleryRays(const Ball& ball, std::uint32_t medium) {
 // and behind the hit, the hit's weights turn the normal, and the direction takes a few roundings.
 double driftAt(const Probe& probe, const Ball& ball, std::size_t i) {
   const auto offset = static_cast<double>(probe.surfels().offset[i]);
-  const auto retreat = static_cast<double>(probe.surfels().retreat[i]);
-  return (offset + retreat + ball.heightError()) / ball.r() + kWeightAngle + 8 * kBallRounding;
+  const auto viewOffset = static_cast<double>(probe.surfels().viewOffset[i]);
+  return (offset + viewOffset + ball.heightError()) / ball.r() + kWeightAngle + 8 * kBallRounding;
 }
 
 // The sine of a chord is the same at both ends, so that the bounds of all bounces so far add up.

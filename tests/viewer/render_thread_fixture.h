@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "cli/run_program.h"
-#include "output/open_and_tell.h"
+#include "output/open_and_warn.h"
 #include "viewer/session/render_thread.h"
 
 namespace whit::view {
@@ -19,7 +19,7 @@ class RenderThreadTest : public testing::Test {
     common_.quiet = true;
     common_.render.threads = 2;
     name_ = cli::writeTinyScene(folder_);
-    opened_ = openAndTell(name_, common_, nullptr);
+    opened_ = openAndWarn(name_, common_, nullptr);
     scene_ = opened_;
 
     request_.camera = scene_->scene.cameras[0];

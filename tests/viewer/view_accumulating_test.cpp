@@ -5,7 +5,7 @@
 #include <atomic>
 
 #include "cli/run_program.h"
-#include "output/open_and_tell.h"
+#include "output/open_and_warn.h"
 #include "viewer/panel.h"
 #include "viewer/session/frame_tracer.h"
 #include "viewer_fixture.h"
@@ -18,7 +18,7 @@ class Accumulating : public testing::Test {
   Accumulating() {
     common_.quiet = true;
     common_.render.threads = 2;
-    scene_ = openAndTell("glossy", common_, nullptr);
+    scene_ = openAndWarn("glossy", common_, nullptr);
 
     request_.camera = scene_->scene.cameras[0];
     request_.options = common_.render;

@@ -4,7 +4,7 @@
 #include <atomic>
 
 #include "cli/run_program.h"
-#include "output/open_and_tell.h"
+#include "output/open_and_warn.h"
 #include "render/debug_frame.h"
 #include "viewer/session/frame_tracer.h"
 
@@ -16,7 +16,7 @@ class ViewPieces : public testing::TestWithParam<std::size_t> {
   ViewPieces() {
     common_.quiet = true;
     common_.render.threads = 2;
-    scene_ = openAndTell(cli::writeTinyScene(folder_), common_, nullptr);
+    scene_ = openAndWarn(cli::writeTinyScene(folder_), common_, nullptr);
 
     request_.camera = scene_->scene.cameras[0];
     request_.options = common_.render;

@@ -1,5 +1,5 @@
 // Scenes that move, in the viewer.
-#include "output/open_and_tell.h"
+#include "output/open_and_warn.h"
 #include "viewer/panel.h"
 
 #include "render_thread_fixture.h"
@@ -76,13 +76,13 @@ class MovingPictures : public RenderThreadTest {
   MovingPictures() {
     name_ = writeMovingScene(folder_);
     common_.load.instant.plays = true;
-    opened_ = openAndTell(name_, common_, nullptr);
+    opened_ = openAndWarn(name_, common_, nullptr);
   }
   // Compares with the scene as it is read at that time.
   void expectPictureAt(double seconds, RenderThread& thread) {
     cli::CommonOptions then = common_;
     then.load.instant.seconds = seconds;
-    scene_ = openAndTell(name_, then, nullptr);
+    scene_ = openAndWarn(name_, then, nullptr);
     request_.seconds = seconds;
     expectRightPicture(thread);
   }

@@ -9,7 +9,7 @@
 #include "command_line/program.h"
 #include "core/error.h"
 #include "inspect/metrics.h"
-#include "output/open_and_tell.h"
+#include "output/open_and_warn.h"
 #include "viewer/session/session.h"
 
 namespace whit::view {
@@ -132,7 +132,7 @@ int run(const std::vector<std::string>& words) {
   settleViewOptions(options);
   options.scene = scenes[0];
   if (!options.common.render.size) options.common.render.size = {480, 300};
-  const std::shared_ptr<OpenScene> scene = openAndTell(options.scene, options.common, nullptr);
+  const std::shared_ptr<OpenScene> scene = openAndWarn(options.scene, options.common, nullptr);
   Walker walker(options, scene, [] {});
   const std::vector<Shown> all = walker.fly(seconds, kept);
 

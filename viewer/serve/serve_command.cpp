@@ -4,7 +4,7 @@
 
 #include "command_line/progress_bar.h"
 #include "core/error.h"
-#include "output/open_and_tell.h"
+#include "output/open_and_warn.h"
 #include "viewer/session/session.h"
 #ifdef WHIT_SERVE
 #include "viewer/serve/server.h"
@@ -45,7 +45,7 @@ cli::OptionList listOptions(ServeJob& job) {
 int serve(const ServeJob& job) {
   auto progress = cli::makeProgressBar(job.view.common);
   const std::shared_ptr<OpenScene> scene =
-      openAndTell(job.view.scene, job.view.common, progress.get());
+      openAndWarn(job.view.scene, job.view.common, progress.get());
 
   ServedSession session(job.view, scene);
   progress.reset();

@@ -4,7 +4,7 @@
 
 #include "core/option_table.h"
 #include "output/frame_summary.h"
-#include "output/open_and_tell.h"
+#include "output/open_and_warn.h"
 #include "render/renderer.h"
 
 namespace whit::view {
@@ -61,7 +61,7 @@ void FrameTracer::load(const SceneChoice& choice) {
   cli::CommonOptions common = common_;
   common.load.settings = choice.settings;
   common.load.instant.animation = choice.animation;
-  auto next = std::make_unique<Engine>(openAndTell(choice.name, common, nullptr));
+  auto next = std::make_unique<Engine>(openAndWarn(choice.name, common, nullptr));
   next->setOptions(engine_->options());
   next->prepare();
 

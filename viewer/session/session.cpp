@@ -172,7 +172,7 @@ Session::Session(const ViewOptions& options, const std::shared_ptr<OpenScene>& s
       subject_(subjectOf(scene->scene)) {
   savedSettings_ = readSettings_;
   watch(options.scene);
-  say(lackOfLight(scene->scene));
+  say(noLightWarning(scene->scene));
 
   settings_.options = cli::optionsFor(scene->scene, options.common);
   settings_.view = options.view;
@@ -521,7 +521,7 @@ void Session::takeScene() {
 
   settings_.timeline = timelineOf(scene(), {});
   restSeconds_ = 0;
-  say("opened " + sceneName_ + ". " + lackOfLight(scene()));
+  say("opened " + sceneName_ + ". " + noLightWarning(scene()));
   opened();
 }
 

@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/contains.h"
 #include "core/display.h"
 #include "core/error.h"
 #include "core/text.h"
@@ -131,8 +132,9 @@ bool hasMap(const aiMaterial& material, aiTextureType type) {
   return material.GetTextureCount(type) > 0;
 }
 
-// Sets the factors of the surface as glTF means them. Faces have two sides in these formats.
-void settleSurface(aiMaterial& material, std::uint32_t& notes) {
+// Replaces the factors of the surface by those that glTF has. Faces have two sides in these
+// formats.
+void convertFactors(aiMaterial& material, std::uint32_t& notes) {
   setMember(material, 1, AI_MATKEY_TWOSIDED);
 
   // The exponent n of Blinn's lobe corresponds to roughness^2 = sqrt(2 / (n + 2)), as in MTL files.
@@ -161,7 +163,7 @@ void settleSurface(aiMaterial& material, std::uint32_t& notes) {
 
 // A diffuse map replaces the color, and its alpha counts if it is named as the map of opacity, too.
 // Backslashes separate folders in files that were written on Windows.
-void settleMaps(aiMaterial& material, std::uint32_t& notes) {
+void convertMaps(aiMaterial& material, std::uint32_t& notes) {
   constexpr aiTextureType kKept[] = {aiTextureType_DIFFUSE,           aiTextureType_BASE_COLOR,
                                      aiTextureType_NORMALS,           aiTextureType_EMISSIVE,
                                      aiTextureType_LIGHTMAP,          aiTextureType_METALNESS,
@@ -176,8 +178,7 @@ void settleMaps(aiMaterial& material, std::uint32_t& notes) {
 
   for (unsigned type = aiTextureType_DIFFUSE; type <= AI_TEXTURE_TYPE_MAX; ++type) {
     const auto kind = static_cast<aiTextureType>(type);
-    const bool isKept = std::ranges::find(kKept, kind) != std::end(kKept) ||
-                        (kind == aiTextureType_OPACITY && byAlpha);
+    const bool isKept = contains(kKept, kind) || (kind == aiTextureType_OPACITY && byAlpha);
     if (hasMap(material, kind) && !isKept) notes |= kMapLeftOut;
 
     for (unsigned i = 0; i < material.GetTextureCount(kind); ++i) {
@@ -191,7 +192,7 @@ void settleMaps(aiMaterial& material, std::uint32_t& notes) {
 }
 
 // Meshes without a material get that of models without materials.
-void settleDefault(const aiScene& scene, unsigned index) {
+void makeDefaultMaterial(const aiScene& scene, unsigned index) {
   const auto isColored = [&](const aiMesh* mesh) {
     return mesh->mMaterialIndex == index && mesh->mColors[0];
   };
@@ -204,11 +205,11 @@ void settleDefault(const aiScene& scene, unsigned index) {
   setMember(material, aiColor4D(gray, gray, gray, 1), AI_MATKEY_COLOR_DIFFUSE);
 }
 
-void settleMaterials(const aiScene& scene, std::uint32_t& notes) {
+void convertMaterials(const aiScene& scene, std::uint32_t& notes) {
   for (unsigned i = 0; i < scene.mNumMaterials; ++i) {
     aiMaterial& material = *scene.mMaterials[i];
-    settleSurface(material, notes);
-    settleMaps(material, notes);
+    convertFactors(material, notes);
+    convertMaps(material, notes);
 
     aiString name;
     material.Get(AI_MATKEY_NAME, name);
@@ -216,7 +217,7 @@ void settleMaterials(const aiScene& scene, std::uint32_t& notes) {
     setMember(material, name, AI_MATKEY_NAME);
 
     const bool isDefault = name.length == 0 || name == aiString(AI_DEFAULT_MATERIAL_NAME);
-    if (isDefault && !hasMap(material, aiTextureType_DIFFUSE)) settleDefault(scene, i);
+    if (isDefault && !hasMap(material, aiTextureType_DIFFUSE)) makeDefaultMaterial(scene, i);
   }
 }
 
@@ -289,7 +290,7 @@ void convert(const std::string& bytes, const std::string& extension, const Confi
   }
 
   makePrintable(*scene.mRootNode);
-  settleMaterials(scene, notes);
+  convertMaterials(scene, notes);
   leaveOutSkins(scene, notes);
   turnUp(scene);
 
@@ -321,15 +322,15 @@ ConvertedModel convertByAssimp(const std::string& file, const std::string& bytes
 
   // The answer has the form in which convert() writes it.
   ConvertedModel model;
-  const std::string& said = answer.bytes;
+  const std::string& reply = answer.bytes;
   constexpr std::size_t kHead = 1 + sizeof model.notes;
   if (!answer.failure.empty()) {
     model.failure = answer.failure;
-  } else if (said.size() < kHead || said[0] != 1) {
-    model.failure = said.empty() ? "it said nothing" : excerpt(said.substr(1));
+  } else if (reply.size() < kHead || reply[0] != 1) {
+    model.failure = reply.empty() ? "it said nothing" : excerpt(reply.substr(1));
   } else {
-    std::memcpy(&model.notes, said.data() + 1, sizeof model.notes);
-    model.glb = said.substr(kHead);
+    std::memcpy(&model.notes, reply.data() + 1, sizeof model.notes);
+    model.glb = reply.substr(kHead);
   }
 
   return model;

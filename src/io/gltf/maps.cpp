@@ -125,9 +125,9 @@ void setSampler(const GltfTexture& map, Texture& texture) {
   texture.nearest = map.nearest;
 }
 
-// Makes the texture of the alpha channel, or none where it has the same value everywhere.
-std::optional<Texture> bakeAlpha(const GltfMaterial& m, const RawImage& raw,
-                                 const ImageLimits& limits, GltfMeans& means) {
+// Makes the texture of an image's alpha channel, or none where it has the same value everywhere.
+std::optional<Texture> alphaOfImage(const GltfMaterial& m, const RawImage& raw,
+                                    const ImageLimits& limits, GltfMeans& means) {
   const bool isUsed = m.alphaMode != GltfMaterial::Alpha::opaque && !m.maskMap.exists();
   if (!isUsed || !hasTranslucentAlpha(raw)) return {};
 
@@ -145,6 +145,37 @@ std::optional<Texture> bakeAlpha(const GltfMaterial& m, const RawImage& raw,
   Texture texture = makeAlphaTexture(m.name, raw);
   setSampler(m.baseMap, texture);
   return texture;
+}
+
+// The alpha of vertices multiplies a map, which is opaque if the image is.
+std::optional<Texture> bakeAlpha(const GltfMaterial& m, const RawImage* base,
+                                 const ImageLimits& limits, GltfMeans& means) {
+  std::optional<Texture> alpha;
+  if (base) alpha = alphaOfImage(m, *base, limits, means);
+  if (!m.multipliesAlpha()) return alpha;
+
+  means.alphaByMap = true;
+  if (!alpha) {
+    alpha = emptyTexture(m.name, TexelFormat::data, 1, 1);
+    alpha->texels = {encodeDataTexel(1, 1, 1, 1)};
+  }
+  return alpha;
+}
+
+// Returns a black texture for each GltfBakedMap that is needed, but for the alpha map.
+Images emptyMaps(const GltfMaterial& m, const RawImage* base, int width, int height) {
+  Images maps(kGltfBakedMaps);
+  const auto start = [&](GltfBakedMap map, TexelFormat format) {
+    if (!wantsBaked(m, map)) return;
+    maps[map] = emptyTexture(m.name, format, width, height);
+    setSampler(m.surfaceMap(), *maps[map]);
+  };
+
+  // An unlit material emits its base color, which may exceed 1.
+  start(kGltfDiffuse, m.unlit && base ? emissionFormat(*base) : TexelFormat::color);
+  start(kGltfSpecular, TexelFormat::color);
+  start(kGltfTransmission, TexelFormat::color);
+  return maps;
 }
 
 // Makes one texture for each GltfBakedMap that is needed, in the size of the largest image; the
@@ -165,18 +196,7 @@ Images bake(const GltfMaterial& m, const GltfBakeImages& images, const ImageLimi
   const Stretched tints{images[kSpecularColor].get(), width, height};
   const Stretched clears{images[kTransmission].get(), width, height};
 
-  Images maps(kGltfBakedMaps);
-  const auto start = [&](GltfBakedMap map, TexelFormat format) {
-    if (!wantsBaked(m, map)) return;
-    maps[map] = emptyTexture(m.name, format, width, height);
-    setSampler(m.surfaceMap(), *maps[map]);
-  };
-
-  // An unlit material emits its base color, which may exceed 1.
-  const bool emits = m.unlit && images[kBase];
-  start(kGltfDiffuse, emits ? emissionFormat(*images[kBase]) : TexelFormat::color);
-  start(kGltfSpecular, TexelFormat::color);
-  start(kGltfTransmission, TexelFormat::color);
+  Images maps = emptyMaps(m, images[kBase].get(), width, height);
 
   // Factors of the material follow from the means of the images.
   RgbD colors, tintSum;
@@ -220,16 +240,7 @@ Images bake(const GltfMaterial& m, const GltfBakeImages& images, const ImageLimi
   means.specular = static_cast<float>(strengths / texels);
   means.specularColor = Rgb(tintSum / texels);
 
-  if (images[kBase]) maps[kGltfAlpha] = bakeAlpha(m, *images[kBase], limits, means);
-
-  // The alpha of vertices multiplies a map, which is opaque if the image is.
-  if (m.multipliesAlpha()) {
-    means.alphaByMap = true;
-    if (!maps[kGltfAlpha]) {
-      maps[kGltfAlpha] = emptyTexture(m.name, TexelFormat::data, 1, 1);
-      maps[kGltfAlpha]->texels = {encodeDataTexel(1, 1, 1, 1)};
-    }
-  }
+  maps[kGltfAlpha] = bakeAlpha(m, images[kBase].get(), limits, means);
   return maps;
 }
 
@@ -279,9 +290,130 @@ std::optional<Texture> occlusionTexture(const GltfMaterial& material, const RawI
   return dims ? std::optional(std::move(texture)) : std::nullopt;
 }
 
-std::shared_ptr<const RawImage> decoded(const std::shared_ptr<GltfImage>& image,
-                                        const ImageLimits& limits) {
-  return image ? image->decode(limits) : nullptr;
+Texture maskTexture(const GltfMaterial& material, const RawImage& raw) {
+  return hasTranslucentAlpha(raw) ? makeAlphaTexture(material.name, raw)
+                                  : makeTexture(material.name, raw, TexelFormat::data);
+}
+
+// The material whose maps are requested, and what they are made from. Tasks that make textures
+// later have a copy.
+struct MapRequest {
+  GltfMaterial material;
+  const std::vector<std::shared_ptr<GltfImage>>& images;
+  TextureLoader& textures;
+  Warnings& warnings;
+  std::shared_ptr<GltfMeans> means;
+
+  // Returns null if there is no image, or none that can be read.
+  std::shared_ptr<const RawImage> decoded(const GltfTexture& map) const {
+    return map.image ? images[*map.image]->decode(textures.limits()) : nullptr;
+  }
+};
+
+// The images of base color, metalness, specular reflection and transmission are baked into the maps
+// that a Material has.
+void requestBaked(const MapRequest& request, Material& slots) {
+  const GltfMaterial& m = request.material;
+  if (!m.baseMap.exists() && !m.metallicRoughnessMap.exists() && !m.variesF0() &&
+      !m.variesTransmission() && !m.multipliesAlpha()) {
+    return;
+  }
+
+  const auto baked = request.textures.add(kGltfBakedMaps, [request] {
+    const GltfMaterial& m = request.material;
+    const GltfBakeImages images{request.decoded(m.baseMap), request.decoded(m.metallicRoughnessMap),
+                                request.decoded(m.specularMap), request.decoded(m.specularColorMap),
+                                request.decoded(m.transmissionMap)};
+
+    const bool isReflectance = images[kBase] && !m.unlit;
+    if (isReflectance) warnOfClampedColors(m.where, *images[kBase], request.warnings);
+    if (const auto& tint = images[kSpecularColor]) {
+      warnOfClampedColors(m.where, *tint, request.warnings);
+    }
+    return bake(m, images, request.textures.limits(), *request.means);
+  });
+
+  if (wantsBaked(m, kGltfDiffuse)) {
+    auto& slot = m.unlit ? slots.emissionMap : slots.diffuseMap;
+    slot = baked[kGltfDiffuse];
+  }
+  if (wantsBaked(m, kGltfSpecular)) {
+    slots.specularMap = baked[kGltfSpecular];
+    if (m.mirrorsByMap()) slots.mirrorMap = slots.specularMap;
+  }
+  if (wantsBaked(m, kGltfTransmission)) slots.transmissionMap = baked[kGltfTransmission];
+
+  if (m.alphaMode != GltfMaterial::Alpha::opaque) slots.alphaMap = baked[kGltfAlpha];
+  if (m.alphaMode == GltfMaterial::Alpha::blend) slots.coverageMap = baked[kGltfAlpha];
+}
+
+// Where there are no maps, meshes keep the alpha of their vertices as the coordinate u, which a
+// ramp turns into opacity.
+void requestVertexAlpha(const MapRequest& request, Material& slots) {
+  const GltfMaterial& m = request.material;
+  if (!m.alphaByVertex || m.isMapped()) return;
+
+  slots.alphaMap = request.textures.add(1, [name = m.name] { return Images{alphaRamp(name)}; })[0];
+  if (m.alphaMode == GltfMaterial::Alpha::blend) slots.coverageMap = slots.alphaMap;
+  request.means->alphaByMap = true;
+}
+
+// Requests the maps that are made from one image each.
+void requestSingleMaps(const MapRequest& request, Material& slots) {
+  const GltfMaterial& m = request.material;
+
+  // Returns a slot for the texture that `make` computes from an image, which may be none.
+  const auto single = [&](const GltfTexture& map, const auto& make) {
+    return request.textures.add(1, [request, map, make] {
+      Images made(1);
+      const auto raw = request.decoded(map);
+      if (!raw) return made;
+
+      const GltfMaterial& m = request.material;
+      const MemoryHold held = holdImage(m.where, raw->width, raw->height, sizeof(std::uint32_t),
+                                        request.textures.limits());
+      made[0] = make(m, *raw);
+      if (made[0]) setSampler(map, *made[0]);
+      return made;
+    })[0];
+  };
+
+  if (m.normalMap.exists()) slots.normalMap = single(m.normalMap, normalTexture);
+  if (m.occlusionMap.exists()) slots.occlusionMap = single(m.occlusionMap, occlusionTexture);
+  if (m.maskMap.exists()) slots.alphaMap = single(m.maskMap, maskTexture);
+
+  if (m.variesRoughness()) {
+    slots.roughnessMap =
+        single(m.roughnessMap, [means = request.means](const auto& m, const auto& raw) {
+          // Where the map has the same value everywhere, its mean replaces it.
+          const ChannelMean roughness = meanOf(raw, 1);
+          means->roughness = roughness.mean;
+          means->roughnessByMap = roughness.varies;
+          return means->roughnessByMap ? std::optional(makeTexture(m.name, raw, TexelFormat::data))
+                                       : std::nullopt;
+        });
+  }
+
+  if (m.emitsByMap()) {
+    slots.emissionMap =
+        single(m.emissiveMap, [&warnings = request.warnings](const auto& m, const auto& raw) {
+          return makeEmissionTexture(m.name, raw, warnings);
+        });
+  }
+}
+
+// The mean of a channel is multiplied into a factor that has no map in a Material.
+void requestMean(const MapRequest& request, const GltfTexture& map, std::size_t channel,
+                 float GltfMeans::*to, const char* warning) {
+  if (!map.exists()) return;
+  request.textures.add(0, [=] {
+    if (const auto raw = request.decoded(map)) {
+      const ChannelMean found = meanOf(*raw, channel);
+      (*request.means).*to = found.mean;
+      if (found.varies) request.warnings.add(warning, request.material.where);
+    }
+    return Images();
+  });
 }
 
 // Lists everything on which the maps and their means depend. Materials with equal keys share them.
@@ -340,7 +472,7 @@ TexturedMaterial GltfMapMaker::withMaps(const GltfMaterial& source, Material mat
         source.where);
   }
 
-  const GltfMaps maps = ask(source, textures);
+  const GltfMaps maps = request(source, textures);
   forEachMap([&](const auto& member) {
     const bool isReplaced = std::ranges::any_of(kReplacedMaps, [&](const ReplacedMap& replaced) {
       return replaced.map == member.field && given.contains(replaced.member);
@@ -357,125 +489,22 @@ TexturedMaterial GltfMapMaker::withMaps(const GltfMaterial& source, Material mat
   return {std::move(material), renewed};
 }
 
-GltfMaps GltfMapMaker::ask(const GltfMaterial& m, TextureLoader& textures) {
+GltfMaps GltfMapMaker::request(const GltfMaterial& m, TextureLoader& textures) {
   const auto [entry, isNew] = known_.try_emplace(keyOf(m));
   GltfMaps& maps = entry->second;
   if (!isNew) return maps;
 
-  Material& slots = maps.slots;
-  const auto means = std::make_shared<GltfMeans>();
-  maps.means = means;
-  Warnings& warnings = warnings_;
-  const auto image = [&](const GltfTexture& map) {
-    return map.image ? images_[*map.image] : nullptr;
-  };
-
-  // The images of base color, metalness, specular reflection and transmission are baked into the
-  // maps that a Material has.
-  if (m.baseMap.exists() || m.metallicRoughnessMap.exists() || m.variesF0() ||
-      m.variesTransmission() || m.multipliesAlpha()) {
-    const std::array sources{image(m.baseMap), image(m.metallicRoughnessMap), image(m.specularMap),
-                             image(m.specularColorMap), image(m.transmissionMap)};
-
-    const auto baked = textures.add(kGltfBakedMaps, [=, &textures, &warnings] {
-      const ImageLimits limits = textures.limits();
-      GltfBakeImages images;
-      for (std::size_t i = 0; i < kBakeImages; ++i) images[i] = decoded(sources[i], limits);
-
-      if (images[kBase] && !m.unlit) warnOfClampedColors(m.where, *images[kBase], warnings);
-      if (const auto& tint = images[kSpecularColor]) warnOfClampedColors(m.where, *tint, warnings);
-      return bake(m, images, limits, *means);
-    });
-
-    if (wantsBaked(m, kGltfDiffuse)) {
-      auto& slot = m.unlit ? slots.emissionMap : slots.diffuseMap;
-      slot = baked[kGltfDiffuse];
-    }
-    if (wantsBaked(m, kGltfSpecular)) {
-      slots.specularMap = baked[kGltfSpecular];
-      if (m.mirrorsByMap()) slots.mirrorMap = slots.specularMap;
-    }
-    if (wantsBaked(m, kGltfTransmission)) slots.transmissionMap = baked[kGltfTransmission];
-
-    if (m.alphaMode != GltfMaterial::Alpha::opaque) slots.alphaMap = baked[kGltfAlpha];
-    if (m.alphaMode == GltfMaterial::Alpha::blend) slots.coverageMap = baked[kGltfAlpha];
-  }
-
-  // Where there are no maps, meshes keep the alpha of their vertices as the coordinate u, which
-  // this ramp turns into opacity.
-  if (m.alphaByVertex && !m.isMapped()) {
-    slots.alphaMap = textures.add(1, [name = m.name] { return Images{alphaRamp(name)}; })[0];
-    if (m.alphaMode == GltfMaterial::Alpha::blend) slots.coverageMap = slots.alphaMap;
-    means->alphaByMap = true;
-  }
-
-  // Adds a slot for the texture that `make` computes from one image, which may be none.
-  const auto single = [&](const GltfTexture& map, const auto& make) {
-    return textures.add(1, [=, image = image(map), where = m.where, &textures] {
-      const ImageLimits limits = textures.limits();
-      Images made(1);
-      const auto raw = decoded(image, limits);
-      if (!raw) return made;
-
-      const MemoryHold held =
-          holdImage(where, raw->width, raw->height, sizeof(std::uint32_t), limits);
-      made[0] = make(*raw);
-      if (made[0]) setSampler(map, *made[0]);
-      return made;
-    })[0];
-  };
-
-  if (m.normalMap.exists()) {
-    slots.normalMap =
-        single(m.normalMap, [m](const RawImage& raw) { return normalTexture(m, raw); });
-  }
-  if (m.occlusionMap.exists()) {
-    slots.occlusionMap =
-        single(m.occlusionMap, [m](const RawImage& raw) { return occlusionTexture(m, raw); });
-  }
-
-  if (m.variesRoughness()) {
-    slots.roughnessMap = single(m.roughnessMap, [=](const RawImage& raw) {
-      // Where the map has the same value everywhere, its mean replaces it.
-      const ChannelMean roughness = meanOf(raw, 1);
-      means->roughness = roughness.mean;
-      means->roughnessByMap = roughness.varies;
-      return means->roughnessByMap ? std::optional(makeTexture(m.name, raw, TexelFormat::data))
-                                   : std::nullopt;
-    });
-  }
-
-  if (m.maskMap.exists()) {
-    slots.alphaMap = single(m.maskMap, [name = m.name](const RawImage& raw) {
-      return hasTranslucentAlpha(raw) ? makeAlphaTexture(name, raw)
-                                      : makeTexture(name, raw, TexelFormat::data);
-    });
-  }
-
-  if (m.emitsByMap()) {
-    slots.emissionMap = single(m.emissiveMap, [name = m.name, &warnings](const RawImage& raw) {
-      return makeEmissionTexture(name, raw, warnings);
-    });
-  }
-
-  // The mean of a channel is multiplied into a factor that has no map in a Material.
-  const auto mean = [&](const GltfTexture& map, std::size_t channel, float GltfMeans::*to,
-                        const char* warning) {
-    if (!map.exists()) return;
-    textures.add(0, [=, image = image(map), where = m.where, &textures, &warnings] {
-      if (const auto raw = decoded(image, textures.limits())) {
-        const ChannelMean found = meanOf(*raw, channel);
-        (*means).*to = found.mean;
-        if (found.varies) warnings.add(warning, where);
-      }
-      return Images();
-    });
-  };
+  const MapRequest request{m, images_, textures, warnings_, std::make_shared<GltfMeans>()};
+  maps.means = request.means;
+  requestBaked(request, maps.slots);
+  requestVertexAlpha(request, maps.slots);
+  requestSingleMaps(request, maps.slots);
 
   if (m.clearcoat > 0) {
-    mean(m.clearcoatMap, 0, &GltfMeans::clearcoat, "clearcoat by a texture taken by its mean");
-    mean(m.clearcoatRoughnessMap, 1, &GltfMeans::clearcoatRoughness,
-         "roughness of a clearcoat by a texture taken by its mean");
+    requestMean(request, m.clearcoatMap, 0, &GltfMeans::clearcoat,
+                "clearcoat by a texture taken by its mean");
+    requestMean(request, m.clearcoatRoughnessMap, 1, &GltfMeans::clearcoatRoughness,
+                "roughness of a clearcoat by a texture taken by its mean");
   }
 
   return maps;

@@ -12,9 +12,8 @@ namespace {
 Wrap readWrap(const JsonValue& code) {
   constexpr std::uint64_t kRepeat = 10497, kClampToEdge = 33071, kMirroredRepeat = 33648;
   const std::uint64_t found = code.wholeOr(kRepeat);
-  return found == kClampToEdge      ? Wrap::clamp
-         : found == kMirroredRepeat ? Wrap::mirror
-                                    : Wrap::repeat;
+  if (found == kClampToEdge) return Wrap::clamp;
+  return found == kMirroredRepeat ? Wrap::mirror : Wrap::repeat;
 }
 
 std::size_t readSet(const JsonValue& texCoord, std::size_t fallback) {
@@ -66,7 +65,7 @@ GltfTexture readTexture(const GltfDocument& document, const std::string& where,
 }
 
 constexpr double kLargestEmission = 1e9;    // a factor and a strength of this are finite together
-constexpr float kLeastAttenuation = 1e-6f;  // of a color; the logarithm is taken
+constexpr float kLeastAttenuation = 1e-6f;  // lower bound of colors, whose logarithm is taken
 
 // Numbers are clamped, because some writers round them out of range.
 float readNumber(const JsonValue& json, double fallback, double low = 0, double high = 1) {
@@ -79,89 +78,125 @@ Rgb colorOf(const std::vector<double>& c, double high = 1) {
   return {clamped(c[0]), clamped(c[1]), clamped(c[2])};
 }
 
-GltfMaterial readMaterial(const GltfDocument& document, const JsonValue& source) {
-  const JsonValue pbr = source["pbrMetallicRoughness"], extensions = source["extensions"];
-  GltfMaterial m;
-  m.name = source["name"].textOr("");
-  m.where = source.where();
-  m.doubleSided = source["doubleSided"].flagOr(false);
-  m.unlit = extensions["KHR_materials_unlit"].exists();
+// Reads one material of the file. The members of glTF and its extensions have the factors that the
+// specifications state as defaults.
+class GltfMaterialReader {
+ public:
+  GltfMaterialReader(const GltfDocument& document, const JsonValue& source)
+      : document_(document), source_(source), extensions_(source["extensions"]) {}
 
-  const auto warnIf = [&](bool isTrue, const char* what) {
-    if (isTrue) document.warnings().add(what, m.where);
-  };
-  const auto texture = [&](const JsonValue& info) {
-    if (m.unlit) return GltfTexture();
-    return readTexture(document, m.where, info);
-  };
+  GltfMaterial read() {
+    m_.name = source_["name"].textOr("");
+    m_.where = source_.where();
+    m_.doubleSided = source_["doubleSided"].flagOr(false);
+    m_.unlit = extensions_["KHR_materials_unlit"].exists();
 
-  const std::vector<double> base = pbr["baseColorFactor"].numbers(4);
-  m.base = colorOf(base);
-  m.alpha = base.empty() ? 1 : static_cast<float>(std::clamp(base[3], 0.0, 1.0));
-  m.baseMap = readTexture(document, m.where, pbr["baseColorTexture"]);
-
-  m.metallic = m.unlit ? 0 : readNumber(pbr["metallicFactor"], 1);
-  m.roughness = readNumber(pbr["roughnessFactor"], 1);
-  m.metallicRoughnessMap = texture(pbr["metallicRoughnessTexture"]);
-  m.roughnessMap = m.metallicRoughnessMap;
-
-  m.normalMap = texture(source["normalTexture"]);
-  m.normalScale = readNumber(source["normalTexture"]["scale"], 1, -1e3, 1e3);
-  m.occlusionMap = texture(source["occlusionTexture"]);
-  m.occlusionStrength = readNumber(source["occlusionTexture"]["strength"], 1);
-
-  const JsonValue emission =
-      source["emissiveFactor"];  // some writers store a strength above 1 here
-  if (emission.exists() && !m.unlit) {
-    const JsonValue strength = extensions["KHR_materials_emissive_strength"]["emissiveStrength"];
-    m.emission = colorOf(emission.numbers(3), kLargestEmission) *
-                 readNumber(strength, 1, 0, kLargestEmission);
-  }
-  m.emissiveMap = texture(source["emissiveTexture"]);
-
-  const std::string alphaMode = source["alphaMode"].textOr("OPAQUE");
-  if (alphaMode == "MASK") m.alphaMode = GltfMaterial::Alpha::mask;
-  if (alphaMode == "BLEND") m.alphaMode = GltfMaterial::Alpha::blend;
-  warnIf(alphaMode != "OPAQUE" && m.alphaMode == GltfMaterial::Alpha::opaque,
-         "unknown alpha mode taken as OPAQUE");
-  m.alphaCutoff = readNumber(source["alphaCutoff"], 0.5, 0, 2);
-
-  // Reflectance of what is no metal: that of its index of refraction, times the extension's
-  // factors.
-  m.ior = readNumber(extensions["KHR_materials_ior"]["ior"], 1.5, 1, kLargestIor);
-  const float step = (m.ior - 1) / (m.ior + 1);
-  const JsonValue specular = extensions["KHR_materials_specular"];
-  m.f90 = readNumber(specular["specularFactor"], 1);
-  m.specularColor =
-      Rgb(step * step) * colorOf(specular["specularColorFactor"].numbers(3), kLargestEmission);
-  m.specularMap = texture(specular["specularTexture"]);
-  m.specularColorMap = texture(specular["specularColorTexture"]);
-
-  const JsonValue transmission = extensions["KHR_materials_transmission"];
-  m.transmission = readNumber(transmission["transmissionFactor"], 0);
-  m.transmissionMap = texture(transmission["transmissionTexture"]);
-
-  const JsonValue volume = extensions["KHR_materials_volume"];
-  warnIf(volume["thicknessTexture"].exists(),
-         "thickness of a volume by a texture left out: what the mesh encloses counts");
-  m.thickness = readNumber(volume["thicknessFactor"], 0, 0, kLargestNumber);
-
-  const double distance = volume["attenuationDistance"].numberOr(0);  // 0: nothing is absorbed
-  const Rgb kept = colorOf(volume["attenuationColor"].numbers(3));
-  for (int i = 0; distance > 0 && i < 3; ++i) {
-    const double logarithm = std::log(double{std::max(kept[i], kLeastAttenuation)});
-    m.absorption[i] = static_cast<float>(std::min(-logarithm / distance, 1e18));
+    readBase();
+    readNormalAndOcclusion();
+    readEmission();
+    readAlphaMode();
+    readDielectric();
+    readVolume();
+    readClearcoat();
+    return m_;
   }
 
-  const JsonValue coat = extensions["KHR_materials_clearcoat"];
-  m.clearcoat = readNumber(coat["clearcoatFactor"], 0);
-  m.clearcoatRoughness = readNumber(coat["clearcoatRoughnessFactor"], 0);
-  m.clearcoatMap = texture(coat["clearcoatTexture"]);
-  m.clearcoatRoughnessMap = texture(coat["clearcoatRoughnessTexture"]);
-  warnIf(coat["clearcoatNormalTexture"].exists(), "normal map of a clearcoat left out");
+ private:
+  void warnIf(bool isTrue, const char* what) const {
+    if (isTrue) document_.warnings().add(what, m_.where);
+  }
+  // Unlit materials have no maps besides that of their color.
+  GltfTexture texture(const JsonValue& info) const {
+    if (m_.unlit) return GltfTexture();
+    return readTexture(document_, m_.where, info);
+  }
 
-  return m;
-}
+  void readBase() {
+    const JsonValue pbr = source_["pbrMetallicRoughness"];
+    const std::vector<double> base = pbr["baseColorFactor"].numbers(4);
+    m_.base = colorOf(base);
+    m_.alpha = base.empty() ? 1 : static_cast<float>(std::clamp(base[3], 0.0, 1.0));
+    m_.baseMap = readTexture(document_, m_.where, pbr["baseColorTexture"]);
+
+    m_.metallic = m_.unlit ? 0 : readNumber(pbr["metallicFactor"], 1);
+    m_.roughness = readNumber(pbr["roughnessFactor"], 1);
+    m_.metallicRoughnessMap = texture(pbr["metallicRoughnessTexture"]);
+    m_.roughnessMap = m_.metallicRoughnessMap;
+  }
+
+  void readNormalAndOcclusion() {
+    const JsonValue normal = source_["normalTexture"], occlusion = source_["occlusionTexture"];
+    m_.normalMap = texture(normal);
+    m_.normalScale = readNumber(normal["scale"], 1, -1e3, 1e3);
+    m_.occlusionMap = texture(occlusion);
+    m_.occlusionStrength = readNumber(occlusion["strength"], 1);
+  }
+
+  // Some writers store a strength above 1 in the factor.
+  void readEmission() {
+    const JsonValue emission = source_["emissiveFactor"];
+    if (emission.exists() && !m_.unlit) {
+      const JsonValue strength = extensions_["KHR_materials_emissive_strength"]["emissiveStrength"];
+      m_.emission = colorOf(emission.numbers(3), kLargestEmission) *
+                    readNumber(strength, 1, 0, kLargestEmission);
+    }
+    m_.emissiveMap = texture(source_["emissiveTexture"]);
+  }
+
+  void readAlphaMode() {
+    using Alpha = GltfMaterial::Alpha;
+    const std::string mode = source_["alphaMode"].textOr("OPAQUE");
+    if (mode == "MASK") m_.alphaMode = Alpha::mask;
+    if (mode == "BLEND") m_.alphaMode = Alpha::blend;
+    warnIf(mode != "OPAQUE" && m_.alphaMode == Alpha::opaque, "unknown alpha mode taken as OPAQUE");
+    m_.alphaCutoff = readNumber(source_["alphaCutoff"], 0.5, 0, 2);
+  }
+
+  // Reads the reflectance of what is no metal: that of its index of refraction, times the factors
+  // of an extension.
+  void readDielectric() {
+    m_.ior = readNumber(extensions_["KHR_materials_ior"]["ior"], 1.5, 1, kLargestIor);
+    const float step = (m_.ior - 1) / (m_.ior + 1);
+    const JsonValue specular = extensions_["KHR_materials_specular"];
+    m_.f90 = readNumber(specular["specularFactor"], 1);
+    m_.specularColor =
+        Rgb(step * step) * colorOf(specular["specularColorFactor"].numbers(3), kLargestEmission);
+    m_.specularMap = texture(specular["specularTexture"]);
+    m_.specularColorMap = texture(specular["specularColorTexture"]);
+  }
+
+  void readVolume() {
+    const JsonValue transmission = extensions_["KHR_materials_transmission"];
+    m_.transmission = readNumber(transmission["transmissionFactor"], 0);
+    m_.transmissionMap = texture(transmission["transmissionTexture"]);
+
+    const JsonValue volume = extensions_["KHR_materials_volume"];
+    warnIf(volume["thicknessTexture"].exists(),
+           "thickness of a volume by a texture left out: what the mesh encloses counts");
+    m_.thickness = readNumber(volume["thicknessFactor"], 0, 0, kLargestNumber);
+
+    const double distance = volume["attenuationDistance"].numberOr(0);  // 0: nothing is absorbed
+    const Rgb kept = colorOf(volume["attenuationColor"].numbers(3));
+    for (int i = 0; distance > 0 && i < 3; ++i) {
+      const double logarithm = std::log(double{std::max(kept[i], kLeastAttenuation)});
+      m_.absorption[i] = static_cast<float>(std::min(-logarithm / distance, 1e18));
+    }
+  }
+
+  void readClearcoat() {
+    const JsonValue coat = extensions_["KHR_materials_clearcoat"];
+    m_.clearcoat = readNumber(coat["clearcoatFactor"], 0);
+    m_.clearcoatRoughness = readNumber(coat["clearcoatRoughnessFactor"], 0);
+    m_.clearcoatMap = texture(coat["clearcoatTexture"]);
+    m_.clearcoatRoughnessMap = texture(coat["clearcoatRoughnessTexture"]);
+    warnIf(coat["clearcoatNormalTexture"].exists(), "normal map of a clearcoat left out");
+  }
+
+  const GltfDocument& document_;
+  const JsonValue& source_;
+  const JsonValue extensions_;
+  GltfMaterial m_;
+};
 
 // The reflectance at grazing incidence over that at normal incidence. Strengths and textures
 // multiply both, so that the ratio is the material's. A metal has kGrazingRatio at least, since the
@@ -178,6 +213,32 @@ float grazingRatioOf(const GltfMaterial& g, float metal) {
 }
 
 Rgb mix(const Rgb& a, const Rgb& b, float t) { return a * (1 - t) + b * t; }
+
+// Sets where the surface is cut out, and how much of the rest is there.
+void setCoverage(const GltfMaterial& g, const GltfMeans& means, Material& m) {
+  m.alphaByVertex = g.multipliesAlpha();
+  const bool cuts = g.alphaMode == GltfMaterial::Alpha::mask;
+  m.alphaCutoff = cuts && g.alpha > 0 ? std::min(g.alphaCutoff / g.alpha, 1.0f) : 0.5f;
+  m.thin = g.transmission > 0 && g.thickness == 0;
+
+  // What blends is a sheet that is there in part.
+  if (g.alphaMode == GltfMaterial::Alpha::blend) {
+    m.coverage = std::min(g.alpha * means.alpha, 1.0f);
+    m.thin = m.thin || means.alphaByMap;
+    if (means.alphaByMap) m.alphaCutoff = kClearCoverage;
+  }
+
+  // A mask that cuts everything, with or without a map.
+  if (cuts && g.alpha < g.alphaCutoff) m.coverage = 0;
+}
+
+// The clearcoat is a mirror above all other layers, as far as it is smooth.
+void addClearcoat(const GltfMaterial& g, const GltfMeans& means, Material& m) {
+  const double roughness = g.clearcoatRoughness * means.clearcoatRoughness;
+  const auto coat = static_cast<float>(g.clearcoat * means.clearcoat * mirroredShareOf(roughness));
+  m.mirror = min(m.mirror + Rgb(0.04f * coat), Rgb(1.0f));
+  m.mirrorGrazing = max(m.mirrorGrazing, Rgb(coat));
+}
 
 }  // namespace
 
@@ -225,7 +286,7 @@ bool lacksCoordinates(const GltfMaterial& m) {
 std::vector<GltfMaterial> readGltfMaterials(const GltfDocument& document) {
   std::vector<GltfMaterial> materials;
   for (const JsonValue& source : document.list("materials").elements()) {
-    materials.push_back(readMaterial(document, source));
+    materials.push_back(GltfMaterialReader(document, source).read());
   }
   GltfMaterial fallback;
   fallback.name = kNoMaterialName;
@@ -248,21 +309,7 @@ Material shadedAs(const GltfMaterial& g, const GltfMeans& means) {
   m.emissionBySecondUvs = coordinates.bySecond(g.emissiveMap);
   m.occlusionBySecondUvs = coordinates.bySecond(g.occlusionMap);
 
-  m.alphaByVertex = g.multipliesAlpha();
-  m.alphaCutoff = g.alphaMode == GltfMaterial::Alpha::mask && g.alpha > 0
-                      ? std::min(g.alphaCutoff / g.alpha, 1.0f)
-                      : 0.5f;
-  m.thin = g.transmission > 0 && g.thickness == 0;
-
-  // What blends is a sheet that is there in part.
-  if (g.alphaMode == GltfMaterial::Alpha::blend) {
-    m.coverage = std::min(g.alpha * means.alpha, 1.0f);
-    m.thin = m.thin || means.alphaByMap;
-    if (means.alphaByMap) m.alphaCutoff = kClearCoverage;
-  }
-
-  // A mask that cuts everything, with or without a map.
-  if (g.alphaMode == GltfMaterial::Alpha::mask && g.alpha < g.alphaCutoff) m.coverage = 0;
+  setCoverage(g, means, m);
 
   // Unlit materials emit their color and do nothing else.
   if (g.unlit) {
@@ -303,13 +350,7 @@ Material shadedAs(const GltfMaterial& g, const GltfMeans& means) {
     m.mirrorGrazing = Rgb((f90 * (1 - metal) + metal) * share);
   }
 
-  // The clearcoat is a mirror above all of this.
-  const double coatRoughness = g.clearcoatRoughness * means.clearcoatRoughness;
-  const auto coat =
-      static_cast<float>(g.clearcoat * means.clearcoat * mirroredShareOf(coatRoughness));
-  m.mirror = min(m.mirror + Rgb(0.04f * coat), Rgb(1.0f));
-  m.mirrorGrazing = max(m.mirrorGrazing, Rgb(coat));
-
+  addClearcoat(g, means, m);
   m.castsShadow = m.blocksLight();
   return m;
 }

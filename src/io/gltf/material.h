@@ -50,28 +50,28 @@ struct GltfMaterial {
   std::string name, where;
   Rgb base{1, 1, 1};
   float alpha = 1, metallic = 1, roughness = 1;
-  Rgb specularColor{0.04f, 0.04f, 0.04f};  // of what is no metal: its ior's, times a factor
+  Rgb specularColor{0.04f, 0.04f, 0.04f};  // F0 of what is no metal: from the ior, times a factor
   float f90 = 1;                           // its reflectance at grazing incidence
-  bool grazingFades = false;               // of MTL: below 4 % at normal incidence, f90 is less
+  bool grazingFades = false;  // set for MTL: below 4 % at normal incidence, f90 is less
   Rgb emission{0, 0, 0};
   Alpha alphaMode = Alpha::opaque;
   float alphaCutoff = 0.5f;
   float transmission = 0, ior = 1.5f;
-  float thickness = 0;  // of the volume; 0: the surface is a thin wall
+  float thickness = 0;  // thickness of the volume; 0: the surface is a thin wall
   Rgb absorption{0, 0, 0};
   float clearcoat = 0, clearcoatRoughness = 0;
   bool unlit = false, doubleSided = false;
   GltfTexture baseMap, metallicRoughnessMap, normalMap, emissiveMap, occlusionMap;
   GltfTexture roughnessMap;                   // glTF has it in metallicRoughnessMap, MTL apart
-  GltfTexture maskMap;                        // of MTL: cuts in place of the base color's alpha
+  GltfTexture maskMap;                        // MTL only: cuts in place of the base color's alpha
   GltfTexture specularMap, specularColorMap;  // strength in alpha, color
   GltfTexture transmissionMap, clearcoatMap, clearcoatRoughnessMap;
   float normalScale = 1, occlusionStrength = 1;
   // The alpha of vertex colors counts. Without maps u is alphaRampU() of it, and beside maps the
   // second coordinates have it (Material::alphaByVertex).
   bool alphaByVertex = false;
-  bool mirrorIsApart = false;        // of MTL: no reflectance at normal incidence
-  bool normalsMayBeHeights = false;  // of MTL: a gray normalMap holds heights
+  bool mirrorIsApart = false;        // set for MTL: no reflectance at normal incidence
+  bool normalsMayBeHeights = false;  // set for MTL: a gray normalMap holds heights
 
   // The coordinates of the maps that it needs texel by texel: those of the first there is, and the
   // first that differ from them (equal where none do).
@@ -117,8 +117,8 @@ struct GltfMaterial {
 // Alpha is looked up in a texture of two texels, between whose centers it rises evenly from 0 to 1.
 inline float alphaRampU(float alpha) { return 0.25f + 0.5f * std::clamp(alpha, 0.0f, 1.0f); }
 
-// One for each material, and the format's default last. What cannot be represented is counted in
-// the document's warnings.
+// Reads all materials of the document, and adds the format's default as the last one. Properties
+// that cannot be represented are counted in the document's warnings.
 std::vector<GltfMaterial> readGltfMaterials(const GltfDocument& document);
 
 // The means of maps that the factors of a Material depend on.
@@ -129,7 +129,7 @@ struct GltfMeans {
   float specular = 1;           // its strength
   Rgb specularColor{1, 1, 1};
   float clearcoat = 1, clearcoatRoughness = 1;
-  float alpha = 1;          // of a texture that blends and is the same everywhere
+  float alpha = 1;          // alpha of a texture that blends and is the same everywhere
   bool alphaByMap = false;  // its texels differ and are multiplied with the factor
 };
 
@@ -158,7 +158,7 @@ bool lacksCoordinates(const GltfMaterial& material);
 //   specular and mirror as well; of unlit materials the emission.
 Material shadedAs(const GltfMaterial& source, const GltfMeans& means);
 
-// An image of the document, decoded when it is asked for and for as long as somebody holds it.
+// An image of the document. It is decoded when it is needed, and freed when nobody holds it.
 class GltfImage;
 
 struct GltfMaps {
@@ -171,7 +171,7 @@ using GltfShading = std::function<Material(const GltfMeans& means)>;
 
 class GltfMapMaker {
  public:
-  // Materials refer to `images` by their numbers.
+  // Materials refer to `images` by their indices.
   GltfMapMaker(const std::vector<GltfImageSource>& images, Warnings& warnings);
 
   // Returns `material` with slots for the maps of `source` that are not `given`. When the textures
@@ -182,8 +182,8 @@ class GltfMapMaker {
                             GltfShading shading);
 
  private:
-  // Materials with the same maps share slots.
-  GltfMaps ask(const GltfMaterial& material, TextureLoader& textures);
+  // Returns the slots of a material's maps. Materials with the same maps share slots.
+  GltfMaps request(const GltfMaterial& material, TextureLoader& textures);
 
   Warnings& warnings_;
   std::vector<std::shared_ptr<GltfImage>> images_;

@@ -89,9 +89,9 @@ void readSkin(const GltfDocument& document, const JsonValue& primitive, Deformat
 }
 
 // Deforms the mesh as it is at the start, and gives it the deformation where that depends on time.
-// `middle` is subtracted from the positions; the first primitive of a mesh chooses it.
+// `origin` is subtracted from the positions; the first primitive of a mesh chooses it.
 void deform(const GltfDocument& document, const JsonValue& primitive, Deformation own,
-            std::optional<Vec3d>& middle, Mesh& mesh) {
+            std::optional<Vec3d>& origin, Mesh& mesh) {
   document.budget().charge(2 * (mesh.positions.size() + mesh.normals.size()), sizeof(Vec3d),
                            primitive.where());
   own.positions = mesh.positions;
@@ -99,13 +99,13 @@ void deform(const GltfDocument& document, const JsonValue& primitive, Deformatio
   readTargets(document, primitive["targets"], own);
   if (own.skeleton) readSkin(document, primitive, own);
   DeformedVertices start = deformVertices(own, poseAt(own, 0));
-  if (!middle) {
+  if (!origin) {
     Box box;
     for (const Vec3f& p : start.positions) box.add(p);
-    middle = originOf({Vec3d(box.lower), Vec3d(box.upper)});
+    origin = originOf({Vec3d(box.lower), Vec3d(box.upper)});
   }
-  own.middle = *middle;
-  if (own.middle != Vec3d()) start = deformVertices(own, poseAt(own, 0));
+  own.origin = *origin;
+  if (own.origin != Vec3d()) start = deformVertices(own, poseAt(own, 0));
   mesh.positions = std::move(start.positions);
   mesh.normals = std::move(start.normals);
   for (auto& triangle : mesh.triangles) {
@@ -133,7 +133,7 @@ constexpr std::uint64_t kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6;
 // are those of the material, with its transforms applied, v pointing up. `variant` is the number of
 // the chosen variant of the materials. Points, lines and vertices without joints are counted in the
 // document's warnings. The mesh is deformed as at the start; tangents are left out, because the
-// directions of normal maps follow from texture coordinates. `middle` is that of deform(). Throws
+// directions of normal maps follow from texture coordinates. `origin` is that of deform(). Throws
 // as the accessors do, and badScene where attributes differ in length.
 class PrimitiveReader {
  public:
@@ -152,7 +152,7 @@ class PrimitiveReader {
         coordinates_(source_.coordinates()) {}
 
   // Returns false where nothing is to be seen.
-  bool read(std::optional<Vec3d>& middle, Mesh& mesh) {
+  bool read(std::optional<Vec3d>& origin, Mesh& mesh) {
     const JsonValue position = attributes_["POSITION"];
     if (mode_ < kTriangles || !position.exists()) {
       warn(mode_ < kTriangles ? "points or lines left out"
@@ -174,7 +174,7 @@ class PrimitiveReader {
     if (attributes_["COLOR_1"].exists()) warn("second set of vertex colors left out");
     connect(mesh, corners(mesh.positions.size()));
     mesh.materials = {static_cast<std::uint32_t>(material_)};
-    if (placed_.isDeformed()) deform(document_, primitive_, placed_.deformation, middle, mesh);
+    if (placed_.isDeformed()) deform(document_, primitive_, placed_.deformation, origin, mesh);
     return !mesh.triangles.empty();
   }
 
@@ -246,7 +246,11 @@ class PrimitiveReader {
     if (separate && c.size() % 3 != 0) warn("triangle with fewer than three corners left out");
     document_.budget().charge(count, sizeof(mesh.triangles[0]), primitive_.where());
     mesh.triangles.reserve(count);
-    if (mode_ == kTriangleStrip) return addStrip(c, mesh.triangles);
+    if (mode_ == kTriangleStrip) {
+      addStrip(c, mesh.triangles);
+      return;
+    }
+
     for (std::size_t i = 0; i < count; ++i) {
       if (separate) {
         mesh.triangles.push_back({c[3 * i], c[3 * i + 1], c[3 * i + 2]});
@@ -337,10 +341,10 @@ class GltfModel : public Model {
                                  .item = std::make_shared<const std::string>(nameOf(placed))});
     }
     if (empty) {
-      warnNothingToDraw(document_.list("meshes").size() == 0 ? "no meshes"
-                        : stage_.meshes.empty()              ? "no node shows a mesh"
-                                                             : "its meshes have no triangles",
-                        document_.name(), document_.warnings());
+      const char* why = "its meshes have no triangles";
+      if (stage_.meshes.empty()) why = "no node shows a mesh";
+      if (document_.list("meshes").size() == 0) why = "no meshes";
+      warnNothingToDraw(why, document_.name(), document_.warnings());
     }
     return all;
   }
@@ -421,16 +425,16 @@ class GltfModel : public Model {
     const JsonValue source = document_.list("meshes")[placed.mesh];
     const std::string name = source["name"].textOr("");
     std::vector<Mesh> meshes;
-    std::optional<Vec3d> middle;
+    std::optional<Vec3d> origin;
     for (const JsonValue& primitive : source.need("primitives").elements()) {
       Mesh mesh;
       mesh.name = name;
       PrimitiveReader reader(document_, primitive, sources_, placed, variant);
-      if (reader.read(middle, mesh)) meshes.push_back(std::move(mesh));
+      if (reader.read(origin, mesh)) meshes.push_back(std::move(mesh));
     }
     const std::uint32_t body = layout.add(name);
     addParts(std::move(meshes), materials, document_.name(), document_.budget(), layout.body(body));
-    for (Placement& part : layout.body(body).placements) part.toParent.p = middle.value_or(Vec3d());
+    for (Placement& part : layout.body(body).placements) part.toParent.p = origin.value_or(Vec3d());
     return body;
   }
 
@@ -444,7 +448,7 @@ class GltfModel : public Model {
 
   GltfDocument document_;
   std::vector<GltfMaterial> sources_;
-  std::vector<Material> materials_;  // of sources_
+  std::vector<Material> materials_;  // materials made from sources_
   GltfMapMaker maps_;
   GltfStage stage_;
 };

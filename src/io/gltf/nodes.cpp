@@ -21,14 +21,14 @@ namespace {
 // Animated properties of a node. Properties without a track keep the value of the node itself.
 struct GltfTracks {
   std::optional<Track> translation, rotation, scale;  // 3, 4 (x, y, z, w) and 3 components
-  std::optional<Track> weights;                       // of its mesh's morph targets
+  std::optional<Track> weights;                       // weights of its mesh's morph targets
 
   bool place() const { return translation || rotation || scale; }
 };
 
 struct Target {
   std::string_view path;
-  std::size_t components;  // of a key; 0: as many scalars as the mesh has morph targets
+  std::size_t components;  // numbers in a key; 0: one for each morph target of the mesh
   std::optional<Track> GltfTracks::*track;
 };
 constexpr Target kTargets[] = {
@@ -101,7 +101,7 @@ Track readTrack(const GltfDocument& document, const Target& target, std::size_t 
   return track;
 }
 
-using AllTracks = std::vector<GltfTracks>;  // of each node
+using AllTracks = std::vector<GltfTracks>;  // tracks of each node
 
 AllTracks readTracks(const GltfDocument& document, const Instant& instant) {
   AllTracks tracks(document.list("nodes").size());
@@ -123,7 +123,7 @@ AllTracks readTracks(const GltfDocument& document, const Instant& instant) {
   return tracks;
 }
 
-constexpr double kLargestHeight = 1e9;  // of an orthographic camera's view
+constexpr double kLargestHeight = 1e9;  // largest height of an orthographic camera's view
 constexpr char kLights[] = "KHR_lights_punctual";
 constexpr std::size_t kTopmost = ~std::size_t{0};  // parent of a node without one
 
@@ -151,7 +151,7 @@ Affine mapOf(const std::vector<double>& matrix) {
   return {column(0), column(1), column(2), column(3)};
 }
 
-// As Scene::finalize() wants maps to be.
+// True if the map is finite and flattens nothing, as Scene::finalize() requires.
 bool isUsable(const Affine& a) {
   constexpr double kSmallestSine = 1e-12;
   for (const Vec3d& column : {a.x, a.y, a.z, a.p}) {
@@ -247,7 +247,11 @@ class TreeReader {
       stage_.movers.push_back({mover, toMover, std::move(own.motion), own.name});
       mover = static_cast<std::uint32_t>(stage_.movers.size() - 1);
     }
-    if (!isUsable(map)) return warn("node that flattens space left out", index);
+    if (!isUsable(map)) {
+      warn("node that flattens space left out", index);
+      return;
+    }
+
     if (node["mesh"].exists()) placeMesh(index, map, mover);
     if (node["camera"].exists()) addCamera(index, map, mover);
     if (node["extensions"][kLights].exists()) addLight(index, map, mover);
@@ -289,9 +293,14 @@ class TreeReader {
     const std::size_t mesh = *nodes_[index]["mesh"].indexInto(document_.list("meshes"));
     const Deformation deformation = deformationOf(index, mesh);
     if (deformation.skeleton) {
-      return stage_.meshes.push_back({mesh, Affine(), kNoNode, deformation, index});
+      stage_.meshes.push_back({mesh, Affine(), kNoNode, deformation, index});
+      return;
     }
-    if (!copies.exists()) return stage_.meshes.push_back({mesh, map, mover, deformation, index});
+    if (!copies.exists()) {
+      stage_.meshes.push_back({mesh, map, mover, deformation, index});
+      return;
+    }
+
     for (const Affine& copy : readCopies(copies.need("attributes"))) {
       const Affine toMover = map * copy;
       if (isUsable(toMover)) {
@@ -422,7 +431,10 @@ class TreeReader {
       aspect = xmag / ymag;
     }
 
-    if (!shows) return warn("camera of an unknown type or without an extent left out", index);
+    if (!shows) {
+      warn("camera of an unknown type or without an extent left out", index);
+      return;
+    }
 
     camera.name = node["name"].textOr("");
     if (camera.name.empty()) camera.name = source["name"].textOr("");
@@ -448,8 +460,10 @@ class TreeReader {
     } else if (type == "directional") {
       light.kind = Light::Kind::directional;
     } else if (type != "point") {
-      return warn("light of an unknown type left out", index);
+      warn("light of an unknown type left out", index);
+      return;
     }
+
     if (source["range"].numberOr(0) > 0 && light.kind != Light::Kind::directional) {
       warn("light's range left out, it shines on", index);
     }

@@ -24,10 +24,10 @@ inline constexpr double kLumensPerWatt = 683;
 // by index; kNoNode stands for the scene.
 struct GltfPlacedMesh {
   std::size_t mesh = 0;
-  Affine toMover;  // of a skinned mesh the identity: its joints place it
+  Affine toMover;  // identity for a skinned mesh: its joints place it
   std::uint32_t mover = kNoNode;
   Deformation deformation;  // only weights, skeleton and joints are set; the mesh has the rest
-  std::size_t node = 0;     // that shows it
+  std::size_t node = 0;     // node that shows it
 
   bool isDeformed() const;
 };
@@ -43,9 +43,9 @@ struct GltfPlaced {
 
 struct GltfStage {
   Rig movers;
-  std::vector<GltfPlacedMesh> meshes;  // in the order of the tree
+  std::vector<GltfPlacedMesh> meshes;  // meshes in the order of the tree
   std::vector<GltfPlaced<Camera>> cameras;
-  double aspect = 0;  // of the first camera; 0: none is given
+  double aspect = 0;  // aspect ratio of the first camera; 0: none is given
   std::vector<GltfPlaced<Light>> lights;
 };
 

@@ -26,6 +26,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/option_table.h"
 #include "core/text.h"
@@ -43,8 +44,8 @@ using Imath::Box2i;
 std::int64_t widthOf(const Box2i& box) { return std::int64_t{box.max.x} - box.min.x + 1; }
 std::int64_t heightOf(const Box2i& box) { return std::int64_t{box.max.y} - box.min.y + 1; }
 
-// The end of a message, which OpenEXR begins with the path of the file.
-std::string said(const std::string& message) {
+// OpenEXR begins its messages with the path of the file, which may be long.
+std::string endOfMessage(const std::string& message) {
   constexpr std::size_t kShown = 150;
   return message.size() > kShown ? "..." + message.substr(message.size() - kShown) : message;
 }
@@ -128,7 +129,7 @@ std::int32_t checkHeaders(const std::string& path) {
   exr_finish(&file);
   if (!valid) {
     throwBadScene(path + ": header",
-                  "expected valid OpenEXR data, found an error: " + said(message));
+                  "expected valid OpenEXR data, found an error: " + endOfMessage(message));
   }
 
   checkChannelLists(path);
@@ -252,7 +253,7 @@ auto reading(const std::string& path, Use&& use) {
     throwLimit(path + ": not enough memory for this image");
   } catch (const std::exception& e) {
     throwBadScene(path + ": pixels",
-                  "expected valid OpenEXR data, found an error: " + said(e.what()));
+                  "expected valid OpenEXR data, found an error: " + endOfMessage(e.what()));
   }
 }
 
@@ -331,7 +332,7 @@ ExrChannels layerChannels(const std::string& path, const Imf::ChannelList& list)
   ExrChannels channels;
   for (auto it = list.begin(); it != list.end(); ++it) {
     const std::string name = it.name();
-    if (std::ranges::find(kColors, name) != std::end(kColors)) continue;
+    if (contains(kColors, name)) continue;
     if (it.channel().xSampling != 1 || it.channel().ySampling != 1) {
       throwBadScene(path + ": header",
                     "expected a value a pixel of channel " + excerpt(name) + ", found fewer");
@@ -422,9 +423,10 @@ Imf::Header makeHeader(const Image& image, const ImageMetadata& metadata, ExrSto
   const Crop& w = image.window;
   Imf::Header header(Imath::Box2i({0, 0}, {image.width - 1, image.height - 1}),
                      Imath::Box2i({w.x0, w.y0}, {w.x1 - 1, w.y1 - 1}));
-  header.compression() = storage == ExrStorage::none   ? Imf::NO_COMPRESSION
-                         : storage == ExrStorage::dwaa ? Imf::DWAA_COMPRESSION
-                                                       : Imf::ZIP_COMPRESSION;
+  header.compression() = Imf::ZIP_COMPRESSION;
+  if (storage == ExrStorage::none) header.compression() = Imf::NO_COMPRESSION;
+  if (storage == ExrStorage::dwaa) header.compression() = Imf::DWAA_COMPRESSION;
+
   if (!image.pixels.empty()) {
     const Imf::Channel channel(inHalf(storage) ? Imf::HALF : Imf::FLOAT);
     for (const char* name : kRadianceLayers) header.channels().insert(name, channel);

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "core/contains.h"
 #include "core/display.h"
 #include "core/error.h"
 #include "core/text.h"
@@ -216,16 +217,16 @@ void writeChannelExr(const std::string& path, const Image& image, const ChannelL
 
 ImageMetadata describeChannels(const Scene& scene, ChannelSet channels) {
   if (channels.empty()) return {};
-  ImageMetadata said{{"channels", namesOf(channels)}};
-  if (channels.has(Channel::object)) said.emplace_back("objects", manifest(scene.items.names));
+  ImageMetadata metadata{{"channels", namesOf(channels)}};
+  if (channels.has(Channel::object)) metadata.emplace_back("objects", manifest(scene.items.names));
 
   if (channels.has(Channel::material)) {
     std::vector<std::string> names;
     for (const Material& material : scene.materials) names.push_back(material.name);
-    said.emplace_back("materials", manifest(names));
+    metadata.emplace_back("materials", manifest(names));
   }
 
-  return said;
+  return metadata;
 }
 
 void writeChannelPng(const std::string& path, const Image& image, const ChannelLayers& channels,
@@ -265,10 +266,10 @@ MergedImage mergeImages(const std::vector<std::string>& paths, const ImageLimits
 
     // Only metadata on which all EXR parts agree are kept.
     if (extensionOf(path) != ".exr") continue;
-    const ImageMetadata said = readExrMetadata(path);
-    if (std::exchange(isFirstExr, false)) merged.metadata = said;
+    const ImageMetadata own = readExrMetadata(path);
+    if (std::exchange(isFirstExr, false)) merged.metadata = own;
     std::erase_if(merged.metadata, [&](const auto& entry) {
-      return entry.first == "crop" || std::ranges::find(said, entry) == said.end();
+      return entry.first == "crop" || !contains(own, entry);
     });
   }
 

@@ -67,8 +67,8 @@ class MtlParser {
     for (char& c : key) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     if (const auto synonym = synonyms.find(key); synonym != synonyms.end()) key = synonym->second;
 
-    if (key == "newmtl") return newMaterial();
-    if (materials_.empty()) return;
+    if (key == "newmtl") newMaterial();
+    if (key == "newmtl" || materials_.empty()) return;
     MtlMaterial& material = materials_.back();
     if (colors.contains(key)) {
       material.numbers[key] = readColor();
@@ -129,9 +129,11 @@ class MtlParser {
   }
 
   void readOption(std::string_view option, MtlMaterial::Map& map) {
-    if (option == "-s") return readNumbers(map.scale);
-    if (option == "-o") return readNumbers(map.offset);
-    if (option == "-t" || option == "-mm") {
+    if (option == "-s") {
+      readNumbers(map.scale);
+    } else if (option == "-o") {
+      readNumbers(map.offset);
+    } else if (option == "-t" || option == "-mm") {
       Vec3f ignored;
       readNumbers(ignored, option == "-t" ? 3 : 2);
     } else if (option == "-bm") {
@@ -150,7 +152,7 @@ class MtlParser {
   }
 
   LineReader lines_;
-  std::string keyword_;  // of this line
+  std::string keyword_;  // keyword of this line
   Warnings& warnings_;
   std::vector<MtlMaterial> materials_;
 };

@@ -24,7 +24,7 @@ struct MtlMaterial {
 
   std::string name;
   std::string where;                   // file:line of its newmtl
-  std::map<std::string, Rgb> numbers;  // by keyword in lower case; single numbers as gray
+  std::map<std::string, Rgb> numbers;  // colors by keyword in lower case; single numbers are gray
   std::map<std::string, Map> maps;
   bool isFromMeshLab = false, isFromBlender = false;
 
@@ -50,8 +50,8 @@ void readMtl(const std::filesystem::path& path, std::map<std::string, MtlMateria
 // map_Kd is used. Ka and map_Ka are not read, because ambient light is reflected by Kd.
 struct ObjMaterial {
   GltfMaterial surface;
-  Rgb mirror{0, 0, 0}, mirrorGrazing{0, 0, 0};  // of illum 3, 5 and 8
-  Rgb transmission{0, 0, 0};                    // of glass
+  Rgb mirror{0, 0, 0}, mirrorGrazing{0, 0, 0};  // reflectance of illum 3, 5 and 8
+  Rgb transmission{0, 0, 0};                    // transmission of glass
   float dissolve = 1;
 };
 

@@ -117,7 +117,7 @@ class ObjReader {
   // Different names of "usemtl" and of "mtllib", in the file's order.
   std::vector<ObjName> materials, libraries;
   bool isColored = false;  // the first vertex has a color
-  Vec3d middle;            // subtracted from all vertices, see originOf()
+  Vec3d origin;            // subtracted from all vertices, see originOf()
 
  private:
   // Reading faces needs vertices that are rounded already, so that the vertices which faces use are
@@ -144,7 +144,7 @@ class ObjReader {
       const bool isNear = !box.empty() && length(box.center()) < box.diagonal();
       if (isNear) return;
     }
-    middle = originOf(box);
+    origin = originOf(box);
   }
 
   void statement(std::string_view keyword) {
@@ -199,7 +199,7 @@ class ObjReader {
     if (count < 2 || (count < 3 && lines_.hasMore())) {
       throwBadScene(lines_.place(), "expected three numbers after \"v\"");
     }
-    positions_.emplace_back(Vec3d(v[0], v[1], v[2]) - middle);
+    positions_.emplace_back(Vec3d(v[0], v[1], v[2]) - origin);
     if (count < 6) return;
     colors_.resize(positions_.size(), Rgb(1.0f));
     const double* const color = &v[count - 3];
@@ -232,11 +232,15 @@ class ObjReader {
 
     if (corners_.empty()) return;
     hasFaces_ = true;
-    if (corners_.size() < 3) return warn("face with fewer than three corners dropped");
+    if (corners_.size() < 3) {
+      warn("face with fewer than three corners dropped");
+      return;
+    }
 
     for (ObjCorner& c : corners_) {
       if (c.position < 0 || placeOf(c.position) >= positions_.size()) {
-        return warn("face with a vertex index out of range dropped");
+        warn("face with a vertex index out of range dropped");
+        return;
       }
       require(c.uv, uvs_.size(), "texture coordinate index out of range ignored");
       require(c.normal, normals_.size(), "normal index out of range ignored");
@@ -359,19 +363,19 @@ class ObjReader {
   const std::string& file_;
   std::map<std::string, std::uint32_t> materialNumbers_;
   std::set<std::string> libraryNames_;
-  std::uint32_t material_ = kNoMaterial;  // of the faces that follow
+  std::uint32_t material_ = kNoMaterial;  // material of the faces that follow
   MemoryBudget& budget_;
   Warnings& warnings_;
   std::vector<Vec3f> positions_, normals_;
   std::vector<Vec2f> uvs_;
-  std::vector<Rgb> colors_;    // of the first positions, as the file has them
+  std::vector<Rgb> colors_;    // colors of the first positions, as the file has them
   std::size_t smoothing_ = 0;  // the group of the faces that follow; 0: none
   // Numbers in groupSums_ by position and group.
   std::unordered_map<std::size_t, std::map<std::size_t, std::int32_t>> groupNormals_;
   std::vector<Vec3d> groupSums_;
   Mesh mesh_;
-  std::vector<ObjVertex> known_;       // one for each vertex of the mesh
-  std::vector<std::uint32_t> newest_;  // of the vertices at each position
+  std::vector<ObjVertex> known_;       // the file's indices for each vertex of the mesh
+  std::vector<std::uint32_t> newest_;  // newest vertex at each position
   bool hasFaces_ = false, hasUvs_ = false, hasNormals_ = false, statesSmoothing_ = false;
   // The face that is being added.
   std::uint64_t line_ = 0;
@@ -433,7 +437,7 @@ class ObjModel : public MeshModel {
   Body content(SceneLayout& layout, const std::vector<std::uint32_t>& materials) override {
     if (reader_) {
       mesh_ = reader_->read();
-      middle_ = reader_->middle;
+      origin_ = reader_->origin;
       mesh_.name = source_.path.stem().string();
       reader_.reset();
       std::string().swap(text_);
@@ -506,8 +510,8 @@ class ObjModel : public MeshModel {
   }
 
   std::string file_, text_;
-  std::optional<ObjReader> reader_;   // until the geometry is asked for
-  std::vector<ObjMaterial> sources_;  // of materials_
+  std::optional<ObjReader> reader_;   // empty after the geometry was read
+  std::vector<ObjMaterial> sources_;  // sources of materials_
   std::vector<GltfImageSource> images_;
   std::optional<GltfMapMaker> maps_;  // over images_
 };

@@ -56,7 +56,7 @@ constexpr PlyType kTypes[] = {{"char", "int8", 1, valueOf<std::int8_t>, 255},
 struct PlyProperty {
   std::string name;
   const PlyType* type;
-  const PlyType* countType;  // of a list, else null
+  const PlyType* countType;  // type of a list's count, else null
 };
 
 struct PlyElement {
@@ -111,7 +111,7 @@ float valueOf(const PlyProperty& property, Component component, double value) {
 
 // A face with its corners, texture coordinates and color.
 struct PlyFace {
-  std::vector<double> corners, coordinates;  // of coordinates u and v for each corner
+  std::vector<double> corners, coordinates;  // coordinates u and v of each corner
   std::array<float, kComponents + 1> values{};
   double picture = 0;
 };
@@ -146,10 +146,8 @@ class PlyReader {
     }
 
     if (mesh_.triangles.empty()) {
-      warnNothingToDraw(mesh_.positions.empty() ? "no vertices"
-                        : faces == 0            ? "no faces"
-                                                : "no face that can be built",
-                        file_, warnings_);
+      const char* const why = faces == 0 ? "no faces" : "no face that can be built";
+      warnNothingToDraw(mesh_.positions.empty() ? "no vertices" : why, file_, warnings_);
     }
 
     if (mesh_.materials.empty()) mesh_.materials = {0};
@@ -157,7 +155,7 @@ class PlyReader {
   }
 
   std::vector<PlyPicture> pictures;
-  Vec3d middle;  // subtracted from all vertices, see originOf()
+  Vec3d origin;  // subtracted from all vertices, see originOf()
 
  private:
   // "file:line", or "file: byte N" in binary data.
@@ -346,10 +344,10 @@ class PlyReader {
       if (colors) mesh_.colors[i] = {v[kR], v[kG], v[kB]};
     }
 
-    // Positions are rounded after the middle of a far model was subtracted.
-    middle = originOf(box);
+    // Positions are rounded after the origin of a far model was subtracted.
+    origin = originOf(box);
     mesh_.positions.reserve(element.count);
-    for (const Vec3d& position : positions) mesh_.positions.emplace_back(position - middle);
+    for (const Vec3d& position : positions) mesh_.positions.emplace_back(position - origin);
 
     if (isTranslucent) warnings_.add("alpha of vertex colors left out", file_);
   }
@@ -480,13 +478,16 @@ class PlyReader {
 
   void addFace(const PlyFace& face) {
     if (face.corners.size() < 3) {
-      return warnings_.add("face with fewer than three corners dropped", place());
+      warnings_.add("face with fewer than three corners dropped", place());
+      return;
     }
+
     points_.clear();
     numbers_.clear();
     for (const double corner : face.corners) {
       if (!addCorner(corner)) {
-        return warnings_.add("face with a vertex index out of range dropped", place());
+        warnings_.add("face with a vertex index out of range dropped", place());
+        return;
       }
       points_.emplace_back(mesh_.positions[numbers_.back()]);
     }
@@ -508,9 +509,9 @@ class PlyReader {
   Warnings& warnings_;
   bool ascii_ = false, reversed_ = false;
   std::vector<PlyElement> elements_;
-  std::size_t at_ = 0;  // in binary data
+  std::size_t at_ = 0;  // position in binary data
   Mesh mesh_;
-  std::uint64_t vertices_ = 0;  // of the file; those that faces get follow them
+  std::uint64_t vertices_ = 0;  // number of the file's vertices; those that faces get follow
   bool hasFaceColors_ = false, hasFaceCoordinates_ = false;
   // The face that is being added.
   std::vector<Vec3d> points_;
@@ -529,7 +530,7 @@ class PlyModel : public MeshModel {
 
     PlyReader reader(text, file, source.budget, source.warnings);
     mesh_ = reader.read();
-    middle_ = reader.middle;
+    origin_ = reader.origin;
     if (mesh_.normals.empty()) smoothNormals(mesh_, file, source.budget);
     mesh_.name = source.path.stem().string();
 
@@ -588,7 +589,7 @@ class PlyModel : public MeshModel {
     return found;
   }
 
-  std::vector<TextureSource> pictures_;  // of materials_
+  std::vector<TextureSource> pictures_;  // pictures of materials_
 };
 
 }  // namespace

@@ -117,7 +117,7 @@ void nameItem(Body& content, const std::string& pointer) {
 std::size_t slotOf(const JsonValue& slot, const std::string& key,
                    const std::vector<std::string>& names, const std::string& kind) {
   const auto found = std::ranges::find(names, key);
-  if (found == names.end()) throwBadScene(slot.where(), "unknown " + kind + isMeant(key, names));
+  if (found == names.end()) throwBadScene(slot.where(), "unknown " + kind + suggestion(key, names));
   return static_cast<std::size_t>(found - names.begin());
 }
 
@@ -257,9 +257,13 @@ class ItemReader {
     Body content;
     for (ShapePart& part : shape.parts) {
       const auto slot = slots.find(part.slot);
-      const std::uint32_t material = slot != slots.end() ? slot->second
-                                     : everywhere        ? materials_.find(everywhere)
-                                                         : materials_.defaultMaterial();
+      std::uint32_t material = 0;
+      if (slot != slots.end()) {
+        material = slot->second;
+      } else {
+        material = everywhere ? materials_.find(everywhere) : materials_.defaultMaterial();
+      }
+
       context_.budget.charge(1, bytesOf(part.mesh), name.where());
       part.mesh.materials = {material};
       if (part.mesh.name.empty()) part.mesh.name = name.text() + "/" + part.slot;
@@ -374,7 +378,7 @@ class ItemReader {
   std::map<std::string, NamedObject> objects_;
   // Bodies of the meshes that a program hands over, by name and material.
   std::map<std::pair<std::string, std::uint32_t>, std::uint32_t> meshes_;
-  int depth_ = 0;  // of the item that is being read
+  int depth_ = 0;  // depth of the item that is being read
 };
 
 }  // namespace

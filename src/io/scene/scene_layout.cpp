@@ -85,7 +85,7 @@ Vec3d SceneLayout::moveTo(SceneDescription& scene, bool toOrigin) {
   std::vector<std::uint32_t> order;
   measure(0, 0, order);
   for (const std::uint32_t index : order) bodies_[index].box = boundsOf(bodies_[index]);
-  const Vec3d middle = originOf(bodies_[0].box);
+  const Vec3d origin = originOf(bodies_[0].box);
   double instances = 0;  // may be more than an integer can hold
   bodies_[0].places = 1;
   for (auto index = order.rbegin(); index != order.rend(); ++index) {
@@ -101,10 +101,10 @@ Vec3d SceneLayout::moveTo(SceneDescription& scene, bool toOrigin) {
   scene.items = bodies_[0].within.item;
   scene.itemNames.resize(std::min<std::uint64_t>(scene.items, kNamedItems));
 
-  const bool isMoved = toOrigin && middle != Vec3d();
-  if (isMoved) scene.origin = middle;
-  place({.body = 0}, isMoved ? Affine::translation(-middle) : Affine(), kNoNode, {}, scene);
-  return middle;
+  const bool isMoved = toOrigin && origin != Vec3d();
+  if (isMoved) scene.origin = origin;
+  place({.body = 0}, isMoved ? Affine::translation(-origin) : Affine(), kNoNode, {}, scene);
+  return origin;
 }
 
 // The last user of a mesh gets it, others a copy.
@@ -135,16 +135,16 @@ void SceneLayout::addObject(Body& body, SceneDescription& scene) {
   for (const Placement& placed : body.placements) {
     if (!placed.isMesh()) continue;
     addMoved(boundsOfMesh(*placed.mesh), placed.toParent, box);
-    // Meshes that bend stay as they are: all of the body's have the same Deformation::middle.
+    // Meshes that bend stay as they are: all of the body's have the same Deformation::origin.
     if (placed.mesh->deformation) bent = &placed;
   }
-  body.middle = bent ? bent->toParent.p : originOf(box);
+  body.origin = bent ? bent->toParent.p : originOf(box);
   Object object{body.name, {}};
   for (Placement& placed : body.placements) {
     if (!placed.isMesh()) continue;
     Mesh mesh = take(placed, body.name);
     Affine toObject = placed.toParent;
-    toObject.p = toObject.p - body.middle;
+    toObject.p = toObject.p - body.origin;
     if (!(toObject == Affine())) transform(mesh, toObject);
     mesh.rank = placed.at.rank;
     mesh.item = static_cast<std::uint32_t>(placed.at.item);
@@ -167,8 +167,8 @@ void SceneLayout::place(const Placement& placed, const Affine& toMover, std::uin
     placeOnce(body, toMover, at, scene);
   } else if (body.hasMeshes()) {
     if (body.object == kNoObject) addObject(body, scene);
-    const bool isMoved = body.middle != Vec3d();
-    const Affine toObject = isMoved ? toMover * Affine::translation(body.middle) : toMover;
+    const bool isMoved = body.origin != Vec3d();
+    const Affine toObject = isMoved ? toMover * Affine::translation(body.origin) : toMover;
     scene.instances.push_back({body.object, toObject, at.rank, mover, at.item});
   }
   for (const Placement& child : body.placements) {

@@ -40,7 +40,7 @@ struct Placement {
   std::uint32_t body = kNoBody;          // kNoBody: `mesh`
   std::shared_ptr<Mesh> mesh = nullptr;  // shared by its copies
   Affine toParent = {};
-  SharedMotion motion = nullptr;  // of a body, applied before toParent
+  SharedMotion motion = nullptr;  // motion of a body, applied before toParent
   std::string mover = {};         // RigNode::name
   // The name of the item that the mesh is part of, or of all meshes without names in the body.
   // Meshes without either are called as the body that they are in.
@@ -53,15 +53,15 @@ struct Placement {
 
 struct Body {
   std::string name;
-  std::vector<Placement> placements;  // in the file's order
+  std::vector<Placement> placements;  // placements in the file's order
 
   // SceneLayout::moveTo() fills these in.
   Standing within{};                 // the meshes and items that it holds, its bodies' included
-  BoxOf<Vec3d> box{};                // at 0 s
+  BoxOf<Vec3d> box{};                // bounds at 0 s
   double places = 0;                 // how often it is placed
   int height = 0;                    // how many bodies are within one another from this one down
-  std::uint32_t object = kNoObject;  // of the scene, where the body is placed more than once
-  Vec3d middle{};                    // subtracted from the object's coordinates, see originOf()
+  std::uint32_t object = kNoObject;  // object of the scene, if the body is placed more than once
+  Vec3d origin{};                    // subtracted from the object's coordinates, see originOf()
 
   bool hasMeshes() const { return std::ranges::any_of(placements, &Placement::isMesh); }
   // Adds a mesh to the only item of the body.
@@ -86,8 +86,8 @@ class SceneLayout {
   // each with its own map, so that vertices are rounded once; one that moves or is placed more
   // often becomes an object with an instance for each place. Ranks and the numbers of items follow
   // the file. Throws Error(limit) where bodies are nested deeper than kNestingLimit.
-  // Returns the middle of all meshes at 0 s if they are far from the origin (originOf()), else
-  // zero. `toOrigin`: the middle becomes scene.origin and is subtracted.
+  // Returns originOf() all meshes at 0 s, which is zero unless they are far away. `toOrigin`: it
+  // becomes scene.origin and is subtracted.
   Vec3d moveTo(SceneDescription& scene, bool toOrigin);
 
  private:

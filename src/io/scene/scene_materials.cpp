@@ -225,7 +225,7 @@ void readMaterial(JsonObject& object, const ReadMap& readMap, Material& m) {
   });
 
   // Other members decide these defaults; see `decides` in scene/members.h.
-  if (m.coverageMap != kNoTexture && m.alphaMap == kNoTexture) m.cutWhereClear();
+  if (m.coverageMap != kNoTexture && m.alphaMap == kNoTexture) m.passClearTexels();
   const bool mirrors = object.has("mirror"), transmits = object.has("transmission");
   if (mirrors && !object.has("mirrorGrazing")) m.mirrorGrazing = m.mirror;
   if (mirrors && !object.has("coat")) m.coat = false;

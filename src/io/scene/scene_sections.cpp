@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <span>
 
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/option_table.h"
 #include "make/model_view.h"
@@ -232,17 +233,22 @@ void readOptions(JsonObject& file, SceneDescription& scene) {
   const std::vector<std::string> names = sceneOptionNames();
   RenderOptions checked;
   for (const auto& [name, value] : file.find("options").members()) {
-    if (std::ranges::find(names, name) == names.end()) {
-      throwBadScene(value.where(), "expected an option of the picture" + isMeant(name, names) +
+    if (!contains(names, name)) {
+      throwBadScene(value.where(), "expected an option of the picture" + suggestion(name, names) +
                                        ", found \"" + excerpt(name) + "\"");
     }
     if (value.isObject() || value.isArray() || value.isNull()) {
       value.fail("a number, a word, true or false");
     }
-    const std::string text = value.isNumber() ? shortest(value.number())
-                             : value.isText() ? value.text()
-                             : value.flag()   ? "on"
-                                              : "off";
+    std::string text;
+    if (value.isNumber()) {
+      text = shortest(value.number());
+    } else if (value.isText()) {
+      text = value.text();
+    } else {
+      text = value.flag() ? "on" : "off";
+    }
+
     try {
       setOption(checked, name, text);
     } catch (const Error& error) {
@@ -366,20 +372,20 @@ Json describe(const std::vector<float>& numbers) {
 
 Json describe(const Camera& camera) { return describeMembers(camera); }
 
-void movePoints(Json& noun, const Vec3d& way) {
-  if (way == Vec3d() || !noun.is_object()) return;
+void movePoints(Json& noun, const Vec3d& offset) {
+  if (offset == Vec3d() || !noun.is_object()) return;
   for (const char* name : {"eye", "at", "position"}) {
     if (!noun.contains(name) || !noun[name].is_array() || noun[name].size() != 3) continue;
     for (int i = 0; i < 3; ++i) {
       Json& number = noun[name][static_cast<std::size_t>(i)];
-      if (number.is_number()) number = number.get<double>() + way[i];
+      if (number.is_number()) number = number.get<double>() + offset[i];
     }
   }
 }
 
-void moveLights(Json& root, const Vec3d& way) {
+void moveLights(Json& root, const Vec3d& offset) {
   if (!root.contains("lights") || !root["lights"].is_array()) return;
-  for (Json& light : root["lights"]) movePoints(light, way);
+  for (Json& light : root["lights"]) movePoints(light, offset);
 }
 
 Json describe(const Ambient& ambient) {

@@ -57,7 +57,7 @@ struct SceneContext {
   Warnings& warnings;
   Progress* progress;
   SceneDescription scene;
-  const SceneParts* parts = nullptr;  // of a scene that a program makes
+  const SceneParts* parts = nullptr;  // parts of a scene that a program makes
   std::string sky;                    // this and the next as in LoadOptions
   Instant instant;
   std::string knownSky;    // Sky::name of an image that the caller has, which is not read again
@@ -205,10 +205,10 @@ requires std::is_enum_v<Enum> Json describe(Enum value) {
 }
 Json describe(const std::vector<float>& numbers);
 Json describe(const Camera& camera);
-// Moves the points of a camera's or a light's JSON, in double precision.
-void movePoints(Json& noun, const Vec3d& way);
-// Does so for the lights of a scene.
-void moveLights(Json& root, const Vec3d& way);
+// Adds `offset` to the points of a camera's or a light's JSON, in double precision.
+void movePoints(Json& noun, const Vec3d& offset);
+// Adds `offset` to the points of all lights of a scene.
+void moveLights(Json& root, const Vec3d& offset);
 Json describe(const std::vector<Light>& lights);
 Json describe(const Ambient& ambient);
 Json describe(const Sky& sky);

@@ -1,5 +1,7 @@
 #include "io/scene/up_axis.h"
 
+#include "core/index.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -44,7 +46,7 @@ std::array<FlatParts, 3> flatPartsOf(const Body& content, const Box& box) {
         };
 
         const double side = double{size[(axis + 1) % 3]} * size[(axis + 2) % 3];
-        FlatParts& flat = all[static_cast<std::size_t>(axis)];
+        FlatParts& flat = entryOf(all, axis);
         if (liesAt(box.lower[axis])) {
           flat.lower += area / side;
         } else if (liesAt(box.upper[axis])) {
@@ -89,9 +91,9 @@ bool seemsZUp(const Body& content) {
   if (box.empty()) return false;
 
   const std::array<FlatParts, 3> flat = flatPartsOf(content, box);
-  // Where a reader has subtracted the middle of a far model, the placement gives it back.
-  const Vec3f middle(content.placements.front().toParent.p);
-  const Box inFile{box.lower + middle, box.upper + middle};
+  // Where a reader has subtracted the origin of a far model, the placement gives it back.
+  const Vec3f origin(content.placements.front().toParent.p);
+  const Box inFile{box.lower + origin, box.upper + origin};
   const double others = std::max(flat[0].between, flat[2].between);
   const bool hasBoards = flat[1].between > kBoards * others;
   return !hasBoards && (standsOnPlane(inFile) || hasBase(box, flat));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "core/index.h"
 #include "make/patterns/noise.h"
 #include "make/shape.h"
 #include "scene/generation_limit.h"
@@ -61,9 +62,7 @@ std::vector<std::uint32_t> normalTexels(const std::vector<double>& heights, int 
     if (i < 0) return side - 1;
     return i < side ? i : 0;
   };
-  const auto rowAt = [&](int row) {
-    return &heights[static_cast<std::size_t>(wrapped(row)) * static_cast<std::size_t>(side)];
-  };
+  const auto rowAt = [&](int row) { return &heights[cellsOf(wrapped(row), side)]; };
 
   const double reach = 2.0 / side;  // between the neighbors on both sides
   std::vector<std::uint32_t> texels;
@@ -347,7 +346,7 @@ Texture makeWood(ShapeParameters& parameters) {
 
 // The stone of a layout in which a point lies, and the point's position in it.
 struct Stone {
-  int column, row;    // of the stone, wrapped
+  int column, row;    // place of the stone, wrapped
   double across, up;  // within the stone, 0 to 1
   double edge;        // distance to the stone's edge, in parts of the texture's side
 };

@@ -346,7 +346,7 @@ void readDetails(ShapeParameters& parameters, ColumnPlan& plan) {
   plan.flutes = parameters.integer("flutes", 0, 0, 256);  // 0: a smooth shaft
   // `segments` around the column are rounded up to a multiple of 4 for each flute.
   plan.segments = parameters.integer("segments", 48, 8, 4096);
-  plan.rings = parameters.integer("rings", 16, 1, 4096);  // along the shaft
+  plan.rings = parameters.integer("rings", 16, 1, 4096);  // rings along the shaft
   // `leaves` is the number in each of the capital's two rows; 0: a plain bell.
   plan.leaves = parameters.integer("leaves", 8, 0, 64);
   plan.uvRepeat = parameters.number("uvRepeat", 1, 1e-6, 1e9);
@@ -414,7 +414,7 @@ Shape makeWall(ShapeParameters& parameters) {
   const double room = 0.999 * (plan.height - plan.spring);
   plan.rise = parameters.number("rise", std::min(plan.openingWidth / 2, room), 0, room);
 
-  plan.segments = parameters.integer("segments", 24, 2, 4096);  // of an arch
+  plan.segments = parameters.integer("segments", 24, 2, 4096);  // segments of an arch
   plan.uvRepeat = parameters.number("uvRepeat", 1, 1e-6, 1e9);
   return singlePart(buildWall(plan));
 }
@@ -436,7 +436,7 @@ Shape makeArch(ShapeParameters& parameters) {
 
 Shape makeColumn(ShapeParameters& parameters) {
   ColumnPlan plan{};
-  plan.radius = parameters.number("radius", 0.3, 1e-4, 1e6);  // of the shaft at its foot
+  plan.radius = parameters.number("radius", 0.3, 1e-4, 1e6);  // radius of the shaft at its foot
   plan.height = parameters.number("height", 4, 4.5 * plan.radius, 1e6);
   // `taper` is the loss of radius from the foot of the shaft to its top, in parts of the radius.
   plan.taper = parameters.number("taper", kTaper, 0, kTaper);

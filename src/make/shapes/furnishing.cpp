@@ -143,7 +143,7 @@ Shape makeVase(ShapeParameters& parameters) {
   const std::string profile = parameters.word("profile", "vase", {"vase", "urn", "pot"});
   const double radius = parameters.number("radius", 0.3, 1e-6, 1e9);
   const double height = parameters.number("height", 0.8, 1e-6, 1e9);
-  const double wall = parameters.number("wall", 0.06, 0.005, 0.15);  // in parts of the radius
+  const double wall = parameters.number("wall", 0.06, 0.005, 0.15);  // share of the radius
   const int segments = parameters.integer("segments", 48, 3, 4096);
   const int pieces = parameters.integer("pieces", 4, 1, 256);
 

@@ -263,9 +263,9 @@ class TreeBuilder {
   bool conifer_;
   std::string leafStyle_;  // quads are for an alpha mask, diamonds and blobs are solid
   double height_;
-  int levels_;       // of branching
+  int levels_;       // number of levels of branching
   int leafCount_;    // leaves or blobs
-  double leafSize_;  // of a leaf; blobs are eight times as big
+  double leafSize_;  // size of a leaf; blobs are eight times as big
   RandomStream random_;
   std::vector<Twig> twigs_;
   MeshBuilder bark_, leaves_;

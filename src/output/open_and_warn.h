@@ -1,4 +1,4 @@
-// Opens a scene for a program, and tells people on standard error what they should know.
+// Opens a scene for a program, and prints warnings and the names of written files on standard error.
 #pragma once
 
 #include <memory>
@@ -13,13 +13,13 @@ namespace whit {
 
 // Opens the scene. Warns of what was repaired, and if nothing in the scene gives light, unless the
 // caller reports the warnings itself.
-std::unique_ptr<OpenScene> openAndTell(const std::string& name, const cli::CommonOptions& common,
+std::unique_ptr<OpenScene> openAndWarn(const std::string& name, const cli::CommonOptions& common,
                                        Progress* progress, const LookAtScene& look = {});
 
 // Warns of what pictureWarnings() finds.
-void tellPictureWarnings(const RunSummary& run);
+void printPictureWarnings(const RunSummary& run);
 
-// Says what was written, unless --quiet. Empty names and standard output are left out.
-void tellFiles(const std::vector<std::string>& files, const cli::CommonOptions& common);
+// Prints the names of the files that were written, unless --quiet is set. Empty names and standard output are left out.
+void printWrittenFiles(const std::vector<std::string>& files, const cli::CommonOptions& common);
 
 }  // namespace whit

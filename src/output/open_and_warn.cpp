@@ -1,4 +1,4 @@
-#include "output/open_and_tell.h"
+#include "output/open_and_warn.h"
 
 #include <cstdio>
 
@@ -7,25 +7,25 @@
 
 namespace whit {
 
-std::unique_ptr<OpenScene> openAndTell(const std::string& name, const cli::CommonOptions& common,
+std::unique_ptr<OpenScene> openAndWarn(const std::string& name, const cli::CommonOptions& common,
                                        Progress* progress, const LookAtScene& look) {
   auto open = openScene({name, nullptr}, common.load, common.render.strict, progress, look);
   if (!common.warns) return open;
 
-  cli::tellWarnings(open->warnings);
-  const std::string dark = lackOfLight(open->scene);
+  cli::printWarnings(open->warnings);
+  const std::string dark = noLightWarning(open->scene);
   if (!dark.empty()) std::fprintf(stderr, "whit: warning: %s\n", printable(dark).c_str());
 
   return open;
 }
 
-void tellPictureWarnings(const RunSummary& run) {
+void printPictureWarnings(const RunSummary& run) {
   for (const std::string& warning : pictureWarnings(run)) {
     std::fprintf(stderr, "whit: warning: %s\n", warning.c_str());
   }
 }
 
-void tellFiles(const std::vector<std::string>& files, const cli::CommonOptions& common) {
+void printWrittenFiles(const std::vector<std::string>& files, const cli::CommonOptions& common) {
   if (common.quiet) return;
 
   std::string names;
