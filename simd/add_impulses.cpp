@@ -108,8 +108,8 @@ HWY_INLINE ImpulseLanes LoadImpulseLanes(const ImpulseJob& job, size_t i) {
   }
 
   lanes.direction = DirectionAt(rays, i);
-  lanes.ng = Load3(surfels.ngX, surfels.ngY, surfels.ngZ, i);
-  lanes.ns = Load3(surfels.nsX, surfels.nsY, surfels.nsZ, i);
+  lanes.ng = Load3(surfels.ng, i);
+  lanes.ns = Load3(surfels.ns, i);
 
   const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
   const VF towards = hn::Neg(Dot(lanes.direction, lanes.ns));
@@ -139,7 +139,7 @@ HWY_INLINE V3 TransmissionAt(const ImpulseJob& job, const MaterialLanes& materia
   const SurfelColumns& s = job.surfels;
   const V3 color = material.Transmission().color;
   if (!job.transmissionMaps) return color;
-  return Mul3(color, Load3(s.transmissionR, s.transmissionG, s.transmissionB, i));
+  return Mul3(color, Load3(s.transmission, i));
 }
 
 // The color, reduced to what is left of the light where the share `taken` of it is not.
@@ -176,7 +176,7 @@ HWY_INLINE V3 LobeAt(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i)
   const VF zero = hn::Zero(FloatTag());
   if (!job.lobes) return {zero, zero, zero};
   const SurfelColumns& s = job.surfels;
-  return Select3(lanes.covers, Load3(s.lobeR, s.lobeG, s.lobeB, i), {zero, zero, zero});
+  return Select3(lanes.covers, Load3(s.lobe, i), {zero, zero, zero});
 }
 
 // The coverage of the surfels at i.
@@ -220,9 +220,9 @@ HWY_INLINE size_t Append(const ImpulseJob& job, Child child, MF live, size_t i, 
   }
   if (hn::AllFalse(d, traced)) return 0;
   const Compactor compactor(traced);
-  compactor.Store(child.origin, children.orgX, children.orgY, children.orgZ, at);
-  compactor.Store(child.direction, children.dirX, children.dirY, children.dirZ, at);
-  compactor.Store(child.weight, children.weightR, children.weightG, children.weightB, at);
+  compactor.Store(child.origin, children.org, at);
+  compactor.Store(child.direction, children.dir, at);
+  compactor.Store(child.weight, children.weight, at);
   compactor.Store(throughput, children.throughput + at);
   if (job.transmission) compactor.Store(child.media, children.media + at);
   if (job.streams) compactor.Store(child.path, children.path + at);
@@ -263,7 +263,7 @@ HWY_INLINE V3 Lifted(const V3& r, const V3& ng, VF lift, MF live) {
 // `side`: RayOrigin's.
 HWY_INLINE V3 ChildOrigin(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i, float side) {
   const SurfelColumns& surfels = job.surfels;
-  const V3 position = Load3(surfels.posX, surfels.posY, surfels.posZ, i);
+  const V3 position = Load3(surfels.pos, i);
   return RayOrigin(job.shading.offset, position, lanes.ng, lanes.direction,
                    LoadClearance(surfels, i), side);
 }
@@ -419,7 +419,7 @@ struct DiffuseSamples {
 
   HWY_INLINE DiffuseSamples(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i)
       : normal(lanes.ns),
-        albedo(Load3(job.surfels.diffuseR, job.surfels.diffuseG, job.surfels.diffuseB, i)),
+        albedo(Load3(job.surfels.diffuse, i)),
         lobes(lanes.ns),
         several(lanes.live) {}
   HWY_INLINE LobeSample At(const UnitPoints& at) const {
@@ -461,7 +461,7 @@ HWY_INLINE V3 WeightOfLobe(const ImpulseJob& job, const ImpulseLanes& lanes, siz
   V3 weight{zero, zero, zero};
   if (hn::AllFalse(d, lanes.covers)) return weight;
   if (!hn::AllTrue(d, hn::Or(lanes.scatters, hn::Not(lanes.covers)))) {
-    const V3 f0 = Load3(s.specularR, s.specularG, s.specularB, i);
+    const V3 f0 = Load3(s.specular, i);
     const VF roughness = hn::Sqrt(hn::Load(d, s.alpha + i));
     const VF f90 = LobeGrazing(job.tables, s, f0, i);
     weight = LobeAlbedo(*job.tables.lobes, f0, f90, lanes.cosine, roughness, lanes.covers);
@@ -506,13 +506,12 @@ void FindLayers(Chunk& c) {
     }
 
     if (job.lobes) {
-      const V3 before = Load3(surfels.lobeR, surfels.lobeG, surfels.lobeB, i);
-      Store3(Select3(lanes.live, lobe, before), surfels.lobeR, surfels.lobeG, surfels.lobeB, i);
+      const V3 before = Load3(surfels.lobe, i);
+      Store3(Select3(lanes.live, lobe, before), surfels.lobe, i);
     }
-    const V3 diffuse = Load3(surfels.diffuseR, surfels.diffuseG, surfels.diffuseB, i);
+    const V3 diffuse = Load3(surfels.diffuse, i);
     const V3 left = Mul3(UnderMirror(lanes, diffuse, mirror, through), below);
-    Store3(Select3(lanes.live, left, diffuse), surfels.diffuseR, surfels.diffuseG, surfels.diffuseB,
-           i);
+    Store3(Select3(lanes.live, left, diffuse), surfels.diffuse, i);
   }
 }
 
@@ -525,7 +524,7 @@ HWY_INLINE VF FactorOfChoice(const ImpulseJob& job, const ImpulseLanes& lanes, b
   const MaterialLanes material(job.tables, lanes.material, lanes.live);
   const V3 left = Complement3(MirrorAt(job, material, lanes.cosine, i));
   const VF glossy = MaxComponent(Mul3(LobeAt(job, lanes, i), left));
-  const VF diffuse = MaxComponent(Load3(s.diffuseR, s.diffuseG, s.diffuseB, i));
+  const VF diffuse = MaxComponent(Load3(s.diffuse, i));
   const VF both = hn::Add(glossy, diffuse);
 
   const VU path = hn::Load(UintTag(), job.rays.path + i);
@@ -688,25 +687,24 @@ void AddRefractions(Chunk& c) {
 
 // The radiance at i, as the parent's radiance or the eye gets it.
 HWY_INLINE V3 WeightedRadiance(const Chunk& c, size_t i) {
-  const V3 weight = Load3(c.rays.weightR, c.rays.weightG, c.rays.weightB, i);
-  return Mul3(weight, Load3(c.radiance.r, c.radiance.g, c.radiance.b, i));
+  const V3 weight = Load3(c.rays.weight, i);
+  return Mul3(weight, Load3(c.radiance.rgb, i));
 }
 
 void ReturnImpulses(Chunk& c) {
   const FloatTag d;
-  const RadianceColumns parentRadiance = c.parentRadiance;
+  const Columns3 parentRadiance = c.parentRadiance.rgb;
   const size_t n = c.n;
   HWY_ALIGN float r[16], g[16], b[16];
+  const Columns3 perLane{r, g, b};
   for (size_t i = 0; i < n; i += hn::Lanes(d)) {
-    Store3(WeightedRadiance(c, i), r, g, b, 0);
+    Store3(WeightedRadiance(c, i), perLane, 0);
 
     // A parent may occur twice, for its reflected and its refracted child: one after the other.
     const size_t live = HWY_MIN(hn::Lanes(d), n - i);
     for (size_t lane = 0; lane < live; ++lane) {
       const uint32_t parent = c.rays.parent[i + lane];
-      parentRadiance.r[parent] += r[lane];
-      parentRadiance.g[parent] += g[lane];
-      parentRadiance.b[parent] += b[lane];
+      parentRadiance.set(parent, parentRadiance.at(parent) + perLane.at(lane));
     }
   }
 }
@@ -716,7 +714,7 @@ void ReturnToEye(Chunk& c) {
   const RadianceColumns radiance = c.radiance;
   const size_t n = c.n;
   for (size_t i = 0; i < n; i += hn::Lanes(d)) {
-    Store3(WeightedRadiance(c, i), radiance.r, radiance.g, radiance.b, i);
+    Store3(WeightedRadiance(c, i), radiance.rgb, i);
   }
 }
 

@@ -124,8 +124,8 @@ class ReflectedAmbient {
  private:
   HWY_INLINE V3 Unoccluded(size_t i, MF hit) const {
     const FloatTag d;
-    const V3 ns = Load3(surfels_.nsX, surfels_.nsY, surfels_.nsZ, i);
-    const V3 albedo = Load3(surfels_.diffuseR, surfels_.diffuseG, surfels_.diffuseB, i);
+    const V3 ns = Load3(surfels_.ns, i);
+    const V3 albedo = Load3(surfels_.diffuse, i);
     const V3 all = Mul3(albedo, MulAdd3(half_, ns.y, middle_));
     if (HWY_LIKELY(!special_ || hn::AllFalse(d, hit))) return all;
 
@@ -145,7 +145,7 @@ class ReflectedAmbient {
     const V3 mirrored = Normalize3(MulAdd3(ns, hn::Add(towards, towards), direction));
     const V3 sky = BlurredRadiance(tables_.blurredSky, mirrored, roughness, blurs);
 
-    V3 lobe = Load3(surfels_.lobeR, surfels_.lobeG, surfels_.lobeB, i);
+    V3 lobe = Load3(surfels_.lobe, i);
     const MF smooth = HasFlags(flags, kMaterialMirrorsByLobe);
     lobe = Scale3(lobe, hn::Sub(one, hn::IfThenElseZero(smooth, MirroredShare(roughness))));
 

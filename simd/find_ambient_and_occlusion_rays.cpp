@@ -39,15 +39,15 @@ void FindAmbientAndOcclusionRays(Chunk& c) {
     if (hn::AllFalse(d, live)) continue;
 
     // Occlusion rays are distributed by the cosine to the shading normal.
-    const V3 ng = Load3(surfels.ngX, surfels.ngY, surfels.ngZ, i);
-    const V3 ns = Load3(surfels.nsX, surfels.nsY, surfels.nsZ, i);
+    const V3 ng = Load3(surfels.ng, i);
+    const V3 ns = Load3(surfels.ns, i);
     const VU path = hn::Load(du, rays.path + i);
     const V3 way =
         CosineLobes(ns).Direction(LightPoints(path, points, c.lightNumber, c.lightSample));
 
     // A direction below the facet is occluded by the surface itself, unless the shading terminator
     // is smoothed.
-    V3 start = Load3(surfels.posX, surfels.posY, surfels.posZ, i);
+    V3 start = Load3(surfels.pos, i);
     MF front = hn::Gt(Dot(ng, way), zero);
     if (lifted) LiftStart(surfels, i, start, front);
 
@@ -57,7 +57,7 @@ void FindAmbientAndOcclusionRays(Chunk& c) {
     live = hn::And(live, hn::And(front, hn::Gt(MaxComponent(radiance), zero)));
     if (hn::AllFalse(d, live)) continue;
 
-    Store3(radiance, unshadowed.r, unshadowed.g, unshadowed.b, i);
+    Store3(radiance, unshadowed.rgb, i);
     const V3 origin =
         RayOrigin(offset, start, ng, DirectionAt(rays, i), LoadClearance(surfels, i), 1.0f);
     const VU slot = hn::Iota(du, static_cast<uint32_t>(i));

@@ -131,9 +131,9 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
     scattered = Mul3(scattered, tints.diffuse);
   }
 
-  Store3(scattered, surfels.diffuseR, surfels.diffuseG, surfels.diffuseB, i);
+  Store3(scattered, surfels.diffuse, i);
   if (job.emissionFactors) {
-    Store3(tints.emission, surfels.emissionR, surfels.emissionG, surfels.emissionB, i);
+    Store3(tints.emission, surfels.emission, i);
     if (job.textures) {
       QueueMap(job, lobe.emissionMap, valid, at, slot, block.emission);
     }
@@ -149,14 +149,14 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
       QueueMap(job, specularMap, valid, at, slot, block.specular);
     }
     const V3 f0 = job.vertexColors ? Mul3(specular, tints.specular) : specular;
-    Store3(f0, surfels.specularR, surfels.specularG, surfels.specularB, i);
+    Store3(f0, surfels.specular, i);
     hn::Store(lobe.alpha, d, surfels.alpha + i);
   }
 
   // FindLayers sets it where there is one.
   if (job.lobes) {
     const VF none = hn::Zero(d);
-    Store3({none, none, none}, surfels.lobeR, surfels.lobeG, surfels.lobeB, i);
+    Store3({none, none, none}, surfels.lobe, i);
   }
 
   if (job.transmission) {
@@ -167,20 +167,17 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
 }
 
 // Applies the textures that the vector at i has queued.
-HWY_INLINE void ApplyTextures(const SurfelJob& job, const BlockTextures& block, size_t slot,
-                              size_t i) {
+HWY_INLINE void ApplyTextures(const SurfelJob& job, BlockTextures& block, size_t slot, size_t i) {
   const SurfelColumns& surfels = job.surfels;
   if (job.textures) {
     if (job.emissionFactors && HWY_UNLIKELY(job.radianceMaps)) {
       ApplyRadianceMaps(job, block.emission, slot, i);
     } else if (job.emissionFactors) {
-      ApplyColor(job, block.emission, slot, surfels.emissionR, surfels.emissionG, surfels.emissionB,
-                 i);
+      ApplyColor(job, block.emission, slot, surfels.emission, i);
     }
-    ApplyColor(job, block.diffuse, slot, surfels.diffuseR, surfels.diffuseG, surfels.diffuseB, i);
+    ApplyColor(job, block.diffuse, slot, surfels.diffuse, i);
     if (job.glossy) {
-      ApplyColor(job, block.specular, slot, surfels.specularR, surfels.specularG, surfels.specularB,
-                 i);
+      ApplyColor(job, block.specular, slot, surfels.specular, i);
     }
   }
   if (job.normalMaps) ApplyNormalMap(job, block, slot, i);
@@ -303,10 +300,6 @@ HWY_INLINE void StoreCoverage(const SurfelJob& job, const MapQueue& queue, size_
   hn::Store(coverage, d, job.surfels.coverage + i);
 }
 
-struct Columns3 {
-  float *x, *y, *z;
-};
-
 HWY_INLINE void StoreOnes(float* column, size_t n) {
   const FloatTag d;
   for (size_t i = 0; i < n; i += hn::Lanes(d)) hn::Store(hn::Set(d, 1.0f), d, column + i);
@@ -349,17 +342,13 @@ struct MirrorFactors {
   static HWY_INLINE MF Tinted(VU flags) {
     return hn::AndNot(HasFlags(flags, kMaterialCoated), HasFlags(flags, kMaterialTintsSpecular));
   }
-  static HWY_INLINE Columns3 Columns(const SurfelColumns& s) {
-    return {s.mirrorR, s.mirrorG, s.mirrorB};
-  }
+  static constexpr auto kColumns = &SurfelColumns::mirror;
 };
 struct TransmissionFactors {
   static constexpr uint32_t kVaries = kMaterialVariesTransmission;
   static HWY_INLINE VI Map(const MaterialLanes& m) { return m.Transmission().map; }
   static HWY_INLINE MF Tinted(VU flags) { return hn::Not(HasFlags(flags, kMaterialTintsEmission)); }
-  static HWY_INLINE Columns3 Columns(const SurfelColumns& s) {
-    return {s.transmissionR, s.transmissionG, s.transmissionB};
-  }
+  static constexpr auto kColumns = &SurfelColumns::transmission;
 };
 
 template <typename Factors>
@@ -382,15 +371,14 @@ HWY_INLINE void StoreFactors(const SurfelJob& job, const MapQueue& queue, size_t
     const MF varies = hn::And(valid, HasFlags(flags, Factors::kVaries));
     factor = Select3(hn::And(varies, Factors::Tinted(flags)), tinted, factor);
   }
-  const Columns3 to = Factors::Columns(job.surfels);
-  Store3(factor, to.x, to.y, to.z, i);
+  Store3(factor, job.surfels.*Factors::kColumns, i);
 }
 
 // The scalar reference is findColors in src/reference/find_intersections.cpp.
 template <typename Factors>
 HWY_INLINE void LookUpFactors(Chunk& c) {
   if ((c.materialFlags & Factors::kVaries) == 0) {
-    const Columns3 to = Factors::Columns(c.surfels);
+    const Columns3 to = c.surfels.*Factors::kColumns;
     for (float* column : {to.x, to.y, to.z}) StoreOnes(column, c.n);
     return;
   }
@@ -447,8 +435,8 @@ void LiftShadowOrigins(Chunk& c) {
     }
 
     const VF u = hn::Load(d, hits.u + i), v = hn::Load(d, hits.v + i);
-    const V3 position = Load3(surfels.posX, surfels.posY, surfels.posZ, i);
-    const V3 ng = Load3(surfels.ngX, surfels.ngY, surfels.ngZ, i);
+    const V3 position = Load3(surfels.pos, i);
+    const V3 ng = Load3(surfels.ng, i);
     const VF offset = hn::Load(d, surfels.offset + i);
 
     // The surface that the vertex normals stand for lies above the facet by the weighted depths
@@ -470,7 +458,7 @@ void LiftShadowOrigins(Chunk& c) {
       lift = Select3(on, {zero, zero, zero}, lift);
     }
 
-    Store3(lift, surfels.liftX, surfels.liftY, surfels.liftZ, i);
+    Store3(lift, surfels.lift, i);
   }
 }
 

@@ -190,9 +190,9 @@ void FindRadianceAndShadowRays(Chunk& c) {
 
   for (size_t i = 0; i < n; i += hn::Lanes(d)) {
     MF live = SurfaceLanes(surfels, nested, i);
-    const V3 position = Load3(surfels.posX, surfels.posY, surfels.posZ, i);
-    const V3 ng = Load3(surfels.ngX, surfels.ngY, surfels.ngZ, i);
-    const V3 ns = Load3(surfels.nsX, surfels.nsY, surfels.nsZ, i);
+    const V3 position = Load3(surfels.pos, i);
+    const V3 ng = Load3(surfels.ng, i);
+    const V3 ns = Load3(surfels.ns, i);
 
     // The light is looked at from the surfel, or one of its points is.
     V3 toLight = lanes.Towards(position);
@@ -221,11 +221,10 @@ void FindRadianceAndShadowRays(Chunk& c) {
     const VF inverseDistance = InverseSqrt(distanceSquared);
     const V3 l = Scale3(toLight, inverseDistance);
     const VF nl = Dot(ns, l);
-    V3 bsdf = Scale3(Load3(surfels.diffuseR, surfels.diffuseG, surfels.diffuseB, i),
-                     hn::Set(d, 0.318309886f));
+    V3 bsdf = Scale3(Load3(surfels.diffuse, i), hn::Set(d, 0.318309886f));
 
     if (glossy) {
-      const V3 f0 = Load3(surfels.specularR, surfels.specularG, surfels.specularB, i);
+      const V3 f0 = Load3(surfels.specular, i);
       const MF shiny = hn::And(live, hn::Gt(MaxComponent(f0), zero));
       if (!hn::AllFalse(d, shiny)) {
         const V3 direction = DirectionAt(rays, i);
@@ -256,8 +255,7 @@ void FindRadianceAndShadowRays(Chunk& c) {
       live = hn::And(live, hn::Ge(contribution, hn::Set(d, choices.lightCutoff)));
     }
 
-    Store3(sampled ? Scale3(radiance, share) : radiance, unshadowed.r, unshadowed.g, unshadowed.b,
-           i);
+    Store3(sampled ? Scale3(radiance, share) : radiance, unshadowed.rgb, i);
     if (!traced) {
       hn::Store(hn::IfThenElseZero(live, one), d, unshadowed.visible + i);
       continue;

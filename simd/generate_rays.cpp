@@ -345,11 +345,11 @@ void GenerateRays(Chunk& c) {
     if (hasLens || !camera.orthographic) direction = Normalize3(direction);
     if (!isStraight) direction = Select3(seen, direction, Broadcast3(Vec3f()));
 
-    Store3(origin, rays.orgX, rays.orgY, rays.orgZ, i);
-    Store3(direction, rays.dirX, rays.dirY, rays.dirZ, i);
+    Store3(origin, rays.org, i);
+    Store3(direction, rays.dir, i);
 
     // A primary ray has the weight 1, and its parent is the slot of its pixel.
-    Store3({one, one, one}, rays.weightR, rays.weightG, rays.weightB, i);
+    Store3({one, one, one}, rays.weight, i);
     hn::Store(one, d, rays.throughput + i);
     hn::Store(hn::Iota(du, firstSlot + static_cast<uint32_t>(i)), du, rays.parent + i);
 

@@ -107,7 +107,7 @@ HWY_INLINE GlossyLobes LoadGlossyLobes(const ShadingTables& tables, const Surfel
   const VF scale = hn::Div(one, hn::IfThenElse(oblique, sine, one));
   lobes.x = Select3(oblique, Scale3(along, scale), across);
   lobes.y = Cross(ns, lobes.x);
-  lobes.f0 = Load3(surfels.specularR, surfels.specularG, surfels.specularB, i);
+  lobes.f0 = Load3(surfels.specular, i);
   lobes.f90 = LobeGrazing(tables, surfels, lobes.f0, i);
   const VF alpha = hn::Load(d, surfels.alpha + i);
   lobes.rough = hn::AndNot(flat, hn::Gt(alpha, hn::Set(d, kSmoothAlpha)));

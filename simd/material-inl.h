@@ -16,9 +16,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
 
-HWY_INLINE V3 DirectionAt(const RayColumns& rays, size_t i) {
-  return Load3(rays.dirX, rays.dirY, rays.dirZ, i);
-}
+HWY_INLINE V3 DirectionAt(const RayColumns& rays, size_t i) { return Load3(rays.dir, i); }
 
 // Numbers of materials; kMiss, where rays missed, is negative.
 HWY_INLINE VI MaterialNumbers(const SurfelColumns& surfels, size_t i) {
@@ -107,7 +105,7 @@ HWY_INLINE VF SchlickTerm(VF c) {
 HWY_INLINE V3 MirrorReflectance(const MaterialLanes& material, const SurfelColumns& s, bool byMaps,
                                 VF cosine, size_t i) {
   V3 normal = material.Mirror().color;
-  if (byMaps) normal = Mul3(normal, Load3(s.mirrorR, s.mirrorG, s.mirrorB, i));
+  if (byMaps) normal = Mul3(normal, Load3(s.mirror, i));
   return MulAdd3(Sub3(material.MirrorGrazing(), normal), SchlickTerm(cosine), normal);
 }
 
@@ -129,7 +127,7 @@ HWY_INLINE MF SurfaceLanes(const SurfelColumns& surfels, bool nested, size_t i) 
 // Moves the start of a shadow ray above its facet. Above the facet, the smooth surface alone
 // decides what lies behind the horizon (Hanika 2021).
 HWY_INLINE void LiftStart(const SurfelColumns& surfels, size_t i, V3& start, MF& front) {
-  const V3 lift = Load3(surfels.liftX, surfels.liftY, surfels.liftZ, i);
+  const V3 lift = Load3(surfels.lift, i);
   front = hn::Or(front, hn::Gt(MaxComponent(Abs3(lift)), hn::Zero(FloatTag())));
   start = Add3(start, lift);
 }
@@ -240,8 +238,8 @@ HWY_INLINE void Absorb(const ShadingTables& tables, const RayColumns& rays, cons
     return hn::IfThenElse(hn::Gt(sigma, hn::Zero(d)), through, hn::Set(d, 1.0f));
   };
   const V3 factor{transmittance(record.y), transmittance(record.z), transmittance(record.w)};
-  const V3 weight = Load3(rays.weightR, rays.weightG, rays.weightB, i);
-  Store3(Mul3(weight, factor), rays.weightR, rays.weightG, rays.weightB, i);
+  const V3 weight = Load3(rays.weight, i);
+  Store3(Mul3(weight, factor), rays.weight, i);
   const VF throughput = hn::Load(d, rays.throughput + i);
   hn::Store(hn::Mul(throughput, MaxComponent(factor)), d, rays.throughput + i);
 }

@@ -51,10 +51,10 @@ class Compactor {
     hn::StoreU(hn::BitCast(du, Compacted(hn::BitCast(FloatTag(), v))), du, to);
   }
 
-  HWY_INLINE void Store(const V3& v, float* x, float* y, float* z, size_t at) const {
-    Store(v.x, x + at);
-    Store(v.y, y + at);
-    Store(v.z, z + at);
+  HWY_INLINE void Store(const V3& v, const Columns3& to, size_t at) const {
+    Store(v.x, to.x + at);
+    Store(v.y, to.y + at);
+    Store(v.z, to.z + at);
   }
 
   HWY_INLINE size_t Count() const { return count_; }
@@ -88,8 +88,8 @@ HWY_INLINE void AppendShadowRays(const ShadowColumns& rays, MF live, const V3& o
                                  const V3& way, VF tFar, VU slot, size_t& count) {
   const Compactor compactor(live);
 
-  compactor.Store(origin, rays.orgX, rays.orgY, rays.orgZ, count);
-  compactor.Store(way, rays.dirX, rays.dirY, rays.dirZ, count);
+  compactor.Store(origin, rays.org, count);
+  compactor.Store(way, rays.dir, count);
   compactor.Store(tFar, rays.tFar + count);
   compactor.Store(slot, rays.slot + count);
 

@@ -23,7 +23,8 @@ HWY_INLINE float* WordsOf(const PacketWords& packets, size_t ray) {
 
 // The columns that packets read for either kind of rays; tFar is null where rays have no end.
 struct RaySource {
-  const float *orgX, *orgY, *orgZ, *dirX, *dirY, *dirZ, *tFar;
+  Columns3 org, dir;
+  const float* tFar;
 };
 
 // One sum tests all coordinates, because nearly all rays are fine. A direction of 0 belongs to a
@@ -45,8 +46,8 @@ HWY_INLINE void Pack(const RaySource& from, size_t n, float reach, const PacketW
     const auto store = [&](auto v, size_t column)
                            HWY_ATTR { hn::StoreU(v, d, WordsOf<kWidth>(to, i) + column * kWidth); };
 
-    auto ox = load(from.orgX), oy = load(from.orgY), oz = load(from.orgZ);
-    auto dx = load(from.dirX), dy = load(from.dirY), dz = load(from.dirZ);
+    auto ox = load(from.org.x), oy = load(from.org.y), oz = load(from.org.z);
+    auto dx = load(from.dir.x), dy = load(from.dir.y), dz = load(from.dir.z);
     auto tFar = from.tFar ? load(from.tFar) : hn::Inf(d);
 
     const auto there = hn::FirstN(d, i < n ? n - i : 0);
@@ -92,12 +93,12 @@ HWY_INLINE void ForWidth(size_t width, const Call& call) {
 }
 
 void PackRays(const RayColumns& rays, size_t n, float reach, const PacketWords& to) {
-  const RaySource from{rays.orgX, rays.orgY, rays.orgZ, rays.dirX, rays.dirY, rays.dirZ, nullptr};
+  const RaySource from{rays.org, rays.dir, nullptr};
   ForWidth(to.width, [&](auto width) HWY_ATTR { Pack<width()>(from, n, reach, to); });
 }
 
 void PackShadowRays(const ShadowColumns& rays, size_t n, float reach, const PacketWords& to) {
-  const RaySource from{rays.orgX, rays.orgY, rays.orgZ, rays.dirX, rays.dirY, rays.dirZ, rays.tFar};
+  const RaySource from{rays.org, rays.dir, rays.tFar};
   ForWidth(to.width, [&](auto width) HWY_ATTR { Pack<width()>(from, n, reach, to); });
 }
 
@@ -249,8 +250,8 @@ void RefineHits(const HitTables& tables, const RayColumns& rays, size_t n, const
 
     const auto [c0, c1, c2] = LoadCorners(tables.triangles, kStride, triangle);
     const auto load = [&](const float* column) HWY_ATTR { return hn::LoadU(d, column + i); };
-    const V3 origin{load(rays.orgX), load(rays.orgY), load(rays.orgZ)};
-    const V3 direction{load(rays.dirX), load(rays.dirY), load(rays.dirZ)};
+    const V3 origin{load(rays.org.x), load(rays.org.y), load(rays.org.z)};
+    const V3 direction{load(rays.dir.x), load(rays.dir.y), load(rays.dir.z)};
 
     SeenTriangle t{Sub3(c0, origin), Sub3(c1, c0), Sub3(c2, c0)};
     if (hits.instance) CarryToWorld(tables, hits, valid, i, c0, origin, t);

@@ -303,7 +303,7 @@ HWY_INLINE void FollowRay(const TriangleLanes& t, const RayColumns& rays, VF dis
   if (HWY_LIKELY(hn::AllFalse(d, large))) return;
 
   // The ray's point is moved along the normal into the triangle's plane.
-  const V3 origin = Load3(rays.orgX, rays.orgY, rays.orgZ, i);
+  const V3 origin = Load3(rays.org, i);
   const V3 point = MulAdd3(DirectionAt(rays, i), distance, origin);
   const VF height = Dot(Sub3(point, t.p0), s.ng);
   s.position = Select3(large, MulAdd3(s.ng, hn::Neg(height), point), s.position);
@@ -322,9 +322,9 @@ HWY_INLINE VF TurnToViewer(MF entering) {
 // Stores the columns that textures do not change; `flip` turns the normals towards the viewer.
 HWY_INLINE void StoreSurface(const Surface& s, VF t, VF flip, size_t i,
                              const SurfelColumns& surfels) {
-  Store3(s.position, surfels.posX, surfels.posY, surfels.posZ, i);
-  Store3(Scale3(s.ng, flip), surfels.ngX, surfels.ngY, surfels.ngZ, i);
-  Store3(Scale3(s.ns, flip), surfels.nsX, surfels.nsY, surfels.nsZ, i);
+  Store3(s.position, surfels.pos, i);
+  Store3(Scale3(s.ng, flip), surfels.ng, i);
+  Store3(Scale3(s.ns, flip), surfels.ns, i);
   StoreClearance(s, t, i, surfels);
 }
 

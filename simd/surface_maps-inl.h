@@ -110,13 +110,15 @@ struct MapQueue {
 // The texture lookups of one block of rays that wait for their texels.
 struct BlockTextures {
   MapQueue diffuse, specular, emission, normal;
-  HWY_ALIGN float tangent[6][TexelQueue::kRays];  // frame of the normal map: T, then B
+  HWY_ALIGN float frame[6][TexelQueue::kRays];  // of the normal map: tangent, then bitangent
+
+  Columns3 Tangent() { return {frame[0], frame[1], frame[2]}; }
+  Columns3 Bitangent() { return {frame[3], frame[4], frame[5]}; }
 };
 
 HWY_INLINE void StoreFrame(const TangentFrame& frame, VF flip, size_t slot, BlockTextures& block) {
-  const V3 t = Scale3(frame.tangent, flip), b = Scale3(frame.bitangent, flip);
-  Store3(t, block.tangent[0], block.tangent[1], block.tangent[2], slot);
-  Store3(b, block.tangent[3], block.tangent[4], block.tangent[5], slot);
+  Store3(Scale3(frame.tangent, flip), block.Tangent(), slot);
+  Store3(Scale3(frame.bitangent, flip), block.Bitangent(), slot);
 }
 
 // The texture coordinates of a vector of rays, and the footprints where mip levels are mixed.
@@ -203,15 +205,15 @@ HWY_INLINE V3 FilterData(const SurfelJob& job, const MapQueue& queue, size_t slo
 }
 
 // Multiplies the columns at slot i with the texture that waits at `slot`.
-HWY_INLINE void ApplyColor(const SurfelJob& job, const MapQueue& queue, size_t slot, float* r,
-                           float* g, float* b, size_t i) {
+HWY_INLINE void ApplyColor(const SurfelJob& job, const MapQueue& queue, size_t slot,
+                           const Columns3& columns, size_t i) {
   if (!queue.level.any[slot]) return;
 
-  const V3 color = Load3(r, g, b, i);
+  const V3 color = Load3(columns, i);
   const V3 texture =
       FilterMap(job, queue, slot, [](const Footprint& f) HWY_ATTR { return FilterColor(f); });
 
-  Store3(Select3(QueuedLanes(queue.level, slot), Mul3(color, texture), color), r, g, b, i);
+  Store3(Select3(QueuedLanes(queue.level, slot), Mul3(color, texture), color), columns, i);
 }
 
 // Multiplies the emission's factors at slot i with the map that waits at `slot`, in scenes where
@@ -232,14 +234,12 @@ inline HWY_NOINLINE void ApplyRadianceMaps(const SurfelJob& job, const MapQueue&
       FilterMap(job, queue, slot, [](const Footprint& f) HWY_ATTR { return FilterRadiance(f); });
   const V3 texture = Select3(HasFlags(flags, kMaterialEmissionIsRadiance), radiance, color);
 
-  const V3 factor = Load3(to.emissionR, to.emissionG, to.emissionB, i);
-  Store3(Select3(queued, Mul3(factor, texture), factor), to.emissionR, to.emissionG, to.emissionB,
-         i);
+  const V3 factor = Load3(to.emission, i);
+  Store3(Select3(queued, Mul3(factor, texture), factor), to.emission, i);
 }
 
 // Bends the shading normals at slot i by the normal map that waits at `slot`.
-HWY_INLINE void ApplyNormalMap(const SurfelJob& job, const BlockTextures& block, size_t slot,
-                               size_t i) {
+HWY_INLINE void ApplyNormalMap(const SurfelJob& job, BlockTextures& block, size_t slot, size_t i) {
   if (!block.normal.level.any[slot]) return;
 
   const FloatTag d;
@@ -251,12 +251,10 @@ HWY_INLINE void ApplyNormalMap(const SurfelJob& job, const BlockTextures& block,
   const V3 m{MulThenSub(code.x, two, one), MulThenSub(code.y, two, one),
              MulThenSub(code.z, two, one)};
 
-  const V3 tangent = Load3(block.tangent[0], block.tangent[1], block.tangent[2], slot);
-  const V3 bitangent = Load3(block.tangent[3], block.tangent[4], block.tangent[5], slot);
-  const V3 ns = Load3(surfels.nsX, surfels.nsY, surfels.nsZ, i);
+  const V3 tangent = Load3(block.Tangent(), slot), bitangent = Load3(block.Bitangent(), slot);
+  const V3 ns = Load3(surfels.ns, i);
   const V3 bent = MulAdd3(tangent, m.x, MulAdd3(bitangent, m.y, Scale3(ns, m.z)));
-  Store3(Select3(QueuedLanes(block.normal.level, slot), NormalizeOr(bent, ns), ns), surfels.nsX,
-         surfels.nsY, surfels.nsZ, i);
+  Store3(Select3(QueuedLanes(block.normal.level, slot), NormalizeOr(bent, ns), ns), surfels.ns, i);
 }
 
 // The inputs of map lookups by either set of coordinates, in scenes that have two.

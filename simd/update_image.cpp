@@ -96,8 +96,8 @@ void EncodeDisplay(const EncodeArgs& args) {
       return SrgbCode(leastOfCodes, ToneCurved(curve, hn::Mul(hn::Load(d, column + i), scale)));
     };
 
-    const VU r = encode(radiance.r), g = hn::ShiftLeft<8>(encode(radiance.g));
-    const VU b = hn::ShiftLeft<16>(encode(radiance.b));
+    const VU r = encode(radiance.rgb.x), g = hn::ShiftLeft<8>(encode(radiance.rgb.y));
+    const VU b = hn::ShiftLeft<16>(encode(radiance.rgb.z));
     hn::StoreU(hn::Or(hn::Or(r, g), hn::Or(b, hn::Set(du, 0xFF000000u))), du, args.codes + i);
   }
 }

@@ -11,6 +11,7 @@
 #include "core/shading_choices.h"
 #include "core/vec3.h"
 #include "simd/product-inl.h"
+#include "stages/columns.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
@@ -38,16 +39,16 @@ HWY_INLINE V3 Broadcast3(const Vec3f& v) {
   return {hn::Set(d, v.x), hn::Set(d, v.y), hn::Set(d, v.z)};
 }
 
-HWY_INLINE V3 Load3(const float* x, const float* y, const float* z, size_t i) {
+HWY_INLINE V3 Load3(const Columns3& from, size_t i) {
   const FloatTag d;
-  return {hn::Load(d, x + i), hn::Load(d, y + i), hn::Load(d, z + i)};
+  return {hn::Load(d, from.x + i), hn::Load(d, from.y + i), hn::Load(d, from.z + i)};
 }
 
-HWY_INLINE void Store3(const V3& v, float* x, float* y, float* z, size_t i) {
+HWY_INLINE void Store3(const V3& v, const Columns3& to, size_t i) {
   const FloatTag d;
-  hn::Store(v.x, d, x + i);
-  hn::Store(v.y, d, y + i);
-  hn::Store(v.z, d, z + i);
+  hn::Store(v.x, d, to.x + i);
+  hn::Store(v.y, d, to.y + i);
+  hn::Store(v.z, d, to.z + i);
 }
 
 HWY_INLINE V3 Add3(const V3& a, const V3& b) {

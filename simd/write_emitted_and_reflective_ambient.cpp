@@ -41,7 +41,7 @@ void WriteEmittedAndReflectiveAmbient(Chunk& c) {
     if (emission && !hn::AllFalse(d, hit)) {
       V3 own = MaterialLanes(tables, hn::BitCast(di, material), hit).Emission();
       if (factors) {
-        own = Mul3(own, Load3(surfels.emissionR, surfels.emissionG, surfels.emissionB, i));
+        own = Mul3(own, Load3(surfels.emission, i));
       }
       result = Add3(result, own);
     }
@@ -51,7 +51,7 @@ void WriteEmittedAndReflectiveAmbient(Chunk& c) {
     if (hidden) result = Select3(HasFlags(hn::Load(du, surfels.flags + i), kHidden), black, result);
 
     if (hn::AllTrue(d, hit)) {
-      Store3(result, radiance.r, radiance.g, radiance.b, i);
+      Store3(result, radiance.rgb, i);
       continue;
     }
 
@@ -66,7 +66,7 @@ void WriteEmittedAndReflectiveAmbient(Chunk& c) {
       beyond = Select3(seen, beyond, black);
     }
 
-    Store3(Select3(hit, result, beyond), radiance.r, radiance.g, radiance.b, i);
+    Store3(Select3(hit, result, beyond), radiance.rgb, i);
   }
 }
 
@@ -102,10 +102,10 @@ void AddFog(Chunk& c) {
     const V3 left{hn::Div(one, hn::Add(one, more.x)), hn::Div(one, hn::Add(one, more.y)),
                   hn::Div(one, hn::Add(one, more.z))};
 
-    const V3 sum = Load3(radiance.r, radiance.g, radiance.b, i);
-    Store3(Add3(sum, Mul3(color, more)), radiance.r, radiance.g, radiance.b, i);
-    const V3 weight = Load3(rays.weightR, rays.weightG, rays.weightB, i);
-    Store3(Mul3(weight, left), rays.weightR, rays.weightG, rays.weightB, i);
+    const V3 sum = Load3(radiance.rgb, i);
+    Store3(Add3(sum, Mul3(color, more)), radiance.rgb, i);
+    const V3 weight = Load3(rays.weight, i);
+    Store3(Mul3(weight, left), rays.weight, i);
     const VF throughput = hn::Load(d, rays.throughput + i);
     hn::Store(hn::Mul(throughput, MaxComponent(left)), d, rays.throughput + i);
   }

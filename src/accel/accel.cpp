@@ -62,11 +62,11 @@ struct ShadowRange {
 
 template <typename Columns>
 Vec3f originAt(const Columns& c, std::size_t i) {
-  return {c.orgX[i], c.orgY[i], c.orgZ[i]};
+  return c.org.at(i);
 }
 template <typename Columns>
 Vec3f directionAt(const Columns& c, std::size_t i) {
-  return {c.dirX[i], c.dirY[i], c.dirZ[i]};
+  return c.dir.at(i);
 }
 
 void store(const Hit& hit, const HitRange& range, std::size_t i) {
@@ -346,7 +346,8 @@ void settleEdges(const Accel::Parts& parts, const HitRange& range) noexcept {
 // cosine between ray and normal is at least 2^-10.
 int isNearEye(const RayColumns& rays, const float* t, std::size_t i) {
   constexpr float kNear = 0x1p-12f;
-  const float size = std::fabs(rays.orgX[i]) + std::fabs(rays.orgY[i]) + std::fabs(rays.orgZ[i]);
+  const Vec3f origin = abs(rays.org.at(i));
+  const float size = origin.x + origin.y + origin.z;
   return static_cast<int>(t[i] <= kNear * size);
 }
 

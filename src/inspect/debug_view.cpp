@@ -86,9 +86,9 @@ class Watcher : public StageObserver {
       } else if (view_ == DebugView::depth) {
         add(chunk, i, {chunk.hits.t[i], 0, 0}, 1);
       } else if (view_ == DebugView::normals) {
-        add(chunk, i, Rgb{s.nsX[i] + 1, s.nsY[i] + 1, s.nsZ[i] + 1} * 0.5f, 1);
+        add(chunk, i, (s.ns.at(i) + Rgb(1)) * 0.5f, 1);
       } else {
-        add(chunk, i, {s.diffuseR[i], s.diffuseG[i], s.diffuseB[i]}, 1);
+        add(chunk, i, s.diffuse.at(i), 1);
       }
     }
   }

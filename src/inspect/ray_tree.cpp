@@ -13,12 +13,7 @@ namespace whit {
 
 namespace {
 
-RgbD at(const RadianceColumns& c, std::size_t i) {
-  return {double{c.r[i]}, double{c.g[i]}, double{c.b[i]}};
-}
-Vec3d at(const float* x, const float* y, const float* z, std::size_t i) {
-  return {double{x[i]}, double{y[i]}, double{z[i]}};
-}
+Vec3d at(const Columns3& columns, std::size_t i) { return Vec3d(columns.at(i)); }
 
 // Writes the tree down while the pipeline traces its pixel alone.
 class TreeObserver : public StageObserver {
@@ -37,7 +32,8 @@ class TreeObserver : public StageObserver {
         shadows_.assign(chunk.n, {});
         return;
       case Stage::writeEmittedAndReflectiveAmbient:
-        for (std::size_t i = 0; i < chunk.n; ++i) node(chunk, i).emitted = at(chunk.radiance, i);
+        for (std::size_t i = 0; i < chunk.n; ++i)
+          node(chunk, i).emitted = at(chunk.radiance.rgb, i);
         break;
       case Stage::checkShadows:
         for (std::size_t k = 0; k < chunk.shadowCount; ++k) lookForLight(chunk, k);
@@ -53,7 +49,7 @@ class TreeObserver : public StageObserver {
     }
 
     // The remaining stages add to the radiance of the surfel itself.
-    for (std::size_t i = 0; i < chunk.n; ++i) node(chunk, i).local = at(chunk.radiance, i);
+    for (std::size_t i = 0; i < chunk.n; ++i) node(chunk, i).local = at(chunk.radiance.rgb, i);
   }
 
  private:
@@ -83,7 +79,7 @@ class TreeObserver : public StageObserver {
     const Ray ray = rayOf(chunk, i);
     n.origin = ray.origin;
     n.direction = ray.direction;
-    n.weight = at(chunk.rays.weightR, chunk.rays.weightG, chunk.rays.weightB, i);
+    n.weight = at(chunk.rays.weight, i);
     n.media = reference::mediaOf(chunk, i);
     if (chunk.hits.triangle[i] == kMiss) return;
 
@@ -94,7 +90,7 @@ class TreeObserver : public StageObserver {
     n.v = met.v;
     n.distance = double{chunk.hits.t[i]};
     n.material = chunk.surfels.material[i];
-    n.position = at(chunk.surfels.posX, chunk.surfels.posY, chunk.surfels.posZ, i);
+    n.position = at(chunk.surfels.pos, i);
     n.alsoCrossed = reference::alsoCrossedAt(chunk, i);
     n.hidden = reference::isHidden(chunk, i);
   }
@@ -104,8 +100,8 @@ class TreeObserver : public StageObserver {
     LightContribution& light = shadows_[s.slot[k]];
 
     light.traced = true;
-    light.origin = at(s.orgX, s.orgY, s.orgZ, k);
-    light.toLight = at(s.dirX, s.dirY, s.dirZ, k);
+    light.origin = at(s.org, k);
+    light.toLight = at(s.dir, k);
     light.visible = chunk.unshadowed.visible[s.slot[k]] > 0;
   }
 
@@ -115,7 +111,7 @@ class TreeObserver : public StageObserver {
     shadows_[i] = {};
 
     // A light contributes what the radiance has gained since the previous stage.
-    light.radiance = at(chunk.radiance, i) - n.local;
+    light.radiance = at(chunk.radiance.rgb, i) - n.local;
     if (!light.traced && light.radiance == RgbD()) return;
 
     light.light = chunk.lightNumber;

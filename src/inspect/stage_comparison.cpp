@@ -97,14 +97,14 @@ double byEye(const Place<RayRow>& p) { return maxComponent(abs(p.world.camera.ey
 // refracted ray goes to zero with it.
 template <double (*kScale)(const Place<RayRow>&)>
 double whereItCounts(const Place<RayRow>& p) {
-  const double largest = std::max({p.scalar.weightR, p.scalar.weightG, p.scalar.weightB});
+  const double largest = maxComponent(p.scalar.weight);
   return largest < 0.05 ? kNotHere : kScale(p);
 }
 double byItself(const Place<RayRow>&) { return 0; }
 
 double cosineOf(const Place<SurfelRow>& p) {
   const SurfelRow& s = p.scalar;
-  return std::fabs(dot(Vec3d{s.ngX, s.ngY, s.ngZ}, rayOf(p.chunk, p.slot).direction));
+  return std::fabs(dot(s.ng, rayOf(p.chunk, p.slot).direction));
 }
 // A surface seen edge on may be entered in one precision and left in the other.
 template <double (*kScale)(const Place<SurfelRow>&)>
@@ -148,8 +148,9 @@ std::optional<double> alongRay(const Place<SurfelRow>& p) {
       !(8 * t < edges.x + edges.y + edges.z))
     return {};
   const SurfelRow& s = p.scalar;
-  const double across = dot(abs(Vec3d{s.ngX, s.ngY, s.ngZ}), edges);
-  return std::fabs(s.posX) + std::fabs(s.posY) + std::fabs(s.posZ) + 4 * t + across;
+  const double across = dot(abs(s.ng), edges);
+  const Vec3d place = abs(s.pos);
+  return place.x + place.y + place.z + 4 * t + across;
 }
 // By the corners, which may be far larger than the place that a ray found. Of an instance the
 // offset is 32 units in the last place of all that went into the position, and 16 of its edges,
@@ -201,7 +202,7 @@ double byGrazing(const Place<UnshadowedRow>& p) {
   const reference::Surfel s = reference::surfelOf(p.chunk, p.slot);
   const Vec3d l = normalized(reference::arrivalAt(p.world, p.chunk, p.slot).shadowRay.direction);
   const double width = maxComponent(s.specular) > 0 ? s.alpha : 1;
-  const double scale = byPointOfLight(p.chunk) * std::max({p.scalar.r, p.scalar.g, p.scalar.b}) /
+  const double scale = byPointOfLight(p.chunk) * maxComponent(p.scalar.rgb) /
                        (std::max(dot(l, s.shadingNormal), 1e-4) * width);
   if (light.kind != Light::Kind::spot) return scale;
   // The cosine to the cone's axis has an absolute error too, relative to the width of its edge.
@@ -214,8 +215,7 @@ double byBothEnds(const Place<ShadowRow>& p) {
   const Light& light = *p.chunk.light;
   if (light.kind == Light::Kind::directional) return 1;
   return byPointOfLight(p.chunk) *
-         (maxComponent(abs(Vec3d(light.position))) +
-          maxComponent(abs(Vec3d{p.scalar.orgX, p.scalar.orgY, p.scalar.orgZ})));
+         (maxComponent(abs(Vec3d(light.position))) + maxComponent(abs(p.scalar.org)));
 }
 
 std::vector<std::string> xyz(const std::string& s) { return {s + "X", s + "Y", s + "Z"}; }

@@ -217,11 +217,11 @@ RayRow generateRays(const World& world, const Chunk& chunk, std::size_t slot) {
   row.path = streamOfPixel(pixel, chunk.sampleNumber, chunk.frame->seed);
   const Ray ray = throughLens(world.camera, central, {row.path, chunk.sampleNumber});
 
-  put(ray.origin, row.orgX, row.orgY, row.orgZ);
-  put(ray.direction, row.dirX, row.dirY, row.dirZ);
+  row.org = ray.origin;
+  row.dir = ray.direction;
 
   // A primary ray has the weight 1, and its parent is the slot of its pixel.
-  put(Vec3d(1.0), row.weightR, row.weightG, row.weightB);
+  row.weight = Vec3d(1.0);
   row.throughput = 1;
   row.parent = static_cast<std::uint32_t>(slot);
 

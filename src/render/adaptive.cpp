@@ -33,8 +33,8 @@ class SurfaceRecorder : public StageObserver {
 
       surface.material = s.material[i];
       if (c.has(Feature::instances)) surface.instance = c.hits.instance[i];
-      surface.position = {s.posX[i], s.posY[i], s.posZ[i]};
-      surface.normal = {s.ngX[i], s.ngY[i], s.ngZ[i]};
+      surface.position = s.pos.at(i);
+      surface.normal = s.ng.at(i);
     }
   }
 

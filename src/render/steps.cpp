@@ -46,7 +46,7 @@ void forEachKept(const Chunk& c, Keep&& keep) {
 }
 
 float largestWeight(const RayColumns& rays, std::size_t i) {
-  return std::max({rays.weightR[i], rays.weightG[i], rays.weightB[i]});
+  return maxComponent(rays.weight.at(i));
 }
 
 void moveRow(RayColumns rays, std::size_t from, std::size_t to) {
@@ -78,7 +78,7 @@ void keepChildren(Chunk& c, const Keeps& keeps) {
 // The child counts for all of its surface's, as the one that was chosen.
 void standForAll(const Chunk& c, std::size_t child, const Narrowing& of) {
   const double grows = of.weights / static_cast<double>(largestWeight(c.children, child));
-  for (float* weight : {c.children.weightR, c.children.weightG, c.children.weightB}) {
+  for (float* weight : {c.children.weight.x, c.children.weight.y, c.children.weight.z}) {
     weight[child] = static_cast<float>(static_cast<double>(weight[child]) * grows);
   }
   const auto before = static_cast<double>(c.rays.throughput[c.children.parent[child]]);
@@ -117,11 +117,10 @@ ChannelValues valuesOf(const Chunk& c, std::size_t i) {
   const Scene& scene = *c.frame->scene;
   const Vec3f forward(c.frame->camera.forward);
   values.distance = c.hits.t[i];
-  values.z = values.distance *
-             (c.rays.dirX[i] * forward.x + c.rays.dirY[i] * forward.y + c.rays.dirZ[i] * forward.z);
-  values.position = Vec3f(scene.inFile(Vec3d(Vec3f{s.posX[i], s.posY[i], s.posZ[i]})));
-  values.normal = {s.nsX[i], s.nsY[i], s.nsZ[i]};
-  values.albedo = {s.diffuseR[i], s.diffuseG[i], s.diffuseB[i]};
+  values.z = values.distance * dot(c.rays.dir.at(i), forward);
+  values.position = Vec3f(scene.inFile(Vec3d(s.pos.at(i))));
+  values.normal = s.ns.at(i);
+  values.albedo = s.diffuse.at(i);
   values.material = s.material[i];
   const ChannelSet kept = c.frame->channels.layers->channels();
   const std::uint32_t triangle = c.hits.triangle[i];
@@ -177,7 +176,7 @@ void updateImage(Chunk& c) {
   // Locals: what memory may alias would be read again for every pixel.
   const int left = film.image.window.x0, top = film.image.window.y0;
   const auto width = static_cast<std::size_t>(film.image.windowWidth());
-  const float *r = c.radiance.r, *g = c.radiance.g, *b = c.radiance.b;
+  const Columns3 radiance = c.radiance.rgb;
   const std::uint32_t* const pixels = c.pixels.data();
   const std::uint32_t* const codes = film.wantDisplay ? c.codes : nullptr;
   auto* const display = reinterpret_cast<std::uint32_t*>(film.display.rgba.data());
@@ -196,9 +195,7 @@ void updateImage(Chunk& c) {
     __builtin_prefetch(image + next, 1);
 
     const std::size_t place = placeOf(pixels[i]);
-    image[place].x = r[i];
-    image[place].y = g[i];
-    image[place].z = b[i];
+    image[place] = radiance.at(i);
     if (codes) {
       __builtin_prefetch(display + next, 1);
       display[place] = codes[i];
@@ -207,7 +204,7 @@ void updateImage(Chunk& c) {
 }
 
 std::uint64_t countNonFinite(const Chunk& c) {
-  const float *r = c.radiance.r, *g = c.radiance.g, *b = c.radiance.b;
+  const auto [r, g, b] = c.radiance.rgb;
   std::uint64_t count = 0;
   // The sum is finite only if its terms are, or cancel; infinities of one sign do not.
   for (std::size_t i = 0; i < c.n; ++i) count += !std::isfinite(r[i] + g[i] + b[i]);
@@ -287,8 +284,8 @@ void startAlpha(Chunk& c) {
   const bool hidesSky = c.options().background.hidesSky();
   for (std::size_t i = 0; i < c.n; ++i) {
     const bool isClear = c.surfels.material[i] == kMiss && c.isStraight(i);
-    radiance.clearR[i] = radiance.clearG[i] = radiance.clearB[i] = isClear ? 1.0f : 0.0f;
-    if (isClear && hidesSky) radiance.r[i] = radiance.g[i] = radiance.b[i] = 0;
+    radiance.clear.set(i, Rgb(isClear ? 1.0f : 0.0f));
+    if (isClear && hidesSky) radiance.rgb.set(i, Rgb());
   }
 }
 
@@ -296,9 +293,7 @@ void markStraight(Chunk& c) {
   const RayColumns &rays = c.rays, &children = c.children;
   for (std::size_t i = 0; i < c.childCount; ++i) {
     const std::uint32_t parent = children.parent[i];
-    const bool goesOn = children.dirX[i] == rays.dirX[parent] &&
-                        children.dirY[i] == rays.dirY[parent] &&
-                        children.dirZ[i] == rays.dirZ[parent];
+    const bool goesOn = children.dir.at(i) == rays.dir.at(parent);
     children.straight[i] = goesOn && c.isStraight(parent) ? 1 : 0;
   }
 }
@@ -307,18 +302,14 @@ void returnAlpha(Chunk& c) {
   const RadianceColumns &from = c.radiance, &to = c.parentRadiance;
   for (std::size_t i = 0; i < c.n; ++i) {
     const std::uint32_t parent = c.rays.parent[i];
-    to.clearR[parent] += c.rays.weightR[i] * from.clearR[i];
-    to.clearG[parent] += c.rays.weightG[i] * from.clearG[i];
-    to.clearB[parent] += c.rays.weightB[i] * from.clearB[i];
+    to.clear.set(parent, to.clear.at(parent) + c.rays.weight.at(i) * from.clear.at(i));
   }
 }
 
 void keepAlpha(Chunk& c) {
   if (!c.frame->channels.layers) return;
   addToMean(c, Channel::alpha, [&](std::size_t slot) {
-    const float r = c.rays.weightR[slot] * c.radiance.clearR[slot],
-                g = c.rays.weightG[slot] * c.radiance.clearG[slot],
-                b = c.rays.weightB[slot] * c.radiance.clearB[slot];
+    const auto [r, g, b] = c.rays.weight.at(slot) * c.radiance.clear.at(slot);
     // Grays keep their bits.
     return 1 - (r + ((g - r) + (b - r)) / 3);
   });

@@ -294,10 +294,7 @@ bool TileTracer::traceSamples(const Frame& frame, const Watch& watch) {
   leaveSums(frame);
   const RadianceColumns& radiance = chunk_.radiance;
   for (std::size_t i = 0; i < n; ++i) {
-    const Rgb mean(sums_[i].total / static_cast<double>(frame.endSample));
-    radiance.r[i] = mean.x;
-    radiance.g[i] = mean.y;
-    radiance.b[i] = mean.z;
+    radiance.rgb.set(i, Rgb(sums_[i].total / static_cast<double>(frame.endSample)));
   }
 
   return true;
@@ -307,14 +304,15 @@ void TileTracer::addSample(const Frame& frame) {
   const RadianceColumns& radiance = chunk_.radiance;
   const std::size_t n = chunk_.pixels.size();
   for (std::size_t i = 0; i < n; ++i) {
-    sums_[i].total += RgbD(Rgb{radiance.r[i], radiance.g[i], radiance.b[i]});
+    sums_[i].total += RgbD(radiance.rgb.at(i));
   }
 
   // The squares give the standard error; only the channel `error` and pictures that gain samples
   // over time use them.
   if (!frame.sums && !keepsErrors(frame)) return;
   for (std::size_t i = 0; i < n; ++i) {
-    const double mean = (double{radiance.r[i]} + double{radiance.g[i]} + double{radiance.b[i]}) / 3;
+    const auto [r, g, b] = RgbD(radiance.rgb.at(i));
+    const double mean = (r + g + b) / 3;
     sums_[i].squares += mean * mean;
   }
 }
