@@ -8,6 +8,7 @@
 
 #include "bake/facet.h"
 #include "bake/sphere.h"
+#include "core/index.h"
 
 namespace whit {
 
@@ -190,13 +191,11 @@ int ExactIntersector::hitSphere(const QueryRay& ray, PlacedTriangleId id,
 bool ExactIntersector::areCoincident(PlacedTriangleId a, PlacedTriangleId b) const {
   if (scene_.isSphere(a.triangle)) {
     const auto place = scene_.coincidentSpheres.find(orderOf(a));
-    return place != scene_.coincidentSpheres.end() &&
-           std::ranges::find(*place->second, b) != place->second->end();
+    return place != scene_.coincidentSpheres.end() && contains(*place->second, b);
   }
 
   if (!scene_.coplanar.any(a.triangle)) return false;
-  const auto partners = scene_.coplanar.partnersOf(a);
-  return std::ranges::find(partners, b) != partners.end();
+  return contains(scene_.coplanar.partnersOf(a), b);
 }
 
 // Applies the rule of surfaces/choose_surface.h, which prefers `a` to `b` if this returns true.

@@ -7,6 +7,7 @@
 #include "bake/bake_triangles.h"
 #include "bake/finalize_steps.h"
 #include "bake/sphere.h"
+#include "core/index.h"
 
 namespace whit {
 
@@ -309,7 +310,7 @@ class Baker {
       }
       if (kept.empty()) kept.push_back(triangle(order[n - 1].second));
       const PlacedTriangle own = triangle(k);
-      if (std::ranges::find(kept, own) != kept.end()) {
+      if (contains(kept, own)) {
         again.push_back(k);
       } else {
         kept.push_back(own);

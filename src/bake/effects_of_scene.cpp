@@ -3,6 +3,7 @@
 
 #include "bake/bake_triangles.h"
 #include "bake/finalize_steps.h"
+#include "core/text.h"
 
 namespace whit {
 
@@ -10,10 +11,6 @@ namespace {
 
 // Normals closer to the face's than this are its own, written down with five digits or more.
 constexpr double kFlat = 1e-5;
-
-std::string counted(std::uint64_t n, const std::string& noun) {
-  return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
-}
 
 bool isSkyBlack(const Sky& sky) {
   const auto bright = [](float x) { return x > 0; };

@@ -91,8 +91,7 @@ class TreeText {
   std::string text() {
     for (const std::size_t primary : e_.rays.packets.primaries) appendNode(primary);
     if (leftOut_ > 0) {
-      text_ += formatted("%zu more ray%s, adding %s\n", leftOut_, leftOut_ == 1 ? "" : "s",
-                         textOf(restAdds_).c_str());
+      text_ += counted(leftOut_, "more ray") + ", adding " + textOf(restAdds_) + "\n";
     }
     return std::move(text_);
   }
@@ -135,16 +134,12 @@ std::string headOf(const Explained& e) {
     return formatted("  %-11s%.6f %.6f %.6f  codes %d %d %d\n", name, double{pixel.x},
                      double{pixel.y}, double{pixel.z}, codes[0], codes[1], codes[2]);
   };
-  const auto counted = [](std::size_t n, const char* noun) {
-    return std::to_string(n) + noun + (n == 1 ? "" : "s");
-  };
-
   const std::size_t rays = e.rays.packets.nodes.size();
   bool parts = false;
   for (std::size_t i = 0; i < rays; ++i) parts |= e.rays.partsAt(i);
 
   return formatted("%s, pixel %d,%d: ", printable(e.scene.name).c_str(), e.place.x, e.place.y) +
-         counted(rays, " ray") + " and " + counted(e.rays.packets.shadowRays(), " shadow ray") +
+         counted(rays, "ray") + " and " + counted(e.rays.packets.shadowRays(), "shadow ray") +
          "\n" + line("packets", e.rays.packets.pixel) + line("reference", e.rays.reference.pixel) +
          (parts ? "  their paths part\n" : "") + "\n";
 }

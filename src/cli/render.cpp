@@ -17,6 +17,7 @@
 #include "command_line/program.h"
 #include "command_line/progress_bar.h"
 #include "core/error.h"
+#include "core/index.h"
 #include "core/options.h"
 #include "core/stopwatch.h"
 #include "core/text.h"
@@ -64,9 +65,7 @@ struct RenderJob {
   std::optional<Turntable> turntable;                  // once the scene is open
   int turntableFrames = 96;                            // of all turns together
 
-  bool toStandardOutput() const {
-    return std::ranges::find(outputs, kStandardOutput) != outputs.end();
-  }
+  bool toStandardOutput() const { return contains(outputs, kStandardOutput); }
   bool makesFilm() const { return std::ranges::any_of(outputs, isFilm); }
 };
 
@@ -521,8 +520,7 @@ std::string commandWithout(const std::vector<std::string>& options, const Words&
   std::string command = "whit render";
   bool isValue = false;
   for (const std::string& word : words) {
-    const bool isLeftOut =
-        std::ranges::find(options, word.substr(0, word.find('='))) != options.end();
+    const bool isLeftOut = contains(options, word.substr(0, word.find('=')));
     if (!isLeftOut && !isValue) command += " " + printable(quoted(word));
 
     // The word behind an option without '=' is its value.

@@ -237,10 +237,9 @@ std::string manOptions(const std::string& usage, const std::string& summary,
   for (const auto& [title, terms] : groupsOf(list, std::not_fn(isShared))) text += termsText(terms);
 
   // Shared options are described once, after all commands, so a command only refers to them.
-  std::string shared;
-  for (const auto& [title, terms] : groupsOf(list, isShared)) {
-    shared += (shared.empty() ? "" : ", ") + title;
-  }
+  std::vector<std::string> titles;
+  for (const auto& [title, terms] : groupsOf(list, isShared)) titles.push_back(title);
+  const std::string shared = joined(titles);
   return shared.empty() ? text : text + ".PP\nAlso the options described below: " + shared + ".\n";
 }
 

@@ -1,13 +1,21 @@
-// Indices of type int and enumerators, which are not negative, as places in tables and grids.
+// Indices of type int and enumerators, which are not negative, as places in tables and grids; and
+// whether a table has a value.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <ranges>
 
 namespace whit {
 
 template <typename Table, typename Index>
 constexpr decltype(auto) entryOf(Table& table, Index index) {
   return table[static_cast<std::size_t>(index)];
+}
+
+template <typename Table, typename Value>
+constexpr bool contains(const Table& table, const Value& value) {
+  return std::ranges::find(table, value) != std::ranges::end(table);
 }
 
 // Cells of a grid that is kept row by row.

@@ -15,6 +15,7 @@
 
 #include "core/error.h"
 #include "core/options.h"
+#include "core/text.h"
 
 namespace whit {
 
@@ -175,9 +176,7 @@ std::string formatValue(const OptionSpec& spec, const T& v) {
   } else if constexpr (std::is_same_v<T, std::string>) {
     return v;
   } else if constexpr (std::is_same_v<T, EffectSet>) {
-    std::string text;
-    for (const std::string& name : effectNames(v)) text += (text.empty() ? "" : ",") + name;
-    return text;
+    return joined(effectNames(v), ",");
   } else {
     return namesOf(v);
   }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/index.h"
 
 namespace whit {
 
@@ -119,7 +120,7 @@ std::string nearestName(const std::string& word, const std::vector<std::string>&
   // A known synonym of another program is a better guess than any similar name.
   for (const auto& [theirs, ours] : kSynonyms) {
     std::string name = (dashes > 0 ? "--" : "") + std::string(ours);
-    const bool isKnown = std::ranges::find(names, name) != names.end();
+    const bool isKnown = contains(names, name);
     if (isKnown && word.compare(dashes, std::string::npos, theirs) == 0) return name;
   }
 
@@ -151,9 +152,17 @@ std::string didYouMean(const std::string& word, const std::vector<std::string>& 
   if (!nearest.empty()) return "; did you mean '" + nearest + "'?";
   if (kind.empty() || names.empty()) return "";
 
+  return "; every " + kind + " there is: " + joined(names);
+}
+
+std::string joined(const std::vector<std::string>& names, const std::string& separator) {
   std::string all;
-  for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
-  return "; every " + kind + " there is: " + all;
+  for (const std::string& name : names) all += (all.empty() ? "" : separator) + name;
+  return all;
+}
+
+std::string counted(std::uint64_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
 std::vector<std::size_t> indicesOf(const std::string& commaSeparated,

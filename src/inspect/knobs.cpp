@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "core/index.h"
 #include "core/option_table.h"
 #include "core/text.h"
 
@@ -90,7 +91,7 @@ Knob knobOf(const KnobSpec& spec) {
   Knob knob{name, spec.cause, {}, spec, exact};
 
   for (const std::string& label : labels(spec.values)) {
-    KnobValue value{name, label, std::ranges::count(minor, label) > 0, false, {}};
+    KnobValue value{name, label, contains(minor, label), false, {}};
     value.endless = label == exact && spec.endless;
     if (label != exact) value.prerequisites = wordsOf(spec.prerequisites);
     knob.values.push_back(std::move(value));
@@ -138,7 +139,7 @@ std::vector<Knob> chooseKnobs(const std::vector<std::string>& names) {
 
   std::vector<Knob> chosen;
   for (const Knob& knob : allKnobs()) {
-    if (std::ranges::find(names, knob.name) != names.end()) chosen.push_back(knob);
+    if (contains(names, knob.name)) chosen.push_back(knob);
   }
 
   for (const std::string& name : names) {

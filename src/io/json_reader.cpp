@@ -5,6 +5,7 @@
 #include <unordered_set>
 
 #include "core/error.h"
+#include "core/index.h"
 #include "core/text.h"
 #include "io/files.h"
 
@@ -218,11 +219,10 @@ std::string JsonValue::text() const {
 std::string JsonValue::word(const std::vector<std::string>& choices) const {
   if (isText()) {
     std::string chosen = text();
-    if (std::ranges::find(choices, chosen) != choices.end()) return chosen;
+    if (contains(choices, chosen)) return chosen;
   }
 
-  std::string list;
-  for (const std::string& choice : choices) list += (list.empty() ? "" : ", ") + inQuotes(choice);
+  const std::string list = inQuotes(joined(choices, "\", \""));
   fail("one of " + list + (isText() ? isMeant(text(), choices) : ""));
 }
 
@@ -336,7 +336,7 @@ JsonObject::JsonObject(const JsonValue& value) : value_(value) {
 }
 
 JsonValue JsonObject::find(const std::string& key) {
-  if (std::ranges::find(known_, key) == known_.end()) known_.push_back(key);
+  if (!contains(known_, key)) known_.push_back(key);
   return value_[key];
 }
 
@@ -346,7 +346,7 @@ JsonValue JsonObject::need(const std::string& key) {
   // The error suggests a similar key among those that have not been read.
   std::vector<std::string> others;
   for (const auto& [name, member] : value_.members()) {
-    if (std::ranges::find(known_, name) == known_.end()) others.push_back(name);
+    if (!contains(known_, name)) others.push_back(name);
   }
 
   const std::string meant = nearestName(key, others);
@@ -362,7 +362,7 @@ float JsonObject::number(const std::string& key, double fallback, double low, do
 
 void JsonObject::finish() const {
   for (const auto& [key, value] : value_.members()) {
-    if (std::ranges::find(known_, key) != known_.end()) continue;
+    if (contains(known_, key)) continue;
     throwBadScene(value.where(), "unknown key" + isMeant(key, known_));
   }
 }

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "core/error.h"
+#include "core/index.h"
 #include "core/text.h"
 #include "io/files.h"
 #include "io/scene/scene_sections.h"
@@ -254,8 +255,7 @@ void requireMovable(const std::string& pointer, const SceneDescription& scene) {
 // The instant that was asked for is one of something that moves.
 void settleInstant(const Instant& instant, SceneDescription& scene) {
   const std::vector<std::string> names = namesIn(scene.animations);
-  const bool known = std::ranges::find(names, instant.animation) != names.end();
-  if (!instant.animation.empty() && !known) {
+  if (!instant.animation.empty() && !contains(names, instant.animation)) {
     throwUsage(scene.name + " has no animation '" + instant.animation + "'" +
                didYouMean(instant.animation, names));
   }

@@ -83,10 +83,6 @@ double mraysPerSecond(std::uint64_t rays, double ms) {
 }
 
 std::string surfacesText(std::uint64_t triangles, std::uint64_t spheres) {
-  const auto counted = [](std::uint64_t count, const char* what) {
-    return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-  };
-
   if (spheres == 0) return counted(triangles, "triangle");
   if (triangles == 0) return counted(spheres, "sphere");
   return counted(triangles, "triangle") + ", " + counted(spheres, "sphere");
@@ -101,9 +97,9 @@ namespace {
 void appendSettings(std::string& text, const RunSummary& run) {
   const bool packets = run.options.mode == Mode::packets;
   const std::string name = run.name.empty() ? "" : ", " + run.name;
-  text += formatted("%s%s  %dx%d  %s  %d thread%s  ", run.scene.c_str(), name.c_str(), run.width,
-                    run.height, surfacesText(run.triangles, run.spheres).c_str(),
-                    run.machine.threads, run.machine.threads == 1 ? "" : "s");
+  text += formatted("%s%s  %dx%d  %s  %s  ", run.scene.c_str(), name.c_str(), run.width, run.height,
+                    surfacesText(run.triangles, run.spheres).c_str(),
+                    counted(static_cast<std::uint64_t>(run.machine.threads), "thread").c_str());
   if (packets) {
     text +=
         formatted("packets of %d, %s, %s at a time\n", run.machine.packet, run.machine.simd.c_str(),

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "accel/accel.h"
+#include "core/index.h"
 #include "render/steps.h"
 #include "simd/kernels.h"
 #include "stages/lobes.h"
@@ -396,7 +397,7 @@ void requireOrder(const Plan& plan) {
 std::vector<Stage> Plan::stages() const {
   std::vector<Stage> list;
   forEachStep([&](const Step& step) {
-    if (std::ranges::find(list, step.stage) == list.end()) list.push_back(step.stage);
+    if (!contains(list, step.stage)) list.push_back(step.stage);
   });
   return list;
 }
@@ -411,7 +412,7 @@ std::vector<KernelUse> kernelsOf(const Plan& plan) {
   std::vector<KernelUse> uses;
   plan.forEachStep([&](const Step& step) {
     for (const KernelUse& use : step.kernels) {
-      if (std::ranges::find(uses, use) == uses.end()) uses.push_back(use);
+      if (!contains(uses, use)) uses.push_back(use);
     }
   });
   // Lights begin with different kernels of the same stage.

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/index.h"
 #include "surfaces/passed_surfaces.h"
 
 namespace whit {
@@ -19,7 +20,7 @@ int cornersBetween(const Corners& a, const Corners& b, const TriangleHit& hit) {
   const double weights[] = {1 - hit.u - hit.v, hit.u, hit.v};
   int shared = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const bool isShared = std::ranges::find(b, a[i]) != b.end();
+    const bool isShared = contains(b, a[i]);
     if (!isShared && weights[i] > kRounding) return 0;
     shared += isShared;
   }

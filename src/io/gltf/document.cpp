@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/index.h"
 
 namespace whit {
 
@@ -191,9 +192,7 @@ GltfDocument::GltfDocument(const std::filesystem::path& path, const std::string&
   readImages(path.parent_path(), rules);
 }
 
-bool GltfDocument::reads(const std::string& extension) {
-  return std::ranges::count(kSupported, extension) > 0;
-}
+bool GltfDocument::reads(const std::string& extension) { return contains(kSupported, extension); }
 
 Bytes GltfDocument::range(const JsonValue& source) const {
   const JsonValue buffers = list("buffers");

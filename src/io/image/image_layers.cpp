@@ -11,6 +11,7 @@
 
 #include "core/display.h"
 #include "core/error.h"
+#include "core/index.h"
 #include "core/text.h"
 #include "io/files.h"
 
@@ -220,9 +221,7 @@ ImageMetadata describeChannels(const Scene& scene, ChannelSet channels) {
   if (channels.has(Channel::object)) said.emplace_back("objects", manifest(scene.items.names));
 
   if (channels.has(Channel::material)) {
-    std::vector<std::string> names;
-    for (const Material& material : scene.materials) names.push_back(material.name);
-    said.emplace_back("materials", manifest(names));
+    said.emplace_back("materials", manifest(namesIn(scene.materials)));
   }
 
   return said;
@@ -268,7 +267,7 @@ MergedImage mergeImages(const std::vector<std::string>& paths, const ImageLimits
     const ImageMetadata said = readExrMetadata(path);
     if (std::exchange(isFirstExr, false)) merged.metadata = said;
     std::erase_if(merged.metadata, [&](const auto& entry) {
-      return entry.first == "crop" || std::ranges::find(said, entry) == said.end();
+      return entry.first == "crop" || !contains(said, entry);
     });
   }
 

@@ -10,6 +10,7 @@
 #include <cstdlib>
 
 #include "core/error.h"
+#include "core/index.h"
 #include "io/image/image_decoders.h"
 #include "io/image/image_file.h"
 
@@ -127,7 +128,7 @@ class JpegReader {
     constexpr int kDamage[] = {JWRN_JPEG_EOF, JWRN_HIT_MARKER, JWRN_HUFF_BAD_CODE,
                                JWRN_MUST_RESYNC};
     const int code = common->err->msg_code;
-    if (level < 0 && std::ranges::count(kDamage, code) > 0) JpegErrors::leave(common);
+    if (level < 0 && contains(kDamage, code)) JpegErrors::leave(common);
   }
 
   const std::string& path_;

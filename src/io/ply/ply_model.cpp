@@ -18,6 +18,7 @@
 
 #include "core/display.h"
 #include "core/error.h"
+#include "core/index.h"
 #include "io/files.h"
 #include "io/line_reader.h"
 #include "io/model.h"
@@ -89,8 +90,7 @@ constexpr std::array<std::string_view, 3> kComponentNames[kComponents] = {
 // kComponents where the property is none of them.
 Component componentOf(const PlyProperty& property) {
   int component = property.countType ? int{kComponents} : 0;
-  while (component < kComponents &&
-         std::ranges::count(kComponentNames[component], property.name) == 0) {
+  while (component < kComponents && !contains(kComponentNames[component], property.name)) {
     ++component;
   }
   return static_cast<Component>(component);

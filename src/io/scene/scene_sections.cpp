@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/error.h"
+#include "core/index.h"
 #include "core/option_table.h"
 #include "make/model_view.h"
 
@@ -232,7 +233,7 @@ void readOptions(JsonObject& file, SceneDescription& scene) {
   const std::vector<std::string> names = sceneOptionNames();
   RenderOptions checked;
   for (const auto& [name, value] : file.find("options").members()) {
-    if (std::ranges::find(names, name) == names.end()) {
+    if (!contains(names, name)) {
       throwBadScene(value.where(), "expected an option of the picture" + isMeant(name, names) +
                                        ", found \"" + excerpt(name) + "\"");
     }

@@ -187,11 +187,8 @@ class JsonShapeParameters : public ShapeParameters {
 template <typename Made>
 Made generate(const JsonValue& name, const std::map<std::string, Made (*)(ShapeParameters&)>& all,
               JsonObject& object) {
-  std::vector<std::string> names;
-  names.reserve(all.size());
-  for (const auto& [known, generator] : all) names.push_back(known);
   JsonShapeParameters parameters(object);
-  return all.at(name.word(names))(parameters);
+  return all.at(name.word(keysOf(all)))(parameters);
 }
 
 // Values and sections as they are written; reading them gives the same bits.

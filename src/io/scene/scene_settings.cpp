@@ -11,6 +11,7 @@
 #include "bake/finalize_steps.h"
 #include "bake/scene.h"
 #include "core/error.h"
+#include "core/index.h"
 #include "io/load_scene.h"
 #include "io/scene/scene_sections.h"
 #include "make/model_view.h"
@@ -171,7 +172,7 @@ SceneSetting parseSceneSetting(const std::string& text) {
 void addSceneSetting(const std::string& text, std::vector<std::string>& settings) {
   const std::vector<std::string> tokens = parseSceneSetting(text).tokens;
   const std::string section = "/" + escapePointer(tokens.front());
-  const bool appends = std::ranges::find(tokens, "-") != tokens.end();
+  const bool appends = contains(tokens, "-");
   for (std::size_t i = settings.size(); i-- > 0 && !appends;) {
     if (!settings[i].starts_with(section)) continue;
     const std::vector<std::string> other = parseSceneSetting(settings[i]).tokens;
