@@ -8,6 +8,7 @@
 #include "bake/finalize_steps.h"
 #include "bake/sphere.h"
 #include "core/index.h"
+#include "core/text.h"
 
 namespace whit {
 
@@ -323,7 +324,7 @@ class Baker {
       Source& source = sources_[g][s];
       source.classified.drop(i);
       warnings_.add("triangle in the place of another of its material dropped",
-                    "mesh '" + source.mesh->name + "', triangle " + std::to_string(i));
+                    concat("mesh '", source.mesh->name, "', triangle ", i));
     }
   }
 

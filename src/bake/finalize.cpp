@@ -40,7 +40,7 @@ std::uint64_t bytesOf(const Vector& v) {
 
 std::string place(const std::string& scene, const std::string& kind, std::size_t i,
                   const std::string& name) {
-  const std::string thing = kind + (name.empty() ? " " + std::to_string(i) : " '" + name + "'");
+  const std::string thing = kind + (name.empty() ? concat(" ", i) : " '" + name + "'");
   return scene.empty() ? thing : scene + ": " + thing;
 }
 
@@ -104,7 +104,7 @@ void addInstance(const Scene& scene, const InstanceRecord& instance, const std::
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3d world = instance.toWorld.point(Vec3d(own.corner(corner)));
     if (!(maxComponent(abs(world)) <= kLargestCoordinate)) {
-      throwBadScene(scene.name + ": instance of geometry " + std::to_string(instance.geometry),
+      throwBadScene(concat(scene.name, ": instance of geometry ", instance.geometry),
                     "expected coordinates up to 1.844e18 after its transform");
     }
     all.add(Vec3f(world));

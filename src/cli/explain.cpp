@@ -67,8 +67,8 @@ PixelPlace readPixel(const std::string& text, const Image& image) {
   const bool inside =
       place.x >= 0 && place.y >= 0 && place.x < image.width && place.y < image.height;
   if (!inside) {
-    throwUsage("--pixel " + text + " is not in the picture of " + std::to_string(image.width) +
-               "x" + std::to_string(image.height));
+    throwUsage(
+        concat("--pixel ", text, " is not in the picture of ", image.width, "x", image.height));
   }
   return place;
 }

@@ -494,9 +494,9 @@ void tell(const ImageWriter& writer, const RenderJob& job) {
 void tellWritten(const ImageWriter& writer, const RenderJob& job, double seconds) {
   const std::vector<std::string>& files = writer.written();
   const RunSummary& run = writer.run();
-  std::string what = std::to_string(files.size()) + " images";
+  std::string what = concat(files.size(), " images");
   if (files.size() == 1) what = files[0] == kStandardOutput ? "an image" : printable(files[0]);
-  if (writer.kept() > 0) what += ", kept " + std::to_string(writer.kept());
+  if (writer.kept() > 0) what += concat(", kept ", writer.kept());
   if (!run.frames.empty()) what += formatted(", %dx%d", run.width, run.height);
   if (job.common.render.exposure.automatic) {
     what += formatted(", exposure %g EV", static_cast<double>(writer.exposure().ev));
@@ -585,7 +585,7 @@ int turntableCommand(const Words& words) {
   applyQuality(job.common.render, {});  // --help states the values of the preset
   if (!parseOptions(kTurntableUsage, kTurntableSummary, listOptions(job), words)) return 0;
 
-  if (job.frames.empty()) job.frames = "0.." + std::to_string(job.turntableFrames - 1);
+  if (job.frames.empty()) job.frames = concat("0..", job.turntableFrames - 1);
   return render(job);
 }
 

@@ -125,8 +125,7 @@ void parseValue(const OptionSpec& spec, const std::string& text, T& value) {
   } else if constexpr (std::is_same_v<T, ImageSize>) {
     expect(readAll('x', v.width, v.height) && std::min(v.width, v.height) >= 1 &&
                std::max(v.width, v.height) <= kImageSideLimit,
-           "WIDTHxHEIGHT in pixels, each from 1 to " + std::to_string(kImageSideLimit) +
-               ", as 1280x720");
+           concat("WIDTHxHEIGHT in pixels, each from 1 to ", kImageSideLimit, ", as 1280x720"));
   } else if constexpr (std::is_same_v<T, Crop>) {
     expect(readAll(',', v.x0, v.y0, v.x1, v.y1) && std::min(v.x0, v.y0) >= 0 && v.x0 < v.x1 &&
                v.y0 < v.y1 && std::max(v.x1, v.y1) <= kImageSideLimit,

@@ -9,6 +9,8 @@
 #include <iterator>
 #include <sstream>
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace whit {
@@ -27,6 +29,19 @@ __attribute__((format(printf, 1, 2))) inline std::string formatted(const char* f
   std::vsnprintf(text.data(), text.size(), format, again);
   va_end(again);
   text.pop_back();
+  return text;
+}
+
+inline void append(std::string& text, std::string_view part) { text += part; }
+template <typename Number>
+requires std::is_arithmetic_v<Number>
+void append(std::string& text, Number number) { text += std::to_string(number); }
+
+// The parts, texts and numbers, one after the other.
+template <typename... Parts>
+std::string concat(const Parts&... parts) {
+  std::string text;
+  (append(text, parts), ...);
   return text;
 }
 

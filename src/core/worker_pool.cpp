@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/flush_denormals.h"
+#include "core/text.h"
 
 namespace whit {
 
@@ -41,7 +42,7 @@ void WorkerPool::startWorkers() {
     for (int i = 1; i < workers_; ++i) threads.emplace_back([this, i] { work(i); });
   } catch (const std::system_error& error) {
     undo();
-    throwLimit("cannot start " + std::to_string(workers_) + " threads: " + error.what());
+    throwLimit(concat("cannot start ", workers_, " threads: ", error.what()));
   } catch (...) {
     undo();
     throw;

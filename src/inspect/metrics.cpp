@@ -8,6 +8,7 @@
 
 #include "core/display.h"
 #include "core/error.h"
+#include "core/text.h"
 
 namespace whit {
 
@@ -88,9 +89,8 @@ void measureCodes(const DisplayImage& a, const DisplayImage& b, ImageDifference&
 
 std::string describe(const Image& image) {
   const Crop& w = image.window;
-  return std::to_string(image.width) + "x" + std::to_string(image.height) + " with pixels " +
-         std::to_string(w.x0) + "," + std::to_string(w.y0) + "," + std::to_string(w.x1) + "," +
-         std::to_string(w.y1);
+  return concat(image.width, "x", image.height, " with pixels ", w.x0, ",", w.y0, ",", w.x1, ",",
+                w.y1);
 }
 
 void checkComparable(const Image& a, const Image& b) {

@@ -21,6 +21,7 @@
 #include <memory>
 
 #include "core/error.h"
+#include "core/text.h"
 
 namespace whit {
 namespace {
@@ -130,7 +131,7 @@ std::string failureOfChild(int status) {
   const int number = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   if (number == SIGSYS) return "it called the system";
   if (number == SIGALRM) return "it took too long";
-  return "it crashed (signal " + std::to_string(number) + ")";
+  return concat("it crashed (signal ", number, ")");
 }
 
 }  // namespace

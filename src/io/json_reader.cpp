@@ -38,7 +38,7 @@ class Watcher {
   bool operator()(Event event, const Json& parsed) {
     if (event == Event::object_start || event == Event::array_start) {
       if (levels_.size() >= kJsonDepthLimit) {
-        fail("nested deeper than " + std::to_string(kJsonDepthLimit) + " levels");
+        fail(concat("nested deeper than ", kJsonDepthLimit, " levels"));
       }
       levels_.emplace_back();
     } else if (event == Event::key) {
@@ -46,7 +46,7 @@ class Watcher {
       level.key = parsed.get<std::string>();
       if (!level.keys.insert(level.key).second) fail("this key is given twice");
       if (level.keys.size() > kJsonMembersLimit) {
-        fail("more than " + std::to_string(kJsonMembersLimit) + " members");
+        fail(concat("more than ", kJsonMembersLimit, " members"));
       }
     } else {
       // The end of an object or a list completes a value of the level above.
@@ -84,7 +84,7 @@ std::string placeOfByte(const std::string& text, const std::string& file, std::s
   const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n');
   const std::size_t lineStart = end == 0 ? std::string::npos : text.rfind('\n', end - 1);
   const std::size_t column = lineStart == std::string::npos ? end + 1 : end - lineStart;
-  return file + ":" + std::to_string(line + 1) + ":" + std::to_string(column);
+  return concat(file, ":", line + 1, ":", column);
 }
 
 // Removes the library's own "[json.exception...] parse error at line ...: ", and the middle of a
@@ -142,8 +142,7 @@ void JsonValue::fail(const std::string& expected, std::string found) const {
 std::string JsonValue::found() const {
   if (!exists()) return "nothing";
   if (isObject() || isArray()) {
-    return std::string(isObject() ? "an object" : "a list") + " of " +
-           std::to_string(value_->size());
+    return concat(std::string(isObject() ? "an object" : "a list"), " of ", value_->size());
   }
   return excerpt(value_->dump(-1, ' ', false, Json::error_handler_t::replace));
 }
@@ -196,8 +195,7 @@ double JsonValue::number(double low, double high) const {
 
 int JsonValue::integer(int low, int high) const {
   const std::string expected =
-      low == high ? std::to_string(low)
-                  : "a whole number from " + std::to_string(low) + " to " + std::to_string(high);
+      low == high ? std::to_string(low) : concat("a whole number from ", low, " to ", high);
 
   if (!isNumber()) fail(expected);
   double value = number();
@@ -302,7 +300,7 @@ std::optional<std::uint64_t> JsonValue::whole() const {
 std::uint64_t JsonValue::wholeOr(std::uint64_t fallback, std::uint64_t limit) const {
   if (!exists()) return fallback;
   const std::optional<std::uint64_t> number = whole();
-  if (!number || *number > limit) fail("a whole number from 0 to " + std::to_string(limit));
+  if (!number || *number > limit) fail(concat("a whole number from 0 to ", limit));
   return *number;
 }
 
@@ -314,7 +312,7 @@ std::vector<double> JsonValue::numbers() const {
 
 std::vector<double> JsonValue::numbers(std::size_t count) const {
   if (!exists()) return {};
-  if (!isArray() || size() != count) fail(std::to_string(count) + " numbers");
+  if (!isArray() || size() != count) fail(concat(count, " numbers"));
   return numbers();
 }
 
@@ -327,7 +325,7 @@ std::optional<std::size_t> JsonValue::indexInto(const JsonValue& list) const {
   if (size == 0) fail(expected + ", which has no elements");
 
   const std::optional<std::uint64_t> number = whole();
-  if (!number || *number >= size) fail(expected + ", from 0 to " + std::to_string(size - 1));
+  if (!number || *number >= size) fail(concat(expected, ", from 0 to ", size - 1));
   return static_cast<std::size_t>(*number);
 }
 

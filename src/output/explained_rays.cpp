@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "core/text.h"
 #include "reference/media.h"
 
 namespace whit {
@@ -11,7 +12,7 @@ namespace {
 
 std::string nameOf(const std::string& name, const char* kind, std::size_t number) {
   if (!name.empty()) return printable(name);
-  return kind + (" " + std::to_string(number));
+  return concat(kind, " ", number);
 }
 
 std::string metText(const Scene& scene, const RayNode& node) {
@@ -70,7 +71,7 @@ std::string mediumName(const Scene& scene, std::uint32_t media) {
   for (std::uint32_t m = 0; m < scene.materials.size(); ++m) {
     if (scene.mediumOfMaterial[m] == medium) return materialName(scene, m);
   }
-  return "medium " + std::to_string(medium);
+  return concat("medium ", medium);
 }
 
 const char* nameOf(PathEnd end) {

@@ -1,14 +1,14 @@
 #include "render/frame_stats.h"
 
 #include "core/error.h"
+#include "core/text.h"
 
 namespace whit {
 
 void refuseNonFinite(const Scene& scene, const RenderOptions& options, const FrameStats& frame) {
   if (!options.strict || frame.nonFinitePixels == 0) return;
-  throw Error(ExitStatus::badScene, scene.name + ": the image has " +
-                                        std::to_string(frame.nonFinitePixels) +
-                                        " pixels that are not finite (refused by --strict)");
+  throw Error(ExitStatus::badScene, concat(scene.name, ": the image has ", frame.nonFinitePixels,
+                                           " pixels that are not finite (refused by --strict)"));
 }
 
 void FrameStats::add(const FrameStats& worker) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "io/confined.h"
 #include "io/gltf/document.h"
 
@@ -189,7 +190,7 @@ std::string decodeView(const GltfDocument& document, const JsonValue& view,
     source["byteStride"].fail("a size of elements that mode and filter have");
   }
   if (view.need("byteLength").wholeOr(0) != count * stride) {
-    view["byteLength"].fail("the " + std::to_string(count * stride) + " bytes that are compressed");
+    view["byteLength"].fail(concat("the ", count * stride, " bytes that are compressed"));
   }
   if (mode == "TRIANGLES" && count % 3 != 0) source["count"].fail("a multiple of 3");
 

@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/index.h"
+#include "core/text.h"
 
 namespace whit {
 
@@ -82,8 +83,7 @@ std::uint32_t wordAt(std::string_view bytes, std::size_t offset) {
 std::string_view splitBinary(std::string_view bytes, const std::string& file,
                              std::optional<std::string>& binary) {
   const auto fail = [&](std::size_t at, const std::string& expected, std::uint64_t found) {
-    throwBadScene(file + ": byte " + std::to_string(at),
-                  "expected " + expected + ", found " + std::to_string(found));
+    throwBadScene(concat(file, ": byte ", at), concat("expected ", expected, ", found ", found));
   };
 
   // The header consists of a magic word, the version and the length of the file.
@@ -91,7 +91,7 @@ std::string_view splitBinary(std::string_view bytes, const std::string& file,
   const std::uint32_t version = wordAt(bytes, 4), length = wordAt(bytes, 8);
   if (version != 2) fail(4, "glTF 2", version);
   if (length < kHeaderBytes || length > bytes.size()) {
-    fail(8, "a length up to the file's " + std::to_string(bytes.size()) + " bytes", length);
+    fail(8, concat("a length up to the file's ", bytes.size(), " bytes"), length);
   }
 
   // Chunks follow, the first of which holds the JSON text.
@@ -101,7 +101,7 @@ std::string_view splitBinary(std::string_view bytes, const std::string& file,
     if (length - at < kChunkHeaderBytes) fail(at, "8 bytes of a chunk's header", length - at);
     const std::uint32_t size = wordAt(bytes, at), type = wordAt(bytes, at + 4);
     const std::size_t left = length - at - kChunkHeaderBytes;
-    if (size > left) fail(at, "a chunk of " + std::to_string(size) + " bytes", left);
+    if (size > left) fail(at, concat("a chunk of ", size, " bytes"), left);
 
     const std::string_view chunk = bytes.substr(at + kChunkHeaderBytes, size);
     if (at == kHeaderBytes) {
@@ -203,8 +203,8 @@ Bytes GltfDocument::range(const JsonValue& source) const {
   const std::uint64_t size = buffer->size(), offset = source["byteOffset"].wholeOr(0);
   const std::uint64_t length = source.need("byteLength").wholeOr(0);
   if (offset > size || length > size - offset) {
-    source.fail("a range within the buffer's " + std::to_string(size) + " bytes",
-                std::to_string(length) + " from byte " + std::to_string(offset));
+    source.fail(concat("a range within the buffer's ", size, " bytes"),
+                concat(length, " from byte ", offset));
   }
   return asBytes(*buffer).subspan(offset, length);
 }
@@ -273,8 +273,7 @@ void GltfDocument::readBuffers(const std::filesystem::path& folder, const PathRu
     }
 
     if (bytes && bytes->size() < length) {
-      buffer["byteLength"].fail(std::to_string(length) + " bytes of data",
-                                std::to_string(bytes->size()));
+      buffer["byteLength"].fail(concat(length, " bytes of data"), std::to_string(bytes->size()));
     }
   }
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "io/gltf/material.h"
 #include "io/gltf/nodes.h"
 #include "io/model.h"
@@ -22,7 +23,7 @@ namespace {
 
 void checkLength(std::size_t found, std::size_t expected, const JsonValue& attribute) {
   if (found == expected) return;
-  attribute.fail("as many as positions, " + std::to_string(expected), std::to_string(found));
+  attribute.fail(concat("as many as positions, ", expected), std::to_string(found));
 }
 
 // Empty where there is no such attribute, or nothing that it belongs to.
@@ -53,8 +54,8 @@ void readSkin(const GltfDocument& document, const JsonValue& primitive, Deformat
 
   std::vector<std::vector<float>> joints, weights;
   for (int set = 0;; ++set) {
-    const JsonValue j = attributes["JOINTS_" + std::to_string(set)];
-    const JsonValue w = attributes["WEIGHTS_" + std::to_string(set)];
+    const JsonValue j = attributes[concat("JOINTS_", set)];
+    const JsonValue w = attributes[concat("WEIGHTS_", set)];
     if (!j.exists() || !w.exists()) break;
     joints.push_back(readTuples(document, j, 4));
     weights.push_back(readTuples(document, w, 4));
@@ -214,7 +215,7 @@ class PrimitiveReader {
 
   // Empty where the primitive does not have this set.
   std::vector<Vec2f> textureCoordinates(const Mesh& mesh, const GltfUvMap& uv) const {
-    const JsonValue coordinates = attributes_["TEXCOORD_" + std::to_string(uv.set)];
+    const JsonValue coordinates = attributes_[concat("TEXCOORD_", uv.set)];
     if (!coordinates.exists()) return {};
     std::vector<Vec2f> uvs = readUvs(document_, coordinates);
     checkLength(uvs.size(), mesh.positions.size(), coordinates);
@@ -439,7 +440,7 @@ class GltfModel : public Model {
     std::string node = document_.list("nodes")[placed.node]["name"].textOr("");
     if (!node.empty()) return node;
     std::string mesh = document_.list("meshes")[placed.mesh]["name"].textOr("");
-    return mesh.empty() ? "/nodes/" + std::to_string(placed.node) : mesh;
+    return mesh.empty() ? concat("/nodes/", placed.node) : mesh;
   }
 
   GltfDocument document_;

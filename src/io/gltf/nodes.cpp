@@ -90,9 +90,8 @@ Track readTrack(const GltfDocument& document, const Target& target, std::size_t 
   const std::size_t each = track.interpolation == Track::Interpolation::cubic ? 3 : 1;
   const std::size_t expected = track.times.size() * components * each;
   if (values.size() != expected) {
-    output.fail(
-        std::to_string(expected) + " numbers for " + std::to_string(track.times.size()) + " times",
-        std::to_string(values.size()));
+    output.fail(concat(expected, " numbers for ", track.times.size(), " times"),
+                std::to_string(values.size()));
   }
   if (!std::ranges::all_of(values, [](float x) { return std::isfinite(x); })) {
     output.fail("finite numbers", "one that is not");
@@ -206,8 +205,7 @@ class TreeReader {
 
   void refuseDepth(std::size_t depth, std::size_t node) const {
     if (depth <= kGltfDepthLimit) return;
-    throwBadScene(nodes_[node].where(),
-                  "nested deeper than " + std::to_string(kGltfDepthLimit) + " nodes");
+    throwBadScene(nodes_[node].where(), concat("nested deeper than ", kGltfDepthLimit, " nodes"));
   }
 
   // A node with two parents or that is its own ancestor is found by visit().
@@ -259,7 +257,7 @@ class TreeReader {
   // The node within its parent: it has a place or a motion.
   RigNode nodeOf(std::size_t index) const {
     const std::vector<double> matrix = nodes_[index]["matrix"].numbers(16);
-    const std::string name = "/nodes/" + std::to_string(index);
+    const std::string name = concat("/nodes/", index);
     RigNode node;
     if ((*tracks_)[index].place()) {
       const auto at = [index, own = placeOf(index), all = tracks_](double seconds) {
@@ -334,7 +332,7 @@ class TreeReader {
     std::vector<float> numbers;
     if (inverse.exists()) numbers = readTuples(document_, inverse, 16);
     if (inverse.exists() && numbers.size() < 16 * all.size()) {
-      inverse.fail("a matrix for each of " + std::to_string(all.size()) + " joints",
+      inverse.fail(concat("a matrix for each of ", all.size(), " joints"),
                    std::to_string(numbers.size() / 16));
     }
     for (std::size_t i = 0; i < all.size() && !numbers.empty(); ++i) {
@@ -379,8 +377,7 @@ class TreeReader {
     const std::size_t count = std::max({translations.size(), turns, scales.size()});
     for (const std::size_t size : {translations.size(), turns, scales.size()}) {
       if (size != 0 && size != count) {
-        attributes.fail("attributes of equal lengths",
-                        std::to_string(size) + " beside " + std::to_string(count));
+        attributes.fail("attributes of equal lengths", concat(size, " beside ", count));
       }
     }
 
@@ -493,7 +490,7 @@ std::vector<Animation> listGltfAnimations(const GltfDocument& document) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < animations.size(); ++i) {
     const std::string name = animations[i]["name"].textOr("");
-    names.push_back(name.empty() ? "animation " + std::to_string(i) : name);
+    names.push_back(name.empty() ? concat("animation ", i) : name);
   }
   names = distinctNames(names);
   std::vector<Animation> all;

@@ -136,8 +136,8 @@ std::int32_t checkHeaders(const std::string& path) {
   const std::uint64_t most = std::filesystem::file_size(path) / sizeof(std::uint64_t);
   if (allChunks > most) {
     throwBadScene(path + ": header",
-                  "expected at most the " + std::to_string(most) +
-                      " tiles or blocks of lines whose places the file can hold");
+                  concat("expected at most the ", most,
+                         " tiles or blocks of lines whose places the file can hold"));
   }
 
   return std::max(lines, 1);

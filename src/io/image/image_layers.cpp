@@ -94,11 +94,9 @@ bool sameBits(const Rgb& a, const Rgb& b) {
   return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
 }
 
-std::string place(int x, int y) { return "(" + std::to_string(x) + ", " + std::to_string(y) + ")"; }
+std::string place(int x, int y) { return concat("(", x, ", ", y, ")"); }
 
-std::string sizeText(const Image& image) {
-  return std::to_string(image.width) + "x" + std::to_string(image.height);
-}
+std::string sizeText(const Image& image) { return concat(image.width, "x", image.height); }
 
 void requireSameLayers(const std::string& path, const std::vector<ImageLayer>& layers,
                        const std::string& firstPath, const std::vector<ImageLayer>& firstLayers) {
@@ -275,9 +273,9 @@ MergedImage mergeImages(const std::vector<std::string>& paths, const ImageLimits
   const auto gap = std::ranges::find(covered, false);
   if (gap == covered.end()) return merged;
   const auto at = static_cast<int>(gap - covered.begin());
-  throwUsage("the parts leave " + std::to_string(std::count(gap, covered.end(), false)) +
-             " pixels of the " + sizeText(image) + " image open, the first at " +
-             place(at % image.width, at / image.width));
+  throwUsage(concat("the parts leave ", std::count(gap, covered.end(), false), " pixels of the ",
+                    sizeText(image), " image open, the first at ",
+                    place(at % image.width, at / image.width)));
 }
 
 }  // namespace whit

@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "core/index.h"
+#include "core/text.h"
 #include "io/image/image_decoders.h"
 #include "io/image/image_file.h"
 
@@ -82,7 +83,7 @@ class JpegReader {
     if (decoder_.jpeg_color_space == JCS_GRAYSCALE) return 1;
     if (decoder_.num_components == 3) return 3;
     if (decoder_.num_components == 4) return 4;
-    refuse("gray, RGB or CMYK, found " + std::to_string(decoder_.num_components) + " inks");
+    refuse(concat("gray, RGB or CMYK, found ", decoder_.num_components, " inks"));
   }
 
   // Adobe's programs store how much light an ink lets through, others how much of it there is.
@@ -111,7 +112,7 @@ class JpegReader {
   [[noreturn]] void refuse(const std::string& expected) const {
     const std::size_t left = decoder_.src ? decoder_.src->bytes_in_buffer : 0;
     const std::size_t at = file_.size() - std::min(left, file_.size());
-    throwBadScene(path_ + ": byte " + std::to_string(at), "expected " + expected);
+    throwBadScene(concat(path_, ": byte ", at), "expected " + expected);
   }
 
   template <typename Use>

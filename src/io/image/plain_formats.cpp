@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "core/text.h"
 #include "io/files.h"
 #include "io/image/image_decoders.h"
 
@@ -41,7 +42,7 @@ class ImageBytes {
   }
 
   [[noreturn]] void fail(const std::string& what) const {
-    throwBadScene(path_ + ": byte " + std::to_string(at_), what);
+    throwBadScene(concat(path_, ": byte ", at_), what);
   }
 
  private:
@@ -65,8 +66,7 @@ class PlainReader {
     bytes_.skip(10);
     const std::uint32_t dataBegin = bytes_.number(4), headerBytes = bytes_.number(4);
     if (headerBytes < kInfoHeaderBytes || headerBytes > kLongestHeader) {
-      bytes_.fail("expected a header of 40 to 124 bytes, found one of " +
-                  std::to_string(headerBytes));
+      bytes_.fail(concat("expected a header of 40 to 124 bytes, found one of ", headerBytes));
     }
 
     const auto width = static_cast<std::int32_t>(bytes_.number(4));
@@ -83,8 +83,8 @@ class PlainReader {
     const bool masked = compression == kMasks && bits_ == 32 && bytes_.number(4) == 0xff0000 &&
                         bytes_.number(4) == 0xff00 && bytes_.number(4) == 0xff;
     if ((compression != 0 && !masked) || (bits_ != 8 && bits_ != 24 && bits_ != 32)) {
-      bytes_.fail("expected uncompressed pixels of 8, 24 or 32 bits, found " +
-                  std::to_string(bits_) + " bits and compression " + std::to_string(compression));
+      bytes_.fail(concat("expected uncompressed pixels of 8, 24 or 32 bits, found ", bits_,
+                         " bits and compression ", compression));
     }
 
     skipTo(kFileHeaderBytes + headerBytes);
@@ -120,8 +120,8 @@ class PlainReader {
                                                       bits_ >= 24 && bits_ <= 32;
     if (!known) {
       bytes_.fail(
-          "expected TGA's image type 2 or 10 of 24 or 32 bits, or 3 or 11 of 8, found type " +
-          std::to_string(type) + " of " + std::to_string(bits_) + " bits");
+          concat("expected TGA's image type 2 or 10 of 24 or 32 bits, or 3 or 11 of 8, found type ",
+                 type, " of ", bits_, " bits"));
     }
 
     // In the descriptor, bits 0 to 3 count the bits of alpha, bit 4 stands for columns from the
@@ -165,8 +165,8 @@ class PlainReader {
       const std::size_t value = bytes_.next();
       if (palette_.empty()) return {static_cast<std::uint8_t>(value)};
       if (value < palette_.size()) return palette_[value];
-      bytes_.fail("expected one of the palette's " + std::to_string(palette_.size()) +
-                  " colors, found number " + std::to_string(value));
+      bytes_.fail(concat("expected one of the palette's ", palette_.size(),
+                         " colors, found number ", value));
     }
 
     Codes codes = readColor();
@@ -310,8 +310,7 @@ void readRow(ImageBytes& bytes, std::vector<Rgbe>& row) {
   if (inRuns) {
     const auto length = static_cast<std::size_t>(row[0][2] << 8 | row[0][3]);
     if (length != row.size()) {
-      bytes.fail("expected a row of " + std::to_string(row.size()) + " pixels, found one of " +
-                 std::to_string(length));
+      bytes.fail(concat("expected a row of ", row.size(), " pixels, found one of ", length));
     }
     for (std::size_t component = 0; component < 4; ++component) readRuns(bytes, component, row);
     return;

@@ -18,6 +18,7 @@
 
 #include "core/display.h"
 #include "core/error.h"
+#include "core/text.h"
 #include "io/files.h"
 #include "io/line_reader.h"
 #include "io/obj/mtl_reader.h"
@@ -84,7 +85,7 @@ class ObjReader {
     std::array<double, 6> numbers{};
     isColored = std::ranges::all_of(numbers, [&](double& x) { return first.number(x); });
     if (materials.size() > kMaterialLimit) {
-      throwLimit(file_ + " uses more than " + std::to_string(kMaterialLimit) + " materials");
+      throwLimit(concat(file_, " uses more than ", kMaterialLimit, " materials"));
     }
   }
 
@@ -251,7 +252,7 @@ class ObjReader {
     index = kNoIndex;
   }
 
-  void warn(const char* kind) { warnings_.add(kind, file_ + ":" + std::to_string(line_)); }
+  void warn(const char* kind) { warnings_.add(kind, concat(file_, ":", line_)); }
 
   // The format counts from 1, and negative numbers back from the vertex that was read last.
   static std::int32_t index(LineReader& line, std::size_t count) {

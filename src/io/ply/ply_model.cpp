@@ -19,6 +19,7 @@
 #include "core/display.h"
 #include "core/error.h"
 #include "core/index.h"
+#include "core/text.h"
 #include "io/files.h"
 #include "io/line_reader.h"
 #include "io/model.h"
@@ -163,7 +164,7 @@ class PlyReader {
   // "file:line", or "file: byte N" in binary data.
   std::string place() const {
     if (ascii_) return lines_.place();
-    return file_ + ": byte " + std::to_string(at_);
+    return concat(file_, ": byte ", at_);
   }
   [[noreturn]] void failInHeader(const std::string& what) const {
     throwBadScene(lines_.place(), what);
@@ -253,10 +254,9 @@ class PlyReader {
   void checkCount(const PlyElement& element) const {
     const std::uint64_t left = text_.size() - at_;
     if (element.properties.empty() || element.count <= left) return;
-    throwBadScene(element.where, "expected at most " + std::to_string(left) + " elements \"" +
-                                     excerpt(element.name) +
-                                     "\", as many as there are bytes after the header, found " +
-                                     std::to_string(element.count));
+    throwBadScene(element.where,
+                  concat("expected at most ", left, " elements \"", excerpt(element.name),
+                         "\", as many as there are bytes after the header, found ", element.count));
   }
 
   // Calls use(property, value) for each value of an element.

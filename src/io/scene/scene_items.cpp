@@ -92,7 +92,7 @@ std::vector<Affine> readPlacements(JsonObject& item) {
   int n[3];
   double total = 1;
   for (std::size_t i = 0; i < 3; ++i) total *= n[i] = counts[i].integer(1, kRepeatLimit);
-  if (total > kRepeatLimit) countValue.fail("at most " + std::to_string(kRepeatLimit) + " copies");
+  if (total > kRepeatLimit) countValue.fail(concat("at most ", kRepeatLimit, " copies"));
   std::vector<Affine> result;
   result.reserve(static_cast<std::size_t>(total));
   for (int z = 0; z < n[2]; ++z) {
@@ -197,8 +197,7 @@ class ItemReader {
 
   void readItem(const JsonValue& value, Body& to) {
     if (++depth_ > kNestingLimit) {
-      throwBadScene(value.where(),
-                    "nested deeper than " + std::to_string(kNestingLimit) + " items");
+      throwBadScene(value.where(), concat("nested deeper than ", kNestingLimit, " items"));
     }
 
     JsonObject item(value);

@@ -12,6 +12,7 @@
 #include "bake/scene.h"
 #include "core/error.h"
 #include "core/index.h"
+#include "core/text.h"
 #include "io/load_scene.h"
 #include "io/scene/scene_sections.h"
 #include "make/model_view.h"
@@ -41,7 +42,7 @@ std::size_t indexOf(const std::string& token, const Json& list, const JsonValue&
   const auto [stop, error] = std::from_chars(token.data(), end, index);
   const bool plain = error == std::errc() && stop == end && (token[0] != '0' || token.size() == 1);
   if (!plain || index >= list.size()) {
-    place.fail("an index below " + std::to_string(list.size()) + ", or - for a new element");
+    place.fail(concat("an index below ", list.size(), ", or - for a new element"));
   }
   return index;
 }
@@ -160,7 +161,7 @@ SceneSetting parseSceneSetting(const std::string& text) {
     SceneSetting setting{tokensOf(pointer), parseJson(value, "--set " + pointer)};
     if (setting.tokens.empty()) throwUsage(wanted);
     if (setting.tokens.size() > kJsonDepthLimit) {
-      throwUsage(wanted + ", of at most " + std::to_string(kJsonDepthLimit) + " steps");
+      throwUsage(concat(wanted, ", of at most ", kJsonDepthLimit, " steps"));
     }
     return setting;
   }
