@@ -145,7 +145,7 @@ void numberMedia(Scene& scene) {
     // Equal dielectrics share a number.
     const Medium medium{m.ior, m.absorption, m.priority};
     const auto known = std::find(scene.media.begin() + 1, scene.media.end(), medium);
-    const auto number = static_cast<std::size_t>(known - scene.media.begin());
+    const std::size_t number = known - scene.media.begin();
     if (number > kMediaLimit) throwLimit(scene.name + ": more than 255 different dielectrics");
 
     scene.mediumOfMaterial[i] = static_cast<std::uint8_t>(number);

@@ -97,8 +97,8 @@ void sortInSpace(std::span<BoxedItem> items, std::size_t children, int threads) 
 
   // The split lies between two full nodes, about in the middle.
   const std::size_t middle = ((items.size() + full - 1) / full + 1) / 2 * full;
-  const auto along = std::array{&Vec3f::x, &Vec3f::y, &Vec3f::z}[static_cast<std::size_t>(axis)];
-  std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(middle), items.end(),
+  const auto along = std::array{&Vec3f::x, &Vec3f::y, &Vec3f::z}[axis];
+  std::nth_element(items.begin(), items.begin() + middle, items.end(),
                    [along](const BoxedItem& a, const BoxedItem& b) {
                      return a.box.lower.*along + a.box.upper.*along <
                             b.box.lower.*along + b.box.upper.*along;
@@ -189,10 +189,8 @@ class BoxBlock {
       constexpr double kMost = std::numeric_limits<float>::max();
       for (std::size_t i = 0; i < kBoxes; ++i) {
         const bool isEmpty = lower_[0][i] > upper_[0][i];
-        to.lower_[static_cast<std::size_t>(row)][i] =
-            static_cast<float>(isEmpty ? kMost : center[i] - half[i]);
-        to.upper_[static_cast<std::size_t>(row)][i] =
-            static_cast<float>(isEmpty ? -kMost : center[i] + half[i]);
+        to.lower_[row][i] = static_cast<float>(isEmpty ? kMost : center[i] - half[i]);
+        to.upper_[row][i] = static_cast<float>(isEmpty ? -kMost : center[i] + half[i]);
       }
     }
     return to;
@@ -613,7 +611,7 @@ class CoplanarFinder {
         kWorkPerTriangle * static_cast<std::int64_t>(scene_.triangles.size());
 
     std::vector<PairFinder> finders;
-    finders.reserve(static_cast<std::size_t>(threads_));
+    finders.reserve(threads_);
     for (int i = 0; i < threads_; ++i) finders.emplace_back(space, groups, groupTree, test);
 
     // One search from the root collects tasks, which the threads then work off.
@@ -622,7 +620,7 @@ class CoplanarFinder {
     finders[0].search(root, others ? finders[0].rootOf(others) : root, work, &tasks);
 
     parallelFor(threads_, tasks.size(), [&](std::size_t i, int worker) {
-      finders[static_cast<std::size_t>(worker)].search(tasks[i].first, tasks[i].second, work);
+      finders[worker].search(tasks[i].first, tasks[i].second, work);
     });
 
     // Which pairs an aborted search has found depends on the threads, so they are discarded.

@@ -57,7 +57,7 @@ std::uint32_t meanTexel(const Texture& texture, const TexelWeights* weights,
       if (weights) share *= weights->at(column, row);
       total += share;
       for (int c = 0; c < channels; ++c) {
-        sum[static_cast<std::size_t>(c)] += share * valueOf(texture.format, texel, c);
+        sum[c] += share * valueOf(texture.format, texel, c);
       }
     }
   }
@@ -70,7 +70,7 @@ std::uint32_t meanTexel(const Texture& texture, const TexelWeights* weights,
   }
   std::uint32_t mean = 0;
   for (int c = 0; c < channels; ++c) {
-    mean |= codeOf(texture.format, sum[static_cast<std::size_t>(c)], c);
+    mean |= codeOf(texture.format, sum[c], c);
   }
   return mean;
 }
@@ -125,9 +125,7 @@ Texture halvedBy(const Texture& texture, const TexelWeights* weights) {
 
 // The weights of the map's texels at full size; none where no mask weights them.
 std::optional<TexelWeights> weightsOf(const std::vector<Texture>& textures, const ShownMap& map) {
-  const auto texture = [&](std::int32_t number) -> const Texture& {
-    return textures[static_cast<std::size_t>(number)];
-  };
+  const auto texture = [&](std::int32_t number) -> const Texture& { return textures[number]; };
   const Texture& own = texture(map.texture);
   std::optional<TexelWeights> weights;
   // An alpha map cuts rays away: a texel counts by the share of its area that is left.
@@ -159,7 +157,7 @@ void fillUnseen(const TexelWeights& weights, const Texture& above, Texture& leve
 }
 
 std::vector<Texture> smallerLevels(const std::vector<Texture>& textures, const ShownMap& map) {
-  const Texture* last = &textures[static_cast<std::size_t>(map.texture)];
+  const Texture* last = &textures[map.texture];
   std::vector<Texture> levels;
   levels.reserve(kMipLevels);
 
@@ -230,7 +228,7 @@ MipMaps::MipMaps(const Scene& scene, int threads)
     : MipMaps(scene.textures, shownMaps(scene), threads) {}
 
 const Texture& MipMaps::level(const ShownMap& map, int level) const {
-  const Texture& full = (*textures_)[static_cast<std::size_t>(map.texture)];
+  const Texture& full = (*textures_)[map.texture];
   if (level == 0) return full;
 
   const auto smaller = smaller_.find(map);

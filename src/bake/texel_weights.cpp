@@ -20,7 +20,7 @@ TexelWeights weightsLike(const Texture& mask) {
 }  // namespace
 
 std::vector<TexelCover> texelCovers(int size, int count) {
-  std::vector<TexelCover> covers(static_cast<std::size_t>(count));
+  std::vector<TexelCover> covers(count);
   // All borders are whole numbers in units of 1 / count of a texel.
   std::int64_t begin = 0;
   for (TexelCover& cover : covers) {

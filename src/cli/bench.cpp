@@ -64,7 +64,7 @@ struct BenchJob {
     return turns;
   }
   const Series& series() const {
-    const auto i = static_cast<std::size_t>(std::ranges::find(wanted, true) - wanted.begin());
+    const std::size_t i = std::ranges::find(wanted, true) - wanted.begin();
     return i < wanted.size() ? kSeries[i] : kOneRun;
   }
 };

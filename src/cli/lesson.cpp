@@ -36,7 +36,7 @@ class StageRecorder : public StageObserver {
 
     // Each chunk of a depth passes this stage once, so its rays are counted here.
     if (stage == Stage::findIntersections) {
-      const auto depth = static_cast<std::size_t>(c.depth);
+      const std::size_t depth = c.depth;
       while (depths_.size() <= depth) depths_.push_back(0);
       depths_[depth] = depths_[depth].get<std::size_t>() + c.n;
     }

@@ -418,7 +418,7 @@ class ImageWriter {
                 const ImageMetadata& metadata) const {
     return std::ranges::all_of(files, [&](const std::string& file) {
       ImageMetadata expected = metadata;
-      const auto number = static_cast<std::size_t>(&file - files.data());
+      const std::size_t number = &file - files.data();
       const ImageMetadata own = ownMetadata(file, formatOf(number));
       expected.insert(expected.end(), own.begin(), own.end());
       return isWhole(file, image, expected, engine_.options());

@@ -137,7 +137,7 @@ std::string termsText(const Terms& terms) {
 
 std::string helpText(const std::string& usage, const std::string& summary, const OptionList& list,
                      HelpTier tier, int width) {
-  const auto columns = static_cast<std::size_t>(width);
+  const std::size_t columns = width;
   std::string text = wrapped(summary, 0, 0, columns) + "\nUsage: " + usage + "\n";
 
   if (list.operand.most > 0) {

@@ -58,7 +58,7 @@ class Watcher : public StageObserver {
     }
 
     // All packets are full except for the last one.
-    const auto width = static_cast<std::size_t>(renderer_.machine().packet);
+    const std::size_t width = renderer_.machine().packet;
     const std::size_t live = std::min(width, n - i / width * width);
     add(chunk, slot, {static_cast<float>(live) / static_cast<float>(width), 0, 0}, 1);
   }

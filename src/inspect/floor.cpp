@@ -98,7 +98,7 @@ double replay(const Accel& accel, const RayStream& stream) {
 double replay(Renderer& renderer, const std::vector<RayLogger>& loggers) {
   std::vector<double> ms(loggers.size());
   renderer.scheduler().pool().run([&](int worker) {
-    const auto w = static_cast<std::size_t>(worker);
+    const std::size_t w = worker;
     for (const RayStream& stream : loggers[w].streams()) ms[w] += replay(renderer.accel(), stream);
   });
 
@@ -108,7 +108,7 @@ double replay(Renderer& renderer, const std::vector<RayLogger>& loggers) {
 }  // namespace
 
 double measureFloor(Renderer& renderer, const Camera& camera, Film& film) {
-  std::vector<RayLogger> loggers(static_cast<std::size_t>(renderer.machine().threads));
+  std::vector<RayLogger> loggers(renderer.machine().threads);
   std::vector<StageObserver*> observers;
   observers.reserve(loggers.size());
   for (RayLogger& logger : loggers) observers.push_back(&logger);

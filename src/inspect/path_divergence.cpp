@@ -99,7 +99,7 @@ PathComparison comparePaths(Renderer& renderer, const Camera& camera, const Film
 
   // Each worker has its own observer. They share the signatures, because only one worker traces a
   // pixel.
-  std::vector<SignatureObserver> signers(static_cast<std::size_t>(renderer.machine().threads),
+  std::vector<SignatureObserver> signers(renderer.machine().threads,
                                          SignatureObserver(film.image, signatures));
   std::vector<StageObserver*> observers;
   observers.reserve(signers.size());

@@ -120,7 +120,7 @@ class TreeObserver : public StageObserver {
   }
 
   void follow(const Chunk& chunk) {
-    const auto depth = static_cast<std::size_t>(chunk.depth);
+    const std::size_t depth = chunk.depth;
     levels_.resize(depth + 2);
     levels_[depth + 1].clear();
 

@@ -124,7 +124,7 @@ void filterSystemCalls() {
 
 std::string failureOfChild(int status) {
   if (WIFEXITED(status)) {
-    const auto code = static_cast<std::size_t>(WEXITSTATUS(status));
+    const std::size_t code = WEXITSTATUS(status);
     return kFailures[std::min(code, std::size(kFailures) - 1)];
   }
 

@@ -81,7 +81,7 @@ class Watcher {
 
 std::string placeOfByte(const std::string& text, const std::string& file, std::size_t byte) {
   const std::size_t end = std::min(byte > 0 ? byte - 1 : 0, text.size());
-  const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n');
+  const auto line = std::count(text.begin(), text.begin() + end, '\n');
   const std::size_t lineStart = end == 0 ? std::string::npos : text.rfind('\n', end - 1);
   const std::size_t column = lineStart == std::string::npos ? end + 1 : end - lineStart;
   return concat(file, ":", line + 1, ":", column);

@@ -82,7 +82,7 @@ class EarClipper {
       if (ear == left_.size()) return false;
 
       triangles.push_back({at(ear + left_.size() - 1), at(ear), at(ear + 1)});
-      left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(ear));
+      left_.erase(left_.begin() + ear);
       start_ = ear;  // goes round, so that a long polygon does not become a fan of slivers
     }
 

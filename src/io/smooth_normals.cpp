@@ -56,7 +56,7 @@ void forEachPlace(std::span<FaceCorner> corners, const Use& use) {
   while (!corners.empty()) {
     const auto isHere = [&](const FaceCorner& c) { return c.place == corners[0].place; };
     const auto end = std::ranges::find_if_not(corners, isHere);
-    const auto count = static_cast<std::size_t>(end - corners.begin());
+    const std::size_t count = end - corners.begin();
     use(corners.first(count));
     corners = corners.subspan(count);
   }

@@ -65,8 +65,7 @@ std::vector<Image::Channel> Image::channels() const {
   layers.channels().forEach([&](whit::Channel c) {
     const ChannelInfo& info = infoOf(c);
     Channel channel{info.name, {}, {}, {}};
-    channel.components.assign(info.suffixes.begin(),
-                              info.suffixes.begin() + static_cast<std::ptrdiff_t>(info.components));
+    channel.components.assign(info.suffixes.begin(), info.suffixes.begin() + info.components);
 
     if (info.countsThings) {
       channel.numbers = layers.numbers(c);

@@ -279,7 +279,7 @@ std::vector<float> ambientOcclusion(const Queried& at, const Numbers& points,
   expect(samples > 0, "samples above 0");
   std::vector<float> open(count);
   inParts(at, count, [&](std::size_t first, std::size_t end) {
-    std::vector<QueryRay> rays(static_cast<std::size_t>(samples));
+    std::vector<QueryRay> rays(samples);
     std::vector<Blocked> blocked(rays.size());
     const LobeSampling sampling{static_cast<std::uint32_t>(samples)};
     for (std::size_t i = first; i < end; ++i) {

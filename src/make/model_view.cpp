@@ -60,7 +60,7 @@ Vec3d bestSide(const SceneDescription& scene, double radius) {
   // Sides are in order of preference, so the first one that shows enough is chosen.
   const double enough = kEnough * most;
   const auto found = std::ranges::find_if(shown, [&](double area) { return area >= enough; });
-  return sides[static_cast<std::size_t>(found - shown.begin())];
+  return sides[found - shown.begin()];
 }
 
 // True if the surfaces around the point are walls of a room with a few small openings at most. The

@@ -113,7 +113,7 @@ double fisheyeAngle(const CameraFrame& camera, double radius) {
 double entryAt(const std::vector<float>& table, double pixel, int pixels) {
   const auto last = static_cast<double>(table.size() - 1);
   const double at = std::clamp(pixel * static_cast<double>(table.size()) / pixels - 0.5, 0.0, last);
-  const auto before = static_cast<std::size_t>(at);
+  const std::size_t before = at;
   const double a = table[before], b = table[std::min(before + 1, table.size() - 1)];
   return a + (b - a) * (at - static_cast<double>(before));
 }
@@ -168,7 +168,7 @@ Ray generateRay(const CameraFrame& camera, double x, double y) {
     const int column = std::min(static_cast<int>(x / camera.viewWidth), columns - 1);
     const int row = std::min(static_cast<int>(y / camera.viewHeight), rows - 1);
     number = row * columns + column;
-    view = camera.views[static_cast<std::size_t>(number)];
+    view = camera.views[number];
     x -= column * camera.viewWidth;
     y -= row * camera.viewHeight;
   }

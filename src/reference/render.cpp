@@ -22,12 +22,12 @@ using PixelTask = std::function<void(int x, int y, RayCounts& counts)>;
 
 // Calls the task for every pixel of the window; threads share the rows.
 RayCounts forEachPixel(const Crop& window, int threads, Progress* progress, const PixelTask& task) {
-  std::vector<RayCounts> counts(static_cast<std::size_t>(std::max(1, threads)));
+  std::vector<RayCounts> counts(std::max(1, threads));
   const int rows = window.y1 - window.y0;
   std::atomic<int> rowsDone{0};
   parallelFor(threads, static_cast<std::size_t>(rows), [&](std::size_t row, int worker) {
     const int y = window.y0 + static_cast<int>(row);
-    RayCounts& own = counts[static_cast<std::size_t>(worker)];
+    RayCounts& own = counts[worker];
     for (int x = window.x0; x < window.x1; ++x) {
       const std::uint64_t before = own.limitedSamples;
       task(x, y, own);
@@ -70,7 +70,7 @@ RayCounts renderAdaptively(const Tracer& tracer, const CameraFrame& frame, const
     if (edges[first.index(x, y)] == 0) return;
     PixelProbes& pixel = probes.at(x, y);
     for (int s = 0; s < std::min(options.spp, kProbeSamples); ++s) {
-      const auto number = static_cast<std::size_t>(s);
+      const std::size_t number = s;
       const RgbD value = tracer.sampled(frame, x, y, pattern[number], number, own);
       addSample(pixel.total, value, s + 1.0);
       pixel.codes[number] = displayCode(Rgb(value), scale, options.toneCurve);

@@ -121,7 +121,7 @@ MaterialRecord recordOf(const Material& m, std::uint32_t medium, bool onOthers, 
 }
 
 bool isRadiance(const Scene& scene, std::int32_t texture) {
-  return scene.textures[static_cast<std::size_t>(texture)].format == TexelFormat::radiance;
+  return scene.textures[texture].format == TexelFormat::radiance;
 }
 
 void addMaterials(const Scene& scene, EffectSet effects, ShadingTables& tables) {
@@ -175,7 +175,7 @@ std::vector<Texture> madeTextures(const Scene& scene, const std::vector<ShownMap
   std::vector<Texture> textures = scene.textures;
   std::set<Texture*> late;
   for (const ShownMap& map : maps) {
-    Texture& texture = textures[static_cast<std::size_t>(map.texture)];
+    Texture& texture = textures[map.texture];
     if (texture.late) late.insert(&texture);
   }
 
@@ -204,7 +204,7 @@ void addTextures(const Scene& scene, TextureFilter filter, int threads, ShadingT
   for (const ShownMap& map : tables.maps) {
     std::vector<std::size_t>& own = levelsOfMaps.emplace_back();
     const auto [full, isNew] = fullSizes.try_emplace(map.texture, levels.size());
-    if (isNew) levels.push_back(std::move(textures[static_cast<std::size_t>(map.texture)]));
+    if (isNew) levels.push_back(std::move(textures[map.texture]));
     own.push_back(full->second);
     for (int level = 1; level < mips.levels(map); ++level) {
       own.push_back(levels.size());

@@ -130,7 +130,7 @@ FrameConstants Renderer::constantsOf(const CameraFrame& camera) const {
 }
 
 const std::vector<Vec2f>& Renderer::pattern() {
-  const auto samples = static_cast<std::size_t>(options_.spp);
+  const std::size_t samples = options_.spp;
   if (pattern_.size() != samples) pattern_ = samplePattern(options_.spp);
   return pattern_;
 }

@@ -23,7 +23,7 @@ class PixelTracker {
     if (stage == Stage::generateRays) {
       levels_.assign(1, {chunk.pixels.begin(), chunk.pixels.end()});
     } else if (stage == Stage::addImpulses) {
-      const auto depth = static_cast<std::size_t>(chunk.depth);
+      const std::size_t depth = chunk.depth;
       levels_.resize(depth + 2);
       std::vector<std::uint32_t>& next = levels_[depth + 1];
       next.clear();

@@ -35,7 +35,7 @@ bool isKept(const Chunk& c) {
 template <typename Keep>
 void forEachKept(const Chunk& c, Keep&& keep) {
   const Crop& w = c.frame->channels.window;
-  const auto width = static_cast<std::size_t>(w.x1 - w.x0);
+  const std::size_t width = w.x1 - w.x0;
   for (std::size_t i = 0; i < c.n; ++i) {
     if (c.isGivenUp(c.first + i)) continue;
     const std::uint32_t pixel = c.pixels[c.first + i];
@@ -175,7 +175,7 @@ void updateImage(Chunk& c) {
 
   // Locals: what memory may alias would be read again for every pixel.
   const int left = film.image.window.x0, top = film.image.window.y0;
-  const auto width = static_cast<std::size_t>(film.image.windowWidth());
+  const std::size_t width = film.image.windowWidth();
   const Columns3 radiance = c.radiance.rgb;
   const std::uint32_t* const pixels = c.pixels.data();
   const std::uint32_t* const codes = film.wantDisplay ? c.codes : nullptr;

@@ -52,9 +52,7 @@ class ProbeChooser {
       for (std::size_t i = 0; i < samples.size(); ++i) {
         near_[k].emplace_back(squaredDistance(samples[i], wanted[k]), i);
       }
-      std::partial_sort(near_[k].begin(),
-                        near_[k].begin() + static_cast<std::ptrdiff_t>(candidates_),
-                        near_[k].end());
+      std::partial_sort(near_[k].begin(), near_[k].begin() + candidates_, near_[k].end());
     }
   }
 
@@ -78,7 +76,7 @@ class ProbeChooser {
     for (std::size_t i = 0; i < candidates_; ++i) {
       const auto& [distance, at] = near_[k][i];
       chosen_[k] = at;
-      const auto before = chosen_.begin() + static_cast<std::ptrdiff_t>(k);
+      const auto before = chosen_.begin() + k;
       if (std::find(chosen_.begin(), before, at) != before) continue;
 
       const Vec2f& s = samples_[at];
@@ -277,8 +275,7 @@ void findEdges(const DisplayImage& display, const std::vector<PixelSurface>& sur
   const int width = display.width, height = display.height;
   const auto at = [&](int x, int y) { return cellAt(x, y, width); };
 
-  std::fill(edges.begin() + static_cast<std::ptrdiff_t>(at(0, row0)),
-            edges.begin() + static_cast<std::ptrdiff_t>(at(0, row1)), std::uint8_t{0});
+  std::fill(edges.begin() + at(0, row0), edges.begin() + at(0, row1), std::uint8_t{0});
 
   // Each pair of neighbors is compared once, from its upper or left pixel. Pairs across the first
   // or last of the rows are compared by the threads on both sides.

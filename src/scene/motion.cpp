@@ -114,7 +114,7 @@ Affine blended(const std::vector<Affine>& joints, const Influence* begin, const 
 
 std::vector<double> valueAt(const Track& track, double time) {
   const auto next = std::ranges::upper_bound(track.times, time);
-  const auto after = static_cast<std::size_t>(next - track.times.begin());
+  const std::size_t after = next - track.times.begin();
 
   std::vector<double> value;
   // Before the first key and after the last one the value is constant.

@@ -184,7 +184,7 @@ std::string decodeView(const GltfDocument& document, const JsonValue& view,
   const std::string filter =
       named ? named.word({"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL"}) : "NONE";
   const std::uint64_t count = source.need("count").wholeOr(0);
-  const auto stride = static_cast<std::size_t>(source.need("byteStride").integer(2, 256));
+  const std::size_t stride = source.need("byteStride").integer(2, 256);
 
   if (!suits(mode, filter, stride)) {
     source["byteStride"].fail("a size of elements that mode and filter have");

@@ -110,8 +110,7 @@ AllTracks readTracks(const GltfDocument& document, const Instant& instant) {
     return instant.animation.empty() || animation.name == instant.animation;
   });
   if (played == all.end()) return tracks;
-  const JsonValue source =
-      document.list("animations")[static_cast<std::size_t>(played - all.begin())];
+  const JsonValue source = document.list("animations")[played - all.begin()];
   forEachChannel(document, source,
                  [&](std::size_t node, const Target& target, const JsonValue& sampler) {
                    const std::size_t components =
@@ -336,8 +335,7 @@ class TreeReader {
                    std::to_string(numbers.size() / 16));
     }
     for (std::size_t i = 0; i < all.size() && !numbers.empty(); ++i) {
-      all[i].fromMesh = mapOf({numbers.begin() + static_cast<std::ptrdiff_t>(16 * i),
-                               numbers.begin() + static_cast<std::ptrdiff_t>(16 * (i + 1))});
+      all[i].fromMesh = mapOf({numbers.begin() + 16 * i, numbers.begin() + 16 * (i + 1)});
     }
     all.push_back({placeJoint(showing, places, rig), Affine()});
     deformation.skeleton = std::make_shared<const Rig>(std::move(rig));

@@ -303,8 +303,8 @@ std::vector<float> readChroma(const std::string& path, const Box2i& box,
                               const ImageLimits& limits) {
   Imf::RgbaInputFile file(path.c_str());
   const Box2i data = file.dataWindow();
-  const auto width = static_cast<std::size_t>(widthOf(data));
-  const auto height = static_cast<std::size_t>(heightOf(data));
+  const std::size_t width = widthOf(data);
+  const std::size_t height = heightOf(data);
   // The library keeps the same again while it works.
   const MemoryHold held = holdImage(path, widthOf(data), heightOf(data),
                                     4 * (sizeof(float) + 2 * sizeof(half)), limits);

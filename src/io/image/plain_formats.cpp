@@ -182,7 +182,7 @@ class PlainReader {
     if (bits_ > 8) stored = bits_ / 8;
     image_ = startImage(path_, width, height, stored, false, limits_);
 
-    const auto channels = static_cast<std::size_t>(image_.channels);
+    const std::size_t channels = image_.channels;
     const auto columns = static_cast<std::uint64_t>(width);
     const auto rows = static_cast<std::uint64_t>(height);
     const auto pixelBytes = static_cast<std::uint64_t>(bits_ / 8);
@@ -293,7 +293,7 @@ void readOldRuns(ImageBytes& bytes, std::vector<Rgbe>& row) {
     if (count > row.size() - done || shift > kLargestShift) {
       bytes.fail("expected a run up to the row's end, found a longer one");
     }
-    std::fill_n(row.begin() + static_cast<std::ptrdiff_t>(done), count, row[done - 1]);
+    std::fill_n(row.begin() + done, count, row[done - 1]);
     done += count;
     shift += 8;
   }
@@ -347,8 +347,8 @@ RawImage decodeHdr(const std::string& path, FileBytes file, const ImageLimits& l
   }
 
   RawImage image = startImage(path, columns, rows, 3, true, limits);
-  const auto width = static_cast<std::size_t>(image.width);
-  const auto height = static_cast<std::size_t>(image.height);
+  const std::size_t width = image.width;
+  const std::size_t height = image.height;
   bytes.need(height * sizeof(Rgbe));  // at least, before memory is taken
   image.values.reserve(width * height * 3);
 

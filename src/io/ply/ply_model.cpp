@@ -333,8 +333,7 @@ class PlyReader {
 
     for (std::uint64_t i = 0; i < element.count; ++i) {
       readElement(element, [&](const PlyProperty& property, double value) {
-        const Component to =
-            components[static_cast<std::size_t>(&property - element.properties.data())];
+        const Component to = components[&property - element.properties.data()];
         v[to] = valueOf(property, to, value);
         if (to <= kZ) positions[i][to] = value;
       });

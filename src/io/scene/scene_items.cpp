@@ -94,7 +94,7 @@ std::vector<Affine> readPlacements(JsonObject& item) {
   for (std::size_t i = 0; i < 3; ++i) total *= n[i] = counts[i].integer(1, kRepeatLimit);
   if (total > kRepeatLimit) countValue.fail(concat("at most ", kRepeatLimit, " copies"));
   std::vector<Affine> result;
-  result.reserve(static_cast<std::size_t>(total));
+  result.reserve(total);
   for (int z = 0; z < n[2]; ++z) {
     for (int y = 0; y < n[1]; ++y) {
       for (int x = 0; x < n[0]; ++x) {

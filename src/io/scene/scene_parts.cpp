@@ -34,7 +34,7 @@ void requireNumbers(const Column& column, const std::string& where) {
                                       : "numbers from " + formatted("%g", double{column.low}) +
                                             " to " + formatted("%g", double{column.high});
 
-  const auto at = static_cast<std::size_t>(bad - column.numbers.begin());
+  const std::size_t at = bad - column.numbers.begin();
   throwBadScene(where, concat("expected ", range, " in ", column.name, ", found ",
                               formatted("%g", double{*bad}), " at [", at / column.each, ", ",
                               at % column.each, "]"));

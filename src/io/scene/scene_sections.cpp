@@ -373,7 +373,7 @@ void movePoints(Json& noun, const Vec3d& way) {
   for (const char* name : {"eye", "at", "position"}) {
     if (!noun.contains(name) || !noun[name].is_array() || noun[name].size() != 3) continue;
     for (int i = 0; i < 3; ++i) {
-      Json& number = noun[name][static_cast<std::size_t>(i)];
+      Json& number = noun[name][i];
       if (number.is_number()) number = number.get<double>() + way[i];
     }
   }

@@ -49,8 +49,7 @@ std::size_t indexOf(const std::string& token, const Json& list, const JsonValue&
 
 // True if one of the members is within the other, or both are the same.
 bool areRelated(const std::vector<std::string>& a, const std::vector<std::string>& b) {
-  return std::equal(
-      a.begin(), a.begin() + static_cast<std::ptrdiff_t>(std::min(a.size(), b.size())), b.begin());
+  return std::equal(a.begin(), a.begin() + std::min(a.size(), b.size()), b.begin());
 }
 
 // Returns whether the document is that of a model by itself, see describeModel().
@@ -123,7 +122,7 @@ bool editMaterial(const SceneSetting& setting, const JsonDocument& document, con
   }
   if (token == setting.tokens.end()) return false;
 
-  Material& material = materials[static_cast<std::size_t>(before - scene.materials.begin())];
+  Material& material = materials[before - scene.materials.begin()];
   JsonObject object(JsonValue(document, document.root.at(Json::json_pointer(pointer)), pointer));
   const auto keepMap = [&](const JsonValue& /*name*/, const auto& map) {
     return (*before).*map.field;
@@ -178,7 +177,7 @@ void addSceneSetting(const std::string& text, std::vector<std::string>& settings
     if (!settings[i].starts_with(section)) continue;
     const std::vector<std::string> other = parseSceneSetting(settings[i]).tokens;
     if (!areRelated(tokens, other)) continue;
-    if (tokens == other) settings.erase(settings.begin() + static_cast<std::ptrdiff_t>(i));
+    if (tokens == other) settings.erase(settings.begin() + i);
     break;
   }
   settings.push_back(text);

@@ -107,7 +107,7 @@ std::vector<PlanCell> halfRing(PlanPoint center, PlanPoint inner, PlanPoint oute
   };
 
   std::vector<PlanCell> cells;
-  cells.reserve(static_cast<std::size_t>(segments));
+  cells.reserve(segments);
   for (int k = 0; k < segments; ++k) {
     cells.push_back({at(inner, k), at(outer, k), at(outer, k + 1), at(inner, k + 1)});
   }

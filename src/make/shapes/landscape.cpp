@@ -153,7 +153,7 @@ class TreeBuilder {
       const double lowest = level == 0 ? 0.55 : 0.35;
       const double t = c == 0 ? 1.0 : lerp(lowest, 1.0, random_.next());
       const double at = t * pieces;
-      const auto k = static_cast<std::size_t>(std::min(pieces - 1, static_cast<int>(at)));
+      const std::size_t k = std::min(pieces - 1, static_cast<int>(at));
       const Vec3d origin = points[k] + (points[k + 1] - points[k]) * (at - static_cast<double>(k));
 
       const double a = turnStart + 2.39996 * c;
