@@ -4,6 +4,7 @@
 
 #include "cli/commands.h"
 #include "command_line/progress_bar.h"
+#include "core/index.h"
 #include "core/option_table.h"
 #include "core/text.h"
 #include "output/image_output.h"
@@ -29,7 +30,7 @@ Json effectsJson(const Scene& scene, const RenderOptions& options) {
         {"because", reason.on && disabled ? "disabled by --disable" : reason.because}};
   }
   for (const AskedFor& a : effectsAskedFor(options)) {
-    Json& row = effects[std::string(kEffectNames[static_cast<std::size_t>(a.effect)].name)];
+    Json& row = effects[std::string(entryOf(kEffectNames, a.effect).name)];
     if (a.asked || row["on"] == false) continue;
     row["on"] = false;
     row["because"] = row["because"].get<std::string>() + ", " + std::string(a.otherwise);
@@ -91,10 +92,10 @@ Json infoJson(const OpenScene& open, const Plan& plan, const CommonOptions& comm
     json["warnings"][kind] = {{"count", entry.count}, {"first", entry.first}};
   }
   for (const Stage stage : plan.stages()) {
-    json["stages"].push_back(kStageNames[static_cast<std::size_t>(stage)]);
+    json["stages"].push_back(entryOf(kStageNames, stage));
   }
   for (const KernelUse& kernel : kernelsOf(plan)) {
-    json["kernels"].push_back({{"stage", kStageNames[static_cast<std::size_t>(kernel.stage)]},
+    json["kernels"].push_back({{"stage", entryOf(kStageNames, kernel.stage)},
                                {"kernel", kernel.kernel},
                                {"target", kernel.target}});
   }

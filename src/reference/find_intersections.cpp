@@ -37,7 +37,7 @@ class Lookups {
 
   RgbD sample(std::int32_t Material::*map, bool second = false) const {
     const Material& material = scene_.materials[at_.triangle.material];
-    const Texture& texture = scene_.textures[static_cast<std::size_t>(material.*map)];
+    const Texture& texture = scene_.textures[material.*map];
     const auto [u, v] = texturePoint(uvs(second), at_.hit);
     if (how_.filter != TextureFilter::trilinear) return sampleTexture(texture, u, v, how_.filter);
     const double footprint =

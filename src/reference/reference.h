@@ -15,6 +15,7 @@
 #include "bake/scene.h"
 #include "core/channels.h"
 #include "core/image.h"
+#include "core/index.h"
 #include "core/options.h"
 #include "core/progress.h"
 #include "reference/path_observer.h"
@@ -38,8 +39,8 @@ class RayCounts {
   double ended = 0;
   RgbD clear;
 
-  std::uint64_t& operator[](RayKind kind) { return counts_[static_cast<std::size_t>(kind)]; }
-  std::uint64_t operator[](RayKind kind) const { return counts_[static_cast<std::size_t>(kind)]; }
+  std::uint64_t& operator[](RayKind kind) { return entryOf(counts_, kind); }
+  std::uint64_t operator[](RayKind kind) const { return entryOf(counts_, kind); }
 
   // Samples that were traced again as narrower trees, and pixels that have such samples.
   std::uint64_t limitedSamples = 0, limitedPixels = 0;

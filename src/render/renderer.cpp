@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/index.h"
 #include "core/machine_limits.h"
 #include "core/option_table.h"
 #include "core/stopwatch.h"
@@ -249,8 +250,7 @@ std::vector<std::pair<std::string, std::string>> describeImage(const Scene& scen
       {"scene", scene.name},
       {"effectsUsed", formatValue(OptionSpec{}, renderer.plan().effects)}};
   if (!isFramedByOptions(camera)) {
-    said.emplace_back("projection",
-                      kWords<Projection>[static_cast<std::size_t>(camera.projection)]);
+    said.emplace_back("projection", entryOf(kWords<Projection>, camera.projection));
   }
   for (auto& entry : pictureOptions(resolved)) said.push_back(std::move(entry));
   return said;

@@ -183,7 +183,7 @@ double SpotCone::falloff(const Vec3d& unitToLight) const {
 std::string skyName(const Sky& sky) {
   if (!sky.name.empty()) return std::filesystem::path(sky.name).filename().string();
   constexpr const char* kKinds[] = {"none", "color", "gradient", "image"};
-  return kKinds[static_cast<std::size_t>(sky.kind)];
+  return entryOf(kKinds, sky.kind);
 }
 
 RgbD skyRadiance(const Sky& sky, const Vec3d& d) {

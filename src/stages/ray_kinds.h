@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/effects.h"
+#include "core/index.h"
 
 namespace whit {
 
@@ -60,9 +61,7 @@ static_assert([] {
   return true;
 }());
 
-constexpr const RayKindRow& rowOf(RayKind kind) {
-  return kRayKinds[static_cast<std::size_t>(kind)];
-}
+constexpr const RayKindRow& rowOf(RayKind kind) { return entryOf(kRayKinds, kind); }
 
 // The kinds of impulses, in the order in which a queue holds them.
 inline constexpr std::array kImpulseKinds{RayKind::reflection, RayKind::refraction,

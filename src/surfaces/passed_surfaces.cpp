@@ -1,5 +1,6 @@
 #include "surfaces/passed_surfaces.h"
 
+#include "core/index.h"
 #include "surfaces/texture_sampling.h"
 
 namespace whit {
@@ -12,7 +13,7 @@ bool cutAway(const Scene& scene, std::uint32_t triangle, const TriangleHit& hit,
   const TexturePoint at = texturePoint(textured.triangle.uv, textured.hit);
   const double alpha = vertexAlpha(material, textured);
   const auto isBelow = [&](std::int32_t map, float cutoff) {
-    const Texture& mask = scene.textures[static_cast<std::size_t>(map)];
+    const Texture& mask = entryOf(scene.textures, map);
     return sampleTexture(mask, at.u, at.v).x * alpha < double{cutoff};
   };
   if (!forShadows) return isBelow(material.alphaMap, material.alphaCutoff);

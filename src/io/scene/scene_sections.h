@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/index.h"
 #include "core/progress.h"
 #include "core/warnings.h"
 #include "io/files.h"
@@ -197,9 +198,7 @@ Json describe(const Vec3f& v);
 inline Json describe(bool x) { return x; }
 inline Json describe(int x) { return x; }
 template <typename Enum>
-requires std::is_enum_v<Enum> Json describe(Enum value) {
-  return kWords<Enum>[static_cast<std::size_t>(value)];
-}
+requires std::is_enum_v<Enum> Json describe(Enum value) { return entryOf(kWords<Enum>, value); }
 Json describe(const std::vector<float>& numbers);
 Json describe(const Camera& camera);
 // Moves the points of a camera's or a light's JSON, in double precision.
