@@ -10,6 +10,7 @@
 #include "bake/facet.h"
 #include "bake/scene.h"
 #include "core/error.h"
+#include "core/index.h"
 #include "core/text.h"
 #include "simd/kernels.h"
 
@@ -239,7 +240,7 @@ EmbreeScene::EmbreeScene(const Scene& scene, const RenderOptions& options, Effec
 
   // A scene that stands still has its instances in the world's Embree scene, which is committed
   // last.
-  for (std::size_t i = 0; i < scene.geometries.size(); ++i) {
+  for (const auto i : indices(scene.geometries)) {
     scenes_.push_back(newScene());
     addGeometry(i, scene);
     if (effects.has(Effect::spheres)) addSpheres(i, scene);

@@ -6,6 +6,7 @@
 
 #include "bake/edit_scene.h"
 #include "bake/finalize_steps.h"
+#include "core/index.h"
 #include "core/machine_limits.h"
 #include "core/text.h"
 #include "scene/members.h"
@@ -63,7 +64,7 @@ void checkMembers(const Noun& noun, const std::string& where) {
 }
 
 void checkLights(const SceneDescription& d) {
-  for (std::size_t i = 0; i < d.lights.size(); ++i) {
+  for (const auto i : indices(d.lights)) {
     const Light& light = d.lights[i];
     const std::string where = place(d.name, "light", i, light.name);
     checkMembers(light, where);
@@ -84,7 +85,7 @@ bool isSingular(const Affine& a) {
 }
 
 void checkInstances(const SceneDescription& d) {
-  for (std::size_t i = 0; i < d.instances.size(); ++i) {
+  for (const auto i : indices(d.instances)) {
     const Affine& map = d.instances[i].toWorld;
     const std::string where = place(d.name, "instance", i, d.objects[d.instances[i].object].name);
     for (const Vec3d& column : {map.x, map.y, map.z, map.p}) {
@@ -138,7 +139,7 @@ void numberMedia(Scene& scene) {
   scene.mediumOfMaterial.assign(scene.materials.size(), 0);
   const std::vector<std::uint64_t> uses = trianglesOfMaterials(scene);
 
-  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+  for (const auto i : indices(scene.materials)) {
     const Material& m = scene.materials[i];
     if (!m.boundsMedium() || uses[i] == 0) continue;
 
@@ -233,7 +234,7 @@ void validate(const std::string& scene, const Sky& sky, const Ambient& ambient) 
 
 void validate(const SceneDescription& description) {
   checkLights(description);
-  for (std::size_t i = 0; i < description.materials.size(); ++i) {
+  for (const auto i : indices(description.materials)) {
     const Material& material = description.materials[i];
     checkMembers(material, place(description.name, "material", i, material.name));
   }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bake/texel_weights.h"
+#include "core/index.h"
 #include "core/worker_pool.h"
 
 namespace whit {
@@ -48,8 +49,8 @@ std::uint32_t meanTexel(const Texture& texture, const TexelWeights* weights,
   double total = 0;
   const int channels = texture.format == TexelFormat::data ? 4 : 3;
 
-  for (std::size_t y = 0; y < rows.shares.size(); ++y) {
-    for (std::size_t x = 0; x < columns.shares.size(); ++x) {
+  for (const auto y : indices(rows.shares)) {
+    for (const auto x : indices(columns.shares)) {
       const int column = columns.first + static_cast<int>(x);
       const int row = rows.first + static_cast<int>(y);
       const std::uint32_t texel = texture.texel(column, row);
@@ -136,7 +137,7 @@ std::optional<TexelWeights> weightsOf(const std::vector<Texture>& textures, cons
 
   TexelWeights coverage = resized(firstChannel(texture(map.coverageMap)), own.width, own.height);
   if (weights) {
-    for (std::size_t i = 0; i < coverage.values.size(); ++i) {
+    for (const auto i : indices(coverage.values)) {
       coverage.values[i] *= weights->values[i];
     }
   }

@@ -9,6 +9,7 @@
 #include "command_line/progress_bar.h"
 #include "core/display.h"
 #include "core/error.h"
+#include "core/index.h"
 #include "core/option_table.h"
 #include "core/text.h"
 #include "engine/engine.h"
@@ -136,7 +137,7 @@ std::string headOf(const Explained& e) {
   };
   const std::size_t rays = e.rays.packets.nodes.size();
   bool parts = false;
-  for (std::size_t i = 0; i < rays; ++i) parts |= e.rays.partsAt(i);
+  for (const auto i : indices(rays)) parts |= e.rays.partsAt(i);
 
   return formatted("%s, pixel %d,%d: ", printable(e.scene.name).c_str(), e.place.x, e.place.y) +
          counted(rays, "ray") + " and " + counted(e.rays.packets.shadowRays(), "shadow ray") +
@@ -297,7 +298,7 @@ std::string lessonPage(const ExplainJob& job, const Explained& e, const std::str
   const Crop tile{x0, y0, std::min(x0 + side, window.x1), std::min(y0 + side, window.y1)};
   const ImageSize size{film.image.width, film.image.height};
   std::vector<RayText> words;
-  for (std::size_t i = 0; i < e.rays.packets.nodes.size(); ++i) {
+  for (const auto i : indices(e.rays.packets.nodes)) {
     words.push_back(describeRay(e.scene, e.rays, i));
   }
   const std::string picture = pictureBy(camera, e.options, size, renderer, job);

@@ -434,7 +434,7 @@ class ImageWriter {
   void startWriting(const Film& film, const std::vector<std::string>& files,
                     ImageMetadata metadata) {
     writer_.start([=, this, &film, metadata = std::move(metadata)] {
-      for (std::size_t i = 0; i < files.size(); ++i) {
+      for (const auto i : indices(files)) {
         if (isFilm(files[i])) {
           pipe_->add(film.display.rgba);
         } else {

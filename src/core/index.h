@@ -1,9 +1,10 @@
-// Indices of type int and enumerators, which are not negative, as places in tables and grids; and
-// whether a table has a value.
+// Indices of type int and enumerators, which are not negative, as places in tables and grids; the
+// indices of a table; and whether it has a value.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <ranges>
 
 namespace whit {
@@ -17,6 +18,13 @@ template <typename Table, typename Value>
 constexpr bool contains(const Table& table, const Value& value) {
   return std::ranges::find(table, value) != std::ranges::end(table);
 }
+
+// The numbers from 0 that are less than `count`, as std::views::indices of C++26.
+constexpr auto indices(std::size_t count) { return std::views::iota(std::size_t{0}, count); }
+
+template <typename Table>
+requires requires(const Table& table) { std::size(table); }
+constexpr auto indices(const Table& table) { return indices(std::size(table)); }
 
 // Cells of a grid that is kept row by row.
 constexpr std::size_t cellsOf(int columns, int rows) {

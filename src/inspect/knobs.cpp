@@ -177,7 +177,7 @@ RenderOptions referenceOptions(const RenderOptions& options, int samples, float 
 
 std::optional<std::size_t> bestWithin(const std::vector<CostAndError>& points, double most) {
   std::optional<std::size_t> best;
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (const auto i : indices(points)) {
     const auto& [cost, error] = points[i];
     if (!std::isfinite(error) || !(cost <= most)) continue;
 

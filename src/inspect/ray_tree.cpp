@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/index.h"
 #include "inspect/reference_frame.h"
 #include "reference/add_impulses.h"
 #include "reference/find_intersections.h"
@@ -28,18 +29,17 @@ class TreeObserver : public StageObserver {
         tree_.primaries.push_back(levels_[0][0]);
         return;
       case Stage::findIntersections:
-        for (std::size_t i = 0; i < chunk.n; ++i) meet(chunk, i);
+        for (const auto i : indices(chunk.n)) meet(chunk, i);
         shadows_.assign(chunk.n, {});
         return;
       case Stage::writeEmittedAndReflectiveAmbient:
-        for (std::size_t i = 0; i < chunk.n; ++i)
-          node(chunk, i).emitted = at(chunk.radiance.rgb, i);
+        for (const auto i : indices(chunk.n)) node(chunk, i).emitted = at(chunk.radiance.rgb, i);
         break;
       case Stage::checkShadows:
-        for (std::size_t k = 0; k < chunk.shadowCount; ++k) lookForLight(chunk, k);
+        for (const auto k : indices(chunk.shadowCount)) lookForLight(chunk, k);
         return;
       case Stage::addShading:
-        for (std::size_t i = 0; i < chunk.n; ++i) addLight(chunk, i);
+        for (const auto i : indices(chunk.n)) addLight(chunk, i);
         break;
       case Stage::addImpulses:
         follow(chunk);
@@ -49,7 +49,7 @@ class TreeObserver : public StageObserver {
     }
 
     // The remaining stages add to the radiance of the surfel itself.
-    for (std::size_t i = 0; i < chunk.n; ++i) node(chunk, i).local = at(chunk.radiance.rgb, i);
+    for (const auto i : indices(chunk.n)) node(chunk, i).local = at(chunk.radiance.rgb, i);
   }
 
  private:
@@ -124,7 +124,7 @@ class TreeObserver : public StageObserver {
     levels_.resize(depth + 2);
     levels_[depth + 1].clear();
 
-    for (std::size_t s = 0; s < chunk.childSegmentCount; ++s) {
+    for (const auto s : indices(chunk.childSegmentCount)) {
       const Segment& segment = chunk.childSegments[s];
       for (std::size_t i = segment.begin; i < segment.end; ++i) {
         const std::size_t parent = numberOf(chunk, chunk.children.parent[i]);
@@ -342,7 +342,7 @@ RayTree traceReferenceTree(Renderer& renderer, const Camera& camera, const Film&
 
   reference::RayCounts counts;
   RgbD mean;
-  for (std::size_t s = 0; s < samples.size(); ++s) {
+  for (const auto s : indices(samples)) {
     intersector.beginSample();
     const RgbD radiance = tracer.sampled(frame, x, y, samples[s], s, counts);
     intersector.endSample(radiance);
@@ -367,12 +367,12 @@ std::vector<std::size_t> counterparts(const RayTree& a, const RayTree& b) {
   std::vector<std::size_t> found(a.nodes.size(), kNoCounterpart);
 
   // Primary rays correspond by the number of their sample.
-  for (std::size_t s = 0; s < std::min(a.primaries.size(), b.primaries.size()); ++s) {
+  for (const auto s : indices(std::min(a.primaries.size(), b.primaries.size()))) {
     found[a.primaries[s]] = b.primaries[s];
   }
 
   // Children correspond by kind, in their order; parents come before their children.
-  for (std::size_t i = 0; i < a.nodes.size(); ++i) {
+  for (const auto i : indices(a.nodes)) {
     if (found[i] == kNoCounterpart) continue;
 
     std::vector<std::size_t> left = b.nodes[found[i]].children;

@@ -7,6 +7,7 @@
 
 #include "bake/sphere.h"
 #include "core/image.h"
+#include "core/index.h"
 #include "reference/add_impulses.h"
 #include "reference/add_shading.h"
 #include "reference/check_shadows.h"
@@ -345,7 +346,7 @@ double distance(const Values& got, const Values& wanted, const std::vector<std::
 std::vector<std::size_t> litSlots(const Chunk& c) {
   if (c.tracesShadows()) return {c.shadows.slot, c.shadows.slot + c.shadowCount};
   std::vector<std::size_t> slots;
-  for (std::size_t i = 0; i < c.n; ++i) {
+  for (const auto i : indices(c.n)) {
     if (c.unshadowed.visible[i] > 0) slots.push_back(i);
   }
   return slots;
@@ -368,7 +369,7 @@ class StageComparer : public StageObserver {
     if (!enough(stage) && !chunk.narrowings) compareStage(stage, chunk);
     if (stage != Stage::writeEmittedAndReflectiveAmbient && stage != Stage::addShading) return;
     before_.clear();
-    for (std::size_t i = 0; i < chunk.n; ++i) before_.push_back(RadianceRow::at(chunk.radiance, i));
+    for (const auto i : indices(chunk.n)) before_.push_back(RadianceRow::at(chunk.radiance, i));
   }
 
   // updateImage, of what the film keeps.
@@ -379,7 +380,7 @@ class StageComparer : public StageObserver {
         const std::size_t pixel = film.image.index(x, y);
         const std::uint32_t scalar = reference::updateImage(options_, film.image.pixels[pixel]);
         int worst = 0;
-        for (std::size_t channel = 0; channel < 3; ++channel) {
+        for (const auto channel : indices(3)) {
           const int code = static_cast<int>(scalar >> (8 * channel) & 0xFFu);
           worst = std::max(worst, std::abs(code - int{film.display.rgba[4 * pixel + channel]}));
         }
@@ -433,7 +434,7 @@ class StageComparer : public StageObserver {
   template <typename Row, typename Scalar>
   void compareRows(Stage stage, const Chunk& c, const typename Row::Columns& columns,
                    std::size_t count, Scalar&& scalar, const std::uint32_t* slots = nullptr) {
-    for (std::size_t i = 0; i < count; ++i) {
+    for (const auto i : indices(count)) {
       compareRow(stage, c, slots ? slots[i] : i, Row::at(columns, i), scalar(world_, c, i));
     }
   }
@@ -461,7 +462,7 @@ class StageComparer : public StageObserver {
                                c.shadows.slot);
         break;
       case Stage::checkShadows:
-        for (std::size_t k = 0; k < c.shadowCount; ++k) {
+        for (const auto k : indices(c.shadowCount)) {
           const std::uint32_t i = c.shadows.slot[k];
           compareRow(stage, c, i, UnshadowedRow::at(c.unshadowed, i),
                      reference::checkShadows(world_, c, k));

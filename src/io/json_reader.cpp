@@ -237,7 +237,7 @@ Rgb JsonValue::color(double high) const {
 
 std::vector<JsonValue> JsonValue::elements() const {
   std::vector<JsonValue> result;
-  for (std::size_t i = 0; i < size(); ++i) result.push_back((*this)[i]);
+  for (const auto i : indices(size())) result.push_back((*this)[i]);
   return result;
 }
 
@@ -306,7 +306,7 @@ std::uint64_t JsonValue::wholeOr(std::uint64_t fallback, std::uint64_t limit) co
 
 std::vector<double> JsonValue::numbers() const {
   std::vector<double> all(size());
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = (*this)[i].numberOr(0);
+  for (const auto i : indices(all)) all[i] = (*this)[i].numberOr(0);
   return all;
 }
 

@@ -336,7 +336,7 @@ std::optional<double> readSurroundings(JsonObject& file, SceneContext& context) 
 // Reads the lights of a model again with the settings, as if a scene file contained them.
 void readLightSettings(const LoadOptions& options, JsonDocument& document, JsonObject& file,
                        SceneDescription& scene) {
-  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+  for (const auto i : indices(scene.lights)) {
     scene.lights[i].pointer = concat("/lights/", i);
   }
   if (options.settings.empty()) return;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/affine.h"
+#include "core/index.h"
 #include "core/vec3.h"
 #include "make/patterns/noise.h"
 #include "make/placed_triangles.h"
@@ -46,7 +47,7 @@ Vec3d bestSide(const SceneDescription& scene, double radius) {
   std::array<double, kSides.size()> shown{};
   forEachPlacedTriangle(scene, kMostLookedAt, [&](const Corners& t) {
     const Vec3d area = cross((t[1] - t[0]) / radius, (t[2] - t[0]) / radius);
-    for (std::size_t i = 0; i < sides.size(); ++i) {
+    for (const auto i : indices(sides)) {
       shown[i] += std::max(0.0, dot(area, sides[i]));
     }
   });
@@ -269,7 +270,7 @@ std::vector<Vec3d> outermostPoints(const SceneDescription& scene, double seconds
 
   // The directions are the axes both ways, and the normals of the four sides of the view's frustum.
   std::vector<Vec3d> ways{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, f.right, f.up, f.side};
-  for (std::size_t i = 0; i < 6; ++i) ways.push_back(-ways[i]);
+  for (const auto i : indices(6)) ways.push_back(-ways[i]);
   for (const Vec3d& way : {f.right / (f.aspect * f.half), f.up / f.half}) {
     ways.insert(ways.end(), {f.side + way, f.side - way});
   }
@@ -283,7 +284,7 @@ std::vector<Vec3d> outermostPoints(const SceneDescription& scene, double seconds
 
   // Each direction keeps the corner that lies farthest along it.
   const auto add = [&](const Vec3d& corner) {
-    for (std::size_t k = 0; k < ways.size(); ++k) {
+    for (const auto k : indices(ways)) {
       const double own = dot(corner, ways[k]);
       if (own > reach[k]) {
         reach[k] = own;
@@ -526,7 +527,7 @@ Turntable aroundModel(const SceneDescription& scene, const ModelView& view, int 
   // all rings.
   const Outline outline = outlineOf(scene, view.center);
   double distance = 0;
-  for (std::size_t i = 0; i < kSlices; ++i) {
+  for (const auto i : indices(kSlices)) {
     for (const double y : {outline.begin(i), outline.begin(i + 1)}) {
       distance = std::max(distance, distanceFor(outline.radius[i], y, side.y, half, aspect));
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "core/index.h"
 #include "core/text.h"
 #include "reference/media.h"
 
@@ -124,8 +125,7 @@ int codesAddedBy(const RayTree& tree, std::size_t node, const RenderOptions& opt
   const auto without = codesOf(max(tree.pixel - Rgb(added), Rgb(0.0f)), options);
 
   int most = 0;
-  for (std::size_t i = 0; i < with.size(); ++i)
-    most = std::max(most, std::abs(with[i] - without[i]));
+  for (const auto i : indices(with)) most = std::max(most, std::abs(with[i] - without[i]));
   return most;
 }
 
@@ -138,7 +138,7 @@ Json pageTree(const std::vector<RayText>& words, const ExplainedRays& rays,
             {"reference", codesOf(rays.reference.pixel, options)},
             {"shadowRays", tree.shadowRays()}};
 
-  for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+  for (const auto i : indices(tree.nodes)) {
     const RayNode& n = tree.nodes[i];
     json["nodes"].push_back({{"parent", n.parent},
                              {"kind", rowOf(n.kind).name},

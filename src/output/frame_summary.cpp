@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/index.h"
 #include "core/text.h"
 
 namespace whit {
@@ -65,7 +66,7 @@ double outsideEmbreeMs(const FrameStats& frame) { return frame.frameMs - frame.e
 
 RunRatio ratioOf(const RunSummary& a, const RunSummary& b) {
   std::vector<double> frames, outside;
-  for (std::size_t i = 0; i < std::min(a.frames.size(), b.frames.size()); ++i) {
+  for (const auto i : indices(std::min(a.frames.size(), b.frames.size()))) {
     const FrameStats &x = a.frames[i], &y = b.frames[i];
     const double restX = outsideEmbreeMs(x), restY = outsideEmbreeMs(y);
     if (y.frameMs > 0) frames.push_back(x.frameMs / y.frameMs);
@@ -137,7 +138,7 @@ void appendStages(std::string& text, const FrameStats& frame) {
   text += formatted("  %-34s%10s%8s\n", "stage", "ms", "%");
 
   double sum = 0;
-  for (std::size_t i = 0; i < kStageCount; ++i) {
+  for (const auto i : indices(kStageCount)) {
     const double ms = frame.stageMs(static_cast<Stage>(i));
     sum += ms;
     text += formatted("  %-34s%10.3f%8.1f\n", kStageNames[i].data(), ms, 100 * ms / whole);
@@ -152,7 +153,7 @@ void appendStages(std::string& text, const FrameStats& frame) {
 
 void appendRays(std::string& text, const FrameStats& frame, EffectSet effects) {
   text += formatted("  %-14s%12s%10s%16s\n", "rays", "traced", "Mray/s", "lanes filled %");
-  for (std::size_t i = 0; i < kRayKindCount; ++i) {
+  for (const auto i : indices(kRayKindCount)) {
     if (!kRayKinds[i].calledForBy(effects)) continue;
     const RayTally& tally = frame.meter.tally[i];
     text += formatted("  %-14s%12llu%10.2f", kRayKinds[i].name.data(),

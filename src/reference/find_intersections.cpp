@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/index.h"
 #include "reference/add_impulses.h"
 #include "reference/media.h"
 #include "surfaces/texture_sampling.h"
@@ -167,7 +168,7 @@ Vec3d terminatorLift(const Scene& scene, EffectSet effects, const Candidate& can
   const double weights[] = {1 - hit.u - hit.v, hit.u, hit.v};
   const Affine* toWorld = toWorldOf(scene, candidate.instance);
   Vec3d lift;
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (const auto i : indices(3)) {
     Vec3d n = triple(normals + 3 * i);
     if (toWorld) {
       n = normalized(toWorld->normal(n));

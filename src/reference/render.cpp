@@ -7,6 +7,7 @@
 
 #include "bake/sphere.h"
 #include "core/display.h"
+#include "core/index.h"
 #include "core/worker_pool.h"
 #include "reference/add_impulses.h"
 #include "reference/find_intersections.h"
@@ -95,7 +96,7 @@ RayCounts renderAdaptively(const Tracer& tracer, const CameraFrame& frame, const
 RgbD Tracer::pixel(const CameraFrame& camera, int x, int y, RayCounts& counts) const {
   RgbD mean;
   double taken = 0;
-  for (std::size_t s = 0; s < samples_.size(); ++s) {
+  for (const auto s : indices(samples_)) {
     addSample(mean, sampled(camera, x, y, samples_[s], s, counts), ++taken);
   }
   return mean;
@@ -104,7 +105,7 @@ RgbD Tracer::pixel(const CameraFrame& camera, int x, int y, RayCounts& counts) c
 // By the running sum of squared deviations (Welford 1962), which does not cancel.
 double Tracer::standardError(const CameraFrame& camera, int x, int y, RayCounts& counts) const {
   double mean = 0, deviations = 0, taken = 0;
-  for (std::size_t s = 0; s < samples_.size(); ++s) {
+  for (const auto s : indices(samples_)) {
     const RgbD sample = sampled(camera, x, y, samples_[s], s, counts);
     const double value = (sample.x + sample.y + sample.z) / 3, before = value - mean;
     mean += before / ++taken;
@@ -198,7 +199,7 @@ void keepChannels(const Scene& scene, const Intersector& intersector, const Came
     layers.keep(pixel, tracer.channels(frame, x, y, samples[number], number));
     if (layers.channels().has(Channel::alpha)) {
       RayCounts seen;
-      for (std::size_t i = 0; i < samples.size(); ++i) {
+      for (const auto i : indices(samples)) {
         tracer.sampled(frame, x, y, samples[i], i, seen);
       }
       const double clear = (seen.clear.x + seen.clear.y + seen.clear.z) / 3;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/index.h"
 #include "core/worker_pool.h"
 #include "stages/lobes.h"
 
@@ -129,7 +130,7 @@ void addMaterials(const Scene& scene, EffectSet effects, ShadingTables& tables) 
   tables.radianceMaps = false;
   const bool onOthers = scene.media.size() > 1 && !scene.coplanar.empty();
   MapNumbers maps(tables.maps);
-  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+  for (const auto i : indices(scene.materials)) {
     const Material& m = scene.materials[i];
     MaterialRecord r = recordOf(m, scene.mediumOfMaterial[i], onOthers, effects, maps);
     if (r.emissionMap != kNoTexture && isRadiance(scene, m.emissionMap)) {

@@ -142,7 +142,7 @@ class Planner {
 
     if (isOccluded(scene_.ambient, plan_.effects)) addAmbientLight();
     if (has(Effect::lights)) {
-      for (std::size_t i = 0; i < scene_.lights.size(); ++i) addSamplesOf(i);
+      for (const auto i : indices(scene_.lights)) addSamplesOf(i);
     }
 
     addImpulses();
@@ -355,7 +355,7 @@ class Planner {
 
   void markEndsOfStages() {
     const auto mark = [](std::vector<Step>& steps) {
-      for (std::size_t i = 0; i < steps.size(); ++i) {
+      for (const auto i : indices(steps)) {
         steps[i].endsStage = i + 1 == steps.size() || steps[i + 1].stage != steps[i].stage;
       }
     };

@@ -5,6 +5,7 @@
 #include <barrier>
 
 #include "core/image.h"
+#include "core/index.h"
 
 namespace whit {
 
@@ -33,7 +34,7 @@ std::vector<std::uint32_t> mortonOrder(int side) {
 // The lists dealt out in turn, so that every worker gets its share of each part of the image.
 PixelLists dealOut(const PixelLists& lists, std::size_t workers) {
   PixelLists shares(workers);
-  for (std::size_t i = 0; i < lists.size(); ++i) {
+  for (const auto i : indices(lists)) {
     std::vector<std::uint32_t>& share = shares[i % workers];
     share.insert(share.end(), lists[i].begin(), lists[i].end());
   }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/index.h"
 #include "stages/chunk.h"
 #include "stages/stage.h"
 
@@ -27,7 +28,7 @@ class PixelTracker {
       levels_.resize(depth + 2);
       std::vector<std::uint32_t>& next = levels_[depth + 1];
       next.clear();
-      for (std::size_t i = 0; i < chunk.childCount; ++i) {
+      for (const auto i : indices(chunk.childCount)) {
         next.push_back(levels_[depth][chunk.first + chunk.children.parent[i]]);
       }
     }

@@ -12,6 +12,7 @@
 #include "bake/sphere.h"
 #include "core/error.h"
 #include "core/image.h"
+#include "core/index.h"
 #include "core/text.h"
 #include "render/embree_intersector.h"
 #include "render/renderer.h"
@@ -36,7 +37,7 @@ template <typename Keep>
 void forEachKept(const Chunk& c, Keep&& keep) {
   const Crop& w = c.frame->channels.window;
   const std::size_t width = w.x1 - w.x0;
-  for (std::size_t i = 0; i < c.n; ++i) {
+  for (const auto i : indices(c.n)) {
     if (c.isGivenUp(c.first + i)) continue;
     const std::uint32_t pixel = c.pixels[c.first + i];
     const int x = pixelX(pixel), y = pixelY(pixel);
@@ -59,7 +60,7 @@ void moveRow(RayColumns rays, std::size_t from, std::size_t to) {
 template <typename Keeps>
 void keepChildren(Chunk& c, const Keeps& keeps) {
   std::size_t kept = 0, segments = 0;
-  for (std::size_t s = 0; s < c.childSegmentCount; ++s) {
+  for (const auto s : indices(c.childSegmentCount)) {
     const Segment all = c.childSegments[s];
     const std::size_t first = kept;
     for (std::size_t i = all.begin; i < all.end; ++i) {
@@ -88,7 +89,7 @@ void standForAll(const Chunk& c, std::size_t child, const Narrowing& of) {
 void narrowTrees(Chunk& c) {
   const std::uint64_t widest = widestTree(c.options().maxRays, c.options().depth);
   const std::uint32_t* const parents = c.children.parent;
-  for (std::size_t i = 0; i < c.childCount; ++i) {
+  for (const auto i : indices(c.childCount)) {
     Narrowing& parent = c.narrowings[parents[i]];
     ++parent.children;
     parent.weights += static_cast<double>(largestWeight(c.children, i));
@@ -145,7 +146,7 @@ void setSurface(const Candidate& chosen, std::size_t i, Chunk& c) {
 
 Box boundsWithin(const Scene& scene, const Geometry& geometry) {
   Box box;
-  for (std::size_t i = 0; i < geometry.index.size(); ++i) {
+  for (const auto i : indices(geometry.index)) {
     const TriangleRecord& triangle = scene.triangles[geometry.firstTriangle + i];
     if (scene.mediumOfMaterial[triangle.material] == 0) continue;
     for (int k = 0; k < 9; k += 3) {
@@ -190,7 +191,7 @@ void updateImage(Chunk& c) {
 
   // The film is larger than the caches: its lines are asked for before they are written.
   constexpr std::size_t kAhead = 64;
-  for (std::size_t i = 0; i < n; ++i) {
+  for (const auto i : indices(n)) {
     const std::size_t next = placeOf(pixels[std::min(i + kAhead, n - 1)]);
     __builtin_prefetch(image + next, 1);
 
@@ -207,7 +208,7 @@ std::uint64_t countNonFinite(const Chunk& c) {
   const auto [r, g, b] = c.radiance.rgb;
   std::uint64_t count = 0;
   // The sum is finite only if its terms are, or cancel; infinities of one sign do not.
-  for (std::size_t i = 0; i < c.n; ++i) count += !std::isfinite(r[i] + g[i] + b[i]);
+  for (const auto i : indices(c.n)) count += !std::isfinite(r[i] + g[i] + b[i]);
   return count;
 }
 
@@ -233,7 +234,7 @@ void keepChannels(Chunk& c) {
 }
 
 void limitRays(Chunk& c) {
-  for (std::size_t i = 0; i < c.childCount; ++i) {
+  for (const auto i : indices(c.childCount)) {
     c.childPixelSlots[i] = c.pixelSlots[c.children.parent[i]];
   }
   if (c.narrowings) {
@@ -243,7 +244,7 @@ void limitRays(Chunk& c) {
 
   const auto most = static_cast<unsigned>(c.options().maxRays);
   bool tooMany = false;
-  for (std::size_t i = 0; i < c.childCount; ++i) {
+  for (const auto i : indices(c.childCount)) {
     tooMany |= ++c.followed[c.childPixelSlots[i]] > most;
   }
   if (tooMany) keepChildren(c, [&](std::size_t i) { return !c.isGivenUp(c.childPixelSlots[i]); });
@@ -252,11 +253,11 @@ void limitRays(Chunk& c) {
 void countRays(Chunk& c) { std::fill_n(c.rayCounts, c.n, 1u); }
 
 void countShadowRays(Chunk& c) {
-  for (std::size_t i = 0; i < c.shadowCount; ++i) ++c.rayCounts[c.shadows.slot[i]];
+  for (const auto i : indices(c.shadowCount)) ++c.rayCounts[c.shadows.slot[i]];
 }
 
 void returnRayCounts(Chunk& c) {
-  for (std::size_t i = 0; i < c.n; ++i) c.parentRayCounts[c.rays.parent[i]] += c.rayCounts[i];
+  for (const auto i : indices(c.n)) c.parentRayCounts[c.rays.parent[i]] += c.rayCounts[i];
 }
 
 void keepRayCounts(Chunk& c) {
@@ -268,7 +269,7 @@ void keepRayCounts(Chunk& c) {
 void startEnds(Chunk& c) { std::fill_n(c.radiance.ended, c.n, 0.0f); }
 
 void returnEnds(Chunk& c) {
-  for (std::size_t i = 0; i < c.n; ++i) {
+  for (const auto i : indices(c.n)) {
     c.parentRadiance.ended[c.rays.parent[i]] += largestWeight(c.rays, i) * c.radiance.ended[i];
   }
 }
@@ -282,7 +283,7 @@ void keepEnds(Chunk& c) {
 void startAlpha(Chunk& c) {
   const RadianceColumns& radiance = c.radiance;
   const bool hidesSky = c.options().background.hidesSky();
-  for (std::size_t i = 0; i < c.n; ++i) {
+  for (const auto i : indices(c.n)) {
     const bool isClear = c.surfels.material[i] == kMiss && c.isStraight(i);
     radiance.clear.set(i, Rgb(isClear ? 1.0f : 0.0f));
     if (isClear && hidesSky) radiance.rgb.set(i, Rgb());
@@ -291,7 +292,7 @@ void startAlpha(Chunk& c) {
 
 void markStraight(Chunk& c) {
   const RayColumns &rays = c.rays, &children = c.children;
-  for (std::size_t i = 0; i < c.childCount; ++i) {
+  for (const auto i : indices(c.childCount)) {
     const std::uint32_t parent = children.parent[i];
     const bool goesOn = children.dir.at(i) == rays.dir.at(parent);
     children.straight[i] = goesOn && c.isStraight(parent) ? 1 : 0;
@@ -300,7 +301,7 @@ void markStraight(Chunk& c) {
 
 void returnAlpha(Chunk& c) {
   const RadianceColumns &from = c.radiance, &to = c.parentRadiance;
-  for (std::size_t i = 0; i < c.n; ++i) {
+  for (const auto i : indices(c.n)) {
     const std::uint32_t parent = c.rays.parent[i];
     to.clear.set(parent, to.clear.at(parent) + c.rays.weight.at(i) * from.clear.at(i));
   }
@@ -318,7 +319,7 @@ void keepAlpha(Chunk& c) {
 void chooseCoplanar(Chunk& c) {
   const Scene& scene = *c.frame->scene;
   std::fill_n(c.hits.alsoCrossed, c.n, 0u);
-  for (std::size_t i = 0; i < c.n; ++i) {
+  for (const auto i : indices(c.n)) {
     if (!scene.coplanar.any(c.hits.triangle[i])) continue;
     const ChosenSurface chosen =
         chooseSurface(scene, c.frame->effects, rayOf(c, i), candidateOf(c, i));
@@ -330,7 +331,7 @@ void chooseCoplanar(Chunk& c) {
 }
 
 void chooseSpheres(Chunk& c) {
-  for (std::size_t i = 0; i < c.n; ++i) {
+  for (const auto i : indices(c.n)) {
     const Candidate found = candidateOf(c, i);
     const Candidate best = chooseSphere(*c.frame->scene, c.frame->effects, found);
     if (best.triangle != found.triangle || best.instance != found.instance) setSurface(best, i, c);
@@ -370,7 +371,7 @@ bool startsMeet(const CameraFrame& camera, const Box& dielectrics) {
 void findInitialMedia(Chunk& c) {
   if (!c.frame->camera.mediaVary) return;
   const EmbreeIntersector intersector(*c.frame->accel);
-  for (std::size_t i = 0; i < c.n; ++i) {
+  for (const auto i : indices(c.n)) {
     c.rays.media[i] =
         mediaAtStart(*c.frame->scene, c.frame->effects, intersector, c.frame->camera, rayOf(c, i));
   }

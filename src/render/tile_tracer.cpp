@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/image.h"
+#include "core/index.h"
 #include "render/steps.h"
 
 namespace whit {
@@ -30,7 +31,7 @@ std::uint64_t sumOf(const Columns& columns, std::size_t n) {
 
   Columns::forEachColumn(columns, [&](const char*, const auto* column, Feature) {
     if (!column) return;
-    for (std::size_t i = 0; i < n; ++i) {
+    for (const auto i : indices(n)) {
       std::uint32_t word = 0;
       std::memcpy(&word, column + i, sizeof word);
       sum = (sum ^ word) * 0x100000001b3u;
@@ -70,7 +71,7 @@ void runChecked(const Step& step, Chunk& chunk) {
   const Sums after = checks ? sumsOf(start) : Sums();
 
   // A step that appends children must not change those that were there before.
-  for (std::size_t i = 0; i < kChecked.size(); ++i) {
+  for (const auto i : indices(kChecked)) {
     const bool appends = kChecked[i] == Part::children && step.childrenAtEye > 0;
     if (after[i] == before[i] || (step.writes.has(kChecked[i]) && !appends)) continue;
 
@@ -128,7 +129,7 @@ void Workspace::takeChunk(int depth, Chunk& chunk) {
 
   // The segments of the queue are clipped to the chunk, which may hold several kinds of rays.
   chunk.segmentCount = 0;
-  for (std::size_t s = 0; s < at.segmentCount; ++s) {
+  for (const auto s : indices(at.segmentCount)) {
     const auto within = [&](std::size_t i) {
       return std::clamp(i, at.cursor, at.cursor + at.chunk) - at.cursor;
     };
@@ -293,7 +294,7 @@ bool TileTracer::traceSamples(const Frame& frame, const Watch& watch) {
 
   leaveSums(frame);
   const RadianceColumns& radiance = chunk_.radiance;
-  for (std::size_t i = 0; i < n; ++i) {
+  for (const auto i : indices(n)) {
     radiance.rgb.set(i, Rgb(sums_[i].total / static_cast<double>(frame.endSample)));
   }
 
@@ -303,7 +304,7 @@ bool TileTracer::traceSamples(const Frame& frame, const Watch& watch) {
 void TileTracer::addSample(const Frame& frame) {
   const RadianceColumns& radiance = chunk_.radiance;
   const std::size_t n = chunk_.pixels.size();
-  for (std::size_t i = 0; i < n; ++i) {
+  for (const auto i : indices(n)) {
     sums_[i].total += RgbD(radiance.rgb.at(i));
   }
 
@@ -319,7 +320,7 @@ void TileTracer::addSample(const Frame& frame) {
 
 void TileTracer::keepErrors(const Frame& frame) {
   const std::span<float> errors = frame.film->channels.floats(Channel::error);
-  for (std::size_t i = 0; i < chunk_.pixels.size(); ++i) {
+  for (const auto i : indices(chunk_.pixels)) {
     const std::uint32_t pixel = chunk_.pixels[i];
     errors[2 * frame.film->image.index(pixelX(pixel), pixelY(pixel))] =
         static_cast<float>(sums_[i].standardError(static_cast<int>(frame.endSample)));
@@ -345,7 +346,7 @@ void TileTracer::leaveSums(const Frame& frame) {
 
 void TileTracer::keepProbeCodes(const Frame& frame) {
   encodeForDisplay(chunk_);
-  for (std::size_t i = 0; i < chunk_.n; ++i) {
+  for (const auto i : indices(chunk_.n)) {
     const std::uint32_t pixel = chunk_.pixels[i];
     frame.probes->at(pixelX(pixel), pixelY(pixel)).codes[chunk_.sampleNumber] = chunk_.codes[i];
   }
@@ -390,7 +391,7 @@ void TileTracer::traceNarrowed(const std::vector<std::uint32_t>& slots, const Wa
   RadianceColumns::forEachColumn(chunk_.radiance, [&](const char*, float* column, Feature) {
     std::vector<float>& values = all[number++];
     if (!column) return;
-    for (std::size_t i = 0; i < slots.size(); ++i) values[slots[i]] = column[i];
+    for (const auto i : indices(slots)) values[slots[i]] = column[i];
     std::ranges::copy(values, column);
   });
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <type_traits>
 
+#include "core/index.h"
 #include "core/text.h"
 #include "io/gltf/document.h"
 
@@ -157,7 +158,7 @@ std::vector<Element> readFloats(const GltfDocument& document, const JsonValue& r
                               typeOf(components));
   return reader.read<Element>(
       components * sizeof(float) / sizeof(Element), [&](Element* to, const std::uint8_t* from) {
-        for (std::size_t k = 0; k < components; ++k) {
+        for (const auto k : indices(components)) {
           const float value = reader.at(from, k);
           std::memcpy(reinterpret_cast<char*>(to) + k * sizeof value, &value, sizeof value);
         }

@@ -255,7 +255,7 @@ std::string GltfDocument::decodeUri(const JsonValue& uri) const {
 }
 
 void GltfDocument::readBuffers(const std::filesystem::path& folder, const PathRules& rules) {
-  for (std::size_t i = 0; i < buffers_.size(); ++i) {
+  for (const auto i : indices(buffers_)) {
     const JsonValue buffer = list("buffers")[i], uri = buffer["uri"];
     const std::uint64_t length = buffer.need("byteLength").wholeOr(0);
     std::optional<std::string>& bytes = buffers_[i];
@@ -282,7 +282,7 @@ void GltfDocument::readImages(const std::filesystem::path& folder, const PathRul
   const JsonValue images = list("images");
   images_.resize(images.size());
 
-  for (std::size_t i = 0; i < images_.size(); ++i) {
+  for (const auto i : indices(images_)) {
     GltfImageSource& image = images_[i];
     image.where = images[i].where();
     const JsonValue uri = images[i]["uri"], view = images[i]["bufferView"];

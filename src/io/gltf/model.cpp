@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/index.h"
 #include "core/text.h"
 #include "io/gltf/material.h"
 #include "io/gltf/nodes.h"
@@ -38,7 +39,7 @@ std::vector<Vec3f> vectorsOf(const GltfDocument& document, const JsonValue& attr
 // Reads the targets that have a weight at some time.
 void readTargets(const GltfDocument& document, const JsonValue& targets, Deformation& to) {
   to.targets.resize(targets.size());
-  for (std::size_t i = 0; i < targets.size(); ++i) {
+  for (const auto i : indices(targets)) {
     const bool weighs = i < to.weights.size() && to.weights[i] != 0;
     if (!weighs && !to.movingWeights) continue;
     to.targets[i] = {vectorsOf(document, targets[i]["POSITION"], to.positions.size()),
@@ -203,7 +204,7 @@ class PrimitiveReader {
       document_.budget().charge(mesh.positions.size(), sizeof(Vec2f), primitive_.where());
       mesh.secondUvs.resize(mesh.positions.size());
     }
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    for (const auto i : indices(mesh.positions)) {
       const float alpha = rgba[4 * i + 3];
       if (byRamp) {
         mesh.uvs[i].x = alphaRampU(alpha);
@@ -248,7 +249,7 @@ class PrimitiveReader {
     document_.budget().charge(count, sizeof(mesh.triangles[0]), primitive_.where());
     mesh.triangles.reserve(count);
     if (mode_ == kTriangleStrip) return addStrip(c, mesh.triangles);
-    for (std::size_t i = 0; i < count; ++i) {
+    for (const auto i : indices(count)) {
       if (separate) {
         mesh.triangles.push_back({c[3 * i], c[3 * i + 1], c[3 * i + 2]});
       } else {

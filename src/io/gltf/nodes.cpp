@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/index.h"
 #include "core/options.h"
 #include "core/text.h"
 
@@ -69,7 +70,7 @@ std::size_t morphTargets(const GltfDocument& document, std::size_t node) {
 std::vector<double> readTimes(const GltfDocument& document, const JsonValue& input) {
   const std::vector<float> times = readTuples(document, input, 1);
   if (times.empty()) input.fail("at least one time", "none");
-  for (std::size_t i = 0; i < times.size(); ++i) {
+  for (const auto i : indices(times)) {
     if (std::isfinite(times[i]) && (i == 0 || times[i] > times[i - 1])) continue;
     input.fail("finite times that increase",
                formatted("%g at index %zu", static_cast<double>(times[i]), i));
@@ -210,7 +211,7 @@ class TreeReader {
   // A node with two parents or that is its own ancestor is found by visit().
   void findParents() {
     parents_.assign(nodes_.size(), kTopmost);
-    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    for (const auto i : indices(nodes_)) {
       for (const JsonValue& child : nodes_[i]["children"].elements()) {
         parents_[child.indexInto(nodes_).value_or(0)] = i;
       }
@@ -222,7 +223,7 @@ class TreeReader {
     const auto scene = document_.root()["scene"].indexInto(scenes);
     std::vector<std::size_t> all;
     if (scenes.size() == 0) {
-      for (std::size_t i = 0; i < parents_.size(); ++i) {
+      for (const auto i : indices(parents_)) {
         if (parents_[i] == kTopmost) all.push_back(i);
       }
     }
@@ -383,7 +384,7 @@ class TreeReader {
                               attributes.where());
 
     std::vector<Affine> copies;
-    for (std::size_t i = 0; i < count; ++i) {
+    for (const auto i : indices(count)) {
       Quaternion turn{0, 0, 0, 1};
       if (turns > 0) std::copy_n(&rotations[4 * i], 4, turn.begin());
       const NodePlace place{translations.empty() ? Vec3d() : Vec3d(translations[i]), turn,
@@ -458,7 +459,7 @@ class TreeReader {
     std::vector<std::string> names;
     for (const auto& placed : stage_.cameras) names.push_back(placed.thing.name);
     names = distinctNames(names);
-    for (std::size_t i = 0; i < names.size(); ++i) stage_.cameras[i].thing.name = names[i];
+    for (const auto i : indices(names)) stage_.cameras[i].thing.name = names[i];
   }
 
   // Equal angles, a sharp edge, are accepted: the extension forbids them, but writers produce them.
@@ -486,13 +487,13 @@ class TreeReader {
 std::vector<Animation> listGltfAnimations(const GltfDocument& document) {
   const JsonValue animations = document.list("animations");
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < animations.size(); ++i) {
+  for (const auto i : indices(animations)) {
     const std::string name = animations[i]["name"].textOr("");
     names.push_back(name.empty() ? concat("animation ", i) : name);
   }
   names = distinctNames(names);
   std::vector<Animation> all;
-  for (std::size_t i = 0; i < names.size(); ++i) {
+  for (const auto i : indices(names)) {
     std::set<std::size_t> moved;
     double last = 0;  // the time of the last key of all samplers in use
     forEachChannel(document, animations[i],

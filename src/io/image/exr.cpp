@@ -27,6 +27,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/index.h"
 #include "core/option_table.h"
 #include "core/text.h"
 #include "io/files.h"
@@ -223,7 +224,7 @@ class ExrFile {
     std::vector<Value> values(width * static_cast<std::uint64_t>(heightOf(data)) * channels.size());
     const std::size_t stride = channels.size() * sizeof(Value);
     Imf::FrameBuffer frame;
-    for (std::size_t c = 0; c < channels.size(); ++c) {
+    for (const auto c : indices(channels)) {
       const auto& [name, type] = channels[c];
       frame.insert(name, Imf::Slice::Make(type, &values[c], data, stride, stride * width));
     }
@@ -505,7 +506,7 @@ std::vector<ImageLayer> readLayers(const std::string& path, const ImageLimits& l
     if (channels.empty()) return layers;
     file.checkSizes(channels.size(), limits);
     const auto words = file.read<std::uint32_t>(file.visible(), channels, limits);
-    for (std::size_t c = 0; c < channels.size(); ++c) {
+    for (const auto c : indices(channels)) {
       ImageLayer& layer = layers.emplace_back();
       layer.name = channels[c].first;
       layer.countsThings = channels[c].second == Imf::UINT;

@@ -7,6 +7,7 @@
 
 #include "core/display.h"
 #include "core/error.h"
+#include "core/index.h"
 #include "core/text.h"
 #include "io/files.h"
 #include "io/image/image_decoders.h"
@@ -178,8 +179,7 @@ Image readImage(const std::string& path, const ImageLimits& limits) {
   }
 
   Image image(source.width, source.height, source.window);
-  for (std::size_t i = 0; i < image.pixels.size(); ++i)
-    image.pixels[i] = linearPixel(source.raw, i);
+  for (const auto i : indices(image.pixels)) image.pixels[i] = linearPixel(source.raw, i);
   return image;
 }
 

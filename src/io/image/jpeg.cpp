@@ -180,10 +180,10 @@ bool write(JpegWriter& writer, const DisplayImage& image, int quality,
 
 // Converts CMYK to RGB in place: light passes through an ink and then through black.
 void printInks(RawImage& image, bool isInverted) {
-  for (std::size_t i = 0; i < image.pixels(); ++i) {
+  for (const auto i : indices(image.pixels())) {
     const std::uint8_t* const inks = &image.codes[4 * i];
     const auto light = [&](std::size_t k) { return isInverted ? inks[k] : 255 - inks[k]; };
-    for (std::size_t k = 0; k < 3; ++k) {
+    for (const auto k : indices(3)) {
       image.codes[3 * i + k] = static_cast<std::uint8_t>((light(k) * light(3) + 127) / 255);
     }
   }

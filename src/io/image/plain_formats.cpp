@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "core/index.h"
 #include "core/text.h"
 #include "io/files.h"
 #include "io/image/image_decoders.h"
@@ -267,7 +268,7 @@ void readRuns(ImageBytes& bytes, std::size_t component, std::vector<Rgbe>& row) 
     }
 
     std::uint8_t value = 0;
-    for (std::size_t i = 0; i < count; ++i) {
+    for (const auto i : indices(count)) {
       if (i == 0 || !isRun) value = bytes.next();
       row[done++][component] = value;
     }
@@ -312,7 +313,7 @@ void readRow(ImageBytes& bytes, std::vector<Rgbe>& row) {
     if (length != row.size()) {
       bytes.fail(concat("expected a row of ", row.size(), " pixels, found one of ", length));
     }
-    for (std::size_t component = 0; component < 4; ++component) readRuns(bytes, component, row);
+    for (const auto component : indices(4)) readRuns(bytes, component, row);
     return;
   }
 
@@ -353,12 +354,12 @@ RawImage decodeHdr(const std::string& path, FileBytes file, const ImageLimits& l
   image.values.reserve(width * height * 3);
 
   std::vector<Rgbe> row(width);
-  for (std::size_t y = 0; y < height; ++y) {
+  for (const auto y : indices(height)) {
     readRow(bytes, row);
     for (const Rgbe& pixel : row) {
       constexpr int kBias = 128 + 8;  // of the exponent, and of mantissas below 256
       const float scale = pixel[3] == 0 ? 0 : std::ldexp(1.0f, pixel[3] - kBias);
-      for (std::size_t c = 0; c < 3; ++c) {
+      for (const auto c : indices(3)) {
         image.values.push_back(static_cast<float>(pixel[c]) * scale);
       }
     }

@@ -18,6 +18,7 @@
 
 #include "core/display.h"
 #include "core/error.h"
+#include "core/index.h"
 #include "core/text.h"
 #include "io/files.h"
 #include "io/line_reader.h"
@@ -309,7 +310,7 @@ class ObjReader {
   }
 
   void finishNormals() {
-    for (std::size_t i = 0; i < known_.size(); ++i) {
+    for (const auto i : indices(known_)) {
       const std::int32_t normal = known_[i].normal;
       if (normal < kFirstGroupNormal) continue;
       mesh_.normals[i] = Vec3f(normalized(groupSums_[placeOf(normal - kFirstGroupNormal)], {}));
@@ -449,7 +450,7 @@ class ObjModel : public MeshModel {
   void mapCoordinates() {
     if (mesh_.uvs.empty()) return;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> copies;
-    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+    for (const auto i : indices(mesh_.triangles)) {
       const std::uint32_t material = mesh_.material(i);
       const GltfMaterial::Coordinates coordinates = sources_[material].surface.coordinates();
       if (coordinates == GltfMaterial::Coordinates()) continue;

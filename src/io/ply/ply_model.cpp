@@ -426,7 +426,7 @@ class PlyReader {
       warnings_.add("face without a texture coordinate for each corner", place());
     }
     if (!mapped && !hasFaceColors_) return;
-    for (std::size_t i = 0; i < numbers_.size(); ++i) {
+    for (const auto i : indices(numbers_)) {
       budget_.charge(1, 2 * sizeof(Vec3f) + sizeof(Vec2f) + sizeof(Rgb), file_);
       const std::size_t old = numbers_[i];
       numbers_[i] = static_cast<std::uint32_t>(mesh_.positions.size());

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/index.h"
 #include "make/patterns/noise.h"
 #include "make/shapes/mesh_builder.h"
 
@@ -26,7 +27,7 @@ constexpr double kCreaseCosine = 0.81915204428899178968;  // 35 degrees
 std::set<Edge> outlineOf(const std::vector<PlanCell>& plan) {
   std::set<Edge> edges;
   for (const PlanCell& cell : plan) {
-    for (std::size_t k = 0; k < 4; ++k) {
+    for (const auto k : indices(4)) {
       const PlanPoint &a = cell[k], &b = cell[(k + 1) % 4];
       if (a == b) continue;
       if (edges.erase({b, a}) == 0) edges.insert({a, b});
@@ -85,7 +86,7 @@ Mesh extrude(const std::vector<PlanCell>& plan, double z0, double z1, double rep
   for (const bool front : {true, false}) {
     for (const PlanCell& cell : plan) {
       std::array<Vec3d, 4> corners;
-      for (std::size_t k = 0; k < 4; ++k) corners[k] = {cell[k][0], cell[k][1], front ? z1 : z0};
+      for (const auto k : indices(4)) corners[k] = {cell[k][0], cell[k][1], front ? z1 : z0};
       if (!front) std::swap(corners[1], corners[3]);
       builder.plate(corners, repeat);
     }
@@ -318,7 +319,7 @@ void addShaft(MeshBuilder& builder, const ColumnPlan& plan, int segments) {
       rim.push_back(builder.vertex({{radius * t.cosine, height(j), -radius * t.sine}, normal, {}}));
     }
 
-    for (std::size_t i = 0; i < rim.size(); ++i) {
+    for (const auto i : indices(rim)) {
       std::uint32_t a = rim[i], b = rim[(i + 1) % rim.size()];
       if (!top) std::swap(a, b);
       builder.triangle(center, a, b);
@@ -611,7 +612,7 @@ Shape makeCornice(ShapeParameters& parameters) {
 
   MeshBuilder builder(MeshBuilder::Shading::flat);
   for (int side = 0; side < 4; ++side) {
-    for (std::size_t m = 0; m < section.size(); ++m) {
+    for (const auto m : indices(section)) {
       const auto &s = section[m], &t = section[(m + 1) % section.size()];
       // Outside of the rectangle the section is mirrored, so the ends of a side change places to
       // keep the fronts outwards.

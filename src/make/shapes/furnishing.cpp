@@ -1,5 +1,6 @@
 #include <numbers>
 
+#include "core/index.h"
 #include "make/patterns/noise.h"
 #include "make/shapes/mesh_builder.h"
 
@@ -53,7 +54,7 @@ Outline smoothed(const Outline& points, int pieces) {
     for (int s = 0; s < pieces; ++s) {
       const double t = static_cast<double>(s) / pieces;
       std::array<double, 2> q{};
-      for (std::size_t c = 0; c < 2; ++c) {
+      for (const auto c : indices(2)) {
         const double a = at(k - 1)[c], b = at(k)[c], d = at(k + 1)[c], e = at(k + 2)[c];
         q[c] = b + 0.5 * t * (d - a + t * (2 * a - 5 * b + 4 * d - e + t * (3 * (b - d) + e - a)));
       }

@@ -1,6 +1,7 @@
 // Terrain, rocks, trees alone and in forests, and potted plants.
 #include <numbers>
 
+#include "core/index.h"
 #include "make/patterns/noise.h"
 #include "make/shapes/mesh_builder.h"
 #include "scene/generation_limit.h"
@@ -333,7 +334,7 @@ Shape makeRock(ShapeParameters& parameters) {
   }
 
   MeshBuilder builder(smooth ? MeshBuilder::Shading::smooth : MeshBuilder::Shading::flat);
-  for (std::size_t k = 0; k < points.size(); ++k) builder.vertex({points[k], normals[k], uvs[k]});
+  for (const auto k : indices(points)) builder.vertex({points[k], normals[k], uvs[k]});
   for (const auto& [a, b, c] : triangles) builder.triangle(a, b, c);
   return singlePart(builder.take("rock"));
 }
