@@ -62,9 +62,8 @@ struct ImpulseLanes {
 // The least sine over the surface that a child keeps, if `elevation` is what it would have without
 // bent normals.
 HWY_INLINE VF LeastElevation(const ImpulseJob& job, VF elevation) {
-  const FloatTag d;
-  if (!job.shading.bend) return hn::Set(d, -std::numeric_limits<float>::infinity());
-  return hn::Min(hn::Mul(hn::Set(d, 0.9f), elevation), hn::Set(d, 0.01f));
+  if (!job.shading.bend) return Set(-std::numeric_limits<float>::infinity());
+  return Min(Mul(Set(0.9f), elevation), Set(0.01f));
 }
 
 // Loads the surfels at i, masked to those whose material's flags have `kWanted`.
@@ -72,64 +71,61 @@ template <uint32_t kWanted>
 HWY_INLINE ImpulseLanes LoadImpulseLanes(const ImpulseJob& job, size_t i) {
   const FloatTag d;
   const IntTag di;
-  const UintTag du;
   const RayColumns& rays = job.rays;
   const SurfelColumns& surfels = job.surfels;
 
   ImpulseLanes lanes;
-  lanes.material = hn::Load(di, reinterpret_cast<const int32_t*>(surfels.material) + i);
-  lanes.live = hn::RebindMask(d, NonNegative(lanes.material));
+  lanes.material = Load(di, reinterpret_cast<const int32_t*>(surfels.material) + i);
+  lanes.live = RebindMask(d, NonNegative(lanes.material));
   lanes.dielectric = lanes.hidden = lanes.covers = lanes.scatters = lanes.mirrors = lanes.coated =
-      lanes.chooses = lanes.frosts = lanes.facets = hn::MaskFromVec(hn::Zero(d));
-  if (hn::AllFalse(d, lanes.live)) return lanes;
+      lanes.chooses = lanes.frosts = lanes.facets = hn::MaskFromVec(Zero());
+  if (AllFalse(lanes.live)) return lanes;
 
   const VU flags = MaterialLanes(job.tables, lanes.material, lanes.live).Lobe().flags;
-  lanes.live = hn::And(lanes.live, HasFlags(flags, kWanted));
-  if (hn::AllFalse(d, lanes.live)) return lanes;
+  lanes.live = And(lanes.live, HasFlags(flags, kWanted));
+  if (AllFalse(lanes.live)) return lanes;
 
   // The flags say which layers the material has.
   lanes.coated = HasFlags(flags, kMaterialCoated);
   if (job.lobes) {
-    lanes.covers = hn::And(lanes.live, HasFlags(flags, kMaterialCovers));
-    lanes.scatters = hn::And(lanes.live, HasFlags(flags, kMaterialScatters));
-    lanes.mirrors = hn::And(lanes.live, HasFlags(flags, kMaterialMirrorsByLobe));
+    lanes.covers = And(lanes.live, HasFlags(flags, kMaterialCovers));
+    lanes.scatters = And(lanes.live, HasFlags(flags, kMaterialScatters));
+    lanes.mirrors = And(lanes.live, HasFlags(flags, kMaterialMirrorsByLobe));
     if (job.chunk.depth > 0) {
-      lanes.chooses = hn::And(lanes.scatters, HasFlags(flags, kMaterialDiffuses));
+      lanes.chooses = And(lanes.scatters, HasFlags(flags, kMaterialDiffuses));
     }
   }
 
   if (kWanted == kMaterialTransmits || job.transmission) {
-    lanes.dielectric = hn::And(lanes.live, HasFlags(flags, kMaterialTransmits));
-    lanes.hidden = hn::And(lanes.dielectric, HasFlags(hn::Load(du, surfels.flags + i), kHidden));
+    lanes.dielectric = And(lanes.live, HasFlags(flags, kMaterialTransmits));
+    lanes.hidden = And(lanes.dielectric, HasFlags(Load(surfels.flags, i), kHidden));
   }
 
   if (job.frosted) {
-    lanes.facets = hn::And(lanes.live, HasFlags(flags, kMaterialFrostedInterface));
-    lanes.frosts = hn::And(lanes.live, HasFlags(flags, kMaterialFrosts));
+    lanes.facets = And(lanes.live, HasFlags(flags, kMaterialFrostedInterface));
+    lanes.frosts = And(lanes.live, HasFlags(flags, kMaterialFrosts));
   }
 
   lanes.direction = DirectionAt(rays, i);
-  lanes.ng = Load3(surfels.ngX, surfels.ngY, surfels.ngZ, i);
-  lanes.ns = Load3(surfels.nsX, surfels.nsY, surfels.nsZ, i);
+  lanes.ng = Load3(surfels.ng, i);
+  lanes.ns = Load3(surfels.ns, i);
 
-  const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
-  const VF towards = hn::Neg(Dot(lanes.direction, lanes.ns));
-  lanes.cosine = hn::Min(hn::Max(towards, zero), one);
-  lanes.facing = hn::Neg(Dot(lanes.direction, lanes.ng));
+  const VF towards = Neg(Dot(lanes.direction, lanes.ns));
+  lanes.cosine = Clamped01(towards);
+  lanes.facing = Neg(Dot(lanes.direction, lanes.ng));
   return lanes;
 }
 
 HWY_INLINE Interface InterfaceOf(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i) {
-  const UintTag du;
-  const VF before = IorOf(job.tables, hn::Load(du, job.rays.media + i));
-  const VF behind = IorOf(job.tables, hn::Load(du, job.surfels.mediaBehind + i));
+  const VF before = IorOf(job.tables, Load(job.rays.media, i));
+  const VF behind = IorOf(job.tables, Load(job.surfels.mediaBehind, i));
   return DielectricInterface(job.shading.fresnel, before, behind, lanes.cosine);
 }
 
 // The share of the light that interfaces reflect, but for facets, which are a lobe.
 HWY_INLINE VF SmoothReflectance(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i) {
-  return hn::IfThenElseZero(hn::AndNot(lanes.facets, lanes.dielectric),
-                            InterfaceOf(job, lanes, i).reflectance);
+  return IfThenElseZero(AndNot(lanes.facets, lanes.dielectric),
+                        InterfaceOf(job, lanes, i).reflectance);
 }
 
 HWY_INLINE V3 MirrorAt(const ImpulseJob& job, const MaterialLanes& material, VF cosine, size_t i) {
@@ -140,24 +136,21 @@ HWY_INLINE V3 TransmissionAt(const ImpulseJob& job, const MaterialLanes& materia
   const SurfelColumns& s = job.surfels;
   const V3 color = material.Transmission().color;
   if (!job.transmissionMaps) return color;
-  return Mul3(color, Load3(s.transmissionR, s.transmissionG, s.transmissionB, i));
+  return Mul3(color, Load3(s.transmission, i));
 }
 
 // The color, reduced to what is left of the light where the share `taken` of it is not.
 HWY_INLINE V3 Limited(const V3& color, const V3& taken) {
-  const FloatTag d;
-  const VF one = hn::Set(d, 1.0f), zero = hn::Zero(d), largest = MaxComponent(color);
-  const MF enough = hn::Ge(hn::Sub(one, MaxComponent(taken)), largest);
-  if (HWY_LIKELY(hn::AllTrue(d, enough))) return color;
-  const V3 left{hn::Max(hn::Sub(one, taken.x), zero), hn::Max(hn::Sub(one, taken.y), zero),
-                hn::Max(hn::Sub(one, taken.z), zero)};
-  const auto own = [&](VF part, VF of) HWY_ATTR {
-    return hn::IfThenElse(hn::Gt(part, of), hn::Div(of, part), one);
-  };
-  const VF common =
-      hn::Min(own(color.x, left.x), hn::Min(own(color.y, left.y), own(color.z, left.z)));
+  const VF one = Set(1.0f), zero = Zero(), largest = MaxComponent(color);
+  const MF enough = Ge(Sub(one, MaxComponent(taken)), largest);
+  if (HWY_LIKELY(AllTrue(enough))) return color;
+  const V3 left{Max(Sub(one, taken.x), zero), Max(Sub(one, taken.y), zero),
+                Max(Sub(one, taken.z), zero)};
+  const auto own = [&](VF part, VF of)
+                       HWY_ATTR { return IfThenElse(Gt(part, of), Div(of, part), one); };
+  const VF common = Min(own(color.x, left.x), Min(own(color.y, left.y), own(color.z, left.z)));
   const auto share = [&](VF of) HWY_ATTR {
-    return hn::IfThenElse(hn::Ge(of, largest), one, hn::Max(common, hn::Div(of, largest)));
+    return IfThenElse(Ge(of, largest), one, Max(common, Div(of, largest)));
   };
   return Mul3(color, {share(left.x), share(left.y), share(left.z)});
 }
@@ -165,25 +158,23 @@ HWY_INLINE V3 Limited(const V3& color, const V3& taken) {
 // The scalar reference is underMirror in src/reference/add_impulses.cpp.
 HWY_INLINE V3 UnderMirror(const ImpulseLanes& lanes, const V3& color, const V3& mirror,
                           const V3& others) {
-  const FloatTag d;
   const V3 limited = Limited(color, Add3(mirror, others));
-  if (HWY_LIKELY(hn::AllFalse(d, lanes.coated))) return limited;
+  if (HWY_LIKELY(AllFalse(lanes.coated))) return limited;
   return Select3(lanes.coated, Mul3(color, Complement3(mirror)), limited);
 }
 
 // Returns the share of the light below their mirrors that the lobes of the surfels at i take, and 0
 // in other lanes.
 HWY_INLINE V3 LobeAt(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i) {
-  const VF zero = hn::Zero(FloatTag());
-  if (!job.lobes) return {zero, zero, zero};
+  if (!job.lobes) return Zero3();
   const SurfelColumns& s = job.surfels;
-  return Select3(lanes.covers, Load3(s.lobeR, s.lobeG, s.lobeB, i), {zero, zero, zero});
+  return Select3(lanes.covers, Load3(s.lobe, i), Zero3());
 }
 
 // The coverage of the surfels at i.
 HWY_INLINE VF CoverageAt(const ImpulseJob& job, size_t i) {
-  const FloatTag d;
-  return job.coverage ? hn::Load(d, job.surfels.coverage + i) : hn::Set(d, 1.0f);
+  if (!job.coverage) return Set(1.0f);
+  return Load(job.surfels.coverage, i);
 }
 
 struct Child {
@@ -196,38 +187,36 @@ struct Child {
 // Returns the lanes whose children survive Russian roulette. The weights of those that could have
 // been ended grow in return.
 HWY_INLINE MF Survivors(const ImpulseJob& job, Child& child, VF& throughput) {
-  const FloatTag d;
-  const VF roulette = hn::Set(d, job.roulette), one = hn::Set(d, 1.0f);
-  const MF survives = hn::Lt(hn::Mul(PathDraw(child.path, kRouletteSalt), roulette), throughput);
-  const MF chance = hn::And(survives, hn::Lt(throughput, roulette));
-  if (hn::AllFalse(d, chance)) return survives;
-  const VF grows = hn::IfThenElse(chance, hn::Div(roulette, throughput), one);
+  const VF roulette = Set(job.roulette), one = Set(1.0f);
+  const MF survives = Lt(Mul(PathDraw(child.path, kRouletteSalt), roulette), throughput);
+  const MF chance = And(survives, Lt(throughput, roulette));
+  if (AllFalse(chance)) return survives;
+  const VF grows = IfThenElse(chance, Div(roulette, throughput), one);
   child.weight = Scale3(child.weight, grows);
-  throughput = hn::IfThenElse(chance, roulette, throughput);
+  throughput = IfThenElse(chance, roulette, throughput);
   return survives;
 }
 
 // Appends the children that are worth tracing, and returns their number.
 HWY_INLINE size_t Append(const ImpulseJob& job, Child child, MF live, size_t i, size_t at) {
-  const FloatTag d;
   const UintTag du;
   const RayColumns& children = job.children;
 
   // Without roulette, paths end whose throughput is below the cutoff.
-  VF throughput = hn::Mul(hn::Load(d, job.rays.throughput + i), child.largest);
+  VF throughput = Mul(Load(job.rays.throughput, i), child.largest);
   const MF worth = HWY_UNLIKELY(job.roulette > 0) ? Survivors(job, child, throughput)
-                                                  : hn::Ge(throughput, hn::Set(d, job.cutoff));
-  const MF traced = hn::And(live, hn::And(worth, hn::Gt(child.largest, hn::Zero(d))));
+                                                  : Ge(throughput, Set(job.cutoff));
+  const MF traced = And(live, And(worth, Gt(child.largest, Zero())));
   if (HWY_UNLIKELY(job.notesEnds)) {
-    const VF end = hn::IfThenElseZero(hn::AndNot(worth, live), MaxComponent(child.weight));
-    hn::Store(hn::Add(hn::Load(d, job.ended + i), end), d, job.ended + i);
+    const VF end = IfThenElseZero(AndNot(worth, live), MaxComponent(child.weight));
+    Store(Add(Load(job.ended, i), end), job.ended, i);
   }
-  if (hn::AllFalse(d, traced)) return 0;
+  if (AllFalse(traced)) return 0;
 
   const Compactor compactor(traced);
-  compactor.Store(child.origin, children.orgX, children.orgY, children.orgZ, at);
-  compactor.Store(child.direction, children.dirX, children.dirY, children.dirZ, at);
-  compactor.Store(child.weight, children.weightR, children.weightG, children.weightB, at);
+  compactor.Store(child.origin, children.org, at);
+  compactor.Store(child.direction, children.dir, at);
+  compactor.Store(child.weight, children.weight, at);
   compactor.Store(throughput, children.throughput + at);
   if (job.transmission) compactor.Store(child.media, children.media + at);
   if (job.streams) compactor.Store(child.path, children.path + at);
@@ -238,37 +227,36 @@ HWY_INLINE size_t Append(const ImpulseJob& job, Child child, MF live, size_t i, 
 
 // The media around a reflected child.
 HWY_INLINE VU MediaAt(const ImpulseJob& job, size_t i) {
-  const UintTag du;
-  return job.transmission ? hn::Load(du, job.rays.media + i) : hn::Zero(du);
+  if (!job.transmission) return Zero(UintTag());
+  return Load(job.rays.media, i);
 }
 
 // The number of the child's path.
 HWY_INLINE VU ChildStreamsAt(const ImpulseJob& job, size_t i, uint32_t branch) {
   const UintTag du;
-  if (!job.streams) return hn::Zero(du);
-  return ChildStream(hn::Load(du, job.rays.path + i), branch);
+  if (!job.streams) return Zero(du);
+  return ChildStream(Load(job.rays.path, i), branch);
 }
 
 // The children's cones begin as wide as their parents' end.
 HWY_INLINE VF ConesAt(const ImpulseJob& job, size_t i) {
-  const FloatTag d;
-  return job.cones ? hn::Load(d, job.surfels.cone + i) : hn::Zero(d);
+  if (!job.cones) return Zero();
+  return Load(job.surfels.cone, i);
 }
 
 // Returns the unit direction `r`, raised to the sine `elevation` above the plane of `ng` if it lies
 // lower: a bent normal would send it below the surface (hard case H32).
 HWY_INLINE V3 Raised(const V3& r, const V3& ng, VF elevation, MF live) {
-  const FloatTag d;
   const VF height = Dot(r, ng);
-  const MF low = hn::Lt(height, elevation);
-  if (HWY_LIKELY(hn::AllFalse(d, hn::And(low, live)))) return r;
-  return Select3(low, NormalizeOr(MulAdd3(ng, hn::Sub(elevation, height), r), ng), r);
+  const MF low = Lt(height, elevation);
+  if (HWY_LIKELY(AllFalse(And(low, live)))) return r;
+  return Select3(low, NormalizeOr(MulAdd3(ng, Sub(elevation, height), r), ng), r);
 }
 
 // `side`: RayOrigin's.
 HWY_INLINE V3 ChildOrigin(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i, float side) {
   const SurfelColumns& surfels = job.surfels;
-  const V3 position = Load3(surfels.posX, surfels.posY, surfels.posZ, i);
+  const V3 position = Load3(surfels.pos, i);
   return RayOrigin(job.shading.offset, position, lanes.ng, lanes.direction,
                    LoadClearance(surfels, i), side);
 }
@@ -278,31 +266,31 @@ void AddReflections(Chunk& c) {
   const ImpulseJob job{c};
   size_t count = c.childCount;
 
-  for (size_t i = 0; i < job.n; i += hn::Lanes(d)) {
+  for (size_t i = 0; i < job.n; i += Lanes(d)) {
     ImpulseLanes lanes = LoadImpulseLanes<kMaterialReflects>(job, i);
-    lanes.live = hn::AndNot(lanes.hidden, lanes.live);
-    if (hn::AllFalse(d, lanes.live)) continue;
+    lanes.live = AndNot(lanes.hidden, lanes.live);
+    if (AllFalse(lanes.live)) continue;
 
     // The mirror lies above the interface of a dielectric.
     const MaterialLanes material(job.tables, lanes.material, lanes.live);
     const V3 mirror = MirrorAt(job, material, lanes.cosine, i);
     V3 weight = mirror;
     if (job.coverage) weight = Scale3(weight, CoverageAt(job, i));
-    if (job.transmission && !hn::AllFalse(d, lanes.dielectric)) {
+    if (job.transmission && !AllFalse(lanes.dielectric)) {
       const VF f = SmoothReflectance(job, lanes, i);
-      weight = MulAdd3(weight, hn::Sub(hn::Set(d, 1.0f), f), {f, f, f});
+      weight = MulAdd3(weight, Sub(Set(1.0f), f), {f, f, f});
     }
 
     // A smooth lobe is stood for by the mirrored ray, as far as it is smooth.
-    if (!hn::AllFalse(d, lanes.mirrors)) {
-      const VF roughness = hn::Sqrt(hn::Load(d, job.surfels.alpha + i));
-      const VF share = hn::IfThenElseZero(lanes.mirrors, MirroredShare(roughness));
+    if (!AllFalse(lanes.mirrors)) {
+      const VF roughness = Sqrt(Load(job.surfels.alpha, i));
+      const VF share = IfThenElseZero(lanes.mirrors, MirroredShare(roughness));
       const V3 lobe = Mul3(LobeAt(job, lanes, i), Complement3(mirror));
-      weight = MulAdd3(lobe, hn::Mul(share, CoverageAt(job, i)), weight);
+      weight = MulAdd3(lobe, Mul(share, CoverageAt(job, i)), weight);
     }
 
     // d - 2 (d.n) n
-    const VF twice = hn::Mul(hn::Set(d, -2.0f), Dot(lanes.direction, lanes.ns));
+    const VF twice = Mul(Set(-2.0f), Dot(lanes.direction, lanes.ns));
     const V3 mirrored = Normalize3(MulAdd3(lanes.ns, twice, lanes.direction));
     const V3 r = Raised(mirrored, lanes.ng, LeastElevation(job, lanes.facing), lanes.live);
 
@@ -323,17 +311,13 @@ void AddReflections(Chunk& c) {
 class Facets {
  public:
   HWY_INLINE Facets(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i)
-      : ofInterface(lanes.facets),
-        any(!hn::AllFalse(FloatTag(), ofInterface)),
-        model_(job.shading.fresnel) {
-    const FloatTag d;
-    const UintTag du;
-    before_ = behind_ = hn::Set(d, 1.0f);
+      : ofInterface(lanes.facets), any(!AllFalse(ofInterface)), model_(job.shading.fresnel) {
+    before_ = behind_ = Set(1.0f);
     if (any) {
-      before_ = IorOf(job.tables, hn::Load(du, job.rays.media + i));
-      behind_ = IorOf(job.tables, hn::Load(du, job.surfels.mediaBehind + i));
+      before_ = IorOf(job.tables, Load(job.rays.media, i));
+      behind_ = IorOf(job.tables, Load(job.surfels.mediaBehind, i));
     }
-    const MF flat = hn::And(ofInterface, hn::Eq(before_, behind_));
+    const MF flat = And(ofInterface, Eq(before_, behind_));
     lobes = LoadGlossyLobes(job.tables, job.surfels, lanes.direction, lanes.ns, flat, i);
   }
 
@@ -386,32 +370,31 @@ struct FrostedSamples {
       : facets(job, lanes, i),
         several(facets.lobes.rough),
         reflects(lanes.scatters),
-        straight(hn::AndNot(several, InterfaceOf(job, lanes, i).straight)) {}
+        straight(AndNot(several, InterfaceOf(job, lanes, i).straight)) {}
 
   HWY_INLINE LobeSample At(const UnitPoints& at) const {
-    const FloatTag d;
-    const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+    const VF one = Set(1.0f);
     const GlossyLobes& lobes = facets.lobes;
     const Facet facet = facets.At(at);
 
     // A sheet mirrors the mirrored direction once more.
-    VF depth = hn::Abs(facet.elevation), passes = one;
-    const VF twice = hn::Add(depth, facet.elevation);
-    V3 direction = MulAdd3(lobes.z, hn::Neg(twice), facet.mirrored);
+    VF depth = Abs(facet.elevation), passes = one;
+    const VF twice = Add(depth, facet.elevation);
+    V3 direction = MulAdd3(lobes.z, Neg(twice), facet.mirrored);
 
     // An interface bends the direction at the facet.
     if (facets.any) {
       const Interface bending = facets.InterfaceAt(facet.cosine);
       const V3 back = MulAdd3(facet.normal, bending.bend, lobes.view);
-      const VF scale = hn::Div(hn::Set(d, -1.0f), bending.eta);
+      const VF scale = Div(Set(-1.0f), bending.eta);
       direction =
           Select3(facets.ofInterface, NormalizeOr(Scale3(back, scale), facet.normal), direction);
-      const VF below = hn::Neg(Dot(lobes.z, direction));
-      depth = hn::IfThenElse(facets.ofInterface, below, depth);
-      passes = hn::IfThenElse(facets.ofInterface, SeenShare(below, lobes.alpha), one);
+      const VF below = Neg(Dot(lobes.z, direction));
+      depth = IfThenElse(facets.ofInterface, below, depth);
+      passes = IfThenElse(facets.ofInterface, SeenShare(below, lobes.alpha), one);
     }
 
-    const V3 reflected = Select3(reflects, facet.reflectance, {zero, zero, zero});
+    const V3 reflected = Select3(reflects, facet.reflectance, Zero3());
     return {direction, Scale3(Complement3(reflected), passes), depth};
   }
 
@@ -426,7 +409,7 @@ struct DiffuseSamples {
 
   HWY_INLINE DiffuseSamples(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i)
       : normal(lanes.ns),
-        albedo(Load3(job.surfels.diffuseR, job.surfels.diffuseG, job.surfels.diffuseB, i)),
+        albedo(Load3(job.surfels.diffuse, i)),
         lobes(lanes.ns),
         several(lanes.live) {}
   HWY_INLINE LobeSample At(const UnitPoints& at) const {
@@ -451,41 +434,39 @@ HWY_INLINE UnitPoints PointsOf(VU path, const LobeSampling& sampling, uint32_t k
 
 // The light that mirror and interface leave for the samples of a glossy lobe.
 HWY_INLINE V3 LeftAboveLobe(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i) {
-  const FloatTag d;
   const MaterialLanes material(job.tables, lanes.material, lanes.live);
   const V3 left = Complement3(MirrorAt(job, material, lanes.cosine, i));
-  if (!job.transmission || hn::AllFalse(d, lanes.dielectric)) return left;
+  if (!job.transmission || AllFalse(lanes.dielectric)) return left;
   const VF f = SmoothReflectance(job, lanes, i);
-  return Scale3(left, hn::Sub(hn::Set(d, 1.0f), f));
+  return Scale3(left, Sub(Set(1.0f), f));
 }
 
 // The albedo of the glossy lobes towards the viewer: of those that are sampled, the mean weight of
 // the samples that AddSamples() takes.
 HWY_INLINE V3 WeightOfLobe(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i) {
-  const FloatTag d;
-  const VF zero = hn::Zero(d);
+  const VF zero = Zero();
   const SurfelColumns& s = job.surfels;
-  V3 weight{zero, zero, zero};
-  if (hn::AllFalse(d, lanes.covers)) return weight;
+  V3 weight = Zero3();
+  if (AllFalse(lanes.covers)) return weight;
 
   // The albedo of lobes that no rays sample is looked up.
-  if (!hn::AllTrue(d, hn::Or(lanes.scatters, hn::Not(lanes.covers)))) {
-    const V3 f0 = Load3(s.specularR, s.specularG, s.specularB, i);
-    const VF roughness = hn::Sqrt(hn::Load(d, s.alpha + i));
+  if (!AllTrue(Or(lanes.scatters, hn::Not(lanes.covers)))) {
+    const V3 f0 = Load3(s.specular, i);
+    const VF roughness = Sqrt(Load(s.alpha, i));
     const VF f90 = LobeGrazing(job.tables, s, f0, i);
     weight = LobeAlbedo(*job.tables.lobes, f0, f90, lanes.cosine, roughness, lanes.covers);
-    weight = Select3(lanes.covers, weight, {zero, zero, zero});
+    weight = Select3(lanes.covers, weight, Zero3());
   }
-  if (hn::AllFalse(d, lanes.scatters)) return weight;
+  if (AllFalse(lanes.scatters)) return weight;
 
   const GlossySamples samples(job, lanes, i);
-  const VU path = hn::Load(UintTag(), job.rays.path + i);
-  V3 sum{zero, zero, zero};
+  const VU path = Load(job.rays.path, i);
+  V3 sum = Zero3();
   for (uint32_t k = 0; k < job.glossySampling.count; ++k) {
     const LobeSample sample = samples.At(PointsOf<kGlossyLobe>(path, job.glossySampling, k));
-    sum = Select3(hn::Gt(sample.cosine, zero), Add3(sum, sample.weight), sum);
+    sum = Select3(Gt(sample.cosine, zero), Add3(sum, sample.weight), sum);
   }
-  const VF share = hn::Set(d, 1.0f / static_cast<float>(job.glossySampling.count));
+  const VF share = Set(1.0f / static_cast<float>(job.glossySampling.count));
   return Select3(lanes.scatters, Scale3(sum, share), weight);
 }
 
@@ -494,73 +475,70 @@ void FindLayers(Chunk& c) {
   const FloatTag d;
   const ImpulseJob job{c};
   const SurfelColumns& surfels = job.surfels;
-  const VF one = hn::Set(d, 1.0f), zero = hn::Zero(d);
-  for (size_t i = 0; i < job.n; i += hn::Lanes(d)) {
+  const VF one = Set(1.0f), zero = Zero();
+  for (size_t i = 0; i < job.n; i += Lanes(d)) {
     ImpulseLanes lanes = LoadImpulseLanes<kMaterialLayered>(job, i);
-    lanes.live = hn::AndNot(lanes.hidden, lanes.live);
-    lanes.covers = hn::And(lanes.covers, lanes.live);
-    if (hn::AllFalse(d, lanes.live)) continue;
+    lanes.live = AndNot(lanes.hidden, lanes.live);
+    lanes.covers = And(lanes.covers, lanes.live);
+    if (AllFalse(lanes.live)) continue;
 
     // `below` is the share of the light that reaches the diffuse layer.
     const MaterialLanes material(job.tables, lanes.material, lanes.live);
     const V3 mirror = MirrorAt(job, material, lanes.cosine, i);
     const V3 albedo = WeightOfLobe(job, lanes, i);
-    V3 lobe = albedo, below = Complement3(albedo), through{zero, zero, zero};
+    V3 lobe = albedo, below = Complement3(albedo), through = Zero3();
 
     // Dielectrics transmit a part and reflect a part, which lobe and diffuse layer do not get.
     if (job.transmission) {
       const V3 transmission = TransmissionAt(job, material, i);
       const MF transmits =
-          hn::And(lanes.dielectric, hn::Gt(MaxComponent(material.Transmission().color), zero));
-      const VF passed = hn::Sub(one, SmoothReflectance(job, lanes, i));
+          And(lanes.dielectric, Gt(MaxComponent(material.Transmission().color), zero));
+      const VF passed = Sub(one, SmoothReflectance(job, lanes, i));
       through = Select3(transmits, UnderMirror(lanes, transmission, mirror, through), through);
       lobe = Scale3(lobe, passed);
-      below = Scale3(below, hn::IfThenElse(transmits, passed, one));
+      below = Scale3(below, IfThenElse(transmits, passed, one));
     }
 
     if (job.lobes) {
-      const V3 before = Load3(surfels.lobeR, surfels.lobeG, surfels.lobeB, i);
-      Store3(Select3(lanes.live, lobe, before), surfels.lobeR, surfels.lobeG, surfels.lobeB, i);
+      const V3 before = Load3(surfels.lobe, i);
+      Store3(Select3(lanes.live, lobe, before), surfels.lobe, i);
     }
-    const V3 diffuse = Load3(surfels.diffuseR, surfels.diffuseG, surfels.diffuseB, i);
+    const V3 diffuse = Load3(surfels.diffuse, i);
     const V3 left = Mul3(UnderMirror(lanes, diffuse, mirror, through), below);
-    Store3(Select3(lanes.live, left, diffuse), surfels.diffuseR, surfels.diffuseG, surfels.diffuseB,
-           i);
+    Store3(Select3(lanes.live, left, diffuse), surfels.diffuse, i);
   }
 }
 
 // The counterpart of factorOfLobe() behind the first hit: 0 where the other lobe is followed.
 HWY_INLINE VF FactorOfChoice(const ImpulseJob& job, const ImpulseLanes& lanes, bool isGlossy,
                              size_t i) {
-  const FloatTag d;
-  const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  const VF zero = Zero(), one = Set(1.0f);
   const SurfelColumns& s = job.surfels;
   const MaterialLanes material(job.tables, lanes.material, lanes.live);
   const V3 left = Complement3(MirrorAt(job, material, lanes.cosine, i));
   const VF glossy = MaxComponent(Mul3(LobeAt(job, lanes, i), left));
-  const VF diffuse = MaxComponent(Load3(s.diffuseR, s.diffuseG, s.diffuseB, i));
-  const VF both = hn::Add(glossy, diffuse);
+  const VF diffuse = MaxComponent(Load3(s.diffuse, i));
+  const VF both = Add(glossy, diffuse);
 
-  const VU path = hn::Load(UintTag(), job.rays.path + i);
-  const MF followsGlossy = hn::Lt(hn::Mul(PathDraw(path, kLobeSalt), both), glossy);
+  const VU path = Load(job.rays.path, i);
+  const MF followsGlossy = Lt(Mul(PathDraw(path, kLobeSalt), both), glossy);
   const MF followed = isGlossy ? followsGlossy : hn::Not(followsGlossy);
   const VF own = isGlossy ? glossy : diffuse;
-  const VF grows = hn::IfThenElse(hn::Gt(own, zero), hn::Div(both, own), one);
-  return hn::IfThenElse(lanes.chooses, hn::IfThenElseZero(followed, grows), one);
+  const VF grows = IfThenElse(Gt(own, zero), Div(both, own), one);
+  return IfThenElse(lanes.chooses, IfThenElseZero(followed, grows), one);
 }
 
 // The lanes whose transmitted light is sampled: sheets that lie on a dielectric's face are clear.
 HWY_INLINE MF Frosts(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i) {
-  const FloatTag d;
-  if (hn::AllFalse(d, lanes.frosts)) return lanes.frosts;
-  const MF scatters = hn::Or(lanes.facets, InterfaceOf(job, lanes, i).straight);
-  return hn::AndNot(lanes.hidden, hn::And(lanes.frosts, scatters));
+  if (AllFalse(lanes.frosts)) return lanes.frosts;
+  const MF scatters = Or(lanes.facets, InterfaceOf(job, lanes, i).straight);
+  return AndNot(lanes.hidden, And(lanes.frosts, scatters));
 }
 
 // The light that the layers above leave for samples of this kind.
 template <typename Samples>
 HWY_INLINE V3 LeftForSamples(const ImpulseJob& job, const ImpulseLanes& lanes, size_t i) {
-  const VF one = hn::Set(FloatTag(), 1.0f);
+  const VF one = Set(1.0f);
   if constexpr (Samples::kLobe.flag == kMaterialScatters) return LeftAboveLobe(job, lanes, i);
   if constexpr (Samples::kLobe.flag == kMaterialFrosts) {
     const MaterialLanes material(job.tables, lanes.material, lanes.live);
@@ -574,10 +552,9 @@ template <typename Samples>
 HWY_INLINE void AddSamples(Chunk& c) {
   constexpr const Lobe& kLobe = Samples::kLobe;
   const FloatTag d;
-  const UintTag du;
   const ImpulseJob job{c};
   const LobeSampling sampling = lobeSampling(c.depth, kLobe.samples(c.options()), c.sampleNumber);
-  const VF one = hn::Set(d, 1.0f), share = hn::Set(d, 1.0f / static_cast<float>(sampling.count));
+  const VF one = Set(1.0f), share = Set(1.0f / static_cast<float>(sampling.count));
   constexpr bool kPasses = Samples::kSide < 0;
 
   // The scalar reference is factorOfLobe() in src/reference/add_impulses.cpp.
@@ -585,38 +562,38 @@ HWY_INLINE void AddSamples(Chunk& c) {
 
   size_t count = c.childCount;
 
-  for (size_t i = 0; i < job.n; i += hn::Lanes(d)) {
+  for (size_t i = 0; i < job.n; i += Lanes(d)) {
     ImpulseLanes lanes = LoadImpulseLanes<kLobe.flag>(job, i);
-    lanes.live = kPasses ? Frosts(job, lanes, i) : hn::AndNot(lanes.hidden, lanes.live);
-    if (hn::AllFalse(d, lanes.live)) continue;
+    lanes.live = kPasses ? Frosts(job, lanes, i) : AndNot(lanes.hidden, lanes.live);
+    if (AllFalse(lanes.live)) continue;
 
     V3 covered = LeftForSamples<Samples>(job, lanes, i);
-    if (HWY_UNLIKELY(!kPasses && !hn::AllFalse(d, lanes.chooses))) {
+    if (HWY_UNLIKELY(!kPasses && !AllFalse(lanes.chooses))) {
       const VF factor = FactorOfChoice(job, lanes, kLobe.flag == kMaterialScatters, i);
-      lanes.live = hn::And(lanes.live, hn::Gt(factor, hn::Zero(d)));
-      if (hn::AllFalse(d, lanes.live)) continue;
+      lanes.live = And(lanes.live, Gt(factor, Zero()));
+      if (AllFalse(lanes.live)) continue;
       covered = Scale3(covered, factor);
     }
 
     if (job.coverage) covered = Scale3(covered, CoverageAt(job, i));
-    if (occluded) covered = Scale3(covered, hn::Load(d, job.surfels.occlusion + i));
+    if (occluded) covered = Scale3(covered, Load(job.surfels.occlusion, i));
 
     const Samples samples(job, lanes, i);
-    const VF counts = hn::IfThenElse(samples.several, share, one);
+    const VF counts = IfThenElse(samples.several, share, one);
     const V3 origin = ChildOrigin(job, lanes, i, Samples::kSide);
-    const VU media = kPasses ? hn::Load(du, job.surfels.mediaBehind + i) : MediaAt(job, i);
-    const V3 outward = Scale3(lanes.ng, hn::Set(d, Samples::kSide));
-    const VU path = hn::Load(du, job.rays.path + i);
+    const VU media = kPasses ? Load(job.surfels.mediaBehind, i) : MediaAt(job, i);
+    const V3 outward = Scale3(lanes.ng, Set(Samples::kSide));
+    const VU path = Load(job.rays.path, i);
     const VF cone = ConesAt(job, i);
 
     // The first sample stands for all of a lobe that is a single impulse.
     for (uint32_t k = 0; k < sampling.count; ++k) {
-      const MF sampled = k == 0 ? lanes.live : hn::And(lanes.live, samples.several);
-      if (hn::AllFalse(d, sampled)) break;
+      const MF sampled = k == 0 ? lanes.live : And(lanes.live, samples.several);
+      if (AllFalse(sampled)) break;
 
       LobeSample sample = samples.At(PointsOf<kLobe>(path, sampling, k));
       sample.weight = Mul3(sample.weight, covered);
-      const MF live = hn::And(sampled, hn::Gt(sample.cosine, hn::Zero(d)));
+      const MF live = And(sampled, Gt(sample.cosine, Zero()));
       V3 r = Raised(sample.direction, outward, LeastElevation(job, sample.cosine), live);
       if constexpr (kPasses) r = Select3(samples.straight, lanes.direction, r);
 
@@ -639,59 +616,57 @@ void AddIndirect(Chunk& c) { AddSamples<DiffuseSamples>(c); }
 
 void AddRefractions(Chunk& c) {
   const FloatTag d;
-  const UintTag du;
   const ImpulseJob job{c};
-  const VF one = hn::Set(d, 1.0f), zero = hn::Zero(d);
+  const VF one = Set(1.0f);
 
   size_t count = c.childCount;
-  for (size_t i = 0; i < job.n; i += hn::Lanes(d)) {
+  for (size_t i = 0; i < job.n; i += Lanes(d)) {
     const ImpulseLanes lanes = LoadImpulseLanes<kMaterialTransmits>(job, i);
-    if (hn::AllFalse(d, lanes.live)) continue;
+    if (AllFalse(lanes.live)) continue;
 
     const Interface interface = InterfaceOf(job, lanes, i);
     const MaterialLanes material(job.tables, lanes.material, lanes.live);
-    const VF through = hn::Sub(one, interface.reflectance);
+    const VF through = Sub(one, interface.reflectance);
     const V3 mirror = MirrorAt(job, material, lanes.cosine, i);
 
     // The mirror and the lobe lie above what passes.
-    V3 transmittance =
-        UnderMirror(lanes, TransmissionAt(job, material, i), mirror, {zero, zero, zero});
-    if (!hn::AllFalse(d, lanes.covers)) {
-      const VF inverse = hn::Div(one, hn::Max(through, hn::Set(d, 1e-30f)));
+    V3 transmittance = UnderMirror(lanes, TransmissionAt(job, material, i), mirror, Zero3());
+    if (!AllFalse(lanes.covers)) {
+      const VF inverse = Div(one, Max(through, Set(1e-30f)));
       const V3 albedo = Scale3(LobeAt(job, lanes, i), inverse);
       transmittance = Mul3(transmittance, Complement3(albedo));
     }
 
     // Samples bring what frosted glass transmits.
-    transmittance = Select3(Frosts(job, lanes, i), {zero, zero, zero}, transmittance);
+    transmittance = Select3(Frosts(job, lanes, i), Zero3(), transmittance);
 
     if (job.coverage) {
-      const VF covered = CoverageAt(job, i), rest = hn::Sub(one, covered);
+      const VF covered = CoverageAt(job, i), rest = Sub(one, covered);
       transmittance = MulAdd3(transmittance, covered, {rest, rest, rest});
     }
 
     const V3 weight = Select3(lanes.hidden, {one, one, one}, Scale3(transmittance, through));
-    const V3 bent = MulAdd3(lanes.ns, hn::Neg(interface.bend), lanes.direction);
-    V3 r = NormalizeOr(Scale3(bent, hn::Div(one, interface.eta)), lanes.direction);
+    const V3 bent = MulAdd3(lanes.ns, Neg(interface.bend), lanes.direction);
+    V3 r = NormalizeOr(Scale3(bent, Div(one, interface.eta)), lanes.direction);
 
     // A bent normal must not send the ray back out of the surface (hard case H32).
     const VF height = Dot(r, lanes.ng);
     // Under the geometric normal the ray would leave this steeply, if at all; normals that agree
     // change nothing.
     const VF g2 = MulThenAdd(lanes.facing, lanes.facing, interface.k);
-    const VF leaving = hn::Div(hn::Sqrt(hn::Max(g2, hn::Zero(d))), interface.eta);
-    const VF elevation = LeastElevation(job, hn::IfThenElse(hn::Gt(g2, hn::Zero(d)), leaving, one));
-    const MF high = hn::Gt(height, hn::Neg(elevation));
+    const VF leaving = Div(Sqrt(Max(g2, Zero())), interface.eta);
+    const VF elevation = LeastElevation(job, IfThenElse(Gt(g2, Zero()), leaving, one));
+    const MF high = Gt(height, Neg(elevation));
 
     const V3 pressed =
-        NormalizeOr(MulAdd3(lanes.ng, hn::Neg(hn::Add(elevation, height)), r), lanes.direction);
+        NormalizeOr(MulAdd3(lanes.ng, Neg(Add(elevation, height)), r), lanes.direction);
     r = Select3(high, pressed, r);
-    r = Select3(hn::Or(interface.straight, lanes.hidden), lanes.direction, r);
+    r = Select3(Or(interface.straight, lanes.hidden), lanes.direction, r);
 
     const Child child{ChildOrigin(job, lanes, i, -1.0f),
                       r,
                       weight,
-                      hn::Load(du, job.surfels.mediaBehind + i),
+                      Load(job.surfels.mediaBehind, i),
                       ChildStreamsAt(job, i, kRefractedBranch),
                       MaxComponent(weight),
                       ConesAt(job, i)};
@@ -702,25 +677,24 @@ void AddRefractions(Chunk& c) {
 
 // The radiance at i, as the parent's radiance or the eye gets it.
 HWY_INLINE V3 WeightedRadiance(const Chunk& c, size_t i) {
-  const V3 weight = Load3(c.rays.weightR, c.rays.weightG, c.rays.weightB, i);
-  return Mul3(weight, Load3(c.radiance.r, c.radiance.g, c.radiance.b, i));
+  const V3 weight = Load3(c.rays.weight, i);
+  return Mul3(weight, Load3(c.radiance.rgb, i));
 }
 
 void ReturnImpulses(Chunk& c) {
   const FloatTag d;
-  const RadianceColumns parentRadiance = c.parentRadiance;
+  const Columns3 parentRadiance = c.parentRadiance.rgb;
   const size_t n = c.n;
   HWY_ALIGN float r[16], g[16], b[16];
-  for (size_t i = 0; i < n; i += hn::Lanes(d)) {
-    Store3(WeightedRadiance(c, i), r, g, b, 0);
+  const Columns3 perLane{r, g, b};
+  for (size_t i = 0; i < n; i += Lanes(d)) {
+    Store3(WeightedRadiance(c, i), perLane, 0);
 
     // A parent may occur twice, for its reflected and its refracted child: one after the other.
-    const size_t live = HWY_MIN(hn::Lanes(d), n - i);
+    const size_t live = HWY_MIN(Lanes(d), n - i);
     for (size_t lane = 0; lane < live; ++lane) {
       const uint32_t parent = c.rays.parent[i + lane];
-      parentRadiance.r[parent] += r[lane];
-      parentRadiance.g[parent] += g[lane];
-      parentRadiance.b[parent] += b[lane];
+      parentRadiance.set(parent, parentRadiance.at(parent) + perLane.at(lane));
     }
   }
 }
@@ -729,8 +703,8 @@ void ReturnToEye(Chunk& c) {
   const FloatTag d;
   const RadianceColumns radiance = c.radiance;
   const size_t n = c.n;
-  for (size_t i = 0; i < n; i += hn::Lanes(d)) {
-    Store3(WeightedRadiance(c, i), radiance.r, radiance.g, radiance.b, i);
+  for (size_t i = 0; i < n; i += Lanes(d)) {
+    Store3(WeightedRadiance(c, i), radiance.rgb, i);
   }
 }
 

@@ -15,16 +15,16 @@ void AddShading(Chunk& c) {
   const RadianceColumns radiance = c.radiance;
   const size_t n = c.n;
 
-  for (size_t i = 0; i < n; i += hn::Lanes(d)) {
-    const MF visible = hn::Gt(hn::Load(d, unshadowed.visible + i), hn::Zero(d));
-    if (hn::AllFalse(d, visible)) continue;
+  for (size_t i = 0; i < n; i += Lanes(d)) {
+    const MF visible = Gt(Load(unshadowed.visible, i), Zero());
+    if (AllFalse(visible)) continue;
 
-    const V3 light = Load3(unshadowed.r, unshadowed.g, unshadowed.b, i);
-    const V3 sum = Load3(radiance.r, radiance.g, radiance.b, i);
+    const V3 light = Load3(unshadowed.rgb, i);
+    const V3 sum = Load3(radiance.rgb, i);
 
     // The sum is selected, not multiplied by zero, because the light of an invisible slot may be
     // stale.
-    Store3(Select3(visible, Add3(sum, light), sum), radiance.r, radiance.g, radiance.b, i);
+    Store3(Select3(visible, Add3(sum, light), sum), radiance.rgb, i);
   }
 }
 

@@ -18,11 +18,10 @@ namespace whit::simd::HWY_NAMESPACE {
 HWY_INLINE V3 Mix3(const V3& a, const V3& b, VF t) { return MulAdd3(Sub3(b, a), t, a); }
 
 HWY_INLINE V3 GradientSky(const SkyTable& sky, const V3& direction) {
-  const FloatTag d;
   const V3 horizon = Broadcast3(sky.horizon);
-  const MF above = hn::Ge(direction.y, hn::Zero(d));
+  const MF above = Ge(direction.y, Zero());
   const V3 end = Select3(above, Broadcast3(sky.zenith), Broadcast3(sky.ground));
-  return Mix3(horizon, end, hn::Min(hn::Abs(direction.y), hn::Set(d, 1.0f)));
+  return Mix3(horizon, end, Min(Abs(direction.y), Set(1.0f)));
 }
 
 // Bilinear in an equirectangular map; wraps around in azimuth, stops at the poles. `image` numbers
@@ -30,47 +29,47 @@ HWY_INLINE V3 GradientSky(const SkyTable& sky, const V3& direction) {
 HWY_INLINE V3 ImageSky(const SkyTable& sky, const V3& direction, MF live, VI image) {
   const FloatTag d;
   const IntTag di;
-  const VF width = hn::Set(d, static_cast<float>(sky.width));
-  const VF height = hn::Set(d, static_cast<float>(sky.height));
+  const VF width = Set(static_cast<float>(sky.width));
+  const VF height = Set(static_cast<float>(sky.height));
 
-  VF turn = hn::Add(AzimuthFraction(direction.x, direction.z), hn::Set(d, sky.turn));
-  turn = hn::Sub(turn, hn::Floor(turn));
-  const VF y = hn::Min(hn::Max(direction.y, hn::Set(d, -1.0f)), hn::Set(d, 1.0f));
-  const VF polar = hn::Mul(hn::Acos(d, y), hn::Set(d, 0.318309886f));
+  VF turn = Add(AzimuthFraction(direction.x, direction.z), Set(sky.turn));
+  turn = Sub(turn, Floor(turn));
+  const VF y = Min(Max(direction.y, Set(-1.0f)), Set(1.0f));
+  const VF polar = Mul(hn::Acos(d, y), Set(0.318309886f));
 
-  const VF px = MulThenSub(turn, width, hn::Set(d, 0.5f));
-  const VF py = MulThenSub(polar, height, hn::Set(d, 0.5f));
-  const VF floorX = hn::Floor(px), floorY = hn::Floor(py);
-  const VF fx = hn::Sub(px, floorX), fy = hn::Sub(py, floorY);
+  const VF px = MulThenSub(turn, width, Set(0.5f));
+  const VF py = MulThenSub(polar, height, Set(0.5f));
+  const VF floorX = Floor(px), floorY = Floor(py);
+  const VF fx = Sub(px, floorX), fy = Sub(py, floorY);
 
-  const VI lastX = hn::Set(di, sky.width - 1), lastY = hn::Set(di, sky.height - 1);
-  const VI zero = hn::Zero(di), one = hn::Set(di, 1);
+  const VI lastX = Set(sky.width - 1), lastY = Set(sky.height - 1);
+  const VI zero = Zero(di), one = Set(1);
 
   // Not a number has no integer: other lanes may hold it.
-  const VI x0 = hn::ConvertTo(di, hn::IfThenElseZero(live, floorX));
-  const VI y0 = hn::ConvertTo(di, hn::IfThenElseZero(live, floorY));
-  const VI y1 = hn::Add(y0, one);
+  const VI x0 = ConvertTo(di, IfThenElseZero(live, floorX));
+  const VI y0 = ConvertTo(di, IfThenElseZero(live, floorY));
+  const VI y1 = Add(y0, one);
 
   // All of these are texels of the image whatever x0 and y0 are, and x0 + 1 may overflow.
-  const VI left = hn::IfThenElse(hn::Lt(x0, zero), lastX, hn::Min(x0, lastX));
-  const VI right = hn::IfThenZeroElse(hn::Eq(left, lastX), hn::Add(left, one));
-  const VI top = hn::Min(hn::Max(y0, zero), lastY), bottom = hn::Min(hn::Max(y1, zero), lastY);
+  const VI left = IfThenElse(Lt(x0, zero), lastX, Min(x0, lastX));
+  const VI right = hn::IfThenZeroElse(Eq(left, lastX), Add(left, one));
+  const VI top = Min(Max(y0, zero), lastY), bottom = Min(Max(y1, zero), lastY);
 
-  const VI stride = hn::Set(di, sky.width);
-  const VI first = hn::Mul(image, hn::Set(di, sky.height));
-  const auto liveInt = hn::RebindMask(di, live);
+  const VI stride = Set(sky.width);
+  const VI first = Mul(image, Set(sky.height));
+  const auto liveInt = RebindMask(di, live);
   const auto index = [&](VI row, VI column) HWY_ATTR {
-    return hn::IfThenElseZero(liveInt, hn::Add(hn::Mul(hn::Add(first, row), stride), column));
+    return IfThenElseZero(liveInt, Add(Mul(Add(first, row), stride), column));
   };
 
   const VI i00 = index(top, left), i10 = index(top, right);
   const VI i01 = index(bottom, left), i11 = index(bottom, right);
 
   const auto channel = [&](const float* plane) HWY_ATTR {
-    const VF a = hn::GatherIndex(d, plane, i00), b = hn::GatherIndex(d, plane, i10);
-    const VF c = hn::GatherIndex(d, plane, i01), e = hn::GatherIndex(d, plane, i11);
-    const VF upper = MulThenAdd(hn::Sub(b, a), fx, a), lower = MulThenAdd(hn::Sub(e, c), fx, c);
-    return hn::Mul(MulThenAdd(hn::Sub(lower, upper), fy, upper), hn::Set(d, sky.scale));
+    const VF a = GatherIndex(d, plane, i00), b = GatherIndex(d, plane, i10);
+    const VF c = GatherIndex(d, plane, i01), e = GatherIndex(d, plane, i11);
+    const VF upper = MulThenAdd(Sub(b, a), fx, a), lower = MulThenAdd(Sub(e, c), fx, c);
+    return Mul(MulThenAdd(Sub(lower, upper), fy, upper), Set(sky.scale));
   };
   return {channel(sky.r), channel(sky.g), channel(sky.b)};
 }
@@ -83,7 +82,7 @@ HWY_INLINE V3 SkyRadiance(const SkyTable& sky, const V3& direction, MF live) {
     case Sky::Kind::gradient:
       return GradientSky(sky, direction);
     case Sky::Kind::image:
-      return ImageSky(sky, direction, live, hn::Zero(IntTag()));
+      return ImageSky(sky, direction, live, Zero(IntTag()));
     case Sky::Kind::none:
       break;
   }
@@ -92,14 +91,13 @@ HWY_INLINE V3 SkyRadiance(const SkyTable& sky, const V3& direction, MF live) {
 
 // The counterpart of blurredRadiance().
 HWY_INLINE V3 BlurredRadiance(const SkyTable& blurred, const V3& direction, VF roughness, MF live) {
-  const FloatTag d;
-  const VF blur = hn::Mul(roughness, hn::Set(d, kSkyBlurs - 1.0f));
-  const VF lower = hn::Min(hn::Floor(blur), hn::Set(d, kSkyBlurs - 2.0f));
-  const VF level = hn::Max(lower, hn::Zero(d));
-  const VI image = hn::ConvertTo(IntTag(), hn::IfThenElseZero(live, level));
+  const VF blur = Mul(roughness, Set(kSkyBlurs - 1.0f));
+  const VF lower = Min(Floor(blur), Set(kSkyBlurs - 2.0f));
+  const VF level = Max(lower, Zero());
+  const VI image = ConvertTo(IntTag(), IfThenElseZero(live, level));
   const V3 sharper = ImageSky(blurred, direction, live, image);
-  const VI next = hn::Add(image, hn::Set(IntTag(), 1));
-  return Mix3(sharper, ImageSky(blurred, direction, live, next), hn::Sub(blur, level));
+  const VI next = Add(image, Set(1));
+  return Mix3(sharper, ImageSky(blurred, direction, live, next), Sub(blur, level));
 }
 
 class ReflectedAmbient {
@@ -118,40 +116,39 @@ class ReflectedAmbient {
   // The ambient light at the surfels from i on; `hit` masks the lanes whose ray hit a surface.
   HWY_INLINE V3 At(size_t i, MF hit) const {
     const V3 light = Unoccluded(i, hit);
-    return occluded_ ? Scale3(light, hn::Load(FloatTag(), surfels_.occlusion + i)) : light;
+    return occluded_ ? Scale3(light, Load(surfels_.occlusion, i)) : light;
   }
 
  private:
   HWY_INLINE V3 Unoccluded(size_t i, MF hit) const {
-    const FloatTag d;
-    const V3 ns = Load3(surfels_.nsX, surfels_.nsY, surfels_.nsZ, i);
-    const V3 albedo = Load3(surfels_.diffuseR, surfels_.diffuseG, surfels_.diffuseB, i);
+    const V3 ns = Load3(surfels_.ns, i);
+    const V3 albedo = Load3(surfels_.diffuse, i);
     const V3 all = Mul3(albedo, MulAdd3(half_, ns.y, middle_));
-    if (HWY_LIKELY(!special_ || hn::AllFalse(d, hit))) return all;
+    if (HWY_LIKELY(!special_ || AllFalse(hit))) return all;
 
     // Surfaces that reflect the scene do so in place of ambient light.
     const VI material = MaterialNumbers(surfels_, i);
     const VU flags = MaterialLanes(tables_, material, hit).Lobe().flags;
     const V3 left = Select3(HasFlags(flags, kMaterialDiffuses), Broadcast3(Vec3f()), all);
-    const MF blurs = hn::And(hit, HasFlags(flags, kMaterialBlursSky));
+    const MF blurs = And(hit, HasFlags(flags, kMaterialBlursSky));
 
-    if (hn::AllFalse(d, blurs)) return left;
+    if (AllFalse(blurs)) return left;
 
     // Lobes reflect the blurred sky with the share that no mirrored ray stands for.
     const V3 direction = DirectionAt(rays_, i);
-    const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
-    const VF towards = hn::Neg(Dot(ns, direction));
-    const VF roughness = hn::Sqrt(hn::Load(d, surfels_.alpha + i));
-    const V3 mirrored = Normalize3(MulAdd3(ns, hn::Add(towards, towards), direction));
+    const VF one = Set(1.0f);
+    const VF towards = Neg(Dot(ns, direction));
+    const VF roughness = Sqrt(Load(surfels_.alpha, i));
+    const V3 mirrored = Normalize3(MulAdd3(ns, Add(towards, towards), direction));
     const V3 sky = BlurredRadiance(tables_.blurredSky, mirrored, roughness, blurs);
 
-    V3 lobe = Load3(surfels_.lobeR, surfels_.lobeG, surfels_.lobeB, i);
+    V3 lobe = Load3(surfels_.lobe, i);
     const MF smooth = HasFlags(flags, kMaterialMirrorsByLobe);
-    lobe = Scale3(lobe, hn::Sub(one, hn::IfThenElseZero(smooth, MirroredShare(roughness))));
+    lobe = Scale3(lobe, Sub(one, IfThenElseZero(smooth, MirroredShare(roughness))));
 
     // A mirror or a coat lies above the lobe.
-    if (HWY_UNLIKELY(!hn::AllFalse(d, hn::And(hit, HasFlags(flags, kMaterialReflects))))) {
-      const VF cosine = hn::Min(hn::Max(towards, zero), one);
+    if (HWY_UNLIKELY(!AllFalse(And(hit, HasFlags(flags, kMaterialReflects))))) {
+      const VF cosine = Clamped01(towards);
       const V3 mirror = MirrorReflectance(MaterialLanes(tables_, material, hit), surfels_,
                                           mirrorMaps_, cosine, i);
       lobe = Mul3(lobe, Complement3(mirror));

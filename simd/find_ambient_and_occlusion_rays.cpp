@@ -24,40 +24,40 @@ void FindAmbientAndOcclusionRays(Chunk& c) {
   const bool coverage = c.has(Feature::coverage);
 
   // Each of the samples carries an equal share of the ambient light.
-  const VF zero = hn::Zero(d), share = hn::Set(d, 1.0f / static_cast<float>(c.lightSamples));
-  const VF radius = hn::Set(d, c.tables().ambient.occlusion);
+  const VF zero = Zero(), share = Set(1.0f / static_cast<float>(c.lightSamples));
+  const VF radius = Set(c.tables().ambient.occlusion);
   const LobeSampling points = lightSampling(c.depth, c.lightSamples, c.sampleNumber);
   const ReflectedAmbient ambient(c);
 
   size_t count = 0;
-  for (size_t i = 0; i < c.n; i += hn::Lanes(d)) {
+  for (size_t i = 0; i < c.n; i += Lanes(d)) {
     // Slots without an occlusion ray stay invisible; checkShadows writes the others.
-    hn::Store(zero, d, unshadowed.visible + i);
+    Store(zero, unshadowed.visible, i);
 
     // Misses and surfaces inside a dielectric of higher priority reflect nothing.
     MF live = SurfaceLanes(surfels, nested, i);
-    if (hn::AllFalse(d, live)) continue;
+    if (AllFalse(live)) continue;
 
     // Occlusion rays are distributed by the cosine to the shading normal.
-    const V3 ng = Load3(surfels.ngX, surfels.ngY, surfels.ngZ, i);
-    const V3 ns = Load3(surfels.nsX, surfels.nsY, surfels.nsZ, i);
-    const VU path = hn::Load(du, rays.path + i);
+    const V3 ng = Load3(surfels.ng, i);
+    const V3 ns = Load3(surfels.ns, i);
+    const VU path = Load(rays.path, i);
     const V3 direction =
         CosineLobes(ns).Direction(LightPoints(path, points, c.lightNumber, c.lightSample));
 
     // A direction below the facet is occluded by the surface itself, unless the shading terminator
     // is smoothed.
-    V3 start = Load3(surfels.posX, surfels.posY, surfels.posZ, i);
-    MF front = hn::Gt(Dot(ng, direction), zero);
+    V3 start = Load3(surfels.pos, i);
+    MF front = Gt(Dot(ng, direction), zero);
     if (offsetsShadows) OffsetShadowStart(surfels, i, start, front);
 
     // The surface reflects this light if nothing is in the way.
     V3 radiance = Scale3(ambient.At(i, live), share);
-    if (coverage) radiance = Scale3(radiance, hn::Load(d, surfels.coverage + i));
-    live = hn::And(live, hn::And(front, hn::Gt(MaxComponent(radiance), zero)));
-    if (hn::AllFalse(d, live)) continue;
+    if (coverage) radiance = Scale3(radiance, Load(surfels.coverage, i));
+    live = And(live, And(front, Gt(MaxComponent(radiance), zero)));
+    if (AllFalse(live)) continue;
 
-    Store3(radiance, unshadowed.r, unshadowed.g, unshadowed.b, i);
+    Store3(radiance, unshadowed.rgb, i);
     const V3 origin =
         RayOrigin(offset, start, ng, DirectionAt(rays, i), LoadClearance(surfels, i), 1.0f);
     const VU slot = hn::Iota(du, static_cast<uint32_t>(i));

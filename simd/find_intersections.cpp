@@ -26,8 +26,7 @@ struct Tints {
 };
 
 HWY_INLINE Tints FindTints(const V3& color, VU flags) {
-  const FloatTag d;
-  const VF one = hn::Set(d, 1.0f);
+  const VF one = Set(1.0f);
   const V3 white{one, one, one};
   const MF emission = HasFlags(flags, kMaterialTintsEmission);
   return {Select3(emission, white, color),
@@ -46,18 +45,18 @@ HWY_INLINE void QueueNormal(const SurfelJob& job, VI map, const UvLanes& uv, MF 
                             const Surface& s, VF flip, const TexturePoints& at, size_t slot,
                             BlockTextures& block) {
   const MF mapped = MappedLanes(map, valid);
-  if (hn::AllFalse(FloatTag(), mapped)) return;
+  if (AllFalse(mapped)) return;
   const TangentFrame frame = FindTangentFrame(uv, s.edge1, s.edge2, s.ns, s.handedness);
-  QueueMap(job, map, hn::And(mapped, frame.good), at, slot, block.normal);
+  QueueMap(job, map, And(mapped, frame.good), at, slot, block.normal);
   StoreFrame(frame, flip, slot, block);
 }
 
 // The highest number of a map of the lane's material; negative if it has none.
 HWY_INLINE VI HighestMap(const SurfelJob& job, const MaterialLanes& material) {
   VI map = material.Diffuse().map;
-  if (job.normalMaps) map = hn::Max(map, material.NormalMap());
-  if (job.emissionFactors) map = hn::Max(map, material.Lobe().emissionMap);
-  if (job.glossy) map = hn::Max(map, material.Specular().map);
+  if (job.normalMaps) map = Max(map, material.NormalMap());
+  if (job.emissionFactors) map = Max(map, material.Lobe().emissionMap);
+  if (job.glossy) map = Max(map, material.Specular().map);
   return map;
 }
 
@@ -70,14 +69,14 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
   const RayColumns& rays = job.rays;
   const HitColumns& hits = job.hits;
   const SurfelColumns& surfels = job.surfels;
-  const VF one = hn::Set(d, 1.0f);
+  const VF one = Set(1.0f);
   ClearSlot(slot, block);
 
   const auto [valid, triangle] = LoadHits(hits, tables.triangleCount, i);
   if (job.absorption) Absorb(tables, rays, hits, valid, i);
-  if (hn::AllFalse(d, valid)) {
-    hn::Store(hn::Set(du, kMiss), du, surfels.material + i);
-    return hn::Zero(du);
+  if (AllFalse(valid)) {
+    Store(Set(kMiss), surfels.material, i);
+    return Zero(du);
   }
 
   // The surface is interpolated from the corners, on spheres computed, and carried to the world.
@@ -87,28 +86,27 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
   if (job.spheres) PutOnSpheres(tables, hits, valid, triangle, i, s, t, w);
   if (job.instances) CarryToWorld(tables, hits, valid, i, s);
 
-  const VU others = job.coplanar ? hn::Load(du, hits.alsoCrossed + i) : hn::Zero(du);
+  const VU others = job.coplanar ? Load(hits.alsoCrossed, i) : Zero(du);
   if (job.coplanar) {
-    const auto shared = hn::Ne(hn::And(others, hn::Set(du, kSharesPlace)), hn::Zero(du));
-    s.inDoubt = hn::Or(s.inDoubt, hn::RebindMask(d, shared));
+    const auto shared = Ne(And(others, Set(kSharesPlace)), Zero(du));
+    s.inDoubt = Or(s.inDoubt, RebindMask(d, shared));
   }
 
   const MaterialLanes material(tables, t.material, valid);
   const auto [diffuse, diffuseMap] = material.Diffuse();
   TexturePoints at{Interpolate(w, t.uv.u0, t.uv.u1, t.uv.u2),
-                   Interpolate(w, t.uv.v0, t.uv.v1, t.uv.v2), hn::Zero(d)};
+                   Interpolate(w, t.uv.v0, t.uv.v1, t.uv.v2), Zero()};
   const VF cosine = Dot(DirectionAt(rays, i), s.ng);
 
   if (job.cones) {
-    const VF width =
-        MulThenAdd(hn::Set(d, job.coneSpread), hn::Load(d, hits.t + i), hn::Load(d, rays.cone + i));
-    hn::Store(width, d, surfels.cone + i);
-    if (!hn::AllFalse(d, MappedLanes(HighestMap(job, material), valid))) {
+    const VF width = MulThenAdd(Set(job.coneSpread), Load(hits.t, i), Load(rays.cone, i));
+    Store(width, surfels.cone, i);
+    if (!AllFalse(MappedLanes(HighestMap(job, material), valid))) {
       at.footprint = TextureFootprint(t.uv, s.edge1, s.edge2, width, cosine);
     }
   }
 
-  const MF entering = hn::Lt(cosine, hn::Zero(d));
+  const MF entering = Lt(cosine, Zero());
   const VF flip = TurnToViewer(entering);
 
   if (job.textures) {
@@ -118,7 +116,7 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
     QueueNormal(job, material.NormalMap(), t.uv, valid, s, flip, at, slot, block);
   }
 
-  const VF distance = hn::Load(d, hits.t + i);
+  const VF distance = Load(hits.t, i);
   FollowRay(t, rays, distance, i, s);
   StoreSurface(s, distance, flip, i, surfels);
 
@@ -131,17 +129,16 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
     scattered = Mul3(scattered, tints.diffuse);
   }
 
-  Store3(scattered, surfels.diffuseR, surfels.diffuseG, surfels.diffuseB, i);
+  Store3(scattered, surfels.diffuse, i);
   if (job.emissionFactors) {
-    Store3(tints.emission, surfels.emissionR, surfels.emissionG, surfels.emissionB, i);
+    Store3(tints.emission, surfels.emission, i);
     if (job.textures) {
       QueueMap(job, lobe.emissionMap, valid, at, slot, block.emission);
     }
   }
 
-  const VU materialOrMiss =
-      hn::IfThenElse(hn::RebindMask(du, valid), hn::BitCast(du, t.material), hn::Set(du, kMiss));
-  hn::Store(materialOrMiss, du, surfels.material + i);
+  const VU materialOrMiss = IfThenElse(RebindMask(du, valid), BitCast(du, t.material), Set(kMiss));
+  Store(materialOrMiss, surfels.material, i);
 
   if (job.glossy) {
     const auto [specular, specularMap] = material.Specular();
@@ -149,38 +146,34 @@ HWY_INLINE VU InterpolateVector(const SurfelJob& job, size_t i, size_t slot, Blo
       QueueMap(job, specularMap, valid, at, slot, block.specular);
     }
     const V3 f0 = job.vertexColors ? Mul3(specular, tints.specular) : specular;
-    Store3(f0, surfels.specularR, surfels.specularG, surfels.specularB, i);
-    hn::Store(lobe.alpha, d, surfels.alpha + i);
+    Store3(f0, surfels.specular, i);
+    Store(lobe.alpha, surfels.alpha, i);
   }
 
   // FindLayers sets it where there is one.
   if (job.lobes) {
-    const VF none = hn::Zero(d);
-    Store3({none, none, none}, surfels.lobeR, surfels.lobeG, surfels.lobeB, i);
+    Store3(Zero3(), surfels.lobe, i);
   }
 
   if (job.transmission) {
     StoreMedia(tables, rays, lobe.medium, entering, others, i, surfels);
   }
 
-  return hn::IfThenElseZero(hn::RebindMask(du, valid), lobe.flags);
+  return IfThenElseZero(RebindMask(du, valid), lobe.flags);
 }
 
 // Applies the textures that the vector at i has queued.
-HWY_INLINE void ApplyTextures(const SurfelJob& job, const BlockTextures& block, size_t slot,
-                              size_t i) {
+HWY_INLINE void ApplyTextures(const SurfelJob& job, BlockTextures& block, size_t slot, size_t i) {
   const SurfelColumns& surfels = job.surfels;
   if (job.textures) {
     if (job.emissionFactors && HWY_UNLIKELY(job.radianceMaps)) {
       ApplyRadianceMaps(job, block.emission, slot, i);
     } else if (job.emissionFactors) {
-      ApplyColor(job, block.emission, slot, surfels.emissionR, surfels.emissionG, surfels.emissionB,
-                 i);
+      ApplyColor(job, block.emission, slot, surfels.emission, i);
     }
-    ApplyColor(job, block.diffuse, slot, surfels.diffuseR, surfels.diffuseG, surfels.diffuseB, i);
+    ApplyColor(job, block.diffuse, slot, surfels.diffuse, i);
     if (job.glossy) {
-      ApplyColor(job, block.specular, slot, surfels.specularR, surfels.specularG, surfels.specularB,
-                 i);
+      ApplyColor(job, block.specular, slot, surfels.specular, i);
     }
   }
   if (job.normalMaps) ApplyNormalMap(job, block, slot, i);
@@ -188,9 +181,9 @@ HWY_INLINE void ApplyTextures(const SurfelJob& job, const BlockTextures& block, 
 
 void InterpolateSurfels(Chunk& c) {
   const UintTag du;
-  const size_t lanes = hn::Lanes(du), n = c.n;
+  const size_t lanes = Lanes(du), n = c.n;
   const SurfelJob job{c};
-  VU flags = hn::Zero(du);
+  VU flags = Zero(du);
   BlockTextures block;
   for (size_t begin = 0; begin < n; begin += TexelQueue::kRays) {
     const size_t end = begin + TexelQueue::kRays < n ? begin + TexelQueue::kRays : n;
@@ -199,7 +192,7 @@ void InterpolateSurfels(Chunk& c) {
       PrefetchRecords(job.tables.normals, stride, job.hits.triangle, begin, end);
     }
     for (size_t i = begin; i < end; i += lanes) {
-      flags = hn::Or(flags, InterpolateVector(job, i, i - begin, block));
+      flags = Or(flags, InterpolateVector(job, i, i - begin, block));
       if (HWY_UNLIKELY(job.secondUvs)) QueueByOwnUvs(job, i, i - begin, block);
     }
     if (job.textures || job.normalMaps) {
@@ -207,7 +200,7 @@ void InterpolateSurfels(Chunk& c) {
     }
   }
   HWY_ALIGN uint32_t perLane[16];
-  hn::Store(flags, du, perLane);
+  Store(flags, du, perLane);
   c.materialFlags = 0;
   for (size_t lane = 0; lane < lanes; ++lane) c.materialFlags |= perLane[lane];
 }
@@ -217,14 +210,13 @@ void InterpolateSurfels(Chunk& c) {
 template <uint32_t kBySecond, typename MapOf>
 HWY_INLINE void QueueDataMap(const SurfelJob& job, size_t i, size_t slot, MapOf&& mapOf,
                              MapQueue& queue) {
-  const FloatTag d;
   queue.level.any[slot] = false;
   const auto [valid, triangle] = LoadHits(job.hits, job.tables.triangleCount, i);
-  if (hn::AllFalse(d, valid)) return;
+  if (AllFalse(valid)) return;
   TriangleLanes t = LoadTriangles(job.tables, triangle);
   const VI map = mapOf(MaterialLanes(job.tables, t.material, valid));
   const MF mapped = MappedLanes(map, valid);
-  if (hn::AllFalse(d, mapped)) return;
+  if (AllFalse(mapped)) return;
 
   Surface s;
   const MapHits at = MapHitsAt(job, valid, triangle, t, false, i, s);
@@ -235,20 +227,19 @@ HWY_INLINE void QueueDataMap(const SurfelJob& job, size_t i, size_t slot, MapOf&
 
 HWY_INLINE void ApplyRoughness(const SurfelJob& job, const MapQueue& queue, size_t slot, size_t i) {
   if (!queue.level.any[slot]) return;
-  const FloatTag d;
   const MF queued = QueuedLanes(queue.level, slot);
   const VI number = MaterialNumbers(job.surfels, i);
   const VF factor = MaterialLanes(job.tables, number, queued).Roughness().number;
   const V3 map = FilterData(job, queue, slot);
-  const VF roughness = hn::Max(hn::Mul(factor, map.y), hn::Set(d, kMinRoughness));
-  const VF alpha = hn::Load(d, job.surfels.alpha + i);
-  hn::Store(hn::IfThenElse(queued, hn::Mul(roughness, roughness), alpha), d, job.surfels.alpha + i);
+  const VF roughness = Max(Mul(factor, map.y), Set(kMinRoughness));
+  const VF alpha = Load(job.surfels.alpha, i);
+  Store(IfThenElse(queued, Mul(roughness, roughness), alpha), job.surfels.alpha, i);
 }
 
 // apply(job, queue, slot, i) for each vector, when what mapOf(materials) names has been looked up.
 template <uint32_t kBySecond = 0, typename MapOf, typename Apply>
 HWY_INLINE void LookUpDataMap(const Chunk& c, MapOf&& mapOf, Apply&& apply) {
-  const size_t lanes = hn::Lanes(FloatTag()), n = c.n;
+  const size_t lanes = Lanes(FloatTag()), n = c.n;
   const SurfelJob job{c};
   MapQueue queue;
   for (size_t begin = 0; begin < n; begin += TexelQueue::kRays) {
@@ -270,46 +261,42 @@ void LookUpRoughness(Chunk& c) {
 inline HWY_NOINLINE VF MulVertexAlpha(const SurfelJob& job, VF coverage, MF mapped, size_t i) {
   const VI number = MaterialNumbers(job.surfels, i);
   const VU flags = MaterialLanes(job.tables, number, mapped).Lobe().flags;
-  const MF byVertex = hn::And(mapped, HasFlags(flags, kMaterialAlphaByVertex));
-  if (hn::AllFalse(FloatTag(), byVertex)) return coverage;
+  const MF byVertex = And(mapped, HasFlags(flags, kMaterialAlphaByVertex));
+  if (AllFalse(byVertex)) return coverage;
 
   // The coordinates have what the alpha lacks of 1. Subtracted at the corners, a small alpha keeps
   // its precision.
   const VI triangle = LoadHits(job.hits, job.tables.triangleCount, i).triangle;
   const UvLanes lacks = LoadSecondUvs(job.tables, triangle);
-  const VF one = hn::Set(FloatTag(), 1.0f);
-  const VF alpha = Interpolate(LoadWeights(job.hits, i), hn::Sub(one, lacks.u0),
-                               hn::Sub(one, lacks.u1), hn::Sub(one, lacks.u2));
-  return hn::IfThenElse(byVertex, hn::Mul(coverage, alpha), coverage);
+  const VF one = Set(1.0f);
+  const VF alpha = Interpolate(LoadWeights(job.hits, i), Sub(one, lacks.u0), Sub(one, lacks.u1),
+                               Sub(one, lacks.u2));
+  return IfThenElse(byVertex, Mul(coverage, alpha), coverage);
 }
 
 // 1 where a ray has left the scene.
 HWY_INLINE void StoreCoverage(const SurfelJob& job, const MapQueue& queue, size_t slot, size_t i) {
   const FloatTag d;
   const VI number = MaterialNumbers(job.surfels, i);
-  const MF live = hn::RebindMask(d, NonNegative(number));
-  VF coverage = hn::Set(d, 1.0f);
-  if (!hn::AllFalse(d, live)) {
+  const MF live = RebindMask(d, NonNegative(number));
+  VF coverage = Set(1.0f);
+  if (!AllFalse(live)) {
     const VF own = MaterialLanes(job.tables, number, live).Coverage().number;
-    coverage = hn::IfThenElse(live, own, coverage);
+    coverage = IfThenElse(live, own, coverage);
   }
   if (queue.level.any[slot]) {
     const V3 map = FilterData(job, queue, slot);
-    const VF mapped = hn::Mul(coverage, map.x);
+    const VF mapped = Mul(coverage, map.x);
     const MF queued = QueuedLanes(queue.level, slot);
-    coverage = hn::IfThenElse(queued, mapped, coverage);
+    coverage = IfThenElse(queued, mapped, coverage);
     if (HWY_UNLIKELY(job.secondUvs)) coverage = MulVertexAlpha(job, coverage, queued, i);
   }
-  hn::Store(coverage, d, job.surfels.coverage + i);
+  Store(coverage, job.surfels.coverage, i);
 }
-
-struct Columns3 {
-  float *x, *y, *z;
-};
 
 HWY_INLINE void StoreOnes(float* column, size_t n) {
   const FloatTag d;
-  for (size_t i = 0; i < n; i += hn::Lanes(d)) hn::Store(hn::Set(d, 1.0f), d, column + i);
+  for (size_t i = 0; i < n; i += Lanes(d)) Store(Set(1.0f), column, i);
 }
 
 // The scalar reference is findColors in src/reference/find_intersections.cpp.
@@ -323,13 +310,12 @@ void LookUpCoverage(Chunk& c) {
 }
 
 HWY_INLINE void StoreOcclusion(const SurfelJob& job, const MapQueue& queue, size_t slot, size_t i) {
-  const FloatTag d;
-  VF occlusion = hn::Set(d, 1.0f);
+  VF occlusion = Set(1.0f);
   if (queue.level.any[slot]) {
     const V3 map = FilterData(job, queue, slot);
-    occlusion = hn::IfThenElse(QueuedLanes(queue.level, slot), map.x, occlusion);
+    occlusion = IfThenElse(QueuedLanes(queue.level, slot), map.x, occlusion);
   }
-  hn::Store(occlusion, d, job.surfels.occlusion + i);
+  Store(occlusion, job.surfels.occlusion, i);
 }
 
 // The scalar reference is findColors in src/reference/find_intersections.cpp.
@@ -347,25 +333,20 @@ struct MirrorFactors {
   static constexpr uint32_t kVaries = kMaterialVariesMirror;
   static HWY_INLINE VI Map(const MaterialLanes& m) { return m.Mirror().map; }
   static HWY_INLINE MF Tinted(VU flags) {
-    return hn::AndNot(HasFlags(flags, kMaterialCoated), HasFlags(flags, kMaterialTintsSpecular));
+    return AndNot(HasFlags(flags, kMaterialCoated), HasFlags(flags, kMaterialTintsSpecular));
   }
-  static HWY_INLINE Columns3 Columns(const SurfelColumns& s) {
-    return {s.mirrorR, s.mirrorG, s.mirrorB};
-  }
+  static constexpr auto kColumns = &SurfelColumns::mirror;
 };
 struct TransmissionFactors {
   static constexpr uint32_t kVaries = kMaterialVariesTransmission;
   static HWY_INLINE VI Map(const MaterialLanes& m) { return m.Transmission().map; }
   static HWY_INLINE MF Tinted(VU flags) { return hn::Not(HasFlags(flags, kMaterialTintsEmission)); }
-  static HWY_INLINE Columns3 Columns(const SurfelColumns& s) {
-    return {s.transmissionR, s.transmissionG, s.transmissionB};
-  }
+  static constexpr auto kColumns = &SurfelColumns::transmission;
 };
 
 template <typename Factors>
 HWY_INLINE void StoreFactors(const SurfelJob& job, const MapQueue& queue, size_t slot, size_t i) {
-  const FloatTag d;
-  const VF one = hn::Set(d, 1.0f);
+  const VF one = Set(1.0f);
   V3 factor{one, one, one};
   if (queue.level.any[slot]) {
     const V3 map =
@@ -374,23 +355,22 @@ HWY_INLINE void StoreFactors(const SurfelJob& job, const MapQueue& queue, size_t
   }
 
   const auto [valid, triangle] = LoadHits(job.hits, job.tables.triangleCount, i);
-  if (job.vertexColors && !hn::AllFalse(d, valid)) {
+  if (job.vertexColors && !AllFalse(valid)) {
     const VI material = MaterialNumbers(job.surfels, i);
     const VU flags = MaterialLanes(job.tables, material, valid).Lobe().flags;
     const Weights w = LoadWeights(job.hits, i);
     const V3 tinted = Mul3(factor, VertexColor(job.tables, triangle, w.w1, w.w2));
-    const MF varies = hn::And(valid, HasFlags(flags, Factors::kVaries));
-    factor = Select3(hn::And(varies, Factors::Tinted(flags)), tinted, factor);
+    const MF varies = And(valid, HasFlags(flags, Factors::kVaries));
+    factor = Select3(And(varies, Factors::Tinted(flags)), tinted, factor);
   }
-  const Columns3 to = Factors::Columns(job.surfels);
-  Store3(factor, to.x, to.y, to.z, i);
+  Store3(factor, job.surfels.*Factors::kColumns, i);
 }
 
 // The scalar reference is findColors in src/reference/find_intersections.cpp.
 template <typename Factors>
 HWY_INLINE void LookUpFactors(Chunk& c) {
   if ((c.materialFlags & Factors::kVaries) == 0) {
-    const Columns3 to = Factors::Columns(c.surfels);
+    const Columns3 to = c.surfels.*Factors::kColumns;
     for (float* column : {to.x, to.y, to.z}) StoreOnes(column, c.n);
     return;
   }
@@ -418,10 +398,9 @@ HWY_INLINE void CarryToWorld(const ShadingTables& tables, const InstanceHits& on
 
 // Stretched ones to unit length; those that have it keep their bits.
 HWY_INLINE Corners UnitNormals(Corners normals) {
-  const FloatTag d;
-  const VF one = hn::Set(d, 1.0f), most = hn::Set(d, static_cast<float>(kStretchedNormal));
+  const VF one = Set(1.0f), most = Set(static_cast<float>(kStretchedNormal));
   for (V3* n : {&normals.c0, &normals.c1, &normals.c2}) {
-    const MF stretched = hn::Gt(hn::Abs(hn::Sub(Dot(*n, *n), one)), most);
+    const MF stretched = Gt(Abs(Sub(Dot(*n, *n), one)), most);
     *n = Select3(stretched, NormalizeOr(*n, *n), *n);
   }
   return normals;
@@ -435,42 +414,42 @@ void LiftShadowOrigins(Chunk& c) {
   const SurfelColumns surfels = c.surfels;
   const size_t n = c.n;
   const bool instanced = c.has(Feature::instances), spheres = c.has(Feature::spheres);
-  const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  const VF zero = Zero(), one = Set(1.0f);
 
-  for (size_t i = 0; i < n; i += hn::Lanes(d)) {
+  for (size_t i = 0; i < n; i += Lanes(d)) {
     const auto [valid, triangle] = LoadHits(hits, tables.triangleCount, i);
     const TriangleLanes t = LoadTriangles(tables, triangle);
     WorldCorners w{{t.p0, t.p1, t.p2}, UnitNormals(LoadNormals(tables, triangle))};
     if (instanced) {
       const InstanceHits on = LoadInstances(hits, tables.instances.size(), valid, i);
-      if (!hn::AllFalse(d, on.placed)) CarryToWorld(tables, on, w);
+      if (!AllFalse(on.placed)) CarryToWorld(tables, on, w);
     }
 
-    const VF u = hn::Load(d, hits.u + i), v = hn::Load(d, hits.v + i);
-    const V3 position = Load3(surfels.posX, surfels.posY, surfels.posZ, i);
-    const V3 ng = Load3(surfels.ngX, surfels.ngY, surfels.ngZ, i);
-    const VF offset = hn::Load(d, surfels.offset + i);
+    const VF u = Load(hits.u, i), v = Load(hits.v, i);
+    const V3 position = Load3(surfels.pos, i);
+    const V3 ng = Load3(surfels.ng, i);
+    const VF offset = Load(surfels.offset, i);
 
     // The surface that the vertex normals stand for lies above the facet by the weighted depths
     // below the planes of the corners.
-    V3 raised{zero, zero, zero};
+    V3 raised = Zero3();
     const auto add = [&](const V3& corner, const V3& normal, VF weight) HWY_ATTR {
       // Corner normals point to the outside, the surfel's to the viewer.
-      const V3 m = Scale3(normal, hn::CopySign(one, Dot(normal, ng)));
-      const VF below = hn::Neg(hn::Add(Dot(Sub3(position, corner), m), offset));
-      raised = MulAdd3(m, hn::Mul(weight, hn::Max(below, zero)), raised);
+      const V3 m = Scale3(normal, CopySign(one, Dot(normal, ng)));
+      const VF below = Neg(Add(Dot(Sub3(position, corner), m), offset));
+      raised = MulAdd3(m, Mul(weight, Max(below, zero)), raised);
     };
 
-    add(w.position.c0, w.normal.c0, hn::Sub(hn::Sub(one, u), v));
+    add(w.position.c0, w.normal.c0, Sub(Sub(one, u), v));
     add(w.position.c1, w.normal.c1, u);
     add(w.position.c2, w.normal.c2, v);
 
     if (spheres) {
       const MF on = LoadSpheres(tables, hits, valid, triangle, i).on;
-      raised = Select3(on, {zero, zero, zero}, raised);
+      raised = Select3(on, Zero3(), raised);
     }
 
-    Store3(raised, surfels.shadowOffsetX, surfels.shadowOffsetY, surfels.shadowOffsetZ, i);
+    Store3(raised, surfels.shadowOffset, i);
   }
 }
 

@@ -22,13 +22,12 @@ class LightLanes {
   HWY_INLINE LightLanes(const Light& light, bool cones)
       : spot_(cones && light.kind == Light::Kind::spot),
         directional_(light.kind == Light::Kind::directional) {
-    const FloatTag d;
     position_ = Broadcast3(directional_ ? Vec3f(towards(light, {})) : light.position);
-    radiusSquared_ = hn::Set(d, light.radius * light.radius);
+    radiusSquared_ = Set(light.radius * light.radius);
     const SpotCone cone = spot_ ? coneOf(light) : SpotCone();
     axis_ = Broadcast3(Vec3f(cone.axis));
-    cosOuter_ = hn::Set(d, static_cast<float>(cone.cosOuter));
-    coneScale_ = hn::Set(d, static_cast<float>(cone.scale));
+    cosOuter_ = Set(static_cast<float>(cone.cosOuter));
+    coneScale_ = Set(static_cast<float>(cone.scale));
   }
 
   // Returns the vector to the light, of length 1 if the light is directional.
@@ -40,13 +39,13 @@ class LightLanes {
   // off to nothing.
   HWY_INLINE MF Within(MF live, const V3& toLight, VF distanceSquared) const {
     if (!spot_) return live;
-    const VF along = hn::Neg(Dot(axis_, toLight)), zero = hn::Zero(FloatTag());
-    const VF edge = hn::Mul(hn::Mul(cosOuter_, cosOuter_), distanceSquared);
-    return hn::And(live, hn::And(hn::Gt(along, zero), hn::Gt(hn::Mul(along, along), edge)));
+    const VF along = Neg(Dot(axis_, toLight)), zero = Zero();
+    const VF edge = Mul(Mul(cosOuter_, cosOuter_), distanceSquared);
+    return And(live, And(Gt(along, zero), Gt(Mul(along, along), edge)));
   }
 
   // The area by which the intensity is divided at this distance.
-  HWY_INLINE VF Area(VF distanceSquared) const { return hn::Max(distanceSquared, radiusSquared_); }
+  HWY_INLINE VF Area(VF distanceSquared) const { return Max(distanceSquared, radiusSquared_); }
 
   // A point on a light with a radius for each lane: the vector to it, and the area by which the
   // intensity is divided (the scalar reference, with its source, is viewOf in
@@ -58,51 +57,46 @@ class LightLanes {
   };
   HWY_NOINLINE View Look(const V3& toCenter, const UnitPoints& at) const {
     const FloatTag d;
-    const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f), two = hn::Set(d, 2.0f);
+    const VF one = Set(1.0f), two = Set(2.0f);
     const VF squared = Dot(toCenter, toCenter);
-    const MF outside = hn::Gt(squared, radiusSquared_);
-    const VF safe = hn::IfThenElse(outside, squared, one);
-    const VF distance = hn::Sqrt(safe);
-    const VF sine2 = hn::Div(hn::IfThenElseZero(outside, radiusSquared_), safe);
-    const VF height = hn::Div(sine2, hn::Add(one, hn::Sqrt(hn::Sub(one, sine2))));
-    const VF h = hn::Mul(at.u, height), turn = hn::Mul(at.v, hn::Set(d, 6.28318531f));
-    const VF s = hn::Sqrt(hn::Mul(h, hn::Sub(two, h)));
-    const V3 z = Scale3(toCenter, hn::Div(one, distance));
-    const MF useX = hn::Lt(hn::Abs(z.x), hn::Set(d, 0.5f));
-    const V3 axis{hn::IfThenElseZero(useX, one), hn::IfThenElse(useX, zero, one), zero};
-    const V3 x = NormalizeOr(Cross(z, axis), axis), y = Cross(z, x);
-    const V3 l = MulAdd3(x, hn::Mul(s, hn::Cos(d, turn)),
-                         MulAdd3(y, hn::Mul(s, hn::Sin(d, turn)), Scale3(z, hn::Sub(one, h))));
-    const VF far = hn::Mul(hn::Sub(one, at.u), NegMulThenAdd(height, hn::Add(one, at.u), two));
-    const VF inside = hn::Sqrt(hn::Div(far, hn::Sub(two, height)));
-    const VF toPoint =
-        NegMulThenAdd(hn::Sqrt(radiusSquared_), inside, hn::Mul(distance, hn::Sub(one, h)));
-    const VF area = hn::Div(radiusSquared_, hn::Add(height, height));
+    const MF outside = Gt(squared, radiusSquared_);
+    const VF safe = IfThenElse(outside, squared, one);
+    const VF distance = Sqrt(safe);
+    const VF sine2 = Div(IfThenElseZero(outside, radiusSquared_), safe);
+    const VF height = Div(sine2, Add(one, Sqrt(Sub(one, sine2))));
+    const VF h = Mul(at.u, height), turn = Mul(at.v, Set(6.28318531f));
+    const VF s = Sqrt(Mul(h, Sub(two, h)));
+    const V3 z = Scale3(toCenter, Div(one, distance));
+    const V3 x = UnitAcross(z, 0.5f), y = Cross(z, x);
+    const V3 l = MulAdd3(x, Mul(s, hn::Cos(d, turn)),
+                         MulAdd3(y, Mul(s, hn::Sin(d, turn)), Scale3(z, Sub(one, h))));
+    const VF far = Mul(Sub(one, at.u), NegMulThenAdd(height, Add(one, at.u), two));
+    const VF inside = Sqrt(Div(far, Sub(two, height)));
+    const VF toPoint = NegMulThenAdd(Sqrt(radiusSquared_), inside, Mul(distance, Sub(one, h)));
+    const VF area = Div(radiusSquared_, Add(height, height));
     return {Select3(outside, Scale3(l, toPoint), toCenter),
-            hn::IfThenElse(outside, area, Area(squared))};
+            IfThenElse(outside, area, Area(squared))};
   }
 
   // The share of the intensity that a surface receives; `nl` is the cosine at the surface, `l` the
   // direction.
   HWY_INLINE VF Falloff(VF nl, const V3& l, VF area) const {
     if (directional_) return nl;
-    const VF falloff = hn::Div(nl, area);
-    return spot_ ? hn::Mul(falloff, Cone(l)) : falloff;
+    const VF falloff = Div(nl, area);
+    return spot_ ? Mul(falloff, Cone(l)) : falloff;
   }
 
   // Where shadow rays end, in lengths of Towards().
   HWY_INLINE VF Reach() const {
-    return hn::Set(FloatTag(),
-                   directional_ ? std::numeric_limits<float>::infinity() : kShadowReach);
+    return Set(directional_ ? std::numeric_limits<float>::infinity() : kShadowReach);
   }
 
  private:
   // SpotCone::falloff.
   HWY_INLINE VF Cone(const V3& l) const {
-    const FloatTag d;
-    const VF inside = hn::Sub(hn::Neg(Dot(axis_, l)), cosOuter_);
-    const VF s = hn::Min(hn::Max(hn::Mul(inside, coneScale_), hn::Zero(d)), hn::Set(d, 1.0f));
-    return hn::Mul(s, s);
+    const VF inside = Sub(Neg(Dot(axis_, l)), cosOuter_);
+    const VF s = Clamped01(Mul(inside, coneScale_));
+    return Mul(s, s);
   }
 
   V3 position_;  // or the unit vector towards a directional light
@@ -116,38 +110,29 @@ class LightLanes {
 // Schlick's Fresnel term, from f0 to f90.
 HWY_INLINE V3 GlossyLobe(const V3& f0, VF f90, VF alpha, VF nl, VF nv, const V3& n, const V3& h,
                          VF vh) {
-  const FloatTag d;
-  const VF one = hn::Set(d, 1.0f);
-  const VF a2 = hn::Mul(alpha, alpha);
+  const VF a2 = Mul(alpha, alpha);
   // (n.h)^2 (a2 - 1) + 1 with the sine from the cross product: next to the highlight of a narrow
   // lobe the cosine alone has lost it (4 digits at alpha = 0.001).
   const VF nh = Dot(n, h);
   const V3 across = Cross(n, h);
-  const VF denominator = MulThenAdd(hn::Mul(nh, nh), a2, Dot(across, across));
-  const VF distribution =
-      hn::Div(a2, hn::Mul(hn::Set(d, 3.14159265f), hn::Mul(denominator, denominator)));
-  const VF rest = hn::Sub(one, a2);
-  const VF maskV = hn::Mul(nl, hn::Sqrt(MulThenAdd(hn::Mul(nv, nv), rest, a2)));
-  const VF maskL = hn::Mul(nv, hn::Sqrt(MulThenAdd(hn::Mul(nl, nl), rest, a2)));
-  const VF visibility = hn::Div(hn::Set(d, 0.5f), hn::Add(maskV, maskL));
-  const VF m = hn::Sub(one, vh), m2 = hn::Mul(m, m);
-  const VF schlick = hn::Mul(hn::Mul(m2, m2), m);
-  const VF scale = hn::Mul(distribution, visibility);
-  const V3 grazing{hn::Sub(f90, f0.x), hn::Sub(f90, f0.y), hn::Sub(f90, f0.z)};
-  return Scale3(MulAdd3(grazing, schlick, f0), scale);
+  const VF denominator = MulThenAdd(Mul(nh, nh), a2, Dot(across, across));
+  const VF distribution = Div(a2, Mul(Set(3.14159265f), Mul(denominator, denominator)));
+  const VF rest = Sub(Set(1.0f), a2);
+  const VF maskV = Mul(nl, Sqrt(MulThenAdd(Mul(nv, nv), rest, a2)));
+  const VF maskL = Mul(nv, Sqrt(MulThenAdd(Mul(nl, nl), rest, a2)));
+  const VF visibility = Div(Set(0.5f), Add(maskV, maskL));
+  return Scale3(SchlickColor(f0, {f90, f90, f90}, vh), Mul(distribution, visibility));
 }
 
 // The light of the lobe, of which coats of the surfels at i leave what they do not reflect.
 // `cosine`: between viewer and normal.
 HWY_INLINE V3 UnderCoat(const Chunk& c, const V3& lobe, VF cosine, MF shiny, size_t i) {
-  const FloatTag d;
-  const VF one = hn::Set(d, 1.0f);
   const SurfelColumns& surfels = c.surfels;
   const VI number = MaterialNumbers(surfels, i);
   const MaterialLanes material(c.tables(), number, shiny);
-  const MF coated = hn::And(shiny, HasFlags(material.Lobe().flags, kMaterialIsUnderCoat));
-  if (hn::AllFalse(d, coated)) return lobe;
-  const VF towards = hn::Min(hn::Max(cosine, hn::Zero(d)), one);
+  const MF coated = And(shiny, HasFlags(material.Lobe().flags, kMaterialIsUnderCoat));
+  if (AllFalse(coated)) return lobe;
+  const VF towards = Clamped01(cosine);
   const V3 coat = MirrorReflectance(material, surfels, c.has(Feature::mirrorMaps), towards, i);
   return Select3(coated, Mul3(lobe, Complement3(coat)), lobe);
 }
@@ -157,8 +142,8 @@ HWY_INLINE V3 ThroughFog(const Fog& fog, VF distance) {
   const FloatTag d;
   const V3 density = Broadcast3(fog.density);
   const auto left = [&](VF sigma) HWY_ATTR {
-    const VF depth = hn::Min(hn::Mul(sigma, distance), hn::Set(d, kOpaqueFog));
-    return hn::Exp(d, hn::Neg(depth));
+    const VF depth = Min(Mul(sigma, distance), Set(kOpaqueFog));
+    return hn::Exp(d, Neg(depth));
   };
   return {left(density.x), left(density.y), left(density.z)};
 }
@@ -178,7 +163,7 @@ void FindRadianceAndShadowRays(Chunk& c) {
   const bool fog = c.has(Feature::fog) && light.kind != Light::Kind::directional;
   const bool glossy = c.has(Feature::glossy) && (c.materialFlags & kMaterialGlossy) != 0;
   const bool coats = (c.materialFlags & kMaterialIsUnderCoat) != 0;
-  const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  const VF zero = Zero(), one = Set(1.0f);
   const LightLanes lanes(light, c.has(Feature::spotLights));
   const V3 intensity = Broadcast3(light.intensity);
 
@@ -186,19 +171,19 @@ void FindRadianceAndShadowRays(Chunk& c) {
   // One point of several of a light with a radius.
   const bool sampled = c.lightSamples > 1;
   const LobeSampling points = lightSampling(c.depth, c.lightSamples, c.sampleNumber);
-  const VF share = hn::Set(d, 1.0f / static_cast<float>(c.lightSamples));
+  const VF share = Set(1.0f / static_cast<float>(c.lightSamples));
 
-  for (size_t i = 0; i < n; i += hn::Lanes(d)) {
+  for (size_t i = 0; i < n; i += Lanes(d)) {
     MF live = SurfaceLanes(surfels, nested, i);
-    const V3 position = Load3(surfels.posX, surfels.posY, surfels.posZ, i);
-    const V3 ng = Load3(surfels.ngX, surfels.ngY, surfels.ngZ, i);
-    const V3 ns = Load3(surfels.nsX, surfels.nsY, surfels.nsZ, i);
+    const V3 position = Load3(surfels.pos, i);
+    const V3 ng = Load3(surfels.ng, i);
+    const V3 ns = Load3(surfels.ns, i);
 
     // The light is looked at from the surfel, or one of its points is.
     V3 toLight = lanes.Towards(position);
     VF distanceSquared = Dot(toLight, toLight), area = lanes.Area(distanceSquared);
     if (HWY_UNLIKELY(sampled)) {
-      const VU path = hn::Load(du, rays.path + i);
+      const VU path = Load(rays.path, i);
       const auto view =
           lanes.Look(toLight, LightPoints(path, points, c.lightNumber, c.lightSample));
       toLight = view.toPoint;
@@ -207,13 +192,13 @@ void FindRadianceAndShadowRays(Chunk& c) {
     }
 
     // Surfels that turn away from the light, or that it does not reach, are done.
-    MF front = hn::Gt(Dot(ng, toLight), zero);
+    MF front = Gt(Dot(ng, toLight), zero);
     V3 start = position;
     if (offsetsShadows) OffsetShadowStart(surfels, i, start, front);
-    live = hn::And(live, hn::And(front, hn::Gt(Dot(ns, toLight), zero)));
-    live = lanes.Within(hn::And(live, hn::Gt(distanceSquared, zero)), toLight, distanceSquared);
-    if (hn::AllFalse(d, live)) {
-      hn::Store(zero, d, unshadowed.visible + i);
+    live = And(live, And(front, Gt(Dot(ns, toLight), zero)));
+    live = lanes.Within(And(live, Gt(distanceSquared, zero)), toLight, distanceSquared);
+    if (AllFalse(live)) {
+      Store(zero, unshadowed.visible, i);
       continue;
     }
 
@@ -221,18 +206,17 @@ void FindRadianceAndShadowRays(Chunk& c) {
     const VF inverseDistance = InverseSqrt(distanceSquared);
     const V3 l = Scale3(toLight, inverseDistance);
     const VF nl = Dot(ns, l);
-    V3 bsdf = Scale3(Load3(surfels.diffuseR, surfels.diffuseG, surfels.diffuseB, i),
-                     hn::Set(d, 0.318309886f));
+    V3 bsdf = Scale3(Load3(surfels.diffuse, i), Set(0.318309886f));
 
     if (glossy) {
-      const V3 f0 = Load3(surfels.specularR, surfels.specularG, surfels.specularB, i);
-      const MF shiny = hn::And(live, hn::Gt(MaxComponent(f0), zero));
-      if (!hn::AllFalse(d, shiny)) {
+      const V3 f0 = Load3(surfels.specular, i);
+      const MF shiny = And(live, Gt(MaxComponent(f0), zero));
+      if (!AllFalse(shiny)) {
         const V3 direction = DirectionAt(rays, i);
-        const V3 v{hn::Neg(direction.x), hn::Neg(direction.y), hn::Neg(direction.z)};
+        const V3 v = Neg3(direction);
         const V3 h = NormalizeOr(Add3(l, v), ns);
-        const VF nv = hn::Max(Dot(ns, v), hn::Set(d, 1e-4f));
-        const VF alpha = hn::Load(d, surfels.alpha + i);
+        const VF nv = Max(Dot(ns, v), Set(1e-4f));
+        const VF alpha = Load(surfels.alpha, i);
         const VF f90 = LobeGrazing(c.tables(), surfels, f0, i);
         V3 lobe = GlossyLobe(f0, f90, alpha, nl, nv, ns, h, Dot(v, h));
         if (HWY_UNLIKELY(coats)) lobe = UnderCoat(c, lobe, Dot(ns, v), shiny, i);
@@ -241,29 +225,28 @@ void FindRadianceAndShadowRays(Chunk& c) {
     }
 
     V3 radiance = Scale3(Mul3(bsdf, intensity), lanes.Falloff(nl, l, area));
-    if (coverage) radiance = Scale3(radiance, hn::Load(d, surfels.coverage + i));
+    if (coverage) radiance = Scale3(radiance, Load(surfels.coverage, i));
 
     if (fog) {
-      const VF distance = hn::Mul(distanceSquared, inverseDistance);
+      const VF distance = Mul(distanceSquared, inverseDistance);
       radiance = Mul3(radiance, ThroughFog(c.tables().fog, distance));
     }
 
     // Light that is too weak for --light-cutoff is left out.
     const VF largest = MaxComponent(radiance);
-    live = hn::And(live, hn::Gt(largest, zero));
+    live = And(live, Gt(largest, zero));
     if (choices.lightCutoff > 0) {
-      const VF contribution = hn::Mul(hn::Load(d, rays.throughput + i), largest);
-      live = hn::And(live, hn::Ge(contribution, hn::Set(d, choices.lightCutoff)));
+      const VF contribution = Mul(Load(rays.throughput, i), largest);
+      live = And(live, Ge(contribution, Set(choices.lightCutoff)));
     }
 
-    Store3(sampled ? Scale3(radiance, share) : radiance, unshadowed.r, unshadowed.g, unshadowed.b,
-           i);
+    Store3(sampled ? Scale3(radiance, share) : radiance, unshadowed.rgb, i);
     if (!traced) {
-      hn::Store(hn::IfThenElseZero(live, one), d, unshadowed.visible + i);
+      Store(IfThenElseZero(live, one), unshadowed.visible, i);
       continue;
     }
 
-    hn::Store(zero, d, unshadowed.visible + i);
+    Store(zero, unshadowed.visible, i);
     const V3 origin =
         RayOrigin(choices.offset, start, ng, DirectionAt(rays, i), LoadClearance(surfels, i), 1.0f);
     const V3 direction = sampled ? Sub3(Add3(position, toLight), origin) : lanes.Towards(origin);

@@ -20,18 +20,18 @@ struct DiskPoints {
 
 HWY_INLINE DiskPoints DiskPointsOf(const UnitPoints& square) {
   const FloatTag d;
-  const VF one = hn::Set(d, 1.0f), two = hn::Set(d, 2.0f);
+  const VF one = Set(1.0f), two = Set(2.0f);
   const VF a = MulThenSub(two, square.u, one), b = MulThenSub(two, square.v, one);
 
   // The larger coordinate becomes the radius, so squares about the center become circles.
-  const MF byA = hn::Gt(hn::Abs(a), hn::Abs(b));
-  const VF radius = hn::IfThenElse(byA, a, b), other = hn::IfThenElse(byA, b, a);
+  const MF byA = Gt(Abs(a), Abs(b));
+  const VF radius = IfThenElse(byA, a, b), other = IfThenElse(byA, b, a);
 
   // The smaller one becomes the angle, at most an eighth of a turn from the axis.
-  const VF divisor = hn::IfThenElse(hn::Eq(radius, hn::Zero(d)), one, radius);
-  const VF turn = hn::Mul(hn::Set(d, 0.785398163f), hn::Div(other, divisor));
-  const VF along = hn::Mul(radius, hn::Cos(d, turn)), across = hn::Mul(radius, hn::Sin(d, turn));
-  return {hn::IfThenElse(byA, along, across), hn::IfThenElse(byA, across, along)};
+  const VF divisor = IfThenElse(Eq(radius, Zero()), one, radius);
+  const VF turn = Mul(Set(0.785398163f), Div(other, divisor));
+  const VF along = Mul(radius, hn::Cos(d, turn)), across = Mul(radius, hn::Sin(d, turn));
+  return {IfThenElse(byA, along, across), IfThenElse(byA, across, along)};
 }
 
 // Moves the starts of rays to points of the lens and turns the rays, so that they meet in the plane
@@ -43,7 +43,7 @@ class Lens {
         up_(Broadcast3(Vec3f(normalized(camera.up) * camera.aperture))) {
     // Neither factor of the sum is above 1, so that no component overflows.
     const double largest = std::max(camera.aperture, camera.focus);
-    forward_ = hn::Set(FloatTag(), static_cast<float>(camera.focus / largest));
+    forward_ = Set(static_cast<float>(camera.focus / largest));
     turnRight_ = Broadcast3(Vec3f(normalized(camera.right) * (-camera.aperture / largest)));
     turnUp_ = Broadcast3(Vec3f(normalized(camera.up) * (-camera.aperture / largest)));
   }
@@ -69,17 +69,16 @@ class Projector {
   // Returns the directions along right, up and forward through the points x, y pixels right of and
   // above the center. Clears the lanes of `seen` that see nothing.
   HWY_INLINE V3 Bend(VF x, VF y, MF& seen) const {
-    const FloatTag d;
     if (camera_.projection == Projection::directions) {
-      return Towards(Azimuth(x), Entry(camera_.elevations, hn::Neg(y), camera_.viewHeight));
+      return Towards(Azimuth(x), Entry(camera_.elevations, Neg(y), camera_.viewHeight));
     }
 
     // The other projections take tangents, radians or focal lengths instead of pixels.
-    x = hn::Mul(x, hn::Set(d, static_cast<float>(length(camera_.right))));
-    y = hn::Mul(y, hn::Set(d, static_cast<float>(length(camera_.up))));
+    x = Mul(x, Set(static_cast<float>(length(camera_.right))));
+    y = Mul(y, Set(static_cast<float>(length(camera_.up))));
     if (camera_.projection == Projection::panorama) return Towards(x, y);
     if (camera_.projection != Projection::perspective) return Fisheye(x, y, seen);
-    return Undistorted(x, hn::Neg(y), seen);
+    return Undistorted(x, Neg(y), seen);
   }
 
   // Returns radians to the right of the view, for projections by azimuth and elevation.
@@ -87,57 +86,54 @@ class Projector {
     if (camera_.projection == Projection::directions) {
       return Entry(camera_.azimuths, x, camera_.viewWidth);
     }
-    return hn::Mul(x, hn::Set(FloatTag(), static_cast<float>(length(camera_.right))));
+    return Mul(x, Set(static_cast<float>(length(camera_.right))));
   }
 
  private:
-  HWY_INLINE VF Lens(size_t i, float factor = 1) const {
-    return hn::Set(FloatTag(), factor * lens_[i]);
-  }
+  HWY_INLINE VF Lens(size_t i, float factor = 1) const { return Set(factor * lens_[i]); }
 
   HWY_INLINE V3 Undistorted(VF u, VF v, MF& seen) const {
-    const FloatTag d;
-    const VF one = hn::Set(d, 1.0f), two = hn::Set(d, 2.0f), zero = hn::Zero(d);
+    const VF one = Set(1.0f), two = Set(2.0f), zero = Zero();
 
     // Newton's method starts at the distorted point.
     VF x = u, y = v;
     for (int step = 0;; ++step) {
-      const VF x2 = hn::Mul(x, x), y2 = hn::Mul(y, y), r2 = hn::Add(x2, y2);
-      const VF twoXY = hn::Mul(two, hn::Mul(x, y));
+      const VF x2 = Mul(x, x), y2 = Mul(y, y), r2 = Add(x2, y2);
+      const VF twoXY = Mul(two, Mul(x, y));
 
       // The radial part of OpenCV's model scales by a quotient of polynomials in r^2.
       const auto polynomial = [&](VF c0, VF c1, VF c2)
                                   HWY_ATTR { return MulThenAdd(MulThenAdd(c2, r2, c1), r2, c0); };
       const VF above = MulThenAdd(polynomial(Lens(0), Lens(1), Lens(4)), r2, one);
       const VF below = MulThenAdd(polynomial(Lens(5), Lens(6), Lens(7)), r2, one);
-      const VF scale = hn::Div(above, below);
+      const VF scale = Div(above, below);
 
       // The scale changes by `slope` * r with r, and the distorted radius by `radial`.
       const VF change = NegMulThenAdd(scale, polynomial(Lens(5), Lens(6, 2), Lens(7, 3)),
                                       polynomial(Lens(0), Lens(1, 2), Lens(4, 3)));
-      const VF slope = hn::Mul(two, hn::Div(change, below));
+      const VF slope = Mul(two, Div(change, below));
       const VF radial = MulThenAdd(slope, r2, scale);
 
       // The residual is the model's image of (x, y), with the tangential part, minus (u, v).
       const auto off = [&](VF at, VF at2, VF p, VF q, VF wanted) HWY_ATTR {
-        const VF tangential = MulThenAdd(p, twoXY, hn::Mul(q, MulThenAdd(two, at2, r2)));
-        return hn::Add(MulThenSub(at, scale, wanted), tangential);
+        const VF tangential = MulThenAdd(p, twoXY, Mul(q, MulThenAdd(two, at2, r2)));
+        return Add(MulThenSub(at, scale, wanted), tangential);
       };
       const VF offX = off(x, x2, Lens(2), Lens(3), u), offY = off(y, y2, Lens(3), Lens(2), v);
 
       // The result counts if it is precise and does not lie beyond a fold of the picture.
       if (step == kLensSteps) {
-        const VF error = hn::Max(hn::Abs(offX), hn::Abs(offY));
-        const VF least = hn::Min(hn::Min(scale, below), radial);
-        seen = hn::And(hn::Lt(error, Lens(8)), hn::Gt(least, zero));
-        return {x, hn::Neg(y), one};
+        const VF error = Max(Abs(offX), Abs(offY));
+        const VF least = Min(Min(scale, below), radial);
+        seen = And(Lt(error, Lens(8)), Gt(least, zero));
+        return {x, Neg(y), one};
       }
 
       // The step inverts the radial part's Jacobian, scale * I + slope * p * p^T, by Sherman and
       // Morrison's formula.
-      const VF share = hn::Div(hn::Mul(slope, MulThenAdd(x, offX, hn::Mul(y, offY))), radial);
-      x = hn::Sub(x, hn::Div(NegMulThenAdd(x, share, offX), scale));
-      y = hn::Sub(y, hn::Div(NegMulThenAdd(y, share, offY), scale));
+      const VF share = Div(Mul(slope, MulThenAdd(x, offX, Mul(y, offY))), radial);
+      x = Sub(x, Div(NegMulThenAdd(x, share, offX), scale));
+      y = Sub(y, Div(NegMulThenAdd(y, share, offY), scale));
     }
   }
 
@@ -145,50 +141,50 @@ class Projector {
     const FloatTag d;
     // In an equisolid projection r = 2 sin(angle / 2).
     if (camera_.projection == Projection::equisolid) {
-      const VF half = hn::Asin(d, hn::Mul(radius, hn::Set(d, 0.5f)));
-      return hn::Add(half, half);
+      const VF half = hn::Asin(d, Mul(radius, Set(0.5f)));
+      return Add(half, half);
     }
 
     // The others have OpenCV's r = angle * (1 + k1 angle^2 + k2 angle^4 + ...), which Newton's
     // method inverts.
     VF angle = radius;
     for (int step = 0;; ++step) {
-      const VF a2 = hn::Mul(angle, angle);
+      const VF a2 = Mul(angle, angle);
       const auto polynomial = [&](VF c1, VF c2, VF c3, VF c4) HWY_ATTR {
         const VF inner = MulThenAdd(MulThenAdd(c4, a2, c3), a2, c2);
-        return MulThenAdd(MulThenAdd(inner, a2, c1), a2, hn::Set(d, 1.0f));
+        return MulThenAdd(MulThenAdd(inner, a2, c1), a2, Set(1.0f));
       };
 
       const VF off = MulThenSub(angle, polynomial(Lens(0), Lens(1), Lens(2), Lens(3)), radius);
       const VF slope = polynomial(Lens(0, 3), Lens(1, 5), Lens(2, 7), Lens(3, 9));
 
       if (step == kLensSteps) {
-        seen = hn::And(hn::Lt(hn::Abs(off), Lens(8)), hn::Gt(slope, hn::Zero(d)));
+        seen = And(Lt(Abs(off), Lens(8)), Gt(slope, Zero()));
         return angle;
       }
 
-      angle = hn::Sub(angle, hn::Div(off, slope));
+      angle = Sub(angle, Div(off, slope));
     }
   }
 
   HWY_INLINE V3 Fisheye(VF x, VF y, MF& seen) const {
     const FloatTag d;
-    const VF radius = hn::Sqrt(MulThenAdd(x, x, hn::Mul(y, y)));
+    const VF radius = Sqrt(MulThenAdd(x, x, Mul(y, y)));
     VF angle = FisheyeAngle(radius, seen);
 
     // Nothing is seen outside the image circle.
-    seen = hn::And(seen, hn::Le(angle, hn::Set(d, static_cast<float>(camera_.limit))));
-    angle = hn::IfThenElseZero(seen, angle);
-    const VF divisor = hn::Max(radius, hn::Set(d, 1e-30f));
-    const VF across = hn::Div(hn::Sin(d, angle), divisor);
-    return {hn::Mul(x, across), hn::Mul(y, across), hn::Cos(d, angle)};
+    seen = And(seen, Le(angle, Set(static_cast<float>(camera_.limit))));
+    angle = IfThenElseZero(seen, angle);
+    const VF divisor = Max(radius, Set(1e-30f));
+    const VF across = Div(hn::Sin(d, angle), divisor);
+    return {Mul(x, across), Mul(y, across), hn::Cos(d, angle)};
   }
 
   HWY_INLINE static V3 Towards(VF azimuth, VF elevation) {
     const FloatTag d;
     const VF level = hn::Cos(d, elevation);
-    return {hn::Mul(hn::Sin(d, azimuth), level), hn::Sin(d, elevation),
-            hn::Mul(hn::Cos(d, azimuth), level)};
+    return {Mul(hn::Sin(d, azimuth), level), hn::Sin(d, elevation),
+            Mul(hn::Cos(d, azimuth), level)};
   }
 
   // Returns radians. The table is stretched over `pixels` pixels; `at` counts them from the center.
@@ -200,18 +196,18 @@ class Projector {
 
     // Entries stand for the centers of equal spans of pixels; the first and the last one hold
     // beyond them.
-    const VF pixel = hn::Add(at, hn::Set(d, static_cast<float>(pixels) / 2));
-    VF place = MulThenSub(pixel, hn::Set(d, scale), hn::Set(d, 0.5f));
-    place = hn::Min(hn::Max(place, hn::Zero(d)), hn::Set(d, static_cast<float>(last)));
+    const VF pixel = Add(at, Set(static_cast<float>(pixels) / 2));
+    VF place = MulThenSub(pixel, Set(scale), Set(0.5f));
+    place = Min(Max(place, Zero()), Set(static_cast<float>(last)));
 
-    const VI before = hn::ConvertTo(di, place);
-    const VI after = hn::Min(hn::Add(before, hn::Set(di, 1)), hn::Set(di, last));
-    const VF a = hn::GatherIndex(d, degrees.data(), before);
-    const VF b = hn::GatherIndex(d, degrees.data(), after);
-    const VF share = hn::Sub(place, hn::ConvertTo(d, before));
+    const VI before = ConvertTo(di, place);
+    const VI after = Min(Add(before, Set(1)), Set(last));
+    const VF a = GatherIndex(d, degrees.data(), before);
+    const VF b = GatherIndex(d, degrees.data(), after);
+    const VF share = Sub(place, ConvertTo(d, before));
 
     constexpr float kRadians = 0.0174532925f;
-    return hn::Mul(MulThenAdd(hn::Sub(b, a), share, a), hn::Set(d, kRadians));
+    return Mul(MulThenAdd(Sub(b, a), share, a), Set(kRadians));
   }
 
   const CameraFrame& camera_;
@@ -234,9 +230,9 @@ std::array<float, 72> ViewNumbers(const CameraFrame& camera) {
 HWY_INLINE VI ViewAt(VI& place, int size, int count) {
   const FloatTag d;
   const IntTag di;
-  const VF number = hn::Div(hn::ConvertTo(d, place), hn::Set(d, static_cast<float>(size)));
-  const VI whole = hn::Min(hn::ConvertTo(di, number), hn::Set(di, count - 1));
-  place = hn::Sub(place, hn::Mul(whole, hn::Set(di, size)));
+  const VF number = Div(ConvertTo(d, place), Set(static_cast<float>(size)));
+  const VI whole = Min(ConvertTo(di, number), Set(count - 1));
+  place = Sub(place, Mul(whole, Set(size)));
   return whole;
 }
 
@@ -261,20 +257,20 @@ void GenerateRays(Chunk& c) {
   const auto coneWidth = static_cast<float>(pixelCone(camera).width);
 
   // Whole pixels minus half the size are exact in float; the sample's place is added last.
-  const VF shiftX = hn::Set(d, c.sample.x), shiftY = hn::Set(d, c.sample.y);
-  const VF centerX = hn::Set(d, static_cast<float>(camera.centerX));
-  const VF centerY = hn::Set(d, static_cast<float>(camera.centerY));
-  const VF skew = hn::Set(d, static_cast<float>(camera.skew));
+  const VF shiftX = Set(c.sample.x), shiftY = Set(c.sample.y);
+  const VF centerX = Set(static_cast<float>(camera.centerX));
+  const VF centerY = Set(static_cast<float>(camera.centerY));
+  const VF skew = Set(static_cast<float>(camera.skew));
 
   // Projections bend rays along the unit vectors of right and up.
-  const VF widthOfPixel = hn::Set(d, static_cast<float>(1 / length(camera.right)));
-  const VF heightOfPixel = hn::Set(d, static_cast<float>(1 / length(camera.up)));
+  const VF widthOfPixel = Set(static_cast<float>(1 / length(camera.right)));
+  const VF heightOfPixel = Set(static_cast<float>(1 / length(camera.up)));
   const Projector projector(camera);
 
   const std::array<float, 72> views = ViewNumbers(camera);
   const int columns = camera.viewColumns, rows = camera.viewRows;
   const bool isStraight = camera.isStraight();
-  const VF one = hn::Set(d, 1.0f);
+  const VF one = Set(1.0f);
 
   const Lens lens(camera);
   const bool hasLens = camera.aperture > 0;
@@ -285,37 +281,37 @@ void GenerateRays(Chunk& c) {
   const V3 turnForward = Broadcast3(Vec3f(camera.forward * camera.turning));
   VF side = one;
 
-  for (size_t i = 0; i < n; i += hn::Lanes(d)) {
-    const VU packed = hn::LoadU(du, pixels + i);
-    VI px = hn::BitCast(di, hn::And(packed, hn::Set(du, 0xFFFFu)));
-    VI py = hn::BitCast(di, hn::ShiftRight<16>(packed));
+  for (size_t i = 0; i < n; i += Lanes(d)) {
+    const VU packed = LoadU(du, pixels + i);
+    VI px = BitCast(di, And(packed, Set(0xFFFFu)));
+    VI py = BitCast(di, ShiftRight<16>(packed));
 
     // In a stereo pair or a cube map the pixel belongs to one of the views.
     if (!camera.views.empty()) {
       const VI row = ViewAt(py, camera.viewHeight, rows);
       const VI column = ViewAt(px, camera.viewWidth, columns);
-      const VI view = hn::Add(hn::Mul(row, hn::Set(di, columns)), column);
+      const VI view = Add(Mul(row, Set(columns)), column);
 
       // The left eye has the first view.
-      const MF isLeft = hn::RebindMask(d, hn::Eq(view, hn::Zero(di)));
-      side = hn::IfThenElse(isLeft, hn::Neg(one), one);
+      const MF isLeft = RebindMask(d, Eq(view, Zero(di)));
+      side = IfThenElse(isLeft, Neg(one), one);
 
-      VI at = hn::Mul(view, hn::Set(di, 12));
+      VI at = Mul(view, Set(12));
       for (V3* v : {&eye, &forward, &right, &up}) {
         for (VF* to : {&v->x, &v->y, &v->z}) {
-          *to = hn::GatherIndex(d, views.data(), at);
-          at = hn::Add(at, hn::Set(di, 1));
+          *to = GatherIndex(d, views.data(), at);
+          at = Add(at, Set(1));
         }
       }
     }
 
     // The place counts pixels right of and above the principal point.
-    VF x = hn::Add(hn::Sub(hn::ConvertTo(d, px), centerX), shiftX);
-    const VF y = hn::Sub(hn::Sub(centerY, hn::ConvertTo(d, py)), shiftY);
+    VF x = Add(Sub(ConvertTo(d, px), centerX), shiftX);
+    const VF y = Sub(Sub(centerY, ConvertTo(d, py)), shiftY);
     x = MulThenAdd(skew, y, x);
 
     // Orthographic rays differ in their starts, all others in their directions.
-    MF seen = hn::Eq(x, x);
+    MF seen = Eq(x, x);
     V3 origin = eye, direction = forward;
     if (camera.orthographic) {
       origin = MulAdd3(right, x, MulAdd3(up, y, eye));
@@ -323,16 +319,16 @@ void GenerateRays(Chunk& c) {
       direction = MulAdd3(right, x, MulAdd3(up, y, forward));
     } else {
       const V3 along = projector.Bend(x, y, seen);
-      direction = MulAdd3(right, hn::Mul(along.x, widthOfPixel), Scale3(forward, along.z));
-      direction = MulAdd3(up, hn::Mul(along.y, heightOfPixel), direction);
+      direction = MulAdd3(right, Mul(along.x, widthOfPixel), Scale3(forward, along.z));
+      direction = MulAdd3(up, Mul(along.y, heightOfPixel), direction);
     }
 
     // Omni-directional stereo (Google 2015, "Rendering omni-directional stereo content"): the eyes
     // stand on the tangent to the circle where the azimuth meets it.
     if (eyesTurn) {
       const VF azimuth = projector.Azimuth(x);
-      const VF back = hn::Neg(hn::Mul(hn::Sin(d, azimuth), side));
-      origin = MulAdd3(turnRight, hn::Mul(hn::Cos(d, azimuth), side), origin);
+      const VF back = Neg(Mul(hn::Sin(d, azimuth), side));
+      origin = MulAdd3(turnRight, Mul(hn::Cos(d, azimuth), side), origin);
       origin = MulAdd3(turnForward, back, origin);
     }
 
@@ -345,17 +341,17 @@ void GenerateRays(Chunk& c) {
     if (hasLens || !camera.orthographic) direction = Normalize3(direction);
     if (!isStraight) direction = Select3(seen, direction, Broadcast3(Vec3f()));
 
-    Store3(origin, rays.orgX, rays.orgY, rays.orgZ, i);
-    Store3(direction, rays.dirX, rays.dirY, rays.dirZ, i);
+    Store3(origin, rays.org, i);
+    Store3(direction, rays.dir, i);
 
     // A primary ray has the weight 1, and its parent is the slot of its pixel.
-    Store3({one, one, one}, rays.weightR, rays.weightG, rays.weightB, i);
-    hn::Store(one, d, rays.throughput + i);
-    hn::Store(hn::Iota(du, firstSlot + static_cast<uint32_t>(i)), du, rays.parent + i);
+    Store3({one, one, one}, rays.weight, i);
+    Store(one, rays.throughput, i);
+    Store(hn::Iota(du, firstSlot + static_cast<uint32_t>(i)), rays.parent, i);
 
-    if (media) hn::Store(hn::Set(du, camera.media), du, rays.media + i);
-    if (cones) hn::Store(hn::Set(d, coneWidth), d, rays.cone + i);
-    if (streams) hn::Store(StreamOfPixel(packed, sampleNumber, seed), du, rays.path + i);
+    if (media) Store(Set(camera.media), rays.media, i);
+    if (cones) Store(Set(coneWidth), rays.cone, i);
+    if (streams) Store(StreamOfPixel(packed, sampleNumber, seed), rays.path, i);
   }
 }
 

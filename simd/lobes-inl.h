@@ -31,49 +31,45 @@ struct Interface {
 
 // Schlick's polynomial, of the refracted ray's cosine g / eta where that is the smaller one.
 HWY_INLINE VF SchlickReflectance(VF iorBefore, VF iorBehind, VF c, VF g) {
-  const FloatTag d;
-  const VF normal = hn::Div(hn::Sub(iorBehind, iorBefore), hn::Add(iorBehind, iorBefore));
-  const VF f0 = hn::Mul(normal, normal);
-  const VF refracted = hn::Mul(g, hn::Div(iorBefore, iorBehind));
-  const VF cosine = hn::IfThenElse(hn::Lt(iorBehind, iorBefore), refracted, c);
-  return MulThenAdd(hn::Sub(hn::Set(d, 1.0f), f0), SchlickTerm(cosine), f0);
+  const VF normal = Div(Sub(iorBehind, iorBefore), Add(iorBehind, iorBefore));
+  const VF f0 = Mul(normal, normal);
+  const VF refracted = Mul(g, Div(iorBefore, iorBehind));
+  const VF cosine = IfThenElse(Lt(iorBehind, iorBefore), refracted, c);
+  return MulThenAdd(Sub(Set(1.0f), f0), SchlickTerm(cosine), f0);
 }
 
 // c: cosine between the viewer and the normal, in [0, 1].
 HWY_INLINE Interface DielectricInterface(FresnelModel model, VF iorBefore, VF iorBehind, VF c) {
-  const FloatTag d;
-  const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
-  const VF eta = hn::Div(iorBehind, iorBefore);
+  const VF zero = Zero(), one = Set(1.0f);
+  const VF eta = Div(iorBehind, iorBefore);
   // eta^2 - 1, factored over the iors themselves.
-  const VF k = hn::Div(hn::Mul(hn::Sub(iorBehind, iorBefore), hn::Add(iorBehind, iorBefore)),
-                       hn::Mul(iorBefore, iorBefore));
+  const VF k =
+      Div(Mul(Sub(iorBehind, iorBefore), Add(iorBehind, iorBefore)), Mul(iorBefore, iorBefore));
   const VF g2 = MulThenAdd(c, c, k);
-  const MF straight = hn::Eq(k, zero);
-  const MF total = hn::Or(hn::Le(g2, zero), hn::Le(c, zero));
-  const VF g = hn::Sqrt(hn::Max(g2, zero));
-  const VF sum = hn::Max(hn::Add(c, g), hn::Set(d, 1e-30f));
-  const VF bend = hn::Div(k, sum);
-  const VF rs = hn::Div(bend, sum);
-  const VF etaSquaredC = hn::Mul(hn::Mul(eta, eta), c);
-  const VF rp = hn::Div(hn::Mul(k, hn::Sub(c, hn::Div(one, sum))),
-                        hn::Max(hn::Add(etaSquaredC, g), hn::Set(d, 1e-30f)));
-  VF f = hn::Mul(hn::Set(d, 0.5f), MulThenAdd(rs, rs, hn::Mul(rp, rp)));
+  const MF straight = Eq(k, zero);
+  const MF total = Or(Le(g2, zero), Le(c, zero));
+  const VF g = Sqrt(Max(g2, zero));
+  const VF sum = Max(Add(c, g), Set(1e-30f));
+  const VF bend = Div(k, sum);
+  const VF rs = Div(bend, sum);
+  const VF etaSquaredC = Mul(Mul(eta, eta), c);
+  const VF rp = Div(Mul(k, Sub(c, Div(one, sum))), Max(Add(etaSquaredC, g), Set(1e-30f)));
+  VF f = Mul(Set(0.5f), MulThenAdd(rs, rs, Mul(rp, rp)));
   if (model == FresnelModel::schlick) f = SchlickReflectance(iorBefore, iorBehind, c, g);
-  f = hn::IfThenElse(total, one, hn::Min(f, one));
-  f = hn::IfThenElse(straight, zero, f);
+  f = IfThenElse(total, one, Min(f, one));
+  f = IfThenElse(straight, zero, f);
   return {f, eta, k, bend, straight};
 }
 
 // The reflectance of the lobes at grazing incidence, with the reflectance `f0` at normal incidence.
 HWY_INLINE VF LobeGrazing(const ShadingTables& tables, const SurfelColumns& surfels, const V3& f0,
                           size_t i) {
-  const FloatTag d;
-  VF ratio = hn::Set(d, kGrazingRatio);
+  VF ratio = Set(kGrazingRatio);
   if (HWY_UNLIKELY(!tables.grazingRatios.empty())) {
     const VI material = MaterialNumbers(surfels, i);
     ratio = GatherMember<0>(std::span(tables.grazingRatios), material);
   }
-  return hn::Min(hn::Set(d, 1.0f), hn::Mul(ratio, MaxComponent(f0)));
+  return Min(Set(1.0f), Mul(ratio, MaxComponent(f0)));
 }
 
 // The values that all samples of a vector of surfels share.
@@ -91,29 +87,26 @@ struct GlossyLobes {
 // The lanes of `flat` are smooth whatever their roughness.
 HWY_INLINE GlossyLobes LoadGlossyLobes(const ShadingTables& tables, const SurfelColumns& surfels,
                                        const V3& direction, const V3& ns, MF flat, size_t i) {
-  const FloatTag d;
-  const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  const VF zero = Zero(), one = Set(1.0f);
   GlossyLobes lobes;
-  lobes.view = {hn::Neg(direction.x), hn::Neg(direction.y), hn::Neg(direction.z)};
+  lobes.view = Neg3(direction);
   lobes.z = ns;
   const VF towards = Dot(ns, lobes.view);
-  const V3 along = MulAdd3(ns, hn::Neg(towards), lobes.view);
-  const VF sine = hn::Sqrt(Dot(along, along));
+  const V3 along = MulAdd3(ns, Neg(towards), lobes.view);
+  const VF sine = Sqrt(Dot(along, along));
   // Near the normal, the plane of incidence is lost in rounding: any other.
-  const MF oblique = hn::Gt(sine, hn::Set(d, 0.01f));
-  const MF useX = hn::Lt(hn::Abs(ns.x), hn::Set(d, 0.5f));
-  const V3 axis{hn::IfThenElseZero(useX, one), hn::IfThenElse(useX, zero, one), zero};
-  const V3 across = NormalizeOr(Cross(ns, axis), axis);
-  const VF scale = hn::Div(one, hn::IfThenElse(oblique, sine, one));
+  const MF oblique = Gt(sine, Set(0.01f));
+  const V3 across = UnitAcross(ns, 0.5f);
+  const VF scale = Div(one, IfThenElse(oblique, sine, one));
   lobes.x = Select3(oblique, Scale3(along, scale), across);
   lobes.y = Cross(ns, lobes.x);
-  lobes.f0 = Load3(surfels.specularR, surfels.specularG, surfels.specularB, i);
+  lobes.f0 = Load3(surfels.specular, i);
   lobes.f90 = LobeGrazing(tables, surfels, lobes.f0, i);
-  const VF alpha = hn::Load(d, surfels.alpha + i);
-  lobes.rough = hn::AndNot(flat, hn::Gt(alpha, hn::Set(d, kSmoothAlpha)));
-  lobes.alpha = hn::IfThenElseZero(lobes.rough, alpha);
-  lobes.nv = hn::Max(towards, hn::Set(d, 1e-4f));
-  const V3 seen = Normalize3({hn::Mul(sine, lobes.alpha), zero, lobes.nv});
+  const VF alpha = Load(surfels.alpha, i);
+  lobes.rough = AndNot(flat, Gt(alpha, Set(kSmoothAlpha)));
+  lobes.alpha = IfThenElseZero(lobes.rough, alpha);
+  lobes.nv = Max(towards, Set(1e-4f));
+  const V3 seen = Normalize3({Mul(sine, lobes.alpha), zero, lobes.nv});
   lobes.seenX = seen.x;
   lobes.seenZ = seen.z;
   return lobes;
@@ -122,15 +115,15 @@ HWY_INLINE GlossyLobes LoadGlossyLobes(const ShadingTables& tables, const Surfel
 // A normal that can be seen, in the world.
 HWY_INLINE V3 VisibleNormal(const GlossyLobes& lobes, const UnitPoints& at) {
   const FloatTag d;
-  const VF one = hn::Set(d, 1.0f);
-  const VF height = hn::Add(one, lobes.seenZ);
-  const VF fall = hn::Mul(at.v, height);
-  const VF squared = hn::Mul(fall, hn::Sub(hn::Set(d, 2.0f), fall));
-  const VF radius = hn::Mul(hn::Sqrt(hn::Max(squared, hn::Zero(d))), lobes.alpha);
-  const VF turn = hn::Mul(at.u, hn::Set(d, 6.28318531f));
-  const VF x = MulThenAdd(lobes.seenX, lobes.alpha, hn::Mul(radius, hn::Cos(d, turn)));
-  const VF y = hn::Mul(radius, hn::Sin(d, turn));
-  const VF z = hn::Mul(hn::Sub(one, at.v), height);
+  const VF one = Set(1.0f);
+  const VF height = Add(one, lobes.seenZ);
+  const VF fall = Mul(at.v, height);
+  const VF squared = Mul(fall, Sub(Set(2.0f), fall));
+  const VF radius = Mul(Sqrt(Max(squared, Zero())), lobes.alpha);
+  const VF turn = Mul(at.u, Set(6.28318531f));
+  const VF x = MulThenAdd(lobes.seenX, lobes.alpha, Mul(radius, hn::Cos(d, turn)));
+  const VF y = Mul(radius, hn::Sin(d, turn));
+  const VF z = Mul(Sub(one, at.v), height);
   return NormalizeOr(MulAdd3(lobes.x, x, MulAdd3(lobes.y, y, Scale3(lobes.z, z))), lobes.z);
 }
 
@@ -150,31 +143,27 @@ struct Facet {
 };
 
 HWY_INLINE Facet FacetAt(const GlossyLobes& lobes, const UnitPoints& at) {
-  const FloatTag d;
   const V3 h = VisibleNormal(lobes, at);
-  const VF vh = Dot(lobes.view, h), cosine = hn::Min(hn::Max(vh, hn::Zero(d)), hn::Set(d, 1.0f));
-  const V3 l = Normalize3(Sub3(Scale3(h, hn::Add(vh, vh)), lobes.view));
-  const V3 grazing{hn::Sub(lobes.f90, lobes.f0.x), hn::Sub(lobes.f90, lobes.f0.y),
-                   hn::Sub(lobes.f90, lobes.f0.z)};
-  return {h, cosine, l, Dot(lobes.z, l), MulAdd3(grazing, SchlickTerm(cosine), lobes.f0)};
+  const VF vh = Dot(lobes.view, h), cosine = Clamped01(vh);
+  const V3 l = Normalize3(Sub3(Scale3(h, Add(vh, vh)), lobes.view));
+  const VF f90 = lobes.f90;
+  return {h, cosine, l, Dot(lobes.z, l), SchlickColor(lobes.f0, {f90, f90, f90}, cosine)};
 }
 
 // passingShare().
 HWY_INLINE VF PassingShare(const GlossyLobes& lobes, VF nl) {
-  const FloatTag d;
-  const VF one = hn::Set(d, 1.0f), nv = lobes.nv;
-  const VF a2 = hn::Mul(lobes.alpha, lobes.alpha), rest = hn::Sub(one, a2);
-  const VF maskV = hn::Sqrt(MulThenAdd(hn::Mul(nv, nv), rest, a2));
-  const VF maskL = hn::Sqrt(MulThenAdd(hn::Mul(nl, nl), rest, a2));
-  return hn::Div(hn::Mul(nl, hn::Add(nv, maskV)), MulThenAdd(nl, maskV, hn::Mul(nv, maskL)));
+  const VF one = Set(1.0f), nv = lobes.nv;
+  const VF a2 = Mul(lobes.alpha, lobes.alpha), rest = Sub(one, a2);
+  const VF maskV = Sqrt(MulThenAdd(Mul(nv, nv), rest, a2));
+  const VF maskL = Sqrt(MulThenAdd(Mul(nl, nl), rest, a2));
+  return Div(Mul(nl, Add(nv, maskV)), MulThenAdd(nl, maskV, Mul(nv, maskL)));
 }
 
 // seenShare().
 HWY_INLINE VF SeenShare(VF cosine, VF alpha) {
-  const FloatTag d;
-  const VF a2 = hn::Mul(alpha, alpha), rest = hn::Sub(hn::Set(d, 1.0f), a2);
-  const VF mask = hn::Sqrt(MulThenAdd(hn::Mul(cosine, cosine), rest, a2));
-  return hn::Div(hn::Add(cosine, cosine), hn::Add(cosine, mask));
+  const VF a2 = Mul(alpha, alpha), rest = Sub(Set(1.0f), a2);
+  const VF mask = Sqrt(MulThenAdd(Mul(cosine, cosine), rest, a2));
+  return Div(Add(cosine, cosine), Add(cosine, mask));
 }
 
 // The counterpart of lobeAlbedo(), in the lanes of `live`.
@@ -182,51 +171,46 @@ HWY_INLINE V3 LobeAlbedo(const LobeTable& table, const V3& f0, VF f90, VF cosine
                          MF live) {
   const FloatTag d;
   const IntTag di;
-  const VF last = hn::Set(d, kLobeSteps - 1.0f), most = hn::Set(d, kLobeSteps - 2.0f);
-  const VF row = hn::Mul(roughness, last), column = hn::Mul(hn::Sqrt(cosine), last);
-  const VF top = hn::Min(hn::Floor(row), most), left = hn::Min(hn::Floor(column), most);
-  const VF down = hn::Sub(row, top), right = hn::Sub(column, left);
-  const VF first = hn::IfThenElseZero(live, MulThenAdd(top, hn::Set(d, float{kLobeSteps}), left));
+  const VF last = Set(kLobeSteps - 1.0f), most = Set(kLobeSteps - 2.0f);
+  const VF row = Mul(roughness, last), column = Mul(Sqrt(cosine), last);
+  const VF top = Min(Floor(row), most), left = Min(Floor(column), most);
+  const VF down = Sub(row, top), right = Sub(column, left);
+  const VF first = IfThenElseZero(live, MulThenAdd(top, Set(float{kLobeSteps}), left));
   // Three more texels are looked up behind it.
-  const VI at = Clamped(hn::ConvertTo(di, first), kLobeSteps * (kLobeSteps - 1) - 1);
+  const VI at = Clamped(ConvertTo(di, first), kLobeSteps * (kLobeSteps - 1) - 1);
   const auto lookUp = [&](const float* plane) HWY_ATTR {
     const auto inRow = [&](const float* from) HWY_ATTR {
-      const VF a = hn::GatherIndex(d, from, at);
-      return MulThenAdd(hn::Sub(hn::GatherIndex(d, from + 1, at), a), right, a);
+      const VF a = GatherIndex(d, from, at);
+      return MulThenAdd(Sub(GatherIndex(d, from + 1, at), a), right, a);
     };
     const VF upper = inRow(plane);
-    return MulThenAdd(hn::Sub(inRow(plane + kLobeSteps), upper), down, upper);
+    return MulThenAdd(Sub(inRow(plane + kLobeSteps), upper), down, upper);
   };
   const VF grazing = lookUp(table.grazing.data());
-  const VF rest = hn::Mul(f90, grazing);
-  return MulAdd3(f0, hn::Sub(lookUp(table.all.data()), grazing), {rest, rest, rest});
+  const VF rest = Mul(f90, grazing);
+  return MulAdd3(f0, Sub(lookUp(table.all.data()), grazing), {rest, rest, rest});
 }
 
 // The counterpart of mirroredShareOf().
 HWY_INLINE VF MirroredShare(VF roughness) {
-  const FloatTag d;
-  const VF left = hn::Sub(hn::Set(d, kBlurredRoughness), roughness);
-  const VF share = hn::Mul(left, hn::Set(d, 1 / (kBlurredRoughness - kMirroredRoughness)));
-  return hn::Min(hn::Max(share, hn::Zero(d)), hn::Set(d, 1.0f));
+  const VF left = Sub(Set(kBlurredRoughness), roughness);
+  const VF share = Mul(left, Set(1 / (kBlurredRoughness - kMirroredRoughness)));
+  return Clamped01(share);
 }
 
 // About a vector of unit normals.
 class CosineLobes {
  public:
   HWY_INLINE explicit CosineLobes(const V3& normal) : z_(normal) {
-    const FloatTag d;
-    const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
-    const MF useX = hn::Lt(hn::Abs(normal.x), hn::Set(d, kFrameAlongY));
-    const V3 axis{hn::IfThenElseZero(useX, one), hn::IfThenElse(useX, zero, one), zero};
-    x_ = NormalizeOr(Cross(normal, axis), axis);
+    x_ = UnitAcross(normal, kFrameAlongY);
     y_ = Cross(normal, x_);
   }
 
   HWY_INLINE V3 Direction(const UnitPoints& at) const {
     const FloatTag d;
-    const VF turn = hn::Mul(at.u, hn::Set(d, 6.28318531f));
-    const VF sine = hn::Sqrt(at.v), cosine = hn::Sqrt(hn::Sub(hn::Set(d, 1.0f), at.v));
-    const VF x = hn::Mul(sine, hn::Cos(d, turn)), y = hn::Mul(sine, hn::Sin(d, turn));
+    const VF turn = Mul(at.u, Set(6.28318531f));
+    const VF sine = Sqrt(at.v), cosine = Sqrt(Sub(Set(1.0f), at.v));
+    const VF x = Mul(sine, hn::Cos(d, turn)), y = Mul(sine, hn::Sin(d, turn));
     return Normalize3(MulAdd3(x_, x, MulAdd3(y_, y, Scale3(z_, cosine))));
   }
 

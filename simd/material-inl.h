@@ -16,13 +16,11 @@
 HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
 
-HWY_INLINE V3 DirectionAt(const RayColumns& rays, size_t i) {
-  return Load3(rays.dirX, rays.dirY, rays.dirZ, i);
-}
+HWY_INLINE V3 DirectionAt(const RayColumns& rays, size_t i) { return Load3(rays.dir, i); }
 
 // Numbers of materials; kMiss, where rays missed, is negative.
 HWY_INLINE VI MaterialNumbers(const SurfelColumns& surfels, size_t i) {
-  return hn::Load(IntTag(), reinterpret_cast<const int32_t*>(surfels.material) + i);
+  return Load(IntTag(), reinterpret_cast<const int32_t*>(surfels.material) + i);
 }
 
 // A color or a number of the materials, and the map that it is multiplied by.
@@ -69,17 +67,17 @@ class MaterialLanes {
     static_assert(offsetof(R, medium) == kAlpha + 4 && offsetof(R, flags) == kAlpha + 8);
     const V4 r = records_.template Load4<kAlpha, offsetof(R, emissionMap)>();
     const UintTag du;
-    return {r.x, hn::BitCast(du, r.y), hn::BitCast(du, r.z), hn::BitCast(IntTag(), r.w)};
+    return {r.x, BitCast(du, r.y), BitCast(du, r.z), BitCast(IntTag(), r.w)};
   }
   HWY_INLINE NumberLanes Roughness() const {
     static_assert(offsetof(R, roughnessMap) == offsetof(R, roughness) + 4);
     const V4 r = records_.template Load4<offsetof(R, roughness)>();
-    return {r.x, hn::BitCast(IntTag(), r.y)};
+    return {r.x, BitCast(IntTag(), r.y)};
   }
   HWY_INLINE NumberLanes Coverage() const {
     static_assert(offsetof(R, coverage) == offsetof(R, roughness) + 8);
     const V4 r = records_.template Load4<offsetof(R, roughness), offsetof(R, coverageMap)>();
-    return {r.z, hn::BitCast(IntTag(), r.w)};
+    return {r.z, BitCast(IntTag(), r.w)};
   }
 
  private:
@@ -89,7 +87,7 @@ class MaterialLanes {
   template <size_t kFirst, size_t kLast = kFirst + 3 * sizeof(float)>
   HWY_INLINE ColorLanes At() const {
     const V4 r = records_.template Load4<kFirst, kLast>();
-    return {{r.x, r.y, r.z}, hn::BitCast(IntTag(), r.w)};
+    return {{r.x, r.y, r.z}, BitCast(IntTag(), r.w)};
   }
 
   SharedRecords<MaterialRecord> records_;
@@ -97,9 +95,15 @@ class MaterialLanes {
 
 // (1 - c)^5 (Schlick 1994).
 HWY_INLINE VF SchlickTerm(VF c) {
-  const VF m = hn::Sub(hn::Set(FloatTag(), 1.0f), c);
-  const VF m2 = hn::Mul(m, m);
-  return hn::Mul(hn::Mul(m2, m2), m);
+  const VF m = Sub(Set(1.0f), c);
+  const VF m2 = Mul(m, m);
+  return Mul(Mul(m2, m2), m);
+}
+
+// The reflectance at the angle of this cosine, between those along the normal and at grazing
+// angles.
+HWY_INLINE V3 SchlickColor(const V3& normal, const V3& grazing, VF cosine) {
+  return MulAdd3(Sub3(grazing, normal), SchlickTerm(cosine), normal);
 }
 
 // The mirror's reflectance at the surfels from i on; `byMaps`: the frame has Feature::mirrorMaps,
@@ -107,97 +111,91 @@ HWY_INLINE VF SchlickTerm(VF c) {
 HWY_INLINE V3 MirrorReflectance(const MaterialLanes& material, const SurfelColumns& s, bool byMaps,
                                 VF cosine, size_t i) {
   V3 normal = material.Mirror().color;
-  if (byMaps) normal = Mul3(normal, Load3(s.mirrorR, s.mirrorG, s.mirrorB, i));
-  return MulAdd3(Sub3(material.MirrorGrazing(), normal), SchlickTerm(cosine), normal);
+  if (byMaps) normal = Mul3(normal, Load3(s.mirror, i));
+  return SchlickColor(normal, material.MirrorGrazing(), cosine);
 }
 
 // The lanes in which a word of flags has some of `bits`.
 HWY_INLINE MF HasFlags(VU flags, uint32_t bits) {
   const UintTag du;
-  return hn::RebindMask(FloatTag(), hn::Ne(hn::And(flags, hn::Set(du, bits)), hn::Zero(du)));
+  return RebindMask(FloatTag(), Ne(And(flags, Set(bits)), Zero(du)));
 }
 
 // Lanes of surfaces that are there: no misses, and none inside a dielectric of higher priority,
 // where media are `nested`.
 HWY_INLINE MF SurfaceLanes(const SurfelColumns& surfels, bool nested, size_t i) {
-  const UintTag du;
-  const VU material = hn::Load(du, surfels.material + i);
-  const MF hit = hn::RebindMask(FloatTag(), hn::Ne(material, hn::Set(du, kMiss)));
-  return nested ? hn::AndNot(HasFlags(hn::Load(du, surfels.flags + i), kHidden), hit) : hit;
+  const VU material = Load(surfels.material, i);
+  const MF hit = RebindMask(FloatTag(), Ne(material, Set(kMiss)));
+  return nested ? AndNot(HasFlags(Load(surfels.flags, i), kHidden), hit) : hit;
 }
 
 // Moves the start of a shadow ray above its facet. Above the facet, the smooth surface alone
 // decides what lies behind the horizon (Hanika 2021).
 HWY_INLINE void OffsetShadowStart(const SurfelColumns& surfels, size_t i, V3& start, MF& front) {
-  const V3 offset = Load3(surfels.shadowOffsetX, surfels.shadowOffsetY, surfels.shadowOffsetZ, i);
-  front = hn::Or(front, hn::Gt(MaxComponent(Abs3(offset)), hn::Zero(FloatTag())));
+  const V3 offset = Load3(surfels.shadowOffset, i);
+  front = Or(front, Gt(MaxComponent(Abs3(offset)), Zero()));
   start = Add3(start, offset);
 }
 
-HWY_INLINE VU PushMedium(VU stack, VU medium) { return hn::Or(hn::ShiftLeft<8>(stack), medium); }
+HWY_INLINE VU PushMedium(VU stack, VU medium) { return Or(hn::ShiftLeft<8>(stack), medium); }
 
 // Drops the lowest byte equal to `medium` (not 0) and closes the gap; unchanged if there is none.
 HWY_INLINE VU RemoveMedium(VU stack, VU medium) {
-  const UintTag du;
-  const auto byteIs = [&](VU shifted)
-                          HWY_ATTR { return hn::Eq(hn::And(shifted, hn::Set(du, 0xFFu)), medium); };
-  const VU above = hn::ShiftRight<8>(stack);
-  const auto without = [&](uint32_t keep) HWY_ATTR {
-    return hn::Or(hn::And(stack, hn::Set(du, keep)), hn::And(above, hn::Set(du, ~keep)));
-  };
+  const auto byteIs = [&](VU shifted) HWY_ATTR { return Eq(And(shifted, Set(0xFFu)), medium); };
+  const VU above = ShiftRight<8>(stack);
+  const auto without = [&](uint32_t keep)
+                           HWY_ATTR { return Or(And(stack, Set(keep)), And(above, Set(~keep))); };
   VU result = stack;
-  result = hn::IfThenElse(byteIs(hn::ShiftRight<24>(stack)), without(0x00FFFFFFu), result);
+  result = IfThenElse(byteIs(ShiftRight<24>(stack)), without(0x00FFFFFFu), result);
   // The byte that moves down from beyond the top is zero.
-  result = hn::IfThenElse(byteIs(hn::ShiftRight<16>(stack)), without(0x0000FFFFu), result);
-  result = hn::IfThenElse(byteIs(above), without(0x000000FFu), result);
-  return hn::IfThenElse(byteIs(stack), above, result);
+  result = IfThenElse(byteIs(ShiftRight<16>(stack)), without(0x0000FFFFu), result);
+  result = IfThenElse(byteIs(above), without(0x000000FFu), result);
+  return IfThenElse(byteIs(stack), above, result);
 }
 
 HWY_INLINE VF PriorityOf(const ShadingTables& tables, VU medium) {
   return GatherMember<offsetof(MediumRecord, priority)>(std::span(tables.media),
-                                                        hn::BitCast(IntTag(), medium));
+                                                        BitCast(IntTag(), medium));
 }
 
 // The medium that counts: highest priority, entered last among equals; 0 outside everything.
 HWY_INLINE VU CurrentMedium(const ShadingTables& tables, VU stack) {
   const UintTag du;
   const FloatTag d;
-  const VU byte = hn::Set(du, 0xFFu);
-  VU best = hn::And(stack, byte);
+  const VU byte = Set(0xFFu);
+  VU best = And(stack, byte);
   if (tables.samePriority) return best;
   VF bestPriority = PriorityOf(tables, best);
   const auto consider = [&](VU candidate) HWY_ATTR {
     const VF priority = PriorityOf(tables, candidate);
-    const auto filled = hn::RebindMask(d, hn::Ne(candidate, hn::Zero(du)));
-    const auto wins = hn::And(filled, hn::Gt(priority, bestPriority));
-    best = hn::IfThenElse(hn::RebindMask(du, wins), candidate, best);
-    bestPriority = hn::IfThenElse(wins, priority, bestPriority);
+    const auto filled = RebindMask(d, Ne(candidate, Zero(du)));
+    const auto wins = And(filled, Gt(priority, bestPriority));
+    best = IfThenElse(RebindMask(du, wins), candidate, best);
+    bestPriority = IfThenElse(wins, priority, bestPriority);
   };
-  consider(hn::And(hn::ShiftRight<8>(stack), byte));
-  consider(hn::And(hn::ShiftRight<16>(stack), byte));
-  consider(hn::ShiftRight<24>(stack));
+  consider(And(ShiftRight<8>(stack), byte));
+  consider(And(ShiftRight<16>(stack), byte));
+  consider(ShiftRight<24>(stack));
   return best;
 }
 
 // The index of refraction of the medium on top of the stack by priority.
 HWY_INLINE VF IorOf(const ShadingTables& tables, VU stack) {
-  return GatherMember<offsetof(MediumRecord, ior)>(
-      std::span(tables.media), hn::BitCast(IntTag(), CurrentMedium(tables, stack)));
+  return GatherMember<offsetof(MediumRecord, ior)>(std::span(tables.media),
+                                                   BitCast(IntTag(), CurrentMedium(tables, stack)));
 }
 
 // The stack behind the dielectrics whose faces share the place of the one that was crossed
 // (HitColumns::alsoCrossed).
 HWY_INLINE VU CrossOthers(VU stack, VU others) {
   const UintTag du;
-  const VU zero = hn::Zero(du), one = hn::Set(du, 1u);
-  while (!hn::AllTrue(du, hn::Eq(others, zero))) {
-    const VU other = hn::And(others, hn::Set(du, (1u << kCrossedBits) - 1)),
-             medium = hn::ShiftRight<1>(other);
-    const auto enters = hn::Eq(hn::And(other, one), one);
-    const VU behind =
-        hn::IfThenElse(enters, PushMedium(stack, medium), RemoveMedium(stack, medium));
-    stack = hn::IfThenElse(hn::Ne(medium, zero), behind, stack);
-    others = hn::ShiftRight<kCrossedBits>(others);
+  const VU zero = Zero(du), one = Set(1u);
+  while (!AllTrue(du, Eq(others, zero))) {
+    const VU other = And(others, Set((1u << kCrossedBits) - 1)), medium = ShiftRight<1>(other);
+    const auto enters = Eq(And(other, one), one);
+    const VU behind = IfThenElse(enters, PushMedium(stack, medium), RemoveMedium(stack, medium));
+    stack = IfThenElse(Ne(medium, zero), behind, stack);
+    others = ShiftRight<kCrossedBits>(others);
   }
   return stack;
 }
@@ -207,16 +205,15 @@ HWY_INLINE VU CrossOthers(VU stack, VU others) {
 HWY_INLINE void StoreMedia(const ShadingTables& tables, const RayColumns& rays, VU medium,
                            MF entering, VU others, size_t i, const SurfelColumns& surfels) {
   const UintTag du;
-  const VU stack = hn::Load(du, rays.media + i);
-  const auto dielectric = hn::Ne(medium, hn::Zero(du));
-  const auto enters = hn::RebindMask(du, entering);
-  VU behind = hn::IfThenElse(enters, PushMedium(stack, medium), RemoveMedium(stack, medium));
-  behind = CrossOthers(hn::IfThenElse(dielectric, behind, stack), others);
-  const auto same = hn::Eq(CurrentMedium(tables, stack), CurrentMedium(tables, behind));
-  const VU hidden = hn::IfThenElseZero(hn::And(dielectric, same), hn::Set(du, kHidden));
-  hn::Store(hn::Or(hn::IfThenElseZero(enters, hn::Set(du, kEntering)), hidden), du,
-            surfels.flags + i);
-  hn::Store(behind, du, surfels.mediaBehind + i);
+  const VU stack = Load(rays.media, i);
+  const auto dielectric = Ne(medium, Zero(du));
+  const auto enters = RebindMask(du, entering);
+  VU behind = IfThenElse(enters, PushMedium(stack, medium), RemoveMedium(stack, medium));
+  behind = CrossOthers(IfThenElse(dielectric, behind, stack), others);
+  const auto same = Eq(CurrentMedium(tables, stack), CurrentMedium(tables, behind));
+  const VU hidden = IfThenElseZero(And(dielectric, same), Set(kHidden));
+  Store(Or(IfThenElseZero(enters, Set(kEntering)), hidden), surfels.flags, i);
+  Store(behind, surfels.mediaBehind, i);
 }
 
 // Multiplies weight and throughput of rays by what a medium leaves of their light.
@@ -234,19 +231,19 @@ HWY_INLINE void Absorb(const ShadingTables& tables, const RayColumns& rays, cons
   const FloatTag d;
   const IntTag di;
   const UintTag du;
-  const VU stack = hn::Load(du, rays.media + i);
-  if (hn::AllTrue(du, hn::Eq(stack, hn::Zero(du)))) return;
-  const VI medium = hn::BitCast(di, CurrentMedium(tables, stack));
+  const VU stack = Load(rays.media, i);
+  if (AllTrue(du, Eq(stack, Zero(du)))) return;
+  const VI medium = BitCast(di, CurrentMedium(tables, stack));
   const Records<MediumRecord> records(tables.media.data(), Clamped(medium, tables.media.size()));
   const V4 record =
       records.Load4<offsetof(MediumRecord, ior), offsetof(MediumRecord, absorption[2])>();
-  const VF t = hn::Load(d, hits.t + i);
+  const VF t = Load(hits.t, i);
   const auto transmittance = [&](VF sigma) HWY_ATTR {
     // 88 is past where exp underflows to zero; the limit keeps infinity out of the polynomial.
-    const VF depth = hn::Min(hn::Mul(sigma, t), hn::Set(d, 104.0f));
-    const VF hit = hn::IfThenElseZero(hn::Lt(depth, hn::Set(d, 87.0f)), hn::Exp(d, hn::Neg(depth)));
-    const VF through = hn::IfThenElseZero(valid, hit);
-    return hn::IfThenElse(hn::Gt(sigma, hn::Zero(d)), through, hn::Set(d, 1.0f));
+    const VF depth = Min(Mul(sigma, t), Set(104.0f));
+    const VF hit = IfThenElseZero(Lt(depth, Set(87.0f)), hn::Exp(d, Neg(depth)));
+    const VF through = IfThenElseZero(valid, hit);
+    return IfThenElse(Gt(sigma, Zero()), through, Set(1.0f));
   };
   DimRays(rays, {transmittance(record.y), transmittance(record.z), transmittance(record.w)}, i);
 }

@@ -22,19 +22,18 @@ struct Vec3Of {
 
 template <class D>
 HWY_INLINE hn::Vec<D> DotOf(const Vec3Of<D>& a, const Vec3Of<D>& b) {
-  return MulThenAdd(a.x, b.x, MulThenAdd(a.y, b.y, hn::Mul(a.z, b.z)));
+  return MulThenAdd(a.x, b.x, MulThenAdd(a.y, b.y, Mul(a.z, b.z)));
 }
 
 template <class D>
 HWY_INLINE Vec3Of<D> ToUnit(D d, const SphereInverse& sphere, const Vec3Of<D>& v) {
   if (sphere.diagonal) {
-    return {hn::Mul(v.x, hn::Set(d, sphere.rows[0][0])),
-            hn::Mul(v.y, hn::Set(d, sphere.rows[1][1])),
-            hn::Mul(v.z, hn::Set(d, sphere.rows[2][2]))};
+    return {Mul(v.x, Set(d, sphere.rows[0][0])), Mul(v.y, Set(d, sphere.rows[1][1])),
+            Mul(v.z, Set(d, sphere.rows[2][2]))};
   }
 
   const auto row = [&](const double* r) HWY_ATTR {
-    return DotOf<D>({hn::Set(d, r[0]), hn::Set(d, r[1]), hn::Set(d, r[2])}, v);
+    return DotOf<D>({Set(d, r[0]), Set(d, r[1]), Set(d, r[2])}, v);
   };
   return {row(sphere.rows[0]), row(sphere.rows[1]), row(sphere.rows[2])};
 }
@@ -44,22 +43,22 @@ HWY_INLINE Vec3Of<D> ToUnit(D d, const SphereInverse& sphere, const Vec3Of<D>& v
 template <class D>
 HWY_INLINE void StoreWeights(D d, const Vec3Of<D>& p, size_t i, const SphereHits& to) {
   const hn::Rebind<float, D> df;
-  const auto one = hn::Set(d, 1.0), zero = hn::Zero(d);
+  const auto one = Set(d, 1.0), zero = Zero(d);
 
   // The point is projected onto the octahedron |x| + |y| + |z| = 1.
-  const auto sum = hn::Add(hn::Add(hn::Abs(p.x), hn::Abs(p.y)), hn::Abs(p.z));
-  const auto inverse = hn::Div(one, sum), x = hn::Mul(p.x, inverse), y = hn::Mul(p.y, inverse);
+  const auto sum = Add(Add(Abs(p.x), Abs(p.y)), Abs(p.z));
+  const auto inverse = Div(one, sum), x = Mul(p.x, inverse), y = Mul(p.y, inverse);
 
   // The lower half is folded outwards over the edges of the upper one.
-  const auto below = hn::Lt(p.z, zero);
-  const auto flatX = hn::IfThenElse(below, hn::CopySign(hn::Sub(one, hn::Abs(y)), x), x);
-  const auto flatY = hn::IfThenElse(below, hn::CopySign(hn::Sub(one, hn::Abs(x)), y), y);
+  const auto below = Lt(p.z, zero);
+  const auto flatX = IfThenElse(below, CopySign(Sub(one, Abs(y)), x), x);
+  const auto flatY = IfThenElse(below, CopySign(Sub(one, Abs(x)), y), y);
 
   // The square is shrunk into the interior of a triangle's weights.
-  const auto begin = hn::Set(d, kSphereWeightBegin), scale = hn::Set(d, kSphereWeightScale);
+  const auto begin = Set(d, kSphereWeightBegin), scale = Set(d, kSphereWeightScale);
   const auto store = [&](hn::Vec<D> flat, float* column) HWY_ATTR {
-    const auto weight = MulThenAdd(hn::Add(flat, one), scale, begin);
-    hn::StoreU(hn::DemoteTo(df, weight), df, column + i);
+    const auto weight = MulThenAdd(Add(flat, one), scale, begin);
+    StoreU(hn::DemoteTo(df, weight), df, column + i);
   };
 
   store(flatX, to.u);
@@ -73,48 +72,47 @@ HWY_INLINE uint32_t MeetLanes(D d, const SphereInverse& sphere, const float* wor
                               size_t i, const int* valid, const float* after, const float* end,
                               const SphereHits& to) {
   const hn::Rebind<float, D> df;
-  const auto load = [&](size_t column) HWY_ATTR {
-    return hn::PromoteTo(d, hn::LoadU(df, words + column * width + i));
-  };
+  const auto load = [&](size_t column)
+                        HWY_ATTR { return PromoteTo(d, LoadU(df, words + column * width + i)); };
 
-  const Vec3Of<D> from{hn::Sub(load(packet_column::orgX), hn::Set(d, sphere.center[0])),
-                       hn::Sub(load(packet_column::orgY), hn::Set(d, sphere.center[1])),
-                       hn::Sub(load(packet_column::orgZ), hn::Set(d, sphere.center[2]))};
+  const Vec3Of<D> from{Sub(load(packet_column::orgX), Set(d, sphere.center[0])),
+                       Sub(load(packet_column::orgY), Set(d, sphere.center[1])),
+                       Sub(load(packet_column::orgZ), Set(d, sphere.center[2]))};
   const Vec3Of<D> along{load(packet_column::dirX), load(packet_column::dirY),
                         load(packet_column::dirZ)};
 
   // Where the sphere is the unit sphere, the point of the line that is nearest to the center
   // decides about a hit without cancellation (Haines et al. 2019).
   const Vec3Of<D> f = ToUnit(d, sphere, from), v = ToUnit(d, sphere, along);
-  const auto one = hn::Set(d, 1.0), zero = hn::Zero(d);
-  const auto a = DotOf<D>(v, v), b = hn::Neg(DotOf<D>(f, v)), inverse = hn::Div(one, a);
-  const auto middle = hn::Mul(b, inverse);
+  const auto one = Set(d, 1.0), zero = Zero(d);
+  const auto a = DotOf<D>(v, v), b = Neg(DotOf<D>(f, v)), inverse = Div(one, a);
+  const auto middle = Mul(b, inverse);
   const Vec3Of<D> nearest{MulThenAdd(v.x, middle, f.x), MulThenAdd(v.y, middle, f.y),
                           MulThenAdd(v.z, middle, f.z)};
-  const auto inside = hn::Sub(one, DotOf<D>(nearest, nearest));
+  const auto inside = Sub(one, DotOf<D>(nearest, nearest));
 
-  const auto hit = hn::Ge(inside, zero);
-  if (hn::AllFalse(d, hit)) return 0;
+  const auto hit = Ge(inside, zero);
+  if (AllFalse(d, hit)) return 0;
 
   // The root of larger magnitude is q / a; the other one follows from the product of both, so that
   // neither suffers from cancellation.
-  const auto root = hn::Sqrt(hn::Mul(a, hn::IfThenElseZero(hit, inside)));
-  const auto q = hn::Add(b, hn::CopySign(root, b));
-  const auto first = hn::Div(hn::Sub(DotOf<D>(f, f), one), q), second = hn::Mul(q, inverse);
-  const auto low = hn::Min(first, second), high = hn::Max(first, second);
+  const auto root = Sqrt(Mul(a, IfThenElseZero(hit, inside)));
+  const auto q = Add(b, CopySign(root, b));
+  const auto first = Div(Sub(DotOf<D>(f, f), one), q), second = Mul(q, inverse);
+  const auto low = Min(first, second), high = Max(first, second);
 
   // The hit is the nearer root beyond `after`, rounded to a float as Embree keeps it.
-  const auto start = hn::PromoteTo(d, hn::LoadU(df, after + i));
-  const auto t = hn::IfThenElse(hn::Gt(low, start), low, high);
-  const auto there = hn::And(hn::And(hit, hn::Ne(q, zero)), hn::Gt(t, start));
-  const auto rounded = hn::DemoteTo(df, hn::IfThenElse(there, t, hn::NaN(d)));
-  hn::StoreU(rounded, df, to.t + i);
+  const auto start = PromoteTo(d, LoadU(df, after + i));
+  const auto t = IfThenElse(Gt(low, start), low, high);
+  const auto there = And(And(hit, Ne(q, zero)), Gt(t, start));
+  const auto rounded = hn::DemoteTo(df, IfThenElse(there, t, hn::NaN(d)));
+  StoreU(rounded, df, to.t + i);
 
   // The hit counts for valid rays that do not end before it.
   const hn::Rebind<int32_t, D> di;
-  const auto asks = hn::RebindMask(df, hn::Ne(hn::LoadU(di, valid + i), hn::Zero(di)));
+  const auto asks = RebindMask(df, Ne(LoadU(di, valid + i), Zero(di)));
   uint8_t bits[8] = {};  // as many as masks of any vector may store
-  hn::StoreMaskBits(df, hn::And(asks, hn::Le(rounded, hn::LoadU(df, end + i))), bits);
+  hn::StoreMaskBits(df, And(asks, Le(rounded, LoadU(df, end + i))), bits);
 
   if (bits[0] != 0 && to.u) {
     StoreWeights(d, {MulThenAdd(v.x, t, f.x), MulThenAdd(v.y, t, f.y), MulThenAdd(v.z, t, f.z)}, i,
@@ -131,7 +129,7 @@ HWY_INLINE uint32_t MeetPacket(const SphereInverse& sphere, const float* words, 
                                const int* valid, const float* after, const float* end,
                                const SphereHits& to) {
   const hn::CappedTag<double, kWidth> d;
-  const size_t lanes = hn::Lanes(d);
+  const size_t lanes = Lanes(d);
   static_assert(hn::MaxLanes(d) <= 8);
 
   uint32_t hitLanes = 0;

@@ -44,17 +44,17 @@ class Compactor {
   HWY_INLINE explicit Compactor(MF live)
       : order_(OrderOf(live)), count_(hn::CountTrue(FloatTag(), live)) {}
 
-  HWY_INLINE void Store(VF v, float* to) const { hn::StoreU(Compacted(v), FloatTag(), to); }
+  HWY_INLINE void Store(VF v, float* to) const { StoreU(Compacted(v), FloatTag(), to); }
 
   HWY_INLINE void Store(VU v, uint32_t* to) const {
     const UintTag du;
-    hn::StoreU(hn::BitCast(du, Compacted(hn::BitCast(FloatTag(), v))), du, to);
+    StoreU(BitCast(du, Compacted(BitCast(FloatTag(), v))), du, to);
   }
 
-  HWY_INLINE void Store(const V3& v, float* x, float* y, float* z, size_t at) const {
-    Store(v.x, x + at);
-    Store(v.y, y + at);
-    Store(v.z, z + at);
+  HWY_INLINE void Store(const V3& v, const Columns3& to, size_t at) const {
+    Store(v.x, to.x + at);
+    Store(v.y, to.y + at);
+    Store(v.z, to.z + at);
   }
 
   HWY_INLINE size_t Count() const { return count_; }
@@ -69,7 +69,7 @@ class Compactor {
     uint8_t bits[8] = {};
     hn::StoreMaskBits(d, live, bits);
     const hn::Rebind<uint8_t, IntTag> d8;
-    return hn::IndicesFromVec(d, hn::PromoteTo(di, hn::LoadU(d8, kCompactOrder[bits[0]].data())));
+    return hn::IndicesFromVec(d, PromoteTo(di, LoadU(d8, kCompactOrder[bits[0]].data())));
   }
 
   HWY_INLINE VF Compacted(VF v) const { return hn::TableLookupLanes(v, order_); }
@@ -88,8 +88,8 @@ HWY_INLINE void AppendShadowRays(const ShadowColumns& rays, MF live, const V3& o
                                  const V3& direction, VF tFar, VU slot, size_t& count) {
   const Compactor compactor(live);
 
-  compactor.Store(origin, rays.orgX, rays.orgY, rays.orgZ, count);
-  compactor.Store(direction, rays.dirX, rays.dirY, rays.dirZ, count);
+  compactor.Store(origin, rays.org, count);
+  compactor.Store(direction, rays.dir, count);
   compactor.Store(tFar, rays.tFar + count);
   compactor.Store(slot, rays.slot + count);
 
@@ -103,12 +103,11 @@ HWY_INLINE VF MovedByUlps(VF p, VF n) {
   const IntTag di;
 
   // Integers step through floats away from zero, so negative coordinates step the other way.
-  const VI ulps = hn::ConvertTo(di, hn::Mul(n, hn::Set(d, 256.0f)));
-  const VI away =
-      hn::IfThenElse(hn::RebindMask(di, hn::Lt(p, hn::Zero(d))), hn::Sub(hn::Zero(di), ulps), ulps);
-  const VF far = hn::BitCast(d, hn::Add(hn::BitCast(di, p), away));
-  const VF near = MulThenAdd(n, hn::Set(d, 1.0f / 65536), p);
-  return hn::IfThenElse(hn::Lt(hn::Abs(p), hn::Set(d, 1.0f / 32)), near, far);
+  const VI ulps = ConvertTo(di, Mul(n, Set(256.0f)));
+  const VI away = IfThenElse(RebindMask(di, Lt(p, Zero())), Sub(Zero(di), ulps), ulps);
+  const VF far = BitCast(d, Add(BitCast(di, p), away));
+  const VF near = MulThenAdd(n, Set(1.0f / 65536), p);
+  return IfThenElse(Lt(Abs(p), Set(1.0f / 32)), near, far);
 }
 
 // Distances from a surfel to the starts of its rays (SurfelColumns).
@@ -117,16 +116,14 @@ struct Clearance {
 };
 
 HWY_INLINE Clearance LoadClearance(const SurfelColumns& surfels, size_t i) {
-  const FloatTag d;
-  return {hn::Load(d, surfels.offset + i), hn::Load(d, surfels.viewOffset + i)};
+  return {Load(surfels.offset, i), Load(surfels.viewOffset, i)};
 }
 
 // `side` is 1 for the viewer's side of the surface and -1 for the other one; `direction` is that of
 // the viewer's ray.
 HWY_INLINE V3 RayOrigin(OffsetMethod method, const V3& position, const V3& ng, const V3& direction,
                         const Clearance& clearance, float side) {
-  const FloatTag d;
-  const VF sign = hn::Set(d, side);
+  const VF sign = Set(side);
   if (method == OffsetMethod::wachterBinder) {
     const V3 n = Scale3(ng, sign);
     return {MovedByUlps(position.x, n.x), MovedByUlps(position.y, n.y),
@@ -136,12 +133,11 @@ HWY_INLINE V3 RayOrigin(OffsetMethod method, const V3& position, const V3& ng, c
   // The way that the viewer's ray has come is clear, so on that side the ray also starts a little
   // back along it.
   if (method == OffsetMethod::bound && side > 0) {
-    return MulAdd3(ng, clearance.offset,
-                   MulAdd3(direction, hn::Neg(clearance.viewOffset), position));
+    return MulAdd3(ng, clearance.offset, MulAdd3(direction, Neg(clearance.viewOffset), position));
   }
 
-  const VF offset = method == OffsetMethod::fixed ? hn::Set(d, kFixedOffset) : clearance.offset;
-  return MulAdd3(ng, hn::Mul(offset, sign), position);
+  const VF offset = method == OffsetMethod::fixed ? Set(kFixedOffset) : clearance.offset;
+  return MulAdd3(ng, Mul(offset, sign), position);
 }
 
 }  // namespace whit::simd::HWY_NAMESPACE

@@ -23,17 +23,17 @@ HWY_INLINE float* WordsOf(const PacketWords& packets, size_t ray) {
 
 // The columns that packets read for either kind of rays; tFar is null where rays have no end.
 struct RaySource {
-  const float *orgX, *orgY, *orgZ, *dirX, *dirY, *dirZ, *tFar;
+  Columns3 org, dir;
+  const float* tFar;
 };
 
 // One sum tests all coordinates, because nearly all rays are fine. A direction of 0 belongs to a
 // pixel that sees nothing.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE hn::Mask<D> Traceable(D d, V ox, V oy, V oz, V dx, V dy, V dz, float reach) {
-  const V org = hn::Add(hn::Add(hn::Abs(ox), hn::Abs(oy)), hn::Abs(oz));
-  const V direction = hn::Add(hn::Add(hn::Abs(dx), hn::Abs(dy)), hn::Abs(dz));
-  return hn::And(hn::Le(hn::Add(org, direction), hn::Set(d, reach)),
-                 hn::Gt(direction, hn::Zero(d)));
+  const V org = Add(Add(Abs(ox), Abs(oy)), Abs(oz));
+  const V direction = Add(Add(Abs(dx), Abs(dy)), Abs(dz));
+  return And(Le(Add(org, direction), Set(d, reach)), Gt(direction, Zero(d)));
 }
 
 template <size_t kWidth>
@@ -41,29 +41,29 @@ HWY_INLINE void Pack(const RaySource& from, size_t n, float reach, const PacketW
   const PacketTag<kWidth> d;
   const size_t end = (n + kWidth - 1) / kWidth * kWidth;
 
-  for (size_t i = 0; i < end; i += hn::Lanes(d)) {
-    const auto load = [&](const float* column) HWY_ATTR { return hn::LoadU(d, column + i); };
+  for (size_t i = 0; i < end; i += Lanes(d)) {
+    const auto load = [&](const float* column) HWY_ATTR { return LoadU(d, column + i); };
     const auto store = [&](auto v, size_t column)
-                           HWY_ATTR { hn::StoreU(v, d, WordsOf<kWidth>(to, i) + column * kWidth); };
+                           HWY_ATTR { StoreU(v, d, WordsOf<kWidth>(to, i) + column * kWidth); };
 
-    auto ox = load(from.orgX), oy = load(from.orgY), oz = load(from.orgZ);
-    auto dx = load(from.dirX), dy = load(from.dirY), dz = load(from.dirZ);
+    auto ox = load(from.org.x), oy = load(from.org.y), oz = load(from.org.z);
+    auto dx = load(from.dir.x), dy = load(from.dir.y), dz = load(from.dir.z);
     auto tFar = from.tFar ? load(from.tFar) : hn::Inf(d);
 
     const auto there = hn::FirstN(d, i < n ? n - i : 0);
-    const auto good = hn::And(there, Traceable(d, ox, oy, oz, dx, dy, dz, reach));
+    const auto good = And(there, Traceable(d, ox, oy, oz, dx, dy, dz, reach));
 
-    if (HWY_UNLIKELY(!hn::AllTrue(d, good))) {
+    if (HWY_UNLIKELY(!AllTrue(d, good))) {
       // Other lanes become empty rays, which hit nothing. Those of bad rays start where no scene
       // can be, because Embree reads their coordinates where it splits a packet wider than the CPU.
-      const auto place = hn::IfThenElseZero(there, hn::Set(d, 0.25f * reach));
-      ox = hn::IfThenElse(good, ox, place);
-      oy = hn::IfThenElse(good, oy, place);
-      oz = hn::IfThenElse(good, oz, place);
-      dx = hn::IfThenElseZero(good, dx);
-      dy = hn::IfThenElseZero(good, dy);
-      dz = hn::IfThenElse(good, dz, hn::Set(d, 1.0f));
-      tFar = hn::IfThenElse(good, tFar, hn::Set(d, -1.0f));
+      const auto place = IfThenElseZero(there, Set(d, 0.25f * reach));
+      ox = IfThenElse(good, ox, place);
+      oy = IfThenElse(good, oy, place);
+      oz = IfThenElse(good, oz, place);
+      dx = IfThenElseZero(good, dx);
+      dy = IfThenElseZero(good, dy);
+      dz = IfThenElse(good, dz, Set(d, 1.0f));
+      tFar = IfThenElse(good, tFar, Set(d, -1.0f));
     }
 
     store(ox, packet_column::orgX);
@@ -93,12 +93,12 @@ HWY_INLINE void ForWidth(size_t width, const Call& call) {
 }
 
 void PackRays(const RayColumns& rays, size_t n, float reach, const PacketWords& to) {
-  const RaySource from{rays.orgX, rays.orgY, rays.orgZ, rays.dirX, rays.dirY, rays.dirZ, nullptr};
+  const RaySource from{rays.org, rays.dir, nullptr};
   ForWidth(to.width, [&](auto width) HWY_ATTR { Pack<width()>(from, n, reach, to); });
 }
 
 void PackShadowRays(const ShadowColumns& rays, size_t n, float reach, const PacketWords& to) {
-  const RaySource from{rays.orgX, rays.orgY, rays.orgZ, rays.dirX, rays.dirY, rays.dirZ, rays.tFar};
+  const RaySource from{rays.org, rays.dir, rays.tFar};
   ForWidth(to.width, [&](auto width) HWY_ATTR { Pack<width()>(from, n, reach, to); });
 }
 
@@ -107,28 +107,28 @@ HWY_INLINE void UnpackHitsOf(const PacketWords& from, size_t n, const uint32_t* 
                              const HitColumns& hits) {
   const PacketTag<kWidth> d;
   const hn::RebindToUnsigned<decltype(d)> du;
-  const auto miss = hn::Set(du, kMiss);
+  const auto miss = Set(du, kMiss);
 
-  for (size_t i = 0; i < n; i += hn::Lanes(d)) {
+  for (size_t i = 0; i < n; i += Lanes(d)) {
     const float* const words = WordsOf<kWidth>(from, i);
-    const auto load = [&](size_t column) HWY_ATTR { return hn::LoadU(d, words + column * kWidth); };
+    const auto load = [&](size_t column) HWY_ATTR { return LoadU(d, words + column * kWidth); };
 
-    hn::StoreU(load(packet_column::tFar), d, hits.t + i);
-    hn::StoreU(load(packet_column::u), d, hits.u + i);
-    hn::StoreU(load(packet_column::v), d, hits.v + i);
+    StoreU(load(packet_column::tFar), d, hits.t + i);
+    StoreU(load(packet_column::u), d, hits.u + i);
+    StoreU(load(packet_column::v), d, hits.v + i);
 
     // A geometry holds the triangles of one class, numbered one after the other from the class's
     // base.
-    const auto geometry = hn::BitCast(du, load(packet_column::geometry));
-    const auto primitive = hn::BitCast(du, load(packet_column::primitive));
-    auto base = hn::Set(du, triangleBase[0]);
+    const auto geometry = BitCast(du, load(packet_column::geometry));
+    const auto primitive = BitCast(du, load(packet_column::primitive));
+    auto base = Set(du, triangleBase[0]);
     for (uint32_t c = 1; c < kTriangleClasses; ++c) {
-      const auto ofClass = hn::Eq(geometry, hn::Set(du, c));
-      base = hn::IfThenElse(ofClass, hn::Set(du, triangleBase[c]), base);
+      const auto ofClass = Eq(geometry, Set(du, c));
+      base = IfThenElse(ofClass, Set(du, triangleBase[c]), base);
     }
 
-    const auto missed = hn::Eq(geometry, miss);
-    hn::StoreU(hn::IfThenElse(missed, miss, hn::Add(base, primitive)), du, hits.triangle + i);
+    const auto missed = Eq(geometry, miss);
+    StoreU(IfThenElse(missed, miss, Add(base, primitive)), du, hits.triangle + i);
   }
 }
 
@@ -142,13 +142,13 @@ template <size_t kWidth>
 HWY_INLINE void UnpackVisibilityOf(const PacketWords& from, size_t n, const uint32_t* slot,
                                    float* visible) {
   const PacketTag<kWidth> d;
-  const size_t lanes = hn::Lanes(d);
+  const size_t lanes = Lanes(d);
   HWY_ALIGN float clear[16];
 
   for (size_t i = 0; i < n; i += lanes) {
     // Embree marks an occluded ray with a tFar of minus infinity.
-    const auto tFar = hn::LoadU(d, WordsOf<kWidth>(from, i) + packet_column::tFar * kWidth);
-    hn::Store(hn::IfThenElseZero(hn::Ge(tFar, hn::Zero(d)), hn::Set(d, 1.0f)), d, clear);
+    const auto tFar = LoadU(d, WordsOf<kWidth>(from, i) + packet_column::tFar * kWidth);
+    Store(IfThenElseZero(Ge(tFar, Zero(d)), Set(d, 1.0f)), d, clear);
 
     // Results go back to the slots that the shadow rays came from.
     const size_t count = n - i < lanes ? n - i : lanes;
@@ -169,7 +169,7 @@ struct SeenTriangle {
 HWY_INLINE void CarryToWorld(const HitTables& tables, const HitColumns& hits, MF valid, size_t i,
                              const V3& corner, const V3& origin, SeenTriangle& t) {
   const auto [placed, instance] = LoadInstances(hits, tables.instanceCount, valid, i);
-  if (hn::AllFalse(FloatTag(), placed)) return;
+  if (AllFalse(FloatTag(), placed)) return;
 
   const PlacementLanes p = LoadPlacements(tables.instances, instance, placed);
   const MatrixLanes& m = p.toWorld;
@@ -190,22 +190,21 @@ struct HitPoint {
 // nearby weights that belong to a point of the triangle, and the distance of this point.
 HWY_INLINE HitPoint MoveOntoTriangle(const SeenTriangle& t, const V3& direction,
                                      const HitPoint& p) {
-  const FloatTag d;
-  const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f), third = hn::Set(d, 1.0f / 3);
-  const VF most = hn::Set(d, 0x1p60f);
+  const VF zero = Zero(), one = Set(1.0f), third = Set(1.0f / 3);
+  const VF most = Set(0x1p60f);
 
   // Where the weights say nothing, the centroid stands in.
-  const MF known = hn::And(hn::Le(hn::Abs(p.u), most), hn::Le(hn::Abs(p.v), most));
-  const VF u = hn::Max(hn::IfThenElse(known, p.u, third), zero);
-  const VF v = hn::Max(hn::IfThenElse(known, p.v, third), zero);
+  const MF known = And(Le(Abs(p.u), most), Le(Abs(p.v), most));
+  const VF u = Max(IfThenElse(known, p.u, third), zero);
+  const VF v = Max(IfThenElse(known, p.v, third), zero);
 
   // Negative weights become 0, and the sum of all three is 1 again.
-  const VF sum = hn::Add(hn::Add(hn::Max(hn::Sub(hn::Sub(one, u), v), zero), u), v);
-  const VF onU = hn::Div(u, sum), onV = hn::Div(v, sum);
+  const VF sum = Add(Add(Max(Sub(Sub(one, u), v), zero), u), v);
+  const VF onU = Div(u, sum), onV = Div(v, sum);
 
   // The distance is that of the ray's point nearest to the moved one.
   const V3 point = MulAdd3(t.edge1, onU, MulAdd3(t.edge2, onV, t.corner));
-  return {hn::Div(Dot(point, direction), Dot(direction, direction)), onU, onV};
+  return {Div(Dot(point, direction), Dot(direction, direction)), onU, onV};
 }
 
 // The distance and the weights by Cramer's rule (Moeller and Trumbore 1997, "Fast, minimum storage
@@ -213,45 +212,45 @@ HWY_INLINE HitPoint MoveOntoTriangle(const SeenTriangle& t, const V3& direction,
 // src/surfaces/intersect.cpp.
 HWY_INLINE HitPoint PierceTriangle(const SeenTriangle& t, const V3& direction, MF on) {
   const FloatTag d;
-  const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  const VF zero = Zero(), one = Set(1.0f);
 
   const V3 normal = Cross(t.edge1, t.edge2), moment = Cross(direction, t.corner);
   const VF slope = Dot(normal, direction);
-  HitPoint p{hn::Div(Dot(normal, t.corner), slope), hn::Div(Dot(t.edge2, moment), hn::Neg(slope)),
-             hn::Div(Dot(t.edge1, moment), slope)};
+  HitPoint p{Div(Dot(normal, t.corner), slope), Div(Dot(t.edge2, moment), Neg(slope)),
+             Div(Dot(t.edge1, moment), slope)};
 
   // Hits behind the start, or beside the triangle by more than 2^-12, are moved onto it.
-  const VF least = hn::Min(hn::Min(p.u, p.v), hn::Sub(hn::Sub(one, p.u), p.v));
-  const MF ahead = hn::And(hn::Ge(p.t, zero), hn::Lt(p.t, hn::Inf(d)));
-  const MF beside = hn::AndNot(hn::And(ahead, hn::Ge(least, hn::Set(d, -0x1p-12f))), on);
-  if (HWY_UNLIKELY(!hn::AllFalse(d, beside))) {
+  const VF least = Min(Min(p.u, p.v), Sub(Sub(one, p.u), p.v));
+  const MF ahead = And(Ge(p.t, zero), Lt(p.t, hn::Inf(d)));
+  const MF beside = AndNot(And(ahead, Ge(least, Set(-0x1p-12f))), on);
+  if (HWY_UNLIKELY(!AllFalse(beside))) {
     const HitPoint moved = MoveOntoTriangle(t, direction, p);
-    p = {hn::IfThenElse(beside, moved.t, p.t), hn::IfThenElse(beside, moved.u, p.u),
-         hn::IfThenElse(beside, moved.v, p.v)};
+    p = {IfThenElse(beside, moved.t, p.t), IfThenElse(beside, moved.u, p.u),
+         IfThenElse(beside, moved.v, p.v)};
   }
 
   // A remainder beside the triangle comes from rounding, so the larger weight is reduced.
-  const VF u = hn::Max(p.u, zero), v = hn::Max(p.v, zero);
-  const VF excess = hn::Max(hn::Sub(hn::Add(u, v), one), zero);
-  const MF more = hn::Ge(u, v);
-  return {hn::Max(p.t, zero), hn::Sub(u, hn::IfThenElseZero(more, excess)),
-          hn::Sub(v, hn::IfThenZeroElse(more, excess))};
+  const VF u = Max(p.u, zero), v = Max(p.v, zero);
+  const VF excess = Max(Sub(Add(u, v), one), zero);
+  const MF more = Ge(u, v);
+  return {Max(p.t, zero), Sub(u, IfThenElseZero(more, excess)),
+          Sub(v, hn::IfThenZeroElse(more, excess))};
 }
 
 void RefineHits(const HitTables& tables, const RayColumns& rays, size_t n, const HitColumns& hits) {
   const FloatTag d;
   constexpr size_t kStride = kFloatsOf<TriangleRecord>;
 
-  for (size_t i = 0; i < n; i += hn::Lanes(d)) {
+  for (size_t i = 0; i < n; i += Lanes(d)) {
     // Spheres keep the hits of their own kernel, which computes in double.
     const auto [valid, triangle] = LoadHits(hits, tables.triangleCount, i);
-    const MF on = hn::And(AreTriangles(triangle, tables.firstSphere), valid);
-    if (hn::AllFalse(d, on)) continue;
+    const MF on = And(AreTriangles(triangle, tables.firstSphere), valid);
+    if (AllFalse(on)) continue;
 
     const auto [c0, c1, c2] = LoadCorners(tables.triangles, kStride, triangle);
-    const auto load = [&](const float* column) HWY_ATTR { return hn::LoadU(d, column + i); };
-    const V3 origin{load(rays.orgX), load(rays.orgY), load(rays.orgZ)};
-    const V3 direction{load(rays.dirX), load(rays.dirY), load(rays.dirZ)};
+    const auto load = [&](const float* column) HWY_ATTR { return LoadU(d, column + i); };
+    const V3 origin{load(rays.org.x), load(rays.org.y), load(rays.org.z)};
+    const V3 direction{load(rays.dir.x), load(rays.dir.y), load(rays.dir.z)};
 
     SeenTriangle t{Sub3(c0, origin), Sub3(c1, c0), Sub3(c2, c0)};
     if (hits.instance) CarryToWorld(tables, hits, valid, i, c0, origin, t);

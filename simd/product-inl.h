@@ -15,22 +15,30 @@ namespace whit::simd::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
+// Functions that most kernels call. Argument-dependent lookup would not find them for targets whose
+// vectors are types of the compiler.
+using hn::Abs, hn::Add, hn::AllFalse, hn::AllTrue, hn::And, hn::AndNot, hn::BitCast, hn::ConvertTo,
+    hn::CopySign, hn::Div, hn::Eq, hn::Floor, hn::GatherIndex, hn::Ge, hn::Gt, hn::IfThenElse,
+    hn::IfThenElseZero, hn::Lanes, hn::Le, hn::Load, hn::LoadU, hn::Lt, hn::Max, hn::Min, hn::Mul,
+    hn::Ne, hn::Neg, hn::Or, hn::PromoteTo, hn::RebindMask, hn::Set, hn::ShiftRight, hn::Sqrt,
+    hn::Store, hn::StoreU, hn::Sub, hn::Xor, hn::Zero;
+
 // a * b + c
 template <class V>
 HWY_INLINE V MulThenAdd(V a, V b, V c) {
-  return hn::Add(hn::Mul(a, b), c);
+  return Add(Mul(a, b), c);
 }
 
 // a * b - c
 template <class V>
 HWY_INLINE V MulThenSub(V a, V b, V c) {
-  return hn::Sub(hn::Mul(a, b), c);
+  return Sub(Mul(a, b), c);
 }
 
 // c - a * b
 template <class V>
 HWY_INLINE V NegMulThenAdd(V a, V b, V c) {
-  return hn::Sub(c, hn::Mul(a, b));
+  return Sub(c, Mul(a, b));
 }
 
 }  // namespace whit::simd::HWY_NAMESPACE

@@ -14,20 +14,17 @@ HWY_BEFORE_NAMESPACE();
 namespace whit::simd::HWY_NAMESPACE {
 
 HWY_INLINE VU Mixed(VU x) {
-  const UintTag du;
-  x = hn::Mul(hn::Xor(x, hn::ShiftRight<16>(x)), hn::Set(du, kMixFirst));
-  x = hn::Mul(hn::Xor(x, hn::ShiftRight<13>(x)), hn::Set(du, kMixSecond));
-  return hn::Xor(x, hn::ShiftRight<16>(x));
+  x = Mul(Xor(x, ShiftRight<16>(x)), Set(kMixFirst));
+  x = Mul(Xor(x, ShiftRight<13>(x)), Set(kMixSecond));
+  return Xor(x, ShiftRight<16>(x));
 }
 
 HWY_INLINE VU StreamOfPixel(VU pixel, uint32_t sample, uint32_t seed) {
-  const UintTag du;
-  return hn::Add(Mixed(hn::Add(pixel, hn::Set(du, pixelSalt(seed)))),
-                 hn::Set(du, sample * kSampleStep));
+  return Add(Mixed(Add(pixel, Set(pixelSalt(seed)))), Set(sample * kSampleStep));
 }
 
 HWY_INLINE VU ChildStream(VU path, uint32_t branch) {
-  return Mixed(hn::Xor(path, hn::Set(UintTag(), branch * kBranchStep)));
+  return Mixed(Xor(path, Set(branch * kBranchStep)));
 }
 
 // Points of the unit square, [0, 1)^2.
@@ -38,22 +35,19 @@ struct UnitPoints {
 HWY_INLINE VF UnitFraction(VU bits) {
   const FloatTag d;
   const IntTag di;
-  return hn::Mul(hn::ConvertTo(d, hn::BitCast(di, hn::ShiftRight<8>(bits))), hn::Set(d, 0x1p-24f));
+  return Mul(ConvertTo(d, BitCast(di, ShiftRight<8>(bits))), Set(0x1p-24f));
 }
 
 HWY_INLINE UnitPoints LobePoints(VU path, const LobeSampling& sampling, uint32_t k) {
-  const UintTag du;
-  const VU shift = hn::Sub(path, hn::Set(du, sampling.unshift));
+  const VU shift = Sub(path, Set(sampling.unshift));
   const uint32_t index = sampling.first + k;
-  return {UnitFraction(hn::Add(shift, hn::Set(du, index * kLatticeU))),
-          UnitFraction(hn::Add(Mixed(hn::Xor(shift, hn::Set(du, kSecondShift))),
-                               hn::Set(du, index * kLatticeV)))};
+  return {UnitFraction(Add(shift, Set(index * kLatticeU))),
+          UnitFraction(Add(Mixed(Xor(shift, Set(kSecondShift))), Set(index * kLatticeV)))};
 }
 
 HWY_INLINE UnitPoints SaltedPoints(VU path, const LobeSampling& sampling, uint32_t salt,
                                    uint32_t k) {
-  const UintTag du;
-  const VU own = hn::Xor(hn::Sub(path, hn::Set(du, sampling.unshift)), hn::Set(du, salt));
+  const VU own = Xor(Sub(path, Set(sampling.unshift)), Set(salt));
   return LobePoints(Mixed(own), {sampling.count, sampling.first, 0}, k);
 }
 
@@ -62,9 +56,7 @@ HWY_INLINE UnitPoints LightPoints(VU path, const LobeSampling& sampling, uint32_
   return SaltedPoints(path, sampling, lightSalt(light), k);
 }
 
-HWY_INLINE VF PathDraw(VU path, uint32_t salt) {
-  return UnitFraction(Mixed(hn::Xor(path, hn::Set(UintTag(), salt))));
-}
+HWY_INLINE VF PathDraw(VU path, uint32_t salt) { return UnitFraction(Mixed(Xor(path, Set(salt)))); }
 
 }  // namespace whit::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -36,8 +36,8 @@ constexpr size_t FourFloatsAt() {
 // the scene are valid.
 HWY_INLINE VI Clamped(VI index, size_t count) {
   const UintTag du;
-  const VU last = hn::Set(du, static_cast<uint32_t>(count - 1));
-  return hn::BitCast(IntTag(), hn::Min(hn::BitCast(du, index), last));
+  const VU last = Set(static_cast<uint32_t>(count - 1));
+  return BitCast(IntTag(), Min(BitCast(du, index), last));
 }
 
 HWY_INLINE const float* RecordAt(const void* base, size_t floats, int32_t index) {
@@ -53,15 +53,13 @@ struct LaneAddresses {
 #if HWY_TARGET == HWY_SCALAR
 
 HWY_INLINE V4 LoadFourFloats(const LaneAddresses& records, size_t column) {
-  const FloatTag d;
   const float* p = records.lane[0] + column;
-  return {hn::Set(d, p[0]), hn::Set(d, p[1]), hn::Set(d, p[2]), hn::Set(d, p[3])};
+  return {Set(p[0]), Set(p[1]), Set(p[2]), Set(p[3])};
 }
 
 HWY_INLINE V4 LoadSquares(const uint32_t* words, size_t row, const int32_t* index) {
-  const FloatTag d;
   const float* p = reinterpret_cast<const float*>(words) + index[0];
-  return {hn::Set(d, p[0]), hn::Set(d, p[1]), hn::Set(d, p[row]), hn::Set(d, p[row + 1])};
+  return {Set(p[0]), Set(p[1]), Set(p[row]), Set(p[row + 1])};
 }
 
 #else
@@ -88,20 +86,20 @@ HWY_INLINE V4 LoadTransposed(const LoadBlock& loadBlock) {
   const VF r0 = LoadRows(d, 0, loadBlock), r1 = LoadRows(d, 1, loadBlock);
   const VF r2 = LoadRows(d, 2, loadBlock), r3 = LoadRows(d, 3, loadBlock);
 
-  const auto low01 = hn::BitCast(d64, hn::InterleaveLower(d, r0, r1));
-  const auto low23 = hn::BitCast(d64, hn::InterleaveLower(d, r2, r3));
-  const auto high01 = hn::BitCast(d64, hn::InterleaveUpper(d, r0, r1));
-  const auto high23 = hn::BitCast(d64, hn::InterleaveUpper(d, r2, r3));
-  return {hn::BitCast(d, hn::InterleaveLower(d64, low01, low23)),
-          hn::BitCast(d, hn::InterleaveUpper(d64, low01, low23)),
-          hn::BitCast(d, hn::InterleaveLower(d64, high01, high23)),
-          hn::BitCast(d, hn::InterleaveUpper(d64, high01, high23))};
+  const auto low01 = BitCast(d64, hn::InterleaveLower(d, r0, r1));
+  const auto low23 = BitCast(d64, hn::InterleaveLower(d, r2, r3));
+  const auto high01 = BitCast(d64, hn::InterleaveUpper(d, r0, r1));
+  const auto high23 = BitCast(d64, hn::InterleaveUpper(d, r2, r3));
+  return {BitCast(d, hn::InterleaveLower(d64, low01, low23)),
+          BitCast(d, hn::InterleaveUpper(d64, low01, low23)),
+          BitCast(d, hn::InterleaveLower(d64, high01, high23)),
+          BitCast(d, hn::InterleaveUpper(d64, high01, high23))};
 }
 
 // Floats `column` to `column` + 3 of every lane's record.
 HWY_INLINE V4 LoadFourFloats(const LaneAddresses& records, size_t column) {
   return LoadTransposed([&](auto d, size_t lane)
-                            HWY_ATTR { return hn::LoadU(d, records.lane[lane] + column); });
+                            HWY_ATTR { return LoadU(d, records.lane[lane] + column); });
 }
 
 // Loads for every lane the square of two by two words at its `index`, in rows of `row` words, the
@@ -110,7 +108,7 @@ HWY_INLINE V4 LoadSquares(const uint32_t* words, size_t row, const int32_t* inde
   return LoadTransposed([&](auto d, size_t lane) HWY_ATTR {
     const hn::Half<decltype(d)> pair;
     const float* lower = reinterpret_cast<const float*>(words) + index[lane];
-    return hn::Combine(d, hn::LoadU(pair, lower + row), hn::LoadU(pair, lower));
+    return hn::Combine(d, LoadU(pair, lower + row), LoadU(pair, lower));
   });
 }
 
@@ -126,8 +124,8 @@ class Records {
   HWY_INLINE Records(const Record* table, size_t stride, VI index) {
     const IntTag di;
     HWY_ALIGN int32_t indices[16];
-    hn::Store(index, di, indices);
-    for (size_t i = 0; i < hn::Lanes(di); ++i) {
+    Store(index, di, indices);
+    for (size_t i = 0; i < Lanes(di); ++i) {
       addresses_.lane[i] = RecordAt(table, stride, indices[i]);
     }
   }
@@ -151,18 +149,18 @@ class SharedRecords {
     const FloatTag d;
     const IntTag di;
     HWY_ALIGN int32_t indices[16];
-    hn::Store(index, di, indices);
+    Store(index, di, indices);
 
     const intptr_t firstLive = hn::FindFirstTrue(d, live);
     const int32_t first = firstLive < 0 ? 0 : indices[firstLive];
-    const MF same = hn::RebindMask(d, hn::Eq(index, hn::Set(di, first)));
-    uniform_ = hn::AllFalse(d, hn::AndNot(same, live));
+    const MF same = RebindMask(d, Eq(index, Set(first)));
+    uniform_ = AllFalse(AndNot(same, live));
 
     if (uniform_) {
       addresses_.lane[0] = RecordAt(table, kFloatsOf<Record>, first);
     } else {
-      hn::Store(hn::IfThenElseZero(hn::RebindMask(di, live), index), di, indices);
-      for (size_t i = 0; i < hn::Lanes(di); ++i) {
+      Store(IfThenElseZero(RebindMask(di, live), index), di, indices);
+      for (size_t i = 0; i < Lanes(di); ++i) {
         addresses_.lane[i] = RecordAt(table, kFloatsOf<Record>, indices[i]);
       }
     }
@@ -173,9 +171,8 @@ class SharedRecords {
     constexpr size_t kColumn = FourFloatsAt<Record, kFirst, kLast>();
     if (!uniform_) return LoadFourFloats(addresses_, kColumn);
 
-    const FloatTag d;
     const float* p = addresses_.lane[0] + kColumn;
-    return {hn::Set(d, p[0]), hn::Set(d, p[1]), hn::Set(d, p[2]), hn::Set(d, p[3])};
+    return {Set(p[0]), Set(p[1]), Set(p[2]), Set(p[3])};
   }
 
  private:
@@ -187,13 +184,11 @@ class SharedRecords {
 template <size_t kMember, class Record>
 HWY_INLINE VF GatherMember(std::span<const Record> table, VI index) {
   static_assert(kMember % sizeof(float) == 0 && kMember + sizeof(float) <= sizeof(Record));
-  const IntTag di;
-  VI at =
-      hn::Mul(Clamped(index, table.size()), hn::Set(di, static_cast<int32_t>(kFloatsOf<Record>)));
+  VI at = Mul(Clamped(index, table.size()), Set(static_cast<int32_t>(kFloatsOf<Record>)));
   if constexpr (kMember != 0) {
-    at = hn::Add(at, hn::Set(di, static_cast<int32_t>(kMember / sizeof(float))));
+    at = Add(at, Set(static_cast<int32_t>(kMember / sizeof(float))));
   }
-  return hn::GatherIndex(FloatTag(), reinterpret_cast<const float*>(table.data()), at);
+  return GatherIndex(FloatTag(), reinterpret_cast<const float*>(table.data()), at);
 }
 
 }  // namespace whit::simd::HWY_NAMESPACE

@@ -39,7 +39,7 @@ HWY_INLINE TriangleLanes LoadTriangles(const ShadingTables& tables, VI triangle)
           {a.w, b.x, b.y},
           {b.z, b.w, c.x},
           {c.y, c.z, c.w, e.x, e.y, e.z},
-          hn::BitCast(IntTag(), e.w)};
+          BitCast(IntTag(), e.w)};
 }
 
 HWY_INLINE UvLanes LoadSecondUvs(const ShadingTables& tables, VI triangle) {
@@ -57,22 +57,21 @@ struct HitLanes {
 };
 
 HWY_INLINE HitLanes LoadHits(const HitColumns& hits, size_t triangleCount, size_t i) {
-  const UintTag du;
   const IntTag di;
-  const VU hit = hn::Load(du, hits.triangle + i);
-  const MF valid = hn::RebindMask(FloatTag(), hn::Ne(hit, hn::Set(du, kMiss)));
-  const VI triangle = Clamped(hn::BitCast(di, hit), triangleCount);
-  return {valid, hn::IfThenElseZero(hn::RebindMask(di, valid), triangle)};
+  const VU hit = Load(hits.triangle, i);
+  const MF valid = RebindMask(FloatTag(), Ne(hit, Set(kMiss)));
+  const VI triangle = Clamped(BitCast(di, hit), triangleCount);
+  return {valid, IfThenElseZero(RebindMask(di, valid), triangle)};
 }
 
 // The lanes whose number is a triangle's and not a sphere's. Highway compares no unsigned numbers,
 // so both are moved by half of their range.
 HWY_INLINE MF AreTriangles(VI number, uint32_t firstSphere) {
   const UintTag du;
-  const VU half = hn::Set(du, 0x80000000u);
-  const VI moved = hn::BitCast(IntTag(), hn::Xor(hn::BitCast(du, number), half));
-  const VI first = hn::Set(IntTag(), static_cast<int32_t>(firstSphere ^ 0x80000000u));
-  return hn::RebindMask(FloatTag(), hn::Lt(moved, first));
+  const VU half = Set(0x80000000u);
+  const VI moved = BitCast(IntTag(), Xor(BitCast(du, number), half));
+  const VI first = Set(static_cast<int32_t>(firstSphere ^ 0x80000000u));
+  return RebindMask(FloatTag(), Lt(moved, first));
 }
 
 // Barycentric weights of the corners.
@@ -81,13 +80,12 @@ struct Weights {
 };
 
 HWY_INLINE Weights LoadWeights(const HitColumns& hits, size_t i) {
-  const FloatTag d;
-  const VF u = hn::Load(d, hits.u + i), v = hn::Load(d, hits.v + i);
-  return {hn::Sub(hn::Sub(hn::Set(d, 1.0f), u), v), u, v};
+  const VF u = Load(hits.u, i), v = Load(hits.v, i);
+  return {Sub(Sub(Set(1.0f), u), v), u, v};
 }
 
 HWY_INLINE VF Interpolate(const Weights& w, VF a, VF b, VF c) {
-  return MulThenAdd(a, w.w0, MulThenAdd(b, w.w1, hn::Mul(c, w.w2)));
+  return MulThenAdd(a, w.w0, MulThenAdd(b, w.w1, Mul(c, w.w2)));
 }
 
 HWY_INLINE V3 Interpolate3(const Weights& w, const V3& a, const V3& b, const V3& c) {
@@ -99,12 +97,12 @@ HWY_INLINE V3 Interpolate3(const Weights& w, const V3& a, const V3& b, const V3&
 // exact in a coordinate that all corners share, and more precise the nearer the point is to a
 // corner.
 HWY_INLINE V3 InterpolatePosition(const Weights& w, const V3& a, const V3& b, const V3& c) {
-  const MF nearA = hn::And(hn::Ge(w.w0, w.w1), hn::Ge(w.w0, w.w2)), nearB = hn::Ge(w.w1, w.w2);
+  const MF nearA = And(Ge(w.w0, w.w1), Ge(w.w0, w.w2)), nearB = Ge(w.w1, w.w2);
   const V3 near = Select3(nearA, a, Select3(nearB, b, c));
   return Add3(near, Interpolate3(w, Sub3(a, near), Sub3(b, near), Sub3(c, near)));
 }
 
-HWY_INLINE VF SumOf(const V3& v) { return hn::Add(hn::Add(v.x, v.y), v.z); }
+HWY_INLINE VF SumOf(const V3& v) { return Add(Add(v.x, v.y), v.z); }
 
 struct NormalLanes {
   V3 normal;   // unit, of the triangle's plane
@@ -114,15 +112,14 @@ struct NormalLanes {
 // Edges are brought to the order of 1 by a power of two first, so that the products of tiny or huge
 // edges stay in range and scaling a scene by 2^k changes no bit.
 HWY_INLINE NormalLanes GeometricNormal(const V3& edge1, const V3& edge2) {
-  const FloatTag d;
-  const VF largest = hn::Max(MaxComponent(Abs3(edge1)), MaxComponent(Abs3(edge2)));
+  const VF largest = Max(MaxComponent(Abs3(edge1)), MaxComponent(Abs3(edge2)));
   const VF scale = InverseExponent(largest);
-  const V3 unit{hn::Zero(d), hn::Zero(d), hn::Set(d, 1.0f)};
+  const V3 unit{Zero(), Zero(), Set(1.0f)};
   const V3 a = Scale3(edge1, scale), b = Scale3(edge2, scale), area = ExactCross(a, b);
 
   // Where the area is tiny against the sides, rounding may turn the normal.
-  const VF sides = hn::Mul(SumOf(Abs3(a)), SumOf(Abs3(b)));
-  return {NormalizeOr(area, unit), hn::Le(SumOf(Abs3(area)), hn::Mul(sides, hn::Set(d, 0x1p-14f)))};
+  const VF sides = Mul(SumOf(Abs3(a)), SumOf(Abs3(b)));
+  return {NormalizeOr(area, unit), Le(SumOf(Abs3(area)), Mul(sides, Set(0x1p-14f)))};
 }
 
 // One vector for each corner of a triangle.
@@ -152,8 +149,8 @@ HWY_INLINE V3 VertexColor(const ShadingTables& tables, VI triangle, VF u, VF v) 
   static_assert(sizeof(ColorRecord) == 9 * sizeof(float));
   const auto [c0, c1, c2] = LoadCorners(tables.colors, tables.colorStride, triangle);
   const V3 there = MulAdd3(Sub3(c2, c0), v, MulAdd3(Sub3(c1, c0), u, c0));
-  const VF zero = hn::Zero(FloatTag());
-  return {hn::Max(there.x, zero), hn::Max(there.y, zero), hn::Max(there.z, zero)};
+  const VF zero = Zero();
+  return {Max(there.x, zero), Max(there.y, zero), Max(there.z, zero)};
 }
 
 HWY_INLINE V3 SmoothNormal(const ShadingTables& tables, VI triangle, const Weights& w,
@@ -201,8 +198,8 @@ struct InstanceHits {
 HWY_INLINE InstanceHits LoadInstances(const HitColumns& hits, size_t instanceCount, MF valid,
                                       size_t i) {
   const IntTag di;
-  const VI instance = hn::Load(di, reinterpret_cast<const int32_t*>(hits.instance) + i);
-  return {hn::And(valid, hn::RebindMask(FloatTag(), NonNegative(instance))),
+  const VI instance = Load(di, reinterpret_cast<const int32_t*>(hits.instance) + i);
+  return {And(valid, RebindMask(FloatTag(), NonNegative(instance))),
           Clamped(instance, instanceCount)};
 }
 
@@ -231,48 +228,46 @@ HWY_INLINE Surface InterpolateSurface(const ShadingTables& tables, const Triangl
   if (smooth) s.ns = SmoothNormal(tables, triangle, w, s.ng);
 
   // The bound on rounding errors needs the magnitudes that the position is added up from.
-  const Weights absolute{hn::Abs(w.w0), hn::Abs(w.w1), hn::Abs(w.w2)};
+  const Weights absolute{Abs(w.w0), Abs(w.w1), Abs(w.w2)};
   s.magnitude = Interpolate3(absolute, Abs3(t.p0), Abs3(t.p1), Abs3(t.p2));
 
-  s.handedness = hn::Set(FloatTag(), 1.0f);
+  s.handedness = Set(1.0f);
   return s;
 }
 
 // The scalar reference, which explains the terms, is findStart in
 // src/surfaces/surface_point.cpp.
 HWY_INLINE void StoreClearance(const Surface& s, VF t, size_t i, const SurfelColumns& surfels) {
-  const FloatTag d;
   const V3 edges = s.spans, n = Abs3(s.ng);
   const VF point = SumOf(s.magnitude), sides = SumOf(edges);
 
   // Where errors of several axes mix, all of them count; otherwise those along the normal.
-  const VF most = MulThenAdd(point, hn::Set(d, 0x1p-19f), hn::Mul(sides, hn::Set(d, 0x1p-20f)));
-  const VF least = hn::Mul(hn::Add(point, sides), hn::Set(d, 0x1p-30f));
-  const VF along = MulThenAdd(Dot(n, s.magnitude), hn::Set(d, 0x1p-22f),
-                              MulThenAdd(Dot(n, edges), hn::Set(d, 0x1p-20f), least));
+  const VF most = MulThenAdd(point, Set(0x1p-19f), Mul(sides, Set(0x1p-20f)));
+  const VF least = Mul(Add(point, sides), Set(0x1p-30f));
+  const VF along = MulThenAdd(Dot(n, s.magnitude), Set(0x1p-22f),
+                              MulThenAdd(Dot(n, edges), Set(0x1p-20f), least));
 
   // Rays start back along the viewer's ray by at most half of its way, which is known to be clear.
-  const VF across = hn::Mul(s.across, hn::Set(d, 0x1p-24f));
-  const VF half = hn::Set(d, 0.5f), back = hn::Min(hn::Mul(most, half), hn::Mul(t, half));
-  hn::Store(hn::IfThenElse(s.inDoubt, most, along), d, surfels.offset + i);
-  hn::Store(hn::IfThenElse(s.inDoubt, back, hn::Min(across, back)), d, surfels.viewOffset + i);
+  const VF across = Mul(s.across, Set(0x1p-24f));
+  const VF half = Set(0.5f), back = Min(Mul(most, half), Mul(t, half));
+  Store(IfThenElse(s.inDoubt, most, along), surfels.offset, i);
+  Store(IfThenElse(s.inDoubt, back, Min(across, back)), surfels.viewOffset, i);
 }
 
 // Transforms the surfaces of hits on instances to the world.
 HWY_INLINE void CarryToWorld(const ShadingTables& tables, const HitColumns& hits, MF valid,
                              size_t i, Surface& s) {
-  const FloatTag d;
   const auto [placed, instance] = LoadInstances(hits, tables.instances.size(), valid, i);
-  if (hn::AllFalse(d, placed)) return;
+  if (AllFalse(placed)) return;
 
-  const VF one = hn::Set(d, 1.0f);
+  const VF one = Set(1.0f);
   const PlacementLanes p = LoadPlacements(tables.instances.data(), instance, placed);
   const MatrixLanes &m = p.toWorld, &normal = p.normal;
 
   // Magnitudes and spans grow by the absolute values of the matrix.
-  const MatrixLanes abs{{hn::Abs(m.row0.x), hn::Abs(m.row0.y), hn::Abs(m.row0.z), one},
-                        {hn::Abs(m.row1.x), hn::Abs(m.row1.y), hn::Abs(m.row1.z), one},
-                        {hn::Abs(m.row2.x), hn::Abs(m.row2.y), hn::Abs(m.row2.z), one}};
+  const MatrixLanes abs{{Abs(m.row0.x), Abs(m.row0.y), Abs(m.row0.z), one},
+                        {Abs(m.row1.x), Abs(m.row1.y), Abs(m.row1.z), one},
+                        {Abs(m.row2.x), Abs(m.row2.y), Abs(m.row2.z), one}};
   s.magnitude =
       Select3(placed, Add3(TransformVector(abs, s.magnitude), Abs3(p.origin)), s.magnitude);
 
@@ -284,47 +279,43 @@ HWY_INLINE void CarryToWorld(const ShadingTables& tables, const HitColumns& hits
   s.ng = Select3(placed, NormalizeOr(TransformVector(normal, s.ng), s.ng), s.ng);
   s.ns = Select3(placed, NormalizeOr(TransformVector(normal, s.ns), s.ns), s.ns);
 
-  s.handedness = hn::IfThenElse(placed, p.handedness, one);
-  s.inDoubt = hn::Or(s.inDoubt, placed);
+  s.handedness = IfThenElse(placed, p.handedness, one);
+  s.inDoubt = Or(s.inDoubt, placed);
 }
 
 // On a triangle that is larger than its distance from the ray's start, the weights are less precise
 // than the distance. There the position is the ray's point, moved into the plane.
 HWY_INLINE void FollowRay(const TriangleLanes& t, const RayColumns& rays, VF distance, size_t i,
                           Surface& s) {
-  const FloatTag d;
   const V3 edges = s.spans;
   const VF sides = SumOf(edges);
 
-  const VF two = hn::Set(d, 2.0f), eight = hn::Set(d, 8.0f);
+  const VF two = Set(2.0f), eight = Set(8.0f);
   s.across = MulThenAdd(SumOf(s.magnitude), two, sides);
 
-  const MF large = hn::AndNot(s.inDoubt, hn::Lt(hn::Mul(distance, eight), sides));
-  if (HWY_LIKELY(hn::AllFalse(d, large))) return;
+  const MF large = AndNot(s.inDoubt, Lt(Mul(distance, eight), sides));
+  if (HWY_LIKELY(AllFalse(large))) return;
 
   // The ray's point is moved along the normal into the triangle's plane.
-  const V3 origin = Load3(rays.orgX, rays.orgY, rays.orgZ, i);
+  const V3 origin = Load3(rays.org, i);
   const V3 point = MulAdd3(DirectionAt(rays, i), distance, origin);
   const VF height = Dot(Sub3(point, t.p0), s.ng);
-  s.position = Select3(large, MulAdd3(s.ng, hn::Neg(height), point), s.position);
+  s.position = Select3(large, MulAdd3(s.ng, Neg(height), point), s.position);
 
-  const VF ofRay = MulThenAdd(distance, eight, hn::Mul(Dot(Abs3(s.ng), edges), two));
+  const VF ofRay = MulThenAdd(distance, eight, Mul(Dot(Abs3(s.ng), edges), two));
   const VF near = MulThenAdd(SumOf(Abs3(s.position)), two, ofRay);
-  s.across = hn::IfThenElse(large, near, s.across);
+  s.across = IfThenElse(large, near, s.across);
 }
 
 // The sign that turns normals towards the viewer.
-HWY_INLINE VF TurnToViewer(MF entering) {
-  const FloatTag d;
-  return hn::IfThenElse(entering, hn::Set(d, 1.0f), hn::Set(d, -1.0f));
-}
+HWY_INLINE VF TurnToViewer(MF entering) { return IfThenElse(entering, Set(1.0f), Set(-1.0f)); }
 
 // Stores the columns that textures do not change; `flip` turns the normals towards the viewer.
 HWY_INLINE void StoreSurface(const Surface& s, VF t, VF flip, size_t i,
                              const SurfelColumns& surfels) {
-  Store3(s.position, surfels.posX, surfels.posY, surfels.posZ, i);
-  Store3(Scale3(s.ng, flip), surfels.ngX, surfels.ngY, surfels.ngZ, i);
-  Store3(Scale3(s.ns, flip), surfels.nsX, surfels.nsY, surfels.nsZ, i);
+  Store3(s.position, surfels.pos, i);
+  Store3(Scale3(s.ng, flip), surfels.ng, i);
+  Store3(Scale3(s.ns, flip), surfels.ns, i);
   StoreClearance(s, t, i, surfels);
 }
 
@@ -341,10 +332,9 @@ struct SphereLanes {
 HWY_INLINE SphereLanes LoadSpheres(const ShadingTables& tables, const HitColumns& hits, MF valid,
                                    VI number, size_t i) {
   using R = SphereRecord;
-  const FloatTag d;
   SphereLanes s;
-  s.on = hn::AndNot(AreTriangles(number, tables.firstSphere), valid);
-  if (hn::AllFalse(d, s.on)) return s;
+  s.on = AndNot(AreTriangles(number, tables.firstSphere), valid);
+  if (AllFalse(s.on)) return s;
 
   const SharedRecords<R> records(reinterpret_cast<const R*>(tables.triangles), number, s.on);
   const V4 a = records.Load4<offsetof(R, axes[0]), offsetof(R, axes[3])>();
@@ -357,19 +347,19 @@ HWY_INLINE SphereLanes LoadSpheres(const ShadingTables& tables, const HitColumns
   s.outward = records.Load4<offsetof(R, outward), offsetof(R, material)>().x;
 
   // The octahedral map is inverted: the corners of the square fold back onto the lower half.
-  const VF one = hn::Set(d, 1.0f), begin = hn::Set(d, static_cast<float>(kSphereWeightBegin));
-  const VF scale = hn::Set(d, static_cast<float>(1 / kSphereWeightScale));
+  const VF one = Set(1.0f), begin = Set(static_cast<float>(kSphereWeightBegin));
+  const VF scale = Set(static_cast<float>(1 / kSphereWeightScale));
   const auto coordinate = [&](const float* weight) HWY_ATTR {
-    return MulThenSub(hn::Sub(hn::Load(d, weight + i), begin), scale, one);
+    return MulThenSub(Sub(Load(weight, i), begin), scale, one);
   };
   const VF u = coordinate(hits.u), v = coordinate(hits.v);
 
-  const VF height = hn::Sub(hn::Sub(one, hn::Abs(u)), hn::Abs(v));
-  const MF below = hn::Lt(height, hn::Zero(d));
-  const VF foldedU = hn::CopySign(hn::Sub(one, hn::Abs(v)), u);
-  const VF foldedV = hn::CopySign(hn::Sub(one, hn::Abs(u)), v);
+  const VF height = Sub(Sub(one, Abs(u)), Abs(v));
+  const MF below = Lt(height, Zero());
+  const VF foldedU = CopySign(Sub(one, Abs(v)), u);
+  const VF foldedV = CopySign(Sub(one, Abs(u)), v);
 
-  s.direction = {hn::IfThenElse(below, foldedU, u), hn::IfThenElse(below, foldedV, v), height};
+  s.direction = {IfThenElse(below, foldedU, u), IfThenElse(below, foldedV, v), height};
   s.unit = Normalize3(s.direction);
   return s;
 }
@@ -380,7 +370,7 @@ HWY_INLINE V3 FromUnit(const SphereLanes& s, const V3& v) {
 
 HWY_INLINE V3 SphereNormal(const SphereLanes& s) {
   const VF largest =
-      hn::Max(MaxComponent(Abs3(s.x)), hn::Max(MaxComponent(Abs3(s.y)), MaxComponent(Abs3(s.z))));
+      Max(MaxComponent(Abs3(s.x)), Max(MaxComponent(Abs3(s.y)), MaxComponent(Abs3(s.z))));
   const VF scale = InverseExponent(largest);
   const V3 x = Scale3(s.x, scale), y = Scale3(s.y, scale), z = Scale3(s.z, scale);
 
@@ -394,45 +384,44 @@ HWY_INLINE V3 SphereNormal(const SphereLanes& s) {
 // Puts a triangle that touches the sphere in the place of the hit triangle, with the weights of its
 // first corner. The scalar reference is touchingTriangle in src/bake/sphere.cpp.
 HWY_INLINE void TouchSpheres(const SphereLanes& s, Surface& surface, TriangleLanes& t, Weights& w) {
-  const FloatTag d;
-  const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  const VF zero = Zero(), one = Set(1.0f);
 
   const V3& q = s.unit;
 
   // At a pole the azimuth about y is undefined, and any one will do.
-  const VF rho2 = MulThenAdd(q.x, q.x, hn::Mul(q.z, q.z));
-  const MF turned = hn::Gt(rho2, hn::Set(d, 1e-30f));
-  const VF rho = hn::Sqrt(rho2), inverse = hn::Div(one, hn::IfThenElse(turned, rho, one));
-  const VF cosine = hn::IfThenElse(turned, hn::Mul(q.x, inverse), one);
-  const VF sine = hn::IfThenElseZero(turned, hn::Mul(q.z, inverse));
+  const VF rho2 = MulThenAdd(q.x, q.x, Mul(q.z, q.z));
+  const MF turned = Gt(rho2, Set(1e-30f));
+  const VF rho = Sqrt(rho2), inverse = Div(one, IfThenElse(turned, rho, one));
+  const VF cosine = IfThenElse(turned, Mul(q.x, inverse), one);
+  const VF sine = IfThenElseZero(turned, Mul(q.z, inverse));
 
   // The edges are a sphere's tangents along growing u and growing v. Near a pole the first one
   // keeps a least length.
   constexpr float kStep = kTouchingEdge * 3.14159265f;
-  const VF step = hn::Set(d, kStep);
-  const VF round = hn::Mul(hn::Set(d, 2 * kStep), hn::Max(rho, hn::Set(d, kPoleRadius)));
-  const V3 along = FromUnit(s, {hn::Mul(sine, round), zero, hn::Neg(hn::Mul(cosine, round))});
-  const VF fall = hn::Neg(hn::Mul(q.y, step));
-  const V3 across = FromUnit(s, {hn::Mul(fall, cosine), hn::Mul(rho, step), hn::Mul(fall, sine)});
+  const VF step = Set(kStep);
+  const VF round = Mul(Set(2 * kStep), Max(rho, Set(kPoleRadius)));
+  const V3 along = FromUnit(s, {Mul(sine, round), zero, Neg(Mul(cosine, round))});
+  const VF fall = Neg(Mul(q.y, step));
+  const V3 across = FromUnit(s, {Mul(fall, cosine), Mul(rho, step), Mul(fall, sine)});
 
   // Texture coordinates grow by kTouchingEdge along either edge.
-  const VF u = AzimuthFraction(hn::Neg(q.z), hn::Neg(q.x));
-  const VF v = hn::Mul(AzimuthFraction(rho, q.y), hn::Set(d, 2.0f));
-  const VF edge = hn::Set(d, kTouchingEdge);
+  const VF u = AzimuthFraction(Neg(q.z), Neg(q.x));
+  const VF v = Mul(AzimuthFraction(rho, q.y), Set(2.0f));
+  const VF edge = Set(kTouchingEdge);
 
   // A map that mirrors swaps the edges, so that their cross product still points outwards.
-  const MF mirrored = hn::Lt(s.outward, zero);
-  const auto put = [&](VF value, VF& to) HWY_ATTR { to = hn::IfThenElse(s.on, value, to); };
+  const MF mirrored = Lt(s.outward, zero);
+  const auto put = [&](VF value, VF& to) HWY_ATTR { to = IfThenElse(s.on, value, to); };
 
   surface.edge1 = Select3(s.on, Select3(mirrored, across, along), surface.edge1);
   surface.edge2 = Select3(s.on, Select3(mirrored, along, across), surface.edge2);
 
   put(u, t.uv.u0);
   put(v, t.uv.v0);
-  put(hn::Add(u, hn::IfThenElse(mirrored, zero, edge)), t.uv.u1);
-  put(hn::Add(v, hn::IfThenElse(mirrored, edge, zero)), t.uv.v1);
-  put(hn::Add(u, hn::IfThenElse(mirrored, edge, zero)), t.uv.u2);
-  put(hn::Add(v, hn::IfThenElse(mirrored, zero, edge)), t.uv.v2);
+  put(Add(u, IfThenElse(mirrored, zero, edge)), t.uv.u1);
+  put(Add(v, IfThenElse(mirrored, edge, zero)), t.uv.v1);
+  put(Add(u, IfThenElse(mirrored, edge, zero)), t.uv.u2);
+  put(Add(v, IfThenElse(mirrored, zero, edge)), t.uv.v2);
 
   put(one, w.w0);
   put(zero, w.w1);
@@ -444,17 +433,16 @@ HWY_INLINE bool AnyMapped(const ShadingTables& tables, const SphereLanes& s,
                           const TriangleLanes& t) {
   constexpr size_t kFlags = offsetof(MaterialRecord, flags);
   const VU flags =
-      hn::BitCast(UintTag(), GatherMember<kFlags>(std::span(tables.materials), t.material));
-  return !hn::AllFalse(FloatTag(), hn::And(s.on, HasFlags(flags, kMaterialMapped)));
+      BitCast(UintTag(), GatherMember<kFlags>(std::span(tables.materials), t.material));
+  return !AllFalse(And(s.on, HasFlags(flags, kMaterialMapped)));
 }
 
 // Computes the surfaces of hits on spheres, in the space of their geometry. The scalar reference is
 // placementOnSphere in src/surfaces/surface_point.cpp.
 HWY_INLINE void PutOnSpheres(const ShadingTables& tables, const HitColumns& hits, MF valid,
                              VI number, size_t i, Surface& surface, TriangleLanes& t, Weights& w) {
-  const FloatTag d;
   const SphereLanes s = LoadSpheres(tables, hits, valid, number, i);
-  if (hn::AllFalse(d, s.on)) return;
+  if (AllFalse(s.on)) return;
 
   // The bound on rounding errors needs the magnitudes that the position is added up from.
   const V3 q = Abs3(s.unit);
@@ -469,12 +457,12 @@ HWY_INLINE void PutOnSpheres(const ShadingTables& tables, const HitColumns& hits
   if (AnyMapped(tables, s, t)) TouchSpheres(s, surface, t, w);
 
   t.p0 = Select3(s.on, position, t.p0);
-  surface.spans = Select3(s.on, Scale3(axes, hn::Set(d, kSphereSpan)), surface.spans);
+  surface.spans = Select3(s.on, Scale3(axes, Set(kSphereSpan)), surface.spans);
   surface.position = Select3(s.on, position, surface.position);
   surface.magnitude = Select3(s.on, magnitude, surface.magnitude);
   surface.ng = Select3(s.on, normal, surface.ng);
   surface.ns = Select3(s.on, normal, surface.ns);
-  surface.inDoubt = hn::AndNot(s.on, surface.inDoubt);
+  surface.inDoubt = AndNot(s.on, surface.inDoubt);
 }
 
 }  // namespace whit::simd::HWY_NAMESPACE

@@ -42,10 +42,10 @@ struct TextureSpans {
 };
 
 HWY_INLINE TextureSpans UnitSpans(VF c0, VF c1, VF c2) {
-  const VF to1 = hn::Sub(c1, c0), to2 = hn::Sub(c2, c0);
-  const VF largest = hn::Max(hn::Abs(to1), hn::Abs(to2));
-  const VF scale = InverseExponent(hn::Min(largest, hn::Set(FloatTag(), 0x1p126f)));
-  return {hn::Mul(to1, scale), hn::Mul(to2, scale)};
+  const VF to1 = Sub(c1, c0), to2 = Sub(c2, c0);
+  const VF largest = Max(Abs(to1), Abs(to2));
+  const VF scale = InverseExponent(Min(largest, Set(0x1p126f)));
+  return {Mul(to1, scale), Mul(to2, scale)};
 }
 
 // The frame that the texture coordinates span about `ns`: T along u, B along v. `good` masks the
@@ -57,28 +57,25 @@ struct TangentFrame {
 
 HWY_INLINE TangentFrame FindTangentFrame(const UvLanes& t, const V3& edge1, const V3& edge2,
                                          const V3& ns, VF handedness) {
-  const FloatTag d;
-
   // The determinant of the texture-space edges tells whether the coordinates are mirrored.
   const auto [du1, du2] = UnitSpans(t.u0, t.u1, t.u2);
   const auto [dv1, dv2] = UnitSpans(t.v0, t.v1, t.v2);
   const VF det = DifferenceOfProducts(du1, dv2, du2, dv1);
-  const VF sign = hn::CopySign(hn::Set(d, 1.0f), det);
+  const VF sign = CopySign(Set(1.0f), det);
 
   // The tangent is the direction of growing u, made perpendicular to the normal.
-  const VF largest = hn::Max(MaxComponent(Abs3(edge1)), MaxComponent(Abs3(edge2)));
-  const VF scale = hn::Mul(InverseExponent(largest), sign);
+  const VF largest = Max(MaxComponent(Abs3(edge1)), MaxComponent(Abs3(edge2)));
+  const VF scale = Mul(InverseExponent(largest), sign);
   const V3 along = Scale3(Sub3(Scale3(edge1, dv2), Scale3(edge2, dv1)), scale);
 
-  const V3 none{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+  const V3 none{Zero(), Zero(), Zero()};
   const V3 unitAlong = NormalizeOr(along, none);
-  const V3 tangent = NormalizeOr(MulAdd3(ns, hn::Neg(Dot(ns, unitAlong)), unitAlong), none);
+  const V3 tangent = NormalizeOr(MulAdd3(ns, Neg(Dot(ns, unitAlong)), unitAlong), none);
 
   // The bitangent keeps the handedness of the texture coordinates and of the instance.
-  const V3 bitangent = Scale3(Cross(ns, tangent), hn::Mul(sign, handedness));
+  const V3 bitangent = Scale3(Cross(ns, tangent), Mul(sign, handedness));
 
-  const MF good =
-      hn::And(hn::Ne(det, hn::Zero(d)), hn::Gt(Dot(tangent, tangent), hn::Set(d, 0.5f)));
+  const MF good = And(Ne(det, Zero()), Gt(Dot(tangent, tangent), Set(0.5f)));
   return {tangent, bitangent, good};
 }
 
@@ -87,17 +84,17 @@ HWY_INLINE TangentFrame FindTangentFrame(const UvLanes& t, const V3& edge1, cons
 // by a power of two first, as for GeometricNormal.
 HWY_INLINE VF TextureFootprint(const UvLanes& t, const V3& edge1, const V3& edge2, VF coneWidth,
                                VF cosine) {
-  const VF inTexture = hn::Abs(DifferenceOfProducts(hn::Sub(t.u1, t.u0), hn::Sub(t.v2, t.v0),
-                                                    hn::Sub(t.u2, t.u0), hn::Sub(t.v1, t.v0)));
+  const VF inTexture =
+      Abs(DifferenceOfProducts(Sub(t.u1, t.u0), Sub(t.v2, t.v0), Sub(t.u2, t.u0), Sub(t.v1, t.v0)));
 
-  const VF largest = hn::Max(MaxComponent(Abs3(edge1)), MaxComponent(Abs3(edge2)));
+  const VF largest = Max(MaxComponent(Abs3(edge1)), MaxComponent(Abs3(edge2)));
   const VF scale = InverseExponent(largest);
   const V3 area = Cross(Scale3(edge1, scale), Scale3(edge2, scale));
-  const VF inWorld = hn::Sqrt(Dot(area, area));
+  const VF inWorld = Sqrt(Dot(area, area));
 
   // The cone's section by the plane is longer by 1 / cosine, and counts as if it were as wide.
-  const VF across = hn::Div(hn::Mul(coneWidth, scale), hn::Abs(cosine));
-  return hn::Mul(hn::Div(inTexture, inWorld), hn::Mul(across, across));
+  const VF across = Div(Mul(coneWidth, scale), Abs(cosine));
+  return Mul(Div(inTexture, inWorld), Mul(across, across));
 }
 
 // The lookups of one map by a block of rays. Mip maps are looked up at the level above, too, whose
@@ -110,13 +107,15 @@ struct MapQueue {
 // The texture lookups of one block of rays that wait for their texels.
 struct BlockTextures {
   MapQueue diffuse, specular, emission, normal;
-  HWY_ALIGN float tangent[6][TexelQueue::kRays];  // frame of the normal map: T, then B
+  HWY_ALIGN float frame[6][TexelQueue::kRays];  // of the normal map: tangent, then bitangent
+
+  Columns3 Tangent() { return {frame[0], frame[1], frame[2]}; }
+  Columns3 Bitangent() { return {frame[3], frame[4], frame[5]}; }
 };
 
 HWY_INLINE void StoreFrame(const TangentFrame& frame, VF flip, size_t slot, BlockTextures& block) {
-  const V3 t = Scale3(frame.tangent, flip), b = Scale3(frame.bitangent, flip);
-  Store3(t, block.tangent[0], block.tangent[1], block.tangent[2], slot);
-  Store3(b, block.tangent[3], block.tangent[4], block.tangent[5], slot);
+  Store3(Scale3(frame.tangent, flip), block.Tangent(), slot);
+  Store3(Scale3(frame.bitangent, flip), block.Bitangent(), slot);
 }
 
 // The texture coordinates of a vector of rays, and the footprints where mip levels are mixed.
@@ -127,11 +126,11 @@ struct TexturePoints {
 // The level at which one texel is as large as `texels` of the full texture; 0 where that is NaN.
 HWY_INLINE VF MipLevel(VF texels) {
   const FloatTag d;
-  const VF one = hn::Set(d, 1.0f);
-  const VF area = hn::IfThenElse(hn::Gt(texels, one), texels, one);
-  const VF held = hn::Min(area, hn::Set(d, kLargestArea));
-  const VF level = hn::Mul(hn::Log2(d, held), hn::Set(d, 0.5f));
-  return hn::Min(hn::Max(level, hn::Zero(d)), hn::Set(d, kMipLevels - 1));
+  const VF one = Set(1.0f);
+  const VF area = IfThenElse(Gt(texels, one), texels, one);
+  const VF held = Min(area, Set(kLargestArea));
+  const VF level = Mul(hn::Log2(d, held), Set(0.5f));
+  return Min(Max(level, Zero()), Set(kMipLevels - 1));
 }
 
 inline HWY_NOINLINE void QueueLevels(const ShadingTables& tables, VI map, MF live,
@@ -139,19 +138,18 @@ inline HWY_NOINLINE void QueueLevels(const ShadingTables& tables, VI map, MF liv
   const FloatTag d;
   const IntTag di;
 
-  queue.level.any[slot] = !hn::AllFalse(d, live);
+  queue.level.any[slot] = !AllFalse(live);
   if (!queue.level.any[slot]) return;
 
   const TextureRecord* levels = tables.mipLevels.data();
-  const VI full =
-      hn::IfThenElseZero(hn::RebindMask(di, live), hn::Mul(map, hn::Set(di, kMipStride)));
+  const VI full = IfThenElseZero(RebindMask(di, live), Mul(map, Set(kMipStride)));
   const auto [first, height, width, wrap] = LoadTextures(levels, full, live);
 
   // Trilinear filtering mixes the levels below and above by the fraction between them.
-  const VF level = MipLevel(hn::Mul(hn::Mul(at.footprint, width), hn::ConvertTo(d, height)));
-  const VF whole = hn::Floor(level);
-  const VF between = hn::IfThenElseZero(live, hn::Sub(level, whole));
-  const VI lower = hn::Add(full, hn::ConvertTo(di, whole));
+  const VF level = MipLevel(Mul(Mul(at.footprint, width), ConvertTo(d, height)));
+  const VF whole = Floor(level);
+  const VF between = IfThenElseZero(live, Sub(level, whole));
+  const VI lower = Add(full, ConvertTo(di, whole));
 
   const auto queueAt = [&](VI index, TexelQueue& to) HWY_ATTR {
     QueueTexels(TextureFilter::bilinear, levels, tables.texels.get(), index, live, at.u, at.v, slot,
@@ -161,14 +159,14 @@ inline HWY_NOINLINE void QueueLevels(const ShadingTables& tables, VI map, MF liv
 
   // Where textures are magnified the level above has no weight.
   queue.above.any[slot] = false;
-  if (hn::AllTrue(d, hn::Eq(between, hn::Zero(d)))) return;
+  if (AllTrue(Eq(between, Zero()))) return;
 
-  queueAt(hn::Add(lower, hn::Set(di, 1)), queue.above);
-  hn::Store(between, d, queue.between + slot);
+  queueAt(Add(lower, Set(1)), queue.above);
+  Store(between, queue.between, slot);
 }
 
 HWY_INLINE MF MappedLanes(VI map, MF valid) {
-  return hn::And(valid, hn::RebindMask(FloatTag(), NonNegative(map)));
+  return And(valid, RebindMask(FloatTag(), NonNegative(map)));
 }
 
 HWY_INLINE void QueueMap(const SurfelJob& job, VI map, MF live, const TexturePoints& at,
@@ -195,7 +193,7 @@ HWY_INLINE V3 FilterMap(const SurfelJob& job, const MapQueue& queue, size_t slot
 
   if (choice != TextureFilter::trilinear || !queue.above.any[slot]) return value;
   const V3 above = filter(FetchTexels(choice, texels, queue.above, slot));
-  return MulAdd3(Sub3(above, value), hn::Load(FloatTag(), queue.between + slot), value);
+  return MulAdd3(Sub3(above, value), Load(queue.between, slot), value);
 }
 
 HWY_INLINE V3 FilterData(const SurfelJob& job, const MapQueue& queue, size_t slot) {
@@ -203,15 +201,15 @@ HWY_INLINE V3 FilterData(const SurfelJob& job, const MapQueue& queue, size_t slo
 }
 
 // Multiplies the columns at slot i with the texture that waits at `slot`.
-HWY_INLINE void ApplyColor(const SurfelJob& job, const MapQueue& queue, size_t slot, float* r,
-                           float* g, float* b, size_t i) {
+HWY_INLINE void ApplyColor(const SurfelJob& job, const MapQueue& queue, size_t slot,
+                           const Columns3& columns, size_t i) {
   if (!queue.level.any[slot]) return;
 
-  const V3 color = Load3(r, g, b, i);
+  const V3 color = Load3(columns, i);
   const V3 texture =
       FilterMap(job, queue, slot, [](const Footprint& f) HWY_ATTR { return FilterColor(f); });
 
-  Store3(Select3(QueuedLanes(queue.level, slot), Mul3(color, texture), color), r, g, b, i);
+  Store3(Select3(QueuedLanes(queue.level, slot), Mul3(color, texture), color), columns, i);
 }
 
 // Multiplies the emission's factors at slot i with the map that waits at `slot`, in scenes where
@@ -232,18 +230,15 @@ inline HWY_NOINLINE void ApplyRadianceMaps(const SurfelJob& job, const MapQueue&
       FilterMap(job, queue, slot, [](const Footprint& f) HWY_ATTR { return FilterRadiance(f); });
   const V3 texture = Select3(HasFlags(flags, kMaterialEmissionIsRadiance), radiance, color);
 
-  const V3 factor = Load3(to.emissionR, to.emissionG, to.emissionB, i);
-  Store3(Select3(queued, Mul3(factor, texture), factor), to.emissionR, to.emissionG, to.emissionB,
-         i);
+  const V3 factor = Load3(to.emission, i);
+  Store3(Select3(queued, Mul3(factor, texture), factor), to.emission, i);
 }
 
 // Bends the shading normals at slot i by the normal map that waits at `slot`.
-HWY_INLINE void ApplyNormalMap(const SurfelJob& job, const BlockTextures& block, size_t slot,
-                               size_t i) {
+HWY_INLINE void ApplyNormalMap(const SurfelJob& job, BlockTextures& block, size_t slot, size_t i) {
   if (!block.normal.level.any[slot]) return;
 
-  const FloatTag d;
-  const VF two = hn::Set(d, 2.0f), one = hn::Set(d, 1.0f);
+  const VF two = Set(2.0f), one = Set(1.0f);
   const SurfelColumns& surfels = job.surfels;
 
   // Texels store the components of tangent-space normals, moved from [-1, 1] to [0, 1].
@@ -251,12 +246,10 @@ HWY_INLINE void ApplyNormalMap(const SurfelJob& job, const BlockTextures& block,
   const V3 m{MulThenSub(code.x, two, one), MulThenSub(code.y, two, one),
              MulThenSub(code.z, two, one)};
 
-  const V3 tangent = Load3(block.tangent[0], block.tangent[1], block.tangent[2], slot);
-  const V3 bitangent = Load3(block.tangent[3], block.tangent[4], block.tangent[5], slot);
-  const V3 ns = Load3(surfels.nsX, surfels.nsY, surfels.nsZ, i);
+  const V3 tangent = Load3(block.Tangent(), slot), bitangent = Load3(block.Bitangent(), slot);
+  const V3 ns = Load3(surfels.ns, i);
   const V3 bent = MulAdd3(tangent, m.x, MulAdd3(bitangent, m.y, Scale3(ns, m.z)));
-  Store3(Select3(QueuedLanes(block.normal.level, slot), NormalizeOr(bent, ns), ns), surfels.nsX,
-         surfels.nsY, surfels.nsZ, i);
+  Store3(Select3(QueuedLanes(block.normal.level, slot), NormalizeOr(bent, ns), ns), surfels.ns, i);
 }
 
 // The inputs of map lookups by either set of coordinates, in scenes that have two.
@@ -277,9 +270,8 @@ HWY_INLINE MapHits MapHitsAt(const SurfelJob& job, MF live, VI triangle, Triangl
   if (job.spheres) PutOnSpheres(job.tables, job.hits, live, triangle, i, s, t, w);
   if (job.instances) CarryToWorld(job.tables, job.hits, live, i, s);
 
-  const FloatTag d;
   const VF cosine = Dot(DirectionAt(job.rays, i), s.ng);
-  const VF width = job.cones ? hn::Load(d, job.surfels.cone + i) : hn::Zero(d);
+  const VF width = job.cones ? Load(job.surfels.cone, i) : Zero();
   return {t.uv, triangle, t.material, live, w, s.edge1, s.edge2, width, cosine};
 }
 
@@ -288,13 +280,13 @@ HWY_INLINE MapHits MapHitsAt(const SurfelJob& job, MF live, VI triangle, Triangl
 inline HWY_NOINLINE UvLanes UvsOfMap(const ShadingTables& tables, const MapHits& hits,
                                      uint32_t bySecond) {
   const MaterialLanes material(tables, hits.material, hits.live);
-  const MF second = hn::And(hits.live, HasFlags(material.Lobe().flags, bySecond));
+  const MF second = And(hits.live, HasFlags(material.Lobe().flags, bySecond));
 
   const UvLanes& a = hits.first;
-  if (hn::AllFalse(FloatTag(), second)) return a;
+  if (AllFalse(second)) return a;
 
   const UvLanes b = LoadSecondUvs(tables, hits.triangle);
-  const auto select = [&](VF yes, VF no) HWY_ATTR { return hn::IfThenElse(second, yes, no); };
+  const auto select = [&](VF yes, VF no) HWY_ATTR { return IfThenElse(second, yes, no); };
   return {select(b.u0, a.u0), select(b.v0, a.v0), select(b.u1, a.u1),
           select(b.v1, a.v1), select(b.u2, a.u2), select(b.v2, a.v2)};
 }
@@ -302,7 +294,7 @@ inline HWY_NOINLINE UvLanes UvsOfMap(const ShadingTables& tables, const MapHits&
 HWY_INLINE TexturePoints PointsAt(const SurfelJob& job, const MapHits& hits, const UvLanes& uv) {
   const Weights& w = hits.weights;
   TexturePoints at{Interpolate(w, uv.u0, uv.u1, uv.u2), Interpolate(w, uv.v0, uv.v1, uv.v2),
-                   hn::Zero(FloatTag())};
+                   Zero()};
   if (job.cones) {
     at.footprint = TextureFootprint(uv, hits.edge1, hits.edge2, hits.coneWidth, hits.cosine);
   }
@@ -328,7 +320,7 @@ inline HWY_NOINLINE void QueueNormalByOwnUvs(const SurfelJob& job, const MapHits
   const TangentFrame frame =
       FindTangentFrame(uv, hits.edge1, hits.edge2, space.ns, space.handedness);
 
-  QueueMap(job, map, hn::And(hits.live, frame.good), PointsAt(job, hits, uv), slot, block.normal);
+  QueueMap(job, map, And(hits.live, frame.good), PointsAt(job, hits, uv), slot, block.normal);
   StoreFrame(frame, space.flip, slot, block);
 }
 
@@ -337,10 +329,9 @@ inline HWY_NOINLINE void QueueNormalByOwnUvs(const SurfelJob& job, const MapHits
 // for it.
 inline HWY_NOINLINE void QueueByOwnUvs(const SurfelJob& job, size_t i, size_t slot,
                                        BlockTextures& block) {
-  const FloatTag d;
   const ShadingTables& tables = job.tables;
   const auto [valid, triangle] = LoadHits(job.hits, tables.triangleCount, i);
-  if (hn::AllFalse(d, valid)) return;
+  if (AllFalse(valid)) return;
 
   TriangleLanes t = LoadTriangles(tables, triangle);
   Surface s;
@@ -349,8 +340,8 @@ inline HWY_NOINLINE void QueueByOwnUvs(const SurfelJob& job, size_t i, size_t sl
 
   if (job.normalMaps) {
     const VI normalMap = material.NormalMap();
-    if (!hn::AllFalse(d, MappedLanes(normalMap, valid))) {
-      const VF flip = TurnToViewer(hn::Lt(map.cosine, hn::Zero(d)));
+    if (!AllFalse(MappedLanes(normalMap, valid))) {
+      const VF flip = TurnToViewer(Lt(map.cosine, Zero()));
       QueueNormalByOwnUvs(job, map, normalMap, NormalSpace{s.ns, s.handedness, flip}, slot, block);
     }
   }

@@ -13,7 +13,6 @@ namespace whit::simd::HWY_NAMESPACE {
 void WriteEmittedAndReflectiveAmbient(Chunk& c) {
   const FloatTag d;
   const IntTag di;
-  const UintTag du;
 
   const ShadingTables& tables = c.tables();
   const RayColumns rays = c.rays;
@@ -31,27 +30,27 @@ void WriteEmittedAndReflectiveAmbient(Chunk& c) {
   const V3 black = Broadcast3(Vec3f());
   const ReflectedAmbient reflected(c);
 
-  for (size_t i = 0; i < n; i += hn::Lanes(d)) {
-    const VU material = hn::Load(du, surfels.material + i);
-    const MF hit = hn::RebindMask(d, hn::Ne(material, hn::Set(du, kMiss)));
+  for (size_t i = 0; i < n; i += Lanes(d)) {
+    const VU material = Load(surfels.material, i);
+    const MF hit = RebindMask(d, Ne(material, Set(kMiss)));
 
     // Surfaces send ambient light that no ray tests for occlusion, and emission.
     V3 result = black;
     if (ambient) result = reflected.At(i, hit);
-    if (emission && !hn::AllFalse(d, hit)) {
-      V3 own = MaterialLanes(tables, hn::BitCast(di, material), hit).Emission();
+    if (emission && !AllFalse(hit)) {
+      V3 own = MaterialLanes(tables, BitCast(di, material), hit).Emission();
       if (factors) {
-        own = Mul3(own, Load3(surfels.emissionR, surfels.emissionG, surfels.emissionB, i));
+        own = Mul3(own, Load3(surfels.emission, i));
       }
       result = Add3(result, own);
     }
 
     // Only the share of the surface that is there sends light, and a hidden surface sends none.
-    if (coverage) result = Scale3(result, hn::Load(d, surfels.coverage + i));
-    if (hidden) result = Select3(HasFlags(hn::Load(du, surfels.flags + i), kHidden), black, result);
+    if (coverage) result = Scale3(result, Load(surfels.coverage, i));
+    if (hidden) result = Select3(HasFlags(Load(surfels.flags, i), kHidden), black, result);
 
-    if (hn::AllTrue(d, hit)) {
-      Store3(result, radiance.r, radiance.g, radiance.b, i);
+    if (AllTrue(hit)) {
+      Store3(result, radiance.rgb, i);
       continue;
     }
 
@@ -59,14 +58,14 @@ void WriteEmittedAndReflectiveAmbient(Chunk& c) {
     V3 beyond = black;
     if (sky) {
       const V3 direction = DirectionAt(rays, i);
-      beyond = SkyRadiance(tables.sky, direction, hn::AndNot(hit, hn::FirstN(d, n - i)));
+      beyond = SkyRadiance(tables.sky, direction, AndNot(hit, hn::FirstN(d, n - i)));
 
       // A direction of 0 belongs to a pixel that sees nothing.
-      const MF seen = hn::Gt(MaxComponent(Abs3(direction)), hn::Zero(d));
+      const MF seen = Gt(MaxComponent(Abs3(direction)), Zero());
       beyond = Select3(seen, beyond, black);
     }
 
-    Store3(Select3(hit, result, beyond), radiance.r, radiance.g, radiance.b, i);
+    Store3(Select3(hit, result, beyond), radiance.rgb, i);
   }
 }
 
@@ -77,34 +76,56 @@ void AddFog(Chunk& c) {
   const RadianceColumns radiance = c.radiance;
   const bool media = c.has(Feature::transmission);
   const V3 density = Broadcast3(c.tables().fog.density), color = Broadcast3(c.tables().fog.color);
-  const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f), opaque = hn::Set(d, kOpaqueFog);
+  const VF zero = Zero(), one = Set(1.0f), opaque = Set(kOpaqueFog);
 
-  for (size_t i = 0; i < c.n; i += hn::Lanes(d)) {
+  for (size_t i = 0; i < c.n; i += Lanes(d)) {
     // A direction of 0 belongs to a pixel that sees nothing.
-    MF fogged = hn::Gt(MaxComponent(Abs3(DirectionAt(rays, i))), zero);
+    MF fogged = Gt(MaxComponent(Abs3(DirectionAt(rays, i))), zero);
     if (media) {
-      const VU stack = hn::Load(du, rays.media + i);
-      fogged = hn::And(fogged, hn::RebindMask(d, hn::Eq(stack, hn::Zero(du))));
+      const VU stack = Load(rays.media, i);
+      fogged = And(fogged, RebindMask(d, Eq(stack, Zero(du))));
     }
-    if (hn::AllFalse(d, fogged)) continue;
+    if (AllFalse(fogged)) continue;
 
-    const VU material = hn::Load(du, c.surfels.material + i);
-    const MF hit = hn::RebindMask(d, hn::Ne(material, hn::Set(du, kMiss)));
-    const VF t = hn::Load(d, c.hits.t + i);
+    const VU material = Load(c.surfels.material, i);
+    const MF hit = RebindMask(d, Ne(material, Set(kMiss)));
+    const VF t = Load(c.hits.t, i);
 
     // exp(sigma * t) - 1 in channels with fog.
     const auto growth = [&](VF sigma) HWY_ATTR {
-      const VF depth = hn::IfThenElse(hit, hn::Min(hn::Mul(sigma, t), opaque), opaque);
-      const MF dims = hn::And(fogged, hn::Gt(sigma, zero));
-      return hn::Expm1(d, hn::IfThenElseZero(dims, depth));
+      const VF depth = IfThenElse(hit, Min(Mul(sigma, t), opaque), opaque);
+      const MF dims = And(fogged, Gt(sigma, zero));
+      return hn::Expm1(d, IfThenElseZero(dims, depth));
     };
     const V3 more{growth(density.x), growth(density.y), growth(density.z)};
+<<<<<<< ours
     const V3 sum = Load3(radiance.r, radiance.g, radiance.b, i);
     Store3(Add3(sum, Mul3(color, more)), radiance.r, radiance.g, radiance.b, i);
     DimRays(rays,
             {hn::Div(one, hn::Add(one, more.x)), hn::Div(one, hn::Add(one, more.y)),
              hn::Div(one, hn::Add(one, more.z))},
             i);
+||||||| base
+    const V3 left{hn::Div(one, hn::Add(one, more.x)), hn::Div(one, hn::Add(one, more.y)),
+                  hn::Div(one, hn::Add(one, more.z))};
+
+    const V3 sum = Load3(radiance.r, radiance.g, radiance.b, i);
+    Store3(Add3(sum, Mul3(color, more)), radiance.r, radiance.g, radiance.b, i);
+    const V3 weight = Load3(rays.weightR, rays.weightG, rays.weightB, i);
+    Store3(Mul3(weight, left), rays.weightR, rays.weightG, rays.weightB, i);
+    const VF throughput = hn::Load(d, rays.throughput + i);
+    hn::Store(hn::Mul(throughput, MaxComponent(left)), d, rays.throughput + i);
+=======
+    const V3 left{Div(one, Add(one, more.x)), Div(one, Add(one, more.y)),
+                  Div(one, Add(one, more.z))};
+
+    const V3 sum = Load3(radiance.rgb, i);
+    Store3(Add3(sum, Mul3(color, more)), radiance.rgb, i);
+    const V3 weight = Load3(rays.weight, i);
+    Store3(Mul3(weight, left), rays.weight, i);
+    const VF throughput = Load(rays.throughput, i);
+    Store(Mul(throughput, MaxComponent(left)), rays.throughput, i);
+>>>>>>> theirs
   }
 }
 

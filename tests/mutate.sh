@@ -102,57 +102,57 @@ try() {
 
 mutations() {
   plant fixed-epsilon simd/new_rays-inl.h \
-    'MulAdd3(ng, clearance.offset,' 'MulAdd3(ng, hn::Set(d, 1e-3f),'
+    'MulAdd3(ng, clearance.offset,' 'MulAdd3(ng, Set(1e-3f),'
   plant no-offset simd/new_rays-inl.h \
-    'MulAdd3(ng, clearance.offset,' 'MulAdd3(ng, hn::Zero(d),'
-  plant normal-offset-only simd/new_rays-inl.h 'hn::Neg(clearance.viewOffset)' 'hn::Zero(d)'
+    'MulAdd3(ng, clearance.offset,' 'MulAdd3(ng, Zero(),'
+  plant normal-offset-only simd/new_rays-inl.h 'Neg(clearance.viewOffset)' 'Zero()'
   plant wrong-offset-side simd/add_impulses.cpp \
     'ChildOrigin(job, lanes, i, -1.0f)' 'ChildOrigin(job, lanes, i, 1.0f)'
   plant approximate-distance simd/packets.cpp \
-    'HitPoint p{hn::Div(Dot(normal, t.corner), slope),' \
-    'HitPoint p{hn::Mul(hn::Div(Dot(normal, t.corner), slope), hn::Set(d, 1.0f + 0x1p-20f)),'
+    'HitPoint p{Div(Dot(normal, t.corner), slope),' \
+    'HitPoint p{Mul(Div(Dot(normal, t.corner), slope), Set(d, 1.0f + 0x1p-20f)),'
   plant unfactored-fresnel simd/lobes-inl.h \
     'const VF g2 = MulThenAdd(c, c, k);' \
-    'const VF g2 = hn::Add(hn::Sub(hn::Mul(eta, eta), one), hn::Mul(c, c));'
+    'const VF g2 = Add(Sub(Mul(eta, eta), one), Mul(c, c));'
   plant no-total-reflection simd/lobes-inl.h \
-    'f = hn::IfThenElse(total, one, hn::Min(f, one));' \
-    'f = hn::IfThenElse(total, zero, hn::Min(f, one));'
-  plant same-index-reflects simd/lobes-inl.h 'f = hn::IfThenElse(straight, zero, f);' ''
+    'f = IfThenElse(total, one, Min(f, one));' \
+    'f = IfThenElse(total, zero, Min(f, one));'
+  plant same-index-reflects simd/lobes-inl.h 'f = IfThenElse(straight, zero, f);' ''
   plant light-behind-surface simd/find_radiance_and_shadow_rays.cpp \
-    'hn::And(front, hn::Gt(Dot(ns, toLight), zero))' 'hn::Gt(Dot(ns, toLight), zero)'
+    'And(front, Gt(Dot(ns, toLight), zero))' 'Gt(Dot(ns, toLight), zero)'
   plant shadow-ray-too-long simd/find_radiance_and_shadow_rays.cpp \
     'infinity() : kShadowReach)' 'infinity() : kShadowReach + 0x1p-10f)'
   plant light-without-radius simd/find_radiance_and_shadow_rays.cpp \
-    'hn::Max(distanceSquared, radiusSquared_)' \
+    'Max(distanceSquared, radiusSquared_)' \
     'distanceSquared'
   plant flipped-normal simd/surface-inl.h \
-    'return hn::IfThenElse(entering, hn::Set(d, 1.0f), hn::Set(d, -1.0f));' \
-    'return (void)entering, hn::Set(d, 1.0f);'
+    'return IfThenElse(entering, Set(1.0f), Set(-1.0f));' \
+    'return (void)entering, Set(1.0f);'
   plant normal-of-tiny-triangle simd/surface-inl.h \
     'const VF scale = InverseExponent(largest);
-  const V3 unit' 'const VF scale = hn::Set(FloatTag(), 1.0f); (void)largest;
+  const V3 unit' 'const VF scale = Set(1.0f); (void)largest;
   const V3 unit'
   plant unmasked-lane simd/add_impulses.cpp \
-    'const size_t live = HWY_MIN(hn::Lanes(d), n - i);' 'const size_t live = hn::Lanes(d);'
+    'const size_t live = HWY_MIN(Lanes(d), n - i);' 'const size_t live = Lanes(d);'
   plant dropped-lane simd/add_impulses.cpp \
     'return compactor.Count();' 'return compactor.Count() - (compactor.Count() > 3 ? 1 : 0);'
   plant no-elevation simd/add_impulses.cpp \
-    'const MF low = hn::Lt(height, elevation);' 'const MF low = hn::Lt(height, hn::Set(d, -2.0f)); (void)elevation;'
+    'const MF low = Lt(height, elevation);' 'const MF low = Lt(height, Set(-2.0f)); (void)elevation;'
   plant wrong-bend simd/add_impulses.cpp \
-    'MulAdd3(lanes.ns, hn::Neg(interface.bend), lanes.direction)' \
+    'MulAdd3(lanes.ns, Neg(interface.bend), lanes.direction)' \
     'MulAdd3(lanes.ns, interface.bend, lanes.direction)'
   plant nan-throughput simd/add_impulses.cpp \
-    'hn::And(live, hn::And(worth, hn::Gt(child.largest, hn::Zero(d))))' \
-    'hn::And(live, hn::Or(worth, hn::Ne(throughput, throughput)))'
+    'And(live, And(worth, Gt(child.largest, Zero())))' \
+    'And(live, Or(worth, Ne(throughput, throughput)))'
   plant media-not-removed simd/material-inl.h \
-    'return hn::IfThenElse(byteIs(stack), above, result);' 'return result;'
+    'return IfThenElse(byteIs(stack), above, result);' 'return result;'
   plant far-texture-coordinate simd/texture-inl.h \
-    'hn::Le(hn::Abs(s), hn::Set(d, 1048576.0f))' 'hn::Le(hn::Abs(s), hn::Set(d, 1e38f))'
+    'Le(Abs(s), Set(1048576.0f))' 'Le(Abs(s), Set(1e38f))'
   plant stale-tfar simd/packets.cpp \
     'from.tFar ? load(from.tFar) : hn::Inf(d);' \
     'from.tFar ? load(from.tFar)
-        : hn::LoadU(d, WordsOf<kWidth>(to, i) + packet_column::tFar * kWidth);
-    if (!from.tFar) tFar = hn::IfThenElse(hn::Gt(tFar, hn::Zero(d)), tFar, hn::Inf(d));'
+        : LoadU(d, WordsOf<kWidth>(to, i) + packet_column::tFar * kWidth);
+    if (!from.tFar) tFar = IfThenElse(Gt(tFar, Zero(d)), tFar, hn::Inf(d));'
   plant stale-hit src/accel/accel.cpp \
     '++p) {
       std::fill_n(group.packets[p].hit.geomID' \
@@ -161,10 +161,10 @@ mutations() {
   plant off-by-one-tail simd/packets.cpp \
     'hn::FirstN(d, i < n ? n - i : 0)' 'hn::FirstN(d, i < n ? n - i - (n > 1 ? 1 : 0) : 0)'
   plant bad-rays-traced simd/packets.cpp \
-    'hn::And(there, Traceable(d, ox, oy, oz, dx, dy, dz, reach))' 'there'
+    'And(there, Traceable(d, ox, oy, oz, dx, dy, dz, reach))' 'there'
   plant no-retry src/render/renderer.cpp \
     'options_.retry && isEnclosed(scene_, *accel_)' 'false && isEnclosed(scene_, *accel_)'
-  plant eye-in-vacuum simd/generate_rays.cpp 'hn::Set(du, camera.media)' 'hn::Zero(du)'
+  plant eye-in-vacuum simd/generate_rays.cpp 'Set(camera.media)' 'Zero(du)'
   plant media-never-entered src/surfaces/initial_media.cpp \
     '++entered[surface.medium];' ''
   plant eye-beside-the-surface src/surfaces/initial_media.cpp \
@@ -174,13 +174,13 @@ mutations() {
   plant not-robust src/accel/embree_scene.cpp 'options.robust ? RTC_SCENE_FLAG_ROBUST' \
     'false ? RTC_SCENE_FLAG_ROBUST'
   plant sphere-in-floats simd/meet_sphere.cpp \
-    'const auto inside = hn::Sub(one, DotOf<D>(nearest, nearest));' \
-    'const auto inside = hn::PromoteTo(d, hn::DemoteTo(df, hn::Sub(hn::Mul(b, middle),
-                                                                    hn::Sub(DotOf<D>(f, f), one))));'
+    'const auto inside = Sub(one, DotOf<D>(nearest, nearest));' \
+    'const auto inside = PromoteTo(d, hn::DemoteTo(df, Sub(Mul(b, middle),
+                                                                    Sub(DotOf<D>(f, f), one))));'
   plant sphere-without-far-side simd/meet_sphere.cpp \
-    'hn::IfThenElse(hn::Gt(low, start), low, high)' 'hn::IfThenElse(hn::Gt(low, start), low, low)'
+    'IfThenElse(Gt(low, start), low, high)' 'IfThenElse(Gt(low, start), low, low)'
   plant sphere-without-lower-half simd/surface-inl.h \
-    '{hn::IfThenElse(below, foldedU, u), hn::IfThenElse(below, foldedV, v), height}' \
+    '{IfThenElse(below, foldedU, u), IfThenElse(below, foldedV, v), height}' \
     '{u, v, height}; (void)foldedU, (void)foldedV, (void)below'
   plant sphere-inverse-transposed src/accel/sphere_geometry.cpp \
     'inverse.rows[row][column] = rows[row][column]' 'inverse.rows[row][column] = rows[column][row]'
@@ -188,7 +188,7 @@ mutations() {
     'record.outward = toGeometry.determinant() < 0 ? -1.0f : 1.0f;' 'record.outward = 1.0f;'
   plant sphere-without-offset simd/surface-inl.h \
     'surface.magnitude = Select3(s.on, magnitude, surface.magnitude);' \
-    'surface.magnitude = Select3(s.on, Scale3(magnitude, hn::Zero(d)), surface.magnitude);'
+    'surface.magnitude = Select3(s.on, Scale3(magnitude, Zero()), surface.magnitude);'
   plant spheres-in-any-order src/accel/sphere_geometry.cpp \
     'if (other.geometry != sphere.geometry) return false;' \
     'if (other.geometry <= sphere.geometry) return false;'

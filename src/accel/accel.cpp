@@ -8,6 +8,7 @@
 
 #include "accel/embree_scene.h"
 #include "bake/facet.h"
+#include "core/index.h"
 #include "core/stopwatch.h"
 #include "core/text.h"
 #include "simd/kernels.h"
@@ -27,7 +28,7 @@ struct Accel::Parts {
 
   void placeInstances(const Scene& scene) {
     instances.resize(scene.instances.size());
-    for (std::size_t i = 0; i < instances.size(); ++i) {
+    for (const auto i : indices(instances)) {
       instances[i].setToWorld(scene.instances[i].toWorld);
     }
     tables = {scene.triangles.data(), scene.triangles.size(), scene.firstSphere, instances.data(),
@@ -61,11 +62,11 @@ struct ShadowRange {
 
 template <typename Columns>
 Vec3f originAt(const Columns& c, std::size_t i) {
-  return {c.orgX[i], c.orgY[i], c.orgZ[i]};
+  return c.org.at(i);
 }
 template <typename Columns>
 Vec3f directionAt(const Columns& c, std::size_t i) {
-  return {c.dirX[i], c.dirY[i], c.dirZ[i]};
+  return c.dir.at(i);
 }
 
 void store(const Hit& hit, const HitRange& range, std::size_t i) {
@@ -162,7 +163,7 @@ struct Group {
     };
 
     // Kernels write origins, directions and ends only; masks and ids are the same in each group.
-    for (std::size_t p = 0; p < count; ++p) {
+    for (const auto p : indices(count)) {
       if constexpr (kWantsHits<Packet>) {
         start(packets[p].ray, p * kWidth);
       } else {
@@ -174,7 +175,7 @@ struct Group {
   // Activates the lanes of the first `rays` rays; the other rays of the last packet are empty.
   void setLanes(std::size_t rays) {
     count = (rays + kWidth - 1) / kWidth;
-    for (std::size_t i = 0; i < count * kWidth; ++i) {
+    for (const auto i : indices(count * kWidth)) {
       live[i / kWidth].lanes[i % kWidth] = i < rays ? -1 : 0;
     }
   }
@@ -215,7 +216,7 @@ std::size_t traceGroups(const EmbreeScene& scene, unsigned mask, const Range& ra
     if (together) {
       context.traceStream(scene.top(), group.packets, kWidth, group.count);
     } else {
-      for (std::size_t p = 0; p < group.count; ++p) {
+      for (const auto p : indices(group.count)) {
         context.trace(scene.top(), group.packets[p], group.live[p].lanes);
       }
     }
@@ -232,7 +233,7 @@ std::size_t traceGroups(const EmbreeScene& scene, unsigned mask, const Range& ra
 template <int kWidth, typename Packet>
 void storeInstances(const EmbreeScene& scene, const Packet* packets, std::size_t n,
                     const HitColumns& hits) {
-  for (std::size_t i = 0; i < n; ++i) {
+  for (const auto i : indices(n)) {
     const auto& hit = packets[i / kWidth].hit;
     const std::size_t lane = i % kWidth;
     const unsigned instance = hit.instID[0][lane], geometry = hit.geomID[lane];
@@ -249,7 +250,7 @@ std::size_t traceRange(const Accel::Parts& parts, const HitRange& range, double&
   const auto pack = [&](auto& group, std::size_t begin, std::size_t n) {
     parts.kernels.packRays(advanced(range.rays, begin), n, scene.reach(), group.words());
     // Embree writes the ids of hits only, so the ids start as those of a miss.
-    for (std::size_t p = 0; p < group.count; ++p) {
+    for (const auto p : indices(group.count)) {
       std::fill_n(group.packets[p].hit.geomID, kWidth, RTC_INVALID_GEOMETRY_ID);
       std::fill_n(group.packets[p].hit.instID[0], kWidth, RTC_INVALID_GEOMETRY_ID);
     }
@@ -261,7 +262,7 @@ std::size_t traceRange(const Accel::Parts& parts, const HitRange& range, double&
     if (range.instances) storeInstances<kWidth>(scene, group.packets, n, to);
 
     // refineHits() reads the corners once all rays of the chunk are traced.
-    for (std::size_t i = 0; i < n; ++i) {
+    for (const auto i : indices(n)) {
       if (to.triangle[i] != kMiss) __builtin_prefetch(parts.tables.triangles + to.triangle[i]);
     }
   };
@@ -302,7 +303,7 @@ std::size_t traceAll(const Accel::Parts& parts, int packet, const Range& range, 
   if (packet == 4) return traceRange<4>(parts, range, embreeMs);
 
   const Stopwatch stopwatch;
-  for (std::size_t i = 0; i < range.n; ++i) traceSingly(parts.embree, range, i);
+  for (const auto i : indices(range.n)) traceSingly(parts.embree, range, i);
   embreeMs += stopwatch.ms();
   return range.n;
 }
@@ -345,7 +346,8 @@ void retraceEdgeHits(const Accel::Parts& parts, const HitRange& range) noexcept 
 // cosine between ray and normal is at least 2^-10.
 int isNearEye(const RayColumns& rays, const float* t, std::size_t i) {
   constexpr float kNear = 0x1p-12f;
-  const float size = std::fabs(rays.orgX[i]) + std::fabs(rays.orgY[i]) + std::fabs(rays.orgZ[i]);
+  const Vec3f origin = abs(rays.org.at(i));
+  const float size = origin.x + origin.y + origin.z;
   return static_cast<int>(t[i] <= kNear * size);
 }
 
@@ -355,10 +357,10 @@ void lookPastEye(const Accel& accel, const Scene& scene, const HitRange& range) 
   const HitColumns& hits = range.hits;
   // Hits this near are rare, so all are tested before any of them is examined.
   int any = 0;
-  for (std::size_t i = 0; i < range.n; ++i) any |= isNearEye(range.rays, hits.t, i);
+  for (const auto i : indices(range.n)) any |= isNearEye(range.rays, hits.t, i);
   if (any == 0) return;
 
-  for (std::size_t i = 0; i < range.n; ++i) {
+  for (const auto i : indices(range.n)) {
     if (isNearEye(range.rays, hits.t, i) == 0) continue;
     const Vec3f origin = originAt(range.rays, i), direction = directionAt(range.rays, i);
 
@@ -416,7 +418,7 @@ std::uint64_t Accel::memoryBytes() const { return parts_->embree.memoryBytes(); 
 
 void Accel::findHits(Chunk& c) const noexcept {
   const bool instances = c.has(Feature::instances);
-  for (std::size_t s = 0; s < c.segmentCount; ++s) {
+  for (const auto s : indices(c.segmentCount)) {
     const Segment& segment = c.segments[s];
     const HitRange range{advanced(c.rays, segment.begin), advanced(c.hits, segment.begin),
                          segment.end - segment.begin, c.coherent, instances};
@@ -436,7 +438,7 @@ void Accel::findHits(Chunk& c) const noexcept {
 
   // A ray that leaves an enclosed scene has slipped through a corner (hard case H14).
   if (enclosed_) {
-    for (std::size_t i = 0; i < all.n; ++i) {
+    for (const auto i : indices(all.n)) {
       if (c.hits.triangle[i] != kMiss) continue;
       const Hit hit = closest(originAt(c.rays, i), directionAt(c.rays, i));
       if (hit.found()) store(hit, all, i);

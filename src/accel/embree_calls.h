@@ -88,7 +88,7 @@ class QueryContext {
  public:
   template <typename Columns>
   void setRays(const Columns& c) {
-    context_.rays = {c.orgX, c.orgY, c.orgZ, c.dirX, c.dirY, c.dirZ};
+    context_.rays = {c.org.x, c.org.y, c.org.z, c.dir.x, c.dir.y, c.dir.z};
   }
   void setRay(const Vec3f& o, const Vec3f& d) {
     context_.rays = {&o.x, &o.y, &o.z, &d.x, &d.y, &d.z};

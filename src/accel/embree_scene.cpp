@@ -10,6 +10,8 @@
 #include "bake/facet.h"
 #include "bake/scene.h"
 #include "core/error.h"
+#include "core/index.h"
+#include "core/text.h"
 #include "simd/kernels.h"
 
 namespace whit {
@@ -137,7 +139,7 @@ std::string deviceConfiguration(int threads) {
   if (target == "avx2") isa = ",max_isa=avx2";
   if (target == "sse4") isa = ",max_isa=sse4.2";
   if (target == "sse2" || target == "scalar") isa = ",max_isa=sse2";
-  return "threads=" + std::to_string(threads) + isa;
+  return concat("threads=", threads, isa);
 }
 
 // A missing instruction set is the user's choice; every other failure means that a resource ran
@@ -159,8 +161,7 @@ void requireRoomForThreads(int threads) {
   void* const volatile room = ::operator new(needed << 20, std::nothrow);
   ::operator delete(room);
   if (!room) {
-    throwLimit("Embree's threads need " + std::to_string(needed) +
-               " MB of addresses: memory ran out");
+    throwLimit(concat("Embree's threads need ", needed, " MB of addresses: memory ran out"));
   }
 }
 
@@ -212,7 +213,7 @@ void commitScene(RTCDevice device, RTCScene scene, Progress* progress) {
   // so some resource has run out.
   if (error == RTC_ERROR_UNKNOWN) throwLimit(what + ": memory or threads ran out");
 
-  throw std::runtime_error(what + " (error " + std::to_string(static_cast<int>(error)) + ")");
+  throw std::runtime_error(concat(what, " (error ", static_cast<int>(error), ")"));
 }
 
 EmbreeScene::EmbreeScene(const Scene& scene, const RenderOptions& options, EffectSet effects,
@@ -239,7 +240,7 @@ EmbreeScene::EmbreeScene(const Scene& scene, const RenderOptions& options, Effec
 
   // A scene that stands still has its instances in the world's Embree scene, which is committed
   // last.
-  for (std::size_t i = 0; i < scene.geometries.size(); ++i) {
+  for (const auto i : indices(scene.geometries)) {
     scenes_.push_back(newScene());
     addGeometry(i, scene);
     if (effects.has(Effect::spheres)) addSpheres(i, scene);

@@ -8,7 +8,7 @@
 
 #include "bake/facet.h"
 #include "bake/sphere.h"
-#include "core/contains.h"
+#include "core/index.h"
 
 namespace whit {
 
@@ -192,8 +192,7 @@ bool ExactIntersector::areCoincident(PlacedTriangleId a, PlacedTriangleId b) con
   }
 
   if (!scene_.coplanar.any(a.triangle)) return false;
-  const auto partners = scene_.coplanar.partnersOf(a);
-  return contains(partners, b);
+  return contains(scene_.coplanar.partnersOf(a), b);
 }
 
 // Applies the rule of surfaces/choose_surface.h, which prefers `a` to `b` if this returns true.

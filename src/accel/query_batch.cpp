@@ -1,4 +1,5 @@
 #include "accel/query_batch.h"
+#include "core/index.h"
 
 #include <algorithm>
 #include <cmath>
@@ -206,7 +207,7 @@ template <typename Packet>
 Packet RayBatch::packetOf(std::span<const Start> starts, std::size_t first) {
   Packet packet{};
   auto& rays = rayOf(packet);
-  for (std::size_t i = 0; i < kPacket; ++i) {
+  for (const auto i : indices(kPacket)) {
     const Start& s = starts[i];
     rays.org_x[i] = s.origin.x;
     rays.org_y[i] = s.origin.y;
@@ -255,7 +256,7 @@ void RayBatch::traceAs() {
       continue;
     }
 
-    for (std::size_t i = 0; i < n; ++i) {
+    for (const auto i : indices(n)) {
       if (!(run[i].tFar >= 0)) continue;
 
       const Vec3f &o = run[i].origin, &d = run[i].direction;
@@ -273,7 +274,7 @@ void RayBatch::traceAs() {
 void RayBatch::trace(std::span<const QueryRay> rays) {
   rays_ = rays;
   others_.clear();
-  for (std::size_t i = 0; i < rays.size(); ++i) {
+  for (const auto i : indices(rays)) {
     answers_[i] = {false, start(rays[i], starts_[i])};
     best_[i] = {};
   }

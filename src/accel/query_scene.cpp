@@ -7,6 +7,7 @@
 #include "accel/query_batch.h"
 #include "bake/sphere.h"
 #include "core/error.h"
+#include "core/index.h"
 #include "core/worker_pool.h"
 
 namespace whit {
@@ -34,7 +35,7 @@ QueryFrame frameAround(const Box& box) {
 // Moves the edges of a triangle outwards, in its plane.
 Corners enlarged(const Corners& corners, double by) {
   Corners result;
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (const auto i : indices(3)) {
     const Vec3d one = normalized(corners[(i + 1) % 3] - corners[i]);
     const Vec3d other = normalized(corners[(i + 2) % 3] - corners[i]);
 
@@ -73,7 +74,7 @@ PlacedTriangleId QueryScene::placed(const EmbreeContext* context, std::uint32_t 
 QueryScene::QueryScene(const Scene& scene, int threads, Progress* progress)
     : scene_(scene), exact_(scene), device_(newDevice(threads)) {
   // Each geometry has a frame of its own, so that floats are as fine as its extent allows.
-  for (std::size_t g = 0; g < scene.geometries.size(); ++g) {
+  for (const auto g : indices(scene.geometries)) {
     Box box{scene.lower, scene.upper};
     if (g != 0) box = boxOf(scene, scene.geometries[g]);
     frames_.push_back(frameAround(box));

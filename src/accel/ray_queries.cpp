@@ -4,6 +4,7 @@
 
 #include "accel/query_batch.h"
 #include "accel/query_scene.h"
+#include "core/index.h"
 
 namespace whit {
 
@@ -17,7 +18,7 @@ void forEachRay(const QueryScene& scene, QueryKind kind, std::span<const QueryRa
   for (std::size_t begin = 0; begin < rays.size(); begin += RayBatch::kRays) {
     const std::size_t n = std::min(RayBatch::kRays, rays.size() - begin);
     batch.trace(rays.subspan(begin, n));
-    for (std::size_t i = 0; i < n; ++i) visit(batch, i, begin + i);
+    for (const auto i : indices(n)) visit(batch, i, begin + i);
   }
 }
 
@@ -47,7 +48,7 @@ void RayQueries::all(std::span<const QueryRay> rays, std::size_t limit, std::vec
     std::vector<QueryHit>& found = batch.hits(i);
     scene_->exact().keepDistinct(found);
     counts[ray] = std::min(found.size(), limit);
-    for (std::size_t k = 0; k < counts[ray]; ++k) {
+    for (const auto k : indices(counts[ray])) {
       hits.push_back(found[k]);
       hits.back().certain = found[k].certain && batch.answer(i).certain;
     }

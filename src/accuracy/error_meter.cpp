@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/display.h"
+#include "core/index.h"
 #include "core/quantile.h"
 #include "core/worker_pool.h"
 #include "io/image/image_file.h"
@@ -45,7 +46,7 @@ ArithmeticError arithmeticError(Renderer& renderer, const Camera& camera, const 
 
   // Pixels whose path diverged show no rounding error, so they count as equal.
   std::vector<double> ulps;
-  for (std::size_t i = 0; i < paths.diverged.size(); ++i) {
+  for (const auto i : indices(paths.diverged)) {
     if (paths.diverged[i]) {
       paths.packets.pixels[i] = paths.reference.pixels[i];
     } else {

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "core/option_table.h"
+#include "core/text.h"
 #include "output/digest.h"
 
 namespace whit::accuracy {
@@ -124,8 +125,7 @@ void addTransportPoints(const RenderOptions& base, EffectSet effects,
         light.apply(options);
         if (!hasTransport(options)) continue;
 
-        const std::string samples =
-            options.spp == base.spp ? "" : "spp=" + std::to_string(options.spp) + " ";
+        const std::string samples = options.spp == base.spp ? "" : concat("spp=", options.spp, " ");
         std::string label = samples + transport.name + "=" + light.label;
         addPoint(list.points, PointKind::joint, "", label, {}, options);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/index.h"
 #include "inspect/reference_frame.h"
 #include "output/digest.h"
 
@@ -19,7 +20,7 @@ std::vector<RgbD> PassMean::means(std::size_t first, std::size_t step) const {
   std::vector<RgbD> sums(passes_[0].pixels.size());
   double count = 0;
   for (std::size_t i = first; i < passes_.size(); i += step, ++count) {
-    for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += RgbD(passes_[i].pixels[k]);
+    for (const auto k : indices(sums)) sums[k] += RgbD(passes_[i].pixels[k]);
   }
 
   for (RgbD& sum : sums) sum = sum / count;
@@ -38,7 +39,7 @@ double PassMean::standardError() const {
   double sum = 0;
 
   for (const Image& pass : passes_) {
-    for (std::size_t k = 0; k < mean.size(); ++k) {
+    for (const auto k : indices(mean)) {
       const RgbD off = RgbD(pass.pixels[k]) - mean[k];
       sum += dot(off, off) / 3;
     }

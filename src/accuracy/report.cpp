@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "accuracy/reference_pictures.h"
+#include "core/index.h"
 #include "core/option_table.h"
 #include "core/quantile.h"
 #include "core/text.h"
@@ -59,7 +60,7 @@ void addTiming(Json& row, const Point& point) {
   row["noisy"] = t.noisy();
   row["steady_ms"] = numberOf(t.steadyMs);
 
-  for (std::size_t k = 0; k < kRayKindCount; ++k)
+  for (const auto k : indices(kRayKindCount))
     row[std::string(kRayKinds[k].name) + "_rays"] = point.stats.meter.tally[k].rays;
 }
 
@@ -135,7 +136,7 @@ std::string referenceText(const SceneSweep& sweep) {
 
 Json pointsJson(const SceneSweep& sweep, const Json& facts) {
   Json points = sweepRows(sweep, facts);
-  for (std::size_t i = 0; i < sweep.points.size(); ++i) {
+  for (const auto i : indices(sweep.points)) {
     const Point& point = sweep.points[i];
     points[i]["label"] = point.label();
     const auto addPicture = [&](const char* name, const std::string& png) {
@@ -232,7 +233,7 @@ std::string rowOf(const Point& point, std::size_t labelWidth) {
 
 std::vector<std::size_t> paretoFront(const std::vector<CostAndError>& points) {
   std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (const auto i : indices(points)) {
     if (std::isfinite(points[i].cost) && std::isfinite(points[i].error)) order.push_back(i);
   }
 

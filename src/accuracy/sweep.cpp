@@ -8,6 +8,7 @@
 #include "accuracy/points.h"
 #include "accuracy/report.h"
 #include "accuracy/timing.h"
+#include "core/index.h"
 #include "core/stopwatch.h"
 
 namespace whit::accuracy {
@@ -103,7 +104,7 @@ std::vector<std::size_t> chooseOrder(const std::vector<Point>& points,
 bool changesNothing(const Point& point, const FrameSource& frames, const FrameSource& baseline) {
   if (point.kind != PointKind::knob || point.cause != Cause::algorithm) return false;
 
-  for (std::size_t k = 0; k < kRayKindCount; ++k) {
+  for (const auto k : indices(kRayKindCount)) {
     if (frames.stats.meter.tally[k].rays != baseline.stats.meter.tally[k].rays) return false;
   }
   return frames.film.image.pixels == baseline.film.image.pixels;

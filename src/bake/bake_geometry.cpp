@@ -7,7 +7,8 @@
 #include "bake/bake_triangles.h"
 #include "bake/finalize_steps.h"
 #include "bake/sphere.h"
-#include "core/contains.h"
+#include "core/index.h"
+#include "core/text.h"
 
 namespace whit {
 
@@ -80,7 +81,7 @@ class Baker {
     plan();
 
     // All triangles are classified before the tables are allocated in their final sizes.
-    for (std::size_t g = 0; g < sources_.size(); ++g) {
+    for (const auto g : indices(sources_)) {
       place(g);
       dropCoincident(g);
       countClasses(g);
@@ -88,11 +89,11 @@ class Baker {
 
     dropEmptyGeometries();
     reserveTables();
-    for (std::size_t g = 0; g < sources_.size(); ++g) emit(g);
+    for (const auto g : indices(sources_)) emit(g);
 
     // Spheres take the numbers behind those of all triangles.
     scene_.firstSphere = static_cast<std::uint32_t>(scene_.triangles.size());
-    for (std::size_t g = 0; g < sources_.size(); ++g) emitSpheres(g);
+    for (const auto g : indices(sources_)) emitSpheres(g);
 
     findWhatMoves();
     if (!scene_.motion.ofGeometry) {
@@ -115,7 +116,7 @@ class Baker {
 
     std::vector<std::uint64_t> uses(objects.size());
     std::vector<bool> moves(objects.size());
-    for (std::size_t i = 0; i < objects.size(); ++i) moves[i] = bends(objects[i]);
+    for (const auto i : indices(objects)) moves[i] = bends(objects[i]);
     for (const Instance& instance : description_.instances) {
       ++uses[instance.object];
       if (instance.mover != kNoNode) moves[instance.object] = true;
@@ -124,7 +125,7 @@ class Baker {
     // Geometries are numbered in the order of the objects. Objects without instances are freed.
     std::vector<std::uint32_t> geometryOf(objects.size());
     std::uint32_t geometries = 1;
-    for (std::size_t i = 0; i < objects.size(); ++i) {
+    for (const auto i : indices(objects)) {
       if (uses[i] > 1 || (uses[i] == 1 && moves[i])) geometryOf[i] = geometries++;
       if (uses[i] == 0) objects[i] = {};
     }
@@ -189,7 +190,7 @@ class Baker {
   void numberTriangles(std::size_t g) {
     std::vector<Source>& sources = sources_[g];
     std::uint32_t end = 0;
-    for (std::size_t s = 0; s < sources.size(); ++s) {
+    for (const auto s : indices(sources)) {
       sources[s].place.firstTriangle = end;
       // Meshes of one item follow each other and share its numbering.
       const bool goesOn = s > 0 && sources[s].item == sources[s - 1].item;
@@ -297,7 +298,7 @@ class Baker {
     // Sorting by hash makes equal triangles neighbors; the one to keep comes first.
     // Pairs of a hash and an index of `places`.
     std::vector<std::pair<std::uint64_t, std::size_t>> order(places.size());
-    for (std::size_t k = 0; k < order.size(); ++k) order[k] = {triangle(k).hash(), k};
+    for (const auto k : indices(order)) order[k] = {triangle(k).hash(), k};
     std::ranges::sort(order);
 
     // Triangles of equal hashes are compared in full, because different ones may share a hash.
@@ -324,20 +325,20 @@ class Baker {
       Source& source = sources_[g][s];
       source.classified.drop(i);
       warnings_.add("triangle in the place of another of its material dropped",
-                    "mesh '" + source.mesh->name + "', triangle " + std::to_string(i));
+                    concat("mesh '", source.mesh->name, "', triangle ", i));
     }
   }
 
   void countClasses(std::size_t g) {
     Geometry& geometry = scene_.geometries[g];
     for (const Source& source : sources_[g]) {
-      for (std::size_t c = 0; c < kTriangleClasses; ++c) {
+      for (const auto c : indices(kTriangleClasses)) {
         geometry.classBegin[c + 1] += source.classified.count[c];
       }
     }
 
     // Prefix sums turn the counts of the classes into their bounds.
-    for (std::size_t c = 0; c < kTriangleClasses; ++c) {
+    for (const auto c : indices(kTriangleClasses)) {
       geometry.classBegin[c + 1] += geometry.classBegin[c];
     }
   }
@@ -399,7 +400,7 @@ class Baker {
           {static_cast<std::uint32_t>(g), source.firstVertex, source.mesh->deformation});
     }
 
-    for (std::size_t c = 0; c < kTriangleClasses; ++c) {
+    for (const auto c : indices(kTriangleClasses)) {
       for (Source& source : sources_[g]) {
         auto& count = source.classified.count;
         if (count[c] == 0) continue;
@@ -450,7 +451,7 @@ class Baker {
     const Mesh& mesh = *source.mesh;
     Tally badUv, badNormal, badColor;
 
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    for (const auto i : indices(mesh.triangles)) {
       if (source.classified.classes[i] != wanted) continue;
 
       auto corners = mesh.triangles[i];

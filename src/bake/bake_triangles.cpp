@@ -1,4 +1,5 @@
 #include "bake/bake_triangles.h"
+#include "core/index.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +34,7 @@ constexpr double kSameLength = 1e-6;
 // left as they are.
 void giveLengths(const Affine& map, NormalRecord& record) {
   std::array<double, 3> inverse{};
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (const auto i : indices(3)) {
     const float* m = record.normal + 3 * i;
     const Vec3d normal(m[0], m[1], m[2]);
     inverse[i] = length(Vec3d(dot(map.x, normal), dot(map.y, normal), dot(map.z, normal)));
@@ -43,7 +44,7 @@ void giveLengths(const Affine& map, NormalRecord& record) {
   if (!(least > 0) || !(most - least > kSameLength * most)) return;
 
   // Only ratios matter, so the longest normal keeps the length 1.
-  for (std::size_t i = 0; i < 9; ++i) {
+  for (const auto i : indices(9)) {
     const double component = static_cast<double>(record.normal[i]);
     record.normal[i] = static_cast<float>(component * (least / inverse[i / 3]));
   }
@@ -54,7 +55,7 @@ void copyUvs(const std::vector<Vec2f>& uvs, const std::array<std::uint32_t, 3>& 
              const MaterialUse& use, float* to, std::uint64_t& repaired) {
   if (uvs.empty()) return;
 
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (const auto i : indices(3)) {
     const Vec2f& uv = uvs[corners[i]];
     to[2 * i] = finiteOrZero(uv.x, repaired);
     to[2 * i + 1] = finiteOrZero(uv.y, repaired);
@@ -127,7 +128,7 @@ TriangleRecord makeTriangleRecord(const Mesh& mesh, std::size_t triangle,
                                   const std::array<std::uint32_t, 3>& corners,
                                   const MaterialUse& use, std::uint64_t& repaired) {
   TriangleRecord record{};
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (const auto i : indices(3)) {
     const Vec3f& p = position[corners[i]];
     std::copy_n(&p.x, 3, record.position + 3 * i);
   }
@@ -149,7 +150,7 @@ NormalRecord makeNormalRecord(const Mesh& mesh, std::size_t triangle, const Tria
   NormalRecord result;
   // The normal of the face is computed when the first corner needs it.
   Vec3f face;
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (const auto i : indices(3)) {
     Vec3f n;
     if (!mesh.normals.empty()) {
       n = mesh.normals[mesh.triangles[triangle][i]];
@@ -169,7 +170,7 @@ NormalRecord makeNormalRecord(const Mesh& mesh, std::size_t triangle, const Tria
 
 ColorRecord makeColorRecord(const Mesh& mesh, std::size_t triangle, std::uint64_t& repaired) {
   ColorRecord record;
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (const auto i : indices(3)) {
     const Rgb given = mesh.colors.empty() ? Rgb(1.0f) : mesh.colors[mesh.triangles[triangle][i]];
     for (int channel = 0; channel < 3; ++channel) {
       // A NaN becomes 0. It differs from every number, so it counts as repaired.
@@ -188,7 +189,7 @@ TriangleClassification classifyTriangles(const Mesh& mesh, const Vec3f* position
   TriangleClassification result;
   result.classes.resize(mesh.triangles.size());
 
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+  for (const auto i : indices(mesh.triangles)) {
     const bool out =
         drop(mesh.triangles[i], position, vertices, i, mesh.deformation != nullptr, dropped);
     result.classes[i] = out ? kDroppedClass : uses[mesh.material(i)].triangleClass;

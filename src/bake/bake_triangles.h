@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bake/scene.h"
+#include "core/text.h"
 #include "core/warnings.h"
 
 namespace whit {
@@ -73,7 +74,7 @@ struct Tally {
     count += times;
   }
   void report(Warnings& warnings, const char* kind, const Mesh& mesh) const {
-    warnings.add(kind, "mesh '" + mesh.name + "', triangle " + std::to_string(first), count);
+    warnings.add(kind, concat("mesh '", mesh.name, "', triangle ", first), count);
   }
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bake/facet.h"
+#include "core/index.h"
 #include "core/worker_pool.h"
 
 namespace whit {
@@ -64,11 +65,11 @@ CoplanarTriangles::CoplanarTriangles(const Scene& scene,
   // Pairs are stored in both directions, so that sorting groups the partners of each triangle.
   const std::size_t half = pairs.size();
   pairs.reserve(2 * half);
-  for (std::size_t i = 0; i < half; ++i) pairs.emplace_back(pairs[i].second, pairs[i].first);
+  for (const auto i : indices(half)) pairs.emplace_back(pairs[i].second, pairs[i].first);
   std::ranges::sort(pairs);
 
   std::size_t owners = 0;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
+  for (const auto i : indices(pairs)) {
     owners += i == 0 || pairs[i].first != pairs[i - 1].first;
   }
 
@@ -105,14 +106,14 @@ CoplanarTriangles::CoplanarTriangles(const Scene& scene,
 
 void CoplanarTriangles::rankBy(const Scene& scene, const SceneOrder& order) {
   std::vector<std::pair<WrittenPlace, std::size_t>> all;  // pairs of a place and a slot
-  for (std::size_t k = 0; k < slots_.size(); ++k) {
+  for (const auto k : indices(slots_)) {
     if (slots_[k].count > 0) all.emplace_back(order.placeOf(scene, slots_[k].id), k);
   }
   std::ranges::sort(all);
-  for (std::size_t i = 0; i < all.size(); ++i) {
+  for (const auto i : indices(all)) {
     slots_[all[i].second].rank = static_cast<std::uint32_t>(i);
   }
-  for (std::size_t i = 0; i < partners_.size(); ++i) ranks_[i] = rankOf(partners_[i]);
+  for (const auto i : indices(partners_)) ranks_[i] = rankOf(partners_[i]);
 }
 
 // The slot of the triangle, or the free slot where it would be stored.

@@ -9,6 +9,7 @@
 #include "bake/finalize_steps.h"
 #include "bake/sphere.h"
 #include "core/error.h"
+#include "core/index.h"
 #include "core/machine_limits.h"
 #include "core/warnings.h"
 #include "scene/members.h"
@@ -70,7 +71,7 @@ void moveView(Scene& scene, const std::vector<Affine>& poses, double seconds) {
 
 void setCorners(const Geometry& geometry, const std::array<std::uint32_t, 3>& corners,
                 TriangleRecord& record) {
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (const auto i : indices(3)) {
     const Vec3f& p = geometry.position[corners[i]];
     std::copy_n(&p.x, 3, record.position + 3 * i);
   }
@@ -81,7 +82,7 @@ void setCorners(const Geometry& geometry, const std::array<std::uint32_t, 3>& co
 void setNormals(const std::vector<Vec3f>& normals, const std::array<std::uint32_t, 3>& places,
                 const TriangleRecord& triangle, NormalRecord& record) {
   const Vec3f face(faceNormal(triangle));
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (const auto i : indices(3)) {
     Vec3f n = normals.empty() ? face : normals[places[i]];
     if (n == Vec3f()) n = face;
     std::copy_n(&n.x, 3, record.normal + 3 * i);
@@ -110,7 +111,7 @@ void bend(Scene& scene, BentVertices& bent, double seconds) {
   std::ranges::copy(vertices.positions, geometry.position.begin() + bent.firstVertex);
   const std::size_t count = vertices.positions.size();
 
-  for (std::size_t i = 0; i < geometry.index.size(); ++i) {
+  for (const auto i : indices(geometry.index)) {
     auto& corners = geometry.index[i];
     if (corners[0] < bent.firstVertex || corners[0] - bent.firstVertex >= count) continue;
 
@@ -169,7 +170,7 @@ void editShading(Scene& scene, std::vector<Material> materials, std::vector<Ligh
   d.lights = lights;
   d.materials = materials;
   validate(d);
-  for (std::size_t i = 0; i < materials.size(); ++i) keepBaked(scene.materials[i], materials[i]);
+  for (const auto i : indices(materials)) keepBaked(scene.materials[i], materials[i]);
 
   const bool kindsStay = std::ranges::equal(materials, scene.materials, sameKind) &&
                          std::ranges::equal(lights, scene.lights, sameKindOfLight);

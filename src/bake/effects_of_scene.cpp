@@ -3,6 +3,8 @@
 
 #include "bake/bake_triangles.h"
 #include "bake/finalize_steps.h"
+#include "core/index.h"
+#include "core/text.h"
 
 namespace whit {
 
@@ -10,10 +12,6 @@ namespace {
 
 // Normals closer to the face's than this are its own, written down with five digits or more.
 constexpr double kFlat = 1e-5;
-
-std::string counted(std::uint64_t n, const std::string& noun) {
-  return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
-}
 
 bool isSkyBlack(const Sky& sky) {
   const auto bright = [](float x) { return x > 0; };
@@ -90,7 +88,7 @@ class Gatherer {
   void byMaterial(const MaterialRule& rule) {
     const std::string what = rule.what;
     std::uint64_t count = 0, triangles = 0;
-    for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
+    for (const auto i : indices(scene_.materials)) {
       if (uses_[i] == 0 || !rule.has(scene_.materials[i])) continue;
       ++count;
       triangles += uses_[i];
@@ -159,7 +157,7 @@ class Gatherer {
       directional += light.kind == Light::Kind::directional;
       wide += hasExtent(light);
     }
-    for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
+    for (const auto i : indices(scene_.materials)) {
       if (scene_.materials[i].castsShadow) casting += uses_[i];
     }
     const std::string dark =

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bake/sphere.h"
+#include "core/index.h"
 
 namespace whit {
 
@@ -34,7 +35,7 @@ Interval extentOf(const Facet& facet, const Vec3d& origin, const Vec3d& axis) {
 bool haveInCommon(const Facet& a, const Facet& b, double width) {
   // Separating axis test in the plane: the axes are the normals of all six edges.
   for (const Facet* facet : {&a, &b}) {
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (const auto i : indices(3)) {
       const Vec3d& origin = facet->corners[i];
       const Vec3d axis = cross(facet->normal, facet->corners[(i + 1) % 3] - origin);
       const Interval own = extentOf(a, origin, axis), other = extentOf(b, origin, axis);
@@ -56,7 +57,7 @@ std::array<CoveredPart::Edge, 3> edgesAround(const std::array<Weights, 3>& corne
                                              const Weights& off) {
   constexpr double kRounding = 0x1p-20;  // relative error of the sum in floats
   std::array<CoveredPart::Edge, 3> edges;
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (const auto i : indices(3)) {
     // The line through corners p and q is a * u + b * v + c = 0.
     const Weights &p = corners[i], &q = corners[(i + 1) % 3], &opposite = corners[(i + 2) % 3];
     double a = p.v - q.v, b = q.u - p.u, c = p.u * q.v - p.v * q.u;
@@ -159,7 +160,7 @@ CoveredPart coveredPart(const Facet& on, const Facet& of) {
   const Weights off = {kRounding + slack * length(growthU), kRounding + slack * length(growthV)};
 
   std::array<Weights, 3> corners;
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (const auto i : indices(3)) {
     const Vec3d from = of.corners[i] - on.corners[0];
     corners[i] = {dot(from, growthU), dot(from, growthV)};
   }

@@ -6,6 +6,7 @@
 
 #include "bake/edit_scene.h"
 #include "bake/finalize_steps.h"
+#include "core/index.h"
 #include "core/machine_limits.h"
 #include "core/text.h"
 #include "scene/members.h"
@@ -40,7 +41,7 @@ std::uint64_t bytesOf(const Vector& v) {
 
 std::string place(const std::string& scene, const std::string& kind, std::size_t i,
                   const std::string& name) {
-  const std::string thing = kind + (name.empty() ? " " + std::to_string(i) : " '" + name + "'");
+  const std::string thing = kind + (name.empty() ? concat(" ", i) : " '" + name + "'");
   return scene.empty() ? thing : scene + ": " + thing;
 }
 
@@ -63,7 +64,7 @@ void checkMembers(const Noun& noun, const std::string& where) {
 }
 
 void checkLights(const SceneDescription& d) {
-  for (std::size_t i = 0; i < d.lights.size(); ++i) {
+  for (const auto i : indices(d.lights)) {
     const Light& light = d.lights[i];
     const std::string where = place(d.name, "light", i, light.name);
     checkMembers(light, where);
@@ -84,7 +85,7 @@ bool isSingular(const Affine& a) {
 }
 
 void checkInstances(const SceneDescription& d) {
-  for (std::size_t i = 0; i < d.instances.size(); ++i) {
+  for (const auto i : indices(d.instances)) {
     const Affine& map = d.instances[i].toWorld;
     const std::string where = place(d.name, "instance", i, d.objects[d.instances[i].object].name);
     for (const Vec3d& column : {map.x, map.y, map.z, map.p}) {
@@ -104,7 +105,7 @@ void addInstance(const Scene& scene, const InstanceRecord& instance, const std::
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3d world = instance.toWorld.point(Vec3d(own.corner(corner)));
     if (!(maxComponent(abs(world)) <= kLargestCoordinate)) {
-      throwBadScene(scene.name + ": instance of geometry " + std::to_string(instance.geometry),
+      throwBadScene(concat(scene.name, ": instance of geometry ", instance.geometry),
                     "expected coordinates up to 1.844e18 after its transform");
     }
     all.add(Vec3f(world));
@@ -138,14 +139,14 @@ void numberMedia(Scene& scene) {
   scene.mediumOfMaterial.assign(scene.materials.size(), 0);
   const std::vector<std::uint64_t> uses = trianglesOfMaterials(scene);
 
-  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+  for (const auto i : indices(scene.materials)) {
     const Material& m = scene.materials[i];
     if (!m.boundsMedium() || uses[i] == 0) continue;
 
     // Equal dielectrics share a number.
     const Medium medium{m.ior, m.absorption, m.priority};
     const auto known = std::find(scene.media.begin() + 1, scene.media.end(), medium);
-    const auto number = static_cast<std::size_t>(known - scene.media.begin());
+    const std::size_t number = known - scene.media.begin();
     if (number > kMediaLimit) throwLimit(scene.name + ": more than 255 different dielectrics");
 
     scene.mediumOfMaterial[i] = static_cast<std::uint8_t>(number);
@@ -233,7 +234,7 @@ void validate(const std::string& scene, const Sky& sky, const Ambient& ambient) 
 
 void validate(const SceneDescription& description) {
   checkLights(description);
-  for (std::size_t i = 0; i < description.materials.size(); ++i) {
+  for (const auto i : indices(description.materials)) {
     const Material& material = description.materials[i];
     checkMembers(material, place(description.name, "material", i, material.name));
   }

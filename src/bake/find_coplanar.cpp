@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "bake/facet.h"
+#include "core/index.h"
 #include "core/vec3.h"
 #include "core/worker_pool.h"
 
@@ -97,8 +98,8 @@ void sortInSpace(std::span<BoxedItem> items, std::size_t children, int threads) 
 
   // The split lies between two full nodes, about in the middle.
   const std::size_t middle = ((items.size() + full - 1) / full + 1) / 2 * full;
-  const auto along = std::array{&Vec3f::x, &Vec3f::y, &Vec3f::z}[static_cast<std::size_t>(axis)];
-  std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(middle), items.end(),
+  const auto along = std::array{&Vec3f::x, &Vec3f::y, &Vec3f::z}[axis];
+  std::nth_element(items.begin(), items.begin() + middle, items.end(),
                    [along](const BoxedItem& a, const BoxedItem& b) {
                      return a.box.lower.*along + a.box.upper.*along <
                             b.box.lower.*along + b.box.upper.*along;
@@ -123,14 +124,14 @@ class BoxBlock {
   using Bytes = std::uint64_t;
 
   BoxBlock() {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const auto axis : indices(3)) {
       lower_[axis].fill(std::numeric_limits<float>::max());
       upper_[axis].fill(std::numeric_limits<float>::lowest());
     }
   }
 
   void set(std::size_t i, const Box& box) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const auto axis : indices(3)) {
       lower_[axis][i] = box.lower[static_cast<int>(axis)];
       upper_[axis][i] = box.upper[static_cast<int>(axis)];
     }
@@ -144,10 +145,10 @@ class BoxBlock {
   Bytes meeting(const Box& other) const {
     std::array<std::uint8_t, kBoxes> marks;
     marks.fill(1);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const auto axis : indices(3)) {
       const float lower = other.lower[static_cast<int>(axis)];
       const float upper = other.upper[static_cast<int>(axis)];
-      for (std::size_t i = 0; i < kBoxes; ++i) {
+      for (const auto i : indices(kBoxes)) {
         const unsigned meets =
             unsigned{lower_[axis][i] <= upper} & unsigned{lower <= upper_[axis][i]};
         marks[i] = static_cast<std::uint8_t>(marks[i] & meets);
@@ -163,9 +164,9 @@ class BoxBlock {
     const std::array<Vec3d, 3> columns{map.x, map.y, map.z};
     Doubles growth;
     growth.fill(error + kErrorOfMagnitude * magnitudeOf({}, &map));
-    for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const auto axis : indices(3)) {
       const double share = kErrorOfMagnitude * magnitudeOf(columns[axis], nullptr);
-      for (std::size_t i = 0; i < kBoxes; ++i) {
+      for (const auto i : indices(kBoxes)) {
         growth[i] += share * std::max(std::abs(lower_[axis][i]), std::abs(upper_[axis][i]));
       }
     }
@@ -175,10 +176,10 @@ class BoxBlock {
     for (int row = 0; row < 3; ++row) {
       Doubles center, half;
       center.fill(map.p[row]);
-      for (std::size_t i = 0; i < kBoxes; ++i) half[i] = kGrowth * growth[i];
-      for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (const auto i : indices(kBoxes)) half[i] = kGrowth * growth[i];
+      for (const auto axis : indices(3)) {
         const double factor = 0.5 * columns[axis][row], size = std::abs(factor);
-        for (std::size_t i = 0; i < kBoxes; ++i) {
+        for (const auto i : indices(kBoxes)) {
           const double lower = lower_[axis][i], upper = upper_[axis][i];
           center[i] += factor * (lower + upper);
           half[i] += size * (upper - lower);
@@ -187,12 +188,10 @@ class BoxBlock {
 
       // Empty boxes stay empty: a map that shrinks them could let large boxes meet them.
       constexpr double kMost = std::numeric_limits<float>::max();
-      for (std::size_t i = 0; i < kBoxes; ++i) {
+      for (const auto i : indices(kBoxes)) {
         const bool isEmpty = lower_[0][i] > upper_[0][i];
-        to.lower_[static_cast<std::size_t>(row)][i] =
-            static_cast<float>(isEmpty ? kMost : center[i] - half[i]);
-        to.upper_[static_cast<std::size_t>(row)][i] =
-            static_cast<float>(isEmpty ? -kMost : center[i] + half[i]);
+        to.lower_[row][i] = static_cast<float>(isEmpty ? kMost : center[i] - half[i]);
+        to.upper_[row][i] = static_cast<float>(isEmpty ? -kMost : center[i] + half[i]);
       }
     }
     return to;
@@ -229,7 +228,7 @@ class BoxTree {
 
     places_.reserve(boxes.size());
     levels_.emplace_back((boxes.size() + kChildren - 1) / kChildren);
-    for (std::size_t i = 0; i < boxes.size(); ++i) {
+    for (const auto i : indices(boxes)) {
       places_.push_back(boxes[i].place);
       levels_[0][i / kChildren].set(i % kChildren, boxes[i].box);
     }
@@ -239,10 +238,10 @@ class BoxTree {
     while (counts_.back() > 1) {
       const std::vector<BoxBlock>& below = levels_.back();
       std::vector<BoxBlock> level((below.size() + kChildren - 1) / kChildren);
-      for (std::size_t i = 0; i < below.size(); ++i) {
+      for (const auto i : indices(below)) {
         Box all;
-        for (std::size_t k = 0;
-             k < std::min<std::size_t>(kChildren, counts_.back() - i * kChildren); ++k) {
+        for (const auto k :
+             indices(std::min<std::size_t>(kChildren, counts_.back() - i * kChildren))) {
           all.add(below[i].box(k).lower);
           all.add(below[i].box(k).upper);
         }
@@ -613,7 +612,7 @@ class CoplanarFinder {
         kWorkPerTriangle * static_cast<std::int64_t>(scene_.triangles.size());
 
     std::vector<PairFinder> finders;
-    finders.reserve(static_cast<std::size_t>(threads_));
+    finders.reserve(threads_);
     for (int i = 0; i < threads_; ++i) finders.emplace_back(space, groups, groupTree, test);
 
     // One search from the root collects tasks, which the threads then work off.
@@ -622,7 +621,7 @@ class CoplanarFinder {
     finders[0].search(root, others ? finders[0].rootOf(others) : root, work, &tasks);
 
     parallelFor(threads_, tasks.size(), [&](std::size_t i, int worker) {
-      finders[static_cast<std::size_t>(worker)].search(tasks[i].first, tasks[i].second, work);
+      finders[worker].search(tasks[i].first, tasks[i].second, work);
     });
 
     // Which pairs an aborted search has found depends on the threads, so they are discarded.

@@ -49,8 +49,8 @@ std::uint32_t meanTexel(const Texture& texture, const TexelWeights* weights,
   double total = 0;
   const int channels = texture.format == TexelFormat::data ? 4 : 3;
 
-  for (std::size_t y = 0; y < rows.shares.size(); ++y) {
-    for (std::size_t x = 0; x < columns.shares.size(); ++x) {
+  for (const auto y : indices(rows.shares)) {
+    for (const auto x : indices(columns.shares)) {
       const int column = columns.first + static_cast<int>(x);
       const int row = rows.first + static_cast<int>(y);
       const std::uint32_t texel = texture.texel(column, row);
@@ -58,7 +58,7 @@ std::uint32_t meanTexel(const Texture& texture, const TexelWeights* weights,
       if (weights) share *= weights->at(column, row);
       total += share;
       for (int c = 0; c < channels; ++c) {
-        entryOf(sum, c) += share * valueOf(texture.format, texel, c);
+        sum[c] += share * valueOf(texture.format, texel, c);
       }
     }
   }
@@ -71,7 +71,7 @@ std::uint32_t meanTexel(const Texture& texture, const TexelWeights* weights,
   }
   std::uint32_t mean = 0;
   for (int c = 0; c < channels; ++c) {
-    mean |= codeOf(texture.format, entryOf(sum, c), c);
+    mean |= codeOf(texture.format, sum[c], c);
   }
   return mean;
 }
@@ -126,9 +126,7 @@ Texture halvedBy(const Texture& texture, const TexelWeights* weights) {
 
 // The weights of the map's texels at full size; none where no mask weights them.
 std::optional<TexelWeights> weightsOf(const std::vector<Texture>& textures, const ShownMap& map) {
-  const auto texture = [&](std::int32_t number) -> const Texture& {
-    return entryOf(textures, number);
-  };
+  const auto texture = [&](std::int32_t number) -> const Texture& { return textures[number]; };
   const Texture& own = texture(map.texture);
   std::optional<TexelWeights> weights;
   // An alpha map cuts rays away: a texel counts by the share of its area that is left.
@@ -139,7 +137,7 @@ std::optional<TexelWeights> weightsOf(const std::vector<Texture>& textures, cons
 
   TexelWeights coverage = resized(firstChannel(texture(map.coverageMap)), own.width, own.height);
   if (weights) {
-    for (std::size_t i = 0; i < coverage.values.size(); ++i) {
+    for (const auto i : indices(coverage.values)) {
       coverage.values[i] *= weights->values[i];
     }
   }
@@ -160,7 +158,7 @@ void fillUnseen(const TexelWeights& weights, const Texture& above, Texture& leve
 }
 
 std::vector<Texture> smallerLevels(const std::vector<Texture>& textures, const ShownMap& map) {
-  const Texture* last = &entryOf(textures, map.texture);
+  const Texture* last = &textures[map.texture];
   std::vector<Texture> levels;
   levels.reserve(kMipLevels);
 
@@ -231,7 +229,7 @@ MipMaps::MipMaps(const Scene& scene, int threads)
     : MipMaps(scene.textures, shownMaps(scene), threads) {}
 
 const Texture& MipMaps::level(const ShownMap& map, int level) const {
-  const Texture& full = entryOf(*textures_, map.texture);
+  const Texture& full = (*textures_)[map.texture];
   if (level == 0) return full;
 
   const auto smaller = smaller_.find(map);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bake/finalize_steps.h"
+#include "core/index.h"
 #include "core/machine_limits.h"
 #include "core/worker_pool.h"
 
@@ -37,7 +38,7 @@ class WeldedMesh {
     edges.reserve(3 * triangles_.size());
 
     for (const std::array<std::uint32_t, 3>& t : triangles_) {
-      for (std::size_t i = 0; i < 3; ++i) {
+      for (const auto i : indices(3)) {
         const std::uint32_t a = t[i], b = t[(i + 1) % 3];
         edges.emplace_back(std::array{std::min(a, b), std::max(a, b)}, a < b ? 1 : -1);
       }
@@ -46,7 +47,7 @@ class WeldedMesh {
     // Sorting makes the uses of an edge neighbors. Their directions have to cancel.
     std::ranges::sort(edges);
     int balance = 0;
-    for (std::size_t i = 0; i < edges.size(); ++i) {
+    for (const auto i : indices(edges)) {
       balance += edges[i].second;
       const bool last = i + 1 == edges.size() || edges[i + 1].first != edges[i].first;
       if (last && balance != 0) return false;
@@ -92,7 +93,7 @@ class WeldedMesh {
     };
     std::ranges::sort(order, {}, [&](std::uint32_t i) { return std::pair(key(i), i); });
 
-    for (std::size_t i = 0; i < order.size(); ++i) {
+    for (const auto i : indices(order)) {
       const bool same = i > 0 && key(order[i]) == key(order[i - 1]);
       first[order[i]] = same ? first[order[i - 1]] : order[i];
     }
@@ -145,13 +146,13 @@ void decideDoubleSided(SceneDescription& description) {
     isClosed[i] = !hasHoles(*meshes[i]) && isShell(*meshes[i]);
   });
 
-  for (std::size_t i = 0; i < meshes.size(); ++i) {
+  for (const auto i : indices(meshes)) {
     for (const std::uint32_t m : meshes[i]->materials) {
       if (m < culls.size() && isClosed[i] == 0) culls[m] = true;
     }
   }
 
-  for (std::size_t i = 0; i < culls.size(); ++i) {
+  for (const auto i : indices(culls)) {
     Material& m = description.materials[i];
     m.doubleSided = m.doubleSided || m.boundsMedium() || !culls[i];
   }

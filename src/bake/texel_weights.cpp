@@ -1,4 +1,5 @@
 #include "bake/texel_weights.h"
+#include "core/index.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -20,7 +21,7 @@ TexelWeights weightsLike(const Texture& mask) {
 }  // namespace
 
 std::vector<TexelCover> texelCovers(int size, int count) {
-  std::vector<TexelCover> covers(static_cast<std::size_t>(count));
+  std::vector<TexelCover> covers(count);
   // All borders are whole numbers in units of 1 / count of a texel.
   std::int64_t begin = 0;
   for (TexelCover& cover : covers) {
@@ -85,8 +86,8 @@ TexelWeights resized(const TexelWeights& weights, int width, int height) {
   for (const TexelCover& rows : texelCovers(weights.height, height)) {
     for (const TexelCover& across : columns) {
       double sum = 0;
-      for (std::size_t y = 0; y < rows.shares.size(); ++y) {
-        for (std::size_t x = 0; x < across.shares.size(); ++x) {
+      for (const auto y : indices(rows.shares)) {
+        for (const auto x : indices(across.shares)) {
           sum += rows.shares[y] * across.shares[x] *
                  weights.at(across.first + static_cast<int>(x), rows.first + static_cast<int>(y));
         }

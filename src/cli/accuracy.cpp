@@ -9,6 +9,7 @@
 #include "command_line/program.h"
 #include "command_line/progress_bar.h"
 #include "core/error.h"
+#include "core/text.h"
 #include "engine/engine.h"
 #include "io/files.h"
 #include "output/image_output.h"
@@ -38,9 +39,7 @@ struct AccuracyJob {
 };
 
 std::string knobHelp() {
-  std::string names;
-  for (const Knob& knob : allKnobs()) names += (names.empty() ? "" : ", ") + knob.name;
-  return "knobs to sweep (default: all: " + names + ")";
+  return "knobs to sweep (default: all: " + joined(namesIn(allKnobs())) + ")";
 }
 
 OptionList listOptions(AccuracyJob& job) {

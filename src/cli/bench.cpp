@@ -10,6 +10,7 @@
 #include "command_line/program.h"
 #include "command_line/progress_bar.h"
 #include "core/error.h"
+#include "core/index.h"
 #include "core/machine_limits.h"
 #include "core/option_table.h"
 #include "core/text.h"
@@ -64,7 +65,7 @@ struct BenchJob {
     return turns;
   }
   const Series& series() const {
-    const auto i = static_cast<std::size_t>(std::ranges::find(wanted, true) - wanted.begin());
+    const std::size_t i = std::ranges::find(wanted, true) - wanted.begin();
     return i < wanted.size() ? kSeries[i] : kOneRun;
   }
 };
@@ -75,7 +76,7 @@ OptionList listOptions(BenchJob& job) {
   list.value({"frames", "N", 1, 1e6}, "measured frames (20 after 3 to warm up; reference: 1)",
              job.frames);
   list.flag("floor", "also measure Embree alone on the same rays", job.floor);
-  for (std::size_t i = 0; i < job.wanted.size(); ++i)
+  for (const auto i : indices(job.wanted))
     list.flag(kSeries[i].flag, kSeries[i].help, job.wanted[i]);
   list.value({"json", "FILE"}, "all runs as JSON; - is standard output", job.json);
   list.value({"csv", "FILE"}, "all runs as a table, a line each", job.csv);
@@ -185,7 +186,7 @@ int benchCommand(const Words& words) {
   std::vector<RunSummary> summaries;
   BenchRuns runs;
 
-  for (std::size_t i = 0; i < job.scenes.size(); ++i) {
+  for (const auto i : indices(job.scenes)) {
     addRuns(runs, job.scenes[i], job, progress.get());
     // Runs to be compared are held in memory together; others one after the other.
     if (&job.series() != &kOneRun && i + 1 < job.scenes.size()) continue;

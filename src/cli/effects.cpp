@@ -9,6 +9,7 @@
 #include "command_line/program.h"
 #include "command_line/progress_bar.h"
 #include "core/error.h"
+#include "core/index.h"
 #include "core/text.h"
 #include "engine/open_scene.h"
 #include "io/files.h"
@@ -81,7 +82,7 @@ std::vector<EffectStep> measureSteps(const EffectsJob& job, Progress* progress) 
 
   // The frames of all steps take turns, so that other load of the machine affects all alike.
   measureInTurn(runs, TurnCounts{3, job.frames, false}, progress);
-  for (std::size_t i = 0; i < steps.size(); ++i) {
+  for (const auto i : indices(steps)) {
     steps[i].run = runs[i]->summary();
     steps[i].memoryMb = runs[i]->memoryMb();
     writeImage((std::filesystem::path(job.out) / pictureName(steps, i)).string(), runs[i]->film(),
@@ -119,7 +120,7 @@ int effectsCommand(const Words& words) {
   progress.reset();
 
   std::vector<std::string> pictures;
-  for (std::size_t i = 0; i < steps.size(); ++i) pictures.push_back(pictureName(steps, i));
+  for (const auto i : indices(steps)) pictures.push_back(pictureName(steps, i));
   const Json report = effectsJson(steps, pictures);
   if (!job.common.quiet) std::printf("%s", effectsTable(report).c_str());
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "core/index.h"
 #include "core/text.h"
 #include "output/json_report.h"
 
@@ -17,7 +18,7 @@ template <typename Of>
 void putAdded(Json& row, const std::string& key, const RunSummary& run, const RunSummary* before,
               const Of& of) {
   std::vector<double> added;
-  for (std::size_t i = 0; i < run.frames.size(); ++i) {
+  for (const auto i : indices(run.frames)) {
     const double base = before ? std::invoke(of, before->frames.at(i)) : 0;
     added.push_back(std::invoke(of, run.frames[i]) - base);
   }
@@ -64,7 +65,7 @@ Json effectsRows(const std::vector<EffectStep>& steps) {
     putAdded(row, "added_ms", step.run, runBefore, &FrameStats::frameMs);
     putAdded(row, "added_outside_embree_ms", step.run, runBefore, outsideEmbreeMs);
 
-    for (std::size_t k = 0; k < kRayKindCount; ++k)
+    for (const auto k : indices(kRayKindCount))
       row[std::string(kRayKinds[k].name) + "_rays"] = frame.meter.tally[k].rays;
 
     row["added_rays"] = raysOf(step) - (before ? raysOf(*before) : 0);

@@ -9,6 +9,7 @@
 #include "command_line/progress_bar.h"
 #include "core/display.h"
 #include "core/error.h"
+#include "core/index.h"
 #include "core/option_table.h"
 #include "core/text.h"
 #include "engine/engine.h"
@@ -67,8 +68,8 @@ PixelPlace readPixel(const std::string& text, const Image& image) {
   const bool inside =
       place.x >= 0 && place.y >= 0 && place.x < image.width && place.y < image.height;
   if (!inside) {
-    throwUsage("--pixel " + text + " is not in the picture of " + std::to_string(image.width) +
-               "x" + std::to_string(image.height));
+    throwUsage(
+        concat("--pixel ", text, " is not in the picture of ", image.width, "x", image.height));
   }
   return place;
 }
@@ -91,8 +92,7 @@ class TreeText {
   std::string text() {
     for (const std::size_t primary : e_.rays.packets.primaries) appendNode(primary);
     if (leftOut_ > 0) {
-      text_ += formatted("%zu more ray%s, adding %s\n", leftOut_, leftOut_ == 1 ? "" : "s",
-                         textOf(restAdds_).c_str());
+      text_ += counted(leftOut_, "more ray") + ", adding " + textOf(restAdds_) + "\n";
     }
     return std::move(text_);
   }
@@ -135,16 +135,12 @@ std::string headOf(const Explained& e) {
     return formatted("  %-11s%.6f %.6f %.6f  codes %d %d %d\n", name, double{pixel.x},
                      double{pixel.y}, double{pixel.z}, codes[0], codes[1], codes[2]);
   };
-  const auto counted = [](std::size_t n, const char* noun) {
-    return std::to_string(n) + noun + (n == 1 ? "" : "s");
-  };
-
   const std::size_t rays = e.rays.packets.nodes.size();
   bool parts = false;
-  for (std::size_t i = 0; i < rays; ++i) parts |= e.rays.partsAt(i);
+  for (const auto i : indices(rays)) parts |= e.rays.partsAt(i);
 
   return formatted("%s, pixel %d,%d: ", printable(e.scene.name).c_str(), e.place.x, e.place.y) +
-         counted(rays, " ray") + " and " + counted(e.rays.packets.shadowRays(), " shadow ray") +
+         counted(rays, "ray") + " and " + counted(e.rays.packets.shadowRays(), "shadow ray") +
          "\n" + line("packets", e.rays.packets.pixel) + line("reference", e.rays.reference.pixel) +
          (parts ? "  their paths part\n" : "") + "\n";
 }
@@ -302,7 +298,7 @@ std::string lessonPage(const ExplainJob& job, const Explained& e, const std::str
   const Crop tile{x0, y0, std::min(x0 + side, window.x1), std::min(y0 + side, window.y1)};
   const ImageSize size{film.image.width, film.image.height};
   std::vector<RayText> words;
-  for (std::size_t i = 0; i < e.rays.packets.nodes.size(); ++i) {
+  for (const auto i : indices(e.rays.packets.nodes)) {
     words.push_back(describeRay(e.scene, e.rays, i));
   }
   const std::string picture = pictureBy(camera, e.options, size, renderer, job);

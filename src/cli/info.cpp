@@ -22,7 +22,7 @@ Json vectorJson(const Vec3d& v) { return Json::array({v.x, v.y, v.z}); }
 Json effectsJson(const Scene& scene, const RenderOptions& options) {
   Json effects;
   for (int i = 0; i < kEffectCount; ++i) {
-    const auto index = static_cast<std::size_t>(i);
+    const std::size_t index = i;
     const EffectReason& reason = scene.reasons[index];
     const bool disabled = options.disable.has(static_cast<Effect>(i));
     effects[std::string(kEffectNames[index].name)] = {

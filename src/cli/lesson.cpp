@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/index.h"
 #include "output/explained_rays.h"
 #include "output/report_page.h"
 
@@ -36,7 +37,7 @@ class StageRecorder : public StageObserver {
 
     // Each chunk of a depth passes this stage once, so its rays are counted here.
     if (stage == Stage::findIntersections) {
-      const auto depth = static_cast<std::size_t>(c.depth);
+      const std::size_t depth = c.depth;
       while (depths_.size() <= depth) depths_.push_back(0);
       depths_[depth] = depths_[depth].get<std::size_t>() + c.n;
     }
@@ -92,7 +93,7 @@ class StageRecorder : public StageObserver {
         keepAll("unshadowed ", c, c.unshadowed);
         break;
       case Stage::addImpulses:
-        for (std::size_t i = 0; i < c.childSegmentCount; ++i) {
+        for (const auto i : indices(c.childSegmentCount)) {
           const Segment& kind = c.childSegments[i];
           keepRows(std::string(rowOf(kind.kind).name) + " ", c, c.children, {kind.begin, kind.end},
                    c.children.parent);
@@ -135,8 +136,8 @@ class StageRecorder : public StageObserver {
     // Unshadowed radiance has a value where the light is visible or a shadow ray was made.
     std::vector<bool> lit(c.n, !kOfLight);
     if constexpr (kOfLight) {
-      for (std::size_t i = 0; i < c.n; ++i) lit[i] = c.unshadowed.visible[i] > 0;
-      for (std::size_t i = 0; i < c.shadowCount; ++i) lit[c.shadows.slot[i]] = true;
+      for (const auto i : indices(c.n)) lit[i] = c.unshadowed.visible[i] > 0;
+      for (const auto i : indices(c.shadowCount)) lit[c.shadows.slot[i]] = true;
     }
 
     Columns::forEachColumn(columns, [&](const char* name, const auto* column, Feature) {

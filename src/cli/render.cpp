@@ -16,8 +16,8 @@
 #include "cli/terminal_picture.h"
 #include "command_line/program.h"
 #include "command_line/progress_bar.h"
-#include "core/contains.h"
 #include "core/error.h"
+#include "core/index.h"
 #include "core/options.h"
 #include "core/stopwatch.h"
 #include "core/text.h"
@@ -418,7 +418,7 @@ class ImageWriter {
                 const ImageMetadata& metadata) const {
     return std::ranges::all_of(files, [&](const std::string& file) {
       ImageMetadata expected = metadata;
-      const auto number = static_cast<std::size_t>(&file - files.data());
+      const std::size_t number = &file - files.data();
       const ImageMetadata own = ownMetadata(file, formatOf(number));
       expected.insert(expected.end(), own.begin(), own.end());
       return isWhole(file, image, expected, engine_.options());
@@ -434,7 +434,7 @@ class ImageWriter {
   void startWriting(const Film& film, const std::vector<std::string>& files,
                     ImageMetadata metadata) {
     writer_.start([=, this, &film, metadata = std::move(metadata)] {
-      for (std::size_t i = 0; i < files.size(); ++i) {
+      for (const auto i : indices(files)) {
         if (isFilm(files[i])) {
           pipe_->add(film.display.rgba);
         } else {
@@ -494,9 +494,9 @@ void tell(const ImageWriter& writer, const RenderJob& job) {
 void printWrittenImages(const ImageWriter& writer, const RenderJob& job, double seconds) {
   const std::vector<std::string>& files = writer.written();
   const RunSummary& run = writer.run();
-  std::string what = std::to_string(files.size()) + " images";
+  std::string what = concat(files.size(), " images");
   if (files.size() == 1) what = files[0] == kStandardOutput ? "an image" : printable(files[0]);
-  if (writer.kept() > 0) what += ", kept " + std::to_string(writer.kept());
+  if (writer.kept() > 0) what += concat(", kept ", writer.kept());
   if (!run.frames.empty()) what += formatted(", %dx%d", run.width, run.height);
   if (job.common.render.exposure.automatic) {
     what += formatted(", exposure %g EV", static_cast<double>(writer.exposure().ev));
@@ -586,7 +586,7 @@ int turntableCommand(const Words& words) {
   applyQuality(job.common.render, {});  // --help states the values of the preset
   if (!parseOptions(kTurntableUsage, kTurntableSummary, listOptions(job), words)) return 0;
 
-  if (job.frames.empty()) job.frames = "0.." + std::to_string(job.turntableFrames - 1);
+  if (job.frames.empty()) job.frames = concat("0..", job.turntableFrames - 1);
   return render(job);
 }
 

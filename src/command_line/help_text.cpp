@@ -13,7 +13,7 @@
 
 #include "command_line/parse_options.h"
 #include "command_line/program.h"
-#include "core/contains.h"
+#include "core/index.h"
 #include "core/option_table.h"
 #include "core/text.h"
 #include "io/files.h"
@@ -138,7 +138,7 @@ std::string termsText(const Terms& terms) {
 
 std::string helpText(const std::string& usage, const std::string& summary, const OptionList& list,
                      HelpTier tier, int width) {
-  const auto columns = static_cast<std::size_t>(width);
+  const std::size_t columns = width;
   std::string text = wrapped(summary, 0, 0, columns) + "\nUsage: " + usage + "\n";
 
   if (list.operand.most > 0) {
@@ -238,10 +238,9 @@ std::string manOptions(const std::string& usage, const std::string& summary,
   for (const auto& [title, terms] : groupsOf(list, std::not_fn(isShared))) text += termsText(terms);
 
   // Shared options are described once, after all commands, so a command only refers to them.
-  std::string shared;
-  for (const auto& [title, terms] : groupsOf(list, isShared)) {
-    shared += (shared.empty() ? "" : ", ") + title;
-  }
+  std::vector<std::string> titles;
+  for (const auto& [title, terms] : groupsOf(list, isShared)) titles.push_back(title);
+  const std::string shared = joined(titles);
   return shared.empty() ? text : text + ".PP\nAlso the options described below: " + shared + ".\n";
 }
 

@@ -1,4 +1,5 @@
 #include "core/display.h"
+#include "core/index.h"
 
 #include <algorithm>
 #include <cmath>
@@ -114,7 +115,7 @@ DisplayImage overBackground(const Image& image, std::span<const float> alpha,
   display.rgba.reserve(image.pixels.size() * 4);
   const double scale = std::exp2(static_cast<double>(options.exposure.ev));
 
-  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+  for (const auto i : indices(image.pixels)) {
     // Pixels are premultiplied by their coverage; the division gives the surfaces' own color.
     const Rgb surfaces = alpha[i] > 0 ? image.pixels[i] / alpha[i] : Rgb(0.0f);
     const auto codes = displayCodes(surfaces, scale, options.toneCurve);
@@ -124,7 +125,7 @@ DisplayImage overBackground(const Image& image, std::span<const float> alpha,
 
     // Mixing is done in linear light. A transparent picture keeps the codes of its surfaces,
     // because PNG stores colors that are not premultiplied.
-    for (std::size_t c = 0; c < 3; ++c) {
+    for (const auto c : indices(3)) {
       const double behind{linearOfCode(background.color[c])};
       const double mixed = behind + (double{linearOfCode(codes[c])} - behind) * covered;
       display.rgba.push_back(display.hasAlpha ? codes[c]

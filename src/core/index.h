@@ -1,7 +1,12 @@
-// Indices of type int and enumerators, which are not negative, as places in tables and grids.
+// Indices of type int and enumerators, which are not negative, as places in tables and grids; the
+// indices of a table; and whether it has a value.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <functional>
+#include <iterator>
+#include <ranges>
 
 namespace whit {
 
@@ -9,6 +14,19 @@ template <typename Table, typename Index>
 constexpr decltype(auto) entryOf(Table& table, Index index) {
   return table[static_cast<std::size_t>(index)];
 }
+
+// True if the projection of an entry equals `value`.
+template <typename Table, typename Value, typename Projection = std::identity>
+constexpr bool contains(const Table& table, const Value& value, Projection projection = {}) {
+  return std::ranges::find(table, value, projection) != std::ranges::end(table);
+}
+
+// The numbers from 0 that are less than `count`, as std::views::indices of C++26.
+constexpr auto indices(std::size_t count) { return std::views::iota(std::size_t{0}, count); }
+
+template <typename Table>
+requires requires(const Table& table) { std::size(table); }
+constexpr auto indices(const Table& table) { return indices(std::size(table)); }
 
 // Cells of a grid that is kept row by row.
 constexpr std::size_t cellsOf(int columns, int rows) {

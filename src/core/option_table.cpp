@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "core/index.h"
 #include "core/text.h"
 
 namespace whit {
@@ -113,7 +114,7 @@ void takeOver(const RenderOptions& from, Rebuild most, RenderOptions& to) {
 
 void applyQuality(RenderOptions& options, const std::set<std::string>& given) {
   const auto& preset = entryOf(kPresets, options.quality);
-  for (std::size_t i = 0; i < preset.size(); ++i) {
+  for (const auto i : indices(preset)) {
     if (!given.contains(kPresetOptions[i])) setOption(options, kPresetOptions[i], preset[i]);
   }
 }
@@ -122,7 +123,7 @@ std::vector<QualityPreset> qualityPresets() {
   const RenderOptions defaults;
   std::vector<QualityPreset> all;
 
-  for (std::size_t i = 0; i < std::size(kPresets); ++i) {
+  for (const auto i : indices(std::size(kPresets))) {
     RenderOptions options;
     options.quality = static_cast<Quality>(i);
     applyQuality(options, {});
@@ -195,7 +196,7 @@ bool readBackground(const std::string& text, Background& value) {
 
   if (digits.size() != 6) return false;
 
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (const auto i : indices(3)) {
     const char* const first = digits.data() + 2 * i;
     const auto [stop, error] = std::from_chars(first, first + 2, value.color[i], 16);
     if (error != std::errc() || stop != first + 2) return false;

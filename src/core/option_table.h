@@ -15,6 +15,7 @@
 
 #include "core/error.h"
 #include "core/options.h"
+#include "core/text.h"
 
 namespace whit {
 
@@ -124,8 +125,7 @@ void parseValue(const OptionSpec& spec, const std::string& text, T& value) {
   } else if constexpr (std::is_same_v<T, ImageSize>) {
     expect(readAll('x', v.width, v.height) && std::min(v.width, v.height) >= 1 &&
                std::max(v.width, v.height) <= kImageSideLimit,
-           "WIDTHxHEIGHT in pixels, each from 1 to " + std::to_string(kImageSideLimit) +
-               ", as 1280x720");
+           concat("WIDTHxHEIGHT in pixels, each from 1 to ", kImageSideLimit, ", as 1280x720"));
   } else if constexpr (std::is_same_v<T, Crop>) {
     expect(readAll(',', v.x0, v.y0, v.x1, v.y1) && std::min(v.x0, v.y0) >= 0 && v.x0 < v.x1 &&
                v.y0 < v.y1 && std::max(v.x1, v.y1) <= kImageSideLimit,
@@ -175,9 +175,7 @@ std::string formatValue(const OptionSpec& spec, const T& v) {
   } else if constexpr (std::is_same_v<T, std::string>) {
     return v;
   } else if constexpr (std::is_same_v<T, EffectSet>) {
-    std::string text;
-    for (const std::string& name : effectNames(v)) text += (text.empty() ? "" : ",") + name;
-    return text;
+    return joined(effectNames(v), ",");
   } else {
     return namesOf(v);
   }

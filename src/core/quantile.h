@@ -14,7 +14,7 @@ inline double quantile(std::vector<double> values, double share) {
 
   const double rank = std::ceil(share * static_cast<double>(values.size()));
   const auto index = static_cast<std::size_t>(std::max(rank, 1.0)) - 1;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(std::min(index, values.size() - 1));
+  const auto at = values.begin() + std::min(index, values.size() - 1);
 
   // A partial sort finds one order statistic in linear time on average.
   std::nth_element(values.begin(), at, values.end());

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <utility>
 
-#include "core/contains.h"
 #include "core/error.h"
+#include "core/index.h"
 
 namespace whit {
 
@@ -51,10 +51,10 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> older, old, row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
 
-  for (std::size_t i = 0; i < a.size(); ++i) {
+  for (const auto i : indices(a)) {
     older = std::exchange(old, row);
     row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
+    for (const auto j : indices(b)) {
       row[j + 1] = std::min({old[j] + (a[i] == b[j] ? 0 : 1), row[j] + 1, old[j + 1] + 1});
       // A transposition refers to the row before the last one.
       const bool swapped = i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j];
@@ -152,9 +152,17 @@ std::string didYouMean(const std::string& word, const std::vector<std::string>& 
   if (!nearest.empty()) return "; did you mean '" + nearest + "'?";
   if (kind.empty() || names.empty()) return "";
 
+  return "; every " + kind + " there is: " + joined(names);
+}
+
+std::string joined(const std::vector<std::string>& names, const std::string& separator) {
   std::string all;
-  for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
-  return "; every " + kind + " there is: " + all;
+  for (const std::string& name : names) all += (all.empty() ? "" : separator) + name;
+  return all;
+}
+
+std::string counted(std::uint64_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
 std::vector<std::size_t> indicesOf(const std::string& commaSeparated,

@@ -4,10 +4,13 @@
 
 #include <cstdarg>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <iterator>
 #include <sstream>
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace whit {
@@ -26,6 +29,19 @@ __attribute__((format(printf, 1, 2))) inline std::string formatted(const char* f
   std::vsnprintf(text.data(), text.size(), format, again);
   va_end(again);
   text.pop_back();
+  return text;
+}
+
+inline void append(std::string& text, std::string_view part) { text += part; }
+template <typename Number>
+requires std::is_arithmetic_v<Number>
+void append(std::string& text, Number number) { text += std::to_string(number); }
+
+// The parts, texts and numbers, one after the other.
+template <typename... Parts>
+std::string concat(const Parts&... parts) {
+  std::string text;
+  (append(text, parts), ...);
   return text;
 }
 
@@ -68,6 +84,12 @@ std::string nearestName(const std::string& word, const std::vector<std::string>&
 std::string didYouMean(const std::string& word, const std::vector<std::string>& names,
                        const std::string& kind = "");
 
+// The names, one after the other.
+std::string joined(const std::vector<std::string>& names, const std::string& separator = ", ");
+
+// "1 ray", "2 rays".
+std::string counted(std::uint64_t count, const std::string& noun);
+
 // The indices in `names` of the names in the text, which are separated by commas. Throws
 // Error(usage) for an unknown one: "no KIND is called ...", with all there are.
 std::vector<std::size_t> indicesOf(const std::string& commaSeparated,
@@ -75,6 +97,15 @@ std::vector<std::size_t> indicesOf(const std::string& commaSeparated,
 
 // The names, with a number after those that are taken: "lamp", "lamp#2".
 std::vector<std::string> distinctNames(const std::vector<std::string>& names);
+
+// The keys of a map.
+template <typename Map>
+std::vector<std::string> keysOf(const Map& map) {
+  std::vector<std::string> keys;
+  keys.reserve(map.size());
+  for (const auto& [key, value] : map) keys.push_back(key);
+  return keys;
+}
 
 // The names of a table whose rows have a member `name`.
 template <typename Table>

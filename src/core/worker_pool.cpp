@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/flush_denormals.h"
+#include "core/text.h"
 
 namespace whit {
 
@@ -37,11 +38,11 @@ void WorkerPool::startWorkers() {
   };
 
   try {
-    threads.reserve(static_cast<std::size_t>(workers_));
+    threads.reserve(workers_);
     for (int i = 1; i < workers_; ++i) threads.emplace_back([this, i] { work(i); });
   } catch (const std::system_error& error) {
     undo();
-    throwLimit("cannot start " + std::to_string(workers_) + " threads: " + error.what());
+    throwLimit(concat("cannot start ", workers_, " threads: ", error.what()));
   } catch (...) {
     undo();
     throw;
@@ -100,7 +101,7 @@ void WorkerPool::call(int worker) noexcept {
 void parallelFor(int threads, std::size_t count,
                  const std::function<void(std::size_t i, int worker)>& task) {
   std::atomic<std::size_t> next{0};
-  const auto most = static_cast<std::size_t>(std::max(threads, 1));
+  const std::size_t most = std::max(threads, 1);
   WorkerPool pool(static_cast<int>(std::clamp<std::size_t>(count, 1, most)), Denormals::kept);
 
   pool.run([&](int worker) {

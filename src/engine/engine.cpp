@@ -138,11 +138,8 @@ void Engine::setMesh(const std::string& name, GivenMesh mesh, Progress* progress
   std::map<std::string, GivenMesh>& meshes = changed->parts.meshes;
   const auto found = meshes.find(name);
   if (found == meshes.end()) {
-    std::vector<std::string> names;
-    names.reserve(meshes.size());
-    for (const auto& [known, arrays] : meshes) names.push_back(known);
     throwUsage("updateMesh: the scene has no mesh '" + name + "' of a program's arrays" +
-               didYouMean(name, names, "mesh"));
+               didYouMean(name, keysOf(meshes), "mesh"));
   }
 
   found->second = std::move(mesh);

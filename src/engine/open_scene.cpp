@@ -1,6 +1,7 @@
 #include "engine/open_scene.h"
 
 #include "core/stopwatch.h"
+#include "core/text.h"
 
 namespace whit {
 
@@ -48,10 +49,7 @@ std::string noLightWarning(const Scene& scene) {
 void addSettings(const std::vector<std::string>& settings, const std::string& sky,
                  ImageMetadata& metadata) {
   // The metadata have one entry for all settings, a line for each.
-  std::string text;
-  for (const std::string& setting : settings) text += (text.empty() ? "" : "\n") + setting;
-
-  if (!text.empty()) metadata.emplace_back("set", text);
+  if (!settings.empty()) metadata.emplace_back("set", joined(settings, "\n"));
   if (!sky.empty()) metadata.emplace_back("sky", sky);
 }
 

@@ -58,7 +58,7 @@ Luminances luminancesOf(const Renderer& renderer, const Camera& camera) {
       frameWithMedia(scene, settings.effects, intersector, camera, width, height, 1);
 
   // Rows are joined in order, so that the result does not depend on the threads.
-  std::vector<Luminances> rows(static_cast<std::size_t>(height));
+  std::vector<Luminances> rows(height);
   parallelFor(renderer.machine().threads, rows.size(), [&](std::size_t row, int) {
     reference::RayCounts counts;
     const int y = static_cast<int>(row);

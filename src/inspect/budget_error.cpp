@@ -3,6 +3,7 @@
 #include <random>
 #include <span>
 
+#include "core/index.h"
 #include "core/stopwatch.h"
 #include "inspect/budget.h"
 #include "inspect/prober.h"
@@ -36,7 +37,7 @@ std::vector<double> pooledRadiance(const Film& film) {
   means.channels.resize(ChannelSet().with(Channel::error), film.image.pixels.size());
   const std::span<float> values = means.channels.floats(Channel::error);
 
-  for (std::size_t i = 0; i < film.image.pixels.size(); ++i) {
+  for (const auto i : indices(film.image.pixels)) {
     const Rgb& pixel = film.image.pixels[i];
     values[2 * i] = (pixel.x + pixel.y + pixel.z) / 3;
   }
@@ -82,7 +83,7 @@ ChangedPictures changedPictures(const Scene& scene, const Film& film) {
   std::mt19937 random;
   std::uniform_real_distribution<float> noise(-std::sqrt(3.0f), std::sqrt(3.0f));  // variance 1
 
-  for (std::size_t i = 0; i < film.image.pixels.size(); ++i) {
+  for (const auto i : indices(film.image.pixels)) {
     const double error = double{errors[2 * i]};
     const Rgb change(noise(random) * errors[2 * i]);
     changed.noisy.pixels[i] += change;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/index.h"
 #include "core/option_table.h"
 #include "core/stopwatch.h"
 #include "inspect/budget.h"
@@ -286,7 +287,7 @@ class Chooser {
   void measureBias(KnobLevels& knob, const Probe& one) {
     const std::vector<Image> shown = renderLevels(1, one, knob);
     const Image& truth = shown[knob.endsExact() ? shown.size() - 1 : 0];
-    for (std::size_t i = 0; i < shown.size(); ++i) {
+    for (const auto i : indices(shown)) {
       knob.levels[i].bias2 = difference2(shown[i], truth);
     }
   }
@@ -343,7 +344,7 @@ class Chooser {
   void complete(Combination& c, double leftMs) const {
     // Costs multiply, and squared errors add up.
     double bias2 = 0, noise2 = noise2_, ms = scale_ * sampleUs_ * prober_.pixels() / 1e3;
-    for (std::size_t i = 0; i < knobs_.size(); ++i) {
+    for (const auto i : indices(knobs_)) {
       const Level& level = knobs_[i].levels[c.levels[i]];
       bias2 += level.bias2;
       noise2 += level.noise2;
@@ -382,7 +383,7 @@ class Chooser {
   // Counts the levels of all knobs up, like the digits of a number. Returns false after the last
   // combination.
   bool advance(Combination& c) const {
-    for (std::size_t i = 0; i < knobs_.size(); ++i) {
+    for (const auto i : indices(knobs_)) {
       if (++c.levels[i] < knobs_[i].levels.size()) return true;
       c.levels[i] = 0;
     }
@@ -419,7 +420,7 @@ class Chooser {
 
   RenderOptions optionsOf(const Combination& c) const {
     RenderOptions options = baseline_;
-    for (std::size_t i = 0; i < knobs_.size(); ++i) {
+    for (const auto i : indices(knobs_)) {
       setOption(options, knobs_[i].name, knobs_[i].levels[c.levels[i]].value);
     }
 
@@ -438,7 +439,7 @@ class Chooser {
     // The receipt lists all chosen values, and once more those that are not exact.
     if (!fixed_.contains("spp")) r.chosen.emplace_back("spp", std::to_string(best.spp));
     if (wasAdaptive_ && !baseline_.adaptive) r.chosen.emplace_back("adaptive", "off");
-    for (std::size_t i = 0; i < knobs_.size(); ++i) {
+    for (const auto i : indices(knobs_)) {
       const KnobLevels& knob = knobs_[i];
       const Level& level = knob.levels[best.levels[i]];
       r.chosen.emplace_back(knob.name, level.value);

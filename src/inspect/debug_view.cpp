@@ -5,6 +5,7 @@
 
 #include "core/display.h"
 #include "core/image.h"
+#include "core/index.h"
 #include "core/stopwatch.h"
 #include "core/text.h"
 #include "inspect/metrics.h"
@@ -29,7 +30,7 @@ class Watcher : public StageObserver {
 
     if (view_ == DebugView::cost) {
       // The rays of the chunk share the time of the stage equally.
-      for (std::size_t i = 0; i < chunk.n; ++i) {
+      for (const auto i : indices(chunk.n)) {
         add(chunk, i, {static_cast<float>(us / static_cast<double>(chunk.n)), 0, 0}, 0);
       }
     } else if (view_ == DebugView::rays || view_ == DebugView::occupancy) {
@@ -58,13 +59,13 @@ class Watcher : public StageObserver {
     }
 
     // All packets are full except for the last one.
-    const auto width = static_cast<std::size_t>(renderer_.machine().packet);
+    const std::size_t width = renderer_.machine().packet;
     const std::size_t live = std::min(width, n - i / width * width);
     add(chunk, slot, {static_cast<float>(live) / static_cast<float>(width), 0, 0}, 1);
   }
 
   void countRays(const Chunk& chunk) {
-    for (std::size_t s = 0; s < chunk.segmentCount; ++s) {
+    for (const auto s : indices(chunk.segmentCount)) {
       const Segment& part = chunk.segments[s];
       for (std::size_t i = part.begin; i < part.end; ++i) {
         countRay(chunk, i, i - part.begin, part.end - part.begin);
@@ -73,22 +74,22 @@ class Watcher : public StageObserver {
   }
 
   void countShadowRays(const Chunk& chunk) {
-    for (std::size_t i = 0; i < chunk.shadowCount; ++i) {
+    for (const auto i : indices(chunk.shadowCount)) {
       countRay(chunk, chunk.shadows.slot[i], i, chunk.shadowCount);
     }
   }
 
   void lookAtSurfels(const Chunk& chunk) {
     const SurfelColumns& s = chunk.surfels;
-    for (std::size_t i = 0; i < chunk.n; ++i) {
+    for (const auto i : indices(chunk.n)) {
       if (s.material[i] == kMiss) {
         add(chunk, i, {0, 0, 0}, view_ == DebugView::depth ? 0 : 1);
       } else if (view_ == DebugView::depth) {
         add(chunk, i, {chunk.hits.t[i], 0, 0}, 1);
       } else if (view_ == DebugView::normals) {
-        add(chunk, i, Rgb{s.nsX[i] + 1, s.nsY[i] + 1, s.nsZ[i] + 1} * 0.5f, 1);
+        add(chunk, i, (s.ns.at(i) + Rgb(1)) * 0.5f, 1);
       } else {
-        add(chunk, i, {s.diffuseR[i], s.diffuseG[i], s.diffuseB[i]}, 1);
+        add(chunk, i, s.diffuse.at(i), 1);
       }
     }
   }
@@ -175,7 +176,7 @@ void paint(const DebugPicture& picture, DisplayImage& display) {
     return share > 0 ? std::min(share, 1.0) : 0;
   };
 
-  for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+  for (const auto i : indices(picture.pixels)) {
     const WatchedPixel& p = picture.pixels[i];
     std::array<std::uint8_t, 3> color{};
     if (!hasScale) {

@@ -1,6 +1,7 @@
 // LDR-FLIP: P. Andersson, J. Nilsson, T. Akenine-Moeller, M. Oskarsson, K. Astroem, M. D.
 // Fairchild, "FLIP: A Difference Evaluator for Alternating Images", HPG 2020. Section numbers are
 // the paper's.
+#include "core/index.h"
 #include "inspect/metrics.h"
 
 #include <algorithm>
@@ -47,7 +48,7 @@ Plane filterAlongX(const Plane& plane, const Taps& taps) {
     std::copy(row, row + plane.width, padded.begin() + radius);
     std::fill_n(padded.begin() + radius + plane.width, radius, row[plane.width - 1]);
 
-    for (std::size_t i = 0; i < taps.size(); ++i)
+    for (const auto i : indices(taps))
       addScaled(out.row(y), padded.data() + i, taps[i], plane.width);
   }
   return out;
@@ -58,7 +59,7 @@ Plane filterAlongY(const Plane& plane, const Taps& taps) {
   Plane out(plane.width, plane.height);
 
   for (int y = 0; y < plane.height; ++y) {
-    for (std::size_t i = 0; i < taps.size(); ++i) {
+    for (const auto i : indices(taps)) {
       const int from = y - radius + static_cast<int>(i);
       addScaled(out.row(y), plane.row(std::clamp(from, 0, plane.height - 1)), taps[i], plane.width);
     }
@@ -102,7 +103,7 @@ const ColorSpace& colorSpace() {
     const double determinant = dot(m[0], a);
 
     ColorSpace s;
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (const auto i : indices(3)) {
       const int k = static_cast<int>(i);
       s.toXyz.rows[i] = Vec3f(m[i]);
       s.toRgb.rows[i] = Vec3f(Vec3d(a[k], b[k], c[k]) / determinant);
@@ -129,7 +130,7 @@ Planes opponentPlanes(const DisplayImage& image) {
   Planes planes;
   planes.fill(Plane(image.width, image.height));
 
-  for (std::size_t i = 0; i < planes[0].values.size(); ++i) {
+  for (const auto i : indices(planes[0].values)) {
     const std::uint8_t* code = image.rgba.data() + 4 * i;
     const Vec3f o = opponentOfXyz(
         toXyz * Rgb{linearOfCode(code[0]), linearOfCode(code[1]), linearOfCode(code[2])});
@@ -183,10 +184,10 @@ Plane filterContrast(const Plane& plane, const std::vector<Gaussian>& gaussians)
     total += masses.back();
   }
 
-  for (std::size_t k = 0; k < gaussians.size(); ++k) {
+  for (const auto k : indices(gaussians)) {
     const Plane part = filterAlongY(filterAlongX(plane, taps[k]), taps[k]);
     const float share = static_cast<float>(masses[k] / total);
-    for (std::size_t i = 0; i < sum.values.size(); ++i) sum.values[i] += share * part.values[i];
+    for (const auto i : indices(sum.values)) sum.values[i] += share * part.values[i];
   }
 
   return sum;
@@ -230,7 +231,7 @@ std::vector<Vec3f> filteredLab(const Planes& opponent) {
   const Matrix& toRgb = colorSpace().toRgb;
   std::vector<Vec3f> lab;
   lab.reserve(filtered[0].values.size());
-  for (std::size_t i = 0; i < filtered[0].values.size(); ++i) {
+  for (const auto i : indices(filtered[0].values)) {
     const Vec3f rgb = toRgb * xyzOfOpponent({filtered[0].values[i], filtered[1].values[i],
                                              filtered[2].values[i]});
     lab.push_back(huntLab(min(max(rgb, Vec3f(0)), Vec3f(1))));
@@ -269,7 +270,7 @@ void findFeatures(const Plane& achromatic, FlipSide& side) {
     const Plane x = filterAlongY(filterAlongX(luminance, taps), smoothing);
     const Plane y = filterAlongY(smooth, taps);
     std::vector<float> result(x.values.size());
-    for (std::size_t i = 0; i < result.size(); ++i)
+    for (const auto i : indices(result))
       result[i] = std::sqrt(x.values[i] * x.values[i] + y.values[i] * y.values[i]);
     return result;
   };
@@ -292,7 +293,7 @@ std::vector<float> flipOfCodes(const DisplayImage& first, const DisplayImage& se
   const FlipSide a = flipSide(first), b = flipSide(second);
   std::vector<float> flip(a.lab.size());
 
-  for (std::size_t i = 0; i < flip.size(); ++i) {
+  for (const auto i : indices(flip)) {
     const float color = redistribute(hyAb(a.lab[i], b.lab[i]));
     const float feature =
         std::max(std::abs(a.edge[i] - b.edge[i]), std::abs(a.point[i] - b.point[i]));

@@ -23,17 +23,18 @@ class RayLogger : public StageObserver {
   void after(Stage stage, const Chunk& c) override {
     if (stage == Stage::findIntersections) {
       const RayColumns& r = c.rays;
-      append({false, c.coherent}, {r.orgX, r.orgY, r.orgZ, r.dirX, r.dirY, r.dirZ, nullptr}, c.n);
+      append({false, c.coherent}, r.org, r.dir, nullptr, c.n);
     } else if (stage == Stage::checkShadows) {
       const ShadowColumns& r = c.shadows;
-      append({true, c.shadowsAreCoherent()},
-             {r.orgX, r.orgY, r.orgZ, r.dirX, r.dirY, r.dirZ, r.tFar}, c.shadowCount);
+      append({true, c.shadowsAreCoherent()}, r.org, r.dir, r.tFar, c.shadowCount);
     }
   }
   const std::vector<RayStream>& streams() const { return streams_; }
 
  private:
-  void append(const RayStream& kind, const std::array<const float*, 7>& rays, std::size_t n) {
+  void append(const RayStream& kind, const Columns3& org, const Columns3& dir, const float* tFar,
+              std::size_t n) {
+    const std::array<const float*, 7> rays{org.x, org.y, org.z, dir.x, dir.y, dir.z, tFar};
     auto stream = std::ranges::find_if(streams_, [&](const RayStream& s) {
       return s.anyHit == kind.anyHit && s.coherent == kind.coherent;
     });
@@ -97,7 +98,7 @@ double replay(const Accel& accel, const RayStream& stream) {
 double replay(Renderer& renderer, const std::vector<RayLogger>& loggers) {
   std::vector<double> ms(loggers.size());
   renderer.scheduler().pool().run([&](int worker) {
-    const auto w = static_cast<std::size_t>(worker);
+    const std::size_t w = worker;
     for (const RayStream& stream : loggers[w].streams()) ms[w] += replay(renderer.accel(), stream);
   });
 
@@ -107,7 +108,7 @@ double replay(Renderer& renderer, const std::vector<RayLogger>& loggers) {
 }  // namespace
 
 double measureFloor(Renderer& renderer, const Camera& camera, Film& film) {
-  std::vector<RayLogger> loggers(static_cast<std::size_t>(renderer.machine().threads));
+  std::vector<RayLogger> loggers(renderer.machine().threads);
   std::vector<StageObserver*> observers;
   observers.reserve(loggers.size());
   for (RayLogger& logger : loggers) observers.push_back(&logger);

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "core/contains.h"
 #include "core/error.h"
+#include "core/index.h"
 #include "core/option_table.h"
 #include "core/text.h"
 
@@ -91,7 +91,7 @@ Knob knobOf(const KnobSpec& spec) {
   Knob knob{name, spec.cause, {}, spec, exact};
 
   for (const std::string& label : labels(spec.values)) {
-    KnobValue value{name, label, std::ranges::count(minor, label) > 0, false, {}};
+    KnobValue value{name, label, contains(minor, label), false, {}};
     value.endless = label == exact && spec.endless;
     if (label != exact) value.prerequisites = wordsOf(spec.prerequisites);
     knob.values.push_back(std::move(value));
@@ -177,7 +177,7 @@ RenderOptions referenceOptions(const RenderOptions& options, int samples, float 
 
 std::optional<std::size_t> bestWithin(const std::vector<CostAndError>& points, double most) {
   std::optional<std::size_t> best;
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (const auto i : indices(points)) {
     const auto& [cost, error] = points[i];
     if (!std::isfinite(error) || !(cost <= most)) continue;
 

@@ -8,6 +8,8 @@
 
 #include "core/display.h"
 #include "core/error.h"
+#include "core/index.h"
+#include "core/text.h"
 
 namespace whit {
 
@@ -21,7 +23,7 @@ void measureLinear(const Image& a, const Image& b, ImageDifference& difference) 
   double squares = 0, relative = 0, sumA = 0, sumB = 0;
   std::uint64_t values = 0;
 
-  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+  for (const auto i : indices(a.pixels)) {
     if (!isFinite(a.pixels[i]) || !isFinite(b.pixels[i])) {
       ++difference.nonFinite;
       continue;
@@ -47,7 +49,7 @@ void measureLinear(const Image& a, const Image& b, ImageDifference& difference) 
 
 double psnr(const DisplayImage& a, const DisplayImage& b) {
   std::uint64_t squares = 0;
-  for (std::size_t i = 0; i < a.rgba.size(); ++i) {
+  for (const auto i : indices(a.rgba)) {
     if (i % 4 == 3) continue;  // alpha
     const int d = int{a.rgba[i]} - int{b.rgba[i]};
     squares += static_cast<std::uint64_t>(d * d);
@@ -63,9 +65,9 @@ double psnr(const DisplayImage& a, const DisplayImage& b) {
 std::vector<std::uint8_t> codeDifferences(const DisplayImage& a, const DisplayImage& b) {
   std::vector<std::uint8_t> differences(a.rgba.size() / 4);
 
-  for (std::size_t i = 0; i < differences.size(); ++i) {
+  for (const auto i : indices(differences)) {
     int largest = 0;
-    for (std::size_t c = 0; c < 3; ++c)
+    for (const auto c : indices(3))
       largest = std::max(largest, std::abs(int{a.rgba[4 * i + c]} - int{b.rgba[4 * i + c]}));
     differences[i] = static_cast<std::uint8_t>(largest);
   }
@@ -88,9 +90,8 @@ void measureCodes(const DisplayImage& a, const DisplayImage& b, ImageDifference&
 
 std::string describe(const Image& image) {
   const Crop& w = image.window;
-  return std::to_string(image.width) + "x" + std::to_string(image.height) + " with pixels " +
-         std::to_string(w.x0) + "," + std::to_string(w.y0) + "," + std::to_string(w.x1) + "," +
-         std::to_string(w.y1);
+  return concat(image.width, "x", image.height, " with pixels ", w.x0, ",", w.y0, ",", w.x1, ",",
+                w.y1);
 }
 
 void checkComparable(const Image& a, const Image& b) {
@@ -125,7 +126,7 @@ ValueDifference differenceOf(std::span<const float> a, std::span<const float> b)
   double squares = 0;
   std::uint64_t compared = 0;
 
-  for (std::size_t i = 0; i < a.size(); ++i) {
+  for (const auto i : indices(a)) {
     const bool finite = std::isfinite(a[i]) && std::isfinite(b[i]);
     const bool equal = a[i] == b[i] || (std::isnan(a[i]) && std::isnan(b[i]));
     result.differing += !equal;
@@ -144,7 +145,7 @@ ValueDifference differenceOf(std::span<const float> a, std::span<const float> b)
 
 ValueDifference differenceOf(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) {
   ValueDifference result;
-  for (std::size_t i = 0; i < a.size(); ++i) result.differing += a[i] != b[i];
+  for (const auto i : indices(a)) result.differing += a[i] != b[i];
   return result;
 }
 
@@ -157,7 +158,7 @@ std::array<std::uint8_t, 3> heatColor(double t) {
   const double f = at - static_cast<double>(low);
 
   std::array<std::uint8_t, 3> color{};
-  for (std::size_t c = 0; c < 3; ++c)
+  for (const auto c : indices(3))
     color[c] = static_cast<std::uint8_t>(
         std::lround(kStops[low][c] + f * (kStops[low + 1][c] - kStops[low][c])));
   return color;
@@ -175,7 +176,7 @@ DisplayImage heatMap(const Image& a, const Image& b) {
     entryOf(colors, code) = heatColor(std::log2(1.0 + code) / std::log2(1.0 + kLargest));
   }
 
-  for (std::size_t i = 0; i < codes.size(); ++i) {
+  for (const auto i : indices(codes)) {
     std::ranges::copy(colors[std::min<std::size_t>(codes[i], kLargest)], &map.rgba[4 * i]);
   }
   return map;

@@ -4,6 +4,7 @@
 
 #include "bake/coplanar_triangles.h"
 #include "core/image.h"
+#include "core/index.h"
 #include "inspect/reference_frame.h"
 #include "render/embree_intersector.h"
 
@@ -28,14 +29,14 @@ class SignatureObserver : public StageObserver {
     tracker_.follow(stage, chunk);
 
     if (stage == Stage::findIntersections) {
-      for (std::size_t i = 0; i < chunk.n; ++i) {
+      for (const auto i : indices(chunk.n)) {
         if (chunk.hits.triangle[i] == kMiss) continue;
         const std::uint32_t instance =
             chunk.has(Feature::instances) ? chunk.hits.instance[i] : kMiss;
         at(tracker_.pixel(chunk, i)) += hitEvent(chunk.hits.triangle[i], instance);
       }
     } else if (stage == Stage::checkShadows) {
-      for (std::size_t k = 0; k < chunk.shadowCount; ++k) {
+      for (const auto k : indices(chunk.shadowCount)) {
         const std::uint32_t slot = chunk.shadows.slot[k];
         at(tracker_.pixel(chunk, slot)) += shadowEvent(chunk.unshadowed.visible[slot] > 0);
       }
@@ -99,7 +100,7 @@ PathComparison comparePaths(Renderer& renderer, const Camera& camera, const Film
 
   // Each worker has its own observer. They share the signatures, because only one worker traces a
   // pixel.
-  std::vector<SignatureObserver> signers(static_cast<std::size_t>(renderer.machine().threads),
+  std::vector<SignatureObserver> signers(renderer.machine().threads,
                                          SignatureObserver(film.image, signatures));
   std::vector<StageObserver*> observers;
   observers.reserve(signers.size());
@@ -108,7 +109,7 @@ PathComparison comparePaths(Renderer& renderer, const Camera& camera, const Film
 
   PathComparison result{scratch.image, reference.image, {}, 0};
   result.diverged.resize(signatures.size());
-  for (std::size_t i = 0; i < signatures.size(); ++i) {
+  for (const auto i : indices(signatures)) {
     result.diverged[i] = signatures[i] != reference.signatures[i];
     result.divergences += result.diverged[i];
   }

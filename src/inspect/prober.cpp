@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/index.h"
 #include "inspect/metrics.h"
 
 namespace whit {
@@ -58,7 +59,7 @@ void Prober::chooseBlocks(int side, double count) {
   const std::size_t together = std::clamp<std::size_t>(blocks_.size() / lists, 1, most);
 
   lists_.clear();
-  for (std::size_t i = 0; i < blocks_.size(); ++i) {
+  for (const auto i : indices(blocks_)) {
     const std::size_t room = together * blocks_[i].size() + kListPadding;
     if (i % together == 0) lists_.emplace_back().reserve(room);
     lists_.back().insert(lists_.back().end(), blocks_[i].begin(), blocks_[i].end());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/index.h"
 #include "inspect/reference_frame.h"
 #include "reference/add_impulses.h"
 #include "reference/find_intersections.h"
@@ -13,12 +14,7 @@ namespace whit {
 
 namespace {
 
-RgbD at(const RadianceColumns& c, std::size_t i) {
-  return {double{c.r[i]}, double{c.g[i]}, double{c.b[i]}};
-}
-Vec3d at(const float* x, const float* y, const float* z, std::size_t i) {
-  return {double{x[i]}, double{y[i]}, double{z[i]}};
-}
+Vec3d at(const Columns3& columns, std::size_t i) { return Vec3d(columns.at(i)); }
 
 // Writes the tree down while the pipeline traces its pixel alone.
 class TreeObserver : public StageObserver {
@@ -33,17 +29,17 @@ class TreeObserver : public StageObserver {
         tree_.primaries.push_back(levels_[0][0]);
         return;
       case Stage::findIntersections:
-        for (std::size_t i = 0; i < chunk.n; ++i) recordHit(chunk, i);
+        for (const auto i : indices(chunk.n)) recordHit(chunk, i);
         shadows_.assign(chunk.n, {});
         return;
       case Stage::writeEmittedAndReflectiveAmbient:
-        for (std::size_t i = 0; i < chunk.n; ++i) node(chunk, i).emitted = at(chunk.radiance, i);
+        for (const auto i : indices(chunk.n)) node(chunk, i).emitted = at(chunk.radiance.rgb, i);
         break;
       case Stage::checkShadows:
-        for (std::size_t k = 0; k < chunk.shadowCount; ++k) recordShadowRay(chunk, k);
+        for (const auto k : indices(chunk.shadowCount)) recordShadowRay(chunk, k);
         return;
       case Stage::addShading:
-        for (std::size_t i = 0; i < chunk.n; ++i) addLight(chunk, i);
+        for (const auto i : indices(chunk.n)) addLight(chunk, i);
         break;
       case Stage::addImpulses:
         follow(chunk);
@@ -53,7 +49,7 @@ class TreeObserver : public StageObserver {
     }
 
     // The remaining stages add to the radiance of the surfel itself.
-    for (std::size_t i = 0; i < chunk.n; ++i) node(chunk, i).local = at(chunk.radiance, i);
+    for (const auto i : indices(chunk.n)) node(chunk, i).local = at(chunk.radiance.rgb, i);
   }
 
  private:
@@ -83,7 +79,7 @@ class TreeObserver : public StageObserver {
     const Ray ray = rayOf(chunk, i);
     n.origin = ray.origin;
     n.direction = ray.direction;
-    n.weight = at(chunk.rays.weightR, chunk.rays.weightG, chunk.rays.weightB, i);
+    n.weight = at(chunk.rays.weight, i);
     n.media = reference::mediaOf(chunk, i);
     if (chunk.hits.triangle[i] == kMiss) return;
 
@@ -94,7 +90,7 @@ class TreeObserver : public StageObserver {
     n.v = candidate.v;
     n.distance = double{chunk.hits.t[i]};
     n.material = chunk.surfels.material[i];
-    n.position = at(chunk.surfels.posX, chunk.surfels.posY, chunk.surfels.posZ, i);
+    n.position = at(chunk.surfels.pos, i);
     n.alsoCrossed = reference::alsoCrossedAt(chunk, i);
     n.hidden = reference::isHidden(chunk, i);
   }
@@ -104,8 +100,8 @@ class TreeObserver : public StageObserver {
     LightContribution& light = shadows_[s.slot[k]];
 
     light.traced = true;
-    light.origin = at(s.orgX, s.orgY, s.orgZ, k);
-    light.toLight = at(s.dirX, s.dirY, s.dirZ, k);
+    light.origin = at(s.org, k);
+    light.toLight = at(s.dir, k);
     light.visible = chunk.unshadowed.visible[s.slot[k]] > 0;
   }
 
@@ -115,7 +111,7 @@ class TreeObserver : public StageObserver {
     shadows_[i] = {};
 
     // A light contributes what the radiance has gained since the previous stage.
-    light.radiance = at(chunk.radiance, i) - n.local;
+    light.radiance = at(chunk.radiance.rgb, i) - n.local;
     if (!light.traced && light.radiance == RgbD()) return;
 
     light.light = chunk.lightNumber;
@@ -124,11 +120,11 @@ class TreeObserver : public StageObserver {
   }
 
   void follow(const Chunk& chunk) {
-    const auto depth = static_cast<std::size_t>(chunk.depth);
+    const std::size_t depth = chunk.depth;
     levels_.resize(depth + 2);
     levels_[depth + 1].clear();
 
-    for (std::size_t s = 0; s < chunk.childSegmentCount; ++s) {
+    for (const auto s : indices(chunk.childSegmentCount)) {
       const Segment& segment = chunk.childSegments[s];
       for (std::size_t i = segment.begin; i < segment.end; ++i) {
         const std::size_t parent = numberOf(chunk, chunk.children.parent[i]);
@@ -346,7 +342,7 @@ RayTree traceReferenceTree(Renderer& renderer, const Camera& camera, const Film&
 
   reference::RayCounts counts;
   RgbD mean;
-  for (std::size_t s = 0; s < samples.size(); ++s) {
+  for (const auto s : indices(samples)) {
     intersector.beginSample();
     const RgbD radiance = tracer.sampled(frame, x, y, samples[s], s, counts);
     intersector.endSample(radiance);
@@ -371,12 +367,12 @@ std::vector<std::size_t> counterparts(const RayTree& a, const RayTree& b) {
   std::vector<std::size_t> found(a.nodes.size(), kNoCounterpart);
 
   // Primary rays correspond by the number of their sample.
-  for (std::size_t s = 0; s < std::min(a.primaries.size(), b.primaries.size()); ++s) {
+  for (const auto s : indices(std::min(a.primaries.size(), b.primaries.size()))) {
     found[a.primaries[s]] = b.primaries[s];
   }
 
   // Children correspond by kind, in their order; parents come before their children.
-  for (std::size_t i = 0; i < a.nodes.size(); ++i) {
+  for (const auto i : indices(a.nodes)) {
     if (found[i] == kNoCounterpart) continue;
 
     std::vector<std::size_t> left = b.nodes[found[i]].children;

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/display.h"
+#include "core/index.h"
 #include "core/stopwatch.h"
 #include "render/embree_intersector.h"
 
@@ -40,7 +41,7 @@ FrameStats renderReference(Renderer& renderer, const Camera& camera, Film& film,
   FrameStats stats;
   stats.frameMs = stopwatch.ms();
   stats.workers = settings.threads;
-  for (std::size_t k = 0; k < kRayKindCount; ++k) {
+  for (const auto k : indices(kRayKindCount)) {
     const std::uint64_t rays = counts[static_cast<RayKind>(k)];
     stats.meter.tally[k] = {rays, rays};
   }

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "bake/sphere.h"
-#include "core/contains.h"
 #include "core/image.h"
+#include "core/index.h"
 #include "reference/add_impulses.h"
 #include "reference/add_shading.h"
 #include "reference/check_shadows.h"
@@ -98,14 +98,14 @@ double byEye(const Place<RayRow>& p) { return maxComponent(abs(p.world.camera.ey
 // refracted ray goes to zero with it.
 template <double (*kScale)(const Place<RayRow>&)>
 double whereItCounts(const Place<RayRow>& p) {
-  const double largest = std::max({p.scalar.weightR, p.scalar.weightG, p.scalar.weightB});
+  const double largest = maxComponent(p.scalar.weight);
   return largest < 0.05 ? kNotHere : kScale(p);
 }
 double byItself(const Place<RayRow>&) { return 0; }
 
 double cosineOf(const Place<SurfelRow>& p) {
   const SurfelRow& s = p.scalar;
-  return std::fabs(dot(Vec3d{s.ngX, s.ngY, s.ngZ}, rayOf(p.chunk, p.slot).direction));
+  return std::fabs(dot(s.ng, rayOf(p.chunk, p.slot).direction));
 }
 // A surface seen edge on may be entered in one precision and left in the other.
 template <double (*kScale)(const Place<SurfelRow>&)>
@@ -149,8 +149,9 @@ std::optional<double> alongRay(const Place<SurfelRow>& p) {
       !(8 * t < edges.x + edges.y + edges.z))
     return {};
   const SurfelRow& s = p.scalar;
-  const double across = dot(abs(Vec3d{s.ngX, s.ngY, s.ngZ}), edges);
-  return std::fabs(s.posX) + std::fabs(s.posY) + std::fabs(s.posZ) + 4 * t + across;
+  const double across = dot(abs(s.ng), edges);
+  const Vec3d place = abs(s.pos);
+  return place.x + place.y + place.z + 4 * t + across;
 }
 // By the corners, which may be far larger than the place that a ray found. Of an instance the
 // offset is 32 units in the last place of all that went into the position, and 16 of its edges,
@@ -202,7 +203,7 @@ double byGrazing(const Place<UnshadowedRow>& p) {
   const reference::Surfel s = reference::surfelOf(p.chunk, p.slot);
   const Vec3d l = normalized(reference::arrivalAt(p.world, p.chunk, p.slot).shadowRay.direction);
   const double width = maxComponent(s.specular) > 0 ? s.alpha : 1;
-  const double scale = byPointOfLight(p.chunk) * std::max({p.scalar.r, p.scalar.g, p.scalar.b}) /
+  const double scale = byPointOfLight(p.chunk) * maxComponent(p.scalar.rgb) /
                        (std::max(dot(l, s.shadingNormal), 1e-4) * width);
   if (light.kind != Light::Kind::spot) return scale;
   // The cosine to the cone's axis has an absolute error too, relative to the width of its edge.
@@ -215,8 +216,7 @@ double byBothEnds(const Place<ShadowRow>& p) {
   const Light& light = *p.chunk.light;
   if (light.kind == Light::Kind::directional) return 1;
   return byPointOfLight(p.chunk) *
-         (maxComponent(abs(Vec3d(light.position))) +
-          maxComponent(abs(Vec3d{p.scalar.orgX, p.scalar.orgY, p.scalar.orgZ})));
+         (maxComponent(abs(Vec3d(light.position))) + maxComponent(abs(p.scalar.org)));
 }
 
 std::vector<std::string> xyz(const std::string& s) { return {s + "X", s + "Y", s + "Z"}; }
@@ -346,7 +346,7 @@ double distance(const Values& got, const Values& wanted, const std::vector<std::
 std::vector<std::size_t> litSlots(const Chunk& c) {
   if (c.tracesShadows()) return {c.shadows.slot, c.shadows.slot + c.shadowCount};
   std::vector<std::size_t> slots;
-  for (std::size_t i = 0; i < c.n; ++i) {
+  for (const auto i : indices(c.n)) {
     if (c.unshadowed.visible[i] > 0) slots.push_back(i);
   }
   return slots;
@@ -369,7 +369,7 @@ class StageComparer : public StageObserver {
     if (!enough(stage) && !chunk.narrowings) compareStage(stage, chunk);
     if (stage != Stage::writeEmittedAndReflectiveAmbient && stage != Stage::addShading) return;
     before_.clear();
-    for (std::size_t i = 0; i < chunk.n; ++i) before_.push_back(RadianceRow::at(chunk.radiance, i));
+    for (const auto i : indices(chunk.n)) before_.push_back(RadianceRow::at(chunk.radiance, i));
   }
 
   // updateImage, of what the film keeps.
@@ -380,7 +380,7 @@ class StageComparer : public StageObserver {
         const std::size_t pixel = film.image.index(x, y);
         const std::uint32_t scalar = reference::updateImage(options_, film.image.pixels[pixel]);
         int worst = 0;
-        for (std::size_t channel = 0; channel < 3; ++channel) {
+        for (const auto channel : indices(3)) {
           const int code = static_cast<int>(scalar >> (8 * channel) & 0xFFu);
           worst = std::max(worst, std::abs(code - int{film.display.rgba[4 * pixel + channel]}));
         }
@@ -434,7 +434,7 @@ class StageComparer : public StageObserver {
   template <typename Row, typename Scalar>
   void compareRows(Stage stage, const Chunk& c, const typename Row::Columns& columns,
                    std::size_t count, Scalar&& scalar, const std::uint32_t* slots = nullptr) {
-    for (std::size_t i = 0; i < count; ++i) {
+    for (const auto i : indices(count)) {
       compareRow(stage, c, slots ? slots[i] : i, Row::at(columns, i), scalar(world_, c, i));
     }
   }
@@ -462,7 +462,7 @@ class StageComparer : public StageObserver {
                                c.shadows.slot);
         break;
       case Stage::checkShadows:
-        for (std::size_t k = 0; k < c.shadowCount; ++k) {
+        for (const auto k : indices(c.shadowCount)) {
           const std::uint32_t i = c.shadows.slot[k];
           compareRow(stage, c, i, UnshadowedRow::at(c.unshadowed, i),
                      reference::checkShadows(world_, c, k));

@@ -21,6 +21,7 @@
 #include <memory>
 
 #include "core/error.h"
+#include "core/text.h"
 
 namespace whit {
 namespace {
@@ -123,14 +124,14 @@ void filterSystemCalls() {
 
 std::string failureOfChild(int status) {
   if (WIFEXITED(status)) {
-    const auto code = static_cast<std::size_t>(WEXITSTATUS(status));
+    const std::size_t code = WEXITSTATUS(status);
     return kFailures[std::min(code, std::size(kFailures) - 1)];
   }
 
   const int number = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   if (number == SIGSYS) return "it called the system";
   if (number == SIGALRM) return "it took too long";
-  return "it crashed (signal " + std::to_string(number) + ")";
+  return concat("it crashed (signal ", number, ")");
 }
 
 }  // namespace

@@ -127,8 +127,7 @@ std::string read(const fs::path& path, std::uint64_t maxBytes, bool cut) {
   const std::uint64_t size = fs::file_size(path, error);
   if (error) throwIo(name, "cannot read " + name + ": " + error.message());
   if (size > maxBytes && !cut) {
-    throwLimit(name + " has " + std::to_string(size) + " bytes, more than the limit of " +
-               std::to_string(maxBytes));
+    throwLimit(concat(name, " has ", size, " bytes, more than the limit of ", maxBytes));
   }
 
   std::string bytes(std::min(size, maxBytes), '\0');
@@ -162,8 +161,7 @@ std::string createBeside(const std::string& path) {
   const fs::path folder = fs::path(path).parent_path();
 
   for (;;) {
-    const std::string name =
-        ".whit-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp";
+    const std::string name = concat(".whit-", ::getpid(), "-", counter++, ".tmp");
     std::string temporary = (folder / name).string();
     const int file = ::open(temporary.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
     if (file >= 0) {

@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <unordered_set>
 
-#include "core/contains.h"
 #include "core/error.h"
+#include "core/index.h"
 #include "core/text.h"
 #include "io/files.h"
 
@@ -38,7 +38,7 @@ class Watcher {
   bool operator()(Event event, const Json& parsed) {
     if (event == Event::object_start || event == Event::array_start) {
       if (levels_.size() >= kJsonDepthLimit) {
-        fail("nested deeper than " + std::to_string(kJsonDepthLimit) + " levels");
+        fail(concat("nested deeper than ", kJsonDepthLimit, " levels"));
       }
       levels_.emplace_back();
     } else if (event == Event::key) {
@@ -46,7 +46,7 @@ class Watcher {
       level.key = parsed.get<std::string>();
       if (!level.keys.insert(level.key).second) fail("this key is given twice");
       if (level.keys.size() > kJsonMembersLimit) {
-        fail("more than " + std::to_string(kJsonMembersLimit) + " members");
+        fail(concat("more than ", kJsonMembersLimit, " members"));
       }
     } else {
       // The end of an object or a list completes a value of the level above.
@@ -81,10 +81,10 @@ class Watcher {
 
 std::string placeOfByte(const std::string& text, const std::string& file, std::size_t byte) {
   const std::size_t end = std::min(byte > 0 ? byte - 1 : 0, text.size());
-  const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n');
+  const auto line = std::count(text.begin(), text.begin() + end, '\n');
   const std::size_t lineStart = end == 0 ? std::string::npos : text.rfind('\n', end - 1);
   const std::size_t column = lineStart == std::string::npos ? end + 1 : end - lineStart;
-  return file + ":" + std::to_string(line + 1) + ":" + std::to_string(column);
+  return concat(file, ":", line + 1, ":", column);
 }
 
 // Removes the library's own "[json.exception...] parse error at line ...: ", and the middle of a
@@ -142,8 +142,7 @@ void JsonValue::fail(const std::string& expected, std::string found) const {
 std::string JsonValue::found() const {
   if (!exists()) return "nothing";
   if (isObject() || isArray()) {
-    return std::string(isObject() ? "an object" : "a list") + " of " +
-           std::to_string(value_->size());
+    return concat(std::string(isObject() ? "an object" : "a list"), " of ", value_->size());
   }
   return excerpt(value_->dump(-1, ' ', false, Json::error_handler_t::replace));
 }
@@ -196,8 +195,7 @@ double JsonValue::number(double low, double high) const {
 
 int JsonValue::integer(int low, int high) const {
   const std::string expected =
-      low == high ? std::to_string(low)
-                  : "a whole number from " + std::to_string(low) + " to " + std::to_string(high);
+      low == high ? std::to_string(low) : concat("a whole number from ", low, " to ", high);
 
   if (!isNumber()) fail(expected);
   double value = number();
@@ -222,8 +220,7 @@ std::string JsonValue::word(const std::vector<std::string>& choices) const {
     if (contains(choices, chosen)) return chosen;
   }
 
-  std::string list;
-  for (const std::string& choice : choices) list += (list.empty() ? "" : ", ") + inQuotes(choice);
+  const std::string list = inQuotes(joined(choices, "\", \""));
   fail("one of " + list + (isText() ? suggestion(text(), choices) : ""));
 }
 
@@ -240,7 +237,7 @@ Rgb JsonValue::color(double high) const {
 
 std::vector<JsonValue> JsonValue::elements() const {
   std::vector<JsonValue> result;
-  for (std::size_t i = 0; i < size(); ++i) result.push_back((*this)[i]);
+  for (const auto i : indices(size())) result.push_back((*this)[i]);
   return result;
 }
 
@@ -303,19 +300,19 @@ std::optional<std::uint64_t> JsonValue::whole() const {
 std::uint64_t JsonValue::wholeOr(std::uint64_t fallback, std::uint64_t limit) const {
   if (!exists()) return fallback;
   const std::optional<std::uint64_t> number = whole();
-  if (!number || *number > limit) fail("a whole number from 0 to " + std::to_string(limit));
+  if (!number || *number > limit) fail(concat("a whole number from 0 to ", limit));
   return *number;
 }
 
 std::vector<double> JsonValue::numbers() const {
   std::vector<double> all(size());
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = (*this)[i].numberOr(0);
+  for (const auto i : indices(all)) all[i] = (*this)[i].numberOr(0);
   return all;
 }
 
 std::vector<double> JsonValue::numbers(std::size_t count) const {
   if (!exists()) return {};
-  if (!isArray() || size() != count) fail(std::to_string(count) + " numbers");
+  if (!isArray() || size() != count) fail(concat(count, " numbers"));
   return numbers();
 }
 
@@ -328,7 +325,7 @@ std::optional<std::size_t> JsonValue::indexInto(const JsonValue& list) const {
   if (size == 0) fail(expected + ", which has no elements");
 
   const std::optional<std::uint64_t> number = whole();
-  if (!number || *number >= size) fail(expected + ", from 0 to " + std::to_string(size - 1));
+  if (!number || *number >= size) fail(concat(expected, ", from 0 to ", size - 1));
   return static_cast<std::size_t>(*number);
 }
 

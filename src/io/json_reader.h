@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/text.h"
 #include "core/vec3.h"
 #include "scene/members.h"
 
@@ -141,10 +142,7 @@ typename Entries::const_iterator findNamed(const Entries& entries, const JsonVal
   const auto found = entries.find(name.text());
   if (found != entries.end()) return found;
 
-  std::vector<std::string> names;
-  names.reserve(entries.size());
-  for (const auto& [known, entry] : entries) names.push_back(known);
-  name.fail("the name of " + kind + suggestion(name.text(), names));
+  name.fail("the name of " + kind + suggestion(name.text(), keysOf(entries)));
 }
 
 template <typename Noun, typename Value>

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/text.h"
+
 namespace whit {
 
 // Reads the decimal number at `from`: also "nan", "inf" and a leading "+". Numbers beyond double
@@ -28,7 +30,7 @@ class LineReader {
 
   bool done() const { return at_ == end_; }
   void nextLine();
-  std::string place() const { return file_ + ":" + std::to_string(line_); }
+  std::string place() const { return concat(file_, ":", line_); }
   std::uint64_t line() const { return line_; }
   std::size_t at() const { return static_cast<std::size_t>(at_ - text_.data()); }
 

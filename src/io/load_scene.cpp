@@ -5,8 +5,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "core/contains.h"
 #include "core/error.h"
+#include "core/index.h"
 #include "core/text.h"
 #include "io/files.h"
 #include "io/scene/scene_sections.h"
@@ -177,11 +177,15 @@ void readFog(JsonObject& file, SceneDescription& scene) {
   object.finish();
 }
 
-// Applies the settings of one section, or of all sections where it is empty.
-void applySettings(const LoadOptions& options, const std::string& section, JsonDocument& document) {
+enum class Sections { these, others };
+
+// Applies the settings of these sections, or of all others.
+void applySettings(const LoadOptions& options, Sections which,
+                   const std::vector<std::string>& sections, JsonDocument& document) {
   for (const std::string& text : options.settings) {
     const SceneSetting setting = parseSceneSetting(text);
-    if (section.empty() || setting.tokens.front() == section) applySceneSetting(setting, document);
+    const bool isListed = contains(sections, setting.tokens.front());
+    if (isListed == (which == Sections::these)) applySceneSetting(setting, document);
   }
 }
 
@@ -194,7 +198,7 @@ void readCameraSettings(const LoadOptions& options, JsonDocument document,
     movePoints(cameras[camera.name] = describe(camera), scene.origin);
   }
   const Json own = document.root;
-  applySettings(options, "cameras", document);
+  applySettings(options, Sections::these, {"cameras"}, document);
   if (document.root == own) return;
 
   for (Json& camera : cameras) movePoints(camera, -scene.origin);
@@ -256,8 +260,7 @@ void requireMovable(const std::string& pointer, const SceneDescription& scene) {
 // moved does not exist, or if nothing moves.
 void applyInstant(const Instant& instant, SceneDescription& scene) {
   const std::vector<std::string> names = namesIn(scene.animations);
-  const bool known = contains(names, instant.animation);
-  if (!instant.animation.empty() && !known) {
+  if (!instant.animation.empty() && !contains(names, instant.animation)) {
     throwUsage(scene.name + " has no animation '" + instant.animation + "'" +
                didYouMean(instant.animation, names));
   }
@@ -273,8 +276,7 @@ void replaceSpheres(int segments, SceneContext& context) {
   constexpr int kLeast = 4;
   if (segments == 0) return;
   if (segments < kLeast) {
-    throwUsage("--sphere-segments expected 0 or at least " + std::to_string(kLeast) + ", found " +
-               std::to_string(segments));
+    throwUsage(concat("--sphere-segments expected 0 or at least ", kLeast, ", found ", segments));
   }
   const GenerationLimit limit(context.budget.left());
   for (Object& object : context.scene.objects) {
@@ -302,7 +304,7 @@ JsonDocument documentOf(const std::string& name, Json root,
                         const std::map<std::string, double>& parameters,
                         const LoadOptions& options) {
   JsonDocument document{name, std::move(root), {}};
-  applySettings(options, "", document);
+  applySettings(options, Sections::others, {}, document);
   JsonObject file{JsonValue(document)};
   file.need("whit").integer(kSchemaVersion, kSchemaVersion);
   readParameters(file, parameters, document);
@@ -321,6 +323,34 @@ void takeSize(const LoadOptions& options, SceneDescription& scene) {
   scene.height = options.size->height;
 }
 
+// Reads the light around a scene, and its options. Returns the strength of ambient light that
+// depends on the sky's image.
+std::optional<double> readSurroundings(JsonObject& file, SceneContext& context) {
+  readOptions(file, context.scene);
+  readSky(file, context);
+  const std::optional<double> fromSky = readAmbient(file, context.scene);
+  readFog(file, context.scene);
+  replaceSky(context);
+  return fromSky;
+}
+
+// Reads the lights of a model again with the settings, as if a scene file contained them.
+void readLightSettings(const LoadOptions& options, JsonDocument& document, JsonObject& file,
+                       SceneDescription& scene) {
+  for (const auto i : indices(scene.lights)) {
+    scene.lights[i].pointer = concat("/lights/", i);
+  }
+  if (options.settings.empty()) return;
+
+  document.root["lights"] = describe(scene.lights);
+  moveLights(document.root, scene.origin);
+  applySettings(options, Sections::these, {"lights"}, document);
+  moveLights(document.root, -scene.origin);
+
+  scene.lights.clear();
+  readLights(file, {}, scene);
+}
+
 SceneDescription readScene(const JsonDocument& document, const LoadOptions& options,
                            SceneContext& context) {
   JsonObject file{JsonValue(document)};
@@ -328,12 +358,8 @@ SceneDescription readScene(const JsonDocument& document, const LoadOptions& opti
   file.find("parameters");
   readCameras(file, options.instant, context.scene);
   if (context.scene.cameras.empty()) takeSize(options, context.scene);
-  readOptions(file, context.scene);
   readLights(file, options.instant, context.scene);
-  readSky(file, context);
-  std::optional<double> fromSky = readAmbient(file, context.scene);
-  readFog(file, context.scene);
-  replaceSky(context);
+  std::optional<double> fromSky = readSurroundings(file, context);
   MaterialReader materials(file, context);
   readItems(file, context, materials);
   materials.checkUnused();
@@ -353,45 +379,27 @@ SceneDescription loadModelFile(const fs::path& path, const SceneName& name,
   if (!name.parameters.empty()) throwUsage(path.string() + " is a model: it has no parameters");
   SceneContext context(path, options, warnings, progress);
   SceneDescription& scene = context.scene;
+
+  // The settings stand for a scene file. Those of lights and cameras change the model's own, which
+  // have to be read first.
   const JsonDocument nothing{path.string(), Json::object(), {}};
-  JsonDocument overrides = nothing;
-  applySettings(options, "materials", overrides);
-  applySettings(options, "up", overrides);
-  applySettings(options, "variant", overrides);
-  for (const char* member : kViewMembers) applySettings(options, member, overrides);
-  JsonObject noMaterials{JsonValue(nothing)}, items{JsonValue(overrides)};
-  MaterialReader materials(noMaterials, context);
-  readModelAlone(items, path, context, materials);
-  takeSize(options, scene);
-  supplyView(items, context);  // before the scene has another time than 0
-  readCameraSettings(options, nothing, scene);
-  applyInstant(options.instant, scene);
-  // The settings are read as if a scene file contained them and the model's lights.
   JsonDocument document = nothing;
-  if (!options.settings.empty()) document.root["lights"] = describe(scene.lights);
-  moveLights(document.root, scene.origin);
-  applySettings(options, "", document);
-  moveLights(document.root, -scene.origin);
-  JsonObject file{JsonValue(document)};
-  file.find("materials");
-  file.find("up");
-  file.find("variant");
-  for (const char* member : kViewMembers) file.find(member);
+  applySettings(options, Sections::others, {"lights", "cameras"}, document);
+  JsonObject noMaterials{JsonValue(nothing)}, file{JsonValue(document)};
+  MaterialReader materials(noMaterials, context);
+  readModelAlone(file, path, context, materials);
+
+  // A supplied view is that of the model at 0 s.
+  takeSize(options, scene);
+  supplyView(file, context);
+  readCameraSettings(options, nothing, scene);
   file.find("cameras");
-  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-    scene.lights[i].pointer = "/lights/" + std::to_string(i);
-  }
-  if (file.has("lights")) {
-    scene.lights.clear();
-    readLights(file, {}, scene);
-  }
-  readOptions(file, scene);
-  readSky(file, context);
+  applyInstant(options.instant, scene);
+
+  readLightSettings(options, document, file, scene);
+  std::optional<double> fromSky = readSurroundings(file, context);
   const bool ownAmbient = file.has("ambient");
-  std::optional<double> fromSky = readAmbient(file, scene);
-  readFog(file, scene);
   file.finish();
-  replaceSky(context);
   if (!ownAmbient && scene.sky.kind != Sky::Kind::none) fromSky = kAmbientOfSky;
   return finish(options, fromSky, context);
 }

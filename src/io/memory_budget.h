@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "core/text.h"
 
 namespace whit {
 
@@ -54,9 +55,8 @@ class MemoryBudget {
 
   void take(std::uint64_t count, std::uint64_t size, const std::string& what) {
     if (!fits(count, size)) {
-      throwLimit(what + " needs " + std::to_string(count) + " x " + std::to_string(size) +
-                 " bytes, and " + std::to_string(limit_ - used_ - held_) + " of " +
-                 std::to_string(limit_) + " are left (--max-memory)");
+      throwLimit(concat(what, " needs ", count, " x ", size, " bytes, and ", limit_ - used_ - held_,
+                        " of ", limit_, " are left (--max-memory)"));
     }
 
     used_ += count * size;

@@ -2,6 +2,8 @@
 
 #include <map>
 
+#include "core/text.h"
+
 namespace whit {
 namespace {
 
@@ -23,11 +25,7 @@ Opener openerOf(const std::filesystem::path& path) {
 
 bool isModelFile(const std::filesystem::path& path) { return openerOf(path) != nullptr; }
 
-std::string modelExtensions() {
-  std::string list;
-  for (const auto& [extension, opener] : kOpeners) list += (list.empty() ? "" : ", ") + extension;
-  return list;
-}
+std::string modelExtensions() { return joined(keysOf(kOpeners)); }
 
 std::unique_ptr<Model> openModel(const ModelSource& source) {
   return openerOf(source.path)(source);

@@ -1,4 +1,5 @@
 #include "io/polygon.h"
+#include "core/index.h"
 
 #include <numeric>
 
@@ -22,7 +23,7 @@ bool samePoint(const Point& a, const Point& b) { return a.x == b.x && a.y == b.y
 Vec3d newellNormal(const std::vector<Vec3d>& corners) {
   Vec3d normal;
   const Vec3d origin = corners[0];  // far from the world's origin, differences keep their digits
-  for (std::size_t i = 0; i < corners.size(); ++i) {
+  for (const auto i : indices(corners)) {
     normal += cross(corners[i] - origin, corners[(i + 1) % corners.size()] - origin);
   }
   return normal;
@@ -63,7 +64,7 @@ void quad(const std::vector<Vec3d>& p, Triangles& triangles) {
 
 bool isConvex(const std::vector<Point>& points) {
   const std::size_t n = points.size();
-  for (std::size_t i = 0; i < n; ++i) {
+  for (const auto i : indices(n)) {
     if (turn(points[i], points[(i + 1) % n], points[(i + 2) % n]) < 0) return false;
   }
   return true;
@@ -82,7 +83,7 @@ class EarClipper {
       if (ear == left_.size()) return false;
 
       triangles.push_back({at(ear + left_.size() - 1), at(ear), at(ear + 1)});
-      left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(ear));
+      left_.erase(left_.begin() + ear);
       start_ = ear;  // goes round, so that a long polygon does not become a fan of slivers
     }
 
@@ -95,7 +96,7 @@ class EarClipper {
 
   std::size_t findEar() const {
     const std::size_t n = left_.size();
-    for (std::size_t k = 0; k < n; ++k) {
+    for (const auto k : indices(n)) {
       const std::size_t i = (start_ + k) % n;
       if (isEar(i)) return i;
     }
@@ -120,7 +121,7 @@ class EarClipper {
   // Finds a corner on the line between its neighbors: its triangle is degenerate, the rest is not.
   std::size_t findFlat() const {
     const std::size_t n = left_.size();
-    for (std::size_t i = 0; i < n; ++i) {
+    for (const auto i : indices(n)) {
       if (turn(points_[at(i + n - 1)], points_[at(i)], points_[at(i + 1)]) == 0) return i;
     }
     return n;

@@ -1,4 +1,5 @@
 #include "io/smooth_normals.h"
+#include "core/index.h"
 
 #include <algorithm>
 #include <array>
@@ -33,7 +34,7 @@ std::vector<FaceCorner> cornersByPlace(Mesh& mesh) {
   corners.reserve(3 * mesh.triangles.size());
   for (auto& triangle : mesh.triangles) {
     const auto at = [&](std::size_t i) { return Vec3d(mesh.positions[triangle[i % 3]]); };
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (const auto i : indices(3)) {
       const Vec3d a = normalized(at(i + 1) - at(i)), b = normalized(at(i + 2) - at(i));
       const double angle = std::atan2(length(cross(a, b)), dot(a, b));
 
@@ -56,7 +57,7 @@ void forEachPlace(std::span<FaceCorner> corners, const Use& use) {
   while (!corners.empty()) {
     const auto isHere = [&](const FaceCorner& c) { return c.place == corners[0].place; };
     const auto end = std::ranges::find_if_not(corners, isHere);
-    const auto count = static_cast<std::size_t>(end - corners.begin());
+    const std::size_t count = end - corners.begin();
     use(corners.first(count));
     corners = corners.subspan(count);
   }
@@ -88,7 +89,7 @@ void repeat(std::vector<T>& values, std::size_t i) {
 
 // Gives the corners at one place vertices with their normals.
 void setVertices(std::span<FaceCorner> corners, Mesh& mesh) {
-  for (std::size_t i = 0; i < corners.size(); ++i) {
+  for (const auto i : indices(corners)) {
     const FaceCorner& own = corners[i];
     const auto before = corners.first(i).last(std::min(i, kMostBetween));
     const auto known = std::ranges::find_if(before, [&](const FaceCorner& c) {

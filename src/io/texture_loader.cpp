@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/index.h"
 #include "core/machine_limits.h"
 #include "io/files.h"
 #include "io/image/texture_from_image.h"
@@ -188,14 +189,14 @@ std::vector<std::int32_t> TextureLoader::add(
     std::size_t count, std::function<std::vector<std::optional<Texture>>()> make) {
   std::vector<std::int32_t> slots;
   std::vector<std::optional<Texture>*> targets;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (const auto i : indices(count)) {
     slots.push_back(static_cast<std::int32_t>(slots_.size()));
     targets.push_back(&slots_.emplace_back());
   }
 
   queue_.add([this, make = std::move(make), targets] {
     std::vector<std::optional<Texture>> made = make();
-    for (std::size_t i = 0; i < targets.size(); ++i) {
+    for (const auto i : indices(targets)) {
       if (!made[i]) continue;
       budget_.charge(made[i]->texelCount(), sizeof(std::uint32_t), "texture " + made[i]->name);
       *targets[i] = std::move(made[i]);

@@ -6,6 +6,7 @@
 
 #include "core/channels.h"
 #include "core/error.h"
+#include "core/text.h"
 #include "io/files.h"
 #include "io/image/image_layers.h"
 #include "io/json_reader.h"
@@ -25,8 +26,8 @@ template <typename T>
 void takeBinary(const Json& json, std::span<T> values) {
   const Json::binary_t& bytes = json.get_binary();
   if (bytes.size() != values.size_bytes()) {
-    throwBadScene("the bytes of an image", "expected " + std::to_string(values.size_bytes()) +
-                                               " of them, found " + std::to_string(bytes.size()));
+    throwBadScene("the bytes of an image",
+                  concat("expected ", values.size_bytes(), " of them, found ", bytes.size()));
   }
 
   std::ranges::copy(bytes, reinterpret_cast<std::uint8_t*>(values.data()));
@@ -64,8 +65,7 @@ std::vector<Image::Channel> Image::channels() const {
   layers.channels().forEach([&](whit::Channel c) {
     const ChannelInfo& info = infoOf(c);
     Channel channel{info.name, {}, {}, {}};
-    channel.components.assign(info.suffixes.begin(),
-                              info.suffixes.begin() + static_cast<std::ptrdiff_t>(info.components));
+    channel.components.assign(info.suffixes.begin(), info.suffixes.begin() + info.components);
 
     if (info.countsThings) {
       channel.numbers = layers.numbers(c);

@@ -7,6 +7,7 @@
 #include "bake/sphere.h"
 #include "core/error.h"
 #include "core/huge_vector.h"
+#include "core/index.h"
 #include "core/worker_pool.h"
 #include "library/internal.h"
 #include "sampling/random_streams.h"
@@ -57,7 +58,7 @@ void readRays(const Rays& rays, const Vec3d& origin, std::size_t first, std::spa
     if (numbers.size() == 0) return fallback;
     return numbers[numbers.size() == 1 ? 0 : i];
   };
-  for (std::size_t i = 0; i < to.size(); ++i) {
+  for (const auto i : indices(to)) {
     const std::size_t ray = first + i;
     to[i].origin = pointAt(rays.origins, ray) - origin;
     to[i].direction = pointAt(rays.directions, ray);
@@ -226,7 +227,7 @@ RayHits allHits(const Queried& at, const Rays& rays, std::size_t limit) {
     at.queries.all(part, limit, found[first / kChunk], &counts[first]);
   });
   std::vector<std::uint64_t> offsets(count + 1);
-  for (std::size_t i = 0; i < count; ++i) offsets[i + 1] = offsets[i] + counts[i];
+  for (const auto i : indices(count)) offsets[i + 1] = offsets[i] + counts[i];
   RayHits hits = columnsFor(offsets.back());
   hits.offsets = std::move(offsets);
   inParts(at, count, [&](std::size_t first, std::size_t) {
@@ -279,7 +280,7 @@ std::vector<float> ambientOcclusion(const Queried& at, const Numbers& points,
   expect(samples > 0, "samples above 0");
   std::vector<float> open(count);
   inParts(at, count, [&](std::size_t first, std::size_t end) {
-    std::vector<QueryRay> rays(static_cast<std::size_t>(samples));
+    std::vector<QueryRay> rays(samples);
     std::vector<Blocked> blocked(rays.size());
     const LobeSampling sampling{static_cast<std::uint32_t>(samples)};
     for (std::size_t i = first; i < end; ++i) {

@@ -3,6 +3,7 @@
 #include <set>
 #include <utility>
 
+#include "core/index.h"
 #include "core/option_table.h"
 #include "io/image/image_layers.h"
 #include "io/scene/scene_sections.h"
@@ -21,7 +22,7 @@ FrameStatistics statisticsOf(const FrameStats& frame, Mode mode) {
   for (std::size_t i = 0; i < kStageCount && mode == Mode::packets; ++i) {
     result.stages.push_back({kStageNames[i], frame.stageMs(static_cast<Stage>(i))});
   }
-  for (std::size_t i = 0; i < kRayKindCount; ++i) {
+  for (const auto i : indices(kRayKindCount)) {
     result.rays.push_back({kRayKinds[i].name, frame.meter.tally[i].rays});
   }
   return result;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <type_traits>
 #include <utility>
 
 #include "core/machine_limits.h"
@@ -17,8 +18,7 @@ namespace {
 std::vector<std::string> warningsOf(const OpenScene& open) {
   std::vector<std::string> all;
   for (const auto& [kind, entry] : open.warnings.entries()) {
-    all.push_back(kind + " (" + std::to_string(entry.count) + " times, first: " + entry.first +
-                  ")");
+    all.push_back(concat(kind, " (", entry.count, " times, first: ", entry.first, ")"));
   }
   if (std::string dark = noLightWarning(open.scene); !dark.empty()) all.push_back(std::move(dark));
   return all;
@@ -39,27 +39,40 @@ Json describe(const Light& light) {
   return json;
 }
 
-Json describe(const Camera& camera) {
-  Json json{{"eye", camera.eye}, {"at", camera.at}, {"up", camera.up}};
+// Adds a member of `noun` under its own name.
+#define WHIT_ADD(name) add(#name, &std::remove_cvref_t<decltype(noun)>::name)
+
+Json describe(const Camera& noun) {
+  Json json{{"eye", noun.eye}, {"at", noun.at}, {"up", noun.up}};
   // Which other members there may be depends on the projection.
   const auto add = [&](const char* name, auto member) {
-    if (camera.*member != Camera().*member) json[name] = camera.*member;
+    if (noun.*member != Camera().*member) json[name] = noun.*member;
   };
-  add("projection", &Camera::projection), add("fov", &Camera::fov);
-  add("orthographicHeight", &Camera::orthographicHeight);
-  add("aspect", &Camera::aspect);
-  add("aperture", &Camera::aperture), add("focus", &Camera::focus);
-  add("k", &Camera::k), add("kSize", &Camera::kSize), add("distortion", &Camera::distortion);
-  add("angle", &Camera::angle);
-  add("azimuths", &Camera::azimuths), add("elevations", &Camera::elevations);
-  add("stereo", &Camera::stereo), add("eyeDistance", &Camera::eyeDistance);
+
+  WHIT_ADD(projection);
+  WHIT_ADD(fov);
+  WHIT_ADD(orthographicHeight);
+  WHIT_ADD(aspect);
+  WHIT_ADD(aperture);
+  WHIT_ADD(focus);
+
+  WHIT_ADD(k);
+  WHIT_ADD(kSize);
+  WHIT_ADD(distortion);
+  WHIT_ADD(angle);
+  WHIT_ADD(azimuths);
+  WHIT_ADD(elevations);
+  WHIT_ADD(stereo);
+  WHIT_ADD(eyeDistance);
+
   return json;
 }
 
 // Writes only members that have a value, because the defaults of others depend on them.
-Json describe(const Material& m) {
+Json describe(const Material& noun) {
   Json json;
-  const auto add = [&]<typename T>(const char* name, const T& value) {
+  const auto add = [&]<typename T>(const char* name, T Material::*member) {
+    const T& value = noun.*member;
     if constexpr (std::is_same_v<T, std::string>) {
       if (!value.empty()) json[name] = value;
     } else if constexpr (std::is_same_v<T, double> || std::is_same_v<T, Vector>) {
@@ -68,20 +81,37 @@ Json describe(const Material& m) {
       json[name] = *value;
     }
   };
-  add("diffuse", m.diffuse), add("diffuseMap", m.diffuseMap);
-  add("specular", m.specular), add("specularMap", m.specularMap);
-  add("roughness", m.roughness), add("roughnessMap", m.roughnessMap);
-  add("emission", m.emission), add("emissionMap", m.emissionMap);
-  add("normalMap", m.normalMap), add("alphaMap", m.alphaMap);
-  add("occlusionMap", m.occlusionMap), add("mirrorMap", m.mirrorMap);
-  add("transmissionMap", m.transmissionMap);
-  add("coverage", m.coverage), add("coverageMap", m.coverageMap);
-  add("mirror", m.mirror), add("mirrorGrazing", m.mirrorGrazing);
-  add("transmission", m.transmission), add("thin", m.thin), add("frosted", m.frosted);
-  add("ior", m.ior), add("absorption", m.absorption);
-  add("glossyReflection", m.glossyReflection), add("castsShadow", m.castsShadow);
+
+  WHIT_ADD(diffuse);
+  WHIT_ADD(diffuseMap);
+  WHIT_ADD(specular);
+  WHIT_ADD(specularMap);
+  WHIT_ADD(roughness);
+  WHIT_ADD(roughnessMap);
+  WHIT_ADD(emission);
+  WHIT_ADD(emissionMap);
+  WHIT_ADD(normalMap);
+  WHIT_ADD(alphaMap);
+  WHIT_ADD(occlusionMap);
+  WHIT_ADD(mirrorMap);
+  WHIT_ADD(transmissionMap);
+
+  WHIT_ADD(coverage);
+  WHIT_ADD(coverageMap);
+  WHIT_ADD(mirror);
+  WHIT_ADD(mirrorGrazing);
+  WHIT_ADD(transmission);
+  WHIT_ADD(thin);
+  WHIT_ADD(frosted);
+  WHIT_ADD(ior);
+  WHIT_ADD(absorption);
+  WHIT_ADD(glossyReflection);
+  WHIT_ADD(castsShadow);
+
   return json;
 }
+
+#undef WHIT_ADD
 
 whit::LoadOptions loadOptions(const LoadOptions& options, const char* shippedScenes) {
   whit::LoadOptions load;
@@ -176,7 +206,7 @@ struct SceneBuilder::Data {  // NOLINT(bugprone-exception-escape): moving Json d
   std::string append(const char* section, Json value) {
     Json& list = text.root[section];
     list.push_back(std::move(value));
-    return std::string("/") + section + "/" + std::to_string(list.size() - 1);
+    return concat("/", section, "/", list.size() - 1);
   }
 };
 

@@ -53,7 +53,7 @@ void cover(const Corners& t, TexelCounts& silhouette) {
       const auto side = [&](const Vec3d& a, const Vec3d& b) { return cross(b - a, center - a).y; };
       const auto [least, most] =
           std::minmax({side(t[0], t[1]), side(t[1], t[2]), side(t[2], t[0])});
-      if (least >= 0 || most <= 0) entryOf(silhouette, z * kSide + x) = 1;
+      if (least >= 0 || most <= 0) silhouette[z * kSide + x] = 1;
     }
   }
 }
@@ -87,7 +87,7 @@ Texture shadowOf(const TexelCounts& counts) {
     constexpr double kHalf = kSide / 2.0;
     const double across = (i % kSide + 0.5) / kHalf - 1, along = (i / kSide + 0.5) / kHalf - 1;
     const double left = procedural::smoothStep(0, kFade, 1 - std::hypot(across, along));
-    const auto texel = static_cast<std::size_t>(i);
+    const std::size_t texel = i;
     const auto opacity = static_cast<float>(left * counts[texel] / kDirections);
     texture.texels[texel] = encodeDataTexel(opacity, 0, 0, 1);
   }

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "core/affine.h"
+#include "core/index.h"
 #include "core/vec3.h"
 #include "make/patterns/noise.h"
 #include "make/placed_triangles.h"
@@ -48,7 +49,7 @@ Vec3d bestSide(const SceneDescription& scene, double radius) {
   std::array<double, kSides.size()> shown{};
   forEachPlacedTriangle(scene, kMostLookedAt, [&](const Corners& t) {
     const Vec3d area = cross((t[1] - t[0]) / radius, (t[2] - t[0]) / radius);
-    for (std::size_t i = 0; i < sides.size(); ++i) {
+    for (const auto i : indices(sides)) {
       shown[i] += std::max(0.0, dot(area, sides[i]));
     }
   });
@@ -62,7 +63,7 @@ Vec3d bestSide(const SceneDescription& scene, double radius) {
   // Sides are in order of preference, so the first one that shows enough is chosen.
   const double enough = kEnough * most;
   const auto found = std::ranges::find_if(shown, [&](double area) { return area >= enough; });
-  return sides[static_cast<std::size_t>(found - shown.begin())];
+  return sides[found - shown.begin()];
 }
 
 // True if the surfaces around the point are walls of a room with a few small openings at most. The
@@ -272,7 +273,7 @@ std::vector<Vec3d> outermostPoints(const SceneDescription& scene, double seconds
 
   // The directions are the axes both ways, and the normals of the four sides of the view's frustum.
   std::vector<Vec3d> directions{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, f.right, f.up, f.side};
-  for (std::size_t i = 0; i < 6; ++i) directions.push_back(-directions[i]);
+  for (const auto i : indices(6)) directions.push_back(-directions[i]);
   for (const Vec3d& slope : {f.right / (f.aspect * f.half), f.up / f.half}) {
     directions.insert(directions.end(), {f.side + slope, f.side - slope});
   }
@@ -286,7 +287,7 @@ std::vector<Vec3d> outermostPoints(const SceneDescription& scene, double seconds
 
   // Each direction keeps the corner that lies farthest along it.
   const auto add = [&](const Vec3d& corner) {
-    for (std::size_t k = 0; k < directions.size(); ++k) {
+    for (const auto k : indices(directions)) {
       const double own = dot(corner, directions[k]);
       if (own > reach[k]) {
         reach[k] = own;
@@ -531,7 +532,7 @@ Turntable aroundModel(const SceneDescription& scene, const ModelView& view, int 
   // all rings.
   const Outline outline = outlineOf(scene, view.center);
   double distance = 0;
-  for (std::size_t i = 0; i < kSlices; ++i) {
+  for (const auto i : indices(kSlices)) {
     for (const double y : {outline.begin(i), outline.begin(i + 1)}) {
       distance = std::max(distance, distanceFor(outline.radius[i], y, side.y, half, aspect));
     }

@@ -11,6 +11,7 @@
 
 #include "bake/facet.h"
 #include "core/affine.h"
+#include "core/index.h"
 #include "core/vec3.h"
 #include "scene/description.h"
 
@@ -40,7 +41,7 @@ inline std::optional<Corners> placed(const std::vector<Vec3f>& positions,
                                      const std::array<std::uint32_t, 3>& triangle,
                                      const Affine& toWorld) {
   Corners corners;
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (const auto i : indices(3)) {
     if (triangle[i] >= positions.size()) return std::nullopt;
     corners[i] = toWorld.point(Vec3d(positions[triangle[i]]));
     if (!(maxComponent(abs(corners[i])) < double{kLargestCoordinate})) return std::nullopt;

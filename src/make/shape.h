@@ -29,6 +29,11 @@ class ShapeParameters {
   }
   virtual std::string word(const std::string& key, const std::string& fallback,
                            const std::vector<std::string>& choices) = 0;
+  double length(const std::string& key, double fallback) {
+    return number(key, fallback, 1e-3, 1e6);
+  }
+  // Reads how many units of length a texture covers.
+  double repeat(double fallback = 1) { return number("uvRepeat", fallback, 1e-6, 1e9); }
   std::uint32_t seed(const std::string& key = "seed") {
     return static_cast<std::uint32_t>(integer(key, 1, 0, 1 << 30));
   }

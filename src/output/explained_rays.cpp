@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "core/index.h"
+#include "core/text.h"
 #include "reference/media.h"
 
 namespace whit {
@@ -11,7 +13,7 @@ namespace {
 
 std::string nameOf(const std::string& name, const char* kind, std::size_t number) {
   if (!name.empty()) return printable(name);
-  return kind + (" " + std::to_string(number));
+  return concat(kind, " ", number);
 }
 
 std::string metText(const Scene& scene, const RayNode& node) {
@@ -70,7 +72,7 @@ std::string mediumName(const Scene& scene, std::uint32_t media) {
   for (std::uint32_t m = 0; m < scene.materials.size(); ++m) {
     if (scene.mediumOfMaterial[m] == medium) return materialName(scene, m);
   }
-  return "medium " + std::to_string(medium);
+  return concat("medium ", medium);
 }
 
 const char* nameOf(PathEnd end) {
@@ -123,8 +125,7 @@ int codesAddedBy(const RayTree& tree, std::size_t node, const RenderOptions& opt
   const auto without = codesOf(max(tree.pixel - Rgb(added), Rgb(0.0f)), options);
 
   int most = 0;
-  for (std::size_t i = 0; i < with.size(); ++i)
-    most = std::max(most, std::abs(with[i] - without[i]));
+  for (const auto i : indices(with)) most = std::max(most, std::abs(with[i] - without[i]));
   return most;
 }
 
@@ -137,7 +138,7 @@ Json pageTree(const std::vector<RayText>& words, const ExplainedRays& rays,
             {"reference", codesOf(rays.reference.pixel, options)},
             {"shadowRays", tree.shadowRays()}};
 
-  for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+  for (const auto i : indices(tree.nodes)) {
     const RayNode& n = tree.nodes[i];
     json["nodes"].push_back({{"parent", n.parent},
                              {"kind", rowOf(n.kind).name},

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/index.h"
 #include "core/text.h"
 
 namespace whit {
@@ -65,7 +66,7 @@ double outsideEmbreeMs(const FrameStats& frame) { return frame.frameMs - frame.e
 
 RunRatio ratioOf(const RunSummary& a, const RunSummary& b) {
   std::vector<double> frames, outside;
-  for (std::size_t i = 0; i < std::min(a.frames.size(), b.frames.size()); ++i) {
+  for (const auto i : indices(std::min(a.frames.size(), b.frames.size()))) {
     const FrameStats &x = a.frames[i], &y = b.frames[i];
     const double restX = outsideEmbreeMs(x), restY = outsideEmbreeMs(y);
     if (y.frameMs > 0) frames.push_back(x.frameMs / y.frameMs);
@@ -83,10 +84,6 @@ double mraysPerSecond(std::uint64_t rays, double ms) {
 }
 
 std::string surfacesText(std::uint64_t triangles, std::uint64_t spheres) {
-  const auto counted = [](std::uint64_t count, const char* what) {
-    return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-  };
-
   if (spheres == 0) return counted(triangles, "triangle");
   if (triangles == 0) return counted(spheres, "sphere");
   return counted(triangles, "triangle") + ", " + counted(spheres, "sphere");
@@ -101,9 +98,9 @@ namespace {
 void appendSettings(std::string& text, const RunSummary& run) {
   const bool packets = run.options.mode == Mode::packets;
   const std::string name = run.name.empty() ? "" : ", " + run.name;
-  text += formatted("%s%s  %dx%d  %s  %d thread%s  ", run.scene.c_str(), name.c_str(), run.width,
-                    run.height, surfacesText(run.triangles, run.spheres).c_str(),
-                    run.machine.threads, run.machine.threads == 1 ? "" : "s");
+  text += formatted("%s%s  %dx%d  %s  %s  ", run.scene.c_str(), name.c_str(), run.width, run.height,
+                    surfacesText(run.triangles, run.spheres).c_str(),
+                    counted(static_cast<std::uint64_t>(run.machine.threads), "thread").c_str());
   if (packets) {
     text +=
         formatted("packets of %d, %s, %s at a time\n", run.machine.packet, run.machine.simd.c_str(),
@@ -141,7 +138,7 @@ void appendStages(std::string& text, const FrameStats& frame) {
   text += formatted("  %-34s%10s%8s\n", "stage", "ms", "%");
 
   double sum = 0;
-  for (std::size_t i = 0; i < kStageCount; ++i) {
+  for (const auto i : indices(kStageCount)) {
     const double ms = frame.stageMs(static_cast<Stage>(i));
     sum += ms;
     text += formatted("  %-34s%10.3f%8.1f\n", kStageNames[i].data(), ms, 100 * ms / whole);
@@ -156,7 +153,7 @@ void appendStages(std::string& text, const FrameStats& frame) {
 
 void appendRays(std::string& text, const FrameStats& frame, EffectSet effects) {
   text += formatted("  %-14s%12s%10s%16s\n", "rays", "traced", "Mray/s", "lanes filled %");
-  for (std::size_t i = 0; i < kRayKindCount; ++i) {
+  for (const auto i : indices(kRayKindCount)) {
     if (!kRayKinds[i].calledForBy(effects)) continue;
     const RayTally& tally = frame.meter.tally[i];
     text += formatted("  %-14s%12llu%10.2f", kRayKinds[i].name.data(),

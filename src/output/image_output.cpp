@@ -10,6 +10,7 @@
 
 #include "command_line/program.h"
 #include "core/error.h"
+#include "core/index.h"
 #include "core/option_table.h"
 #include "core/text.h"
 #include "io/files.h"
@@ -69,11 +70,8 @@ bool isJpeg(const std::string& path) {
 }
 
 void requireWritable(const std::string& path, const std::vector<std::string>& extensions) {
-  const auto found = std::ranges::find(extensions, extensionOf(path));
-  if (!extensions.empty() && found == extensions.end()) {
-    std::string known;
-    for (const std::string& e : extensions) known += (known.empty() ? "" : " or ") + e;
-    throwUsage("'" + path + "': expected a name that ends in " + known);
+  if (!extensions.empty() && !contains(extensions, extensionOf(path))) {
+    throwUsage("'" + path + "': expected a name that ends in " + joined(extensions, " or "));
   }
 
   std::error_code error;

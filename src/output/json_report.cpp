@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command_line/program.h"
+#include "core/index.h"
 #include "core/machine_limits.h"
 #include "core/option_table.h"
 #include "io/files.h"
@@ -45,17 +46,17 @@ void addFrames(const RunSummary& run, Json& json) {
       {"median", frame.frameMs}, {"min", quantile(times, 1e-9)}, {"p95", quantile(times, 0.95)}};
   json["fps"] = frame.frameMs > 0 ? 1e3 / frame.frameMs : 0;
 
-  for (std::size_t i = 0; i < kStageCount; ++i) {
+  for (const auto i : indices(kStageCount)) {
     json["stages_ms"][std::string(kStageNames[i])] = frame.stageMs(static_cast<Stage>(i));
   }
   json["embree_ms"] = frame.embreeMs();
   json["outside_embree_ms"] = outsideEmbreeMs(frame);
 
-  for (std::size_t i = 0; i < kRayKindCount; ++i) {
+  for (const auto i : indices(kRayKindCount)) {
     json["rays"][std::string(kRayKinds[i].name)] = frame.meter.tally[i].rays;
   }
   json["mrays_per_s"] = mraysPerSecond(frame.allRays(), frame.frameMs);
-  for (std::size_t i = 0; i < kRayKindCount; ++i) {
+  for (const auto i : indices(kRayKindCount)) {
     json["lanes_filled"][std::string(kRayKinds[i].name)] = lanesFilled(frame.meter.tally[i]);
   }
 

@@ -28,11 +28,11 @@ void printPictureWarnings(const RunSummary& run) {
 void printWrittenFiles(const std::vector<std::string>& files, const cli::CommonOptions& common) {
   if (common.quiet) return;
 
-  std::string names;
+  std::vector<std::string> names;
   for (const std::string& file : files) {
-    if (!file.empty() && file != "-") names += (names.empty() ? "" : ", ") + printable(file);
+    if (!file.empty() && file != "-") names.push_back(printable(file));
   }
-  if (!names.empty()) std::fprintf(stderr, "wrote %s\n", names.c_str());
+  if (!names.empty()) std::fprintf(stderr, "wrote %s\n", joined(names).c_str());
 }
 
 }  // namespace whit

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
+#include "core/index.h"
 #include "core/text.h"
 
 namespace whit {
@@ -74,10 +75,10 @@ std::string base64(std::string_view bytes) {
   // Three bytes give four digits of six bits each; '=' fills up the last group (RFC 4648).
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     std::uint32_t bits = 0;
-    for (std::size_t k = 0; k < 3; ++k)
+    for (const auto k : indices(3))
       bits = bits << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
 
-    for (std::size_t k = 0; k < 4; ++k)
+    for (const auto k : indices(4))
       text += i + k <= bytes.size() ? kDigits[bits >> (18 - 6 * k) & 63] : '=';
   }
   return text;

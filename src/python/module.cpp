@@ -336,7 +336,7 @@ api::SceneBuilder builderOf(const std::string& name, const std::string& descript
     api::ImageArrays image{static_cast<int>(array.shape(1)), static_cast<int>(array.shape(0)),
                            static_cast<int>(array.shape(2))};
 
-    const auto count = static_cast<std::size_t>(array.size());
+    const std::size_t count = array.size();
     // 8-bit codes are sRGB, floats are linear values.
     if (py::isinstance<py::array_t<std::uint8_t>>(array)) {
       image.codes = {static_cast<const std::uint8_t*>(array.data()), count};
@@ -426,7 +426,7 @@ std::map<std::string, double> animationsOf(Session& session) {
 
 // Of float32 or float64, C-contiguous.
 api::Numbers numbersOf(const py::array& array) {
-  const auto count = static_cast<std::size_t>(array.size());
+  const std::size_t count = array.size();
   if (array.dtype().is(py::dtype::of<float>())) {
     return {{static_cast<const float*>(array.data()), count}, {}};
   }

@@ -412,9 +412,9 @@ RayRow addImpulses(const World& world, const Chunk& chunk, std::size_t child) {
   const double contribution = double{chunk.rays.throughput[slot]} * maxComponent(impulse.weight);
   const double grows = growthOfSurvivors(chunk.options(), contribution);
 
-  put(impulse.ray.origin, row.orgX, row.orgY, row.orgZ);
-  put(impulse.ray.direction, row.dirX, row.dirY, row.dirZ);
-  put(impulse.weight * (grows / traced.rays), row.weightR, row.weightG, row.weightB);
+  row.org = impulse.ray.origin;
+  row.dir = impulse.ray.direction;
+  row.weight = impulse.weight * (grows / traced.rays);
 
   row.throughput = contribution * grows;
   row.parent = slot;

@@ -9,7 +9,7 @@ namespace whit::reference {
 inline RadianceRow addShading(const RadianceRow& before, const Chunk& chunk, std::size_t slot) {
   const UnshadowedRow light = UnshadowedRow::at(chunk.unshadowed, slot);
   if (!(light.visible > 0)) return before;
-  return {before.r + light.r, before.g + light.g, before.b + light.b};
+  return {before.rgb + light.rgb};
 }
 
 }  // namespace whit::reference

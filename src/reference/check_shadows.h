@@ -13,7 +13,7 @@ inline bool isVisible(const Intersector& intersector, const Ray& toLight, double
 // Returns the row that the step writes for the slot that the shadow ray started from.
 inline UnshadowedRow checkShadows(const World& world, const Chunk& chunk, std::size_t shadowRay) {
   const ShadowRow s = ShadowRow::at(chunk.shadows, shadowRay);
-  const Ray toLight{{s.orgX, s.orgY, s.orgZ}, {s.dirX, s.dirY, s.dirZ}};
+  const Ray toLight{s.org, s.dir};
   UnshadowedRow row = UnshadowedRow::at(chunk.unshadowed, s.slot);
   row.visible = isVisible(world.intersector, toLight, s.tFar) ? 1 : 0;
   return row;

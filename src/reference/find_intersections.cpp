@@ -38,7 +38,7 @@ class Lookups {
 
   RgbD sample(std::int32_t Material::*map, bool second = false) const {
     const Material& material = scene_.materials[at_.triangle.material];
-    const Texture& texture = entryOf(scene_.textures, material.*map);
+    const Texture& texture = scene_.textures[material.*map];
     const auto [u, v] = texturePoint(uvs(second), at_.hit);
     if (how_.filter != TextureFilter::trilinear) return sampleTexture(texture, u, v, how_.filter);
     const double footprint =
@@ -168,7 +168,7 @@ Vec3d shadowTerminatorOffset(const Scene& scene, EffectSet effects, const Candid
   const double weights[] = {1 - hit.u - hit.v, hit.u, hit.v};
   const Affine* toWorld = toWorldOf(scene, candidate.instance);
   Vec3d offset;
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (const auto i : indices(3)) {
     Vec3d n = triple(normals + 3 * i);
     if (toWorld) {
       n = normalized(toWorld->normal(n));
@@ -232,22 +232,22 @@ std::optional<SurfelRow> findIntersections(const World& world, const Chunk& chun
              lobePointsOf(chunk, slot), s);
   const RayCone cone{ray.cone.width, pixelCone(chunk.frame->camera).spread};
   SurfelRow row;
-  put(s.position, row.posX, row.posY, row.posZ);
-  put(s.geometricNormal, row.ngX, row.ngY, row.ngZ);
-  put(s.shadingNormal, row.nsX, row.nsY, row.nsZ);
+  row.pos = s.position;
+  row.ng = s.geometricNormal;
+  row.ns = s.shadingNormal;
   row.offset = s.offset;
   row.viewOffset = s.viewOffset;
-  put(s.diffuse, row.diffuseR, row.diffuseG, row.diffuseB);
+  row.diffuse = s.diffuse;
   row.material = s.material;
-  put(s.specular, row.specularR, row.specularG, row.specularB);
+  row.specular = s.specular;
   row.alpha = s.alpha;
-  put(s.lobe, row.lobeR, row.lobeG, row.lobeB);
-  put(s.emission, row.emissionR, row.emissionG, row.emissionB);
+  row.lobe = s.lobe;
+  row.emission = s.emission;
   row.coverage = s.coverage;
   row.occlusion = s.occlusion;
-  put(s.mirror, row.mirrorR, row.mirrorG, row.mirrorB);
-  put(s.transmission, row.transmissionR, row.transmissionG, row.transmissionB);
-  put(s.shadowOffset, row.shadowOffsetX, row.shadowOffsetY, row.shadowOffsetZ);
+  row.mirror = s.mirror;
+  row.transmission = s.transmission;
+  row.shadowOffset = s.shadowOffset;
   row.cone = cone.widthAt(hit.t);
   if (s.entering) row.flags |= kEntering;
   if (crossing.hidden) row.flags |= kHidden;

@@ -149,7 +149,7 @@ std::optional<UnshadowedRow> findRadiance(const World& world, const Chunk& chunk
   const LightArrival arrival = arrivalAt(world, chunk, slot);
   if (!(maxComponent(arrival.radiance) > 0)) return std::nullopt;
   UnshadowedRow row;
-  put(arrival.radiance / chunk.lightSamples, row.r, row.g, row.b);
+  row.rgb = arrival.radiance / chunk.lightSamples;
   // Shadow rays have yet to find out.
   row.visible = chunk.tracesShadows() ? 0 : 1;
   return row;
@@ -161,8 +161,8 @@ std::optional<ShadowRow> findShadowRay(const World& world, const Chunk& chunk,
   const LightArrival arrival = arrivalAt(world, chunk, slot);
   if (!(maxComponent(arrival.radiance) > 0)) return std::nullopt;
   ShadowRow row;
-  put(arrival.shadowRay.origin, row.orgX, row.orgY, row.orgZ);
-  put(arrival.shadowRay.direction, row.dirX, row.dirY, row.dirZ);
+  row.org = arrival.shadowRay.origin;
+  row.dir = arrival.shadowRay.direction;
   row.tFar = arrival.tFar;
   row.slot = slot;
   return row;

@@ -114,7 +114,7 @@ double fisheyeAngle(const CameraFrame& camera, double radius) {
 double entryAt(const std::vector<float>& table, double pixel, int pixels) {
   const auto last = static_cast<double>(table.size() - 1);
   const double at = std::clamp(pixel * static_cast<double>(table.size()) / pixels - 0.5, 0.0, last);
-  const auto before = static_cast<std::size_t>(at);
+  const std::size_t before = at;
   const double a = table[before], b = table[std::min(before + 1, table.size() - 1)];
   return a + (b - a) * (at - static_cast<double>(before));
 }
@@ -169,7 +169,7 @@ Ray generateRay(const CameraFrame& camera, double x, double y) {
     const int column = std::min(static_cast<int>(x / camera.viewWidth), columns - 1);
     const int row = std::min(static_cast<int>(y / camera.viewHeight), rows - 1);
     number = row * columns + column;
-    view = entryOf(camera.views, number);
+    view = camera.views[number];
     x -= column * camera.viewWidth;
     y -= row * camera.viewHeight;
   }
@@ -218,11 +218,11 @@ RayRow generateRays(const World& world, const Chunk& chunk, std::size_t slot) {
   row.path = streamOfPixel(pixel, chunk.sampleNumber, chunk.frame->seed);
   const Ray ray = throughLens(world.camera, central, {row.path, chunk.sampleNumber});
 
-  put(ray.origin, row.orgX, row.orgY, row.orgZ);
-  put(ray.direction, row.dirX, row.dirY, row.dirZ);
+  row.org = ray.origin;
+  row.dir = ray.direction;
 
   // A primary ray has the weight 1, and its parent is the slot of its pixel.
-  put(Vec3d(1.0), row.weightR, row.weightG, row.weightB);
+  row.weight = Vec3d(1.0);
   row.throughput = 1;
   row.parent = static_cast<std::uint32_t>(slot);
 

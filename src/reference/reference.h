@@ -50,7 +50,7 @@ class RayCounts {
   }
 
   RayCounts& operator+=(const RayCounts& b) {
-    for (std::size_t k = 0; k < kRayKindCount; ++k) counts_[k] += b.counts_[k];
+    for (const auto k : indices(kRayKindCount)) counts_[k] += b.counts_[k];
     ended += b.ended;
     clear += b.clear;
     limitedSamples += b.limitedSamples;

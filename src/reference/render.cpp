@@ -22,12 +22,12 @@ using PixelTask = std::function<void(int x, int y, RayCounts& counts)>;
 
 // Calls the task for every pixel of the window; threads share the rows.
 RayCounts forEachPixel(const Crop& window, int threads, Progress* progress, const PixelTask& task) {
-  std::vector<RayCounts> counts(static_cast<std::size_t>(std::max(1, threads)));
+  std::vector<RayCounts> counts(std::max(1, threads));
   const int rows = window.y1 - window.y0;
   std::atomic<int> rowsDone{0};
   parallelFor(threads, static_cast<std::size_t>(rows), [&](std::size_t row, int worker) {
     const int y = window.y0 + static_cast<int>(row);
-    RayCounts& own = entryOf(counts, worker);
+    RayCounts& own = counts[worker];
     for (int x = window.x0; x < window.x1; ++x) {
       const std::uint64_t before = own.limitedSamples;
       task(x, y, own);
@@ -70,7 +70,7 @@ RayCounts renderAdaptively(const Tracer& tracer, const CameraFrame& frame, const
     if (edges[first.index(x, y)] == 0) return;
     PixelProbes& pixel = probes.at(x, y);
     for (int s = 0; s < std::min(options.spp, kProbeSamples); ++s) {
-      const auto number = static_cast<std::size_t>(s);
+      const std::size_t number = s;
       const RgbD value = tracer.sampled(frame, x, y, pattern[number], number, own);
       addSample(pixel.total, value, s + 1.0);
       pixel.codes[number] = displayCode(Rgb(value), scale, options.toneCurve);
@@ -95,7 +95,7 @@ RayCounts renderAdaptively(const Tracer& tracer, const CameraFrame& frame, const
 RgbD Tracer::pixel(const CameraFrame& camera, int x, int y, RayCounts& counts) const {
   RgbD mean;
   double taken = 0;
-  for (std::size_t s = 0; s < samples_.size(); ++s) {
+  for (const auto s : indices(samples_)) {
     addSample(mean, sampled(camera, x, y, samples_[s], s, counts), ++taken);
   }
   return mean;
@@ -104,7 +104,7 @@ RgbD Tracer::pixel(const CameraFrame& camera, int x, int y, RayCounts& counts) c
 // By the running sum of squared deviations (Welford 1962), which does not cancel.
 double Tracer::standardError(const CameraFrame& camera, int x, int y, RayCounts& counts) const {
   double mean = 0, deviations = 0, taken = 0;
-  for (std::size_t s = 0; s < samples_.size(); ++s) {
+  for (const auto s : indices(samples_)) {
     const RgbD sample = sampled(camera, x, y, samples_[s], s, counts);
     const double value = (sample.x + sample.y + sample.z) / 3, before = value - mean;
     mean += before / ++taken;
@@ -197,7 +197,7 @@ void keepChannels(const Scene& scene, const Intersector& intersector, const Came
     layers.keep(pixel, tracer.channels(frame, x, y, samples[number], number));
     if (layers.channels().has(Channel::alpha)) {
       RayCounts seen;
-      for (std::size_t i = 0; i < samples.size(); ++i) {
+      for (const auto i : indices(samples)) {
         tracer.sampled(frame, x, y, samples[i], i, seen);
       }
       const double clear = (seen.clear.x + seen.clear.y + seen.clear.z) / 3;

@@ -86,24 +86,22 @@ struct World {
 inline Surfel surfelOf(const Chunk& chunk, std::size_t slot) {
   const SurfelRow r = SurfelRow::at(chunk.surfels, slot);
   Surfel s;
-  s.position = {r.posX, r.posY, r.posZ};
+  s.position = r.pos;
   s.view = -rayOf(chunk, slot).direction;
-  s.geometricNormal = {r.ngX, r.ngY, r.ngZ};
-  s.shadingNormal = {r.nsX, r.nsY, r.nsZ};
-  s.shadowOffset = {r.shadowOffsetX, r.shadowOffsetY, r.shadowOffsetZ};
+  s.geometricNormal = r.ng;
+  s.shadingNormal = r.ns;
+  s.shadowOffset = r.shadowOffset;
   s.offset = r.offset;
   s.viewOffset = r.viewOffset;
   s.entering = (r.flags & kEntering) != 0;
   s.material = r.material;
-  s.diffuse = {r.diffuseR, r.diffuseG, r.diffuseB};
-  s.specular = {r.specularR, r.specularG, r.specularB};
-  if (chunk.has(Feature::emissionFactors)) s.emission = {r.emissionR, r.emissionG, r.emissionB};
-  if (chunk.has(Feature::mirrorMaps)) s.mirror = {r.mirrorR, r.mirrorG, r.mirrorB};
-  if (chunk.has(Feature::transmissionMaps)) {
-    s.transmission = {r.transmissionR, r.transmissionG, r.transmissionB};
-  }
+  s.diffuse = r.diffuse;
+  s.specular = r.specular;
+  if (chunk.has(Feature::emissionFactors)) s.emission = r.emission;
+  if (chunk.has(Feature::mirrorMaps)) s.mirror = r.mirror;
+  if (chunk.has(Feature::transmissionMaps)) s.transmission = r.transmission;
   if (chunk.has(Feature::glossy)) s.alpha = r.alpha;
-  s.lobe = {r.lobeR, r.lobeG, r.lobeB};
+  s.lobe = r.lobe;
   if (chunk.has(Feature::coverage)) s.coverage = r.coverage;
   if (chunk.has(Feature::occlusionMaps)) s.occlusion = r.occlusion;
   s.cone.width = r.cone;
@@ -123,6 +121,4 @@ inline bool isHidden(const Chunk& chunk, std::size_t slot) {
 }
 
 // Into three columns of a row.
-inline void put(const Vec3d& v, double& x, double& y, double& z) { x = v.x, y = v.y, z = v.z; }
-
 }  // namespace whit::reference

@@ -76,8 +76,8 @@ inline RadianceRow writeEmittedAndReflectiveAmbient(const World& world, const Ch
     radiance = emittedAndAmbient(world.scene, world.effects, surfelOf(chunk, slot));
   }
   radiance += fogBefore(world, chunk, slot);
-  RadianceRow row{radiance.x, radiance.y, radiance.z};
-  put(clear, row.clearR, row.clearG, row.clearB);
+  RadianceRow row{radiance};
+  row.clear = clear;
   return row;
 }
 

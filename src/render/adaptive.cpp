@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "core/image.h"
+#include "core/index.h"
 #include "sampling/sample_pattern.h"
 
 namespace whit {
@@ -25,7 +26,7 @@ class SurfaceRecorder : public StageObserver {
     if (stage != Stage::findIntersections || c.depth > 0) return;
 
     const SurfelColumns& s = c.surfels;
-    for (std::size_t i = 0; i < c.n; ++i) {
+    for (const auto i : indices(c.n)) {
       const std::uint32_t pixel = c.pixels[c.first + i];
       PixelSurface& surface = surfaces_[image_.index(pixelX(pixel), pixelY(pixel))];
       surface = {};
@@ -33,8 +34,8 @@ class SurfaceRecorder : public StageObserver {
 
       surface.material = s.material[i];
       if (c.has(Feature::instances)) surface.instance = c.hits.instance[i];
-      surface.position = {s.posX[i], s.posY[i], s.posZ[i]};
-      surface.normal = {s.ngX[i], s.ngY[i], s.ngZ[i]};
+      surface.position = s.pos.at(i);
+      surface.normal = s.ng.at(i);
     }
   }
 

@@ -122,7 +122,7 @@ MaterialRecord recordOf(const Material& m, std::uint32_t medium, bool onOthers, 
 }
 
 bool isRadiance(const Scene& scene, std::int32_t texture) {
-  return entryOf(scene.textures, texture).format == TexelFormat::radiance;
+  return scene.textures[texture].format == TexelFormat::radiance;
 }
 
 void addMaterials(const Scene& scene, EffectSet effects, ShadingTables& tables) {
@@ -130,7 +130,7 @@ void addMaterials(const Scene& scene, EffectSet effects, ShadingTables& tables) 
   tables.radianceMaps = false;
   const bool onOthers = scene.media.size() > 1 && !scene.coplanar.empty();
   MapNumbers maps(tables.maps);
-  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+  for (const auto i : indices(scene.materials)) {
     const Material& m = scene.materials[i];
     MaterialRecord r = recordOf(m, scene.mediumOfMaterial[i], onOthers, effects, maps);
     if (r.emissionMap != kNoTexture && isRadiance(scene, m.emissionMap)) {
@@ -176,7 +176,7 @@ std::vector<Texture> madeTextures(const Scene& scene, const std::vector<ShownMap
   std::vector<Texture> textures = scene.textures;
   std::set<Texture*> late;
   for (const ShownMap& map : maps) {
-    Texture& texture = entryOf(textures, map.texture);
+    Texture& texture = textures[map.texture];
     if (texture.late) late.insert(&texture);
   }
 
@@ -205,7 +205,7 @@ void addTextures(const Scene& scene, TextureFilter filter, int threads, ShadingT
   for (const ShownMap& map : tables.maps) {
     std::vector<std::size_t>& own = levelsOfMaps.emplace_back();
     const auto [full, isNew] = fullSizes.try_emplace(map.texture, levels.size());
-    if (isNew) levels.push_back(std::move(entryOf(textures, map.texture)));
+    if (isNew) levels.push_back(std::move(textures[map.texture]));
     own.push_back(full->second);
     for (int level = 1; level < mips.levels(map); ++level) {
       own.push_back(levels.size());

@@ -5,6 +5,7 @@
 
 #include "core/display.h"
 #include "core/error.h"
+#include "core/text.h"
 
 namespace whit {
 
@@ -20,16 +21,15 @@ Film makeFilm(const Scene& scene, const RenderOptions& options, std::uint64_t ma
   const Crop window = options.crop.value_or(Crop{0, 0, size.width, size.height});
   if (window.x0 < 0 || window.y0 < 0 || window.x1 > size.width || window.y1 > size.height ||
       window.x0 >= window.x1 || window.y0 >= window.y1) {
-    throwUsage("--crop must lie within the image of " + std::to_string(size.width) + "x" +
-               std::to_string(size.height) + " pixels and hold at least one");
+    throwUsage(concat("--crop must lie within the image of ", size.width, "x", size.height,
+                      " pixels and hold at least one"));
   }
 
   const std::uint64_t bytes =
       cellsOf(window.x1 - window.x0, window.y1 - window.y0) *
       (kBytesPerPixel + ChannelLayers::bytesPerPixel(keptChannels(options)));
   if (bytes > maxBytes) {
-    throwLimit("the image needs " + std::to_string(bytes / 1000000) +
-               " MB, more than --max-memory allows");
+    throwLimit(concat("the image needs ", bytes / 1000000, " MB, more than --max-memory allows"));
   }
 
   Film film;

@@ -1,23 +1,24 @@
 #include "render/frame_stats.h"
 
 #include "core/error.h"
+#include "core/index.h"
+#include "core/text.h"
 
 namespace whit {
 
 void refuseNonFinite(const Scene& scene, const RenderOptions& options, const FrameStats& frame) {
   if (!options.strict || frame.nonFinitePixels == 0) return;
-  throw Error(ExitStatus::badScene, scene.name + ": the image has " +
-                                        std::to_string(frame.nonFinitePixels) +
-                                        " pixels that are not finite (refused by --strict)");
+  throw Error(ExitStatus::badScene, concat(scene.name, ": the image has ", frame.nonFinitePixels,
+                                           " pixels that are not finite (refused by --strict)"));
 }
 
 void FrameStats::add(const FrameStats& worker) {
-  for (std::size_t i = 0; i < kStageCount; ++i) {
+  for (const auto i : indices(kStageCount)) {
     stageWorkerMs[i] += worker.stageWorkerMs[i];
     stageCalls[i] += worker.stageCalls[i];
   }
-  for (std::size_t i = 0; i < stepCalls.size(); ++i) stepCalls[i] += worker.stepCalls[i];
-  for (std::size_t i = 0; i < kRayKindCount; ++i) {
+  for (const auto i : indices(stepCalls)) stepCalls[i] += worker.stepCalls[i];
+  for (const auto i : indices(kRayKindCount)) {
     meter.tally[i].rays += worker.meter.tally[i].rays;
     meter.tally[i].lanes += worker.meter.tally[i].lanes;
   }

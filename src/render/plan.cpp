@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "accel/accel.h"
-#include "core/contains.h"
+#include "core/index.h"
 #include "render/steps.h"
 #include "simd/kernels.h"
 #include "stages/lobes.h"
@@ -126,114 +126,107 @@ class Planner {
   Plan make() {
     plan_.perSample = {stepOf(simd::kGenerateRays)};
     if (has(Effect::transmission)) {
-      plan_.perSample.push_back(amendingStep("findInitialMedia", simd::kGenerateRays,
-                                             findInitialMedia, {Part::rays}, {Part::rays}));
+      amend(plan_.perSample, "findInitialMedia", simd::kGenerateRays, findInitialMedia, {rays},
+            {rays});
     }
 
     findIntersections();
-    plan_.perQueue.push_back(stepOf(simd::kWriteEmittedAndReflectiveAmbient));
+    add(plan_.perQueue, simd::kWriteEmittedAndReflectiveAmbient);
     if (seesThrough()) {
-      plan_.perQueue.push_back(amendingStep("startAlpha", simd::kWriteEmittedAndReflectiveAmbient,
-                                            startAlpha, {Part::rays, Part::surfels},
-                                            {Part::radiance}));
+      amend(plan_.perQueue, "startAlpha", simd::kWriteEmittedAndReflectiveAmbient, startAlpha,
+            {rays, surfels}, {radiance});
     }
 
     // After startAlpha, which takes the sky away but not the fog before it.
-    if (has(Effect::fog)) plan_.perQueue.push_back(stepOf(simd::kAddFog));
+    if (has(Effect::fog)) add(plan_.perQueue, simd::kAddFog);
 
     if (isOccluded(scene_.ambient, plan_.effects)) addAmbientLight();
     if (has(Effect::lights)) {
-      for (std::size_t i = 0; i < scene_.lights.size(); ++i) addSamplesOf(i);
+      for (const auto i : indices(scene_.lights)) addSamplesOf(i);
     }
 
     addImpulses();
     if (has(Effect::absorption) || has(Effect::fog)) plan_.atEye = {stepOf(simd::kReturnToEye)};
     if (countsRays()) {
-      plan_.atEye.push_back(amendingStep("keepRayCounts", simd::kReturnToEye, keepRayCounts,
-                                         {Part::rayCounts}, {Part::channels}));
+      amend(plan_.atEye, "keepRayCounts", simd::kReturnToEye, keepRayCounts, {rayCounts},
+            {channels});
     }
     if (notesEnds()) {
-      plan_.atEye.push_back(amendingStep("keepEnds", simd::kReturnToEye, keepEnds,
-                                         {Part::rays, Part::radiance}, {Part::channels}));
+      amend(plan_.atEye, "keepEnds", simd::kReturnToEye, keepEnds, {rays, radiance}, {channels});
     }
     if (seesThrough()) {
-      plan_.atEye.push_back(amendingStep("keepAlpha", simd::kReturnToEye, keepAlpha,
-                                         {Part::rays, Part::radiance}, {Part::channels}));
+      amend(plan_.atEye, "keepAlpha", simd::kReturnToEye, keepAlpha, {rays, radiance}, {channels});
     }
 
     plan_.perTile = {amendingStep("updateImage", simd::kEncodeDisplay, updateImage,
-                                  {Part::radiance, Part::pixels},
-                                  {Part::radiance, Part::codes, Part::film})};
+                                  {radiance, pixels}, {radiance, codes, film})};
     plan_.perTile[0].kernels = {useOf(simd::kEncodeDisplay)};
     markEndsOfStages();
     return std::move(plan_);
   }
 
  private:
+  using enum Part;
+
   bool has(Effect effect) const { return plan_.effects.has(effect); }
+  bool has(Feature feature) const { return plan_.features.has(feature); }
   bool inPackets() const { return options_.packet != 1; }
   bool countsRays() const { return plan_.channels.has(Channel::rays); }
-  bool seesThrough() const { return plan_.features.has(Feature::alpha); }
-  bool notesEnds() const { return plan_.features.has(Feature::ended); }
+  bool seesThrough() const { return has(Feature::alpha); }
+  bool notesEnds() const { return has(Feature::ended); }
+
+  // The kernel is skipped in chunks in which no material has a flag of `wants`; 0: never.
+  static void add(std::vector<Step>& steps, const simd::Kernel& kernel, std::uint32_t wants = 0) {
+    steps.push_back(stepOf(kernel));
+    steps.back().wants = wants;
+  }
+
+  static void amend(std::vector<Step>& steps, std::string_view name, const simd::Kernel& kernel,
+                    StepFunction run, Parts reads, Parts writes) {
+    steps.push_back(amendingStep(name, kernel, run, reads, writes));
+  }
 
   void findIntersections() {
     if (countsRays()) {
-      plan_.perQueue = {
-          amendingStep("countRays", simd::kPackRays, countRays, {Part::rays}, {Part::rayCounts})};
+      amend(plan_.perQueue, "countRays", simd::kPackRays, countRays, {rays}, {rayCounts});
     }
 
     plan_.perQueue.push_back(embreeStep("findHits", "intersect", findHits, simd::kPackRays,
                                         simd::kUnpackHits, inPackets()));
-    if (plan_.features.has(Feature::coplanar)) {
-      plan_.perQueue.push_back(amendingStep("chooseCoplanar", simd::kUnpackHits, chooseCoplanar,
-                                            {Part::rays, Part::hits}, {Part::hits}));
+    if (has(Feature::coplanar)) {
+      amend(plan_.perQueue, "chooseCoplanar", simd::kUnpackHits, chooseCoplanar, {rays, hits},
+            {hits});
     }
 
     // Spheres that move may become coincident at any time.
     const bool coincide = scene_.motion.ofGeometry || !scene_.coincidentSpheres.empty();
     if (has(Effect::spheres) && coincide) {
-      plan_.perQueue.push_back(amendingStep("chooseSpheres", simd::kUnpackHits, chooseSpheres,
-                                            {Part::hits}, {Part::hits}));
+      amend(plan_.perQueue, "chooseSpheres", simd::kUnpackHits, chooseSpheres, {hits}, {hits});
     }
     if (notesEnds()) {
-      plan_.perQueue.push_back(
-          amendingStep("startEnds", simd::kUnpackHits, startEnds, {Part::rays}, {Part::radiance}));
+      amend(plan_.perQueue, "startEnds", simd::kUnpackHits, startEnds, {rays}, {radiance});
     }
 
-    plan_.perQueue.push_back(stepOf(simd::kInterpolateSurfels));
-    if (plan_.features.has(Feature::roughnessMaps)) {
-      plan_.perQueue.push_back(stepOf(simd::kLookUpRoughness));
-      plan_.perQueue.back().wants = kMaterialVariesRoughness;
-    }
-    if (plan_.features.has(Feature::coverage)) {
-      plan_.perQueue.push_back(stepOf(simd::kLookUpCoverage));
-    }
+    add(plan_.perQueue, simd::kInterpolateSurfels);
+    if (has(Feature::roughnessMaps))
+      add(plan_.perQueue, simd::kLookUpRoughness, kMaterialVariesRoughness);
+    if (has(Feature::coverage)) add(plan_.perQueue, simd::kLookUpCoverage);
 
     // Channels are kept before findLayers, because the albedo is the material's, whatever the view.
     if (!plan_.channels.empty()) {
-      plan_.perQueue.push_back(amendingStep("keepChannels", simd::kInterpolateSurfels, keepChannels,
-                                            {Part::rays, Part::hits, Part::surfels},
-                                            {Part::channels}));
+      amend(plan_.perQueue, "keepChannels", simd::kInterpolateSurfels, keepChannels,
+            {rays, hits, surfels}, {channels});
     }
 
-    if (plan_.features.has(Feature::occlusionMaps)) {
-      plan_.perQueue.push_back(stepOf(simd::kLookUpOcclusion));
-    }
-    if (plan_.features.has(Feature::mirrorMaps)) {
-      plan_.perQueue.push_back(stepOf(simd::kLookUpMirror));
-    }
-    if (plan_.features.has(Feature::transmissionMaps)) {
-      plan_.perQueue.push_back(stepOf(simd::kLookUpTransmission));
-    }
+    if (has(Feature::occlusionMaps)) add(plan_.perQueue, simd::kLookUpOcclusion);
+    if (has(Feature::mirrorMaps)) add(plan_.perQueue, simd::kLookUpMirror);
+    if (has(Feature::transmissionMaps)) add(plan_.perQueue, simd::kLookUpTransmission);
     if (std::ranges::any_of(scene_.materials,
                             [&](const Material& m) { return m.isLayered(plan_.effects); })) {
-      plan_.perQueue.push_back(stepOf(simd::kFindLayers));
-      plan_.perQueue.back().wants = kMaterialLayered;
+      add(plan_.perQueue, simd::kFindLayers, kMaterialLayered);
     }
 
-    if (plan_.features.has(Feature::shadowOffset)) {
-      plan_.perQueue.push_back(stepOf(simd::kLiftShadowOrigins));
-    }
+    if (has(Feature::shadowOffset)) add(plan_.perQueue, simd::kLiftShadowOrigins);
   }
 
   void addAmbientLight() {
@@ -242,7 +235,7 @@ class Planner {
       LightSteps& ambient =
           startLight(kAmbientLight, k, samples, simd::kFindAmbientAndOcclusionRays);
       ambient.steps.push_back(checkShadowsStep());
-      ambient.steps.push_back(stepOf(simd::kAddShading));
+      add(ambient.steps, simd::kAddShading);
     }
   }
 
@@ -254,8 +247,8 @@ class Planner {
     started.samples = samples;
     started.steps = {stepOf(first)};
     if (countsRays()) {
-      started.steps.push_back(amendingStep("countShadowRays", simd::kFindRadianceAndShadowRays,
-                                           countShadowRays, {Part::shadows}, {Part::rayCounts}));
+      amend(started.steps, "countShadowRays", simd::kFindRadianceAndShadowRays, countShadowRays,
+            {shadows}, {rayCounts});
     }
     return started;
   }
@@ -276,10 +269,8 @@ class Planner {
     if (directional && !has(Effect::directionalLights)) return;
     std::vector<Step>& steps =
         startLight(index, sample, samples, simd::kFindRadianceAndShadowRays).steps;
-    if (has(Effect::shadows)) {
-      steps.push_back(checkShadowsStep());
-    }
-    steps.push_back(stepOf(simd::kAddShading));
+    if (has(Effect::shadows)) steps.push_back(checkShadowsStep());
+    add(steps, simd::kAddShading);
   }
 
   // In the order in which a queue holds its rays, kind by kind.
@@ -302,28 +293,28 @@ class Planner {
 
     plan_.depth = options_.depth;
     if (seesThrough()) {
-      plan_.impulses.push_back(amendingStep("markStraight", simd::kAddRefractions, markStraight,
-                                            {Part::rays, Part::children}, {Part::children}));
+      amend(plan_.impulses, "markStraight", simd::kAddRefractions, markStraight, {rays, children},
+            {children});
     }
     if (options_.maxRays > 0 && mostImpulses() > options_.maxRays) {
       plan_.limitsRays = true;
       plan_.features = plan_.features.with(Feature::streams);
-      plan_.impulses.push_back(amendingStep("limitRays", simd::kReturnImpulses, limitRays,
-                                            {Part::rays, Part::children}, {Part::children}));
+      amend(plan_.impulses, "limitRays", simd::kReturnImpulses, limitRays, {rays, children},
+            {children});
     }
 
     plan_.onReturn = {stepOf(simd::kReturnImpulses)};
     if (countsRays()) {
-      plan_.onReturn.push_back(amendingStep("returnRayCounts", simd::kReturnImpulses,
-                                            returnRayCounts, {Part::rays, Part::rayCounts}, {}));
+      amend(plan_.onReturn, "returnRayCounts", simd::kReturnImpulses, returnRayCounts,
+            {rays, rayCounts}, {});
     }
     if (notesEnds()) {
-      plan_.onReturn.push_back(amendingStep("returnEnds", simd::kReturnImpulses, returnEnds,
-                                            {Part::rays, Part::radiance}, {Part::parentRadiance}));
+      amend(plan_.onReturn, "returnEnds", simd::kReturnImpulses, returnEnds, {rays, radiance},
+            {parentRadiance});
     }
     if (seesThrough()) {
-      plan_.onReturn.push_back(amendingStep("returnAlpha", simd::kReturnImpulses, returnAlpha,
-                                            {Part::rays, Part::radiance}, {Part::parentRadiance}));
+      amend(plan_.onReturn, "returnAlpha", simd::kReturnImpulses, returnAlpha, {rays, radiance},
+            {parentRadiance});
     }
 
     // Primary rays and the impulses of flat mirrors are coherent; Embree then traverses packets as
@@ -364,7 +355,7 @@ class Planner {
 
   void markEndsOfStages() {
     const auto mark = [](std::vector<Step>& steps) {
-      for (std::size_t i = 0; i < steps.size(); ++i) {
+      for (const auto i : indices(steps)) {
         steps[i].endsStage = i + 1 == steps.size() || steps[i + 1].stage != steps[i].stage;
       }
     };

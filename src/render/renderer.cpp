@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/index.h"
 #include "core/machine_limits.h"
 #include "core/option_table.h"
 #include "core/stopwatch.h"
@@ -130,7 +131,7 @@ FrameConstants Renderer::constantsOf(const CameraFrame& camera) const {
 }
 
 const std::vector<Vec2f>& Renderer::pattern() {
-  const auto samples = static_cast<std::size_t>(options_.spp);
+  const std::size_t samples = options_.spp;
   if (pattern_.size() != samples) pattern_ = samplePattern(options_.spp);
   return pattern_;
 }
@@ -249,8 +250,7 @@ std::vector<std::pair<std::string, std::string>> describeImage(const Scene& scen
       {"scene", scene.name},
       {"effectsUsed", formatValue(OptionSpec{}, renderer.plan().effects)}};
   if (!isFramedByOptions(camera)) {
-    metadata.emplace_back("projection",
-                          kWords<Projection>[static_cast<std::size_t>(camera.projection)]);
+    metadata.emplace_back("projection", entryOf(kWords<Projection>, camera.projection));
   }
   for (auto& entry : pictureOptions(resolved)) metadata.push_back(std::move(entry));
   return metadata;

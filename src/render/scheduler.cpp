@@ -5,6 +5,7 @@
 #include <barrier>
 
 #include "core/image.h"
+#include "core/index.h"
 
 namespace whit {
 
@@ -33,7 +34,7 @@ std::vector<std::uint32_t> mortonOrder(int side) {
 // The lists dealt out in turn, so that every worker gets its share of each part of the image.
 PixelLists dealOut(const PixelLists& lists, std::size_t workers) {
   PixelLists shares(workers);
-  for (std::size_t i = 0; i < lists.size(); ++i) {
+  for (const auto i : indices(lists)) {
     std::vector<std::uint32_t>& share = shares[i % workers];
     share.insert(share.end(), lists[i].begin(), lists[i].end());
   }
@@ -69,8 +70,8 @@ void Scheduler::layOut(const Plan& plan, const RenderOptions& options, const Cro
   inBatches_ = options.batch == Batch::frame;
   tiles_ = makeTiles(window, options.tile);
 
-  const auto workers = static_cast<std::size_t>(threads_);
-  const auto side = static_cast<std::size_t>(options.tile);
+  const std::size_t workers = threads_;
+  const std::size_t side = options.tile;
   // Deep queues of two tiles fill their chunks better; longer ones gain no more.
   std::size_t capacity = 2 * side * side;
   if (inBatches_) {
@@ -98,10 +99,10 @@ FrameStats Scheduler::trace(const Frame& frame, const PixelLists& lists) {
 
 FrameStats Scheduler::forWorkers(
     const std::function<void(std::size_t worker, FrameStats& stats)>& task) {
-  std::vector<FrameStats> stats(static_cast<std::size_t>(threads_));
+  std::vector<FrameStats> stats(threads_);
 
   pool_.run([&](int worker) {
-    const auto w = static_cast<std::size_t>(worker);
+    const std::size_t w = worker;
     FrameStats mine;  // on this worker's stack: no cache line is shared while the frame runs
     task(w, mine);
     stats[w] = mine;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/index.h"
 #include "stages/chunk.h"
 #include "stages/stage.h"
 
@@ -23,11 +24,11 @@ class PixelTracker {
     if (stage == Stage::generateRays) {
       levels_.assign(1, {chunk.pixels.begin(), chunk.pixels.end()});
     } else if (stage == Stage::addImpulses) {
-      const auto depth = static_cast<std::size_t>(chunk.depth);
+      const std::size_t depth = chunk.depth;
       levels_.resize(depth + 2);
       std::vector<std::uint32_t>& next = levels_[depth + 1];
       next.clear();
-      for (std::size_t i = 0; i < chunk.childCount; ++i) {
+      for (const auto i : indices(chunk.childCount)) {
         next.push_back(levels_[depth][chunk.first + chunk.children.parent[i]]);
       }
     }

@@ -11,6 +11,7 @@
 #include "bake/sphere.h"
 #include "core/error.h"
 #include "core/image.h"
+#include "core/index.h"
 #include "core/text.h"
 #include "render/embree_intersector.h"
 #include "render/renderer.h"
@@ -34,8 +35,8 @@ bool isKept(const Chunk& c) {
 template <typename Keep>
 void forEachKept(const Chunk& c, Keep&& keep) {
   const Crop& w = c.frame->channels.window;
-  const auto width = static_cast<std::size_t>(w.x1 - w.x0);
-  for (std::size_t i = 0; i < c.n; ++i) {
+  const std::size_t width = w.x1 - w.x0;
+  for (const auto i : indices(c.n)) {
     if (c.isGivenUp(c.first + i)) continue;
     const std::uint32_t pixel = c.pixels[c.first + i];
     const int x = pixelX(pixel), y = pixelY(pixel);
@@ -45,7 +46,7 @@ void forEachKept(const Chunk& c, Keep&& keep) {
 }
 
 float largestWeight(const RayColumns& rays, std::size_t i) {
-  return std::max({rays.weightR[i], rays.weightG[i], rays.weightB[i]});
+  return maxComponent(rays.weight.at(i));
 }
 
 void moveRow(RayColumns rays, std::size_t from, std::size_t to) {
@@ -58,7 +59,7 @@ void moveRow(RayColumns rays, std::size_t from, std::size_t to) {
 template <typename Keeps>
 void keepChildren(Chunk& c, const Keeps& keeps) {
   std::size_t kept = 0, segments = 0;
-  for (std::size_t s = 0; s < c.childSegmentCount; ++s) {
+  for (const auto s : indices(c.childSegmentCount)) {
     const Segment all = c.childSegments[s];
     const std::size_t first = kept;
     for (std::size_t i = all.begin; i < all.end; ++i) {
@@ -77,7 +78,7 @@ void keepChildren(Chunk& c, const Keeps& keeps) {
 // The child counts for all of its surface's, as the one that was chosen.
 void standForAll(const Chunk& c, std::size_t child, const Narrowing& of) {
   const double grows = of.weights / static_cast<double>(largestWeight(c.children, child));
-  for (float* weight : {c.children.weightR, c.children.weightG, c.children.weightB}) {
+  for (float* weight : {c.children.weight.x, c.children.weight.y, c.children.weight.z}) {
     weight[child] = static_cast<float>(static_cast<double>(weight[child]) * grows);
   }
   const auto before = static_cast<double>(c.rays.throughput[c.children.parent[child]]);
@@ -87,7 +88,7 @@ void standForAll(const Chunk& c, std::size_t child, const Narrowing& of) {
 void narrowTrees(Chunk& c) {
   const std::uint64_t widest = widestTree(c.options().maxRays, c.options().depth);
   const std::uint32_t* const parents = c.children.parent;
-  for (std::size_t i = 0; i < c.childCount; ++i) {
+  for (const auto i : indices(c.childCount)) {
     Narrowing& parent = c.narrowings[parents[i]];
     ++parent.children;
     parent.weights += static_cast<double>(largestWeight(c.children, i));
@@ -116,11 +117,10 @@ ChannelValues valuesOf(const Chunk& c, std::size_t i) {
   const Scene& scene = *c.frame->scene;
   const Vec3f forward(c.frame->camera.forward);
   values.distance = c.hits.t[i];
-  values.z = values.distance *
-             (c.rays.dirX[i] * forward.x + c.rays.dirY[i] * forward.y + c.rays.dirZ[i] * forward.z);
-  values.position = Vec3f(scene.inFile(Vec3d(Vec3f{s.posX[i], s.posY[i], s.posZ[i]})));
-  values.normal = {s.nsX[i], s.nsY[i], s.nsZ[i]};
-  values.albedo = {s.diffuseR[i], s.diffuseG[i], s.diffuseB[i]};
+  values.z = values.distance * dot(c.rays.dir.at(i), forward);
+  values.position = Vec3f(scene.inFile(Vec3d(s.pos.at(i))));
+  values.normal = s.ns.at(i);
+  values.albedo = s.diffuse.at(i);
   values.material = s.material[i];
   const ChannelSet kept = c.frame->channels.layers->channels();
   const std::uint32_t triangle = c.hits.triangle[i];
@@ -145,7 +145,7 @@ void setSurface(const Candidate& chosen, std::size_t i, Chunk& c) {
 
 Box boundsWithin(const Scene& scene, const Geometry& geometry) {
   Box box;
-  for (std::size_t i = 0; i < geometry.index.size(); ++i) {
+  for (const auto i : indices(geometry.index)) {
     const TriangleRecord& triangle = scene.triangles[geometry.firstTriangle + i];
     if (scene.mediumOfMaterial[triangle.material] == 0) continue;
     for (int k = 0; k < 9; k += 3) {
@@ -175,8 +175,8 @@ void updateImage(Chunk& c) {
 
   // Locals: what memory may alias would be read again for every pixel.
   const int left = film.image.window.x0, top = film.image.window.y0;
-  const auto width = static_cast<std::size_t>(film.image.windowWidth());
-  const float *r = c.radiance.r, *g = c.radiance.g, *b = c.radiance.b;
+  const std::size_t width = film.image.windowWidth();
+  const Columns3 radiance = c.radiance.rgb;
   const std::uint32_t* const pixels = c.pixels.data();
   const std::uint32_t* const codes = film.wantDisplay ? c.codes : nullptr;
   auto* const display = reinterpret_cast<std::uint32_t*>(film.display.rgba.data());
@@ -190,14 +190,12 @@ void updateImage(Chunk& c) {
 
   // The film is larger than the caches: its lines are asked for before they are written.
   constexpr std::size_t kAhead = 64;
-  for (std::size_t i = 0; i < n; ++i) {
+  for (const auto i : indices(n)) {
     const std::size_t next = placeOf(pixels[std::min(i + kAhead, n - 1)]);
     __builtin_prefetch(image + next, 1);
 
     const std::size_t place = placeOf(pixels[i]);
-    image[place].x = r[i];
-    image[place].y = g[i];
-    image[place].z = b[i];
+    image[place] = radiance.at(i);
     if (codes) {
       __builtin_prefetch(display + next, 1);
       display[place] = codes[i];
@@ -206,10 +204,10 @@ void updateImage(Chunk& c) {
 }
 
 std::uint64_t countNonFinite(const Chunk& c) {
-  const float *r = c.radiance.r, *g = c.radiance.g, *b = c.radiance.b;
+  const auto [r, g, b] = c.radiance.rgb;
   std::uint64_t count = 0;
   // The sum is finite only if its terms are, or cancel; infinities of one sign do not.
-  for (std::size_t i = 0; i < c.n; ++i) count += !std::isfinite(r[i] + g[i] + b[i]);
+  for (const auto i : indices(c.n)) count += !std::isfinite(r[i] + g[i] + b[i]);
   return count;
 }
 
@@ -235,7 +233,7 @@ void keepChannels(Chunk& c) {
 }
 
 void limitRays(Chunk& c) {
-  for (std::size_t i = 0; i < c.childCount; ++i) {
+  for (const auto i : indices(c.childCount)) {
     c.childPixelSlots[i] = c.pixelSlots[c.children.parent[i]];
   }
   if (c.narrowings) {
@@ -245,7 +243,7 @@ void limitRays(Chunk& c) {
 
   const auto most = static_cast<unsigned>(c.options().maxRays);
   bool tooMany = false;
-  for (std::size_t i = 0; i < c.childCount; ++i) {
+  for (const auto i : indices(c.childCount)) {
     tooMany |= ++c.followed[c.childPixelSlots[i]] > most;
   }
   if (tooMany) keepChildren(c, [&](std::size_t i) { return !c.isGivenUp(c.childPixelSlots[i]); });
@@ -254,11 +252,11 @@ void limitRays(Chunk& c) {
 void countRays(Chunk& c) { std::fill_n(c.rayCounts, c.n, 1u); }
 
 void countShadowRays(Chunk& c) {
-  for (std::size_t i = 0; i < c.shadowCount; ++i) ++c.rayCounts[c.shadows.slot[i]];
+  for (const auto i : indices(c.shadowCount)) ++c.rayCounts[c.shadows.slot[i]];
 }
 
 void returnRayCounts(Chunk& c) {
-  for (std::size_t i = 0; i < c.n; ++i) c.parentRayCounts[c.rays.parent[i]] += c.rayCounts[i];
+  for (const auto i : indices(c.n)) c.parentRayCounts[c.rays.parent[i]] += c.rayCounts[i];
 }
 
 void keepRayCounts(Chunk& c) {
@@ -270,7 +268,7 @@ void keepRayCounts(Chunk& c) {
 void startEnds(Chunk& c) { std::fill_n(c.radiance.ended, c.n, 0.0f); }
 
 void returnEnds(Chunk& c) {
-  for (std::size_t i = 0; i < c.n; ++i) {
+  for (const auto i : indices(c.n)) {
     c.parentRadiance.ended[c.rays.parent[i]] += largestWeight(c.rays, i) * c.radiance.ended[i];
   }
 }
@@ -284,40 +282,34 @@ void keepEnds(Chunk& c) {
 void startAlpha(Chunk& c) {
   const RadianceColumns& radiance = c.radiance;
   const bool hidesSky = c.options().background.hidesSky();
-  for (std::size_t i = 0; i < c.n; ++i) {
+  for (const auto i : indices(c.n)) {
     const bool isClear = c.surfels.material[i] == kMiss && c.isStraight(i);
-    radiance.clearR[i] = radiance.clearG[i] = radiance.clearB[i] = isClear ? 1.0f : 0.0f;
-    if (isClear && hidesSky) radiance.r[i] = radiance.g[i] = radiance.b[i] = 0;
+    radiance.clear.set(i, Rgb(isClear ? 1.0f : 0.0f));
+    if (isClear && hidesSky) radiance.rgb.set(i, Rgb());
   }
 }
 
 void markStraight(Chunk& c) {
   const RayColumns &rays = c.rays, &children = c.children;
-  for (std::size_t i = 0; i < c.childCount; ++i) {
+  for (const auto i : indices(c.childCount)) {
     const std::uint32_t parent = children.parent[i];
-    const bool goesOn = children.dirX[i] == rays.dirX[parent] &&
-                        children.dirY[i] == rays.dirY[parent] &&
-                        children.dirZ[i] == rays.dirZ[parent];
+    const bool goesOn = children.dir.at(i) == rays.dir.at(parent);
     children.straight[i] = goesOn && c.isStraight(parent) ? 1 : 0;
   }
 }
 
 void returnAlpha(Chunk& c) {
   const RadianceColumns &from = c.radiance, &to = c.parentRadiance;
-  for (std::size_t i = 0; i < c.n; ++i) {
+  for (const auto i : indices(c.n)) {
     const std::uint32_t parent = c.rays.parent[i];
-    to.clearR[parent] += c.rays.weightR[i] * from.clearR[i];
-    to.clearG[parent] += c.rays.weightG[i] * from.clearG[i];
-    to.clearB[parent] += c.rays.weightB[i] * from.clearB[i];
+    to.clear.set(parent, to.clear.at(parent) + c.rays.weight.at(i) * from.clear.at(i));
   }
 }
 
 void keepAlpha(Chunk& c) {
   if (!c.frame->channels.layers) return;
   addToMean(c, Channel::alpha, [&](std::size_t slot) {
-    const float r = c.rays.weightR[slot] * c.radiance.clearR[slot],
-                g = c.rays.weightG[slot] * c.radiance.clearG[slot],
-                b = c.rays.weightB[slot] * c.radiance.clearB[slot];
+    const auto [r, g, b] = c.rays.weight.at(slot) * c.radiance.clear.at(slot);
     // Grays keep their bits.
     return 1 - (r + ((g - r) + (b - r)) / 3);
   });
@@ -326,7 +318,7 @@ void keepAlpha(Chunk& c) {
 void chooseCoplanar(Chunk& c) {
   const Scene& scene = *c.frame->scene;
   std::fill_n(c.hits.alsoCrossed, c.n, 0u);
-  for (std::size_t i = 0; i < c.n; ++i) {
+  for (const auto i : indices(c.n)) {
     if (!scene.coplanar.any(c.hits.triangle[i])) continue;
     const ChosenSurface chosen =
         chooseSurface(scene, c.frame->effects, rayOf(c, i), candidateOf(c, i));
@@ -338,7 +330,7 @@ void chooseCoplanar(Chunk& c) {
 }
 
 void chooseSpheres(Chunk& c) {
-  for (std::size_t i = 0; i < c.n; ++i) {
+  for (const auto i : indices(c.n)) {
     const Candidate found = candidateOf(c, i);
     const Candidate best = chooseSphere(*c.frame->scene, c.frame->effects, found);
     if (best.triangle != found.triangle || best.instance != found.instance) setSurface(best, i, c);
@@ -378,7 +370,7 @@ bool startsMayLieInside(const CameraFrame& camera, const Box& dielectrics) {
 void findInitialMedia(Chunk& c) {
   if (!c.frame->camera.mediaVary) return;
   const EmbreeIntersector intersector(*c.frame->accel);
-  for (std::size_t i = 0; i < c.n; ++i) {
+  for (const auto i : indices(c.n)) {
     c.rays.media[i] =
         mediaAtStart(*c.frame->scene, c.frame->effects, intersector, c.frame->camera, rayOf(c, i));
   }

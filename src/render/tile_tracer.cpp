@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/image.h"
+#include "core/index.h"
 #include "render/steps.h"
 
 namespace whit {
@@ -30,7 +31,7 @@ std::uint64_t sumOf(const Columns& columns, std::size_t n) {
 
   Columns::forEachColumn(columns, [&](const char*, const auto* column, Feature) {
     if (!column) return;
-    for (std::size_t i = 0; i < n; ++i) {
+    for (const auto i : indices(n)) {
       std::uint32_t word = 0;
       std::memcpy(&word, column + i, sizeof word);
       sum = (sum ^ word) * 0x100000001b3u;
@@ -70,7 +71,7 @@ void runChecked(const Step& step, Chunk& chunk) {
   const Sums after = checks ? sumsOf(start) : Sums();
 
   // A step that appends children must not change those that were there before.
-  for (std::size_t i = 0; i < kChecked.size(); ++i) {
+  for (const auto i : indices(kChecked)) {
     const bool appends = kChecked[i] == Part::children && step.childrenAtEye > 0;
     if (after[i] == before[i] || (step.writes.has(kChecked[i]) && !appends)) continue;
 
@@ -129,7 +130,7 @@ void Workspace::takeChunk(int depth, Chunk& chunk) {
 
   // The segments of the queue are clipped to the chunk, which may hold several kinds of rays.
   chunk.segmentCount = 0;
-  for (std::size_t s = 0; s < at.segmentCount; ++s) {
+  for (const auto s : indices(at.segmentCount)) {
     const auto within = [&](std::size_t i) {
       return std::clamp(i, at.cursor, at.cursor + at.chunk) - at.cursor;
     };
@@ -294,11 +295,8 @@ bool TileTracer::traceSamples(const Frame& frame, const Watch& watch) {
 
   leaveSums(frame);
   const RadianceColumns& radiance = chunk_.radiance;
-  for (std::size_t i = 0; i < n; ++i) {
-    const Rgb mean(sums_[i].total / static_cast<double>(frame.endSample));
-    radiance.r[i] = mean.x;
-    radiance.g[i] = mean.y;
-    radiance.b[i] = mean.z;
+  for (const auto i : indices(n)) {
+    radiance.rgb.set(i, Rgb(sums_[i].total / static_cast<double>(frame.endSample)));
   }
 
   return true;
@@ -307,22 +305,23 @@ bool TileTracer::traceSamples(const Frame& frame, const Watch& watch) {
 void TileTracer::addSample(const Frame& frame) {
   const RadianceColumns& radiance = chunk_.radiance;
   const std::size_t n = chunk_.pixels.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    sums_[i].total += RgbD(Rgb{radiance.r[i], radiance.g[i], radiance.b[i]});
+  for (const auto i : indices(n)) {
+    sums_[i].total += RgbD(radiance.rgb.at(i));
   }
 
   // The squares give the standard error; only the channel `error` and pictures that gain samples
   // over time use them.
   if (!frame.sums && !keepsErrors(frame)) return;
   for (std::size_t i = 0; i < n; ++i) {
-    const double mean = (double{radiance.r[i]} + double{radiance.g[i]} + double{radiance.b[i]}) / 3;
+    const auto [r, g, b] = RgbD(radiance.rgb.at(i));
+    const double mean = (r + g + b) / 3;
     sums_[i].squares += mean * mean;
   }
 }
 
 void TileTracer::keepErrors(const Frame& frame) {
   const std::span<float> errors = frame.film->channels.floats(Channel::error);
-  for (std::size_t i = 0; i < chunk_.pixels.size(); ++i) {
+  for (const auto i : indices(chunk_.pixels)) {
     const std::uint32_t pixel = chunk_.pixels[i];
     errors[2 * frame.film->image.index(pixelX(pixel), pixelY(pixel))] =
         static_cast<float>(sums_[i].standardError(static_cast<int>(frame.endSample)));
@@ -348,7 +347,7 @@ void TileTracer::leaveSums(const Frame& frame) {
 
 void TileTracer::keepProbeCodes(const Frame& frame) {
   encodeForDisplay(chunk_);
-  for (std::size_t i = 0; i < chunk_.n; ++i) {
+  for (const auto i : indices(chunk_.n)) {
     const std::uint32_t pixel = chunk_.pixels[i];
     frame.probes->at(pixelX(pixel), pixelY(pixel)).codes[chunk_.sampleNumber] = chunk_.codes[i];
   }
@@ -393,7 +392,7 @@ void TileTracer::traceNarrowed(const std::vector<std::uint32_t>& slots, const Wa
   RadianceColumns::forEachColumn(chunk_.radiance, [&](const char*, float* column, Feature) {
     std::vector<float>& values = all[number++];
     if (!column) return;
-    for (std::size_t i = 0; i < slots.size(); ++i) values[slots[i]] = column[i];
+    for (const auto i : indices(slots)) values[slots[i]] = column[i];
     std::ranges::copy(values, column);
   });
 

@@ -1,4 +1,5 @@
 #include "sampling/sample_pattern.h"
+#include "core/index.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,13 +49,11 @@ class ProbeChooser {
   explicit ProbeChooser(const std::vector<Vec2f>& samples)
       : samples_(samples), candidates_(std::min<std::size_t>(kNearest, samples.size())) {
     const std::vector<Vec2f> wanted = rooks(kProbeSamples);
-    for (std::size_t k = 0; k < near_.size(); ++k) {
-      for (std::size_t i = 0; i < samples.size(); ++i) {
+    for (const auto k : indices(near_)) {
+      for (const auto i : indices(samples)) {
         near_[k].emplace_back(squaredDistance(samples[i], wanted[k]), i);
       }
-      std::partial_sort(near_[k].begin(),
-                        near_[k].begin() + static_cast<std::ptrdiff_t>(candidates_),
-                        near_[k].end());
+      std::partial_sort(near_[k].begin(), near_[k].begin() + candidates_, near_[k].end());
     }
   }
 
@@ -75,10 +74,10 @@ class ProbeChooser {
       return;
     }
 
-    for (std::size_t i = 0; i < candidates_; ++i) {
+    for (const auto i : indices(candidates_)) {
       const auto& [distance, at] = near_[k][i];
       chosen_[k] = at;
-      const auto before = chosen_.begin() + static_cast<std::ptrdiff_t>(k);
+      const auto before = chosen_.begin() + k;
       if (std::find(chosen_.begin(), before, at) != before) continue;
 
       const Vec2f& s = samples_[at];
@@ -156,7 +155,7 @@ class SpreadOrder {
     sum_ = summed(cells_[taken]);
     distance_[taken] = kTaken;
 
-    for (std::size_t i = 0; i < cells_.size(); ++i) {
+    for (const auto i : indices(cells_)) {
       const std::int64_t away =
           squared(apart(cells_[i].x, cells_[taken].x), apart(cells_[i].y, cells_[taken].y));
       distance_[i] = std::min(distance_[i], away);
@@ -167,7 +166,7 @@ class SpreadOrder {
     const std::int64_t farthest = *std::ranges::max_element(distance_);
     std::size_t best = cells_.size();
     std::int64_t least = std::numeric_limits<std::int64_t>::max();
-    for (std::size_t i = 0; i < cells_.size(); ++i) {
+    for (const auto i : indices(cells_)) {
       // Half of the squared distance is 0.7 of the distance.
       if (distance_[i] == kTaken || 2 * distance_[i] < farthest) continue;
 
@@ -219,7 +218,7 @@ int largestDifference(std::uint32_t a, std::uint32_t b) {
 std::size_t nearestProbe(const std::vector<Vec2f>& pattern, int dx, int dy) {
   std::size_t nearest = 0;
   float least = kInfinity;
-  for (std::size_t k = 0; k < kProbeSamples; ++k) {
+  for (const auto k : indices(kProbeSamples)) {
     const float x = static_cast<float>(dx) + pattern[k].x - 0.5f;
     const float y = static_cast<float>(dy) + pattern[k].y - 0.5f;
     const float square = x * x + y * y;
@@ -277,8 +276,7 @@ void findEdges(const DisplayImage& display, const std::vector<PixelSurface>& sur
   const int width = display.width, height = display.height;
   const auto at = [&](int x, int y) { return cellAt(x, y, width); };
 
-  std::fill(edges.begin() + static_cast<std::ptrdiff_t>(at(0, row0)),
-            edges.begin() + static_cast<std::ptrdiff_t>(at(0, row1)), std::uint8_t{0});
+  std::fill(edges.begin() + at(0, row0), edges.begin() + at(0, row1), std::uint8_t{0});
 
   // Each pair of neighbors is compared once, from its upper or left pixel. Pairs across the first
   // or last of the rows are compared by the threads on both sides.
@@ -315,7 +313,7 @@ ProbeSamples::ProbeSamples(const Crop& window, const std::vector<std::uint8_t>& 
     : edges_(edges), samples_(edges.size()) {
   shape_.window = window;
 
-  for (std::size_t i = 0; i < nearest_.size(); ++i) {
+  for (const auto i : indices(nearest_)) {
     const int place = static_cast<int>(i);
     nearest_[i] = nearestProbe(pattern, place % 3 - 1, place / 3 - 1);
   }
@@ -325,13 +323,13 @@ bool ProbeSamples::differ(int x, int y, int contrast) const {
   const PixelProbes& own = at(x, y);
   // Probes within the pixel are compared in pairs.
   for (std::size_t a = 1; a < kProbeSamples; ++a) {
-    for (std::size_t b = 0; b < a; ++b) {
+    for (const auto b : indices(a)) {
       if (largestDifference(own.codes[a], own.codes[b]) > kWithinPixel * contrast) return true;
     }
   }
 
   // Across each border, the neighbor's nearest probe is compared with all probes of the pixel.
-  for (std::size_t i = 0; i < nearest_.size(); ++i) {
+  for (const auto i : indices(nearest_)) {
     const int nextX = x + static_cast<int>(i) % 3 - 1, nextY = y + static_cast<int>(i) / 3 - 1;
     if (!shape_.window.contains(nextX, nextY) || edges_[shape_.index(nextX, nextY)] == 0) continue;
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "core/text.h"
 
 namespace whit {
 
@@ -22,8 +23,7 @@ class GenerationLimit {
   // Called before the memory is taken. Throws Error(limit) when count * size bytes do not fit.
   static void require(std::uint64_t count, std::uint64_t size) {
     if (count <= left_ / size) return;
-    throwLimit("a shape or a pattern needs more than the " + std::to_string(left_) +
-               " bytes that are left");
+    throwLimit(concat("a shape or a pattern needs more than the ", left_, " bytes that are left"));
   }
   static void charge(std::uint64_t count, std::uint64_t size) {
     require(count, size);

@@ -100,7 +100,7 @@ std::vector<float> blurs(std::vector<float> plane, int width) {
     for (int turn = 0; turn < 2; ++turn) around.insert(around.end(), row, row + width);
   }
 
-  std::vector<double> cosines(static_cast<std::size_t>(width));
+  std::vector<double> cosines(width);
   for (double turn = 0; double& cosine : cosines) {
     cosine = cosineOf(2 * std::numbers::pi * turn++ / width);
   }
@@ -111,7 +111,7 @@ std::vector<float> blurs(std::vector<float> plane, int width) {
 
     for (int y = 0; y < kBlurRows; ++y) {
       const double polar = polarAngle(y, kBlurRows);
-      std::vector<float> sums(static_cast<std::size_t>(width));
+      std::vector<float> sums(width);
       double weights = 0;
 
       // Every texel of a row sees the same weights, shifted by its column, so the weights are
@@ -122,7 +122,7 @@ std::vector<float> blurs(std::vector<float> plane, int width) {
         const double aside = sineOf(polar) * sineOf(other), area = sineOf(other);
 
         for (int turn = 0; turn < width; ++turn) {
-          const double cosine = toPole + aside * entryOf(cosines, turn);
+          const double cosine = toPole + aside * cosines[turn];
           if (!(cosine > 0)) continue;
 
           // The GGX distribution. The view is along the normal, so that the half vector's squared

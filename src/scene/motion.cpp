@@ -1,4 +1,5 @@
 #include "scene/motion.h"
+#include "core/index.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +21,7 @@ Values valueOf(const Track& track, std::size_t key) {
 
 std::vector<double> blended(Values a, double weightOfA, Values b, double weightOfB) {
   std::vector<double> sum(a.size());
-  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = weightOfA * a[i] + weightOfB * b[i];
+  for (const auto i : indices(sum)) sum[i] = weightOfA * a[i] + weightOfB * b[i];
   return sum;
 }
 
@@ -29,7 +30,7 @@ std::vector<double> blended(Values a, double weightOfA, Values b, double weightO
 std::vector<double> slerped(Values a, Values b, double t) {
   constexpr double kNearlyParallel = 1 - 1e-9;
   double cosine = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) cosine += a[i] * b[i];
+  for (const auto i : indices(a)) cosine += a[i] * b[i];
 
   // A quaternion and its negative are the same rotation; `side` chooses the nearer one.
   const double side = cosine < 0 ? -1 : 1;
@@ -50,7 +51,7 @@ std::vector<double> splined(const Track& track, std::size_t key, double t) {
   const Values b = valueOf(track, key + 1), before = valuesOf(track, key + 1, 0);
 
   std::vector<double> sum(track.components);
-  for (std::size_t i = 0; i < sum.size(); ++i) {
+  for (const auto i : indices(sum)) {
     sum[i] = (2 * t3 - 3 * t2 + 1) * a[i] + span * (t3 - 2 * t2 + t) * behind[i] +
              (3 * t2 - 2 * t3) * b[i] + span * (t3 - t2) * before[i];
   }
@@ -79,7 +80,7 @@ void normalize(std::vector<double>& quaternion) {
 std::vector<Vec3d> widened(const std::vector<Vec3f>& all) { return {all.begin(), all.end()}; }
 
 void add(const std::vector<Vec3f>& moved, double weight, std::vector<Vec3d>& to) {
-  for (std::size_t i = 0; i < std::min(moved.size(), to.size()); ++i) {
+  for (const auto i : indices(std::min(moved.size(), to.size()))) {
     to[i] = to[i] + Vec3d(moved[i]) * weight;
   }
 }
@@ -114,7 +115,7 @@ Affine blended(const std::vector<Affine>& joints, const Influence* begin, const 
 
 std::vector<double> valueAt(const Track& track, double time) {
   const auto next = std::ranges::upper_bound(track.times, time);
-  const auto after = static_cast<std::size_t>(next - track.times.begin());
+  const std::size_t after = next - track.times.begin();
 
   std::vector<double> value;
   // Before the first key and after the last one the value is constant.
@@ -165,7 +166,7 @@ DeformedVertices deformVertices(const Deformation& deformation, const Deformatio
   std::vector<Vec3d> normals = widened(deformation.normals);
 
   // Morph targets come first, as in glTF. All sums are in double and are rounded once, at the end.
-  for (std::size_t i = 0; i < std::min(pose.weights.size(), deformation.targets.size()); ++i) {
+  for (const auto i : indices(std::min(pose.weights.size(), deformation.targets.size()))) {
     if (pose.weights[i] == 0) continue;
     add(deformation.targets[i].positions, pose.weights[i], positions);
     add(deformation.targets[i].normals, pose.weights[i], normals);
@@ -174,7 +175,7 @@ DeformedVertices deformVertices(const Deformation& deformation, const Deformatio
   DeformedVertices bent;
   if (deformation.hasSkin()) {
     bent.sides.assign(positions.size(), 1);
-    for (std::size_t i = 0; i < positions.size(); ++i) {
+    for (const auto i : indices(positions)) {
       const Influence* const all = deformation.influences.data();
       const Affine map = blended(pose.joints, all + deformation.firstInfluence[i],
                                  all + deformation.firstInfluence[i + 1]);

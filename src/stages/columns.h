@@ -13,6 +13,7 @@
 #include <type_traits>
 
 #include "core/enum_set.h"
+#include "core/vec3.h"
 
 namespace whit {
 
@@ -70,34 +71,49 @@ inline constexpr std::size_t roundUpToBlock(std::size_t n) {
   return (n + kBlock - 1) / kBlock * kBlock;
 }
 
+// The columns of a vector or a color.
+struct Columns3 {
+  float *x = nullptr, *y = nullptr, *z = nullptr;
+
+  Vec3f at(std::size_t i) const { return {x[i], y[i], z[i]}; }
+  void set(std::size_t i, const Vec3f& v) const {
+    x[i] = v.x;
+    y[i] = v.y;
+    z[i] = v.z;
+  }
+};
+
 #define WHIT_COLUMN_MEMBER(type, name, feature) type* name = nullptr;
+#define WHIT_COLUMN_MEMBER3(name, x, y, z, feature) Columns3 name{};
 #define WHIT_COLUMN_VISIT(type, name, feature) visit(#name, c.name, Feature::feature);
+#define WHIT_COLUMN_VISIT3(name, nameX, nameY, nameZ, feature) \
+  visit(nameX, c.name.x, Feature::feature);                    \
+  visit(nameY, c.name.y, Feature::feature);                    \
+  visit(nameZ, c.name.z, Feature::feature);
 #define WHIT_DECLARE_COLUMNS(Struct, LIST)                \
   struct Struct {                                         \
-    LIST(WHIT_COLUMN_MEMBER)                              \
+    LIST(WHIT_COLUMN_MEMBER, WHIT_COLUMN_MEMBER3)         \
     template <typename Self, typename Visitor>            \
     static void forEachColumn(Self& c, Visitor&& visit) { \
-      LIST(WHIT_COLUMN_VISIT)                             \
+      LIST(WHIT_COLUMN_VISIT, WHIT_COLUMN_VISIT3)         \
     }                                                     \
   }
 
-// Three columns of a vector or a color.
-#define WHIT_XYZ(VISIT, name, feature) \
-  VISIT(float, name##X, feature) VISIT(float, name##Y, feature) VISIT(float, name##Z, feature)
-#define WHIT_RGB(VISIT, name, feature) \
-  VISIT(float, name##R, feature) VISIT(float, name##G, feature) VISIT(float, name##B, feature)
+#define WHIT_XYZ(X3, name, feature) X3(name, #name "X", #name "Y", #name "Z", feature)
+#define WHIT_RGB(X3, name, feature) X3(name, #name "R", #name "G", #name "B", feature)
 
-// X(type, name, feature). Directions are unit vectors; `parent` is the slot at the depth above (a
-// pixel's at depth 0) that gets weight * radiance; `throughput` bounds what the ray's radiance is
-// multiplied with on its way to the eye; `media` is the stack of dielectrics it travels in, a byte
-// each, the one entered last in the low byte; `path` is its number (sampling/random_streams.h),
-// where lobes are sampled; `straight` is 1 where a child goes on along its camera ray (see
-// Chunk::isStraight()); `cone` is the width of its cone (RayCone) where it starts, for mip
-// levels: the spread is that of the camera's pixels at every depth.
-#define WHIT_RAY_COLUMNS(X)             \
-  WHIT_XYZ(X, org, always)              \
-  WHIT_XYZ(X, dir, always)              \
-  WHIT_RGB(X, weight, always)           \
+// X(type, name, feature), and X3(name, names of the three columns, feature). Directions are unit
+// vectors; `parent` is the slot at the depth above (a pixel's at depth 0) that gets weight *
+// radiance; `throughput` bounds what the ray's radiance is multiplied with on its way to the eye;
+// `media` is the stack of dielectrics it travels in, a byte each, the one entered last in the low
+// byte; `path` is its number (sampling/random_streams.h), where lobes are sampled; `straight` is 1
+// where a child goes on along its camera ray (see Chunk::isStraight()); `cone` is the width of its
+// cone (RayCone) where it starts, for mip levels: the spread is that of the camera's pixels at
+// every depth.
+#define WHIT_RAY_COLUMNS(X, X3)         \
+  WHIT_XYZ(X3, org, always)             \
+  WHIT_XYZ(X3, dir, always)             \
+  WHIT_RGB(X3, weight, always)          \
   X(float, throughput, always)          \
   X(std::uint32_t, parent, always)      \
   X(std::uint32_t, media, transmission) \
@@ -111,7 +127,7 @@ inline constexpr std::size_t roundUpToBlock(std::size_t n) {
 // outside is hit), 0 for none; with kSharesPlace where any surface does.
 inline constexpr int kCrossedBits = 10;
 inline constexpr std::uint32_t kSharesPlace = 1u << 30;
-#define WHIT_HIT_COLUMNS(X)             \
+#define WHIT_HIT_COLUMNS(X, X3)         \
   X(std::uint32_t, triangle, always)    \
   X(float, t, always)                   \
   X(float, u, always)                   \
@@ -129,51 +145,47 @@ inline constexpr std::uint32_t kSharesPlace = 1u << 30;
 // added to the position where shadow rays start; `cone` is the width that the ray's cone has
 // reached, and its children's start with; `lobe` is the share that the glossy lobe reflects of the
 // light that the mirror leaves (stages/shading_tables.h: kMaterialLayered).
-#define WHIT_SURFEL_COLUMNS(X)                \
-  WHIT_XYZ(X, pos, always)                    \
-  WHIT_XYZ(X, ng, always)                     \
-  WHIT_XYZ(X, ns, always)                     \
-  X(float, offset, always)                    \
-  X(float, viewOffset, always)                \
-  WHIT_RGB(X, diffuse, always)                \
-  X(std::uint32_t, material, always)          \
-  WHIT_RGB(X, specular, glossy)               \
-  X(float, alpha, glossy)                     \
-  WHIT_RGB(X, lobe, lobes)                    \
-  WHIT_RGB(X, emission, emissionFactors)      \
-  X(float, coverage, coverage)                \
-  X(float, occlusion, occlusionMaps)          \
-  WHIT_RGB(X, mirror, mirrorMaps)             \
-  WHIT_RGB(X, transmission, transmissionMaps) \
-  WHIT_XYZ(X, shadowOffset, shadowOffset)     \
-  X(float, cone, cones)                       \
-  X(std::uint32_t, flags, transmission)       \
+#define WHIT_SURFEL_COLUMNS(X, X3)             \
+  WHIT_XYZ(X3, pos, always)                    \
+  WHIT_XYZ(X3, ng, always)                     \
+  WHIT_XYZ(X3, ns, always)                     \
+  X(float, offset, always)                     \
+  X(float, viewOffset, always)                 \
+  WHIT_RGB(X3, diffuse, always)                \
+  X(std::uint32_t, material, always)           \
+  WHIT_RGB(X3, specular, glossy)               \
+  X(float, alpha, glossy)                      \
+  WHIT_RGB(X3, lobe, lobes)                    \
+  WHIT_RGB(X3, emission, emissionFactors)      \
+  X(float, coverage, coverage)                 \
+  X(float, occlusion, occlusionMaps)           \
+  WHIT_RGB(X3, mirror, mirrorMaps)             \
+  WHIT_RGB(X3, transmission, transmissionMaps) \
+  WHIT_XYZ(X3, shadowOffset, shadowOffset)     \
+  X(float, cone, cones)                        \
+  X(std::uint32_t, flags, transmission)        \
   X(std::uint32_t, mediaBehind, transmission)
 
 // Shadow rays of one light, compacted. Directions reach from the surfel to the light, not
 // normalized; `slot` is the surfel's.
-#define WHIT_SHADOW_COLUMNS(X) \
-  WHIT_XYZ(X, org, always)     \
-  WHIT_XYZ(X, dir, always)     \
-  X(float, tFar, always)       \
+#define WHIT_SHADOW_COLUMNS(X, X3) \
+  WHIT_XYZ(X3, org, always)        \
+  WHIT_XYZ(X3, dir, always)        \
+  X(float, tFar, always)           \
   X(std::uint32_t, slot, always)
 
 // One light's radiance a surfel, before and after its shadow is known (visible: 0 or 1).
-#define WHIT_UNSHADOWED_COLUMNS(X) \
-  X(float, r, always)              \
-  X(float, g, always)              \
-  X(float, b, always)              \
+#define WHIT_UNSHADOWED_COLUMNS(X, X3) \
+  X3(rgb, "r", "g", "b", always)       \
   X(float, visible, always)
 
 // `ended` is the share of radiance 1 at the ends of all paths that --depth and --cutoff end which
 // would come back; a bound, by the largest of the three weights. `clear` is the share of the
 // background that would come back, seen straight through all surfaces.
-#define WHIT_RADIANCE_COLUMNS(X) \
-  X(float, r, always)            \
-  X(float, g, always)            \
-  X(float, b, always)            \
-  X(float, ended, ended)         \
-  WHIT_RGB(X, clear, alpha)
+#define WHIT_RADIANCE_COLUMNS(X, X3) \
+  X3(rgb, "r", "g", "b", always)     \
+  X(float, ended, ended)             \
+  WHIT_RGB(X3, clear, alpha)
 
 WHIT_DECLARE_COLUMNS(RayColumns, WHIT_RAY_COLUMNS);
 WHIT_DECLARE_COLUMNS(HitColumns, WHIT_HIT_COLUMNS);
@@ -250,22 +262,34 @@ using InRow = std::conditional_t<std::is_same_v<Element, float>, double, Element
 #define WHIT_ROW_LOAD(type, name, feature) \
   if (columns.name) row.name = static_cast<InRow<type>>(columns.name[i]);
 
+#define WHIT_ROW_MEMBER3(name, x, y, z, feature) Vec3d name{};
+#define WHIT_ROW_VISIT3(name, nameX, nameY, nameZ, feature) \
+  visit(nameX, row.name.x, Feature::feature);               \
+  visit(nameY, row.name.y, Feature::feature);               \
+  visit(nameZ, row.name.z, Feature::feature);
+#define WHIT_ROW_COUNT3(name, x, y, z, feature) +3
+#define WHIT_ROW_VALUE3(name, nameX, nameY, nameZ, feature) name.x, name.y, name.z,
+#define WHIT_ROW_LOAD3(name, nameX, nameY, nameZ, feature) \
+  if (columns.name.x) row.name = Vec3d(columns.name.at(i));
+
 // visit(name, value, feature). `at` leaves what the frame has no column for as it is made.
-#define WHIT_DECLARE_ROW(Row, Struct, LIST)                                        \
-  struct Row {                                                                     \
-    using Columns = Struct;                                                        \
-    static constexpr std::size_t kColumns = 0 LIST(WHIT_ROW_COUNT);                \
-    LIST(WHIT_ROW_MEMBER)                                                          \
-    static Row at(const Struct& columns, std::size_t i) {                          \
-      Row row;                                                                     \
-      LIST(WHIT_ROW_LOAD)                                                          \
-      return row;                                                                  \
-    }                                                                              \
-    std::array<double, kColumns> values() const { return {LIST(WHIT_ROW_VALUE)}; } \
-    template <typename Self, typename Visitor>                                     \
-    static void forEachColumn(Self& row, Visitor&& visit) {                        \
-      LIST(WHIT_ROW_VISIT)                                                         \
-    }                                                                              \
+#define WHIT_DECLARE_ROW(Row, Struct, LIST)                                          \
+  struct Row {                                                                       \
+    using Columns = Struct;                                                          \
+    static constexpr std::size_t kColumns = 0 LIST(WHIT_ROW_COUNT, WHIT_ROW_COUNT3); \
+    LIST(WHIT_ROW_MEMBER, WHIT_ROW_MEMBER3)                                          \
+    static Row at(const Struct& columns, std::size_t i) {                            \
+      Row row;                                                                       \
+      LIST(WHIT_ROW_LOAD, WHIT_ROW_LOAD3)                                            \
+      return row;                                                                    \
+    }                                                                                \
+    std::array<double, kColumns> values() const {                                    \
+      return {LIST(WHIT_ROW_VALUE, WHIT_ROW_VALUE3)};                                \
+    }                                                                                \
+    template <typename Self, typename Visitor>                                       \
+    static void forEachColumn(Self& row, Visitor&& visit) {                          \
+      LIST(WHIT_ROW_VISIT, WHIT_ROW_VISIT3)                                          \
+    }                                                                                \
   }
 
 WHIT_DECLARE_ROW(RayRow, RayColumns, WHIT_RAY_COLUMNS);

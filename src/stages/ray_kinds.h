@@ -55,7 +55,7 @@ inline constexpr std::array kRayKinds{
 // clang-format on
 inline constexpr std::size_t kRayKindCount = kRayKinds.size();
 static_assert([] {
-  for (std::size_t i = 0; i < kRayKindCount; ++i) {
+  for (const auto i : indices(kRayKindCount)) {
     if (kRayKinds[i].kind != static_cast<RayKind>(i)) return false;
   }
   return true;

@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/contains.h"
+#include "core/index.h"
 #include "surfaces/passed_surfaces.h"
 
 namespace whit {
@@ -19,7 +19,7 @@ int cornersBetween(const Corners& a, const Corners& b, const TriangleHit& hit) {
   constexpr double kRounding = 1e-9;
   const double weights[] = {1 - hit.u - hit.v, hit.u, hit.v};
   int shared = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (const auto i : indices(3)) {
     const bool isShared = contains(b, a[i]);
     if (!isShared && weights[i] > kRounding) return 0;
     shared += isShared;

@@ -41,7 +41,7 @@ class Intersector {
 // The ray and the hit of a slot of the chunk.
 inline Ray rayOf(const Chunk& chunk, std::size_t slot) {
   const RayRow r = RayRow::at(chunk.rays, slot);
-  return {{r.orgX, r.orgY, r.orgZ}, {r.dirX, r.dirY, r.dirZ}, {r.cone, 0}};
+  return {r.org, r.dir, {r.cone, 0}};
 }
 
 inline Candidate candidateOf(const Chunk& chunk, std::size_t slot) {

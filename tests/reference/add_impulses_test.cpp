@@ -241,7 +241,7 @@ TEST(AddImpulsesReference, IsTheChildOfItsKind) {
   c.rays.throughput[slot] = 0.25f;
   c.rays.path[slot] = 99;
   c.rays.media[slot] = 0;
-  c.surfels.ngY[slot] = c.surfels.nsY[slot] = 1;
+  c.surfels.ng.y[slot] = c.surfels.ns.y[slot] = 1;
   c.surfels.cone[slot] = 0.125f;
 
   c.children.parent[0] = static_cast<std::uint32_t>(slot);
@@ -250,16 +250,16 @@ TEST(AddImpulsesReference, IsTheChildOfItsKind) {
   c.childSegments[0] = {RayKind::reflection, 0, 1};
 
   const RayRow mirrored = addImpulses(small.world, c, 0);
-  EXPECT_EQ(mirrored.weightG, 0.5);
+  EXPECT_EQ(mirrored.weight.y, 0.5);
   EXPECT_EQ(mirrored.throughput, 0.125);
-  EXPECT_EQ(mirrored.dirY, 1);
+  EXPECT_EQ(mirrored.dir.y, 1);
   EXPECT_EQ(mirrored.parent, slot);
   EXPECT_EQ(mirrored.cone, 0.125);
   EXPECT_EQ(mirrored.path, childStream(99, kMirroredBranch));
 
   // The material is no dielectric, so that nothing is refracted.
   c.childSegments[0].kind = RayKind::refraction;
-  EXPECT_EQ(addImpulses(small.world, c, 0).weightG, 0);
+  EXPECT_EQ(addImpulses(small.world, c, 0).weight.y, 0);
   EXPECT_EQ(addImpulses(small.world, c, 0).path, childStream(99, kRefractedBranch));
 }
 

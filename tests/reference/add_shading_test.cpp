@@ -33,8 +33,8 @@ TEST(Lights, AddUpAndKeepTheirColors) {
 TEST(AddShadingReference, AddsWhatIsVisible) {
   const Scene scene = SceneBuilder().build();
   test::SmallChunk small(scene);
-  small.chunk.unshadowed.r[0] = 0.5f;
-  small.chunk.unshadowed.b[0] = 0x1p-30f;
+  small.chunk.unshadowed.rgb.x[0] = 0.5f;
+  small.chunk.unshadowed.rgb.z[0] = 0x1p-30f;
 
   const RadianceRow before{1, 2, 3};
   EXPECT_EQ(addShading(before, small.chunk, 0).r, 1);

@@ -167,7 +167,7 @@ TEST(CheckShadowsReference, AnswersForTheSlotOfTheRay) {
     test::setRay(small.chunk.shadows, k, {0.25f, 2, 0.5f}, {0, -4, 0});
     small.chunk.shadows.tFar[k] = k == 0 ? 0.2f : 0.3f;
     small.chunk.shadows.slot[k] = static_cast<std::uint32_t>(3 + k);
-    small.chunk.unshadowed.r[3 + k] = static_cast<float>(k + 7);
+    small.chunk.unshadowed.rgb.x[3 + k] = static_cast<float>(k + 7);
   }
 
   const UnshadowedRow before = checkShadows(small.world, small.chunk, 0);

@@ -402,8 +402,8 @@ TEST(FindIntersectionsReference, IsTheSurfelOfTheHit) {
   ASSERT_TRUE(row);
 
   const Surfel s = makeSurfel(scene, EffectSet::all(), {1}, {2, 0.25, 0.5}, Ray{});
-  EXPECT_EQ(Vec3d(row->posX, row->posY, row->posZ), s.position);
-  EXPECT_EQ(Vec3d(row->ngX, row->ngY, row->ngZ), Vec3d(0, 1, 0));
+  EXPECT_EQ(Vec3d(row->pos), s.position);
+  EXPECT_EQ(Vec3d(row->ng), Vec3d(0, 1, 0));
   EXPECT_EQ(row->offset, s.offset);
   EXPECT_EQ(row->material, s.material);
   EXPECT_EQ(row->flags, kEntering);

@@ -234,22 +234,22 @@ TEST(FindRadianceReference, LooksFromTheSurfelToTheLight) {
   small.chunk.light = &light;
 
   test::setRay(small.chunk.rays, 0, {0, 1, 0}, {0, -1, 0});
-  small.chunk.surfels.ngY[0] = small.chunk.surfels.nsY[0] = 1;
-  small.chunk.surfels.diffuseR[0] = 1;
+  small.chunk.surfels.ng.y[0] = small.chunk.surfels.ns.y[0] = 1;
+  small.chunk.surfels.diffuse.x[0] = 1;
   small.chunk.surfels.offset[0] = 0.0625f;
 
   const auto unshadowed = findRadiance(small.world, small.chunk, 0);
   const auto shadow = findShadowRay(small.world, small.chunk, 0);
   ASSERT_TRUE(unshadowed && shadow);
-  EXPECT_NEAR(unshadowed->r, 1, 1e-7);
-  EXPECT_EQ(unshadowed->g, 0);
+  EXPECT_NEAR(unshadowed->rgb.x, 1, 1e-7);
+  EXPECT_EQ(unshadowed->rgb.y, 0);
   EXPECT_EQ(unshadowed->visible, 0) << "not yet known";
 
-  EXPECT_GE(shadow->orgY, 0.0625);
-  EXPECT_EQ(shadow->orgY + shadow->dirY, 2);
+  EXPECT_GE(shadow->org.y, 0.0625);
+  EXPECT_EQ(shadow->org.y + shadow->dir.y, 2);
   EXPECT_TRUE(shadow->tFar > 0.9999 && shadow->tFar < 1);
 
-  small.chunk.surfels.ngY[0] = -1;
+  small.chunk.surfels.ng.y[0] = -1;
   EXPECT_FALSE(findRadiance(small.world, small.chunk, 0));
 }
 

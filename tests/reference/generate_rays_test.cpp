@@ -102,8 +102,8 @@ TEST(GenerateRaysReference, TakesTheLensOfItsSample) {
 
   const RayRow row = generateRays(small.world, small.chunk, 0);
   const Ray ray = primaryRay(small.world.camera, 3, 4, {0.25f, 0.75f}, 2).ray;
-  EXPECT_EQ(Vec3d(row.orgX, row.orgY, row.orgZ), ray.origin);
-  EXPECT_EQ(Vec3d(row.dirX, row.dirY, row.dirZ), ray.direction);
+  EXPECT_EQ(Vec3d(row.org), ray.origin);
+  EXPECT_EQ(Vec3d(row.dir), ray.direction);
   EXPECT_NE(ray.origin, Vec3d(camera.eye));
 }
 
@@ -120,9 +120,9 @@ TEST(GenerateRaysReference, StartsAPathAPixel) {
 
   const RayRow row = generateRays(small.world, small.chunk, 1);
   const Ray ray = generateRay(small.world.camera, 5.25, 6.75);
-  EXPECT_EQ(Vec3d(row.dirX, row.dirY, row.dirZ), ray.direction);
+  EXPECT_EQ(Vec3d(row.dir), ray.direction);
 
-  EXPECT_EQ(row.weightG, 1);
+  EXPECT_EQ(row.weight.y, 1);
   EXPECT_EQ(row.throughput, 1);
   EXPECT_EQ(row.parent, 1u);
   EXPECT_EQ(row.media, 5u);

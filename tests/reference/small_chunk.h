@@ -35,10 +35,10 @@ class SmallChunk {
     const SurfelColumns& s = chunk.surfels;
     if (features.has(Feature::coverage)) std::fill_n(s.coverage, kBlock, 1.0f);
     if (features.has(Feature::occlusionMaps)) std::fill_n(s.occlusion, kBlock, 1.0f);
-    for (float* factor : {s.mirrorR, s.mirrorG, s.mirrorB}) {
+    for (float* factor : {s.mirror.x, s.mirror.y, s.mirror.z}) {
       if (features.has(Feature::mirrorMaps)) std::fill_n(factor, kBlock, 1.0f);
     }
-    for (float* factor : {s.transmissionR, s.transmissionG, s.transmissionB}) {
+    for (float* factor : {s.transmission.x, s.transmission.y, s.transmission.z}) {
       if (features.has(Feature::transmissionMaps)) std::fill_n(factor, kBlock, 1.0f);
     }
 

@@ -20,7 +20,7 @@ class EncodeDisplay : public testing::Test {
 std::vector<std::uint32_t> codesOf(const std::vector<float>& values) {
   ColumnStore<RadianceColumns> radiance(values.size(), FeatureSet());
   for (std::size_t i = 0; i < values.size(); ++i) {
-    radiance->r[i] = radiance->g[i] = radiance->b[i] = values[i];
+    radiance->rgb.x[i] = radiance->rgb.y[i] = radiance->rgb.z[i] = values[i];
   }
 
   std::vector<std::uint32_t> codes(values.size() + 16);

@@ -54,12 +54,12 @@ TEST(InstanceNormals, TurnWithTheInstanceWhateverItsScale) {
       kernel.hit(0, 0, Vec3f(-wanted), 0, 0);
       kernel.interpolate();
       const SurfelColumns& s = kernel.chunk().surfels;
-      const Vec3d ng(s.ngX[0], s.ngY[0], s.ngZ[0]), ns(s.nsX[0], s.nsY[0], s.nsZ[0]);
+      const Vec3d ng(s.ng.at(0)), ns(s.ns.at(0));
       EXPECT_LE(length(ng - wanted), 1e-6) << target << " " << scale;
       EXPECT_LE(length(ns - wanted), 1e-6) << target << " " << scale;
 
       const SurfelRow scalar = kernel.scalar(0);
-      EXPECT_LE(length(Vec3d(scalar.nsX, scalar.nsY, scalar.nsZ) - wanted), 1e-6) << scale;
+      EXPECT_LE(length(Vec3d(scalar.ns) - wanted), 1e-6) << scale;
     }
   }
   simd::chooseTarget("auto");

@@ -32,7 +32,7 @@ class KernelSurfels {
     Chunk& c = chunk();
 
     setRay(c.rays, slot, {0, 0, 0}, direction);
-    c.rays.weightR[slot] = c.rays.weightG[slot] = c.rays.weightB[slot] = 1;
+    c.rays.weight.x[slot] = c.rays.weight.y[slot] = c.rays.weight.z[slot] = 1;
     c.rays.throughput[slot] = 1;
     c.rays.media[slot] = stack;
     c.hits.triangle[slot] = triangle;

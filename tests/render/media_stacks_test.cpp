@@ -64,7 +64,7 @@ void expectTheStacksOfTheReference(const Scene& scene, const std::string& simd) 
           << simd << " stack " << std::hex << stack << " slot " << slot;
       ASSERT_EQ(c.surfels.flags[slot], scalar.flags)
           << simd << " stack " << std::hex << stack << " slot " << slot;
-      ASSERT_NEAR(static_cast<double>(c.rays.weightR[slot]), left, kAbsorbed)
+      ASSERT_NEAR(static_cast<double>(c.rays.weight.x[slot]), left, kAbsorbed)
           << simd << " stack " << std::hex << stack << " slot " << slot;
     }
   }

@@ -55,10 +55,10 @@ void fillRays(const Columns& rays) {
 // Makes some rays invalid, each in another way; the rays between them stay valid.
 template <typename Columns>
 std::vector<std::size_t> spoilSome(const Columns& rays) {
-  rays.orgX[3] = std::nanf("");
-  rays.dirZ[5] = kInf;
-  rays.orgY[20] = -kInf;
-  rays.dirX[36] = -0.999f * kReach;
+  rays.org.x[3] = std::nanf("");
+  rays.dir.z[5] = kInf;
+  rays.org.y[20] = -kInf;
+  rays.dir.x[36] = -0.999f * kReach;
   return {3, 5, 20, 36};
 }
 
@@ -74,12 +74,12 @@ TEST_F(Packets, HoldTheRaysAndEmptyOnesInTheirPlace) {
       const bool good = i < kPacked && std::find(bad.begin(), bad.end(), i) == bad.end();
 
       if (good) {
-        EXPECT_EQ(at(column::orgX), rays->orgX[i]) << i;
-        EXPECT_EQ(at(column::orgY), rays->orgY[i]) << i;
-        EXPECT_EQ(at(column::orgZ), rays->orgZ[i]) << i;
-        EXPECT_EQ(at(column::dirX), rays->dirX[i]) << i;
-        EXPECT_EQ(at(column::dirY), rays->dirY[i]) << i;
-        EXPECT_EQ(at(column::dirZ), rays->dirZ[i]) << i;
+        EXPECT_EQ(at(column::orgX), rays->org.x[i]) << i;
+        EXPECT_EQ(at(column::orgY), rays->org.y[i]) << i;
+        EXPECT_EQ(at(column::orgZ), rays->org.z[i]) << i;
+        EXPECT_EQ(at(column::dirX), rays->dir.x[i]) << i;
+        EXPECT_EQ(at(column::dirY), rays->dir.y[i]) << i;
+        EXPECT_EQ(at(column::dirZ), rays->dir.z[i]) << i;
         EXPECT_EQ(at(column::tFar), kInf) << i;
         continue;
       }

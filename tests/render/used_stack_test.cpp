@@ -44,11 +44,11 @@ class UsedStack : public testing::TestWithParam<int> {
   void aim(const Columns& rays) {
     const Vec3f middle = 0.5f * (scene_.lower + scene_.upper), size = scene_.upper - scene_.lower;
     for (std::size_t i = 0; i < kRays; ++i) {
-      rays.orgX[i] = middle.x + 0.01f * size.x * static_cast<float>(i);
-      rays.orgY[i] = scene_.upper.y + size.y;
-      rays.orgZ[i] = middle.z;
-      rays.dirX[i] = rays.dirZ[i] = 0;
-      rays.dirY[i] = 1;
+      rays.org.x[i] = middle.x + 0.01f * size.x * static_cast<float>(i);
+      rays.org.y[i] = scene_.upper.y + size.y;
+      rays.org.z[i] = middle.z;
+      rays.dir.x[i] = rays.dir.z[i] = 0;
+      rays.dir.y[i] = 1;
     }
   }
 

@@ -88,9 +88,9 @@ Finding textureAt(const std::vector<Vec2f>& uvs, Wrap wrap, int width, const Set
   probe.hitEach(static_cast<std::uint32_t>(uvs.size()));
 
   for (std::size_t i = 0; i < uvs.size(); ++i) {
-    const float got = probe.surfels().diffuseR[i];
+    const float got = probe.surfels().diffuse.x[i];
     const std::size_t half = uvs.size() / 2;
-    const float wanted = probe.surfels().diffuseR[i < half ? i + half : i];
+    const float wanted = probe.surfels().diffuse.x[i < half ? i + half : i];
     finding.count(!(got >= 0 && got <= 1 && got == wanted), [&] {
       return "uv " + hexText(double{uvs[i].x}) + " " + hexText(double{uvs[i].y});
     });
@@ -128,14 +128,14 @@ Finding srgbCodes(const Setup&) {
   ColumnStore<RadianceColumns> radiance(kValues, FeatureSet());
   for (std::size_t i = 0; i < kValues; ++i) {
     const double x = i % 2 ? numbers.in(0, 1) : std::pow(10, numbers.in(-6, 0));
-    radiance->r[i] = radiance->g[i] = radiance->b[i] = static_cast<float>(x);
+    radiance->rgb.x[i] = radiance->rgb.y[i] = radiance->rgb.z[i] = static_cast<float>(x);
   }
 
   std::vector<std::uint32_t> codes(kValues + 16);
   simd::encodeDisplay({.radiance = *radiance, .n = kValues, .codes = codes.data()});
 
   for (std::size_t i = 0; i < kValues; ++i) {
-    const double x = static_cast<double>(radiance->r[i]);
+    const double x = static_cast<double>(radiance->rgb.x[i]);
     const double exact = 255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055);
     const double off = std::fabs(exact - static_cast<double>(codes[i] & 255u));
     finding.note(std::max(0.0, off - 0.5), [&] { return hexText(x); });
@@ -161,7 +161,7 @@ Finding cameraDirections(const Setup&) {
       for (std::size_t i = 0; i < pixels.size(); ++i) {
         const double x = pixelX(pixels[i]) + 0.5, y = pixelY(pixels[i]) + 0.5;
         const Vec3d exact = reference::generateRay(frame, x, y).direction;
-        const Vec3d got{columns->dirX[i], columns->dirY[i], columns->dirZ[i]};
+        const Vec3d got(columns->dir.at(i));
         finding.note(length(got - exact), [&] {
           return "fov " + hexText(double{fov}) + ", pixel " + std::to_string(pixels[i]);
         });

@@ -399,8 +399,8 @@ Finding absorption(const Setup& setup) {
   for (std::size_t i = 0; i < distances.size(); ++i) {
     const double t = static_cast<double>(distances[i]);
     const std::array<double, 3> sigma{0, 1, static_cast<double>(1e-8f)};
-    const std::array<float, 3> got{probe.rays().weightR[i], probe.rays().weightG[i],
-                                   probe.rays().weightB[i]};
+    const Rgb weight = probe.rays().weight.at(i);
+    const std::array<float, 3> got{weight.x, weight.y, weight.z};
     for (std::size_t c = 0; c < 3; ++c) {
       // Values below the least normal float are 0.
       const double exact = sigma[c] == 0 ? 1 : std::exp(-sigma[c] * t);

@@ -82,7 +82,7 @@ void Probe::load(const std::vector<ProbeRay>& rays) {
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const auto& [o, d, media] = rays[i];
     test::setRay(c, i, o, d);
-    c.weightR[i] = c.weightG[i] = c.weightB[i] = c.throughput[i] = 1;
+    c.weight.x[i] = c.weight.y[i] = c.weight.z[i] = c.throughput[i] = 1;
     c.parent[i] = static_cast<std::uint32_t>(i);
     c.media[i] = media;
     hits_->triangle[i] = hits_->instance[i] = kMiss;
@@ -140,21 +140,21 @@ void Probe::cast(const std::vector<ProbeRay>& rays) {
 
 void Probe::surfel(std::size_t i, std::uint32_t material, const Vec3f& ng, const Vec3f& ns) {
   const SurfelColumns& s = *surfels_;
-  s.posX[i] = s.posY[i] = s.posZ[i] = 0;
-  test::setVector(s.ngX, s.ngY, s.ngZ, i, ng);
-  test::setVector(s.nsX, s.nsY, s.nsZ, i, ns);
+  s.pos.x[i] = s.pos.y[i] = s.pos.z[i] = 0;
+  s.ng.set(i, ng);
+  s.ns.set(i, ns);
   s.offset[i] = 0x1p-19f;
   s.viewOffset[i] = 0x1p-20f;
 
-  s.diffuseR[i] = s.diffuseG[i] = s.diffuseB[i] = 1;
-  s.specularR[i] = s.specularG[i] = s.specularB[i] = 0;
+  s.diffuse.x[i] = s.diffuse.y[i] = s.diffuse.z[i] = 1;
+  s.specular.x[i] = s.specular.y[i] = s.specular.z[i] = 0;
   s.alpha[i] = 1;
   s.coverage[i] = 1;
 
   if (chunk_.has(Feature::occlusionMaps)) s.occlusion[i] = 1;
-  if (chunk_.has(Feature::mirrorMaps)) s.mirrorR[i] = s.mirrorG[i] = s.mirrorB[i] = 1;
+  if (chunk_.has(Feature::mirrorMaps)) s.mirror.x[i] = s.mirror.y[i] = s.mirror.z[i] = 1;
   if (chunk_.has(Feature::transmissionMaps)) {
-    s.transmissionR[i] = s.transmissionG[i] = s.transmissionB[i] = 1;
+    s.transmission.x[i] = s.transmission.y[i] = s.transmission.z[i] = 1;
   }
 
   s.material[i] = material;
@@ -176,9 +176,8 @@ std::vector<ProbeChild> Probe::childrenBy(const simd::Kernel& kernel) {
   std::vector<ProbeChild> result(chunk_.childCount);
   const RayColumns& c = *children_;
   for (std::size_t i = 0; i < result.size(); ++i) {
-    result[i].ray = {
-        {c.orgX[i], c.orgY[i], c.orgZ[i]}, {c.dirX[i], c.dirY[i], c.dirZ[i]}, c.media[i]};
-    result[i].weight = {c.weightR[i], c.weightG[i], c.weightB[i]};
+    result[i].ray = {c.org.at(i), c.dir.at(i), c.media[i]};
+    result[i].weight = c.weight.at(i);
     result[i].parent = c.parent[i];
   }
   return result;
@@ -218,7 +217,7 @@ void Probe::poison(std::uint32_t bits) {
 
 ProbeRay Probe::ray(std::size_t i) const {
   const RayColumns& c = *rays_;
-  return {{c.orgX[i], c.orgY[i], c.orgZ[i]}, {c.dirX[i], c.dirY[i], c.dirZ[i]}, c.media[i]};
+  return {c.org.at(i), c.dir.at(i), c.media[i]};
 }
 
 std::vector<ProbeRay> raysOf(const std::vector<ProbeChild>& children) {

@@ -57,11 +57,9 @@ class Probe {
   bool isHit(std::size_t i) const { return hits_->triangle[i] != kMiss; }
   // Returns true if ray i missed in both probes, or has the same hit bit for bit.
   bool sameHit(const Probe& other, std::size_t i) const;
-  Vec3f position(std::size_t i) const {
-    return {surfels_->posX[i], surfels_->posY[i], surfels_->posZ[i]};
-  }
-  Vec3f ng(std::size_t i) const { return {surfels_->ngX[i], surfels_->ngY[i], surfels_->ngZ[i]}; }
-  Vec3f ns(std::size_t i) const { return {surfels_->nsX[i], surfels_->nsY[i], surfels_->nsZ[i]}; }
+  Vec3f position(std::size_t i) const { return surfels_->pos.at(i); }
+  Vec3f ng(std::size_t i) const { return surfels_->ng.at(i); }
+  Vec3f ns(std::size_t i) const { return surfels_->ns.at(i); }
   ProbeRay ray(std::size_t i) const;
   Rgb unshadowed(std::size_t i) const {
     return {unshadowed_->r[i], unshadowed_->g[i], unshadowed_->b[i]};

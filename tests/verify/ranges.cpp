@@ -152,7 +152,7 @@ Finding oddRadiance(const Setup&) {
   for (const ToneCurve curve : {ToneCurve::none, ToneCurve::filmic, ToneCurve::reinhard}) {
     ColumnStore<RadianceColumns> radiance(64, FeatureSet());
     for (std::size_t i = 0; i < 64; ++i) {
-      radiance->r[i] = radiance->g[i] = radiance->b[i] = cases[i % 8].first;
+      radiance->rgb.x[i] = radiance->rgb.y[i] = radiance->rgb.z[i] = cases[i % 8].first;
     }
     std::array<std::uint32_t, 96> codes{};
     simd::encodeDisplay({.curve = curve, .radiance = *radiance, .n = 64, .codes = codes.data()});

@@ -232,8 +232,7 @@ Mesh roomOfPixels(const CameraFrame& frame) {
   Mesh mesh;
   mesh.materials = {0};
   for (std::size_t i = 0; i < count; ++i) {
-    mesh.positions.push_back(Vec3f{directions->dirX[i], directions->dirY[i], directions->dirZ[i]} *
-                             4.0f);
+    mesh.positions.push_back(directions->dir.at(i) * 4.0f);
   }
 
   const auto at = [&](int x, int y) { return static_cast<std::uint32_t>(y * columns + x); };

@@ -17,9 +17,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/contains.h"
 #include "core/display.h"
 #include "core/error.h"
+#include "core/index.h"
 #include "core/text.h"
 #include "io/confined.h"
 #include "io/model.h"
@@ -56,7 +56,7 @@ template <typename T>
 void copyCorners(const std::vector<unsigned>& vertices, T*& values) {
   if (!values) return;
   T* const own = new T[vertices.size()];
-  for (std::size_t i = 0; i < vertices.size(); ++i) own[i] = values[vertices[i]];
+  for (const auto i : indices(vertices)) own[i] = values[vertices[i]];
   values = own;
 }
 

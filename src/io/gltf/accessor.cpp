@@ -5,6 +5,8 @@
 #include <string>
 #include <type_traits>
 
+#include "core/index.h"
+#include "core/text.h"
 #include "io/gltf/document.h"
 
 namespace whit {
@@ -66,8 +68,7 @@ Run elementsWithin(const GltfDocument& document, const JsonValue& source, bool s
   const std::uint64_t size = view.bytes.size(), offset = source["byteOffset"].wholeOr(0);
   if (stride < elementBytes) {
     document.list("bufferViews")[view.index]["byteStride"].fail(
-        "at least the " + std::to_string(elementBytes) + " bytes of an element of " +
-        source.where());
+        concat("at least the ", elementBytes, " bytes of an element of ", source.where()));
   }
 
   // `fit` is the number of elements up to the end of the view, where the last one needs no full
@@ -75,8 +76,7 @@ Run elementsWithin(const GltfDocument& document, const JsonValue& source, bool s
   const bool first = offset <= size && elementBytes <= size - offset;
   const std::uint64_t fit = first ? (size - offset - elementBytes) / stride + 1 : 0;
   if (count > fit) {
-    source.fail("at most " + std::to_string(fit) + " elements, as many as fit into buffer view " +
-                    std::to_string(view.index),
+    source.fail(concat("at most ", fit, " elements, as many as fit into buffer view ", view.index),
                 std::to_string(count));
   }
   return {count > 0 ? view.bytes.data() + offset : nullptr, stride};
@@ -101,7 +101,7 @@ class AccessorReader {
     } else if (accessor["bufferView"].exists()) {
       dense_ = elementsWithin(document, accessor, true, bytes_, count_);
     } else if (count_ > kZeroElementLimit) {
-      accessor.fail("a buffer view for " + std::to_string(count_) + " elements", "none");
+      accessor.fail(concat("a buffer view for ", count_, " elements"), "none");
     }
   }
 
@@ -129,7 +129,7 @@ class AccessorReader {
     for (std::uint64_t i = 0; i < count; ++i) {
       const std::uint32_t index = type.index(which.at(i));
       if (index >= count_) {
-        indices.fail("indices below the accessor's count of " + std::to_string(count_),
+        indices.fail(concat("indices below the accessor's count of ", count_),
                      std::to_string(index));
       }
       set(&all[index * perElement], values.at(i));
@@ -158,7 +158,7 @@ std::vector<Element> readFloats(const GltfDocument& document, const JsonValue& r
                               typeOf(components));
   return reader.read<Element>(
       components * sizeof(float) / sizeof(Element), [&](Element* to, const std::uint8_t* from) {
-        for (std::size_t k = 0; k < components; ++k) {
+        for (const auto k : indices(components)) {
           const float value = reader.at(from, k);
           std::memcpy(reinterpret_cast<char*>(to) + k * sizeof value, &value, sizeof value);
         }

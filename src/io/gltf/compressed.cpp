@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "io/confined.h"
 #include "io/gltf/document.h"
 
@@ -183,13 +184,13 @@ std::string decodeView(const GltfDocument& document, const JsonValue& view,
   const std::string filter =
       named ? named.word({"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL"}) : "NONE";
   const std::uint64_t count = source.need("count").wholeOr(0);
-  const auto stride = static_cast<std::size_t>(source.need("byteStride").integer(2, 256));
+  const std::size_t stride = source.need("byteStride").integer(2, 256);
 
   if (!suits(mode, filter, stride)) {
     source["byteStride"].fail("a size of elements that mode and filter have");
   }
   if (view.need("byteLength").wholeOr(0) != count * stride) {
-    view["byteLength"].fail("the " + std::to_string(count * stride) + " bytes that are compressed");
+    view["byteLength"].fail(concat("the ", count * stride, " bytes that are compressed"));
   }
   if (mode == "TRIANGLES" && count % 3 != 0) source["count"].fail("a multiple of 3");
 

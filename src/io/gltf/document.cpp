@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/index.h"
+#include "core/text.h"
 
 namespace whit {
 
@@ -81,8 +83,7 @@ std::uint32_t wordAt(std::string_view bytes, std::size_t offset) {
 std::string_view splitBinary(std::string_view bytes, const std::string& file,
                              std::optional<std::string>& binary) {
   const auto fail = [&](std::size_t at, const std::string& expected, std::uint64_t found) {
-    throwBadScene(file + ": byte " + std::to_string(at),
-                  "expected " + expected + ", found " + std::to_string(found));
+    throwBadScene(concat(file, ": byte ", at), concat("expected ", expected, ", found ", found));
   };
 
   // The header consists of a magic word, the version and the length of the file.
@@ -90,7 +91,7 @@ std::string_view splitBinary(std::string_view bytes, const std::string& file,
   const std::uint32_t version = wordAt(bytes, 4), length = wordAt(bytes, 8);
   if (version != 2) fail(4, "glTF 2", version);
   if (length < kHeaderBytes || length > bytes.size()) {
-    fail(8, "a length up to the file's " + std::to_string(bytes.size()) + " bytes", length);
+    fail(8, concat("a length up to the file's ", bytes.size(), " bytes"), length);
   }
 
   // Chunks follow, the first of which holds the JSON text.
@@ -100,7 +101,7 @@ std::string_view splitBinary(std::string_view bytes, const std::string& file,
     if (length - at < kChunkHeaderBytes) fail(at, "8 bytes of a chunk's header", length - at);
     const std::uint32_t size = wordAt(bytes, at), type = wordAt(bytes, at + 4);
     const std::size_t left = length - at - kChunkHeaderBytes;
-    if (size > left) fail(at, "a chunk of " + std::to_string(size) + " bytes", left);
+    if (size > left) fail(at, concat("a chunk of ", size, " bytes"), left);
 
     const std::string_view chunk = bytes.substr(at + kChunkHeaderBytes, size);
     if (at == kHeaderBytes) {
@@ -191,9 +192,7 @@ GltfDocument::GltfDocument(const std::filesystem::path& path, const std::string&
   readImages(path.parent_path(), rules);
 }
 
-bool GltfDocument::reads(const std::string& extension) {
-  return std::ranges::count(kSupported, extension) > 0;
-}
+bool GltfDocument::reads(const std::string& extension) { return contains(kSupported, extension); }
 
 Bytes GltfDocument::range(const JsonValue& source) const {
   const JsonValue buffers = list("buffers");
@@ -204,8 +203,8 @@ Bytes GltfDocument::range(const JsonValue& source) const {
   const std::uint64_t size = buffer->size(), offset = source["byteOffset"].wholeOr(0);
   const std::uint64_t length = source.need("byteLength").wholeOr(0);
   if (offset > size || length > size - offset) {
-    source.fail("a range within the buffer's " + std::to_string(size) + " bytes",
-                std::to_string(length) + " from byte " + std::to_string(offset));
+    source.fail(concat("a range within the buffer's ", size, " bytes"),
+                concat(length, " from byte ", offset));
   }
   return asBytes(*buffer).subspan(offset, length);
 }
@@ -256,7 +255,7 @@ std::string GltfDocument::decodeUri(const JsonValue& uri) const {
 }
 
 void GltfDocument::readBuffers(const std::filesystem::path& folder, const PathRules& rules) {
-  for (std::size_t i = 0; i < buffers_.size(); ++i) {
+  for (const auto i : indices(buffers_)) {
     const JsonValue buffer = list("buffers")[i], uri = buffer["uri"];
     const std::uint64_t length = buffer.need("byteLength").wholeOr(0);
     std::optional<std::string>& bytes = buffers_[i];
@@ -274,8 +273,7 @@ void GltfDocument::readBuffers(const std::filesystem::path& folder, const PathRu
     }
 
     if (bytes && bytes->size() < length) {
-      buffer["byteLength"].fail(std::to_string(length) + " bytes of data",
-                                std::to_string(bytes->size()));
+      buffer["byteLength"].fail(concat(length, " bytes of data"), std::to_string(bytes->size()));
     }
   }
 }
@@ -284,7 +282,7 @@ void GltfDocument::readImages(const std::filesystem::path& folder, const PathRul
   const JsonValue images = list("images");
   images_.resize(images.size());
 
-  for (std::size_t i = 0; i < images_.size(); ++i) {
+  for (const auto i : indices(images_)) {
     GltfImageSource& image = images_[i];
     image.where = images[i].where();
     const JsonValue uri = images[i]["uri"], view = images[i]["bufferView"];

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "core/index.h"
 #include "io/gltf/material.h"
 #include "io/image/image_decoders.h"
 #include "io/image/texture_from_image.h"
@@ -101,7 +102,7 @@ ChannelMean meanOf(const RawImage& raw, std::size_t channel) {
   ChannelMean result{first};
   double sum = 0;
 
-  for (std::size_t i = 0; i < raw.pixels(); ++i) {
+  for (const auto i : indices(raw.pixels())) {
     const float value = valuesAt(raw, i)[channel];
     sum += value;
     result.varies = result.varies || value != first;
@@ -203,7 +204,7 @@ Images bake(const GltfMaterial& m, const GltfBakeImages& images, const ImageLimi
   double metallic = 0, strengths = 0;
   std::size_t i = 0;
 
-  for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y) {
+  for (const auto y : indices(height)) {
     for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x, ++i) {
       const Rgb base = bases.at(x, y).color, tint = tints.at(x, y).color;
       const Texel other = metals.at(x, y);

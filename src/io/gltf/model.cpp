@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/index.h"
+#include "core/text.h"
 #include "io/gltf/material.h"
 #include "io/gltf/nodes.h"
 #include "io/model.h"
@@ -22,7 +24,7 @@ namespace {
 
 void checkLength(std::size_t found, std::size_t expected, const JsonValue& attribute) {
   if (found == expected) return;
-  attribute.fail("as many as positions, " + std::to_string(expected), std::to_string(found));
+  attribute.fail(concat("as many as positions, ", expected), std::to_string(found));
 }
 
 // Empty where there is no such attribute, or nothing that it belongs to.
@@ -37,7 +39,7 @@ std::vector<Vec3f> vectorsOf(const GltfDocument& document, const JsonValue& attr
 // Reads the targets that have a weight at some time.
 void readTargets(const GltfDocument& document, const JsonValue& targets, Deformation& to) {
   to.targets.resize(targets.size());
-  for (std::size_t i = 0; i < targets.size(); ++i) {
+  for (const auto i : indices(targets)) {
     const bool weighs = i < to.weights.size() && to.weights[i] != 0;
     if (!weighs && !to.movingWeights) continue;
     to.targets[i] = {vectorsOf(document, targets[i]["POSITION"], to.positions.size()),
@@ -53,8 +55,8 @@ void readSkin(const GltfDocument& document, const JsonValue& primitive, Deformat
 
   std::vector<std::vector<float>> joints, weights;
   for (int set = 0;; ++set) {
-    const JsonValue j = attributes["JOINTS_" + std::to_string(set)];
-    const JsonValue w = attributes["WEIGHTS_" + std::to_string(set)];
+    const JsonValue j = attributes[concat("JOINTS_", set)];
+    const JsonValue w = attributes[concat("WEIGHTS_", set)];
     if (!j.exists() || !w.exists()) break;
     joints.push_back(readTuples(document, j, 4));
     weights.push_back(readTuples(document, w, 4));
@@ -202,7 +204,7 @@ class PrimitiveReader {
       document_.budget().charge(mesh.positions.size(), sizeof(Vec2f), primitive_.where());
       mesh.secondUvs.resize(mesh.positions.size());
     }
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    for (const auto i : indices(mesh.positions)) {
       const float alpha = rgba[4 * i + 3];
       if (byRamp) {
         mesh.uvs[i].x = alphaRampU(alpha);
@@ -214,7 +216,7 @@ class PrimitiveReader {
 
   // Empty where the primitive does not have this set.
   std::vector<Vec2f> textureCoordinates(const Mesh& mesh, const GltfUvMap& uv) const {
-    const JsonValue coordinates = attributes_["TEXCOORD_" + std::to_string(uv.set)];
+    const JsonValue coordinates = attributes_[concat("TEXCOORD_", uv.set)];
     if (!coordinates.exists()) return {};
     std::vector<Vec2f> uvs = readUvs(document_, coordinates);
     checkLength(uvs.size(), mesh.positions.size(), coordinates);
@@ -251,7 +253,7 @@ class PrimitiveReader {
       return;
     }
 
-    for (std::size_t i = 0; i < count; ++i) {
+    for (const auto i : indices(count)) {
       if (separate) {
         mesh.triangles.push_back({c[3 * i], c[3 * i + 1], c[3 * i + 2]});
       } else {
@@ -443,7 +445,7 @@ class GltfModel : public Model {
     std::string node = document_.list("nodes")[placed.node]["name"].textOr("");
     if (!node.empty()) return node;
     std::string mesh = document_.list("meshes")[placed.mesh]["name"].textOr("");
-    return mesh.empty() ? "/nodes/" + std::to_string(placed.node) : mesh;
+    return mesh.empty() ? concat("/nodes/", placed.node) : mesh;
   }
 
   GltfDocument document_;

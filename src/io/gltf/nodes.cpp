@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/index.h"
 #include "core/options.h"
 #include "core/text.h"
 
@@ -69,7 +70,7 @@ std::size_t morphTargets(const GltfDocument& document, std::size_t node) {
 std::vector<double> readTimes(const GltfDocument& document, const JsonValue& input) {
   const std::vector<float> times = readTuples(document, input, 1);
   if (times.empty()) input.fail("at least one time", "none");
-  for (std::size_t i = 0; i < times.size(); ++i) {
+  for (const auto i : indices(times)) {
     if (std::isfinite(times[i]) && (i == 0 || times[i] > times[i - 1])) continue;
     input.fail("finite times that increase",
                formatted("%g at index %zu", static_cast<double>(times[i]), i));
@@ -90,9 +91,8 @@ Track readTrack(const GltfDocument& document, const Target& target, std::size_t 
   const std::size_t each = track.interpolation == Track::Interpolation::cubic ? 3 : 1;
   const std::size_t expected = track.times.size() * components * each;
   if (values.size() != expected) {
-    output.fail(
-        std::to_string(expected) + " numbers for " + std::to_string(track.times.size()) + " times",
-        std::to_string(values.size()));
+    output.fail(concat(expected, " numbers for ", track.times.size(), " times"),
+                std::to_string(values.size()));
   }
   if (!std::ranges::all_of(values, [](float x) { return std::isfinite(x); })) {
     output.fail("finite numbers", "one that is not");
@@ -111,8 +111,7 @@ AllTracks readTracks(const GltfDocument& document, const Instant& instant) {
     return instant.animation.empty() || animation.name == instant.animation;
   });
   if (played == all.end()) return tracks;
-  const JsonValue source =
-      document.list("animations")[static_cast<std::size_t>(played - all.begin())];
+  const JsonValue source = document.list("animations")[played - all.begin()];
   forEachChannel(document, source,
                  [&](std::size_t node, const Target& target, const JsonValue& sampler) {
                    const std::size_t components =
@@ -206,14 +205,13 @@ class TreeReader {
 
   void refuseDepth(std::size_t depth, std::size_t node) const {
     if (depth <= kGltfDepthLimit) return;
-    throwBadScene(nodes_[node].where(),
-                  "nested deeper than " + std::to_string(kGltfDepthLimit) + " nodes");
+    throwBadScene(nodes_[node].where(), concat("nested deeper than ", kGltfDepthLimit, " nodes"));
   }
 
   // A node with two parents or that is its own ancestor is found by visit().
   void findParents() {
     parents_.assign(nodes_.size(), kTopmost);
-    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    for (const auto i : indices(nodes_)) {
       for (const JsonValue& child : nodes_[i]["children"].elements()) {
         parents_[child.indexInto(nodes_).value_or(0)] = i;
       }
@@ -225,7 +223,7 @@ class TreeReader {
     const auto scene = document_.root()["scene"].indexInto(scenes);
     std::vector<std::size_t> all;
     if (scenes.size() == 0) {
-      for (std::size_t i = 0; i < parents_.size(); ++i) {
+      for (const auto i : indices(parents_)) {
         if (parents_[i] == kTopmost) all.push_back(i);
       }
     }
@@ -263,7 +261,7 @@ class TreeReader {
   // The node within its parent: it has a place or a motion.
   RigNode nodeOf(std::size_t index) const {
     const std::vector<double> matrix = nodes_[index]["matrix"].numbers(16);
-    const std::string name = "/nodes/" + std::to_string(index);
+    const std::string name = concat("/nodes/", index);
     RigNode node;
     if ((*tracks_)[index].place()) {
       const auto at = [index, own = placeOf(index), all = tracks_](double seconds) {
@@ -343,12 +341,11 @@ class TreeReader {
     std::vector<float> numbers;
     if (inverse.exists()) numbers = readTuples(document_, inverse, 16);
     if (inverse.exists() && numbers.size() < 16 * all.size()) {
-      inverse.fail("a matrix for each of " + std::to_string(all.size()) + " joints",
+      inverse.fail(concat("a matrix for each of ", all.size(), " joints"),
                    std::to_string(numbers.size() / 16));
     }
     for (std::size_t i = 0; i < all.size() && !numbers.empty(); ++i) {
-      all[i].fromMesh = mapOf({numbers.begin() + static_cast<std::ptrdiff_t>(16 * i),
-                               numbers.begin() + static_cast<std::ptrdiff_t>(16 * (i + 1))});
+      all[i].fromMesh = mapOf({numbers.begin() + 16 * i, numbers.begin() + 16 * (i + 1)});
     }
     all.push_back({placeJoint(showing, places, rig), Affine()});
     deformation.skeleton = std::make_shared<const Rig>(std::move(rig));
@@ -388,8 +385,7 @@ class TreeReader {
     const std::size_t count = std::max({translations.size(), turns, scales.size()});
     for (const std::size_t size : {translations.size(), turns, scales.size()}) {
       if (size != 0 && size != count) {
-        attributes.fail("attributes of equal lengths",
-                        std::to_string(size) + " beside " + std::to_string(count));
+        attributes.fail("attributes of equal lengths", concat(size, " beside ", count));
       }
     }
 
@@ -397,7 +393,7 @@ class TreeReader {
                               attributes.where());
 
     std::vector<Affine> copies;
-    for (std::size_t i = 0; i < count; ++i) {
+    for (const auto i : indices(count)) {
       Quaternion turn{0, 0, 0, 1};
       if (turns > 0) std::copy_n(&rotations[4 * i], 4, turn.begin());
       const NodePlace place{translations.empty() ? Vec3d() : Vec3d(translations[i]), turn,
@@ -477,7 +473,7 @@ class TreeReader {
     std::vector<std::string> names;
     for (const auto& placed : stage_.cameras) names.push_back(placed.thing.name);
     names = distinctNames(names);
-    for (std::size_t i = 0; i < names.size(); ++i) stage_.cameras[i].thing.name = names[i];
+    for (const auto i : indices(names)) stage_.cameras[i].thing.name = names[i];
   }
 
   // Equal angles, a sharp edge, are accepted: the extension forbids them, but writers produce them.
@@ -505,13 +501,13 @@ class TreeReader {
 std::vector<Animation> listGltfAnimations(const GltfDocument& document) {
   const JsonValue animations = document.list("animations");
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < animations.size(); ++i) {
+  for (const auto i : indices(animations)) {
     const std::string name = animations[i]["name"].textOr("");
-    names.push_back(name.empty() ? "animation " + std::to_string(i) : name);
+    names.push_back(name.empty() ? concat("animation ", i) : name);
   }
   names = distinctNames(names);
   std::vector<Animation> all;
-  for (std::size_t i = 0; i < names.size(); ++i) {
+  for (const auto i : indices(names)) {
     std::set<std::size_t> moved;
     double last = 0;  // the time of the last key of all samplers in use
     forEachChannel(document, animations[i],

@@ -26,8 +26,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/contains.h"
 #include "core/error.h"
+#include "core/index.h"
 #include "core/option_table.h"
 #include "core/text.h"
 #include "io/files.h"
@@ -137,8 +137,8 @@ std::int32_t checkHeaders(const std::string& path) {
   const std::uint64_t most = std::filesystem::file_size(path) / sizeof(std::uint64_t);
   if (allChunks > most) {
     throwBadScene(path + ": header",
-                  "expected at most the " + std::to_string(most) +
-                      " tiles or blocks of lines whose places the file can hold");
+                  concat("expected at most the ", most,
+                         " tiles or blocks of lines whose places the file can hold"));
   }
 
   return std::max(lines, 1);
@@ -224,7 +224,7 @@ class ExrFile {
     std::vector<Value> values(width * static_cast<std::uint64_t>(heightOf(data)) * channels.size());
     const std::size_t stride = channels.size() * sizeof(Value);
     Imf::FrameBuffer frame;
-    for (std::size_t c = 0; c < channels.size(); ++c) {
+    for (const auto c : indices(channels)) {
       const auto& [name, type] = channels[c];
       frame.insert(name, Imf::Slice::Make(type, &values[c], data, stride, stride * width));
     }
@@ -304,8 +304,8 @@ std::vector<float> readChroma(const std::string& path, const Box2i& box,
                               const ImageLimits& limits) {
   Imf::RgbaInputFile file(path.c_str());
   const Box2i data = file.dataWindow();
-  const auto width = static_cast<std::size_t>(widthOf(data));
-  const auto height = static_cast<std::size_t>(heightOf(data));
+  const std::size_t width = widthOf(data);
+  const std::size_t height = heightOf(data);
   // The library keeps the same again while it works.
   const MemoryHold held = holdImage(path, widthOf(data), heightOf(data),
                                     4 * (sizeof(float) + 2 * sizeof(half)), limits);
@@ -507,7 +507,7 @@ std::vector<ImageLayer> readLayers(const std::string& path, const ImageLimits& l
     if (channels.empty()) return layers;
     file.checkSizes(channels.size(), limits);
     const auto words = file.read<std::uint32_t>(file.visible(), channels, limits);
-    for (std::size_t c = 0; c < channels.size(); ++c) {
+    for (const auto c : indices(channels)) {
       ImageLayer& layer = layers.emplace_back();
       layer.name = channels[c].first;
       layer.countsThings = channels[c].second == Imf::UINT;

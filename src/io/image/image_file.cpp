@@ -7,6 +7,8 @@
 
 #include "core/display.h"
 #include "core/error.h"
+#include "core/index.h"
+#include "core/text.h"
 #include "io/files.h"
 #include "io/image/image_decoders.h"
 
@@ -16,9 +18,7 @@ namespace {
 
 constexpr float kLargestHalf = 65504;
 
-std::string sizeText(std::int64_t width, std::int64_t height) {
-  return std::to_string(width) + "x" + std::to_string(height);
-}
+std::string sizeText(std::int64_t width, std::int64_t height) { return concat(width, "x", height); }
 
 std::string_view asText(FileBytes file) {
   return {reinterpret_cast<const char*>(file.data()), file.size()};
@@ -105,16 +105,16 @@ void checkImageSize(const std::string& path, std::int64_t width, std::int64_t he
   if (width < 1 || height < 1)
     throwBadScene(path, "expected a size of at least 1x1, found " + sizeText(width, height));
   if (width > limits.side || height > limits.side)
-    throwLimit(path + ": " + sizeText(width, height) + " is larger than the " +
-               std::to_string(limits.side) + " pixels a side allowed");
+    throwLimit(concat(path, ": ", sizeText(width, height), " is larger than the ", limits.side,
+                      " pixels a side allowed"));
 
   // The product of the sides fits into 64 bits. The limit is divided by the bytes of a pixel,
   // because multiplying them could overflow.
   const std::uint64_t pixels =
       static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
   if (pixels > limits.bytes / bytesPerPixel)
-    throwLimit(path + ": " + sizeText(width, height) + " takes more than the " +
-               std::to_string(limits.bytes) + " bytes allowed");
+    throwLimit(concat(path, ": ", sizeText(width, height), " takes more than the ", limits.bytes,
+                      " bytes allowed"));
 }
 
 MemoryHold holdImage(const std::string& path, std::int64_t width, std::int64_t height,
@@ -179,8 +179,7 @@ Image readImage(const std::string& path, const ImageLimits& limits) {
   }
 
   Image image(source.width, source.height, source.window);
-  for (std::size_t i = 0; i < image.pixels.size(); ++i)
-    image.pixels[i] = linearPixel(source.raw, i);
+  for (const auto i : indices(image.pixels)) image.pixels[i] = linearPixel(source.raw, i);
   return image;
 }
 

@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "core/contains.h"
 #include "core/display.h"
 #include "core/error.h"
+#include "core/index.h"
 #include "core/text.h"
 #include "io/files.h"
 
@@ -20,7 +20,7 @@ namespace {
 
 std::string manifest(const std::vector<std::string>& names) {
   auto json = nlohmann::ordered_json::object();
-  for (std::size_t i = 0; i < names.size(); ++i) json[std::to_string(i)] = names[i];
+  for (const auto i : indices(names)) json[std::to_string(i)] = names[i];
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
@@ -64,9 +64,9 @@ std::vector<std::uint16_t> codesOf(const std::string& path, const ChannelLayers&
 
   const ChannelInfo& info = infoOf(channel);
   std::vector<std::uint16_t> codes;
-  for (std::size_t i = 0; i < channels.pixels(); ++i) {
+  for (const auto i : indices(channels.pixels())) {
     std::array<double, 3> values{};
-    for (std::size_t c = 0; c < info.components; ++c) {
+    for (const auto c : indices(info.components)) {
       const std::size_t at = i * info.components + c;
       values[c] = info.countsThings ? static_cast<double>(channels.numbers(channel)[at])
                                     : static_cast<double>(channels.floats(channel)[at]);
@@ -75,7 +75,7 @@ std::vector<std::uint16_t> codesOf(const std::string& path, const ChannelLayers&
     // A normal of zero means that nothing was hit. Its code is 0, although a component of 0 has
     // another.
     const bool isEmpty = channel == Channel::normal && values == std::array<double, 3>{};
-    for (std::size_t c = 0; c < (isColor(channel) ? 3 : 1); ++c) {
+    for (const auto c : indices((isColor(channel) ? 3 : 1))) {
       const bool isCoded = c < info.components && !isEmpty;
       const double code = isCoded ? std::round(codeOf(channel, values[c])) : 0;
       if (!(code >= 0 && code <= kWhite16)) {
@@ -94,11 +94,9 @@ bool sameBits(const Rgb& a, const Rgb& b) {
   return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
 }
 
-std::string place(int x, int y) { return "(" + std::to_string(x) + ", " + std::to_string(y) + ")"; }
+std::string place(int x, int y) { return concat("(", x, ", ", y, ")"); }
 
-std::string sizeText(const Image& image) {
-  return std::to_string(image.width) + "x" + std::to_string(image.height);
-}
+std::string sizeText(const Image& image) { return concat(image.width, "x", image.height); }
 
 void requireSameLayers(const std::string& path, const std::vector<ImageLayer>& layers,
                        const std::string& firstPath, const std::vector<ImageLayer>& firstLayers) {
@@ -126,7 +124,7 @@ void addPart(const std::string& path, const Image& part, const std::vector<Image
       const std::size_t i = to.image.index(x, y), from = part.index(x, y);
       bool same = sameBits(to.image.pixels[i], part.pixels[from]);
       to.image.pixels[i] = part.pixels[from];
-      for (std::size_t k = 0; k < layers.size(); ++k) {
+      for (const auto k : indices(layers)) {
         std::uint32_t& word = to.layers[k].words[i];
         same = same && word == layers[k].words[from];
         word = layers[k].words[from];
@@ -154,7 +152,7 @@ std::vector<ImageLayer> layersOf(const ChannelLayers& channels, ChannelSet wante
   channels.channels().forEach([&](Channel channel) {
     if (!wanted.has(channel)) return;
     const ChannelInfo& info = infoOf(channel);
-    for (std::size_t c = 0; c < info.components; ++c) {
+    for (const auto c : indices(info.components)) {
       ImageLayer& layer = layers.emplace_back();
       const std::string prefix = channel == Channel::alpha ? "" : std::string(info.name) + ".";
       layer.name = prefix + std::string(info.suffixes[c]);
@@ -200,7 +198,7 @@ void writeChannelExr(const std::string& path, const Image& image, const ChannelL
   std::vector<ImageLayer> layers = layersOf(channels, {channel});
   layers.resize(isColor(channel) ? 3 : 1);
 
-  for (std::size_t c = 0; c < layers.size(); ++c) {
+  for (const auto c : indices(layers)) {
     layers[c].name = isColor(channel) ? kColors[c] : "Y";
     layers[c].words.resize(channels.pixels());  // texture coordinates have no third component
     if (!std::exchange(layers[c].countsThings, false)) continue;
@@ -221,9 +219,7 @@ ImageMetadata describeChannels(const Scene& scene, ChannelSet channels) {
   if (channels.has(Channel::object)) metadata.emplace_back("objects", manifest(scene.items.names));
 
   if (channels.has(Channel::material)) {
-    std::vector<std::string> names;
-    for (const Material& material : scene.materials) names.push_back(material.name);
-    metadata.emplace_back("materials", manifest(names));
+    metadata.emplace_back("materials", manifest(namesIn(scene.materials)));
   }
 
   return metadata;
@@ -277,9 +273,9 @@ MergedImage mergeImages(const std::vector<std::string>& paths, const ImageLimits
   const auto gap = std::ranges::find(covered, false);
   if (gap == covered.end()) return merged;
   const auto at = static_cast<int>(gap - covered.begin());
-  throwUsage("the parts leave " + std::to_string(std::count(gap, covered.end(), false)) +
-             " pixels of the " + sizeText(image) + " image open, the first at " +
-             place(at % image.width, at / image.width));
+  throwUsage(concat("the parts leave ", std::count(gap, covered.end(), false), " pixels of the ",
+                    sizeText(image), " image open, the first at ",
+                    place(at % image.width, at / image.width)));
 }
 
 }  // namespace whit

@@ -10,6 +10,8 @@
 #include <cstdlib>
 
 #include "core/error.h"
+#include "core/index.h"
+#include "core/text.h"
 #include "io/image/image_decoders.h"
 #include "io/image/image_file.h"
 
@@ -81,7 +83,7 @@ class JpegReader {
     if (decoder_.jpeg_color_space == JCS_GRAYSCALE) return 1;
     if (decoder_.num_components == 3) return 3;
     if (decoder_.num_components == 4) return 4;
-    refuse("gray, RGB or CMYK, found " + std::to_string(decoder_.num_components) + " inks");
+    refuse(concat("gray, RGB or CMYK, found ", decoder_.num_components, " inks"));
   }
 
   // Adobe's programs store how much light an ink lets through, others how much of it there is.
@@ -110,7 +112,7 @@ class JpegReader {
   [[noreturn]] void refuse(const std::string& expected) const {
     const std::size_t left = decoder_.src ? decoder_.src->bytes_in_buffer : 0;
     const std::size_t at = file_.size() - std::min(left, file_.size());
-    throwBadScene(path_ + ": byte " + std::to_string(at), "expected " + expected);
+    throwBadScene(concat(path_, ": byte ", at), "expected " + expected);
   }
 
   template <typename Use>
@@ -127,7 +129,7 @@ class JpegReader {
     constexpr int kDamage[] = {JWRN_JPEG_EOF, JWRN_HIT_MARKER, JWRN_HUFF_BAD_CODE,
                                JWRN_MUST_RESYNC};
     const int code = common->err->msg_code;
-    if (level < 0 && std::ranges::count(kDamage, code) > 0) JpegErrors::leave(common);
+    if (level < 0 && contains(kDamage, code)) JpegErrors::leave(common);
   }
 
   const std::string& path_;
@@ -178,10 +180,10 @@ bool write(JpegWriter& writer, const DisplayImage& image, int quality,
 
 // Converts CMYK to RGB in place: light passes through an ink and then through black.
 void printInks(RawImage& image, bool isInverted) {
-  for (std::size_t i = 0; i < image.pixels(); ++i) {
+  for (const auto i : indices(image.pixels())) {
     const std::uint8_t* const inks = &image.codes[4 * i];
     const auto light = [&](std::size_t k) { return isInverted ? inks[k] : 255 - inks[k]; };
-    for (std::size_t k = 0; k < 3; ++k) {
+    for (const auto k : indices(3)) {
       image.codes[3 * i + k] = static_cast<std::uint8_t>((light(k) * light(3) + 127) / 255);
     }
   }

@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "core/index.h"
+#include "core/text.h"
 #include "io/files.h"
 #include "io/image/image_decoders.h"
 
@@ -41,7 +43,7 @@ class ImageBytes {
   }
 
   [[noreturn]] void fail(const std::string& what) const {
-    throwBadScene(path_ + ": byte " + std::to_string(at_), what);
+    throwBadScene(concat(path_, ": byte ", at_), what);
   }
 
  private:
@@ -65,8 +67,7 @@ class PlainReader {
     bytes_.skip(10);
     const std::uint32_t dataBegin = bytes_.number(4), headerBytes = bytes_.number(4);
     if (headerBytes < kInfoHeaderBytes || headerBytes > kLongestHeader) {
-      bytes_.fail("expected a header of 40 to 124 bytes, found one of " +
-                  std::to_string(headerBytes));
+      bytes_.fail(concat("expected a header of 40 to 124 bytes, found one of ", headerBytes));
     }
 
     const auto width = static_cast<std::int32_t>(bytes_.number(4));
@@ -83,8 +84,8 @@ class PlainReader {
     const bool masked = compression == kMasks && bits_ == 32 && bytes_.number(4) == 0xff0000 &&
                         bytes_.number(4) == 0xff00 && bytes_.number(4) == 0xff;
     if ((compression != 0 && !masked) || (bits_ != 8 && bits_ != 24 && bits_ != 32)) {
-      bytes_.fail("expected uncompressed pixels of 8, 24 or 32 bits, found " +
-                  std::to_string(bits_) + " bits and compression " + std::to_string(compression));
+      bytes_.fail(concat("expected uncompressed pixels of 8, 24 or 32 bits, found ", bits_,
+                         " bits and compression ", compression));
     }
 
     skipTo(kFileHeaderBytes + headerBytes);
@@ -120,8 +121,8 @@ class PlainReader {
                                                       bits_ >= 24 && bits_ <= 32;
     if (!known) {
       bytes_.fail(
-          "expected TGA's image type 2 or 10 of 24 or 32 bits, or 3 or 11 of 8, found type " +
-          std::to_string(type) + " of " + std::to_string(bits_) + " bits");
+          concat("expected TGA's image type 2 or 10 of 24 or 32 bits, or 3 or 11 of 8, found type ",
+                 type, " of ", bits_, " bits"));
     }
 
     // In the descriptor, bits 0 to 3 count the bits of alpha, bit 4 stands for columns from the
@@ -165,8 +166,8 @@ class PlainReader {
       const std::size_t value = bytes_.next();
       if (palette_.empty()) return {static_cast<std::uint8_t>(value)};
       if (value < palette_.size()) return palette_[value];
-      bytes_.fail("expected one of the palette's " + std::to_string(palette_.size()) +
-                  " colors, found number " + std::to_string(value));
+      bytes_.fail(concat("expected one of the palette's ", palette_.size(),
+                         " colors, found number ", value));
     }
 
     Codes codes = readColor();
@@ -182,7 +183,7 @@ class PlainReader {
     if (bits_ > 8) stored = bits_ / 8;
     image_ = startImage(path_, width, height, stored, false, limits_);
 
-    const auto channels = static_cast<std::size_t>(image_.channels);
+    const std::size_t channels = image_.channels;
     const auto columns = static_cast<std::uint64_t>(width);
     const auto rows = static_cast<std::uint64_t>(height);
     const auto pixelBytes = static_cast<std::uint64_t>(bits_ / 8);
@@ -267,7 +268,7 @@ void readRuns(ImageBytes& bytes, std::size_t component, std::vector<Rgbe>& row) 
     }
 
     std::uint8_t value = 0;
-    for (std::size_t i = 0; i < count; ++i) {
+    for (const auto i : indices(count)) {
       if (i == 0 || !isRun) value = bytes.next();
       row[done++][component] = value;
     }
@@ -293,7 +294,7 @@ void readOldRuns(ImageBytes& bytes, std::vector<Rgbe>& row) {
     if (count > row.size() - done || shift > kLargestShift) {
       bytes.fail("expected a run up to the row's end, found a longer one");
     }
-    std::fill_n(row.begin() + static_cast<std::ptrdiff_t>(done), count, row[done - 1]);
+    std::fill_n(row.begin() + done, count, row[done - 1]);
     done += count;
     shift += 8;
   }
@@ -310,10 +311,9 @@ void readRow(ImageBytes& bytes, std::vector<Rgbe>& row) {
   if (inRuns) {
     const auto length = static_cast<std::size_t>(row[0][2] << 8 | row[0][3]);
     if (length != row.size()) {
-      bytes.fail("expected a row of " + std::to_string(row.size()) + " pixels, found one of " +
-                 std::to_string(length));
+      bytes.fail(concat("expected a row of ", row.size(), " pixels, found one of ", length));
     }
-    for (std::size_t component = 0; component < 4; ++component) readRuns(bytes, component, row);
+    for (const auto component : indices(4)) readRuns(bytes, component, row);
     return;
   }
 
@@ -348,18 +348,18 @@ RawImage decodeHdr(const std::string& path, FileBytes file, const ImageLimits& l
   }
 
   RawImage image = startImage(path, columns, rows, 3, true, limits);
-  const auto width = static_cast<std::size_t>(image.width);
-  const auto height = static_cast<std::size_t>(image.height);
+  const std::size_t width = image.width;
+  const std::size_t height = image.height;
   bytes.need(height * sizeof(Rgbe));  // at least, before memory is taken
   image.values.reserve(width * height * 3);
 
   std::vector<Rgbe> row(width);
-  for (std::size_t y = 0; y < height; ++y) {
+  for (const auto y : indices(height)) {
     readRow(bytes, row);
     for (const Rgbe& pixel : row) {
       constexpr int kBias = 128 + 8;  // of the exponent, and of mantissas below 256
       const float scale = pixel[3] == 0 ? 0 : std::ldexp(1.0f, pixel[3] - kBias);
-      for (std::size_t c = 0; c < 3; ++c) {
+      for (const auto c : indices(3)) {
         image.values.push_back(static_cast<float>(pixel[c]) * scale);
       }
     }

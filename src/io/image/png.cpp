@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "io/files.h"
 #include "io/image/image_decoders.h"
 
@@ -103,7 +104,7 @@ class PngReader {
   }
 
   [[noreturn]] void refuse(const char* why) const {
-    throwBadScene(path_ + ": byte " + std::to_string(at_),
+    throwBadScene(concat(path_, ": byte ", at_),
                   std::string("expected valid PNG data, found an error: ") + why);
   }
 

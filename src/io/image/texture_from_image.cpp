@@ -1,4 +1,5 @@
 #include "io/image/texture_from_image.h"
+#include "core/index.h"
 
 #include <algorithm>
 #include <cmath>
@@ -77,7 +78,7 @@ std::array<float, 4> valuesAt(const RawImage& raw, std::size_t i) {
 
 Texture makeTexture(const std::string& name, const RawImage& raw, TexelFormat format) {
   Texture texture = emptyTexture(name, format, raw.width, raw.height);
-  for (std::size_t i = 0; i < texture.texels.size(); ++i) {
+  for (const auto i : indices(texture.texels)) {
     if (format == TexelFormat::data) {
       const auto [r, g, b, a] = valuesAt(raw, i);
       texture.texels[i] = encodeDataTexel(r, g, b, a);
@@ -90,7 +91,7 @@ Texture makeTexture(const std::string& name, const RawImage& raw, TexelFormat fo
 
 Texture makeAlphaTexture(const std::string& name, const RawImage& raw) {
   Texture texture = emptyTexture(name, TexelFormat::data, raw.width, raw.height);
-  for (std::size_t i = 0; i < texture.texels.size(); ++i) {
+  for (const auto i : indices(texture.texels)) {
     const float alpha = valuesAt(raw, i)[3];
     texture.texels[i] = encodeDataTexel(alpha, alpha, alpha, 1);
   }
@@ -145,7 +146,7 @@ EnvironmentImage makeEnvironment(const RawImage& raw) {
 bool hasTranslucentAlpha(const RawImage& raw) {
   if (raw.channels != 2 && raw.channels != 4) return false;
 
-  for (std::size_t i = 0; i < raw.pixels(); ++i) {
+  for (const auto i : indices(raw.pixels())) {
     if (valuesAt(raw, i)[3] < 1.0f) return true;
   }
   return false;
@@ -155,7 +156,7 @@ bool looksLikeHeights(const RawImage& raw) {
   if (raw.channels < 3) return true;
 
   constexpr float kChromaNoise = 16.0f / 255.0f;  // in gray pictures stored as JPEG
-  for (std::size_t i = 0; i < raw.pixels(); ++i) {
+  for (const auto i : indices(raw.pixels())) {
     const auto [r, g, b, a] = valuesAt(raw, i);
     if (std::max({r, g, b}) - std::min({r, g, b}) > kChromaNoise) return false;
   }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "io/files.h"
 #include "io/line_reader.h"
 
@@ -47,7 +48,7 @@ class MtlParser {
 
   void newMaterial() {
     if (materials_.size() >= kMaterialLimit) {
-      throwLimit(lines_.place() + ": more than " + std::to_string(kMaterialLimit) + " materials");
+      throwLimit(concat(lines_.place(), ": more than ", kMaterialLimit, " materials"));
     }
     MtlMaterial& material = materials_.emplace_back();
     material.name = lines_.rest();

@@ -18,6 +18,8 @@
 
 #include "core/display.h"
 #include "core/error.h"
+#include "core/index.h"
+#include "core/text.h"
 #include "io/files.h"
 #include "io/line_reader.h"
 #include "io/obj/mtl_reader.h"
@@ -84,7 +86,7 @@ class ObjReader {
     std::array<double, 6> numbers{};
     isColored = std::ranges::all_of(numbers, [&](double& x) { return first.number(x); });
     if (materials.size() > kMaterialLimit) {
-      throwLimit(file_ + " uses more than " + std::to_string(kMaterialLimit) + " materials");
+      throwLimit(concat(file_, " uses more than ", kMaterialLimit, " materials"));
     }
   }
 
@@ -255,7 +257,7 @@ class ObjReader {
     index = kNoIndex;
   }
 
-  void warn(const char* kind) { warnings_.add(kind, file_ + ":" + std::to_string(line_)); }
+  void warn(const char* kind) { warnings_.add(kind, concat(file_, ":", line_)); }
 
   // The format counts from 1, and negative numbers back from the vertex that was read last.
   static std::int32_t index(LineReader& line, std::size_t count) {
@@ -312,7 +314,7 @@ class ObjReader {
   }
 
   void finishNormals() {
-    for (std::size_t i = 0; i < known_.size(); ++i) {
+    for (const auto i : indices(known_)) {
       const std::int32_t normal = known_[i].normal;
       if (normal < kFirstGroupNormal) continue;
       mesh_.normals[i] = Vec3f(normalized(groupSums_[placeOf(normal - kFirstGroupNormal)], {}));
@@ -452,7 +454,7 @@ class ObjModel : public MeshModel {
   void mapCoordinates() {
     if (mesh_.uvs.empty()) return;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> copies;
-    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+    for (const auto i : indices(mesh_.triangles)) {
       const std::uint32_t material = mesh_.material(i);
       const GltfMaterial::Coordinates coordinates = sources_[material].surface.coordinates();
       if (coordinates == GltfMaterial::Coordinates()) continue;

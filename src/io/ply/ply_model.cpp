@@ -18,6 +18,8 @@
 
 #include "core/display.h"
 #include "core/error.h"
+#include "core/index.h"
+#include "core/text.h"
 #include "io/files.h"
 #include "io/line_reader.h"
 #include "io/model.h"
@@ -89,8 +91,7 @@ constexpr std::array<std::string_view, 3> kComponentNames[kComponents] = {
 // kComponents where the property is none of them.
 Component componentOf(const PlyProperty& property) {
   int component = property.countType ? int{kComponents} : 0;
-  while (component < kComponents &&
-         std::ranges::count(kComponentNames[component], property.name) == 0) {
+  while (component < kComponents && !contains(kComponentNames[component], property.name)) {
     ++component;
   }
   return static_cast<Component>(component);
@@ -161,7 +162,7 @@ class PlyReader {
   // "file:line", or "file: byte N" in binary data.
   std::string place() const {
     if (ascii_) return lines_.place();
-    return file_ + ": byte " + std::to_string(at_);
+    return concat(file_, ": byte ", at_);
   }
   [[noreturn]] void failInHeader(const std::string& what) const {
     throwBadScene(lines_.place(), what);
@@ -251,10 +252,9 @@ class PlyReader {
   void checkCount(const PlyElement& element) const {
     const std::uint64_t left = text_.size() - at_;
     if (element.properties.empty() || element.count <= left) return;
-    throwBadScene(element.where, "expected at most " + std::to_string(left) + " elements \"" +
-                                     excerpt(element.name) +
-                                     "\", as many as there are bytes after the header, found " +
-                                     std::to_string(element.count));
+    throwBadScene(element.where,
+                  concat("expected at most ", left, " elements \"", excerpt(element.name),
+                         "\", as many as there are bytes after the header, found ", element.count));
   }
 
   // Calls use(property, value) for each value of an element.
@@ -331,8 +331,7 @@ class PlyReader {
 
     for (std::uint64_t i = 0; i < element.count; ++i) {
       readElement(element, [&](const PlyProperty& property, double value) {
-        const Component to =
-            components[static_cast<std::size_t>(&property - element.properties.data())];
+        const Component to = components[&property - element.properties.data()];
         v[to] = valueOf(property, to, value);
         if (to <= kZ) positions[i][to] = value;
       });
@@ -425,7 +424,7 @@ class PlyReader {
       warnings_.add("face without a texture coordinate for each corner", place());
     }
     if (!mapped && !hasFaceColors_) return;
-    for (std::size_t i = 0; i < numbers_.size(); ++i) {
+    for (const auto i : indices(numbers_)) {
       budget_.charge(1, 2 * sizeof(Vec3f) + sizeof(Vec2f) + sizeof(Rgb), file_);
       const std::size_t old = numbers_[i];
       numbers_[i] = static_cast<std::uint32_t>(mesh_.positions.size());

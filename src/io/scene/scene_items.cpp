@@ -8,6 +8,7 @@
 
 #include "core/affine.h"
 #include "core/error.h"
+#include "core/index.h"
 #include "core/text.h"
 #include "core/vec3.h"
 #include "io/json_reader.h"
@@ -91,10 +92,10 @@ std::vector<Affine> readPlacements(JsonObject& item) {
   repeat.finish();
   int n[3];
   double total = 1;
-  for (std::size_t i = 0; i < 3; ++i) total *= n[i] = counts[i].integer(1, kRepeatLimit);
-  if (total > kRepeatLimit) countValue.fail("at most " + std::to_string(kRepeatLimit) + " copies");
+  for (const auto i : indices(3)) total *= n[i] = counts[i].integer(1, kRepeatLimit);
+  if (total > kRepeatLimit) countValue.fail(concat("at most ", kRepeatLimit, " copies"));
   std::vector<Affine> result;
-  result.reserve(static_cast<std::size_t>(total));
+  result.reserve(total);
   for (int z = 0; z < n[2]; ++z) {
     for (int y = 0; y < n[1]; ++y) {
       for (int x = 0; x < n[0]; ++x) {
@@ -138,7 +139,7 @@ class ItemReader {
     for (const auto& [name, value] : objects) objects_.emplace(name, NamedObject{value});
     for (const auto& [name, value] : objects) readObject(objects_.at(name), name);
     const std::vector<JsonValue> items = file.find("scene").elements();
-    for (std::size_t i = 0; i < items.size(); ++i) {
+    for (const auto i : indices(items)) {
       reportProgress(context_.progress, "reading scene",
                      static_cast<double>(i) / static_cast<double>(items.size()));
       readItem(items[i], layout_.body(0));
@@ -197,8 +198,7 @@ class ItemReader {
 
   void readItem(const JsonValue& value, Body& to) {
     if (++depth_ > kNestingLimit) {
-      throwBadScene(value.where(),
-                    "nested deeper than " + std::to_string(kNestingLimit) + " items");
+      throwBadScene(value.where(), concat("nested deeper than ", kNestingLimit, " items"));
     }
 
     JsonObject item(value);
@@ -325,7 +325,7 @@ class ItemReader {
     const std::vector<std::string> names = distinctNames(namesIn(materials));
     const std::string section = item.value().pointer() + "/materials/";
 
-    for (std::size_t i = 0; i < materials.size(); ++i) {
+    for (const auto i : indices(materials)) {
       materials[i].pointer = section + escapePointer(names[i]);
     }
 
@@ -339,14 +339,14 @@ class ItemReader {
     const auto overrides = item.find("materials").members();
     for (const auto& [name, value] : overrides) {
       if (name != "*") continue;
-      for (std::size_t i = 0; i < materials.size(); ++i) apply(value, i);
+      for (const auto i : indices(materials)) apply(value, i);
     }
     for (const auto& [name, value] : overrides) {
       if (name != "*") apply(value, slotOf(value, name, names, "material of this model"));
     }
 
     std::vector<std::uint32_t> indices;
-    for (std::size_t i = 0; i < materials.size(); ++i) {
+    for (const auto i : indices(materials)) {
       TexturedMaterial textured =
           model.withMaps(i, std::move(materials[i]), given[i], context_.textures);
       const std::uint32_t index =

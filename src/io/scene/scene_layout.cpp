@@ -1,6 +1,7 @@
 #include "io/scene/scene_layout.h"
 
 #include "core/error.h"
+#include "core/text.h"
 #include "scene/origin.h"
 
 namespace whit {
@@ -52,7 +53,7 @@ void SceneLayout::append(const Body& from, const std::vector<Affine>& placements
 int SceneLayout::measure(std::uint32_t index, int depth, std::vector<std::uint32_t>& order) {
   Body& body = bodies_[index];
   if (depth + std::max(body.height, 1) > kNestingLimit) {
-    throwLimit("objects are nested deeper than " + std::to_string(kNestingLimit));
+    throwLimit(concat("objects are nested deeper than ", kNestingLimit));
   }
   if (body.height > 0) return body.height;
   int height = 1;

@@ -35,11 +35,10 @@ void requireNumbers(const Column& column, const std::string& where) {
                                       : "numbers from " + formatted("%g", double{column.low}) +
                                             " to " + formatted("%g", double{column.high});
 
-  const auto at = static_cast<std::size_t>(bad - column.numbers.begin());
-  throwBadScene(where, "expected " + range + " in " + column.name + ", found " +
-                           formatted("%g", double{*bad}) + " at [" +
-                           std::to_string(at / column.each) + ", " +
-                           std::to_string(at % column.each) + "]");
+  const std::size_t at = bad - column.numbers.begin();
+  throwBadScene(where, concat("expected ", range, " in ", column.name, ", found ",
+                              formatted("%g", double{*bad}), " at [", at / column.each, ", ",
+                              at % column.each, "]"));
 }
 
 template <typename To>
@@ -60,24 +59,23 @@ std::vector<std::array<std::uint32_t, 3>> trianglesOf(const GivenMesh& given, st
   if (given.triangles.empty()) {
     if (vertices % 3 != 0) {
       throwBadScene(where,
-                    "expected a multiple of 3 vertices where no triangles are given, found " +
-                        std::to_string(vertices));
+                    concat("expected a multiple of 3 vertices where no triangles are given, found ",
+                           vertices));
     }
     for (std::uint32_t i = 0; i < vertices; i += 3) triangles.push_back({i, i + 1, i + 2});
     return triangles;
   }
 
   if (given.triangles.size() % 3 != 0) {
-    throwBadScene(where, "expected three vertices a triangle, found " +
-                             std::to_string(given.triangles.size()) + " numbers");
+    throwBadScene(where, concat("expected three vertices a triangle, found ",
+                                given.triangles.size(), " numbers"));
   }
 
   const auto outside = [&](std::uint32_t vertex) { return vertex >= vertices; };
   const auto bad = std::ranges::find_if(given.triangles, outside);
   if (bad != given.triangles.end()) {
-    throwBadScene(where, "expected vertices below " + std::to_string(vertices) + ", found " +
-                             std::to_string(*bad) + " in triangle " +
-                             std::to_string((bad - given.triangles.begin()) / 3));
+    throwBadScene(where, concat("expected vertices below ", vertices, ", found ", *bad,
+                                " in triangle ", (bad - given.triangles.begin()) / 3));
   }
 
   triangles.resize(given.triangles.size() / 3);
@@ -90,8 +88,8 @@ std::vector<std::array<std::uint32_t, 3>> trianglesOf(const GivenMesh& given, st
 Mesh meshOf(const GivenMesh& given, const std::string& where) {
   const std::size_t vertices = given.positions.size() / 3;
   if (given.positions.size() % 3 != 0) {
-    throwBadScene(where, "expected three numbers a position, found " +
-                             std::to_string(given.positions.size()) + " numbers");
+    throwBadScene(where, concat("expected three numbers a position, found ", given.positions.size(),
+                                " numbers"));
   }
   if (vertices >= std::numeric_limits<std::uint32_t>::max()) {
     throwLimit(where + ": more than 2^32 - 2 vertices");
@@ -103,10 +101,8 @@ Mesh meshOf(const GivenMesh& given, const std::string& where) {
   for (const Column& column : {positions, normals, uvs, colors}) {
     const std::size_t expected = column.each * vertices, found = column.numbers.size();
     if (found != 0 && found != expected) {
-      throwBadScene(where, std::string("expected ") + column.name + " for " +
-                               std::to_string(vertices) + " vertices, " +
-                               std::to_string(column.each) + " numbers each, found " +
-                               std::to_string(found) + " numbers");
+      throwBadScene(where, concat("expected ", column.name, " for ", vertices, " vertices, ",
+                                  column.each, " numbers each, found ", found, " numbers"));
     }
     requireNumbers(column, where);
   }
@@ -123,7 +119,7 @@ Mesh meshOf(const GivenMesh& given, const std::string& where) {
 RawImage imageOf(const GivenImage& given, const std::string& where) {
   const auto fits = [](int side) { return side >= 1 && side <= kImageSideLimit; };
   if (!fits(given.width) || !fits(given.height)) {
-    throwBadScene(where, "expected 1 to " + std::to_string(kImageSideLimit) + " pixels a side");
+    throwBadScene(where, concat("expected 1 to ", kImageSideLimit, " pixels a side"));
   }
   if (given.channels < 1 || given.channels > 4) throwBadScene(where, "expected 1 to 4 channels");
 

@@ -5,9 +5,10 @@
 #include <cstdlib>
 #include <span>
 
-#include "core/contains.h"
 #include "core/error.h"
+#include "core/index.h"
 #include "core/option_table.h"
+#include "core/text.h"
 #include "make/model_view.h"
 
 namespace whit {
@@ -50,7 +51,7 @@ void checkProjection(JsonObject& object, const Camera& camera) {
   }
   const std::size_t most = isPerspective(camera) ? 8 : 4;
   if (camera.distortion.size() > most) {
-    object.need("distortion").fail("at most " + std::to_string(most) + " coefficients");
+    object.need("distortion").fail(concat("at most ", most, " coefficients"));
   }
   if (camera.orthographicHeight > 0 && !(k.empty() && camera.distortion.empty())) {
     object.value().fail("no orthographicHeight beside k or distortion");
@@ -66,8 +67,8 @@ void readLight(JsonObject& object, Light& light) {
     object.need("direction").fail("a direction that is not [0, 0, 0]");
   }
   if (light.kind == Light::Kind::spot && !(light.innerConeAngle < light.outerConeAngle)) {
-    object.value().fail("an innerConeAngle below the outerConeAngle, " +
-                        std::to_string(light.outerConeAngle) + " degrees");
+    object.value().fail(
+        concat("an innerConeAngle below the outerConeAngle, ", light.outerConeAngle, " degrees"));
   }
 }
 
@@ -263,7 +264,7 @@ void readLights(JsonObject& file, const Instant& instant, SceneDescription& scen
   for (const JsonValue& value : file.find("lights").elements()) {
     JsonObject object(value);
     Light light;
-    light.name = object.find("name").textOr("light " + std::to_string(scene.lights.size() + 1));
+    light.name = object.find("name").textOr(concat("light ", scene.lights.size() + 1));
     light.pointer = value.pointer();
     readLight(object, light);
     MovingLight moving{static_cast<std::uint32_t>(scene.lights.size()), kNoNode, light.position,
@@ -377,7 +378,7 @@ void movePoints(Json& noun, const Vec3d& offset) {
   for (const char* name : {"eye", "at", "position"}) {
     if (!noun.contains(name) || !noun[name].is_array() || noun[name].size() != 3) continue;
     for (int i = 0; i < 3; ++i) {
-      Json& number = noun[name][static_cast<std::size_t>(i)];
+      Json& number = noun[name][i];
       if (number.is_number()) number = number.get<double>() + offset[i];
     }
   }

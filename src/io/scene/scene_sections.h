@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/index.h"
 #include "core/progress.h"
 #include "core/warnings.h"
 #include "io/files.h"
@@ -187,11 +188,8 @@ class JsonShapeParameters : public ShapeParameters {
 template <typename Made>
 Made generate(const JsonValue& name, const std::map<std::string, Made (*)(ShapeParameters&)>& all,
               JsonObject& object) {
-  std::vector<std::string> names;
-  names.reserve(all.size());
-  for (const auto& [known, generator] : all) names.push_back(known);
   JsonShapeParameters parameters(object);
-  return all.at(name.word(names))(parameters);
+  return all.at(name.word(keysOf(all)))(parameters);
 }
 
 // Values and sections as they are written; reading them gives the same bits.
@@ -200,9 +198,7 @@ Json describe(const Vec3f& v);
 inline Json describe(bool x) { return x; }
 inline Json describe(int x) { return x; }
 template <typename Enum>
-requires std::is_enum_v<Enum> Json describe(Enum value) {
-  return kWords<Enum>[static_cast<std::size_t>(value)];
-}
+requires std::is_enum_v<Enum> Json describe(Enum value) { return entryOf(kWords<Enum>, value); }
 Json describe(const std::vector<float>& numbers);
 Json describe(const Camera& camera);
 // Adds `offset` to the points of a camera's or a light's JSON, in double precision.

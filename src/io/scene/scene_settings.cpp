@@ -10,8 +10,9 @@
 #include "bake/edit_scene.h"
 #include "bake/finalize_steps.h"
 #include "bake/scene.h"
-#include "core/contains.h"
 #include "core/error.h"
+#include "core/index.h"
+#include "core/text.h"
 #include "io/load_scene.h"
 #include "io/scene/scene_sections.h"
 #include "make/model_view.h"
@@ -41,15 +42,14 @@ std::size_t indexOf(const std::string& token, const Json& list, const JsonValue&
   const auto [stop, error] = std::from_chars(token.data(), end, index);
   const bool plain = error == std::errc() && stop == end && (token[0] != '0' || token.size() == 1);
   if (!plain || index >= list.size()) {
-    place.fail("an index below " + std::to_string(list.size()) + ", or - for a new element");
+    place.fail(concat("an index below ", list.size(), ", or - for a new element"));
   }
   return index;
 }
 
 // True if one of the members is within the other, or both are the same.
 bool areRelated(const std::vector<std::string>& a, const std::vector<std::string>& b) {
-  return std::equal(
-      a.begin(), a.begin() + static_cast<std::ptrdiff_t>(std::min(a.size(), b.size())), b.begin());
+  return std::equal(a.begin(), a.begin() + std::min(a.size(), b.size()), b.begin());
 }
 
 // Returns whether the document is that of a model by itself, see describeModel().
@@ -122,7 +122,7 @@ bool editMaterial(const SceneSetting& setting, const JsonDocument& document, con
   }
   if (token == setting.tokens.end()) return false;
 
-  Material& material = materials[static_cast<std::size_t>(before - scene.materials.begin())];
+  Material& material = materials[before - scene.materials.begin()];
   JsonObject object(JsonValue(document, document.root.at(Json::json_pointer(pointer)), pointer));
   const auto keepMap = [&](const JsonValue& /*name*/, const auto& map) {
     return (*before).*map.field;
@@ -160,7 +160,7 @@ SceneSetting parseSceneSetting(const std::string& text) {
     SceneSetting setting{tokensOf(pointer), parseJson(value, "--set " + pointer)};
     if (setting.tokens.empty()) throwUsage(wanted);
     if (setting.tokens.size() > kJsonDepthLimit) {
-      throwUsage(wanted + ", of at most " + std::to_string(kJsonDepthLimit) + " steps");
+      throwUsage(concat(wanted, ", of at most ", kJsonDepthLimit, " steps"));
     }
     return setting;
   }
@@ -177,7 +177,7 @@ void addSceneSetting(const std::string& text, std::vector<std::string>& settings
     if (!settings[i].starts_with(section)) continue;
     const std::vector<std::string> other = parseSceneSetting(settings[i]).tokens;
     if (!areRelated(tokens, other)) continue;
-    if (tokens == other) settings.erase(settings.begin() + static_cast<std::ptrdiff_t>(i));
+    if (tokens == other) settings.erase(settings.begin() + i);
     break;
   }
   settings.push_back(text);

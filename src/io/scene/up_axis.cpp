@@ -46,7 +46,7 @@ std::array<FlatParts, 3> flatPartsOf(const Body& content, const Box& box) {
         };
 
         const double side = double{size[(axis + 1) % 3]} * size[(axis + 2) % 3];
-        FlatParts& flat = entryOf(all, axis);
+        FlatParts& flat = all[axis];
         if (liesAt(box.lower[axis])) {
           flat.lower += area / side;
         } else if (liesAt(box.upper[axis])) {

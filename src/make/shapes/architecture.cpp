@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/index.h"
 #include "make/patterns/noise.h"
 #include "make/shapes/mesh_builder.h"
 
@@ -26,7 +27,7 @@ constexpr double kCreaseCosine = 0.81915204428899178968;  // 35 degrees
 std::set<Edge> outlineOf(const std::vector<PlanCell>& plan) {
   std::set<Edge> edges;
   for (const PlanCell& cell : plan) {
-    for (std::size_t k = 0; k < 4; ++k) {
+    for (const auto k : indices(4)) {
       const PlanPoint &a = cell[k], &b = cell[(k + 1) % 4];
       if (a == b) continue;
       if (edges.erase({b, a}) == 0) edges.insert({a, b});
@@ -85,7 +86,7 @@ Mesh extrude(const std::vector<PlanCell>& plan, double z0, double z1, double rep
   for (const bool front : {true, false}) {
     for (const PlanCell& cell : plan) {
       std::array<Vec3d, 4> corners;
-      for (std::size_t k = 0; k < 4; ++k) corners[k] = {cell[k][0], cell[k][1], front ? z1 : z0};
+      for (const auto k : indices(4)) corners[k] = {cell[k][0], cell[k][1], front ? z1 : z0};
       if (!front) std::swap(corners[1], corners[3]);
       builder.plate(corners, repeat);
     }
@@ -107,7 +108,7 @@ std::vector<PlanCell> halfRing(PlanPoint center, PlanPoint inner, PlanPoint oute
   };
 
   std::vector<PlanCell> cells;
-  cells.reserve(static_cast<std::size_t>(segments));
+  cells.reserve(segments);
   for (int k = 0; k < segments; ++k) {
     cells.push_back({at(inner, k), at(outer, k), at(outer, k + 1), at(inner, k + 1)});
   }
@@ -318,7 +319,7 @@ void addShaft(MeshBuilder& builder, const ColumnPlan& plan, int segments) {
       rim.push_back(builder.vertex({{radius * t.cosine, height(j), -radius * t.sine}, normal, {}}));
     }
 
-    for (std::size_t i = 0; i < rim.size(); ++i) {
+    for (const auto i : indices(rim)) {
       std::uint32_t a = rim[i], b = rim[(i + 1) % rim.size()];
       if (!top) std::swap(a, b);
       builder.triangle(center, a, b);
@@ -349,7 +350,7 @@ void readDetails(ShapeParameters& parameters, ColumnPlan& plan) {
   plan.rings = parameters.integer("rings", 16, 1, 4096);  // rings along the shaft
   // `leaves` is the number in each of the capital's two rows; 0: a plain bell.
   plan.leaves = parameters.integer("leaves", 8, 0, 64);
-  plan.uvRepeat = parameters.number("uvRepeat", 1, 1e-6, 1e9);
+  plan.uvRepeat = parameters.repeat();
 }
 
 // One bay of a groin vault over [-a, a] x [-b, b]: two half barrels cross, the higher one shows.
@@ -398,10 +399,10 @@ void addGroinBay(MeshBuilder& builder, const Vec3d& center, double a, double b, 
 
 Shape makeWall(ShapeParameters& parameters) {
   WallPlan plan{};
-  plan.spacing = parameters.number("spacing", 3, 1e-3, 1e6);  // width of a bay
-  plan.bays = parameters.integer("bays", 1, 1, 10000);        // one opening in the middle of each
-  plan.height = parameters.number("height", 4, 1e-3, 1e6);
-  plan.depth = parameters.number("depth", 0.3, 1e-3, 1e6);
+  plan.spacing = parameters.length("spacing", 3);       // width of a bay
+  plan.bays = parameters.integer("bays", 1, 1, 10000);  // one opening in the middle of each
+  plan.height = parameters.length("height", 4);
+  plan.depth = parameters.length("depth", 0.3);
   plan.margin = parameters.number("margin", 0, 0, 1e6);  // more wall at both ends
   plan.openingWidth =
       parameters.number("openingWidth", 0.4 * plan.spacing, 1e-3, 0.999 * plan.spacing);
@@ -415,18 +416,18 @@ Shape makeWall(ShapeParameters& parameters) {
   plan.rise = parameters.number("rise", std::min(plan.openingWidth / 2, room), 0, room);
 
   plan.segments = parameters.integer("segments", 24, 2, 4096);  // segments of an arch
-  plan.uvRepeat = parameters.number("uvRepeat", 1, 1e-6, 1e9);
+  plan.uvRepeat = parameters.repeat();
   return singlePart(buildWall(plan));
 }
 
 // The ring of stones around an arched opening, standing on y = 0.
 Shape makeArch(ShapeParameters& parameters) {
-  const double width = parameters.number("width", 2, 1e-3, 1e6);
-  const double rise = parameters.number("rise", width / 2, 1e-3, 1e6);
+  const double width = parameters.length("width", 2);
+  const double rise = parameters.length("rise", width / 2);
   const double thickness = parameters.number("thickness", 0.15 * width, 1e-4, 1e6);
   const double depth = parameters.number("depth", 0.4, 1e-4, 1e6);
   const int segments = parameters.integer("segments", 32, 2, 4096);
-  const double repeat = parameters.number("uvRepeat", 1, 1e-6, 1e9);
+  const double repeat = parameters.repeat();
 
   const double half = width / 2;
   return singlePart(
@@ -448,7 +449,7 @@ Shape makeColumn(ShapeParameters& parameters) {
 // Columns in a row along x, in the middle of it at the origin; slots shaft, trim, wall, arch.
 Shape makeColonnade(ShapeParameters& parameters) {
   const int columns = parameters.integer("columns", 5, 1, 10000);
-  const double spacing = parameters.number("spacing", 3, 1e-3, 1e6);
+  const double spacing = parameters.length("spacing", 3);
 
   ColumnPlan column{};
   column.taper = kTaper;
@@ -461,8 +462,8 @@ Shape makeColonnade(ShapeParameters& parameters) {
   const bool hasArches = parameters.flag("arches", true);
 
   WallPlan wall{};
-  const double above = parameters.number("wallAbove", 0.5, 1e-3, 1e6);  // the arches' crown
-  wall.depth = parameters.number("wallDepth", 2 * column.radius, 1e-3, 1e6);
+  const double above = parameters.length("wallAbove", 0.5);  // the arches' crown
+  wall.depth = parameters.length("wallDepth", 2 * column.radius);
 
   const Shape one = buildColumn(column);
   MeshBuilder shafts, trims, walls, arches;
@@ -510,10 +511,10 @@ Shape makeColonnade(ShapeParameters& parameters) {
 // Turned posts between two rails along x, standing on y = 0: slots post, rail.
 Shape makeBalustrade(ShapeParameters& parameters) {
   const int posts = parameters.integer("posts", 12, 1, 100000);
-  const double length = parameters.number("length", 3, 1e-3, 1e6);
-  const double height = parameters.number("height", 1, 1e-3, 1e6);
+  const double length = parameters.length("length", 3);
+  const double height = parameters.length("height", 1);
   const int segments = parameters.integer("segments", 12, 3, 4096);
-  const double repeat = parameters.number("uvRepeat", 1, 1e-6, 1e9);
+  const double repeat = parameters.repeat();
 
   const double low = 0.12 * height, high = 0.88 * height, depth = 0.11 * height;
   const double r = std::min(0.075 * height, 0.45 * length / posts);
@@ -543,16 +544,16 @@ Shape makeBalustrade(ShapeParameters& parameters) {
 // crossed barrels, `barrel` one tunnel along z.
 Shape makeVault(ShapeParameters& parameters) {
   const std::string kind = parameters.word("kind", "groin", {"groin", "barrel"});
-  const double width = parameters.number("width", 3, 1e-3, 1e6);
-  const double depth = parameters.number("depth", 3, 1e-3, 1e6);
+  const double width = parameters.length("width", 3);
+  const double depth = parameters.length("depth", 3);
   const int baysX = parameters.integer("baysX", 1, 1, 1000);
   const int baysZ = parameters.integer("baysZ", 1, 1, 1000);
   const double a = width / baysX / 2, b = depth / baysZ / 2;
-  const double rise = parameters.number("rise", std::min(a, b), 1e-3, 1e6);
+  const double rise = parameters.length("rise", std::min(a, b));
 
   // addGroinBay() needs an even number of segments.
   const int n = 2 * ((parameters.integer("segments", 24, 2, 2048) + 1) / 2);
-  const double repeat = parameters.number("uvRepeat", 1, 1e-6, 1e9);
+  const double repeat = parameters.repeat();
 
   MeshBuilder builder;
   if (kind == "barrel") {
@@ -578,13 +579,13 @@ Shape makeVault(ShapeParameters& parameters) {
 // A moulding that runs around a rectangle with mitred corners, one closed ring. It projects into
 // the rectangle (the cornice of a court) or out of it; y = 0 is its lower edge.
 Shape makeCornice(ShapeParameters& parameters) {
-  const double width = parameters.number("width", 10, 1e-3, 1e6);
-  const double depth = parameters.number("depth", 6, 1e-3, 1e6);
+  const double width = parameters.length("width", 10);
+  const double depth = parameters.length("depth", 6);
   const double height = parameters.number("height", 0.4, 1e-4, 1e6);
   const double reach = parameters.number("projection", 0.3, 1e-4, 0.49 * std::min(width, depth));
   const double back = parameters.number("back", 0.2, 1e-4, 1e6);
   const bool inward = parameters.flag("inward", true);
-  const double repeat = parameters.number("uvRepeat", 1, 1e-6, 1e9);
+  const double repeat = parameters.repeat();
 
   // The section runs counter-clockwise; its points are distances from the rectangle, and heights.
   std::vector<std::array<double, 2>> section{
@@ -611,7 +612,7 @@ Shape makeCornice(ShapeParameters& parameters) {
 
   MeshBuilder builder(MeshBuilder::Shading::flat);
   for (int side = 0; side < 4; ++side) {
-    for (std::size_t m = 0; m < section.size(); ++m) {
+    for (const auto m : indices(section)) {
       const auto &s = section[m], &t = section[(m + 1) % section.size()];
       // Outside of the rectangle the section is mirrored, so the ends of a side change places to
       // keep the fronts outwards.

@@ -1,5 +1,6 @@
 #include <numbers>
 
+#include "core/index.h"
 #include "make/patterns/noise.h"
 #include "make/shapes/mesh_builder.h"
 
@@ -53,7 +54,7 @@ Outline smoothed(const Outline& points, int pieces) {
     for (int s = 0; s < pieces; ++s) {
       const double t = static_cast<double>(s) / pieces;
       std::array<double, 2> q{};
-      for (std::size_t c = 0; c < 2; ++c) {
+      for (const auto c : indices(2)) {
         const double a = at(k - 1)[c], b = at(k)[c], d = at(k + 1)[c], e = at(k + 2)[c];
         q[c] = b + 0.5 * t * (d - a + t * (2 * a - 5 * b + 4 * d - e + t * (3 * (b - d) + e - a)));
       }
@@ -70,8 +71,8 @@ Outline smoothed(const Outline& points, int pieces) {
 // Hangs from y = 0 down to -height in the x-y plane, seen from +z; folds deepen downwards and
 // wander a little; `gather` pulls the sides together at the given part of the height.
 Shape makeCurtain(ShapeParameters& parameters) {
-  const double width = parameters.number("width", 2, 1e-3, 1e6);
-  const double height = parameters.number("height", 3, 1e-3, 1e6);
+  const double width = parameters.length("width", 2);
+  const double height = parameters.length("height", 3);
   const int folds = parameters.integer("folds", 7, 0, 1000);
   const double foldDepth = parameters.number("foldDepth", 0.08, 0, 1e6);
   const double gather = parameters.number("gather", 0, 0, 0.9);
@@ -108,8 +109,8 @@ Shape makeCurtain(ShapeParameters& parameters) {
 // Spans along x between two bars at y = 0 and sags in between, with creases across the span; width
 // along x, depth along z. Faces down, where it is looked at from.
 Shape makeCanopy(ShapeParameters& parameters) {
-  const double width = parameters.number("width", 6, 1e-3, 1e6);
-  const double depth = parameters.number("depth", 2, 1e-3, 1e6);
+  const double width = parameters.length("width", 6);
+  const double depth = parameters.length("depth", 2);
   const double sag = parameters.number("sag", 0.8, 0, 1e6);
   const double ripple = parameters.number("ripple", 0.06, 0, 1e6);
   const int ripples = parameters.integer("ripples", 5, 0, 1000);

@@ -1,6 +1,7 @@
 // Terrain, rocks, trees alone and in forests, and potted plants.
 #include <numbers>
 
+#include "core/index.h"
 #include "make/patterns/noise.h"
 #include "make/shapes/mesh_builder.h"
 #include "scene/generation_limit.h"
@@ -68,7 +69,7 @@ class TreeBuilder {
   TreeBuilder(ShapeParameters& parameters, const std::string& heightKey, std::uint32_t seed)
       : conifer_(parameters.word("kind", "broadleaf", {"broadleaf", "conifer"}) == "conifer"),
         leafStyle_(parameters.word("leafStyle", "quads", {"quads", "diamonds", "blobs"})),
-        height_(parameters.number(heightKey, 8, 1e-3, 1e6)),
+        height_(parameters.length(heightKey, 8)),
         levels_(parameters.integer("levels", 4, 2, 6)),
         leafCount_(parameters.integer("leaves", 1500, 0, 2'000'000)),
         leafSize_(parameters.number("leafSize", 0.04 * height_, 1e-6, 1e6)),
@@ -153,7 +154,7 @@ class TreeBuilder {
       const double lowest = level == 0 ? 0.55 : 0.35;
       const double t = c == 0 ? 1.0 : lerp(lowest, 1.0, random_.next());
       const double at = t * pieces;
-      const auto k = static_cast<std::size_t>(std::min(pieces - 1, static_cast<int>(at)));
+      const std::size_t k = std::min(pieces - 1, static_cast<int>(at));
       const Vec3d origin = points[k] + (points[k + 1] - points[k]) * (at - static_cast<double>(k));
 
       const double a = turnStart + 2.39996 * c;
@@ -277,7 +278,7 @@ class TreeBuilder {
 Shape makeTerrain(ShapeParameters& parameters) {
   const Ground ground(parameters);
   const double triangles = parameters.number("triangles", 131072, 2, 2e8);
-  const double repeat = parameters.number("uvRepeat", 0.01 * ground.size(), 1e-6, 1e9);
+  const double repeat = parameters.repeat(0.01 * ground.size());
 
   // Each of the n x n cells has two triangles.
   const int n = std::max(1, static_cast<int>(std::sqrt(triangles / 2)));
@@ -333,7 +334,7 @@ Shape makeRock(ShapeParameters& parameters) {
   }
 
   MeshBuilder builder(smooth ? MeshBuilder::Shading::smooth : MeshBuilder::Shading::flat);
-  for (std::size_t k = 0; k < points.size(); ++k) builder.vertex({points[k], normals[k], uvs[k]});
+  for (const auto k : indices(points)) builder.vertex({points[k], normals[k], uvs[k]});
   for (const auto& [a, b, c] : triangles) builder.triangle(a, b, c);
   return singlePart(builder.take("rock"));
 }
@@ -400,7 +401,7 @@ Shape makeForest(ShapeParameters& parameters) {
 // an alpha mask of one leaf with its foot at v = 0.
 Shape makePlant(ShapeParameters& parameters) {
   const int leaves = parameters.integer("leaves", 28, 1, 10000);
-  const double height = parameters.number("height", 1, 1e-3, 1e6);
+  const double height = parameters.length("height", 1);
   const double width = parameters.number("leafWidth", 0.16 * height, 1e-6, 1e6) / 2;
   const double trunk = parameters.number("trunk", 0.1 * height, 0, 1e6);
   constexpr int kAcross = 4, kAlong = 14;

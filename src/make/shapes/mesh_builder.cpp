@@ -3,6 +3,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/index.h"
 #include "scene/generation_limit.h"
 
 namespace whit::procedural {
@@ -54,7 +55,7 @@ void MeshBuilder::plate(const std::array<Vec3d, 4>& corners, double repeat) {
 
   // The texture is projected along the largest axis; seen from outside, u runs to the right.
   std::array<std::uint32_t, 4> index{};
-  for (std::size_t k = 0; k < 4; ++k) {
+  for (const auto k : indices(4)) {
     const Vec3d& p = corners[k];
     Uv uv{normal.x > 0 ? -p.z : p.z, p.y};
     if (size.y >= size.x && size.y >= size.z) {
@@ -138,7 +139,7 @@ void MeshBuilder::append(const Mesh& mesh, const Affine& map) {
   const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
   const bool mirrored = map.determinant() < 0;
 
-  for (std::size_t k = 0; k < mesh.positions.size(); ++k) {
+  for (const auto k : indices(mesh.positions)) {
     const Uv uv = mesh.uvs.empty() ? Uv{} : Uv{mesh.uvs[k].x, mesh.uvs[k].y};
     const Vec3d normal = mesh.normals.empty() ? Vec3d{} : map.normal(Vec3d(mesh.normals[k]));
     vertex({map.point(Vec3d(mesh.positions[k])), normal, uv});
@@ -186,7 +187,7 @@ std::vector<ProfilePoint> creasedProfile(const std::vector<std::array<double, 2>
   const double smoothest = std::cos(creaseDegrees * std::numbers::pi / 180);
   std::vector<ProfilePoint> profile;
   double v = 0;
-  for (std::size_t k = 0; k < points.size(); ++k) {
+  for (const auto k : indices(points)) {
     const double r = points[k][0], y = points[k][1];
     if (k > 0) v += std::hypot(r - points[k - 1][0], y - points[k - 1][1]) / repeat;
 
