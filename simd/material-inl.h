@@ -218,11 +218,10 @@ HWY_INLINE void StoreMedia(const ShadingTables& tables, const RayColumns& rays, 
 
 // Multiplies weight and throughput of rays by what a medium leaves of their light.
 HWY_INLINE void DimRays(const RayColumns& rays, const V3& factor, size_t i) {
-  const FloatTag d;
-  const V3 weight = Load3(rays.weightR, rays.weightG, rays.weightB, i);
-  Store3(Mul3(weight, factor), rays.weightR, rays.weightG, rays.weightB, i);
-  const VF throughput = hn::Load(d, rays.throughput + i);
-  hn::Store(hn::Mul(throughput, MaxComponent(factor)), d, rays.throughput + i);
+  const V3 weight = Load3(rays.weight, i);
+  Store3(Mul3(weight, factor), rays.weight, i);
+  const VF throughput = Load(rays.throughput, i);
+  Store(Mul(throughput, MaxComponent(factor)), rays.throughput, i);
 }
 
 // Dims rays that crossed an absorbing medium by exp(-sigma * t).

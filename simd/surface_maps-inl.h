@@ -130,7 +130,7 @@ HWY_INLINE VF MipLevel(VF texels) {
   const VF area = IfThenElse(Gt(texels, one), texels, one);
   const VF held = Min(area, Set(kLargestArea));
   const VF level = Mul(hn::Log2(d, held), Set(0.5f));
-  return Min(Max(level, Zero()), Set(kMipLevels - 1));
+  return Min(Max(level, Zero()), Set(float{kMipLevels - 1}));
 }
 
 inline HWY_NOINLINE void QueueLevels(const ShadingTables& tables, VI map, MF live,

@@ -144,7 +144,7 @@ HWY_INLINE void QueueTexels(TextureFilter filter, const TextureRecord* table,
     texel = Add(texel, Add(nearer(x.fraction, 1), nearer(y.fraction, kTexelStrip)));
   }
 
-  Store(IfThenElseZero(RebindMask(di, live), texel), queue.texel, slot);
+  Store(IfThenElseZero(RebindMask(di, live), texel), di, queue.texel + slot);
   Store(IfThenElse(live, x.fraction, Set(-1.0f)), queue.fractionX, slot);
   Store(y.fraction, queue.fractionY, slot);
 
@@ -169,7 +169,7 @@ HWY_INLINE Footprint FetchTexels(TextureFilter filter, const uint32_t* texels,
 
   if (filter == TextureFilter::nearest) {
     const VI texel =
-        GatherIndex(di, reinterpret_cast<const int32_t*>(texels), Load(queue.texel, slot));
+        GatherIndex(di, reinterpret_cast<const int32_t*>(texels), Load(di, queue.texel + slot));
     const VU nearest = BitCast(du, texel);
     return {nearest, nearest, nearest, nearest, one, zero, zero, zero};
   }

@@ -98,34 +98,12 @@ void AddFog(Chunk& c) {
       return hn::Expm1(d, IfThenElseZero(dims, depth));
     };
     const V3 more{growth(density.x), growth(density.y), growth(density.z)};
-<<<<<<< ours
-    const V3 sum = Load3(radiance.r, radiance.g, radiance.b, i);
-    Store3(Add3(sum, Mul3(color, more)), radiance.r, radiance.g, radiance.b, i);
-    DimRays(rays,
-            {hn::Div(one, hn::Add(one, more.x)), hn::Div(one, hn::Add(one, more.y)),
-             hn::Div(one, hn::Add(one, more.z))},
-            i);
-||||||| base
-    const V3 left{hn::Div(one, hn::Add(one, more.x)), hn::Div(one, hn::Add(one, more.y)),
-                  hn::Div(one, hn::Add(one, more.z))};
-
-    const V3 sum = Load3(radiance.r, radiance.g, radiance.b, i);
-    Store3(Add3(sum, Mul3(color, more)), radiance.r, radiance.g, radiance.b, i);
-    const V3 weight = Load3(rays.weightR, rays.weightG, rays.weightB, i);
-    Store3(Mul3(weight, left), rays.weightR, rays.weightG, rays.weightB, i);
-    const VF throughput = hn::Load(d, rays.throughput + i);
-    hn::Store(hn::Mul(throughput, MaxComponent(left)), d, rays.throughput + i);
-=======
-    const V3 left{Div(one, Add(one, more.x)), Div(one, Add(one, more.y)),
-                  Div(one, Add(one, more.z))};
 
     const V3 sum = Load3(radiance.rgb, i);
     Store3(Add3(sum, Mul3(color, more)), radiance.rgb, i);
-    const V3 weight = Load3(rays.weight, i);
-    Store3(Mul3(weight, left), rays.weight, i);
-    const VF throughput = Load(rays.throughput, i);
-    Store(Mul(throughput, MaxComponent(left)), rays.throughput, i);
->>>>>>> theirs
+    DimRays(rays,
+            {Div(one, Add(one, more.x)), Div(one, Add(one, more.y)), Div(one, Add(one, more.z))},
+            i);
   }
 }
 

@@ -154,9 +154,9 @@ mutations() {
         : LoadU(d, WordsOf<kWidth>(to, i) + packet_column::tFar * kWidth);
     if (!from.tFar) tFar = IfThenElse(Gt(tFar, Zero(d)), tFar, hn::Inf(d));'
   plant stale-hit src/accel/accel.cpp \
-    '++p) {
+    'indices(group.count)) {
       std::fill_n(group.packets[p].hit.geomID' \
-    '++p) {
+    'indices(group.count)) {
       if (begin == 0) std::fill_n(group.packets[p].hit.geomID'
   plant off-by-one-tail simd/packets.cpp \
     'hn::FirstN(d, i < n ? n - i : 0)' 'hn::FirstN(d, i < n ? n - i - (n > 1 ? 1 : 0) : 0)'

@@ -148,7 +148,7 @@ void parseValue(const OptionSpec& spec, const std::string& text, T& value) {
 // The inverse: parseValue(formatValue(v)) is v, bit for bit. Empty where there is nothing to say.
 template <typename T>
 std::string formatValue(const OptionSpec& spec, const T& v) {
-  const auto joined = [](const std::string& separator, auto first, auto... numbers) {
+  const auto numbersOf = [](const std::string& separator, auto first, auto... numbers) {
     return (shortest(first) + ... + (separator + shortest(numbers)));
   };
 
@@ -167,15 +167,15 @@ std::string formatValue(const OptionSpec& spec, const T& v) {
   } else if constexpr (std::is_same_v<T, Background>) {
     return backgroundText(v);
   } else if constexpr (std::is_same_v<T, ImageSize>) {
-    return joined("x", v.width, v.height);
+    return numbersOf("x", v.width, v.height);
   } else if constexpr (std::is_same_v<T, Crop>) {
-    return joined(",", v.x0, v.y0, v.x1, v.y1);
+    return numbersOf(",", v.x0, v.y0, v.x1, v.y1);
   } else if constexpr (std::is_same_v<T, Vec3f> || std::is_same_v<T, Vec3d>) {
-    return joined(",", v.x, v.y, v.z);
+    return numbersOf(",", v.x, v.y, v.z);
   } else if constexpr (std::is_same_v<T, std::string>) {
     return v;
   } else if constexpr (std::is_same_v<T, EffectSet>) {
-    return joined(effectNames(v), ",");
+    return whit::joined(effectNames(v), ",");
   } else {
     return namesOf(v);
   }

@@ -189,7 +189,7 @@ std::vector<std::int32_t> TextureLoader::add(
     std::size_t count, std::function<std::vector<std::optional<Texture>>()> make) {
   std::vector<std::int32_t> slots;
   std::vector<std::optional<Texture>*> targets;
-  for (const auto i : indices(count)) {
+  for (std::size_t i = 0; i < count; ++i) {
     slots.push_back(static_cast<std::int32_t>(slots_.size()));
     targets.push_back(&slots_.emplace_back());
   }

@@ -114,7 +114,7 @@ double fisheyeAngle(const CameraFrame& camera, double radius) {
 double entryAt(const std::vector<float>& table, double pixel, int pixels) {
   const auto last = static_cast<double>(table.size() - 1);
   const double at = std::clamp(pixel * static_cast<double>(table.size()) / pixels - 0.5, 0.0, last);
-  const std::size_t before = at;
+  const auto before = static_cast<std::size_t>(at);
   const double a = table[before], b = table[std::min(before + 1, table.size() - 1)];
   return a + (b - a) * (at - static_cast<double>(before));
 }

@@ -36,14 +36,14 @@ TEST(AddShadingReference, AddsWhatIsVisible) {
   small.chunk.unshadowed.rgb.x[0] = 0.5f;
   small.chunk.unshadowed.rgb.z[0] = 0x1p-30f;
 
-  const RadianceRow before{1, 2, 3};
-  EXPECT_EQ(addShading(before, small.chunk, 0).r, 1);
+  const RadianceRow before{Vec3d(1, 2, 3)};
+  EXPECT_EQ(addShading(before, small.chunk, 0).rgb.x, 1);
   small.chunk.unshadowed.visible[0] = 1;
 
   const RadianceRow after = addShading(before, small.chunk, 0);
-  EXPECT_EQ(after.r, 1.5);
-  EXPECT_EQ(after.g, 2);
-  EXPECT_EQ(after.b, 3 + 0x1p-30) << "in double";
+  EXPECT_EQ(after.rgb.x, 1.5);
+  EXPECT_EQ(after.rgb.y, 2);
+  EXPECT_EQ(after.rgb.z, 3 + 0x1p-30) << "in double";
 }
 
 }  // namespace

@@ -172,7 +172,7 @@ TEST(CheckShadowsReference, AnswersForTheSlotOfTheRay) {
 
   const UnshadowedRow before = checkShadows(small.world, small.chunk, 0);
   EXPECT_EQ(before.visible, 1);
-  EXPECT_EQ(before.r, 7) << "as it was";
+  EXPECT_EQ(before.rgb.x, 7) << "as it was";
   EXPECT_EQ(checkShadows(small.world, small.chunk, 1).visible, 0);
 }
 

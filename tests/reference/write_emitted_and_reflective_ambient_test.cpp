@@ -111,7 +111,7 @@ TEST(AmbientReference, TellsSkySurfelsAndHiddenOnesApart) {
   const auto blue = [&](std::uint32_t found, std::uint32_t flags) {
     small.chunk.surfels.material[0] = found;
     small.chunk.surfels.flags[0] = flags;
-    return writeEmittedAndReflectiveAmbient(small.world, small.chunk, 0).b;
+    return writeEmittedAndReflectiveAmbient(small.world, small.chunk, 0).rgb.z;
   };
 
   EXPECT_EQ(blue(kMiss, 0), 2);

@@ -61,9 +61,7 @@ class Probe {
   Vec3f ng(std::size_t i) const { return surfels_->ng.at(i); }
   Vec3f ns(std::size_t i) const { return surfels_->ns.at(i); }
   ProbeRay ray(std::size_t i) const;
-  Rgb unshadowed(std::size_t i) const {
-    return {unshadowed_->r[i], unshadowed_->g[i], unshadowed_->b[i]};
-  }
+  Rgb unshadowed(std::size_t i) const { return Rgb(unshadowed_->rgb.at(i)); }
   bool visible(std::size_t i) const { return unshadowed_->visible[i] > 0; }
 
   const RayColumns& rays() const { return *rays_; }

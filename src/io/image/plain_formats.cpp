@@ -354,7 +354,7 @@ RawImage decodeHdr(const std::string& path, FileBytes file, const ImageLimits& l
   image.values.reserve(width * height * 3);
 
   std::vector<Rgbe> row(width);
-  for (const auto y : indices(height)) {
+  for (std::size_t y = 0; y < height; ++y) {
     readRow(bytes, row);
     for (const Rgbe& pixel : row) {
       constexpr int kBias = 128 + 8;  // of the exponent, and of mantissas below 256

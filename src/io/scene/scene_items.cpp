@@ -95,7 +95,7 @@ std::vector<Affine> readPlacements(JsonObject& item) {
   for (const auto i : indices(3)) total *= n[i] = counts[i].integer(1, kRepeatLimit);
   if (total > kRepeatLimit) countValue.fail(concat("at most ", kRepeatLimit, " copies"));
   std::vector<Affine> result;
-  result.reserve(total);
+  result.reserve(static_cast<std::size_t>(total));
   for (int z = 0; z < n[2]; ++z) {
     for (int y = 0; y < n[1]; ++y) {
       for (int x = 0; x < n[0]; ++x) {
@@ -345,17 +345,17 @@ class ItemReader {
       if (name != "*") apply(value, slotOf(value, name, names, "material of this model"));
     }
 
-    std::vector<std::uint32_t> indices;
+    std::vector<std::uint32_t> numbers;
     for (const auto i : indices(materials)) {
       TexturedMaterial textured =
           model.withMaps(i, std::move(materials[i]), given[i], context_.textures);
       const std::uint32_t index =
-          indices.emplace_back(materials_.add(std::move(textured.material)));
+          numbers.emplace_back(materials_.add(std::move(textured.material)));
       if (!textured.whenDecoded) continue;
       context_.textures.whenDone([index, change = std::move(textured.whenDecoded)](
                                      SceneDescription& scene) { change(scene.materials[index]); });
     }
-    return indices;
+    return numbers;
   }
 
   std::uint32_t readObject(NamedObject& object, const std::string& name) {
