@@ -220,7 +220,9 @@ void addTextures(const Scene& scene, TextureFilter filter, int threads, ShadingT
   tables.texels = levels.empty() ? none : levels.front().strips;
   for (const std::vector<std::size_t>& own : levelsOfMaps) {
     tables.textures.push_back(recordOf(levels[own.front()]));
-    for (std::size_t level = 0; trilinear && level < kMipStride; ++level) {
+    if (!trilinear) continue;
+
+    for (std::size_t level = 0; level < kMipStride; ++level) {
       tables.mipLevels.push_back(recordOf(levels[own[std::min(level, own.size() - 1)]]));
     }
   }

@@ -280,7 +280,7 @@ void TileTracer::trace(const Frame& frame, std::span<const std::uint32_t> pixels
 bool TileTracer::traceSamples(const Frame& frame, const Watch& watch) {
   const std::size_t n = chunk_.pixels.size();
   sums_.assign(n, SampleSum());
-  takeUpSums(frame);
+  loadSums(frame);
 
   for (std::size_t s = frame.firstSample; s < frame.endSample; ++s) {
     if (frame.stops()) return false;
@@ -293,7 +293,7 @@ bool TileTracer::traceSamples(const Frame& frame, const Watch& watch) {
     if (frame.probes && frame.firstSample == 0) keepProbeCodes(frame);
   }
 
-  leaveSums(frame);
+  storeSums(frame);
   const RadianceColumns& radiance = chunk_.radiance;
   for (const auto i : indices(n)) {
     radiance.rgb.set(i, Rgb(sums_[i].total / static_cast<double>(frame.endSample)));
@@ -328,17 +328,21 @@ void TileTracer::keepErrors(const Frame& frame) {
   }
 }
 
-void TileTracer::takeUpSums(const Frame& frame) {
-  for (std::size_t i = 0; frame.firstSample > 0 && i < chunk_.pixels.size(); ++i) {
+void TileTracer::loadSums(const Frame& frame) {
+  if (frame.firstSample == 0) return;
+
+  for (std::size_t i = 0; i < chunk_.pixels.size(); ++i) {
     const int x = pixelX(chunk_.pixels[i]), y = pixelY(chunk_.pixels[i]);
     if (frame.probes) sums_[i].total = frame.probes->at(x, y).total;
     if (frame.sums) sums_[i] = frame.sums->at(x, y);
   }
 }
 
-void TileTracer::leaveSums(const Frame& frame) {
+void TileTracer::storeSums(const Frame& frame) {
   const bool toProbes = frame.probes && frame.firstSample == 0;
-  for (std::size_t i = 0; (toProbes || frame.sums) && i < chunk_.pixels.size(); ++i) {
+  if (!toProbes && !frame.sums) return;
+
+  for (std::size_t i = 0; i < chunk_.pixels.size(); ++i) {
     const int x = pixelX(chunk_.pixels[i]), y = pixelY(chunk_.pixels[i]);
     if (toProbes) frame.probes->at(x, y).total = sums_[i].total;
     if (frame.sums) frame.sums->at(x, y) = sums_[i];
@@ -356,10 +360,11 @@ void TileTracer::keepProbeCodes(const Frame& frame) {
 // Traces one sample of each pixel of the batch.
 void TileTracer::traceSample(const Watch& watch) {
   traceTrees(watch);
+  if (!plan_.limitsRays) return;
 
   // Samples that were given up, because of --max-rays, are traced again as narrower trees.
   std::vector<std::uint32_t> tooLarge;
-  for (std::uint32_t i = 0; plan_.limitsRays && i < chunk_.pixels.size(); ++i) {
+  for (std::uint32_t i = 0; i < chunk_.pixels.size(); ++i) {
     if (!chunk_.isGivenUp(i)) continue;
     tooLarge.push_back(i);
     limited_[i] = 1;

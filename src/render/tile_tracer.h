@@ -141,9 +141,9 @@ class TileTracer {
     return frame.constants.channels.layers && plan_.channels.has(Channel::error);
   }
   void keepErrors(const Frame& frame);
-  // Loads the sums of the earlier samples.
-  void takeUpSums(const Frame& frame);
-  void leaveSums(const Frame& frame);
+  // Load and store the sums that a picture keeps between its passes.
+  void loadSums(const Frame& frame);
+  void storeSums(const Frame& frame);
   void keepProbeCodes(const Frame& frame);
   void traceSample(const Watch& watch);
   void traceNarrowed(const std::vector<std::uint32_t>& slots, const Watch& watch);

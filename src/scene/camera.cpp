@@ -23,7 +23,8 @@ Vec3f between(const Vec3f& a, const Vec3f& b, double s) {
   return Vec3f(Vec3d(a) * (1 - s) + Vec3d(b) * s);
 }
 std::vector<float> between(std::vector<float> a, const std::vector<float>& b, double s) {
-  for (std::size_t i = 0; a.size() == b.size() && i < a.size(); ++i) a[i] = between(a[i], b[i], s);
+  if (a.size() != b.size()) return a;
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] = between(a[i], b[i], s);
   return a;
 }
 template <typename Enum>

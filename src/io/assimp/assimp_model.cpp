@@ -110,7 +110,9 @@ void makeLinear(aiMesh& mesh) {
   const auto linear = [](float x) {
     return x > 0 ? static_cast<float>(srgbToLinear(std::min(double{x}, 1.0))) : 0.0f;
   };
-  for (unsigned i = 0; mesh.mColors[0] && i < mesh.mNumVertices; ++i) {
+  if (!mesh.mColors[0]) return;
+
+  for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
     aiColor4D& color = mesh.mColors[0][i];
     color = {linear(color.r), linear(color.g), linear(color.b), color.a};
   }

@@ -175,9 +175,12 @@ class GltfMaterialReader {
            "thickness of a volume by a texture left out: what the mesh encloses counts");
     m_.thickness = readNumber(volume["thicknessFactor"], 0, 0, kLargestNumber);
 
-    const double distance = volume["attenuationDistance"].numberOr(0);  // 0: nothing is absorbed
+    // Without a distance nothing is absorbed.
+    const double distance = volume["attenuationDistance"].numberOr(0);
     const Rgb kept = colorOf(volume["attenuationColor"].numbers(3));
-    for (int i = 0; distance > 0 && i < 3; ++i) {
+    if (!(distance > 0)) return;
+
+    for (int i = 0; i < 3; ++i) {
       const double logarithm = std::log(double{std::max(kept[i], kLeastAttenuation)});
       m_.absorption[i] = static_cast<float>(std::min(-logarithm / distance, 1e18));
     }
