@@ -155,8 +155,8 @@ void addNamedChannels(RenderJob& job) {
     const std::optional<Channel> channel = channelNamedBy(output, kept);
     if (channel) named = named.with(*channel);
     holdsAll |= isExr && !channel;
-    refuseIf(channel == Channel::position && !isExr,
-             "'" + output + "': positions do not fit into a PNG: write an EXR");
+    refuseIf(channel && needsFloats(*channel) && !isExr,
+             "'" + output + "': " + namesOf({*channel}) + "s do not fit into a PNG: write an EXR");
 
     const std::string asPng = std::filesystem::path(output).replace_extension(".png").string();
     refuseIf(isJpeg(output) && channelNamedBy(asPng, ChannelSet()),
@@ -343,12 +343,13 @@ class ImageWriter {
   // Moves the camera of a turntable, or else the scene, to where frame `frame` shows it.
   void moveTo(int frame) {
     if (job_.turntable) {
-      camera_ = turned(*job_.turntable, job_.turns * frame / job_.turntableFrames);
+      engine_.remember(cameraAt(frame - 1));
+      camera_ = cameraAt(frame);
       return;
     }
 
     const Stopwatch stopwatch;
-    engine_.setTime(frame / job_.fps);
+    moveToTime(frame / job_.fps);
     engine_.update();
 
     // A scene that has moved has another digest, by which --resume recognizes its images.
@@ -360,6 +361,15 @@ class ImageWriter {
   }
 
   // Renders a frame and starts writing it; the files are complete after finish(). With --resume
+  // Moves the scene; the channel "motion" counts from the frame before.
+  void moveToTime(double seconds) {
+    if (engine_.options().channels.has(Channel::motion)) {
+      engine_.setTime(seconds - 1 / job_.fps);
+      engine_.remember();
+    }
+    engine_.setTime(seconds);
+  }
+
   // nothing is traced if all files are complete.
   void write(const std::vector<std::string>& files, Progress* progress,
              const ImageMetadata& more = {}) {
@@ -415,6 +425,10 @@ class ImageWriter {
   }
 
   bool areWhole(const std::vector<std::string>& files, const Image& image,
+  Camera cameraAt(int frame) const {
+    return turned(*job_.turntable, job_.turns * frame / job_.turntableFrames);
+  }
+
                 const ImageMetadata& metadata) const {
     return std::ranges::all_of(files, [&](const std::string& file) {
       ImageMetadata expected = metadata;
@@ -546,6 +560,7 @@ int render(RenderJob& job) {
 
   if (job.frames.empty()) {
     writer.write(job.outputs, progress.get());
+    if (const auto seconds = job.common.load.instant.seconds) writer.moveToTime(*seconds);
   } else {
     writeFilm(job, writer, progress.get());
   }

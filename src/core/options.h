@@ -348,9 +348,10 @@ decltype(auto) withOptions(Options& o, Use&& use) {
       Option{{.name = "channels", .words = "a,b",
               .help = "extra output channels (AOVs) of the first hit, at the sample nearest to "
                       "the pixel's center: depth, position, normal, albedo, uv, object, material, "
-                      "triangle, rays; alpha, the share that surfaces cover; and error, the "
-                      "standard error of the mean of the samples and the share of light that depth "
-                      "and cutoff ended",
+                      "triangle, rays, roughness, metallic; motion, in pixels since the frame "
+                      "before; alpha, the share that surfaces cover; and error, the standard error "
+                      "of the mean of the samples and the share of light that depth and cutoff "
+                      "ended",
               .rebuilds = Rebuild::frame, .changesPicture = false, .tab = Tab::none,
               .everyday = true},
              o.channels},

@@ -250,6 +250,27 @@ class Pictures(unittest.TestCase):
 
     def test_they_show_themselves(self):
         picture = whit.Scene("whitted").render(size=SIZE)
+    def test_motion_counts_from_the_picture_before(self):
+        """Parallel rays, 10 pixels a unit, of a square that moves by (0.5, 0, 1) and then, with the
+        camera, by (-1, 0, 0) more: by what is left in the picture."""
+        camera = {"eye": [0, 3, 0], "at": [0, 0, 0], "up": [0, 0, -1], "orthographicHeight": 4}
+        scene = whit.Scene(square_scene(cameras={"above": camera}), movable=["/scene/0"])
+        place = np.eye(4)[:3]
+
+        def motion(**options):
+            picture = scene.render(size=(40, 40), channels=["motion", "object"], **options)
+            return picture["motion"][picture["object"] == 0]
+
+        np.testing.assert_allclose(motion(), np.zeros((400, 2)), atol=1e-5)
+        place[:, 3] = (0.5, 0, 1)
+        scene.set_transform("/scene/0", place)
+        np.testing.assert_allclose(motion(), np.tile([5, 10], (400, 1)), atol=1e-5)
+        place[:, 3] = (-0.5, 0, 1)
+        scene.set_transform("/scene/0", place)
+        moved = whit.Camera({**camera, "eye": [-0.75, 3, 0], "at": [-0.75, 0, 0]}, (40, 40))
+        np.testing.assert_allclose(motion(camera=moved) - [-2.5, 0], 0, atol=1e-5)
+        np.testing.assert_allclose(motion(camera=moved), 0, atol=1e-5)
+
         self.assertEqual(picture._repr_png_()[:8], b"\x89PNG\r\n\x1a\n")
         with temporary_folder():
             picture.write("a.png")
