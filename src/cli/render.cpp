@@ -158,9 +158,7 @@ void addNamedChannels(RenderJob& job) {
     refuseIf(channel && needsFloats(*channel) && !isExr,
              "'" + output + "': " + namesOf({*channel}) + "s do not fit into a PNG: write an EXR");
 
-    const std::string asPng = std::filesystem::path(output).replace_extension(".png").string();
-    refuseIf(isJpeg(output) && channelNamedBy(asPng, ChannelSet()),
-             "'" + output + "': a JPEG holds no channel: write '" + asPng + "'");
+    if (isJpeg(output)) requireNoChannelName(output);
   }
 
   const ChannelSet homeless = holdsAll ? ChannelSet() : kept.without(named);

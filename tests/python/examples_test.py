@@ -159,6 +159,8 @@ class Pictures(unittest.TestCase):
             picture.write("a.depth.exr")
             with self.assertRaisesRegex(ValueError, "normal"):
                 picture.write("a.normal.exr")
+            with self.assertRaisesRegex(ValueError, "a JPEG holds no channel: write 'a.depth.png'"):
+                picture.write("a.depth.jpg")
             self.assertEqual(sorted(os.listdir()), ["a.depth.exr", "a.jpg"])
 
     def test_arrays_for_other_libraries(self):
@@ -248,8 +250,6 @@ class Pictures(unittest.TestCase):
         with self.assertRaises(whit.Error):
             scene.render(channels=["dept"])
 
-    def test_they_show_themselves(self):
-        picture = whit.Scene("whitted").render(size=SIZE)
     def test_motion_counts_from_the_picture_before(self):
         """Parallel rays, 10 pixels a unit, of a square that moves by (0.5, 0, 1) and then, with the
         camera, by (-1, 0, 0) more: by what is left in the picture."""
@@ -271,6 +271,8 @@ class Pictures(unittest.TestCase):
         np.testing.assert_allclose(motion(camera=moved) - [-2.5, 0], 0, atol=1e-5)
         np.testing.assert_allclose(motion(camera=moved), 0, atol=1e-5)
 
+    def test_they_show_themselves(self):
+        picture = whit.Scene("whitted").render(size=SIZE)
         self.assertEqual(picture._repr_png_()[:8], b"\x89PNG\r\n\x1a\n")
         with temporary_folder():
             picture.write("a.png")

@@ -194,6 +194,12 @@ std::optional<Channel> channelNamedBy(const std::string& path, ChannelSet kept) 
   return channel;
 }
 
+void requireNoChannelName(const std::string& jpeg) {
+  const std::string asPng = std::filesystem::path(jpeg).replace_extension(".png").string();
+  if (!channelNamedBy(asPng, ChannelSet())) return;
+  throwUsage("'" + jpeg + "': a JPEG holds no channel: write '" + asPng + "'");
+}
+
 void writeChannelExr(const std::string& path, const Image& image, const ChannelLayers& channels,
                      Channel channel, const ImageMetadata& metadata, ExrStorage storage,
                      int threads) {
