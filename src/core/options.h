@@ -41,6 +41,7 @@ struct OptionSpec {
   Rebuild rebuilds = Rebuild::frame;
   // False for options that share out the work: the picture does not depend on them by design.
   bool changesPicture = true;
+  bool inScenes = true;  // a scene file may state it, if it changes the picture of a frame
   Tab tab = Tab::knobs;
   // The cheapest value that still makes a picture of the scene; the viewer measures the cost of the
   // other values against it, and not at all if this is empty.
@@ -316,7 +317,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
              o.sphereSegments},
       Option{{.name = "effects", .words = "auto|all",
               .help = "kernels for the effects that the scene uses, or for every effect",
-              .rebuilds = Rebuild::tables,
+              .rebuilds = Rebuild::tables, .inScenes = false,
               .cheapest = "auto"},
              o.effects},
       Option{{.name = "disable", .words = "a,b",
