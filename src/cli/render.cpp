@@ -91,7 +91,8 @@ OptionList listOptions(RenderJob& job) {
                job.time);
     list.value({"target", "ERROR"},
                "choose them for the least time within an error, as 0.5codes or flip=0.01",
-               job.target);
+               job.target)
+        .everyday = false;
     list.value({"frames", "A..B"},
                "frames of the animation and the camera path; FILE has #### for the number",
                job.frames);
@@ -100,11 +101,13 @@ OptionList listOptions(RenderJob& job) {
   list.value({"fps", "N", 0.001, 1e6}, "frames per second", job.fps);
   list.flag("resume",
             "keep images that are complete and were made with the same options of the same scene",
-            job.resume);
+            job.resume)
+      .everyday = false;
   list.value(kExrOption,
              "pixels of an EXR: floats, compressed or not; half floats, compressed; or half floats "
              "with OpenEXR's lossy DWAA compression",
-             job.exr);
+             job.exr)
+      .everyday = false;
   list.flag("stats", "prints the stages with their times, and the rays", job.stats);
   list.value({"json", "FILE"}, "settings, times and counts as JSON; - is standard output",
              job.json);
@@ -358,7 +361,6 @@ class ImageWriter {
     run_.tracedAndWrittenMs += stopwatch.ms();
   }
 
-  // Renders a frame and starts writing it; the files are complete after finish(). With --resume
   // Moves the scene; the channel "motion" counts from the frame before.
   void moveToTime(double seconds) {
     if (engine_.options().channels.has(Channel::motion)) {
@@ -368,6 +370,7 @@ class ImageWriter {
     engine_.setTime(seconds);
   }
 
+  // Renders a frame and starts writing it; the files are complete after finish(). With --resume
   // nothing is traced if all files are complete.
   void write(const std::vector<std::string>& files, Progress* progress,
              const ImageMetadata& more = {}) {
@@ -422,11 +425,11 @@ class ImageWriter {
     return summarize(engine_.scene(), engine_.options(), engine_.renderer(), films_[0], loadMs);
   }
 
-  bool areWhole(const std::vector<std::string>& files, const Image& image,
   Camera cameraAt(int frame) const {
     return turned(*job_.turntable, job_.turns * frame / job_.turntableFrames);
   }
 
+  bool areWhole(const std::vector<std::string>& files, const Image& image,
                 const ImageMetadata& metadata) const {
     return std::ranges::all_of(files, [&](const std::string& file) {
       ImageMetadata expected = metadata;
@@ -557,8 +560,8 @@ int render(RenderJob& job) {
   ImageWriter writer(job, engine, progress.get());
 
   if (job.frames.empty()) {
-    writer.write(job.outputs, progress.get());
     if (const auto seconds = job.common.load.instant.seconds) writer.moveToTime(*seconds);
+    writer.write(job.outputs, progress.get());
   } else {
     writeFilm(job, writer, progress.get());
   }

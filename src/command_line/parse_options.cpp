@@ -185,16 +185,18 @@ void listCommonOptions(OptionList& list, CommonOptions& common) {
              "their files have them, without animations)",
              common.load.instant.seconds);
   list.value({"animation", "NAME"}, "animation that is played (default: the first of each model)",
-             common.load.instant.animation);
+             common.load.instant.animation)
+      .everyday = false;
   list.many({"variant", "NAME"}, "materials of a glTF model that has several sets (see whit info)",
             common.load.settings)
       .set = [&common](const std::string& name) {
     common.load.settings.push_back("/variant=" + textOf(name));
   };
-  list.many({"viewpoint", "outside|inside"},
-            "side from which a model is seen, in place of the cameras in its file",
-            common.load.settings)
-      .set = [&common](const std::string& side) {
+  OptionList::Entry& viewpoint = list.many(
+      {"viewpoint", "outside|inside"},
+      "side from which a model is seen, in place of the cameras in its file", common.load.settings);
+  viewpoint.everyday = false;
+  viewpoint.set = [&common](const std::string& side) {
     common.load.settings.push_back("/viewpoint=" + textOf(side));
   };
   list.value({"azimuth", "DEG", -360, 360},

@@ -187,8 +187,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
              o.spp},
       Option{{.name = "adaptive", .words = "on|off",
               .help = "adaptive anti-aliasing: --spp samples at edges of surfaces and contrast, "
-                      "one elsewhere; with --glossy or --indirect all pixels get all samples",
-              .everyday = true},
+                      "one elsewhere; with --glossy or --indirect all pixels get all samples"},
              o.adaptive},
       Option{{.name = "contrast", .words = "N", .low = 0, .high = 255,
               .help = "difference of neighboring pixels, in 8-bit codes, above which --adaptive "
@@ -259,8 +258,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
               .help = "texture filtering; trilinear uses mip maps; alpha masks are always "
                       "bilinear",
               .rebuilds = Rebuild::tables,
-              .cheapest = "nearest",
-              .everyday = true},
+              .cheapest = "nearest"},
              o.shading.textureFilter},
       Option{{.name = "offset", .words = "bound|fixed|wachter-binder",
               .help = "offset of ray origins from the surface, against self-intersection: the "
@@ -291,8 +289,7 @@ decltype(auto) withOptions(Options& o, Use&& use) {
              o.simd},
       Option{{.name = "mode", .words = "packets|reference",
               .help = "vector pipeline in float, or the scalar recursive reference in double",
-              .rebuilds = Rebuild::nothing, .tab = Tab::none,
-              .everyday = true},
+              .rebuilds = Rebuild::nothing, .tab = Tab::none},
              o.mode},
       Option{{.name = "batch", .words = "tile|frame",
               .help = "run each stage over one tile at a time, or over the whole frame",
